@@ -117,16 +117,13 @@ End Cell.
 
 (** ** What has to be positive, that something fails *)
 
-(** Of a leg that reaches, |A_i|: the length of a slider or strut, 1 of a plane. *)
-Definition rod (f : leg_formulas) : formula := match f_length f with Some len => len | None => root (f_D f) end.
-
 Definition is_direction (v : list Z) : bool := Nat.eqb (length v) 3 && existsb (fun n => negb (n =? 0)%Z) v.
 
 (** Rows of which all D_i, and expressions which have to be positive; [j] is the place of the requirement's bound. *)
-Definition requirement_fails (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement)
+Definition requirement_fails (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement)
     (directions : list (list Z)) : option (rows nat * list expr) :=
   let whole := map_rows place (whole_rows fs) in
-  let bound2 := Apply (Sqr (Apply (Param j))) in
+  let bound2 := Apply (Sqr (Apply (Param (fst j)))) in
   let short rs k v := Apply (Sub (Apply (Mul k (square_of v))) (image_of rs v)) in
   let long v := Apply (Sub (image_of whole v) (Apply (Mul bound2 (square_of v)))) in
   let least k v := match least_rows fs s j r with
@@ -156,23 +153,24 @@ Definition row_fails (place : formula -> nat) (f : leg_formulas) (j : nat) : exp
   Apply (Sub (Apply (Sqr (Entry (place (rod f))))) (Apply (Mul (Apply (Sqr (Apply (Param j)))) (Entry (place (f_D f)))))).
 
 Section Fails.
-Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat) (rs : list requirement).
+Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat * nat) (rs : list requirement).
 Variables (coords params : list slope) (values : list (option slope)).
 Let positive (e : expr) : bool := is_positive (eval coords params values e).
+Let place_of (i : nat) : nat * nat := (fst n + i, snd n + length (flat_map (extras s) (firstn i rs)))%nat.
 
 Definition fails_over (f : Configuration.nfailure) : bool :=
   match f with
   | Configuration.NOutOfReach => existsb (fun f => match nth (place (f_D f)) values None with Some d => (hi (range d) <=? 0)%Z | None => false end) fs
   | Configuration.NFails i directions =>
       match nth_error rs i with
-      | Some r => match requirement_fails place fs s (n + i) r directions with
+      | Some r => match requirement_fails place fs s (place_of i) r directions with
           | Some (rows, es) => forallb (fun p => positive (Entry (snd p))) rows && forallb positive es
           | None => false
           end
       | None => false
       end
   | Configuration.NFailsAlong i leg =>
-      match nth_error rs i, nth_error fs leg with Some (PsiMin _), Some f => positive (row_fails place f (n + i)) | _, _ => false end
+      match nth_error rs i, nth_error fs leg with Some (PsiMin _), Some f => positive (row_fails place f (fst n + i)) | _, _ => false end
   end.
 End Fails.
 
@@ -190,8 +188,8 @@ Local Notation val := (val tape x theta).
 Hypothesis represented : Forall2 (represents Q theta) fs (map (resized ratio) m).
 Hypothesis built : Forall well_formed_leg m.
 Hypothesis of_them : Forall2 is_leg_of (legs c) m.
-Variable n : nat.
-Hypothesis bounds_at : forall k r, nth_error (require c) k = Some r -> nth (n + k) theta 0 = bound_value s r.
+Variable n : nat * nat.
+Hypothesis bounds_at : forall k r, nth_error (require c) k = Some r -> nth (fst n + k) theta 0 = bound_value s r.
 Hypothesis is_found : forall e, In e (entries (whole_rows fs) ++ map rod fs ++ range_formulas fs s n (require c)) ->
   formula_at tape (found e) = e.
 
@@ -244,21 +242,23 @@ Proof. intros r b e. rewrite (plain_bound _ _ e). cbn [Claim.value]. replace (1 
 Section Requirement.
 Variables (i : nat) (r : requirement).
 Hypothesis is_required : nth_error (require c) i = Some r.
-Let j := (n + i)%nat.
+Let j := (fst n + i, snd n + length (flat_map (extras s) (firstn i (require c))))%nat.
 
-Lemma bound_is : nth j theta 0 = bound_value s r.
+Lemma bound_is : nth (fst j) theta 0 = bound_value s r.
 Proof. apply bounds_at, is_required. Qed.
 
-Lemma bound2_val : val (Apply (Sqr (Apply (Param j)))) = bound_value s r ^ 2.
-Proof. change (nth j theta 0 ^ 2 = bound_value s r ^ 2). rewrite bound_is. reflexivity. Qed.
+Lemma bound2_val : val (Apply (Sqr (Apply (Param (fst j))))) = bound_value s r ^ 2.
+Proof. change (nth (fst j) theta 0 ^ 2 = bound_value s r ^ 2). rewrite bound_is. reflexivity. Qed.
 
 Lemma range_found : forall f, In f (range_formula fs s j r) -> formula_at tape (found f) = f.
 Proof.
   intros f h. apply is_found, in_or_app. right. apply in_or_app. right.
-  assert (G : forall l k q, nth_error l k = Some q -> forall n, In f (range_formula fs s (n + k) q) -> In f (range_formulas fs s n l)).
+  assert (G : forall l k q, nth_error l k = Some q -> forall n,
+    In f (range_formula fs s (fst n + k, snd n + length (flat_map (extras s) (firstn k l)))%nat q) -> In f (range_formulas fs s n l)).
   { induction l as [| p l IH]; intros [| k] q e n' g; try discriminate; cbn [range_formulas]; apply in_or_app.
-    - injection e as <-. rewrite Nat.add_0_r in g. left. exact g.
-    - right. apply (IH k q e). rewrite Nat.add_succ_comm. exact g. }
+    - injection e as <-. cbn [firstn flat_map length] in g. rewrite !Nat.add_0_r, <- surjective_pairing in g. left. exact g.
+    - right. apply (IH k q e). unfold next. cbn [fst snd]. cbn [firstn flat_map] in g. rewrite app_length in g.
+      replace (S (fst n') + k)%nat with (fst n' + S k)%nat by lia. rewrite <- Nat.add_assoc. exact g. }
   exact (G (require c) i r is_required n h).
 Qed.
 
@@ -287,7 +287,7 @@ Proof.
   intros f i0 neg all given least F. pose proof (leg_at c s ds m P theta represented reached) as At. fold fs in At. fold ratio in At.
   pose proof ratio_positive as r0. pose proof bound_is as Bj.
   pose proof (bound_here s P theta j r Bj) as B. fold ratio in B.
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
     try (destruct (nth_error fs k) as [g |] eqn:ng; [| contradiction]; destruct (At k g ng) as [l [nl [R re]]]).
   - destruct i0 as [<- |]; [| contradiction]. destruct F as [l' [n' F]]. rewrite nl in n'. injection n' as <-.
     destruct R as [_ [_ [_ [J _]]]]. rewrite value_minus, J, B, (length_bound (JointMin k b) b eq_refl) in neg.
@@ -365,7 +365,7 @@ Proof.
   assert (Mul_ : forall a b, val (Apply (Mul a b)) = val a * val b) by reflexivity.
   assert (Neg_ : forall f, formula_at tape (found f) = f -> val (Apply (Neg (Entry (found f)))) = - value x theta f)
     by (intros f e; change (- val (Entry (found f)) = - value x theta f); rewrite entry_found by exact e; reflexivity).
-  set (k2 := Apply (Sqr (Apply (Param j)))) in *.
+  set (k2 := Apply (Sqr (Apply (Param (fst j))))) in *.
   assert (Signs : match range_formula fs s j r with
       | [] => None | l => Some ([], map (fun f => Apply (Neg (Entry (found f)))) l) end = Some (rows, es) ->
       match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils m P r).
@@ -374,7 +374,7 @@ Proof.
     { intros g ig. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (f :: fl) g ig)) as k.
       cbv beta in k. rewrite (Neg_ g (RF g ig)) in k. lra. }
     apply (SF f); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b]; cbn [is_least] in *;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b]; cbn [is_least] in *;
     try (destruct directions; [exact (Signs h I eq_refl) | discriminate]).
   - destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
@@ -389,12 +389,12 @@ Proof.
       (plain_bound (ConditionMax b) b eq_refl) in hes. specialize (F u t). lra.
   - destruct directions as [| v [|]]; try discriminate. cbn [least_rows] in h. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
-    set (q := quantity (exactly (Over b joint), 0%Z) j) in *.
+    set (q := quantity (exactly (Over b joint), 0%Z) (fst n + i)%nat) in *.
     assert (LF : map_rows (formula_at tape) (map_rows found (stiff_rows fs q)) = stiff_rows fs q).
     { apply rows_found. intros e ie. apply RF. exact ie. }
     apply (positive_sound bits) in given. cbn [Claim.value] in given.
     assert (K : value x theta q = Claim.value b / Claim.value joint).
-    { pose proof (bound_here s P theta j (Stiffness joint b) B1) as e. cbn [bound_of] in e. fold q ratio in e. rewrite e.
+    { assert (e : value x theta q = bound_value s (Stiffness joint b)) by exact (bound_here s P theta j (Stiffness joint b) B1). rewrite e.
       apply (plain_bound (Stiffness joint b) (Over b joint) eq_refl). }
     rewrite Sub_, Mul_, (Sq v u eu) in hes. rewrite val_image, (rows_at _ LF), eu in hes.
     unfold ratio in K, hes. rewrite (stiff_energy s P theta q fs m) in hes; try assumption; [| rewrite K; exact given].
@@ -415,6 +415,7 @@ Proof.
     subst cs'. rewrite Sub_, Mul_, B2, (Sq v u eu), (plain_bound (ConstraintMargin b) b eq_refl) in hes.
     rewrite val_image, (rows_at _ LF), eu in hes. unfold ratio in hes. rewrite c2 in hes.
     specialize (d2 u). lra.
+  - destruct directions as [| ? [| ? [|]]]; discriminate.
 Qed.
 End Requirement.
 
@@ -445,11 +446,11 @@ Proof.
 Qed.
 
 Lemma row_fails_sound : forall i b leg f, nth_error (require c) i = Some (PsiMin b) -> nth_error fs leg = Some f ->
-  0 < val (row_fails found f (n + i)) -> ~ fulfils m P (PsiMin b).
+  0 < val (row_fails found f (fst n + i)) -> ~ fulfils m P (PsiMin b).
 Proof.
   intros i b leg f er ef h F. destruct (rods leg f ef) as [l [nl [D N]]].
-  assert (E : val (row_fails found f (n + i)) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
-  { change (val (Entry (found (rod f))) ^ 2 - nth (n + i) theta 0 ^ 2 * val (Entry (found (f_D f))) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
+  assert (E : val (row_fails found f (fst n + i)) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
+  { change (val (Entry (found (rod f))) ^ 2 - nth (fst n + i) theta 0 ^ 2 * val (Entry (found (f_D f))) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
     rewrite (bounds_at i _ er), !entry_found; [reflexivity | |]; apply is_found.
     - apply in_or_app. left. unfold entries, whole_rows. rewrite flat_map_concat_map, in_concat. rewrite map_map.
       eexists. split; [apply in_map_iff; exists f; split; [reflexivity | exact (nth_error_In _ _ ef)] |]. cbn [snd fst]. apply in_or_app. right. left. reflexivity.
@@ -500,7 +501,7 @@ Inductive failing_tree :=
   | Halved (k : nat) (lower upper : failing_tree).
 
 Section Tree.
-Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat) (rs : list requirement).
+Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat * nat) (rs : list requirement).
 Variables (tape : list (op nat)) (params : list fixed) (part : fixed).
 Let constants := map constant params.
 Let values_at (coords : list slope) := run (option slope) None (slope_op bits coords constants) tape [].
@@ -539,14 +540,14 @@ End Tree.
 Definition check_no_cube (exact : positive) (c : claim) (side : number) (s : Z) (ds : list Z) (t : failing_tree) : bool :=
   let ps := layouts s ds (legs c) in
   let fs := all_formulas s ds (legs c) 0 in
-  let n := length ps in
+  let n := (length ps, length ps + length (require c))%nat in
   let needed := entries (whole_rows fs) ++ map rod fs ++ range_formulas fs s n (require c) in
   let tape := fst (compile needed) in
   let found := formulas tape in
   match workspace c with
   | Box edges =>
       forallb (fun e => Formula.same (nth (place found e) found (integer 0)) e) needed && certainly exact true side &&
-      match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c))),
+      match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three edges s)), enclose_scaled bits s (Over side (16 // 1)) with
       | Some params, Some box, Some part => fails_everywhere (place found) fs s n (require c) tape params part box t
       | _, _, _ => false
@@ -563,18 +564,18 @@ Qed.
 Theorem check_no_cube_sound : forall exact c side s ds t, check_no_cube exact c side s ds t = true -> has_no_cube c side.
 Proof.
   intros exact c side s ds t h m C [hm [built hC]]. unfold check_no_cube in h. cbv zeta in h.
-  set (fs := all_formulas s ds (legs c) 0) in *. set (n := length (layouts s ds (legs c))) in *.
+  set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ map rod fs ++ range_formulas fs s n (require c)) in *.
   set (tape := fst (compile needed)) in *. destruct (workspace c) as [edges |]; [| discriminate].
   apply andb_true_iff in h as [h ht]. apply andb_true_iff in h as [found side_pos]. apply positive_sound in side_pos.
-  destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c)))) as [params |] eqn:ep; [| discriminate].
+  destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three edges s))) as [box |] eqn:eb; [| discriminate].
   destruct (enclose_scaled bits s (Over side (16 // 1))) as [part |] eqn:epart; [| discriminate].
   assert (Found : forall e, In e needed -> formula_at tape (place (formulas tape) e) = e).
   { rewrite forallb_forall in found. intros e i. apply Formula.same_sound, found, i. }
   destruct (all_represent s (legs c) m hm ds) as [th [L R]].
-  set (tb := map (bound_value s) (require c)).
-  pose proof (bounds_within s (require c)) as B. fold tb in B.
+  set (tb := map (bound_value s) (require c) ++ map exact_value (flat_map (extras s) (require c))).
+  pose proof (Forall2_app (bounds_within s (require c)) (all_extras_within s (require c))) as B. fold tb in B.
   pose proof (enclosed_all _ _ _ _ ep (Forall2_app L B)) as T.
   pose proof (enclosed_all _ _ _ _ eb (three_within edges s C hC)) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
@@ -595,11 +596,13 @@ Proof.
   { pose proof (two_to_pos s) as s0. unfold moved, P, y, coordinates, vadd, vscale. cbn [combine map fst snd vx vy vz].
     apply (f_equal2 cons); [field; lra |]. apply (f_equal2 cons); [field; lra |]. apply (f_equal2 cons); [field; lra | reflexivity]. }
   rewrite E in hc. clear E hC X w0 w1 w2.
-  assert (ln : length th = n) by (symmetry; apply (related_length _ _ _ _ _ L)).
+  assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
   pose proof (params_hold bits lambda params (th ++ tb) T) as ph.
-  assert (bounds_at : forall k r, nth_error (require c) k = Some r -> nth (n + k) (th ++ tb) 0 = bound_value s r).
-  { intros k r e. rewrite <- ln, app_nth2_plus. unfold tb. apply nth_error_nth. rewrite nth_error_map, e. reflexivity. }
+  assert (bounds_at : forall k r, nth_error (require c) k = Some r -> nth (fst n + k) (th ++ tb) 0 = bound_value s r).
+  { intros k r e. unfold n. cbn [fst]. rewrite ln, app_nth2_plus. unfold tb.
+    rewrite app_nth1 by (rewrite map_length; apply nth_error_Some; congruence).
+    apply nth_error_nth. rewrite nth_error_map, e. reflexivity. }
   pose proof (is_positive_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) as Pos.
   intros [reached [_ met]]. rewrite Forall_forall in met. destruct f as [| i dirs | i leg]; cbn [fails_over] in hf.
   - apply existsb_exists in hf as [g [ig hf]]. destruct (nth (place (formulas tape) (f_D g)) _ None) as [d |] eqn:ed; [| discriminate].
@@ -611,13 +614,13 @@ Proof.
     + apply in_or_app. left. unfold entries, whole_rows. rewrite flat_map_concat_map, in_concat, map_map.
       eexists. split; [apply in_map_iff; exists g; split; [reflexivity | exact ig] |]. cbn [snd fst]. apply in_or_app. right. left. reflexivity.
   - destruct (nth_error (require c) i) as [r |] eqn:er; [| discriminate].
-    destruct (requirement_fails _ fs s (n + i) r dirs) as [[rows es] |] eqn:ef; [| discriminate].
+    destruct (requirement_fails _ fs s _ r dirs) as [[rows es] |] eqn:ef; [| discriminate].
     apply andb_true_iff in hf as [h1 h2]. rewrite forallb_forall in h1, h2.
     apply (requirement_fails_sound c s ds m P (th ++ tb) tape R n bounds_at Found i r er reached dirs rows es ef).
     + apply Forall_forall. intros p ip. apply Pos, h1, ip.
     + apply Forall_forall. intros e ie. apply Pos, h2, ie.
     + apply met, (nth_error_In _ _ er).
-  - destruct (nth_error (require c) i) as [[| | b | | | | | | | |] |] eqn:er; try discriminate.
+  - destruct (nth_error (require c) i) as [[| | b | | | | | | | | |] |] eqn:er; try discriminate.
     destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate].
     apply (row_fails_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached i b leg g er eg); [apply Pos, hf |].
     apply met, (nth_error_In _ _ er).

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-zJ=typeof
-module==="object"&&module.exports||u,gZ="spatial",la="Invalid_argument",eQ="precision",aq='"',k$="@[",lL="this quantity of such a mechanism",gK=1255,k_="inside",lK="Fatal error: exception %s\n",kB=255,k9="yaw",lI="(",lJ=0x800,kz="range",kA="tree",gJ="jsError",bs=0x8000,k7='the mechanism "',k8="%ni",ma="sqrt(",lH=256,k6="offset",lG="obligation",bf="machine",ky="End_of_file",eT="strut",kx="center",e4="arm",gI="Failure",l_="serial_margin",l$="parameters",bQ=0xff,kw="\n",g4="outside",gQ="base_axis",gY="ENOENT",l9=122,aH="0",lF="([^/]+)",gX=0xf,dR=128,gH=-48,kv=0xdc00,k5="Sys_blocked_io",l8="fd ",ku="given",lE="ENOTEMPTY",ap=248,lD="bound",ao="camlinternalFormat.ml",lC="Division_by_zero",l6="by",l7=1027,kt="Sys_error",k4="slider",k3="postulate",lB="torsion",lA="proof",k2="%u",c2="mechanism",eZ="row",ks="EEXIST",k1="roll_pitch_yaw",gW="%d",kr="Printexc.handle_uncaught_exception",k0="y",eP="lower",kZ="within",lz="cube",ly="buffer.ml",l5="turned",eO="int_of_string",lx="control",kY="definitions",gP=127,dQ=1024,kX="@{",g3="e",kp=120,kq=103,kW=" : flags Open_rdonly and Open_wronly are not compatible",lw="orthocert/2",l4="reach",ko=512,a5="-",l3="witness",b_="platform",kn=0x7ff0,km="pitch",g2=": Not a directory",kV=" : file already exists",bu="min",c3="workspace",kU="claim",lv="split",l2="legs",bP=0xffffff,lu="joint",kk="formulas",kl="0x",kT='the workspace "',lt="roll",l0="nodes",l1="Out_of_memory",kj="psi_max",g1="orientation",kS="angle",eY=254,g0="index out of bounds",ls=100,ki="end",e3="_bigarr02",kh="%Li",lr=" : flags Open_text and Open_binary are not compatible",b$="drive",lq="coordinates",kR=", characters ",lp="lower_divided",kQ="joints",lZ="cylinder",bw=0xffff,kP=12520,kO="axis",kN="no_cube",lY="parallel_margin",kg='the drive "',eS="fails",gV="Unix.Unix_error",lX="infinity",eN="tool",gG="mkdir",dP=1000,gF="translational",s="",lo="Stack_overflow",lW="characteristic_length",gO="^",eM=": No such file or directory",ln="places",lm="/static/",c1=0x3f,ll=-97,lj="stiffness",lk="Not_found",dO="planar",eX="mode",lV="joint_speed",kM="Match_failure",kf=", ",ke="transmission",b9="anchor",lU="at",e2=252,kd="joint_force",kL="leg",ca=".",bt="+",gU="rmdir",lT=0xf0,lS="spherical",kK="verified.ml",kI="REJECTED",kJ="%li",li=1026,bv="max",e1="direction",lh="orthoglide",e0="rank",lR="constraint_margin",lQ=-32,kb="Pervasives.do_at_exit",kc="utf8",gT="test",bN=" ",eR="conditioning",gS="Fatal error: exception ",be=0x80,ka="Undefined_recursive_module",gN=")",eW="length",lP="quantity",lg="joint_range",eV="tilt",j$="Q2",gM="nan",kH="reference",lf="point",kG=0xe0,lO="corner",kE="z",kF=0xdfff,ld="version",le="_",bd="/",gR="compare: functional value",lN="Assert_failure",kD="provenance",j9="radius",j_="%i",bO="require",eU="side",lM="format",gL="ENOTDIR",lc="Q1",lb="all",cx="box",kC=250;function
-hi(c,b,a){var
+A3=typeof
+module==="object"&&module.exports||u,hk="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g5=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g4="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g3="Failure",mF="serial_margin",mG="parameters",bW=0xff,hq="bodies",k3="\n",hp="outside",ha="base_axis",hj="ENOENT",mE=122,aP="0",l_="([^/]+)",hi=0xf,d5=128,g2=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hh="%d",kY="Printexc.handle_uncaught_exception",g$="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g_=127,d3=1024,lr="@{",l1="from",ho="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",hn=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hm="orientation",lm="angle",fg=254,hl="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g1="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hg="Unix.Unix_error",mr="infinity",e7="tool",g0="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g9="^",e5=": No such file or directory",hf="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",he="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",hd="test",bT=" ",e$="conditioning",hc="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g8=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g7="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hb="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g6="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
+hG(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dQ,a-=dQ)e+=d.apply(null,c.slice(b,b+Math.min(a,dQ)));return e}function
-e5(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=d3,a-=d3)e+=d.apply(null,c.slice(b,b+Math.min(a,d3)));return e}function
+fm(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cc(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)e5(b);var
+cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bR(a){return a}function
-bz(a,b,c,d,e){cc(bR(a),b,c,d,e);return 0}function
-zC(b,a){throw[0,b,a]}function
-c8(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bX(a){return a}function
+bE(a,b,c,d,e){cg(bX(a),b,c,d,e);return 0}function
+AV(b,a){throw[0,b,a]}function
+dj(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-c6(a){if(a.t==2)a.c+=c8(a.l-a.c.length,"\0");else
-a.c=hi(a.c,0,a.c.length);a.t=0}function
-mG(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gP)return false;return true}else
+dh(a){if(a.t==2)a.c+=dj(a.l-a.c.length,"\0");else
+a.c=hG(a.c,0,a.c.length);a.t=0}function
+nb(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>g_)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hk(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<be){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<be;d++);if(d-b>ko){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR){g=h+(f<<6);if(f<kG){a=g-0x3080;if(a<be)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR){g=h+(g<<6);if(f<lT){a=g-0xe2080;if(a<lJ||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bw)c+=String.fromCharCode(0xd7c0+(a>>10),kv+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dQ){c.substr(0,1);j+=c;c=s}}return j+c}function
-bx(c,a,b){this.t=c;this.c=a;this.l=b}bx.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:c6(this);case
-0:if(mG(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bx.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hk(a)};bx.prototype.slice=function(){var
+hI(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kU){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(f<<6);if(f<lb){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(g<<6);if(f<mn){a=g-0xe2080;if(a<mc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k2+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d3){c.substr(0,1);j+=c;c=s}}return j+c}function
+bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dh(this);case
+0:if(nb(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bC.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hI(a)};bC.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bx(this.t,a,this.l)};function
-mk(a){return new
-bx(0,a,a.length)}function
-a(a){return mk(a)}function
-hg(c,b){zC(c,a(b))}var
-ae=[0];function
-ar(a){hg(ae.Invalid_argument,a)}function
-mi(){ar(g0)}function
-ah(a,c,b){b&=bQ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}e5(a)}a.c[c]=b;return 0}function
-cy(b,a,c){if(a>>>0>=b.l)mi();return ah(b,a,c)}function
-c5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bC(this.t,a,this.l)};function
+mR(a){return new
+bC(0,a,a.length)}function
+a(a){return mR(a)}function
+hE(c,b){AV(c,a(b))}var
+ah=[0];function
+at(a){hE(ah.Invalid_argument,a)}function
+mP(){at(hl)}function
+aj(a,c,b){b&=bW;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fm(a)}a.c[c]=b;return 0}function
+cH(b,a,c){if(a>>>0>=b.l)mP();return aj(b,a,c)}function
+dg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bS(c,a){if(c.fun)return bS(c.fun,a);if(typeof
+bY(c,a){if(c.fun)return bY(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bS(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bY(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bS(c,d)}}function
-dS(){ar(g0)}function
-ml(a,b){if(b>>>0>=a.length-1)dS();return a}function
-y4(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bU(a){a.t&6&&c6(a);return a.c}var
-zL=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-zK(a){if(zL)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bY(c,d)}}function
+d6(){at(hl)}function
+mS(a,b){if(b>>>0>=a.length-1)d6();return a}function
+Al(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b0(a){a.t&6&&dh(a);return a.c}var
+A5=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+A4(a){if(A5)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-g_(c){var
+hw(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-mu=Math.pow(2,-24);function
-zA(a){throw a}function
-mB(){zA(ae.Division_by_zero)}function
-t(b,c,a){this.lo=b&bP;this.mi=c&bP;this.hi=a&bw}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+m1=Math.pow(2,-24);function
+AT(a){throw a}function
+m8(){AT(ah.Division_by_zero)}function
+t(b,c,a){this.lo=b&bV;this.mi=c&bV;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*mu|0)+this.mi*a.lo+this.lo*a.mi,d=(c*mu|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*m1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bw);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bP;this.lo=this.lo<<1&bP};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bP;this.mi=(this.mi>>>1|this.hi<<23)&bP;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bB);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bV;this.lo=this.lo<<1&bV};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bV;this.mi=(this.mi>>>1|this.hi<<23)&bV;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())mB();var
-d=b.hi^a.hi;if(b.hi&bs)b=b.neg();if(a.hi&bs)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bs)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())mB();var
-d=a.hi;if(a.hi&bs)a=a.neg();if(b.hi&bs)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bs)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bQ,this.mi>>16,this.mi>>8&bQ,this.mi&bQ,this.lo>>16,this.lo>>8&bQ,this.lo&bQ]};t.prototype.lo32=function(){return this.lo|(this.mi&bQ)<<24};t.prototype.hi32=function(){return this.mi>>>8&bw|this.hi<<16};function
-e9(b,c,a){return new
+b=this;if(a.isZero())m8();var
+d=b.hi^a.hi;if(b.hi&bx)b=b.neg();if(a.hi&bx)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bx)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())m8();var
+d=a.hi;if(a.hi&bx)a=a.neg();if(b.hi&bx)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bW,this.mi>>16,this.mi>>8&bW,this.mi&bW,this.lo>>16,this.lo>>8&bW,this.lo&bW]};t.prototype.lo32=function(){return this.lo|(this.mi&bW)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
+fq(b,c,a){return new
 t(b,c,a)}function
-e8(a){if(!isFinite(a)){if(isNaN(a))return e9(1,0,kn);return a>0?e9(0,0,kn):e9(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bs:a>=0?0:bs;if(f)a=-a;var
-b=zK(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-li)}else{a/=Math.pow(2,b-l7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+fp(a){if(!isFinite(a)){if(isNaN(a))return fq(1,0,kT);return a>0?fq(0,0,kT):fq(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
+b=A4(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gX|f|b<<4;return e9(g,e,c)}function
-dV(a){return a.toArray()}function
-mh(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==e3)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bw)c.write(16,b.dims[a]);else{c.write(16,bw);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hi|f|b<<4;return fq(g,e,c)}function
+d9(a){return a.toArray()}function
+mO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fk)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dV(b.get(a));for(var
+e=d9(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dV(e8(b.get(a)));for(var
+e=d9(fp(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=g_(b.get(a));c.write(32,e)}break;case
+e=hw(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,g_(d[1]));c.write(32,g_(d[2]))}break;case
+d=b.get(a);c.write(32,hw(d[1]));c.write(32,hw(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dV(e8(f[1]));for(var
+f=b.get(a),e=d9(fp(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dV(e8(f[2]));for(var
+e=d9(fp(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mf(a){switch(a){case
+mM(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-yY(c,e){var
+Af(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)ar("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)at("Bigarray.create: unsupported kind");var
 d=new
-a(e*mf(c));return d}function
-g$(c){var
+a(e*mM(c));return d}function
+hx(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dU(a){return new
+d8(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ha(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gX)==0?b&bs?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gX);if(c>0){a+=16;a*=Math.pow(2,c-l7)}else
-a*=Math.pow(2,-li);if(b&bs)a=-a;return a}function
-g5(b){var
+hy(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hi)==0?b&bx?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hi);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
+a*=Math.pow(2,-lN);if(b&bx)a=-a;return a}function
+hr(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)ar("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-zd(b,a){return new
-t(b&bP,b>>>24&bQ|(a&bw)<<8,a>>>16&bw)}function
-hb(a){return a.hi32()}function
-hc(a){return a.lo32()}var
-yZ=e3;function
-cb(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cb.prototype.caml_custom=yZ;cb.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)at("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Aw(b,a){return new
+t(b&bV,b>>>24&bW|(a&bB)<<8,a>>>16&bB)}function
+hz(a){return a.hi32()}function
+hA(a){return a.lo32()}var
+Ag=fk;function
+cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ag;cf.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))ar("bigarray.js: invalid offset");if(this.dims.length!=b.length)ar("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dS();c=c*this.dims[a]+b[a]}else
+Array))at("bigarray.js: invalid offset");if(this.dims.length!=b.length)at("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d6();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dS();c=c*this.dims[a]+(b[a]-1)}return c};cb.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d6();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return zd(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Aw(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eY,e,c];default:return this.data[a]}};cb.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hc(b);this.data[a*2+1]=hb(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fg,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hA(b);this.data[a*2+1]=hz(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cb.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hc(b),e=hb(b);if(c==e)this.data.fill(c);else
+c=hA(b),e=hz(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cb.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cf.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-c4(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c4.prototype=new
-cb();c4.prototype.offset=function(a){if(typeof
+df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype=new
+cf();df.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dS();return a};c4.prototype.get=function(a){return this.data[a]};c4.prototype.set=function(a,b){this.data[a]=b;return 0};c4.prototype.fill=function(a){this.data.fill(a);return 0};function
-md(c,d,a,b){var
-e=mf(c);if(g5(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-c4(c,d,a,b);return new
-cb(c,d,a,b)}function
-bg(b){if(!ae.Failure)ae.Failure=[ap,a(gI),-3];hg(ae.Failure,b)}function
-me(b,v,r){var
-i=b.read32s();if(i<0||i>16)bg("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bQ,o=p>>8&1,h=[];if(r==e3)for(var
+at("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d6();return a};df.prototype.get=function(a){return this.data[a]};df.prototype.set=function(a,b){this.data[a]=b;return 0};df.prototype.fill=function(a){this.data.fill(a);return 0};function
+mK(c,d,a,b){var
+e=mM(c);if(hr(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+df(c,d,a,b);return new
+cf(c,d,a,b)}function
+bk(b){if(!ah.Failure)ah.Failure=[ar,a(g3),-3];hE(ah.Failure,b)}function
+mL(b,v,r){var
+i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bW,o=p>>8&1,h=[];if(r==fk)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bw){var
-t=b.read32u(),u=b.read32u();if(t!=0)bg("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bB){var
+t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=g5(h),f=yY(j,d),g=md(j,o,h,f);switch(j){case
+d=hr(h),f=Af(j,d),g=mK(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bg("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bk("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dU(e);g.set(a,q)}break;case
+q=d8(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ha(dU(e));g.set(a,k)}break;case
+k=hy(d8(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=g$(b.read32s());g.set(a,k)}break;case
+k=hx(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=g$(b.read32s()),l=g$(b.read32s());g.set(a,[eY,m,l])}break;case
+m=hx(b.read32s()),l=hx(b.read32s());g.set(a,[fg,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ha(dU(e));for(var
+m=hy(d8(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ha(dU(e));g.set(a,[eY,m,l])}break}v[0]=(4+i)*4;return md(j,o,h,f)}function
-mc(a,b,c){return a.compare(b,c)}function
-my(a,b){return Math.imul(a,b)}function
-bT(b,a){a=my(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=my(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-y$(a,b){a=bT(a,hc(b));a=bT(a,hb(b));return a}function
-mt(a,b){return y$(a,e8(b))}function
-mg(c){var
-b=g5(c.dims),d=0;switch(c.kind){case
+l=hy(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
+mJ(a,b,c){return a.compare(b,c)}function
+m5(a,b){return Math.imul(a,b)}function
+bZ(b,a){a=m5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+As(a,b){a=bZ(a,hA(b));a=bZ(a,hz(b));return a}function
+m0(a,b){return As(a,fp(b))}function
+mN(c){var
+b=hr(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>lH)b=lH;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bT(d,e)}e=0;switch(b&3){case
+12:if(b>ma)b=ma;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bZ(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bT(d,e)}break;case
+1:e|=c.data[a+0];d=bZ(d,e)}break;case
 4:case
-5:if(b>dR)b=dR;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bT(d,e)}if((b&1)!=0)d=bT(d,c.data[a]);break;case
+5:if(b>d5)b=d5;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bZ(d,e)}if((b&1)!=0)d=bZ(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bT(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bT(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bT(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=mt(d,c.data[a]);break;case
+a=0;a<b;a++)d=m0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=mt(d,c.data[a]);break}return d}function
-zb(a,b){b[0]=4;return a.read32s()}function
-zx(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m0(d,c.data[a]);break}return d}function
+Au(a,b){b[0]=4;return a.read32s()}function
+AQ(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bg("input_value: native integer value too large");default:bg("input_value: ill-formed native integer")}}function
-zm(c,d){var
+2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
+AF(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dU(b)}function
-zi(e,d,b){var
-c=dV(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return d8(b)}function
+AB(e,d,b){var
+c=d9(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-zc(a,b,c){return a.compare(b)}function
-zf(a){return a.lo32()^a.hi32()}var
-mo={"_j":{deserialize:zm,serialize:zi,fixed_length:8,compare:zc,hash:zf},"_i":{deserialize:zb,fixed_length:4},"_n":{deserialize:zx,fixed_length:4},"_bigarray":{deserialize:function(a,b){return me(a,b,"_bigarray")},serialize:mh,compare:mc,hash:mg},"_bigarr02":{deserialize:function(a,b){return me(a,b,e3)},serialize:mh,compare:mc,hash:mg}};function
-g7(a){return mo[a.caml_custom]&&mo[a.caml_custom].compare}function
-mm(f,c,d,e){var
-b=g7(c);if(b){var
+Av(a,b,c){return a.compare(b)}function
+Ay(a){return a.lo32()^a.hi32()}var
+mV={"_j":{deserialize:AF,serialize:AB,fixed_length:8,compare:Av,hash:Ay},"_i":{deserialize:Au,fixed_length:4},"_n":{deserialize:AQ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
+ht(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
+mT(f,c,d,e){var
+b=ht(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-e_(a){return a
+fr(a){return a
 instanceof
-bx}function
-he(a){return e_(a)}function
-mn(a){if(typeof
-a==="number")return dP;else
-if(e_(a))return e2;else
-if(he(a))return 1252;else
+bC}function
+hC(a){return fr(a)}function
+mU(a){if(typeof
+a==="number")return d2;else
+if(fr(a))return fj;else
+if(hC(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=kB){var
-b=a[0]|0;return b==eY?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=k8){var
+b=a[0]|0;return b==fg?0:b}else
 if(a
 instanceof
-String)return kP;else
+String)return lj;else
 if(typeof
-a=="string")return kP;else
+a=="string")return lj;else
 if(a
 instanceof
-Number)return dP;else
-if(a&&a.caml_custom)return gK;else
+Number)return d2;else
+if(a&&a.caml_custom)return g5;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-zn(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mj(a,b){a.t&6&&c6(a);b.t&6&&c6(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-zP(a,b){return mj(a,b)}function
-g6(a,b,d){var
+AG(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mQ(a,b){a.t&6&&dh(a);b.t&6&&dh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+AY(a,b){return mQ(a,b)}function
+hs(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mn(a);if(f==kC){a=a[1];continue}var
-g=mn(b);if(g==kC){b=b[1];continue}if(f!==g){if(f==dP){if(g==gK)return mm(a,b,-1,d);return-1}if(g==dP){if(f==gK)return mm(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ar(gR);break;case
+f=mU(a);if(f==k9){a=a[1];continue}var
+g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g5)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g5)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:at(hb);break;case
 248:var
-c=zn(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ar(gR);break;case
-250:ar("equal: got Forward_tag, should not happen");break;case
-251:ar("equal: abstract value");break;case
+c=AG(a[2],b[2]);if(c!=0)return c|0;break;case
+249:at(hb);break;case
+250:at("equal: got Forward_tag, should not happen");break;case
+251:at("equal: abstract value");break;case
 252:if(a!==b){var
-c=mj(a,b);if(c!=0)return c|0}break;case
-253:ar("equal: got Double_tag, should not happen");break;case
-254:ar("equal: got Double_array_tag, should not happen");break;case
-255:ar("equal: got Custom_tag, should not happen");break;case
-1247:ar(gR);break;case
+c=mQ(a,b);if(c!=0)return c|0}break;case
+253:at("equal: got Double_tag, should not happen");break;case
+254:at("equal: got Double_array_tag, should not happen");break;case
+255:at("equal: got Custom_tag, should not happen");break;case
+1247:at(hb);break;case
 1255:var
-i=g7(a);if(i!=g7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
+i=ht(a);if(i!=ht(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bU(a),b=bU(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b0(a),b=b0(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-y5(a,b){return g6(a,b,true)}function
-y6(){return[0]}function
-al(a){if(a<0)ar("Bytes.create");return new
-bx(a?2:9,s,a)}function
-mp(a,b){return+(g6(a,b,false)==0)}function
-y8(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c8(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)e5(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hf(d){d=bU(d);var
-e=d.length;if(e>31)ar("format_int: format too long");var
-a={justify:bt,signstyle:a5,filler:bN,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+Am(a,b){return hs(a,b,true)}function
+An(){return[0]}function
+ao(a){if(a<0)at("Bytes.create");return new
+bC(a?2:9,s,a)}function
+mW(a,b){return+(hs(a,b,false)==0)}function
+Ap(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hD(d){d=b0(d);var
+e=d.length;if(e>31)at("format_int: format too long");var
+a={justify:by,signstyle:a9,filler:bT,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a5;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aH;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-g8(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a5))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bt&&b.filler==bN)for(var
-d=e;d<b.width;d++)c+=bN;if(b.signedconv)if(b.sign<0)c+=a5;else
-if(b.signstyle!=a5)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aH;if(b.alternate&&b.base==16)c+=kl;if(b.justify==bt&&b.filler==aH)for(var
-d=e;d<b.width;d++)c+=aH;c+=f;if(b.justify==a5)for(var
-d=e;d<b.width;d++)c+=bN;return a(c)}function
-g9(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+hu(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==by&&b.filler==bT)for(var
+d=e;d<b.width;d++)c+=bT;if(b.signedconv)if(b.sign<0)c+=a9;else
+if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kR;if(b.justify==by&&b.filler==aP)for(var
+d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
+d=e;d<b.width;d++)c+=bT;return a(c)}function
+hv(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bt)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aH);if(b>0)a=a+ca+new
-Array(b+1).join(aH);return a}else
+c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aP);if(b>0)a=a+ce+new
+Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hf(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gM;e.filler=bN}else
-if(!isFinite(c)){a="inf";e.filler=bN}else
+a,e=hD(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g7;e.filler=bT}else
+if(!isFinite(c)){a="inf";e.filler=bT}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==g3)a=a.slice(0,b-1)+aH+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(g3),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aH)b--;if(a.charAt(b)==ca)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==g3)a=a.slice(0,b-1)+aH+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==ho)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(ho),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==ho)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aH)b--;if(a.charAt(b)==ca)b--;a=a.slice(0,b+1)}}break}return g8(e,a)}function
-e6(e,c){if(bU(e)==gW)return a(s+c);var
-b=hf(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hu(e,a)}function
+fn(e,c){if(b0(e)==hh)return a(s+c);var
+b=hD(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bN;var
-f=b.prec-d.length;if(f>0)d=c8(f,aH)+d}return g8(b,d)}var
-zy=0;function
-e7(){return zy++}function
-zq(a){return a.toUtf16()}function
-dX(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bT;var
+f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hu(b,d)}var
+AR=0;function
+fo(){return AR++}function
+AJ(a){return a.toUtf16()}function
+d$(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-zM(){function
-a(a){if(a.charAt(0)===bd)return[s,a.substring(1)];return}function
+A6(){function
+a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dX()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-ho=zM();function
-mE(a){return a.slice(-1)!==bd?a+bd:a}if(dX()&&u.process&&u.process.cwd)var
-dT=u.process.cwd().replace(/\\/g,bd);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return d$()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+hM=A6();function
+m$(a){return a.slice(-1)!==bg?a+bg:a}if(d$()&&u.process&&u.process.cwd)var
+d7=u.process.cwd().replace(/\\/g,bg);else
 var
-dT="/static";dT=mE(dT);function
-zr(a){a=zq(a);if(!ho(a))a=dT+a;var
-e=ho(a),d=e[1].split(bd),b=[];for(var
+d7="/static";d7=m$(d7);function
+AK(a){a=AJ(a);if(!hM(a))a=d7+a;var
+e=hM(a),d=e[1].split(bg),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-zG(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<be){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<be;d++);if(d-c>ko){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<lJ){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(be|a&c1)}else
-if(a<0xd800||a>=kF)b+=String.fromCharCode(kG|a>>12,be|a>>6&c1,be|a&c1);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kv||h>kF)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lT|a>>18,be|a>>12&c1,be|a>>6&c1,be|a&c1)}if(b.length>dQ){b.substr(0,1);f+=b;b=s}}return f+b}function
-y3(a){var
-b=9;if(!mG(a))b=8,a=zG(a);return new
-bx(b,a,a.length)}function
-bh(a){return y3(a)}var
-zO=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",ks,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gY,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gL,lE,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cB(d,f,e,a){var
-b=zO.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bh(f||s),bh(e||s)];return c}var
-mz={};function
-cz(a){return mz[a]}function
-cA(b,a){throw[0,b].concat(a)}function
-y2(a){return new
-bx(4,a,a.length)}function
-M(a){hg(ae.Sys_error,a)}function
-zB(a){M(a+eM)}function
-y1(b,a){if(a>>>0>=b.l)mi();return c5(b,a)}function
-aV(a){return a.l}function
-mb(){}function
-aw(a){this.data=a}aw.prototype=new
-mb();aw.prototype.truncate=function(a){var
-b=this.data;this.data=al(a|0);cc(b,0,this.data,0,a)};aw.prototype.length=function(){return aV(this.data)};aw.prototype.write=function(b,d,g,a){var
+A0(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kU){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&dc)}else
+if(a<0xd800||a>=la)b+=String.fromCharCode(lb|a>>12,bi|a>>6&dc,bi|a&dc);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k2||h>la)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mn|a>>18,bi|a>>12&dc,bi|a>>6&dc,bi|a&dc)}if(b.length>d3){b.substr(0,1);f+=b;b=s}}return f+b}function
+Ak(a){var
+b=9;if(!nb(a))b=8,a=A0(a);return new
+bC(b,a,a.length)}function
+bl(a){return Ak(a)}var
+A8=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hj,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g6,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cK(d,f,e,a){var
+b=A8.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bl(f||s),bl(e||s)];return c}var
+m6={};function
+cI(a){return m6[a]}function
+cJ(b,a){throw[0,b].concat(a)}function
+Aj(a){return new
+bC(4,a,a.length)}function
+Q(a){hE(ah.Sys_error,a)}function
+AU(a){Q(a+e5)}function
+Ai(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
+a0(a){return a.l}function
+mI(){}function
+az(a){this.data=a}az.prototype=new
+mI();az.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};az.prototype.length=function(){return a0(this.data)};az.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=al(b+a),f=this.data;this.data=e;cc(f,0,this.data,0,c)}bz(d,g,this.data,b,a);return 0};aw.prototype.read=function(c,a,d,b){var
-e=this.length();cc(this.data,c,a,d,b);return 0};aw.prototype.read_one=function(a){return y1(this.data,a)};aw.prototype.close=function(){};aw.prototype.constructor=aw;function
-aI(b,a){this.content={};this.root=b;this.lookupFun=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.create_dir_if_needed=function(d){var
-c=d.split(bd),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bd;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aI.prototype.slash=function(a){return/\/$/.test(a)?a:a+bd};aI.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
+e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Ai(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
+c=d.split(bg),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aw(bR(c[1]))}}};aI.prototype.exists=function(a){if(a==s)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aI.prototype.mkdir=function(c,e,d){var
-b=d&&cz(gV);if(this.exists(c))if(b)cA(b,cB(ks,gG,this.nm(c)));else
-M(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cA(b,cB(gY,gG,this.nm(a)));else
-M(a+eM);if(!this.is_dir(a))if(b)cA(b,cB(gL,gG,this.nm(a)));else
-M(a+g2);this.create_dir_if_needed(this.slash(c))};aI.prototype.rmdir=function(a,f){var
-b=f&&cz(gV),c=a==s?s:this.slash(a),e=new
-RegExp(gO+c+lF);if(!this.exists(a))if(b)cA(b,cB(gY,gU,this.nm(a)));else
-M(a+eM);if(!this.is_dir(a))if(b)cA(b,cB(gL,gU,this.nm(a)));else
-M(a+g2);for(var
+az(bX(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
+b=d&&cI(hg);if(this.exists(c))if(b)cJ(b,cK(kZ,g0,this.nm(c)));else
+Q(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hj,g0,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g6,g0,this.nm(a)));else
+Q(a+hn);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cI(hg),c=a==s?s:this.slash(a),e=new
+RegExp(g9+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hj,he,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g6,he,this.nm(a)));else
+Q(a+hn);for(var
 d
 in
-this.content)if(d.match(e))if(b)cA(b,cB(lE,gU,this.nm(a)));else
-M(this.nm(a)+": Directory not empty");delete
-this.content[c]};aI.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))M(a+eM);if(!this.is_dir(a))M(a+g2);var
+this.content)if(d.match(e))if(b)cJ(b,cK(l9,he,this.nm(a)));else
+Q(this.nm(a)+": Directory not empty");delete
+this.content[c]};aQ.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+hn);var
 g=new
-RegExp(gO+f+lF),d={},c=[];for(var
+RegExp(g9+f+l_),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aI.prototype.is_dir=function(a){if(a==s)return true;var
-b=this.slash(a);return this.content[b]?1:0};aI.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aI.prototype.open=function(a,b){if(b.rdonly&&b.wronly)M(this.nm(a)+kW);if(b.text&&b.binary)M(this.nm(a)+lr);this.lookup(a);if(this.content[a]){if(this.is_dir(a))M(this.nm(a)+" : is a directory");if(b.create&&b.excl)M(this.nm(a)+kV);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lq);if(b.text&&b.binary)Q(this.nm(a)+lV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lp);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aw(al(0));return this.content[a]}else
-zB(this.nm(a))};aI.prototype.register=function(c,a){var
-b;if(this.content[c])M(this.nm(c)+kV);if(e_(a))b=new
-aw(a);if(he(a))b=new
-aw(bR(a));else
+az(ao(0));return this.content[a]}else
+AU(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])Q(this.nm(c)+lp);if(fr(a))b=new
+az(a);if(hC(a))b=new
+az(bX(a));else
 if(a
 instanceof
 Array)b=new
-aw(y2(a));else
+az(Aj(a));else
 if(typeof
 a==="string")b=new
-aw(mk(a));else
+az(mR(a));else
 if(a.toString){var
-d=bR(bh(a.toString()));b=new
-aw(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-M(this.nm(c)+" : registering file with invalid content type")};aI.prototype.constructor=aI;function
-y(a){return aV(a)}function
-bB(b,a){return c5(b,a)}function
-yX(d){var
-c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bB(d,a);return b}function
-yW(a){if(a.t!=4)e5(a);return a.c}function
-by(a){this.fs=require("fs");this.fd=a}by.prototype=new
-mb();by.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){M(a.toString())}};by.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){M(a.toString())}};by.prototype.write=function(f,b,c,e){var
-a=yX(b);if(!(a
+d=bX(bl(a.toString()));b=new
+az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+E(a){return a0(a)}function
+bG(b,a){return dg(b,a)}function
+Ae(d){var
+c=E(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
+Ad(a){if(a.t!=4)fm(a);return a.c}function
+bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
+mI();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
+a=Ae(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){M(a.toString())}return 0};by.prototype.read=function(g,d,c,f){var
-a=yW(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
+a=Ad(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){M(a.toString())}for(var
-b=0;b<f;b++)cy(d,c+b,e[c+b]);return 0};by.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){M(a.toString())}return a[0]};by.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){M(a.toString())}};by.prototype.constructor=by;function
-ax(a){this.fs=require("fs");this.root=a}ax.prototype.nm=function(a){return this.root+a};ax.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ax.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){M(a.toString())}};ax.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
+b=0;b<f;b++)cH(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){Q(a.toString())}return a[0]};bD.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){Q(a.toString())}};bD.prototype.constructor=bD;function
+aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aA.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-by(d)}catch(a){this.raise_nodejs_error(a,g)}};ax.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kc);return bh(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.raise_nodejs_error=function(a,d){var
-b=cz(gV);if(d&&b){var
-c=cB(a.code,a.syscall,a.path,a.errno);cA(b,c)}else
-M(a.toString())};ax.prototype.stats_from_js=function(a){var
+bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kI);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
+b=cI(hg);if(d&&b){var
+c=cK(a.code,a.syscall,a.path,a.errno);cJ(b,c)}else
+Q(a.toString())};aA.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ax.prototype.constructor=ax;function
-ms(b){var
-a=ho(b);if(!a)return;return a[0]+bd}var
-fa=ms(dT)||bg("unable to compute caml_root"),c9=[];if(dX())c9.push({path:fa,device:new
-ax(fa)});else
-c9.push({path:fa,device:new
-aI(fa)});c9.push({path:lm,device:new
-aI(lm)});function
-mK(b){var
-g=zr(b),b=g.join(bd),f=mE(b),c;for(var
-e=0;e<c9.length;e++){var
-a=c9[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dX()){var
-d=ms(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
+mZ(b){var
+a=hM(b);if(!a)return;return a[0]+bg}var
+ft=mZ(d7)||bk("unable to compute caml_root"),dk=[];if(d$())dk.push({path:ft,device:new
+aA(ft)});else
+dk.push({path:ft,device:new
+aQ(ft)});dk.push({path:lR,device:new
+aQ(lR)});function
+nf(b){var
+g=AK(b),b=g.join(bg),f=m$(b),c;for(var
+e=0;e<dk.length;e++){var
+a=dk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&d$()){var
+d=mZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-ax(d)};c9.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;M("no device found for "+f)}function
-y7(c,b){var
-a=mK(c);if(!a.device.register)bg("cannot register file");a.device.register(a.rest,b);return 0}function
-mF(c,b){var
-c=a(c),b=a(b);return y7(c,b)}function
-y_(){var
+aA(d)};dk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
+Ao(c,b){var
+a=nf(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
+na(c,b){var
+c=a(c),b=a(b);return Ao(c,b)}function
+Ar(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)mF(b[a].name,b[a].content);u.jsoo_create_file=mF;u.caml_fs_tmp=[];return 0}function
-mr(){return[0]}function
-za(a,c,k){if(!isFinite(a)){if(isNaN(a))return bh(gM);return bh(a>0?lX:"-infinity")}var
+a=0;a<b.length;a++)na(b[a].name,b[a].content);u.jsoo_create_file=na;u.caml_fs_tmp=[];return 0}function
+mY(){return[0]}function
+At(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g7);return bl(a>0?mr:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bt,e=s;if(i)e=a5;else
+j=d<0?s:by,e=s;if(i)e=a9;else
 switch(k){case
-43:e=bt;break;case
-32:e=bN;break;default:break}if(c>=0&&c<13){var
+43:e=by;break;case
+32:e=bT;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ca);if(h<0)b+=ca+c8(c,aH);else{var
-f=h+1+c;if(b.length<f)b+=c8(f-b.length,aH);else
-b=b.substr(0,f)}}return bh(e+kl+b+"p"+j+d.toString(10))}function
-zh(a){return+a.isZero()}function
-zk(a){return new
-t(a&bP,a>>24&bP,a>>31&bw)}function
-zl(a){return a.toInt()}function
-zg(a){return+a.isNeg()}function
-zj(a){return a.neg()}function
-ze(g,c){var
-a=hf(g);if(a.signedconv&&zg(c)){a.sign=-1;c=zj(c)}var
-b=s,h=zk(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(zl(e.modulus))+b}while(!zh(c));if(a.prec>=0){a.filler=bN;var
-d=a.prec-b.length;if(d>0)b=c8(d,aH)+b}return g8(a,b)}function
-zz(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bB(c,a)){case
+h=b.indexOf(ce);if(h<0)b+=ce+dj(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=dj(f-b.length,aP);else
+b=b.substr(0,f)}}return bl(e+kR+b+"p"+j+d.toString(10))}function
+AA(a){return+a.isZero()}function
+AD(a){return new
+t(a&bV,a>>24&bV,a>>31&bB)}function
+AE(a){return a.toInt()}function
+Az(a){return+a.isNeg()}function
+AC(a){return a.neg()}function
+Ax(g,c){var
+a=hD(g);if(a.signedconv&&Az(c)){a.sign=-1;c=AC(c)}var
+b=s,h=AD(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AE(e.modulus))+b}while(!AA(c));if(a.prec>=0){a.filler=bT;var
+d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hu(a,b)}function
+AS(c){var
+a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bB(c,a)==48)switch(bB(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bB(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-mA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=l9)return a-87;return-1}function
-hd(f){var
-h=zz(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bB(f,c):0,b=mA(e);if(b<0||b>=d)bg(eO);var
-a=b;for(c++;c<g;c++){e=bB(f,c);if(e==95)continue;b=mA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bg(eO)}if(c!=g)bg(eO);a=i*a;if(d==10&&(a|0)!=a)bg(eO);return a|0}function
-zp(d){return function(){var
+m7(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mE)return a-87;return-1}function
+hB(f){var
+h=AS(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
+a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m7(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e8)}if(c!=g)bk(e8);a=i*a;if(d==10&&(a|0)!=a)bk(e8);return a|0}function
+AI(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bS(d,c)}else
-return bS(d,[undefined])}}function
-zs(a,d){if(a<0)dS();var
+a=0;a<b;a++)c[a]=arguments[a];return bY(d,c)}else
+return bY(d,[undefined])}}function
+AL(a,d){if(a<0)d6();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-zt(){return 0}var
-bA=new
+AM(){return 0}var
+bF=new
 Array();function
-c7(c){var
-a=bA[c];if(!a.opened)M("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ae.fds[a.fd]&&ae.fds[a.fd].output){var
-b=ae.fds[a.fd].output;switch(b.length){case
+di(c){var
+a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ah.fds[a.fd]&&ah.fds[a.fd].output){var
+b=ah.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-mD(e,f){var
-b=bA[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-zH(a){var
-a=hk(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+m_(e,f){var
+b=bF[e],d=a(f),c=E(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+A1(a){var
+a=hI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-zI(a){var
-a=hk(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+A2(a){var
+a=hI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fb(c,e,d,a){if(ae.fds===undefined)ae.fds=new
+fu(c,e,d,a){if(ah.fds===undefined)ah.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ae.fds[c]=b;if(!ae.fd_last_idx||c>ae.fd_last_idx)ae.fd_last_idx=c;return c}function
-zQ(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ah.fds[c]=b;if(!ah.fd_last_idx||c>ah.fd_last_idx)ah.fd_last_idx=c;return c}function
+A9(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,381 +687,381 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)M(bU(c)+kW);if(a.text&&a.binary)M(bU(c)+lr);var
-d=mK(c),e=d.device.open(d.rest,a),f=ae.fd_last_idx?ae.fd_last_idx:0;return fb(f+1,mD,e,a)}fb(0,mD,new
-aw(al(0)));fb(1,zI,new
-aw(al(0)));fb(2,zH,new
-aw(al(0)));function
-zu(a){var
-c=ae.fds[a];if(c.flags.wronly)M(l8+a+" is writeonly");var
-d=null;if(a==0&&dX()){var
-e=require("fs");d=function(){return bh(e.readFileSync(0,kc))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bA[b.fd]=b;return b.fd}function
-mv(c){var
-b=ae.fds[c];if(b.flags.rdonly)M(l8+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bA[a.fd]=a;return a.fd}function
-zv(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b0(c)+lq);if(a.text&&a.binary)Q(b0(c)+lV);var
+d=nf(c),e=d.device.open(d.rest,a),f=ah.fd_last_idx?ah.fd_last_idx:0;return fu(f+1,m_,e,a)}fu(0,m_,new
+az(ao(0)));fu(1,A2,new
+az(ao(0)));fu(2,A1,new
+az(ao(0)));function
+AN(a){var
+c=ah.fds[a];if(c.flags.wronly)Q(mD+a+" is writeonly");var
+d=null;if(a==0&&d$()){var
+e=require("fs");d=function(){return bl(e.readFileSync(0,kI))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;return b.fd}function
+m2(c){var
+b=ah.fds[c];if(b.flags.rdonly)Q(mD+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
+AO(){var
 b=0;for(var
-a=0;a<bA.length;a++)if(bA[a]&&bA[a].opened&&bA[a].out)b=[0,bA[a].fd,b];return b}function
-aF(a){return a}function
-zw(g,d,h,f){var
-b=bA[g];if(!b.opened)M("Cannot output to a closed channel");var
-a;if(h==0&&aV(d)==f)a=d;else{a=al(f);cc(d,h,a,0,f)}var
-i=aF(a),c=bU(i),e=c.lastIndexOf(kw);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c7(g);b.buffer+=c.substr(e+1)}return 0}function
-mw(b,a,d,c){return zw(b,bR(a),d,c)}function
-mx(c,b){var
-d=a(String.fromCharCode(b));mw(c,d,0,1);return 0}function
-dW(a,b){return+(g6(a,b,false)!=0)}function
-e$(a){if(a
+a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
+aJ(a){return a}function
+AP(g,d,h,f){var
+b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
+a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
+i=aJ(a),c=b0(i),e=c.lastIndexOf(k3);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);di(g);b.buffer+=c.substr(e+1)}return 0}function
+m3(b,a,d,c){return AP(b,bX(a),d,c)}function
+m4(c,b){var
+d=a(String.fromCharCode(b));m3(c,d,0,1);return 0}function
+d_(a,b){return+(hs(a,b,false)!=0)}function
+fs(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(e_(a))return e2;else
-if(he(a))return e2;else
+if(fr(a))return fj;else
+if(hC(a))return fj;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return kB;else
-return dP}function
-a6(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ae[b+1]=c;if(a)ae[a]=c}function
-hh(a,b){mz[bU(a)]=b;return 0}function
-y0(a,b){if(a===b)return 1;a.t&6&&c6(a);b.t&6&&c6(b);return a.c==b.c?1:0}function
-aD(a,b){return y0(a,b)}function
-zE(){ar(g0)}function
-N(b,a){if(a>>>0>=y(b))zE();return bB(b,a)}function
-j(a,b){return 1-aD(a,b)}function
-zF(){return 0x7FFFFFFF/4|0}function
-hj(a){var
+if(a&&a.caml_custom)return k8;else
+return d2}function
+a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ah[b+1]=c;if(a)ah[a]=c}function
+hF(a,b){m6[b0(a)]=b;return 0}function
+Ah(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
+au(a,b){return Ah(a,b)}function
+AX(){at(hl)}function
+R(b,a){if(a>>>0>=E(b))AX();return bG(b,a)}function
+l(a,b){return 1-au(a,b)}function
+AZ(){return 0x7FFFFFFF/4|0}function
+hH(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-ay(b,a){return{joo_tramp:b,joo_args:a}}function
-mC(a){return a}function
-fc(a){if(a
+aB(b,a){return{joo_tramp:b,joo_args:a}}function
+m9(a){return a}function
+fv(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mC(ae.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m9(ah.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mC(ae.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m9(ah.Stack_overflow);if(a
 instanceof
-u.Error&&cz(gJ))return[0,cz(gJ),a];return[0,ae.Failure,bh(String(a))]}function
-fd(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-hl(a,b){return a<b?-1:a>b?1:0}function
-mH(c,b){var
-a=c%b;return a<0?a+fd(b):a}function
-hm(a,b){return(a-mH(a,b))/b}function
-ai(a,b){return a==b?1:0}function
-A(a,b){return a<=b?1:0}function
-af(a,b){return a<b?1:0}function
-q(a,b){return a*b}function
-T(a){return-a}function
-aW(a){return u.BigInt(a)}function
-mI(a,b){return a<<u.BigInt(b)}function
-mJ(a,b){return a>>u.BigInt(b)}function
-bC(a){return a<0?-1:a>0?1:0}function
-zN(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+u.Error&&cI(g4))return[0,cI(g4),a];return[0,ah.Failure,bl(String(a))]}function
+fw(a){return a<0?-a:a}function
+A(a,b){return a+b}function
+hJ(a,b){return a<b?-1:a>b?1:0}function
+nc(c,b){var
+a=c%b;return a<0?a+fw(b):a}function
+hK(a,b){return(a-nc(a,b))/b}function
+ak(a,b){return a==b?1:0}function
+B(a,b){return a<=b?1:0}function
+ac(a,b){return a<b?1:0}function
+r(a,b){return a*b}function
+W(a){return-a}function
+a1(a){return u.BigInt(a)}function
+nd(a,b){return a<<u.BigInt(b)}function
+ne(a,b){return a>>u.BigInt(b)}function
+bH(a){return a<0?-1:a>0?1:0}function
+A7(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-cd(a,b){return a-b}function
-hn(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-zo(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-y9(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&zo(b[1]))var
+b1(a,b){return a-b}function
+hL(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+AH(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Aq(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AH(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=lI;for(var
-d=f;d<e.length;d++){if(d>f)a+=kf;var
+f=2,e=b;a+=mb;for(var
+d=f;d<e.length;d++){if(d>f)a+=kL;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bx)a+=aq+c.toString()+aq;else
+bC)a+=as+c.toString()+as;else
 if(typeof
-c=="string")a+=aq+c.toString()+aq;else
-a+=le}a+=gN}else
-if(b[0]==ap)a+=b[1];return a}function
-mq(a){if(a
+c=="string")a+=as+c.toString()+as;else
+a+=lI}a+=g8}else
+if(b[0]==ar)a+=b[1];return a}function
+mX(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ap)){var
-c=cz(kr);if(c)c(a,false);else{var
-d=y9(a),b=cz(kb);if(b)b(0);u.console.error(gS+d+kw)}}else
+Array&&(a[0]==0||a[0]==ar)){var
+c=cI(kY);if(c)c(a,false);else{var
+d=Aq(a),b=cI(kH);if(b)b(0);u.console.error(hc+d+k3)}}else
 throw a}function
-zD(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mq(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mq(a.error)})}zD();function
-e(a,b){return a.length==1?a(b):bS(a,[b])}function
-S(a,b,c){return a.length==2?a(b,c):bS(a,[b,c])}function
-gE(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bS(a,[b,c,d,e,f])}function
-yV(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bS(a,[b,c,d,e,f,g,h])}y_();var
-fe=[ap,a(l1),-1],ht=[ap,a(kt),-2],hq=[ap,a(gI),-3],hp=[ap,a(la),-4],hr=[ap,a(kM),-8],hs=[ap,a(lo),-9],W=[ap,a(lN),-11],hu=[ap,a(ka),-12],xZ=[4,0,0,0,[12,45,[4,0,0,0,0]]],fk=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kR),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],x0=[0,0],x1=[0,[0,[0,[0,0]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,0]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,0]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ym=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],yn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],yo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yn]]]]]]]]]]],yp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yo]]]]]]]]]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yp]]]]]]]]]]],yr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yq]]]]]]]]]]],ys=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yr]]]]]]]]]]],yt=[0,0],yu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yt]]]]]]]]]]],yv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yu]]]]]]]]]]],yw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yv]]]]]]]]]]],yx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yw]]]]]]]]]]],yy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yx]]]]]]]]]]],yz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yy]]]]]]]]]]],yA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yz]]]]]]]]]]],yB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yA]]]]]]]]]]],yC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yB]]]]]]]]]]],yD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yC]]]]]]]]]]],yE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],yF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yE]]]]]]]]]]],yG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],yH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yG]]]]]]]]]]],yI=[0,[0,[0,[0,[0,0]]]]],yJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yI]]]]]]]]]]],yK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yJ]]]]]]]]]]],yL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yK]]]]]]]]]]],yM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yL]]]]]]]]]]],yN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yM]]]]]]]]]]],yO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yN]]]]]]]]]]],yP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yO]]]]]]]]]]],yQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yP]]]]]]]]]]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yQ]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yR]]]]]]]]]]],yT=[0,0],yU=[0,[0,[0,[0,[0,0]]]]],fG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eu=[0,[0,[0,[0,0]]]];a6(11,hu,ka);a6(10,W,lN);a6(9,[ap,a(k5),-10],k5);a6(8,hs,lo);a6(7,hr,kM);a6(6,[ap,a(lk),-7],lk);a6(5,[ap,a(lC),-6],lC);a6(4,[ap,a(ky),-5],ky);a6(3,hp,la);a6(2,hq,gI);a6(1,ht,kt);a6(0,fe,l1);var
-mP=a("%.12g"),mO=a(ca),mM=a("true"),mN=a("false"),mQ=a("\\\\"),mR=a("\\'"),mS=a("\\b"),mT=a("\\t"),mU=a("\\n"),mV=a("\\r"),mY=a("String.blit / Bytes.blit_string"),mX=a("Bytes.blit"),mW=a("String.sub / Bytes.sub"),m0=a(s),mZ=a("String.concat"),m1=a("Array.init"),m4=a("Buffer.add: cannot grow buffer"),m3=[0,a(ly),93,2],m2=[0,a(ly),94,2],nb=a("%c"),nc=a("%s"),nd=a(j_),ne=a(kJ),nf=a(k8),ng=a(kh),nh=a("%f"),ni=a("%B"),nj=a("%{"),nk=a("%}"),nl=a("%("),nm=a("%)"),nn=a("%a"),no=a("%t"),np=a("%?"),nq=a("%r"),nr=a("%_r"),ns=[0,a(ao),850,23],nD=[0,a(ao),814,21],nv=[0,a(ao),815,21],nE=[0,a(ao),818,21],nw=[0,a(ao),819,21],nF=[0,a(ao),822,19],nx=[0,a(ao),823,19],nG=[0,a(ao),826,22],ny=[0,a(ao),827,22],nH=[0,a(ao),831,30],nz=[0,a(ao),832,30],nB=[0,a(ao),836,26],nt=[0,a(ao),837,26],nC=[0,a(ao),846,28],nu=[0,a(ao),847,28],nA=[0,a(ao),851,23],oK=a(k2),oI=[0,a(ao),1558,4],oJ=a("Printf: bad conversion %["),oL=[0,a(ao),1626,39],oM=[0,a(ao),1649,31],oN=[0,a(ao),1650,31],oO=a("Printf: bad conversion %_"),oP=a(kX),oQ=a(k$),oR=a(kX),oS=a(k$),oG=a(gM),oE=a("neg_infinity"),oF=a(lX),oD=a(ca),oy=[0,kq],om=a("%+nd"),on=a("% nd"),op=a("%+ni"),oq=a("% ni"),or=a("%nx"),os=a("%#nx"),ot=a("%nX"),ou=a("%#nX"),ov=a("%no"),ow=a("%#no"),ol=a("%nd"),oo=a(k8),ox=a("%nu"),n$=a("%+ld"),oa=a("% ld"),oc=a("%+li"),od=a("% li"),oe=a("%lx"),of=a("%#lx"),og=a("%lX"),oh=a("%#lX"),oi=a("%lo"),oj=a("%#lo"),n_=a("%ld"),ob=a(kJ),ok=a("%lu"),nY=a("%+Ld"),nZ=a("% Ld"),n1=a("%+Li"),n2=a("% Li"),n3=a("%Lx"),n4=a("%#Lx"),n5=a("%LX"),n6=a("%#LX"),n7=a("%Lo"),n8=a("%#Lo"),nX=a("%Ld"),n0=a(kh),n9=a("%Lu"),nL=a("%+d"),nM=a("% d"),nO=a("%+i"),nP=a("% i"),nQ=a("%x"),nR=a("%#x"),nS=a("%X"),nT=a("%#X"),nU=a("%o"),nV=a("%#o"),nK=a(gW),nN=a(j_),nW=a(k2),m5=a("@]"),m6=a("@}"),m7=a("@?"),m8=a("@\n"),m9=a("@."),m_=a("@@"),m$=a("@%"),na=a("@"),nI=a("CamlinternalFormat.Type_mismatch"),oW=a(s),oX=[0,[11,a(kf),[2,0,[2,0,0]]],a(", %s%s")],pk=[0,[11,a(gS),[2,0,[12,10,0]]],a(lK)],pl=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pj=a("Fatal error: out of memory in uncaught exception handler"),ph=[0,[11,a(gS),[2,0,[12,10,0]]],a(lK)],pd=[0,[2,0,[12,10,0]],a("%s\n")],o7=a("Raised at"),o8=a("Re-raised at"),o9=a("Raised by primitive operation at"),o_=a("Called from"),o$=a(" (inlined)"),pb=a(s),pa=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kR),xZ]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pc=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],o2=a("Out of memory"),o3=a("Stack overflow"),o4=a("Pattern matching failed"),o5=a("Assertion failed"),o6=a("Undefined recursive module"),oY=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oZ=a(s),o0=a(s),o1=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oV=[0,[4,0,0,0,0],a(gW)],oT=[0,[3,0,0],a("%S")],oU=a(le),pe=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pn=a("Jsoo_runtime.Error.Exn"),pp=a("power"),pz=[0,0],pA=[0,[0,0]],pB=[0,[0,0]],pI=[0,0],pP=[0,0,0],pQ=[0,0,0],pR=[0,0],pS=[0,0],p0=[0,0],p2=[0,0],qc=[0,0],qd=[0,0],qy=[0,[0,[0,0]]],qK=a(","),q2=[0,a(gN),0],q3=a(lI),q4=a(ca),q5=[0,[0,[0,0]]],q6=a(a5),q7=a(gO),q8=[0,[0,[0,[0,[0,0]]]]],q9=[0,a(gN),0],q_=a(ma),tb=a(j$),td=a(lc),tc=a(lO),te=a(eR),tf=a(k_),tg=a(l5),th=a(lx),tV=[0,a(kK),7393,12],t9=a(gT),t_=[0,0],t$=a("divided"),ua=[0,1],ub=a("mirror"),uc=[0,3],ud=a("negative"),ue=[0,2],uf=a(g4),ug=[0,4],uh=a(eP),ui=a(lp),uj=a(e0),uk=[0,0],ul=[0,0],um=[0,0],uF=a(s),uC=[0,[0,[0,[0,0]]]],uD=[0,[0,[0,[0,0]]]],uA=[0,[0,[0,0]]],uy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],uw=[0,[0,0]],ux=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],uv=[0,[0,0]],ut=[0,[0,[0,0]]],uo=[0,[0,0]],up=[0,0],un=[0,0],t4=[0,[0,0]],t5=[0,0],t3=[0,0],t2=[0,0],t1=[0,0,0],tZ=[0,0,0],tY=[0,0],tQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],tR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],tO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ys]]]]]]]]]]],tP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yD]]]]]]]]]]],tS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yF]]]]]]]]]]],tT=a("sqrt"),tK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yH]]]]]]]]]]],tL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yS]]]]]]]]]]],tz=[0,a("\n"),0],tA=a(ld),tB=a(eN),tC=a(kD),tD=a(lA),tE=a("certified"),tJ=a("refuted"),tF=a("verdict"),tG=a(kU),tH=a(lw),tI=a(lM),tr=a(l0),ts=a(eQ),tt=a(kA),tu=a(eS),tv=a(bf),tw=a(lf),tx=a(eQ),ty=a(l3),tn=a(lU),to=a(eS),tp=a(lv),tq=a(l6),tj=a(l4),tk=a(lG),tl=a(eZ),s$=a(ln),ta=a(k0),sP=a(eZ),su=a(bf),sv=a(bO),sw=a(c3),sx=a(gF),sy=a(c2),sz=a(bf),sA=a(bO),sB=a(g1),sC=a(bv),sD=a(bu),sE=a(cx),sF=a(c3),sG=a(lW),sH=a(l2),sI=a(c2),sJ=a(bf),sK=a(bO),sL=a(bv),sM=a(bu),sN=a(cx),sO=a(c3),sQ=a(kQ),sR=a(kY),sS=a(l$),sT=a(lq),sU=a(kk),sV=a(c2),sW=a(bf),sX=a(bO),sY=a(eU),sZ=a(lz),s0=a(c3),s1=a(k6),s2=a(lh),s3=a(c2),s4=a(bf),s5=a(eU),s6=a(bf),s7=a(kN),s_=a(lb),s8=a(kj),s9=a(k3),sp=a(bO),sq=a(c3),sr=a(gF),ss=a(c2),sg=a(kz),sh=a(k9),si=a(km),sj=a(lt),sk=a(k1),sl=a(kS),sm=a(lB),sn=a(eV),so=a(eV),sc=a(b_),sd=a(b9),se=a(eT),sf=a(b$),r_=a(dO),r$=a(gZ),sa=a(lS),r3=a(bv),r4=a(bu),r5=a(cx),r6=a(kE),r7=a(j9),r8=a(kx),r9=a(lZ),rW=a(lD),rX=a(ki),r2=a(eN),rY=a(lu),rZ=a(ku),r0=a(kL),r1=a(lP),rT=a(bu),rU=a(bv),rV=a(kZ),rK=a(ke),rL=a(lg),rM=a(lV),rN=a(eR),rO=a(l_),rP=a(lY),rQ=a(lj),rR=a(lR),rS=a(kd),rz=a(bt),rJ=a(a5),rA=a(eX),rB=a(eW),rC=a(e4),rD=a(b_),rE=a(b9),rF=a(kH),rG=a(kO),rH=a(e4),rI=a(b$),rh=a(bt),rp=a(a5),ri=a(eX),rj=a(eW),rk=a(b_),rl=a(b9),rm=a(e1),rn=a(k4),ro=a(b$),rq=a(gQ),rr=a(b_),rs=a(b9),rt=a(eT),ru=a(b$),rv=a(e1),rw=a(dO),rx=a(b$),re=a(bv),rf=a(bu),rc=[0,a(aq),0],rd=a(aq),ra=[0,a(kK),6744,36],q$=[0,a(aq),0],rb=a(aq),qY=a(bt),qZ=a(a5),q0=a("*"),q1=a(bd),qT=[0,[0,[0,[0,[0,0]]]]],qU=[0,[0,[0,0]]],qV=[0,[0,0]],qW=[0,0],qX=[0,[0,[0,[0,0]]]],qR=a('":'),qS=a(aq),qP=[0,a(aq),0],qQ=a(aq),qN=[0,a("}"),0],qO=a("{"),qL=[0,a("]"),0],qM=a("["),qJ=[0,[0,[0,0]]],qI=[0,[0,[0,0]]],qG=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qB=[0,[0,0]],qC=[0,[0,[0,0]]],qw=[0,[0,0]],qx=[0,[0,[0,0]]],qu=[0,[0,[0,0]]],qv=[0,[0,0]],qs=[0,0],qo=[0,[0,0]],qp=[0,0],qq=[0,0],qr=[0,[0,0]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,0],qj=[0,0],qk=[0,[0,0]],ql=[0,[0,0]],qm=[0,[0,0]],qn=[0,0],qb=[0,0],p$=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p7=[0,0],p8=[0,[0,[0,[0,[0,[0,0]]]]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yT]]]]]]]]]]],p5=[0,[0,[0,0]]],pV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pW=[0,[0,[0,[0,[0,[0,0]]]]]],pX=[0,[0,[0,0]]],pY=[0,[0,[0,[0,[0,[0,0]]]]]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,0],pJ=[0,0,0],pE=[0,0],pF=[0,[0,0]],pG=[0,0],pH=[0,[0,0]],pC=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yU]]]]]]]]]]],py=a(aH),px=a(s),pw=[0,[0,0]],pv=[0,0],pu=[1,0],pt=[0,0],ps=[0,0],pq=[1,0],pr=[1,0],wy=a(b$),wz=a(gQ),wA=a(eT),wD=a(b_),wE=a(b9),wB=[0,a('" of such a platform'),0],wC=a(kg),wk=a("rho"),wl=a(eZ),wm=[0,a("a joint by its coordinate"),0],v0=a(bO),vP=a(bf),vQ=a(kN),vR=a(k3),vU=a(kj),vV=a(lb),vW=a(bf),vX=a(bf),vY=a(eU),vZ=[0,a("a claim that no cube of such a machine fits"),0],v1=a(c2),v2=a(c3),v3=a("bodies"),wX=[0,a("a machine with bodies"),0],v4=a(dO),v5=a(gZ),v6=a(lS),v7=a(g1),v8=a(kk),v9=a(lh),v_=a(gF),wb=a(cx),wc=a(lZ),wf=a(bO),wg=a(lz),wh=a(eU),wi=a(k6),wj=a(cx),wn=a(bO),wo=a(bv),wp=a(bu),wq=a(kQ),wr=a(kY),ws=a(l$),wt=a(lq),v$=[0,a(aq),0],wa=a(k7),wu=a(cx),wv=[0,a('" of a platform that turns'),0],ww=a(kT),wx=a(lW),wV=[0,a('" that does not turn'),0],wW=a(k7),wF=a(g1),wG=a(kS),wH=a(kz),wI=a(k1),wJ=a(eV),wK=a(lB),wL=a(eV),wS=a(k9),wT=a(km),wU=a(lt),wM=a(dO),wN=a(gZ),wO=a(bO),wP=a(bv),wQ=a(bu),wR=a(l2),wd=[0,a(aq),0],we=a(kT),vS=[0,a(aq),0],vT=a('a claim of the kind "'),w0=a(eR),w1=a(lx),w2=a(lO),w3=a(k_),w4=a(eP),w5=a(lp),w6=a(e0),w7=[0,a(aq),0],w8=a('the evidence "'),w9=a(k0),w_=a(ln),w$=a(eP),xa=a(e0),xb=a(l5),xd=a(eP),xe=a(e0),xf=a(gT),xg=a(gT),xc=[0,a("this evidence at control points"),0],xF=a(lM),xG=a(lw),xH=a(kU),xS=[0,3,3],xI=a(lA),xN=[0,a('the drive "arm" in a claim that is certified'),0],xO=[0,a("a step of a platform that turns that is not at control points"),0],xP=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],xR=[0,a("a step in a proof that no cube fits"),0],xJ=[0,a("a leaf that fails"),0],xK=a(kD),xL=a(ld),xM=a(eN),xD=a(g4),xs=a(kA),xt=a(l3),xw=a(bf),xx=a(eS),xy=a(lf),xz=a(eQ),xA=a(l0),xB=a(eQ),xu=[0,a(aq),0],xv=a('a proof of the kind "'),xo=a(lU),xp=a(eS),xq=a(lv),xr=a(l6),xj=a(lG),xk=a(l4),xl=a(eZ),xm=[0,a(aq),0],xn=a('the failure "'),xh=a(g4),xi=a(aH),wY=a(lc),wZ=a(j$),vJ=a(cx),vN=a(bv),vO=a(bu),vK=a(kx),vL=a(kE),vM=a(j9),vH=[0,a(lL),0],vG=[0,a(lL),0],vB=a(lu),vC=[0,a("a stiffness for each joint"),0],vA=a(eN),vt=a(lD),vh=a(lP),vi=a(eR),vj=a(lR),vk=a(kd),vl=a(lg),vm=a(lV),vn=a(lY),vo=a(l_),vp=a(lj),vq=a(ke),vr=[0,a(aq),0],vs=a('the quantity "'),vu=a(ki),vv=a(bv),vw=a(bu),vx=a(kZ),vy=[0,a(aq),0],vz=a('a bound "'),vD=a(ku),vE=a(kL),va=a(eX),vb=a(eW),vc=a(e4),vd=a(b_),ve=a(b9),vf=a(kH),vg=a(kO),u9=a(b$),u_=a(e4),uU=a(b$),uV=a(dO),uW=a(k4),uX=a(eT),u0=a(gQ),u1=a(b_),u2=a(b9),u3=a(eX),u4=a(eW),u5=a(b_),u6=a(b9),u7=a(e1),u8=a(e1),uY=[0,a(aq),0],uZ=a(kg),uR=a(bt),uS=a(a5),uP=a(" is not covered by the verified checker"),uQ=a(s),uN=a(bv),uO=a(bu),uJ=a(s),uK=a(ma),uL=a(s),uM=a(s),uI=[1,0],uG=a("Reader.Malformed"),uH=a("Reader.Not_covered"),xU=a(kI),xV=a("CERTIFIED"),xW=a("REFUTED"),xX=a(kI),xY=a("NOT COVERED: ");function
-ab(a){if(typeof
+AW(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mX(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AW();function
+e(a,b){return a.length==1?a(b):bY(a,[b])}function
+N(a,b,c){return a.length==2?a(b,c):bY(a,[b,c])}function
+gZ(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
+Ac(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}Ar();var
+fx=[ar,a(mv),-1],hR=[ar,a(k0),-2],hO=[ar,a(g3),-3],hN=[ar,a(lE),-4],hP=[ar,a(lg),-8],hQ=[ar,a(lS),-9],$=[ar,a(mg),-11],hS=[ar,a(kG),-12],ze=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zf=[0,[0,0]],zg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zf]]]]]]]]]]],zh=[0,0],zi=[0,[0,[0,[0,0]]]],zj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,0]],zn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,0]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,0],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,0]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,0],Ab=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hS,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hQ,lS);a_(7,hP,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hN,lE);a_(2,hO,g3);a_(1,hR,k0);a_(0,fx,mv);var
+nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g7),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hh),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hc),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hc),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),ze]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hh)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g8),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g9),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g8),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(hd),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hp),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vz=a(s),vw=[0,[0,[0,[0,0]]]],vx=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hf),t4=a(g$),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hm),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hq),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g1),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g1),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hk),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(ha),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xL=a(cd),xM=a(ha),xN=a(fb),xQ=a(bh),xR=a(cc),xO=[0,a('" of such a platform'),0],xP=a(kM),xx=a("rho"),xy=a(fh),xz=[0,a("a joint by its coordinate"),0],w9=a(bU),wY=a(bj),wZ=a(lh),w0=a(lw),w3=a(kP),w4=a(lF),w5=a(bj),w6=a(bj),w8=a(fc),w7=[0,a("a claim that no cube of such a machine fits"),0],w_=a(dd),w$=a(de),xa=a(e6),xb=a(hq),x_=[0,a("such a machine with bodies"),0],xc=a(d1),xd=a(hk),xe=a(mm),xf=a(hm),xg=a(kQ),xh=a(lM),xi=a(e6),xl=a(cF),xm=a(mt),xp=a(hq),xq=[0,a("a machine with arms and bodies"),0],xr=[0,a("two bodies beside each other on one leg"),0],xs=a(bU),xt=a(l4),xu=a(fc),xv=a(d4),xw=a(cF),xA=a(bU),xB=a(bA),xC=a(bz),xD=a(lk),xE=a(ls),xF=a(mG),xG=a(lU),xj=[0,a(as),0],xk=a(lz),xH=a(cF),xI=[0,a('" of a platform that turns'),0],xJ=a(ln),xK=a(mq),x8=[0,a('" that does not turn'),0],x9=a(lz),xS=a(hm),xT=a(lm),xU=a(k6),xV=a(lu),xW=a(fd),xX=a(l6),xY=a(fd),x5=a(lB),x6=a(kS),x7=a(lX),xZ=a(d1),x0=a(hk),x1=a(bU),x2=a(bA),x3=a(bz),x4=a(mw),xn=[0,a(as),0],xo=a(ln),w1=[0,a(as),0],w2=a('a claim of the kind "'),yb=a(e$),yc=a(l2),yd=a(mi),ye=a(cG),yf=a(lC),yg=a(e9),yh=a(lT),yi=a(fi),yn=a(g$),yo=a(hf),yp=a(cG),yj=[0,a(as),0],yk=a('the evidence "'),yl=a(g$),ym=a(hf),yq=a(e9),yr=a(fi),ys=a(mA),yu=a(e9),yv=a(fi),yw=a(hd),yx=a(hd),yt=[0,a("this evidence at control points"),0],yW=a(mf),yX=a(l0),yY=a(lo),y9=[0,3,3],yZ=a(l5),y4=[0,a('the drive "arm" in a claim that is certified'),0],y5=[0,a("a step of a platform that turns that is not at control points"),0],y6=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y7=[0,a("a mechanism by formulas in a claim that is refuted"),0],y8=[0,a("a step in a proof that no cube fits"),0],y0=[0,a("a leaf that fails"),0],y1=a(k_),y2=a(lH),y3=a(e7),yU=a(hp),yJ=a(k7),yK=a(my),yN=a(bj),yO=a(fa),yP=a(lJ),yQ=a(e_),yR=a(mu),yS=a(e_),yL=[0,a(as),0],yM=a('a proof of the kind "'),yF=a(mo),yG=a(fa),yH=a(lZ),yI=a(mB),yA=a(l$),yB=a(mz),yC=a(fh),yD=[0,a(as),0],yE=a('the failure "'),yy=a(hp),yz=a(aP),x$=a(lG),ya=a(kF),wV=a(d4),wL=a(g1),wM=a(lL),wN=a(db),wO=a(bh),wT=a(mx),wU=a(d4),wW=a(da),wX=a(db),wP=a(da),wQ=a(mh),wR=a(l1),wS=a(bh),wE=a(cF),wI=a(bA),wJ=a(bz),wF=a(k4),wG=a(k$),wH=a(da),wC=[0,a(me),0],wB=[0,a(me),0],wr=a(lY),ws=[0,a("a stiffness for each joint"),0],wq=a(e7),wj=a(l8),wb=a(mj),wc=a(mp),wv=a(kX),ww=a(e$),wx=a(ml),wy=a(kJ),wz=a(lK),wd=a(ms),we=a(mF),wf=a(lO),wg=a(kK),wh=[0,a(as),0],wi=a('the quantity "'),wk=a(kO),wl=a(bA),wm=a(bz),wn=a(lt),wo=[0,a(as),0],wp=a('a bound "'),wt=a(k1),wu=a(db),v6=a(ff),v7=a(fe),v8=a(fl),v9=a(bh),v_=a(cc),v$=a(lc),wa=a(li),v3=a(cd),v4=a(fl),vO=a(cd),vP=a(d1),vQ=a(lx),vR=a(fb),vU=a(ha),vV=a(bh),vW=a(cc),vX=a(ff),vY=a(fe),vZ=a(bh),v0=a(cc),v1=a(cG),v2=a(cG),vS=[0,a(as),0],vT=a(kM),vL=a(by),vM=a(a9),vJ=a(" is not covered by the verified checker"),vK=a(s),vH=a(bA),vI=a(bz),vD=a(s),vE=a(mH),vF=a(s),vG=a(s),vC=[1,0],vA=a("Reader.Malformed"),vB=a("Reader.Not_covered"),y$=a(ld),za=a("CERTIFIED"),zb=a("REFUTED"),zc=a(ld),zd=a("NOT COVERED: ");function
+ad(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ab(a[1])];case
-1:return[1,ab(a[1])];case
-2:return[2,ab(a[1])];case
-3:return[3,ab(a[1])];case
-4:return[4,ab(a[1])];case
-5:return[5,ab(a[1])];case
-6:return[6,ab(a[1])];case
-7:return[7,ab(a[1])];case
+0:return[0,ad(a[1])];case
+1:return[1,ad(a[1])];case
+2:return[2,ad(a[1])];case
+3:return[3,ad(a[1])];case
+4:return[4,ad(a[1])];case
+5:return[5,ad(a[1])];case
+6:return[6,ad(a[1])];case
+7:return[7,ad(a[1])];case
 8:var
-c=a[1];return[8,c,ab(a[2])];case
+c=a[1];return[8,c,ad(a[2])];case
 9:var
-b=a[1];return[9,b,b,ab(a[3])];case
-10:return[10,ab(a[1])];case
-11:return[11,ab(a[1])];case
-12:return[12,ab(a[1])];case
-13:return[13,ab(a[1])];default:return[14,ab(a[1])]}}function
-aG(a,b){if(typeof
+b=a[1];return[9,b,b,ad(a[3])];case
+10:return[10,ad(a[1])];case
+11:return[11,ad(a[1])];case
+12:return[12,ad(a[1])];case
+13:return[13,ad(a[1])];default:return[14,ad(a[1])]}}function
+aK(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aG(a[1],b)];case
-1:return[1,aG(a[1],b)];case
-2:return[2,aG(a[1],b)];case
-3:return[3,aG(a[1],b)];case
-4:return[4,aG(a[1],b)];case
-5:return[5,aG(a[1],b)];case
-6:return[6,aG(a[1],b)];case
-7:return[7,aG(a[1],b)];case
+0:return[0,aK(a[1],b)];case
+1:return[1,aK(a[1],b)];case
+2:return[2,aK(a[1],b)];case
+3:return[3,aK(a[1],b)];case
+4:return[4,aK(a[1],b)];case
+5:return[5,aK(a[1],b)];case
+6:return[6,aK(a[1],b)];case
+7:return[7,aK(a[1],b)];case
 8:var
-c=a[1];return[8,c,aG(a[2],b)];case
+c=a[1];return[8,c,aK(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aG(a[3],b)];case
-10:return[10,aG(a[1],b)];case
-11:return[11,aG(a[1],b)];case
-12:return[12,aG(a[1],b)];case
-13:return[13,aG(a[1],b)];default:return[14,aG(a[1],b)]}}function
-V(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aK(a[3],b)];case
+10:return[10,aK(a[1],b)];case
+11:return[11,aK(a[1],b)];case
+12:return[12,aK(a[1],b)];case
+13:return[13,aK(a[1],b)];default:return[14,aK(a[1],b)]}}function
+_(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,V(a[1],b)];case
-1:return[1,V(a[1],b)];case
+0:return[0,_(a[1],b)];case
+1:return[1,_(a[1],b)];case
 2:var
-c=a[1];return[2,c,V(a[2],b)];case
+c=a[1];return[2,c,_(a[2],b)];case
 3:var
-d=a[1];return[3,d,V(a[2],b)];case
+d=a[1];return[3,d,_(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,V(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,_(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,V(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,_(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,V(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,_(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,V(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,_(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,V(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,_(a[4],b)];case
 9:var
-t=a[1];return[9,t,V(a[2],b)];case
-10:return[10,V(a[1],b)];case
+t=a[1];return[9,t,_(a[2],b)];case
+10:return[10,_(a[1],b)];case
 11:var
-u=a[1];return[11,u,V(a[2],b)];case
+u=a[1];return[11,u,_(a[2],b)];case
 12:var
-v=a[1];return[12,v,V(a[2],b)];case
+v=a[1];return[12,v,_(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,V(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,_(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,V(a[3],b)];case
-15:return[15,V(a[1],b)];case
-16:return[16,V(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,_(a[3],b)];case
+15:return[15,_(a[1],b)];case
+16:return[16,_(a[1],b)];case
 17:var
-A=a[1];return[17,A,V(a[2],b)];case
+A=a[1];return[17,A,_(a[2],b)];case
 18:var
-B=a[1];return[18,B,V(a[2],b)];case
-19:return[19,V(a[1],b)];case
+B=a[1];return[18,B,_(a[2],b)];case
+19:return[19,_(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,V(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,_(a[3],b)];case
 21:var
-E=a[1];return[21,E,V(a[2],b)];case
-22:return[22,V(a[1],b)];case
+E=a[1];return[21,E,_(a[2],b)];case
+22:return[22,_(a[1],b)];case
 23:var
-F=a[1];return[23,F,V(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,V(a[3],b)]}}function
-bV(a){throw[0,hp,a]}function
-dY(a){return 0<=a?a:-a|0}function
-as(d,c){var
-a=y(d),e=y(c),b=al(a+e|0);bz(d,0,b,0,a);bz(c,0,b,a,e);return aF(b)}function
-mL(a){return a?mM:mN}zu(0);mv(1);var
-bD=mv(2);function
-c_(b,a){return mw(b,a,0,y(a))}function
-hv(a){c_(bD,a);mx(bD,10);return c7(bD)}function
-ff(b){function
+F=a[1];return[23,F,_(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,_(a[3],b)]}}function
+b2(a){throw[0,hN,a]}function
+ea(a){return 0<=a?a:-a|0}function
+av(d,c){var
+a=E(d),e=E(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aJ(b)}function
+ng(a){return a?nh:ni}AN(0);m2(1);var
+bI=m2(2);function
+dl(b,a){return m3(b,a,0,E(a))}function
+hT(a){dl(bI,a);m4(bI,10);return di(bI)}function
+fy(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{c7(d)}catch(a){a=fc(a);if(a[1]!==ht)throw a;var
+c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hR)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(zv(0))}hh(a(kb),ff);var
-c$=(4*zF(0)|0)-1|0;function
-cC(c){var
+a=c;continue}return 0}}return a(AO(0))}hF(a(kH),fy);var
+dm=(4*AZ(0)|0)-1|0;function
+ch(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Z(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-hw(d,c){var
+X(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
+hU(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-dZ(d,c){var
+cL(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-ce(a,c){var
-b=al(a);y8(b,0,a,c);return b}function
-hx(c,b,a){if(0<=b&&0<=a&&!((aV(c)-a|0)<b)){var
-d=al(a);cc(c,b,d,0,a);return d}return bV(mW)}function
-hy(c,b,a){return aF(hx(c,b,a))}function
-hz(e,c,d,b,a){if(0<=a&&0<=c&&!((aV(e)-a|0)<c)&&0<=b&&!((aV(d)-a|0)<b))return cc(e,c,d,b,a);return bV(mX)}function
-bE(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aV(d)-a|0)<b))return bz(e,c,d,b,a);return bV(mY)}function
-a1(b,a){return aF(ce(b,a))}function
-da(c,b,a){return aF(hx(bR(c),b,a))}function
-hA(k,g){if(g){var
-h=y(k),c=0,b=g,p=0;for(;;){if(b){var
+ci(a,c){var
+b=ao(a);Ap(b,0,a,c);return b}function
+hV(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
+d=ao(a);cg(c,b,d,0,a);return d}return b2(nr)}function
+hW(c,b,a){return aJ(hV(c,b,a))}function
+hX(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
+bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((E(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b2(nt)}function
+a5(b,a){return aJ(ci(b,a))}function
+dn(c,b,a){return aJ(hV(bX(c),b,a))}function
+hY(k,g){if(g){var
+h=E(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bV(mZ),c=n,b=m;continue}var
-l=y(i)+c|0}else
+j=(E(i)+h|0)+c|0,m=b[2],n=c<=j?j:b2(nu),c=n,b=m;continue}var
+l=E(i)+c|0}else
 var
 l=c;var
-f=al(l),e=p,d=g;for(;;){if(d){var
+f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bz(a,0,f,e,y(a));bz(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bz(a,0,f,e,y(a))}return aF(f)}}}return m0}function
-hB(b,c){if(0===b)return[0];if(0<=b){var
-d=zs(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bE(a,0,f,e,E(a));bE(k,0,f,e+E(a)|0,h);var
+e=(e+E(a)|0)+h|0,d=o;continue}bE(a,0,f,e,E(a))}return aJ(f)}}}return nv}function
+hZ(b,c){if(0===b)return[0];if(0<=b){var
+d=AL(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bV(m1)}function
-hC(c){var
+a=h;continue}break}}return d}return b2(nw)}function
+h0(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-hD(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c$<b[1]){if(!((d+c|0)<=c$))throw[0,hq,m4];b[1]=c$}var
-e=al(b[1]);hz(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,W,m2]}throw[0,W,m3]}}function
-db(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)hD(a,b);bz(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fg(a){return 5===a[2]?12:-6}function
-hE(a){return[0,0,al(a)]}function
-hF(a,h){var
-b=aV(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=al(i);hz(a[2],0,f,0,b);a[2]=f;var
+h1(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hO,nz];b[1]=dm}var
+e=ao(b[1]);hX(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
+dp(a,c){var
+b=E(c),d=a[2]+b|0;if(a[3]<d)h1(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fz(a){return 5===a[2]?12:-6}function
+h2(a){return[0,0,ao(a)]}function
+h3(a,h){var
+b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ao(i);hX(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cD(a,b){hF(a,1);cy(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-az(a,c){var
-b=y(c);hF(a,b);bE(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-hG(a){return hy(a[2],0,a[1])}function
-hH(a){if(typeof
+cM(a,b){h3(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aC(a,c){var
+b=E(c);h3(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+h4(a){return hW(a[2],0,a[1])}function
+h5(a){if(typeof
 a==="number")switch(a){case
-0:return m5;case
-1:return m6;case
-2:return m7;case
-3:return m8;case
-4:return m9;case
-5:return m_;default:return m$}else
+0:return nA;case
+1:return nB;case
+2:return nC;case
+3:return nD;case
+4:return nE;case
+5:return nF;default:return nG}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return as(na,a1(1,a[1]))}}function
-fh(b,c){var
+1:return a[1];default:return av(nH,a5(1,a[1]))}}function
+fA(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];az(b,nb);var
+d=a[1];aC(b,nI);var
 a=d;continue;case
 1:var
-e=a[1];az(b,nc);var
+e=a[1];aC(b,nJ);var
 a=e;continue;case
 2:var
-f=a[1];az(b,nd);var
+f=a[1];aC(b,nK);var
 a=f;continue;case
 3:var
-g=a[1];az(b,ne);var
+g=a[1];aC(b,nL);var
 a=g;continue;case
 4:var
-h=a[1];az(b,nf);var
+h=a[1];aC(b,nM);var
 a=h;continue;case
 5:var
-i=a[1];az(b,ng);var
+i=a[1];aC(b,nN);var
 a=i;continue;case
 6:var
-j=a[1];az(b,nh);var
+j=a[1];aC(b,nO);var
 a=j;continue;case
 7:var
-k=a[1];az(b,ni);var
+k=a[1];aC(b,nP);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];az(b,nj);fh(b,m);az(b,nk);var
+l=a[2],m=a[1];aC(b,nQ);fA(b,m);aC(b,nR);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];az(b,nl);fh(b,o);az(b,nm);var
+n=a[3],o=a[1];aC(b,nS);fA(b,o);aC(b,nT);var
 a=n;continue;case
 10:var
-p=a[1];az(b,nn);var
+p=a[1];aC(b,nU);var
 a=p;continue;case
 11:var
-q=a[1];az(b,no);var
+q=a[1];aC(b,nV);var
 a=q;continue;case
 12:var
-r=a[1];az(b,np);var
+r=a[1];aC(b,nW);var
 a=r;continue;case
 13:var
-s=a[1];az(b,nq);var
+s=a[1];aC(b,nX);var
 a=s;continue;default:var
-t=a[1];az(b,nr);var
+t=a[1];aC(b,nY);var
 a=t;continue}}function
-ak(a){if(typeof
+an(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ak(a[1])];case
-1:return[1,ak(a[1])];case
-2:return[2,ak(a[1])];case
-3:return[3,ak(a[1])];case
-4:return[4,ak(a[1])];case
-5:return[5,ak(a[1])];case
-6:return[6,ak(a[1])];case
-7:return[7,ak(a[1])];case
+0:return[0,an(a[1])];case
+1:return[1,an(a[1])];case
+2:return[2,an(a[1])];case
+3:return[3,an(a[1])];case
+4:return[4,an(a[1])];case
+5:return[5,an(a[1])];case
+6:return[6,an(a[1])];case
+7:return[7,an(a[1])];case
 8:var
-b=a[1];return[8,b,ak(a[2])];case
+b=a[1];return[8,b,an(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ak(a[3])];case
-10:return[10,ak(a[1])];case
-11:return[11,ak(a[1])];case
-12:return[12,ak(a[1])];case
-13:return[13,ak(a[1])];default:return[14,ak(a[1])]}}function
-aA(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,an(a[3])];case
+10:return[10,an(a[1])];case
+11:return[11,an(a[1])];case
+12:return[12,an(a[1])];case
+13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
+aD(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aA(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aD(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aA(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aD(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aA(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aD(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aA(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aD(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aA(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aD(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aA(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aD(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aA(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aD(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aA(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aD(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aA(a[2]),ah=k[4],ai=k[3],aj=k[2],al=k[1],an=function(a){e(aj,0);return 0};return[0,function(a){e(al,0);return 0},an,ai,ah];case
+k=aD(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-ao=a[2],ap=a[1],l=aA(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aA(am(ak(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,az,ay];case
+am=a[2],ao=a[1],l=aD(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aD(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aA(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=aD(a[1]),aB=n[4],aC=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
 11:var
-o=aA(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aD(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aA(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aD(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aA(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aA(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-am(c,b){var
+q=aD(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aD(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+ap(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,W,ns]}else
+9:a=6;break;default:throw[0,$,nZ]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,am(t,b[1])];case
+0:return[0,ap(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,am(u,b[1])];case
+1:return[1,ap(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,am(v,b[1])];case
+2:return[2,ap(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,am(w,b[1])];case
+3:return[3,ap(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,am(x,b[1])];case
+4:return[4,ap(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,am(y,b[1])];case
+5:return[5,ap(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,am(z,b[1])];case
+6:return[6,ap(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,am(A,b[1])];case
+7:return[7,ap(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=am(B,b[2]);return[8,am(C,D),E];case
+D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,W,nB];break;case
+14:a=4;break;default:m=1}if(m)throw[0,$,n8];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aA(am(ak(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aD(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,W,nC];break;case
+14:a=4;break;default:n=1}if(n)throw[0,$,n9];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,W,nD];case
+b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,$,n_];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,W,nE];break;case
+11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,$,n$];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,W,nF];break;case
+12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,$,oa];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,W,nG];break;default:var
+13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,$,ob];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,206 +1222,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,W,nH]}switch(a){case
-0:throw[0,W,nv];case
-1:throw[0,W,nw];case
-2:throw[0,W,nx];case
-3:throw[0,W,ny];case
-4:throw[0,W,nz];case
-5:throw[0,W,nt];case
-6:throw[0,W,nu];default:throw[0,W,nA]}}var
-at=[ap,nI,e7(0)];function
-d0(b,a){if(typeof
+14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,$,oc]}switch(a){case
+0:throw[0,$,n2];case
+1:throw[0,$,n3];case
+2:throw[0,$,n4];case
+3:throw[0,$,n5];case
+4:throw[0,$,n6];case
+5:throw[0,$,n0];case
+6:throw[0,$,n1];default:throw[0,$,n7]}}var
+aw=[ar,od,fo(0)];function
+eb(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw at}}function
-dc(e,b,d){var
-a=d0(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aw}}function
+dq(e,b,d){var
+a=eb(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw at}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aJ(b,c,a){if(typeof
-b==="number")return[0,0,O(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aw}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aR(b,c,a){if(typeof
+b==="number")return[0,0,S(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aJ(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aR(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aJ(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aR(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aJ(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aR(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aJ(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aR(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aJ(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aR(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aJ(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aR(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aJ(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aR(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aJ(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dW([0,b[1]],[0,o]))throw at;var
-p=aJ(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(d_([0,b[1]],[0,o]))throw aw;var
+p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ab(f)];if(dW([0,ab(B)],C))throw at;var
-D=[0,ab(d)];if(dW([0,ab(A)],D))throw at;var
-q=aA(am(ak(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aJ(ab(z),c,y),F=r[2];return[0,[9,f,d,ak(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ad(f)];if(d_([0,ad(B)],C))throw aw;var
+D=[0,ad(d)];if(d_([0,ad(A)],D))throw aw;var
+q=aD(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aR(ad(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aJ(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aJ(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aR(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aJ(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aJ(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
-O(b,a){if(typeof
+v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aw}function
+S(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=O(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=S(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=O(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=S(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=d0(b[1],a),e=u[2],ad=u[1];if(typeof
+ab=b[2],u=eb(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=O(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
+v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aw;case
 3:var
-ae=b[2],w=d0(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=eb(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=O(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
+x=S(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aw;case
 4:var
-ag=b[4],ah=b[1],g=dc(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=dq(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=O(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
+aj=g[2],y=S(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aw;case
 5:var
-ak=b[4],al=b[1],i=dc(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dq(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=O(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
+an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aw;case
 6:var
-ao=b[4],ap=b[1],k=dc(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dq(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=O(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
+ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aw;case
 7:var
-as=b[4],au=b[1],m=dc(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+as=b[4],at=b[1],m=dq(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=O(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
+av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aw;case
 8:var
-ax=b[4],ay=b[1],o=dc(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=dq(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=O(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
+aA=o[2],C=S(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aw;case
 9:var
-aB=b[2],D=d0(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=eb(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=O(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
+E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aw;case
 10:var
-F=O(b[1],a);return[0,[10,F[1]],F[2]];case
+F=S(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=O(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=S(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=O(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=S(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dW([0,b[2]],[0,I]))throw at;var
-J=O(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(d_([0,b[2]],[0,I]))throw aw;var
+J=S(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,ab(K)];if(dW([0,ab(aL)],aN))throw at;var
-L=O(aK,ab(aI));return[0,[14,aM,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ad(K)];if(d_([0,ad(aK)],aM))throw aw;var
+L=S(aJ,ad(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=O(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=S(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=O(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=S(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aO=b[1],P=O(b[2],a);return[0,[17,aO,P[1]],P[2]];case
+aN=b[1],O=S(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
-Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],V=O(U[1],a),aU=V[1],W=O(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=O(X[1],a),aW=Y[1],Z=O(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+P=b[2],r=b[1];if(0===r[0]){var
+U=r[1],aS=U[2],V=S(U[1],a),aT=V[1],W=S(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=O(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+Q=S(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aP=b[2],aQ=b[1],S=O(b[3],a[1]);return[0,[20,aQ,aP,S[1]],S[2]]}break;case
+aO=b[2],aP=b[1],R=S(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=O(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aQ=b[1],T=S(b[2],a[1]);return[0,[21,aQ,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aR(c,d,a);case
-1:return aR(c,d,a);case
+0:return aU(c,d,a);case
+1:return aU(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=O(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aR(c,d,a)}else
+_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aw;default:return aU(c,d,a)}else
 switch(c[0]){case
-0:return aR(c,d,a);case
-1:return aR(c,d,a);case
-2:return aR(c,d,a);case
-3:return aR(c,d,a);case
-4:return aR(c,d,a);case
-5:return aR(c,d,a);case
-6:return aR(c,d,a);case
-7:return aR(c,d,a);case
-8:return aR([8,c[1],c[2]],d,a);case
+0:return aU(c,d,a);case
+1:return aU(c,d,a);case
+2:return aU(c,d,a);case
+3:return aU(c,d,a);case
+4:return aU(c,d,a);case
+5:return aU(c,d,a);case
+6:return aU(c,d,a);case
+7:return aU(c,d,a);case
+8:return aU([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],$=aJ(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aR(c,d,a);default:return aR(c,d,a)}}throw at}function
-aR(d,c,b){var
-a=O(c,b);return[0,[23,d,a[1]],a[2]]}function
-aS(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dY(g);if(d<=b)return a;var
-l=2===h?48:32,c=ce(d,l);switch(h){case
-0:bE(a,0,c,0,b);break;case
-1:bE(a,0,c,d-b|0,b);break;default:var
+aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
+10:return aU(c,d,a);default:return aU(c,d,a)}}throw aw}function
+aU(d,c,b){var
+a=S(c,b);return[0,[23,d,a[1]],a[2]]}function
+aV(k,g,a){var
+b=E(a),h=0<=g?k:0,d=ea(g);if(d<=b)return a;var
+l=2===h?48:32,c=ci(d,l);switch(h){case
+0:bJ(a,0,c,0,b);break;case
+1:bJ(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==N(a,0)&&45!==N(a,0)&&32!==N(a,0)){e=1;i=1}if(!i){cy(c,0,N(a,0));bE(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cH(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===N(a,0)){var
-j=0;if(kp!==N(a,1)&&88!==N(a,1)){f=1;j=1}if(!j){cy(c,1,N(a,1));bE(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bE(a,0,c,d-b|0,b)}}return aF(c)}function
-cE(k,b){var
-c=dY(k),a=y(b),d=N(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+ll>>>0))e=1}else
+f=0;if(1<b&&48===R(a,0)){var
+j=0;if(kV!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cH(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aJ(c)}function
+cN(k,b){var
+c=ea(k),a=E(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lQ>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kp===N(b,1)||88===N(b,1))j=1;if(j){var
-h=ce(c+2|0,48);cy(h,1,N(b,1));bE(b,2,h,(c-a|0)+4|0,a-2|0);return aF(h)}}e=1;f=1;break;case
+j=0;if(kV===R(b,1)||88===R(b,1))j=1;if(j){var
+h=ci(c+2|0,48);cH(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aJ(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ce(c+1|0,48);cy(g,0,d);bE(b,1,g,(c-a|0)+2|0,a-1|0);return aF(g)}}if(e&&a<c){var
-i=ce(c,48);bE(b,0,i,c-a|0,a);return aF(i)}return b}function
-nJ(k){var
-j=0,D=y(k);for(;;){if(D<=j)var
+g=ci(c+1|0,48);cH(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aJ(g)}}if(e&&a<c){var
+i=ci(c,48);bJ(b,0,i,c-a|0,a);return aJ(i)}return b}function
+oe(k){var
+j=0,C=E(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bB(k,j)+lQ|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bG(k,j)+mk|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bR(k),a=[0,0],t=aV(e)-1|0,z=0;if(!(t<0)){var
-i=z;for(;;){var
-f=c5(e,i),g=0;if(32<=f){var
+e=bX(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
+i=y;for(;;){var
+f=dg(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1431,34 +1431,34 @@ if(8<=f)g=1;switch(g){case
 m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
-C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aV(e)){var
-r=aV(e),s=al(r);cc(e,0,s,0,r);var
+B=i+1|0;if(t!==i){var
+i=B;continue}break}}if(a[1]===a0(e)){var
+r=a0(e),s=ao(r);cg(e,0,s,0,r);var
 v=s}else{var
-b=al(a[1]);a[1]=0;var
-u=aV(e)-1|0,A=0;if(!(u<0)){var
-h=A;for(;;){var
-c=c5(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gP<=c)d=1;else
+b=ao(a[1]);a[1]=0;var
+u=a0(e)-1|0,z=0;if(!(u<0)){var
+h=z;for(;;){var
+c=dg(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(g_<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ah(b,a[1],92);a[1]++;ah(b,a[1],98);break;case
-9:ah(b,a[1],92);a[1]++;ah(b,a[1],116);break;case
-10:ah(b,a[1],92);a[1]++;ah(b,a[1],110);break;case
-13:ah(b,a[1],92);a[1]++;ah(b,a[1],114);break;default:d=1}switch(d){case
-1:ah(b,a[1],92);a[1]++;ah(b,a[1],48+(c/ls|0)|0);a[1]++;ah(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ah(b,a[1],48+(c%10|0)|0);break;case
-2:ah(b,a[1],92);a[1]++;ah(b,a[1],c);break;case
-3:ah(b,a[1],c);break}a[1]++;var
-B=h+1|0;if(u!==h){var
-h=B;continue}break}}var
+8:aj(b,a[1],92);a[1]++;aj(b,a[1],98);break;case
+9:aj(b,a[1],92);a[1]++;aj(b,a[1],116);break;case
+10:aj(b,a[1],92);a[1]++;aj(b,a[1],110);break;case
+13:aj(b,a[1],92);a[1]++;aj(b,a[1],114);break;default:d=1}switch(d){case
+1:aj(b,a[1],92);a[1]++;aj(b,a[1],48+(c/lW|0)|0);a[1]++;aj(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;aj(b,a[1],48+(c%10|0)|0);break;case
+2:aj(b,a[1],92);a[1]++;aj(b,a[1],c);break;case
+3:aj(b,a[1],c);break}a[1]++;var
+A=h+1|0;if(u!==h){var
+h=A;continue}break}}var
 v=b}var
-o=aF(v)}var
-w=y(o),x=ce(w+2|0,34);bz(o,0,x,1,w);return aF(x)}}function
-hI(d,f){var
-g=dY(f),e=oy[1];switch(d[2]){case
+o=aJ(v)}var
+w=E(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aJ(x)}}function
+h6(d,f){var
+g=ea(f),e=o5[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=kq;break;case
+b=kW;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hE(16);cD(c,37);switch(d[1]){case
+c=h2(16);cM(c,37);switch(d[1]){case
 0:break;case
-1:cD(c,43);break;default:cD(c,32)}if(8<=d[2])cD(c,35);cD(c,46);az(c,a(s+g));cD(c,b);return hG(c)}function
-d1(m,a){if(13<=m){var
-g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bB(a,c)+gH>>>0))g[1]++;var
+1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h4(c)}function
+ec(m,a){if(13<=m){var
+g=[0,0],h=E(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bG(a,c)+g2>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=al(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cy(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(E(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cH(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=E(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bB(a,b);if(9<f+gH>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bG(a,b);if(9<f+g2>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aF(j)}return a}function
-oz(b,c){switch(b){case
+b=p;continue}break}}return aJ(j)}return a}function
+o6(b,c){switch(b){case
 1:var
-a=nL;break;case
-2:var
-a=nM;break;case
-4:var
-a=nO;break;case
-5:var
-a=nP;break;case
-6:var
-a=nQ;break;case
-7:var
-a=nR;break;case
-8:var
-a=nS;break;case
-9:var
-a=nT;break;case
-10:var
-a=nU;break;case
-11:var
-a=nV;break;case
-0:case
-13:var
-a=nK;break;case
-3:case
-14:var
-a=nN;break;default:var
-a=nW}return d1(b,e6(a,c))}function
-oA(b,c){switch(b){case
-1:var
-a=n$;break;case
-2:var
-a=oa;break;case
-4:var
-a=oc;break;case
-5:var
-a=od;break;case
-6:var
-a=oe;break;case
-7:var
-a=of;break;case
-8:var
 a=og;break;case
-9:var
+2:var
 a=oh;break;case
-10:var
-a=oi;break;case
-11:var
+4:var
 a=oj;break;case
-0:case
-13:var
-a=n_;break;case
-3:case
-14:var
-a=ob;break;default:var
-a=ok}return d1(b,e6(a,c))}function
-oB(b,c){switch(b){case
-1:var
-a=om;break;case
-2:var
-a=on;break;case
-4:var
-a=op;break;case
 5:var
-a=oq;break;case
+a=ok;break;case
 6:var
-a=or;break;case
-7:var
-a=os;break;case
-8:var
-a=ot;break;case
-9:var
-a=ou;break;case
-10:var
-a=ov;break;case
-11:var
-a=ow;break;case
-0:case
-13:var
 a=ol;break;case
-3:case
-14:var
-a=oo;break;default:var
-a=ox}return d1(b,e6(a,c))}function
-oC(b,c){switch(b){case
-1:var
-a=nY;break;case
-2:var
-a=nZ;break;case
-4:var
-a=n1;break;case
-5:var
-a=n2;break;case
-6:var
-a=n3;break;case
 7:var
-a=n4;break;case
+a=om;break;case
 8:var
-a=n5;break;case
+a=on;break;case
 9:var
-a=n6;break;case
+a=oo;break;case
 10:var
-a=n7;break;case
+a=op;break;case
 11:var
-a=n8;break;case
+a=oq;break;case
 0:case
 13:var
-a=nX;break;case
+a=of;break;case
 3:case
 14:var
-a=n0;break;default:var
-a=n9}return d1(b,ze(a,c))}function
-bF(c,i,b){function
+a=oi;break;default:var
+a=or}return ec(b,fn(a,c))}function
+o7(b,c){switch(b){case
+1:var
+a=oG;break;case
+2:var
+a=oH;break;case
+4:var
+a=oJ;break;case
+5:var
+a=oK;break;case
+6:var
+a=oL;break;case
+7:var
+a=oM;break;case
+8:var
+a=oN;break;case
+9:var
+a=oO;break;case
+10:var
+a=oP;break;case
+11:var
+a=oQ;break;case
+0:case
+13:var
+a=oF;break;case
+3:case
+14:var
+a=oI;break;default:var
+a=oR}return ec(b,fn(a,c))}function
+o8(b,c){switch(b){case
+1:var
+a=oT;break;case
+2:var
+a=oU;break;case
+4:var
+a=oW;break;case
+5:var
+a=oX;break;case
+6:var
+a=oY;break;case
+7:var
+a=oZ;break;case
+8:var
+a=o0;break;case
+9:var
+a=o1;break;case
+10:var
+a=o2;break;case
+11:var
+a=o3;break;case
+0:case
+13:var
+a=oS;break;case
+3:case
+14:var
+a=oV;break;default:var
+a=o4}return ec(b,fn(a,c))}function
+o9(b,c){switch(b){case
+1:var
+a=ot;break;case
+2:var
+a=ou;break;case
+4:var
+a=ow;break;case
+5:var
+a=ox;break;case
+6:var
+a=oy;break;case
+7:var
+a=oz;break;case
+8:var
+a=oA;break;case
+9:var
+a=oB;break;case
+10:var
+a=oC;break;case
+11:var
+a=oD;break;case
+0:case
+13:var
+a=os;break;case
+3:case
+14:var
+a=ov;break;default:var
+a=oE}return ec(b,Ax(a,c))}function
+bK(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return za(b,i,a)}function
+a=32}return At(b,i,a)}function
 q(c){var
-a=y4(b);return 3===a?b<0.?oE:oF:4<=a?oG:c}switch(c[2]){case
+a=Al(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
 5:var
-e=g9(hI(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=hv(h6(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
 p=0;else{var
-k=N(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:as(e,oD);return q(v)}case
+v=p?e:av(e,o_);return q(v)}case
 6:return j(0);case
 7:var
-h=bR(j(0)),f=aV(h);if(0===f)var
+h=bX(j(0)),f=a0(h);if(0===f)var
 o=h;else{var
-m=al(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=c5(h,a),s=25<g+ll>>>0?g:g+lQ|0;ah(m,a,s);var
+g=dg(h,a),s=25<g+lQ>>>0?g:g+mk|0;aj(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aF(o);case
-8:return q(j(0));default:return g9(hI(c,i),b)}}function
-dN(d,x,w,v){var
+o=m}return aJ(o);case
+8:return q(j(0));default:return hv(h6(c,i),b)}}function
+d0(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return D(b,[5,a,c],z)};case
+y=c[1];return function(c){return I(b,[5,a,c],y)};case
 1:var
-A=c[1];return function(c){var
+z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=mQ;else
-if(gP<=c)e=1;else
+d=nl;else
+if(g_<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=mR;else
+d=nm;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=mS;break;case
+d=nn;break;case
 9:var
-d=mT;break;case
+d=no;break;case
 10:var
-d=mU;break;case
+d=np;break;case
 13:var
-d=mV;break;default:e=1}switch(e){case
+d=nq;break;default:e=1}switch(e){case
 1:var
-f=al(4);ah(f,0,92);ah(f,1,48+(c/ls|0)|0);ah(f,2,48+((c/10|0)%10|0)|0);ah(f,3,48+(c%10|0)|0);var
-d=aF(f);break;case
+f=ao(4);aj(f,0,92);aj(f,1,48+(c/lW|0)|0);aj(f,2,48+((c/10|0)%10|0)|0);aj(f,3,48+(c%10|0)|0);var
+d=aJ(f);break;case
 2:var
-g=al(1);ah(g,0,c);var
-d=aF(g);break}var
-h=y(d),i=ce(h+2|0,39);bz(d,0,i,1,h);return D(b,[4,a,aF(i)],A)};case
+g=ao(1);aj(g,0,c);var
+d=aJ(g);break}var
+h=E(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return I(b,[4,a,aJ(i)],z)};case
 2:var
-B=c[2],C=c[1];return fi(b,a,B,C,function(a){return a});case
-3:return fi(b,a,c[2],c[1],nJ);case
-4:return d2(b,a,c[4],c[2],c[3],oz,c[1]);case
-5:return d2(b,a,c[4],c[2],c[3],oA,c[1]);case
-6:return d2(b,a,c[4],c[2],c[3],oB,c[1]);case
-7:return d2(b,a,c[4],c[2],c[3],oC,c[1]);case
+A=c[2],B=c[1];return fB(b,a,A,B,function(a){return a});case
+3:return fB(b,a,c[2],c[1],oe);case
+4:return ed(b,a,c[4],c[2],c[3],o6,c[1]);case
+5:return ed(b,a,c[4],c[2],c[3],o7,c[1]);case
+6:return ed(b,a,c[4],c[2],c[3],o8,c[1]);case
+7:return ed(b,a,c[4],c[2],c[3],o9,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return D(b,[4,a,bF(g,d,c)],h)}:function(c){return D(b,[4,a,bF(g,fg(g),c)],h)};var
-Z=i[1];return function(c){return D(b,[4,a,bF(g,Z,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return I(b,[4,a,bK(g,d,c)],h)}:function(c){return I(b,[4,a,bK(g,fz(g),c)],h)};var
+X=i[1];return function(c){return I(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return D(b,[4,a,aS(n,m,bF(g,d,c))],h)}:function(c){return D(b,[4,a,aS(n,m,bF(g,fg(g),c))],h)};var
-_=i[1];return function(c){return D(b,[4,a,aS(n,m,bF(g,_,c))],h)}}var
+i==="number")return i?function(d,c){return I(b,[4,a,aV(n,m,bK(g,d,c))],h)}:function(c){return I(b,[4,a,aV(n,m,bK(g,fz(g),c))],h)};var
+Y=i[1];return function(c){return I(b,[4,a,aV(n,m,bK(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return D(b,[4,a,aS(o,e,bF(g,d,c))],h)}:function(d,c){return D(b,[4,a,aS(o,d,bF(g,fg(g),c))],h)};var
-$=i[1];return function(d,c){return D(b,[4,a,aS(o,d,bF(g,$,c))],h)}}case
-9:return fi(b,a,c[2],c[1],mL);case
+i==="number")return i?function(e,d,c){return I(b,[4,a,aV(o,e,bK(g,d,c))],h)}:function(d,c){return I(b,[4,a,aV(o,d,bK(g,fz(g),c))],h)};var
+Z=i[1];return function(d,c){return I(b,[4,a,aV(o,d,bK(g,Z,c))],h)}}case
+9:return fB(b,a,c[2],c[1],ng);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hE(16);fh(p,F);var
-u=hG(p);return function(c){return D(b,[4,a,u],E)};case
+C=c[3],D=c[2],p=h2(16);fA(p,D);var
+u=h4(p);return function(c){return I(b,[4,a,u],C)};case
 14:var
-G=c[3],H=c[2];return function(d){var
-e=d[1],c=O(e,ab(ak(H)));if(typeof
-c[2]==="number")return D(b,a,V(c[1],G));throw at};case
+F=c[3],G=c[2];return function(d){var
+e=d[1],c=S(e,ad(an(G)));if(typeof
+c[2]==="number")return I(b,a,_(c[1],F));throw aw};case
 15:var
-I=c[1];return function(d,c){return D(b,[6,a,function(a){return S(d,a,c)}],I)};case
+H=c[1];return function(d,c){return I(b,[6,a,function(a){return N(d,a,c)}],H)};case
 16:var
-J=c[1];return function(c){return D(b,[6,a,c],J)};case
+J=c[1];return function(c){return I(b,[6,a,c],J)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-K=c[2],M=l[1][1],N=0,b=function(b,c,d){return function(a){return D(c,[1,b,[0,a]],d)}}(a,b,K),a=N,c=M;continue}var
-P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return D(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
-19:throw[0,W,oI];case
+K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return I(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
+O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return I(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
+19:throw[0,$,pd];case
 20:var
-T=c[3],U=[8,a,oJ];return function(a){return D(b,U,T)};case
+T=c[3],U=[8,a,pe];return function(a){return I(b,U,T)};case
 21:var
-X=c[2];return function(c){return D(b,[4,a,e6(oK,c)],X)};case
+V=c[2];return function(c){return I(b,[4,a,fn(pf,c)],V)};case
 22:var
-Y=c[1];return function(c){return D(b,[5,a,c],Y)};case
+W=c[1];return function(c){return I(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-1:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-2:throw[0,W,oL];default:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f])}else
+0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+2:throw[0,$,pg];default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-1:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-2:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-3:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-4:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-5:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-6:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-7:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
-8:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+2:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+3:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+4:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+5:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+6:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+7:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+8:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gD(d+1|0,b,a,t,f):ay(gD,[0,b,a,t,f]);case
-10:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);default:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gC(d+1|0,b,a,q,r,s):ay(gC,[0,b,a,q,r,s])}}function
-gD(e,d,c,a,b){if(typeof
-a==="number")return e<50?L(e+1|0,d,c,b):ay(L,[0,d,c,b]);else
+t=k[2];return d<50?gY(d+1|0,b,a,t,f):aB(gY,[0,b,a,t,f]);case
+10:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gX(d+1|0,b,a,q,r,s):aB(gX,[0,b,a,q,r,s])}}function
+gY(e,d,c,a,b){if(typeof
+a==="number")return e<50?P(e+1|0,d,c,b):aB(P,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aX(d,c,f,b)};case
+f=a[1];return function(a){return a2(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aX(d,c,g,b)};case
+g=a[1];return function(a){return a2(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aX(d,c,h,b)};case
+h=a[1];return function(a){return a2(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aX(d,c,i,b)};case
+i=a[1];return function(a){return a2(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aX(d,c,j,b)};case
+j=a[1];return function(a){return a2(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aX(d,c,k,b)};case
+k=a[1];return function(a){return a2(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aX(d,c,l,b)};case
+l=a[1];return function(a){return a2(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aX(d,c,m,b)};case
+m=a[1];return function(a){return a2(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aX(d,c,n,b)};case
+n=a[2];return function(a){return a2(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=am(ak(a[1]),p);return function(a){return aX(d,c,aG(q,o),b)};case
+o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aK(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aX(d,c,r,b)};case
+r=a[1];return function(e,a){return a2(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aX(d,c,s,b)};case
+s=a[1];return function(a){return a2(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aX(d,c,t,b)};case
-13:throw[0,W,oM];default:throw[0,W,oN]}}function
-L(d,b,e,a){var
-c=[8,e,oO];return d<50?dN(d+1|0,b,c,a):ay(dN,[0,b,c,a])}function
-gC(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return oH(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dN(h+1|0,b,g,a):ay(dN,[0,b,g,a])}function
-D(a,b,c){return hj(dN(0,a,b,c))}function
-aX(a,b,c,d){return hj(gD(0,a,b,c,d))}function
-oH(a,b,c,d,e){return hj(gC(0,a,b,c,d,e))}function
-fi(f,d,c,a,b){if(typeof
-a==="number")return function(a){return D(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return D(f,[4,d,aS(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return D(f,[4,d,aS(i,g,e(b,a))],c)}}}function
-d2(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a2(d,c,t,b)};case
+13:throw[0,$,ph];default:throw[0,$,pi]}}function
+P(d,b,e,a){var
+c=[8,e,pj];return d<50?d0(d+1|0,b,c,a):aB(d0,[0,b,c,a])}function
+gX(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pc(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d0(h+1|0,b,g,a):aB(d0,[0,b,g,a])}function
+I(a,b,c){return hH(d0(0,a,b,c))}function
+a2(a,b,c,d){return hH(gY(0,a,b,c,d))}function
+pc(a,b,c,d,e){return hH(gX(0,a,b,c,d,e))}function
+fB(f,d,c,a,b){if(typeof
+a==="number")return function(a){return I(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return I(f,[4,d,aV(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return I(f,[4,d,aV(i,g,e(b,a))],c)}}}function
+ed(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return D(f,[4,e,cE(g,S(b,a,c))],d)}:function(c){return D(f,[4,e,S(b,a,c)],d)};var
-k=c[1];return function(c){return D(f,[4,e,cE(k,S(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return I(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return I(f,[4,e,N(b,a,c)],d)};var
+k=c[1];return function(c){return I(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return D(f,[4,e,aS(i,h,cE(g,S(b,a,c)))],d)}:function(c){return D(f,[4,e,aS(i,h,S(b,a,c))],d)};var
-l=c[1];return function(c){return D(f,[4,e,aS(i,h,cE(l,S(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return I(f,[4,e,aV(i,h,cN(g,N(b,a,c)))],d)}:function(c){return I(f,[4,e,aV(i,h,N(b,a,c))],d)};var
+l=c[1];return function(c){return I(f,[4,e,aV(i,h,cN(l,N(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return D(f,[4,e,aS(j,h,cE(g,S(b,a,c)))],d)}:function(g,c){return D(f,[4,e,aS(j,g,S(b,a,c))],d)};var
-m=c[1];return function(g,c){return D(f,[4,e,aS(j,g,cE(m,S(b,a,c)))],d)}}}function
-bG(b,f){var
+c==="number")return c?function(h,g,c){return I(f,[4,e,aV(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return I(f,[4,e,aV(j,g,N(b,a,c))],d)};var
+m=c[1];return function(g,c){return I(f,[4,e,aV(j,g,cN(m,N(b,a,c)))],d)}}}function
+bL(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hH(a[2]);bG(b,g);return c_(b,h);case
+g=a[1],h=h5(a[2]);bL(b,g);return dl(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bG(b,d);c_(b,oP);var
+i=c[1];bL(b,d);dl(b,pk);var
 a=i;continue}var
-j=c[1];bG(b,d);c_(b,oQ);var
+j=c[1];bL(b,d);dl(b,pl);var
 a=j;continue;case
 6:var
-m=a[2];bG(b,a[1]);return e(m,b);case
-7:bG(b,a[1]);return c7(b);case
+m=a[2];bL(b,a[1]);return e(m,b);case
+7:bL(b,a[1]);return di(b);case
 8:var
-n=a[2];bG(b,a[1]);return bV(n);case
+n=a[2];bL(b,a[1]);return b2(n);case
 2:case
 4:var
-k=a[2];bG(b,a[1]);return c_(b,k);default:var
-l=a[2];bG(b,a[1]);return mx(b,l)}}function
-bW(b,g){var
+k=a[2];bL(b,a[1]);return dl(b,k);default:var
+l=a[2];bL(b,a[1]);return m4(b,l)}}function
+b3(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hH(a[2]);bW(b,h);return db(b,i);case
+h=a[1],i=h5(a[2]);b3(b,h);return dp(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bW(b,f);db(b,oR);var
+j=d[1];b3(b,f);dp(b,pm);var
 a=j;continue}var
-k=d[1];bW(b,f);db(b,oS);var
+k=d[1];b3(b,f);dp(b,pn);var
 a=k;continue;case
 6:var
-n=a[2];bW(b,a[1]);return db(b,e(n,0));case
+n=a[2];b3(b,a[1]);return dp(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bW(b,a[1]);return bV(o);case
+o=a[2];b3(b,a[1]);return b2(o);case
 2:case
 4:var
-l=a[2];bW(b,a[1]);return db(b,l);default:var
-m=a[2];bW(b,a[1]);var
-c=b[2];if(b[3]<=c)hD(b,1);ah(b[1],c,m);b[2]=c+1|0;return 0}}function
-hJ(d,c){var
-a=c[1],b=0;return D(function(a){bG(d,a);return 0},b,a)}function
-fj(a){return hJ(bD,a)}function
-bi(b){var
-a=b[1];return D(function(d){var
-e=64,b=c$<64?c$:e,c=al(b),a=[0,c,0,b,c];bW(a,d);return hy(a[1],0,a[2])},0,a)}var
-d3=[0,0];function
-fl(i,h){var
+l=a[2];b3(b,a[1]);return dp(b,l);default:var
+m=a[2];b3(b,a[1]);var
+c=b[2];if(b[3]<=c)h1(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
+h7(d,c){var
+a=c[1],b=0;return I(function(a){bL(d,a);return 0},b,a)}function
+fC(a){return h7(bI,a)}function
+bm(b){var
+a=b[1];return I(function(d){var
+e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hW(a[1],0,a[2])},0,a)}var
+ee=[0,0];function
+fE(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(e$(a)===e2)return e(bi(oT),a);if(e$(a)===253){var
-c=g9(mP,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mO);var
-d=N(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fs(a)===fj)return e(bm(po),a);if(fs(a)===253){var
+c=hv(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
+d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return oU}return e(bi(oV),a)}function
-hK(b,a){if(b.length-1<=a)return oW;var
-c=hK(b,a+1|0),d=fl(b,a);return S(bi(oX),d,c)}function
-fm(a){function
+b=b+1|0;continue}return c}}return pp}return e(bm(pq),a)}function
+h8(b,a){if(b.length-1<=a)return pr;var
+c=h8(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
+fF(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(d3[1]);if(h)return h[1];if(a===fe)return o2;if(a===hs)return o3;if(a[1]===hr){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gE(bi(fk),q,p,i,i+5|0,o4)}if(a[1]===W){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gE(bi(fk),s,r,j,j+6|0,o5)}if(a[1]===hu){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gE(bi(fk),u,t,k,k+6|0,o6)}if(0===e$(a)){var
+h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hQ)return py;if(a[1]===hP){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gZ(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gZ(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hS){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gZ(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hK(a,2),m=fl(a,1),b=S(bi(oY),m,l);else
+l=h8(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
 switch(g){case
 0:var
-b=oZ;break;case
+b=pu;break;case
 1:var
-b=o0;break;default:var
-n=fl(a,1),b=e(bi(o1),n)}return as(v,b)}return a[1]}function
-fn(t,s){var
-d=y6(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pv;break;default:var
+n=fE(a,1),b=e(bm(pw),n)}return av(v,b)}return a[1]}function
+fG(t,s){var
+d=An(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=ml(d,b)[1+b],f=function(a){return function(b){return b?0===a?o7:o8:0===a?o9:o_}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?o$:pb,l=a[2],m=a[7],n=f(a[1]),c=[0,yV(bi(pa),n,m,l,k,j,i,h)];else
+a=mS(d,b)[1+b],f=function(a){return function(b){return b?0===a?pC:pD:0===a?pE:pF}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ac(bm(pH),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bi(pc),o)];if(c){var
-q=c[1];e(hJ(t,pd),q)}var
+o=f(0),c=[0,e(bm(pJ),o)];if(c){var
+q=c[1];e(h7(t,pK),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-hL(c){for(;;){var
-a=d3[1],d=[0,c,a],e=d3[1]===a?(d3[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pf=pe.slice();function
-pg(d,c){var
-f=fm(d);e(fj(ph),f);fn(bD,c);var
-a=zt(0);if(a<0){var
-b=dY(a);hv(ml(pf,b)[1+b])}return c7(bD)}var
-pi=[0];hh(a(kr),function(d,i){try{try{var
-b=i?pi:mr(0);try{ff(0)}catch(a){}try{var
-a=pg(d,b),c=a}catch(a){a=fc(a);var
-g=fm(d);e(fj(pk),g);fn(bD,b);var
-h=fm(a);e(fj(pl),h);fn(bD,mr(0));var
-c=c7(bD)}var
-f=c}catch(a){a=fc(a);if(a!==fe)throw a;var
-f=hv(pj)}return f}catch(a){return 0}});var
-hM=[ap,pn,e7(0)],fo=[0,hM,[0]],pm=e$(fo)===ap?fo:fo[1];hh(a(gJ),pm);(function(a){throw a});var
-po=u.Array;hL(function(a){return a[1]===hM?[0,bh(a[2].toString())]:0});hL(function(a){return a
+h9(c){for(;;){var
+a=ee[1],d=[0,c,a],e=ee[1]===a?(ee[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pM=pL.slice();function
+pN(d,c){var
+f=fF(d);e(fC(pO),f);fG(bI,c);var
+a=AM(0);if(a<0){var
+b=ea(a);hT(mS(pM,b)[1+b])}return di(bI)}var
+pP=[0];hF(a(kY),function(d,i){try{try{var
+b=i?pP:mY(0);try{fy(0)}catch(a){}try{var
+a=pN(d,b),c=a}catch(a){a=fv(a);var
+g=fF(d);e(fC(pR),g);fG(bI,b);var
+h=fF(a);e(fC(pS),h);fG(bI,mY(0));var
+c=di(bI)}var
+f=c}catch(a){a=fv(a);if(a!==fx)throw a;var
+f=hT(pQ)}return f}catch(a){return 0}});var
+h_=[ar,pU,fo(0)],fH=[0,h_,[0]],pT=fs(fH)===ar?fH:fH[1];hF(a(g4),pT);(function(a){throw a});var
+pV=u.Array;h9(function(a){return a[1]===h_?[0,bl(a[2].toString())]:0});h9(function(a){return a
 instanceof
-po?0:[0,bh(a.toString())]});var
-d=aW(0),c=aW(1);function
-n(a){return z(a,c)}function
-hN(b,a){return z(aW(b),a)}function
-b(b,a){return q(aW(b),a)}function
-bj(b,a){return[0,hm(b,a),mH(b,a)]}function
-fp(b,a){return A(b,a)?b:a}function
-cf(b,a){return A(b,a)?a:b}function
-aK(a){return a?0:1}function
-ac(b,a){var
+pV?0:[0,bl(a.toString())]});var
+d=a1(0),c=a1(1);function
+o(a){return A(a,c)}function
+h$(b,a){return A(a1(b),a)}function
+b(b,a){return r(a1(b),a)}function
+bn(b,a){return[0,hK(b,a),nc(b,a)]}function
+fI(b,a){return B(b,a)?b:a}function
+cj(b,a){return B(b,a)?a:b}function
+aH(a){return a?0:1}function
+ae(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dd(a){return a[1]}function
-de(a){return a[2]}function
-m(a){var
-b=a?[0,m(a[2])]:a;return b}function
+dr(a){return a[1]}function
+ds(a){return a[2]}function
+k(a){var
+b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hO(a){return typeof
-a==="number"?0:[0,hO(a[1])]}function
-hP(d,c){var
+ia(a){return typeof
+a==="number"?0:[0,ia(a[1])]}function
+ib(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-d4(a){return hP(a,0)}function
-hQ(a){if(typeof
-a==="number")return pq;else
+ef(a){return ib(a,0)}function
+ic(a){if(typeof
+a==="number")return pX;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,333 +1944,341 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hQ(a[1])]}}function
-a8(a){if(typeof
-a==="number")return pr;else
+8:return[9,a[1]];default:return[0,ic(a[1])]}}function
+ba(a){if(typeof
+a==="number")return pY;else
 switch(a[0]){case
-0:return[1,a7(a[1])];case
-1:return[3,a7(a[1])];case
-2:return[5,a7(a[1])];case
-3:return[7,a7(a[1])];case
-4:return[9,a7(a[1])];case
-5:return[1,a8(a[1])];case
-6:return[3,a8(a[1])];case
-7:return[5,a8(a[1])];case
-8:return[7,a8(a[1])];default:return[9,a8(a[1])]}}function
-a7(a){if(typeof
+0:return[1,a$(a[1])];case
+1:return[3,a$(a[1])];case
+2:return[5,a$(a[1])];case
+3:return[7,a$(a[1])];case
+4:return[9,a$(a[1])];case
+5:return[1,ba(a[1])];case
+6:return[3,ba(a[1])];case
+7:return[5,ba(a[1])];case
+8:return[7,ba(a[1])];default:return[9,ba(a[1])]}}function
+a$(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a7(a[1])];case
-1:return[2,a7(a[1])];case
-2:return[4,a7(a[1])];case
-3:return[6,a7(a[1])];case
-4:return[8,a7(a[1])];case
-5:return[0,a8(a[1])];case
-6:return[2,a8(a[1])];case
-7:return[4,a8(a[1])];case
-8:return[6,a8(a[1])];default:return[8,a8(a[1])]}}function
-cF(a){return a?a[1]:a}function
+0:return[0,a$(a[1])];case
+1:return[2,a$(a[1])];case
+2:return[4,a$(a[1])];case
+3:return[6,a$(a[1])];case
+4:return[8,a$(a[1])];case
+5:return[0,ba(a[1])];case
+6:return[2,ba(a[1])];case
+7:return[4,ba(a[1])];case
+8:return[6,ba(a[1])];default:return[8,ba(a[1])]}}function
+b4(a){return a?a[1]:a}function
 H(b,a){return b?[0,H(b[1],a)]:a}function
-df(a,b){return a?H(b,df(a[1],b)):a}function
-d5(b,a){return b?a:a?0:1}function
-ag(d,c){var
+dt(a,b){return a?H(b,dt(a[1],b)):a}function
+du(b,a){return b?a:a?0:1}function
+aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hR(b,a){return _([0,b],a)}function
-hS(c){var
+id(b,a){return Y([0,b],a)}function
+ie(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fq(c,b,a){return c?e(b,fq(c[1],b,a)):a}function
-hT(a){if(a)var
-b=a[1],d=b?[0,hT(b[1])]:b,c=d;else
+fJ(c,b,a){return c?e(b,fJ(c[1],b,a)):a}function
+ig(a){if(a)var
+b=a[1],d=b?[0,ig(b[1])]:b,c=d;else
 var
 c=a;return c}function
-d6(a){if(A(a,c))return c;var
-b=bj(a,aW(2)),e=b[1];return ai(b[2],d)?n(d6(e)):n(d6(e))}function
-d7(c,b){var
-a=hl(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hU(b,i,h){var
-e=i,a=h;for(;;){if(A(e,c))return a;var
-f=bj(e,aW(2)),g=f[1];if(ai(f[2],d)){var
-e=g,a=S(b,a,a);continue}return S(b,a,hU(b,g,S(b,a,a)))}}function
-dg(a){return hU(H,a,pt)}function
-fr(a){return a?n(fr(a[1])):c}function
-bH(f,e){var
+eg(a){if(B(a,c))return c;var
+b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?o(eg(e)):o(eg(e))}function
+eh(c,b){var
+a=hJ(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+ih(b,i,h){var
+e=i,a=h;for(;;){if(B(e,c))return a;var
+f=bn(e,a1(2)),g=f[1];if(ak(f[2],d)){var
+e=g,a=N(b,a,a);continue}return N(b,a,ih(b,g,N(b,a,a)))}}function
+dv(a){return ih(H,a,p0)}function
+fK(a){return a?o(fK(a[1])):c}function
+bM(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=q(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=r(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,q(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=A(c,r(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=q(b(2,n(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=r(b(2,o(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=q(b(2,n(b(2,b(2,c)))),d),l=z(n(b(2,c)),k),a=a[1],d=l;continue;case
+k=r(b(2,o(b(2,b(2,c)))),d),l=A(o(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=q(b(2,n(b(2,b(2,c)))),d),o=z(b(2,b(2,c)),m),a=a[1],d=o;continue;case
+m=r(b(2,o(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=q(b(2,n(b(2,b(2,c)))),d),r=z(n(b(2,b(2,c))),p),a=a[1],d=r;continue;case
+p=r(b(2,o(b(2,b(2,c)))),d),q=A(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-s=q(b(2,n(b(2,b(2,c)))),d),t=z(b(2,n(b(2,c))),s),a=a[1],d=t;continue;case
+s=r(b(2,o(b(2,b(2,c)))),d),t=A(b(2,o(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=q(b(2,n(b(2,b(2,c)))),d),v=z(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
+u=r(b(2,o(b(2,b(2,c)))),d),v=A(o(b(2,o(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=q(b(2,n(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=q(b(2,n(b(2,b(2,c)))),d),A=z(n(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-fs(a){if(A(a,c))return pu;var
-b=bj(a,aW(2)),e=b[1];return ai(b[2],d)?a7(fs(e)):a8(fs(e))}function
-d8(a){return d4(fs(a))}function
-hV(k,f){if(0<=bC(f)){var
-g=hn(f);if(0<=g){var
+w=r(b(2,o(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=r(b(2,o(b(2,b(2,c)))),d),z=A(o(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+fL(a){if(B(a,c))return p1;var
+b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?a$(fL(e)):ba(fL(e))}function
+ei(a){return ef(fL(a))}function
+ii(k,f){if(0<=bH(f)){var
+g=hL(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=q(b,b),j=1===(a&1)?q(e,b):e,e=j,b=i,a=h;continue}}return bV(pp)}return d}function
-hW(a){return 0<=bC(a)?a:d}function
-ft(a){var
-b=bC(a);return 0===b?c:0<b?a:c}function
-hX(m){var
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b2(pW)}return d}function
+ij(a){return 0<=bH(a)?a:d}function
+fM(a){var
+b=bH(a);return 0===b?c:0<b?a:c}function
+ik(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bH(a[1],c);case
+1:return bM(a[1],c);case
 2:var
-e=b(2,c);return bH(a[1],e);case
+e=b(2,c);return bM(a[1],e);case
 3:var
-f=n(b(2,c));return bH(a[1],f);case
+f=o(b(2,c));return bM(a[1],f);case
 4:var
-g=b(2,b(2,c));return bH(a[1],g);case
+g=b(2,b(2,c));return bM(a[1],g);case
 5:var
-h=n(b(2,b(2,c)));return bH(a[1],h);case
+h=o(b(2,b(2,c)));return bM(a[1],h);case
 6:var
-i=b(2,n(b(2,c)));return bH(a[1],i);case
+i=b(2,o(b(2,c)));return bM(a[1],i);case
 7:var
-j=n(b(2,n(b(2,c))));return bH(a[1],j);case
+j=o(b(2,o(b(2,c))));return bM(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bH(a[1],k);default:var
-l=n(b(2,b(2,b(2,c))));return bH(a[1],l)}}function
-bX(b,a){var
-c=bC(a);return 0===c?d:1===c?hm(b,a):hN(-1,hm(hN(-1,b),a))}function
-hY(a){return 0<bC(a)?zN(a):d}function
-dh(b,c){var
-a=hn(c);return 0<=a?mI(b,a):mJ(b,-a|0)}function
-cG(b,c){var
-a=hn(c);return 0<=a?mJ(b,a):mI(b,-a|0)}function
-fu(b,a){return a?a[1]:b}function
-hZ(a){var
+k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
+l=o(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
+b5(b,a){var
+c=bH(a);return 0===c?d:1===c?hK(b,a):h$(-1,hK(h$(-1,b),a))}function
+il(a){return 0<bH(a)?A7(a):d}function
+dw(b,c){var
+a=hL(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
+cO(b,c){var
+a=hL(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
+fN(b,a){return a?a[1]:b}function
+im(a){var
 b=a?a[2]:a;return b}function
-I(e,d,c){var
+F(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-au(d,c){var
+al(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-h0(a){if(a){var
-b=[0,a[1],0];return g(h0(a[2]),b)}return a}function
-h1(d,c){var
+io(a){if(a){var
+b=[0,a[1],0];return g(io(a[2]),b)}return a}function
+ip(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-J(b,a){if(a){var
-c=J(b,a[2]);return g(e(b,a[1]),c)}return a}function
-h2(e,d,c){var
+y(b,a){if(a){var
+c=y(b,a[2]);return g(e(b,a[1]),c)}return a}function
+iq(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=S(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cH(c,b,a){if(a){var
-d=cH(c,b,a[2]);return S(c,a[1],d)}return b}function
-a9(f,d){var
+f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cP(c,b,a){if(a){var
+d=cP(c,b,a[2]);return N(c,a[1],d)}return b}function
+a6(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-o(d,c){var
+n(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cg(b,a){if(b)if(a)var
-d=cg(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+fO(b,f){var
+a=f;for(;;){if(a){var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fO(b,c)];var
+a=c;continue}return a}}function
+ck(b,a){if(b)if(a)var
+d=ck(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-h3(b,a){if(b)if(a)var
-d=h3(b[1],a[2]),c=[0,a[1],d];else
+ej(b,a){if(b)if(a)var
+d=ej(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cI(b,a){var
-c=a?[0,b,cI([0,b],a[1])]:a;return c}function
-ch(b,a){var
-c=a?[0,b,ch(b,a[1])]:a;return c}function
-h4(a){if(a){var
-e=h4(a[2]),f=q(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-d9(j){function
+ir(d,c){var
+b=d,a=c;for(;;){if(b){if(a){var
+b=b[1],a=a[2];continue}return a}return a}}function
+cQ(b,a){var
+c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
+cl(b,a){var
+c=a?[0,b,cl(b,a[1])]:a;return c}function
+is(a){if(a){var
+e=is(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+ek(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=h4([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bC(b)?dg(b):0}function
-h5(c,b){var
-a=hl(q(c[1],b[2]),q(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-h6(b,a){return A(q(b[1],a[2]),q(a[1],b[2]))}function
-h7(b,a){return[0,z(q(b[1],a[2]),q(a[1],b[2])),q(b[2],a[2])]}function
-h8(b,a){return[0,q(b[1],a[1]),q(b[2],a[2])]}function
-aT(a){if(typeof
-a==="number")return px;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=is([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
+it(c,b){var
+a=hJ(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iu(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
+iv(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iw(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+aW(a){if(typeof
+a==="number")return p4;else
 switch(a[0]){case
 0:var
-b=aT(a[1]);return as(a1(1,48),b);case
+b=aW(a[1]);return av(a5(1,48),b);case
 1:var
-c=aT(a[1]);return as(a1(1,49),c);case
+c=aW(a[1]);return av(a5(1,49),c);case
 2:var
-d=aT(a[1]);return as(a1(1,50),d);case
+d=aW(a[1]);return av(a5(1,50),d);case
 3:var
-e=aT(a[1]);return as(a1(1,51),e);case
+e=aW(a[1]);return av(a5(1,51),e);case
 4:var
-f=aT(a[1]);return as(a1(1,52),f);case
+f=aW(a[1]);return av(a5(1,52),f);case
 5:var
-g=aT(a[1]);return as(a1(1,53),g);case
+g=aW(a[1]);return av(a5(1,53),g);case
 6:var
-h=aT(a[1]);return as(a1(1,54),h);case
+h=aW(a[1]);return av(a5(1,54),h);case
 7:var
-i=aT(a[1]);return as(a1(1,55),i);case
+i=aW(a[1]);return av(a5(1,55),i);case
 8:var
-j=aT(a[1]);return as(a1(1,56),j);default:var
-k=aT(a[1]);return as(a1(1,57),k)}}function
-di(a){return typeof
-a==="number"?py:aT(a)}function
-ci(a){return hV(b(2,c),a)}function
-h9(b,a){return cG(a,b)}function
-h_(b,a){return T(cG(T(a),b))}function
-d_(b,a){return T(bX(T(b),a))}function
-aY(c,b){var
-a=dh(b,c);return[0,a,a]}function
-E(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-P(b,a){return[0,cd(b[1],a[2]),cd(b[2],a[1])]}function
-aB(a){return[0,T(a[2]),T(a[1])]}function
-h$(e,c,b,a){if(A(d,e))return A(d,b)?[0,q(e,b),q(c,a)]:A(a,d)?[0,q(c,b),q(e,a)]:[0,q(c,b),q(c,a)];if(A(c,d))return A(d,b)?[0,q(e,a),q(c,b)]:A(a,d)?[0,q(c,a),q(e,b)]:[0,q(e,a),q(e,b)];if(A(d,b))return[0,q(e,a),q(c,a)];if(A(a,d))return[0,q(c,b),q(e,b)];var
-f=cf(q(e,b),q(c,a));return[0,fp(q(e,a),q(c,b)),f]}function
-B(c,b,a){var
-d=h$(b[1],b[2],a[1],a[2]),e=h_(c,d[2]);return[0,h9(c,d[1]),e]}function
-aj(b,a){var
-c=q(a[1],a[1]),e=q(a[2],a[2]),h=h_(b,cf(c,e)),g=0;if(af(a[1],d)&&af(d,a[2])){var
+j=aW(a[1]);return av(a5(1,56),j);default:var
+k=aW(a[1]);return av(a5(1,57),k)}}function
+dx(a){return typeof
+a==="number"?p5:aW(a)}function
+cm(a){return ii(b(2,c),a)}function
+ix(b,a){return cO(a,b)}function
+iy(b,a){return W(cO(W(a),b))}function
+el(b,a){return W(b5(W(b),a))}function
+aL(c,b){var
+a=dw(b,c);return[0,a,a]}function
+C(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+M(b,a){return[0,b1(b[1],a[2]),b1(b[2],a[1])]}function
+aE(a){return[0,W(a[2]),W(a[1])]}function
+iz(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
+f=cj(r(e,b),r(c,a));return[0,fI(r(e,a),r(c,b)),f]}function
+D(c,b,a){var
+d=iz(b[1],b[2],a[1],a[2]),e=iy(c,d[2]);return[0,ix(c,d[1]),e]}function
+ai(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iy(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=h9(b,fp(c,e));return[0,f,h]}function
-ia(b,a){var
-c=dh(ci(b),b),d=d_(c,a[1]);return[0,bX(c,a[2]),d]}function
-cj(b,a){if(af(d,a[1]))return[0,ia(b,a)];var
-c=af(a[2],d),e=c?[0,aB(ia(b,aB(a)))]:c;return e}function
-cJ(f,b){var
-g=af(d,b[1]);if(g)var
-e=dh(b[2],f),a=hY(e),i=ai(q(a,a),e)?a:z(a,c),h=[0,[0,hY(dh(b[1],f)),i]];else
+f=ix(b,fI(c,e));return[0,f,h]}function
+iA(b,a){var
+c=dw(cm(b),b),d=el(c,a[1]);return[0,b5(c,a[2]),d]}function
+cn(b,a){if(ac(d,a[1]))return[0,iA(b,a)];var
+c=ac(a[2],d),e=c?[0,aE(iA(b,aE(a)))]:c;return e}function
+co(f,b){var
+g=ac(d,b[1]);if(g)var
+e=dw(b[2],f),a=il(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,il(dw(b[1],f)),i]];else
 var
 h=g;return h}function
-a2(e,d,c,b,a){if(b){if(a){var
-g=a2(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bY(b,a){return cG(b,a)}function
-bZ(a,c,b){if(A(d,a)){var
-e=b[1],f=T(bY(T(q(a,b[2])),c));return[0,bY(q(a,e),c),f]}var
-g=b[2],h=T(bY(T(q(a,b[1])),c));return[0,bY(q(a,g),c),h]}function
-d$(a){var
-b=T(cG(T(a[2]),c));return[0,cG(a[1],c),b]}function
-fv(c,b,a){var
-e=h$(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=af(f,d)?a[2]:a[1],i=d_(f,h),j=af(g,d)?a[1]:a[2];return[0,bX(g,j),i]}var
-$=[0,d,d];function
-fw(a){return[0,a[1],a[1]]}function
-ea(a){return[0,a[2],a[2]]}function
-av(a,b){switch(b[0]){case
+a7(e,d,c,b,a){if(b){if(a){var
+g=a7(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+b6(b,a){return cO(b,a)}function
+bN(a,c,b){if(B(d,a)){var
+e=b[1],f=W(b6(W(r(a,b[2])),c));return[0,b6(r(a,e),c),f]}var
+g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
+em(a){var
+b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
+fP(c,b,a){var
+e=iz(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
+ab=[0,d,d];function
+fQ(a){return[0,a[1],a[1]]}function
+en(a){return[0,a[2],a[2]]}function
+ax(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dh(b[1],a),t=d_(m,n);return[0,[0,bX(m,n),t]];case
+n=b[2],m=dw(b[1],a),t=el(m,n);return[0,[0,b5(m,n),t]];case
 1:var
-c=av(a,b[1]);if(c)var
-d=av(a,b[2]),u=d?[0,E(c[1],d[1])]:d,o=u;else
+c=ax(a,b[1]);if(c)var
+d=ax(a,b[2]),u=d?[0,C(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=av(a,b[1]);if(e)var
-f=av(a,b[2]),v=f?[0,P(e[1],f[1])]:f,p=v;else
+e=ax(a,b[1]);if(e)var
+f=ax(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=av(a,b[1]);if(g)var
-h=av(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
+g=ax(a,b[1]);if(g)var
+h=ax(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=av(a,b[1]);if(i){var
-j=av(a,b[2]);if(j)var
-k=cj(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
+i=ax(a,b[1]);if(i){var
+j=ax(a,b[2]);if(j)var
+k=cn(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=av(a,b[1]);return l?cJ(a,l[1]):l}}function
-ib(a){var
-e=cf(T(a),d);return ft(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-ic(a){return hW(z(ib(a),a))}function
-b0(f,a,e){var
-b=av(z(f,ib(a)),e);if(b)var
-c=b[1],g=ic(a),h=T(bY(T(c[2]),g)),i=ic(a),d=[0,[0,bY(c[1],i),h]];else
+l=ax(a,b[1]);return l?co(a,l[1]):l}}function
+iB(a){var
+e=cj(W(a),d);return fM(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iC(a){return ij(A(iB(a),a))}function
+b7(f,a,e){var
+b=ax(A(f,iB(a)),e);if(b)var
+c=b[1],g=iC(a),h=W(b6(W(c[2]),g)),i=iC(a),d=[0,[0,b6(c[1],i),h]];else
 var
 d=b;return d}function
-aL(d,a){var
-b=b0(d,a[2],a[1][1]);if(b)var
-c=b0(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aM(d,a){var
+b=b7(d,a[2],a[1][1]);if(b)var
+c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-id(b,a){var
-c=T(bY(T(a[2]),b));return[0,bY(a[1],b),c]}function
-fx(b,a){var
-c=d_(b[2],a);return[0,bX(b[1],a),c]}function
-fy(a,f,b){if(b){var
-d=b[1],g=fy(a,f,d),h=g[2],i=fr(H(df(pA,d),pz)),j=q(fr(df(pB,d)),i),e=fx(B(a,g[1],f),j),k=hS(b)?E(h,e):P(h,e);return[0,e,k]}var
-l=aY(a,c);return[0,aY(a,c),l]}function
-ie(f){var
-g=dg(f),e=pC[1],b=g,c=0,a=e;for(;;){if(b){var
+iD(b,a){var
+c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
+fR(b,a){var
+c=el(b[2],a);return[0,b5(b[1],a),c]}function
+fS(a,f,b){if(b){var
+d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ie(b)?C(h,e):M(h,e);return[0,e,k]}var
+l=aL(a,c);return[0,aL(a,c),l]}function
+iE(f){var
+g=dv(f),e=p9[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return H(pD,c)}}function
-ig(a,d){var
-g=ci(a),h=q(b(2,b(2,c)),g),e=A(d[2],h);if(e)var
-i=fy(a,d,df(pF,H(ie(a),pE)))[2][2],f=[0,[0,fy(a,d,H(df(pH,ie(a)),pG))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return H(p_,c)}}function
+iF(a,d){var
+g=cm(a),h=r(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
+i=fS(a,d,dt(qa,H(iE(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iE(a)),qb))[2][1],i]];else
 var
 f=e;return f}function
-ih(i){function
+iG(i){function
 a(h){var
-m=bX(ci(i),h),g=dg(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,bX(f,a)),l=T(bX(f,q(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=q(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return cd(q(b(2,b(2,b(2,b(2,c)))),g),f)}function
-ii(e,a){var
-f=A(d,a);if(f){var
-g=b(2,b(2,c));return ig(e,fx(aj(e,[0,a,a]),g))}return f}function
-ij(a,d){var
-b=aj(a,d),e=aY(a,c);return P(E(b,b),e)}function
-eb(o,u){var
-h=av(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cd(ih(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(ih(a),r),f=ii(a,i);if(f){var
-g=ii(a,j);if(g)var
-k=af(d,f[1][1]),l=k?af(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=b5(cm(i),h),g=dv(i),f=m,e=d,a=c;for(;;){if(g){var
+j=A(a,b(2,c)),k=A(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return b1(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iH(e,a){var
+f=B(d,a);if(f){var
+g=b(2,b(2,c));return iF(e,fR(ai(e,[0,a,a]),g))}return f}function
+iI(a,d){var
+b=ai(a,d),e=aL(a,c);return M(C(b,b),e)}function
+eo(n,u){var
+h=ax(A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iG(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iG(a),r),f=iH(a,i);if(f){var
+g=iH(a,j);if(g)var
+k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=ig(a,aj(a,fx(B(a,v,e[1]),s))),p=ac(function(b){return ij(a,ij(a,b))},t);else
+s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iF(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iI(a,iI(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ac(function(a){return id(w,a)},p)}return h}function
-fz(d,a){return eb(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
-dj(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iD(w,a)},p)}return h}function
+fT(d,a){return eo(d,[2,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
+ep(a){return 0===a[0]?a[2]:a[1]}function
+dy(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2284,125 +2292,128 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-a_(j,i){var
+bb(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?ag(b[1],a[1]):0;case
-1:return 1===a[0]?ag(b[1],a[1]):0;case
-2:return 2===a[0]?ai(b[1],a[1]):0;case
+0:return 0===a[0]?aa(b[1],a[1]):0;case
+1:return 1===a[0]?aa(b[1],a[1]):0;case
+2:return 2===a[0]?ak(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=a_(b[1],a[1]);if(e){var
+e=bb(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=a_(b[1],a[1]);if(f){var
+f=bb(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=a_(b[1],a[1]);if(g){var
+g=bb(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=a_(b[1],a[1]);if(h){var
+h=bb(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-ec(b){var
+eq(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bk(c,b){var
-a=ec(b);return a?ai(c,a[1]):a}function
-dk(a){return af(fd(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-r(a){return[0,[2,a]]}function
-K(b,a){if(bk(d,b))return a;if(bk(d,a))return b;var
-c=ec(b);if(c){var
-e=c[1],f=ec(a);if(f){var
-g=f[1];if(dk(e)&&dk(g))return r(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ck(a){var
+bo(c,b){var
+a=eq(b);return a?ak(c,a[1]):a}function
+dz(a){return ac(fw(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+q(a){return[0,[2,a]]}function
+G(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
+c=eq(b);if(c){var
+e=c[1],f=eq(a);if(f){var
+g=f[1];if(dz(e)&&dz(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+cp(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dk(c)?r(T(c)):[0,[5,a]];case
+c=b[1];return dz(c)?q(W(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-C(b,a){return bk(d,a)?b:bk(d,b)?ck(a):[0,[4,b,a]]}function
-ad(a){var
-c=ec(a);if(c){var
-b=c[1];return dk(b)?r(q(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bk(d,a)&&!bk(c,b)){if(!bk(d,b)&&!bk(c,a))return a_(a,b)?ad(a):[0,[6,a,b]];return b}return a}function
-aM(b,a){return bk(c,a)?b:[0,[7,b,a]]}function
-cl(a){return bk(c,a)?a:[0,[9,a]]}function
-cm(g,f,d,c){var
+z(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
+af(a){var
+c=eq(a);if(c){var
+b=c[1];return dz(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?af(a):[0,[6,a,b]];return b}return a}function
+aI(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
+cq(a){return bo(c,a)?a:[0,[9,a]]}function
+cr(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dj(function(b){return function(a){return I(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dl(a){var
+h=b[1],i=[0,e(f,dy(function(b){return function(a){return F(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dA(a){var
 b=0;function
-c(a){return[0,a]}return cm(r(d),c,a,b)}function
-fA(b,a){if(a){if(a_(b,a[1]))return pI;var
-c=fA(b,a[2]);return ac(function(a){return[0,a]},c)}return a}function
-bl(c,b){var
-a=fA(b,c),d=a?a[1]:a;return d}function
-ed(d,a){if(fA(d,a[1]))return a;var
+c(a){return[0,a]}return cr(q(d),c,a,b)}function
+fU(b,a){if(a){if(bb(b,a[1]))return qd;var
+c=fU(b,a[2]);return ae(function(a){return[0,a]},c)}return a}function
+bp(c,b){var
+a=fU(b,c),d=a?a[1]:a;return d}function
+er(d,a){if(fU(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=ed(b[1],a);break;case
+c=er(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=ed(b[1],a),c=ed(b[2],h)}var
-e=c[2],f=c[1],g=[0,dj(function(a){return bl(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dm(a){var
-b=h2(function(b,a){return ed(a,b)},a,pJ),c=b[1],d=f(function(a){return bl(c,a)},a);return[0,h0(b[2]),d]}function
-ik(a){return cH(function(a,b){return z(cf(a[2],T(a[1])),b)},d,a)}function
-cK(b,c,a){var
-d=ik(a),e=fp(c[2],z(b[2],d)),f=ik(a);return[0,b,[0,cf(c[1],cd(b[1],f)),e],a]}function
-a$(a){return[0,a,a,0]}function
-fB(b,a){return a?e(b,a[1]):a}function
-ee(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
+h=er(b[1],a),c=er(b[2],h)}var
+e=c[2],f=c[1],g=[0,dy(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dB(a){var
+b=iq(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,io(b[2]),d]}function
+es(a){return cP(function(a,b){return A(cj(a[2],W(a[1])),b)},d,a)}function
+cR(b,c,a){var
+d=es(a),e=fI(c[2],A(b[2],d)),f=es(a);return[0,b,[0,cj(c[1],b1(b[1],f)),e],a]}function
+a3(a){return[0,a,a,0]}function
+et(b,a){var
+c=a[3],d=b[3];function
+e(a){return a}var
+f=a7(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return cR(C(b[1],a[1]),g,f)}function
+iJ(b,a){var
+c=a[3],d=b[3],e=a7(function(a){return a},aE,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
+iK(a,c,b){var
+d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+h(c,b){var
+f=D(a,e,b);return em(C(D(a,d,c),f))}function
+i(b){return em(D(a,e,b))}var
+j=a7(function(b){return em(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cR(D(a,c[1],b[1]),k,j)}function
+fV(b,a){return a?e(b,a[1]):a}function
+eu(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dn(a,e,d){var
-c=a$($);return function(b){switch(b[0]){case
-0:return[0,I(b[1],e,c)];case
-1:return[0,I(b[1],d,c)];case
-2:return[0,a$(aY(a,b[1]))];case
+dC(a,e,d){var
+c=a3(ab);return function(b){switch(b[0]){case
+0:return[0,F(b[1],e,c)];case
+1:return[0,F(b[1],d,c)];case
+2:return[0,a3(aL(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return ee(function(b,a){var
-c=a[3],d=b[3];function
-e(a){return a}var
-f=a2(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return[0,cK(E(b[1],a[1]),g,f)]},h,g);case
+g=b[2],h=b[1];return eu(function(b,a){return[0,et(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return ee(function(b,a){var
-c=a[3],d=b[3],e=a2(function(a){return a},aB,P,d,c),f=P(b[2],a[2]);return[0,cK(P(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return eu(function(b,a){return[0,iJ(b,a)]},j,i);case
 5:var
-k=b[1];return fB(function(a){var
-b=f(aB,a[3]),c=aB(a[2]);return[0,[0,aB(a[1]),c,b]]},k);case
+k=b[1];return fV(function(a){var
+b=f(aE,a[3]),c=aE(a[2]);return[0,[0,aE(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return ee(function(c,b){var
-d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
-h(c,b){var
-f=B(a,e,b);return d$(E(B(a,d,c),f))}function
-i(b){return d$(B(a,e,b))}var
-j=a2(function(b){return d$(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cK(B(a,c[1],b[1]),k,j)]},m,l);case
+l=b[2],m=b[1];return eu(function(c,b){return[0,iK(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return ee(function(e,g){var
-b=cj(a,g[1]);if(b){var
-c=cj(a,g[2]);if(c)var
-h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return P(c,B(a,d,b))},n=function(b){return aB(B(a,d,b))},o=a2(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cK(d,B(a,e[2],h),p)];else
+n=b[2],o=b[1];return eu(function(e,g){var
+b=cn(a,g[1]);if(b){var
+c=cn(a,g[2]);if(c)var
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,D(a,d,b))},n=function(b){return aE(D(a,d,b))},o=a7(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cR(d,D(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fB(function(b){var
-c=b[3],d=E(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cK(aj(a,b[1]),g,e)]},p);default:var
-q=b[1];return fB(function(e){var
-b=cJ(a,e[1]);if(b){var
-g=b[1],c=cJ(a,e[2]);if(c){var
-h=c[1],d=cj(a,E(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cK(g,h,f(function(b){return B(a,m,b)},l))];else
+p=b[1];return fV(function(b){var
+c=b[3],d=C(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ai(a,b[2]);return[0,cR(ai(a,b[1]),g,e)]},p);default:var
+q=b[1];return fV(function(e){var
+b=co(a,e[1]);if(b){var
+g=b[1],c=co(a,e[2]);if(c){var
+h=c[1],d=cn(a,C(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return D(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2411,130 +2422,143 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-pK(a){return a}function
-pL(a){return a}function
-pM(a,b){return a2(pL,pK,E,a,b)}function
-pN(a){return a}function
-pO(a){return a}function
-il(a,b){return a2(pO,pN,pM,a,b)}function
-fC(b,a,c){if(a){var
+qf(a){return a}function
+qg(a){return a}function
+qh(a,b){return a7(qg,qf,C,a,b)}function
+qi(a){return a}function
+qj(a){return a}function
+iL(a,b){return a7(qj,qi,qh,a,b)}function
+fW(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fC(b,e,c[2]),h=c[1],i=function(c,a){return P(c,fv(d,a,b))},j=function(a){return aB(fv(d,a,b))};return[0,a2(function(a){return a},j,i,h,a),g]}var
-k=fC(b,e,0);return[0,f(function(a){return aB(fv(d,a,b))},a),k]}return c}function
-im(a){if(a){var
+g=fW(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fP(d,a,b))},j=function(a){return aE(fP(d,a,b))};return[0,a7(function(a){return a},j,i,h,a),g]}var
+k=fW(b,e,0);return[0,f(function(a){return aE(fP(d,a,b))},a),k]}return c}function
+iM(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=af(d,c[1]),h=e?[0,fC(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ac(d,c[1]),h=e?[0,fW(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-io(f,e){var
+iN(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=im(b);if(c){var
+c=iM(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-ip(d,b,a){if(b)if(a)var
-e=a[1],f=ip(d,b[2],a[2]),g=d5(d,b[1])?fw(e):ea(e),c=[0,g,f];else
+iO(d,b,a){if(b)if(a)var
+e=a[1],f=iO(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iq(a,b){if(a)if(b)var
-d=iq(a[2],b[2]),c=[0,ip(a[1],a,b[1]),d];else
+iP(a,b){if(a)if(b)var
+d=iP(a[2],b[2]),c=[0,iO(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-b1(a){if(a){var
-b=a[1],c=b1(b),d=f(function(a){return[0,1,a]},c),e=b1(b);return g(f(function(a){return[0,0,a]},e),d)}return pP}function
-ef(a){var
-b=m(a);if(io(b,a))return 1;var
-c=b1(cF(b));return o(function(c){return io(b,iq([0,0,c],a))},c)}function
-aZ(a){function
+bO(a){if(a){var
+b=a[1],c=bO(b),d=f(function(a){return[0,1,a]},c),e=bO(b);return g(f(function(a){return[0,0,a]},e),d)}return qk}function
+ev(a){var
+b=k(a);if(iN(b,a))return 1;var
+c=bO(b4(b));return n(function(c){return iN(b,iP([0,0,c],a))},c)}function
+a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-dp(h,e){var
+b8(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?E(a,d):P(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ir(c,b,a){var
-d=b1(c);return o(function(c){return e(a,e(aZ(function(a){return dp(c,a)}),b))},d)}function
-is(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bZ(b,z(h,c),a)},k=is(h,j,i),l=function(c,b){var
-d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=a2(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+iQ(c,b,a){var
+d=bO(c);return n(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
+iR(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iR(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a7(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-it(b,d,a,c){function
+iS(b,d,a,c){function
 e(c,d){var
-e=bZ(d,b,a);return P(E(c,c),e)}function
-f(c){return aB(bZ(c,b,a))}return a2(function(a){return E(a,a)},f,e,d,c)}function
-fD(d,i,h,g){var
+e=bN(d,b,a);return M(C(c,c),e)}function
+f(c){return aE(bN(c,b,a))}return a7(function(a){return C(a,a)},f,e,d,c)}function
+fX(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=ea(e[2]),k=il(a,is(d,f,it(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iu(b,a){return[0,[0,0,b],a]}function
-dq(b,c,g,f,a){function
+e=b[1],f=c[1],j=en(e[2]),k=iL(a,iR(d,f,iS(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iT(b,a){return[0,[0,0,b],a]}function
+dD(b,c,g,f,a){function
 d(a){if(a){var
-h=ch([0,aB(a[1][2]),0],b),c=fD(g,f,a[2],h),d=ag(m(c),b);if(d)return ef(c);var
+h=cl([0,aE(a[1][2]),0],b),c=fX(g,f,a[2],h),d=aa(k(c),b);if(d)return ev(c);var
 e=d}else
 var
-e=a;return e}return ir(b,iu(c,a),d)}function
-iv(f,e){var
+e=a;return e}return iQ(b,iT(c,a),d)}function
+iU(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=im([0,[0,fw(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iM([0,[0,fQ(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fE(b,c,a){function
+fY(b,c,a){function
 d(a){if(a){var
-h=ch([0,a[1][2],0],b),c=iv(a[2],h);if(c){var
-d=c[1],e=ag(m(d),b);if(e)return ef(d);var
+h=cl([0,a[1][2],0],b),c=iU(a[2],h);if(c){var
+d=c[1],e=aa(k(d),b);if(e)return ev(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return ir(b,iu(c,a),d)}function
-iw(a,b){var
-c=b[3],d=a[3],e=a2(function(a){return a},aB,P,d,c),f=a[2];return[0,P(a[1],b[1]),f,e]}function
-eg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b2(c,b,a){var
-d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-eh(b,a){var
+g=a;return g}return iQ(b,iT(c,a),d)}function
+iV(a,b){var
+c=b[3],d=a[3],e=a7(function(a){return a},aE,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+dE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aX(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+dF(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-ei(b,a){var
-c=aM(b[3],a),d=aM(b[2],a);return[0,aM(b[1],a),d,c]}function
-aC(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return K(K(v(b[1],a[1]),d),c)}function
-fF(a){return ei(a,cl(aC(a,a)))}function
-ej(a){return f(function(a){var
-b=a[2];return[0,eg(a[1]),b]},a)}function
-ix(a){return f(function(a){var
-b=r(c);return[0,eg(a[3]),b]},a)}function
-bm(a){return cG(z(a[1],a[2]),c)}function
-cL(a){var
-b=bm(a);return cd(a[2],b)}function
-fH(c,b){if(b)var
-a=b[1],e=fH([0,c],b[2]),f=cL(a),h=[0,[0,cL(a),f],0],i=g(ch($,c),h),j=bm(a),d=[0,[0,[0,bm(a),j],a,i],e];else
+ew(b,a){var
+c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
+aF(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
+fZ(a){return ew(a,cq(aF(a,a)))}function
+ex(a){var
+b=a[5];return b?b[1]:cq(a[2])}function
+ey(a){return f(function(a){var
+b=a[2];return[0,dE(a[1]),b]},a)}function
+iW(a){return f(function(a){var
+b=q(c);return[0,dE(a[3]),b]},a)}function
+iX(b,a){var
+c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
+iY(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+ez(a,k,j,p,i,h,g){var
+m=iY(iJ,h,g),b=iY(function(b,c){return iK(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
+c=iX(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+g=f[1],h=[0,g[2],g[2]];else
+var
+h=[0,b[2],b[2]];var
+q=D(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return ac(d,r[1])},o)}function
+bq(a){return cO(A(a[1],a[2]),c)}function
+cS(a){var
+b=bq(a);return b1(a[2],b)}function
+f0(c,b){if(b)var
+a=b[1],e=f0([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ab,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
 var
 d=b;return d}function
-dr(d,b){if(b){var
+dG(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dr(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bm(a),f],c],h=bm(a);return[0,[0,[0,a[1],h],c],g]}return pQ}function
-iy(d,c,b,a){var
-e=f(a$,b);return cm(0,dn(d,fH(0,a),e),c,0)}function
-aN(a){if(a){var
+e=dG(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
+iZ(d,c,b,a){var
+e=f(a3,b);return cr(0,dC(d,f0(0,a),e),c,0)}function
+aS(a){if(a){var
 b=a[1];if(b)var
-c=aN(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pR}function
-iz(b,a){if(a){var
-h=a[1],n=h[1],c=aN(f(function(a){return I(a,b,0)},n));if(c){var
-e=I(h[2],b,0);if(e){var
-i=e[1],g=iz(b,a[2]);if(g)var
-j=af(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return qm}function
+i0(b,a){if(a){var
+h=a[1],n=h[1],c=aS(f(function(a){return F(a,b,0)},n));if(c){var
+e=F(h[2],b,0);if(e){var
+i=e[1],g=i0(b,a[2]);if(g)var
+j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2542,337 +2566,425 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return pS}function
-cn(d,c,b){var
-a=iz(d,c);return a?e(b,a[1]):a}function
-fI(a,b){return o(function(c){var
-a=I(c,b,0),d=a?1:a;return d},a)}function
-ek(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a2(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-fJ(b,a){return b?iw(a,b[1]):a}function
-fK(h,g,b,f){var
-a=I(f,h,0);if(a){var
+m=c;return m}return qn}function
+ct(d,c,b){var
+a=i0(d,c);return a?e(b,a[1]):a}function
+f1(a,b){return n(function(c){var
+a=F(c,b,0),d=a?1:a;return d},a)}function
+eA(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a7(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+f2(b,a){return b?iV(a,b[1]):a}function
+f3(h,g,b,f){var
+a=F(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iw(c,b[1]),e=b1(g);return o(function(a){return A(d,dp(a,i)[1])},e)}return A(d,c[2][1])}return a}function
-iA(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=iV(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
+eB(b,a){var
+c=F(a[1],b,0);if(c){var
+d=F(a[2],b,0);if(d)var
+e=F(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+var
+f=d;var
+g=f}else
+var
+g=c;return g}function
+i1(i,q,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
-k=h[1];if(typeof
+r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fI(l,b);if(r){var
-C=a[2],D=a[1],E=ek(g,a$(k));return cn(b,j,function(a){return dq(e,E,D,C,a)})}return r;case
+K=f1(t,e);if(K){var
+ad=a[2],ae=a[1],af=eA(g,a3(r));return ct(e,q,function(a){return dD(b,af,ae,ad,a)})}return K;case
 1:var
-s=fI(l,b);if(s){var
-F=a[2],G=a[1],H=ek(g,a$(k));return cn(b,q,function(a){return dq(e,H,G,F,a)})}return s;case
+L=f1(t,e);if(L){var
+ag=a[2],ah=a[1],ai=eA(g,a3(r));return ct(e,J,function(a){return dD(b,ai,ah,ag,a)})}return L;case
 2:var
-t=fI(l,b);if(t){if(g)return 0;var
-u=ai(k[1],d),v=u?ai(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cn(b,j,function(a){var
-b=[0,$,$,0];return dq(e,[0,$,$,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
-w=v}else
+M=f1(t,e);if(M){if(g)return 0;var
+N=ak(r[1],d),O=N?ak(r[2],d):N;if(O){var
+aj=a[2],al=a[1];return ct(e,q,function(a){var
+c=[0,ab,ab,0];return dD(b,[0,ab,ab,0],al,aj,f(function(a){return[0,a[1],c]},a))})}var
+P=O}else
 var
-w=t;return w}return 0;case
+P=M;return P}return 0;case
 1:var
-x=h[1];if(typeof
+Q=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fJ(g,a$(x));return cn(b,q,function(a){return fE(e,K,a)})}if(!a){var
-L=fJ(g,a$(x));return cn(b,j,function(a){return fE(e,L,a)})}}return 0;case
+am=f2(g,a3(Q));return ct(e,J,function(a){return fY(b,am,a)})}if(!a){var
+an=f2(g,a3(Q));return ct(e,q,function(a){return fY(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],p=function(a){return bZ(a,y,aY(m,c))};if(n)var
-A=f(p,n[2]),i=[0,p(n[1]),$,A];else
+R=a[1],u=a[3],I=function(a){return bN(a,R,aL(i,c))};if(u)var
+$=f(I,u[2]),j=[0,I(u[1]),ab,$];else
 var
-i=a$($);var
-z=h[1],M=a[2];return cn(b,j,function(c){var
-h=b1(e),a=o(function(a){return af(d,dp(a,i)[1])},h),b=a?dq(e,ek(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fE(e,fJ(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
+j=a3(ab);var
+S=h[1],ao=a[2];return ct(e,q,function(e){var
+h=bO(b),a=n(function(a){return ac(d,b8(a,j)[1])},h),c=a?dD(b,eA(g,j),R,ao,e):a;if(c){var
+k=j[3],l=f(function(a){return D(i,S,a)},k),m=j[2];return fY(b,f2(g,[0,D(i,S,j[1]),m,l]),e)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fK(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return f3(e,b,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=ek(g,a$(h[2])),Q=function(a){return dq(e,P,O,N,a)};return cn(b,h[1],Q)}return 0;default:if(typeof
+ap=a[2],aq=a[1],ar=eA(g,a3(h[2])),as=function(a){return dD(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
+5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fK(b,e,g,h[1]);case
-2:return fK(b,e,g,h[2])}return 0}}function
-el(b,a){if(a){var
+0:return f3(e,b,g,h[1]);case
+2:return f3(e,b,g,h[2])}return 0;default:if(typeof
+a!=="number"&&8===a[0]){var
+v=eB(e,h[1]);if(v){var
+w=eB(e,h[2]);if(w){var
+x=eB(e,h[3]);if(x){var
+y=eB(e,h[4]);if(y){var
+T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
+m=l[2];if(m){var
+o=m[2];if(o){if(o[2])return 0;var
+_=[0,l[1],m[1],o[1]],p=iX(function(d){function
+e(a){return bN(a,at,aL(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=es(a),h=A(b[2],g),j=es(a);return[0,b,[0,b1(b[1],j),h],a]}return a3(ab)},_),z=n(function(a){return aa(k(a),[0,b])},l),B=z?ez(i,b,g,s,p,W,U):z,C=B?ez(i,b,g,s,p,W,T):B,E=C?ez(i,b,g,s,p,V,U):C;if(E)return ez(i,b,g,s,p,V,T);var
+F=E}else
+var
+F=o;var
+G=F}else
+var
+G=m;var
+H=G}else
+var
+H=l;return H}var
+X=y}else
+var
+X=x;var
+Y=X}else
+var
+Y=w;var
+Z=Y}else
+var
+Z=v;return Z}return 0}}function
+eC(b,a){if(a){var
 c=a[2];if(b){var
-e=el(b[1],c);return[0,a[1],e]}var
+e=eC(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-iB(r,V,H,G,F,U,T,E,c,D,C){if(D){var
-J=iy(r,V,U,c),g=D,b=C;for(;;){if(g){var
-v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+i2(r,V,I,H,G,U,T,E,c,D,C){if(D){var
+J=iZ(r,V,U,c),g=D,b=C;for(;;){if(g){var
+v=g[1],a=v[2],o=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-l=e(E,c);if(l)var
-S=l[1],M=b1(m(c)),p=o(function(b){return function(a){return af(dp(a,b)[2],d)}}(S),M);else
+m=e(E,c);if(m)var
+S=m[1],M=bO(k(c)),p=n(function(b){return function(a){return ac(b8(a,b)[2],d)}}(S),M);else
 var
-p=l;if(p){var
+p=m;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
-x=I(n,b,0);if(x){var
-q=au(T,n);if(q){var
+x=F(o,b,0);if(x){var
+q=al(T,o);if(q){var
 y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(E,c),L=0;if(j){var
-s=A(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bZ(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bZ(i,t,k[1]),P,O]],h=iA(r,H,G,F,J,m(c),R,y,Q);L=1}else
+s=B(d,i);if(s){var
+l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i1(r,I,H,G,J,k(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=iA(r,H,G,F,J,m(c),0,y,a);if(h){var
-g=w,b=el(n,b);continue}var
+h=i1(r,I,H,G,J,k(c),0,y,a);if(h){var
+g=w,b=eC(o,b);continue}var
 z=h}else
 var
 z=q;var
-B=z}else
+A=z}else
 var
-B=x;return B}return[0,b]}}return[0,C]}function
-fL(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,C]}function
+f4(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=iB(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aK,l[1]):l}var
-m=iB(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dr(a[2],b),q=fL(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
-b=p[2],k=n,a=a[4];continue}var
+l=i2(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
+m=i2(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dG(a[2],b),q=f4(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-iC(a){return f(function(a){return 1},a)}function
-co(m,q){var
+i3(a){return f(function(a){return 1},a)}function
+cu(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(A(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(A(j,c)){var
-k=ai(b,n),l=k?dk(b):k;if(l)var
-o=ai(m[2],d),g=o||ai(b,d);else
+i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(B(j,c)){var
+k=ak(b,n),l=k?dz(b):k;if(l)var
+o=ak(m[2],d),g=o||ak(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=ai(bj(j,aW(2))[2],d)?0:0}else
+a=ak(bn(j,a1(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ai(bj(i,aW(2))[2],d)?0:0}else
+a=ak(bn(i,a1(2))[2],d)?0:0}else
 var
-a=0;return a?r(a[1]):[0,[1,q]]}function
-em(b,a){if(a)var
-d=em([0,b],a[2]),c=[0,co(a[1],b),d];else
+a=0;return a?q(a[1]):[0,[1,r]]}function
+dH(b,a){if(a)var
+d=dH([0,b],a[2]),c=[0,cu(a[1],b),d];else
 var
 c=a;return c}function
-a3(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fM(b,d,a){switch(a[0]){case
+a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+f5(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a3(c[3],b),f),i=g(a3(c[2],b),h);return g(a3(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
 1:var
-e=a[3],j=e?a3(e[1],d):e,k=g(a3(a[2],b),j);return g(a3(a[1],b),k);default:return a3(a[1],d)}}function
-bI(b,a){var
-c=r(d),e=I(H(pT,a),b,c),f=r(d),g=I(H(pU,a),b,f);return[0,I(a,b,r(d)),g,e]}function
-iD(b,a){return b2(C,b2(K,fG,a),b)}function
-fN(c,b,a){if(a){var
-e=a[2],f=fN(c,hZ(b),e),h=a[1];return g(fM(c,fu(d,b),h),f)}return a}function
-fO(l,k,h,x){if(h){var
-e=h[1],M=H(x,m(fM(l,fu(d,k),e))),N=h[2],O=fO(l,hZ(k),N,M),a=em(x,fM(l,fu(d,k),e));switch(e[0]){case
+e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
+aN(b,a){var
+c=q(d),e=F(H(qo,a),b,c),f=q(d),g=F(H(qp,a),b,f);return[0,F(a,b,q(d)),g,e]}function
+i4(b,a){return aX(z,aX(G,cs,a),b)}function
+f6(c,b,a){if(a){var
+e=a[2],f=f6(c,im(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
+f7(m,l,h,x){if(h){var
+e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,im(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
 0:var
-F=e[1][5],u=I(pV,a,r(d)),g=fF(bI(a,0)),G=bI(a,pW),v=iD(bI(a,pX),G),o=aC(g,v),f=b2(C,v,eh(o,g)),z=aC(f,f),p=C(ad(u),z),q=cl(p),i=F?q:ck(q),A=C(o,i),B=b2(K,g,ei(f,i)),n=[0,b2(K,f,eh(i,g)),p,B,A,[0,u],0];break;case
+J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i4(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-w=e[3],J=w?[0,fF(bI(a,pY))]:w,L=bI(a,pZ),b=iD(bI(a,0),L),s=aC(b,b),t=cl(s),D=ac(function(a){return b2(C,b,eh(aC(a,b),a))},J),n=[0,b,s,ei(b,t),t,0,D];break;default:var
-j=fF(bI(a,0)),E=aC(j,fG),n=[0,j,r(c),j,E,0,0]}var
-y=[0,n,O]}else
+w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i4(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
+j=fZ(aN(a,0)),I=aF(j,cs),n=[0,j,q(c),j,I,0,0,0]}var
+y=[0,n,R]}else
 var
 y=h;return y}function
-b3(k,a){if(typeof
+bP(b,a){if(typeof
 a==="number"){var
-b=[0,d,c];return[0,[0,b,b],d]}else
+e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
 4:var
-g=[4,a[3],a[2]];return[0,[0,g,g],d];case
+h=[4,a[3],a[2]];return[0,[0,h,h],d];case
 6:var
-i=a[2];return[0,[0,i,i],d];case
+j=a[2];return[0,[0,j,j],d];case
 8:var
-j=[4,a[2],a[1]];return[0,[0,j,j],d];case
+k=[4,a[2],a[1]];return[0,[0,k,k],d];case
+10:var
+m=a[3],n=ep(a[2]),l=[1,[1,ep(a[1]),n],m];return[0,[0,l,l],b];case
 0:case
 1:var
-e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
+f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
-f=a[2];return[0,[0,f,f],k];default:var
-h=a[1];return[0,[0,h,h],d]}}function
-fP(d,c,b,a){var
-e=v(c,b);return C(v(d,a),e)}function
-cp(a){return J(function(a){return g(a[1],[0,a[2],0])},a)}function
-iE(a){if(a){var
+g=a[2];return[0,[0,g,g],b];default:var
+i=a[1];return[0,[0,i,i],d]}}function
+eD(b,a){function
+e(a){var
+c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}if(0===a[0]){var
+f=[0,d,c],j=g(e(a[5]),[0,[0,[0,f,f],d],0]),h=a[4],i=a[3];return g([0,[0,[0,i,i],b],[0,[0,[0,h,h],b],0]],j)}var
+k=e(a[3]);return g(e(a[2]),k)}function
+eE(b,a){if(typeof
+a!=="number"&&10===a[0]){var
+c=eD(b,a[2]);return g(eD(b,a[1]),c)}return 0}function
+i5(c,b,a){var
+d=k(eE(c,b)),e=H(a[2],d);return[0,[0,a[1]],e]}function
+i6(k,a,g){switch(g[0]){case
+0:var
+e=al(k,g[1]);if(e){var
+b=e[1],f=b[7];if(f)var
+l=f[1],h=function(c){var
+d=aN(a,qx);return aX(G,aX(z,l,dF(c,b[1])),d)},m=ex(b),n=h(aI(F(qy,a,q(d)),m)),o=ex(b),p=aI(F(0,a,q(d)),o),i=[0,[0,h(z(q(c),p)),n]];else
+var
+i=f;var
+j=i}else
+var
+j=e;return j;case
+1:var
+r=aN(a,qz);return[0,[0,aN(a,0),r]];default:var
+s=aX(G,cs,aN(a,qA));return[0,[0,aX(G,cs,aN(a,0)),s]]}}function
+i7(f,e,j,d,c){var
+k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i6(f,ej(qB,h),d);if(a)var
+b=i6(f,ir(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+var
+i=a;return i}function
+f8(d,c,b,a){var
+e=v(c,b);return z(v(d,a),e)}function
+cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+i8(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=iE(a[2]);if(d)var
-g=d[1],h=aC(c,c),e=[0,[0,[0,eg(c),h],g]];else
+c=b[1],d=i8(a[2]);if(d)var
+g=d[1],h=aF(c,c),e=[0,[0,[0,dE(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return p0}function
-en(b,d,c,a){if(typeof
+f=b;return f}return qD}function
+eF(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=co(b3(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,eg(a[1]),b]},b)];case
-9:return iE(b)}return 0}function
-fQ(b,s,r,a){var
-e=co(b3(s,a),r),p=0;if(typeof
-a==="number")p=1;else
+e=c[1],g=cu(bP(d,a),e);return[0,f(function(a){var
+b=v(a[2],g);return[0,dE(a[1]),b]},b)];case
+9:return i8(b)}return 0}function
+f9(b,k,j,a){var
+Q=j[1],e=cu(bP(k,a),Q),s=0;if(typeof
+a==="number")s=1;else
 switch(a[0]){case
 2:var
-L=function(a){return[0,C(a[4],e),0]},g=L,f=a[1];break;case
+R=function(a){return[0,z(a[4],e),0]},g=R,f=a[1];break;case
 3:var
-M=function(a){return[0,C(e,a[4]),0]},g=M,f=a[1];break;case
+S=function(a){return[0,z(e,a[4]),0]},g=S,f=a[1];break;case
 4:var
-N=function(b){var
-a=b[1],c=ad(a[3]),d=ad(a[2]),f=ad(a[1]),g=b[2];return[0,C(C(C(v(ad(e),g),f),d),c),0]},g=N,f=a[1];break;case
+T=function(b){var
+a=b[1],c=af(a[3]),d=af(a[2]),f=af(a[1]),g=b[2];return[0,z(z(z(v(af(e),g),f),d),c),0]},g=T,f=a[1];break;case
 6:var
-O=function(b){var
+U=function(b){var
 a=b[5];if(a)var
-d=ad(a[1]),f=v(ad(e),d),c=[0,C(b[2],f),0];else
+d=af(a[1]),f=v(af(e),d),c=[0,z(b[2],f),0];else
 var
-c=a;return c},g=O,f=a[1];break;case
+c=a;return c},g=U,f=a[1];break;case
 7:if(b){var
 h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
-t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
-l=u[5];if(l){var
-m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fP(d[1],d[2],c[1],c[2]),G=v(n[3],F),H=fP(d[1],d[3],c[1],c[3]),I=v(n[2],H),J=fP(d[2],d[3],c[2],c[3]),q=K(C(v(n[1],J),I),G),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ck(K(q,x)),0],y=[0,C(q,x),R];else
+u=i[1],w=h[1],x=b[1],m=x[5];if(m){var
+n=w[5];if(n){var
+o=u[5];if(o)var
+c=u[1],d=w[1],p=x[1],L=f8(d[1],d[2],c[1],c[2]),M=v(p[3],L),N=f8(d[1],d[3],c[1],c[3]),O=v(p[2],N),P=f8(d[2],d[3],c[2],c[3]),t=G(z(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(e,m[1]),W),V),X=[0,cp(G(t,A)),0],B=[0,z(t,A),X];else
 var
-y=m;var
-z=y}else
+B=o;var
+C=B}else
 var
-z=l;var
-A=z}else
+C=n;var
+D=C}else
 var
-A=k;var
-B=A}else
-var
-B=i;var
-D=B}else
-var
-D=h;var
+D=m;var
 E=D}else
 var
-E=b;return E;case
+E=i;var
+F=E}else
+var
+F=h;var
+H=F}else
+var
+H=b;return H;case
+10:var
+r=i7(b,k,j[2],a[1],a[2]);if(r){var
+I=r[1],J=I[2],K=I[1];return y(dE,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
 8:case
 9:var
-o=en(b,s,r,a);return o?cp(o[1]):o;default:p=1}if(p)return 0;var
-j=au(b,f);return j?g(j[1]):j}function
-fR(d,c,b,a){if(a){var
-e=fR(d,c,[0,b],a[2]);return g(fQ(d,c,b,a[1]),e)}return a}function
-iF(a,g,k,f,j,i){if(i){var
-B=iF(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
-b==="number")var
-d=[0,[0,$]];else
-switch(b[0]){case
+q=eF(b,k,j,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
+l=al(b,f);return l?g(l[1]):l}function
+f_(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=f_(d,b,i5(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
+i9(f,h,j,b,i,m){if(m){var
+a=m[1],R=m[2],S=i9(f,h,j,b,i5(b,a,i),R);if(typeof
+a==="number")var
+g=[0,[0,ab]];else
+switch(a[0]){case
 0:var
-u=aL(a,b3(f,b)),d=ac(function(b){return[0,aj(a,b)]},u);break;case
+H=aM(f,bP(b,a)),g=ae(function(a){return[0,ai(f,a)]},H);break;case
 1:var
-v=aL(a,b3(f,b)),d=ac(function(b){return[1,aj(a,b)]},v);break;case
+I=aM(f,bP(b,a)),g=ae(function(a){return[1,ai(f,a)]},I);break;case
 5:var
-x=aL(a,b3(f,b)),d=ac(function(b){return[2,aj(a,b)]},x);break;case
+K=aM(f,bP(b,a)),g=ae(function(a){return[2,ai(f,a)]},K);break;case
 8:var
-y=en(k,f,j,b),d=ac(function(b){var
-d=aY(a,c);return[4,e(aZ(g),b),d]},y);break;case
+L=eF(j,b,i,a),g=ae(function(a){var
+b=aL(f,c);return[4,e(a4(h),a),b]},L);break;case
 9:var
-m=en(k,f,j,b);if(m){var
-n=aL(a,b3(f,b));if(n)var
-z=aj(a,n[1]),A=m[1],r=[0,[4,e(aZ(g),A),z]];else
+o=eF(j,b,i,a);if(o){var
+p=aM(f,bP(b,a));if(p)var
+M=ai(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
 var
-r=n;var
-s=r}else
+v=p;var
+w=v}else
 var
-s=m;var
-d=s;break;default:var
-h=fQ(k,f,j,b),o=0;if(h){var
-l=h[2],p=h[1];if(l)if(l[2])var
-d=0;else
+w=o;var
+g=w;break;case
+10:var
+q=i7(j,b,i[2],a[1],a[2]);if(q){var
+x=q[1],y=x[2],z=x[1],r=aM(f,bP(b,a));if(r){var
+A=r[1],C=B(d,A[1]);if(C)var
+l=function(a){var
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),D=[0,[6,l(z[1]),Q,P,O,A]];else
 var
-w=e(g,l[1]),d=[0,[5,e(g,p),w]];else{var
-q=[0,[3,e(g,p)]];o=1}}else{var
-q=h;o=1}if(o)var
-d=q}var
-t=[0,d,B]}else
+D=C;var
+E=D}else
 var
-t=i;return t}function
-p1(a){if(typeof
+E=r;var
+F=E}else
+var
+F=q;var
+g=F;break;default:var
+k=f9(j,b,i,a),s=0;if(k){var
+n=k[2],t=k[1];if(n)if(n[2])var
+g=0;else
+var
+J=e(h,n[1]),g=[0,[5,e(h,t),J]];else{var
+u=[0,[3,e(h,t)]];s=1}}else{var
+u=k;s=1}if(s)var
+g=u}var
+G=[0,g,S]}else
+var
+G=m;return G}function
+qE(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cq(s,r){var
+cw(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=ai(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(A(f,c))return A(e,c)?1:ai(bj(e,aW(2))[2],d)?0:0;var
-i=bj(f,aW(2)),j=i[1];if(ai(i[2],d)){if(A(e,c))return 0;var
-g=bj(e,aW(2)),p=g[1];if(ai(g[2],d)){var
-f=j,e=p;continue}return 0}if(A(e,c))return 0;var
-h=bj(e,aW(2)),q=h[1];if(ai(h[2],d))return 0;var
+k=ak(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:ak(bn(e,a1(2))[2],d)?0:0;var
+i=bn(f,a1(2)),j=i[1];if(ak(i[2],d)){if(B(e,c))return 0;var
+g=bn(e,a1(2)),p=g[1];if(ak(g[2],d)){var
+f=j,e=p;continue}return 0}if(B(e,c))return 0;var
+h=bn(e,a1(2)),q=h[1];if(ak(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cq(b[1],a[1]);if(l){var
+l=cw(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cq(b[1],a[1]);if(m){var
+m=cw(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cq(b[1],a[1]);if(n){var
+n=cw(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cq(b[1],a[1]);if(o){var
+o=cw(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eo(a){switch(a[0]){case
+eG(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,h7(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iv(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,h7(b,[0,T(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iv(b,[0,W(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,h8(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iw(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(h5(a,[0,d,c]))return 0;var
-b=a[1],e=bC(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,h8(g,f)]};break;default:return 0}var
-g=eo(e);if(g){var
-h=eo(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(it(a,[0,d,c]))return 0;var
+b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,iw(g,f)]};break;default:return 0}var
+g=eG(e);if(g){var
+h=eG(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-l(i,e,b){var
-f=eo(b);if(f){var
-g=f[1];return e?aK(h6(g,[0,d,c])):h6([0,d,c],g)}var
-a=av(i,b);if(a){var
-h=a[1];return e?af(d,h[1]):A(d,h[1])}return a}function
-iG(c,b){var
-a=av(c,b),d=a?1:a;return d}function
-bn(c,a,b){var
-d=cq(a,b),e=d?iG(c,a):d;return e?e:l(c,0,[2,b,a])}function
-aO(c,b,a){var
-d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-aP(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-G(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aE(a){return aP([4,[0,c,c],[5,G(a,a)]],a)}function
-cr(c,b,a){var
-d=bn(c,b[1],a);return d?bn(c,a,b[2]):d}function
-aQ(c,b,a){var
-d=cr(c,b[1],a[1]),e=d?cr(c,b[2],a[2]):d;return e?cr(c,b[3],a[3]):e}function
-iH(c,a,b){if(0===a[0])return aQ(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cr(c,a[4],b[3]):h}function
-iI(a,D,H,F){var
-h=D[1],d=H;for(;;){if(h){if(d){var
+j(i,e,b){var
+f=eG(b);if(f){var
+g=f[1];return e?aH(iu(g,[0,d,c])):iu([0,d,c],g)}var
+a=ax(i,b);if(a){var
+h=a[1];return e?ac(d,h[1]):B(d,h[1])}return a}function
+i_(c,b){var
+a=ax(c,b),d=a?1:a;return d}function
+br(c,a,b){var
+d=cw(a,b),e=d?i_(c,a):d;return e?e:j(c,0,[2,b,a])}function
+ag(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+ay(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aG(a){return ay([4,[0,c,c],[5,J(a,a)]],a)}function
+cx(c,b,a){var
+d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
+aT(c,b,a){var
+d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
+i$(c,a,b){if(0===a[0])return aT(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
+ja(a,D,G,F){var
+h=D[1],d=G;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aQ(a,f[1],i),q=p?l(a,1,G(i,i)):p,r=q?aQ(a,f[2],b[2]):q,s=r?aQ(a,f[3],b[3]):r,t=s?cr(a,f[4],o):s,u=t?l(a,1,o):t,c=u?d5(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aT(a,f[1],i),q=p?j(a,1,J(i,i)):p,r=q?aT(a,f[2],b[2]):q,s=r?aT(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?du(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aQ(a,e[1],b[1]),x=w?aQ(a,e[2],b[2]):w,n=0;if(x)if(v){var
+g=b[3],w=aT(a,e[1],b[1]),x=w?aT(a,e[2],b[2]):w,n=0;if(x)if(v){var
 E=0;if(g){var
-j=g[1],y=aQ(a,v[1],j);if(y){var
-c=l(a,1,G(j,j));E=1}else
+k=g[1],y=aT(a,v[1],k);if(y){var
+c=j(a,1,J(k,k));E=1}else
 var
 z=y}else
 var
@@ -2885,7 +2997,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aQ(a,e[1],k),c=B?l(a,1,G(k,k)):B;else
+l=b[1],B=aT(a,e[1],l),c=B?j(a,1,J(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -2894,113 +3006,145 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?iH(a,D[2],F):m}}function
-bJ(c,b,a){var
-d=aO(function(b,a){return[1,b,a]},a,b);return aO(function(b,a){return[2,b,a]},d,c)}function
-fS(a,e,d,c){var
-b=bJ(e,d,c),f=aE(a),g=aP(G(aE(a),b),f);return aO(function(b,a){return[2,b,a]},b,g)}function
-ds(f,e,d,a,c){var
-b=fS(f,e,d,c);return[2,[3,a,a],G(b,b)]}function
-dt(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cM(a,b){switch(a[0]){case
+m=d?0:1;return m?i$(a,D[2],F):m}}function
+bs(c,b,a){var
+d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
+eH(a,e,d,c){var
+b=bs(e,d,c),f=aG(a),g=ay(J(aG(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
+cT(f,e,d,a,c){var
+b=eH(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
+cU(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cV(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fS(d,f,e,b),h=ds(d,f,e,a[4],b),i=aP([4,[0,c,c],dt(a[5],h)],g),j=aE(d);return aO(function(b,a){return[1,b,a]},j,i);case
-1:return aE(bJ(a[1],a[2],b));default:return aE(a[1])}}function
-iJ(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eH(d,f,e,b),h=cT(d,f,e,a[4],b),i=ay([4,[0,c,c],cU(a[5],h)],g),j=aG(d);return ag(function(b,a){return[1,b,a]},j,i);case
+1:return aG(bs(a[1],a[2],b));default:return aG(a[1])}}function
+jb(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=ds(e,d,c,a[4],b),i=dt(a[5],h),j=bJ(d,c,b);return[2,G(aE(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cT(e,d,c,a[4],b),i=cU(a[5],h),j=bs(d,c,b);return[2,J(aG(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bJ(g,f,b);return[5,G(bJ(g,f,b),k)];default:return G(aE(a[1]),b)}}function
-du(e,b,a){var
-f=[0,d,c];return cH(function(c,d){var
-e=G(cM(c,b),a);return[1,[3,G(cM(c,b),a),e],d]},f,e)}function
-iK(a){var
+f=a[2],g=a[1],k=bs(g,f,b);return[5,J(bs(g,f,b),k)];default:return J(aG(a[1]),b)}}function
+dI(e,b,a){var
+f=[0,d,c];return cP(function(c,d){var
+e=J(cV(c,b),a);return[1,[3,J(cV(c,b),a),e],d]},f,e)}function
+jc(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fT(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aE(b),h=ds(b,f,e,d,c),i=aP(dt(a[5],h),g),j=fS(b,f,e,c);return[0,[0,aO(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-iL(d,i){if(d){var
+f$(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aG(b),h=cT(b,f,e,d,c),i=ay(cU(a[5],h),g),j=eH(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jd(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bJ(a[1],a[2],i),k=aE(f),l=aP(G(aE(f),g),k),h=[0,aO(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bs(a[1],a[2],i),k=aG(f),l=ay(J(aG(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=iL(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jd(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return p2}function
-iM(g,f,e,b,n,a){function
-y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],G(b,b)]}if(typeof
+j=b;return j}return qF}function
+dJ(a){return[0,a[1],a[2],a[3]]}function
+je(y,d,a){switch(a[0]){case
+0:var
+z=a[5],i=al(y,a[1]);if(i){var
+b=i[1];switch(b[0]){case
+0:var
+j=b[4],f=b[3],k=b[2],g=b[1],s=aG(g),t=cT(g,k,f,j,d),u=ay(cU(b[5],t),s),v=eH(g,k,f,d),w=ag(function(b,a){return[1,b,a]},v,u),e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,f),w],j]];break;case
+1:var
+l=b[2],h=bs(b[1],l,d),x=[5,J(h,h)],e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,l),h],x]];break;default:var
+e=0}if(e)var
+m=e[1],n=m[1],o=m[2],A=n[2],B=n[1],p=function(a){var
+b=dJ(z),c=ay(a,A),d=ag(function(b,a){return[2,b,a]},B,c);return ag(function(b,a){return[1,b,a]},d,b)},C=p([4,a[4],o]),q=[0,[0,p([2,[0,c,c],[4,a[3],o]]),C]];else
+var
+q=e;var
+r=q}else
+var
+r=i;return r;case
+1:var
+D=dJ(a[3]);return[0,[0,dJ(a[2]),D]];default:var
+E=dJ(a[3]),F=ag(function(b,a){return[1,b,a]},d,E),G=dJ(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},d,G),F]]}}function
+jf(d,a,c,b){var
+e=ay(a,b),f=ay([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
+jg(f,g,e,b,o,a){function
+D(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=du(f,e,b);return l(g,1,[2,y(a[1]),U]);case
+am=dI(g,e,b);return j(f,1,[2,D(a[1]),am]);case
 1:var
-V=y(a[1]);return l(g,1,[2,du(f,e,b),V]);case
+an=D(a[1]);return j(f,1,[2,dI(g,e,b),an]);case
 2:var
-W=a[2],X=function(a){return[2,W,iJ(a,e)]},p=X,o=a[1];break;case
+ao=a[2],ap=function(a){return[2,ao,jb(a,e)]},q=ap,p=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,iJ(a,e),Y]},p=Z,o=a[1];break;case
+aq=a[2],ar=function(a){return[2,jb(a,e),aq]},q=ar,p=a[1];break;case
 4:var
-z=a[3],A=a[2],_=function(a){var
-b=cM(a,e);return[2,[3,[3,A,A],G(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
+E=a[3],F=a[2],as=function(a){var
+b=cV(a,e);return[2,[3,[3,F,F],J(cV(a,e),b)],[3,E,E]]},q=as,p=a[1];break;case
 5:var
-B=a[1],$=G(b,b),aa=[3,[3,B,B],[3,du(f,e,n),$]],ab=G(n,n);return l(g,1,[2,[3,du(f,e,b),ab],aa]);case
+G=a[1],at=J(b,b),au=[3,[3,G,G],[3,dI(g,e,o),at]],av=J(o,o);return j(f,1,[2,[3,dI(g,e,b),av],au]);case
 6:var
-C=a[2],r=au(f,a[1]);if(r){var
-h=r[1];if(0===h[0]){var
-s=h[4],ac=ds(h[1],h[2],h[3],s,e),D=dt(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
-E=0}else
+H=a[2],s=al(g,a[1]);if(s){var
+h=s[1];if(0===h[0]){var
+t=h[4],aw=cT(h[1],h[2],h[3],t,e),I=cU(h[5],aw);return j(f,1,[2,[3,[3,H,t],[3,H,t]],[3,I,I]])}var
+K=0}else
 var
-E=r;return E;case
-7:if(f){var
-k=f[2];if(k){var
-m=k[2];if(m){if(m[2])return 0;var
-t=fT(f[1],e);if(t){var
-F=t[1],u=fT(k[1],e);if(u){var
-H=u[1],v=fT(m[1],e);if(v){var
-I=v[1],J=[3,[3,[3,a[1],F[2]],H[2]],I[2]],i=I[1],j=H[1],x=G(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
-L=K}else
-var
-L=v;var
-M=L}else
-var
-M=u;var
-N=M}else
-var
-N=t;var
-O=N}else
-var
-O=m;var
-P=O}else
-var
-P=k;var
+K=s;return K;case
+7:if(g){var
+m=g[2];if(m){var
+n=m[2];if(n){if(n[2])return 0;var
+u=f$(g[1],e);if(u){var
+L=u[1],v=f$(m[1],e);if(v){var
+M=v[1],w=f$(n[1],e);if(w){var
+N=w[1],O=[3,[3,[3,a[1],L[2]],M[2]],N[2]],i=N[1],k=M[1],C=J(L[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),P=j(f,1,[2,O,C]);if(P)return j(f,1,[1,O,C]);var
 Q=P}else
 var
-Q=f;return Q;case
+Q=w;var
+R=Q}else
+var
+R=v;var
+S=R}else
+var
+S=u;var
+T=S}else
+var
+T=n;var
+U=T}else
+var
+U=m;var
+V=U}else
+var
+V=g;return V;case
 8:var
-ad=du(f,e,b),ae=G(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=iL(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cH(function(a,c){var
-d=G(aE(a),b);return[1,[3,G(aE(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],G(b,b)],T])}return w}var
-q=au(f,o);return q?l(g,1,p(q[1])):q}function
-b4(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-p3(a){switch(a[0]){case
+ax=dI(g,e,b),ay=J(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],ay],ax]);case
+9:var
+W=a[1],x=jd(g,e);if(x){var
+az=x[1],aj=[0,d,c],ak=cP(function(a,c){var
+d=J(aG(a),b);return[1,[3,J(aG(a),b),d],c]},aj,az);return j(f,1,[2,[3,[3,W,W],J(b,b)],ak])}return x;default:var
+X=a[2],Y=a[1],y=je(g,e,Y);if(y){var
+Z=y[1],z=je(g,e,X);if(z){var
+_=z[1],A=b[1],B=b[2],l=b[3],aA=jf(l,B,_[1],_[2]),aB=jf(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
+ah=af}else
+var
+ah=z;var
+ai=ah}else
+var
+ai=y;return ai}var
+r=al(g,p);return r?j(f,1,q(r[1])):r}function
+b9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qG(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b4(b[3]),f=b4(b[2]);return[0,b4(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
 1:var
-g=ac(b4,a[3]),h=b4(a[2]);return[1,b4(a[1]),h,g];default:return[2,b4(a[1])]}}function
-iN(c,b){var
-a=b[2],d=0===a[0]?b4(a[1]):[0,a[1],a[2],a[4][1]];return iI(c,b,f(p3,b[1]),d)}function
-cN(b,a){if(b){if(a){var
-e=cN(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-iO(a,l,k,f){var
-b=av(a,l);if(b){var
-c=av(a,k);if(c){var
-d=eb(a,f);if(d){var
-e=fz(a,f);if(e)var
-m=B(a,b[1],e[1]),g=[0,P(B(a,c[1],d[1]),m)];else
+g=ae(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
+jh(c,b){var
+a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return ja(c,b,f(qG,b[1]),d)}function
+cW(b,a){if(b){if(a){var
+e=cW(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+ji(a,l,k,f){var
+b=ax(a,l);if(b){var
+c=ax(a,k);if(c){var
+d=eo(a,f);if(d){var
+e=fT(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,M(D(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3012,43 +3156,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-iP(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cN(a,a)]}var
+jj(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cW(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cH(function(a,c){var
-d=cN(a,b);return[1,[3,cN(a,b),d],c]},a,E)}var
-u=o(function(a){return ag(m(a),D)},a);if(u){var
+a=[0,d,c];return cP(function(a,c){var
+d=cW(a,b);return[1,[3,cW(a,b),d],c]},a,E)}var
+u=n(function(a){return aa(k(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-w=a[1],F=g(w);return l(f,1,[2,t(e[1],w),F])}return a;case
+w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 1:if(a){if(a[2])return 0;var
-x=a[1],G=t(e[1],x);return l(f,1,[2,g(x),G])}return a;case
+x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[2,H,a[1]]);return 0},j=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[2,a[1],J]);return 0},j=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
-e=iO(f,i,h,z);return e?af(e[1][2],d):e}var
-g=iO(f,i,h,y);return g?af(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=ji(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=ji(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cN(p,p);return l(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],M=cW(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cW(p,p);return j(f,1,[2,[3,g(q),O],N])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-k=au(s[2],i);return k?j(k[1]):k}var
+m=al(s[2],i);return m?l(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-iQ(h,g){var
+jk(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3058,44 +3202,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-p4(a){return f(function(a){return[0,a,c]},a)}function
-iR(e,m,b,k,a){if(typeof
+qH(a){return f(function(a){return[0,a,c]},a)}function
+jl(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return a9(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=iQ(a[1],k);if(g){var
-n=g[1],r=n[1],s=f(p4,a[2]);return iP(e,m,b,n[2],s,r)}return g}var
-h=iQ(a[1],k);if(h){var
+q=b[3];return a6(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jk(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qH,a[2]);return jj(e,m,b,n[2],s,r)}return g}var
+h=jk(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=au(b[1],a[2]);return j?iP(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
+k=al(b[1],a[2]);return k?jj(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-fU(a){var
-b=aE(a[1]),c=aP(G(b,a[2]),b),d=a[2];return aO(function(b,a){return[2,b,a]},d,c)}function
-fV(a){return aE(fU(a))}function
-iS(c){var
-a=fV(c),b=aE(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fW(a,b){return bJ(a[3],a[4],b)}function
-fX(a,b){var
-c=fW(a,b);return G(fV(a),c)}function
-fY(a,b){var
-c=fW(a,b);return G(iS(a),c)}function
-iT(a,b){var
-c=fW(a,b);return G(aE(a[1]),c)}function
-fZ(b,a){var
-c=fY(b,a),d=fX(b,a);return[1,[3,d,d],[3,c,c]]}function
-f0(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iT(a,d);return[4,[1,fZ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iU(a,b){var
-f=a[5],c=[2,f0(a,b),f],d=iT(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-f1(a,b){var
-c=iU(a,b);return dt(a[7],c)}function
-iV(b,a){var
-c=fZ(b,a),d=fY(b,a),e=[3,f1(b,a),d],f=fX(b,a);return[4,[1,[3,f0(b,a),f],e],c]}function
-iW(b,a){var
-c=fZ(b,a),d=fX(b,a),e=[3,f1(b,a),d],f=fY(b,a);return[4,[2,[3,f0(b,a),f],e],c]}function
-bo(c){var
+ga(a){var
+b=aG(a[1]),c=ay(J(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
+gb(a){return aG(ga(a))}function
+jm(c){var
+a=gb(c),b=aG(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gc(a,b){return bs(a[3],a[4],b)}function
+gd(a,b){var
+c=gc(a,b);return J(gb(a),c)}function
+ge(a,b){var
+c=gc(a,b);return J(jm(a),c)}function
+jn(a,b){var
+c=gc(a,b);return J(aG(a[1]),c)}function
+gf(b,a){var
+c=ge(b,a),d=gd(b,a);return[1,[3,d,d],[3,c,c]]}function
+gg(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jn(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jo(a,b){var
+f=a[5],c=[2,gg(a,b),f],d=jn(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gh(a,b){var
+c=jo(a,b);return cU(a[7],c)}function
+jp(b,a){var
+c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
+jq(b,a){var
+c=gf(b,a),d=gd(b,a),e=[3,gh(b,a),d],f=ge(b,a);return[4,[2,[3,gg(b,a),f],e],c]}function
+bt(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3104,122 +3248,122 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bo(a[2]);return g(bo(a[1]),e)}}function
-bp(e,a,b){switch(a[0]){case
+e=bt(a[2]);return g(bt(a[1]),e)}}function
+bu(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return co([0,[0,p,p],d],b);case
+p=a[1];return cu([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=r(d);for(;;){if(g){var
-l=g[1];if(mp(l[1],s))return l[2];var
+s=a[1],g=e,t=q(d);for(;;){if(g){var
+m=g[1];if(mW(m[1],s))return m[2];var
 g=g[2];continue}return t}case
-2:return ck(bp(e,a[1],b));case
+2:return cp(bu(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=K;break;case
+i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=C;break;case
+i=a[2],f=a[1],h=z;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aM;break;case
+i=a[2],f=a[1],h=aI;break;case
 7:var
-j=dg(a[2]),k=bp(e,a[1],b);if(j){if(j[1]){var
-n=ad(k),q=function(a){return v(a,n)},o=fq(cF(hT(j)),q,n);return hS(j)?o:v(o,k)}return k}return r(c);default:return cl(bp(e,a[1],b))}var
-u=bp(e,i,H(b,m(bo(f))));return h(bp(e,f,b),u)}function
-cs(c,f,b){var
+j=dv(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
+n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ig(j)),r,n);return ie(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
+u=bu(e,i,H(b,k(bt(f))));return h(bu(e,f,b),u)}function
+cy(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=H(b,m(bo(e))),k=cs(c,a[2],j),l=g(cs(c,e,b),k);return[0,bp(c,a,b),l];case
+e=a[1],j=H(b,k(bt(e))),l=cy(c,a[2],j),m=g(cy(c,e,b),l);return[0,bu(c,a,b),m];case
 8:var
-n=cs(c,a[1],b);return[0,bp(c,a,b),n];case
+n=cy(c,a[1],b);return[0,bu(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=H(b,m(bo(d))),i=cs(c,a[2],h);return g(cs(c,d,b),i)}}function
-iX(c,a,b){if(a){var
-e=a[1],d=e[2],f=H(b,m(bo(d))),h=a[2],i=bp(c,d,b),j=iX([0,[0,e[1],i],c],h,f);return g(cs(c,d,b),j)}return a}function
-dv(a){return J(bo,a)}function
-iY(c,a,b){if(a)var
-d=a[1],f=H(b,m(bo(d))),g=iY(c,a[2],f),e=[0,bp(c,d,b),g];else
+d=a[1],h=H(b,k(bt(d))),i=cy(c,a[2],h);return g(cy(c,d,b),i)}}function
+jr(c,a,b){if(a){var
+e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=jr([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
+dK(a){return y(bt,a)}function
+js(c,a,b){if(a)var
+d=a[1],f=H(b,k(bt(d))),g=js(c,a[2],f),e=[0,bu(c,d,b),g];else
 var
 e=a;return e}function
-iZ(c,a,b){if(a){var
-d=a[1],e=H(b,m(bo(d))),f=iZ(c,a[2],e);return g(cs(c,d,b),f)}return a}function
-i0(c,a,b){if(a)var
-d=a[1],f=H(b,m(dv(d))),g=i0(c,a[2],f),e=[0,iY(c,d,b),g];else
+jt(c,a,b){if(a){var
+d=a[1],e=H(b,k(bt(d))),f=jt(c,a[2],e);return g(cy(c,d,b),f)}return a}function
+ju(c,a,b){if(a)var
+d=a[1],f=H(b,k(dK(d))),g=ju(c,a[2],f),e=[0,js(c,d,b),g];else
 var
 e=a;return e}function
-i1(c,a,b){if(a){var
-d=a[1],e=H(b,m(dv(d))),f=i1(c,a[2],e);return g(iZ(c,d,b),f)}return a}function
-i2(a){return f(function(a){return[0,a[2],d]},a)}function
-i3(a){var
-c=em(0,i2(a[2])),d=cI(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cg(f(dd,a[2]),c);return g(cg(a[1],e),b)}function
-p6(a){if(typeof
+jv(c,a,b){if(a){var
+d=a[1],e=H(b,k(dK(d))),f=jv(c,a[2],e);return g(jt(c,d,b),f)}return a}function
+jw(a){return f(function(a){return[0,a[2],d]},a)}function
+jx(a){var
+c=dH(0,jw(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
+qJ(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-f2(b,d){var
+gi(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a9(function(a){return aD(e,a)},b);case
+e=a[1];return a6(function(a){return au(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=f2(b,a[1]);if(c){var
+c=gi(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-i4(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-i5(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-f3(a,c,b){var
-d=[3,i4(a),b],e=[1,[3,i5(a),c],d],f=[3,i5(a),b];return[0,[2,[3,i4(a),c],f],e]}function
-i6(c,a){var
-b=f3(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-i7(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-i8(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:i6(d[1],a):a;case
+jy(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jz(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gj(a,c,b){var
+d=[3,jy(a),b],e=[1,[3,jz(a),c],d],f=[3,jz(a),b];return[0,[2,[3,jy(a),c],f],e]}function
+jA(c,a){var
+b=gj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jB(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jC(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jA(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=f3(d[1],a[2],a[3]),m=j[1],k=f3(f[1],j[2],a[1]);return i6(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jA(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=G(e,e),n=i7(e,a),o=aP([0,b(2,c),c],n),p=G(e,a),q=aP([3,[0,b(2,c),c],p],e),r=aP([2,[0,c,c],l],a),s=aO(function(b,a){return[1,b,a]},r,q);return aP([4,[0,c,c],[1,[0,c,c],l]],aO(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-i9(b){var
-a=eo(b);return a?h5(a[1],[0,d,c]):a}function
-i_(a,n,j,i){if(i9(i)){var
-q=n?[2,[0,d,c],j]:j;return l(a,0,q)}var
-f=av(a,j);if(f){var
-g=eb(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fz(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=B(a,f[1],g[1]),k=[0,P(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=J(e,e),n=jB(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jD(b){var
+a=eG(b);return a?it(a[1],[0,d,c]):a}function
+jE(a,n,k,i){if(jD(i)){var
+q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
+f=ax(a,k);if(f){var
+g=eo(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fT(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
-k=h;var
-m=k}else
+l=h;var
+m=l}else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?A(d,o[1]):A(o[2],d)}return e}function
-dw(b,a,c){var
-d=bn(b,a[1],a[2]),e=d?i_(b,0,c,a[1]):d;return e?i_(b,1,c,a[2]):e}function
-dx(a,d){if(i9(d))return[0,$];var
-e=eb(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fz(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=E(aY(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cj(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ac(function(d){var
-e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return id(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?B(d,o[1]):B(o[2],d)}return e}function
+dL(b,a,c){var
+d=br(b,a[1],a[2]),e=d?jE(b,0,c,a[1]):d;return e?jE(b,1,c,a[2]):e}function
+dM(a,d){if(jD(d))return[0,ab];var
+e=eo(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fT(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C(aL(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ae(function(d){var
+e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iD(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-f4(d,a){var
-e=l(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-ct(a){return[0,[2,[0,d,c],a],a]}function
-i$(a,b,n,m){var
-h=bn(a,[0,d,c],b),i=h?f4(a,b):h;if(i){var
-e=dx(a,b);if(e){var
-f=av(a,n);if(f){var
-g=av(a,m);if(g){var
-o=f[1],p=g[1];return A(d,P(B(a,aj(a,e[1]),p),o)[1])}var
+gk(d,a){var
+e=j(d,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+cz(a){return[0,[2,[0,d,c],a],a]}function
+jF(a,b,n,m){var
+h=br(a,[0,d,c],b),i=h?gk(a,b):h;if(i){var
+e=dM(a,b);if(e){var
+f=ax(a,n);if(f){var
+g=ax(a,m);if(g){var
+o=f[1],p=g[1];return B(d,M(D(a,ai(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3229,215 +3373,215 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dy(a){return 1===a?p_:p$}function
-f5(d,c,b,a){var
-e=a[1],f=i8(d,c,a[2]),g=aO(function(b,a){return[1,b,a]},b,f);return aO(function(b,a){return[2,b,a]},g,e)}function
-dz(b,d){var
+dN(a){return 1===a?qN:qO}function
+gl(d,c,b,a){var
+e=a[1],f=jC(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+dO(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dj(function(a){return dz(b,a)},a)]}return[0,dj(function(a){return dz(b,a)},a)]}function
-cO(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dy(function(a){return dO(b,a)},a)]}return[0,dy(function(a){return dO(b,a)},a)]}function
+cX(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aK(ag(e,b));return f?aK(ag(e,H(d,b))):f;case
+e=a[1],f=aH(aa(e,b));return f?aH(aa(e,H(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cO(d,b,a[1]);if(g){var
+g=cX(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dA(c,b,m){var
+dP(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cO(c,b,g),i=h?dA(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cX(c,b,g),i=h?dP(c,b,f):h;if(i)var
 j=i;else{var
-k=dA(c,b,g);if(k)return cO(c,b,f);var
+k=dP(c,b,g);if(k)return cX(c,b,f);var
 j=k}return j;case
 7:var
-l=dA(c,b,a[1]);return l?cO(c,b,a[2]):l;case
+l=dP(c,b,a[1]);return l?cX(c,b,a[2]):l;case
 3:case
 4:var
-e=dA(c,b,a[1]);if(e){var
+e=dP(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cO(c,b,a[1]);default:return 1}}}function
-cu(c,e){var
+9:return cX(c,b,a[1]);default:return 1}}}function
+cA(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aK(ag(a[1],c));case
+0:return aH(aa(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cu(c,a[1]);if(d){var
+d=cA(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-f6(d,b,m){var
+gm(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=f6(d,b,a[1]);if(f){var
+f=gm(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=f6(d,b,a[1]);return g?cu(b,a[2]):g;case
+g=gm(d,b,a[1]);return g?cA(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cu(b,i);if(j){var
-k=cu(b,h);if(k)var
+h=a[2],i=a[1],j=cA(b,i);if(j){var
+k=cA(b,h);if(k)var
 e=k;else{var
-l=a_(i,d);if(l){var
+l=bb(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cu(b,c)}}}function
-ja(c,e){var
+2:return 1;default:return cA(b,c)}}}function
+jG(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hR(a[1],c);case
+0:return id(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ja(c,a[1]);if(d){var
+d=jG(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b5(b,a){return a?e(b,a[1]):a}function
-b6(c,b,a){return b5(function(b){return b5(e(c,b),a)},b)}function
-qa(a){return 0===a[0]?a[1]:0}function
-bq(b,a){switch(a[0]){case
+b_(b,a){return a?e(b,a[1]):a}function
+b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
+qP(a){return 0===a[0]?a[1]:0}function
+bv(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bq(b,a[1])];default:var
-c=bq(b,a[3]),d=bq(b,a[2]);return[2,bq(b,a[1]),d,c]}}function
-aU(b,c,a){switch(c[0]){case
-0:return bq(e(b,c[1]),a);case
+1:return[1,bv(b,a[1])];default:var
+c=bv(b,a[3]),d=bv(b,a[2]);return[2,bv(b,a[1]),d,c]}}function
+aY(b,c,a){switch(c[0]){case
+0:return bv(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bq(function(a){return S(b,a,k)},d)];case
-1:return[1,aU(b,d,a[1])];default:var
-l=aU(b,d,a[3]),m=aU(b,d,a[2]);return[2,aU(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bv(function(a){return N(b,a,k)},d)];case
+1:return[1,aY(b,d,a[1])];default:var
+l=aY(b,d,a[3]),m=aY(b,d,a[2]);return[2,aY(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bq(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return N(b,a,n)},i=function(a){return bv(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aU(b,f,j),s=aU(b,g,j);return[2,aU(b,h,j),s,r];default:var
-t=aU(b,f,a[3]),u=aU(b,g,a[2]);return[2,aU(b,h,a[1]),u,t]}}}function
-f7(c,g,a){if(a)var
+j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
+t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
+gn(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,aj(c,a)];break;case
+f=[0,a,ai(c,a)];break;case
 1:var
-h=B(c,a,b),f=[0,d$(E(a,b)),h];break;default:var
-f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=f7(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=D(c,a,b),f=[0,em(C(a,b)),h];break;default:var
+f=[0,b,ai(c,b)]}return[0,[0,e(g,f)]]},i=gn(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jb(a){if(a){var
+jH(a){if(a){var
 b=a[1];if(b)var
-c=jb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jH(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qc}function
-dB(a){if(a){var
-g=a[1],b=g[2],c=jb(g[1]);if(c)if(b){var
-h=b[1],e=dB(a[2]);if(e)var
-i=af(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qR}function
+dQ(a){if(a){var
+g=a[1],b=g[2],c=jH(g[1]);if(c)if(b){var
+h=b[1],e=dQ(a[2]);if(e)var
+i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qd}function
-f8(b,a){var
-c=a[3],d=ac(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(aZ(b),g),f,d]}function
-jc(f,d,c,b){if(d){var
+f=c;return f}return qS}function
+go(b,a){var
+c=a[3],d=ae(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
+jI(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=f8(function(a){switch(a[0]){case
+a=go(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jc(cF(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jI(b4(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,f8(qa,b))}function
-dC(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ac(function(a){return bZ(f,e,a)},d)}return[0,$]}function
-jd(d,b,a){if(b){if(a){var
-e=jd(d,b[2],a[2]);return E(bZ(b[1],z(d,c),a[1]),e)}return $}return $}function
-je(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jd(e,a,b)},j=je(e,h),k=f(function(a){var
-e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
+i=g;return i}return e(c,go(qP,b))}function
+dR(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ae(function(a){return bN(f,e,a)},d)}return[0,ab]}function
+jJ(d,b,a){if(b){if(a){var
+e=jJ(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
+jK(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jJ(e,a,b)},j=jK(e,h),k=f(function(a){var
+e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-jf(e,b,d,a){if(b)if(a)var
-f=b[1],g=jf(e,b[2],d,a[2]),c=[0,[0,f,it(e,a[1][1],d,f)],g];else
+jL(e,b,d,a){if(b)if(a)var
+f=b[1],g=jL(e,b[2],d,a[2]),c=[0,[0,f,iS(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-jg(e,d,c,b,a){if(a){var
+jM(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=jg(e,d[1],c,b,g);return[0,[0,P($,b),0],i]}var
-j=f(function(a){return[0,P($,b),0]},g),h=[0,[0,P(aB(B(e,c,ea(a[1][2]))),b),0],j]}else
+i=jM(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
+j=f(function(a){return[0,M(ab,b),0]},g),h=[0,[0,M(aE(D(e,c,en(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-ep(c,a){var
-b=ag(m(a),c);return b?ef(a):b}function
-qe(c){var
+eI(c,a){var
+b=aa(k(a),c);return b?ev(a):b}function
+qT(c){var
 a=c[2];if(a){var
-b=dC(c[3]);if(b)return A(d,P(a[1],b[1])[1]);var
+b=dR(c[3]);if(b)return B(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jh(a){return J(function(a){return g(a[1],[0,a[2],0])},a)}function
-ji(a,c,b){var
-e=I(b,c,r(d)),f=cI(0,a);return o(function(b){return dA(a,b,e)},f)}function
-dD(a){var
-b=ad(a);return K(r(c),b)}function
-eq(i,g){var
-h=dD(g),j=ad(g),e=C(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,ck(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ck(f),a,e]]:[0,[0,h,a,a],[0,a,e,ck(f)],[0,a,f,e]]}function
-jj(b,a){function
+jN(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+jO(a,c,b){var
+e=F(b,c,q(d)),f=cQ(0,a);return n(function(b){return dP(a,b,e)},f)}function
+dS(a){var
+b=af(a);return G(q(c),b)}function
+eJ(i,g){var
+h=dS(g),j=af(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
+jP(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aC(a,c(function(a){return a[3]})),d=aC(a,c(function(a){return a[2]}));return[0,aC(a,c(function(a){return a[1]})),d,b]}var
+b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jk(a){switch(a[0]){case
+jQ(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,ct(a[1]),0];default:var
-b=[0,ct(a[2]),0];return[0,ct(a[1]),b]}}function
-cP(a){return[0,[0,a[1]],[0,a[2]]]}function
-jl(a,b){if(0===b[0])return dx(a,b[1]);var
-d=dx(a,b[1]);if(d){var
-e=dx(a,b[2]);if(e){var
-g=aj(a,e[1]),h=cJ(a,E(aY(a,c),g)),i=d[1];return ac(function(b){return B(a,i,b)},h)}var
+2:return[0,cz(a[1]),0];default:var
+b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
+cY(a){return[0,[0,a[1]],[0,a[2]]]}function
+jR(a,b){if(0===b[0])return dM(a,b[1]);var
+d=dM(a,b[1]);if(d){var
+e=dM(a,b[2]);if(e){var
+g=ai(a,e[1]),h=co(a,C(aL(a,c),g)),i=d[1];return ae(function(b){return D(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jm(j,z,c,y,x,b,a){switch(b[0]){case
+jS(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-n=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
-a==="number")l=1;else
+n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
+a==="number")m=1;else
 switch(a[0]){case
 0:var
-A=a[2],C=a[1],i=o,h=p,g=function(e){var
-a=dB(e[1]);if(a){var
+A=a[2],B=a[1],i=o,h=p,g=function(e){var
+a=dQ(e[1]);if(a){var
 b=e[2];if(b){var
-d=dC(e[3]);if(d){var
-h=d[1],i=ch([0,P(aB(B(j,k,b[1])),h),0],c);return ep(c,fD(C,A,a[1],i))}var
+d=dR(e[3]);if(d){var
+h=d[1],i=cl([0,M(aE(D(j,l,b[1])),h),0],c);return eI(c,fX(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3445,22 +3589,22 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=ai(k[1],d),r=q?ai(k[2],d):q;if(!r)return r;var
-E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=dB(e[1]);if(a){var
-b=dC(e[3]);if(b){var
-g=ch([0,P($,b[1]),0],c),h=a[1];return ep(c,fD(F,E,f(function(a){return[0,a[1],$]},h),g))}var
+q=ak(l[1],d),r=q?ak(l[2],d):q;if(!r)return r;var
+E=a[2],G=a[1],i=o,h=p,g=function(e){var
+a=dQ(e[1]);if(a){var
+b=dR(e[3]);if(b){var
+g=cl([0,M(ab,b[1]),0],c),h=a[1];return eI(c,fX(G,E,f(function(a){return[0,a[1],ab]},h),g))}var
 d=b}else
 var
-d=a;return d},e=n;break;default:l=1}if(l)return 0;break;case
+d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
-G=b[2],H=b[1],J=b[3],i=G,h=H,K=0,g=function(f){var
-a=dB(f[1]);if(a){var
+H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
+a=dQ(f[1]);if(a){var
 b=f[2];if(b){var
-d=dC(f[3]);if(d){var
-k=d[1],l=ch([0,P(B(j,J,b[1]),k),0],c),e=iv(a[1],l);if(e)return ep(c,e[1]);var
+d=dR(f[3]);if(d){var
+k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iU(a[1],l);if(e)return eI(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3475,67 +3619,67 @@ u=1;if(u)return 0;break;case
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],L=b[3],M=b[2],N=b[4],O=b[1],Q=function(f){var
-a=dB(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
+a=dQ(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dC(f[3]);if(e){var
-g=ag(m(b),c),h=g?ag(m(s),c):g;if(h){var
-n=je(t,jf(t,s,d[1],b));return ep(c,il(jg(j,O,N,e[1],b),n))}var
+e=dR(f[3]);if(e){var
+g=aa(k(b),c),h=g?aa(k(s),c):g;if(h){var
+n=jK(t,jL(t,s,d[1],b));return eI(c,iL(jM(j,P,O,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-k=i}else
+l=i}else
 var
-k=d;var
-l=k}else
+l=d;var
+m=l}else
 var
-l=a;return l},i=L,h=M,g=Q,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qe,e=0;else
+i=b[1],h=0,g=qT,e=0;else
 w=1;if(w)return 0}var
-D=[0,h,i,x];return jc(e,z,g,f8(function(a){return I(a,y,qs)},D))}function
-jn(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jI(e,z,g,go(function(a){return F(a,y,q7)},C))}function
+jT(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=A(d,o);if(p)var
-h=hl(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=B(d,o);if(p)var
+h=hJ(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jm(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jS(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jm(m,l,k,j,0,i,a)}return 0}function
-qt(a){if(a[1])return 0;var
+q=f;return q}return jS(m,l,k,j,0,i,a)}return 0}function
+q8(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jo(a,K,J,H,G,F,h,p,D,V){if(o(qt,D))var
+jU(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
 q=0;else
 var
-S=f7(a,de,p),R=0,T=g(f7(a,dd,p),S),q=cm(qb,function(b){switch(b[0]){case
-0:return I(b[1],T,[0,[0,$]]);case
-1:return[0,[0,I(b[1],J,$)]];case
-2:return[0,[0,aY(a,b[1])]];case
+S=gn(a,ds,p),R=0,T=g(gn(a,dr,p),S),q=cr(qQ,function(b){switch(b[0]){case
+0:return F(b[1],T,[0,[0,ab]]);case
+1:return[0,[0,F(b[1],J,ab)]];case
+2:return[0,[0,aL(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,E(b,a)]};return aU(function(a,b){return b6(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,P(b,a)]};return aU(function(a,b){return b6(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return b$(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aB(a)]};return bq(function(a){return b5(j,a)},i);case
+i=b[1],j=function(a){return[0,aE(a)]};return bv(function(a){return b_(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aU(function(a,b){return b6(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cj(a,b);return ac(function(b){return B(a,c,b)},d)};return aU(function(a,b){return b6(p,a,b)},o,n);case
+d=cn(a,b);return ae(function(b){return D(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,aj(a,b)]};return bq(function(a){return b5(r,a)},q);default:var
-s=b[1],t=function(b){return cJ(a,b)};return bq(function(a){return b5(t,a)},s)}},K,R);var
-e=D,b=V;for(;;){if(e){var
+q=b[1],r=function(b){return[0,ai(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
+s=b[1],t=function(b){return co(a,b)};return bv(function(a){return b_(t,a)},s)}},K,R);var
+e=E,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=I(c,b,0);if(u){var
-l=au(H,c);if(l){var
-v=jn(a,G,F,h,q,l[1],i);if(v){var
-e=k,b=el(c,b);continue}var
+u=F(c,b,0);if(u){var
+l=al(I,c);if(l){var
+v=jT(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=eC(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3544,65 +3688,65 @@ var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,aj(a,b)]},p),N=f(de,r),M=0,O=g(f(dd,r),N),Q=cm(0,function(n){return function(b){switch(b[0]){case
-0:return[0,I(b[1],n,$)];case
-1:return[0,I(b[1],J,$)];case
-2:return[0,aY(a,b[1])];case
+U=0,r=f(function(b){return[0,b,ai(a,b)]},p),O=f(ds,r),N=0,P=g(f(dr,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
+0:return[0,F(b[1],n,ab)];case
+1:return[0,F(b[1],J,ab)];case
+2:return[0,aL(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b6(function(b,a){return[0,E(b,a)]},d,c);case
+c=b[2],d=b[1];return b$(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b6(function(b,a){return[0,P(b,a)]},f,e);case
+e=b[2],f=b[1];return b$(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return b5(function(a){return[0,aB(a)]},g);case
+g=b[1];return b_(function(a){return[0,aE(a)]},g);case
 6:var
-h=b[2],i=b[1];return b6(function(c,b){return[0,B(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b$(function(c,b){return[0,D(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b6(function(c,b){var
-d=cj(a,b);return ac(function(b){return B(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return b$(function(c,b){var
+d=cn(a,b);return ae(function(b){return D(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b5(function(b){return[0,aj(a,b)]},l);default:var
-m=b[1];return b5(function(b){return cJ(a,b)},m)}}}(O),K,M),j=I(h[1],Q,U);if(j){var
-m=af(j[1][2],d);L=1}else
+l=b[1];return b_(function(b){return[0,ai(a,b)]},l);default:var
+m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=F(h[1],Q,U);if(j){var
+m=ac(j[1][2],d);L=1}else
 var
 s=j}else
 var
 s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=I(c,b,0);if(y){var
-n=au(H,c);if(n){var
-z=jn(a,G,F,h,q,n[1],i);if(z){var
-e=k,b=el(c,b);continue}var
+y=F(c,b,0);if(y){var
+o=al(I,c);if(o){var
+z=jT(a,H,G,h,q,o[1],i);if(z){var
+e=k,b=eC(c,b);continue}var
 A=z}else
 var
-A=n;var
-C=A}else
+A=o;var
+B=A}else
 var
-C=y;return C}return[0,b]}}function
-jp(i,h,g,f,e,d,c,t,s,r){var
+B=y;return B}return[0,b]}}function
+jV(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jo(i,h,g,f,e,d,c,b,a[1],j);return k?o(aK,k[1]):k}var
-l=jo(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=dr(a[2],b),p=jp(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
-b=n[2],j=m,a=a[4];continue}var
+k=jU(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
+l=jU(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dG(a[2],b),p=jV(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-f9(d,a){var
-e=ad(a),f=v(v(r(b(2,c)),a),d);return K(C(ad(d),f),e)}function
-f_(a){switch(a){case
-0:return qw;case
-1:return qx;default:return 0}}function
-er(b,a){var
-c=a3(a[2],b);return g(a3(a[1],b),c)}function
-jq(q,k,p,t,o,j,s){if(j){var
-u=j[1],w=em(s,er(o,u)),R=H(s,m(er(o,u))),S=jq(q,k,p,t,o,j[2],R),i=bI(w,qy),l=bI(w,0);switch(q){case
+gp(d,a){var
+e=af(a),f=v(v(q(b(2,c)),a),d);return G(z(af(d),f),e)}function
+gq(a){switch(a){case
+0:return q$;case
+1:return ra;default:return 0}}function
+eK(b,a){var
+c=a8(a[2],b);return g(a8(a[1],b),c)}function
+jW(r,l,p,t,o,j,s){if(j){var
+u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jW(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
 0:var
-g=[0,qv,qu,r(d)];break;case
+g=[0,q_,q9,q(d)];break;case
 1:var
-g=fG;break;default:var
-G=r(d),I=r(d),g=[0,r(d),I,G]}var
-e=b2(C,g,l),y=aC(k[3],i),z=aC(k[2],i),a=[0,aC(k[1],i),z,y],J=f9(g[3],l[3]),L=f9(g[2],l[2]),M=f9(g[1],l[1]),N=K(K(K(aC(i,i),M),L),J),O=aC(a,e),P=v(r(b(2,c)),O),Q=K(v(p,N),P),A=v(a[2],e[1]),B=C(v(a[1],e[2]),A),D=v(a[1],e[3]),E=C(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ei([0,C(v(a[2],e[3]),F),E,B],t),h=b2(K,eh(p,e),a);switch(q){case
+g=cs;break;default:var
+I=q(d),J=q(d),g=[0,q(d),J,I]}var
+e=aX(z,g,m),y=aF(l[3],i),A=aF(l[2],i),a=[0,aF(l[1],i),A,y],K=gp(g[3],m[3]),L=gp(g[2],m[2]),M=gp(g[1],m[1]),N=G(G(G(aF(i,i),M),L),K),O=aF(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ew([0,z(v(a[2],e[3]),F),E,C],t),h=aX(G,dF(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
@@ -3611,7 +3755,7 @@ n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
 x=[0,[0,n,Q],S]}else
 var
 x=j;return x}function
-f$(g,a){if(typeof
+gr(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3619,155 +3763,155 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-ga(e,d,n,m,k,a){var
-f=v(ad(co(f$(m,a),k)),n);if(typeof
+gs(e,d,n,m,l,a){var
+f=v(af(cu(gr(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=au(d,a[1]);if(b)var
-g=l(e,0,a[2]),h=g?[0,C(b[1][2],f)]:g;else
+b=al(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=au(d,a[1]);if(c)var
-i=l(e,0,a[2]),j=i?[0,C(f,c[1][2])]:i;else
+c=al(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,z(f,c[1][2])]:i;else
 var
-j=c;return j}return 0}function
-jr(a,d,c,b){return f(function(a){var
-e=co(f$(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-js(b,g,s,f,i,q,p,o){if(o){var
-X=js(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+k=c;return k}return 0}function
+jX(a,d,c,b){return f(function(a){var
+e=cu(gr(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+jY(b,g,s,f,i,q,p,o){if(o){var
+X=jY(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(aZ(g),f),M,$)];else
+M=e(g,i),h=[0,t(e(a4(g),f),M,ab)];else
 switch(a[0]){case
 0:var
-j=[4,[0,c,c],a[1]],n=f,m=t;k=1;break;case
+k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
-O=[4,[0,c,c],a[1]],j=O,n=f,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
+O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=ga(b,f,i,q,p,a),h=ac(function(a){return[3,e(g,a)]},P);break;case
+P=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},P);break;case
 3:var
-Q=ga(b,f,i,q,p,a),h=ac(function(a){return[3,e(g,a)]},Q);break;case
+Q=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},Q);break;case
 6:var
-u=a[3],v=a[2],r=au(f,a[1]),K=0;if(r){var
-w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
-R=[4,u,v],S=[0,r[1],0],j=R,n=S,m=function(c,b,a){return[1,c,b,a]};k=1;K=1}else
+u=a[3],v=a[2],r=al(f,a[1]),K=0;if(r){var
+w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
+R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=au(f,B),L=0;if(C){var
-D=l(b,1,A),E=D?l(b,1,z):D;if(E){var
-T=[4,A,z],j=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};k=1;L=1}else
+z=a[3],A=a[2],B=a[1],C=al(f,B),L=0;if(C){var
+D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
+T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
 F=E}else
 var
 F=C;if(!L)var
 h=F;break;case
 8:var
-G=l(b,1,a[1]),H=G?l(b,1,a[2]):G;if(H)var
-U=aY(b,c),V=e(g,i),W=jr(f,q,p,a),I=[0,[0,e(aZ(g),W),V,U,0]];else
+G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
+U=aL(b,c),V=e(g,i),W=jX(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
-h=0}if(k)var
-N=aL(b,[0,[0,j,j],d]),h=ac(function(a){var
-c=aj(b,a),d=e(g,i);return m(e(aZ(g),n),d,c)},N);var
+h=0}if(l)var
+N=aM(b,[0,[0,k,k],d]),h=ae(function(a){var
+c=ai(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-jt(j,h,i,e,d,a){if(a){var
-n=jt(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+jZ(j,h,i,e,d,a){if(a){var
+n=jZ(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(de,jr(h,e,d,b));l=1}if(!l)var
-c=ga(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-qz(a){if(typeof
+k=f(ds,jX(h,e,d,b));l=1}if(!l)var
+c=gs(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-es(a){var
-b=cq(a[1],[0,d,c]);return b?cq(a[2],[0,d,c]):b}function
-qA(j,a,k,bg){var
-w=a[1],h=dy(w),ap=a[3],bh=[0,[0,[0,ap,ap],k],0],bi=a[2],aq=g(J(function(a){return er(k,a)},bi),bh),R=m(aq),bj=a[2],bk=m(J(function(a){return er(k,a)},bj)),ar=a[3],bm=co([0,[0,ar,ar],k],bk),bn=f_(w),bo=a[5];function
-i(a){return[0,[0,H(bn,a)]]}switch(bo[0]){case
+eL(a){var
+b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
+rd(l,a,m,bg){var
+w=a[1],h=dN(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(y(function(a){return eK(m,a)},bi),bh),S=k(aq),bj=a[2],bk=k(y(function(a){return eK(m,a)},bj)),ar=a[3],bl=cu([0,[0,ar,ar],m],bk),bm=gq(w),bn=a[5];function
+i(a){return[0,[0,H(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dD(i(0)),F=[0,eq(qf,i(0)),aX];break;case
+aX=dS(i(0)),J=[0,eJ(qU,i(0)),aX];break;case
 1:var
-aY=dD(i(0)),a0=v(dD(i(qg)),aY),a1=v(dD(i(qh)),a0),a2=eq(0,i(0)),a3=jj(eq(qj,i(qi)),a2),F=[0,jj(eq(ql,i(qk)),a3),a1];break;default:var
-a4=i(qm),a5=i(qn),u=[0,i(0),a5,a4],a6=aC(u,u),a7=K(r(c),a6),aO=aC(u,u),q=u[1],s=u[2],t=u[3],N=function(a){var
-d=ad(a),e=v(r(b(2,c)),d);return K(C(r(c),aO),e)},y=function(f,e,d,a){var
-g=S(f,v(e,d),a);return v(r(b(2,c)),g)},aP=N(t),aQ=y(K,s,t,q),aR=[0,y(C,q,t,s),aQ,aP],aS=y(C,s,t,q),aT=N(s),aU=[0,y(K,q,s,t),aT,aS],aV=y(K,q,t,s),aW=y(C,q,s,t),F=[0,[0,[0,N(q),aW,aV],aU,aR],a7]}var
-A=F[2],G=jq(w,F[1],A,bm,k,a[2],0),bp=H(R,m(a[6])),bq=f_(w),br=a[5];function
-z(a){return[0,[0,H(bq,a)]]}var
-af=ad([0,[1,bp]]);switch(br[0]){case
+aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jP(eJ(qY,i(qX)),a1),J=[0,jP(eJ(q0,i(qZ)),a2),a0];break;default:var
+a3=i(q1),a5=i(q2),u=[0,i(0),a5,a3],a7=aF(u,u),a8=G(q(c),a7),aN=aF(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
+d=af(a),e=v(q(b(2,c)),d);return G(z(q(c),aN),e)},A=function(f,e,d,a){var
+g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(G,s,t,r),aQ=[0,A(z,r,t,s),aP,aO],aR=A(z,s,t,r),aT=O(s),aU=[0,A(G,r,s,t),aT,aR],aV=A(G,r,t,s),aW=A(z,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=J[2],K=jW(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
+B(a){return[0,[0,H(bq,a)]]}var
+ag=af([0,[1,bo]]);switch(br[0]){case
 2:var
-a8=z(qo),a$=z(qp),ah=[0,z(0),a$,a8],n=[0,C(af,aC(ah,ah))];break;case
+a9=B(q3),a_=B(q4),ah=[0,B(0),a_,a9],o=[0,z(ag,aF(ah,ah))];break;case
 3:var
-ba=ad(z(qq)),bb=ad(z(0)),bc=ad(z(qr)),n=[0,C(C(v(af,K(r(c),bc)),bb),ba)];break;default:var
-n=0}var
-bs=n?[0,n[1],0]:n,bt=[0,A,g(jt(j,G,A,k,R,a[6]),bs)],T=g(cp(G),bt),as=dm(f(function(a){return dz(h,a)},T))[1],B=dl(as);function
-x(a){return bl(B,dz(h,a))}var
-bu=ac(x,n),bv=x(A),at=e(aZ(x),G),am=f_(w),an=ag(m(at),h);if(an)var
-ao=ac(function(a){return[0,[0,a,d],d]},bu),E=function(a){return I(a,B,r(d))},ae=E(bv),aM=cI(0,am),Q=o(function(a){var
-b=cO(h,a,ae),c=b?o(function(b){var
-d=b[1],c=o(function(b){var
-c=E(b);return cu(H(h,a),c)},d);if(c){var
-e=E(b[2]);return f6(ae,H(h,a),e)}return c},at):b;if(c){if(ao){var
-e=E(ao[1][1][1]);return cu(H(h,a),e)}var
+a$=af(B(q5)),ba=af(B(0)),bc=af(B(q6)),o=[0,z(z(v(ag,G(q(c),bc)),ba),a$)];break;default:var
+o=0}var
+bs=o?[0,o[1],0]:o,bt=[0,C,g(jZ(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
+x(a){return bp(D,dO(h,a))}var
+bu=ae(x,o),bv=x(C),at=e(a4(x),K),am=gq(w),an=aa(k(at),h);if(an)var
+ao=ae(function(a){return[0,[0,a,d],d]},bu),I=function(a){return F(a,D,q(d))},ad=I(bv),aL=cQ(0,am),R=n(function(a){var
+b=cX(h,a,ad),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=I(b);return cA(H(h,a),c)},d);if(c){var
+e=I(b[2]);return gm(ad,H(h,a),e)}return c},at):b;if(c){if(ao){var
+e=I(ao[1][1][1]);return cA(H(h,a),e)}var
 d=1}else
 var
-d=c;return d},aM);else
+d=c;return d},aL);else
 var
-Q=an;var
-bf=Q?am:Q,au=o(function(a){var
-b=dz(h,a),c=r(d);return a_(I(x(a),B,c),b)},T),av=au?o(function(a){return ja(h,a)},T):au,aw=av?a9(qz,a[6]):av;if(aw){var
+R=an;var
+bf=R?am:R,au=n(function(a){var
+b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jG(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
 L=a[4];switch(w){case
 0:var
-U=es(L[3]);break;case
+U=eL(L[3]);break;case
 1:var
 U=1;break;default:var
-ak=es(L[1]),al=ak?es(L[2]):ak,U=al?es(L[3]):al}var
+ak=eL(L[1]),al=ak?eL(L[2]):ak,U=al?eL(L[3]):al}var
 V=U}else
 var
 V=aw;var
-ax=V?l(j,1,a[3]):V;if(ax)var
-bw=jk(a[5]),W=o(function(a){var
-b=f4(j,a[1]);return b?f4(j,a[2]):b},bw);else
+ax=V?j(l,1,a[3]):V;if(ax)var
+bw=jQ(a[5]),W=n(function(a){var
+b=gk(l,a[1]);return b?gk(l,a[2]):b},bw);else
 var
 W=ax;if(W){var
-bx=a[6],by=g(aq,f(function(a){return f$(k,a)},bx)),X=aN(f(function(a){return aL(j,a)},by));if(X){var
-D=a[4];switch(w){case
+bx=a[6],by=g(aq,f(function(a){return gr(m,a)},bx)),X=aS(f(function(a){return aM(l,a)},by));if(X){var
+E=a[4];switch(w){case
 0:var
-Y=[0,D[1],[0,D[2],0]];break;case
+Y=[0,E[1],[0,E[2],0]];break;case
 1:var
-Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
+Y=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
 Y=0}var
-Z=aN(f(function(a){return aL(j,[0,a,k])},Y));if(Z){var
+Z=aS(f(function(a){return aM(l,[0,a,m])},Y));if(Z){var
 ay=Z[1],p=a[5];switch(p[0]){case
 0:var
-M=[0,cP(p[1]),0];break;case
+M=[0,cY(p[1]),0];break;case
 1:var
-bd=[0,cP(p[3]),0],be=[0,cP(p[2]),bd],M=[0,cP(p[1]),be];break;case
+bd=[0,cY(p[3]),0],be=[0,cY(p[2]),bd],M=[0,cY(p[1]),be];break;case
 2:var
-O=cP(ct(p[1])),M=[0,O,[0,O,[0,O,0]]];break;default:var
-P=p[2],ai=p[1],aj=[0,[1,ct(ai)[1],P],[1,ai,P]],M=[0,aj,[0,aj,[0,cP(ct(P)),0]]]}var
-_=aN(f(function(d){var
-a=jl(j,d[1]);if(a)var
-b=jl(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=cY(cz(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
+Q=p[2],ai=p[1],aj=[0,[1,cz(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cY(cz(Q)),0]]]}var
+_=aS(f(function(d){var
+a=jR(l,d[1]);if(a)var
+b=jR(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},M));if(_){var
-az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aN(f(function(a){return dx(j,a)},bz));if($){var
-aa=aN(js(j,x,bf,G,A,k,R,a[6]));if(aa){var
-ab=aa[1],aB=ag(m(g(ay,az)),h),aD=aB?o(function(a){switch(a[0]){case
+az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aS(f(function(a){return dM(l,a)},bz));if($){var
+ab=aS(jY(l,x,bf,K,C,m,S,a[6]));if(ab){var
+ac=ab[1],aB=aa(k(g(ay,az)),h),aC=aB?n(function(a){switch(a[0]){case
 2:var
-d=jh(a[2]),b=[0,a[3],d];break;case
+d=jN(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jh(a[1]),b=[0,a[2],c]}return o(function(a){return ji(h,B,a)},b)},ab):aB,aE=aD?n?ji(h,B,x(n[1])):1:aD;if(aE){var
-bA=f(function(a){return 1},ab),bB=g(ay,az),bC=ac(x,n);return jp(j,as,g(X[1],$[1]),ab,h,h,bC,bB,bA,bg)}var
-aF=aE}else
+c=jN(a[1]),b=[0,a[2],c]}return n(function(a){return jO(h,D,a)},b)},ac):aB,aD=aC?o?jO(h,D,x(o[1])):1:aC;if(aD){var
+bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jV(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
+aE=aD}else
 var
-aF=aa;var
-aG=aF}else
+aE=ab;var
+aG=aE}else
 var
 aG=$;var
 aH=aG}else
@@ -3782,25 +3926,25 @@ aJ=X;var
 aK=aJ}else
 var
 aK=W;return aK}function
-et(b,a){return bn(b,a[1],a[2])}function
-gb(b,a){var
-c=et(b,a[1]),d=c?et(b,a[2]):c;return d?et(b,a[3]):d}var
-ev=C(r(c),eu);function
-ju(e){var
-a=ad(ev);if(e)var
-f=v(r(b(2,c)),a),g=K(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aM(K(r(c),h),g);else
+eM(b,a){return br(b,a[1],a[2])}function
+gt(b,a){var
+c=eM(b,a[1]),d=c?eM(b,a[2]):c;return d?eM(b,a[3]):d}var
+eO=z(q(c),eN);function
+j0(e){var
+a=af(eO);if(e)var
+f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aI(G(q(c),h),g);else
 var
-i=K(r(b(2,c)),a),j=ad(eu),d=aM(K(v(r(b(2,c)),j),a),i);return cl(d)}function
-jv(d,b,a){if(d){var
-e=ju(b),f=K(r(c),e),g=v(C(r(c),a),f);return C(r(c),g)}var
-h=r(c),i=ju(b),j=aM(r(c),i);return C(v(a,K(r(c),j)),h)}function
-cQ(f,e,d,a){var
-g=ad(a),h=ad(d),i=C(C(r(b(2,c)),h),g),j=f?e?ev:aM(ev,v(r(b(2,c)),eu)):aM(ev,r(b(2,c))),k=v(ad(j),i);return cl(K(r(c),k))}function
-jw(g,d){var
+i=G(q(b(2,c)),a),j=af(eN),d=aI(G(v(q(b(2,c)),j),a),i);return cq(d)}function
+j1(d,b,a){if(d){var
+e=j0(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
+h=q(c),i=j0(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
+cZ(f,e,d,a){var
+g=af(a),h=af(d),i=z(z(q(b(2,c)),h),g),j=f?e?eO:aI(eO,v(q(b(2,c)),eN)):aI(eO,q(b(2,c))),k=v(af(j),i);return cq(G(q(c),k))}function
+j2(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gc(u,t,s){var
-a=f(function(a){return I(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gu(u,t,s){var
+a=f(function(a){return F(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3808,8 +3952,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ef([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return n(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ev([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3819,10 +3963,10 @@ l=i;var
 m=l}else
 var
 m=c;var
-n=m}else
+o=m}else
 var
-n=h;var
-p=n}else
+o=h;var
+p=o}else
 var
 p=b;var
 q=p}else
@@ -3831,12 +3975,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-jx(f,i,e,b,h){var
-j=f?c:d,a=aY(i,j);function
+j3(f,i,e,b,h){var
+j=f?c:d,a=aL(i,j);function
 g(b){var
-c=f?fw(b):ea(b);return P(c,a)}var
-k=[0,a$(h),0],l=[0,[0,a,b,[0,$,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-jy(r,g,q,p,e,o,n){if(o){var
+c=f?fQ(b):en(b);return M(c,a)}var
+k=[0,a3(h),0],l=[0,[0,a,b,[0,ab,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+j4(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3845,16 +3989,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(dp,b1(qD)),a=gc(p,iy(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b8,bO(rg)),a=gu(p,iZ(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=A(k[2],l[1]);b=1;c=1;d=1;break}else
+a=B(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=f(jw,qE),a=gc(p,cm(0,dn(g,jx(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
+A=f(j2,rh),a=gu(p,cr(0,dC(g,j3(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(jw,qF),a=gc(p,cm(0,dn(g,jx(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=f(j2,ri),a=gu(p,cr(0,dC(g,j3(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3864,27 +4008,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?qG:a}else
+y=a?rj:a}else
 var
 y=n;return y}return[0,n]}function
-jz(f,e,d,c,p,o,n){var
+j5(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=jy(f,e,d,c,b,a[1],g);return h?aK(h[1]):h}var
-i=jy(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dr(a[2],b),l=jz(f,e,d,c,k[1],j,a[3]);if(l){var
+h=j4(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
+i=j4(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dG(a[2],b),l=j5(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gd(a){return hV(b(2,c),cd(a,c))}function
-cR(i,a,e,w,u){var
-l=a?c:T(c),f=r(l),g=jv(a,e,qB),h=jv(a,e,qC),m=aM(g,cQ(a,e,f,g)),n=[0,K(aM(h,cQ(a,e,h,f)),m),0],o=aM(f,cQ(a,e,f,g)),p=[0,K(aM(h,cQ(a,e,g,h)),o),n],q=aM(f,cQ(a,e,h,f)),s=[0,K(aM(g,cQ(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eu):r(b(2,b(2,c))),j=dm([0,t,s]),k=[0,d,ci(i)];return jz(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-jA(a,g,b){if(af(g,gd(a))){if(b){var
+gv(a){return ii(b(2,c),b1(a,c))}function
+c0(i,a,e,w,u){var
+l=a?c:W(c),f=q(l),g=j1(a,e,re),h=j1(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j5(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+j6(a,g,b){if(ac(g,gv(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gd(a)],v=ci(a),i=[0,gd(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
-l=cR(a,1,1,h,d[1]);if(l)return cR(a,1,0,i,e[1]);var
+h=[0,g,gv(a)],v=cm(a),i=[0,gv(a),v],j=c0(a,0,1,h,b[1]),k=j?c0(a,0,0,i,c[1]):j;if(k){var
+l=c0(a,1,1,h,d[1]);if(l)return c0(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3901,202 +4045,206 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,ci(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=c0(a,0,0,r,b[1]);if(s)return c0(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-ge(a){var
-b=[1,[2,d]];return h2(function(b,a){return[1,[3,b,a]]},a,b)}function
-ew(a){return ge(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-ex(a,c){return ge(f(function(a){var
-d=[0,a[2]],b=cg(a[1],c);return[1,[7,[1,[8,ge(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-jB(f,d,c,b,a){if(0===a[0])return I(a[1],b,0);var
-g=a[1],h=dj(function(a){return jB(f,d,c,b,a)},g);return e(dn(f,d,c),h)}function
-jC(a){var
-b=a[5];return b?b[1]:cl(a[2])}function
-qH(a){var
-b=ag(m(a),qI);return b?a9(function(a){return aK(ai(a,d))},a):b}function
-jD(c,f,b,a){if(b)if(a)var
-d=b[1],g=B(c,aY(c,a[1]),f),h=jD(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+gw(a){var
+b=[1,[2,d]];return iq(function(b,a){return[1,[3,b,a]]},a,b)}function
+eP(a){return gw(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eQ(a,c){return gw(f(function(a){var
+d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gw(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+j7(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
+g=a[1],h=dy(function(a){return j7(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
+rk(a){var
+b=aa(k(a),rl);return b?a6(function(a){return aH(ak(a,d))},a):b}function
+j8(c,f,b,a){if(b)if(a)var
+d=b[1],g=D(c,aL(c,a[1]),f),h=j8(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-ey(b,a){return h1(h1(b,0),a)}function
-gf(a){if(a){var
-b=a[2],c=a[1];if(b)return ey(c,[0,qK,gf(b)]);var
+eR(b,a){return ip(ip(b,0),a)}function
+gx(a){if(a){var
+b=a[2],c=a[1];if(b)return eR(c,[0,rn,gx(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,qM,ey(gf(a),qL)]}function
-Q(a){return[0,qO,ey(gf(a),qN)]}function
-an(a){return[0,qQ,[0,a,qP]]}function
-h(b,a){return[0,as(qS,as(b,qR)),a]}function
-F(b,a){return Q([0,h(b,a),0])}function
-cS(d){var
-b=d,a=ps,e=0;for(;;){if(b){var
-c=hQ(a),b=b[1],a=c;continue}return[0,di(d4(a)),e]}}function
-gg(a){return[0,di(d8(a)),0]}function
-gh(a){var
-c=bC(a),f=0,b=0===c?pw:0<c?[0,d8(a)]:[1,d8(T(a))];if(0===b[0])var
-d=di(b[1]);else
+w(a){return[0,rp,eR(gx(a),ro)]}function
+O(a){return[0,rr,eR(gx(a),rq)]}function
+am(a){return[0,rt,[0,a,rs]]}function
+h(b,a){return[0,av(rv,av(b,ru)),a]}function
+L(b,a){return O([0,h(b,a),0])}function
+cB(d){var
+b=d,a=pZ,e=0;for(;;){if(b){var
+c=ic(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
+gy(a){return[0,dx(ei(a)),0]}function
+gz(a){var
+c=bH(a),f=0,b=0===c?p3:0<c?[0,ei(a)]:[1,ei(W(a))];if(0===b[0])var
+d=dx(b[1]);else
 var
-e=di(b[1]),d=as(a1(1,45),e);return[0,d,f]}function
-gi(a){var
-b=0,c=0<bC(a)?d8(a):pv;return[0,di(c),b]}function
-gj(a){switch(a[0]){case
-2:return qU;case
-3:return 2<=a[1]?qV:qW;case
-4:return qX;default:return qT}}function
-dE(b,a){function
-c(c,a){return _(c,gj(a))?dE(b,a):[0,q3,g(dE(b,a),q2)]}switch(a[0]){case
+e=dx(b[1]),d=av(a5(1,45),e);return[0,d,f]}function
+gA(a){var
+b=0,c=0<bH(a)?ei(a):p2;return[0,dx(c),b]}function
+gB(a){switch(a[0]){case
+2:return rx;case
+3:return 2<=a[1]?ry:rz;case
+4:return rA;default:return rw}}function
+dT(b,a){function
+c(c,a){return Y(c,gB(a))?dT(b,a):[0,rG,g(dT(b,a),rF)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aT(h),0];var
-i=[0,q4,[0,aT(f),0]];return[0,aT(h),i];case
+f==="number")return[0,aW(h),0];var
+i=[0,rH,[0,aW(f),0]];return[0,aW(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,q6,c(q5,a[1])];case
+2:return[0,rJ,c(rI,a[1])];case
 3:var
-j=a[3],k=c([0,gj(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gB(a)],j);switch(a[1]){case
 0:var
-d=qY;break;case
+d=rB;break;case
 1:var
-d=qZ;break;case
+d=rC;break;case
 2:var
-d=q0;break;default:var
-d=q1}var
-l=a[2];return g(c(gj(a),l),[0,d,k]);case
+d=rD;break;default:var
+d=rE}var
+l=a[2];return g(c(gB(a),l),[0,d,k]);case
 4:var
-m=[0,q7,gg(a[2])];return g(c(q8,a[1]),m);default:return[0,q_,g(dE(b,a[1]),q9)]}}function
-R(a){return[0,rb,g(dE(function(a){throw[0,W,ra]},a),q$)]}function
-jE(a){return[0,rd,g(dE(function(a){return a},a),rc)]}function
-b7(a){if(0===a[0])return R(a[1]);var
-b=[0,h(re,R(a[2])),0];return Q([0,h(rf,R(a[1])),b])}function
-ez(b,a){var
+m=[0,rK,gy(a[2])];return g(c(rL,a[1]),m);default:return[0,rN,g(dT(b,a[1]),rM)]}}function
+K(a){return[0,rQ,g(dT(function(a){throw[0,$,rP]},a),rO)]}function
+j9(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
+ca(a){if(0===a[0])return K(a[1]);var
+b=[0,h(rT,K(a[2])),0];return O([0,h(rU,K(a[1])),b])}function
+dU(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-rg(a){function
-b(a){return ez(b7,a)}switch(a[0]){case
+rV(a){function
+b(a){return dU(ca,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?rh:rp,i=[0,h(ri,an(f)),e],j=[0,h(rj,b7(a[4])),i],k=[0,h(rk,b(a[3])),j],l=[0,h(rl,b(a[2])),k],m=[0,h(rm,b(a[1])),l],c=[0,h(ro,an(rn)),m];break;case
+e=0,f=a[5]?rW:r4,i=[0,h(rX,am(f)),e],j=[0,h(rY,ca(a[4])),i],k=[0,h(rZ,b(a[3])),j],l=[0,h(r0,b(a[2])),k],m=[0,h(r1,b(a[1])),l],c=[0,h(r3,am(r2)),m];break;case
 1:var
-d=a[3],n=d?[0,h(rq,b(d[1])),0]:d,o=[0,h(rr,b(a[2])),0],p=[0,h(rs,b(a[1])),o],c=g([0,h(ru,an(rt)),p],n);break;default:var
-q=[0,h(rv,b(a[1])),0],c=[0,h(rx,an(rw)),q]}return Q(c)}function
-ry(a){function
-b(a){return ez(b7,a)}var
-c=0,d=a[7]?rz:rJ,e=[0,h(rA,an(d)),c],f=[0,h(rB,b7(a[6])),e],g=[0,h(rC,b7(a[5])),f],i=[0,h(rD,b(a[4])),g],j=[0,h(rE,b(a[3])),i],k=[0,h(rF,b(a[2])),j],l=[0,h(rG,b(a[1])),k];return Q([0,h(rI,an(rH)),l])}function
-gk(a){switch(a){case
-0:return rK;case
-1:return rL;case
-2:return rM;case
-3:return rN;case
-4:return rO;case
-5:return rP;case
-6:return rQ;case
-7:return rR;default:return rS}}function
-gl(a){switch(a[0]){case
-0:return rT;case
-1:return rU;default:return rV}}function
-dF(a){var
+d=a[3],n=d?[0,h(r5,b(d[1])),0]:d,o=[0,h(r6,b(a[2])),0],p=[0,h(r7,b(a[1])),o],c=g([0,h(r9,am(r8)),p],n);break;default:var
+q=[0,h(r_,b(a[1])),0],c=[0,h(sa,am(r$)),q]}return O(c)}function
+sb(a){function
+b(a){return dU(ca,a)}var
+c=0,d=a[7]?sc:sm,e=[0,h(sd,am(d)),c],f=[0,h(se,ca(a[6])),e],g=[0,h(sf,ca(a[5])),f],i=[0,h(sg,b(a[4])),g],j=[0,h(sh,b(a[3])),i],k=[0,h(si,b(a[2])),j],l=[0,h(sj,b(a[1])),k];return O([0,h(sl,am(sk)),l])}function
+gC(a){switch(a){case
+0:return sn;case
+1:return so;case
+2:return sp;case
+3:return sq;case
+4:return sr;case
+5:return ss;case
+6:return st;case
+7:return su;case
+8:return sv;default:return sw}}function
+gD(a){switch(a[0]){case
+0:return sx;case
+1:return sy;default:return sz}}function
+dV(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,R(b[2]),0],e=w([0,R(b[1]),i]);else
+i=[0,K(b[2]),0],e=w([0,K(b[1]),i]);else
 var
-e=R(b[1]);var
-k=[0,h(rW,e),j],l=[0,h(rX,an(gl(a[4]))),k],c=a[3];if(c)var
-n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rY:r2,f=[0,h(rZ,F(o,n)),m];else
+e=K(b[1]);var
+k=[0,h(sA,e),j],l=[0,h(sB,am(gD(a[4]))),k],c=a[3];if(c)var
+n=w([0,K(c[1]),0]),m=0,o=6===a[1]?sC:sG,f=[0,h(sD,L(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(r0,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(r1,an(gk(a[1]))),r])}function
-jF(a){if(0===a[0]){var
-b=[0,h(r3,ez(R,a[2])),0];return F(r5,Q([0,h(r4,ez(R,a[1])),b]))}var
-c=[0,R(a[5]),0],d=[0,h(r6,w([0,R(a[4]),c])),0],e=[0,h(r7,R(a[3])),d],f=[0,R(a[2]),0];return F(r9,Q([0,h(r8,w([0,R(a[1]),f])),e]))}function
-sb(a){function
-b(a){return w(f(b7,a))}var
-c=[0,h(sc,b(a[2])),0],d=[0,h(sd,b(a[1])),c];return Q([0,h(sf,an(se)),d])}function
-jG(c,b,a){var
-d=[0,h(sp,w(f(dF,a))),0],e=[0,h(sq,jF(b)),d];return Q([0,h(ss,F(sr,w(f(rg,c)))),e])}function
-st(a){switch(a[0]){case
-0:return F(su,jG(a[1],a[2],a[3]));case
+p=g(f,l),d=a[2],q=d?[0,h(sE,cB(d[1])),0]:d,r=g(q,p);return O([0,h(sF,am(gC(a[1]))),r])}function
+j_(a){if(0===a[0]){var
+b=[0,h(sH,dU(K,a[2])),0];return L(sJ,O([0,h(sI,dU(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,h(sK,w([0,K(a[4]),c])),0],e=[0,h(sL,K(a[3])),d],f=[0,K(a[2]),0];return L(sN,O([0,h(sM,w([0,K(a[1]),f])),e]))}function
+sR(a){function
+b(a){return w(f(ca,a))}var
+c=[0,h(sS,b(a[2])),0],d=[0,h(sT,b(a[1])),c];return O([0,h(sV,am(sU)),d])}function
+s5(a){function
+b(a){return dU(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(s6,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s7,w([0,K(a[3]),f])),0],j=[0,h(s8,K(a[2])),i],k=[0,h(s9,cB(a[1])),j],d=g([0,h(s$,am(s_)),k],e);else
+var
+l=[0,h(ta,K(a[4])),0],m=[0,h(tb,b(a[3])),l],n=[0,h(tc,b(a[2])),m],o=a[1]?td:tf,d=[0,h(te,am(o)),n];return O(d)}function
+j$(d,c,a,b){var
+e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j_(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
+tl(a){switch(a[0]){case
+0:return L(tm,j$(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(sv,w(f(dF,a[3]))),0],p=[0,h(sw,jF(a[2])),o];return F(sz,Q([0,h(sy,F(sx,w(f(ry,a[1])))),p]));case
+o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j_(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
 2:var
-q=[0,h(sA,w(f(dF,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,R(a),0];return w([0,R(b),c])};switch(b[0]){case
+q=[0,h(ts,w(f(dV,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,K(a),0];return w([0,K(b),c])};switch(b[0]){case
 0:var
-d=F(sg,c(b[1],b[2]));break;case
+d=L(sW,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(sh,c(g[1],g[2])),0],m=[0,h(si,c(i[1],i[2])),l],d=F(sk,Q([0,h(sj,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(sX,c(g[1],g[2])),0],m=[0,h(sY,c(i[1],i[2])),l],d=L(s0,O([0,h(sZ,c(j[1],j[2])),m]));break;case
 2:var
-d=F(sl,R(b[1]));break;default:var
-n=[0,h(sm,R(b[2])),0],d=F(so,Q([0,h(sn,R(b[1])),n]))}var
-r=[0,h(sB,d),q],s=[0,h(sC,w(f(R,a[5]))),0],t=[0,h(sF,F(sE,Q([0,h(sD,w(f(R,a[4]))),s]))),r],u=[0,h(sG,R(a[3])),0],v=Q([0,h(sH,w(f(sb,a[2]))),u]);switch(a[1]){case
+d=L(s1,K(b[1]));break;default:var
+n=[0,h(s2,K(b[2])),0],d=L(s4,O([0,h(s3,K(b[1])),n]))}var
+r=[0,h(tt,d),q],s=[0,h(tu,w(f(K,a[5]))),0],t=[0,h(tx,L(tw,O([0,h(tv,w(f(K,a[4]))),s]))),r],u=[0,h(ty,K(a[3])),0],v=O([0,h(tz,w(f(sR,a[2]))),u]);switch(a[1]){case
 0:var
-e=r_;break;case
+e=sO;break;case
 1:var
-e=r$;break;default:var
-e=sa}return F(sJ,Q([0,h(sI,F(e,v)),t]));case
+e=sP;break;default:var
+e=sQ}return L(tB,O([0,h(tA,L(e,v)),t]));case
 3:var
-x=[0,h(sK,w(f(dF,a[7]))),0],y=[0,h(sL,w(f(R,a[6]))),0],z=[0,h(sO,F(sN,Q([0,h(sM,w(f(R,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(sQ,w(f(function(a){return F(sP,w(f(jE,a)))},B))),A],D=a[3],E=[0,h(sR,w(f(function(a){var
-b=[0,jE(a[2]),0];return w([0,an(a[1]),b])},D))),C],G=a[2],H=[0,h(sS,w(f(function(a){var
-b=[0,b7(a[2]),0];return w([0,an(a[1]),b])},G))),E];return F(sW,Q([0,h(sV,F(sU,Q([0,h(sT,w(f(an,a[1]))),H]))),z]));case
+x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j9,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
+b=[0,j9(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
+b=[0,ca(a[2]),0];return w([0,am(a[1]),b])},F))),E];return L(tO,O([0,h(tN,L(tM,O([0,h(tL,w(f(am,a[1]))),G]))),z]));case
 4:var
-I=[0,h(sX,w(f(dF,a[3]))),0],J=[0,h(s0,F(sZ,Q([0,h(sY,R(a[2])),0]))),I];return F(s4,Q([0,h(s3,F(s2,Q([0,h(s1,R(a[1])),0]))),J]));case
+H=[0,h(tP,w(f(dV,a[3]))),0],I=[0,h(tS,L(tR,O([0,h(tQ,K(a[2])),0]))),H];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,K(a[1])),0]))),I]));case
 5:var
-K=[0,h(s5,R(a[5])),0];return F(s7,Q([0,h(s6,jG(a[1],[0,a[2],a[3]],a[4])),K]));default:var
-k=a[1],L=0,M=k?b7(k[1]):an(s_);return F(s9,Q([0,h(s8,M),L]))}}function
-eA(a){return w(f(gh,a))}function
-jH(b,a){var
-c=[0,h(s$,gi(a)),0];return Q([0,h(ta,w(f(eA,b))),c])}function
-eB(a){switch(a[0]){case
-0:return an(a[1]);case
+J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,j$(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
+k=a[1],M=0,N=k?ca(k[1]):am(t2);return L(t1,O([0,h(t0,N),M]))}}function
+eS(a){return w(f(gz,a))}function
+ka(b,a){var
+c=[0,h(t3,gA(a)),0];return O([0,h(t4,w(f(eS,b))),c])}function
+eT(a){switch(a[0]){case
+0:return am(a[1]);case
 1:var
-b=jH(a[2],a[3]);return F(a[1],b);case
+b=ka(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?tb:td;return F(tc,an(c));case
+c=a[1]?t5:t7;return L(t6,am(c));case
 3:var
-d=[0,eA(a[3]),0];return F(te,w([0,jH(a[1],a[2]),d]));case
+d=[0,eS(a[3]),0];return L(t8,w([0,ka(a[1],a[2]),d]));case
 4:var
-e=[0,gi(a[3]),0],f=[0,gh(a[2]),e];return F(tf,w([0,eB(a[1]),f]));case
+e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return L(t9,w([0,eT(a[1]),f]));case
 5:var
-g=[0,gi(a[3]),0],h=[0,gh(a[2]),g];return F(tg,w([0,eB(a[1]),h]));default:return F(th,eB(a[1]))}}function
-ti(a){var
-b=[0,eB(a[2]),0];return w([0,cS(a[1]),b])}function
-jI(a){if(typeof
-a==="number")return an(tj);else{if(0===a[0]){var
-b=[0,w(f(eA,a[2])),0];return F(tk,w([0,cS(a[1]),b]))}var
-c=[0,cS(a[2]),0];return F(tl,w([0,cS(a[1]),c]))}}function
-tm(a){var
-b=a[4],i=b?[0,h(tn,eA([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(to,jI(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(tp,cS(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(tq,w(f(ti,[0,c[1],c[2]]))),0]:c;return Q(g(n,m))}function
-gm(a){var
-b=hC(hB(y(a),function(b){return N(a,b)}));return o(function(a){var
-b=aK(34===a?1:0),c=b?aK(92===a?1:0):b,d=c?_(tK,d9(a)):c;return d?_(d9(a),tL):d},b)}function
-eC(b){function
+g=[0,gA(a[3]),0],h=[0,gz(a[2]),g];return L(t_,w([0,eT(a[1]),h]));default:return L(t$,eT(a[1]))}}function
+ua(a){var
+b=[0,eT(a[2]),0];return w([0,cB(a[1]),b])}function
+kb(a){if(typeof
+a==="number")return am(ub);else{if(0===a[0]){var
+b=[0,w(f(eS,a[2])),0];return L(uc,w([0,cB(a[1]),b]))}var
+c=[0,cB(a[2]),0];return L(ud,w([0,cB(a[1]),c]))}}function
+ue(a){var
+b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kb(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+gE(a){var
+b=h0(hZ(E(a),function(b){return R(a,b)}));return n(function(a){var
+b=aH(34===a?1:0),c=b?aH(92===a?1:0):b,d=c?Y(uC,ek(a)):c;return d?Y(ek(a),uD):d},b)}function
+eU(b){function
 c(f){var
-a=d9(f),b=_(tM,a),c=b?_(a,tN):b;if(c)var
+a=ek(f),b=Y(uE,a),c=b?Y(a,uF):b;if(c)var
 d=c;else{var
-e=_(tO,a);if(e)return _(a,tP);var
+e=Y(uG,a);if(e)return Y(a,uH);var
 d=e}return d}var
-a=hC(hB(y(b),function(a){return N(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?o(function(a){var
+a=h0(hZ(E(b),function(a){return R(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=d9(a),f=_(tQ,e),h=f?_(e,tR):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(m(d),tS):f;if(g)return aK(aD(b,tT));var
+e=ek(a),f=Y(uI,e),h=f?Y(e,uJ):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Y(k(d),uK):f;if(g)return aH(au(b,uL));var
 h=g}else
 var
 h=a;return h}function
-gn(c){var
+gF(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eC(a[1]);case
+1:return eU(a[1]);case
 3:var
-b=gn(a[2]);if(b){var
+b=gF(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cT(m){var
+c1(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4107,99 +4255,116 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=d4(a[2]);if(typeof
+f=ef(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cT(a[2]);if(i){var
+i=c1(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cT(a[1]),l=k?d7(b(2,c),j):k;return l?d7(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c1(a[1]),l=k?eh(b(2,c),j):k;return l?eh(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-dG(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b8(a){return J(cU,dG(a))}function
-jJ(a){switch(a[0]){case
+c2(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cb(a){return y(c2,bc(a))}function
+kc(a){switch(a[0]){case
 0:var
-c=cU(a[4]),d=g(b8(a[3]),c),e=g(b8(a[2]),d);return g(b8(a[1]),e);case
+c=c2(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
 1:var
-b=a[3],f=b?b8(b[1]):b,h=g(b8(a[2]),f);return g(b8(a[1]),h);default:return b8(a[1])}}function
-tU(a){var
-b=J(cU,[0,a[5],[0,a[6],0]]);return g(J(b8,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-jK(a){if(0===a[0]){var
-b=dG(a[2]);return g(dG(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-cV(c){var
+b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
+uM(a){var
+b=y(c2,[0,a[5],[0,a[6],0]]);return g(y(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+kd(a){if(0===a[0]){var
+b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+c3(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-jL(a){var
-d=d7(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?d7(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-jM(a,b){return b?[3,jM(a,b[1]),a]:a}function
+uN(a){if(0===a[0]){var
+b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
+ke(a){var
+d=eh(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eh(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+kf(a,b){return b?[3,kf(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return q(j,a)},l=fq(hO(h),k,c);return[0,hX(hP(d4(a[1]),h)),l];case
-1:throw[0,W,tV];case
+h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ia(h),k,c);return[0,ik(ib(ef(a[1]),h)),l];case
+1:throw[0,$,uO];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,T(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=cF(dg(a[2]));return jM(i(a[1]),m);default:return[5,i(a[1])]}}function
-bK(a){if(0===a[0]){var
+m=b4(dv(a[2]));return kf(i(a[1]),m);default:return[5,i(a[1])]}}function
+bQ(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-ba(a){var
-b=bK(a[3]),c=bK(a[2]);return[0,bK(a[1]),c,b]}function
-tW(a){switch(a[0]){case
+bd(a){var
+b=bQ(a[3]),c=bQ(a[2]);return[0,bQ(a[1]),c,b]}function
+uP(a){switch(a[0]){case
 0:var
-b=a[5],c=bK(a[4]),d=ba(a[3]),e=ba(a[2]);return[0,[0,ba(a[1]),e,d,c,b]];case
+b=a[5],c=bQ(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
 1:var
-f=ac(ba,a[3]),g=ba(a[2]);return[1,ba(a[1]),g,f];default:return[2,ba(a[1])]}}function
-jN(a){if(0===a[0]){var
+f=ae(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
+kg(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-tX(a){if(a[1])return 0;var
+dW(a){var
+b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
+kh(a){if(0===a[0]){var
+b=a[5],h=b?dW(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b4(a[1]),l,k,j,h]}var
+e=a[4],f=a[3],g=a[2];if(a[1]){var
+m=dW(f),n=dW(g);return[2,i(e),n,m]}var
+o=dW(f),p=dW(g);return[1,i(e),p,o]}function
+gG(b,a){return 0===b[0]?0===a[0]?aa(b[1],a[1]):0:0===a[0]?0:du(b[1],a[1])}function
+gH(b,a){if(a){var
+c=a[1],d=a[2],e=gH(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fO(function(a){return aH(gG(a[1],a[2]))},h),e)}return a}function
+uQ(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eD(c,j,b){var
-x=m(c),d=J(function(a){switch(a[1]){case
+eV(c,j,A,b){var
+B=k(c),d=y(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
 c=a[4];switch(c[0]){case
 0:var
-q=c[1],b=function(a){return[2,a,i(q)]};break;case
+r=c[1],b=function(a){return[2,a,i(r)]};break;case
 1:var
-s=c[1],b=function(a){return[3,a,i(s)]};break;default:return 0}break;case
+t=c[1],b=function(a){return[3,a,i(t)]};break;default:return 0}break;case
 2:var
 j=a[4];if(1!==j[0])return 0;var
-d=a[3],t=j[1];if(!d)return d;var
-u=d[1],b=function(a){var
-b=i(t);return[4,a,i(u),b]};break;case
+d=a[3],u=j[1];if(!d)return d;var
+v=d[1],b=function(a){var
+b=i(u);return[4,a,i(v),b]};break;case
 3:var
 k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
 4:var
 l=a[4];if(0!==l[0])return 0;var
-v=l[1],b=function(a){return[6,a,i(v)]};break;case
+w=l[1],b=function(a){return[6,a,i(w)]};break;case
 5:var
 m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
 6:var
 n=a[4];if(0===n[0]){var
 e=a[3];if(e)var
-w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
+x=i(n[1]),o=[0,[8,i(e[1]),x],0];else
 var
 o=e;return o}return 0;case
 7:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;default:return 0}var
-h=a[2],r=h?[0,cF(h[1]),0]:cI(0,x);return f(b,r)},b),a=J(tX,b),e=a?[0,a[1],a[2]]:tZ,h=g(e,d),k=jN(j);return[0,f(tW,c),k,h]}function
-t0(a){if(a[1])return 0;var
+p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;case
+8:return 0;default:var
+q=a[4];if(0===q[0]){var
+y=q[1],z=gH(0,A);return f(function(a){var
+b=i(y),c=kh(a[2]);return[10,kh(a[1]),c,b]},z)}return 0}var
+h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kg(j);return[0,f(uP,c),l,h]}function
+uT(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-cW(z,b){var
-c=J(function(a){switch(a[1]){case
+c4(z,b){var
+c=y(function(a){switch(a[1]){case
 0:var
 h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
@@ -4228,33 +4393,33 @@ o=a[4];if(1!==o[0])return 0;var
 g=a[3],x=o[1];if(!g)return g;var
 y=g[1],c=function(a){var
 b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,cF(j[1]),0]:cI(0,z);return f(c,q)},b),a=J(t0,b),d=a?[0,a[1],a[2]]:t1;return g(d,c)}function
-bL(h,g,a){switch(a[1]){case
+j=a[2],q=j?[0,b4(j[1]),0]:cQ(0,z);return f(c,q)},b),a=y(uT,b),d=a?[0,a[1],a[2]]:uU;return g(d,c)}function
+bR(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=d5(h,i);if(b){var
+i=2===a[4][0]?1:0,b=du(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=_(t2,d);return e?_(d,g):e}var
+d=c[1],e=Y(uV,d);return e?Y(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cv(a){switch(a[0]){case
+cC(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cv(a[1])];case
+2:return[2,cC(a[1])];case
 3:var
-b=cv(a[2]),c=cv(a[3]);switch(a[1]){case
+b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cv(a[1]),d];default:return[8,cv(a[1])]}}function
-jO(b){function
+d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
+ki(b){function
 a(e){var
-a=[0,d,c];return I(e,b,[0,a,a])}var
-e=a(t4),f=a(t5);return[0,a(0),f,e]}function
-go(a){function
+a=[0,d,c];return F(e,b,[0,a,a])}var
+e=a(uX),f=a(uY);return[0,a(0),f,e]}function
+gI(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4262,64 +4427,64 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-jP(j,a,h,g,e,d,c){function
-b(a){return jO(f(bK,a))}var
-k=cW(m(a),c),l=go(d),n=cg(g,e),o=jO(f(function(a){var
+kj(j,a,h,g,e,d,c){function
+b(a){return ki(f(bQ,a))}var
+l=c4(k(a),c),m=gI(d),n=ck(g,e),o=ki(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
-t6(a){var
-b=a[7],c=bK(a[6]),d=bK(a[5]),e=ba(a[4]),f=ba(a[3]),g=ba(a[2]);return[0,ba(a[1]),g,f,e,d,c,b]}var
-k=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-cX(h){var
-a=cH(function(f,e){var
-a=av(k,f);if(a)var
-b=a[1],c=cf(fd(b[1]),fd(b[2]));else
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
+uZ(a){var
+b=a[7],c=bQ(a[6]),d=bQ(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+c5(h){var
+a=cP(function(f,e){var
+a=ax(m,f);if(a)var
+b=a[1],c=cj(fw(b[1]),fw(b[2]));else
 var
-c=d;return cf(c,e)},d,h);if(af(d,a)){var
-f=bC(a);if(0===f||!(0<f&&!A(a,c)))var
+c=d;return cj(c,e)},d,h);if(ac(d,a)){var
+f=bH(a);if(0===f||!(0<f&&!B(a,c)))var
 g=d;else
 var
-b=bj(a,aW(2)),e=b[1],g=ai(b[2],d)?d6(e):d6(e);return cd(g,k)}return d}function
-eE(a){return[0,a[1],[0,a[2],0]]}function
-br(a){var
-b=eE(a[3]),c=g(eE(a[2]),b);return g(eE(a[1]),c)}function
-t7(a){return 0===a[0]?eE(a[1][4]):0}function
-t8(a){switch(a[0]){case
+b=bn(a,a1(2)),e=b[1],g=ak(b[2],d)?eg(e):eg(e);return b1(g,m)}return d}function
+eW(a){return[0,a[1],[0,a[2],0]]}function
+bw(a){var
+b=eW(a[3]),c=g(eW(a[2]),b);return g(eW(a[1]),c)}function
+u0(a){return 0===a[0]?eW(a[1][4]):0}function
+u1(a){switch(a[0]){case
 0:var
-b=a[1],c=br(b[3]);return g(br(b[2]),c);case
+b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
 1:var
-d=br(a[2]);return g(br(a[1]),d);default:return 0}}function
-jQ(a){switch(a[0]){case
-0:return cX(br(a[1][1]));case
+d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
+kk(a){switch(a[0]){case
+0:return c5(bw(a[1][1]));case
 1:var
-b=a[3];return b?cX(br(b[1])):d;default:return cX(br(a[1]))}}function
-jR(b){var
-a=J(t7,b),d=a?[0,a[1],a[2]]:J(t8,b);return z(c,cX(d))}function
-eF(a){switch(a[0]){case
+b=a[3];return b?c5(bw(b[1])):d;default:return c5(bw(a[1]))}}function
+kl(b){var
+a=y(u0,b),d=a?[0,a[1],a[2]]:y(u1,b);return A(c,c5(d))}function
+eX(a){switch(a[0]){case
 0:var
-b=a[1];if(aD(b,t9))return t_;if(aD(b,t$))return ua;if(aD(b,ub))return uc;if(aD(b,ud))return ue;var
-h=aD(b,uf),j=h?ug:h;return j;case
+b=a[1];if(au(b,u2))return u3;if(au(b,u4))return u5;if(au(b,u6))return u7;if(au(b,u8))return u9;var
+h=au(b,u_),j=h?u$:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aD(e,uh))return[0,[0,c,d]];if(aD(e,ui))return[0,[1,c,d]];var
-i=aD(e,uj),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(au(e,va))return[0,[0,c,d]];if(au(e,vb))return[0,[1,c,d]];if(au(e,vc))return[0,[2,c,d]];var
+i=au(e,vd),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=eF(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=eX(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=eF(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=eF(a[1]);return ac(function(a){return[6,a]},n)}}function
-jS(a){if(a){var
-d=a[1],b=eF(d[2]);if(b)var
-c=jS(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=eX(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=eX(a[1]);return ae(function(a){return[6,a]},n)}}function
+km(a){if(a){var
+d=a[1],b=eX(d[2]);if(b)var
+c=km(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return uk}function
-cY(c,a){if(c)if(a){var
+e=b;return e}return ve}function
+c6(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=jS(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=km(b[1]);if(d){var
 k=d[1];if(h){var
-e=cY(j,i);if(e){var
-l=e[1],f=cY(j,l[2]);if(f)var
+e=c6(j,i);if(e){var
+l=e[1],f=c6(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4334,166 +4499,167 @@ var
 g=a;else
 var
 g=c;return g}function
-gp(d,a){if(d){if(a){var
-b=cY(m(a),a);if(b)var
-e=b[1],c=gp(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gJ(d,a){if(d){if(a){var
+b=c6(k(a),a);if(b)var
+e=b[1],c=gJ(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return ul}return a?0:um}function
-gq(a){return typeof
+f=b;return f}return vf}return a?0:vg}function
+gK(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gr(d,a){if(d)if(a){var
+gL(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gr(k,j);if(e){var
-l=e[1],f=gr(k,l[2]);if(f)var
+e=gL(k,j);if(e){var
+l=e[1],f=gL(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gq(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,gK(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cw(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bb(a,e){var
-b=cw(a[1],e),c=cw(a[2],b[2]),d=cw(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jT(d,c){if(d){var
+cD(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+be(a,e){var
+b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kn(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bb(a[1],c),f=bb(a[2],e[2]),g=bb(a[3],f[2]),h=cw(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bb(a[1],c),k=j[1],l=bb(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bb(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=be(a[1],c),k=j[1],l=be(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bb(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jU(b,i){if(b){var
-a=b[1],c=bb(a[1],i),d=bb(a[2],c[2]),e=bb(a[3],d[2]),f=bb(a[4],e[2]),g=cw(a[5],f[2]),h=cw(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jU(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gs(a,b){if(a){var
-c=cw(a[1],b),d=gs(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gt(b){function
-a(a){return I(a,b,[0,d,c])}var
-e=a(uo),f=a(up);return[0,a(0),f,e]}function
-jV(a,b){if(a){var
-c=a[1],d=gs(c[1],b),e=gs(c[2],d[2]),f=jV(a[2],e[2]),g=f[2],h=f[1],i=gt(e[1]);return[0,[0,[0,gt(d[1]),i],h],g]}return[0,0,b]}function
-eG(a){return iG(k,a)}function
-uq(a){if(typeof
+p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=kn(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+ko(b,i){if(b){var
+a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=ko(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gM(a,b){if(a){var
+c=cD(a[1],b),d=gM(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gN(b){function
+a(a){return F(a,b,[0,d,c])}var
+e=a(vi),f=a(vj);return[0,a(0),f,e]}function
+kp(a,b){if(a){var
+c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kp(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
+c7(a){return i_(m,a)}function
+vk(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=l(k,1,a[2]);return b?l(k,1,a[3]):b;case
-5:return l(k,1,[2,a[1],[0,c,c]]);case
-6:return l(k,1,a[2]);case
+b=j(m,1,a[2]);return b?j(m,1,a[3]):b;case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
+6:return j(m,1,a[2]);case
 8:var
-d=l(k,1,a[1]);return d?l(k,1,a[2]):d;case
+d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
+10:return j(m,0,a[3]);case
 2:case
-3:return eG(a[2]);default:return l(k,1,a[1])}}function
-gu(a){if(typeof
+3:return c7(a[2]);default:return j(m,1,a[1])}}function
+gO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=l(k,1,[2,d,e]),g=f?l(k,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(k,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?l(k,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
-5:return l(k,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
-j=l(k,1,a[1]);return j?l(k,1,a[2]):j;case
+k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
-1:return l(k,1,a[1]);case
+1:return j(m,1,a[1]);case
 2:case
-3:return eG(a[2]);default:var
-i=l(k,1,a[2]);return i?l(k,1,a[3]):i}}function
-eH(d){var
+3:return c7(a[2]);default:var
+i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
+eY(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aK(a9(function(d){return function(a){var
-h=gk(a[1]),e=aD(gk(d[1]),h);if(e)var
-i=gl(a[4]),b=aD(gl(d[4]),i);else
+b=a[2],e=a[1],c=aH(a6(function(d){return function(a){var
+h=gC(a[1]),e=au(gC(d[1]),h);if(e)var
+i=gD(a[4]),b=au(gD(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?ag(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?aa(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dH(a){if(0===a[0])return eG(i(a[1]));var
-b=i(a[1]);return l(k,1,[2,i(a[2]),b])}function
-bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ur(a){switch(a[0]){case
+dX(a){if(0===a[0])return c7(i(a[1]));var
+b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
+bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+kq(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bc(a[3]),c),e=g(bc(a[2]),d);return g(bc(a[1]),e);case
+c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
 1:var
-b=a[3],f=b?bc(b[1]):b,h=g(bc(a[2]),f);return g(bc(a[1]),h);default:return bc(a[1])}}function
-us(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bc(a[4]),b),d=g(bc(a[3]),c),e=g(bc(a[2]),d);return g(bc(a[1]),e)}function
-gv(a){switch(a){case
-0:return uw;case
-1:return ux;default:return 0}}function
-eI(a){var
-f=a[1],d=l(k,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bn(k,a[1],a[2]):d;if(e){var
-g=a[2];return l(k,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
-gw(a){var
-e=bn(k,[0,d,c],a);return e?l(k,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-jW(c,d,D,t,s,r,g){function
+b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
+kr(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
+gP(a){switch(a){case
+0:return vo;case
+1:return vp;default:return 0}}function
+eZ(a){var
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
+gQ(a){var
+e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+ks(c,d,D,t,s,r,g){function
 u(a){var
-d=c?uu:uv,b=ag(m(a),d);return b?o(dH,a):b}var
-v=o(function(a){var
+d=c?vm:vn,b=aa(k(a),d);return b?n(dX,a):b}var
+v=n(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=m(d),h=_(dy(c),E);else
+E=k(d),h=Y(dN(c),E);else
 var
 h=v;var
-w=h?_(m(d),uy):h,x=w?l(k,1,i(D)):w;if(x)var
-F=gv(c),j=ag(m(t),F);else
+w=h?Y(k(d),vq):h,x=w?j(m,1,i(D)):w;if(x)var
+F=gP(c),l=aa(k(t),F);else
 var
-j=x;if(j)var
-G=gv(c),n=ag(m(s),G);else
+l=x;if(l)var
+G=gP(c),o=aa(k(s),G);else
 var
-n=j;if(n)var
-H=cg(t,s),p=o(function(a){var
-b=i(a[2]);return bn(k,i(a[1]),b)},H);else
+o=l;if(o)var
+H=ck(t,s),p=n(function(a){var
+b=i(a[2]);return br(m,i(a[1]),b)},H);else
 var
-p=n;if(p)if(c){var
-a=go(r);switch(a[0]){case
+p=o;if(p)if(c){var
+a=gI(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=eI(a[1]),A=z?eI(a[2]):z,e=A?eI(a[3]):A;break;case
+z=eZ(a[1]),A=z?eZ(a[2]):z,e=A?eZ(a[3]):A;break;case
 2:var
-e=gw(a[1]);break;default:var
-B=gw(a[1]),e=B?gw(a[2]):B}var
+e=gQ(a[1]);break;default:var
+B=gQ(a[1]),e=B?gQ(a[2]):B}var
 f=e}else
 var
-C=go(r),J=0===C[0]?eI(C[1]):0,f=J;else
+C=gI(r),J=0===C[0]?eZ(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=m(d),I=dy(c),q=o(function(a){var
+b=k(d),I=dN(c),q=n(function(a){var
 d=a[2];if(d)var
-e=d[1],f=_(t3,e),g=f?_(e,b):f,c=g;else
+e=d[1],f=Y(uW,e),g=f?Y(e,b):f,c=g;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bL(0,b,a):bL(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bL(0,b,a):bL(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?ag(b,I):c:bL(0,b,a):bL(0,b,a);default:return bL(0,b,a)}},g);else
+2:return 1===a[4][0]?a[3]?c:bR(0,b,a):bR(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bR(0,b,a):bR(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?aa(b,I):c:bR(0,b,a):bR(0,b,a);default:return bR(0,b,a)}},g);else
 var
 q=f;var
-y=q?eH(g):q;return y?o(gu,cW(m(d),g)):y}function
-gx(j){var
-q=a3(j,cX(br(j))),a=f(function(a){return aL(k,a)},q);if(a){var
+y=q?eY(g):q;return y?n(gO,c4(k(d),g)):y}function
+gR(j){var
+q=a8(j,c5(bw(j))),a=f(function(a){return aM(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return aj(k,a)},r=i(h[1]),s=i(g[1]);return af(d,E(E(i(e[1]),s),r)[1])}var
-l=h}else
+i=function(a){return ai(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,C(C(i(e[1]),s),r)[1])}var
+k=h}else
 var
-l=c;var
-m=l}else
+k=c;var
+l=k}else
 var
-m=g;var
-n=m}else
+l=g;var
+n=l}else
 var
 n=b;var
 o=n}else
@@ -4502,13 +4668,53 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-uz(a){switch(a[0]){case
-0:return gx(a[1][1]);case
+vr(a){switch(a[0]){case
+0:return gR(a[1][1]);case
 1:var
-b=a[3];return b?gx(b[1]):1;default:return gx(a[1])}}function
-gy(a,d,c){var
-e=o(uz,c[1]),f=e?_(uA,m(a)):e;if(f)var
-l=m(a),b=o(function(a){switch(a[1]){case
+b=a[3];return b?gR(b[1]):1;default:return gR(a[1])}}function
+gS(c,a,e,u){if(a6(function(b){var
+a=9<=b[1]?1:0,c=a?1:a;return c},e)){var
+p=Y(k(a),vt),q=p?n(function(a){if(0===a[0]){var
+f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
+u=bc(f[1]),b=n(function(a){return c7(i(a))},u);else{var
+o=1;e=1}else{var
+o=l;e=1}if(e)var
+b=o}else{var
+p=j(m,1,i(a[4]));if(p)var
+v=bc(a[3]),w=g(bc(a[2]),v),b=n(function(a){return c7(i(a))},w);else
+var
+b=p}if(b){if(0===a[0]){var
+q=a[1],r=Y(vs,q);if(r){var
+d=al(c,b4(q));if(d){if(2===d[1][0])return 0;var
+s=1}else
+var
+s=d;var
+t=s}else
+var
+t=r;return t}return 1}return b},a):p;if(q){var
+b=a;for(;;){var
+A=function(a){if(0===a[0]){var
+b=a[5],c=b?1:b;return c}return 0};if(b){var
+l=b[2],B=b[1],o=n(function(d,e){return function(a){var
+b=gG(e,a);if(b)var
+f=d(e),c=f||d(a);else
+var
+c=b;return aH(c)}}(A,B),l);if(o){var
+b=l;continue}var
+r=o}else
+var
+r=1;var
+d=r;break}}else
+var
+d=q;if(d)var
+s=gH(0,a),C=s?1:s,t=C;else
+var
+t=d;var
+f=t}else
+var
+f=a?0:1;var
+v=f?n(vr,u[1]):f,w=v?Y(vu,k(c)):v;if(w)var
+D=k(c),h=n(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4525,95 +4731,97 @@ b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;case
 8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=_(tY,b);return d?_(b,l):d},d);else
+d=Y(uR,b);return d?Y(b,D):d},e);else
 var
-b=f;var
-g=b?eH(d):b,h=g?o(dH,J(ur,a)):g;return h?o(uq,c[3]):h}function
-jX(b,a){return o(function(c){var
-a=c[2];return a?hR(a[1],b):1},a)}function
-uB(p){var
-e0=gm(p[3]),e1=e0?gm(p[4]):e0;if(e1){var
-ao=p[1];if(3===ao[0]){var
-e4=o(eC,ao[1]);if(e4)var
-hQ=ao[2],ck=o(function(a){return eC(a[1])},hQ);else
+h=w;var
+x=h?eY(e):h,z=x?n(dX,y(kq,c)):x;return z?n(vk,u[3]):z}function
+kt(b,a){return n(function(c){var
+a=c[2];return a?id(a[1],b):1},a)}function
+gT(b,a){var
+c=k(fO(function(a){return 0===a[0]?0:1},b));return aa(k(a),c)}function
+vv(p){var
+e4=gE(p[3]),e5=e4?gE(p[4]):e4;if(e5){var
+ar=p[1];if(3===ar[0]){var
+e8=n(eU,ar[1]);if(e8)var
+h9=ar[2],co=n(function(a){return eU(a[1])},h9);else
 var
-ck=e4;if(ck)var
-hR=ao[3],cl=o(function(a){var
-b=eC(a[1]),c=b?gn(a[2]):b;return c?cT(a[2]):c},hR);else
+co=e8;if(co)var
+h_=ar[3],cp=n(function(a){var
+b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},h_);else
 var
-cl=ck;if(cl)var
-hS=ao[4],hT=function(a){var
-b=gn(a);return b?cT(a):b},cf=o(function(a){return o(hT,a)},hS);else
+cp=co;if(cp)var
+h$=ar[4],ia=function(a){var
+b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ia,a)},h$);else
 var
-cf=cl}else
+cj=cp}else
 var
-cf=1;var
-ch=cf}else
+cj=1;var
+cl=cj}else
 var
-ch=e1;if(ch){var
+cl=e5;if(cl){var
 h=p[1];switch(h[0]){case
 0:var
-hw=J(cV,h[3]),hx=g(jK(h[2]),hw),S=g(J(jJ,h[1]),hx);break;case
+hO=y(c3,h[4]),hP=g(y(uN,h[3]),hO),hQ=g(kd(h[2]),hP),T=g(y(kc,h[1]),hQ);break;case
 1:var
-hy=J(cV,h[3]),hz=g(jK(h[2]),hy),S=g(J(tU,h[1]),hz);break;case
+hR=y(c3,h[3]),hS=g(kd(h[2]),hR),T=g(y(uM,h[1]),hS);break;case
 2:var
-hA=J(cV,h[7]),R=h[6];switch(R[0]){case
+hT=y(c3,h[7]),S=h[6];switch(S[0]){case
 1:var
-eX=R[3],eY=R[2],eZ=R[1],cd=[0,eZ[1],[0,eZ[2],[0,eY[1],[0,eY[2],[0,eX[1],[0,eX[2],0]]]]]];break;case
+e1=S[3],e2=S[2],e3=S[1],ch=[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],[0,e1[1],[0,e1[2],0]]]]]];break;case
 2:var
-cd=[0,R[1],0];break;default:var
-cd=[0,R[1],[0,R[2],0]]}var
-hB=g(cd,hA),hC=g(h[5],hB),hD=g(h[4],hC),hE=[0,h[3],hD],hF=h[2],S=g(J(function(a){return J(cU,g(a[1],a[2]))},hF),hE);break;case
+ch=[0,S[1],0];break;default:var
+ch=[0,S[1],[0,S[2],0]]}var
+hU=g(ch,hT),hV=g(h[5],hU),hW=g(h[4],hV),hX=[0,h[3],hW],hY=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},hY),hX);break;case
 3:var
-hG=J(cV,h[7]),hH=g(h[6],hG),hI=g(h[5],hH),hJ=h[2],S=g(J(function(a){return cU(a[2])},hJ),hI);break;case
+hZ=y(c3,h[7]),h0=g(h[6],hZ),h1=g(h[5],h0),h2=h[2],T=g(y(function(a){return c2(a[2])},h2),h1);break;case
 4:var
-hK=J(cV,h[3]),S=[0,h[1],[0,h[2],hK]];break;case
+h3=y(c3,h[3]),T=[0,h[1],[0,h[2],h3]];break;case
 5:var
-hL=J(cV,h[4]),hM=g(dG(h[3]),hL),hN=g(dG(h[2]),hM),hO=g(J(jJ,h[1]),hN),S=[0,h[5],hO];break;default:var
-ce=h[1],S=ce?cU(ce[1]):ce}var
-cj=o(cT,S)}else
+h4=y(c3,h[4]),h5=g(bc(h[3]),h4),h6=g(bc(h[2]),h5),h7=g(y(kc,h[1]),h6),T=[0,h[5],h7];break;default:var
+ci=h[1],T=ci?c2(ci[1]):ci}var
+cn=n(c1,T)}else
 var
-cj=ch;if(cj){var
-ab=p[2];if(0===ab[0]){var
-e2=jL(ab[1]);if(e2)var
-hP=ab[2],ap=o(function(a){var
-b=a[1];return o(function(b){var
+cn=cl;if(cn){var
+af=p[2];if(0===af[0]){var
+e6=ke(af[1]);if(e6)var
+h8=af[2],as=n(function(a){var
+b=a[1];return n(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gm(a[1]);case
+1:return gE(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},hP);else
+a=a[1];continue}},b)},h8);else
 var
-ap=e2}else
+as=e6}else
 var
-e3=jL(ab[1]),ap=e3?o(cT,g(ab[2],ab[3])):e3}else
+e7=ke(af[1]),as=e7?n(c1,g(af[2],af[3])):e7}else
 var
-ap=cj;if(ap){var
+as=cn;if(as){var
 a=p[1];switch(a[0]){case
 0:var
-aq=a[3],cB=a[2],ad=a[1],ae=p[2];if(0===ae[0]){var
-fl=ae[2],t=eD(ad,cB,aq),cC=cY(m(fl),fl);if(cC){var
-fm=cC[1];if(fm[2])return 0;var
-fn=gy(ad,aq,t);if(fn){var
-h7=fm[1],fo=f(jQ,t[1]),x=jR(t[1]),u=ae[1],dt=iN(k,t);if(dt){var
-c_=fN(x,fo,t[1]),W=fO(x,fo,t[1],0),c$=m(c_),gw=fR(W,x,c$,t[3]),gx=g(cp(ix(W)),gw),da=g(cp(ej(W)),gx),db=dm(da)[1],am=dl(db),dc=o(function(a){var
-b=r(d);return a_(I(bl(am,a),am,b),a)},da);if(dc){var
-df=a9(p1,t[3]);if(df){var
-gz=t[3],gA=g(c_,f(function(a){return b3(x,a)},gz)),bA=aN(f(function(a){return aL(u,a)},gA));if(bA){var
-X=t[2];if(0===X[0])var
-dg=X[1];else
+at=a[4],av=a[3],cF=a[2],U=a[1],ah=p[2];if(0===ah[0]){var
+fp=ah[2],r=eV(U,cF,av,at),cG=c6(k(fp),fp);if(cG){var
+fq=cG[1];if(fq[2])return 0;var
+fr=gS(U,av,at,r);if(fr){var
+ip=fq[1],fs=f(kk,r[1]),x=kl(r[1]),u=ah[1],dv=jh(m,r);if(dv){var
+bD=f6(x,fs,r[1]),X=f7(x,fs,r[1],0),gx=k(r[3]),gy=H(k(bD),gx),df=[0,k(bD),gy],gz=f_(X,x,df,r[3]),gA=g(cv(iW(X)),gz),dg=g(cv(ey(X)),gA),dh=dB(dg)[1],ap=dA(dh),di=n(function(a){var
+b=q(d);return bb(F(bp(ap,a),ap,b),a)},dg);if(di){var
+dj=a6(qE,r[3]);if(dj){var
+gB=r[3],gC=y(function(a){return eE(x,a)},gB),gD=r[3],gG=g(bD,g(f(function(a){return bP(x,a)},gD),gC)),bE=aS(f(function(a){return aM(u,a)},gG));if(bE){var
+Z=r[2];if(0===Z[0])var
+dk=Z[1];else
 var
-aw=X[3],c8=X[2],c9=X[1],dg=[0,[0,[2,c9,aw],[1,c9,aw]],[0,[2,c8,aw],[1,c8,aw]],X[4]];var
-gB=a3(dg,x),bB=aN(f(function(a){return aL(u,a)},gB));if(bB){var
-gC=t[3],bC=aN(iF(u,function(a){return bl(am,a)},W,x,c$,gC));if(bC){var
-dh=bC[1],gD=iC(dh),ax=t[2],gE=bB[1],gF=function(d){if(0===ax[0])return 0;if(d){var
+aA=Z[3],dd=Z[2],de=Z[1],dk=[0,[0,[2,de,aA],[1,de,aA]],[0,[2,dd,aA],[1,dd,aA]],Z[4]];var
+gH=a8(dk,x),bF=aS(f(function(a){return aM(u,a)},gH));if(bF){var
+gI=r[3],bG=aS(i9(u,function(a){return bp(ap,a)},X,x,df,gI));if(bG){var
+dl=bG[1],gM=i3(dl),aB=r[2],gQ=bF[1],gR=function(d){if(0===aB[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b0(u,x,ax[1]);if(f){var
-g=b0(u,x,ax[2]);if(g){var
-h=b0(u,x,ax[3]);if(h)var
-q=f[1],r=bm(c),i=P([0,bm(c),r],q),s=g[1],t=bm(b),j=P([0,bm(b),t],s),v=cL(b),w=[0,cL(b),v],y=[0,B(u,aB(E(j,j)),w),0],z=cL(c),A=[0,cL(c),z],C=[0,B(u,aB(E(i,i)),A),y],D=aj(u,j),F=aj(u,i),k=[0,[0,P(P(aj(u,h[1]),F),D),$,C]];else
+b=a[1],c=d[1],f=b7(u,x,aB[1]);if(f){var
+g=b7(u,x,aB[2]);if(g){var
+h=b7(u,x,aB[3]);if(h)var
+q=f[1],r=bq(c),i=M([0,bq(c),r],q),s=g[1],t=bq(b),j=M([0,bq(b),t],s),v=cS(b),w=[0,cS(b),v],y=[0,D(u,aE(C(j,j)),w),0],z=cS(c),A=[0,cS(c),z],B=[0,D(u,aE(C(i,i)),A),y],E=ai(u,j),F=ai(u,i),k=[0,[0,M(M(ai(u,h[1]),F),E),ab,B]];else
 var
 k=h;var
 l=k}else
@@ -4630,267 +4838,268 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},gG=bA[1],gH=0,gI=ix(W),gJ=e(aZ(function(a){return bl(am,a)}),gI),gK=ej(W);return fL(u,db,e(aZ(function(a){return bl(am,a)}),gK),gJ,gH,gG,dh,gF,gE,gD,h7)}var
-di=bC}else
+p=d;return p},gU=bE[1],gV=0,gW=iW(X),gX=e(a4(function(a){return bp(ap,a)}),gW),gY=ey(X);return f4(u,dh,e(a4(function(a){return bp(ap,a)}),gY),gX,gV,gU,dl,gR,gQ,gM,ip)}var
+dm=bG}else
 var
-di=bB;var
-dj=di}else
+dm=bF;var
+dn=dm}else
 var
-dj=bA;var
-bD=dj}else
+dn=bE;var
+bH=dn}else
 var
-bD=df}else
+bH=dj}else
 var
-bD=dc;return bD}return dt}var
-fp=fn}else
+bH=di;return bH}return dv}var
+ft=fr}else
 var
-fp=cC;return fp}var
-a6=ae[2];if(a6){var
-a7=a6[2];if(a7){var
-a8=a7[2];if(a8){if(a8[2])return 0;var
-fq=jT(ad,f(i,ae[3]));if(fq[2])return 0;var
-ah=ae[4];if(typeof
-ah==="number")var
-y=un;else
-if(0===ah[0]){var
-cq=ah[2],cs=ah[1];if(cq){var
-aY=cq[1],cR=0;if(aY){var
-a0=aY[2],bx=0;if(a0){var
-a1=a0[2],by=0;if(a1)if(a1[2]){var
-y=0;bx=1;by=1}else{var
-cu=a1[1],cw=a0[1],cx=aY[1],cy=cq[2];if(cy){var
-a2=cy[1],gl=0;if(a2){var
-a4=a2[2],go=0;if(a4){var
-a5=a4[2],gs=0;if(a5)if(a5[2]||cy[2]){var
-y=0;bx=1;by=1;gl=1;go=1;gs=1}else
+ft=cG;return ft}var
+a_=ah[2];if(a_){var
+a$=a_[2];if(a$){var
+ba=a$[2];if(ba){if(ba[2])return 0;var
+fu=ah[3],fv=kn(U,f(i,fu));if(fv[2])return 0;var
+aj=ah[4];if(typeof
+aj==="number")var
+E=vh;else
+if(0===aj[0]){var
+ct=aj[2],cu=aj[1];if(ct){var
+a0=ct[1],cX=0;if(a0){var
+a1=a0[2],bB=0;if(a1){var
+a2=a1[2],bC=0;if(a2)if(a2[2]){var
+E=0;bB=1;bC=1}else{var
+cw=a2[1],cy=a1[1],cA=a0[1],cB=ct[2];if(cB){var
+a5=cB[1],gu=0;if(a5){var
+a7=a5[2],gv=0;if(a7){var
+a9=a7[2],gw=0;if(a9)if(a9[2]||cB[2]){var
+E=0;bB=1;bC=1;gu=1;gv=1;gw=1}else
 var
-e_=[0,[0,cs,[0,[0,cx,cw],cu],[0,[0,a2[1],a4[1]],a5[1]]]];else
+fc=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
 var
-e_=a5;if(!gs)var
-e$=e_}else
+fc=a9;if(!gw)var
+fd=fc}else
 var
-e$=a4;if(!go)var
-fa=e$}else
+fd=a7;if(!gv)var
+fe=fd}else
 var
-fa=a2;if(!gl){var
-y=fa;bx=1;by=1}}else
+fe=a5;if(!gu){var
+E=fe;bB=1;bC=1}}else
 var
-fb=[0,[0,cs,[0,[0,cx,cw],cu],[0,[0,cx,cw],cu]]]}else
+ff=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
 var
-fb=a1;if(!by)var
-fc=fb}else
+ff=a2;if(!bC)var
+fg=ff}else
 var
-fc=a0;if(!bx){var
-fd=fc;cR=1}}else{var
-fd=aY;cR=1}if(cR)var
-y=fd}else
+fg=a1;if(!bB){var
+fh=fg;cX=1}}else{var
+fh=a0;cX=1}if(cX)var
+E=fh}else
 var
-fe=[0,[0,d,d],d],y=[0,[0,cs,fe,fe]]}else
+fi=[0,[0,d,d],d],E=[0,[0,cu,fi,fi]]}else
 var
-y=[0,[1,ah[1],ah[2]]];if(y){var
-fr=gy(ad,aq,eD(ad,cB,aq));if(fr){var
-U=y[1],h8=i(a8[1]),h9=i(a7[1]),K=[0,i(a6[1]),h9,h8],ar=fq[1],cD=eD(ad,cB,aq),dk=iI(k,cD,ar,K);if(dk)if(typeof
-U==="number")return a9(function(a){switch(a[0]){case
+E=[0,[1,aj[1],aj[2]]];if(E){var
+fw=gT(y(kq,U),fu),fx=fw?gS(U,av,at,eV(U,cF,av,at)):fw;if(fx){var
+V=E[1],iq=i(ba[1]),is=i(a$[1]),L=[0,i(a_[1]),is,iq],aw=fv[1],cH=eV(U,cF,av,at),dp=ja(m,cH,aw,L);if(dp)if(typeof
+V==="number")return a6(function(a){switch(a[0]){case
 0:var
-b=[0,ds(a[1],a[2],a[3],a[4],K)];break;case
+b=[0,cT(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-e=a[2],f=a[1],g=bJ(f,e,K),b=[0,G(bJ(f,e,K),g)];break;default:var
-b=0}return b?l(k,0,[2,[0,d,c],b[1]]):b},ar);else{if(0===U[0]){var
-bE=au(cD[3],U[1]);if(bE){var
-gL=bE[1],gM=iK(U[3]);return iM(k,ar,K,iK(U[2]),gM,gL)}return bE}var
-bF=au(cD[3],U[1]);if(bF){var
-bG=au(ar,U[2]);if(bG){var
-dp=bG[1],gN=bF[1],gO=cM(dp,K);return iM(k,ar,K,cM(dp,K),gO,gN)}var
-dq=bG}else
+e=a[2],f=a[1],g=bs(f,e,L),b=[0,J(bs(f,e,L),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aw);else{if(0===V[0]){var
+bI=al(cH[3],V[1]);if(bI){var
+gZ=bI[1],g0=jc(V[3]);return jg(m,aw,L,jc(V[2]),g0,gZ)}return bI}var
+bJ=al(cH[3],V[1]);if(bJ){var
+bK=al(aw,V[2]);if(bK){var
+dq=bK[1],g1=bJ[1],g2=cV(dq,L);return jg(m,aw,L,cV(dq,L),g2,g1)}var
+dt=bK}else
 var
-dq=bF;return dq}return dk}var
-fs=fr}else
-var
-fs=y;var
-ft=fs}else
-var
-ft=a8;var
-fu=ft}else
-var
-fu=a7;var
-fv=fu}else
-var
-fv=a6;return fv;case
-1:var
-ba=a[3],V=a[1],bb=p[2];if(0===bb[0])return 0;var
-bc=bb[2];if(bc){var
-bd=bc[2];if(bd){var
-be=bd[2];if(be){if(be[2])return 0;var
-fw=jU(V,f(i,bb[3]));if(fw[2])return 0;var
-ff=_(ut,m(V));if(ff)var
-h1=m(V),h2=1,cz=o(function(a){return bL(h2,h1,a)},ba);else
-var
-cz=ff;var
-fg=cz?eH(ba):cz,fh=fg?o(dH,J(us,V)):fg,fx=fh?o(gu,cW(m(V),ba)):fh;if(fx){var
-h_=gq(bb[4]),h$=i(be[1]),ia=i(bd[1]),L=[0,i(bc[1]),ia,h$],bf=fw[1],ib=a[2],hX=cW(m(V),ba),hY=jN(ib),ay=f(t6,V),Y=bf;for(;;){if(ay){if(Y){var
-q=Y[1],Q=ay[1],du=aQ(k,Q[1],q[1]),dx=du?aQ(k,Q[2],q[2]):du,dz=dx?aQ(k,Q[3],q[3]):dx,dA=dz?aQ(k,Q[4],q[4]):dz,dB=dA?cr(k,Q[5],q[5]):dA,dC=dB?cr(k,Q[6],q[6]):dB,dD=dC?l(k,1,q[5]):dC,dE=dD?l(k,1,q[6]):dD,dF=dE?l(k,1,G(q[1],q[1])):dE;if(dF)var
-gP=fU(q),bH=l(k,1,G(fU(q),gP));else
-var
-bH=dF;var
-dI=bH?d5(Q[7],q[7]):bH;if(dI){var
-ay=ay[2],Y=Y[2];continue}var
-dJ=dI}else
-var
-dJ=Y;var
-bI=dJ}else
-var
-bI=Y?0:1;var
-dK=bI?iH(k,hY,L):bI;if(dK){var
-gQ=f(function(a){return iU(a,L)},bf),gR=f(function(a){var
-b=iW(a,L);return[1,iV(a,L),b]},bf);return iR(k,p5,[0,f(function(a){var
-d=iS(a),e=aP(iW(a,L),d),f=fV(a),g=aP(iV(a,L),f),h=aO(function(b,a){return[1,b,a]},g,e),i=aP(a[5],h),j=a[3],k=aO(function(b,a){return[1,b,a]},j,i),l=a[4],m=aO(function(b,a){return[1,b,a]},L,l),n=aO(function(b,a){return[2,b,a]},m,k),o=f1(a,L),b=aP([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bf),gR,gQ],hX,h_)}return dK}}var
+dt=bJ;return dt}return dp}var
 fy=fx}else
 var
-fy=be;var
+fy=E;var
 fz=fy}else
 var
-fz=bd;var
+fz=ba;var
 fA=fz}else
 var
-fA=bc;return fA;case
-2:var
-bg=a[7],bh=a[6],bi=a[5],bj=a[4],bk=a[3],as=a[2],ak=a[1],al=p[2];if(0===al[0]){var
-cE=al[2],at=jP(ak,as,bk,bj,bi,bh,bg),cF=cY(m(cE),cE);if(cF){var
-fB=cF[1];if(fB[2])return 0;var
-fC=jW(ak,as,bk,bj,bi,bh,bg),fD=fC?jX(dy(ak),cE):fC;if(fD){var
-ic=fB[1],id=at[2],ie=z(c,cX(J(function(a){var
-b=br(a[2]);return g(br(a[1]),b)},id))),ig=al[1],hl=at[2],ez=o(function(a){var
-b=gb(k,a[1]);return b?gb(k,a[2]):b},hl),eA=ez?gb(k,at[4]):ez;if(eA)var
-hm=jk(at[5]),b7=o(function(a){return et(k,a)},hm);else
+fA=a$;var
+fB=fA}else
 var
-b7=eA;return b7?qA(ig,at,ie,ic):b7}var
-fE=fD}else
-var
-fE=cF;return fE}var
-fF=f(i,al[2]),fG=gv(ak),fI=jV(as,f(i,al[3]));if(fI[2])return 0;var
-fJ=jW(ak,as,bk,bj,bi,bh,bg);if(fJ){var
-bz=fG,j=fF,ih=gq(al[4]);for(;;){if(bz&&j){var
-bz=bz[1],j=j[2];continue}var
-bq=gt(h3(fG,fF)),bs=fI[1],M=jP(ak,as,bk,bj,bi,bh,bg),aT=M[2],Z=bs;for(;;){if(aT){if(Z){var
-eq=Z[1],er=aT[1],es=aQ(k,er[1],eq[1]),eu=es?aQ(k,er[2],eq[2]):es;if(eu){var
-aT=aT[2],Z=Z[2];continue}var
-ev=eu}else
-var
-ev=Z;var
-b5=ev}else
-var
-b5=Z?0:1;var
-ey=b5?aQ(k,M[4],bq):b5;if(ey){var
-C=M[5];switch(C[0]){case
-0:var
-v=j?j[2]?0:dw(k,C[1],j[1]):j;break;case
+fB=a_;return fB;case
 1:var
-cS=0;if(j){var
-aH=j[2],cZ=0;if(aH){var
-aI=aH[2],c0=0;if(aI)if(aI[2]){var
-v=0;cZ=1;c0=1}else{var
-d9=dw(k,C[1],j[1]),d_=d9?dw(k,C[2],aH[1]):d9;if(d_){var
-v=dw(k,C[3],aI[1]);cZ=1;c0=1}else
+bd=a[3],N=a[1],be=p[2];if(0===be[0])return 0;var
+bf=be[2];if(bf){var
+bg=bf[2];if(bg){var
+bh=bg[2];if(bh){if(bh[2])return 0;var
+fC=be[3],fD=ko(N,f(i,fC));if(fD[2])return 0;var
+fE=gT(y(kr,N),fC);if(fE){var
+fj=Y(vl,k(N));if(fj)var
+ij=k(N),ik=1,cD=n(function(a){return bR(ik,ij,a)},bd);else
 var
-d$=d_}else
+cD=fj;var
+fk=cD?eY(bd):cD,fl=fk?n(dX,y(kr,N)):fk,it=fl?n(gO,c4(k(N),bd)):fl,cI=it}else
 var
-d$=aI;if(!c0)var
-ea=d$}else
+cI=fE;if(cI){var
+iu=gK(be[4]),iv=i(bh[1]),iw=i(bg[1]),O=[0,i(bf[1]),iw,iv],bi=fD[1],ix=a[2],ie=c4(k(N),bd),ig=kg(ix),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
+s=_[1],R=aC[1],dw=aT(m,R[1],s[1]),dx=dw?aT(m,R[2],s[2]):dw,dy=dx?aT(m,R[3],s[3]):dx,dz=dy?aT(m,R[4],s[4]):dy,dD=dz?cx(m,R[5],s[5]):dz,dE=dD?cx(m,R[6],s[6]):dD,dF=dE?j(m,1,s[5]):dE,dH=dF?j(m,1,s[6]):dF,dI=dH?j(m,1,J(s[1],s[1])):dH;if(dI)var
+g3=ga(s),bL=j(m,1,J(ga(s),g3));else
 var
-ea=aH;if(!cZ){var
-eb=ea;cS=1}}else{var
-eb=j;cS=1}if(cS)var
-v=eb;break;case
+bL=dI;var
+dJ=bL?du(R[7],s[7]):bL;if(dJ){var
+aC=aC[2],_=_[2];continue}var
+dM=dJ}else
+var
+dM=_;var
+bM=dM}else
+var
+bM=_?0:1;var
+dO=bM?i$(m,ig,O):bM;if(dO){var
+g4=f(function(a){return jo(a,O)},bi),g5=f(function(a){var
+b=jq(a,O);return[1,jp(a,O),b]},bi);return jl(m,qI,[0,f(function(a){var
+d=jm(a),e=ay(jq(a,O),d),f=gb(a),g=ay(jp(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g5,g4],ie,iu)}return dO}}var
+fF=cI}else
+var
+fF=bh;var
+fG=fF}else
+var
+fG=bg;var
+fH=fG}else
+var
+fH=bf;return fH;case
 2:var
-c1=0;if(j){var
-aJ=j[2],c2=0;if(aJ){var
-aM=aJ[2];if(aM)if(aM[2]){var
-v=0;c2=1}else{var
-ec=aM[1],ed=aJ[1],ee=j[1],he=G([0,ee,ed,ec],[0,ee,ed,ec]),v=i$(k,C[1],he,[0,c,c]);c2=1}else
+bj=a[7],bk=a[6],bl=a[5],bm=a[4],bn=a[3],am=a[2],an=a[1],ao=p[2];if(0===ao[0]){var
+cJ=ao[2],ax=kj(an,am,bn,bm,bl,bk,bj),cK=c6(k(cJ),cJ);if(cK){var
+fI=cK[1];if(fI[2])return 0;var
+fJ=ks(an,am,bn,bm,bl,bk,bj),fK=fJ?kt(dN(an),cJ):fJ;if(fK){var
+iy=fI[1],iz=ax[2],iA=A(c,c5(y(function(a){var
+b=bw(a[2]);return g(bw(a[1]),b)},iz))),iB=ao[1],hz=ax[2],eB=n(function(a){var
+b=gt(m,a[1]);return b?gt(m,a[2]):b},hz),eC=eB?gt(m,ax[4]):eB;if(eC)var
+hA=jQ(ax[5]),b_=n(function(a){return eM(m,a)},hA);else
 var
-ef=aM}else
+b_=eC;return b_?rd(iB,ax,iA,iy):b_}var
+fL=fK}else
 var
-ef=aJ;if(!c2){var
-eg=ef;c1=1}}else{var
-eg=j;c1=1}if(c1)var
-v=eg;break;default:var
-c3=0;if(j){var
-aR=j[2],c4=0;if(aR){var
-aS=aR[2],c5=0;if(aS)if(aS[2]){var
-v=0;c4=1;c5=1}else{var
-b4=aS[1],eh=aR[1],ei=j[1],ek=i$(k,C[1],[1,[3,ei,ei],[3,eh,eh]],[1,[0,c,c],[3,b4,b4]]);if(ek){var
-v=dw(k,ct(C[2]),b4);c4=1;c5=1}else
+fL=cK;return fL}var
+fM=ao[3],fN=f(i,ao[2]),fO=gP(an),fP=kp(am,f(i,fM));if(fP[2])return 0;var
+fQ=gT(y(function(a){return g(a[1],a[2])},am),fM),fR=fQ?ks(an,am,bn,bm,bl,bk,bj):fQ;if(fR){var
+iC=gK(ao[4]),o=ir(fO,fN),bo=gN(ej(fO,fN)),bv=fP[1],P=kj(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
+et=$[1],eu=aU[1],ev=aT(m,eu[1],et[1]),ew=ev?aT(m,eu[2],et[2]):ev;if(ew){var
+aU=aU[2],$=$[2];continue}var
+ez=ew}else
 var
-el=ek}else
+ez=$;var
+b8=ez}else
 var
-el=aS;if(!c5)var
-em=el}else
+b8=$?0:1;var
+eA=b8?aT(m,P[4],bo):b8;if(eA){var
+G=P[5];switch(G[0]){case
+0:var
+w=o?o[2]?0:dL(m,G[1],o[1]):o;break;case
+1:var
+cY=0;if(o){var
+aL=o[2],cZ=0;if(aL){var
+aN=aL[2],c0=0;if(aN)if(aN[2]){var
+w=0;cZ=1;c0=1}else{var
+eb=dL(m,G[1],o[1]),ec=eb?dL(m,G[2],aL[1]):eb;if(ec){var
+w=dL(m,G[3],aN[1]);cZ=1;c0=1}else
 var
-em=aR;if(!c4){var
-eo=em;c3=1}}else{var
-eo=j;c3=1}if(c3)var
-v=eo}var
-b6=v}else
+ed=ec}else
 var
-b6=ey;if(b6){var
-aU=M[5],hi=M[6],hj=M[3],hk=M[1],ep=function(a){var
-b=f5(aU,j,bq,a);return G(f5(aU,j,bq,a),b)},hf=f(ep,bs),hg=f(function(a){return[0,[5,ep(a)]]},bs),hh=[0,f(function(d){var
-b=aE(f5(aU,j,bq,d)),a=aP([4,[0,c,c],hj],i7(i8(aU,j,d[2]),b));switch(hk){case
+ed=aN;if(!c0)var
+ee=ed}else
+var
+ee=aL;if(!cZ){var
+ef=ee;cY=1}}else{var
+ef=o;cY=1}if(cY)var
+w=ef;break;case
+2:var
+c8=0;if(o){var
+aO=o[2],c9=0;if(aO){var
+aP=aO[2];if(aP)if(aP[2]){var
+w=0;c9=1}else{var
+eg=aP[1],eh=aO[1],ei=o[1],hs=J([0,ei,eh,eg],[0,ei,eh,eg]),w=jF(m,G[1],hs,[0,c,c]);c9=1}else
+var
+ek=aP}else
+var
+ek=aO;if(!c9){var
+el=ek;c8=1}}else{var
+el=o;c8=1}if(c8)var
+w=el;break;default:var
+c_=0;if(o){var
+aQ=o[2],c$=0;if(aQ){var
+aR=aQ[2],da=0;if(aR)if(aR[2]){var
+w=0;c$=1;da=1}else{var
+b6=aR[1],em=aQ[1],en=o[1],eo=jF(m,G[1],[1,[3,en,en],[3,em,em]],[1,[0,c,c],[3,b6,b6]]);if(eo){var
+w=dL(m,cz(G[2]),b6);c$=1;da=1}else
+var
+ep=eo}else
+var
+ep=aR;if(!da)var
+eq=ep}else
+var
+eq=aQ;if(!c$){var
+er=eq;c_=1}}else{var
+er=o;c_=1}if(c_)var
+w=er}var
+b9=w}else
+var
+b9=eA;if(b9){var
+aV=P[5],hw=P[6],hx=P[3],hy=P[1],es=function(a){var
+b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},ht=f(es,bv),hu=f(function(a){return[0,[5,es(a)]]},bv),hv=[0,f(function(d){var
+b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hx],jB(jC(aV,o,d[2]),b));switch(hy){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bs),hg,hf];return iR(k,dy(M[1]),hh,hi,ih)}return b6}}}return fJ;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hu,ht];return jl(m,dN(P[1]),hv,hw,iC)}return b9}}return fR;case
 3:var
-bt=a[7],fK=a[6],fM=a[5],bu=a[4],fP=a[2],fS=a[1],cG=p[2];if(0===cG[0]){var
-cH=cG[2],cI=cY(m(cH),cH);if(cI){var
-fT=cI[1];if(fT[2])return 0;var
-h4=m(fK),fi=ag(m(fM),h4);if(fi)var
-h5=m(bu),h6=0,cA=o(function(a){return bL(h6,h5,a)},bt);else
+bx=a[7],fS=a[6],fT=a[5],by=a[4],fU=a[2],fV=a[1],cL=p[2];if(0===cL[0]){var
+cM=cL[2],cN=c6(k(cM),cM);if(cN){var
+fW=cN[1];if(fW[2])return 0;var
+il=k(fS),fm=aa(k(fT),il);if(fm)var
+im=k(by),io=0,cE=n(function(a){return bR(io,im,a)},bx);else
 var
-cA=fi;var
-fj=cA?eH(bt):cA,fk=fj?o(function(a){return dH(a[2])},fP):fj,fW=fk?o(gu,cW(m(bu),bt)):fk,fX=fW?jX(m(fS),cH):fW;if(fX){var
-ii=fT[1],ij=a[3],e5=cW(m(bu),bt),hU=cg(fM,fK),cn=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},hU),hV=f(function(a){return f(cv,a)},bu),hW=f(function(a){var
-b=cv(a[2]);return[0,a[1],b]},ij),n=[0,fS,f(function(a){var
-b=bK(a[2]);return[0,a[1],b]},fP),hW,hV],av=cG[1],g_=f(dd,n[2]),bW=g(n[1],g_),aG=m(n[1]),d1=_(p7,aG),d2=d1?_(aG,p8):d1,d3=d2?_(aG,m(n[4])):d2,d4=d3?_(m(n[4]),p9):d3;if(d4)var
-g$=n[4],bX=o(function(a){return ag(m(a),aG)},g$);else
+cE=fm;var
+fn=cE?eY(bx):cE,fo=fn?n(function(a){return dX(a[2])},fU):fn,fX=fo?n(gO,c4(k(by),bx)):fo,fY=fX?kt(k(fV),cM):fX;if(fY){var
+iD=fW[1],iE=a[3],e9=c4(k(by),bx),ib=ck(fT,fS),cq=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},ib),ic=f(function(a){return f(cC,a)},by),id=f(function(a){var
+b=cC(a[2]);return[0,a[1],b]},iE),l=[0,fV,f(function(a){var
+b=bQ(a[2]);return[0,a[1],b]},fU),id,ic],az=cL[1],hm=f(dr,l[2]),b0=g(l[1],hm),aK=k(l[1]),d6=Y(qK,aK),d7=d6?Y(aK,qL):d6,d8=d7?Y(aK,k(l[4])):d7,d9=d8?Y(k(l[4]),qM):d8;if(d9)var
+hn=l[4],b1=n(function(a){return aa(k(a),aK)},hn);else
 var
-bX=d4;if(bX){var
-aF=bW;for(;;){if(aF){var
-dZ=aF[2],g9=aF[1],d0=aK(a9(function(b){return function(a){return mp(b,a)}}(g9),dZ));if(d0){var
-aF=dZ;continue}var
-d6=d0}else
+b1=d9;if(b1){var
+aJ=b0;for(;;){if(aJ){var
+d4=aJ[2],hl=aJ[1],d5=aH(a6(function(b){return function(a){return mW(b,a)}}(hl),d4));if(d5){var
+aJ=d4;continue}var
+d_=d5}else
 var
-d6=1;var
-bY=d6;break}}else
+d_=1;var
+b2=d_;break}}else
 var
-bY=bX;if(bY){var
-aC=bW,aA=n[3];for(;;){if(aA){var
-dV=aA[1],dW=dV[1],dX=aK(a9(function(b){return function(a){return aD(b,a)}}(dW),aC)),dY=dX?f2(aC,dV[2]):dX;if(dY){var
-aC=[0,dW,aC],aA=aA[2];continue}var
-d7=dY}else
+b2=b1;if(b2){var
+aI=b0,aF=l[3];for(;;){if(aF){var
+d0=aF[1],d1=d0[1],d2=aH(a6(function(b){return function(a){return au(b,a)}}(d1),aI)),d3=d2?gi(aI,d0[2]):d2;if(d3){var
+aI=[0,d1,aI],aF=aF[2];continue}var
+d$=d3}else
 var
-d7=1;var
-bZ=d7;break}}else
+d$=1;var
+b3=d$;break}}else
 var
-bZ=bY;if(bZ)var
-ha=n[4],hb=g(f(dd,n[3]),bW),hc=function(a){return f2(hb,a)},b1=o(function(a){return o(hc,a)},ha);else
+b3=b2;if(b3)var
+ho=l[4],hp=g(f(dr,l[3]),b0),hq=function(a){return gi(hp,a)},b4=n(function(a){return n(hq,a)},ho);else
 var
-b1=bZ;if(b1)var
-hd=n[2],b2=o(function(a){return bn(k,a[2][1],a[2][2])},hd);else
+b4=b3;if(b4)var
+hr=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},hr);else
 var
-b2=b1;var
-d8=b2?o(function(a){return bn(k,a[1],a[2])},cn):b2;if(d8){var
-gY=m(n[1]),bN=m(n[2]),dN=H(bN,m(dv(f(de,n[3])))),gZ=n[3],an=i3(n),az=gZ,bM=bN;for(;;){if(az){var
-dL=az[1],dM=dL[2],gS=H(bM,m(bo(dM))),gT=az[2],gU=bp(an,dM,bM),an=[0,[0,dL[1],gU],an],az=gT,bM=gS;continue}var
-g0=i0(an,n[4],dN),bO=f(function(a){return[0,a,r(c)]},g0),g1=i1(an,n[4],dN),g2=n[3],bP=g(iX(i3(n),g2,bN),g1),bQ=dm(g(cp(bO),bP))[1],g3=dl(bQ),bR=function(a){return bl(g3,a)},dO=e(aZ(bR),bO),dP=ag(m(cn),gY);if(dP)var
-g4=g(cp(bO),bP),bS=o(function(a){var
-b=r(d),c=dl(bQ);return a_(I(bR(a),c,b),a)},g4);else
+b5=b4;var
+ea=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(ea){var
+ha=k(l[1]),bO=k(l[2]),dR=H(bO,k(dK(f(ds,l[3])))),hb=l[3],aq=jx(l),aD=hb,bN=bO;for(;;){if(aD){var
+dP=aD[1],dQ=dP[2],g6=H(bN,k(bt(dQ))),g7=aD[2],g8=bu(aq,dQ,bN),aq=[0,[0,dP[1],g8],aq],aD=g7,bN=g6;continue}var
+hc=ju(aq,l[4],dR),bS=f(function(a){return[0,a,q(c)]},hc),hd=jv(aq,l[4],dR),he=l[3],bT=g(jr(jx(l),he,bO),hd),bU=dB(g(cv(bS),bT))[1],hf=dA(bU),bV=function(a){return bp(hf,a)},dS=e(a4(bV),bS),dT=aa(k(cq),ha);if(dT)var
+hg=g(cv(bS),bT),bW=n(function(a){var
+b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hg);else
 var
-bS=dP;var
-dQ=bS?a9(p6,e5):bS;if(dQ){var
-gV=J(dv,n[4]),gW=g(dv(f(de,n[3])),gV),gX=g(i2(n[2]),gW),bT=aN(f(function(a){return aL(av,a)},gX));if(bT){var
-bU=aN(f(function(a){return aL(av,[0,a,d])},cn));if(bU){var
-bV=aN(f(function(a){if(typeof
-a==="number")return[0,[0,$]];else
+bW=dT;var
+dU=bW?a6(qJ,e9):bW;if(dU){var
+g9=y(dK,l[4]),g_=g(dK(f(ds,l[3])),g9),g$=g(jw(l[2]),g_),bX=aS(f(function(a){return aM(az,a)},g$));if(bX){var
+bY=aS(f(function(a){return aM(az,[0,a,d])},cq));if(bY){var
+bZ=aS(f(function(a){if(typeof
+a==="number")return[0,[0,ab]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4898,230 +5107,230 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aL(av,[0,[0,b,b],d]);return ac(function(a){return e(aj(av,a))},g)},e5));if(bV){var
-dR=bV[1],g5=iC(dR),g6=bU[1],g7=function(a){return 0},g8=bT[1];return fL(av,bQ,dO,dO,f(bR,bP),g8,dR,g7,g6,g5,ii)}var
-dS=bV}else
+g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e9));if(bZ){var
+dV=bZ[1],hh=i3(dV),hi=bY[1],hj=function(a){return 0},hk=bX[1];return f4(az,bU,dS,dS,f(bV,bT),hk,dV,hj,hi,hh,iD)}var
+dW=bZ}else
 var
-dS=bU;var
-dT=dS}else
+dW=bY;var
+dY=dW}else
 var
-dT=bT;var
-dU=dT}else
+dY=bX;var
+dZ=dY}else
 var
-dU=dQ;return dU}}return d8}var
-fY=fX}else
+dZ=dU;return dZ}}return ea}var
+fZ=fY}else
 var
-fY=cI;return fY}return 0;case
+fZ=cN;return fZ}return 0;case
 4:if(0===p[2][0]){var
-fZ=eG(i(a[1]));if(fZ){var
-bv=a[3];if(bv){var
-aV=bv[1],co=aV[4],F=bv[2];if(aV[1]||aV[2]||aV[3])var
-s=0;else
-switch(co[0]){case
+f1=c7(i(a[1]));if(f1){var
+bz=a[3];if(bz){var
+aX=bz[1],cs=aX[4],K=bz[2];if(aX[1]||aX[2]||aX[3])var
+t=0;else
+switch(cs[0]){case
 0:var
-c6=0;if(F){var
-aW=F[1],e6=aW[4];if(aW[1]||aW[2]||aW[3])var
-s=0;else
-if(1===e6[0])if(F[2])var
-s=0;else
+db=0;if(K){var
+aY=K[1],e_=aY[4];if(aY[1]||aY[2]||aY[3])var
+t=0;else
+if(1===e_[0])if(K[2])var
+t=0;else
 var
-hZ=i(e6[1]),s=[0,[0,i(co[1]),hZ]];else{var
-e7=0;c6=1}}else{var
-e7=F;c6=1}if(c6)var
-s=e7;break;case
+ih=i(e_[1]),t=[0,[0,i(cs[1]),ih]];else{var
+e$=0;db=1}}else{var
+e$=K;db=1}if(db)var
+t=e$;break;case
 1:var
-c7=0;if(F){var
-aX=F[1],e8=aX[4];if(aX[1]||aX[2]||aX[3])var
-s=0;else
-if(0===e8[0])if(F[2])var
-s=0;else
+dc=0;if(K){var
+aZ=K[1],fa=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
+t=0;else
+if(0===fa[0])if(K[2])var
+t=0;else
 var
-h0=i(co[1]),s=[0,[0,i(e8[1]),h0]];else{var
-e9=0;c7=1}}else{var
-e9=F;c7=1}if(c7)var
-s=e9;break;default:var
-s=0}}else
+ii=i(cs[1]),t=[0,[0,i(fa[1]),ii]];else{var
+fb=0;dc=1}}else{var
+fb=K;dc=1}if(dc)var
+t=fb;break;default:var
+t=0}}else
 var
-s=bv;if(s){var
-f0=s[1],f3=f0[2],f4=f0[1],eI=l(k,1,i(a[2])),eJ=eI?l(k,1,[2,f3,[0,c,c]]):eI,eK=eJ?l(k,1,f4):eJ;return eK?l(k,0,[2,[4,[0,c,c],f3],f4]):eK}var
-f6=s}else
+t=bz;if(t){var
+f2=t[1],f3=f2[2],f5=f2[1],eI=j(m,1,i(a[2])),eJ=eI?j(m,1,[2,f3,[0,c,c]]):eI,eK=eJ?j(m,1,f5):eJ;return eK?j(m,0,[2,[4,[0,c,c],f3],f5]):eK}var
+f8=t}else
 var
-f6=fZ;return f6}return 0;case
+f8=f1;return f8}return 0;case
 5:var
-f7=a[4],f8=a[1],cJ=p[2];if(0===cJ[0]){var
-f9=cJ[2],w=eD(f8,[0,a[2],a[3]],f7),cK=gr(m(f9),f9);if(cK){var
-f_=cK[1];if(f_[2])return 0;var
-f$=gy(f8,f7,w);if(f$){var
-ga=iN(k,w);if(ga){var
-ik=f_[1],gc=f(jQ,w[1]),N=jR(w[1]),gd=i(a[5]),O=cJ[1],eN=fN(N,gc,w[1]),D=fO(N,gc,w[1],0),b_=m(eN),ho=fR(D,N,b_,w[3]),hp=g(f(jC,D),ho),eO=g(cp(ej(D)),hp),eP=dm(eO)[1],b$=dl(eP),eQ=w[2];if(0===eQ[0]){var
-eR=o(function(a){var
-b=r(d);return a_(I(bl(b$,a),b$,b),a)},eO),eS=eR?l(k,1,gd):eR;if(eS){var
-hq=w[3],hr=g(eN,f(function(a){return b3(N,a)},hq)),ca=aN(f(function(a){return aL(O,a)},hr));if(ca){var
-hs=a3(eQ[1],N),cb=aN(f(function(a){return aL(O,a)},hs));if(cb){var
-cc=b0(O,N,[4,gd,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cc){var
-eT=w[3],ht=cb[1],hu=cc[1],hv=ca[1],aa=function(a){return bl(b$,a)},eL=f(a$,hv),eM=function(y,x){var
-g=y,a=x;for(;;){if(0===a[0]){var
-h=a[1],j=ag(m(h),qJ),k=j?o(function(a){var
-d=A(T(b(2,b(2,b(2,c)))),a);return d?A(a,b(2,b(2,b(2,c)))):d},h):j;if(k){var
-n=jD(O,hu,fH(0,g),h),z=a[2],$=cm(0,dn(O,n,eL),eP,0),q=function(b){var
-a=jB(O,n,eL,$,b);return a?af(d,a[1][2][1]):a};return function(i){if(typeof
-i==="number")return a9(function(b){var
-a=I(aa(b[2]),$,0);return a?A(a[1][2][2],d):a},D);else{if(0===i[0]){var
-S=i[1],r=au(eT,S);if(r){var
-a=i[2],g=r[1],s=H(b_,S),ae=ej(D),h=e(aZ(aa),ae),j=[1,[8,[1,[1,s]]]],y=function(c,b,a){var
-d=ex(c,a);return[1,[4,[1,[6,b,ew(a)]],d]]},v=0;if(typeof
-g==="number")v=1;else
-switch(g[0]){case
+f$=a[4],gc=a[1],cO=p[2];if(0===cO[0]){var
+gd=cO[2],v=eV(gc,[0,a[2],a[3]],0,f$),cP=gL(k(gd),gd);if(cP){var
+ge=cP[1];if(ge[2])return 0;var
+gf=gS(gc,0,f$,v);if(gf){var
+gg=jh(m,v);if(gg){var
+iF=ge[1],gj=f(kk,v[1]),z=kl(v[1]),gk=i(a[5]),Q=cO[1],cb=f6(z,gj,v[1]),I=f7(z,gj,v[1],0),hC=k(v[3]),hD=H(k(cb),hC),aW=[0,k(cb),hD],hE=f_(I,z,aW,v[3]),hF=g(f(ex,I),hE),eO=g(cv(ey(I)),hF),eR=dB(eO)[1],cc=dA(eR),eS=v[2];if(0===eS[0]){var
+eT=n(function(a){var
+b=q(d);return bb(F(bp(cc,a),cc,b),a)},eO),eW=eT?j(m,1,gk):eT;if(eW){var
+hG=v[3],hH=y(function(a){return eE(z,a)},hG),hI=v[3],hJ=g(cb,g(f(function(a){return bP(z,a)},hI),hH)),cd=aS(f(function(a){return aM(Q,a)},hJ));if(cd){var
+hK=a8(eS[1],z),ce=aS(f(function(a){return aM(Q,a)},hK));if(ce){var
+cf=b7(Q,z,[4,gk,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
+cg=v[3],hL=ce[1],hM=cf[1],hN=cd[1],ad=function(a){return bp(cc,a)},eL=f(a3,hN),eN=function(A,x){var
+g=A,a=x;for(;;){if(0===a[0]){var
+h=a[1],l=aa(k(h),rm),m=l?n(function(a){var
+d=B(W(b(2,b(2,b(2,c)))),a);return d?B(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
+o=j8(Q,hM,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eL),eR,0),s=function(b){var
+a=j7(Q,o,eL,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
+l==="number")return a6(function(b){var
+a=F(ad(b[2]),ae,0);return a?B(a[1][2][2],d):a},I);else{if(0===l[0]){var
+t=l[1],u=al(cg,t);if(u){var
+a=l[2],h=u[1],ar=ej(t,cg),as=k(y(function(a){return eE(z,a)},ar)),at=H(aW[2],as),v=[0,H(aW[1],t),at],ai=ey(I),i=e(a4(ad),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
+d=eQ(c,a);return[1,[4,[1,[6,b,eP(a)]],d]]},A=0;if(typeof
+h==="number")A=1;else
+switch(h[0]){case
 4:var
-k=l(O,1,g[2]);break;case
+o=j(Q,1,h[2]);break;case
 8:var
-k=l(O,1,[4,g[2],g[1]]);break;default:v=1}if(v)var
-k=1;var
-z=k?o(qH,a):k;if(z){var
-w=0;if(typeof
-g==="number")var
-b=0;else
-switch(g[0]){case
+o=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
+o=1;var
+G=o?n(rk,a):o,C=0;if(G){var
+g=0;if(typeof
+h!=="number")switch(h[0]){case
 0:var
-ab=0;if(a)if(a[2]){var
-b=0;ab=1}else
+af=0;if(a)if(a[2]){var
+b=0;g=2;af=1}else
 var
-B=[0,[0,h,[0,y(h,j,a[1]),0]]];else
+K=[0,[0,i,[0,E(i,m,a[1]),0]]];else
 var
-B=a;if(!ab)var
-b=B;break;case
+K=a;if(!af){var
+b=K;g=2}break;case
 1:var
-ac=0;if(a)if(a[2]){var
-b=0;ac=1}else
+ag=0;if(a)if(a[2]){var
+b=0;g=2;ag=1}else
 var
-C=a[1],af=[1,[6,j,ew(C)]],E=[0,[0,h,[0,[1,[4,ex(h,C),af]],0]]];else
+L=a[1],aj=[1,[6,m,eP(L)]],M=[0,[0,i,[0,[1,[4,eQ(i,L),aj]],0]]];else
 var
-E=a;if(!ac)var
-b=E;break;case
+M=a;if(!ag){var
+b=M;g=2}break;case
 5:var
-x=0;if(a){var
-n=a[2],ad=0;if(n)if(n[2]){var
-b=0;ad=1}else
+D=0;if(a){var
+q=a[2],ah=0;if(q)if(q[2]){var
+b=0;g=2;ah=1}else
 var
-G=n[1],J=a[1],ah=ew(J),ai=[1,[6,j,[1,[6,ex(h,G),ah]]]],aj=ew(G),K=[0,[0,h,[0,[1,[4,[1,[6,ex(h,J),aj]],ai]],0]]];else
+O=q[1],P=a[1],am=eP(P),an=[1,[6,m,[1,[6,eQ(i,O),am]]]],ao=eP(O),R=[0,[0,i,[0,[1,[4,[1,[6,eQ(i,P),ao]],an]],0]]];else
 var
-K=n;if(!ad){var
-L=K;x=1}}else{var
-L=a;x=1}if(x)var
-b=L;break;case
-8:if(a)if(a[2])var
-b=0;else{var
-P=a[1],M=[1,[2,c]];w=1}else
+R=q;if(!ah){var
+S=R;D=1}}else{var
+S=a;D=1}if(D){var
+b=S;g=2}break;case
+8:if(a)if(a[2]){var
+b=0;g=2}else{var
+U=a[1],T=[1,[2,c]];g=1}else{var
+b=a;g=2}break;case
+9:if(a)if(a[2]){var
+b=0;g=2}else{var
+U=a[1],T=m;g=1}else{var
+b=a;g=2}break;case
+10:break;default:if(a){var
+b=0;g=2}else{var
+p=f9(I,z,v,h);if(p)var
+ak=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ad(a)]]]},ak)]];else
 var
-b=a;break;case
-9:if(a)if(a[2])var
-b=0;else{var
-P=a[1],M=j;w=1}else
+N=p;var
+b=N;g=2}}switch(g){case
+2:break;case
+0:var
+J=0;C=1;break;default:var
+r=eF(I,z,v,h);if(r)var
+ap=r[1],V=e(a4(ad),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
 var
-b=a;break;default:if(a)var
-b=0;else{var
-m=fQ(D,N,s,g);if(m)var
-ag=[0,m[1],m[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,aa(a)]]]},ag)]];else
+W=r;var
+b=W}}else{var
+J=G;C=1}if(C)var
+b=J;if(b){var
+X=b[1],au=X[1],Y=n(function(a){return s([0,a[2]])},au);if(Y)return n(s,X[2]);var
+Z=Y}else
 var
-F=m;var
-b=F}}if(w){var
-p=en(D,N,s,g);if(p)var
-ak=p[1],Q=e(aZ(aa),ak),R=[0,[0,Q,[0,y(Q,M,P),0]]];else
+Z=b;var
+_=Z}else
 var
-R=p;var
-b=R}}else
+_=u;return _}var
+$=l[1],w=al(cg,$);if(w){var
+aa=w[1];if(typeof
+aa!=="number"&&1===aa[0]){var
+x=al(I,l[2]);if(x){var
+av=H(aW[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ad(ac[2])]]];return s([1,[4,[1,[8,[0,ad(ex(ac))]]],aq]])}return x}var
+ab=0}else
 var
-b=z;if(b){var
-T=b[1],am=T[1],U=o(function(a){return q([0,a[2]])},am);if(U)return o(q,T[2]);var
-V=U}else
-var
-V=b;var
-W=V}else
-var
-W=r;return W}var
-X=i[1],t=au(eT,X);if(t){var
-Y=t[1];if(typeof
-Y!=="number"&&1===Y[0]){var
-u=au(D,i[2]);if(u){var
-an=H(b_,X),_=u[1],al=[1,[6,[1,[8,[1,[1,an]]]],[0,aa(_[2])]]];return q([1,[4,[1,[8,[0,aa(jC(_))]]],al]])}return u}var
-Z=0}else
-var
-Z=t;return Z}}(z)}return k}var
-p=a[1],i=au(g,p);if(i){var
-r=i[1],B=r[1],s=aK(ai(bm(r),B));if(s){var
-t=dr(p,g),u=eM(t[1],a[2]);if(u){var
+ab=w;return ab}}(C)}return m}var
+p=a[1],i=al(g,p);if(i){var
+q=i[1],D=q[1],r=aH(ak(bq(q),D));if(r){var
+t=dG(p,g),u=eN(t[1],a[2]);if(u){var
 g=t[2],a=a[3];continue}var
 v=u}else
 var
-v=s;var
+v=r;var
 w=v}else
 var
-w=i;return w}};return eM(ht,ik)}var
-eU=cc}else
+w=i;return w}};return eN(hL,iF)}var
+eX=cf}else
 var
-eU=cb;var
-eV=eU}else
+eX=ce;var
+eZ=eX}else
 var
-eV=ca;var
-eW=eV}else
+eZ=cd;var
+e0=eZ}else
 var
-eW=eS;return eW}return 0}var
-ge=ga}else
+e0=eW;return e0}return 0}var
+gm=gg}else
 var
-ge=f$;var
-gf=ge}else
+gm=gf;var
+gn=gm}else
 var
-gf=cK;return gf}return 0;default:var
-gg=a[1];if(gg){var
-gh=gg[1],cN=p[2];if(0===cN[0]){var
-cO=gp(uC,cN[2]);if(cO){var
-gi=dH(gh);if(gi){var
-il=cO[1],gj=bK(gh)[2],bw=cN[1],b8=b0(bw,d,gj);if(b8){var
-b9=b0(bw,d,[4,[0,c,c],gj]);if(b9){var
-hn=b8[1][1],eB=af(ci(bw),hn);if(eB)return jA(bw,b9[1][1],il);var
-eE=eB}else
+gn=cP;return gn}return 0;default:var
+go=a[1];if(go){var
+gp=go[1],cQ=p[2];if(0===cQ[0]){var
+cR=gJ(vw,cQ[2]);if(cR){var
+gq=dX(gp);if(gq){var
+iG=cR[1],gr=bQ(gp)[2],bA=cQ[1],b$=b7(bA,d,gr);if(b$){var
+ca=b7(bA,d,[4,[0,c,c],gr]);if(ca){var
+hB=b$[1][1],eD=ac(cm(bA),hB);if(eD)return j6(bA,ca[1][1],iG);var
+eG=eD}else
 var
-eE=b9;var
-eF=eE}else
+eG=ca;var
+eH=eG}else
 var
-eF=b8;return eF}var
-gk=gi}else
+eH=b$;return eH}var
+gs=gq}else
 var
-gk=cO;return gk}return 0}var
-cP=p[2];if(0===cP[0]){var
-cQ=gp(uD,cP[2]);return cQ?jA(cP[1],d,cQ[1]):cQ}return 0}}return ap}var
-x=[ap,uG,e7(0)],jY=[ap,uH,e7(0)];function
-uE(t,b){var
-n=[0,h(tA,an(b[4])),0],o=[0,h(tC,Q([0,h(tB,an(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(tr,w(f(tm,a[2]))),0],d=F(tt,Q([0,h(ts,gg(a[1])),i]));else
+gs=cR;return gs}return 0}var
+cU=p[2];if(0===cU[0]){var
+cW=gJ(vx,cU[2]);return cW?j6(cU[1],d,cW[1]):cW}return 0}}return as}var
+x=[ar,vA,fo(0)],ku=[ar,vB,fo(0)];function
+vy(t,b){var
+n=[0,h(us,am(b[4])),0],o=[0,h(uu,O([0,h(ut,am(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(uj,w(f(ue,a[2]))),0],d=L(ul,O([0,h(uk,gy(a[1])),i]));else
 var
-c=a[3],j=[0,h(tu,jI(a[4])),0],k=c?[0,h(tv,w(f(R,c))),0]:c,l=g(k,j),m=[0,h(tw,w(f(R,a[2]))),0],d=F(ty,Q(g([0,h(tx,gg(a[1])),m],l)));var
-p=[0,h(tD,d),o],q=0===b[2][0]?tE:tJ,r=[0,h(tF,an(q)),p],s=[0,h(tG,st(b[1])),r],e=aD(hA(uF,ey(Q([0,h(tI,an(tH)),s]),tz)),t);return e?uB(b):e}function
-U(a){if(0===a[0])return a[1];throw x}function
-X(a){if(1===a[0])return a[1];throw x}function
-a0(a){if(2===a[0])return a[1];throw x}function
-dI(a){if(3===a[0])return a[1];throw x}function
-a4(f,e){var
+c=a[3],j=[0,h(um,kb(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
+p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hY(vz,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
+T(a){if(0===a[0])return a[1];throw x}function
+U(a){if(1===a[0])return a[1];throw x}function
+aO(a){if(2===a[0])return a[1];throw x}function
+dY(a){if(3===a[0])return a[1];throw x}function
+aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===y5(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Am(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=a4(c,b);if(a)return a[1];throw x}function
-dJ(b,a){var
+a=aZ(c,b);if(a)return a[1];throw x}function
+c8(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cZ(a){switch(a[0]){case
+c9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],uI]}throw x}function
-dK(e,d){var
-a=Z(e,X(d));if(a){var
+2:return[0,a[1],vC]}throw x}function
+c_(e,d){var
+a=X(e,U(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-eJ(i){var
-f=bR(i),d=[0,0],e=aV(f)-1|0;if(!(e<0)){var
+e0(i){var
+f=bX(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=c5(f,c)+gH|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=dg(f,c)+g2|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5143,47 +5352,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dL(a){return hX(eJ(a))}function
-eK(b){var
-a=dI(b);return 45===N(a,0)?T(dL(da(a,1,y(a)-1|0))):dL(a)}function
-jZ(a){return ft(dL(dI(a)))}function
-gz(a){return hW(dL(dI(a)))}function
-c0(c){var
-a=dI(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hd(a))}function
-j0(a){var
-b=97<=a?1:0,c=b?a<=l9?1:0:b;if(c)var
+dZ(a){return ik(e0(a))}function
+e1(b){var
+a=dY(b);return 45===R(a,0)?W(dZ(dn(a,1,E(a)-1|0))):dZ(a)}function
+kv(a){return fM(dZ(dY(a)))}function
+e2(a){return ij(dZ(dY(a)))}function
+cE(c){var
+a=dY(c);if(6<E(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hB(a))}function
+kw(a){var
+b=97<=a?1:0,c=b?a<=mE?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-j1(A,b){var
-d=y(b),a=[0,0];function
+kx(z,b){var
+d=E(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?N(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?R(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=N(b,a[1])&&!(57<N(b,a[1]))){a[1]++;continue}return da(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return dn(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
-f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&aD(da(b,a[1],5),uK)){a[1]=a[1]+4|0;var
-f=[5,n(k)]}else
+i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+f=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vE)){a[1]=a[1]+4|0;var
+f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&j0(N(b,a[1]))){var
+v=0;if(a[1]<d&&kw(R(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!j0(N(b,a[1]))&&95!==N(b,a[1])&&(!(48<=N(b,a[1]))||57<N(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,da(b,o,a[1]-o|0))];break}}else
+w=0;if(!kw(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,dn(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aD(h,uL);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vF);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===N(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(aD(l,uM)||48===N(l,y(l)-1|0))z=1;else
+t=1<E(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw x;if(q){var
+k=q[1],y=0;if(au(k,vG)||48===R(k,E(k)-1|0))y=1;else
 var
-B=eJ(l),f=[0,eJ(h),B];if(z)throw x}else
+A=e0(k),f=[0,e0(h),A];if(y)throw x}else
 var
-f=[0,eJ(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(j(g,uJ)){if(!(2<y(g))&&2<=hd(g)&&!(64<hd(g)))return[4,f,ft(dL(g))];throw x}throw x}return f}function
+f=[0,e0(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(l(g,vD)){if(!(2<E(g))&&2<=hB(g)&&!(64<hB(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -5193,37 +5402,39 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-j2(a){return j1(function(a){throw x},a)}function
-j3(a){var
-b=a0(a);return j1(function(a){return a},b)}function
-Y(a){return j2(a0(a))}function
-bM(a){if(2===a[0])return[0,j2(a[1])];var
-b=U(a),c=Y(p(b,uN));return[1,Y(p(b,uO)),c]}function
-aa(a){throw[0,jY,as(hA(uQ,a),uP)]}function
-j4(c){var
-a=a0(c);if(j(a,uR)){var
-b=j(a,uS);if(b)throw x;return b}return 1}function
-uT(d){var
-b=U(d);function
-a(a){return dK(bM,p(b,a))}var
-c=a0(p(b,uU));if(j(c,uV)){if(j(c,uW)){if(j(c,uX))return aa([0,uZ,[0,c,uY]]);var
-e=a4(b,u0),f=dJ(function(a){return dK(bM,a)},e),g=a(u1);return[1,a(u2),g,f]}var
-h=j4(p(b,u3)),i=bM(p(b,u4)),k=a(u5),l=a(u6);return[0,a(u7),l,k,i,h]}return[2,a(u8)]}function
-j5(d){var
+e3(a){return kx(function(a){throw x},a)}function
+ky(a){var
+b=aO(a);return kx(function(a){return a},b)}function
+V(a){return e3(aO(a))}function
+bS(a){if(2===a[0])return[0,e3(a[1])];var
+b=T(a),c=V(p(b,vH));return[1,V(p(b,vI)),c]}function
+Z(a){throw[0,ku,av(hY(vK,a),vJ)]}function
+kz(c){var
+a=aO(c);if(l(a,vL)){var
+b=l(a,vM);if(b)throw x;return b}return 1}function
+vN(d){var
+b=T(d);function
+a(a){return c_(bS,p(b,a))}var
+c=aO(p(b,vO));if(l(c,vP)){if(l(c,vQ)){if(l(c,vR))return Z([0,vT,[0,c,vS]]);var
+e=aZ(b,vU),f=c8(function(a){return c_(bS,a)},e),g=a(vV);return[1,a(vW),g,f]}var
+h=kz(p(b,vX)),i=bS(p(b,vY)),j=a(vZ),k=a(v0);return[0,a(v1),k,j,i,h]}return[2,a(v2)]}function
+gU(d){var
+a=T(d);if(a){var
+b=a[1];if(!l(b[1],v3)){var
+c=b[2];if(2===c[0]&&!l(c[1],v4))return 1}}return 0}function
+v5(c){var
+a=T(c);if(1-gU(c))throw x;function
+b(b){return c_(bS,p(a,b))}var
+d=kz(p(a,v6)),e=bS(p(a,v7)),f=bS(p(a,v8)),g=b(v9),h=b(v_),i=b(v$);return[0,b(wa),i,h,g,f,e,d]}function
+c$(c,d){var
 a=U(d);if(a){var
-b=a[1];if(!j(b[1],u9)){var
-c=b[2];if(2===c[0]&&!j(c[1],u_))return 1}}return 0}function
-u$(c){var
-a=U(c);if(1-j5(c))throw x;function
-b(b){return dK(bM,p(a,b))}var
-d=j4(p(a,va)),e=bM(p(a,vb)),f=bM(p(a,vc)),g=b(vd),h=b(ve),i=b(vf);return[0,b(vg),i,h,g,f,e,d]}function
-dM(c,d){var
-a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gA(i){var
-c=U(i),a=a0(p(c,vh));if(j(a,vi))if(j(a,vj))if(j(a,vk))if(j(a,vl))if(j(a,vm))if(j(a,vn))if(j(a,vo))if(j(a,vp))var
-g=j(a,vq),b=g?aa([0,vs,[0,a,vr]]):g;else
+gV(m){var
+c=T(m),a=aO(p(c,wb)),h=AY(a,wc),g=0;if(0<=h)if(0<h)if(l(a,wd))if(l(a,we))if(l(a,wf)){var
+i=l(a,wg);if(i)g=1;else
+var
+b=i}else
 var
 b=6;else
 var
@@ -5232,6 +5443,7 @@ var
 b=5;else
 var
 b=2;else
+if(l(a,wv))if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))g=1;else
 var
 b=1;else
 var
@@ -5239,155 +5451,180 @@ b=8;else
 var
 b=7;else
 var
-b=3;function
-f(a){return p(c,vt)}var
-d=a0(p(c,vu));if(j(d,vv))if(j(d,vw))if(j(d,vx))var
-e=aa([0,vz,[0,d,vy]]);else
+b=3;else
 var
-h=dM(Y,f(0)),e=[2,h[1],h[2]];else
+b=9;var
+j=g?Z([0,wi,[0,a,wh]]):b;function
+f(a){return p(c,wj)}var
+d=aO(p(c,wk));if(l(d,wl))if(l(d,wm))if(l(d,wn))var
+e=Z([0,wp,[0,d,wo]]);else
 var
-e=[0,Y(f(0))];else
+k=c$(V,f(0)),e=[2,k[1],k[2]];else
 var
-e=[1,Y(f(0))];function
-k(m){var
-a=U(m),e=0;switch(b){case
+e=[0,V(f(0))];else
+var
+e=[1,V(f(0))];function
+n(m){var
+a=T(m),d=0;switch(j){case
 6:if(a){var
-k=a[1];if(!j(k[1],vB)){var
-l=k[2];if(1===l[0]){var
-d=l[1],f=0;if(d&&!d[2])if(a[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!a[2])return aa(vC)}}}break;case
+i=a[1];if(!l(i[1],wr)){var
+k=i[2];if(1===k[0]){var
+c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
+h=c[1];d=1;e=1}if(!e&&!a[2])return Z(ws)}}}break;case
 2:case
 8:if(a){var
-g=a[1];if(!j(g[1],vA)){var
-h=g[2];if(1===h[0]){var
-c=h[1];if(c&&!c[2]&&!a[2]){var
-i=c[1];e=1}}}}break}if(e)return Y(i);throw x}var
-l=dJ(k,a4(c,vD));return[0,b,dJ(c0,a4(c,vE)),l,e]}function
-vF(b){var
-a=gA(b);return 8<=a[1]?aa(vG):a}function
-gB(c){var
-a=gA(c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(vH)}function
-vI(a){var
-b=gA(a);switch(b[1]){case
+f=a[1];if(!l(f[1],wq)){var
+g=f[2];if(1===g[0]){var
+b=g[1];if(b&&!b[2]&&!a[2]){var
+h=b[1];d=1}}}}break}if(d)return V(h);throw x}var
+o=c8(n,aZ(c,wt));return[0,j,c8(cE,aZ(c,wu)),o,e]}function
+wA(b){var
+a=gV(b);return 8===a[1]?Z(wB):a}function
+gW(c){var
+a=gV(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wC)}function
+wD(a){var
+b=gV(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gB(a)}}function
-j6(S){var
-h=cZ(S),i=h[1];if(j(i,vP)){if(j(i,vQ)){if(j(i,vR))return aa([0,vT,[0,i,vS]]);var
-o=p(U(h[2]),vU),L=0;if(2===o[0]){var
-y=j(o[1],vV);if(!y){var
-w=y;L=1}}if(!L)var
-w=[0,bM(o)];return[6,w]}var
-z=U(h[2]),k=j6([0,[0,[0,vX,p(z,vW)],0]]);if(0===k[0]){var
-q=k[2];if(0===q[0]){var
-T=Y(p(z,vY));return[5,k[1],q[1],q[2],k[3],T]}}return aa(vZ)}var
-c=U(h[2]);function
-A(a){return Z(vF,X(p(c,v0)))}var
-f=cZ(p(c,v1)),a=cZ(p(c,v2));if(0===a4(c,v3)){var
-b=f[1];if(j(b,v4)&&j(b,v5)&&j(b,v6)){if(0===a4(c,v7)){if(j(b,v8)){var
-M=0;if(j(b,v9)){if(!j(b,v_)){var
-B=a[1],N=0;if(j(B,wb)&&j(B,wc)){M=1;N=1}if(!N){var
-r=X(f[2]),d=U(a[2]);if(j(a[1],vJ))var
-u=dM(Y,p(d,vK)),v=dM(Y,p(d,vL)),O=v[2],P=v[1],Q=Y(p(d,vM)),s=[1,u[1],u[2],Q,P,O];else
+8:return b;default:return gW(a)}}function
+wK(f){var
+a=T(f);function
+d(b){return V(p(a,b))}function
+c(b){return c_(V,p(a,b))}var
+b=aO(p(a,wL));if(l(b,wM)){if(!l(b,wN)){var
+j=p(a,wT),e=c$(function(a){return a},j),k=aZ(a,wU),m=c8(function(a){return c(wV)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wW);return[0,cE(p(a,wX)),q,o,n,m]}if(l(b,wO))throw x}var
+g=d(wP),h=c(wQ),i=c(wR);return[1,au(b,wS),i,h,g]}function
+kA(a){if(0===a[0]&&a[5])return 1;return 0}function
+kB(ad){var
+j=c9(ad),k=j[1];if(l(k,wY)){if(l(k,wZ)){if(l(k,w0))return Z([0,w2,[0,k,w1]]);var
+r=p(T(j[2]),w3),S=0;if(2===r[0]){var
+D=l(r[1],w4);if(!D){var
+C=D;S=1}}if(!S)var
+C=[0,bS(r)];return[6,C]}var
+E=T(j[2]),f=kB([0,[0,[0,w6,p(E,w5)],0]]);if(0===f[0]){var
+s=f[2];if(0===s[0]&&!f[3]){var
+ae=V(p(E,w8));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w7)}var
+b=T(j[2]);function
+F(a){return X(wA,U(p(b,w9)))}var
+g=c9(p(b,w_)),c=c9(p(b,w$)),a=g[1];if(l(a,xa)&&0!==aZ(b,xb))return Z(x_);if(l(a,xc)&&l(a,xd)&&l(a,xe)){if(0===aZ(b,xf)){if(l(a,xg)){var
+W=0;if(l(a,xh)){if(!l(a,xi)){var
+G=c[1],Y=0;if(l(G,xl)&&l(G,xm)){W=1;Y=1}if(!Y){var
+m=U(g[2]),d=T(c[2]);if(l(c[1],wE))var
+y=c$(V,p(d,wF)),z=c$(V,p(d,wG)),_=z[2],$=z[1],aa=V(p(d,wH)),t=[1,y[1],y[2],aa,$,_];else
 var
-R=dK(Y,p(d,vN)),s=[0,dK(Y,p(d,vO)),R];if(dZ(j5,r)){var
-V=Z(gB,X(p(c,wf)));return[1,Z(u$,r),s,V]}var
-W=A(0);return[0,Z(uT,r),s,W]}}}else
-if(!j(a[1],wg)){var
-_=A(0),$=Y(p(U(a[2]),wh));return[4,Y(p(U(f[2]),wi)),$,_]}if(!M)return aa([0,wa,[0,b,v$]])}else
-if(!j(a[1],wj)){var
-l=U(f[2]),C=U(a[2]),D=function(c,a){var
-b=X(a);return Z(function(d){var
-a=X(d);if(a){var
-b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,a0(a[1]),f]}}throw x},b)},ab=function(d){var
+ab=c_(V,p(d,wI)),t=[0,c_(V,p(d,wJ)),ab];var
+u=aZ(b,xp),v=u?X(wK,U(u[1])):u,H=cL(gU,m),af=H?0!==v?1:0:H;if(af)Z(xq);var
+i=v;for(;;){if(i){var
+A=i[2],ac=i[1],B=1-cL(function(e){return function(a){var
+b=gG(e,a);if(b){var
+c=kA(e);if(!c)return kA(a);var
+d=c}else
+var
+d=b;return d}}(ac),A);if(B){var
+i=A;continue}var
+I=B}else
+var
+I=1;if(1-I)Z(xr);if(cL(gU,m)){var
+ag=X(gW,U(p(b,xs)));return[1,X(v5,m),t,ag]}var
+ah=F(0);return[0,X(vN,m),t,v,ah]}}}}else
+if(!l(c[1],xt)){var
+ai=F(0),aj=V(p(T(c[2]),xu));return[4,V(p(T(g[2]),xv)),aj,ai]}if(!W)return Z([0,xk,[0,a,xj]])}else
+if(!l(c[1],xw)){var
+n=T(g[2]),J=T(c[2]),K=function(c,a){var
+b=U(a);return X(function(d){var
 a=U(d);if(a){var
-b=a[1],c=b[1];if(j(c,wk)){if(!j(c,wl)&&!a[2])return Z(j3,X(b[2]))}else
-if(!a[2])return aa(wm)}throw x},ac=Z(gB,X(p(c,wn))),ad=Z(Y,X(p(C,wo))),ae=Z(Y,X(p(C,wp))),af=Z(ab,X(p(l,wq))),ag=D(j3,p(l,wr)),ah=D(bM,p(l,ws));return[3,Z(a0,X(p(l,wt))),ah,ag,af,ae,ad,ac]}return aa([0,we,[0,a[1],wd]])}throw x}var
-E=a[1],F=U(f[2]),G=U(a[2]);if(j(E,wu))aa([0,ww,[0,E,wv]]);var
-H=a4(F,wx),ai=H?Y(H[1]):aa([0,wW,[0,b,wV]]),aj=function(d){var
-a=U(d);function
-b(b){return Z(bM,X(p(a,b)))}var
-c=a0(p(a,wy)),e=a4(a,wz);if(!j(c,wA)&&!e){var
-f=b(wD);return[0,b(wE),f]}return aa([0,wC,[0,c,wB]])},g=cZ(p(c,wF)),m=g[1];if(j(m,wG))if(j(m,wH))if(j(m,wI)){if(j(m,wJ))throw x;var
-I=g[2],ak=Y(p(U(I),wK)),n=[3,Y(p(U(I),wL)),ak]}else
+b=a[2];if(b&&!b[2]){var
+f=e(c,b[1]);return[0,aO(a[1]),f]}}throw x},b)},ak=function(d){var
+a=T(d);if(a){var
+b=a[1],c=b[1];if(l(c,xx)){if(!l(c,xy)&&!a[2])return X(ky,U(b[2]))}else
+if(!a[2])return Z(xz)}throw x},al=X(gW,U(p(b,xA))),am=X(V,U(p(J,xB))),an=X(V,U(p(J,xC))),ao=X(ak,U(p(n,xD))),ap=K(ky,p(n,xE)),aq=K(bS,p(n,xF));return[3,X(aO,U(p(n,xG))),aq,ap,ao,an,am,al]}return Z([0,xo,[0,c[1],xn]])}throw x}var
+L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xH))Z([0,xJ,[0,L,xI]]);var
+O=aZ(M,xK),ar=O?V(O[1]):Z([0,x9,[0,a,x8]]);function
+as(d){var
+a=T(d);function
+b(b){return X(bS,U(p(a,b)))}var
+c=aO(p(a,xL)),e=aZ(a,xM);if(!l(c,xN)&&!e){var
+f=b(xQ);return[0,b(xR),f]}return Z([0,xP,[0,c,xO]])}var
+h=c9(p(b,xS)),o=h[1];if(l(o,xT))if(l(o,xU))if(l(o,xV)){if(l(o,xW))throw x;var
+P=h[2],at=V(p(T(P),xX)),q=[3,V(p(T(P),xY)),at]}else
 var
-ap=g[2],t=function(a){return dM(Y,p(U(ap),a))},aq=t(wS),ar=t(wT),n=[1,t(wU),ar,aq];else
+ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x5),aA=w(x6),q=[1,w(x7),aA,az];else
 var
-K=dM(Y,g[2]),n=[0,K[1],K[2]];else
+R=c$(V,h[2]),q=[0,R[1],R[2]];else
 var
-n=[2,Y(g[2])];var
-J=j(b,wM),al=J?j(b,wN)?2:1:J,am=Z(vI,X(p(c,wO))),an=Z(Y,X(p(G,wP))),ao=Z(Y,X(p(G,wQ)));return[2,al,Z(aj,X(p(F,wR))),ai,ao,an,n,am]}return aa(wX)}function
-j7(a){return Z(eK,X(a))}function
-eL(g,m){var
-D=g[2];function
-E(c,b){var
-a=j7(b);if(cC(a)!==c)throw x;return a}switch(m[0]){case
+q=[2,V(h[2])];var
+Q=l(a,xZ),au=Q?l(a,x0)?2:1:Q,av=X(wD,U(p(b,x1))),aw=X(V,U(p(N,x2))),ax=X(V,U(p(N,x3)));return[2,au,X(as,U(p(M,x4))),ar,ax,aw,q,av]}function
+kC(a){return X(e1,U(a))}function
+e4(g,m){var
+n=g[2];function
+o(c,b){var
+a=kC(b);if(ch(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(j(b,w0))if(j(b,w1))if(j(b,w2))if(j(b,w3)){var
-O=0;if(j(b,w4)&&j(b,w5)&&j(b,w6))O=1;if(!O)if(c[2])d=1;else{var
-Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
+e=c[1],b=e[1],d=0;if(l(b,yb))if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf)){var
+Q=0;if(l(b,yg)&&l(b,yh)&&l(b,yi))Q=1;if(!Q)if(c[2])d=1;else{var
+S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
-n=J[1];if(n){var
-o=n[2];if(o){var
-q=o[2];if(q&&!q[2]){if(!c[2]){var
-T=gz(q[1]),V=eK(o[1]);return[4,eL(g,n[1]),V,T]}d=1}}}}}else{if(!c[2]){var
-A=a0(e[2]),B=j(A,wY);if(B){if(j(A,wZ))throw x;var
-C=1}else
+q=J[1];if(q){var
+r=q[2];if(r){var
+s=r[2];if(s&&!s[2]){if(!c[2]){var
+Y=e2(s[1]),_=e1(r[1]);return[4,e4(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
+K=T(e[2]),$=U(p(K,yn)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yp,L,e2(p(K,yo))];throw x}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=l(C,x$);if(D){if(l(C,ya))throw x;var
+E=1}else
 var
-C=B;return[2,C]}d=1}else{if(!c[2]){var
-h=e[2],l=0;switch(h[0]){case
+E=D;return[2,E]}d=1}else{if(!c[2]){var
+h=e[2],k=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-L=i[1],u=L[1],a=0;if(j(u,w$)&&j(u,xa))if(j(u,xb))a=1;else{var
-M=L[2];if(1===M[0]){var
-v=M[1];if(v){var
-k=v[1],f=0;switch(k[0]){case
+N=i[1],w=N[1],a=0;if(l(w,yq)&&l(w,yr))if(l(w,ys))a=1;else{var
+O=N[2];if(1===O[0]){var
+y=O[1];if(y){var
+j=y[1],f=0;switch(j[0]){case
 0:var
-w=k[1];if(w){var
-N=w[1][1],P=0;if(j(N,xd)&&j(N,xe)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(j(k[1],xf)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-y=v[2];if(y){var
-z=y[2];if(z&&!(z[2]||i[2])){var
-_=gz(z[1]),$=eK(y[1]),r=[5,eL(g,k),$,_];l=1;a=1}else
+z=j[1];if(z){var
+P=z[1][1],R=0;if(l(P,yu)&&l(P,yv)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(l(j[1],yw)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+A=y[2];if(A){var
+B=A[2];if(B&&!(B[2]||i[2])){var
+ad=e2(B[1]),ae=e1(A[1]),t=[5,e4(g,j),ae,ad];k=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])l=2}break;case
-2:if(!j(h[1],xg))l=2;break}switch(l){case
+a=1}if(!a&&!i[2])k=2}break;case
+2:if(!l(h[1],yx))k=2;break}switch(k){case
 0:var
-r=aa(xc);break;case
+t=Z(yt);break;case
 2:var
-r=eL(g,h);break}return[6,r]}d=1}else{var
-K=e[2];if(1===K[0]){var
-s=K[1];if(s){var
-t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
-W=t[1],Y=s[1],G=Y,F=function(b,a){return[3,b,a,E(D+1|0,W)]};d=2}}}}switch(d){case
-0:if(!c[2])return aa([0,w8,[0,b,w7]]);break;case
+t=e4(g,h);break}return[6,t]}d=1}else{var
+M=e[2];if(1===M[0]){var
+u=M[1];if(u){var
+v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
+ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
+0:if(!c[2])return Z([0,yk,[0,b,yj]]);break;case
 1:break;default:var
-H=U(G),R=X(p(H,w9)),I=Z(function(a){return E(D,a)},R),S=g[1];if(cC(I)!==S)throw x;return F(I,gz(p(H,w_)))}}break;case
+H=T(G),V=U(p(H,yl)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,ym)))}}break;case
 2:return[0,m[1]]}throw x}function
-j8(k){var
-b=cZ(k),a=b[1];if(j(a,xj)){var
-g=j(a,xk);if(!g)return g;if(!j(a,xl)){var
+kD(j){var
+b=c9(j),a=b[1];if(l(a,yA)){var
+g=l(a,yB);if(!g)return g;if(!l(a,yC)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=c0(d[1]);return[1,c0(c[1]),l]}}}}}else{var
+k=cE(d[1]);return[1,cE(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=Z(j7,X(f[1]));return[0,c0(e[1]),m]}}}}return aa([0,xn,[0,a,xm]])}function
-xC(c){var
+m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yE,[0,a,yD]])}function
+yT(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!j(b[1],xD))a=1;break;case
+0:if(!l(b[1],yU))a=1;break;case
 6:a=1;break}return a?1:0}function
-xE(f){var
-g=y(f),a=[0,0];function
-h(b){if(a[1]<g)return N(f,a[1]);throw x}function
+yV(f){var
+g=E(f),a=[0,0];function
+h(b){if(a[1]<g)return R(f,a[1]);throw x}function
 i(b){if(h(0)===b){a[1]++;return 0}throw x}function
-s(b,c){for(;;){if(a[1]<g&&e(c,N(f,a[1]))){a[1]++;continue}return da(f,b,a[1]-b|0)}}function
+s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return dn(f,b,a[1]-b|0)}}function
 t(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -5408,58 +5645,58 @@ g=125;return[0,u(function(b){var
 a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,s(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-B=n(0,0),v=a[1]<g?1:0,C=v?10===N(f,a[1])?1:0:v;if(C)a[1]++;if(a[1]<g)throw x;var
-l=U(B);if(j(a0(p(l,xF)),xG))throw x;var
-c=j6(p(l,xH));switch(c[0]){case
+A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw x;var
+k=T(A);if(l(aO(p(k,yW)),yX))throw x;var
+c=kB(p(k,yY));switch(c[0]){case
 2:var
-O=1===c[1]?6:3,m=[0,cC(c[2]),O];break;case
+N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
 3:var
-P=cC(c[1]),m=[0,cC(c[4]),P];break;case
+O=ch(c[1]),m=[0,ch(c[4]),O];break;case
 0:case
 5:var
-m=[0,cC(c[1]),3];break;default:var
-m=xS}var
-o=cZ(p(l,xI)),q=o[1];if(j(q,xs))if(j(q,xt))var
-b=aa([0,xv,[0,q,xu]]);else
+m=[0,ch(c[1]),3];break;default:var
+m=y9}var
+o=c9(p(k,yZ)),q=o[1];if(l(q,yJ))if(l(q,yK))var
+b=Z([0,yM,[0,q,yL]]);else
 var
-k=U(o[2]),r=a4(k,xw),D=r?Z(Y,X(r[1])):r,E=j8(p(k,xx)),F=Z(Y,X(p(k,xy))),b=[1,jZ(p(k,xz)),F,D,E];else
+j=T(o[2]),r=aZ(j,yN),C=r?X(V,U(r[1])):r,D=kD(p(j,yO)),F=X(V,U(p(j,yP))),b=[1,kv(p(j,yQ)),F,C,D];else
 var
-w=U(o[2]),G=X(p(w,xA)),H=Z(function(f){var
-a=U(f);function
+w=T(o[2]),G=U(p(w,yR)),H=X(function(f){var
+a=T(f);function
 b(d,c){var
-b=a4(a,c);return b?Z(d,X(b[1])):b}var
-c=b(eK,xo),d=dJ(j8,a4(a,xp)),e=dJ(c0,a4(a,xq));return[0,b(function(g){var
-b=X(g);if(b){var
+b=aZ(a,c);return b?X(d,U(b[1])):b}var
+c=b(e1,yF),d=c8(kD,aZ(a,yG)),e=c8(cE,aZ(a,yH));return[0,b(function(g){var
+b=U(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],xh)){if(!a[2]){if(j(dI(e),xi))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yy)){if(!a[2]){if(l(dY(e),yz))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=eL(m,c);return[0,c0(e),f]}}}throw x},xr),e,d,c]},G),b=[0,jZ(p(w,xB)),H];var
+f=e4(m,c);return[0,cE(e),f]}}}throw x},yI),e,d,c]},G),b=[0,kv(p(w,yS)),H];var
 d=0;switch(c[0]){case
-1:if(0===b[0])aa(xN);else
+1:if(0===b[0])Z(y4);else
 d=1;break;case
 2:if(0===b[0]){var
-K=b[2];if(hw(function(a){return hw(xC,a[1])},K))d=2;else
-aa(xO)}else{var
-L=c[7];if(dZ(function(a){switch(a[1]){case
+K=b[2];if(hU(function(a){return hU(yT,a[1])},K))d=2;else
+Z(y5)}else{var
+L=c[7];if(cL(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},L))aa(xP);else
+8:return 1;default:return 0}},L))Z(y6);else
 d=1}break;case
-3:if(1===b[0])aa(xQ);else
+3:if(1===b[0])Z(y7);else
 d=2;break;case
 5:var
-Q=0;if(0===b[0]){var
-M=b[2];if(dZ(function(a){return 0!==a[1]?1:0},M)){aa(xR);Q=1}}break;default:d=2}var
-A=0;switch(d){case
+P=0;if(0===b[0]){var
+M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y8);P=1}}break;default:d=2}var
+z=0;switch(d){case
 2:if(0===b[0]){var
-I=b[2];if(dZ(function(a){return 0!==a[3]?1:0},I)){aa(xJ);A=1}}break;case
-1:break;default:A=1}var
-z=U(p(l,xK)),J=a0(p(z,xL));return[0,c,b,a0(p(z,xM)),J]}function
-xT(c){try{try{var
-d=0,a=xE(c);d=1}catch(a){a=fc(a);if(a[1]===jY)var
+I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y0);z=1}}break;case
+1:break;default:z=1}var
+y=T(p(k,y1)),J=aO(p(y,y2));return[0,c,b,aO(p(y,y3)),J]}function
+y_(c){try{try{var
+d=0,a=yV(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=uE(c,a)?0===a[2][0]?0:1:2}catch(a){return xU}if(typeof
+b=vy(c,a)?0===a[2][0]?0:1:2}catch(a){return y$}if(typeof
 b==="number")switch(b){case
-0:return xV;case
-1:return xW;default:return xX}return as(xY,b[1])}zJ.orthocert_verify=zp(function(b){return bU(xT(a(b)))});ff(0);return}(globalThis));
+0:return za;case
+1:return zb;default:return zc}return av(zd,b[1])}A3.orthocert_verify=AI(function(b){return b0(y_(a(b)))});fy(0);return}(globalThis));
