@@ -850,7 +850,7 @@ Definition accept (c : certificate) : bool :=
   | Machine_ ls w bs rs, Nodes bits nodes =>
       let k := claim_of ls w bs rs in
       match tree_of (length nodes) nodes with
-      | Some (t, []) => is_well_formed ls bs rs k &&
+      | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
           certify exact_bits bits k (length_order (legs k)) (map direction_order (legs k)) t
       | _ => false
       end

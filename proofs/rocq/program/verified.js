@@ -4,9 +4,9 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-A3=typeof
-module==="object"&&module.exports||u,hk="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g5=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g4="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g3="Failure",mF="serial_margin",mG="parameters",bW=0xff,hq="bodies",k3="\n",hp="outside",ha="base_axis",hj="ENOENT",mE=122,aP="0",l_="([^/]+)",hi=0xf,d5=128,g2=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hh="%d",kY="Printexc.handle_uncaught_exception",g$="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g_=127,d3=1024,lr="@{",l1="from",ho="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",hn=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hm="orientation",lm="angle",fg=254,hl="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g1="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hg="Unix.Unix_error",mr="infinity",e7="tool",g0="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g9="^",e5=": No such file or directory",hf="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",he="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",hd="test",bT=" ",e$="conditioning",hc="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g8=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g7="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hb="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g6="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
-hG(c,b,a){var
+A4=typeof
+module==="object"&&module.exports||u,hl="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g6=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g5="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g4="Failure",mF="serial_margin",mG="parameters",bW=0xff,hr="bodies",k3="\n",hq="outside",hb="base_axis",hk="ENOENT",mE=122,aP="0",l_="([^/]+)",hj=0xf,d5=128,g3=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hi="%d",kY="Printexc.handle_uncaught_exception",ha="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g$=127,d3=1024,lr="@{",l1="from",hp="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",ho=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hn="orientation",lm="angle",fg=254,hm="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g2="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hh="Unix.Unix_error",mr="infinity",e7="tool",g1="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g_="^",e5=": No such file or directory",hg="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",hf="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",he="test",bT=" ",e$="conditioning",hd="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g9=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g8="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hc="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g7="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
+hH(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=s;for(;0<a;b+=d3,a-=d3)e+=d.apply(null,c.slice(b,b+Math.min(a,d3)));return e}function
 fm(b){if(u.Uint8Array)var
@@ -15,8 +15,8 @@ var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
+cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -25,15 +25,15 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 bX(a){return a}function
 bE(a,b,c,d,e){cg(bX(a),b,c,d,e);return 0}function
-AV(b,a){throw[0,b,a]}function
+AW(b,a){throw[0,b,a]}function
 dj(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
 dh(a){if(a.t==2)a.c+=dj(a.l-a.c.length,"\0");else
-a.c=hG(a.c,0,a.c.length);a.t=0}function
+a.c=hH(a.c,0,a.c.length);a.t=0}function
 nb(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>g_)return false;return true}else
+b=0;b<a.length;b++)if(a.charCodeAt(b)>g$)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hI(e){for(var
+hJ(e){for(var
 j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
 d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kU){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
 c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(f<<6);if(f<lb){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(g<<6);if(f<mn){a=g-0xe2080;if(a<mc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
@@ -43,16 +43,16 @@ bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(thi
 9:return this.c;default:dh(this);case
 0:if(nb(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bC.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hI(a)};bC.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return hJ(a)};bC.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bC(this.t,a,this.l)};function
 mR(a){return new
 bC(0,a,a.length)}function
 a(a){return mR(a)}function
-hE(c,b){AV(c,a(b))}var
+hF(c,b){AW(c,a(b))}var
 ah=[0];function
-at(a){hE(ah.Invalid_argument,a)}function
-mP(){at(hl)}function
+at(a){hF(ah.Invalid_argument,a)}function
+mP(){at(hm)}function
 aj(a,c,b){b&=bW;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fm(a)}a.c[c]=b;return 0}function
 cH(b,a,c){if(a>>>0>=b.l)mP();return aj(b,a,c)}function
 dg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
@@ -68,20 +68,20 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bY(c,d)}}function
-d6(){at(hl)}function
+d6(){at(hm)}function
 mS(a,b){if(b>>>0>=a.length-1)d6();return a}function
-Al(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+Am(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
 b0(a){a.t&6&&dh(a);return a.c}var
-A5=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-A4(a){if(A5)return Math.floor(Math.log2(a));var
+A6=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+A5(a){if(A6)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hw(c){var
+hx(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
 m1=Math.pow(2,-24);function
-AT(a){throw a}function
-m8(){AT(ah.Division_by_zero)}function
+AU(a){throw a}function
+m8(){AU(ah.Division_by_zero)}function
 t(b,c,a){this.lo=b&bV;this.mi=c&bV;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
@@ -119,10 +119,10 @@ fq(b,c,a){return new
 t(b,c,a)}function
 fp(a){if(!isFinite(a)){if(isNaN(a))return fq(1,0,kT);return a>0?fq(0,0,kT):fq(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
-b=A4(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=A5(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hi|f|b<<4;return fq(g,e,c)}function
+g=a|0;c=c&hj|f|b<<4;return fq(g,e,c)}function
 d9(a){return a.toArray()}function
 mO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fk)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
@@ -150,10 +150,10 @@ e=d9(fp(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hw(b.get(a));c.write(32,e)}break;case
+e=hx(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hw(d[1]));c.write(32,hw(d[2]))}break;case
+d=b.get(a);c.write(32,hx(d[1]));c.write(32,hx(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=d9(fp(f[1]));for(var
@@ -164,7 +164,7 @@ mM(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Af(c,e){var
+Ag(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -181,24 +181,24 @@ b=u,a;switch(c){case
 12:a=b.Uint8Array;break}if(!a)at("Bigarray.create: unsupported kind");var
 d=new
 a(e*mM(c));return d}function
-hx(c){var
+hy(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
 d8(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hy(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hi)==0?b&bx?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hi);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
+hz(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hj)==0?b&bx?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hj);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
 a*=Math.pow(2,-lN);if(b&bx)a=-a;return a}function
-hr(b){var
+hs(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)at("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Aw(b,a){return new
+Ax(b,a){return new
 t(b&bV,b>>>24&bW|(a&bB)<<8,a>>>16&bB)}function
-hz(a){return a.hi32()}function
-hA(a){return a.lo32()}var
-Ag=fk;function
-cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ag;cf.prototype.offset=function(b){var
+hA(a){return a.hi32()}function
+hB(a){return a.lo32()}var
+Ah=fk;function
+cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ah;cf.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -207,15 +207,15 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d6();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d6();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Aw(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ax(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[fg,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hA(b);this.data[a*2+1]=hz(b);break;case
+7:this.data[a*2+0]=hB(b);this.data[a*2+1]=hA(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hA(b),e=hz(b);if(c==e)this.data.fill(c);else
+c=hB(b),e=hA(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -249,10 +249,10 @@ instanceof
 Array&&a.length==1)a=a[0];else
 at("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d6();return a};df.prototype.get=function(a){return this.data[a]};df.prototype.set=function(a,b){this.data[a]=b;return 0};df.prototype.fill=function(a){this.data.fill(a);return 0};function
 mK(c,d,a,b){var
-e=mM(c);if(hr(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e=mM(c);if(hs(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 df(c,d,a,b);return new
 cf(c,d,a,b)}function
-bk(b){if(!ah.Failure)ah.Failure=[ar,a(g3),-3];hE(ah.Failure,b)}function
+bk(b){if(!ah.Failure)ah.Failure=[ar,a(g4),-3];hF(ah.Failure,b)}function
 mL(b,v,r){var
 i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&bW,o=p>>8&1,h=[];if(r==fk)for(var
@@ -261,7 +261,7 @@ n=b.read16u();if(n==bB){var
 t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hr(h),f=Af(j,d),g=mK(j,o,h,f);switch(j){case
+d=hs(h),f=Ag(j,d),g=mK(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -288,28 +288,28 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hy(d8(e));g.set(a,k)}break;case
+k=hz(d8(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hx(b.read32s());g.set(a,k)}break;case
+k=hy(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hx(b.read32s()),l=hx(b.read32s());g.set(a,[fg,m,l])}break;case
+m=hy(b.read32s()),l=hy(b.read32s());g.set(a,[fg,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hy(d8(e));for(var
+m=hz(d8(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hy(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
+l=hz(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
 mJ(a,b,c){return a.compare(b,c)}function
 m5(a,b){return Math.imul(a,b)}function
 bZ(b,a){a=m5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-As(a,b){a=bZ(a,hA(b));a=bZ(a,hz(b));return a}function
-m0(a,b){return As(a,fp(b))}function
+At(a,b){a=bZ(a,hB(b));a=bZ(a,hA(b));return a}function
+m0(a,b){return At(a,fp(b))}function
 mN(c){var
-b=hr(c.dims),d=0;switch(c.kind){case
+b=hs(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
 12:if(b>ma)b=ma;var
@@ -333,32 +333,32 @@ a=0;a<b;a++)d=m0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=m0(d,c.data[a]);break}return d}function
-Au(a,b){b[0]=4;return a.read32s()}function
-AQ(a,b){switch(a.read8u()){case
+Av(a,b){b[0]=4;return a.read32s()}function
+AR(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
-AF(c,d){var
+AG(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return d8(b)}function
-AB(e,d,b){var
+AC(e,d,b){var
 c=d9(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Av(a,b,c){return a.compare(b)}function
-Ay(a){return a.lo32()^a.hi32()}var
-mV={"_j":{deserialize:AF,serialize:AB,fixed_length:8,compare:Av,hash:Ay},"_i":{deserialize:Au,fixed_length:4},"_n":{deserialize:AQ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
-ht(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
+Aw(a,b,c){return a.compare(b)}function
+Az(a){return a.lo32()^a.hi32()}var
+mV={"_j":{deserialize:AG,serialize:AC,fixed_length:8,compare:Aw,hash:Az},"_i":{deserialize:Av,fixed_length:4},"_n":{deserialize:AR,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
+hu(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
 mT(f,c,d,e){var
-b=ht(c);if(b){var
+b=hu(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 fr(a){return a
 instanceof
 bC}function
-hC(a){return fr(a)}function
+hD(a){return fr(a)}function
 mU(a){if(typeof
 a==="number")return d2;else
 if(fr(a))return fj;else
-if(hC(a))return 1252;else
+if(hD(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=k8){var
@@ -371,23 +371,23 @@ a=="string")return lj;else
 if(a
 instanceof
 Number)return d2;else
-if(a&&a.caml_custom)return g5;else
+if(a&&a.caml_custom)return g6;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AG(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+AH(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
 mQ(a,b){a.t&6&&dh(a);b.t&6&&dh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-AY(a,b){return mQ(a,b)}function
-hs(a,b,d){var
+AZ(a,b){return mQ(a,b)}function
+ht(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
 f=mU(a);if(f==k9){a=a[1];continue}var
-g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g5)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g5)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:at(hb);break;case
+g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g6)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g6)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:at(hc);break;case
 248:var
-c=AG(a[2],b[2]);if(c!=0)return c|0;break;case
-249:at(hb);break;case
+c=AH(a[2],b[2]);if(c!=0)return c|0;break;case
+249:at(hc);break;case
 250:at("equal: got Forward_tag, should not happen");break;case
 251:at("equal: abstract value");break;case
 252:if(a!==b){var
@@ -395,9 +395,9 @@ c=mQ(a,b);if(c!=0)return c|0}break;case
 253:at("equal: got Double_tag, should not happen");break;case
 254:at("equal: got Double_array_tag, should not happen");break;case
 255:at("equal: got Custom_tag, should not happen");break;case
-1247:at(hb);break;case
+1247:at(hc);break;case
 1255:var
-i=ht(a);if(i!=ht(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
+i=hu(a);if(i!=hu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -411,86 +411,86 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Am(a,b){return hs(a,b,true)}function
-An(){return[0]}function
+An(a,b){return ht(a,b,true)}function
+Ao(){return[0]}function
 ao(a){if(a<0)at("Bytes.create");return new
 bC(a?2:9,s,a)}function
-mW(a,b){return+(hs(a,b,false)==0)}function
-Ap(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hD(d){d=b0(d);var
+mW(a,b){return+(ht(a,b,false)==0)}function
+Aq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hE(d){d=b0(d);var
 e=d.length;if(e>31)at("format_int: format too long");var
 a={justify:by,signstyle:a9,filler:bT,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hu(b,f){if(b.uppercase)f=f.toUpperCase();var
+hv(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
 c=s;if(b.justify==by&&b.filler==bT)for(var
 d=e;d<b.width;d++)c+=bT;if(b.signedconv)if(b.sign<0)c+=a9;else
 if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kR;if(b.justify==by&&b.filler==aP)for(var
 d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
 d=e;d<b.width;d++)c+=bT;return a(c)}function
-hv(i,c){function
+hw(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
 Array(c+1).join(aP);if(b>0)a=a+ce+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hD(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g7;e.filler=bT}else
+a,e=hE(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g8;e.filler=bT}else
 if(!isFinite(c)){a="inf";e.filler=bT}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==ho)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(ho),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==ho)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hp),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hu(e,a)}function
-fn(e,c){if(b0(e)==hh)return a(s+c);var
-b=hD(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hv(e,a)}function
+fn(e,c){if(b0(e)==hi)return a(s+c);var
+b=hE(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
 d=c.toString(b.base);if(b.prec>=0){b.filler=bT;var
-f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hu(b,d)}var
-AR=0;function
-fo(){return AR++}function
-AJ(a){return a.toUtf16()}function
+f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hv(b,d)}var
+AS=0;function
+fo(){return AS++}function
+AK(a){return a.toUtf16()}function
 d$(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-A6(){function
+A7(){function
 a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return d$()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-hM=A6();function
+hN=A7();function
 m$(a){return a.slice(-1)!==bg?a+bg:a}if(d$()&&u.process&&u.process.cwd)var
 d7=u.process.cwd().replace(/\\/g,bg);else
 var
 d7="/static";d7=m$(d7);function
-AK(a){a=AJ(a);if(!hM(a))a=d7+a;var
-e=hM(a),d=e[1].split(bg),b=[];for(var
+AL(a){a=AK(a);if(!hN(a))a=d7+a;var
+e=hN(a),d=e[1].split(bg),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-A0(e){for(var
+A1(e){for(var
 f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
 d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kU){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
 b+=e.slice(c,d);if(d==g)break;c=d}if(a<mc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&dc)}else
 if(a<0xd800||a>=la)b+=String.fromCharCode(lb|a>>12,bi|a>>6&dc,bi|a&dc);else
 if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k2||h>la)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mn|a>>18,bi|a>>12&dc,bi|a>>6&dc,bi|a&dc)}if(b.length>d3){b.substr(0,1);f+=b;b=s}}return f+b}function
-Ak(a){var
-b=9;if(!nb(a))b=8,a=A0(a);return new
+Al(a){var
+b=9;if(!nb(a))b=8,a=A1(a);return new
 bC(b,a,a.length)}function
-bl(a){return Ak(a)}var
-A8=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hj,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g6,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+bl(a){return Al(a)}var
+A9=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hk,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g7,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 cK(d,f,e,a){var
-b=A8.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=A9.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,bl(f||s),bl(e||s)];return c}var
 m6={};function
 cI(a){return m6[a]}function
 cJ(b,a){throw[0,b].concat(a)}function
-Aj(a){return new
+Ak(a){return new
 bC(4,a,a.length)}function
-Q(a){hE(ah.Sys_error,a)}function
-AU(a){Q(a+e5)}function
-Ai(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
+Q(a){hF(ah.Sys_error,a)}function
+AV(a){Q(a+e5)}function
+Aj(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
 a0(a){return a.l}function
 mI(){}function
 az(a){this.data=a}az.prototype=new
@@ -498,30 +498,30 @@ mI();az.prototype.truncate=function(a){var
 b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};az.prototype.length=function(){return a0(this.data)};az.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
 e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
-e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Ai(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Aj(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
 c=d.split(bg),b=s;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
 az(bX(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cI(hg);if(this.exists(c))if(b)cJ(b,cK(kZ,g0,this.nm(c)));else
+b=d&&cI(hh);if(this.exists(c))if(b)cJ(b,cK(kZ,g1,this.nm(c)));else
 Q(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hj,g0,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g6,g0,this.nm(a)));else
-Q(a+hn);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cI(hg),c=a==s?s:this.slash(a),e=new
-RegExp(g9+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hj,he,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g6,he,this.nm(a)));else
-Q(a+hn);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hk,g1,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,g1,this.nm(a)));else
+Q(a+ho);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cI(hh),c=a==s?s:this.slash(a),e=new
+RegExp(g_+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hk,hf,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,hf,this.nm(a)));else
+Q(a+ho);for(var
 d
 in
-this.content)if(d.match(e))if(b)cJ(b,cK(l9,he,this.nm(a)));else
+this.content)if(d.match(e))if(b)cJ(b,cK(l9,hf,this.nm(a)));else
 Q(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+hn);var
+f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+ho);var
 g=new
-RegExp(g9+f+l_),d={},c=[];for(var
+RegExp(g_+f+l_),d={},c=[];for(var
 e
 in
 this.content){var
@@ -532,14 +532,14 @@ this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 az(ao(0));return this.content[a]}else
-AU(this.nm(a))};aQ.prototype.register=function(c,a){var
+AV(this.nm(a))};aQ.prototype.register=function(c,a){var
 b;if(this.content[c])Q(this.nm(c)+lp);if(fr(a))b=new
-az(a);if(hC(a))b=new
+az(a);if(hD(a))b=new
 az(bX(a));else
 if(a
 instanceof
 Array)b=new
-az(Aj(a));else
+az(Ak(a));else
 if(typeof
 a==="string")b=new
 az(mR(a));else
@@ -549,17 +549,17 @@ az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
 E(a){return a0(a)}function
 bG(b,a){return dg(b,a)}function
-Ae(d){var
+Af(d){var
 c=E(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
-Ad(a){if(a.t!=4)fm(a);return a.c}function
+Ae(a){if(a.t!=4)fm(a);return a.c}function
 bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
 mI();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
-a=Ae(b);if(!(a
+a=Af(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
-a=Ad(d);if(!(a
+a=Ae(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
@@ -576,7 +576,7 @@ bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
 a=this.fs.readlinkSync(this.nm(b),kI);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
-b=cI(hg);if(d&&b){var
+b=cI(hh);if(d&&b){var
 c=cK(a.code,a.syscall,a.path,a.errno);cJ(b,c)}else
 Q(a.toString())};aA.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -587,28 +587,28 @@ if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
 mZ(b){var
-a=hM(b);if(!a)return;return a[0]+bg}var
+a=hN(b);if(!a)return;return a[0]+bg}var
 ft=mZ(d7)||bk("unable to compute caml_root"),dk=[];if(d$())dk.push({path:ft,device:new
 aA(ft)});else
 dk.push({path:ft,device:new
 aQ(ft)});dk.push({path:lR,device:new
 aQ(lR)});function
 nf(b){var
-g=AK(b),b=g.join(bg),f=m$(b),c;for(var
+g=AL(b),b=g.join(bg),f=m$(b),c;for(var
 e=0;e<dk.length;e++){var
 a=dk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&d$()){var
 d=mZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aA(d)};dk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
-Ao(c,b){var
+Ap(c,b){var
 a=nf(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
 na(c,b){var
-c=a(c),b=a(b);return Ao(c,b)}function
-Ar(){var
+c=a(c),b=a(b);return Ap(c,b)}function
+As(){var
 b=u.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)na(b[a].name,b[a].content);u.jsoo_create_file=na;u.caml_fs_tmp=[];return 0}function
 mY(){return[0]}function
-At(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g7);return bl(a>0?mr:"-infinity")}var
+Au(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g8);return bl(a>0?mr:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
@@ -622,18 +622,18 @@ b=a.toString(16);if(c>=0){var
 h=b.indexOf(ce);if(h<0)b+=ce+dj(c,aP);else{var
 f=h+1+c;if(b.length<f)b+=dj(f-b.length,aP);else
 b=b.substr(0,f)}}return bl(e+kR+b+"p"+j+d.toString(10))}function
-AA(a){return+a.isZero()}function
-AD(a){return new
+AB(a){return+a.isZero()}function
+AE(a){return new
 t(a&bV,a>>24&bV,a>>31&bB)}function
-AE(a){return a.toInt()}function
-Az(a){return+a.isNeg()}function
-AC(a){return a.neg()}function
-Ax(g,c){var
-a=hD(g);if(a.signedconv&&Az(c)){a.sign=-1;c=AC(c)}var
-b=s,h=AD(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AE(e.modulus))+b}while(!AA(c));if(a.prec>=0){a.filler=bT;var
-d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hu(a,b)}function
-AS(c){var
+AF(a){return a.toInt()}function
+AA(a){return+a.isNeg()}function
+AD(a){return a.neg()}function
+Ay(g,c){var
+a=hE(g);if(a.signedconv&&AA(c)){a.sign=-1;c=AD(c)}var
+b=s,h=AE(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AF(e.modulus))+b}while(!AB(c));if(a.prec>=0){a.filler=bT;var
+d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hv(a,b)}function
+AT(c){var
 a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
@@ -646,20 +646,20 @@ a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 117:case
 85:a+=2;break}return[a,d,b]}function
 m7(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mE)return a-87;return-1}function
-hB(f){var
-h=AS(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
+hC(f){var
+h=AT(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
 a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m7(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e8)}if(c!=g)bk(e8);a=i*a;if(d==10&&(a|0)!=a)bk(e8);return a|0}function
-AI(d){return function(){var
+AJ(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
 a=0;a<b;a++)c[a]=arguments[a];return bY(d,c)}else
 return bY(d,[undefined])}}function
-AL(a,d){if(a<0)d6();var
+AM(a,d){if(a<0)d6();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-AM(){return 0}var
+AN(){return 0}var
 bF=new
 Array();function
 di(c){var
@@ -668,16 +668,16 @@ b=ah.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
 m_(e,f){var
 b=bF[e],d=a(f),c=E(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-A1(a){var
-a=hI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
-c=b.console;c&&c.error&&c.error(a)}}function
 A2(a){var
-a=hI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+c=b.console;c&&c.error&&c.error(a)}}function
+A3(a){var
+a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
 fu(c,e,d,a){if(ah.fds===undefined)ah.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ah.fds[c]=b;if(!ah.fd_last_idx||c>ah.fd_last_idx)ah.fd_last_idx=c;return c}function
-A9(c,b,g){var
+A_(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -689,10 +689,10 @@ a={};while(b){switch(b[1]){case
 7:a.text=1;break;case
 8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b0(c)+lq);if(a.text&&a.binary)Q(b0(c)+lV);var
 d=nf(c),e=d.device.open(d.rest,a),f=ah.fd_last_idx?ah.fd_last_idx:0;return fu(f+1,m_,e,a)}fu(0,m_,new
-az(ao(0)));fu(1,A2,new
-az(ao(0)));fu(2,A1,new
+az(ao(0)));fu(1,A3,new
+az(ao(0)));fu(2,A2,new
 az(ao(0)));function
-AN(a){var
+AO(a){var
 c=ah.fds[a];if(c.flags.wronly)Q(mD+a+" is writeonly");var
 d=null;if(a==0&&d$()){var
 e=require("fs");d=function(){return bl(e.readFileSync(0,kI))}}var
@@ -700,23 +700,23 @@ b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;r
 m2(c){var
 b=ah.fds[c];if(b.flags.rdonly)Q(mD+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
-AO(){var
+AP(){var
 b=0;for(var
 a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
 aJ(a){return a}function
-AP(g,d,h,f){var
+AQ(g,d,h,f){var
 b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
 a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
 i=aJ(a),c=b0(i),e=c.lastIndexOf(k3);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);di(g);b.buffer+=c.substr(e+1)}return 0}function
-m3(b,a,d,c){return AP(b,bX(a),d,c)}function
+m3(b,a,d,c){return AQ(b,bX(a),d,c)}function
 m4(c,b){var
 d=a(String.fromCharCode(b));m3(c,d,0,1);return 0}function
-d_(a,b){return+(hs(a,b,false)!=0)}function
+d_(a,b){return+(ht(a,b,false)!=0)}function
 fs(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
 if(fr(a))return fj;else
-if(hC(a))return fj;else
+if(hD(a))return fj;else
 if(a
 instanceof
 Function||typeof
@@ -724,14 +724,14 @@ a=="function")return 247;else
 if(a&&a.caml_custom)return k8;else
 return d2}function
 a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ah[b+1]=c;if(a)ah[a]=c}function
-hF(a,b){m6[b0(a)]=b;return 0}function
-Ah(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
-au(a,b){return Ah(a,b)}function
-AX(){at(hl)}function
-R(b,a){if(a>>>0>=E(b))AX();return bG(b,a)}function
+hG(a,b){m6[b0(a)]=b;return 0}function
+Ai(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
+au(a,b){return Ai(a,b)}function
+AY(){at(hm)}function
+R(b,a){if(a>>>0>=E(b))AY();return bG(b,a)}function
 l(a,b){return 1-au(a,b)}function
-AZ(){return 0x7FFFFFFF/4|0}function
-hH(a){var
+A0(){return 0x7FFFFFFF/4|0}function
+hI(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
 aB(b,a){return{joo_tramp:b,joo_args:a}}function
 m9(a){return a}function
@@ -743,13 +743,13 @@ u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m9(ah.Sta
 instanceof
 u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m9(ah.Stack_overflow);if(a
 instanceof
-u.Error&&cI(g4))return[0,cI(g4),a];return[0,ah.Failure,bl(String(a))]}function
+u.Error&&cI(g5))return[0,cI(g5),a];return[0,ah.Failure,bl(String(a))]}function
 fw(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-hJ(a,b){return a<b?-1:a>b?1:0}function
+hK(a,b){return a<b?-1:a>b?1:0}function
 nc(c,b){var
 a=c%b;return a<0?a+fw(b):a}function
-hK(a,b){return(a-nc(a,b))/b}function
+hL(a,b){return(a-nc(a,b))/b}function
 ak(a,b){return a==b?1:0}function
 B(a,b){return a<=b?1:0}function
 ac(a,b){return a<b?1:0}function
@@ -759,13 +759,13 @@ a1(a){return u.BigInt(a)}function
 nd(a,b){return a<<u.BigInt(b)}function
 ne(a,b){return a>>u.BigInt(b)}function
 bH(a){return a<0?-1:a>0?1:0}function
-A7(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+A8(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 b1(a,b){return a-b}function
-hL(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-AH(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Aq(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AH(b[1]))var
+hM(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+AI(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ar(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AI(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=mb;for(var
@@ -777,23 +777,23 @@ instanceof
 bC)a+=as+c.toString()+as;else
 if(typeof
 c=="string")a+=as+c.toString()+as;else
-a+=lI}a+=g8}else
+a+=lI}a+=g9}else
 if(b[0]==ar)a+=b[1];return a}function
 mX(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==ar)){var
 c=cI(kY);if(c)c(a,false);else{var
-d=Aq(a),b=cI(kH);if(b)b(0);u.console.error(hc+d+k3)}}else
+d=Ar(a),b=cI(kH);if(b)b(0);u.console.error(hd+d+k3)}}else
 throw a}function
-AW(){var
+AX(){var
 a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AW();function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AX();function
 e(a,b){return a.length==1?a(b):bY(a,[b])}function
 N(a,b,c){return a.length==2?a(b,c):bY(a,[b,c])}function
-gZ(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
-Ac(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}Ar();var
-fx=[ar,a(mv),-1],hR=[ar,a(k0),-2],hO=[ar,a(g3),-3],hN=[ar,a(lE),-4],hP=[ar,a(lg),-8],hQ=[ar,a(lS),-9],$=[ar,a(mg),-11],hS=[ar,a(kG),-12],ze=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zf=[0,[0,0]],zg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zf]]]]]]]]]]],zh=[0,0],zi=[0,[0,[0,[0,0]]]],zj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,0]],zn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,0]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,0],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,0]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,0],Ab=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hS,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hQ,lS);a_(7,hP,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hN,lE);a_(2,hO,g3);a_(1,hR,k0);a_(0,fx,mv);var
-nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g7),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hh),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hc),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hc),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),ze]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hh)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g8),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g9),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g8),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(hd),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hp),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vz=a(s),vw=[0,[0,[0,[0,0]]]],vx=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hf),t4=a(g$),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hm),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hq),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g1),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g1),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hk),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(ha),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xL=a(cd),xM=a(ha),xN=a(fb),xQ=a(bh),xR=a(cc),xO=[0,a('" of such a platform'),0],xP=a(kM),xx=a("rho"),xy=a(fh),xz=[0,a("a joint by its coordinate"),0],w9=a(bU),wY=a(bj),wZ=a(lh),w0=a(lw),w3=a(kP),w4=a(lF),w5=a(bj),w6=a(bj),w8=a(fc),w7=[0,a("a claim that no cube of such a machine fits"),0],w_=a(dd),w$=a(de),xa=a(e6),xb=a(hq),x_=[0,a("such a machine with bodies"),0],xc=a(d1),xd=a(hk),xe=a(mm),xf=a(hm),xg=a(kQ),xh=a(lM),xi=a(e6),xl=a(cF),xm=a(mt),xp=a(hq),xq=[0,a("a machine with arms and bodies"),0],xr=[0,a("two bodies beside each other on one leg"),0],xs=a(bU),xt=a(l4),xu=a(fc),xv=a(d4),xw=a(cF),xA=a(bU),xB=a(bA),xC=a(bz),xD=a(lk),xE=a(ls),xF=a(mG),xG=a(lU),xj=[0,a(as),0],xk=a(lz),xH=a(cF),xI=[0,a('" of a platform that turns'),0],xJ=a(ln),xK=a(mq),x8=[0,a('" that does not turn'),0],x9=a(lz),xS=a(hm),xT=a(lm),xU=a(k6),xV=a(lu),xW=a(fd),xX=a(l6),xY=a(fd),x5=a(lB),x6=a(kS),x7=a(lX),xZ=a(d1),x0=a(hk),x1=a(bU),x2=a(bA),x3=a(bz),x4=a(mw),xn=[0,a(as),0],xo=a(ln),w1=[0,a(as),0],w2=a('a claim of the kind "'),yb=a(e$),yc=a(l2),yd=a(mi),ye=a(cG),yf=a(lC),yg=a(e9),yh=a(lT),yi=a(fi),yn=a(g$),yo=a(hf),yp=a(cG),yj=[0,a(as),0],yk=a('the evidence "'),yl=a(g$),ym=a(hf),yq=a(e9),yr=a(fi),ys=a(mA),yu=a(e9),yv=a(fi),yw=a(hd),yx=a(hd),yt=[0,a("this evidence at control points"),0],yW=a(mf),yX=a(l0),yY=a(lo),y9=[0,3,3],yZ=a(l5),y4=[0,a('the drive "arm" in a claim that is certified'),0],y5=[0,a("a step of a platform that turns that is not at control points"),0],y6=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y7=[0,a("a mechanism by formulas in a claim that is refuted"),0],y8=[0,a("a step in a proof that no cube fits"),0],y0=[0,a("a leaf that fails"),0],y1=a(k_),y2=a(lH),y3=a(e7),yU=a(hp),yJ=a(k7),yK=a(my),yN=a(bj),yO=a(fa),yP=a(lJ),yQ=a(e_),yR=a(mu),yS=a(e_),yL=[0,a(as),0],yM=a('a proof of the kind "'),yF=a(mo),yG=a(fa),yH=a(lZ),yI=a(mB),yA=a(l$),yB=a(mz),yC=a(fh),yD=[0,a(as),0],yE=a('the failure "'),yy=a(hp),yz=a(aP),x$=a(lG),ya=a(kF),wV=a(d4),wL=a(g1),wM=a(lL),wN=a(db),wO=a(bh),wT=a(mx),wU=a(d4),wW=a(da),wX=a(db),wP=a(da),wQ=a(mh),wR=a(l1),wS=a(bh),wE=a(cF),wI=a(bA),wJ=a(bz),wF=a(k4),wG=a(k$),wH=a(da),wC=[0,a(me),0],wB=[0,a(me),0],wr=a(lY),ws=[0,a("a stiffness for each joint"),0],wq=a(e7),wj=a(l8),wb=a(mj),wc=a(mp),wv=a(kX),ww=a(e$),wx=a(ml),wy=a(kJ),wz=a(lK),wd=a(ms),we=a(mF),wf=a(lO),wg=a(kK),wh=[0,a(as),0],wi=a('the quantity "'),wk=a(kO),wl=a(bA),wm=a(bz),wn=a(lt),wo=[0,a(as),0],wp=a('a bound "'),wt=a(k1),wu=a(db),v6=a(ff),v7=a(fe),v8=a(fl),v9=a(bh),v_=a(cc),v$=a(lc),wa=a(li),v3=a(cd),v4=a(fl),vO=a(cd),vP=a(d1),vQ=a(lx),vR=a(fb),vU=a(ha),vV=a(bh),vW=a(cc),vX=a(ff),vY=a(fe),vZ=a(bh),v0=a(cc),v1=a(cG),v2=a(cG),vS=[0,a(as),0],vT=a(kM),vL=a(by),vM=a(a9),vJ=a(" is not covered by the verified checker"),vK=a(s),vH=a(bA),vI=a(bz),vD=a(s),vE=a(mH),vF=a(s),vG=a(s),vC=[1,0],vA=a("Reader.Malformed"),vB=a("Reader.Not_covered"),y$=a(ld),za=a("CERTIFIED"),zb=a("REFUTED"),zc=a(ld),zd=a("NOT COVERED: ");function
+g0(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
+Ad(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}As();var
+fx=[ar,a(mv),-1],hS=[ar,a(k0),-2],hP=[ar,a(g4),-3],hO=[ar,a(lE),-4],hQ=[ar,a(lg),-8],hR=[ar,a(lS),-9],$=[ar,a(mg),-11],hT=[ar,a(kG),-12],zf=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zg=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,0]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,0]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,0],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,0]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,0],Ac=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hT,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hR,lS);a_(7,hQ,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hO,lE);a_(2,hP,g4);a_(1,hS,k0);a_(0,fx,mv);var
+nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g8),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hi),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),zf]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hi)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g9),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g_),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g9),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(he),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hq),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vA=a(s),vw=[0,[0,[0,0]]],vx=[0,[0,[0,[0,0]]]],vy=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hg),t4=a(ha),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hn),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hr),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g2),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g2),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hl),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(hb),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xM=a(cd),xN=a(hb),xO=a(fb),xR=a(bh),xS=a(cc),xP=[0,a('" of such a platform'),0],xQ=a(kM),xy=a("rho"),xz=a(fh),xA=[0,a("a joint by its coordinate"),0],w_=a(bU),wZ=a(bj),w0=a(lh),w1=a(lw),w4=a(kP),w5=a(lF),w6=a(bj),w7=a(bj),w9=a(fc),w8=[0,a("a claim that no cube of such a machine fits"),0],w$=a(dd),xa=a(de),xb=a(e6),xc=a(hr),x$=[0,a("such a machine with bodies"),0],xd=a(d1),xe=a(hl),xf=a(mm),xg=a(hn),xh=a(kQ),xi=a(lM),xj=a(e6),xm=a(cF),xn=a(mt),xq=a(hr),xr=[0,a("a machine with arms and bodies"),0],xs=[0,a("two bodies beside each other on one leg"),0],xt=a(bU),xu=a(l4),xv=a(fc),xw=a(d4),xx=a(cF),xB=a(bU),xC=a(bA),xD=a(bz),xE=a(lk),xF=a(ls),xG=a(mG),xH=a(lU),xk=[0,a(as),0],xl=a(lz),xI=a(cF),xJ=[0,a('" of a platform that turns'),0],xK=a(ln),xL=a(mq),x9=[0,a('" that does not turn'),0],x_=a(lz),xT=a(hn),xU=a(lm),xV=a(k6),xW=a(lu),xX=a(fd),xY=a(l6),xZ=a(fd),x6=a(lB),x7=a(kS),x8=a(lX),x0=a(d1),x1=a(hl),x2=a(bU),x3=a(bA),x4=a(bz),x5=a(mw),xo=[0,a(as),0],xp=a(ln),w2=[0,a(as),0],w3=a('a claim of the kind "'),yc=a(e$),yd=a(l2),ye=a(mi),yf=a(cG),yg=a(lC),yh=a(e9),yi=a(lT),yj=a(fi),yo=a(ha),yp=a(hg),yq=a(cG),yk=[0,a(as),0],yl=a('the evidence "'),ym=a(ha),yn=a(hg),yr=a(e9),ys=a(fi),yt=a(mA),yv=a(e9),yw=a(fi),yx=a(he),yy=a(he),yu=[0,a("this evidence at control points"),0],yX=a(mf),yY=a(l0),yZ=a(lo),y_=[0,3,3],y0=a(l5),y5=[0,a('the drive "arm" in a claim that is certified'),0],y6=[0,a("a step of a platform that turns that is not at control points"),0],y7=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y8=[0,a("a mechanism by formulas in a claim that is refuted"),0],y9=[0,a("a step in a proof that no cube fits"),0],y1=[0,a("a leaf that fails"),0],y2=a(k_),y3=a(lH),y4=a(e7),yV=a(hq),yK=a(k7),yL=a(my),yO=a(bj),yP=a(fa),yQ=a(lJ),yR=a(e_),yS=a(mu),yT=a(e_),yM=[0,a(as),0],yN=a('a proof of the kind "'),yG=a(mo),yH=a(fa),yI=a(lZ),yJ=a(mB),yB=a(l$),yC=a(mz),yD=a(fh),yE=[0,a(as),0],yF=a('the failure "'),yz=a(hq),yA=a(aP),ya=a(lG),yb=a(kF),wW=a(d4),wM=a(g2),wN=a(lL),wO=a(db),wP=a(bh),wU=a(mx),wV=a(d4),wX=a(da),wY=a(db),wQ=a(da),wR=a(mh),wS=a(l1),wT=a(bh),wF=a(cF),wJ=a(bA),wK=a(bz),wG=a(k4),wH=a(k$),wI=a(da),wD=[0,a(me),0],wC=[0,a(me),0],ws=a(lY),wt=[0,a("a stiffness for each joint"),0],wr=a(e7),wk=a(l8),wc=a(mj),wd=a(mp),ww=a(kX),wx=a(e$),wy=a(ml),wz=a(kJ),wA=a(lK),we=a(ms),wf=a(mF),wg=a(lO),wh=a(kK),wi=[0,a(as),0],wj=a('the quantity "'),wl=a(kO),wm=a(bA),wn=a(bz),wo=a(lt),wp=[0,a(as),0],wq=a('a bound "'),wu=a(k1),wv=a(db),v7=a(ff),v8=a(fe),v9=a(fl),v_=a(bh),v$=a(cc),wa=a(lc),wb=a(li),v4=a(cd),v5=a(fl),vP=a(cd),vQ=a(d1),vR=a(lx),vS=a(fb),vV=a(hb),vW=a(bh),vX=a(cc),vY=a(ff),vZ=a(fe),v0=a(bh),v1=a(cc),v2=a(cG),v3=a(cG),vT=[0,a(as),0],vU=a(kM),vM=a(by),vN=a(a9),vK=a(" is not covered by the verified checker"),vL=a(s),vI=a(bA),vJ=a(bz),vE=a(s),vF=a(mH),vG=a(s),vH=a(s),vD=[1,0],vB=a("Reader.Malformed"),vC=a("Reader.Not_covered"),za=a(ld),zb=a("CERTIFIED"),zc=a("REFUTED"),zd=a(ld),ze=a("NOT COVERED: ");function
 ad(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -877,27 +877,27 @@ E=a[1];return[21,E,_(a[2],b)];case
 23:var
 F=a[1];return[23,F,_(a[2],b)];default:var
 G=a[2],H=a[1];return[24,H,G,_(a[3],b)]}}function
-b2(a){throw[0,hN,a]}function
+b2(a){throw[0,hO,a]}function
 ea(a){return 0<=a?a:-a|0}function
 av(d,c){var
 a=E(d),e=E(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aJ(b)}function
-ng(a){return a?nh:ni}AN(0);m2(1);var
+ng(a){return a?nh:ni}AO(0);m2(1);var
 bI=m2(2);function
 dl(b,a){return m3(b,a,0,E(a))}function
-hT(a){dl(bI,a);m4(bI,10);return di(bI)}function
+hU(a){dl(bI,a);m4(bI,10);return di(bI)}function
 fy(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hR)throw a;var
+c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hS)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(AO(0))}hF(a(kH),fy);var
-dm=(4*AZ(0)|0)-1|0;function
+a=c;continue}return 0}}return a(AP(0))}hG(a(kH),fy);var
+dm=(4*A0(0)|0)-1|0;function
 ch(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 X(b,a){if(a){var
 c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hU(d,c){var
+hV(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
@@ -906,15 +906,15 @@ a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
 ci(a,c){var
-b=ao(a);Ap(b,0,a,c);return b}function
-hV(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
+b=ao(a);Aq(b,0,a,c);return b}function
+hW(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
 d=ao(a);cg(c,b,d,0,a);return d}return b2(nr)}function
-hW(c,b,a){return aJ(hV(c,b,a))}function
-hX(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
+hX(c,b,a){return aJ(hW(c,b,a))}function
+hY(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
 bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((E(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b2(nt)}function
 a5(b,a){return aJ(ci(b,a))}function
-dn(c,b,a){return aJ(hV(bX(c),b,a))}function
-hY(k,g){if(g){var
+dn(c,b,a){return aJ(hW(bX(c),b,a))}function
+hZ(k,g){if(g){var
 h=E(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
 j=(E(i)+h|0)+c|0,m=b[2],n=c<=j?j:b2(nu),c=n,b=m;continue}var
@@ -925,32 +925,32 @@ f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];bE(a,0,f,e,E(a));bE(k,0,f,e+E(a)|0,h);var
 e=(e+E(a)|0)+h|0,d=o;continue}bE(a,0,f,e,E(a))}return aJ(f)}}}return nv}function
-hZ(b,c){if(0===b)return[0];if(0<=b){var
-d=AL(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+h0(b,c){if(0===b)return[0];if(0<=b){var
+d=AM(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
 a=h;continue}break}}return d}return b2(nw)}function
-h0(c){var
+h1(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-h1(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hO,nz];b[1]=dm}var
-e=ao(b[1]);hX(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
+h2(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hP,nz];b[1]=dm}var
+e=ao(b[1]);hY(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
 dp(a,c){var
-b=E(c),d=a[2]+b|0;if(a[3]<d)h1(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
+b=E(c),d=a[2]+b|0;if(a[3]<d)h2(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
 fz(a){return 5===a[2]?12:-6}function
-h2(a){return[0,0,ao(a)]}function
-h3(a,h){var
+h3(a){return[0,0,ao(a)]}function
+h4(a,h){var
 b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);hX(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=ao(i);hY(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cM(a,b){h3(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+cM(a,b){h4(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
 aC(a,c){var
-b=E(c);h3(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-h4(a){return hW(a[2],0,a[1])}function
-h5(a){if(typeof
+b=E(c);h4(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+h5(a){return hX(a[2],0,a[1])}function
+h6(a){if(typeof
 a==="number")switch(a){case
 0:return nA;case
 1:return nB;case
@@ -1439,7 +1439,7 @@ b=ao(a[1]);a[1]=0;var
 u=a0(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
 c=dg(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(g_<=c)d=1;else
+if(g$<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1457,7 +1457,7 @@ h=A;continue}break}}var
 v=b}var
 o=aJ(v)}var
 w=E(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aJ(x)}}function
-h6(d,f){var
+h7(d,f){var
 g=ea(f),e=o5[1];switch(d[2]){case
 0:var
 b=102;break;case
@@ -1476,17 +1476,17 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=h2(16);cM(c,37);switch(d[1]){case
+c=h3(16);cM(c,37);switch(d[1]){case
 0:break;case
-1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h4(c)}function
+1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h5(c)}function
 ec(m,a){if(13<=m){var
 g=[0,0],h=E(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bG(a,c)+g2>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bG(a,c)+g3>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
 i=g[1],j=ao(E(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cH(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=E(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bG(a,b);if(9<f+g2>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bG(a,b);if(9<f+g3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
 b=p;continue}break}}return aJ(j)}return a}function
 o6(b,c){switch(b){case
@@ -1600,18 +1600,18 @@ a=os;break;case
 3:case
 14:var
 a=ov;break;default:var
-a=oE}return ec(b,Ax(a,c))}function
+a=oE}return ec(b,Ay(a,c))}function
 bK(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return At(b,i,a)}function
+a=32}return Au(b,i,a)}function
 q(c){var
-a=Al(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
+a=Am(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
 5:var
-e=hv(h6(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
+e=hw(h7(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
 p=0;else{var
 k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
@@ -1628,7 +1628,7 @@ g=dg(h,a),s=25<g+lQ>>>0?g:g+mk|0;aj(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
 o=m}return aJ(o);case
-8:return q(j(0));default:return hv(h6(c,i),b)}}function
+8:return q(j(0));default:return hw(h7(c,i),b)}}function
 d0(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
@@ -1639,7 +1639,7 @@ y=c[1];return function(c){return I(b,[5,a,c],y)};case
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
 d=nl;else
-if(g_<=c)e=1;else
+if(g$<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
 d=nm;else
@@ -1687,8 +1687,8 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=h2(16);fA(p,D);var
-u=h4(p);return function(c){return I(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=h3(16);fA(p,D);var
+u=h5(p);return function(c){return I(b,[4,a,u],C)};case
 14:var
 F=c[3],G=c[2];return function(d){var
 e=d[1],c=S(e,ad(an(G)));if(typeof
@@ -1727,10 +1727,10 @@ switch(k[0]){case
 7:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
 8:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gY(d+1|0,b,a,t,f):aB(gY,[0,b,a,t,f]);case
+t=k[2];return d<50?gZ(d+1|0,b,a,t,f):aB(gZ,[0,b,a,t,f]);case
 10:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gX(d+1|0,b,a,q,r,s):aB(gX,[0,b,a,q,r,s])}}function
-gY(e,d,c,a,b){if(typeof
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gY(d+1|0,b,a,q,r,s):aB(gY,[0,b,a,q,r,s])}}function
+gZ(e,d,c,a,b){if(typeof
 a==="number")return e<50?P(e+1|0,d,c,b):aB(P,[0,d,c,b]);else
 switch(a[0]){case
 0:var
@@ -1762,12 +1762,12 @@ t=a[1];return function(a){return a2(d,c,t,b)};case
 13:throw[0,$,ph];default:throw[0,$,pi]}}function
 P(d,b,e,a){var
 c=[8,e,pj];return d<50?d0(d+1|0,b,c,a):aB(d0,[0,b,c,a])}function
-gX(h,b,f,a,d,c){if(d){var
+gY(h,b,f,a,d,c){if(d){var
 i=d[1];return function(d){return pc(b,f,a,i,e(c,d))}}var
 g=[4,f,c];return h<50?d0(h+1|0,b,g,a):aB(d0,[0,b,g,a])}function
-I(a,b,c){return hH(d0(0,a,b,c))}function
-a2(a,b,c,d){return hH(gY(0,a,b,c,d))}function
-pc(a,b,c,d,e){return hH(gX(0,a,b,c,d,e))}function
+I(a,b,c){return hI(d0(0,a,b,c))}function
+a2(a,b,c,d){return hI(gZ(0,a,b,c,d))}function
+pc(a,b,c,d,e){return hI(gY(0,a,b,c,d,e))}function
 fB(f,d,c,a,b){if(typeof
 a==="number")return function(a){return I(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
 g=a[2],h=a[1];return function(a){return I(f,[4,d,aV(h,g,e(b,a))],c)}}var
@@ -1787,7 +1787,7 @@ a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=h5(a[2]);bL(b,g);return dl(b,h);case
+g=a[1],h=h6(a[2]);bL(b,g);return dl(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
 i=c[1];bL(b,d);dl(b,pk);var
@@ -1808,7 +1808,7 @@ a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=h5(a[2]);b3(b,h);return dp(b,i);case
+h=a[1],i=h6(a[2]);b3(b,h);return dp(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
 j=d[1];b3(b,f);dp(b,pm);var
@@ -1825,35 +1825,35 @@ o=a[2];b3(b,a[1]);return b2(o);case
 4:var
 l=a[2];b3(b,a[1]);return dp(b,l);default:var
 m=a[2];b3(b,a[1]);var
-c=b[2];if(b[3]<=c)h1(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
-h7(d,c){var
+c=b[2];if(b[3]<=c)h2(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
+h8(d,c){var
 a=c[1],b=0;return I(function(a){bL(d,a);return 0},b,a)}function
-fC(a){return h7(bI,a)}function
+fC(a){return h8(bI,a)}function
 bm(b){var
 a=b[1];return I(function(d){var
-e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hW(a[1],0,a[2])},0,a)}var
+e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hX(a[1],0,a[2])},0,a)}var
 ee=[0,0];function
 fE(i,h){var
 a=i[1+h];if(1-(typeof
 a==="number"?1:0)){if(fs(a)===fj)return e(bm(po),a);if(fs(a)===253){var
-c=hv(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
+c=hw(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
 d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
 b=b+1|0;continue}return c}}return pp}return e(bm(pq),a)}function
-h8(b,a){if(b.length-1<=a)return pr;var
-c=h8(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
+h9(b,a){if(b.length-1<=a)return pr;var
+c=h9(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
 fF(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hQ)return py;if(a[1]===hP){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gZ(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gZ(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hS){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gZ(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
+h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hR)return py;if(a[1]===hQ){var
+c=a[2],i=c[3],p=c[2],q=c[1];return g0(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
+d=a[2],j=d[3],r=d[2],s=d[1];return g0(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hT){var
+f=a[2],k=f[3],t=f[2],u=f[1];return g0(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=h8(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
+l=h9(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
 switch(g){case
 0:var
 b=pu;break;case
@@ -1861,41 +1861,41 @@ b=pu;break;case
 b=pv;break;default:var
 n=fE(a,1),b=e(bm(pw),n)}return av(v,b)}return a[1]}function
 fG(t,s){var
-d=An(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+d=Ao(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
 a=mS(d,b)[1+b],f=function(a){return function(b){return b?0===a?pC:pD:0===a?pE:pF}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ac(bm(pH),n,m,l,k,j,i,h)];else
+h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ad(bm(pH),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
 o=f(0),c=[0,e(bm(pJ),o)];if(c){var
-q=c[1];e(h7(t,pK),q)}var
+q=c[1];e(h8(t,pK),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-h9(c){for(;;){var
+h_(c){for(;;){var
 a=ee[1],d=[0,c,a],e=ee[1]===a?(ee[1]=d,1):0,b=1-e;if(b)continue;return b}}var
 pM=pL.slice();function
 pN(d,c){var
 f=fF(d);e(fC(pO),f);fG(bI,c);var
-a=AM(0);if(a<0){var
-b=ea(a);hT(mS(pM,b)[1+b])}return di(bI)}var
-pP=[0];hF(a(kY),function(d,i){try{try{var
+a=AN(0);if(a<0){var
+b=ea(a);hU(mS(pM,b)[1+b])}return di(bI)}var
+pP=[0];hG(a(kY),function(d,i){try{try{var
 b=i?pP:mY(0);try{fy(0)}catch(a){}try{var
 a=pN(d,b),c=a}catch(a){a=fv(a);var
 g=fF(d);e(fC(pR),g);fG(bI,b);var
 h=fF(a);e(fC(pS),h);fG(bI,mY(0));var
 c=di(bI)}var
 f=c}catch(a){a=fv(a);if(a!==fx)throw a;var
-f=hT(pQ)}return f}catch(a){return 0}});var
-h_=[ar,pU,fo(0)],fH=[0,h_,[0]],pT=fs(fH)===ar?fH:fH[1];hF(a(g4),pT);(function(a){throw a});var
-pV=u.Array;h9(function(a){return a[1]===h_?[0,bl(a[2].toString())]:0});h9(function(a){return a
+f=hU(pQ)}return f}catch(a){return 0}});var
+h$=[ar,pU,fo(0)],fH=[0,h$,[0]],pT=fs(fH)===ar?fH:fH[1];hG(a(g5),pT);(function(a){throw a});var
+pV=u.Array;h_(function(a){return a[1]===h$?[0,bl(a[2].toString())]:0});h_(function(a){return a
 instanceof
 pV?0:[0,bl(a.toString())]});var
 d=a1(0),c=a1(1);function
 o(a){return A(a,c)}function
-h$(b,a){return A(a1(b),a)}function
+ia(b,a){return A(a1(b),a)}function
 b(b,a){return r(a1(b),a)}function
-bn(b,a){return[0,hK(b,a),nc(b,a)]}function
+bn(b,a){return[0,hL(b,a),nc(b,a)]}function
 fI(b,a){return B(b,a)?b:a}function
 cj(b,a){return B(b,a)?a:b}function
 aH(a){return a?0:1}function
@@ -1907,9 +1907,9 @@ k(a){var
 b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ia(a){return typeof
-a==="number"?0:[0,ia(a[1])]}function
-ib(d,c){var
+ib(a){return typeof
+a==="number"?0:[0,ib(a[1])]}function
+ic(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,8 +1932,8 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ef(a){return ib(a,0)}function
-ic(a){if(typeof
+ef(a){return ic(a,0)}function
+id(a){if(typeof
 a==="number")return pX;else
 switch(a[0]){case
 0:return[1,a[1]];case
@@ -1944,7 +1944,7 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ic(a[1])]}}function
+8:return[9,a[1]];default:return[0,id(a[1])]}}function
 ba(a){if(typeof
 a==="number")return pY;else
 switch(a[0]){case
@@ -1979,25 +1979,25 @@ b=b[1],a=a[1];continue}return a}return a?0:1}}function
 Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-id(b,a){return Y([0,b],a)}function
-ie(c){var
+ie(b,a){return Y([0,b],a)}function
+ig(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 fJ(c,b,a){return c?e(b,fJ(c[1],b,a)):a}function
-ig(a){if(a)var
-b=a[1],d=b?[0,ig(b[1])]:b,c=d;else
+ih(a){if(a)var
+b=a[1],d=b?[0,ih(b[1])]:b,c=d;else
 var
 c=a;return c}function
 eg(a){if(B(a,c))return c;var
 b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?o(eg(e)):o(eg(e))}function
 eh(c,b){var
-a=hJ(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-ih(b,i,h){var
+a=hK(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+ii(b,i,h){var
 e=i,a=h;for(;;){if(B(e,c))return a;var
 f=bn(e,a1(2)),g=f[1];if(ak(f[2],d)){var
-e=g,a=N(b,a,a);continue}return N(b,a,ih(b,g,N(b,a,a)))}}function
-dv(a){return ih(H,a,p0)}function
+e=g,a=N(b,a,a);continue}return N(b,a,ii(b,g,N(b,a,a)))}}function
+dv(a){return ii(H,a,p0)}function
 fK(a){return a?o(fK(a[1])):c}function
 bM(f,e){var
 a=f,d=e;for(;;)if(typeof
@@ -2025,14 +2025,14 @@ y=r(b(2,o(b(2,b(2,c)))),d),z=A(o(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}funct
 fL(a){if(B(a,c))return p1;var
 b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?a$(fL(e)):ba(fL(e))}function
 ei(a){return ef(fL(a))}function
-ii(k,f){if(0<=bH(f)){var
-g=hL(f);if(0<=g){var
+ij(k,f){if(0<=bH(f)){var
+g=hM(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
 h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b2(pW)}return d}function
-ij(a){return 0<=bH(a)?a:d}function
+ik(a){return 0<=bH(a)?a:d}function
 fM(a){var
 b=bH(a);return 0===b?c:0<b?a:c}function
-ik(m){var
+il(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2055,14 +2055,14 @@ j=o(b(2,o(b(2,c))));return bM(a[1],j);case
 k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
 l=o(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
 b5(b,a){var
-c=bH(a);return 0===c?d:1===c?hK(b,a):h$(-1,hK(h$(-1,b),a))}function
-il(a){return 0<bH(a)?A7(a):d}function
+c=bH(a);return 0===c?d:1===c?hL(b,a):ia(-1,hL(ia(-1,b),a))}function
+im(a){return 0<bH(a)?A8(a):d}function
 dw(b,c){var
-a=hL(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
+a=hM(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
 cO(b,c){var
-a=hL(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
+a=hM(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
 fN(b,a){return a?a[1]:b}function
-im(a){var
+io(a){var
 b=a?a[2]:a;return b}function
 F(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -2071,9 +2071,9 @@ al(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-io(a){if(a){var
-b=[0,a[1],0];return g(io(a[2]),b)}return a}function
-ip(d,c){var
+ip(a){if(a){var
+b=[0,a[1],0];return g(ip(a[2]),b)}return a}function
+iq(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
@@ -2082,7 +2082,7 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return g(e(b,a[1]),c)}return a}function
-iq(e,d,c){var
+ir(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 cP(c,b,a){if(a){var
@@ -2114,23 +2114,23 @@ var
 c=a;else
 var
 c=b;return c}function
-ir(d,c){var
+is(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 cQ(b,a){var
 c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
 cl(b,a){var
 c=a?[0,b,cl(b,a[1])]:a;return c}function
-is(a){if(a){var
-e=is(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+it(a){if(a){var
+e=it(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
 ek(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=is([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
-it(c,b){var
-a=hJ(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iu(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
-iv(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-iw(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=it([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
+iu(c,b){var
+a=hK(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iv(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
+iw(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+ix(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
 aW(a){if(typeof
 a==="number")return p4;else
 switch(a[0]){case
@@ -2155,30 +2155,30 @@ j=aW(a[1]);return av(a5(1,56),j);default:var
 k=aW(a[1]);return av(a5(1,57),k)}}function
 dx(a){return typeof
 a==="number"?p5:aW(a)}function
-cm(a){return ii(b(2,c),a)}function
-ix(b,a){return cO(a,b)}function
-iy(b,a){return W(cO(W(a),b))}function
+cm(a){return ij(b(2,c),a)}function
+iy(b,a){return cO(a,b)}function
+iz(b,a){return W(cO(W(a),b))}function
 el(b,a){return W(b5(W(b),a))}function
 aL(c,b){var
 a=dw(b,c);return[0,a,a]}function
 C(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
 M(b,a){return[0,b1(b[1],a[2]),b1(b[2],a[1])]}function
 aE(a){return[0,W(a[2]),W(a[1])]}function
-iz(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
+iA(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
 f=cj(r(e,b),r(c,a));return[0,fI(r(e,a),r(c,b)),f]}function
 D(c,b,a){var
-d=iz(b[1],b[2],a[1],a[2]),e=iy(c,d[2]);return[0,ix(c,d[1]),e]}function
+d=iA(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
 ai(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iy(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iz(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=ix(b,fI(c,e));return[0,f,h]}function
-iA(b,a){var
+f=iy(b,fI(c,e));return[0,f,h]}function
+iB(b,a){var
 c=dw(cm(b),b),d=el(c,a[1]);return[0,b5(c,a[2]),d]}function
-cn(b,a){if(ac(d,a[1]))return[0,iA(b,a)];var
-c=ac(a[2],d),e=c?[0,aE(iA(b,aE(a)))]:c;return e}function
+cn(b,a){if(ac(d,a[1]))return[0,iB(b,a)];var
+c=ac(a[2],d),e=c?[0,aE(iB(b,aE(a)))]:c;return e}function
 co(f,b){var
 g=ac(d,b[1]);if(g)var
-e=dw(b[2],f),a=il(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,il(dw(b[1],f)),i]];else
+e=dw(b[2],f),a=im(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,im(dw(b[1],f)),i]];else
 var
 h=g;return h}function
 a7(e,d,c,b,a){if(b){if(a){var
@@ -2190,7 +2190,7 @@ g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
 em(a){var
 b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
 fP(c,b,a){var
-e=iz(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
+e=iA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
 ab=[0,d,d];function
 fQ(a){return[0,a[1],a[1]]}function
 en(a){return[0,a[2],a[2]]}function
@@ -2222,12 +2222,12 @@ s=r}else
 var
 s=i;return s;default:var
 l=ax(a,b[1]);return l?co(a,l[1]):l}}function
-iB(a){var
+iC(a){var
 e=cj(W(a),d);return fM(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iC(a){return ij(A(iB(a),a))}function
+iD(a){return ik(A(iC(a),a))}function
 b7(f,a,e){var
-b=ax(A(f,iB(a)),e);if(b)var
-c=b[1],g=iC(a),h=W(b6(W(c[2]),g)),i=iC(a),d=[0,[0,b6(c[1],i),h]];else
+b=ax(A(f,iC(a)),e);if(b)var
+c=b[1],g=iD(a),h=W(b6(W(c[2]),g)),i=iD(a),d=[0,[0,b6(c[1],i),h]];else
 var
 d=b;return d}function
 aM(d,a){var
@@ -2235,47 +2235,47 @@ b=b7(d,a[2],a[1][1]);if(b)var
 c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iD(b,a){var
+iE(b,a){var
 c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
 fR(b,a){var
 c=el(b[2],a);return[0,b5(b[1],a),c]}function
 fS(a,f,b){if(b){var
-d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ie(b)?C(h,e):M(h,e);return[0,e,k]}var
+d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ig(b)?C(h,e):M(h,e);return[0,e,k]}var
 l=aL(a,c);return[0,aL(a,c),l]}function
-iE(f){var
+iF(f){var
 g=dv(f),e=p9[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
 b=d,c=[0,c],a=e;continue}return H(p_,c)}}function
-iF(a,d){var
+iG(a,d){var
 g=cm(a),h=r(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
-i=fS(a,d,dt(qa,H(iE(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iE(a)),qb))[2][1],i]];else
+i=fS(a,d,dt(qa,H(iF(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iF(a)),qb))[2][1],i]];else
 var
 f=e;return f}function
-iG(i){function
+iH(i){function
 a(h){var
 m=b5(cm(i),h),g=dv(i),f=m,e=d,a=c;for(;;){if(g){var
 j=A(a,b(2,c)),k=A(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return b1(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iH(e,a){var
+iI(e,a){var
 f=B(d,a);if(f){var
-g=b(2,b(2,c));return iF(e,fR(ai(e,[0,a,a]),g))}return f}function
-iI(a,d){var
+g=b(2,b(2,c));return iG(e,fR(ai(e,[0,a,a]),g))}return f}function
+iJ(a,d){var
 b=ai(a,d),e=aL(a,c);return M(C(b,b),e)}function
 eo(n,u){var
 h=ax(A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iG(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iG(a),r),f=iH(a,i);if(f){var
-g=iH(a,j);if(g)var
+v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iH(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iH(a),r),f=iI(a,i);if(f){var
+g=iI(a,j);if(g)var
 k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iF(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iI(a,iI(a,b))},t);else
+s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iG(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iJ(a,iJ(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iD(w,a)},p)}return h}function
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iE(w,a)},p)}return h}function
 fT(d,a){return eo(d,[2,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
 ep(a){return 0===a[0]?a[2]:a[1]}function
 dy(b,a){switch(a[0]){case
@@ -2360,7 +2360,7 @@ c=a;break;default:var
 h=er(b[1],a),c=er(b[2],h)}var
 e=c[2],f=c[1],g=[0,dy(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
 dB(a){var
-b=iq(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,io(b[2]),d]}function
+b=ir(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ip(b[2]),d]}function
 es(a){return cP(function(a,b){return A(cj(a[2],W(a[1])),b)},d,a)}function
 cR(b,c,a){var
 d=es(a),e=fI(c[2],A(b[2],d)),f=es(a);return[0,b,[0,cj(c[1],b1(b[1],f)),e],a]}function
@@ -2369,9 +2369,9 @@ et(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=a7(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return cR(C(b[1],a[1]),g,f)}function
-iJ(b,a){var
+iK(b,a){var
 c=a[3],d=b[3],e=a7(function(a){return a},aE,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
-iK(a,c,b){var
+iL(a,c,b){var
 d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=D(a,e,b);return em(C(D(a,d,c),f))}function
@@ -2390,12 +2390,12 @@ c=a3(ab);return function(b){switch(b[0]){case
 3:var
 g=b[2],h=b[1];return eu(function(b,a){return[0,et(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eu(function(b,a){return[0,iJ(b,a)]},j,i);case
+i=b[2],j=b[1];return eu(function(b,a){return[0,iK(b,a)]},j,i);case
 5:var
 k=b[1];return fV(function(a){var
 b=f(aE,a[3]),c=aE(a[2]);return[0,[0,aE(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eu(function(c,b){return[0,iK(a,c,b)]},m,l);case
+l=b[2],m=b[1];return eu(function(c,b){return[0,iL(a,c,b)]},m,l);case
 7:var
 n=b[2],o=b[1];return eu(function(e,g){var
 b=cn(a,g[1]);if(b){var
@@ -2427,12 +2427,12 @@ qg(a){return a}function
 qh(a,b){return a7(qg,qf,C,a,b)}function
 qi(a){return a}function
 qj(a){return a}function
-iL(a,b){return a7(qj,qi,qh,a,b)}function
+iM(a,b){return a7(qj,qi,qh,a,b)}function
 fW(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
 g=fW(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fP(d,a,b))},j=function(a){return aE(fP(d,a,b))};return[0,a7(function(a){return a},j,i,h,a),g]}var
 k=fW(b,e,0);return[0,f(function(a){return aE(fP(d,a,b))},a),k]}return c}function
-iM(a){if(a){var
+iN(a){if(a){var
 b=a[1];if(b)var
 c=b[1],e=ac(d,c[1]),h=e?[0,fW(c,b[2],a[2])]:e,f=h;else
 var
@@ -2440,21 +2440,21 @@ f=b;var
 g=f}else
 var
 g=a;return g}function
-iN(f,e){var
+iO(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iM(b);if(c){var
+c=iN(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iO(d,b,a){if(b)if(a)var
-e=a[1],f=iO(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
+iP(d,b,a){if(b)if(a)var
+e=a[1],f=iP(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iP(a,b){if(a)if(b)var
-d=iP(a[2],b[2]),c=[0,iO(a[1],a,b[1]),d];else
+iQ(a,b){if(a)if(b)var
+d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
 var
 c=b;else
 var
@@ -2462,52 +2462,52 @@ c=a;return c}function
 bO(a){if(a){var
 b=a[1],c=bO(b),d=f(function(a){return[0,1,a]},c),e=bO(b);return g(f(function(a){return[0,0,a]},e),d)}return qk}function
 ev(a){var
-b=k(a);if(iN(b,a))return 1;var
-c=bO(b4(b));return n(function(c){return iN(b,iP([0,0,c],a))},c)}function
+b=k(a);if(iO(b,a))return 1;var
+c=bO(b4(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
 a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
 b8(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iQ(c,b,a){var
+iR(c,b,a){var
 d=bO(c);return n(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
-iR(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iR(h,j,i),l=function(c,b){var
+iS(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iS(h,j,i),l=function(c,b){var
 d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a7(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-iS(b,d,a,c){function
+iT(b,d,a,c){function
 e(c,d){var
 e=bN(d,b,a);return M(C(c,c),e)}function
 f(c){return aE(bN(c,b,a))}return a7(function(a){return C(a,a)},f,e,d,c)}function
 fX(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=en(e[2]),k=iL(a,iR(d,f,iS(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iT(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=en(e[2]),k=iM(a,iS(d,f,iT(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iU(b,a){return[0,[0,0,b],a]}function
 dD(b,c,g,f,a){function
 d(a){if(a){var
 h=cl([0,aE(a[1][2]),0],b),c=fX(g,f,a[2],h),d=aa(k(c),b);if(d)return ev(c);var
 e=d}else
 var
-e=a;return e}return iQ(b,iT(c,a),d)}function
-iU(f,e){var
+e=a;return e}return iR(b,iU(c,a),d)}function
+iV(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iM([0,[0,fQ(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iN([0,[0,fQ(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
 fY(b,c,a){function
 d(a){if(a){var
-h=cl([0,a[1][2],0],b),c=iU(a[2],h);if(c){var
+h=cl([0,a[1][2],0],b),c=iV(a[2],h);if(c){var
 d=c[1],e=aa(k(d),b);if(e)return ev(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return iQ(b,iT(c,a),d)}function
-iV(a,b){var
+g=a;return g}return iR(b,iU(c,a),d)}function
+iW(a,b){var
 c=b[3],d=a[3],e=a7(function(a){return a},aE,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
 dE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 aX(c,b,a){var
@@ -2523,15 +2523,15 @@ ex(a){var
 b=a[5];return b?b[1]:cq(a[2])}function
 ey(a){return f(function(a){var
 b=a[2];return[0,dE(a[1]),b]},a)}function
-iW(a){return f(function(a){var
+iX(a){return f(function(a){var
 b=q(c);return[0,dE(a[3]),b]},a)}function
-iX(b,a){var
+iY(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-iY(c,b,a){var
+iZ(c,b,a){var
 d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
 ez(a,k,j,p,i,h,g){var
-m=iY(iJ,h,g),b=iY(function(b,c){return iK(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
-c=iX(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+m=iZ(iK,h,g),b=iZ(function(b,c){return iL(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
+c=iY(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
@@ -2547,17 +2547,17 @@ dG(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=dG(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
 f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
-iZ(d,c,b,a){var
+i0(d,c,b,a){var
 e=f(a3,b);return cr(0,dC(d,f0(0,a),e),c,0)}function
 aS(a){if(a){var
 b=a[1];if(b)var
 c=aS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return qm}function
-i0(b,a){if(a){var
+i1(b,a){if(a){var
 h=a[1],n=h[1],c=aS(f(function(a){return F(a,b,0)},n));if(c){var
 e=F(h[2],b,0);if(e){var
-i=e[1],g=i0(b,a[2]);if(g)var
+i=e[1],g=i1(b,a[2]);if(g)var
 j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2568,16 +2568,16 @@ m=l}else
 var
 m=c;return m}return qn}function
 ct(d,c,b){var
-a=i0(d,c);return a?e(b,a[1]):a}function
+a=i1(d,c);return a?e(b,a[1]):a}function
 f1(a,b){return n(function(c){var
 a=F(c,b,0),d=a?1:a;return d},a)}function
 eA(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a7(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-f2(b,a){return b?iV(a,b[1]):a}function
+f2(b,a){return b?iW(a,b[1]):a}function
 f3(h,g,b,f){var
 a=F(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iV(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
+i=iW(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
 eB(b,a){var
 c=F(a[1],b,0);if(c){var
 d=F(a[2],b,0);if(d)var
@@ -2587,7 +2587,7 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-i1(i,q,J,t,e,b,g,h,a){switch(h[0]){case
+i2(i,q,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
@@ -2636,7 +2636,7 @@ y=eB(e,h[4]);if(y){var
 T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
 m=l[2];if(m){var
 o=m[2];if(o){if(o[2])return 0;var
-_=[0,l[1],m[1],o[1]],p=iX(function(d){function
+_=[0,l[1],m[1],o[1]],p=iY(function(d){function
 e(a){return bN(a,at,aL(i,c))}if(d){var
 a=f(e,d[2]),b=e(d[1]),g=es(a),h=A(b[2],g),j=es(a);return[0,b,[0,b1(b[1],j),h],a]}return a3(ab)},_),z=n(function(a){return aa(k(a),[0,b])},l),B=z?ez(i,b,g,s,p,W,U):z,C=B?ez(i,b,g,s,p,W,T):B,E=C?ez(i,b,g,s,p,V,U):C;if(E)return ez(i,b,g,s,p,V,T);var
 F=E}else
@@ -2663,8 +2663,8 @@ e=eC(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i2(r,V,I,H,G,U,T,E,c,D,C){if(D){var
-J=iZ(r,V,U,c),g=D,b=C;for(;;){if(g){var
+i3(r,V,I,H,G,U,T,E,c,D,C){if(D){var
+J=i0(r,V,U,c),g=D,b=C;for(;;){if(g){var
 v=g[1],a=v[2],o=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 m=e(E,c);if(m)var
@@ -2678,13 +2678,13 @@ y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(E,c),L=0;if(j){var
 s=B(d,i);if(s){var
-l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i1(r,I,H,G,J,k(c),R,y,Q);L=1}else
+l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i2(r,I,H,G,J,k(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i1(r,I,H,G,J,k(c),0,y,a);if(h){var
+h=i2(r,I,H,G,J,k(c),0,y,a);if(h){var
 g=w,b=eC(o,b);continue}var
 z=h}else
 var
@@ -2694,14 +2694,14 @@ var
 A=x;return A}return[0,b]}}return[0,C]}function
 f4(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i2(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
-m=i2(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+l=i3(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
+m=i3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
 o=m[1],p=dG(a[2],b),q=f4(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i3(a){return f(function(a){return 1},a)}function
+i4(a){return f(function(a){return 1},a)}function
 cu(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
@@ -2731,15 +2731,15 @@ c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d
 e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
 aN(b,a){var
 c=q(d),e=F(H(qo,a),b,c),f=q(d),g=F(H(qp,a),b,f);return[0,F(a,b,q(d)),g,e]}function
-i4(b,a){return aX(z,aX(G,cs,a),b)}function
+i5(b,a){return aX(z,aX(G,cs,a),b)}function
 f6(c,b,a){if(a){var
-e=a[2],f=f6(c,im(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
+e=a[2],f=f6(c,io(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
 f7(m,l,h,x){if(h){var
-e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,im(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
+e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,io(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
 0:var
-J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i4(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i5(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i4(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
+w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i5(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
 j=fZ(aN(a,0)),I=aF(j,cs),n=[0,j,q(c),j,I,0,0,0]}var
 y=[0,n,R]}else
 var
@@ -2771,9 +2771,9 @@ k=e(a[3]);return g(e(a[2]),k)}function
 eE(b,a){if(typeof
 a!=="number"&&10===a[0]){var
 c=eD(b,a[2]);return g(eD(b,a[1]),c)}return 0}function
-i5(c,b,a){var
+i6(c,b,a){var
 d=k(eE(c,b)),e=H(a[2],d);return[0,[0,a[1]],e]}function
-i6(k,a,g){switch(g[0]){case
+i7(k,a,g){switch(g[0]){case
 0:var
 e=al(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
@@ -2787,17 +2787,17 @@ j=e;return j;case
 1:var
 r=aN(a,qz);return[0,[0,aN(a,0),r]];default:var
 s=aX(G,cs,aN(a,qA));return[0,[0,aX(G,cs,aN(a,0)),s]]}}function
-i7(f,e,j,d,c){var
-k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i6(f,ej(qB,h),d);if(a)var
-b=i6(f,ir(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+i8(f,e,j,d,c){var
+k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i7(f,ej(qB,h),d);if(a)var
+b=i7(f,is(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
 f8(d,c,b,a){var
 e=v(c,b);return z(v(d,a),e)}function
 cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-i8(a){if(a){var
+i9(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=i8(a[2]);if(d)var
+c=b[1],d=i9(a[2]);if(d)var
 g=d[1],h=aF(c,c),e=[0,[0,[0,dE(c),h],g]];else
 var
 e=d;var
@@ -2809,7 +2809,7 @@ a!=="number")switch(a[0]){case
 8:var
 e=c[1],g=cu(bP(d,a),e);return[0,f(function(a){var
 b=v(a[2],g);return[0,dE(a[1]),b]},b)];case
-9:return i8(b)}return 0}function
+9:return i9(b)}return 0}function
 f9(b,k,j,a){var
 Q=j[1],e=cu(bP(k,a),Q),s=0;if(typeof
 a==="number")s=1;else
@@ -2852,16 +2852,16 @@ H=F}else
 var
 H=b;return H;case
 10:var
-r=i7(b,k,j[2],a[1],a[2]);if(r){var
+r=i8(b,k,j[2],a[1],a[2]);if(r){var
 I=r[1],J=I[2],K=I[1];return y(dE,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
 8:case
 9:var
 q=eF(b,k,j,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
 l=al(b,f);return l?g(l[1]):l}function
 f_(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=f_(d,b,i5(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
-i9(f,h,j,b,i,m){if(m){var
-a=m[1],R=m[2],S=i9(f,h,j,b,i5(b,a,i),R);if(typeof
+e=a[1],f=a[2],h=f_(d,b,i6(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
+i_(f,h,j,b,i,m){if(m){var
+a=m[1],R=m[2],S=i_(f,h,j,b,i6(b,a,i),R);if(typeof
 a==="number")var
 g=[0,[0,ab]];else
 switch(a[0]){case
@@ -2885,7 +2885,7 @@ var
 w=o;var
 g=w;break;case
 10:var
-q=i7(j,b,i[2],a[1],a[2]);if(q){var
+q=i8(j,b,i[2],a[1],a[2]);if(q){var
 x=q[1],y=x[2],z=x[1],r=aM(f,bP(b,a));if(r){var
 A=r[1],C=B(d,A[1]);if(C)var
 l=function(a){var
@@ -2938,14 +2938,14 @@ b=b[1],a=a[1];continue}return 0}}function
 eG(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iv(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iw(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iv(b,[0,W(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iw(b,[0,W(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iw(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,ix(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(it(a,[0,d,c]))return 0;var
-b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,iw(g,f)]};break;default:return 0}var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iu(a,[0,d,c]))return 0;var
+b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,ix(g,f)]};break;default:return 0}var
 g=eG(e);if(g){var
 h=eG(f);if(h)return b(g[1],h[1]);var
 i=h}else
@@ -2953,13 +2953,13 @@ var
 i=g;return i}function
 j(i,e,b){var
 f=eG(b);if(f){var
-g=f[1];return e?aH(iu(g,[0,d,c])):iu([0,d,c],g)}var
+g=f[1];return e?aH(iv(g,[0,d,c])):iv([0,d,c],g)}var
 a=ax(i,b);if(a){var
 h=a[1];return e?ac(d,h[1]):B(d,h[1])}return a}function
-i_(c,b){var
+i$(c,b){var
 a=ax(c,b),d=a?1:a;return d}function
 br(c,a,b){var
-d=cw(a,b),e=d?i_(c,a):d;return e?e:j(c,0,[2,b,a])}function
+d=cw(a,b),e=d?i$(c,a):d;return e?e:j(c,0,[2,b,a])}function
 ag(c,b,a){var
 d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
 ay(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
@@ -2969,9 +2969,9 @@ cx(c,b,a){var
 d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
 aT(c,b,a){var
 d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
-i$(c,a,b){if(0===a[0])return aT(c,a[1],b);var
+ja(c,a,b){if(0===a[0])return aT(c,a[1],b);var
 d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
-ja(a,D,G,F){var
+jb(a,D,G,F){var
 h=D[1],d=G;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
@@ -3006,7 +3006,7 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?i$(a,D[2],F):m}}function
+m=d?0:1;return m?ja(a,D[2],F):m}}function
 bs(c,b,a){var
 d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
 eH(a,e,d,c){var
@@ -3018,7 +3018,7 @@ cV(a,b){switch(a[0]){case
 0:var
 e=a[3],f=a[2],d=a[1],g=eH(d,f,e,b),h=cT(d,f,e,a[4],b),i=ay([4,[0,c,c],cU(a[5],h)],g),j=aG(d);return ag(function(b,a){return[1,b,a]},j,i);case
 1:return aG(bs(a[1],a[2],b));default:return aG(a[1])}}function
-jb(a,b){switch(a[0]){case
+jc(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=cT(e,d,c,a[4],b),i=cU(a[5],h),j=bs(d,c,b);return[2,J(aG(e),j),i];case
 1:var
@@ -3026,11 +3026,11 @@ f=a[2],g=a[1],k=bs(g,f,b);return[5,J(bs(g,f,b),k)];default:return J(aG(a[1]),b)}
 dI(e,b,a){var
 f=[0,d,c];return cP(function(c,d){var
 e=J(cV(c,b),a);return[1,[3,J(cV(c,b),a),e],d]},f,e)}function
-jc(a){var
+jd(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
 f$(a,c){if(0===a[0]){var
 d=a[4],e=a[3],f=a[2],b=a[1],g=aG(b),h=cT(b,f,e,d,c),i=ay(cU(a[5],h),g),j=eH(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jd(d,i){if(d){var
+je(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=bs(a[1],a[2],i),k=aG(f),l=ay(J(aG(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
@@ -3039,11 +3039,11 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jd(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=je(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
 j=b;return j}return qF}function
 dJ(a){return[0,a[1],a[2],a[3]]}function
-je(y,d,a){switch(a[0]){case
+jf(y,d,a){switch(a[0]){case
 0:var
 z=a[5],i=al(y,a[1]);if(i){var
 b=i[1];switch(b[0]){case
@@ -3062,9 +3062,9 @@ r=i;return r;case
 1:var
 D=dJ(a[3]);return[0,[0,dJ(a[2]),D]];default:var
 E=dJ(a[3]),F=ag(function(b,a){return[1,b,a]},d,E),G=dJ(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},d,G),F]]}}function
-jf(d,a,c,b){var
+jg(d,a,c,b){var
 e=ay(a,b),f=ay([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-jg(f,g,e,b,o,a){function
+jh(f,g,e,b,o,a){function
 D(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -3073,9 +3073,9 @@ am=dI(g,e,b);return j(f,1,[2,D(a[1]),am]);case
 1:var
 an=D(a[1]);return j(f,1,[2,dI(g,e,b),an]);case
 2:var
-ao=a[2],ap=function(a){return[2,ao,jb(a,e)]},q=ap,p=a[1];break;case
+ao=a[2],ap=function(a){return[2,ao,jc(a,e)]},q=ap,p=a[1];break;case
 3:var
-aq=a[2],ar=function(a){return[2,jb(a,e),aq]},q=ar,p=a[1];break;case
+aq=a[2],ar=function(a){return[2,jc(a,e),aq]},q=ar,p=a[1];break;case
 4:var
 E=a[3],F=a[2],as=function(a){var
 b=cV(a,e);return[2,[3,[3,F,F],J(cV(a,e),b)],[3,E,E]]},q=as,p=a[1];break;case
@@ -3116,12 +3116,12 @@ V=g;return V;case
 8:var
 ax=dI(g,e,b),ay=J(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],ay],ax]);case
 9:var
-W=a[1],x=jd(g,e);if(x){var
+W=a[1],x=je(g,e);if(x){var
 az=x[1],aj=[0,d,c],ak=cP(function(a,c){var
 d=J(aG(a),b);return[1,[3,J(aG(a),b),d],c]},aj,az);return j(f,1,[2,[3,[3,W,W],J(b,b)],ak])}return x;default:var
-X=a[2],Y=a[1],y=je(g,e,Y);if(y){var
-Z=y[1],z=je(g,e,X);if(z){var
-_=z[1],A=b[1],B=b[2],l=b[3],aA=jf(l,B,_[1],_[2]),aB=jf(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
+X=a[2],Y=a[1],y=jf(g,e,Y);if(y){var
+Z=y[1],z=jf(g,e,X);if(z){var
+_=z[1],A=b[1],B=b[2],l=b[3],aA=jg(l,B,_[1],_[2]),aB=jg(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
 ah=af}else
 var
 ah=z;var
@@ -3135,11 +3135,11 @@ qG(a){switch(a[0]){case
 b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
 1:var
 g=ae(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
-jh(c,b){var
-a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return ja(c,b,f(qG,b[1]),d)}function
+ji(c,b){var
+a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jb(c,b,f(qG,b[1]),d)}function
 cW(b,a){if(b){if(a){var
 e=cW(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-ji(a,l,k,f){var
+jj(a,l,k,f){var
 b=ax(a,l);if(b){var
 c=ax(a,k);if(c){var
 d=eo(a,f);if(d){var
@@ -3156,7 +3156,7 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jj(f,D,s,C,a,e){function
+jk(f,D,s,C,a,e){function
 t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cW(a,a)]}var
 E=s[1];function
 g(b){var
@@ -3180,8 +3180,8 @@ a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=ji(f,i,h,z);return e?ac(e[1][2],d):e}var
-g=ji(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
+e=jj(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=jj(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
 p=h[1],q=a[1],A=e[1],M=cW(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cW(p,p);return j(f,1,[2,[3,g(q),O],N])}var
@@ -3192,7 +3192,7 @@ m=al(s[2],i);return m?l(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jk(h,g){var
+jl(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3203,41 +3203,41 @@ e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
 qH(a){return f(function(a){return[0,a,c]},a)}function
-jl(e,m,b,l,a){if(typeof
+jm(e,m,b,l,a){if(typeof
 a==="number"){var
 q=b[3];return a6(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jk(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qH,a[2]);return jj(e,m,b,n[2],s,r)}return g}var
-h=jk(a[1],l);if(h){var
+g=jl(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qH,a[2]);return jk(e,m,b,n[2],s,r)}return g}var
+h=jl(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=al(b[1],a[2]);return k?jj(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=al(b[1],a[2]);return k?jk(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
 ga(a){var
 b=aG(a[1]),c=ay(J(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
 gb(a){return aG(ga(a))}function
-jm(c){var
+jn(c){var
 a=gb(c),b=aG(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
 gc(a,b){return bs(a[3],a[4],b)}function
 gd(a,b){var
 c=gc(a,b);return J(gb(a),c)}function
 ge(a,b){var
-c=gc(a,b);return J(jm(a),c)}function
-jn(a,b){var
+c=gc(a,b);return J(jn(a),c)}function
+jo(a,b){var
 c=gc(a,b);return J(aG(a[1]),c)}function
 gf(b,a){var
 c=ge(b,a),d=gd(b,a);return[1,[3,d,d],[3,c,c]]}function
 gg(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jn(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jo(a,b){var
-f=a[5],c=[2,gg(a,b),f],d=jn(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jo(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jp(a,b){var
+f=a[5],c=[2,gg(a,b),f],d=jo(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
 gh(a,b){var
-c=jo(a,b);return cU(a[7],c)}function
-jp(b,a){var
-c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
+c=jp(a,b);return cU(a[7],c)}function
 jq(b,a){var
+c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
+jr(b,a){var
 c=gf(b,a),d=gd(b,a),e=[3,gh(b,a),d],f=ge(b,a);return[4,[2,[3,gg(b,a),f],e],c]}function
 bt(c){var
 a=c;for(;;)switch(a[0]){case
@@ -3267,7 +3267,7 @@ i=a[2],f=a[1],h=v;break;case
 i=a[2],f=a[1],h=aI;break;case
 7:var
 j=dv(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
-n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ig(j)),r,n);return ie(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
+n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ih(j)),r,n);return ig(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
 u=bu(e,i,H(b,k(bt(f))));return h(bu(e,f,b),u)}function
 cy(c,f,b){var
 a=f;for(;;)switch(a[0]){case
@@ -3281,24 +3281,24 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],h=H(b,k(bt(d))),i=cy(c,a[2],h);return g(cy(c,d,b),i)}}function
-jr(c,a,b){if(a){var
-e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=jr([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
+js(c,a,b){if(a){var
+e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=js([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
 dK(a){return y(bt,a)}function
-js(c,a,b){if(a)var
-d=a[1],f=H(b,k(bt(d))),g=js(c,a[2],f),e=[0,bu(c,d,b),g];else
+jt(c,a,b){if(a)var
+d=a[1],f=H(b,k(bt(d))),g=jt(c,a[2],f),e=[0,bu(c,d,b),g];else
 var
 e=a;return e}function
-jt(c,a,b){if(a){var
-d=a[1],e=H(b,k(bt(d))),f=jt(c,a[2],e);return g(cy(c,d,b),f)}return a}function
-ju(c,a,b){if(a)var
-d=a[1],f=H(b,k(dK(d))),g=ju(c,a[2],f),e=[0,js(c,d,b),g];else
+ju(c,a,b){if(a){var
+d=a[1],e=H(b,k(bt(d))),f=ju(c,a[2],e);return g(cy(c,d,b),f)}return a}function
+jv(c,a,b){if(a)var
+d=a[1],f=H(b,k(dK(d))),g=jv(c,a[2],f),e=[0,jt(c,d,b),g];else
 var
 e=a;return e}function
-jv(c,a,b){if(a){var
-d=a[1],e=H(b,k(dK(d))),f=jv(c,a[2],e);return g(jt(c,d,b),f)}return a}function
-jw(a){return f(function(a){return[0,a[2],d]},a)}function
-jx(a){var
-c=dH(0,jw(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
+jw(c,a,b){if(a){var
+d=a[1],e=H(b,k(dK(d))),f=jw(c,a[2],e);return g(ju(c,d,b),f)}return a}function
+jx(a){return f(function(a){return[0,a[2],d]},a)}function
+jy(a){var
+c=dH(0,jx(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
 qJ(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 gi(b,d){var
@@ -3312,25 +3312,25 @@ e=a[1];return a6(function(a){return au(e,a)},b);case
 a=a[1];continue;default:var
 c=gi(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jy(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jz(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+jz(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jA(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
 gj(a,c,b){var
-d=[3,jy(a),b],e=[1,[3,jz(a),c],d],f=[3,jz(a),b];return[0,[2,[3,jy(a),c],f],e]}function
-jA(c,a){var
+d=[3,jz(a),b],e=[1,[3,jA(a),c],d],f=[3,jA(a),b];return[0,[2,[3,jz(a),c],f],e]}function
+jB(c,a){var
 b=gj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jB(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jC(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jA(d[1],a):a;case
+jC(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jD(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jB(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jA(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jB(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=J(e,e),n=jB(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jD(b){var
-a=eG(b);return a?it(a[1],[0,d,c]):a}function
-jE(a,n,k,i){if(jD(i)){var
+e=[0,d[1],h[1],i[1]],l=J(e,e),n=jC(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jE(b){var
+a=eG(b);return a?iu(a[1],[0,d,c]):a}function
+jF(a,n,k,i){if(jE(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
 f=ax(a,k);if(f){var
 g=eo(a,[4,i,[0,b(2,c),c]]);if(g){var
@@ -3346,19 +3346,19 @@ var
 e=f;if(e){var
 o=e[1];return n?B(d,o[1]):B(o[2],d)}return e}function
 dL(b,a,c){var
-d=br(b,a[1],a[2]),e=d?jE(b,0,c,a[1]):d;return e?jE(b,1,c,a[2]):e}function
-dM(a,d){if(jD(d))return[0,ab];var
+d=br(b,a[1],a[2]),e=d?jF(b,0,c,a[1]):d;return e?jF(b,1,c,a[2]):e}function
+dM(a,d){if(jE(d))return[0,ab];var
 e=eo(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
 f=fT(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
 h=f[1],i=e[1],j=C(aL(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ae(function(d){var
-e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iD(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iE(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
 gk(d,a){var
 e=j(d,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
 cz(a){return[0,[2,[0,d,c],a],a]}function
-jF(a,b,n,m){var
+jG(a,b,n,m){var
 h=br(a,[0,d,c],b),i=h?gk(a,b):h;if(i){var
 e=dM(a,b);if(e){var
 f=ax(a,n);if(f){var
@@ -3375,7 +3375,7 @@ var
 l=i;return l}function
 dN(a){return 1===a?qN:qO}function
 gl(d,c,b,a){var
-e=a[1],f=jC(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+e=a[1],f=jD(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
 dO(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dy(function(a){return dO(b,a)},a)]}return[0,dy(function(a){return dO(b,a)},a)]}function
@@ -3442,17 +3442,17 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cA(b,c)}}}function
-jG(c,e){var
+jH(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return id(a[1],c);case
+0:return ie(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jG(c,a[1]);if(d){var
+d=jH(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 b_(b,a){return a?e(b,a[1]):a}function
 b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
@@ -3485,13 +3485,13 @@ h=D(c,a,b),f=[0,em(C(a,b)),h];break;default:var
 f=[0,b,ai(c,b)]}return[0,[0,e(g,f)]]},i=gn(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jH(a){if(a){var
+jI(a){if(a){var
 b=a[1];if(b)var
-c=jH(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return qR}function
 dQ(a){if(a){var
-g=a[1],b=g[2],c=jH(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=jI(g[1]);if(c)if(b){var
 h=b[1],e=dQ(a[2]);if(e)var
 i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3504,36 +3504,36 @@ f=c;return f}return qS}function
 go(b,a){var
 c=a[3],d=ae(function(a){var
 c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jI(f,d,c,b){if(d){var
+jJ(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
 a=go(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jI(b4(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jJ(b4(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
 i=g;return i}return e(c,go(qP,b))}function
 dR(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ae(function(a){return bN(f,e,a)},d)}return[0,ab]}function
-jJ(d,b,a){if(b){if(a){var
-e=jJ(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
-jK(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jJ(e,a,b)},j=jK(e,h),k=f(function(a){var
+jK(d,b,a){if(b){if(a){var
+e=jK(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
+jL(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jK(e,a,b)},j=jL(e,h),k=f(function(a){var
 e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-jL(e,b,d,a){if(b)if(a)var
-f=b[1],g=jL(e,b[2],d,a[2]),c=[0,[0,f,iS(e,a[1][1],d,f)],g];else
+jM(e,b,d,a){if(b)if(a)var
+f=b[1],g=jM(e,b[2],d,a[2]),c=[0,[0,f,iT(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-jM(e,d,c,b,a){if(a){var
+jN(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=jM(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
+i=jN(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
 j=f(function(a){return[0,M(ab,b),0]},g),h=[0,[0,M(aE(D(e,c,en(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
@@ -3545,33 +3545,33 @@ b=dR(c[3]);if(b)return B(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jN(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-jO(a,c,b){var
+jO(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+jP(a,c,b){var
 e=F(b,c,q(d)),f=cQ(0,a);return n(function(b){return dP(a,b,e)},f)}function
 dS(a){var
 b=af(a);return G(q(c),b)}function
 eJ(i,g){var
 h=dS(g),j=af(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
-jP(b,a){function
+jQ(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
 b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jQ(a){switch(a[0]){case
+jR(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cz(a[1]),0];default:var
 b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
 cY(a){return[0,[0,a[1]],[0,a[2]]]}function
-jR(a,b){if(0===b[0])return dM(a,b[1]);var
+jS(a,b){if(0===b[0])return dM(a,b[1]);var
 d=dM(a,b[1]);if(d){var
 e=dM(a,b[2]);if(e){var
 g=ai(a,e[1]),h=co(a,C(aL(a,c),g)),i=d[1];return ae(function(b){return D(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jS(j,z,c,y,x,b,a){switch(b[0]){case
+jT(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
@@ -3604,7 +3604,7 @@ H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
 a=dQ(f[1]);if(a){var
 b=f[2];if(b){var
 d=dR(f[3]);if(d){var
-k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iU(a[1],l);if(e)return eI(c,e[1]);var
+k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iV(a[1],l);if(e)return eI(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3624,7 +3624,7 @@ a=dQ(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
 e=dR(f[3]);if(e){var
 g=aa(k(b),c),h=g?aa(k(s),c):g;if(h){var
-n=jK(t,jL(t,s,d[1],b));return eI(c,iL(jM(j,P,O,e[1],b),n))}var
+n=jL(t,jM(t,s,d[1],b));return eI(c,iM(jN(j,P,O,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3638,22 +3638,22 @@ w=0;if(typeof
 a==="number"&&!a)var
 i=b[1],h=0,g=qT,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jI(e,z,g,go(function(a){return F(a,y,q7)},C))}function
-jT(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jJ(e,z,g,go(function(a){return F(a,y,q7)},C))}function
+jU(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=B(d,o);if(p)var
-h=hJ(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=hK(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jS(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jS(m,l,k,j,0,i,a)}return 0}function
+q=f;return q}return jT(m,l,k,j,0,i,a)}return 0}function
 q8(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jU(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
+jV(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
 q=0;else
 var
 S=gn(a,ds,p),R=0,T=g(gn(a,dr,p),S),q=cr(qQ,function(b){switch(b[0]){case
@@ -3678,7 +3678,7 @@ e=E,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
 u=F(c,b,0);if(u){var
 l=al(I,c);if(l){var
-v=jT(a,H,G,h,q,l[1],i);if(v){var
+v=jU(a,H,G,h,q,l[1],i);if(v){var
 e=k,b=eC(c,b);continue}var
 w=v}else
 var
@@ -3715,7 +3715,7 @@ m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
 y=F(c,b,0);if(y){var
 o=al(I,c);if(o){var
-z=jT(a,H,G,h,q,o[1],i);if(z){var
+z=jU(a,H,G,h,q,o[1],i);if(z){var
 e=k,b=eC(c,b);continue}var
 A=z}else
 var
@@ -3723,11 +3723,11 @@ A=o;var
 B=A}else
 var
 B=y;return B}return[0,b]}}function
-jV(i,h,g,f,e,d,c,t,s,r){var
+jW(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jU(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
-l=jU(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dG(a[2],b),p=jV(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=jV(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
+l=jV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dG(a[2],b),p=jW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
@@ -3739,8 +3739,8 @@ gq(a){switch(a){case
 1:return ra;default:return 0}}function
 eK(b,a){var
 c=a8(a[2],b);return g(a8(a[1],b),c)}function
-jW(r,l,p,t,o,j,s){if(j){var
-u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jW(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
+jX(r,l,p,t,o,j,s){if(j){var
+u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jX(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
 0:var
 g=[0,q_,q9,q(d)];break;case
 1:var
@@ -3776,10 +3776,10 @@ c=al(d,a[1]);if(c)var
 i=j(e,0,a[2]),k=i?[0,z(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-jX(a,d,c,b){return f(function(a){var
+jY(a,d,c,b){return f(function(a){var
 e=cu(gr(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-jY(b,g,s,f,i,q,p,o){if(o){var
-X=jY(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+jZ(b,g,s,f,i,q,p,o){if(o){var
+X=jZ(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
 M=e(g,i),h=[0,t(e(a4(g),f),M,ab)];else
 switch(a[0]){case
@@ -3811,7 +3811,7 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aL(b,c),V=e(g,i),W=jX(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+U=aL(b,c),V=e(g,i),W=jY(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
@@ -3821,10 +3821,10 @@ c=ai(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-jZ(j,h,i,e,d,a){if(a){var
-n=jZ(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j0(j,h,i,e,d,a){if(a){var
+n=j0(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(ds,jX(h,e,d,b));l=1}if(!l)var
+k=f(ds,jY(h,e,d,b));l=1}if(!l)var
 c=gs(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
 rc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
@@ -3836,11 +3836,11 @@ i(a){return[0,[0,H(bm,a)]]}switch(bn[0]){case
 0:var
 aX=dS(i(0)),J=[0,eJ(qU,i(0)),aX];break;case
 1:var
-aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jP(eJ(qY,i(qX)),a1),J=[0,jP(eJ(q0,i(qZ)),a2),a0];break;default:var
+aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jQ(eJ(qY,i(qX)),a1),J=[0,jQ(eJ(q0,i(qZ)),a2),a0];break;default:var
 a3=i(q1),a5=i(q2),u=[0,i(0),a5,a3],a7=aF(u,u),a8=G(q(c),a7),aN=aF(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
 d=af(a),e=v(q(b(2,c)),d);return G(z(q(c),aN),e)},A=function(f,e,d,a){var
 g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(G,s,t,r),aQ=[0,A(z,r,t,s),aP,aO],aR=A(z,s,t,r),aT=O(s),aU=[0,A(G,r,s,t),aT,aR],aV=A(G,r,t,s),aW=A(z,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=J[2],K=jW(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
+C=J[2],K=jX(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
 B(a){return[0,[0,H(bq,a)]]}var
 ag=af([0,[1,bo]]);switch(br[0]){case
 2:var
@@ -3848,7 +3848,7 @@ a9=B(q3),a_=B(q4),ah=[0,B(0),a_,a9],o=[0,z(ag,aF(ah,ah))];break;case
 3:var
 a$=af(B(q5)),ba=af(B(0)),bc=af(B(q6)),o=[0,z(z(v(ag,G(q(c),bc)),ba),a$)];break;default:var
 o=0}var
-bs=o?[0,o[1],0]:o,bt=[0,C,g(jZ(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
+bs=o?[0,o[1],0]:o,bt=[0,C,g(j0(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
 x(a){return bp(D,dO(h,a))}var
 bu=ae(x,o),bv=x(C),at=e(a4(x),K),am=gq(w),an=aa(k(at),h);if(an)var
 ao=ae(function(a){return[0,[0,a,d],d]},bu),I=function(a){return F(a,D,q(d))},ad=I(bv),aL=cQ(0,am),R=n(function(a){var
@@ -3863,7 +3863,7 @@ d=c;return d},aL);else
 var
 R=an;var
 bf=R?am:R,au=n(function(a){var
-b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jG(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
+b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jH(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
 L=a[4];switch(w){case
 0:var
 U=eL(L[3]);break;case
@@ -3874,7 +3874,7 @@ V=U}else
 var
 V=aw;var
 ax=V?j(l,1,a[3]):V;if(ax)var
-bw=jQ(a[5]),W=n(function(a){var
+bw=jR(a[5]),W=n(function(a){var
 b=gk(l,a[1]);return b?gk(l,a[2]):b},bw);else
 var
 W=ax;if(W){var
@@ -3895,19 +3895,19 @@ bd=[0,cY(p[3]),0],be=[0,cY(p[2]),bd],M=[0,cY(p[1]),be];break;case
 P=cY(cz(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
 Q=p[2],ai=p[1],aj=[0,[1,cz(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cY(cz(Q)),0]]]}var
 _=aS(f(function(d){var
-a=jR(l,d[1]);if(a)var
-b=jR(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=jS(l,d[1]);if(a)var
+b=jS(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},M));if(_){var
 az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aS(f(function(a){return dM(l,a)},bz));if($){var
-ab=aS(jY(l,x,bf,K,C,m,S,a[6]));if(ab){var
+ab=aS(jZ(l,x,bf,K,C,m,S,a[6]));if(ab){var
 ac=ab[1],aB=aa(k(g(ay,az)),h),aC=aB?n(function(a){switch(a[0]){case
 2:var
-d=jN(a[2]),b=[0,a[3],d];break;case
+d=jO(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jN(a[1]),b=[0,a[2],c]}return n(function(a){return jO(h,D,a)},b)},ac):aB,aD=aC?o?jO(h,D,x(o[1])):1:aC;if(aD){var
-bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jV(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
+c=jO(a[1]),b=[0,a[2],c]}return n(function(a){return jP(h,D,a)},b)},ac):aB,aD=aC?o?jP(h,D,x(o[1])):1:aC;if(aD){var
+bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jW(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
 aE=aD}else
 var
 aE=ab;var
@@ -3930,17 +3930,17 @@ eM(b,a){return br(b,a[1],a[2])}function
 gt(b,a){var
 c=eM(b,a[1]),d=c?eM(b,a[2]):c;return d?eM(b,a[3]):d}var
 eO=z(q(c),eN);function
-j0(e){var
+j1(e){var
 a=af(eO);if(e)var
 f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aI(G(q(c),h),g);else
 var
 i=G(q(b(2,c)),a),j=af(eN),d=aI(G(v(q(b(2,c)),j),a),i);return cq(d)}function
-j1(d,b,a){if(d){var
-e=j0(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
-h=q(c),i=j0(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
+j2(d,b,a){if(d){var
+e=j1(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
+h=q(c),i=j1(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
 cZ(f,e,d,a){var
 g=af(a),h=af(d),i=z(z(q(b(2,c)),h),g),j=f?e?eO:aI(eO,v(q(b(2,c)),eN)):aI(eO,q(b(2,c))),k=v(af(j),i);return cq(G(q(c),k))}function
-j2(g,d){var
+j3(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 gu(u,t,s){var
@@ -3975,12 +3975,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-j3(f,i,e,b,h){var
+j4(f,i,e,b,h){var
 j=f?c:d,a=aL(i,j);function
 g(b){var
 c=f?fQ(b):en(b);return M(c,a)}var
 k=[0,a3(h),0],l=[0,[0,a,b,[0,ab,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-j4(r,g,q,p,e,o,n){if(o){var
+j5(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3989,16 +3989,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b8,bO(rg)),a=gu(p,iZ(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b8,bO(rg)),a=gu(p,i0(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=B(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j2,rh),a=gu(p,cr(0,dC(g,j3(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(j3,rh),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(j2,ri),a=gu(p,cr(0,dC(g,j3(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=f(j3,ri),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4011,19 +4011,19 @@ a=w;var
 y=a?rj:a}else
 var
 y=n;return y}return[0,n]}function
-j5(f,e,d,c,p,o,n){var
+j6(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j4(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
-i=j4(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dG(a[2],b),l=j5(f,e,d,c,k[1],j,a[3]);if(l){var
+h=j5(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
+i=j5(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dG(a[2],b),l=j6(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gv(a){return ii(b(2,c),b1(a,c))}function
+gv(a){return ij(b(2,c),b1(a,c))}function
 c0(i,a,e,w,u){var
-l=a?c:W(c),f=q(l),g=j1(a,e,re),h=j1(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j5(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-j6(a,g,b){if(ac(g,gv(a))){if(b){var
+l=a?c:W(c),f=q(l),g=j2(a,e,re),h=j2(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j6(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+j7(a,g,b){if(ac(g,gv(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
@@ -4053,21 +4053,21 @@ u=t}else
 var
 u=b;return u}function
 gw(a){var
-b=[1,[2,d]];return iq(function(b,a){return[1,[3,b,a]]},a,b)}function
+b=[1,[2,d]];return ir(function(b,a){return[1,[3,b,a]]},a,b)}function
 eP(a){return gw(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
 eQ(a,c){return gw(f(function(a){var
 d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gw(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-j7(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
-g=a[1],h=dy(function(a){return j7(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
+j8(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
+g=a[1],h=dy(function(a){return j8(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
 rk(a){var
 b=aa(k(a),rl);return b?a6(function(a){return aH(ak(a,d))},a):b}function
-j8(c,f,b,a){if(b)if(a)var
-d=b[1],g=D(c,aL(c,a[1]),f),h=j8(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+j9(c,f,b,a){if(b)if(a)var
+d=b[1],g=D(c,aL(c,a[1]),f),h=j9(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eR(b,a){return ip(ip(b,0),a)}function
+eR(b,a){return iq(iq(b,0),a)}function
 gx(a){if(a){var
 b=a[2],c=a[1];if(b)return eR(c,[0,rn,gx(b)]);var
 d=c}else
@@ -4080,7 +4080,7 @@ h(b,a){return[0,av(rv,av(b,ru)),a]}function
 L(b,a){return O([0,h(b,a),0])}function
 cB(d){var
 b=d,a=pZ,e=0;for(;;){if(b){var
-c=ic(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
+c=id(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
 gy(a){return[0,dx(ei(a)),0]}function
 gz(a){var
 c=bH(a),f=0,b=0===c?p3:0<c?[0,ei(a)]:[1,ei(W(a))];if(0===b[0])var
@@ -4114,7 +4114,7 @@ l=a[2];return g(c(gB(a),l),[0,d,k]);case
 4:var
 m=[0,rK,gy(a[2])];return g(c(rL,a[1]),m);default:return[0,rN,g(dT(b,a[1]),rM)]}}function
 K(a){return[0,rQ,g(dT(function(a){throw[0,$,rP]},a),rO)]}function
-j9(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
+j_(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
 ca(a){if(0===a[0])return K(a[1]);var
 b=[0,h(rT,K(a[2])),0];return O([0,h(rU,K(a[1])),b])}function
 dU(b,a){var
@@ -4152,7 +4152,7 @@ n=w([0,K(c[1]),0]),m=0,o=6===a[1]?sC:sG,f=[0,h(sD,L(o,n)),m];else
 var
 f=c;var
 p=g(f,l),d=a[2],q=d?[0,h(sE,cB(d[1])),0]:d,r=g(q,p);return O([0,h(sF,am(gC(a[1]))),r])}function
-j_(a){if(0===a[0]){var
+j$(a){if(0===a[0]){var
 b=[0,h(sH,dU(K,a[2])),0];return L(sJ,O([0,h(sI,dU(K,a[1])),b]))}var
 c=[0,K(a[5]),0],d=[0,h(sK,w([0,K(a[4]),c])),0],e=[0,h(sL,K(a[3])),d],f=[0,K(a[2]),0];return L(sN,O([0,h(sM,w([0,K(a[1]),f])),e]))}function
 sR(a){function
@@ -4163,12 +4163,12 @@ b(a){return dU(K,a)}if(0===a[0])var
 c=a[5],e=c?[0,h(s6,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s7,w([0,K(a[3]),f])),0],j=[0,h(s8,K(a[2])),i],k=[0,h(s9,cB(a[1])),j],d=g([0,h(s$,am(s_)),k],e);else
 var
 l=[0,h(ta,K(a[4])),0],m=[0,h(tb,b(a[3])),l],n=[0,h(tc,b(a[2])),m],o=a[1]?td:tf,d=[0,h(te,am(o)),n];return O(d)}function
-j$(d,c,a,b){var
-e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j_(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
+ka(d,c,a,b){var
+e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j$(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
 tl(a){switch(a[0]){case
-0:return L(tm,j$(a[1],a[2],a[3],a[4]));case
+0:return L(tm,ka(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j_(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
+o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j$(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
 2:var
 q=[0,h(ts,w(f(dV,a[7]))),0],b=a[6],c=function(b,a){var
 c=[0,K(a),0];return w([0,K(b),c])};switch(b[0]){case
@@ -4186,39 +4186,39 @@ e=sO;break;case
 e=sP;break;default:var
 e=sQ}return L(tB,O([0,h(tA,L(e,v)),t]));case
 3:var
-x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j9,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
-b=[0,j9(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
+x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j_,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
+b=[0,j_(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
 b=[0,ca(a[2]),0];return w([0,am(a[1]),b])},F))),E];return L(tO,O([0,h(tN,L(tM,O([0,h(tL,w(f(am,a[1]))),G]))),z]));case
 4:var
 H=[0,h(tP,w(f(dV,a[3]))),0],I=[0,h(tS,L(tR,O([0,h(tQ,K(a[2])),0]))),H];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,K(a[1])),0]))),I]));case
 5:var
-J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,j$(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
+J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,ka(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
 k=a[1],M=0,N=k?ca(k[1]):am(t2);return L(t1,O([0,h(t0,N),M]))}}function
 eS(a){return w(f(gz,a))}function
-ka(b,a){var
+kb(b,a){var
 c=[0,h(t3,gA(a)),0];return O([0,h(t4,w(f(eS,b))),c])}function
 eT(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=ka(a[2],a[3]);return L(a[1],b);case
+b=kb(a[2],a[3]);return L(a[1],b);case
 2:var
 c=a[1]?t5:t7;return L(t6,am(c));case
 3:var
-d=[0,eS(a[3]),0];return L(t8,w([0,ka(a[1],a[2]),d]));case
+d=[0,eS(a[3]),0];return L(t8,w([0,kb(a[1],a[2]),d]));case
 4:var
 e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return L(t9,w([0,eT(a[1]),f]));case
 5:var
 g=[0,gA(a[3]),0],h=[0,gz(a[2]),g];return L(t_,w([0,eT(a[1]),h]));default:return L(t$,eT(a[1]))}}function
 ua(a){var
 b=[0,eT(a[2]),0];return w([0,cB(a[1]),b])}function
-kb(a){if(typeof
+kc(a){if(typeof
 a==="number")return am(ub);else{if(0===a[0]){var
 b=[0,w(f(eS,a[2])),0];return L(uc,w([0,cB(a[1]),b]))}var
 c=[0,cB(a[2]),0];return L(ud,w([0,cB(a[1]),c]))}}function
 ue(a){var
-b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kb(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kc(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
 gE(a){var
-b=h0(hZ(E(a),function(b){return R(a,b)}));return n(function(a){var
+b=h1(h0(E(a),function(b){return R(a,b)}));return n(function(a){var
 b=aH(34===a?1:0),c=b?aH(92===a?1:0):b,d=c?Y(uC,ek(a)):c;return d?Y(ek(a),uD):d},b)}function
 eU(b){function
 c(f){var
@@ -4226,7 +4226,7 @@ a=ek(f),b=Y(uE,a),c=b?Y(a,uF):b;if(c)var
 d=c;else{var
 e=Y(uG,a);if(e)return Y(a,uH);var
 d=e}return d}var
-a=h0(hZ(E(b),function(a){return R(b,a)}));if(a){var
+a=h1(h0(E(b),function(a){return R(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
@@ -4270,26 +4270,26 @@ a=a[1];continue}}function
 c2(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 cb(a){return y(c2,bc(a))}function
-kc(a){switch(a[0]){case
+kd(a){switch(a[0]){case
 0:var
 c=c2(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
 1:var
 b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
 uM(a){var
 b=y(c2,[0,a[5],[0,a[6],0]]);return g(y(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-kd(a){if(0===a[0]){var
+ke(a){if(0===a[0]){var
 b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 c3(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
 uN(a){if(0===a[0]){var
 b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
-ke(a){var
+kf(a){var
 d=eh(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eh(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kf(a,b){return b?[3,kf(a,b[1]),a]:a}function
+kg(a,b){return b?[3,kg(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ia(h),k,c);return[0,ik(ib(ef(a[1]),h)),l];case
+h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ib(h),k,c);return[0,il(ic(ef(a[1]),h)),l];case
 1:throw[0,$,uO];case
 2:var
 e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
@@ -4299,7 +4299,7 @@ f=i(a[2]),g=i(a[3]);switch(a[1]){case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=b4(dv(a[2]));return kf(i(a[1]),m);default:return[5,i(a[1])]}}function
+m=b4(dv(a[2]));return kg(i(a[1]),m);default:return[5,i(a[1])]}}function
 bQ(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
@@ -4310,13 +4310,13 @@ uP(a){switch(a[0]){case
 b=a[5],c=bQ(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
 1:var
 f=ae(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
-kg(a){if(0===a[0]){var
+kh(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
 dW(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-kh(a){if(0===a[0]){var
+ki(a){if(0===a[0]){var
 b=a[5],h=b?dW(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b4(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=dW(f),n=dW(g);return[2,i(e),n,m]}var
@@ -4359,8 +4359,8 @@ p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;case
 8:return 0;default:var
 q=a[4];if(0===q[0]){var
 y=q[1],z=gH(0,A);return f(function(a){var
-b=i(y),c=kh(a[2]);return[10,kh(a[1]),c,b]},z)}return 0}var
-h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kg(j);return[0,f(uP,c),l,h]}function
+b=i(y),c=ki(a[2]);return[10,ki(a[1]),c,b]},z)}return 0}var
+h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kh(j);return[0,f(uP,c),l,h]}function
 uT(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
 c4(z,b){var
@@ -4415,7 +4415,7 @@ b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-ki(b){function
+kj(b){function
 a(e){var
 a=[0,d,c];return F(e,b,[0,a,a])}var
 e=a(uX),f=a(uY);return[0,a(0),f,e]}function
@@ -4427,9 +4427,9 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kj(j,a,h,g,e,d,c){function
-b(a){return ki(f(bQ,a))}var
-l=c4(k(a),c),m=gI(d),n=ck(g,e),o=ki(f(function(a){var
+kk(j,a,h,g,e,d,c){function
+b(a){return kj(f(bQ,a))}var
+l=c4(k(a),c),m=gI(d),n=ck(g,e),o=kj(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
 uZ(a){var
@@ -4454,11 +4454,11 @@ u1(a){switch(a[0]){case
 b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
 1:var
 d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
-kk(a){switch(a[0]){case
+kl(a){switch(a[0]){case
 0:return c5(bw(a[1][1]));case
 1:var
 b=a[3];return b?c5(bw(b[1])):d;default:return c5(bw(a[1]))}}function
-kl(b){var
+km(b){var
 a=y(u0,b),d=a?[0,a[1],a[2]]:y(u1,b);return A(c,c5(d))}function
 eX(a){switch(a[0]){case
 0:var
@@ -4474,14 +4474,14 @@ f=eX(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
 g=eX(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
 n=eX(a[1]);return ae(function(a){return[6,a]},n)}}function
-km(a){if(a){var
+kn(a){if(a){var
 d=a[1],b=eX(d[2]);if(b)var
-c=km(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+c=kn(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
 e=b;return e}return ve}function
 c6(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=km(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=kn(b[1]);if(d){var
 k=d[1];if(h){var
 e=c6(j,i);if(e){var
 l=e[1],f=c6(j,l[2]);if(f)var
@@ -4525,7 +4525,7 @@ g=d;return g}function
 cD(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
 be(a,e){var
 b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-kn(d,c){if(d){var
+ko(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -4535,17 +4535,17 @@ o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=kn(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-ko(b,i){if(b){var
-a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=ko(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+q=ko(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kp(b,i){if(b){var
+a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kp(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
 gM(a,b){if(a){var
 c=cD(a[1],b),d=gM(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 gN(b){function
 a(a){return F(a,b,[0,d,c])}var
 e=a(vi),f=a(vj);return[0,a(0),f,e]}function
-kp(a,b){if(a){var
-c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kp(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
-c7(a){return i_(m,a)}function
+kq(a,b){if(a){var
+c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kq(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
+c7(a){return i$(m,a)}function
 vk(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
@@ -4587,12 +4587,12 @@ a=b;continue}return c}return 1}}function
 dX(a){if(0===a[0])return c7(i(a[1]));var
 b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
 bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-kq(a){switch(a[0]){case
+kr(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
 1:var
 b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
-kr(a){var
+ks(a){var
 b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
 gP(a){switch(a){case
 0:return vo;case
@@ -4602,7 +4602,7 @@ f=a[1],d=j(m,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?br
 g=a[2];return j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
 gQ(a){var
 e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-ks(c,d,D,t,s,r,g){function
+kt(c,d,D,t,s,r,g){function
 u(a){var
 d=c?vm:vn,b=aa(k(a),d);return b?n(dX,a):b}var
 v=n(function(a){var
@@ -4734,88 +4734,88 @@ i=a[3],k=i?1:i;return k}return 0;case
 d=Y(uR,b);return d?Y(b,D):d},e);else
 var
 h=w;var
-x=h?eY(e):h,z=x?n(dX,y(kq,c)):x;return z?n(vk,u[3]):z}function
-kt(b,a){return n(function(c){var
-a=c[2];return a?id(a[1],b):1},a)}function
-gT(b,a){var
+x=h?eY(e):h,z=x?n(dX,y(kr,c)):x;return z?n(vk,u[3]):z}function
+gT(b,a){return n(function(c){var
+a=c[2];return a?ie(a[1],b):1},a)}function
+gU(b,a){var
 c=k(fO(function(a){return 0===a[0]?0:1},b));return aa(k(a),c)}function
 vv(p){var
-e4=gE(p[3]),e5=e4?gE(p[4]):e4;if(e5){var
+e5=gE(p[3]),e6=e5?gE(p[4]):e5;if(e6){var
 ar=p[1];if(3===ar[0]){var
-e8=n(eU,ar[1]);if(e8)var
-h9=ar[2],co=n(function(a){return eU(a[1])},h9);else
+e9=n(eU,ar[1]);if(e9)var
+h$=ar[2],co=n(function(a){return eU(a[1])},h$);else
 var
-co=e8;if(co)var
-h_=ar[3],cp=n(function(a){var
-b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},h_);else
+co=e9;if(co)var
+ia=ar[3],cp=n(function(a){var
+b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},ia);else
 var
 cp=co;if(cp)var
-h$=ar[4],ia=function(a){var
-b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ia,a)},h$);else
+ib=ar[4],ic=function(a){var
+b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ic,a)},ib);else
 var
 cj=cp}else
 var
 cj=1;var
 cl=cj}else
 var
-cl=e5;if(cl){var
+cl=e6;if(cl){var
 h=p[1];switch(h[0]){case
 0:var
-hO=y(c3,h[4]),hP=g(y(uN,h[3]),hO),hQ=g(kd(h[2]),hP),T=g(y(kc,h[1]),hQ);break;case
+hQ=y(c3,h[4]),hR=g(y(uN,h[3]),hQ),hS=g(ke(h[2]),hR),T=g(y(kd,h[1]),hS);break;case
 1:var
-hR=y(c3,h[3]),hS=g(kd(h[2]),hR),T=g(y(uM,h[1]),hS);break;case
+hT=y(c3,h[3]),hU=g(ke(h[2]),hT),T=g(y(uM,h[1]),hU);break;case
 2:var
-hT=y(c3,h[7]),S=h[6];switch(S[0]){case
+hV=y(c3,h[7]),S=h[6];switch(S[0]){case
 1:var
-e1=S[3],e2=S[2],e3=S[1],ch=[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],[0,e1[1],[0,e1[2],0]]]]]];break;case
+e2=S[3],e3=S[2],e4=S[1],ch=[0,e4[1],[0,e4[2],[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],0]]]]]];break;case
 2:var
 ch=[0,S[1],0];break;default:var
 ch=[0,S[1],[0,S[2],0]]}var
-hU=g(ch,hT),hV=g(h[5],hU),hW=g(h[4],hV),hX=[0,h[3],hW],hY=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},hY),hX);break;case
+hW=g(ch,hV),hX=g(h[5],hW),hY=g(h[4],hX),hZ=[0,h[3],hY],h0=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},h0),hZ);break;case
 3:var
-hZ=y(c3,h[7]),h0=g(h[6],hZ),h1=g(h[5],h0),h2=h[2],T=g(y(function(a){return c2(a[2])},h2),h1);break;case
+h1=y(c3,h[7]),h2=g(h[6],h1),h3=g(h[5],h2),h4=h[2],T=g(y(function(a){return c2(a[2])},h4),h3);break;case
 4:var
-h3=y(c3,h[3]),T=[0,h[1],[0,h[2],h3]];break;case
+h5=y(c3,h[3]),T=[0,h[1],[0,h[2],h5]];break;case
 5:var
-h4=y(c3,h[4]),h5=g(bc(h[3]),h4),h6=g(bc(h[2]),h5),h7=g(y(kc,h[1]),h6),T=[0,h[5],h7];break;default:var
+h6=y(c3,h[4]),h7=g(bc(h[3]),h6),h8=g(bc(h[2]),h7),h9=g(y(kd,h[1]),h8),T=[0,h[5],h9];break;default:var
 ci=h[1],T=ci?c2(ci[1]):ci}var
 cn=n(c1,T)}else
 var
 cn=cl;if(cn){var
 af=p[2];if(0===af[0]){var
-e6=ke(af[1]);if(e6)var
-h8=af[2],as=n(function(a){var
+e7=kf(af[1]);if(e7)var
+h_=af[2],as=n(function(a){var
 b=a[1];return n(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
 1:return gE(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},h8);else
+a=a[1];continue}},b)},h_);else
 var
-as=e6}else
+as=e7}else
 var
-e7=ke(af[1]),as=e7?n(c1,g(af[2],af[3])):e7}else
+e8=kf(af[1]),as=e8?n(c1,g(af[2],af[3])):e8}else
 var
 as=cn;if(as){var
 a=p[1];switch(a[0]){case
 0:var
 at=a[4],av=a[3],cF=a[2],U=a[1],ah=p[2];if(0===ah[0]){var
-fp=ah[2],r=eV(U,cF,av,at),cG=c6(k(fp),fp);if(cG){var
-fq=cG[1];if(fq[2])return 0;var
-fr=gS(U,av,at,r);if(fr){var
-ip=fq[1],fs=f(kk,r[1]),x=kl(r[1]),u=ah[1],dv=jh(m,r);if(dv){var
-bD=f6(x,fs,r[1]),X=f7(x,fs,r[1],0),gx=k(r[3]),gy=H(k(bD),gx),df=[0,k(bD),gy],gz=f_(X,x,df,r[3]),gA=g(cv(iW(X)),gz),dg=g(cv(ey(X)),gA),dh=dB(dg)[1],ap=dA(dh),di=n(function(a){var
-b=q(d);return bb(F(bp(ap,a),ap,b),a)},dg);if(di){var
-dj=a6(qE,r[3]);if(dj){var
-gB=r[3],gC=y(function(a){return eE(x,a)},gB),gD=r[3],gG=g(bD,g(f(function(a){return bP(x,a)},gD),gC)),bE=aS(f(function(a){return aM(u,a)},gG));if(bE){var
+cG=ah[2],r=eV(U,cF,av,at),cH=c6(k(cG),cG);if(cH){var
+fq=cH[1];if(fq[2])return 0;var
+fr=gS(U,av,at,r),fs=fr?gT(vw,cG):fr;if(fs){var
+ir=fq[1],ft=f(kl,r[1]),x=km(r[1]),u=ah[1],dw=ji(m,r);if(dw){var
+bD=f6(x,ft,r[1]),X=f7(x,ft,r[1],0),gy=k(r[3]),gz=H(k(bD),gy),dg=[0,k(bD),gz],gA=f_(X,x,dg,r[3]),gB=g(cv(iX(X)),gA),dh=g(cv(ey(X)),gB),di=dB(dh)[1],ap=dA(di),dj=n(function(a){var
+b=q(d);return bb(F(bp(ap,a),ap,b),a)},dh);if(dj){var
+dk=a6(qE,r[3]);if(dk){var
+gC=r[3],gD=y(function(a){return eE(x,a)},gC),gG=r[3],gH=g(bD,g(f(function(a){return bP(x,a)},gG),gD)),bE=aS(f(function(a){return aM(u,a)},gH));if(bE){var
 Z=r[2];if(0===Z[0])var
-dk=Z[1];else
+dl=Z[1];else
 var
-aA=Z[3],dd=Z[2],de=Z[1],dk=[0,[0,[2,de,aA],[1,de,aA]],[0,[2,dd,aA],[1,dd,aA]],Z[4]];var
-gH=a8(dk,x),bF=aS(f(function(a){return aM(u,a)},gH));if(bF){var
-gI=r[3],bG=aS(i9(u,function(a){return bp(ap,a)},X,x,df,gI));if(bG){var
-dl=bG[1],gM=i3(dl),aB=r[2],gQ=bF[1],gR=function(d){if(0===aB[0])return 0;if(d){var
+aA=Z[3],de=Z[2],df=Z[1],dl=[0,[0,[2,df,aA],[1,df,aA]],[0,[2,de,aA],[1,de,aA]],Z[4]];var
+gI=a8(dl,x),bF=aS(f(function(a){return aM(u,a)},gI));if(bF){var
+gM=r[3],bG=aS(i_(u,function(a){return bp(ap,a)},X,x,dg,gM));if(bG){var
+dm=bG[1],gQ=i4(dm),aB=r[2],gR=bF[1],gV=function(d){if(0===aB[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
 b=a[1],c=d[1],f=b7(u,x,aB[1]);if(f){var
@@ -4838,265 +4838,265 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},gU=bE[1],gV=0,gW=iW(X),gX=e(a4(function(a){return bp(ap,a)}),gW),gY=ey(X);return f4(u,dh,e(a4(function(a){return bp(ap,a)}),gY),gX,gV,gU,dl,gR,gQ,gM,ip)}var
-dm=bG}else
+p=d;return p},gW=bE[1],gX=0,gY=iX(X),gZ=e(a4(function(a){return bp(ap,a)}),gY),g0=ey(X);return f4(u,di,e(a4(function(a){return bp(ap,a)}),g0),gZ,gX,gW,dm,gV,gR,gQ,ir)}var
+dn=bG}else
 var
-dm=bF;var
-dn=dm}else
+dn=bF;var
+dp=dn}else
 var
-dn=bE;var
-bH=dn}else
+dp=bE;var
+bH=dp}else
 var
-bH=dj}else
+bH=dk}else
 var
-bH=di;return bH}return dv}var
-ft=fr}else
+bH=dj;return bH}return dw}var
+fu=fs}else
 var
-ft=cG;return ft}var
+fu=cH;return fu}var
 a_=ah[2];if(a_){var
 a$=a_[2];if(a$){var
 ba=a$[2];if(ba){if(ba[2])return 0;var
-fu=ah[3],fv=kn(U,f(i,fu));if(fv[2])return 0;var
+fv=ah[3],fw=ko(U,f(i,fv));if(fw[2])return 0;var
 aj=ah[4];if(typeof
 aj==="number")var
 E=vh;else
 if(0===aj[0]){var
 ct=aj[2],cu=aj[1];if(ct){var
-a0=ct[1],cX=0;if(a0){var
+a0=ct[1],cY=0;if(a0){var
 a1=a0[2],bB=0;if(a1){var
 a2=a1[2],bC=0;if(a2)if(a2[2]){var
 E=0;bB=1;bC=1}else{var
 cw=a2[1],cy=a1[1],cA=a0[1],cB=ct[2];if(cB){var
-a5=cB[1],gu=0;if(a5){var
-a7=a5[2],gv=0;if(a7){var
-a9=a7[2],gw=0;if(a9)if(a9[2]||cB[2]){var
-E=0;bB=1;bC=1;gu=1;gv=1;gw=1}else
+a5=cB[1],gv=0;if(a5){var
+a7=a5[2],gw=0;if(a7){var
+a9=a7[2],gx=0;if(a9)if(a9[2]||cB[2]){var
+E=0;bB=1;bC=1;gv=1;gw=1;gx=1}else
 var
-fc=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
+fd=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
 var
-fc=a9;if(!gw)var
-fd=fc}else
-var
-fd=a7;if(!gv)var
+fd=a9;if(!gx)var
 fe=fd}else
 var
-fe=a5;if(!gu){var
-E=fe;bB=1;bC=1}}else
+fe=a7;if(!gw)var
+ff=fe}else
 var
-ff=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
+ff=a5;if(!gv){var
+E=ff;bB=1;bC=1}}else
 var
-ff=a2;if(!bC)var
-fg=ff}else
+fg=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
 var
-fg=a1;if(!bB){var
-fh=fg;cX=1}}else{var
-fh=a0;cX=1}if(cX)var
-E=fh}else
+fg=a2;if(!bC)var
+fh=fg}else
 var
-fi=[0,[0,d,d],d],E=[0,[0,cu,fi,fi]]}else
+fh=a1;if(!bB){var
+fi=fh;cY=1}}else{var
+fi=a0;cY=1}if(cY)var
+E=fi}else
+var
+fj=[0,[0,d,d],d],E=[0,[0,cu,fj,fj]]}else
 var
 E=[0,[1,aj[1],aj[2]]];if(E){var
-fw=gT(y(kq,U),fu),fx=fw?gS(U,av,at,eV(U,cF,av,at)):fw;if(fx){var
-V=E[1],iq=i(ba[1]),is=i(a$[1]),L=[0,i(a_[1]),is,iq],aw=fv[1],cH=eV(U,cF,av,at),dp=ja(m,cH,aw,L);if(dp)if(typeof
+fx=gU(y(kr,U),fv),fy=fx?gS(U,av,at,eV(U,cF,av,at)):fx;if(fy){var
+V=E[1],it=i(ba[1]),iu=i(a$[1]),L=[0,i(a_[1]),iu,it],aw=fw[1],cI=eV(U,cF,av,at),dq=jb(m,cI,aw,L);if(dq)if(typeof
 V==="number")return a6(function(a){switch(a[0]){case
 0:var
 b=[0,cT(a[1],a[2],a[3],a[4],L)];break;case
 1:var
 e=a[2],f=a[1],g=bs(f,e,L),b=[0,J(bs(f,e,L),g)];break;default:var
 b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aw);else{if(0===V[0]){var
-bI=al(cH[3],V[1]);if(bI){var
-gZ=bI[1],g0=jc(V[3]);return jg(m,aw,L,jc(V[2]),g0,gZ)}return bI}var
-bJ=al(cH[3],V[1]);if(bJ){var
+bI=al(cI[3],V[1]);if(bI){var
+g1=bI[1],g2=jd(V[3]);return jh(m,aw,L,jd(V[2]),g2,g1)}return bI}var
+bJ=al(cI[3],V[1]);if(bJ){var
 bK=al(aw,V[2]);if(bK){var
-dq=bK[1],g1=bJ[1],g2=cV(dq,L);return jg(m,aw,L,cV(dq,L),g2,g1)}var
-dt=bK}else
+dt=bK[1],g3=bJ[1],g4=cV(dt,L);return jh(m,aw,L,cV(dt,L),g4,g3)}var
+dv=bK}else
 var
-dt=bJ;return dt}return dp}var
-fy=fx}else
-var
-fy=E;var
+dv=bJ;return dv}return dq}var
 fz=fy}else
 var
-fz=ba;var
+fz=E;var
 fA=fz}else
 var
-fA=a$;var
+fA=ba;var
 fB=fA}else
 var
-fB=a_;return fB;case
+fB=a$;var
+fC=fB}else
+var
+fC=a_;return fC;case
 1:var
 bd=a[3],N=a[1],be=p[2];if(0===be[0])return 0;var
 bf=be[2];if(bf){var
 bg=bf[2];if(bg){var
 bh=bg[2];if(bh){if(bh[2])return 0;var
-fC=be[3],fD=ko(N,f(i,fC));if(fD[2])return 0;var
-fE=gT(y(kr,N),fC);if(fE){var
-fj=Y(vl,k(N));if(fj)var
-ij=k(N),ik=1,cD=n(function(a){return bR(ik,ij,a)},bd);else
+fD=be[3],fE=kp(N,f(i,fD));if(fE[2])return 0;var
+fF=gU(y(ks,N),fD);if(fF){var
+fk=Y(vl,k(N));if(fk)var
+il=k(N),im=1,cD=n(function(a){return bR(im,il,a)},bd);else
 var
-cD=fj;var
-fk=cD?eY(bd):cD,fl=fk?n(dX,y(kr,N)):fk,it=fl?n(gO,c4(k(N),bd)):fl,cI=it}else
+cD=fk;var
+fl=cD?eY(bd):cD,fm=fl?n(dX,y(ks,N)):fl,iv=fm?n(gO,c4(k(N),bd)):fm,cJ=iv}else
 var
-cI=fE;if(cI){var
-iu=gK(be[4]),iv=i(bh[1]),iw=i(bg[1]),O=[0,i(bf[1]),iw,iv],bi=fD[1],ix=a[2],ie=c4(k(N),bd),ig=kg(ix),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
-s=_[1],R=aC[1],dw=aT(m,R[1],s[1]),dx=dw?aT(m,R[2],s[2]):dw,dy=dx?aT(m,R[3],s[3]):dx,dz=dy?aT(m,R[4],s[4]):dy,dD=dz?cx(m,R[5],s[5]):dz,dE=dD?cx(m,R[6],s[6]):dD,dF=dE?j(m,1,s[5]):dE,dH=dF?j(m,1,s[6]):dF,dI=dH?j(m,1,J(s[1],s[1])):dH;if(dI)var
-g3=ga(s),bL=j(m,1,J(ga(s),g3));else
+cJ=fF;if(cJ){var
+iw=gK(be[4]),ix=i(bh[1]),iy=i(bg[1]),O=[0,i(bf[1]),iy,ix],bi=fE[1],iz=a[2],ih=c4(k(N),bd),ii=kh(iz),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
+s=_[1],R=aC[1],dx=aT(m,R[1],s[1]),dy=dx?aT(m,R[2],s[2]):dx,dz=dy?aT(m,R[3],s[3]):dy,dD=dz?aT(m,R[4],s[4]):dz,dE=dD?cx(m,R[5],s[5]):dD,dF=dE?cx(m,R[6],s[6]):dE,dH=dF?j(m,1,s[5]):dF,dI=dH?j(m,1,s[6]):dH,dJ=dI?j(m,1,J(s[1],s[1])):dI;if(dJ)var
+g5=ga(s),bL=j(m,1,J(ga(s),g5));else
 var
-bL=dI;var
-dJ=bL?du(R[7],s[7]):bL;if(dJ){var
+bL=dJ;var
+dM=bL?du(R[7],s[7]):bL;if(dM){var
 aC=aC[2],_=_[2];continue}var
-dM=dJ}else
+dO=dM}else
 var
-dM=_;var
-bM=dM}else
+dO=_;var
+bM=dO}else
 var
 bM=_?0:1;var
-dO=bM?i$(m,ig,O):bM;if(dO){var
-g4=f(function(a){return jo(a,O)},bi),g5=f(function(a){var
-b=jq(a,O);return[1,jp(a,O),b]},bi);return jl(m,qI,[0,f(function(a){var
-d=jm(a),e=ay(jq(a,O),d),f=gb(a),g=ay(jp(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g5,g4],ie,iu)}return dO}}var
-fF=cI}else
+dP=bM?ja(m,ii,O):bM;if(dP){var
+g6=f(function(a){return jp(a,O)},bi),g7=f(function(a){var
+b=jr(a,O);return[1,jq(a,O),b]},bi);return jm(m,qI,[0,f(function(a){var
+d=jn(a),e=ay(jr(a,O),d),f=gb(a),g=ay(jq(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g7,g6],ih,iw)}return dP}}var
+fG=cJ}else
 var
-fF=bh;var
-fG=fF}else
-var
-fG=bg;var
+fG=bh;var
 fH=fG}else
 var
-fH=bf;return fH;case
+fH=bg;var
+fI=fH}else
+var
+fI=bf;return fI;case
 2:var
 bj=a[7],bk=a[6],bl=a[5],bm=a[4],bn=a[3],am=a[2],an=a[1],ao=p[2];if(0===ao[0]){var
-cJ=ao[2],ax=kj(an,am,bn,bm,bl,bk,bj),cK=c6(k(cJ),cJ);if(cK){var
-fI=cK[1];if(fI[2])return 0;var
-fJ=ks(an,am,bn,bm,bl,bk,bj),fK=fJ?kt(dN(an),cJ):fJ;if(fK){var
-iy=fI[1],iz=ax[2],iA=A(c,c5(y(function(a){var
-b=bw(a[2]);return g(bw(a[1]),b)},iz))),iB=ao[1],hz=ax[2],eB=n(function(a){var
-b=gt(m,a[1]);return b?gt(m,a[2]):b},hz),eC=eB?gt(m,ax[4]):eB;if(eC)var
-hA=jQ(ax[5]),b_=n(function(a){return eM(m,a)},hA);else
+cK=ao[2],ax=kk(an,am,bn,bm,bl,bk,bj),cL=c6(k(cK),cK);if(cL){var
+fJ=cL[1];if(fJ[2])return 0;var
+fK=kt(an,am,bn,bm,bl,bk,bj),fL=fK?gT(dN(an),cK):fK;if(fL){var
+iA=fJ[1],iB=ax[2],iC=A(c,c5(y(function(a){var
+b=bw(a[2]);return g(bw(a[1]),b)},iB))),iD=ao[1],hB=ax[2],eC=n(function(a){var
+b=gt(m,a[1]);return b?gt(m,a[2]):b},hB),eD=eC?gt(m,ax[4]):eC;if(eD)var
+hC=jR(ax[5]),b_=n(function(a){return eM(m,a)},hC);else
 var
-b_=eC;return b_?rd(iB,ax,iA,iy):b_}var
-fL=fK}else
+b_=eD;return b_?rd(iD,ax,iC,iA):b_}var
+fM=fL}else
 var
-fL=cK;return fL}var
-fM=ao[3],fN=f(i,ao[2]),fO=gP(an),fP=kp(am,f(i,fM));if(fP[2])return 0;var
-fQ=gT(y(function(a){return g(a[1],a[2])},am),fM),fR=fQ?ks(an,am,bn,bm,bl,bk,bj):fQ;if(fR){var
-iC=gK(ao[4]),o=ir(fO,fN),bo=gN(ej(fO,fN)),bv=fP[1],P=kj(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
-et=$[1],eu=aU[1],ev=aT(m,eu[1],et[1]),ew=ev?aT(m,eu[2],et[2]):ev;if(ew){var
+fM=cL;return fM}var
+fN=ao[3],fO=f(i,ao[2]),fP=gP(an),fQ=kq(am,f(i,fN));if(fQ[2])return 0;var
+fR=gU(y(function(a){return g(a[1],a[2])},am),fN),fS=fR?kt(an,am,bn,bm,bl,bk,bj):fR;if(fS){var
+iE=gK(ao[4]),o=is(fP,fO),bo=gN(ej(fP,fO)),bv=fQ[1],P=kk(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
+eu=$[1],ev=aU[1],ew=aT(m,ev[1],eu[1]),ez=ew?aT(m,ev[2],eu[2]):ew;if(ez){var
 aU=aU[2],$=$[2];continue}var
-ez=ew}else
+eA=ez}else
 var
-ez=$;var
-b8=ez}else
+eA=$;var
+b8=eA}else
 var
 b8=$?0:1;var
-eA=b8?aT(m,P[4],bo):b8;if(eA){var
+eB=b8?aT(m,P[4],bo):b8;if(eB){var
 G=P[5];switch(G[0]){case
 0:var
 w=o?o[2]?0:dL(m,G[1],o[1]):o;break;case
 1:var
-cY=0;if(o){var
-aL=o[2],cZ=0;if(aL){var
-aN=aL[2],c0=0;if(aN)if(aN[2]){var
-w=0;cZ=1;c0=1}else{var
-eb=dL(m,G[1],o[1]),ec=eb?dL(m,G[2],aL[1]):eb;if(ec){var
-w=dL(m,G[3],aN[1]);cZ=1;c0=1}else
+cZ=0;if(o){var
+aL=o[2],c0=0;if(aL){var
+aN=aL[2],c8=0;if(aN)if(aN[2]){var
+w=0;c0=1;c8=1}else{var
+ec=dL(m,G[1],o[1]),ed=ec?dL(m,G[2],aL[1]):ec;if(ed){var
+w=dL(m,G[3],aN[1]);c0=1;c8=1}else
 var
-ed=ec}else
-var
-ed=aN;if(!c0)var
 ee=ed}else
 var
-ee=aL;if(!cZ){var
-ef=ee;cY=1}}else{var
-ef=o;cY=1}if(cY)var
-w=ef;break;case
+ee=aN;if(!c8)var
+ef=ee}else
+var
+ef=aL;if(!c0){var
+eg=ef;cZ=1}}else{var
+eg=o;cZ=1}if(cZ)var
+w=eg;break;case
 2:var
-c8=0;if(o){var
-aO=o[2],c9=0;if(aO){var
+c9=0;if(o){var
+aO=o[2],c_=0;if(aO){var
 aP=aO[2];if(aP)if(aP[2]){var
-w=0;c9=1}else{var
-eg=aP[1],eh=aO[1],ei=o[1],hs=J([0,ei,eh,eg],[0,ei,eh,eg]),w=jF(m,G[1],hs,[0,c,c]);c9=1}else
+w=0;c_=1}else{var
+eh=aP[1],ei=aO[1],ek=o[1],hu=J([0,ek,ei,eh],[0,ek,ei,eh]),w=jG(m,G[1],hu,[0,c,c]);c_=1}else
 var
-ek=aP}else
+el=aP}else
 var
-ek=aO;if(!c9){var
-el=ek;c8=1}}else{var
-el=o;c8=1}if(c8)var
-w=el;break;default:var
-c_=0;if(o){var
-aQ=o[2],c$=0;if(aQ){var
-aR=aQ[2],da=0;if(aR)if(aR[2]){var
-w=0;c$=1;da=1}else{var
-b6=aR[1],em=aQ[1],en=o[1],eo=jF(m,G[1],[1,[3,en,en],[3,em,em]],[1,[0,c,c],[3,b6,b6]]);if(eo){var
-w=dL(m,cz(G[2]),b6);c$=1;da=1}else
+el=aO;if(!c_){var
+em=el;c9=1}}else{var
+em=o;c9=1}if(c9)var
+w=em;break;default:var
+c$=0;if(o){var
+aQ=o[2],da=0;if(aQ){var
+aR=aQ[2],db=0;if(aR)if(aR[2]){var
+w=0;da=1;db=1}else{var
+b6=aR[1],en=aQ[1],eo=o[1],ep=jG(m,G[1],[1,[3,eo,eo],[3,en,en]],[1,[0,c,c],[3,b6,b6]]);if(ep){var
+w=dL(m,cz(G[2]),b6);da=1;db=1}else
 var
-ep=eo}else
-var
-ep=aR;if(!da)var
 eq=ep}else
 var
-eq=aQ;if(!c$){var
-er=eq;c_=1}}else{var
-er=o;c_=1}if(c_)var
-w=er}var
+eq=aR;if(!db)var
+er=eq}else
+var
+er=aQ;if(!da){var
+es=er;c$=1}}else{var
+es=o;c$=1}if(c$)var
+w=es}var
 b9=w}else
 var
-b9=eA;if(b9){var
-aV=P[5],hw=P[6],hx=P[3],hy=P[1],es=function(a){var
-b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},ht=f(es,bv),hu=f(function(a){return[0,[5,es(a)]]},bv),hv=[0,f(function(d){var
-b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hx],jB(jC(aV,o,d[2]),b));switch(hy){case
+b9=eB;if(b9){var
+aV=P[5],hy=P[6],hz=P[3],hA=P[1],et=function(a){var
+b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},hv=f(et,bv),hw=f(function(a){return[0,[5,et(a)]]},bv),hx=[0,f(function(d){var
+b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hz],jC(jD(aV,o,d[2]),b));switch(hA){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hu,ht];return jl(m,dN(P[1]),hv,hw,iC)}return b9}}return fR;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hw,hv];return jm(m,dN(P[1]),hx,hy,iE)}return b9}}return fS;case
 3:var
-bx=a[7],fS=a[6],fT=a[5],by=a[4],fU=a[2],fV=a[1],cL=p[2];if(0===cL[0]){var
-cM=cL[2],cN=c6(k(cM),cM);if(cN){var
-fW=cN[1];if(fW[2])return 0;var
-il=k(fS),fm=aa(k(fT),il);if(fm)var
-im=k(by),io=0,cE=n(function(a){return bR(io,im,a)},bx);else
+bx=a[7],fT=a[6],fU=a[5],by=a[4],fV=a[2],fW=a[1],cM=p[2];if(0===cM[0]){var
+cN=cM[2],cO=c6(k(cN),cN);if(cO){var
+fX=cO[1];if(fX[2])return 0;var
+io=k(fT),fn=aa(k(fU),io);if(fn)var
+ip=k(by),iq=0,cE=n(function(a){return bR(iq,ip,a)},bx);else
 var
-cE=fm;var
-fn=cE?eY(bx):cE,fo=fn?n(function(a){return dX(a[2])},fU):fn,fX=fo?n(gO,c4(k(by),bx)):fo,fY=fX?kt(k(fV),cM):fX;if(fY){var
-iD=fW[1],iE=a[3],e9=c4(k(by),bx),ib=ck(fT,fS),cq=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},ib),ic=f(function(a){return f(cC,a)},by),id=f(function(a){var
-b=cC(a[2]);return[0,a[1],b]},iE),l=[0,fV,f(function(a){var
-b=bQ(a[2]);return[0,a[1],b]},fU),id,ic],az=cL[1],hm=f(dr,l[2]),b0=g(l[1],hm),aK=k(l[1]),d6=Y(qK,aK),d7=d6?Y(aK,qL):d6,d8=d7?Y(aK,k(l[4])):d7,d9=d8?Y(k(l[4]),qM):d8;if(d9)var
-hn=l[4],b1=n(function(a){return aa(k(a),aK)},hn);else
+cE=fn;var
+fo=cE?eY(bx):cE,fp=fo?n(function(a){return dX(a[2])},fV):fo,fY=fp?n(gO,c4(k(by),bx)):fp,fZ=fY?gT(k(fW),cN):fY;if(fZ){var
+iF=fX[1],iG=a[3],e_=c4(k(by),bx),id=ck(fU,fT),cq=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},id),ie=f(function(a){return f(cC,a)},by),ig=f(function(a){var
+b=cC(a[2]);return[0,a[1],b]},iG),l=[0,fW,f(function(a){var
+b=bQ(a[2]);return[0,a[1],b]},fV),ig,ie],az=cM[1],ho=f(dr,l[2]),b0=g(l[1],ho),aK=k(l[1]),d7=Y(qK,aK),d8=d7?Y(aK,qL):d7,d9=d8?Y(aK,k(l[4])):d8,d_=d9?Y(k(l[4]),qM):d9;if(d_)var
+hp=l[4],b1=n(function(a){return aa(k(a),aK)},hp);else
 var
-b1=d9;if(b1){var
+b1=d_;if(b1){var
 aJ=b0;for(;;){if(aJ){var
-d4=aJ[2],hl=aJ[1],d5=aH(a6(function(b){return function(a){return mW(b,a)}}(hl),d4));if(d5){var
-aJ=d4;continue}var
-d_=d5}else
+d5=aJ[2],hn=aJ[1],d6=aH(a6(function(b){return function(a){return mW(b,a)}}(hn),d5));if(d6){var
+aJ=d5;continue}var
+d$=d6}else
 var
-d_=1;var
-b2=d_;break}}else
+d$=1;var
+b2=d$;break}}else
 var
 b2=b1;if(b2){var
 aI=b0,aF=l[3];for(;;){if(aF){var
-d0=aF[1],d1=d0[1],d2=aH(a6(function(b){return function(a){return au(b,a)}}(d1),aI)),d3=d2?gi(aI,d0[2]):d2;if(d3){var
-aI=[0,d1,aI],aF=aF[2];continue}var
-d$=d3}else
+d1=aF[1],d2=d1[1],d3=aH(a6(function(b){return function(a){return au(b,a)}}(d2),aI)),d4=d3?gi(aI,d1[2]):d3;if(d4){var
+aI=[0,d2,aI],aF=aF[2];continue}var
+ea=d4}else
 var
-d$=1;var
-b3=d$;break}}else
+ea=1;var
+b3=ea;break}}else
 var
 b3=b2;if(b3)var
-ho=l[4],hp=g(f(dr,l[3]),b0),hq=function(a){return gi(hp,a)},b4=n(function(a){return n(hq,a)},ho);else
+hq=l[4],hr=g(f(dr,l[3]),b0),hs=function(a){return gi(hr,a)},b4=n(function(a){return n(hs,a)},hq);else
 var
 b4=b3;if(b4)var
-hr=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},hr);else
+ht=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},ht);else
 var
 b5=b4;var
-ea=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(ea){var
-ha=k(l[1]),bO=k(l[2]),dR=H(bO,k(dK(f(ds,l[3])))),hb=l[3],aq=jx(l),aD=hb,bN=bO;for(;;){if(aD){var
-dP=aD[1],dQ=dP[2],g6=H(bN,k(bt(dQ))),g7=aD[2],g8=bu(aq,dQ,bN),aq=[0,[0,dP[1],g8],aq],aD=g7,bN=g6;continue}var
-hc=ju(aq,l[4],dR),bS=f(function(a){return[0,a,q(c)]},hc),hd=jv(aq,l[4],dR),he=l[3],bT=g(jr(jx(l),he,bO),hd),bU=dB(g(cv(bS),bT))[1],hf=dA(bU),bV=function(a){return bp(hf,a)},dS=e(a4(bV),bS),dT=aa(k(cq),ha);if(dT)var
-hg=g(cv(bS),bT),bW=n(function(a){var
-b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hg);else
+eb=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(eb){var
+hc=k(l[1]),bO=k(l[2]),dS=H(bO,k(dK(f(ds,l[3])))),hd=l[3],aq=jy(l),aD=hd,bN=bO;for(;;){if(aD){var
+dQ=aD[1],dR=dQ[2],g8=H(bN,k(bt(dR))),g9=aD[2],g_=bu(aq,dR,bN),aq=[0,[0,dQ[1],g_],aq],aD=g9,bN=g8;continue}var
+he=jv(aq,l[4],dS),bS=f(function(a){return[0,a,q(c)]},he),hf=jw(aq,l[4],dS),hg=l[3],bT=g(js(jy(l),hg,bO),hf),bU=dB(g(cv(bS),bT))[1],hh=dA(bU),bV=function(a){return bp(hh,a)},dT=e(a4(bV),bS),dU=aa(k(cq),hc);if(dU)var
+hi=g(cv(bS),bT),bW=n(function(a){var
+b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hi);else
 var
-bW=dT;var
-dU=bW?a6(qJ,e9):bW;if(dU){var
-g9=y(dK,l[4]),g_=g(dK(f(ds,l[3])),g9),g$=g(jw(l[2]),g_),bX=aS(f(function(a){return aM(az,a)},g$));if(bX){var
+bW=dU;var
+dV=bW?a6(qJ,e_):bW;if(dV){var
+g$=y(dK,l[4]),ha=g(dK(f(ds,l[3])),g$),hb=g(jx(l[2]),ha),bX=aS(f(function(a){return aM(az,a)},hb));if(bX){var
 bY=aS(f(function(a){return aM(az,[0,a,d])},cq));if(bY){var
 bZ=aS(f(function(a){if(typeof
 a==="number")return[0,[0,ab]];else
@@ -5107,73 +5107,73 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e9));if(bZ){var
-dV=bZ[1],hh=i3(dV),hi=bY[1],hj=function(a){return 0},hk=bX[1];return f4(az,bU,dS,dS,f(bV,bT),hk,dV,hj,hi,hh,iD)}var
-dW=bZ}else
+g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e_));if(bZ){var
+dW=bZ[1],hj=i4(dW),hk=bY[1],hl=function(a){return 0},hm=bX[1];return f4(az,bU,dT,dT,f(bV,bT),hm,dW,hl,hk,hj,iF)}var
+dY=bZ}else
 var
-dW=bY;var
-dY=dW}else
-var
-dY=bX;var
+dY=bY;var
 dZ=dY}else
 var
-dZ=dU;return dZ}}return ea}var
-fZ=fY}else
+dZ=bX;var
+d0=dZ}else
 var
-fZ=cN;return fZ}return 0;case
+d0=dV;return d0}}return eb}var
+f1=fZ}else
+var
+f1=cO;return f1}return 0;case
 4:if(0===p[2][0]){var
-f1=c7(i(a[1]));if(f1){var
+f2=c7(i(a[1]));if(f2){var
 bz=a[3];if(bz){var
 aX=bz[1],cs=aX[4],K=bz[2];if(aX[1]||aX[2]||aX[3])var
 t=0;else
 switch(cs[0]){case
 0:var
-db=0;if(K){var
-aY=K[1],e_=aY[4];if(aY[1]||aY[2]||aY[3])var
-t=0;else
-if(1===e_[0])if(K[2])var
-t=0;else
-var
-ih=i(e_[1]),t=[0,[0,i(cs[1]),ih]];else{var
-e$=0;db=1}}else{var
-e$=K;db=1}if(db)var
-t=e$;break;case
-1:var
 dc=0;if(K){var
-aZ=K[1],fa=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
+aY=K[1],e$=aY[4];if(aY[1]||aY[2]||aY[3])var
 t=0;else
-if(0===fa[0])if(K[2])var
+if(1===e$[0])if(K[2])var
 t=0;else
 var
-ii=i(cs[1]),t=[0,[0,i(fa[1]),ii]];else{var
-fb=0;dc=1}}else{var
-fb=K;dc=1}if(dc)var
-t=fb;break;default:var
+ij=i(e$[1]),t=[0,[0,i(cs[1]),ij]];else{var
+fa=0;dc=1}}else{var
+fa=K;dc=1}if(dc)var
+t=fa;break;case
+1:var
+dd=0;if(K){var
+aZ=K[1],fb=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
+t=0;else
+if(0===fb[0])if(K[2])var
+t=0;else
+var
+ik=i(cs[1]),t=[0,[0,i(fb[1]),ik]];else{var
+fc=0;dd=1}}else{var
+fc=K;dd=1}if(dd)var
+t=fc;break;default:var
 t=0}}else
 var
 t=bz;if(t){var
-f2=t[1],f3=f2[2],f5=f2[1],eI=j(m,1,i(a[2])),eJ=eI?j(m,1,[2,f3,[0,c,c]]):eI,eK=eJ?j(m,1,f5):eJ;return eK?j(m,0,[2,[4,[0,c,c],f3],f5]):eK}var
-f8=t}else
+f3=t[1],f5=f3[2],f8=f3[1],eJ=j(m,1,i(a[2])),eK=eJ?j(m,1,[2,f5,[0,c,c]]):eJ,eL=eK?j(m,1,f8):eK;return eL?j(m,0,[2,[4,[0,c,c],f5],f8]):eL}var
+f$=t}else
 var
-f8=f1;return f8}return 0;case
+f$=f2;return f$}return 0;case
 5:var
-f$=a[4],gc=a[1],cO=p[2];if(0===cO[0]){var
-gd=cO[2],v=eV(gc,[0,a[2],a[3]],0,f$),cP=gL(k(gd),gd);if(cP){var
-ge=cP[1];if(ge[2])return 0;var
-gf=gS(gc,0,f$,v);if(gf){var
-gg=jh(m,v);if(gg){var
-iF=ge[1],gj=f(kk,v[1]),z=kl(v[1]),gk=i(a[5]),Q=cO[1],cb=f6(z,gj,v[1]),I=f7(z,gj,v[1],0),hC=k(v[3]),hD=H(k(cb),hC),aW=[0,k(cb),hD],hE=f_(I,z,aW,v[3]),hF=g(f(ex,I),hE),eO=g(cv(ey(I)),hF),eR=dB(eO)[1],cc=dA(eR),eS=v[2];if(0===eS[0]){var
-eT=n(function(a){var
-b=q(d);return bb(F(bp(cc,a),cc,b),a)},eO),eW=eT?j(m,1,gk):eT;if(eW){var
-hG=v[3],hH=y(function(a){return eE(z,a)},hG),hI=v[3],hJ=g(cb,g(f(function(a){return bP(z,a)},hI),hH)),cd=aS(f(function(a){return aM(Q,a)},hJ));if(cd){var
-hK=a8(eS[1],z),ce=aS(f(function(a){return aM(Q,a)},hK));if(ce){var
-cf=b7(Q,z,[4,gk,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
-cg=v[3],hL=ce[1],hM=cf[1],hN=cd[1],ad=function(a){return bp(cc,a)},eL=f(a3,hN),eN=function(A,x){var
+gc=a[4],gd=a[1],cP=p[2];if(0===cP[0]){var
+ge=cP[2],v=eV(gd,[0,a[2],a[3]],0,gc),cQ=gL(k(ge),ge);if(cQ){var
+gf=cQ[1];if(gf[2])return 0;var
+gg=gS(gd,0,gc,v);if(gg){var
+gj=ji(m,v);if(gj){var
+iH=gf[1],gk=f(kl,v[1]),z=km(v[1]),gm=i(a[5]),Q=cP[1],cb=f6(z,gk,v[1]),I=f7(z,gk,v[1],0),hE=k(v[3]),hF=H(k(cb),hE),aW=[0,k(cb),hF],hG=f_(I,z,aW,v[3]),hH=g(f(ex,I),hG),eR=g(cv(ey(I)),hH),eS=dB(eR)[1],cc=dA(eS),eT=v[2];if(0===eT[0]){var
+eW=n(function(a){var
+b=q(d);return bb(F(bp(cc,a),cc,b),a)},eR),eX=eW?j(m,1,gm):eW;if(eX){var
+hI=v[3],hJ=y(function(a){return eE(z,a)},hI),hK=v[3],hL=g(cb,g(f(function(a){return bP(z,a)},hK),hJ)),cd=aS(f(function(a){return aM(Q,a)},hL));if(cd){var
+hM=a8(eT[1],z),ce=aS(f(function(a){return aM(Q,a)},hM));if(ce){var
+cf=b7(Q,z,[4,gm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
+cg=v[3],hN=ce[1],hO=cf[1],hP=cd[1],ad=function(a){return bp(cc,a)},eN=f(a3,hP),eO=function(A,x){var
 g=A,a=x;for(;;){if(0===a[0]){var
 h=a[1],l=aa(k(h),rm),m=l?n(function(a){var
 d=B(W(b(2,b(2,b(2,c)))),a);return d?B(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
-o=j8(Q,hM,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eL),eR,0),s=function(b){var
-a=j7(Q,o,eL,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
+o=j9(Q,hO,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eN),eS,0),s=function(b){var
+a=j8(Q,o,eN,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
 l==="number")return a6(function(b){var
 a=F(ad(b[2]),ae,0);return a?B(a[1][2][2],d):a},I);else{if(0===l[0]){var
 t=l[1],u=al(cg,t);if(u){var
@@ -5258,61 +5258,61 @@ var
 ab=w;return ab}}(C)}return m}var
 p=a[1],i=al(g,p);if(i){var
 q=i[1],D=q[1],r=aH(ak(bq(q),D));if(r){var
-t=dG(p,g),u=eN(t[1],a[2]);if(u){var
+t=dG(p,g),u=eO(t[1],a[2]);if(u){var
 g=t[2],a=a[3];continue}var
 v=u}else
 var
 v=r;var
 w=v}else
 var
-w=i;return w}};return eN(hL,iF)}var
-eX=cf}else
+w=i;return w}};return eO(hN,iH)}var
+eZ=cf}else
 var
-eX=ce;var
-eZ=eX}else
-var
-eZ=cd;var
+eZ=ce;var
 e0=eZ}else
 var
-e0=eW;return e0}return 0}var
-gm=gg}else
+e0=cd;var
+e1=e0}else
 var
-gm=gf;var
-gn=gm}else
+e1=eX;return e1}return 0}var
+gn=gj}else
 var
-gn=cP;return gn}return 0;default:var
-go=a[1];if(go){var
-gp=go[1],cQ=p[2];if(0===cQ[0]){var
-cR=gJ(vw,cQ[2]);if(cR){var
-gq=dX(gp);if(gq){var
-iG=cR[1],gr=bQ(gp)[2],bA=cQ[1],b$=b7(bA,d,gr);if(b$){var
-ca=b7(bA,d,[4,[0,c,c],gr]);if(ca){var
-hB=b$[1][1],eD=ac(cm(bA),hB);if(eD)return j6(bA,ca[1][1],iG);var
-eG=eD}else
+gn=gg;var
+go=gn}else
 var
-eG=ca;var
+go=cQ;return go}return 0;default:var
+gp=a[1];if(gp){var
+gq=gp[1],cR=p[2];if(0===cR[0]){var
+cU=gJ(vx,cR[2]);if(cU){var
+gr=dX(gq);if(gr){var
+iI=cU[1],gs=bQ(gq)[2],bA=cR[1],b$=b7(bA,d,gs);if(b$){var
+ca=b7(bA,d,[4,[0,c,c],gs]);if(ca){var
+hD=b$[1][1],eG=ac(cm(bA),hD);if(eG)return j7(bA,ca[1][1],iI);var
 eH=eG}else
 var
-eH=b$;return eH}var
-gs=gq}else
+eH=ca;var
+eI=eH}else
 var
-gs=cR;return gs}return 0}var
-cU=p[2];if(0===cU[0]){var
-cW=gJ(vx,cU[2]);return cW?j6(cU[1],d,cW[1]):cW}return 0}}return as}var
-x=[ar,vA,fo(0)],ku=[ar,vB,fo(0)];function
-vy(t,b){var
+eI=b$;return eI}var
+gu=gr}else
+var
+gu=cU;return gu}return 0}var
+cW=p[2];if(0===cW[0]){var
+cX=gJ(vy,cW[2]);return cX?j7(cW[1],d,cX[1]):cX}return 0}}return as}var
+x=[ar,vB,fo(0)],ku=[ar,vC,fo(0)];function
+vz(t,b){var
 n=[0,h(us,am(b[4])),0],o=[0,h(uu,O([0,h(ut,am(b[3])),n])),0],a=b[2];if(0===a[0])var
 i=[0,h(uj,w(f(ue,a[2]))),0],d=L(ul,O([0,h(uk,gy(a[1])),i]));else
 var
-c=a[3],j=[0,h(um,kb(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
-p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hY(vz,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
+c=a[3],j=[0,h(um,kc(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
+p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hZ(vA,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
 T(a){if(0===a[0])return a[1];throw x}function
 U(a){if(1===a[0])return a[1];throw x}function
 aO(a){if(2===a[0])return a[1];throw x}function
 dY(a){if(3===a[0])return a[1];throw x}function
 aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Am(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===An(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
 a=aZ(c,b);if(a)return a[1];throw x}function
@@ -5322,7 +5322,7 @@ c9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vC]}throw x}function
+2:return[0,a[1],vD]}throw x}function
 c_(e,d){var
 a=X(e,U(d));if(a){var
 b=a[2];if(b){var
@@ -5330,7 +5330,7 @@ c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
 e0(i){var
 f=bX(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dg(f,c)+g2|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=dg(f,c)+g3|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5352,14 +5352,14 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dZ(a){return ik(e0(a))}function
+dZ(a){return il(e0(a))}function
 e1(b){var
 a=dY(b);return 45===R(a,0)?W(dZ(dn(a,1,E(a)-1|0))):dZ(a)}function
 kv(a){return fM(dZ(dY(a)))}function
-e2(a){return ij(dZ(dY(a)))}function
+e2(a){return ik(dZ(dY(a)))}function
 cE(c){var
 a=dY(c);if(6<E(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hB(a))}function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hC(a))}function
 kw(a){var
 b=97<=a?1:0,c=b?a<=mE?1:0:b;if(c)var
 d=c;else
@@ -5375,7 +5375,7 @@ n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
 i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vE)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vF)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
 v=0;if(a[1]<d&&kw(R(b,a[1]))){var
@@ -5383,16 +5383,16 @@ o=a[1];for(;;){if(a[1]<d){var
 w=0;if(!kw(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 f=[1,e(z,dn(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vF);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vG);if(r)var
 s=r;else
 var
 t=1<E(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw x;if(q){var
-k=q[1],y=0;if(au(k,vG)||48===R(k,E(k)-1|0))y=1;else
+k=q[1],y=0;if(au(k,vH)||48===R(k,E(k)-1|0))y=1;else
 var
 A=e0(k),f=[0,e0(h),A];if(y)throw x}else
 var
 f=[0,e0(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,vD)){if(!(2<E(g))&&2<=hB(g)&&!(64<hB(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
+g=m(0);if(l(g,vE)){if(!(2<E(g))&&2<=hC(g)&&!(64<hC(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -5407,32 +5407,32 @@ ky(a){var
 b=aO(a);return kx(function(a){return a},b)}function
 V(a){return e3(aO(a))}function
 bS(a){if(2===a[0])return[0,e3(a[1])];var
-b=T(a),c=V(p(b,vH));return[1,V(p(b,vI)),c]}function
-Z(a){throw[0,ku,av(hY(vK,a),vJ)]}function
+b=T(a),c=V(p(b,vI));return[1,V(p(b,vJ)),c]}function
+Z(a){throw[0,ku,av(hZ(vL,a),vK)]}function
 kz(c){var
-a=aO(c);if(l(a,vL)){var
-b=l(a,vM);if(b)throw x;return b}return 1}function
-vN(d){var
+a=aO(c);if(l(a,vM)){var
+b=l(a,vN);if(b)throw x;return b}return 1}function
+vO(d){var
 b=T(d);function
 a(a){return c_(bS,p(b,a))}var
-c=aO(p(b,vO));if(l(c,vP)){if(l(c,vQ)){if(l(c,vR))return Z([0,vT,[0,c,vS]]);var
-e=aZ(b,vU),f=c8(function(a){return c_(bS,a)},e),g=a(vV);return[1,a(vW),g,f]}var
-h=kz(p(b,vX)),i=bS(p(b,vY)),j=a(vZ),k=a(v0);return[0,a(v1),k,j,i,h]}return[2,a(v2)]}function
-gU(d){var
+c=aO(p(b,vP));if(l(c,vQ)){if(l(c,vR)){if(l(c,vS))return Z([0,vU,[0,c,vT]]);var
+e=aZ(b,vV),f=c8(function(a){return c_(bS,a)},e),g=a(vW);return[1,a(vX),g,f]}var
+h=kz(p(b,vY)),i=bS(p(b,vZ)),j=a(v0),k=a(v1);return[0,a(v2),k,j,i,h]}return[2,a(v3)]}function
+gV(d){var
 a=T(d);if(a){var
-b=a[1];if(!l(b[1],v3)){var
-c=b[2];if(2===c[0]&&!l(c[1],v4))return 1}}return 0}function
-v5(c){var
-a=T(c);if(1-gU(c))throw x;function
+b=a[1];if(!l(b[1],v4)){var
+c=b[2];if(2===c[0]&&!l(c[1],v5))return 1}}return 0}function
+v6(c){var
+a=T(c);if(1-gV(c))throw x;function
 b(b){return c_(bS,p(a,b))}var
-d=kz(p(a,v6)),e=bS(p(a,v7)),f=bS(p(a,v8)),g=b(v9),h=b(v_),i=b(v$);return[0,b(wa),i,h,g,f,e,d]}function
+d=kz(p(a,v7)),e=bS(p(a,v8)),f=bS(p(a,v9)),g=b(v_),h=b(v$),i=b(wa);return[0,b(wb),i,h,g,f,e,d]}function
 c$(c,d){var
 a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gV(m){var
-c=T(m),a=aO(p(c,wb)),h=AY(a,wc),g=0;if(0<=h)if(0<h)if(l(a,wd))if(l(a,we))if(l(a,wf)){var
-i=l(a,wg);if(i)g=1;else
+gW(m){var
+c=T(m),a=aO(p(c,wc)),h=AZ(a,wd),g=0;if(0<=h)if(0<h)if(l(a,we))if(l(a,wf))if(l(a,wg)){var
+i=l(a,wh);if(i)g=1;else
 var
 b=i}else
 var
@@ -5443,7 +5443,7 @@ var
 b=5;else
 var
 b=2;else
-if(l(a,wv))if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))g=1;else
+if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))if(l(a,wA))g=1;else
 var
 b=1;else
 var
@@ -5454,10 +5454,10 @@ var
 b=3;else
 var
 b=9;var
-j=g?Z([0,wi,[0,a,wh]]):b;function
-f(a){return p(c,wj)}var
-d=aO(p(c,wk));if(l(d,wl))if(l(d,wm))if(l(d,wn))var
-e=Z([0,wp,[0,d,wo]]);else
+j=g?Z([0,wj,[0,a,wi]]):b;function
+f(a){return p(c,wk)}var
+d=aO(p(c,wl));if(l(d,wm))if(l(d,wn))if(l(d,wo))var
+e=Z([0,wq,[0,d,wp]]);else
 var
 k=c$(V,f(0)),e=[2,k[1],k[2]];else
 var
@@ -5467,53 +5467,53 @@ e=[1,V(f(0))];function
 n(m){var
 a=T(m),d=0;switch(j){case
 6:if(a){var
-i=a[1];if(!l(i[1],wr)){var
+i=a[1];if(!l(i[1],ws)){var
 k=i[2];if(1===k[0]){var
 c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
-h=c[1];d=1;e=1}if(!e&&!a[2])return Z(ws)}}}break;case
+h=c[1];d=1;e=1}if(!e&&!a[2])return Z(wt)}}}break;case
 2:case
 8:if(a){var
-f=a[1];if(!l(f[1],wq)){var
+f=a[1];if(!l(f[1],wr)){var
 g=f[2];if(1===g[0]){var
 b=g[1];if(b&&!b[2]&&!a[2]){var
 h=b[1];d=1}}}}break}if(d)return V(h);throw x}var
-o=c8(n,aZ(c,wt));return[0,j,c8(cE,aZ(c,wu)),o,e]}function
-wA(b){var
-a=gV(b);return 8===a[1]?Z(wB):a}function
-gW(c){var
-a=gV(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wC)}function
-wD(a){var
-b=gV(a);switch(b[1]){case
+o=c8(n,aZ(c,wu));return[0,j,c8(cE,aZ(c,wv)),o,e]}function
+wB(b){var
+a=gW(b);return 8===a[1]?Z(wC):a}function
+gX(c){var
+a=gW(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wD)}function
+wE(a){var
+b=gW(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gW(a)}}function
-wK(f){var
+8:return b;default:return gX(a)}}function
+wL(f){var
 a=T(f);function
 d(b){return V(p(a,b))}function
 c(b){return c_(V,p(a,b))}var
-b=aO(p(a,wL));if(l(b,wM)){if(!l(b,wN)){var
-j=p(a,wT),e=c$(function(a){return a},j),k=aZ(a,wU),m=c8(function(a){return c(wV)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wW);return[0,cE(p(a,wX)),q,o,n,m]}if(l(b,wO))throw x}var
-g=d(wP),h=c(wQ),i=c(wR);return[1,au(b,wS),i,h,g]}function
+b=aO(p(a,wM));if(l(b,wN)){if(!l(b,wO)){var
+j=p(a,wU),e=c$(function(a){return a},j),k=aZ(a,wV),m=c8(function(a){return c(wW)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wX);return[0,cE(p(a,wY)),q,o,n,m]}if(l(b,wP))throw x}var
+g=d(wQ),h=c(wR),i=c(wS);return[1,au(b,wT),i,h,g]}function
 kA(a){if(0===a[0]&&a[5])return 1;return 0}function
 kB(ad){var
-j=c9(ad),k=j[1];if(l(k,wY)){if(l(k,wZ)){if(l(k,w0))return Z([0,w2,[0,k,w1]]);var
-r=p(T(j[2]),w3),S=0;if(2===r[0]){var
-D=l(r[1],w4);if(!D){var
+j=c9(ad),k=j[1];if(l(k,wZ)){if(l(k,w0)){if(l(k,w1))return Z([0,w3,[0,k,w2]]);var
+r=p(T(j[2]),w4),S=0;if(2===r[0]){var
+D=l(r[1],w5);if(!D){var
 C=D;S=1}}if(!S)var
 C=[0,bS(r)];return[6,C]}var
-E=T(j[2]),f=kB([0,[0,[0,w6,p(E,w5)],0]]);if(0===f[0]){var
+E=T(j[2]),f=kB([0,[0,[0,w7,p(E,w6)],0]]);if(0===f[0]){var
 s=f[2];if(0===s[0]&&!f[3]){var
-ae=V(p(E,w8));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w7)}var
+ae=V(p(E,w9));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w8)}var
 b=T(j[2]);function
-F(a){return X(wA,U(p(b,w9)))}var
-g=c9(p(b,w_)),c=c9(p(b,w$)),a=g[1];if(l(a,xa)&&0!==aZ(b,xb))return Z(x_);if(l(a,xc)&&l(a,xd)&&l(a,xe)){if(0===aZ(b,xf)){if(l(a,xg)){var
-W=0;if(l(a,xh)){if(!l(a,xi)){var
-G=c[1],Y=0;if(l(G,xl)&&l(G,xm)){W=1;Y=1}if(!Y){var
-m=U(g[2]),d=T(c[2]);if(l(c[1],wE))var
-y=c$(V,p(d,wF)),z=c$(V,p(d,wG)),_=z[2],$=z[1],aa=V(p(d,wH)),t=[1,y[1],y[2],aa,$,_];else
+F(a){return X(wB,U(p(b,w_)))}var
+g=c9(p(b,w$)),c=c9(p(b,xa)),a=g[1];if(l(a,xb)&&0!==aZ(b,xc))return Z(x$);if(l(a,xd)&&l(a,xe)&&l(a,xf)){if(0===aZ(b,xg)){if(l(a,xh)){var
+W=0;if(l(a,xi)){if(!l(a,xj)){var
+G=c[1],Y=0;if(l(G,xm)&&l(G,xn)){W=1;Y=1}if(!Y){var
+m=U(g[2]),d=T(c[2]);if(l(c[1],wF))var
+y=c$(V,p(d,wG)),z=c$(V,p(d,wH)),_=z[2],$=z[1],aa=V(p(d,wI)),t=[1,y[1],y[2],aa,$,_];else
 var
-ab=c_(V,p(d,wI)),t=[0,c_(V,p(d,wJ)),ab];var
-u=aZ(b,xp),v=u?X(wK,U(u[1])):u,H=cL(gU,m),af=H?0!==v?1:0:H;if(af)Z(xq);var
+ab=c_(V,p(d,wJ)),t=[0,c_(V,p(d,wK)),ab];var
+u=aZ(b,xq),v=u?X(wL,U(u[1])):u,H=cL(gV,m),af=H?0!==v?1:0:H;if(af)Z(xr);var
 i=v;for(;;){if(i){var
 A=i[2],ac=i[1],B=1-cL(function(e){return function(a){var
 b=gG(e,a);if(b){var
@@ -5524,36 +5524,36 @@ d=b;return d}}(ac),A);if(B){var
 i=A;continue}var
 I=B}else
 var
-I=1;if(1-I)Z(xr);if(cL(gU,m)){var
-ag=X(gW,U(p(b,xs)));return[1,X(v5,m),t,ag]}var
-ah=F(0);return[0,X(vN,m),t,v,ah]}}}}else
-if(!l(c[1],xt)){var
-ai=F(0),aj=V(p(T(c[2]),xu));return[4,V(p(T(g[2]),xv)),aj,ai]}if(!W)return Z([0,xk,[0,a,xj]])}else
-if(!l(c[1],xw)){var
+I=1;if(1-I)Z(xs);if(cL(gV,m)){var
+ag=X(gX,U(p(b,xt)));return[1,X(v6,m),t,ag]}var
+ah=F(0);return[0,X(vO,m),t,v,ah]}}}}else
+if(!l(c[1],xu)){var
+ai=F(0),aj=V(p(T(c[2]),xv));return[4,V(p(T(g[2]),xw)),aj,ai]}if(!W)return Z([0,xl,[0,a,xk]])}else
+if(!l(c[1],xx)){var
 n=T(g[2]),J=T(c[2]),K=function(c,a){var
 b=U(a);return X(function(d){var
 a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,aO(a[1]),f]}}throw x},b)},ak=function(d){var
 a=T(d);if(a){var
-b=a[1],c=b[1];if(l(c,xx)){if(!l(c,xy)&&!a[2])return X(ky,U(b[2]))}else
-if(!a[2])return Z(xz)}throw x},al=X(gW,U(p(b,xA))),am=X(V,U(p(J,xB))),an=X(V,U(p(J,xC))),ao=X(ak,U(p(n,xD))),ap=K(ky,p(n,xE)),aq=K(bS,p(n,xF));return[3,X(aO,U(p(n,xG))),aq,ap,ao,an,am,al]}return Z([0,xo,[0,c[1],xn]])}throw x}var
-L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xH))Z([0,xJ,[0,L,xI]]);var
-O=aZ(M,xK),ar=O?V(O[1]):Z([0,x9,[0,a,x8]]);function
+b=a[1],c=b[1];if(l(c,xy)){if(!l(c,xz)&&!a[2])return X(ky,U(b[2]))}else
+if(!a[2])return Z(xA)}throw x},al=X(gX,U(p(b,xB))),am=X(V,U(p(J,xC))),an=X(V,U(p(J,xD))),ao=X(ak,U(p(n,xE))),ap=K(ky,p(n,xF)),aq=K(bS,p(n,xG));return[3,X(aO,U(p(n,xH))),aq,ap,ao,an,am,al]}return Z([0,xp,[0,c[1],xo]])}throw x}var
+L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xI))Z([0,xK,[0,L,xJ]]);var
+O=aZ(M,xL),ar=O?V(O[1]):Z([0,x_,[0,a,x9]]);function
 as(d){var
 a=T(d);function
 b(b){return X(bS,U(p(a,b)))}var
-c=aO(p(a,xL)),e=aZ(a,xM);if(!l(c,xN)&&!e){var
-f=b(xQ);return[0,b(xR),f]}return Z([0,xP,[0,c,xO]])}var
-h=c9(p(b,xS)),o=h[1];if(l(o,xT))if(l(o,xU))if(l(o,xV)){if(l(o,xW))throw x;var
-P=h[2],at=V(p(T(P),xX)),q=[3,V(p(T(P),xY)),at]}else
+c=aO(p(a,xM)),e=aZ(a,xN);if(!l(c,xO)&&!e){var
+f=b(xR);return[0,b(xS),f]}return Z([0,xQ,[0,c,xP]])}var
+h=c9(p(b,xT)),o=h[1];if(l(o,xU))if(l(o,xV))if(l(o,xW)){if(l(o,xX))throw x;var
+P=h[2],at=V(p(T(P),xY)),q=[3,V(p(T(P),xZ)),at]}else
 var
-ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x5),aA=w(x6),q=[1,w(x7),aA,az];else
+ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x6),aA=w(x7),q=[1,w(x8),aA,az];else
 var
 R=c$(V,h[2]),q=[0,R[1],R[2]];else
 var
 q=[2,V(h[2])];var
-Q=l(a,xZ),au=Q?l(a,x0)?2:1:Q,av=X(wD,U(p(b,x1))),aw=X(V,U(p(N,x2))),ax=X(V,U(p(N,x3)));return[2,au,X(as,U(p(M,x4))),ar,ax,aw,q,av]}function
+Q=l(a,x0),au=Q?l(a,x1)?2:1:Q,av=X(wE,U(p(b,x2))),aw=X(V,U(p(N,x3))),ax=X(V,U(p(N,x4)));return[2,au,X(as,U(p(M,x5))),ar,ax,aw,q,av]}function
 kC(a){return X(e1,U(a))}function
 e4(g,m){var
 n=g[2];function
@@ -5561,30 +5561,30 @@ o(c,b){var
 a=kC(b);if(ch(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(l(b,yb))if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf)){var
-Q=0;if(l(b,yg)&&l(b,yh)&&l(b,yi))Q=1;if(!Q)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg)){var
+Q=0;if(l(b,yh)&&l(b,yi)&&l(b,yj))Q=1;if(!Q)if(c[2])d=1;else{var
 S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 q=J[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!c[2]){var
 Y=e2(s[1]),_=e1(r[1]);return[4,e4(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
-K=T(e[2]),$=U(p(K,yn)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yp,L,e2(p(K,yo))];throw x}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=l(C,x$);if(D){if(l(C,ya))throw x;var
+K=T(e[2]),$=U(p(K,yo)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yq,L,e2(p(K,yp))];throw x}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=l(C,ya);if(D){if(l(C,yb))throw x;var
 E=1}else
 var
 E=D;return[2,E]}d=1}else{if(!c[2]){var
 h=e[2],k=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(l(w,yq)&&l(w,yr))if(l(w,ys))a=1;else{var
+N=i[1],w=N[1],a=0;if(l(w,yr)&&l(w,ys))if(l(w,yt))a=1;else{var
 O=N[2];if(1===O[0]){var
 y=O[1];if(y){var
 j=y[1],f=0;switch(j[0]){case
 0:var
 z=j[1];if(z){var
-P=z[1][1],R=0;if(l(P,yu)&&l(P,yv)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(l(j[1],yw)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+P=z[1][1],R=0;if(l(P,yv)&&l(P,yw)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(l(j[1],yx)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 A=y[2];if(A){var
 B=A[2];if(B&&!(B[2]||i[2])){var
 ad=e2(B[1]),ae=e1(A[1]),t=[5,e4(g,j),ae,ad];k=1;a=1}else
@@ -5592,22 +5592,22 @@ a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!i[2])k=2}break;case
-2:if(!l(h[1],yx))k=2;break}switch(k){case
+2:if(!l(h[1],yy))k=2;break}switch(k){case
 0:var
-t=Z(yt);break;case
+t=Z(yu);break;case
 2:var
 t=e4(g,h);break}return[6,t]}d=1}else{var
 M=e[2];if(1===M[0]){var
 u=M[1];if(u){var
 v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
 ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
-0:if(!c[2])return Z([0,yk,[0,b,yj]]);break;case
+0:if(!c[2])return Z([0,yl,[0,b,yk]]);break;case
 1:break;default:var
-H=T(G),V=U(p(H,yl)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,ym)))}}break;case
+H=T(G),V=U(p(H,ym)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,yn)))}}break;case
 2:return[0,m[1]]}throw x}function
 kD(j){var
-b=c9(j),a=b[1];if(l(a,yA)){var
-g=l(a,yB);if(!g)return g;if(!l(a,yC)){var
+b=c9(j),a=b[1];if(l(a,yB)){var
+g=l(a,yC);if(!g)return g;if(!l(a,yD)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -5615,12 +5615,12 @@ k=cE(d[1]);return[1,cE(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yE,[0,a,yD]])}function
-yT(c){var
+m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yF,[0,a,yE]])}function
+yU(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],yU))a=1;break;case
+0:if(!l(b[1],yV))a=1;break;case
 6:a=1;break}return a?1:0}function
-yV(f){var
+yW(f){var
 g=E(f),a=[0,0];function
 h(b){if(a[1]<g)return R(f,a[1]);throw x}function
 i(b){if(h(0)===b){a[1]++;return 0}throw x}function
@@ -5646,8 +5646,8 @@ a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2
 j=a[1];a[1]++;return[3,s(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
 A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw x;var
-k=T(A);if(l(aO(p(k,yW)),yX))throw x;var
-c=kB(p(k,yY));switch(c[0]){case
+k=T(A);if(l(aO(p(k,yX)),yY))throw x;var
+c=kB(p(k,yZ));switch(c[0]){case
 2:var
 N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
 3:var
@@ -5655,48 +5655,48 @@ O=ch(c[1]),m=[0,ch(c[4]),O];break;case
 0:case
 5:var
 m=[0,ch(c[1]),3];break;default:var
-m=y9}var
-o=c9(p(k,yZ)),q=o[1];if(l(q,yJ))if(l(q,yK))var
-b=Z([0,yM,[0,q,yL]]);else
+m=y_}var
+o=c9(p(k,y0)),q=o[1];if(l(q,yK))if(l(q,yL))var
+b=Z([0,yN,[0,q,yM]]);else
 var
-j=T(o[2]),r=aZ(j,yN),C=r?X(V,U(r[1])):r,D=kD(p(j,yO)),F=X(V,U(p(j,yP))),b=[1,kv(p(j,yQ)),F,C,D];else
+j=T(o[2]),r=aZ(j,yO),C=r?X(V,U(r[1])):r,D=kD(p(j,yP)),F=X(V,U(p(j,yQ))),b=[1,kv(p(j,yR)),F,C,D];else
 var
-w=T(o[2]),G=U(p(w,yR)),H=X(function(f){var
+w=T(o[2]),G=U(p(w,yS)),H=X(function(f){var
 a=T(f);function
 b(d,c){var
 b=aZ(a,c);return b?X(d,U(b[1])):b}var
-c=b(e1,yF),d=c8(kD,aZ(a,yG)),e=c8(cE,aZ(a,yH));return[0,b(function(g){var
+c=b(e1,yG),d=c8(kD,aZ(a,yH)),e=c8(cE,aZ(a,yI));return[0,b(function(g){var
 b=U(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yy)){if(!a[2]){if(l(dY(e),yz))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yz)){if(!a[2]){if(l(dY(e),yA))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e4(m,c);return[0,cE(e),f]}}}throw x},yI),e,d,c]},G),b=[0,kv(p(w,yS)),H];var
+f=e4(m,c);return[0,cE(e),f]}}}throw x},yJ),e,d,c]},G),b=[0,kv(p(w,yT)),H];var
 d=0;switch(c[0]){case
-1:if(0===b[0])Z(y4);else
+1:if(0===b[0])Z(y5);else
 d=1;break;case
 2:if(0===b[0]){var
-K=b[2];if(hU(function(a){return hU(yT,a[1])},K))d=2;else
-Z(y5)}else{var
+K=b[2];if(hV(function(a){return hV(yU,a[1])},K))d=2;else
+Z(y6)}else{var
 L=c[7];if(cL(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},L))Z(y6);else
+8:return 1;default:return 0}},L))Z(y7);else
 d=1}break;case
-3:if(1===b[0])Z(y7);else
+3:if(1===b[0])Z(y8);else
 d=2;break;case
 5:var
 P=0;if(0===b[0]){var
-M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y8);P=1}}break;default:d=2}var
+M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y9);P=1}}break;default:d=2}var
 z=0;switch(d){case
 2:if(0===b[0]){var
-I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y0);z=1}}break;case
+I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y1);z=1}}break;case
 1:break;default:z=1}var
-y=T(p(k,y1)),J=aO(p(y,y2));return[0,c,b,aO(p(y,y3)),J]}function
-y_(c){try{try{var
-d=0,a=yV(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
+y=T(p(k,y2)),J=aO(p(y,y3));return[0,c,b,aO(p(y,y4)),J]}function
+y$(c){try{try{var
+d=0,a=yW(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=vy(c,a)?0===a[2][0]?0:1:2}catch(a){return y$}if(typeof
+b=vz(c,a)?0===a[2][0]?0:1:2}catch(a){return za}if(typeof
 b==="number")switch(b){case
-0:return za;case
-1:return zb;default:return zc}return av(zd,b[1])}A3.orthocert_verify=AI(function(b){return b0(y_(a(b)))});fy(0);return}(globalThis));
+0:return zb;case
+1:return zc;default:return zd}return av(ze,b[1])}A4.orthocert_verify=AJ(function(b){return b0(y$(a(b)))});fy(0);return}(globalThis));
