@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Machine Problem Faces Witness Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Apart Machine Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -124,11 +124,15 @@ Check UpuAxes.certified.
 Print Assumptions UpuAxes.certified.
 Check DeltaMargin.certified.
 Print Assumptions DeltaMargin.certified.
+Check kernel.Apart.are_apart_sound.
+Print Assumptions kernel.Apart.are_apart_sound.
 
 (** ** Certificates as files: what the program accepts *)
 
 Check kernel.Witness.refute_sound.
 Print Assumptions kernel.Witness.refute_sound.
+Check kernel.NoCube.check_no_cube_sound.
+Print Assumptions kernel.NoCube.check_no_cube_sound.
 Check kernel.Closed.check_closed_sound.
 Print Assumptions kernel.Closed.check_closed_sound.
 Check kernel.Trig.cosine_sound.

@@ -273,6 +273,7 @@ fn a_page_proves_its_claim_again() {
         ("postulate-all", "CERTIFIED"),
         ("delta-conditioning-refuted", "REFUTED"),
         ("star-singular", "REFUTED"),
+        ("orthoglide-310-no-cube-of-200", "CERTIFIED"),
         ("spherical-3-ups", "CERTIFIED"),
     ] {
         let page = folder.report_of_committed(name, &[]);

@@ -5,12 +5,12 @@
     from what is printed is refused; [means] is what it says; and what [verify]
     accepts is true ([verify_sound]).  To know what has been proved, read [print],
     [claim_of] and [means], with the definitions of Statement.v, Witness.v,
-    Closed.v and Kinematics.v. *)
+    Cubes.v, Closed.v and Kinematics.v. *)
 
 From Coq Require Import ZArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
 From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
-From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed.
+From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
 Local Open Scope list_scope.
 Local Open Scope string_scope.
@@ -40,12 +40,17 @@ Inductive written_leg :=
   | Strut_ (anchor platform : triple quantity) (base_axis : option (triple quantity))
   | Planar_ (direction : triple quantity).
 
+(** [leg] is counted from one. *)
+Inductive written_body :=
+  | AlongLeg_ (leg : nat) (radius after_base before_platform : expression) (offset : option (triple expression))
+  | Fixed_ (on_platform : bool) (from to : triple expression) (radius : expression).
+
 (** A rod on an arm; all legs of a machine, or none. *)
 Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, and the joints' stiffness, of stiffness. *)
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
@@ -63,7 +68,7 @@ Inductive written_orientation :=
 
 Inductive subject :=
   (* legs that do not turn the platform *)
-  | Machine_ (legs : list written_leg) (workspace : written_region) (require : list written_requirement)
+  | Machine_ (legs : list written_leg) (workspace : written_region) (bodies : list written_body) (require : list written_requirement)
   | Arms_ (arms : list written_arm) (workspace : written_region) (require : list written_requirement)
   (* struts of a platform that turns: its joint in the base and on the platform, each of two numbers in the plane *)
   | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (min max : list expression)
@@ -73,6 +78,8 @@ Inductive subject :=
       (rows : list (list (term string))) (min max : list expression) (require : list written_requirement)
   (* the Orthoglide on the paper's cube *)
   | Closed_ (offset side : expression) (require : list written_requirement)
+  (* no cube of this side, with its centre in the box *)
+  | NoCube_ (legs : list written_leg) (min max : triple expression) (require : list written_requirement) (side : expression)
   (* [None]: every psi *)
   | Postulate_ (psi : option quantity).
 
@@ -84,9 +91,11 @@ Inductive step :=
   | Inside_ (s : step) (n : Z) (places : N)
   | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step).
-Record node := Node { by_ : list (nat * step); split_ : option nat }.
 
 Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat).
+
+(** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
+Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
 
 Inductive proof :=
   | Nodes (precision : positive) (nodes : list node)
@@ -99,10 +108,15 @@ Record certificate := Certificate { subject_ : subject; proof_ : proof; tool : s
 
 Definition text := list string.
 
+(** [a ++ b], with a stack that does not grow: texts are long. *)
+Definition join (a b : text) : text := rev_append (rev_append a []) b.
+Lemma join_app : forall a b, join a b = (a ++ b)%list.
+Proof. intros. unfold join. rewrite !rev_append_rev, app_nil_r, rev_involutive. reflexivity. Qed.
+
 Fixpoint separated (l : list text) : text :=
-  match l with [] => [] | [t] => t | t :: l' => t ++ "," :: separated l' end%list.
-Definition array (l : list text) : text := ("[" :: separated l ++ ["]"])%list.
-Definition object (l : list text) : text := ("{" :: separated l ++ ["}"])%list.
+  match l with [] => [] | [t] => t | t :: l' => join t ("," :: separated l')%list end.
+Definition array (l : list text) : text := "[" :: join (separated l) ["]"].
+Definition object (l : list text) : text := "{" :: join (separated l) ["}"].
 Definition quoted (s : string) : text := [""""; s; """"].
 Definition field (key : string) (value : text) : text := (("""" ++ key ++ """:")%string :: value)%list.
 (** A variant. *)
@@ -165,7 +179,7 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
-  | Force_ => "joint_force"
+  | Force_ => "joint_force" | Clearance_ => "clearance"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
 Definition bound_text (e : written_end) : text :=
@@ -199,12 +213,22 @@ Definition orientation_text (o : written_orientation) : text :=
   | Tilt_ a b => variant "tilt" (object [field "tilt" (number a); field "torsion" (number b)])
   end.
 
+Definition body_text (b : written_body) : text :=
+  let at_ := triple_text number in
+  object match b with
+  | AlongLeg_ i r t u o => [field "on" (quoted "leg"); field "leg" (natural i); field "radius" (number r);
+      field "trim" (array [number t; number u])] ++ match o with Some o => [field "offset" (at_ o)] | None => [] end
+  | Fixed_ moves p q r => [field "on" (quoted (if moves then "platform" else "base")); field "from" (at_ p); field "to" (at_ q);
+      field "radius" (number r)]
+  end%list.
+Definition machine_text (legs : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement) : text :=
+  object ([field "mechanism" (variant "translational" (array (map leg_text legs))); field "workspace" (region_text w)] ++
+    match bs with [] => [] | _ => [field "bodies" (array (map body_text bs))] end ++
+    [field "require" (array (map requirement_text rs))])%list.
 Definition subject_text (s : subject) : text :=
   match s with
-  | Machine_ legs w rs => variant "machine" (object
-      [field "mechanism" (variant "translational" (array (map leg_text legs)));
-       field "workspace" (region_text w);
-       field "require" (array (map requirement_text rs))])
+  | Machine_ legs w bs rs => variant "machine" (machine_text legs w bs rs)
+  | NoCube_ legs a b rs side => variant "no_cube" (object [field "machine" (machine_text legs (Box_ a b) [] rs); field "side" (number side)])
   | Arms_ legs w rs => variant "machine" (object
       [field "mechanism" (variant "translational" (array (map arm_text legs)));
        field "workspace" (region_text w);
@@ -245,9 +269,17 @@ Fixpoint evidence_text (s : step) : text :=
   | AtControls_ s => variant "control" (evidence_text s)
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
+Definition violation_text (f : violation) : text :=
+  match f with
+  | Reach => quoted "reach"
+  | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
+  | Row i l => variant "row" (array [natural i; natural l])
+  end.
 Definition node_text (n : node) : text :=
   object (match by_ n with [] => [] | l => [field "by" (array (map step_text l))] end ++
-    match split_ n with Some k => [field "split" (natural k)] | None => [] end)%list.
+    match split_ n with Some k => [field "split" (natural k)] | None => [] end ++
+    match fails_ n with Some f => [field "fails" (violation_text f)] | None => [] end ++
+    match offset_ n with [] => [] | l => [field "at" (integers_text l)] end)%list.
 
 Definition proof_text (p : proof) : text :=
   match p with
@@ -256,19 +288,15 @@ Definition proof_text (p : proof) : text :=
   | ByWitness bits point machine fails => variant "witness" (object
       ([field "precision" (positive_text bits); field "point" (array (map number point))] ++
        match machine with [] => [] | l => [field "machine" (array (map number l))] end ++
-       [field "fails" match fails with
-         | Reach => quoted "reach"
-         | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
-         | Row i l => variant "row" (array [natural i; natural l])
-         end]))
+       [field "fails" (violation_text fails)]))
   end%list.
 
 Definition print (c : certificate) : text :=
-  (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
+  join (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
     field "verdict" (quoted (match proof_ c with Nodes _ _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
     field "proof" (proof_text (proof_ c));
-    field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])]
-   ++ [String "010" ""])%list.
+    field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])])
+    [String "010" ""].
 
 (** Nothing in it ends a string of JSON. *)
 Definition is_plain (s : string) : bool :=
@@ -328,14 +356,20 @@ Definition in_orientation (o : written_orientation) : list expression :=
 Definition in_requirement (r : written_requirement) : list expression :=
   (match given_ r with Some x => [x] | None => [] end ++
    match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] end)%list.
+Definition in_body (b : written_body) : list expression :=
+  match b with
+  | AlongLeg_ _ r t u o => r :: t :: u :: match o with Some o => in_triple o | None => [] end
+  | Fixed_ _ p q r => in_triple p ++ in_triple q ++ [r]
+  end%list.
 Definition in_subject (s : subject) : list expression :=
   match s with
-  | Machine_ ls w rs => flat_map in_leg ls ++ in_region w ++ flat_map in_requirement rs
+  | Machine_ ls w bs rs => flat_map in_leg ls ++ in_region w ++ flat_map in_body bs ++ flat_map in_requirement rs
   | Arms_ ls w rs => flat_map in_arm ls ++ in_region w ++ flat_map in_requirement rs
   | Turning_ _ ls ell a b o rs =>
       flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: a ++ b ++ in_orientation o ++ flat_map in_requirement rs
   | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
   | Closed_ offset side rs => offset :: side :: flat_map in_requirement rs
+  | NoCube_ ls a b rs side => side :: flat_map in_leg ls ++ in_triple a ++ in_triple b ++ flat_map in_requirement rs
   | Postulate_ (Some q) => in_quantity q
   | Postulate_ None => []
   end%list.
@@ -388,10 +422,32 @@ Definition region_of (w : written_region) : region :=
   | Cylinder_ x y r bottom top => Cylinder (denoted x) (denoted y) (denoted r) (Within (denoted bottom) (denoted top))
   end.
 
+Definition position_of (t : triple expression) : position := Position (denoted (first t)) (denoted (second t)) (denoted (third t)).
+Definition body_of (b : written_body) : body :=
+  match b with
+  | AlongLeg_ i r t u o => AlongLeg (pred i) (denoted r) (denoted t) (denoted u)
+      match o with Some o => position_of o | None => Position (0 // 1) (0 // 1) (0 // 1) end
+  | Fixed_ true p q r => OnPlatform (denoted r) (position_of p) (position_of q)
+  | Fixed_ false p q r => OnBase (denoted r) (position_of p) (position_of q)
+  end.
+(** Two bodies on one leg, on the base, or on the platform. *)
+Definition are_fixed (b c : written_body) : bool :=
+  match b, c with
+  | AlongLeg_ i _ _ _ _, AlongLeg_ j _ _ _ _ => Nat.eqb i j
+  | Fixed_ a _ _ _, Fixed_ b _ _ _ => Bool.eqb a b
+  | _, _ => false
+  end.
+(** Each with all before it. *)
+Fixpoint pairs_of (before bs : list written_body) : list (written_body * written_body) :=
+  match bs with
+  | [] => []
+  | b :: bs' => filter (fun p => negb (are_fixed (fst p) (snd p))) (map (fun c => (b, c)) before) ++ pairs_of (before ++ [b]) bs'
+  end%list.
+
 (** Obligations, section 9: a bound on psi from above takes the place of freedom from singularities. *)
 Definition psi_max_of (r : written_requirement) : list requirement :=
   match about_ r, end_ r with Transmission, AtMost_ b => [PsiMax (denoted b)] | _, _ => [] end.
-Definition other_of (legs : nat) (r : written_requirement) : list requirement :=
+Definition other_of (legs : nat) (bs : list written_body) (r : written_requirement) : list requirement :=
   let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
   match about_ r, end_ r, given_ r with
   | Transmission, AtLeast_ b, _ => [PsiMin (denoted b)]
@@ -403,6 +459,7 @@ Definition other_of (legs : nat) (r : written_requirement) : list requirement :=
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
   | Stiffness_, AtLeast_ b, Some joint => [Stiffness (denoted joint) (denoted b)]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
+  | Clearance_, AtLeast_ b, _ => map (fun p => Clearance (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
   | _, _, _ => []
   end.
 (** The requirement has the keys and the end that it has to have. *)
@@ -410,16 +467,16 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   let is_leg n := Nat.leb 1 n && Nat.leb n legs in
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
-  | Stiffness_, AtLeast_ _, None, Some _ | Constraint_, AtLeast_ _, None, None => true
+  | Stiffness_, AtLeast_ _, None, Some _ | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None => true
   | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some _ => is_leg n
   | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some _ => true
   | _, _, _, _ => false
   end.
-Definition obligations (legs : nat) (rs : list written_requirement) : list requirement :=
-  (match flat_map psi_max_of rs with [] => [NotSingular] | l => l end ++ flat_map (other_of legs) rs)%list.
+Definition obligations (legs : nat) (bs : list written_body) (rs : list written_requirement) : list requirement :=
+  (match flat_map psi_max_of rs with [] => [NotSingular] | l => l end ++ flat_map (other_of legs bs) rs)%list.
 
-Definition claim_of (ls : list written_leg) (w : written_region) (rs : list written_requirement) : claim :=
-  MakeClaim (map drive_of ls) (region_of w) (obligations (length ls) rs).
+Definition claim_of (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement) : claim :=
+  MakeClaim (map drive_of ls) (region_of w) (obligations (length ls) bs rs).
 
 (** The same of machines whose claims are those of Configuration.v; their joints are angles, or not. *)
 Definition factor_max_of (r : written_requirement) : list demand :=
@@ -511,10 +568,10 @@ Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> forall P, in
 
 Definition means (c : certificate) : Prop :=
   match subject_ c, proof_ c with
-  | Machine_ ls w rs, Nodes _ _ =>
-      Statement.holds (claim_of ls w rs) /\ exists m P, is_about (claim_of ls w rs) m P
-  | Machine_ ls w rs, ByWitness _ _ _ _ =>
-      exists m P, is_about (claim_of ls w rs) m P /\ ~ meets (claim_of ls w rs) m P
+  | Machine_ ls w bs rs, Nodes _ _ =>
+      Statement.holds (claim_of ls w bs rs) /\ exists m P, is_about (claim_of ls w bs rs) m P
+  | Machine_ ls w bs rs, ByWitness _ _ _ _ =>
+      exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
   | Arms_ ls w rs, ByWitness _ _ _ _ => let c := arm_claim_of ls w rs in
       exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c)
   | Arms_ _ _ _, Nodes _ _ => False
@@ -526,6 +583,8 @@ Definition means (c : certificate) : Prop :=
       written_holds c /\ exists theta x, is_about_written c theta x
   | Closed_ offset side rs, Nodes _ _ =>
       match closed_bounds rs with Some (least, greatest) => closed_design_holds (denoted side) least greatest (value (denoted offset)) | None => False end
+  | NoCube_ ls a b rs side, Nodes _ _ => let c := claim_of ls (Box_ a b) [] rs in
+      has_no_cube c (denoted side) /\ exists m C, is_about c m C
   | Postulate_ None, Nodes _ _ => forall psi, 1 < psi -> postulate_for psi
   | Postulate_ (Some q), Nodes _ _ => 1 < value (greatest (tolerance_of q)) /\
       forall psi, 1 < psi -> within (tolerance_of q) psi -> postulate_for psi
@@ -565,7 +624,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
       if name =? "negative" then Some ByNegative else if name =? "outside" then Some Outside else None
   | Multiplied name y places =>
       if name =? "lower" then Some (ByLower places y) else if name =? "lower_divided" then Some (ByLowerDivided places y) else
-      if name =? "rank" then Some (ByRank places y) else None
+      if name =? "rank" then Some (ByRank places y) else if name =? "direction" then Some (ByDirection places y) else None
   | AtCorner f => Some (ByCorner f)
   | Conditioned_ y places mu => Some (ByConditioning places y mu)
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
@@ -581,7 +640,7 @@ Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
 (** The tree that the first nodes are, and those that are left; [depth] is that of the nodes' list. *)
 Fixpoint tree_of (depth : nat) (l : list node) : option (tree * list node) :=
   match depth, l with
-  | S d, Node by_ split :: rest =>
+  | S d, Node by_ split None [] :: rest =>
       match steps_of by_, split with
       | Some s, None => Some (Leaf s, rest)
       | Some s, Some k =>
@@ -601,6 +660,21 @@ Fixpoint trees_of (most : nat) (l : list node) : option (list tree) :=
       | None => None
       end
   | O, _ => None
+  end.
+
+Definition nfailure_of (f : violation) : nfailure :=
+  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
+
+(** The same of a tree whose leaves fail, and that has no steps. *)
+Fixpoint failing_tree_of (depth : nat) (l : list node) : option (failing_tree * list node) :=
+  match depth, l with
+  | S d, Node [] None (Some f) at_ :: rest => Some (Fails_ at_ (nfailure_of f), rest)
+  | S d, Node [] (Some k) None [] :: rest =>
+      match failing_tree_of d rest with
+      | Some (a, rest) => match failing_tree_of d rest with Some (b, rest) => Some (Halved k a b, rest) | None => None end
+      | None => None
+      end
+  | _, _ => None
   end.
 
 (** A machine by the numbers that stand for its tolerances. *)
@@ -661,9 +735,6 @@ Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim
       (StrutNumbers (numbers_of a) (numbers_of p) :: es, l)
   end.
 
-Definition nfailure_of (f : violation) : nfailure :=
-  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
-
 (** What the format asks of bounds. *)
 Definition is_number : Claim.number -> bool := Witness.is_number exact_bits.
 Definition is_bound (r : requirement) : bool :=
@@ -672,6 +743,7 @@ Definition is_bound (r : requirement) : bool :=
   | Stiffness joint b => certainly exact_bits true joint && certainly exact_bits true b
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
+  | Clearance _ _ b => certainly exact_bits false b
   | JointMin _ b | JointMax _ b => is_number b
   | NotSingular => true
   end.
@@ -729,8 +801,36 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | _, _ => false
   end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
 
-Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
-  Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
+(** No machine within the tolerances has a direction that is zero. *)
+Definition is_nonzero (t : tolerances) : bool :=
+  match map (enclose_parameter exact_bits) (three t (order_of (ends3 t))) with
+  | [Some x; Some y; Some z] => let square := Fixed.sqr exact_bits in (0 <? Fixed.lo (Fixed.add (Fixed.add (square x) (square y)) (square z)))%Z
+  | _ => false
+  end.
+Definition has_direction (d : drive) : bool :=
+  match d with SliderLeg c => is_nonzero (direction c) | PlanarLeg n => is_nonzero n | StrutLeg _ _ (Some k) => is_nonzero k
+  | StrutLeg _ _ None => true end.
+(** Bodies that there are, if and only if their clearance is asked for; two of one leg have no offset. *)
+Definition is_sized (b : written_body) : bool :=
+  match b with
+  | AlongLeg_ _ r t u o => certainly exact_bits true (denoted r) && certainly exact_bits false (denoted t) && certainly exact_bits false (denoted u) &&
+      match o with Some o => forallb (fun x => is_number (denoted x)) (in_triple o) | None => true end
+  | Fixed_ _ p q r => certainly exact_bits true (denoted r) && forallb (fun x => is_number (denoted x)) (in_triple p ++ in_triple q)%list
+  end.
+Definition is_on (ls : list written_leg) (b : written_body) : bool :=
+  match b with
+  | AlongLeg_ i _ _ _ _ => Nat.leb 1 i && match nth_error ls (pred i) with Some (Slider_ _ _ _ _ _ | Strut_ _ _ _) => true | _ => false end
+  | Fixed_ _ _ _ _ => true
+  end.
+Fixpoint are_single (bs : list written_body) : bool :=
+  let is_beside b := match b with AlongLeg_ _ _ _ _ (Some _) => true | _ => false end in
+  match bs with [] => true | b :: bs' => forallb (fun c => negb (are_fixed b c && (is_beside b || is_beside c))) bs' && are_single bs' end.
+Definition are_bodies (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) : bool :=
+  if existsb (fun r => match about_ r with Clearance_ => true | _ => false end) rs
+  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && are_single bs && match pairs_of [] bs with [] => false | _ => true end
+  else match bs with [] => true | _ => false end.
+Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
+  are_bodies ls bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
 (** Nodes are halved along coordinates that there are. *)
 Definition splits_below (n : nat) (nodes : list node) : bool :=
@@ -740,25 +840,36 @@ Definition are_well_formed_formulas (ps : list (string * quantity)) (rows : list
   Nat.eqb (length a) (length b) && forallb (is_demand false (length rows)) rs && is_each_once rs &&
   forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands (length rows) rs).
 
+(** A witness has a number for each tolerance. *)
+Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
+  Nat.eqb (length machine) (length (filter (fun q => match q with Between _ _ => true | One _ => false end) qs)).
+
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
-  | Machine_ ls w rs, Nodes bits nodes =>
-      let k := claim_of ls w rs in
+  | Machine_ ls w bs rs, Nodes bits nodes =>
+      let k := claim_of ls w bs rs in
       match tree_of (length nodes) nodes with
-      | Some (t, []) => is_well_formed ls rs k &&
+      | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
           certify exact_bits bits k (length_order (legs k)) (map direction_order (legs k)) t
       | _ => false
       end
-  | Machine_ ls w rs, ByWitness bits point machine fails =>
+  | Machine_ ls w bs rs, ByWitness bits point machine fails =>
       match point, take_legs ls (map denoted machine), failure_of fails with
-      | [x; y; z], (m, []), Some f => is_well_formed ls rs (claim_of ls w rs) &&
-          refute exact_bits (claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
+      | [x; y; z], (m, []), Some f => is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs (claim_of ls w bs rs) &&
+          refute exact_bits (claim_of ls w bs rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
       | _, _, _ => false
+      end
+  | NoCube_ ls a b rs side, Nodes bits nodes =>
+      let k := claim_of ls (Box_ a b) [] rs in
+      match failing_tree_of (length nodes) nodes with
+      | Some (t, []) => is_well_formed ls [] rs k &&
+          (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
+      | _ => false
       end
   | Arms_ ls w rs, ByWitness bits point machine fails =>
       match point, take_arms ls (map denoted machine) with
-      | [x; y; z], (m, []) => are_well_formed_arms ls rs &&
+      | [x; y; z], (m, []) => is_one_each (flat_map quantities_of_arm ls) machine && are_well_formed_arms ls rs &&
           refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of fails)
       | _, _ => false
       end
@@ -767,7 +878,7 @@ Definition accept (c : certificate) : bool :=
       let point := map denoted point in
       let n := places_of_point k in
       match take_struts ls (map denoted machine) with
-      | (m, []) => is_turning k ls ell a b o rs &&
+      | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell a b o rs &&
           refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of fails)
       | _ => false
       end
@@ -795,7 +906,7 @@ Definition accept (c : certificate) : bool :=
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
+  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
   - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_sound _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_legs _ _) as [m [|]]; [| discriminate].
@@ -811,6 +922,8 @@ Proof.
   - destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ h).
   - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
+  - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+    exact (check_no_cube_certified _ _ _ _ _ _ _ h).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.

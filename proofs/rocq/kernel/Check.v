@@ -6,7 +6,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
-From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell.
+From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -31,7 +31,9 @@ Inductive evidence :=
   (* of polynomials: at control points (Pose.v) *)
   | AtControls (e : evidence)
   (* as [Inside], of what is not negative at the orientations *)
-  | Turned (e : evidence) (n : Z) (places : N).
+  | Turned (e : evidence) (n : Z) (places : N)
+  (* of two bodies: three rows, affine on the cell *)
+  | ByDirection (places : N) (Y : list (list Z)).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -39,10 +41,10 @@ Inductive tree :=
   | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
-    least singular value of other rows than those of the machine. *)
+    least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
-  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat).
+  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed).
 
 Section Precision.
 Variable bits : positive.
@@ -105,6 +107,12 @@ Definition mu_slope (places : N) (mu : list Z) : slope :=
 Definition conditioned (m : nat) (less : option slope) (c2 : fixed) (places : N) (Y : list (list Z)) (mu : slope) (r : rows slope) : bool :=
   positive_there m mu && sigma_min m (raised less mu) places Y r && sigma_max m (lowered less (multiple bits c2 mu)) r.
 
+Definition end_there (values : list (option slope)) (p : spatial nat) : option (spatial slope) :=
+  match nth (along_x p) values None, nth (along_y p) values None, nth (along_z p) values None with
+  | Some a, Some b, Some c => Some (Spatial a b c)
+  | _, _, _ => None
+  end.
+
 Definition shows (values : list (option slope)) (m : nat) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
   | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min m (raised less (constant low)) places Y)
@@ -116,6 +124,11 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
   | Conditioning c2, ByConditioning places Y mu => over_rows values whole (conditioned m less c2 places Y (mu_slope places mu))
   | Least r low, ByLower places Y => over_rows values r (sigma_min m (raised less (constant low)) places Y)
   | AtLeast f, ByTest | Either f _, ByTest | Either _ f, ByNegative => is_sign values m less f
+  | Apart p p' q q' distance, ByDirection places Y =>
+      match end_there values p, end_there values p', end_there values q, end_there values q' with
+      | Some p, Some p', Some q, Some q' => are_apart bits m less distance places Y p p' q q'
+      | _, _, _, _ => false
+      end
   | _, _ => false
   end.
 
@@ -196,6 +209,9 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   | Least r low => of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v ->
       kappa2 * dot v v < energy r v)
   | Either f g => is_nonneg x f \/ is_nonneg x g
+  | Apart p p' q q' distance => let at_ := each (fun i => value x theta (formula_at i)) in
+      forall d s t, contains distance d -> 0 <= d -> 0 <= s <= 1 -> 0 <= t <= 1 ->
+      let w := away (between s (at_ p) (at_ p')) (between t (at_ q) (at_ q')) in d ^ 2 < inner w w
   end.
 
 Section Cell.
@@ -320,10 +336,19 @@ Proof.
   split; [apply E |]. cbn [mu_slope slopes snd]. induction ns; cbn; constructor; auto.
 Qed.
 
+Lemma end_there_sound : forall p s, end_there values p = Some s -> all_stand bits lambda s (each (fun i => value x theta (formula_at i)) p).
+Proof.
+  intros p s h. unfold end_there in h.
+  assert (S : forall i s, nth i values None = Some s -> stands bits lambda s (value x theta (formula_at i))).
+  { intros i t e. pose proof (enclosed_at i) as H. rewrite e in H. destruct H as [_ [_ H]]. exists (value cs theta (formula_at i)). exact H. }
+  destruct (nth (along_x p) values None) eqn:e1; [| discriminate]. destruct (nth (along_y p) values None) eqn:e2; [| discriminate].
+  destruct (nth (along_z p) values None) eqn:e3; [| discriminate]. injection h as <-. split; [| split]; apply S; assumption.
+Qed.
+
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | | | |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -372,6 +397,11 @@ Proof.
     apply Rle_lt_trans with (2 := S), Rmult_le_compat_r; assumption.
   - left. eapply is_sign_sound; eassumption.
   - right. eapply is_sign_sound; eassumption.
+  - destruct (end_there values p) as [sp |] eqn:e1; [| discriminate]. destruct (end_there values p') as [sp' |] eqn:e2; [| discriminate].
+    destruct (end_there values q) as [sq |] eqn:e3; [| discriminate]. destruct (end_there values q') as [sq' |] eqn:e4; [| discriminate].
+    cbv zeta. intros d s t hd d0 h0 h1.
+    exact (are_apart_sound bits lambda lambda_in less distance d places Y _ _ _ _ _ _ _ _ h hs hd d0
+      (end_there_sound _ _ e1) (end_there_sound _ _ e2) (end_there_sound _ _ e3) (end_there_sound _ _ e4) s t h0 h1).
 Qed.
 End Cell.
 
@@ -391,7 +421,7 @@ Proof.
   assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
   { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-  destruct e as [| | | | | | | | | e' n places | | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | |]; try (apply (K None _ I h)).
   cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
   refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
   destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.

@@ -23,23 +23,25 @@ Definition point : evec := EVec (F (Coord 0)) (F (Coord 1)) (F (Coord 2)).
 
 (** ** Drives, by w from the base joint to the platform's *)
 
-(** [f_length]: of sliders; [f_couple]: of struts with a base axis. *)
-Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula; f_length : option formula; f_couple : option evec }.
+(** [f_length]: of sliders; [f_couple]: of struts with a base axis; [f_tip]: the platform end, of legs with two ends. *)
+Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula; f_length : option formula; f_couple : option evec; f_tip : option evec }.
+(** Of a leg that reaches, |A_i|: the length of a slider or strut, 1 of a plane. *)
+Definition rod (f : leg_formulas) : formula := match f_length f with Some len => len | None => root (f_D f) end.
 
 Definition signed (mode : bool) (a : formula) : formula := if mode then a else opposite a.
 
-Definition slider_formulas (w n : evec) (len : formula) (mode : bool) : leg_formulas :=
+Definition slider_formulas (w n tip : evec) (len : formula) (mode : bool) : leg_formulas :=
   let along := product n w in
   let r := map2 minus w (scaled along n) in
   let d := minus (square len) (product r r) in
   let eta := signed mode (root d) in
-  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta) (Some len) None.
+  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta) (Some len) None (Some tip).
 
-Definition strut_formulas (w : evec) (axis : option evec) : leg_formulas :=
+Definition strut_formulas (w tip : evec) (axis : option evec) : leg_formulas :=
   let d := product w w in let len := root d in
-  LegFormulas w d (divided_by w len) len None (option_map (fun k => map2 minus w (scaled (product k w) k)) axis).
+  LegFormulas w d (divided_by w len) len None (option_map (fun k => map2 minus w (scaled (product k w) k)) axis) (Some tip).
 
-Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w) None None.
+Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w) None None None.
 
 (** ** Meaning *)
 
@@ -85,16 +87,17 @@ Definition represents (f : leg_formulas) (l : leg) : Prop :=
   (reaches P l -> 0 < value (f_D f)) /\
   (forall len, f_length f = Some len -> exists k, l = Guided k /\ value len = leg_length k /\
     (0 < value (f_D f) -> value (f_D f) = eta k P ^ 2) /\ vvalue (f_A f) = leg_vector k P) /\
-  (forall c, f_couple f = Some c -> couple_of l P = Some (vvalue c)).
+  (forall c, f_couple f = Some c -> couple_of l P = Some (vvalue c)) /\
+  (forall tip, f_tip f = Some tip -> rod_of l P = Some (vvalue tip, vvalue (f_A f), value (rod f))).
 
 Lemma value_signed : forall (mode : bool) a, value (signed mode a) = (if mode then 1 else -1) * value a.
 Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
 
-Lemma slider_represents : forall ew en el (mode : bool) l,
-  vvalue ew = w l P -> vvalue en = axis l -> value el = leg_length l -> working_mode l = (if mode then 1 else -1) ->
-  represents (slider_formulas ew en el mode) (Guided l).
+Lemma slider_represents : forall ew en etip el (mode : bool) l,
+  vvalue ew = w l P -> vvalue etip = C_point l P -> vvalue en = axis l -> value el = leg_length l -> working_mode l = (if mode then 1 else -1) ->
+  represents (slider_formulas ew en etip el mode) (Guided l).
 Proof.
-  intros ew en el mode l hw hn hl hm. unfold slider_formulas. cbn zeta.
+  intros ew en etip el mode l hw ht hn hl hm. unfold slider_formulas. cbn zeta.
   set (er := map2 minus ew (scaled (product en ew) en)). set (ed := minus (square el) (product er er)).
   set (eeta := signed mode (root ed)).
   assert (R : vvalue er = r l P).
@@ -109,7 +112,7 @@ Proof.
     exfalso. apply h. unfold s. rewrite <- z. ring. }
   assert (Sq : 0 < value ed -> value ed = eta l P ^ 2).
   { intro h. unfold eta. rewrite Rpow_mult_distr, hm, (s_squared l P (T h)), D. destruct mode; ring. }
-  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split; [| split]]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple f_tip reaches row joint].
   - intro h. split; [exact (T h) |]. intro v. pose proof (Sq h) as Q.
     rewrite vvalue_plus, vvalue_scaled, R, E, hn, Q. unfold Jinv_row. rewrite Q in h.
     assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
@@ -124,14 +127,15 @@ Proof.
   - intros len h. injection h as <-. exists l. split; [reflexivity |]. split; [exact hl |]. split; [exact Sq |].
     rewrite vvalue_plus, vvalue_scaled, R, E, hn. symmetry. apply leg_vector_eq.
   - discriminate.
+  - intros tip h. injection h as <-. unfold rod. cbn [f_length rod_of]. rewrite ht, hl, vvalue_plus, vvalue_scaled, R, E, hn, leg_vector_eq. reflexivity.
 Qed.
 
-Lemma strut_represents : forall ew base platform ek axis, vvalue ew = span base platform P ->
-  option_map vvalue ek = axis -> represents (strut_formulas ew ek) (Extensible base platform axis).
+Lemma strut_represents : forall ew etip base platform ek axis, vvalue ew = span base platform P -> vvalue etip = vadd P platform ->
+  option_map vvalue ek = axis -> represents (strut_formulas ew etip ek) (Extensible base platform axis).
 Proof.
-  intros ew base platform ek axis hw hk. unfold strut_formulas. cbn zeta.
+  intros ew etip base platform ek axis hw ht hk. unfold strut_formulas. cbn zeta.
   assert (D : value (product ew ew) = norm2 (span base platform P)) by (rewrite value_product, hw, norm2_dot; reflexivity).
-  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split; [| split]]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple f_tip reaches row joint].
   - rewrite D, hw. intro h. split; [exact h |]. intro v. unfold normalised.
     assert (E : forall a u, Vec3.dot (vscale a u) v = a * Vec3.dot u v) by (intros; unfold Vec3.dot; cbn; ring).
     rewrite E, Rpow_mult_distr. pose proof (sqrt_lt_R0 _ h) as s0. rewrite pow_inv.
@@ -147,18 +151,20 @@ Proof.
   - discriminate.
   - intros c h. destruct ek as [k |]; [| discriminate]. cbn [option_map] in h, hk. injection h as <-. subst axis.
     cbn [couple_of]. unfold couple. rewrite vvalue_minus, vvalue_scaled, value_product, hw. reflexivity.
+  - intros tip h. injection h as <-. unfold rod. cbn [f_length f_D rod_of]. rewrite ht, hw, value_root, D. reflexivity.
 Qed.
 
 Lemma planar_represents : forall ew en n, vvalue ew = P -> vvalue en = normalised n ->
   represents (planar_formulas ew en) (Plane n).
 Proof.
   intros ew en n hw hn. unfold planar_formulas.
-  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split; [| split]]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple f_tip reaches row joint].
   - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
   - intros _. exact I.
   - exact hn.
   - rewrite value_product, hn, hw. reflexivity.
   - intros _. cbn. lra.
+  - discriminate.
   - discriminate.
   - discriminate.
 Qed.
@@ -262,6 +268,18 @@ Proof.
     rewrite sqrt_resized by exact c_pos. ring. }
   split; [exact E |]. rewrite !leg_vector_eq, E, r_resized. cbn [axis]. generalize (r l P) (axis l) (eta l P). intros a b t.
   unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
+Lemma rod_resized : forall l, rod_of (resized c l) (vscale c P) =
+  match rod_of l P with Some (C, A, L) => Some (vscale c C, vscale c A, c * L) | None => None end.
+Proof.
+  intros [l | base platform k | n]; try reflexivity.
+  - cbn [resized rod_of]. destruct (guided_resized (Guided l) _ eq_refl) as [l' [e [_ [_ v]]]]. injection e as <-. rewrite v.
+    f_equal. f_equal. f_equal. unfold C_point, vadd, vscale. cbn [platform_offset vx vy vz]. f_equal; ring.
+  - cbn [resized rod_of].
+    assert (W : span (vscale c base) (vscale c platform) (vscale c P) = vscale c (span base platform P))
+      by (unfold span, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
+    rewrite W, norm2_scale, sqrt_resized by exact c_pos. f_equal. f_equal. f_equal. unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring.
 Qed.
 End Resized.
 

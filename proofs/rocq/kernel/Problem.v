@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Cell Check Number Machine Formula.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -73,8 +73,8 @@ Definition from_base (anchor platform : evec) : evec := map2 minus (map2 plus po
 Definition drive_formulas (s d : Z) (dr : drive) (j : nat) : leg_formulas :=
   let q := numbered j (layout s d dr) in
   match dr with
-  | SliderLeg c => slider_formulas (from_base (vector_at q 3) (vector_at q 6)) (unit_vector (vector_at q 0)) (nth 9 q (integer 0)) (mode c)
-  | StrutLeg _ _ k => strut_formulas (from_base (vector_at q 0) (vector_at q 3))
+  | SliderLeg c => slider_formulas (from_base (vector_at q 3) (vector_at q 6)) (unit_vector (vector_at q 0)) (map2 plus point (vector_at q 6)) (nth 9 q (integer 0)) (mode c)
+  | StrutLeg _ _ k => strut_formulas (from_base (vector_at q 0) (vector_at q 3)) (map2 plus point (vector_at q 3))
       (match k with Some _ => Some (unit_vector (vector_at q 6)) | None => None end)
   | PlanarLeg _ => planar_formulas point (unit_vector (vector_at q 0))
   end.
@@ -106,6 +106,7 @@ Proof.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized] in *.
     apply slider_represents.
     + rewrite vvalue_from_base, !(vvalue_at _ _ _ _ _ V). reflexivity.
+    + rewrite vvalue_plus, vvalue_point, (vvalue_at _ _ _ _ _ V). reflexivity.
     + rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). cbn [axis]. rewrite ax. exact (normalised_resized (/ two_to d) u d0).
     + rewrite (value_at _ _ _ _ _ V). reflexivity.
     + exact hm.
@@ -124,6 +125,7 @@ Proof.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized].
     apply strut_represents.
     + rewrite vvalue_from_base, !(vvalue_at _ _ _ _ _ V). reflexivity.
+    + rewrite vvalue_plus, vvalue_point, (vvalue_at _ _ _ _ _ V). reflexivity.
     + destruct ax as [k |]; cbn [option_map]; rewrite ea; [| reflexivity].
       rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). reflexivity.
   - exists (coordinates (vscale (/ two_to d) normal)).
@@ -166,6 +168,7 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | JointMin _ b | JointMax _ b => (exactly b, s)
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
   | Stiffness joint b => (exactly (Over b joint), 0%Z)
+  | Clearance one other b => (exactly (Plus (Plus (radius_of one) (radius_of other)) b), s)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -178,6 +181,55 @@ Qed.
 
 Lemma bounds_within : forall s rs, Forall2 scaled_within (map (bound_of s) rs) (map (bound_value s) rs).
 Proof. induction rs; cbn [map]; constructor; auto using bound_within. Qed.
+
+(** The numbers of bodies: six each. *)
+Definition body_numbers (s : Z) (b : body) : list parameter :=
+  let of_ p := [(exactly (px p), s); (exactly (py p), s); (exactly (pz p), s)] in
+  match b with
+  | AlongLeg _ _ t u o => [(exactly t, s); (exactly u, s)] ++ of_ o ++ [(exactly (0 // 1), 0%Z)]
+  | OnBase _ p q | OnPlatform _ p q => of_ p ++ of_ q
+  end.
+Definition extras (s : Z) (r : requirement) : list parameter :=
+  match r with Clearance one other _ => body_numbers s one ++ body_numbers s other | _ => [] end.
+Definition exact_value (p : parameter) : R := Claim.value (greatest (fst p)) / two_to (snd p).
+
+Lemma extras_within : forall s r, Forall2 scaled_within (extras s r) (map exact_value (extras s r)).
+Proof.
+  assert (E : forall x u, scaled_within (exactly x, u) (exact_value (exactly x, u)))
+    by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
+  assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
+    by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
+  intros s []; try constructor. cbn [extras]. rewrite map_app. apply Forall2_app; apply B.
+Qed.
+
+Lemma all_extras_within : forall s rs, Forall2 scaled_within (flat_map (extras s) rs) (map exact_value (flat_map (extras s) rs)).
+Proof.
+  intros s rs. induction rs as [| r rs IH]; [constructor |]. cbn [flat_map]. rewrite map_app.
+  apply Forall2_app; [apply extras_within | exact IH].
+Qed.
+
+(** Where a requirement's bound and its other numbers are among the parameters. *)
+Definition next (s : Z) (r : requirement) (j : nat * nat) : nat * nat := (S (fst j), snd j + length (extras s r))%nat.
+
+(** The ends of a body's segment, by its numbers. *)
+Definition segment_formulas (fs : list leg_formulas) (q : list formula) (b : body) : option (evec * evec) :=
+  match b with
+  | AlongLeg i _ _ _ _ =>
+      match nth_error fs i with
+      | Some f => match f_tip f with
+          | Some tip =>
+              let part x := map2 plus (map2 minus tip (scaled x (f_A f))) (vector_at q 2) in
+              Some (part (minus (integer 1) (over (nth 0 q (integer 0)) (rod f))), part (over (nth 1 q (integer 0)) (rod f)))
+          | None => None
+          end
+      | None => None
+      end
+  | OnBase _ _ _ => Some (vector_at q 0, vector_at q 3)
+  | OnPlatform _ _ _ => Some (map2 plus point (vector_at q 0), map2 plus point (vector_at q 3))
+  end.
+Definition segments (fs : list leg_formulas) (s : Z) (j : nat) (one other : body) : option (evec * evec * (evec * evec)) :=
+  let q := numbered j (body_numbers s one ++ body_numbers s other) in
+  match segment_formulas fs (firstn 6 q) one, segment_formulas fs (skipn 6 q) other with Some a, Some b => Some (a, b) | _, _ => None end.
 
 Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
 Definition determinant (a b c : evec) : formula :=
@@ -194,19 +246,19 @@ Fixpoint couple_rows (fs : list leg_formulas) : option (rows formula) :=
   | [] => Some []
   | f :: fs' => match f_couple f, couple_rows fs' with Some c, Some r => Some ((list_of c, product c c) :: r) | _, _ => None end
   end.
-Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : option (rows formula) :=
+Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option (rows formula) :=
   match r with
-  | Stiffness _ _ => Some (stiff_rows fs (quantity (bound_of s r) j))
+  | Stiffness _ _ => Some (stiff_rows fs (quantity (bound_of s r) (fst j)))
   | ConstraintMargin _ => couple_rows fs
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
-Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : list formula :=
-  let b := quantity (bound_of s r) j in
+Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : list formula :=
+  let b := quantity (bound_of s r) (fst j) in
   let of_leg i (g : leg_formulas -> list formula) := match nth_error fs i with Some f => g f | None => [] end in
   match r with
   | JointMin i _ => of_leg i (fun f => [minus (f_joint f) b])
@@ -228,19 +280,25 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat) (r : require
       | _ => []
       end
   | Stiffness _ _ | ConstraintMargin _ => match least_rows fs s j r with Some rs => entries rs | None => [] end
+  | Clearance one other _ =>
+      match segments fs s (snd j) one other with
+      | Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d]
+      | None => []
+      end
   | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
   end.
-Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat) (rs : list requirement) : list formula :=
+Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
   match rs with
   | [] => []
-  | r :: rs' => range_formula fs s j r ++ range_formulas fs s (S j) rs'
+  | r :: rs' => range_formula fs s j r ++ range_formulas fs s (next s r j) rs'
   end.
 
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
 
-Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : option test :=
+Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
+Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
   match r with
   | NotSingular => Some (SigmaMin zero)
   | PsiMax _ => option_map (fun a => SigmaMin (sqr bits a)) (enclose_parameter bits (bound_of s r))
@@ -252,14 +310,20 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       | Some rs, Some a => Some (Least (map_rows place rs) (sqr bits a))
       | _, _ => None
       end
+  | Clearance one other _ =>
+      match segments fs s (snd j) one other, enclose_parameter bits (bound_of s r) with
+      | Some ((a, b), (c, d)), Some distance => if (0 <=? lo distance)%Z then
+          let at_ := ends_at place in Some (Apart (at_ a) (at_ b) (at_ c) (at_ d) distance) else None
+      | _, _ => None
+      end
   | _ => match range_formula fs s j r with
          | [f] => Some (AtLeast (place f))
          | [f; g] => Some (Either (place f) (place g))
          | _ => None
          end
   end.
-Fixpoint tests_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat) (rs : list requirement) : list (option test) :=
-  match rs with [] => [] | r :: rs' => test_of place fs s j r :: tests_of place fs s (S j) rs' end.
+Fixpoint tests_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list (option test) :=
+  match rs with [] => [] | r :: rs' => test_of place fs s j r :: tests_of place fs s (next s r j) rs' end.
 
 Definition is_lower (r : requirement) : bool := match r with NotSingular | PsiMax _ => true | _ => false end.
 (** ** The workspace *)
@@ -333,13 +397,13 @@ Qed.
 Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let ps := layouts s ds (legs c) in
   let fs := all_formulas s ds (legs c) 0 in
-  let n := length ps in
+  let n := (length ps, length ps + length (require c))%nat in
   let needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) in
   let tape := fst (compile needed) in
   let found := formulas tape in
   if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
     if existsb is_lower (require c) then
-      match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c))),
+      match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
             all_some (tests_of (place found) fs s n (require c)) with
       | Some params, Some box, Some tests =>
@@ -450,9 +514,10 @@ Proof.
   exists (map_rows (value x theta) r). split; [exact h |]. intro v. rewrite K2. apply speed2_resized, r0.
 Qed.
 
-Variable j : nat.
+Variable j : nat * nat.
 Variable r : requirement.
-Hypothesis bound_at : nth j theta 0 = bound_value s r.
+Hypothesis bound_at : nth (fst j) theta 0 = bound_value s r.
+Hypothesis extras_at : map (value x theta) (numbered (snd j) (extras s r)) = map exact_value (extras s r).
 Hypothesis range_found : forall f, In f (range_formula fs s j r) -> formula_at tape (found f) = f.
 Variable t : test.
 Hypothesis is_test : test_of found fs s j r = Some t.
@@ -471,7 +536,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -492,8 +557,8 @@ Hypothesis reached : Forall (reaches P) m.
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
 Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
 
-Lemma bound_here : value x theta (quantity (bound_of s r) j) = bound_value s r.
-Proof. exact (quantity_value _ _ x theta j (bound_within s r) bound_at). Qed.
+Lemma bound_here : value x theta (quantity (bound_of s r) (fst j)) = bound_value s r.
+Proof. exact (quantity_value _ _ x theta (fst j) (bound_within s r) bound_at). Qed.
 
 (** Of leg [i]: its formulas stand for the leg in the unit of the check. *)
 Lemma leg_at : forall i g, nth_error fs i = Some g ->
@@ -512,7 +577,7 @@ Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -568,7 +633,7 @@ Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz
 Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -640,7 +705,7 @@ Proof.
   - destruct m0 as [| g m0]; [inversion R0 |]. apply cons_related in R0 as [R1 R0]. cbn [couple_rows] in e.
     destruct (f_couple f) as [k |] eqn:ec; [| discriminate]. destruct (couple_rows l) as [rest |] eqn:el; [| discriminate].
     injection e as <-. rewrite map_rows_cons in p. inversion p as [| ? ? p1 p2]. subst. cbn [snd] in p1.
-    destruct (IH m0 R0 rest eq_refl p2) as [cs [h1 h2]]. destruct R1 as [_ [_ [_ [_ [_ [_ R1]]]]]]. specialize (R1 k ec).
+    destruct (IH m0 R0 rest eq_refl p2) as [cs [h1 h2]]. destruct R1 as [_ [_ [_ [_ [_ [_ [R1 _]]]]]]]. specialize (R1 k ec).
     rewrite couple_resized in R1 by exact r0. destruct (couple_of g P) as [u |] eqn:eu; [| discriminate]. cbn [option_map] in R1.
     assert (R1' : vscale ratio u = vvalue Q theta k) by congruence. clear R1. rename R1' into R1. rewrite value_product, <- norm2_dot, <- R1, norm2_scale in p1.
     assert (u0 : u <> vzero) by (intro z; subst u; unfold norm2, vzero in p1; cbn in p1; lra).
@@ -653,11 +718,84 @@ Proof.
     unfold normalised. rewrite !E1, !Rpow_mult_distr, pow_inv, S. field. split; lra.
 Qed.
 
+Lemma quotient_resized : forall a b, ratio * a / (ratio * b) = a / b.
+Proof.
+  intros a b. pose proof ratio_pos. destruct (Req_dec b 0) as [-> | z]; [| field; lra].
+  rewrite Rmult_0_r. unfold Rdiv. rewrite Rinv_0. ring.
+Qed.
+
+Lemma segment_there : forall q b e e', map (value x theta) q = map exact_value (body_numbers s b) -> segment_formulas fs q b = Some (e, e') ->
+  exists p p', segment_of m P b = Some (p, p') /\ vvalue Q theta e = vscale ratio p /\ vvalue Q theta e' = vscale ratio p'.
+Proof.
+  pose proof ratio_pos as r0. intros q b e e' V h.
+  assert (N : forall y, exact_value (exactly y, s) = ratio * Claim.value y) by (intro y; unfold exact_value; cbn; unfold Rdiv; fold ratio; ring).
+  destruct b as [i rad tb up o | rad p p' | rad p p']; cbn [segment_formulas segment_of] in *.
+  - destruct (nth_error fs i) as [f |] eqn:nf; [| discriminate]. destruct (f_tip f) as [tip |] eqn:et; [| discriminate]. injection h as <- <-.
+    destruct (represents_nth _ _ _ _ _ _ represented nf) as [l' [k R0]]. rewrite nth_error_map in k.
+    destruct (nth_error m i) as [l |]; [| discriminate]. injection k as <-.
+    destruct R0 as [_ [_ [_ [_ [_ [_ [_ R0]]]]]]]. specialize (R0 tip et). unfold ratio in R0. rewrite rod_resized in R0 by exact r0. fold ratio in R0.
+    destruct (rod_of l P) as [[[C A] L] |]; [| discriminate].
+    assert (e1 : vscale ratio C = vvalue Q theta tip) by congruence. assert (e2 : vscale ratio A = vvalue Q theta (f_A f)) by congruence.
+    assert (e3 : ratio * L = value x theta (rod f)) by congruence.
+    eexists. eexists. split; [reflexivity |].
+    assert (O : vvalue Q theta (vector_at q 2) = vscale ratio (located o)).
+    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
+    assert (T0 : value x theta (nth 0 q (integer 0)) = ratio * Claim.value tb) by (rewrite (value_at _ _ _ _ _ V); apply N).
+    assert (T1 : value x theta (nth 1 q (integer 0)) = ratio * Claim.value up) by (rewrite (value_at _ _ _ _ _ V); apply N).
+    rewrite !vvalue_plus, !vvalue_minus, !vvalue_scaled, value_minus, !value_over, O, T0, T1, <- e1, <- e2, <- e3, !quotient_resized.
+    change (value x theta (integer 1)) with 1. unfold vadd, vsub, vscale. cbn [vx vy vz]. split; f_equal; ring.
+  - injection h as <- <-. eexists. eexists. split; [reflexivity |].
+    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
+  - injection h as <- <-. eexists. eexists. split; [reflexivity |].
+    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N.
+    unfold vadd, located, vscale. cbn [vx vy vz]. split; f_equal; ring.
+Qed.
+
+Lemma body_numbers_length : forall b, length (body_numbers s b) = 6%nat.
+Proof. intros []; reflexivity. Qed.
+
+Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearance one other b ->
+  segments fs s (snd j) one other = Some ((a, a'), (c', d')) -> contains distance (bound_value s r) -> (0 <= lo distance)%Z ->
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x
+    (Apart (ends_at found a) (ends_at found a') (ends_at found c') (ends_at found d') distance) ->
+  fulfils m P r.
+Proof.
+  intros one other b a a' c' d' distance er es hd d0 H. pose proof ratio_pos as r0.
+  pose proof range_found as RF. pose proof extras_at as EX. subst r. cbn [extras range_formula] in *. rewrite es in RF.
+  set (q := numbered (snd j) (body_numbers s one ++ body_numbers s other)) in *. unfold segments in es. fold q in es.
+  destruct (segment_formulas fs (firstn 6 q) one) as [[e1 e1'] |] eqn:s1; [| discriminate].
+  destruct (segment_formulas fs (skipn 6 q) other) as [[e2 e2'] |] eqn:s2; [| discriminate]. injection es as -> -> -> ->.
+  rewrite map_app in EX.
+  assert (L : length (map exact_value (body_numbers s one)) = 6%nat) by (rewrite map_length; apply body_numbers_length).
+  assert (V1 : map (value x theta) (firstn 6 q) = map exact_value (body_numbers s one)).
+  { rewrite <- firstn_map, EX, <- L. rewrite firstn_app, Nat.sub_diag, firstn_O, app_nil_r. apply firstn_all. }
+  assert (V2 : map (value x theta) (skipn 6 q) = map exact_value (body_numbers s other)).
+  { rewrite <- skipn_map, EX, <- L. rewrite skipn_app, Nat.sub_diag, skipn_all. reflexivity. }
+  destruct (segment_there _ _ _ _ V1 s1) as [p [p' [g1 [v1 v1']]]]. destruct (segment_there _ _ _ _ V2 s2) as [w [w' [g2 [v2 v2']]]].
+  exists p, p', w, w'. split; [exact g1 |]. split; [exact g2 |]. intros y0 z0 hy hz.
+  assert (E : forall k, (In k (flat_map list_of [a; a'; c'; d'])) -> value x theta (formula_at tape (found k)) = value x theta k)
+    by (intros k ik; rewrite (RF k ik); reflexivity).
+  assert (At : forall y v, In y [a; a'; c'; d'] -> vvalue Q theta y = vscale ratio v ->
+    each (fun i => value x theta (formula_at tape i)) (ends_at found y) = Spatial (ratio * vx v) (ratio * vy v) (ratio * vz v)).
+  { intros y v iy e. unfold each, ends_at. cbn [along_x along_y along_z].
+    assert (I : forall k, In k (list_of y) -> In k (flat_map list_of [a; a'; c'; d'])) by (intros k ik; apply in_flat_map; exists y; split; assumption).
+    rewrite !E by (apply I; cbn; tauto). f_equal; [exact (f_equal vx e) | exact (f_equal vy e) | exact (f_equal vz e)]. }
+  cbn [Check.holds] in H. cbv zeta in H.
+  rewrite (At a p ltac:(cbn; tauto) v1), (At a' p' ltac:(cbn; tauto) v1'), (At c' w ltac:(cbn; tauto) v2), (At d' w' ltac:(cbn; tauto) v2') in H.
+  assert (B0 : 0 <= bound_value s (Clearance one other b)) by (apply (contains_nonneg bits distance); assumption).
+  specialize (H (bound_value s (Clearance one other b)) y0 z0 hd B0 hy hz).
+  assert (Bv : bound_value s (Clearance one other b) = ratio * (Claim.value (radius_of one) + Claim.value (radius_of other) + Claim.value b))
+    by (unfold bound_value; cbn; unfold Rdiv; fold ratio; ring).
+  rewrite Bv in H. apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. apply Rlt_le.
+  rewrite Rpow_mult_distr in H. apply Rlt_le_trans with (1 := H).
+  unfold inner, away, between, both, norm2, towards, vsub, vadd, vscale. cbn [along_x along_y along_z vx vy vz]. apply Req_le. ring.
+Qed.
+
 Lemma fulfilled : fulfils m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
-  pose proof (couples_energy fs m represented) as CE.
+  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
       is_least r = false -> fulfils m P r).
@@ -667,7 +805,7 @@ Proof.
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -683,7 +821,7 @@ Proof.
     pose proof (h2 _ (coordinates u) (coordinates v) C eq_refl eq_refl (nonzero_coordinates u nu) (nonzero_coordinates v nv)) as Z.
     rewrite !h3, !dot_coordinates, <- !norm2_dot in Z. lra.
   - cbn [least_rows option_map bound_of] in T, LF, B. injection T as <-. cbn [Check.holds] in H. specialize (LF _ eq_refl). rewrite LF in H.
-    destruct H as [[_ pos] h]. set (q := quantity (exactly (Over b joint), 0%Z) j) in *.
+    destruct H as [[_ pos] h]. set (q := quantity (exactly (Over b joint), 0%Z) (fst j)) in *.
     assert (K : value x theta q = Claim.value b / Claim.value joint).
     { rewrite B. unfold bound_value. cbn. change (two_to 0) with 1. unfold Rdiv at 1. rewrite Rinv_1. ring. }
     cbn [fulfils]. intro v. destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |].
@@ -701,38 +839,60 @@ Proof.
     + rewrite h2. replace (norm2 vzero) with 0 by (unfold norm2, vzero; cbn; ring). rewrite Rmult_0_r.
       clear. induction cs as [| c cs IH]; cbn [fold_right]; [lra |]. pose proof (pow2_ge_0 (Vec3.dot (normalised c) vzero)). lra.
     + apply Rlt_le. rewrite norm2_dot, <- dot_coordinates. exact (h _ (coordinates v) C eq_refl (nonzero_coordinates v nz)).
+  - destruct (segments fs s (snd j) one other) as [[[a a'] [c' d']] |] eqn:es; [| discriminate].
+    destruct (enclose_parameter bits (bound_of s (Clearance one other b))) as [distance |] eqn:ed; [| discriminate].
+    destruct (0 <=? lo distance)%Z eqn:d0; [| discriminate]. injection T as <-.
+    exact (CF one other b a a' c' d' distance eq_refl es (enclose_parameter_sound bits _ _ _ ed (bound_within s _)) (proj1 (Z.leb_le _ _) d0) H).
 Qed.
 End Accepted.
 
-(** Every requirement has its test, and its bound its place. *)
-Lemma requirement_at : forall place fs s rs n r, In r rs -> exists k,
-  nth_error rs k = Some r /\ In (test_of place fs s (n + k) r) (tests_of place fs s n rs) /\
-  forall f, In f (range_formula fs s (n + k) r) -> In f (range_formulas fs s n rs).
+(** Every requirement has its test, and its numbers their places. *)
+Lemma requirement_at : forall place fs s rs j k r, nth_error rs k = Some r -> exists i front back,
+  i = (fst j + k, snd j + length front)%nat /\ flat_map (extras s) rs = front ++ extras s r ++ back /\
+  In (test_of place fs s i r) (tests_of place fs s j rs) /\
+  forall f, In f (range_formula fs s i r) -> In f (range_formulas fs s j rs).
 Proof.
-  intros place fs s rs. induction rs as [| q rs IH]; intros n r i; [contradiction |]. destruct i as [-> | i].
-  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |].
-    intros f e. cbn [range_formulas]. apply in_or_app. left. exact e.
-  - destruct (IH (S n) r i) as [k [h1 [h2 h3]]]. exists (S k). rewrite <- Nat.add_succ_comm. split; [exact h1 |].
-    split; [right; exact h2 |]. intros f e. cbn [range_formulas]. apply in_or_app. right. exact (h3 f e).
+  intros place fs s rs. induction rs as [| q rs IH]; intros j [| k] r e; try discriminate.
+  - injection e as ->. exists j, [], (flat_map (extras s) rs). rewrite !Nat.add_0_r. split; [apply surjective_pairing |].
+    split; [reflexivity |]. split; [left; reflexivity |].
+    intros f i. cbn [range_formulas]. apply in_or_app. left. exact i.
+  - destruct (IH (next s q j) k r e) as [i [front [back [h1 [h2 [h3 h4]]]]]]. exists i, (extras s q ++ front), back.
+    split; [rewrite h1; unfold next; cbn [fst snd]; rewrite app_length; f_equal; lia |].
+    split; [cbn [flat_map]; rewrite h2, app_assoc; reflexivity |].
+    split; [right; exact h3 |]. intros f g. cbn [range_formulas]. apply in_or_app. right. exact (h4 f g).
+Qed.
+
+Lemma numbers_at : forall x s rs th k r front back, nth_error rs k = Some r -> flat_map (extras s) rs = front ++ extras s r ++ back ->
+  let theta := th ++ map (bound_value s) rs ++ map exact_value (flat_map (extras s) rs) in
+  nth (length th + k) theta 0 = bound_value s r /\
+  map (value x theta) (numbered (length th + length rs + length front) (extras s r)) = map exact_value (extras s r).
+Proof.
+  intros x s rs th k r front back e f theta. unfold theta. split.
+  - rewrite app_nth2_plus, app_nth1; [| rewrite map_length; apply nth_error_Some; congruence].
+    apply nth_error_nth. rewrite nth_error_map, e. reflexivity.
+  - rewrite f, !map_app. rewrite !app_assoc, <- (app_assoc _ (map exact_value (extras s r))).
+    replace (length th + length rs + length front)%nat with (length ((th ++ map (bound_value s) rs) ++ map exact_value front))
+      by (rewrite !app_length, !map_length; lia).
+    apply numbered_values, extras_within.
 Qed.
 
 (** Soundness: what the checker accepts is true of every machine and point of the claim. *)
 Theorem check_claim_sound : forall c s ds t, check_claim c s ds t = true -> Statement.holds c.
 Proof.
   intros c s ds t h m P hm hP. unfold check_claim in h. cbn zeta in h.
-  set (fs := all_formulas s ds (legs c) 0) in *. set (n := length (layouts s ds (legs c))) in *.
+  set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c)) in *.
   set (tape := fst (compile needed)) in *.
   destruct (forallb _ needed) eqn:found; [| discriminate].
   destruct (existsb is_lower (require c)) eqn:low; [| discriminate].
-  destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c)))) as [params |] eqn:ep; [| discriminate].
+  destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three (hull (workspace c)) s))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (tests_of _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
   assert (Found : forall e, In e needed -> formula_at tape (place (formulas tape) e) = e).
   { rewrite forallb_forall in found. intros e i. apply same_sound, found, i. }
   destruct (all_represent s (legs c) m hm ds) as [th [L R]].
-  set (tb := map (bound_value s) (require c)).
-  pose proof (bounds_within s (require c)) as B. fold tb in B.
+  set (tb := map (bound_value s) (require c) ++ map exact_value (flat_map (extras s) (require c))).
+  pose proof (Forall2_app (bounds_within s (require c)) (all_extras_within s (require c))) as B. fold tb in B.
   pose proof (enclosed_all _ _ _ ep (Forall2_app L B)) as T.
   pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
@@ -742,26 +902,29 @@ Proof.
       (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda z)) d _ a))
     t box _ h X eq_refl) as H. rewrite three_of_them in H.
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
-  assert (ln : length th = n) by (symmetry; apply (related_length _ _ _ _ _ L)).
+  assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
   assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
     by (intros e i; apply Found, in_or_app; left; exact i).
   assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
     by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
-  assert (Each : forall r, In r (require c) -> exists k u, nth (n + k) (th ++ tb) 0 = bound_value s r /\
-    (forall f, In f (range_formula fs s (n + k) r) -> formula_at tape (place (formulas tape) f) = f) /\
-    test_of (place (formulas tape)) fs s (n + k) r = Some u /\
+  assert (Each : forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
+    map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
+    (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
+    test_of (place (formulas tape)) fs s j r = Some u /\
     Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
       (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
-  { intros r i. destruct (requirement_at (place (formulas tape)) fs s (require c) n r i) as [k [h1 [h2 h3]]].
-    destruct (all_some_in _ _ _ _ et h2) as [u [e2 iu]]. exists k, u. split; [| split; [| split]].
-    - rewrite <- ln, app_nth2_plus. unfold tb. apply nth_error_nth. rewrite nth_error_map, h1. reflexivity.
-    - intros f e. apply Found, in_or_app. right. apply in_or_app. right. exact (h3 f e).
+  { intros r i. destruct (In_nth_error _ _ i) as [k e].
+    destruct (requirement_at (place (formulas tape)) fs s (require c) n k r e) as [j [front [back [-> [h1 [h2 h3]]]]]].
+    destruct (all_some_in _ _ _ _ et h2) as [u [e2 iu]]. exists (fst n + k, snd n + length front)%nat, u.
+    destruct (numbers_at (coordinates (vscale (/ two_to s) P)) s (require c) th k r front back e h1) as [b1 b2]. rewrite <- ln in b1, b2.
+    split; [exact b1 |]. split; [exact b2 |]. split; [| split].
+    - intros f g. apply Found, in_or_app. right. apply in_or_app. right. exact (h3 f g).
     - exact e2.
     - exact (H u iu). }
-  apply existsb_exists in low as [r0 [i0 l0]]. destruct (Each r0 i0) as [k0 [u0 [E1 [E2 [E3 E4]]]]].
-  destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V (n + k0) r0 E1 E2 u0 E3 E4 l0) as [h1 [h2 _]].
+  apply existsb_exists in low as [r0 [i0 l0]]. destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
+  destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
-  destruct (Each r i) as [k [u [F1 [F2 [F3 F4]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V (n + k) r F1 F2 u F3 F4 h1).
+  destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
+  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1).
 Qed.
 End Precision.

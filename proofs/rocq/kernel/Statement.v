@@ -58,6 +58,40 @@ Definition couple_of (l : leg) (P : vec) : option vec :=
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
 
+(** ** Bodies: all within [radius] of a segment *)
+
+Record position := Position { px : number; py : number; pz : number }.
+Definition located (p : position) : vec := Vec (value (px p)) (value (py p)) (value (pz p)).
+
+Inductive body :=
+  (* along a leg, from [after_base] after its base end to [before_platform] before its platform end, and moved by [beside] *)
+  | AlongLeg (leg : nat) (radius after_base before_platform : number) (beside : position)
+  | OnBase (radius : number) (from to : position)
+  | OnPlatform (radius : number) (from to : position).
+Definition radius_of (b : body) : number := match b with AlongLeg _ r _ _ _ | OnBase r _ _ | OnPlatform r _ _ => r end.
+
+(** A leg's platform end, the vector from its base end to there, and its length. *)
+Definition rod_of (l : leg) (P : vec) : option (vec * vec * R) :=
+  match l with
+  | Guided l => Some (C_point l P, leg_vector l P, leg_length l)
+  | Extensible base platform _ => Some (vadd P platform, span base platform P, sqrt (norm2 (span base platform P)))
+  | Plane _ => None
+  end.
+Definition segment_of (m : list leg) (P : vec) (b : body) : option (vec * vec) :=
+  match b with
+  | AlongLeg i _ t u o =>
+      match nth_error m i with
+      | Some l => match rod_of l P with
+          | Some (C, A, L) => Some (vadd (vsub C (vscale (1 - value t / L) A)) (located o), vadd (vsub C (vscale (value u / L) A)) (located o))
+          | None => None
+          end
+      | None => None
+      end
+  | OnBase _ p q => Some (located p, located q)
+  | OnPlatform _ p q => Some (vadd P (located p), vadd P (located q))
+  end.
+Definition towards (t : R) (p q : vec) : vec := vadd (vscale (1 - t) p) (vscale t q).
+
 (** ** Claims *)
 
 Inductive drive :=
@@ -100,7 +134,8 @@ Inductive requirement :=
   | SerialMargin (leg : nat) (b : number)              (* |eta| / L, of sliders *)
   | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three sliders *)
   | Stiffness (joint b : number)                       (* M^T joint M, with rigid legs *)
-  | ConstraintMargin (b : number).                     (* sigma_min of the unit couples, of struts with an axis *)
+  | ConstraintMargin (b : number)                      (* sigma_min of the unit couples, of struts with an axis *)
+  | Clearance (one other : body) (b : number).         (* the distance of two bodies *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -126,6 +161,9 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | Stiffness joint b => forall v, value b / value joint * norm2 v <= speed2 m P v
   | ConstraintMargin b => exists cs, Forall2 (fun l c => couple_of l P = Some c /\ c <> vzero) m cs /\
       forall v, value b ^ 2 * norm2 v <= fold_right (fun c sum => dot (normalised c) v ^ 2 + sum) 0 cs
+  | Clearance one other b => exists p p' q q', segment_of m P one = Some (p, p') /\ segment_of m P other = Some (q, q') /\
+      forall s t, 0 <= s <= 1 -> 0 <= t <= 1 ->
+      (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q'))
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

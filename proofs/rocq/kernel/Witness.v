@@ -346,6 +346,32 @@ Fixpoint ncouples (ls : list exact_leg) (P : numbers) : option (list numbers) :=
 Definition ncouples2 (cs : list numbers) (v : numbers) : number :=
   fold_right (fun c sum => Plus (Times (product (unit_of c) v) (product (unit_of c) v)) sum) (0 // 1) cs.
 
+(** The segments of bodies. *)
+Definition nposition (p : position) : numbers := Numbers (px p) (py p) (pz p).
+Definition nrod (l : exact_leg) (P : numbers) : option (numbers * numbers * number) :=
+  match l with
+  | ExactSlider d a p len m =>
+      Some (each2 Plus P p, each2 Plus (across d a p P) (scaled (signed_root m (clearance2 d a p len P)) (unit_of d)), len)
+  | ExactStrut a p _ => let w := nspan a p P in Some (each2 Plus P p, w, Root (product w w))
+  | ExactPlanar _ => None
+  end.
+Definition nsegment (ls : list exact_leg) (P : numbers) (b : body) : option (numbers * numbers) :=
+  match b with
+  | AlongLeg i _ t u o =>
+      match nth_error ls i with
+      | Some l => match nrod l P with
+          | Some (C, A, L) => let part x := each2 Plus (each2 Minus C (scaled x A)) (nposition o) in
+              Some (part (Minus (1 // 1) (Over t L)), part (Over u L))
+          | None => None
+          end
+      | None => None
+      end
+  | OnBase _ p q => Some (nposition p, nposition q)
+  | OnPlatform _ p q => Some (each2 Plus P (nposition p), each2 Plus P (nposition q))
+  end.
+(** [k] parts of [n] from one end to the other, times [n]. *)
+Definition ntowards (n k : number) (p p' : numbers) : numbers := each2 Plus (scaled (Minus n k) p) (scaled k p').
+
 Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : bool :=
   let bound b := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u) in
   let of i f := match nth_error ls i with Some l => certainly true (f l) | None => false end in
@@ -381,6 +407,16 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
       match ncouples ls P with
       | Some cs => certainly true (Minus (Times (Times b b) (product u u)) (ncouples2 cs u))
       | None => false
+      end
+  | Clearance one other b =>
+      match nsegment ls P one, nsegment ls P other with
+      | Some (p, p'), Some (q, q') =>
+          let s := nx u in let t := ny u in let n := nz u in
+          let w := each2 Minus (ntowards n s p p') (ntowards n t q q') in
+          let d := Times n (Plus (Plus (radius_of one) (radius_of other)) b) in
+          certainly true n && certainly false s && certainly false (Minus n s) && certainly false t && certainly false (Minus n t) &&
+          certainly true (Minus (Times d d) (product w w))
+      | _, _ => false
       end
   end.
 
@@ -427,6 +463,22 @@ Proof.
   rewrite IH, value_product, values_unit. ring.
 Qed.
 
+Lemma nsegment_sound : forall ls P b p q, nsegment ls P b = Some (p, q) -> segment_of (map leg_of ls) (values P) b = Some (values p, values q).
+Proof.
+  intros ls P b p q h.
+  assert (Rod : forall l C A L, nrod l P = Some (C, A, L) -> rod_of (leg_of l) (values P) = Some (values C, values A, value L)).
+  { intros [d a p0 len m | a p0 k | d] C A L e; cbn [nrod] in e; [| | discriminate]; injection e as <- <- <-; cbn [leg_of rod_of].
+    - rewrite leg_vector_eq, values_plus, values_plus, values_scaled, values_unit, value_signed_root,
+        (values_across d a p0 (value len) (if m then 1 else -1) P). reflexivity.
+    - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity. }
+  destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_of] in *.
+  - rewrite nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
+    destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate]. cbv zeta in h. injection h as <- <-.
+    rewrite (Rod _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
+  - injection h as <- <-. reflexivity.
+  - injection h as <- <-. reflexivity.
+Qed.
+
 Lemma fails_sound : forall ls P u v r, fails ls P u v r = true -> ~ fulfils (map leg_of ls) (values P) r.
 Proof.
   intros ls P u v r h F.
@@ -434,7 +486,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -476,6 +528,25 @@ Proof.
   - apply positive_sound in h. cbn [value] in h. rewrite value_speed2, value_square in h. specialize (F (values u)). lra.
   - destruct F as [cs [h1 h2]]. destruct (ncouples ls P) as [ns |] eqn:e; [| discriminate]. apply positive_sound in h. cbn [value] in h.
     rewrite value_square, value_couples2, <- (ncouples_sound ls P ns cs e h1) in h. specialize (h2 (values u)). nra.
+  - destruct (nsegment ls P one) as [[a a'] |] eqn:s1; [| discriminate]. destruct (nsegment ls P other) as [[c c'] |] eqn:s2; [| discriminate].
+    cbv zeta in h. do 5 (apply andb_true_iff in h as [h ?]).
+    repeat match goal with k : certainly true _ = true |- _ => apply positive_sound in k | k : certainly false _ = true |- _ => apply nonneg_sound in k end.
+    destruct F as [p [p' [q [q' [g1 [g2 F]]]]]]. rewrite (nsegment_sound _ _ _ _ _ s1) in g1. rewrite (nsegment_sound _ _ _ _ _ s2) in g2.
+    assert (e1 : values a = p) by congruence. assert (e2 : values a' = p') by congruence.
+    assert (e3 : values c = q) by congruence. assert (e4 : values c' = q') by congruence. subst p p' q q'.
+    match goal with k : 0 < value (Minus (Times _ _) _) |- _ => rename k into far end. cbn [value] in far. rewrite value_square in far.
+    cbn [value] in *. set (n := value (nz u)) in *. set (x := value (nx u)) in *. set (y := value (ny u)) in *.
+    set (d := value (radius_of one) + value (radius_of other) + value b) in *.
+    assert (I : forall z, 0 <= z -> 0 <= n - z -> 0 <= z / n <= 1).
+    { intros z z0 z1. split; [apply Rmult_le_pos; [exact z0 | apply Rlt_le, Rinv_0_lt_compat, h] |].
+      apply Rmult_le_reg_r with n; [exact h |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
+    specialize (F (x / n) (y / n) (I x ltac:(assumption) ltac:(assumption)) (I y ltac:(assumption) ltac:(assumption))).
+    assert (E : values (each2 Minus (ntowards (nz u) (nx u) a a') (ntowards (nz u) (ny u) c c')) =
+      vscale n (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c')))).
+    { unfold ntowards. rewrite values_minus, !values_plus, !values_scaled. cbn [value]. fold n x y.
+      unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; field; lra. }
+    rewrite E, norm2_scale in far. assert (n ^ 2 * d ^ 2 <= n ^ 2 * norm2 (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c'))))
+      by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact F]). nra.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)

@@ -82,6 +82,7 @@ for (const [name, from, to] of [
   ["orthoglide-prototype", '"offset":"0"', '"offset":"sqrt(-1)"'],
   ["tripteron", /"precision":\d+/, '"precision":8'],
   ["tripteron", /"precision":\d+/, '"precision":5000'],
+  ["tripteron", /"nodes":\[(.*)\]\}\},"prov/, '"nodes":[{"split":3},$1,$1]}},"prov'],
 ]) {
   const file = files.find((file) => path.basename(file, ".cert.json") === name);
   const text = file && fs.readFileSync(file, "latin1");
@@ -96,6 +97,131 @@ wrong.forEach((text, i) => {
   if (all.some((answer) => answer !== "REJECTED")) fail(`${all}: ${text}`);
 });
 fs.rmSync(aside, { recursive: true });
+
+// No cube: each way to fail, at bounds ever nearer to the last with which it is shown, where one bit decides.
+const triple = (x, y, z) => `["${x}","${y}","${z}"]`;
+const sliders = (length) => [0, 1, 2].map((i) => `{"drive":"slider","direction":${triple(...[0, 1, 2].map((k) => +(k === i)))},` +
+  `"anchor":${triple(0, 0, 0)},"platform":${triple(0, 0, 0)},"length":${length},"mode":"+"}`);
+const struts = [[1, 0], [-1, 2], [-1, -2]].map(([x, y]) => `{"drive":"strut","anchor":${triple(200 * x, 100 * y, 0)},` +
+  `"platform":${triple(50 * x, 30 * y, 0)},"base_axis":${triple(-y, 2 * x, 0)}}`);
+const three = sliders('"310"'), toleranced = sliders('{"min":"309.9","max":"310.1"}');
+const mixed = [three[0], struts[1], plane("0", "3", "1")];
+const about = (quantity, end, more = "") => (b) => [`{"quantity":"${quantity}"${more},"end":"${end}","bound":"${b}"}`];
+const noCube = (legs, center, requirements, fails, offset) => `{"format":"orthocert/2","claim":{"no_cube":{"machine":{"mechanism":` +
+  `{"translational":[${legs}]},"workspace":{"box":{"min":[${center.map((x) => `"${x - 3}"`)}],"max":[${center.map((x) => `"${x + 2}"`)}]}},` +
+  `"require":[${requirements}]},"side":"40"}},"verdict":"certified","proof":{"tree":{"precision":32,"nodes":[{"fails":${fails},` +
+  `"at":[${offset}]}]}},"provenance":{"tool":"t","version":"1"}}\n`;
+const ways = [
+  [toleranced, [110, 110, 110], about("transmission", "max"), '{"obligation":[0,[[10,-9,1]]]}', 1, 4],
+  [mixed, [60, 40, 190], about("transmission", "max"), '{"obligation":[0,[[5,-7,3]]]}', 0.05, 40],
+  [toleranced, [110, 110, 110], about("transmission", "min"), '{"obligation":[1,[[3,3,4]]]}', 0.1, 4],
+  [three, [120, 110, 100], about("transmission", "min"), '{"row":[1,1]}', 0.1, 4],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,0]}', 0.5, 2],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,1]}', 0.5, 2],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,2]}', 0.5, 2],
+  [three, [110, 110, 110], about("conditioning", "max"), '{"obligation":[1,[[1,1,1],[1,-1,0]]]}', 1.01, 9],
+  [toleranced, [90, 80, 70], about("joint_range", "min", ',"leg":2'), '{"obligation":[1,[]]}', -400, 400],
+  [mixed, [60, 40, 190], about("joint_range", "max"), '{"obligation":[2,[]]}', -400, 400],
+  [toleranced, [90, 80, 70], about("joint_speed", "max", ',"given":{"tool":["100"]}'), '{"obligation":[3,[]]}', 50, 300],
+  [three, [90, 80, 70], about("serial_margin", "min"), '{"obligation":[1,[]]}', 0.2, 1],
+  [toleranced, [110, 110, 110], about("parallel_margin", "min"), '{"obligation":[1,[]]}', 0.2, 3],
+  [mixed, [60, 40, 190], about("stiffness", "min", ',"given":{"joint":["3"]}'), '{"obligation":[1,[[1,2,-3]]]}', 0.1, 9],
+  [struts, [20, 10, 300], about("constraint_margin", "min"), '{"obligation":[1,[[1,2,20]]]}', 0.01, 2],
+];
+const beside = fs.mkdtempSync(path.join(os.tmpdir(), "cubes-"));
+const one = path.join(beside, "one.json");
+const all = (text) => {
+  fs.writeFileSync(one, text);
+  return [verify(text), exactly(one)];
+};
+// Ever nearer to the last bound with which what is made of it is accepted.
+const narrowed = (text, low, high) => {
+  const seen = new Set();
+  const answer = (b) => {
+    const certificate = text(String(+b.toFixed(12)));
+    const [formal, right] = all(certificate);
+    if (formal !== right) fail(`${formal}, and ${right} by orthocert-check: ${certificate}`);
+    seen.add(right);
+    return right;
+  };
+  let [from, to] = [low, high];
+  const first = answer(from);
+  answer(to);
+  for (let i = 0; i < 40; i++) {
+    const middle = (from + to) / 2;
+    if (answer(middle) === first) from = middle;
+    else to = middle;
+  }
+  if (seen.size !== 2) fail(`${[...seen]} alone: ${text("0")}`);
+};
+for (const [legs, center, bound, fails, low, high] of ways)
+  narrowed((b) => noCube(legs, center, bound(b), fails, [8, -3, 5]), low, high);
+// Beyond reach, by one of three legs, and by half the side and no more.
+for (const [x, at, right] of [[301, 8, "CERTIFIED"], [301, 0, "REJECTED"], [301, 9, "REJECTED"], [301, -8, "REJECTED"], [400, 0, "CERTIFIED"]]) {
+  const text = noCube(three, [0, x, 0], about("transmission", "max")(9), '"reach"', [0, at, 0]);
+  if (all(text).some((answer) => answer !== right)) fail(`reach: ${all(text)}: ${text}`);
+}
+for (const [legs, fails, offset] of [
+  [[three[0], three[1], plane(0, 0, 0)], '"reach"', [0, 0, 0]], // a plane without a direction
+  [three, '{"row":[0,0]}', [0, 0, 0]],
+  [three, '{"obligation":[7,[[1,1,1]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[[0,0,0]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[[1,1]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[]]}', [0, 0, 0]],
+  [three, '"reach"', [0, 0]],
+]) {
+  const text = noCube(legs, [0, 400, 0], about("transmission", "max")(9), fails, offset);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`no cube: ${all(text)}: ${text}`);
+}
+console.log(`no cube: ${ways.length} ways to fail, with one answer at 42 bounds each`);
+
+// Bodies that keep their distance, and one that does not, in the same way.
+const along = (leg, offset) => `{"on":"leg","leg":${leg},"radius":"10","trim":["30","45"]${offset ? `,"offset":${triple(...offset)}` : ""}}`;
+const fixed = (on, from, to) => `{"on":"${on}","from":${triple(...from)},"to":${triple(...to)},"radius":"15/2"}`;
+const box = `{"box":{"min":${triple(-20, -20, -20)},"max":${triple(30, 30, 30)}}}`;
+const cylinder = `{"cylinder":{"center":["0","0"],"radius":"20","z":["-20","20"]}}`;
+const clear = (legs, workspace, bodies, proof, verdict) => (b) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":` +
+  `{"translational":[${legs}]},"workspace":${workspace},"bodies":[${bodies}],"require":[{"quantity":"clearance","end":"min",` +
+  `"bound":"${b}"}]}},"verdict":"${verdict}","proof":${proof},"provenance":{"tool":"t","version":"1"}}\n`;
+const y = (rows) => `{"y":${JSON.stringify(rows)},"places":3}`;
+const tree = (evidence) => `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[8, 0, 0], [0, 8, 0], [0, 0, 8]])}}],${evidence}]}]}}`;
+const direction = (g) => `{"direction":${y(g)}}`;
+const steady = direction([[8, 0, 0, 0], [-8, 0, 0, 0], [1, 0, 0, 0]]), turning = direction([[8, 1, 0, 0], [-9, 0, 1, 0], [0, 0, 0, 1]]);
+const legged = [along(1), along(2, [0, 0, -20])], legs = [three, toleranced];
+const witness = (point, fails, machine = "") => `{"witness":{"precision":512,"point":${triple(...point)}${machine},"fails":${fails}}}`;
+const apart = [
+  [clear(three, box, legged, tree(`[1,${steady}]`), "certified"), 0, 60],
+  [clear(toleranced, box, legged, tree(`[1,${turning}]`), "certified"), 0, 60],
+  [clear(toleranced, cylinder, legged, tree(`[1,{"inside":[${turning},1,9]}]`), "certified"), 0, 60],
+  [clear(toleranced, cylinder, [along(3), fixed("base", [60, 90, 0], [80, 90, -100])], tree(`[1,${direction([[3, 0, 0, 0], [8, 0, 0, 0], [0, 0, 0, 0]])}]`), "certified"), 0, 90],
+  [clear(three, box, [fixed("base", [0, 0, 99], [50, 0, 99]), fixed("platform", [0, 0, 0], [3, 4, 5])],
+    tree(`[1,${direction([[0, 0, 0, 0], [0, 0, 0, 0], [-8, 0, 0, 0]])}]`), "certified"), 0, 90],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1), fixed("platform", [0, 0, 5], [0, 0, 90])],
+    `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}],[1,${direction([[-7, 0, 0, 0], [0, 0, 0, 0], [4, 0, 0, 0]])}]]}]}}`, "certified"), 0, 90],
+  [clear(three, box, legged, witness([1, 2, 3], '{"obligation":[1,[[7,8,9]]]}'), "refuted"), 0, 120],
+  [clear(toleranced, box, [legged[0], fixed("platform", [0, 50, 0], [1, 80, 9])],
+    witness([1, 2, 3], '{"obligation":[1,[[1,2,3]]]}', ',"machine":["310","309.9","310.1"]'), "refuted"), 0, 300],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1), fixed("base", [0, 0, 5], [0, 0, 90])],
+    witness([1, 2, 303], '{"obligation":[1,[[1,2,3]]]}'), "refuted"), 0, 900],
+];
+for (const [text, low, high] of apart) narrowed(text, low, high);
+for (const text of [
+  clear(three, box, legged, tree(`[1,${direction([[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]])}]`), "certified"),
+  clear(three, box, legged, tree(`[1,${direction([[-8, 0, 0, 0], [8, 0, 0, 0], [0, 0, 0, 0]])}]`), "certified"),
+  clear(three, box, legged, tree(`[1,"test"]`), "certified"),
+  clear(three, box, [along(1), along(1)], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, [along(1), along(4)], tree(`[1,${steady}]`), "certified"),
+  clear([three[0], three[1], plane(0, 0, 1)], box, [along(1), along(3)], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, [along(1), along(2).replace('"10"', '"-10"')], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, [along(1), along(2).replace('"30"', '"-30"')], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, legged, witness([1, 2, 3], '{"obligation":[1,[[10,8,9]]]}'), "refuted"),
+  clear(three, box, legged, witness([1, 2, 3], '{"obligation":[1,[[0,0,0]]]}'), "refuted"),
+]) {
+  const answers = all(text("1"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`clearance: ${answers}: ${text("1")}`);
+}
+fs.rmSync(beside, { recursive: true });
+console.log(`clearance: ${apart.length} pairs of bodies, with one answer at 42 bounds each`);
 
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {

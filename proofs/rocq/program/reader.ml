@@ -172,6 +172,7 @@ let requirement v =
     | "stiffness" -> Stiffness_
     | "constraint_margin" -> Constraint_
     | "joint_force" -> Force_
+    | "clearance" -> Clearance_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
   let end_ = match string (get l "end") with
@@ -210,14 +211,28 @@ let region (kind, v) =
     let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
     Cylinder_ (x, y, number (get l "radius"), bottom, top)
 
-let subject v =
+let body v =
+  let l = members v in
+  let number key = number (get l key) and triple key = triple number (get l key) in
+  match string (get l "on") with
+  | "leg" ->
+    let a, b = two Fun.id (get l "trim") in
+    AlongLeg_ (count (get l "leg"), number "radius", expression (string a), expression (string b), optional (fun _ -> triple "offset") (find l "offset"))
+  | ("base" | "platform") as on -> Fixed_ (on = "platform", triple "from", triple "to", number "radius")
+  | _ -> raise Malformed
+let is_beside = function AlongLeg_ (_, _, _, _, Some _) -> true | _ -> false
+let rec are_single = function
+  | [] -> true
+  | b :: l -> not (List.exists (fun c -> are_fixed b c && (is_beside b || is_beside c)) l) && are_single l
+
+let rec subject v =
   match variant v with
   | "postulate", v -> Postulate_ (match get (members v) "psi_max" with String "all" -> None | v -> Some (quantity v))
   | "machine", v ->
     let l = members v in
     let require () = List.map of_machine (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
-     | _ when find l "bodies" <> None -> not_covered [ "a machine with bodies" ]
+     | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
        let t = members t and w = members w in
        if workspace <> "box" then not_covered [ "the workspace \""; workspace; "\" of a platform that turns" ];
@@ -244,8 +259,11 @@ let subject v =
      | _ when find l "orientation" <> None -> raise Malformed
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
        let legs = array legs and region = region workspace in
+       let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
+       if List.exists is_arm legs && bodies <> [] then not_covered [ "a machine with arms and bodies" ];
+       if not (are_single bodies) then not_covered [ "two bodies beside each other on one leg" ];
        if List.exists is_arm legs then Arms_ (List.map arm legs, region, List.map demand (array (get l "require")))
-       else Machine_ (List.map leg legs, region, require ())
+       else Machine_ (List.map leg legs, region, bodies, require ())
      | ("formulas", f), ("box", box) ->
        let f = members f and box = members box in
        let pairs item v = List.map (fun v -> match array v with [ name; x ] -> (string name, item x) | _ -> raise Malformed) (array v) in
@@ -260,6 +278,11 @@ let subject v =
        Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require ())
      | (("translational" | "formulas"), _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
      | (mechanism, _), _ -> not_covered [ "the mechanism \""; mechanism; "\"" ])
+  | "no_cube", v ->
+    let l = members v in
+    (match subject (Object [ ("machine", get l "machine") ]) with
+     | Machine_ (legs, Box_ (min, max), [], require) -> NoCube_ (legs, min, max, require, number (get l "side"))
+     | _ -> not_covered [ "a claim that no cube of such a machine fits" ])
   | claim, _ -> not_covered [ "a claim of the kind \""; claim; "\"" ]
 
 (* Proofs *)
@@ -279,6 +302,10 @@ let rec evidence (n, m as shape) v =
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row (m + 1) mu)) y
   | Object [ (("lower" | "lower_divided" | "rank") as name, y) ] -> multiplier (fun y places -> Multiplied (name, y, places)) y
+  | Object [ ("direction", y) ] ->
+    let l = members y in
+    let rows = List.map (row (m + 1)) (array (get l "y")) in
+    if List.length rows <> 3 then raise Malformed else Multiplied ("direction", rows, places (get l "places"))
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
 (* At control points. *)
@@ -292,16 +319,16 @@ let step n v =
   | [ i; String "outside" ] when digits i <> "0" -> raise Malformed
   | [ i; e ] -> (count i, evidence n e)
   | _ -> raise Malformed
-let node n v =
-  let l = members v in
-  if find l "fails" <> None then not_covered [ "a leaf that fails" ];
-  { by_ = (match find l "by" with Some v -> List.map (step n) (array v) | None -> []); split_ = optional count (find l "split") }
 let fails v =
   match variant v with
   | "reach", _ -> Reach
   | "obligation", Array [ i; vs ] -> Obligation (count i, List.map integers (array vs))
   | "row", Array [ i; leg ] -> Row (count i, count leg)
   | name, _ -> not_covered [ "the failure \""; name; "\"" ]
+let node n v =
+  let l = members v in
+  let list f key = match find l key with Some v -> List.map f (array v) | None -> [] in
+  { by_ = list (step n) "by"; split_ = optional count (find l "split"); fails_ = optional fails (find l "fails"); offset_ = list integer "at" }
 let proof n v =
   match variant v with
   | "tree", t ->
@@ -322,7 +349,7 @@ let certificate text =
    | format -> raise Malformed);
   let subject_ = subject (get l "claim") in
   let shape = match subject_ with
-    | Machine_ (legs, _, _) -> (List.length legs, 3)
+    | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
     | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
     | Arms_ _ | Closed_ _ | Postulate_ _ -> (3, 3) in
@@ -333,6 +360,9 @@ let certificate text =
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | NoCube_ _, Nodes (_, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
+   | NoCube_ _, _ -> ()
+   | _, Nodes (_, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in

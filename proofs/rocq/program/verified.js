@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-zb=typeof
-module==="object"&&module.exports||u,gJ="spatial",kR="Invalid_argument",eF="precision",aq='"',kQ="@[",lr="this quantity of such a mechanism",gt=1255,kP="inside",lq="Fatal error: exception %s\n",kh=255,kO="yaw",lo="(",lp=0x800,kf="range",kg="tree",gs="jsError",bn=0x8000,kM='the mechanism "',kN="%ni",lR="sqrt(",ln=256,kL="offset",lm="obligation",b_="machine",ke="End_of_file",eH="strut",kd="center",eR="arm",gr="Failure",lP="serial_margin",lQ="parameters",bO=0xff,kc="\n",gO="outside",gA="base_axis",gI="ENOENT",lO=122,aG="0",ll="([^/]+)",gH=0xf,dK=128,gq=-48,kb=0xdc00,kK="Sys_blocked_io",lN="fd ",ka="given",lk="ENOTEMPTY",ap=248,lj="bound",ao="camlinternalFormat.ml",li="Division_by_zero",lL="by",lM=1027,j$="Sys_error",kJ="slider",kI="postulate",lh="torsion",lg="proof",kH="%u",c0="mechanism",eM="row",j_="EEXIST",kG="roll_pitch_yaw",gG="%d",j9="Printexc.handle_uncaught_exception",kF="y",eE="lower",kE="within",lf="cube",le="buffer.ml",lK="turned",eD="int_of_string",ld="control",kD="definitions",gz=127,dJ=1024,kC="@{",gN="e",j7=120,j8=103,kB=" : flags Open_rdonly and Open_wronly are not compatible",lc="orthocert/2",lJ="reach",j6=512,a3="-",lI="witness",b7="platform",j5=0x7ff0,j4="pitch",gM=": Not a directory",kA=" : file already exists",bp="min",c1="workspace",kz="claim",lb="split",lH="legs",bN=0xffffff,la="joint",j2="formulas",j3="0x",ky='the workspace "',k$="roll",lF="nodes",lG="Out_of_memory",j1="psi_max",gL="orientation",kx="angle",eL=254,gK="index out of bounds",k_=100,j0="end",eQ="_bigarr02",jZ="%Li",k9=" : flags Open_text and Open_binary are not compatible",b8="drive",k8="coordinates",kw=", characters ",k7="lower_divided",kv="joints",lE="cylinder",br=0xffff,ku=12520,kt="axis",lD="parallel_margin",jY='the drive "',gy="fails",gF="Unix.Unix_error",lC="infinity",eC="tool",gp="mkdir",dI=1000,go="translational",s="",k6="Stack_overflow",lB="characteristic_length",gx="^",eB=": No such file or directory",k5="places",k4="/static/",cZ=0x3f,k3=-97,k1="stiffness",k2="Not_found",dH="planar",eK="mode",lA="joint_speed",ks="Match_failure",jX=", ",jW="transmission",b6="anchor",eP=252,jV="joint_force",kr="leg",b9=".",bo="+",gE="rmdir",lz=0xf0,ly="spherical",kq="verified.ml",ko="REJECTED",kp="%li",k0=1026,bq="max",eO="direction",kZ="orthoglide",eN="rank",lx="constraint_margin",lw=-32,jT="Pervasives.do_at_exit",jU="utf8",gD="test",bL=" ",eG="conditioning",gC="Fatal error: exception ",ba=0x80,jS="Undefined_recursive_module",gw=")",eJ="length",lv="quantity",kY="joint_range",eI="tilt",jR="Q2",gv="nan",kn="reference",kX="point",km=0xe0,lu="corner",kk="z",kl=0xdfff,kV="version",kW="_",a$="/",gB="compare: functional value",lt="Assert_failure",kj="provenance",jP="radius",jQ="%i",bM="require",kU="side",ls="format",gu="ENOTDIR",kT="Q1",kS="all",ct="box",ki=250;function
-g4(c,b,a){var
+A4=typeof
+module==="object"&&module.exports||u,hl="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g6=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g5="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g4="Failure",mF="serial_margin",mG="parameters",bW=0xff,hr="bodies",k3="\n",hq="outside",hb="base_axis",hk="ENOENT",mE=122,aP="0",l_="([^/]+)",hj=0xf,d5=128,g3=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hi="%d",kY="Printexc.handle_uncaught_exception",ha="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g$=127,d3=1024,lr="@{",l1="from",hp="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",ho=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hn="orientation",lm="angle",fg=254,hm="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g2="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hh="Unix.Unix_error",mr="infinity",e7="tool",g1="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g_="^",e5=": No such file or directory",hg="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",hf="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",he="test",bT=" ",e$="conditioning",hd="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g9=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g8="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hc="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g7="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
+hH(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dJ,a-=dJ)e+=d.apply(null,c.slice(b,b+Math.min(a,dJ)));return e}function
-eS(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=d3,a-=d3)e+=d.apply(null,c.slice(b,b+Math.min(a,d3)));return e}function
+fm(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ca(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eS(b);var
+cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bP(a){return a}function
-bu(a,b,c,d,e){ca(bP(a),b,c,d,e);return 0}function
-y6(b,a){throw[0,b,a]}function
-c6(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bX(a){return a}function
+bE(a,b,c,d,e){cg(bX(a),b,c,d,e);return 0}function
+AW(b,a){throw[0,b,a]}function
+dj(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-c4(a){if(a.t==2)a.c+=c6(a.l-a.c.length,"\0");else
-a.c=g4(a.c,0,a.c.length);a.t=0}function
-ml(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gz)return false;return true}else
+dh(a){if(a.t==2)a.c+=dj(a.l-a.c.length,"\0");else
+a.c=hH(a.c,0,a.c.length);a.t=0}function
+nb(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>g$)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-g6(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ba){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<ba;d++);if(d-b>j6){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(f<<6);if(f<km){a=g-0x3080;if(a<ba)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(g<<6);if(f<lz){a=g-0xe2080;if(a<lp||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),kb+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dJ){c.substr(0,1);j+=c;c=s}}return j+c}function
-bs(c,a,b){this.t=c;this.c=a;this.l=b}bs.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:c4(this);case
-0:if(ml(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bs.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return g6(a)};bs.prototype.slice=function(){var
+hJ(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kU){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(f<<6);if(f<lb){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(g<<6);if(f<mn){a=g-0xe2080;if(a<mc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k2+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d3){c.substr(0,1);j+=c;c=s}}return j+c}function
+bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dh(this);case
+0:if(nb(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bC.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hJ(a)};bC.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bs(this.t,a,this.l)};function
-l1(a){return new
-bs(0,a,a.length)}function
-a(a){return l1(a)}function
-g2(c,b){y6(c,a(b))}var
-ad=[0];function
-ar(a){g2(ad.Invalid_argument,a)}function
-lZ(){ar(gK)}function
-af(a,c,b){b&=bO;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eS(a)}a.c[c]=b;return 0}function
-cu(b,a,c){if(a>>>0>=b.l)lZ();return af(b,a,c)}function
-c3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bC(this.t,a,this.l)};function
+mR(a){return new
+bC(0,a,a.length)}function
+a(a){return mR(a)}function
+hF(c,b){AW(c,a(b))}var
+ah=[0];function
+at(a){hF(ah.Invalid_argument,a)}function
+mP(){at(hm)}function
+aj(a,c,b){b&=bW;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fm(a)}a.c[c]=b;return 0}function
+cH(b,a,c){if(a>>>0>=b.l)mP();return aj(b,a,c)}function
+dg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bQ(c,a){if(c.fun)return bQ(c.fun,a);if(typeof
+bY(c,a){if(c.fun)return bY(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bQ(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bY(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bQ(c,d)}}function
-dL(){ar(gK)}function
-l2(a,b){if(b>>>0>=a.length-1)dL();return a}function
-yw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bS(a){a.t&6&&c4(a);return a.c}var
-zd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-zc(a){if(zd)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bY(c,d)}}function
+d6(){at(hm)}function
+mS(a,b){if(b>>>0>=a.length-1)d6();return a}function
+Am(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b0(a){a.t&6&&dh(a);return a.c}var
+A6=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+A5(a){if(A6)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gU(c){var
+hx(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-l$=Math.pow(2,-24);function
-y4(a){throw a}function
-mg(){y4(ad.Division_by_zero)}function
-t(b,c,a){this.lo=b&bN;this.mi=c&bN;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+m1=Math.pow(2,-24);function
+AU(a){throw a}function
+m8(){AU(ah.Division_by_zero)}function
+t(b,c,a){this.lo=b&bV;this.mi=c&bV;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*l$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*m1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&br);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bN;this.lo=this.lo<<1&bN};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bN;this.mi=(this.mi>>>1|this.hi<<23)&bN;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bB);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bV;this.lo=this.lo<<1&bV};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bV;this.mi=(this.mi>>>1|this.hi<<23)&bV;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())mg();var
-d=b.hi^a.hi;if(b.hi&bn)b=b.neg();if(a.hi&bn)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bn)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())mg();var
-d=a.hi;if(a.hi&bn)a=a.neg();if(b.hi&bn)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bO,this.mi>>16,this.mi>>8&bO,this.mi&bO,this.lo>>16,this.lo>>8&bO,this.lo&bO]};t.prototype.lo32=function(){return this.lo|(this.mi&bO)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
-eW(b,c,a){return new
+b=this;if(a.isZero())m8();var
+d=b.hi^a.hi;if(b.hi&bx)b=b.neg();if(a.hi&bx)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bx)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())m8();var
+d=a.hi;if(a.hi&bx)a=a.neg();if(b.hi&bx)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bW,this.mi>>16,this.mi>>8&bW,this.mi&bW,this.lo>>16,this.lo>>8&bW,this.lo&bW]};t.prototype.lo32=function(){return this.lo|(this.mi&bW)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
+fq(b,c,a){return new
 t(b,c,a)}function
-eV(a){if(!isFinite(a)){if(isNaN(a))return eW(1,0,j5);return a>0?eW(0,0,j5):eW(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bn:a>=0?0:bn;if(f)a=-a;var
-b=zc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-k0)}else{a/=Math.pow(2,b-lM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+fp(a){if(!isFinite(a)){if(isNaN(a))return fq(1,0,kT);return a>0?fq(0,0,kT):fq(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
+b=A5(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gH|f|b<<4;return eW(g,e,c)}function
-dO(a){return a.toArray()}function
-lY(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eQ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<br)c.write(16,b.dims[a]);else{c.write(16,br);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hj|f|b<<4;return fq(g,e,c)}function
+d9(a){return a.toArray()}function
+mO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fk)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dO(b.get(a));for(var
+e=d9(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dO(eV(b.get(a)));for(var
+e=d9(fp(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gU(b.get(a));c.write(32,e)}break;case
+e=hx(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gU(d[1]));c.write(32,gU(d[2]))}break;case
+d=b.get(a);c.write(32,hx(d[1]));c.write(32,hx(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dO(eV(f[1]));for(var
+f=b.get(a),e=d9(fp(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dO(eV(f[2]));for(var
+e=d9(fp(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lW(a){switch(a){case
+mM(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-yq(c,e){var
+Ag(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)ar("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)at("Bigarray.create: unsupported kind");var
 d=new
-a(e*lW(c));return d}function
-gV(c){var
+a(e*mM(c));return d}function
+hy(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dN(a){return new
+d8(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gW(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gH)==0?b&bn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gH);if(c>0){a+=16;a*=Math.pow(2,c-lM)}else
-a*=Math.pow(2,-k0);if(b&bn)a=-a;return a}function
-gP(b){var
+hz(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hj)==0?b&bx?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hj);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
+a*=Math.pow(2,-lN);if(b&bx)a=-a;return a}function
+hs(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)ar("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-yH(b,a){return new
-t(b&bN,b>>>24&bO|(a&br)<<8,a>>>16&br)}function
-gX(a){return a.hi32()}function
-gY(a){return a.lo32()}var
-yr=eQ;function
-b$(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b$.prototype.caml_custom=yr;b$.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)at("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Ax(b,a){return new
+t(b&bV,b>>>24&bW|(a&bB)<<8,a>>>16&bB)}function
+hA(a){return a.hi32()}function
+hB(a){return a.lo32()}var
+Ah=fk;function
+cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ah;cf.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))ar("bigarray.js: invalid offset");if(this.dims.length!=b.length)ar("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dL();c=c*this.dims[a]+b[a]}else
+Array))at("bigarray.js: invalid offset");if(this.dims.length!=b.length)at("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d6();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dL();c=c*this.dims[a]+(b[a]-1)}return c};b$.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d6();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return yH(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ax(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eL,e,c];default:return this.data[a]}};b$.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gY(b);this.data[a*2+1]=gX(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fg,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hB(b);this.data[a*2+1]=hA(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b$.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gY(b),e=gX(b);if(c==e)this.data.fill(c);else
+c=hB(b),e=hA(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b$.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cf.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-c2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c2.prototype=new
-b$();c2.prototype.offset=function(a){if(typeof
+df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype=new
+cf();df.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dL();return a};c2.prototype.get=function(a){return this.data[a]};c2.prototype.set=function(a,b){this.data[a]=b;return 0};c2.prototype.fill=function(a){this.data.fill(a);return 0};function
-lU(c,d,a,b){var
-e=lW(c);if(gP(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-c2(c,d,a,b);return new
-b$(c,d,a,b)}function
-bb(b){if(!ad.Failure)ad.Failure=[ap,a(gr),-3];g2(ad.Failure,b)}function
-lV(b,v,r){var
-i=b.read32s();if(i<0||i>16)bb("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bO,o=p>>8&1,h=[];if(r==eQ)for(var
+at("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d6();return a};df.prototype.get=function(a){return this.data[a]};df.prototype.set=function(a,b){this.data[a]=b;return 0};df.prototype.fill=function(a){this.data.fill(a);return 0};function
+mK(c,d,a,b){var
+e=mM(c);if(hs(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+df(c,d,a,b);return new
+cf(c,d,a,b)}function
+bk(b){if(!ah.Failure)ah.Failure=[ar,a(g4),-3];hF(ah.Failure,b)}function
+mL(b,v,r){var
+i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bW,o=p>>8&1,h=[];if(r==fk)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==br){var
-t=b.read32u(),u=b.read32u();if(t!=0)bb("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bB){var
+t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gP(h),f=yq(j,d),g=lU(j,o,h,f);switch(j){case
+d=hs(h),f=Ag(j,d),g=mK(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bb("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bk("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dN(e);g.set(a,q)}break;case
+q=d8(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gW(dN(e));g.set(a,k)}break;case
+k=hz(d8(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gV(b.read32s());g.set(a,k)}break;case
+k=hy(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gV(b.read32s()),l=gV(b.read32s());g.set(a,[eL,m,l])}break;case
+m=hy(b.read32s()),l=hy(b.read32s());g.set(a,[fg,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gW(dN(e));for(var
+m=hz(d8(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gW(dN(e));g.set(a,[eL,m,l])}break}v[0]=(4+i)*4;return lU(j,o,h,f)}function
-lT(a,b,c){return a.compare(b,c)}function
-md(a,b){return Math.imul(a,b)}function
-bR(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-yD(a,b){a=bR(a,gY(b));a=bR(a,gX(b));return a}function
-l_(a,b){return yD(a,eV(b))}function
-lX(c){var
-b=gP(c.dims),d=0;switch(c.kind){case
+l=hz(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
+mJ(a,b,c){return a.compare(b,c)}function
+m5(a,b){return Math.imul(a,b)}function
+bZ(b,a){a=m5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+At(a,b){a=bZ(a,hB(b));a=bZ(a,hA(b));return a}function
+m0(a,b){return At(a,fp(b))}function
+mN(c){var
+b=hs(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ln)b=ln;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bR(d,e)}e=0;switch(b&3){case
+12:if(b>ma)b=ma;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bZ(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bR(d,e)}break;case
+1:e|=c.data[a+0];d=bZ(d,e)}break;case
 4:case
-5:if(b>dK)b=dK;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bR(d,e)}if((b&1)!=0)d=bR(d,c.data[a]);break;case
+5:if(b>d5)b=d5;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bZ(d,e)}if((b&1)!=0)d=bZ(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=l_(d,c.data[a]);break;case
+a=0;a<b;a++)d=m0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=l_(d,c.data[a]);break}return d}function
-yF(a,b){b[0]=4;return a.read32s()}function
-y1(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m0(d,c.data[a]);break}return d}function
+Av(a,b){b[0]=4;return a.read32s()}function
+AR(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bb("input_value: native integer value too large");default:bb("input_value: ill-formed native integer")}}function
-yQ(c,d){var
+2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
+AG(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dN(b)}function
-yM(e,d,b){var
-c=dO(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return d8(b)}function
+AC(e,d,b){var
+c=d9(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-yG(a,b,c){return a.compare(b)}function
-yJ(a){return a.lo32()^a.hi32()}var
-l5={"_j":{deserialize:yQ,serialize:yM,fixed_length:8,compare:yG,hash:yJ},"_i":{deserialize:yF,fixed_length:4},"_n":{deserialize:y1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lV(a,b,"_bigarray")},serialize:lY,compare:lT,hash:lX},"_bigarr02":{deserialize:function(a,b){return lV(a,b,eQ)},serialize:lY,compare:lT,hash:lX}};function
-gR(a){return l5[a.caml_custom]&&l5[a.caml_custom].compare}function
-l3(f,c,d,e){var
-b=gR(c);if(b){var
+Aw(a,b,c){return a.compare(b)}function
+Az(a){return a.lo32()^a.hi32()}var
+mV={"_j":{deserialize:AG,serialize:AC,fixed_length:8,compare:Aw,hash:Az},"_i":{deserialize:Av,fixed_length:4},"_n":{deserialize:AR,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
+hu(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
+mT(f,c,d,e){var
+b=hu(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eX(a){return a
+fr(a){return a
 instanceof
-bs}function
-g0(a){return eX(a)}function
-l4(a){if(typeof
-a==="number")return dI;else
-if(eX(a))return eP;else
-if(g0(a))return 1252;else
+bC}function
+hD(a){return fr(a)}function
+mU(a){if(typeof
+a==="number")return d2;else
+if(fr(a))return fj;else
+if(hD(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=kh){var
-b=a[0]|0;return b==eL?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=k8){var
+b=a[0]|0;return b==fg?0:b}else
 if(a
 instanceof
-String)return ku;else
+String)return lj;else
 if(typeof
-a=="string")return ku;else
+a=="string")return lj;else
 if(a
 instanceof
-Number)return dI;else
-if(a&&a.caml_custom)return gt;else
+Number)return d2;else
+if(a&&a.caml_custom)return g6;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-yR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-l0(a,b){a.t&6&&c4(a);b.t&6&&c4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-zh(a,b){return l0(a,b)}function
-gQ(a,b,d){var
+AH(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mQ(a,b){a.t&6&&dh(a);b.t&6&&dh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+AZ(a,b){return mQ(a,b)}function
+ht(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=l4(a);if(f==ki){a=a[1];continue}var
-g=l4(b);if(g==ki){b=b[1];continue}if(f!==g){if(f==dI){if(g==gt)return l3(a,b,-1,d);return-1}if(g==dI){if(f==gt)return l3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ar(gB);break;case
+f=mU(a);if(f==k9){a=a[1];continue}var
+g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g6)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g6)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:at(hc);break;case
 248:var
-c=yR(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ar(gB);break;case
-250:ar("equal: got Forward_tag, should not happen");break;case
-251:ar("equal: abstract value");break;case
+c=AH(a[2],b[2]);if(c!=0)return c|0;break;case
+249:at(hc);break;case
+250:at("equal: got Forward_tag, should not happen");break;case
+251:at("equal: abstract value");break;case
 252:if(a!==b){var
-c=l0(a,b);if(c!=0)return c|0}break;case
-253:ar("equal: got Double_tag, should not happen");break;case
-254:ar("equal: got Double_array_tag, should not happen");break;case
-255:ar("equal: got Custom_tag, should not happen");break;case
-1247:ar(gB);break;case
+c=mQ(a,b);if(c!=0)return c|0}break;case
+253:at("equal: got Double_tag, should not happen");break;case
+254:at("equal: got Double_array_tag, should not happen");break;case
+255:at("equal: got Custom_tag, should not happen");break;case
+1247:at(hc);break;case
 1255:var
-i=gR(a);if(i!=gR(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
+i=hu(a);if(i!=hu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bS(a),b=bS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b0(a),b=b0(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-yx(a,b){return gQ(a,b,true)}function
-yy(){return[0]}function
-ak(a){if(a<0)ar("Bytes.create");return new
-bs(a?2:9,s,a)}function
-l6(a,b){return+(gQ(a,b,false)==0)}function
-yA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c6(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eS(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-g1(d){d=bS(d);var
-e=d.length;if(e>31)ar("format_int: format too long");var
-a={justify:bo,signstyle:a3,filler:bL,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+An(a,b){return ht(a,b,true)}function
+Ao(){return[0]}function
+ao(a){if(a<0)at("Bytes.create");return new
+bC(a?2:9,s,a)}function
+mW(a,b){return+(ht(a,b,false)==0)}function
+Aq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hE(d){d=b0(d);var
+e=d.length;if(e>31)at("format_int: format too long");var
+a={justify:by,signstyle:a9,filler:bT,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a3;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gS(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a3))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bo&&b.filler==bL)for(var
-d=e;d<b.width;d++)c+=bL;if(b.signedconv)if(b.sign<0)c+=a3;else
-if(b.signstyle!=a3)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=j3;if(b.justify==bo&&b.filler==aG)for(var
-d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a3)for(var
-d=e;d<b.width;d++)c+=bL;return a(c)}function
-gT(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+hv(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==by&&b.filler==bT)for(var
+d=e;d<b.width;d++)c+=bT;if(b.signedconv)if(b.sign<0)c+=a9;else
+if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kR;if(b.justify==by&&b.filler==aP)for(var
+d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
+d=e;d<b.width;d++)c+=bT;return a(c)}function
+hw(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bo)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aG);if(b>0)a=a+b9+new
-Array(b+1).join(aG);return a}else
+c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aP);if(b>0)a=a+ce+new
+Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=g1(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gv;e.filler=bL}else
-if(!isFinite(c)){a="inf";e.filler=bL}else
+a,e=hE(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g8;e.filler=bT}else
+if(!isFinite(c)){a="inf";e.filler=bT}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gN),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hp),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)}}break}return gS(e,a)}function
-eT(e,c){if(bS(e)==gG)return a(s+c);var
-b=g1(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hv(e,a)}function
+fn(e,c){if(b0(e)==hi)return a(s+c);var
+b=hE(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bL;var
-f=b.prec-d.length;if(f>0)d=c6(f,aG)+d}return gS(b,d)}var
-y2=0;function
-eU(){return y2++}function
-yU(a){return a.toUtf16()}function
-dQ(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bT;var
+f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hv(b,d)}var
+AS=0;function
+fo(){return AS++}function
+AK(a){return a.toUtf16()}function
+d$(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-ze(){function
-a(a){if(a.charAt(0)===a$)return[s,a.substring(1)];return}function
+A7(){function
+a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dQ()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-g_=ze();function
-mj(a){return a.slice(-1)!==a$?a+a$:a}if(dQ()&&u.process&&u.process.cwd)var
-dM=u.process.cwd().replace(/\\/g,a$);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return d$()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+hN=A7();function
+m$(a){return a.slice(-1)!==bg?a+bg:a}if(d$()&&u.process&&u.process.cwd)var
+d7=u.process.cwd().replace(/\\/g,bg);else
 var
-dM="/static";dM=mj(dM);function
-yV(a){a=yU(a);if(!g_(a))a=dM+a;var
-e=g_(a),d=e[1].split(a$),b=[];for(var
+d7="/static";d7=m$(d7);function
+AL(a){a=AK(a);if(!hN(a))a=d7+a;var
+e=hN(a),d=e[1].split(bg),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-y_(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ba){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<ba;d++);if(d-c>j6){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<lp){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ba|a&cZ)}else
-if(a<0xd800||a>=kl)b+=String.fromCharCode(km|a>>12,ba|a>>6&cZ,ba|a&cZ);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kb||h>kl)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lz|a>>18,ba|a>>12&cZ,ba|a>>6&cZ,ba|a&cZ)}if(b.length>dJ){b.substr(0,1);f+=b;b=s}}return f+b}function
-yv(a){var
-b=9;if(!ml(a))b=8,a=y_(a);return new
-bs(b,a,a.length)}function
-bc(a){return yv(a)}var
-zg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j_,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gu,lk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cx(d,f,e,a){var
-b=zg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bc(f||s),bc(e||s)];return c}var
-me={};function
-cv(a){return me[a]}function
-cw(b,a){throw[0,b].concat(a)}function
-yu(a){return new
-bs(4,a,a.length)}function
-J(a){g2(ad.Sys_error,a)}function
-y5(a){J(a+eB)}function
-yt(b,a){if(a>>>0>=b.l)lZ();return c3(b,a)}function
-aS(a){return a.l}function
-lS(){}function
-av(a){this.data=a}av.prototype=new
-lS();av.prototype.truncate=function(a){var
-b=this.data;this.data=ak(a|0);ca(b,0,this.data,0,a)};av.prototype.length=function(){return aS(this.data)};av.prototype.write=function(b,d,g,a){var
+A1(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kU){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&dc)}else
+if(a<0xd800||a>=la)b+=String.fromCharCode(lb|a>>12,bi|a>>6&dc,bi|a&dc);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k2||h>la)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mn|a>>18,bi|a>>12&dc,bi|a>>6&dc,bi|a&dc)}if(b.length>d3){b.substr(0,1);f+=b;b=s}}return f+b}function
+Al(a){var
+b=9;if(!nb(a))b=8,a=A1(a);return new
+bC(b,a,a.length)}function
+bl(a){return Al(a)}var
+A9=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hk,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g7,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cK(d,f,e,a){var
+b=A9.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bl(f||s),bl(e||s)];return c}var
+m6={};function
+cI(a){return m6[a]}function
+cJ(b,a){throw[0,b].concat(a)}function
+Ak(a){return new
+bC(4,a,a.length)}function
+Q(a){hF(ah.Sys_error,a)}function
+AV(a){Q(a+e5)}function
+Aj(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
+a0(a){return a.l}function
+mI(){}function
+az(a){this.data=a}az.prototype=new
+mI();az.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};az.prototype.length=function(){return a0(this.data)};az.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ak(b+a),f=this.data;this.data=e;ca(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};av.prototype.read=function(c,a,d,b){var
-e=this.length();ca(this.data,c,a,d,b);return 0};av.prototype.read_one=function(a){return yt(this.data,a)};av.prototype.close=function(){};av.prototype.constructor=av;function
-aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
-c=d.split(a$),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a$};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
+e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Aj(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
+c=d.split(bg),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-av(bP(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
-b=d&&cv(gF);if(this.exists(c))if(b)cw(b,cx(j_,gp,this.nm(c)));else
-J(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cw(b,cx(gI,gp,this.nm(a)));else
-J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gp,this.nm(a)));else
-J(a+gM);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
-b=f&&cv(gF),c=a==s?s:this.slash(a),e=new
-RegExp(gx+c+ll);if(!this.exists(a))if(b)cw(b,cx(gI,gE,this.nm(a)));else
-J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gE,this.nm(a)));else
-J(a+gM);for(var
+az(bX(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
+b=d&&cI(hh);if(this.exists(c))if(b)cJ(b,cK(kZ,g1,this.nm(c)));else
+Q(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hk,g1,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,g1,this.nm(a)));else
+Q(a+ho);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cI(hh),c=a==s?s:this.slash(a),e=new
+RegExp(g_+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hk,hf,this.nm(a)));else
+Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,hf,this.nm(a)));else
+Q(a+ho);for(var
 d
 in
-this.content)if(d.match(e))if(b)cw(b,cx(lk,gE,this.nm(a)));else
-J(this.nm(a)+": Directory not empty");delete
-this.content[c]};aH.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))J(a+eB);if(!this.is_dir(a))J(a+gM);var
+this.content)if(d.match(e))if(b)cJ(b,cK(l9,hf,this.nm(a)));else
+Q(this.nm(a)+": Directory not empty");delete
+this.content[c]};aQ.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+ho);var
 g=new
-RegExp(gx+f+ll),d={},c=[];for(var
+RegExp(g_+f+l_),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
-b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)J(this.nm(a)+kB);if(b.text&&b.binary)J(this.nm(a)+k9);this.lookup(a);if(this.content[a]){if(this.is_dir(a))J(this.nm(a)+" : is a directory");if(b.create&&b.excl)J(this.nm(a)+kA);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lq);if(b.text&&b.binary)Q(this.nm(a)+lV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lp);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-av(ak(0));return this.content[a]}else
-y5(this.nm(a))};aH.prototype.register=function(c,a){var
-b;if(this.content[c])J(this.nm(c)+kA);if(eX(a))b=new
-av(a);if(g0(a))b=new
-av(bP(a));else
+az(ao(0));return this.content[a]}else
+AV(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])Q(this.nm(c)+lp);if(fr(a))b=new
+az(a);if(hD(a))b=new
+az(bX(a));else
 if(a
 instanceof
 Array)b=new
-av(yu(a));else
+az(Ak(a));else
 if(typeof
 a==="string")b=new
-av(l1(a));else
+az(mR(a));else
 if(a.toString){var
-d=bP(bc(a.toString()));b=new
-av(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-J(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
-y(a){return aS(a)}function
-bw(b,a){return c3(b,a)}function
-yp(d){var
-c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bw(d,a);return b}function
-yo(a){if(a.t!=4)eS(a);return a.c}function
-bt(a){this.fs=require("fs");this.fd=a}bt.prototype=new
-lS();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){J(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){J(a.toString())}};bt.prototype.write=function(f,b,c,e){var
-a=yp(b);if(!(a
+d=bX(bl(a.toString()));b=new
+az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+E(a){return a0(a)}function
+bG(b,a){return dg(b,a)}function
+Af(d){var
+c=E(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
+Ae(a){if(a.t!=4)fm(a);return a.c}function
+bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
+mI();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
+a=Af(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){J(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
-a=yo(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
+a=Ae(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){J(a.toString())}for(var
-b=0;b<f;b++)cu(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){J(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){J(a.toString())}};bt.prototype.constructor=bt;function
-aw(a){this.fs=require("fs");this.root=a}aw.prototype.nm=function(a){return this.root+a};aw.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aw.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){J(a.toString())}};aw.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
+b=0;b<f;b++)cH(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){Q(a.toString())}return a[0]};bD.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){Q(a.toString())}};bD.prototype.constructor=bD;function
+aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aA.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bt(d)}catch(a){this.raise_nodejs_error(a,g)}};aw.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jU);return bc(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.raise_nodejs_error=function(a,d){var
-b=cv(gF);if(d&&b){var
-c=cx(a.code,a.syscall,a.path,a.errno);cw(b,c)}else
-J(a.toString())};aw.prototype.stats_from_js=function(a){var
+bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kI);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
+b=cI(hh);if(d&&b){var
+c=cK(a.code,a.syscall,a.path,a.errno);cJ(b,c)}else
+Q(a.toString())};aA.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aw.prototype.constructor=aw;function
-l9(b){var
-a=g_(b);if(!a)return;return a[0]+a$}var
-eZ=l9(dM)||bb("unable to compute caml_root"),c7=[];if(dQ())c7.push({path:eZ,device:new
-aw(eZ)});else
-c7.push({path:eZ,device:new
-aH(eZ)});c7.push({path:k4,device:new
-aH(k4)});function
-mp(b){var
-g=yV(b),b=g.join(a$),f=mj(b),c;for(var
-e=0;e<c7.length;e++){var
-a=c7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dQ()){var
-d=l9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
+mZ(b){var
+a=hN(b);if(!a)return;return a[0]+bg}var
+ft=mZ(d7)||bk("unable to compute caml_root"),dk=[];if(d$())dk.push({path:ft,device:new
+aA(ft)});else
+dk.push({path:ft,device:new
+aQ(ft)});dk.push({path:lR,device:new
+aQ(lR)});function
+nf(b){var
+g=AL(b),b=g.join(bg),f=m$(b),c;for(var
+e=0;e<dk.length;e++){var
+a=dk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&d$()){var
+d=mZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aw(d)};c7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;J("no device found for "+f)}function
-yz(c,b){var
-a=mp(c);if(!a.device.register)bb("cannot register file");a.device.register(a.rest,b);return 0}function
-mk(c,b){var
-c=a(c),b=a(b);return yz(c,b)}function
-yC(){var
+aA(d)};dk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
+Ap(c,b){var
+a=nf(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
+na(c,b){var
+c=a(c),b=a(b);return Ap(c,b)}function
+As(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)mk(b[a].name,b[a].content);u.jsoo_create_file=mk;u.caml_fs_tmp=[];return 0}function
-l8(){return[0]}function
-yE(a,c,k){if(!isFinite(a)){if(isNaN(a))return bc(gv);return bc(a>0?lC:"-infinity")}var
+a=0;a<b.length;a++)na(b[a].name,b[a].content);u.jsoo_create_file=na;u.caml_fs_tmp=[];return 0}function
+mY(){return[0]}function
+Au(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g8);return bl(a>0?mr:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bo,e=s;if(i)e=a3;else
+j=d<0?s:by,e=s;if(i)e=a9;else
 switch(k){case
-43:e=bo;break;case
-32:e=bL;break;default:break}if(c>=0&&c<13){var
+43:e=by;break;case
+32:e=bT;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b9);if(h<0)b+=b9+c6(c,aG);else{var
-f=h+1+c;if(b.length<f)b+=c6(f-b.length,aG);else
-b=b.substr(0,f)}}return bc(e+j3+b+"p"+j+d.toString(10))}function
-yL(a){return+a.isZero()}function
-yO(a){return new
-t(a&bN,a>>24&bN,a>>31&br)}function
-yP(a){return a.toInt()}function
-yK(a){return+a.isNeg()}function
-yN(a){return a.neg()}function
-yI(g,c){var
-a=g1(g);if(a.signedconv&&yK(c)){a.sign=-1;c=yN(c)}var
-b=s,h=yO(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(yP(e.modulus))+b}while(!yL(c));if(a.prec>=0){a.filler=bL;var
-d=a.prec-b.length;if(d>0)b=c6(d,aG)+b}return gS(a,b)}function
-y3(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
+h=b.indexOf(ce);if(h<0)b+=ce+dj(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=dj(f-b.length,aP);else
+b=b.substr(0,f)}}return bl(e+kR+b+"p"+j+d.toString(10))}function
+AB(a){return+a.isZero()}function
+AE(a){return new
+t(a&bV,a>>24&bV,a>>31&bB)}function
+AF(a){return a.toInt()}function
+AA(a){return+a.isNeg()}function
+AD(a){return a.neg()}function
+Ay(g,c){var
+a=hE(g);if(a.signedconv&&AA(c)){a.sign=-1;c=AD(c)}var
+b=s,h=AE(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AF(e.modulus))+b}while(!AB(c));if(a.prec>=0){a.filler=bT;var
+d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hv(a,b)}function
+AT(c){var
+a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bw(c,a)==48)switch(bw(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-mf(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lO)return a-87;return-1}function
-gZ(f){var
-h=y3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=mf(e);if(b<0||b>=d)bb(eD);var
-a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=mf(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bb(eD)}if(c!=g)bb(eD);a=i*a;if(d==10&&(a|0)!=a)bb(eD);return a|0}function
-yT(d){return function(){var
+m7(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mE)return a-87;return-1}function
+hC(f){var
+h=AT(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
+a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m7(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e8)}if(c!=g)bk(e8);a=i*a;if(d==10&&(a|0)!=a)bk(e8);return a|0}function
+AJ(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bQ(d,c)}else
-return bQ(d,[undefined])}}function
-yW(a,d){if(a<0)dL();var
+a=0;a<b;a++)c[a]=arguments[a];return bY(d,c)}else
+return bY(d,[undefined])}}function
+AM(a,d){if(a<0)d6();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-yX(){return 0}var
-bv=new
+AN(){return 0}var
+bF=new
 Array();function
-c5(c){var
-a=bv[c];if(!a.opened)J("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ad.fds[a.fd]&&ad.fds[a.fd].output){var
-b=ad.fds[a.fd].output;switch(b.length){case
+di(c){var
+a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ah.fds[a.fd]&&ah.fds[a.fd].output){var
+b=ah.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-mi(e,f){var
-b=bv[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-y$(a){var
-a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+m_(e,f){var
+b=bF[e],d=a(f),c=E(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+A2(a){var
+a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-za(a){var
-a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+A3(a){var
+a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-e0(c,e,d,a){if(ad.fds===undefined)ad.fds=new
+fu(c,e,d,a){if(ah.fds===undefined)ah.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ad.fds[c]=b;if(!ad.fd_last_idx||c>ad.fd_last_idx)ad.fd_last_idx=c;return c}function
-zi(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ah.fds[c]=b;if(!ah.fd_last_idx||c>ah.fd_last_idx)ah.fd_last_idx=c;return c}function
+A_(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,381 +687,381 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)J(bS(c)+kB);if(a.text&&a.binary)J(bS(c)+k9);var
-d=mp(c),e=d.device.open(d.rest,a),f=ad.fd_last_idx?ad.fd_last_idx:0;return e0(f+1,mi,e,a)}e0(0,mi,new
-av(ak(0)));e0(1,za,new
-av(ak(0)));e0(2,y$,new
-av(ak(0)));function
-yY(a){var
-c=ad.fds[a];if(c.flags.wronly)J(lN+a+" is writeonly");var
-d=null;if(a==0&&dQ()){var
-e=require("fs");d=function(){return bc(e.readFileSync(0,jU))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bv[b.fd]=b;return b.fd}function
-ma(c){var
-b=ad.fds[c];if(b.flags.rdonly)J(lN+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bv[a.fd]=a;return a.fd}function
-yZ(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b0(c)+lq);if(a.text&&a.binary)Q(b0(c)+lV);var
+d=nf(c),e=d.device.open(d.rest,a),f=ah.fd_last_idx?ah.fd_last_idx:0;return fu(f+1,m_,e,a)}fu(0,m_,new
+az(ao(0)));fu(1,A3,new
+az(ao(0)));fu(2,A2,new
+az(ao(0)));function
+AO(a){var
+c=ah.fds[a];if(c.flags.wronly)Q(mD+a+" is writeonly");var
+d=null;if(a==0&&d$()){var
+e=require("fs");d=function(){return bl(e.readFileSync(0,kI))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;return b.fd}function
+m2(c){var
+b=ah.fds[c];if(b.flags.rdonly)Q(mD+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
+AP(){var
 b=0;for(var
-a=0;a<bv.length;a++)if(bv[a]&&bv[a].opened&&bv[a].out)b=[0,bv[a].fd,b];return b}function
-aE(a){return a}function
-y0(g,d,h,f){var
-b=bv[g];if(!b.opened)J("Cannot output to a closed channel");var
-a;if(h==0&&aS(d)==f)a=d;else{a=ak(f);ca(d,h,a,0,f)}var
-i=aE(a),c=bS(i),e=c.lastIndexOf(kc);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c5(g);b.buffer+=c.substr(e+1)}return 0}function
-mb(b,a,d,c){return y0(b,bP(a),d,c)}function
-mc(c,b){var
-d=a(String.fromCharCode(b));mb(c,d,0,1);return 0}function
-dP(a,b){return+(gQ(a,b,false)!=0)}function
-eY(a){if(a
+a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
+aJ(a){return a}function
+AQ(g,d,h,f){var
+b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
+a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
+i=aJ(a),c=b0(i),e=c.lastIndexOf(k3);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);di(g);b.buffer+=c.substr(e+1)}return 0}function
+m3(b,a,d,c){return AQ(b,bX(a),d,c)}function
+m4(c,b){var
+d=a(String.fromCharCode(b));m3(c,d,0,1);return 0}function
+d_(a,b){return+(ht(a,b,false)!=0)}function
+fs(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eX(a))return eP;else
-if(g0(a))return eP;else
+if(fr(a))return fj;else
+if(hD(a))return fj;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return kh;else
-return dI}function
-a4(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ad[b+1]=c;if(a)ad[a]=c}function
-g3(a,b){me[bS(a)]=b;return 0}function
-ys(a,b){if(a===b)return 1;a.t&6&&c4(a);b.t&6&&c4(b);return a.c==b.c?1:0}function
-aC(a,b){return ys(a,b)}function
-y8(){ar(gK)}function
-K(b,a){if(a>>>0>=y(b))y8();return bw(b,a)}function
-j(a,b){return 1-aC(a,b)}function
-y9(){return 0x7FFFFFFF/4|0}function
-g5(a){var
+if(a&&a.caml_custom)return k8;else
+return d2}function
+a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ah[b+1]=c;if(a)ah[a]=c}function
+hG(a,b){m6[b0(a)]=b;return 0}function
+Ai(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
+au(a,b){return Ai(a,b)}function
+AY(){at(hm)}function
+R(b,a){if(a>>>0>=E(b))AY();return bG(b,a)}function
+l(a,b){return 1-au(a,b)}function
+A0(){return 0x7FFFFFFF/4|0}function
+hI(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-ax(b,a){return{joo_tramp:b,joo_args:a}}function
-mh(a){return a}function
-e1(a){if(a
+aB(b,a){return{joo_tramp:b,joo_args:a}}function
+m9(a){return a}function
+fv(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mh(ad.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m9(ah.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mh(ad.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m9(ah.Stack_overflow);if(a
 instanceof
-u.Error&&cv(gs))return[0,cv(gs),a];return[0,ad.Failure,bc(String(a))]}function
-e2(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-g7(a,b){return a<b?-1:a>b?1:0}function
-mm(c,b){var
-a=c%b;return a<0?a+e2(b):a}function
-g8(a,b){return(a-mm(a,b))/b}function
-al(a,b){return a==b?1:0}function
-D(a,b){return a<=b?1:0}function
-ag(a,b){return a<b?1:0}function
-o(a,b){return a*b}function
-T(a){return-a}function
-aT(a){return u.BigInt(a)}function
-mn(a,b){return a<<u.BigInt(b)}function
-mo(a,b){return a>>u.BigInt(b)}function
-bx(a){return a<0?-1:a>0?1:0}function
-zf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+u.Error&&cI(g5))return[0,cI(g5),a];return[0,ah.Failure,bl(String(a))]}function
+fw(a){return a<0?-a:a}function
+A(a,b){return a+b}function
+hK(a,b){return a<b?-1:a>b?1:0}function
+nc(c,b){var
+a=c%b;return a<0?a+fw(b):a}function
+hL(a,b){return(a-nc(a,b))/b}function
+ak(a,b){return a==b?1:0}function
+B(a,b){return a<=b?1:0}function
+ac(a,b){return a<b?1:0}function
+r(a,b){return a*b}function
+W(a){return-a}function
+a1(a){return u.BigInt(a)}function
+nd(a,b){return a<<u.BigInt(b)}function
+ne(a,b){return a>>u.BigInt(b)}function
+bH(a){return a<0?-1:a>0?1:0}function
+A8(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-cb(a,b){return a-b}function
-g9(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-yS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-yB(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yS(b[1]))var
+b1(a,b){return a-b}function
+hM(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+AI(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ar(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AI(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=lo;for(var
-d=f;d<e.length;d++){if(d>f)a+=jX;var
+f=2,e=b;a+=mb;for(var
+d=f;d<e.length;d++){if(d>f)a+=kL;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bs)a+=aq+c.toString()+aq;else
+bC)a+=as+c.toString()+as;else
 if(typeof
-c=="string")a+=aq+c.toString()+aq;else
-a+=kW}a+=gw}else
-if(b[0]==ap)a+=b[1];return a}function
-l7(a){if(a
+c=="string")a+=as+c.toString()+as;else
+a+=lI}a+=g9}else
+if(b[0]==ar)a+=b[1];return a}function
+mX(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ap)){var
-c=cv(j9);if(c)c(a,false);else{var
-d=yB(a),b=cv(jT);if(b)b(0);u.console.error(gC+d+kc)}}else
+Array&&(a[0]==0||a[0]==ar)){var
+c=cI(kY);if(c)c(a,false);else{var
+d=Ar(a),b=cI(kH);if(b)b(0);u.console.error(hd+d+k3)}}else
 throw a}function
-y7(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){l7(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)l7(a.error)})}y7();function
-e(a,b){return a.length==1?a(b):bQ(a,[b])}function
-S(a,b,c){return a.length==2?a(b,c):bQ(a,[b,c])}function
-gn(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bQ(a,[b,c,d,e,f])}function
-yn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bQ(a,[b,c,d,e,f,g,h])}yC();var
-e3=[ap,a(lG),-1],hd=[ap,a(j$),-2],ha=[ap,a(gr),-3],g$=[ap,a(kR),-4],hb=[ap,a(ks),-8],hc=[ap,a(k6),-9],V=[ap,a(lt),-11],he=[ap,a(jS),-12],xr=[4,0,0,0,[12,45,[4,0,0,0,0]]],e9=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kw),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xs=[0,0],xt=[0,[0,[0,[0,0]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,0]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,0],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,0]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,0],ym=[0,[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eo=[0,[0,[0,[0,0]]]];a4(11,he,jS);a4(10,V,lt);a4(9,[ap,a(kK),-10],kK);a4(8,hc,k6);a4(7,hb,ks);a4(6,[ap,a(k2),-7],k2);a4(5,[ap,a(li),-6],li);a4(4,[ap,a(ke),-5],ke);a4(3,g$,kR);a4(2,ha,gr);a4(1,hd,j$);a4(0,e3,lG);var
-mu=a("%.12g"),mt=a(b9),mr=a("true"),ms=a("false"),mv=a("\\\\"),mw=a("\\'"),mx=a("\\b"),my=a("\\t"),mz=a("\\n"),mA=a("\\r"),mD=a("String.blit / Bytes.blit_string"),mC=a("Bytes.blit"),mB=a("String.sub / Bytes.sub"),mF=a(s),mE=a("String.concat"),mG=a("Array.init"),mJ=a("Buffer.add: cannot grow buffer"),mI=[0,a(le),93,2],mH=[0,a(le),94,2],mS=a("%c"),mT=a("%s"),mU=a(jQ),mV=a(kp),mW=a(kN),mX=a(jZ),mY=a("%f"),mZ=a("%B"),m0=a("%{"),m1=a("%}"),m2=a("%("),m3=a("%)"),m4=a("%a"),m5=a("%t"),m6=a("%?"),m7=a("%r"),m8=a("%_r"),m9=[0,a(ao),850,23],ni=[0,a(ao),814,21],na=[0,a(ao),815,21],nj=[0,a(ao),818,21],nb=[0,a(ao),819,21],nk=[0,a(ao),822,19],nc=[0,a(ao),823,19],nl=[0,a(ao),826,22],nd=[0,a(ao),827,22],nm=[0,a(ao),831,30],ne=[0,a(ao),832,30],ng=[0,a(ao),836,26],m_=[0,a(ao),837,26],nh=[0,a(ao),846,28],m$=[0,a(ao),847,28],nf=[0,a(ao),851,23],op=a(kH),on=[0,a(ao),1558,4],oo=a("Printf: bad conversion %["),oq=[0,a(ao),1626,39],or=[0,a(ao),1649,31],os=[0,a(ao),1650,31],ot=a("Printf: bad conversion %_"),ou=a(kC),ov=a(kQ),ow=a(kC),ox=a(kQ),ol=a(gv),oj=a("neg_infinity"),ok=a(lC),oi=a(b9),od=[0,j8],n3=a("%+nd"),n4=a("% nd"),n6=a("%+ni"),n7=a("% ni"),n8=a("%nx"),n9=a("%#nx"),n_=a("%nX"),n$=a("%#nX"),oa=a("%no"),ob=a("%#no"),n2=a("%nd"),n5=a(kN),oc=a("%nu"),nQ=a("%+ld"),nR=a("% ld"),nT=a("%+li"),nU=a("% li"),nV=a("%lx"),nW=a("%#lx"),nX=a("%lX"),nY=a("%#lX"),nZ=a("%lo"),n0=a("%#lo"),nP=a("%ld"),nS=a(kp),n1=a("%lu"),nD=a("%+Ld"),nE=a("% Ld"),nG=a("%+Li"),nH=a("% Li"),nI=a("%Lx"),nJ=a("%#Lx"),nK=a("%LX"),nL=a("%#LX"),nM=a("%Lo"),nN=a("%#Lo"),nC=a("%Ld"),nF=a(jZ),nO=a("%Lu"),nq=a("%+d"),nr=a("% d"),nt=a("%+i"),nu=a("% i"),nv=a("%x"),nw=a("%#x"),nx=a("%X"),ny=a("%#X"),nz=a("%o"),nA=a("%#o"),np=a(gG),ns=a(jQ),nB=a(kH),mK=a("@]"),mL=a("@}"),mM=a("@?"),mN=a("@\n"),mO=a("@."),mP=a("@@"),mQ=a("@%"),mR=a("@"),nn=a("CamlinternalFormat.Type_mismatch"),oB=a(s),oC=[0,[11,a(jX),[2,0,[2,0,0]]],a(", %s%s")],o1=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],o2=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],o0=a("Fatal error: out of memory in uncaught exception handler"),oY=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],oU=[0,[2,0,[12,10,0]],a("%s\n")],oM=a("Raised at"),oN=a("Re-raised at"),oO=a("Raised by primitive operation at"),oP=a("Called from"),oQ=a(" (inlined)"),oS=a(s),oR=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kw),xr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oT=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],oH=a("Out of memory"),oI=a("Stack overflow"),oJ=a("Pattern matching failed"),oK=a("Assertion failed"),oL=a("Undefined recursive module"),oD=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oE=a(s),oF=a(s),oG=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oA=[0,[4,0,0,0,0],a(gG)],oy=[0,[3,0,0],a("%S")],oz=a(kW),oV=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],o4=a("Jsoo_runtime.Error.Exn"),o6=a("power"),pe=[0,0],pf=[0,[0,0]],pg=[0,[0,0]],pn=[0,0],pu=[0,0,0],pv=[0,0,0],pw=[0,0],px=[0,0],pF=[0,0],pH=[0,0],pT=[0,0],pU=[0,0],qd=[0,[0,[0,0]]],qm=a(","),qE=[0,a(gw),0],qF=a(lo),qG=a(b9),qH=[0,[0,[0,0]]],qI=a(a3),qJ=a(gx),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,a(gw),0],qM=a(lR),sM=a(jR),sO=a(kT),sN=a(lu),sP=a(eG),sQ=a(kP),sR=a(lK),sS=a(ld),tt=[0,a(kq),7077,12],tI=a(gD),tJ=[0,0],tK=a("divided"),tL=[0,1],tM=a("mirror"),tN=[0,3],tO=a("negative"),tP=[0,2],tQ=a(gO),tR=[0,4],tS=a(eE),tT=a(k7),tU=a(eN),tV=[0,0],tW=[0,0],tX=[0,0],ud=a(s),ua=[0,[0,[0,[0,0]]]],ub=[0,[0,[0,[0,0]]]],t_=[0,[0,[0,0]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t5=[0,[0,[0,0]]],t6=[0,[0,0]],t4=[0,[0,[0,0]]],tZ=[0,[0,0]],t0=[0,0],tY=[0,0],tC=[0,[0,0]],tD=[0,0],tB=[0,0],tA=[0,0],tz=[0,0,0],tx=[0,0,0],tw=[0,0],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],to=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],tj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],tk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],tm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],tp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tq=a("sqrt"),th=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],ti=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],s8=[0,a("\n"),0],s9=a(kV),s_=a(eC),s$=a(kj),ta=a(lg),tb=a("certified"),tg=a("refuted"),tc=a("verdict"),td=a(kz),te=a(lc),tf=a(ls),sX=a(lF),sY=a(eF),sZ=a(kg),s0=a(lJ),s6=a(lm),s7=a(eM),s1=a(gy),s2=a(b_),s3=a(kX),s4=a(eF),s5=a(lI),sV=a(lb),sW=a(lL),sK=a(k5),sL=a(kF),sr=a(eM),r4=a(bM),r5=a(c1),r6=a(go),r7=a(c0),r8=a(b_),r9=a(bM),r_=a(c1),r$=a(go),sa=a(c0),sb=a(b_),sc=a(bM),sd=a(gL),se=a(bq),sf=a(bp),sg=a(ct),sh=a(c1),si=a(lB),sj=a(lH),sk=a(c0),sl=a(b_),sm=a(bM),sn=a(bq),so=a(bp),sp=a(ct),sq=a(c1),ss=a(kv),st=a(kD),su=a(lQ),sv=a(k8),sw=a(j2),sx=a(c0),sy=a(b_),sz=a(bM),sA=a(kU),sB=a(lf),sC=a(c1),sD=a(kL),sE=a(kZ),sF=a(c0),sG=a(b_),sJ=a(kS),sH=a(j1),sI=a(kI),rU=a(kf),rV=a(kO),rW=a(j4),rX=a(k$),rY=a(kG),rZ=a(kx),r0=a(lh),r1=a(eI),r2=a(eI),rQ=a(b7),rR=a(b6),rS=a(eH),rT=a(b8),rM=a(dH),rN=a(gJ),rO=a(ly),rF=a(bq),rG=a(bp),rH=a(ct),rI=a(kk),rJ=a(jP),rK=a(kd),rL=a(lE),ry=a(lj),rz=a(j0),rE=a(eC),rA=a(la),rB=a(ka),rC=a(kr),rD=a(lv),rv=a(bp),rw=a(bq),rx=a(kE),rm=a(jW),rn=a(kY),ro=a(lA),rp=a(eG),rq=a(lP),rr=a(lD),rs=a(k1),rt=a(lx),ru=a(jV),rb=a(bo),rl=a(a3),rc=a(eK),rd=a(eJ),re=a(eR),rf=a(b7),rg=a(b6),rh=a(kn),ri=a(kt),rj=a(eR),rk=a(b8),qV=a(bo),q3=a(a3),qW=a(eK),qX=a(eJ),qY=a(b7),qZ=a(b6),q0=a(eO),q1=a(kJ),q2=a(b8),q4=a(gA),q5=a(b7),q6=a(b6),q7=a(eH),q8=a(b8),q9=a(eO),q_=a(dH),q$=a(b8),qS=a(bq),qT=a(bp),qQ=[0,a(aq),0],qR=a(aq),qO=[0,a(kq),6453,36],qN=[0,a(aq),0],qP=a(aq),qA=a(bo),qB=a(a3),qC=a("*"),qD=a(a$),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,[0,0]]]],qt=a('":'),qu=a(aq),qr=[0,a(aq),0],qs=a(aq),qp=[0,a("}"),0],qq=a("{"),qn=[0,a("]"),0],qo=a("["),ql=[0,0],qi=[0,[0,[0,0]]],qj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,[0,[0,0]]],p$=[0,[0,[0,0]]],qa=[0,[0,0]],p9=[0,0],p5=[0,[0,0]],p6=[0,0],p7=[0,0],p8=[0,[0,0]],pW=[0,[0,0]],pX=[0,0],pY=[0,[0,0]],pZ=[0,0],p0=[0,0],p1=[0,[0,0]],p2=[0,[0,0]],p3=[0,[0,0]],p4=[0,0],pS=[0,0],pQ=[0,[0,[0,0]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pM=[0,0],pN=[0,[0,[0,[0,[0,[0,0]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],pK=[0,[0,[0,0]]],pA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,0]]],py=[0,[0,0]],pz=[0,0],po=[0,0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],ph=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],pd=a(aG),pc=a(s),pb=[0,[0,0]],pa=[0,0],o$=[1,0],o_=[0,0],o9=[0,0],o7=[1,0],o8=[1,0],wu=a(eG),wv=a(ld),ww=a(lu),wx=a(kP),wy=a(eE),wz=a(k7),wA=a(eN),wB=[0,a(aq),0],wC=a('the evidence "'),wD=a(kF),wE=a(k5),wF=a(eE),wG=a(eN),wH=a(lK),wJ=a(eE),wK=a(eN),wL=a(gD),wM=a(gD),wI=[0,a("this evidence at control points"),0],w$=a(ls),xa=a(lc),xb=a(kz),xk=[0,3,3],xc=a(lg),xg=[0,a('the drive "arm" in a claim that is certified'),0],xh=[0,a("a step of a platform that turns that is not at control points"),0],xi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xj=[0,a("a mechanism by formulas in a claim that is refuted"),0],xd=a(kj),xe=a(kV),xf=a(eC),w9=a(gO),wY=a(kg),wZ=a(lI),w2=a(b_),w3=a(gy),w4=a(kX),w5=a(eF),w6=a(lF),w7=a(eF),w0=[0,a(aq),0],w1=a('a proof of the kind "'),wT=a(lm),wU=a(lJ),wV=a(eM),wW=[0,a(aq),0],wX=a('the failure "'),wP=a(gy),wQ=[0,a("a leaf that fails"),0],wR=a(lb),wS=a(lL),wN=a(gO),wO=a(aG),ws=a(kT),wt=a(jR),v4=a(b8),v5=a(gA),v6=a(eH),v9=a(b7),v_=a(b6),v7=[0,a('" of such a platform'),0],v8=a(jY),vQ=a("rho"),vR=a(eM),vS=[0,a("a joint by its coordinate"),0],vu=a(bM),vo=a(b_),vp=a(kI),vs=a(j1),vt=a(kS),vv=a(c0),vw=a(c1),vx=a("bodies"),wr=[0,a("a machine with bodies"),0],vy=a(dH),vz=a(gJ),vA=a(ly),vB=a(gL),vC=a(j2),vD=a(kZ),vE=a(go),vH=a(ct),vI=a(lE),vL=a(bM),vM=a(lf),vN=a(kU),vO=a(kL),vP=a(ct),vT=a(bM),vU=a(bq),vV=a(bp),vW=a(kv),vX=a(kD),vY=a(lQ),vZ=a(k8),vF=[0,a(aq),0],vG=a(kM),v0=a(ct),v1=[0,a('" of a platform that turns'),0],v2=a(ky),v3=a(lB),wp=[0,a('" that does not turn'),0],wq=a(kM),v$=a(gL),wa=a(kx),wb=a(kf),wc=a(kG),wd=a(eI),we=a(lh),wf=a(eI),wm=a(kO),wn=a(j4),wo=a(k$),wg=a(dH),wh=a(gJ),wi=a(bM),wj=a(bq),wk=a(bp),wl=a(lH),vJ=[0,a(aq),0],vK=a(ky),vq=[0,a(aq),0],vr=a('a claim of the kind "'),vh=a(ct),vl=a(bq),vm=a(bp),vi=a(kd),vj=a(kk),vk=a(jP),vf=[0,a(lr),0],ve=[0,a(lr),0],u$=a(la),va=[0,a("a stiffness for each joint"),0],u_=a(eC),u3=a(lj),uR=a(lv),uS=a(eG),uT=a(lx),uU=a(jV),uV=a(kY),uW=a(lA),uX=a(lD),uY=a(lP),uZ=a(k1),u0=a(jW),u1=[0,a(aq),0],u2=a('the quantity "'),u4=a(j0),u5=a(bq),u6=a(bp),u7=a(kE),u8=[0,a(aq),0],u9=a('a bound "'),vb=a(ka),vc=a(kr),uK=a(eK),uL=a(eJ),uM=a(eR),uN=a(b7),uO=a(b6),uP=a(kn),uQ=a(kt),uH=a(b8),uI=a(eR),us=a(b8),ut=a(dH),uu=a(kJ),uv=a(eH),uy=a(gA),uz=a(b7),uA=a(b6),uB=a(eK),uC=a(eJ),uD=a(b7),uE=a(b6),uF=a(eO),uG=a(eO),uw=[0,a(aq),0],ux=a(jY),up=a(bo),uq=a(a3),un=a(" is not covered by the verified checker"),uo=a(s),ul=a(bq),um=a(bp),uh=a(s),ui=a(lR),uj=a(s),uk=a(s),ug=[1,0],ue=a("Reader.Malformed"),uf=a("Reader.Not_covered"),xm=a(ko),xn=a("CERTIFIED"),xo=a("REFUTED"),xp=a(ko),xq=a("NOT COVERED: ");function
-aa(a){if(typeof
+AX(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mX(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AX();function
+e(a,b){return a.length==1?a(b):bY(a,[b])}function
+N(a,b,c){return a.length==2?a(b,c):bY(a,[b,c])}function
+g0(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
+Ad(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}As();var
+fx=[ar,a(mv),-1],hS=[ar,a(k0),-2],hP=[ar,a(g4),-3],hO=[ar,a(lE),-4],hQ=[ar,a(lg),-8],hR=[ar,a(lS),-9],$=[ar,a(mg),-11],hT=[ar,a(kG),-12],zf=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zg=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,0]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,0]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,0],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,0]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,0],Ac=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hT,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hR,lS);a_(7,hQ,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hO,lE);a_(2,hP,g4);a_(1,hS,k0);a_(0,fx,mv);var
+nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g8),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hi),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),zf]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hi)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g9),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g_),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g9),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(he),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hq),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vA=a(s),vw=[0,[0,[0,0]]],vx=[0,[0,[0,[0,0]]]],vy=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hg),t4=a(ha),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hn),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hr),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g2),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g2),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hl),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(hb),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xM=a(cd),xN=a(hb),xO=a(fb),xR=a(bh),xS=a(cc),xP=[0,a('" of such a platform'),0],xQ=a(kM),xy=a("rho"),xz=a(fh),xA=[0,a("a joint by its coordinate"),0],w_=a(bU),wZ=a(bj),w0=a(lh),w1=a(lw),w4=a(kP),w5=a(lF),w6=a(bj),w7=a(bj),w9=a(fc),w8=[0,a("a claim that no cube of such a machine fits"),0],w$=a(dd),xa=a(de),xb=a(e6),xc=a(hr),x$=[0,a("such a machine with bodies"),0],xd=a(d1),xe=a(hl),xf=a(mm),xg=a(hn),xh=a(kQ),xi=a(lM),xj=a(e6),xm=a(cF),xn=a(mt),xq=a(hr),xr=[0,a("a machine with arms and bodies"),0],xs=[0,a("two bodies beside each other on one leg"),0],xt=a(bU),xu=a(l4),xv=a(fc),xw=a(d4),xx=a(cF),xB=a(bU),xC=a(bA),xD=a(bz),xE=a(lk),xF=a(ls),xG=a(mG),xH=a(lU),xk=[0,a(as),0],xl=a(lz),xI=a(cF),xJ=[0,a('" of a platform that turns'),0],xK=a(ln),xL=a(mq),x9=[0,a('" that does not turn'),0],x_=a(lz),xT=a(hn),xU=a(lm),xV=a(k6),xW=a(lu),xX=a(fd),xY=a(l6),xZ=a(fd),x6=a(lB),x7=a(kS),x8=a(lX),x0=a(d1),x1=a(hl),x2=a(bU),x3=a(bA),x4=a(bz),x5=a(mw),xo=[0,a(as),0],xp=a(ln),w2=[0,a(as),0],w3=a('a claim of the kind "'),yc=a(e$),yd=a(l2),ye=a(mi),yf=a(cG),yg=a(lC),yh=a(e9),yi=a(lT),yj=a(fi),yo=a(ha),yp=a(hg),yq=a(cG),yk=[0,a(as),0],yl=a('the evidence "'),ym=a(ha),yn=a(hg),yr=a(e9),ys=a(fi),yt=a(mA),yv=a(e9),yw=a(fi),yx=a(he),yy=a(he),yu=[0,a("this evidence at control points"),0],yX=a(mf),yY=a(l0),yZ=a(lo),y_=[0,3,3],y0=a(l5),y5=[0,a('the drive "arm" in a claim that is certified'),0],y6=[0,a("a step of a platform that turns that is not at control points"),0],y7=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y8=[0,a("a mechanism by formulas in a claim that is refuted"),0],y9=[0,a("a step in a proof that no cube fits"),0],y1=[0,a("a leaf that fails"),0],y2=a(k_),y3=a(lH),y4=a(e7),yV=a(hq),yK=a(k7),yL=a(my),yO=a(bj),yP=a(fa),yQ=a(lJ),yR=a(e_),yS=a(mu),yT=a(e_),yM=[0,a(as),0],yN=a('a proof of the kind "'),yG=a(mo),yH=a(fa),yI=a(lZ),yJ=a(mB),yB=a(l$),yC=a(mz),yD=a(fh),yE=[0,a(as),0],yF=a('the failure "'),yz=a(hq),yA=a(aP),ya=a(lG),yb=a(kF),wW=a(d4),wM=a(g2),wN=a(lL),wO=a(db),wP=a(bh),wU=a(mx),wV=a(d4),wX=a(da),wY=a(db),wQ=a(da),wR=a(mh),wS=a(l1),wT=a(bh),wF=a(cF),wJ=a(bA),wK=a(bz),wG=a(k4),wH=a(k$),wI=a(da),wD=[0,a(me),0],wC=[0,a(me),0],ws=a(lY),wt=[0,a("a stiffness for each joint"),0],wr=a(e7),wk=a(l8),wc=a(mj),wd=a(mp),ww=a(kX),wx=a(e$),wy=a(ml),wz=a(kJ),wA=a(lK),we=a(ms),wf=a(mF),wg=a(lO),wh=a(kK),wi=[0,a(as),0],wj=a('the quantity "'),wl=a(kO),wm=a(bA),wn=a(bz),wo=a(lt),wp=[0,a(as),0],wq=a('a bound "'),wu=a(k1),wv=a(db),v7=a(ff),v8=a(fe),v9=a(fl),v_=a(bh),v$=a(cc),wa=a(lc),wb=a(li),v4=a(cd),v5=a(fl),vP=a(cd),vQ=a(d1),vR=a(lx),vS=a(fb),vV=a(hb),vW=a(bh),vX=a(cc),vY=a(ff),vZ=a(fe),v0=a(bh),v1=a(cc),v2=a(cG),v3=a(cG),vT=[0,a(as),0],vU=a(kM),vM=a(by),vN=a(a9),vK=a(" is not covered by the verified checker"),vL=a(s),vI=a(bA),vJ=a(bz),vE=a(s),vF=a(mH),vG=a(s),vH=a(s),vD=[1,0],vB=a("Reader.Malformed"),vC=a("Reader.Not_covered"),za=a(ld),zb=a("CERTIFIED"),zc=a("REFUTED"),zd=a(ld),ze=a("NOT COVERED: ");function
+ad(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,aa(a[1])];case
-1:return[1,aa(a[1])];case
-2:return[2,aa(a[1])];case
-3:return[3,aa(a[1])];case
-4:return[4,aa(a[1])];case
-5:return[5,aa(a[1])];case
-6:return[6,aa(a[1])];case
-7:return[7,aa(a[1])];case
+0:return[0,ad(a[1])];case
+1:return[1,ad(a[1])];case
+2:return[2,ad(a[1])];case
+3:return[3,ad(a[1])];case
+4:return[4,ad(a[1])];case
+5:return[5,ad(a[1])];case
+6:return[6,ad(a[1])];case
+7:return[7,ad(a[1])];case
 8:var
-c=a[1];return[8,c,aa(a[2])];case
+c=a[1];return[8,c,ad(a[2])];case
 9:var
-b=a[1];return[9,b,b,aa(a[3])];case
-10:return[10,aa(a[1])];case
-11:return[11,aa(a[1])];case
-12:return[12,aa(a[1])];case
-13:return[13,aa(a[1])];default:return[14,aa(a[1])]}}function
-aF(a,b){if(typeof
+b=a[1];return[9,b,b,ad(a[3])];case
+10:return[10,ad(a[1])];case
+11:return[11,ad(a[1])];case
+12:return[12,ad(a[1])];case
+13:return[13,ad(a[1])];default:return[14,ad(a[1])]}}function
+aK(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aF(a[1],b)];case
-1:return[1,aF(a[1],b)];case
-2:return[2,aF(a[1],b)];case
-3:return[3,aF(a[1],b)];case
-4:return[4,aF(a[1],b)];case
-5:return[5,aF(a[1],b)];case
-6:return[6,aF(a[1],b)];case
-7:return[7,aF(a[1],b)];case
+0:return[0,aK(a[1],b)];case
+1:return[1,aK(a[1],b)];case
+2:return[2,aK(a[1],b)];case
+3:return[3,aK(a[1],b)];case
+4:return[4,aK(a[1],b)];case
+5:return[5,aK(a[1],b)];case
+6:return[6,aK(a[1],b)];case
+7:return[7,aK(a[1],b)];case
 8:var
-c=a[1];return[8,c,aF(a[2],b)];case
+c=a[1];return[8,c,aK(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aF(a[3],b)];case
-10:return[10,aF(a[1],b)];case
-11:return[11,aF(a[1],b)];case
-12:return[12,aF(a[1],b)];case
-13:return[13,aF(a[1],b)];default:return[14,aF(a[1],b)]}}function
-U(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aK(a[3],b)];case
+10:return[10,aK(a[1],b)];case
+11:return[11,aK(a[1],b)];case
+12:return[12,aK(a[1],b)];case
+13:return[13,aK(a[1],b)];default:return[14,aK(a[1],b)]}}function
+_(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,U(a[1],b)];case
-1:return[1,U(a[1],b)];case
+0:return[0,_(a[1],b)];case
+1:return[1,_(a[1],b)];case
 2:var
-c=a[1];return[2,c,U(a[2],b)];case
+c=a[1];return[2,c,_(a[2],b)];case
 3:var
-d=a[1];return[3,d,U(a[2],b)];case
+d=a[1];return[3,d,_(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,U(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,_(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,U(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,_(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,U(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,_(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,U(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,_(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,U(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,_(a[4],b)];case
 9:var
-t=a[1];return[9,t,U(a[2],b)];case
-10:return[10,U(a[1],b)];case
+t=a[1];return[9,t,_(a[2],b)];case
+10:return[10,_(a[1],b)];case
 11:var
-u=a[1];return[11,u,U(a[2],b)];case
+u=a[1];return[11,u,_(a[2],b)];case
 12:var
-v=a[1];return[12,v,U(a[2],b)];case
+v=a[1];return[12,v,_(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,U(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,_(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,U(a[3],b)];case
-15:return[15,U(a[1],b)];case
-16:return[16,U(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,_(a[3],b)];case
+15:return[15,_(a[1],b)];case
+16:return[16,_(a[1],b)];case
 17:var
-A=a[1];return[17,A,U(a[2],b)];case
+A=a[1];return[17,A,_(a[2],b)];case
 18:var
-B=a[1];return[18,B,U(a[2],b)];case
-19:return[19,U(a[1],b)];case
+B=a[1];return[18,B,_(a[2],b)];case
+19:return[19,_(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,U(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,_(a[3],b)];case
 21:var
-E=a[1];return[21,E,U(a[2],b)];case
-22:return[22,U(a[1],b)];case
+E=a[1];return[21,E,_(a[2],b)];case
+22:return[22,_(a[1],b)];case
 23:var
-F=a[1];return[23,F,U(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,U(a[3],b)]}}function
-bT(a){throw[0,g$,a]}function
-dR(a){return 0<=a?a:-a|0}function
-as(d,c){var
-a=y(d),e=y(c),b=ak(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
-mq(a){return a?mr:ms}yY(0);ma(1);var
-by=ma(2);function
-c8(b,a){return mb(b,a,0,y(a))}function
-hf(a){c8(by,a);mc(by,10);return c5(by)}function
-e4(b){function
+F=a[1];return[23,F,_(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,_(a[3],b)]}}function
+b2(a){throw[0,hO,a]}function
+ea(a){return 0<=a?a:-a|0}function
+av(d,c){var
+a=E(d),e=E(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aJ(b)}function
+ng(a){return a?nh:ni}AO(0);m2(1);var
+bI=m2(2);function
+dl(b,a){return m3(b,a,0,E(a))}function
+hU(a){dl(bI,a);m4(bI,10);return di(bI)}function
+fy(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{c5(d)}catch(a){a=e1(a);if(a[1]!==hd)throw a;var
+c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hS)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(yZ(0))}g3(a(jT),e4);var
-c9=(4*y9(0)|0)-1|0;function
-cy(c){var
+a=c;continue}return 0}}return a(AP(0))}hG(a(kH),fy);var
+dm=(4*A0(0)|0)-1|0;function
+ch(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Y(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-hg(d,c){var
+X(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
+hV(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-hh(d,c){var
+cL(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-cc(a,c){var
-b=ak(a);yA(b,0,a,c);return b}function
-hi(c,b,a){if(0<=b&&0<=a&&!((aS(c)-a|0)<b)){var
-d=ak(a);ca(c,b,d,0,a);return d}return bT(mB)}function
-hj(c,b,a){return aE(hi(c,b,a))}function
-hk(e,c,d,b,a){if(0<=a&&0<=c&&!((aS(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return ca(e,c,d,b,a);return bT(mC)}function
-bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return bu(e,c,d,b,a);return bT(mD)}function
-aY(b,a){return aE(cc(b,a))}function
-c_(c,b,a){return aE(hi(bP(c),b,a))}function
-hl(k,g){if(g){var
-h=y(k),c=0,b=g,p=0;for(;;){if(b){var
+ci(a,c){var
+b=ao(a);Aq(b,0,a,c);return b}function
+hW(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
+d=ao(a);cg(c,b,d,0,a);return d}return b2(nr)}function
+hX(c,b,a){return aJ(hW(c,b,a))}function
+hY(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
+bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((E(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b2(nt)}function
+a5(b,a){return aJ(ci(b,a))}function
+dn(c,b,a){return aJ(hW(bX(c),b,a))}function
+hZ(k,g){if(g){var
+h=E(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bT(mE),c=n,b=m;continue}var
-l=y(i)+c|0}else
+j=(E(i)+h|0)+c|0,m=b[2],n=c<=j?j:b2(nu),c=n,b=m;continue}var
+l=E(i)+c|0}else
 var
 l=c;var
-f=ak(l),e=p,d=g;for(;;){if(d){var
+f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bu(a,0,f,e,y(a));bu(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mF}function
-hm(b,c){if(0===b)return[0];if(0<=b){var
-d=yW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bE(a,0,f,e,E(a));bE(k,0,f,e+E(a)|0,h);var
+e=(e+E(a)|0)+h|0,d=o;continue}bE(a,0,f,e,E(a))}return aJ(f)}}}return nv}function
+h0(b,c){if(0===b)return[0];if(0<=b){var
+d=AM(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bT(mG)}function
-hn(c){var
+a=h;continue}break}}return d}return b2(nw)}function
+h1(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-ho(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c9<b[1]){if(!((d+c|0)<=c9))throw[0,ha,mJ];b[1]=c9}var
-e=ak(b[1]);hk(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,V,mH]}throw[0,V,mI]}}function
-c$(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)ho(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
-e5(a){return 5===a[2]?12:-6}function
-hp(a){return[0,0,ak(a)]}function
-hq(a,h){var
-b=aS(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ak(i);hk(a[2],0,f,0,b);a[2]=f;var
+h2(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hP,nz];b[1]=dm}var
+e=ao(b[1]);hY(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
+dp(a,c){var
+b=E(c),d=a[2]+b|0;if(a[3]<d)h2(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fz(a){return 5===a[2]?12:-6}function
+h3(a){return[0,0,ao(a)]}function
+h4(a,h){var
+b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ao(i);hY(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cz(a,b){hq(a,1);cu(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-ay(a,c){var
-b=y(c);hq(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-hr(a){return hj(a[2],0,a[1])}function
-hs(a){if(typeof
+cM(a,b){h4(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aC(a,c){var
+b=E(c);h4(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+h5(a){return hX(a[2],0,a[1])}function
+h6(a){if(typeof
 a==="number")switch(a){case
-0:return mK;case
-1:return mL;case
-2:return mM;case
-3:return mN;case
-4:return mO;case
-5:return mP;default:return mQ}else
+0:return nA;case
+1:return nB;case
+2:return nC;case
+3:return nD;case
+4:return nE;case
+5:return nF;default:return nG}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return as(mR,aY(1,a[1]))}}function
-e6(b,c){var
+1:return a[1];default:return av(nH,a5(1,a[1]))}}function
+fA(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];ay(b,mS);var
+d=a[1];aC(b,nI);var
 a=d;continue;case
 1:var
-e=a[1];ay(b,mT);var
+e=a[1];aC(b,nJ);var
 a=e;continue;case
 2:var
-f=a[1];ay(b,mU);var
+f=a[1];aC(b,nK);var
 a=f;continue;case
 3:var
-g=a[1];ay(b,mV);var
+g=a[1];aC(b,nL);var
 a=g;continue;case
 4:var
-h=a[1];ay(b,mW);var
+h=a[1];aC(b,nM);var
 a=h;continue;case
 5:var
-i=a[1];ay(b,mX);var
+i=a[1];aC(b,nN);var
 a=i;continue;case
 6:var
-j=a[1];ay(b,mY);var
+j=a[1];aC(b,nO);var
 a=j;continue;case
 7:var
-k=a[1];ay(b,mZ);var
+k=a[1];aC(b,nP);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];ay(b,m0);e6(b,m);ay(b,m1);var
+l=a[2],m=a[1];aC(b,nQ);fA(b,m);aC(b,nR);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];ay(b,m2);e6(b,o);ay(b,m3);var
+n=a[3],o=a[1];aC(b,nS);fA(b,o);aC(b,nT);var
 a=n;continue;case
 10:var
-p=a[1];ay(b,m4);var
+p=a[1];aC(b,nU);var
 a=p;continue;case
 11:var
-q=a[1];ay(b,m5);var
+q=a[1];aC(b,nV);var
 a=q;continue;case
 12:var
-r=a[1];ay(b,m6);var
+r=a[1];aC(b,nW);var
 a=r;continue;case
 13:var
-s=a[1];ay(b,m7);var
+s=a[1];aC(b,nX);var
 a=s;continue;default:var
-t=a[1];ay(b,m8);var
+t=a[1];aC(b,nY);var
 a=t;continue}}function
-ah(a){if(typeof
+an(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ah(a[1])];case
-1:return[1,ah(a[1])];case
-2:return[2,ah(a[1])];case
-3:return[3,ah(a[1])];case
-4:return[4,ah(a[1])];case
-5:return[5,ah(a[1])];case
-6:return[6,ah(a[1])];case
-7:return[7,ah(a[1])];case
+0:return[0,an(a[1])];case
+1:return[1,an(a[1])];case
+2:return[2,an(a[1])];case
+3:return[3,an(a[1])];case
+4:return[4,an(a[1])];case
+5:return[5,an(a[1])];case
+6:return[6,an(a[1])];case
+7:return[7,an(a[1])];case
 8:var
-b=a[1];return[8,b,ah(a[2])];case
+b=a[1];return[8,b,an(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ah(a[3])];case
-10:return[10,ah(a[1])];case
-11:return[11,ah(a[1])];case
-12:return[12,ah(a[1])];case
-13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
-az(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,an(a[3])];case
+10:return[10,an(a[1])];case
+11:return[11,an(a[1])];case
+12:return[12,an(a[1])];case
+13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
+aD(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=az(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aD(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=az(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aD(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=az(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aD(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=az(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aD(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=az(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aD(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=az(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aD(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=az(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aD(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=az(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aD(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=az(a[2]),ai=k[4],aj=k[3],ak=k[2],al=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(al,0);return 0},an,aj,ai];case
+k=aD(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-ao=a[2],ap=a[1],l=az(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=az(am(ah(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,ay];case
+am=a[2],ao=a[1],l=aD(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aD(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=az(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=aD(a[1]),aB=n[4],aC=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
 11:var
-o=az(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aD(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=az(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aD(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=az(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=az(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-am(c,b){var
+q=aD(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aD(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+ap(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,V,m9]}else
+9:a=6;break;default:throw[0,$,nZ]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,am(t,b[1])];case
+0:return[0,ap(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,am(u,b[1])];case
+1:return[1,ap(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,am(v,b[1])];case
+2:return[2,ap(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,am(w,b[1])];case
+3:return[3,ap(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,am(x,b[1])];case
+4:return[4,ap(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,am(y,b[1])];case
+5:return[5,ap(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,am(z,b[1])];case
+6:return[6,ap(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,am(A,b[1])];case
+7:return[7,ap(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=am(B,b[2]);return[8,am(C,D),E];case
+D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,V,ng];break;case
+14:a=4;break;default:m=1}if(m)throw[0,$,n8];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=az(am(ah(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aD(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,V,nh];break;case
+14:a=4;break;default:n=1}if(n)throw[0,$,n9];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,V,ni];case
+b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,$,n_];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,V,nj];break;case
+11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,$,n$];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,V,nk];break;case
+12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,$,oa];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,V,nl];break;default:var
+13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,$,ob];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,206 +1222,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,V,nm]}switch(a){case
-0:throw[0,V,na];case
-1:throw[0,V,nb];case
-2:throw[0,V,nc];case
-3:throw[0,V,nd];case
-4:throw[0,V,ne];case
-5:throw[0,V,m_];case
-6:throw[0,V,m$];default:throw[0,V,nf]}}var
-at=[ap,nn,eU(0)];function
-dS(b,a){if(typeof
+14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,$,oc]}switch(a){case
+0:throw[0,$,n2];case
+1:throw[0,$,n3];case
+2:throw[0,$,n4];case
+3:throw[0,$,n5];case
+4:throw[0,$,n6];case
+5:throw[0,$,n0];case
+6:throw[0,$,n1];default:throw[0,$,n7]}}var
+aw=[ar,od,fo(0)];function
+eb(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw at}}function
-da(e,b,d){var
-a=dS(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aw}}function
+dq(e,b,d){var
+a=eb(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw at}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aI(b,c,a){if(typeof
-b==="number")return[0,0,L(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aw}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aR(b,c,a){if(typeof
+b==="number")return[0,0,S(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aI(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aR(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aI(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aR(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aI(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aR(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aI(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aR(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aI(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aR(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aI(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aR(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aI(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aR(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dP([0,b[1]],[0,o]))throw at;var
-p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(d_([0,b[1]],[0,o]))throw aw;var
+p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,aa(f)];if(dP([0,aa(B)],C))throw at;var
-D=[0,aa(d)];if(dP([0,aa(A)],D))throw at;var
-q=az(am(ah(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aI(aa(z),c,y),F=r[2];return[0,[9,f,d,ah(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ad(f)];if(d_([0,ad(B)],C))throw aw;var
+D=[0,ad(d)];if(d_([0,ad(A)],D))throw aw;var
+q=aD(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aR(ad(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aI(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aR(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
-L(b,a){if(typeof
+v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aw}function
+S(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=L(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=S(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=L(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=S(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dS(b[1],a),e=u[2],ad=u[1];if(typeof
+ab=b[2],u=eb(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=L(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
+v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aw;case
 3:var
-ae=b[2],w=dS(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=eb(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=L(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
+x=S(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aw;case
 4:var
-ag=b[4],ah=b[1],g=da(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=dq(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=L(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
+aj=g[2],y=S(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aw;case
 5:var
-ak=b[4],al=b[1],i=da(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dq(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=L(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
+an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aw;case
 6:var
-ao=b[4],ap=b[1],k=da(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dq(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=L(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
+ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aw;case
 7:var
-as=b[4],au=b[1],m=da(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+as=b[4],at=b[1],m=dq(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=L(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
+av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aw;case
 8:var
-ax=b[4],ay=b[1],o=da(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=dq(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=L(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
+aA=o[2],C=S(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aw;case
 9:var
-aB=b[2],D=dS(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=eb(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=L(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
+E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aw;case
 10:var
-F=L(b[1],a);return[0,[10,F[1]],F[2]];case
+F=S(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=L(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=S(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=L(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=S(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dP([0,b[2]],[0,I]))throw at;var
-J=L(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(d_([0,b[2]],[0,I]))throw aw;var
+J=S(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,aa(K)];if(dP([0,aa(aL)],aN))throw at;var
-M=L(aK,aa(aJ));return[0,[14,aM,K,M[1]],M[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ad(K)];if(d_([0,ad(aK)],aM))throw aw;var
+L=S(aJ,ad(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=L(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+M=S(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=L(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+N=S(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aP=b[1],P=L(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aN=b[1],O=S(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
-Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],V=L(U[1],a),aU=V[1],W=L(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=L(X[1],a),aW=Y[1],Z=L(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+P=b[2],r=b[1];if(0===r[0]){var
+U=r[1],aS=U[2],V=S(U[1],a),aT=V[1],W=S(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=L(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+Q=S(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=L(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aO=b[2],aP=b[1],R=S(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=L(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aQ=b[1],T=S(b[2],a[1]);return[0,[21,aQ,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aO(c,d,a);case
-1:return aO(c,d,a);case
+0:return aU(c,d,a);case
+1:return aU(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=L(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aO(c,d,a)}else
+_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aw;default:return aU(c,d,a)}else
 switch(c[0]){case
-0:return aO(c,d,a);case
-1:return aO(c,d,a);case
-2:return aO(c,d,a);case
-3:return aO(c,d,a);case
-4:return aO(c,d,a);case
-5:return aO(c,d,a);case
-6:return aO(c,d,a);case
-7:return aO(c,d,a);case
-8:return aO([8,c[1],c[2]],d,a);case
+0:return aU(c,d,a);case
+1:return aU(c,d,a);case
+2:return aU(c,d,a);case
+3:return aU(c,d,a);case
+4:return aU(c,d,a);case
+5:return aU(c,d,a);case
+6:return aU(c,d,a);case
+7:return aU(c,d,a);case
+8:return aU([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],$=aI(c[2],d,a),ab=$[2];return[0,[23,[9,aX,$[1]],ab[1]],ab[2]];case
-10:return aO(c,d,a);default:return aO(c,d,a)}}throw at}function
-aO(d,c,b){var
-a=L(c,b);return[0,[23,d,a[1]],a[2]]}function
-aP(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dR(g);if(d<=b)return a;var
-l=2===h?48:32,c=cc(d,l);switch(h){case
-0:bz(a,0,c,0,b);break;case
-1:bz(a,0,c,d-b|0,b);break;default:var
+aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
+10:return aU(c,d,a);default:return aU(c,d,a)}}throw aw}function
+aU(d,c,b){var
+a=S(c,b);return[0,[23,d,a[1]],a[2]]}function
+aV(k,g,a){var
+b=E(a),h=0<=g?k:0,d=ea(g);if(d<=b)return a;var
+l=2===h?48:32,c=ci(d,l);switch(h){case
+0:bJ(a,0,c,0,b);break;case
+1:bJ(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==K(a,0)&&45!==K(a,0)&&32!==K(a,0)){e=1;i=1}if(!i){cu(c,0,K(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cH(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===K(a,0)){var
-j=0;if(j7!==K(a,1)&&88!==K(a,1)){f=1;j=1}if(!j){cu(c,1,K(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bz(a,0,c,d-b|0,b)}}return aE(c)}function
-cA(k,b){var
-c=dR(k),a=y(b),d=K(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+k3>>>0))e=1}else
+f=0;if(1<b&&48===R(a,0)){var
+j=0;if(kV!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cH(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aJ(c)}function
+cN(k,b){var
+c=ea(k),a=E(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lQ>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(j7===K(b,1)||88===K(b,1))j=1;if(j){var
-h=cc(c+2|0,48);cu(h,1,K(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
+j=0;if(kV===R(b,1)||88===R(b,1))j=1;if(j){var
+h=ci(c+2|0,48);cH(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aJ(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cc(c+1|0,48);cu(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
-i=cc(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
-no(k){var
-j=0,D=y(k);for(;;){if(D<=j)var
+g=ci(c+1|0,48);cH(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aJ(g)}}if(e&&a<c){var
+i=ci(c,48);bJ(b,0,i,c-a|0,a);return aJ(i)}return b}function
+oe(k){var
+j=0,C=E(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bw(k,j)+lw|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bG(k,j)+mk|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bP(k),a=[0,0],t=aS(e)-1|0,z=0;if(!(t<0)){var
-i=z;for(;;){var
-f=c3(e,i),g=0;if(32<=f){var
+e=bX(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
+i=y;for(;;){var
+f=dg(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1431,34 +1431,34 @@ if(8<=f)g=1;switch(g){case
 m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
-C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aS(e)){var
-r=aS(e),s=ak(r);ca(e,0,s,0,r);var
+B=i+1|0;if(t!==i){var
+i=B;continue}break}}if(a[1]===a0(e)){var
+r=a0(e),s=ao(r);cg(e,0,s,0,r);var
 v=s}else{var
-b=ak(a[1]);a[1]=0;var
-u=aS(e)-1|0,A=0;if(!(u<0)){var
-h=A;for(;;){var
-c=c3(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gz<=c)d=1;else
+b=ao(a[1]);a[1]=0;var
+u=a0(e)-1|0,z=0;if(!(u<0)){var
+h=z;for(;;){var
+c=dg(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(g$<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:af(b,a[1],92);a[1]++;af(b,a[1],98);break;case
-9:af(b,a[1],92);a[1]++;af(b,a[1],116);break;case
-10:af(b,a[1],92);a[1]++;af(b,a[1],110);break;case
-13:af(b,a[1],92);a[1]++;af(b,a[1],114);break;default:d=1}switch(d){case
-1:af(b,a[1],92);a[1]++;af(b,a[1],48+(c/k_|0)|0);a[1]++;af(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;af(b,a[1],48+(c%10|0)|0);break;case
-2:af(b,a[1],92);a[1]++;af(b,a[1],c);break;case
-3:af(b,a[1],c);break}a[1]++;var
-B=h+1|0;if(u!==h){var
-h=B;continue}break}}var
+8:aj(b,a[1],92);a[1]++;aj(b,a[1],98);break;case
+9:aj(b,a[1],92);a[1]++;aj(b,a[1],116);break;case
+10:aj(b,a[1],92);a[1]++;aj(b,a[1],110);break;case
+13:aj(b,a[1],92);a[1]++;aj(b,a[1],114);break;default:d=1}switch(d){case
+1:aj(b,a[1],92);a[1]++;aj(b,a[1],48+(c/lW|0)|0);a[1]++;aj(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;aj(b,a[1],48+(c%10|0)|0);break;case
+2:aj(b,a[1],92);a[1]++;aj(b,a[1],c);break;case
+3:aj(b,a[1],c);break}a[1]++;var
+A=h+1|0;if(u!==h){var
+h=A;continue}break}}var
 v=b}var
-o=aE(v)}var
-w=y(o),x=cc(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
-ht(d,f){var
-g=dR(f),e=od[1];switch(d[2]){case
+o=aJ(v)}var
+w=E(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aJ(x)}}function
+h7(d,f){var
+g=ea(f),e=o5[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=j8;break;case
+b=kW;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hp(16);cz(c,37);switch(d[1]){case
+c=h3(16);cM(c,37);switch(d[1]){case
 0:break;case
-1:cz(c,43);break;default:cz(c,32)}if(8<=d[2])cz(c,35);cz(c,46);ay(c,a(s+g));cz(c,b);return hr(c)}function
-dT(m,a){if(13<=m){var
-g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bw(a,c)+gq>>>0))g[1]++;var
+1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h5(c)}function
+ec(m,a){if(13<=m){var
+g=[0,0],h=E(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bG(a,c)+g3>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ak(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cu(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(E(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cH(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=E(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bw(a,b);if(9<f+gq>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bG(a,b);if(9<f+g3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aE(j)}return a}function
-oe(b,c){switch(b){case
+b=p;continue}break}}return aJ(j)}return a}function
+o6(b,c){switch(b){case
 1:var
-a=nq;break;case
+a=og;break;case
 2:var
-a=nr;break;case
+a=oh;break;case
 4:var
-a=nt;break;case
+a=oj;break;case
 5:var
-a=nu;break;case
+a=ok;break;case
 6:var
-a=nv;break;case
+a=ol;break;case
 7:var
-a=nw;break;case
+a=om;break;case
 8:var
-a=nx;break;case
+a=on;break;case
 9:var
-a=ny;break;case
+a=oo;break;case
 10:var
-a=nz;break;case
+a=op;break;case
 11:var
-a=nA;break;case
+a=oq;break;case
 0:case
 13:var
-a=np;break;case
+a=of;break;case
 3:case
 14:var
-a=ns;break;default:var
-a=nB}return dT(b,eT(a,c))}function
-of(b,c){switch(b){case
+a=oi;break;default:var
+a=or}return ec(b,fn(a,c))}function
+o7(b,c){switch(b){case
 1:var
-a=nQ;break;case
+a=oG;break;case
 2:var
-a=nR;break;case
+a=oH;break;case
 4:var
-a=nT;break;case
+a=oJ;break;case
 5:var
-a=nU;break;case
+a=oK;break;case
 6:var
-a=nV;break;case
+a=oL;break;case
 7:var
-a=nW;break;case
+a=oM;break;case
 8:var
-a=nX;break;case
+a=oN;break;case
 9:var
-a=nY;break;case
+a=oO;break;case
 10:var
-a=nZ;break;case
+a=oP;break;case
 11:var
-a=n0;break;case
+a=oQ;break;case
 0:case
 13:var
-a=nP;break;case
+a=oF;break;case
 3:case
 14:var
-a=nS;break;default:var
-a=n1}return dT(b,eT(a,c))}function
-og(b,c){switch(b){case
+a=oI;break;default:var
+a=oR}return ec(b,fn(a,c))}function
+o8(b,c){switch(b){case
 1:var
-a=n3;break;case
+a=oT;break;case
 2:var
-a=n4;break;case
+a=oU;break;case
 4:var
-a=n6;break;case
+a=oW;break;case
 5:var
-a=n7;break;case
+a=oX;break;case
 6:var
-a=n8;break;case
+a=oY;break;case
 7:var
-a=n9;break;case
+a=oZ;break;case
 8:var
-a=n_;break;case
+a=o0;break;case
 9:var
-a=n$;break;case
+a=o1;break;case
 10:var
-a=oa;break;case
+a=o2;break;case
 11:var
-a=ob;break;case
+a=o3;break;case
 0:case
 13:var
-a=n2;break;case
+a=oS;break;case
 3:case
 14:var
-a=n5;break;default:var
-a=oc}return dT(b,eT(a,c))}function
-oh(b,c){switch(b){case
+a=oV;break;default:var
+a=o4}return ec(b,fn(a,c))}function
+o9(b,c){switch(b){case
 1:var
-a=nD;break;case
+a=ot;break;case
 2:var
-a=nE;break;case
+a=ou;break;case
 4:var
-a=nG;break;case
+a=ow;break;case
 5:var
-a=nH;break;case
+a=ox;break;case
 6:var
-a=nI;break;case
+a=oy;break;case
 7:var
-a=nJ;break;case
+a=oz;break;case
 8:var
-a=nK;break;case
+a=oA;break;case
 9:var
-a=nL;break;case
+a=oB;break;case
 10:var
-a=nM;break;case
+a=oC;break;case
 11:var
-a=nN;break;case
+a=oD;break;case
 0:case
 13:var
-a=nC;break;case
+a=os;break;case
 3:case
 14:var
-a=nF;break;default:var
-a=nO}return dT(b,yI(a,c))}function
-bA(c,i,b){function
+a=ov;break;default:var
+a=oE}return ec(b,Ay(a,c))}function
+bK(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return yE(b,i,a)}function
+a=32}return Au(b,i,a)}function
 q(c){var
-a=yw(b);return 3===a?b<0.?oj:ok:4<=a?ol:c}switch(c[2]){case
+a=Am(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
 5:var
-e=gT(ht(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=hw(h7(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
 p=0;else{var
-k=K(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:as(e,oi);return q(v)}case
+v=p?e:av(e,o_);return q(v)}case
 6:return j(0);case
 7:var
-h=bP(j(0)),f=aS(h);if(0===f)var
+h=bX(j(0)),f=a0(h);if(0===f)var
 o=h;else{var
-m=ak(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=c3(h,a),s=25<g+k3>>>0?g:g+lw|0;af(m,a,s);var
+g=dg(h,a),s=25<g+lQ>>>0?g:g+mk|0;aj(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aE(o);case
-8:return q(j(0));default:return gT(ht(c,i),b)}}function
-dG(d,x,w,v){var
+o=m}return aJ(o);case
+8:return q(j(0));default:return hw(h7(c,i),b)}}function
+d0(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return C(b,[5,a,c],z)};case
+y=c[1];return function(c){return I(b,[5,a,c],y)};case
 1:var
-A=c[1];return function(c){var
+z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=mv;else
-if(gz<=c)e=1;else
+d=nl;else
+if(g$<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=mw;else
+d=nm;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=mx;break;case
+d=nn;break;case
 9:var
-d=my;break;case
+d=no;break;case
 10:var
-d=mz;break;case
+d=np;break;case
 13:var
-d=mA;break;default:e=1}switch(e){case
+d=nq;break;default:e=1}switch(e){case
 1:var
-f=ak(4);af(f,0,92);af(f,1,48+(c/k_|0)|0);af(f,2,48+((c/10|0)%10|0)|0);af(f,3,48+(c%10|0)|0);var
-d=aE(f);break;case
+f=ao(4);aj(f,0,92);aj(f,1,48+(c/lW|0)|0);aj(f,2,48+((c/10|0)%10|0)|0);aj(f,3,48+(c%10|0)|0);var
+d=aJ(f);break;case
 2:var
-g=ak(1);af(g,0,c);var
-d=aE(g);break}var
-h=y(d),i=cc(h+2|0,39);bu(d,0,i,1,h);return C(b,[4,a,aE(i)],A)};case
+g=ao(1);aj(g,0,c);var
+d=aJ(g);break}var
+h=E(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return I(b,[4,a,aJ(i)],z)};case
 2:var
-B=c[2],D=c[1];return e7(b,a,B,D,function(a){return a});case
-3:return e7(b,a,c[2],c[1],no);case
-4:return dU(b,a,c[4],c[2],c[3],oe,c[1]);case
-5:return dU(b,a,c[4],c[2],c[3],of,c[1]);case
-6:return dU(b,a,c[4],c[2],c[3],og,c[1]);case
-7:return dU(b,a,c[4],c[2],c[3],oh,c[1]);case
+A=c[2],B=c[1];return fB(b,a,A,B,function(a){return a});case
+3:return fB(b,a,c[2],c[1],oe);case
+4:return ed(b,a,c[4],c[2],c[3],o6,c[1]);case
+5:return ed(b,a,c[4],c[2],c[3],o7,c[1]);case
+6:return ed(b,a,c[4],c[2],c[3],o8,c[1]);case
+7:return ed(b,a,c[4],c[2],c[3],o9,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return C(b,[4,a,bA(g,d,c)],h)}:function(c){return C(b,[4,a,bA(g,e5(g),c)],h)};var
-Z=i[1];return function(c){return C(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return I(b,[4,a,bK(g,d,c)],h)}:function(c){return I(b,[4,a,bK(g,fz(g),c)],h)};var
+X=i[1];return function(c){return I(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return C(b,[4,a,aP(n,m,bA(g,d,c))],h)}:function(c){return C(b,[4,a,aP(n,m,bA(g,e5(g),c))],h)};var
-_=i[1];return function(c){return C(b,[4,a,aP(n,m,bA(g,_,c))],h)}}var
+i==="number")return i?function(d,c){return I(b,[4,a,aV(n,m,bK(g,d,c))],h)}:function(c){return I(b,[4,a,aV(n,m,bK(g,fz(g),c))],h)};var
+Y=i[1];return function(c){return I(b,[4,a,aV(n,m,bK(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return C(b,[4,a,aP(o,e,bA(g,d,c))],h)}:function(d,c){return C(b,[4,a,aP(o,d,bA(g,e5(g),c))],h)};var
-$=i[1];return function(d,c){return C(b,[4,a,aP(o,d,bA(g,$,c))],h)}}case
-9:return e7(b,a,c[2],c[1],mq);case
+i==="number")return i?function(e,d,c){return I(b,[4,a,aV(o,e,bK(g,d,c))],h)}:function(d,c){return I(b,[4,a,aV(o,d,bK(g,fz(g),c))],h)};var
+Z=i[1];return function(d,c){return I(b,[4,a,aV(o,d,bK(g,Z,c))],h)}}case
+9:return fB(b,a,c[2],c[1],ng);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hp(16);e6(p,F);var
-u=hr(p);return function(c){return C(b,[4,a,u],E)};case
+C=c[3],D=c[2],p=h3(16);fA(p,D);var
+u=h5(p);return function(c){return I(b,[4,a,u],C)};case
 14:var
-G=c[3],H=c[2];return function(d){var
-e=d[1],c=L(e,aa(ah(H)));if(typeof
-c[2]==="number")return C(b,a,U(c[1],G));throw at};case
+F=c[3],G=c[2];return function(d){var
+e=d[1],c=S(e,ad(an(G)));if(typeof
+c[2]==="number")return I(b,a,_(c[1],F));throw aw};case
 15:var
-J=c[1];return function(d,c){return C(b,[6,a,function(a){return S(d,a,c)}],J)};case
+H=c[1];return function(d,c){return I(b,[6,a,function(a){return N(d,a,c)}],H)};case
 16:var
-K=c[1];return function(c){return C(b,[6,a,c],K)};case
+J=c[1];return function(c){return I(b,[6,a,c],J)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return C(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
-P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return C(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
-19:throw[0,V,on];case
+K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return I(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
+O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return I(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
+19:throw[0,$,pd];case
 20:var
-T=c[3],W=[8,a,oo];return function(a){return C(b,W,T)};case
+T=c[3],U=[8,a,pe];return function(a){return I(b,U,T)};case
 21:var
-X=c[2];return function(c){return C(b,[4,a,eT(op,c)],X)};case
+V=c[2];return function(c){return I(b,[4,a,fn(pf,c)],V)};case
 22:var
-Y=c[1];return function(c){return C(b,[5,a,c],Y)};case
+W=c[1];return function(c){return I(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-2:throw[0,V,oq];default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}else
+0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+2:throw[0,$,pg];default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-2:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-3:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-4:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-5:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-6:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-7:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-8:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+2:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+3:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+4:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+5:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+6:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+7:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+8:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gm(d+1|0,b,a,t,f):ax(gm,[0,b,a,t,f]);case
-10:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gl(d+1|0,b,a,q,r,s):ax(gl,[0,b,a,q,r,s])}}function
-gm(e,d,c,a,b){if(typeof
-a==="number")return e<50?I(e+1|0,d,c,b):ax(I,[0,d,c,b]);else
+t=k[2];return d<50?gZ(d+1|0,b,a,t,f):aB(gZ,[0,b,a,t,f]);case
+10:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gY(d+1|0,b,a,q,r,s):aB(gY,[0,b,a,q,r,s])}}function
+gZ(e,d,c,a,b){if(typeof
+a==="number")return e<50?P(e+1|0,d,c,b):aB(P,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aU(d,c,f,b)};case
+f=a[1];return function(a){return a2(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aU(d,c,g,b)};case
+g=a[1];return function(a){return a2(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aU(d,c,h,b)};case
+h=a[1];return function(a){return a2(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aU(d,c,i,b)};case
+i=a[1];return function(a){return a2(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aU(d,c,j,b)};case
+j=a[1];return function(a){return a2(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aU(d,c,k,b)};case
+k=a[1];return function(a){return a2(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aU(d,c,l,b)};case
+l=a[1];return function(a){return a2(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aU(d,c,m,b)};case
+m=a[1];return function(a){return a2(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aU(d,c,n,b)};case
+n=a[2];return function(a){return a2(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=am(ah(a[1]),p);return function(a){return aU(d,c,aF(q,o),b)};case
+o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aK(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aU(d,c,r,b)};case
+r=a[1];return function(e,a){return a2(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aU(d,c,s,b)};case
+s=a[1];return function(a){return a2(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aU(d,c,t,b)};case
-13:throw[0,V,or];default:throw[0,V,os]}}function
-I(d,b,e,a){var
-c=[8,e,ot];return d<50?dG(d+1|0,b,c,a):ax(dG,[0,b,c,a])}function
-gl(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return om(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dG(h+1|0,b,g,a):ax(dG,[0,b,g,a])}function
-C(a,b,c){return g5(dG(0,a,b,c))}function
-aU(a,b,c,d){return g5(gm(0,a,b,c,d))}function
-om(a,b,c,d,e){return g5(gl(0,a,b,c,d,e))}function
-e7(f,d,c,a,b){if(typeof
-a==="number")return function(a){return C(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return C(f,[4,d,aP(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return C(f,[4,d,aP(i,g,e(b,a))],c)}}}function
-dU(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a2(d,c,t,b)};case
+13:throw[0,$,ph];default:throw[0,$,pi]}}function
+P(d,b,e,a){var
+c=[8,e,pj];return d<50?d0(d+1|0,b,c,a):aB(d0,[0,b,c,a])}function
+gY(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pc(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d0(h+1|0,b,g,a):aB(d0,[0,b,g,a])}function
+I(a,b,c){return hI(d0(0,a,b,c))}function
+a2(a,b,c,d){return hI(gZ(0,a,b,c,d))}function
+pc(a,b,c,d,e){return hI(gY(0,a,b,c,d,e))}function
+fB(f,d,c,a,b){if(typeof
+a==="number")return function(a){return I(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return I(f,[4,d,aV(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return I(f,[4,d,aV(i,g,e(b,a))],c)}}}function
+ed(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return C(f,[4,e,cA(g,S(b,a,c))],d)}:function(c){return C(f,[4,e,S(b,a,c)],d)};var
-k=c[1];return function(c){return C(f,[4,e,cA(k,S(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return I(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return I(f,[4,e,N(b,a,c)],d)};var
+k=c[1];return function(c){return I(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return C(f,[4,e,aP(i,h,cA(g,S(b,a,c)))],d)}:function(c){return C(f,[4,e,aP(i,h,S(b,a,c))],d)};var
-l=c[1];return function(c){return C(f,[4,e,aP(i,h,cA(l,S(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return I(f,[4,e,aV(i,h,cN(g,N(b,a,c)))],d)}:function(c){return I(f,[4,e,aV(i,h,N(b,a,c))],d)};var
+l=c[1];return function(c){return I(f,[4,e,aV(i,h,cN(l,N(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return C(f,[4,e,aP(j,h,cA(g,S(b,a,c)))],d)}:function(g,c){return C(f,[4,e,aP(j,g,S(b,a,c))],d)};var
-m=c[1];return function(g,c){return C(f,[4,e,aP(j,g,cA(m,S(b,a,c)))],d)}}}function
-bB(b,f){var
+c==="number")return c?function(h,g,c){return I(f,[4,e,aV(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return I(f,[4,e,aV(j,g,N(b,a,c))],d)};var
+m=c[1];return function(g,c){return I(f,[4,e,aV(j,g,cN(m,N(b,a,c)))],d)}}}function
+bL(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hs(a[2]);bB(b,g);return c8(b,h);case
+g=a[1],h=h6(a[2]);bL(b,g);return dl(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bB(b,d);c8(b,ou);var
+i=c[1];bL(b,d);dl(b,pk);var
 a=i;continue}var
-j=c[1];bB(b,d);c8(b,ov);var
+j=c[1];bL(b,d);dl(b,pl);var
 a=j;continue;case
 6:var
-m=a[2];bB(b,a[1]);return e(m,b);case
-7:bB(b,a[1]);return c5(b);case
+m=a[2];bL(b,a[1]);return e(m,b);case
+7:bL(b,a[1]);return di(b);case
 8:var
-n=a[2];bB(b,a[1]);return bT(n);case
+n=a[2];bL(b,a[1]);return b2(n);case
 2:case
 4:var
-k=a[2];bB(b,a[1]);return c8(b,k);default:var
-l=a[2];bB(b,a[1]);return mc(b,l)}}function
-bU(b,g){var
+k=a[2];bL(b,a[1]);return dl(b,k);default:var
+l=a[2];bL(b,a[1]);return m4(b,l)}}function
+b3(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hs(a[2]);bU(b,h);return c$(b,i);case
+h=a[1],i=h6(a[2]);b3(b,h);return dp(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bU(b,f);c$(b,ow);var
+j=d[1];b3(b,f);dp(b,pm);var
 a=j;continue}var
-k=d[1];bU(b,f);c$(b,ox);var
+k=d[1];b3(b,f);dp(b,pn);var
 a=k;continue;case
 6:var
-n=a[2];bU(b,a[1]);return c$(b,e(n,0));case
+n=a[2];b3(b,a[1]);return dp(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bU(b,a[1]);return bT(o);case
+o=a[2];b3(b,a[1]);return b2(o);case
 2:case
 4:var
-l=a[2];bU(b,a[1]);return c$(b,l);default:var
-m=a[2];bU(b,a[1]);var
-c=b[2];if(b[3]<=c)ho(b,1);af(b[1],c,m);b[2]=c+1|0;return 0}}function
-hu(d,c){var
-a=c[1],b=0;return C(function(a){bB(d,a);return 0},b,a)}function
-e8(a){return hu(by,a)}function
-bd(b){var
-a=b[1];return C(function(d){var
-e=64,b=c9<64?c9:e,c=ak(b),a=[0,c,0,b,c];bU(a,d);return hj(a[1],0,a[2])},0,a)}var
-dV=[0,0];function
-e_(i,h){var
+l=a[2];b3(b,a[1]);return dp(b,l);default:var
+m=a[2];b3(b,a[1]);var
+c=b[2];if(b[3]<=c)h2(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
+h8(d,c){var
+a=c[1],b=0;return I(function(a){bL(d,a);return 0},b,a)}function
+fC(a){return h8(bI,a)}function
+bm(b){var
+a=b[1];return I(function(d){var
+e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hX(a[1],0,a[2])},0,a)}var
+ee=[0,0];function
+fE(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eY(a)===eP)return e(bd(oy),a);if(eY(a)===253){var
-c=gT(mu,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mt);var
-d=K(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fs(a)===fj)return e(bm(po),a);if(fs(a)===253){var
+c=hw(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
+d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return oz}return e(bd(oA),a)}function
-hv(b,a){if(b.length-1<=a)return oB;var
-c=hv(b,a+1|0),d=e_(b,a);return S(bd(oC),d,c)}function
-e$(a){function
+b=b+1|0;continue}return c}}return pp}return e(bm(pq),a)}function
+h9(b,a){if(b.length-1<=a)return pr;var
+c=h9(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
+fF(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dV[1]);if(h)return h[1];if(a===e3)return oH;if(a===hc)return oI;if(a[1]===hb){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gn(bd(e9),q,p,i,i+5|0,oJ)}if(a[1]===V){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gn(bd(e9),s,r,j,j+6|0,oK)}if(a[1]===he){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gn(bd(e9),u,t,k,k+6|0,oL)}if(0===eY(a)){var
+h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hR)return py;if(a[1]===hQ){var
+c=a[2],i=c[3],p=c[2],q=c[1];return g0(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
+d=a[2],j=d[3],r=d[2],s=d[1];return g0(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hT){var
+f=a[2],k=f[3],t=f[2],u=f[1];return g0(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hv(a,2),m=e_(a,1),b=S(bd(oD),m,l);else
+l=h9(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
 switch(g){case
 0:var
-b=oE;break;case
+b=pu;break;case
 1:var
-b=oF;break;default:var
-n=e_(a,1),b=e(bd(oG),n)}return as(v,b)}return a[1]}function
-fa(t,s){var
-d=yy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pv;break;default:var
+n=fE(a,1),b=e(bm(pw),n)}return av(v,b)}return a[1]}function
+fG(t,s){var
+d=Ao(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=l2(d,b)[1+b],f=function(a){return function(b){return b?0===a?oM:oN:0===a?oO:oP}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?oQ:oS,l=a[2],m=a[7],n=f(a[1]),c=[0,yn(bd(oR),n,m,l,k,j,i,h)];else
+a=mS(d,b)[1+b],f=function(a){return function(b){return b?0===a?pC:pD:0===a?pE:pF}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ad(bm(pH),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bd(oT),o)];if(c){var
-q=c[1];e(hu(t,oU),q)}var
+o=f(0),c=[0,e(bm(pJ),o)];if(c){var
+q=c[1];e(h8(t,pK),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-hw(c){for(;;){var
-a=dV[1],d=[0,c,a],e=dV[1]===a?(dV[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oW=oV.slice();function
-oX(d,c){var
-f=e$(d);e(e8(oY),f);fa(by,c);var
-a=yX(0);if(a<0){var
-b=dR(a);hf(l2(oW,b)[1+b])}return c5(by)}var
-oZ=[0];g3(a(j9),function(d,i){try{try{var
-b=i?oZ:l8(0);try{e4(0)}catch(a){}try{var
-a=oX(d,b),c=a}catch(a){a=e1(a);var
-g=e$(d);e(e8(o1),g);fa(by,b);var
-h=e$(a);e(e8(o2),h);fa(by,l8(0));var
-c=c5(by)}var
-f=c}catch(a){a=e1(a);if(a!==e3)throw a;var
-f=hf(o0)}return f}catch(a){return 0}});var
-hx=[ap,o4,eU(0)],fb=[0,hx,[0]],o3=eY(fb)===ap?fb:fb[1];g3(a(gs),o3);(function(a){throw a});var
-o5=u.Array;hw(function(a){return a[1]===hx?[0,bc(a[2].toString())]:0});hw(function(a){return a
+h_(c){for(;;){var
+a=ee[1],d=[0,c,a],e=ee[1]===a?(ee[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pM=pL.slice();function
+pN(d,c){var
+f=fF(d);e(fC(pO),f);fG(bI,c);var
+a=AN(0);if(a<0){var
+b=ea(a);hU(mS(pM,b)[1+b])}return di(bI)}var
+pP=[0];hG(a(kY),function(d,i){try{try{var
+b=i?pP:mY(0);try{fy(0)}catch(a){}try{var
+a=pN(d,b),c=a}catch(a){a=fv(a);var
+g=fF(d);e(fC(pR),g);fG(bI,b);var
+h=fF(a);e(fC(pS),h);fG(bI,mY(0));var
+c=di(bI)}var
+f=c}catch(a){a=fv(a);if(a!==fx)throw a;var
+f=hU(pQ)}return f}catch(a){return 0}});var
+h$=[ar,pU,fo(0)],fH=[0,h$,[0]],pT=fs(fH)===ar?fH:fH[1];hG(a(g5),pT);(function(a){throw a});var
+pV=u.Array;h_(function(a){return a[1]===h$?[0,bl(a[2].toString())]:0});h_(function(a){return a
 instanceof
-o5?0:[0,bc(a.toString())]});var
-d=aT(0),c=aT(1);function
-k(a){return z(a,c)}function
-hy(b,a){return z(aT(b),a)}function
-b(b,a){return o(aT(b),a)}function
-be(b,a){return[0,g8(b,a),mm(b,a)]}function
-fc(b,a){return D(b,a)?b:a}function
-cd(b,a){return D(b,a)?a:b}function
-aV(a){return a?0:1}function
-ab(b,a){var
+pV?0:[0,bl(a.toString())]});var
+d=a1(0),c=a1(1);function
+o(a){return A(a,c)}function
+ia(b,a){return A(a1(b),a)}function
+b(b,a){return r(a1(b),a)}function
+bn(b,a){return[0,hL(b,a),nc(b,a)]}function
+fI(b,a){return B(b,a)?b:a}function
+cj(b,a){return B(b,a)?a:b}function
+aH(a){return a?0:1}function
+ae(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-db(a){return a[1]}function
-dc(a){return a[2]}function
-n(a){var
-b=a?[0,n(a[2])]:a;return b}function
+dr(a){return a[1]}function
+ds(a){return a[2]}function
+k(a){var
+b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hz(a){return typeof
-a==="number"?0:[0,hz(a[1])]}function
-hA(d,c){var
+ib(a){return typeof
+a==="number"?0:[0,ib(a[1])]}function
+ic(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dW(a){return hA(a,0)}function
-hB(a){if(typeof
-a==="number")return o7;else
+ef(a){return ic(a,0)}function
+id(a){if(typeof
+a==="number")return pX;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,327 +1944,341 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hB(a[1])]}}function
-a6(a){if(typeof
-a==="number")return o8;else
+8:return[9,a[1]];default:return[0,id(a[1])]}}function
+ba(a){if(typeof
+a==="number")return pY;else
 switch(a[0]){case
-0:return[1,a5(a[1])];case
-1:return[3,a5(a[1])];case
-2:return[5,a5(a[1])];case
-3:return[7,a5(a[1])];case
-4:return[9,a5(a[1])];case
-5:return[1,a6(a[1])];case
-6:return[3,a6(a[1])];case
-7:return[5,a6(a[1])];case
-8:return[7,a6(a[1])];default:return[9,a6(a[1])]}}function
-a5(a){if(typeof
+0:return[1,a$(a[1])];case
+1:return[3,a$(a[1])];case
+2:return[5,a$(a[1])];case
+3:return[7,a$(a[1])];case
+4:return[9,a$(a[1])];case
+5:return[1,ba(a[1])];case
+6:return[3,ba(a[1])];case
+7:return[5,ba(a[1])];case
+8:return[7,ba(a[1])];default:return[9,ba(a[1])]}}function
+a$(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a5(a[1])];case
-1:return[2,a5(a[1])];case
-2:return[4,a5(a[1])];case
-3:return[6,a5(a[1])];case
-4:return[8,a5(a[1])];case
-5:return[0,a6(a[1])];case
-6:return[2,a6(a[1])];case
-7:return[4,a6(a[1])];case
-8:return[6,a6(a[1])];default:return[8,a6(a[1])]}}function
-cB(a){return a?a[1]:a}function
-M(b,a){return b?[0,M(b[1],a)]:a}function
-dd(a,b){return a?M(b,dd(a[1],b)):a}function
-dX(b,a){return b?a:a?0:1}function
-ai(d,c){var
+0:return[0,a$(a[1])];case
+1:return[2,a$(a[1])];case
+2:return[4,a$(a[1])];case
+3:return[6,a$(a[1])];case
+4:return[8,a$(a[1])];case
+5:return[0,ba(a[1])];case
+6:return[2,ba(a[1])];case
+7:return[4,ba(a[1])];case
+8:return[6,ba(a[1])];default:return[8,ba(a[1])]}}function
+b4(a){return a?a[1]:a}function
+H(b,a){return b?[0,H(b[1],a)]:a}function
+dt(a,b){return a?H(b,dt(a[1],b)):a}function
+du(b,a){return b?a:a?0:1}function
+aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hC(b,a){return Z([0,b],a)}function
-hD(c){var
+ie(b,a){return Y([0,b],a)}function
+ig(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fd(c,b,a){return c?e(b,fd(c[1],b,a)):a}function
-hE(a){if(a)var
-b=a[1],d=b?[0,hE(b[1])]:b,c=d;else
+fJ(c,b,a){return c?e(b,fJ(c[1],b,a)):a}function
+ih(a){if(a)var
+b=a[1],d=b?[0,ih(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dY(a){if(D(a,c))return c;var
-b=be(a,aT(2)),e=b[1];return al(b[2],d)?k(dY(e)):k(dY(e))}function
-dZ(c,b){var
-a=g7(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hF(b,i,h){var
-e=i,a=h;for(;;){if(D(e,c))return a;var
-f=be(e,aT(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=S(b,a,a);continue}return S(b,a,hF(b,g,S(b,a,a)))}}function
-de(a){return hF(M,a,o_)}function
-fe(a){return a?k(fe(a[1])):c}function
-bC(f,e){var
+eg(a){if(B(a,c))return c;var
+b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?o(eg(e)):o(eg(e))}function
+eh(c,b){var
+a=hK(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+ii(b,i,h){var
+e=i,a=h;for(;;){if(B(e,c))return a;var
+f=bn(e,a1(2)),g=f[1];if(ak(f[2],d)){var
+e=g,a=N(b,a,a);continue}return N(b,a,ii(b,g,N(b,a,a)))}}function
+dv(a){return ii(H,a,p0)}function
+fK(a){return a?o(fK(a[1])):c}function
+bM(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=o(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=r(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,o(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=A(c,r(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=o(b(2,k(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=r(b(2,o(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-l=o(b(2,k(b(2,b(2,c)))),d),m=z(k(b(2,c)),l),a=a[1],d=m;continue;case
+k=r(b(2,o(b(2,b(2,c)))),d),l=A(o(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-n=o(b(2,k(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),n),a=a[1],d=p;continue;case
+m=r(b(2,o(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-q=o(b(2,k(b(2,b(2,c)))),d),r=z(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
+p=r(b(2,o(b(2,b(2,c)))),d),q=A(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-s=o(b(2,k(b(2,b(2,c)))),d),t=z(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
+s=r(b(2,o(b(2,b(2,c)))),d),t=A(b(2,o(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=o(b(2,k(b(2,b(2,c)))),d),v=z(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
+u=r(b(2,o(b(2,b(2,c)))),d),v=A(o(b(2,o(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=o(b(2,k(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=o(b(2,k(b(2,b(2,c)))),d),A=z(k(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-ff(a){if(D(a,c))return o$;var
-b=be(a,aT(2)),e=b[1];return al(b[2],d)?a5(ff(e)):a6(ff(e))}function
-d0(a){return dW(ff(a))}function
-hG(k,f){if(0<=bx(f)){var
-g=g9(f);if(0<=g){var
+w=r(b(2,o(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=r(b(2,o(b(2,b(2,c)))),d),z=A(o(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+fL(a){if(B(a,c))return p1;var
+b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?a$(fL(e)):ba(fL(e))}function
+ei(a){return ef(fL(a))}function
+ij(k,f){if(0<=bH(f)){var
+g=hM(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=o(b,b),j=1===(a&1)?o(e,b):e,e=j,b=i,a=h;continue}}return bT(o6)}return d}function
-hH(a){return 0<=bx(a)?a:d}function
-fg(a){var
-b=bx(a);return 0===b?c:0<b?a:c}function
-hI(n){var
-a=n;for(;;)if(typeof
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b2(pW)}return d}function
+ik(a){return 0<=bH(a)?a:d}function
+fM(a){var
+b=bH(a);return 0===b?c:0<b?a:c}function
+il(m){var
+a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bC(a[1],c);case
+1:return bM(a[1],c);case
 2:var
-e=b(2,c);return bC(a[1],e);case
+e=b(2,c);return bM(a[1],e);case
 3:var
-f=k(b(2,c));return bC(a[1],f);case
+f=o(b(2,c));return bM(a[1],f);case
 4:var
-g=b(2,b(2,c));return bC(a[1],g);case
+g=b(2,b(2,c));return bM(a[1],g);case
 5:var
-h=k(b(2,b(2,c)));return bC(a[1],h);case
+h=o(b(2,b(2,c)));return bM(a[1],h);case
 6:var
-i=b(2,k(b(2,c)));return bC(a[1],i);case
+i=b(2,o(b(2,c)));return bM(a[1],i);case
 7:var
-j=k(b(2,k(b(2,c))));return bC(a[1],j);case
+j=o(b(2,o(b(2,c))));return bM(a[1],j);case
 8:var
-l=b(2,b(2,b(2,c)));return bC(a[1],l);default:var
-m=k(b(2,b(2,b(2,c))));return bC(a[1],m)}}function
-bV(b,a){var
-c=bx(a);return 0===c?d:1===c?g8(b,a):hy(-1,g8(hy(-1,b),a))}function
-hJ(a){return 0<bx(a)?zf(a):d}function
-df(b,c){var
-a=g9(c);return 0<=a?mn(b,a):mo(b,-a|0)}function
-cC(b,c){var
-a=g9(c);return 0<=a?mo(b,a):mn(b,-a|0)}function
-fh(b,a){return a?a[1]:b}function
-hK(a){var
+k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
+l=o(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
+b5(b,a){var
+c=bH(a);return 0===c?d:1===c?hL(b,a):ia(-1,hL(ia(-1,b),a))}function
+im(a){return 0<bH(a)?A8(a):d}function
+dw(b,c){var
+a=hM(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
+cO(b,c){var
+a=hM(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
+fN(b,a){return a?a[1]:b}function
+io(a){var
 b=a?a[2]:a;return b}function
-P(e,d,c){var
+F(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aJ(d,c){var
+al(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hL(a){if(a){var
-b=[0,a[1],0];return g(hL(a[2]),b)}return a}function
+ip(a){if(a){var
+b=[0,a[1],0];return g(ip(a[2]),b)}return a}function
+iq(d,c){var
+a=d,b=c;for(;;){if(a){var
+e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-N(b,a){if(a){var
-c=N(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cD(c,b,a){if(a){var
-d=cD(c,b,a[2]);return S(c,a[1],d)}return b}function
-bD(f,d){var
+y(b,a){if(a){var
+c=y(b,a[2]);return g(e(b,a[1]),c)}return a}function
+ir(e,d,c){var
+a=d,b=c;for(;;){if(a){var
+f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cP(c,b,a){if(a){var
+d=cP(c,b,a[2]);return N(c,a[1],d)}return b}function
+a6(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-p(d,c){var
+n(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cE(b,a){if(b)if(a)var
-d=cE(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+fO(b,f){var
+a=f;for(;;){if(a){var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fO(b,c)];var
+a=c;continue}return a}}function
+ck(b,a){if(b)if(a)var
+d=ck(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hM(b,a){if(b)if(a)var
-d=hM(b[1],a[2]),c=[0,a[1],d];else
+ej(b,a){if(b)if(a)var
+d=ej(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cF(b,a){var
-c=a?[0,b,cF([0,b],a[1])]:a;return c}function
-ce(b,a){var
-c=a?[0,b,ce(b,a[1])]:a;return c}function
-hN(a){if(a){var
-e=hN(a[2]),f=o(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-d1(j){function
+is(d,c){var
+b=d,a=c;for(;;){if(b){if(a){var
+b=b[1],a=a[2];continue}return a}return a}}function
+cQ(b,a){var
+c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
+cl(b,a){var
+c=a?[0,b,cl(b,a[1])]:a;return c}function
+it(a){if(a){var
+e=it(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+ek(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?de(b):0}function
-hO(c,b){var
-a=g7(o(c[1],b[2]),o(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hP(b,a){return D(o(b[1],a[2]),o(a[1],b[2]))}function
-hQ(b,a){return[0,z(o(b[1],a[2]),o(a[1],b[2])),o(b[2],a[2])]}function
-hR(b,a){return[0,o(b[1],a[1]),o(b[2],a[2])]}function
-aQ(a){if(typeof
-a==="number")return pc;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=it([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
+iu(c,b){var
+a=hK(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iv(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
+iw(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+ix(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+aW(a){if(typeof
+a==="number")return p4;else
 switch(a[0]){case
 0:var
-b=aQ(a[1]);return as(aY(1,48),b);case
+b=aW(a[1]);return av(a5(1,48),b);case
 1:var
-c=aQ(a[1]);return as(aY(1,49),c);case
+c=aW(a[1]);return av(a5(1,49),c);case
 2:var
-d=aQ(a[1]);return as(aY(1,50),d);case
+d=aW(a[1]);return av(a5(1,50),d);case
 3:var
-e=aQ(a[1]);return as(aY(1,51),e);case
+e=aW(a[1]);return av(a5(1,51),e);case
 4:var
-f=aQ(a[1]);return as(aY(1,52),f);case
+f=aW(a[1]);return av(a5(1,52),f);case
 5:var
-g=aQ(a[1]);return as(aY(1,53),g);case
+g=aW(a[1]);return av(a5(1,53),g);case
 6:var
-h=aQ(a[1]);return as(aY(1,54),h);case
+h=aW(a[1]);return av(a5(1,54),h);case
 7:var
-i=aQ(a[1]);return as(aY(1,55),i);case
+i=aW(a[1]);return av(a5(1,55),i);case
 8:var
-j=aQ(a[1]);return as(aY(1,56),j);default:var
-k=aQ(a[1]);return as(aY(1,57),k)}}function
-dg(a){return typeof
-a==="number"?pd:aQ(a)}function
-cf(a){return hG(b(2,c),a)}function
-hS(b,a){return cC(a,b)}function
-hT(b,a){return T(cC(T(a),b))}function
-d2(b,a){return T(bV(T(b),a))}function
-aZ(c,b){var
-a=df(b,c);return[0,a,a]}function
-H(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-O(b,a){return[0,cb(b[1],a[2]),cb(b[2],a[1])]}function
-aA(a){return[0,T(a[2]),T(a[1])]}function
-hU(e,c,b,a){if(D(d,e))return D(d,b)?[0,o(e,b),o(c,a)]:D(a,d)?[0,o(c,b),o(e,a)]:[0,o(c,b),o(c,a)];if(D(c,d))return D(d,b)?[0,o(e,a),o(c,b)]:D(a,d)?[0,o(c,a),o(e,b)]:[0,o(e,a),o(e,b)];if(D(d,b))return[0,o(e,a),o(c,a)];if(D(a,d))return[0,o(c,b),o(e,b)];var
-f=cd(o(e,b),o(c,a));return[0,fc(o(e,a),o(c,b)),f]}function
-B(c,b,a){var
-d=hU(b[1],b[2],a[1],a[2]),e=hT(c,d[2]);return[0,hS(c,d[1]),e]}function
-aj(b,a){var
-c=o(a[1],a[1]),e=o(a[2],a[2]),h=hT(b,cd(c,e)),g=0;if(ag(a[1],d)&&ag(d,a[2])){var
+j=aW(a[1]);return av(a5(1,56),j);default:var
+k=aW(a[1]);return av(a5(1,57),k)}}function
+dx(a){return typeof
+a==="number"?p5:aW(a)}function
+cm(a){return ij(b(2,c),a)}function
+iy(b,a){return cO(a,b)}function
+iz(b,a){return W(cO(W(a),b))}function
+el(b,a){return W(b5(W(b),a))}function
+aL(c,b){var
+a=dw(b,c);return[0,a,a]}function
+C(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+M(b,a){return[0,b1(b[1],a[2]),b1(b[2],a[1])]}function
+aE(a){return[0,W(a[2]),W(a[1])]}function
+iA(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
+f=cj(r(e,b),r(c,a));return[0,fI(r(e,a),r(c,b)),f]}function
+D(c,b,a){var
+d=iA(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
+ai(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iz(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hS(b,fc(c,e));return[0,f,h]}function
-hV(b,a){var
-c=df(cf(b),b),d=d2(c,a[1]);return[0,bV(c,a[2]),d]}function
-cg(b,a){if(ag(d,a[1]))return[0,hV(b,a)];var
-c=ag(a[2],d),e=c?[0,aA(hV(b,aA(a)))]:c;return e}function
-cG(f,b){var
-g=ag(d,b[1]);if(g)var
-e=df(b[2],f),a=hJ(e),i=al(o(a,a),e)?a:z(a,c),h=[0,[0,hJ(df(b[1],f)),i]];else
+f=iy(b,fI(c,e));return[0,f,h]}function
+iB(b,a){var
+c=dw(cm(b),b),d=el(c,a[1]);return[0,b5(c,a[2]),d]}function
+cn(b,a){if(ac(d,a[1]))return[0,iB(b,a)];var
+c=ac(a[2],d),e=c?[0,aE(iB(b,aE(a)))]:c;return e}function
+co(f,b){var
+g=ac(d,b[1]);if(g)var
+e=dw(b[2],f),a=im(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,im(dw(b[1],f)),i]];else
 var
 h=g;return h}function
-a0(e,d,c,b,a){if(b){if(a){var
-g=a0(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bW(b,a){return cC(b,a)}function
-bX(a,c,b){if(D(d,a)){var
-e=b[1],f=T(bW(T(o(a,b[2])),c));return[0,bW(o(a,e),c),f]}var
-g=b[2],h=T(bW(T(o(a,b[1])),c));return[0,bW(o(a,g),c),h]}function
-d3(a){var
-b=T(cC(T(a[2]),c));return[0,cC(a[1],c),b]}function
-fi(c,b,a){var
-e=hU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ag(f,d)?a[2]:a[1],i=d2(f,h),j=ag(g,d)?a[1]:a[2];return[0,bV(g,j),i]}var
-_=[0,d,d];function
-fj(a){return[0,a[1],a[1]]}function
-d4(a){return[0,a[2],a[2]]}function
-au(a,b){switch(b[0]){case
+a7(e,d,c,b,a){if(b){if(a){var
+g=a7(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+b6(b,a){return cO(b,a)}function
+bN(a,c,b){if(B(d,a)){var
+e=b[1],f=W(b6(W(r(a,b[2])),c));return[0,b6(r(a,e),c),f]}var
+g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
+em(a){var
+b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
+fP(c,b,a){var
+e=iA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
+ab=[0,d,d];function
+fQ(a){return[0,a[1],a[1]]}function
+en(a){return[0,a[2],a[2]]}function
+ax(a,b){switch(b[0]){case
 0:var
-n=b[2],m=df(b[1],a),t=d2(m,n);return[0,[0,bV(m,n),t]];case
+n=b[2],m=dw(b[1],a),t=el(m,n);return[0,[0,b5(m,n),t]];case
 1:var
-c=au(a,b[1]);if(c)var
-d=au(a,b[2]),u=d?[0,H(c[1],d[1])]:d,o=u;else
+c=ax(a,b[1]);if(c)var
+d=ax(a,b[2]),u=d?[0,C(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=au(a,b[1]);if(e)var
-f=au(a,b[2]),v=f?[0,O(e[1],f[1])]:f,p=v;else
+e=ax(a,b[1]);if(e)var
+f=ax(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=au(a,b[1]);if(g)var
-h=au(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
+g=ax(a,b[1]);if(g)var
+h=ax(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=au(a,b[1]);if(i){var
-j=au(a,b[2]);if(j)var
-k=cg(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
+i=ax(a,b[1]);if(i){var
+j=ax(a,b[2]);if(j)var
+k=cn(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=au(a,b[1]);return l?cG(a,l[1]):l}}function
-hW(a){var
-e=cd(T(a),d);return fg(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hX(a){return hH(z(hW(a),a))}function
-ch(f,a,e){var
-b=au(z(f,hW(a)),e);if(b)var
-c=b[1],g=hX(a),h=T(bW(T(c[2]),g)),i=hX(a),d=[0,[0,bW(c[1],i),h]];else
+l=ax(a,b[1]);return l?co(a,l[1]):l}}function
+iC(a){var
+e=cj(W(a),d);return fM(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iD(a){return ik(A(iC(a),a))}function
+b7(f,a,e){var
+b=ax(A(f,iC(a)),e);if(b)var
+c=b[1],g=iD(a),h=W(b6(W(c[2]),g)),i=iD(a),d=[0,[0,b6(c[1],i),h]];else
 var
 d=b;return d}function
-a1(d,a){var
-b=ch(d,a[2],a[1][1]);if(b)var
-c=ch(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aM(d,a){var
+b=b7(d,a[2],a[1][1]);if(b)var
+c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hY(b,a){var
-c=T(bW(T(a[2]),b));return[0,bW(a[1],b),c]}function
-fk(b,a){var
-c=d2(b[2],a);return[0,bV(b[1],a),c]}function
-fl(a,f,b){if(b){var
-d=b[1],g=fl(a,f,d),h=g[2],i=fe(M(dd(pf,d),pe)),j=o(fe(dd(pg,d)),i),e=fk(B(a,g[1],f),j),k=hD(b)?H(h,e):O(h,e);return[0,e,k]}var
-l=aZ(a,c);return[0,aZ(a,c),l]}function
-hZ(f){var
-g=de(f),e=ph[1],b=g,c=0,a=e;for(;;){if(b){var
+iE(b,a){var
+c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
+fR(b,a){var
+c=el(b[2],a);return[0,b5(b[1],a),c]}function
+fS(a,f,b){if(b){var
+d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ig(b)?C(h,e):M(h,e);return[0,e,k]}var
+l=aL(a,c);return[0,aL(a,c),l]}function
+iF(f){var
+g=dv(f),e=p9[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return M(pi,c)}}function
-h0(a,d){var
-g=cf(a),h=o(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fl(a,d,dd(pk,M(hZ(a),pj)))[2][2],f=[0,[0,fl(a,d,M(dd(pm,hZ(a)),pl))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return H(p_,c)}}function
+iG(a,d){var
+g=cm(a),h=r(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
+i=fS(a,d,dt(qa,H(iF(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iF(a)),qb))[2][1],i]];else
 var
 f=e;return f}function
-h1(i){function
+iH(i){function
 a(h){var
-m=bV(cf(i),h),g=de(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,bV(f,a)),l=T(bV(f,o(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=o(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return cb(o(b(2,b(2,b(2,b(2,c)))),g),f)}function
-h2(e,a){var
-f=D(d,a);if(f){var
-g=b(2,b(2,c));return h0(e,fk(aj(e,[0,a,a]),g))}return f}function
-h3(a,d){var
-b=aj(a,d),e=aZ(a,c);return O(H(b,b),e)}function
-d5(o,u){var
-h=au(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cb(h1(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(h1(a),r),f=h2(a,i);if(f){var
-g=h2(a,j);if(g)var
-l=ag(d,f[1][1]),m=l?ag(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
+m=b5(cm(i),h),g=dv(i),f=m,e=d,a=c;for(;;){if(g){var
+j=A(a,b(2,c)),k=A(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return b1(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iI(e,a){var
+f=B(d,a);if(f){var
+g=b(2,b(2,c));return iG(e,fR(ai(e,[0,a,a]),g))}return f}function
+iJ(a,d){var
+b=ai(a,d),e=aL(a,c);return M(C(b,b),e)}function
+eo(n,u){var
+h=ax(A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iH(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iH(a),r),f=iI(a,i);if(f){var
+g=iI(a,j);if(g)var
+k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
-n=g;var
-e=n}else
+m=g;var
+e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=h0(a,aj(a,fk(B(a,v,e[1]),s))),p=ab(function(b){return h3(a,h3(a,b))},t);else
+s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iG(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iJ(a,iJ(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ab(function(a){return hY(w,a)},p)}return h}function
-fm(d,a){return d5(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
-d6(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iE(w,a)},p)}return h}function
+fT(d,a){return eo(d,[2,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
+ep(a){return 0===a[0]?a[2]:a[1]}function
+dy(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2278,127 +2292,128 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bf(j,i){var
+bb(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?ai(b[1],a[1]):0;case
-1:return 1===a[0]?ai(b[1],a[1]):0;case
-2:return 2===a[0]?al(b[1],a[1]):0;case
+0:return 0===a[0]?aa(b[1],a[1]):0;case
+1:return 1===a[0]?aa(b[1],a[1]):0;case
+2:return 2===a[0]?ak(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bf(b[1],a[1]);if(e){var
+e=bb(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bf(b[1],a[1]);if(f){var
+f=bb(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bf(b[1],a[1]);if(g){var
+g=bb(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bf(b[1],a[1]);if(h){var
+h=bb(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-d7(b){var
+eq(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bg(c,b){var
-a=d7(b);return a?al(c,a[1]):a}function
-dh(a){return ag(e2(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+bo(c,b){var
+a=eq(b);return a?ak(c,a[1]):a}function
+dz(a){return ac(fw(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
-G(b,a){if(bg(d,b))return a;if(bg(d,a))return b;var
-c=d7(b);if(c){var
-e=c[1],f=d7(a);if(f){var
-g=f[1];if(dh(e)&&dh(g))return q(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ci(a){var
+G(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
+c=eq(b);if(c){var
+e=c[1],f=eq(a);if(f){var
+g=f[1];if(dz(e)&&dz(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+cp(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dh(c)?q(T(c)):[0,[5,a]];case
+c=b[1];return dz(c)?q(W(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-A(b,a){return bg(d,a)?b:bg(d,b)?ci(a):[0,[4,b,a]]}function
-ac(a){var
-c=d7(a);if(c){var
-b=c[1];return dh(b)?q(o(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bg(d,a)&&!bg(c,b)){if(!bg(d,b)&&!bg(c,a))return bf(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
-aK(b,a){return bg(c,a)?b:[0,[7,b,a]]}function
-cH(a){return bg(c,a)?a:[0,[9,a]]}function
-cI(g,f,d,c){var
+z(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
+af(a){var
+c=eq(a);if(c){var
+b=c[1];return dz(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?af(a):[0,[6,a,b]];return b}return a}function
+aI(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
+cq(a){return bo(c,a)?a:[0,[9,a]]}function
+cr(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,d6(function(b){return function(a){return P(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-d8(a){var
+h=b[1],i=[0,e(f,dy(function(b){return function(a){return F(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dA(a){var
 b=0;function
-c(a){return[0,a]}return cI(q(d),c,a,b)}function
-fn(b,a){if(a){if(bf(b,a[1]))return pn;var
-c=fn(b,a[2]);return ab(function(a){return[0,a]},c)}return a}function
-bY(c,b){var
-a=fn(b,c),d=a?a[1]:a;return d}function
-d9(d,a){if(fn(d,a[1]))return a;var
+c(a){return[0,a]}return cr(q(d),c,a,b)}function
+fU(b,a){if(a){if(bb(b,a[1]))return qd;var
+c=fU(b,a[2]);return ae(function(a){return[0,a]},c)}return a}function
+bp(c,b){var
+a=fU(b,c),d=a?a[1]:a;return d}function
+er(d,a){if(fU(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=d9(b[1],a);break;case
+c=er(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=d9(b[1],a),c=d9(b[2],h)}var
-e=c[2],f=c[1],g=[0,d6(function(a){return bY(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-d_(c){var
-b=c,a=po;for(;;){if(b){var
-d=d9(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bY(e,a)},c);return[0,hL(a[2]),g]}}function
-h4(a){return cD(function(a,b){return z(cd(a[2],T(a[1])),b)},d,a)}function
-cJ(b,c,a){var
-d=h4(a),e=fc(c[2],z(b[2],d)),f=h4(a);return[0,b,[0,cd(c[1],cb(b[1],f)),e],a]}function
-bh(a){return[0,a,a,0]}function
-fo(b,a){return a?e(b,a[1]):a}function
-d$(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
+h=er(b[1],a),c=er(b[2],h)}var
+e=c[2],f=c[1],g=[0,dy(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dB(a){var
+b=ir(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ip(b[2]),d]}function
+es(a){return cP(function(a,b){return A(cj(a[2],W(a[1])),b)},d,a)}function
+cR(b,c,a){var
+d=es(a),e=fI(c[2],A(b[2],d)),f=es(a);return[0,b,[0,cj(c[1],b1(b[1],f)),e],a]}function
+a3(a){return[0,a,a,0]}function
+et(b,a){var
+c=a[3],d=b[3];function
+e(a){return a}var
+f=a7(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return cR(C(b[1],a[1]),g,f)}function
+iK(b,a){var
+c=a[3],d=b[3],e=a7(function(a){return a},aE,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
+iL(a,c,b){var
+d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+h(c,b){var
+f=D(a,e,b);return em(C(D(a,d,c),f))}function
+i(b){return em(D(a,e,b))}var
+j=a7(function(b){return em(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cR(D(a,c[1],b[1]),k,j)}function
+fV(b,a){return a?e(b,a[1]):a}function
+eu(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-fp(a,e,d){var
-c=bh(_);return function(b){switch(b[0]){case
-0:return[0,P(b[1],e,c)];case
-1:return[0,P(b[1],d,c)];case
-2:return[0,bh(aZ(a,b[1]))];case
+dC(a,e,d){var
+c=a3(ab);return function(b){switch(b[0]){case
+0:return[0,F(b[1],e,c)];case
+1:return[0,F(b[1],d,c)];case
+2:return[0,a3(aL(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return d$(function(b,a){var
-c=a[3],d=b[3];function
-e(a){return a}var
-f=a0(function(a){return a},e,H,d,c),g=H(b[2],a[2]);return[0,cJ(H(b[1],a[1]),g,f)]},h,g);case
+g=b[2],h=b[1];return eu(function(b,a){return[0,et(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return d$(function(b,a){var
-c=a[3],d=b[3],e=a0(function(a){return a},aA,O,d,c),f=O(b[2],a[2]);return[0,cJ(O(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return eu(function(b,a){return[0,iK(b,a)]},j,i);case
 5:var
-k=b[1];return fo(function(a){var
-b=f(aA,a[3]),c=aA(a[2]);return[0,[0,aA(a[1]),c,b]]},k);case
+k=b[1];return fV(function(a){var
+b=f(aE,a[3]),c=aE(a[2]);return[0,[0,aE(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return d$(function(c,b){var
-d=H(b[2],b[1]),e=H(c[2],c[1]),f=b[3],g=c[3];function
-h(c,b){var
-f=B(a,e,b);return d3(H(B(a,d,c),f))}function
-i(b){return d3(B(a,e,b))}var
-j=a0(function(b){return d3(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cJ(B(a,c[1],b[1]),k,j)]},m,l);case
+l=b[2],m=b[1];return eu(function(c,b){return[0,iL(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return d$(function(e,g){var
-b=cg(a,g[1]);if(b){var
-c=cg(a,g[2]);if(c)var
-h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return O(c,B(a,d,b))},n=function(b){return aA(B(a,d,b))},o=a0(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cJ(d,B(a,e[2],h),p)];else
+n=b[2],o=b[1];return eu(function(e,g){var
+b=cn(a,g[1]);if(b){var
+c=cn(a,g[2]);if(c)var
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,D(a,d,b))},n=function(b){return aE(D(a,d,b))},o=a7(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cR(d,D(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fo(function(b){var
-c=b[3],d=H(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cJ(aj(a,b[1]),g,e)]},p);default:var
-q=b[1];return fo(function(e){var
-b=cG(a,e[1]);if(b){var
-g=b[1],c=cG(a,e[2]);if(c){var
-h=c[1],d=cg(a,H(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cJ(g,h,f(function(b){return B(a,m,b)},l))];else
+p=b[1];return fV(function(b){var
+c=b[3],d=C(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ai(a,b[2]);return[0,cR(ai(a,b[1]),g,e)]},p);default:var
+q=b[1];return fV(function(e){var
+b=co(a,e[1]);if(b){var
+g=b[1],c=co(a,e[2]);if(c){var
+h=c[1],d=cn(a,C(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return D(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2407,130 +2422,143 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-pp(a){return a}function
-pq(a){return a}function
-pr(a,b){return a0(pq,pp,H,a,b)}function
-ps(a){return a}function
-pt(a){return a}function
-h5(a,b){return a0(pt,ps,pr,a,b)}function
-fq(b,a,c){if(a){var
+qf(a){return a}function
+qg(a){return a}function
+qh(a,b){return a7(qg,qf,C,a,b)}function
+qi(a){return a}function
+qj(a){return a}function
+iM(a,b){return a7(qj,qi,qh,a,b)}function
+fW(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fq(b,e,c[2]),h=c[1],i=function(c,a){return O(c,fi(d,a,b))},j=function(a){return aA(fi(d,a,b))};return[0,a0(function(a){return a},j,i,h,a),g]}var
-k=fq(b,e,0);return[0,f(function(a){return aA(fi(d,a,b))},a),k]}return c}function
-h6(a){if(a){var
+g=fW(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fP(d,a,b))},j=function(a){return aE(fP(d,a,b))};return[0,a7(function(a){return a},j,i,h,a),g]}var
+k=fW(b,e,0);return[0,f(function(a){return aE(fP(d,a,b))},a),k]}return c}function
+iN(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ag(d,c[1]),h=e?[0,fq(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ac(d,c[1]),h=e?[0,fW(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-h7(f,e){var
+iO(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=h6(b);if(c){var
+c=iN(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-h8(d,b,a){if(b)if(a)var
-e=a[1],f=h8(d,b[2],a[2]),g=dX(d,b[1])?fj(e):d4(e),c=[0,g,f];else
+iP(d,b,a){if(b)if(a)var
+e=a[1],f=iP(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-h9(a,b){if(a)if(b)var
-d=h9(a[2],b[2]),c=[0,h8(a[1],a,b[1]),d];else
+iQ(a,b){if(a)if(b)var
+d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bZ(a){if(a){var
-b=a[1],c=bZ(b),d=f(function(a){return[0,1,a]},c),e=bZ(b);return g(f(function(a){return[0,0,a]},e),d)}return pu}function
-ea(a){var
-b=n(a);if(h7(b,a))return 1;var
-c=bZ(cB(b));return p(function(c){return h7(b,h9([0,0,c],a))},c)}function
-a7(a){function
+bO(a){if(a){var
+b=a[1],c=bO(b),d=f(function(a){return[0,1,a]},c),e=bO(b);return g(f(function(a){return[0,0,a]},e),d)}return qk}function
+ev(a){var
+b=k(a);if(iO(b,a))return 1;var
+c=bO(b4(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
+a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-di(h,e){var
+b8(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?H(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-h_(c,b,a){var
-d=bZ(c);return p(function(c){return e(a,e(a7(function(a){return di(c,a)}),b))},d)}function
-h$(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bX(b,z(h,c),a)},k=h$(h,j,i),l=function(c,b){var
-d=a(b,e);return H(a(f,c),d)},m=function(b){return a(b,e)},n=a0(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,H(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+iR(c,b,a){var
+d=bO(c);return n(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
+iS(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iS(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a7(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-ia(b,d,a,c){function
+iT(b,d,a,c){function
 e(c,d){var
-e=bX(d,b,a);return O(H(c,c),e)}function
-f(c){return aA(bX(c,b,a))}return a0(function(a){return H(a,a)},f,e,d,c)}function
-fr(d,i,h,g){var
+e=bN(d,b,a);return M(C(c,c),e)}function
+f(c){return aE(bN(c,b,a))}return a7(function(a){return C(a,a)},f,e,d,c)}function
+fX(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=d4(e[2]),k=h5(a,h$(d,f,ia(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-ib(b,a){return[0,[0,0,b],a]}function
-dj(b,c,g,f,a){function
+e=b[1],f=c[1],j=en(e[2]),k=iM(a,iS(d,f,iT(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iU(b,a){return[0,[0,0,b],a]}function
+dD(b,c,g,f,a){function
 d(a){if(a){var
-h=ce([0,aA(a[1][2]),0],b),c=fr(g,f,a[2],h),d=ai(n(c),b);if(d)return ea(c);var
+h=cl([0,aE(a[1][2]),0],b),c=fX(g,f,a[2],h),d=aa(k(c),b);if(d)return ev(c);var
 e=d}else
 var
-e=a;return e}return h_(b,ib(c,a),d)}function
-ic(f,e){var
+e=a;return e}return iR(b,iU(c,a),d)}function
+iV(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=h6([0,[0,fj(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iN([0,[0,fQ(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fs(b,c,a){function
+fY(b,c,a){function
 d(a){if(a){var
-h=ce([0,a[1][2],0],b),c=ic(a[2],h);if(c){var
-d=c[1],e=ai(n(d),b);if(e)return ea(d);var
+h=cl([0,a[1][2],0],b),c=iV(a[2],h);if(c){var
+d=c[1],e=aa(k(d),b);if(e)return ev(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return h_(b,ib(c,a),d)}function
-id(a,b){var
-c=b[3],d=a[3],e=a0(function(a){return a},aA,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
-eb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b0(c,b,a){var
-d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-ec(b,a){var
+g=a;return g}return iR(b,iU(c,a),d)}function
+iW(a,b){var
+c=b[3],d=a[3],e=a7(function(a){return a},aE,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+dE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aX(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+dF(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-ed(b,a){var
-c=aK(b[3],a),d=aK(b[2],a);return[0,aK(b[1],a),d,c]}function
-aB(b,a){var
+ew(b,a){var
+c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
+aF(b,a){var
 c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-ft(a){return ed(a,cH(aB(a,a)))}function
-ie(a){return f(function(a){var
-b=a[2];return[0,eb(a[1]),b]},a)}function
-ig(a){return f(function(a){var
-b=q(c);return[0,eb(a[3]),b]},a)}function
-bE(a){return cC(z(a[1],a[2]),c)}function
-cK(a){var
-b=bE(a);return cb(a[2],b)}function
-ih(c,b){if(b)var
-a=b[1],e=ih([0,c],b[2]),f=cK(a),h=[0,[0,cK(a),f],0],i=g(ce(_,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
+fZ(a){return ew(a,cq(aF(a,a)))}function
+ex(a){var
+b=a[5];return b?b[1]:cq(a[2])}function
+ey(a){return f(function(a){var
+b=a[2];return[0,dE(a[1]),b]},a)}function
+iX(a){return f(function(a){var
+b=q(c);return[0,dE(a[3]),b]},a)}function
+iY(b,a){var
+c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
+iZ(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+ez(a,k,j,p,i,h,g){var
+m=iZ(iK,h,g),b=iZ(function(b,c){return iL(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
+c=iY(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+g=f[1],h=[0,g[2],g[2]];else
+var
+h=[0,b[2],b[2]];var
+q=D(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return ac(d,r[1])},o)}function
+bq(a){return cO(A(a[1],a[2]),c)}function
+cS(a){var
+b=bq(a);return b1(a[2],b)}function
+f0(c,b){if(b)var
+a=b[1],e=f0([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ab,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
 var
 d=b;return d}function
-ee(d,b){if(b){var
+dG(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ee(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pv}function
-ii(d,c,b,a){var
-e=f(bh,b);return cI(0,fp(d,ih(0,a),e),c,0)}function
-aW(a){if(a){var
+e=dG(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
+i0(d,c,b,a){var
+e=f(a3,b);return cr(0,dC(d,f0(0,a),e),c,0)}function
+aS(a){if(a){var
 b=a[1];if(b)var
-c=aW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pw}function
-ij(b,a){if(a){var
-h=a[1],n=h[1],c=aW(f(function(a){return P(a,b,0)},n));if(c){var
-e=P(h[2],b,0);if(e){var
-i=e[1],g=ij(b,a[2]);if(g)var
-j=ag(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return qm}function
+i1(b,a){if(a){var
+h=a[1],n=h[1],c=aS(f(function(a){return F(a,b,0)},n));if(c){var
+e=F(h[2],b,0);if(e){var
+i=e[1],g=i1(b,a[2]);if(g)var
+j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2538,341 +2566,429 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return px}function
-cj(d,c,b){var
-a=ij(d,c);return a?e(b,a[1]):a}function
-fv(a,b){return p(function(c){var
-a=P(c,b,0),d=a?1:a;return d},a)}function
-ef(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a0(function(a){return a},f,H,e,d),h=a[2];return[0,H(a[1],c[1]),h,g]}return a}function
-fw(b,a){return b?id(a,b[1]):a}function
-fx(h,g,b,f){var
-a=P(f,h,0);if(a){var
+m=c;return m}return qn}function
+ct(d,c,b){var
+a=i1(d,c);return a?e(b,a[1]):a}function
+f1(a,b){return n(function(c){var
+a=F(c,b,0),d=a?1:a;return d},a)}function
+eA(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a7(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+f2(b,a){return b?iW(a,b[1]):a}function
+f3(h,g,b,f){var
+a=F(f,h,0);if(a){var
 c=a[1];if(b){var
-i=id(c,b[1]),e=bZ(g);return p(function(a){return D(d,di(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-ik(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=iW(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
+eB(b,a){var
+c=F(a[1],b,0);if(c){var
+d=F(a[2],b,0);if(d)var
+e=F(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+var
+f=d;var
+g=f}else
+var
+g=c;return g}function
+i2(i,q,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
-k=h[1];if(typeof
+r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fv(l,b);if(r){var
-C=a[2],D=a[1],E=ef(g,bh(k));return cj(b,j,function(a){return dj(e,E,D,C,a)})}return r;case
+K=f1(t,e);if(K){var
+ad=a[2],ae=a[1],af=eA(g,a3(r));return ct(e,q,function(a){return dD(b,af,ae,ad,a)})}return K;case
 1:var
-s=fv(l,b);if(s){var
-F=a[2],G=a[1],H=ef(g,bh(k));return cj(b,q,function(a){return dj(e,H,G,F,a)})}return s;case
+L=f1(t,e);if(L){var
+ag=a[2],ah=a[1],ai=eA(g,a3(r));return ct(e,J,function(a){return dD(b,ai,ah,ag,a)})}return L;case
 2:var
-t=fv(l,b);if(t){if(g)return 0;var
-u=al(k[1],d),v=u?al(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cj(b,j,function(a){var
-b=[0,_,_,0];return dj(e,[0,_,_,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
-w=v}else
+M=f1(t,e);if(M){if(g)return 0;var
+N=ak(r[1],d),O=N?ak(r[2],d):N;if(O){var
+aj=a[2],al=a[1];return ct(e,q,function(a){var
+c=[0,ab,ab,0];return dD(b,[0,ab,ab,0],al,aj,f(function(a){return[0,a[1],c]},a))})}var
+P=O}else
 var
-w=t;return w}return 0;case
+P=M;return P}return 0;case
 1:var
-x=h[1];if(typeof
+Q=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fw(g,bh(x));return cj(b,q,function(a){return fs(e,K,a)})}if(!a){var
-L=fw(g,bh(x));return cj(b,j,function(a){return fs(e,L,a)})}}return 0;case
+am=f2(g,a3(Q));return ct(e,J,function(a){return fY(b,am,a)})}if(!a){var
+an=f2(g,a3(Q));return ct(e,q,function(a){return fY(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return bX(a,y,aZ(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),_,A];else
+R=a[1],u=a[3],I=function(a){return bN(a,R,aL(i,c))};if(u)var
+$=f(I,u[2]),j=[0,I(u[1]),ab,$];else
 var
-i=bh(_);var
-z=h[1],M=a[2];return cj(b,j,function(c){var
-h=bZ(e),a=p(function(a){return ag(d,di(a,i)[1])},h),b=a?dj(e,ef(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fs(e,fw(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
+j=a3(ab);var
+S=h[1],ao=a[2];return ct(e,q,function(e){var
+h=bO(b),a=n(function(a){return ac(d,b8(a,j)[1])},h),c=a?dD(b,eA(g,j),R,ao,e):a;if(c){var
+k=j[3],l=f(function(a){return D(i,S,a)},k),m=j[2];return fY(b,f2(g,[0,D(i,S,j[1]),m,l]),e)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fx(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return f3(e,b,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=ef(g,bh(h[2])),Q=function(a){return dj(e,P,O,N,a)};return cj(b,h[1],Q)}return 0;default:if(typeof
+ap=a[2],aq=a[1],ar=eA(g,a3(h[2])),as=function(a){return dD(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
+5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fx(b,e,g,h[1]);case
-2:return fx(b,e,g,h[2])}return 0}}function
-eg(b,a){if(a){var
+0:return f3(e,b,g,h[1]);case
+2:return f3(e,b,g,h[2])}return 0;default:if(typeof
+a!=="number"&&8===a[0]){var
+v=eB(e,h[1]);if(v){var
+w=eB(e,h[2]);if(w){var
+x=eB(e,h[3]);if(x){var
+y=eB(e,h[4]);if(y){var
+T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
+m=l[2];if(m){var
+o=m[2];if(o){if(o[2])return 0;var
+_=[0,l[1],m[1],o[1]],p=iY(function(d){function
+e(a){return bN(a,at,aL(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=es(a),h=A(b[2],g),j=es(a);return[0,b,[0,b1(b[1],j),h],a]}return a3(ab)},_),z=n(function(a){return aa(k(a),[0,b])},l),B=z?ez(i,b,g,s,p,W,U):z,C=B?ez(i,b,g,s,p,W,T):B,E=C?ez(i,b,g,s,p,V,U):C;if(E)return ez(i,b,g,s,p,V,T);var
+F=E}else
+var
+F=o;var
+G=F}else
+var
+G=m;var
+H=G}else
+var
+H=l;return H}var
+X=y}else
+var
+X=x;var
+Y=X}else
+var
+Y=w;var
+Z=Y}else
+var
+Z=v;return Z}return 0}}function
+eC(b,a){if(a){var
 c=a[2];if(b){var
-e=eg(b[1],c);return[0,a[1],e]}var
+e=eC(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-il(r,V,H,G,F,U,T,E,c,C,B){if(C){var
-I=ii(r,V,U,c),g=C,b=B;for(;;){if(g){var
-v=g[1],a=v[2],m=v[1],w=g[2];if(typeof
+i3(r,V,I,H,G,U,T,E,c,D,C){if(D){var
+J=i0(r,V,U,c),g=D,b=C;for(;;){if(g){var
+v=g[1],a=v[2],o=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-l=e(E,c);if(l)var
-S=l[1],L=bZ(n(c)),o=p(function(b){return function(a){return ag(di(a,b)[2],d)}}(S),L);else
+m=e(E,c);if(m)var
+S=m[1],M=bO(k(c)),p=n(function(b){return function(a){return ac(b8(a,b)[2],d)}}(S),M);else
 var
-o=l;if(o){var
-g=w,b=f(function(a){return 0},b);continue}return o}var
-x=P(m,b,0);if(x){var
-q=aJ(T,m);if(q){var
-y=q[1],J=0;if(typeof
-a==="number"||!(5===a[0]))J=1;else{var
-i=a[2],j=e(E,c),K=0;if(j){var
-s=D(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],M=k[3],N=f(function(b,c){return function(a){return bX(b,c,a)}}(i,t),M),O=k[2],R=[0,[0,bX(i,t,k[1]),O,N]],h=ik(r,H,G,F,I,n(c),R,y,Q);K=1}else
+p=m;if(p){var
+g=w,b=f(function(a){return 0},b);continue}return p}var
+x=F(o,b,0);if(x){var
+q=al(T,o);if(q){var
+y=q[1],K=0;if(typeof
+a==="number"||!(5===a[0]))K=1;else{var
+i=a[2],j=e(E,c),L=0;if(j){var
+s=B(d,i);if(s){var
+l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i2(r,I,H,G,J,k(c),R,y,Q);L=1}else
 var
 u=s}else
 var
-u=j;if(!K)var
-h=u}if(J)var
-h=ik(r,H,G,F,I,n(c),0,y,a);if(h){var
-g=w,b=eg(m,b);continue}var
+u=j;if(!L)var
+h=u}if(K)var
+h=i2(r,I,H,G,J,k(c),0,y,a);if(h){var
+g=w,b=eC(o,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
-A=x;return A}return[0,b]}}return[0,B]}function
-fy(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,C]}function
+f4(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=il(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aV,l[1]):l}var
-m=il(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=ee(a[2],b),q=fy(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
-b=o[2],k=n,a=a[4];continue}var
+l=i3(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
+m=i3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dG(a[2],b),q=f4(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-im(a){return f(function(a){return 1},a)}function
-ck(m,r){var
+i4(a){return f(function(a){return 1},a)}function
+cu(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(D(j,c)){var
-k=al(b,n),l=k?dh(b):k;if(l)var
-o=al(m[2],d),g=o||al(b,d);else
+i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(B(j,c)){var
+k=ak(b,n),l=k?dz(b):k;if(l)var
+o=ak(m[2],d),g=o||ak(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=al(be(j,aT(2))[2],d)?0:0}else
+a=ak(bn(j,a1(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(be(i,aT(2))[2],d)?0:0}else
+a=ak(bn(i,a1(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
-eh(b,a){if(a)var
-d=eh([0,b],a[2]),c=[0,ck(a[1],b),d];else
+dH(b,a){if(a)var
+d=dH([0,b],a[2]),c=[0,cu(a[1],b),d];else
 var
 c=a;return c}function
-bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fz(b,d,a){switch(a[0]){case
+a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+f5(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
 1:var
-e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
-bF(b,a){var
-c=q(d),e=P(M(py,a),b,c),f=q(d),g=P(M(pz,a),b,f);return[0,P(a,b,q(d)),g,e]}function
-io(b,a){return b0(A,b0(G,fu,a),b)}function
-ip(c,b,a){if(a){var
-e=a[2],f=ip(c,hK(b),e),h=a[1];return g(fz(c,fh(d,b),h),f)}return a}function
-iq(l,k,h,x){if(h){var
-e=h[1],K=M(x,n(fz(l,fh(d,k),e))),L=h[2],N=iq(l,hK(k),L,K),a=eh(x,fz(l,fh(d,k),e));switch(e[0]){case
+e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
+aN(b,a){var
+c=q(d),e=F(H(qo,a),b,c),f=q(d),g=F(H(qp,a),b,f);return[0,F(a,b,q(d)),g,e]}function
+i5(b,a){return aX(z,aX(G,cs,a),b)}function
+f6(c,b,a){if(a){var
+e=a[2],f=f6(c,io(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
+f7(m,l,h,x){if(h){var
+e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,io(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
 0:var
-F=e[1][5],u=P(pA,a,q(d)),g=ft(bF(a,0)),H=bF(a,pB),v=io(bF(a,pC),H),o=aB(g,v),f=b0(A,v,ec(o,g)),z=aB(f,f),p=A(ac(u),z),r=cH(p),i=F?r:ci(r),B=A(o,i),C=b0(G,g,ed(f,i)),m=[0,b0(G,f,ec(i,g)),p,C,B,[0,u],0];break;case
+J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i5(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-w=e[3],I=w?[0,ft(bF(a,pD))]:w,J=bF(a,pE),b=io(bF(a,0),J),s=aB(b,b),t=cH(s),D=ab(function(a){return b0(A,b,ec(aB(a,b),a))},I),m=[0,b,s,ed(b,t),t,0,D];break;default:var
-j=ft(bF(a,0)),E=aB(j,fu),m=[0,j,q(c),j,E,0,0]}var
-y=[0,m,N]}else
+w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i5(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
+j=fZ(aN(a,0)),I=aF(j,cs),n=[0,j,q(c),j,I,0,0,0]}var
+y=[0,n,R]}else
 var
 y=h;return y}function
-cl(k,a){if(typeof
+bP(b,a){if(typeof
 a==="number"){var
-b=[0,d,c];return[0,[0,b,b],d]}else
+e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
 4:var
-g=[4,a[3],a[2]];return[0,[0,g,g],d];case
+h=[4,a[3],a[2]];return[0,[0,h,h],d];case
 6:var
-i=a[2];return[0,[0,i,i],d];case
+j=a[2];return[0,[0,j,j],d];case
 8:var
-j=[4,a[2],a[1]];return[0,[0,j,j],d];case
+k=[4,a[2],a[1]];return[0,[0,k,k],d];case
+10:var
+m=a[3],n=ep(a[2]),l=[1,[1,ep(a[1]),n],m];return[0,[0,l,l],b];case
 0:case
 1:var
-e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
+f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
-f=a[2];return[0,[0,f,f],k];default:var
-h=a[1];return[0,[0,h,h],d]}}function
-fA(d,c,b,a){var
-e=v(c,b);return A(v(d,a),e)}function
-cL(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
-ir(a){if(a){var
+g=a[2];return[0,[0,g,g],b];default:var
+i=a[1];return[0,[0,i,i],d]}}function
+eD(b,a){function
+e(a){var
+c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}if(0===a[0]){var
+f=[0,d,c],j=g(e(a[5]),[0,[0,[0,f,f],d],0]),h=a[4],i=a[3];return g([0,[0,[0,i,i],b],[0,[0,[0,h,h],b],0]],j)}var
+k=e(a[3]);return g(e(a[2]),k)}function
+eE(b,a){if(typeof
+a!=="number"&&10===a[0]){var
+c=eD(b,a[2]);return g(eD(b,a[1]),c)}return 0}function
+i6(c,b,a){var
+d=k(eE(c,b)),e=H(a[2],d);return[0,[0,a[1]],e]}function
+i7(k,a,g){switch(g[0]){case
+0:var
+e=al(k,g[1]);if(e){var
+b=e[1],f=b[7];if(f)var
+l=f[1],h=function(c){var
+d=aN(a,qx);return aX(G,aX(z,l,dF(c,b[1])),d)},m=ex(b),n=h(aI(F(qy,a,q(d)),m)),o=ex(b),p=aI(F(0,a,q(d)),o),i=[0,[0,h(z(q(c),p)),n]];else
+var
+i=f;var
+j=i}else
+var
+j=e;return j;case
+1:var
+r=aN(a,qz);return[0,[0,aN(a,0),r]];default:var
+s=aX(G,cs,aN(a,qA));return[0,[0,aX(G,cs,aN(a,0)),s]]}}function
+i8(f,e,j,d,c){var
+k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i7(f,ej(qB,h),d);if(a)var
+b=i7(f,is(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+var
+i=a;return i}function
+f8(d,c,b,a){var
+e=v(c,b);return z(v(d,a),e)}function
+cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+i9(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=ir(a[2]);if(d)var
-g=d[1],h=aB(c,c),e=[0,[0,[0,eb(c),h],g]];else
+c=b[1],d=i9(a[2]);if(d)var
+g=d[1],h=aF(c,c),e=[0,[0,[0,dE(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pF}function
-fB(b,d,c,a){if(typeof
+f=b;return f}return qD}function
+eF(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=ck(cl(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,eb(a[1]),b]},b)];case
-9:return ir(b)}return 0}function
-is(b,s,r,a){var
-e=ck(cl(s,a),r),p=0;if(typeof
-a==="number")p=1;else
+e=c[1],g=cu(bP(d,a),e);return[0,f(function(a){var
+b=v(a[2],g);return[0,dE(a[1]),b]},b)];case
+9:return i9(b)}return 0}function
+f9(b,k,j,a){var
+Q=j[1],e=cu(bP(k,a),Q),s=0;if(typeof
+a==="number")s=1;else
 switch(a[0]){case
 2:var
-L=function(a){return[0,A(a[4],e),0]},g=L,f=a[1];break;case
+R=function(a){return[0,z(a[4],e),0]},g=R,f=a[1];break;case
 3:var
-M=function(a){return[0,A(e,a[4]),0]},g=M,f=a[1];break;case
+S=function(a){return[0,z(e,a[4]),0]},g=S,f=a[1];break;case
 4:var
-N=function(b){var
-a=b[1],c=ac(a[3]),d=ac(a[2]),f=ac(a[1]),g=b[2];return[0,A(A(A(v(ac(e),g),f),d),c),0]},g=N,f=a[1];break;case
+T=function(b){var
+a=b[1],c=af(a[3]),d=af(a[2]),f=af(a[1]),g=b[2];return[0,z(z(z(v(af(e),g),f),d),c),0]},g=T,f=a[1];break;case
 6:var
-O=function(b){var
+U=function(b){var
 a=b[5];if(a)var
-d=ac(a[1]),f=v(ac(e),d),c=[0,A(b[2],f),0];else
+d=af(a[1]),f=v(af(e),d),c=[0,z(b[2],f),0];else
 var
-c=a;return c},g=O,f=a[1];break;case
+c=a;return c},g=U,f=a[1];break;case
 7:if(b){var
 h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
-t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
-l=u[5];if(l){var
-m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fA(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fA(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fA(d[2],d[3],c[2],c[3]),q=G(A(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ci(G(q,x)),0],y=[0,A(q,x),R];else
+u=i[1],w=h[1],x=b[1],m=x[5];if(m){var
+n=w[5];if(n){var
+o=u[5];if(o)var
+c=u[1],d=w[1],p=x[1],L=f8(d[1],d[2],c[1],c[2]),M=v(p[3],L),N=f8(d[1],d[3],c[1],c[3]),O=v(p[2],N),P=f8(d[2],d[3],c[2],c[3]),t=G(z(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(e,m[1]),W),V),X=[0,cp(G(t,A)),0],B=[0,z(t,A),X];else
 var
-y=m;var
-z=y}else
-var
-z=l;var
-B=z}else
-var
-B=k;var
+B=o;var
 C=B}else
 var
-C=i;var
+C=n;var
 D=C}else
 var
-D=h;var
+D=m;var
 E=D}else
 var
-E=b;return E;case
+E=i;var
+F=E}else
+var
+F=h;var
+H=F}else
+var
+H=b;return H;case
+10:var
+r=i8(b,k,j[2],a[1],a[2]);if(r){var
+I=r[1],J=I[2],K=I[1];return y(dE,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
 8:case
 9:var
-o=fB(b,s,r,a);return o?cL(o[1]):o;default:p=1}if(p)return 0;var
-j=aJ(b,f);return j?g(j[1]):j}function
-it(d,c,b,a){if(a){var
-e=it(d,c,[0,b],a[2]);return g(is(d,c,b,a[1]),e)}return a}function
-iu(a,g,k,f,j,i){if(i){var
-B=iu(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
-b==="number")var
-d=[0,[0,_]];else
-switch(b[0]){case
+q=eF(b,k,j,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
+l=al(b,f);return l?g(l[1]):l}function
+f_(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=f_(d,b,i6(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
+i_(f,h,j,b,i,m){if(m){var
+a=m[1],R=m[2],S=i_(f,h,j,b,i6(b,a,i),R);if(typeof
+a==="number")var
+g=[0,[0,ab]];else
+switch(a[0]){case
 0:var
-u=a1(a,cl(f,b)),d=ab(function(b){return[0,aj(a,b)]},u);break;case
+H=aM(f,bP(b,a)),g=ae(function(a){return[0,ai(f,a)]},H);break;case
 1:var
-v=a1(a,cl(f,b)),d=ab(function(b){return[1,aj(a,b)]},v);break;case
+I=aM(f,bP(b,a)),g=ae(function(a){return[1,ai(f,a)]},I);break;case
 5:var
-x=a1(a,cl(f,b)),d=ab(function(b){return[2,aj(a,b)]},x);break;case
+K=aM(f,bP(b,a)),g=ae(function(a){return[2,ai(f,a)]},K);break;case
 8:var
-y=fB(k,f,j,b),d=ab(function(b){var
-d=aZ(a,c);return[4,e(a7(g),b),d]},y);break;case
+L=eF(j,b,i,a),g=ae(function(a){var
+b=aL(f,c);return[4,e(a4(h),a),b]},L);break;case
 9:var
-m=fB(k,f,j,b);if(m){var
-n=a1(a,cl(f,b));if(n)var
-z=aj(a,n[1]),A=m[1],r=[0,[4,e(a7(g),A),z]];else
+o=eF(j,b,i,a);if(o){var
+p=aM(f,bP(b,a));if(p)var
+M=ai(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
 var
-r=n;var
-s=r}else
+v=p;var
+w=v}else
 var
-s=m;var
-d=s;break;default:var
-h=is(k,f,j,b),o=0;if(h){var
-l=h[2],p=h[1];if(l)if(l[2])var
-d=0;else
+w=o;var
+g=w;break;case
+10:var
+q=i8(j,b,i[2],a[1],a[2]);if(q){var
+x=q[1],y=x[2],z=x[1],r=aM(f,bP(b,a));if(r){var
+A=r[1],C=B(d,A[1]);if(C)var
+l=function(a){var
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),D=[0,[6,l(z[1]),Q,P,O,A]];else
 var
-w=e(g,l[1]),d=[0,[5,e(g,p),w]];else{var
-q=[0,[3,e(g,p)]];o=1}}else{var
-q=h;o=1}if(o)var
-d=q}var
-t=[0,d,B]}else
+D=C;var
+E=D}else
 var
-t=i;return t}function
-pG(a){if(typeof
+E=r;var
+F=E}else
+var
+F=q;var
+g=F;break;default:var
+k=f9(j,b,i,a),s=0;if(k){var
+n=k[2],t=k[1];if(n)if(n[2])var
+g=0;else
+var
+J=e(h,n[1]),g=[0,[5,e(h,t),J]];else{var
+u=[0,[3,e(h,t)]];s=1}}else{var
+u=k;s=1}if(s)var
+g=u}var
+G=[0,g,S]}else
+var
+G=m;return G}function
+qE(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cm(s,r){var
+cw(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(be(e,aT(2))[2],d)?0:0;var
-i=be(f,aT(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
-g=be(e,aT(2)),p=g[1];if(al(g[2],d)){var
-f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=be(e,aT(2)),q=h[1];if(al(h[2],d))return 0;var
+k=ak(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:ak(bn(e,a1(2))[2],d)?0:0;var
+i=bn(f,a1(2)),j=i[1];if(ak(i[2],d)){if(B(e,c))return 0;var
+g=bn(e,a1(2)),p=g[1];if(ak(g[2],d)){var
+f=j,e=p;continue}return 0}if(B(e,c))return 0;var
+h=bn(e,a1(2)),q=h[1];if(ak(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cm(b[1],a[1]);if(l){var
+l=cw(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cm(b[1],a[1]);if(m){var
+m=cw(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cm(b[1],a[1]);if(n){var
+n=cw(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cm(b[1],a[1]);if(o){var
+o=cw(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ei(a){switch(a[0]){case
+eG(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hQ(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iw(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hQ(b,[0,T(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iw(b,[0,W(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hR(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,ix(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hO(a,[0,d,c]))return 0;var
-b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,hR(g,f)]};break;default:return 0}var
-g=ei(e);if(g){var
-h=ei(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iu(a,[0,d,c]))return 0;var
+b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,ix(g,f)]};break;default:return 0}var
+g=eG(e);if(g){var
+h=eG(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-l(i,e,b){var
-f=ei(b);if(f){var
-g=f[1];return e?aV(hP(g,[0,d,c])):hP([0,d,c],g)}var
-a=au(i,b);if(a){var
-h=a[1];return e?ag(d,h[1]):D(d,h[1])}return a}function
-iv(c,b){var
-a=au(c,b),d=a?1:a;return d}function
-bj(c,a,b){var
-d=cm(a,b),e=d?iv(c,a):d;return e?e:l(c,0,[2,b,a])}function
-aL(c,b,a){var
-d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-aM(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aD(a){return aM([4,[0,c,c],[5,E(a,a)]],a)}function
-cn(c,b,a){var
-d=bj(c,b[1],a);return d?bj(c,a,b[2]):d}function
-aN(c,b,a){var
-d=cn(c,b[1],a[1]),e=d?cn(c,b[2],a[2]):d;return e?cn(c,b[3],a[3]):e}function
-iw(c,a,b){if(0===a[0])return aN(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cn(c,a[4],b[3]):h}function
-ix(a,D,H,G){var
-h=D[1],d=H;for(;;){if(h){if(d){var
+j(i,e,b){var
+f=eG(b);if(f){var
+g=f[1];return e?aH(iv(g,[0,d,c])):iv([0,d,c],g)}var
+a=ax(i,b);if(a){var
+h=a[1];return e?ac(d,h[1]):B(d,h[1])}return a}function
+i$(c,b){var
+a=ax(c,b),d=a?1:a;return d}function
+br(c,a,b){var
+d=cw(a,b),e=d?i$(c,a):d;return e?e:j(c,0,[2,b,a])}function
+ag(c,b,a){var
+d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+ay(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aG(a){return ay([4,[0,c,c],[5,J(a,a)]],a)}function
+cx(c,b,a){var
+d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
+aT(c,b,a){var
+d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
+ja(c,a,b){if(0===a[0])return aT(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
+jb(a,D,G,F){var
+h=D[1],d=G;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aN(a,f[1],i),q=p?l(a,1,E(i,i)):p,r=q?aN(a,f[2],b[2]):q,s=r?aN(a,f[3],b[3]):r,t=s?cn(a,f[4],o):s,u=t?l(a,1,o):t,c=u?dX(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aT(a,f[1],i),q=p?j(a,1,J(i,i)):p,r=q?aT(a,f[2],b[2]):q,s=r?aT(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?du(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aN(a,e[1],b[1]),x=w?aN(a,e[2],b[2]):w,n=0;if(x)if(v){var
-F=0;if(g){var
-j=g[1],y=aN(a,v[1],j);if(y){var
-c=l(a,1,E(j,j));F=1}else
+g=b[3],w=aT(a,e[1],b[1]),x=w?aT(a,e[2],b[2]):w,n=0;if(x)if(v){var
+E=0;if(g){var
+k=g[1],y=aT(a,v[1],k);if(y){var
+c=j(a,1,J(k,k));E=1}else
 var
 z=y}else
 var
-z=g;if(!F)var
+z=g;if(!E)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -2881,7 +2997,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aN(a,e[1],k),c=B?l(a,1,E(k,k)):B;else
+l=b[1],B=aT(a,e[1],l),c=B?j(a,1,J(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -2890,111 +3006,145 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?iw(a,D[2],G):m}}function
-bG(c,b,a){var
-d=aL(function(b,a){return[1,b,a]},a,b);return aL(function(b,a){return[2,b,a]},d,c)}function
-fC(a,e,d,c){var
-b=bG(e,d,c),f=aD(a),g=aM(E(aD(a),b),f);return aL(function(b,a){return[2,b,a]},b,g)}function
-dk(f,e,d,a,c){var
-b=fC(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
-dl(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cM(a,b){switch(a[0]){case
+m=d?0:1;return m?ja(a,D[2],F):m}}function
+bs(c,b,a){var
+d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
+eH(a,e,d,c){var
+b=bs(e,d,c),f=aG(a),g=ay(J(aG(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
+cT(f,e,d,a,c){var
+b=eH(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
+cU(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cV(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fC(d,f,e,b),h=dk(d,f,e,a[4],b),i=aM([4,[0,c,c],dl(a[5],h)],g),j=aD(d);return aL(function(b,a){return[1,b,a]},j,i);case
-1:return aD(bG(a[1],a[2],b));default:return aD(a[1])}}function
-iy(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eH(d,f,e,b),h=cT(d,f,e,a[4],b),i=ay([4,[0,c,c],cU(a[5],h)],g),j=aG(d);return ag(function(b,a){return[1,b,a]},j,i);case
+1:return aG(bs(a[1],a[2],b));default:return aG(a[1])}}function
+jc(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dk(e,d,c,a[4],b),i=dl(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cT(e,d,c,a[4],b),i=cU(a[5],h),j=bs(d,c,b);return[2,J(aG(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bG(g,f,b);return[5,E(bG(g,f,b),k)];default:return E(aD(a[1]),b)}}function
-dm(e,b,a){var
-f=[0,d,c];return cD(function(c,d){var
-e=E(cM(c,b),a);return[1,[3,E(cM(c,b),a),e],d]},f,e)}function
-iz(a){var
+f=a[2],g=a[1],k=bs(g,f,b);return[5,J(bs(g,f,b),k)];default:return J(aG(a[1]),b)}}function
+dI(e,b,a){var
+f=[0,d,c];return cP(function(c,d){var
+e=J(cV(c,b),a);return[1,[3,J(cV(c,b),a),e],d]},f,e)}function
+jd(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fD(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=dk(b,f,e,d,c),i=aM(dl(a[5],h),g),j=fC(b,f,e,c);return[0,[0,aL(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-iA(d,i){if(d){var
+f$(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aG(b),h=cT(b,f,e,d,c),i=ay(cU(a[5],h),g),j=eH(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+je(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aM(E(aD(f),g),k),h=[0,aL(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bs(a[1],a[2],i),k=aG(f),l=ay(J(aG(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=iA(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=je(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pH}function
-iB(g,f,e,b,n,a){function
-y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
+j=b;return j}return qF}function
+dJ(a){return[0,a[1],a[2],a[3]]}function
+jf(y,d,a){switch(a[0]){case
+0:var
+z=a[5],i=al(y,a[1]);if(i){var
+b=i[1];switch(b[0]){case
+0:var
+j=b[4],f=b[3],k=b[2],g=b[1],s=aG(g),t=cT(g,k,f,j,d),u=ay(cU(b[5],t),s),v=eH(g,k,f,d),w=ag(function(b,a){return[1,b,a]},v,u),e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,f),w],j]];break;case
+1:var
+l=b[2],h=bs(b[1],l,d),x=[5,J(h,h)],e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,l),h],x]];break;default:var
+e=0}if(e)var
+m=e[1],n=m[1],o=m[2],A=n[2],B=n[1],p=function(a){var
+b=dJ(z),c=ay(a,A),d=ag(function(b,a){return[2,b,a]},B,c);return ag(function(b,a){return[1,b,a]},d,b)},C=p([4,a[4],o]),q=[0,[0,p([2,[0,c,c],[4,a[3],o]]),C]];else
+var
+q=e;var
+r=q}else
+var
+r=i;return r;case
+1:var
+D=dJ(a[3]);return[0,[0,dJ(a[2]),D]];default:var
+E=dJ(a[3]),F=ag(function(b,a){return[1,b,a]},d,E),G=dJ(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},d,G),F]]}}function
+jg(d,a,c,b){var
+e=ay(a,b),f=ay([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
+jh(f,g,e,b,o,a){function
+D(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=dm(f,e,b);return l(g,1,[2,y(a[1]),U]);case
+am=dI(g,e,b);return j(f,1,[2,D(a[1]),am]);case
 1:var
-V=y(a[1]);return l(g,1,[2,dm(f,e,b),V]);case
+an=D(a[1]);return j(f,1,[2,dI(g,e,b),an]);case
 2:var
-W=a[2],X=function(a){return[2,W,iy(a,e)]},p=X,o=a[1];break;case
+ao=a[2],ap=function(a){return[2,ao,jc(a,e)]},q=ap,p=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,iy(a,e),Y]},p=Z,o=a[1];break;case
+aq=a[2],ar=function(a){return[2,jc(a,e),aq]},q=ar,p=a[1];break;case
 4:var
-z=a[3],A=a[2],_=function(a){var
-b=cM(a,e);return[2,[3,[3,A,A],E(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
+E=a[3],F=a[2],as=function(a){var
+b=cV(a,e);return[2,[3,[3,F,F],J(cV(a,e),b)],[3,E,E]]},q=as,p=a[1];break;case
 5:var
-B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dm(f,e,n),$]],ab=E(n,n);return l(g,1,[2,[3,dm(f,e,b),ab],aa]);case
+G=a[1],at=J(b,b),au=[3,[3,G,G],[3,dI(g,e,o),at]],av=J(o,o);return j(f,1,[2,[3,dI(g,e,b),av],au]);case
 6:var
-C=a[2],r=aJ(f,a[1]);if(r){var
-h=r[1];if(0===h[0]){var
-s=h[4],ac=dk(h[1],h[2],h[3],s,e),D=dl(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
-F=0}else
+H=a[2],s=al(g,a[1]);if(s){var
+h=s[1];if(0===h[0]){var
+t=h[4],aw=cT(h[1],h[2],h[3],t,e),I=cU(h[5],aw);return j(f,1,[2,[3,[3,H,t],[3,H,t]],[3,I,I]])}var
+K=0}else
 var
-F=r;return F;case
-7:if(f){var
-k=f[2];if(k){var
-m=k[2];if(m){if(m[2])return 0;var
-t=fD(f[1],e);if(t){var
-G=t[1],u=fD(k[1],e);if(u){var
-H=u[1],v=fD(m[1],e);if(v){var
-I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
-L=K}else
-var
-L=v;var
-M=L}else
-var
-M=u;var
-N=M}else
-var
-N=t;var
-O=N}else
-var
-O=m;var
-P=O}else
-var
-P=k;var
+K=s;return K;case
+7:if(g){var
+m=g[2];if(m){var
+n=m[2];if(n){if(n[2])return 0;var
+u=f$(g[1],e);if(u){var
+L=u[1],v=f$(m[1],e);if(v){var
+M=v[1],w=f$(n[1],e);if(w){var
+N=w[1],O=[3,[3,[3,a[1],L[2]],M[2]],N[2]],i=N[1],k=M[1],C=J(L[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),P=j(f,1,[2,O,C]);if(P)return j(f,1,[1,O,C]);var
 Q=P}else
 var
-Q=f;return Q;case
+Q=w;var
+R=Q}else
+var
+R=v;var
+S=R}else
+var
+S=u;var
+T=S}else
+var
+T=n;var
+U=T}else
+var
+U=m;var
+V=U}else
+var
+V=g;return V;case
 8:var
-ad=dm(f,e,b),ae=E(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=iA(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cD(function(a,c){var
-d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
-q=aJ(f,o);return q?l(g,1,p(q[1])):q}function
-b1(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-pI(a){switch(a[0]){case
+ax=dI(g,e,b),ay=J(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],ay],ax]);case
+9:var
+W=a[1],x=je(g,e);if(x){var
+az=x[1],aj=[0,d,c],ak=cP(function(a,c){var
+d=J(aG(a),b);return[1,[3,J(aG(a),b),d],c]},aj,az);return j(f,1,[2,[3,[3,W,W],J(b,b)],ak])}return x;default:var
+X=a[2],Y=a[1],y=jf(g,e,Y);if(y){var
+Z=y[1],z=jf(g,e,X);if(z){var
+_=z[1],A=b[1],B=b[2],l=b[3],aA=jg(l,B,_[1],_[2]),aB=jg(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
+ah=af}else
+var
+ah=z;var
+ai=ah}else
+var
+ai=y;return ai}var
+r=al(g,p);return r?j(f,1,q(r[1])):r}function
+b9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qG(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b1(b[3]),f=b1(b[2]);return[0,b1(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
 1:var
-g=ab(b1,a[3]),h=b1(a[2]);return[1,b1(a[1]),h,g];default:return[2,b1(a[1])]}}function
-cN(b,a){if(b){if(a){var
-e=cN(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-iC(a,l,k,f){var
-b=au(a,l);if(b){var
-c=au(a,k);if(c){var
-d=d5(a,f);if(d){var
-e=fm(a,f);if(e)var
-m=B(a,b[1],e[1]),g=[0,O(B(a,c[1],d[1]),m)];else
+g=ae(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
+ji(c,b){var
+a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jb(c,b,f(qG,b[1]),d)}function
+cW(b,a){if(b){if(a){var
+e=cW(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jj(a,l,k,f){var
+b=ax(a,l);if(b){var
+c=ax(a,k);if(c){var
+d=eo(a,f);if(d){var
+e=fT(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,M(D(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3006,43 +3156,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-iD(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cN(a,a)]}var
+jk(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cW(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cD(function(a,c){var
-d=cN(a,b);return[1,[3,cN(a,b),d],c]},a,E)}var
-u=p(function(a){return ai(n(a),D)},a);if(u){var
+a=[0,d,c];return cP(function(a,c){var
+d=cW(a,b);return[1,[3,cW(a,b),d],c]},a,E)}var
+u=n(function(a){return aa(k(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-w=a[1],F=g(w);return l(f,1,[2,t(e[1],w),F])}return a;case
+w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 1:if(a){if(a[2])return 0;var
-x=a[1],G=t(e[1],x);return l(f,1,[2,g(x),G])}return a;case
+x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[2,H,a[1]]);return 0},j=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[2,a[1],J]);return 0},j=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
-e=iC(f,i,h,z);return e?ag(e[1][2],d):e}var
-g=iC(f,i,h,y);return g?ag(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=jj(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=jj(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-o=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(o),M]],O=cN(o,o);return l(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],M=cW(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cW(p,p);return j(f,1,[2,[3,g(q),O],N])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=aJ(s[2],i);return m?j(m[1]):m}var
+m=al(s[2],i);return m?l(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-iE(h,g){var
+jl(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3052,44 +3202,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pJ(a){return f(function(a){return[0,a,c]},a)}function
-iF(e,m,b,k,a){if(typeof
+qH(a){return f(function(a){return[0,a,c]},a)}function
+jm(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return bD(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=iE(a[1],k);if(g){var
-n=g[1],r=n[1],s=f(pJ,a[2]);return iD(e,m,b,n[2],s,r)}return g}var
-h=iE(a[1],k);if(h){var
+q=b[3];return a6(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jl(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qH,a[2]);return jk(e,m,b,n[2],s,r)}return g}var
+h=jl(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aJ(b[1],a[2]);return j?iD(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
+k=al(b[1],a[2]);return k?jk(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-fE(a){var
-b=aD(a[1]),c=aM(E(b,a[2]),b),d=a[2];return aL(function(b,a){return[2,b,a]},d,c)}function
-fF(a){return aD(fE(a))}function
-iG(c){var
-a=fF(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fG(a,b){return bG(a[3],a[4],b)}function
-fH(a,b){var
-c=fG(a,b);return E(fF(a),c)}function
-fI(a,b){var
-c=fG(a,b);return E(iG(a),c)}function
-iH(a,b){var
-c=fG(a,b);return E(aD(a[1]),c)}function
-fJ(b,a){var
-c=fI(b,a),d=fH(b,a);return[1,[3,d,d],[3,c,c]]}function
-fK(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iH(a,d);return[4,[1,fJ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iI(a,b){var
-f=a[5],c=[2,fK(a,b),f],d=iH(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-fL(a,b){var
-c=iI(a,b);return dl(a[7],c)}function
-iJ(b,a){var
-c=fJ(b,a),d=fI(b,a),e=[3,fL(b,a),d],f=fH(b,a);return[4,[1,[3,fK(b,a),f],e],c]}function
-iK(b,a){var
-c=fJ(b,a),d=fH(b,a),e=[3,fL(b,a),d],f=fI(b,a);return[4,[2,[3,fK(b,a),f],e],c]}function
-bk(c){var
+ga(a){var
+b=aG(a[1]),c=ay(J(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
+gb(a){return aG(ga(a))}function
+jn(c){var
+a=gb(c),b=aG(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gc(a,b){return bs(a[3],a[4],b)}function
+gd(a,b){var
+c=gc(a,b);return J(gb(a),c)}function
+ge(a,b){var
+c=gc(a,b);return J(jn(a),c)}function
+jo(a,b){var
+c=gc(a,b);return J(aG(a[1]),c)}function
+gf(b,a){var
+c=ge(b,a),d=gd(b,a);return[1,[3,d,d],[3,c,c]]}function
+gg(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jo(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jp(a,b){var
+f=a[5],c=[2,gg(a,b),f],d=jo(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gh(a,b){var
+c=jp(a,b);return cU(a[7],c)}function
+jq(b,a){var
+c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
+jr(b,a){var
+c=gf(b,a),d=gd(b,a),e=[3,gh(b,a),d],f=ge(b,a);return[4,[2,[3,gg(b,a),f],e],c]}function
+bt(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3098,122 +3248,122 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bk(a[2]);return g(bk(a[1]),e)}}function
-bl(e,a,b){switch(a[0]){case
+e=bt(a[2]);return g(bt(a[1]),e)}}function
+bu(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return ck([0,[0,p,p],d],b);case
+p=a[1];return cu([0,[0,p,p],d],b);case
 1:var
 s=a[1],g=e,t=q(d);for(;;){if(g){var
-l=g[1];if(l6(l[1],s))return l[2];var
+m=g[1];if(mW(m[1],s))return m[2];var
 g=g[2];continue}return t}case
-2:return ci(bl(e,a[1],b));case
+2:return cp(bu(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=A;break;case
+i=a[2],f=a[1],h=z;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aK;break;case
+i=a[2],f=a[1],h=aI;break;case
 7:var
-j=de(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
-m=ac(k),r=function(a){return v(a,m)},o=fd(cB(hE(j)),r,m);return hD(j)?o:v(o,k)}return k}return q(c);default:return cH(bl(e,a[1],b))}var
-u=bl(e,i,M(b,n(bk(f))));return h(bl(e,f,b),u)}function
-co(c,f,b){var
+j=dv(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
+n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ih(j)),r,n);return ig(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
+u=bu(e,i,H(b,k(bt(f))));return h(bu(e,f,b),u)}function
+cy(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=M(b,n(bk(e))),k=co(c,a[2],j),l=g(co(c,e,b),k);return[0,bl(c,a,b),l];case
+e=a[1],j=H(b,k(bt(e))),l=cy(c,a[2],j),m=g(cy(c,e,b),l);return[0,bu(c,a,b),m];case
 8:var
-m=co(c,a[1],b);return[0,bl(c,a,b),m];case
+n=cy(c,a[1],b);return[0,bu(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=M(b,n(bk(d))),i=co(c,a[2],h);return g(co(c,d,b),i)}}function
-iL(c,a,b){if(a){var
-e=a[1],d=e[2],f=M(b,n(bk(d))),h=a[2],i=bl(c,d,b),j=iL([0,[0,e[1],i],c],h,f);return g(co(c,d,b),j)}return a}function
-dn(a){return N(bk,a)}function
-iM(c,a,b){if(a)var
-d=a[1],f=M(b,n(bk(d))),g=iM(c,a[2],f),e=[0,bl(c,d,b),g];else
+d=a[1],h=H(b,k(bt(d))),i=cy(c,a[2],h);return g(cy(c,d,b),i)}}function
+js(c,a,b){if(a){var
+e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=js([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
+dK(a){return y(bt,a)}function
+jt(c,a,b){if(a)var
+d=a[1],f=H(b,k(bt(d))),g=jt(c,a[2],f),e=[0,bu(c,d,b),g];else
 var
 e=a;return e}function
-iN(c,a,b){if(a){var
-d=a[1],e=M(b,n(bk(d))),f=iN(c,a[2],e);return g(co(c,d,b),f)}return a}function
-iO(c,a,b){if(a)var
-d=a[1],f=M(b,n(dn(d))),g=iO(c,a[2],f),e=[0,iM(c,d,b),g];else
+ju(c,a,b){if(a){var
+d=a[1],e=H(b,k(bt(d))),f=ju(c,a[2],e);return g(cy(c,d,b),f)}return a}function
+jv(c,a,b){if(a)var
+d=a[1],f=H(b,k(dK(d))),g=jv(c,a[2],f),e=[0,jt(c,d,b),g];else
 var
 e=a;return e}function
-iP(c,a,b){if(a){var
-d=a[1],e=M(b,n(dn(d))),f=iP(c,a[2],e);return g(iN(c,d,b),f)}return a}function
-iQ(a){return f(function(a){return[0,a[2],d]},a)}function
-iR(a){var
-c=eh(0,iQ(a[2])),d=cF(0,n(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cE(f(db,a[2]),c);return g(cE(a[1],e),b)}function
-pL(a){if(typeof
+jw(c,a,b){if(a){var
+d=a[1],e=H(b,k(dK(d))),f=jw(c,a[2],e);return g(ju(c,d,b),f)}return a}function
+jx(a){return f(function(a){return[0,a[2],d]},a)}function
+jy(a){var
+c=dH(0,jx(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
+qJ(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fM(b,d){var
+gi(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bD(function(a){return aC(e,a)},b);case
+e=a[1];return a6(function(a){return au(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fM(b,a[1]);if(c){var
+c=gi(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-iS(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-iT(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fN(a,c,b){var
-d=[3,iS(a),b],e=[1,[3,iT(a),c],d],f=[3,iT(a),b];return[0,[2,[3,iS(a),c],f],e]}function
-iU(c,a){var
-b=fN(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iV(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-iW(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:iU(d[1],a):a;case
+jz(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jA(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gj(a,c,b){var
+d=[3,jz(a),b],e=[1,[3,jA(a),c],d],f=[3,jA(a),b];return[0,[2,[3,jz(a),c],f],e]}function
+jB(c,a){var
+b=gj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jC(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jD(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jB(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=fN(d[1],a[2],a[3]),m=j[1],k=fN(f[1],j[2],a[1]);return iU(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jB(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=E(e,e),n=iV(e,a),o=aM([0,b(2,c),c],n),p=E(e,a),q=aM([3,[0,b(2,c),c],p],e),r=aM([2,[0,c,c],l],a),s=aL(function(b,a){return[1,b,a]},r,q);return aM([4,[0,c,c],[1,[0,c,c],l]],aL(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-iX(b){var
-a=ei(b);return a?hO(a[1],[0,d,c]):a}function
-iY(a,n,j,i){if(iX(i)){var
-q=n?[2,[0,d,c],j]:j;return l(a,0,q)}var
-f=au(a,j);if(f){var
-g=d5(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fm(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=B(a,f[1],g[1]),k=[0,O(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=J(e,e),n=jC(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jE(b){var
+a=eG(b);return a?iu(a[1],[0,d,c]):a}function
+jF(a,n,k,i){if(jE(i)){var
+q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
+f=ax(a,k);if(f){var
+g=eo(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fT(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
-k=h;var
-m=k}else
+l=h;var
+m=l}else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dp(b,a,c){var
-d=bj(b,a[1],a[2]),e=d?iY(b,0,c,a[1]):d;return e?iY(b,1,c,a[2]):e}function
-dq(a,d){if(iX(d))return[0,_];var
-e=d5(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fm(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=H(aZ(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ab(function(d){var
-e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?B(d,o[1]):B(o[2],d)}return e}function
+dL(b,a,c){var
+d=br(b,a[1],a[2]),e=d?jF(b,0,c,a[1]):d;return e?jF(b,1,c,a[2]):e}function
+dM(a,d){if(jE(d))return[0,ab];var
+e=eo(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fT(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C(aL(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ae(function(d){var
+e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iE(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-fO(d,a){var
-e=l(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-cp(a){return[0,[2,[0,d,c],a],a]}function
-iZ(a,b,n,m){var
-h=bj(a,[0,d,c],b),i=h?fO(a,b):h;if(i){var
-e=dq(a,b);if(e){var
-f=au(a,n);if(f){var
-g=au(a,m);if(g){var
-o=f[1],p=g[1];return D(d,O(B(a,aj(a,e[1]),p),o)[1])}var
+gk(d,a){var
+e=j(d,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+cz(a){return[0,[2,[0,d,c],a],a]}function
+jG(a,b,n,m){var
+h=br(a,[0,d,c],b),i=h?gk(a,b):h;if(i){var
+e=dM(a,b);if(e){var
+f=ax(a,n);if(f){var
+g=ax(a,m);if(g){var
+o=f[1],p=g[1];return B(d,M(D(a,ai(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3223,238 +3373,238 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dr(a){return 1===a?pP:pQ}function
-fP(d,c,b,a){var
-e=a[1],f=iW(d,c,a[2]),g=aL(function(b,a){return[1,b,a]},b,f);return aL(function(b,a){return[2,b,a]},g,e)}function
-ds(b,d){var
+dN(a){return 1===a?qN:qO}function
+gl(d,c,b,a){var
+e=a[1],f=jD(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+dO(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,d6(function(a){return ds(b,a)},a)]}return[0,d6(function(a){return ds(b,a)},a)]}function
-cO(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dy(function(a){return dO(b,a)},a)]}return[0,dy(function(a){return dO(b,a)},a)]}function
+cX(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aV(ai(e,b));return f?aV(ai(e,M(d,b))):f;case
+e=a[1],f=aH(aa(e,b));return f?aH(aa(e,H(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cO(d,b,a[1]);if(g){var
+g=cX(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dt(c,b,m){var
+dP(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cO(c,b,g),i=h?dt(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cX(c,b,g),i=h?dP(c,b,f):h;if(i)var
 j=i;else{var
-k=dt(c,b,g);if(k)return cO(c,b,f);var
+k=dP(c,b,g);if(k)return cX(c,b,f);var
 j=k}return j;case
 7:var
-l=dt(c,b,a[1]);return l?cO(c,b,a[2]):l;case
+l=dP(c,b,a[1]);return l?cX(c,b,a[2]):l;case
 3:case
 4:var
-e=dt(c,b,a[1]);if(e){var
+e=dP(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cO(c,b,a[1]);default:return 1}}}function
-cq(c,e){var
+9:return cX(c,b,a[1]);default:return 1}}}function
+cA(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aV(ai(a[1],c));case
+0:return aH(aa(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cq(c,a[1]);if(d){var
+d=cA(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fQ(d,b,m){var
+gm(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fQ(d,b,a[1]);if(f){var
+f=gm(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fQ(d,b,a[1]);return g?cq(b,a[2]):g;case
+g=gm(d,b,a[1]);return g?cA(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cq(b,i);if(j){var
-k=cq(b,h);if(k)var
+h=a[2],i=a[1],j=cA(b,i);if(j){var
+k=cA(b,h);if(k)var
 e=k;else{var
-l=bf(i,d);if(l){var
+l=bb(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cq(b,c)}}}function
-i0(c,e){var
+2:return 1;default:return cA(b,c)}}}function
+jH(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hC(a[1],c);case
+0:return ie(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=i0(c,a[1]);if(d){var
+d=jH(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b2(b,a){return a?e(b,a[1]):a}function
-b3(c,b,a){return b2(function(b){return b2(e(c,b),a)},b)}function
-pR(a){return 0===a[0]?a[1]:0}function
-bm(b,a){switch(a[0]){case
+b_(b,a){return a?e(b,a[1]):a}function
+b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
+qP(a){return 0===a[0]?a[1]:0}function
+bv(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bm(b,a[1])];default:var
-c=bm(b,a[3]),d=bm(b,a[2]);return[2,bm(b,a[1]),d,c]}}function
-aR(b,c,a){switch(c[0]){case
-0:return bm(e(b,c[1]),a);case
+1:return[1,bv(b,a[1])];default:var
+c=bv(b,a[3]),d=bv(b,a[2]);return[2,bv(b,a[1]),d,c]}}function
+aY(b,c,a){switch(c[0]){case
+0:return bv(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bm(function(a){return S(b,a,k)},d)];case
-1:return[1,aR(b,d,a[1])];default:var
-l=aR(b,d,a[3]),m=aR(b,d,a[2]);return[2,aR(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bv(function(a){return N(b,a,k)},d)];case
+1:return[1,aY(b,d,a[1])];default:var
+l=aY(b,d,a[3]),m=aY(b,d,a[2]);return[2,aY(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return N(b,a,n)},i=function(a){return bv(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aR(b,f,j),s=aR(b,g,j);return[2,aR(b,h,j),s,r];default:var
-t=aR(b,f,a[3]),u=aR(b,g,a[2]);return[2,aR(b,h,a[1]),u,t]}}}function
-fR(c,g,a){if(a)var
+j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
+t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
+gn(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,aj(c,a)];break;case
+f=[0,a,ai(c,a)];break;case
 1:var
-h=B(c,a,b),f=[0,d3(H(a,b)),h];break;default:var
-f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=fR(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=D(c,a,b),f=[0,em(C(a,b)),h];break;default:var
+f=[0,b,ai(c,b)]}return[0,[0,e(g,f)]]},i=gn(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-i1(a){if(a){var
+jI(a){if(a){var
 b=a[1];if(b)var
-c=i1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pT}function
-du(a){if(a){var
-g=a[1],b=g[2],c=i1(g[1]);if(c)if(b){var
-h=b[1],e=du(a[2]);if(e)var
-i=ag(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qR}function
+dQ(a){if(a){var
+g=a[1],b=g[2],c=jI(g[1]);if(c)if(b){var
+h=b[1],e=dQ(a[2]);if(e)var
+i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pU}function
-fS(b,a){var
-c=a[3],d=ab(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a7(b),g),f,d]}function
-i2(f,d,c,b){if(d){var
+f=c;return f}return qS}function
+go(b,a){var
+c=a[3],d=ae(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
+jJ(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=fS(function(a){switch(a[0]){case
+a=go(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return i2(cB(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jJ(b4(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,fS(pR,b))}function
-dv(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ab(function(a){return bX(f,e,a)},d)}return[0,_]}function
-i3(d,b,a){if(b){if(a){var
-e=i3(d,b[2],a[2]);return H(bX(b[1],z(d,c),a[1]),e)}return _}return _}function
-i4(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(e,a,b)},j=i4(e,h),k=f(function(a){var
-e=b(d,a[2]);return H(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,H(b(d,c),l),k],j];else
+i=g;return i}return e(c,go(qP,b))}function
+dR(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ae(function(a){return bN(f,e,a)},d)}return[0,ab]}function
+jK(d,b,a){if(b){if(a){var
+e=jK(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
+jL(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jK(e,a,b)},j=jL(e,h),k=f(function(a){var
+e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-i5(e,b,d,a){if(b)if(a)var
-f=b[1],g=i5(e,b[2],d,a[2]),c=[0,[0,f,ia(e,a[1][1],d,f)],g];else
+jM(e,b,d,a){if(b)if(a)var
+f=b[1],g=jM(e,b[2],d,a[2]),c=[0,[0,f,iT(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-i6(e,d,c,b,a){if(a){var
+jN(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=i6(e,d[1],c,b,g);return[0,[0,O(_,b),0],i]}var
-j=f(function(a){return[0,O(_,b),0]},g),h=[0,[0,O(aA(B(e,c,d4(a[1][2]))),b),0],j]}else
+i=jN(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
+j=f(function(a){return[0,M(ab,b),0]},g),h=[0,[0,M(aE(D(e,c,en(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-ej(c,a){var
-b=ai(n(a),c);return b?ea(a):b}function
-pV(c){var
+eI(c,a){var
+b=aa(k(a),c);return b?ev(a):b}function
+qT(c){var
 a=c[2];if(a){var
-b=dv(c[3]);if(b)return D(d,O(a[1],b[1])[1]);var
+b=dR(c[3]);if(b)return B(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-i7(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
-i8(a,c,b){var
-e=P(b,c,q(d)),f=cF(0,a);return p(function(b){return dt(a,b,e)},f)}function
-dw(a){var
-b=ac(a);return G(q(c),b)}function
-ek(i,g){var
-h=dw(g),j=ac(g),e=A(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ci(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ci(f),a,e]]:[0,[0,h,a,a],[0,a,e,ci(f)],[0,a,f,e]]}function
-i9(b,a){function
+jO(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+jP(a,c,b){var
+e=F(b,c,q(d)),f=cQ(0,a);return n(function(b){return dP(a,b,e)},f)}function
+dS(a){var
+b=af(a);return G(q(c),b)}function
+eJ(i,g){var
+h=dS(g),j=af(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
+jQ(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aB(a,c(function(a){return a[3]})),d=aB(a,c(function(a){return a[2]}));return[0,aB(a,c(function(a){return a[1]})),d,b]}var
+b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-i_(a){switch(a[0]){case
+jR(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cp(a[1]),0];default:var
-b=[0,cp(a[2]),0];return[0,cp(a[1]),b]}}function
-cP(a){return[0,[0,a[1]],[0,a[2]]]}function
-i$(a,b){if(0===b[0])return dq(a,b[1]);var
-d=dq(a,b[1]);if(d){var
-e=dq(a,b[2]);if(e){var
-g=aj(a,e[1]),h=cG(a,H(aZ(a,c),g)),i=d[1];return ab(function(b){return B(a,i,b)},h)}var
+2:return[0,cz(a[1]),0];default:var
+b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
+cY(a){return[0,[0,a[1]],[0,a[2]]]}function
+jS(a,b){if(0===b[0])return dM(a,b[1]);var
+d=dM(a,b[1]);if(d){var
+e=dM(a,b[2]);if(e){var
+g=ai(a,e[1]),h=co(a,C(aL(a,c),g)),i=d[1];return ae(function(b){return D(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-ja(j,z,c,y,x,b,a){switch(b[0]){case
+jT(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-m=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
-a==="number")l=1;else
+n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
+a==="number")m=1;else
 switch(a[0]){case
 0:var
-A=a[2],C=a[1],i=o,h=p,g=function(e){var
-a=du(e[1]);if(a){var
+A=a[2],B=a[1],i=o,h=p,g=function(e){var
+a=dQ(e[1]);if(a){var
 b=e[2];if(b){var
-d=dv(e[3]);if(d){var
-h=d[1],i=ce([0,O(aA(B(j,k,b[1])),h),0],c);return ej(c,fr(C,A,a[1],i))}var
+d=dR(e[3]);if(d){var
+h=d[1],i=cl([0,M(aE(D(j,l,b[1])),h),0],c);return eI(c,fX(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
 g=f}else
 var
-g=a;return g},e=m;break;case
+g=a;return g},e=n;break;case
 2:var
-q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
-E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=du(e[1]);if(a){var
-b=dv(e[3]);if(b){var
-g=ce([0,O(_,b[1]),0],c),h=a[1];return ej(c,fr(F,E,f(function(a){return[0,a[1],_]},h),g))}var
+q=ak(l[1],d),r=q?ak(l[2],d):q;if(!r)return r;var
+E=a[2],G=a[1],i=o,h=p,g=function(e){var
+a=dQ(e[1]);if(a){var
+b=dR(e[3]);if(b){var
+g=cl([0,M(ab,b[1]),0],c),h=a[1];return eI(c,fX(G,E,f(function(a){return[0,a[1],ab]},h),g))}var
 d=b}else
 var
-d=a;return d},e=m;break;default:l=1}if(l)return 0;break;case
+d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
-G=b[2],H=b[1],I=b[3],i=G,h=H,J=0,g=function(f){var
-a=du(f[1]);if(a){var
+H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
+a=dQ(f[1]);if(a){var
 b=f[2];if(b){var
-d=dv(f[3]);if(d){var
-k=d[1],l=ce([0,O(B(j,I,b[1]),k),0],c),e=ic(a[1],l);if(e)return ej(c,e[1]);var
+d=dR(f[3]);if(d){var
+k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iV(a[1],l);if(e)return eI(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3463,73 +3613,73 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},e=J;else
+i=a;return i},e=K;else
 u=1;if(u)return 0;break;case
 2:var
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],K=b[3],L=b[2],M=b[4],N=b[1],Q=function(f){var
-a=du(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
+a=dQ(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dv(f[3]);if(e){var
-g=ai(n(b),c),h=g?ai(n(s),c):g;if(h){var
-m=i4(t,i5(t,s,d[1],b));return ej(c,h5(i6(j,N,M,e[1],b),m))}var
+e=dR(f[3]);if(e){var
+g=aa(k(b),c),h=g?aa(k(s),c):g;if(h){var
+n=jL(t,jM(t,s,d[1],b));return eI(c,iM(jN(j,P,O,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-k=i}else
+l=i}else
 var
-k=d;var
-l=k}else
+l=d;var
+m=l}else
 var
-l=a;return l},i=K,h=L,g=Q,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pV,e=0;else
+i=b[1],h=0,g=qT,e=0;else
 w=1;if(w)return 0}var
-D=[0,h,i,x];return i2(e,z,g,fS(function(a){return P(a,y,p9)},D))}function
-jb(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jJ(e,z,g,go(function(a){return F(a,y,q7)},C))}function
+jU(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=D(d,o);if(p)var
-h=g7(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=B(d,o);if(p)var
+h=hK(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return ja(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return ja(m,l,k,j,0,i,a)}return 0}function
-p_(a){if(a[1])return 0;var
+q=f;return q}return jT(m,l,k,j,0,i,a)}return 0}function
+q8(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jc(a,J,I,G,F,E,h,o,D,V){if(p(p_,D))var
+jV(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
 q=0;else
 var
-S=fR(a,dc,o),R=0,T=g(fR(a,db,o),S),q=cI(pS,function(b){switch(b[0]){case
-0:return P(b[1],T,[0,[0,_]]);case
-1:return[0,[0,P(b[1],I,_)]];case
-2:return[0,[0,aZ(a,b[1])]];case
+S=gn(a,ds,p),R=0,T=g(gn(a,dr,p),S),q=cr(qQ,function(b){switch(b[0]){case
+0:return F(b[1],T,[0,[0,ab]]);case
+1:return[0,[0,F(b[1],J,ab)]];case
+2:return[0,[0,aL(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,H(b,a)]};return aR(function(a,b){return b3(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return aR(function(a,b){return b3(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return b$(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aA(a)]};return bm(function(a){return b2(j,a)},i);case
+i=b[1],j=function(a){return[0,aE(a)]};return bv(function(a){return b_(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aR(function(a,b){return b3(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cg(a,b);return ab(function(b){return B(a,c,b)},d)};return aR(function(a,b){return b3(p,a,b)},o,n);case
+d=cn(a,b);return ae(function(b){return D(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,aj(a,b)]};return bm(function(a){return b2(r,a)},q);default:var
-s=b[1],t=function(b){return cG(a,b)};return bm(function(a){return b2(t,a)},s)}},J,R);var
-e=D,b=V;for(;;){if(e){var
+q=b[1],r=function(b){return[0,ai(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
+s=b[1],t=function(b){return co(a,b)};return bv(function(a){return b_(t,a)},s)}},K,R);var
+e=E,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=P(c,b,0);if(u){var
-l=aJ(G,c);if(l){var
-v=jb(a,F,E,h,q,l[1],i);if(v){var
-e=k,b=eg(c,b);continue}var
+u=F(c,b,0);if(u){var
+l=al(I,c);if(l){var
+v=jU(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=eC(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3537,75 +3687,75 @@ x=w}else
 var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
-K=0;if(h){var
-U=0,r=f(function(b){return[0,b,aj(a,b)]},o),M=f(dc,r),L=0,N=g(f(db,r),M),Q=cI(0,function(n){return function(b){switch(b[0]){case
-0:return[0,P(b[1],n,_)];case
-1:return[0,P(b[1],I,_)];case
-2:return[0,aZ(a,b[1])];case
+L=0;if(h){var
+U=0,r=f(function(b){return[0,b,ai(a,b)]},p),O=f(ds,r),N=0,P=g(f(dr,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
+0:return[0,F(b[1],n,ab)];case
+1:return[0,F(b[1],J,ab)];case
+2:return[0,aL(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b3(function(b,a){return[0,H(b,a)]},d,c);case
+c=b[2],d=b[1];return b$(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b3(function(b,a){return[0,O(b,a)]},f,e);case
+e=b[2],f=b[1];return b$(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return b2(function(a){return[0,aA(a)]},g);case
+g=b[1];return b_(function(a){return[0,aE(a)]},g);case
 6:var
-h=b[2],i=b[1];return b3(function(c,b){return[0,B(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b$(function(c,b){return[0,D(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b3(function(c,b){var
-d=cg(a,b);return ab(function(b){return B(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return b$(function(c,b){var
+d=cn(a,b);return ae(function(b){return D(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b2(function(b){return[0,aj(a,b)]},l);default:var
-m=b[1];return b2(function(b){return cG(a,b)},m)}}}(N),J,L),j=P(h[1],Q,U);if(j){var
-m=ag(j[1][2],d);K=1}else
+l=b[1];return b_(function(b){return[0,ai(a,b)]},l);default:var
+m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=F(h[1],Q,U);if(j){var
+m=ac(j[1][2],d);L=1}else
 var
 s=j}else
 var
-s=h;if(!K)var
+s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=P(c,b,0);if(y){var
-n=aJ(G,c);if(n){var
-z=jb(a,F,E,h,q,n[1],i);if(z){var
-e=k,b=eg(c,b);continue}var
+y=F(c,b,0);if(y){var
+o=al(I,c);if(o){var
+z=jU(a,H,G,h,q,o[1],i);if(z){var
+e=k,b=eC(c,b);continue}var
 A=z}else
 var
-A=n;var
-C=A}else
+A=o;var
+B=A}else
 var
-C=y;return C}return[0,b]}}function
-jd(i,h,g,f,e,d,c,t,s,r){var
+B=y;return B}return[0,b]}}function
+jW(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jc(i,h,g,f,e,d,c,b,a[1],j);return k?p(aV,k[1]):k}var
-l=jc(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=ee(a[2],b),o=jd(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
-b=n[2],j=m,a=a[4];continue}var
-q=o}else
+k=jV(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
+l=jV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dG(a[2],b),p=jW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+b=o[2],j=m,a=a[4];continue}var
+q=p}else
 var
 q=l;return q}}function
-fT(d,a){var
-e=ac(a),f=v(v(q(b(2,c)),a),d);return G(A(ac(d),f),e)}function
-fU(a){switch(a){case
-0:return qb;case
-1:return qc;default:return 0}}function
-el(b,a){var
-c=bi(a[2],b);return g(bi(a[1],b),c)}function
-je(r,k,p,t,o,j,s){if(j){var
-u=j[1],w=eh(s,el(o,u)),R=M(s,n(el(o,u))),S=je(r,k,p,t,o,j[2],R),i=bF(w,qd),l=bF(w,0);switch(r){case
+gp(d,a){var
+e=af(a),f=v(v(q(b(2,c)),a),d);return G(z(af(d),f),e)}function
+gq(a){switch(a){case
+0:return q$;case
+1:return ra;default:return 0}}function
+eK(b,a){var
+c=a8(a[2],b);return g(a8(a[1],b),c)}function
+jX(r,l,p,t,o,j,s){if(j){var
+u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jX(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
 0:var
-g=[0,qa,p$,q(d)];break;case
+g=[0,q_,q9,q(d)];break;case
 1:var
-g=fu;break;default:var
-H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=b0(A,g,l),y=aB(k[3],i),z=aB(k[2],i),a=[0,aB(k[1],i),z,y],J=fT(g[3],l[3]),K=fT(g[2],l[2]),L=fT(g[1],l[1]),N=G(G(G(aB(i,i),L),K),J),O=aB(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=A(v(a[1],e[2]),B),D=v(a[1],e[3]),E=A(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ed([0,A(v(a[2],e[3]),F),E,C],t),h=b0(G,ec(p,e),a);switch(r){case
+g=cs;break;default:var
+I=q(d),J=q(d),g=[0,q(d),J,I]}var
+e=aX(z,g,m),y=aF(l[3],i),A=aF(l[2],i),a=[0,aF(l[1],i),A,y],K=gp(g[3],m[3]),L=gp(g[2],m[2]),M=gp(g[1],m[1]),N=G(G(G(aF(i,i),M),L),K),O=aF(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ew([0,z(v(a[2],e[3]),F),E,C],t),h=aX(G,dF(p,e),a);switch(r){case
 0:var
-m=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
-m=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-m=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,m,Q],S]}else
+n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,n,Q],S]}else
 var
 x=j;return x}function
-fV(g,a){if(typeof
+gr(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3613,155 +3763,155 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fW(e,d,n,m,k,a){var
-f=v(ac(ck(fV(m,a),k)),n);if(typeof
+gs(e,d,n,m,l,a){var
+f=v(af(cu(gr(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aJ(d,a[1]);if(b)var
-g=l(e,0,a[2]),h=g?[0,A(b[1][2],f)]:g;else
+b=al(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aJ(d,a[1]);if(c)var
-i=l(e,0,a[2]),j=i?[0,A(f,c[1][2])]:i;else
+c=al(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,z(f,c[1][2])]:i;else
 var
-j=c;return j}return 0}function
-jf(a,d,c,b){return f(function(a){var
-e=ck(fV(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-jg(b,g,s,f,i,q,p,o){if(o){var
-X=jg(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+k=c;return k}return 0}function
+jY(a,d,c,b){return f(function(a){var
+e=cu(gr(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+jZ(b,g,s,f,i,q,p,o){if(o){var
+X=jZ(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a7(g),f),M,_)];else
+M=e(g,i),h=[0,t(e(a4(g),f),M,ab)];else
 switch(a[0]){case
 0:var
-j=[4,[0,c,c],a[1]],n=f,m=t;k=1;break;case
+k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
-O=[4,[0,c,c],a[1]],j=O,n=f,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
+O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},P);break;case
+P=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},P);break;case
 3:var
-Q=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},Q);break;case
+Q=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},Q);break;case
 6:var
-u=a[3],v=a[2],r=aJ(f,a[1]),K=0;if(r){var
-w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
-R=[4,u,v],S=[0,r[1],0],j=R,n=S,m=function(c,b,a){return[1,c,b,a]};k=1;K=1}else
+u=a[3],v=a[2],r=al(f,a[1]),K=0;if(r){var
+w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
+R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=aJ(f,B),L=0;if(C){var
-D=l(b,1,A),E=D?l(b,1,z):D;if(E){var
-T=[4,A,z],j=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};k=1;L=1}else
+z=a[3],A=a[2],B=a[1],C=al(f,B),L=0;if(C){var
+D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
+T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
 F=E}else
 var
 F=C;if(!L)var
 h=F;break;case
 8:var
-G=l(b,1,a[1]),H=G?l(b,1,a[2]):G;if(H)var
-U=aZ(b,c),V=e(g,i),W=jf(f,q,p,a),I=[0,[0,e(a7(g),W),V,U,0]];else
+G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
+U=aL(b,c),V=e(g,i),W=jY(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
-h=0}if(k)var
-N=a1(b,[0,[0,j,j],d]),h=ab(function(a){var
-c=aj(b,a),d=e(g,i);return m(e(a7(g),n),d,c)},N);var
+h=0}if(l)var
+N=aM(b,[0,[0,k,k],d]),h=ae(function(a){var
+c=ai(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-jh(j,h,i,e,d,a){if(a){var
-n=jh(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j0(j,h,i,e,d,a){if(a){var
+n=j0(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(dc,jf(h,e,d,b));l=1}if(!l)var
-c=fW(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-qe(a){if(typeof
+k=f(ds,jY(h,e,d,b));l=1}if(!l)var
+c=gs(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-em(a){var
-b=cm(a[1],[0,d,c]);return b?cm(a[2],[0,d,c]):b}function
-qf(j,a,k,be){var
-w=a[1],h=dr(w),ap=a[3],bg=[0,[0,[0,ap,ap],k],0],bh=a[2],aq=g(N(function(a){return el(k,a)},bh),bg),R=n(aq),bi=a[2],bj=n(N(function(a){return el(k,a)},bi)),ar=a[3],bk=ck([0,[0,ar,ar],k],bj),bl=fU(w),bm=a[5];function
-i(a){return[0,[0,M(bl,a)]]}switch(bm[0]){case
+eL(a){var
+b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
+rd(l,a,m,bg){var
+w=a[1],h=dN(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(y(function(a){return eK(m,a)},bi),bh),S=k(aq),bj=a[2],bk=k(y(function(a){return eK(m,a)},bj)),ar=a[3],bl=cu([0,[0,ar,ar],m],bk),bm=gq(w),bn=a[5];function
+i(a){return[0,[0,H(bm,a)]]}switch(bn[0]){case
 0:var
-aV=dw(i(0)),F=[0,ek(pW,i(0)),aV];break;case
+aX=dS(i(0)),J=[0,eJ(qU,i(0)),aX];break;case
 1:var
-aX=dw(i(0)),aY=v(dw(i(pX)),aX),aZ=v(dw(i(pY)),aY),a0=ek(0,i(0)),a2=i9(ek(p0,i(pZ)),a0),F=[0,i9(ek(p2,i(p1)),a2),aZ];break;default:var
-a3=i(p3),a4=i(p4),u=[0,i(0),a4,a3],a5=aB(u,u),a6=G(q(c),a5),aM=aB(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
-d=ac(a),e=v(q(b(2,c)),d);return G(A(q(c),aM),e)},y=function(f,e,d,a){var
-g=S(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(A,r,t,s),aO,aN],aQ=y(A,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(A,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
-B=F[2],H=je(w,F[1],B,bk,k,a[2],0),bn=M(R,n(a[6])),bo=fU(w),bp=a[5];function
-z(a){return[0,[0,M(bo,a)]]}var
-af=ac([0,[1,bn]]);switch(bp[0]){case
+aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jQ(eJ(qY,i(qX)),a1),J=[0,jQ(eJ(q0,i(qZ)),a2),a0];break;default:var
+a3=i(q1),a5=i(q2),u=[0,i(0),a5,a3],a7=aF(u,u),a8=G(q(c),a7),aN=aF(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
+d=af(a),e=v(q(b(2,c)),d);return G(z(q(c),aN),e)},A=function(f,e,d,a){var
+g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(G,s,t,r),aQ=[0,A(z,r,t,s),aP,aO],aR=A(z,s,t,r),aT=O(s),aU=[0,A(G,r,s,t),aT,aR],aV=A(G,r,t,s),aW=A(z,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=J[2],K=jX(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
+B(a){return[0,[0,H(bq,a)]]}var
+ag=af([0,[1,bo]]);switch(br[0]){case
 2:var
-a8=z(p5),a9=z(p6),ag=[0,z(0),a9,a8],m=[0,A(af,aB(ag,ag))];break;case
+a9=B(q3),a_=B(q4),ah=[0,B(0),a_,a9],o=[0,z(ag,aF(ah,ah))];break;case
 3:var
-a_=ac(z(p7)),a$=ac(z(0)),ba=ac(z(p8)),m=[0,A(A(v(af,G(q(c),ba)),a$),a_)];break;default:var
-m=0}var
-bq=m?[0,m[1],0]:m,br=[0,B,g(jh(j,H,B,k,R,a[6]),bq)],T=g(cL(H),br),as=d_(f(function(a){return ds(h,a)},T))[1],C=d8(as);function
-x(a){return bY(C,ds(h,a))}var
-bs=ab(x,m),bt=x(B),at=e(a7(x),H),am=fU(w),an=ai(n(at),h);if(an)var
-ao=ab(function(a){return[0,[0,a,d],d]},bs),E=function(a){return P(a,C,q(d))},ae=E(bt),aL=cF(0,am),Q=p(function(a){var
-b=cO(h,a,ae),c=b?p(function(b){var
-d=b[1],c=p(function(b){var
-c=E(b);return cq(M(h,a),c)},d);if(c){var
-e=E(b[2]);return fQ(ae,M(h,a),e)}return c},at):b;if(c){if(ao){var
-e=E(ao[1][1][1]);return cq(M(h,a),e)}var
+a$=af(B(q5)),ba=af(B(0)),bc=af(B(q6)),o=[0,z(z(v(ag,G(q(c),bc)),ba),a$)];break;default:var
+o=0}var
+bs=o?[0,o[1],0]:o,bt=[0,C,g(j0(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
+x(a){return bp(D,dO(h,a))}var
+bu=ae(x,o),bv=x(C),at=e(a4(x),K),am=gq(w),an=aa(k(at),h);if(an)var
+ao=ae(function(a){return[0,[0,a,d],d]},bu),I=function(a){return F(a,D,q(d))},ad=I(bv),aL=cQ(0,am),R=n(function(a){var
+b=cX(h,a,ad),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=I(b);return cA(H(h,a),c)},d);if(c){var
+e=I(b[2]);return gm(ad,H(h,a),e)}return c},at):b;if(c){if(ao){var
+e=I(ao[1][1][1]);return cA(H(h,a),e)}var
 d=1}else
 var
 d=c;return d},aL);else
 var
-Q=an;var
-bd=Q?am:Q,au=p(function(a){var
-b=ds(h,a),c=q(d);return bf(P(x(a),C,c),b)},T),av=au?p(function(a){return i0(h,a)},T):au,aw=av?bD(qe,a[6]):av;if(aw){var
-I=a[4];switch(w){case
+R=an;var
+bf=R?am:R,au=n(function(a){var
+b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jH(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
+L=a[4];switch(w){case
 0:var
-U=em(I[3]);break;case
+U=eL(L[3]);break;case
 1:var
 U=1;break;default:var
-ak=em(I[1]),al=ak?em(I[2]):ak,U=al?em(I[3]):al}var
+ak=eL(L[1]),al=ak?eL(L[2]):ak,U=al?eL(L[3]):al}var
 V=U}else
 var
 V=aw;var
-ax=V?l(j,1,a[3]):V;if(ax)var
-bu=i_(a[5]),W=p(function(a){var
-b=fO(j,a[1]);return b?fO(j,a[2]):b},bu);else
+ax=V?j(l,1,a[3]):V;if(ax)var
+bw=jR(a[5]),W=n(function(a){var
+b=gk(l,a[1]);return b?gk(l,a[2]):b},bw);else
 var
 W=ax;if(W){var
-bv=a[6],bw=g(aq,f(function(a){return fV(k,a)},bv)),X=aW(f(function(a){return a1(j,a)},bw));if(X){var
-D=a[4];switch(w){case
+bx=a[6],by=g(aq,f(function(a){return gr(m,a)},bx)),X=aS(f(function(a){return aM(l,a)},by));if(X){var
+E=a[4];switch(w){case
 0:var
-Y=[0,D[1],[0,D[2],0]];break;case
+Y=[0,E[1],[0,E[2],0]];break;case
 1:var
-Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
+Y=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
 Y=0}var
-Z=aW(f(function(a){return a1(j,[0,a,k])},Y));if(Z){var
-ay=Z[1],o=a[5];switch(o[0]){case
+Z=aS(f(function(a){return aM(l,[0,a,m])},Y));if(Z){var
+ay=Z[1],p=a[5];switch(p[0]){case
 0:var
-J=[0,cP(o[1]),0];break;case
+M=[0,cY(p[1]),0];break;case
 1:var
-bb=[0,cP(o[3]),0],bc=[0,cP(o[2]),bb],J=[0,cP(o[1]),bc];break;case
+bd=[0,cY(p[3]),0],be=[0,cY(p[2]),bd],M=[0,cY(p[1]),be];break;case
 2:var
-L=cP(cp(o[1])),J=[0,L,[0,L,[0,L,0]]];break;default:var
-O=o[2],ah=o[1],aj=[0,[1,cp(ah)[1],O],[1,ah,O]],J=[0,aj,[0,aj,[0,cP(cp(O)),0]]]}var
-_=aW(f(function(d){var
-a=i$(j,d[1]);if(a)var
-b=i$(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=cY(cz(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
+Q=p[2],ai=p[1],aj=[0,[1,cz(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cY(cz(Q)),0]]]}var
+_=aS(f(function(d){var
+a=jS(l,d[1]);if(a)var
+b=jS(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},J));if(_){var
-az=_[1],aA=a[5],bx=1<aA[0]?[0,aA[1],0]:0,$=aW(f(function(a){return dq(j,a)},bx));if($){var
-aa=aW(jg(j,x,bd,H,B,k,R,a[6]));if(aa){var
-ad=aa[1],aC=ai(n(g(ay,az)),h),aD=aC?p(function(a){switch(a[0]){case
+c=a;return c},M));if(_){var
+az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aS(f(function(a){return dM(l,a)},bz));if($){var
+ab=aS(jZ(l,x,bf,K,C,m,S,a[6]));if(ab){var
+ac=ab[1],aB=aa(k(g(ay,az)),h),aC=aB?n(function(a){switch(a[0]){case
 2:var
-d=i7(a[2]),b=[0,a[3],d];break;case
+d=jO(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=i7(a[1]),b=[0,a[2],c]}return p(function(a){return i8(h,C,a)},b)},ad):aC,aE=aD?m?i8(h,C,x(m[1])):1:aD;if(aE){var
-by=f(function(a){return 1},ad),bz=g(ay,az),bA=ab(x,m);return jd(j,as,g(X[1],$[1]),ad,h,h,bA,bz,by,be)}var
-aF=aE}else
+c=jO(a[1]),b=[0,a[2],c]}return n(function(a){return jP(h,D,a)},b)},ac):aB,aD=aC?o?jP(h,D,x(o[1])):1:aC;if(aD){var
+bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jW(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
+aE=aD}else
 var
-aF=aa;var
-aG=aF}else
+aE=ab;var
+aG=aE}else
 var
 aG=$;var
 aH=aG}else
@@ -3776,25 +3926,25 @@ aJ=X;var
 aK=aJ}else
 var
 aK=W;return aK}function
-en(b,a){return bj(b,a[1],a[2])}function
-fX(b,a){var
-c=en(b,a[1]),d=c?en(b,a[2]):c;return d?en(b,a[3]):d}var
-ep=A(q(c),eo);function
-ji(e){var
-a=ac(ep);if(e)var
-f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aK(G(q(c),h),g);else
+eM(b,a){return br(b,a[1],a[2])}function
+gt(b,a){var
+c=eM(b,a[1]),d=c?eM(b,a[2]):c;return d?eM(b,a[3]):d}var
+eO=z(q(c),eN);function
+j1(e){var
+a=af(eO);if(e)var
+f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aI(G(q(c),h),g);else
 var
-i=G(q(b(2,c)),a),j=ac(eo),d=aK(G(v(q(b(2,c)),j),a),i);return cH(d)}function
-jj(d,b,a){if(d){var
-e=ji(b),f=G(q(c),e),g=v(A(q(c),a),f);return A(q(c),g)}var
-h=q(c),i=ji(b),j=aK(q(c),i);return A(v(a,G(q(c),j)),h)}function
-cQ(f,e,d,a){var
-g=ac(a),h=ac(d),i=A(A(q(b(2,c)),h),g),j=f?e?ep:aK(ep,v(q(b(2,c)),eo)):aK(ep,q(b(2,c))),k=v(ac(j),i);return cH(G(q(c),k))}function
-jk(g,d){var
+i=G(q(b(2,c)),a),j=af(eN),d=aI(G(v(q(b(2,c)),j),a),i);return cq(d)}function
+j2(d,b,a){if(d){var
+e=j1(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
+h=q(c),i=j1(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
+cZ(f,e,d,a){var
+g=af(a),h=af(d),i=z(z(q(b(2,c)),h),g),j=f?e?eO:aI(eO,v(q(b(2,c)),eN)):aI(eO,q(b(2,c))),k=v(af(j),i);return cq(G(q(c),k))}function
+j3(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?H(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fY(u,t,s){var
-a=f(function(a){return P(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gu(u,t,s){var
+a=f(function(a){return F(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3802,8 +3952,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ea([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return n(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ev([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3813,24 +3963,24 @@ l=i;var
 m=l}else
 var
 m=c;var
-n=m}else
+o=m}else
 var
-n=h;var
-o=n}else
+o=h;var
+p=o}else
 var
-o=b;var
-q=o}else
+p=b;var
+q=p}else
 var
 q=g;var
 r=q}else
 var
 r=a;return r}function
-jl(f,i,e,b,h){var
-j=f?c:d,a=aZ(i,j);function
+j4(f,i,e,b,h){var
+j=f?c:d,a=aL(i,j);function
 g(b){var
-c=f?fj(b):d4(b);return O(c,a)}var
-k=[0,bh(h),0],l=[0,[0,a,b,[0,_,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-jm(r,g,q,p,e,o,n){if(o){var
+c=f?fQ(b):en(b);return M(c,a)}var
+k=[0,a3(h),0],l=[0,[0,a,b,[0,ab,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+j5(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3839,16 +3989,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(di,bZ(qi)),a=fY(p,ii(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b8,bO(rg)),a=gu(p,i0(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=D(k[2],l[1]);b=1;c=1;d=1;break}else
+a=B(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(jk,qj),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(j3,rh),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(jk,qk),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+C=f(j3,ri),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3858,27 +4008,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?ql:a}else
+y=a?rj:a}else
 var
 y=n;return y}return[0,n]}function
-jn(f,e,d,c,p,o,n){var
+j6(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=jm(f,e,d,c,b,a[1],g);return h?aV(h[1]):h}var
-i=jm(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ee(a[2],b),l=jn(f,e,d,c,k[1],j,a[3]);if(l){var
+h=j5(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
+i=j5(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dG(a[2],b),l=j6(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fZ(a){return hG(b(2,c),cb(a,c))}function
-cR(i,a,e,w,u){var
-l=a?c:T(c),f=q(l),g=jj(a,e,qg),h=jj(a,e,qh),m=aK(g,cQ(a,e,f,g)),n=[0,G(aK(h,cQ(a,e,h,f)),m),0],o=aK(f,cQ(a,e,f,g)),p=[0,G(aK(h,cQ(a,e,g,h)),o),n],r=aK(f,cQ(a,e,h,f)),s=[0,G(aK(g,cQ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eo):q(b(2,b(2,c))),j=d_([0,t,s]),k=[0,d,cf(i)];return jn(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-jo(a,g,b){if(ag(g,fZ(a))){if(b){var
+gv(a){return ij(b(2,c),b1(a,c))}function
+c0(i,a,e,w,u){var
+l=a?c:W(c),f=q(l),g=j2(a,e,re),h=j2(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j6(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+j7(a,g,b){if(ac(g,gv(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fZ(a)],v=cf(a),i=[0,fZ(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
-l=cR(a,1,1,h,d[1]);if(l)return cR(a,1,0,i,e[1]);var
+h=[0,g,gv(a)],v=cm(a),i=[0,gv(a),v],j=c0(a,0,1,h,b[1]),k=j?c0(a,0,0,i,c[1]):j;if(k){var
+l=c0(a,1,1,h,d[1]);if(l)return c0(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3895,177 +4045,206 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cf(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=c0(a,0,0,r,b[1]);if(s)return c0(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-f0(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,qm,f0(b)]);var
+gw(a){var
+b=[1,[2,d]];return ir(function(b,a){return[1,[3,b,a]]},a,b)}function
+eP(a){return gw(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eQ(a,c){return gw(f(function(a){var
+d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gw(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+j8(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
+g=a[1],h=dy(function(a){return j8(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
+rk(a){var
+b=aa(k(a),rl);return b?a6(function(a){return aH(ak(a,d))},a):b}function
+j9(c,f,b,a){if(b)if(a)var
+d=b[1],g=D(c,aL(c,a[1]),f),h=j9(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+var
+e=a;else
+var
+e=b;return e}function
+eR(b,a){return iq(iq(b,0),a)}function
+gx(a){if(a){var
+b=a[2],c=a[1];if(b)return eR(c,[0,rn,gx(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,qo,g(f0(a),qn)]}function
-Q(a){return[0,qq,g(f0(a),qp)]}function
-an(a){return[0,qs,[0,a,qr]]}function
-h(b,a){return[0,as(qu,as(b,qt)),a]}function
-F(b,a){return Q([0,h(b,a),0])}function
-cS(d){var
-b=d,a=o9,e=0;for(;;){if(b){var
-c=hB(a),b=b[1],a=c;continue}return[0,dg(dW(a)),e]}}function
-f1(a){return[0,dg(d0(a)),0]}function
-f2(a){var
-c=bx(a),f=0,b=0===c?pb:0<c?[0,d0(a)]:[1,d0(T(a))];if(0===b[0])var
-d=dg(b[1]);else
+w(a){return[0,rp,eR(gx(a),ro)]}function
+O(a){return[0,rr,eR(gx(a),rq)]}function
+am(a){return[0,rt,[0,a,rs]]}function
+h(b,a){return[0,av(rv,av(b,ru)),a]}function
+L(b,a){return O([0,h(b,a),0])}function
+cB(d){var
+b=d,a=pZ,e=0;for(;;){if(b){var
+c=id(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
+gy(a){return[0,dx(ei(a)),0]}function
+gz(a){var
+c=bH(a),f=0,b=0===c?p3:0<c?[0,ei(a)]:[1,ei(W(a))];if(0===b[0])var
+d=dx(b[1]);else
 var
-e=dg(b[1]),d=as(aY(1,45),e);return[0,d,f]}function
-f3(a){var
-b=0,c=0<bx(a)?d0(a):pa;return[0,dg(c),b]}function
-f4(a){switch(a[0]){case
-2:return qw;case
-3:return 2<=a[1]?qx:qy;case
-4:return qz;default:return qv}}function
-dx(b,a){function
-c(c,a){return Z(c,f4(a))?dx(b,a):[0,qF,g(dx(b,a),qE)]}switch(a[0]){case
+e=dx(b[1]),d=av(a5(1,45),e);return[0,d,f]}function
+gA(a){var
+b=0,c=0<bH(a)?ei(a):p2;return[0,dx(c),b]}function
+gB(a){switch(a[0]){case
+2:return rx;case
+3:return 2<=a[1]?ry:rz;case
+4:return rA;default:return rw}}function
+dT(b,a){function
+c(c,a){return Y(c,gB(a))?dT(b,a):[0,rG,g(dT(b,a),rF)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aQ(h),0];var
-i=[0,qG,[0,aQ(f),0]];return[0,aQ(h),i];case
+f==="number")return[0,aW(h),0];var
+i=[0,rH,[0,aW(f),0]];return[0,aW(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,qI,c(qH,a[1])];case
+2:return[0,rJ,c(rI,a[1])];case
 3:var
-j=a[3],k=c([0,f4(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gB(a)],j);switch(a[1]){case
 0:var
-d=qA;break;case
+d=rB;break;case
 1:var
-d=qB;break;case
+d=rC;break;case
 2:var
-d=qC;break;default:var
-d=qD}var
-l=a[2];return g(c(f4(a),l),[0,d,k]);case
+d=rD;break;default:var
+d=rE}var
+l=a[2];return g(c(gB(a),l),[0,d,k]);case
 4:var
-m=[0,qJ,f1(a[2])];return g(c(qK,a[1]),m);default:return[0,qM,g(dx(b,a[1]),qL)]}}function
-R(a){return[0,qP,g(dx(function(a){throw[0,V,qO]},a),qN)]}function
-jp(a){return[0,qR,g(dx(function(a){return a},a),qQ)]}function
-b4(a){if(0===a[0])return R(a[1]);var
-b=[0,h(qS,R(a[2])),0];return Q([0,h(qT,R(a[1])),b])}function
-eq(b,a){var
+m=[0,rK,gy(a[2])];return g(c(rL,a[1]),m);default:return[0,rN,g(dT(b,a[1]),rM)]}}function
+K(a){return[0,rQ,g(dT(function(a){throw[0,$,rP]},a),rO)]}function
+j_(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
+ca(a){if(0===a[0])return K(a[1]);var
+b=[0,h(rT,K(a[2])),0];return O([0,h(rU,K(a[1])),b])}function
+dU(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qU(a){function
-b(a){return eq(b4,a)}switch(a[0]){case
+rV(a){function
+b(a){return dU(ca,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qV:q3,i=[0,h(qW,an(f)),e],j=[0,h(qX,b4(a[4])),i],k=[0,h(qY,b(a[3])),j],l=[0,h(qZ,b(a[2])),k],m=[0,h(q0,b(a[1])),l],c=[0,h(q2,an(q1)),m];break;case
+e=0,f=a[5]?rW:r4,i=[0,h(rX,am(f)),e],j=[0,h(rY,ca(a[4])),i],k=[0,h(rZ,b(a[3])),j],l=[0,h(r0,b(a[2])),k],m=[0,h(r1,b(a[1])),l],c=[0,h(r3,am(r2)),m];break;case
 1:var
-d=a[3],n=d?[0,h(q4,b(d[1])),0]:d,o=[0,h(q5,b(a[2])),0],p=[0,h(q6,b(a[1])),o],c=g([0,h(q8,an(q7)),p],n);break;default:var
-q=[0,h(q9,b(a[1])),0],c=[0,h(q$,an(q_)),q]}return Q(c)}function
-ra(a){function
-b(a){return eq(b4,a)}var
-c=0,d=a[7]?rb:rl,e=[0,h(rc,an(d)),c],f=[0,h(rd,b4(a[6])),e],g=[0,h(re,b4(a[5])),f],i=[0,h(rf,b(a[4])),g],j=[0,h(rg,b(a[3])),i],k=[0,h(rh,b(a[2])),j],l=[0,h(ri,b(a[1])),k];return Q([0,h(rk,an(rj)),l])}function
-f5(a){switch(a){case
-0:return rm;case
-1:return rn;case
-2:return ro;case
-3:return rp;case
-4:return rq;case
-5:return rr;case
-6:return rs;case
-7:return rt;default:return ru}}function
-f6(a){switch(a[0]){case
-0:return rv;case
-1:return rw;default:return rx}}function
-dy(a){var
+d=a[3],n=d?[0,h(r5,b(d[1])),0]:d,o=[0,h(r6,b(a[2])),0],p=[0,h(r7,b(a[1])),o],c=g([0,h(r9,am(r8)),p],n);break;default:var
+q=[0,h(r_,b(a[1])),0],c=[0,h(sa,am(r$)),q]}return O(c)}function
+sb(a){function
+b(a){return dU(ca,a)}var
+c=0,d=a[7]?sc:sm,e=[0,h(sd,am(d)),c],f=[0,h(se,ca(a[6])),e],g=[0,h(sf,ca(a[5])),f],i=[0,h(sg,b(a[4])),g],j=[0,h(sh,b(a[3])),i],k=[0,h(si,b(a[2])),j],l=[0,h(sj,b(a[1])),k];return O([0,h(sl,am(sk)),l])}function
+gC(a){switch(a){case
+0:return sn;case
+1:return so;case
+2:return sp;case
+3:return sq;case
+4:return sr;case
+5:return ss;case
+6:return st;case
+7:return su;case
+8:return sv;default:return sw}}function
+gD(a){switch(a[0]){case
+0:return sx;case
+1:return sy;default:return sz}}function
+dV(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,R(b[2]),0],e=w([0,R(b[1]),i]);else
+i=[0,K(b[2]),0],e=w([0,K(b[1]),i]);else
 var
-e=R(b[1]);var
-k=[0,h(ry,e),j],l=[0,h(rz,an(f6(a[4]))),k],c=a[3];if(c)var
-n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rA:rE,f=[0,h(rB,F(o,n)),m];else
+e=K(b[1]);var
+k=[0,h(sA,e),j],l=[0,h(sB,am(gD(a[4]))),k],c=a[3];if(c)var
+n=w([0,K(c[1]),0]),m=0,o=6===a[1]?sC:sG,f=[0,h(sD,L(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(rC,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(rD,an(f5(a[1]))),r])}function
-jq(a){if(0===a[0]){var
-b=[0,h(rF,eq(R,a[2])),0];return F(rH,Q([0,h(rG,eq(R,a[1])),b]))}var
-c=[0,R(a[5]),0],d=[0,h(rI,w([0,R(a[4]),c])),0],e=[0,h(rJ,R(a[3])),d],f=[0,R(a[2]),0];return F(rL,Q([0,h(rK,w([0,R(a[1]),f])),e]))}function
-rP(a){function
-b(a){return w(f(b4,a))}var
-c=[0,h(rQ,b(a[2])),0],d=[0,h(rR,b(a[1])),c];return Q([0,h(rT,an(rS)),d])}function
-r3(a){switch(a[0]){case
-0:var
-o=[0,h(r4,w(f(dy,a[3]))),0],p=[0,h(r5,jq(a[2])),o];return F(r8,Q([0,h(r7,F(r6,w(f(qU,a[1])))),p]));case
+p=g(f,l),d=a[2],q=d?[0,h(sE,cB(d[1])),0]:d,r=g(q,p);return O([0,h(sF,am(gC(a[1]))),r])}function
+j$(a){if(0===a[0]){var
+b=[0,h(sH,dU(K,a[2])),0];return L(sJ,O([0,h(sI,dU(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,h(sK,w([0,K(a[4]),c])),0],e=[0,h(sL,K(a[3])),d],f=[0,K(a[2]),0];return L(sN,O([0,h(sM,w([0,K(a[1]),f])),e]))}function
+sR(a){function
+b(a){return w(f(ca,a))}var
+c=[0,h(sS,b(a[2])),0],d=[0,h(sT,b(a[1])),c];return O([0,h(sV,am(sU)),d])}function
+s5(a){function
+b(a){return dU(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(s6,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s7,w([0,K(a[3]),f])),0],j=[0,h(s8,K(a[2])),i],k=[0,h(s9,cB(a[1])),j],d=g([0,h(s$,am(s_)),k],e);else
+var
+l=[0,h(ta,K(a[4])),0],m=[0,h(tb,b(a[3])),l],n=[0,h(tc,b(a[2])),m],o=a[1]?td:tf,d=[0,h(te,am(o)),n];return O(d)}function
+ka(d,c,a,b){var
+e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j$(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
+tl(a){switch(a[0]){case
+0:return L(tm,ka(a[1],a[2],a[3],a[4]));case
 1:var
-q=[0,h(r9,w(f(dy,a[3]))),0],r=[0,h(r_,jq(a[2])),q];return F(sb,Q([0,h(sa,F(r$,w(f(ra,a[1])))),r]));case
+o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j$(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
 2:var
-s=[0,h(sc,w(f(dy,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,R(a),0];return w([0,R(b),c])};switch(b[0]){case
+q=[0,h(ts,w(f(dV,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,K(a),0];return w([0,K(b),c])};switch(b[0]){case
 0:var
-d=F(rU,c(b[1],b[2]));break;case
+d=L(sW,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(rV,c(g[1],g[2])),0],m=[0,h(rW,c(i[1],i[2])),l],d=F(rY,Q([0,h(rX,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(sX,c(g[1],g[2])),0],m=[0,h(sY,c(i[1],i[2])),l],d=L(s0,O([0,h(sZ,c(j[1],j[2])),m]));break;case
 2:var
-d=F(rZ,R(b[1]));break;default:var
-n=[0,h(r0,R(b[2])),0],d=F(r2,Q([0,h(r1,R(b[1])),n]))}var
-t=[0,h(sd,d),s],u=[0,h(se,w(f(R,a[5]))),0],v=[0,h(sh,F(sg,Q([0,h(sf,w(f(R,a[4]))),u]))),t],x=[0,h(si,R(a[3])),0],y=Q([0,h(sj,w(f(rP,a[2]))),x]);switch(a[1]){case
+d=L(s1,K(b[1]));break;default:var
+n=[0,h(s2,K(b[2])),0],d=L(s4,O([0,h(s3,K(b[1])),n]))}var
+r=[0,h(tt,d),q],s=[0,h(tu,w(f(K,a[5]))),0],t=[0,h(tx,L(tw,O([0,h(tv,w(f(K,a[4]))),s]))),r],u=[0,h(ty,K(a[3])),0],v=O([0,h(tz,w(f(sR,a[2]))),u]);switch(a[1]){case
 0:var
-e=rM;break;case
+e=sO;break;case
 1:var
-e=rN;break;default:var
-e=rO}return F(sl,Q([0,h(sk,F(e,y)),v]));case
+e=sP;break;default:var
+e=sQ}return L(tB,O([0,h(tA,L(e,v)),t]));case
 3:var
-z=[0,h(sm,w(f(dy,a[7]))),0],A=[0,h(sn,w(f(R,a[6]))),0],B=[0,h(sq,F(sp,Q([0,h(so,w(f(R,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(ss,w(f(function(a){return F(sr,w(f(jp,a)))},D))),C],G=a[3],H=[0,h(st,w(f(function(a){var
-b=[0,jp(a[2]),0];return w([0,an(a[1]),b])},G))),E],I=a[2],J=[0,h(su,w(f(function(a){var
-b=[0,b4(a[2]),0];return w([0,an(a[1]),b])},I))),H];return F(sy,Q([0,h(sx,F(sw,Q([0,h(sv,w(f(an,a[1]))),J]))),B]));case
+x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j_,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
+b=[0,j_(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
+b=[0,ca(a[2]),0];return w([0,am(a[1]),b])},F))),E];return L(tO,O([0,h(tN,L(tM,O([0,h(tL,w(f(am,a[1]))),G]))),z]));case
 4:var
-K=[0,h(sz,w(f(dy,a[3]))),0],L=[0,h(sC,F(sB,Q([0,h(sA,R(a[2])),0]))),K];return F(sG,Q([0,h(sF,F(sE,Q([0,h(sD,R(a[1])),0]))),L]));default:var
-k=a[1],M=0,N=k?b4(k[1]):an(sJ);return F(sI,Q([0,h(sH,N),M]))}}function
-f7(a){return w(f(f2,a))}function
-jr(b,a){var
-c=[0,h(sK,f3(a)),0];return Q([0,h(sL,w(f(f7,b))),c])}function
-er(a){switch(a[0]){case
-0:return an(a[1]);case
-1:var
-b=jr(a[2],a[3]);return F(a[1],b);case
-2:var
-c=a[1]?sM:sO;return F(sN,an(c));case
-3:var
-d=[0,f7(a[3]),0];return F(sP,w([0,jr(a[1],a[2]),d]));case
-4:var
-e=[0,f3(a[3]),0],f=[0,f2(a[2]),e];return F(sQ,w([0,er(a[1]),f]));case
+H=[0,h(tP,w(f(dV,a[3]))),0],I=[0,h(tS,L(tR,O([0,h(tQ,K(a[2])),0]))),H];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,K(a[1])),0]))),I]));case
 5:var
-g=[0,f3(a[3]),0],h=[0,f2(a[2]),g];return F(sR,w([0,er(a[1]),h]));default:return F(sS,er(a[1]))}}function
-sT(a){var
-b=[0,er(a[2]),0];return w([0,cS(a[1]),b])}function
-sU(c){var
-b=c[2],d=b?[0,h(sV,cS(b[1])),0]:b,a=c[1],e=a?[0,h(sW,w(f(sT,[0,a[1],a[2]]))),0]:a;return Q(g(e,d))}function
-f8(a){var
-b=hn(hm(y(a),function(b){return K(a,b)}));return p(function(a){var
-b=aV(34===a?1:0),c=b?aV(92===a?1:0):b,d=c?Z(th,d1(a)):c;return d?Z(d1(a),ti):d},b)}function
-es(b){function
+J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,ka(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
+k=a[1],M=0,N=k?ca(k[1]):am(t2);return L(t1,O([0,h(t0,N),M]))}}function
+eS(a){return w(f(gz,a))}function
+kb(b,a){var
+c=[0,h(t3,gA(a)),0];return O([0,h(t4,w(f(eS,b))),c])}function
+eT(a){switch(a[0]){case
+0:return am(a[1]);case
+1:var
+b=kb(a[2],a[3]);return L(a[1],b);case
+2:var
+c=a[1]?t5:t7;return L(t6,am(c));case
+3:var
+d=[0,eS(a[3]),0];return L(t8,w([0,kb(a[1],a[2]),d]));case
+4:var
+e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return L(t9,w([0,eT(a[1]),f]));case
+5:var
+g=[0,gA(a[3]),0],h=[0,gz(a[2]),g];return L(t_,w([0,eT(a[1]),h]));default:return L(t$,eT(a[1]))}}function
+ua(a){var
+b=[0,eT(a[2]),0];return w([0,cB(a[1]),b])}function
+kc(a){if(typeof
+a==="number")return am(ub);else{if(0===a[0]){var
+b=[0,w(f(eS,a[2])),0];return L(uc,w([0,cB(a[1]),b]))}var
+c=[0,cB(a[2]),0];return L(ud,w([0,cB(a[1]),c]))}}function
+ue(a){var
+b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kc(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+gE(a){var
+b=h1(h0(E(a),function(b){return R(a,b)}));return n(function(a){var
+b=aH(34===a?1:0),c=b?aH(92===a?1:0):b,d=c?Y(uC,ek(a)):c;return d?Y(ek(a),uD):d},b)}function
+eU(b){function
 c(f){var
-a=d1(f),b=Z(tj,a),c=b?Z(a,tk):b;if(c)var
+a=ek(f),b=Y(uE,a),c=b?Y(a,uF):b;if(c)var
 d=c;else{var
-e=Z(tl,a);if(e)return Z(a,tm);var
+e=Y(uG,a);if(e)return Y(a,uH);var
 d=e}return d}var
-a=hn(hm(y(b),function(a){return K(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?p(function(a){var
+a=h1(h0(E(b),function(a){return R(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=d1(a),f=Z(tn,e),h=f?Z(e,to):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(n(d),tp):f;if(g)return aV(aC(b,tq));var
+e=ek(a),f=Y(uI,e),h=f?Y(e,uJ):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Y(k(d),uK):f;if(g)return aH(au(b,uL));var
 h=g}else
 var
 h=a;return h}function
-f9(c){var
+gF(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return es(a[1]);case
+1:return eU(a[1]);case
 3:var
-b=f9(a[2]);if(b){var
+b=gF(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cT(m){var
+c1(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4076,99 +4255,116 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dW(a[2]);if(typeof
+f=ef(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cT(a[2]);if(i){var
+i=c1(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cT(a[1]),l=k?dZ(b(2,c),j):k;return l?dZ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c1(a[1]),l=k?eh(b(2,c),j):k;return l?eh(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-f_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b5(a){return N(cU,f_(a))}function
-tr(a){switch(a[0]){case
+c2(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cb(a){return y(c2,bc(a))}function
+kd(a){switch(a[0]){case
 0:var
-c=cU(a[4]),d=g(b5(a[3]),c),e=g(b5(a[2]),d);return g(b5(a[1]),e);case
+c=c2(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
 1:var
-b=a[3],f=b?b5(b[1]):b,h=g(b5(a[2]),f);return g(b5(a[1]),h);default:return b5(a[1])}}function
-ts(a){var
-b=N(cU,[0,a[5],[0,a[6],0]]);return g(N(b5,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-js(a){if(0===a[0]){var
-b=f_(a[2]);return g(f_(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dz(c){var
+b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
+uM(a){var
+b=y(c2,[0,a[5],[0,a[6],0]]);return g(y(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+ke(a){if(0===a[0]){var
+b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+c3(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-jt(a){var
-d=dZ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dZ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-ju(a,b){return b?[3,ju(a,b[1]),a]:a}function
+uN(a){if(0===a[0]){var
+b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
+kf(a){var
+d=eh(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eh(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+kg(a,b){return b?[3,kg(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return o(j,a)},m=fd(hz(h),l,c);return[0,hI(hA(dW(a[1]),h)),m];case
-1:throw[0,V,tt];case
+h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ib(h),k,c);return[0,il(ic(ef(a[1]),h)),l];case
+1:throw[0,$,uO];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,T(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-n=cB(de(a[2]));return ju(i(a[1]),n);default:return[5,i(a[1])]}}function
-bH(a){if(0===a[0]){var
+m=b4(dv(a[2]));return kg(i(a[1]),m);default:return[5,i(a[1])]}}function
+bQ(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-a8(a){var
-b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
-tu(a){switch(a[0]){case
+bd(a){var
+b=bQ(a[3]),c=bQ(a[2]);return[0,bQ(a[1]),c,b]}function
+uP(a){switch(a[0]){case
 0:var
-b=a[5],c=bH(a[4]),d=a8(a[3]),e=a8(a[2]);return[0,[0,a8(a[1]),e,d,c,b]];case
+b=a[5],c=bQ(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
 1:var
-f=ab(a8,a[3]),g=a8(a[2]);return[1,a8(a[1]),g,f];default:return[2,a8(a[1])]}}function
-jv(a){if(0===a[0]){var
+f=ae(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
+kh(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-tv(a){if(a[1])return 0;var
+dW(a){var
+b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
+ki(a){if(0===a[0]){var
+b=a[5],h=b?dW(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b4(a[1]),l,k,j,h]}var
+e=a[4],f=a[3],g=a[2];if(a[1]){var
+m=dW(f),n=dW(g);return[2,i(e),n,m]}var
+o=dW(f),p=dW(g);return[1,i(e),p,o]}function
+gG(b,a){return 0===b[0]?0===a[0]?aa(b[1],a[1]):0:0===a[0]?0:du(b[1],a[1])}function
+gH(b,a){if(a){var
+c=a[1],d=a[2],e=gH(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fO(function(a){return aH(gG(a[1],a[2]))},h),e)}return a}function
+uQ(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-f$(c,j,b){var
-x=n(c),d=N(function(a){switch(a[1]){case
+eV(c,j,A,b){var
+B=k(c),d=y(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
 c=a[4];switch(c[0]){case
 0:var
-q=c[1],b=function(a){return[2,a,i(q)]};break;case
+r=c[1],b=function(a){return[2,a,i(r)]};break;case
 1:var
-s=c[1],b=function(a){return[3,a,i(s)]};break;default:return 0}break;case
+t=c[1],b=function(a){return[3,a,i(t)]};break;default:return 0}break;case
 2:var
 j=a[4];if(1!==j[0])return 0;var
-d=a[3],t=j[1];if(!d)return d;var
-u=d[1],b=function(a){var
-b=i(t);return[4,a,i(u),b]};break;case
+d=a[3],u=j[1];if(!d)return d;var
+v=d[1],b=function(a){var
+b=i(u);return[4,a,i(v),b]};break;case
 3:var
 k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
 4:var
 l=a[4];if(0!==l[0])return 0;var
-v=l[1],b=function(a){return[6,a,i(v)]};break;case
+w=l[1],b=function(a){return[6,a,i(w)]};break;case
 5:var
 m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
 6:var
 n=a[4];if(0===n[0]){var
 e=a[3];if(e)var
-w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
+x=i(n[1]),o=[0,[8,i(e[1]),x],0];else
 var
 o=e;return o}return 0;case
 7:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;default:return 0}var
-h=a[2],r=h?[0,cB(h[1]),0]:cF(0,x);return f(b,r)},b),a=N(tv,b),e=a?[0,a[1],a[2]]:tx,h=g(e,d),k=jv(j);return[0,f(tu,c),k,h]}function
-ty(a){if(a[1])return 0;var
+p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;case
+8:return 0;default:var
+q=a[4];if(0===q[0]){var
+y=q[1],z=gH(0,A);return f(function(a){var
+b=i(y),c=ki(a[2]);return[10,ki(a[1]),c,b]},z)}return 0}var
+h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kh(j);return[0,f(uP,c),l,h]}function
+uT(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-cV(z,b){var
-c=N(function(a){switch(a[1]){case
+c4(z,b){var
+c=y(function(a){switch(a[1]){case
 0:var
 h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
@@ -4197,33 +4393,33 @@ o=a[4];if(1!==o[0])return 0;var
 g=a[3],x=o[1];if(!g)return g;var
 y=g[1],c=function(a){var
 b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,cB(j[1]),0]:cF(0,z);return f(c,q)},b),a=N(ty,b),d=a?[0,a[1],a[2]]:tz;return g(d,c)}function
-bI(h,g,a){switch(a[1]){case
+j=a[2],q=j?[0,b4(j[1]),0]:cQ(0,z);return f(c,q)},b),a=y(uT,b),d=a?[0,a[1],a[2]]:uU;return g(d,c)}function
+bR(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dX(h,i);if(b){var
+i=2===a[4][0]?1:0,b=du(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=Z(tA,d);return e?Z(d,g):e}var
+d=c[1],e=Y(uV,d);return e?Y(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cr(a){switch(a[0]){case
+cC(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cr(a[1])];case
+2:return[2,cC(a[1])];case
 3:var
-b=cr(a[2]),c=cr(a[3]);switch(a[1]){case
+b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cr(a[1]),d];default:return[8,cr(a[1])]}}function
-jw(b){function
+d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
+kj(b){function
 a(e){var
-a=[0,d,c];return P(e,b,[0,a,a])}var
-e=a(tC),f=a(tD);return[0,a(0),f,e]}function
-ga(a){function
+a=[0,d,c];return F(e,b,[0,a,a])}var
+e=a(uX),f=a(uY);return[0,a(0),f,e]}function
+gI(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4231,207 +4427,294 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-jx(j,a,h,g,e,d,c){function
-b(a){return jw(f(bH,a))}var
-k=cV(n(a),c),l=ga(d),m=cE(g,e),o=jw(f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},m)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
-tE(a){var
-b=a[7],c=bH(a[6]),d=bH(a[5]),e=a8(a[4]),f=a8(a[3]),g=a8(a[2]);return[0,a8(a[1]),g,f,e,d,c,b]}var
+kk(j,a,h,g,e,d,c){function
+b(a){return kj(f(bQ,a))}var
+l=c4(k(a),c),m=gI(d),n=ck(g,e),o=kj(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
+uZ(a){var
+b=a[7],c=bQ(a[6]),d=bQ(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dA(h){var
-a=cD(function(f,e){var
-a=au(m,f);if(a)var
-b=a[1],c=cd(e2(b[1]),e2(b[2]));else
+c5(h){var
+a=cP(function(f,e){var
+a=ax(m,f);if(a)var
+b=a[1],c=cj(fw(b[1]),fw(b[2]));else
 var
-c=d;return cd(c,e)},d,h);if(ag(d,a)){var
-f=bx(a);if(0===f||!(0<f&&!D(a,c)))var
+c=d;return cj(c,e)},d,h);if(ac(d,a)){var
+f=bH(a);if(0===f||!(0<f&&!B(a,c)))var
 g=d;else
 var
-b=be(a,aT(2)),e=b[1],g=al(b[2],d)?dY(e):dY(e);return cb(g,m)}return d}function
-et(a){return[0,a[1],[0,a[2],0]]}function
-bJ(a){var
-b=et(a[3]),c=g(et(a[2]),b);return g(et(a[1]),c)}function
-tF(a){return 0===a[0]?et(a[1][4]):0}function
-tG(a){switch(a[0]){case
+b=bn(a,a1(2)),e=b[1],g=ak(b[2],d)?eg(e):eg(e);return b1(g,m)}return d}function
+eW(a){return[0,a[1],[0,a[2],0]]}function
+bw(a){var
+b=eW(a[3]),c=g(eW(a[2]),b);return g(eW(a[1]),c)}function
+u0(a){return 0===a[0]?eW(a[1][4]):0}function
+u1(a){switch(a[0]){case
 0:var
-b=a[1],c=bJ(b[3]);return g(bJ(b[2]),c);case
+b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
 1:var
-d=bJ(a[2]);return g(bJ(a[1]),d);default:return 0}}function
-tH(a){switch(a[0]){case
-0:return dA(bJ(a[1][1]));case
+d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
+kl(a){switch(a[0]){case
+0:return c5(bw(a[1][1]));case
 1:var
-b=a[3];return b?dA(bJ(b[1])):d;default:return dA(bJ(a[1]))}}function
-eu(a){switch(a[0]){case
+b=a[3];return b?c5(bw(b[1])):d;default:return c5(bw(a[1]))}}function
+km(b){var
+a=y(u0,b),d=a?[0,a[1],a[2]]:y(u1,b);return A(c,c5(d))}function
+eX(a){switch(a[0]){case
 0:var
-b=a[1];if(aC(b,tI))return tJ;if(aC(b,tK))return tL;if(aC(b,tM))return tN;if(aC(b,tO))return tP;var
-h=aC(b,tQ),j=h?tR:h;return j;case
+b=a[1];if(au(b,u2))return u3;if(au(b,u4))return u5;if(au(b,u6))return u7;if(au(b,u8))return u9;var
+h=au(b,u_),j=h?u$:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aC(e,tS))return[0,[0,c,d]];if(aC(e,tT))return[0,[1,c,d]];var
-i=aC(e,tU),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(au(e,va))return[0,[0,c,d]];if(au(e,vb))return[0,[1,c,d]];if(au(e,vc))return[0,[2,c,d]];var
+i=au(e,vd),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=eu(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=eX(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=eu(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=eu(a[1]);return ab(function(a){return[6,a]},n)}}function
-jy(a){if(a){var
-d=a[1],b=eu(d[2]);if(b)var
-c=jy(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=eX(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=eX(a[1]);return ae(function(a){return[6,a]},n)}}function
+kn(a){if(a){var
+d=a[1],b=eX(d[2]);if(b)var
+c=kn(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return tV}function
-cW(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=jy(g[1]);if(c){var
-k=c[1];if(h){var
-d=cW(j,i);if(d){var
-l=d[1],e=cW(j,l[2]);if(e)var
-m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
+e=b;return e}return ve}function
+c6(c,a){if(c)if(a){var
+b=a[1];if(b[3])return 0;if(b[4])return 0;var
+h=b[2],i=a[2],j=c[1],d=kn(b[1]);if(d){var
+k=d[1];if(h){var
+e=c6(j,i);if(e){var
+l=e[1],f=c6(j,l[2]);if(f)var
+m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
-n=e;var
+n=f;var
 o=n}else
 var
-o=d;return o}var
+o=e;return o}var
 p=[0,[0,[0,k],i]]}else
 var
-p=c;var
-f=p}else
+p=d;var
+g=p}else
 var
-f=a;else
+g=a;else
 var
-f=b;return f}function
-gb(d,a){if(d){if(a){var
-b=cW(n(a),a);if(b)var
-e=b[1],c=gb(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+g=c;return g}function
+gJ(d,a){if(d){if(a){var
+b=c6(k(a),a);if(b)var
+e=b[1],c=gJ(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return tW}return a?0:tX}function
-cs(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-a9(a,e){var
-b=cs(a[1],e),c=cs(a[2],b[2]),d=cs(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jz(d,c){if(d){var
+f=b;return f}return vf}return a?0:vg}function
+gK(a){return typeof
+a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
+gL(d,a){if(d)if(a){var
+b=a[1];if(b[1])return 0;var
+h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
+e=gL(k,j);if(e){var
+l=e[1],f=gL(k,l[2]);if(f)var
+m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
+var
+n=f;var
+o=n}else
+var
+o=e;return o}var
+p=c?[0,[0,[0,h,gK(c[1])],j]]:c,g=p}else
+var
+g=a;else
+var
+g=d;return g}function
+cD(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+be(a,e){var
+b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+ko(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a9(a[1],c),f=a9(a[2],e[2]),g=a9(a[3],f[2]),h=cs(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=a9(a[1],c),k=j[1],l=a9(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=a9(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=be(a[1],c),k=j[1],l=be(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=a9(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jA(b,i){if(b){var
-a=b[1],c=a9(a[1],i),d=a9(a[2],c[2]),e=a9(a[3],d[2]),f=a9(a[4],e[2]),g=cs(a[5],f[2]),h=cs(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gc(a,b){if(a){var
-c=cs(a[1],b),d=gc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gd(b){function
-a(a){return P(a,b,[0,d,c])}var
-e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
-jB(a,b){if(a){var
-c=a[1],d=gc(c[1],b),e=gc(c[2],d[2]),f=jB(a[2],e[2]),g=f[2],h=f[1],i=gd(e[1]);return[0,[0,[0,gd(d[1]),i],h],g]}return[0,0,b]}function
-jC(a){return typeof
-a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-ev(a){return iv(m,a)}function
-t1(a){if(typeof
+p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=ko(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kp(b,i){if(b){var
+a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kp(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gM(a,b){if(a){var
+c=cD(a[1],b),d=gM(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gN(b){function
+a(a){return F(a,b,[0,d,c])}var
+e=a(vi),f=a(vj);return[0,a(0),f,e]}function
+kq(a,b){if(a){var
+c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kq(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
+c7(a){return i$(m,a)}function
+vk(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=l(m,1,a[2]);return b?l(m,1,a[3]):b;case
-5:return l(m,1,[2,a[1],[0,c,c]]);case
-6:return l(m,1,a[2]);case
+b=j(m,1,a[2]);return b?j(m,1,a[3]):b;case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
+6:return j(m,1,a[2]);case
 8:var
-d=l(m,1,a[1]);return d?l(m,1,a[2]):d;case
+d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
+10:return j(m,0,a[3]);case
 2:case
-3:return ev(a[2]);default:return l(m,1,a[1])}}function
-ge(a){if(typeof
+3:return c7(a[2]);default:return j(m,1,a[1])}}function
+gO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=l(m,1,[2,d,e]),g=f?l(m,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(m,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?l(m,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
-5:return l(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
-j=l(m,1,a[1]);return j?l(m,1,a[2]):j;case
+k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
-1:return l(m,1,a[1]);case
+1:return j(m,1,a[1]);case
 2:case
-3:return ev(a[2]);default:var
-i=l(m,1,a[2]);return i?l(m,1,a[3]):i}}function
-ew(d){var
+3:return c7(a[2]);default:var
+i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
+eY(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aV(bD(function(d){return function(a){var
-h=f5(a[1]),e=aC(f5(d[1]),h);if(e)var
-i=f6(a[4]),b=aC(f6(d[4]),i);else
+b=a[2],e=a[1],c=aH(a6(function(d){return function(a){var
+h=gC(a[1]),e=au(gC(d[1]),h);if(e)var
+i=gD(a[4]),b=au(gD(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?ai(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?aa(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dB(a){if(0===a[0])return ev(i(a[1]));var
-b=i(a[1]);return l(m,1,[2,i(a[2]),b])}function
-a_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-t2(a){switch(a[0]){case
+dX(a){if(0===a[0])return c7(i(a[1]));var
+b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
+bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+kr(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e);case
+c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
 1:var
-b=a[3],f=b?a_(b[1]):b,h=g(a_(a[2]),f);return g(a_(a[1]),h);default:return a_(a[1])}}function
-t3(a){var
-b=[0,a[5],[0,a[6],0]],c=g(a_(a[4]),b),d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e)}function
-gf(a){switch(a){case
-0:return t7;case
-1:return t8;default:return 0}}function
-ex(a){var
-f=a[1],d=l(m,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(m,a[1],a[2]):d;if(e){var
-g=a[2];return l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
-gg(a){var
-e=bj(m,[0,d,c],a);return e?l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-jD(c,d,D,t,s,r,g){function
+b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
+ks(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
+gP(a){switch(a){case
+0:return vo;case
+1:return vp;default:return 0}}function
+eZ(a){var
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
+gQ(a){var
+e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+kt(c,d,D,t,s,r,g){function
 u(a){var
-d=c?t5:t6,b=ai(n(a),d);return b?p(dB,a):b}var
-v=p(function(a){var
+d=c?vm:vn,b=aa(k(a),d);return b?n(dX,a):b}var
+v=n(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=n(d),h=Z(dr(c),E);else
+E=k(d),h=Y(dN(c),E);else
 var
 h=v;var
-w=h?Z(n(d),t9):h,x=w?l(m,1,i(D)):w;if(x)var
-F=gf(c),j=ai(n(t),F);else
+w=h?Y(k(d),vq):h,x=w?j(m,1,i(D)):w;if(x)var
+F=gP(c),l=aa(k(t),F);else
 var
-j=x;if(j)var
-G=gf(c),k=ai(n(s),G);else
+l=x;if(l)var
+G=gP(c),o=aa(k(s),G);else
 var
-k=j;if(k)var
-H=cE(t,s),o=p(function(a){var
-b=i(a[2]);return bj(m,i(a[1]),b)},H);else
+o=l;if(o)var
+H=ck(t,s),p=n(function(a){var
+b=i(a[2]);return br(m,i(a[1]),b)},H);else
 var
-o=k;if(o)if(c){var
-a=ga(r);switch(a[0]){case
+p=o;if(p)if(c){var
+a=gI(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=ex(a[1]),A=z?ex(a[2]):z,e=A?ex(a[3]):A;break;case
+z=eZ(a[1]),A=z?eZ(a[2]):z,e=A?eZ(a[3]):A;break;case
 2:var
-e=gg(a[1]);break;default:var
-B=gg(a[1]),e=B?gg(a[2]):B}var
+e=gQ(a[1]);break;default:var
+B=gQ(a[1]),e=B?gQ(a[2]):B}var
 f=e}else
 var
-C=ga(r),J=0===C[0]?ex(C[1]):0,f=J;else
+C=gI(r),J=0===C[0]?eZ(C[1]):0,f=J;else
 var
-f=o;if(f)var
-b=n(d),I=dr(c),q=p(function(a){var
+f=p;if(f)var
+b=k(d),I=dN(c),q=n(function(a){var
 d=a[2];if(d)var
-e=d[1],f=Z(tB,e),g=f?Z(e,b):f,c=g;else
+e=d[1],f=Y(uW,e),g=f?Y(e,b):f,c=g;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bI(0,b,a):bI(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bI(0,b,a):bI(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?ai(b,I):c:bI(0,b,a):bI(0,b,a);default:return bI(0,b,a)}},g);else
+2:return 1===a[4][0]?a[3]?c:bR(0,b,a):bR(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bR(0,b,a):bR(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?aa(b,I):c:bR(0,b,a):bR(0,b,a);default:return bR(0,b,a)}},g);else
 var
 q=f;var
-y=q?ew(g):q;return y?p(ge,cV(n(d),g)):y}function
-jE(a,c,g){var
-d=Z(t_,n(a));if(d)var
-l=n(a),b=p(function(a){switch(a[1]){case
+y=q?eY(g):q;return y?n(gO,c4(k(d),g)):y}function
+gR(j){var
+q=a8(j,c5(bw(j))),a=f(function(a){return aM(m,a)},q);if(a){var
+e=a[1];if(e){var
+b=a[2];if(b){var
+g=b[1];if(g){var
+c=b[2];if(c){var
+h=c[1];if(h){if(c[2])return 0;var
+i=function(a){return ai(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,C(C(i(e[1]),s),r)[1])}var
+k=h}else
+var
+k=c;var
+l=k}else
+var
+l=g;var
+n=l}else
+var
+n=b;var
+o=n}else
+var
+o=e;var
+p=o}else
+var
+p=a;return p}function
+vr(a){switch(a[0]){case
+0:return gR(a[1][1]);case
+1:var
+b=a[3];return b?gR(b[1]):1;default:return gR(a[1])}}function
+gS(c,a,e,u){if(a6(function(b){var
+a=9<=b[1]?1:0,c=a?1:a;return c},e)){var
+p=Y(k(a),vt),q=p?n(function(a){if(0===a[0]){var
+f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
+u=bc(f[1]),b=n(function(a){return c7(i(a))},u);else{var
+o=1;e=1}else{var
+o=l;e=1}if(e)var
+b=o}else{var
+p=j(m,1,i(a[4]));if(p)var
+v=bc(a[3]),w=g(bc(a[2]),v),b=n(function(a){return c7(i(a))},w);else
+var
+b=p}if(b){if(0===a[0]){var
+q=a[1],r=Y(vs,q);if(r){var
+d=al(c,b4(q));if(d){if(2===d[1][0])return 0;var
+s=1}else
+var
+s=d;var
+t=s}else
+var
+t=r;return t}return 1}return b},a):p;if(q){var
+b=a;for(;;){var
+A=function(a){if(0===a[0]){var
+b=a[5],c=b?1:b;return c}return 0};if(b){var
+l=b[2],B=b[1],o=n(function(d,e){return function(a){var
+b=gG(e,a);if(b)var
+f=d(e),c=f||d(a);else
+var
+c=b;return aH(c)}}(A,B),l);if(o){var
+b=l;continue}var
+r=o}else
+var
+r=1;var
+d=r;break}}else
+var
+d=q;if(d)var
+s=gH(0,a),C=s?1:s,t=C;else
+var
+t=d;var
+f=t}else
+var
+f=a?0:1;var
+v=f?n(vr,u[1]):f,w=v?Y(vu,k(c)):v;if(w)var
+D=k(c),h=n(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4448,93 +4731,97 @@ b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;case
 8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=Z(tw,b);return d?Z(b,l):d},c);else
+d=Y(uR,b);return d?Y(b,D):d},e);else
 var
-b=d;var
-e=b?ew(c):b,f=e?p(dB,N(t2,a)):e;return f?p(t1,g[3]):f}function
-jF(b,a){return p(function(c){var
-a=c[2];return a?hC(a[1],b):1},a)}function
-t$(r){var
-eo=f8(r[3]),ep=eo?f8(r[4]):eo;if(ep){var
-ad=r[1];if(3===ad[0]){var
-et=p(es,ad[1]);if(et)var
-gS=ad[2],b5=p(function(a){return es(a[1])},gS);else
+h=w;var
+x=h?eY(e):h,z=x?n(dX,y(kr,c)):x;return z?n(vk,u[3]):z}function
+gT(b,a){return n(function(c){var
+a=c[2];return a?ie(a[1],b):1},a)}function
+gU(b,a){var
+c=k(fO(function(a){return 0===a[0]?0:1},b));return aa(k(a),c)}function
+vv(p){var
+e5=gE(p[3]),e6=e5?gE(p[4]):e5;if(e6){var
+ar=p[1];if(3===ar[0]){var
+e9=n(eU,ar[1]);if(e9)var
+h$=ar[2],co=n(function(a){return eU(a[1])},h$);else
 var
-b5=et;if(b5)var
-gT=ad[3],b6=p(function(a){var
-b=es(a[1]),c=b?f9(a[2]):b;return c?cT(a[2]):c},gT);else
+co=e9;if(co)var
+ia=ar[3],cp=n(function(a){var
+b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},ia);else
 var
-b6=b5;if(b6)var
-gU=ad[4],gV=function(a){var
-b=f9(a);return b?cT(a):b},b2=p(function(a){return p(gV,a)},gU);else
+cp=co;if(cp)var
+ib=ar[4],ic=function(a){var
+b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ic,a)},ib);else
 var
-b2=b6}else
+cj=cp}else
 var
-b2=1;var
-b3=b2}else
+cj=1;var
+cl=cj}else
 var
-b3=ep;if(b3){var
-j=r[1];switch(j[0]){case
+cl=e6;if(cl){var
+h=p[1];switch(h[0]){case
 0:var
-gC=N(dz,j[3]),gD=g(js(j[2]),gC),S=g(N(tr,j[1]),gD);break;case
+hQ=y(c3,h[4]),hR=g(y(uN,h[3]),hQ),hS=g(ke(h[2]),hR),T=g(y(kd,h[1]),hS);break;case
 1:var
-gE=N(dz,j[3]),gF=g(js(j[2]),gE),S=g(N(ts,j[1]),gF);break;case
+hT=y(c3,h[3]),hU=g(ke(h[2]),hT),T=g(y(uM,h[1]),hU);break;case
 2:var
-gG=N(dz,j[7]),G=j[6];switch(G[0]){case
+hV=y(c3,h[7]),S=h[6];switch(S[0]){case
 1:var
-ek=G[3],el=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
+e2=S[3],e3=S[2],e4=S[1],ch=[0,e4[1],[0,e4[2],[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],0]]]]]];break;case
 2:var
-bZ=[0,G[1],0];break;default:var
-bZ=[0,G[1],[0,G[2],0]]}var
-gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],S=g(N(function(a){return N(cU,g(a[1],a[2]))},gL),gK);break;case
+ch=[0,S[1],0];break;default:var
+ch=[0,S[1],[0,S[2],0]]}var
+hW=g(ch,hV),hX=g(h[5],hW),hY=g(h[4],hX),hZ=[0,h[3],hY],h0=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},h0),hZ);break;case
 3:var
-gM=N(dz,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],S=g(N(function(a){return cU(a[2])},gP),gO);break;case
+h1=y(c3,h[7]),h2=g(h[6],h1),h3=g(h[5],h2),h4=h[2],T=g(y(function(a){return c2(a[2])},h4),h3);break;case
 4:var
-gQ=N(dz,j[3]),S=[0,j[1],[0,j[2],gQ]];break;default:var
-b0=j[1],S=b0?cU(b0[1]):b0}var
-b4=p(cT,S)}else
+h5=y(c3,h[3]),T=[0,h[1],[0,h[2],h5]];break;case
+5:var
+h6=y(c3,h[4]),h7=g(bc(h[3]),h6),h8=g(bc(h[2]),h7),h9=g(y(kd,h[1]),h8),T=[0,h[5],h9];break;default:var
+ci=h[1],T=ci?c2(ci[1]):ci}var
+cn=n(c1,T)}else
 var
-b4=b3;if(b4){var
-T=r[2];if(0===T[0]){var
-eq=jt(T[1]);if(eq)var
-gR=T[2],ae=p(function(a){var
-b=a[1];return p(function(b){var
+cn=cl;if(cn){var
+af=p[2];if(0===af[0]){var
+e7=kf(af[1]);if(e7)var
+h_=af[2],as=n(function(a){var
+b=a[1];return n(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return f8(a[1]);case
+1:return gE(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},gR);else
+a=a[1];continue}},b)},h_);else
 var
-ae=eq}else
+as=e7}else
 var
-er=jt(T[1]),ae=er?p(cT,g(T[2],T[3])):er}else
+e8=kf(af[1]),as=e8?n(c1,g(af[2],af[3])):e8}else
 var
-ae=b4;if(ae){var
-a=r[1];switch(a[0]){case
+as=cn;if(as){var
+a=p[1];switch(a[0]){case
 0:var
-af=a[3],ci=a[2],U=a[1],V=r[2];if(0===V[0]){var
-eO=V[2],k=f$(U,ci,af),cj=cW(n(eO),eO);if(cj){var
-eP=cj[1];if(eP[2])return 0;var
-eQ=jE(U,af,k);if(eQ){var
-g9=eP[1],eR=f(tH,k[1]),eS=k[1],b9=N(tF,eS),g3=b9?[0,b9[1],b9[2]]:N(tG,eS),v=z(c,dA(g3)),t=V[1],aa=k[2],fU=0===aa[0]?b1(aa[1]):[0,aa[1],aa[2],aa[4][1]],c6=ix(m,k,f(pI,k[1]),fU);if(c6){var
-cP=ip(v,eR,k[1]),K=iq(v,eR,k[1],0),cQ=n(cP),fw=it(K,v,cQ,k[3]),fx=g(cL(ig(K)),fw),cR=g(cL(ie(K)),fx),cS=d_(cR)[1],$=d8(cS),cX=p(function(a){var
-b=q(d);return bf(P(bY($,a),$,b),a)},cR);if(cX){var
-cY=bD(pG,k[3]);if(cY){var
-fz=k[3],fA=g(cP,f(function(a){return cl(v,a)},fz)),bn=aW(f(function(a){return a1(t,a)},fA));if(bn){var
-L=k[2];if(0===L[0])var
-cZ=L[1];else
+at=a[4],av=a[3],cF=a[2],U=a[1],ah=p[2];if(0===ah[0]){var
+cG=ah[2],r=eV(U,cF,av,at),cH=c6(k(cG),cG);if(cH){var
+fq=cH[1];if(fq[2])return 0;var
+fr=gS(U,av,at,r),fs=fr?gT(vw,cG):fr;if(fs){var
+ir=fq[1],ft=f(kl,r[1]),x=km(r[1]),u=ah[1],dw=ji(m,r);if(dw){var
+bD=f6(x,ft,r[1]),X=f7(x,ft,r[1],0),gy=k(r[3]),gz=H(k(bD),gy),dg=[0,k(bD),gz],gA=f_(X,x,dg,r[3]),gB=g(cv(iX(X)),gA),dh=g(cv(ey(X)),gB),di=dB(dh)[1],ap=dA(di),dj=n(function(a){var
+b=q(d);return bb(F(bp(ap,a),ap,b),a)},dh);if(dj){var
+dk=a6(qE,r[3]);if(dk){var
+gC=r[3],gD=y(function(a){return eE(x,a)},gC),gG=r[3],gH=g(bD,g(f(function(a){return bP(x,a)},gG),gD)),bE=aS(f(function(a){return aM(u,a)},gH));if(bE){var
+Z=r[2];if(0===Z[0])var
+dl=Z[1];else
 var
-an=L[3],cN=L[2],cO=L[1],cZ=[0,[0,[2,cO,an],[1,cO,an]],[0,[2,cN,an],[1,cN,an]],L[4]];var
-fB=bi(cZ,v),bo=aW(f(function(a){return a1(t,a)},fB));if(bo){var
-fC=k[3],bp=aW(iu(t,function(a){return bY($,a)},K,v,cQ,fC));if(bp){var
-c0=bp[1],fD=im(c0),ao=k[2],fG=bo[1],fH=function(d){if(0===ao[0])return 0;if(d){var
+aA=Z[3],de=Z[2],df=Z[1],dl=[0,[0,[2,df,aA],[1,df,aA]],[0,[2,de,aA],[1,de,aA]],Z[4]];var
+gI=a8(dl,x),bF=aS(f(function(a){return aM(u,a)},gI));if(bF){var
+gM=r[3],bG=aS(i_(u,function(a){return bp(ap,a)},X,x,dg,gM));if(bG){var
+dm=bG[1],gQ=i4(dm),aB=r[2],gR=bF[1],gV=function(d){if(0===aB[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=ch(t,v,ao[1]);if(f){var
-g=ch(t,v,ao[2]);if(g){var
-h=ch(t,v,ao[3]);if(h)var
-q=f[1],r=bE(c),i=O([0,bE(c),r],q),s=g[1],u=bE(b),j=O([0,bE(b),u],s),w=cK(b),x=[0,cK(b),w],y=[0,B(t,aA(H(j,j)),x),0],z=cK(c),A=[0,cK(c),z],C=[0,B(t,aA(H(i,i)),A),y],D=aj(t,j),E=aj(t,i),k=[0,[0,O(O(aj(t,h[1]),E),D),_,C]];else
+b=a[1],c=d[1],f=b7(u,x,aB[1]);if(f){var
+g=b7(u,x,aB[2]);if(g){var
+h=b7(u,x,aB[3]);if(h)var
+q=f[1],r=bq(c),i=M([0,bq(c),r],q),s=g[1],t=bq(b),j=M([0,bq(b),t],s),v=cS(b),w=[0,cS(b),v],y=[0,D(u,aE(C(j,j)),w),0],z=cS(c),A=[0,cS(c),z],B=[0,D(u,aE(C(i,i)),A),y],E=ai(u,j),F=ai(u,i),k=[0,[0,M(M(ai(u,h[1]),F),E),ab,B]];else
 var
 k=h;var
 l=k}else
@@ -4551,267 +4838,268 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},fI=bn[1],fJ=0,fK=ig(K),fN=e(a7(function(a){return bY($,a)}),fK),fO=ie(K);return fy(t,cS,e(a7(function(a){return bY($,a)}),fO),fN,fJ,fI,c0,fH,fG,fD,g9)}var
-c1=bp}else
+p=d;return p},gW=bE[1],gX=0,gY=iX(X),gZ=e(a4(function(a){return bp(ap,a)}),gY),g0=ey(X);return f4(u,di,e(a4(function(a){return bp(ap,a)}),g0),gZ,gX,gW,dm,gV,gR,gQ,ir)}var
+dn=bG}else
 var
-c1=bo;var
-c2=c1}else
+dn=bF;var
+dp=dn}else
 var
-c2=bn;var
-bq=c2}else
+dp=bE;var
+bH=dp}else
 var
-bq=cY}else
+bH=dk}else
 var
-bq=cX;return bq}return c6}var
-eT=eQ}else
+bH=dj;return bH}return dw}var
+fu=fs}else
 var
-eT=cj;return eT}var
-aT=V[2];if(aT){var
-aU=aT[2];if(aU){var
-aX=aU[2];if(aX){if(aX[2])return 0;var
-eU=jz(U,f(i,V[3]));if(eU[2])return 0;var
-W=V[4];if(typeof
-W==="number")var
-w=tY;else
-if(0===W[0]){var
-b_=W[2],b$=W[1];if(b_){var
-aK=b_[1],cy=0;if(aK){var
-aO=aK[2],bg=0;if(aO){var
-aP=aO[2],bh=0;if(aP)if(aP[2]){var
-w=0;bg=1;bh=1}else{var
-ca=aP[1],cb=aO[1],cc=aK[1],cd=b_[2];if(cd){var
-aQ=cd[1],ft=0;if(aQ){var
-aR=aQ[2],fu=0;if(aR){var
-aS=aR[2],fv=0;if(aS)if(aS[2]||cd[2]){var
-w=0;bg=1;bh=1;ft=1;fu=1;fv=1}else
+fu=cH;return fu}var
+a_=ah[2];if(a_){var
+a$=a_[2];if(a$){var
+ba=a$[2];if(ba){if(ba[2])return 0;var
+fv=ah[3],fw=ko(U,f(i,fv));if(fw[2])return 0;var
+aj=ah[4];if(typeof
+aj==="number")var
+E=vh;else
+if(0===aj[0]){var
+ct=aj[2],cu=aj[1];if(ct){var
+a0=ct[1],cY=0;if(a0){var
+a1=a0[2],bB=0;if(a1){var
+a2=a1[2],bC=0;if(a2)if(a2[2]){var
+E=0;bB=1;bC=1}else{var
+cw=a2[1],cy=a1[1],cA=a0[1],cB=ct[2];if(cB){var
+a5=cB[1],gv=0;if(a5){var
+a7=a5[2],gw=0;if(a7){var
+a9=a7[2],gx=0;if(a9)if(a9[2]||cB[2]){var
+E=0;bB=1;bC=1;gv=1;gw=1;gx=1}else
 var
-eB=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,aQ[1],aR[1]],aS[1]]]];else
+fd=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
 var
-eB=aS;if(!fv)var
-eC=eB}else
+fd=a9;if(!gx)var
+fe=fd}else
 var
-eC=aR;if(!fu)var
-eD=eC}else
+fe=a7;if(!gw)var
+ff=fe}else
 var
-eD=aQ;if(!ft){var
-w=eD;bg=1;bh=1}}else
+ff=a5;if(!gv){var
+E=ff;bB=1;bC=1}}else
 var
-eE=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,cc,cb],ca]]]}else
+fg=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
 var
-eE=aP;if(!bh)var
-eF=eE}else
+fg=a2;if(!bC)var
+fh=fg}else
 var
-eF=aO;if(!bg){var
-eG=eF;cy=1}}else{var
-eG=aK;cy=1}if(cy)var
-w=eG}else
+fh=a1;if(!bB){var
+fi=fh;cY=1}}else{var
+fi=a0;cY=1}if(cY)var
+E=fi}else
 var
-eH=[0,[0,d,d],d],w=[0,[0,b$,eH,eH]]}else
+fj=[0,[0,d,d],d],E=[0,[0,cu,fj,fj]]}else
 var
-w=[0,[1,W[1],W[2]]];if(w){var
-eV=jE(U,af,f$(U,ci,af));if(eV){var
-I=w[1],g_=i(aX[1]),g$=i(aU[1]),A=[0,i(aT[1]),g$,g_],ah=eU[1],ck=f$(U,ci,af),c3=ix(m,ck,ah,A);if(c3)if(typeof
-I==="number")return bD(function(a){switch(a[0]){case
+E=[0,[1,aj[1],aj[2]]];if(E){var
+fx=gU(y(kr,U),fv),fy=fx?gS(U,av,at,eV(U,cF,av,at)):fx;if(fy){var
+V=E[1],it=i(ba[1]),iu=i(a$[1]),L=[0,i(a_[1]),iu,it],aw=fw[1],cI=eV(U,cF,av,at),dq=jb(m,cI,aw,L);if(dq)if(typeof
+V==="number")return a6(function(a){switch(a[0]){case
 0:var
-b=[0,dk(a[1],a[2],a[3],a[4],A)];break;case
+b=[0,cT(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-e=a[2],f=a[1],g=bG(f,e,A),b=[0,E(bG(f,e,A),g)];break;default:var
-b=0}return b?l(m,0,[2,[0,d,c],b[1]]):b},ah);else{if(0===I[0]){var
-br=aJ(ck[3],I[1]);if(br){var
-fQ=br[1],fR=iz(I[3]);return iB(m,ah,A,iz(I[2]),fR,fQ)}return br}var
-bs=aJ(ck[3],I[1]);if(bs){var
-bt=aJ(ah,I[2]);if(bt){var
-c4=bt[1],fS=bs[1],fT=cM(c4,A);return iB(m,ah,A,cM(c4,A),fT,fS)}var
-c5=bt}else
+e=a[2],f=a[1],g=bs(f,e,L),b=[0,J(bs(f,e,L),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aw);else{if(0===V[0]){var
+bI=al(cI[3],V[1]);if(bI){var
+g1=bI[1],g2=jd(V[3]);return jh(m,aw,L,jd(V[2]),g2,g1)}return bI}var
+bJ=al(cI[3],V[1]);if(bJ){var
+bK=al(aw,V[2]);if(bK){var
+dt=bK[1],g3=bJ[1],g4=cV(dt,L);return jh(m,aw,L,cV(dt,L),g4,g3)}var
+dv=bK}else
 var
-c5=bs;return c5}return c3}var
-eW=eV}else
+dv=bJ;return dv}return dq}var
+fz=fy}else
 var
-eW=w;var
-eX=eW}else
+fz=E;var
+fA=fz}else
 var
-eX=aX;var
-eY=eX}else
+fA=ba;var
+fB=fA}else
 var
-eY=aU;var
-eZ=eY}else
+fB=a$;var
+fC=fB}else
 var
-eZ=aT;return eZ;case
+fC=a_;return fC;case
 1:var
-aY=a[3],J=a[1],aZ=r[2];if(0===aZ[0])return 0;var
-a0=aZ[2];if(a0){var
-a2=a0[2];if(a2){var
-a3=a2[2];if(a3){if(a3[2])return 0;var
-e0=jA(J,f(i,aZ[3]));if(e0[2])return 0;var
-eI=Z(t4,n(J));if(eI)var
-g4=n(J),g5=1,ce=p(function(a){return bI(g5,g4,a)},aY);else
+bd=a[3],N=a[1],be=p[2];if(0===be[0])return 0;var
+bf=be[2];if(bf){var
+bg=bf[2];if(bg){var
+bh=bg[2];if(bh){if(bh[2])return 0;var
+fD=be[3],fE=kp(N,f(i,fD));if(fE[2])return 0;var
+fF=gU(y(ks,N),fD);if(fF){var
+fk=Y(vl,k(N));if(fk)var
+il=k(N),im=1,cD=n(function(a){return bR(im,il,a)},bd);else
 var
-ce=eI;var
-eJ=ce?ew(aY):ce,eK=eJ?p(dB,N(t3,J)):eJ,e1=eK?p(ge,cV(n(J),aY)):eK;if(e1){var
-ha=jC(aZ[4]),hb=i(a3[1]),hc=i(a2[1]),C=[0,i(a0[1]),hc,hb],a4=e0[1],hd=a[2],gZ=cV(n(J),aY),g0=jv(hd),ap=f(tE,J),Q=a4;for(;;){if(ap){if(Q){var
-o=Q[1],F=ap[1],c7=aN(m,F[1],o[1]),c8=c7?aN(m,F[2],o[2]):c7,c9=c8?aN(m,F[3],o[3]):c8,c_=c9?aN(m,F[4],o[4]):c9,c$=c_?cn(m,F[5],o[5]):c_,da=c$?cn(m,F[6],o[6]):c$,dd=da?l(m,1,o[5]):da,de=dd?l(m,1,o[6]):dd,df=de?l(m,1,E(o[1],o[1])):de;if(df)var
-fV=fE(o),bu=l(m,1,E(fE(o),fV));else
+cD=fk;var
+fl=cD?eY(bd):cD,fm=fl?n(dX,y(ks,N)):fl,iv=fm?n(gO,c4(k(N),bd)):fm,cJ=iv}else
 var
-bu=df;var
-dg=bu?dX(F[7],o[7]):bu;if(dg){var
-ap=ap[2],Q=Q[2];continue}var
-dh=dg}else
+cJ=fF;if(cJ){var
+iw=gK(be[4]),ix=i(bh[1]),iy=i(bg[1]),O=[0,i(bf[1]),iy,ix],bi=fE[1],iz=a[2],ih=c4(k(N),bd),ii=kh(iz),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
+s=_[1],R=aC[1],dx=aT(m,R[1],s[1]),dy=dx?aT(m,R[2],s[2]):dx,dz=dy?aT(m,R[3],s[3]):dy,dD=dz?aT(m,R[4],s[4]):dz,dE=dD?cx(m,R[5],s[5]):dD,dF=dE?cx(m,R[6],s[6]):dE,dH=dF?j(m,1,s[5]):dF,dI=dH?j(m,1,s[6]):dH,dJ=dI?j(m,1,J(s[1],s[1])):dI;if(dJ)var
+g5=ga(s),bL=j(m,1,J(ga(s),g5));else
 var
-dh=Q;var
-bv=dh}else
+bL=dJ;var
+dM=bL?du(R[7],s[7]):bL;if(dM){var
+aC=aC[2],_=_[2];continue}var
+dO=dM}else
 var
-bv=Q?0:1;var
-di=bv?iw(m,g0,C):bv;if(di){var
-fW=f(function(a){return iI(a,C)},a4),fY=f(function(a){var
-b=iK(a,C);return[1,iJ(a,C),b]},a4);return iF(m,pK,[0,f(function(a){var
-d=iG(a),e=aM(iK(a,C),d),f=fF(a),g=aM(iJ(a,C),f),h=aL(function(b,a){return[1,b,a]},g,e),i=aM(a[5],h),j=a[3],k=aL(function(b,a){return[1,b,a]},j,i),l=a[4],m=aL(function(b,a){return[1,b,a]},C,l),n=aL(function(b,a){return[2,b,a]},m,k),o=fL(a,C),b=aM([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fY,fW],gZ,ha)}return di}}var
-e2=e1}else
+dO=_;var
+bM=dO}else
 var
-e2=a3;var
-e3=e2}else
+bM=_?0:1;var
+dP=bM?ja(m,ii,O):bM;if(dP){var
+g6=f(function(a){return jp(a,O)},bi),g7=f(function(a){var
+b=jr(a,O);return[1,jq(a,O),b]},bi);return jm(m,qI,[0,f(function(a){var
+d=jn(a),e=ay(jr(a,O),d),f=gb(a),g=ay(jq(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g7,g6],ih,iw)}return dP}}var
+fG=cJ}else
 var
-e3=a2;var
-e4=e3}else
+fG=bh;var
+fH=fG}else
 var
-e4=a0;return e4;case
+fH=bg;var
+fI=fH}else
+var
+fI=bf;return fI;case
 2:var
-a5=a[7],a6=a[6],a8=a[5],a9=a[4],a_=a[3],ak=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
-cm=Y[2],al=jx(X,ak,a_,a9,a8,a6,a5),co=cW(n(cm),cm);if(co){var
-e5=co[1];if(e5[2])return 0;var
-e6=jD(X,ak,a_,a9,a8,a6,a5),e7=e6?jF(dr(X),cm):e6;if(e7){var
-he=e5[1],hf=al[2],hg=z(c,dA(N(function(a){var
-b=bJ(a[2]);return g(bJ(a[1]),b)},hf))),hh=Y[1],gz=al[2],ec=p(function(a){var
-b=fX(m,a[1]);return b?fX(m,a[2]):b},gz),ed=ec?fX(m,al[4]):ec;if(ed)var
-gA=i_(al[5]),bV=p(function(a){return en(m,a)},gA);else
+bj=a[7],bk=a[6],bl=a[5],bm=a[4],bn=a[3],am=a[2],an=a[1],ao=p[2];if(0===ao[0]){var
+cK=ao[2],ax=kk(an,am,bn,bm,bl,bk,bj),cL=c6(k(cK),cK);if(cL){var
+fJ=cL[1];if(fJ[2])return 0;var
+fK=kt(an,am,bn,bm,bl,bk,bj),fL=fK?gT(dN(an),cK):fK;if(fL){var
+iA=fJ[1],iB=ax[2],iC=A(c,c5(y(function(a){var
+b=bw(a[2]);return g(bw(a[1]),b)},iB))),iD=ao[1],hB=ax[2],eC=n(function(a){var
+b=gt(m,a[1]);return b?gt(m,a[2]):b},hB),eD=eC?gt(m,ax[4]):eC;if(eD)var
+hC=jR(ax[5]),b_=n(function(a){return eM(m,a)},hC);else
 var
-bV=ed;return bV?qf(hh,al,hg,he):bV}var
-e8=e7}else
+b_=eD;return b_?rd(iD,ax,iC,iA):b_}var
+fM=fL}else
 var
-e8=co;return e8}var
-e9=f(i,Y[2]),e_=gf(X),e$=jB(ak,f(i,Y[3]));if(e$[2])return 0;var
-fa=jD(X,ak,a_,a9,a8,a6,a5);if(fa){var
-bm=e_,b=e9,hi=jC(Y[4]);for(;;){if(bm&&b){var
-bm=bm[1],b=b[2];continue}var
-a$=gd(hM(e_,e9)),ba=e$[1],D=jx(X,ak,a_,a9,a8,a6,a5),aE=D[2],R=ba;for(;;){if(aE){if(R){var
-d6=R[1],d7=aE[1],d9=aN(m,d7[1],d6[1]),d$=d9?aN(m,d7[2],d6[2]):d9;if(d$){var
-aE=aE[2],R=R[2];continue}var
-ea=d$}else
+fM=cL;return fM}var
+fN=ao[3],fO=f(i,ao[2]),fP=gP(an),fQ=kq(am,f(i,fN));if(fQ[2])return 0;var
+fR=gU(y(function(a){return g(a[1],a[2])},am),fN),fS=fR?kt(an,am,bn,bm,bl,bk,bj):fR;if(fS){var
+iE=gK(ao[4]),o=is(fP,fO),bo=gN(ej(fP,fO)),bv=fQ[1],P=kk(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
+eu=$[1],ev=aU[1],ew=aT(m,ev[1],eu[1]),ez=ew?aT(m,ev[2],eu[2]):ew;if(ez){var
+aU=aU[2],$=$[2];continue}var
+eA=ez}else
 var
-ea=R;var
-bT=ea}else
+eA=$;var
+b8=eA}else
 var
-bT=R?0:1;var
-eb=bT?aN(m,D[4],a$):bT;if(eb){var
-x=D[5];switch(x[0]){case
+b8=$?0:1;var
+eB=b8?aT(m,P[4],bo):b8;if(eB){var
+G=P[5];switch(G[0]){case
 0:var
-u=b?b[2]?0:dp(m,x[1],b[1]):b;break;case
+w=o?o[2]?0:dL(m,G[1],o[1]):o;break;case
 1:var
-cz=0;if(b){var
-av=b[2],cA=0;if(av){var
-aw=av[2],cB=0;if(aw)if(aw[2]){var
-u=0;cA=1;cB=1}else{var
-dO=dp(m,x[1],b[1]),dP=dO?dp(m,x[2],av[1]):dO;if(dP){var
-u=dp(m,x[3],aw[1]);cA=1;cB=1}else
+cZ=0;if(o){var
+aL=o[2],c0=0;if(aL){var
+aN=aL[2],c8=0;if(aN)if(aN[2]){var
+w=0;c0=1;c8=1}else{var
+ec=dL(m,G[1],o[1]),ed=ec?dL(m,G[2],aL[1]):ec;if(ed){var
+w=dL(m,G[3],aN[1]);c0=1;c8=1}else
 var
-dQ=dP}else
+ee=ed}else
 var
-dQ=aw;if(!cB)var
-dR=dQ}else
+ee=aN;if(!c8)var
+ef=ee}else
 var
-dR=av;if(!cA){var
-dS=dR;cz=1}}else{var
-dS=b;cz=1}if(cz)var
-u=dS;break;case
+ef=aL;if(!c0){var
+eg=ef;cZ=1}}else{var
+eg=o;cZ=1}if(cZ)var
+w=eg;break;case
 2:var
-cC=0;if(b){var
-ax=b[2],cD=0;if(ax){var
-ay=ax[2];if(ay)if(ay[2]){var
-u=0;cD=1}else{var
-dT=ay[1],dU=ax[1],dV=b[1],gs=E([0,dV,dU,dT],[0,dV,dU,dT]),u=iZ(m,x[1],gs,[0,c,c]);cD=1}else
+c9=0;if(o){var
+aO=o[2],c_=0;if(aO){var
+aP=aO[2];if(aP)if(aP[2]){var
+w=0;c_=1}else{var
+eh=aP[1],ei=aO[1],ek=o[1],hu=J([0,ek,ei,eh],[0,ek,ei,eh]),w=jG(m,G[1],hu,[0,c,c]);c_=1}else
 var
-dW=ay}else
+el=aP}else
 var
-dW=ax;if(!cD){var
-dY=dW;cC=1}}else{var
-dY=b;cC=1}if(cC)var
-u=dY;break;default:var
-cF=0;if(b){var
-az=b[2],cG=0;if(az){var
-aB=az[2],cH=0;if(aB)if(aB[2]){var
-u=0;cG=1;cH=1}else{var
-bS=aB[1],dZ=az[1],d0=b[1],d1=iZ(m,x[1],[1,[3,d0,d0],[3,dZ,dZ]],[1,[0,c,c],[3,bS,bS]]);if(d1){var
-u=dp(m,cp(x[2]),bS);cG=1;cH=1}else
+el=aO;if(!c_){var
+em=el;c9=1}}else{var
+em=o;c9=1}if(c9)var
+w=em;break;default:var
+c$=0;if(o){var
+aQ=o[2],da=0;if(aQ){var
+aR=aQ[2],db=0;if(aR)if(aR[2]){var
+w=0;da=1;db=1}else{var
+b6=aR[1],en=aQ[1],eo=o[1],ep=jG(m,G[1],[1,[3,eo,eo],[3,en,en]],[1,[0,c,c],[3,b6,b6]]);if(ep){var
+w=dL(m,cz(G[2]),b6);da=1;db=1}else
 var
-d2=d1}else
+eq=ep}else
 var
-d2=aB;if(!cH)var
-d3=d2}else
+eq=aR;if(!db)var
+er=eq}else
 var
-d3=az;if(!cG){var
-d4=d3;cF=1}}else{var
-d4=b;cF=1}if(cF)var
-u=d4}var
-bU=u}else
+er=aQ;if(!da){var
+es=er;c$=1}}else{var
+es=o;c$=1}if(c$)var
+w=es}var
+b9=w}else
 var
-bU=eb;if(bU){var
-aF=D[5],gw=D[6],gx=D[3],gy=D[1],d5=function(a){var
-c=fP(aF,b,a$,a);return E(fP(aF,b,a$,a),c)},gt=f(d5,ba),gu=f(function(a){return[0,[5,d5(a)]]},ba),gv=[0,f(function(e){var
-d=aD(fP(aF,b,a$,e)),a=aM([4,[0,c,c],gx],iV(iW(aF,b,e[2]),d));switch(gy){case
-0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
-1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},ba),gu,gt];return iF(m,dr(D[1]),gv,gw,hi)}return bU}}}return fa;case
+b9=eB;if(b9){var
+aV=P[5],hy=P[6],hz=P[3],hA=P[1],et=function(a){var
+b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},hv=f(et,bv),hw=f(function(a){return[0,[5,et(a)]]},bv),hx=[0,f(function(d){var
+b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hz],jC(jD(aV,o,d[2]),b));switch(hA){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hw,hv];return jm(m,dN(P[1]),hx,hy,iE)}return b9}}return fS;case
 3:var
-bb=a[7],fb=a[6],fc=a[5],bc=a[4],fd=a[2],fe=a[1],cq=r[2];if(0===cq[0]){var
-cs=cq[2],ct=cW(n(cs),cs);if(ct){var
-ff=ct[1];if(ff[2])return 0;var
-g6=n(fb),eL=ai(n(fc),g6);if(eL)var
-g7=n(bc),g8=0,cg=p(function(a){return bI(g8,g7,a)},bb);else
+bx=a[7],fT=a[6],fU=a[5],by=a[4],fV=a[2],fW=a[1],cM=p[2];if(0===cM[0]){var
+cN=cM[2],cO=c6(k(cN),cN);if(cO){var
+fX=cO[1];if(fX[2])return 0;var
+io=k(fT),fn=aa(k(fU),io);if(fn)var
+ip=k(by),iq=0,cE=n(function(a){return bR(iq,ip,a)},bx);else
 var
-cg=eL;var
-eM=cg?ew(bb):cg,eN=eM?p(function(a){return dB(a[2])},fd):eM,fg=eN?p(ge,cV(n(bc),bb)):eN,fh=fg?jF(n(fe),cs):fg;if(fh){var
-hj=ff[1],hk=a[3],eu=cV(n(bc),bb),gW=cE(fc,fb),b7=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(cr,a)},bc),gY=f(function(a){var
-b=cr(a[2]);return[0,a[1],b]},hk),h=[0,fe,f(function(a){var
-b=bH(a[2]);return[0,a[1],b]},fd),gY,gX],am=cq[1],gm=f(db,h[2]),bM=g(h[1],gm),au=n(h[1]),dH=Z(pM,au),dI=dH?Z(au,pN):dH,dJ=dI?Z(au,n(h[4])):dI,dK=dJ?Z(n(h[4]),pO):dJ;if(dK)var
-gn=h[4],bN=p(function(a){return ai(n(a),au)},gn);else
+cE=fn;var
+fo=cE?eY(bx):cE,fp=fo?n(function(a){return dX(a[2])},fV):fo,fY=fp?n(gO,c4(k(by),bx)):fp,fZ=fY?gT(k(fW),cN):fY;if(fZ){var
+iF=fX[1],iG=a[3],e_=c4(k(by),bx),id=ck(fU,fT),cq=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},id),ie=f(function(a){return f(cC,a)},by),ig=f(function(a){var
+b=cC(a[2]);return[0,a[1],b]},iG),l=[0,fW,f(function(a){var
+b=bQ(a[2]);return[0,a[1],b]},fV),ig,ie],az=cM[1],ho=f(dr,l[2]),b0=g(l[1],ho),aK=k(l[1]),d7=Y(qK,aK),d8=d7?Y(aK,qL):d7,d9=d8?Y(aK,k(l[4])):d8,d_=d9?Y(k(l[4]),qM):d9;if(d_)var
+hp=l[4],b1=n(function(a){return aa(k(a),aK)},hp);else
 var
-bN=dK;if(bN){var
-at=bM;for(;;){if(at){var
-dF=at[2],gl=at[1],dG=aV(bD(function(b){return function(a){return l6(b,a)}}(gl),dF));if(dG){var
-at=dF;continue}var
-dL=dG}else
+b1=d_;if(b1){var
+aJ=b0;for(;;){if(aJ){var
+d5=aJ[2],hn=aJ[1],d6=aH(a6(function(b){return function(a){return mW(b,a)}}(hn),d5));if(d6){var
+aJ=d5;continue}var
+d$=d6}else
 var
-dL=1;var
-bO=dL;break}}else
+d$=1;var
+b2=d$;break}}else
 var
-bO=bN;if(bO){var
-as=bM,ar=h[3];for(;;){if(ar){var
-dy=ar[1],dC=dy[1],dD=aV(bD(function(b){return function(a){return aC(b,a)}}(dC),as)),dE=dD?fM(as,dy[2]):dD;if(dE){var
-as=[0,dC,as],ar=ar[2];continue}var
-dM=dE}else
+b2=b1;if(b2){var
+aI=b0,aF=l[3];for(;;){if(aF){var
+d1=aF[1],d2=d1[1],d3=aH(a6(function(b){return function(a){return au(b,a)}}(d2),aI)),d4=d3?gi(aI,d1[2]):d3;if(d4){var
+aI=[0,d2,aI],aF=aF[2];continue}var
+ea=d4}else
 var
-dM=1;var
-bP=dM;break}}else
+ea=1;var
+b3=ea;break}}else
 var
-bP=bO;if(bP)var
-go=h[4],gp=g(f(db,h[3]),bM),gq=function(a){return fM(gp,a)},bQ=p(function(a){return p(gq,a)},go);else
+b3=b2;if(b3)var
+hq=l[4],hr=g(f(dr,l[3]),b0),hs=function(a){return gi(hr,a)},b4=n(function(a){return n(hs,a)},hq);else
 var
-bQ=bP;if(bQ)var
-gr=h[2],bR=p(function(a){return bj(m,a[2][1],a[2][2])},gr);else
+b4=b3;if(b4)var
+ht=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},ht);else
 var
-bR=bQ;var
-dN=bR?p(function(a){return bj(m,a[1],a[2])},b7):bR;if(dN){var
-f5=n(h[1]),bx=n(h[2]),dm=M(bx,n(dn(f(dc,h[3])))),f6=h[3],ac=iR(h),aq=f6,bw=bx;for(;;){if(aq){var
-dj=aq[1],dl=dj[2],fZ=M(bw,n(bk(dl))),f0=aq[2],f1=bl(ac,dl,bw),ac=[0,[0,dj[1],f1],ac],aq=f0,bw=fZ;continue}var
-f7=iO(ac,h[4],dm),by=f(function(a){return[0,a,q(c)]},f7),f_=iP(ac,h[4],dm),ga=h[3],bz=g(iL(iR(h),ga,bx),f_),bA=d_(g(cL(by),bz))[1],gc=d8(bA),bB=function(a){return bY(gc,a)},dq=e(a7(bB),by),ds=ai(n(b7),f5);if(ds)var
-gg=g(cL(by),bz),bC=p(function(a){var
-b=q(d),c=d8(bA);return bf(P(bB(a),c,b),a)},gg);else
+b5=b4;var
+eb=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(eb){var
+hc=k(l[1]),bO=k(l[2]),dS=H(bO,k(dK(f(ds,l[3])))),hd=l[3],aq=jy(l),aD=hd,bN=bO;for(;;){if(aD){var
+dQ=aD[1],dR=dQ[2],g8=H(bN,k(bt(dR))),g9=aD[2],g_=bu(aq,dR,bN),aq=[0,[0,dQ[1],g_],aq],aD=g9,bN=g8;continue}var
+he=jv(aq,l[4],dS),bS=f(function(a){return[0,a,q(c)]},he),hf=jw(aq,l[4],dS),hg=l[3],bT=g(js(jy(l),hg,bO),hf),bU=dB(g(cv(bS),bT))[1],hh=dA(bU),bV=function(a){return bp(hh,a)},dT=e(a4(bV),bS),dU=aa(k(cq),hc);if(dU)var
+hi=g(cv(bS),bT),bW=n(function(a){var
+b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hi);else
 var
-bC=ds;var
-dt=bC?bD(pL,eu):bC;if(dt){var
-f2=N(dn,h[4]),f3=g(dn(f(dc,h[3])),f2),f4=g(iQ(h[2]),f3),bF=aW(f(function(a){return a1(am,a)},f4));if(bF){var
-bK=aW(f(function(a){return a1(am,[0,a,d])},b7));if(bK){var
-bL=aW(f(function(a){if(typeof
-a==="number")return[0,[0,_]];else
+bW=dU;var
+dV=bW?a6(qJ,e_):bW;if(dV){var
+g$=y(dK,l[4]),ha=g(dK(f(ds,l[3])),g$),hb=g(jx(l[2]),ha),bX=aS(f(function(a){return aM(az,a)},hb));if(bX){var
+bY=aS(f(function(a){return aM(az,[0,a,d])},cq));if(bY){var
+bZ=aS(f(function(a){if(typeof
+a==="number")return[0,[0,ab]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4819,111 +5107,230 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=a1(am,[0,[0,b,b],d]);return ab(function(a){return e(aj(am,a))},g)},eu));if(bL){var
-du=bL[1],gh=im(du),gi=bK[1],gj=function(a){return 0},gk=bF[1];return fy(am,bA,dq,dq,f(bB,bz),gk,du,gj,gi,gh,hj)}var
-dv=bL}else
+g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e_));if(bZ){var
+dW=bZ[1],hj=i4(dW),hk=bY[1],hl=function(a){return 0},hm=bX[1];return f4(az,bU,dT,dT,f(bV,bT),hm,dW,hl,hk,hj,iF)}var
+dY=bZ}else
 var
-dv=bK;var
-dw=dv}else
+dY=bY;var
+dZ=dY}else
 var
-dw=bF;var
-dx=dw}else
+dZ=bX;var
+d0=dZ}else
 var
-dx=dt;return dx}}return dN}var
-fi=fh}else
+d0=dV;return d0}}return eb}var
+f1=fZ}else
 var
-fi=ct;return fi}return 0;case
-4:if(0===r[2][0]){var
-fj=ev(i(a[1]));if(fj){var
-bd=a[3];if(bd){var
-aG=bd[1],b8=aG[4],y=bd[2];if(aG[1]||aG[2]||aG[3])var
-s=0;else
-switch(b8[0]){case
+f1=cO;return f1}return 0;case
+4:if(0===p[2][0]){var
+f2=c7(i(a[1]));if(f2){var
+bz=a[3];if(bz){var
+aX=bz[1],cs=aX[4],K=bz[2];if(aX[1]||aX[2]||aX[3])var
+t=0;else
+switch(cs[0]){case
 0:var
-cI=0;if(y){var
-aH=y[1],ex=aH[4];if(aH[1]||aH[2]||aH[3])var
-s=0;else
-if(1===ex[0])if(y[2])var
-s=0;else
+dc=0;if(K){var
+aY=K[1],e$=aY[4];if(aY[1]||aY[2]||aY[3])var
+t=0;else
+if(1===e$[0])if(K[2])var
+t=0;else
 var
-g1=i(ex[1]),s=[0,[0,i(b8[1]),g1]];else{var
-ey=0;cI=1}}else{var
-ey=y;cI=1}if(cI)var
-s=ey;break;case
+ij=i(e$[1]),t=[0,[0,i(cs[1]),ij]];else{var
+fa=0;dc=1}}else{var
+fa=K;dc=1}if(dc)var
+t=fa;break;case
 1:var
-cJ=0;if(y){var
-aI=y[1],ez=aI[4];if(aI[1]||aI[2]||aI[3])var
-s=0;else
-if(0===ez[0])if(y[2])var
-s=0;else
+dd=0;if(K){var
+aZ=K[1],fb=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
+t=0;else
+if(0===fb[0])if(K[2])var
+t=0;else
 var
-g2=i(b8[1]),s=[0,[0,i(ez[1]),g2]];else{var
-eA=0;cJ=1}}else{var
-eA=y;cJ=1}if(cJ)var
-s=eA;break;default:var
-s=0}}else
+ik=i(cs[1]),t=[0,[0,i(fb[1]),ik]];else{var
+fc=0;dd=1}}else{var
+fc=K;dd=1}if(dd)var
+t=fc;break;default:var
+t=0}}else
 var
-s=bd;if(s){var
-fk=s[1],fl=fk[2],fm=fk[1],eh=l(m,1,i(a[2])),ei=eh?l(m,1,[2,fl,[0,c,c]]):eh,ej=ei?l(m,1,fm):ei;return ej?l(m,0,[2,[4,[0,c,c],fl],fm]):ej}var
-fn=s}else
+t=bz;if(t){var
+f3=t[1],f5=f3[2],f8=f3[1],eJ=j(m,1,i(a[2])),eK=eJ?j(m,1,[2,f5,[0,c,c]]):eJ,eL=eK?j(m,1,f8):eK;return eL?j(m,0,[2,[4,[0,c,c],f5],f8]):eL}var
+f$=t}else
 var
-fn=fj;return fn}return 0;default:var
-fo=a[1];if(fo){var
-fp=fo[1],cu=r[2];if(0===cu[0]){var
-cv=gb(ua,cu[2]);if(cv){var
-fq=dB(fp);if(fq){var
-hl=cv[1],fr=bH(fp)[2],be=cu[1],bW=ch(be,d,fr);if(bW){var
-bX=ch(be,d,[4,[0,c,c],fr]);if(bX){var
-gB=bW[1][1],ee=ag(cf(be),gB);if(ee)return jo(be,bX[1][1],hl);var
-ef=ee}else
+f$=f2;return f$}return 0;case
+5:var
+gc=a[4],gd=a[1],cP=p[2];if(0===cP[0]){var
+ge=cP[2],v=eV(gd,[0,a[2],a[3]],0,gc),cQ=gL(k(ge),ge);if(cQ){var
+gf=cQ[1];if(gf[2])return 0;var
+gg=gS(gd,0,gc,v);if(gg){var
+gj=ji(m,v);if(gj){var
+iH=gf[1],gk=f(kl,v[1]),z=km(v[1]),gm=i(a[5]),Q=cP[1],cb=f6(z,gk,v[1]),I=f7(z,gk,v[1],0),hE=k(v[3]),hF=H(k(cb),hE),aW=[0,k(cb),hF],hG=f_(I,z,aW,v[3]),hH=g(f(ex,I),hG),eR=g(cv(ey(I)),hH),eS=dB(eR)[1],cc=dA(eS),eT=v[2];if(0===eT[0]){var
+eW=n(function(a){var
+b=q(d);return bb(F(bp(cc,a),cc,b),a)},eR),eX=eW?j(m,1,gm):eW;if(eX){var
+hI=v[3],hJ=y(function(a){return eE(z,a)},hI),hK=v[3],hL=g(cb,g(f(function(a){return bP(z,a)},hK),hJ)),cd=aS(f(function(a){return aM(Q,a)},hL));if(cd){var
+hM=a8(eT[1],z),ce=aS(f(function(a){return aM(Q,a)},hM));if(ce){var
+cf=b7(Q,z,[4,gm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
+cg=v[3],hN=ce[1],hO=cf[1],hP=cd[1],ad=function(a){return bp(cc,a)},eN=f(a3,hP),eO=function(A,x){var
+g=A,a=x;for(;;){if(0===a[0]){var
+h=a[1],l=aa(k(h),rm),m=l?n(function(a){var
+d=B(W(b(2,b(2,b(2,c)))),a);return d?B(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
+o=j9(Q,hO,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eN),eS,0),s=function(b){var
+a=j8(Q,o,eN,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
+l==="number")return a6(function(b){var
+a=F(ad(b[2]),ae,0);return a?B(a[1][2][2],d):a},I);else{if(0===l[0]){var
+t=l[1],u=al(cg,t);if(u){var
+a=l[2],h=u[1],ar=ej(t,cg),as=k(y(function(a){return eE(z,a)},ar)),at=H(aW[2],as),v=[0,H(aW[1],t),at],ai=ey(I),i=e(a4(ad),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
+d=eQ(c,a);return[1,[4,[1,[6,b,eP(a)]],d]]},A=0;if(typeof
+h==="number")A=1;else
+switch(h[0]){case
+4:var
+o=j(Q,1,h[2]);break;case
+8:var
+o=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
+o=1;var
+G=o?n(rk,a):o,C=0;if(G){var
+g=0;if(typeof
+h!=="number")switch(h[0]){case
+0:var
+af=0;if(a)if(a[2]){var
+b=0;g=2;af=1}else
 var
-ef=bX;var
-eg=ef}else
+K=[0,[0,i,[0,E(i,m,a[1]),0]]];else
 var
-eg=bW;return eg}var
-fs=fq}else
+K=a;if(!af){var
+b=K;g=2}break;case
+1:var
+ag=0;if(a)if(a[2]){var
+b=0;g=2;ag=1}else
 var
-fs=cv;return fs}return 0}var
-cw=r[2];if(0===cw[0]){var
-cx=gb(ub,cw[2]);return cx?jo(cw[1],d,cx[1]):cx}return 0}}return ae}var
-x=[ap,ue,eU(0)],jG=[ap,uf,eU(0)];function
-uc(z,c){var
-s=[0,h(s9,an(c[4])),0],t=[0,h(s$,Q([0,h(s_,an(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sX,w(f(sU,a[2]))),0],i=F(sZ,Q([0,h(sY,f1(a[1])),k]));else{var
-b=a[4],d=a[3],l=0;if(typeof
-b==="number")var
-e=an(s0);else
-if(0===b[0])var
-q=[0,w(f(f7,b[2])),0],e=F(s6,w([0,cS(b[1]),q]));else
+L=a[1],aj=[1,[6,m,eP(L)]],M=[0,[0,i,[0,[1,[4,eQ(i,L),aj]],0]]];else
 var
-r=[0,cS(b[2]),0],e=F(s7,w([0,cS(b[1]),r]));var
-m=[0,h(s1,e),l],n=d?[0,h(s2,w(f(R,d))),0]:d,o=g(n,m),p=[0,h(s3,w(f(R,a[2]))),0],i=F(s5,Q(g([0,h(s4,f1(a[1])),p],o)))}var
-u=[0,h(ta,i),t],v=0===c[2][0]?tb:tg,x=[0,h(tc,an(v)),u],y=[0,h(td,r3(c[1])),x],j=aC(hl(ud,g(Q([0,h(tf,an(te)),y]),s8)),z);return j?t$(c):j}function
-W(a){if(0===a[0])return a[1];throw x}function
-X(a){if(1===a[0])return a[1];throw x}function
-aX(a){if(2===a[0])return a[1];throw x}function
-dC(a){if(3===a[0])return a[1];throw x}function
-a2(f,e){var
+M=a;if(!ag){var
+b=M;g=2}break;case
+5:var
+D=0;if(a){var
+q=a[2],ah=0;if(q)if(q[2]){var
+b=0;g=2;ah=1}else
+var
+O=q[1],P=a[1],am=eP(P),an=[1,[6,m,[1,[6,eQ(i,O),am]]]],ao=eP(O),R=[0,[0,i,[0,[1,[4,[1,[6,eQ(i,P),ao]],an]],0]]];else
+var
+R=q;if(!ah){var
+S=R;D=1}}else{var
+S=a;D=1}if(D){var
+b=S;g=2}break;case
+8:if(a)if(a[2]){var
+b=0;g=2}else{var
+U=a[1],T=[1,[2,c]];g=1}else{var
+b=a;g=2}break;case
+9:if(a)if(a[2]){var
+b=0;g=2}else{var
+U=a[1],T=m;g=1}else{var
+b=a;g=2}break;case
+10:break;default:if(a){var
+b=0;g=2}else{var
+p=f9(I,z,v,h);if(p)var
+ak=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ad(a)]]]},ak)]];else
+var
+N=p;var
+b=N;g=2}}switch(g){case
+2:break;case
+0:var
+J=0;C=1;break;default:var
+r=eF(I,z,v,h);if(r)var
+ap=r[1],V=e(a4(ad),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
+var
+W=r;var
+b=W}}else{var
+J=G;C=1}if(C)var
+b=J;if(b){var
+X=b[1],au=X[1],Y=n(function(a){return s([0,a[2]])},au);if(Y)return n(s,X[2]);var
+Z=Y}else
+var
+Z=b;var
+_=Z}else
+var
+_=u;return _}var
+$=l[1],w=al(cg,$);if(w){var
+aa=w[1];if(typeof
+aa!=="number"&&1===aa[0]){var
+x=al(I,l[2]);if(x){var
+av=H(aW[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ad(ac[2])]]];return s([1,[4,[1,[8,[0,ad(ex(ac))]]],aq]])}return x}var
+ab=0}else
+var
+ab=w;return ab}}(C)}return m}var
+p=a[1],i=al(g,p);if(i){var
+q=i[1],D=q[1],r=aH(ak(bq(q),D));if(r){var
+t=dG(p,g),u=eO(t[1],a[2]);if(u){var
+g=t[2],a=a[3];continue}var
+v=u}else
+var
+v=r;var
+w=v}else
+var
+w=i;return w}};return eO(hN,iH)}var
+eZ=cf}else
+var
+eZ=ce;var
+e0=eZ}else
+var
+e0=cd;var
+e1=e0}else
+var
+e1=eX;return e1}return 0}var
+gn=gj}else
+var
+gn=gg;var
+go=gn}else
+var
+go=cQ;return go}return 0;default:var
+gp=a[1];if(gp){var
+gq=gp[1],cR=p[2];if(0===cR[0]){var
+cU=gJ(vx,cR[2]);if(cU){var
+gr=dX(gq);if(gr){var
+iI=cU[1],gs=bQ(gq)[2],bA=cR[1],b$=b7(bA,d,gs);if(b$){var
+ca=b7(bA,d,[4,[0,c,c],gs]);if(ca){var
+hD=b$[1][1],eG=ac(cm(bA),hD);if(eG)return j7(bA,ca[1][1],iI);var
+eH=eG}else
+var
+eH=ca;var
+eI=eH}else
+var
+eI=b$;return eI}var
+gu=gr}else
+var
+gu=cU;return gu}return 0}var
+cW=p[2];if(0===cW[0]){var
+cX=gJ(vy,cW[2]);return cX?j7(cW[1],d,cX[1]):cX}return 0}}return as}var
+x=[ar,vB,fo(0)],ku=[ar,vC,fo(0)];function
+vz(t,b){var
+n=[0,h(us,am(b[4])),0],o=[0,h(uu,O([0,h(ut,am(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(uj,w(f(ue,a[2]))),0],d=L(ul,O([0,h(uk,gy(a[1])),i]));else
+var
+c=a[3],j=[0,h(um,kc(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
+p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hZ(vA,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
+T(a){if(0===a[0])return a[1];throw x}function
+U(a){if(1===a[0])return a[1];throw x}function
+aO(a){if(2===a[0])return a[1];throw x}function
+dY(a){if(3===a[0])return a[1];throw x}function
+aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===yx(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===An(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-r(c,b){var
-a=a2(c,b);if(a)return a[1];throw x}function
-ey(b,a){var
+p(c,b){var
+a=aZ(c,b);if(a)return a[1];throw x}function
+c8(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cX(a){switch(a[0]){case
+c9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],ug]}throw x}function
-dD(e,d){var
-a=Y(e,X(d));if(a){var
+2:return[0,a[1],vD]}throw x}function
+c_(e,d){var
+a=X(e,U(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-ez(i){var
-f=bP(i),d=[0,0],e=aS(f)-1|0;if(!(e<0)){var
+e0(i){var
+f=bX(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=c3(f,c)+gq|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=dg(f,c)+g3|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4945,47 +5352,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dE(a){return hI(ez(a))}function
-gh(b){var
-a=dC(b);return 45===K(a,0)?T(dE(c_(a,1,y(a)-1|0))):dE(a)}function
-jH(a){return fg(dE(dC(a)))}function
-gi(a){return hH(dE(dC(a)))}function
-cY(c){var
-a=dC(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gZ(a))}function
-jI(a){var
-b=97<=a?1:0,c=b?a<=lO?1:0:b;if(c)var
+dZ(a){return il(e0(a))}function
+e1(b){var
+a=dY(b);return 45===R(a,0)?W(dZ(dn(a,1,E(a)-1|0))):dZ(a)}function
+kv(a){return fM(dZ(dY(a)))}function
+e2(a){return ik(dZ(dY(a)))}function
+cE(c){var
+a=dY(c);if(6<E(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hC(a))}function
+kw(a){var
+b=97<=a?1:0,c=b?a<=mE?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jJ(A,b){var
-d=y(b),a=[0,0];function
+kx(z,b){var
+d=E(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?K(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?R(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=K(b,a[1])&&!(57<K(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return dn(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
-f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&aC(c_(b,a[1],5),ui)){a[1]=a[1]+4|0;var
-f=[5,n(k)]}else
+i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+f=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vF)){a[1]=a[1]+4|0;var
+f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jI(K(b,a[1]))){var
+v=0;if(a[1]<d&&kw(R(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jI(K(b,a[1]))&&95!==K(b,a[1])&&(!(48<=K(b,a[1]))||57<K(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,c_(b,o,a[1]-o|0))];break}}else
+w=0;if(!kw(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,dn(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aC(h,uj);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vG);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===K(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(aC(l,uk)||48===K(l,y(l)-1|0))z=1;else
+t=1<E(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw x;if(q){var
+k=q[1],y=0;if(au(k,vH)||48===R(k,E(k)-1|0))y=1;else
 var
-B=ez(l),f=[0,ez(h),B];if(z)throw x}else
+A=e0(k),f=[0,e0(h),A];if(y)throw x}else
 var
-f=[0,ez(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(j(g,uh)){if(!(2<y(g))&&2<=gZ(g)&&!(64<gZ(g)))return[4,f,fg(dE(g))];throw x}throw x}return f}function
+f=[0,e0(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(l(g,vE)){if(!(2<E(g))&&2<=hC(g)&&!(64<hC(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -4995,37 +5402,39 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-jK(a){return jJ(function(a){throw x},a)}function
-jL(a){var
-b=aX(a);return jJ(function(a){return a},b)}function
-$(a){return jK(aX(a))}function
-bK(a){if(2===a[0])return[0,jK(a[1])];var
-b=W(a),c=$(r(b,ul));return[1,$(r(b,um)),c]}function
-ae(a){throw[0,jG,as(hl(uo,a),un)]}function
-jM(c){var
-a=aX(c);if(j(a,up)){var
-b=j(a,uq);if(b)throw x;return b}return 1}function
-ur(d){var
-b=W(d);function
-a(a){return dD(bK,r(b,a))}var
-c=aX(r(b,us));if(j(c,ut)){if(j(c,uu)){if(j(c,uv))return ae([0,ux,[0,c,uw]]);var
-e=a2(b,uy),f=ey(function(a){return dD(bK,a)},e),g=a(uz);return[1,a(uA),g,f]}var
-h=jM(r(b,uB)),i=bK(r(b,uC)),k=a(uD),l=a(uE);return[0,a(uF),l,k,i,h]}return[2,a(uG)]}function
-jN(d){var
-a=W(d);if(a){var
-b=a[1];if(!j(b[1],uH)){var
-c=b[2];if(2===c[0]&&!j(c[1],uI))return 1}}return 0}function
-uJ(c){var
-a=W(c);if(1-jN(c))throw x;function
-b(b){return dD(bK,r(a,b))}var
-d=jM(r(a,uK)),e=bK(r(a,uL)),f=bK(r(a,uM)),g=b(uN),h=b(uO),i=b(uP);return[0,b(uQ),i,h,g,f,e,d]}function
-dF(c,d){var
-a=X(d);if(a){var
+e3(a){return kx(function(a){throw x},a)}function
+ky(a){var
+b=aO(a);return kx(function(a){return a},b)}function
+V(a){return e3(aO(a))}function
+bS(a){if(2===a[0])return[0,e3(a[1])];var
+b=T(a),c=V(p(b,vI));return[1,V(p(b,vJ)),c]}function
+Z(a){throw[0,ku,av(hZ(vL,a),vK)]}function
+kz(c){var
+a=aO(c);if(l(a,vM)){var
+b=l(a,vN);if(b)throw x;return b}return 1}function
+vO(d){var
+b=T(d);function
+a(a){return c_(bS,p(b,a))}var
+c=aO(p(b,vP));if(l(c,vQ)){if(l(c,vR)){if(l(c,vS))return Z([0,vU,[0,c,vT]]);var
+e=aZ(b,vV),f=c8(function(a){return c_(bS,a)},e),g=a(vW);return[1,a(vX),g,f]}var
+h=kz(p(b,vY)),i=bS(p(b,vZ)),j=a(v0),k=a(v1);return[0,a(v2),k,j,i,h]}return[2,a(v3)]}function
+gV(d){var
+a=T(d);if(a){var
+b=a[1];if(!l(b[1],v4)){var
+c=b[2];if(2===c[0]&&!l(c[1],v5))return 1}}return 0}function
+v6(c){var
+a=T(c);if(1-gV(c))throw x;function
+b(b){return c_(bS,p(a,b))}var
+d=kz(p(a,v7)),e=bS(p(a,v8)),f=bS(p(a,v9)),g=b(v_),h=b(v$),i=b(wa);return[0,b(wb),i,h,g,f,e,d]}function
+c$(c,d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gj(i){var
-c=W(i),a=aX(r(c,uR));if(j(a,uS))if(j(a,uT))if(j(a,uU))if(j(a,uV))if(j(a,uW))if(j(a,uX))if(j(a,uY))if(j(a,uZ))var
-g=j(a,u0),b=g?ae([0,u2,[0,a,u1]]):g;else
+gW(m){var
+c=T(m),a=aO(p(c,wc)),h=AZ(a,wd),g=0;if(0<=h)if(0<h)if(l(a,we))if(l(a,wf))if(l(a,wg)){var
+i=l(a,wh);if(i)g=1;else
+var
+b=i}else
 var
 b=6;else
 var
@@ -5034,6 +5443,7 @@ var
 b=5;else
 var
 b=2;else
+if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))if(l(a,wA))g=1;else
 var
 b=1;else
 var
@@ -5041,213 +5451,252 @@ b=8;else
 var
 b=7;else
 var
-b=3;function
-f(a){return r(c,u3)}var
-d=aX(r(c,u4));if(j(d,u5))if(j(d,u6))if(j(d,u7))var
-e=ae([0,u9,[0,d,u8]]);else
+b=3;else
 var
-h=dF($,f(0)),e=[2,h[1],h[2]];else
+b=9;var
+j=g?Z([0,wj,[0,a,wi]]):b;function
+f(a){return p(c,wk)}var
+d=aO(p(c,wl));if(l(d,wm))if(l(d,wn))if(l(d,wo))var
+e=Z([0,wq,[0,d,wp]]);else
 var
-e=[0,$(f(0))];else
+k=c$(V,f(0)),e=[2,k[1],k[2]];else
 var
-e=[1,$(f(0))];function
-k(m){var
-a=W(m),e=0;switch(b){case
+e=[0,V(f(0))];else
+var
+e=[1,V(f(0))];function
+n(m){var
+a=T(m),d=0;switch(j){case
 6:if(a){var
-k=a[1];if(!j(k[1],u$)){var
-l=k[2];if(1===l[0]){var
-d=l[1],f=0;if(d&&!d[2])if(a[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!a[2])return ae(va)}}}break;case
+i=a[1];if(!l(i[1],ws)){var
+k=i[2];if(1===k[0]){var
+c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
+h=c[1];d=1;e=1}if(!e&&!a[2])return Z(wt)}}}break;case
 2:case
 8:if(a){var
-g=a[1];if(!j(g[1],u_)){var
-h=g[2];if(1===h[0]){var
-c=h[1];if(c&&!c[2]&&!a[2]){var
-i=c[1];e=1}}}}break}if(e)return $(i);throw x}var
-l=ey(k,a2(c,vb));return[0,b,ey(cY,a2(c,vc)),l,e]}function
-vd(b){var
-a=gj(b);return 8<=a[1]?ae(ve):a}function
-gk(c){var
-a=gj(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(vf)}function
-vg(a){var
-b=gj(a);switch(b[1]){case
+f=a[1];if(!l(f[1],wr)){var
+g=f[2];if(1===g[0]){var
+b=g[1];if(b&&!b[2]&&!a[2]){var
+h=b[1];d=1}}}}break}if(d)return V(h);throw x}var
+o=c8(n,aZ(c,wu));return[0,j,c8(cE,aZ(c,wv)),o,e]}function
+wB(b){var
+a=gW(b);return 8===a[1]?Z(wC):a}function
+gX(c){var
+a=gW(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wD)}function
+wE(a){var
+b=gW(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gk(a)}}function
-vn(P){var
-l=cX(P),m=l[1];if(j(m,vo)){if(j(m,vp))return ae([0,vr,[0,m,vq]]);var
-n=r(W(l[2]),vs),I=0;if(2===n[0]){var
-v=j(n[1],vt);if(!v){var
-u=v;I=1}}if(!I)var
-u=[0,bK(n)];return[5,u]}var
-c=W(l[2]);function
-w(a){return Y(vd,X(r(c,vu)))}var
-f=cX(r(c,vv)),a=cX(r(c,vw));if(0===a2(c,vx)){var
-b=f[1];if(j(b,vy)&&j(b,vz)&&j(b,vA)){if(0===a2(c,vB)){if(j(b,vC)){var
-J=0;if(j(b,vD)){if(!j(b,vE)){var
-y=a[1],K=0;if(j(y,vH)&&j(y,vI)){J=1;K=1}if(!K){var
-o=X(f[2]),d=W(a[2]);if(j(a[1],vh))var
-s=dF($,r(d,vi)),t=dF($,r(d,vj)),L=t[2],M=t[1],N=$(r(d,vk)),p=[1,s[1],s[2],N,M,L];else
+8:return b;default:return gX(a)}}function
+wL(f){var
+a=T(f);function
+d(b){return V(p(a,b))}function
+c(b){return c_(V,p(a,b))}var
+b=aO(p(a,wM));if(l(b,wN)){if(!l(b,wO)){var
+j=p(a,wU),e=c$(function(a){return a},j),k=aZ(a,wV),m=c8(function(a){return c(wW)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wX);return[0,cE(p(a,wY)),q,o,n,m]}if(l(b,wP))throw x}var
+g=d(wQ),h=c(wR),i=c(wS);return[1,au(b,wT),i,h,g]}function
+kA(a){if(0===a[0]&&a[5])return 1;return 0}function
+kB(ad){var
+j=c9(ad),k=j[1];if(l(k,wZ)){if(l(k,w0)){if(l(k,w1))return Z([0,w3,[0,k,w2]]);var
+r=p(T(j[2]),w4),S=0;if(2===r[0]){var
+D=l(r[1],w5);if(!D){var
+C=D;S=1}}if(!S)var
+C=[0,bS(r)];return[6,C]}var
+E=T(j[2]),f=kB([0,[0,[0,w7,p(E,w6)],0]]);if(0===f[0]){var
+s=f[2];if(0===s[0]&&!f[3]){var
+ae=V(p(E,w9));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w8)}var
+b=T(j[2]);function
+F(a){return X(wB,U(p(b,w_)))}var
+g=c9(p(b,w$)),c=c9(p(b,xa)),a=g[1];if(l(a,xb)&&0!==aZ(b,xc))return Z(x$);if(l(a,xd)&&l(a,xe)&&l(a,xf)){if(0===aZ(b,xg)){if(l(a,xh)){var
+W=0;if(l(a,xi)){if(!l(a,xj)){var
+G=c[1],Y=0;if(l(G,xm)&&l(G,xn)){W=1;Y=1}if(!Y){var
+m=U(g[2]),d=T(c[2]);if(l(c[1],wF))var
+y=c$(V,p(d,wG)),z=c$(V,p(d,wH)),_=z[2],$=z[1],aa=V(p(d,wI)),t=[1,y[1],y[2],aa,$,_];else
 var
-O=dD($,r(d,vl)),p=[0,dD($,r(d,vm)),O];if(hh(jN,o)){var
-Q=Y(gk,X(r(c,vL)));return[1,Y(uJ,o),p,Q]}var
-R=w(0);return[0,Y(ur,o),p,R]}}}else
-if(!j(a[1],vM)){var
-S=w(0),T=$(r(W(a[2]),vN));return[4,$(r(W(f[2]),vO)),T,S]}if(!J)return ae([0,vG,[0,b,vF]])}else
-if(!j(a[1],vP)){var
-h=W(f[2]),z=W(a[2]),A=function(c,a){var
-b=X(a);return Y(function(d){var
-a=X(d);if(a){var
+ab=c_(V,p(d,wJ)),t=[0,c_(V,p(d,wK)),ab];var
+u=aZ(b,xq),v=u?X(wL,U(u[1])):u,H=cL(gV,m),af=H?0!==v?1:0:H;if(af)Z(xr);var
+i=v;for(;;){if(i){var
+A=i[2],ac=i[1],B=1-cL(function(e){return function(a){var
+b=gG(e,a);if(b){var
+c=kA(e);if(!c)return kA(a);var
+d=c}else
+var
+d=b;return d}}(ac),A);if(B){var
+i=A;continue}var
+I=B}else
+var
+I=1;if(1-I)Z(xs);if(cL(gV,m)){var
+ag=X(gX,U(p(b,xt)));return[1,X(v6,m),t,ag]}var
+ah=F(0);return[0,X(vO,m),t,v,ah]}}}}else
+if(!l(c[1],xu)){var
+ai=F(0),aj=V(p(T(c[2]),xv));return[4,V(p(T(g[2]),xw)),aj,ai]}if(!W)return Z([0,xl,[0,a,xk]])}else
+if(!l(c[1],xx)){var
+n=T(g[2]),J=T(c[2]),K=function(c,a){var
+b=U(a);return X(function(d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},U=function(d){var
-a=W(d);if(a){var
-b=a[1],c=b[1];if(j(c,vQ)){if(!j(c,vR)&&!a[2])return Y(jL,X(b[2]))}else
-if(!a[2])return ae(vS)}throw x},V=Y(gk,X(r(c,vT))),Z=Y($,X(r(z,vU))),_=Y($,X(r(z,vV))),aa=Y(U,X(r(h,vW))),ab=A(jL,r(h,vX)),ac=A(bK,r(h,vY));return[3,Y(aX,X(r(h,vZ))),ac,ab,aa,_,Z,V]}return ae([0,vK,[0,a[1],vJ]])}throw x}var
-B=a[1],C=W(f[2]),D=W(a[2]);if(j(B,v0))ae([0,v2,[0,B,v1]]);var
-E=a2(C,v3),ad=E?$(E[1]):ae([0,wq,[0,b,wp]]),af=function(d){var
-a=W(d);function
-b(b){return Y(bK,X(r(a,b)))}var
-c=aX(r(a,v4)),e=a2(a,v5);if(!j(c,v6)&&!e){var
-f=b(v9);return[0,b(v_),f]}return ae([0,v8,[0,c,v7]])},g=cX(r(c,v$)),i=g[1];if(j(i,wa))if(j(i,wb))if(j(i,wc)){if(j(i,wd))throw x;var
-F=g[2],ag=$(r(W(F),we)),k=[3,$(r(W(F),wf)),ag]}else
+f=e(c,b[1]);return[0,aO(a[1]),f]}}throw x},b)},ak=function(d){var
+a=T(d);if(a){var
+b=a[1],c=b[1];if(l(c,xy)){if(!l(c,xz)&&!a[2])return X(ky,U(b[2]))}else
+if(!a[2])return Z(xA)}throw x},al=X(gX,U(p(b,xB))),am=X(V,U(p(J,xC))),an=X(V,U(p(J,xD))),ao=X(ak,U(p(n,xE))),ap=K(ky,p(n,xF)),aq=K(bS,p(n,xG));return[3,X(aO,U(p(n,xH))),aq,ap,ao,an,am,al]}return Z([0,xp,[0,c[1],xo]])}throw x}var
+L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xI))Z([0,xK,[0,L,xJ]]);var
+O=aZ(M,xL),ar=O?V(O[1]):Z([0,x_,[0,a,x9]]);function
+as(d){var
+a=T(d);function
+b(b){return X(bS,U(p(a,b)))}var
+c=aO(p(a,xM)),e=aZ(a,xN);if(!l(c,xO)&&!e){var
+f=b(xR);return[0,b(xS),f]}return Z([0,xQ,[0,c,xP]])}var
+h=c9(p(b,xT)),o=h[1];if(l(o,xU))if(l(o,xV))if(l(o,xW)){if(l(o,xX))throw x;var
+P=h[2],at=V(p(T(P),xY)),q=[3,V(p(T(P),xZ)),at]}else
 var
-al=g[2],q=function(a){return dF($,r(W(al),a))},am=q(wm),an=q(wn),k=[1,q(wo),an,am];else
+ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x6),aA=w(x7),q=[1,w(x8),aA,az];else
 var
-H=dF($,g[2]),k=[0,H[1],H[2]];else
+R=c$(V,h[2]),q=[0,R[1],R[2]];else
 var
-k=[2,$(g[2])];var
-G=j(b,wg),ah=G?j(b,wh)?2:1:G,ai=Y(vg,X(r(c,wi))),aj=Y($,X(r(D,wj))),ak=Y($,X(r(D,wk)));return[2,ah,Y(af,X(r(C,wl))),ad,ak,aj,k,ai]}return ae(wr)}function
-jO(a){return Y(gh,X(a))}function
-eA(g,m){var
-D=g[2];function
-E(c,b){var
-a=jO(b);if(cy(a)!==c)throw x;return a}switch(m[0]){case
+q=[2,V(h[2])];var
+Q=l(a,x0),au=Q?l(a,x1)?2:1:Q,av=X(wE,U(p(b,x2))),aw=X(V,U(p(N,x3))),ax=X(V,U(p(N,x4)));return[2,au,X(as,U(p(M,x5))),ar,ax,aw,q,av]}function
+kC(a){return X(e1,U(a))}function
+e4(g,m){var
+n=g[2];function
+o(c,b){var
+a=kC(b);if(ch(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(j(b,wu))if(j(b,wv))if(j(b,ww))if(j(b,wx)){var
-O=0;if(j(b,wy)&&j(b,wz)&&j(b,wA))O=1;if(!O)if(c[2])d=1;else{var
-Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
+e=c[1],b=e[1],d=0;if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg)){var
+Q=0;if(l(b,yh)&&l(b,yi)&&l(b,yj))Q=1;if(!Q)if(c[2])d=1;else{var
+S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
-n=J[1];if(n){var
-o=n[2];if(o){var
-p=o[2];if(p&&!p[2]){if(!c[2]){var
-T=gi(p[1]),U=gh(o[1]);return[4,eA(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
-A=aX(e[2]),B=j(A,ws);if(B){if(j(A,wt))throw x;var
-C=1}else
+q=J[1];if(q){var
+r=q[2];if(r){var
+s=r[2];if(s&&!s[2]){if(!c[2]){var
+Y=e2(s[1]),_=e1(r[1]);return[4,e4(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
+K=T(e[2]),$=U(p(K,yo)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yq,L,e2(p(K,yp))];throw x}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=l(C,ya);if(D){if(l(C,yb))throw x;var
+E=1}else
 var
-C=B;return[2,C]}d=1}else{if(!c[2]){var
-h=e[2],l=0;switch(h[0]){case
+E=D;return[2,E]}d=1}else{if(!c[2]){var
+h=e[2],k=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-L=i[1],u=L[1],a=0;if(j(u,wF)&&j(u,wG))if(j(u,wH))a=1;else{var
-M=L[2];if(1===M[0]){var
-v=M[1];if(v){var
-k=v[1],f=0;switch(k[0]){case
+N=i[1],w=N[1],a=0;if(l(w,yr)&&l(w,ys))if(l(w,yt))a=1;else{var
+O=N[2];if(1===O[0]){var
+y=O[1];if(y){var
+j=y[1],f=0;switch(j[0]){case
 0:var
-w=k[1];if(w){var
-N=w[1][1],P=0;if(j(N,wJ)&&j(N,wK)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(j(k[1],wL)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-y=v[2];if(y){var
-z=y[2];if(z&&!(z[2]||i[2])){var
-_=gi(z[1]),$=gh(y[1]),q=[5,eA(g,k),$,_];l=1;a=1}else
+z=j[1];if(z){var
+P=z[1][1],R=0;if(l(P,yv)&&l(P,yw)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(l(j[1],yx)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+A=y[2];if(A){var
+B=A[2];if(B&&!(B[2]||i[2])){var
+ad=e2(B[1]),ae=e1(A[1]),t=[5,e4(g,j),ae,ad];k=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])l=2}break;case
-2:if(!j(h[1],wM))l=2;break}switch(l){case
+a=1}if(!a&&!i[2])k=2}break;case
+2:if(!l(h[1],yy))k=2;break}switch(k){case
 0:var
-q=ae(wI);break;case
+t=Z(yu);break;case
 2:var
-q=eA(g,h);break}return[6,q]}d=1}else{var
-K=e[2];if(1===K[0]){var
-s=K[1];if(s){var
-t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
-V=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,V)]};d=2}}}}switch(d){case
-0:if(!c[2])return ae([0,wC,[0,b,wB]]);break;case
+t=e4(g,h);break}return[6,t]}d=1}else{var
+M=e[2];if(1===M[0]){var
+u=M[1];if(u){var
+v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
+ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
+0:if(!c[2])return Z([0,yl,[0,b,yk]]);break;case
 1:break;default:var
-H=W(G),R=X(r(H,wD)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cy(I)!==S)throw x;return F(I,gi(r(H,wE)))}}break;case
+H=T(G),V=U(p(H,ym)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,yn)))}}break;case
 2:return[0,m[1]]}throw x}function
-w8(c){var
+kD(j){var
+b=c9(j),a=b[1];if(l(a,yB)){var
+g=l(a,yC);if(!g)return g;if(!l(a,yD)){var
+h=b[2];if(1===h[0]){var
+c=h[1];if(c){var
+d=c[2];if(d&&!d[2]){var
+k=cE(d[1]);return[1,cE(c[1]),k]}}}}}else{var
+i=b[2];if(1===i[0]){var
+e=i[1];if(e){var
+f=e[2];if(f&&!f[2]){var
+m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yF,[0,a,yE]])}function
+yU(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!j(b[1],w9))a=1;break;case
+0:if(!l(b[1],yV))a=1;break;case
 6:a=1;break}return a?1:0}function
-w_(d){var
-f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return K(d,a[1]);throw x}function
-h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,K(d,a[1]))){a[1]++;continue}return c_(d,b,a[1]-b|0)}}function
-D(d){h(34);function
+yW(f){var
+g=E(f),a=[0,0];function
+h(b){if(a[1]<g)return R(f,a[1]);throw x}function
+i(b){if(h(0)===b){a[1]++;return 0}throw x}function
+s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return dn(f,b,a[1]-b|0)}}function
+t(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=C(a[1],b);h(34);return c}function
-E(k,d){if(g(0)===d){a[1]++;return 0}var
+c=s(a[1],b);i(34);return c}function
+u(k,d){if(h(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
-f=i;continue}h(d);var
-b=i,c=0;for(;;){if(b){var
+g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
+f=g;continue}i(d);var
+b=g,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-q(c,k){if(64<c)throw x;var
-b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
-i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
-j=a[1];a[1]++;return[3,C(j,function(a){var
+n(c,k){if(64<c)throw x;var
+b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,u(function(a){return n(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,u(function(b){var
+a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
+j=a[1];a[1]++;return[3,s(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=q(0,0),F=a[1]<f?1:0,N=F?10===K(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=W(M);if(j(aX(r(m,w$)),xa))throw x;var
-b=vn(r(m,xb));switch(b[0]){case
-0:var
-n=[0,cy(b[1]),3];break;case
+A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw x;var
+k=T(A);if(l(aO(p(k,yX)),yY))throw x;var
+c=kB(p(k,yZ));switch(c[0]){case
 2:var
-_=1===b[1]?6:3,n=[0,cy(b[2]),_];break;case
+N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
 3:var
-aa=cy(b[1]),n=[0,cy(b[4]),aa];break;default:var
-n=xk}var
-z=cX(r(m,xc)),A=z[1];if(j(A,wY))if(j(A,wZ))var
-c=ae([0,w1,[0,A,w0]]);else{var
-k=W(z[2]),B=a2(k,w2),Q=B?Y($,X(B[1])):B,s=cX(r(k,w3)),i=s[1],o=0;if(j(i,wT)){var
-G=j(i,wU);if(G){if(!j(i,wV)){var
-H=s[2];if(1===H[0]){var
-t=H[1];if(t){var
-u=t[2];if(u&&!u[2]){var
-O=cY(u[1]),l=[1,cY(t[1]),O];o=1}}}}}else{var
-l=G;o=1}}else{var
-I=s[2];if(1===I[0]){var
-v=I[1];if(v){var
-w=v[2];if(w&&!w[2]){var
-P=Y(jO,X(w[1])),l=[0,cY(v[1]),P];o=1}}}}if(!o)var
-l=ae([0,wX,[0,i,wW]]);var
-R=Y($,X(r(k,w4))),c=[1,jH(r(k,w5)),R,Q,l]}else
+O=ch(c[1]),m=[0,ch(c[4]),O];break;case
+0:case
+5:var
+m=[0,ch(c[1]),3];break;default:var
+m=y_}var
+o=c9(p(k,y0)),q=o[1];if(l(q,yK))if(l(q,yL))var
+b=Z([0,yN,[0,q,yM]]);else
 var
-J=W(z[2]),S=X(r(J,w6)),T=Y(function(f){var
-a=W(f);if(0!==a2(a,wP))ae(wQ);var
-d=ey(cY,a2(a,wR)),b=a2(a,wS);if(b)var
-e=X(b[1]),c=Y(function(g){var
-b=X(g);if(b){var
+j=T(o[2]),r=aZ(j,yO),C=r?X(V,U(r[1])):r,D=kD(p(j,yP)),F=X(V,U(p(j,yQ))),b=[1,kv(p(j,yR)),F,C,D];else
+var
+w=T(o[2]),G=U(p(w,yS)),H=X(function(f){var
+a=T(f);function
+b(d,c){var
+b=aZ(a,c);return b?X(d,U(b[1])):b}var
+c=b(e1,yG),d=c8(kD,aZ(a,yH)),e=c8(cE,aZ(a,yI));return[0,b(function(g){var
+b=U(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wN)){if(!a[2]){if(j(dC(e),wO))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yz)){if(!a[2]){if(l(dY(e),yA))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=eA(n,c);return[0,cY(e),f]}}}throw x},e);else
-var
-c=b;return[0,c,d]},S),c=[0,jH(r(J,w7)),T];var
-p=0;switch(b[0]){case
-1:if(0===c[0]){ae(xg);p=1}break;case
-2:if(0===c[0]){var
-V=c[2];if(!hg(function(a){return hg(w8,a[1])},V)){ae(xh);p=1}}else{var
-Z=b[7];if(hh(function(a){switch(a[1]){case
+f=e4(m,c);return[0,cE(e),f]}}}throw x},yJ),e,d,c]},G),b=[0,kv(p(w,yT)),H];var
+d=0;switch(c[0]){case
+1:if(0===b[0])Z(y5);else
+d=1;break;case
+2:if(0===b[0]){var
+K=b[2];if(hV(function(a){return hV(yU,a[1])},K))d=2;else
+Z(y6)}else{var
+L=c[7];if(cL(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},Z)){ae(xi);p=1}}break;case
-3:if(1===c[0]){ae(xj);p=1}break}var
-L=W(r(m,xd)),U=aX(r(L,xe));return[0,b,c,aX(r(L,xf)),U]}function
-xl(c){try{try{var
-d=0,a=w_(c);d=1}catch(a){a=e1(a);if(a[1]===jG)var
+8:return 1;default:return 0}},L))Z(y7);else
+d=1}break;case
+3:if(1===b[0])Z(y8);else
+d=2;break;case
+5:var
+P=0;if(0===b[0]){var
+M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y9);P=1}}break;default:d=2}var
+z=0;switch(d){case
+2:if(0===b[0]){var
+I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y1);z=1}}break;case
+1:break;default:z=1}var
+y=T(p(k,y2)),J=aO(p(y,y3));return[0,c,b,aO(p(y,y4)),J]}function
+y$(c){try{try{var
+d=0,a=yW(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=uc(c,a)?0===a[2][0]?0:1:2}catch(a){return xm}if(typeof
+b=vz(c,a)?0===a[2][0]?0:1:2}catch(a){return za}if(typeof
 b==="number")switch(b){case
-0:return xn;case
-1:return xo;default:return xp}return as(xq,b[1])}zb.orthocert_verify=yT(function(b){return bS(xl(a(b)))});e4(0);return}(globalThis));
+0:return zb;case
+1:return zc;default:return zd}return av(ze,b[1])}A4.orthocert_verify=AJ(function(b){return b0(y$(a(b)))});fy(0);return}(globalThis));
