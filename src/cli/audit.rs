@@ -46,7 +46,7 @@ pub fn run(
     certificates: &Path,
     designs: &Path,
     jobs: Option<u64>,
-    format: Format,
+    (format, quiet): (Format, bool),
 ) -> Result<Status, Failure> {
     let started = Instant::now();
     let pairs: Arc<[Pair]> = pairs(certificates, designs).map_err(Failure::input)?.into();
@@ -66,7 +66,7 @@ pub fn run(
     let rows = rows.ok_or(Failure::Defect)?;
     let exit_code = worst(rows.iter().map(|row| row.verdict));
     match format {
-        Format::Text => print::answer(&text(&rows))?,
+        Format::Text => print::answer(&text(&rows, quiet))?,
         Format::Json => print::json(&Answer {
             accepted: rows.iter().all(|row| is_accepted(row.verdict)),
             pairs: &rows,
@@ -113,9 +113,9 @@ fn judge(pair: &Pair, digest: &mut Option<String>) -> Result<Ending, (Ending, St
     Ok(accepted.verdict.into())
 }
 
-fn text(rows: &[Row]) -> String {
+fn text(rows: &[Row], quiet: bool) -> String {
     let mut out = String::new();
-    for row in rows {
+    for row in rows.iter().filter(|_| !quiet) {
         let name = row.certificate.as_ref().or(row.design.as_ref());
         let name = Shown(name.map_or("", String::as_str));
         let verdict = match row.verdict {
@@ -128,6 +128,7 @@ fn text(rows: &[Row]) -> String {
         let _ = writeln!(out, "{verdict:<19}  {name}{reason}");
     }
     let pairs = counted(rows.len(), "certificate or design", "certificates and designs");
-    let _ = writeln!(out, "\n{pairs}: {}", counts(rows.iter().map(|row| row.verdict)));
+    let blank = if quiet { "" } else { "\n" };
+    let _ = writeln!(out, "{blank}{pairs}: {}", counts(rows.iter().map(|row| row.verdict)));
     out
 }

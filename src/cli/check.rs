@@ -58,6 +58,9 @@ pub struct Arguments {
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+    /// Print the verdict's line only; with a folder, the line of totals
+    #[arg(short, long, conflicts_with = "formulas")]
+    quiet: bool,
 }
 
 /// The answer for scripts.
@@ -116,7 +119,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
                 true => Some(formulas(&certificate)?),
                 false => None,
             };
-            accept(arguments.format, &certificate, &accepted, formulas.as_deref())?;
+            accept(arguments, &certificate, &accepted, formulas.as_deref())?;
             Ok(Status::Decided(accepted.verdict))
         }
         Err(reason) => reject(arguments, &reason),
@@ -173,6 +176,12 @@ fn check_paving(
                 Failure::Input(format!("{}: {error}", arguments.certificate.shown()))
             })?;
             match arguments.format {
+                Format::Text if arguments.quiet => {
+                    // A sample is not the whole.
+                    let drawn = |seed| format!(", by {} boxes of --seed {seed}", accepted.checked);
+                    let drawn = seed.map(drawn).unwrap_or_default();
+                    print::answer(&format!("ACCEPTED: paving{drawn}\n"))?;
+                }
                 Format::Text => {
                     let mut answer = format!("ACCEPTED: paving\n{statement}");
                     if let Some(seed) = seed {
@@ -221,7 +230,7 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
 
 /// Checks all of a folder.
 fn folder(arguments: &Arguments) -> Result<Status, Failure> {
-    let Arguments { certificate, design, designs, jobs, format, sample, .. } = arguments;
+    let Arguments { certificate, design, designs, jobs, format, sample, quiet, .. } = arguments;
     if arguments.formulas {
         return Err(without_formulas("a folder"));
     }
@@ -236,7 +245,7 @@ fn folder(arguments: &Arguments) -> Result<Status, Failure> {
         )));
     }
     let designs = designs.as_ref().unwrap_or(certificate);
-    audit::run(certificate, designs, *jobs, *format)
+    audit::run(certificate, designs, *jobs, (*format, *quiet))
 }
 
 /// Whether a certificate's claim is that of the design.
@@ -272,14 +281,15 @@ fn without_formulas(found: &str) -> Failure {
 }
 
 fn accept(
-    format: Format,
+    arguments: &Arguments,
     certificate: &Certificate,
     accepted: &Accepted,
     formulas: Option<&str>,
 ) -> Result<(), Failure> {
     let verdict = accepted.verdict;
     let statement = statement::established(certificate).unwrap_or_default();
-    match format {
+    match arguments.format {
+        Format::Text if arguments.quiet => print::answer(&format!("ACCEPTED: {verdict}\n")),
         Format::Text => {
             let mut answer = statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}"));
             if let Some(formulas) = formulas {

@@ -23,6 +23,8 @@ fn a_folder_is_checked_against_its_designs() {
     let run = folder.run(&["check", "proofs", "--designs", "designs"]).exits(1);
     let run = run.says(&["ACCEPTED: refuted proofs/b.cert.json"]);
     run.says(&["ACCEPTED: certified proofs/sub/a.cert.json", "1 certified, 1 refuted"]);
+    let quiet = folder.run(&["check", "-q", "proofs", "--designs", "designs"]).exits(1).stdout;
+    assert_eq!(quiet.lines().count(), 1, "{quiet}");
     folder.run(&["verify", "designs"]).exits(1);
     folder.run(&["check", "designs", "--jobs", "1"]).exits(1);
     fs::remove_file(folder.path("designs/b.toml")).unwrap();

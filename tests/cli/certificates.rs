@@ -18,6 +18,10 @@ fn check_repeats_the_verdict_and_states_the_theorem() {
     run.says(&["ACCEPTED: certified", "It is proved:", "length 312", "psi_i >= 0.5", "psi_i <= 2"]);
     let run = folder.run(&["check", "refuted.json"]).exits(1);
     run.says(&["ACCEPTED: refuted", "FALSE", "length 310"]);
+    let quiet = |file| folder.run(&["check", "-q", file]);
+    assert_eq!(quiet("good.json").exits(0).stdout, "ACCEPTED: certified\n");
+    assert_eq!(quiet("refuted.json").exits(1).stdout, "ACCEPTED: refuted\n");
+    folder.run(&["check", "-q", "good.json", "--formulas"]).exits(2);
 }
 
 #[test]

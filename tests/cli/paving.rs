@@ -41,6 +41,10 @@ fn a_box_is_paved_and_the_paving_is_accepted() {
     folder.run(&["check", "d.paving", "--design", "d.toml"]).exits(0);
     let sampled = folder.run(&["check", "d.paving", "--sample", "50", "--seed", "7"]).exits(0);
     sampled.says(&["The evidence of 50 of the", "If that of the others holds"]);
+    let quiet = |more: &[&str]| folder.run(&[&["check", "-q", "d.paving"], more].concat()).exits(0);
+    assert_eq!(quiet(&[]).stdout, "ACCEPTED: paving\n");
+    let sampled = quiet(&["--sample", "50", "--seed", "7"]).stdout;
+    assert_eq!(sampled, "ACCEPTED: paving, by 50 boxes of --seed 7\n");
     assert_eq!(folder.names(), ["d.paving", "d.toml"]);
 }
 

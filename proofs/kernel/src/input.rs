@@ -175,7 +175,11 @@ impl Input {
 }
 
 /// `tan(x/2) = sin x/(1 + cos x)` divided by `2^scale`, which of 0 is exactly 0; with 64 guard bits.
-fn half_tangent(degrees: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
+pub(crate) fn half_tangent(
+    degrees: &Expression,
+    scale: i64,
+    bits: u32,
+) -> Option<Interval<BigInt>> {
     if degrees.rational().is_some_and(|x| x.is_zero()) {
         return Some(Interval::point(BigInt::from(0)));
     }

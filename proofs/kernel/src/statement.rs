@@ -43,8 +43,14 @@ pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
     let (points, of) = match &header.coordinates {
         None => ("the points at which".to_owned(), String::new()),
         Some(own) => {
+            // Others have no names in an orientation.
+            let is_angle = |name: &String| !matches!(&**name, "x" | "y" | "z");
+            let degrees = match claim.orientation.is_some() && own.iter().any(is_angle) {
+                true => " with angles in degrees,",
+                false => "",
+            };
             let own = format!("({})", list(own));
-            let others = "for all values of the other coordinates, with angles in degrees,";
+            let others = format!("for all values of the other coordinates,{degrees}");
             (format!("the values of {own} at which, {others}"), format!(" of {own}"))
         }
     };
@@ -65,13 +71,14 @@ pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
         )?;
         writeln!(out, "  point with x < y < z;")?;
     }
+    let parts = if header.coordinates.is_some() { " and parts of boxes" } else { "" };
     if checked == decided {
         writeln!(out, "It is proved: the volume of R is at least the share")?;
     } else {
         writeln!(
             out,
-            "The evidence of {checked} of the {decided} boxes in R or off it, drawn at random, was \
-             checked and holds."
+            "The evidence of {checked} of the {decided} boxes{parts} in R or off it, drawn at random, \
+             was checked and holds."
         )?;
         writeln!(out, "If that of the others holds: the volume of R is at least the share")?;
     }

@@ -9,15 +9,19 @@ use crate::cell::Cell as Ranges;
 use crate::certificate::PRECISIONS;
 use crate::check::{Checker, Place};
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::input::{binary, narrowed, Input, Value};
+use crate::input::{binary, half_tangent, narrowed, Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::test::Over;
 use num_bigint::BigInt;
+use num_rational::BigRational;
+use std::collections::HashMap;
 
 /// Where a cell fails, other coordinates are multiples of `2^-AT_BITS` of their range.
 pub const AT_BITS: u32 = 16;
+/// Most bits of the fractions between which an angle is paved.
+const MOST_ANGLE: u64 = 256;
 
 /// What the nodes of a paving are about.
 pub struct Subject {
@@ -27,6 +31,8 @@ pub struct Subject {
     pub problem: Problem,
     /// The coordinates that are paved, and the others, by their places in the problem.
     pub order: [Vec<usize>; 2],
+    /// The ends in degrees of each angle that is paved, by its place among the orientations.
+    angles: HashMap<usize, [BigRational; 2]>,
     words: Fixed<i64>,
     any_size: Fixed<BigInt>,
 }
@@ -55,7 +61,14 @@ impl Subject {
             return Err(Rejected::TooMany);
         }
         let (words, any_size) = (Fixed::new(bits), Fixed::new(bits));
-        let subject = Subject { header: header.clone(), problem, order, words, any_size };
+        let places = problem.corners[0].len();
+        let angle = |k: usize| {
+            let ends = problem.orientation.get(k)?;
+            Some((k, [degrees(&ends[0])?, degrees(&ends[1])?]))
+        };
+        let angles = order[0].iter().filter_map(|k| k.checked_sub(places)).map(angle);
+        let angles = angles.collect::<Option<_>>().ok_or(Rejected::Angles)?;
+        let subject = Subject { header: header.clone(), problem, order, angles, words, any_size };
         let [min, max] = subject.corners::<BigInt>()?;
         let has_volume = |k: &usize| min.get(*k).zip(max.get(*k)).is_some_and(|(a, b)| a.hi < b.lo);
         let has_volume = subject.order[0].iter().all(has_volume);
@@ -194,10 +207,9 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let places = subject.problem.corners[0].len();
         let mut ranges = min.clone();
         for (edge, &k) in cell.edges.iter().zip(paved) {
-            let angle = k.checked_sub(places).map(|j| subject.problem.orientation.get(j));
-            *ranges.get_mut(k)? = match angle {
+            *ranges.get_mut(k)? = match k.checked_sub(places) {
                 None => Edge::range(e, edge.level, edge.ends()?, [min.get(k)?, max.get(k)?])?,
-                Some(ends) => turned(edge, ends?, e.bits())?,
+                Some(angle) => turned(edge, subject.angles.get(&angle)?, e.bits())?,
             };
         }
         for (i, (edge, &k)) in cell.others.iter().zip(others).enumerate() {
@@ -267,18 +279,24 @@ impl<'a, Z: Integer> Side<'a, Z> {
 /// Centre, range and half-width of coordinates.
 type Edges<Z> = Vec<[Interval<Z>; 3]>;
 
+/// The degrees of an angle, a fraction that is short: each node asks for multiples of it.
+fn degrees(end: &Input) -> Option<BigRational> {
+    let Value::HalfTangent(x) = &end.value else { return None };
+    x.rational().filter(|x| x.numer().bits().max(x.denom().bits()) <= MOST_ANGLE)
+}
+
 /// The tangents of half of a range of angles, of which the edge is a part.
-fn turned<Z: Integer>(edge: &Edge, ends: &[Input; 2], bits: u32) -> Option<Interval<Z>> {
-    let [Value::HalfTangent(min), Value::HalfTangent(max)] = [&ends[0].value, &ends[1].value]
-    else {
-        return None;
-    };
+fn turned<Z: Integer>(
+    edge: &Edge,
+    [min, max]: &[BigRational; 2],
+    bits: u32,
+) -> Option<Interval<Z>> {
     let parts = 1i64.checked_shl(edge.level)?;
+    let whole = |n: i64| BigRational::from_integer(n.into());
     let at = |j: i64| {
-        let part = |end, n| binary(Operator::Mul, end, &Expression::integer(n));
-        let sum = binary(Operator::Add, &part(min, parts.checked_sub(j)?), &part(max, j));
-        let angle = binary(Operator::Div, &sum, &Expression::integer(parts));
-        Input { value: Value::HalfTangent(angle), ..ends[0].clone() }.enclose(bits, None)
+        let x = (min * whole(parts.checked_sub(j)?) + max * whole(j)) / whole(parts);
+        let literal = |digits: &BigInt| Expression::Literal { digits: digits.clone(), places: 0 };
+        half_tangent(&binary(Operator::Div, &literal(x.numer()), &literal(x.denom())), 0, bits)
     };
     let [from, to] = edge.ends()?;
     narrowed(&Interval { lo: at(from)?.lo, hi: at(to)?.hi })

@@ -227,6 +227,8 @@ pub enum Rejected {
     Claim(ClaimError),
     /// What is paved is not a box of one to three coordinates that has a volume.
     NotABox,
+    /// An angle that is paved does not range between short fractions.
+    Angles,
     /// The claim is about two points at a time.
     OfTwoPoints,
     /// The claim has more obligations than [`MOST_OBLIGATIONS`].
@@ -285,6 +287,10 @@ impl fmt::Display for Rejected {
                 f,
                 "what is paved is not a box of positive volume, of one to three coordinates without \
                  orientations, or of one to three different ones that are named"
+            ),
+            Rejected::Angles => write!(
+                f,
+                "an angle that is paved does not range between fractions of at most 256 bits"
             ),
             Rejected::OfTwoPoints => {
                 write!(f, "the claim is about two points at a time: one_to_one has no region")

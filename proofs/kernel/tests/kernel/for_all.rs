@@ -5,8 +5,8 @@ use crate::pavings::{bare, body, checked, header_of, paving, reason, written};
 use crate::turning::{hexapod_legs, on_circle, planar, spatial, strut};
 use orthocert_kernel::certificate::{Evidence, Failure};
 use orthocert_kernel::paving::{
-    check, names, Axis, Extent, Header, Item, Kind, Outer, Reader, Step, Subject, Symmetry,
-    SHARE_BITS,
+    check, names, Axis, Extent, Header, Item, Kind, Outer, Reader, Rejected, Step, Subject,
+    Symmetry, SHARE_BITS,
 };
 use orthocert_kernel::test::Multiplier;
 
@@ -235,6 +235,14 @@ fn angles_are_paved_in_degrees() {
         (share(found.shares.inner), share(found.shares.inner + found.shares.boundary));
     assert!(least < 0.62501 && 0.62499 < most && most - least < 0.001, "{least} {most}");
     assert!(items.len() < 100, "{}", items.len());
+    // Each node asks for multiples of both ends, which long numbers would make dear.
+    for (end, is_short) in
+        [("-sqrt(400)", false), ("-20-1/3^64/3^64/3^64", false), ("-20-1/3^64/3^64", true)]
+    {
+        let of_end = text.replace(r#""-20""#, &format!("\"{end}\""));
+        let found = Subject::new(&of(&["angle"], &of_end, 14)).map(drop);
+        assert_eq!(matches!(found, Err(Rejected::Angles)), !is_short, "{end}: {found:?}");
+    }
 }
 
 /// Evidence about evidence is read as it is written, in its order alone.
