@@ -451,10 +451,11 @@ fn corners(workspace: &Workspace) -> Result<[Vec<Expression>; 2], ClaimError> {
     if min.len() != max.len() {
         return Err(shape_error("workspace", "as many least as greatest coordinates"));
     }
-    let pairs = || min.iter().zip(&max);
-    for (k, pair) in pairs().enumerate() {
-        if pairs().take(k).next_back() != Some(pair) {
-            ordered("workspace", pair.0, pair.1, false)?;
+    let mut last = None;
+    for (min, max) in min.iter().zip(&max) {
+        // A cube's are the same thrice.
+        if last.replace((min, max)) != Some((min, max)) {
+            ordered("workspace", min, max, false)?;
         }
     }
     Ok([min, max])
