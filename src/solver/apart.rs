@@ -7,8 +7,9 @@ use nalgebra::{DVector, SymmetricEigen};
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
+use orthocert_kernel::machine::Leg;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::test::{self, Row};
+use orthocert_kernel::test::Row;
 use std::collections::BTreeMap;
 
 /// Greatest components of directions that are tried: the longer, the less is lost along them, and the
@@ -17,7 +18,8 @@ const LENGTHS: [f64; 2] = [64.0, 8.0];
 
 /// Where a test is nearest to failing.
 struct Worst {
-    vertex: Vertex,
+    /// Where, between the ends of each coordinate's range.
+    place: Vec<f64>,
     /// What matrices are least, or greatest, along.
     directions: Vec<DVector<f64>>,
     /// Nearly the derivatives by formulas of what the test wants positive; none where no one machine is
@@ -30,7 +32,7 @@ impl Over<'_> {
     /// from that in the middle.
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
-        let worst = self.worst(test)?;
+        let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
         let two_ends = self.problem().inputs.iter().filter(|input| input.has_two_ends());
         let middle = "0".repeat(two_ends.count());
         let machines = [self.worst_machine(&worst), Some(middle)];
@@ -46,14 +48,21 @@ impl Over<'_> {
                 self.formulas,
                 self.place,
                 (ends, &directions),
-                |formulas| Over { formulas, ..*self }.at_vertices(test),
+                |formulas| {
+                    let apart = Over { formulas, ..*self };
+                    apart.at_controls(test).or_else(|| apart.at_vertices(test))
+                },
             )??;
             Some(Evidence::Tolerances(Box::new(found), ends.clone(), directions))
         })
     }
 
-    fn worst(&self, test: &Test) -> Option<Worst> {
-        let own: Vec<&Row<Formula>> = self.problem().legs.iter().map(|leg| &leg.row).collect();
+    fn worst<'r>(&'r self, test: &Test) -> Option<Worst> {
+        let row = |leg: &'r Leg| match self.formulas.controls {
+            None => &leg.row,
+            Some(_) => leg.scaled.as_ref().unwrap_or(&leg.row),
+        };
+        let own: Vec<&Row<Formula>> = self.problem().legs.iter().map(row).collect();
         match test {
             Test::SigmaMin(_) => self.stretched(&own, false),
             Test::SigmaMax(_) => self.stretched(&own, true),
@@ -86,7 +95,7 @@ impl Over<'_> {
             let eigen = SymmetricEigen::new(all.square() * sign);
             let k = eigen.eigenvalues.imin();
             let direction = eigen.eigenvectors.column(k).into_owned();
-            Some((eigen.eigenvalues[k], vertex, direction, all))
+            Some((eigen.eigenvalues[k] / self.weight(vertex)?, vertex, direction, all))
         };
         let found = self.formulas.vertices().filter_map(least);
         let (_, vertex, direction, all) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -98,7 +107,8 @@ impl Over<'_> {
             weights.extend(row.a.iter().zip(direction.iter()).map(entry));
             weights.push((row.d, -sign * part * part));
         }
-        (direction.amax() > 0.0).then_some(Worst { vertex, directions: vec![direction], weights })
+        let place = self.place_of(vertex);
+        (direction.amax() > 0.0).then_some(Worst { place, directions: vec![direction], weights })
     }
 
     /// `z = A^-1 b`, `b = B_i e_i`, is longest, along `y = A^-T z`. The derivatives of `-|z|^2` are
@@ -110,7 +120,8 @@ impl Over<'_> {
             b[joint] = d[joint].sqrt();
             let z = a.clone().lu().solve(&b)?;
             let y = a.transpose().lu().solve(&z)?;
-            Some((z.norm(), vertex, (y, b[joint]), z))
+            // Of scaled rows b is longer by the root of the weight, and A by the weight.
+            Some((z.norm() * self.weight(vertex)?.sqrt(), vertex, (y, b[joint]), z))
         };
         let found = self.formulas.vertices().filter_map(longest);
         let (_, vertex, (y, root), z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -119,7 +130,8 @@ impl Over<'_> {
             weights.extend(row.a.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y * z)));
         }
         let finite = root > 0.0 && y.iter().all(|x| x.is_finite()) && y.amax() > 0.0;
-        finite.then_some(Worst { vertex, directions: vec![y], weights })
+        let place = self.place_of(vertex);
+        finite.then_some(Worst { place, directions: vec![y], weights })
     }
 
     /// The vertex at which a sum is least.
@@ -129,18 +141,31 @@ impl Over<'_> {
             Some((weights.iter().map(term).sum::<Option<f64>>()?, v))
         };
         let least = self.formulas.vertices().filter_map(value).min_by(|a, b| a.0.total_cmp(&b.0));
-        least.map(|(_, vertex)| Worst { vertex, directions: Vec::new(), weights })
+        let place = self.place_of(least?.1);
+        Some(Worst { place, directions: Vec::new(), weights })
+    }
+
+    /// The weight by which rows are scaled there.
+    fn weight(&self, vertex: Vertex) -> Option<f64> {
+        let weight = self.problem().weight.filter(|_| self.formulas.controls.is_some());
+        weight.map_or(Some(1.0), |weight| self.at(weight, At::Vertex(vertex)))
+    }
+
+    fn place_of(&self, vertex: Vertex) -> Vec<f64> {
+        let place = |k| self.formulas.place(k, vertex).unwrap_or(0) as f64;
+        (0..self.formulas.slopes.m).map(place).collect()
     }
 
     /// The ends of all tolerances that make it worst.
-    fn worst_machine(&self, Worst { vertex, weights, .. }: &Worst) -> Option<String> {
+    fn worst_machine(&self, Worst { place, weights, .. }: &Worst) -> Option<String> {
         let values = self.prover.checker.derived(self.place)?;
         let derivatives = &self.problem().derived.as_ref()?.of;
-        let over = test::Over { values, tolerances: None, inside: None, ..*self.formulas };
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         for (f, weight) in weights {
             for (j, derivative) in derivatives.get(f)? {
-                let slope = middle(&vertex.value(&over.slopes, over.of(*derivative)?)?);
+                let derivative = values.of(*derivative)?;
+                let along = derivative.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
+                let slope = middle(&derivative.at_centre) + along.sum::<f64>();
                 *slopes.entry(*j).or_default() += weight * slope;
             }
         }

@@ -489,6 +489,11 @@ fn certify(
 ) -> Result<Attempt, NotEnclosed> {
     let problem = Problem::new(claim)?.with_derivatives();
     let prover = Prover::new(&problem)?;
+    // Tolerances may be too wide at the worst place found already.
+    let sampler = Sampler::new(claim, &problem)?;
+    if !prover.holds_next_to(&sampler.point(&known.place.u)) {
+        return Ok(Attempt::Undecided(Stop::Hopeless));
+    }
     let ends = Ends { hopeless: true, ..Ends::default() };
     let found = search(&prover, &Branch::whole(&prover), ends, budget, control);
     let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
@@ -501,7 +506,6 @@ fn certify(
             Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
         });
     }
-    let sampler = Sampler::new(claim, &problem)?;
     let own = sampler.qualities().into_iter().filter(|quality| {
         matches!(quality, Quality::Obligation(at) if problem.obligations[*at].requirement == Some(0))
     });

@@ -63,8 +63,9 @@ pub const FINEST: i32 = 26;
 pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
 /// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
 const GUARD: u32 = 9;
-/// Boxes after which tolerances are taken apart: certificates in ranges are shorter.
-const MOST_IN_RANGES: usize = 2000;
+/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
+/// others.
+const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 /// Open boxes from whose centres a violation is looked for.
 const OPEN_CENTRES: usize = 64;
 
@@ -258,7 +259,8 @@ fn in_ranges(
     if derived.derived.is_none() {
         return Err(derived);
     }
-    let budget = Budget { max_boxes: budget.max_boxes.min(MOST_IN_RANGES), ..budget };
+    let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
+    let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
     let found = Prover::new(problem).map(|prover| from_root(&prover, budget, control));
     found.ok().and_then(Result::ok).ok_or(derived)
 }

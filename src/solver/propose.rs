@@ -5,13 +5,14 @@ use super::evidence::{At, Over};
 use super::rows::{above, exponent, in_places, rounded, Form, Rows};
 use super::violation;
 use nalgebra::{DMatrix, DVector};
+use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Corner, Evidence};
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::accuracy::Accuracy;
 use orthocert_kernel::test::apart::Apart;
 use orthocert_kernel::test::solve::Solve;
-use orthocert_kernel::test::{self, Multiplier, Row};
+use orthocert_kernel::test::{Multiplier, Row};
 
 /// Bits of the greatest entry of a multiplier that is tried first.
 const FINE: i32 = 15;
@@ -34,8 +35,27 @@ impl Over<'_> {
     }
 
     /// At control points, of platforms that turn.
-    fn at_controls(&self, test: &Test) -> Option<Evidence> {
-        let polynomial = match test {
+    pub(super) fn at_controls(&self, test: &Test) -> Option<Evidence> {
+        if !self.is_polynomial(test) {
+            return None;
+        }
+        self.there(test, |there| {
+            let found = match test {
+                Test::SigmaMin(kappa) => there.lower(test, *kappa, Form::Scaled),
+                Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
+                Test::OneToOne(_) => there.shown(test, Evidence::Chords),
+                Test::Solve(solve) => there.solution(test, solve),
+                Test::Least(rows, kappa) => there.least(test, rows, *kappa),
+                Test::Accuracy(accuracy) => there.accuracy(test, accuracy, Form::Scaled),
+                _ => there.shown(test, Evidence::Test),
+            };
+            found.map(|inner| Evidence::Control(Box::new(inner)))
+        })
+    }
+
+    /// Whether a test is of polynomials, which control points want.
+    fn is_polynomial(&self, test: &Test) -> bool {
+        match test {
             Test::SigmaMin(_)
             | Test::SigmaMax(_)
             | Test::Conditioning(_)
@@ -46,26 +66,20 @@ impl Over<'_> {
             Test::Accuracy(test) => !test.scaled.is_empty(),
             Test::AtLeast(_) => self.problem().weight.is_some(),
             _ => false,
-        };
-        if !polynomial {
-            return None;
         }
-        let controls = self.prover.checker.controls(self.place, test)?;
-        if matches!(test, Test::AtLeast(f) if controls.at(*f, 0).is_none()) {
-            return None;
-        }
-        let formulas = test::Over { controls: Some(&controls), inside: None, ..*self.formulas };
-        let there = Over { formulas: &formulas, ..*self };
-        let found = match test {
-            Test::SigmaMin(kappa) => there.lower(test, *kappa, Form::Scaled),
-            Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
-            Test::OneToOne(_) => there.shown(test, Evidence::Chords),
-            Test::Solve(solve) => there.solution(test, solve),
-            Test::Least(rows, kappa) => there.least(test, rows, *kappa),
-            Test::Accuracy(accuracy) => there.accuracy(test, accuracy, Form::Scaled),
-            _ => there.shown(test, Evidence::Test),
-        };
-        found.map(|inner| Evidence::Control(Box::new(inner)))
+    }
+
+    /// At control points, where the test's formulas have the form for them.
+    pub(super) fn there<T>(
+        &self,
+        test: &Test,
+        then: impl FnOnce(&Over<'_>) -> Option<T>,
+    ) -> Option<T> {
+        self.prover.checker.at_controls(self.formulas, self.place, test, |formulas| {
+            let first = Vertex::first(1).next()?;
+            let lacks = matches!(test, Test::AtLeast(f) if formulas.at(*f, first).is_none());
+            (!lacks).then(|| then(&Over { formulas, ..*self }))?
+        })?
     }
 
     pub(super) fn at_vertices(&self, test: &Test) -> Option<Evidence> {

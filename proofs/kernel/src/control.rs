@@ -106,15 +106,28 @@ impl Control {
             let values = nodes.get(k)?.iter().map(|node| node[part].clone()).collect();
             Some(Tensor { depends: std::array::from_fn(|other| other == k), values })
         };
-        let at = self.tape.run(&Tensors { e, nodes: counts }, |op| match op {
+        let tensors = Tensors { e, nodes: counts };
+        let at = self.tape.run(&tensors, |op| match op {
             Op::Coordinate(k) if k < self.m => own(k, 0),
             Op::Coordinate(k) => own(k - self.m, 1),
             Op::Parameter(j) => parameters.get(j).cloned().map(Tensor::constant),
             _ => None,
         });
-        let values =
-            self.images.iter().filter_map(|(&f, (image, _))| Some((f, at.of(*image)?.clone())));
-        Some(Controls { nodes: counts, values: values.collect() })
+        let mut values = Vec::new();
+        for (f, (image, _)) in &self.images {
+            let Some(Tensor { depends, values: own }) = at.of(*image).cloned() else { continue };
+            values.resize_with(values.len().max(f.0 + 1), || None);
+            values[f.0] = Some((tensors.strides(&depends), own));
+        }
+        let point = |mut j: usize| {
+            counts.map(|nodes| {
+                let node = j % nodes;
+                j /= nodes;
+                node
+            })
+        };
+        let points = (0..counts.iter().product()).map(point).collect();
+        Some(Controls { nodes: counts, points, values })
     }
 }
 
@@ -225,29 +238,28 @@ impl<E: Enclosure> Arithmetic for Tensors<'_, E> {
 pub struct Controls<N> {
     /// How many nodes each coordinate has.
     nodes: [usize; MOST_COORDINATES],
-    values: HashMap<Formula, Tensor<N>>,
+    /// Of each control point the number of its node of each coordinate.
+    points: Vec<[usize; MOST_COORDINATES]>,
+    /// Of each formula its values, and from one node of each coordinate to the next.
+    values: Vec<Option<([usize; MOST_COORDINATES], Vec<N>)>>,
 }
 
 impl<N> Controls<N> {
     /// How many points there are.
     #[allow(clippy::len_without_is_empty, reason = "there is one at least")]
     pub fn len(&self) -> usize {
-        self.nodes.iter().product()
+        self.points.len()
     }
 
-    /// The number of control point `j`'s node of each coordinate.
-    fn node(&self, mut j: usize) -> [usize; MOST_COORDINATES] {
-        self.nodes.map(|nodes| {
-            let node = j % nodes;
-            j /= nodes;
-            node
-        })
+    /// Whether control points are the same.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.nodes == other.nodes
     }
 
     /// Where between the ends of its range, as -1, 0 and 1, control point `j` has coordinate `k`; `None` of a
     /// coordinate that no formula has.
     pub fn place(&self, k: usize, j: usize) -> Option<i64> {
-        match (self.nodes.get(k)?, self.node(j).get(k)?) {
+        match (self.nodes.get(k)?, self.points.get(j)?.get(k)?) {
             (2, 0) | (3, 0) => Some(-1),
             (3, 1) => Some(0),
             (2, 1) | (3, 2) => Some(1),
@@ -257,9 +269,9 @@ impl<N> Controls<N> {
 
     /// Encloses `f_j`; `None` where it is not defined at all control points, or the formula has not the form.
     pub fn at(&self, formula: Formula, j: usize) -> Option<&N> {
-        let Tensor { depends, values } = self.values.get(&formula)?;
-        let own = self.node(j).into_iter().zip(self.nodes).zip(depends).filter(|(_, &own)| own);
-        values.get(own.rev().fold(0, |at, ((node, nodes), _)| at * nodes + node))
+        let (strides, values) = self.values.get(formula.0)?.as_ref()?;
+        let terms = self.points.get(j)?.iter().zip(strides);
+        values.get(terms.map(|(node, stride)| node * stride).sum::<usize>())
     }
 }
 

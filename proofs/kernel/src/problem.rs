@@ -1,7 +1,6 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
-use crate::certificate::{Evidence, Node, Step};
 use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
@@ -69,16 +68,16 @@ pub struct Derived {
     pub tape: Tape,
     /// Of each formula.
     pub of: Derivatives,
-    /// For each obligation the work of what tolerances change of it.
-    work: Vec<usize>,
+    /// For each obligation how many rows times quantities there are that change them.
+    pub(crate) changes: Vec<usize>,
 }
 
 /// Most entries of a tape with these.
 const MOST_DERIVED: usize = 1 << 14;
 /// Inputs before one that are compared with it.
 const NEAR: usize = 32;
-/// Most work of what they change of an obligation.
-const MOST_CHANGES: usize = 1 << 16;
+/// Most rows times quantities that change them, of an obligation.
+const MOST_CHANGES: usize = 1 << 8;
 
 /// The workspace's own inequality.
 #[derive(Clone, Debug)]
@@ -186,11 +185,10 @@ impl Problem {
     }
 
     /// With the derivatives of tests by the quantities with two ends; as it is, where there are none of
-    /// these, where the platform turns, or where it takes too many operations.
+    /// these, or where it takes too many operations.
     #[must_use]
     pub fn with_derivatives(self) -> Self {
-        let derived = if self.orientation.is_empty() { self.derivatives() } else { None };
-        Problem { derived, ..self }
+        Problem { derived: self.derivatives(), ..self }
     }
 
     fn derivatives(&self) -> Option<Derived> {
@@ -199,7 +197,10 @@ impl Problem {
         if by.is_empty() {
             return None;
         }
-        let rows = self.obligations.iter().map(|own| own.test.rows(&self.legs));
+        // Polynomials, where there are such.
+        let own = Some(self.scaled()).filter(|scaled| !scaled.is_empty());
+        let own = own.unwrap_or_else(|| self.legs.iter().map(|leg| leg.row.clone()).collect());
+        let rows = self.obligations.iter().map(|obligation| obligation.test.rows(&own));
         let rows: Vec<Vec<Vec<Formula>>> = rows.collect();
         let formulas: BTreeSet<Formula> = rows.iter().flatten().flatten().copied().collect();
         let (mut tape, mut of) = (self.tape.clone(), HashMap::new());
@@ -220,32 +221,14 @@ impl Problem {
             });
             of.insert(formula, each.collect());
         }
-        let m = self.dimension();
         let changes = |row: &Vec<Formula>| {
             let all = row.iter().filter_map(|f| of.get(f)).flatten().map(|&(j, _)| j);
             all.collect::<BTreeSet<usize>>().len()
         };
-        let changes = |rows: &Vec<Vec<Formula>>| rows.iter().map(changes).sum::<usize>();
-        let work = rows.iter().map(|rows| (changes(rows) * (m + 2) * (m + 2)) << m);
-        let work: Vec<usize> = work.collect();
-        let few = tape.ops().len() <= MOST_DERIVED && work.iter().all(|&own| own <= MOST_CHANGES);
-        few.then_some(Derived { tape, of, work })
-    }
-
-    /// The work of a node's steps with tolerances apart, beside that of its formulas: all of these with
-    /// their derivatives, and for each step those of one machine, and at each vertex all changes.
-    pub(crate) fn work_apart(&self, node: &Node) -> usize {
-        let Some(derived) = &self.derived else { return 0 };
-        let own = |Step(obligation, evidence): &Step| match evidence {
-            Evidence::Tolerances(..) => {
-                let changes = derived.work.get(*obligation).copied().unwrap_or(0);
-                Some(changes.saturating_add(self.tape.ops().len()))
-            }
-            _ => None,
-        };
-        let steps: Vec<usize> = node.by.iter().filter_map(own).collect();
-        let all = if steps.is_empty() { 0 } else { derived.tape.ops().len() };
-        steps.into_iter().fold(all, usize::saturating_add)
+        let changes = rows.iter().map(|rows| rows.iter().map(changes).sum());
+        let changes: Vec<usize> = changes.collect();
+        let few = tape.ops().len() <= MOST_DERIVED && changes.iter().all(|&n| n <= MOST_CHANGES);
+        few.then_some(Derived { tape, of, changes })
     }
 
     /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
@@ -380,8 +363,13 @@ impl Problem {
         rows.collect::<Option<_>>().unwrap_or_default()
     }
 
-    /// Of each obligation of a platform that turns, the formulas that it needs at control points.
-    pub(crate) fn controls(&self, rows: &[Row<Formula>]) -> Vec<(Test, Control)> {
+    /// Of each obligation of a platform that turns, the formulas that it needs at control points; with their
+    /// derivatives, where these are given.
+    pub(crate) fn controls(
+        &self,
+        rows: &[Row<Formula>],
+        derived: Option<&Derived>,
+    ) -> Vec<(Test, Control)> {
         let Some(weight) = self.weight else { return Vec::new() };
         let entries = |rows: &[Row<Formula>], other: Option<Formula>| -> Vec<Formula> {
             rows.iter().flat_map(|row| row.a.iter().chain([&row.d]).copied()).chain(other).collect()
@@ -402,7 +390,13 @@ impl Problem {
             };
             wanted.extend(self.turned);
             wanted.extend(self.inside.as_ref().map(|inside| inside.g));
-            let control = Control::new(&self.tape, self.dimension(), &wanted);
+            if let Some(Derived { of, .. }) = derived {
+                let all = wanted.iter().filter_map(|f| of.get(f)).flatten();
+                let derivatives: Vec<Formula> = all.map(|&(_, derivative)| derivative).collect();
+                wanted.extend(derivatives);
+            }
+            let tape = derived.map_or(&self.tape, |derived| &derived.tape);
+            let control = Control::new(tape, self.dimension(), &wanted);
             let ends = if self.is_easier_with_less(test) { self.corners[0].len() } else { 0 };
             (test.clone(), control.at_ends(ends))
         };

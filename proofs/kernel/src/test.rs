@@ -81,7 +81,7 @@ pub struct Over<'a, E: Enclosure> {
     /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
     /// combination of these, and `t(x) >= 0`. ∎
     pub inside: Option<Vec<E::Number>>,
-    /// Where values at vertices are those of one machine: how the others differ. `values` are of all.
+    /// Where values at vertices are those of one machine: how the others differ. `values` and `controls` are of all.
     pub tolerances: Option<&'a Tolerances<'a, E>>,
 }
 
@@ -115,7 +115,10 @@ impl<'a, E: Enclosure> Over<'a, E> {
     pub fn at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
         match self.controls {
             None => vertex.value(&self.slopes, self.own(formula)?),
-            Some(controls) => controls.at(formula, vertex.index()).cloned(),
+            Some(all) => {
+                let controls = self.tolerances.map_or(Some(all), |tolerances| tolerances.controls);
+                controls?.at(formula, vertex.index()).cloned()
+            }
         }
     }
 
@@ -154,7 +157,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
         let positive = |d: &E::Number| self.slopes.arithmetic.is_positive(d);
         rows.iter().all(|row| match self.controls {
             None => self.of(row.d).is_some_and(|d| positive(&d.range)),
-            Some(_) => self.vertices().all(|v| self.at(row.d, v).is_some_and(|d| positive(&d))),
+            Some(all) => (0..all.len()).all(|j| all.at(row.d, j).is_some_and(positive)),
         })
     }
 
@@ -171,8 +174,10 @@ impl<'a, E: Enclosure> Over<'a, E> {
 
 /// `f >= 0` on the cell if it is not negative at its vertices, or control points.
 pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
-    let holds = |v: Vertex| over.less_inside(over.at(f, v)?, v);
-    over.vertices().all(|v| holds(v).is_some_and(|x| over.slopes.arithmetic.is_nonnegative(&x)))
+    let e = over.slopes.arithmetic;
+    let least = |v| e.sub(&over.at(f, v)?, &over.greatest_loss(&[(f, false)], v)?);
+    let holds = |v: Vertex| over.less_inside(least(v)?, v);
+    over.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
 }
 
 /// **A sign.** `f >= 0` on the cell if its range is not negative anywhere. Not at control points, of which

@@ -12,7 +12,7 @@ use crate::certificate::{
     Certificate, Claim, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
 use crate::claim::MachineClaim;
-use crate::control::{Control, Controls};
+use crate::control::Control;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Op, Values};
 use crate::input::ClaimError;
@@ -261,10 +261,7 @@ pub(crate) fn walk<Z: Integer>(
         .with_varying(problem.varying(bits));
     let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
     let steps = tree.nodes.iter().filter(is_evaluated).count();
-    let work = steps.saturating_mul(problem.work()).saturating_add(checker.work_at_controls(tree));
-    let work = work.saturating_add(
-        tree.nodes.iter().fold(0, |sum: usize, node| sum.saturating_add(problem.work_apart(node))),
-    );
+    let work = steps.saturating_mul(problem.work()).saturating_add(checker.work_of(tree));
     let work = work.saturating_mul(Z::WORK * (1 + bits as usize / 64));
     if tree.nodes.len() > MOST_NODES || work > MOST_WORK {
         return Err(Rejected::Work);
@@ -343,6 +340,8 @@ pub struct Checker<'a, E: Enclosure> {
     scaled: Vec<Row<Formula>>,
     /// One for each obligation of platforms that turn.
     controls: Vec<(Test, Control)>,
+    /// The same with derivatives by tolerances, where these are known.
+    derived: Vec<(Test, Control)>,
     chords: Option<Multiplier>,
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
@@ -359,7 +358,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
         let scaled = problem.scaled();
-        let controls = problem.controls(&scaled);
+        let controls = problem.controls(&scaled, None);
+        let derived = problem.derived.as_ref();
+        let derived = derived.map_or_else(Vec::new, |own| problem.controls(&scaled, Some(own)));
         let needed = own::needed(problem);
         let chords = None;
         Checker {
@@ -372,6 +373,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             divided,
             scaled,
             controls,
+            derived,
             chords,
             needed,
         }
@@ -477,12 +479,8 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let rows = if over.controls.is_some() { &self.scaled } else { &self.rows };
         match (test, evidence) {
             (test, Evidence::Control(evidence)) => {
-                over.controls.is_none()
-                    && over.inside.is_none()
-                    && self.controls(place, test).is_some_and(|controls| {
-                        let over = Over { controls: Some(&controls), inside: None, ..*over };
-                        self.shows(&over, place, test, evidence)
-                    })
+                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
+                self.at_controls(over, place, test, then) == Some(true)
             }
             (test, Evidence::Turned(evidence, multiple, places)) => {
                 use Evidence::{Control, Corner, Turned};
@@ -623,34 +621,5 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         y.places < MOST_PLACES
             && sigma_min(over, rows, &least, y)
             && sigma_max(over, rows, &greatest)
-    }
-
-    /// The formulas of a test at control points, where it has such.
-    pub fn controls(
-        &self,
-        place: &Place<'_, E::Number>,
-        test: &Test,
-    ) -> Option<Controls<E::Number>> {
-        let (_, control) = self.controls.iter().find(|(own, _)| own == test)?;
-        control.values(self.arithmetic, &self.parameters, place.edges)
-    }
-
-    /// Evaluations of formulas that a tree asks for at control points.
-    fn work_at_controls(&self, tree: &Tree) -> usize {
-        let steps = tree.nodes.iter().flat_map(|node| &node.by);
-        let work = |Step(obligation, evidence): &Step| match evidence {
-            Evidence::Control(_) => {
-                let work = |(test, control): &(Test, Control)| {
-                    let signs = match test {
-                        Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
-                        _ => 0,
-                    };
-                    control.work().saturating_add(control.points().saturating_mul(signs))
-                };
-                self.controls.get(*obligation).map_or(0, work)
-            }
-            _ => 0,
-        };
-        steps.map(work).fold(0, usize::saturating_add)
     }
 }

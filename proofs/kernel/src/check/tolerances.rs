@@ -3,7 +3,8 @@
 use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::cell::evaluate;
-use crate::certificate::Evidence;
+use crate::certificate::{Evidence, Node, Step, Tree};
+use crate::control::{Control, Controls};
 use crate::formula::Values;
 use crate::quantity::Test;
 use crate::slope::Slope;
@@ -38,13 +39,13 @@ pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
     directions.iter().map(Vec::len).eq(expected)
 }
 
-/// Whether the evidence for a test looks at nothing but formulas at vertices, and at the workspace's own
-/// inequality, which no tolerance changes.
+/// Whether the evidence for a test looks at nothing but formulas at vertices or control points, and at the
+/// workspace's and the orientations' own inequalities, which no tolerance changes.
 pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
-    use Evidence::{Conditioning, Inside, Lower, Negative, Rank};
+    use Evidence::{Conditioning, Control, Inside, Lower, Negative, Rank, Turned};
     match evidence {
-        Inside(inner, ..) => !matches!(**inner, Inside(..)) && is_of_vertices(test, inner),
-        Evidence::Test => matches!(test, Test::SigmaMax(_) | Test::AtLeast(_) | Test::Beyond(..)),
+        Control(inner) | Inside(inner, ..) | Turned(inner, ..) => is_of_vertices(test, inner),
+        Evidence::Test => !matches!(test, Test::Apart(_) | Test::Curvature(_)),
         other => matches!(other, Lower(_) | Rank(_) | Conditioning(..) | Negative),
     }
 }
@@ -85,10 +86,95 @@ impl<E: Enclosure> Checker<'_, E> {
         let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
         let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = all.into_iter().unzip();
         let machine = evaluate(&self.problem.tape, &starts, over.slopes, place.edges);
-        let tolerances = Tolerances { machine: &machine, steps: &steps, derivatives, directions };
+        let tolerances = Tolerances {
+            machine: &machine,
+            parameters: &starts,
+            controls: None,
+            steps: &steps,
+            derivatives,
+            directions,
+        };
         let over = Over { values, inside: None, tolerances: Some(&tolerances), ..*over };
         named.next().is_none().then(|| then(&over))
     }
+
+    /// The formulas of a test at control points, where it has such: of all machines, with derivatives where
+    /// tolerances are apart.
+    pub fn controls(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Test,
+    ) -> Option<Controls<E::Number>> {
+        let all = if over.tolerances.is_some() { &self.derived } else { &self.controls };
+        found(all, test)?.values(self.arithmetic, &self.parameters, place.edges)
+    }
+
+    /// What is so at control points, of formulas there.
+    pub fn at_controls<T>(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Test,
+        then: impl FnOnce(&Over<'_, E>) -> T,
+    ) -> Option<T> {
+        if over.controls.is_some() || over.inside.is_some() {
+            return None;
+        }
+        let all = self.controls(over, place, test)?;
+        let Some(tolerances) = over.tolerances else {
+            return Some(then(&Over { controls: Some(&all), inside: None, ..*over }));
+        };
+        let own = found(&self.controls, test)?;
+        let own = own.values(self.arithmetic, tolerances.parameters, place.edges)?;
+        let tolerances = Tolerances { controls: Some(&own), ..*tolerances };
+        let over =
+            Over { controls: Some(&all), inside: None, tolerances: Some(&tolerances), ..*over };
+        own.is_like(&all).then(|| then(&over))
+    }
+
+    /// The work of all steps at control points, or with tolerances apart, beside that of formulas over cells:
+    /// at control points these; with tolerances apart all formulas with their derivatives once a node, and
+    /// for each step those of one machine, and at each vertex or control point all changes.
+    pub(super) fn work_of(&self, tree: &Tree) -> usize {
+        let (m, signs) = (self.problem.dimension(), |test: &Test| match test {
+            Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
+            _ => 0,
+        });
+        let at_controls = |(test, control): &(Test, Control)| {
+            control.work().saturating_add(control.points().saturating_mul(signs(test)))
+        };
+        let derived = self.problem.derived.as_ref();
+        let of_step = |Step(obligation, evidence): &Step| match evidence {
+            Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
+            Evidence::Tolerances(inner, ..) => {
+                let is_control = matches!(**inner, Evidence::Control(_));
+                let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
+                let controls = || controls.into_iter().flatten();
+                let changes = derived.and_then(|derived| derived.changes.get(*obligation));
+                let points = match is_control {
+                    true => controls().map(|(_, control)| control.points()).max().unwrap_or(0),
+                    false => 1 << m,
+                };
+                let changes = changes.map_or(0, |&changes| changes * (m + 2) * (m + 2));
+                let there = if is_control { controls().map(at_controls).sum() } else { 0 };
+                changes.saturating_mul(points) + there + self.problem.tape.ops().len()
+            }
+            _ => 0,
+        };
+        let of_node = |node: &Node| {
+            let is_apart = |Step(_, evidence): &Step| matches!(evidence, Evidence::Tolerances(..));
+            let all = derived.filter(|_| node.by.iter().any(is_apart));
+            let all = all.map_or(0, |derived| derived.tape.ops().len());
+            node.by.iter().map(of_step).fold(all, usize::saturating_add)
+        };
+        tree.nodes.iter().map(of_node).fold(0, usize::saturating_add)
+    }
+}
+
+/// Of a test.
+fn found<'a>(all: &'a [(Test, Control)], test: &Test) -> Option<&'a Control> {
+    all.iter().find_map(|(own, control)| (own == test).then_some(control))
 }
 
 /// Where a quantity of `[lo, hi]` begins, and its steps. In the middle from a `c <= (lo + hi)/2`,

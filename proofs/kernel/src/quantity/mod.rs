@@ -100,12 +100,13 @@ pub enum Test {
 }
 
 impl Test {
-    /// The formulas of each row of its matrix, or of its sign; none of tests of whole cells.
-    pub(crate) fn rows(&self, legs: &[Leg]) -> Vec<Vec<Formula>> {
+    /// The formulas of each row of its matrix, the machine's `own` or others, or of its sign; none of tests
+    /// of whole cells.
+    pub(crate) fn rows(&self, own: &[Row<Formula>]) -> Vec<Vec<Formula>> {
         let of = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect();
         match self {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                legs.iter().map(|leg| of(&leg.row)).collect()
+                own.iter().map(of).collect()
             }
             Test::Least(rows, _) | Test::Greatest(rows, _) => rows.iter().map(of).collect(),
             Test::AtLeast(f) => vec![vec![*f]],

@@ -6,6 +6,7 @@
 use super::Over;
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
+use crate::control::Controls;
 use crate::definite::Triangle;
 use crate::formula::{Formula, Values};
 use crate::slope::Slope;
@@ -25,8 +26,8 @@ pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
 /// f(x, theta) = sum_v w_v (f_v + sum_k lambda_k s_vk)
 /// ```
 ///
-/// with the weights `w_v` of [`Vertex`], `f_v` of `theta_0`, and `s_vk` in `r_k` times the vertex value of
-/// the derivative of `f` by its quantity, for some machine. *Proof.* By the mean value theorem
+/// with the weights `w_v` of [`Vertex`], or of control points ([`crate::control`]), `f_v` of `theta_0`, and `s_vk` in `r_k`
+/// times the value there of the derivative of `f` by its quantity, for some machine. *Proof.* By the mean value theorem
 /// `f(x, theta) - f(x, theta_0) = sum_k lambda_k r_k d_j(k) f(x, theta')` with `theta'` between both.
 /// It may be another for each formula; the `lambda_k` are not, and the weights depend on `x` alone. ∎
 /// With derivatives of the one machine alone it would be unsound: `theta^2` has none at 0, and is 1 at
@@ -34,6 +35,10 @@ pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
 pub struct Tolerances<'a, E: Enclosure> {
     /// The formulas of the one machine.
     pub machine: &'a Values<Slope<E::Number>>,
+    /// Its parameters.
+    pub parameters: &'a [E::Number],
+    /// Its formulas at control points, where these are used.
+    pub controls: Option<&'a Controls<E::Number>>,
     /// For each parameter its steps `r_k`.
     pub steps: &'a [Vec<E::Number>],
     /// The derivatives of the formulas that tests are made of, all of them.
@@ -56,11 +61,11 @@ impl<E: Enclosure> Over<'_, E> {
         let length = formulas.clone().count();
         for (k, formula) in formulas.enumerate() {
             // It is defined for all machines.
-            self.of(*formula)?;
+            self.of_all(*formula, v)?;
             for (j, derivative) in tolerances.derivatives.get(formula)? {
                 let zero = e.integer(0)?;
                 let own = all.entry(*j).or_insert_with(|| vec![zero; length]);
-                *own.get_mut(k)? = v.value(&self.slopes, self.of(*derivative)?)?;
+                *own.get_mut(k)? = self.of_all(*derivative, v)?;
             }
         }
         let mut changes = Vec::new();
@@ -70,6 +75,14 @@ impl<E: Enclosure> Over<'_, E> {
             }
         }
         Some(changes)
+    }
+
+    /// The value of a formula at a vertex, or control point, of all machines.
+    fn of_all(&self, f: Formula, v: Vertex) -> Option<E::Number> {
+        match self.controls {
+            None => v.value(&self.slopes, self.of(f)?),
+            Some(controls) => controls.at(f, v.index()).cloned(),
+        }
     }
 
     /// At a vertex, the most by which tolerances lessen a sum of formulas, some subtracted.

@@ -315,18 +315,17 @@ impl<'a> Prover<'a> {
         place: &Place<'_, Pair>,
         test: &Test,
     ) -> Option<Evidence> {
-        if self.problem.legs.iter().all(|leg| leg.scaled.is_some()) {
-            let controls = self.checker.controls(place, test)?;
-            let at_controls = Over { controls: Some(&controls), inside: None, ..*over };
-            let own = self.at_controls(over, test).unwrap_or_default().into_iter();
-            let mut shown = own.filter_map(|own| self.shown(&at_controls, place, test, own));
-            if let Some(found) = shown.next() {
-                return Some(Evidence::Control(Box::new(found)));
-            }
-        }
         let proposed = |over: &Over<'_, Rough>| {
-            let all = self.proposals(over, test).unwrap_or_default().into_iter();
-            all.filter_map(|evidence| self.shown(over, place, test, evidence)).next()
+            let found = self.checker.at_controls(over, place, test, |there| {
+                let own = self.at_controls(there, test).unwrap_or_default().into_iter();
+                let mut shown = own.filter_map(|own| self.shown(there, place, test, own));
+                shown.next().map(|found| Evidence::Control(Box::new(found)))
+            });
+            let vertices = || {
+                let all = self.proposals(over, test).unwrap_or_default().into_iter();
+                all.filter_map(|evidence| self.shown(over, place, test, evidence)).next()
+            };
+            found.flatten().or_else(vertices)
         };
         proposed(over).or_else(|| self.apart(over, place, test, &proposed))
     }
