@@ -346,6 +346,8 @@ pub struct Checker<'a, E: Enclosure> {
     chords: Option<Multiplier>,
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
+    /// The formulas without coordinates, if no parameter has slopes.
+    constant: Values<Slope<E::Number>>,
 }
 
 impl<'a, E: Enclosure> Checker<'a, E> {
@@ -362,7 +364,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let controls = problem.controls(&scaled);
         let needed = own::needed(problem);
         let chords = None;
-        Checker {
+        let mut checker = Checker {
             problem,
             arithmetic,
             parameters,
@@ -374,7 +376,10 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             controls,
             chords,
             needed,
-        }
+            constant: Values::default(),
+        };
+        checker.constant = checker.values(None, &[]);
+        checker
     }
 
     /// With the one `Y` of a tree.
@@ -393,7 +398,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     /// tangent.
     #[must_use]
     pub fn with_varying(self, varying: Vec<Option<Slope<E::Number>>>) -> Self {
-        Checker { varying, ..self }
+        let is_varied = varying.iter().any(Option::is_some);
+        let constant = if is_varied { Values::default() } else { self.constant };
+        Checker { varying, constant, ..self }
     }
 
     /// The arithmetic of slopes in `m` coordinates, and in names.
@@ -418,7 +425,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         edges: &[[E::Number; 3]],
     ) -> Values<Slope<E::Number>> {
         let slopes = self.slopes(edges.len());
-        self.problem.tape.run_parts(&slopes, needed, |op| match op {
+        self.problem.tape.run_parts(&slopes, needed, &self.constant, |op| match op {
             Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
             Op::Parameter(j) => match self.varying.get(j) {
                 Some(Some(slope)) => Some(slope.clone()),
