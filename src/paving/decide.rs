@@ -4,6 +4,7 @@
 //! coordinate moves it. Where that decides the test, the exact judge is asked; where it does not, the
 //! cell is split along the coordinate that moves most what is closest to failing.
 
+use super::flat::Flat;
 use super::others::ForAll;
 use crate::paving::spectrum::Spectrum;
 use crate::solver::doubles::{magnitude, middle, Pair, Single};
@@ -32,6 +33,8 @@ pub struct Decider<'a> {
     judge: Judge<'a>,
     prover: Prover<'a>,
     sampler: Sampler<'a>,
+    /// The formulas of cells whose tests all have a [`Margin`].
+    flat: Option<Flat>,
     /// Of some coordinates, for all values of the others.
     for_all: Option<ForAll<'a>>,
     /// Of a claim about machines within tolerances, evidence may have to be given.
@@ -103,6 +106,36 @@ impl Margin {
     }
 }
 
+/// Formulas over a cell of up to three coordinates, in doubles.
+pub(super) trait View {
+    /// The coordinates.
+    fn m(&self) -> usize;
+    /// At the centre.
+    fn centre(&self, f: Formula) -> Option<f64>;
+    /// On the cell.
+    fn range(&self, f: Formula) -> Option<Pair>;
+    /// The slopes, times the cell's half-widths.
+    fn slopes(&self, f: Formula) -> Option<[Pair; 3]>;
+}
+
+impl View for Over<'_> {
+    fn m(&self) -> usize {
+        Over::m(self)
+    }
+
+    fn centre(&self, f: Formula) -> Option<f64> {
+        Over::centre(self, f)
+    }
+
+    fn range(&self, f: Formula) -> Option<Pair> {
+        self.formulas.of(f).map(|slope| slope.range)
+    }
+
+    fn slopes(&self, f: Formula) -> Option<[Pair; 3]> {
+        self.formulas.of(f).map(|slope| std::array::from_fn(|k| slope.slopes[k]))
+    }
+}
+
 /// `M` at a cell's centre, and what its rows are made of.
 struct Local<'a> {
     rows: Vec<(&'a Row<Formula>, [f64; 3], f64)>,
@@ -140,28 +173,30 @@ impl<'a> Local<'a> {
     }
 
     /// `|M v|^2/|v|^2`.
-    fn stretched(&self, over: &Over<'_>, v: [f64; 3]) -> Margin {
+    fn stretched(&self, over: &impl View, v: [f64; 3]) -> Margin {
         let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
-        // The middle of a slope, and by how much it varies over the cell.
-        let slope = |f: Formula, k: usize| {
-            let known = over.formulas.of(f).map_or((0.0, 0.0), |slope| slope.slopes[k]);
-            (middle(&known), 0.5 * (known.1 - known.0))
+        // The middles of slopes, and by how much they vary over the cell.
+        let slopes = |f: Formula| {
+            let known = over.slopes(f).unwrap_or_default();
+            (known.map(|x| middle(&x)), known.map(|x| 0.5 * (x.1 - x.0)))
         };
         let mut sum = Margin::default();
         for (row, a, d) in &self.rows {
             let product = dot(a);
             sum.centre += product * product / d;
-            for k in 0..over.m() {
-                let (mut moved, mut varied) = (0.0, 0.0);
-                for (&f, v) in row.a.iter().zip(v) {
-                    let (middle, varies) = slope(f, k);
-                    moved += middle * v;
-                    varied += varies * v.abs();
+            let (mut moved, mut varied) = ([0.0; 3], [0.0; 3]);
+            for (&f, v) in row.a.iter().zip(v) {
+                let (middles, vary) = slopes(f);
+                for k in 0..3 {
+                    moved[k] += middles[k] * v;
+                    varied[k] += vary[k] * v.abs();
                 }
-                let (of_d, d_varies) = slope(row.d, k);
-                let moved = moved - 0.5 * product * of_d / d;
+            }
+            let (of_d, d_varies) = slopes(row.d);
+            for k in 0..over.m() {
+                let moved = moved[k] - 0.5 * product * of_d[k] / d;
                 sum.along[k] += 2.0 * product * moved / d;
-                let varied = 2.0 * varied + product.abs() * d_varies / d;
+                let varied = 2.0 * varied[k] + product.abs() * d_varies[k] / d;
                 sum.beyond[k] += (product.abs() * varied + moved * moved) / d;
             }
         }
@@ -178,14 +213,16 @@ impl<'a> Decider<'a> {
         let (claim, problem) = (&subject.header.claim, &subject.problem);
         let has_tolerances = problem.tolerances().next().is_some();
         let is_general = problem.obligations.iter().any(|own| is_general(&own.test));
+        let (prover, gives_evidence) = (Prover::new(problem)?, has_tolerances || is_general);
         Ok(Decider {
             subject,
             judge: Judge::new(subject)?,
-            prover: Prover::new(problem)?,
+            flat: Some(&prover).filter(|_| !gives_evidence).and_then(Flat::new),
+            prover,
             sampler: Sampler::new(claim, problem)?,
             for_all: ForAll::new(subject),
             has_tolerances,
-            gives_evidence: has_tolerances || is_general,
+            gives_evidence,
         })
     }
 
@@ -222,13 +259,18 @@ impl<'a> Decider<'a> {
             return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
         }
         let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
-            (edge.index + end) as f64 * (-f64::from(edge.level)).exp2()
+            (edge.index + end) as f64 / (1u64 << edge.level) as f64
         };
-        let edge = |(&(lo, hi), edge): (&Pair, &_)| {
+        let mut ends = [(0.0, 0.0); 3];
+        for ((own, (lo, hi)), edge) in ends.iter_mut().zip(&self.prover.root).zip(&cell.edges) {
             let at = |u: f64| lo * (1.0 - u) + hi * u;
-            (at(part(edge, 0)), at(part(edge, 1)))
-        };
-        let place = self.prover.root.iter().zip(&cell.edges).map(edge).collect();
+            *own = (at(part(edge, 0)), at(part(edge, 1)));
+        }
+        let flat = self.flat.as_ref().and_then(|flat| flat.over(&ends));
+        if let Some(decision) = flat.and_then(|over| self.decided_there(cell, inherited, &over)) {
+            return decision;
+        }
+        let place = ends.into_iter().take(self.prover.root.len()).collect();
         let decided = |over: &Over<'_>| self.decided(cell, inherited, over);
         match self.gives_evidence {
             true => self.prover.on(&place, decided),
@@ -236,21 +278,49 @@ impl<'a> Decider<'a> {
         }
     }
 
+    /// Decides a cell on which all is defined and every open test has a margin; another is not.
+    fn decided_there(&self, cell: &Cell, inherited: u128, over: &impl View) -> Option<Decision> {
+        let open = self.open(inherited);
+        let local = self.local(over)?;
+        let margins = open.iter().map(|&o| self.margin(over, &local, self.test(o)).map(Some));
+        let margins: Vec<_> = margins.collect::<Option<_>>()?;
+        Some(self.with_margins(cell, inherited, (&open, &margins), None))
+    }
+
     fn decided(&self, cell: &Cell, inherited: u128, over: &Over<'_>) -> Decision {
-        let problem = &self.subject.problem;
-        let open = |o: &usize| inherited & bit(*o) == 0;
-        let open: Vec<usize> = (0..problem.obligations.len()).filter(open).collect();
-        let legs = || problem.legs.iter().map(|leg| &leg.row);
-        let centre = |f| over.centre(f);
-        let reaches = |d: Formula| over.formulas.of(d).is_some_and(|d| d.range.0 > 0.0);
+        let open = self.open(inherited);
         let undefined = over.undefined();
-        let local = match Local::of(legs(), centre) {
-            Some(local) if undefined.is_empty() && legs().all(|row| reaches(row.d)) => local,
+        let local = match self.local(over) {
+            Some(local) if undefined.is_empty() => local,
             _ => return self.hardly_reached(cell, over, &open, undefined),
         };
         let margins: Vec<Option<Margin>> =
             open.iter().map(|&o| self.margin(over, &local, self.test(o))).collect();
-        for (&o, margin) in open.iter().zip(&margins) {
+        self.with_margins(cell, inherited, (&open, &margins), Some(over))
+    }
+
+    /// The obligations that are not discharged.
+    fn open(&self, inherited: u128) -> Vec<usize> {
+        let open = |o: &usize| inherited & bit(*o) == 0;
+        (0..self.subject.problem.obligations.len()).filter(open).collect()
+    }
+
+    /// `M` at the centre, if every leg certainly reaches the cell.
+    fn local(&self, over: &impl View) -> Option<Local<'a>> {
+        let legs = || self.subject.problem.legs.iter().map(|leg| &leg.row);
+        let reaches = |row: &Row<Formula>| over.range(row.d).is_some_and(|d| d.0 > 0.0);
+        legs().all(reaches).then(|| Local::of(legs(), |f| over.centre(f)))?
+    }
+
+    fn with_margins(
+        &self,
+        cell: &Cell,
+        inherited: u128,
+        (open, margins): (&[usize], &[Option<Margin>]),
+        over: Option<&Over<'_>>,
+    ) -> Decision {
+        let evidence = |o: usize| over.and_then(|over| over.evidence(self.test(o)));
+        for (&o, margin) in open.iter().zip(margins) {
             let outer = match margin {
                 Some(margin) if margin.centre + margin.reach() < 0.0 => self.fails(cell, o),
                 Some(_) => None,
@@ -265,12 +335,12 @@ impl<'a> Decider<'a> {
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
             return self.split(cell, Vec::new(), worst.weights());
         }
-        let (mut steps, mut left, mut own) = (Vec::new(), Vec::new(), Vec::new());
-        for (&o, margin) in open.iter().zip(&margins) {
+        let (mut steps, mut left) = (Vec::new(), Vec::new());
+        for (&o, margin) in open.iter().zip(margins) {
             match margin {
-                Some(margin) if margin.room() > 1.0 => own.push((o, margin.room())),
+                Some(margin) if margin.room() > 1.0 => {}
                 Some(_) => left.push(o),
-                None => match over.evidence(self.test(o)) {
+                None => match evidence(o) {
                     Some(evidence) => steps.push(Step(o, Some(evidence))),
                     None => left.push(o),
                 },
@@ -284,16 +354,19 @@ impl<'a> Decider<'a> {
         }
         let is_split = || Kind::Split(Axis::X);
         steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
+        let rooms =
+            open.iter().zip(margins).filter_map(|(&o, margin)| Some((o, (*margin)?.room())));
+        let own = rooms.filter(|(_, room)| *room > 1.0);
         if self.has_tolerances {
-            for &(o, _) in &own {
-                let given = over.evidence(self.test(o)).map(|evidence| Step(o, Some(evidence)));
+            for (o, _) in own {
+                let given = evidence(o).map(|evidence| Step(o, Some(evidence)));
                 let step = [Some(Step(o, None)).filter(|_| o < MOST_STEPS), given];
                 let mut step = step.into_iter().flatten();
                 steps.extend(step.find(|step| confirms(std::slice::from_ref(step), is_split())));
             }
         } else {
-            let roomy = own.iter().filter(|(o, room)| *o < MOST_STEPS && *room > ROOM);
-            let own = roomy.map(|&(o, _)| Step(o, None));
+            let roomy = own.filter(|(o, room)| *o < MOST_STEPS && *room > ROOM);
+            let own = roomy.map(|(o, _)| Step(o, None));
             steps.extend(own.filter(|step| confirms(std::slice::from_ref(step), is_split())));
         }
         let done = discharged(inherited, &steps);
@@ -302,7 +375,7 @@ impl<'a> Decider<'a> {
         }
         let along = match worst {
             Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => worst.weights(),
-            _ => padded(over.weights(&left)),
+            _ => padded(over.map_or_else(Vec::new, |over| over.weights(&left))),
         };
         self.split(cell, steps, along)
     }
@@ -381,13 +454,13 @@ impl<'a> Decider<'a> {
         }
         let divisors = problem.legs.iter().map(|leg| leg.row.d);
         let known = undefined.into_iter().chain(divisors);
-        let margin = |f: Formula| over.formulas.of(f).map(|slope| Margin::of(over, slope));
+        let margin = |f: Formula| Margin::of(over, f);
         let worst = known.filter_map(margin).min_by(|a, b| a.room().total_cmp(&b.room()));
         let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.along);
         self.split(cell, Vec::new(), along)
     }
 
-    fn margin(&self, over: &Over<'_>, local: &Local<'_>, test: &Test) -> Option<Margin> {
+    fn margin(&self, over: &impl View, local: &Local<'_>, test: &Test) -> Option<Margin> {
         let bound = |f: Formula| over.centre(f);
         let less = |stretched: Margin, bound: f64| Margin {
             centre: stretched.centre - bound,
@@ -409,12 +482,11 @@ impl<'a> Decider<'a> {
                 let v = local.spectrum.greatest_direction();
                 less(local.stretched(over, v), bound(*k)?).times(-1.0)
             }
-            Test::AtLeast(f) => Margin::of(over, over.formulas.of(*f)?),
+            Test::AtLeast(f) => Margin::of(over, *f)?,
             Test::Beyond(f, b) => {
-                let (f, b) = (over.formulas.of(*f)?, over.formulas.of(*b)?);
-                let f = Margin::of(over, f);
+                let (f, b) = (Margin::of(over, *f)?, Margin::of(over, *b)?);
                 let sign = if f.centre < 0.0 { -1.0 } else { 1.0 };
-                f.times(sign).plus(Margin::of(over, b).times(-1.0))
+                f.times(sign).plus(b.times(-1.0))
             }
             Test::Conditioning(_)
             | Test::OneToOne(_)
@@ -449,10 +521,10 @@ impl<'a> Decider<'a> {
 }
 
 impl Margin {
-    fn of(over: &Over<'_>, slope: &orthocert_kernel::slope::Slope<Pair>) -> Self {
-        let along = |k: usize| if k < over.m() { magnitude(&slope.slopes[k]) } else { 0.0 };
-        let (centre, along) = (middle(&slope.at_centre), std::array::from_fn(along));
-        Margin { centre, along, ..Margin::default() }
+    fn of(over: &impl View, f: Formula) -> Option<Self> {
+        let along = over.slopes(f)?.map(|slope| magnitude(&slope));
+        let along = std::array::from_fn(|k| if k < over.m() { along[k] } else { 0.0 });
+        Some(Margin { centre: over.centre(f)?, along, ..Margin::default() })
     }
 }
 

@@ -3,6 +3,7 @@
 //! | module     | does                                                              |
 //! |------------|-------------------------------------------------------------------|
 //! | `decide`   | what becomes of one cell                                          |
+//! | `flat`     | formulas over cells, in doubles                                   |
 //! | `others`   | the same of some coordinates, for all values of the others        |
 //! | `spectrum` | extreme singular values of a matrix                               |
 //! | `tree`     | grows the tree, cut into subtrees                                 |
@@ -21,6 +22,7 @@
 
 mod components;
 mod decide;
+mod flat;
 mod isotropy;
 mod others;
 mod parts;

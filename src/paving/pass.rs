@@ -129,6 +129,7 @@ pub fn pave(
         Resume::Yes => Some(taken_up(&part)?),
         Resume::No => None,
     };
+    let mut known = None;
     let mut depth = match &held {
         Some(file) => {
             let depth = earlier_depth(claim, coordinates, file, &part)?;
@@ -139,13 +140,18 @@ pub fn pave(
             }
             depth
         }
-        None => planned(&decider, goal, control)?,
+        None => {
+            let (depth, segments) = planned(&decider, goal, control)?;
+            // Above it, the tree is the same for every depth.
+            known = Some(segments).filter(|_| depth > coarse(&decider));
+            depth
+        }
     };
     // The plan mostly holds.
     let mut steps = Steps::default();
     loop {
-        let mut pass =
-            Pass::new(&decider, header(claim, coordinates, depth), &part, control.cancel)?;
+        let header = header(claim, coordinates, depth);
+        let mut pass = Pass::new(&decider, header, &part, control.cancel, known.take())?;
         let file = match held {
             Some(ref file) => file,
             None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
@@ -192,13 +198,18 @@ fn earlier_depth(
     }
 }
 
-fn planned(decider: &Decider<'_>, goal: &Goal, control: &Control<'_>) -> Result<u32, PaveError> {
+/// The depth, and the tree down to the roots of its subtrees, with the boxes tried for it.
+fn planned(
+    decider: &Decider<'_>,
+    goal: &Goal,
+    control: &Control<'_>,
+) -> Result<(u32, (Vec<Segment>, u64)), PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
     let coarse = coarse(decider).min(deepest);
     let grower = Grower { decider, depth: deepest, cancel: control.cancel };
     let mut above = Tally::up_to(deepest);
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
-    Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
+    Ok((plan::depth(&grower, &segments, &above, coarse, goal)?, (segments, above.boxes)))
 }
 
 fn coarse(decider: &Decider<'_>) -> u32 {
@@ -232,13 +243,17 @@ impl<'a> Pass<'a> {
         header: Header,
         part: &Path,
         cancel: &'a AtomicBool,
+        known: Option<(Vec<Segment>, u64)>,
     ) -> Result<Self, PaveError> {
         let grower = Grower { decider, depth: header.depth, cancel };
         let mut above = Tally::up_to(header.depth);
-        let segments =
-            grower.segments(Root::WHOLE, coarse(decider).min(header.depth), &mut above)?;
+        let coarse = coarse(decider).min(header.depth);
+        let (segments, boxes) = match known {
+            Some(known) => known,
+            None => (grower.segments(Root::WHOLE, coarse, &mut above)?, above.boxes),
+        };
         let (part, sum) = (part.to_owned(), Sha256::new());
-        Ok(Pass { grower, header, part, segments, boxes: above.boxes, sum })
+        Ok(Pass { grower, header, part, segments, boxes, sum })
     }
 
     fn io(&self, error: io::Error) -> PaveError {

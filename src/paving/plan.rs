@@ -5,16 +5,16 @@ use super::Goal;
 use orthocert_kernel::paving::{Root, SHARE_BITS};
 use rayon::prelude::*;
 
-/// One subtree of this many is looked into.
-const SAMPLE: usize = 32;
-/// By how many splits each look is deeper than the last.
+/// So many splits below their roots, all subtrees are looked into; deeper, one of so many.
 const STEP: u32 = 3;
+const SAMPLE: usize = 32;
 /// What is aimed at, relative to the gap that is asked for: the sample errs.
-const AIM: f64 = 0.985;
+const AIM: f64 = 0.99;
 
 /// The depth at which `goal` is expected to be reached, at least `coarse`. `grower` goes to the
 /// greatest depth that may be chosen, `segments` are its tree down to `coarse`, whose tally is
-/// `above`.
+/// `above`. What becomes of the undecided volume of all subtrees deeper down is expected to be what
+/// becomes of that of the sample.
 pub fn depth(
     grower: &Grower<'_>,
     segments: &[Segment],
@@ -27,53 +27,68 @@ pub fn depth(
         Segment::Known(_) => None,
     };
     let roots: Vec<Root> = segments.iter().filter_map(subtree).collect();
-    let sample: Vec<Root> = roots.iter().step_by(SAMPLE).copied().collect();
-    if sample.is_empty() {
+    if roots.is_empty() {
         return Ok(coarse);
     }
-    let scale = roots.len() as f64 / sample.len() as f64;
-    let mut reach = coarse;
+    // No tree has more boxes: nothing is to be chosen.
+    let most = roots.len() as f64 * f64::from(grower.depth + 1 - coarse).exp2();
+    if goal.gap.is_none() && most < goal.max_boxes as f64 {
+        return Ok(grower.depth);
+    }
+    let known = (coarse + STEP).min(grower.depth);
+    let mut all = grown(grower, &roots, known)?;
+    if let Some(depth) = chosen(&all, above, 1.0, (coarse, coarse..known + 1), goal) {
+        return Ok(depth);
+    }
+    let open = all.open_at[known as usize] as f64;
+    all.add(above);
+    let sample: Vec<Root> = roots.iter().step_by(SAMPLE).copied().collect();
+    let mut reach = known;
     while reach < grower.depth {
         reach = (reach + STEP).min(grower.depth);
-        let shallow = Grower { depth: reach, ..*grower };
-        let found = sample
-            .par_iter()
-            .map(|root| {
-                let mut tally = Tally::up_to(reach);
-                shallow.grow(*root, &mut Vec::new(), &mut tally).map(|()| tally)
-            })
-            .try_reduce(
-                || Tally::up_to(reach),
-                |mut a, b| {
-                    a.add(&b);
-                    Ok(a)
-                },
-            )?;
-        if let Some(depth) = chosen(&found, above, scale, coarse..reach + 1, goal) {
+        let found = grown(grower, &sample, reach)?;
+        let scale = open / found.open_at[known as usize] as f64;
+        let below = (coarse, known + 1..reach + 1);
+        if let Some(depth) = chosen(&found, &all, scale, below, goal) {
             return Ok(depth);
         }
     }
     Ok(grower.depth)
 }
 
+/// What subtrees come to down to a depth.
+fn grown(grower: &Grower<'_>, roots: &[Root], depth: u32) -> Result<Tally, Cancelled> {
+    let shallow = Grower { depth, ..*grower };
+    let tally = |root: &Root| {
+        let mut tally = Tally::up_to(grower.depth);
+        shallow.grow(*root, &mut Vec::new(), &mut tally).map(|()| tally)
+    };
+    let sum = |mut a: Tally, b: Tally| {
+        a.add(&b);
+        Ok(a)
+    };
+    roots.par_iter().map(tally).try_reduce(|| Tally::up_to(grower.depth), sum)
+}
+
 /// The least depth of a range at which the goal is expected to be reached, or the greatest at which
-/// the boxes are expected to be within their number; `None` where neither is seen.
+/// the boxes are expected to be within their number; `None` where neither is seen. `above` is what is known
+/// down to the range, `found` what is found in it of one part of `scale`.
 fn chosen(
     found: &Tally,
     above: &Tally,
     scale: f64,
-    depths: std::ops::Range<u32>,
+    (coarse, depths): (u32, std::ops::Range<u32>),
     goal: &Goal,
 ) -> Option<u32> {
     let unit = (-f64::from(SHARE_BITS)).exp2();
     let sum = |x: &[u128]| x.iter().sum::<u128>() as f64 * unit;
     let mut inner = sum(&above.inner_at);
     let mut boxes = above.boxes as f64;
-    for depth in depths.clone() {
+    for depth in depths {
         let at = depth as usize;
         inner += found.inner_at[at] as f64 * unit * scale;
         boxes += found.boxes_at[at] as f64 * scale;
-        if boxes > goal.max_boxes as f64 && depth > depths.start {
+        if boxes > goal.max_boxes as f64 && depth > coarse {
             return Some(depth - 1);
         }
         let open = found.open_at[at] as f64 * unit * scale;

@@ -78,9 +78,7 @@ impl Grower<'_> {
             if is_asked && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
-            if let Some((lower, upper)) = self.node(root, out, tally) {
-                waiting.extend([upper, lower]);
-            }
+            self.node(&root, out, tally, &mut waiting);
         }
         Ok(())
     }
@@ -118,8 +116,8 @@ impl Grower<'_> {
                     segments.push(Segment::Known(std::mem::take(&mut known)));
                 }
                 segments.push(Segment::Subtree(root));
-            } else if let Some((lower, upper)) = self.node(root, &mut known, tally) {
-                waiting.extend([upper, lower]);
+            } else {
+                self.node(&root, &mut known, tally, &mut waiting);
             }
         }
         if !known.is_empty() {
@@ -128,55 +126,54 @@ impl Grower<'_> {
         Ok(segments)
     }
 
-    /// Decides a node and appends it; returns its halves, if it is split. Halves that may not be split
+    /// Decides a node and appends it; its halves, if it is split, wait. Halves that may not be split
     /// are appended with it, in one byte where that does for them.
-    fn node(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Option<(Root, Root)> {
-        let (item, halves, parts) = self.decided(root, tally);
-        // Every step and failure that a decision makes has a code.
-        let written = match (&item.kind, halves) {
-            (Kind::Split(axis), Some((lower, upper))) if lower.depth == self.depth => {
-                let [(lower, _, of_lower), (upper, _, of_upper)] =
-                    [lower, upper].map(|half| self.decided(half, tally));
-                let is_bare = lower.steps.is_empty() && upper.steps.is_empty();
-                let steps = write_steps(&item.steps, out);
-                let pair = || {
-                    let mut pair = Vec::new();
-                    write_pair(&mut pair, *axis, [&lower.kind, &upper.kind])?;
-                    Some(pair)
-                };
-                if let Some(pair) = is_bare.then(pair).flatten() {
-                    out.extend(pair);
-                    debug_assert!(steps.is_some());
-                    return None;
-                }
-                let split = Item { steps: Vec::new(), kind: item.kind.clone() };
-                let of_lower = [&split, &lower].into_iter().chain(&of_lower);
-                let mut items = of_lower.chain([&upper]).chain(&of_upper);
-                let written = steps.and_then(|()| items.try_for_each(|item| item.write(out)));
-                debug_assert!(written.is_some());
-                return None;
-            }
-            _ => [&item].into_iter().chain(&parts).try_for_each(|item| item.write(out)),
+    fn node(&self, root: &Root, out: &mut Vec<u8>, tally: &mut Tally, waiting: &mut Vec<Root>) {
+        let (item, parts) = self.decided(root, tally);
+        let halves = match item.kind {
+            Kind::Split(axis) => root.cell.halves(axis).map(|halves| (axis, halves)),
+            _ => None,
         };
+        let Some((axis, (lower, upper))) = halves else {
+            // Every step and failure that a decision makes has a code.
+            let written = [&item].into_iter().chain(&parts).try_for_each(|item| item.write(out));
+            debug_assert!(written.is_some());
+            return;
+        };
+        let inherited = discharged(root.inherited, &item.steps);
+        let half = |cell| Root { cell, inherited, depth: root.depth + 1 };
+        if root.depth + 1 < self.depth {
+            let written = item.write(out);
+            debug_assert!(written.is_some());
+            waiting.push(half(upper));
+            waiting.push(half(lower));
+            return;
+        }
+        let (lower, of_lower) = self.decided(&half(lower), tally);
+        let (upper, of_upper) = self.decided(&half(upper), tally);
+        let steps = write_steps(&item.steps, out);
+        debug_assert!(steps.is_some());
+        let is_bare = lower.steps.is_empty() && upper.steps.is_empty();
+        if is_bare && write_pair(out, axis, [&lower.kind, &upper.kind]).is_some() {
+            return;
+        }
+        let split = Item { steps: Vec::new(), kind: Kind::Split(axis) };
+        let of_lower = [&split, &lower].into_iter().chain(&of_lower);
+        let mut items = of_lower.chain([&upper]).chain(&of_upper);
+        let written = items.try_for_each(|item| item.write(out));
         debug_assert!(written.is_some());
-        halves
     }
 
-    /// A node, its halves, and the nodes of its parts.
-    fn decided(&self, root: Root, tally: &mut Tally) -> (Item, Option<(Root, Root)>, Vec<Item>) {
+    /// A node, and the nodes of its parts.
+    fn decided(&self, root: &Root, tally: &mut Tally) -> (Item, Vec<Item>) {
         let decision = self.decider.decide(&root.cell, root.inherited);
         let at = root.depth as usize;
         tally.boxes += 1;
         tally.boxes_at[at] += 1;
-        let split = match decision.fate {
-            Fate::Open(axis) if root.depth < self.depth => axis,
-            _ => None,
-        };
-        let halves = split.and_then(|axis| root.cell.halves(axis));
-        let kind = match (decision.fate, split) {
-            (Fate::Closed(kind), _) => kind,
-            (Fate::Open(_), Some(axis)) => Kind::Split(axis),
-            (Fate::Open(_), None) => Kind::Boundary,
+        let kind = match decision.fate {
+            Fate::Closed(kind) => kind,
+            Fate::Open(Some(axis)) if root.depth < self.depth => Kind::Split(axis),
+            Fate::Open(_) => Kind::Boundary,
         };
         match kind {
             Kind::Inner | Kind::Part(_) => tally.inner_at[at] += self.decider.share(&root.cell),
@@ -184,9 +181,6 @@ impl Grower<'_> {
             Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored => {}
         }
         let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
-        let inherited = discharged(root.inherited, &steps);
-        let half = |cell| Root { cell, inherited, depth: root.depth + 1 };
-        let halves = halves.map(|(lower, upper)| (half(lower), half(upper)));
-        (Item { steps, kind }, halves, decision.parts)
+        (Item { steps, kind }, decision.parts)
     }
 }

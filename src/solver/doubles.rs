@@ -15,7 +15,7 @@ pub type Pair = (f64, f64);
 pub struct Doubles;
 
 /// What ranges that are equal but for rounding may differ by, relative to their size.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// The interval with `bits` fractional bits as a pair.
 pub fn pair(x: &Interval<BigInt>, bits: u32) -> Pair {
@@ -24,16 +24,19 @@ pub fn pair(x: &Interval<BigInt>, bits: u32) -> Pair {
 }
 
 /// The middle of a pair.
+#[inline]
 pub fn middle(x: &Pair) -> f64 {
     0.5 * (x.0 + x.1)
 }
 
 /// The greatest absolute value in a pair.
+#[inline]
 pub fn magnitude(x: &Pair) -> f64 {
     x.0.abs().max(x.1.abs())
 }
 
-fn least(a: f64, b: f64) -> f64 {
+#[inline]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
     if a < b {
         a
     } else {
@@ -41,7 +44,8 @@ fn least(a: f64, b: f64) -> f64 {
     }
 }
 
-fn greatest(a: f64, b: f64) -> f64 {
+#[inline]
+pub(crate) fn greatest(a: f64, b: f64) -> f64 {
     if a > b {
         a
     } else {

@@ -308,7 +308,7 @@ impl<'a> Sampler<'a> {
     }
 
     fn values(&self, point: &[f64], parameters: &[f64], needed: Option<&[bool]>) -> Values<f64> {
-        self.problem.tape.run_parts(&Single, needed, |op| match op {
+        self.problem.tape.run_parts(&Single, needed, &Values::default(), |op| match op {
             Op::Coordinate(k) => point.get(k).copied(),
             Op::Parameter(j) => parameters.get(j).copied(),
             _ => None,

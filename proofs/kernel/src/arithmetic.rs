@@ -18,6 +18,10 @@ pub trait Arithmetic {
     fn neg(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `a b`.
     fn mul(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    /// `n a`.
+    fn times(&self, n: i64, a: &Self::Number) -> Option<Self::Number> {
+        self.mul(a, &self.integer(n)?)
+    }
     /// `a / b`.
     fn div(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
     /// `a^2`.

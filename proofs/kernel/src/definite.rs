@@ -28,10 +28,23 @@ pub fn is_positive_definite<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Nu
             };
             row.iter().zip(i..).map(entry).collect()
         };
-        matrix.iter().enumerate().map(row).collect()
+        matrix.iter().enumerate().map(row).collect::<Triangle<_>>()
     };
-    eliminates(arithmetic, matrix.clone())
-        || (0..1u32 << signs).all(|z| eliminates(arithmetic, vertex(z)))
+    eliminates(arithmetic, &mut matrix.clone())
+        || (0..1u32 << signs).all(|z| eliminates(arithmetic, &mut vertex(z)))
+}
+
+/// The same of a `3 x 3` matrix.
+pub(crate) fn is_positive_definite_three<E: Enclosure>(e: &E, t: &[E::Number; 6]) -> bool {
+    eliminates(e, &mut rows_of_three(&mut t.clone()))
+        || is_positive_definite(e, rows_of_three(&mut t.clone()).map(|row| row.to_vec()).to_vec())
+}
+
+/// The rows of a triangle of six entries.
+pub(crate) fn rows_of_three<N>(t: &mut [N; 6]) -> [&mut [N]; 3] {
+    let (first, rest) = t.split_at_mut(3);
+    let (second, third) = rest.split_at_mut(2);
+    [first, second, third]
 }
 
 /// Whether elimination shows every symmetric matrix with entries in `matrix` positive definite.
@@ -41,13 +54,12 @@ pub fn is_positive_definite<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Nu
 /// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
 /// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
 /// is undefined, the answer is no.
-fn eliminates<E: Enclosure>(arithmetic: &E, mut matrix: Triangle<E::Number>) -> bool {
-    let mut rest = &mut matrix[..];
-    while let Some((first, below)) = rest.split_first_mut() {
-        if eliminate(arithmetic, first, below).is_none() {
+fn eliminates<E: Enclosure>(arithmetic: &E, mut rows: &mut [impl AsMut<[E::Number]>]) -> bool {
+    while let Some((first, below)) = rows.split_first_mut() {
+        if eliminate(arithmetic, first.as_mut(), below).is_none() {
             return false;
         }
-        rest = below;
+        rows = below;
     }
     true
 }
@@ -57,7 +69,7 @@ fn eliminates<E: Enclosure>(arithmetic: &E, mut matrix: Triangle<E::Number>) -> 
 pub(crate) fn eliminate<E: Enclosure>(
     e: &E,
     row: &[E::Number],
-    below: &mut [Vec<E::Number>],
+    below: &mut [impl AsMut<[E::Number]>],
 ) -> Option<()> {
     let (a, mut b) = row.split_first()?;
     if !e.is_positive(a) {
@@ -65,7 +77,7 @@ pub(crate) fn eliminate<E: Enclosure>(
     }
     for entries in below {
         let from = b.first()?;
-        for (c, b) in entries.iter_mut().zip(b) {
+        for (c, b) in entries.as_mut().iter_mut().zip(b) {
             *c = e.sub(c, &e.ratio(from, b, a)?)?;
         }
         b = b.get(1..)?;

@@ -138,11 +138,12 @@ impl Tape {
         }
     }
 
-    /// `a - b`.
+    /// `a - b`; of a coordinate, which is defined everywhere, less itself, 0.
     pub fn sub(&mut self, a: Formula, b: Formula) -> Formula {
         match (self.is(a, 0), self.is(b, 0)) {
             (_, true) => a,
             (true, _) => self.neg(b),
+            _ if a == b && matches!(self.op(a), Op::Coordinate(_)) => self.integer(0),
             _ => self.push(Op::Sub(a, b)),
         }
     }
@@ -262,26 +263,31 @@ impl Tape {
         arithmetic: &A,
         input: impl Fn(Op) -> Option<A::Number>,
     ) -> Values<A::Number> {
-        self.run_parts(arithmetic, None, input)
+        self.run_parts(arithmetic, None, &Values::default(), input)
     }
 
-    /// The same of those that are needed alone, where it is said which: the others are undefined.
+    /// The same of those that are needed alone, where it is said which: the others are undefined. What is
+    /// known is as it would be found.
     pub fn run_parts<A: Arithmetic>(
         &self,
         arithmetic: &A,
         needed: Option<&[bool]>,
+        known: &Values<A::Number>,
         input: impl Fn(Op) -> Option<A::Number>,
     ) -> Values<A::Number> {
         let ops = needed.map_or(&self.ops[..], |needed| &self.ops[..needed.len()]);
-        let mut values: Vec<Option<A::Number>> = Vec::with_capacity(ops.len());
+        let count = needed.map_or(ops.len(), |needed| needed.iter().filter(|is| **is).count());
+        let mut values =
+            Values { defined: Vec::with_capacity(count), places: Vec::with_capacity(ops.len()) };
         for (at, &op) in ops.iter().enumerate() {
             if needed.is_some_and(|needed| !needed[at]) {
-                values.push(None);
+                values.places.push(None);
                 continue;
             }
-            let at = |f: Formula| values.get(f.0).and_then(Option::as_ref);
+            let (own, at) = (Formula(at), |f: Formula| values.of(f));
             let both = |a, b| Some((at(a)?, at(b)?));
             let value = match op {
+                _ if known.of(own).is_some() => known.of(own).cloned(),
                 Op::Coordinate(_) | Op::Parameter(_) => input(op),
                 Op::Integer(n) => arithmetic.integer(n),
                 Op::Add(a, b) => both(a, b).and_then(|(a, b)| arithmetic.add(a, b)),
@@ -292,9 +298,10 @@ impl Tape {
                 Op::Sqr(a) => at(a).and_then(|a| arithmetic.sqr(a)),
                 Op::Sqrt(a) => at(a).and_then(|a| arithmetic.sqrt(a)),
             };
-            values.push(value);
+            values.places.push(value.is_some().then_some(values.defined.len()));
+            values.defined.extend(value);
         }
-        Values(values)
+        values
     }
 
     /// The entries that depend on no coordinate.
@@ -421,11 +428,21 @@ impl Tape {
 
 /// The values of a tape's entries.
 #[derive(Clone, Debug)]
-pub struct Values<N>(Vec<Option<N>>);
+pub struct Values<N> {
+    defined: Vec<N>,
+    /// Of each entry, which of these is its value.
+    places: Vec<Option<usize>>,
+}
+
+impl<N> Default for Values<N> {
+    fn default() -> Self {
+        Values { defined: Vec::new(), places: Vec::new() }
+    }
+}
 
 impl<N> Values<N> {
     /// The value of a formula of the tape; `None` where it is undefined.
     pub fn of(&self, formula: Formula) -> Option<&N> {
-        self.0.get(formula.0).and_then(Option::as_ref)
+        self.defined.get((*self.places.get(formula.0)?)?)
     }
 }

@@ -146,6 +146,13 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
     }
 
     #[inline]
+    fn times(&self, n: i64, f: &Self::Number) -> Option<Self::Number> {
+        let times = |x: &E::Number| self.arithmetic.dyadic(n, 0, x);
+        let slopes = self.each(f.slopes.clone(), |_, s| times(s))?;
+        self.cut(times(&f.at_centre)?, &times(&f.range)?, slopes)
+    }
+
+    #[inline]
     fn div(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let (at_centre, over) = (e.recip(&g.at_centre)?, e.recip(&g.range)?);

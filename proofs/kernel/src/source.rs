@@ -62,6 +62,7 @@ pub const SOURCES: &[(&str, &[u8])] = files![
     "test/apart.rs",
     "test/curvature.rs",
     "test/solve.rs",
+    "test/three.rs",
     "test/tolerances.rs",
     "trig.rs",
     "vary.rs",

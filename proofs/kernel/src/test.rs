@@ -24,8 +24,10 @@ pub mod accuracy;
 pub mod apart;
 pub mod curvature;
 pub mod solve;
+mod three;
 pub mod tolerances;
 
+use self::three::three;
 use self::tolerances::{less_changes, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
@@ -166,7 +168,10 @@ impl<'a, E: Enclosure> Over<'a, E> {
         rows: &[Row<Formula>],
         holds: impl Fn(Vertex, Vec<Varied<E::Number>>) -> bool,
     ) -> bool {
-        let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
+        self.all_vertices(rows, |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows)))
+    }
+
+    fn all_vertices(&self, rows: &[Row<Formula>], holds: impl Fn(Vertex) -> bool) -> bool {
         // No rows at all would have no singular value beyond any bound.
         !rows.is_empty() && self.is_regular(rows) && self.vertices().all(holds)
     }
@@ -224,9 +229,13 @@ pub fn sigma_min<E: Enclosure>(
     evidence: &Multiplier,
 ) -> bool {
     let e = over.slopes.arithmetic;
+    let rest = |v| kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
+    if let Some(own) = three(over, rows).filter(|own| evidence.is_of(own.len(), 3)) {
+        let holds = |v| three::is_lower(over, &own, v, &rest(v)?, evidence);
+        return over.all_vertices(rows, |v| holds(v) == Some(true));
+    }
     over.at_vertices(rows, |v, rows| {
-        let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
-        rest.is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
+        rest(v).is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
     })
 }
 
@@ -340,27 +349,37 @@ pub fn sigma_max<E: Enclosure>(
     rows: &[Row<Formula>],
     k_squared: AtVertex<'_, E::Number>,
 ) -> bool {
+    let bound = |v| k_squared(v).and_then(|k| over.less_inside(k, v));
+    if let Some(own) = three(over, rows) {
+        let holds = |v| three::is_upper(over, &own, v, &bound(v)?);
+        return over.all_vertices(rows, |v| holds(v) == Some(true));
+    }
+    over.at_vertices(rows, |v, rows| bound(v).is_some_and(|bound| is_upper(over, &rows, &bound)))
+}
+
+/// Whether the complement is positive definite: for all machines, where tolerances are apart.
+fn is_upper<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Varied<E::Number>],
+    bound: &E::Number,
+) -> bool {
     let e = over.slopes.arithmetic;
-    over.at_vertices(rows, |v, rows| {
-        let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
-        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        let complement = || {
-            let mut rest = scalar(e, width(&rows), &bound?)?;
-            for (row, changes) in &rows {
-                let [least, _] = e.ends(&row.d);
-                let mut first: Vec<_> =
-                    std::iter::once(least).chain(row.a.iter().cloned()).collect();
-                if !changes.is_empty() {
-                    rest.insert(0, first);
-                    rest = less_changed_row(over, rest, row, changes)?;
-                    first = rest.remove(0);
-                }
-                eliminate(e, &first, &mut rest)?;
+    // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+    let complement = || {
+        let mut rest = scalar(e, width(rows), bound)?;
+        for (row, changes) in rows {
+            let [least, _] = e.ends(&row.d);
+            let mut first: Vec<_> = std::iter::once(least).chain(row.a.iter().cloned()).collect();
+            if !changes.is_empty() {
+                rest.insert(0, first);
+                rest = less_changed_row(over, rest, row, changes)?;
+                first = rest.remove(0);
             }
-            Some(rest)
-        };
-        complement().is_some_and(|rest| is_positive_definite(e, rest))
-    })
+            eliminate(e, &first, &mut rest)?;
+        }
+        Some(rest)
+    };
+    complement().is_some_and(|rest| is_positive_definite(e, rest))
 }
 
 /// `[[D_i, A_i], [A_i^T, ..]]` less what tolerances change of the row. The direction is `(u, v)`, where

@@ -345,6 +345,8 @@ pub struct Checker<'a, E: Enclosure> {
     chords: Option<Multiplier>,
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
+    /// The formulas without coordinates, if no parameter has slopes.
+    constant: Values<Slope<E::Number>>,
 }
 
 impl<'a, E: Enclosure> Checker<'a, E> {
@@ -363,7 +365,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let derived = derived.map_or_else(Vec::new, |own| problem.controls(&scaled, Some(own)));
         let needed = own::needed(problem);
         let chords = None;
-        Checker {
+        let mut checker = Checker {
             problem,
             arithmetic,
             parameters,
@@ -376,7 +378,10 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             derived,
             chords,
             needed,
-        }
+            constant: Values::default(),
+        };
+        checker.constant = checker.values(None, &[]);
+        checker
     }
 
     /// With the one `Y` of a tree.
@@ -395,7 +400,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     /// tangent.
     #[must_use]
     pub fn with_varying(self, varying: Vec<Option<Slope<E::Number>>>) -> Self {
-        Checker { varying, ..self }
+        let is_varied = varying.iter().any(Option::is_some);
+        let constant = if is_varied { Values::default() } else { self.constant };
+        Checker { varying, constant, ..self }
     }
 
     /// The arithmetic of slopes in `m` coordinates, and in names.
@@ -420,7 +427,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         edges: &[[E::Number; 3]],
     ) -> Values<Slope<E::Number>> {
         let slopes = self.slopes(edges.len());
-        self.problem.tape.run_parts(&slopes, needed, |op| match op {
+        self.problem.tape.run_parts(&slopes, needed, &self.constant, |op| match op {
             Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
             Op::Parameter(j) => match self.varying.get(j) {
                 Some(Some(slope)) => Some(slope.clone()),

@@ -175,15 +175,17 @@ impl<E: Enclosure> Checker<'_, E> {
                 e.add(&sum, &e.ratio(at(row.a.get(j)?)?, at(row.a.get(k)?)?, d)?)
             })
         };
-        let trace = (0..m).try_fold(e.integer(0)?, |sum, k| e.add(&sum, &entry(k, k)?))?;
+        let pairs = (0..m).flat_map(|j| (j..m).map(move |k| (j, k)));
+        let entries = pairs.map(|(j, k)| Some((j, k, entry(j, k)?)));
+        let entries: Vec<_> = entries.collect::<Option<_>>()?;
+        let mut diagonal = entries.iter().filter(|(j, k, _)| j == k);
+        let trace = diagonal.try_fold(e.integer(0)?, |sum, (_, _, own)| e.add(&sum, own))?;
         let [_, most] = e.ends(&trace);
         let unit = e.recip(&most)?;
         let mut g: Square = [[0; 3]; 3];
-        for (j, row) in g.iter_mut().enumerate().take(m) {
-            for (k, x) in row.iter_mut().enumerate().take(m) {
-                // The same number for both orders of the indices.
-                *x = e.rounded(&e.mul(&entry(j.min(k), j.max(k))?, &unit)?, BITS)?;
-            }
+        for (j, k, entry) in entries {
+            let x = e.rounded(&e.mul(&entry, &unit)?, BITS)?;
+            (*g.get_mut(j)?.get_mut(k)?, *g.get_mut(k)?.get_mut(j)?) = (x, x);
         }
         let g = if greatest { g } else { adjugate(&g, m) };
         dominant(g, m)

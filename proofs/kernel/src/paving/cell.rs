@@ -75,44 +75,55 @@ impl Edge {
     }
 }
 
+/// An edge in one word, `64 index + level`, which tells edges apart: levels are less than 64.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Packed(u64);
+
+impl Packed {
+    /// The edge.
+    pub fn edge(self) -> Edge {
+        Edge { index: self.0 >> 6, level: (self.0 & 63) as u32 }
+    }
+}
+
 /// A box of the bisection tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cell {
     /// The edges along x, y and z: of the coordinates that are paved.
     pub edges: [Edge; 3],
     /// The edges of the other coordinates.
-    pub others: [Edge; MOST_OTHERS],
+    pub others: [Packed; MOST_OTHERS],
 }
 
 impl Cell {
     /// The whole box.
-    pub const ROOT: Cell = Cell { edges: [Edge::WHOLE; 3], others: [Edge::WHOLE; MOST_OTHERS] };
+    pub const ROOT: Cell = Cell { edges: [Edge::WHOLE; 3], others: [Packed(0); MOST_OTHERS] };
 
     /// The lower and the upper half along `axis`; `None` beyond [`MAX_AXIS_LEVEL`].
     ///
     /// `[i, i+1] / 2^l = [2i, 2i+1] / 2^(l+1) u [2i+1, 2i+2] / 2^(l+1)`.
     pub fn halves(&self, axis: Axis) -> Option<(Cell, Cell)> {
-        self.halved(|cell| cell.edges.get_mut(axis.index()))
+        self.halved(self.edges[axis.index()], |cell, half| cell.edges[axis.index()] = half)
     }
 
     /// The same along another coordinate.
     pub fn parts(&self, other: usize) -> Option<(Cell, Cell)> {
-        self.halved(|cell| cell.others.get_mut(other))
+        let pack = |half: Edge| Packed(half.index << 6 | u64::from(half.level));
+        self.halved(self.others.get(other)?.edge(), |cell, half| cell.others[other] = pack(half))
     }
 
-    fn halved(&self, edge: impl Fn(&mut Cell) -> Option<&mut Edge>) -> Option<(Cell, Cell)> {
+    fn halved(&self, edge: Edge, set: impl Fn(&mut Cell, Edge)) -> Option<(Cell, Cell)> {
         let half = |upper: u64| {
             let mut cell = *self;
-            let edge = edge(&mut cell).filter(|edge| edge.level < MAX_AXIS_LEVEL)?;
-            *edge = Edge { index: 2 * edge.index + upper, level: edge.level + 1 };
-            Some(cell)
+            set(&mut cell, Edge { index: 2 * edge.index + upper, level: edge.level + 1 });
+            cell
         };
-        Some((half(0)?, half(1)?))
+        (edge.level < MAX_AXIS_LEVEL).then(|| (half(0), half(1)))
     }
 
     /// Whether it is part of a cell: some other coordinate is halved.
     pub fn is_part(&self) -> bool {
-        self.others.iter().any(|edge| edge.level > 0)
+        self.others != Cell::ROOT.others
     }
 
     /// The splits above it.
@@ -145,6 +156,25 @@ mod tests {
             cell = next;
         }
         assert_eq!(cell.depth(), 2 + MAX_AXIS_LEVEL);
+    }
+
+    #[test]
+    fn edges_of_others_are_told_apart_down_to_the_last_level() {
+        let mut cell = Cell::ROOT;
+        let mut expected = Edge::WHOLE;
+        while let Some((lower, upper)) = cell.parts(4) {
+            assert_ne!(lower.others, upper.others);
+            assert!(lower.is_part() && upper.is_part());
+            let index = 2 * expected.index;
+            expected = Edge { index, level: expected.level + 1 };
+            assert_eq!(lower.others[4].edge(), expected);
+            expected.index += 1;
+            assert_eq!(upper.others[4].edge(), expected);
+            cell = upper;
+        }
+        assert_eq!(expected.level, MAX_AXIS_LEVEL);
+        assert_eq!(cell.parts(MOST_OTHERS), None);
+        assert_eq!(Cell { others: Cell::ROOT.others, ..cell }, Cell::ROOT);
     }
 
     #[test]

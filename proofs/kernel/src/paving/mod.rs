@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 use std::io::{self, BufRead};
 
-pub use cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL, MOST_OTHERS};
+pub use cell::{Axis, Cell, Edge, Packed, MAX_AXIS_LEVEL, MOST_OTHERS};
 pub use code::{write_pair, write_steps, Item, Kind, Outer, Step};
 pub use judge::{bit, discharged, Judge, Subject, AT_BITS};
 pub use reader::{header, Reader, Root, Visited};

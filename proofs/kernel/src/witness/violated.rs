@@ -175,6 +175,12 @@ impl<A: Signs> At<'_, A> {
         u.iter().zip(v).try_fold(e.integer(0)?, |sum, (u, v)| e.add(&sum, &e.mul(u, v)?))
     }
 
+    /// The sum of terms of which there is one.
+    fn sum(&self, mut terms: impl Iterator<Item = Option<A::Number>>) -> Option<A::Number> {
+        let first = terms.next()??;
+        terms.try_fold(first, |sum, term| self.arithmetic.add(&sum, &term?))
+    }
+
     /// `|v|^2`.
     pub(super) fn square(&self, v: &[A::Number]) -> Option<A::Number> {
         let e = &self.arithmetic;
@@ -198,13 +204,15 @@ impl<A: Signs> At<'_, A> {
     ) -> Option<[A::Number; 2]> {
         let e = &self.arithmetic;
         let mut rows = rows.peekable();
-        let v = self.direction(v, rows.peek()?.a.len())?;
-        let image = rows.try_fold(e.integer(0)?, |sum, row| {
-            let product = self.dot(&self.all(&row.a)?, &v)?;
+        let numbers = self.direction(v, rows.peek()?.a.len())?;
+        let term = |row: &Row<Formula>| {
+            let entry = |(&a, &v): (&Formula, &i64)| e.times(v, self.values.of(a)?);
+            let product = self.sum(row.a.iter().zip(v).map(entry))?;
             let d = self.values.of(row.d).filter(|d| e.surely_positive(d))?;
-            e.add(&sum, &e.div(&e.sqr(&product)?, d)?)
-        })?;
-        Some([self.square(&v)?, image])
+            e.div(&e.sqr(&product)?, d)
+        };
+        let image = self.sum(rows.map(term))?;
+        Some([self.square(&numbers)?, image])
     }
 
     /// `2 (a |row| |v|^2 + b |v^T H v| - |v|^2)`: positive only if `a |row| + b |H| > 1`.

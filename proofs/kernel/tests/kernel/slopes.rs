@@ -173,3 +173,15 @@ fn halves_cover_and_their_points_are_the_cells() {
     assert_eq!(cell.halves(1), None);
     let _ = Fixed::<i64>::new(3).integer(1);
 }
+
+#[test]
+fn only_what_is_defined_everywhere_cancels() {
+    let mut tape = Tape::default();
+    let (x, y, zero) = (tape.coordinate(0), tape.coordinate(1), tape.integer(0));
+    assert_eq!(tape.sub(x, x), zero);
+    assert_ne!(tape.sub(x, y), zero);
+    let one = tape.integer(1);
+    let inverse = tape.div(one, x);
+    let rest = tape.sub(inverse, inverse);
+    assert_eq!(tape.op(rest), Op::Sub(inverse, inverse));
+}
