@@ -7,7 +7,7 @@ use crate::escape;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
-    Body, Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
+    Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
 };
 use orthocert_kernel::no_cube::NoCubeClaim;
 use serde_json::Value;
@@ -106,7 +106,7 @@ fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
 }
 
 fn is_machine_covered(claim: &MachineClaim) -> bool {
-    let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
+    let MachineClaim { mechanism, workspace, orientation, bodies: _, require } = claim;
     let is_known = |key: &str| QUANTITIES.contains(&key);
     let is_leg = |leg: &Leg| match leg {
         Leg::Slider { .. } | Leg::Strut { .. } | Leg::Planar { .. } => true,
@@ -126,19 +126,7 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
         }
         _ => false,
     };
-    orientation.is_none() && are_single(bodies) && is_required && is_mechanism
-}
-
-/// Whether no body is beside another on its leg: their lines' distance is not covered.
-fn are_single(bodies: &[Body]) -> bool {
-    let on_leg = |body: &Body| match body {
-        Body::Leg { leg, offset, .. } => Some((*leg, offset.is_some())),
-        Body::Base { .. } | Body::Platform { .. } => None,
-    };
-    let on_legs: Vec<(usize, bool)> = bodies.iter().filter_map(on_leg).collect();
-    on_legs.iter().enumerate().all(|(i, (leg, beside))| {
-        on_legs[..i].iter().all(|(other, too)| leg != other || !(*beside || *too))
-    })
+    orientation.is_none() && is_required && is_mechanism
 }
 
 /// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds, and

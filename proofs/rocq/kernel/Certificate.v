@@ -430,10 +430,10 @@ Definition body_of (b : written_body) : body :=
   | Fixed_ true p q r => OnPlatform (denoted r) (position_of p) (position_of q)
   | Fixed_ false p q r => OnBase (denoted r) (position_of p) (position_of q)
   end.
-(** Two bodies on one leg, on the base, or on the platform. *)
+(** Two bodies on the base, on the platform, or on one leg, neither beside it. *)
 Definition are_fixed (b c : written_body) : bool :=
   match b, c with
-  | AlongLeg_ i _ _ _ _, AlongLeg_ j _ _ _ _ => Nat.eqb i j
+  | AlongLeg_ i _ _ _ None, AlongLeg_ j _ _ _ None => Nat.eqb i j
   | Fixed_ a _ _ _, Fixed_ b _ _ _ => Bool.eqb a b
   | _, _ => false
   end.
@@ -443,6 +443,15 @@ Fixpoint pairs_of (before bs : list written_body) : list (written_body * written
   | [] => []
   | b :: bs' => filter (fun p => negb (are_fixed (fst p) (snd p))) (map (fun c => (b, c)) before) ++ pairs_of (before ++ [b]) bs'
   end%list.
+
+(** Of two bodies on one leg, the lines along them. *)
+Definition clearance_of (b c : written_body) (gap : Claim.number) : requirement :=
+  match b, c with
+  | AlongLeg_ i r _ _ o, AlongLeg_ j r' _ _ o' =>
+      let offset o := match o with Some o => position_of o | None => Position (0 // 1) (0 // 1) (0 // 1) end in
+      if Nat.eqb i j then Beside (pred i) (offset o) (offset o') (Plus (Plus (denoted r) (denoted r')) gap) else Clearance (body_of b) (body_of c) gap
+  | _, _ => Clearance (body_of b) (body_of c) gap
+  end.
 
 (** Obligations, section 9: a bound on psi from above takes the place of freedom from singularities. *)
 Definition psi_max_of (r : written_requirement) : list requirement :=
@@ -459,7 +468,7 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
   | Stiffness_, AtLeast_ b, Some joint => [Stiffness (denoted joint) (denoted b)]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
-  | Clearance_, AtLeast_ b, _ => map (fun p => Clearance (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
+  | Clearance_, AtLeast_ b, _ => map (fun p => clearance_of (fst p) (snd p) (denoted b)) (pairs_of [] bs)
   | _, _, _ => []
   end.
 (** The requirement has the keys and the end that it has to have. *)
@@ -744,6 +753,8 @@ Definition is_bound (r : requirement) : bool :=
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
   | Clearance _ _ b => certainly exact_bits false b
+  | Beside _ _ _ (Plus _ b) => certainly exact_bits false b
+  | Beside _ _ _ _ => false
   | JointMin _ b | JointMax _ b => is_number b
   | NotSingular => true
   end.
@@ -810,7 +821,7 @@ Definition is_nonzero (t : tolerances) : bool :=
 Definition has_direction (d : drive) : bool :=
   match d with SliderLeg c => is_nonzero (direction c) | PlanarLeg n => is_nonzero n | StrutLeg _ _ (Some k) => is_nonzero k
   | StrutLeg _ _ None => true end.
-(** Bodies that there are, if and only if their clearance is asked for; two of one leg have no offset. *)
+(** Bodies that there are, if and only if their clearance is asked for. *)
 Definition is_sized (b : written_body) : bool :=
   match b with
   | AlongLeg_ _ r t u o => certainly exact_bits true (denoted r) && certainly exact_bits false (denoted t) && certainly exact_bits false (denoted u) &&
@@ -822,12 +833,9 @@ Definition is_on (ls : list written_leg) (b : written_body) : bool :=
   | AlongLeg_ i _ _ _ _ => Nat.leb 1 i && match nth_error ls (pred i) with Some (Slider_ _ _ _ _ _ | Strut_ _ _ _) => true | _ => false end
   | Fixed_ _ _ _ _ => true
   end.
-Fixpoint are_single (bs : list written_body) : bool :=
-  let is_beside b := match b with AlongLeg_ _ _ _ _ (Some _) => true | _ => false end in
-  match bs with [] => true | b :: bs' => forallb (fun c => negb (are_fixed b c && (is_beside b || is_beside c))) bs' && are_single bs' end.
 Definition are_bodies (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) : bool :=
   if existsb (fun r => match about_ r with Clearance_ => true | _ => false end) rs
-  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && are_single bs && match pairs_of [] bs with [] => false | _ => true end
+  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && match pairs_of [] bs with [] => false | _ => true end
   else match bs with [] => true | _ => false end.
 Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
   are_bodies ls bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).

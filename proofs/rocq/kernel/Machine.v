@@ -216,6 +216,12 @@ Proof.
   - symmetry in z. apply norm2_zero in z. subst u. unfold vscale, vzero. cbn. f_equal; ring.
 Qed.
 
+Lemma normalised_norm : forall v, 0 < norm2 v -> norm2 (normalised v) = 1.
+Proof.
+  intros v h. unfold normalised. rewrite norm2_scale. pose proof (sqrt_lt_R0 _ h) as p.
+  rewrite <- Rsqr_pow2, Rsqr_inv', Rsqr_sqrt by lra. field. lra.
+Qed.
+
 Section Resized.
 Variables (c : R) (P : vec).
 Hypothesis c_pos : 0 < c.

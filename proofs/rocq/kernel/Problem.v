@@ -169,6 +169,7 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
   | Stiffness joint b => (exactly (Over b joint), 0%Z)
   | Clearance one other b => (exactly (Plus (Plus (radius_of one) (radius_of other)) b), s)
+  | Beside _ _ _ distance => (exactly distance, s)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -183,14 +184,18 @@ Lemma bounds_within : forall s rs, Forall2 scaled_within (map (bound_of s) rs) (
 Proof. induction rs; cbn [map]; constructor; auto using bound_within. Qed.
 
 (** The numbers of bodies: six each. *)
+Definition position_numbers (s : Z) (p : Statement.position) : list parameter := [(exactly (px p), s); (exactly (py p), s); (exactly (pz p), s)].
 Definition body_numbers (s : Z) (b : body) : list parameter :=
-  let of_ p := [(exactly (px p), s); (exactly (py p), s); (exactly (pz p), s)] in
   match b with
-  | AlongLeg _ _ t u o => [(exactly t, s); (exactly u, s)] ++ of_ o ++ [(exactly (0 // 1), 0%Z)]
-  | OnBase _ p q | OnPlatform _ p q => of_ p ++ of_ q
+  | AlongLeg _ _ t u o => [(exactly t, s); (exactly u, s)] ++ position_numbers s o ++ [(exactly (0 // 1), 0%Z)]
+  | OnBase _ p q | OnPlatform _ p q => position_numbers s p ++ position_numbers s q
   end.
 Definition extras (s : Z) (r : requirement) : list parameter :=
-  match r with Clearance one other _ => body_numbers s one ++ body_numbers s other | _ => [] end.
+  match r with
+  | Clearance one other _ => body_numbers s one ++ body_numbers s other
+  | Beside _ one other _ => position_numbers s one ++ position_numbers s other
+  | _ => []
+  end.
 Definition exact_value (p : parameter) : R := Claim.value (greatest (fst p)) / two_to (snd p).
 
 Lemma extras_within : forall s r, Forall2 scaled_within (extras s r) (map exact_value (extras s r)).
@@ -199,7 +204,9 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s []; try constructor. cbn [extras]. rewrite map_app. apply Forall2_app; apply B.
+  intros s [| | | | | | | | | | | one other b | i o q d]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  - apply Forall2_app; apply B.
+  - cbn. repeat constructor; apply E.
 Qed.
 
 Lemma all_extras_within : forall s rs, Forall2 scaled_within (flat_map (extras s) rs) (map exact_value (flat_map (extras s) rs)).
@@ -231,6 +238,11 @@ Definition segments (fs : list leg_formulas) (s : Z) (j : nat) (one other : body
   let q := numbered j (body_numbers s one ++ body_numbers s other) in
   match segment_formulas fs (firstn 6 q) one, segment_formulas fs (skipn 6 q) other with Some a, Some b => Some (a, b) | _, _ => None end.
 
+(** |d|^2 - (d . A)^2/L^2 - R^2, d from the one line along the leg to the other. *)
+Definition beside_formula (f : leg_formulas) (q : list formula) (b : formula) : formula :=
+  let d := map2 minus (vector_at q 0) (vector_at q 3) in
+  minus (minus (product d d) (over (square (product d (f_A f))) (square (rod f)))) (square b).
+
 Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
 Definition determinant (a b c : evec) : formula :=
   plus (minus (times (ex a) (minor (ey b) (ez b) (ey c) (ez c))) (times (ey a) (minor (ex b) (ez b) (ex c) (ez c))))
@@ -253,7 +265,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -285,6 +297,8 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
       | Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d]
       | None => []
       end
+  | Beside i _ _ _ => of_leg i (fun f =>
+      match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
   | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
@@ -392,6 +406,56 @@ Proof.
     rewrite <- !Rpow_mult_distr, Ex, Ey in G. pose proof (pow2_ge_0 (hX * lx)). pose proof (pow2_ge_0 (hY * ly)). nra.
 Qed.
 
+(** No leg within the tolerances has a direction that is zero, or a length that is not positive. *)
+Definition is_nonzero (t : tolerances) (d : Z) : bool :=
+  match map (enclose_parameter bits) (three t d) with
+  | [Some x; Some y; Some z] => (0 <? lo (add (add (sqr bits x) (sqr bits y)) (sqr bits z)))%Z
+  | _ => false
+  end.
+Definition is_buildable (s d : Z) (dr : drive) : bool :=
+  match dr with
+  | SliderLeg c => is_nonzero (direction c) d && match enclose_parameter bits (Claim.length c, s) with Some a => (0 <? lo a)%Z | None => false end
+  | StrutLeg _ _ None => true
+  | StrutLeg _ _ (Some n) | PlanarLeg n => is_nonzero n d
+  end.
+Fixpoint are_buildable (s : Z) (ds : list Z) (drs : list drive) : bool :=
+  match drs with [] => true | dr :: r => is_buildable s (hd 0%Z ds) dr && are_buildable s (tl ds) r end.
+
+Lemma scaled_positive : forall c x, 0 < x / two_to c -> 0 < x.
+Proof.
+  intros c x h. pose proof (two_to_pos c) as p. replace x with (x / two_to c * two_to c) by (field; lra). apply Rmult_lt_0_compat; assumption.
+Qed.
+
+Lemma is_nonzero_sound : forall t d v, is_nonzero t d = true -> all_within t v -> 0 < norm2 v.
+Proof.
+  intros t d v h w. pose proof (three_within t d v w) as W. unfold is_nonzero in h. cbn [map three] in h.
+  destruct (enclose_parameter bits (tx t, d)) as [x |] eqn:ex; [| discriminate].
+  destruct (enclose_parameter bits (ty t, d)) as [y |] eqn:ey; [| discriminate].
+  destruct (enclose_parameter bits (tz t, d)) as [z |] eqn:ez; [| discriminate]. apply Z.ltb_lt in h.
+  inversion W as [| ? ? ? ? h1 W1]; subst. inversion W1 as [| ? ? ? ? h2 W2]; subst. inversion W2 as [| ? ? ? ? h3 _]; subst.
+  apply (enclose_parameter_sound bits _ _ _ ex) in h1. apply (enclose_parameter_sound bits _ _ _ ey) in h2. apply (enclose_parameter_sound bits _ _ _ ez) in h3.
+  pose proof (contains_positive bits _ _ h (add_sound bits _ _ _ _ (add_sound bits _ _ _ _ (sqr_sound bits _ _ h1) (sqr_sound bits _ _ h2)) (sqr_sound bits _ _ h3))) as p.
+  change (0 < norm2 (vscale (/ two_to d) v)) in p. rewrite norm2_scale in p. pose proof (norm2_nonneg v). pose proof (pow2_ge_0 (/ two_to d)). nra.
+Qed.
+
+Lemma is_buildable_sound : forall s d dr l, is_buildable s d dr = true -> is_leg_of dr l -> well_formed_leg l.
+Proof.
+  intros s d [c | a p [n |] | n] [k | base platform [axis |] | normal] h w; cbn [is_buildable is_leg_of well_formed_leg] in *; try contradiction; try exact I; try tauto.
+  - apply andb_true_iff in h as [h h']. destruct w as [[u [hu ax]] [_ [_ [hl hm]]]]. unfold well_formed. rewrite ax. split; [| split].
+    + apply normalised_norm, (is_nonzero_sound _ _ _ h hu).
+    + destruct (enclose_parameter bits (Claim.length c, s)) as [i |] eqn:e; [| discriminate]. apply Z.ltb_lt in h'.
+      apply (scaled_positive s), (contains_positive bits _ _ h'). apply (enclose_parameter_sound bits _ _ _ e). exists (leg_length k). split; [exact hl | reflexivity].
+    + rewrite hm. destruct (mode c); auto.
+  - destruct w as [_ [_ [u [hu ->]]]]. apply normalised_norm, (is_nonzero_sound _ _ _ h hu).
+  - intro z. pose proof (is_nonzero_sound _ _ _ h w) as p. rewrite z in p. unfold norm2, vzero in p. cbn in p. lra.
+Qed.
+
+Lemma are_buildable_sound : forall s drs m, Forall2 is_leg_of drs m -> forall ds, are_buildable s ds drs = true -> Forall well_formed_leg m.
+Proof.
+  intros s drs m. induction 1 as [| dr l drs m h hs IH]; intros ds k; [constructor |]. cbn [are_buildable] in k.
+  apply andb_true_iff in k as [k1 k2]. constructor; [exact (is_buildable_sound _ _ _ _ k1 h) | exact (IH _ k2)].
+Qed.
+
 (** The whole check: formulas, a tape that stands for them, enclosures, the tree.
     [s], [ds], the tape and the tree are evidence. *)
 Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
@@ -402,7 +466,7 @@ Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let tape := fst (compile needed) in
   let found := formulas tape in
   if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
-    if existsb is_lower (require c) then
+    if existsb is_lower (require c) && are_buildable s ds (legs c) then
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
             all_some (tests_of (place found) fs s n (require c)) with
@@ -536,7 +600,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -553,6 +617,7 @@ Proof.
 Qed.
 
 Hypothesis reached : Forall (reaches P) m.
+Hypothesis built : Forall well_formed_leg m.
 
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
 Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
@@ -577,7 +642,7 @@ Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -633,7 +698,7 @@ Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz
 Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -739,15 +804,15 @@ Proof.
     assert (e3 : ratio * L = value x theta (rod f)) by congruence.
     eexists. eexists. split; [reflexivity |].
     assert (O : vvalue Q theta (vector_at q 2) = vscale ratio (located o)).
-    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
+    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
     assert (T0 : value x theta (nth 0 q (integer 0)) = ratio * Claim.value tb) by (rewrite (value_at _ _ _ _ _ V); apply N).
     assert (T1 : value x theta (nth 1 q (integer 0)) = ratio * Claim.value up) by (rewrite (value_at _ _ _ _ _ V); apply N).
     rewrite !vvalue_plus, !vvalue_minus, !vvalue_scaled, value_minus, !value_over, O, T0, T1, <- e1, <- e2, <- e3, !quotient_resized.
     change (value x theta (integer 1)) with 1. unfold vadd, vsub, vscale. cbn [vx vy vz]. split; f_equal; ring.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
+    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N.
+    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N.
     unfold vadd, located, vscale. cbn [vx vy vz]. split; f_equal; ring.
 Qed.
 
@@ -791,11 +856,51 @@ Proof.
   unfold inner, away, between, both, norm2, towards, vsub, vadd, vscale. cbn [along_x along_y along_z vx vy vz]. apply Req_le. ring.
 Qed.
 
+Lemma rod_length : forall l C A L, well_formed_leg l -> reaches P l -> rod_of l P = Some (C, A, L) -> norm2 A = L ^ 2 /\ 0 < L ^ 2.
+Proof.
+  intros [k | base platform axis | n] C A L ok re e; cbn [rod_of well_formed_leg reaches] in *; [| | discriminate].
+  - assert (E : leg_vector k P = A /\ leg_length k = L) by (split; congruence). destruct E as [<- <-].
+    split; [exact (leg_vector_length k P ok re) | apply pow_lt, ok].
+  - assert (E : span base platform P = A /\ sqrt (norm2 (span base platform P)) = L) by (split; congruence). destruct E as [<- <-].
+    rewrite <- Rsqr_pow2, Rsqr_sqrt by lra. split; [reflexivity | exact re].
+Qed.
+
+Lemma beside_fulfilled : forall i one other b, r = Beside i one other b ->
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils m P r.
+Proof.
+  intros i one other b er [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
+  cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
+  set (q := numbered (snd j) (extras s (Beside i one other b))) in *.
+  assert (e1 : beside_formula g q (quantity (bound_of s (Beside i one other b)) (fst j)) = f) by congruence. subst f. clear ef.
+  destruct (leg_at i g ng) as [l [nl [R0 re]]]. destruct R0 as [_ [_ [_ [_ [_ [_ [_ R0]]]]]]]. specialize (R0 tip et).
+  unfold ratio in R0. rewrite rod_resized in R0 by exact r0. fold ratio in R0. destruct (rod_of l P) as [[[C A] L] |] eqn:er; [| discriminate].
+  assert (e2 : vscale ratio A = vvalue Q theta (f_A g)) by congruence. assert (e3 : ratio * L = value x theta (rod g)) by congruence.
+  assert (ok : well_formed_leg l) by (apply (proj1 (Forall_forall _ _) built), (nth_error_In _ _ nl)).
+  destruct (rod_length l C A L ok re er) as [A2 L2]. exists l, C, A, L. split; [exact nl |]. split; [exact er |]. intros t0 u0.
+  assert (N : forall y, exact_value (exactly y, s) = ratio * Claim.value y) by (intro y; unfold exact_value; cbn; unfold Rdiv; fold ratio; ring).
+  assert (O1 : vvalue Q theta (vector_at q 0) = vscale ratio (located one)) by (rewrite (vvalue_at _ _ _ _ _ EX); cbn [extras position_numbers map app nth Nat.add]; rewrite !N; reflexivity).
+  assert (O2 : vvalue Q theta (vector_at q 3) = vscale ratio (located other)) by (rewrite (vvalue_at _ _ _ _ _ EX); cbn [extras position_numbers map app nth Nat.add]; rewrite !N; reflexivity).
+  unfold beside_formula in h. cbv zeta in h. rewrite !value_minus, value_over, !value_square, !value_product, vvalue_minus, O1, O2, <- e2, <- e3, B in h.
+  replace (bound_value s (Beside i one other b)) with (ratio * Claim.value b) in h by (unfold bound_value; cbn; unfold Rdiv; fold ratio; ring).
+  set (d := vsub (located one) (located other)).
+  replace (vsub (vscale ratio (located one)) (vscale ratio (located other))) with (vscale ratio d) in h by (unfold d, vsub, vscale; cbn [vx vy vz]; f_equal; ring).
+  assert (S1 : forall a b c e, Vec3.dot (vscale a b) (vscale c e) = a * c * Vec3.dot b e) by (intros; unfold Vec3.dot, vscale; cbn [vx vy vz]; ring).
+  rewrite !S1 in h. assert (L0 : L <> 0) by (intro z; rewrite z in L2; lra).
+  replace ((ratio * ratio * Vec3.dot d A) ^ 2 / (ratio * L) ^ 2) with (ratio ^ 2 * (Vec3.dot d A ^ 2 / L ^ 2)) in h by (field; split; lra).
+  assert (K : Claim.value b ^ 2 <= norm2 d - Vec3.dot d A ^ 2 / L ^ 2).
+  { apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. rewrite norm2_dot. rewrite Rpow_mult_distr in h. lra. }
+  apply Rle_trans with (1 := K).
+  replace (norm2 (vsub (vadd (vsub C (vscale t0 A)) (located one)) (vadd (vsub C (vscale u0 A)) (located other))))
+    with (norm2 d + 2 * (u0 - t0) * Vec3.dot d A + (u0 - t0) ^ 2 * norm2 A) by (unfold d, norm2, Vec3.dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
+  rewrite A2. pose proof (pow2_ge_0 ((u0 - t0) * L + Vec3.dot d A / L)) as sq.
+  replace (((u0 - t0) * L + Vec3.dot d A / L) ^ 2) with ((u0 - t0) ^ 2 * L ^ 2 + 2 * (u0 - t0) * Vec3.dot d A + Vec3.dot d A ^ 2 / L ^ 2) in sq by (field; exact L0). lra.
+Qed.
+
 Lemma fulfilled : fulfils m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
-  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF.
+  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
       is_least r = false -> fulfils m P r).
@@ -805,7 +910,7 @@ Proof.
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -843,8 +948,22 @@ Proof.
     destruct (enclose_parameter bits (bound_of s (Clearance one other b))) as [distance |] eqn:ed; [| discriminate].
     destruct (0 <=? lo distance)%Z eqn:d0; [| discriminate]. injection T as <-.
     exact (CF one other b a a' c' d' distance eq_refl es (enclose_parameter_sound bits _ _ _ ed (bound_within s _)) (proj1 (Z.leb_le _ _) d0) H).
+  - apply (BF i one other b eq_refl). destruct (range_formula fs s j (Beside i one other b)) as [| f [| g [|]]] eqn:E; try discriminate; injection T as <-.
+    + exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
+    + exfalso. cbn [range_formula] in E. destruct (nth_error fs i) as [k |]; [| discriminate]. destruct (f_tip k); discriminate.
 Qed.
 End Accepted.
+
+(** Two bodies on one leg are as far apart as the lines along them. *)
+Theorem beside_keeps : forall m P i one other r r' t u t' u' b,
+  fulfils m P (Beside i one other (Plus (Plus r r') b)) -> fulfils m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
+Proof.
+  intros m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
+  do 4 eexists. split; [reflexivity |]. split; [reflexivity |]. intros y z _ _. cbn [radius_of].
+  set (a1 := 1 - Claim.value t / L). set (a2 := Claim.value u / L). set (a3 := 1 - Claim.value t' / L). set (a4 := Claim.value u' / L).
+  specialize (h ((1 - y) * a1 + y * a2) ((1 - z) * a3 + z * a4)). cbn [Claim.value] in h. apply Rle_trans with (1 := h), Req_le.
+  f_equal. unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+Qed.
 
 (** Every requirement has its test, and its numbers their places. *)
 Lemma requirement_at : forall place fs s rs j k r, nth_error rs k = Some r -> exists i front back,
@@ -884,7 +1003,7 @@ Proof.
   set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c)) in *.
   set (tape := fst (compile needed)) in *.
   destruct (forallb _ needed) eqn:found; [| discriminate].
-  destruct (existsb is_lower (require c)) eqn:low; [| discriminate].
+  destruct (existsb is_lower (require c) && are_buildable s ds (legs c)) eqn:low; [| discriminate]. apply andb_true_iff in low as [low able].
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three (hull (workspace c)) s))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (tests_of _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
@@ -925,6 +1044,6 @@ Proof.
   destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1).
+  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1 (are_buildable_sound s _ _ hm ds able)).
 Qed.
 End Precision.

@@ -135,7 +135,9 @@ Inductive requirement :=
   | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three sliders *)
   | Stiffness (joint b : number)                       (* M^T joint M, with rigid legs *)
   | ConstraintMargin (b : number)                      (* sigma_min of the unit couples, of struts with an axis *)
-  | Clearance (one other : body) (b : number).         (* the distance of two bodies *)
+  | Clearance (one other : body) (b : number)          (* the distance of two bodies *)
+  (* of the lines along a leg, moved by [one] and by [other]: two bodies beside each other on it *)
+  | Beside (leg : nat) (one other : position) (distance : number).
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -164,6 +166,8 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | Clearance one other b => exists p p' q q', segment_of m P one = Some (p, p') /\ segment_of m P other = Some (q, q') /\
       forall s t, 0 <= s <= 1 -> 0 <= t <= 1 ->
       (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q'))
+  | Beside i one other distance => exists l C A L, nth_error m i = Some l /\ rod_of l P = Some (C, A, L) /\ forall t u,
+      value distance ^ 2 <= norm2 (vsub (vadd (vsub C (vscale t A)) (located one)) (vadd (vsub C (vscale u A)) (located other)))
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

@@ -157,12 +157,6 @@ Definition is_exact (d : drive) (l : exact_leg) : bool :=
   | _, _ => false
   end.
 
-Lemma normalised_norm : forall v, 0 < norm2 v -> norm2 (normalised v) = 1.
-Proof.
-  intros v h. unfold normalised. rewrite norm2_scale. pose proof (sqrt_lt_R0 _ h) as p.
-  rewrite <- Rsqr_pow2, Rsqr_inv' , Rsqr_sqrt by lra. field. lra.
-Qed.
-
 Lemma is_exact_sound : forall d l, is_exact d l = true -> is_leg_of d (leg_of l) /\ well_formed_leg (leg_of l).
 Proof.
   intros [c | a p k | n] [d' a' p' len m | a' p' k' | n'] h; cbn [is_exact] in h; try discriminate;
@@ -418,6 +412,18 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           certainly true (Minus (Times d d) (product w w))
       | _, _ => false
       end
+  (* the lines are nearest where d + x A is orthogonal to A *)
+  | Beside i one other b =>
+      match nth_error ls i with
+      | Some l => match nrod l P with
+          | Some (C, A, L) =>
+              let d := each2 Minus (nposition one) (nposition other) in
+              certainly true (product A A) &&
+              certainly true (Minus (Times b b) (Minus (product d d) (Over (Times (product d A) (product d A)) (product A A))))
+          | None => false
+          end
+      | None => false
+      end
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -463,18 +469,21 @@ Proof.
   rewrite IH, value_product, values_unit. ring.
 Qed.
 
+Lemma nrod_sound : forall l P C A L, nrod l P = Some (C, A, L) -> rod_of (leg_of l) (values P) = Some (values C, values A, value L).
+Proof.
+  intros [d a p0 len m | a p0 k | d] P C A L e; cbn [nrod] in e; [| | discriminate]; injection e as <- <- <-; cbn [leg_of rod_of].
+  - rewrite leg_vector_eq, values_plus, values_plus, values_scaled, values_unit, value_signed_root,
+      (values_across d a p0 (value len) (if m then 1 else -1) P). reflexivity.
+  - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity.
+Qed.
+
 Lemma nsegment_sound : forall ls P b p q, nsegment ls P b = Some (p, q) -> segment_of (map leg_of ls) (values P) b = Some (values p, values q).
 Proof.
   intros ls P b p q h.
-  assert (Rod : forall l C A L, nrod l P = Some (C, A, L) -> rod_of (leg_of l) (values P) = Some (values C, values A, value L)).
-  { intros [d a p0 len m | a p0 k | d] C A L e; cbn [nrod] in e; [| | discriminate]; injection e as <- <- <-; cbn [leg_of rod_of].
-    - rewrite leg_vector_eq, values_plus, values_plus, values_scaled, values_unit, value_signed_root,
-        (values_across d a p0 (value len) (if m then 1 else -1) P). reflexivity.
-    - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity. }
   destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_of] in *.
   - rewrite nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
     destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate]. cbv zeta in h. injection h as <- <-.
-    rewrite (Rod _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
+    rewrite (nrod_sound _ _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
   - injection h as <- <-. reflexivity.
   - injection h as <- <-. reflexivity.
 Qed.
@@ -486,7 +495,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -547,6 +556,16 @@ Proof.
       unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; field; lra. }
     rewrite E, norm2_scale in far. assert (n ^ 2 * d ^ 2 <= n ^ 2 * norm2 (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c'))))
       by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact F]). nra.
+  - destruct F as [l [C [A [L [n [e F]]]]]]. destruct (At i l n) as [k [e' ->]]. rewrite e' in h.
+    destruct (nrod k P) as [[[C' A'] L'] |] eqn:er; [| discriminate]. rewrite (nrod_sound _ _ _ _ _ er) in e.
+    assert (eA : values A' = A) by congruence. subst A. cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2.
+    rewrite value_square in h1. cbn [value] in h2. rewrite !value_square, !value_product in h2.
+    set (d := values (each2 Minus (nposition one) (nposition other))) in *. set (a := values A') in *. set (y := dot d a / norm2 a).
+    specialize (F y 0). replace (norm2 (vsub (vadd (vsub C (vscale y a)) (located one)) (vadd (vsub C (vscale 0 a)) (located other))))
+      with (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) in F
+      by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
+          unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
+    replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)

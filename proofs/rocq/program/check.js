@@ -203,6 +203,15 @@ const apart = [
     witness([1, 2, 3], '{"obligation":[1,[[1,2,3]]]}', ',"machine":["310","309.9","310.1"]'), "refuted"), 0, 300],
   [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1), fixed("base", [0, 0, 5], [0, 0, 90])],
     witness([1, 2, 303], '{"obligation":[1,[[1,2,3]]]}'), "refuted"), 0, 900],
+  // Beside each other on one leg, neither of them, one, or both as far from the leg as they are.
+  [clear(three, box, [along(1, [0, -40, 0]), along(1, [0, 40, 0])], tree('[1,"test"]'), "certified"), 0, 90],
+  [clear(toleranced, cylinder, [along(2), along(2, [30, 10, 40])], tree('[1,{"inside":["test",1,9]}]'), "certified"), 0, 90],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1, [0, 50, 0]), along(1)],
+    `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}],[1,"test"]]}]}}`, "certified"), 0, 90],
+  [clear(toleranced, box, [along(1, [20, -40, 0]), along(1, [0, 40, 9])],
+    witness([1, 2, 3], '{"obligation":[1,[]]}', ',"machine":["310","309.9","310.1"]'), "refuted"), 0, 120],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1, [0, 50, 0]), along(1)],
+    witness([1, 2, 303], '{"obligation":[1,[]]}'), "refuted"), 0, 120],
 ];
 for (const [text, low, high] of apart) narrowed(text, low, high);
 for (const text of [
@@ -212,6 +221,11 @@ for (const text of [
   clear(three, box, [along(1), along(1)], tree(`[1,${steady}]`), "certified"),
   clear(three, box, [along(1), along(4)], tree(`[1,${steady}]`), "certified"),
   clear([three[0], three[1], plane(0, 0, 1)], box, [along(1), along(3)], tree(`[1,${steady}]`), "certified"),
+  clear([three[0], three[1], plane(0, 0, 1)], box, [along(3), along(3, [0, 50, 0])], tree('[1,"test"]'), "certified"),
+  clear(three, box, [along(1), along(1, [0, 50, 0])], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, [along(1), along(1, [0, 50, 0])], tree('[1,"negative"]'), "certified"),
+  clear(three, box, [along(1), along(1, [50, 0, 0])], tree('[1,"test"]'), "certified"),
+  clear(three, box, [along(1), along(1, [0, 0, 0])], tree('[1,"test"]'), "certified"),
   clear(three, box, [along(1), along(2).replace('"10"', '"-10"')], tree(`[1,${steady}]`), "certified"),
   clear(three, box, [along(1), along(2).replace('"30"', '"-30"')], tree(`[1,${steady}]`), "certified"),
   clear(three, box, legged, witness([1, 2, 3], '{"obligation":[1,[[10,8,9]]]}'), "refuted"),

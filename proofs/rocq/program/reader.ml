@@ -220,10 +220,6 @@ let body v =
     AlongLeg_ (count (get l "leg"), number "radius", expression (string a), expression (string b), optional (fun _ -> triple "offset") (find l "offset"))
   | ("base" | "platform") as on -> Fixed_ (on = "platform", triple "from", triple "to", number "radius")
   | _ -> raise Malformed
-let is_beside = function AlongLeg_ (_, _, _, _, Some _) -> true | _ -> false
-let rec are_single = function
-  | [] -> true
-  | b :: l -> not (List.exists (fun c -> are_fixed b c && (is_beside b || is_beside c)) l) && are_single l
 
 let rec subject v =
   match variant v with
@@ -261,7 +257,6 @@ let rec subject v =
        let legs = array legs and region = region workspace in
        let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
        if List.exists is_arm legs && bodies <> [] then not_covered [ "a machine with arms and bodies" ];
-       if not (are_single bodies) then not_covered [ "two bodies beside each other on one leg" ];
        if List.exists is_arm legs then Arms_ (List.map arm legs, region, List.map demand (array (get l "require")))
        else Machine_ (List.map leg legs, region, bodies, require ())
      | ("formulas", f), ("box", box) ->

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-A4=typeof
-module==="object"&&module.exports||u,hl="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g6=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g5="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g4="Failure",mF="serial_margin",mG="parameters",bW=0xff,hr="bodies",k3="\n",hq="outside",hb="base_axis",hk="ENOENT",mE=122,aP="0",l_="([^/]+)",hj=0xf,d5=128,g3=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hi="%d",kY="Printexc.handle_uncaught_exception",ha="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g$=127,d3=1024,lr="@{",l1="from",hp="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",ho=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hn="orientation",lm="angle",fg=254,hm="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g2="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hh="Unix.Unix_error",mr="infinity",e7="tool",g1="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g_="^",e5=": No such file or directory",hg="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",hf="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",he="test",bT=" ",e$="conditioning",hd="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g9=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g8="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hc="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g7="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
-hH(c,b,a){var
+A5=typeof
+module==="object"&&module.exports||u,ho="spatial",lF="Invalid_argument",fb="precision",at='"',lE="@[",mf="this quantity of such a mechanism",g9=1255,lD="inside",me="Fatal error: exception %s\n",k9=255,lC="yaw",mc="(",md=0x800,k7="range",k8="tree",g8="jsError",bx=0x8000,lA='the mechanism "',lB="%ni",mI="sqrt(",mb=256,d8="offset",ma="obligation",bj="machine",k6="End_of_file",fe="strut",k5="center",fo="arm",g7="Failure",mG="serial_margin",mH="parameters",bX=0xff,hu="bodies",k4="\n",ht="outside",he="base_axis",hn="ENOENT",mF=122,aP="0",l$="([^/]+)",hm=0xf,d9=128,g6=-48,k3=0xdc00,lz="Sys_blocked_io",mE="fd ",k2="given",l_="ENOTEMPTY",as=248,l9="bound",ar="camlinternalFormat.ml",l8="Division_by_zero",mC="by",mD=1027,k1="Sys_error",ly="slider",lx="postulate",l7="torsion",l6="proof",lw="%u",dg="mechanism",fk="row",k0="EEXIST",lv="roll_pitch_yaw",hl="%d",kZ="Printexc.handle_uncaught_exception",hd="y",fa="lower",lu="within",l5="cube",kY="clearance",l4="buffer.ml",mB="turned",e$="int_of_string",l3="control",lt="definitions",hc=127,d7=1024,ls="@{",l2="from",hs="e",kW=120,kX=103,lr=" : flags Open_rdonly and Open_wronly are not compatible",l1="orthocert/2",mA="reach",kV=512,a9="-",mz="witness",bh="platform",kU=0x7ff0,kT="pitch",hr=": Not a directory",lq=" : file already exists",bz="min",my="trim",dh="workspace",lp="claim",l0="split",mx="legs",bW=0xffffff,lZ="joint",kR="formulas",kS="0x",lo='the workspace "',lY="roll",mv="nodes",mw="Out_of_memory",kQ="psi_max",hq="orientation",ln="angle",fj=254,hp="index out of bounds",lX=100,kP="end",fn="_bigarr02",kO="%Li",lW=" : flags Open_text and Open_binary are not compatible",cd="drive",lV="coordinates",lm=", characters ",lU="lower_divided",ll="joints",mu="cylinder",bB=0xffff,lk=12520,g5="on",lj="axis",li="no_cube",mt="parallel_margin",kN='the drive "',fd="fails",hk="Unix.Unix_error",ms="infinity",e_="tool",g4="mkdir",d6=1000,e9="translational",s="",lT="Stack_overflow",mr="characteristic_length",hb="^",e8=": No such file or directory",hj="places",lS="/static/",df=0x3f,lR=-97,lP="stiffness",lQ="Not_found",d5="planar",fi="mode",mq="joint_speed",lh="Match_failure",kM=", ",kL="transmission",cc="anchor",mp="at",fm=252,kK="joint_force",de="leg",ce=".",by="+",hi="rmdir",mo=0xf0,mn="spherical",lg="verified.ml",le="REJECTED",lf="%li",lO=1026,bA="max",cH="direction",lN="orthoglide",fl="rank",mm="constraint_margin",ml=-32,kI="Pervasives.do_at_exit",kJ="utf8",hh="test",bU=" ",fc="conditioning",hg="Fatal error: exception ",bi=0x80,kH="Undefined_recursive_module",ha=")",fh="length",lM="base",mk="quantity",lL="joint_range",fg="tilt",kG="Q2",g$="nan",ld="reference",lK="point",lc=0xe0,mj="corner",la="z",lb=0xdfff,lI="version",lJ="_",mi="to",bg="/",hf="compare: functional value",mh="Assert_failure",k$="provenance",dd="radius",kF="%i",bV="require",ff="side",mg="format",g_="ENOTDIR",lH="Q1",lG="all",cG="box",k_=250;function
+hK(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=d3,a-=d3)e+=d.apply(null,c.slice(b,b+Math.min(a,d3)));return e}function
-fm(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=d7,a-=d7)e+=d.apply(null,c.slice(b,b+Math.min(a,d7)));return e}function
+fp(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
+cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hK(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hK(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fp(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bX(a){return a}function
-bE(a,b,c,d,e){cg(bX(a),b,c,d,e);return 0}function
-AW(b,a){throw[0,b,a]}function
-dj(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bY(a){return a}function
+bE(a,b,c,d,e){cg(bY(a),b,c,d,e);return 0}function
+AX(b,a){throw[0,b,a]}function
+dm(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dh(a){if(a.t==2)a.c+=dj(a.l-a.c.length,"\0");else
-a.c=hH(a.c,0,a.c.length);a.t=0}function
-nb(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>g$)return false;return true}else
+dk(a){if(a.t==2)a.c+=dm(a.l-a.c.length,"\0");else
+a.c=hK(a.c,0,a.c.length);a.t=0}function
+nc(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hc)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hJ(e){for(var
+hM(e){for(var
 j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kU){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(f<<6);if(f<lb){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(g<<6);if(f<mn){a=g-0xe2080;if(a<mc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k2+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d3){c.substr(0,1);j+=c;c=s}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kV){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(f<<6);if(f<lc){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(g<<6);if(f<mo){a=g-0xe2080;if(a<md||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k3+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d7){c.substr(0,1);j+=c;c=s}}return j+c}function
 bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dh(this);case
-0:if(nb(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:dk(this);case
+0:if(nc(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bC.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hJ(a)};bC.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return hM(a)};bC.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bC(this.t,a,this.l)};function
-mR(a){return new
+mS(a){return new
 bC(0,a,a.length)}function
-a(a){return mR(a)}function
-hF(c,b){AW(c,a(b))}var
-ah=[0];function
-at(a){hF(ah.Invalid_argument,a)}function
-mP(){at(hm)}function
-aj(a,c,b){b&=bW;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fm(a)}a.c[c]=b;return 0}function
-cH(b,a,c){if(a>>>0>=b.l)mP();return aj(b,a,c)}function
-dg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+a(a){return mS(a)}function
+hI(c,b){AX(c,a(b))}var
+ai=[0];function
+au(a){hI(ai.Invalid_argument,a)}function
+mQ(){au(hp)}function
+ak(a,c,b){b&=bX;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fp(a)}a.c[c]=b;return 0}function
+cI(b,a,c){if(a>>>0>=b.l)mQ();return ak(b,a,c)}function
+dj(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bY(c,a){if(c.fun)return bY(c.fun,a);if(typeof
+bZ(c,a){if(c.fun)return bZ(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bY(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bZ(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bY(c,d)}}function
-d6(){at(hm)}function
-mS(a,b){if(b>>>0>=a.length-1)d6();return a}function
-Am(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b0(a){a.t&6&&dh(a);return a.c}var
-A6=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-A5(a){if(A6)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bZ(c,d)}}function
+d_(){au(hp)}function
+mT(a,b){if(b>>>0>=a.length-1)d_();return a}function
+An(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b1(a){a.t&6&&dk(a);return a.c}var
+A7=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+A6(a){if(A7)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hx(c){var
+hA(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-m1=Math.pow(2,-24);function
-AU(a){throw a}function
-m8(){AU(ah.Division_by_zero)}function
-t(b,c,a){this.lo=b&bV;this.mi=c&bV;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+m2=Math.pow(2,-24);function
+AV(a){throw a}function
+m9(){AV(ai.Division_by_zero)}function
+t(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*m2|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m2|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -106,25 +106,25 @@ c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bB);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bV;this.lo=this.lo<<1&bV};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bV;this.mi=(this.mi>>>1|this.hi<<23)&bV;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bW;this.lo=this.lo<<1&bW};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bW;this.mi=(this.mi>>>1|this.hi<<23)&bW;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())m8();var
+b=this;if(a.isZero())m9();var
 d=b.hi^a.hi;if(b.hi&bx)b=b.neg();if(a.hi&bx)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bx)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())m8();var
+a=this;if(b.isZero())m9();var
 d=a.hi;if(a.hi&bx)a=a.neg();if(b.hi&bx)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bW,this.mi>>16,this.mi>>8&bW,this.mi&bW,this.lo>>16,this.lo>>8&bW,this.lo&bW]};t.prototype.lo32=function(){return this.lo|(this.mi&bW)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
-fq(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};t.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
+ft(b,c,a){return new
 t(b,c,a)}function
-fp(a){if(!isFinite(a)){if(isNaN(a))return fq(1,0,kT);return a>0?fq(0,0,kT):fq(0,0,0xfff0)}var
+fs(a){if(!isFinite(a)){if(isNaN(a))return ft(1,0,kU);return a>0?ft(0,0,kU):ft(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
-b=A5(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=A6(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lO)}else{a/=Math.pow(2,b-mD);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hj|f|b<<4;return fq(g,e,c)}function
-d9(a){return a.toArray()}function
-mO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fk)for(var
+g=a|0;c=c&hm|f|b<<4;return ft(g,e,c)}function
+eb(a){return a.toArray()}function
+mP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fn)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=d9(b.get(a));for(var
+e=eb(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=d9(fp(b.get(a)));for(var
+e=eb(fs(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hx(b.get(a));c.write(32,e)}break;case
+e=hA(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hx(d[1]));c.write(32,hx(d[2]))}break;case
+d=b.get(a);c.write(32,hA(d[1]));c.write(32,hA(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=d9(fp(f[1]));for(var
+f=b.get(a),e=eb(fs(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=d9(fp(f[2]));for(var
+e=eb(fs(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mM(a){switch(a){case
+mN(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ag(c,e){var
+Ah(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,44 +178,44 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)at("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)au("Bigarray.create: unsupported kind");var
 d=new
-a(e*mM(c));return d}function
-hy(c){var
+a(e*mN(c));return d}function
+hB(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-d8(a){return new
+ea(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hz(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hj)==0?b&bx?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hj);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
-a*=Math.pow(2,-lN);if(b&bx)a=-a;return a}function
-hs(b){var
+hC(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hm)==0?b&bx?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hm);if(c>0){a+=16;a*=Math.pow(2,c-mD)}else
+a*=Math.pow(2,-lO);if(b&bx)a=-a;return a}function
+hv(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)at("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ax(b,a){return new
-t(b&bV,b>>>24&bW|(a&bB)<<8,a>>>16&bB)}function
-hA(a){return a.hi32()}function
-hB(a){return a.lo32()}var
-Ah=fk;function
-cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ah;cf.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)au("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Ay(b,a){return new
+t(b&bW,b>>>24&bX|(a&bB)<<8,a>>>16&bB)}function
+hD(a){return a.hi32()}function
+hE(a){return a.lo32()}var
+Ai=fn;function
+cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ai;cf.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))at("bigarray.js: invalid offset");if(this.dims.length!=b.length)at("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d6();c=c*this.dims[a]+b[a]}else
+Array))au("bigarray.js: invalid offset");if(this.dims.length!=b.length)au("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d_();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d6();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d_();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ax(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ay(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fg,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hB(b);this.data[a*2+1]=hA(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fj,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hE(b);this.data[a*2+1]=hD(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hB(b),e=hA(b);if(c==e)this.data.fill(c);else
+c=hE(b),e=hD(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype=new
-cf();df.prototype.offset=function(a){if(typeof
+di(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}di.prototype=new
+cf();di.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-at("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d6();return a};df.prototype.get=function(a){return this.data[a]};df.prototype.set=function(a,b){this.data[a]=b;return 0};df.prototype.fill=function(a){this.data.fill(a);return 0};function
-mK(c,d,a,b){var
-e=mM(c);if(hs(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-df(c,d,a,b);return new
+au("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d_();return a};di.prototype.get=function(a){return this.data[a]};di.prototype.set=function(a,b){this.data[a]=b;return 0};di.prototype.fill=function(a){this.data.fill(a);return 0};function
+mL(c,d,a,b){var
+e=mN(c);if(hv(a)*e!=b.length)au("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+di(c,d,a,b);return new
 cf(c,d,a,b)}function
-bk(b){if(!ah.Failure)ah.Failure=[ar,a(g4),-3];hF(ah.Failure,b)}function
-mL(b,v,r){var
+bk(b){if(!ai.Failure)ai.Failure=[as,a(g7),-3];hI(ai.Failure,b)}function
+mM(b,v,r){var
 i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bW,o=p>>8&1,h=[];if(r==fk)for(var
+p=b.read32s(),j=p&bX,o=p>>8&1,h=[];if(r==fn)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==bB){var
 t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hs(h),f=Ag(j,d),g=mK(j,o,h,f);switch(j){case
+d=hv(h),f=Ah(j,d),g=mL(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,122 +282,122 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=d8(e);g.set(a,q)}break;case
+q=ea(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hz(d8(e));g.set(a,k)}break;case
+k=hC(ea(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hy(b.read32s());g.set(a,k)}break;case
+k=hB(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hy(b.read32s()),l=hy(b.read32s());g.set(a,[fg,m,l])}break;case
+m=hB(b.read32s()),l=hB(b.read32s());g.set(a,[fj,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hz(d8(e));for(var
+m=hC(ea(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hz(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
-mJ(a,b,c){return a.compare(b,c)}function
-m5(a,b){return Math.imul(a,b)}function
-bZ(b,a){a=m5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-At(a,b){a=bZ(a,hB(b));a=bZ(a,hA(b));return a}function
-m0(a,b){return At(a,fp(b))}function
-mN(c){var
-b=hs(c.dims),d=0;switch(c.kind){case
+l=hC(ea(e));g.set(a,[fj,m,l])}break}v[0]=(4+i)*4;return mL(j,o,h,f)}function
+mK(a,b,c){return a.compare(b,c)}function
+m6(a,b){return Math.imul(a,b)}function
+b0(b,a){a=m6(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m6(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Au(a,b){a=b0(a,hE(b));a=b0(a,hD(b));return a}function
+m1(a,b){return Au(a,fs(b))}function
+mO(c){var
+b=hv(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ma)b=ma;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bZ(d,e)}e=0;switch(b&3){case
+12:if(b>mb)b=mb;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b0(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bZ(d,e)}break;case
+1:e|=c.data[a+0];d=b0(d,e)}break;case
 4:case
-5:if(b>d5)b=d5;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bZ(d,e)}if((b&1)!=0)d=bZ(d,c.data[a]);break;case
+5:if(b>d9)b=d9;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b0(d,e)}if((b&1)!=0)d=b0(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m0(d,c.data[a]);break;case
+a=0;a<b;a++)d=m1(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m0(d,c.data[a]);break}return d}function
-Av(a,b){b[0]=4;return a.read32s()}function
-AR(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m1(d,c.data[a]);break}return d}function
+Aw(a,b){b[0]=4;return a.read32s()}function
+AS(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
-AG(c,d){var
+AH(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return d8(b)}function
-AC(e,d,b){var
-c=d9(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ea(b)}function
+AD(e,d,b){var
+c=eb(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Aw(a,b,c){return a.compare(b)}function
-Az(a){return a.lo32()^a.hi32()}var
-mV={"_j":{deserialize:AG,serialize:AC,fixed_length:8,compare:Aw,hash:Az},"_i":{deserialize:Av,fixed_length:4},"_n":{deserialize:AR,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
-hu(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
-mT(f,c,d,e){var
-b=hu(c);if(b){var
+Ax(a,b,c){return a.compare(b)}function
+AA(a){return a.lo32()^a.hi32()}var
+mW={"_j":{deserialize:AH,serialize:AD,fixed_length:8,compare:Ax,hash:AA},"_i":{deserialize:Aw,fixed_length:4},"_n":{deserialize:AS,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mM(a,b,"_bigarray")},serialize:mP,compare:mK,hash:mO},"_bigarr02":{deserialize:function(a,b){return mM(a,b,fn)},serialize:mP,compare:mK,hash:mO}};function
+hx(a){return mW[a.caml_custom]&&mW[a.caml_custom].compare}function
+mU(f,c,d,e){var
+b=hx(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fr(a){return a
+fu(a){return a
 instanceof
 bC}function
-hD(a){return fr(a)}function
-mU(a){if(typeof
-a==="number")return d2;else
-if(fr(a))return fj;else
-if(hD(a))return 1252;else
+hG(a){return fu(a)}function
+mV(a){if(typeof
+a==="number")return d6;else
+if(fu(a))return fm;else
+if(hG(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=k8){var
-b=a[0]|0;return b==fg?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=k9){var
+b=a[0]|0;return b==fj?0:b}else
 if(a
 instanceof
-String)return lj;else
+String)return lk;else
 if(typeof
-a=="string")return lj;else
+a=="string")return lk;else
 if(a
 instanceof
-Number)return d2;else
-if(a&&a.caml_custom)return g6;else
+Number)return d6;else
+if(a&&a.caml_custom)return g9;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AH(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mQ(a,b){a.t&6&&dh(a);b.t&6&&dh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-AZ(a,b){return mQ(a,b)}function
-ht(a,b,d){var
+AI(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mR(a,b){a.t&6&&dk(a);b.t&6&&dk(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+A0(a,b){return mR(a,b)}function
+hw(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mU(a);if(f==k9){a=a[1];continue}var
-g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g6)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g6)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:at(hc);break;case
+f=mV(a);if(f==k_){a=a[1];continue}var
+g=mV(b);if(g==k_){b=b[1];continue}if(f!==g){if(f==d6){if(g==g9)return mU(a,b,-1,d);return-1}if(g==d6){if(f==g9)return mU(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:au(hf);break;case
 248:var
-c=AH(a[2],b[2]);if(c!=0)return c|0;break;case
-249:at(hc);break;case
-250:at("equal: got Forward_tag, should not happen");break;case
-251:at("equal: abstract value");break;case
+c=AI(a[2],b[2]);if(c!=0)return c|0;break;case
+249:au(hf);break;case
+250:au("equal: got Forward_tag, should not happen");break;case
+251:au("equal: abstract value");break;case
 252:if(a!==b){var
-c=mQ(a,b);if(c!=0)return c|0}break;case
-253:at("equal: got Double_tag, should not happen");break;case
-254:at("equal: got Double_array_tag, should not happen");break;case
-255:at("equal: got Custom_tag, should not happen");break;case
-1247:at(hc);break;case
+c=mR(a,b);if(c!=0)return c|0}break;case
+253:au("equal: got Double_tag, should not happen");break;case
+254:au("equal: got Double_array_tag, should not happen");break;case
+255:au("equal: got Custom_tag, should not happen");break;case
+1247:au(hf);break;case
 1255:var
-i=hu(a);if(i!=hu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
+i=hx(a);if(i!=hx(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)au("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,210 +405,210 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=b0(a),b=b0(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b1(a),b=b1(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-An(a,b){return ht(a,b,true)}function
-Ao(){return[0]}function
-ao(a){if(a<0)at("Bytes.create");return new
+Ao(a,b){return hw(a,b,true)}function
+Ap(){return[0]}function
+ao(a){if(a<0)au("Bytes.create");return new
 bC(a?2:9,s,a)}function
-mW(a,b){return+(ht(a,b,false)==0)}function
-Aq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hE(d){d=b0(d);var
-e=d.length;if(e>31)at("format_int: format too long");var
-a={justify:by,signstyle:a9,filler:bT,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+mX(a,b){return+(hw(a,b,false)==0)}function
+Ar(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dm(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fp(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hH(d){d=b1(d);var
+e=d.length;if(e>31)au("format_int: format too long");var
+a={justify:by,signstyle:a9,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hv(b,f){if(b.uppercase)f=f.toUpperCase();var
+hy(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==by&&b.filler==bT)for(var
-d=e;d<b.width;d++)c+=bT;if(b.signedconv)if(b.sign<0)c+=a9;else
-if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kR;if(b.justify==by&&b.filler==aP)for(var
+c=s;if(b.justify==by&&b.filler==bU)for(var
+d=e;d<b.width;d++)c+=bU;if(b.signedconv)if(b.sign<0)c+=a9;else
+if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kS;if(b.justify==by&&b.filler==aP)for(var
 d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
-d=e;d<b.width;d++)c+=bT;return a(c)}function
-hw(i,c){function
+d=e;d<b.width;d++)c+=bU;return a(c)}function
+hz(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
 Array(c+1).join(aP);if(b>0)a=a+ce+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hE(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g8;e.filler=bT}else
-if(!isFinite(c)){a="inf";e.filler=bT}else
+a,e=hH(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g$;e.filler=bU}else
+if(!isFinite(c)){a="inf";e.filler=bU}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hp),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hs)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hs),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hs)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hv(e,a)}function
-fn(e,c){if(b0(e)==hi)return a(s+c);var
-b=hE(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hy(e,a)}function
+fq(e,c){if(b1(e)==hl)return a(s+c);var
+b=hH(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bT;var
-f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hv(b,d)}var
-AS=0;function
-fo(){return AS++}function
-AK(a){return a.toUtf16()}function
-d$(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bU;var
+f=b.prec-d.length;if(f>0)d=dm(f,aP)+d}return hy(b,d)}var
+AT=0;function
+fr(){return AT++}function
+AL(a){return a.toUtf16()}function
+ed(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-A7(){function
+A8(){function
 a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return d$()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-hN=A7();function
-m$(a){return a.slice(-1)!==bg?a+bg:a}if(d$()&&u.process&&u.process.cwd)var
-d7=u.process.cwd().replace(/\\/g,bg);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return ed()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+hQ=A8();function
+na(a){return a.slice(-1)!==bg?a+bg:a}if(ed()&&u.process&&u.process.cwd)var
+d$=u.process.cwd().replace(/\\/g,bg);else
 var
-d7="/static";d7=m$(d7);function
-AL(a){a=AK(a);if(!hN(a))a=d7+a;var
-e=hN(a),d=e[1].split(bg),b=[];for(var
+d$="/static";d$=na(d$);function
+AM(a){a=AL(a);if(!hQ(a))a=d$+a;var
+e=hQ(a),d=e[1].split(bg),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-A1(e){for(var
+A2(e){for(var
 f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kU){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&dc)}else
-if(a<0xd800||a>=la)b+=String.fromCharCode(lb|a>>12,bi|a>>6&dc,bi|a&dc);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k2||h>la)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mn|a>>18,bi|a>>12&dc,bi|a>>6&dc,bi|a&dc)}if(b.length>d3){b.substr(0,1);f+=b;b=s}}return f+b}function
-Al(a){var
-b=9;if(!nb(a))b=8,a=A1(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kV){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<md){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&df)}else
+if(a<0xd800||a>=lb)b+=String.fromCharCode(lc|a>>12,bi|a>>6&df,bi|a&df);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k3||h>lb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mo|a>>18,bi|a>>12&df,bi|a>>6&df,bi|a&df)}if(b.length>d7){b.substr(0,1);f+=b;b=s}}return f+b}function
+Am(a){var
+b=9;if(!nc(a))b=8,a=A2(a);return new
 bC(b,a,a.length)}function
-bl(a){return Al(a)}var
-A9=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hk,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g7,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cK(d,f,e,a){var
-b=A9.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+bl(a){return Am(a)}var
+A_=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hn,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g_,l_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cL(d,f,e,a){var
+b=A_.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,bl(f||s),bl(e||s)];return c}var
-m6={};function
-cI(a){return m6[a]}function
-cJ(b,a){throw[0,b].concat(a)}function
-Ak(a){return new
+m7={};function
+cJ(a){return m7[a]}function
+cK(b,a){throw[0,b].concat(a)}function
+Al(a){return new
 bC(4,a,a.length)}function
-Q(a){hF(ah.Sys_error,a)}function
-AV(a){Q(a+e5)}function
-Aj(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
+Q(a){hI(ai.Sys_error,a)}function
+AW(a){Q(a+e8)}function
+Ak(b,a){if(a>>>0>=b.l)mQ();return dj(b,a)}function
 a0(a){return a.l}function
-mI(){}function
-az(a){this.data=a}az.prototype=new
-mI();az.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};az.prototype.length=function(){return a0(this.data)};az.prototype.write=function(b,d,g,a){var
+mJ(){}function
+aA(a){this.data=a}aA.prototype=new
+mJ();aA.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};aA.prototype.length=function(){return a0(this.data)};aA.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
-e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Aj(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
+e=this.length();cg(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Ak(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
 c=d.split(bg),b=s;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-az(bX(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
+aA(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cI(hh);if(this.exists(c))if(b)cJ(b,cK(kZ,g1,this.nm(c)));else
+b=d&&cJ(hk);if(this.exists(c))if(b)cK(b,cL(k0,g4,this.nm(c)));else
 Q(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hk,g1,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,g1,this.nm(a)));else
-Q(a+ho);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cI(hh),c=a==s?s:this.slash(a),e=new
-RegExp(g_+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hk,hf,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,hf,this.nm(a)));else
-Q(a+ho);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cK(b,cL(hn,g4,this.nm(a)));else
+Q(a+e8);if(!this.is_dir(a))if(b)cK(b,cL(g_,g4,this.nm(a)));else
+Q(a+hr);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cJ(hk),c=a==s?s:this.slash(a),e=new
+RegExp(hb+c+l$);if(!this.exists(a))if(b)cK(b,cL(hn,hi,this.nm(a)));else
+Q(a+e8);if(!this.is_dir(a))if(b)cK(b,cL(g_,hi,this.nm(a)));else
+Q(a+hr);for(var
 d
 in
-this.content)if(d.match(e))if(b)cJ(b,cK(l9,hf,this.nm(a)));else
+this.content)if(d.match(e))if(b)cK(b,cL(l_,hi,this.nm(a)));else
 Q(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+ho);var
+f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e8);if(!this.is_dir(a))Q(a+hr);var
 g=new
-RegExp(g_+f+l_),d={},c=[];for(var
+RegExp(hb+f+l$),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==s)return true;var
 b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lq);if(b.text&&b.binary)Q(this.nm(a)+lV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lp);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lr);if(b.text&&b.binary)Q(this.nm(a)+lW);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lq);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-az(ao(0));return this.content[a]}else
-AV(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])Q(this.nm(c)+lp);if(fr(a))b=new
-az(a);if(hD(a))b=new
-az(bX(a));else
+aA(ao(0));return this.content[a]}else
+AW(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])Q(this.nm(c)+lq);if(fu(a))b=new
+aA(a);if(hG(a))b=new
+aA(bY(a));else
 if(a
 instanceof
 Array)b=new
-az(Ak(a));else
+aA(Al(a));else
 if(typeof
 a==="string")b=new
-az(mR(a));else
+aA(mS(a));else
 if(a.toString){var
-d=bX(bl(a.toString()));b=new
-az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+d=bY(bl(a.toString()));b=new
+aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-E(a){return a0(a)}function
-bG(b,a){return dg(b,a)}function
-Af(d){var
-c=E(d),b=new
+F(a){return a0(a)}function
+bG(b,a){return dj(b,a)}function
+Ag(d){var
+c=F(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
-Ae(a){if(a.t!=4)fm(a);return a.c}function
+Af(a){if(a.t!=4)fp(a);return a.c}function
 bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
-mI();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
-a=Af(b);if(!(a
+mJ();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
+a=Ag(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
-a=Ae(d);if(!(a
+a=Af(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
-b=0;b<f;b++)cH(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
+b=0;b<f;b++)cI(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
 b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){Q(a.toString())}return a[0]};bD.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){Q(a.toString())}};bD.prototype.constructor=bD;function
-aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aA.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
+aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aB.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kI);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
-b=cI(hh);if(d&&b){var
-c=cK(a.code,a.syscall,a.path,a.errno);cJ(b,c)}else
-Q(a.toString())};aA.prototype.stats_from_js=function(a){var
+bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kJ);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
+b=cJ(hk);if(d&&b){var
+c=cL(a.code,a.syscall,a.path,a.errno);cK(b,c)}else
+Q(a.toString())};aB.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
-mZ(b){var
-a=hN(b);if(!a)return;return a[0]+bg}var
-ft=mZ(d7)||bk("unable to compute caml_root"),dk=[];if(d$())dk.push({path:ft,device:new
-aA(ft)});else
-dk.push({path:ft,device:new
-aQ(ft)});dk.push({path:lR,device:new
-aQ(lR)});function
-nf(b){var
-g=AL(b),b=g.join(bg),f=m$(b),c;for(var
-e=0;e<dk.length;e++){var
-a=dk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&d$()){var
-d=mZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
+m0(b){var
+a=hQ(b);if(!a)return;return a[0]+bg}var
+fw=m0(d$)||bk("unable to compute caml_root"),dn=[];if(ed())dn.push({path:fw,device:new
+aB(fw)});else
+dn.push({path:fw,device:new
+aQ(fw)});dn.push({path:lS,device:new
+aQ(lS)});function
+ng(b){var
+g=AM(b),b=g.join(bg),f=na(b),c;for(var
+e=0;e<dn.length;e++){var
+a=dn[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ed()){var
+d=m0(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aA(d)};dk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
-Ap(c,b){var
-a=nf(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
-na(c,b){var
-c=a(c),b=a(b);return Ap(c,b)}function
-As(){var
+aB(d)};dn.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
+Aq(c,b){var
+a=ng(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
+nb(c,b){var
+c=a(c),b=a(b);return Aq(c,b)}function
+At(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)na(b[a].name,b[a].content);u.jsoo_create_file=na;u.caml_fs_tmp=[];return 0}function
-mY(){return[0]}function
-Au(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g8);return bl(a>0?mr:"-infinity")}var
+a=0;a<b.length;a++)nb(b[a].name,b[a].content);u.jsoo_create_file=nb;u.caml_fs_tmp=[];return 0}function
+mZ(){return[0]}function
+Av(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g$);return bl(a>0?ms:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
@@ -616,25 +616,25 @@ while(a>=2){a/=2;d++}var
 j=d<0?s:by,e=s;if(i)e=a9;else
 switch(k){case
 43:e=by;break;case
-32:e=bT;break;default:break}if(c>=0&&c<13){var
+32:e=bU;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ce);if(h<0)b+=ce+dj(c,aP);else{var
-f=h+1+c;if(b.length<f)b+=dj(f-b.length,aP);else
-b=b.substr(0,f)}}return bl(e+kR+b+"p"+j+d.toString(10))}function
-AB(a){return+a.isZero()}function
-AE(a){return new
-t(a&bV,a>>24&bV,a>>31&bB)}function
-AF(a){return a.toInt()}function
-AA(a){return+a.isNeg()}function
-AD(a){return a.neg()}function
-Ay(g,c){var
-a=hE(g);if(a.signedconv&&AA(c)){a.sign=-1;c=AD(c)}var
-b=s,h=AE(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AF(e.modulus))+b}while(!AB(c));if(a.prec>=0){a.filler=bT;var
-d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hv(a,b)}function
-AT(c){var
-a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
+h=b.indexOf(ce);if(h<0)b+=ce+dm(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=dm(f-b.length,aP);else
+b=b.substr(0,f)}}return bl(e+kS+b+"p"+j+d.toString(10))}function
+AC(a){return+a.isZero()}function
+AF(a){return new
+t(a&bW,a>>24&bW,a>>31&bB)}function
+AG(a){return a.toInt()}function
+AB(a){return+a.isNeg()}function
+AE(a){return a.neg()}function
+Az(g,c){var
+a=hH(g);if(a.signedconv&&AB(c)){a.sign=-1;c=AE(c)}var
+b=s,h=AF(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AG(e.modulus))+b}while(!AC(c));if(a.prec>=0){a.filler=bU;var
+d=a.prec-b.length;if(d>0)b=dm(d,aP)+b}return hy(a,b)}function
+AU(c){var
+a=0,e=F(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
 120:case
@@ -645,39 +645,39 @@ a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-m7(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mE)return a-87;return-1}function
-hC(f){var
-h=AT(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
-a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m7(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e8)}if(c!=g)bk(e8);a=i*a;if(d==10&&(a|0)!=a)bk(e8);return a|0}function
-AJ(d){return function(){var
+m8(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mF)return a-87;return-1}function
+hF(f){var
+h=AU(f),c=h[0],i=h[1],d=h[2],g=F(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m8(e);if(b<0||b>=d)bk(e$);var
+a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m8(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e$)}if(c!=g)bk(e$);a=i*a;if(d==10&&(a|0)!=a)bk(e$);return a|0}function
+AK(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bY(d,c)}else
-return bY(d,[undefined])}}function
-AM(a,d){if(a<0)d6();var
+a=0;a<b;a++)c[a]=arguments[a];return bZ(d,c)}else
+return bZ(d,[undefined])}}function
+AN(a,d){if(a<0)d_();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-AN(){return 0}var
+AO(){return 0}var
 bF=new
 Array();function
-di(c){var
-a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ah.fds[a.fd]&&ah.fds[a.fd].output){var
-b=ah.fds[a.fd].output;switch(b.length){case
+dl(c){var
+a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ai.fds[a.fd]&&ai.fds[a.fd].output){var
+b=ai.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-m_(e,f){var
-b=bF[e],d=a(f),c=E(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-A2(a){var
-a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
-c=b.console;c&&c.error&&c.error(a)}}function
+m$(e,f){var
+b=bF[e],d=a(f),c=F(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
 A3(a){var
-a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+a=hM(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+c=b.console;c&&c.error&&c.error(a)}}function
+A4(a){var
+a=hM(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fu(c,e,d,a){if(ah.fds===undefined)ah.fds=new
+fx(c,e,d,a){if(ai.fds===undefined)ai.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ah.fds[c]=b;if(!ah.fd_last_idx||c>ah.fd_last_idx)ah.fd_last_idx=c;return c}function
-A_(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ai.fds[c]=b;if(!ai.fd_last_idx||c>ai.fd_last_idx)ai.fd_last_idx=c;return c}function
+A$(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,327 +687,327 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b0(c)+lq);if(a.text&&a.binary)Q(b0(c)+lV);var
-d=nf(c),e=d.device.open(d.rest,a),f=ah.fd_last_idx?ah.fd_last_idx:0;return fu(f+1,m_,e,a)}fu(0,m_,new
-az(ao(0)));fu(1,A3,new
-az(ao(0)));fu(2,A2,new
-az(ao(0)));function
-AO(a){var
-c=ah.fds[a];if(c.flags.wronly)Q(mD+a+" is writeonly");var
-d=null;if(a==0&&d$()){var
-e=require("fs");d=function(){return bl(e.readFileSync(0,kI))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b1(c)+lr);if(a.text&&a.binary)Q(b1(c)+lW);var
+d=ng(c),e=d.device.open(d.rest,a),f=ai.fd_last_idx?ai.fd_last_idx:0;return fx(f+1,m$,e,a)}fx(0,m$,new
+aA(ao(0)));fx(1,A4,new
+aA(ao(0)));fx(2,A3,new
+aA(ao(0)));function
+AP(a){var
+c=ai.fds[a];if(c.flags.wronly)Q(mE+a+" is writeonly");var
+d=null;if(a==0&&ed()){var
+e=require("fs");d=function(){return bl(e.readFileSync(0,kJ))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;return b.fd}function
-m2(c){var
-b=ah.fds[c];if(b.flags.rdonly)Q(mD+c+" is readonly");var
+m3(c){var
+b=ai.fds[c];if(b.flags.rdonly)Q(mE+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
-AP(){var
+AQ(){var
 b=0;for(var
 a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
-aJ(a){return a}function
-AQ(g,d,h,f){var
+aK(a){return a}function
+AR(g,d,h,f){var
 b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
 a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
-i=aJ(a),c=b0(i),e=c.lastIndexOf(k3);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);di(g);b.buffer+=c.substr(e+1)}return 0}function
-m3(b,a,d,c){return AQ(b,bX(a),d,c)}function
-m4(c,b){var
-d=a(String.fromCharCode(b));m3(c,d,0,1);return 0}function
-d_(a,b){return+(ht(a,b,false)!=0)}function
-fs(a){if(a
+i=aK(a),c=b1(i),e=c.lastIndexOf(k4);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dl(g);b.buffer+=c.substr(e+1)}return 0}function
+m4(b,a,d,c){return AR(b,bY(a),d,c)}function
+m5(c,b){var
+d=a(String.fromCharCode(b));m4(c,d,0,1);return 0}function
+ec(a,b){return+(hw(a,b,false)!=0)}function
+fv(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fr(a))return fj;else
-if(hD(a))return fj;else
+if(fu(a))return fm;else
+if(hG(a))return fm;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return k8;else
-return d2}function
-a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ah[b+1]=c;if(a)ah[a]=c}function
-hG(a,b){m6[b0(a)]=b;return 0}function
-Ai(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
-au(a,b){return Ai(a,b)}function
-AY(){at(hm)}function
-R(b,a){if(a>>>0>=E(b))AY();return bG(b,a)}function
-l(a,b){return 1-au(a,b)}function
-A0(){return 0x7FFFFFFF/4|0}function
-hI(a){var
+if(a&&a.caml_custom)return k9;else
+return d6}function
+a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ai[b+1]=c;if(a)ai[a]=c}function
+hJ(a,b){m7[b1(a)]=b;return 0}function
+Aj(a,b){if(a===b)return 1;a.t&6&&dk(a);b.t&6&&dk(b);return a.c==b.c?1:0}function
+av(a,b){return Aj(a,b)}function
+AZ(){au(hp)}function
+R(b,a){if(a>>>0>=F(b))AZ();return bG(b,a)}function
+l(a,b){return 1-av(a,b)}function
+A1(){return 0x7FFFFFFF/4|0}function
+hL(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aB(b,a){return{joo_tramp:b,joo_args:a}}function
-m9(a){return a}function
-fv(a){if(a
+aC(b,a){return{joo_tramp:b,joo_args:a}}function
+m_(a){return a}function
+fy(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m9(ah.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m_(ai.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m9(ah.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m_(ai.Stack_overflow);if(a
 instanceof
-u.Error&&cI(g5))return[0,cI(g5),a];return[0,ah.Failure,bl(String(a))]}function
-fw(a){return a<0?-a:a}function
-A(a,b){return a+b}function
-hK(a,b){return a<b?-1:a>b?1:0}function
-nc(c,b){var
-a=c%b;return a<0?a+fw(b):a}function
-hL(a,b){return(a-nc(a,b))/b}function
-ak(a,b){return a==b?1:0}function
-B(a,b){return a<=b?1:0}function
-ac(a,b){return a<b?1:0}function
+u.Error&&cJ(g8))return[0,cJ(g8),a];return[0,ai.Failure,bl(String(a))]}function
+fz(a){return a<0?-a:a}function
+C(a,b){return a+b}function
+hN(a,b){return a<b?-1:a>b?1:0}function
+nd(c,b){var
+a=c%b;return a<0?a+fz(b):a}function
+hO(a,b){return(a-nd(a,b))/b}function
+al(a,b){return a==b?1:0}function
+D(a,b){return a<=b?1:0}function
+$(a,b){return a<b?1:0}function
 r(a,b){return a*b}function
 W(a){return-a}function
 a1(a){return u.BigInt(a)}function
-nd(a,b){return a<<u.BigInt(b)}function
-ne(a,b){return a>>u.BigInt(b)}function
+ne(a,b){return a<<u.BigInt(b)}function
+nf(a,b){return a>>u.BigInt(b)}function
 bH(a){return a<0?-1:a>0?1:0}function
-A8(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+A9(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b1(a,b){return a-b}function
-hM(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-AI(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ar(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AI(b[1]))var
+b2(a,b){return a-b}function
+hP(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+AJ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+As(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AJ(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mb;for(var
-d=f;d<e.length;d++){if(d>f)a+=kL;var
+f=2,e=b;a+=mc;for(var
+d=f;d<e.length;d++){if(d>f)a+=kM;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bC)a+=as+c.toString()+as;else
+bC)a+=at+c.toString()+at;else
 if(typeof
-c=="string")a+=as+c.toString()+as;else
-a+=lI}a+=g9}else
-if(b[0]==ar)a+=b[1];return a}function
-mX(a){if(a
+c=="string")a+=at+c.toString()+at;else
+a+=lJ}a+=ha}else
+if(b[0]==as)a+=b[1];return a}function
+mY(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ar)){var
-c=cI(kY);if(c)c(a,false);else{var
-d=Ar(a),b=cI(kH);if(b)b(0);u.console.error(hd+d+k3)}}else
+Array&&(a[0]==0||a[0]==as)){var
+c=cJ(kZ);if(c)c(a,false);else{var
+d=As(a),b=cJ(kI);if(b)b(0);u.console.error(hg+d+k4)}}else
 throw a}function
-AX(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AX();function
-e(a,b){return a.length==1?a(b):bY(a,[b])}function
-N(a,b,c){return a.length==2?a(b,c):bY(a,[b,c])}function
-g0(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
-Ad(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}As();var
-fx=[ar,a(mv),-1],hS=[ar,a(k0),-2],hP=[ar,a(g4),-3],hO=[ar,a(lE),-4],hQ=[ar,a(lg),-8],hR=[ar,a(lS),-9],$=[ar,a(mg),-11],hT=[ar,a(kG),-12],zf=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zg=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,0]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,0]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,0],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,0]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,0],Ac=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hT,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hR,lS);a_(7,hQ,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hO,lE);a_(2,hP,g4);a_(1,hS,k0);a_(0,fx,mv);var
-nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g8),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hi),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),zf]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hi)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g9),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g_),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g9),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(he),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hq),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vA=a(s),vw=[0,[0,[0,0]]],vx=[0,[0,[0,[0,0]]]],vy=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hg),t4=a(ha),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hn),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hr),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g2),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g2),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hl),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(hb),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xM=a(cd),xN=a(hb),xO=a(fb),xR=a(bh),xS=a(cc),xP=[0,a('" of such a platform'),0],xQ=a(kM),xy=a("rho"),xz=a(fh),xA=[0,a("a joint by its coordinate"),0],w_=a(bU),wZ=a(bj),w0=a(lh),w1=a(lw),w4=a(kP),w5=a(lF),w6=a(bj),w7=a(bj),w9=a(fc),w8=[0,a("a claim that no cube of such a machine fits"),0],w$=a(dd),xa=a(de),xb=a(e6),xc=a(hr),x$=[0,a("such a machine with bodies"),0],xd=a(d1),xe=a(hl),xf=a(mm),xg=a(hn),xh=a(kQ),xi=a(lM),xj=a(e6),xm=a(cF),xn=a(mt),xq=a(hr),xr=[0,a("a machine with arms and bodies"),0],xs=[0,a("two bodies beside each other on one leg"),0],xt=a(bU),xu=a(l4),xv=a(fc),xw=a(d4),xx=a(cF),xB=a(bU),xC=a(bA),xD=a(bz),xE=a(lk),xF=a(ls),xG=a(mG),xH=a(lU),xk=[0,a(as),0],xl=a(lz),xI=a(cF),xJ=[0,a('" of a platform that turns'),0],xK=a(ln),xL=a(mq),x9=[0,a('" that does not turn'),0],x_=a(lz),xT=a(hn),xU=a(lm),xV=a(k6),xW=a(lu),xX=a(fd),xY=a(l6),xZ=a(fd),x6=a(lB),x7=a(kS),x8=a(lX),x0=a(d1),x1=a(hl),x2=a(bU),x3=a(bA),x4=a(bz),x5=a(mw),xo=[0,a(as),0],xp=a(ln),w2=[0,a(as),0],w3=a('a claim of the kind "'),yc=a(e$),yd=a(l2),ye=a(mi),yf=a(cG),yg=a(lC),yh=a(e9),yi=a(lT),yj=a(fi),yo=a(ha),yp=a(hg),yq=a(cG),yk=[0,a(as),0],yl=a('the evidence "'),ym=a(ha),yn=a(hg),yr=a(e9),ys=a(fi),yt=a(mA),yv=a(e9),yw=a(fi),yx=a(he),yy=a(he),yu=[0,a("this evidence at control points"),0],yX=a(mf),yY=a(l0),yZ=a(lo),y_=[0,3,3],y0=a(l5),y5=[0,a('the drive "arm" in a claim that is certified'),0],y6=[0,a("a step of a platform that turns that is not at control points"),0],y7=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y8=[0,a("a mechanism by formulas in a claim that is refuted"),0],y9=[0,a("a step in a proof that no cube fits"),0],y1=[0,a("a leaf that fails"),0],y2=a(k_),y3=a(lH),y4=a(e7),yV=a(hq),yK=a(k7),yL=a(my),yO=a(bj),yP=a(fa),yQ=a(lJ),yR=a(e_),yS=a(mu),yT=a(e_),yM=[0,a(as),0],yN=a('a proof of the kind "'),yG=a(mo),yH=a(fa),yI=a(lZ),yJ=a(mB),yB=a(l$),yC=a(mz),yD=a(fh),yE=[0,a(as),0],yF=a('the failure "'),yz=a(hq),yA=a(aP),ya=a(lG),yb=a(kF),wW=a(d4),wM=a(g2),wN=a(lL),wO=a(db),wP=a(bh),wU=a(mx),wV=a(d4),wX=a(da),wY=a(db),wQ=a(da),wR=a(mh),wS=a(l1),wT=a(bh),wF=a(cF),wJ=a(bA),wK=a(bz),wG=a(k4),wH=a(k$),wI=a(da),wD=[0,a(me),0],wC=[0,a(me),0],ws=a(lY),wt=[0,a("a stiffness for each joint"),0],wr=a(e7),wk=a(l8),wc=a(mj),wd=a(mp),ww=a(kX),wx=a(e$),wy=a(ml),wz=a(kJ),wA=a(lK),we=a(ms),wf=a(mF),wg=a(lO),wh=a(kK),wi=[0,a(as),0],wj=a('the quantity "'),wl=a(kO),wm=a(bA),wn=a(bz),wo=a(lt),wp=[0,a(as),0],wq=a('a bound "'),wu=a(k1),wv=a(db),v7=a(ff),v8=a(fe),v9=a(fl),v_=a(bh),v$=a(cc),wa=a(lc),wb=a(li),v4=a(cd),v5=a(fl),vP=a(cd),vQ=a(d1),vR=a(lx),vS=a(fb),vV=a(hb),vW=a(bh),vX=a(cc),vY=a(ff),vZ=a(fe),v0=a(bh),v1=a(cc),v2=a(cG),v3=a(cG),vT=[0,a(as),0],vU=a(kM),vM=a(by),vN=a(a9),vK=a(" is not covered by the verified checker"),vL=a(s),vI=a(bA),vJ=a(bz),vE=a(s),vF=a(mH),vG=a(s),vH=a(s),vD=[1,0],vB=a("Reader.Malformed"),vC=a("Reader.Not_covered"),za=a(ld),zb=a("CERTIFIED"),zc=a("REFUTED"),zd=a(ld),ze=a("NOT COVERED: ");function
-ad(a){if(typeof
+AY(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mY(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mY(a.error)})}AY();function
+e(a,b){return a.length==1?a(b):bZ(a,[b])}function
+N(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
+g3(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bZ(a,[b,c,d,e,f])}function
+Ae(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}At();var
+fA=[as,a(mw),-1],hV=[as,a(k1),-2],hS=[as,a(g7),-3],hR=[as,a(lF),-4],hT=[as,a(lh),-8],hU=[as,a(lT),-9],ab=[as,a(mh),-11],hW=[as,a(kH),-12],zg=[4,0,0,0,[12,45,[4,0,0,0,0]]],fG=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lm),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zh=[0,[0,0]],zi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],zj=[0,0],zk=[0,[0,[0,[0,0]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],zo=[0,[0,0]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,0]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,0],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,0]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,0],Ad=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eQ=[0,[0,[0,[0,0]]]];a_(11,hW,kH);a_(10,ab,mh);a_(9,[as,a(lz),-10],lz);a_(8,hU,lT);a_(7,hT,lh);a_(6,[as,a(lQ),-7],lQ);a_(5,[as,a(l8),-6],l8);a_(4,[as,a(k6),-5],k6);a_(3,hR,lF);a_(2,hS,g7);a_(1,hV,k1);a_(0,fA,mw);var
+nl=a("%.12g"),nk=a(ce),ni=a("true"),nj=a("false"),nm=a("\\\\"),nn=a("\\'"),no=a("\\b"),np=a("\\t"),nq=a("\\n"),nr=a("\\r"),nu=a("String.blit / Bytes.blit_string"),nt=a("Bytes.blit"),ns=a("String.sub / Bytes.sub"),nw=a(s),nv=a("String.concat"),nx=a("Array.init"),nA=a("Buffer.add: cannot grow buffer"),nz=[0,a(l4),93,2],ny=[0,a(l4),94,2],nJ=a("%c"),nK=a("%s"),nL=a(kF),nM=a(lf),nN=a(lB),nO=a(kO),nP=a("%f"),nQ=a("%B"),nR=a("%{"),nS=a("%}"),nT=a("%("),nU=a("%)"),nV=a("%a"),nW=a("%t"),nX=a("%?"),nY=a("%r"),nZ=a("%_r"),n0=[0,a(ar),850,23],n$=[0,a(ar),814,21],n3=[0,a(ar),815,21],oa=[0,a(ar),818,21],n4=[0,a(ar),819,21],ob=[0,a(ar),822,19],n5=[0,a(ar),823,19],oc=[0,a(ar),826,22],n6=[0,a(ar),827,22],od=[0,a(ar),831,30],n7=[0,a(ar),832,30],n9=[0,a(ar),836,26],n1=[0,a(ar),837,26],n_=[0,a(ar),846,28],n2=[0,a(ar),847,28],n8=[0,a(ar),851,23],pg=a(lw),pe=[0,a(ar),1558,4],pf=a("Printf: bad conversion %["),ph=[0,a(ar),1626,39],pi=[0,a(ar),1649,31],pj=[0,a(ar),1650,31],pk=a("Printf: bad conversion %_"),pl=a(ls),pm=a(lE),pn=a(ls),po=a(lE),pc=a(g$),pa=a("neg_infinity"),pb=a(ms),o$=a(ce),o6=[0,kX],oU=a("%+nd"),oV=a("% nd"),oX=a("%+ni"),oY=a("% ni"),oZ=a("%nx"),o0=a("%#nx"),o1=a("%nX"),o2=a("%#nX"),o3=a("%no"),o4=a("%#no"),oT=a("%nd"),oW=a(lB),o5=a("%nu"),oH=a("%+ld"),oI=a("% ld"),oK=a("%+li"),oL=a("% li"),oM=a("%lx"),oN=a("%#lx"),oO=a("%lX"),oP=a("%#lX"),oQ=a("%lo"),oR=a("%#lo"),oG=a("%ld"),oJ=a(lf),oS=a("%lu"),ou=a("%+Ld"),ov=a("% Ld"),ox=a("%+Li"),oy=a("% Li"),oz=a("%Lx"),oA=a("%#Lx"),oB=a("%LX"),oC=a("%#LX"),oD=a("%Lo"),oE=a("%#Lo"),ot=a("%Ld"),ow=a(kO),oF=a("%Lu"),oh=a("%+d"),oi=a("% d"),ok=a("%+i"),ol=a("% i"),om=a("%x"),on=a("%#x"),oo=a("%X"),op=a("%#X"),oq=a("%o"),or=a("%#o"),og=a(hl),oj=a(kF),os=a(lw),nB=a("@]"),nC=a("@}"),nD=a("@?"),nE=a("@\n"),nF=a("@."),nG=a("@@"),nH=a("@%"),nI=a("@"),oe=a("CamlinternalFormat.Type_mismatch"),ps=a(s),pt=[0,[11,a(kM),[2,0,[2,0,0]]],a(", %s%s")],pS=[0,[11,a(hg),[2,0,[12,10,0]]],a(me)],pT=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pR=a("Fatal error: out of memory in uncaught exception handler"),pP=[0,[11,a(hg),[2,0,[12,10,0]]],a(me)],pL=[0,[2,0,[12,10,0]],a("%s\n")],pD=a("Raised at"),pE=a("Re-raised at"),pF=a("Raised by primitive operation at"),pG=a("Called from"),pH=a(" (inlined)"),pJ=a(s),pI=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lm),zg]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pK=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],py=a("Out of memory"),pz=a("Stack overflow"),pA=a("Pattern matching failed"),pB=a("Assertion failed"),pC=a("Undefined recursive module"),pu=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pv=a(s),pw=a(s),px=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pr=[0,[4,0,0,0,0],a(hl)],pp=[0,[3,0,0],a("%S")],pq=a(lJ),pM=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pV=a("Jsoo_runtime.Error.Exn"),pX=a("power"),p7=[0,0],p8=[0,[0,0]],p9=[0,[0,0]],qe=[0,0],ql=[0,0,0],qm=[0,0,0],qn=[0,0],qo=[0,0],qF=[0,0],qH=[0,0],qT=[0,0],qU=[0,0],rd=[0,[0,[0,0]]],rp=a(","),rH=[0,a(ha),0],rI=a(mc),rJ=a(ce),rK=[0,[0,[0,0]]],rL=a(a9),rM=a(hb),rN=[0,[0,[0,[0,[0,0]]]]],rO=[0,a(ha),0],rP=a(mI),t7=a(kG),t9=a(lH),t8=a(mj),t_=a(fc),t$=a(lD),ua=a(mB),ub=a(l3),uQ=[0,a(lg),7868,12],u4=a(hh),u5=[0,0],u6=a("divided"),u7=[0,1],u8=a("mirror"),u9=[0,3],u_=a("negative"),u$=[0,2],va=a(ht),vb=[0,4],vc=a(fa),vd=a(lU),ve=a(fl),vf=a(cH),vg=[0,0],vh=[0,0],vi=[0,0],vC=a(s),vy=[0,[0,[0,0]]],vz=[0,[0,[0,[0,0]]]],vA=[0,[0,[0,[0,0]]]],vw=[0,[0,[0,0]]],vv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vu=[0,0],vs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],vq=[0,[0,0]],vr=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vp=[0,[0,0]],vn=[0,[0,[0,0]]],vk=[0,[0,0]],vl=[0,0],vj=[0,0],uZ=[0,[0,0]],u0=[0,0],uY=[0,0],uX=[0,0],uW=[0,0,0],uU=[0,0,0],uT=[0,0],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uN=a("sqrt"),uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],ut=[0,a("\n"),0],uu=a(lI),uv=a(e_),uw=a(k$),ux=a(l6),uy=a("certified"),uD=a("refuted"),uz=a("verdict"),uA=a(lp),uB=a(l1),uC=a(mg),ul=a(mv),um=a(fb),un=a(k8),uo=a(fd),up=a(bj),uq=a(lK),ur=a(fb),us=a(mz),uh=a(mp),ui=a(fd),uj=a(l0),uk=a(mC),ud=a(mA),ue=a(ma),uf=a(fk),t5=a(hj),t6=a(hd),tJ=a(fk),to=a(bj),tp=a(bV),tq=a(dh),tr=a(e9),ts=a(dg),tt=a(bj),tu=a(bV),tv=a(hq),tw=a(bA),tx=a(bz),ty=a(cG),tz=a(dh),tA=a(mr),tB=a(mx),tC=a(dg),tD=a(bj),tE=a(bV),tF=a(bA),tG=a(bz),tH=a(cG),tI=a(dh),tK=a(ll),tL=a(lt),tM=a(mH),tN=a(lV),tO=a(kR),tP=a(dg),tQ=a(bj),tR=a(bV),tS=a(ff),tT=a(l5),tU=a(dh),tV=a(d8),tW=a(lN),tX=a(dg),tY=a(bj),tZ=a(ff),t0=a(bj),t1=a(li),t4=a(lG),t2=a(kQ),t3=a(lx),ti=a(bV),tj=a(hu),tk=a(dh),tl=a(e9),tm=a(dg),s8=a(d8),s9=a(my),s_=a(dd),s$=a(de),ta=a(de),tb=a(g5),tc=a(dd),td=a(mi),te=a(l2),tf=a(bh),th=a(lM),tg=a(g5),sY=a(k7),sZ=a(lC),s0=a(kT),s1=a(lY),s2=a(lv),s3=a(ln),s4=a(l7),s5=a(fg),s6=a(fg),sU=a(bh),sV=a(cc),sW=a(fe),sX=a(cd),sQ=a(d5),sR=a(ho),sS=a(mn),sJ=a(bA),sK=a(bz),sL=a(cG),sM=a(la),sN=a(dd),sO=a(k5),sP=a(mu),sC=a(l9),sD=a(kP),sI=a(e_),sE=a(lZ),sF=a(k2),sG=a(de),sH=a(mk),sz=a(bz),sA=a(bA),sB=a(lu),sp=a(kL),sq=a(lL),sr=a(mq),ss=a(fc),st=a(mG),su=a(mt),sv=a(lP),sw=a(mm),sx=a(kK),sy=a(kY),se=a(by),so=a(a9),sf=a(fi),sg=a(fh),sh=a(fo),si=a(bh),sj=a(cc),sk=a(ld),sl=a(lj),sm=a(fo),sn=a(cd),rY=a(by),r6=a(a9),rZ=a(fi),r0=a(fh),r1=a(bh),r2=a(cc),r3=a(cH),r4=a(ly),r5=a(cd),r7=a(he),r8=a(bh),r9=a(cc),r_=a(fe),r$=a(cd),sa=a(cH),sb=a(d5),sc=a(cd),rV=a(bA),rW=a(bz),rT=[0,a(at),0],rU=a(at),rR=[0,a(lg),7184,36],rQ=[0,a(at),0],rS=a(at),rD=a(by),rE=a(a9),rF=a("*"),rG=a(bg),ry=[0,[0,[0,[0,[0,0]]]]],rz=[0,[0,[0,0]]],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,[0,[0,0]]]],rw=a('":'),rx=a(at),ru=[0,a(at),0],rv=a(at),rs=[0,a("}"),0],rt=a("{"),rq=[0,a("]"),0],rr=a("["),ro=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],rl=[0,0],ri=[0,[0,[0,0]]],rj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rg=[0,[0,0]],rh=[0,[0,[0,0]]],rb=[0,[0,0]],rc=[0,[0,[0,0]]],q$=[0,[0,[0,0]]],ra=[0,[0,0]],q9=[0,0],q5=[0,[0,0]],q6=[0,0],q7=[0,0],q8=[0,[0,0]],qW=[0,[0,0]],qX=[0,0],qY=[0,[0,0]],qZ=[0,0],q0=[0,0],q1=[0,[0,0]],q2=[0,[0,0]],q3=[0,[0,0]],q4=[0,0],qS=[0,0],qQ=[0,[0,[0,0]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,0],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],qK=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,[0,[0,[0,0]]]]]],qy=[0,[0,0]],qz=[0,0],qA=[0,[0,[0,0]]],qB=[0,[0,[0,0]]],qr=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,[0,[0,[0,0]]]]]],qu=[0,[0,[0,0]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,[0,0]]],qp=[0,[0,0]],qq=[0,0],qf=[0,0,0],qa=[0,0],qb=[0,[0,0]],qc=[0,0],qd=[0,[0,0]],p_=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],p6=a(aP),p5=a(s),p4=[0,[0,0]],p3=[0,0],p2=[1,0],p1=[0,0],p0=[0,0],pY=[1,0],pZ=[1,0],xN=a(cd),xO=a(he),xP=a(fe),xS=a(bh),xT=a(cc),xQ=[0,a('" of such a platform'),0],xR=a(kN),xz=a("rho"),xA=a(fk),xB=[0,a("a joint by its coordinate"),0],xa=a(bV),w1=a(bj),w2=a(li),w3=a(lx),w6=a(kQ),w7=a(lG),w8=a(bj),w9=a(bj),w$=a(ff),w_=[0,a("a claim that no cube of such a machine fits"),0],xb=a(dg),xc=a(dh),xd=a(e9),xe=a(hu),ya=[0,a("such a machine with bodies"),0],xf=a(d5),xg=a(ho),xh=a(mn),xi=a(hq),xj=a(kR),xk=a(lN),xl=a(e9),xo=a(cG),xp=a(mu),xs=a(hu),xt=[0,a("a machine with arms and bodies"),0],xu=a(bV),xv=a(l5),xw=a(ff),xx=a(d8),xy=a(cG),xC=a(bV),xD=a(bA),xE=a(bz),xF=a(ll),xG=a(lt),xH=a(mH),xI=a(lV),xm=[0,a(at),0],xn=a(lA),xJ=a(cG),xK=[0,a('" of a platform that turns'),0],xL=a(lo),xM=a(mr),x_=[0,a('" that does not turn'),0],x$=a(lA),xU=a(hq),xV=a(ln),xW=a(k7),xX=a(lv),xY=a(fg),xZ=a(l7),x0=a(fg),x7=a(lC),x8=a(kT),x9=a(lY),x1=a(d5),x2=a(ho),x3=a(bV),x4=a(bA),x5=a(bz),x6=a(mx),xq=[0,a(at),0],xr=a(lo),w4=[0,a(at),0],w5=a('a claim of the kind "'),yd=a(fc),ye=a(l3),yf=a(mj),yg=a(cH),yh=a(lD),yi=a(fa),yj=a(lU),yk=a(fl),yp=a(hd),yq=a(hj),yr=a(cH),yl=[0,a(at),0],ym=a('the evidence "'),yn=a(hd),yo=a(hj),ys=a(fa),yt=a(fl),yu=a(mB),yw=a(fa),yx=a(fl),yy=a(hh),yz=a(hh),yv=[0,a("this evidence at control points"),0],yY=a(mg),yZ=a(l1),y0=a(lp),y$=[0,3,3],y1=a(l6),y6=[0,a('the drive "arm" in a claim that is certified'),0],y7=[0,a("a step of a platform that turns that is not at control points"),0],y8=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y9=[0,a("a mechanism by formulas in a claim that is refuted"),0],y_=[0,a("a step in a proof that no cube fits"),0],y2=[0,a("a leaf that fails"),0],y3=a(k$),y4=a(lI),y5=a(e_),yW=a(ht),yL=a(k8),yM=a(mz),yP=a(bj),yQ=a(fd),yR=a(lK),yS=a(fb),yT=a(mv),yU=a(fb),yN=[0,a(at),0],yO=a('a proof of the kind "'),yH=a(mp),yI=a(fd),yJ=a(l0),yK=a(mC),yC=a(ma),yD=a(mA),yE=a(fk),yF=[0,a(at),0],yG=a('the failure "'),yA=a(ht),yB=a(aP),yb=a(lH),yc=a(kG),wY=a(d8),wO=a(g5),wP=a(lM),wQ=a(de),wR=a(bh),wW=a(my),wX=a(d8),wZ=a(dd),w0=a(de),wS=a(dd),wT=a(mi),wU=a(l2),wV=a(bh),wH=a(cG),wL=a(bA),wM=a(bz),wI=a(k5),wJ=a(la),wK=a(dd),wF=[0,a(mf),0],wE=[0,a(mf),0],wu=a(lZ),wv=[0,a("a stiffness for each joint"),0],wt=a(e_),wm=a(l9),we=a(mk),wf=a(mq),wy=a(kY),wz=a(fc),wA=a(mm),wB=a(kK),wC=a(lL),wg=a(mt),wh=a(mG),wi=a(lP),wj=a(kL),wk=[0,a(at),0],wl=a('the quantity "'),wn=a(kP),wo=a(bA),wp=a(bz),wq=a(lu),wr=[0,a(at),0],ws=a('a bound "'),ww=a(k2),wx=a(de),v9=a(fi),v_=a(fh),v$=a(fo),wa=a(bh),wb=a(cc),wc=a(ld),wd=a(lj),v6=a(cd),v7=a(fo),vR=a(cd),vS=a(d5),vT=a(ly),vU=a(fe),vX=a(he),vY=a(bh),vZ=a(cc),v0=a(fi),v1=a(fh),v2=a(bh),v3=a(cc),v4=a(cH),v5=a(cH),vV=[0,a(at),0],vW=a(kN),vO=a(by),vP=a(a9),vM=a(" is not covered by the verified checker"),vN=a(s),vK=a(bA),vL=a(bz),vG=a(s),vH=a(mI),vI=a(s),vJ=a(s),vF=[1,0],vD=a("Reader.Malformed"),vE=a("Reader.Not_covered"),zb=a(le),zc=a("CERTIFIED"),zd=a("REFUTED"),ze=a(le),zf=a("NOT COVERED: ");function
+ag(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ad(a[1])];case
-1:return[1,ad(a[1])];case
-2:return[2,ad(a[1])];case
-3:return[3,ad(a[1])];case
-4:return[4,ad(a[1])];case
-5:return[5,ad(a[1])];case
-6:return[6,ad(a[1])];case
-7:return[7,ad(a[1])];case
+0:return[0,ag(a[1])];case
+1:return[1,ag(a[1])];case
+2:return[2,ag(a[1])];case
+3:return[3,ag(a[1])];case
+4:return[4,ag(a[1])];case
+5:return[5,ag(a[1])];case
+6:return[6,ag(a[1])];case
+7:return[7,ag(a[1])];case
 8:var
-c=a[1];return[8,c,ad(a[2])];case
+c=a[1];return[8,c,ag(a[2])];case
 9:var
-b=a[1];return[9,b,b,ad(a[3])];case
-10:return[10,ad(a[1])];case
-11:return[11,ad(a[1])];case
-12:return[12,ad(a[1])];case
-13:return[13,ad(a[1])];default:return[14,ad(a[1])]}}function
-aK(a,b){if(typeof
+b=a[1];return[9,b,b,ag(a[3])];case
+10:return[10,ag(a[1])];case
+11:return[11,ag(a[1])];case
+12:return[12,ag(a[1])];case
+13:return[13,ag(a[1])];default:return[14,ag(a[1])]}}function
+aL(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aK(a[1],b)];case
-1:return[1,aK(a[1],b)];case
-2:return[2,aK(a[1],b)];case
-3:return[3,aK(a[1],b)];case
-4:return[4,aK(a[1],b)];case
-5:return[5,aK(a[1],b)];case
-6:return[6,aK(a[1],b)];case
-7:return[7,aK(a[1],b)];case
+0:return[0,aL(a[1],b)];case
+1:return[1,aL(a[1],b)];case
+2:return[2,aL(a[1],b)];case
+3:return[3,aL(a[1],b)];case
+4:return[4,aL(a[1],b)];case
+5:return[5,aL(a[1],b)];case
+6:return[6,aL(a[1],b)];case
+7:return[7,aL(a[1],b)];case
 8:var
-c=a[1];return[8,c,aK(a[2],b)];case
+c=a[1];return[8,c,aL(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aK(a[3],b)];case
-10:return[10,aK(a[1],b)];case
-11:return[11,aK(a[1],b)];case
-12:return[12,aK(a[1],b)];case
-13:return[13,aK(a[1],b)];default:return[14,aK(a[1],b)]}}function
-_(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aL(a[3],b)];case
+10:return[10,aL(a[1],b)];case
+11:return[11,aL(a[1],b)];case
+12:return[12,aL(a[1],b)];case
+13:return[13,aL(a[1],b)];default:return[14,aL(a[1],b)]}}function
+aa(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,_(a[1],b)];case
-1:return[1,_(a[1],b)];case
+0:return[0,aa(a[1],b)];case
+1:return[1,aa(a[1],b)];case
 2:var
-c=a[1];return[2,c,_(a[2],b)];case
+c=a[1];return[2,c,aa(a[2],b)];case
 3:var
-d=a[1];return[3,d,_(a[2],b)];case
+d=a[1];return[3,d,aa(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,_(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,aa(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,_(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,aa(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,_(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,aa(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,_(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,aa(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,_(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,aa(a[4],b)];case
 9:var
-t=a[1];return[9,t,_(a[2],b)];case
-10:return[10,_(a[1],b)];case
+t=a[1];return[9,t,aa(a[2],b)];case
+10:return[10,aa(a[1],b)];case
 11:var
-u=a[1];return[11,u,_(a[2],b)];case
+u=a[1];return[11,u,aa(a[2],b)];case
 12:var
-v=a[1];return[12,v,_(a[2],b)];case
+v=a[1];return[12,v,aa(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,_(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,aa(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,_(a[3],b)];case
-15:return[15,_(a[1],b)];case
-16:return[16,_(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,aa(a[3],b)];case
+15:return[15,aa(a[1],b)];case
+16:return[16,aa(a[1],b)];case
 17:var
-A=a[1];return[17,A,_(a[2],b)];case
+A=a[1];return[17,A,aa(a[2],b)];case
 18:var
-B=a[1];return[18,B,_(a[2],b)];case
-19:return[19,_(a[1],b)];case
+B=a[1];return[18,B,aa(a[2],b)];case
+19:return[19,aa(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,_(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,aa(a[3],b)];case
 21:var
-E=a[1];return[21,E,_(a[2],b)];case
-22:return[22,_(a[1],b)];case
+E=a[1];return[21,E,aa(a[2],b)];case
+22:return[22,aa(a[1],b)];case
 23:var
-F=a[1];return[23,F,_(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,_(a[3],b)]}}function
-b2(a){throw[0,hO,a]}function
-ea(a){return 0<=a?a:-a|0}function
-av(d,c){var
-a=E(d),e=E(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aJ(b)}function
-ng(a){return a?nh:ni}AO(0);m2(1);var
-bI=m2(2);function
-dl(b,a){return m3(b,a,0,E(a))}function
-hU(a){dl(bI,a);m4(bI,10);return di(bI)}function
-fy(b){function
+F=a[1];return[23,F,aa(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,aa(a[3],b)]}}function
+b3(a){throw[0,hR,a]}function
+ee(a){return 0<=a?a:-a|0}function
+aw(d,c){var
+a=F(d),e=F(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aK(b)}function
+nh(a){return a?ni:nj}AP(0);m3(1);var
+bI=m3(2);function
+dp(b,a){return m4(b,a,0,F(a))}function
+hX(a){dp(bI,a);m5(bI,10);return dl(bI)}function
+fB(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hS)throw a;var
+c=a[2],d=a[1];try{dl(d)}catch(a){a=fy(a);if(a[1]!==hV)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(AP(0))}hG(a(kH),fy);var
-dm=(4*A0(0)|0)-1|0;function
+a=c;continue}return 0}}return a(AQ(0))}hJ(a(kI),fB);var
+dq=(4*A1(0)|0)-1|0;function
 ch(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 X(b,a){if(a){var
 c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hV(d,c){var
+hY(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-cL(d,c){var
+dr(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
 ci(a,c){var
-b=ao(a);Aq(b,0,a,c);return b}function
-hW(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
-d=ao(a);cg(c,b,d,0,a);return d}return b2(nr)}function
-hX(c,b,a){return aJ(hW(c,b,a))}function
-hY(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
-bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((E(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b2(nt)}function
-a5(b,a){return aJ(ci(b,a))}function
-dn(c,b,a){return aJ(hW(bX(c),b,a))}function
-hZ(k,g){if(g){var
-h=E(k),c=0,b=g,p=0;for(;;){if(b){var
+b=ao(a);Ar(b,0,a,c);return b}function
+hZ(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
+d=ao(a);cg(c,b,d,0,a);return d}return b3(ns)}function
+h0(c,b,a){return aK(hZ(c,b,a))}function
+h1(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b3(nt)}function
+bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((F(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b3(nu)}function
+a6(b,a){return aK(ci(b,a))}function
+ds(c,b,a){return aK(hZ(bY(c),b,a))}function
+h2(k,g){if(g){var
+h=F(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(E(i)+h|0)+c|0,m=b[2],n=c<=j?j:b2(nu),c=n,b=m;continue}var
-l=E(i)+c|0}else
+j=(F(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(nv),c=n,b=m;continue}var
+l=F(i)+c|0}else
 var
 l=c;var
 f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bE(a,0,f,e,E(a));bE(k,0,f,e+E(a)|0,h);var
-e=(e+E(a)|0)+h|0,d=o;continue}bE(a,0,f,e,E(a))}return aJ(f)}}}return nv}function
-h0(b,c){if(0===b)return[0];if(0<=b){var
-d=AM(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bE(a,0,f,e,F(a));bE(k,0,f,e+F(a)|0,h);var
+e=(e+F(a)|0)+h|0,d=o;continue}bE(a,0,f,e,F(a))}return aK(f)}}}return nw}function
+h3(b,c){if(0===b)return[0];if(0<=b){var
+d=AN(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b2(nw)}function
-h1(c){var
+a=h;continue}break}}return d}return b3(nx)}function
+h4(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-h2(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hP,nz];b[1]=dm}var
-e=ao(b[1]);hY(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
-dp(a,c){var
-b=E(c),d=a[2]+b|0;if(a[3]<d)h2(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fz(a){return 5===a[2]?12:-6}function
-h3(a){return[0,0,ao(a)]}function
-h4(a,h){var
+h5(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dq<b[1]){if(!((d+c|0)<=dq))throw[0,hS,nA];b[1]=dq}var
+e=ao(b[1]);h1(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ab,ny]}throw[0,ab,nz]}}function
+dt(a,c){var
+b=F(c),d=a[2]+b|0;if(a[3]<d)h5(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fC(a){return 5===a[2]?12:-6}function
+h6(a){return[0,0,ao(a)]}function
+h7(a,h){var
 b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);hY(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=ao(i);h1(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cM(a,b){h4(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aC(a,c){var
-b=E(c);h4(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-h5(a){return hX(a[2],0,a[1])}function
-h6(a){if(typeof
+cM(a,b){h7(a,1);cI(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aD(a,c){var
+b=F(c);h7(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+h8(a){return h0(a[2],0,a[1])}function
+h9(a){if(typeof
 a==="number")switch(a){case
-0:return nA;case
-1:return nB;case
-2:return nC;case
-3:return nD;case
-4:return nE;case
-5:return nF;default:return nG}else
+0:return nB;case
+1:return nC;case
+2:return nD;case
+3:return nE;case
+4:return nF;case
+5:return nG;default:return nH}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return av(nH,a5(1,a[1]))}}function
-fA(b,c){var
+1:return a[1];default:return aw(nI,a6(1,a[1]))}}function
+fD(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aC(b,nI);var
+d=a[1];aD(b,nJ);var
 a=d;continue;case
 1:var
-e=a[1];aC(b,nJ);var
+e=a[1];aD(b,nK);var
 a=e;continue;case
 2:var
-f=a[1];aC(b,nK);var
+f=a[1];aD(b,nL);var
 a=f;continue;case
 3:var
-g=a[1];aC(b,nL);var
+g=a[1];aD(b,nM);var
 a=g;continue;case
 4:var
-h=a[1];aC(b,nM);var
+h=a[1];aD(b,nN);var
 a=h;continue;case
 5:var
-i=a[1];aC(b,nN);var
+i=a[1];aD(b,nO);var
 a=i;continue;case
 6:var
-j=a[1];aC(b,nO);var
+j=a[1];aD(b,nP);var
 a=j;continue;case
 7:var
-k=a[1];aC(b,nP);var
+k=a[1];aD(b,nQ);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aC(b,nQ);fA(b,m);aC(b,nR);var
+l=a[2],m=a[1];aD(b,nR);fD(b,m);aD(b,nS);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aC(b,nS);fA(b,o);aC(b,nT);var
+n=a[3],o=a[1];aD(b,nT);fD(b,o);aD(b,nU);var
 a=n;continue;case
 10:var
-p=a[1];aC(b,nU);var
+p=a[1];aD(b,nV);var
 a=p;continue;case
 11:var
-q=a[1];aC(b,nV);var
+q=a[1];aD(b,nW);var
 a=q;continue;case
 12:var
-r=a[1];aC(b,nW);var
+r=a[1];aD(b,nX);var
 a=r;continue;case
 13:var
-s=a[1];aC(b,nX);var
+s=a[1];aD(b,nY);var
 a=s;continue;default:var
-t=a[1];aC(b,nY);var
+t=a[1];aD(b,nZ);var
 a=t;continue}}function
 an(a){if(typeof
 a==="number")return 0;else
@@ -1028,39 +1028,39 @@ c=a[2],d=a[1];return[9,c,d,an(a[3])];case
 11:return[11,an(a[1])];case
 12:return[12,an(a[1])];case
 13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
-aD(a){if(typeof
+aE(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aD(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aE(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aD(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aE(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aD(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aE(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aD(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aE(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aD(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aE(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aD(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aE(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aD(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aE(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aD(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aE(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aD(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aE(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aD(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aD(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],ao=a[1],l=aE(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aE(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aD(a[1]),aB=n[4],aC=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
+n=aE(a[1]),aB=n[4],aC=n[3],aD=n[2],aF=n[1],aG=function(a){e(aD,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
 11:var
-o=aD(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aE(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aD(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aE(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aD(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aD(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+q=aE(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aE(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
 ap(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
@@ -1072,7 +1072,7 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,$,nZ]}else
+9:a=6;break;default:throw[0,ab,n0]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
@@ -1178,35 +1178,35 @@ D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,$,n8];break;case
+14:a=4;break;default:m=1}if(m)throw[0,ab,n9];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aD(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aE(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,$,n9];break;case
+14:a=4;break;default:n=1}if(n)throw[0,ab,n_];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,$,n_];case
+b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ab,n$];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,$,n$];break;case
+11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ab,oa];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,$,oa];break;case
+12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ab,ob];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,$,ob];break;default:var
+13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ab,oc];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,23 +1222,23 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,$,oc]}switch(a){case
-0:throw[0,$,n2];case
-1:throw[0,$,n3];case
-2:throw[0,$,n4];case
-3:throw[0,$,n5];case
-4:throw[0,$,n6];case
-5:throw[0,$,n0];case
-6:throw[0,$,n1];default:throw[0,$,n7]}}var
-aw=[ar,od,fo(0)];function
-eb(b,a){if(typeof
+14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ab,od]}switch(a){case
+0:throw[0,ab,n3];case
+1:throw[0,ab,n4];case
+2:throw[0,ab,n5];case
+3:throw[0,ab,n6];case
+4:throw[0,ab,n7];case
+5:throw[0,ab,n1];case
+6:throw[0,ab,n2];default:throw[0,ab,n8]}}var
+ax=[as,oe,fr(0)];function
+ef(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aw}}function
-dq(e,b,d){var
-a=eb(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ax}}function
+du(e,b,d){var
+a=ef(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aw}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ax}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aR(b,c,a){if(typeof
 b==="number")return[0,0,S(c,a)];else
 switch(b[0]){case
@@ -1268,14 +1268,14 @@ a!=="number"&&7===a[0]){var
 n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(d_([0,b[1]],[0,o]))throw aw;var
+o=a[1],w=a[2],x=b[2];if(ec([0,b[1]],[0,o]))throw ax;var
 p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ad(f)];if(d_([0,ad(B)],C))throw aw;var
-D=[0,ad(d)];if(d_([0,ad(A)],D))throw aw;var
-q=aD(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aR(ad(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ag(f)];if(ec([0,ag(B)],C))throw ax;var
+D=[0,ag(d)];if(ec([0,ag(A)],D))throw ax;var
+q=aE(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aR(ag(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1287,7 +1287,7 @@ a!=="number"&&13===a[0]){var
 u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aw}function
+v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ax}function
 S(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
@@ -1298,37 +1298,37 @@ s=S(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 a!=="number"&&0===a[0]){var
 t=S(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=eb(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=ef(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aw;case
+v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ax;case
 3:var
-ae=b[2],w=eb(b[1],a),f=w[2],af=w[1];if(typeof
+ad=b[2],w=ef(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=S(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aw;case
+x=S(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ax;case
 4:var
-ag=b[4],ah=b[1],g=dq(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ah=b[1],g=du(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=S(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aw;case
+aj=g[2],y=S(af,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ax;case
 5:var
-ak=b[4],al=b[1],i=dq(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=du(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aw;case
+an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ax;case
 6:var
-ao=b[4],ap=b[1],k=dq(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=du(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aw;case
+ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ax;case
 7:var
-as=b[4],at=b[1],m=dq(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=du(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aw;case
+av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ax;case
 8:var
-ax=b[4],ay=b[1],o=dq(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+aw=b[4],ay=b[1],o=du(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=S(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aw;case
+aA=o[2],C=S(aw,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw ax;case
 9:var
-aB=b[2],D=eb(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=ef(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aw;case
+E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ax;case
 10:var
 F=S(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
@@ -1337,12 +1337,12 @@ aD=b[1],G=S(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 aE=b[1],H=S(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(d_([0,b[2]],[0,I]))throw aw;var
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ec([0,b[2]],[0,I]))throw ax;var
 J=S(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ad(K)];if(d_([0,ad(aK)],aM))throw aw;var
-L=S(aJ,ad(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ag(K)];if(ec([0,ag(aK)],aM))throw ax;var
+L=S(aJ,ag(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
 M=S(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
@@ -1354,7 +1354,7 @@ aN=b[1],O=S(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
 U=r[1],aS=U[2],V=S(U[1],a),aT=V[1],W=S(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+X=r[1],aU=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
 Q=S(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
@@ -1367,61 +1367,61 @@ aQ=b[1],T=S(b[2],a[1]);return[0,[21,aQ,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aU(c,d,a);case
-1:return aU(c,d,a);case
+0:return aV(c,d,a);case
+1:return aV(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aw;default:return aU(c,d,a)}else
+_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ax;default:return aV(c,d,a)}else
 switch(c[0]){case
-0:return aU(c,d,a);case
-1:return aU(c,d,a);case
-2:return aU(c,d,a);case
-3:return aU(c,d,a);case
-4:return aU(c,d,a);case
-5:return aU(c,d,a);case
-6:return aU(c,d,a);case
-7:return aU(c,d,a);case
-8:return aU([8,c[1],c[2]],d,a);case
+0:return aV(c,d,a);case
+1:return aV(c,d,a);case
+2:return aV(c,d,a);case
+3:return aV(c,d,a);case
+4:return aV(c,d,a);case
+5:return aV(c,d,a);case
+6:return aV(c,d,a);case
+7:return aV(c,d,a);case
+8:return aV([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aU(c,d,a);default:return aU(c,d,a)}}throw aw}function
-aU(d,c,b){var
+10:return aV(c,d,a);default:return aV(c,d,a)}}throw ax}function
+aV(d,c,b){var
 a=S(c,b);return[0,[23,d,a[1]],a[2]]}function
-aV(k,g,a){var
-b=E(a),h=0<=g?k:0,d=ea(g);if(d<=b)return a;var
+aW(k,g,a){var
+b=F(a),h=0<=g?k:0,d=ee(g);if(d<=b)return a;var
 l=2===h?48:32,c=ci(d,l);switch(h){case
 0:bJ(a,0,c,0,b);break;case
 1:bJ(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cH(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cI(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
 f=0;if(1<b&&48===R(a,0)){var
-j=0;if(kV!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cH(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aJ(c)}function
+j=0;if(kW!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cI(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aK(c)}function
 cN(k,b){var
-c=ea(k),a=E(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lQ>>>0))e=1}else
+c=ee(k),a=F(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lR>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kV===R(b,1)||88===R(b,1))j=1;if(j){var
-h=ci(c+2|0,48);cH(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aJ(h)}}e=1;f=1;break;case
+j=0;if(kW===R(b,1)||88===R(b,1))j=1;if(j){var
+h=ci(c+2|0,48);cI(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aK(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ci(c+1|0,48);cH(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aJ(g)}}if(e&&a<c){var
-i=ci(c,48);bJ(b,0,i,c-a|0,a);return aJ(i)}return b}function
-oe(k){var
-j=0,C=E(k);for(;;){if(C<=j)var
+g=ci(c+1|0,48);cI(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aK(g)}}if(e&&a<c){var
+i=ci(c,48);bJ(b,0,i,c-a|0,a);return aK(i)}return b}function
+of(k){var
+j=0,C=F(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bG(k,j)+mk|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bG(k,j)+ml|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bX(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
+e=bY(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dg(e,i),g=0;if(32<=f){var
+f=dj(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1438,27 +1438,27 @@ v=s}else{var
 b=ao(a[1]);a[1]=0;var
 u=a0(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dg(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(g$<=c)d=1;else
+c=dj(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hc<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:aj(b,a[1],92);a[1]++;aj(b,a[1],98);break;case
-9:aj(b,a[1],92);a[1]++;aj(b,a[1],116);break;case
-10:aj(b,a[1],92);a[1]++;aj(b,a[1],110);break;case
-13:aj(b,a[1],92);a[1]++;aj(b,a[1],114);break;default:d=1}switch(d){case
-1:aj(b,a[1],92);a[1]++;aj(b,a[1],48+(c/lW|0)|0);a[1]++;aj(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;aj(b,a[1],48+(c%10|0)|0);break;case
-2:aj(b,a[1],92);a[1]++;aj(b,a[1],c);break;case
-3:aj(b,a[1],c);break}a[1]++;var
+8:ak(b,a[1],92);a[1]++;ak(b,a[1],98);break;case
+9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
+10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
+13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
+1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/lX|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
+2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
+3:ak(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aJ(v)}var
-w=E(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aJ(x)}}function
-h7(d,f){var
-g=ea(f),e=o5[1];switch(d[2]){case
+o=aK(v)}var
+w=F(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aK(x)}}function
+h_(d,f){var
+g=ee(f),e=o6[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=kW;break;case
+b=kX;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=h3(16);cM(c,37);switch(d[1]){case
+c=h6(16);cM(c,37);switch(d[1]){case
 0:break;case
-1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h5(c)}function
-ec(m,a){if(13<=m){var
-g=[0,0],h=E(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bG(a,c)+g3>>>0))g[1]++;var
+1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aD(c,a(s+g));cM(c,b);return h8(c)}function
+eg(m,a){if(13<=m){var
+g=[0,0],h=F(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bG(a,c)+g6>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ao(E(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cH(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=E(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(F(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cI(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=F(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bG(a,b);if(9<f+g3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bG(a,b);if(9<f+g6>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aJ(j)}return a}function
-o6(b,c){switch(b){case
-1:var
-a=og;break;case
-2:var
-a=oh;break;case
-4:var
-a=oj;break;case
-5:var
-a=ok;break;case
-6:var
-a=ol;break;case
-7:var
-a=om;break;case
-8:var
-a=on;break;case
-9:var
-a=oo;break;case
-10:var
-a=op;break;case
-11:var
-a=oq;break;case
-0:case
-13:var
-a=of;break;case
-3:case
-14:var
-a=oi;break;default:var
-a=or}return ec(b,fn(a,c))}function
+b=p;continue}break}}return aK(j)}return a}function
 o7(b,c){switch(b){case
 1:var
-a=oG;break;case
+a=oh;break;case
 2:var
-a=oH;break;case
+a=oi;break;case
 4:var
-a=oJ;break;case
+a=ok;break;case
 5:var
-a=oK;break;case
+a=ol;break;case
 6:var
-a=oL;break;case
+a=om;break;case
 7:var
-a=oM;break;case
+a=on;break;case
 8:var
-a=oN;break;case
+a=oo;break;case
 9:var
-a=oO;break;case
+a=op;break;case
 10:var
-a=oP;break;case
+a=oq;break;case
 11:var
-a=oQ;break;case
+a=or;break;case
 0:case
 13:var
-a=oF;break;case
+a=og;break;case
 3:case
 14:var
-a=oI;break;default:var
-a=oR}return ec(b,fn(a,c))}function
+a=oj;break;default:var
+a=os}return eg(b,fq(a,c))}function
 o8(b,c){switch(b){case
 1:var
-a=oT;break;case
+a=oH;break;case
 2:var
-a=oU;break;case
+a=oI;break;case
 4:var
-a=oW;break;case
+a=oK;break;case
 5:var
-a=oX;break;case
+a=oL;break;case
 6:var
-a=oY;break;case
+a=oM;break;case
 7:var
-a=oZ;break;case
+a=oN;break;case
 8:var
-a=o0;break;case
+a=oO;break;case
 9:var
-a=o1;break;case
+a=oP;break;case
 10:var
-a=o2;break;case
+a=oQ;break;case
 11:var
-a=o3;break;case
+a=oR;break;case
 0:case
 13:var
-a=oS;break;case
+a=oG;break;case
 3:case
 14:var
-a=oV;break;default:var
-a=o4}return ec(b,fn(a,c))}function
+a=oJ;break;default:var
+a=oS}return eg(b,fq(a,c))}function
 o9(b,c){switch(b){case
 1:var
-a=ot;break;case
+a=oU;break;case
 2:var
-a=ou;break;case
+a=oV;break;case
 4:var
-a=ow;break;case
+a=oX;break;case
 5:var
-a=ox;break;case
+a=oY;break;case
 6:var
-a=oy;break;case
+a=oZ;break;case
 7:var
-a=oz;break;case
+a=o0;break;case
 8:var
-a=oA;break;case
+a=o1;break;case
 9:var
-a=oB;break;case
+a=o2;break;case
 10:var
-a=oC;break;case
+a=o3;break;case
 11:var
-a=oD;break;case
+a=o4;break;case
 0:case
 13:var
-a=os;break;case
+a=oT;break;case
 3:case
 14:var
-a=ov;break;default:var
-a=oE}return ec(b,Ay(a,c))}function
+a=oW;break;default:var
+a=o5}return eg(b,fq(a,c))}function
+o_(b,c){switch(b){case
+1:var
+a=ou;break;case
+2:var
+a=ov;break;case
+4:var
+a=ox;break;case
+5:var
+a=oy;break;case
+6:var
+a=oz;break;case
+7:var
+a=oA;break;case
+8:var
+a=oB;break;case
+9:var
+a=oC;break;case
+10:var
+a=oD;break;case
+11:var
+a=oE;break;case
+0:case
+13:var
+a=ot;break;case
+3:case
+14:var
+a=ow;break;default:var
+a=oF}return eg(b,Az(a,c))}function
 bK(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return Au(b,i,a)}function
+a=32}return Av(b,i,a)}function
 q(c){var
-a=Am(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
+a=An(b);return 3===a?b<0.?pa:pb:4<=a?pc:c}switch(c[2]){case
 5:var
-e=hw(h7(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
+e=hz(h_(c,i),b),d=0,u=F(e);for(;;){if(d===u)var
 p=0;else{var
 k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:av(e,o_);return q(v)}case
+v=p?e:aw(e,o$);return q(v)}case
 6:return j(0);case
 7:var
-h=bX(j(0)),f=a0(h);if(0===f)var
+h=bY(j(0)),f=a0(h);if(0===f)var
 o=h;else{var
 m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dg(h,a),s=25<g+lQ>>>0?g:g+mk|0;aj(m,a,s);var
+g=dj(h,a),s=25<g+lR>>>0?g:g+ml|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aJ(o);case
-8:return q(j(0));default:return hw(h7(c,i),b)}}function
-d0(d,x,w,v){var
+o=m}return aK(o);case
+8:return q(j(0));default:return hz(h_(c,i),b)}}function
+d4(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return I(b,[5,a,c],y)};case
+y=c[1];return function(c){return J(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=nl;else
-if(g$<=c)e=1;else
+d=nm;else
+if(hc<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nm;else
+d=nn;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nn;break;case
-9:var
 d=no;break;case
-10:var
+9:var
 d=np;break;case
+10:var
+d=nq;break;case
 13:var
-d=nq;break;default:e=1}switch(e){case
+d=nr;break;default:e=1}switch(e){case
 1:var
-f=ao(4);aj(f,0,92);aj(f,1,48+(c/lW|0)|0);aj(f,2,48+((c/10|0)%10|0)|0);aj(f,3,48+(c%10|0)|0);var
-d=aJ(f);break;case
+f=ao(4);ak(f,0,92);ak(f,1,48+(c/lX|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
+d=aK(f);break;case
 2:var
-g=ao(1);aj(g,0,c);var
-d=aJ(g);break}var
-h=E(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return I(b,[4,a,aJ(i)],z)};case
+g=ao(1);ak(g,0,c);var
+d=aK(g);break}var
+h=F(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return J(b,[4,a,aK(i)],z)};case
 2:var
-A=c[2],B=c[1];return fB(b,a,A,B,function(a){return a});case
-3:return fB(b,a,c[2],c[1],oe);case
-4:return ed(b,a,c[4],c[2],c[3],o6,c[1]);case
-5:return ed(b,a,c[4],c[2],c[3],o7,c[1]);case
-6:return ed(b,a,c[4],c[2],c[3],o8,c[1]);case
-7:return ed(b,a,c[4],c[2],c[3],o9,c[1]);case
+A=c[2],B=c[1];return fE(b,a,A,B,function(a){return a});case
+3:return fE(b,a,c[2],c[1],of);case
+4:return eh(b,a,c[4],c[2],c[3],o7,c[1]);case
+5:return eh(b,a,c[4],c[2],c[3],o8,c[1]);case
+6:return eh(b,a,c[4],c[2],c[3],o9,c[1]);case
+7:return eh(b,a,c[4],c[2],c[3],o_,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return I(b,[4,a,bK(g,d,c)],h)}:function(c){return I(b,[4,a,bK(g,fz(g),c)],h)};var
-X=i[1];return function(c){return I(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return J(b,[4,a,bK(g,d,c)],h)}:function(c){return J(b,[4,a,bK(g,fC(g),c)],h)};var
+X=i[1];return function(c){return J(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return I(b,[4,a,aV(n,m,bK(g,d,c))],h)}:function(c){return I(b,[4,a,aV(n,m,bK(g,fz(g),c))],h)};var
-Y=i[1];return function(c){return I(b,[4,a,aV(n,m,bK(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return J(b,[4,a,aW(n,m,bK(g,d,c))],h)}:function(c){return J(b,[4,a,aW(n,m,bK(g,fC(g),c))],h)};var
+Y=i[1];return function(c){return J(b,[4,a,aW(n,m,bK(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return I(b,[4,a,aV(o,e,bK(g,d,c))],h)}:function(d,c){return I(b,[4,a,aV(o,d,bK(g,fz(g),c))],h)};var
-Z=i[1];return function(d,c){return I(b,[4,a,aV(o,d,bK(g,Z,c))],h)}}case
-9:return fB(b,a,c[2],c[1],ng);case
+i==="number")return i?function(e,d,c){return J(b,[4,a,aW(o,e,bK(g,d,c))],h)}:function(d,c){return J(b,[4,a,aW(o,d,bK(g,fC(g),c))],h)};var
+Z=i[1];return function(d,c){return J(b,[4,a,aW(o,d,bK(g,Z,c))],h)}}case
+9:return fE(b,a,c[2],c[1],nh);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,51 +1687,51 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=h3(16);fA(p,D);var
-u=h5(p);return function(c){return I(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=h6(16);fD(p,D);var
+u=h8(p);return function(c){return J(b,[4,a,u],C)};case
 14:var
-F=c[3],G=c[2];return function(d){var
-e=d[1],c=S(e,ad(an(G)));if(typeof
-c[2]==="number")return I(b,a,_(c[1],F));throw aw};case
+E=c[3],G=c[2];return function(d){var
+e=d[1],c=S(e,ag(an(G)));if(typeof
+c[2]==="number")return J(b,a,aa(c[1],E));throw ax};case
 15:var
-H=c[1];return function(d,c){return I(b,[6,a,function(a){return N(d,a,c)}],H)};case
+H=c[1];return function(d,c){return J(b,[6,a,function(a){return N(d,a,c)}],H)};case
 16:var
-J=c[1];return function(c){return I(b,[6,a,c],J)};case
+I=c[1];return function(c){return J(b,[6,a,c],I)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return I(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
-O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return I(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
-19:throw[0,$,pd];case
+K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return J(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
+O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return J(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
+19:throw[0,ab,pe];case
 20:var
-T=c[3],U=[8,a,pe];return function(a){return I(b,U,T)};case
+T=c[3],U=[8,a,pf];return function(a){return J(b,U,T)};case
 21:var
-V=c[2];return function(c){return I(b,[4,a,fn(pf,c)],V)};case
+V=c[2];return function(c){return J(b,[4,a,fq(pg,c)],V)};case
 22:var
-W=c[1];return function(c){return I(b,[5,a,c],W)};case
+W=c[1];return function(c){return J(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-2:throw[0,$,pg];default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}else
+0:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+2:throw[0,ab,ph];default:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-2:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-3:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-4:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-5:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-6:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-7:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-8:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+0:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+1:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+2:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+3:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+4:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+5:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+6:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+7:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+8:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gZ(d+1|0,b,a,t,f):aB(gZ,[0,b,a,t,f]);case
-10:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gY(d+1|0,b,a,q,r,s):aB(gY,[0,b,a,q,r,s])}}function
-gZ(e,d,c,a,b){if(typeof
-a==="number")return e<50?P(e+1|0,d,c,b):aB(P,[0,d,c,b]);else
+t=k[2];return d<50?g2(d+1|0,b,a,t,f):aC(g2,[0,b,a,t,f]);case
+10:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?g1(d+1|0,b,a,q,r,s):aC(g1,[0,b,a,q,r,s])}}function
+g2(e,d,c,a,b){if(typeof
+a==="number")return e<50?P(e+1|0,d,c,b):aC(P,[0,d,c,b]);else
 switch(a[0]){case
 0:var
 f=a[1];return function(a){return a2(d,c,f,b)};case
@@ -1752,164 +1752,164 @@ m=a[1];return function(a){return a2(d,c,m,b)};case
 8:var
 n=a[2];return function(a){return a2(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aK(q,o),b)};case
+o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aL(q,o),b)};case
 10:var
 r=a[1];return function(e,a){return a2(d,c,r,b)};case
 11:var
 s=a[1];return function(a){return a2(d,c,s,b)};case
 12:var
 t=a[1];return function(a){return a2(d,c,t,b)};case
-13:throw[0,$,ph];default:throw[0,$,pi]}}function
+13:throw[0,ab,pi];default:throw[0,ab,pj]}}function
 P(d,b,e,a){var
-c=[8,e,pj];return d<50?d0(d+1|0,b,c,a):aB(d0,[0,b,c,a])}function
-gY(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pc(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d0(h+1|0,b,g,a):aB(d0,[0,b,g,a])}function
-I(a,b,c){return hI(d0(0,a,b,c))}function
-a2(a,b,c,d){return hI(gZ(0,a,b,c,d))}function
-pc(a,b,c,d,e){return hI(gY(0,a,b,c,d,e))}function
-fB(f,d,c,a,b){if(typeof
-a==="number")return function(a){return I(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return I(f,[4,d,aV(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return I(f,[4,d,aV(i,g,e(b,a))],c)}}}function
-ed(f,e,d,g,c,b,a){if(typeof
+c=[8,e,pk];return d<50?d4(d+1|0,b,c,a):aC(d4,[0,b,c,a])}function
+g1(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pd(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d4(h+1|0,b,g,a):aC(d4,[0,b,g,a])}function
+J(a,b,c){return hL(d4(0,a,b,c))}function
+a2(a,b,c,d){return hL(g2(0,a,b,c,d))}function
+pd(a,b,c,d,e){return hL(g1(0,a,b,c,d,e))}function
+fE(f,d,c,a,b){if(typeof
+a==="number")return function(a){return J(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return J(f,[4,d,aW(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return J(f,[4,d,aW(i,g,e(b,a))],c)}}}function
+eh(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return I(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return I(f,[4,e,N(b,a,c)],d)};var
-k=c[1];return function(c){return I(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return J(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return J(f,[4,e,N(b,a,c)],d)};var
+k=c[1];return function(c){return J(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return I(f,[4,e,aV(i,h,cN(g,N(b,a,c)))],d)}:function(c){return I(f,[4,e,aV(i,h,N(b,a,c))],d)};var
-l=c[1];return function(c){return I(f,[4,e,aV(i,h,cN(l,N(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return J(f,[4,e,aW(i,h,cN(g,N(b,a,c)))],d)}:function(c){return J(f,[4,e,aW(i,h,N(b,a,c))],d)};var
+l=c[1];return function(c){return J(f,[4,e,aW(i,h,cN(l,N(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return I(f,[4,e,aV(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return I(f,[4,e,aV(j,g,N(b,a,c))],d)};var
-m=c[1];return function(g,c){return I(f,[4,e,aV(j,g,cN(m,N(b,a,c)))],d)}}}function
+c==="number")return c?function(h,g,c){return J(f,[4,e,aW(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return J(f,[4,e,aW(j,g,N(b,a,c))],d)};var
+m=c[1];return function(g,c){return J(f,[4,e,aW(j,g,cN(m,N(b,a,c)))],d)}}}function
 bL(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=h6(a[2]);bL(b,g);return dl(b,h);case
+g=a[1],h=h9(a[2]);bL(b,g);return dp(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bL(b,d);dl(b,pk);var
+i=c[1];bL(b,d);dp(b,pl);var
 a=i;continue}var
-j=c[1];bL(b,d);dl(b,pl);var
+j=c[1];bL(b,d);dp(b,pm);var
 a=j;continue;case
 6:var
 m=a[2];bL(b,a[1]);return e(m,b);case
-7:bL(b,a[1]);return di(b);case
+7:bL(b,a[1]);return dl(b);case
 8:var
-n=a[2];bL(b,a[1]);return b2(n);case
+n=a[2];bL(b,a[1]);return b3(n);case
 2:case
 4:var
-k=a[2];bL(b,a[1]);return dl(b,k);default:var
-l=a[2];bL(b,a[1]);return m4(b,l)}}function
-b3(b,g){var
+k=a[2];bL(b,a[1]);return dp(b,k);default:var
+l=a[2];bL(b,a[1]);return m5(b,l)}}function
+b4(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=h6(a[2]);b3(b,h);return dp(b,i);case
+h=a[1],i=h9(a[2]);b4(b,h);return dt(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b3(b,f);dp(b,pm);var
+j=d[1];b4(b,f);dt(b,pn);var
 a=j;continue}var
-k=d[1];b3(b,f);dp(b,pn);var
+k=d[1];b4(b,f);dt(b,po);var
 a=k;continue;case
 6:var
-n=a[2];b3(b,a[1]);return dp(b,e(n,0));case
+n=a[2];b4(b,a[1]);return dt(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];b3(b,a[1]);return b2(o);case
+o=a[2];b4(b,a[1]);return b3(o);case
 2:case
 4:var
-l=a[2];b3(b,a[1]);return dp(b,l);default:var
-m=a[2];b3(b,a[1]);var
-c=b[2];if(b[3]<=c)h2(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
-h8(d,c){var
-a=c[1],b=0;return I(function(a){bL(d,a);return 0},b,a)}function
-fC(a){return h8(bI,a)}function
+l=a[2];b4(b,a[1]);return dt(b,l);default:var
+m=a[2];b4(b,a[1]);var
+c=b[2];if(b[3]<=c)h5(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+h$(d,c){var
+a=c[1],b=0;return J(function(a){bL(d,a);return 0},b,a)}function
+fF(a){return h$(bI,a)}function
 bm(b){var
-a=b[1];return I(function(d){var
-e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hX(a[1],0,a[2])},0,a)}var
-ee=[0,0];function
-fE(i,h){var
+a=b[1];return J(function(d){var
+e=64,b=dq<64?dq:e,c=ao(b),a=[0,c,0,b,c];b4(a,d);return h0(a[1],0,a[2])},0,a)}var
+ei=[0,0];function
+fH(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fs(a)===fj)return e(bm(po),a);if(fs(a)===253){var
-c=hw(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
+a==="number"?1:0)){if(fv(a)===fm)return e(bm(pp),a);if(fv(a)===253){var
+c=hz(nl,a),b=0,g=F(c);for(;;){if(g<=b)return aw(c,nk);var
 d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return pp}return e(bm(pq),a)}function
-h9(b,a){if(b.length-1<=a)return pr;var
-c=h9(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
-fF(a){function
+b=b+1|0;continue}return c}}return pq}return e(bm(pr),a)}function
+ia(b,a){if(b.length-1<=a)return ps;var
+c=ia(b,a+1|0),d=fH(b,a);return N(bm(pt),d,c)}function
+fI(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hR)return py;if(a[1]===hQ){var
-c=a[2],i=c[3],p=c[2],q=c[1];return g0(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
-d=a[2],j=d[3],r=d[2],s=d[1];return g0(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hT){var
-f=a[2],k=f[3],t=f[2],u=f[1];return g0(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
+h=o(ei[1]);if(h)return h[1];if(a===fA)return py;if(a===hU)return pz;if(a[1]===hT){var
+c=a[2],i=c[3],p=c[2],q=c[1];return g3(bm(fG),q,p,i,i+5|0,pA)}if(a[1]===ab){var
+d=a[2],j=d[3],r=d[2],s=d[1];return g3(bm(fG),s,r,j,j+6|0,pB)}if(a[1]===hW){var
+f=a[2],k=f[3],t=f[2],u=f[1];return g3(bm(fG),u,t,k,k+6|0,pC)}if(0===fv(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=h9(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
+l=ia(a,2),m=fH(a,1),b=N(bm(pu),m,l);else
 switch(g){case
 0:var
-b=pu;break;case
+b=pv;break;case
 1:var
-b=pv;break;default:var
-n=fE(a,1),b=e(bm(pw),n)}return av(v,b)}return a[1]}function
-fG(t,s){var
-d=Ao(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pw;break;default:var
+n=fH(a,1),b=e(bm(px),n)}return aw(v,b)}return a[1]}function
+fJ(t,s){var
+d=Ap(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=mS(d,b)[1+b],f=function(a){return function(b){return b?0===a?pC:pD:0===a?pE:pF}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ad(bm(pH),n,m,l,k,j,i,h)];else
+a=mT(d,b)[1+b],f=function(a){return function(b){return b?0===a?pD:pE:0===a?pF:pG}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pH:pJ,l=a[2],m=a[7],n=f(a[1]),c=[0,Ae(bm(pI),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bm(pJ),o)];if(c){var
-q=c[1];e(h8(t,pK),q)}var
+o=f(0),c=[0,e(bm(pK),o)];if(c){var
+q=c[1];e(h$(t,pL),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-h_(c){for(;;){var
-a=ee[1],d=[0,c,a],e=ee[1]===a?(ee[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pM=pL.slice();function
-pN(d,c){var
-f=fF(d);e(fC(pO),f);fG(bI,c);var
-a=AN(0);if(a<0){var
-b=ea(a);hU(mS(pM,b)[1+b])}return di(bI)}var
-pP=[0];hG(a(kY),function(d,i){try{try{var
-b=i?pP:mY(0);try{fy(0)}catch(a){}try{var
-a=pN(d,b),c=a}catch(a){a=fv(a);var
-g=fF(d);e(fC(pR),g);fG(bI,b);var
-h=fF(a);e(fC(pS),h);fG(bI,mY(0));var
-c=di(bI)}var
-f=c}catch(a){a=fv(a);if(a!==fx)throw a;var
-f=hU(pQ)}return f}catch(a){return 0}});var
-h$=[ar,pU,fo(0)],fH=[0,h$,[0]],pT=fs(fH)===ar?fH:fH[1];hG(a(g5),pT);(function(a){throw a});var
-pV=u.Array;h_(function(a){return a[1]===h$?[0,bl(a[2].toString())]:0});h_(function(a){return a
+ib(c){for(;;){var
+a=ei[1],d=[0,c,a],e=ei[1]===a?(ei[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pN=pM.slice();function
+pO(d,c){var
+f=fI(d);e(fF(pP),f);fJ(bI,c);var
+a=AO(0);if(a<0){var
+b=ee(a);hX(mT(pN,b)[1+b])}return dl(bI)}var
+pQ=[0];hJ(a(kZ),function(d,i){try{try{var
+b=i?pQ:mZ(0);try{fB(0)}catch(a){}try{var
+a=pO(d,b),c=a}catch(a){a=fy(a);var
+g=fI(d);e(fF(pS),g);fJ(bI,b);var
+h=fI(a);e(fF(pT),h);fJ(bI,mZ(0));var
+c=dl(bI)}var
+f=c}catch(a){a=fy(a);if(a!==fA)throw a;var
+f=hX(pR)}return f}catch(a){return 0}});var
+ic=[as,pV,fr(0)],fK=[0,ic,[0]],pU=fv(fK)===as?fK:fK[1];hJ(a(g8),pU);(function(a){throw a});var
+pW=u.Array;ib(function(a){return a[1]===ic?[0,bl(a[2].toString())]:0});ib(function(a){return a
 instanceof
-pV?0:[0,bl(a.toString())]});var
+pW?0:[0,bl(a.toString())]});var
 d=a1(0),c=a1(1);function
-o(a){return A(a,c)}function
-ia(b,a){return A(a1(b),a)}function
+n(a){return C(a,c)}function
+id(b,a){return C(a1(b),a)}function
 b(b,a){return r(a1(b),a)}function
-bn(b,a){return[0,hL(b,a),nc(b,a)]}function
-fI(b,a){return B(b,a)?b:a}function
-cj(b,a){return B(b,a)?a:b}function
-aH(a){return a?0:1}function
-ae(b,a){var
+bn(b,a){return[0,hO(b,a),nd(b,a)]}function
+fL(b,a){return D(b,a)?b:a}function
+cj(b,a){return D(b,a)?a:b}function
+aM(a){return a?0:1}function
+ah(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dr(a){return a[1]}function
-ds(a){return a[2]}function
+dv(a){return a[1]}function
+dw(a){return a[2]}function
 k(a){var
 b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ib(a){return typeof
-a==="number"?0:[0,ib(a[1])]}function
-ic(d,c){var
+ie(a){return typeof
+a==="number"?0:[0,ie(a[1])]}function
+ig(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ef(a){return ic(a,0)}function
-id(a){if(typeof
-a==="number")return pX;else
+ej(a){return ig(a,0)}function
+ih(a){if(typeof
+a==="number")return pY;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,9 +1944,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,id(a[1])]}}function
+8:return[9,a[1]];default:return[0,ih(a[1])]}}function
 ba(a){if(typeof
-a==="number")return pY;else
+a==="number")return pZ;else
 switch(a[0]){case
 0:return[1,a$(a[1])];case
 1:return[3,a$(a[1])];case
@@ -1969,138 +1969,138 @@ switch(a[0]){case
 6:return[2,ba(a[1])];case
 7:return[4,ba(a[1])];case
 8:return[6,ba(a[1])];default:return[8,ba(a[1])]}}function
-b4(a){return a?a[1]:a}function
-H(b,a){return b?[0,H(b[1],a)]:a}function
-dt(a,b){return a?H(b,dt(a[1],b)):a}function
-du(b,a){return b?a:a?0:1}function
-aa(d,c){var
-b=d,a=c;for(;;){if(b){if(a){var
-b=b[1],a=a[1];continue}return a}return a?0:1}}function
+bM(a){return a?a[1]:a}function
+I(b,a){return b?[0,I(b[1],a)]:a}function
+dx(a,b){return a?I(b,dx(a[1],b)):a}function
+dy(b,a){return b?a:a?0:1}function
 Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
+b=b[1],a=a[1];continue}return a}return a?0:1}}function
+Z(d,c){var
+b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-ie(b,a){return Y([0,b],a)}function
-ig(c){var
+ii(b,a){return Z([0,b],a)}function
+ij(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fJ(c,b,a){return c?e(b,fJ(c[1],b,a)):a}function
-ih(a){if(a)var
-b=a[1],d=b?[0,ih(b[1])]:b,c=d;else
+fM(c,b,a){return c?e(b,fM(c[1],b,a)):a}function
+ik(a){if(a)var
+b=a[1],d=b?[0,ik(b[1])]:b,c=d;else
 var
 c=a;return c}function
-eg(a){if(B(a,c))return c;var
-b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?o(eg(e)):o(eg(e))}function
-eh(c,b){var
-a=hK(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-ii(b,i,h){var
-e=i,a=h;for(;;){if(B(e,c))return a;var
-f=bn(e,a1(2)),g=f[1];if(ak(f[2],d)){var
-e=g,a=N(b,a,a);continue}return N(b,a,ii(b,g,N(b,a,a)))}}function
-dv(a){return ii(H,a,p0)}function
-fK(a){return a?o(fK(a[1])):c}function
-bM(f,e){var
+ek(a){if(D(a,c))return c;var
+b=bn(a,a1(2)),e=b[1];return al(b[2],d)?n(ek(e)):n(ek(e))}function
+el(c,b){var
+a=hN(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+il(b,i,h){var
+e=i,a=h;for(;;){if(D(e,c))return a;var
+f=bn(e,a1(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=N(b,a,a);continue}return N(b,a,il(b,g,N(b,a,a)))}}function
+dz(a){return il(I,a,p1)}function
+fN(a){return a?n(fN(a[1])):c}function
+bN(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=r(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=r(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=A(c,r(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=C(c,r(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=r(b(2,o(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
+i=r(b(2,n(b(2,b(2,c)))),d),j=C(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=r(b(2,o(b(2,b(2,c)))),d),l=A(o(b(2,c)),k),a=a[1],d=l;continue;case
+k=r(b(2,n(b(2,b(2,c)))),d),l=C(n(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=r(b(2,o(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=r(b(2,n(b(2,b(2,c)))),d),o=C(b(2,b(2,c)),m),a=a[1],d=o;continue;case
 5:var
-p=r(b(2,o(b(2,b(2,c)))),d),q=A(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+p=r(b(2,n(b(2,b(2,c)))),d),q=C(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-s=r(b(2,o(b(2,b(2,c)))),d),t=A(b(2,o(b(2,c))),s),a=a[1],d=t;continue;case
+s=r(b(2,n(b(2,b(2,c)))),d),t=C(b(2,n(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=r(b(2,o(b(2,b(2,c)))),d),v=A(o(b(2,o(b(2,c)))),u),a=a[1],d=v;continue;case
+u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=r(b(2,o(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=r(b(2,o(b(2,b(2,c)))),d),z=A(o(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fL(a){if(B(a,c))return p1;var
-b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?a$(fL(e)):ba(fL(e))}function
-ei(a){return ef(fL(a))}function
-ij(k,f){if(0<=bH(f)){var
-g=hM(f);if(0<=g){var
+w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+fO(a){if(D(a,c))return p2;var
+b=bn(a,a1(2)),e=b[1];return al(b[2],d)?a$(fO(e)):ba(fO(e))}function
+em(a){return ej(fO(a))}function
+im(k,f){if(0<=bH(f)){var
+g=hP(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b2(pW)}return d}function
-ik(a){return 0<=bH(a)?a:d}function
-fM(a){var
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(pX)}return d}function
+io(a){return 0<=bH(a)?a:d}function
+fP(a){var
 b=bH(a);return 0===b?c:0<b?a:c}function
-il(m){var
+ip(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bM(a[1],c);case
+1:return bN(a[1],c);case
 2:var
-e=b(2,c);return bM(a[1],e);case
+e=b(2,c);return bN(a[1],e);case
 3:var
-f=o(b(2,c));return bM(a[1],f);case
+f=n(b(2,c));return bN(a[1],f);case
 4:var
-g=b(2,b(2,c));return bM(a[1],g);case
+g=b(2,b(2,c));return bN(a[1],g);case
 5:var
-h=o(b(2,b(2,c)));return bM(a[1],h);case
+h=n(b(2,b(2,c)));return bN(a[1],h);case
 6:var
-i=b(2,o(b(2,c)));return bM(a[1],i);case
+i=b(2,n(b(2,c)));return bN(a[1],i);case
 7:var
-j=o(b(2,o(b(2,c))));return bM(a[1],j);case
+j=n(b(2,n(b(2,c))));return bN(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
-l=o(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
+k=b(2,b(2,b(2,c)));return bN(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bN(a[1],l)}}function
 b5(b,a){var
-c=bH(a);return 0===c?d:1===c?hL(b,a):ia(-1,hL(ia(-1,b),a))}function
-im(a){return 0<bH(a)?A8(a):d}function
-dw(b,c){var
-a=hM(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
+c=bH(a);return 0===c?d:1===c?hO(b,a):id(-1,hO(id(-1,b),a))}function
+iq(a){return 0<bH(a)?A9(a):d}function
+dA(b,c){var
+a=hP(c);return 0<=a?ne(b,a):nf(b,-a|0)}function
 cO(b,c){var
-a=hM(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
-fN(b,a){return a?a[1]:b}function
-io(a){var
+a=hP(c);return 0<=a?nf(b,a):ne(b,-a|0)}function
+en(b,a){return a?a[1]:b}function
+fQ(a){var
 b=a?a[2]:a;return b}function
-F(e,d,c){var
+G(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-al(d,c){var
+aj(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ip(a){if(a){var
-b=[0,a[1],0];return g(ip(a[2]),b)}return a}function
-iq(d,c){var
+ir(a){if(a){var
+b=[0,a[1],0];return g(ir(a[2]),b)}return a}function
+is(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-y(b,a){if(a){var
-c=y(b,a[2]);return g(e(b,a[1]),c)}return a}function
-ir(e,d,c){var
+z(b,a){if(a){var
+c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
+it(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 cP(c,b,a){if(a){var
 d=cP(c,b,a[2]);return N(c,a[1],d)}return b}function
-a6(f,d){var
+a7(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-n(d,c){var
+o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fO(b,f){var
+fR(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,fO(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fR(b,c)];var
 a=c;continue}return a}}function
 ck(b,a){if(b)if(a)var
 d=ck(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
@@ -2108,177 +2108,177 @@ var
 c=a;else
 var
 c=b;return c}function
-ej(b,a){if(b)if(a)var
-d=ej(b[1],a[2]),c=[0,a[1],d];else
+eo(b,a){if(b)if(a)var
+d=eo(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-is(d,c){var
+iu(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 cQ(b,a){var
 c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
 cl(b,a){var
 c=a?[0,b,cl(b,a[1])]:a;return c}function
-it(a){if(a){var
-e=it(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-ek(j){function
+iv(a){if(a){var
+e=iv(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
+ep(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=it([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
-iu(c,b){var
-a=hK(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iv(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
-iw(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-ix(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
-aW(a){if(typeof
-a==="number")return p4;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iv([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dz(b):0}function
+iw(c,b){var
+a=hN(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+ix(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
+iy(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iz(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+aX(a){if(typeof
+a==="number")return p5;else
 switch(a[0]){case
 0:var
-b=aW(a[1]);return av(a5(1,48),b);case
+b=aX(a[1]);return aw(a6(1,48),b);case
 1:var
-c=aW(a[1]);return av(a5(1,49),c);case
+c=aX(a[1]);return aw(a6(1,49),c);case
 2:var
-d=aW(a[1]);return av(a5(1,50),d);case
+d=aX(a[1]);return aw(a6(1,50),d);case
 3:var
-e=aW(a[1]);return av(a5(1,51),e);case
+e=aX(a[1]);return aw(a6(1,51),e);case
 4:var
-f=aW(a[1]);return av(a5(1,52),f);case
+f=aX(a[1]);return aw(a6(1,52),f);case
 5:var
-g=aW(a[1]);return av(a5(1,53),g);case
+g=aX(a[1]);return aw(a6(1,53),g);case
 6:var
-h=aW(a[1]);return av(a5(1,54),h);case
+h=aX(a[1]);return aw(a6(1,54),h);case
 7:var
-i=aW(a[1]);return av(a5(1,55),i);case
+i=aX(a[1]);return aw(a6(1,55),i);case
 8:var
-j=aW(a[1]);return av(a5(1,56),j);default:var
-k=aW(a[1]);return av(a5(1,57),k)}}function
-dx(a){return typeof
-a==="number"?p5:aW(a)}function
-cm(a){return ij(b(2,c),a)}function
-iy(b,a){return cO(a,b)}function
-iz(b,a){return W(cO(W(a),b))}function
-el(b,a){return W(b5(W(b),a))}function
-aL(c,b){var
-a=dw(b,c);return[0,a,a]}function
-C(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-M(b,a){return[0,b1(b[1],a[2]),b1(b[2],a[1])]}function
-aE(a){return[0,W(a[2]),W(a[1])]}function
-iA(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
-f=cj(r(e,b),r(c,a));return[0,fI(r(e,a),r(c,b)),f]}function
-D(c,b,a){var
-d=iA(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
-ai(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iz(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
+j=aX(a[1]);return aw(a6(1,56),j);default:var
+k=aX(a[1]);return aw(a6(1,57),k)}}function
+dB(a){return typeof
+a==="number"?p6:aX(a)}function
+cm(a){return im(b(2,c),a)}function
+iA(b,a){return cO(a,b)}function
+iB(b,a){return W(cO(W(a),b))}function
+eq(b,a){return W(b5(W(b),a))}function
+aN(c,b){var
+a=dA(b,c);return[0,a,a]}function
+A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+M(b,a){return[0,b2(b[1],a[2]),b2(b[2],a[1])]}function
+aF(a){return[0,W(a[2]),W(a[1])]}function
+iC(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
+f=cj(r(e,b),r(c,a));return[0,fL(r(e,a),r(c,b)),f]}function
+E(c,b,a){var
+d=iC(b[1],b[2],a[1],a[2]),e=iB(c,d[2]);return[0,iA(c,d[1]),e]}function
+ac(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iB(b,cj(c,e)),g=0;if($(a[1],d)&&$(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iy(b,fI(c,e));return[0,f,h]}function
-iB(b,a){var
-c=dw(cm(b),b),d=el(c,a[1]);return[0,b5(c,a[2]),d]}function
-cn(b,a){if(ac(d,a[1]))return[0,iB(b,a)];var
-c=ac(a[2],d),e=c?[0,aE(iB(b,aE(a)))]:c;return e}function
+f=iA(b,fL(c,e));return[0,f,h]}function
+iD(b,a){var
+c=dA(cm(b),b),d=eq(c,a[1]);return[0,b5(c,a[2]),d]}function
+cn(b,a){if($(d,a[1]))return[0,iD(b,a)];var
+c=$(a[2],d),e=c?[0,aF(iD(b,aF(a)))]:c;return e}function
 co(f,b){var
-g=ac(d,b[1]);if(g)var
-e=dw(b[2],f),a=im(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,im(dw(b[1],f)),i]];else
+g=$(d,b[1]);if(g)var
+e=dA(b[2],f),a=iq(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,iq(dA(b[1],f)),i]];else
 var
 h=g;return h}function
-a7(e,d,c,b,a){if(b){if(a){var
-g=a7(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+a8(e,d,c,b,a){if(b){if(a){var
+g=a8(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
 b6(b,a){return cO(b,a)}function
-bN(a,c,b){if(B(d,a)){var
+bO(a,c,b){if(D(d,a)){var
 e=b[1],f=W(b6(W(r(a,b[2])),c));return[0,b6(r(a,e),c),f]}var
 g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
-em(a){var
+er(a){var
 b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
-fP(c,b,a){var
-e=iA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
-ab=[0,d,d];function
-fQ(a){return[0,a[1],a[1]]}function
-en(a){return[0,a[2],a[2]]}function
-ax(a,b){switch(b[0]){case
+fS(c,b,a){var
+e=iC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=$(f,d)?a[2]:a[1],i=eq(f,h),j=$(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
+ad=[0,d,d];function
+fT(a){return[0,a[1],a[1]]}function
+es(a){return[0,a[2],a[2]]}function
+ay(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dw(b[1],a),t=el(m,n);return[0,[0,b5(m,n),t]];case
+n=b[2],m=dA(b[1],a),t=eq(m,n);return[0,[0,b5(m,n),t]];case
 1:var
-c=ax(a,b[1]);if(c)var
-d=ax(a,b[2]),u=d?[0,C(c[1],d[1])]:d,o=u;else
+c=ay(a,b[1]);if(c)var
+d=ay(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ax(a,b[1]);if(e)var
-f=ax(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
+e=ay(a,b[1]);if(e)var
+f=ay(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ax(a,b[1]);if(g)var
-h=ax(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+g=ay(a,b[1]);if(g)var
+h=ay(a,b[2]),w=h?[0,E(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ax(a,b[1]);if(i){var
-j=ax(a,b[2]);if(j)var
-k=cn(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
+i=ay(a,b[1]);if(i){var
+j=ay(a,b[2]);if(j)var
+k=cn(a,j[1]),x=k?[0,E(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ax(a,b[1]);return l?co(a,l[1]):l}}function
-iC(a){var
-e=cj(W(a),d);return fM(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iD(a){return ik(A(iC(a),a))}function
+l=ay(a,b[1]);return l?co(a,l[1]):l}}function
+iE(a){var
+e=cj(W(a),d);return fP(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iF(a){return io(C(iE(a),a))}function
 b7(f,a,e){var
-b=ax(A(f,iC(a)),e);if(b)var
-c=b[1],g=iD(a),h=W(b6(W(c[2]),g)),i=iD(a),d=[0,[0,b6(c[1],i),h]];else
+b=ay(C(f,iE(a)),e);if(b)var
+c=b[1],g=iF(a),h=W(b6(W(c[2]),g)),i=iF(a),d=[0,[0,b6(c[1],i),h]];else
 var
 d=b;return d}function
-aM(d,a){var
+aG(d,a){var
 b=b7(d,a[2],a[1][1]);if(b)var
 c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iE(b,a){var
+iG(b,a){var
 c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
-fR(b,a){var
-c=el(b[2],a);return[0,b5(b[1],a),c]}function
-fS(a,f,b){if(b){var
-d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ig(b)?C(h,e):M(h,e);return[0,e,k]}var
-l=aL(a,c);return[0,aL(a,c),l]}function
-iF(f){var
-g=dv(f),e=p9[1],b=g,c=0,a=e;for(;;){if(b){var
+fU(b,a){var
+c=eq(b[2],a);return[0,b5(b[1],a),c]}function
+fV(a,f,b){if(b){var
+d=b[1],g=fV(a,f,d),h=g[2],i=fN(I(dx(p8,d),p7)),j=r(fN(dx(p9,d)),i),e=fU(E(a,g[1],f),j),k=ij(b)?A(h,e):M(h,e);return[0,e,k]}var
+l=aN(a,c);return[0,aN(a,c),l]}function
+iH(f){var
+g=dz(f),e=p_[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return H(p_,c)}}function
-iG(a,d){var
-g=cm(a),h=r(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
-i=fS(a,d,dt(qa,H(iF(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iF(a)),qb))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return I(p$,c)}}function
+iI(a,d){var
+g=cm(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fV(a,d,dx(qb,I(iH(a),qa)))[2][2],f=[0,[0,fV(a,d,I(dx(qd,iH(a)),qc))[2][1],i]];else
 var
 f=e;return f}function
-iH(i){function
+iJ(i){function
 a(h){var
-m=b5(cm(i),h),g=dv(i),f=m,e=d,a=c;for(;;){if(g){var
-j=A(a,b(2,c)),k=A(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return b1(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iI(e,a){var
-f=B(d,a);if(f){var
-g=b(2,b(2,c));return iG(e,fR(ai(e,[0,a,a]),g))}return f}function
-iJ(a,d){var
-b=ai(a,d),e=aL(a,c);return M(C(b,b),e)}function
-eo(n,u){var
-h=ax(A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iH(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iH(a),r),f=iI(a,i);if(f){var
-g=iI(a,j);if(g)var
-k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=b5(cm(i),h),g=dz(i),f=m,e=d,a=c;for(;;){if(g){var
+j=C(a,b(2,c)),k=C(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b2(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iK(e,a){var
+f=D(d,a);if(f){var
+g=b(2,b(2,c));return iI(e,fU(ac(e,[0,a,a]),g))}return f}function
+iL(a,d){var
+b=ac(a,d),e=aN(a,c);return M(A(b,b),e)}function
+et(o,u){var
+h=ay(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iJ(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iJ(a),r),f=iK(a,i);if(f){var
+g=iK(a,j);if(g)var
+k=$(d,f[1][1]),l=k?$(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iG(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iJ(a,iJ(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iI(a,ac(a,fU(E(a,v,e[1]),s))),p=ah(function(b){return iL(a,iL(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iE(w,a)},p)}return h}function
-fT(d,a){return eo(d,[2,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
-ep(a){return 0===a[0]?a[2]:a[1]}function
-dy(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ah(function(a){return iG(w,a)},p)}return h}function
+fW(d,a){return et(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+eu(a){return 0===a[0]?a[2]:a[1]}function
+dC(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2295,9 +2295,9 @@ g=e(b,a[2]);return[7,e(b,a[1]),g];case
 bb(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?aa(b[1],a[1]):0;case
-1:return 1===a[0]?aa(b[1],a[1]):0;case
-2:return 2===a[0]?ak(b[1],a[1]):0;case
+0:return 0===a[0]?Y(b[1],a[1]):0;case
+1:return 1===a[0]?Y(b[1],a[1]):0;case
+2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
 e=bb(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
@@ -2315,105 +2315,105 @@ d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-eq(b){var
+ev(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bo(c,b){var
-a=eq(b);return a?ak(c,a[1]):a}function
-dz(a){return ac(fw(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=ev(b);return a?al(c,a[1]):a}function
+dD(a){return $(fz(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
-G(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
-c=eq(b);if(c){var
-e=c[1],f=eq(a);if(f){var
-g=f[1];if(dz(e)&&dz(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+H(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
+c=ev(b);if(c){var
+e=c[1],f=ev(a);if(f){var
+g=f[1];if(dD(e)&&dD(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 cp(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dz(c)?q(W(c)):[0,[5,a]];case
+c=b[1];return dD(c)?q(W(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
-af(a){var
-c=eq(a);if(c){var
-b=c[1];return dz(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?af(a):[0,[6,a,b]];return b}return a}function
-aI(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
+w(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
+_(a){var
+c=ev(a);if(c){var
+b=c[1];return dD(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?_(a):[0,[6,a,b]];return b}return a}function
+aH(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
 cq(a){return bo(c,a)?a:[0,[9,a]]}function
 cr(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dy(function(b){return function(a){return F(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dA(a){var
+h=b[1],i=[0,e(f,dC(function(b){return function(a){return G(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dE(a){var
 b=0;function
 c(a){return[0,a]}return cr(q(d),c,a,b)}function
-fU(b,a){if(a){if(bb(b,a[1]))return qd;var
-c=fU(b,a[2]);return ae(function(a){return[0,a]},c)}return a}function
+fX(b,a){if(a){if(bb(b,a[1]))return qe;var
+c=fX(b,a[2]);return ah(function(a){return[0,a]},c)}return a}function
 bp(c,b){var
-a=fU(b,c),d=a?a[1]:a;return d}function
-er(d,a){if(fU(d,a[1]))return a;var
+a=fX(b,c),d=a?a[1]:a;return d}function
+ew(d,a){if(fX(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=er(b[1],a);break;case
+c=ew(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=er(b[1],a),c=er(b[2],h)}var
-e=c[2],f=c[1],g=[0,dy(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dB(a){var
-b=ir(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ip(b[2]),d]}function
-es(a){return cP(function(a,b){return A(cj(a[2],W(a[1])),b)},d,a)}function
+h=ew(b[1],a),c=ew(b[2],h)}var
+e=c[2],f=c[1],g=[0,dC(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dF(a){var
+b=it(function(b,a){return ew(a,b)},a,qf),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ir(b[2]),d]}function
+ex(a){return cP(function(a,b){return C(cj(a[2],W(a[1])),b)},d,a)}function
 cR(b,c,a){var
-d=es(a),e=fI(c[2],A(b[2],d)),f=es(a);return[0,b,[0,cj(c[1],b1(b[1],f)),e],a]}function
+d=ex(a),e=fL(c[2],C(b[2],d)),f=ex(a);return[0,b,[0,cj(c[1],b2(b[1],f)),e],a]}function
 a3(a){return[0,a,a,0]}function
-et(b,a){var
+ey(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a7(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return cR(C(b[1],a[1]),g,f)}function
-iK(b,a){var
-c=a[3],d=b[3],e=a7(function(a){return a},aE,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
-iL(a,c,b){var
-d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cR(A(b[1],a[1]),g,f)}function
+iM(b,a){var
+c=a[3],d=b[3],e=a8(function(a){return a},aF,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
+iN(a,c,b){var
+d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return em(C(D(a,d,c),f))}function
-i(b){return em(D(a,e,b))}var
-j=a7(function(b){return em(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cR(D(a,c[1],b[1]),k,j)}function
-fV(b,a){return a?e(b,a[1]):a}function
-eu(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
+f=E(a,e,b);return er(A(E(a,d,c),f))}function
+i(b){return er(E(a,e,b))}var
+j=a8(function(b){return er(E(a,d,b))},i,h,g,f),k=E(a,c[2],b[2]);return cR(E(a,c[1],b[1]),k,j)}function
+fY(b,a){return a?e(b,a[1]):a}function
+ez(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dC(a,e,d){var
-c=a3(ab);return function(b){switch(b[0]){case
-0:return[0,F(b[1],e,c)];case
-1:return[0,F(b[1],d,c)];case
-2:return[0,a3(aL(a,b[1]))];case
+dG(a,e,d){var
+c=a3(ad);return function(b){switch(b[0]){case
+0:return[0,G(b[1],e,c)];case
+1:return[0,G(b[1],d,c)];case
+2:return[0,a3(aN(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return eu(function(b,a){return[0,et(b,a)]},h,g);case
+g=b[2],h=b[1];return ez(function(b,a){return[0,ey(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eu(function(b,a){return[0,iK(b,a)]},j,i);case
+i=b[2],j=b[1];return ez(function(b,a){return[0,iM(b,a)]},j,i);case
 5:var
-k=b[1];return fV(function(a){var
-b=f(aE,a[3]),c=aE(a[2]);return[0,[0,aE(a[1]),c,b]]},k);case
+k=b[1];return fY(function(a){var
+b=f(aF,a[3]),c=aF(a[2]);return[0,[0,aF(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eu(function(c,b){return[0,iL(a,c,b)]},m,l);case
+l=b[2],m=b[1];return ez(function(c,b){return[0,iN(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return eu(function(e,g){var
+n=b[2],o=b[1];return ez(function(e,g){var
 b=cn(a,g[1]);if(b){var
 c=cn(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,D(a,d,b))},n=function(b){return aE(D(a,d,b))},o=a7(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cR(d,D(a,e[2],h),p)];else
+h=c[1],d=E(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,E(a,d,b))},n=function(b){return aF(E(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return E(a,h,b)},o),i=[0,cR(d,E(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fV(function(b){var
-c=b[3],d=C(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ai(a,b[2]);return[0,cR(ai(a,b[1]),g,e)]},p);default:var
-q=b[1];return fV(function(e){var
+p=b[1];return fY(function(b){var
+c=b[3],d=A(b[2],b[1]),e=f(function(b){return E(a,d,b)},c),g=ac(a,b[2]);return[0,cR(ac(a,b[1]),g,e)]},p);default:var
+q=b[1];return fY(function(e){var
 b=co(a,e[1]);if(b){var
 g=b[1],c=co(a,e[2]);if(c){var
-h=c[1],d=cn(a,C(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return D(a,m,b)},l))];else
+h=c[1],d=cn(a,A(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return E(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2422,143 +2422,143 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-qf(a){return a}function
 qg(a){return a}function
-qh(a,b){return a7(qg,qf,C,a,b)}function
-qi(a){return a}function
+qh(a){return a}function
+qi(a,b){return a8(qh,qg,A,a,b)}function
 qj(a){return a}function
-iM(a,b){return a7(qj,qi,qh,a,b)}function
-fW(b,a,c){if(a){var
+qk(a){return a}function
+iO(a,b){return a8(qk,qj,qi,a,b)}function
+fZ(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fW(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fP(d,a,b))},j=function(a){return aE(fP(d,a,b))};return[0,a7(function(a){return a},j,i,h,a),g]}var
-k=fW(b,e,0);return[0,f(function(a){return aE(fP(d,a,b))},a),k]}return c}function
-iN(a){if(a){var
+g=fZ(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fS(d,a,b))},j=function(a){return aF(fS(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
+k=fZ(b,e,0);return[0,f(function(a){return aF(fS(d,a,b))},a),k]}return c}function
+iP(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ac(d,c[1]),h=e?[0,fW(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=$(d,c[1]),h=e?[0,fZ(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iO(f,e){var
+iQ(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iN(b);if(c){var
+c=iP(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iP(d,b,a){if(b)if(a)var
-e=a[1],f=iP(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
+iR(d,b,a){if(b)if(a)var
+e=a[1],f=iR(d,b[2],a[2]),g=dy(d,b[1])?fT(e):es(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iQ(a,b){if(a)if(b)var
-d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
+iS(a,b){if(a)if(b)var
+d=iS(a[2],b[2]),c=[0,iR(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bO(a){if(a){var
-b=a[1],c=bO(b),d=f(function(a){return[0,1,a]},c),e=bO(b);return g(f(function(a){return[0,0,a]},e),d)}return qk}function
-ev(a){var
-b=k(a);if(iO(b,a))return 1;var
-c=bO(b4(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
+bP(a){if(a){var
+b=a[1],c=bP(b),d=f(function(a){return[0,1,a]},c),e=bP(b);return g(f(function(a){return[0,0,a]},e),d)}return ql}function
+eA(a){var
+b=k(a);if(iQ(b,a))return 1;var
+c=bP(bM(b));return o(function(c){return iQ(b,iS([0,0,c],a))},c)}function
 a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
 b8(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iR(c,b,a){var
-d=bO(c);return n(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
-iS(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iS(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a7(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+iT(c,b,a){var
+d=bP(c);return o(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
+iU(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bO(b,C(h,c),a)},k=iU(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-iT(b,d,a,c){function
+iV(b,d,a,c){function
 e(c,d){var
-e=bN(d,b,a);return M(C(c,c),e)}function
-f(c){return aE(bN(c,b,a))}return a7(function(a){return C(a,a)},f,e,d,c)}function
-fX(d,i,h,g){var
+e=bO(d,b,a);return M(A(c,c),e)}function
+f(c){return aF(bO(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
+f0(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=en(e[2]),k=iM(a,iS(d,f,iT(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iU(b,a){return[0,[0,0,b],a]}function
-dD(b,c,g,f,a){function
+e=b[1],f=c[1],j=es(e[2]),k=iO(a,iU(d,f,iV(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iW(b,a){return[0,[0,0,b],a]}function
+dH(b,c,g,f,a){function
 d(a){if(a){var
-h=cl([0,aE(a[1][2]),0],b),c=fX(g,f,a[2],h),d=aa(k(c),b);if(d)return ev(c);var
+h=cl([0,aF(a[1][2]),0],b),c=f0(g,f,a[2],h),d=Y(k(c),b);if(d)return eA(c);var
 e=d}else
 var
-e=a;return e}return iR(b,iU(c,a),d)}function
-iV(f,e){var
+e=a;return e}return iT(b,iW(c,a),d)}function
+iX(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iN([0,[0,fQ(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iP([0,[0,fT(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fY(b,c,a){function
+f1(b,c,a){function
 d(a){if(a){var
-h=cl([0,a[1][2],0],b),c=iV(a[2],h);if(c){var
-d=c[1],e=aa(k(d),b);if(e)return ev(d);var
+h=cl([0,a[1][2],0],b),c=iX(a[2],h);if(c){var
+d=c[1],e=Y(k(d),b);if(e)return eA(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return iR(b,iU(c,a),d)}function
-iW(a,b){var
-c=b[3],d=a[3],e=a7(function(a){return a},aE,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
-dE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aX(c,b,a){var
+g=a;return g}return iT(b,iW(c,a),d)}function
+iY(a,b){var
+c=b[3],d=a[3],e=a8(function(a){return a},aF,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+dI(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aS(c,b,a){var
 d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-dF(b,a){var
+dJ(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-ew(b,a){var
-c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
-aF(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-fZ(a){return ew(a,cq(aF(a,a)))}function
-ex(a){var
+eB(b,a){var
+c=aH(b[3],a),d=aH(b[2],a);return[0,aH(b[1],a),d,c]}function
+aq(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return H(H(v(b[1],a[1]),d),c)}function
+f2(a){return eB(a,cq(aq(a,a)))}function
+dK(a){var
 b=a[5];return b?b[1]:cq(a[2])}function
-ey(a){return f(function(a){var
-b=a[2];return[0,dE(a[1]),b]},a)}function
-iX(a){return f(function(a){var
-b=q(c);return[0,dE(a[3]),b]},a)}function
-iY(b,a){var
+eC(a){return f(function(a){var
+b=a[2];return[0,dI(a[1]),b]},a)}function
+iZ(a){return f(function(a){var
+b=q(c);return[0,dI(a[3]),b]},a)}function
+i0(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-iZ(c,b,a){var
+i1(c,b,a){var
 d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-ez(a,k,j,p,i,h,g){var
-m=iZ(iK,h,g),b=iZ(function(b,c){return iL(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
-c=iY(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+eD(a,k,j,p,i,h,g){var
+m=i1(iM,h,g),b=i1(function(b,c){return iN(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ey(ey(ey(a3(aN(a,d)),f),e),c),n=bP(k);return o(function(e){var
+c=i0(function(b){return ac(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aN(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
-q=D(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return ac(d,r[1])},o)}function
-bq(a){return cO(A(a[1],a[2]),c)}function
+q=E(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return $(d,r[1])},n)}function
+bq(a){return cO(C(a[1],a[2]),c)}function
 cS(a){var
-b=bq(a);return b1(a[2],b)}function
-f0(c,b){if(b)var
-a=b[1],e=f0([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ab,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
+b=bq(a);return b2(a[2],b)}function
+f3(c,b){if(b)var
+a=b[1],e=f3([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ad,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
 var
 d=b;return d}function
-dG(d,b){if(b){var
+dL(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dG(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
-i0(d,c,b,a){var
-e=f(a3,b);return cr(0,dC(d,f0(0,a),e),c,0)}function
-aS(a){if(a){var
+e=dL(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return qm}function
+i2(d,c,b,a){var
+e=f(a3,b);return cr(0,dG(d,f3(0,a),e),c,0)}function
+aT(a){if(a){var
 b=a[1];if(b)var
-c=aS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qm}function
-i1(b,a){if(a){var
-h=a[1],n=h[1],c=aS(f(function(a){return F(a,b,0)},n));if(c){var
-e=F(h[2],b,0);if(e){var
-i=e[1],g=i1(b,a[2]);if(g)var
-j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return qn}function
+i3(b,a){if(a){var
+h=a[1],n=h[1],c=aT(f(function(a){return G(a,b,0)},n));if(c){var
+e=G(h[2],b,0);if(e){var
+i=e[1],g=i3(b,a[2]);if(g)var
+j=$(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2566,82 +2566,82 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qn}function
+m=c;return m}return qo}function
 ct(d,c,b){var
-a=i1(d,c);return a?e(b,a[1]):a}function
-f1(a,b){return n(function(c){var
-a=F(c,b,0),d=a?1:a;return d},a)}function
-eA(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a7(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-f2(b,a){return b?iW(a,b[1]):a}function
-f3(h,g,b,f){var
-a=F(f,h,0);if(a){var
+a=i3(d,c);return a?e(b,a[1]):a}function
+f4(a,b){return o(function(c){var
+a=G(c,b,0),d=a?1:a;return d},a)}function
+eE(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+f5(b,a){return b?iY(a,b[1]):a}function
+f6(h,g,b,f){var
+a=G(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iW(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
-eB(b,a){var
-c=F(a[1],b,0);if(c){var
-d=F(a[2],b,0);if(d)var
-e=F(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=iY(c,b[1]),e=bP(g);return o(function(a){return D(d,b8(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+eF(b,a){var
+c=G(a[1],b,0);if(c){var
+d=G(a[2],b,0);if(d)var
+e=G(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-i2(i,q,J,t,e,b,g,h,a){switch(h[0]){case
+i4(i,q,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=f1(t,e);if(K){var
-ad=a[2],ae=a[1],af=eA(g,a3(r));return ct(e,q,function(a){return dD(b,af,ae,ad,a)})}return K;case
+K=f4(t,e);if(K){var
+ac=a[2],ae=a[1],af=eE(g,a3(r));return ct(e,q,function(a){return dH(b,af,ae,ac,a)})}return K;case
 1:var
-L=f1(t,e);if(L){var
-ag=a[2],ah=a[1],ai=eA(g,a3(r));return ct(e,J,function(a){return dD(b,ai,ah,ag,a)})}return L;case
+L=f4(t,e);if(L){var
+ag=a[2],ah=a[1],ai=eE(g,a3(r));return ct(e,J,function(a){return dH(b,ai,ah,ag,a)})}return L;case
 2:var
-M=f1(t,e);if(M){if(g)return 0;var
-N=ak(r[1],d),O=N?ak(r[2],d):N;if(O){var
-aj=a[2],al=a[1];return ct(e,q,function(a){var
-c=[0,ab,ab,0];return dD(b,[0,ab,ab,0],al,aj,f(function(a){return[0,a[1],c]},a))})}var
+M=f4(t,e);if(M){if(g)return 0;var
+N=al(r[1],d),O=N?al(r[2],d):N;if(O){var
+aj=a[2],ak=a[1];return ct(e,q,function(a){var
+c=[0,ad,ad,0];return dH(b,[0,ad,ad,0],ak,aj,f(function(a){return[0,a[1],c]},a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-am=f2(g,a3(Q));return ct(e,J,function(a){return fY(b,am,a)})}if(!a){var
-an=f2(g,a3(Q));return ct(e,q,function(a){return fY(b,an,a)})}}return 0;case
+am=f5(g,a3(Q));return ct(e,J,function(a){return f1(b,am,a)})}if(!a){var
+an=f5(g,a3(Q));return ct(e,q,function(a){return f1(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],u=a[3],I=function(a){return bN(a,R,aL(i,c))};if(u)var
-$=f(I,u[2]),j=[0,I(u[1]),ab,$];else
+R=a[1],u=a[3],I=function(a){return bO(a,R,aN(i,c))};if(u)var
+ab=f(I,u[2]),j=[0,I(u[1]),ad,ab];else
 var
-j=a3(ab);var
+j=a3(ad);var
 S=h[1],ao=a[2];return ct(e,q,function(e){var
-h=bO(b),a=n(function(a){return ac(d,b8(a,j)[1])},h),c=a?dD(b,eA(g,j),R,ao,e):a;if(c){var
-k=j[3],l=f(function(a){return D(i,S,a)},k),m=j[2];return fY(b,f2(g,[0,D(i,S,j[1]),m,l]),e)}return c})}return 0;case
+h=bP(b),a=o(function(a){return $(d,b8(a,j)[1])},h),c=a?dH(b,eE(g,j),R,ao,e):a;if(c){var
+k=j[3],l=f(function(a){return E(i,S,a)},k),m=j[2];return f1(b,f5(g,[0,E(i,S,j[1]),m,l]),e)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return f3(e,b,g,h[1]);return 0;case
+a==="number"&&!a)return f6(e,b,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eA(g,a3(h[2])),as=function(a){return dD(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=eE(g,a3(h[2])),as=function(a){return dH(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return f3(e,b,g,h[1]);case
-2:return f3(e,b,g,h[2])}return 0;default:if(typeof
+0:return f6(e,b,g,h[1]);case
+2:return f6(e,b,g,h[2])}return 0;default:if(typeof
 a!=="number"&&8===a[0]){var
-v=eB(e,h[1]);if(v){var
-w=eB(e,h[2]);if(w){var
-x=eB(e,h[3]);if(x){var
-y=eB(e,h[4]);if(y){var
+v=eF(e,h[1]);if(v){var
+w=eF(e,h[2]);if(w){var
+x=eF(e,h[3]);if(x){var
+y=eF(e,h[4]);if(y){var
 T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
 m=l[2];if(m){var
-o=m[2];if(o){if(o[2])return 0;var
-_=[0,l[1],m[1],o[1]],p=iY(function(d){function
-e(a){return bN(a,at,aL(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=es(a),h=A(b[2],g),j=es(a);return[0,b,[0,b1(b[1],j),h],a]}return a3(ab)},_),z=n(function(a){return aa(k(a),[0,b])},l),B=z?ez(i,b,g,s,p,W,U):z,C=B?ez(i,b,g,s,p,W,T):B,E=C?ez(i,b,g,s,p,V,U):C;if(E)return ez(i,b,g,s,p,V,T);var
-F=E}else
+n=m[2];if(n){if(n[2])return 0;var
+aa=[0,l[1],m[1],n[1]],p=i0(function(d){function
+e(a){return bO(a,at,aN(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=ex(a),h=C(b[2],g),j=ex(a);return[0,b,[0,b2(b[1],j),h],a]}return a3(ad)},aa),z=o(function(a){return Y(k(a),[0,b])},l),A=z?eD(i,b,g,s,p,W,U):z,B=A?eD(i,b,g,s,p,W,T):A,D=B?eD(i,b,g,s,p,V,U):B;if(D)return eD(i,b,g,s,p,V,T);var
+F=D}else
 var
-F=o;var
+F=n;var
 G=F}else
 var
 G=m;var
@@ -2651,100 +2651,100 @@ H=l;return H}var
 X=y}else
 var
 X=x;var
-Y=X}else
+Z=X}else
 var
-Y=w;var
-Z=Y}else
+Z=w;var
+_=Z}else
 var
-Z=v;return Z}return 0}}function
-eC(b,a){if(a){var
+_=v;return _}return 0}}function
+eG(b,a){if(a){var
 c=a[2];if(b){var
-e=eC(b[1],c);return[0,a[1],e]}var
+e=eG(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i3(r,V,I,H,G,U,T,E,c,D,C){if(D){var
-J=i0(r,V,U,c),g=D,b=C;for(;;){if(g){var
-v=g[1],a=v[2],o=v[1],w=g[2];if(typeof
+i5(r,V,I,H,F,U,T,E,c,C,B){if(C){var
+J=i2(r,V,U,c),g=C,b=B;for(;;){if(g){var
+v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 m=e(E,c);if(m)var
-S=m[1],M=bO(k(c)),p=n(function(b){return function(a){return ac(b8(a,b)[2],d)}}(S),M);else
+S=m[1],M=bP(k(c)),p=o(function(b){return function(a){return $(b8(a,b)[2],d)}}(S),M);else
 var
 p=m;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
-x=F(o,b,0);if(x){var
-q=al(T,o);if(q){var
+x=G(n,b,0);if(x){var
+q=aj(T,n);if(q){var
 y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(E,c),L=0;if(j){var
-s=B(d,i);if(s){var
-l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i2(r,I,H,G,J,k(c),R,y,Q);L=1}else
+s=D(d,i);if(s){var
+l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bO(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bO(i,t,l[1]),P,O]],h=i4(r,I,H,F,J,k(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i2(r,I,H,G,J,k(c),0,y,a);if(h){var
-g=w,b=eC(o,b);continue}var
+h=i4(r,I,H,F,J,k(c),0,y,a);if(h){var
+g=w,b=eG(n,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
-A=x;return A}return[0,b]}}return[0,C]}function
-f4(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,B]}function
+f7(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i3(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
-m=i3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dG(a[2],b),q=f4(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
-b=p[2],k=o,a=a[4];continue}var
+l=i5(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aM,l[1]):l}var
+m=i5(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dL(a[2],b),q=f7(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i4(a){return f(function(a){return 1},a)}function
+i6(a){return f(function(a){return 1},a)}function
 cu(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(B(j,c)){var
-k=ak(b,n),l=k?dz(b):k;if(l)var
-o=ak(m[2],d),g=o||ak(b,d);else
+i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(D(j,c)){var
+k=al(b,n),l=k?dD(b):k;if(l)var
+o=al(m[2],d),g=o||al(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=ak(bn(j,a1(2))[2],d)?0:0}else
+a=al(bn(j,a1(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ak(bn(i,a1(2))[2],d)?0:0}else
+a=al(bn(i,a1(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
-dH(b,a){if(a)var
-d=dH([0,b],a[2]),c=[0,cu(a[1],b),d];else
+cT(b,a){if(a)var
+d=cT([0,b],a[2]),c=[0,cu(a[1],b),d];else
 var
 c=a;return c}function
-a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-f5(b,d,a){switch(a[0]){case
+a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+f8(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a5(c[3],b),f),i=g(a5(c[2],b),h);return g(a5(c[1],d),i);case
 1:var
-e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
-aN(b,a){var
-c=q(d),e=F(H(qo,a),b,c),f=q(d),g=F(H(qp,a),b,f);return[0,F(a,b,q(d)),g,e]}function
-i5(b,a){return aX(z,aX(G,cs,a),b)}function
-f6(c,b,a){if(a){var
-e=a[2],f=f6(c,io(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
-f7(m,l,h,x){if(h){var
-e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,io(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
+e=a[3],j=e?a5(e[1],d):e,k=g(a5(a[2],b),j);return g(a5(a[1],b),k);default:return a5(a[1],d)}}function
+aI(b,a){var
+c=q(d),e=G(I(qp,a),b,c),f=q(d),g=G(I(qq,a),b,f);return[0,G(a,b,q(d)),g,e]}function
+i7(b,a){return aS(w,aS(H,cs,a),b)}function
+f9(c,b,a){if(a){var
+e=a[2],f=f9(c,fQ(b),e),h=a[1];return g(f8(c,en(d,b),h),f)}return a}function
+f_(m,l,h,y){if(h){var
+e=h[1],P=I(y,k(f8(m,en(d,l),e))),Q=h[2],R=f_(m,fQ(l),Q,P),a=cT(y,f8(m,en(d,l),e));switch(e[0]){case
 0:var
-J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i5(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+J=e[1][5],u=G(qr,a,q(d)),K=aS(H,cs,aI(a,qs)),g=f2(aI(a,0)),L=aI(a,qt),v=i7(aI(a,qu),L),o=aq(g,v),f=aS(w,v,dJ(o,g)),A=aq(f,f),p=w(_(u),A),r=cq(p),i=J?r:cp(r),B=w(o,i),C=aS(H,g,eB(f,i)),n=[0,aS(H,f,dJ(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i5(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
-j=fZ(aN(a,0)),I=aF(j,cs),n=[0,j,q(c),j,I,0,0,0]}var
-y=[0,n,R]}else
+x=e[3],M=x?[0,f2(aI(a,qv))]:x,N=aS(H,cs,aI(a,qw)),O=aI(a,qx),b=i7(aI(a,0),O),s=aq(b,b),t=cq(s),D=[0,N],E=ah(function(a){return aS(w,b,dJ(aq(a,b),a))},M),n=[0,b,s,eB(b,t),t,0,E,D];break;default:var
+j=f2(aI(a,0)),F=aq(j,cs),n=[0,j,q(c),j,F,0,0,0]}var
+z=[0,n,R]}else
 var
-y=h;return y}function
-bP(b,a){if(typeof
+z=h;return z}function
+bQ(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2755,7 +2755,9 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[4,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-m=a[3],n=ep(a[2]),l=[1,[1,ep(a[1]),n],m];return[0,[0,l,l],b];case
+n=a[3],o=eu(a[2]),l=[1,[1,eu(a[1]),o],n];return[0,[0,l,l],b];case
+11:var
+m=a[4];return[0,[0,m,m],b];case
 0:case
 1:var
 f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
@@ -2763,77 +2765,80 @@ f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 3:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-eD(b,a){function
-e(a){var
-c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}if(0===a[0]){var
-f=[0,d,c],j=g(e(a[5]),[0,[0,[0,f,f],d],0]),h=a[4],i=a[3];return g([0,[0,[0,i,i],b],[0,[0,[0,h,h],b],0]],j)}var
-k=e(a[3]);return g(e(a[2]),k)}function
-eE(b,a){if(typeof
-a!=="number"&&10===a[0]){var
-c=eD(b,a[2]);return g(eD(b,a[1]),c)}return 0}function
-i6(c,b,a){var
-d=k(eE(c,b)),e=H(a[2],d);return[0,[0,a[1]],e]}function
-i7(k,a,g){switch(g[0]){case
+dM(b,a){var
+c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
+eH(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dM(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dM(b,a[3]);return g(dM(b,a[2]),j)}function
+dN(b,a){if(typeof
+a!=="number")switch(a[0]){case
+10:var
+c=eH(b,a[2]);return g(eH(b,a[1]),c);case
+11:var
+d=dM(b,a[3]);return g(dM(b,a[2]),d)}return 0}function
+i8(c,b,a){var
+d=k(dN(c,b)),e=I(a[2],d);return[0,[0,a[1]],e]}function
+i9(k,a,g){switch(g[0]){case
 0:var
-e=al(k,g[1]);if(e){var
+e=aj(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aN(a,qx);return aX(G,aX(z,l,dF(c,b[1])),d)},m=ex(b),n=h(aI(F(qy,a,q(d)),m)),o=ex(b),p=aI(F(0,a,q(d)),o),i=[0,[0,h(z(q(c),p)),n]];else
+d=aI(a,qy);return aS(H,aS(w,l,dJ(c,b[1])),d)},m=dK(b),n=h(aH(G(qz,a,q(d)),m)),o=dK(b),p=aH(G(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aN(a,qz);return[0,[0,aN(a,0),r]];default:var
-s=aX(G,cs,aN(a,qA));return[0,[0,aX(G,cs,aN(a,0)),s]]}}function
-i8(f,e,j,d,c){var
-k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i7(f,ej(qB,h),d);if(a)var
-b=i7(f,is(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aI(a,qA);return[0,[0,aI(a,0),r]];default:var
+s=aS(H,cs,aI(a,qB));return[0,[0,aS(H,cs,aI(a,0)),s]]}}function
+i_(f,e,j,d,c){var
+k=eH(e,c),h=cT(j,g(eH(e,d),k)),a=i9(f,eo(qC,h),d);if(a)var
+b=i9(f,iu(qD,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-f8(d,c,b,a){var
-e=v(c,b);return z(v(d,a),e)}function
-cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-i9(a){if(a){var
+f$(d,c,b,a){var
+e=v(c,b);return w(v(d,a),e)}function
+cv(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+i$(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=i9(a[2]);if(d)var
-g=d[1],h=aF(c,c),e=[0,[0,[0,dE(c),h],g]];else
+c=b[1],d=i$(a[2]);if(d)var
+g=d[1],h=aq(c,c),e=[0,[0,[0,dI(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qD}function
-eF(b,d,c,a){if(typeof
+f=b;return f}return qF}function
+eI(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cu(bP(d,a),e);return[0,f(function(a){var
-b=v(a[2],g);return[0,dE(a[1]),b]},b)];case
-9:return i9(b)}return 0}function
-f9(b,k,j,a){var
-Q=j[1],e=cu(bP(k,a),Q),s=0;if(typeof
+e=c[1],g=cu(bQ(d,a),e);return[0,f(function(a){var
+b=v(a[2],g);return[0,dI(a[1]),b]},b)];case
+9:return i$(b)}return 0}function
+ga(b,i,h,a){var
+Q=h[1],c=cu(bQ(i,a),Q),s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 2:var
-R=function(a){return[0,z(a[4],e),0]},g=R,f=a[1];break;case
+R=function(a){return[0,w(a[4],c),0]},g=R,f=a[1];break;case
 3:var
-S=function(a){return[0,z(e,a[4]),0]},g=S,f=a[1];break;case
+S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
 4:var
 T=function(b){var
-a=b[1],c=af(a[3]),d=af(a[2]),f=af(a[1]),g=b[2];return[0,z(z(z(v(af(e),g),f),d),c),0]},g=T,f=a[1];break;case
+a=b[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=b[2];return[0,w(w(w(v(_(c),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
 U=function(b){var
 a=b[5];if(a)var
-d=af(a[1]),f=v(af(e),d),c=[0,z(b[2],f),0];else
+e=_(a[1]),f=v(_(c),e),d=[0,w(b[2],f),0];else
 var
-c=a;return c},g=U,f=a[1];break;case
+d=a;return d},g=U,f=a[1];break;case
 7:if(b){var
-h=b[2];if(h){var
-i=h[2];if(i){if(i[2])return 0;var
-u=i[1],w=h[1],x=b[1],m=x[5];if(m){var
-n=w[5];if(n){var
+j=b[2];if(j){var
+k=j[2];if(k){if(k[2])return 0;var
+u=k[1],x=j[1],y=b[1],m=y[5];if(m){var
+n=x[5];if(n){var
 o=u[5];if(o)var
-c=u[1],d=w[1],p=x[1],L=f8(d[1],d[2],c[1],c[2]),M=v(p[3],L),N=f8(d[1],d[3],c[1],c[3]),O=v(p[2],N),P=f8(d[2],d[3],c[2],c[3]),t=G(z(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(e,m[1]),W),V),X=[0,cp(G(t,A)),0],B=[0,z(t,A),X];else
+d=u[1],e=x[1],p=y[1],L=f$(e[1],e[2],d[1],d[2]),M=v(p[3],L),N=f$(e[1],e[3],d[1],d[3]),O=v(p[2],N),P=f$(e[2],e[3],d[2],d[3]),t=H(w(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(c,m[1]),W),V),X=[0,cp(H(t,A)),0],B=[0,w(t,A),X];else
 var
 B=o;var
 C=B}else
@@ -2844,40 +2849,46 @@ var
 D=m;var
 E=D}else
 var
-E=i;var
+E=k;var
 F=E}else
 var
-F=h;var
-H=F}else
+F=j;var
+G=F}else
 var
-H=b;return H;case
+G=b;return G;case
 10:var
-r=i8(b,k,j[2],a[1],a[2]);if(r){var
-I=r[1],J=I[2],K=I[1];return y(dE,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
+r=i_(b,i,h[2],a[1],a[2]);if(r){var
+I=r[1],J=I[2],K=I[1];return z(dI,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
+11:var
+Y=function(d){var
+e=d[7];if(e)var
+n=dN(i,a),f=cT(h[2],n),j=aI(f,qE),b=aS(w,aI(f,0),j),k=_(c),l=_(dK(d)),m=aH(_(aq(b,d[1])),l),g=[0,w(w(aq(b,b),m),k),0];else
+var
+g=e;return g},g=Y,f=a[1];break;case
 8:case
 9:var
-q=eF(b,k,j,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
-l=al(b,f);return l?g(l[1]):l}function
-f_(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=f_(d,b,i6(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
-i_(f,h,j,b,i,m){if(m){var
-a=m[1],R=m[2],S=i_(f,h,j,b,i6(b,a,i),R);if(typeof
+q=eI(b,i,h,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
+l=aj(b,f);return l?g(l[1]):l}function
+gb(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gb(d,b,i8(b,e,c),f);return g(ga(d,b,c,e),h)}return a}function
+ja(f,h,j,b,i,m){if(m){var
+a=m[1],R=m[2],S=ja(f,h,j,b,i8(b,a,i),R);if(typeof
 a==="number")var
-g=[0,[0,ab]];else
+g=[0,[0,ad]];else
 switch(a[0]){case
 0:var
-H=aM(f,bP(b,a)),g=ae(function(a){return[0,ai(f,a)]},H);break;case
+H=aG(f,bQ(b,a)),g=ah(function(a){return[0,ac(f,a)]},H);break;case
 1:var
-I=aM(f,bP(b,a)),g=ae(function(a){return[1,ai(f,a)]},I);break;case
+I=aG(f,bQ(b,a)),g=ah(function(a){return[1,ac(f,a)]},I);break;case
 5:var
-K=aM(f,bP(b,a)),g=ae(function(a){return[2,ai(f,a)]},K);break;case
+K=aG(f,bQ(b,a)),g=ah(function(a){return[2,ac(f,a)]},K);break;case
 8:var
-L=eF(j,b,i,a),g=ae(function(a){var
-b=aL(f,c);return[4,e(a4(h),a),b]},L);break;case
+L=eI(j,b,i,a),g=ah(function(a){var
+b=aN(f,c);return[4,e(a4(h),a),b]},L);break;case
 9:var
-o=eF(j,b,i,a);if(o){var
-p=aM(f,bP(b,a));if(p)var
-M=ai(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
+o=eI(j,b,i,a);if(o){var
+p=aG(f,bQ(b,a));if(p)var
+M=ac(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
 var
 v=p;var
 w=v}else
@@ -2885,21 +2896,21 @@ var
 w=o;var
 g=w;break;case
 10:var
-q=i8(j,b,i[2],a[1],a[2]);if(q){var
-x=q[1],y=x[2],z=x[1],r=aM(f,bP(b,a));if(r){var
-A=r[1],C=B(d,A[1]);if(C)var
+q=i_(j,b,i[2],a[1],a[2]);if(q){var
+x=q[1],y=x[2],z=x[1],r=aG(f,bQ(b,a));if(r){var
+A=r[1],B=D(d,A[1]);if(B)var
 l=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),D=[0,[6,l(z[1]),Q,P,O,A]];else
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),C=[0,[6,l(z[1]),Q,P,O,A]];else
 var
-D=C;var
-E=D}else
+C=B;var
+E=C}else
 var
 E=r;var
 F=E}else
 var
 F=q;var
 g=F;break;default:var
-k=f9(j,b,i,a),s=0;if(k){var
+k=ga(j,b,i,a),s=0;if(k){var
 n=k[2],t=k[1];if(n)if(n[2])var
 g=0;else
 var
@@ -2910,17 +2921,40 @@ g=u}var
 G=[0,g,S]}else
 var
 G=m;return G}function
-qE(a){if(typeof
+qG(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
+gc(a,p,o){var
+q=a5(p,o),b=f(function(b){return aG(a,b)},q);if(b){var
+g=b[1];if(g){var
+c=b[2];if(c){var
+h=c[1];if(h){var
+e=c[2];if(e){var
+i=e[1];if(i){if(e[2])return 0;var
+r=ac(a,i[1]),s=ac(a,h[1]);return $(d,A(A(ac(a,g[1]),s),r)[1])}var
+j=i}else
+var
+j=e;var
+k=j}else
+var
+k=h;var
+l=k}else
+var
+l=c;var
+m=l}else
+var
+m=g;var
+n=m}else
+var
+n=b;return n}function
 cw(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=ak(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:ak(bn(e,a1(2))[2],d)?0:0;var
-i=bn(f,a1(2)),j=i[1];if(ak(i[2],d)){if(B(e,c))return 0;var
-g=bn(e,a1(2)),p=g[1];if(ak(g[2],d)){var
-f=j,e=p;continue}return 0}if(B(e,c))return 0;var
-h=bn(e,a1(2)),q=h[1];if(ak(h[2],d))return 0;var
+k=al(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bn(e,a1(2))[2],d)?0:0;var
+i=bn(f,a1(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=bn(e,a1(2)),p=g[1];if(al(g[2],d)){var
+f=j,e=p;continue}return 0}if(D(e,c))return 0;var
+h=bn(e,a1(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
 l=cw(b[1],a[1]);if(l){var
@@ -2935,60 +2969,60 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=cw(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eG(a){switch(a[0]){case
+eJ(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iw(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iy(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iw(b,[0,W(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iy(b,[0,W(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,ix(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iz(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iu(a,[0,d,c]))return 0;var
-b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,ix(g,f)]};break;default:return 0}var
-g=eG(e);if(g){var
-h=eG(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iw(a,[0,d,c]))return 0;var
+b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,iz(g,f)]};break;default:return 0}var
+g=eJ(e);if(g){var
+h=eJ(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eG(b);if(f){var
-g=f[1];return e?aH(iv(g,[0,d,c])):iv([0,d,c],g)}var
-a=ax(i,b);if(a){var
-h=a[1];return e?ac(d,h[1]):B(d,h[1])}return a}function
-i$(c,b){var
-a=ax(c,b),d=a?1:a;return d}function
+f=eJ(b);if(f){var
+g=f[1];return e?aM(ix(g,[0,d,c])):ix([0,d,c],g)}var
+a=ay(i,b);if(a){var
+h=a[1];return e?$(d,h[1]):D(d,h[1])}return a}function
+jb(c,b){var
+a=ay(c,b),d=a?1:a;return d}function
 br(c,a,b){var
-d=cw(a,b),e=d?i$(c,a):d;return e?e:j(c,0,[2,b,a])}function
-ag(c,b,a){var
+d=cw(a,b),e=d?jb(c,a):d;return e?e:j(c,0,[2,b,a])}function
+af(c,b,a){var
 d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-ay(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aG(a){return ay([4,[0,c,c],[5,J(a,a)]],a)}function
+az(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aJ(a){return az([4,[0,c,c],[5,B(a,a)]],a)}function
 cx(c,b,a){var
 d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
-aT(c,b,a){var
+aU(c,b,a){var
 d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
-ja(c,a,b){if(0===a[0])return aT(c,a[1],b);var
+jc(c,a,b){if(0===a[0])return aU(c,a[1],b);var
 d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
-jb(a,D,G,F){var
-h=D[1],d=G;for(;;){if(h){if(d){var
+jd(a,E,H,G){var
+h=E[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aT(a,f[1],i),q=p?j(a,1,J(i,i)):p,r=q?aT(a,f[2],b[2]):q,s=r?aT(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?du(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dy(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aT(a,e[1],b[1]),x=w?aT(a,e[2],b[2]):w,n=0;if(x)if(v){var
-E=0;if(g){var
-k=g[1],y=aT(a,v[1],k);if(y){var
-c=j(a,1,J(k,k));E=1}else
+g=b[3],w=aU(a,e[1],b[1]),x=w?aU(a,e[2],b[2]):w,n=0;if(x)if(v){var
+F=0;if(g){var
+k=g[1],y=aU(a,v[1],k);if(y){var
+c=j(a,1,B(k,k));F=1}else
 var
 z=y}else
 var
-z=g;if(!E)var
+z=g;if(!F)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -2997,154 +3031,165 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-l=b[1],B=aT(a,e[1],l),c=B?j(a,1,J(l,l)):B;else
+l=b[1],C=aU(a,e[1],l),c=C?j(a,1,B(l,l)):C;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
-C=c}else
+D=c}else
 var
-C=d;var
-m=C}else
+D=d;var
+m=D}else
 var
-m=d?0:1;return m?ja(a,D[2],F):m}}function
+m=d?0:1;return m?jc(a,E[2],G):m}}function
 bs(c,b,a){var
-d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
-eH(a,e,d,c){var
-b=bs(e,d,c),f=aG(a),g=ay(J(aG(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
-cT(f,e,d,a,c){var
-b=eH(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-cU(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cV(a,b){switch(a[0]){case
+d=af(function(b,a){return[1,b,a]},a,b);return af(function(b,a){return[2,b,a]},d,c)}function
+eK(a,e,d,c){var
+b=bs(e,d,c),f=aJ(a),g=az(B(aJ(a),b),f);return af(function(b,a){return[2,b,a]},b,g)}function
+cU(f,e,d,a,c){var
+b=eK(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
+cV(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eH(d,f,e,b),h=cT(d,f,e,a[4],b),i=ay([4,[0,c,c],cU(a[5],h)],g),j=aG(d);return ag(function(b,a){return[1,b,a]},j,i);case
-1:return aG(bs(a[1],a[2],b));default:return aG(a[1])}}function
-jc(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eK(d,f,e,b),h=cU(d,f,e,a[4],b),i=az([4,[0,c,c],cV(a[5],h)],g),j=aJ(d);return af(function(b,a){return[1,b,a]},j,i);case
+1:return aJ(bs(a[1],a[2],b));default:return aJ(a[1])}}function
+je(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cT(e,d,c,a[4],b),i=cU(a[5],h),j=bs(d,c,b);return[2,J(aG(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bs(d,c,b);return[2,B(aJ(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bs(g,f,b);return[5,J(bs(g,f,b),k)];default:return J(aG(a[1]),b)}}function
-dI(e,b,a){var
+f=a[2],g=a[1],k=bs(g,f,b);return[5,B(bs(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
+dO(e,b,a){var
 f=[0,d,c];return cP(function(c,d){var
-e=J(cV(c,b),a);return[1,[3,J(cV(c,b),a),e],d]},f,e)}function
-jd(a){var
+e=B(cW(c,b),a);return[1,[3,B(cW(c,b),a),e],d]},f,e)}function
+jf(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-f$(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aG(b),h=cT(b,f,e,d,c),i=ay(cU(a[5],h),g),j=eH(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-je(d,i){if(d){var
+gd(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cU(b,f,e,d,c),i=az(cV(a[5],h),g),j=eK(b,f,e,c);return[0,[0,af(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jg(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bs(a[1],a[2],i),k=aG(f),l=ay(J(aG(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bs(a[1],a[2],i),k=aJ(f),l=az(B(aJ(f),g),k),h=[0,af(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=je(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jg(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qF}function
-dJ(a){return[0,a[1],a[2],a[3]]}function
-jf(y,d,a){switch(a[0]){case
+j=b;return j}return qH}function
+cy(a){return[0,a[1],a[2],a[3]]}function
+jh(a,b){switch(a[0]){case
 0:var
-z=a[5],i=al(y,a[1]);if(i){var
-b=i[1];switch(b[0]){case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cU(d,g,c,f,b),k=az(cV(a[5],j),i),l=eK(d,g,c,b),m=af(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[1,b,a]},b,c),m],f]];case
+1:var
+h=a[2],e=bs(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,af(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
+ji(l,b,a){switch(a[0]){case
 0:var
-j=b[4],f=b[3],k=b[2],g=b[1],s=aG(g),t=cT(g,k,f,j,d),u=ay(cU(b[5],t),s),v=eH(g,k,f,d),w=ag(function(b,a){return[1,b,a]},v,u),e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,f),w],j]];break;case
-1:var
-l=b[2],h=bs(b[1],l,d),x=[5,J(h,h)],e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,l),h],x]];break;default:var
-e=0}if(e)var
-m=e[1],n=m[1],o=m[2],A=n[2],B=n[1],p=function(a){var
-b=dJ(z),c=ay(a,A),d=ag(function(b,a){return[2,b,a]},B,c);return ag(function(b,a){return[1,b,a]},d,b)},C=p([4,a[4],o]),q=[0,[0,p([2,[0,c,c],[4,a[3],o]]),C]];else
+m=a[5],d=aj(l,a[1]);if(d){var
+e=jh(d[1],b);if(e)var
+f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
+b=cy(m),c=az(a,n),d=af(function(b,a){return[2,b,a]},o,c);return af(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
-q=e;var
-r=q}else
+j=e;var
+k=j}else
 var
-r=i;return r;case
+k=d;return k;case
 1:var
-D=dJ(a[3]);return[0,[0,dJ(a[2]),D]];default:var
-E=dJ(a[3]),F=ag(function(b,a){return[1,b,a]},d,E),G=dJ(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},d,G),F]]}}function
-jg(d,a,c,b){var
-e=ay(a,b),f=ay([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-jh(f,g,e,b,o,a){function
-D(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
+q=cy(a[3]);return[0,[0,cy(a[2]),q]];default:var
+r=cy(a[3]),s=af(function(b,a){return[1,b,a]},b,r),t=cy(a[2]);return[0,[0,af(function(b,a){return[1,b,a]},b,t),s]]}}function
+jj(d,a,c,b){var
+e=az(a,b),f=az([2,d,a],c);return af(function(b,a){return[1,b,a]},f,e)}function
+jk(f,g,e,b,q,a){function
+I(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-am=dI(g,e,b);return j(f,1,[2,D(a[1]),am]);case
+au=dO(g,e,b);return j(f,1,[2,I(a[1]),au]);case
 1:var
-an=D(a[1]);return j(f,1,[2,dI(g,e,b),an]);case
+av=I(a[1]);return j(f,1,[2,dO(g,e,b),av]);case
 2:var
-ao=a[2],ap=function(a){return[2,ao,jc(a,e)]},q=ap,p=a[1];break;case
+aw=a[2],ax=function(a){return[2,aw,je(a,e)]},s=ax,r=a[1];break;case
 3:var
-aq=a[2],ar=function(a){return[2,jc(a,e),aq]},q=ar,p=a[1];break;case
+ay=a[2],az=function(a){return[2,je(a,e),ay]},s=az,r=a[1];break;case
 4:var
-E=a[3],F=a[2],as=function(a){var
-b=cV(a,e);return[2,[3,[3,F,F],J(cV(a,e),b)],[3,E,E]]},q=as,p=a[1];break;case
+J=a[3],K=a[2],aA=function(a){var
+b=cW(a,e);return[2,[3,[3,K,K],B(cW(a,e),b)],[3,J,J]]},s=aA,r=a[1];break;case
 5:var
-G=a[1],at=J(b,b),au=[3,[3,G,G],[3,dI(g,e,o),at]],av=J(o,o);return j(f,1,[2,[3,dI(g,e,b),av],au]);case
+L=a[1],aB=B(b,b),aC=[3,[3,L,L],[3,dO(g,e,q),aB]],aD=B(q,q);return j(f,1,[2,[3,dO(g,e,b),aD],aC]);case
 6:var
-H=a[2],s=al(g,a[1]);if(s){var
-h=s[1];if(0===h[0]){var
-t=h[4],aw=cT(h[1],h[2],h[3],t,e),I=cU(h[5],aw);return j(f,1,[2,[3,[3,H,t],[3,H,t]],[3,I,I]])}var
-K=0}else
+M=a[2],u=aj(g,a[1]);if(u){var
+h=u[1];if(0===h[0]){var
+v=h[4],aE=cU(h[1],h[2],h[3],v,e),N=cV(h[5],aE);return j(f,1,[2,[3,[3,M,v],[3,M,v]],[3,N,N]])}var
+O=0}else
 var
-K=s;return K;case
+O=u;return O;case
 7:if(g){var
-m=g[2];if(m){var
-n=m[2];if(n){if(n[2])return 0;var
-u=f$(g[1],e);if(u){var
-L=u[1],v=f$(m[1],e);if(v){var
-M=v[1],w=f$(n[1],e);if(w){var
-N=w[1],O=[3,[3,[3,a[1],L[2]],M[2]],N[2]],i=N[1],k=M[1],C=J(L[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),P=j(f,1,[2,O,C]);if(P)return j(f,1,[1,O,C]);var
-Q=P}else
-var
-Q=w;var
-R=Q}else
-var
-R=v;var
-S=R}else
-var
-S=u;var
-T=S}else
-var
-T=n;var
+n=g[2];if(n){var
+o=n[2];if(o){if(o[2])return 0;var
+w=gd(g[1],e);if(w){var
+P=w[1],x=gd(n[1],e);if(x){var
+Q=x[1],y=gd(o[1],e);if(y){var
+R=y[1],S=[3,[3,[3,a[1],P[2]],Q[2]],R[2]],i=R[1],k=Q[1],H=B(P[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),T=j(f,1,[2,S,H]);if(T)return j(f,1,[1,S,H]);var
 U=T}else
 var
-U=m;var
+U=y;var
 V=U}else
 var
-V=g;return V;case
+V=x;var
+W=V}else
+var
+W=w;var
+X=W}else
+var
+X=o;var
+Y=X}else
+var
+Y=n;var
+Z=Y}else
+var
+Z=g;return Z;case
 8:var
-ax=dI(g,e,b),ay=J(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],ay],ax]);case
+aF=dO(g,e,b),aG=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],x=je(g,e);if(x){var
-az=x[1],aj=[0,d,c],ak=cP(function(a,c){var
-d=J(aG(a),b);return[1,[3,J(aG(a),b),d],c]},aj,az);return j(f,1,[2,[3,[3,W,W],J(b,b)],ak])}return x;default:var
-X=a[2],Y=a[1],y=jf(g,e,Y);if(y){var
-Z=y[1],z=jf(g,e,X);if(z){var
-_=z[1],A=b[1],B=b[2],l=b[3],aA=jg(l,B,_[1],_[2]),aB=jg(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
-ah=af}else
+_=a[1],z=jg(g,e);if(z){var
+aH=z[1],as=[0,d,c],at=cP(function(a,c){var
+d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},as,aH);return j(f,1,[2,[3,[3,_,_],B(b,b)],at])}return z;case
+10:var
+$=a[2],aa=a[1],A=ji(g,e,aa);if(A){var
+ab=A[1],C=ji(g,e,$);if(C){var
+ac=C[1],D=b[1],E=b[2],l=b[3],aI=jj(l,E,ac[1],ac[2]),aK=jj(l,D,ab[1],ab[2]),ad=af(function(b,a){return[2,b,a]},aK,aI),aL=a[3],aM=eu($),ae=[3,l,[1,[1,eu(aa),aM],aL]],ag=j(f,1,l),ah=ag?j(f,0,D):ag,ai=ah?j(f,0,[2,l,D]):ah,ak=ai?j(f,0,E):ai,al=ak?j(f,0,[2,l,E]):ak;if(al)return j(f,1,[2,[3,ae,ae],B(ad,ad)]);var
+am=al}else
 var
-ah=z;var
-ai=ah}else
+am=C;var
+an=am}else
 var
-ai=y;return ai}var
-r=al(g,p);return r?j(f,1,q(r[1])):r}function
+an=A;return an;default:var
+ao=a[4],F=aj(g,a[1]);if(F){var
+G=jh(F[1],e);if(G){var
+m=G[1][1][2],aN=cy(a[3]),aO=cy(a[2]),p=af(function(b,a){return[2,b,a]},aO,aN),ap=j(f,1,B(m,m));if(ap){var
+aP=B(m,m),aQ=B(p,m),aR=[4,[3,B(p,m),aQ],aP];return j(f,1,[2,[3,ao,ao],[2,B(p,p),aR]])}var
+aq=ap}else
+var
+aq=G;var
+ar=aq}else
+var
+ar=F;return ar}var
+t=aj(g,r);return t?j(f,1,s(t[1])):t}function
 b9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qG(a){switch(a[0]){case
+qI(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
 1:var
-g=ae(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
-ji(c,b){var
-a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jb(c,b,f(qG,b[1]),d)}function
-cW(b,a){if(b){if(a){var
-e=cW(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jj(a,l,k,f){var
-b=ax(a,l);if(b){var
-c=ax(a,k);if(c){var
-d=eo(a,f);if(d){var
-e=fT(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,M(D(a,c[1],d[1]),m)];else
+g=ah(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
+jl(c,b){var
+a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jd(c,b,f(qI,b[1]),d)}function
+cX(b,a){if(b){if(a){var
+e=cX(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jm(a,l,k,f){var
+b=ay(a,l);if(b){var
+c=ay(a,k);if(c){var
+d=et(a,f);if(d){var
+e=fW(a,f);if(e)var
+m=E(a,b[1],e[1]),g=[0,M(E(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3156,13 +3201,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jk(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cW(a,a)]}var
+jn(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cX(a,a)]}var
 E=s[1];function
 g(b){var
 a=[0,d,c];return cP(function(a,c){var
-d=cW(a,b);return[1,[3,cW(a,b),d],c]},a,E)}var
-u=n(function(a){return aa(k(a),D)},a);if(u){var
+d=cX(a,b);return[1,[3,cX(a,b),d],c]},a,E)}var
+u=o(function(a){return Y(k(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3179,20 +3224,20 @@ a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jj(f,i,h,z);return e?ac(e[1][2],d):e}var
-g=jj(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=jm(f,i,h,z);return e?$(e[1][2],d):e}var
+g=jm(f,i,h,y);return g?$(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],M=cW(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cW(p,p);return j(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],M=cX(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cX(p,p);return j(f,1,[2,[3,g(q),O],N])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=al(s[2],i);return m?l(m[1]):m}var
+m=aj(s[2],i);return m?l(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jl(h,g){var
+jo(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3202,43 +3247,43 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qH(a){return f(function(a){return[0,a,c]},a)}function
-jm(e,m,b,l,a){if(typeof
+qJ(a){return f(function(a){return[0,a,c]},a)}function
+jp(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return a6(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jl(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qH,a[2]);return jk(e,m,b,n[2],s,r)}return g}var
-h=jl(a[1],l);if(h){var
+q=b[3];return a7(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jo(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qJ,a[2]);return jn(e,m,b,n[2],s,r)}return g}var
+h=jo(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=al(b[1],a[2]);return k?jk(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=aj(b[1],a[2]);return k?jn(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-ga(a){var
-b=aG(a[1]),c=ay(J(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
-gb(a){return aG(ga(a))}function
-jn(c){var
-a=gb(c),b=aG(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gc(a,b){return bs(a[3],a[4],b)}function
-gd(a,b){var
-c=gc(a,b);return J(gb(a),c)}function
-ge(a,b){var
-c=gc(a,b);return J(jn(a),c)}function
-jo(a,b){var
-c=gc(a,b);return J(aG(a[1]),c)}function
-gf(b,a){var
-c=ge(b,a),d=gd(b,a);return[1,[3,d,d],[3,c,c]]}function
-gg(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jo(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jp(a,b){var
-f=a[5],c=[2,gg(a,b),f],d=jo(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+ge(a){var
+b=aJ(a[1]),c=az(B(b,a[2]),b),d=a[2];return af(function(b,a){return[2,b,a]},d,c)}function
+gf(a){return aJ(ge(a))}function
+jq(c){var
+a=gf(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gg(a,b){return bs(a[3],a[4],b)}function
 gh(a,b){var
-c=jp(a,b);return cU(a[7],c)}function
-jq(b,a){var
-c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
-jr(b,a){var
-c=gf(b,a),d=gd(b,a),e=[3,gh(b,a),d],f=ge(b,a);return[4,[2,[3,gg(b,a),f],e],c]}function
+c=gg(a,b);return B(gf(a),c)}function
+gi(a,b){var
+c=gg(a,b);return B(jq(a),c)}function
+jr(a,b){var
+c=gg(a,b);return B(aJ(a[1]),c)}function
+gj(b,a){var
+c=gi(b,a),d=gh(b,a);return[1,[3,d,d],[3,c,c]]}function
+gk(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jr(a,d);return[4,[1,gj(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+js(a,b){var
+f=a[5],c=[2,gk(a,b),f],d=jr(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gl(a,b){var
+c=js(a,b);return cV(a[7],c)}function
+jt(b,a){var
+c=gj(b,a),d=gi(b,a),e=[3,gl(b,a),d],f=gh(b,a);return[4,[1,[3,gk(b,a),f],e],c]}function
+ju(b,a){var
+c=gj(b,a),d=gh(b,a),e=[3,gl(b,a),d],f=gi(b,a);return[4,[2,[3,gk(b,a),f],e],c]}function
 bt(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -3254,88 +3299,88 @@ bu(e,a,b){switch(a[0]){case
 p=a[1];return cu([0,[0,p,p],d],b);case
 1:var
 s=a[1],g=e,t=q(d);for(;;){if(g){var
-m=g[1];if(mW(m[1],s))return m[2];var
+m=g[1];if(mX(m[1],s))return m[2];var
 g=g[2];continue}return t}case
 2:return cp(bu(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=G;break;case
+i=a[2],f=a[1],h=H;break;case
 4:var
-i=a[2],f=a[1],h=z;break;case
+i=a[2],f=a[1],h=w;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aI;break;case
+i=a[2],f=a[1],h=aH;break;case
 7:var
-j=dv(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
-n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ih(j)),r,n);return ig(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
-u=bu(e,i,H(b,k(bt(f))));return h(bu(e,f,b),u)}function
-cy(c,f,b){var
+j=dz(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
+n=_(l),r=function(a){return v(a,n)},o=fM(bM(ik(j)),r,n);return ij(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
+u=bu(e,i,I(b,k(bt(f))));return h(bu(e,f,b),u)}function
+cz(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=H(b,k(bt(e))),l=cy(c,a[2],j),m=g(cy(c,e,b),l);return[0,bu(c,a,b),m];case
+e=a[1],j=I(b,k(bt(e))),l=cz(c,a[2],j),m=g(cz(c,e,b),l);return[0,bu(c,a,b),m];case
 8:var
-n=cy(c,a[1],b);return[0,bu(c,a,b),n];case
+n=cz(c,a[1],b);return[0,bu(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=H(b,k(bt(d))),i=cy(c,a[2],h);return g(cy(c,d,b),i)}}function
-js(c,a,b){if(a){var
-e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=js([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
-dK(a){return y(bt,a)}function
-jt(c,a,b){if(a)var
-d=a[1],f=H(b,k(bt(d))),g=jt(c,a[2],f),e=[0,bu(c,d,b),g];else
+d=a[1],h=I(b,k(bt(d))),i=cz(c,a[2],h);return g(cz(c,d,b),i)}}function
+jv(c,a,b){if(a){var
+e=a[1],d=e[2],f=I(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=jv([0,[0,e[1],i],c],h,f);return g(cz(c,d,b),j)}return a}function
+dP(a){return z(bt,a)}function
+jw(c,a,b){if(a)var
+d=a[1],f=I(b,k(bt(d))),g=jw(c,a[2],f),e=[0,bu(c,d,b),g];else
 var
 e=a;return e}function
-ju(c,a,b){if(a){var
-d=a[1],e=H(b,k(bt(d))),f=ju(c,a[2],e);return g(cy(c,d,b),f)}return a}function
-jv(c,a,b){if(a)var
-d=a[1],f=H(b,k(dK(d))),g=jv(c,a[2],f),e=[0,jt(c,d,b),g];else
+jx(c,a,b){if(a){var
+d=a[1],e=I(b,k(bt(d))),f=jx(c,a[2],e);return g(cz(c,d,b),f)}return a}function
+jy(c,a,b){if(a)var
+d=a[1],f=I(b,k(dP(d))),g=jy(c,a[2],f),e=[0,jw(c,d,b),g];else
 var
 e=a;return e}function
-jw(c,a,b){if(a){var
-d=a[1],e=H(b,k(dK(d))),f=jw(c,a[2],e);return g(ju(c,d,b),f)}return a}function
-jx(a){return f(function(a){return[0,a[2],d]},a)}function
-jy(a){var
-c=dH(0,jx(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
-qJ(a){if(typeof
+jz(c,a,b){if(a){var
+d=a[1],e=I(b,k(dP(d))),f=jz(c,a[2],e);return g(jx(c,d,b),f)}return a}function
+jA(a){return f(function(a){return[0,a[2],d]},a)}function
+jB(a){var
+c=cT(0,jA(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dv,a[2]),c);return g(ck(a[1],e),b)}function
+qL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gi(b,d){var
+gm(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a6(function(a){return au(e,a)},b);case
+e=a[1];return a7(function(a){return av(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gi(b,a[1]);if(c){var
+c=gm(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jz(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jA(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gj(a,c,b){var
-d=[3,jz(a),b],e=[1,[3,jA(a),c],d],f=[3,jA(a),b];return[0,[2,[3,jz(a),c],f],e]}function
-jB(c,a){var
-b=gj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jC(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jD(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jB(d[1],a):a;case
+jC(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jD(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gn(a,c,b){var
+d=[3,jC(a),b],e=[1,[3,jD(a),c],d],f=[3,jD(a),b];return[0,[2,[3,jC(a),c],f],e]}function
+jE(c,a){var
+b=gn(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jF(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jG(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jE(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jB(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gn(d[1],a[2],a[3]),m=j[1],k=gn(f[1],j[2],a[1]);return jE(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=J(e,e),n=jC(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jE(b){var
-a=eG(b);return a?iu(a[1],[0,d,c]):a}function
-jF(a,n,k,i){if(jE(i)){var
+e=[0,d[1],h[1],i[1]],l=B(e,e),n=jF(e,a),o=az([0,b(2,c),c],n),p=B(e,a),q=az([3,[0,b(2,c),c],p],e),r=az([2,[0,c,c],l],a),s=af(function(b,a){return[1,b,a]},r,q);return az([4,[0,c,c],[1,[0,c,c],l]],af(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jH(b){var
+a=eJ(b);return a?iw(a[1],[0,d,c]):a}function
+jI(a,n,k,i){if(jH(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
-f=ax(a,k);if(f){var
-g=eo(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fT(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),l=[0,M(h[1],p)];else
+f=ay(a,k);if(f){var
+g=et(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fW(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=E(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3344,26 +3389,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?B(d,o[1]):B(o[2],d)}return e}function
-dL(b,a,c){var
-d=br(b,a[1],a[2]),e=d?jF(b,0,c,a[1]):d;return e?jF(b,1,c,a[2]):e}function
-dM(a,d){if(jE(d))return[0,ab];var
-e=eo(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fT(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=C(aL(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ae(function(d){var
-e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iE(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dQ(b,a,c){var
+d=br(b,a[1],a[2]),e=d?jI(b,0,c,a[1]):d;return e?jI(b,1,c,a[2]):e}function
+dR(a,d){if(jH(d))return[0,ad];var
+e=et(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fW(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=A(aN(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ah(function(d){var
+e=E(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iG(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gk(d,a){var
-e=j(d,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-cz(a){return[0,[2,[0,d,c],a],a]}function
-jG(a,b,n,m){var
-h=br(a,[0,d,c],b),i=h?gk(a,b):h;if(i){var
-e=dM(a,b);if(e){var
-f=ax(a,n);if(f){var
-g=ax(a,m);if(g){var
-o=f[1],p=g[1];return B(d,M(D(a,ai(a,e[1]),p),o)[1])}var
+go(d,a){var
+e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+cA(a){return[0,[2,[0,d,c],a],a]}function
+jJ(a,b,n,m){var
+h=br(a,[0,d,c],b),i=h?go(a,b):h;if(i){var
+e=dR(a,b);if(e){var
+f=ay(a,n);if(f){var
+g=ay(a,m);if(g){var
+o=f[1],p=g[1];return D(d,M(E(a,ac(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3373,66 +3418,66 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dN(a){return 1===a?qN:qO}function
-gl(d,c,b,a){var
-e=a[1],f=jD(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
-dO(b,d){var
+dS(a){return 1===a?qP:qQ}function
+gp(d,c,b,a){var
+e=a[1],f=jG(d,c,a[2]),g=af(function(b,a){return[1,b,a]},b,f);return af(function(b,a){return[2,b,a]},g,e)}function
+dT(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dy(function(a){return dO(b,a)},a)]}return[0,dy(function(a){return dO(b,a)},a)]}function
-cX(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,I(b,c[1])]]:[0,dC(function(a){return dT(b,a)},a)]}return[0,dC(function(a){return dT(b,a)},a)]}function
+cY(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aH(aa(e,b));return f?aH(aa(e,H(d,b))):f;case
+e=a[1],f=aM(Y(e,b));return f?aM(Y(e,I(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cX(d,b,a[1]);if(g){var
+g=cY(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dP(c,b,m){var
+dU(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cX(c,b,g),i=h?dP(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cY(c,b,g),i=h?dU(c,b,f):h;if(i)var
 j=i;else{var
-k=dP(c,b,g);if(k)return cX(c,b,f);var
+k=dU(c,b,g);if(k)return cY(c,b,f);var
 j=k}return j;case
 7:var
-l=dP(c,b,a[1]);return l?cX(c,b,a[2]):l;case
+l=dU(c,b,a[1]);return l?cY(c,b,a[2]):l;case
 3:case
 4:var
-e=dP(c,b,a[1]);if(e){var
+e=dU(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cX(c,b,a[1]);default:return 1}}}function
-cA(c,e){var
+9:return cY(c,b,a[1]);default:return 1}}}function
+cB(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aH(aa(a[1],c));case
+0:return aM(Y(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cA(c,a[1]);if(d){var
+d=cB(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gm(d,b,m){var
+gq(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gm(d,b,a[1]);if(f){var
+f=gq(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gm(d,b,a[1]);return g?cA(b,a[2]):g;case
+g=gq(d,b,a[1]);return g?cB(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cA(b,i);if(j){var
-k=cA(b,h);if(k)var
+h=a[2],i=a[1],j=cB(b,i);if(j){var
+k=cB(b,h);if(k)var
 e=k;else{var
 l=bb(i,d);if(l){var
 c=h;continue}var
@@ -3441,22 +3486,22 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cA(b,c)}}}function
-jH(c,e){var
+2:return 1;default:return cB(b,c)}}}function
+jK(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ie(a[1],c);case
+0:return ii(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jH(c,a[1]);if(d){var
+d=jK(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 b_(b,a){return a?e(b,a[1]):a}function
 b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
-qP(a){return 0===a[0]?a[1]:0}function
+qR(a){return 0===a[0]?a[1]:0}function
 bv(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
 1:return[1,bv(b,a[1])];default:var
@@ -3475,113 +3520,113 @@ n=a[1],o=function(a){return N(b,a,n)},i=function(a){return bv(o,a)},p=i(f),q=i(g
 1:var
 j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
 t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
-gn(c,g,a){if(a)var
+gr(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,ai(c,a)];break;case
+f=[0,a,ac(c,a)];break;case
 1:var
-h=D(c,a,b),f=[0,em(C(a,b)),h];break;default:var
-f=[0,b,ai(c,b)]}return[0,[0,e(g,f)]]},i=gn(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=E(c,a,b),f=[0,er(A(a,b)),h];break;default:var
+f=[0,b,ac(c,b)]}return[0,[0,e(g,f)]]},i=gr(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jI(a){if(a){var
+jL(a){if(a){var
 b=a[1];if(b)var
-c=jI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jL(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qR}function
-dQ(a){if(a){var
-g=a[1],b=g[2],c=jI(g[1]);if(c)if(b){var
-h=b[1],e=dQ(a[2]);if(e)var
-i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qT}function
+dV(a){if(a){var
+g=a[1],b=g[2],c=jL(g[1]);if(c)if(b){var
+h=b[1],e=dV(a[2]);if(e)var
+i=$(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qS}function
-go(b,a){var
-c=a[3],d=ae(function(a){var
+f=c;return f}return qU}function
+gs(b,a){var
+c=a[3],d=ah(function(a){var
 c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jJ(f,d,c,b){if(d){var
+jM(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=go(function(a){switch(a[0]){case
+a=gs(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jJ(b4(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jM(bM(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,go(qP,b))}function
-dR(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ae(function(a){return bN(f,e,a)},d)}return[0,ab]}function
-jK(d,b,a){if(b){if(a){var
-e=jK(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
-jL(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jK(e,a,b)},j=jL(e,h),k=f(function(a){var
-e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
+i=g;return i}return e(c,gs(qR,b))}function
+dW(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ah(function(a){return bO(f,e,a)},d)}return[0,ad]}function
+jN(d,b,a){if(b){if(a){var
+e=jN(d,b[2],a[2]);return A(bO(b[1],C(d,c),a[1]),e)}return ad}return ad}function
+jO(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jN(e,a,b)},j=jO(e,h),k=f(function(a){var
+e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-jM(e,b,d,a){if(b)if(a)var
-f=b[1],g=jM(e,b[2],d,a[2]),c=[0,[0,f,iT(e,a[1][1],d,f)],g];else
+jP(e,b,d,a){if(b)if(a)var
+f=b[1],g=jP(e,b[2],d,a[2]),c=[0,[0,f,iV(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-jN(e,d,c,b,a){if(a){var
+jQ(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=jN(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
-j=f(function(a){return[0,M(ab,b),0]},g),h=[0,[0,M(aE(D(e,c,en(a[1][2]))),b),0],j]}else
+i=jQ(e,d[1],c,b,g);return[0,[0,M(ad,b),0],i]}var
+j=f(function(a){return[0,M(ad,b),0]},g),h=[0,[0,M(aF(E(e,c,es(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-eI(c,a){var
-b=aa(k(a),c);return b?ev(a):b}function
-qT(c){var
+eL(c,a){var
+b=Y(k(a),c);return b?eA(a):b}function
+qV(c){var
 a=c[2];if(a){var
-b=dR(c[3]);if(b)return B(d,M(a[1],b[1])[1]);var
+b=dW(c[3]);if(b)return D(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jO(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-jP(a,c,b){var
-e=F(b,c,q(d)),f=cQ(0,a);return n(function(b){return dP(a,b,e)},f)}function
-dS(a){var
-b=af(a);return G(q(c),b)}function
-eJ(i,g){var
-h=dS(g),j=af(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
-jQ(b,a){function
+jR(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jS(a,c,b){var
+e=G(b,c,q(d)),f=cQ(0,a);return o(function(b){return dU(a,b,e)},f)}function
+dX(a){var
+b=_(a);return H(q(c),b)}function
+eM(i,g){var
+h=dX(g),j=_(g),e=w(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
+jT(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
+b=aq(a,c(function(a){return a[3]})),d=aq(a,c(function(a){return a[2]}));return[0,aq(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jR(a){switch(a[0]){case
+jU(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cz(a[1]),0];default:var
-b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
-cY(a){return[0,[0,a[1]],[0,a[2]]]}function
-jS(a,b){if(0===b[0])return dM(a,b[1]);var
-d=dM(a,b[1]);if(d){var
-e=dM(a,b[2]);if(e){var
-g=ai(a,e[1]),h=co(a,C(aL(a,c),g)),i=d[1];return ae(function(b){return D(a,i,b)},h)}var
+2:return[0,cA(a[1]),0];default:var
+b=[0,cA(a[2]),0];return[0,cA(a[1]),b]}}function
+cZ(a){return[0,[0,a[1]],[0,a[2]]]}function
+jV(a,b){if(0===b[0])return dR(a,b[1]);var
+d=dR(a,b[1]);if(d){var
+e=dR(a,b[2]);if(e){var
+g=ac(a,e[1]),h=co(a,A(aN(a,c),g)),i=d[1];return ah(function(b){return E(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jT(j,z,c,y,x,b,a){switch(b[0]){case
+jW(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 A=a[2],B=a[1],i=o,h=p,g=function(e){var
-a=dQ(e[1]);if(a){var
+a=dV(e[1]);if(a){var
 b=e[2];if(b){var
-d=dR(e[3]);if(d){var
-h=d[1],i=cl([0,M(aE(D(j,l,b[1])),h),0],c);return eI(c,fX(B,A,a[1],i))}var
+d=dW(e[3]);if(d){var
+h=d[1],i=cl([0,M(aF(E(j,l,b[1])),h),0],c);return eL(c,f0(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3589,11 +3634,11 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=ak(l[1],d),r=q?ak(l[2],d):q;if(!r)return r;var
-E=a[2],G=a[1],i=o,h=p,g=function(e){var
-a=dQ(e[1]);if(a){var
-b=dR(e[3]);if(b){var
-g=cl([0,M(ab,b[1]),0],c),h=a[1];return eI(c,fX(G,E,f(function(a){return[0,a[1],ab]},h),g))}var
+q=al(l[1],d),r=q?al(l[2],d):q;if(!r)return r;var
+D=a[2],F=a[1],i=o,h=p,g=function(e){var
+a=dV(e[1]);if(a){var
+b=dW(e[3]);if(b){var
+g=cl([0,M(ad,b[1]),0],c),h=a[1];return eL(c,f0(F,D,f(function(a){return[0,a[1],ad]},h),g))}var
 d=b}else
 var
 d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
@@ -3601,10 +3646,10 @@ d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 u=0;if(typeof
 a==="number"&&!a)var
 H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
-a=dQ(f[1]);if(a){var
+a=dV(f[1]);if(a){var
 b=f[2];if(b){var
-d=dR(f[3]);if(d){var
-k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iV(a[1],l);if(e)return eI(c,e[1]);var
+d=dW(f[3]);if(d){var
+k=d[1],l=cl([0,M(E(j,J,b[1]),k),0],c),e=iX(a[1],l);if(e)return eL(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3620,11 +3665,11 @@ v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
 s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
-a=dQ(f[1]);if(a){var
+a=dV(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dR(f[3]);if(e){var
-g=aa(k(b),c),h=g?aa(k(s),c):g;if(h){var
-n=jL(t,jM(t,s,d[1],b));return eI(c,iM(jN(j,P,O,e[1],b),n))}var
+e=dW(f[3]);if(e){var
+g=Y(k(b),c),h=g?Y(k(s),c):g;if(h){var
+n=jO(t,jP(t,s,d[1],b));return eL(c,iO(jQ(j,P,O,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3636,50 +3681,50 @@ var
 m=a;return m},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qT,e=0;else
+i=b[1],h=0,g=qV,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jJ(e,z,g,go(function(a){return F(a,y,q7)},C))}function
-jU(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jM(e,z,g,gs(function(a){return G(a,y,q9)},C))}function
+jX(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=B(d,o);if(p)var
-h=hK(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=D(d,o);if(p)var
+h=hN(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jW(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jT(m,l,k,j,0,i,a)}return 0}function
-q8(a){if(a[1])return 0;var
+q=f;return q}return jW(m,l,k,j,0,i,a)}return 0}function
+q_(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jV(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
+jY(a,K,J,I,H,F,h,p,D,V){if(o(q_,D))var
 q=0;else
 var
-S=gn(a,ds,p),R=0,T=g(gn(a,dr,p),S),q=cr(qQ,function(b){switch(b[0]){case
-0:return F(b[1],T,[0,[0,ab]]);case
-1:return[0,[0,F(b[1],J,ab)]];case
-2:return[0,[0,aL(a,b[1])]];case
+S=gr(a,dw,p),R=0,T=g(gr(a,dv,p),S),q=cr(qS,function(b){switch(b[0]){case
+0:return G(b[1],T,[0,[0,ad]]);case
+1:return[0,[0,G(b[1],J,ad)]];case
+2:return[0,[0,aN(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
 4:var
 f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return b$(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aE(a)]};return bv(function(a){return b_(j,a)},i);case
+i=b[1],j=function(a){return[0,aF(a)]};return bv(function(a){return b_(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,E(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cn(a,b);return ae(function(b){return D(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
+d=cn(a,b);return ah(function(b){return E(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ai(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
+q=b[1],r=function(b){return[0,ac(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
 s=b[1],t=function(b){return co(a,b)};return bv(function(a){return b_(t,a)},s)}},K,R);var
-e=E,b=V;for(;;){if(e){var
+e=D,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=F(c,b,0);if(u){var
-l=al(I,c);if(l){var
-v=jU(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eC(c,b);continue}var
+u=G(c,b,0);if(u){var
+l=aj(I,c);if(l){var
+v=jX(a,H,F,h,q,l[1],i);if(v){var
+e=k,b=eG(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3688,74 +3733,74 @@ var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,ai(a,b)]},p),O=f(ds,r),N=0,P=g(f(dr,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
-0:return[0,F(b[1],n,ab)];case
-1:return[0,F(b[1],J,ab)];case
-2:return[0,aL(a,b[1])];case
+U=0,r=f(function(b){return[0,b,ac(a,b)]},p),O=f(dw,r),N=0,P=g(f(dv,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
+0:return[0,G(b[1],n,ad)];case
+1:return[0,G(b[1],J,ad)];case
+2:return[0,aN(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b$(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return b$(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return b$(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return b_(function(a){return[0,aE(a)]},g);case
+g=b[1];return b_(function(a){return[0,aF(a)]},g);case
 6:var
-h=b[2],i=b[1];return b$(function(c,b){return[0,D(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b$(function(c,b){return[0,E(a,c,b)]},i,h);case
 7:var
 j=b[2],k=b[1];return b$(function(c,b){var
-d=cn(a,b);return ae(function(b){return D(a,c,b)},d)},k,j);case
+d=cn(a,b);return ah(function(b){return E(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b_(function(b){return[0,ai(a,b)]},l);default:var
-m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=F(h[1],Q,U);if(j){var
-m=ac(j[1][2],d);L=1}else
+l=b[1];return b_(function(b){return[0,ac(a,b)]},l);default:var
+m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=G(h[1],Q,U);if(j){var
+m=$(j[1][2],d);L=1}else
 var
 s=j}else
 var
 s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=F(c,b,0);if(y){var
-o=al(I,c);if(o){var
-z=jU(a,H,G,h,q,o[1],i);if(z){var
-e=k,b=eC(c,b);continue}var
-A=z}else
+y=G(c,b,0);if(y){var
+n=aj(I,c);if(n){var
+z=jX(a,H,F,h,q,n[1],i);if(z){var
+e=k,b=eG(c,b);continue}var
+B=z}else
 var
-A=o;var
-B=A}else
+B=n;var
+C=B}else
 var
-B=y;return B}return[0,b]}}function
-jW(i,h,g,f,e,d,c,t,s,r){var
+C=y;return C}return[0,b]}}function
+jZ(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jV(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
-l=jV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dG(a[2],b),p=jW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
-b=o[2],j=m,a=a[4];continue}var
+k=jY(i,h,g,f,e,d,c,b,a[1],j);return k?o(aM,k[1]):k}var
+l=jY(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dL(a[2],b),p=jZ(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gp(d,a){var
-e=af(a),f=v(v(q(b(2,c)),a),d);return G(z(af(d),f),e)}function
-gq(a){switch(a){case
-0:return q$;case
-1:return ra;default:return 0}}function
-eK(b,a){var
-c=a8(a[2],b);return g(a8(a[1],b),c)}function
-jX(r,l,p,t,o,j,s){if(j){var
-u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jX(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
+gt(d,a){var
+e=_(a),f=v(v(q(b(2,c)),a),d);return H(w(_(d),f),e)}function
+gu(a){switch(a){case
+0:return rb;case
+1:return rc;default:return 0}}function
+eN(b,a){var
+c=a5(a[2],b);return g(a5(a[1],b),c)}function
+j0(r,l,p,t,o,j,s){if(j){var
+u=j[1],x=cT(s,eN(o,u)),R=I(s,k(eN(o,u))),S=j0(r,l,p,t,o,j[2],R),i=aI(x,rd),m=aI(x,0);switch(r){case
 0:var
-g=[0,q_,q9,q(d)];break;case
+g=[0,ra,q$,q(d)];break;case
 1:var
 g=cs;break;default:var
-I=q(d),J=q(d),g=[0,q(d),J,I]}var
-e=aX(z,g,m),y=aF(l[3],i),A=aF(l[2],i),a=[0,aF(l[1],i),A,y],K=gp(g[3],m[3]),L=gp(g[2],m[2]),M=gp(g[1],m[1]),N=G(G(G(aF(i,i),M),L),K),O=aF(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ew([0,z(v(a[2],e[3]),F),E,C],t),h=aX(G,dF(p,e),a);switch(r){case
+G=q(d),J=q(d),g=[0,q(d),J,G]}var
+e=aS(w,g,m),z=aq(l[3],i),A=aq(l[2],i),a=[0,aq(l[1],i),A,z],K=gt(g[3],m[3]),L=gt(g[2],m[2]),M=gt(g[1],m[1]),N=H(H(H(aq(i,i),M),L),K),O=aq(a,e),P=v(q(b(2,c)),O),Q=H(v(p,N),P),B=v(a[2],e[1]),C=w(v(a[1],e[2]),B),D=v(a[1],e[3]),E=w(v(a[3],e[1]),D),F=v(a[3],e[2]),f=eB([0,w(v(a[2],e[3]),F),E,C],t),h=aS(H,dJ(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,Q],S]}else
+y=[0,[0,n,Q],S]}else
 var
-x=j;return x}function
-gr(g,a){if(typeof
+y=j;return y}function
+gv(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3763,36 +3808,36 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gs(e,d,n,m,l,a){var
-f=v(af(cu(gr(m,a),l)),n);if(typeof
+gw(e,d,n,m,l,a){var
+f=v(_(cu(gv(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=al(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
+b=aj(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,w(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=al(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,z(f,c[1][2])]:i;else
+c=aj(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-jY(a,d,c,b){return f(function(a){var
-e=cu(gr(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-jZ(b,g,s,f,i,q,p,o){if(o){var
-X=jZ(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+j1(a,d,c,b){return f(function(a){var
+e=cu(gv(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+j2(b,g,s,f,i,q,p,o){if(o){var
+X=j2(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a4(g),f),M,ab)];else
+M=e(g,i),h=[0,t(e(a4(g),f),M,ad)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
 O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},P);break;case
+P=gw(b,f,i,q,p,a),h=ah(function(a){return[3,e(g,a)]},P);break;case
 3:var
-Q=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},Q);break;case
+Q=gw(b,f,i,q,p,a),h=ah(function(a){return[3,e(g,a)]},Q);break;case
 6:var
-u=a[3],v=a[2],r=al(f,a[1]),K=0;if(r){var
+u=a[3],v=a[2],r=aj(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
 R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
@@ -3801,7 +3846,7 @@ var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=al(f,B),L=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=aj(f,B),L=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
 T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
@@ -3811,140 +3856,140 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aL(b,c),V=e(g,i),W=jY(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+U=aN(b,c),V=e(g,i),W=j1(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-N=aM(b,[0,[0,k,k],d]),h=ae(function(a){var
-c=ai(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
+N=aG(b,[0,[0,k,k],d]),h=ah(function(a){var
+c=ac(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-j0(j,h,i,e,d,a){if(a){var
-n=j0(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j3(j,h,i,e,d,a){if(a){var
+n=j3(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(ds,jY(h,e,d,b));l=1}if(!l)var
-c=gs(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rc(a){if(typeof
+k=f(dw,j1(h,e,d,b));l=1}if(!l)var
+c=gw(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+re(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-eL(a){var
+eO(a){var
 b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
-rd(l,a,m,bg){var
-w=a[1],h=dN(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(y(function(a){return eK(m,a)},bi),bh),S=k(aq),bj=a[2],bk=k(y(function(a){return eK(m,a)},bj)),ar=a[3],bl=cu([0,[0,ar,ar],m],bk),bm=gq(w),bn=a[5];function
-i(a){return[0,[0,H(bm,a)]]}switch(bn[0]){case
+rf(l,a,m,bg){var
+x=a[1],h=dS(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],ar=g(z(function(a){return eN(m,a)},bi),bh),S=k(ar),bj=a[2],bk=k(z(function(a){return eN(m,a)},bj)),as=a[3],bl=cu([0,[0,as,as],m],bk),bm=gu(x),bn=a[5];function
+i(a){return[0,[0,I(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dS(i(0)),J=[0,eJ(qU,i(0)),aX];break;case
+aX=dX(i(0)),J=[0,eM(qW,i(0)),aX];break;case
 1:var
-aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jQ(eJ(qY,i(qX)),a1),J=[0,jQ(eJ(q0,i(qZ)),a2),a0];break;default:var
-a3=i(q1),a5=i(q2),u=[0,i(0),a5,a3],a7=aF(u,u),a8=G(q(c),a7),aN=aF(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
-d=af(a),e=v(q(b(2,c)),d);return G(z(q(c),aN),e)},A=function(f,e,d,a){var
-g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(G,s,t,r),aQ=[0,A(z,r,t,s),aP,aO],aR=A(z,s,t,r),aT=O(s),aU=[0,A(G,r,s,t),aT,aR],aV=A(G,r,t,s),aW=A(z,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=J[2],K=jX(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
-B(a){return[0,[0,H(bq,a)]]}var
-ag=af([0,[1,bo]]);switch(br[0]){case
+aY=dX(i(0)),aZ=v(dX(i(qX)),aY),a0=v(dX(i(qY)),aZ),a1=eM(0,i(0)),a2=jT(eM(q0,i(qZ)),a1),J=[0,jT(eM(q2,i(q1)),a2),a0];break;default:var
+a3=i(q3),a5=i(q4),u=[0,i(0),a5,a3],a6=aq(u,u),a8=H(q(c),a6),aN=aq(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
+d=_(a),e=v(q(b(2,c)),d);return H(w(q(c),aN),e)},A=function(f,e,d,a){var
+g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(H,s,t,r),aQ=[0,A(w,r,t,s),aP,aO],aR=A(w,s,t,r),aS=O(s),aU=[0,A(H,r,s,t),aS,aR],aV=A(H,r,t,s),aW=A(w,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=J[2],K=j0(x,J[1],C,bl,m,a[2],0),bo=I(S,k(a[6])),bq=gu(x),br=a[5];function
+B(a){return[0,[0,I(bq,a)]]}var
+af=_([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(q3),a_=B(q4),ah=[0,B(0),a_,a9],o=[0,z(ag,aF(ah,ah))];break;case
+a9=B(q5),a_=B(q6),ag=[0,B(0),a_,a9],n=[0,w(af,aq(ag,ag))];break;case
 3:var
-a$=af(B(q5)),ba=af(B(0)),bc=af(B(q6)),o=[0,z(z(v(ag,G(q(c),bc)),ba),a$)];break;default:var
-o=0}var
-bs=o?[0,o[1],0]:o,bt=[0,C,g(j0(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
-x(a){return bp(D,dO(h,a))}var
-bu=ae(x,o),bv=x(C),at=e(a4(x),K),am=gq(w),an=aa(k(at),h);if(an)var
-ao=ae(function(a){return[0,[0,a,d],d]},bu),I=function(a){return F(a,D,q(d))},ad=I(bv),aL=cQ(0,am),R=n(function(a){var
-b=cX(h,a,ad),c=b?n(function(b){var
-d=b[1],c=n(function(b){var
-c=I(b);return cA(H(h,a),c)},d);if(c){var
-e=I(b[2]);return gm(ad,H(h,a),e)}return c},at):b;if(c){if(ao){var
-e=I(ao[1][1][1]);return cA(H(h,a),e)}var
+a$=_(B(q7)),ba=_(B(0)),bc=_(B(q8)),n=[0,w(w(v(af,H(q(c),bc)),ba),a$)];break;default:var
+n=0}var
+bs=n?[0,n[1],0]:n,bt=[0,C,g(j3(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),at=dF(f(function(a){return dT(h,a)},T))[1],D=dE(at);function
+y(a){return bp(D,dT(h,a))}var
+bu=ah(y,n),bv=y(C),au=e(a4(y),K),am=gu(x),an=Y(k(au),h);if(an)var
+ao=ah(function(a){return[0,[0,a,d],d]},bu),F=function(a){return G(a,D,q(d))},ae=F(bv),aM=cQ(0,am),R=o(function(a){var
+b=cY(h,a,ae),c=b?o(function(b){var
+d=b[1],c=o(function(b){var
+c=F(b);return cB(I(h,a),c)},d);if(c){var
+e=F(b[2]);return gq(ae,I(h,a),e)}return c},au):b;if(c){if(ao){var
+e=F(ao[1][1][1]);return cB(I(h,a),e)}var
 d=1}else
 var
-d=c;return d},aL);else
+d=c;return d},aM);else
 var
 R=an;var
-bf=R?am:R,au=n(function(a){var
-b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jH(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
-L=a[4];switch(w){case
+bf=R?am:R,av=o(function(a){var
+b=dT(h,a),c=q(d);return bb(G(y(a),D,c),b)},T),aw=av?o(function(a){return jK(h,a)},T):av,ax=aw?a7(re,a[6]):aw;if(ax){var
+L=a[4];switch(x){case
 0:var
-U=eL(L[3]);break;case
+U=eO(L[3]);break;case
 1:var
 U=1;break;default:var
-ak=eL(L[1]),al=ak?eL(L[2]):ak,U=al?eL(L[3]):al}var
+ak=eO(L[1]),al=ak?eO(L[2]):ak,U=al?eO(L[3]):al}var
 V=U}else
 var
-V=aw;var
-ax=V?j(l,1,a[3]):V;if(ax)var
-bw=jR(a[5]),W=n(function(a){var
-b=gk(l,a[1]);return b?gk(l,a[2]):b},bw);else
+V=ax;var
+ay=V?j(l,1,a[3]):V;if(ay)var
+bw=jU(a[5]),W=o(function(a){var
+b=go(l,a[1]);return b?go(l,a[2]):b},bw);else
 var
-W=ax;if(W){var
-bx=a[6],by=g(aq,f(function(a){return gr(m,a)},bx)),X=aS(f(function(a){return aM(l,a)},by));if(X){var
-E=a[4];switch(w){case
+W=ay;if(W){var
+bx=a[6],by=g(ar,f(function(a){return gv(m,a)},bx)),X=aT(f(function(a){return aG(l,a)},by));if(X){var
+E=a[4];switch(x){case
 0:var
-Y=[0,E[1],[0,E[2],0]];break;case
+Z=[0,E[1],[0,E[2],0]];break;case
 1:var
-Y=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
-Y=0}var
-Z=aS(f(function(a){return aM(l,[0,a,m])},Y));if(Z){var
-ay=Z[1],p=a[5];switch(p[0]){case
+Z=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
+Z=0}var
+$=aT(f(function(a){return aG(l,[0,a,m])},Z));if($){var
+az=$[1],p=a[5];switch(p[0]){case
 0:var
-M=[0,cY(p[1]),0];break;case
+M=[0,cZ(p[1]),0];break;case
 1:var
-bd=[0,cY(p[3]),0],be=[0,cY(p[2]),bd],M=[0,cY(p[1]),be];break;case
+bd=[0,cZ(p[3]),0],be=[0,cZ(p[2]),bd],M=[0,cZ(p[1]),be];break;case
 2:var
-P=cY(cz(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
-Q=p[2],ai=p[1],aj=[0,[1,cz(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cY(cz(Q)),0]]]}var
-_=aS(f(function(d){var
-a=jS(l,d[1]);if(a)var
-b=jS(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=cZ(cA(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
+Q=p[2],ai=p[1],aj=[0,[1,cA(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cZ(cA(Q)),0]]]}var
+aa=aT(f(function(d){var
+a=jV(l,d[1]);if(a)var
+b=jV(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},M));if(_){var
-az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aS(f(function(a){return dM(l,a)},bz));if($){var
-ab=aS(jZ(l,x,bf,K,C,m,S,a[6]));if(ab){var
-ac=ab[1],aB=aa(k(g(ay,az)),h),aC=aB?n(function(a){switch(a[0]){case
+c=a;return c},M));if(aa){var
+aA=aa[1],aB=a[5],bz=1<aB[0]?[0,aB[1],0]:0,ab=aT(f(function(a){return dR(l,a)},bz));if(ab){var
+ac=aT(j2(l,y,bf,K,C,m,S,a[6]));if(ac){var
+ad=ac[1],aC=Y(k(g(az,aA)),h),aD=aC?o(function(a){switch(a[0]){case
 2:var
-d=jO(a[2]),b=[0,a[3],d];break;case
+d=jR(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jO(a[1]),b=[0,a[2],c]}return n(function(a){return jP(h,D,a)},b)},ac):aB,aD=aC?o?jP(h,D,x(o[1])):1:aC;if(aD){var
-bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jW(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
-aE=aD}else
+c=jR(a[1]),b=[0,a[2],c]}return o(function(a){return jS(h,D,a)},b)},ad):aC,aE=aD?n?jS(h,D,y(n[1])):1:aD;if(aE){var
+bA=f(function(a){return 1},ad),bB=g(az,aA),bC=ah(y,n);return jZ(l,at,g(X[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
+aF=aE}else
 var
-aE=ab;var
-aG=aE}else
+aF=ac;var
+aH=aF}else
 var
-aG=$;var
-aH=aG}else
-var
-aH=_;var
+aH=ab;var
 aI=aH}else
 var
-aI=Z;var
+aI=aa;var
 aJ=aI}else
 var
-aJ=X;var
+aJ=$;var
 aK=aJ}else
 var
-aK=W;return aK}function
-eM(b,a){return br(b,a[1],a[2])}function
-gt(b,a){var
-c=eM(b,a[1]),d=c?eM(b,a[2]):c;return d?eM(b,a[3]):d}var
-eO=z(q(c),eN);function
-j1(e){var
-a=af(eO);if(e)var
-f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aI(G(q(c),h),g);else
+aK=X;var
+aL=aK}else
 var
-i=G(q(b(2,c)),a),j=af(eN),d=aI(G(v(q(b(2,c)),j),a),i);return cq(d)}function
-j2(d,b,a){if(d){var
-e=j1(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
-h=q(c),i=j1(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
-cZ(f,e,d,a){var
-g=af(a),h=af(d),i=z(z(q(b(2,c)),h),g),j=f?e?eO:aI(eO,v(q(b(2,c)),eN)):aI(eO,q(b(2,c))),k=v(af(j),i);return cq(G(q(c),k))}function
-j3(g,d){var
+aL=W;return aL}function
+eP(b,a){return br(b,a[1],a[2])}function
+gx(b,a){var
+c=eP(b,a[1]),d=c?eP(b,a[2]):c;return d?eP(b,a[3]):d}var
+eR=w(q(c),eQ);function
+j4(e){var
+a=_(eR);if(e)var
+f=v(q(b(2,c)),a),g=H(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aH(H(q(c),h),g);else
+var
+i=H(q(b(2,c)),a),j=_(eQ),d=aH(H(v(q(b(2,c)),j),a),i);return cq(d)}function
+j5(d,b,a){if(d){var
+e=j4(b),f=H(q(c),e),g=v(w(q(c),a),f);return w(q(c),g)}var
+h=q(c),i=j4(b),j=aH(q(c),i);return w(v(a,H(q(c),j)),h)}function
+c0(f,e,d,a){var
+g=_(a),h=_(d),i=w(w(q(b(2,c)),h),g),j=f?e?eR:aH(eR,v(q(b(2,c)),eQ)):aH(eR,q(b(2,c))),k=v(_(j),i);return cq(H(q(c),k))}function
+j6(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gu(u,t,s){var
-a=f(function(a){return F(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gy(u,t,s){var
+a=f(function(a){return G(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3952,8 +3997,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return n(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ev([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eA([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3963,10 +4008,10 @@ l=i;var
 m=l}else
 var
 m=c;var
-o=m}else
+n=m}else
 var
-o=h;var
-p=o}else
+n=h;var
+p=n}else
 var
 p=b;var
 q=p}else
@@ -3975,12 +4020,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-j4(f,i,e,b,h){var
-j=f?c:d,a=aL(i,j);function
+j7(f,i,e,b,h){var
+j=f?c:d,a=aN(i,j);function
 g(b){var
-c=f?fQ(b):en(b);return M(c,a)}var
-k=[0,a3(h),0],l=[0,[0,a,b,[0,ab,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-j5(r,g,q,p,e,o,n){if(o){var
+c=f?fT(b):es(b);return M(c,a)}var
+k=[0,a3(h),0],l=[0,[0,a,b,[0,ad,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+j8(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3989,16 +4034,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b8,bO(rg)),a=gu(p,i0(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b8,bP(ri)),a=gy(p,i2(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=B(k[2],l[1]);b=1;c=1;d=1;break}else
+a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j3,rh),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(j6,rj),a=gy(p,cr(0,dG(g,j7(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(j3,ri),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+B=f(j6,rk),a=gy(p,cr(0,dG(g,j7(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4008,27 +4053,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rj:a}else
+y=a?rl:a}else
 var
 y=n;return y}return[0,n]}function
-j6(f,e,d,c,p,o,n){var
+j9(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j5(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
-i=j5(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dG(a[2],b),l=j6(f,e,d,c,k[1],j,a[3]);if(l){var
+h=j8(f,e,d,c,b,a[1],g);return h?aM(h[1]):h}var
+i=j8(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dL(a[2],b),l=j9(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gv(a){return ij(b(2,c),b1(a,c))}function
-c0(i,a,e,w,u){var
-l=a?c:W(c),f=q(l),g=j2(a,e,re),h=j2(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j6(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-j7(a,g,b){if(ac(g,gv(a))){if(b){var
+gz(a){return im(b(2,c),b2(a,c))}function
+c1(i,a,e,w,u){var
+l=a?c:W(c),f=q(l),g=j5(a,e,rg),h=j5(a,e,rh),m=aH(g,c0(a,e,f,g)),n=[0,H(aH(h,c0(a,e,h,f)),m),0],o=aH(f,c0(a,e,f,g)),p=[0,H(aH(h,c0(a,e,g,h)),o),n],r=aH(f,c0(a,e,h,f)),s=[0,H(aH(g,c0(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eQ):q(b(2,b(2,c))),j=dF([0,t,s]),k=[0,d,cm(i)];return j9(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+j_(a,g,b){if($(g,gz(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gv(a)],v=cm(a),i=[0,gv(a),v],j=c0(a,0,1,h,b[1]),k=j?c0(a,0,0,i,c[1]):j;if(k){var
-l=c0(a,1,1,h,d[1]);if(l)return c0(a,1,0,i,e[1]);var
+h=[0,g,gz(a)],v=cm(a),i=[0,gz(a),v],j=c1(a,0,1,h,b[1]),k=j?c1(a,0,0,i,c[1]):j;if(k){var
+l=c1(a,1,1,h,d[1]);if(l)return c1(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4045,206 +4090,206 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=c0(a,0,0,r,b[1]);if(s)return c0(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=c1(a,0,0,r,b[1]);if(s)return c1(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gw(a){var
-b=[1,[2,d]];return ir(function(b,a){return[1,[3,b,a]]},a,b)}function
-eP(a){return gw(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eQ(a,c){return gw(f(function(a){var
-d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gw(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-j8(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
-g=a[1],h=dy(function(a){return j8(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
-rk(a){var
-b=aa(k(a),rl);return b?a6(function(a){return aH(ak(a,d))},a):b}function
-j9(c,f,b,a){if(b)if(a)var
-d=b[1],g=D(c,aL(c,a[1]),f),h=j9(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+gA(a){var
+b=[1,[2,d]];return it(function(b,a){return[1,[3,b,a]]},a,b)}function
+eS(a){return gA(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eT(a,c){return gA(f(function(a){var
+d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gA(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+j$(f,d,c,b,a){if(0===a[0])return G(a[1],b,0);var
+g=a[1],h=dC(function(a){return j$(f,d,c,b,a)},g);return e(dG(f,d,c),h)}function
+rm(a){var
+b=Y(k(a),rn);return b?a7(function(a){return aM(al(a,d))},a):b}function
+ka(c,f,b,a){if(b)if(a)var
+d=b[1],g=E(c,aN(c,a[1]),f),h=ka(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eR(b,a){return iq(iq(b,0),a)}function
-gx(a){if(a){var
-b=a[2],c=a[1];if(b)return eR(c,[0,rn,gx(b)]);var
+eU(b,a){return is(is(b,0),a)}function
+gB(a){if(a){var
+b=a[2],c=a[1];if(b)return eU(c,[0,rp,gB(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,rp,eR(gx(a),ro)]}function
-O(a){return[0,rr,eR(gx(a),rq)]}function
-am(a){return[0,rt,[0,a,rs]]}function
-h(b,a){return[0,av(rv,av(b,ru)),a]}function
+x(a){return[0,rr,eU(gB(a),rq)]}function
+O(a){return[0,rt,eU(gB(a),rs)]}function
+am(a){return[0,rv,[0,a,ru]]}function
+h(b,a){return[0,aw(rx,aw(b,rw)),a]}function
 L(b,a){return O([0,h(b,a),0])}function
-cB(d){var
-b=d,a=pZ,e=0;for(;;){if(b){var
-c=id(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
-gy(a){return[0,dx(ei(a)),0]}function
-gz(a){var
-c=bH(a),f=0,b=0===c?p3:0<c?[0,ei(a)]:[1,ei(W(a))];if(0===b[0])var
-d=dx(b[1]);else
+cC(d){var
+b=d,a=p0,e=0;for(;;){if(b){var
+c=ih(a),b=b[1],a=c;continue}return[0,dB(ej(a)),e]}}function
+gC(a){return[0,dB(em(a)),0]}function
+gD(a){var
+c=bH(a),f=0,b=0===c?p4:0<c?[0,em(a)]:[1,em(W(a))];if(0===b[0])var
+d=dB(b[1]);else
 var
-e=dx(b[1]),d=av(a5(1,45),e);return[0,d,f]}function
-gA(a){var
-b=0,c=0<bH(a)?ei(a):p2;return[0,dx(c),b]}function
-gB(a){switch(a[0]){case
-2:return rx;case
-3:return 2<=a[1]?ry:rz;case
-4:return rA;default:return rw}}function
-dT(b,a){function
-c(c,a){return Y(c,gB(a))?dT(b,a):[0,rG,g(dT(b,a),rF)]}switch(a[0]){case
+e=dB(b[1]),d=aw(a6(1,45),e);return[0,d,f]}function
+gE(a){var
+b=0,c=0<bH(a)?em(a):p3;return[0,dB(c),b]}function
+gF(a){switch(a[0]){case
+2:return rz;case
+3:return 2<=a[1]?rA:rB;case
+4:return rC;default:return ry}}function
+dY(b,a){function
+c(c,a){return Z(c,gF(a))?dY(b,a):[0,rI,g(dY(b,a),rH)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aW(h),0];var
-i=[0,rH,[0,aW(f),0]];return[0,aW(h),i];case
+f==="number")return[0,aX(h),0];var
+i=[0,rJ,[0,aX(f),0]];return[0,aX(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rJ,c(rI,a[1])];case
+2:return[0,rL,c(rK,a[1])];case
 3:var
-j=a[3],k=c([0,gB(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gF(a)],j);switch(a[1]){case
 0:var
-d=rB;break;case
+d=rD;break;case
 1:var
-d=rC;break;case
+d=rE;break;case
 2:var
-d=rD;break;default:var
-d=rE}var
-l=a[2];return g(c(gB(a),l),[0,d,k]);case
+d=rF;break;default:var
+d=rG}var
+l=a[2];return g(c(gF(a),l),[0,d,k]);case
 4:var
-m=[0,rK,gy(a[2])];return g(c(rL,a[1]),m);default:return[0,rN,g(dT(b,a[1]),rM)]}}function
-K(a){return[0,rQ,g(dT(function(a){throw[0,$,rP]},a),rO)]}function
-j_(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
+m=[0,rM,gC(a[2])];return g(c(rN,a[1]),m);default:return[0,rP,g(dY(b,a[1]),rO)]}}function
+K(a){return[0,rS,g(dY(function(a){throw[0,ab,rR]},a),rQ)]}function
+kb(a){return[0,rU,g(dY(function(a){return a},a),rT)]}function
 ca(a){if(0===a[0])return K(a[1]);var
-b=[0,h(rT,K(a[2])),0];return O([0,h(rU,K(a[1])),b])}function
-dU(b,a){var
-c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-rV(a){function
-b(a){return dU(ca,a)}switch(a[0]){case
+b=[0,h(rV,K(a[2])),0];return O([0,h(rW,K(a[1])),b])}function
+dZ(b,a){var
+c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
+rX(a){function
+b(a){return dZ(ca,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?rW:r4,i=[0,h(rX,am(f)),e],j=[0,h(rY,ca(a[4])),i],k=[0,h(rZ,b(a[3])),j],l=[0,h(r0,b(a[2])),k],m=[0,h(r1,b(a[1])),l],c=[0,h(r3,am(r2)),m];break;case
+e=0,f=a[5]?rY:r6,i=[0,h(rZ,am(f)),e],j=[0,h(r0,ca(a[4])),i],k=[0,h(r1,b(a[3])),j],l=[0,h(r2,b(a[2])),k],m=[0,h(r3,b(a[1])),l],c=[0,h(r5,am(r4)),m];break;case
 1:var
-d=a[3],n=d?[0,h(r5,b(d[1])),0]:d,o=[0,h(r6,b(a[2])),0],p=[0,h(r7,b(a[1])),o],c=g([0,h(r9,am(r8)),p],n);break;default:var
-q=[0,h(r_,b(a[1])),0],c=[0,h(sa,am(r$)),q]}return O(c)}function
-sb(a){function
-b(a){return dU(ca,a)}var
-c=0,d=a[7]?sc:sm,e=[0,h(sd,am(d)),c],f=[0,h(se,ca(a[6])),e],g=[0,h(sf,ca(a[5])),f],i=[0,h(sg,b(a[4])),g],j=[0,h(sh,b(a[3])),i],k=[0,h(si,b(a[2])),j],l=[0,h(sj,b(a[1])),k];return O([0,h(sl,am(sk)),l])}function
-gC(a){switch(a){case
-0:return sn;case
-1:return so;case
-2:return sp;case
-3:return sq;case
-4:return sr;case
-5:return ss;case
-6:return st;case
-7:return su;case
-8:return sv;default:return sw}}function
-gD(a){switch(a[0]){case
-0:return sx;case
-1:return sy;default:return sz}}function
-dV(a){var
+d=a[3],n=d?[0,h(r7,b(d[1])),0]:d,o=[0,h(r8,b(a[2])),0],p=[0,h(r9,b(a[1])),o],c=g([0,h(r$,am(r_)),p],n);break;default:var
+q=[0,h(sa,b(a[1])),0],c=[0,h(sc,am(sb)),q]}return O(c)}function
+sd(a){function
+b(a){return dZ(ca,a)}var
+c=0,d=a[7]?se:so,e=[0,h(sf,am(d)),c],f=[0,h(sg,ca(a[6])),e],g=[0,h(sh,ca(a[5])),f],i=[0,h(si,b(a[4])),g],j=[0,h(sj,b(a[3])),i],k=[0,h(sk,b(a[2])),j],l=[0,h(sl,b(a[1])),k];return O([0,h(sn,am(sm)),l])}function
+gG(a){switch(a){case
+0:return sp;case
+1:return sq;case
+2:return sr;case
+3:return ss;case
+4:return st;case
+5:return su;case
+6:return sv;case
+7:return sw;case
+8:return sx;default:return sy}}function
+gH(a){switch(a[0]){case
+0:return sz;case
+1:return sA;default:return sB}}function
+d0(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,K(b[2]),0],e=w([0,K(b[1]),i]);else
+i=[0,K(b[2]),0],e=x([0,K(b[1]),i]);else
 var
 e=K(b[1]);var
-k=[0,h(sA,e),j],l=[0,h(sB,am(gD(a[4]))),k],c=a[3];if(c)var
-n=w([0,K(c[1]),0]),m=0,o=6===a[1]?sC:sG,f=[0,h(sD,L(o,n)),m];else
+k=[0,h(sC,e),j],l=[0,h(sD,am(gH(a[4]))),k],c=a[3];if(c)var
+n=x([0,K(c[1]),0]),m=0,o=6===a[1]?sE:sI,f=[0,h(sF,L(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(sE,cB(d[1])),0]:d,r=g(q,p);return O([0,h(sF,am(gC(a[1]))),r])}function
-j$(a){if(0===a[0]){var
-b=[0,h(sH,dU(K,a[2])),0];return L(sJ,O([0,h(sI,dU(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,h(sK,w([0,K(a[4]),c])),0],e=[0,h(sL,K(a[3])),d],f=[0,K(a[2]),0];return L(sN,O([0,h(sM,w([0,K(a[1]),f])),e]))}function
-sR(a){function
-b(a){return w(f(ca,a))}var
-c=[0,h(sS,b(a[2])),0],d=[0,h(sT,b(a[1])),c];return O([0,h(sV,am(sU)),d])}function
-s5(a){function
-b(a){return dU(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(s6,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s7,w([0,K(a[3]),f])),0],j=[0,h(s8,K(a[2])),i],k=[0,h(s9,cB(a[1])),j],d=g([0,h(s$,am(s_)),k],e);else
+p=g(f,l),d=a[2],q=d?[0,h(sG,cC(d[1])),0]:d,r=g(q,p);return O([0,h(sH,am(gG(a[1]))),r])}function
+kc(a){if(0===a[0]){var
+b=[0,h(sJ,dZ(K,a[2])),0];return L(sL,O([0,h(sK,dZ(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,h(sM,x([0,K(a[4]),c])),0],e=[0,h(sN,K(a[3])),d],f=[0,K(a[2]),0];return L(sP,O([0,h(sO,x([0,K(a[1]),f])),e]))}function
+sT(a){function
+b(a){return x(f(ca,a))}var
+c=[0,h(sU,b(a[2])),0],d=[0,h(sV,b(a[1])),c];return O([0,h(sX,am(sW)),d])}function
+s7(a){function
+b(a){return dZ(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(s8,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s9,x([0,K(a[3]),f])),0],j=[0,h(s_,K(a[2])),i],k=[0,h(s$,cC(a[1])),j],d=g([0,h(tb,am(ta)),k],e);else
 var
-l=[0,h(ta,K(a[4])),0],m=[0,h(tb,b(a[3])),l],n=[0,h(tc,b(a[2])),m],o=a[1]?td:tf,d=[0,h(te,am(o)),n];return O(d)}function
-ka(d,c,a,b){var
-e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j$(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
-tl(a){switch(a[0]){case
-0:return L(tm,ka(a[1],a[2],a[3],a[4]));case
+l=[0,h(tc,K(a[4])),0],m=[0,h(td,b(a[3])),l],n=[0,h(te,b(a[2])),m],o=a[1]?tf:th,d=[0,h(tg,am(o)),n];return O(d)}function
+kd(d,c,a,b){var
+e=[0,h(ti,x(f(d0,b))),0],i=a?[0,h(tj,x(f(s7,a))),0]:a,j=g(i,e),k=[0,h(tk,kc(c)),0];return O(g([0,h(tm,L(tl,x(f(rX,d)))),k],j))}function
+tn(a){switch(a[0]){case
+0:return L(to,kd(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j$(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
+o=[0,h(tp,x(f(d0,a[3]))),0],p=[0,h(tq,kc(a[2])),o];return L(tt,O([0,h(ts,L(tr,x(f(sd,a[1])))),p]));case
 2:var
-q=[0,h(ts,w(f(dV,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,K(a),0];return w([0,K(b),c])};switch(b[0]){case
+q=[0,h(tu,x(f(d0,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,K(a),0];return x([0,K(b),c])};switch(b[0]){case
 0:var
-d=L(sW,c(b[1],b[2]));break;case
+d=L(sY,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(sX,c(g[1],g[2])),0],m=[0,h(sY,c(i[1],i[2])),l],d=L(s0,O([0,h(sZ,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(sZ,c(g[1],g[2])),0],m=[0,h(s0,c(i[1],i[2])),l],d=L(s2,O([0,h(s1,c(j[1],j[2])),m]));break;case
 2:var
-d=L(s1,K(b[1]));break;default:var
-n=[0,h(s2,K(b[2])),0],d=L(s4,O([0,h(s3,K(b[1])),n]))}var
-r=[0,h(tt,d),q],s=[0,h(tu,w(f(K,a[5]))),0],t=[0,h(tx,L(tw,O([0,h(tv,w(f(K,a[4]))),s]))),r],u=[0,h(ty,K(a[3])),0],v=O([0,h(tz,w(f(sR,a[2]))),u]);switch(a[1]){case
+d=L(s3,K(b[1]));break;default:var
+n=[0,h(s4,K(b[2])),0],d=L(s6,O([0,h(s5,K(b[1])),n]))}var
+r=[0,h(tv,d),q],s=[0,h(tw,x(f(K,a[5]))),0],t=[0,h(tz,L(ty,O([0,h(tx,x(f(K,a[4]))),s]))),r],u=[0,h(tA,K(a[3])),0],v=O([0,h(tB,x(f(sT,a[2]))),u]);switch(a[1]){case
 0:var
-e=sO;break;case
+e=sQ;break;case
 1:var
-e=sP;break;default:var
-e=sQ}return L(tB,O([0,h(tA,L(e,v)),t]));case
+e=sR;break;default:var
+e=sS}return L(tD,O([0,h(tC,L(e,v)),t]));case
 3:var
-x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j_,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
-b=[0,j_(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
-b=[0,ca(a[2]),0];return w([0,am(a[1]),b])},F))),E];return L(tO,O([0,h(tN,L(tM,O([0,h(tL,w(f(am,a[1]))),G]))),z]));case
+w=[0,h(tE,x(f(d0,a[7]))),0],y=[0,h(tF,x(f(K,a[6]))),0],z=[0,h(tI,L(tH,O([0,h(tG,x(f(K,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tK,x(f(function(a){return L(tJ,x(f(kb,a)))},B))),A],D=a[3],E=[0,h(tL,x(f(function(a){var
+b=[0,kb(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tM,x(f(function(a){var
+b=[0,ca(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tQ,O([0,h(tP,L(tO,O([0,h(tN,x(f(am,a[1]))),G]))),z]));case
 4:var
-H=[0,h(tP,w(f(dV,a[3]))),0],I=[0,h(tS,L(tR,O([0,h(tQ,K(a[2])),0]))),H];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,K(a[1])),0]))),I]));case
+H=[0,h(tR,x(f(d0,a[3]))),0],I=[0,h(tU,L(tT,O([0,h(tS,K(a[2])),0]))),H];return L(tY,O([0,h(tX,L(tW,O([0,h(tV,K(a[1])),0]))),I]));case
 5:var
-J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,ka(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
-k=a[1],M=0,N=k?ca(k[1]):am(t2);return L(t1,O([0,h(t0,N),M]))}}function
-eS(a){return w(f(gz,a))}function
-kb(b,a){var
-c=[0,h(t3,gA(a)),0];return O([0,h(t4,w(f(eS,b))),c])}function
-eT(a){switch(a[0]){case
+J=[0,h(tZ,K(a[5])),0];return L(t1,O([0,h(t0,kd(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
+k=a[1],M=0,N=k?ca(k[1]):am(t4);return L(t3,O([0,h(t2,N),M]))}}function
+eV(a){return x(f(gD,a))}function
+ke(b,a){var
+c=[0,h(t5,gE(a)),0];return O([0,h(t6,x(f(eV,b))),c])}function
+eW(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=kb(a[2],a[3]);return L(a[1],b);case
+b=ke(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?t5:t7;return L(t6,am(c));case
+c=a[1]?t7:t9;return L(t8,am(c));case
 3:var
-d=[0,eS(a[3]),0];return L(t8,w([0,kb(a[1],a[2]),d]));case
+d=[0,eV(a[3]),0];return L(t_,x([0,ke(a[1],a[2]),d]));case
 4:var
-e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return L(t9,w([0,eT(a[1]),f]));case
+e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return L(t$,x([0,eW(a[1]),f]));case
 5:var
-g=[0,gA(a[3]),0],h=[0,gz(a[2]),g];return L(t_,w([0,eT(a[1]),h]));default:return L(t$,eT(a[1]))}}function
-ua(a){var
-b=[0,eT(a[2]),0];return w([0,cB(a[1]),b])}function
-kc(a){if(typeof
-a==="number")return am(ub);else{if(0===a[0]){var
-b=[0,w(f(eS,a[2])),0];return L(uc,w([0,cB(a[1]),b]))}var
-c=[0,cB(a[2]),0];return L(ud,w([0,cB(a[1]),c]))}}function
-ue(a){var
-b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kc(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
-gE(a){var
-b=h1(h0(E(a),function(b){return R(a,b)}));return n(function(a){var
-b=aH(34===a?1:0),c=b?aH(92===a?1:0):b,d=c?Y(uC,ek(a)):c;return d?Y(ek(a),uD):d},b)}function
-eU(b){function
+g=[0,gE(a[3]),0],h=[0,gD(a[2]),g];return L(ua,x([0,eW(a[1]),h]));default:return L(ub,eW(a[1]))}}function
+uc(a){var
+b=[0,eW(a[2]),0];return x([0,cC(a[1]),b])}function
+kf(a){if(typeof
+a==="number")return am(ud);else{if(0===a[0]){var
+b=[0,x(f(eV,a[2])),0];return L(ue,x([0,cC(a[1]),b]))}var
+c=[0,cC(a[2]),0];return L(uf,x([0,cC(a[1]),c]))}}function
+ug(a){var
+b=a[4],i=b?[0,h(uh,eV([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ui,kf(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uj,cC(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uk,x(f(uc,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+gI(a){var
+b=h4(h3(F(a),function(b){return R(a,b)}));return o(function(a){var
+b=aM(34===a?1:0),c=b?aM(92===a?1:0):b,d=c?Z(uE,ep(a)):c;return d?Z(ep(a),uF):d},b)}function
+eX(b){function
 c(f){var
-a=ek(f),b=Y(uE,a),c=b?Y(a,uF):b;if(c)var
+a=ep(f),b=Z(uG,a),c=b?Z(a,uH):b;if(c)var
 d=c;else{var
-e=Y(uG,a);if(e)return Y(a,uH);var
+e=Z(uI,a);if(e)return Z(a,uJ);var
 d=e}return d}var
-a=h1(h0(E(b),function(a){return R(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?n(function(a){var
+a=h4(h3(F(b),function(a){return R(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=ek(a),f=Y(uI,e),h=f?Y(e,uJ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Y(k(d),uK):f;if(g)return aH(au(b,uL));var
+e=ep(a),f=Z(uK,e),h=f?Z(e,uL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(k(d),uM):f;if(g)return aM(av(b,uN));var
 h=g}else
 var
 h=a;return h}function
-gF(c){var
+gJ(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eU(a[1]);case
+1:return eX(a[1]);case
 3:var
-b=gF(a[2]);if(b){var
+b=gJ(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-c1(m){var
+c2(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4255,42 +4300,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ef(a[2]);if(typeof
+f=ej(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=c1(a[2]);if(i){var
+i=c2(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c1(a[1]),l=k?eh(b(2,c),j):k;return l?eh(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c2(a[1]),l=k?el(b(2,c),j):k;return l?el(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-c2(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+c3(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cb(a){return y(c2,bc(a))}function
-kd(a){switch(a[0]){case
+cb(a){return z(c3,bc(a))}function
+kg(a){switch(a[0]){case
 0:var
-c=c2(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
+c=c3(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
 1:var
 b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
-uM(a){var
-b=y(c2,[0,a[5],[0,a[6],0]]);return g(y(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-ke(a){if(0===a[0]){var
+uO(a){var
+b=z(c3,[0,a[5],[0,a[6],0]]);return g(z(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+kh(a){if(0===a[0]){var
 b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c3(c){var
+c4(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-uN(a){if(0===a[0]){var
+uP(a){if(0===a[0]){var
 b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
-kf(a){var
-d=eh(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eh(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kg(a,b){return b?[3,kg(a,b[1]),a]:a}function
+ki(a){var
+d=el(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?el(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+kj(a,b){return b?[3,kj(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ib(h),k,c);return[0,il(ic(ef(a[1]),h)),l];case
-1:throw[0,$,uO];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fM(ie(h),k,c);return[0,ip(ig(ej(a[1]),h)),l];case
+1:throw[0,ab,uQ];case
 2:var
 e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
@@ -4299,72 +4344,78 @@ f=i(a[2]),g=i(a[3]);switch(a[1]){case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=b4(dv(a[2]));return kg(i(a[1]),m);default:return[5,i(a[1])]}}function
-bQ(a){if(0===a[0]){var
+m=bM(dz(a[2]));return kj(i(a[1]),m);default:return[5,i(a[1])]}}function
+bR(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
 bd(a){var
-b=bQ(a[3]),c=bQ(a[2]);return[0,bQ(a[1]),c,b]}function
-uP(a){switch(a[0]){case
+b=bR(a[3]),c=bR(a[2]);return[0,bR(a[1]),c,b]}function
+uR(a){switch(a[0]){case
 0:var
-b=a[5],c=bQ(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
+b=a[5],c=bR(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
 1:var
-f=ae(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
-kh(a){if(0===a[0]){var
+f=ah(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
+kk(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dW(a){var
+c5(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-ki(a){if(0===a[0]){var
-b=a[5],h=b?dW(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b4(a[1]),l,k,j,h]}var
+c6(a){if(0===a[0]){var
+b=a[5],h=b?c5(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bM(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dW(f),n=dW(g);return[2,i(e),n,m]}var
-o=dW(f),p=dW(g);return[1,i(e),p,o]}function
-gG(b,a){return 0===b[0]?0===a[0]?aa(b[1],a[1]):0:0===a[0]?0:du(b[1],a[1])}function
-gH(b,a){if(a){var
-c=a[1],d=a[2],e=gH(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fO(function(a){return aH(gG(a[1],a[2]))},h),e)}return a}function
-uQ(a){if(a[1])return 0;var
+m=c5(f),n=c5(g);return[2,i(e),n,m]}var
+o=c5(f),p=c5(g);return[1,i(e),p,o]}function
+gK(b,a){if(a){var
+c=a[1],d=a[2],e=gK(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fR(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:Y(b[1],a[1]):0:0===a[0]?0:dy(b[1],a[1]);return aM(d)},h),e)}return a}function
+uS(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eV(c,j,A,b){var
-B=k(c),d=y(function(a){switch(a[1]){case
+eY(e,m,C,b){var
+D=k(e),h=z(function(a){switch(a[1]){case
 0:var
-g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
+j=a[4];return 0===j[0]?[0,[1,i(j[1])],0]:0;case
 1:var
-c=a[4];switch(c[0]){case
+e=a[4];switch(e[0]){case
 0:var
-r=c[1],b=function(a){return[2,a,i(r)]};break;case
+t=e[1],b=function(a){return[2,a,i(t)]};break;case
 1:var
-t=c[1],b=function(a){return[3,a,i(t)]};break;default:return 0}break;case
+v=e[1],b=function(a){return[3,a,i(v)]};break;default:return 0}break;case
 2:var
-j=a[4];if(1!==j[0])return 0;var
-d=a[3],u=j[1];if(!d)return d;var
-v=d[1],b=function(a){var
-b=i(u);return[4,a,i(v),b]};break;case
+l=a[4];if(1!==l[0])return 0;var
+g=a[3],w=l[1];if(!g)return g;var
+x=g[1],b=function(a){var
+b=i(w);return[4,a,i(x),b]};break;case
 3:var
-k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
+m=a[4];return 1===m[0]?[0,[5,i(m[1])],0]:0;case
 4:var
-l=a[4];if(0!==l[0])return 0;var
-w=l[1],b=function(a){return[6,a,i(w)]};break;case
+n=a[4];if(0!==n[0])return 0;var
+y=n[1],b=function(a){return[6,a,i(y)]};break;case
 5:var
-m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
+o=a[4];return 0===o[0]?[0,[7,i(o[1])],0]:0;case
 6:var
-n=a[4];if(0===n[0]){var
-e=a[3];if(e)var
-x=i(n[1]),o=[0,[8,i(e[1]),x],0];else
+p=a[4];if(0===p[0]){var
+h=a[3];if(h)var
+z=i(p[1]),q=[0,[8,i(h[1]),z],0];else
 var
-o=e;return o}return 0;case
+q=h;return q}return 0;case
 7:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;case
+r=a[4];return 0===r[0]?[0,[9,i(r[1])],0]:0;case
 8:return 0;default:var
-q=a[4];if(0===q[0]){var
-y=q[1],z=gH(0,A);return f(function(a){var
-b=i(y),c=ki(a[2]);return[10,ki(a[1]),c,b]},z)}return 0}var
-h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kh(j);return[0,f(uP,c),l,h]}function
-uT(a){if(a[1])return 0;var
+s=a[4];if(0===s[0]){var
+A=s[1],B=gK(0,C);return f(function(h){var
+e=i(A),a=h[2],b=h[1];if(0===b[0]){var
+f=b[1];if(0===a[0]){var
+g=function(a){return a?c5(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(Y(f,a[1])){var
+j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bM(f),m,l,k]}var
+n=c6(a);return[10,c6(b),n,e]}var
+o=c6(a);return[10,c6(b),o,e]}var
+p=c6(a);return[10,c6(b),p,e]},B)}return 0}var
+k=a[2],u=k?[0,bM(k[1]),0]:cQ(0,D);return f(b,u)},b),a=z(uS,b),j=a?[0,a[1],a[2]]:uU,l=g(j,h),n=kk(m);return[0,f(uR,e),n,l]}function
+uV(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-c4(z,b){var
-c=y(function(a){switch(a[1]){case
+c7(A,b){var
+c=z(function(a){switch(a[1]){case
 0:var
 h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
@@ -4393,33 +4444,33 @@ o=a[4];if(1!==o[0])return 0;var
 g=a[3],x=o[1];if(!g)return g;var
 y=g[1],c=function(a){var
 b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,b4(j[1]),0]:cQ(0,z);return f(c,q)},b),a=y(uT,b),d=a?[0,a[1],a[2]]:uU;return g(d,c)}function
-bR(h,g,a){switch(a[1]){case
+j=a[2],q=j?[0,bM(j[1]),0]:cQ(0,A);return f(c,q)},b),a=z(uV,b),d=a?[0,a[1],a[2]]:uW;return g(d,c)}function
+bS(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=du(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dy(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=Y(uV,d);return e?Y(d,g):e}var
+d=c[1],e=Z(uX,d);return e?Z(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cC(a){switch(a[0]){case
+cD(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cC(a[1])];case
+2:return[2,cD(a[1])];case
 3:var
-b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
+b=cD(a[2]),c=cD(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-kj(b){function
+d=a[2];return[7,cD(a[1]),d];default:return[8,cD(a[1])]}}function
+kl(b){function
 a(e){var
-a=[0,d,c];return F(e,b,[0,a,a])}var
-e=a(uX),f=a(uY);return[0,a(0),f,e]}function
-gI(a){function
+a=[0,d,c];return G(e,b,[0,a,a])}var
+e=a(uZ),f=a(u0);return[0,a(0),f,e]}function
+gL(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4427,64 +4478,64 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kk(j,a,h,g,e,d,c){function
-b(a){return kj(f(bQ,a))}var
-l=c4(k(a),c),m=gI(d),n=ck(g,e),o=kj(f(function(a){var
+km(j,a,h,g,e,d,c){function
+b(a){return kl(f(bR,a))}var
+l=c7(k(a),c),m=gL(d),n=ck(g,e),o=kl(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-uZ(a){var
-b=a[7],c=bQ(a[6]),d=bQ(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
+u1(a){var
+b=a[7],c=bR(a[6]),d=bR(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-c5(h){var
+c8(h){var
 a=cP(function(f,e){var
-a=ax(m,f);if(a)var
-b=a[1],c=cj(fw(b[1]),fw(b[2]));else
+a=ay(m,f);if(a)var
+b=a[1],c=cj(fz(b[1]),fz(b[2]));else
 var
-c=d;return cj(c,e)},d,h);if(ac(d,a)){var
-f=bH(a);if(0===f||!(0<f&&!B(a,c)))var
+c=d;return cj(c,e)},d,h);if($(d,a)){var
+f=bH(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bn(a,a1(2)),e=b[1],g=ak(b[2],d)?eg(e):eg(e);return b1(g,m)}return d}function
-eW(a){return[0,a[1],[0,a[2],0]]}function
+b=bn(a,a1(2)),e=b[1],g=al(b[2],d)?ek(e):ek(e);return b2(g,m)}return d}function
+eZ(a){return[0,a[1],[0,a[2],0]]}function
 bw(a){var
-b=eW(a[3]),c=g(eW(a[2]),b);return g(eW(a[1]),c)}function
-u0(a){return 0===a[0]?eW(a[1][4]):0}function
-u1(a){switch(a[0]){case
+b=eZ(a[3]),c=g(eZ(a[2]),b);return g(eZ(a[1]),c)}function
+u2(a){return 0===a[0]?eZ(a[1][4]):0}function
+u3(a){switch(a[0]){case
 0:var
 b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
 1:var
 d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
-kl(a){switch(a[0]){case
-0:return c5(bw(a[1][1]));case
+kn(a){switch(a[0]){case
+0:return c8(bw(a[1][1]));case
 1:var
-b=a[3];return b?c5(bw(b[1])):d;default:return c5(bw(a[1]))}}function
-km(b){var
-a=y(u0,b),d=a?[0,a[1],a[2]]:y(u1,b);return A(c,c5(d))}function
-eX(a){switch(a[0]){case
+b=a[3];return b?c8(bw(b[1])):d;default:return c8(bw(a[1]))}}function
+ko(b){var
+a=z(u2,b),d=a?[0,a[1],a[2]]:z(u3,b);return C(c,c8(d))}function
+e0(a){switch(a[0]){case
 0:var
-b=a[1];if(au(b,u2))return u3;if(au(b,u4))return u5;if(au(b,u6))return u7;if(au(b,u8))return u9;var
-h=au(b,u_),j=h?u$:h;return j;case
+b=a[1];if(av(b,u4))return u5;if(av(b,u6))return u7;if(av(b,u8))return u9;if(av(b,u_))return u$;var
+h=av(b,va),j=h?vb:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(au(e,va))return[0,[0,c,d]];if(au(e,vb))return[0,[1,c,d]];if(au(e,vc))return[0,[2,c,d]];var
-i=au(e,vd),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(av(e,vc))return[0,[0,c,d]];if(av(e,vd))return[0,[1,c,d]];if(av(e,ve))return[0,[2,c,d]];var
+i=av(e,vf),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=eX(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=e0(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=eX(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=eX(a[1]);return ae(function(a){return[6,a]},n)}}function
-kn(a){if(a){var
-d=a[1],b=eX(d[2]);if(b)var
-c=kn(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=e0(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=e0(a[1]);return ah(function(a){return[6,a]},n)}}function
+kp(a){if(a){var
+d=a[1],b=e0(d[2]);if(b)var
+c=kp(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return ve}function
-c6(c,a){if(c)if(a){var
+e=b;return e}return vg}function
+c9(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=kn(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=kp(b[1]);if(d){var
 k=d[1];if(h){var
-e=c6(j,i);if(e){var
-l=e[1],f=c6(j,l[2]);if(f)var
+e=c9(j,i);if(e){var
+l=e[1],f=c9(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4499,54 +4550,54 @@ var
 g=a;else
 var
 g=c;return g}function
-gJ(d,a){if(d){if(a){var
-b=c6(k(a),a);if(b)var
-e=b[1],c=gJ(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gM(d,a){if(d){if(a){var
+b=c9(k(a),a);if(b)var
+e=b[1],c=gM(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return vf}return a?0:vg}function
-gK(a){return typeof
+f=b;return f}return vh}return a?0:vi}function
+gN(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gL(d,a){if(d)if(a){var
+gO(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gL(k,j);if(e){var
-l=e[1],f=gL(k,l[2]);if(f)var
+e=gO(k,j);if(e){var
+l=e[1],f=gO(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gK(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,gN(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cD(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+cE(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
 be(a,e){var
-b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-ko(d,c){if(d){var
+b=cE(a[1],e),c=cE(a[2],b[2]),d=cE(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kq(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cE(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=be(a[1],c),k=j[1],l=be(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=ko(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-kp(b,i){if(b){var
-a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kp(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gM(a,b){if(a){var
-c=cD(a[1],b),d=gM(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gN(b){function
-a(a){return F(a,b,[0,d,c])}var
-e=a(vi),f=a(vj);return[0,a(0),f,e]}function
-kq(a,b){if(a){var
-c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kq(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
-c7(a){return i$(m,a)}function
-vk(a){if(typeof
+q=kq(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kr(b,i){if(b){var
+a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cE(a[5],f[2]),h=cE(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kr(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gP(a,b){if(a){var
+c=cE(a[1],b),d=gP(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gQ(b){function
+a(a){return G(a,b,[0,d,c])}var
+e=a(vk),f=a(vl);return[0,a(0),f,e]}function
+ks(a,b){if(a){var
+c=a[1],d=gP(c[1],b),e=gP(c[2],d[2]),f=ks(a[2],e[2]),g=f[2],h=f[1],i=gQ(e[1]);return[0,[0,[0,gQ(d[1]),i],h],g]}return[0,0,b]}function
+c_(a){return jb(m,a)}function
+vm(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -4556,103 +4607,105 @@ b=j(m,1,a[2]);return b?j(m,1,a[3]):b;case
 8:var
 d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
 10:return j(m,0,a[3]);case
+11:var
+e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
 2:case
-3:return c7(a[2]);default:return j(m,1,a[1])}}function
-gO(a){if(typeof
+3:return c_(a[2]);default:return j(m,1,a[1])}}function
+gR(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):h;case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
 k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
 1:return j(m,1,a[1]);case
 2:case
-3:return c7(a[2]);default:var
+3:return c_(a[2]);default:var
 i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-eY(d){var
+e1(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aH(a6(function(d){return function(a){var
-h=gC(a[1]),e=au(gC(d[1]),h);if(e)var
-i=gD(a[4]),b=au(gD(d[4]),i);else
+b=a[2],e=a[1],c=aM(a7(function(d){return function(a){var
+h=gG(a[1]),e=av(gG(d[1]),h);if(e)var
+i=gH(a[4]),b=av(gH(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?aa(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?Y(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dX(a){if(0===a[0])return c7(i(a[1]));var
+d1(a){if(0===a[0])return c_(i(a[1]));var
 b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
 bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-kr(a){switch(a[0]){case
+kt(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
 1:var
 b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
-ks(a){var
+ku(a){var
 b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
-gP(a){switch(a){case
-0:return vo;case
-1:return vp;default:return 0}}function
-eZ(a){var
-f=a[1],d=j(m,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
-gQ(a){var
-e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-kt(c,d,D,t,s,r,g){function
+gS(a){switch(a){case
+0:return vq;case
+1:return vr;default:return 0}}function
+e2(a){var
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
+gT(a){var
+e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+kv(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vm:vn,b=aa(k(a),d);return b?n(dX,a):b}var
-v=n(function(a){var
+d=c?vo:vp,b=Y(k(a),d);return b?o(d1,a):b}var
+v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=k(d),h=Y(dN(c),E);else
+E=k(d),h=Z(dS(c),E);else
 var
 h=v;var
-w=h?Y(k(d),vq):h,x=w?j(m,1,i(D)):w;if(x)var
-F=gP(c),l=aa(k(t),F);else
+w=h?Z(k(d),vs):h,x=w?j(m,1,i(D)):w;if(x)var
+F=gS(c),l=Y(k(t),F);else
 var
 l=x;if(l)var
-G=gP(c),o=aa(k(s),G);else
+G=gS(c),n=Y(k(s),G);else
 var
-o=l;if(o)var
-H=ck(t,s),p=n(function(a){var
+n=l;if(n)var
+H=ck(t,s),p=o(function(a){var
 b=i(a[2]);return br(m,i(a[1]),b)},H);else
 var
-p=o;if(p)if(c){var
-a=gI(r);switch(a[0]){case
+p=n;if(p)if(c){var
+a=gL(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=eZ(a[1]),A=z?eZ(a[2]):z,e=A?eZ(a[3]):A;break;case
+z=e2(a[1]),A=z?e2(a[2]):z,e=A?e2(a[3]):A;break;case
 2:var
-e=gQ(a[1]);break;default:var
-B=gQ(a[1]),e=B?gQ(a[2]):B}var
+e=gT(a[1]);break;default:var
+B=gT(a[1]),e=B?gT(a[2]):B}var
 f=e}else
 var
-C=gI(r),J=0===C[0]?eZ(C[1]):0,f=J;else
+C=gL(r),J=0===C[0]?e2(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=k(d),I=dN(c),q=n(function(a){var
+b=k(d),I=dS(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=Y(uW,e),g=f?Y(e,b):f,c=g;else
+e=d[1],f=Z(uY,e),g=f?Z(e,b):f,c=g;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bR(0,b,a):bR(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bR(0,b,a):bR(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?aa(b,I):c:bR(0,b,a):bR(0,b,a);default:return bR(0,b,a)}},g);else
+2:return 1===a[4][0]?a[3]?c:bS(0,b,a):bS(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bS(0,b,a):bS(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?Y(b,I):c:bS(0,b,a):bS(0,b,a);default:return bS(0,b,a)}},g);else
 var
 q=f;var
-y=q?eY(g):q;return y?n(gO,c4(k(d),g)):y}function
-gR(j){var
-q=a8(j,c5(bw(j))),a=f(function(a){return aM(m,a)},q);if(a){var
+y=q?e1(g):q;return y?o(gR,c7(k(d),g)):y}function
+gU(j){var
+q=a5(j,c8(bw(j))),a=f(function(a){return aG(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return ai(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,C(C(i(e[1]),s),r)[1])}var
+i=function(a){return ac(m,a)},r=i(h[1]),s=i(g[1]);return $(d,A(A(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -4668,53 +4721,38 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-vr(a){switch(a[0]){case
-0:return gR(a[1][1]);case
+vt(a){switch(a[0]){case
+0:return gU(a[1][1]);case
 1:var
-b=a[3];return b?gR(b[1]):1;default:return gR(a[1])}}function
-gS(c,a,e,u){if(a6(function(b){var
-a=9<=b[1]?1:0,c=a?1:a;return c},e)){var
-p=Y(k(a),vt),q=p?n(function(a){if(0===a[0]){var
+b=a[3];return b?gU(b[1]):1;default:return gU(a[1])}}function
+gV(c,a,b,p){if(a7(function(b){var
+a=9<=b[1]?1:0,c=a?1:a;return c},b)){var
+f=Z(k(a),vv),h=f?o(function(a){if(0===a[0]){var
 f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bc(f[1]),b=n(function(a){return c7(i(a))},u);else{var
-o=1;e=1}else{var
-o=l;e=1}if(e)var
-b=o}else{var
+u=bc(f[1]),b=o(function(a){return c_(i(a))},u);else{var
+n=1;e=1}else{var
+n=l;e=1}if(e)var
+b=n}else{var
 p=j(m,1,i(a[4]));if(p)var
-v=bc(a[3]),w=g(bc(a[2]),v),b=n(function(a){return c7(i(a))},w);else
+v=bc(a[3]),w=g(bc(a[2]),v),b=o(function(a){return c_(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=Y(vs,q);if(r){var
-d=al(c,b4(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=Z(vu,q);if(r){var
+d=aj(c,bM(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):p;if(q){var
-b=a;for(;;){var
-A=function(a){if(0===a[0]){var
-b=a[5],c=b?1:b;return c}return 0};if(b){var
-l=b[2],B=b[1],o=n(function(d,e){return function(a){var
-b=gG(e,a);if(b)var
-f=d(e),c=f||d(a);else
+t=r;return t}return 1}return b},a):f;if(h)var
+l=gK(0,a),u=l?1:l,n=u;else
 var
-c=b;return aH(c)}}(A,B),l);if(o){var
-b=l;continue}var
-r=o}else
+n=h;var
+d=n}else
 var
-r=1;var
-d=r;break}}else
-var
-d=q;if(d)var
-s=gH(0,a),C=s?1:s,t=C;else
-var
-t=d;var
-f=t}else
-var
-f=a?0:1;var
-v=f?n(vr,u[1]):f,w=v?Y(vu,k(c)):v;if(w)var
-D=k(c),h=n(function(a){switch(a[1]){case
+d=a?0:1;var
+q=d?o(vt,p[1]):d,r=q?Z(vw,k(c)):q;if(r)var
+v=k(c),e=o(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4731,97 +4769,116 @@ b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;case
 8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=Y(uR,b);return d?Y(b,D):d},e);else
+d=Z(uT,b);return d?Z(b,v):d},b);else
 var
-h=w;var
-x=h?eY(e):h,z=x?n(dX,y(kr,c)):x;return z?n(vk,u[3]):z}function
-gT(b,a){return n(function(c){var
-a=c[2];return a?ie(a[1],b):1},a)}function
-gU(b,a){var
-c=k(fO(function(a){return 0===a[0]?0:1},b));return aa(k(a),c)}function
-vv(p){var
-e5=gE(p[3]),e6=e5?gE(p[4]):e5;if(e6){var
-ar=p[1];if(3===ar[0]){var
-e9=n(eU,ar[1]);if(e9)var
-h$=ar[2],co=n(function(a){return eU(a[1])},h$);else
+e=r;var
+s=e?e1(b):e,t=s?o(d1,z(kt,c)):s;return t?o(vm,p[3]):t}function
+gW(b,a){return o(function(c){var
+a=c[2];return a?ii(a[1],b):1},a)}function
+gX(b,a){var
+c=k(fR(function(a){return 0===a[0]?0:1},b));return Y(k(a),c)}function
+vx(s){var
+fi=gI(s[3]),fj=fi?gI(s[4]):fi;if(fj){var
+as=s[1];if(3===as[0]){var
+fm=o(eX,as[1]);if(fm)var
+is=as[2],cy=o(function(a){return eX(a[1])},is);else
 var
-co=e9;if(co)var
-ia=ar[3],cp=n(function(a){var
-b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},ia);else
+cy=fm;if(cy)var
+it=as[3],cz=o(function(a){var
+b=eX(a[1]),c=b?gJ(a[2]):b;return c?c2(a[2]):c},it);else
 var
-cp=co;if(cp)var
-ib=ar[4],ic=function(a){var
-b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ic,a)},ib);else
+cz=cy;if(cz)var
+iv=as[4],iw=function(a){var
+b=gJ(a);return b?c2(a):b},ct=o(function(a){return o(iw,a)},iv);else
 var
-cj=cp}else
+ct=cz}else
 var
-cj=1;var
-cl=cj}else
+ct=1;var
+cu=ct}else
 var
-cl=e6;if(cl){var
-h=p[1];switch(h[0]){case
+cu=fj;if(cu){var
+h=s[1];switch(h[0]){case
 0:var
-hQ=y(c3,h[4]),hR=g(y(uN,h[3]),hQ),hS=g(ke(h[2]),hR),T=g(y(kd,h[1]),hS);break;case
+h7=z(c4,h[4]),h8=g(z(uP,h[3]),h7),h9=g(kh(h[2]),h8),T=g(z(kg,h[1]),h9);break;case
 1:var
-hT=y(c3,h[3]),hU=g(ke(h[2]),hT),T=g(y(uM,h[1]),hU);break;case
+h_=z(c4,h[3]),h$=g(kh(h[2]),h_),T=g(z(uO,h[1]),h$);break;case
 2:var
-hV=y(c3,h[7]),S=h[6];switch(S[0]){case
+ia=z(c4,h[7]),S=h[6];switch(S[0]){case
 1:var
-e2=S[3],e3=S[2],e4=S[1],ch=[0,e4[1],[0,e4[2],[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],0]]]]]];break;case
+ff=S[3],fg=S[2],fh=S[1],cq=[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],[0,ff[1],[0,ff[2],0]]]]]];break;case
 2:var
-ch=[0,S[1],0];break;default:var
-ch=[0,S[1],[0,S[2],0]]}var
-hW=g(ch,hV),hX=g(h[5],hW),hY=g(h[4],hX),hZ=[0,h[3],hY],h0=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},h0),hZ);break;case
+cq=[0,S[1],0];break;default:var
+cq=[0,S[1],[0,S[2],0]]}var
+ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],T=g(z(function(a){return z(c3,g(a[1],a[2]))},ig),ie);break;case
 3:var
-h1=y(c3,h[7]),h2=g(h[6],h1),h3=g(h[5],h2),h4=h[2],T=g(y(function(a){return c2(a[2])},h4),h3);break;case
+ih=z(c4,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],T=g(z(function(a){return c3(a[2])},ik),ij);break;case
 4:var
-h5=y(c3,h[3]),T=[0,h[1],[0,h[2],h5]];break;case
+il=z(c4,h[3]),T=[0,h[1],[0,h[2],il]];break;case
 5:var
-h6=y(c3,h[4]),h7=g(bc(h[3]),h6),h8=g(bc(h[2]),h7),h9=g(y(kd,h[1]),h8),T=[0,h[5],h9];break;default:var
-ci=h[1],T=ci?c2(ci[1]):ci}var
-cn=n(c1,T)}else
+im=z(c4,h[4]),io=g(bc(h[3]),im),ip=g(bc(h[2]),io),iq=g(z(kg,h[1]),ip),T=[0,h[5],iq];break;default:var
+cs=h[1],T=cs?c3(cs[1]):cs}var
+cw=o(c2,T)}else
 var
-cn=cl;if(cn){var
-af=p[2];if(0===af[0]){var
-e7=kf(af[1]);if(e7)var
-h_=af[2],as=n(function(a){var
-b=a[1];return n(function(b){var
+cw=cu;if(cw){var
+ag=s[2];if(0===ag[0]){var
+fk=ki(ag[1]);if(fk)var
+ir=ag[2],at=o(function(a){var
+b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gE(a[1]);case
+1:return gI(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},h_);else
+a=a[1];continue}},b)},ir);else
 var
-as=e7}else
+at=fk}else
 var
-e8=kf(af[1]),as=e8?n(c1,g(af[2],af[3])):e8}else
+fl=ki(ag[1]),at=fl?o(c2,g(ag[2],ag[3])):fl}else
 var
-as=cn;if(as){var
-a=p[1];switch(a[0]){case
+at=cw;if(at){var
+a=s[1];switch(a[0]){case
 0:var
-at=a[4],av=a[3],cF=a[2],U=a[1],ah=p[2];if(0===ah[0]){var
-cG=ah[2],r=eV(U,cF,av,at),cH=c6(k(cG),cG);if(cH){var
-fq=cH[1];if(fq[2])return 0;var
-fr=gS(U,av,at,r),fs=fr?gT(vw,cG):fr;if(fs){var
-ir=fq[1],ft=f(kl,r[1]),x=km(r[1]),u=ah[1],dw=ji(m,r);if(dw){var
-bD=f6(x,ft,r[1]),X=f7(x,ft,r[1],0),gy=k(r[3]),gz=H(k(bD),gy),dg=[0,k(bD),gz],gA=f_(X,x,dg,r[3]),gB=g(cv(iX(X)),gA),dh=g(cv(ey(X)),gB),di=dB(dh)[1],ap=dA(di),dj=n(function(a){var
-b=q(d);return bb(F(bp(ap,a),ap,b),a)},dh);if(dj){var
-dk=a6(qE,r[3]);if(dk){var
-gC=r[3],gD=y(function(a){return eE(x,a)},gC),gG=r[3],gH=g(bD,g(f(function(a){return bP(x,a)},gG),gD)),bE=aS(f(function(a){return aM(u,a)},gH));if(bE){var
-Z=r[2];if(0===Z[0])var
-dl=Z[1];else
+au=a[4],aw=a[3],cM=a[2],U=a[1],ai=s[2];if(0===ai[0]){var
+cN=ai[2],r=eY(U,cM,aw,au),cO=c9(k(cN),cN);if(cO){var
+fF=cO[1];if(fF[2])return 0;var
+fG=gV(U,aw,au,r),fH=fG?gW(vy,cN):fG;if(fH){var
+iJ=fF[1],cP=f(kn,r[1]),w=ko(r[1]),p=ai[1],dT=jl(m,r);if(dT){var
+bJ=f9(w,cP,r[1]),X=f_(w,cP,r[1],0),g0=k(r[3]),g1=I(k(bJ),g0),du=[0,k(bJ),g1],g2=gb(X,w,du,r[3]),g3=g(cv(iZ(X)),g2),dx=g(cv(eC(X)),g3),dz=dF(dx)[1],aq=dE(dz),dA=o(function(a){var
+b=q(d);return bb(G(bp(aq,a),aq,b),a)},dx);if(dA){var
+dB=a7(qG,r[3]);if(dB){var
+bH=cP,aC=r[1];for(;;){if(aC){var
+aD=aC[1],bI=en(d,bH);switch(aD[0]){case
+0:var
+dq=aD[1],dr=gc(p,dq[1],bI),db=0;if(dr){var
+bG=aG(p,[0,dq[4],w]);if(bG)var
+ap=$(d,bG[1][1]);else{var
+ds=bG;db=1}}else{var
+ds=dr;db=1}if(db)var
+ap=ds;break;case
+1:var
+dt=aD[3],ap=dt?gc(p,dt[1],bI):1;break;default:var
+ap=gc(p,aD[1],bI)}if(ap){var
+gZ=aC[2],bH=fQ(bH),aC=gZ;continue}var
+dC=ap}else
 var
-aA=Z[3],de=Z[2],df=Z[1],dl=[0,[0,[2,df,aA],[1,df,aA]],[0,[2,de,aA],[1,de,aA]],Z[4]];var
-gI=a8(dl,x),bF=aS(f(function(a){return aM(u,a)},gI));if(bF){var
-gM=r[3],bG=aS(i_(u,function(a){return bp(ap,a)},X,x,dg,gM));if(bG){var
-dm=bG[1],gQ=i4(dm),aB=r[2],gR=bF[1],gV=function(d){if(0===aB[0])return 0;if(d){var
+dC=1;var
+bK=dC;break}}else
+var
+bK=dB;if(bK){var
+g4=r[3],g5=z(function(a){return dN(w,a)},g4),g6=r[3],g7=g(bJ,g(f(function(a){return bQ(w,a)},g6),g5)),bL=aT(f(function(a){return aG(p,a)},g7));if(bL){var
+_=r[2];if(0===_[0])var
+dD=_[1];else
+var
+aB=_[3],dn=_[2],dp=_[1],dD=[0,[0,[2,dp,aB],[1,dp,aB]],[0,[2,dn,aB],[1,dn,aB]],_[4]];var
+g8=a5(dD,w),bM=aT(f(function(a){return aG(p,a)},g8));if(bM){var
+g9=r[3],bN=aT(ja(p,function(a){return bp(aq,a)},X,w,du,g9));if(bN){var
+dH=bN[1],g_=i6(dH),aE=r[2],g$=bM[1],ha=function(d){if(0===aE[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b7(u,x,aB[1]);if(f){var
-g=b7(u,x,aB[2]);if(g){var
-h=b7(u,x,aB[3]);if(h)var
-q=f[1],r=bq(c),i=M([0,bq(c),r],q),s=g[1],t=bq(b),j=M([0,bq(b),t],s),v=cS(b),w=[0,cS(b),v],y=[0,D(u,aE(C(j,j)),w),0],z=cS(c),A=[0,cS(c),z],B=[0,D(u,aE(C(i,i)),A),y],E=ai(u,j),F=ai(u,i),k=[0,[0,M(M(ai(u,h[1]),F),E),ab,B]];else
+b=a[1],c=d[1],f=b7(p,w,aE[1]);if(f){var
+g=b7(p,w,aE[2]);if(g){var
+h=b7(p,w,aE[3]);if(h)var
+r=f[1],s=bq(c),i=M([0,bq(c),s],r),t=g[1],u=bq(b),j=M([0,bq(b),u],t),v=cS(b),x=[0,cS(b),v],y=[0,E(p,aF(A(j,j)),x),0],z=cS(c),B=[0,cS(c),z],C=[0,E(p,aF(A(i,i)),B),y],D=ac(p,j),F=ac(p,i),k=[0,[0,M(M(ac(p,h[1]),F),D),ad,C]];else
 var
 k=h;var
 l=k}else
@@ -4836,270 +4893,270 @@ n=e;var
 o=n}else
 var
 o=a;var
-p=o}else
+q=o}else
 var
-p=d;return p},gW=bE[1],gX=0,gY=iX(X),gZ=e(a4(function(a){return bp(ap,a)}),gY),g0=ey(X);return f4(u,di,e(a4(function(a){return bp(ap,a)}),g0),gZ,gX,gW,dm,gV,gR,gQ,ir)}var
-dn=bG}else
+q=d;return q},hb=bL[1],hc=0,hd=iZ(X),he=e(a4(function(a){return bp(aq,a)}),hd),hf=eC(X);return f7(p,dz,e(a4(function(a){return bp(aq,a)}),hf),he,hc,hb,dH,ha,g$,g_,iJ)}var
+dI=bN}else
 var
-dn=bF;var
-dp=dn}else
+dI=bM;var
+dJ=dI}else
 var
-dp=bE;var
-bH=dp}else
+dJ=bL;var
+bO=dJ}else
 var
-bH=dk}else
+bO=bK}else
 var
-bH=dj;return bH}return dw}var
-fu=fs}else
-var
-fu=cH;return fu}var
-a_=ah[2];if(a_){var
-a$=a_[2];if(a$){var
-ba=a$[2];if(ba){if(ba[2])return 0;var
-fv=ah[3],fw=ko(U,f(i,fv));if(fw[2])return 0;var
-aj=ah[4];if(typeof
-aj==="number")var
-E=vh;else
-if(0===aj[0]){var
-ct=aj[2],cu=aj[1];if(ct){var
-a0=ct[1],cY=0;if(a0){var
-a1=a0[2],bB=0;if(a1){var
-a2=a1[2],bC=0;if(a2)if(a2[2]){var
-E=0;bB=1;bC=1}else{var
-cw=a2[1],cy=a1[1],cA=a0[1],cB=ct[2];if(cB){var
-a5=cB[1],gv=0;if(a5){var
-a7=a5[2],gw=0;if(a7){var
-a9=a7[2],gx=0;if(a9)if(a9[2]||cB[2]){var
-E=0;bB=1;bC=1;gv=1;gw=1;gx=1}else
-var
-fd=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
-var
-fd=a9;if(!gx)var
-fe=fd}else
-var
-fe=a7;if(!gw)var
-ff=fe}else
-var
-ff=a5;if(!gv){var
-E=ff;bB=1;bC=1}}else
-var
-fg=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
-var
-fg=a2;if(!bC)var
-fh=fg}else
-var
-fh=a1;if(!bB){var
-fi=fh;cY=1}}else{var
-fi=a0;cY=1}if(cY)var
-E=fi}else
-var
-fj=[0,[0,d,d],d],E=[0,[0,cu,fj,fj]]}else
-var
-E=[0,[1,aj[1],aj[2]]];if(E){var
-fx=gU(y(kr,U),fv),fy=fx?gS(U,av,at,eV(U,cF,av,at)):fx;if(fy){var
-V=E[1],it=i(ba[1]),iu=i(a$[1]),L=[0,i(a_[1]),iu,it],aw=fw[1],cI=eV(U,cF,av,at),dq=jb(m,cI,aw,L);if(dq)if(typeof
-V==="number")return a6(function(a){switch(a[0]){case
-0:var
-b=[0,cT(a[1],a[2],a[3],a[4],L)];break;case
-1:var
-e=a[2],f=a[1],g=bs(f,e,L),b=[0,J(bs(f,e,L),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aw);else{if(0===V[0]){var
-bI=al(cI[3],V[1]);if(bI){var
-g1=bI[1],g2=jd(V[3]);return jh(m,aw,L,jd(V[2]),g2,g1)}return bI}var
-bJ=al(cI[3],V[1]);if(bJ){var
-bK=al(aw,V[2]);if(bK){var
-dt=bK[1],g3=bJ[1],g4=cV(dt,L);return jh(m,aw,L,cV(dt,L),g4,g3)}var
-dv=bK}else
-var
-dv=bJ;return dv}return dq}var
-fz=fy}else
-var
-fz=E;var
-fA=fz}else
-var
-fA=ba;var
-fB=fA}else
-var
-fB=a$;var
-fC=fB}else
-var
-fC=a_;return fC;case
-1:var
-bd=a[3],N=a[1],be=p[2];if(0===be[0])return 0;var
-bf=be[2];if(bf){var
-bg=bf[2];if(bg){var
-bh=bg[2];if(bh){if(bh[2])return 0;var
-fD=be[3],fE=kp(N,f(i,fD));if(fE[2])return 0;var
-fF=gU(y(ks,N),fD);if(fF){var
-fk=Y(vl,k(N));if(fk)var
-il=k(N),im=1,cD=n(function(a){return bR(im,il,a)},bd);else
-var
-cD=fk;var
-fl=cD?eY(bd):cD,fm=fl?n(dX,y(ks,N)):fl,iv=fm?n(gO,c4(k(N),bd)):fm,cJ=iv}else
-var
-cJ=fF;if(cJ){var
-iw=gK(be[4]),ix=i(bh[1]),iy=i(bg[1]),O=[0,i(bf[1]),iy,ix],bi=fE[1],iz=a[2],ih=c4(k(N),bd),ii=kh(iz),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
-s=_[1],R=aC[1],dx=aT(m,R[1],s[1]),dy=dx?aT(m,R[2],s[2]):dx,dz=dy?aT(m,R[3],s[3]):dy,dD=dz?aT(m,R[4],s[4]):dz,dE=dD?cx(m,R[5],s[5]):dD,dF=dE?cx(m,R[6],s[6]):dE,dH=dF?j(m,1,s[5]):dF,dI=dH?j(m,1,s[6]):dH,dJ=dI?j(m,1,J(s[1],s[1])):dI;if(dJ)var
-g5=ga(s),bL=j(m,1,J(ga(s),g5));else
-var
-bL=dJ;var
-dM=bL?du(R[7],s[7]):bL;if(dM){var
-aC=aC[2],_=_[2];continue}var
-dO=dM}else
-var
-dO=_;var
-bM=dO}else
-var
-bM=_?0:1;var
-dP=bM?ja(m,ii,O):bM;if(dP){var
-g6=f(function(a){return jp(a,O)},bi),g7=f(function(a){var
-b=jr(a,O);return[1,jq(a,O),b]},bi);return jm(m,qI,[0,f(function(a){var
-d=jn(a),e=ay(jr(a,O),d),f=gb(a),g=ay(jq(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g7,g6],ih,iw)}return dP}}var
-fG=cJ}else
-var
-fG=bh;var
-fH=fG}else
-var
-fH=bg;var
+bO=dA;return bO}return dT}var
 fI=fH}else
 var
-fI=bf;return fI;case
-2:var
-bj=a[7],bk=a[6],bl=a[5],bm=a[4],bn=a[3],am=a[2],an=a[1],ao=p[2];if(0===ao[0]){var
-cK=ao[2],ax=kk(an,am,bn,bm,bl,bk,bj),cL=c6(k(cK),cK);if(cL){var
-fJ=cL[1];if(fJ[2])return 0;var
-fK=kt(an,am,bn,bm,bl,bk,bj),fL=fK?gT(dN(an),cK):fK;if(fL){var
-iA=fJ[1],iB=ax[2],iC=A(c,c5(y(function(a){var
-b=bw(a[2]);return g(bw(a[1]),b)},iB))),iD=ao[1],hB=ax[2],eC=n(function(a){var
-b=gt(m,a[1]);return b?gt(m,a[2]):b},hB),eD=eC?gt(m,ax[4]):eC;if(eD)var
-hC=jR(ax[5]),b_=n(function(a){return eM(m,a)},hC);else
+fI=cO;return fI}var
+bd=ai[2];if(bd){var
+be=bd[2];if(be){var
+bf=be[2];if(bf){if(bf[2])return 0;var
+fJ=ai[3],fK=kq(U,f(i,fJ));if(fK[2])return 0;var
+ak=ai[4];if(typeof
+ak==="number")var
+F=vj;else
+if(0===ak[0]){var
+cE=ak[2],cF=ak[1];if(cE){var
+a6=cE[1],dc=0;if(a6){var
+a8=a6[2],bE=0;if(a8){var
+a9=a8[2],bF=0;if(a9)if(a9[2]){var
+F=0;bE=1;bF=1}else{var
+cG=a9[1],cH=a8[1],cI=a6[1],cJ=cE[2];if(cJ){var
+a_=cJ[1],gT=0;if(a_){var
+a$=a_[2],gU=0;if(a$){var
+ba=a$[2],gY=0;if(ba)if(ba[2]||cJ[2]){var
+F=0;bE=1;bF=1;gT=1;gU=1;gY=1}else
 var
-b_=eD;return b_?rd(iD,ax,iC,iA):b_}var
-fM=fL}else
+fs=[0,[0,cF,[0,[0,cI,cH],cG],[0,[0,a_[1],a$[1]],ba[1]]]];else
 var
-fM=cL;return fM}var
-fN=ao[3],fO=f(i,ao[2]),fP=gP(an),fQ=kq(am,f(i,fN));if(fQ[2])return 0;var
-fR=gU(y(function(a){return g(a[1],a[2])},am),fN),fS=fR?kt(an,am,bn,bm,bl,bk,bj):fR;if(fS){var
-iE=gK(ao[4]),o=is(fP,fO),bo=gN(ej(fP,fO)),bv=fQ[1],P=kk(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
-eu=$[1],ev=aU[1],ew=aT(m,ev[1],eu[1]),ez=ew?aT(m,ev[2],eu[2]):ew;if(ez){var
-aU=aU[2],$=$[2];continue}var
-eA=ez}else
+fs=ba;if(!gY)var
+ft=fs}else
 var
-eA=$;var
-b8=eA}else
+ft=a$;if(!gU)var
+fu=ft}else
 var
-b8=$?0:1;var
-eB=b8?aT(m,P[4],bo):b8;if(eB){var
-G=P[5];switch(G[0]){case
+fu=a_;if(!gT){var
+F=fu;bE=1;bF=1}}else
+var
+fv=[0,[0,cF,[0,[0,cI,cH],cG],[0,[0,cI,cH],cG]]]}else
+var
+fv=a9;if(!bF)var
+fw=fv}else
+var
+fw=a8;if(!bE){var
+fx=fw;dc=1}}else{var
+fx=a6;dc=1}if(dc)var
+F=fx}else
+var
+fy=[0,[0,d,d],d],F=[0,[0,cF,fy,fy]]}else
+var
+F=[0,[1,ak[1],ak[2]]];if(F){var
+fL=gX(z(kt,U),fJ),fM=fL?gV(U,aw,au,eY(U,cM,aw,au)):fL;if(fM){var
+V=F[1],iK=i(bf[1]),iL=i(be[1]),L=[0,i(bd[1]),iL,iK],ax=fK[1],cQ=eY(U,cM,aw,au),dM=jd(m,cQ,ax,L);if(dM)if(typeof
+V==="number")return a7(function(a){switch(a[0]){case
 0:var
-w=o?o[2]?0:dL(m,G[1],o[1]):o;break;case
+b=[0,cU(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-cZ=0;if(o){var
-aL=o[2],c0=0;if(aL){var
-aN=aL[2],c8=0;if(aN)if(aN[2]){var
-w=0;c0=1;c8=1}else{var
-ec=dL(m,G[1],o[1]),ed=ec?dL(m,G[2],aL[1]):ec;if(ed){var
-w=dL(m,G[3],aN[1]);c0=1;c8=1}else
+e=a[2],f=a[1],g=bs(f,e,L),b=[0,B(bs(f,e,L),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===V[0]){var
+bP=aj(cQ[3],V[1]);if(bP){var
+hg=bP[1],hh=jf(V[3]);return jk(m,ax,L,jf(V[2]),hh,hg)}return bP}var
+bT=aj(cQ[3],V[1]);if(bT){var
+bU=aj(ax,V[2]);if(bU){var
+dO=bU[1],hi=bT[1],hj=cW(dO,L);return jk(m,ax,L,cW(dO,L),hj,hi)}var
+dR=bU}else
 var
-ee=ed}else
+dR=bT;return dR}return dM}var
+fN=fM}else
 var
-ee=aN;if(!c8)var
-ef=ee}else
+fN=F;var
+fO=fN}else
 var
-ef=aL;if(!c0){var
-eg=ef;cZ=1}}else{var
-eg=o;cZ=1}if(cZ)var
-w=eg;break;case
+fO=bf;var
+fP=fO}else
+var
+fP=be;var
+fR=fP}else
+var
+fR=bd;return fR;case
+1:var
+bg=a[3],N=a[1],bh=s[2];if(0===bh[0])return 0;var
+bi=bh[2];if(bi){var
+bj=bi[2];if(bj){var
+bk=bj[2];if(bk){if(bk[2])return 0;var
+fS=bh[3],fT=kr(N,f(i,fS));if(fT[2])return 0;var
+fU=gX(z(ku,N),fS);if(fU){var
+fz=Z(vn,k(N));if(fz)var
+iE=k(N),iF=1,cK=o(function(a){return bS(iF,iE,a)},bg);else
+var
+cK=fz;var
+fA=cK?e1(bg):cK,fB=fA?o(d1,z(ku,N)):fA,iM=fB?o(gR,c7(k(N),bg)):fB,cR=iM}else
+var
+cR=fU;if(cR){var
+iN=gN(bh[4]),iO=i(bk[1]),iP=i(bj[1]),O=[0,i(bi[1]),iP,iO],bl=fT[1],iQ=a[2],iA=c7(k(N),bg),iB=kk(iQ),aH=f(u1,N),aa=bl;for(;;){if(aH){if(aa){var
+t=aa[1],R=aH[1],dU=aU(m,R[1],t[1]),dV=dU?aU(m,R[2],t[2]):dU,dW=dV?aU(m,R[3],t[3]):dV,dX=dW?aU(m,R[4],t[4]):dW,dY=dX?cx(m,R[5],t[5]):dX,dZ=dY?cx(m,R[6],t[6]):dY,d0=dZ?j(m,1,t[5]):dZ,d2=d0?j(m,1,t[6]):d0,d3=d2?j(m,1,B(t[1],t[1])):d2;if(d3)var
+hk=ge(t),bV=j(m,1,B(ge(t),hk));else
+var
+bV=d3;var
+d4=bV?dy(R[7],t[7]):bV;if(d4){var
+aH=aH[2],aa=aa[2];continue}var
+d5=d4}else
+var
+d5=aa;var
+bW=d5}else
+var
+bW=aa?0:1;var
+d6=bW?jc(m,iB,O):bW;if(d6){var
+hl=f(function(a){return js(a,O)},bl),hm=f(function(a){var
+b=ju(a,O);return[1,jt(a,O),b]},bl);return jp(m,qK,[0,f(function(a){var
+d=jq(a),e=az(ju(a,O),d),f=gf(a),g=az(jt(a,O),f),h=af(function(b,a){return[1,b,a]},g,e),i=az(a[5],h),j=a[3],k=af(function(b,a){return[1,b,a]},j,i),l=a[4],m=af(function(b,a){return[1,b,a]},O,l),n=af(function(b,a){return[2,b,a]},m,k),o=gl(a,O),b=az([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bl),hm,hl],iA,iN)}return d6}}var
+fV=cR}else
+var
+fV=bk;var
+fW=fV}else
+var
+fW=bj;var
+fX=fW}else
+var
+fX=bi;return fX;case
 2:var
-c9=0;if(o){var
-aO=o[2],c_=0;if(aO){var
-aP=aO[2];if(aP)if(aP[2]){var
-w=0;c_=1}else{var
-eh=aP[1],ei=aO[1],ek=o[1],hu=J([0,ek,ei,eh],[0,ek,ei,eh]),w=jG(m,G[1],hu,[0,c,c]);c_=1}else
+bm=a[7],bn=a[6],bo=a[5],bv=a[4],bx=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
+cT=ao[2],ay=km(an,am,bx,bv,bo,bn,bm),cV=c9(k(cT),cT);if(cV){var
+fY=cV[1];if(fY[2])return 0;var
+fZ=kv(an,am,bx,bv,bo,bn,bm),f0=fZ?gW(dS(an),cT):fZ;if(f0){var
+iR=fY[1],iS=ay[2],iT=C(c,c8(z(function(a){var
+b=bw(a[2]);return g(bw(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eW=o(function(a){var
+b=gx(m,a[1]);return b?gx(m,a[2]):b},hS),eZ=eW?gx(m,ay[4]):eW;if(eZ)var
+hT=jU(ay[5]),cf=o(function(a){return eP(m,a)},hT);else
 var
-el=aP}else
+cf=eZ;return cf?rf(iU,ay,iT,iR):cf}var
+f1=f0}else
 var
-el=aO;if(!c_){var
-em=el;c9=1}}else{var
-em=o;c9=1}if(c9)var
-w=em;break;default:var
-c$=0;if(o){var
-aQ=o[2],da=0;if(aQ){var
-aR=aQ[2],db=0;if(aR)if(aR[2]){var
-w=0;da=1;db=1}else{var
-b6=aR[1],en=aQ[1],eo=o[1],ep=jG(m,G[1],[1,[3,eo,eo],[3,en,en]],[1,[0,c,c],[3,b6,b6]]);if(ep){var
-w=dL(m,cz(G[2]),b6);da=1;db=1}else
+f1=cV;return f1}var
+f2=ao[3],f4=f(i,ao[2]),f5=gS(an),f6=ks(am,f(i,f2));if(f6[2])return 0;var
+f8=gX(z(function(a){return g(a[1],a[2])},am),f2),f$=f8?kv(an,am,bx,bv,bo,bn,bm):f8;if(f$){var
+iV=gN(ao[4]),n=iu(f5,f4),by=gQ(eo(f5,f4)),bz=f6[1],P=km(an,am,bx,bv,bo,bn,bm),aX=P[2],ab=bz;for(;;){if(aX){if(ab){var
+eN=ab[1],eO=aX[1],eQ=aU(m,eO[1],eN[1]),eR=eQ?aU(m,eO[2],eN[2]):eQ;if(eR){var
+aX=aX[2],ab=ab[2];continue}var
+eU=eR}else
 var
-eq=ep}else
+eU=ab;var
+cd=eU}else
 var
-eq=aR;if(!db)var
-er=eq}else
+cd=ab?0:1;var
+eV=cd?aU(m,P[4],by):cd;if(eV){var
+H=P[5];switch(H[0]){case
+0:var
+x=n?n[2]?0:dQ(m,H[1],n[1]):n;break;case
+1:var
+dd=0;if(n){var
+aP=n[2],de=0;if(aP){var
+aQ=aP[2],df=0;if(aQ)if(aQ[2]){var
+x=0;de=1;df=1}else{var
+eu=dQ(m,H[1],n[1]),ev=eu?dQ(m,H[2],aP[1]):eu;if(ev){var
+x=dQ(m,H[3],aQ[1]);de=1;df=1}else
 var
-er=aQ;if(!da){var
-es=er;c$=1}}else{var
-es=o;c$=1}if(c$)var
-w=es}var
-b9=w}else
+ew=ev}else
 var
-b9=eB;if(b9){var
-aV=P[5],hy=P[6],hz=P[3],hA=P[1],et=function(a){var
-b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},hv=f(et,bv),hw=f(function(a){return[0,[5,et(a)]]},bv),hx=[0,f(function(d){var
-b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hz],jC(jD(aV,o,d[2]),b));switch(hA){case
+ew=aQ;if(!df)var
+ex=ew}else
+var
+ex=aP;if(!de){var
+ey=ex;dd=1}}else{var
+ey=n;dd=1}if(dd)var
+x=ey;break;case
+2:var
+dg=0;if(n){var
+aR=n[2],dh=0;if(aR){var
+aS=aR[2];if(aS)if(aS[2]){var
+x=0;dh=1}else{var
+ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jJ(m,H[1],hL,[0,c,c]);dh=1}else
+var
+eD=aS}else
+var
+eD=aR;if(!dh){var
+eE=eD;dg=1}}else{var
+eE=n;dg=1}if(dg)var
+x=eE;break;default:var
+di=0;if(n){var
+aV=n[2],dj=0;if(aV){var
+aW=aV[2],dk=0;if(aW)if(aW[2]){var
+x=0;dj=1;dk=1}else{var
+cc=aW[1],eF=aV[1],eG=n[1],eH=jJ(m,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
+x=dQ(m,cA(H[2]),cc);dj=1;dk=1}else
+var
+eJ=eH}else
+var
+eJ=aW;if(!dk)var
+eK=eJ}else
+var
+eK=aV;if(!dj){var
+eL=eK;di=1}}else{var
+eL=n;di=1}if(di)var
+x=eL}var
+ce=x}else
+var
+ce=eV;if(ce){var
+aY=P[5],hP=P[6],hQ=P[3],hR=P[1],eM=function(a){var
+b=gp(aY,n,by,a);return B(gp(aY,n,by,a),b)},hM=f(eM,bz),hN=f(function(a){return[0,[5,eM(a)]]},bz),hO=[0,f(function(d){var
+b=aJ(gp(aY,n,by,d)),a=az([4,[0,c,c],hQ],jF(jG(aY,n,d[2]),b));switch(hR){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hw,hv];return jm(m,dN(P[1]),hx,hy,iE)}return b9}}return fS;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bz),hN,hM];return jp(m,dS(P[1]),hO,hP,iV)}return ce}}return f$;case
 3:var
-bx=a[7],fT=a[6],fU=a[5],by=a[4],fV=a[2],fW=a[1],cM=p[2];if(0===cM[0]){var
-cN=cM[2],cO=c6(k(cN),cN);if(cO){var
-fX=cO[1];if(fX[2])return 0;var
-io=k(fT),fn=aa(k(fU),io);if(fn)var
-ip=k(by),iq=0,cE=n(function(a){return bR(iq,ip,a)},bx);else
+bA=a[7],gd=a[6],gg=a[5],bB=a[4],gh=a[2],gi=a[1],cX=s[2];if(0===cX[0]){var
+cY=cX[2],cZ=c9(k(cY),cY);if(cZ){var
+gj=cZ[1];if(gj[2])return 0;var
+iG=k(gd),fC=Y(k(gg),iG);if(fC)var
+iH=k(bB),iI=0,cL=o(function(a){return bS(iI,iH,a)},bA);else
 var
-cE=fn;var
-fo=cE?eY(bx):cE,fp=fo?n(function(a){return dX(a[2])},fV):fo,fY=fp?n(gO,c4(k(by),bx)):fp,fZ=fY?gT(k(fW),cN):fY;if(fZ){var
-iF=fX[1],iG=a[3],e_=c4(k(by),bx),id=ck(fU,fT),cq=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},id),ie=f(function(a){return f(cC,a)},by),ig=f(function(a){var
-b=cC(a[2]);return[0,a[1],b]},iG),l=[0,fW,f(function(a){var
-b=bQ(a[2]);return[0,a[1],b]},fV),ig,ie],az=cM[1],ho=f(dr,l[2]),b0=g(l[1],ho),aK=k(l[1]),d7=Y(qK,aK),d8=d7?Y(aK,qL):d7,d9=d8?Y(aK,k(l[4])):d8,d_=d9?Y(k(l[4]),qM):d9;if(d_)var
-hp=l[4],b1=n(function(a){return aa(k(a),aK)},hp);else
+cL=fC;var
+fD=cL?e1(bA):cL,fE=fD?o(function(a){return d1(a[2])},gh):fD,gk=fE?o(gR,c7(k(bB),bA)):fE,gn=gk?gW(k(gi),cY):gk;if(gn){var
+iW=gj[1],iX=a[3],fn=c7(k(bB),bA),ix=ck(gg,gd),cB=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},ix),iy=f(function(a){return f(cD,a)},bB),iz=f(function(a){var
+b=cD(a[2]);return[0,a[1],b]},iX),l=[0,gi,f(function(a){var
+b=bR(a[2]);return[0,a[1],b]},gh),iz,iy],aA=cX[1],hF=f(dv,l[2]),b8=g(l[1],hF),aO=k(l[1]),el=Z(qM,aO),em=el?Z(aO,qN):el,ep=em?Z(aO,k(l[4])):em,eq=ep?Z(k(l[4]),qO):ep;if(eq)var
+hG=l[4],b9=o(function(a){return Y(k(a),aO)},hG);else
 var
-b1=d_;if(b1){var
-aJ=b0;for(;;){if(aJ){var
-d5=aJ[2],hn=aJ[1],d6=aH(a6(function(b){return function(a){return mW(b,a)}}(hn),d5));if(d6){var
-aJ=d5;continue}var
-d$=d6}else
+b9=eq;if(b9){var
+aN=b8;for(;;){if(aN){var
+ej=aN[2],hE=aN[1],ek=aM(a7(function(b){return function(a){return mX(b,a)}}(hE),ej));if(ek){var
+aN=ej;continue}var
+er=ek}else
 var
-d$=1;var
-b2=d$;break}}else
+er=1;var
+b_=er;break}}else
 var
-b2=b1;if(b2){var
-aI=b0,aF=l[3];for(;;){if(aF){var
-d1=aF[1],d2=d1[1],d3=aH(a6(function(b){return function(a){return au(b,a)}}(d2),aI)),d4=d3?gi(aI,d1[2]):d3;if(d4){var
-aI=[0,d2,aI],aF=aF[2];continue}var
-ea=d4}else
+b_=b9;if(b_){var
+aL=b8,aK=l[3];for(;;){if(aK){var
+ef=aK[1],eg=ef[1],eh=aM(a7(function(b){return function(a){return av(b,a)}}(eg),aL)),ei=eh?gm(aL,ef[2]):eh;if(ei){var
+aL=[0,eg,aL],aK=aK[2];continue}var
+es=ei}else
 var
-ea=1;var
-b3=ea;break}}else
+es=1;var
+b$=es;break}}else
 var
-b3=b2;if(b3)var
-hq=l[4],hr=g(f(dr,l[3]),b0),hs=function(a){return gi(hr,a)},b4=n(function(a){return n(hs,a)},hq);else
+b$=b_;if(b$)var
+hH=l[4],hI=g(f(dv,l[3]),b8),hJ=function(a){return gm(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
 var
-b4=b3;if(b4)var
-ht=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},ht);else
+ca=b$;if(ca)var
+hK=l[2],cb=o(function(a){return br(m,a[2][1],a[2][2])},hK);else
 var
-b5=b4;var
-eb=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(eb){var
-hc=k(l[1]),bO=k(l[2]),dS=H(bO,k(dK(f(ds,l[3])))),hd=l[3],aq=jy(l),aD=hd,bN=bO;for(;;){if(aD){var
-dQ=aD[1],dR=dQ[2],g8=H(bN,k(bt(dR))),g9=aD[2],g_=bu(aq,dR,bN),aq=[0,[0,dQ[1],g_],aq],aD=g9,bN=g8;continue}var
-he=jv(aq,l[4],dS),bS=f(function(a){return[0,a,q(c)]},he),hf=jw(aq,l[4],dS),hg=l[3],bT=g(js(jy(l),hg,bO),hf),bU=dB(g(cv(bS),bT))[1],hh=dA(bU),bV=function(a){return bp(hh,a)},dT=e(a4(bV),bS),dU=aa(k(cq),hc);if(dU)var
-hi=g(cv(bS),bT),bW=n(function(a){var
-b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hi);else
+cb=ca;var
+et=cb?o(function(a){return br(m,a[1],a[2])},cB):cb;if(et){var
+ht=k(l[1]),bY=k(l[2]),d9=I(bY,k(dP(f(dw,l[3])))),hu=l[3],ar=jB(l),aI=hu,bX=bY;for(;;){if(aI){var
+d7=aI[1],d8=d7[2],hn=I(bX,k(bt(d8))),ho=aI[2],hp=bu(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
+hv=jy(ar,l[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jz(ar,l[4],d9),hx=l[3],b0=g(jv(jB(l),hx,bY),hw),b1=dF(g(cv(bZ),b0))[1],hy=dE(b1),b2=function(a){return bp(hy,a)},d_=e(a4(b2),bZ),d$=Y(k(cB),ht);if(d$)var
+hz=g(cv(bZ),b0),b3=o(function(a){var
+b=q(d),c=dE(b1);return bb(G(b2(a),c,b),a)},hz);else
 var
-bW=dU;var
-dV=bW?a6(qJ,e_):bW;if(dV){var
-g$=y(dK,l[4]),ha=g(dK(f(ds,l[3])),g$),hb=g(jx(l[2]),ha),bX=aS(f(function(a){return aM(az,a)},hb));if(bX){var
-bY=aS(f(function(a){return aM(az,[0,a,d])},cq));if(bY){var
-bZ=aS(f(function(a){if(typeof
-a==="number")return[0,[0,ab]];else
+b3=d$;var
+ea=b3?a7(qL,fn):b3;if(ea){var
+hq=z(dP,l[4]),hr=g(dP(f(dw,l[3])),hq),hs=g(jA(l[2]),hr),b4=aT(f(function(a){return aG(aA,a)},hs));if(b4){var
+b5=aT(f(function(a){return aG(aA,[0,a,d])},cB));if(b5){var
+b6=aT(f(function(a){if(typeof
+a==="number")return[0,[0,ad]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5107,86 +5164,86 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e_));if(bZ){var
-dW=bZ[1],hj=i4(dW),hk=bY[1],hl=function(a){return 0},hm=bX[1];return f4(az,bU,dT,dT,f(bV,bT),hm,dW,hl,hk,hj,iF)}var
-dY=bZ}else
+g=aG(aA,[0,[0,b,b],d]);return ah(function(a){return e(ac(aA,a))},g)},fn));if(b6){var
+eb=b6[1],hA=i6(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return f7(aA,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
+ec=b6}else
 var
-dY=bY;var
-dZ=dY}else
+ec=b5;var
+ed=ec}else
 var
-dZ=bX;var
-d0=dZ}else
+ed=b4;var
+ee=ed}else
 var
-d0=dV;return d0}}return eb}var
-f1=fZ}else
+ee=ea;return ee}}return et}var
+go=gn}else
 var
-f1=cO;return f1}return 0;case
-4:if(0===p[2][0]){var
-f2=c7(i(a[1]));if(f2){var
-bz=a[3];if(bz){var
-aX=bz[1],cs=aX[4],K=bz[2];if(aX[1]||aX[2]||aX[3])var
-t=0;else
-switch(cs[0]){case
+go=cZ;return go}return 0;case
+4:if(0===s[2][0]){var
+gq=c_(i(a[1]));if(gq){var
+bC=a[3];if(bC){var
+a0=bC[1],cC=a0[4],K=bC[2];if(a0[1]||a0[2]||a0[3])var
+u=0;else
+switch(cC[0]){case
 0:var
-dc=0;if(K){var
-aY=K[1],e$=aY[4];if(aY[1]||aY[2]||aY[3])var
-t=0;else
-if(1===e$[0])if(K[2])var
-t=0;else
+dl=0;if(K){var
+a1=K[1],fo=a1[4];if(a1[1]||a1[2]||a1[3])var
+u=0;else
+if(1===fo[0])if(K[2])var
+u=0;else
 var
-ij=i(e$[1]),t=[0,[0,i(cs[1]),ij]];else{var
-fa=0;dc=1}}else{var
-fa=K;dc=1}if(dc)var
-t=fa;break;case
+iC=i(fo[1]),u=[0,[0,i(cC[1]),iC]];else{var
+fp=0;dl=1}}else{var
+fp=K;dl=1}if(dl)var
+u=fp;break;case
 1:var
-dd=0;if(K){var
-aZ=K[1],fb=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
-t=0;else
-if(0===fb[0])if(K[2])var
-t=0;else
+dm=0;if(K){var
+a2=K[1],fq=a2[4];if(a2[1]||a2[2]||a2[3])var
+u=0;else
+if(0===fq[0])if(K[2])var
+u=0;else
 var
-ik=i(cs[1]),t=[0,[0,i(fb[1]),ik]];else{var
-fc=0;dd=1}}else{var
-fc=K;dd=1}if(dd)var
-t=fc;break;default:var
-t=0}}else
+iD=i(cC[1]),u=[0,[0,i(fq[1]),iD]];else{var
+fr=0;dm=1}}else{var
+fr=K;dm=1}if(dm)var
+u=fr;break;default:var
+u=0}}else
 var
-t=bz;if(t){var
-f3=t[1],f5=f3[2],f8=f3[1],eJ=j(m,1,i(a[2])),eK=eJ?j(m,1,[2,f5,[0,c,c]]):eJ,eL=eK?j(m,1,f8):eK;return eL?j(m,0,[2,[4,[0,c,c],f5],f8]):eL}var
-f$=t}else
+u=bC;if(u){var
+gr=u[1],gs=gr[2],gt=gr[1],e4=j(m,1,i(a[2])),e5=e4?j(m,1,[2,gs,[0,c,c]]):e4,e6=e5?j(m,1,gt):e5;return e6?j(m,0,[2,[4,[0,c,c],gs],gt]):e6}var
+gu=u}else
 var
-f$=f2;return f$}return 0;case
+gu=gq;return gu}return 0;case
 5:var
-gc=a[4],gd=a[1],cP=p[2];if(0===cP[0]){var
-ge=cP[2],v=eV(gd,[0,a[2],a[3]],0,gc),cQ=gL(k(ge),ge);if(cQ){var
-gf=cQ[1];if(gf[2])return 0;var
-gg=gS(gd,0,gc,v);if(gg){var
-gj=ji(m,v);if(gj){var
-iH=gf[1],gk=f(kl,v[1]),z=km(v[1]),gm=i(a[5]),Q=cP[1],cb=f6(z,gk,v[1]),I=f7(z,gk,v[1],0),hE=k(v[3]),hF=H(k(cb),hE),aW=[0,k(cb),hF],hG=f_(I,z,aW,v[3]),hH=g(f(ex,I),hG),eR=g(cv(ey(I)),hH),eS=dB(eR)[1],cc=dA(eS),eT=v[2];if(0===eT[0]){var
-eW=n(function(a){var
-b=q(d);return bb(F(bp(cc,a),cc,b),a)},eR),eX=eW?j(m,1,gm):eW;if(eX){var
-hI=v[3],hJ=y(function(a){return eE(z,a)},hI),hK=v[3],hL=g(cb,g(f(function(a){return bP(z,a)},hK),hJ)),cd=aS(f(function(a){return aM(Q,a)},hL));if(cd){var
-hM=a8(eT[1],z),ce=aS(f(function(a){return aM(Q,a)},hM));if(ce){var
-cf=b7(Q,z,[4,gm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
-cg=v[3],hN=ce[1],hO=cf[1],hP=cd[1],ad=function(a){return bp(cc,a)},eN=f(a3,hP),eO=function(A,x){var
+gv=a[4],gw=a[1],c0=s[2];if(0===c0[0]){var
+gy=c0[2],v=eY(gw,[0,a[2],a[3]],0,gv),c1=gO(k(gy),gy);if(c1){var
+gz=c1[1];if(gz[2])return 0;var
+gA=gV(gw,0,gv,v);if(gA){var
+gB=jl(m,v);if(gB){var
+iY=gz[1],gC=f(kn,v[1]),y=ko(v[1]),gD=i(a[5]),Q=c0[1],ci=f9(y,gC,v[1]),J=f_(y,gC,v[1],0),hV=k(v[3]),hW=I(k(ci),hV),aZ=[0,k(ci),hW],hX=gb(J,y,aZ,v[3]),hY=g(f(dK,J),hX),e9=g(cv(eC(J)),hY),e_=dF(e9)[1],cj=dE(e_),e$=v[2];if(0===e$[0]){var
+fa=o(function(a){var
+b=q(d);return bb(G(bp(cj,a),cj,b),a)},e9),fb=fa?j(m,1,gD):fa;if(fb){var
+hZ=v[3],h0=z(function(a){return dN(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bQ(y,a)},h1),h0)),cl=aT(f(function(a){return aG(Q,a)},h2));if(cl){var
+h3=a5(e$[1],y),cn=aT(f(function(a){return aG(Q,a)},h3));if(cn){var
+co=b7(Q,y,[4,gD,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(co){var
+cp=v[3],h4=cn[1],h5=co[1],h6=cl[1],ae=function(a){return bp(cj,a)},e7=f(a3,h6),e8=function(A,x){var
 g=A,a=x;for(;;){if(0===a[0]){var
-h=a[1],l=aa(k(h),rm),m=l?n(function(a){var
-d=B(W(b(2,b(2,b(2,c)))),a);return d?B(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
-o=j9(Q,hO,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eN),eS,0),s=function(b){var
-a=j8(Q,o,eN,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
-l==="number")return a6(function(b){var
-a=F(ad(b[2]),ae,0);return a?B(a[1][2][2],d):a},I);else{if(0===l[0]){var
-t=l[1],u=al(cg,t);if(u){var
-a=l[2],h=u[1],ar=ej(t,cg),as=k(y(function(a){return eE(z,a)},ar)),at=H(aW[2],as),v=[0,H(aW[1],t),at],ai=ey(I),i=e(a4(ad),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
-d=eQ(c,a);return[1,[4,[1,[6,b,eP(a)]],d]]},A=0;if(typeof
+h=a[1],l=Y(k(h),ro),m=l?o(function(a){var
+d=D(W(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
+n=ka(Q,h5,f3(0,g),h),B=a[2],ad=cr(0,dG(Q,n,e7),e_,0),s=function(b){var
+a=j$(Q,n,e7,ad,b);return a?$(d,a[1][2][1]):a};return function(l){if(typeof
+l==="number")return a7(function(b){var
+a=G(ae(b[2]),ad,0);return a?D(a[1][2][2],d):a},J);else{if(0===l[0]){var
+t=l[1],u=aj(cp,t);if(u){var
+a=l[2],h=u[1],ar=eo(t,cp),as=k(z(function(a){return dN(y,a)},ar)),at=I(aZ[2],as),v=[0,I(aZ[1],t),at],ai=eC(J),i=e(a4(ae),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
+d=eT(c,a);return[1,[4,[1,[6,b,eS(a)]],d]]},A=0;if(typeof
 h==="number")A=1;else
 switch(h[0]){case
 4:var
-o=j(Q,1,h[2]);break;case
+n=j(Q,1,h[2]);break;case
 8:var
-o=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
-o=1;var
-G=o?n(rk,a):o,C=0;if(G){var
+n=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
+n=1;var
+F=n?o(rm,a):n,B=0;if(F){var
 g=0;if(typeof
 h!=="number")switch(h[0]){case
 0:var
@@ -5201,20 +5258,20 @@ b=K;g=2}break;case
 ag=0;if(a)if(a[2]){var
 b=0;g=2;ag=1}else
 var
-L=a[1],aj=[1,[6,m,eP(L)]],M=[0,[0,i,[0,[1,[4,eQ(i,L),aj]],0]]];else
+L=a[1],ak=[1,[6,m,eS(L)]],M=[0,[0,i,[0,[1,[4,eT(i,L),ak]],0]]];else
 var
 M=a;if(!ag){var
 b=M;g=2}break;case
 5:var
-D=0;if(a){var
+C=0;if(a){var
 q=a[2],ah=0;if(q)if(q[2]){var
 b=0;g=2;ah=1}else
 var
-O=q[1],P=a[1],am=eP(P),an=[1,[6,m,[1,[6,eQ(i,O),am]]]],ao=eP(O),R=[0,[0,i,[0,[1,[4,[1,[6,eQ(i,P),ao]],an]],0]]];else
+O=q[1],P=a[1],am=eS(P),an=[1,[6,m,[1,[6,eT(i,O),am]]]],ao=eS(O),R=[0,[0,i,[0,[1,[4,[1,[6,eT(i,P),ao]],an]],0]]];else
 var
 R=q;if(!ah){var
-S=R;D=1}}else{var
-S=a;D=1}if(D){var
+S=R;C=1}}else{var
+S=a;C=1}if(C){var
 b=S;g=2}break;case
 8:if(a)if(a[2]){var
 b=0;g=2}else{var
@@ -5224,113 +5281,114 @@ b=a;g=2}break;case
 b=0;g=2}else{var
 U=a[1],T=m;g=1}else{var
 b=a;g=2}break;case
-10:break;default:if(a){var
+10:case
+11:break;default:if(a){var
 b=0;g=2}else{var
-p=f9(I,z,v,h);if(p)var
-ak=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ad(a)]]]},ak)]];else
+p=ga(J,y,v,h);if(p)var
+al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ae(a)]]]},al)]];else
 var
 N=p;var
 b=N;g=2}}switch(g){case
 2:break;case
 0:var
-J=0;C=1;break;default:var
-r=eF(I,z,v,h);if(r)var
-ap=r[1],V=e(a4(ad),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
+H=0;B=1;break;default:var
+r=eI(J,y,v,h);if(r)var
+ap=r[1],V=e(a4(ae),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
 var
 W=r;var
 b=W}}else{var
-J=G;C=1}if(C)var
-b=J;if(b){var
-X=b[1],au=X[1],Y=n(function(a){return s([0,a[2]])},au);if(Y)return n(s,X[2]);var
+H=F;B=1}if(B)var
+b=H;if(b){var
+X=b[1],au=X[1],Y=o(function(a){return s([0,a[2]])},au);if(Y)return o(s,X[2]);var
 Z=Y}else
 var
 Z=b;var
 _=Z}else
 var
 _=u;return _}var
-$=l[1],w=al(cg,$);if(w){var
+$=l[1],w=aj(cp,$);if(w){var
 aa=w[1];if(typeof
 aa!=="number"&&1===aa[0]){var
-x=al(I,l[2]);if(x){var
-av=H(aW[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ad(ac[2])]]];return s([1,[4,[1,[8,[0,ad(ex(ac))]]],aq]])}return x}var
+x=aj(J,l[2]);if(x){var
+av=I(aZ[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ae(ac[2])]]];return s([1,[4,[1,[8,[0,ae(dK(ac))]]],aq]])}return x}var
 ab=0}else
 var
-ab=w;return ab}}(C)}return m}var
-p=a[1],i=al(g,p);if(i){var
-q=i[1],D=q[1],r=aH(ak(bq(q),D));if(r){var
-t=dG(p,g),u=eO(t[1],a[2]);if(u){var
+ab=w;return ab}}(B)}return m}var
+p=a[1],i=aj(g,p);if(i){var
+q=i[1],C=q[1],r=aM(al(bq(q),C));if(r){var
+t=dL(p,g),u=e8(t[1],a[2]);if(u){var
 g=t[2],a=a[3];continue}var
 v=u}else
 var
 v=r;var
 w=v}else
 var
-w=i;return w}};return eO(hN,iH)}var
-eZ=cf}else
+w=i;return w}};return e8(h4,iY)}var
+fc=co}else
 var
-eZ=ce;var
-e0=eZ}else
+fc=cn;var
+fd=fc}else
 var
-e0=cd;var
-e1=e0}else
+fd=cl;var
+fe=fd}else
 var
-e1=eX;return e1}return 0}var
-gn=gj}else
+fe=fb;return fe}return 0}var
+gE=gB}else
 var
-gn=gg;var
-go=gn}else
+gE=gA;var
+gF=gE}else
 var
-go=cQ;return go}return 0;default:var
-gp=a[1];if(gp){var
-gq=gp[1],cR=p[2];if(0===cR[0]){var
-cU=gJ(vx,cR[2]);if(cU){var
-gr=dX(gq);if(gr){var
-iI=cU[1],gs=bQ(gq)[2],bA=cR[1],b$=b7(bA,d,gs);if(b$){var
-ca=b7(bA,d,[4,[0,c,c],gs]);if(ca){var
-hD=b$[1][1],eG=ac(cm(bA),hD);if(eG)return j7(bA,ca[1][1],iI);var
-eH=eG}else
+gF=c1;return gF}return 0;default:var
+gG=a[1];if(gG){var
+gH=gG[1],c5=s[2];if(0===c5[0]){var
+c6=gM(vz,c5[2]);if(c6){var
+gK=d1(gH);if(gK){var
+i0=c6[1],gL=bR(gH)[2],bD=c5[1],cg=b7(bD,d,gL);if(cg){var
+ch=b7(bD,d,[4,[0,c,c],gL]);if(ch){var
+hU=cg[1][1],e0=$(cm(bD),hU);if(e0)return j_(bD,ch[1][1],i0);var
+e2=e0}else
 var
-eH=ca;var
-eI=eH}else
+e2=ch;var
+e3=e2}else
 var
-eI=b$;return eI}var
-gu=gr}else
+e3=cg;return e3}var
+gP=gK}else
 var
-gu=cU;return gu}return 0}var
-cW=p[2];if(0===cW[0]){var
-cX=gJ(vy,cW[2]);return cX?j7(cW[1],d,cX[1]):cX}return 0}}return as}var
-x=[ar,vB,fo(0)],ku=[ar,vC,fo(0)];function
-vz(t,b){var
-n=[0,h(us,am(b[4])),0],o=[0,h(uu,O([0,h(ut,am(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(uj,w(f(ue,a[2]))),0],d=L(ul,O([0,h(uk,gy(a[1])),i]));else
+gP=c6;return gP}return 0}var
+c$=s[2];if(0===c$[0]){var
+da=gM(vA,c$[2]);return da?j_(c$[1],d,da[1]):da}return 0}}return at}var
+y=[as,vD,fr(0)],kw=[as,vE,fr(0)];function
+vB(t,b){var
+n=[0,h(uu,am(b[4])),0],o=[0,h(uw,O([0,h(uv,am(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(ul,x(f(ug,a[2]))),0],d=L(un,O([0,h(um,gC(a[1])),i]));else
 var
-c=a[3],j=[0,h(um,kc(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
-p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hZ(vA,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
-T(a){if(0===a[0])return a[1];throw x}function
-U(a){if(1===a[0])return a[1];throw x}function
-aO(a){if(2===a[0])return a[1];throw x}function
-dY(a){if(3===a[0])return a[1];throw x}function
+c=a[3],j=[0,h(uo,kf(a[4])),0],k=c?[0,h(up,x(f(K,c))),0]:c,l=g(k,j),m=[0,h(uq,x(f(K,a[2]))),0],d=L(us,O(g([0,h(ur,gC(a[1])),m],l)));var
+p=[0,h(ux,d),o],q=0===b[2][0]?uy:uD,r=[0,h(uz,am(q)),p],s=[0,h(uA,tn(b[1])),r],e=av(h2(vC,eU(O([0,h(uC,am(uB)),s]),ut)),t);return e?vx(b):e}function
+T(a){if(0===a[0])return a[1];throw y}function
+U(a){if(1===a[0])return a[1];throw y}function
+aO(a){if(2===a[0])return a[1];throw y}function
+d2(a){if(3===a[0])return a[1];throw y}function
 aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===An(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Ao(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aZ(c,b);if(a)return a[1];throw x}function
-c8(b,a){var
+a=aZ(c,b);if(a)return a[1];throw y}function
+c$(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-c9(a){switch(a[0]){case
+da(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vD]}throw x}function
-c_(e,d){var
+2:return[0,a[1],vF]}throw y}function
+db(e,d){var
 a=X(e,U(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-e0(i){var
-f=bX(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
+e3(i){var
+f=bY(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dg(f,c)+g3|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=dj(f,c)+g6|0;if(9<g>>>0)throw y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5352,87 +5410,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dZ(a){return il(e0(a))}function
-e1(b){var
-a=dY(b);return 45===R(a,0)?W(dZ(dn(a,1,E(a)-1|0))):dZ(a)}function
-kv(a){return fM(dZ(dY(a)))}function
-e2(a){return ik(dZ(dY(a)))}function
-cE(c){var
-a=dY(c);if(6<E(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hC(a))}function
-kw(a){var
-b=97<=a?1:0,c=b?a<=mE?1:0:b;if(c)var
+d3(a){return ip(e3(a))}function
+e4(b){var
+a=d2(b);return 45===R(a,0)?W(d3(ds(a,1,F(a)-1|0))):d3(a)}function
+kx(a){return fP(d3(d2(a)))}function
+e5(a){return io(d3(d2(a)))}function
+cF(c){var
+a=d2(c);if(6<F(a))throw y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hF(a))}function
+ky(a){var
+b=97<=a?1:0,c=b?a<=mF?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kx(z,b){var
-d=E(b),a=[0,0];function
+kz(z,b){var
+d=F(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?R(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return dn(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return ds(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
+i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vF)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&av(ds(b,a[1],5),vH)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kw(R(b,a[1]))){var
+v=0;if(a[1]<d&&ky(R(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kw(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(z,dn(b,o,a[1]-o|0))];break}}else
+w=0;if(!ky(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,ds(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vG);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=av(h,vI);if(r)var
 s=r;else
 var
-t=1<E(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw x;if(q){var
-k=q[1],y=0;if(au(k,vH)||48===R(k,E(k)-1|0))y=1;else
+t=1<F(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw y;if(q){var
+k=q[1],x=0;if(av(k,vJ)||48===R(k,F(k)-1|0))x=1;else
 var
-A=e0(k),f=[0,e0(h),A];if(y)throw x}else
+A=e3(k),f=[0,e3(h),A];if(x)throw y}else
 var
-f=[0,e0(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,vE)){if(!(2<E(g))&&2<=hC(g)&&!(64<hC(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
+f=[0,e3(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(l(g,vG)){if(!(2<F(g))&&2<=hF(g)&&!(64<hF(g)))return[4,f,fP(d3(g))];throw y}throw y}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw x;var
+g(d){if(64<d)throw y;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw x;return h}function
-e3(a){return kx(function(a){throw x},a)}function
-ky(a){var
-b=aO(a);return kx(function(a){return a},b)}function
-V(a){return e3(aO(a))}function
-bS(a){if(2===a[0])return[0,e3(a[1])];var
-b=T(a),c=V(p(b,vI));return[1,V(p(b,vJ)),c]}function
-Z(a){throw[0,ku,av(hZ(vL,a),vK)]}function
-kz(c){var
-a=aO(c);if(l(a,vM)){var
-b=l(a,vN);if(b)throw x;return b}return 1}function
-vO(d){var
+h=g(0);if(a[1]<d)throw y;return h}function
+e6(a){return kz(function(a){throw y},a)}function
+kA(a){var
+b=aO(a);return kz(function(a){return a},b)}function
+V(a){return e6(aO(a))}function
+bT(a){if(2===a[0])return[0,e6(a[1])];var
+b=T(a),c=V(p(b,vK));return[1,V(p(b,vL)),c]}function
+ae(a){throw[0,kw,aw(h2(vN,a),vM)]}function
+kB(c){var
+a=aO(c);if(l(a,vO)){var
+b=l(a,vP);if(b)throw y;return b}return 1}function
+vQ(d){var
 b=T(d);function
-a(a){return c_(bS,p(b,a))}var
-c=aO(p(b,vP));if(l(c,vQ)){if(l(c,vR)){if(l(c,vS))return Z([0,vU,[0,c,vT]]);var
-e=aZ(b,vV),f=c8(function(a){return c_(bS,a)},e),g=a(vW);return[1,a(vX),g,f]}var
-h=kz(p(b,vY)),i=bS(p(b,vZ)),j=a(v0),k=a(v1);return[0,a(v2),k,j,i,h]}return[2,a(v3)]}function
-gV(d){var
+a(a){return db(bT,p(b,a))}var
+c=aO(p(b,vR));if(l(c,vS)){if(l(c,vT)){if(l(c,vU))return ae([0,vW,[0,c,vV]]);var
+e=aZ(b,vX),f=c$(function(a){return db(bT,a)},e),g=a(vY);return[1,a(vZ),g,f]}var
+h=kB(p(b,v0)),i=bT(p(b,v1)),j=a(v2),k=a(v3);return[0,a(v4),k,j,i,h]}return[2,a(v5)]}function
+gY(d){var
 a=T(d);if(a){var
-b=a[1];if(!l(b[1],v4)){var
-c=b[2];if(2===c[0]&&!l(c[1],v5))return 1}}return 0}function
-v6(c){var
-a=T(c);if(1-gV(c))throw x;function
-b(b){return c_(bS,p(a,b))}var
-d=kz(p(a,v7)),e=bS(p(a,v8)),f=bS(p(a,v9)),g=b(v_),h=b(v$),i=b(wa);return[0,b(wb),i,h,g,f,e,d]}function
-c$(c,d){var
+b=a[1];if(!l(b[1],v6)){var
+c=b[2];if(2===c[0]&&!l(c[1],v7))return 1}}return 0}function
+v8(c){var
+a=T(c);if(1-gY(c))throw y;function
+b(b){return db(bT,p(a,b))}var
+d=kB(p(a,v9)),e=bT(p(a,v_)),f=bT(p(a,v$)),g=b(wa),h=b(wb),i=b(wc);return[0,b(wd),i,h,g,f,e,d]}function
+dc(c,d){var
 a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gW(m){var
-c=T(m),a=aO(p(c,wc)),h=AZ(a,wd),g=0;if(0<=h)if(0<h)if(l(a,we))if(l(a,wf))if(l(a,wg)){var
-i=l(a,wh);if(i)g=1;else
+f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
+gZ(m){var
+c=T(m),a=aO(p(c,we)),h=A0(a,wf),g=0;if(0<=h)if(0<h)if(l(a,wg))if(l(a,wh))if(l(a,wi)){var
+i=l(a,wj);if(i)g=1;else
 var
 b=i}else
 var
@@ -5443,7 +5501,7 @@ var
 b=5;else
 var
 b=2;else
-if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))if(l(a,wA))g=1;else
+if(l(a,wy))if(l(a,wz))if(l(a,wA))if(l(a,wB))if(l(a,wC))g=1;else
 var
 b=1;else
 var
@@ -5454,12 +5512,12 @@ var
 b=3;else
 var
 b=9;var
-j=g?Z([0,wj,[0,a,wi]]):b;function
-f(a){return p(c,wk)}var
-d=aO(p(c,wl));if(l(d,wm))if(l(d,wn))if(l(d,wo))var
-e=Z([0,wq,[0,d,wp]]);else
+j=g?ae([0,wl,[0,a,wk]]):b;function
+f(a){return p(c,wm)}var
+d=aO(p(c,wn));if(l(d,wo))if(l(d,wp))if(l(d,wq))var
+e=ae([0,ws,[0,d,wr]]);else
 var
-k=c$(V,f(0)),e=[2,k[1],k[2]];else
+k=dc(V,f(0)),e=[2,k[1],k[2]];else
 var
 e=[0,V(f(0))];else
 var
@@ -5467,164 +5525,152 @@ e=[1,V(f(0))];function
 n(m){var
 a=T(m),d=0;switch(j){case
 6:if(a){var
-i=a[1];if(!l(i[1],ws)){var
+i=a[1];if(!l(i[1],wu)){var
 k=i[2];if(1===k[0]){var
 c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
-h=c[1];d=1;e=1}if(!e&&!a[2])return Z(wt)}}}break;case
+h=c[1];d=1;e=1}if(!e&&!a[2])return ae(wv)}}}break;case
 2:case
 8:if(a){var
-f=a[1];if(!l(f[1],wr)){var
+f=a[1];if(!l(f[1],wt)){var
 g=f[2];if(1===g[0]){var
 b=g[1];if(b&&!b[2]&&!a[2]){var
-h=b[1];d=1}}}}break}if(d)return V(h);throw x}var
-o=c8(n,aZ(c,wu));return[0,j,c8(cE,aZ(c,wv)),o,e]}function
-wB(b){var
-a=gW(b);return 8===a[1]?Z(wC):a}function
-gX(c){var
-a=gW(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wD)}function
-wE(a){var
-b=gW(a);switch(b[1]){case
+h=b[1];d=1}}}}break}if(d)return V(h);throw y}var
+o=c$(n,aZ(c,ww));return[0,j,c$(cF,aZ(c,wx)),o,e]}function
+wD(b){var
+a=gZ(b);return 8===a[1]?ae(wE):a}function
+g0(c){var
+a=gZ(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(wF)}function
+wG(a){var
+b=gZ(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gX(a)}}function
-wL(f){var
+8:return b;default:return g0(a)}}function
+wN(f){var
 a=T(f);function
 d(b){return V(p(a,b))}function
-c(b){return c_(V,p(a,b))}var
-b=aO(p(a,wM));if(l(b,wN)){if(!l(b,wO)){var
-j=p(a,wU),e=c$(function(a){return a},j),k=aZ(a,wV),m=c8(function(a){return c(wW)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wX);return[0,cE(p(a,wY)),q,o,n,m]}if(l(b,wP))throw x}var
-g=d(wQ),h=c(wR),i=c(wS);return[1,au(b,wT),i,h,g]}function
-kA(a){if(0===a[0]&&a[5])return 1;return 0}function
-kB(ad){var
-j=c9(ad),k=j[1];if(l(k,wZ)){if(l(k,w0)){if(l(k,w1))return Z([0,w3,[0,k,w2]]);var
-r=p(T(j[2]),w4),S=0;if(2===r[0]){var
-D=l(r[1],w5);if(!D){var
-C=D;S=1}}if(!S)var
-C=[0,bS(r)];return[6,C]}var
-E=T(j[2]),f=kB([0,[0,[0,w7,p(E,w6)],0]]);if(0===f[0]){var
-s=f[2];if(0===s[0]&&!f[3]){var
-ae=V(p(E,w9));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w8)}var
-b=T(j[2]);function
-F(a){return X(wB,U(p(b,w_)))}var
-g=c9(p(b,w$)),c=c9(p(b,xa)),a=g[1];if(l(a,xb)&&0!==aZ(b,xc))return Z(x$);if(l(a,xd)&&l(a,xe)&&l(a,xf)){if(0===aZ(b,xg)){if(l(a,xh)){var
-W=0;if(l(a,xi)){if(!l(a,xj)){var
-G=c[1],Y=0;if(l(G,xm)&&l(G,xn)){W=1;Y=1}if(!Y){var
-m=U(g[2]),d=T(c[2]);if(l(c[1],wF))var
-y=c$(V,p(d,wG)),z=c$(V,p(d,wH)),_=z[2],$=z[1],aa=V(p(d,wI)),t=[1,y[1],y[2],aa,$,_];else
+c(b){return db(V,p(a,b))}var
+b=aO(p(a,wO));if(l(b,wP)){if(!l(b,wQ)){var
+j=p(a,wW),e=dc(function(a){return a},j),k=aZ(a,wX),m=c$(function(a){return c(wY)},k),n=e6(aO(e[2])),o=e6(aO(e[1])),q=d(wZ);return[0,cF(p(a,w0)),q,o,n,m]}if(l(b,wR))throw y}var
+g=d(wS),h=c(wT),i=c(wU);return[1,av(b,wV),i,h,g]}function
+kC(Z){var
+i=da(Z),j=i[1];if(l(j,w1)){if(l(j,w2)){if(l(j,w3))return ae([0,w5,[0,j,w4]]);var
+q=p(T(i[2]),w6),O=0;if(2===q[0]){var
+z=l(q[1],w7);if(!z){var
+x=z;O=1}}if(!O)var
+x=[0,bT(q)];return[6,x]}var
+A=T(i[2]),f=kC([0,[0,[0,w9,p(A,w8)],0]]);if(0===f[0]){var
+r=f[2];if(0===r[0]&&!f[3]){var
+_=V(p(A,w$));return[5,f[1],r[1],r[2],f[4],_]}}return ae(w_)}var
+b=T(i[2]);function
+B(a){return X(wD,U(p(b,xa)))}var
+g=da(p(b,xb)),c=da(p(b,xc)),a=g[1];if(l(a,xd)&&0!==aZ(b,xe))return ae(ya);if(l(a,xf)&&l(a,xg)&&l(a,xh)){if(0===aZ(b,xi)){if(l(a,xj)){var
+P=0;if(l(a,xk)){if(!l(a,xl)){var
+C=c[1],Q=0;if(l(C,xo)&&l(C,xp)){P=1;Q=1}if(!Q){var
+k=U(g[2]),d=T(c[2]);if(l(c[1],wH))var
+v=dc(V,p(d,wI)),w=dc(V,p(d,wJ)),R=w[2],S=w[1],W=V(p(d,wK)),s=[1,v[1],v[2],W,S,R];else
 var
-ab=c_(V,p(d,wJ)),t=[0,c_(V,p(d,wK)),ab];var
-u=aZ(b,xq),v=u?X(wL,U(u[1])):u,H=cL(gV,m),af=H?0!==v?1:0:H;if(af)Z(xr);var
-i=v;for(;;){if(i){var
-A=i[2],ac=i[1],B=1-cL(function(e){return function(a){var
-b=gG(e,a);if(b){var
-c=kA(e);if(!c)return kA(a);var
-d=c}else
-var
-d=b;return d}}(ac),A);if(B){var
-i=A;continue}var
-I=B}else
-var
-I=1;if(1-I)Z(xs);if(cL(gV,m)){var
-ag=X(gX,U(p(b,xt)));return[1,X(v6,m),t,ag]}var
-ah=F(0);return[0,X(vO,m),t,v,ah]}}}}else
-if(!l(c[1],xu)){var
-ai=F(0),aj=V(p(T(c[2]),xv));return[4,V(p(T(g[2]),xw)),aj,ai]}if(!W)return Z([0,xl,[0,a,xk]])}else
-if(!l(c[1],xx)){var
-n=T(g[2]),J=T(c[2]),K=function(c,a){var
+Y=db(V,p(d,wL)),s=[0,db(V,p(d,wM)),Y];var
+t=aZ(b,xs),D=t?X(wN,U(t[1])):t,E=dr(gY,k),$=E?0!==D?1:0:E;if($)ae(xt);if(dr(gY,k)){var
+aa=X(g0,U(p(b,xu)));return[1,X(v8,k),s,aa]}var
+ab=B(0);return[0,X(vQ,k),s,D,ab]}}}else
+if(!l(c[1],xv)){var
+ac=B(0),ad=V(p(T(c[2]),xw));return[4,V(p(T(g[2]),xx)),ad,ac]}if(!P)return ae([0,xn,[0,a,xm]])}else
+if(!l(c[1],xy)){var
+m=T(g[2]),F=T(c[2]),G=function(c,a){var
 b=U(a);return X(function(d){var
 a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aO(a[1]),f]}}throw x},b)},ak=function(d){var
+f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
 a=T(d);if(a){var
-b=a[1],c=b[1];if(l(c,xy)){if(!l(c,xz)&&!a[2])return X(ky,U(b[2]))}else
-if(!a[2])return Z(xA)}throw x},al=X(gX,U(p(b,xB))),am=X(V,U(p(J,xC))),an=X(V,U(p(J,xD))),ao=X(ak,U(p(n,xE))),ap=K(ky,p(n,xF)),aq=K(bS,p(n,xG));return[3,X(aO,U(p(n,xH))),aq,ap,ao,an,am,al]}return Z([0,xp,[0,c[1],xo]])}throw x}var
-L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xI))Z([0,xK,[0,L,xJ]]);var
-O=aZ(M,xL),ar=O?V(O[1]):Z([0,x_,[0,a,x9]]);function
-as(d){var
+b=a[1],c=b[1];if(l(c,xz)){if(!l(c,xA)&&!a[2])return X(kA,U(b[2]))}else
+if(!a[2])return ae(xB)}throw y},ag=X(g0,U(p(b,xC))),ah=X(V,U(p(F,xD))),ai=X(V,U(p(F,xE))),aj=X(af,U(p(m,xF))),ak=G(kA,p(m,xG)),al=G(bT,p(m,xH));return[3,X(aO,U(p(m,xI))),al,ak,aj,ai,ah,ag]}return ae([0,xr,[0,c[1],xq]])}throw y}var
+H=c[1],I=T(g[2]),J=T(c[2]);if(l(H,xJ))ae([0,xL,[0,H,xK]]);var
+K=aZ(I,xM),am=K?V(K[1]):ae([0,x$,[0,a,x_]]);function
+an(d){var
 a=T(d);function
-b(b){return X(bS,U(p(a,b)))}var
-c=aO(p(a,xM)),e=aZ(a,xN);if(!l(c,xO)&&!e){var
-f=b(xR);return[0,b(xS),f]}return Z([0,xQ,[0,c,xP]])}var
-h=c9(p(b,xT)),o=h[1];if(l(o,xU))if(l(o,xV))if(l(o,xW)){if(l(o,xX))throw x;var
-P=h[2],at=V(p(T(P),xY)),q=[3,V(p(T(P),xZ)),at]}else
+b(b){return X(bT,U(p(a,b)))}var
+c=aO(p(a,xN)),e=aZ(a,xO);if(!l(c,xP)&&!e){var
+f=b(xS);return[0,b(xT),f]}return ae([0,xR,[0,c,xQ]])}var
+h=da(p(b,xU)),n=h[1];if(l(n,xV))if(l(n,xW))if(l(n,xX)){if(l(n,xY))throw y;var
+L=h[2],ao=V(p(T(L),xZ)),o=[3,V(p(T(L),x0)),ao]}else
 var
-ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x6),aA=w(x7),q=[1,w(x8),aA,az];else
+at=h[2],u=function(a){return dc(V,p(T(at),a))},au=u(x7),av=u(x8),o=[1,u(x9),av,au];else
 var
-R=c$(V,h[2]),q=[0,R[1],R[2]];else
+N=dc(V,h[2]),o=[0,N[1],N[2]];else
 var
-q=[2,V(h[2])];var
-Q=l(a,x0),au=Q?l(a,x1)?2:1:Q,av=X(wE,U(p(b,x2))),aw=X(V,U(p(N,x3))),ax=X(V,U(p(N,x4)));return[2,au,X(as,U(p(M,x5))),ar,ax,aw,q,av]}function
-kC(a){return X(e1,U(a))}function
-e4(g,m){var
+o=[2,V(h[2])];var
+M=l(a,x1),ap=M?l(a,x2)?2:1:M,aq=X(wG,U(p(b,x3))),ar=X(V,U(p(J,x4))),as=X(V,U(p(J,x5)));return[2,ap,X(an,U(p(I,x6))),am,as,ar,o,aq]}function
+kD(a){return X(e4,U(a))}function
+e7(g,m){var
 n=g[2];function
 o(c,b){var
-a=kC(b);if(ch(a)!==c)throw x;return a}switch(m[0]){case
+a=kD(b);if(ch(a)!==c)throw y;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg)){var
-Q=0;if(l(b,yh)&&l(b,yi)&&l(b,yj))Q=1;if(!Q)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg))if(l(b,yh)){var
+Q=0;if(l(b,yi)&&l(b,yj)&&l(b,yk))Q=1;if(!Q)if(c[2])d=1;else{var
 S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 q=J[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!c[2]){var
-Y=e2(s[1]),_=e1(r[1]);return[4,e4(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
-K=T(e[2]),$=U(p(K,yo)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yq,L,e2(p(K,yp))];throw x}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=l(C,ya);if(D){if(l(C,yb))throw x;var
+Y=e5(s[1]),Z=e4(r[1]);return[4,e7(g,q[1]),Z,Y]}d=1}}}}}else{if(!c[2]){var
+K=T(e[2]),_=U(p(K,yp)),$=n+1|0,L=X(function(a){return o($,a)},_);if(3===ch(L))return[1,yr,L,e5(p(K,yq))];throw y}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=l(C,yb);if(D){if(l(C,yc))throw y;var
 E=1}else
 var
 E=D;return[2,E]}d=1}else{if(!c[2]){var
 h=e[2],k=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(l(w,yr)&&l(w,ys))if(l(w,yt))a=1;else{var
+N=i[1],w=N[1],a=0;if(l(w,ys)&&l(w,yt))if(l(w,yu))a=1;else{var
 O=N[2];if(1===O[0]){var
-y=O[1];if(y){var
-j=y[1],f=0;switch(j[0]){case
+x=O[1];if(x){var
+j=x[1],f=0;switch(j[0]){case
 0:var
 z=j[1];if(z){var
-P=z[1][1],R=0;if(l(P,yv)&&l(P,yw)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(l(j[1],yx)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-A=y[2];if(A){var
+P=z[1][1],R=0;if(l(P,yw)&&l(P,yx)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(l(j[1],yy)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+A=x[2];if(A){var
 B=A[2];if(B&&!(B[2]||i[2])){var
-ad=e2(B[1]),ae=e1(A[1]),t=[5,e4(g,j),ae,ad];k=1;a=1}else
+ac=e5(B[1]),ad=e4(A[1]),t=[5,e7(g,j),ad,ac];k=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!i[2])k=2}break;case
-2:if(!l(h[1],yy))k=2;break}switch(k){case
+2:if(!l(h[1],yz))k=2;break}switch(k){case
 0:var
-t=Z(yu);break;case
+t=ae(yv);break;case
 2:var
-t=e4(g,h);break}return[6,t]}d=1}else{var
+t=e7(g,h);break}return[6,t]}d=1}else{var
 M=e[2];if(1===M[0]){var
 u=M[1];if(u){var
 v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
-ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
-0:if(!c[2])return Z([0,yl,[0,b,yk]]);break;case
+aa=v[1],ab=u[1],G=ab,F=function(b,a){return[3,b,a,o(n+1|0,aa)]};d=2}}}}switch(d){case
+0:if(!c[2])return ae([0,ym,[0,b,yl]]);break;case
 1:break;default:var
-H=T(G),V=U(p(H,ym)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,yn)))}}break;case
-2:return[0,m[1]]}throw x}function
-kD(j){var
-b=c9(j),a=b[1];if(l(a,yB)){var
-g=l(a,yC);if(!g)return g;if(!l(a,yD)){var
+H=T(G),V=U(p(H,yn)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw y;return F(I,e5(p(H,yo)))}}break;case
+2:return[0,m[1]]}throw y}function
+kE(j){var
+b=da(j),a=b[1];if(l(a,yC)){var
+g=l(a,yD);if(!g)return g;if(!l(a,yE)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cE(d[1]);return[1,cE(c[1]),k]}}}}}else{var
+k=cF(d[1]);return[1,cF(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yF,[0,a,yE]])}function
-yU(c){var
+m=X(kD,U(f[1]));return[0,cF(e[1]),m]}}}}return ae([0,yG,[0,a,yF]])}function
+yV(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],yV))a=1;break;case
+0:if(!l(b[1],yW))a=1;break;case
 6:a=1;break}return a?1:0}function
-yW(f){var
-g=E(f),a=[0,0];function
-h(b){if(a[1]<g)return R(f,a[1]);throw x}function
-i(b){if(h(0)===b){a[1]++;return 0}throw x}function
-s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return dn(f,b,a[1]-b|0)}}function
+yX(f){var
+g=F(f),a=[0,0];function
+h(b){if(a[1]<g)return R(f,a[1]);throw y}function
+i(b){if(h(0)===b){a[1]++;return 0}throw y}function
+s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return ds(f,b,a[1]-b|0)}}function
 t(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -5638,16 +5684,16 @@ g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
 f=g;continue}i(d);var
 b=g,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-n(c,k){if(64<c)throw x;var
+n(c,k){if(64<c)throw y;var
 b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
 e=93,f=c+1|0;return[1,u(function(a){return n(f,a)},e)]}if(123===b){a[1]++;var
 g=125;return[0,u(function(b){var
 a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,s(j,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw x;var
-k=T(A);if(l(aO(p(k,yX)),yY))throw x;var
-c=kB(p(k,yZ));switch(c[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
+A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw y;var
+k=T(A);if(l(aO(p(k,yY)),yZ))throw y;var
+c=kC(p(k,y0));switch(c[0]){case
 2:var
 N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
 3:var
@@ -5655,48 +5701,48 @@ O=ch(c[1]),m=[0,ch(c[4]),O];break;case
 0:case
 5:var
 m=[0,ch(c[1]),3];break;default:var
-m=y_}var
-o=c9(p(k,y0)),q=o[1];if(l(q,yK))if(l(q,yL))var
-b=Z([0,yN,[0,q,yM]]);else
+m=y$}var
+o=da(p(k,y1)),q=o[1];if(l(q,yL))if(l(q,yM))var
+b=ae([0,yO,[0,q,yN]]);else
 var
-j=T(o[2]),r=aZ(j,yO),C=r?X(V,U(r[1])):r,D=kD(p(j,yP)),F=X(V,U(p(j,yQ))),b=[1,kv(p(j,yR)),F,C,D];else
+j=T(o[2]),r=aZ(j,yP),C=r?X(V,U(r[1])):r,D=kE(p(j,yQ)),E=X(V,U(p(j,yR))),b=[1,kx(p(j,yS)),E,C,D];else
 var
-w=T(o[2]),G=U(p(w,yS)),H=X(function(f){var
+w=T(o[2]),G=U(p(w,yT)),H=X(function(f){var
 a=T(f);function
 b(d,c){var
 b=aZ(a,c);return b?X(d,U(b[1])):b}var
-c=b(e1,yG),d=c8(kD,aZ(a,yH)),e=c8(cE,aZ(a,yI));return[0,b(function(g){var
+c=b(e4,yH),d=c$(kE,aZ(a,yI)),e=c$(cF,aZ(a,yJ));return[0,b(function(g){var
 b=U(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yz)){if(!a[2]){if(l(dY(e),yA))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yA)){if(!a[2]){if(l(d2(e),yB))throw y;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e4(m,c);return[0,cE(e),f]}}}throw x},yJ),e,d,c]},G),b=[0,kv(p(w,yT)),H];var
+f=e7(m,c);return[0,cF(e),f]}}}throw y},yK),e,d,c]},G),b=[0,kx(p(w,yU)),H];var
 d=0;switch(c[0]){case
-1:if(0===b[0])Z(y5);else
+1:if(0===b[0])ae(y6);else
 d=1;break;case
 2:if(0===b[0]){var
-K=b[2];if(hV(function(a){return hV(yU,a[1])},K))d=2;else
-Z(y6)}else{var
-L=c[7];if(cL(function(a){switch(a[1]){case
+K=b[2];if(hY(function(a){return hY(yV,a[1])},K))d=2;else
+ae(y7)}else{var
+L=c[7];if(dr(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},L))Z(y7);else
+8:return 1;default:return 0}},L))ae(y8);else
 d=1}break;case
-3:if(1===b[0])Z(y8);else
+3:if(1===b[0])ae(y9);else
 d=2;break;case
 5:var
 P=0;if(0===b[0]){var
-M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y9);P=1}}break;default:d=2}var
+M=b[2];if(dr(function(a){return 0!==a[1]?1:0},M)){ae(y_);P=1}}break;default:d=2}var
 z=0;switch(d){case
 2:if(0===b[0]){var
-I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y1);z=1}}break;case
+I=b[2];if(dr(function(a){return 0!==a[3]?1:0},I)){ae(y2);z=1}}break;case
 1:break;default:z=1}var
-y=T(p(k,y2)),J=aO(p(y,y3));return[0,c,b,aO(p(y,y4)),J]}function
-y$(c){try{try{var
-d=0,a=yW(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
-b=[0,a[2]];else{if(a!==x)throw a;var
+x=T(p(k,y3)),J=aO(p(x,y4));return[0,c,b,aO(p(x,y5)),J]}function
+za(c){try{try{var
+d=0,a=yX(c);d=1}catch(a){a=fy(a);if(a[1]===kw)var
+b=[0,a[2]];else{if(a!==y)throw a;var
 b=2}}if(d)var
-b=vz(c,a)?0===a[2][0]?0:1:2}catch(a){return za}if(typeof
+b=vB(c,a)?0===a[2][0]?0:1:2}catch(a){return zb}if(typeof
 b==="number")switch(b){case
-0:return zb;case
-1:return zc;default:return zd}return av(ze,b[1])}A4.orthocert_verify=AJ(function(b){return b0(y$(a(b)))});fy(0);return}(globalThis));
+0:return zc;case
+1:return zd;default:return ze}return aw(zf,b[1])}A5.orthocert_verify=AK(function(b){return b1(za(a(b)))});fB(0);return}(globalThis));

@@ -1,0 +1,40 @@
+(** * What the checker refuses of single quantities
+
+    An Orthoglide with legs of 310 mm within 0.1 mm on a small cube: each quantity
+    is shown on one leaf, and not where the bound is beyond what is so, by other
+    evidence, or of another leg. *)
+
+From Coq Require Import ZArith NArith Reals List.
+From Orthocert Require Import Claim.
+From Orthocert.kernel Require Import Statement Check Problem.
+Import ListNotations.
+
+Definition point (x y z : Z) : tolerances := Tolerances (exactly (x // 1)) (exactly (y // 1)) (exactly (z // 1)).
+Definition along (x y z : Z) : drive := SliderLeg (Slider (point x y z) (point 0 0 0) (point 0 0 0) (Within (3099 // 10) (3101 // 10)) true).
+Definition side : tolerance := Within (-20 // 1) (30 // 1).
+Definition claim_of (ls : list drive) (rs : list requirement) : claim := MakeClaim ls (Box (Tolerances side side side)) (NotSingular :: rs).
+Definition sliders : list drive := [along 1 0 0; along 0 1 0; along 0 0 1].
+(** The first test by this evidence, and those that follow by these. *)
+Definition leaf (es : list evidence) : tree :=
+  Leaf ((0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]]%Z) :: combine (seq 1 (List.length es)) es)%nat.
+Local Notation accepts ls rs es := (check_claim 32 (claim_of ls rs) 9 [0; 0; 0]%Z (leaf es)).
+
+Module Lines.
+Definition at_ (x y z : Z) : position := Position (x // 1) (y // 1) (z // 1).
+Example apart : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
+Example farther : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (80 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+(** One behind the other, along the leg. *)
+Example along_the_leg : accepts sliders [Beside 0 (at_ 40 0 0) (at_ (-40) 0 0) (20 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example on_each_other : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 40 0) (1 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByNegative] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders [Beside 3 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] [Beside 2 (at_ 0 40 0) (at_ 0 (-40) 0) (1 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+(** A direction that may be zero, or a length that may be negative, is no machine. *)
+Example no_direction : accepts [along 1 0 0; along 0 1 0; along 0 0 1; PlanarLeg (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))]
+  [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example no_length : accepts [along 1 0 0; along 0 1 0; SliderLeg (Slider (point 0 0 1) (point 0 0 0) (point 0 0 0) (exactly (-310 // 1)) true)]
+  [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+End Lines.
