@@ -96,24 +96,29 @@ fn points(certificate: &Certificate) -> usize {
 fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
     match claim {
         Claim::Postulate(_) => true,
-        Claim::Machine(claim) => is_machine_covered(claim) || is_by_configuration(claim, verdict),
+        Claim::Machine(claim) => {
+            is_machine_covered(claim, verdict) || is_by_configuration(claim, verdict)
+        }
         Claim::NoCube(NoCubeClaim { machine, .. }) => {
             let is_box = matches!(machine.workspace, Workspace::Box { .. });
-            is_box && machine.bodies.is_empty() && is_machine_covered(machine)
+            is_box && machine.bodies.is_empty() && is_machine_covered(machine, Verdict::Refuted)
         }
         Claim::Atlas(_) => false,
     }
 }
 
-fn is_machine_covered(claim: &MachineClaim) -> bool {
+fn is_machine_covered(claim: &MachineClaim, verdict: Verdict) -> bool {
     let MachineClaim { mechanism, workspace, orientation, bodies: _, require } = claim;
-    let is_known = |key: &str| QUANTITIES.contains(&key);
     let is_leg = |leg: &Leg| match leg {
         Leg::Slider { .. } | Leg::Strut { .. } | Leg::Planar { .. } => true,
         Leg::Arm { .. } => false,
     };
+    let legs = match mechanism {
+        Mechanism::Translational(legs) => legs.as_slice(),
+        _ => &[],
+    };
     let is_required = require.iter().all(|requirement| {
-        is_known(&requirement.quantity)
+        is_quantity(requirement, legs, verdict)
             && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_))
             && requirement.given.values().all(|given| given.len() == 1)
     });
@@ -127,6 +132,15 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
         _ => false,
     };
     orientation.is_none() && is_required && is_mechanism
+}
+
+/// Whether it reads a requirement of a machine that does not turn its platform: all of them in certified claims.
+fn is_quantity(requirement: &Requirement, legs: &[Leg], verdict: Verdict) -> bool {
+    let has_plane = legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
+    match requirement.quantity.as_str() {
+        "joint_acceleration" => verdict == Verdict::Certified && !has_plane,
+        key => QUANTITIES.contains(&key),
+    }
 }
 
 /// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds, and

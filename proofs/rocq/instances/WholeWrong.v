@@ -38,3 +38,15 @@ Example no_length : accepts [along 1 0 0; along 0 1 0; SliderLeg (Slider (point 
   [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
 Proof. vm_compute. reflexivity. Qed.
 End Lines.
+
+Module Accelerations.
+Local Notation within_ leg a v b := [JointAcceleration leg (a // 1) (v // 1) (b // 1)].
+Example certified : accepts sliders (within_ 0 9000 1200 14000) [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
+Example less : accepts sliders (within_ 0 9000 1200 13800) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_more_than_the_tool : accepts sliders (within_ 0 9000 0 9000) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example faster : accepts sliders (within_ 0 9000 2000 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_acceleration : accepts sliders (within_ 0 (-9000) 1200 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_bound : accepts sliders (within_ 0 0 1 (-15500)) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders (within_ 3 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] (within_ 2 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+End Accelerations.

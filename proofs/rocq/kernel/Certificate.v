@@ -50,10 +50,12 @@ Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_.
-(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, and the joints' stiffness, of stiffness. *)
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_.
+(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
+    and its acceleration and speed, of accelerations. *)
+Inductive written_given := Given_ (x : expression) | Motion_ (acceleration speed : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
-Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
+Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
 
 Inductive written_region :=
   | Box_ (min max : triple expression)
@@ -179,7 +181,7 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
-  | Force_ => "joint_force" | Clearance_ => "clearance"
+  | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
 Definition bound_text (e : written_end) : text :=
@@ -188,7 +190,8 @@ Definition requirement_text (r : written_requirement) : text :=
   object (field "quantity" (quoted (about_text (about_ r))) ::
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
-    | Some x => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | None => []
     end ++
     [field "end" (quoted (end_text (end_ r))); field "bound" (bound_text (end_ r))])%list.
@@ -354,7 +357,7 @@ Definition in_region (w : written_region) : list expression :=
 Definition in_orientation (o : written_orientation) : list expression :=
   match o with Range_ a b | Tilt_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] | Angle_ a => [a] end.
 Definition in_requirement (r : written_requirement) : list expression :=
-  (match given_ r with Some x => [x] | None => [] end ++
+  (match given_ r with Some (Given_ x) => [x] | Some (Motion_ a v) => [a; v] | None => [] end ++
    match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] end)%list.
 Definition in_body (b : written_body) : list expression :=
   match b with
@@ -462,11 +465,12 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | Transmission, AtLeast_ b, _ => [PsiMin (denoted b)]
   | JointRange, AtLeast_ b, _ => each (fun i => JointMin i (denoted b))
   | JointRange, AtMost_ b, _ => each (fun i => JointMax i (denoted b))
-  | Speed_, AtMost_ b, Some tool => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Speed_, AtMost_ b, Some (Given_ tool) => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Acceleration_, AtMost_ b, Some (Motion_ a v) => each (fun i => JointAcceleration i (denoted a) (denoted v) (denoted b))
   | Condition_, AtMost_ b, _ => [ConditionMax (denoted b)]
   | Serial_, AtLeast_ b, _ => each (fun i => SerialMargin i (denoted b))
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
-  | Stiffness_, AtLeast_ b, Some joint => [Stiffness (denoted joint) (denoted b)]
+  | Stiffness_, AtLeast_ b, Some (Given_ joint) => [Stiffness (denoted joint) (denoted b)]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
   | Clearance_, AtLeast_ b, _ => map (fun p => clearance_of (fst p) (snd p) (denoted b)) (pairs_of [] bs)
   | _, _, _ => []
@@ -476,9 +480,9 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   let is_leg n := Nat.leb 1 n && Nat.leb n legs in
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
-  | Stiffness_, AtLeast_ _, None, Some _ | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None => true
-  | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some _ => is_leg n
-  | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some _ => true
+  | Stiffness_, AtLeast_ _, None, Some (Given_ _) | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None => true
+  | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some (Given_ _) | Acceleration_, AtMost_ _, Some n, Some (Motion_ _ _) => is_leg n
+  | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some (Given_ _) | Acceleration_, AtMost_ _, None, Some (Motion_ _ _) => true
   | _, _, _, _ => false
   end.
 Definition obligations (legs : nat) (bs : list written_body) (rs : list written_requirement) : list requirement :=
@@ -498,9 +502,9 @@ Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
   | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
   | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
-  | Speed_, AtMost_ b => match given_ r with Some tool => each (fun i => SpeedMax i (denoted tool) (denoted b)) | None => [] end
-  | Force_, AtMost_ b => match given_ r with Some tool => each (fun i => ForceMax i (denoted tool) (denoted b)) | None => [] end
-  | Stiffness_, AtLeast_ b => match given_ r with Some k => [StiffnessMin (denoted k) (denoted b)] | None => [] end
+  | Speed_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => SpeedMax i (denoted tool) (denoted b)) | _ => [] end
+  | Force_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => ForceMax i (denoted tool) (denoted b)) | _ => [] end
+  | Stiffness_, AtLeast_ b => match given_ r with Some (Given_ k) => [StiffnessMin (denoted k) (denoted b)] | _ => [] end
   | _, _ => []
   end.
 Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
@@ -516,9 +520,9 @@ Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) 
 Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) : bool :=
   let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
   match about_ r, end_ r, given_ r with
-  | Speed_, AtMost_ _, Some _ => is_leg
-  | Force_, AtMost_ _, Some _ => is_leg && Nat.eqb legs coordinates
-  | Stiffness_, AtLeast_ _, Some _ => match leg_ r with None => true | Some _ => false end
+  | Speed_, AtMost_ _, Some (Given_ _) => is_leg
+  | Force_, AtMost_ _, Some (Given_ _) => is_leg && Nat.eqb legs coordinates
+  | Stiffness_, AtLeast_ _, Some (Given_ _) => match leg_ r with None => true | Some _ => false end
   | _, _, _ => is_demand false legs r
   end.
 
@@ -745,7 +749,7 @@ Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim
   end.
 
 (** What the format asks of bounds. *)
-Definition is_number : Claim.number -> bool := Witness.is_number exact_bits.
+Definition is_number : Claim.number -> bool := Compare.is_number exact_bits.
 Definition is_bound (r : requirement) : bool :=
   match r with
   | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => certainly exact_bits true b
@@ -755,6 +759,7 @@ Definition is_bound (r : requirement) : bool :=
   | Clearance _ _ b => certainly exact_bits false b
   | Beside _ _ _ (Plus _ b) => certainly exact_bits false b
   | Beside _ _ _ _ => false
+  | JointAcceleration _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
   | JointMin _ b | JointMax _ b => is_number b
   | NotSingular => true
   end.

@@ -2,7 +2,8 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula Acceleration.
+From Orthocert.kernel Require Compare.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -158,6 +159,13 @@ Proof.
     rewrite (related_length _ _ _ _ _ L1). rewrite <- app_assoc. exact R2.
 Qed.
 
+Lemma slider_length : forall s drs m, Forall2 is_leg_of drs m -> forall ds j i f k,
+  nth_error (all_formulas s ds drs j) i = Some f -> nth_error m i = Some (Guided k) -> f_length f <> None.
+Proof.
+  induction 1 as [| dr l drs m h hs IH]; intros ds j [| i] f k e n; try discriminate; cbn [all_formulas nth_error] in *; [| exact (IH _ _ _ _ _ e n)].
+  injection e as <-. injection n as ->. destruct dr; try contradiction. discriminate.
+Qed.
+
 (** ** Requirements as tests *)
 
 (** kappa = 1/psi_max, k = 1/psi_min, or the end of a joint's range. *)
@@ -170,6 +178,7 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | Stiffness joint b => (exactly (Over b joint), 0%Z)
   | Clearance one other b => (exactly (Plus (Plus (radius_of one) (radius_of other)) b), s)
   | Beside _ _ _ distance => (exactly distance, s)
+  | JointAcceleration _ a _ b => (exactly (Over a b), 0%Z)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -194,6 +203,7 @@ Definition extras (s : Z) (r : requirement) : list parameter :=
   match r with
   | Clearance one other _ => body_numbers s one ++ body_numbers s other
   | Beside _ one other _ => position_numbers s one ++ position_numbers s other
+  | JointAcceleration _ _ v b => [(exactly (Over (Times v v) b), s)]
   | _ => []
   end.
 Definition exact_value (p : parameter) : R := Claim.value (greatest (fst p)) / two_to (snd p).
@@ -204,8 +214,9 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s [| | | | | | | | | | | one other b | i o q d]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
   - apply Forall2_app; apply B.
+  - cbn. repeat constructor; apply E.
   - cbn. repeat constructor; apply E.
 Qed.
 
@@ -243,6 +254,15 @@ Definition beside_formula (f : leg_formulas) (q : list formula) (b : formula) : 
   let d := map2 minus (vector_at q 0) (vector_at q 3) in
   minus (minus (product d d) (over (square (product d (f_A f))) (square (rod f)))) (square b).
 
+(** 1 - t (a + b t^2), t = L/|eta|, of sliders, and 1 - a - b of struts; [a] and [b] over the bound, [b] a speed's square over the length. *)
+Definition acceleration_formula (f : leg_formulas) (a b : formula) : list formula :=
+  let own := over b (rod f) in
+  match f_length f, f_tip f with
+  | Some len, _ => let t := over len (root (f_D f)) in [minus (integer 1) (times t (plus a (times own (square t))))]
+  | None, Some _ => [minus (minus (integer 1) a) own]
+  | None, None => []
+  end.
+
 Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
 Definition determinant (a b c : evec) : formula :=
   plus (minus (times (ex a) (minor (ey b) (ez b) (ey c) (ez c))) (times (ey a) (minor (ex b) (ez b) (ex c) (ez c))))
@@ -265,7 +285,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -299,6 +319,7 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
       end
   | Beside i _ _ _ => of_leg i (fun f =>
       match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
+  | JointAcceleration i _ _ _ => of_leg i (fun f => acceleration_formula f b (nth 0 (numbered (snd j) (extras s r)) (integer 0)))
   | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
@@ -329,6 +350,11 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       | Some ((a, b), (c, d)), Some distance => if (0 <=? lo distance)%Z then
           let at_ := ends_at place in Some (Apart (at_ a) (at_ b) (at_ c) (at_ d) distance) else None
       | _, _ => None
+      end
+  | JointAcceleration _ a _ b =>
+      match range_formula fs s j r with
+      | [f] => if Compare.certainly bits false a && Compare.certainly bits true b then Some (AtLeast (place f)) else None
+      | _ => None
       end
   | _ => match range_formula fs s j r with
          | [f] => Some (AtLeast (place f))
@@ -600,7 +626,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -617,6 +643,7 @@ Proof.
 Qed.
 
 Hypothesis reached : Forall (reaches P) m.
+Hypothesis machine : Forall2 is_leg_of (legs c) m.
 Hypothesis built : Forall well_formed_leg m.
 
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
@@ -642,7 +669,7 @@ Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -698,7 +725,7 @@ Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz
 Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -896,11 +923,57 @@ Proof.
   replace (((u0 - t0) * L + Vec3.dot d A / L) ^ 2) with ((u0 - t0) ^ 2 * L ^ 2 + 2 * (u0 - t0) * Vec3.dot d A + Vec3.dot d A ^ 2 / L ^ 2) in sq by (field; exact L0). lra.
 Qed.
 
+Lemma acceleration_fulfilled : forall i a v b, r = JointAcceleration i a v b -> 0 <= Claim.value a -> 0 < Claim.value b ->
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils m P r.
+Proof.
+  intros i a v b er a0 b0 [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
+  cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (leg_at i g ng) as [l [nl [R0 re]]].
+  assert (ok : well_formed_leg l) by (apply (proj1 (Forall_forall _ _) built), (nth_error_In _ _ nl)).
+  set (q := numbered (snd j) (extras s (JointAcceleration i a v b))) in *.
+  assert (K : value x theta (nth 0 q (integer 0)) = ratio * (Claim.value v ^ 2 / Claim.value b)).
+  { rewrite (value_at _ _ _ _ _ EX). unfold exact_value. cbn. unfold Rdiv. fold ratio. ring. }
+  assert (A : value x theta (quantity (bound_of s (JointAcceleration i a v b)) (fst j)) = Claim.value a / Claim.value b).
+  { rewrite B. unfold bound_value. cbn [bound_of fst snd exactly greatest Claim.value]. rewrite two_to_0. unfold Rdiv. rewrite Rinv_1. ring. }
+  set (fa := quantity (bound_of s (JointAcceleration i a v b)) (fst j)) in *. set (fb := nth 0 q (integer 0)) in *.
+  destruct R0 as [_ [_ [_ [_ [R2 [R3 [_ R7]]]]]]]. destruct (resized_same ratio P r0 l) as [_ [_ eq]]. pose proof (R2 (proj2 eq re)) as D.
+  cbn [fulfils]. exists l. split; [exact nl |]. intros path V e hp hv hc hV hA. unfold acceleration_formula in ef.
+  destruct (f_length g) as [len |] eqn:el.
+  - assert (e1 : minus (integer 1) (times (over len (root (f_D g))) (plus fa (times (over fb (rod g)) (square (over len (root (f_D g))))))) = f) by congruence.
+    subst f. destruct (R3 len eq_refl) as [k' [e2 [e3 [e4 _]]]]. destruct (guided_resized ratio P r0 l k' e2) as [k [-> [g1 [g2 _]]]].
+    cbn [row well_formed_leg reaches] in *. rewrite <- hp in re.
+    destruct (slider_acceleration k path V e ok re hv hc) as [y [h1 h2]]. exists y. split; [exact h1 |].
+    specialize (h2 (Claim.value a) (Claim.value v) a0 hV hA). cbv zeta in h2. apply Rle_trans with (1 := h2).
+    rewrite value_minus, value_times, value_plus, value_times, value_square, !value_over, value_root, A, K in h. unfold rod in h. rewrite el, e3, g1, (e4 D), g2 in h.
+    assert (Sq : sqrt ((ratio * eta k P) ^ 2) = ratio * Kinematics.s k P).
+    { rewrite <- hp. unfold eta. rewrite Rpow_mult_distr, Rpow_mult_distr, (mode_squared k ok), Rmult_1_l, <- Rpow_mult_distr.
+      apply sqrt_pow2. apply Rmult_le_pos; lra. }
+    rewrite Sq in h. rewrite hp in *. change (value x theta (integer 1)) with 1 in h.
+    set (z := Kinematics.s k P) in *. set (L := leg_length k) in *. assert (L0 : 0 < L) by apply ok.
+    replace (ratio * L / (ratio * z)) with (L / z) in h by (field; split; lra).
+    replace (ratio * (Claim.value v ^ 2 / Claim.value b) / (ratio * L)) with (Claim.value v ^ 2 / L / Claim.value b) in h by (field; repeat split; lra).
+    set (A0 := Claim.value a) in *. set (V0 := Claim.value v ^ 2 / L) in *. set (T := L / z) in *. set (b' := Claim.value b) in *.
+    replace (T * (A0 / b' + V0 / b' * T ^ 2)) with (T * (A0 + V0 * T ^ 2) * / b') in h by (field; lra).
+    apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. lra.
+  - destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
+    assert (e1 : minus (minus (integer 1) fa) (over fb (rod g)) = f) by congruence. subst f.
+    specialize (R7 tip eq_refl). unfold ratio in R7. rewrite rod_resized in R7 by exact r0. fold ratio in R7.
+    destruct l as [k | base platform axis | n]; [| | discriminate].
+    + exfalso. exact (slider_length s (legs c) m machine ds 0 i g k ng nl el).
+    + cbn [rod_of] in R7. assert (e2 : value x theta (rod g) = ratio * sqrt (norm2 (span base platform P))) by congruence.
+      cbn [row well_formed_leg reaches] in *. rewrite <- hp in re.
+      destruct (strut_acceleration base platform path V e re hv hc) as [y [h1 h2]]. exists y. split; [exact h1 |].
+      apply Rle_trans with (1 := h2 (Claim.value a) (Claim.value v) a0 hV hA). rewrite !value_minus, value_over, A, K, e2 in h.
+      change (value x theta (integer 1)) with 1 in h. rewrite hp in *. pose proof (sqrt_lt_R0 _ re) as z0. set (z := sqrt (norm2 (span base platform P))) in *.
+      replace (ratio * (Claim.value v ^ 2 / Claim.value b) / (ratio * z)) with (Claim.value v ^ 2 / z / Claim.value b) in h by (field; repeat split; lra).
+      set (A0 := Claim.value a) in *. set (V0 := Claim.value v ^ 2 / z) in *. set (b' := Claim.value b) in *.
+      apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. unfold Rdiv in h. lra.
+Qed.
+
 Lemma fulfilled : fulfils m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
-  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF.
+  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
       is_least r = false -> fulfils m P r).
@@ -910,7 +983,7 @@ Proof.
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -951,6 +1024,10 @@ Proof.
   - apply (BF i one other b eq_refl). destruct (range_formula fs s j (Beside i one other b)) as [| f [| g [|]]] eqn:E; try discriminate; injection T as <-.
     + exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
     + exfalso. cbn [range_formula] in E. destruct (nth_error fs i) as [k |]; [| discriminate]. destruct (f_tip k); discriminate.
+  - destruct (range_formula fs s j (JointAcceleration i a v b)) as [| f [|]] eqn:E; try discriminate.
+    destruct (Compare.certainly bits false a && Compare.certainly bits true b) eqn:ce; [| discriminate]. injection T as <-.
+    apply andb_true_iff in ce as [c1 c2]. apply (AF i a v b eq_refl (Compare.nonneg_sound _ _ c1) (Compare.positive_sound _ _ c2)).
+    exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
 Qed.
 End Accepted.
 
@@ -1044,6 +1121,6 @@ Proof.
   destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1 (are_buildable_sound s _ _ hm ds able)).
+  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1 hm (are_buildable_sound s _ _ hm ds able)).
 Qed.
 End Precision.

@@ -6,7 +6,7 @@
     proved; the checker does not. *)
 
 From Coq Require Import ZArith Reals List.
-From Orthocert Require Import Vec3 SingularValues Kinematics Claim.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -137,7 +137,9 @@ Inductive requirement :=
   | ConstraintMargin (b : number)                      (* sigma_min of the unit couples, of struts with an axis *)
   | Clearance (one other : body) (b : number)          (* the distance of two bodies *)
   (* of the lines along a leg, moved by [one] and by [other]: two bodies beside each other on it *)
-  | Beside (leg : nat) (one other : position) (distance : number).
+  | Beside (leg : nat) (one other : position) (distance : number)
+  (* of no motion of the platform with these acceleration and speed at most *)
+  | JointAcceleration (leg : nat) (acceleration speed b : number).
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -168,6 +170,10 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
       (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q'))
   | Beside i one other distance => exists l C A L, nth_error m i = Some l /\ rod_of l P = Some (C, A, L) /\ forall t u,
       value distance ^ 2 <= norm2 (vsub (vadd (vsub C (vscale t A)) (located one)) (vadd (vsub C (vscale u A)) (located other)))
+  (* row . V is the joint's speed *)
+  | JointAcceleration i acceleration speed b => exists l, nth_error m i = Some l /\ forall path V a,
+      path 0 = P -> has_velocity path 0 (V 0) -> has_velocity V 0 a -> norm2 (V 0) <= value speed ^ 2 -> norm2 a <= value acceleration ^ 2 ->
+      exists y, derivable_pt_lim (fun t => dot (row l (path t)) (V t)) 0 y /\ Rabs y <= value b
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

@@ -10,89 +10,17 @@
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Arithmetic Number Machine Problem.
+From Orthocert.kernel Require Export Compare.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(** ** Comparing numbers *)
-
-Fixpoint same (x y : number) : bool :=
-  match x, y with
-  | Ratio n d, Ratio n' d' => (n =? n')%Z && (d =? d')%positive
-  | Plus a b, Plus a' b' | Minus a b, Minus a' b' | Times a b, Times a' b' | Over a b, Over a' b' => same a a' && same b b'
-  | Root a, Root a' => same a a'
-  | _, _ => false
-  end.
-
-Lemma same_sound : forall x y, same x y = true -> x = y.
-Proof.
-  induction x; destruct y; cbn [same]; intro h; try discriminate;
-    try (apply andb_true_iff in h as [h k]; f_equal; auto); [| | f_equal; auto].
-  - apply Z.eqb_eq, h.
-  - apply Pos.eqb_eq, k.
-Qed.
-
-(** The number, where it has no roots. *)
-Fixpoint rational (x : number) : option Q :=
-  let both f a b := match rational a, rational b with Some p, Some q => f p q | _, _ => None end in
-  match x with
-  | Ratio n d => Some (n # d)%Q
-  | Plus a b => both (fun p q => Some (Qplus p q)) a b
-  | Minus a b => both (fun p q => Some (Qminus p q)) a b
-  | Times a b => both (fun p q => Some (Qmult p q)) a b
-  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
-  | Root _ => None
-  end.
-
-Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
-Proof.
-  induction x as [n d | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a _]; intros q h; cbn [rational] in h; [| | | | | discriminate];
-    try (destruct (rational a) as [p |]; [| discriminate]; destruct (rational b) as [r |]; [| discriminate];
-      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
-  - injection h as <-. reflexivity.
-  - injection h as <-. symmetry. apply Q2R_plus.
-  - injection h as <-. symmetry. apply Q2R_minus.
-  - injection h as <-. symmetry. apply Q2R_mult.
-  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
-    intro e. apply Qeq_bool_iff in e. congruence.
-Qed.
-
 Section Precision.
 Variable bits : positive.
-
-(** [0 <= x], or [0 < x]. *)
-Definition certainly (strictly : bool) (x : number) : bool :=
-  match rational x with
-  | Some q => if strictly then negb (Qle_bool q 0) else Qle_bool 0 q
-  | None => match enclose bits x with Some a => if strictly then (0 <? lo a)%Z else (0 <=? lo a)%Z | None => false end
-  end.
-
-Lemma positive_sound : forall x, certainly true x = true -> 0 < value x.
-Proof.
-  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
-  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qlt_Rlt, Qnot_le_lt.
-    intro l. apply Qle_bool_iff in l. rewrite l in h. discriminate.
-  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.ltb_lt in h.
-    exact (contains_positive bits _ _ h (enclose_sound bits _ _ e)).
-Qed.
-
-Lemma nonneg_sound : forall x, certainly false x = true -> 0 <= value x.
-Proof.
-  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
-  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qle_Rle, Qle_bool_iff, h.
-  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.leb_le in h.
-    exact (contains_nonneg bits _ _ h (enclose_sound bits _ _ e)).
-Qed.
-
-(** A number without an enclosure is none: division is total here, and so is the root. *)
-Definition is_number (x : number) : bool := match enclose bits x with Some _ => true | None => false end.
-
-Definition below (x y : number) : bool := same x y && is_number x || certainly false (Minus y x).
-
-Lemma below_sound : forall x y, below x y = true -> value x <= value y.
-Proof.
-  intros x y h. apply orb_true_iff in h as [h | h]; [apply andb_true_iff in h as [h _]; apply same_sound in h; subst; lra |].
-  apply nonneg_sound in h. cbn [value] in h. lra.
-Qed.
+Local Notation certainly := (certainly bits).
+Local Notation below := (below bits).
+Local Notation positive_sound := (positive_sound bits).
+Local Notation nonneg_sound := (nonneg_sound bits).
+Local Notation below_sound := (below_sound bits).
 
 (** ** Vectors of numbers *)
 
@@ -424,6 +352,7 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
+  | JointAcceleration _ _ _ _ => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -495,7 +424,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -566,6 +495,7 @@ Proof.
       by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
           unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
     replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
+  - discriminate.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)

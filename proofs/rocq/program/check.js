@@ -234,8 +234,42 @@ for (const text of [
   const answers = all(text("1"));
   if (answers.some((answer) => answer !== "REJECTED")) fail(`clearance: ${answers}: ${text("1")}`);
 }
-fs.rmSync(beside, { recursive: true });
 console.log(`clearance: ${apart.length} pairs of bodies, with one answer at 42 bounds each`);
+
+// Quantities of single legs, in the same way.
+const asks = (legs, workspace, requirement, proof) => (b) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":` +
+  `{"translational":[${legs}]},"workspace":${workspace},"require":[${requirement(b)}]}},"verdict":"certified","proof":${proof},` +
+  `"provenance":{"tool":"t","version":"1"}}\n`;
+const all_struts = [struts[0], struts[1], struts[2]];
+const far = box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]');
+const of_struts = (evidence) => `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}],${evidence}]}]}}`;
+const moves = (leg, a, v) => about("joint_acceleration", "max", `,"leg":${leg},"given":{"acceleration":["${a}"],"speed":["${v}"]}`);
+const accelerations = [
+  [asks(three, box, moves(1, 9000, 1200), tree('[1,"test"]')), 9000, 30000],
+  [asks(toleranced, box, moves(3, 0, 1200), tree('[1,"test"]')), 1, 30000],
+  [asks(toleranced, cylinder, moves(2, 9000, 0), tree('[1,{"inside":["test",1,9]}]')), 9000, 30000],
+  [asks(all_struts, far, moves(2, 9000, 1200), of_struts('[1,"test"]')), 9000, 30000],
+];
+for (const [text, low, high] of accelerations) narrowed(text, low, high);
+for (const text of [
+  asks(three, box, moves(1, -1, 0), tree('[1,"test"]')),
+  asks(three, box, moves(1, 0, -1), tree('[1,"test"]')),
+  asks(three, box, moves(4, 1, 1), tree('[1,"test"]')),
+  asks(three, box, moves(0, 1, 1), tree('[1,"test"]')),
+  asks(three, box, moves(1, 1, 1), tree('[1,"negative"]')),
+  asks(three, box, about("joint_acceleration", "min", `,"given":{"acceleration":["1"],"speed":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+  asks(three, box, about("joint_acceleration", "max", `,"given":{"acceleration":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+  asks(three, box, about("joint_acceleration", "max", `,"given":{"tool":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+]) {
+  const answers = all(text("30000"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`joint_acceleration: ${answers}: ${text("30000")}`);
+}
+for (const b of ["0", "-1"]) {
+  const text = asks(three, box, moves(1, 0, 0), tree('[1,"test"]'))(b);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`joint_acceleration: ${all(text)}: ${text}`);
+}
+console.log(`joint_acceleration: ${accelerations.length} legs, with one answer at 42 bounds each`);
+fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {

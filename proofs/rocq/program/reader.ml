@@ -172,6 +172,7 @@ let requirement v =
     | "stiffness" -> Stiffness_
     | "constraint_margin" -> Constraint_
     | "joint_force" -> Force_
+    | "joint_acceleration" -> Acceleration_
     | "clearance" -> Clearance_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
@@ -181,7 +182,8 @@ let requirement v =
     | "within" -> let a, b = two number (bound ()) in Within_ (a, b)
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
-    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
+    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> Given_ (number x)
+    | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
@@ -335,6 +337,7 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
+let is_certified_only r = match r.about_ with Acceleration_ -> true | _ -> false
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
@@ -355,6 +358,10 @@ let certificate text =
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | Machine_ (legs, _, _, rs), Nodes _ when List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs ->
+     not_covered [ "the acceleration of a joint of a machine with a plane" ]
+   | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
+     not_covered [ "this quantity in a claim that is refuted" ]
    | NoCube_ _, Nodes (_, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
    | NoCube_ _, _ -> ()
    | _, Nodes (_, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]

@@ -3,20 +3,20 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(u){"use strict";var
-A5=typeof
-module==="object"&&module.exports||u,ho="spatial",lF="Invalid_argument",fb="precision",at='"',lE="@[",mf="this quantity of such a mechanism",g9=1255,lD="inside",me="Fatal error: exception %s\n",k9=255,lC="yaw",mc="(",md=0x800,k7="range",k8="tree",g8="jsError",bx=0x8000,lA='the mechanism "',lB="%ni",mI="sqrt(",mb=256,d8="offset",ma="obligation",bj="machine",k6="End_of_file",fe="strut",k5="center",fo="arm",g7="Failure",mG="serial_margin",mH="parameters",bX=0xff,hu="bodies",k4="\n",ht="outside",he="base_axis",hn="ENOENT",mF=122,aP="0",l$="([^/]+)",hm=0xf,d9=128,g6=-48,k3=0xdc00,lz="Sys_blocked_io",mE="fd ",k2="given",l_="ENOTEMPTY",as=248,l9="bound",ar="camlinternalFormat.ml",l8="Division_by_zero",mC="by",mD=1027,k1="Sys_error",ly="slider",lx="postulate",l7="torsion",l6="proof",lw="%u",dg="mechanism",fk="row",k0="EEXIST",lv="roll_pitch_yaw",hl="%d",kZ="Printexc.handle_uncaught_exception",hd="y",fa="lower",lu="within",l5="cube",kY="clearance",l4="buffer.ml",mB="turned",e$="int_of_string",l3="control",lt="definitions",hc=127,d7=1024,ls="@{",l2="from",hs="e",kW=120,kX=103,lr=" : flags Open_rdonly and Open_wronly are not compatible",l1="orthocert/2",mA="reach",kV=512,a9="-",mz="witness",bh="platform",kU=0x7ff0,kT="pitch",hr=": Not a directory",lq=" : file already exists",bz="min",my="trim",dh="workspace",lp="claim",l0="split",mx="legs",bW=0xffffff,lZ="joint",kR="formulas",kS="0x",lo='the workspace "',lY="roll",mv="nodes",mw="Out_of_memory",kQ="psi_max",hq="orientation",ln="angle",fj=254,hp="index out of bounds",lX=100,kP="end",fn="_bigarr02",kO="%Li",lW=" : flags Open_text and Open_binary are not compatible",cd="drive",lV="coordinates",lm=", characters ",lU="lower_divided",ll="joints",mu="cylinder",bB=0xffff,lk=12520,g5="on",lj="axis",li="no_cube",mt="parallel_margin",kN='the drive "',fd="fails",hk="Unix.Unix_error",ms="infinity",e_="tool",g4="mkdir",d6=1000,e9="translational",s="",lT="Stack_overflow",mr="characteristic_length",hb="^",e8=": No such file or directory",hj="places",lS="/static/",df=0x3f,lR=-97,lP="stiffness",lQ="Not_found",d5="planar",fi="mode",mq="joint_speed",lh="Match_failure",kM=", ",kL="transmission",cc="anchor",mp="at",fm=252,kK="joint_force",de="leg",ce=".",by="+",hi="rmdir",mo=0xf0,mn="spherical",lg="verified.ml",le="REJECTED",lf="%li",lO=1026,bA="max",cH="direction",lN="orthoglide",fl="rank",mm="constraint_margin",ml=-32,kI="Pervasives.do_at_exit",kJ="utf8",hh="test",bU=" ",fc="conditioning",hg="Fatal error: exception ",bi=0x80,kH="Undefined_recursive_module",ha=")",fh="length",lM="base",mk="quantity",lL="joint_range",fg="tilt",kG="Q2",g$="nan",ld="reference",lK="point",lc=0xe0,mj="corner",la="z",lb=0xdfff,lI="version",lJ="_",mi="to",bg="/",hf="compare: functional value",mh="Assert_failure",k$="provenance",dd="radius",kF="%i",bV="require",ff="side",mg="format",g_="ENOTDIR",lH="Q1",lG="all",cG="box",k_=250;function
-hK(c,b,a){var
+a.prototype._T_}}(Object));(function(v){"use strict";var
+Bg=typeof
+module==="object"&&module.exports||v,hp="spatial",lH="Invalid_argument",fc="precision",au='"',lG="@[",mi="this quantity of such a mechanism",g_=1255,lF="inside",mh="Fatal error: exception %s\n",k_=255,lE="yaw",mf="(",mg=0x800,k8="range",k9="tree",g9="jsError",by=0x8000,lC='the mechanism "',lD="%ni",mL="sqrt(",me=256,d8="offset",md="obligation",bk="machine",k7="End_of_file",ff="strut",k6="center",fp="arm",g8="Failure",mJ="serial_margin",mK="parameters",bX=0xff,hv="bodies",k5="\n",hu="outside",hf="base_axis",ho="ENOENT",mI=122,aP="0",mc="([^/]+)",hn=0xf,d9=128,g7=-48,k4=0xdc00,lB="Sys_blocked_io",mH="fd ",g6="given",mb="ENOTEMPTY",at=248,ma="bound",as="camlinternalFormat.ml",l$="Division_by_zero",mF="by",mG=1027,k3="Sys_error",lA="slider",lz="postulate",l_="torsion",l9="proof",ly="%u",dj="mechanism",fl="row",k2="EEXIST",lx="roll_pitch_yaw",hm="%d",k1="Printexc.handle_uncaught_exception",he="y",fb="lower",lw="within",l8="cube",k0="clearance",l7="buffer.ml",mE="turned",fa="int_of_string",l6="control",lv="definitions",hd=127,d7=1024,lu="@{",l5="from",ht="e",kY=120,kZ=103,lt=" : flags Open_rdonly and Open_wronly are not compatible",l4="orthocert/2",mD="reach",kX=512,a_="-",mC="witness",bi="platform",kW=0x7ff0,kV="pitch",hs=": Not a directory",ls=" : file already exists",bA="min",mB="trim",dk="workspace",lr="claim",l3="split",mA="legs",bW=0xffffff,l2="joint",kT="formulas",kU="0x",lq='the workspace "',l1="roll",my="nodes",mz="Out_of_memory",kS="psi_max",hr="orientation",lp="angle",fk=254,hq="index out of bounds",l0=100,kR="end",fo="_bigarr02",kQ="%Li",lZ=" : flags Open_text and Open_binary are not compatible",cf="drive",lY="coordinates",lo=", characters ",lX="lower_divided",kP="speed",ln="joints",mx="cylinder",bC=0xffff,ll="acceleration",lm=12520,g5="on",lk="axis",lj="no_cube",mw="parallel_margin",kO='the drive "',fe="fails",hl="Unix.Unix_error",mv="infinity",e$="tool",g4="mkdir",d6=1000,e_="translational",t="",lW="Stack_overflow",mu="characteristic_length",hc="^",e9=": No such file or directory",hk="places",lV="/static/",di=0x3f,lU=-97,lS="stiffness",lT="Not_found",d5="planar",fj="mode",mt="joint_speed",li="Match_failure",kN=", ",kM="transmission",ce="anchor",ms="at",fn=252,kL="joint_force",dh="leg",cg=".",bz="+",lR="joint_acceleration",hj="rmdir",mr=0xf0,mq="spherical",lh="verified.ml",lf="REJECTED",lg="%li",lQ=1026,bB="max",cJ="direction",lP="orthoglide",fm="rank",mp="constraint_margin",mo=-32,kJ="Pervasives.do_at_exit",kK="utf8",hi="test",bU=" ",fd="conditioning",hh="Fatal error: exception ",bj=0x80,kI="Undefined_recursive_module",hb=")",fi="length",lO="base",mn="quantity",lN="joint_range",fh="tilt",kH="Q2",ha="nan",le="reference",lM="point",ld=0xe0,mm="corner",lb="z",lc=0xdfff,lK="version",lL="_",ml="to",bh="/",hg="compare: functional value",mk="Assert_failure",la="provenance",dg="radius",kG="%i",bV="require",fg="side",mj="format",g$="ENOTDIR",lJ="Q1",lI="all",cI="box",k$=250;function
+hL(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=d7,a-=d7)e+=d.apply(null,c.slice(b,b+Math.min(a,d7)));return e}function
-fp(b){if(u.Uint8Array)var
-c=new(u.Uint8Array)(b.l);else
+e=t;for(;0<a;b+=d7,a-=d7)e+=d.apply(null,c.slice(b,b+Math.min(a,d7)));return e}function
+fq(b){if(v.Uint8Array)var
+c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hK(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hK(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fp(b);var
+ci(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fq(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,38 +24,38 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 bY(a){return a}function
-bE(a,b,c,d,e){cg(bY(a),b,c,d,e);return 0}function
-AX(b,a){throw[0,b,a]}function
-dm(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
-d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dk(a){if(a.t==2)a.c+=dm(a.l-a.c.length,"\0");else
-a.c=hK(a.c,0,a.c.length);a.t=0}function
-nc(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hc)return false;return true}else
+bF(a,b,c,d,e){ci(bY(a),b,c,d,e);return 0}function
+A_(b,a){throw[0,b,a]}function
+dq(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
+d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dn(a){if(a.t==2)a.c+=dq(a.l-a.c.length,"\0");else
+a.c=hL(a.c,0,a.c.length);a.t=0}function
+nf(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hd)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hM(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kV){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(f<<6);if(f<lc){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(g<<6);if(f<mo){a=g-0xe2080;if(a<md||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k3+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d7){c.substr(0,1);j+=c;c=s}}return j+c}function
-bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dk(this);case
-0:if(nc(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bC.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hM(a)};bC.prototype.slice=function(){var
+hN(e){for(var
+j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bj){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>kX){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(f<<6);if(f<ld){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(g<<6);if(f<mr){a=g-0xe2080;if(a<mg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bC)c+=String.fromCharCode(0xd7c0+(a>>10),k4+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d7){c.substr(0,1);j+=c;c=t}}return j+c}function
+bD(c,a,b){this.t=c;this.c=a;this.l=b}bD.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dn(this);case
+0:if(nf(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bD.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hN(a)};bD.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bC(this.t,a,this.l)};function
-mS(a){return new
-bC(0,a,a.length)}function
-a(a){return mS(a)}function
-hI(c,b){AX(c,a(b))}var
+bD(this.t,a,this.l)};function
+mV(a){return new
+bD(0,a,a.length)}function
+a(a){return mV(a)}function
+hJ(c,b){A_(c,a(b))}var
 ai=[0];function
-au(a){hI(ai.Invalid_argument,a)}function
-mQ(){au(hp)}function
-ak(a,c,b){b&=bX;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fp(a)}a.c[c]=b;return 0}function
-cI(b,a,c){if(a>>>0>=b.l)mQ();return ak(b,a,c)}function
-dj(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+av(a){hJ(ai.Invalid_argument,a)}function
+mT(){av(hq)}function
+ak(a,c,b){b&=bX;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fq(a)}a.c[c]=b;return 0}function
+cK(b,a,c){if(a>>>0>=b.l)mT();return ak(b,a,c)}function
+dm(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 bZ(c,a){if(c.fun)return bZ(c.fun,a);if(typeof
@@ -68,64 +68,64 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bZ(c,d)}}function
-d_(){au(hp)}function
-mT(a,b){if(b>>>0>=a.length-1)d_();return a}function
-An(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b1(a){a.t&6&&dk(a);return a.c}var
-A7=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-A6(a){if(A7)return Math.floor(Math.log2(a));var
+d_(){av(hq)}function
+mW(a,b){if(b>>>0>=a.length-1)d_();return a}function
+AA(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b1(a){a.t&6&&dn(a);return a.c}var
+Bi=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Bh(a){if(Bi)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hA(c){var
-a=new(u.Float32Array)(1);a[0]=c;var
-b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-m2=Math.pow(2,-24);function
-AV(a){throw a}function
-m9(){AV(ai.Division_by_zero)}function
-t(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
-t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
+hB(c){var
+a=new(v.Float32Array)(1);a[0]=c;var
+b=new(v.Int32Array)(a.buffer);return b[0]|0}var
+m5=Math.pow(2,-24);function
+A8(a){throw a}function
+na(){A8(ai.Division_by_zero)}function
+u(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bC}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-t(a,b,c)};t.prototype.add=function(a){var
+u(a,b,c)};u.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-t(b,c,d)};t.prototype.sub=function(a){var
+u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m2|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m2|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
-t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
-t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
-t(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};t.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-t(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-t(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-t(0,0,this.lo<<a-48)};t.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-t(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+u(b,c,d)};u.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*m5|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m5|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
+u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
+u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
+u(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};u.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+u(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+u(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+u(0,0,this.lo<<a-48)};u.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+u(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+u(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bB);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bW;this.lo=this.lo<<1&bW};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bW;this.mi=(this.mi>>>1|this.hi<<23)&bW;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bC);return new
+u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bW;this.lo=this.lo<<1&bW};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bW;this.mi=(this.mi>>>1|this.hi<<23)&bW;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())m9();var
-d=b.hi^a.hi;if(b.hi&bx)b=b.neg();if(a.hi&bx)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bx)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())m9();var
-d=a.hi;if(a.hi&bx)a=a.neg();if(b.hi&bx)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};t.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
-ft(b,c,a){return new
-t(b,c,a)}function
-fs(a){if(!isFinite(a)){if(isNaN(a))return ft(1,0,kU);return a>0?ft(0,0,kU):ft(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
-b=A6(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lO)}else{a/=Math.pow(2,b-mD);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
+b=this;if(a.isZero())na();var
+d=b.hi^a.hi;if(b.hi&by)b=b.neg();if(a.hi&by)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&by)c=c.neg();return c};u.prototype.mod=function(b){var
+a=this;if(b.isZero())na();var
+d=a.hi;if(a.hi&by)a=a.neg();if(b.hi&by)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&by)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};u.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};u.prototype.hi32=function(){return this.mi>>>8&bC|this.hi<<16};function
+fu(b,c,a){return new
+u(b,c,a)}function
+ft(a){if(!isFinite(a)){if(isNaN(a))return fu(1,0,kW);return a>0?fu(0,0,kW):fu(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?by:a>=0?0:by;if(f)a=-a;var
+b=Bh(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-mG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hm|f|b<<4;return ft(g,e,c)}function
+g=a|0;c=c&hn|f|b<<4;return fu(g,e,c)}function
 eb(a){return a.toArray()}function
-mP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fn)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
+mS(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fo)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bC)c.write(16,b.dims[a]);else{c.write(16,bC);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -146,26 +146,26 @@ e=eb(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eb(fs(b.get(a)));for(var
+e=eb(ft(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hA(b.get(a));c.write(32,e)}break;case
+e=hB(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hA(d[1]));c.write(32,hA(d[2]))}break;case
+d=b.get(a);c.write(32,hB(d[1]));c.write(32,hB(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eb(fs(f[1]));for(var
+f=b.get(a),e=eb(ft(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eb(fs(f[2]));for(var
+e=eb(ft(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mN(a){switch(a){case
+mQ(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ah(c,e){var
-b=u,a;switch(c){case
+Au(c,e){var
+b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)au("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)av("Bigarray.create: unsupported kind");var
 d=new
-a(e*mN(c));return d}function
-hB(c){var
-a=new(u.Int32Array)(1);a[0]=c;var
-b=new(u.Float32Array)(a.buffer);return b[0]}function
+a(e*mQ(c));return d}function
+hC(c){var
+a=new(v.Int32Array)(1);a[0]=c;var
+b=new(v.Float32Array)(a.buffer);return b[0]}function
 ea(a){return new
-t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hC(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hm)==0?b&bx?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hm);if(c>0){a+=16;a*=Math.pow(2,c-mD)}else
-a*=Math.pow(2,-lO);if(b&bx)a=-a;return a}function
-hv(b){var
+u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+hD(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hn)==0?b&by?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hn);if(c>0){a+=16;a*=Math.pow(2,c-mG)}else
+a*=Math.pow(2,-lQ);if(b&by)a=-a;return a}function
+hw(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)au("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ay(b,a){return new
-t(b&bW,b>>>24&bX|(a&bB)<<8,a>>>16&bB)}function
-hD(a){return a.hi32()}function
-hE(a){return a.lo32()}var
-Ai=fn;function
-cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ai;cf.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)av("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+AL(b,a){return new
+u(b&bW,b>>>24&bX|(a&bC)<<8,a>>>16&bC)}function
+hE(a){return a.hi32()}function
+hF(a){return a.lo32()}var
+Av=fo;function
+ch(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ch.prototype.caml_custom=Av;ch.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))au("bigarray.js: invalid offset");if(this.dims.length!=b.length)au("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+Array))av("bigarray.js: invalid offset");if(this.dims.length!=b.length)av("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
 a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d_();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d_();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d_();c=c*this.dims[a]+(b[a]-1)}return c};ch.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ay(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return AL(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fj,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hE(b);this.data[a*2+1]=hD(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};ch.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hF(b);this.data[a*2+1]=hE(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ch.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hE(b),e=hD(b);if(c==e)this.data.fill(c);else
+c=hF(b),e=hE(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cf.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ch.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-di(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}di.prototype=new
-cf();di.prototype.offset=function(a){if(typeof
+dl(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dl.prototype=new
+ch();dl.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-au("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d_();return a};di.prototype.get=function(a){return this.data[a]};di.prototype.set=function(a,b){this.data[a]=b;return 0};di.prototype.fill=function(a){this.data.fill(a);return 0};function
-mL(c,d,a,b){var
-e=mN(c);if(hv(a)*e!=b.length)au("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-di(c,d,a,b);return new
-cf(c,d,a,b)}function
-bk(b){if(!ai.Failure)ai.Failure=[as,a(g7),-3];hI(ai.Failure,b)}function
-mM(b,v,r){var
-i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bX,o=p>>8&1,h=[];if(r==fn)for(var
+av("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d_();return a};dl.prototype.get=function(a){return this.data[a]};dl.prototype.set=function(a,b){this.data[a]=b;return 0};dl.prototype.fill=function(a){this.data.fill(a);return 0};function
+mO(c,d,a,b){var
+e=mQ(c);if(hw(a)*e!=b.length)av("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dl(c,d,a,b);return new
+ch(c,d,a,b)}function
+bl(b){if(!ai.Failure)ai.Failure=[at,a(g8),-3];hJ(ai.Failure,b)}function
+mP(b,v,r){var
+i=b.read32s();if(i<0||i>16)bl("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bX,o=p>>8&1,h=[];if(r==fo)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bB){var
-t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bC){var
+t=b.read32u(),u=b.read32u();if(t!=0)bl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hv(h),f=Ah(j,d),g=mL(j,o,h,f);switch(j){case
+d=hw(h),f=Au(j,d),g=mO(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,7 +275,7 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bk("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bl("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
@@ -288,31 +288,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hC(ea(e));g.set(a,k)}break;case
+k=hD(ea(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hB(b.read32s());g.set(a,k)}break;case
+k=hC(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hB(b.read32s()),l=hB(b.read32s());g.set(a,[fj,m,l])}break;case
+m=hC(b.read32s()),l=hC(b.read32s());g.set(a,[fk,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hC(ea(e));for(var
+m=hD(ea(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hC(ea(e));g.set(a,[fj,m,l])}break}v[0]=(4+i)*4;return mL(j,o,h,f)}function
-mK(a,b,c){return a.compare(b,c)}function
-m6(a,b){return Math.imul(a,b)}function
-b0(b,a){a=m6(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m6(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Au(a,b){a=b0(a,hE(b));a=b0(a,hD(b));return a}function
-m1(a,b){return Au(a,fs(b))}function
-mO(c){var
-b=hv(c.dims),d=0;switch(c.kind){case
+l=hD(ea(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mO(j,o,h,f)}function
+mN(a,b,c){return a.compare(b,c)}function
+m9(a,b){return Math.imul(a,b)}function
+b0(b,a){a=m9(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m9(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+AH(a,b){a=b0(a,hF(b));a=b0(a,hE(b));return a}function
+m4(a,b){return AH(a,ft(b))}function
+mR(c){var
+b=hw(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mb)b=mb;var
+12:if(b>me)b=me;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b0(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -329,75 +329,75 @@ a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m1(d,c.data[a]);break;case
+a=0;a<b;a++)d=m4(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m1(d,c.data[a]);break}return d}function
-Aw(a,b){b[0]=4;return a.read32s()}function
-AS(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m4(d,c.data[a]);break}return d}function
+AJ(a,b){b[0]=4;return a.read32s()}function
+A5(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
-AH(c,d){var
+2:bl("input_value: native integer value too large");default:bl("input_value: ill-formed native integer")}}function
+AU(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ea(b)}function
-AD(e,d,b){var
+AQ(e,d,b){var
 c=eb(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Ax(a,b,c){return a.compare(b)}function
-AA(a){return a.lo32()^a.hi32()}var
-mW={"_j":{deserialize:AH,serialize:AD,fixed_length:8,compare:Ax,hash:AA},"_i":{deserialize:Aw,fixed_length:4},"_n":{deserialize:AS,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mM(a,b,"_bigarray")},serialize:mP,compare:mK,hash:mO},"_bigarr02":{deserialize:function(a,b){return mM(a,b,fn)},serialize:mP,compare:mK,hash:mO}};function
-hx(a){return mW[a.caml_custom]&&mW[a.caml_custom].compare}function
-mU(f,c,d,e){var
-b=hx(c);if(b){var
+AK(a,b,c){return a.compare(b)}function
+AN(a){return a.lo32()^a.hi32()}var
+mZ={"_j":{deserialize:AU,serialize:AQ,fixed_length:8,compare:AK,hash:AN},"_i":{deserialize:AJ,fixed_length:4},"_n":{deserialize:A5,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mP(a,b,"_bigarray")},serialize:mS,compare:mN,hash:mR},"_bigarr02":{deserialize:function(a,b){return mP(a,b,fo)},serialize:mS,compare:mN,hash:mR}};function
+hy(a){return mZ[a.caml_custom]&&mZ[a.caml_custom].compare}function
+mX(f,c,d,e){var
+b=hy(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fu(a){return a
+fv(a){return a
 instanceof
-bC}function
-hG(a){return fu(a)}function
-mV(a){if(typeof
+bD}function
+hH(a){return fv(a)}function
+mY(a){if(typeof
 a==="number")return d6;else
-if(fu(a))return fm;else
-if(hG(a))return 1252;else
+if(fv(a))return fn;else
+if(hH(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=k9){var
-b=a[0]|0;return b==fj?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=k_){var
+b=a[0]|0;return b==fk?0:b}else
 if(a
 instanceof
-String)return lk;else
+String)return lm;else
 if(typeof
-a=="string")return lk;else
+a=="string")return lm;else
 if(a
 instanceof
 Number)return d6;else
-if(a&&a.caml_custom)return g9;else
+if(a&&a.caml_custom)return g_;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AI(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mR(a,b){a.t&6&&dk(a);b.t&6&&dk(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-A0(a,b){return mR(a,b)}function
-hw(a,b,d){var
+AV(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mU(a,b){a.t&6&&dn(a);b.t&6&&dn(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+Bb(a,b){return mU(a,b)}function
+hx(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mV(a);if(f==k_){a=a[1];continue}var
-g=mV(b);if(g==k_){b=b[1];continue}if(f!==g){if(f==d6){if(g==g9)return mU(a,b,-1,d);return-1}if(g==d6){if(f==g9)return mU(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:au(hf);break;case
+f=mY(a);if(f==k$){a=a[1];continue}var
+g=mY(b);if(g==k$){b=b[1];continue}if(f!==g){if(f==d6){if(g==g_)return mX(a,b,-1,d);return-1}if(g==d6){if(f==g_)return mX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:av(hg);break;case
 248:var
-c=AI(a[2],b[2]);if(c!=0)return c|0;break;case
-249:au(hf);break;case
-250:au("equal: got Forward_tag, should not happen");break;case
-251:au("equal: abstract value");break;case
+c=AV(a[2],b[2]);if(c!=0)return c|0;break;case
+249:av(hg);break;case
+250:av("equal: got Forward_tag, should not happen");break;case
+251:av("equal: abstract value");break;case
 252:if(a!==b){var
-c=mR(a,b);if(c!=0)return c|0}break;case
-253:au("equal: got Double_tag, should not happen");break;case
-254:au("equal: got Double_array_tag, should not happen");break;case
-255:au("equal: got Custom_tag, should not happen");break;case
-1247:au(hf);break;case
+c=mU(a,b);if(c!=0)return c|0}break;case
+253:av("equal: got Double_tag, should not happen");break;case
+254:av("equal: got Double_array_tag, should not happen");break;case
+255:av("equal: got Custom_tag, should not happen");break;case
+1247:av(hg);break;case
 1255:var
-i=hx(a);if(i!=hx(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)au("compare: abstract value");var
+i=hy(a);if(i!=hy(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)av("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -411,232 +411,232 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Ao(a,b){return hw(a,b,true)}function
-Ap(){return[0]}function
-ao(a){if(a<0)au("Bytes.create");return new
-bC(a?2:9,s,a)}function
-mX(a,b){return+(hw(a,b,false)==0)}function
-Ar(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dm(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fp(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hH(d){d=b1(d);var
-e=d.length;if(e>31)au("format_int: format too long");var
-a={justify:by,signstyle:a9,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+AB(a,b){return hx(a,b,true)}function
+AC(){return[0]}function
+ao(a){if(a<0)av("Bytes.create");return new
+bD(a?2:9,t,a)}function
+m0(a,b){return+(hx(a,b,false)==0)}function
+AE(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fq(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hI(d){d=b1(d);var
+e=d.length;if(e>31)av("format_int: format too long");var
+a={justify:bz,signstyle:a_,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hy(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==by&&b.filler==bU)for(var
-d=e;d<b.width;d++)c+=bU;if(b.signedconv)if(b.sign<0)c+=a9;else
-if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kS;if(b.justify==by&&b.filler==aP)for(var
-d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
+b=d.charAt(c);switch(b){case"-":a.justify=a_;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+hz(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a_))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=t;if(b.justify==bz&&b.filler==bU)for(var
+d=e;d<b.width;d++)c+=bU;if(b.signedconv)if(b.sign<0)c+=a_;else
+if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kU;if(b.justify==bz&&b.filler==aP)for(var
+d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a_)for(var
 d=e;d<b.width;d++)c+=bU;return a(c)}function
-hz(i,c){function
+hA(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aP);if(b>0)a=a+ce+new
+c=parseInt(a.toString().split(bz)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aP);if(b>0)a=a+cg+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hH(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g$;e.filler=bU}else
+a,e=hI(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=ha;e.filler=bU}else
 if(!isFinite(c)){a="inf";e.filler=bU}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hs)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hs),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hs)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==ht)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(ht),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==cg)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==ht)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hy(e,a)}function
-fq(e,c){if(b1(e)==hl)return a(s+c);var
-b=hH(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==cg)b--;a=a.slice(0,b+1)}}break}return hz(e,a)}function
+fr(e,c){if(b1(e)==hm)return a(t+c);var
+b=hI(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
 d=c.toString(b.base);if(b.prec>=0){b.filler=bU;var
-f=b.prec-d.length;if(f>0)d=dm(f,aP)+d}return hy(b,d)}var
-AT=0;function
-fr(){return AT++}function
-AL(a){return a.toUtf16()}function
+f=b.prec-d.length;if(f>0)d=dq(f,aP)+d}return hz(b,d)}var
+A6=0;function
+fs(){return A6++}function
+AY(a){return a.toUtf16()}function
 ed(){return typeof
-u.process!=="undefined"&&typeof
-u.process.versions!=="undefined"&&typeof
-u.process.versions.node!=="undefined"}function
-A8(){function
-a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
+v.process!=="undefined"&&typeof
+v.process.versions!=="undefined"&&typeof
+v.process.versions.node!=="undefined"}function
+Bj(){function
+a(a){if(a.charAt(0)===bh)return[t,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return ed()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-hQ=A8();function
-na(a){return a.slice(-1)!==bg?a+bg:a}if(ed()&&u.process&&u.process.cwd)var
-d$=u.process.cwd().replace(/\\/g,bg);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ed()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+hR=Bj();function
+nd(a){return a.slice(-1)!==bh?a+bh:a}if(ed()&&v.process&&v.process.cwd)var
+d$=v.process.cwd().replace(/\\/g,bh);else
 var
-d$="/static";d$=na(d$);function
-AM(a){a=AL(a);if(!hQ(a))a=d$+a;var
-e=hQ(a),d=e[1].split(bg),b=[];for(var
+d$="/static";d$=nd(d$);function
+AZ(a){a=AY(a);if(!hR(a))a=d$+a;var
+e=hR(a),d=e[1].split(bh),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-A2(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kV){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<md){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&df)}else
-if(a<0xd800||a>=lb)b+=String.fromCharCode(lc|a>>12,bi|a>>6&df,bi|a&df);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k3||h>lb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mo|a>>18,bi|a>>12&df,bi|a>>6&df,bi|a&df)}if(b.length>d7){b.substr(0,1);f+=b;b=s}}return f+b}function
-Am(a){var
-b=9;if(!nc(a))b=8,a=A2(a);return new
-bC(b,a,a.length)}function
-bl(a){return Am(a)}var
-A_=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hn,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g_,l_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cL(d,f,e,a){var
-b=A_.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bl(f||s),bl(e||s)];return c}var
-m7={};function
-cJ(a){return m7[a]}function
-cK(b,a){throw[0,b].concat(a)}function
-Al(a){return new
-bC(4,a,a.length)}function
-Q(a){hI(ai.Sys_error,a)}function
-AW(a){Q(a+e8)}function
-Ak(b,a){if(a>>>0>=b.l)mQ();return dj(b,a)}function
+Bd(e){for(var
+f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bj){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>kX){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mg){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&di)}else
+if(a<0xd800||a>=lc)b+=String.fromCharCode(ld|a>>12,bj|a>>6&di,bj|a&di);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k4||h>lc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mr|a>>18,bj|a>>12&di,bj|a>>6&di,bj|a&di)}if(b.length>d7){b.substr(0,1);f+=b;b=t}}return f+b}function
+Az(a){var
+b=9;if(!nf(a))b=8,a=Bd(a);return new
+bD(b,a,a.length)}function
+bm(a){return Az(a)}var
+Bl=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k2,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ho,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g$,mb,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cN(d,f,e,a){var
+b=Bl.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bm(f||t),bm(e||t)];return c}var
+m_={};function
+cL(a){return m_[a]}function
+cM(b,a){throw[0,b].concat(a)}function
+Ay(a){return new
+bD(4,a,a.length)}function
+R(a){hJ(ai.Sys_error,a)}function
+A9(a){R(a+e9)}function
+Ax(b,a){if(a>>>0>=b.l)mT();return dm(b,a)}function
 a0(a){return a.l}function
-mJ(){}function
-aA(a){this.data=a}aA.prototype=new
-mJ();aA.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};aA.prototype.length=function(){return a0(this.data)};aA.prototype.write=function(b,d,g,a){var
+mM(){}function
+aB(a){this.data=a}aB.prototype=new
+mM();aB.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);ci(b,0,this.data,0,a)};aB.prototype.length=function(){return a0(this.data)};aB.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
-e=this.length();cg(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Ak(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
+e=ao(b+a),f=this.data;this.data=e;ci(f,0,this.data,0,c)}bF(d,g,this.data,b,a);return 0};aB.prototype.read=function(c,a,d,b){var
+e=this.length();ci(this.data,c,a,d,b);return 0};aB.prototype.read_one=function(a){return Ax(this.data,a)};aB.prototype.close=function(){};aB.prototype.constructor=aB;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
-c=d.split(bg),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bh),b=t;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bh;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bh};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aA(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
+aB(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cJ(hk);if(this.exists(c))if(b)cK(b,cL(k0,g4,this.nm(c)));else
-Q(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cK(b,cL(hn,g4,this.nm(a)));else
-Q(a+e8);if(!this.is_dir(a))if(b)cK(b,cL(g_,g4,this.nm(a)));else
-Q(a+hr);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cJ(hk),c=a==s?s:this.slash(a),e=new
-RegExp(hb+c+l$);if(!this.exists(a))if(b)cK(b,cL(hn,hi,this.nm(a)));else
-Q(a+e8);if(!this.is_dir(a))if(b)cK(b,cL(g_,hi,this.nm(a)));else
-Q(a+hr);for(var
+b=d&&cL(hl);if(this.exists(c))if(b)cM(b,cN(k2,g4,this.nm(c)));else
+R(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cM(b,cN(ho,g4,this.nm(a)));else
+R(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(g$,g4,this.nm(a)));else
+R(a+hs);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cL(hl),c=a==t?t:this.slash(a),e=new
+RegExp(hc+c+mc);if(!this.exists(a))if(b)cM(b,cN(ho,hj,this.nm(a)));else
+R(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(g$,hj,this.nm(a)));else
+R(a+hs);for(var
 d
 in
-this.content)if(d.match(e))if(b)cK(b,cL(l_,hi,this.nm(a)));else
-Q(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cM(b,cN(mb,hj,this.nm(a)));else
+R(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e8);if(!this.is_dir(a))Q(a+hr);var
+f=a==t?t:this.slash(a);if(!this.exists(a))R(a+e9);if(!this.is_dir(a))R(a+hs);var
 g=new
-RegExp(hb+f+l$),d={},c=[];for(var
+RegExp(hc+f+mc),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==s)return true;var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==t)return true;var
 b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lr);if(b.text&&b.binary)Q(this.nm(a)+lW);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lq);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)R(this.nm(a)+lt);if(b.text&&b.binary)R(this.nm(a)+lZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))R(this.nm(a)+" : is a directory");if(b.create&&b.excl)R(this.nm(a)+ls);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aA(ao(0));return this.content[a]}else
-AW(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])Q(this.nm(c)+lq);if(fu(a))b=new
-aA(a);if(hG(a))b=new
-aA(bY(a));else
+aB(ao(0));return this.content[a]}else
+A9(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])R(this.nm(c)+ls);if(fv(a))b=new
+aB(a);if(hH(a))b=new
+aB(bY(a));else
 if(a
 instanceof
 Array)b=new
-aA(Al(a));else
+aB(Ay(a));else
 if(typeof
 a==="string")b=new
-aA(mS(a));else
+aB(mV(a));else
 if(a.toString){var
-d=bY(bl(a.toString()));b=new
-aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-F(a){return a0(a)}function
-bG(b,a){return dj(b,a)}function
-Ag(d){var
-c=F(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
-Af(a){if(a.t!=4)fp(a);return a.c}function
-bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
-mJ();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
-a=Ag(b);if(!(a
+d=bY(bm(a.toString()));b=new
+aB(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+R(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+H(a){return a0(a)}function
+bH(b,a){return dm(b,a)}function
+At(d){var
+c=H(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bH(d,a);return b}function
+As(a){if(a.t!=4)fq(a);return a.c}function
+bE(a){this.fs=require("fs");this.fd=a}bE.prototype=new
+mM();bE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){R(a.toString())}};bE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){R(a.toString())}};bE.prototype.write=function(f,b,c,e){var
+a=At(b);if(!(a
 instanceof
-u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
-a=Af(d);if(!(a
+v.Uint8Array))a=new(v.Uint8Array)(a);var
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){R(a.toString())}return 0};bE.prototype.read=function(g,d,c,f){var
+a=As(d);if(!(a
 instanceof
-u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
-b=0;b<f;b++)cI(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){Q(a.toString())}return a[0]};bD.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){Q(a.toString())}};bD.prototype.constructor=bD;function
-aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aB.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
+v.Uint8Array))a=new(v.Uint8Array)(a);var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){R(a.toString())}for(var
+b=0;b<f;b++)cK(d,c+b,e[c+b]);return 0};bE.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){R(a.toString())}return a[0]};bE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){R(a.toString())}};bE.prototype.constructor=bE;function
+aC(a){this.fs=require("fs");this.root=a}aC.prototype.nm=function(a){return this.root+a};aC.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aC.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){R(a.toString())}};aC.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kJ);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
-b=cJ(hk);if(d&&b){var
-c=cL(a.code,a.syscall,a.path,a.errno);cK(b,c)}else
-Q(a.toString())};aB.prototype.stats_from_js=function(a){var
+bE(d)}catch(a){this.raise_nodejs_error(a,g)}};aC.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kK);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.raise_nodejs_error=function(a,d){var
+b=cL(hl);if(d&&b){var
+c=cN(a.code,a.syscall,a.path,a.errno);cM(b,c)}else
+R(a.toString())};aC.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
-m0(b){var
-a=hQ(b);if(!a)return;return a[0]+bg}var
-fw=m0(d$)||bk("unable to compute caml_root"),dn=[];if(ed())dn.push({path:fw,device:new
-aB(fw)});else
-dn.push({path:fw,device:new
-aQ(fw)});dn.push({path:lS,device:new
-aQ(lS)});function
-ng(b){var
-g=AM(b),b=g.join(bg),f=na(b),c;for(var
-e=0;e<dn.length;e++){var
-a=dn[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ed()){var
-d=m0(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aC.prototype.constructor=aC;function
+m3(b){var
+a=hR(b);if(!a)return;return a[0]+bh}var
+fx=m3(d$)||bl("unable to compute caml_root"),dr=[];if(ed())dr.push({path:fx,device:new
+aC(fx)});else
+dr.push({path:fx,device:new
+aQ(fx)});dr.push({path:lV,device:new
+aQ(lV)});function
+nj(b){var
+g=AZ(b),b=g.join(bh),f=nd(b),c;for(var
+e=0;e<dr.length;e++){var
+a=dr[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ed()){var
+d=m3(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aB(d)};dn.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
-Aq(c,b){var
-a=ng(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
-nb(c,b){var
-c=a(c),b=a(b);return Aq(c,b)}function
-At(){var
-b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nb(b[a].name,b[a].content);u.jsoo_create_file=nb;u.caml_fs_tmp=[];return 0}function
-mZ(){return[0]}function
-Av(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g$);return bl(a>0?ms:"-infinity")}var
+aC(d)};dr.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;R("no device found for "+f)}function
+AD(c,b){var
+a=nj(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
+ne(c,b){var
+c=a(c),b=a(b);return AD(c,b)}function
+AG(){var
+b=v.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)ne(b[a].name,b[a].content);v.jsoo_create_file=ne;v.caml_fs_tmp=[];return 0}function
+m2(){return[0]}function
+AI(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(ha);return bm(a>0?mv:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:by,e=s;if(i)e=a9;else
+j=d<0?t:bz,e=t;if(i)e=a_;else
 switch(k){case
-43:e=by;break;case
+43:e=bz;break;case
 32:e=bU;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ce);if(h<0)b+=ce+dm(c,aP);else{var
-f=h+1+c;if(b.length<f)b+=dm(f-b.length,aP);else
-b=b.substr(0,f)}}return bl(e+kS+b+"p"+j+d.toString(10))}function
-AC(a){return+a.isZero()}function
-AF(a){return new
-t(a&bW,a>>24&bW,a>>31&bB)}function
-AG(a){return a.toInt()}function
-AB(a){return+a.isNeg()}function
-AE(a){return a.neg()}function
-Az(g,c){var
-a=hH(g);if(a.signedconv&&AB(c)){a.sign=-1;c=AE(c)}var
-b=s,h=AF(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AG(e.modulus))+b}while(!AC(c));if(a.prec>=0){a.filler=bU;var
-d=a.prec-b.length;if(d>0)b=dm(d,aP)+b}return hy(a,b)}function
-AU(c){var
-a=0,e=F(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
+h=b.indexOf(cg);if(h<0)b+=cg+dq(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=dq(f-b.length,aP);else
+b=b.substr(0,f)}}return bm(e+kU+b+"p"+j+d.toString(10))}function
+AP(a){return+a.isZero()}function
+AS(a){return new
+u(a&bW,a>>24&bW,a>>31&bC)}function
+AT(a){return a.toInt()}function
+AO(a){return+a.isNeg()}function
+AR(a){return a.neg()}function
+AM(g,c){var
+a=hI(g);if(a.signedconv&&AO(c)){a.sign=-1;c=AR(c)}var
+b=t,h=AS(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AT(e.modulus))+b}while(!AP(c));if(a.prec>=0){a.filler=bU;var
+d=a.prec-b.length;if(d>0)b=dq(d,aP)+b}return hz(a,b)}function
+A7(c){var
+a=0,e=H(c),b=10,d=1;if(e>0)switch(bH(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bH(c,a)==48)switch(bH(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=F(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-m8(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mF)return a-87;return-1}function
-hF(f){var
-h=AU(f),c=h[0],i=h[1],d=h[2],g=F(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m8(e);if(b<0||b>=d)bk(e$);var
-a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m8(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e$)}if(c!=g)bk(e$);a=i*a;if(d==10&&(a|0)!=a)bk(e$);return a|0}function
-AK(d){return function(){var
+m$(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mI)return a-87;return-1}function
+hG(f){var
+h=A7(f),c=h[0],i=h[1],d=h[2],g=H(f),j=-1>>>0,e=c<g?bH(f,c):0,b=m$(e);if(b<0||b>=d)bl(fa);var
+a=b;for(c++;c<g;c++){e=bH(f,c);if(e==95)continue;b=m$(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
+AX(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
 a=0;a<b;a++)c[a]=arguments[a];return bZ(d,c)}else
 return bZ(d,[undefined])}}function
-AN(a,d){if(a<0)d_();var
+A0(a,d){if(a<0)d_();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-AO(){return 0}var
-bF=new
+A1(){return 0}var
+bG=new
 Array();function
-dl(c){var
-a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ai.fds[a.fd]&&ai.fds[a.fd].output){var
+dp(c){var
+a=bG[c];if(!a.opened)R("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&ai.fds[a.fd]&&ai.fds[a.fd].output){var
 b=ai.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-m$(e,f){var
-b=bF[e],d=a(f),c=F(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-A3(a){var
-a=hM(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
+nc(e,f){var
+b=bG[e],d=a(f),c=H(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Be(a){var
+a=hN(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-A4(a){var
-a=hM(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Bf(a){var
+a=hN(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fx(c,e,d,a){if(ai.fds===undefined)ai.fds=new
+fy(c,e,d,a){if(ai.fds===undefined)ai.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ai.fds[c]=b;if(!ai.fd_last_idx||c>ai.fd_last_idx)ai.fd_last_idx=c;return c}function
-A$(c,b,g){var
+Bm(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,113 +687,113 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b1(c)+lr);if(a.text&&a.binary)Q(b1(c)+lW);var
-d=ng(c),e=d.device.open(d.rest,a),f=ai.fd_last_idx?ai.fd_last_idx:0;return fx(f+1,m$,e,a)}fx(0,m$,new
-aA(ao(0)));fx(1,A4,new
-aA(ao(0)));fx(2,A3,new
-aA(ao(0)));function
-AP(a){var
-c=ai.fds[a];if(c.flags.wronly)Q(mE+a+" is writeonly");var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)R(b1(c)+lt);if(a.text&&a.binary)R(b1(c)+lZ);var
+d=nj(c),e=d.device.open(d.rest,a),f=ai.fd_last_idx?ai.fd_last_idx:0;return fy(f+1,nc,e,a)}fy(0,nc,new
+aB(ao(0)));fy(1,Bf,new
+aB(ao(0)));fy(2,Be,new
+aB(ao(0)));function
+A2(a){var
+c=ai.fds[a];if(c.flags.wronly)R(mH+a+" is writeonly");var
 d=null;if(a==0&&ed()){var
-e=require("fs");d=function(){return bl(e.readFileSync(0,kJ))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;return b.fd}function
-m3(c){var
-b=ai.fds[c];if(b.flags.rdonly)Q(mE+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
-AQ(){var
+e=require("fs");d=function(){return bm(e.readFileSync(0,kK))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bG[b.fd]=b;return b.fd}function
+m6(c){var
+b=ai.fds[c];if(b.flags.rdonly)R(mH+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bG[a.fd]=a;return a.fd}function
+A3(){var
 b=0;for(var
-a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
+a=0;a<bG.length;a++)if(bG[a]&&bG[a].opened&&bG[a].out)b=[0,bG[a].fd,b];return b}function
 aK(a){return a}function
-AR(g,d,h,f){var
-b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
-a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
-i=aK(a),c=b1(i),e=c.lastIndexOf(k4);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dl(g);b.buffer+=c.substr(e+1)}return 0}function
-m4(b,a,d,c){return AR(b,bY(a),d,c)}function
-m5(c,b){var
-d=a(String.fromCharCode(b));m4(c,d,0,1);return 0}function
-ec(a,b){return+(hw(a,b,false)!=0)}function
-fv(a){if(a
+A4(g,d,h,f){var
+b=bG[g];if(!b.opened)R("Cannot output to a closed channel");var
+a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);ci(d,h,a,0,f)}var
+i=aK(a),c=b1(i),e=c.lastIndexOf(k5);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dp(g);b.buffer+=c.substr(e+1)}return 0}function
+m7(b,a,d,c){return A4(b,bY(a),d,c)}function
+m8(c,b){var
+d=a(String.fromCharCode(b));m7(c,d,0,1);return 0}function
+ec(a,b){return+(hx(a,b,false)!=0)}function
+fw(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fu(a))return fm;else
-if(hG(a))return fm;else
+if(fv(a))return fn;else
+if(hH(a))return fn;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return k9;else
+if(a&&a.caml_custom)return k_;else
 return d6}function
-a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ai[b+1]=c;if(a)ai[a]=c}function
-hJ(a,b){m7[b1(a)]=b;return 0}function
-Aj(a,b){if(a===b)return 1;a.t&6&&dk(a);b.t&6&&dk(b);return a.c==b.c?1:0}function
-av(a,b){return Aj(a,b)}function
-AZ(){au(hp)}function
-R(b,a){if(a>>>0>=F(b))AZ();return bG(b,a)}function
-l(a,b){return 1-av(a,b)}function
-A1(){return 0x7FFFFFFF/4|0}function
-hL(a){var
+a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);ai[b+1]=c;if(a)ai[a]=c}function
+hK(a,b){m_[b1(a)]=b;return 0}function
+Aw(a,b){if(a===b)return 1;a.t&6&&dn(a);b.t&6&&dn(b);return a.c==b.c?1:0}function
+aw(a,b){return Aw(a,b)}function
+Ba(){av(hq)}function
+S(b,a){if(a>>>0>=H(b))Ba();return bH(b,a)}function
+k(a,b){return 1-aw(a,b)}function
+Bc(){return 0x7FFFFFFF/4|0}function
+hM(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aC(b,a){return{joo_tramp:b,joo_args:a}}function
-m_(a){return a}function
-fy(a){if(a
+aD(b,a){return{joo_tramp:b,joo_args:a}}function
+nb(a){return a}function
+fz(a){if(a
 instanceof
-Array)return a;if(u.RangeError&&a
+Array)return a;if(v.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m_(ai.Stack_overflow);if(u.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nb(ai.Stack_overflow);if(v.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m_(ai.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return nb(ai.Stack_overflow);if(a
 instanceof
-u.Error&&cJ(g8))return[0,cJ(g8),a];return[0,ai.Failure,bl(String(a))]}function
-fz(a){return a<0?-a:a}function
+v.Error&&cL(g9))return[0,cL(g9),a];return[0,ai.Failure,bm(String(a))]}function
+fA(a){return a<0?-a:a}function
 C(a,b){return a+b}function
-hN(a,b){return a<b?-1:a>b?1:0}function
-nd(c,b){var
-a=c%b;return a<0?a+fz(b):a}function
-hO(a,b){return(a-nd(a,b))/b}function
+hO(a,b){return a<b?-1:a>b?1:0}function
+ng(c,b){var
+a=c%b;return a<0?a+fA(b):a}function
+hP(a,b){return(a-ng(a,b))/b}function
 al(a,b){return a==b?1:0}function
 D(a,b){return a<=b?1:0}function
-$(a,b){return a<b?1:0}function
+aa(a,b){return a<b?1:0}function
 r(a,b){return a*b}function
-W(a){return-a}function
-a1(a){return u.BigInt(a)}function
-ne(a,b){return a<<u.BigInt(b)}function
-nf(a,b){return a>>u.BigInt(b)}function
-bH(a){return a<0?-1:a>0?1:0}function
-A9(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
-d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+Y(a){return-a}function
+a1(a){return v.BigInt(a)}function
+nh(a,b){return a<<v.BigInt(b)}function
+ni(a,b){return a>>v.BigInt(b)}function
+bI(a){return a<0?-1:a>0?1:0}function
+Bk(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 b2(a,b){return a-b}function
-hP(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-AJ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-As(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AJ(b[1]))var
+hQ(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+AW(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+AF(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AW(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mc;for(var
-d=f;d<e.length;d++){if(d>f)a+=kM;var
+f=2,e=b;a+=mf;for(var
+d=f;d<e.length;d++){if(d>f)a+=kN;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bC)a+=at+c.toString()+at;else
+bD)a+=au+c.toString()+au;else
 if(typeof
-c=="string")a+=at+c.toString()+at;else
-a+=lJ}a+=ha}else
-if(b[0]==as)a+=b[1];return a}function
-mY(a){if(a
+c=="string")a+=au+c.toString()+au;else
+a+=lL}a+=hb}else
+if(b[0]==at)a+=b[1];return a}function
+m1(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==as)){var
-c=cJ(kZ);if(c)c(a,false);else{var
-d=As(a),b=cJ(kI);if(b)b(0);u.console.error(hg+d+k4)}}else
+Array&&(a[0]==0||a[0]==at)){var
+c=cL(k1);if(c)c(a,false);else{var
+d=AF(a),b=cL(kJ);if(b)b(0);v.console.error(hh+d+k5)}}else
 throw a}function
-AY(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mY(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mY(a.error)})}AY();function
+A$(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m1(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m1(a.error)})}A$();function
 e(a,b){return a.length==1?a(b):bZ(a,[b])}function
-N(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
+O(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
 g3(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bZ(a,[b,c,d,e,f])}function
-Ae(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}At();var
-fA=[as,a(mw),-1],hV=[as,a(k1),-2],hS=[as,a(g7),-3],hR=[as,a(lF),-4],hT=[as,a(lh),-8],hU=[as,a(lT),-9],ab=[as,a(mh),-11],hW=[as,a(kH),-12],zg=[4,0,0,0,[12,45,[4,0,0,0,0]]],fG=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lm),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zh=[0,[0,0]],zi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],zj=[0,0],zk=[0,[0,[0,[0,0]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],zo=[0,[0,0]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,0]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,0],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,0]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,0],Ad=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eQ=[0,[0,[0,[0,0]]]];a_(11,hW,kH);a_(10,ab,mh);a_(9,[as,a(lz),-10],lz);a_(8,hU,lT);a_(7,hT,lh);a_(6,[as,a(lQ),-7],lQ);a_(5,[as,a(l8),-6],l8);a_(4,[as,a(k6),-5],k6);a_(3,hR,lF);a_(2,hS,g7);a_(1,hV,k1);a_(0,fA,mw);var
-nl=a("%.12g"),nk=a(ce),ni=a("true"),nj=a("false"),nm=a("\\\\"),nn=a("\\'"),no=a("\\b"),np=a("\\t"),nq=a("\\n"),nr=a("\\r"),nu=a("String.blit / Bytes.blit_string"),nt=a("Bytes.blit"),ns=a("String.sub / Bytes.sub"),nw=a(s),nv=a("String.concat"),nx=a("Array.init"),nA=a("Buffer.add: cannot grow buffer"),nz=[0,a(l4),93,2],ny=[0,a(l4),94,2],nJ=a("%c"),nK=a("%s"),nL=a(kF),nM=a(lf),nN=a(lB),nO=a(kO),nP=a("%f"),nQ=a("%B"),nR=a("%{"),nS=a("%}"),nT=a("%("),nU=a("%)"),nV=a("%a"),nW=a("%t"),nX=a("%?"),nY=a("%r"),nZ=a("%_r"),n0=[0,a(ar),850,23],n$=[0,a(ar),814,21],n3=[0,a(ar),815,21],oa=[0,a(ar),818,21],n4=[0,a(ar),819,21],ob=[0,a(ar),822,19],n5=[0,a(ar),823,19],oc=[0,a(ar),826,22],n6=[0,a(ar),827,22],od=[0,a(ar),831,30],n7=[0,a(ar),832,30],n9=[0,a(ar),836,26],n1=[0,a(ar),837,26],n_=[0,a(ar),846,28],n2=[0,a(ar),847,28],n8=[0,a(ar),851,23],pg=a(lw),pe=[0,a(ar),1558,4],pf=a("Printf: bad conversion %["),ph=[0,a(ar),1626,39],pi=[0,a(ar),1649,31],pj=[0,a(ar),1650,31],pk=a("Printf: bad conversion %_"),pl=a(ls),pm=a(lE),pn=a(ls),po=a(lE),pc=a(g$),pa=a("neg_infinity"),pb=a(ms),o$=a(ce),o6=[0,kX],oU=a("%+nd"),oV=a("% nd"),oX=a("%+ni"),oY=a("% ni"),oZ=a("%nx"),o0=a("%#nx"),o1=a("%nX"),o2=a("%#nX"),o3=a("%no"),o4=a("%#no"),oT=a("%nd"),oW=a(lB),o5=a("%nu"),oH=a("%+ld"),oI=a("% ld"),oK=a("%+li"),oL=a("% li"),oM=a("%lx"),oN=a("%#lx"),oO=a("%lX"),oP=a("%#lX"),oQ=a("%lo"),oR=a("%#lo"),oG=a("%ld"),oJ=a(lf),oS=a("%lu"),ou=a("%+Ld"),ov=a("% Ld"),ox=a("%+Li"),oy=a("% Li"),oz=a("%Lx"),oA=a("%#Lx"),oB=a("%LX"),oC=a("%#LX"),oD=a("%Lo"),oE=a("%#Lo"),ot=a("%Ld"),ow=a(kO),oF=a("%Lu"),oh=a("%+d"),oi=a("% d"),ok=a("%+i"),ol=a("% i"),om=a("%x"),on=a("%#x"),oo=a("%X"),op=a("%#X"),oq=a("%o"),or=a("%#o"),og=a(hl),oj=a(kF),os=a(lw),nB=a("@]"),nC=a("@}"),nD=a("@?"),nE=a("@\n"),nF=a("@."),nG=a("@@"),nH=a("@%"),nI=a("@"),oe=a("CamlinternalFormat.Type_mismatch"),ps=a(s),pt=[0,[11,a(kM),[2,0,[2,0,0]]],a(", %s%s")],pS=[0,[11,a(hg),[2,0,[12,10,0]]],a(me)],pT=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pR=a("Fatal error: out of memory in uncaught exception handler"),pP=[0,[11,a(hg),[2,0,[12,10,0]]],a(me)],pL=[0,[2,0,[12,10,0]],a("%s\n")],pD=a("Raised at"),pE=a("Re-raised at"),pF=a("Raised by primitive operation at"),pG=a("Called from"),pH=a(" (inlined)"),pJ=a(s),pI=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lm),zg]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pK=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],py=a("Out of memory"),pz=a("Stack overflow"),pA=a("Pattern matching failed"),pB=a("Assertion failed"),pC=a("Undefined recursive module"),pu=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pv=a(s),pw=a(s),px=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pr=[0,[4,0,0,0,0],a(hl)],pp=[0,[3,0,0],a("%S")],pq=a(lJ),pM=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pV=a("Jsoo_runtime.Error.Exn"),pX=a("power"),p7=[0,0],p8=[0,[0,0]],p9=[0,[0,0]],qe=[0,0],ql=[0,0,0],qm=[0,0,0],qn=[0,0],qo=[0,0],qF=[0,0],qH=[0,0],qT=[0,0],qU=[0,0],rd=[0,[0,[0,0]]],rp=a(","),rH=[0,a(ha),0],rI=a(mc),rJ=a(ce),rK=[0,[0,[0,0]]],rL=a(a9),rM=a(hb),rN=[0,[0,[0,[0,[0,0]]]]],rO=[0,a(ha),0],rP=a(mI),t7=a(kG),t9=a(lH),t8=a(mj),t_=a(fc),t$=a(lD),ua=a(mB),ub=a(l3),uQ=[0,a(lg),7868,12],u4=a(hh),u5=[0,0],u6=a("divided"),u7=[0,1],u8=a("mirror"),u9=[0,3],u_=a("negative"),u$=[0,2],va=a(ht),vb=[0,4],vc=a(fa),vd=a(lU),ve=a(fl),vf=a(cH),vg=[0,0],vh=[0,0],vi=[0,0],vC=a(s),vy=[0,[0,[0,0]]],vz=[0,[0,[0,[0,0]]]],vA=[0,[0,[0,[0,0]]]],vw=[0,[0,[0,0]]],vv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vu=[0,0],vs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],vq=[0,[0,0]],vr=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vp=[0,[0,0]],vn=[0,[0,[0,0]]],vk=[0,[0,0]],vl=[0,0],vj=[0,0],uZ=[0,[0,0]],u0=[0,0],uY=[0,0],uX=[0,0],uW=[0,0,0],uU=[0,0,0],uT=[0,0],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uN=a("sqrt"),uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],ut=[0,a("\n"),0],uu=a(lI),uv=a(e_),uw=a(k$),ux=a(l6),uy=a("certified"),uD=a("refuted"),uz=a("verdict"),uA=a(lp),uB=a(l1),uC=a(mg),ul=a(mv),um=a(fb),un=a(k8),uo=a(fd),up=a(bj),uq=a(lK),ur=a(fb),us=a(mz),uh=a(mp),ui=a(fd),uj=a(l0),uk=a(mC),ud=a(mA),ue=a(ma),uf=a(fk),t5=a(hj),t6=a(hd),tJ=a(fk),to=a(bj),tp=a(bV),tq=a(dh),tr=a(e9),ts=a(dg),tt=a(bj),tu=a(bV),tv=a(hq),tw=a(bA),tx=a(bz),ty=a(cG),tz=a(dh),tA=a(mr),tB=a(mx),tC=a(dg),tD=a(bj),tE=a(bV),tF=a(bA),tG=a(bz),tH=a(cG),tI=a(dh),tK=a(ll),tL=a(lt),tM=a(mH),tN=a(lV),tO=a(kR),tP=a(dg),tQ=a(bj),tR=a(bV),tS=a(ff),tT=a(l5),tU=a(dh),tV=a(d8),tW=a(lN),tX=a(dg),tY=a(bj),tZ=a(ff),t0=a(bj),t1=a(li),t4=a(lG),t2=a(kQ),t3=a(lx),ti=a(bV),tj=a(hu),tk=a(dh),tl=a(e9),tm=a(dg),s8=a(d8),s9=a(my),s_=a(dd),s$=a(de),ta=a(de),tb=a(g5),tc=a(dd),td=a(mi),te=a(l2),tf=a(bh),th=a(lM),tg=a(g5),sY=a(k7),sZ=a(lC),s0=a(kT),s1=a(lY),s2=a(lv),s3=a(ln),s4=a(l7),s5=a(fg),s6=a(fg),sU=a(bh),sV=a(cc),sW=a(fe),sX=a(cd),sQ=a(d5),sR=a(ho),sS=a(mn),sJ=a(bA),sK=a(bz),sL=a(cG),sM=a(la),sN=a(dd),sO=a(k5),sP=a(mu),sC=a(l9),sD=a(kP),sI=a(e_),sE=a(lZ),sF=a(k2),sG=a(de),sH=a(mk),sz=a(bz),sA=a(bA),sB=a(lu),sp=a(kL),sq=a(lL),sr=a(mq),ss=a(fc),st=a(mG),su=a(mt),sv=a(lP),sw=a(mm),sx=a(kK),sy=a(kY),se=a(by),so=a(a9),sf=a(fi),sg=a(fh),sh=a(fo),si=a(bh),sj=a(cc),sk=a(ld),sl=a(lj),sm=a(fo),sn=a(cd),rY=a(by),r6=a(a9),rZ=a(fi),r0=a(fh),r1=a(bh),r2=a(cc),r3=a(cH),r4=a(ly),r5=a(cd),r7=a(he),r8=a(bh),r9=a(cc),r_=a(fe),r$=a(cd),sa=a(cH),sb=a(d5),sc=a(cd),rV=a(bA),rW=a(bz),rT=[0,a(at),0],rU=a(at),rR=[0,a(lg),7184,36],rQ=[0,a(at),0],rS=a(at),rD=a(by),rE=a(a9),rF=a("*"),rG=a(bg),ry=[0,[0,[0,[0,[0,0]]]]],rz=[0,[0,[0,0]]],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,[0,[0,0]]]],rw=a('":'),rx=a(at),ru=[0,a(at),0],rv=a(at),rs=[0,a("}"),0],rt=a("{"),rq=[0,a("]"),0],rr=a("["),ro=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],rl=[0,0],ri=[0,[0,[0,0]]],rj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rg=[0,[0,0]],rh=[0,[0,[0,0]]],rb=[0,[0,0]],rc=[0,[0,[0,0]]],q$=[0,[0,[0,0]]],ra=[0,[0,0]],q9=[0,0],q5=[0,[0,0]],q6=[0,0],q7=[0,0],q8=[0,[0,0]],qW=[0,[0,0]],qX=[0,0],qY=[0,[0,0]],qZ=[0,0],q0=[0,0],q1=[0,[0,0]],q2=[0,[0,0]],q3=[0,[0,0]],q4=[0,0],qS=[0,0],qQ=[0,[0,[0,0]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,0],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],qK=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,[0,[0,[0,0]]]]]],qy=[0,[0,0]],qz=[0,0],qA=[0,[0,[0,0]]],qB=[0,[0,[0,0]]],qr=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,[0,[0,[0,0]]]]]],qu=[0,[0,[0,0]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,[0,0]]],qp=[0,[0,0]],qq=[0,0],qf=[0,0,0],qa=[0,0],qb=[0,[0,0]],qc=[0,0],qd=[0,[0,0]],p_=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],p6=a(aP),p5=a(s),p4=[0,[0,0]],p3=[0,0],p2=[1,0],p1=[0,0],p0=[0,0],pY=[1,0],pZ=[1,0],xN=a(cd),xO=a(he),xP=a(fe),xS=a(bh),xT=a(cc),xQ=[0,a('" of such a platform'),0],xR=a(kN),xz=a("rho"),xA=a(fk),xB=[0,a("a joint by its coordinate"),0],xa=a(bV),w1=a(bj),w2=a(li),w3=a(lx),w6=a(kQ),w7=a(lG),w8=a(bj),w9=a(bj),w$=a(ff),w_=[0,a("a claim that no cube of such a machine fits"),0],xb=a(dg),xc=a(dh),xd=a(e9),xe=a(hu),ya=[0,a("such a machine with bodies"),0],xf=a(d5),xg=a(ho),xh=a(mn),xi=a(hq),xj=a(kR),xk=a(lN),xl=a(e9),xo=a(cG),xp=a(mu),xs=a(hu),xt=[0,a("a machine with arms and bodies"),0],xu=a(bV),xv=a(l5),xw=a(ff),xx=a(d8),xy=a(cG),xC=a(bV),xD=a(bA),xE=a(bz),xF=a(ll),xG=a(lt),xH=a(mH),xI=a(lV),xm=[0,a(at),0],xn=a(lA),xJ=a(cG),xK=[0,a('" of a platform that turns'),0],xL=a(lo),xM=a(mr),x_=[0,a('" that does not turn'),0],x$=a(lA),xU=a(hq),xV=a(ln),xW=a(k7),xX=a(lv),xY=a(fg),xZ=a(l7),x0=a(fg),x7=a(lC),x8=a(kT),x9=a(lY),x1=a(d5),x2=a(ho),x3=a(bV),x4=a(bA),x5=a(bz),x6=a(mx),xq=[0,a(at),0],xr=a(lo),w4=[0,a(at),0],w5=a('a claim of the kind "'),yd=a(fc),ye=a(l3),yf=a(mj),yg=a(cH),yh=a(lD),yi=a(fa),yj=a(lU),yk=a(fl),yp=a(hd),yq=a(hj),yr=a(cH),yl=[0,a(at),0],ym=a('the evidence "'),yn=a(hd),yo=a(hj),ys=a(fa),yt=a(fl),yu=a(mB),yw=a(fa),yx=a(fl),yy=a(hh),yz=a(hh),yv=[0,a("this evidence at control points"),0],yY=a(mg),yZ=a(l1),y0=a(lp),y$=[0,3,3],y1=a(l6),y6=[0,a('the drive "arm" in a claim that is certified'),0],y7=[0,a("a step of a platform that turns that is not at control points"),0],y8=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y9=[0,a("a mechanism by formulas in a claim that is refuted"),0],y_=[0,a("a step in a proof that no cube fits"),0],y2=[0,a("a leaf that fails"),0],y3=a(k$),y4=a(lI),y5=a(e_),yW=a(ht),yL=a(k8),yM=a(mz),yP=a(bj),yQ=a(fd),yR=a(lK),yS=a(fb),yT=a(mv),yU=a(fb),yN=[0,a(at),0],yO=a('a proof of the kind "'),yH=a(mp),yI=a(fd),yJ=a(l0),yK=a(mC),yC=a(ma),yD=a(mA),yE=a(fk),yF=[0,a(at),0],yG=a('the failure "'),yA=a(ht),yB=a(aP),yb=a(lH),yc=a(kG),wY=a(d8),wO=a(g5),wP=a(lM),wQ=a(de),wR=a(bh),wW=a(my),wX=a(d8),wZ=a(dd),w0=a(de),wS=a(dd),wT=a(mi),wU=a(l2),wV=a(bh),wH=a(cG),wL=a(bA),wM=a(bz),wI=a(k5),wJ=a(la),wK=a(dd),wF=[0,a(mf),0],wE=[0,a(mf),0],wu=a(lZ),wv=[0,a("a stiffness for each joint"),0],wt=a(e_),wm=a(l9),we=a(mk),wf=a(mq),wy=a(kY),wz=a(fc),wA=a(mm),wB=a(kK),wC=a(lL),wg=a(mt),wh=a(mG),wi=a(lP),wj=a(kL),wk=[0,a(at),0],wl=a('the quantity "'),wn=a(kP),wo=a(bA),wp=a(bz),wq=a(lu),wr=[0,a(at),0],ws=a('a bound "'),ww=a(k2),wx=a(de),v9=a(fi),v_=a(fh),v$=a(fo),wa=a(bh),wb=a(cc),wc=a(ld),wd=a(lj),v6=a(cd),v7=a(fo),vR=a(cd),vS=a(d5),vT=a(ly),vU=a(fe),vX=a(he),vY=a(bh),vZ=a(cc),v0=a(fi),v1=a(fh),v2=a(bh),v3=a(cc),v4=a(cH),v5=a(cH),vV=[0,a(at),0],vW=a(kN),vO=a(by),vP=a(a9),vM=a(" is not covered by the verified checker"),vN=a(s),vK=a(bA),vL=a(bz),vG=a(s),vH=a(mI),vI=a(s),vJ=a(s),vF=[1,0],vD=a("Reader.Malformed"),vE=a("Reader.Not_covered"),zb=a(le),zc=a("CERTIFIED"),zd=a("REFUTED"),ze=a(le),zf=a("NOT COVERED: ");function
+Ar(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}AG();var
+fB=[at,a(mz),-1],hW=[at,a(k3),-2],hT=[at,a(g8),-3],hS=[at,a(lH),-4],hU=[at,a(li),-8],hV=[at,a(lW),-9],ac=[at,a(mk),-11],hX=[at,a(kI),-12],zt=[4,0,0,0,[12,45,[4,0,0,0,0]]],fH=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lo),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zu=[0,[0,0]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,0],zx=[0,[0,[0,[0,0]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,0]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,0]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,0],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,0]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,0],Aq=[0,[0,[0,[0,[0,0]]]]],ct=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,hX,kI);a$(10,ac,mk);a$(9,[at,a(lB),-10],lB);a$(8,hV,lW);a$(7,hU,li);a$(6,[at,a(lT),-7],lT);a$(5,[at,a(l$),-6],l$);a$(4,[at,a(k7),-5],k7);a$(3,hS,lH);a$(2,hT,g8);a$(1,hW,k3);a$(0,fB,mz);var
+no=a("%.12g"),nn=a(cg),nl=a("true"),nm=a("false"),np=a("\\\\"),nq=a("\\'"),nr=a("\\b"),ns=a("\\t"),nt=a("\\n"),nu=a("\\r"),nx=a("String.blit / Bytes.blit_string"),nw=a("Bytes.blit"),nv=a("String.sub / Bytes.sub"),nz=a(t),ny=a("String.concat"),nA=a("Array.init"),nD=a("Buffer.add: cannot grow buffer"),nC=[0,a(l7),93,2],nB=[0,a(l7),94,2],nM=a("%c"),nN=a("%s"),nO=a(kG),nP=a(lg),nQ=a(lD),nR=a(kQ),nS=a("%f"),nT=a("%B"),nU=a("%{"),nV=a("%}"),nW=a("%("),nX=a("%)"),nY=a("%a"),nZ=a("%t"),n0=a("%?"),n1=a("%r"),n2=a("%_r"),n3=[0,a(as),850,23],oc=[0,a(as),814,21],n6=[0,a(as),815,21],od=[0,a(as),818,21],n7=[0,a(as),819,21],oe=[0,a(as),822,19],n8=[0,a(as),823,19],of=[0,a(as),826,22],n9=[0,a(as),827,22],og=[0,a(as),831,30],n_=[0,a(as),832,30],oa=[0,a(as),836,26],n4=[0,a(as),837,26],ob=[0,a(as),846,28],n5=[0,a(as),847,28],n$=[0,a(as),851,23],pj=a(ly),ph=[0,a(as),1558,4],pi=a("Printf: bad conversion %["),pk=[0,a(as),1626,39],pl=[0,a(as),1649,31],pm=[0,a(as),1650,31],pn=a("Printf: bad conversion %_"),po=a(lu),pp=a(lG),pq=a(lu),pr=a(lG),pf=a(ha),pd=a("neg_infinity"),pe=a(mv),pc=a(cg),o9=[0,kZ],oX=a("%+nd"),oY=a("% nd"),o0=a("%+ni"),o1=a("% ni"),o2=a("%nx"),o3=a("%#nx"),o4=a("%nX"),o5=a("%#nX"),o6=a("%no"),o7=a("%#no"),oW=a("%nd"),oZ=a(lD),o8=a("%nu"),oK=a("%+ld"),oL=a("% ld"),oN=a("%+li"),oO=a("% li"),oP=a("%lx"),oQ=a("%#lx"),oR=a("%lX"),oS=a("%#lX"),oT=a("%lo"),oU=a("%#lo"),oJ=a("%ld"),oM=a(lg),oV=a("%lu"),ox=a("%+Ld"),oy=a("% Ld"),oA=a("%+Li"),oB=a("% Li"),oC=a("%Lx"),oD=a("%#Lx"),oE=a("%LX"),oF=a("%#LX"),oG=a("%Lo"),oH=a("%#Lo"),ow=a("%Ld"),oz=a(kQ),oI=a("%Lu"),ok=a("%+d"),ol=a("% d"),on=a("%+i"),oo=a("% i"),op=a("%x"),oq=a("%#x"),or=a("%X"),os=a("%#X"),ot=a("%o"),ou=a("%#o"),oj=a(hm),om=a(kG),ov=a(ly),nE=a("@]"),nF=a("@}"),nG=a("@?"),nH=a("@\n"),nI=a("@."),nJ=a("@@"),nK=a("@%"),nL=a("@"),oh=a("CamlinternalFormat.Type_mismatch"),pv=a(t),pw=[0,[11,a(kN),[2,0,[2,0,0]]],a(", %s%s")],pV=[0,[11,a(hh),[2,0,[12,10,0]]],a(mh)],pW=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pU=a("Fatal error: out of memory in uncaught exception handler"),pS=[0,[11,a(hh),[2,0,[12,10,0]]],a(mh)],pO=[0,[2,0,[12,10,0]],a("%s\n")],pG=a("Raised at"),pH=a("Re-raised at"),pI=a("Raised by primitive operation at"),pJ=a("Called from"),pK=a(" (inlined)"),pM=a(t),pL=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lo),zt]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pN=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pB=a("Out of memory"),pC=a("Stack overflow"),pD=a("Pattern matching failed"),pE=a("Assertion failed"),pF=a("Undefined recursive module"),px=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],py=a(t),pz=a(t),pA=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pu=[0,[4,0,0,0,0],a(hm)],ps=[0,[3,0,0],a("%S")],pt=a(lL),pP=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pY=a("Jsoo_runtime.Error.Exn"),p0=a("power"),p_=[0,0],p$=[0,[0,0]],qa=[0,[0,0]],qh=[0,0],qo=[0,0,0],qp=[0,0,0],qq=[0,0],qr=[0,0],qI=[0,0],qK=[0,0],qW=[0,0],qX=[0,0],rg=[0,[0,[0,0]]],rs=a(","),rK=[0,a(hb),0],rL=a(mf),rM=a(cg),rN=[0,[0,[0,0]]],rO=a(a_),rP=a(hc),rQ=[0,[0,[0,[0,[0,0]]]]],rR=[0,a(hb),0],rS=a(mL),uc=a(kH),ue=a(lJ),ud=a(mm),uf=a(fd),ug=a(lF),uh=a(mE),ui=a(l6),uX=[0,a(lh),7932,12],u$=a(hi),va=[0,0],vb=a("divided"),vc=[0,1],vd=a("mirror"),ve=[0,3],vf=a("negative"),vg=[0,2],vh=a(hu),vi=[0,4],vj=a(fb),vk=a(lX),vl=a(fm),vm=a(cJ),vn=[0,0],vo=[0,0],vp=[0,0],vJ=a(t),vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,0]]]],vH=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],vB=[0,0],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vq=[0,0],u6=[0,[0,0]],u7=[0,0],u5=[0,0],u4=[0,0],u3=[0,0,0],u1=[0,0,0],u0=[0,0],uR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],uT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],uU=a("sqrt"),uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],uA=[0,a("\n"),0],uB=a(lK),uC=a(e$),uD=a(la),uE=a(l9),uF=a("certified"),uK=a("refuted"),uG=a("verdict"),uH=a(lr),uI=a(l4),uJ=a(mj),us=a(my),ut=a(fc),uu=a(k9),uv=a(fe),uw=a(bk),ux=a(lM),uy=a(fc),uz=a(mC),uo=a(ms),up=a(fe),uq=a(l3),ur=a(mF),uk=a(mD),ul=a(md),um=a(fl),ua=a(hk),ub=a(he),tQ=a(fl),tv=a(bk),tw=a(bV),tx=a(dk),ty=a(e_),tz=a(dj),tA=a(bk),tB=a(bV),tC=a(hr),tD=a(bB),tE=a(bA),tF=a(cI),tG=a(dk),tH=a(mu),tI=a(mA),tJ=a(dj),tK=a(bk),tL=a(bV),tM=a(bB),tN=a(bA),tO=a(cI),tP=a(dk),tR=a(ln),tS=a(lv),tT=a(mK),tU=a(lY),tV=a(kT),tW=a(dj),tX=a(bk),tY=a(bV),tZ=a(fg),t0=a(l8),t1=a(dk),t2=a(d8),t3=a(lP),t4=a(dj),t5=a(bk),t6=a(fg),t7=a(bk),t8=a(lj),t$=a(lI),t9=a(kS),t_=a(lz),tp=a(bV),tq=a(hv),tr=a(dk),ts=a(e_),tt=a(dj),td=a(d8),te=a(mB),tf=a(dg),tg=a(dh),th=a(dh),ti=a(g5),tj=a(dg),tk=a(ml),tl=a(l5),tm=a(bi),to=a(lO),tn=a(g5),s5=a(k8),s6=a(lE),s7=a(kV),s8=a(l1),s9=a(lx),s_=a(lp),s$=a(l_),ta=a(fh),tb=a(fh),s1=a(bi),s2=a(ce),s3=a(ff),s4=a(cf),sX=a(d5),sY=a(hp),sZ=a(mq),sQ=a(bB),sR=a(bA),sS=a(cI),sT=a(lb),sU=a(dg),sV=a(k6),sW=a(mx),sG=a(ma),sH=a(kR),sM=a(e$),sI=a(l2),sJ=a(g6),sN=a(kP),sO=a(ll),sP=a(g6),sK=a(dh),sL=a(mn),sD=a(bA),sE=a(bB),sF=a(lw),ss=a(kM),st=a(lN),su=a(mt),sv=a(fd),sw=a(mJ),sx=a(mw),sy=a(lS),sz=a(mp),sA=a(kL),sB=a(k0),sC=a(lR),sh=a(bz),sr=a(a_),si=a(fj),sj=a(fi),sk=a(fp),sl=a(bi),sm=a(ce),sn=a(le),so=a(lk),sp=a(fp),sq=a(cf),r1=a(bz),r9=a(a_),r2=a(fj),r3=a(fi),r4=a(bi),r5=a(ce),r6=a(cJ),r7=a(lA),r8=a(cf),r_=a(hf),r$=a(bi),sa=a(ce),sb=a(ff),sc=a(cf),sd=a(cJ),se=a(d5),sf=a(cf),rY=a(bB),rZ=a(bA),rW=[0,a(au),0],rX=a(au),rU=[0,a(lh),7226,36],rT=[0,a(au),0],rV=a(au),rG=a(bz),rH=a(a_),rI=a("*"),rJ=a(bh),rB=[0,[0,[0,[0,[0,0]]]]],rC=[0,[0,[0,0]]],rD=[0,[0,0]],rE=[0,0],rF=[0,[0,[0,[0,0]]]],rz=a('":'),rA=a(au),rx=[0,a(au),0],ry=a(au),rv=[0,a("}"),0],rw=a("{"),rt=[0,a("]"),0],ru=a("["),rr=[0,[0,[0,0]]],rq=[0,[0,[0,0]]],ro=[0,0],rl=[0,[0,[0,0]]],rm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rn=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rj=[0,[0,0]],rk=[0,[0,[0,0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],rd=[0,[0,0]],ra=[0,0],q8=[0,[0,0]],q9=[0,0],q_=[0,0],q$=[0,[0,0]],qZ=[0,[0,0]],q0=[0,0],q1=[0,[0,0]],q2=[0,0],q3=[0,0],q4=[0,[0,0]],q5=[0,[0,0]],q6=[0,[0,0]],q7=[0,0],qV=[0,0],qT=[0,[0,[0,0]]],qS=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,0],qQ=[0,[0,[0,[0,[0,[0,0]]]]]],qR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],qN=[0,[0,[0,0]]],qH=[0,[0,[0,0]]],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,0]],qC=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,[0,0]]],qy=[0,[0,[0,[0,[0,[0,0]]]]]],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qs=[0,[0,0]],qt=[0,0],qi=[0,0,0],qd=[0,0],qe=[0,[0,0]],qf=[0,0],qg=[0,[0,0]],qb=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],p9=a(aP),p8=a(t),p7=[0,[0,0]],p6=[0,0],p5=[1,0],p4=[0,0],p3=[0,0],p1=[1,0],p2=[1,0],xX=a(cf),xY=a(hf),xZ=a(ff),x2=a(bi),x3=a(ce),x0=[0,a('" of such a platform'),0],x1=a(kO),xJ=a("rho"),xK=a(fl),xL=[0,a("a joint by its coordinate"),0],xk=a(bV),w$=a(bk),xa=a(lj),xb=a(lz),xe=a(kS),xf=a(lI),xg=a(bk),xh=a(bk),xj=a(fg),xi=[0,a("a claim that no cube of such a machine fits"),0],xl=a(dj),xm=a(dk),xn=a(e_),xo=a(hv),yk=[0,a("such a machine with bodies"),0],xp=a(d5),xq=a(hp),xr=a(mq),xs=a(hr),xt=a(kT),xu=a(lP),xv=a(e_),xy=a(cI),xz=a(mx),xC=a(hv),xD=[0,a("a machine with arms and bodies"),0],xE=a(bV),xF=a(l8),xG=a(fg),xH=a(d8),xI=a(cI),xM=a(bV),xN=a(bB),xO=a(bA),xP=a(ln),xQ=a(lv),xR=a(mK),xS=a(lY),xw=[0,a(au),0],xx=a(lC),xT=a(cI),xU=[0,a('" of a platform that turns'),0],xV=a(lq),xW=a(mu),yi=[0,a('" that does not turn'),0],yj=a(lC),x4=a(hr),x5=a(lp),x6=a(k8),x7=a(lx),x8=a(fh),x9=a(l_),x_=a(fh),yf=a(lE),yg=a(kV),yh=a(l1),x$=a(d5),ya=a(hp),yb=a(bV),yc=a(bB),yd=a(bA),ye=a(mA),xA=[0,a(au),0],xB=a(lq),xc=[0,a(au),0],xd=a('a claim of the kind "'),yn=a(fd),yo=a(l6),yp=a(mm),yq=a(cJ),yr=a(lF),ys=a(fb),yt=a(lX),yu=a(fm),yz=a(he),yA=a(hk),yB=a(cJ),yv=[0,a(au),0],yw=a('the evidence "'),yx=a(he),yy=a(hk),yC=a(fb),yD=a(fm),yE=a(mE),yG=a(fb),yH=a(fm),yI=a(hi),yJ=a(hi),yF=[0,a("this evidence at control points"),0],y9=a(mj),y_=a(l4),y$=a(lr),zm=[0,3,3],za=a(l9),zb=[0,a("the acceleration of a joint of a machine with a plane"),0],zi=[0,a('the drive "arm" in a claim that is certified'),0],zj=[0,a("a step of a platform that turns that is not at control points"),0],zk=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zl=[0,a("a mechanism by formulas in a claim that is refuted"),0],zh=[0,a("this quantity in a claim that is refuted"),0],zf=[0,a("a leaf that fails"),0],zg=[0,a("a step in a proof that no cube fits"),0],zc=a(la),zd=a(lK),ze=a(e$),y7=a(hu),yV=a(k9),yW=a(mC),yZ=a(bk),y0=a(fe),y1=a(lM),y2=a(fc),y3=a(my),y4=a(fc),yX=[0,a(au),0],yY=a('a proof of the kind "'),yR=a(ms),yS=a(fe),yT=a(l3),yU=a(mF),yM=a(md),yN=a(mD),yO=a(fl),yP=[0,a(au),0],yQ=a('the failure "'),yK=a(hu),yL=a(aP),yl=a(lJ),ym=a(kH),w8=a(d8),wY=a(g5),wZ=a(lO),w0=a(dh),w1=a(bi),w6=a(mB),w7=a(d8),w9=a(dg),w_=a(dh),w2=a(dg),w3=a(ml),w4=a(l5),w5=a(bi),wR=a(cI),wV=a(bB),wW=a(bA),wS=a(k6),wT=a(lb),wU=a(dg),wP=[0,a(mi),0],wO=[0,a(mi),0],wC=a(l2),wD=[0,a("a stiffness for each joint"),0],wE=a(ll),wF=a(kP),wB=a(e$),wu=a(ma),wl=a(mn),wm=a(lN),wI=a(k0),wJ=a(fd),wK=a(mp),wL=a(lR),wM=a(kL),wn=a(mt),wo=a(mw),wp=a(mJ),wq=a(lS),wr=a(kM),ws=[0,a(au),0],wt=a('the quantity "'),wv=a(kR),ww=a(bB),wx=a(bA),wy=a(lw),wz=[0,a(au),0],wA=a('a bound "'),wG=a(g6),wH=a(dh),we=a(fj),wf=a(fi),wg=a(fp),wh=a(bi),wi=a(ce),wj=a(le),wk=a(lk),wb=a(cf),wc=a(fp),vY=a(cf),vZ=a(d5),v0=a(lA),v1=a(ff),v4=a(hf),v5=a(bi),v6=a(ce),v7=a(fj),v8=a(fi),v9=a(bi),v_=a(ce),v$=a(cJ),wa=a(cJ),v2=[0,a(au),0],v3=a(kO),vV=a(bz),vW=a(a_),vT=a(" is not covered by the verified checker"),vU=a(t),vR=a(bB),vS=a(bA),vN=a(t),vO=a(mL),vP=a(t),vQ=a(t),vM=[1,0],vK=a("Reader.Malformed"),vL=a("Reader.Not_covered"),zo=a(lf),zp=a("CERTIFIED"),zq=a("REFUTED"),zr=a(lf),zs=a("NOT COVERED: ");function
 ag(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -832,182 +832,182 @@ d=a[2],e=a[1];return[9,e,d,aL(a[3],b)];case
 11:return[11,aL(a[1],b)];case
 12:return[12,aL(a[1],b)];case
 13:return[13,aL(a[1],b)];default:return[14,aL(a[1],b)]}}function
-aa(a,b){if(typeof
+ab(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aa(a[1],b)];case
-1:return[1,aa(a[1],b)];case
+0:return[0,ab(a[1],b)];case
+1:return[1,ab(a[1],b)];case
 2:var
-c=a[1];return[2,c,aa(a[2],b)];case
+c=a[1];return[2,c,ab(a[2],b)];case
 3:var
-d=a[1];return[3,d,aa(a[2],b)];case
+d=a[1];return[3,d,ab(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,aa(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ab(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,aa(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ab(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,aa(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ab(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,aa(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ab(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,aa(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ab(a[4],b)];case
 9:var
-t=a[1];return[9,t,aa(a[2],b)];case
-10:return[10,aa(a[1],b)];case
+t=a[1];return[9,t,ab(a[2],b)];case
+10:return[10,ab(a[1],b)];case
 11:var
-u=a[1];return[11,u,aa(a[2],b)];case
+u=a[1];return[11,u,ab(a[2],b)];case
 12:var
-v=a[1];return[12,v,aa(a[2],b)];case
+v=a[1];return[12,v,ab(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,aa(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ab(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,aa(a[3],b)];case
-15:return[15,aa(a[1],b)];case
-16:return[16,aa(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ab(a[3],b)];case
+15:return[15,ab(a[1],b)];case
+16:return[16,ab(a[1],b)];case
 17:var
-A=a[1];return[17,A,aa(a[2],b)];case
+A=a[1];return[17,A,ab(a[2],b)];case
 18:var
-B=a[1];return[18,B,aa(a[2],b)];case
-19:return[19,aa(a[1],b)];case
+B=a[1];return[18,B,ab(a[2],b)];case
+19:return[19,ab(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,aa(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ab(a[3],b)];case
 21:var
-E=a[1];return[21,E,aa(a[2],b)];case
-22:return[22,aa(a[1],b)];case
+E=a[1];return[21,E,ab(a[2],b)];case
+22:return[22,ab(a[1],b)];case
 23:var
-F=a[1];return[23,F,aa(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,aa(a[3],b)]}}function
-b3(a){throw[0,hR,a]}function
+F=a[1];return[23,F,ab(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ab(a[3],b)]}}function
+b3(a){throw[0,hS,a]}function
 ee(a){return 0<=a?a:-a|0}function
-aw(d,c){var
-a=F(d),e=F(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aK(b)}function
-nh(a){return a?ni:nj}AP(0);m3(1);var
-bI=m3(2);function
-dp(b,a){return m4(b,a,0,F(a))}function
-hX(a){dp(bI,a);m5(bI,10);return dl(bI)}function
-fB(b){function
+ax(d,c){var
+a=H(d),e=H(c),b=ao(a+e|0);bF(d,0,b,0,a);bF(c,0,b,a,e);return aK(b)}function
+nk(a){return a?nl:nm}A2(0);m6(1);var
+bJ=m6(2);function
+ds(b,a){return m7(b,a,0,H(a))}function
+hY(a){ds(bJ,a);m8(bJ,10);return dp(bJ)}function
+fC(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dl(d)}catch(a){a=fy(a);if(a[1]!==hV)throw a;var
+c=a[2],d=a[1];try{dp(d)}catch(a){a=fz(a);if(a[1]!==hW)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(AQ(0))}hJ(a(kI),fB);var
-dq=(4*A1(0)|0)-1|0;function
-ch(c){var
+a=c;continue}return 0}}return a(A3(0))}hK(a(kJ),fC);var
+dt=(4*Bc(0)|0)-1|0;function
+cj(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-X(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hY(d,c){var
+Z(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+hZ(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-dr(d,c){var
+b4(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-ci(a,c){var
-b=ao(a);Ar(b,0,a,c);return b}function
-hZ(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
-d=ao(a);cg(c,b,d,0,a);return d}return b3(ns)}function
-h0(c,b,a){return aK(hZ(c,b,a))}function
-h1(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b3(nt)}function
-bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((F(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b3(nu)}function
-a6(b,a){return aK(ci(b,a))}function
-ds(c,b,a){return aK(hZ(bY(c),b,a))}function
-h2(k,g){if(g){var
-h=F(k),c=0,b=g,p=0;for(;;){if(b){var
+ck(a,c){var
+b=ao(a);AE(b,0,a,c);return b}function
+h0(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
+d=ao(a);ci(c,b,d,0,a);return d}return b3(nv)}function
+h1(c,b,a){return aK(h0(c,b,a))}function
+h2(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return ci(e,c,d,b,a);return b3(nw)}function
+bK(e,c,d,b,a){if(0<=a&&0<=c&&!((H(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bF(e,c,d,b,a);return b3(nx)}function
+a6(b,a){return aK(ck(b,a))}function
+du(c,b,a){return aK(h0(bY(c),b,a))}function
+h3(k,g){if(g){var
+h=H(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(F(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(nv),c=n,b=m;continue}var
-l=F(i)+c|0}else
+j=(H(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(ny),c=n,b=m;continue}var
+l=H(i)+c|0}else
 var
 l=c;var
 f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bE(a,0,f,e,F(a));bE(k,0,f,e+F(a)|0,h);var
-e=(e+F(a)|0)+h|0,d=o;continue}bE(a,0,f,e,F(a))}return aK(f)}}}return nw}function
-h3(b,c){if(0===b)return[0];if(0<=b){var
-d=AN(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bF(a,0,f,e,H(a));bF(k,0,f,e+H(a)|0,h);var
+e=(e+H(a)|0)+h|0,d=o;continue}bF(a,0,f,e,H(a))}return aK(f)}}}return nz}function
+h4(b,c){if(0===b)return[0];if(0<=b){var
+d=A0(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b3(nx)}function
-h4(c){var
+a=h;continue}break}}return d}return b3(nA)}function
+h5(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-h5(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dq<b[1]){if(!((d+c|0)<=dq))throw[0,hS,nA];b[1]=dq}var
-e=ao(b[1]);h1(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ab,ny]}throw[0,ab,nz]}}function
-dt(a,c){var
-b=F(c),d=a[2]+b|0;if(a[3]<d)h5(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fC(a){return 5===a[2]?12:-6}function
-h6(a){return[0,0,ao(a)]}function
-h7(a,h){var
+h6(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dt<b[1]){if(!((d+c|0)<=dt))throw[0,hT,nD];b[1]=dt}var
+e=ao(b[1]);h2(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ac,nB]}throw[0,ac,nC]}}function
+dv(a,c){var
+b=H(c),d=a[2]+b|0;if(a[3]<d)h6(a,b);bF(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fD(a){return 5===a[2]?12:-6}function
+h7(a){return[0,0,ao(a)]}function
+h8(a,h){var
 b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);h1(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=ao(i);h2(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cM(a,b){h7(a,1);cI(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aD(a,c){var
-b=F(c);h7(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-h8(a){return h0(a[2],0,a[1])}function
-h9(a){if(typeof
+cO(a,b){h8(a,1);cK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aE(a,c){var
+b=H(c);h8(a,b);bK(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+h9(a){return h1(a[2],0,a[1])}function
+h_(a){if(typeof
 a==="number")switch(a){case
-0:return nB;case
-1:return nC;case
-2:return nD;case
-3:return nE;case
-4:return nF;case
-5:return nG;default:return nH}else
+0:return nE;case
+1:return nF;case
+2:return nG;case
+3:return nH;case
+4:return nI;case
+5:return nJ;default:return nK}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aw(nI,a6(1,a[1]))}}function
-fD(b,c){var
+1:return a[1];default:return ax(nL,a6(1,a[1]))}}function
+fE(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aD(b,nJ);var
+d=a[1];aE(b,nM);var
 a=d;continue;case
 1:var
-e=a[1];aD(b,nK);var
+e=a[1];aE(b,nN);var
 a=e;continue;case
 2:var
-f=a[1];aD(b,nL);var
+f=a[1];aE(b,nO);var
 a=f;continue;case
 3:var
-g=a[1];aD(b,nM);var
+g=a[1];aE(b,nP);var
 a=g;continue;case
 4:var
-h=a[1];aD(b,nN);var
+h=a[1];aE(b,nQ);var
 a=h;continue;case
 5:var
-i=a[1];aD(b,nO);var
+i=a[1];aE(b,nR);var
 a=i;continue;case
 6:var
-j=a[1];aD(b,nP);var
+j=a[1];aE(b,nS);var
 a=j;continue;case
 7:var
-k=a[1];aD(b,nQ);var
+k=a[1];aE(b,nT);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aD(b,nR);fD(b,m);aD(b,nS);var
+l=a[2],m=a[1];aE(b,nU);fE(b,m);aE(b,nV);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aD(b,nT);fD(b,o);aD(b,nU);var
+n=a[3],o=a[1];aE(b,nW);fE(b,o);aE(b,nX);var
 a=n;continue;case
 10:var
-p=a[1];aD(b,nV);var
+p=a[1];aE(b,nY);var
 a=p;continue;case
 11:var
-q=a[1];aD(b,nW);var
+q=a[1];aE(b,nZ);var
 a=q;continue;case
 12:var
-r=a[1];aD(b,nX);var
+r=a[1];aE(b,n0);var
 a=r;continue;case
 13:var
-s=a[1];aD(b,nY);var
+s=a[1];aE(b,n1);var
 a=s;continue;default:var
-t=a[1];aD(b,nZ);var
+t=a[1];aE(b,n2);var
 a=t;continue}}function
 an(a){if(typeof
 a==="number")return 0;else
@@ -1028,39 +1028,39 @@ c=a[2],d=a[1];return[9,c,d,an(a[3])];case
 11:return[11,an(a[1])];case
 12:return[12,an(a[1])];case
 13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
-aE(a){if(typeof
+aF(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aE(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aF(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aE(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aF(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aE(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aF(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aE(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aF(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aE(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aF(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aE(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aF(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aE(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aF(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aE(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aF(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aE(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aF(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aE(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aE(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],ao=a[1],l=aF(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aF(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aE(a[1]),aB=n[4],aC=n[3],aD=n[2],aF=n[1],aG=function(a){e(aD,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
+n=aF(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aG=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aG,aC,aB];case
 11:var
-o=aE(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aF(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aE(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aF(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aE(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aE(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+q=aF(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aF(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
 ap(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
@@ -1072,7 +1072,7 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,ab,n0]}else
+9:a=6;break;default:throw[0,ac,n3]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
@@ -1178,35 +1178,35 @@ D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,ab,n9];break;case
+14:a=4;break;default:m=1}if(m)throw[0,ac,oa];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aE(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aF(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,ab,n_];break;case
+14:a=4;break;default:n=1}if(n)throw[0,ac,ob];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ab,n$];case
+b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ac,oc];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ab,oa];break;case
+11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ac,od];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ab,ob];break;case
+12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ac,oe];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ab,oc];break;default:var
+13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ac,of];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,25 +1222,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ab,od]}switch(a){case
-0:throw[0,ab,n3];case
-1:throw[0,ab,n4];case
-2:throw[0,ab,n5];case
-3:throw[0,ab,n6];case
-4:throw[0,ab,n7];case
-5:throw[0,ab,n1];case
-6:throw[0,ab,n2];default:throw[0,ab,n8]}}var
-ax=[as,oe,fr(0)];function
+14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ac,og]}switch(a){case
+0:throw[0,ac,n6];case
+1:throw[0,ac,n7];case
+2:throw[0,ac,n8];case
+3:throw[0,ac,n9];case
+4:throw[0,ac,n_];case
+5:throw[0,ac,n4];case
+6:throw[0,ac,n5];default:throw[0,ac,n$]}}var
+ay=[at,oh,fs(0)];function
 ef(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ax}}function
-du(e,b,d){var
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ay}}function
+dw(e,b,d){var
 a=ef(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ax}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ay}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aR(b,c,a){if(typeof
-b==="number")return[0,0,S(c,a)];else
+b==="number")return[0,0,T(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1268,13 +1268,13 @@ a!=="number"&&7===a[0]){var
 n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ec([0,b[1]],[0,o]))throw ax;var
+o=a[1],w=a[2],x=b[2];if(ec([0,b[1]],[0,o]))throw ay;var
 p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ag(f)];if(ec([0,ag(B)],C))throw ax;var
-D=[0,ag(d)];if(ec([0,ag(A)],D))throw ax;var
-q=aE(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ag(f)];if(ec([0,ag(B)],C))throw ay;var
+D=[0,ag(d)];if(ec([0,ag(A)],D))throw ay;var
+q=aF(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
 r=aR(ag(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
@@ -1287,83 +1287,83 @@ a!=="number"&&13===a[0]){var
 u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ax}function
-S(b,a){if(typeof
+v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ay}function
+T(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=S(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=T(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=S(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=T(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
 ab=b[2],u=ef(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ax;case
+v=T(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
 3:var
 ad=b[2],w=ef(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=S(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ax;case
+x=T(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
 4:var
-af=b[4],ah=b[1],g=du(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ah=b[1],g=dw(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=S(af,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ax;case
+aj=g[2],y=T(af,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ay;case
 5:var
-ak=b[4],al=b[1],i=du(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dw(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ax;case
+an=i[2],z=T(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
 6:var
-ao=b[4],ap=b[1],k=du(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dw(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ax;case
+ar=k[2],A=T(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
 7:var
-as=b[4],at=b[1],m=du(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dw(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ax;case
+av=m[2],B=T(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
 8:var
-aw=b[4],ay=b[1],o=du(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+aw=b[4],ax=b[1],o=dw(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=S(aw,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw ax;case
+aA=o[2],C=T(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
 9:var
 aB=b[2],D=ef(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ax;case
+E=T(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
 10:var
-F=S(b[1],a);return[0,[10,F[1]],F[2]];case
+F=T(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=S(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=T(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=S(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=T(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ec([0,b[2]],[0,I]))throw ax;var
-J=S(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ec([0,b[2]],[0,I]))throw ay;var
+J=T(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ag(K)];if(ec([0,ag(aK)],aM))throw ax;var
-L=S(aJ,ag(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ag(K)];if(ec([0,ag(aK)],aM))throw ay;var
+L=T(aJ,ag(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=S(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=T(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=S(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=T(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=S(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=T(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aS=U[2],V=S(U[1],a),aT=V[1],W=S(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aU=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
+U=r[1],aS=U[2],V=T(U[1],a),aT=V[1],W=T(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aU=X[2],Y=T(X[1],a),aW=Y[1],Z=T(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=S(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=T(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=S(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=T(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],T=S(b[2],a[1]);return[0,[21,aQ,T[1]],T[2]]}break;case
+aQ=b[1],S=T(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
@@ -1371,7 +1371,7 @@ c==="number")switch(c){case
 1:return aV(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ax;default:return aV(c,d,a)}else
+_=T(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aV(c,d,a)}else
 switch(c[0]){case
 0:return aV(c,d,a);case
 1:return aV(c,d,a);case
@@ -1384,44 +1384,44 @@ switch(c[0]){case
 8:return aV([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aV(c,d,a);default:return aV(c,d,a)}}throw ax}function
+10:return aV(c,d,a);default:return aV(c,d,a)}}throw ay}function
 aV(d,c,b){var
-a=S(c,b);return[0,[23,d,a[1]],a[2]]}function
+a=T(c,b);return[0,[23,d,a[1]],a[2]]}function
 aW(k,g,a){var
-b=F(a),h=0<=g?k:0,d=ee(g);if(d<=b)return a;var
-l=2===h?48:32,c=ci(d,l);switch(h){case
-0:bJ(a,0,c,0,b);break;case
-1:bJ(a,0,c,d-b|0,b);break;default:var
+b=H(a),h=0<=g?k:0,d=ee(g);if(d<=b)return a;var
+l=2===h?48:32,c=ck(d,l);switch(h){case
+0:bK(a,0,c,0,b);break;case
+1:bK(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cI(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==S(a,0)&&45!==S(a,0)&&32!==S(a,0)){e=1;i=1}if(!i){cK(c,0,S(a,0));bK(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===R(a,0)){var
-j=0;if(kW!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cI(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aK(c)}function
-cN(k,b){var
-c=ee(k),a=F(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lR>>>0))e=1}else
+f=0;if(1<b&&48===S(a,0)){var
+j=0;if(kY!==S(a,1)&&88!==S(a,1)){f=1;j=1}if(!j){cK(c,1,S(a,1));bK(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bK(a,0,c,d-b|0,b)}}return aK(c)}function
+cP(k,b){var
+c=ee(k),a=H(b),d=S(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lU>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kW===R(b,1)||88===R(b,1))j=1;if(j){var
-h=ci(c+2|0,48);cI(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aK(h)}}e=1;f=1;break;case
+j=0;if(kY===S(b,1)||88===S(b,1))j=1;if(j){var
+h=ck(c+2|0,48);cK(h,1,S(b,1));bK(b,2,h,(c-a|0)+4|0,a-2|0);return aK(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ci(c+1|0,48);cI(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aK(g)}}if(e&&a<c){var
-i=ci(c,48);bJ(b,0,i,c-a|0,a);return aK(i)}return b}function
-of(k){var
-j=0,C=F(k);for(;;){if(C<=j)var
+g=ck(c+1|0,48);cK(g,0,d);bK(b,1,g,(c-a|0)+2|0,a-1|0);return aK(g)}}if(e&&a<c){var
+i=ck(c,48);bK(b,0,i,c-a|0,a);return aK(i)}return b}function
+oi(k){var
+j=0,C=H(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bG(k,j)+ml|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bH(k,j)+mo|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
 e=bY(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dj(e,i),g=0;if(32<=f){var
+f=dm(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1433,13 +1433,13 @@ m=4;break;case
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
 i=B;continue}break}}if(a[1]===a0(e)){var
-r=a0(e),s=ao(r);cg(e,0,s,0,r);var
+r=a0(e),s=ao(r);ci(e,0,s,0,r);var
 v=s}else{var
 b=ao(a[1]);a[1]=0;var
 u=a0(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dj(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hc<=c)d=1;else
+c=dm(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hd<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1449,16 +1449,16 @@ switch(c){case
 9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
 10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
 13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
-1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/lX|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
+1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/l0|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
 2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
 3:ak(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
 o=aK(v)}var
-w=F(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aK(x)}}function
-h_(d,f){var
-g=ee(f),e=o6[1];switch(d[2]){case
+w=H(o),x=ck(w+2|0,34);bF(o,0,x,1,w);return aK(x)}}function
+h$(d,f){var
+g=ee(f),e=o9[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=kX;break;case
+b=kZ;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=h6(16);cM(c,37);switch(d[1]){case
+c=h7(16);cO(c,37);switch(d[1]){case
 0:break;case
-1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aD(c,a(s+g));cM(c,b);return h8(c)}function
+1:cO(c,43);break;default:cO(c,32)}if(8<=d[2])cO(c,35);cO(c,46);aE(c,a(t+g));cO(c,b);return h9(c)}function
 eg(m,a){if(13<=m){var
-g=[0,0],h=F(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bG(a,c)+g6>>>0))g[1]++;var
+g=[0,0],h=H(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bH(a,c)+g7>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ao(F(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cI(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=F(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(H(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cK(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=H(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bG(a,b);if(9<f+g6>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bH(a,b);if(9<f+g7>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
 b=p;continue}break}}return aK(j)}return a}function
-o7(b,c){switch(b){case
-1:var
-a=oh;break;case
-2:var
-a=oi;break;case
-4:var
-a=ok;break;case
-5:var
-a=ol;break;case
-6:var
-a=om;break;case
-7:var
-a=on;break;case
-8:var
-a=oo;break;case
-9:var
-a=op;break;case
-10:var
-a=oq;break;case
-11:var
-a=or;break;case
-0:case
-13:var
-a=og;break;case
-3:case
-14:var
-a=oj;break;default:var
-a=os}return eg(b,fq(a,c))}function
-o8(b,c){switch(b){case
-1:var
-a=oH;break;case
-2:var
-a=oI;break;case
-4:var
-a=oK;break;case
-5:var
-a=oL;break;case
-6:var
-a=oM;break;case
-7:var
-a=oN;break;case
-8:var
-a=oO;break;case
-9:var
-a=oP;break;case
-10:var
-a=oQ;break;case
-11:var
-a=oR;break;case
-0:case
-13:var
-a=oG;break;case
-3:case
-14:var
-a=oJ;break;default:var
-a=oS}return eg(b,fq(a,c))}function
-o9(b,c){switch(b){case
-1:var
-a=oU;break;case
-2:var
-a=oV;break;case
-4:var
-a=oX;break;case
-5:var
-a=oY;break;case
-6:var
-a=oZ;break;case
-7:var
-a=o0;break;case
-8:var
-a=o1;break;case
-9:var
-a=o2;break;case
-10:var
-a=o3;break;case
-11:var
-a=o4;break;case
-0:case
-13:var
-a=oT;break;case
-3:case
-14:var
-a=oW;break;default:var
-a=o5}return eg(b,fq(a,c))}function
 o_(b,c){switch(b){case
 1:var
-a=ou;break;case
+a=ok;break;case
 2:var
-a=ov;break;case
+a=ol;break;case
 4:var
-a=ox;break;case
+a=on;break;case
 5:var
-a=oy;break;case
+a=oo;break;case
 6:var
-a=oz;break;case
+a=op;break;case
 7:var
-a=oA;break;case
+a=oq;break;case
 8:var
-a=oB;break;case
+a=or;break;case
 9:var
-a=oC;break;case
+a=os;break;case
 10:var
-a=oD;break;case
+a=ot;break;case
 11:var
-a=oE;break;case
+a=ou;break;case
 0:case
 13:var
-a=ot;break;case
+a=oj;break;case
 3:case
 14:var
-a=ow;break;default:var
-a=oF}return eg(b,Az(a,c))}function
-bK(c,i,b){function
+a=om;break;default:var
+a=ov}return eg(b,fr(a,c))}function
+o$(b,c){switch(b){case
+1:var
+a=oK;break;case
+2:var
+a=oL;break;case
+4:var
+a=oN;break;case
+5:var
+a=oO;break;case
+6:var
+a=oP;break;case
+7:var
+a=oQ;break;case
+8:var
+a=oR;break;case
+9:var
+a=oS;break;case
+10:var
+a=oT;break;case
+11:var
+a=oU;break;case
+0:case
+13:var
+a=oJ;break;case
+3:case
+14:var
+a=oM;break;default:var
+a=oV}return eg(b,fr(a,c))}function
+pa(b,c){switch(b){case
+1:var
+a=oX;break;case
+2:var
+a=oY;break;case
+4:var
+a=o0;break;case
+5:var
+a=o1;break;case
+6:var
+a=o2;break;case
+7:var
+a=o3;break;case
+8:var
+a=o4;break;case
+9:var
+a=o5;break;case
+10:var
+a=o6;break;case
+11:var
+a=o7;break;case
+0:case
+13:var
+a=oW;break;case
+3:case
+14:var
+a=oZ;break;default:var
+a=o8}return eg(b,fr(a,c))}function
+pb(b,c){switch(b){case
+1:var
+a=ox;break;case
+2:var
+a=oy;break;case
+4:var
+a=oA;break;case
+5:var
+a=oB;break;case
+6:var
+a=oC;break;case
+7:var
+a=oD;break;case
+8:var
+a=oE;break;case
+9:var
+a=oF;break;case
+10:var
+a=oG;break;case
+11:var
+a=oH;break;case
+0:case
+13:var
+a=ow;break;case
+3:case
+14:var
+a=oz;break;default:var
+a=oI}return eg(b,AM(a,c))}function
+bL(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return Av(b,i,a)}function
+a=32}return AI(b,i,a)}function
 q(c){var
-a=An(b);return 3===a?b<0.?pa:pb:4<=a?pc:c}switch(c[2]){case
+a=AA(b);return 3===a?b<0.?pd:pe:4<=a?pf:c}switch(c[2]){case
 5:var
-e=hz(h_(c,i),b),d=0,u=F(e);for(;;){if(d===u)var
+e=hA(h$(c,i),b),d=0,u=H(e);for(;;){if(d===u)var
 p=0;else{var
-k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=S(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aw(e,o$);return q(v)}case
+v=p?e:ax(e,pc);return q(v)}case
 6:return j(0);case
 7:var
 h=bY(j(0)),f=a0(h);if(0===f)var
 o=h;else{var
 m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dj(h,a),s=25<g+lR>>>0?g:g+ml|0;ak(m,a,s);var
+g=dm(h,a),s=25<g+lU>>>0?g:g+mo|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
 o=m}return aK(o);case
-8:return q(j(0));default:return hz(h_(c,i),b)}}function
+8:return q(j(0));default:return hA(h$(c,i),b)}}function
 d4(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return J(b,[5,a,c],y)};case
+y=c[1];return function(c){return K(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=nm;else
-if(hc<=c)e=1;else
+d=np;else
+if(hd<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nn;else
+d=nq;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=no;break;case
+d=nr;break;case
 9:var
-d=np;break;case
+d=ns;break;case
 10:var
-d=nq;break;case
+d=nt;break;case
 13:var
-d=nr;break;default:e=1}switch(e){case
+d=nu;break;default:e=1}switch(e){case
 1:var
-f=ao(4);ak(f,0,92);ak(f,1,48+(c/lX|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
+f=ao(4);ak(f,0,92);ak(f,1,48+(c/l0|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
 d=aK(f);break;case
 2:var
 g=ao(1);ak(g,0,c);var
 d=aK(g);break}var
-h=F(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return J(b,[4,a,aK(i)],z)};case
+h=H(d),i=ck(h+2|0,39);bF(d,0,i,1,h);return K(b,[4,a,aK(i)],z)};case
 2:var
-A=c[2],B=c[1];return fE(b,a,A,B,function(a){return a});case
-3:return fE(b,a,c[2],c[1],of);case
-4:return eh(b,a,c[4],c[2],c[3],o7,c[1]);case
-5:return eh(b,a,c[4],c[2],c[3],o8,c[1]);case
-6:return eh(b,a,c[4],c[2],c[3],o9,c[1]);case
-7:return eh(b,a,c[4],c[2],c[3],o_,c[1]);case
+A=c[2],B=c[1];return fF(b,a,A,B,function(a){return a});case
+3:return fF(b,a,c[2],c[1],oi);case
+4:return eh(b,a,c[4],c[2],c[3],o_,c[1]);case
+5:return eh(b,a,c[4],c[2],c[3],o$,c[1]);case
+6:return eh(b,a,c[4],c[2],c[3],pa,c[1]);case
+7:return eh(b,a,c[4],c[2],c[3],pb,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return J(b,[4,a,bK(g,d,c)],h)}:function(c){return J(b,[4,a,bK(g,fC(g),c)],h)};var
-X=i[1];return function(c){return J(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return K(b,[4,a,bL(g,d,c)],h)}:function(c){return K(b,[4,a,bL(g,fD(g),c)],h)};var
+X=i[1];return function(c){return K(b,[4,a,bL(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return J(b,[4,a,aW(n,m,bK(g,d,c))],h)}:function(c){return J(b,[4,a,aW(n,m,bK(g,fC(g),c))],h)};var
-Y=i[1];return function(c){return J(b,[4,a,aW(n,m,bK(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return K(b,[4,a,aW(n,m,bL(g,d,c))],h)}:function(c){return K(b,[4,a,aW(n,m,bL(g,fD(g),c))],h)};var
+Y=i[1];return function(c){return K(b,[4,a,aW(n,m,bL(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return J(b,[4,a,aW(o,e,bK(g,d,c))],h)}:function(d,c){return J(b,[4,a,aW(o,d,bK(g,fC(g),c))],h)};var
-Z=i[1];return function(d,c){return J(b,[4,a,aW(o,d,bK(g,Z,c))],h)}}case
-9:return fE(b,a,c[2],c[1],nh);case
+i==="number")return i?function(e,d,c){return K(b,[4,a,aW(o,e,bL(g,d,c))],h)}:function(d,c){return K(b,[4,a,aW(o,d,bL(g,fD(g),c))],h)};var
+Z=i[1];return function(d,c){return K(b,[4,a,aW(o,d,bL(g,Z,c))],h)}}case
+9:return fF(b,a,c[2],c[1],nk);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,51 +1687,51 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=h6(16);fD(p,D);var
-u=h8(p);return function(c){return J(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=h7(16);fE(p,D);var
+u=h9(p);return function(c){return K(b,[4,a,u],C)};case
 14:var
-E=c[3],G=c[2];return function(d){var
-e=d[1],c=S(e,ag(an(G)));if(typeof
-c[2]==="number")return J(b,a,aa(c[1],E));throw ax};case
+E=c[3],F=c[2];return function(d){var
+e=d[1],c=T(e,ag(an(F)));if(typeof
+c[2]==="number")return K(b,a,ab(c[1],E));throw ay};case
 15:var
-H=c[1];return function(d,c){return J(b,[6,a,function(a){return N(d,a,c)}],H)};case
+G=c[1];return function(d,c){return K(b,[6,a,function(a){return O(d,a,c)}],G)};case
 16:var
-I=c[1];return function(c){return J(b,[6,a,c],I)};case
+I=c[1];return function(c){return K(b,[6,a,c],I)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return J(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
-O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return J(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
-19:throw[0,ab,pe];case
+J=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return K(c,[1,b,[0,a]],d)}}(a,b,J),a=M,c=L;continue}var
+N=c[2],P=l[1][1],R=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=R,c=P;continue;case
+19:throw[0,ac,ph];case
 20:var
-T=c[3],U=[8,a,pf];return function(a){return J(b,U,T)};case
+S=c[3],U=[8,a,pi];return function(a){return K(b,U,S)};case
 21:var
-V=c[2];return function(c){return J(b,[4,a,fq(pg,c)],V)};case
+V=c[2];return function(c){return K(b,[4,a,fr(pj,c)],V)};case
 22:var
-W=c[1];return function(c){return J(b,[5,a,c],W)};case
+W=c[1];return function(c){return K(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-2:throw[0,ab,ph];default:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f])}else
+0:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+1:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+2:throw[0,ac,pk];default:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-2:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-3:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-4:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-5:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-6:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-7:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
-8:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);case
+0:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+1:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+2:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+3:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+4:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+5:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+6:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+7:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+8:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?g2(d+1|0,b,a,t,f):aC(g2,[0,b,a,t,f]);case
-10:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aC(P,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?g1(d+1|0,b,a,q,r,s):aC(g1,[0,b,a,q,r,s])}}function
+t=k[2];return d<50?g2(d+1|0,b,a,t,f):aD(g2,[0,b,a,t,f]);case
+10:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);default:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?g1(d+1|0,b,a,q,r,s):aD(g1,[0,b,a,q,r,s])}}function
 g2(e,d,c,a,b){if(typeof
-a==="number")return e<50?P(e+1|0,d,c,b):aC(P,[0,d,c,b]);else
+a==="number")return e<50?Q(e+1|0,d,c,b):aD(Q,[0,d,c,b]);else
 switch(a[0]){case
 0:var
 f=a[1];return function(a){return a2(d,c,f,b)};case
@@ -1759,157 +1759,157 @@ r=a[1];return function(e,a){return a2(d,c,r,b)};case
 s=a[1];return function(a){return a2(d,c,s,b)};case
 12:var
 t=a[1];return function(a){return a2(d,c,t,b)};case
-13:throw[0,ab,pi];default:throw[0,ab,pj]}}function
-P(d,b,e,a){var
-c=[8,e,pk];return d<50?d4(d+1|0,b,c,a):aC(d4,[0,b,c,a])}function
+13:throw[0,ac,pl];default:throw[0,ac,pm]}}function
+Q(d,b,e,a){var
+c=[8,e,pn];return d<50?d4(d+1|0,b,c,a):aD(d4,[0,b,c,a])}function
 g1(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pd(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d4(h+1|0,b,g,a):aC(d4,[0,b,g,a])}function
-J(a,b,c){return hL(d4(0,a,b,c))}function
-a2(a,b,c,d){return hL(g2(0,a,b,c,d))}function
-pd(a,b,c,d,e){return hL(g1(0,a,b,c,d,e))}function
-fE(f,d,c,a,b){if(typeof
-a==="number")return function(a){return J(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return J(f,[4,d,aW(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return J(f,[4,d,aW(i,g,e(b,a))],c)}}}function
+i=d[1];return function(d){return pg(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d4(h+1|0,b,g,a):aD(d4,[0,b,g,a])}function
+K(a,b,c){return hM(d4(0,a,b,c))}function
+a2(a,b,c,d){return hM(g2(0,a,b,c,d))}function
+pg(a,b,c,d,e){return hM(g1(0,a,b,c,d,e))}function
+fF(f,d,c,a,b){if(typeof
+a==="number")return function(a){return K(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return K(f,[4,d,aW(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return K(f,[4,d,aW(i,g,e(b,a))],c)}}}function
 eh(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return J(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return J(f,[4,e,N(b,a,c)],d)};var
-k=c[1];return function(c){return J(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return K(f,[4,e,cP(g,O(b,a,c))],d)}:function(c){return K(f,[4,e,O(b,a,c)],d)};var
+k=c[1];return function(c){return K(f,[4,e,cP(k,O(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return J(f,[4,e,aW(i,h,cN(g,N(b,a,c)))],d)}:function(c){return J(f,[4,e,aW(i,h,N(b,a,c))],d)};var
-l=c[1];return function(c){return J(f,[4,e,aW(i,h,cN(l,N(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return K(f,[4,e,aW(i,h,cP(g,O(b,a,c)))],d)}:function(c){return K(f,[4,e,aW(i,h,O(b,a,c))],d)};var
+l=c[1];return function(c){return K(f,[4,e,aW(i,h,cP(l,O(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return J(f,[4,e,aW(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return J(f,[4,e,aW(j,g,N(b,a,c))],d)};var
-m=c[1];return function(g,c){return J(f,[4,e,aW(j,g,cN(m,N(b,a,c)))],d)}}}function
-bL(b,f){var
+c==="number")return c?function(h,g,c){return K(f,[4,e,aW(j,h,cP(g,O(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aW(j,g,O(b,a,c))],d)};var
+m=c[1];return function(g,c){return K(f,[4,e,aW(j,g,cP(m,O(b,a,c)))],d)}}}function
+bM(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=h9(a[2]);bL(b,g);return dp(b,h);case
+g=a[1],h=h_(a[2]);bM(b,g);return ds(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bL(b,d);dp(b,pl);var
+i=c[1];bM(b,d);ds(b,po);var
 a=i;continue}var
-j=c[1];bL(b,d);dp(b,pm);var
+j=c[1];bM(b,d);ds(b,pp);var
 a=j;continue;case
 6:var
-m=a[2];bL(b,a[1]);return e(m,b);case
-7:bL(b,a[1]);return dl(b);case
+m=a[2];bM(b,a[1]);return e(m,b);case
+7:bM(b,a[1]);return dp(b);case
 8:var
-n=a[2];bL(b,a[1]);return b3(n);case
+n=a[2];bM(b,a[1]);return b3(n);case
 2:case
 4:var
-k=a[2];bL(b,a[1]);return dp(b,k);default:var
-l=a[2];bL(b,a[1]);return m5(b,l)}}function
-b4(b,g){var
+k=a[2];bM(b,a[1]);return ds(b,k);default:var
+l=a[2];bM(b,a[1]);return m8(b,l)}}function
+b5(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=h9(a[2]);b4(b,h);return dt(b,i);case
+h=a[1],i=h_(a[2]);b5(b,h);return dv(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b4(b,f);dt(b,pn);var
+j=d[1];b5(b,f);dv(b,pq);var
 a=j;continue}var
-k=d[1];b4(b,f);dt(b,po);var
+k=d[1];b5(b,f);dv(b,pr);var
 a=k;continue;case
 6:var
-n=a[2];b4(b,a[1]);return dt(b,e(n,0));case
+n=a[2];b5(b,a[1]);return dv(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];b4(b,a[1]);return b3(o);case
+o=a[2];b5(b,a[1]);return b3(o);case
 2:case
 4:var
-l=a[2];b4(b,a[1]);return dt(b,l);default:var
-m=a[2];b4(b,a[1]);var
-c=b[2];if(b[3]<=c)h5(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
-h$(d,c){var
-a=c[1],b=0;return J(function(a){bL(d,a);return 0},b,a)}function
-fF(a){return h$(bI,a)}function
-bm(b){var
-a=b[1];return J(function(d){var
-e=64,b=dq<64?dq:e,c=ao(b),a=[0,c,0,b,c];b4(a,d);return h0(a[1],0,a[2])},0,a)}var
+l=a[2];b5(b,a[1]);return dv(b,l);default:var
+m=a[2];b5(b,a[1]);var
+c=b[2];if(b[3]<=c)h6(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+ia(d,c){var
+a=c[1],b=0;return K(function(a){bM(d,a);return 0},b,a)}function
+fG(a){return ia(bJ,a)}function
+bn(b){var
+a=b[1];return K(function(d){var
+e=64,b=dt<64?dt:e,c=ao(b),a=[0,c,0,b,c];b5(a,d);return h1(a[1],0,a[2])},0,a)}var
 ei=[0,0];function
-fH(i,h){var
+fI(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fv(a)===fm)return e(bm(pp),a);if(fv(a)===253){var
-c=hz(nl,a),b=0,g=F(c);for(;;){if(g<=b)return aw(c,nk);var
-d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fw(a)===fn)return e(bn(ps),a);if(fw(a)===253){var
+c=hA(no,a),b=0,g=H(c);for(;;){if(g<=b)return ax(c,nn);var
+d=S(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return pq}return e(bm(pr),a)}function
-ia(b,a){if(b.length-1<=a)return ps;var
-c=ia(b,a+1|0),d=fH(b,a);return N(bm(pt),d,c)}function
-fI(a){function
+b=b+1|0;continue}return c}}return pt}return e(bn(pu),a)}function
+ib(b,a){if(b.length-1<=a)return pv;var
+c=ib(b,a+1|0),d=fI(b,a);return O(bn(pw),d,c)}function
+fJ(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ei[1]);if(h)return h[1];if(a===fA)return py;if(a===hU)return pz;if(a[1]===hT){var
-c=a[2],i=c[3],p=c[2],q=c[1];return g3(bm(fG),q,p,i,i+5|0,pA)}if(a[1]===ab){var
-d=a[2],j=d[3],r=d[2],s=d[1];return g3(bm(fG),s,r,j,j+6|0,pB)}if(a[1]===hW){var
-f=a[2],k=f[3],t=f[2],u=f[1];return g3(bm(fG),u,t,k,k+6|0,pC)}if(0===fv(a)){var
+h=o(ei[1]);if(h)return h[1];if(a===fB)return pB;if(a===hV)return pC;if(a[1]===hU){var
+c=a[2],i=c[3],p=c[2],q=c[1];return g3(bn(fH),q,p,i,i+5|0,pD)}if(a[1]===ac){var
+d=a[2],j=d[3],r=d[2],s=d[1];return g3(bn(fH),s,r,j,j+6|0,pE)}if(a[1]===hX){var
+f=a[2],k=f[3],t=f[2],u=f[1];return g3(bn(fH),u,t,k,k+6|0,pF)}if(0===fw(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=ia(a,2),m=fH(a,1),b=N(bm(pu),m,l);else
+l=ib(a,2),m=fI(a,1),b=O(bn(px),m,l);else
 switch(g){case
 0:var
-b=pv;break;case
+b=py;break;case
 1:var
-b=pw;break;default:var
-n=fH(a,1),b=e(bm(px),n)}return aw(v,b)}return a[1]}function
-fJ(t,s){var
-d=Ap(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pz;break;default:var
+n=fI(a,1),b=e(bn(pA),n)}return ax(v,b)}return a[1]}function
+fK(t,s){var
+d=AC(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=mT(d,b)[1+b],f=function(a){return function(b){return b?0===a?pD:pE:0===a?pF:pG}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pH:pJ,l=a[2],m=a[7],n=f(a[1]),c=[0,Ae(bm(pI),n,m,l,k,j,i,h)];else
+a=mW(d,b)[1+b],f=function(a){return function(b){return b?0===a?pG:pH:0===a?pI:pJ}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pK:pM,l=a[2],m=a[7],n=f(a[1]),c=[0,Ar(bn(pL),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bm(pK),o)];if(c){var
-q=c[1];e(h$(t,pL),q)}var
+o=f(0),c=[0,e(bn(pN),o)];if(c){var
+q=c[1];e(ia(t,pO),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-ib(c){for(;;){var
+ic(c){for(;;){var
 a=ei[1],d=[0,c,a],e=ei[1]===a?(ei[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pN=pM.slice();function
-pO(d,c){var
-f=fI(d);e(fF(pP),f);fJ(bI,c);var
-a=AO(0);if(a<0){var
-b=ee(a);hX(mT(pN,b)[1+b])}return dl(bI)}var
-pQ=[0];hJ(a(kZ),function(d,i){try{try{var
-b=i?pQ:mZ(0);try{fB(0)}catch(a){}try{var
-a=pO(d,b),c=a}catch(a){a=fy(a);var
-g=fI(d);e(fF(pS),g);fJ(bI,b);var
-h=fI(a);e(fF(pT),h);fJ(bI,mZ(0));var
-c=dl(bI)}var
-f=c}catch(a){a=fy(a);if(a!==fA)throw a;var
-f=hX(pR)}return f}catch(a){return 0}});var
-ic=[as,pV,fr(0)],fK=[0,ic,[0]],pU=fv(fK)===as?fK:fK[1];hJ(a(g8),pU);(function(a){throw a});var
-pW=u.Array;ib(function(a){return a[1]===ic?[0,bl(a[2].toString())]:0});ib(function(a){return a
+pQ=pP.slice();function
+pR(d,c){var
+f=fJ(d);e(fG(pS),f);fK(bJ,c);var
+a=A1(0);if(a<0){var
+b=ee(a);hY(mW(pQ,b)[1+b])}return dp(bJ)}var
+pT=[0];hK(a(k1),function(d,i){try{try{var
+b=i?pT:m2(0);try{fC(0)}catch(a){}try{var
+a=pR(d,b),c=a}catch(a){a=fz(a);var
+g=fJ(d);e(fG(pV),g);fK(bJ,b);var
+h=fJ(a);e(fG(pW),h);fK(bJ,m2(0));var
+c=dp(bJ)}var
+f=c}catch(a){a=fz(a);if(a!==fB)throw a;var
+f=hY(pU)}return f}catch(a){return 0}});var
+id=[at,pY,fs(0)],fL=[0,id,[0]],pX=fw(fL)===at?fL:fL[1];hK(a(g9),pX);(function(a){throw a});var
+pZ=v.Array;ic(function(a){return a[1]===id?[0,bm(a[2].toString())]:0});ic(function(a){return a
 instanceof
-pW?0:[0,bl(a.toString())]});var
+pZ?0:[0,bm(a.toString())]});var
 d=a1(0),c=a1(1);function
 n(a){return C(a,c)}function
-id(b,a){return C(a1(b),a)}function
+ie(b,a){return C(a1(b),a)}function
 b(b,a){return r(a1(b),a)}function
-bn(b,a){return[0,hO(b,a),nd(b,a)]}function
-fL(b,a){return D(b,a)?b:a}function
-cj(b,a){return D(b,a)?a:b}function
+bo(b,a){return[0,hP(b,a),ng(b,a)]}function
+fM(b,a){return D(b,a)?b:a}function
+cl(b,a){return D(b,a)?a:b}function
 aM(a){return a?0:1}function
 ah(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dv(a){return a[1]}function
-dw(a){return a[2]}function
-k(a){var
-b=a?[0,k(a[2])]:a;return b}function
+dx(a){return a[1]}function
+dy(a){return a[2]}function
+m(a){var
+b=a?[0,m(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ie(a){return typeof
-a==="number"?0:[0,ie(a[1])]}function
-ig(d,c){var
+ig(a){return typeof
+a==="number"?0:[0,ig(a[1])]}function
+ih(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ej(a){return ig(a,0)}function
-ih(a){if(typeof
-a==="number")return pY;else
+ej(a){return ih(a,0)}function
+ii(a){if(typeof
+a==="number")return p1;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,62 +1944,62 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ih(a[1])]}}function
-ba(a){if(typeof
-a==="number")return pZ;else
+8:return[9,a[1]];default:return[0,ii(a[1])]}}function
+bb(a){if(typeof
+a==="number")return p2;else
 switch(a[0]){case
-0:return[1,a$(a[1])];case
-1:return[3,a$(a[1])];case
-2:return[5,a$(a[1])];case
-3:return[7,a$(a[1])];case
-4:return[9,a$(a[1])];case
-5:return[1,ba(a[1])];case
-6:return[3,ba(a[1])];case
-7:return[5,ba(a[1])];case
-8:return[7,ba(a[1])];default:return[9,ba(a[1])]}}function
-a$(a){if(typeof
+0:return[1,ba(a[1])];case
+1:return[3,ba(a[1])];case
+2:return[5,ba(a[1])];case
+3:return[7,ba(a[1])];case
+4:return[9,ba(a[1])];case
+5:return[1,bb(a[1])];case
+6:return[3,bb(a[1])];case
+7:return[5,bb(a[1])];case
+8:return[7,bb(a[1])];default:return[9,bb(a[1])]}}function
+ba(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a$(a[1])];case
-1:return[2,a$(a[1])];case
-2:return[4,a$(a[1])];case
-3:return[6,a$(a[1])];case
-4:return[8,a$(a[1])];case
-5:return[0,ba(a[1])];case
-6:return[2,ba(a[1])];case
-7:return[4,ba(a[1])];case
-8:return[6,ba(a[1])];default:return[8,ba(a[1])]}}function
-bM(a){return a?a[1]:a}function
-I(b,a){return b?[0,I(b[1],a)]:a}function
-dx(a,b){return a?I(b,dx(a[1],b)):a}function
-dy(b,a){return b?a:a?0:1}function
-Y(d,c){var
+0:return[0,ba(a[1])];case
+1:return[2,ba(a[1])];case
+2:return[4,ba(a[1])];case
+3:return[6,ba(a[1])];case
+4:return[8,ba(a[1])];case
+5:return[0,bb(a[1])];case
+6:return[2,bb(a[1])];case
+7:return[4,bb(a[1])];case
+8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
+bN(a){return a?a[1]:a}function
+J(b,a){return b?[0,J(b[1],a)]:a}function
+dz(a,b){return a?J(b,dz(a[1],b)):a}function
+dA(b,a){return b?a:a?0:1}function
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-ii(b,a){return Z([0,b],a)}function
-ij(c){var
+ij(b,a){return $([0,b],a)}function
+ik(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fM(c,b,a){return c?e(b,fM(c[1],b,a)):a}function
-ik(a){if(a)var
-b=a[1],d=b?[0,ik(b[1])]:b,c=d;else
+fN(c,b,a){return c?e(b,fN(c[1],b,a)):a}function
+il(a){if(a)var
+b=a[1],d=b?[0,il(b[1])]:b,c=d;else
 var
 c=a;return c}function
 ek(a){if(D(a,c))return c;var
-b=bn(a,a1(2)),e=b[1];return al(b[2],d)?n(ek(e)):n(ek(e))}function
+b=bo(a,a1(2)),e=b[1];return al(b[2],d)?n(ek(e)):n(ek(e))}function
 el(c,b){var
-a=hN(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-il(b,i,h){var
+a=hO(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+im(b,i,h){var
 e=i,a=h;for(;;){if(D(e,c))return a;var
-f=bn(e,a1(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=N(b,a,a);continue}return N(b,a,il(b,g,N(b,a,a)))}}function
-dz(a){return il(I,a,p1)}function
-fN(a){return a?n(fN(a[1])):c}function
-bN(f,e){var
+f=bo(e,a1(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=O(b,a,a);continue}return O(b,a,im(b,g,O(b,a,a)))}}function
+dB(a){return im(J,a,p4)}function
+fO(a){return a?n(fO(a[1])):c}function
+bO(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2022,58 +2022,58 @@ u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
 w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fO(a){if(D(a,c))return p2;var
-b=bn(a,a1(2)),e=b[1];return al(b[2],d)?a$(fO(e)):ba(fO(e))}function
-em(a){return ej(fO(a))}function
-im(k,f){if(0<=bH(f)){var
-g=hP(f);if(0<=g){var
+fP(a){if(D(a,c))return p5;var
+b=bo(a,a1(2)),e=b[1];return al(b[2],d)?ba(fP(e)):bb(fP(e))}function
+em(a){return ej(fP(a))}function
+io(k,f){if(0<=bI(f)){var
+g=hQ(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(pX)}return d}function
-io(a){return 0<=bH(a)?a:d}function
-fP(a){var
-b=bH(a);return 0===b?c:0<b?a:c}function
-ip(m){var
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(p0)}return d}function
+ip(a){return 0<=bI(a)?a:d}function
+fQ(a){var
+b=bI(a);return 0===b?c:0<b?a:c}function
+iq(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bN(a[1],c);case
+1:return bO(a[1],c);case
 2:var
-e=b(2,c);return bN(a[1],e);case
+e=b(2,c);return bO(a[1],e);case
 3:var
-f=n(b(2,c));return bN(a[1],f);case
+f=n(b(2,c));return bO(a[1],f);case
 4:var
-g=b(2,b(2,c));return bN(a[1],g);case
+g=b(2,b(2,c));return bO(a[1],g);case
 5:var
-h=n(b(2,b(2,c)));return bN(a[1],h);case
+h=n(b(2,b(2,c)));return bO(a[1],h);case
 6:var
-i=b(2,n(b(2,c)));return bN(a[1],i);case
+i=b(2,n(b(2,c)));return bO(a[1],i);case
 7:var
-j=n(b(2,n(b(2,c))));return bN(a[1],j);case
+j=n(b(2,n(b(2,c))));return bO(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bN(a[1],k);default:var
-l=n(b(2,b(2,b(2,c))));return bN(a[1],l)}}function
-b5(b,a){var
-c=bH(a);return 0===c?d:1===c?hO(b,a):id(-1,hO(id(-1,b),a))}function
-iq(a){return 0<bH(a)?A9(a):d}function
-dA(b,c){var
-a=hP(c);return 0<=a?ne(b,a):nf(b,-a|0)}function
-cO(b,c){var
-a=hP(c);return 0<=a?nf(b,a):ne(b,-a|0)}function
+k=b(2,b(2,b(2,c)));return bO(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bO(a[1],l)}}function
+b6(b,a){var
+c=bI(a);return 0===c?d:1===c?hP(b,a):ie(-1,hP(ie(-1,b),a))}function
+ir(a){return 0<bI(a)?Bk(a):d}function
+dC(b,c){var
+a=hQ(c);return 0<=a?nh(b,a):ni(b,-a|0)}function
+cQ(b,c){var
+a=hQ(c);return 0<=a?ni(b,a):nh(b,-a|0)}function
 en(b,a){return a?a[1]:b}function
-fQ(a){var
+fR(a){var
 b=a?a[2]:a;return b}function
-G(e,d,c){var
+E(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 aj(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ir(a){if(a){var
-b=[0,a[1],0];return g(ir(a[2]),b)}return a}function
-is(d,c){var
+is(a){if(a){var
+b=[0,a[1],0];return g(is(a[2]),b)}return a}function
+it(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
@@ -2082,11 +2082,11 @@ var
 c=a;return c}function
 z(b,a){if(a){var
 c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
-it(e,d,c){var
+iu(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cP(c,b,a){if(a){var
-d=cP(c,b,a[2]);return N(c,a[1],d)}return b}function
+f=O(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cR(c,b,a){if(a){var
+d=cR(c,b,a[2]);return O(c,a[1],d)}return b}function
 a7(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
@@ -2098,12 +2098,12 @@ o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fR(b,f){var
+fS(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,fR(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fS(b,c)];var
 a=c;continue}return a}}function
-ck(b,a){if(b)if(a)var
-d=ck(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cm(b,a){if(b)if(a)var
+d=cm(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
@@ -2114,171 +2114,171 @@ var
 c=a;else
 var
 c=b;return c}function
-iu(d,c){var
+iv(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cQ(b,a){var
-c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
-cl(b,a){var
-c=a?[0,b,cl(b,a[1])]:a;return c}function
-iv(a){if(a){var
-e=iv(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
+cS(b,a){var
+c=a?[0,b,cS([0,b],a[1])]:a;return c}function
+cn(b,a){var
+c=a?[0,b,cn(b,a[1])]:a;return c}function
+iw(a){if(a){var
+e=iw(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
 ep(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iv([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dz(b):0}function
-iw(c,b){var
-a=hN(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-ix(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
-iy(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-iz(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bI(b)?dB(b):0}function
+ix(c,b){var
+a=hO(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iy(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
+iz(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iA(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
 aX(a){if(typeof
-a==="number")return p5;else
+a==="number")return p8;else
 switch(a[0]){case
 0:var
-b=aX(a[1]);return aw(a6(1,48),b);case
+b=aX(a[1]);return ax(a6(1,48),b);case
 1:var
-c=aX(a[1]);return aw(a6(1,49),c);case
+c=aX(a[1]);return ax(a6(1,49),c);case
 2:var
-d=aX(a[1]);return aw(a6(1,50),d);case
+d=aX(a[1]);return ax(a6(1,50),d);case
 3:var
-e=aX(a[1]);return aw(a6(1,51),e);case
+e=aX(a[1]);return ax(a6(1,51),e);case
 4:var
-f=aX(a[1]);return aw(a6(1,52),f);case
+f=aX(a[1]);return ax(a6(1,52),f);case
 5:var
-g=aX(a[1]);return aw(a6(1,53),g);case
+g=aX(a[1]);return ax(a6(1,53),g);case
 6:var
-h=aX(a[1]);return aw(a6(1,54),h);case
+h=aX(a[1]);return ax(a6(1,54),h);case
 7:var
-i=aX(a[1]);return aw(a6(1,55),i);case
+i=aX(a[1]);return ax(a6(1,55),i);case
 8:var
-j=aX(a[1]);return aw(a6(1,56),j);default:var
-k=aX(a[1]);return aw(a6(1,57),k)}}function
-dB(a){return typeof
-a==="number"?p6:aX(a)}function
-cm(a){return im(b(2,c),a)}function
-iA(b,a){return cO(a,b)}function
-iB(b,a){return W(cO(W(a),b))}function
-eq(b,a){return W(b5(W(b),a))}function
+j=aX(a[1]);return ax(a6(1,56),j);default:var
+k=aX(a[1]);return ax(a6(1,57),k)}}function
+dD(a){return typeof
+a==="number"?p9:aX(a)}function
+co(a){return io(b(2,c),a)}function
+iB(b,a){return cQ(a,b)}function
+iC(b,a){return Y(cQ(Y(a),b))}function
+eq(b,a){return Y(b6(Y(b),a))}function
 aN(c,b){var
-a=dA(b,c);return[0,a,a]}function
+a=dC(b,c);return[0,a,a]}function
 A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
 M(b,a){return[0,b2(b[1],a[2]),b2(b[2],a[1])]}function
-aF(a){return[0,W(a[2]),W(a[1])]}function
-iC(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
-f=cj(r(e,b),r(c,a));return[0,fL(r(e,a),r(c,b)),f]}function
-E(c,b,a){var
-d=iC(b[1],b[2],a[1],a[2]),e=iB(c,d[2]);return[0,iA(c,d[1]),e]}function
-ac(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iB(b,cj(c,e)),g=0;if($(a[1],d)&&$(d,a[2])){var
+aG(a){return[0,Y(a[2]),Y(a[1])]}function
+iD(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
+f=cl(r(e,b),r(c,a));return[0,fM(r(e,a),r(c,b)),f]}function
+F(c,b,a){var
+d=iD(b[1],b[2],a[1],a[2]),e=iC(c,d[2]);return[0,iB(c,d[1]),e]}function
+ad(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iC(b,cl(c,e)),g=0;if(aa(a[1],d)&&aa(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iA(b,fL(c,e));return[0,f,h]}function
-iD(b,a){var
-c=dA(cm(b),b),d=eq(c,a[1]);return[0,b5(c,a[2]),d]}function
-cn(b,a){if($(d,a[1]))return[0,iD(b,a)];var
-c=$(a[2],d),e=c?[0,aF(iD(b,aF(a)))]:c;return e}function
-co(f,b){var
-g=$(d,b[1]);if(g)var
-e=dA(b[2],f),a=iq(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,iq(dA(b[1],f)),i]];else
+f=iB(b,fM(c,e));return[0,f,h]}function
+iE(b,a){var
+c=dC(co(b),b),d=eq(c,a[1]);return[0,b6(c,a[2]),d]}function
+cp(b,a){if(aa(d,a[1]))return[0,iE(b,a)];var
+c=aa(a[2],d),e=c?[0,aG(iE(b,aG(a)))]:c;return e}function
+cq(f,b){var
+g=aa(d,b[1]);if(g)var
+e=dC(b[2],f),a=ir(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,ir(dC(b[1],f)),i]];else
 var
 h=g;return h}function
 a8(e,d,c,b,a){if(b){if(a){var
-g=a8(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-b6(b,a){return cO(b,a)}function
-bO(a,c,b){if(D(d,a)){var
-e=b[1],f=W(b6(W(r(a,b[2])),c));return[0,b6(r(a,e),c),f]}var
-g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
+g=a8(e,d,c,b[2],a[2]);return[0,O(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+b7(b,a){return cQ(b,a)}function
+bP(a,c,b){if(D(d,a)){var
+e=b[1],f=Y(b7(Y(r(a,b[2])),c));return[0,b7(r(a,e),c),f]}var
+g=b[2],h=Y(b7(Y(r(a,b[1])),c));return[0,b7(r(a,g),c),h]}function
 er(a){var
-b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
-fS(c,b,a){var
-e=iC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=$(f,d)?a[2]:a[1],i=eq(f,h),j=$(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
-ad=[0,d,d];function
-fT(a){return[0,a[1],a[1]]}function
+b=Y(cQ(Y(a[2]),c));return[0,cQ(a[1],c),b]}function
+fT(c,b,a){var
+e=iD(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=aa(f,d)?a[2]:a[1],i=eq(f,h),j=aa(g,d)?a[1]:a[2];return[0,b6(g,j),i]}var
+ae=[0,d,d];function
+fU(a){return[0,a[1],a[1]]}function
 es(a){return[0,a[2],a[2]]}function
-ay(a,b){switch(b[0]){case
+az(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dA(b[1],a),t=eq(m,n);return[0,[0,b5(m,n),t]];case
+n=b[2],m=dC(b[1],a),t=eq(m,n);return[0,[0,b6(m,n),t]];case
 1:var
-c=ay(a,b[1]);if(c)var
-d=ay(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
+c=az(a,b[1]);if(c)var
+d=az(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ay(a,b[1]);if(e)var
-f=ay(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
+e=az(a,b[1]);if(e)var
+f=az(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ay(a,b[1]);if(g)var
-h=ay(a,b[2]),w=h?[0,E(a,g[1],h[1])]:h,q=w;else
+g=az(a,b[1]);if(g)var
+h=az(a,b[2]),w=h?[0,F(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ay(a,b[1]);if(i){var
-j=ay(a,b[2]);if(j)var
-k=cn(a,j[1]),x=k?[0,E(a,i[1],k[1])]:k,r=x;else
+i=az(a,b[1]);if(i){var
+j=az(a,b[2]);if(j)var
+k=cp(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ay(a,b[1]);return l?co(a,l[1]):l}}function
-iE(a){var
-e=cj(W(a),d);return fP(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iF(a){return io(C(iE(a),a))}function
-b7(f,a,e){var
-b=ay(C(f,iE(a)),e);if(b)var
-c=b[1],g=iF(a),h=W(b6(W(c[2]),g)),i=iF(a),d=[0,[0,b6(c[1],i),h]];else
+l=az(a,b[1]);return l?cq(a,l[1]):l}}function
+iF(a){var
+e=cl(Y(a),d);return fQ(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iG(a){return ip(C(iF(a),a))}function
+b8(f,a,e){var
+b=az(C(f,iF(a)),e);if(b)var
+c=b[1],g=iG(a),h=Y(b7(Y(c[2]),g)),i=iG(a),d=[0,[0,b7(c[1],i),h]];else
 var
 d=b;return d}function
-aG(d,a){var
-b=b7(d,a[2],a[1][1]);if(b)var
-c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aH(d,a){var
+b=b8(d,a[2],a[1][1]);if(b)var
+c=b8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iG(b,a){var
-c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
-fU(b,a){var
-c=eq(b[2],a);return[0,b5(b[1],a),c]}function
-fV(a,f,b){if(b){var
-d=b[1],g=fV(a,f,d),h=g[2],i=fN(I(dx(p8,d),p7)),j=r(fN(dx(p9,d)),i),e=fU(E(a,g[1],f),j),k=ij(b)?A(h,e):M(h,e);return[0,e,k]}var
+iH(b,a){var
+c=Y(b7(Y(a[2]),b));return[0,b7(a[1],b),c]}function
+fV(b,a){var
+c=eq(b[2],a);return[0,b6(b[1],a),c]}function
+fW(a,f,b){if(b){var
+d=b[1],g=fW(a,f,d),h=g[2],i=fO(J(dz(p$,d),p_)),j=r(fO(dz(qa,d)),i),e=fV(F(a,g[1],f),j),k=ik(b)?A(h,e):M(h,e);return[0,e,k]}var
 l=aN(a,c);return[0,aN(a,c),l]}function
-iH(f){var
-g=dz(f),e=p_[1],b=g,c=0,a=e;for(;;){if(b){var
+iI(f){var
+g=dB(f),e=qb[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return I(p$,c)}}function
-iI(a,d){var
-g=cm(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fV(a,d,dx(qb,I(iH(a),qa)))[2][2],f=[0,[0,fV(a,d,I(dx(qd,iH(a)),qc))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return J(qc,c)}}function
+iJ(a,d){var
+g=co(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fW(a,d,dz(qe,J(iI(a),qd)))[2][2],f=[0,[0,fW(a,d,J(dz(qg,iI(a)),qf))[2][1],i]];else
 var
 f=e;return f}function
-iJ(i){function
+iK(i){function
 a(h){var
-m=b5(cm(i),h),g=dz(i),f=m,e=d,a=c;for(;;){if(g){var
-j=C(a,b(2,c)),k=C(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+m=b6(co(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
+j=C(a,b(2,c)),k=C(e,b6(f,a)),l=Y(b6(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b2(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iK(e,a){var
+iL(e,a){var
 f=D(d,a);if(f){var
-g=b(2,b(2,c));return iI(e,fU(ac(e,[0,a,a]),g))}return f}function
-iL(a,d){var
-b=ac(a,d),e=aN(a,c);return M(A(b,b),e)}function
+g=b(2,b(2,c));return iJ(e,fV(ad(e,[0,a,a]),g))}return f}function
+iM(a,d){var
+b=ad(a,d),e=aN(a,c);return M(A(b,b),e)}function
 et(o,u){var
-h=ay(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iJ(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iJ(a),r),f=iK(a,i);if(f){var
-g=iK(a,j);if(g)var
-k=$(d,f[1][1]),l=k?$(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+h=az(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iK(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iK(a),r),f=iL(a,i);if(f){var
+g=iL(a,j);if(g)var
+k=aa(d,f[1][1]),l=k?aa(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iI(a,ac(a,fU(E(a,v,e[1]),s))),p=ah(function(b){return iL(a,iL(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iJ(a,ad(a,fV(F(a,v,e[1]),s))),p=ah(function(b){return iM(a,iM(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ah(function(a){return iG(w,a)},p)}return h}function
-fW(d,a){return et(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ah(function(a){return iH(w,a)},p)}return h}function
+fX(d,a){return et(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
 eu(a){return 0===a[0]?a[2]:a[1]}function
-dC(b,a){switch(a[0]){case
+dE(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2292,62 +2292,62 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bb(j,i){var
+bc(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?Y(b[1],a[1]):0;case
-1:return 1===a[0]?Y(b[1],a[1]):0;case
+0:return 0===a[0]?_(b[1],a[1]):0;case
+1:return 1===a[0]?_(b[1],a[1]):0;case
 2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bb(b[1],a[1]);if(e){var
+e=bc(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bb(b[1],a[1]);if(f){var
+f=bc(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bb(b[1],a[1]);if(g){var
+g=bc(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bb(b[1],a[1]);if(h){var
+h=bc(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
 ev(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bo(c,b){var
+bp(c,b){var
 a=ev(b);return a?al(c,a[1]):a}function
-dD(a){return $(fz(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+dF(a){return aa(fA(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
-H(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
+G(b,a){if(bp(d,b))return a;if(bp(d,a))return b;var
 c=ev(b);if(c){var
 e=c[1],f=ev(a);if(f){var
-g=f[1];if(dD(e)&&dD(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cp(a){var
+g=f[1];if(dF(e)&&dF(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+cr(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dD(c)?q(W(c)):[0,[5,a]];case
+c=b[1];return dF(c)?q(Y(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
-_(a){var
+w(b,a){return bp(d,a)?b:bp(d,b)?cr(a):[0,[4,b,a]]}function
+V(a){var
 c=ev(a);if(c){var
-b=c[1];return dD(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?_(a):[0,[6,a,b]];return b}return a}function
-aH(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
-cq(a){return bo(c,a)?a:[0,[9,a]]}function
-cr(g,f,d,c){var
+b=c[1];return dF(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?V(a):[0,[6,a,b]];return b}return a}function
+aq(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
+b9(a){return bp(c,a)?a:[0,[9,a]]}function
+cs(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dC(function(b){return function(a){return G(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dE(a){var
+h=b[1],i=[0,e(f,dE(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dG(a){var
 b=0;function
-c(a){return[0,a]}return cr(q(d),c,a,b)}function
-fX(b,a){if(a){if(bb(b,a[1]))return qe;var
-c=fX(b,a[2]);return ah(function(a){return[0,a]},c)}return a}function
-bp(c,b){var
-a=fX(b,c),d=a?a[1]:a;return d}function
-ew(d,a){if(fX(d,a[1]))return a;var
+c(a){return[0,a]}return cs(q(d),c,a,b)}function
+fY(b,a){if(a){if(bc(b,a[1]))return qh;var
+c=fY(b,a[2]);return ah(function(a){return[0,a]},c)}return a}function
+bq(c,b){var
+a=fY(b,c),d=a?a[1]:a;return d}function
+ew(d,a){if(fY(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
@@ -2358,62 +2358,62 @@ c=ew(b[1],a);break;case
 2:var
 c=a;break;default:var
 h=ew(b[1],a),c=ew(b[2],h)}var
-e=c[2],f=c[1],g=[0,dC(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dF(a){var
-b=it(function(b,a){return ew(a,b)},a,qf),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ir(b[2]),d]}function
-ex(a){return cP(function(a,b){return C(cj(a[2],W(a[1])),b)},d,a)}function
-cR(b,c,a){var
-d=ex(a),e=fL(c[2],C(b[2],d)),f=ex(a);return[0,b,[0,cj(c[1],b2(b[1],f)),e],a]}function
+e=c[2],f=c[1],g=[0,dE(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dH(a){var
+b=iu(function(b,a){return ew(a,b)},a,qi),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,is(b[2]),d]}function
+ex(a){return cR(function(a,b){return C(cl(a[2],Y(a[1])),b)},d,a)}function
+cT(b,c,a){var
+d=ex(a),e=fM(c[2],C(b[2],d)),f=ex(a);return[0,b,[0,cl(c[1],b2(b[1],f)),e],a]}function
 a3(a){return[0,a,a,0]}function
 ey(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cR(A(b[1],a[1]),g,f)}function
-iM(b,a){var
-c=a[3],d=b[3],e=a8(function(a){return a},aF,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
-iN(a,c,b){var
+f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cT(A(b[1],a[1]),g,f)}function
+iN(b,a){var
+c=a[3],d=b[3],e=a8(function(a){return a},aG,M,d,c),f=M(b[2],a[2]);return cT(M(b[1],a[1]),f,e)}function
+iO(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=E(a,e,b);return er(A(E(a,d,c),f))}function
-i(b){return er(E(a,e,b))}var
-j=a8(function(b){return er(E(a,d,b))},i,h,g,f),k=E(a,c[2],b[2]);return cR(E(a,c[1],b[1]),k,j)}function
-fY(b,a){return a?e(b,a[1]):a}function
-ez(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
+f=F(a,e,b);return er(A(F(a,d,c),f))}function
+i(b){return er(F(a,e,b))}var
+j=a8(function(b){return er(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cT(F(a,c[1],b[1]),k,j)}function
+fZ(b,a){return a?e(b,a[1]):a}function
+ez(d,b,a){if(b){if(a)return O(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dG(a,e,d){var
-c=a3(ad);return function(b){switch(b[0]){case
-0:return[0,G(b[1],e,c)];case
-1:return[0,G(b[1],d,c)];case
+dI(a,e,d){var
+c=a3(ae);return function(b){switch(b[0]){case
+0:return[0,E(b[1],e,c)];case
+1:return[0,E(b[1],d,c)];case
 2:return[0,a3(aN(a,b[1]))];case
 3:var
 g=b[2],h=b[1];return ez(function(b,a){return[0,ey(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return ez(function(b,a){return[0,iM(b,a)]},j,i);case
+i=b[2],j=b[1];return ez(function(b,a){return[0,iN(b,a)]},j,i);case
 5:var
-k=b[1];return fY(function(a){var
-b=f(aF,a[3]),c=aF(a[2]);return[0,[0,aF(a[1]),c,b]]},k);case
+k=b[1];return fZ(function(a){var
+b=f(aG,a[3]),c=aG(a[2]);return[0,[0,aG(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return ez(function(c,b){return[0,iN(a,c,b)]},m,l);case
+l=b[2],m=b[1];return ez(function(c,b){return[0,iO(a,c,b)]},m,l);case
 7:var
 n=b[2],o=b[1];return ez(function(e,g){var
-b=cn(a,g[1]);if(b){var
-c=cn(a,g[2]);if(c)var
-h=c[1],d=E(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,E(a,d,b))},n=function(b){return aF(E(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return E(a,h,b)},o),i=[0,cR(d,E(a,e[2],h),p)];else
+b=cp(a,g[1]);if(b){var
+c=cp(a,g[2]);if(c)var
+h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,F(a,d,b))},n=function(b){return aG(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cT(d,F(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fY(function(b){var
-c=b[3],d=A(b[2],b[1]),e=f(function(b){return E(a,d,b)},c),g=ac(a,b[2]);return[0,cR(ac(a,b[1]),g,e)]},p);default:var
-q=b[1];return fY(function(e){var
-b=co(a,e[1]);if(b){var
-g=b[1],c=co(a,e[2]);if(c){var
-h=c[1],d=cn(a,A(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return E(a,m,b)},l))];else
+p=b[1];return fZ(function(b){var
+c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=ad(a,b[2]);return[0,cT(ad(a,b[1]),g,e)]},p);default:var
+q=b[1];return fZ(function(e){var
+b=cq(a,e[1]);if(b){var
+g=b[1],c=cq(a,e[2]);if(c){var
+h=c[1],d=cp(a,A(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cT(g,h,f(function(b){return F(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2422,143 +2422,143 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-qg(a){return a}function
-qh(a){return a}function
-qi(a,b){return a8(qh,qg,A,a,b)}function
 qj(a){return a}function
 qk(a){return a}function
-iO(a,b){return a8(qk,qj,qi,a,b)}function
-fZ(b,a,c){if(a){var
+ql(a,b){return a8(qk,qj,A,a,b)}function
+qm(a){return a}function
+qn(a){return a}function
+iP(a,b){return a8(qn,qm,ql,a,b)}function
+f0(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fZ(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fS(d,a,b))},j=function(a){return aF(fS(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
-k=fZ(b,e,0);return[0,f(function(a){return aF(fS(d,a,b))},a),k]}return c}function
-iP(a){if(a){var
+g=f0(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fT(d,a,b))},j=function(a){return aG(fT(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
+k=f0(b,e,0);return[0,f(function(a){return aG(fT(d,a,b))},a),k]}return c}function
+iQ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=$(d,c[1]),h=e?[0,fZ(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=aa(d,c[1]),h=e?[0,f0(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iQ(f,e){var
+iR(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iP(b);if(c){var
+c=iQ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iR(d,b,a){if(b)if(a)var
-e=a[1],f=iR(d,b[2],a[2]),g=dy(d,b[1])?fT(e):es(e),c=[0,g,f];else
+iS(d,b,a){if(b)if(a)var
+e=a[1],f=iS(d,b[2],a[2]),g=dA(d,b[1])?fU(e):es(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iS(a,b){if(a)if(b)var
-d=iS(a[2],b[2]),c=[0,iR(a[1],a,b[1]),d];else
+iT(a,b){if(a)if(b)var
+d=iT(a[2],b[2]),c=[0,iS(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bP(a){if(a){var
-b=a[1],c=bP(b),d=f(function(a){return[0,1,a]},c),e=bP(b);return g(f(function(a){return[0,0,a]},e),d)}return ql}function
+bQ(a){if(a){var
+b=a[1],c=bQ(b),d=f(function(a){return[0,1,a]},c),e=bQ(b);return g(f(function(a){return[0,0,a]},e),d)}return qo}function
 eA(a){var
-b=k(a);if(iQ(b,a))return 1;var
-c=bP(bM(b));return o(function(c){return iQ(b,iS([0,0,c],a))},c)}function
+b=m(a);if(iR(b,a))return 1;var
+c=bQ(bN(b));return o(function(c){return iR(b,iT([0,0,c],a))},c)}function
 a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-b8(h,e){var
+b_(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iT(c,b,a){var
-d=bP(c);return o(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
-iU(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bO(b,C(h,c),a)},k=iU(h,j,i),l=function(c,b){var
+iU(c,b,a){var
+d=bQ(c);return o(function(c){return e(a,e(a4(function(a){return b_(c,a)}),b))},d)}function
+iV(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bP(b,C(h,c),a)},k=iV(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-iV(b,d,a,c){function
+iW(b,d,a,c){function
 e(c,d){var
-e=bO(d,b,a);return M(A(c,c),e)}function
-f(c){return aF(bO(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
-f0(d,i,h,g){var
+e=bP(d,b,a);return M(A(c,c),e)}function
+f(c){return aG(bP(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
+f1(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=es(e[2]),k=iO(a,iU(d,f,iV(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iW(b,a){return[0,[0,0,b],a]}function
-dH(b,c,g,f,a){function
+e=b[1],f=c[1],j=es(e[2]),k=iP(a,iV(d,f,iW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iX(b,a){return[0,[0,0,b],a]}function
+dJ(b,c,g,f,a){function
 d(a){if(a){var
-h=cl([0,aF(a[1][2]),0],b),c=f0(g,f,a[2],h),d=Y(k(c),b);if(d)return eA(c);var
+h=cn([0,aG(a[1][2]),0],b),c=f1(g,f,a[2],h),d=_(m(c),b);if(d)return eA(c);var
 e=d}else
 var
-e=a;return e}return iT(b,iW(c,a),d)}function
-iX(f,e){var
+e=a;return e}return iU(b,iX(c,a),d)}function
+iY(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iP([0,[0,fT(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iQ([0,[0,fU(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-f1(b,c,a){function
+f2(b,c,a){function
 d(a){if(a){var
-h=cl([0,a[1][2],0],b),c=iX(a[2],h);if(c){var
-d=c[1],e=Y(k(d),b);if(e)return eA(d);var
+h=cn([0,a[1][2],0],b),c=iY(a[2],h);if(c){var
+d=c[1],e=_(m(d),b);if(e)return eA(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return iT(b,iW(c,a),d)}function
-iY(a,b){var
-c=b[3],d=a[3],e=a8(function(a){return a},aF,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
-dI(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+g=a;return g}return iU(b,iX(c,a),d)}function
+iZ(a,b){var
+c=b[3],d=a[3],e=a8(function(a){return a},aG,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+dK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 aS(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-dJ(b,a){var
-c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
+d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
+dL(b,a){var
+c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
 eB(b,a){var
-c=aH(b[3],a),d=aH(b[2],a);return[0,aH(b[1],a),d,c]}function
-aq(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return H(H(v(b[1],a[1]),d),c)}function
-f2(a){return eB(a,cq(aq(a,a)))}function
-dK(a){var
-b=a[5];return b?b[1]:cq(a[2])}function
+c=aq(b[3],a),d=aq(b[2],a);return[0,aq(b[1],a),d,c]}function
+ar(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return G(G(s(b[1],a[1]),d),c)}function
+f3(a){return eB(a,b9(ar(a,a)))}function
+cU(a){var
+b=a[5];return b?b[1]:b9(a[2])}function
 eC(a){return f(function(a){var
-b=a[2];return[0,dI(a[1]),b]},a)}function
-iZ(a){return f(function(a){var
-b=q(c);return[0,dI(a[3]),b]},a)}function
-i0(b,a){var
+b=a[2];return[0,dK(a[1]),b]},a)}function
+i0(a){return f(function(a){var
+b=q(c);return[0,dK(a[3]),b]},a)}function
+i1(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-i1(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
+i2(c,b,a){var
+d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
 eD(a,k,j,p,i,h,g){var
-m=i1(iM,h,g),b=i1(function(b,c){return iN(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ey(ey(ey(a3(aN(a,d)),f),e),c),n=bP(k);return o(function(e){var
-c=i0(function(b){return ac(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aN(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+m=i2(iN,h,g),b=i2(function(b,c){return iO(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ey(ey(ey(a3(aN(a,d)),f),e),c),n=bQ(k);return o(function(e){var
+c=i1(function(b){return ad(a,b_(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aN(a,d),o),n),m),f=cq(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
-q=E(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return $(d,r[1])},n)}function
-bq(a){return cO(C(a[1],a[2]),c)}function
-cS(a){var
-b=bq(a);return b2(a[2],b)}function
-f3(c,b){if(b)var
-a=b[1],e=f3([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ad,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
+q=F(a,p,h),k=M(b_(e,l),q),r=j?M(k,b_(e,j[1])):k;return aa(d,r[1])},n)}function
+br(a){return cQ(C(a[1],a[2]),c)}function
+cV(a){var
+b=br(a);return b2(a[2],b)}function
+f4(c,b){if(b)var
+a=b[1],e=f4([0,c],b[2]),f=cV(a),h=[0,[0,cV(a),f],0],i=g(cn(ae,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
 var
 d=b;return d}function
-dL(d,b){if(b){var
+dM(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dL(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return qm}function
-i2(d,c,b,a){var
-e=f(a3,b);return cr(0,dG(d,f3(0,a),e),c,0)}function
+e=dM(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qp}function
+i3(d,c,b,a){var
+e=f(a3,b);return cs(0,dI(d,f4(0,a),e),c,0)}function
 aT(a){if(a){var
 b=a[1];if(b)var
 c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qn}function
-i3(b,a){if(a){var
-h=a[1],n=h[1],c=aT(f(function(a){return G(a,b,0)},n));if(c){var
-e=G(h[2],b,0);if(e){var
-i=e[1],g=i3(b,a[2]);if(g)var
-j=$(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return qq}function
+i4(b,a){if(a){var
+h=a[1],n=h[1],c=aT(f(function(a){return E(a,b,0)},n));if(c){var
+e=E(h[2],b,0);if(e){var
+i=e[1],g=i4(b,a[2]);if(g)var
+j=aa(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2566,125 +2566,125 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qo}function
-ct(d,c,b){var
-a=i3(d,c);return a?e(b,a[1]):a}function
-f4(a,b){return o(function(c){var
-a=G(c,b,0),d=a?1:a;return d},a)}function
+m=c;return m}return qr}function
+cu(d,c,b){var
+a=i4(d,c);return a?e(b,a[1]):a}function
+f5(a,b){return o(function(c){var
+a=E(c,b,0),d=a?1:a;return d},a)}function
 eE(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-f5(b,a){return b?iY(a,b[1]):a}function
-f6(h,g,b,f){var
-a=G(f,h,0);if(a){var
+f6(b,a){return b?iZ(a,b[1]):a}function
+f7(h,g,b,f){var
+a=E(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iY(c,b[1]),e=bP(g);return o(function(a){return D(d,b8(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+i=iZ(c,b[1]),e=bQ(g);return o(function(a){return D(d,b_(a,i)[1])},e)}return D(d,c[2][1])}return a}function
 eF(b,a){var
-c=G(a[1],b,0);if(c){var
-d=G(a[2],b,0);if(d)var
-e=G(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+c=E(a[1],b,0);if(c){var
+d=E(a[2],b,0);if(d)var
+e=E(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-i4(i,q,J,t,e,b,g,h,a){switch(h[0]){case
+i5(i,q,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=f4(t,e);if(K){var
-ac=a[2],ae=a[1],af=eE(g,a3(r));return ct(e,q,function(a){return dH(b,af,ae,ac,a)})}return K;case
+K=f5(t,e);if(K){var
+ac=a[2],ad=a[1],af=eE(g,a3(r));return cu(e,q,function(a){return dJ(b,af,ad,ac,a)})}return K;case
 1:var
-L=f4(t,e);if(L){var
-ag=a[2],ah=a[1],ai=eE(g,a3(r));return ct(e,J,function(a){return dH(b,ai,ah,ag,a)})}return L;case
+L=f5(t,e);if(L){var
+ag=a[2],ah=a[1],ai=eE(g,a3(r));return cu(e,J,function(a){return dJ(b,ai,ah,ag,a)})}return L;case
 2:var
-M=f4(t,e);if(M){if(g)return 0;var
+M=f5(t,e);if(M){if(g)return 0;var
 N=al(r[1],d),O=N?al(r[2],d):N;if(O){var
-aj=a[2],ak=a[1];return ct(e,q,function(a){var
-c=[0,ad,ad,0];return dH(b,[0,ad,ad,0],ak,aj,f(function(a){return[0,a[1],c]},a))})}var
+aj=a[2],ak=a[1];return cu(e,q,function(a){var
+c=[0,ae,ae,0];return dJ(b,[0,ae,ae,0],ak,aj,f(function(a){return[0,a[1],c]},a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-am=f5(g,a3(Q));return ct(e,J,function(a){return f1(b,am,a)})}if(!a){var
-an=f5(g,a3(Q));return ct(e,q,function(a){return f1(b,an,a)})}}return 0;case
+am=f6(g,a3(Q));return cu(e,J,function(a){return f2(b,am,a)})}if(!a){var
+an=f6(g,a3(Q));return cu(e,q,function(a){return f2(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],u=a[3],I=function(a){return bO(a,R,aN(i,c))};if(u)var
-ab=f(I,u[2]),j=[0,I(u[1]),ad,ab];else
+R=a[1],u=a[3],I=function(a){return bP(a,R,aN(i,c))};if(u)var
+ab=f(I,u[2]),j=[0,I(u[1]),ae,ab];else
 var
-j=a3(ad);var
-S=h[1],ao=a[2];return ct(e,q,function(e){var
-h=bP(b),a=o(function(a){return $(d,b8(a,j)[1])},h),c=a?dH(b,eE(g,j),R,ao,e):a;if(c){var
-k=j[3],l=f(function(a){return E(i,S,a)},k),m=j[2];return f1(b,f5(g,[0,E(i,S,j[1]),m,l]),e)}return c})}return 0;case
+j=a3(ae);var
+S=h[1],ao=a[2];return cu(e,q,function(e){var
+h=bQ(b),a=o(function(a){return aa(d,b_(a,j)[1])},h),c=a?dJ(b,eE(g,j),R,ao,e):a;if(c){var
+k=j[3],l=f(function(a){return F(i,S,a)},k),m=j[2];return f2(b,f6(g,[0,F(i,S,j[1]),m,l]),e)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return f6(e,b,g,h[1]);return 0;case
+a==="number"&&!a)return f7(e,b,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eE(g,a3(h[2])),as=function(a){return dH(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=eE(g,a3(h[2])),as=function(a){return dJ(b,ar,aq,ap,a)};return cu(e,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return f6(e,b,g,h[1]);case
-2:return f6(e,b,g,h[2])}return 0;default:if(typeof
+0:return f7(e,b,g,h[1]);case
+2:return f7(e,b,g,h[2])}return 0;default:if(typeof
 a!=="number"&&8===a[0]){var
 v=eF(e,h[1]);if(v){var
 w=eF(e,h[2]);if(w){var
 x=eF(e,h[3]);if(x){var
 y=eF(e,h[4]);if(y){var
-T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
-m=l[2];if(m){var
-n=m[2];if(n){if(n[2])return 0;var
-aa=[0,l[1],m[1],n[1]],p=i0(function(d){function
-e(a){return bO(a,at,aN(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=ex(a),h=C(b[2],g),j=ex(a);return[0,b,[0,b2(b[1],j),h],a]}return a3(ad)},aa),z=o(function(a){return Y(k(a),[0,b])},l),A=z?eD(i,b,g,s,p,W,U):z,B=A?eD(i,b,g,s,p,W,T):A,D=B?eD(i,b,g,s,p,V,U):B;if(D)return eD(i,b,g,s,p,V,T);var
-F=D}else
+T=y[1],U=x[1],V=w[1],W=v[1],k=a[2],s=h[5],at=a[1];if(k){var
+l=k[2];if(l){var
+n=l[2];if(n){if(n[2])return 0;var
+$=[0,k[1],l[1],n[1]],p=i1(function(d){function
+e(a){return bP(a,at,aN(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=ex(a),h=C(b[2],g),j=ex(a);return[0,b,[0,b2(b[1],j),h],a]}return a3(ae)},$),z=o(function(a){return _(m(a),[0,b])},k),A=z?eD(i,b,g,s,p,W,U):z,B=A?eD(i,b,g,s,p,W,T):A,D=B?eD(i,b,g,s,p,V,U):B;if(D)return eD(i,b,g,s,p,V,T);var
+E=D}else
 var
-F=n;var
-G=F}else
+E=n;var
+G=E}else
 var
-G=m;var
+G=l;var
 H=G}else
 var
-H=l;return H}var
+H=k;return H}var
 X=y}else
 var
 X=x;var
-Z=X}else
+Y=X}else
 var
-Z=w;var
-_=Z}else
+Y=w;var
+Z=Y}else
 var
-_=v;return _}return 0}}function
+Z=v;return Z}return 0}}function
 eG(b,a){if(a){var
 c=a[2];if(b){var
 e=eG(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i5(r,V,I,H,F,U,T,E,c,C,B){if(C){var
-J=i2(r,V,U,c),g=C,b=B;for(;;){if(g){var
+i6(r,V,I,H,G,U,T,F,c,C,B){if(C){var
+J=i3(r,V,U,c),g=C,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-m=e(E,c);if(m)var
-S=m[1],M=bP(k(c)),p=o(function(b){return function(a){return $(b8(a,b)[2],d)}}(S),M);else
+l=e(F,c);if(l)var
+S=l[1],M=bQ(m(c)),p=o(function(b){return function(a){return aa(b_(a,b)[2],d)}}(S),M);else
 var
-p=m;if(p){var
+p=l;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
-x=G(n,b,0);if(x){var
+x=E(n,b,0);if(x){var
 q=aj(T,n);if(q){var
 y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
-i=a[2],j=e(E,c),L=0;if(j){var
+i=a[2],j=e(F,c),L=0;if(j){var
 s=D(d,i);if(s){var
-l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bO(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bO(i,t,l[1]),P,O]],h=i4(r,I,H,F,J,k(c),R,y,Q);L=1}else
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bP(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bP(i,t,k[1]),P,O]],h=i5(r,I,H,G,J,m(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i4(r,I,H,F,J,k(c),0,y,a);if(h){var
+h=i5(r,I,H,G,J,m(c),0,y,a);if(h){var
 g=w,b=eG(n,b);continue}var
 z=h}else
 var
@@ -2692,59 +2692,107 @@ z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-f7(j,i,h,g,f,e,d,c,u,t,s){var
+f8(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i5(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aM,l[1]):l}var
-m=i5(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dL(a[2],b),q=f7(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=i6(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aM,l[1]):l}var
+m=i6(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dM(a[2],b),q=f8(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i6(a){return f(function(a){return 1},a)}function
-cu(m,r){var
+i7(a){return f(function(a){return 1},a)}function
+cv(s,r){var
+b=s,a=r;for(;;)switch(b[0]){case
+0:if(0===a[0]){var
+k=al(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bo(e,a1(2))[2],d)?0:0;var
+i=bo(f,a1(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=bo(e,a1(2)),p=g[1];if(al(g[2],d)){var
+f=j,e=p;continue}return 0}if(D(e,c))return 0;var
+h=bo(e,a1(2)),q=h[1];if(al(h[2],d))return 0;var
+f=j,e=q;continue}}return k}return 0;case
+1:if(1===a[0]){var
+l=cv(b[1],a[1]);if(l){var
+b=b[2],a=a[2];continue}return l}return 0;case
+2:if(2===a[0]){var
+m=cv(b[1],a[1]);if(m){var
+b=b[2],a=a[2];continue}return m}return 0;case
+3:if(3===a[0]){var
+n=cv(b[1],a[1]);if(n){var
+b=b[2],a=a[2];continue}return n}return 0;case
+4:if(4===a[0]){var
+o=cv(b[1],a[1]);if(o){var
+b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
+b=b[1],a=a[1];continue}return 0}}function
+eH(a){switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
+1:var
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iz(b,a)]};break;case
+2:var
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iz(b,[0,Y(a[1]),a[2]])]};break;case
+3:var
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iA(b,a)]};break;case
+4:var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ix(a,[0,d,c]))return 0;var
+b=a[1],e=bI(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iA(g,f)]};break;default:return 0}var
+g=eH(e);if(g){var
+h=eH(f);if(h)return b(g[1],h[1]);var
+i=h}else
+var
+i=g;return i}function
+j(i,e,b){var
+f=eH(b);if(f){var
+g=f[1];return e?aM(iy(g,[0,d,c])):iy([0,d,c],g)}var
+a=az(i,b);if(a){var
+h=a[1];return e?aa(d,h[1]):D(d,h[1])}return a}function
+i8(c,b){var
+a=az(c,b),d=a?1:a;return d}function
+bs(c,a,b){var
+d=cv(a,b),e=d?i8(c,a):d;return e?e:j(c,0,[2,b,a])}function
+cw(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
 j=e[2],n=e[1];if(D(j,c)){var
-k=al(b,n),l=k?dD(b):k;if(l)var
+k=al(b,n),l=k?dF(b):k;if(l)var
 o=al(m[2],d),g=o||al(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=al(bn(j,a1(2))[2],d)?0:0}else
+a=al(bo(j,a1(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(bn(i,a1(2))[2],d)?0:0}else
+a=al(bo(i,a1(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
-cT(b,a){if(a)var
-d=cT([0,b],a[2]),c=[0,cu(a[1],b),d];else
+cx(b,a){if(a)var
+d=cx([0,b],a[2]),c=[0,cw(a[1],b),d];else
 var
 c=a;return c}function
 a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-f8(b,d,a){switch(a[0]){case
+f9(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(a5(c[3],b),f),i=g(a5(c[2],b),h);return g(a5(c[1],d),i);case
 1:var
 e=a[3],j=e?a5(e[1],d):e,k=g(a5(a[2],b),j);return g(a5(a[1],b),k);default:return a5(a[1],d)}}function
 aI(b,a){var
-c=q(d),e=G(I(qp,a),b,c),f=q(d),g=G(I(qq,a),b,f);return[0,G(a,b,q(d)),g,e]}function
-i7(b,a){return aS(w,aS(H,cs,a),b)}function
-f9(c,b,a){if(a){var
-e=a[2],f=f9(c,fQ(b),e),h=a[1];return g(f8(c,en(d,b),h),f)}return a}function
-f_(m,l,h,y){if(h){var
-e=h[1],P=I(y,k(f8(m,en(d,l),e))),Q=h[2],R=f_(m,fQ(l),Q,P),a=cT(y,f8(m,en(d,l),e));switch(e[0]){case
+c=q(d),e=E(J(qs,a),b,c),f=q(d),g=E(J(qt,a),b,f);return[0,E(a,b,q(d)),g,e]}function
+i9(b,a){return aS(w,aS(G,ct,a),b)}function
+f_(c,b,a){if(a){var
+e=a[2],f=f_(c,fR(b),e),h=a[1];return g(f9(c,en(d,b),h),f)}return a}function
+f$(l,k,h,y){if(h){var
+e=h[1],P=J(y,m(f9(l,en(d,k),e))),Q=h[2],R=f$(l,fR(k),Q,P),a=cx(y,f9(l,en(d,k),e));switch(e[0]){case
 0:var
-J=e[1][5],u=G(qr,a,q(d)),K=aS(H,cs,aI(a,qs)),g=f2(aI(a,0)),L=aI(a,qt),v=i7(aI(a,qu),L),o=aq(g,v),f=aS(w,v,dJ(o,g)),A=aq(f,f),p=w(_(u),A),r=cq(p),i=J?r:cp(r),B=w(o,i),C=aS(H,g,eB(f,i)),n=[0,aS(H,f,dJ(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+I=e[1][5],u=E(qu,a,q(d)),K=aS(G,ct,aI(a,qv)),g=f3(aI(a,0)),L=aI(a,qw),v=i9(aI(a,qx),L),o=ar(g,v),f=aS(w,v,dL(o,g)),A=ar(f,f),p=w(V(u),A),r=b9(p),i=I?r:cr(r),B=w(o,i),C=aS(G,g,eB(f,i)),n=[0,aS(G,f,dL(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-x=e[3],M=x?[0,f2(aI(a,qv))]:x,N=aS(H,cs,aI(a,qw)),O=aI(a,qx),b=i7(aI(a,0),O),s=aq(b,b),t=cq(s),D=[0,N],E=ah(function(a){return aS(w,b,dJ(aq(a,b),a))},M),n=[0,b,s,eB(b,t),t,0,E,D];break;default:var
-j=f2(aI(a,0)),F=aq(j,cs),n=[0,j,q(c),j,F,0,0,0]}var
+x=e[3],M=x?[0,f3(aI(a,qy))]:x,N=aS(G,ct,aI(a,qz)),O=aI(a,qA),b=i9(aI(a,0),O),s=ar(b,b),t=b9(s),D=[0,N],F=ah(function(a){return aS(w,b,dL(ar(a,b),a))},M),n=[0,b,s,eB(b,t),t,0,F,D];break;default:var
+j=f3(aI(a,0)),H=ar(j,ct),n=[0,j,q(c),j,H,0,0,0]}var
 z=[0,n,R]}else
 var
 z=h;return z}function
-bQ(b,a){if(typeof
+bR(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2755,9 +2803,11 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[4,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-n=a[3],o=eu(a[2]),l=[1,[1,eu(a[1]),o],n];return[0,[0,l,l],b];case
+o=a[3],p=eu(a[2]),l=[1,[1,eu(a[1]),p],o];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
+12:var
+n=[4,a[2],a[4]];return[0,[0,n,n],d];case
 0:case
 1:var
 f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
@@ -2765,172 +2815,187 @@ f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 3:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-dM(b,a){var
+dN(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eH(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(dM(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=dM(b,a[3]);return g(dM(b,a[2]),j)}function
-dN(b,a){if(typeof
+eI(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dN(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dN(b,a[3]);return g(dN(b,a[2]),j)}function
+cW(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-c=eH(b,a[2]);return g(eH(b,a[1]),c);case
+e=eI(b,a[2]);return g(eI(b,a[1]),e);case
 11:var
-d=dM(b,a[3]);return g(dM(b,a[2]),d)}return 0}function
-i8(c,b,a){var
-d=k(dN(c,b)),e=I(a[2],d);return[0,[0,a[1]],e]}function
-i9(k,a,g){switch(g[0]){case
+f=dN(b,a[3]);return g(dN(b,a[2]),f);case
+12:var
+c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
+i_(c,b,a){var
+d=m(cW(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
+i$(k,a,g){switch(g[0]){case
 0:var
 e=aj(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aI(a,qy);return aS(H,aS(w,l,dJ(c,b[1])),d)},m=dK(b),n=h(aH(G(qz,a,q(d)),m)),o=dK(b),p=aH(G(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
+d=aI(a,qB);return aS(G,aS(w,l,dL(c,b[1])),d)},m=cU(b),n=h(aq(E(qC,a,q(d)),m)),o=cU(b),p=aq(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aI(a,qA);return[0,[0,aI(a,0),r]];default:var
-s=aS(H,cs,aI(a,qB));return[0,[0,aS(H,cs,aI(a,0)),s]]}}function
-i_(f,e,j,d,c){var
-k=eH(e,c),h=cT(j,g(eH(e,d),k)),a=i9(f,eo(qC,h),d);if(a)var
-b=i9(f,iu(qD,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aI(a,qD);return[0,[0,aI(a,0),r]];default:var
+s=aS(G,ct,aI(a,qE));return[0,[0,aS(G,ct,aI(a,0)),s]]}}function
+ja(f,e,j,d,c){var
+k=eI(e,c),h=cx(j,g(eI(e,d),k)),a=i$(f,eo(qF,h),d);if(a)var
+b=i$(f,iv(qG,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-f$(d,c,b,a){var
-e=v(c,b);return w(v(d,a),e)}function
-cv(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-i$(a){if(a){var
+ga(d,c,b,a){var
+e=s(c,b);return w(s(d,a),e)}function
+cy(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jb(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=i$(a[2]);if(d)var
-g=d[1],h=aq(c,c),e=[0,[0,[0,dI(c),h],g]];else
+c=b[1],d=jb(a[2]);if(d)var
+g=d[1],h=ar(c,c),e=[0,[0,[0,dK(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qF}function
-eI(b,d,c,a){if(typeof
+f=b;return f}return qI}function
+eJ(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cu(bQ(d,a),e);return[0,f(function(a){var
-b=v(a[2],g);return[0,dI(a[1]),b]},b)];case
-9:return i$(b)}return 0}function
-ga(b,i,h,a){var
-Q=h[1],c=cu(bQ(i,a),Q),s=0;if(typeof
-a==="number")s=1;else
+e=c[1],g=cw(bR(d,a),e);return[0,f(function(a){var
+b=s(a[2],g);return[0,dK(a[1]),b]},b)];case
+9:return jb(b)}return 0}function
+eK(e,k,j,a){var
+U=j[1],b=cw(bR(k,a),U),x=0;if(typeof
+a==="number")x=1;else
 switch(a[0]){case
 2:var
-R=function(a){return[0,w(a[4],c),0]},g=R,f=a[1];break;case
+W=function(a){return[0,w(a[4],b),0]},g=W,f=a[1];break;case
 3:var
-S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
+X=function(a){return[0,w(b,a[4]),0]},g=X,f=a[1];break;case
 4:var
-T=function(b){var
-a=b[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=b[2];return[0,w(w(w(v(_(c),g),f),e),d),0]},g=T,f=a[1];break;case
+Y=function(c){var
+a=c[1],d=V(a[3]),e=V(a[2]),f=V(a[1]),g=c[2];return[0,w(w(w(s(V(b),g),f),e),d),0]},g=Y,f=a[1];break;case
 6:var
-U=function(b){var
-a=b[5];if(a)var
-e=_(a[1]),f=v(_(c),e),d=[0,w(b[2],f),0];else
+Z=function(c){var
+a=c[5];if(a)var
+e=V(a[1]),f=s(V(b),e),d=[0,w(c[2],f),0];else
 var
-d=a;return d},g=U,f=a[1];break;case
-7:if(b){var
-j=b[2];if(j){var
-k=j[2];if(k){if(k[2])return 0;var
-u=k[1],x=j[1],y=b[1],m=y[5];if(m){var
-n=x[5];if(n){var
-o=u[5];if(o)var
-d=u[1],e=x[1],p=y[1],L=f$(e[1],e[2],d[1],d[2]),M=v(p[3],L),N=f$(e[1],e[3],d[1],d[3]),O=v(p[2],N),P=f$(e[2],e[3],d[2],d[3]),t=H(w(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(c,m[1]),W),V),X=[0,cp(H(t,A)),0],B=[0,w(t,A),X];else
+d=a;return d},g=Z,f=a[1];break;case
+7:if(e){var
+l=e[2];if(l){var
+m=l[2];if(m){if(m[2])return 0;var
+A=m[1],B=l[1],C=e[1],o=C[5];if(o){var
+p=B[5];if(p){var
+r=A[5];if(r)var
+h=A[1],i=B[1],t=C[1],P=ga(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=ga(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=ga(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,cr(G(y,D)),0],F=[0,w(y,D),aa];else
 var
-B=o;var
-C=B}else
+F=r;var
+H=F}else
 var
-C=n;var
-D=C}else
+H=p;var
+I=H}else
 var
-D=m;var
-E=D}else
+I=o;var
+J=I}else
 var
-E=k;var
-F=E}else
+J=m;var
+K=J}else
 var
-F=j;var
-G=F}else
+K=l;var
+L=K}else
 var
-G=b;return G;case
+L=e;return L;case
 10:var
-r=i_(b,i,h[2],a[1],a[2]);if(r){var
-I=r[1],J=I[2],K=I[1];return z(dI,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
+v=ja(e,k,j[2],a[1],a[2]);if(v){var
+M=v[1],N=M[2],O=M[1];return z(dK,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
 11:var
-Y=function(d){var
+ab=function(d){var
 e=d[7];if(e)var
-n=dN(i,a),f=cT(h[2],n),j=aI(f,qE),b=aS(w,aI(f,0),j),k=_(c),l=_(dK(d)),m=aH(_(aq(b,d[1])),l),g=[0,w(w(aq(b,b),m),k),0];else
+n=cW(k,a),f=cx(j[2],n),h=aI(f,qH),c=aS(w,aI(f,0),h),i=V(b),l=V(cU(d)),m=aq(V(ar(c,d[1])),l),g=[0,w(w(ar(c,c),m),i),0];else
 var
-g=e;return g},g=Y,f=a[1];break;case
+g=e;return g},g=ab,f=a[1];break;case
+12:var
+ac=function(e){var
+o=q(d),p=cW(k,a),r=E(0,cx(j[2],p),o),f=aq(r,cU(e)),g=e[5];if(g){var
+l=b9(e[2]),h=aq(g[1],l),m=s(h,G(b,s(f,V(h))));return[0,w(q(c),m),0]}var
+i=e[7],n=i?[0,w(w(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
 8:case
 9:var
-q=eI(b,i,h,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
-l=aj(b,f);return l?g(l[1]):l}function
+u=eJ(e,k,j,a);return u?cy(u[1]):u;default:x=1}if(x)return 0;var
+n=aj(e,f);return n?g(n[1]):n}function
 gb(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gb(d,b,i8(b,e,c),f);return g(ga(d,b,c,e),h)}return a}function
-ja(f,h,j,b,i,m){if(m){var
-a=m[1],R=m[2],S=ja(f,h,j,b,i8(b,a,i),R);if(typeof
+e=a[1],f=a[2],h=gb(d,b,i_(b,e,c),f);return g(eK(d,b,c,e),h)}return a}function
+jc(b,h,k,f,i,o){if(o){var
+a=o[1],X=o[2],Y=jc(b,h,k,f,i_(f,a,i),X);if(typeof
 a==="number")var
-g=[0,[0,ad]];else
+g=[0,[0,ae]];else
 switch(a[0]){case
 0:var
-H=aG(f,bQ(b,a)),g=ah(function(a){return[0,ac(f,a)]},H);break;case
+N=aH(b,bR(f,a)),g=ah(function(a){return[0,ad(b,a)]},N);break;case
 1:var
-I=aG(f,bQ(b,a)),g=ah(function(a){return[1,ac(f,a)]},I);break;case
+O=aH(b,bR(f,a)),g=ah(function(a){return[1,ad(b,a)]},O);break;case
 5:var
-K=aG(f,bQ(b,a)),g=ah(function(a){return[2,ac(f,a)]},K);break;case
+Q=aH(b,bR(f,a)),g=ah(function(a){return[2,ad(b,a)]},Q);break;case
 8:var
-L=eI(j,b,i,a),g=ah(function(a){var
-b=aN(f,c);return[4,e(a4(h),a),b]},L);break;case
+R=eJ(k,f,i,a),g=ah(function(a){var
+d=aN(b,c);return[4,e(a4(h),a),d]},R);break;case
 9:var
-o=eI(j,b,i,a);if(o){var
-p=aG(f,bQ(b,a));if(p)var
-M=ac(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
+r=eJ(k,f,i,a);if(r){var
+s=aH(b,bR(f,a));if(s)var
+S=ad(b,s[1]),T=r[1],z=[0,[4,e(a4(h),T),S]];else
 var
-v=p;var
-w=v}else
+z=s;var
+A=z}else
 var
-w=o;var
-g=w;break;case
+A=r;var
+g=A;break;case
 10:var
-q=i_(j,b,i[2],a[1],a[2]);if(q){var
-x=q[1],y=x[2],z=x[1],r=aG(f,bQ(b,a));if(r){var
-A=r[1],B=D(d,A[1]);if(B)var
-l=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),C=[0,[6,l(z[1]),Q,P,O,A]];else
+t=ja(k,f,i[2],a[1],a[2]);if(t){var
+B=t[1],C=B[2],E=B[1],u=aH(b,bR(f,a));if(u){var
+F=u[1],G=D(d,F[1]);if(G)var
+m=function(a){var
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},U=m(C[2]),V=m(C[1]),W=m(E[2]),H=[0,[6,m(E[1]),W,V,U,F]];else
 var
-C=B;var
-E=C}else
+H=G;var
+I=H}else
 var
-E=r;var
-F=E}else
+I=u;var
+J=I}else
 var
-F=q;var
-g=F;break;default:var
-k=ga(j,b,i,a),s=0;if(k){var
-n=k[2],t=k[1];if(n)if(n[2])var
+J=t;var
+g=J;break;case
+12:var
+n=eK(k,f,i,a),p=0;if(n)if(n[2])var
+g=0;else{var
+K=j(b,0,a[2]),L=K?j(b,1,a[4]):K;if(L){var
+v=[0,[3,e(h,n[1])]];p=1}else{var
+v=L;p=1}}else{var
+v=n;p=1}if(p)var
+g=v;break;default:var
+l=eK(k,f,i,a),w=0;if(l){var
+q=l[2],x=l[1];if(q)if(q[2])var
 g=0;else
 var
-J=e(h,n[1]),g=[0,[5,e(h,t),J]];else{var
-u=[0,[3,e(h,t)]];s=1}}else{var
-u=k;s=1}if(s)var
-g=u}var
-G=[0,g,S]}else
+P=e(h,q[1]),g=[0,[5,e(h,x),P]];else{var
+y=[0,[3,e(h,x)]];w=1}}else{var
+y=l;w=1}if(w)var
+g=y}var
+M=[0,g,Y]}else
 var
-G=m;return G}function
-qG(a){if(typeof
+M=o;return M}function
+qJ(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 gc(a,p,o){var
-q=a5(p,o),b=f(function(b){return aG(a,b)},q);if(b){var
+q=a5(p,o),b=f(function(b){return aH(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-r=ac(a,i[1]),s=ac(a,h[1]);return $(d,A(A(ac(a,g[1]),s),r)[1])}var
+r=ad(a,i[1]),s=ad(a,h[1]);return aa(d,A(A(ad(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=e;var
@@ -2946,71 +3011,23 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-cw(s,r){var
-b=s,a=r;for(;;)switch(b[0]){case
-0:if(0===a[0]){var
-k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bn(e,a1(2))[2],d)?0:0;var
-i=bn(f,a1(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
-g=bn(e,a1(2)),p=g[1];if(al(g[2],d)){var
-f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=bn(e,a1(2)),q=h[1];if(al(h[2],d))return 0;var
-f=j,e=q;continue}}return k}return 0;case
-1:if(1===a[0]){var
-l=cw(b[1],a[1]);if(l){var
-b=b[2],a=a[2];continue}return l}return 0;case
-2:if(2===a[0]){var
-m=cw(b[1],a[1]);if(m){var
-b=b[2],a=a[2];continue}return m}return 0;case
-3:if(3===a[0]){var
-n=cw(b[1],a[1]);if(n){var
-b=b[2],a=a[2];continue}return n}return 0;case
-4:if(4===a[0]){var
-o=cw(b[1],a[1]);if(o){var
-b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
-b=b[1],a=a[1];continue}return 0}}function
-eJ(a){switch(a[0]){case
-0:return[0,[0,a[1],a[2]]];case
-1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iy(b,a)]};break;case
-2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iy(b,[0,W(a[1]),a[2]])]};break;case
-3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iz(b,a)]};break;case
-4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iw(a,[0,d,c]))return 0;var
-b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,iz(g,f)]};break;default:return 0}var
-g=eJ(e);if(g){var
-h=eJ(f);if(h)return b(g[1],h[1]);var
-i=h}else
-var
-i=g;return i}function
-j(i,e,b){var
-f=eJ(b);if(f){var
-g=f[1];return e?aM(ix(g,[0,d,c])):ix([0,d,c],g)}var
-a=ay(i,b);if(a){var
-h=a[1];return e?$(d,h[1]):D(d,h[1])}return a}function
-jb(c,b){var
-a=ay(c,b),d=a?1:a;return d}function
-br(c,a,b){var
-d=cw(a,b),e=d?jb(c,a):d;return e?e:j(c,0,[2,b,a])}function
 af(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-az(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
+aA(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aJ(a){return az([4,[0,c,c],[5,B(a,a)]],a)}function
-cx(c,b,a){var
-d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
+aJ(a){return aA([4,[0,c,c],[5,B(a,a)]],a)}function
+cz(c,b,a){var
+d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
 aU(c,b,a){var
-d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
-jc(c,a,b){if(0===a[0])return aU(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
-jd(a,E,H,G){var
+d=cz(c,b[1],a[1]),e=d?cz(c,b[2],a[2]):d;return e?cz(c,b[3],a[3]):e}function
+jd(c,a,b){if(0===a[0])return aU(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cz(c,a[4],b[3]):h}function
+je(a,E,H,G){var
 h=E[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dy(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cz(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dA(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
@@ -3040,156 +3057,158 @@ var
 D=d;var
 m=D}else
 var
-m=d?0:1;return m?jc(a,E[2],G):m}}function
-bs(c,b,a){var
+m=d?0:1;return m?jd(a,E[2],G):m}}function
+bt(c,b,a){var
 d=af(function(b,a){return[1,b,a]},a,b);return af(function(b,a){return[2,b,a]},d,c)}function
-eK(a,e,d,c){var
-b=bs(e,d,c),f=aJ(a),g=az(B(aJ(a),b),f);return af(function(b,a){return[2,b,a]},b,g)}function
-cU(f,e,d,a,c){var
-b=eK(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
-cV(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cW(a,b){switch(a[0]){case
+eL(a,e,d,c){var
+b=bt(e,d,c),f=aJ(a),g=aA(B(aJ(a),b),f);return af(function(b,a){return[2,b,a]},b,g)}function
+cX(f,e,d,a,c){var
+b=eL(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
+cY(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cZ(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eK(d,f,e,b),h=cU(d,f,e,a[4],b),i=az([4,[0,c,c],cV(a[5],h)],g),j=aJ(d);return af(function(b,a){return[1,b,a]},j,i);case
-1:return aJ(bs(a[1],a[2],b));default:return aJ(a[1])}}function
-je(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eL(d,f,e,b),h=cX(d,f,e,a[4],b),i=aA([4,[0,c,c],cY(a[5],h)],g),j=aJ(d);return af(function(b,a){return[1,b,a]},j,i);case
+1:return aJ(bt(a[1],a[2],b));default:return aJ(a[1])}}function
+jf(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bs(d,c,b);return[2,B(aJ(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cX(e,d,c,a[4],b),i=cY(a[5],h),j=bt(d,c,b);return[2,B(aJ(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bs(g,f,b);return[5,B(bs(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
+f=a[2],g=a[1],k=bt(g,f,b);return[5,B(bt(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
 dO(e,b,a){var
-f=[0,d,c];return cP(function(c,d){var
-e=B(cW(c,b),a);return[1,[3,B(cW(c,b),a),e],d]},f,e)}function
-jf(a){var
+f=[0,d,c];return cR(function(c,d){var
+e=B(cZ(c,b),a);return[1,[3,B(cZ(c,b),a),e],d]},f,e)}function
+jg(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
 gd(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cU(b,f,e,d,c),i=az(cV(a[5],h),g),j=eK(b,f,e,c);return[0,[0,af(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jg(d,i){if(d){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cX(b,f,e,d,c),i=aA(cY(a[5],h),g),j=eL(b,f,e,c);return[0,[0,af(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jh(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bs(a[1],a[2],i),k=aJ(f),l=az(B(aJ(f),g),k),h=[0,af(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bt(a[1],a[2],i),k=aJ(f),l=aA(B(aJ(f),g),k),h=[0,af(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jg(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jh(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qH}function
-cy(a){return[0,a[1],a[2],a[3]]}function
-jh(a,b){switch(a[0]){case
+j=b;return j}return qK}function
+cA(a){return[0,a[1],a[2],a[3]]}function
+ji(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cU(d,g,c,f,b),k=az(cV(a[5],j),i),l=eK(d,g,c,b),m=af(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[1,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cX(d,g,c,f,b),k=aA(cY(a[5],j),i),l=eL(d,g,c,b),m=af(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[1,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bs(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,af(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
-ji(l,b,a){switch(a[0]){case
+h=a[2],e=bt(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,af(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
+jj(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=aj(l,a[1]);if(d){var
-e=jh(d[1],b);if(e)var
+e=ji(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cy(m),c=az(a,n),d=af(function(b,a){return[2,b,a]},o,c);return af(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
+b=cA(m),c=aA(a,n),d=af(function(b,a){return[2,b,a]},o,c);return af(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cy(a[3]);return[0,[0,cy(a[2]),q]];default:var
-r=cy(a[3]),s=af(function(b,a){return[1,b,a]},b,r),t=cy(a[2]);return[0,[0,af(function(b,a){return[1,b,a]},b,t),s]]}}function
-jj(d,a,c,b){var
-e=az(a,b),f=az([2,d,a],c);return af(function(b,a){return[1,b,a]},f,e)}function
-jk(f,g,e,b,q,a){function
-I(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}if(typeof
-a==="number")return 0;else
+q=cA(a[3]);return[0,[0,cA(a[2]),q]];default:var
+r=cA(a[3]),s=af(function(b,a){return[1,b,a]},b,r),t=cA(a[2]);return[0,[0,af(function(b,a){return[1,b,a]},b,t),s]]}}function
+jk(d,a,c,b){var
+e=aA(a,b),f=aA([2,d,a],c);return af(function(b,a){return[1,b,a]},f,e)}function
+jl(f,g,e,b,q,a){function
+J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}var
+H=0;if(typeof
+a==="number")H=1;else
 switch(a[0]){case
 0:var
-au=dO(g,e,b);return j(f,1,[2,I(a[1]),au]);case
+av=dO(g,e,b);return j(f,1,[2,J(a[1]),av]);case
 1:var
-av=I(a[1]);return j(f,1,[2,dO(g,e,b),av]);case
+aw=J(a[1]);return j(f,1,[2,dO(g,e,b),aw]);case
 2:var
-aw=a[2],ax=function(a){return[2,aw,je(a,e)]},s=ax,r=a[1];break;case
+ax=a[2],ay=function(a){return[2,ax,jf(a,e)]},s=ay,r=a[1];break;case
 3:var
-ay=a[2],az=function(a){return[2,je(a,e),ay]},s=az,r=a[1];break;case
+az=a[2],aA=function(a){return[2,jf(a,e),az]},s=aA,r=a[1];break;case
 4:var
-J=a[3],K=a[2],aA=function(a){var
-b=cW(a,e);return[2,[3,[3,K,K],B(cW(a,e),b)],[3,J,J]]},s=aA,r=a[1];break;case
+K=a[3],L=a[2],aB=function(a){var
+b=cZ(a,e);return[2,[3,[3,L,L],B(cZ(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
 5:var
-L=a[1],aB=B(b,b),aC=[3,[3,L,L],[3,dO(g,e,q),aB]],aD=B(q,q);return j(f,1,[2,[3,dO(g,e,b),aD],aC]);case
+M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dO(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dO(g,e,b),aE],aD]);case
 6:var
-M=a[2],u=aj(g,a[1]);if(u){var
+N=a[2],u=aj(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aE=cU(h[1],h[2],h[3],v,e),N=cV(h[5],aE);return j(f,1,[2,[3,[3,M,v],[3,M,v]],[3,N,N]])}var
-O=0}else
+v=h[4],aF=cX(h[1],h[2],h[3],v,e),O=cY(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
+P=0}else
 var
-O=u;return O;case
+P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
 w=gd(g[1],e);if(w){var
-P=w[1],x=gd(n[1],e);if(x){var
-Q=x[1],y=gd(o[1],e);if(y){var
-R=y[1],S=[3,[3,[3,a[1],P[2]],Q[2]],R[2]],i=R[1],k=Q[1],H=B(P[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),T=j(f,1,[2,S,H]);if(T)return j(f,1,[1,S,H]);var
-U=T}else
-var
-U=y;var
+Q=w[1],x=gd(n[1],e);if(x){var
+R=x[1],y=gd(o[1],e);if(y){var
+S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=B(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
 V=U}else
 var
-V=x;var
+V=y;var
 W=V}else
 var
-W=w;var
+W=x;var
 X=W}else
 var
-X=o;var
+X=w;var
 Y=X}else
 var
-Y=n;var
+Y=o;var
 Z=Y}else
 var
-Z=g;return Z;case
-8:var
-aF=dO(g,e,b),aG=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aG],aF]);case
-9:var
-_=a[1],z=jg(g,e);if(z){var
-aH=z[1],as=[0,d,c],at=cP(function(a,c){var
-d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},as,aH);return j(f,1,[2,[3,[3,_,_],B(b,b)],at])}return z;case
-10:var
-$=a[2],aa=a[1],A=ji(g,e,aa);if(A){var
-ab=A[1],C=ji(g,e,$);if(C){var
-ac=C[1],D=b[1],E=b[2],l=b[3],aI=jj(l,E,ac[1],ac[2]),aK=jj(l,D,ab[1],ab[2]),ad=af(function(b,a){return[2,b,a]},aK,aI),aL=a[3],aM=eu($),ae=[3,l,[1,[1,eu(aa),aM],aL]],ag=j(f,1,l),ah=ag?j(f,0,D):ag,ai=ah?j(f,0,[2,l,D]):ah,ak=ai?j(f,0,E):ai,al=ak?j(f,0,[2,l,E]):ak;if(al)return j(f,1,[2,[3,ae,ae],B(ad,ad)]);var
-am=al}else
+Z=n;var
+_=Z}else
 var
-am=C;var
+_=g;return _;case
+8:var
+aG=dO(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
+9:var
+$=a[1],z=jh(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=cR(function(a,c){var
+d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],B(b,b)],au])}return z;case
+10:var
+aa=a[2],ab=a[1],A=jj(g,e,ab);if(A){var
+ac=A[1],C=jj(g,e,aa);if(C){var
+ad=C[1],D=b[1],E=b[2],l=b[3],aK=jk(l,E,ad[1],ad[2]),aL=jk(l,D,ac[1],ac[2]),ae=af(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=eu(aa),ag=[3,l,[1,[1,eu(ab),aN],aM]],ah=j(f,1,l),ai=ah?j(f,0,D):ah,ak=ai?j(f,0,[2,l,D]):ai,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,ag,ag],B(ae,ae)]);var
 an=am}else
 var
-an=A;return an;default:var
-ao=a[4],F=aj(g,a[1]);if(F){var
-G=jh(F[1],e);if(G){var
-m=G[1][1][2],aN=cy(a[3]),aO=cy(a[2]),p=af(function(b,a){return[2,b,a]},aO,aN),ap=j(f,1,B(m,m));if(ap){var
-aP=B(m,m),aQ=B(p,m),aR=[4,[3,B(p,m),aQ],aP];return j(f,1,[2,[3,ao,ao],[2,B(p,p),aR]])}var
-aq=ap}else
+an=C;var
+ao=an}else
 var
-aq=G;var
+ao=A;return ao;case
+11:var
+ap=a[4],F=aj(g,a[1]);if(F){var
+G=ji(F[1],e);if(G){var
+m=G[1][1][2],aO=cA(a[3]),aP=cA(a[2]),p=af(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
+aQ=B(m,m),aR=B(p,m),aS=[4,[3,B(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,B(p,p),aS]])}var
 ar=aq}else
 var
-ar=F;return ar}var
+ar=G;var
+as=ar}else
+var
+as=F;return as;default:H=1}if(H)return 0;var
 t=aj(g,r);return t?j(f,1,s(t[1])):t}function
-b9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qI(a){switch(a[0]){case
+b$(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qL(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b$(b[3]),f=b$(b[2]);return[0,b$(b[1]),f,e,d,c];case
 1:var
-g=ah(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
-jl(c,b){var
-a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jd(c,b,f(qI,b[1]),d)}function
-cX(b,a){if(b){if(a){var
-e=cX(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jm(a,l,k,f){var
-b=ay(a,l);if(b){var
-c=ay(a,k);if(c){var
+g=ah(b$,a[3]),h=b$(a[2]);return[1,b$(a[1]),h,g];default:return[2,b$(a[1])]}}function
+jm(c,b){var
+a=b[2],d=0===a[0]?b$(a[1]):[0,a[1],a[2],a[4][1]];return je(c,b,f(qL,b[1]),d)}function
+c0(b,a){if(b){if(a){var
+e=c0(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jn(a,l,k,f){var
+b=az(a,l);if(b){var
+c=az(a,k);if(c){var
 d=et(a,f);if(d){var
-e=fW(a,f);if(e)var
-m=E(a,b[1],e[1]),g=[0,M(E(a,c[1],d[1]),m)];else
+e=fX(a,f);if(e)var
+m=F(a,b[1],e[1]),g=[0,M(F(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3201,13 +3220,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jn(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cX(a,a)]}var
+jo(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c0(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cP(function(a,c){var
-d=cX(a,b);return[1,[3,cX(a,b),d],c]},a,E)}var
-u=o(function(a){return Y(k(a),D)},a);if(u){var
+a=[0,d,c];return cR(function(a,c){var
+d=c0(a,b);return[1,[3,c0(a,b),d],c]},a,E)}var
+u=o(function(a){return _(m(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3217,27 +3236,27 @@ w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},k=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},k=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jm(f,i,h,z);return e?$(e[1][2],d):e}var
-g=jm(f,i,h,y);return g?$(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
+e=jn(f,i,h,z);return e?aa(e[1][2],d):e}var
+g=jn(f,i,h,y);return g?aa(d,g[1][1]):g}return k}return 0},k=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],M=cX(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cX(p,p);return j(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],M=c0(q,q),N=[3,[3,A,A],[3,g(p),M]],O=c0(p,p);return j(f,1,[2,[3,g(q),O],N])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=aj(s[2],i);return m?l(m[1]):m}var
+l=aj(s[2],i);return l?k(l[1]):l}var
 v=0}else
 var
 v=u;return v}function
-jo(h,g){var
+jp(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3247,44 +3266,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qJ(a){return f(function(a){return[0,a,c]},a)}function
-jp(e,m,b,l,a){if(typeof
+qM(a){return f(function(a){return[0,a,c]},a)}function
+jq(e,m,b,l,a){if(typeof
 a==="number"){var
 q=b[3];return a7(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jo(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qJ,a[2]);return jn(e,m,b,n[2],s,r)}return g}var
-h=jo(a[1],l);if(h){var
+g=jp(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qM,a[2]);return jo(e,m,b,n[2],s,r)}return g}var
+h=jp(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=aj(b[1],a[2]);return k?jn(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=aj(b[1],a[2]);return k?jo(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
 ge(a){var
-b=aJ(a[1]),c=az(B(b,a[2]),b),d=a[2];return af(function(b,a){return[2,b,a]},d,c)}function
+b=aJ(a[1]),c=aA(B(b,a[2]),b),d=a[2];return af(function(b,a){return[2,b,a]},d,c)}function
 gf(a){return aJ(ge(a))}function
-jq(c){var
+jr(c){var
 a=gf(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gg(a,b){return bs(a[3],a[4],b)}function
+gg(a,b){return bt(a[3],a[4],b)}function
 gh(a,b){var
 c=gg(a,b);return B(gf(a),c)}function
 gi(a,b){var
-c=gg(a,b);return B(jq(a),c)}function
-jr(a,b){var
+c=gg(a,b);return B(jr(a),c)}function
+js(a,b){var
 c=gg(a,b);return B(aJ(a[1]),c)}function
 gj(b,a){var
 c=gi(b,a),d=gh(b,a);return[1,[3,d,d],[3,c,c]]}function
 gk(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jr(a,d);return[4,[1,gj(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-js(a,b){var
-f=a[5],c=[2,gk(a,b),f],d=jr(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=js(a,d);return[4,[1,gj(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jt(a,b){var
+f=a[5],c=[2,gk(a,b),f],d=js(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
 gl(a,b){var
-c=js(a,b);return cV(a[7],c)}function
-jt(b,a){var
-c=gj(b,a),d=gi(b,a),e=[3,gl(b,a),d],f=gh(b,a);return[4,[1,[3,gk(b,a),f],e],c]}function
+c=jt(a,b);return cY(a[7],c)}function
 ju(b,a){var
+c=gj(b,a),d=gi(b,a),e=[3,gl(b,a),d],f=gh(b,a);return[4,[1,[3,gk(b,a),f],e],c]}function
+jv(b,a){var
 c=gj(b,a),d=gh(b,a),e=[3,gl(b,a),d],f=gi(b,a);return[4,[2,[3,gk(b,a),f],e],c]}function
-bt(c){var
+bu(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3293,94 +3312,94 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bt(a[2]);return g(bt(a[1]),e)}}function
-bu(e,a,b){switch(a[0]){case
+e=bu(a[2]);return g(bu(a[1]),e)}}function
+bv(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cu([0,[0,p,p],d],b);case
+p=a[1];return cw([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=q(d);for(;;){if(g){var
-m=g[1];if(mX(m[1],s))return m[2];var
-g=g[2];continue}return t}case
-2:return cp(bu(e,a[1],b));case
+t=a[1],g=e,u=q(d);for(;;){if(g){var
+l=g[1];if(m0(l[1],t))return l[2];var
+g=g[2];continue}return u}case
+2:return cr(bv(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=H;break;case
+i=a[2],f=a[1],h=G;break;case
 4:var
 i=a[2],f=a[1],h=w;break;case
 5:var
-i=a[2],f=a[1],h=v;break;case
+i=a[2],f=a[1],h=s;break;case
 6:var
-i=a[2],f=a[1],h=aH;break;case
+i=a[2],f=a[1],h=aq;break;case
 7:var
-j=dz(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
-n=_(l),r=function(a){return v(a,n)},o=fM(bM(ik(j)),r,n);return ij(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
-u=bu(e,i,I(b,k(bt(f))));return h(bu(e,f,b),u)}function
-cz(c,f,b){var
+j=dB(a[2]),k=bv(e,a[1],b);if(j){if(j[1]){var
+n=V(k),r=function(a){return s(a,n)},o=fN(bN(il(j)),r,n);return ik(j)?o:s(o,k)}return k}return q(c);default:return b9(bv(e,a[1],b))}var
+v=bv(e,i,J(b,m(bu(f))));return h(bv(e,f,b),v)}function
+cB(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=I(b,k(bt(e))),l=cz(c,a[2],j),m=g(cz(c,e,b),l);return[0,bu(c,a,b),m];case
+e=a[1],j=J(b,m(bu(e))),k=cB(c,a[2],j),l=g(cB(c,e,b),k);return[0,bv(c,a,b),l];case
 8:var
-n=cz(c,a[1],b);return[0,bu(c,a,b),n];case
+n=cB(c,a[1],b);return[0,bv(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=I(b,k(bt(d))),i=cz(c,a[2],h);return g(cz(c,d,b),i)}}function
-jv(c,a,b){if(a){var
-e=a[1],d=e[2],f=I(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=jv([0,[0,e[1],i],c],h,f);return g(cz(c,d,b),j)}return a}function
-dP(a){return z(bt,a)}function
-jw(c,a,b){if(a)var
-d=a[1],f=I(b,k(bt(d))),g=jw(c,a[2],f),e=[0,bu(c,d,b),g];else
+d=a[1],h=J(b,m(bu(d))),i=cB(c,a[2],h);return g(cB(c,d,b),i)}}function
+jw(c,a,b){if(a){var
+e=a[1],d=e[2],f=J(b,m(bu(d))),h=a[2],i=bv(c,d,b),j=jw([0,[0,e[1],i],c],h,f);return g(cB(c,d,b),j)}return a}function
+dP(a){return z(bu,a)}function
+jx(c,a,b){if(a)var
+d=a[1],f=J(b,m(bu(d))),g=jx(c,a[2],f),e=[0,bv(c,d,b),g];else
 var
 e=a;return e}function
-jx(c,a,b){if(a){var
-d=a[1],e=I(b,k(bt(d))),f=jx(c,a[2],e);return g(cz(c,d,b),f)}return a}function
-jy(c,a,b){if(a)var
-d=a[1],f=I(b,k(dP(d))),g=jy(c,a[2],f),e=[0,jw(c,d,b),g];else
+jy(c,a,b){if(a){var
+d=a[1],e=J(b,m(bu(d))),f=jy(c,a[2],e);return g(cB(c,d,b),f)}return a}function
+jz(c,a,b){if(a)var
+d=a[1],f=J(b,m(dP(d))),g=jz(c,a[2],f),e=[0,jx(c,d,b),g];else
 var
 e=a;return e}function
-jz(c,a,b){if(a){var
-d=a[1],e=I(b,k(dP(d))),f=jz(c,a[2],e);return g(jx(c,d,b),f)}return a}function
-jA(a){return f(function(a){return[0,a[2],d]},a)}function
-jB(a){var
-c=cT(0,jA(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dv,a[2]),c);return g(ck(a[1],e),b)}function
-qL(a){if(typeof
+jA(c,a,b){if(a){var
+d=a[1],e=J(b,m(dP(d))),f=jA(c,a[2],e);return g(jy(c,d,b),f)}return a}function
+jB(a){return f(function(a){return[0,a[2],d]},a)}function
+jC(a){var
+c=cx(0,jB(a[2])),d=cS(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cm(f(dx,a[2]),c);return g(cm(a[1],e),b)}function
+qO(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 gm(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a7(function(a){return av(e,a)},b);case
+e=a[1];return a7(function(a){return aw(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
 c=gm(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jC(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jD(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+jD(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jE(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
 gn(a,c,b){var
-d=[3,jC(a),b],e=[1,[3,jD(a),c],d],f=[3,jD(a),b];return[0,[2,[3,jC(a),c],f],e]}function
-jE(c,a){var
+d=[3,jD(a),b],e=[1,[3,jE(a),c],d],f=[3,jE(a),b];return[0,[2,[3,jD(a),c],f],e]}function
+jF(c,a){var
 b=gn(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jF(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jG(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jE(d[1],a):a;case
+jG(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jH(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jF(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gn(d[1],a[2],a[3]),m=j[1],k=gn(f[1],j[2],a[1]);return jE(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gn(d[1],a[2],a[3]),m=j[1],k=gn(f[1],j[2],a[1]);return jF(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=B(e,e),n=jF(e,a),o=az([0,b(2,c),c],n),p=B(e,a),q=az([3,[0,b(2,c),c],p],e),r=az([2,[0,c,c],l],a),s=af(function(b,a){return[1,b,a]},r,q);return az([4,[0,c,c],[1,[0,c,c],l]],af(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jH(b){var
-a=eJ(b);return a?iw(a[1],[0,d,c]):a}function
-jI(a,n,k,i){if(jH(i)){var
+e=[0,d[1],h[1],i[1]],l=B(e,e),n=jG(e,a),o=aA([0,b(2,c),c],n),p=B(e,a),q=aA([3,[0,b(2,c),c],p],e),r=aA([2,[0,c,c],l],a),s=af(function(b,a){return[1,b,a]},r,q);return aA([4,[0,c,c],[1,[0,c,c],l]],af(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jI(b){var
+a=eH(b);return a?ix(a[1],[0,d,c]):a}function
+jJ(a,n,k,i){if(jI(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
-f=ay(a,k);if(f){var
+f=az(a,k);if(f){var
 g=et(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fW(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=E(a,f[1],g[1]),l=[0,M(h[1],p)];else
+h=fX(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=F(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3391,24 +3410,24 @@ var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dQ(b,a,c){var
-d=br(b,a[1],a[2]),e=d?jI(b,0,c,a[1]):d;return e?jI(b,1,c,a[2]):e}function
-dR(a,d){if(jH(d))return[0,ad];var
+d=bs(b,a[1],a[2]),e=d?jJ(b,0,c,a[1]):d;return e?jJ(b,1,c,a[2]):e}function
+dR(a,d){if(jI(d))return[0,ae];var
 e=et(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fW(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=A(aN(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ah(function(d){var
-e=E(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iG(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=fX(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=A(aN(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cp(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ah(function(d){var
+e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iH(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
 go(d,a){var
 e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-cA(a){return[0,[2,[0,d,c],a],a]}function
-jJ(a,b,n,m){var
-h=br(a,[0,d,c],b),i=h?go(a,b):h;if(i){var
+cC(a){return[0,[2,[0,d,c],a],a]}function
+jK(a,b,n,m){var
+h=bs(a,[0,d,c],b),i=h?go(a,b):h;if(i){var
 e=dR(a,b);if(e){var
-f=ay(a,n);if(f){var
-g=ay(a,m);if(g){var
-o=f[1],p=g[1];return D(d,M(E(a,ac(a,e[1]),p),o)[1])}var
+f=az(a,n);if(f){var
+g=az(a,m);if(g){var
+o=f[1],p=g[1];return D(d,M(F(a,ad(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3418,24 +3437,24 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dS(a){return 1===a?qP:qQ}function
+dS(a){return 1===a?qS:qT}function
 gp(d,c,b,a){var
-e=a[1],f=jG(d,c,a[2]),g=af(function(b,a){return[1,b,a]},b,f);return af(function(b,a){return[2,b,a]},g,e)}function
+e=a[1],f=jH(d,c,a[2]),g=af(function(b,a){return[1,b,a]},b,f);return af(function(b,a){return[2,b,a]},g,e)}function
 dT(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,I(b,c[1])]]:[0,dC(function(a){return dT(b,a)},a)]}return[0,dC(function(a){return dT(b,a)},a)]}function
-cY(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dE(function(a){return dT(b,a)},a)]}return[0,dE(function(a){return dT(b,a)},a)]}function
+c1(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aM(Y(e,b));return f?aM(Y(e,I(d,b))):f;case
+e=a[1],f=aM(_(e,b));return f?aM(_(e,J(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cY(d,b,a[1]);if(g){var
+g=c1(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 dU(c,b,m){var
 d=m;for(;;){var
@@ -3443,29 +3462,29 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cY(c,b,g),i=h?dU(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c1(c,b,g),i=h?dU(c,b,f):h;if(i)var
 j=i;else{var
-k=dU(c,b,g);if(k)return cY(c,b,f);var
+k=dU(c,b,g);if(k)return c1(c,b,f);var
 j=k}return j;case
 7:var
-l=dU(c,b,a[1]);return l?cY(c,b,a[2]):l;case
+l=dU(c,b,a[1]);return l?c1(c,b,a[2]):l;case
 3:case
 4:var
 e=dU(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cY(c,b,a[1]);default:return 1}}}function
-cB(c,e){var
+9:return c1(c,b,a[1]);default:return 1}}}function
+cD(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aM(Y(a[1],c));case
+0:return aM(_(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cB(c,a[1]);if(d){var
+d=cD(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 gq(d,b,m){var
 c=m;for(;;){var
@@ -3474,49 +3493,49 @@ a=c[1];switch(a[0]){case
 f=gq(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gq(d,b,a[1]);return g?cB(b,a[2]):g;case
+g=gq(d,b,a[1]);return g?cD(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cB(b,i);if(j){var
-k=cB(b,h);if(k)var
+h=a[2],i=a[1],j=cD(b,i);if(j){var
+k=cD(b,h);if(k)var
 e=k;else{var
-l=bb(i,d);if(l){var
+l=bc(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cB(b,c)}}}function
-jK(c,e){var
+2:return 1;default:return cD(b,c)}}}function
+jL(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ii(a[1],c);case
+0:return ij(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jK(c,a[1]);if(d){var
+d=jL(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b_(b,a){return a?e(b,a[1]):a}function
-b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
-qR(a){return 0===a[0]?a[1]:0}function
-bv(b,a){switch(a[0]){case
+ca(b,a){return a?e(b,a[1]):a}function
+cb(c,b,a){return ca(function(b){return ca(e(c,b),a)},b)}function
+qU(a){return 0===a[0]?a[1]:0}function
+bw(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bv(b,a[1])];default:var
-c=bv(b,a[3]),d=bv(b,a[2]);return[2,bv(b,a[1]),d,c]}}function
+1:return[1,bw(b,a[1])];default:var
+c=bw(b,a[3]),d=bw(b,a[2]);return[2,bw(b,a[1]),d,c]}}function
 aY(b,c,a){switch(c[0]){case
-0:return bv(e(b,c[1]),a);case
+0:return bw(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bv(function(a){return N(b,a,k)},d)];case
+k=a[1];return[1,bw(function(a){return O(b,a,k)},d)];case
 1:return[1,aY(b,d,a[1])];default:var
 l=aY(b,d,a[3]),m=aY(b,d,a[2]);return[2,aY(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return N(b,a,n)},i=function(a){return bv(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return O(b,a,n)},i=function(a){return bw(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
 j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
 t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
@@ -3524,109 +3543,109 @@ gr(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,ac(c,a)];break;case
+f=[0,a,ad(c,a)];break;case
 1:var
-h=E(c,a,b),f=[0,er(A(a,b)),h];break;default:var
-f=[0,b,ac(c,b)]}return[0,[0,e(g,f)]]},i=gr(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=F(c,a,b),f=[0,er(A(a,b)),h];break;default:var
+f=[0,b,ad(c,b)]}return[0,[0,e(g,f)]]},i=gr(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jL(a){if(a){var
+jM(a){if(a){var
 b=a[1];if(b)var
-c=jL(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jM(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qT}function
+d=b;return d}return qW}function
 dV(a){if(a){var
-g=a[1],b=g[2],c=jL(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=jM(g[1]);if(c)if(b){var
 h=b[1],e=dV(a[2]);if(e)var
-i=$(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+i=aa(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qU}function
+f=c;return f}return qX}function
 gs(b,a){var
 c=a[3],d=ah(function(a){var
 c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jM(f,d,c,b){if(d){var
+jN(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
 a=gs(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jM(bM(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jN(bN(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,gs(qR,b))}function
+i=g;return i}return e(c,gs(qU,b))}function
 dW(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ah(function(a){return bO(f,e,a)},d)}return[0,ad]}function
-jN(d,b,a){if(b){if(a){var
-e=jN(d,b[2],a[2]);return A(bO(b[1],C(d,c),a[1]),e)}return ad}return ad}function
-jO(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jN(e,a,b)},j=jO(e,h),k=f(function(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ah(function(a){return bP(f,e,a)},d)}return[0,ae]}function
+jO(d,b,a){if(b){if(a){var
+e=jO(d,b[2],a[2]);return A(bP(b[1],C(d,c),a[1]),e)}return ae}return ae}function
+jP(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jO(e,a,b)},j=jP(e,h),k=f(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-jP(e,b,d,a){if(b)if(a)var
-f=b[1],g=jP(e,b[2],d,a[2]),c=[0,[0,f,iV(e,a[1][1],d,f)],g];else
+jQ(e,b,d,a){if(b)if(a)var
+f=b[1],g=jQ(e,b[2],d,a[2]),c=[0,[0,f,iW(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-jQ(e,d,c,b,a){if(a){var
+jR(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=jQ(e,d[1],c,b,g);return[0,[0,M(ad,b),0],i]}var
-j=f(function(a){return[0,M(ad,b),0]},g),h=[0,[0,M(aF(E(e,c,es(a[1][2]))),b),0],j]}else
+i=jR(e,d[1],c,b,g);return[0,[0,M(ae,b),0],i]}var
+j=f(function(a){return[0,M(ae,b),0]},g),h=[0,[0,M(aG(F(e,c,es(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-eL(c,a){var
-b=Y(k(a),c);return b?eA(a):b}function
-qV(c){var
+eM(c,a){var
+b=_(m(a),c);return b?eA(a):b}function
+qY(c){var
 a=c[2];if(a){var
 b=dW(c[3]);if(b)return D(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jR(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jS(a,c,b){var
-e=G(b,c,q(d)),f=cQ(0,a);return o(function(b){return dU(a,b,e)},f)}function
+jS(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jT(a,c,b){var
+e=E(b,c,q(d)),f=cS(0,a);return o(function(b){return dU(a,b,e)},f)}function
 dX(a){var
-b=_(a);return H(q(c),b)}function
-eM(i,g){var
-h=dX(g),j=_(g),e=w(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
-jT(b,a){function
+b=V(a);return G(q(c),b)}function
+eN(i,g){var
+h=dX(g),j=V(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cr(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cr(f),a,e]]:[0,[0,h,a,a],[0,a,e,cr(f)],[0,a,f,e]]}function
+jU(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aq(a,c(function(a){return a[3]})),d=aq(a,c(function(a){return a[2]}));return[0,aq(a,c(function(a){return a[1]})),d,b]}var
+b=ar(a,c(function(a){return a[3]})),d=ar(a,c(function(a){return a[2]}));return[0,ar(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jU(a){switch(a[0]){case
+jV(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cA(a[1]),0];default:var
-b=[0,cA(a[2]),0];return[0,cA(a[1]),b]}}function
-cZ(a){return[0,[0,a[1]],[0,a[2]]]}function
-jV(a,b){if(0===b[0])return dR(a,b[1]);var
+2:return[0,cC(a[1]),0];default:var
+b=[0,cC(a[2]),0];return[0,cC(a[1]),b]}}function
+c2(a){return[0,[0,a[1]],[0,a[2]]]}function
+jW(a,b){if(0===b[0])return dR(a,b[1]);var
 d=dR(a,b[1]);if(d){var
 e=dR(a,b[2]);if(e){var
-g=ac(a,e[1]),h=co(a,A(aN(a,c),g)),i=d[1];return ah(function(b){return E(a,i,b)},h)}var
+g=ad(a,e[1]),h=cq(a,A(aN(a,c),g)),i=d[1];return ah(function(b){return F(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jW(j,z,c,y,x,b,a){switch(b[0]){case
+jX(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
-a==="number")m=1;else
+n=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
+a==="number")l=1;else
 switch(a[0]){case
 0:var
 A=a[2],B=a[1],i=o,h=p,g=function(e){var
 a=dV(e[1]);if(a){var
 b=e[2];if(b){var
 d=dW(e[3]);if(d){var
-h=d[1],i=cl([0,M(aF(E(j,l,b[1])),h),0],c);return eL(c,f0(B,A,a[1],i))}var
+h=d[1],i=cn([0,M(aG(F(j,k,b[1])),h),0],c);return eM(c,f1(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3634,14 +3653,14 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=al(l[1],d),r=q?al(l[2],d):q;if(!r)return r;var
-D=a[2],F=a[1],i=o,h=p,g=function(e){var
+q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+D=a[2],G=a[1],i=o,h=p,g=function(e){var
 a=dV(e[1]);if(a){var
 b=dW(e[3]);if(b){var
-g=cl([0,M(ad,b[1]),0],c),h=a[1];return eL(c,f0(F,D,f(function(a){return[0,a[1],ad]},h),g))}var
+g=cn([0,M(ae,b[1]),0],c),h=a[1];return eM(c,f1(G,D,f(function(a){return[0,a[1],ae]},h),g))}var
 d=b}else
 var
-d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
+d=a;return d},e=n;break;default:l=1}if(l)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
@@ -3649,7 +3668,7 @@ H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
 a=dV(f[1]);if(a){var
 b=f[2];if(b){var
 d=dW(f[3]);if(d){var
-k=d[1],l=cl([0,M(E(j,J,b[1]),k),0],c),e=iX(a[1],l);if(e)return eL(c,e[1]);var
+k=d[1],l=cn([0,M(F(j,J,b[1]),k),0],c),e=iY(a[1],l);if(e)return eM(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3668,62 +3687,62 @@ s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
 a=dV(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
 e=dW(f[3]);if(e){var
-g=Y(k(b),c),h=g?Y(k(s),c):g;if(h){var
-n=jO(t,jP(t,s,d[1],b));return eL(c,iO(jQ(j,P,O,e[1],b),n))}var
+g=_(m(b),c),h=g?_(m(s),c):g;if(h){var
+n=jP(t,jQ(t,s,d[1],b));return eM(c,iP(jR(j,P,O,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-l=i}else
+k=i}else
 var
-l=d;var
-m=l}else
+k=d;var
+l=k}else
 var
-m=a;return m},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
+l=a;return l},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qV,e=0;else
+i=b[1],h=0,g=qY,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jM(e,z,g,gs(function(a){return G(a,y,q9)},C))}function
-jX(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jN(e,z,g,gs(function(a){return E(a,y,ra)},C))}function
+jY(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=D(d,o);if(p)var
-h=hN(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=hO(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jW(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jX(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jW(m,l,k,j,0,i,a)}return 0}function
-q_(a){if(a[1])return 0;var
+q=f;return q}return jX(m,l,k,j,0,i,a)}return 0}function
+rb(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jY(a,K,J,I,H,F,h,p,D,V){if(o(q_,D))var
+jZ(a,K,J,I,H,G,h,p,D,V){if(o(rb,D))var
 q=0;else
 var
-S=gr(a,dw,p),R=0,T=g(gr(a,dv,p),S),q=cr(qS,function(b){switch(b[0]){case
-0:return G(b[1],T,[0,[0,ad]]);case
-1:return[0,[0,G(b[1],J,ad)]];case
+S=gr(a,dy,p),R=0,T=g(gr(a,dx,p),S),q=cs(qV,function(b){switch(b[0]){case
+0:return E(b[1],T,[0,[0,ae]]);case
+1:return[0,[0,E(b[1],J,ae)]];case
 2:return[0,[0,aN(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aY(function(a,b){return cb(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return b$(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return cb(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aF(a)]};return bv(function(a){return b_(j,a)},i);case
+i=b[1],j=function(a){return[0,aG(a)]};return bw(function(a){return ca(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,E(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return aY(function(a,b){return cb(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cn(a,b);return ah(function(b){return E(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
+d=cp(a,b);return ah(function(b){return F(a,c,b)},d)};return aY(function(a,b){return cb(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ac(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
-s=b[1],t=function(b){return co(a,b)};return bv(function(a){return b_(t,a)},s)}},K,R);var
+q=b[1],r=function(b){return[0,ad(a,b)]};return bw(function(a){return ca(r,a)},q);default:var
+s=b[1],t=function(b){return cq(a,b)};return bw(function(a){return ca(t,a)},s)}},K,R);var
 e=D,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=G(c,b,0);if(u){var
+u=E(c,b,0);if(u){var
 l=aj(I,c);if(l){var
-v=jX(a,H,F,h,q,l[1],i);if(v){var
+v=jY(a,H,G,h,q,l[1],i);if(v){var
 e=k,b=eG(c,b);continue}var
 w=v}else
 var
@@ -3733,34 +3752,34 @@ var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,ac(a,b)]},p),O=f(dw,r),N=0,P=g(f(dv,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
-0:return[0,G(b[1],n,ad)];case
-1:return[0,G(b[1],J,ad)];case
+U=0,r=f(function(b){return[0,b,ad(a,b)]},p),O=f(dy,r),N=0,P=g(f(dx,r),O),Q=cs(0,function(n){return function(b){switch(b[0]){case
+0:return[0,E(b[1],n,ae)];case
+1:return[0,E(b[1],J,ae)];case
 2:return[0,aN(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b$(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return cb(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b$(function(b,a){return[0,M(b,a)]},f,e);case
+e=b[2],f=b[1];return cb(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return b_(function(a){return[0,aF(a)]},g);case
+g=b[1];return ca(function(a){return[0,aG(a)]},g);case
 6:var
-h=b[2],i=b[1];return b$(function(c,b){return[0,E(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cb(function(c,b){return[0,F(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b$(function(c,b){var
-d=cn(a,b);return ah(function(b){return E(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cb(function(c,b){var
+d=cp(a,b);return ah(function(b){return F(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b_(function(b){return[0,ac(a,b)]},l);default:var
-m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=G(h[1],Q,U);if(j){var
-m=$(j[1][2],d);L=1}else
+l=b[1];return ca(function(b){return[0,ad(a,b)]},l);default:var
+m=b[1];return ca(function(b){return cq(a,b)},m)}}}(P),K,N),j=E(h[1],Q,U);if(j){var
+m=aa(j[1][2],d);L=1}else
 var
 s=j}else
 var
 s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=G(c,b,0);if(y){var
+y=E(c,b,0);if(y){var
 n=aj(I,c);if(n){var
-z=jX(a,H,F,h,q,n[1],i);if(z){var
+z=jY(a,H,G,h,q,n[1],i);if(z){var
 e=k,b=eG(c,b);continue}var
 B=z}else
 var
@@ -3768,30 +3787,30 @@ B=n;var
 C=B}else
 var
 C=y;return C}return[0,b]}}function
-jZ(i,h,g,f,e,d,c,t,s,r){var
+j0(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jY(i,h,g,f,e,d,c,b,a[1],j);return k?o(aM,k[1]):k}var
-l=jY(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=dL(a[2],b),p=jZ(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+k=jZ(i,h,g,f,e,d,c,b,a[1],j);return k?o(aM,k[1]):k}var
+l=jZ(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dM(a[2],b),p=j0(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
 gt(d,a){var
-e=_(a),f=v(v(q(b(2,c)),a),d);return H(w(_(d),f),e)}function
+e=V(a),f=s(s(q(b(2,c)),a),d);return G(w(V(d),f),e)}function
 gu(a){switch(a){case
-0:return rb;case
-1:return rc;default:return 0}}function
-eN(b,a){var
+0:return re;case
+1:return rf;default:return 0}}function
+eO(b,a){var
 c=a5(a[2],b);return g(a5(a[1],b),c)}function
-j0(r,l,p,t,o,j,s){if(j){var
-u=j[1],x=cT(s,eN(o,u)),R=I(s,k(eN(o,u))),S=j0(r,l,p,t,o,j[2],R),i=aI(x,rd),m=aI(x,0);switch(r){case
+j1(r,k,p,u,o,j,t){if(j){var
+v=j[1],x=cx(t,eO(o,v)),R=J(t,m(eO(o,v))),S=j1(r,k,p,u,o,j[2],R),i=aI(x,rg),l=aI(x,0);switch(r){case
 0:var
-g=[0,ra,q$,q(d)];break;case
+g=[0,rd,rc,q(d)];break;case
 1:var
-g=cs;break;default:var
-G=q(d),J=q(d),g=[0,q(d),J,G]}var
-e=aS(w,g,m),z=aq(l[3],i),A=aq(l[2],i),a=[0,aq(l[1],i),A,z],K=gt(g[3],m[3]),L=gt(g[2],m[2]),M=gt(g[1],m[1]),N=H(H(H(aq(i,i),M),L),K),O=aq(a,e),P=v(q(b(2,c)),O),Q=H(v(p,N),P),B=v(a[2],e[1]),C=w(v(a[1],e[2]),B),D=v(a[1],e[3]),E=w(v(a[3],e[1]),D),F=v(a[3],e[2]),f=eB([0,w(v(a[2],e[3]),F),E,C],t),h=aS(H,dJ(p,e),a);switch(r){case
+g=ct;break;default:var
+H=q(d),I=q(d),g=[0,q(d),I,H]}var
+e=aS(w,g,l),z=ar(k[3],i),A=ar(k[2],i),a=[0,ar(k[1],i),A,z],K=gt(g[3],l[3]),L=gt(g[2],l[2]),M=gt(g[1],l[1]),N=G(G(G(ar(i,i),M),L),K),O=ar(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eB([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dL(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
@@ -3809,7 +3828,7 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
 gw(e,d,n,m,l,a){var
-f=v(_(cu(gv(m,a),l)),n);if(typeof
+f=s(V(cw(gv(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=aj(d,a[1]);if(b)var
@@ -3821,12 +3840,12 @@ c=aj(d,a[1]);if(c)var
 i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-j1(a,d,c,b){return f(function(a){var
-e=cu(gv(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-j2(b,g,s,f,i,q,p,o){if(o){var
-X=j2(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+j2(a,d,c,b){return f(function(a){var
+e=cw(gv(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
+j3(b,g,s,f,i,q,p,o){if(o){var
+X=j3(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a4(g),f),M,ad)];else
+M=e(g,i),h=[0,t(e(a4(g),f),M,ae)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
@@ -3856,110 +3875,110 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aN(b,c),V=e(g,i),W=j1(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+U=aN(b,c),V=e(g,i),W=j2(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-N=aG(b,[0,[0,k,k],d]),h=ah(function(a){var
-c=ac(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
+N=aH(b,[0,[0,k,k],d]),h=ah(function(a){var
+c=ad(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-j3(j,h,i,e,d,a){if(a){var
-n=j3(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j4(j,h,i,e,d,a){if(a){var
+n=j4(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(dw,j1(h,e,d,b));l=1}if(!l)var
+k=f(dy,j2(h,e,d,b));l=1}if(!l)var
 c=gw(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-re(a){if(typeof
+rh(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-eO(a){var
-b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
-rf(l,a,m,bg){var
-x=a[1],h=dS(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],ar=g(z(function(a){return eN(m,a)},bi),bh),S=k(ar),bj=a[2],bk=k(z(function(a){return eN(m,a)},bj)),as=a[3],bl=cu([0,[0,as,as],m],bk),bm=gu(x),bn=a[5];function
-i(a){return[0,[0,I(bm,a)]]}switch(bn[0]){case
+eP(a){var
+b=cv(a[1],[0,d,c]);return b?cv(a[2],[0,d,c]):b}function
+ri(k,a,l,bg){var
+x=a[1],h=dS(x),ap=a[3],bh=[0,[0,[0,ap,ap],l],0],bi=a[2],aq=g(z(function(a){return eO(l,a)},bi),bh),S=m(aq),bj=a[2],bk=m(z(function(a){return eO(l,a)},bj)),as=a[3],bl=cw([0,[0,as,as],l],bk),bm=gu(x),bn=a[5];function
+i(a){return[0,[0,J(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dX(i(0)),J=[0,eM(qW,i(0)),aX];break;case
+aX=dX(i(0)),I=[0,eN(qZ,i(0)),aX];break;case
 1:var
-aY=dX(i(0)),aZ=v(dX(i(qX)),aY),a0=v(dX(i(qY)),aZ),a1=eM(0,i(0)),a2=jT(eM(q0,i(qZ)),a1),J=[0,jT(eM(q2,i(q1)),a2),a0];break;default:var
-a3=i(q3),a5=i(q4),u=[0,i(0),a5,a3],a6=aq(u,u),a8=H(q(c),a6),aN=aq(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
-d=_(a),e=v(q(b(2,c)),d);return H(w(q(c),aN),e)},A=function(f,e,d,a){var
-g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(H,s,t,r),aQ=[0,A(w,r,t,s),aP,aO],aR=A(w,s,t,r),aS=O(s),aU=[0,A(H,r,s,t),aS,aR],aV=A(H,r,t,s),aW=A(w,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=J[2],K=j0(x,J[1],C,bl,m,a[2],0),bo=I(S,k(a[6])),bq=gu(x),br=a[5];function
-B(a){return[0,[0,I(bq,a)]]}var
-af=_([0,[1,bo]]);switch(br[0]){case
+aY=dX(i(0)),aZ=s(dX(i(q0)),aY),a0=s(dX(i(q1)),aZ),a1=eN(0,i(0)),a2=jU(eN(q3,i(q2)),a1),I=[0,jU(eN(q5,i(q4)),a2),a0];break;default:var
+a3=i(q6),a5=i(q7),v=[0,i(0),a5,a3],a6=ar(v,v),a8=G(q(c),a6),aN=ar(v,v),r=v[1],t=v[2],u=v[3],N=function(a){var
+d=V(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
+g=O(f,s(e,d),a);return s(q(b(2,c)),g)},aO=N(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=N(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,N(r),aW,aV],aU,aQ],a8]}var
+C=I[2],K=j1(x,I[1],C,bl,l,a[2],0),bo=J(S,m(a[6])),bp=gu(x),br=a[5];function
+B(a){return[0,[0,J(bp,a)]]}var
+af=V([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(q5),a_=B(q6),ag=[0,B(0),a_,a9],n=[0,w(af,aq(ag,ag))];break;case
+a9=B(q8),a_=B(q9),ag=[0,B(0),a_,a9],n=[0,w(af,ar(ag,ag))];break;case
 3:var
-a$=_(B(q7)),ba=_(B(0)),bc=_(B(q8)),n=[0,w(w(v(af,H(q(c),bc)),ba),a$)];break;default:var
+a$=V(B(q_)),ba=V(B(0)),bb=V(B(q$)),n=[0,w(w(s(af,G(q(c),bb)),ba),a$)];break;default:var
 n=0}var
-bs=n?[0,n[1],0]:n,bt=[0,C,g(j3(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),at=dF(f(function(a){return dT(h,a)},T))[1],D=dE(at);function
-y(a){return bp(D,dT(h,a))}var
-bu=ah(y,n),bv=y(C),au=e(a4(y),K),am=gu(x),an=Y(k(au),h);if(an)var
-ao=ah(function(a){return[0,[0,a,d],d]},bu),F=function(a){return G(a,D,q(d))},ae=F(bv),aM=cQ(0,am),R=o(function(a){var
-b=cY(h,a,ae),c=b?o(function(b){var
+bs=n?[0,n[1],0]:n,bt=[0,C,g(j4(k,K,C,l,S,a[6]),bs)],T=g(cy(K),bt),at=dH(f(function(a){return dT(h,a)},T))[1],D=dG(at);function
+y(a){return bq(D,dT(h,a))}var
+bu=ah(y,n),bv=y(C),au=e(a4(y),K),am=gu(x),an=_(m(au),h);if(an)var
+ao=ah(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cS(0,am),R=o(function(a){var
+b=c1(h,a,ae),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
-c=F(b);return cB(I(h,a),c)},d);if(c){var
-e=F(b[2]);return gq(ae,I(h,a),e)}return c},au):b;if(c){if(ao){var
-e=F(ao[1][1][1]);return cB(I(h,a),e)}var
+c=H(b);return cD(J(h,a),c)},d);if(c){var
+e=H(b[2]);return gq(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cD(J(h,a),e)}var
 d=1}else
 var
 d=c;return d},aM);else
 var
 R=an;var
 bf=R?am:R,av=o(function(a){var
-b=dT(h,a),c=q(d);return bb(G(y(a),D,c),b)},T),aw=av?o(function(a){return jK(h,a)},T):av,ax=aw?a7(re,a[6]):aw;if(ax){var
+b=dT(h,a),c=q(d);return bc(E(y(a),D,c),b)},T),aw=av?o(function(a){return jL(h,a)},T):av,ax=aw?a7(rh,a[6]):aw;if(ax){var
 L=a[4];switch(x){case
 0:var
-U=eO(L[3]);break;case
+U=eP(L[3]);break;case
 1:var
 U=1;break;default:var
-ak=eO(L[1]),al=ak?eO(L[2]):ak,U=al?eO(L[3]):al}var
-V=U}else
+ak=eP(L[1]),al=ak?eP(L[2]):ak,U=al?eP(L[3]):al}var
+W=U}else
 var
-V=ax;var
-ay=V?j(l,1,a[3]):V;if(ay)var
-bw=jU(a[5]),W=o(function(a){var
-b=go(l,a[1]);return b?go(l,a[2]):b},bw);else
+W=ax;var
+ay=W?j(k,1,a[3]):W;if(ay)var
+bw=jV(a[5]),X=o(function(a){var
+b=go(k,a[1]);return b?go(k,a[2]):b},bw);else
 var
-W=ay;if(W){var
-bx=a[6],by=g(ar,f(function(a){return gv(m,a)},bx)),X=aT(f(function(a){return aG(l,a)},by));if(X){var
-E=a[4];switch(x){case
+X=ay;if(X){var
+bx=a[6],by=g(aq,f(function(a){return gv(l,a)},bx)),Y=aT(f(function(a){return aH(k,a)},by));if(Y){var
+F=a[4];switch(x){case
 0:var
-Z=[0,E[1],[0,E[2],0]];break;case
+Z=[0,F[1],[0,F[2],0]];break;case
 1:var
-Z=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
+Z=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
 Z=0}var
-$=aT(f(function(a){return aG(l,[0,a,m])},Z));if($){var
+$=aT(f(function(a){return aH(k,[0,a,l])},Z));if($){var
 az=$[1],p=a[5];switch(p[0]){case
 0:var
-M=[0,cZ(p[1]),0];break;case
+M=[0,c2(p[1]),0];break;case
 1:var
-bd=[0,cZ(p[3]),0],be=[0,cZ(p[2]),bd],M=[0,cZ(p[1]),be];break;case
+bd=[0,c2(p[3]),0],be=[0,c2(p[2]),bd],M=[0,c2(p[1]),be];break;case
 2:var
-P=cZ(cA(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
-Q=p[2],ai=p[1],aj=[0,[1,cA(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cZ(cA(Q)),0]]]}var
+P=c2(cC(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
+Q=p[2],ai=p[1],aj=[0,[1,cC(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,c2(cC(Q)),0]]]}var
 aa=aT(f(function(d){var
-a=jV(l,d[1]);if(a)var
-b=jV(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=jW(k,d[1]);if(a)var
+b=jW(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},M));if(aa){var
-aA=aa[1],aB=a[5],bz=1<aB[0]?[0,aB[1],0]:0,ab=aT(f(function(a){return dR(l,a)},bz));if(ab){var
-ac=aT(j2(l,y,bf,K,C,m,S,a[6]));if(ac){var
-ad=ac[1],aC=Y(k(g(az,aA)),h),aD=aC?o(function(a){switch(a[0]){case
+aA=aa[1],aB=a[5],bz=1<aB[0]?[0,aB[1],0]:0,ab=aT(f(function(a){return dR(k,a)},bz));if(ab){var
+ac=aT(j3(k,y,bf,K,C,l,S,a[6]));if(ac){var
+ad=ac[1],aC=_(m(g(az,aA)),h),aD=aC?o(function(a){switch(a[0]){case
 2:var
-d=jR(a[2]),b=[0,a[3],d];break;case
+d=jS(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jR(a[1]),b=[0,a[2],c]}return o(function(a){return jS(h,D,a)},b)},ad):aC,aE=aD?n?jS(h,D,y(n[1])):1:aD;if(aE){var
-bA=f(function(a){return 1},ad),bB=g(az,aA),bC=ah(y,n);return jZ(l,at,g(X[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
+c=jS(a[1]),b=[0,a[2],c]}return o(function(a){return jT(h,D,a)},b)},ad):aC,aE=aD?n?jT(h,D,y(n[1])):1:aD;if(aE){var
+bA=f(function(a){return 1},ad),bB=g(az,aA),bC=ah(y,n);return j0(k,at,g(Y[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
 aF=aE}else
 var
 aF=ac;var
-aH=aF}else
+aG=aF}else
 var
-aH=ab;var
-aI=aH}else
+aG=ab;var
+aI=aG}else
 var
 aI=aa;var
 aJ=aI}else
@@ -3967,29 +3986,29 @@ var
 aJ=$;var
 aK=aJ}else
 var
-aK=X;var
+aK=Y;var
 aL=aK}else
 var
-aL=W;return aL}function
-eP(b,a){return br(b,a[1],a[2])}function
+aL=X;return aL}function
+eQ(b,a){return bs(b,a[1],a[2])}function
 gx(b,a){var
-c=eP(b,a[1]),d=c?eP(b,a[2]):c;return d?eP(b,a[3]):d}var
-eR=w(q(c),eQ);function
-j4(e){var
-a=_(eR);if(e)var
-f=v(q(b(2,c)),a),g=H(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aH(H(q(c),h),g);else
+c=eQ(b,a[1]),d=c?eQ(b,a[2]):c;return d?eQ(b,a[3]):d}var
+eS=w(q(c),eR);function
+j5(e){var
+a=V(eS);if(e)var
+f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=aq(G(q(c),h),g);else
 var
-i=H(q(b(2,c)),a),j=_(eQ),d=aH(H(v(q(b(2,c)),j),a),i);return cq(d)}function
-j5(d,b,a){if(d){var
-e=j4(b),f=H(q(c),e),g=v(w(q(c),a),f);return w(q(c),g)}var
-h=q(c),i=j4(b),j=aH(q(c),i);return w(v(a,H(q(c),j)),h)}function
-c0(f,e,d,a){var
-g=_(a),h=_(d),i=w(w(q(b(2,c)),h),g),j=f?e?eR:aH(eR,v(q(b(2,c)),eQ)):aH(eR,q(b(2,c))),k=v(_(j),i);return cq(H(q(c),k))}function
-j6(g,d){var
+i=G(q(b(2,c)),a),j=V(eR),d=aq(G(s(q(b(2,c)),j),a),i);return b9(d)}function
+j6(d,b,a){if(d){var
+e=j5(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
+h=q(c),i=j5(b),j=aq(q(c),i);return w(s(a,G(q(c),j)),h)}function
+c3(f,e,d,a){var
+g=V(a),h=V(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:aq(eS,s(q(b(2,c)),eR)):aq(eS,q(b(2,c))),k=s(V(j),i);return b9(G(q(c),k))}function
+j7(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 gy(u,t,s){var
-a=f(function(a){return G(a,t,0)},u);if(a){var
+a=f(function(a){return E(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -4020,12 +4039,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-j7(f,i,e,b,h){var
+j8(f,i,e,b,h){var
 j=f?c:d,a=aN(i,j);function
 g(b){var
-c=f?fT(b):es(b);return M(c,a)}var
-k=[0,a3(h),0],l=[0,[0,a,b,[0,ad,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-j8(r,g,q,p,e,o,n){if(o){var
+c=f?fU(b):es(b);return M(c,a)}var
+k=[0,a3(h),0],l=[0,[0,a,b,[0,ae,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+j9(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -4034,16 +4053,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b8,bP(ri)),a=gy(p,i2(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b_,bQ(rl)),a=gy(p,i3(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j6,rj),a=gy(p,cr(0,dG(g,j7(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(j7,rm),a=gy(p,cs(0,dI(g,j8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(j6,rk),a=gy(p,cr(0,dG(g,j7(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(j7,rn),a=gy(p,cs(0,dI(g,j8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4053,27 +4072,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rl:a}else
+y=a?ro:a}else
 var
 y=n;return y}return[0,n]}function
-j9(f,e,d,c,p,o,n){var
+j_(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j8(f,e,d,c,b,a[1],g);return h?aM(h[1]):h}var
-i=j8(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dL(a[2],b),l=j9(f,e,d,c,k[1],j,a[3]);if(l){var
+h=j9(f,e,d,c,b,a[1],g);return h?aM(h[1]):h}var
+i=j9(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dM(a[2],b),l=j_(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gz(a){return im(b(2,c),b2(a,c))}function
-c1(i,a,e,w,u){var
-l=a?c:W(c),f=q(l),g=j5(a,e,rg),h=j5(a,e,rh),m=aH(g,c0(a,e,f,g)),n=[0,H(aH(h,c0(a,e,h,f)),m),0],o=aH(f,c0(a,e,f,g)),p=[0,H(aH(h,c0(a,e,g,h)),o),n],r=aH(f,c0(a,e,h,f)),s=[0,H(aH(g,c0(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eQ):q(b(2,b(2,c))),j=dF([0,t,s]),k=[0,d,cm(i)];return j9(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-j_(a,g,b){if($(g,gz(a))){if(b){var
+gz(a){return io(b(2,c),b2(a,c))}function
+c4(i,a,e,w,v){var
+l=a?c:Y(c),f=q(l),g=j6(a,e,rj),h=j6(a,e,rk),m=aq(g,c3(a,e,f,g)),n=[0,G(aq(h,c3(a,e,h,f)),m),0],o=aq(f,c3(a,e,f,g)),p=[0,G(aq(h,c3(a,e,g,h)),o),n],r=aq(f,c3(a,e,h,f)),t=[0,G(aq(g,c3(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dH([0,u,t]),k=[0,d,co(i)];return j_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+j$(a,g,b){if(aa(g,gz(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gz(a)],v=cm(a),i=[0,gz(a),v],j=c1(a,0,1,h,b[1]),k=j?c1(a,0,0,i,c[1]):j;if(k){var
-l=c1(a,1,1,h,d[1]);if(l)return c1(a,1,0,i,e[1]);var
+h=[0,g,gz(a)],v=co(a),i=[0,gz(a),v],j=c4(a,0,1,h,b[1]),k=j?c4(a,0,0,i,c[1]):j;if(k){var
+l=c4(a,1,1,h,d[1]);if(l)return c4(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4090,7 +4109,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=c1(a,0,0,r,b[1]);if(s)return c1(a,1,0,r,f[1]);var
+r=[0,g,co(a)],s=c4(a,0,0,r,b[1]);if(s)return c4(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -4098,198 +4117,203 @@ u=t}else
 var
 u=b;return u}function
 gA(a){var
-b=[1,[2,d]];return it(function(b,a){return[1,[3,b,a]]},a,b)}function
-eS(a){return gA(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eT(a,c){return gA(f(function(a){var
-d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gA(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-j$(f,d,c,b,a){if(0===a[0])return G(a[1],b,0);var
-g=a[1],h=dC(function(a){return j$(f,d,c,b,a)},g);return e(dG(f,d,c),h)}function
-rm(a){var
-b=Y(k(a),rn);return b?a7(function(a){return aM(al(a,d))},a):b}function
-ka(c,f,b,a){if(b)if(a)var
-d=b[1],g=E(c,aN(c,a[1]),f),h=ka(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+b=[1,[2,d]];return iu(function(b,a){return[1,[3,b,a]]},a,b)}function
+eT(a){return gA(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eU(a,c){return gA(f(function(a){var
+d=[0,a[2]],b=cm(a[1],c);return[1,[7,[1,[8,gA(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+ka(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
+g=a[1],h=dE(function(a){return ka(f,d,c,b,a)},g);return e(dI(f,d,c),h)}function
+rp(a){var
+b=_(m(a),rq);return b?a7(function(a){return aM(al(a,d))},a):b}function
+kb(c,f,b,a){if(b)if(a)var
+d=b[1],g=F(c,aN(c,a[1]),f),h=kb(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eU(b,a){return is(is(b,0),a)}function
+eV(b,a){return it(it(b,0),a)}function
 gB(a){if(a){var
-b=a[2],c=a[1];if(b)return eU(c,[0,rp,gB(b)]);var
+b=a[2],c=a[1];if(b)return eV(c,[0,rs,gB(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,rr,eU(gB(a),rq)]}function
-O(a){return[0,rt,eU(gB(a),rs)]}function
-am(a){return[0,rv,[0,a,ru]]}function
-h(b,a){return[0,aw(rx,aw(b,rw)),a]}function
-L(b,a){return O([0,h(b,a),0])}function
-cC(d){var
-b=d,a=p0,e=0;for(;;){if(b){var
-c=ih(a),b=b[1],a=c;continue}return[0,dB(ej(a)),e]}}function
-gC(a){return[0,dB(em(a)),0]}function
+x(a){return[0,ru,eV(gB(a),rt)]}function
+N(a){return[0,rw,eV(gB(a),rv)]}function
+am(a){return[0,ry,[0,a,rx]]}function
+h(b,a){return[0,ax(rA,ax(b,rz)),a]}function
+L(b,a){return N([0,h(b,a),0])}function
+cE(d){var
+b=d,a=p3,e=0;for(;;){if(b){var
+c=ii(a),b=b[1],a=c;continue}return[0,dD(ej(a)),e]}}function
+gC(a){return[0,dD(em(a)),0]}function
 gD(a){var
-c=bH(a),f=0,b=0===c?p4:0<c?[0,em(a)]:[1,em(W(a))];if(0===b[0])var
-d=dB(b[1]);else
+c=bI(a),f=0,b=0===c?p7:0<c?[0,em(a)]:[1,em(Y(a))];if(0===b[0])var
+d=dD(b[1]);else
 var
-e=dB(b[1]),d=aw(a6(1,45),e);return[0,d,f]}function
+e=dD(b[1]),d=ax(a6(1,45),e);return[0,d,f]}function
 gE(a){var
-b=0,c=0<bH(a)?em(a):p3;return[0,dB(c),b]}function
+b=0,c=0<bI(a)?em(a):p6;return[0,dD(c),b]}function
 gF(a){switch(a[0]){case
-2:return rz;case
-3:return 2<=a[1]?rA:rB;case
-4:return rC;default:return ry}}function
+2:return rC;case
+3:return 2<=a[1]?rD:rE;case
+4:return rF;default:return rB}}function
 dY(b,a){function
-c(c,a){return Z(c,gF(a))?dY(b,a):[0,rI,g(dY(b,a),rH)]}switch(a[0]){case
+c(c,a){return $(c,gF(a))?dY(b,a):[0,rL,g(dY(b,a),rK)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
 f==="number")return[0,aX(h),0];var
-i=[0,rJ,[0,aX(f),0]];return[0,aX(h),i];case
+i=[0,rM,[0,aX(f),0]];return[0,aX(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rL,c(rK,a[1])];case
+2:return[0,rO,c(rN,a[1])];case
 3:var
 j=a[3],k=c([0,gF(a)],j);switch(a[1]){case
 0:var
-d=rD;break;case
+d=rG;break;case
 1:var
-d=rE;break;case
+d=rH;break;case
 2:var
-d=rF;break;default:var
-d=rG}var
+d=rI;break;default:var
+d=rJ}var
 l=a[2];return g(c(gF(a),l),[0,d,k]);case
 4:var
-m=[0,rM,gC(a[2])];return g(c(rN,a[1]),m);default:return[0,rP,g(dY(b,a[1]),rO)]}}function
-K(a){return[0,rS,g(dY(function(a){throw[0,ab,rR]},a),rQ)]}function
-kb(a){return[0,rU,g(dY(function(a){return a},a),rT)]}function
-ca(a){if(0===a[0])return K(a[1]);var
-b=[0,h(rV,K(a[2])),0];return O([0,h(rW,K(a[1])),b])}function
+m=[0,rP,gC(a[2])];return g(c(rQ,a[1]),m);default:return[0,rS,g(dY(b,a[1]),rR)]}}function
+I(a){return[0,rV,g(dY(function(a){throw[0,ac,rU]},a),rT)]}function
+kc(a){return[0,rX,g(dY(function(a){return a},a),rW)]}function
+cc(a){if(0===a[0])return I(a[1]);var
+b=[0,h(rY,I(a[2])),0];return N([0,h(rZ,I(a[1])),b])}function
 dZ(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
-rX(a){function
-b(a){return dZ(ca,a)}switch(a[0]){case
+r0(a){function
+b(a){return dZ(cc,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?rY:r6,i=[0,h(rZ,am(f)),e],j=[0,h(r0,ca(a[4])),i],k=[0,h(r1,b(a[3])),j],l=[0,h(r2,b(a[2])),k],m=[0,h(r3,b(a[1])),l],c=[0,h(r5,am(r4)),m];break;case
+e=0,f=a[5]?r1:r9,i=[0,h(r2,am(f)),e],j=[0,h(r3,cc(a[4])),i],k=[0,h(r4,b(a[3])),j],l=[0,h(r5,b(a[2])),k],m=[0,h(r6,b(a[1])),l],c=[0,h(r8,am(r7)),m];break;case
 1:var
-d=a[3],n=d?[0,h(r7,b(d[1])),0]:d,o=[0,h(r8,b(a[2])),0],p=[0,h(r9,b(a[1])),o],c=g([0,h(r$,am(r_)),p],n);break;default:var
-q=[0,h(sa,b(a[1])),0],c=[0,h(sc,am(sb)),q]}return O(c)}function
-sd(a){function
-b(a){return dZ(ca,a)}var
-c=0,d=a[7]?se:so,e=[0,h(sf,am(d)),c],f=[0,h(sg,ca(a[6])),e],g=[0,h(sh,ca(a[5])),f],i=[0,h(si,b(a[4])),g],j=[0,h(sj,b(a[3])),i],k=[0,h(sk,b(a[2])),j],l=[0,h(sl,b(a[1])),k];return O([0,h(sn,am(sm)),l])}function
+d=a[3],n=d?[0,h(r_,b(d[1])),0]:d,o=[0,h(r$,b(a[2])),0],p=[0,h(sa,b(a[1])),o],c=g([0,h(sc,am(sb)),p],n);break;default:var
+q=[0,h(sd,b(a[1])),0],c=[0,h(sf,am(se)),q]}return N(c)}function
+sg(a){function
+b(a){return dZ(cc,a)}var
+c=0,d=a[7]?sh:sr,e=[0,h(si,am(d)),c],f=[0,h(sj,cc(a[6])),e],g=[0,h(sk,cc(a[5])),f],i=[0,h(sl,b(a[4])),g],j=[0,h(sm,b(a[3])),i],k=[0,h(sn,b(a[2])),j],l=[0,h(so,b(a[1])),k];return N([0,h(sq,am(sp)),l])}function
 gG(a){switch(a){case
-0:return sp;case
-1:return sq;case
-2:return sr;case
-3:return ss;case
-4:return st;case
-5:return su;case
-6:return sv;case
-7:return sw;case
-8:return sx;default:return sy}}function
+0:return ss;case
+1:return st;case
+2:return su;case
+3:return sv;case
+4:return sw;case
+5:return sx;case
+6:return sy;case
+7:return sz;case
+8:return sA;case
+9:return sB;default:return sC}}function
 gH(a){switch(a[0]){case
-0:return sz;case
-1:return sA;default:return sB}}function
+0:return sD;case
+1:return sE;default:return sF}}function
 d0(a){var
-b=a[4],j=0;if(2===b[0])var
-i=[0,K(b[2]),0],e=x([0,K(b[1]),i]);else
+b=a[4],l=0;if(2===b[0])var
+k=[0,I(b[2]),0],f=x([0,I(b[1]),k]);else
 var
-e=K(b[1]);var
-k=[0,h(sC,e),j],l=[0,h(sD,am(gH(a[4]))),k],c=a[3];if(c)var
-n=x([0,K(c[1]),0]),m=0,o=6===a[1]?sE:sI,f=[0,h(sF,L(o,n)),m];else
+f=I(b[1]);var
+m=[0,h(sG,f),l],n=[0,h(sH,am(gH(a[4]))),m],d=a[3];if(d){var
+c=d[1];if(0===c[0])var
+p=x([0,I(c[1]),0]),o=0,q=6===a[1]?sI:sM,i=[0,h(sJ,L(q,p)),o];else
 var
-f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(sG,cC(d[1])),0]:d,r=g(q,p);return O([0,h(sH,am(gG(a[1]))),r])}function
-kc(a){if(0===a[0]){var
-b=[0,h(sJ,dZ(K,a[2])),0];return L(sL,O([0,h(sK,dZ(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,h(sM,x([0,K(a[4]),c])),0],e=[0,h(sN,K(a[3])),d],f=[0,K(a[2]),0];return L(sP,O([0,h(sO,x([0,K(a[1]),f])),e]))}function
-sT(a){function
-b(a){return x(f(ca,a))}var
-c=[0,h(sU,b(a[2])),0],d=[0,h(sV,b(a[1])),c];return O([0,h(sX,am(sW)),d])}function
-s7(a){function
-b(a){return dZ(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(s8,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s9,x([0,K(a[3]),f])),0],j=[0,h(s_,K(a[2])),i],k=[0,h(s$,cC(a[1])),j],d=g([0,h(tb,am(ta)),k],e);else
+u=[0,h(sN,x([0,I(c[2]),0])),0],i=[0,h(sP,N([0,h(sO,x([0,I(c[1]),0])),u])),0];var
+j=i}else
 var
-l=[0,h(tc,K(a[4])),0],m=[0,h(td,b(a[3])),l],n=[0,h(te,b(a[2])),m],o=a[1]?tf:th,d=[0,h(tg,am(o)),n];return O(d)}function
-kd(d,c,a,b){var
-e=[0,h(ti,x(f(d0,b))),0],i=a?[0,h(tj,x(f(s7,a))),0]:a,j=g(i,e),k=[0,h(tk,kc(c)),0];return O(g([0,h(tm,L(tl,x(f(rX,d)))),k],j))}function
-tn(a){switch(a[0]){case
-0:return L(to,kd(a[1],a[2],a[3],a[4]));case
+j=d;var
+r=g(j,n),e=a[2],s=e?[0,h(sK,cE(e[1])),0]:e,t=g(s,r);return N([0,h(sL,am(gG(a[1]))),t])}function
+kd(a){if(0===a[0]){var
+b=[0,h(sQ,dZ(I,a[2])),0];return L(sS,N([0,h(sR,dZ(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,h(sT,x([0,I(a[4]),c])),0],e=[0,h(sU,I(a[3])),d],f=[0,I(a[2]),0];return L(sW,N([0,h(sV,x([0,I(a[1]),f])),e]))}function
+s0(a){function
+b(a){return x(f(cc,a))}var
+c=[0,h(s1,b(a[2])),0],d=[0,h(s2,b(a[1])),c];return N([0,h(s4,am(s3)),d])}function
+tc(a){function
+b(a){return dZ(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(td,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(te,x([0,I(a[3]),f])),0],j=[0,h(tf,I(a[2])),i],k=[0,h(tg,cE(a[1])),j],d=g([0,h(ti,am(th)),k],e);else
+var
+l=[0,h(tj,I(a[4])),0],m=[0,h(tk,b(a[3])),l],n=[0,h(tl,b(a[2])),m],o=a[1]?tm:to,d=[0,h(tn,am(o)),n];return N(d)}function
+ke(d,c,a,b){var
+e=[0,h(tp,x(f(d0,b))),0],i=a?[0,h(tq,x(f(tc,a))),0]:a,j=g(i,e),k=[0,h(tr,kd(c)),0];return N(g([0,h(tt,L(ts,x(f(r0,d)))),k],j))}function
+tu(a){switch(a[0]){case
+0:return L(tv,ke(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tp,x(f(d0,a[3]))),0],p=[0,h(tq,kc(a[2])),o];return L(tt,O([0,h(ts,L(tr,x(f(sd,a[1])))),p]));case
+o=[0,h(tw,x(f(d0,a[3]))),0],p=[0,h(tx,kd(a[2])),o];return L(tA,N([0,h(tz,L(ty,x(f(sg,a[1])))),p]));case
 2:var
-q=[0,h(tu,x(f(d0,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,K(a),0];return x([0,K(b),c])};switch(b[0]){case
+q=[0,h(tB,x(f(d0,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,I(a),0];return x([0,I(b),c])};switch(b[0]){case
 0:var
-d=L(sY,c(b[1],b[2]));break;case
+d=L(s5,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(sZ,c(g[1],g[2])),0],m=[0,h(s0,c(i[1],i[2])),l],d=L(s2,O([0,h(s1,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(s6,c(g[1],g[2])),0],m=[0,h(s7,c(i[1],i[2])),l],d=L(s9,N([0,h(s8,c(j[1],j[2])),m]));break;case
 2:var
-d=L(s3,K(b[1]));break;default:var
-n=[0,h(s4,K(b[2])),0],d=L(s6,O([0,h(s5,K(b[1])),n]))}var
-r=[0,h(tv,d),q],s=[0,h(tw,x(f(K,a[5]))),0],t=[0,h(tz,L(ty,O([0,h(tx,x(f(K,a[4]))),s]))),r],u=[0,h(tA,K(a[3])),0],v=O([0,h(tB,x(f(sT,a[2]))),u]);switch(a[1]){case
+d=L(s_,I(b[1]));break;default:var
+n=[0,h(s$,I(b[2])),0],d=L(tb,N([0,h(ta,I(b[1])),n]))}var
+r=[0,h(tC,d),q],s=[0,h(tD,x(f(I,a[5]))),0],t=[0,h(tG,L(tF,N([0,h(tE,x(f(I,a[4]))),s]))),r],u=[0,h(tH,I(a[3])),0],v=N([0,h(tI,x(f(s0,a[2]))),u]);switch(a[1]){case
 0:var
-e=sQ;break;case
+e=sX;break;case
 1:var
-e=sR;break;default:var
-e=sS}return L(tD,O([0,h(tC,L(e,v)),t]));case
+e=sY;break;default:var
+e=sZ}return L(tK,N([0,h(tJ,L(e,v)),t]));case
 3:var
-w=[0,h(tE,x(f(d0,a[7]))),0],y=[0,h(tF,x(f(K,a[6]))),0],z=[0,h(tI,L(tH,O([0,h(tG,x(f(K,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tK,x(f(function(a){return L(tJ,x(f(kb,a)))},B))),A],D=a[3],E=[0,h(tL,x(f(function(a){var
-b=[0,kb(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tM,x(f(function(a){var
-b=[0,ca(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tQ,O([0,h(tP,L(tO,O([0,h(tN,x(f(am,a[1]))),G]))),z]));case
+w=[0,h(tL,x(f(d0,a[7]))),0],y=[0,h(tM,x(f(I,a[6]))),0],z=[0,h(tP,L(tO,N([0,h(tN,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tR,x(f(function(a){return L(tQ,x(f(kc,a)))},B))),A],D=a[3],E=[0,h(tS,x(f(function(a){var
+b=[0,kc(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tT,x(f(function(a){var
+b=[0,cc(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tX,N([0,h(tW,L(tV,N([0,h(tU,x(f(am,a[1]))),G]))),z]));case
 4:var
-H=[0,h(tR,x(f(d0,a[3]))),0],I=[0,h(tU,L(tT,O([0,h(tS,K(a[2])),0]))),H];return L(tY,O([0,h(tX,L(tW,O([0,h(tV,K(a[1])),0]))),I]));case
+H=[0,h(tY,x(f(d0,a[3]))),0],J=[0,h(t1,L(t0,N([0,h(tZ,I(a[2])),0]))),H];return L(t5,N([0,h(t4,L(t3,N([0,h(t2,I(a[1])),0]))),J]));case
 5:var
-J=[0,h(tZ,K(a[5])),0];return L(t1,O([0,h(t0,kd(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
-k=a[1],M=0,N=k?ca(k[1]):am(t4);return L(t3,O([0,h(t2,N),M]))}}function
-eV(a){return x(f(gD,a))}function
-ke(b,a){var
-c=[0,h(t5,gE(a)),0];return O([0,h(t6,x(f(eV,b))),c])}function
-eW(a){switch(a[0]){case
+K=[0,h(t6,I(a[5])),0];return L(t8,N([0,h(t7,ke(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
+k=a[1],M=0,O=k?cc(k[1]):am(t$);return L(t_,N([0,h(t9,O),M]))}}function
+eW(a){return x(f(gD,a))}function
+kf(b,a){var
+c=[0,h(ua,gE(a)),0];return N([0,h(ub,x(f(eW,b))),c])}function
+eX(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=ke(a[2],a[3]);return L(a[1],b);case
+b=kf(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?t7:t9;return L(t8,am(c));case
+c=a[1]?uc:ue;return L(ud,am(c));case
 3:var
-d=[0,eV(a[3]),0];return L(t_,x([0,ke(a[1],a[2]),d]));case
+d=[0,eW(a[3]),0];return L(uf,x([0,kf(a[1],a[2]),d]));case
 4:var
-e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return L(t$,x([0,eW(a[1]),f]));case
+e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return L(ug,x([0,eX(a[1]),f]));case
 5:var
-g=[0,gE(a[3]),0],h=[0,gD(a[2]),g];return L(ua,x([0,eW(a[1]),h]));default:return L(ub,eW(a[1]))}}function
-uc(a){var
-b=[0,eW(a[2]),0];return x([0,cC(a[1]),b])}function
-kf(a){if(typeof
-a==="number")return am(ud);else{if(0===a[0]){var
-b=[0,x(f(eV,a[2])),0];return L(ue,x([0,cC(a[1]),b]))}var
-c=[0,cC(a[2]),0];return L(uf,x([0,cC(a[1]),c]))}}function
-ug(a){var
-b=a[4],i=b?[0,h(uh,eV([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ui,kf(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uj,cC(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uk,x(f(uc,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+g=[0,gE(a[3]),0],h=[0,gD(a[2]),g];return L(uh,x([0,eX(a[1]),h]));default:return L(ui,eX(a[1]))}}function
+uj(a){var
+b=[0,eX(a[2]),0];return x([0,cE(a[1]),b])}function
+kg(a){if(typeof
+a==="number")return am(uk);else{if(0===a[0]){var
+b=[0,x(f(eW,a[2])),0];return L(ul,x([0,cE(a[1]),b]))}var
+c=[0,cE(a[2]),0];return L(um,x([0,cE(a[1]),c]))}}function
+un(a){var
+b=a[4],i=b?[0,h(uo,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(up,kg(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uq,cE(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ur,x(f(uj,[0,c[1],c[2]]))),0]:c;return N(g(n,m))}function
 gI(a){var
-b=h4(h3(F(a),function(b){return R(a,b)}));return o(function(a){var
-b=aM(34===a?1:0),c=b?aM(92===a?1:0):b,d=c?Z(uE,ep(a)):c;return d?Z(ep(a),uF):d},b)}function
-eX(b){function
+b=h5(h4(H(a),function(b){return S(a,b)}));return o(function(a){var
+b=aM(34===a?1:0),c=b?aM(92===a?1:0):b,d=c?$(uL,ep(a)):c;return d?$(ep(a),uM):d},b)}function
+eY(b){function
 c(f){var
-a=ep(f),b=Z(uG,a),c=b?Z(a,uH):b;if(c)var
+a=ep(f),b=$(uN,a),c=b?$(a,uO):b;if(c)var
 d=c;else{var
-e=Z(uI,a);if(e)return Z(a,uJ);var
+e=$(uP,a);if(e)return $(a,uQ);var
 d=e}return d}var
-a=h4(h3(F(b),function(a){return R(b,a)}));if(a){var
+a=h5(h4(H(b),function(a){return S(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=ep(a),f=Z(uK,e),h=f?Z(e,uL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(k(d),uM):f;if(g)return aM(av(b,uN));var
+e=ep(a),f=$(uR,e),h=f?$(e,uS):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?$(m(d),uT):f;if(g)return aM(aw(b,uU));var
 h=g}else
 var
 h=a;return h}function
 gJ(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eX(a[1]);case
+1:return eY(a[1]);case
 3:var
 b=gJ(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-c2(m){var
+c5(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4307,169 +4331,179 @@ var
 g=d;return g;case
 1:return 1;case
 3:var
-i=c2(a[2]);if(i){var
+i=c5(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c2(a[1]),l=k?el(b(2,c),j):k;return l?el(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c5(a[1]),l=k?el(b(2,c),j):k;return l?el(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-c3(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cb(a){return z(c3,bc(a))}function
-kg(a){switch(a[0]){case
+c6(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bd(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cd(a){return z(c6,bd(a))}function
+kh(a){switch(a[0]){case
 0:var
-c=c3(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
+c=c6(a[4]),d=g(cd(a[3]),c),e=g(cd(a[2]),d);return g(cd(a[1]),e);case
 1:var
-b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
-uO(a){var
-b=z(c3,[0,a[5],[0,a[6],0]]);return g(z(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-kh(a){if(0===a[0]){var
-b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c4(c){var
-a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-uP(a){if(0===a[0]){var
-b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
-ki(a){var
+b=a[3],f=b?cd(b[1]):b,h=g(cd(a[2]),f);return g(cd(a[1]),h);default:return cd(a[1])}}function
+uV(a){var
+b=z(c6,[0,a[5],[0,a[6],0]]);return g(z(cd,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+ki(a){if(0===a[0]){var
+b=bd(a[2]);return g(bd(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+c7(d){var
+a=d[4],f=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
+b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
+var
+e=c;return g(e,f)}function
+uW(a){if(0===a[0]){var
+b=a[5],c=b?bd(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bd(a[3]),d);return g(bd(a[2]),e)}function
+kj(a){var
 d=el(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?el(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kj(a,b){return b?[3,kj(a,b[1]),a]:a}function
+kk(a,b){return b?[3,kk(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fM(ie(h),k,c);return[0,ip(ig(ej(a[1]),h)),l];case
-1:throw[0,ab,uQ];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fN(ig(h),k,c);return[0,iq(ih(ej(a[1]),h)),l];case
+1:throw[0,ac,uX];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,Y(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=bM(dz(a[2]));return kj(i(a[1]),m);default:return[5,i(a[1])]}}function
-bR(a){if(0===a[0]){var
+m=bN(dB(a[2]));return kk(i(a[1]),m);default:return[5,i(a[1])]}}function
+bS(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bd(a){var
-b=bR(a[3]),c=bR(a[2]);return[0,bR(a[1]),c,b]}function
-uR(a){switch(a[0]){case
+be(a){var
+b=bS(a[3]),c=bS(a[2]);return[0,bS(a[1]),c,b]}function
+uY(a){switch(a[0]){case
 0:var
-b=a[5],c=bR(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
+b=a[5],c=bS(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
 1:var
-f=ah(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
-kk(a){if(0===a[0]){var
+f=ah(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
+kl(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-c5(a){var
+c8(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-c6(a){if(0===a[0]){var
-b=a[5],h=b?c5(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bM(a[1]),l,k,j,h]}var
+c9(a){if(0===a[0]){var
+b=a[5],h=b?c8(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bN(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=c5(f),n=c5(g);return[2,i(e),n,m]}var
-o=c5(f),p=c5(g);return[1,i(e),p,o]}function
+m=c8(f),n=c8(g);return[2,i(e),n,m]}var
+o=c8(f),p=c8(g);return[1,i(e),p,o]}function
 gK(b,a){if(a){var
-c=a[1],d=a[2],e=gK(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fR(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:Y(b[1],a[1]):0:0===a[0]?0:dy(b[1],a[1]);return aM(d)},h),e)}return a}function
-uS(a){if(a[1])return 0;var
+c=a[1],d=a[2],e=gK(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fS(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:_(b[1],a[1]):0:0===a[0]?0:dA(b[1],a[1]);return aM(d)},h),e)}return a}function
+uZ(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eY(e,m,C,b){var
-D=k(e),h=z(function(a){switch(a[1]){case
+eZ(e,l,J,b){var
+K=m(e),h=z(function(a){switch(a[1]){case
 0:var
-j=a[4];return 0===j[0]?[0,[1,i(j[1])],0]:0;case
+l=a[4];return 0===l[0]?[0,[1,i(l[1])],0]:0;case
 1:var
 e=a[4];switch(e[0]){case
 0:var
-t=e[1],b=function(a){return[2,a,i(t)]};break;case
+x=e[1],b=function(a){return[2,a,i(x)]};break;case
 1:var
-v=e[1],b=function(a){return[3,a,i(v)]};break;default:return 0}break;case
+z=e[1],b=function(a){return[3,a,i(z)]};break;default:return 0}break;case
 2:var
-l=a[4];if(1!==l[0])return 0;var
-g=a[3],w=l[1];if(!g)return g;var
-x=g[1],b=function(a){var
-b=i(w);return[4,a,i(x),b]};break;case
+n=a[4];if(1!==n[0])return 0;var
+g=a[3],A=n[1];if(!g)return g;var
+o=g[1];if(0!==o[0])return 0;var
+B=o[1],b=function(a){var
+b=i(A);return[4,a,i(B),b]};break;case
 3:var
-m=a[4];return 1===m[0]?[0,[5,i(m[1])],0]:0;case
+p=a[4];return 1===p[0]?[0,[5,i(p[1])],0]:0;case
 4:var
-n=a[4];if(0!==n[0])return 0;var
-y=n[1],b=function(a){return[6,a,i(y)]};break;case
+q=a[4];if(0!==q[0])return 0;var
+C=q[1],b=function(a){return[6,a,i(C)]};break;case
 5:var
-o=a[4];return 0===o[0]?[0,[7,i(o[1])],0]:0;case
+r=a[4];return 0===r[0]?[0,[7,i(r[1])],0]:0;case
 6:var
-p=a[4];if(0===p[0]){var
-h=a[3];if(h)var
-z=i(p[1]),q=[0,[8,i(h[1]),z],0];else
-var
-q=h;return q}return 0;case
-7:var
-r=a[4];return 0===r[0]?[0,[9,i(r[1])],0]:0;case
-8:return 0;default:var
 s=a[4];if(0===s[0]){var
-A=s[1],B=gK(0,C);return f(function(h){var
-e=i(A),a=h[2],b=h[1];if(0===b[0]){var
+h=a[3];if(h){var
+t=h[1];if(0===t[0]){var
+D=i(s[1]);return[0,[8,i(t[1]),D],0]}return 0}return h}return 0;case
+7:var
+u=a[4];return 0===u[0]?[0,[9,i(u[1])],0]:0;case
+8:return 0;case
+9:var
+v=a[4];if(0===v[0]){var
+E=v[1],F=gK(0,J);return f(function(h){var
+e=i(E),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?c5(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(Y(f,a[1])){var
-j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bM(f),m,l,k]}var
-n=c6(a);return[10,c6(b),n,e]}var
-o=c6(a);return[10,c6(b),o,e]}var
-p=c6(a);return[10,c6(b),p,e]},B)}return 0}var
-k=a[2],u=k?[0,bM(k[1]),0]:cQ(0,D);return f(b,u)},b),a=z(uS,b),j=a?[0,a[1],a[2]]:uU,l=g(j,h),n=kk(m);return[0,f(uR,e),n,l]}function
-uV(a){if(a[1])return 0;var
+g=function(a){return a?c8(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(_(f,a[1])){var
+j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bN(f),m,l,k]}var
+n=c9(a);return[10,c9(b),n,e]}var
+o=c9(a);return[10,c9(b),o,e]}var
+p=c9(a);return[10,c9(b),p,e]},F)}return 0;default:var
+w=a[4];if(1!==w[0])return 0;var
+j=a[3],G=w[1];if(!j)return j;var
+k=j[1];if(0===k[0])return 0;var
+H=k[2],I=k[1],b=function(a){var
+b=i(G),c=i(H);return[12,a,i(I),c,b]}}var
+m=a[2],y=m?[0,bN(m[1]),0]:cS(0,K);return f(b,y)},b),a=z(uZ,b),j=a?[0,a[1],a[2]]:u1,k=g(j,h),n=kl(l);return[0,f(uY,e),n,k]}function
+u2(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-c7(A,b){var
+c_(B,b){var
 c=z(function(a){switch(a[1]){case
 0:var
 h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
 b=a[4];switch(b[0]){case
 0:var
-p=b[1],c=function(a){return[2,a,i(p)]};break;case
+r=b[1],c=function(a){return[2,a,i(r)]};break;case
 1:var
-r=b[1],c=function(a){return[3,a,i(r)]};break;default:var
-s=b[2],t=b[1],c=function(a){var
-b=i(s);return[4,a,i(t),b]}}break;case
+t=b[1],c=function(a){return[3,a,i(t)]};break;default:var
+u=b[2],v=b[1],c=function(a){var
+b=i(u);return[4,a,i(v),b]}}break;case
 2:var
 k=a[4];if(1!==k[0])return 0;var
-d=a[3],u=k[1];if(!d)return d;var
-v=d[1],c=function(a){var
-b=i(u);return[6,a,i(v),b]};break;case
+d=a[3],w=k[1];if(!d)return d;var
+l=d[1];if(0!==l[0])return 0;var
+x=l[1],c=function(a){var
+b=i(w);return[6,a,i(x),b]};break;case
 3:var
-l=a[4];return 1===l[0]?[0,[5,i(l[1])],0]:0;case
+m=a[4];return 1===m[0]?[0,[5,i(m[1])],0]:0;case
 6:var
-m=a[4];if(0===m[0]){var
-e=a[3];if(e)var
-w=i(m[1]),n=[0,[8,i(e[1]),w],0];else
-var
-n=e;return n}return 0;case
+n=a[4];if(0===n[0]){var
+e=a[3];if(e){var
+o=e[1];if(0===o[0]){var
+y=i(n[1]);return[0,[8,i(o[1]),y],0]}return 0}return e}return 0;case
 8:var
-o=a[4];if(1!==o[0])return 0;var
-g=a[3],x=o[1];if(!g)return g;var
-y=g[1],c=function(a){var
-b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,bM(j[1]),0]:cQ(0,A);return f(c,q)},b),a=z(uV,b),d=a?[0,a[1],a[2]]:uW;return g(d,c)}function
-bS(h,g,a){switch(a[1]){case
+p=a[4];if(1!==p[0])return 0;var
+g=a[3],z=p[1];if(!g)return g;var
+q=g[1];if(0!==q[0])return 0;var
+A=q[1],c=function(a){var
+b=i(z);return[7,a,i(A),b]};break;default:return 0}var
+j=a[2],s=j?[0,bN(j[1]),0]:cS(0,B);return f(c,s)},b),a=z(u2,b),d=a?[0,a[1],a[2]]:u3;return g(d,c)}function
+a9(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dy(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dA(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=Z(uX,d);return e?Z(d,g):e}var
+d=c[1],e=$(u4,d);return e?$(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cD(a){switch(a[0]){case
+cF(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cD(a[1])];case
+2:return[2,cF(a[1])];case
 3:var
-b=cD(a[2]),c=cD(a[3]);switch(a[1]){case
+b=cF(a[2]),c=cF(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cD(a[1]),d];default:return[8,cD(a[1])]}}function
-kl(b){function
+d=a[2];return[7,cF(a[1]),d];default:return[8,cF(a[1])]}}function
+km(b){function
 a(e){var
-a=[0,d,c];return G(e,b,[0,a,a])}var
-e=a(uZ),f=a(u0);return[0,a(0),f,e]}function
+a=[0,d,c];return E(e,b,[0,a,a])}var
+e=a(u6),f=a(u7);return[0,a(0),f,e]}function
 gL(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
@@ -4478,64 +4512,64 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-km(j,a,h,g,e,d,c){function
-b(a){return kl(f(bR,a))}var
-l=c7(k(a),c),m=gL(d),n=ck(g,e),o=kl(f(function(a){var
+kn(j,a,h,g,e,d,c){function
+b(a){return km(f(bS,a))}var
+k=c_(m(a),c),l=gL(d),n=cm(g,e),o=km(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-u1(a){var
-b=a[7],c=bR(a[6]),d=bR(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-c8(h){var
-a=cP(function(f,e){var
-a=ay(m,f);if(a)var
-b=a[1],c=cj(fz(b[1]),fz(b[2]));else
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
+u8(a){var
+b=a[7],c=bS(a[6]),d=bS(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
+l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+c$(h){var
+a=cR(function(f,e){var
+a=az(l,f);if(a)var
+b=a[1],c=cl(fA(b[1]),fA(b[2]));else
 var
-c=d;return cj(c,e)},d,h);if($(d,a)){var
-f=bH(a);if(0===f||!(0<f&&!D(a,c)))var
+c=d;return cl(c,e)},d,h);if(aa(d,a)){var
+f=bI(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bn(a,a1(2)),e=b[1],g=al(b[2],d)?ek(e):ek(e);return b2(g,m)}return d}function
-eZ(a){return[0,a[1],[0,a[2],0]]}function
-bw(a){var
-b=eZ(a[3]),c=g(eZ(a[2]),b);return g(eZ(a[1]),c)}function
-u2(a){return 0===a[0]?eZ(a[1][4]):0}function
-u3(a){switch(a[0]){case
+b=bo(a,a1(2)),e=b[1],g=al(b[2],d)?ek(e):ek(e);return b2(g,l)}return d}function
+e0(a){return[0,a[1],[0,a[2],0]]}function
+bx(a){var
+b=e0(a[3]),c=g(e0(a[2]),b);return g(e0(a[1]),c)}function
+u9(a){return 0===a[0]?e0(a[1][4]):0}function
+u_(a){switch(a[0]){case
 0:var
-b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
+b=a[1],c=bx(b[3]);return g(bx(b[2]),c);case
 1:var
-d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
-kn(a){switch(a[0]){case
-0:return c8(bw(a[1][1]));case
+d=bx(a[2]);return g(bx(a[1]),d);default:return 0}}function
+ko(a){switch(a[0]){case
+0:return c$(bx(a[1][1]));case
 1:var
-b=a[3];return b?c8(bw(b[1])):d;default:return c8(bw(a[1]))}}function
-ko(b){var
-a=z(u2,b),d=a?[0,a[1],a[2]]:z(u3,b);return C(c,c8(d))}function
-e0(a){switch(a[0]){case
+b=a[3];return b?c$(bx(b[1])):d;default:return c$(bx(a[1]))}}function
+kp(b){var
+a=z(u9,b),d=a?[0,a[1],a[2]]:z(u_,b);return C(c,c$(d))}function
+e1(a){switch(a[0]){case
 0:var
-b=a[1];if(av(b,u4))return u5;if(av(b,u6))return u7;if(av(b,u8))return u9;if(av(b,u_))return u$;var
-h=av(b,va),j=h?vb:h;return j;case
+b=a[1];if(aw(b,u$))return va;if(aw(b,vb))return vc;if(aw(b,vd))return ve;if(aw(b,vf))return vg;var
+h=aw(b,vh),j=h?vi:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(av(e,vc))return[0,[0,c,d]];if(av(e,vd))return[0,[1,c,d]];if(av(e,ve))return[0,[2,c,d]];var
-i=av(e,vf),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(aw(e,vj))return[0,[0,c,d]];if(aw(e,vk))return[0,[1,c,d]];if(aw(e,vl))return[0,[2,c,d]];var
+i=aw(e,vm),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=e0(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=e1(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=e0(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=e0(a[1]);return ah(function(a){return[6,a]},n)}}function
-kp(a){if(a){var
-d=a[1],b=e0(d[2]);if(b)var
-c=kp(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=e1(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=e1(a[1]);return ah(function(a){return[6,a]},n)}}function
+kq(a){if(a){var
+d=a[1],b=e1(d[2]);if(b)var
+c=kq(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return vg}function
-c9(c,a){if(c)if(a){var
+e=b;return e}return vn}function
+da(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=kp(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=kq(b[1]);if(d){var
 k=d[1];if(h){var
-e=c9(j,i);if(e){var
-l=e[1],f=c9(j,l[2]);if(f)var
+e=da(j,i);if(e){var
+l=e[1],f=da(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4551,10 +4585,10 @@ g=a;else
 var
 g=c;return g}function
 gM(d,a){if(d){if(a){var
-b=c9(k(a),a);if(b)var
+b=da(m(a),a);if(b)var
 e=b[1],c=gM(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return vh}return a?0:vi}function
+f=b;return f}return vo}return a?0:vp}function
 gN(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
 gO(d,a){if(d)if(a){var
@@ -4573,146 +4607,151 @@ var
 g=a;else
 var
 g=d;return g}function
-cE(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-be(a,e){var
-b=cE(a[1],e),c=cE(a[2],b[2]),d=cE(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-kq(d,c){if(d){var
+cG(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bf(a,e){var
+b=cG(a[1],e),c=cG(a[2],b[2]),d=cG(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kr(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cE(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bf(a[1],c),f=bf(a[2],e[2]),g=bf(a[3],f[2]),h=cG(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=be(a[1],c),k=j[1],l=be(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bf(a[1],c),k=j[1],l=bf(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bf(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=kq(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-kr(b,i){if(b){var
-a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cE(a[5],f[2]),h=cE(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kr(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+p=bf(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=kr(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+ks(b,i){if(b){var
+a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cG(a[5],f[2]),h=cG(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=ks(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
 gP(a,b){if(a){var
-c=cE(a[1],b),d=gP(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+c=cG(a[1],b),d=gP(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 gQ(b){function
-a(a){return G(a,b,[0,d,c])}var
-e=a(vk),f=a(vl);return[0,a(0),f,e]}function
-ks(a,b){if(a){var
-c=a[1],d=gP(c[1],b),e=gP(c[2],d[2]),f=ks(a[2],e[2]),g=f[2],h=f[1],i=gQ(e[1]);return[0,[0,[0,gQ(d[1]),i],h],g]}return[0,0,b]}function
-c_(a){return jb(m,a)}function
-vm(a){if(typeof
+a(a){return E(a,b,[0,d,c])}var
+e=a(vr),f=a(vs);return[0,a(0),f,e]}function
+kt(a,b){if(a){var
+c=a[1],d=gP(c[1],b),e=gP(c[2],d[2]),f=kt(a[2],e[2]),g=f[2],h=f[1],i=gQ(e[1]);return[0,[0,[0,gQ(d[1]),i],h],g]}return[0,0,b]}function
+db(a){return i8(l,a)}function
+vt(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=j(m,1,a[2]);return b?j(m,1,a[3]):b;case
-5:return j(m,1,[2,a[1],[0,c,c]]);case
-6:return j(m,1,a[2]);case
+b=j(l,1,a[2]);return b?j(l,1,a[3]):b;case
+5:return j(l,1,[2,a[1],[0,c,c]]);case
+6:return j(l,1,a[2]);case
 8:var
-d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
-10:return j(m,0,a[3]);case
+d=j(l,1,a[1]);return d?j(l,1,a[2]):d;case
+10:return j(l,0,a[3]);case
 11:var
-e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
+e=a[4];return 1===e[0]?j(l,0,e[2]):0;case
+12:var
+f=j(l,0,a[2]),g=f?j(l,0,a[3]):f;return g?j(l,1,a[4]):g;case
 2:case
-3:return c_(a[2]);default:return j(m,1,a[1])}}function
+3:return db(a[2]);default:return j(l,1,a[1])}}function
 gR(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
-5:return j(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(l,1,[2,d,e]),g=f?j(l,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(l,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(l,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(l,1,[2,a[1],[0,c,c]]);case
 8:var
-k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
+k=j(l,1,a[1]);return k?j(l,1,a[2]):k;case
 0:case
-1:return j(m,1,a[1]);case
+1:return j(l,1,a[1]);case
 2:case
-3:return c_(a[2]);default:var
-i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-e1(d){var
+3:return db(a[2]);default:var
+i=j(l,1,a[2]);return i?j(l,1,a[3]):i}}function
+e2(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=aM(a7(function(d){return function(a){var
-h=gG(a[1]),e=av(gG(d[1]),h);if(e)var
-i=gH(a[4]),b=av(gH(d[4]),i);else
+h=gG(a[1]),e=aw(gG(d[1]),h);if(e)var
+i=gH(a[4]),b=aw(gH(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?Y(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?_(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d1(a){if(0===a[0])return c_(i(a[1]));var
-b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
-bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-kt(a){switch(a[0]){case
+d1(a){if(0===a[0])return db(i(a[1]));var
+b=i(a[1]);return j(l,1,[2,i(a[2]),b])}function
+bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ku(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
+c=[0,a[4],0],d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e);case
 1:var
-b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
-ku(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
+b=a[3],f=b?bg(b[1]):b,h=g(bg(a[2]),f);return g(bg(a[1]),h);default:return bg(a[1])}}function
+kv(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bg(a[4]),b),d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e)}function
 gS(a){switch(a){case
-0:return vq;case
-1:return vr;default:return 0}}function
-e2(a){var
-f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
+0:return vx;case
+1:return vy;default:return 0}}function
+e3(a){var
+f=a[1],d=j(l,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(l,a[1],a[2]):d;if(e){var
+g=a[2];return j(l,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
 gT(a){var
-e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-kv(c,d,D,t,s,r,g){function
+e=bs(l,[0,d,c],a);return e?j(l,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+kw(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vo:vp,b=Y(k(a),d);return b?o(d1,a):b}var
+d=c?vv:vw,b=_(m(a),d);return b?o(d1,a):b}var
 v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=k(d),h=Z(dS(c),E);else
+E=m(d),h=$(dS(c),E);else
 var
 h=v;var
-w=h?Z(k(d),vs):h,x=w?j(m,1,i(D)):w;if(x)var
-F=gS(c),l=Y(k(t),F);else
+w=h?$(m(d),vz):h,x=w?j(l,1,i(D)):w;if(x)var
+F=gS(c),k=_(m(t),F);else
 var
-l=x;if(l)var
-G=gS(c),n=Y(k(s),G);else
+k=x;if(k)var
+G=gS(c),n=_(m(s),G);else
 var
-n=l;if(n)var
-H=ck(t,s),p=o(function(a){var
-b=i(a[2]);return br(m,i(a[1]),b)},H);else
+n=k;if(n)var
+H=cm(t,s),p=o(function(a){var
+b=i(a[2]);return bs(l,i(a[1]),b)},H);else
 var
 p=n;if(p)if(c){var
 a=gL(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=e2(a[1]),A=z?e2(a[2]):z,e=A?e2(a[3]):A;break;case
+z=e3(a[1]),A=z?e3(a[2]):z,e=A?e3(a[3]):A;break;case
 2:var
 e=gT(a[1]);break;default:var
 B=gT(a[1]),e=B?gT(a[2]):B}var
 f=e}else
 var
-C=gL(r),J=0===C[0]?e2(C[1]):0,f=J;else
+C=gL(r),J=0===C[0]?e3(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=k(d),I=dS(c),q=o(function(a){var
+b=m(d),I=dS(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=Z(uY,e),g=f?Z(e,b):f,c=g;else
+e=d[1],f=$(u5,e),j=f?$(e,b):f,c=j;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bS(0,b,a):bS(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bS(0,b,a):bS(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?Y(b,I):c:bS(0,b,a):bS(0,b,a);default:return bS(0,b,a)}},g);else
+2:if(1===a[4][0]){var
+g=a[3];return g?0===g[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+6:if(0===a[4][0]){var
+h=a[3];return h?0===h[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+8:if(1===a[4][0]){var
+i=a[3];return i?0===i[1][0]?c?_(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
 var
 q=f;var
-y=q?e1(g):q;return y?o(gR,c7(k(d),g)):y}function
+y=q?e2(g):q;return y?o(gR,c_(m(d),g)):y}function
 gU(j){var
-q=a5(j,c8(bw(j))),a=f(function(a){return aG(m,a)},q);if(a){var
+q=a5(j,c$(bx(j))),a=f(function(a){return aH(l,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return ac(m,a)},r=i(h[1]),s=i(g[1]);return $(d,A(A(i(e[1]),s),r)[1])}var
+i=function(a){return ad(l,a)},r=i(h[1]),s=i(g[1]);return aa(d,A(A(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
-l=k}else
+m=k}else
 var
-l=g;var
-n=l}else
+m=g;var
+n=m}else
 var
 n=b;var
 o=n}else
@@ -4721,107 +4760,111 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-vt(a){switch(a[0]){case
+vA(a){switch(a[0]){case
 0:return gU(a[1][1]);case
 1:var
 b=a[3];return b?gU(b[1]):1;default:return gU(a[1])}}function
-gV(c,a,b,p){if(a7(function(b){var
-a=9<=b[1]?1:0,c=a?1:a;return c},b)){var
-f=Z(k(a),vv),h=f?o(function(a){if(0===a[0]){var
-f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bc(f[1]),b=o(function(a){return c_(i(a))},u);else{var
+gV(c,a,b,p){if(a7(function(a){return 9===a[1]?1:0},b)){var
+f=$(m(a),vC),h=f?o(function(a){if(0===a[0]){var
+f=a[5],h=j(l,1,i(a[2])),k=h?j(l,0,i(a[3])):h,m=k?j(l,0,i(a[4])):k,e=0;if(m)if(f)var
+u=bd(f[1]),b=o(function(a){return db(i(a))},u);else{var
 n=1;e=1}else{var
-n=l;e=1}if(e)var
+n=m;e=1}if(e)var
 b=n}else{var
-p=j(m,1,i(a[4]));if(p)var
-v=bc(a[3]),w=g(bc(a[2]),v),b=o(function(a){return c_(i(a))},w);else
+p=j(l,1,i(a[4]));if(p)var
+v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return db(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=Z(vu,q);if(r){var
-d=aj(c,bM(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=$(vB,q);if(r){var
+d=aj(c,bN(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-l=gK(0,a),u=l?1:l,n=u;else
+k=gK(0,a),u=k?1:k,n=u;else
 var
 n=h;var
 d=n}else
 var
 d=a?0:1;var
-q=d?o(vt,p[1]):d,r=q?Z(vw,k(c)):q;if(r)var
-v=k(c),e=o(function(a){switch(a[1]){case
+q=d?o(vA,p[1]):d,r=q?$(vD,m(c)):q;if(r)var
+v=m(c),e=o(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
-c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
-b=c[1];break;case
-2:if(1!==a[4][0])return 0;var
-e=a[2];if(!e){var
-g=a[3],j=g?1:g;return j}var
-f=a[3];if(!f)return f;var
-b=e[1];break;case
-3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
-4:if(0!==a[4][0])return 0;var
 h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
 b=h[1];break;case
+2:if(1!==a[4][0])return 0;var
+j=a[2];if(!j){var
+d=a[3];return d?0===d[1][0]?1:0:d}var
+c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
+b=j[1];break;case
+3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
+4:if(0!==a[4][0])return 0;var
+k=a[2];if(!k)return a[3]?0:1;if(a[3])return 0;var
+b=k[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
-i=a[3],k=i?1:i;return k}return 0;case
-8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=Z(uT,b);return d?Z(b,v):d},b);else
+e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
+8:return 0;case
+10:if(1!==a[4][0])return 0;var
+l=a[2];if(!l){var
+g=a[3];return g?0===g[1][0]?0:1:g}var
+f=a[3];if(!f)return f;if(0===f[1][0])return 0;var
+b=l[1];break;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
+i=$(u0,b);return i?$(b,v):i},b);else
 var
 e=r;var
-s=e?e1(b):e,t=s?o(d1,z(kt,c)):s;return t?o(vm,p[3]):t}function
+s=e?e2(b):e,t=s?o(d1,z(ku,c)):s;return t?o(vt,p[3]):t}function
 gW(b,a){return o(function(c){var
-a=c[2];return a?ii(a[1],b):1},a)}function
+a=c[2];return a?ij(a[1],b):1},a)}function
 gX(b,a){var
-c=k(fR(function(a){return 0===a[0]?0:1},b));return Y(k(a),c)}function
-vx(s){var
-fi=gI(s[3]),fj=fi?gI(s[4]):fi;if(fj){var
+c=m(fS(function(a){return 0===a[0]?0:1},b));return _(m(a),c)}function
+vE(s){var
+fj=gI(s[3]),fk=fj?gI(s[4]):fj;if(fk){var
 as=s[1];if(3===as[0]){var
-fm=o(eX,as[1]);if(fm)var
-is=as[2],cy=o(function(a){return eX(a[1])},is);else
+fn=o(eY,as[1]);if(fn)var
+is=as[2],cw=o(function(a){return eY(a[1])},is);else
 var
-cy=fm;if(cy)var
-it=as[3],cz=o(function(a){var
-b=eX(a[1]),c=b?gJ(a[2]):b;return c?c2(a[2]):c},it);else
+cw=fn;if(cw)var
+it=as[3],cx=o(function(a){var
+b=eY(a[1]),c=b?gJ(a[2]):b;return c?c5(a[2]):c},it);else
 var
-cz=cy;if(cz)var
-iv=as[4],iw=function(a){var
-b=gJ(a);return b?c2(a):b},ct=o(function(a){return o(iw,a)},iv);else
+cx=cw;if(cx)var
+iu=as[4],iw=function(a){var
+b=gJ(a);return b?c5(a):b},ct=o(function(a){return o(iw,a)},iu);else
 var
-ct=cz}else
+ct=cx}else
 var
 ct=1;var
 cu=ct}else
 var
-cu=fj;if(cu){var
+cu=fk;if(cu){var
 h=s[1];switch(h[0]){case
 0:var
-h7=z(c4,h[4]),h8=g(z(uP,h[3]),h7),h9=g(kh(h[2]),h8),T=g(z(kg,h[1]),h9);break;case
+h7=z(c7,h[4]),h8=g(z(uW,h[3]),h7),h9=g(ki(h[2]),h8),T=g(z(kh,h[1]),h9);break;case
 1:var
-h_=z(c4,h[3]),h$=g(kh(h[2]),h_),T=g(z(uO,h[1]),h$);break;case
+h_=z(c7,h[3]),h$=g(ki(h[2]),h_),T=g(z(uV,h[1]),h$);break;case
 2:var
-ia=z(c4,h[7]),S=h[6];switch(S[0]){case
+ia=z(c7,h[7]),S=h[6];switch(S[0]){case
 1:var
-ff=S[3],fg=S[2],fh=S[1],cq=[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],[0,ff[1],[0,ff[2],0]]]]]];break;case
+fg=S[3],fh=S[2],fi=S[1],cq=[0,fi[1],[0,fi[2],[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],0]]]]]];break;case
 2:var
 cq=[0,S[1],0];break;default:var
 cq=[0,S[1],[0,S[2],0]]}var
-ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],T=g(z(function(a){return z(c3,g(a[1],a[2]))},ig),ie);break;case
+ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],T=g(z(function(a){return z(c6,g(a[1],a[2]))},ig),ie);break;case
 3:var
-ih=z(c4,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],T=g(z(function(a){return c3(a[2])},ik),ij);break;case
+ih=z(c7,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],T=g(z(function(a){return c6(a[2])},ik),ij);break;case
 4:var
-il=z(c4,h[3]),T=[0,h[1],[0,h[2],il]];break;case
+il=z(c7,h[3]),T=[0,h[1],[0,h[2],il]];break;case
 5:var
-im=z(c4,h[4]),io=g(bc(h[3]),im),ip=g(bc(h[2]),io),iq=g(z(kg,h[1]),ip),T=[0,h[5],iq];break;default:var
-cs=h[1],T=cs?c3(cs[1]):cs}var
-cw=o(c2,T)}else
+im=z(c7,h[4]),io=g(bd(h[3]),im),ip=g(bd(h[2]),io),iq=g(z(kh,h[1]),ip),T=[0,h[5],iq];break;default:var
+cr=h[1],T=cr?c6(cr[1]):cr}var
+cv=o(c5,T)}else
 var
-cw=cu;if(cw){var
+cv=cu;if(cv){var
 ag=s[2];if(0===ag[0]){var
-fk=ki(ag[1]);if(fk)var
+fl=kj(ag[1]);if(fl)var
 ir=ag[2],at=o(function(a){var
 b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
@@ -4831,54 +4874,54 @@ a=b[2];for(;;)switch(a[0]){case
 3:return 1;default:var
 a=a[1];continue}},b)},ir);else
 var
-at=fk}else
+at=fl}else
 var
-fl=ki(ag[1]),at=fl?o(c2,g(ag[2],ag[3])):fl}else
+fm=kj(ag[1]),at=fm?o(c5,g(ag[2],ag[3])):fm}else
 var
-at=cw;if(at){var
+at=cv;if(at){var
 a=s[1];switch(a[0]){case
 0:var
-au=a[4],aw=a[3],cM=a[2],U=a[1],ai=s[2];if(0===ai[0]){var
-cN=ai[2],r=eY(U,cM,aw,au),cO=c9(k(cN),cN);if(cO){var
-fF=cO[1];if(fF[2])return 0;var
-fG=gV(U,aw,au,r),fH=fG?gW(vy,cN):fG;if(fH){var
-iJ=fF[1],cP=f(kn,r[1]),w=ko(r[1]),p=ai[1],dT=jl(m,r);if(dT){var
-bJ=f9(w,cP,r[1]),X=f_(w,cP,r[1],0),g0=k(r[3]),g1=I(k(bJ),g0),du=[0,k(bJ),g1],g2=gb(X,w,du,r[3]),g3=g(cv(iZ(X)),g2),dx=g(cv(eC(X)),g3),dz=dF(dx)[1],aq=dE(dz),dA=o(function(a){var
-b=q(d);return bb(G(bp(aq,a),aq,b),a)},dx);if(dA){var
-dB=a7(qG,r[3]);if(dB){var
-bH=cP,aC=r[1];for(;;){if(aC){var
-aD=aC[1],bI=en(d,bH);switch(aD[0]){case
+au=a[4],av=a[3],cM=a[2],U=a[1],ai=s[2];if(0===ai[0]){var
+cN=ai[2],r=eZ(U,cM,av,au),cO=da(m(cN),cN);if(cO){var
+fG=cO[1];if(fG[2])return 0;var
+fH=gV(U,av,au,r),fI=fH?gW(vF,cN):fH;if(fI){var
+iJ=fG[1],cP=f(ko,r[1]),w=kp(r[1]),p=ai[1],dT=jm(l,r);if(dT){var
+bK=f_(w,cP,r[1]),W=f$(w,cP,r[1],0),g0=m(r[3]),g1=J(m(bK),g0),dw=[0,m(bK),g1],g2=gb(W,w,dw,r[3]),g3=g(cy(i0(W)),g2),dz=g(cy(eC(W)),g3),dB=dH(dz)[1],aq=dG(dB),dC=o(function(a){var
+b=q(d);return bc(E(bq(aq,a),aq,b),a)},dz);if(dC){var
+dD=a7(qJ,r[3]);if(dD){var
+bI=cP,aC=r[1];for(;;){if(aC){var
+aD=aC[1],bJ=en(d,bI);switch(aD[0]){case
 0:var
-dq=aD[1],dr=gc(p,dq[1],bI),db=0;if(dr){var
-bG=aG(p,[0,dq[4],w]);if(bG)var
-ap=$(d,bG[1][1]);else{var
-ds=bG;db=1}}else{var
-ds=dr;db=1}if(db)var
-ap=ds;break;case
+ds=aD[1],dt=gc(p,ds[1],bJ),dd=0;if(dt){var
+bH=aH(p,[0,ds[4],w]);if(bH)var
+ap=aa(d,bH[1][1]);else{var
+du=bH;dd=1}}else{var
+du=dt;dd=1}if(dd)var
+ap=du;break;case
 1:var
-dt=aD[3],ap=dt?gc(p,dt[1],bI):1;break;default:var
-ap=gc(p,aD[1],bI)}if(ap){var
-gZ=aC[2],bH=fQ(bH),aC=gZ;continue}var
-dC=ap}else
+dv=aD[3],ap=dv?gc(p,dv[1],bJ):1;break;default:var
+ap=gc(p,aD[1],bJ)}if(ap){var
+gZ=aC[2],bI=fR(bI),aC=gZ;continue}var
+dE=ap}else
 var
-dC=1;var
-bK=dC;break}}else
+dE=1;var
+bL=dE;break}}else
 var
-bK=dB;if(bK){var
-g4=r[3],g5=z(function(a){return dN(w,a)},g4),g6=r[3],g7=g(bJ,g(f(function(a){return bQ(w,a)},g6),g5)),bL=aT(f(function(a){return aG(p,a)},g7));if(bL){var
-_=r[2];if(0===_[0])var
-dD=_[1];else
+bL=dD;if(bL){var
+g4=r[3],g5=z(function(a){return cW(w,a)},g4),g6=r[3],g7=g(bK,g(f(function(a){return bR(w,a)},g6),g5)),bM=aT(f(function(a){return aH(p,a)},g7));if(bM){var
+X=r[2];if(0===X[0])var
+dF=X[1];else
 var
-aB=_[3],dn=_[2],dp=_[1],dD=[0,[0,[2,dp,aB],[1,dp,aB]],[0,[2,dn,aB],[1,dn,aB]],_[4]];var
-g8=a5(dD,w),bM=aT(f(function(a){return aG(p,a)},g8));if(bM){var
-g9=r[3],bN=aT(ja(p,function(a){return bp(aq,a)},X,w,du,g9));if(bN){var
-dH=bN[1],g_=i6(dH),aE=r[2],g$=bM[1],ha=function(d){if(0===aE[0])return 0;if(d){var
+aB=X[3],dq=X[2],dr=X[1],dF=[0,[0,[2,dr,aB],[1,dr,aB]],[0,[2,dq,aB],[1,dq,aB]],X[4]];var
+g8=a5(dF,w),bN=aT(f(function(a){return aH(p,a)},g8));if(bN){var
+g9=r[3],bO=aT(jc(p,function(a){return bq(aq,a)},W,w,dw,g9));if(bO){var
+dJ=bO[1],g_=i7(dJ),aE=r[2],g$=bN[1],ha=function(d){if(0===aE[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b7(p,w,aE[1]);if(f){var
-g=b7(p,w,aE[2]);if(g){var
-h=b7(p,w,aE[3]);if(h)var
-r=f[1],s=bq(c),i=M([0,bq(c),s],r),t=g[1],u=bq(b),j=M([0,bq(b),u],t),v=cS(b),x=[0,cS(b),v],y=[0,E(p,aF(A(j,j)),x),0],z=cS(c),B=[0,cS(c),z],C=[0,E(p,aF(A(i,i)),B),y],D=ac(p,j),F=ac(p,i),k=[0,[0,M(M(ac(p,h[1]),F),D),ad,C]];else
+b=a[1],c=d[1],f=b8(p,w,aE[1]);if(f){var
+g=b8(p,w,aE[2]);if(g){var
+h=b8(p,w,aE[3]);if(h)var
+r=f[1],s=br(c),i=M([0,br(c),s],r),t=g[1],u=br(b),j=M([0,br(b),u],t),v=cV(b),x=[0,cV(b),v],y=[0,F(p,aG(A(j,j)),x),0],z=cV(c),B=[0,cV(c),z],C=[0,F(p,aG(A(i,i)),B),y],D=ad(p,j),E=ad(p,i),k=[0,[0,M(M(ad(p,h[1]),E),D),ae,C]];else
 var
 k=h;var
 l=k}else
@@ -4895,233 +4938,233 @@ var
 o=a;var
 q=o}else
 var
-q=d;return q},hb=bL[1],hc=0,hd=iZ(X),he=e(a4(function(a){return bp(aq,a)}),hd),hf=eC(X);return f7(p,dz,e(a4(function(a){return bp(aq,a)}),hf),he,hc,hb,dH,ha,g$,g_,iJ)}var
-dI=bN}else
+q=d;return q},hb=bM[1],hc=0,hd=i0(W),he=e(a4(function(a){return bq(aq,a)}),hd),hf=eC(W);return f8(p,dB,e(a4(function(a){return bq(aq,a)}),hf),he,hc,hb,dJ,ha,g$,g_,iJ)}var
+dK=bO}else
 var
-dI=bM;var
-dJ=dI}else
+dK=bN;var
+dL=dK}else
 var
-dJ=bL;var
-bO=dJ}else
+dL=bM;var
+bP=dL}else
 var
-bO=bK}else
+bP=bL}else
 var
-bO=dA;return bO}return dT}var
-fI=fH}else
+bP=dC;return bP}return dT}var
+fJ=fI}else
 var
-fI=cO;return fI}var
-bd=ai[2];if(bd){var
-be=bd[2];if(be){var
-bf=be[2];if(bf){if(bf[2])return 0;var
-fJ=ai[3],fK=kq(U,f(i,fJ));if(fK[2])return 0;var
+fJ=cO;return fJ}var
+be=ai[2];if(be){var
+bf=be[2];if(bf){var
+bg=bf[2];if(bg){if(bg[2])return 0;var
+fK=ai[3],fL=kr(U,f(i,fK));if(fL[2])return 0;var
 ak=ai[4];if(typeof
 ak==="number")var
-F=vj;else
+G=vq;else
 if(0===ak[0]){var
-cE=ak[2],cF=ak[1];if(cE){var
-a6=cE[1],dc=0;if(a6){var
-a8=a6[2],bE=0;if(a8){var
-a9=a8[2],bF=0;if(a9)if(a9[2]){var
-F=0;bE=1;bF=1}else{var
-cG=a9[1],cH=a8[1],cI=a6[1],cJ=cE[2];if(cJ){var
-a_=cJ[1],gT=0;if(a_){var
-a$=a_[2],gU=0;if(a$){var
-ba=a$[2],gY=0;if(ba)if(ba[2]||cJ[2]){var
-F=0;bE=1;bF=1;gT=1;gU=1;gY=1}else
+cD=ak[2],cE=ak[1];if(cD){var
+a6=cD[1],de=0;if(a6){var
+a8=a6[2],bF=0;if(a8){var
+a_=a8[2],bG=0;if(a_)if(a_[2]){var
+G=0;bF=1;bG=1}else{var
+cG=a_[1],cH=a8[1],cI=a6[1],cJ=cD[2];if(cJ){var
+a$=cJ[1],gT=0;if(a$){var
+ba=a$[2],gU=0;if(ba){var
+bb=ba[2],gY=0;if(bb)if(bb[2]||cJ[2]){var
+G=0;bF=1;bG=1;gT=1;gU=1;gY=1}else
 var
-fs=[0,[0,cF,[0,[0,cI,cH],cG],[0,[0,a_[1],a$[1]],ba[1]]]];else
+ft=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,a$[1],ba[1]],bb[1]]]];else
 var
-fs=ba;if(!gY)var
-ft=fs}else
-var
-ft=a$;if(!gU)var
+ft=bb;if(!gY)var
 fu=ft}else
 var
-fu=a_;if(!gT){var
-F=fu;bE=1;bF=1}}else
+fu=ba;if(!gU)var
+fv=fu}else
 var
-fv=[0,[0,cF,[0,[0,cI,cH],cG],[0,[0,cI,cH],cG]]]}else
+fv=a$;if(!gT){var
+G=fv;bF=1;bG=1}}else
 var
-fv=a9;if(!bF)var
-fw=fv}else
+fw=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,cI,cH],cG]]]}else
 var
-fw=a8;if(!bE){var
-fx=fw;dc=1}}else{var
-fx=a6;dc=1}if(dc)var
-F=fx}else
+fw=a_;if(!bG)var
+fx=fw}else
 var
-fy=[0,[0,d,d],d],F=[0,[0,cF,fy,fy]]}else
+fx=a8;if(!bF){var
+fy=fx;de=1}}else{var
+fy=a6;de=1}if(de)var
+G=fy}else
 var
-F=[0,[1,ak[1],ak[2]]];if(F){var
-fL=gX(z(kt,U),fJ),fM=fL?gV(U,aw,au,eY(U,cM,aw,au)):fL;if(fM){var
-V=F[1],iK=i(bf[1]),iL=i(be[1]),L=[0,i(bd[1]),iL,iK],ax=fK[1],cQ=eY(U,cM,aw,au),dM=jd(m,cQ,ax,L);if(dM)if(typeof
+fz=[0,[0,d,d],d],G=[0,[0,cE,fz,fz]]}else
+var
+G=[0,[1,ak[1],ak[2]]];if(G){var
+fM=gX(z(ku,U),fK),fN=fM?gV(U,av,au,eZ(U,cM,av,au)):fM;if(fN){var
+V=G[1],iK=i(bg[1]),iL=i(bf[1]),L=[0,i(be[1]),iL,iK],ax=fL[1],cQ=eZ(U,cM,av,au),dN=je(l,cQ,ax,L);if(dN)if(typeof
 V==="number")return a7(function(a){switch(a[0]){case
 0:var
-b=[0,cU(a[1],a[2],a[3],a[4],L)];break;case
+b=[0,cX(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-e=a[2],f=a[1],g=bs(f,e,L),b=[0,B(bs(f,e,L),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===V[0]){var
-bP=aj(cQ[3],V[1]);if(bP){var
-hg=bP[1],hh=jf(V[3]);return jk(m,ax,L,jf(V[2]),hh,hg)}return bP}var
+e=a[2],f=a[1],g=bt(f,e,L),b=[0,B(bt(f,e,L),g)];break;default:var
+b=0}return b?j(l,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===V[0]){var
+bQ=aj(cQ[3],V[1]);if(bQ){var
+hg=bQ[1],hh=jg(V[3]);return jl(l,ax,L,jg(V[2]),hh,hg)}return bQ}var
 bT=aj(cQ[3],V[1]);if(bT){var
 bU=aj(ax,V[2]);if(bU){var
-dO=bU[1],hi=bT[1],hj=cW(dO,L);return jk(m,ax,L,cW(dO,L),hj,hi)}var
+dO=bU[1],hi=bT[1],hj=cZ(dO,L);return jl(l,ax,L,cZ(dO,L),hj,hi)}var
 dR=bU}else
 var
-dR=bT;return dR}return dM}var
-fN=fM}else
-var
-fN=F;var
+dR=bT;return dR}return dN}var
 fO=fN}else
 var
-fO=bf;var
+fO=G;var
 fP=fO}else
 var
-fP=be;var
-fR=fP}else
+fP=bg;var
+fQ=fP}else
 var
-fR=bd;return fR;case
+fQ=bf;var
+fS=fQ}else
+var
+fS=be;return fS;case
 1:var
-bg=a[3],N=a[1],bh=s[2];if(0===bh[0])return 0;var
-bi=bh[2];if(bi){var
+bh=a[3],N=a[1],bi=s[2];if(0===bi[0])return 0;var
 bj=bi[2];if(bj){var
-bk=bj[2];if(bk){if(bk[2])return 0;var
-fS=bh[3],fT=kr(N,f(i,fS));if(fT[2])return 0;var
-fU=gX(z(ku,N),fS);if(fU){var
-fz=Z(vn,k(N));if(fz)var
-iE=k(N),iF=1,cK=o(function(a){return bS(iF,iE,a)},bg);else
+bk=bj[2];if(bk){var
+bl=bk[2];if(bl){if(bl[2])return 0;var
+fT=bi[3],fU=ks(N,f(i,fT));if(fU[2])return 0;var
+fV=gX(z(kv,N),fT);if(fV){var
+fA=$(vu,m(N));if(fA)var
+iE=m(N),iF=1,cK=o(function(a){return a9(iF,iE,a)},bh);else
 var
-cK=fz;var
-fA=cK?e1(bg):cK,fB=fA?o(d1,z(ku,N)):fA,iM=fB?o(gR,c7(k(N),bg)):fB,cR=iM}else
+cK=fA;var
+fB=cK?e2(bh):cK,fC=fB?o(d1,z(kv,N)):fB,iM=fC?o(gR,c_(m(N),bh)):fC,cR=iM}else
 var
-cR=fU;if(cR){var
-iN=gN(bh[4]),iO=i(bk[1]),iP=i(bj[1]),O=[0,i(bi[1]),iP,iO],bl=fT[1],iQ=a[2],iA=c7(k(N),bg),iB=kk(iQ),aH=f(u1,N),aa=bl;for(;;){if(aH){if(aa){var
-t=aa[1],R=aH[1],dU=aU(m,R[1],t[1]),dV=dU?aU(m,R[2],t[2]):dU,dW=dV?aU(m,R[3],t[3]):dV,dX=dW?aU(m,R[4],t[4]):dW,dY=dX?cx(m,R[5],t[5]):dX,dZ=dY?cx(m,R[6],t[6]):dY,d0=dZ?j(m,1,t[5]):dZ,d2=d0?j(m,1,t[6]):d0,d3=d2?j(m,1,B(t[1],t[1])):d2;if(d3)var
-hk=ge(t),bV=j(m,1,B(ge(t),hk));else
+cR=fV;if(cR){var
+iN=gN(bi[4]),iO=i(bl[1]),iP=i(bk[1]),O=[0,i(bj[1]),iP,iO],bm=fU[1],iQ=a[2],iA=c_(m(N),bh),iB=kl(iQ),aF=f(u8,N),Z=bm;for(;;){if(aF){if(Z){var
+t=Z[1],R=aF[1],dU=aU(l,R[1],t[1]),dV=dU?aU(l,R[2],t[2]):dU,dW=dV?aU(l,R[3],t[3]):dV,dX=dW?aU(l,R[4],t[4]):dW,dY=dX?cz(l,R[5],t[5]):dX,dZ=dY?cz(l,R[6],t[6]):dY,d0=dZ?j(l,1,t[5]):dZ,d2=d0?j(l,1,t[6]):d0,d3=d2?j(l,1,B(t[1],t[1])):d2;if(d3)var
+hk=ge(t),bV=j(l,1,B(ge(t),hk));else
 var
 bV=d3;var
-d4=bV?dy(R[7],t[7]):bV;if(d4){var
-aH=aH[2],aa=aa[2];continue}var
+d4=bV?dA(R[7],t[7]):bV;if(d4){var
+aF=aF[2],Z=Z[2];continue}var
 d5=d4}else
 var
-d5=aa;var
+d5=Z;var
 bW=d5}else
 var
-bW=aa?0:1;var
-d6=bW?jc(m,iB,O):bW;if(d6){var
-hl=f(function(a){return js(a,O)},bl),hm=f(function(a){var
-b=ju(a,O);return[1,jt(a,O),b]},bl);return jp(m,qK,[0,f(function(a){var
-d=jq(a),e=az(ju(a,O),d),f=gf(a),g=az(jt(a,O),f),h=af(function(b,a){return[1,b,a]},g,e),i=az(a[5],h),j=a[3],k=af(function(b,a){return[1,b,a]},j,i),l=a[4],m=af(function(b,a){return[1,b,a]},O,l),n=af(function(b,a){return[2,b,a]},m,k),o=gl(a,O),b=az([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bl),hm,hl],iA,iN)}return d6}}var
-fV=cR}else
+bW=Z?0:1;var
+d6=bW?jd(l,iB,O):bW;if(d6){var
+hl=f(function(a){return jt(a,O)},bm),hm=f(function(a){var
+b=jv(a,O);return[1,ju(a,O),b]},bm);return jq(l,qN,[0,f(function(a){var
+d=jr(a),e=aA(jv(a,O),d),f=gf(a),g=aA(ju(a,O),f),h=af(function(b,a){return[1,b,a]},g,e),i=aA(a[5],h),j=a[3],k=af(function(b,a){return[1,b,a]},j,i),l=a[4],m=af(function(b,a){return[1,b,a]},O,l),n=af(function(b,a){return[2,b,a]},m,k),o=gl(a,O),b=aA([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bm),hm,hl],iA,iN)}return d6}}var
+fW=cR}else
 var
-fV=bk;var
-fW=fV}else
-var
-fW=bj;var
+fW=bl;var
 fX=fW}else
 var
-fX=bi;return fX;case
+fX=bk;var
+fY=fX}else
+var
+fY=bj;return fY;case
 2:var
-bm=a[7],bn=a[6],bo=a[5],bv=a[4],bx=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
-cT=ao[2],ay=km(an,am,bx,bv,bo,bn,bm),cV=c9(k(cT),cT);if(cV){var
-fY=cV[1];if(fY[2])return 0;var
-fZ=kv(an,am,bx,bv,bo,bn,bm),f0=fZ?gW(dS(an),cT):fZ;if(f0){var
-iR=fY[1],iS=ay[2],iT=C(c,c8(z(function(a){var
-b=bw(a[2]);return g(bw(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eW=o(function(a){var
-b=gx(m,a[1]);return b?gx(m,a[2]):b},hS),eZ=eW?gx(m,ay[4]):eW;if(eZ)var
-hT=jU(ay[5]),cf=o(function(a){return eP(m,a)},hT);else
+bn=a[7],bo=a[6],bp=a[5],bw=a[4],by=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
+cS=ao[2],ay=kn(an,am,by,bw,bp,bo,bn),cT=da(m(cS),cS);if(cT){var
+fZ=cT[1];if(fZ[2])return 0;var
+f0=kw(an,am,by,bw,bp,bo,bn),f1=f0?gW(dS(an),cS):f0;if(f1){var
+iR=fZ[1],iS=ay[2],iT=C(c,c$(z(function(a){var
+b=bx(a[2]);return g(bx(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eX=o(function(a){var
+b=gx(l,a[1]);return b?gx(l,a[2]):b},hS),e0=eX?gx(l,ay[4]):eX;if(e0)var
+hT=jV(ay[5]),cf=o(function(a){return eQ(l,a)},hT);else
 var
-cf=eZ;return cf?rf(iU,ay,iT,iR):cf}var
-f1=f0}else
+cf=e0;return cf?ri(iU,ay,iT,iR):cf}var
+f2=f1}else
 var
-f1=cV;return f1}var
-f2=ao[3],f4=f(i,ao[2]),f5=gS(an),f6=ks(am,f(i,f2));if(f6[2])return 0;var
-f8=gX(z(function(a){return g(a[1],a[2])},am),f2),f$=f8?kv(an,am,bx,bv,bo,bn,bm):f8;if(f$){var
-iV=gN(ao[4]),n=iu(f5,f4),by=gQ(eo(f5,f4)),bz=f6[1],P=km(an,am,bx,bv,bo,bn,bm),aX=P[2],ab=bz;for(;;){if(aX){if(ab){var
-eN=ab[1],eO=aX[1],eQ=aU(m,eO[1],eN[1]),eR=eQ?aU(m,eO[2],eN[2]):eQ;if(eR){var
+f2=cT;return f2}var
+f3=ao[3],f5=f(i,ao[2]),f6=gS(an),f7=kt(am,f(i,f3));if(f7[2])return 0;var
+f9=gX(z(function(a){return g(a[1],a[2])},am),f3),ga=f9?kw(an,am,by,bw,bp,bo,bn):f9;if(ga){var
+iV=gN(ao[4]),n=iv(f6,f5),bz=gQ(eo(f6,f5)),bA=f7[1],P=kn(an,am,by,bw,bp,bo,bn),aX=P[2],ab=bA;for(;;){if(aX){if(ab){var
+eO=ab[1],eP=aX[1],eR=aU(l,eP[1],eO[1]),eS=eR?aU(l,eP[2],eO[2]):eR;if(eS){var
 aX=aX[2],ab=ab[2];continue}var
-eU=eR}else
+eV=eS}else
 var
-eU=ab;var
-cd=eU}else
+eV=ab;var
+cd=eV}else
 var
 cd=ab?0:1;var
-eV=cd?aU(m,P[4],by):cd;if(eV){var
+eW=cd?aU(l,P[4],bz):cd;if(eW){var
 H=P[5];switch(H[0]){case
 0:var
-x=n?n[2]?0:dQ(m,H[1],n[1]):n;break;case
+x=n?n[2]?0:dQ(l,H[1],n[1]):n;break;case
 1:var
-dd=0;if(n){var
-aP=n[2],de=0;if(aP){var
-aQ=aP[2],df=0;if(aQ)if(aQ[2]){var
-x=0;de=1;df=1}else{var
-eu=dQ(m,H[1],n[1]),ev=eu?dQ(m,H[2],aP[1]):eu;if(ev){var
-x=dQ(m,H[3],aQ[1]);de=1;df=1}else
+df=0;if(n){var
+aP=n[2],dg=0;if(aP){var
+aQ=aP[2],dh=0;if(aQ)if(aQ[2]){var
+x=0;dg=1;dh=1}else{var
+eu=dQ(l,H[1],n[1]),ev=eu?dQ(l,H[2],aP[1]):eu;if(ev){var
+x=dQ(l,H[3],aQ[1]);dg=1;dh=1}else
 var
 ew=ev}else
 var
-ew=aQ;if(!df)var
+ew=aQ;if(!dh)var
 ex=ew}else
 var
-ex=aP;if(!de){var
-ey=ex;dd=1}}else{var
-ey=n;dd=1}if(dd)var
+ex=aP;if(!dg){var
+ey=ex;df=1}}else{var
+ey=n;df=1}if(df)var
 x=ey;break;case
 2:var
-dg=0;if(n){var
-aR=n[2],dh=0;if(aR){var
+di=0;if(n){var
+aR=n[2],dj=0;if(aR){var
 aS=aR[2];if(aS)if(aS[2]){var
-x=0;dh=1}else{var
-ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jJ(m,H[1],hL,[0,c,c]);dh=1}else
+x=0;dj=1}else{var
+ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jK(l,H[1],hL,[0,c,c]);dj=1}else
 var
 eD=aS}else
 var
-eD=aR;if(!dh){var
-eE=eD;dg=1}}else{var
-eE=n;dg=1}if(dg)var
+eD=aR;if(!dj){var
+eE=eD;di=1}}else{var
+eE=n;di=1}if(di)var
 x=eE;break;default:var
-di=0;if(n){var
-aV=n[2],dj=0;if(aV){var
-aW=aV[2],dk=0;if(aW)if(aW[2]){var
-x=0;dj=1;dk=1}else{var
-cc=aW[1],eF=aV[1],eG=n[1],eH=jJ(m,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
-x=dQ(m,cA(H[2]),cc);dj=1;dk=1}else
+dk=0;if(n){var
+aV=n[2],dl=0;if(aV){var
+aW=aV[2],dm=0;if(aW)if(aW[2]){var
+x=0;dl=1;dm=1}else{var
+cc=aW[1],eF=aV[1],eG=n[1],eH=jK(l,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
+x=dQ(l,cC(H[2]),cc);dl=1;dm=1}else
 var
-eJ=eH}else
+eI=eH}else
 var
-eJ=aW;if(!dk)var
-eK=eJ}else
+eI=aW;if(!dm)var
+eL=eI}else
 var
-eK=aV;if(!dj){var
-eL=eK;di=1}}else{var
-eL=n;di=1}if(di)var
-x=eL}var
+eL=aV;if(!dl){var
+eM=eL;dk=1}}else{var
+eM=n;dk=1}if(dk)var
+x=eM}var
 ce=x}else
 var
-ce=eV;if(ce){var
-aY=P[5],hP=P[6],hQ=P[3],hR=P[1],eM=function(a){var
-b=gp(aY,n,by,a);return B(gp(aY,n,by,a),b)},hM=f(eM,bz),hN=f(function(a){return[0,[5,eM(a)]]},bz),hO=[0,f(function(d){var
-b=aJ(gp(aY,n,by,d)),a=az([4,[0,c,c],hQ],jF(jG(aY,n,d[2]),b));switch(hR){case
+ce=eW;if(ce){var
+aY=P[5],hP=P[6],hQ=P[3],hR=P[1],eN=function(a){var
+b=gp(aY,n,bz,a);return B(gp(aY,n,bz,a),b)},hM=f(eN,bA),hN=f(function(a){return[0,[5,eN(a)]]},bA),hO=[0,f(function(d){var
+b=aJ(gp(aY,n,bz,d)),a=aA([4,[0,c,c],hQ],jG(jH(aY,n,d[2]),b));switch(hR){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bz),hN,hM];return jp(m,dS(P[1]),hO,hP,iV)}return ce}}return f$;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bA),hN,hM];return jq(l,dS(P[1]),hO,hP,iV)}return ce}}return ga;case
 3:var
-bA=a[7],gd=a[6],gg=a[5],bB=a[4],gh=a[2],gi=a[1],cX=s[2];if(0===cX[0]){var
-cY=cX[2],cZ=c9(k(cY),cY);if(cZ){var
-gj=cZ[1];if(gj[2])return 0;var
-iG=k(gd),fC=Y(k(gg),iG);if(fC)var
-iH=k(bB),iI=0,cL=o(function(a){return bS(iI,iH,a)},bA);else
+bB=a[7],gd=a[6],gg=a[5],bC=a[4],gh=a[2],gi=a[1],cY=s[2];if(0===cY[0]){var
+c0=cY[2],c1=da(m(c0),c0);if(c1){var
+gj=c1[1];if(gj[2])return 0;var
+iG=m(gd),fD=_(m(gg),iG);if(fD)var
+iH=m(bC),iI=0,cL=o(function(a){return a9(iI,iH,a)},bB);else
 var
-cL=fC;var
-fD=cL?e1(bA):cL,fE=fD?o(function(a){return d1(a[2])},gh):fD,gk=fE?o(gR,c7(k(bB),bA)):fE,gn=gk?gW(k(gi),cY):gk;if(gn){var
-iW=gj[1],iX=a[3],fn=c7(k(bB),bA),ix=ck(gg,gd),cB=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},ix),iy=f(function(a){return f(cD,a)},bB),iz=f(function(a){var
-b=cD(a[2]);return[0,a[1],b]},iX),l=[0,gi,f(function(a){var
-b=bR(a[2]);return[0,a[1],b]},gh),iz,iy],aA=cX[1],hF=f(dv,l[2]),b8=g(l[1],hF),aO=k(l[1]),el=Z(qM,aO),em=el?Z(aO,qN):el,ep=em?Z(aO,k(l[4])):em,eq=ep?Z(k(l[4]),qO):ep;if(eq)var
-hG=l[4],b9=o(function(a){return Y(k(a),aO)},hG);else
+cL=fD;var
+fE=cL?e2(bB):cL,fF=fE?o(function(a){return d1(a[2])},gh):fE,gk=fF?o(gR,c_(m(bC),bB)):fF,gn=gk?gW(m(gi),c0):gk;if(gn){var
+iW=gj[1],iX=a[3],fo=c_(m(bC),bB),ix=cm(gg,gd),cA=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},ix),iy=f(function(a){return f(cF,a)},bC),iz=f(function(a){var
+b=cF(a[2]);return[0,a[1],b]},iX),k=[0,gi,f(function(a){var
+b=bS(a[2]);return[0,a[1],b]},gh),iz,iy],az=cY[1],hF=f(dx,k[2]),b7=g(k[1],hF),aO=m(k[1]),el=$(qP,aO),em=el?$(aO,qQ):el,ep=em?$(aO,m(k[4])):em,eq=ep?$(m(k[4]),qR):ep;if(eq)var
+hG=k[4],b9=o(function(a){return _(m(a),aO)},hG);else
 var
 b9=eq;if(b9){var
-aN=b8;for(;;){if(aN){var
-ej=aN[2],hE=aN[1],ek=aM(a7(function(b){return function(a){return mX(b,a)}}(hE),ej));if(ek){var
+aN=b7;for(;;){if(aN){var
+ej=aN[2],hE=aN[1],ek=aM(a7(function(b){return function(a){return m0(b,a)}}(hE),ej));if(ek){var
 aN=ej;continue}var
 er=ek}else
 var
@@ -5129,8 +5172,8 @@ er=1;var
 b_=er;break}}else
 var
 b_=b9;if(b_){var
-aL=b8,aK=l[3];for(;;){if(aK){var
-ef=aK[1],eg=ef[1],eh=aM(a7(function(b){return function(a){return av(b,a)}}(eg),aL)),ei=eh?gm(aL,ef[2]):eh;if(ei){var
+aL=b7,aK=k[3];for(;;){if(aK){var
+ef=aK[1],eg=ef[1],eh=aM(a7(function(b){return function(a){return aw(b,a)}}(eg),aL)),ei=eh?gm(aL,ef[2]):eh;if(ei){var
 aL=[0,eg,aL],aK=aK[2];continue}var
 es=ei}else
 var
@@ -5138,25 +5181,25 @@ es=1;var
 b$=es;break}}else
 var
 b$=b_;if(b$)var
-hH=l[4],hI=g(f(dv,l[3]),b8),hJ=function(a){return gm(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
+hH=k[4],hI=g(f(dx,k[3]),b7),hJ=function(a){return gm(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
 var
 ca=b$;if(ca)var
-hK=l[2],cb=o(function(a){return br(m,a[2][1],a[2][2])},hK);else
+hK=k[2],cb=o(function(a){return bs(l,a[2][1],a[2][2])},hK);else
 var
 cb=ca;var
-et=cb?o(function(a){return br(m,a[1],a[2])},cB):cb;if(et){var
-ht=k(l[1]),bY=k(l[2]),d9=I(bY,k(dP(f(dw,l[3])))),hu=l[3],ar=jB(l),aI=hu,bX=bY;for(;;){if(aI){var
-d7=aI[1],d8=d7[2],hn=I(bX,k(bt(d8))),ho=aI[2],hp=bu(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
-hv=jy(ar,l[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jz(ar,l[4],d9),hx=l[3],b0=g(jv(jB(l),hx,bY),hw),b1=dF(g(cv(bZ),b0))[1],hy=dE(b1),b2=function(a){return bp(hy,a)},d_=e(a4(b2),bZ),d$=Y(k(cB),ht);if(d$)var
-hz=g(cv(bZ),b0),b3=o(function(a){var
-b=q(d),c=dE(b1);return bb(G(b2(a),c,b),a)},hz);else
+et=cb?o(function(a){return bs(l,a[1],a[2])},cA):cb;if(et){var
+ht=m(k[1]),bY=m(k[2]),d9=J(bY,m(dP(f(dy,k[3])))),hu=k[3],ar=jC(k),aI=hu,bX=bY;for(;;){if(aI){var
+d7=aI[1],d8=d7[2],hn=J(bX,m(bu(d8))),ho=aI[2],hp=bv(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
+hv=jz(ar,k[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jA(ar,k[4],d9),hx=k[3],b0=g(jw(jC(k),hx,bY),hw),b1=dH(g(cy(bZ),b0))[1],hy=dG(b1),b2=function(a){return bq(hy,a)},d_=e(a4(b2),bZ),d$=_(m(cA),ht);if(d$)var
+hz=g(cy(bZ),b0),b3=o(function(a){var
+b=q(d),c=dG(b1);return bc(E(b2(a),c,b),a)},hz);else
 var
 b3=d$;var
-ea=b3?a7(qL,fn):b3;if(ea){var
-hq=z(dP,l[4]),hr=g(dP(f(dw,l[3])),hq),hs=g(jA(l[2]),hr),b4=aT(f(function(a){return aG(aA,a)},hs));if(b4){var
-b5=aT(f(function(a){return aG(aA,[0,a,d])},cB));if(b5){var
+ea=b3?a7(qO,fo):b3;if(ea){var
+hq=z(dP,k[4]),hr=g(dP(f(dy,k[3])),hq),hs=g(jB(k[2]),hr),b4=aT(f(function(a){return aH(az,a)},hs));if(b4){var
+b5=aT(f(function(a){return aH(az,[0,a,d])},cA));if(b5){var
 b6=aT(f(function(a){if(typeof
-a==="number")return[0,[0,ad]];else
+a==="number")return[0,[0,ae]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5164,8 +5207,8 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aG(aA,[0,[0,b,b],d]);return ah(function(a){return e(ac(aA,a))},g)},fn));if(b6){var
-eb=b6[1],hA=i6(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return f7(aA,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
+g=aH(az,[0,[0,b,b],d]);return ah(function(a){return e(ad(az,a))},g)},fo));if(b6){var
+eb=b6[1],hA=i7(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return f8(az,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
 ec=b6}else
 var
 ec=b5;var
@@ -5177,65 +5220,65 @@ var
 ee=ea;return ee}}return et}var
 go=gn}else
 var
-go=cZ;return go}return 0;case
+go=c1;return go}return 0;case
 4:if(0===s[2][0]){var
-gq=c_(i(a[1]));if(gq){var
-bC=a[3];if(bC){var
-a0=bC[1],cC=a0[4],K=bC[2];if(a0[1]||a0[2]||a0[3])var
+gq=db(i(a[1]));if(gq){var
+bD=a[3];if(bD){var
+a0=bD[1],cB=a0[4],K=bD[2];if(a0[1]||a0[2]||a0[3])var
 u=0;else
-switch(cC[0]){case
+switch(cB[0]){case
 0:var
-dl=0;if(K){var
-a1=K[1],fo=a1[4];if(a1[1]||a1[2]||a1[3])var
+dn=0;if(K){var
+a1=K[1],fp=a1[4];if(a1[1]||a1[2]||a1[3])var
 u=0;else
-if(1===fo[0])if(K[2])var
+if(1===fp[0])if(K[2])var
 u=0;else
 var
-iC=i(fo[1]),u=[0,[0,i(cC[1]),iC]];else{var
-fp=0;dl=1}}else{var
-fp=K;dl=1}if(dl)var
-u=fp;break;case
+iC=i(fp[1]),u=[0,[0,i(cB[1]),iC]];else{var
+fq=0;dn=1}}else{var
+fq=K;dn=1}if(dn)var
+u=fq;break;case
 1:var
-dm=0;if(K){var
-a2=K[1],fq=a2[4];if(a2[1]||a2[2]||a2[3])var
+dp=0;if(K){var
+a2=K[1],fr=a2[4];if(a2[1]||a2[2]||a2[3])var
 u=0;else
-if(0===fq[0])if(K[2])var
+if(0===fr[0])if(K[2])var
 u=0;else
 var
-iD=i(cC[1]),u=[0,[0,i(fq[1]),iD]];else{var
-fr=0;dm=1}}else{var
-fr=K;dm=1}if(dm)var
-u=fr;break;default:var
+iD=i(cB[1]),u=[0,[0,i(fr[1]),iD]];else{var
+fs=0;dp=1}}else{var
+fs=K;dp=1}if(dp)var
+u=fs;break;default:var
 u=0}}else
 var
-u=bC;if(u){var
-gr=u[1],gs=gr[2],gt=gr[1],e4=j(m,1,i(a[2])),e5=e4?j(m,1,[2,gs,[0,c,c]]):e4,e6=e5?j(m,1,gt):e5;return e6?j(m,0,[2,[4,[0,c,c],gs],gt]):e6}var
+u=bD;if(u){var
+gr=u[1],gs=gr[2],gt=gr[1],e5=j(l,1,i(a[2])),e6=e5?j(l,1,[2,gs,[0,c,c]]):e5,e7=e6?j(l,1,gt):e6;return e7?j(l,0,[2,[4,[0,c,c],gs],gt]):e7}var
 gu=u}else
 var
 gu=gq;return gu}return 0;case
 5:var
-gv=a[4],gw=a[1],c0=s[2];if(0===c0[0]){var
-gy=c0[2],v=eY(gw,[0,a[2],a[3]],0,gv),c1=gO(k(gy),gy);if(c1){var
-gz=c1[1];if(gz[2])return 0;var
+gv=a[4],gw=a[1],c2=s[2];if(0===c2[0]){var
+gy=c2[2],v=eZ(gw,[0,a[2],a[3]],0,gv),c3=gO(m(gy),gy);if(c3){var
+gz=c3[1];if(gz[2])return 0;var
 gA=gV(gw,0,gv,v);if(gA){var
-gB=jl(m,v);if(gB){var
-iY=gz[1],gC=f(kn,v[1]),y=ko(v[1]),gD=i(a[5]),Q=c0[1],ci=f9(y,gC,v[1]),J=f_(y,gC,v[1],0),hV=k(v[3]),hW=I(k(ci),hV),aZ=[0,k(ci),hW],hX=gb(J,y,aZ,v[3]),hY=g(f(dK,J),hX),e9=g(cv(eC(J)),hY),e_=dF(e9)[1],cj=dE(e_),e$=v[2];if(0===e$[0]){var
-fa=o(function(a){var
-b=q(d);return bb(G(bp(cj,a),cj,b),a)},e9),fb=fa?j(m,1,gD):fa;if(fb){var
-hZ=v[3],h0=z(function(a){return dN(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bQ(y,a)},h1),h0)),cl=aT(f(function(a){return aG(Q,a)},h2));if(cl){var
-h3=a5(e$[1],y),cn=aT(f(function(a){return aG(Q,a)},h3));if(cn){var
-co=b7(Q,y,[4,gD,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(co){var
-cp=v[3],h4=cn[1],h5=co[1],h6=cl[1],ae=function(a){return bp(cj,a)},e7=f(a3,h6),e8=function(A,x){var
+gB=jm(l,v);if(gB){var
+iY=gz[1],gC=f(ko,v[1]),y=kp(v[1]),gD=i(a[5]),Q=c2[1],ci=f_(y,gC,v[1]),I=f$(y,gC,v[1],0),hV=m(v[3]),hW=J(m(ci),hV),aZ=[0,m(ci),hW],hX=gb(I,y,aZ,v[3]),hY=g(f(cU,I),hX),e_=g(cy(eC(I)),hY),e$=dH(e_)[1],cj=dG(e$),fa=v[2];if(0===fa[0]){var
+fb=o(function(a){var
+b=q(d);return bc(E(bq(cj,a),cj,b),a)},e_),fc=fb?j(l,1,gD):fb;if(fc){var
+hZ=v[3],h0=z(function(a){return cW(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bR(y,a)},h1),h0)),ck=aT(f(function(a){return aH(Q,a)},h2));if(ck){var
+h3=a5(fa[1],y),cl=aT(f(function(a){return aH(Q,a)},h3));if(cl){var
+cn=b8(Q,y,[4,gD,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cn){var
+cp=v[3],h4=cl[1],h5=cn[1],h6=ck[1],ac=function(a){return bq(cj,a)},e8=f(a3,h6),e9=function(A,x){var
 g=A,a=x;for(;;){if(0===a[0]){var
-h=a[1],l=Y(k(h),ro),m=l?o(function(a){var
-d=D(W(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
-n=ka(Q,h5,f3(0,g),h),B=a[2],ad=cr(0,dG(Q,n,e7),e_,0),s=function(b){var
-a=j$(Q,n,e7,ad,b);return a?$(d,a[1][2][1]):a};return function(l){if(typeof
-l==="number")return a7(function(b){var
-a=G(ae(b[2]),ad,0);return a?D(a[1][2][2],d):a},J);else{if(0===l[0]){var
-t=l[1],u=aj(cp,t);if(u){var
-a=l[2],h=u[1],ar=eo(t,cp),as=k(z(function(a){return dN(y,a)},ar)),at=I(aZ[2],as),v=[0,I(aZ[1],t),at],ai=eC(J),i=e(a4(ae),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
-d=eT(c,a);return[1,[4,[1,[6,b,eS(a)]],d]]},A=0;if(typeof
+h=a[1],k=_(m(h),rr),l=k?o(function(a){var
+d=D(Y(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):k;if(l){var
+n=kb(Q,h5,f4(0,g),h),B=a[2],ae=cs(0,dI(Q,n,e8),e$,0),s=function(b){var
+a=ka(Q,n,e8,ae,b);return a?aa(d,a[1][2][1]):a};return function(k){if(typeof
+k==="number")return a7(function(b){var
+a=E(ac(b[2]),ae,0);return a?D(a[1][2][2],d):a},I);else{if(0===k[0]){var
+t=k[1],u=aj(cp,t);if(u){var
+a=k[2],h=u[1],ar=eo(t,cp),as=m(z(function(a){return cW(y,a)},ar)),at=J(aZ[2],as),v=[0,J(aZ[1],t),at],ai=eC(I),i=e(a4(ac),ai),l=[1,[8,[1,[1,v[1]]]]],F=function(c,b,a){var
+d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]},A=0;if(typeof
 h==="number")A=1;else
 switch(h[0]){case
 4:var
@@ -5243,14 +5286,14 @@ n=j(Q,1,h[2]);break;case
 8:var
 n=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
 n=1;var
-F=n?o(rm,a):n,B=0;if(F){var
+G=n?o(rp,a):n,B=0;if(G){var
 g=0;if(typeof
 h!=="number")switch(h[0]){case
 0:var
 af=0;if(a)if(a[2]){var
 b=0;g=2;af=1}else
 var
-K=[0,[0,i,[0,E(i,m,a[1]),0]]];else
+K=[0,[0,i,[0,F(i,l,a[1]),0]]];else
 var
 K=a;if(!af){var
 b=K;g=2}break;case
@@ -5258,7 +5301,7 @@ b=K;g=2}break;case
 ag=0;if(a)if(a[2]){var
 b=0;g=2;ag=1}else
 var
-L=a[1],ak=[1,[6,m,eS(L)]],M=[0,[0,i,[0,[1,[4,eT(i,L),ak]],0]]];else
+L=a[1],ak=[1,[6,l,eT(L)]],M=[0,[0,i,[0,[1,[4,eU(i,L),ak]],0]]];else
 var
 M=a;if(!ag){var
 b=M;g=2}break;case
@@ -5267,7 +5310,7 @@ C=0;if(a){var
 q=a[2],ah=0;if(q)if(q[2]){var
 b=0;g=2;ah=1}else
 var
-O=q[1],P=a[1],am=eS(P),an=[1,[6,m,[1,[6,eT(i,O),am]]]],ao=eS(O),R=[0,[0,i,[0,[1,[4,[1,[6,eT(i,P),ao]],an]],0]]];else
+O=q[1],P=a[1],am=eT(P),an=[1,[6,l,[1,[6,eU(i,O),am]]]],ao=eT(O),R=[0,[0,i,[0,[1,[4,[1,[6,eU(i,P),ao]],an]],0]]];else
 var
 R=q;if(!ah){var
 S=R;C=1}}else{var
@@ -5279,25 +5322,26 @@ U=a[1],T=[1,[2,c]];g=1}else{var
 b=a;g=2}break;case
 9:if(a)if(a[2]){var
 b=0;g=2}else{var
-U=a[1],T=m;g=1}else{var
+U=a[1],T=l;g=1}else{var
 b=a;g=2}break;case
 10:case
-11:break;default:if(a){var
+11:case
+12:break;default:if(a){var
 b=0;g=2}else{var
-p=ga(J,y,v,h);if(p)var
-al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ae(a)]]]},al)]];else
+p=eK(I,y,v,h);if(p)var
+al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ac(a)]]]},al)]];else
 var
 N=p;var
 b=N;g=2}}switch(g){case
 2:break;case
 0:var
 H=0;B=1;break;default:var
-r=eI(J,y,v,h);if(r)var
-ap=r[1],V=e(a4(ae),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
+r=eJ(I,y,v,h);if(r)var
+ap=r[1],V=e(a4(ac),ap),W=[0,[0,V,[0,F(V,T,U),0]]];else
 var
 W=r;var
 b=W}}else{var
-H=F;B=1}if(B)var
+H=G;B=1}if(B)var
 b=H;if(b){var
 X=b[1],au=X[1],Y=o(function(a){return s([0,a[2]])},au);if(Y)return o(s,X[2]);var
 Z=Y}else
@@ -5306,89 +5350,89 @@ Z=b;var
 _=Z}else
 var
 _=u;return _}var
-$=l[1],w=aj(cp,$);if(w){var
+$=k[1],w=aj(cp,$);if(w){var
 aa=w[1];if(typeof
 aa!=="number"&&1===aa[0]){var
-x=aj(J,l[2]);if(x){var
-av=I(aZ[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ae(ac[2])]]];return s([1,[4,[1,[8,[0,ae(dK(ac))]]],aq]])}return x}var
+x=aj(I,k[2]);if(x){var
+av=J(aZ[1],$),ad=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ac(ad[2])]]];return s([1,[4,[1,[8,[0,ac(cU(ad))]]],aq]])}return x}var
 ab=0}else
 var
-ab=w;return ab}}(B)}return m}var
+ab=w;return ab}}(B)}return l}var
 p=a[1],i=aj(g,p);if(i){var
-q=i[1],C=q[1],r=aM(al(bq(q),C));if(r){var
-t=dL(p,g),u=e8(t[1],a[2]);if(u){var
+q=i[1],C=q[1],r=aM(al(br(q),C));if(r){var
+t=dM(p,g),u=e9(t[1],a[2]);if(u){var
 g=t[2],a=a[3];continue}var
 v=u}else
 var
 v=r;var
 w=v}else
 var
-w=i;return w}};return e8(h4,iY)}var
-fc=co}else
-var
-fc=cn;var
-fd=fc}else
+w=i;return w}};return e9(h4,iY)}var
+fd=cn}else
 var
 fd=cl;var
 fe=fd}else
 var
-fe=fb;return fe}return 0}var
+fe=ck;var
+ff=fe}else
+var
+ff=fc;return ff}return 0}var
 gE=gB}else
 var
 gE=gA;var
 gF=gE}else
 var
-gF=c1;return gF}return 0;default:var
+gF=c3;return gF}return 0;default:var
 gG=a[1];if(gG){var
-gH=gG[1],c5=s[2];if(0===c5[0]){var
-c6=gM(vz,c5[2]);if(c6){var
+gH=gG[1],c4=s[2];if(0===c4[0]){var
+c8=gM(vG,c4[2]);if(c8){var
 gK=d1(gH);if(gK){var
-i0=c6[1],gL=bR(gH)[2],bD=c5[1],cg=b7(bD,d,gL);if(cg){var
-ch=b7(bD,d,[4,[0,c,c],gL]);if(ch){var
-hU=cg[1][1],e0=$(cm(bD),hU);if(e0)return j_(bD,ch[1][1],i0);var
-e2=e0}else
+iZ=c8[1],gL=bS(gH)[2],bE=c4[1],cg=b8(bE,d,gL);if(cg){var
+ch=b8(bE,d,[4,[0,c,c],gL]);if(ch){var
+hU=cg[1][1],e1=aa(co(bE),hU);if(e1)return j$(bE,ch[1][1],iZ);var
+e3=e1}else
 var
-e2=ch;var
-e3=e2}else
+e3=ch;var
+e4=e3}else
 var
-e3=cg;return e3}var
+e4=cg;return e4}var
 gP=gK}else
 var
-gP=c6;return gP}return 0}var
-c$=s[2];if(0===c$[0]){var
-da=gM(vA,c$[2]);return da?j_(c$[1],d,da[1]):da}return 0}}return at}var
-y=[as,vD,fr(0)],kw=[as,vE,fr(0)];function
-vB(t,b){var
-n=[0,h(uu,am(b[4])),0],o=[0,h(uw,O([0,h(uv,am(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(ul,x(f(ug,a[2]))),0],d=L(un,O([0,h(um,gC(a[1])),i]));else
+gP=c8;return gP}return 0}var
+c9=s[2];if(0===c9[0]){var
+dc=gM(vH,c9[2]);return dc?j$(c9[1],d,dc[1]):dc}return 0}}return at}var
+y=[at,vK,fs(0)],kx=[at,vL,fs(0)];function
+vI(t,b){var
+n=[0,h(uB,am(b[4])),0],o=[0,h(uD,N([0,h(uC,am(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(us,x(f(un,a[2]))),0],d=L(uu,N([0,h(ut,gC(a[1])),i]));else
 var
-c=a[3],j=[0,h(uo,kf(a[4])),0],k=c?[0,h(up,x(f(K,c))),0]:c,l=g(k,j),m=[0,h(uq,x(f(K,a[2]))),0],d=L(us,O(g([0,h(ur,gC(a[1])),m],l)));var
-p=[0,h(ux,d),o],q=0===b[2][0]?uy:uD,r=[0,h(uz,am(q)),p],s=[0,h(uA,tn(b[1])),r],e=av(h2(vC,eU(O([0,h(uC,am(uB)),s]),ut)),t);return e?vx(b):e}function
-T(a){if(0===a[0])return a[1];throw y}function
-U(a){if(1===a[0])return a[1];throw y}function
+c=a[3],j=[0,h(uv,kg(a[4])),0],k=c?[0,h(uw,x(f(I,c))),0]:c,l=g(k,j),m=[0,h(ux,x(f(I,a[2]))),0],d=L(uz,N(g([0,h(uy,gC(a[1])),m],l)));var
+p=[0,h(uE,d),o],q=0===b[2][0]?uF:uK,r=[0,h(uG,am(q)),p],s=[0,h(uH,tu(b[1])),r],e=aw(h3(vJ,eV(N([0,h(uJ,am(uI)),s]),uA)),t);return e?vE(b):e}function
+U(a){if(0===a[0])return a[1];throw y}function
+W(a){if(1===a[0])return a[1];throw y}function
 aO(a){if(2===a[0])return a[1];throw y}function
 d2(a){if(3===a[0])return a[1];throw y}function
 aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Ao(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===AB(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
 a=aZ(c,b);if(a)return a[1];throw y}function
-c$(b,a){var
+dc(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-da(a){switch(a[0]){case
+dd(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vF]}throw y}function
-db(e,d){var
-a=X(e,U(d));if(a){var
+2:return[0,a[1],vM]}throw y}function
+de(e,d){var
+a=Z(e,W(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
-e3(i){var
+e4(i){var
 f=bY(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dj(f,c)+g6|0;if(9<g>>>0)throw y;switch(g){case
+a=d[1],g=dm(f,c)+g7|0;if(9<g>>>0)throw y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5410,47 +5454,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d3(a){return ip(e3(a))}function
-e4(b){var
-a=d2(b);return 45===R(a,0)?W(d3(ds(a,1,F(a)-1|0))):d3(a)}function
-kx(a){return fP(d3(d2(a)))}function
-e5(a){return io(d3(d2(a)))}function
-cF(c){var
-a=d2(c);if(6<F(a))throw y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hF(a))}function
-ky(a){var
-b=97<=a?1:0,c=b?a<=mF?1:0:b;if(c)var
+d3(a){return iq(e4(a))}function
+e5(b){var
+a=d2(b);return 45===S(a,0)?Y(d3(du(a,1,H(a)-1|0))):d3(a)}function
+ky(a){return fQ(d3(d2(a)))}function
+e6(a){return ip(d3(d2(a)))}function
+cH(c){var
+a=d2(c);if(6<H(a))throw y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hG(a))}function
+kz(a){var
+b=97<=a?1:0,c=b?a<=mI?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kz(z,b){var
-d=F(b),a=[0,0];function
+kA(z,b){var
+d=H(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?R(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?S(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return ds(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=S(b,a[1])&&!(57<S(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
 i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&av(ds(b,a[1],5),vH)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aw(du(b,a[1],5),vO)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&ky(R(b,a[1]))){var
+v=0;if(a[1]<d&&kz(S(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!ky(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(z,ds(b,o,a[1]-o|0))];break}}else
+w=0;if(!kz(S(b,a[1]))&&95!==S(b,a[1])&&(!(48<=S(b,a[1]))||57<S(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,du(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=av(h,vI);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aw(h,vP);if(r)var
 s=r;else
 var
-t=1<F(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw y;if(q){var
-k=q[1],x=0;if(av(k,vJ)||48===R(k,F(k)-1|0))x=1;else
+t=1<H(h)?1:0,s=t?48===S(h,0)?1:0:t;if(s)throw y;if(q){var
+l=q[1],x=0;if(aw(l,vQ)||48===S(l,H(l)-1|0))x=1;else
 var
-A=e3(k),f=[0,e3(h),A];if(x)throw y}else
+A=e4(l),f=[0,e4(h),A];if(x)throw y}else
 var
-f=[0,e3(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,vG)){if(!(2<F(g))&&2<=hF(g)&&!(64<hF(g)))return[4,f,fP(d3(g))];throw y}throw y}return f}function
+f=[0,e4(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(k(g,vN)){if(!(2<H(g))&&2<=hG(g)&&!(64<hG(g)))return[4,f,fQ(d3(g))];throw y}throw y}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -5460,37 +5504,37 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw y;return h}function
-e6(a){return kz(function(a){throw y},a)}function
-kA(a){var
-b=aO(a);return kz(function(a){return a},b)}function
-V(a){return e6(aO(a))}function
-bT(a){if(2===a[0])return[0,e6(a[1])];var
-b=T(a),c=V(p(b,vK));return[1,V(p(b,vL)),c]}function
-ae(a){throw[0,kw,aw(h2(vN,a),vM)]}function
-kB(c){var
-a=aO(c);if(l(a,vO)){var
-b=l(a,vP);if(b)throw y;return b}return 1}function
-vQ(d){var
-b=T(d);function
-a(a){return db(bT,p(b,a))}var
-c=aO(p(b,vR));if(l(c,vS)){if(l(c,vT)){if(l(c,vU))return ae([0,vW,[0,c,vV]]);var
-e=aZ(b,vX),f=c$(function(a){return db(bT,a)},e),g=a(vY);return[1,a(vZ),g,f]}var
-h=kB(p(b,v0)),i=bT(p(b,v1)),j=a(v2),k=a(v3);return[0,a(v4),k,j,i,h]}return[2,a(v5)]}function
+e7(a){return kA(function(a){throw y},a)}function
+kB(a){var
+b=aO(a);return kA(function(a){return a},b)}function
+P(a){return e7(aO(a))}function
+bT(a){if(2===a[0])return[0,e7(a[1])];var
+b=U(a),c=P(p(b,vR));return[1,P(p(b,vS)),c]}function
+X(a){throw[0,kx,ax(h3(vU,a),vT)]}function
+kC(c){var
+a=aO(c);if(k(a,vV)){var
+b=k(a,vW);if(b)throw y;return b}return 1}function
+vX(d){var
+b=U(d);function
+a(a){return de(bT,p(b,a))}var
+c=aO(p(b,vY));if(k(c,vZ)){if(k(c,v0)){if(k(c,v1))return X([0,v3,[0,c,v2]]);var
+e=aZ(b,v4),f=dc(function(a){return de(bT,a)},e),g=a(v5);return[1,a(v6),g,f]}var
+h=kC(p(b,v7)),i=bT(p(b,v8)),j=a(v9),l=a(v_);return[0,a(v$),l,j,i,h]}return[2,a(wa)]}function
 gY(d){var
-a=T(d);if(a){var
-b=a[1];if(!l(b[1],v6)){var
-c=b[2];if(2===c[0]&&!l(c[1],v7))return 1}}return 0}function
-v8(c){var
-a=T(c);if(1-gY(c))throw y;function
-b(b){return db(bT,p(a,b))}var
-d=kB(p(a,v9)),e=bT(p(a,v_)),f=bT(p(a,v$)),g=b(wa),h=b(wb),i=b(wc);return[0,b(wd),i,h,g,f,e,d]}function
-dc(c,d){var
 a=U(d);if(a){var
+b=a[1];if(!k(b[1],wb)){var
+c=b[2];if(2===c[0]&&!k(c[1],wc))return 1}}return 0}function
+wd(c){var
+a=U(c);if(1-gY(c))throw y;function
+b(b){return de(bT,p(a,b))}var
+d=kC(p(a,we)),e=bT(p(a,wf)),f=bT(p(a,wg)),g=b(wh),h=b(wi),i=b(wj);return[0,b(wk),i,h,g,f,e,d]}function
+df(c,d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
 gZ(m){var
-c=T(m),a=aO(p(c,we)),h=A0(a,wf),g=0;if(0<=h)if(0<h)if(l(a,wg))if(l(a,wh))if(l(a,wi)){var
-i=l(a,wj);if(i)g=1;else
+c=U(m),a=aO(p(c,wl)),h=Bb(a,wm),g=0;if(0<=h)if(0<h)if(k(a,wn))if(k(a,wo))if(k(a,wp))if(k(a,wq)){var
+i=k(a,wr);if(i)g=1;else
 var
 b=i}else
 var
@@ -5501,248 +5545,275 @@ var
 b=5;else
 var
 b=2;else
-if(l(a,wy))if(l(a,wz))if(l(a,wA))if(l(a,wB))if(l(a,wC))g=1;else
 var
 b=1;else
+if(k(a,wI))if(k(a,wJ))if(k(a,wK))if(k(a,wL))if(k(a,wM))g=1;else
 var
 b=8;else
+var
+b=10;else
 var
 b=7;else
 var
 b=3;else
 var
 b=9;var
-j=g?ae([0,wl,[0,a,wk]]):b;function
-f(a){return p(c,wm)}var
-d=aO(p(c,wn));if(l(d,wo))if(l(d,wp))if(l(d,wq))var
-e=ae([0,ws,[0,d,wr]]);else
+j=g?X([0,wt,[0,a,ws]]):b;function
+f(a){return p(c,wu)}var
+d=aO(p(c,wv));if(k(d,ww))if(k(d,wx))if(k(d,wy))var
+e=X([0,wA,[0,d,wz]]);else
 var
-k=dc(V,f(0)),e=[2,k[1],k[2]];else
+l=df(P,f(0)),e=[2,l[1],l[2]];else
 var
-e=[0,V(f(0))];else
+e=[0,P(f(0))];else
 var
-e=[1,V(f(0))];function
-n(m){var
-a=T(m),d=0;switch(j){case
+e=[1,P(f(0))];function
+n(t){var
+a=U(t),g=0;switch(j){case
 6:if(a){var
-i=a[1];if(!l(i[1],wu)){var
-k=i[2];if(1===k[0]){var
-c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
-h=c[1];d=1;e=1}if(!e&&!a[2])return ae(wv)}}}break;case
+n=a[1];if(!k(n[1],wC)){var
+o=n[2];if(1===o[0]){var
+c=o[1],h=0;if(c&&!c[2])if(a[2])h=1;else{var
+m=c[1];g=1;h=1}if(!h&&!a[2])return X(wD)}}}break;case
+10:if(a){var
+p=a[1];if(!k(p[1],wE)){var
+q=p[2];if(1===q[0]){var
+d=q[1];if(d&&!d[2]){var
+e=a[2];if(e){var
+r=e[1];if(!k(r[1],wF)){var
+s=r[2];if(1===s[0]){var
+f=s[1];if(f&&!f[2]&&!e[2]){var
+u=P(f[1]);return[1,P(d[1]),u]}}}}}}}}break;case
 2:case
 8:if(a){var
-f=a[1];if(!l(f[1],wt)){var
-g=f[2];if(1===g[0]){var
-b=g[1];if(b&&!b[2]&&!a[2]){var
-h=b[1];d=1}}}}break}if(d)return V(h);throw y}var
-o=c$(n,aZ(c,ww));return[0,j,c$(cF,aZ(c,wx)),o,e]}function
-wD(b){var
-a=gZ(b);return 8===a[1]?ae(wE):a}function
+i=a[1];if(!k(i[1],wB)){var
+l=i[2];if(1===l[0]){var
+b=l[1];if(b&&!b[2]&&!a[2]){var
+m=b[1];g=1}}}}break}if(g)return[0,P(m)];throw y}var
+o=dc(n,aZ(c,wG));return[0,j,dc(cH,aZ(c,wH)),o,e]}function
+wN(b){var
+a=gZ(b);return 8===a[1]?X(wO):a}function
 g0(c){var
-a=gZ(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(wF)}function
-wG(a){var
+a=gZ(c),b=a[1];if(2!==b&&!(4<=b))return a;return X(wP)}function
+wQ(a){var
 b=gZ(a);switch(b[1]){case
 2:case
 6:case
 8:return b;default:return g0(a)}}function
-wN(f){var
-a=T(f);function
-d(b){return V(p(a,b))}function
-c(b){return db(V,p(a,b))}var
-b=aO(p(a,wO));if(l(b,wP)){if(!l(b,wQ)){var
-j=p(a,wW),e=dc(function(a){return a},j),k=aZ(a,wX),m=c$(function(a){return c(wY)},k),n=e6(aO(e[2])),o=e6(aO(e[1])),q=d(wZ);return[0,cF(p(a,w0)),q,o,n,m]}if(l(b,wR))throw y}var
-g=d(wS),h=c(wT),i=c(wU);return[1,av(b,wV),i,h,g]}function
-kC(Z){var
-i=da(Z),j=i[1];if(l(j,w1)){if(l(j,w2)){if(l(j,w3))return ae([0,w5,[0,j,w4]]);var
-q=p(T(i[2]),w6),O=0;if(2===q[0]){var
-z=l(q[1],w7);if(!z){var
+wX(f){var
+a=U(f);function
+d(b){return P(p(a,b))}function
+c(b){return de(P,p(a,b))}var
+b=aO(p(a,wY));if(k(b,wZ)){if(!k(b,w0)){var
+j=p(a,w6),e=df(function(a){return a},j),l=aZ(a,w7),m=dc(function(a){return c(w8)},l),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(w9);return[0,cH(p(a,w_)),q,o,n,m]}if(k(b,w1))throw y}var
+g=d(w2),h=c(w3),i=c(w4);return[1,aw(b,w5),i,h,g]}function
+kD(_){var
+i=dd(_),j=i[1];if(k(j,w$)){if(k(j,xa)){if(k(j,xb))return X([0,xd,[0,j,xc]]);var
+q=p(U(i[2]),xe),O=0;if(2===q[0]){var
+z=k(q[1],xf);if(!z){var
 x=z;O=1}}if(!O)var
 x=[0,bT(q)];return[6,x]}var
-A=T(i[2]),f=kC([0,[0,[0,w9,p(A,w8)],0]]);if(0===f[0]){var
+A=U(i[2]),f=kD([0,[0,[0,xh,p(A,xg)],0]]);if(0===f[0]){var
 r=f[2];if(0===r[0]&&!f[3]){var
-_=V(p(A,w$));return[5,f[1],r[1],r[2],f[4],_]}}return ae(w_)}var
-b=T(i[2]);function
-B(a){return X(wD,U(p(b,xa)))}var
-g=da(p(b,xb)),c=da(p(b,xc)),a=g[1];if(l(a,xd)&&0!==aZ(b,xe))return ae(ya);if(l(a,xf)&&l(a,xg)&&l(a,xh)){if(0===aZ(b,xi)){if(l(a,xj)){var
-P=0;if(l(a,xk)){if(!l(a,xl)){var
-C=c[1],Q=0;if(l(C,xo)&&l(C,xp)){P=1;Q=1}if(!Q){var
-k=U(g[2]),d=T(c[2]);if(l(c[1],wH))var
-v=dc(V,p(d,wI)),w=dc(V,p(d,wJ)),R=w[2],S=w[1],W=V(p(d,wK)),s=[1,v[1],v[2],W,S,R];else
+$=P(p(A,xj));return[5,f[1],r[1],r[2],f[4],$]}}return X(xi)}var
+b=U(i[2]);function
+B(a){return Z(wN,W(p(b,xk)))}var
+g=dd(p(b,xl)),c=dd(p(b,xm)),a=g[1];if(k(a,xn)&&0!==aZ(b,xo))return X(yk);if(k(a,xp)&&k(a,xq)&&k(a,xr)){if(0===aZ(b,xs)){if(k(a,xt)){var
+Q=0;if(k(a,xu)){if(!k(a,xv)){var
+C=c[1],R=0;if(k(C,xy)&&k(C,xz)){Q=1;R=1}if(!R){var
+l=W(g[2]),d=U(c[2]);if(k(c[1],wR))var
+v=df(P,p(d,wS)),w=df(P,p(d,wT)),S=w[2],T=w[1],V=P(p(d,wU)),s=[1,v[1],v[2],V,T,S];else
 var
-Y=db(V,p(d,wL)),s=[0,db(V,p(d,wM)),Y];var
-t=aZ(b,xs),D=t?X(wN,U(t[1])):t,E=dr(gY,k),$=E?0!==D?1:0:E;if($)ae(xt);if(dr(gY,k)){var
-aa=X(g0,U(p(b,xu)));return[1,X(v8,k),s,aa]}var
-ab=B(0);return[0,X(vQ,k),s,D,ab]}}}else
-if(!l(c[1],xv)){var
-ac=B(0),ad=V(p(T(c[2]),xw));return[4,V(p(T(g[2]),xx)),ad,ac]}if(!P)return ae([0,xn,[0,a,xm]])}else
-if(!l(c[1],xy)){var
-m=T(g[2]),F=T(c[2]),G=function(c,a){var
-b=U(a);return X(function(d){var
-a=U(d);if(a){var
+Y=de(P,p(d,wV)),s=[0,de(P,p(d,wW)),Y];var
+t=aZ(b,xC),D=t?Z(wX,W(t[1])):t,E=b4(gY,l),aa=E?0!==D?1:0:E;if(aa)X(xD);if(b4(gY,l)){var
+ab=Z(g0,W(p(b,xE)));return[1,Z(wd,l),s,ab]}var
+ac=B(0);return[0,Z(vX,l),s,D,ac]}}}else
+if(!k(c[1],xF)){var
+ad=B(0),ae=P(p(U(c[2]),xG));return[4,P(p(U(g[2]),xH)),ae,ad]}if(!Q)return X([0,xx,[0,a,xw]])}else
+if(!k(c[1],xI)){var
+m=U(g[2]),F=U(c[2]),G=function(c,a){var
+b=W(a);return Z(function(d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
-a=T(d);if(a){var
-b=a[1],c=b[1];if(l(c,xz)){if(!l(c,xA)&&!a[2])return X(kA,U(b[2]))}else
-if(!a[2])return ae(xB)}throw y},ag=X(g0,U(p(b,xC))),ah=X(V,U(p(F,xD))),ai=X(V,U(p(F,xE))),aj=X(af,U(p(m,xF))),ak=G(kA,p(m,xG)),al=G(bT,p(m,xH));return[3,X(aO,U(p(m,xI))),al,ak,aj,ai,ah,ag]}return ae([0,xr,[0,c[1],xq]])}throw y}var
-H=c[1],I=T(g[2]),J=T(c[2]);if(l(H,xJ))ae([0,xL,[0,H,xK]]);var
-K=aZ(I,xM),am=K?V(K[1]):ae([0,x$,[0,a,x_]]);function
+a=U(d);if(a){var
+b=a[1],c=b[1];if(k(c,xJ)){if(!k(c,xK)&&!a[2])return Z(kB,W(b[2]))}else
+if(!a[2])return X(xL)}throw y},ag=Z(g0,W(p(b,xM))),ah=Z(P,W(p(F,xN))),ai=Z(P,W(p(F,xO))),aj=Z(af,W(p(m,xP))),ak=G(kB,p(m,xQ)),al=G(bT,p(m,xR));return[3,Z(aO,W(p(m,xS))),al,ak,aj,ai,ah,ag]}return X([0,xB,[0,c[1],xA]])}throw y}var
+H=c[1],I=U(g[2]),J=U(c[2]);if(k(H,xT))X([0,xV,[0,H,xU]]);var
+K=aZ(I,xW),am=K?P(K[1]):X([0,yj,[0,a,yi]]);function
 an(d){var
-a=T(d);function
-b(b){return X(bT,U(p(a,b)))}var
-c=aO(p(a,xN)),e=aZ(a,xO);if(!l(c,xP)&&!e){var
-f=b(xS);return[0,b(xT),f]}return ae([0,xR,[0,c,xQ]])}var
-h=da(p(b,xU)),n=h[1];if(l(n,xV))if(l(n,xW))if(l(n,xX)){if(l(n,xY))throw y;var
-L=h[2],ao=V(p(T(L),xZ)),o=[3,V(p(T(L),x0)),ao]}else
+a=U(d);function
+b(b){return Z(bT,W(p(a,b)))}var
+c=aO(p(a,xX)),e=aZ(a,xY);if(!k(c,xZ)&&!e){var
+f=b(x2);return[0,b(x3),f]}return X([0,x1,[0,c,x0]])}var
+h=dd(p(b,x4)),n=h[1];if(k(n,x5))if(k(n,x6))if(k(n,x7)){if(k(n,x8))throw y;var
+L=h[2],ao=P(p(U(L),x9)),o=[3,P(p(U(L),x_)),ao]}else
 var
-at=h[2],u=function(a){return dc(V,p(T(at),a))},au=u(x7),av=u(x8),o=[1,u(x9),av,au];else
+at=h[2],u=function(a){return df(P,p(U(at),a))},au=u(yf),av=u(yg),o=[1,u(yh),av,au];else
 var
-N=dc(V,h[2]),o=[0,N[1],N[2]];else
+N=df(P,h[2]),o=[0,N[1],N[2]];else
 var
-o=[2,V(h[2])];var
-M=l(a,x1),ap=M?l(a,x2)?2:1:M,aq=X(wG,U(p(b,x3))),ar=X(V,U(p(J,x4))),as=X(V,U(p(J,x5)));return[2,ap,X(an,U(p(I,x6))),am,as,ar,o,aq]}function
-kD(a){return X(e4,U(a))}function
-e7(g,m){var
+o=[2,P(h[2])];var
+M=k(a,x$),ap=M?k(a,ya)?2:1:M,aq=Z(wQ,W(p(b,yb))),ar=Z(P,W(p(J,yc))),as=Z(P,W(p(J,yd)));return[2,ap,Z(an,W(p(I,ye))),am,as,ar,o,aq]}function
+kE(a){return Z(e5,W(a))}function
+e8(g,m){var
 n=g[2];function
 o(c,b){var
-a=kD(b);if(ch(a)!==c)throw y;return a}switch(m[0]){case
+a=kE(b);if(cj(a)!==c)throw y;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg))if(l(b,yh)){var
-Q=0;if(l(b,yi)&&l(b,yj)&&l(b,yk))Q=1;if(!Q)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(k(b,yn))if(k(b,yo))if(k(b,yp))if(k(b,yq))if(k(b,yr)){var
+Q=0;if(k(b,ys)&&k(b,yt)&&k(b,yu))Q=1;if(!Q)if(c[2])d=1;else{var
 S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 q=J[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!c[2]){var
-Y=e5(s[1]),Z=e4(r[1]);return[4,e7(g,q[1]),Z,Y]}d=1}}}}}else{if(!c[2]){var
-K=T(e[2]),_=U(p(K,yp)),$=n+1|0,L=X(function(a){return o($,a)},_);if(3===ch(L))return[1,yr,L,e5(p(K,yq))];throw y}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=l(C,yb);if(D){if(l(C,yc))throw y;var
+Y=e6(s[1]),_=e5(r[1]);return[4,e8(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
+K=U(e[2]),$=W(p(K,yz)),aa=n+1|0,L=Z(function(a){return o(aa,a)},$);if(3===cj(L))return[1,yB,L,e6(p(K,yA))];throw y}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=k(C,yl);if(D){if(k(C,ym))throw y;var
 E=1}else
 var
 E=D;return[2,E]}d=1}else{if(!c[2]){var
-h=e[2],k=0;switch(h[0]){case
+h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(l(w,ys)&&l(w,yt))if(l(w,yu))a=1;else{var
+N=i[1],w=N[1],a=0;if(k(w,yC)&&k(w,yD))if(k(w,yE))a=1;else{var
 O=N[2];if(1===O[0]){var
 x=O[1];if(x){var
 j=x[1],f=0;switch(j[0]){case
 0:var
 z=j[1];if(z){var
-P=z[1][1],R=0;if(l(P,yw)&&l(P,yx)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(l(j[1],yy)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+P=z[1][1],R=0;if(k(P,yG)&&k(P,yH)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(k(j[1],yI)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 A=x[2];if(A){var
 B=A[2];if(B&&!(B[2]||i[2])){var
-ac=e5(B[1]),ad=e4(A[1]),t=[5,e7(g,j),ad,ac];k=1;a=1}else
+ad=e6(B[1]),ae=e5(A[1]),t=[5,e8(g,j),ae,ad];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])k=2}break;case
-2:if(!l(h[1],yz))k=2;break}switch(k){case
+a=1}if(!a&&!i[2])l=2}break;case
+2:if(!k(h[1],yJ))l=2;break}switch(l){case
 0:var
-t=ae(yv);break;case
+t=X(yF);break;case
 2:var
-t=e7(g,h);break}return[6,t]}d=1}else{var
+t=e8(g,h);break}return[6,t]}d=1}else{var
 M=e[2];if(1===M[0]){var
 u=M[1];if(u){var
 v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
-aa=v[1],ab=u[1],G=ab,F=function(b,a){return[3,b,a,o(n+1|0,aa)]};d=2}}}}switch(d){case
-0:if(!c[2])return ae([0,ym,[0,b,yl]]);break;case
+ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
+0:if(!c[2])return X([0,yw,[0,b,yv]]);break;case
 1:break;default:var
-H=T(G),V=U(p(H,yn)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw y;return F(I,e5(p(H,yo)))}}break;case
+H=U(G),T=W(p(H,yx)),I=Z(function(a){return o(n,a)},T),V=g[1];if(cj(I)!==V)throw y;return F(I,e6(p(H,yy)))}}break;case
 2:return[0,m[1]]}throw y}function
-kE(j){var
-b=da(j),a=b[1];if(l(a,yC)){var
-g=l(a,yD);if(!g)return g;if(!l(a,yE)){var
+kF(j){var
+b=dd(j),a=b[1];if(k(a,yM)){var
+g=k(a,yN);if(!g)return g;if(!k(a,yO)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cF(d[1]);return[1,cF(c[1]),k]}}}}}else{var
+l=cH(d[1]);return[1,cH(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=X(kD,U(f[1]));return[0,cF(e[1]),m]}}}}return ae([0,yG,[0,a,yF]])}function
-yV(c){var
+m=Z(kE,W(f[1]));return[0,cH(e[1]),m]}}}}return X([0,yQ,[0,a,yP]])}function
+y5(b){var
+a=10<=b[1]?1:0,c=a?1:a;return c}function
+y6(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],yW))a=1;break;case
+0:if(!k(b[1],y7))a=1;break;case
 6:a=1;break}return a?1:0}function
-yX(f){var
-g=F(f),a=[0,0];function
-h(b){if(a[1]<g)return R(f,a[1]);throw y}function
+y8(f){var
+g=H(f),a=[0,0];function
+h(b){if(a[1]<g)return S(f,a[1]);throw y}function
 i(b){if(h(0)===b){a[1]++;return 0}throw y}function
-s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return ds(f,b,a[1]-b|0)}}function
-t(d){i(34);function
+u(b,c){for(;;){if(a[1]<g&&e(c,S(f,a[1]))){a[1]++;continue}return du(f,b,a[1]-b|0)}}function
+v(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=s(a[1],b);i(34);return c}function
-u(k,d){if(h(0)===d){a[1]++;return 0}var
+c=u(a[1],b);i(34);return c}function
+w(k,d){if(h(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
 g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
 f=g;continue}i(d);var
 b=g,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-n(c,k){if(64<c)throw y;var
+o(c,k){if(64<c)throw y;var
 b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,u(function(a){return n(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,u(function(b){var
-a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
-j=a[1];a[1]++;return[3,s(j,function(a){var
+e=93,f=c+1|0;return[1,w(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,w(function(b){var
+a=v(0);i(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,v(0)];if(45===b)d=1}if(d){var
+j=a[1];a[1]++;return[3,u(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
-A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw y;var
-k=T(A);if(l(aO(p(k,yY)),yZ))throw y;var
-c=kC(p(k,y0));switch(c[0]){case
+E=o(0,0),x=a[1]<g?1:0,F=x?10===S(f,a[1])?1:0:x;if(F)a[1]++;if(a[1]<g)throw y;var
+l=U(E);if(k(aO(p(l,y9)),y_))throw y;var
+b=kD(p(l,y$));switch(b[0]){case
 2:var
-N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
+V=1===b[1]?6:3,m=[0,cj(b[2]),V];break;case
 3:var
-O=ch(c[1]),m=[0,ch(c[4]),O];break;case
+Y=cj(b[1]),m=[0,cj(b[4]),Y];break;case
 0:case
 5:var
-m=[0,ch(c[1]),3];break;default:var
-m=y$}var
-o=da(p(k,y1)),q=o[1];if(l(q,yL))if(l(q,yM))var
-b=ae([0,yO,[0,q,yN]]);else
+m=[0,cj(b[1]),3];break;default:var
+m=zm}var
+q=dd(p(l,za)),r=q[1];if(k(r,yV))if(k(r,yW))var
+c=X([0,yY,[0,r,yX]]);else
 var
-j=T(o[2]),r=aZ(j,yP),C=r?X(V,U(r[1])):r,D=kE(p(j,yQ)),E=X(V,U(p(j,yR))),b=[1,kx(p(j,yS)),E,C,D];else
+j=U(q[2]),s=aZ(j,yZ),G=s?Z(P,W(s[1])):s,I=kF(p(j,y0)),J=Z(P,W(p(j,y1))),c=[1,ky(p(j,y2)),J,G,I];else
 var
-w=T(o[2]),G=U(p(w,yT)),H=X(function(f){var
-a=T(f);function
+z=U(q[2]),K=W(p(z,y3)),L=Z(function(f){var
+a=U(f);function
 b(d,c){var
-b=aZ(a,c);return b?X(d,U(b[1])):b}var
-c=b(e4,yH),d=c$(kE,aZ(a,yI)),e=c$(cF,aZ(a,yJ));return[0,b(function(g){var
-b=U(g);if(b){var
+b=aZ(a,c);return b?Z(d,W(b[1])):b}var
+c=b(e5,yR),d=dc(kF,aZ(a,yS)),e=dc(cH,aZ(a,yT));return[0,b(function(g){var
+b=W(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yA)){if(!a[2]){if(l(d2(e),yB))throw y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],yK)){if(!a[2]){if(k(d2(e),yL))throw y;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e7(m,c);return[0,cF(e),f]}}}throw y},yK),e,d,c]},G),b=[0,kx(p(w,yU)),H];var
-d=0;switch(c[0]){case
-1:if(0===b[0])ae(y6);else
-d=1;break;case
-2:if(0===b[0]){var
-K=b[2];if(hY(function(a){return hY(yV,a[1])},K))d=2;else
-ae(y7)}else{var
-L=c[7];if(dr(function(a){switch(a[1]){case
+f=e8(m,c);return[0,cH(e),f]}}}throw y},yU),e,d,c]},K),c=[0,ky(p(z,y4)),L];var
+d=0;switch(b[0]){case
+0:var
+A=b[4];if(0===c[0]){var
+D=0;if(b4(function(a){return 10===a[1]?1:0},A)){var
+M=b[1];if(b4(function(a){return 2===a[0]?1:0},M)){X(zb);D=1}}if(!D)d=1}else{var
+C=A;d=3}break;case
+1:if(0===c[0])X(zi);else
+d=2;break;case
+2:if(0===c[0]){var
+R=c[2];if(hZ(function(a){return hZ(y6,a[1])},R))d=1;else
+X(zj)}else{var
+T=b[7];if(b4(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},L))ae(y8);else
-d=1}break;case
-3:if(1===b[0])ae(y9);else
-d=2;break;case
+8:return 1;default:return 0}},T))X(zk);else
+d=2}break;case
+3:if(1===c[0])X(zl);else
+d=1;break;case
 5:var
-P=0;if(0===b[0]){var
-M=b[2];if(dr(function(a){return 0!==a[1]?1:0},M)){ae(y_);P=1}}break;default:d=2}var
-z=0;switch(d){case
-2:if(0===b[0]){var
-I=b[2];if(dr(function(a){return 0!==a[3]?1:0},I)){ae(y2);z=1}}break;case
-1:break;default:z=1}var
-x=T(p(k,y3)),J=aO(p(x,y4));return[0,c,b,aO(p(x,y5)),J]}function
-za(c){try{try{var
-d=0,a=yX(c);d=1}catch(a){a=fy(a);if(a[1]===kw)var
+C=b[4];d=3;break;default:d=1}var
+n=0;switch(d){case
+3:if(b4(y5,C))X(zh);else
+n=2;break;case
+1:n=2;break;case
+2:n=1;break}var
+t=0;switch(n){case
+2:if(5===b[0]){var
+_=0;if(0===c[0]){var
+Q=c[2];if(b4(function(a){return 0!==a[1]?1:0},Q)){X(zg);_=1}}}else
+if(0===c[0]){var
+O=c[2];if(b4(function(a){return 0!==a[3]?1:0},O))X(zf);else
+t=1}else
+t=1;break;case
+1:t=1;break}var
+B=U(p(l,zc)),N=aO(p(B,zd));return[0,b,c,aO(p(B,ze)),N]}function
+zn(c){try{try{var
+d=0,a=y8(c);d=1}catch(a){a=fz(a);if(a[1]===kx)var
 b=[0,a[2]];else{if(a!==y)throw a;var
 b=2}}if(d)var
-b=vB(c,a)?0===a[2][0]?0:1:2}catch(a){return zb}if(typeof
+b=vI(c,a)?0===a[2][0]?0:1:2}catch(a){return zo}if(typeof
 b==="number")switch(b){case
-0:return zc;case
-1:return zd;default:return ze}return aw(zf,b[1])}A5.orthocert_verify=AK(function(b){return b1(za(a(b)))});fB(0);return}(globalThis));
+0:return zp;case
+1:return zq;default:return zr}return ax(zs,b[1])}Bg.orthocert_verify=AX(function(b){return b1(zn(a(b)))});fC(0);return}(globalThis));
