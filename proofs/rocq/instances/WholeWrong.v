@@ -50,3 +50,20 @@ Example negative_bound : accepts sliders (within_ 0 0 1 (-15500)) [ByTest] = fal
 Example no_such_leg : accepts sliders (within_ 3 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
 Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] (within_ 2 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
 End Accelerations.
+
+Module Forces.
+Definition Y (n : Z) : evidence := ByLower 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
+Local Notation within_ leg tool b := [JointForce leg (tool // 1) (b // 1)].
+Example certified : accepts sliders (within_ 0 56 85) [Y 5] = true. Proof. vm_compute. reflexivity. Qed.
+Example less : accepts sliders (within_ 0 56 55) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example greater_force : accepts sliders (within_ 0 90 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_multiplier : accepts sliders (within_ 0 56 85) [Y 0] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts sliders (within_ 0 56 85) [Y (-5)] = false. Proof. vm_compute. reflexivity. Qed.
+Example by_a_sign : accepts sliders (within_ 0 56 85) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders (within_ 3 56 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_bound : accepts sliders (within_ 0 56 (-85)) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+(** Where there are more joints than coordinates, no force is determined. *)
+Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 0 56 1000)) 9 [0; 0; 0; 0]%Z
+  (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByLower 3 [[5; 0; 0]; [0; 5; 0]; [0; 0; 5]; [0; 0; 1]]%Z)]%nat) = false.
+Proof. vm_compute. reflexivity. Qed.
+End Forces.

@@ -466,6 +466,7 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | JointRange, AtLeast_ b, _ => each (fun i => JointMin i (denoted b))
   | JointRange, AtMost_ b, _ => each (fun i => JointMax i (denoted b))
   | Speed_, AtMost_ b, Some (Given_ tool) => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Force_, AtMost_ b, Some (Given_ tool) => each (fun i => JointForce i (denoted tool) (denoted b))
   | Acceleration_, AtMost_ b, Some (Motion_ a v) => each (fun i => JointAcceleration i (denoted a) (denoted v) (denoted b))
   | Condition_, AtMost_ b, _ => [ConditionMax (denoted b)]
   | Serial_, AtLeast_ b, _ => each (fun i => SerialMargin i (denoted b))
@@ -480,6 +481,7 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   let is_leg n := Nat.leb 1 n && Nat.leb n legs in
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
+  | Force_, AtMost_ _, leg, Some (Given_ _) => Nat.eqb legs 3 && match leg with Some n => is_leg n | None => true end
   | Stiffness_, AtLeast_ _, None, Some (Given_ _) | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None => true
   | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some (Given_ _) | Acceleration_, AtMost_ _, Some n, Some (Motion_ _ _) => is_leg n
   | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some (Given_ _) | Acceleration_, AtMost_ _, None, Some (Motion_ _ _) => true
@@ -759,6 +761,7 @@ Definition is_bound (r : requirement) : bool :=
   | Clearance _ _ b => certainly exact_bits false b
   | Beside _ _ _ (Plus _ b) => certainly exact_bits false b
   | Beside _ _ _ _ => false
+  | JointForce _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | JointAcceleration _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
   | JointMin _ b | JointMax _ b => is_number b
   | NotSingular => true

@@ -7,6 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
+From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -41,10 +42,11 @@ Inductive tree :=
   | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
-    least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends. *)
+    least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
-  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed).
+  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
+  | Solved (i : nat) (k2 : fixed).
 
 Section Precision.
 Variable bits : positive.
@@ -129,6 +131,7 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
       | Some p, Some p', Some q, Some q' => are_apart bits m less distance places Y p p' q q'
       | _, _, _, _ => false
       end
+  | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
   | _, _ => false
   end.
 
@@ -212,6 +215,8 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   | Apart p p' q q' distance => let at_ := each (fun i => value x theta (formula_at i)) in
       forall d s t, contains distance d -> 0 <= d -> 0 <= s <= 1 -> 0 <= t <= 1 ->
       let w := away (between s (at_ p) (at_ p')) (between t (at_ q) (at_ q')) in d ^ 2 < inner w w
+  | Solved i k2 => of_these x (map_rows formula_at whole) (fun r => length r = m /\ forall k u, contains k2 k -> 0 <= k -> length u = length r -> nonzero u ->
+      let p := Solve.weighted_sum u (map fst r) in k * (nth i (map snd r) 0 * nth i u 0 ^ 2) < dot p p)
   end.
 
 Section Cell.
@@ -348,7 +353,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -402,6 +407,8 @@ Proof.
     cbv zeta. intros d s t hd d0 h0 h1.
     exact (are_apart_sound bits lambda lambda_in less distance d places Y _ _ _ _ _ _ _ _ h hs hd d0
       (end_there_sound _ _ e1) (end_there_sound _ _ e2) (end_there_sound _ _ e3) (end_there_sound _ _ e4) s t h0 h1).
+  - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos. apply (Solve.solved_sound bits _ _ _ _ _ _ _ _ sm rel lambda_in).
+    destruct less as [t |]; [exact hs | exact I].
 Qed.
 End Cell.
 

@@ -287,7 +287,7 @@ Proof.
   intros f i0 neg all given least F. pose proof (leg_at c s ds m P theta represented reached) as At. fold fs in At. fold ratio in At.
   pose proof ratio_positive as r0. pose proof bound_is as Bj.
   pose proof (bound_here s P theta j r Bj) as B. fold ratio in B.
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
     try (destruct (nth_error fs k) as [g |] eqn:ng; [| contradiction]; destruct (At k g ng) as [l [nl [R re]]]).
   - destruct i0 as [<- |]; [| contradiction]. destruct F as [l' [n' F]]. rewrite nl in n'. injection n' as <-.
     destruct R as [_ [_ [_ [J _]]]]. rewrite value_minus, J, B, (length_bound (JointMin k b) b eq_refl) in neg.
@@ -374,7 +374,7 @@ Proof.
     { intros g ig. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (f :: fl) g ig)) as k.
       cbv beta in k. rewrite (Neg_ g (RF g ig)) in k. lra. }
     apply (SF f); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b]; cbn [is_least] in *;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b]; cbn [is_least] in *;
     try (destruct directions; [exact (Signs h I eq_refl) | discriminate]).
   - destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
@@ -415,6 +415,7 @@ Proof.
     subst cs'. rewrite Sub_, Mul_, B2, (Sq v u eu), (plain_bound (ConstraintMargin b) b eq_refl) in hes.
     rewrite val_image, (rows_at _ LF), eu in hes. unfold ratio in hes. rewrite c2 in hes.
     specialize (d2 u). lra.
+  - destruct directions as [| ? [| ? [|]]]; discriminate.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
@@ -622,7 +623,7 @@ Proof.
     + apply Forall_forall. intros p ip. apply Pos, h1, ip.
     + apply Forall_forall. intros e ie. apply Pos, h2, ie.
     + apply met, (nth_error_In _ _ er).
-  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b | | | | | | | | | | |]; try discriminate.
+  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b | | | | | | | | | | | |]; try discriminate.
     destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate].
     apply (row_fails_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached i b leg g er eg); [apply Pos, hf |].
     apply met, (nth_error_In _ _ er).

@@ -3,7 +3,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula Acceleration.
-From Orthocert.kernel Require Compare.
+From Orthocert.kernel Require Compare Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -179,6 +179,7 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | Clearance one other b => (exactly (Plus (Plus (radius_of one) (radius_of other)) b), s)
   | Beside _ _ _ distance => (exactly distance, s)
   | JointAcceleration _ a _ b => (exactly (Over a b), 0%Z)
+  | JointForce _ tool b => (exactly (Over tool b), 0%Z)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -214,7 +215,7 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s [| | | | | | | | | | | one other b | i o q d | i a v b]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
   - apply Forall2_app; apply B.
   - cbn. repeat constructor; apply E.
   - cbn. repeat constructor; apply E.
@@ -285,7 +286,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -320,7 +321,7 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
   | Beside i _ _ _ => of_leg i (fun f =>
       match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
   | JointAcceleration i _ _ _ => of_leg i (fun f => acceleration_formula f b (nth 0 (numbered (snd j) (extras s r)) (integer 0)))
-  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
+  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
   match rs with
@@ -355,6 +356,11 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       match range_formula fs s j r with
       | [f] => if Compare.certainly bits false a && Compare.certainly bits true b then Some (AtLeast (place f)) else None
       | _ => None
+      end
+  | JointForce i tool b => match nth_error fs i with
+      | Some _ => if Compare.certainly bits true tool && Compare.certainly bits true b
+          then option_map (fun a => Solved i (sqr bits a)) (enclose_parameter bits (bound_of s r)) else None
+      | None => None
       end
   | _ => match range_formula fs s j r with
          | [f] => Some (AtLeast (place f))
@@ -626,7 +632,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -669,7 +675,7 @@ Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -725,7 +731,7 @@ Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz
 Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -923,6 +929,71 @@ Proof.
   replace (((u0 - t0) * L + Vec3.dot d A / L) ^ 2) with ((u0 - t0) ^ 2 * L ^ 2 + 2 * (u0 - t0) * Vec3.dot d A + Vec3.dot d A ^ 2 / L ^ 2) in sq by (field; exact L0). lra.
 Qed.
 
+(** A = q row, q^2 = D. *)
+Lemma row_scaled : forall g l, represents Q theta g (resized ratio l) -> reaches P l ->
+  exists q, q <> 0 /\ q ^ 2 = value x theta (f_D g) /\ forall v, Vec3.dot (vvalue Q theta (f_A g)) v = q * Vec3.dot (row l P) v.
+Proof.
+  intros g l [R1 [_ [_ [_ [R2 _]]]]] re. pose proof ratio_pos as r0. destruct (resized_same ratio P r0 l) as [er [_ eq]].
+  pose proof (R2 (proj2 eq re)) as D. destruct (R1 D) as [_ h]. rewrite er in h. clear R1 R2 er eq.
+  set (A := vvalue Q theta (f_A g)) in *. set (n := row l P) in *. set (d := value x theta (f_D g)) in *. clearbody A n d.
+  assert (E : forall v, Vec3.dot A v ^ 2 = d * Vec3.dot n v ^ 2) by (intro v; rewrite <- h; field; lra).
+  destruct (Req_dec (norm2 n) 0) as [z | z].
+  - apply norm2_zero in z. subst n. exists (sqrt d). split; [apply Rgt_not_eq, sqrt_lt_R0, D |]. split; [rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra |].
+    intro v. specialize (E v). unfold Vec3.dot, vzero in *. cbn [vx vy vz] in *. nra.
+  - set (q := Vec3.dot A n / norm2 n). assert (q2 : q ^ 2 = d).
+    { unfold q. unfold Rdiv. rewrite Rpow_mult_distr, E, <- norm2_dot. field. exact z. }
+    assert (qn : q <> 0) by (intro k; rewrite k in q2; lra). exists q. split; [exact qn |]. split; [exact q2 |]. intro v.
+    pose proof (E (vadd v n)) as S1. pose proof (E v) as S2. pose proof (E n) as S3.
+    assert (Da : forall u, Vec3.dot u (vadd v n) = Vec3.dot u v + Vec3.dot u n) by (intro; unfold Vec3.dot, vadd; cbn [vx vy vz]; ring). rewrite !Da in S1.
+    assert (M : Vec3.dot A v * Vec3.dot A n = d * (Vec3.dot n v * Vec3.dot n n)) by nra.
+    rewrite <- norm2_dot in M. assert (An : Vec3.dot A n = q * norm2 n) by (unfold q; field; exact z). rewrite An, <- q2 in M.
+    apply Rmult_eq_reg_r with (q * norm2 n); [| apply Rmult_integral_contrapositive_currified; assumption]. rewrite M. ring.
+Qed.
+
+Lemma whole_forces : forall l m0, Forall2 (represents Q theta) l (map (resized ratio) m0) -> Forall (reaches P) m0 ->
+  forall tau, length tau = length m0 -> exists u, length u = length l /\
+    (forall v, Linear.dot (Solve.weighted_sum u (map fst (map_rows (value x theta) (whole_rows l)))) (coordinates v) = joint_power m0 tau P v) /\
+    (l <> [] -> exists w, Solve.weighted_sum u (map fst (map_rows (value x theta) (whole_rows l))) = coordinates w) /\
+    forall i, nth i (map snd (map_rows (value x theta) (whole_rows l))) 0 * nth i u 0 ^ 2 = nth i tau 0 ^ 2.
+Proof.
+  induction l as [| f l IH]; intros [| g m0] R0 RE [| y tau] e; try discriminate; try (inversion R0; fail).
+  - exists []. split; [reflexivity |]. split; [reflexivity |]. split; [intro n; contradiction |]. intros [| i]; cbn; ring.
+  - cbn [map] in R0. apply cons_related in R0 as [R1 R0]. inversion RE as [| ? ? re RE']; subst.
+    destruct (IH m0 R0 RE' tau ltac:(cbn in e; congruence)) as [u [lu [hu [hw hi]]]]. destruct (row_scaled f g R1 re) as [q [qn [q2 hq]]].
+    exists (y / q :: u). change (whole_rows (f :: l)) with ((list_of (f_A f), f_D f) :: whole_rows l). rewrite map_rows_cons. cbn [map fst snd Solve.weighted_sum].
+    split; [cbn; congruence |]. split; [| split].
+    + intro v. rewrite dot_comb, hu, values_list, dot_coordinates, hq. cbn [joint_power]. field. exact qn.
+    + intros _. rewrite values_list. destruct l as [| f' l'].
+      * destruct u; [| discriminate]. exists (vscale (y / q) (vvalue Q theta (f_A f))). reflexivity.
+      * destruct (hw ltac:(discriminate)) as [w ->]. exists (vadd (vscale (y / q) (vvalue Q theta (f_A f))) w).
+        unfold coordinates, comb, vadd, vscale. cbn [merge vx vy vz]. f_equal; [ring |]. f_equal; [ring |]. f_equal; ring.
+    + intros [| i]; cbn [nth]; [| apply hi]. rewrite <- q2. field. exact qn.
+Qed.
+
+Lemma force_fulfilled : forall i tool b k2 g, r = JointForce i tool b -> nth_error fs i = Some g -> 0 < Claim.value tool -> 0 < Claim.value b ->
+  contains k2 ((Claim.value tool / Claim.value b) ^ 2) ->
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x (Solved i k2) -> fulfils m P r.
+Proof.
+  intros i tool b k2 g er ng t0 b0 K H. subst r. destruct (leg_at i g ng) as [l [nl _]]. cbn [fulfils]. split; [exists l; exact nl |].
+  intros tau F lt hF le. cbn [Check.holds] in H. rewrite (rows_found tape _ whole_found) in H. destruct H as [_ [l3 H]].
+  destruct (whole_forces fs m represented reached tau lt) as [u [lu [hu [hw hi]]]].
+  assert (lr : length (map_rows (value x theta) (whole_rows fs)) = length fs) by (unfold map_rows, whole_rows; rewrite !map_length; reflexivity).
+  destruct (hw ltac:(intro z; rewrite z in ng; destruct i; discriminate)) as [w ew].
+  assert (wF : w = F).
+  { assert (G : forall v, Vec3.dot w v = Vec3.dot F v) by (intro v; rewrite hF, <- hu, ew, dot_coordinates; reflexivity).
+    pose proof (G e1) as G1. pose proof (G e2) as G2. pose proof (G e3) as G3. unfold Vec3.dot, e1, e2, e3 in G1, G2, G3. cbn [vx vy vz] in G1, G2, G3. apply vec_ext; lra. }
+  subst w. specialize (hi i). set (tl_ := Claim.value tool) in *. set (y := Claim.value b) in *.
+  enough (Q2 : nth i tau 0 ^ 2 <= y ^ 2) by (apply Rabs_le; split; nra).
+  destruct (Rlt_dec 0 (Linear.dot u u)) as [nz | z].
+  - specialize (H _ u K (pow2_ge_0 _) ltac:(congruence) nz). cbv zeta in H. rewrite ew, dot_coordinates, <- norm2_dot, hi in H.
+    assert (E : (tl_ / y) ^ 2 * nth i tau 0 ^ 2 = tl_ ^ 2 * (nth i tau 0 / y) ^ 2) by (field; lra).
+    assert (t2 : 0 < tl_ ^ 2) by (apply pow_lt; exact t0). assert ((nth i tau 0 / y) ^ 2 < 1) by (apply Rmult_lt_reg_l with (tl_ ^ 2); lra).
+    replace (nth i tau 0 ^ 2) with ((nth i tau 0 / y) ^ 2 * y ^ 2) by (field; lra). pose proof (pow2_ge_0 y). nra.
+  - pose proof (zero_vector u ltac:(lra)) as Z0. assert (un : nth i u 0 = 0).
+    { destruct (nth_in_or_default i u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
+    rewrite <- hi, un. pose proof (pow2_ge_0 y). lra.
+Qed.
+
 Lemma acceleration_fulfilled : forall i a v b, r = JointAcceleration i a v b -> 0 <= Claim.value a -> 0 < Claim.value b ->
   (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils m P r.
 Proof.
@@ -973,7 +1044,7 @@ Lemma fulfilled : fulfils m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
-  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF.
+  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF. pose proof force_fulfilled as FF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
       is_least r = false -> fulfils m P r).
@@ -983,7 +1054,7 @@ Proof.
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -1028,6 +1099,12 @@ Proof.
     destruct (Compare.certainly bits false a && Compare.certainly bits true b) eqn:ce; [| discriminate]. injection T as <-.
     apply andb_true_iff in ce as [c1 c2]. apply (AF i a v b eq_refl (Compare.nonneg_sound _ _ c1) (Compare.positive_sound _ _ c2)).
     exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
+  - destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate].
+    destruct (Compare.certainly bits true tool && Compare.certainly bits true b) eqn:ce; [| discriminate]. apply andb_true_iff in ce as [c1 c2].
+    destruct (enclose_parameter bits (bound_of s (JointForce i tool b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
+    apply (FF i tool b (sqr bits a) g eq_refl ng (Compare.positive_sound _ _ c1) (Compare.positive_sound _ _ c2)); [| exact H].
+    apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (JointForce i tool b))) as K.
+    unfold bound_value in K. cbn [bound_of fst snd exactly greatest Claim.value] in K. rewrite two_to_0 in K. unfold Rdiv in K at 1. rewrite Rinv_1, Rmult_1_r in K. exact K.
 Qed.
 End Accepted.
 

@@ -58,6 +58,10 @@ Definition couple_of (l : leg) (P : vec) : option vec :=
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
 
+(** The power of joint forces tau where the platform moves with v. *)
+Fixpoint joint_power (m : list leg) (tau : list R) (P v : vec) : R :=
+  match m, tau with l :: m', t :: tau' => t * dot (row l P) v + joint_power m' tau' P v | _, _ => 0 end.
+
 (** ** Bodies: all within [radius] of a segment *)
 
 Record position := Position { px : number; py : number; pz : number }.
@@ -139,7 +143,8 @@ Inductive requirement :=
   (* of the lines along a leg, moved by [one] and by [other]: two bodies beside each other on it *)
   | Beside (leg : nat) (one other : position) (distance : number)
   (* of no motion of the platform with these acceleration and speed at most *)
-  | JointAcceleration (leg : nat) (acceleration speed b : number).
+  | JointAcceleration (leg : nat) (acceleration speed b : number)
+  | JointForce (leg : nat) (tool b : number).          (* of no static force on the platform up to [tool] *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -174,6 +179,9 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | JointAcceleration i acceleration speed b => exists l, nth_error m i = Some l /\ forall path V a,
       path 0 = P -> has_velocity path 0 (V 0) -> has_velocity V 0 a -> norm2 (V 0) <= value speed ^ 2 -> norm2 a <= value acceleration ^ 2 ->
       exists y, derivable_pt_lim (fun t => dot (row l (path t)) (V t)) 0 y /\ Rabs y <= value b
+  (* virtual work: the joint forces tau hold the force F on the platform *)
+  | JointForce i tool b => (exists l, nth_error m i = Some l) /\ forall tau F, Datatypes.length tau = Datatypes.length m ->
+      (forall v, dot F v = joint_power m tau P v) -> norm2 F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

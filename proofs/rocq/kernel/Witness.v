@@ -352,7 +352,7 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
-  | JointAcceleration _ _ _ _ => false
+  | JointAcceleration _ _ _ _ | JointForce _ _ _ => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -424,7 +424,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -495,6 +495,7 @@ Proof.
       by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
           unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
     replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
+  - discriminate.
   - discriminate.
 Qed.
 

@@ -269,6 +269,35 @@ for (const b of ["0", "-1"]) {
   if (all(text).some((answer) => answer !== "REJECTED")) fail(`joint_acceleration: ${all(text)}: ${text}`);
 }
 console.log(`joint_acceleration: ${accelerations.length} legs, with one answer at 42 bounds each`);
+
+// Forces: a matrix Y near A is evidence.
+const holds_force = (leg, tool) => about("joint_force", "max", `,"leg":${leg},"given":{"tool":["${tool}"]}`);
+const lower = (rows) => `{"lower":${y(rows)}}`;
+const whole = lower([[5, 0, 0], [0, 5, 0], [0, 0, 5]]), slanted = lower([[5, 1, 0], [0, 5, 1], [1, 0, 4]]);
+const forces = [
+  [asks(three, box, holds_force(1, 56), tree(`[1,${whole}]`)), 56, 300],
+  [asks(toleranced, box, holds_force(3, 0.01), tree(`[1,${slanted}]`)), 0.01, 0.1],
+  [asks(toleranced, cylinder, holds_force(2, 56), tree(`[1,{"inside":[${whole},1,9]}]`)), 56, 300],
+  [asks([three[0], three[1], plane(0, 0, 1)], box, holds_force(3, 56), tree(`[1,${lower([[5, 0, 0], [0, 5, 0], [0, 0, 8]])}]`)), 56, 300],
+  [asks(all_struts, far, holds_force(2, 56), of_struts(`[1,${lower([[-6, 0, 5], [3, -5, 5], [3, 5, 5]])}]`)), 56, 3000],
+];
+for (const [text, low, high] of forces) narrowed(text, low, high);
+for (const text of [
+  asks(three, box, holds_force(1, 0), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(1, -56), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(4, 56), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(1, 56), tree('[1,"test"]')),
+  asks(three, box, holds_force(1, 56), tree(`[1,${whole.replace("lower", "lower_divided")}]`)),
+  asks(three, box, holds_force(1, 56), tree(`[1,${lower([[0, 0, 0], [0, 0, 0], [0, 0, 0]])}]`)),
+  asks(three, box, holds_force(1, 56), tree(`[1,${lower([[-5, 0, 0], [0, -5, 0], [0, 0, -5]])}]`)),
+  // More joints than coordinates.
+  asks([...three, plane(0, 0, 1)], box, holds_force(1, 56), tree(`[1,${lower([[5, 0, 0], [0, 5, 0], [0, 0, 5], [0, 0, 1]])}]`)
+    .replace("[0,0,8]", "[0,0,8],[0,0,0]")),
+]) {
+  const answers = all(text("1000"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`joint_force: ${answers}: ${text("1000")}`);
+}
+console.log(`joint_force: ${forces.length} legs, with one answer at 42 bounds each`);
 fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.

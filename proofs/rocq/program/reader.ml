@@ -188,12 +188,7 @@ let requirement v =
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
-(* Of machines of Statement.v, of Configuration.v, and of these of platforms that turn. *)
-let of_machine v =
-  let r = requirement v in
-  match r.about_ with
-  | Force_ -> not_covered [ "this quantity of such a mechanism" ]
-  | _ -> r
+(* Of machines of Configuration.v, and of these of platforms that turn. *)
 let demand v =
   let r = requirement v in
   match r.about_ with
@@ -228,7 +223,7 @@ let rec subject v =
   | "postulate", v -> Postulate_ (match get (members v) "psi_max" with String "all" -> None | v -> Some (quantity v))
   | "machine", v ->
     let l = members v in
-    let require () = List.map of_machine (array (get l "require")) in
+    let require () = List.map requirement (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
      | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
@@ -337,7 +332,7 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
-let is_certified_only r = match r.about_ with Acceleration_ -> true | _ -> false
+let is_certified_only r = match r.about_ with Force_ | Acceleration_ -> true | _ -> false
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =

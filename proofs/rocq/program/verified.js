@@ -4,19 +4,19 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(v){"use strict";var
-Bg=typeof
-module==="object"&&module.exports||v,hp="spatial",lH="Invalid_argument",fc="precision",au='"',lG="@[",mi="this quantity of such a mechanism",g_=1255,lF="inside",mh="Fatal error: exception %s\n",k_=255,lE="yaw",mf="(",mg=0x800,k8="range",k9="tree",g9="jsError",by=0x8000,lC='the mechanism "',lD="%ni",mL="sqrt(",me=256,d8="offset",md="obligation",bk="machine",k7="End_of_file",ff="strut",k6="center",fp="arm",g8="Failure",mJ="serial_margin",mK="parameters",bX=0xff,hv="bodies",k5="\n",hu="outside",hf="base_axis",ho="ENOENT",mI=122,aP="0",mc="([^/]+)",hn=0xf,d9=128,g7=-48,k4=0xdc00,lB="Sys_blocked_io",mH="fd ",g6="given",mb="ENOTEMPTY",at=248,ma="bound",as="camlinternalFormat.ml",l$="Division_by_zero",mF="by",mG=1027,k3="Sys_error",lA="slider",lz="postulate",l_="torsion",l9="proof",ly="%u",dj="mechanism",fl="row",k2="EEXIST",lx="roll_pitch_yaw",hm="%d",k1="Printexc.handle_uncaught_exception",he="y",fb="lower",lw="within",l8="cube",k0="clearance",l7="buffer.ml",mE="turned",fa="int_of_string",l6="control",lv="definitions",hd=127,d7=1024,lu="@{",l5="from",ht="e",kY=120,kZ=103,lt=" : flags Open_rdonly and Open_wronly are not compatible",l4="orthocert/2",mD="reach",kX=512,a_="-",mC="witness",bi="platform",kW=0x7ff0,kV="pitch",hs=": Not a directory",ls=" : file already exists",bA="min",mB="trim",dk="workspace",lr="claim",l3="split",mA="legs",bW=0xffffff,l2="joint",kT="formulas",kU="0x",lq='the workspace "',l1="roll",my="nodes",mz="Out_of_memory",kS="psi_max",hr="orientation",lp="angle",fk=254,hq="index out of bounds",l0=100,kR="end",fo="_bigarr02",kQ="%Li",lZ=" : flags Open_text and Open_binary are not compatible",cf="drive",lY="coordinates",lo=", characters ",lX="lower_divided",kP="speed",ln="joints",mx="cylinder",bC=0xffff,ll="acceleration",lm=12520,g5="on",lk="axis",lj="no_cube",mw="parallel_margin",kO='the drive "',fe="fails",hl="Unix.Unix_error",mv="infinity",e$="tool",g4="mkdir",d6=1000,e_="translational",t="",lW="Stack_overflow",mu="characteristic_length",hc="^",e9=": No such file or directory",hk="places",lV="/static/",di=0x3f,lU=-97,lS="stiffness",lT="Not_found",d5="planar",fj="mode",mt="joint_speed",li="Match_failure",kN=", ",kM="transmission",ce="anchor",ms="at",fn=252,kL="joint_force",dh="leg",cg=".",bz="+",lR="joint_acceleration",hj="rmdir",mr=0xf0,mq="spherical",lh="verified.ml",lf="REJECTED",lg="%li",lQ=1026,bB="max",cJ="direction",lP="orthoglide",fm="rank",mp="constraint_margin",mo=-32,kJ="Pervasives.do_at_exit",kK="utf8",hi="test",bU=" ",fd="conditioning",hh="Fatal error: exception ",bj=0x80,kI="Undefined_recursive_module",hb=")",fi="length",lO="base",mn="quantity",lN="joint_range",fh="tilt",kH="Q2",ha="nan",le="reference",lM="point",ld=0xe0,mm="corner",lb="z",lc=0xdfff,lK="version",lL="_",ml="to",bh="/",hg="compare: functional value",mk="Assert_failure",la="provenance",dg="radius",kG="%i",bV="require",fg="side",mj="format",g$="ENOTDIR",lJ="Q1",lI="all",cI="box",k$=250;function
-hL(c,b,a){var
+Be=typeof
+module==="object"&&module.exports||v,hv="spatial",lH="Invalid_argument",fc="precision",au='"',lG="@[",he=1255,lF="inside",mh="Fatal error: exception %s\n",k_=255,lE="yaw",mf="(",mg=0x800,k8="range",k9="tree",hd="jsError",bz=0x8000,lC='the mechanism "',lD="%ni",mK="sqrt(",me=256,d9="offset",md="obligation",bk="machine",k7="End_of_file",ff="strut",k6="center",fp="arm",hc="Failure",mI="serial_margin",mJ="parameters",bX=0xff,hB="bodies",k5="\n",hA="outside",hl="base_axis",hu="ENOENT",mH=122,aP="0",mc="([^/]+)",ht=0xf,d_=128,hb=-48,k4=0xdc00,lB="Sys_blocked_io",mG="fd ",ha="given",mb="ENOTEMPTY",at=248,ma="bound",as="camlinternalFormat.ml",l$="Division_by_zero",mE="by",mF=1027,k3="Sys_error",lA="slider",lz="postulate",l_="torsion",l9="proof",ly="%u",dj="mechanism",fl="row",k2="EEXIST",lx="roll_pitch_yaw",hs="%d",k1="Printexc.handle_uncaught_exception",hk="y",fb="lower",lw="within",l8="cube",k0="clearance",l7="buffer.ml",mD="turned",fa="int_of_string",l6="control",lv="definitions",hj=127,d8=1024,lu="@{",l5="from",hz="e",kY=120,kZ=103,lt=" : flags Open_rdonly and Open_wronly are not compatible",l4="orthocert/2",mC="reach",kX=512,a_="-",mB="witness",bi="platform",kW=0x7ff0,kV="pitch",hy=": Not a directory",ls=" : file already exists",bB="min",mA="trim",dk="workspace",lr="claim",l3="split",mz="legs",bW=0xffffff,l2="joint",kT="formulas",kU="0x",lq='the workspace "',l1="roll",mx="nodes",my="Out_of_memory",kS="psi_max",hx="orientation",lp="angle",fk=254,hw="index out of bounds",l0=100,kR="end",fo="_bigarr02",kQ="%Li",lZ=" : flags Open_text and Open_binary are not compatible",cg="drive",lY="coordinates",lo=", characters ",lX="lower_divided",kP="speed",ln="joints",mw="cylinder",bD=0xffff,ll="acceleration",lm=12520,g$="on",lk="axis",lj="no_cube",mv="parallel_margin",kO='the drive "',fe="fails",hr="Unix.Unix_error",mu="infinity",e$="tool",g_="mkdir",d7=1000,e_="translational",t="",lW="Stack_overflow",mt="characteristic_length",hi="^",e9=": No such file or directory",hq="places",lV="/static/",di=0x3f,lU=-97,lS="stiffness",lT="Not_found",d6="planar",fj="mode",ms="joint_speed",li="Match_failure",kN=", ",kM="transmission",cf="anchor",mr="at",fn=252,kL="joint_force",dh="leg",ch=".",bA="+",lR="joint_acceleration",hp="rmdir",mq=0xf0,mp="spherical",lh="verified.ml",lf="REJECTED",lg="%li",lQ=1026,bC="max",cJ="direction",lP="orthoglide",fm="rank",mo="constraint_margin",mn=-32,kJ="Pervasives.do_at_exit",kK="utf8",ho="test",bU=" ",fd="conditioning",hn="Fatal error: exception ",bj=0x80,kI="Undefined_recursive_module",hh=")",fi="length",lO="base",mm="quantity",lN="joint_range",fh="tilt",kH="Q2",hg="nan",le="reference",lM="point",ld=0xe0,ml="corner",lb="z",lc=0xdfff,lK="version",lL="_",mk="to",bh="/",hm="compare: functional value",mj="Assert_failure",la="provenance",dg="radius",kG="%i",bV="require",fg="side",mi="format",hf="ENOTDIR",lJ="Q1",lI="all",cI="box",k$=250;function
+hR(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=t;for(;0<a;b+=d7,a-=d7)e+=d.apply(null,c.slice(b,b+Math.min(a,d7)));return e}function
+e=t;for(;0<a;b+=d8,a-=d8)e+=d.apply(null,c.slice(b,b+Math.min(a,d8)));return e}function
 fq(b){if(v.Uint8Array)var
 c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ci(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fq(b);var
+cj(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hR(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hR(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fq(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,37 +24,37 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 bY(a){return a}function
-bF(a,b,c,d,e){ci(bY(a),b,c,d,e);return 0}function
-A_(b,a){throw[0,b,a]}function
+bG(a,b,c,d,e){cj(bY(a),b,c,d,e);return 0}function
+A8(b,a){throw[0,b,a]}function
 dq(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
 d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
 dn(a){if(a.t==2)a.c+=dq(a.l-a.c.length,"\0");else
-a.c=hL(a.c,0,a.c.length);a.t=0}function
-nf(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hd)return false;return true}else
+a.c=hR(a.c,0,a.c.length);a.t=0}function
+ne(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hj)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hN(e){for(var
+hT(e){for(var
 j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bj){for(var
 d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>kX){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(f<<6);if(f<ld){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9){g=h+(g<<6);if(f<mr){a=g-0xe2080;if(a<mg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d9&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bC)c+=String.fromCharCode(0xd7c0+(a>>10),k4+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d7){c.substr(0,1);j+=c;c=t}}return j+c}function
-bD(c,a,b){this.t=c;this.c=a;this.l=b}bD.prototype.toString=function(){switch(this.t){case
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_){g=h+(f<<6);if(f<ld){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_){g=h+(g<<6);if(f<mq){a=g-0xe2080;if(a<mg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bD)c+=String.fromCharCode(0xd7c0+(a>>10),k4+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d8){c.substr(0,1);j+=c;c=t}}return j+c}function
+bE(c,a,b){this.t=c;this.c=a;this.l=b}bE.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:dn(this);case
-0:if(nf(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bD.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hN(a)};bD.prototype.slice=function(){var
+0:if(ne(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bE.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hT(a)};bE.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bD(this.t,a,this.l)};function
-mV(a){return new
-bD(0,a,a.length)}function
-a(a){return mV(a)}function
-hJ(c,b){A_(c,a(b))}var
-ai=[0];function
-av(a){hJ(ai.Invalid_argument,a)}function
-mT(){av(hq)}function
+bE(this.t,a,this.l)};function
+mU(a){return new
+bE(0,a,a.length)}function
+a(a){return mU(a)}function
+hP(c,b){A8(c,a(b))}var
+aj=[0];function
+av(a){hP(aj.Invalid_argument,a)}function
+mS(){av(hw)}function
 ak(a,c,b){b&=bX;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fq(a)}a.c[c]=b;return 0}function
-cK(b,a,c){if(a>>>0>=b.l)mT();return ak(b,a,c)}function
+cK(b,a,c){if(a>>>0>=b.l)mS();return ak(b,a,c)}function
 dm(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
@@ -68,21 +68,21 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bZ(c,d)}}function
-d_(){av(hq)}function
-mW(a,b){if(b>>>0>=a.length-1)d_();return a}function
-AA(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+d$(){av(hw)}function
+mV(a,b){if(b>>>0>=a.length-1)d$();return a}function
+Ay(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
 b1(a){a.t&6&&dn(a);return a.c}var
-Bi=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Bh(a){if(Bi)return Math.floor(Math.log2(a));var
+Bg=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Bf(a){if(Bg)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hB(c){var
+hH(c){var
 a=new(v.Float32Array)(1);a[0]=c;var
 b=new(v.Int32Array)(a.buffer);return b[0]|0}var
-m5=Math.pow(2,-24);function
-A8(a){throw a}function
-na(){A8(ai.Division_by_zero)}function
-u(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bC}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+m4=Math.pow(2,-24);function
+A6(a){throw a}function
+m$(){A6(aj.Division_by_zero)}function
+u(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bD}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
 u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m5|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m5|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*m4|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m4|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
 u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
 u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bC);return new
+u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bD);return new
 u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bW;this.lo=this.lo<<1&bW};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bW;this.mi=(this.mi>>>1|this.hi<<23)&bW;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
-b=this;if(a.isZero())na();var
-d=b.hi^a.hi;if(b.hi&by)b=b.neg();if(a.hi&by)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&by)c=c.neg();return c};u.prototype.mod=function(b){var
-a=this;if(b.isZero())na();var
-d=a.hi;if(a.hi&by)a=a.neg();if(b.hi&by)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&by)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};u.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};u.prototype.hi32=function(){return this.mi>>>8&bC|this.hi<<16};function
+b=this;if(a.isZero())m$();var
+d=b.hi^a.hi;if(b.hi&bz)b=b.neg();if(a.hi&bz)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bz)c=c.neg();return c};u.prototype.mod=function(b){var
+a=this;if(b.isZero())m$();var
+d=a.hi;if(a.hi&bz)a=a.neg();if(b.hi&bz)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bz)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};u.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};u.prototype.hi32=function(){return this.mi>>>8&bD|this.hi<<16};function
 fu(b,c,a){return new
 u(b,c,a)}function
 ft(a){if(!isFinite(a)){if(isNaN(a))return fu(1,0,kW);return a>0?fu(0,0,kW):fu(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?by:a>=0?0:by;if(f)a=-a;var
-b=Bh(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-mG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+f=a==0&&1/a==-Infinity?bz:a>=0?0:bz;if(f)a=-a;var
+b=Bf(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-mF);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hn|f|b<<4;return fu(g,e,c)}function
-eb(a){return a.toArray()}function
-mS(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fo)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bC)c.write(16,b.dims[a]);else{c.write(16,bC);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ht|f|b<<4;return fu(g,e,c)}function
+ec(a){return a.toArray()}function
+mR(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fo)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bD)c.write(16,b.dims[a]);else{c.write(16,bD);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eb(b.get(a));for(var
+e=ec(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eb(ft(b.get(a)));for(var
+e=ec(ft(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hB(b.get(a));c.write(32,e)}break;case
+e=hH(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hB(d[1]));c.write(32,hB(d[2]))}break;case
+d=b.get(a);c.write(32,hH(d[1]));c.write(32,hH(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eb(ft(f[1]));for(var
+f=b.get(a),e=ec(ft(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eb(ft(f[2]));for(var
+e=ec(ft(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mQ(a){switch(a){case
+mP(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Au(c,e){var
+As(c,e){var
 b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -180,49 +180,49 @@ b=v,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)av("Bigarray.create: unsupported kind");var
 d=new
-a(e*mQ(c));return d}function
-hC(c){var
+a(e*mP(c));return d}function
+hI(c){var
 a=new(v.Int32Array)(1);a[0]=c;var
 b=new(v.Float32Array)(a.buffer);return b[0]}function
-ea(a){return new
+eb(a){return new
 u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hD(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hn)==0?b&by?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hn);if(c>0){a+=16;a*=Math.pow(2,c-mG)}else
-a*=Math.pow(2,-lQ);if(b&by)a=-a;return a}function
-hw(b){var
+hJ(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ht)==0?b&bz?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ht);if(c>0){a+=16;a*=Math.pow(2,c-mF)}else
+a*=Math.pow(2,-lQ);if(b&bz)a=-a;return a}function
+hC(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)av("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-AL(b,a){return new
-u(b&bW,b>>>24&bX|(a&bC)<<8,a>>>16&bC)}function
-hE(a){return a.hi32()}function
-hF(a){return a.lo32()}var
-Av=fo;function
-ch(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ch.prototype.caml_custom=Av;ch.prototype.offset=function(b){var
+AJ(b,a){return new
+u(b&bW,b>>>24&bX|(a&bD)<<8,a>>>16&bD)}function
+hK(a){return a.hi32()}function
+hL(a){return a.lo32()}var
+At=fo;function
+ci(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ci.prototype.caml_custom=At;ci.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))av("bigarray.js: invalid offset");if(this.dims.length!=b.length)av("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d_();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d$();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d_();c=c*this.dims[a]+(b[a]-1)}return c};ch.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d$();c=c*this.dims[a]+(b[a]-1)}return c};ci.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return AL(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return AJ(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};ch.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hF(b);this.data[a*2+1]=hE(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};ci.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hL(b);this.data[a*2+1]=hK(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ch.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ci.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hF(b),e=hE(b);if(c==e)this.data.fill(c);else
+c=hL(b),e=hK(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ch.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ci.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -243,25 +243,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 dl(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dl.prototype=new
-ch();dl.prototype.offset=function(a){if(typeof
+ci();dl.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-av("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d_();return a};dl.prototype.get=function(a){return this.data[a]};dl.prototype.set=function(a,b){this.data[a]=b;return 0};dl.prototype.fill=function(a){this.data.fill(a);return 0};function
-mO(c,d,a,b){var
-e=mQ(c);if(hw(a)*e!=b.length)av("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+av("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d$();return a};dl.prototype.get=function(a){return this.data[a]};dl.prototype.set=function(a,b){this.data[a]=b;return 0};dl.prototype.fill=function(a){this.data.fill(a);return 0};function
+mN(c,d,a,b){var
+e=mP(c);if(hC(a)*e!=b.length)av("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 dl(c,d,a,b);return new
-ch(c,d,a,b)}function
-bl(b){if(!ai.Failure)ai.Failure=[at,a(g8),-3];hJ(ai.Failure,b)}function
-mP(b,v,r){var
+ci(c,d,a,b)}function
+bl(b){if(!aj.Failure)aj.Failure=[at,a(hc),-3];hP(aj.Failure,b)}function
+mO(b,v,r){var
 i=b.read32s();if(i<0||i>16)bl("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&bX,o=p>>8&1,h=[];if(r==fo)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bC){var
+n=b.read16u();if(n==bD){var
 t=b.read32u(),u=b.read32u();if(t!=0)bl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hw(h),f=Au(j,d),g=mO(j,o,h,f);switch(j){case
+d=hC(h),f=As(j,d),g=mN(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,34 +282,34 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ea(e);g.set(a,q)}break;case
+q=eb(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hD(ea(e));g.set(a,k)}break;case
+k=hJ(eb(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hC(b.read32s());g.set(a,k)}break;case
+k=hI(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hC(b.read32s()),l=hC(b.read32s());g.set(a,[fk,m,l])}break;case
+m=hI(b.read32s()),l=hI(b.read32s());g.set(a,[fk,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hD(ea(e));for(var
+m=hJ(eb(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hD(ea(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mO(j,o,h,f)}function
-mN(a,b,c){return a.compare(b,c)}function
-m9(a,b){return Math.imul(a,b)}function
-b0(b,a){a=m9(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m9(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-AH(a,b){a=b0(a,hF(b));a=b0(a,hE(b));return a}function
-m4(a,b){return AH(a,ft(b))}function
-mR(c){var
-b=hw(c.dims),d=0;switch(c.kind){case
+l=hJ(eb(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mN(j,o,h,f)}function
+mM(a,b,c){return a.compare(b,c)}function
+m8(a,b){return Math.imul(a,b)}function
+b0(b,a){a=m8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+AF(a,b){a=b0(a,hL(b));a=b0(a,hK(b));return a}function
+m3(a,b){return AF(a,ft(b))}function
+mQ(c){var
+b=hC(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
 12:if(b>me)b=me;var
@@ -318,7 +318,7 @@ e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=b0(d,e)}break;case
 4:case
-5:if(b>d9)b=d9;var
+5:if(b>d_)b=d_;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b0(d,e)}if((b&1)!=0)d=b0(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=b0(d,c.data[a]);break;case
@@ -329,36 +329,36 @@ a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m4(d,c.data[a]);break;case
+a=0;a<b;a++)d=m3(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m4(d,c.data[a]);break}return d}function
-AJ(a,b){b[0]=4;return a.read32s()}function
-A5(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m3(d,c.data[a]);break}return d}function
+AH(a,b){b[0]=4;return a.read32s()}function
+A3(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bl("input_value: native integer value too large");default:bl("input_value: ill-formed native integer")}}function
-AU(c,d){var
+AS(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ea(b)}function
-AQ(e,d,b){var
-c=eb(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eb(b)}function
+AO(e,d,b){var
+c=ec(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-AK(a,b,c){return a.compare(b)}function
-AN(a){return a.lo32()^a.hi32()}var
-mZ={"_j":{deserialize:AU,serialize:AQ,fixed_length:8,compare:AK,hash:AN},"_i":{deserialize:AJ,fixed_length:4},"_n":{deserialize:A5,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mP(a,b,"_bigarray")},serialize:mS,compare:mN,hash:mR},"_bigarr02":{deserialize:function(a,b){return mP(a,b,fo)},serialize:mS,compare:mN,hash:mR}};function
-hy(a){return mZ[a.caml_custom]&&mZ[a.caml_custom].compare}function
-mX(f,c,d,e){var
-b=hy(c);if(b){var
+AI(a,b,c){return a.compare(b)}function
+AL(a){return a.lo32()^a.hi32()}var
+mY={"_j":{deserialize:AS,serialize:AO,fixed_length:8,compare:AI,hash:AL},"_i":{deserialize:AH,fixed_length:4},"_n":{deserialize:A3,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mO(a,b,"_bigarray")},serialize:mR,compare:mM,hash:mQ},"_bigarr02":{deserialize:function(a,b){return mO(a,b,fo)},serialize:mR,compare:mM,hash:mQ}};function
+hE(a){return mY[a.caml_custom]&&mY[a.caml_custom].compare}function
+mW(f,c,d,e){var
+b=hE(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 fv(a){return a
 instanceof
-bD}function
-hH(a){return fv(a)}function
-mY(a){if(typeof
-a==="number")return d6;else
+bE}function
+hN(a){return fv(a)}function
+mX(a){if(typeof
+a==="number")return d7;else
 if(fv(a))return fn;else
-if(hH(a))return 1252;else
+if(hN(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=k_){var
@@ -370,34 +370,34 @@ if(typeof
 a=="string")return lm;else
 if(a
 instanceof
-Number)return d6;else
-if(a&&a.caml_custom)return g_;else
+Number)return d7;else
+if(a&&a.caml_custom)return he;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AV(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mU(a,b){a.t&6&&dn(a);b.t&6&&dn(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-Bb(a,b){return mU(a,b)}function
-hx(a,b,d){var
+AT(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mT(a,b){a.t&6&&dn(a);b.t&6&&dn(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+A$(a,b){return mT(a,b)}function
+hD(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mY(a);if(f==k$){a=a[1];continue}var
-g=mY(b);if(g==k$){b=b[1];continue}if(f!==g){if(f==d6){if(g==g_)return mX(a,b,-1,d);return-1}if(g==d6){if(f==g_)return mX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:av(hg);break;case
+f=mX(a);if(f==k$){a=a[1];continue}var
+g=mX(b);if(g==k$){b=b[1];continue}if(f!==g){if(f==d7){if(g==he)return mW(a,b,-1,d);return-1}if(g==d7){if(f==he)return mW(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:av(hm);break;case
 248:var
-c=AV(a[2],b[2]);if(c!=0)return c|0;break;case
-249:av(hg);break;case
+c=AT(a[2],b[2]);if(c!=0)return c|0;break;case
+249:av(hm);break;case
 250:av("equal: got Forward_tag, should not happen");break;case
 251:av("equal: abstract value");break;case
 252:if(a!==b){var
-c=mU(a,b);if(c!=0)return c|0}break;case
+c=mT(a,b);if(c!=0)return c|0}break;case
 253:av("equal: got Double_tag, should not happen");break;case
 254:av("equal: got Double_array_tag, should not happen");break;case
 255:av("equal: got Custom_tag, should not happen");break;case
-1247:av(hg);break;case
+1247:av(hm);break;case
 1255:var
-i=hy(a);if(i!=hy(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)av("compare: abstract value");var
+i=hE(a);if(i!=hE(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)av("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -411,232 +411,232 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-AB(a,b){return hx(a,b,true)}function
-AC(){return[0]}function
+Az(a,b){return hD(a,b,true)}function
+AA(){return[0]}function
 ao(a){if(a<0)av("Bytes.create");return new
-bD(a?2:9,t,a)}function
-m0(a,b){return+(hx(a,b,false)==0)}function
-AE(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fq(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hI(d){d=b1(d);var
+bE(a?2:9,t,a)}function
+mZ(a,b){return+(hD(a,b,false)==0)}function
+AC(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fq(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hO(d){d=b1(d);var
 e=d.length;if(e>31)av("format_int: format too long");var
-a={justify:bz,signstyle:a_,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+a={justify:bA,signstyle:a_,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=a_;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hz(b,f){if(b.uppercase)f=f.toUpperCase();var
+hF(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a_))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=t;if(b.justify==bz&&b.filler==bU)for(var
+c=t;if(b.justify==bA&&b.filler==bU)for(var
 d=e;d<b.width;d++)c+=bU;if(b.signedconv)if(b.sign<0)c+=a_;else
-if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kU;if(b.justify==bz&&b.filler==aP)for(var
+if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kU;if(b.justify==bA&&b.filler==aP)for(var
 d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a_)for(var
 d=e;d<b.width;d++)c+=bU;return a(c)}function
-hA(i,c){function
+hG(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bz)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aP);if(b>0)a=a+cg+new
+c=parseInt(a.toString().split(bA)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aP);if(b>0)a=a+ch+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hI(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=ha;e.filler=bU}else
+a,e=hO(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hg;e.filler=bU}else
 if(!isFinite(c)){a="inf";e.filler=bU}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==ht)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(ht),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==cg)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==ht)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hz)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hz),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ch)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hz)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==cg)b--;a=a.slice(0,b+1)}}break}return hz(e,a)}function
-fr(e,c){if(b1(e)==hm)return a(t+c);var
-b=hI(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ch)b--;a=a.slice(0,b+1)}}break}return hF(e,a)}function
+fr(e,c){if(b1(e)==hs)return a(t+c);var
+b=hO(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
 d=c.toString(b.base);if(b.prec>=0){b.filler=bU;var
-f=b.prec-d.length;if(f>0)d=dq(f,aP)+d}return hz(b,d)}var
-A6=0;function
-fs(){return A6++}function
-AY(a){return a.toUtf16()}function
-ed(){return typeof
+f=b.prec-d.length;if(f>0)d=dq(f,aP)+d}return hF(b,d)}var
+A4=0;function
+fs(){return A4++}function
+AW(a){return a.toUtf16()}function
+ee(){return typeof
 v.process!=="undefined"&&typeof
 v.process.versions!=="undefined"&&typeof
 v.process.versions.node!=="undefined"}function
-Bj(){function
+Bh(){function
 a(a){if(a.charAt(0)===bh)return[t,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ed()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
-hR=Bj();function
-nd(a){return a.slice(-1)!==bh?a+bh:a}if(ed()&&v.process&&v.process.cwd)var
-d$=v.process.cwd().replace(/\\/g,bh);else
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ee()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+hX=Bh();function
+nc(a){return a.slice(-1)!==bh?a+bh:a}if(ee()&&v.process&&v.process.cwd)var
+ea=v.process.cwd().replace(/\\/g,bh);else
 var
-d$="/static";d$=nd(d$);function
-AZ(a){a=AY(a);if(!hR(a))a=d$+a;var
-e=hR(a),d=e[1].split(bh),b=[];for(var
+ea="/static";ea=nc(ea);function
+AX(a){a=AW(a);if(!hX(a))a=ea+a;var
+e=hX(a),d=e[1].split(bh),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Bd(e){for(var
+Bb(e){for(var
 f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bj){for(var
 d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>kX){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
 b+=e.slice(c,d);if(d==g)break;c=d}if(a<mg){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&di)}else
 if(a<0xd800||a>=lc)b+=String.fromCharCode(ld|a>>12,bj|a>>6&di,bj|a&di);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k4||h>lc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mr|a>>18,bj|a>>12&di,bj|a>>6&di,bj|a&di)}if(b.length>d7){b.substr(0,1);f+=b;b=t}}return f+b}function
-Az(a){var
-b=9;if(!nf(a))b=8,a=Bd(a);return new
-bD(b,a,a.length)}function
-bm(a){return Az(a)}var
-Bl=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k2,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ho,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g$,mb,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k4||h>lc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mq|a>>18,bj|a>>12&di,bj|a>>6&di,bj|a&di)}if(b.length>d8){b.substr(0,1);f+=b;b=t}}return f+b}function
+Ax(a){var
+b=9;if(!ne(a))b=8,a=Bb(a);return new
+bE(b,a,a.length)}function
+bm(a){return Ax(a)}var
+Bj=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k2,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hu,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hf,mb,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 cN(d,f,e,a){var
-b=Bl.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=Bj.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,bm(f||t),bm(e||t)];return c}var
-m_={};function
-cL(a){return m_[a]}function
+m9={};function
+cL(a){return m9[a]}function
 cM(b,a){throw[0,b].concat(a)}function
-Ay(a){return new
-bD(4,a,a.length)}function
-R(a){hJ(ai.Sys_error,a)}function
-A9(a){R(a+e9)}function
-Ax(b,a){if(a>>>0>=b.l)mT();return dm(b,a)}function
-a0(a){return a.l}function
-mM(){}function
-aB(a){this.data=a}aB.prototype=new
-mM();aB.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);ci(b,0,this.data,0,a)};aB.prototype.length=function(){return a0(this.data)};aB.prototype.write=function(b,d,g,a){var
+Aw(a){return new
+bE(4,a,a.length)}function
+S(a){hP(aj.Sys_error,a)}function
+A7(a){S(a+e9)}function
+Av(b,a){if(a>>>0>=b.l)mS();return dm(b,a)}function
+a1(a){return a.l}function
+mL(){}function
+aC(a){this.data=a}aC.prototype=new
+mL();aC.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);cj(b,0,this.data,0,a)};aC.prototype.length=function(){return a1(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;ci(f,0,this.data,0,c)}bF(d,g,this.data,b,a);return 0};aB.prototype.read=function(c,a,d,b){var
-e=this.length();ci(this.data,c,a,d,b);return 0};aB.prototype.read_one=function(a){return Ax(this.data,a)};aB.prototype.close=function(){};aB.prototype.constructor=aB;function
+e=ao(b+a),f=this.data;this.data=e;cj(f,0,this.data,0,c)}bG(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();cj(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Av(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
 c=d.split(bh),b=t;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bh;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bh};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aB(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
+aC(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cL(hl);if(this.exists(c))if(b)cM(b,cN(k2,g4,this.nm(c)));else
-R(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cM(b,cN(ho,g4,this.nm(a)));else
-R(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(g$,g4,this.nm(a)));else
-R(a+hs);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cL(hl),c=a==t?t:this.slash(a),e=new
-RegExp(hc+c+mc);if(!this.exists(a))if(b)cM(b,cN(ho,hj,this.nm(a)));else
-R(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(g$,hj,this.nm(a)));else
-R(a+hs);for(var
+b=d&&cL(hr);if(this.exists(c))if(b)cM(b,cN(k2,g_,this.nm(c)));else
+S(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cM(b,cN(hu,g_,this.nm(a)));else
+S(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(hf,g_,this.nm(a)));else
+S(a+hy);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cL(hr),c=a==t?t:this.slash(a),e=new
+RegExp(hi+c+mc);if(!this.exists(a))if(b)cM(b,cN(hu,hp,this.nm(a)));else
+S(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(hf,hp,this.nm(a)));else
+S(a+hy);for(var
 d
 in
-this.content)if(d.match(e))if(b)cM(b,cN(mb,hj,this.nm(a)));else
-R(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cM(b,cN(mb,hp,this.nm(a)));else
+S(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==t?t:this.slash(a);if(!this.exists(a))R(a+e9);if(!this.is_dir(a))R(a+hs);var
+f=a==t?t:this.slash(a);if(!this.exists(a))S(a+e9);if(!this.is_dir(a))S(a+hy);var
 g=new
-RegExp(hc+f+mc),d={},c=[];for(var
+RegExp(hi+f+mc),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==t)return true;var
 b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)R(this.nm(a)+lt);if(b.text&&b.binary)R(this.nm(a)+lZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))R(this.nm(a)+" : is a directory");if(b.create&&b.excl)R(this.nm(a)+ls);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)S(this.nm(a)+lt);if(b.text&&b.binary)S(this.nm(a)+lZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))S(this.nm(a)+" : is a directory");if(b.create&&b.excl)S(this.nm(a)+ls);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aB(ao(0));return this.content[a]}else
-A9(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])R(this.nm(c)+ls);if(fv(a))b=new
-aB(a);if(hH(a))b=new
-aB(bY(a));else
+aC(ao(0));return this.content[a]}else
+A7(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])S(this.nm(c)+ls);if(fv(a))b=new
+aC(a);if(hN(a))b=new
+aC(bY(a));else
 if(a
 instanceof
 Array)b=new
-aB(Ay(a));else
+aC(Aw(a));else
 if(typeof
 a==="string")b=new
-aB(mV(a));else
+aC(mU(a));else
 if(a.toString){var
 d=bY(bm(a.toString()));b=new
-aB(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-R(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-H(a){return a0(a)}function
-bH(b,a){return dm(b,a)}function
-At(d){var
+aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+S(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+H(a){return a1(a)}function
+bI(b,a){return dm(b,a)}function
+Ar(d){var
 c=H(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bH(d,a);return b}function
-As(a){if(a.t!=4)fq(a);return a.c}function
-bE(a){this.fs=require("fs");this.fd=a}bE.prototype=new
-mM();bE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){R(a.toString())}};bE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){R(a.toString())}};bE.prototype.write=function(f,b,c,e){var
-a=At(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=bI(d,a);return b}function
+Aq(a){if(a.t!=4)fq(a);return a.c}function
+bF(a){this.fs=require("fs");this.fd=a}bF.prototype=new
+mL();bF.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){S(a.toString())}};bF.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){S(a.toString())}};bF.prototype.write=function(f,b,c,e){var
+a=Ar(b);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){R(a.toString())}return 0};bE.prototype.read=function(g,d,c,f){var
-a=As(d);if(!(a
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){S(a.toString())}return 0};bF.prototype.read=function(g,d,c,f){var
+a=Aq(d);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){R(a.toString())}for(var
-b=0;b<f;b++)cK(d,c+b,e[c+b]);return 0};bE.prototype.read_one=function(c){var
-b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){R(a.toString())}return a[0]};bE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){R(a.toString())}};bE.prototype.constructor=bE;function
-aC(a){this.fs=require("fs");this.root=a}aC.prototype.nm=function(a){return this.root+a};aC.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aC.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){R(a.toString())}};aC.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.open=function(f,c,g){var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){S(a.toString())}for(var
+b=0;b<f;b++)cK(d,c+b,e[c+b]);return 0};bF.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){S(a.toString())}return a[0]};bF.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){S(a.toString())}};bF.prototype.constructor=bF;function
+aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){S(a.toString())}};aD.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bE(d)}catch(a){this.raise_nodejs_error(a,g)}};aC.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aC.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kK);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aC.prototype.raise_nodejs_error=function(a,d){var
-b=cL(hl);if(d&&b){var
+bF(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kK);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=cL(hr);if(d&&b){var
 c=cN(a.code,a.syscall,a.path,a.errno);cM(b,c)}else
-R(a.toString())};aC.prototype.stats_from_js=function(a){var
+S(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aC.prototype.constructor=aC;function
-m3(b){var
-a=hR(b);if(!a)return;return a[0]+bh}var
-fx=m3(d$)||bl("unable to compute caml_root"),dr=[];if(ed())dr.push({path:fx,device:new
-aC(fx)});else
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
+m2(b){var
+a=hX(b);if(!a)return;return a[0]+bh}var
+fx=m2(ea)||bl("unable to compute caml_root"),dr=[];if(ee())dr.push({path:fx,device:new
+aD(fx)});else
 dr.push({path:fx,device:new
 aQ(fx)});dr.push({path:lV,device:new
 aQ(lV)});function
-nj(b){var
-g=AZ(b),b=g.join(bh),f=nd(b),c;for(var
+ni(b){var
+g=AX(b),b=g.join(bh),f=nc(b),c;for(var
 e=0;e<dr.length;e++){var
-a=dr[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ed()){var
-d=m3(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=dr[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ee()){var
+d=m2(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aC(d)};dr.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;R("no device found for "+f)}function
-AD(c,b){var
-a=nj(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
-ne(c,b){var
-c=a(c),b=a(b);return AD(c,b)}function
-AG(){var
+aD(d)};dr.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;S("no device found for "+f)}function
+AB(c,b){var
+a=ni(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
+nd(c,b){var
+c=a(c),b=a(b);return AB(c,b)}function
+AE(){var
 b=v.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ne(b[a].name,b[a].content);v.jsoo_create_file=ne;v.caml_fs_tmp=[];return 0}function
-m2(){return[0]}function
-AI(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(ha);return bm(a>0?mv:"-infinity")}var
+a=0;a<b.length;a++)nd(b[a].name,b[a].content);v.jsoo_create_file=nd;v.caml_fs_tmp=[];return 0}function
+m1(){return[0]}function
+AG(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(hg);return bm(a>0?mu:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?t:bz,e=t;if(i)e=a_;else
+j=d<0?t:bA,e=t;if(i)e=a_;else
 switch(k){case
-43:e=bz;break;case
+43:e=bA;break;case
 32:e=bU;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(cg);if(h<0)b+=cg+dq(c,aP);else{var
+h=b.indexOf(ch);if(h<0)b+=ch+dq(c,aP);else{var
 f=h+1+c;if(b.length<f)b+=dq(f-b.length,aP);else
 b=b.substr(0,f)}}return bm(e+kU+b+"p"+j+d.toString(10))}function
-AP(a){return+a.isZero()}function
-AS(a){return new
-u(a&bW,a>>24&bW,a>>31&bC)}function
-AT(a){return a.toInt()}function
-AO(a){return+a.isNeg()}function
-AR(a){return a.neg()}function
-AM(g,c){var
-a=hI(g);if(a.signedconv&&AO(c)){a.sign=-1;c=AR(c)}var
-b=t,h=AS(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AT(e.modulus))+b}while(!AP(c));if(a.prec>=0){a.filler=bU;var
-d=a.prec-b.length;if(d>0)b=dq(d,aP)+b}return hz(a,b)}function
-A7(c){var
-a=0,e=H(c),b=10,d=1;if(e>0)switch(bH(c,a)){case
+AN(a){return+a.isZero()}function
+AQ(a){return new
+u(a&bW,a>>24&bW,a>>31&bD)}function
+AR(a){return a.toInt()}function
+AM(a){return+a.isNeg()}function
+AP(a){return a.neg()}function
+AK(g,c){var
+a=hO(g);if(a.signedconv&&AM(c)){a.sign=-1;c=AP(c)}var
+b=t,h=AQ(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(AR(e.modulus))+b}while(!AN(c));if(a.prec>=0){a.filler=bU;var
+d=a.prec-b.length;if(d>0)b=dq(d,aP)+b}return hF(a,b)}function
+A5(c){var
+a=0,e=H(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bH(c,a)==48)switch(bH(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bI(c,a)==48)switch(bI(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=H(c),b=10,d=1;if(e>0)switch(bH(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-m$(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mI)return a-87;return-1}function
-hG(f){var
-h=A7(f),c=h[0],i=h[1],d=h[2],g=H(f),j=-1>>>0,e=c<g?bH(f,c):0,b=m$(e);if(b<0||b>=d)bl(fa);var
-a=b;for(c++;c<g;c++){e=bH(f,c);if(e==95)continue;b=m$(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
-AX(d){return function(){var
+m_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mH)return a-87;return-1}function
+hM(f){var
+h=A5(f),c=h[0],i=h[1],d=h[2],g=H(f),j=-1>>>0,e=c<g?bI(f,c):0,b=m_(e);if(b<0||b>=d)bl(fa);var
+a=b;for(c++;c<g;c++){e=bI(f,c);if(e==95)continue;b=m_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
+AV(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
 a=0;a<b;a++)c[a]=arguments[a];return bZ(d,c)}else
 return bZ(d,[undefined])}}function
-A0(a,d){if(a<0)d_();var
+AY(a,d){if(a<0)d$();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-A1(){return 0}var
-bG=new
+AZ(){return 0}var
+bH=new
 Array();function
 dp(c){var
-a=bG[c];if(!a.opened)R("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&ai.fds[a.fd]&&ai.fds[a.fd].output){var
-b=ai.fds[a.fd].output;switch(b.length){case
+a=bH[c];if(!a.opened)S("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
+b=aj.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
-nc(e,f){var
-b=bG[e],d=a(f),c=H(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Be(a){var
-a=hN(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+nb(e,f){var
+b=bH[e],d=a(f),c=H(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Bc(a){var
+a=hT(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Bf(a){var
-a=hN(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Bd(a){var
+a=hT(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fy(c,e,d,a){if(ai.fds===undefined)ai.fds=new
+fy(c,e,d,a){if(aj.fds===undefined)aj.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ai.fds[c]=b;if(!ai.fd_last_idx||c>ai.fd_last_idx)ai.fd_last_idx=c;return c}function
-Bm(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aj.fds[c]=b;if(!aj.fd_last_idx||c>aj.fd_last_idx)aj.fd_last_idx=c;return c}function
+Bk(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,85 +687,85 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)R(b1(c)+lt);if(a.text&&a.binary)R(b1(c)+lZ);var
-d=nj(c),e=d.device.open(d.rest,a),f=ai.fd_last_idx?ai.fd_last_idx:0;return fy(f+1,nc,e,a)}fy(0,nc,new
-aB(ao(0)));fy(1,Bf,new
-aB(ao(0)));fy(2,Be,new
-aB(ao(0)));function
-A2(a){var
-c=ai.fds[a];if(c.flags.wronly)R(mH+a+" is writeonly");var
-d=null;if(a==0&&ed()){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)S(b1(c)+lt);if(a.text&&a.binary)S(b1(c)+lZ);var
+d=ni(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fy(f+1,nb,e,a)}fy(0,nb,new
+aC(ao(0)));fy(1,Bd,new
+aC(ao(0)));fy(2,Bc,new
+aC(ao(0)));function
+A0(a){var
+c=aj.fds[a];if(c.flags.wronly)S(mG+a+" is writeonly");var
+d=null;if(a==0&&ee()){var
 e=require("fs");d=function(){return bm(e.readFileSync(0,kK))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bG[b.fd]=b;return b.fd}function
-m6(c){var
-b=ai.fds[c];if(b.flags.rdonly)R(mH+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bG[a.fd]=a;return a.fd}function
-A3(){var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bH[b.fd]=b;return b.fd}function
+m5(c){var
+b=aj.fds[c];if(b.flags.rdonly)S(mG+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bH[a.fd]=a;return a.fd}function
+A1(){var
 b=0;for(var
-a=0;a<bG.length;a++)if(bG[a]&&bG[a].opened&&bG[a].out)b=[0,bG[a].fd,b];return b}function
-aK(a){return a}function
-A4(g,d,h,f){var
-b=bG[g];if(!b.opened)R("Cannot output to a closed channel");var
-a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);ci(d,h,a,0,f)}var
-i=aK(a),c=b1(i),e=c.lastIndexOf(k5);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dp(g);b.buffer+=c.substr(e+1)}return 0}function
-m7(b,a,d,c){return A4(b,bY(a),d,c)}function
-m8(c,b){var
-d=a(String.fromCharCode(b));m7(c,d,0,1);return 0}function
-ec(a,b){return+(hx(a,b,false)!=0)}function
+a=0;a<bH.length;a++)if(bH[a]&&bH[a].opened&&bH[a].out)b=[0,bH[a].fd,b];return b}function
+aL(a){return a}function
+A2(g,d,h,f){var
+b=bH[g];if(!b.opened)S("Cannot output to a closed channel");var
+a;if(h==0&&a1(d)==f)a=d;else{a=ao(f);cj(d,h,a,0,f)}var
+i=aL(a),c=b1(i),e=c.lastIndexOf(k5);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dp(g);b.buffer+=c.substr(e+1)}return 0}function
+m6(b,a,d,c){return A2(b,bY(a),d,c)}function
+m7(c,b){var
+d=a(String.fromCharCode(b));m6(c,d,0,1);return 0}function
+ed(a,b){return+(hD(a,b,false)!=0)}function
 fw(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
 if(fv(a))return fn;else
-if(hH(a))return fn;else
+if(hN(a))return fn;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
 if(a&&a.caml_custom)return k_;else
-return d6}function
-a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);ai[b+1]=c;if(a)ai[a]=c}function
-hK(a,b){m_[b1(a)]=b;return 0}function
-Aw(a,b){if(a===b)return 1;a.t&6&&dn(a);b.t&6&&dn(b);return a.c==b.c?1:0}function
-aw(a,b){return Aw(a,b)}function
-Ba(){av(hq)}function
-S(b,a){if(a>>>0>=H(b))Ba();return bH(b,a)}function
-k(a,b){return 1-aw(a,b)}function
-Bc(){return 0x7FFFFFFF/4|0}function
-hM(a){var
+return d7}function
+a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
+hQ(a,b){m9[b1(a)]=b;return 0}function
+Au(a,b){if(a===b)return 1;a.t&6&&dn(a);b.t&6&&dn(b);return a.c==b.c?1:0}function
+aw(a,b){return Au(a,b)}function
+A_(){av(hw)}function
+T(b,a){if(a>>>0>=H(b))A_();return bI(b,a)}function
+l(a,b){return 1-aw(a,b)}function
+Ba(){return 0x7FFFFFFF/4|0}function
+hS(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aD(b,a){return{joo_tramp:b,joo_args:a}}function
-nb(a){return a}function
+aE(b,a){return{joo_tramp:b,joo_args:a}}function
+na(a){return a}function
 fz(a){if(a
 instanceof
 Array)return a;if(v.RangeError&&a
 instanceof
-v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nb(ai.Stack_overflow);if(v.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return na(aj.Stack_overflow);if(v.InternalError&&a
 instanceof
-v.InternalError&&a.message&&a.message.match(/too much recursion/i))return nb(ai.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return na(aj.Stack_overflow);if(a
 instanceof
-v.Error&&cL(g9))return[0,cL(g9),a];return[0,ai.Failure,bm(String(a))]}function
+v.Error&&cL(hd))return[0,cL(hd),a];return[0,aj.Failure,bm(String(a))]}function
 fA(a){return a<0?-a:a}function
 C(a,b){return a+b}function
-hO(a,b){return a<b?-1:a>b?1:0}function
-ng(c,b){var
+hU(a,b){return a<b?-1:a>b?1:0}function
+nf(c,b){var
 a=c%b;return a<0?a+fA(b):a}function
-hP(a,b){return(a-ng(a,b))/b}function
+hV(a,b){return(a-nf(a,b))/b}function
 al(a,b){return a==b?1:0}function
 D(a,b){return a<=b?1:0}function
-aa(a,b){return a<b?1:0}function
+ac(a,b){return a<b?1:0}function
 r(a,b){return a*b}function
 Y(a){return-a}function
-a1(a){return v.BigInt(a)}function
-nh(a,b){return a<<v.BigInt(b)}function
-ni(a,b){return a>>v.BigInt(b)}function
-bI(a){return a<0?-1:a>0?1:0}function
-Bk(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+a2(a){return v.BigInt(a)}function
+ng(a,b){return a<<v.BigInt(b)}function
+nh(a,b){return a>>v.BigInt(b)}function
+bJ(a){return a<0?-1:a>0?1:0}function
+Bi(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
 d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 b2(a,b){return a-b}function
-hQ(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
-AW(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-AF(b){var
-a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AW(b[1]))var
+hW(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+AU(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+AD(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AU(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=mf;for(var
@@ -774,130 +774,130 @@ c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bD)a+=au+c.toString()+au;else
+bE)a+=au+c.toString()+au;else
 if(typeof
 c=="string")a+=au+c.toString()+au;else
-a+=lL}a+=hb}else
+a+=lL}a+=hh}else
 if(b[0]==at)a+=b[1];return a}function
-m1(a){if(a
+m0(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==at)){var
 c=cL(k1);if(c)c(a,false);else{var
-d=AF(a),b=cL(kJ);if(b)b(0);v.console.error(hh+d+k5)}}else
+d=AD(a),b=cL(kJ);if(b)b(0);v.console.error(hn+d+k5)}}else
 throw a}function
-A$(){var
-a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m1(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m1(a.error)})}A$();function
+A9(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m0(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m0(a.error)})}A9();function
 e(a,b){return a.length==1?a(b):bZ(a,[b])}function
-O(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
-g3(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bZ(a,[b,c,d,e,f])}function
-Ar(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}AG();var
-fB=[at,a(mz),-1],hW=[at,a(k3),-2],hT=[at,a(g8),-3],hS=[at,a(lH),-4],hU=[at,a(li),-8],hV=[at,a(lW),-9],ac=[at,a(mk),-11],hX=[at,a(kI),-12],zt=[4,0,0,0,[12,45,[4,0,0,0,0]]],fH=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lo),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zu=[0,[0,0]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,0],zx=[0,[0,[0,[0,0]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,0]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,0]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,0],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,0]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,0],Aq=[0,[0,[0,[0,[0,0]]]]],ct=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,hX,kI);a$(10,ac,mk);a$(9,[at,a(lB),-10],lB);a$(8,hV,lW);a$(7,hU,li);a$(6,[at,a(lT),-7],lT);a$(5,[at,a(l$),-6],l$);a$(4,[at,a(k7),-5],k7);a$(3,hS,lH);a$(2,hT,g8);a$(1,hW,k3);a$(0,fB,mz);var
-no=a("%.12g"),nn=a(cg),nl=a("true"),nm=a("false"),np=a("\\\\"),nq=a("\\'"),nr=a("\\b"),ns=a("\\t"),nt=a("\\n"),nu=a("\\r"),nx=a("String.blit / Bytes.blit_string"),nw=a("Bytes.blit"),nv=a("String.sub / Bytes.sub"),nz=a(t),ny=a("String.concat"),nA=a("Array.init"),nD=a("Buffer.add: cannot grow buffer"),nC=[0,a(l7),93,2],nB=[0,a(l7),94,2],nM=a("%c"),nN=a("%s"),nO=a(kG),nP=a(lg),nQ=a(lD),nR=a(kQ),nS=a("%f"),nT=a("%B"),nU=a("%{"),nV=a("%}"),nW=a("%("),nX=a("%)"),nY=a("%a"),nZ=a("%t"),n0=a("%?"),n1=a("%r"),n2=a("%_r"),n3=[0,a(as),850,23],oc=[0,a(as),814,21],n6=[0,a(as),815,21],od=[0,a(as),818,21],n7=[0,a(as),819,21],oe=[0,a(as),822,19],n8=[0,a(as),823,19],of=[0,a(as),826,22],n9=[0,a(as),827,22],og=[0,a(as),831,30],n_=[0,a(as),832,30],oa=[0,a(as),836,26],n4=[0,a(as),837,26],ob=[0,a(as),846,28],n5=[0,a(as),847,28],n$=[0,a(as),851,23],pj=a(ly),ph=[0,a(as),1558,4],pi=a("Printf: bad conversion %["),pk=[0,a(as),1626,39],pl=[0,a(as),1649,31],pm=[0,a(as),1650,31],pn=a("Printf: bad conversion %_"),po=a(lu),pp=a(lG),pq=a(lu),pr=a(lG),pf=a(ha),pd=a("neg_infinity"),pe=a(mv),pc=a(cg),o9=[0,kZ],oX=a("%+nd"),oY=a("% nd"),o0=a("%+ni"),o1=a("% ni"),o2=a("%nx"),o3=a("%#nx"),o4=a("%nX"),o5=a("%#nX"),o6=a("%no"),o7=a("%#no"),oW=a("%nd"),oZ=a(lD),o8=a("%nu"),oK=a("%+ld"),oL=a("% ld"),oN=a("%+li"),oO=a("% li"),oP=a("%lx"),oQ=a("%#lx"),oR=a("%lX"),oS=a("%#lX"),oT=a("%lo"),oU=a("%#lo"),oJ=a("%ld"),oM=a(lg),oV=a("%lu"),ox=a("%+Ld"),oy=a("% Ld"),oA=a("%+Li"),oB=a("% Li"),oC=a("%Lx"),oD=a("%#Lx"),oE=a("%LX"),oF=a("%#LX"),oG=a("%Lo"),oH=a("%#Lo"),ow=a("%Ld"),oz=a(kQ),oI=a("%Lu"),ok=a("%+d"),ol=a("% d"),on=a("%+i"),oo=a("% i"),op=a("%x"),oq=a("%#x"),or=a("%X"),os=a("%#X"),ot=a("%o"),ou=a("%#o"),oj=a(hm),om=a(kG),ov=a(ly),nE=a("@]"),nF=a("@}"),nG=a("@?"),nH=a("@\n"),nI=a("@."),nJ=a("@@"),nK=a("@%"),nL=a("@"),oh=a("CamlinternalFormat.Type_mismatch"),pv=a(t),pw=[0,[11,a(kN),[2,0,[2,0,0]]],a(", %s%s")],pV=[0,[11,a(hh),[2,0,[12,10,0]]],a(mh)],pW=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pU=a("Fatal error: out of memory in uncaught exception handler"),pS=[0,[11,a(hh),[2,0,[12,10,0]]],a(mh)],pO=[0,[2,0,[12,10,0]],a("%s\n")],pG=a("Raised at"),pH=a("Re-raised at"),pI=a("Raised by primitive operation at"),pJ=a("Called from"),pK=a(" (inlined)"),pM=a(t),pL=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lo),zt]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pN=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pB=a("Out of memory"),pC=a("Stack overflow"),pD=a("Pattern matching failed"),pE=a("Assertion failed"),pF=a("Undefined recursive module"),px=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],py=a(t),pz=a(t),pA=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pu=[0,[4,0,0,0,0],a(hm)],ps=[0,[3,0,0],a("%S")],pt=a(lL),pP=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pY=a("Jsoo_runtime.Error.Exn"),p0=a("power"),p_=[0,0],p$=[0,[0,0]],qa=[0,[0,0]],qh=[0,0],qo=[0,0,0],qp=[0,0,0],qq=[0,0],qr=[0,0],qI=[0,0],qK=[0,0],qW=[0,0],qX=[0,0],rg=[0,[0,[0,0]]],rs=a(","),rK=[0,a(hb),0],rL=a(mf),rM=a(cg),rN=[0,[0,[0,0]]],rO=a(a_),rP=a(hc),rQ=[0,[0,[0,[0,[0,0]]]]],rR=[0,a(hb),0],rS=a(mL),uc=a(kH),ue=a(lJ),ud=a(mm),uf=a(fd),ug=a(lF),uh=a(mE),ui=a(l6),uX=[0,a(lh),7932,12],u$=a(hi),va=[0,0],vb=a("divided"),vc=[0,1],vd=a("mirror"),ve=[0,3],vf=a("negative"),vg=[0,2],vh=a(hu),vi=[0,4],vj=a(fb),vk=a(lX),vl=a(fm),vm=a(cJ),vn=[0,0],vo=[0,0],vp=[0,0],vJ=a(t),vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,0]]]],vH=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],vB=[0,0],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vq=[0,0],u6=[0,[0,0]],u7=[0,0],u5=[0,0],u4=[0,0],u3=[0,0,0],u1=[0,0,0],u0=[0,0],uR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],uQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],uT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],uU=a("sqrt"),uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],uA=[0,a("\n"),0],uB=a(lK),uC=a(e$),uD=a(la),uE=a(l9),uF=a("certified"),uK=a("refuted"),uG=a("verdict"),uH=a(lr),uI=a(l4),uJ=a(mj),us=a(my),ut=a(fc),uu=a(k9),uv=a(fe),uw=a(bk),ux=a(lM),uy=a(fc),uz=a(mC),uo=a(ms),up=a(fe),uq=a(l3),ur=a(mF),uk=a(mD),ul=a(md),um=a(fl),ua=a(hk),ub=a(he),tQ=a(fl),tv=a(bk),tw=a(bV),tx=a(dk),ty=a(e_),tz=a(dj),tA=a(bk),tB=a(bV),tC=a(hr),tD=a(bB),tE=a(bA),tF=a(cI),tG=a(dk),tH=a(mu),tI=a(mA),tJ=a(dj),tK=a(bk),tL=a(bV),tM=a(bB),tN=a(bA),tO=a(cI),tP=a(dk),tR=a(ln),tS=a(lv),tT=a(mK),tU=a(lY),tV=a(kT),tW=a(dj),tX=a(bk),tY=a(bV),tZ=a(fg),t0=a(l8),t1=a(dk),t2=a(d8),t3=a(lP),t4=a(dj),t5=a(bk),t6=a(fg),t7=a(bk),t8=a(lj),t$=a(lI),t9=a(kS),t_=a(lz),tp=a(bV),tq=a(hv),tr=a(dk),ts=a(e_),tt=a(dj),td=a(d8),te=a(mB),tf=a(dg),tg=a(dh),th=a(dh),ti=a(g5),tj=a(dg),tk=a(ml),tl=a(l5),tm=a(bi),to=a(lO),tn=a(g5),s5=a(k8),s6=a(lE),s7=a(kV),s8=a(l1),s9=a(lx),s_=a(lp),s$=a(l_),ta=a(fh),tb=a(fh),s1=a(bi),s2=a(ce),s3=a(ff),s4=a(cf),sX=a(d5),sY=a(hp),sZ=a(mq),sQ=a(bB),sR=a(bA),sS=a(cI),sT=a(lb),sU=a(dg),sV=a(k6),sW=a(mx),sG=a(ma),sH=a(kR),sM=a(e$),sI=a(l2),sJ=a(g6),sN=a(kP),sO=a(ll),sP=a(g6),sK=a(dh),sL=a(mn),sD=a(bA),sE=a(bB),sF=a(lw),ss=a(kM),st=a(lN),su=a(mt),sv=a(fd),sw=a(mJ),sx=a(mw),sy=a(lS),sz=a(mp),sA=a(kL),sB=a(k0),sC=a(lR),sh=a(bz),sr=a(a_),si=a(fj),sj=a(fi),sk=a(fp),sl=a(bi),sm=a(ce),sn=a(le),so=a(lk),sp=a(fp),sq=a(cf),r1=a(bz),r9=a(a_),r2=a(fj),r3=a(fi),r4=a(bi),r5=a(ce),r6=a(cJ),r7=a(lA),r8=a(cf),r_=a(hf),r$=a(bi),sa=a(ce),sb=a(ff),sc=a(cf),sd=a(cJ),se=a(d5),sf=a(cf),rY=a(bB),rZ=a(bA),rW=[0,a(au),0],rX=a(au),rU=[0,a(lh),7226,36],rT=[0,a(au),0],rV=a(au),rG=a(bz),rH=a(a_),rI=a("*"),rJ=a(bh),rB=[0,[0,[0,[0,[0,0]]]]],rC=[0,[0,[0,0]]],rD=[0,[0,0]],rE=[0,0],rF=[0,[0,[0,[0,0]]]],rz=a('":'),rA=a(au),rx=[0,a(au),0],ry=a(au),rv=[0,a("}"),0],rw=a("{"),rt=[0,a("]"),0],ru=a("["),rr=[0,[0,[0,0]]],rq=[0,[0,[0,0]]],ro=[0,0],rl=[0,[0,[0,0]]],rm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rn=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rj=[0,[0,0]],rk=[0,[0,[0,0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],rd=[0,[0,0]],ra=[0,0],q8=[0,[0,0]],q9=[0,0],q_=[0,0],q$=[0,[0,0]],qZ=[0,[0,0]],q0=[0,0],q1=[0,[0,0]],q2=[0,0],q3=[0,0],q4=[0,[0,0]],q5=[0,[0,0]],q6=[0,[0,0]],q7=[0,0],qV=[0,0],qT=[0,[0,[0,0]]],qS=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,0],qQ=[0,[0,[0,[0,[0,[0,0]]]]]],qR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],qN=[0,[0,[0,0]]],qH=[0,[0,[0,0]]],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,0]],qC=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,[0,0]]],qy=[0,[0,[0,[0,[0,[0,0]]]]]],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qs=[0,[0,0]],qt=[0,0],qi=[0,0,0],qd=[0,0],qe=[0,[0,0]],qf=[0,0],qg=[0,[0,0]],qb=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],p9=a(aP),p8=a(t),p7=[0,[0,0]],p6=[0,0],p5=[1,0],p4=[0,0],p3=[0,0],p1=[1,0],p2=[1,0],xX=a(cf),xY=a(hf),xZ=a(ff),x2=a(bi),x3=a(ce),x0=[0,a('" of such a platform'),0],x1=a(kO),xJ=a("rho"),xK=a(fl),xL=[0,a("a joint by its coordinate"),0],xk=a(bV),w$=a(bk),xa=a(lj),xb=a(lz),xe=a(kS),xf=a(lI),xg=a(bk),xh=a(bk),xj=a(fg),xi=[0,a("a claim that no cube of such a machine fits"),0],xl=a(dj),xm=a(dk),xn=a(e_),xo=a(hv),yk=[0,a("such a machine with bodies"),0],xp=a(d5),xq=a(hp),xr=a(mq),xs=a(hr),xt=a(kT),xu=a(lP),xv=a(e_),xy=a(cI),xz=a(mx),xC=a(hv),xD=[0,a("a machine with arms and bodies"),0],xE=a(bV),xF=a(l8),xG=a(fg),xH=a(d8),xI=a(cI),xM=a(bV),xN=a(bB),xO=a(bA),xP=a(ln),xQ=a(lv),xR=a(mK),xS=a(lY),xw=[0,a(au),0],xx=a(lC),xT=a(cI),xU=[0,a('" of a platform that turns'),0],xV=a(lq),xW=a(mu),yi=[0,a('" that does not turn'),0],yj=a(lC),x4=a(hr),x5=a(lp),x6=a(k8),x7=a(lx),x8=a(fh),x9=a(l_),x_=a(fh),yf=a(lE),yg=a(kV),yh=a(l1),x$=a(d5),ya=a(hp),yb=a(bV),yc=a(bB),yd=a(bA),ye=a(mA),xA=[0,a(au),0],xB=a(lq),xc=[0,a(au),0],xd=a('a claim of the kind "'),yn=a(fd),yo=a(l6),yp=a(mm),yq=a(cJ),yr=a(lF),ys=a(fb),yt=a(lX),yu=a(fm),yz=a(he),yA=a(hk),yB=a(cJ),yv=[0,a(au),0],yw=a('the evidence "'),yx=a(he),yy=a(hk),yC=a(fb),yD=a(fm),yE=a(mE),yG=a(fb),yH=a(fm),yI=a(hi),yJ=a(hi),yF=[0,a("this evidence at control points"),0],y9=a(mj),y_=a(l4),y$=a(lr),zm=[0,3,3],za=a(l9),zb=[0,a("the acceleration of a joint of a machine with a plane"),0],zi=[0,a('the drive "arm" in a claim that is certified'),0],zj=[0,a("a step of a platform that turns that is not at control points"),0],zk=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zl=[0,a("a mechanism by formulas in a claim that is refuted"),0],zh=[0,a("this quantity in a claim that is refuted"),0],zf=[0,a("a leaf that fails"),0],zg=[0,a("a step in a proof that no cube fits"),0],zc=a(la),zd=a(lK),ze=a(e$),y7=a(hu),yV=a(k9),yW=a(mC),yZ=a(bk),y0=a(fe),y1=a(lM),y2=a(fc),y3=a(my),y4=a(fc),yX=[0,a(au),0],yY=a('a proof of the kind "'),yR=a(ms),yS=a(fe),yT=a(l3),yU=a(mF),yM=a(md),yN=a(mD),yO=a(fl),yP=[0,a(au),0],yQ=a('the failure "'),yK=a(hu),yL=a(aP),yl=a(lJ),ym=a(kH),w8=a(d8),wY=a(g5),wZ=a(lO),w0=a(dh),w1=a(bi),w6=a(mB),w7=a(d8),w9=a(dg),w_=a(dh),w2=a(dg),w3=a(ml),w4=a(l5),w5=a(bi),wR=a(cI),wV=a(bB),wW=a(bA),wS=a(k6),wT=a(lb),wU=a(dg),wP=[0,a(mi),0],wO=[0,a(mi),0],wC=a(l2),wD=[0,a("a stiffness for each joint"),0],wE=a(ll),wF=a(kP),wB=a(e$),wu=a(ma),wl=a(mn),wm=a(lN),wI=a(k0),wJ=a(fd),wK=a(mp),wL=a(lR),wM=a(kL),wn=a(mt),wo=a(mw),wp=a(mJ),wq=a(lS),wr=a(kM),ws=[0,a(au),0],wt=a('the quantity "'),wv=a(kR),ww=a(bB),wx=a(bA),wy=a(lw),wz=[0,a(au),0],wA=a('a bound "'),wG=a(g6),wH=a(dh),we=a(fj),wf=a(fi),wg=a(fp),wh=a(bi),wi=a(ce),wj=a(le),wk=a(lk),wb=a(cf),wc=a(fp),vY=a(cf),vZ=a(d5),v0=a(lA),v1=a(ff),v4=a(hf),v5=a(bi),v6=a(ce),v7=a(fj),v8=a(fi),v9=a(bi),v_=a(ce),v$=a(cJ),wa=a(cJ),v2=[0,a(au),0],v3=a(kO),vV=a(bz),vW=a(a_),vT=a(" is not covered by the verified checker"),vU=a(t),vR=a(bB),vS=a(bA),vN=a(t),vO=a(mL),vP=a(t),vQ=a(t),vM=[1,0],vK=a("Reader.Malformed"),vL=a("Reader.Not_covered"),zo=a(lf),zp=a("CERTIFIED"),zq=a("REFUTED"),zr=a(lf),zs=a("NOT COVERED: ");function
-ag(a){if(typeof
+P(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
+g9(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bZ(a,[b,c,d,e,f])}function
+Ap(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}AE();var
+fB=[at,a(my),-1],h2=[at,a(k3),-2],hZ=[at,a(hc),-3],hY=[at,a(lH),-4],h0=[at,a(li),-8],h1=[at,a(lW),-9],ae=[at,a(mj),-11],h3=[at,a(kI),-12],zr=[4,0,0,0,[12,45,[4,0,0,0,0]]],fH=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lo),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zs=[0,[0,0]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,0],zv=[0,[0,[0,[0,0]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,0]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,0]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,0]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,0],Ao=[0,[0,[0,[0,[0,0]]]]],cu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,h3,kI);a$(10,ae,mj);a$(9,[at,a(lB),-10],lB);a$(8,h1,lW);a$(7,h0,li);a$(6,[at,a(lT),-7],lT);a$(5,[at,a(l$),-6],l$);a$(4,[at,a(k7),-5],k7);a$(3,hY,lH);a$(2,hZ,hc);a$(1,h2,k3);a$(0,fB,my);var
+nn=a("%.12g"),nm=a(ch),nk=a("true"),nl=a("false"),no=a("\\\\"),np=a("\\'"),nq=a("\\b"),nr=a("\\t"),ns=a("\\n"),nt=a("\\r"),nw=a("String.blit / Bytes.blit_string"),nv=a("Bytes.blit"),nu=a("String.sub / Bytes.sub"),ny=a(t),nx=a("String.concat"),nz=a("Array.init"),nC=a("Buffer.add: cannot grow buffer"),nB=[0,a(l7),93,2],nA=[0,a(l7),94,2],nL=a("%c"),nM=a("%s"),nN=a(kG),nO=a(lg),nP=a(lD),nQ=a(kQ),nR=a("%f"),nS=a("%B"),nT=a("%{"),nU=a("%}"),nV=a("%("),nW=a("%)"),nX=a("%a"),nY=a("%t"),nZ=a("%?"),n0=a("%r"),n1=a("%_r"),n2=[0,a(as),850,23],ob=[0,a(as),814,21],n5=[0,a(as),815,21],oc=[0,a(as),818,21],n6=[0,a(as),819,21],od=[0,a(as),822,19],n7=[0,a(as),823,19],oe=[0,a(as),826,22],n8=[0,a(as),827,22],of=[0,a(as),831,30],n9=[0,a(as),832,30],n$=[0,a(as),836,26],n3=[0,a(as),837,26],oa=[0,a(as),846,28],n4=[0,a(as),847,28],n_=[0,a(as),851,23],pi=a(ly),pg=[0,a(as),1558,4],ph=a("Printf: bad conversion %["),pj=[0,a(as),1626,39],pk=[0,a(as),1649,31],pl=[0,a(as),1650,31],pm=a("Printf: bad conversion %_"),pn=a(lu),po=a(lG),pp=a(lu),pq=a(lG),pe=a(hg),pc=a("neg_infinity"),pd=a(mu),pb=a(ch),o8=[0,kZ],oW=a("%+nd"),oX=a("% nd"),oZ=a("%+ni"),o0=a("% ni"),o1=a("%nx"),o2=a("%#nx"),o3=a("%nX"),o4=a("%#nX"),o5=a("%no"),o6=a("%#no"),oV=a("%nd"),oY=a(lD),o7=a("%nu"),oJ=a("%+ld"),oK=a("% ld"),oM=a("%+li"),oN=a("% li"),oO=a("%lx"),oP=a("%#lx"),oQ=a("%lX"),oR=a("%#lX"),oS=a("%lo"),oT=a("%#lo"),oI=a("%ld"),oL=a(lg),oU=a("%lu"),ow=a("%+Ld"),ox=a("% Ld"),oz=a("%+Li"),oA=a("% Li"),oB=a("%Lx"),oC=a("%#Lx"),oD=a("%LX"),oE=a("%#LX"),oF=a("%Lo"),oG=a("%#Lo"),ov=a("%Ld"),oy=a(kQ),oH=a("%Lu"),oj=a("%+d"),ok=a("% d"),om=a("%+i"),on=a("% i"),oo=a("%x"),op=a("%#x"),oq=a("%X"),or=a("%#X"),os=a("%o"),ot=a("%#o"),oi=a(hs),ol=a(kG),ou=a(ly),nD=a("@]"),nE=a("@}"),nF=a("@?"),nG=a("@\n"),nH=a("@."),nI=a("@@"),nJ=a("@%"),nK=a("@"),og=a("CamlinternalFormat.Type_mismatch"),pu=a(t),pv=[0,[11,a(kN),[2,0,[2,0,0]]],a(", %s%s")],pU=[0,[11,a(hn),[2,0,[12,10,0]]],a(mh)],pV=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pT=a("Fatal error: out of memory in uncaught exception handler"),pR=[0,[11,a(hn),[2,0,[12,10,0]]],a(mh)],pN=[0,[2,0,[12,10,0]],a("%s\n")],pF=a("Raised at"),pG=a("Re-raised at"),pH=a("Raised by primitive operation at"),pI=a("Called from"),pJ=a(" (inlined)"),pL=a(t),pK=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lo),zr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pM=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pA=a("Out of memory"),pB=a("Stack overflow"),pC=a("Pattern matching failed"),pD=a("Assertion failed"),pE=a("Undefined recursive module"),pw=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],px=a(t),py=a(t),pz=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pt=[0,[4,0,0,0,0],a(hs)],pr=[0,[3,0,0],a("%S")],ps=a(lL),pO=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pX=a("Jsoo_runtime.Error.Exn"),pZ=a("power"),p9=[0,0],p_=[0,[0,0]],p$=[0,[0,0]],qg=[0,0],qn=[0,0,0],qo=[0,0,0],qp=[0,0],qq=[0,0],qH=[0,0],qJ=[0,0],qV=[0,0],qW=[0,0],rf=[0,[0,[0,0]]],rr=a(","),rJ=[0,a(hh),0],rK=a(mf),rL=a(ch),rM=[0,[0,[0,0]]],rN=a(a_),rO=a(hi),rP=[0,[0,[0,[0,[0,0]]]]],rQ=[0,a(hh),0],rR=a(mK),ub=a(kH),ud=a(lJ),uc=a(ml),ue=a(fd),uf=a(lF),ug=a(mD),uh=a(l6),uW=[0,a(lh),7971,12],u$=a(ho),va=[0,0],vb=a("divided"),vc=[0,1],vd=a("mirror"),ve=[0,3],vf=a("negative"),vg=[0,2],vh=a(hA),vi=[0,4],vj=a(fb),vk=a(lX),vl=a(fm),vm=a(cJ),vn=[0,0],vo=[0,0],vp=[0,0],vJ=a(t),vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,0]]]],vH=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],vB=[0,0],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vq=[0,0],u6=[0,[0,0]],u7=[0,0],u5=[0,0],u4=[0,0],u3=[0,0,0],u1=[0,0,0],u0=[0,[0,[0,0]]],uZ=[0,0],uQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],uR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],uT=a("sqrt"),uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],uz=[0,a("\n"),0],uA=a(lK),uB=a(e$),uC=a(la),uD=a(l9),uE=a("certified"),uJ=a("refuted"),uF=a("verdict"),uG=a(lr),uH=a(l4),uI=a(mi),ur=a(mx),us=a(fc),ut=a(k9),uu=a(fe),uv=a(bk),uw=a(lM),ux=a(fc),uy=a(mB),un=a(mr),uo=a(fe),up=a(l3),uq=a(mE),uj=a(mC),uk=a(md),ul=a(fl),t$=a(hq),ua=a(hk),tP=a(fl),tu=a(bk),tv=a(bV),tw=a(dk),tx=a(e_),ty=a(dj),tz=a(bk),tA=a(bV),tB=a(hx),tC=a(bC),tD=a(bB),tE=a(cI),tF=a(dk),tG=a(mt),tH=a(mz),tI=a(dj),tJ=a(bk),tK=a(bV),tL=a(bC),tM=a(bB),tN=a(cI),tO=a(dk),tQ=a(ln),tR=a(lv),tS=a(mJ),tT=a(lY),tU=a(kT),tV=a(dj),tW=a(bk),tX=a(bV),tY=a(fg),tZ=a(l8),t0=a(dk),t1=a(d9),t2=a(lP),t3=a(dj),t4=a(bk),t5=a(fg),t6=a(bk),t7=a(lj),t_=a(lI),t8=a(kS),t9=a(lz),to=a(bV),tp=a(hB),tq=a(dk),tr=a(e_),ts=a(dj),tc=a(d9),td=a(mA),te=a(dg),tf=a(dh),tg=a(dh),th=a(g$),ti=a(dg),tj=a(mk),tk=a(l5),tl=a(bi),tn=a(lO),tm=a(g$),s4=a(k8),s5=a(lE),s6=a(kV),s7=a(l1),s8=a(lx),s9=a(lp),s_=a(l_),s$=a(fh),ta=a(fh),s0=a(bi),s1=a(cf),s2=a(ff),s3=a(cg),sW=a(d6),sX=a(hv),sY=a(mp),sP=a(bC),sQ=a(bB),sR=a(cI),sS=a(lb),sT=a(dg),sU=a(k6),sV=a(mw),sF=a(ma),sG=a(kR),sL=a(e$),sH=a(l2),sI=a(ha),sM=a(kP),sN=a(ll),sO=a(ha),sJ=a(dh),sK=a(mm),sC=a(bB),sD=a(bC),sE=a(lw),sr=a(kM),ss=a(lN),st=a(ms),su=a(fd),sv=a(mI),sw=a(mv),sx=a(lS),sy=a(mo),sz=a(kL),sA=a(k0),sB=a(lR),sg=a(bA),sq=a(a_),sh=a(fj),si=a(fi),sj=a(fp),sk=a(bi),sl=a(cf),sm=a(le),sn=a(lk),so=a(fp),sp=a(cg),r0=a(bA),r8=a(a_),r1=a(fj),r2=a(fi),r3=a(bi),r4=a(cf),r5=a(cJ),r6=a(lA),r7=a(cg),r9=a(hl),r_=a(bi),r$=a(cf),sa=a(ff),sb=a(cg),sc=a(cJ),sd=a(d6),se=a(cg),rX=a(bC),rY=a(bB),rV=[0,a(au),0],rW=a(au),rT=[0,a(lh),7265,36],rS=[0,a(au),0],rU=a(au),rF=a(bA),rG=a(a_),rH=a("*"),rI=a(bh),rA=[0,[0,[0,[0,[0,0]]]]],rB=[0,[0,[0,0]]],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,[0,[0,0]]]],ry=a('":'),rz=a(au),rw=[0,a(au),0],rx=a(au),ru=[0,a("}"),0],rv=a("{"),rs=[0,a("]"),0],rt=a("["),rq=[0,[0,[0,0]]],rp=[0,[0,[0,0]]],rn=[0,0],rk=[0,[0,[0,0]]],rl=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,0]],rj=[0,[0,[0,0]]],rd=[0,[0,0]],re=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],rc=[0,[0,0]],q$=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,0],q_=[0,[0,0]],qY=[0,[0,0]],qZ=[0,0],q0=[0,[0,0]],q1=[0,0],q2=[0,0],q3=[0,[0,0]],q4=[0,[0,0]],q5=[0,[0,0]],q6=[0,0],qU=[0,0],qS=[0,[0,[0,0]]],qR=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,0],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],qM=[0,[0,[0,0]]],qG=[0,[0,[0,0]]],qE=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qA=[0,[0,0]],qB=[0,0],qC=[0,[0,[0,0]]],qD=[0,[0,[0,0]]],qt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,[0,[0,[0,[0,0]]]]]],qy=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qr=[0,[0,0]],qs=[0,0],qh=[0,0,0],qc=[0,0],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,0]],qa=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],p8=a(aP),p7=a(t),p6=[0,[0,0]],p5=[0,0],p4=[1,0],p3=[0,0],p2=[0,0],p0=[1,0],p1=[1,0],xV=a(cg),xW=a(hl),xX=a(ff),x0=a(bi),x1=a(cf),xY=[0,a('" of such a platform'),0],xZ=a(kO),xH=a("rho"),xI=a(fl),xJ=[0,a("a joint by its coordinate"),0],xi=a(bV),w9=a(bk),w_=a(lj),w$=a(lz),xc=a(kS),xd=a(lI),xe=a(bk),xf=a(bk),xh=a(fg),xg=[0,a("a claim that no cube of such a machine fits"),0],xj=a(dj),xk=a(dk),xl=a(e_),xm=a(hB),yi=[0,a("such a machine with bodies"),0],xn=a(d6),xo=a(hv),xp=a(mp),xq=a(hx),xr=a(kT),xs=a(lP),xt=a(e_),xw=a(cI),xx=a(mw),xA=a(hB),xB=[0,a("a machine with arms and bodies"),0],xC=a(bV),xD=a(l8),xE=a(fg),xF=a(d9),xG=a(cI),xK=a(bV),xL=a(bC),xM=a(bB),xN=a(ln),xO=a(lv),xP=a(mJ),xQ=a(lY),xu=[0,a(au),0],xv=a(lC),xR=a(cI),xS=[0,a('" of a platform that turns'),0],xT=a(lq),xU=a(mt),yg=[0,a('" that does not turn'),0],yh=a(lC),x2=a(hx),x3=a(lp),x4=a(k8),x5=a(lx),x6=a(fh),x7=a(l_),x8=a(fh),yd=a(lE),ye=a(kV),yf=a(l1),x9=a(d6),x_=a(hv),x$=a(bV),ya=a(bC),yb=a(bB),yc=a(mz),xy=[0,a(au),0],xz=a(lq),xa=[0,a(au),0],xb=a('a claim of the kind "'),yl=a(fd),ym=a(l6),yn=a(ml),yo=a(cJ),yp=a(lF),yq=a(fb),yr=a(lX),ys=a(fm),yx=a(hk),yy=a(hq),yz=a(cJ),yt=[0,a(au),0],yu=a('the evidence "'),yv=a(hk),yw=a(hq),yA=a(fb),yB=a(fm),yC=a(mD),yE=a(fb),yF=a(fm),yG=a(ho),yH=a(ho),yD=[0,a("this evidence at control points"),0],y7=a(mi),y8=a(l4),y9=a(lr),zk=[0,3,3],y_=a(l9),y$=[0,a("the acceleration of a joint of a machine with a plane"),0],zg=[0,a('the drive "arm" in a claim that is certified'),0],zh=[0,a("a step of a platform that turns that is not at control points"),0],zi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zj=[0,a("a mechanism by formulas in a claim that is refuted"),0],zf=[0,a("this quantity in a claim that is refuted"),0],zd=[0,a("a leaf that fails"),0],ze=[0,a("a step in a proof that no cube fits"),0],za=a(la),zb=a(lK),zc=a(e$),y5=a(hA),yT=a(k9),yU=a(mB),yX=a(bk),yY=a(fe),yZ=a(lM),y0=a(fc),y1=a(mx),y2=a(fc),yV=[0,a(au),0],yW=a('a proof of the kind "'),yP=a(mr),yQ=a(fe),yR=a(l3),yS=a(mE),yK=a(md),yL=a(mC),yM=a(fl),yN=[0,a(au),0],yO=a('the failure "'),yI=a(hA),yJ=a(aP),yj=a(lJ),yk=a(kH),w6=a(d9),wW=a(g$),wX=a(lO),wY=a(dh),wZ=a(bi),w4=a(mA),w5=a(d9),w7=a(dg),w8=a(dh),w0=a(dg),w1=a(mk),w2=a(l5),w3=a(bi),wP=a(cI),wT=a(bC),wU=a(bB),wQ=a(k6),wR=a(lb),wS=a(dg),wN=[0,a("this quantity of such a mechanism"),0],wC=a(l2),wD=[0,a("a stiffness for each joint"),0],wE=a(ll),wF=a(kP),wB=a(e$),wu=a(ma),wl=a(mm),wm=a(lN),wI=a(k0),wJ=a(fd),wK=a(mo),wL=a(lR),wM=a(kL),wn=a(ms),wo=a(mv),wp=a(mI),wq=a(lS),wr=a(kM),ws=[0,a(au),0],wt=a('the quantity "'),wv=a(kR),ww=a(bC),wx=a(bB),wy=a(lw),wz=[0,a(au),0],wA=a('a bound "'),wG=a(ha),wH=a(dh),we=a(fj),wf=a(fi),wg=a(fp),wh=a(bi),wi=a(cf),wj=a(le),wk=a(lk),wb=a(cg),wc=a(fp),vY=a(cg),vZ=a(d6),v0=a(lA),v1=a(ff),v4=a(hl),v5=a(bi),v6=a(cf),v7=a(fj),v8=a(fi),v9=a(bi),v_=a(cf),v$=a(cJ),wa=a(cJ),v2=[0,a(au),0],v3=a(kO),vV=a(bA),vW=a(a_),vT=a(" is not covered by the verified checker"),vU=a(t),vR=a(bC),vS=a(bB),vN=a(t),vO=a(mK),vP=a(t),vQ=a(t),vM=[1,0],vK=a("Reader.Malformed"),vL=a("Reader.Not_covered"),zm=a(lf),zn=a("CERTIFIED"),zo=a("REFUTED"),zp=a(lf),zq=a("NOT COVERED: ");function
+ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ag(a[1])];case
-1:return[1,ag(a[1])];case
-2:return[2,ag(a[1])];case
-3:return[3,ag(a[1])];case
-4:return[4,ag(a[1])];case
-5:return[5,ag(a[1])];case
-6:return[6,ag(a[1])];case
-7:return[7,ag(a[1])];case
+0:return[0,ah(a[1])];case
+1:return[1,ah(a[1])];case
+2:return[2,ah(a[1])];case
+3:return[3,ah(a[1])];case
+4:return[4,ah(a[1])];case
+5:return[5,ah(a[1])];case
+6:return[6,ah(a[1])];case
+7:return[7,ah(a[1])];case
 8:var
-c=a[1];return[8,c,ag(a[2])];case
+c=a[1];return[8,c,ah(a[2])];case
 9:var
-b=a[1];return[9,b,b,ag(a[3])];case
-10:return[10,ag(a[1])];case
-11:return[11,ag(a[1])];case
-12:return[12,ag(a[1])];case
-13:return[13,ag(a[1])];default:return[14,ag(a[1])]}}function
-aL(a,b){if(typeof
+b=a[1];return[9,b,b,ah(a[3])];case
+10:return[10,ah(a[1])];case
+11:return[11,ah(a[1])];case
+12:return[12,ah(a[1])];case
+13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
+aM(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aL(a[1],b)];case
-1:return[1,aL(a[1],b)];case
-2:return[2,aL(a[1],b)];case
-3:return[3,aL(a[1],b)];case
-4:return[4,aL(a[1],b)];case
-5:return[5,aL(a[1],b)];case
-6:return[6,aL(a[1],b)];case
-7:return[7,aL(a[1],b)];case
+0:return[0,aM(a[1],b)];case
+1:return[1,aM(a[1],b)];case
+2:return[2,aM(a[1],b)];case
+3:return[3,aM(a[1],b)];case
+4:return[4,aM(a[1],b)];case
+5:return[5,aM(a[1],b)];case
+6:return[6,aM(a[1],b)];case
+7:return[7,aM(a[1],b)];case
 8:var
-c=a[1];return[8,c,aL(a[2],b)];case
+c=a[1];return[8,c,aM(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aL(a[3],b)];case
-10:return[10,aL(a[1],b)];case
-11:return[11,aL(a[1],b)];case
-12:return[12,aL(a[1],b)];case
-13:return[13,aL(a[1],b)];default:return[14,aL(a[1],b)]}}function
-ab(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aM(a[3],b)];case
+10:return[10,aM(a[1],b)];case
+11:return[11,aM(a[1],b)];case
+12:return[12,aM(a[1],b)];case
+13:return[13,aM(a[1],b)];default:return[14,aM(a[1],b)]}}function
+ad(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ab(a[1],b)];case
-1:return[1,ab(a[1],b)];case
+0:return[0,ad(a[1],b)];case
+1:return[1,ad(a[1],b)];case
 2:var
-c=a[1];return[2,c,ab(a[2],b)];case
+c=a[1];return[2,c,ad(a[2],b)];case
 3:var
-d=a[1];return[3,d,ab(a[2],b)];case
+d=a[1];return[3,d,ad(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,ab(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ad(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,ab(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ad(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,ab(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ad(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,ab(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ad(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,ab(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ad(a[4],b)];case
 9:var
-t=a[1];return[9,t,ab(a[2],b)];case
-10:return[10,ab(a[1],b)];case
+t=a[1];return[9,t,ad(a[2],b)];case
+10:return[10,ad(a[1],b)];case
 11:var
-u=a[1];return[11,u,ab(a[2],b)];case
+u=a[1];return[11,u,ad(a[2],b)];case
 12:var
-v=a[1];return[12,v,ab(a[2],b)];case
+v=a[1];return[12,v,ad(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,ab(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ad(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,ab(a[3],b)];case
-15:return[15,ab(a[1],b)];case
-16:return[16,ab(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ad(a[3],b)];case
+15:return[15,ad(a[1],b)];case
+16:return[16,ad(a[1],b)];case
 17:var
-A=a[1];return[17,A,ab(a[2],b)];case
+A=a[1];return[17,A,ad(a[2],b)];case
 18:var
-B=a[1];return[18,B,ab(a[2],b)];case
-19:return[19,ab(a[1],b)];case
+B=a[1];return[18,B,ad(a[2],b)];case
+19:return[19,ad(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,ab(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ad(a[3],b)];case
 21:var
-E=a[1];return[21,E,ab(a[2],b)];case
-22:return[22,ab(a[1],b)];case
+E=a[1];return[21,E,ad(a[2],b)];case
+22:return[22,ad(a[1],b)];case
 23:var
-F=a[1];return[23,F,ab(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,ab(a[3],b)]}}function
-b3(a){throw[0,hS,a]}function
-ee(a){return 0<=a?a:-a|0}function
+F=a[1];return[23,F,ad(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ad(a[3],b)]}}function
+b3(a){throw[0,hY,a]}function
+ef(a){return 0<=a?a:-a|0}function
 ax(d,c){var
-a=H(d),e=H(c),b=ao(a+e|0);bF(d,0,b,0,a);bF(c,0,b,a,e);return aK(b)}function
-nk(a){return a?nl:nm}A2(0);m6(1);var
-bJ=m6(2);function
-ds(b,a){return m7(b,a,0,H(a))}function
-hY(a){ds(bJ,a);m8(bJ,10);return dp(bJ)}function
+a=H(d),e=H(c),b=ao(a+e|0);bG(d,0,b,0,a);bG(c,0,b,a,e);return aL(b)}function
+nj(a){return a?nk:nl}A0(0);m5(1);var
+bK=m5(2);function
+ds(b,a){return m6(b,a,0,H(a))}function
+h4(a){ds(bK,a);m7(bK,10);return dp(bK)}function
 fC(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dp(d)}catch(a){a=fz(a);if(a[1]!==hW)throw a;var
+c=a[2],d=a[1];try{dp(d)}catch(a){a=fz(a);if(a[1]!==h2)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(A3(0))}hK(a(kJ),fC);var
-dt=(4*Bc(0)|0)-1|0;function
-cj(c){var
+a=c;continue}return 0}}return a(A1(0))}hQ(a(kJ),fC);var
+dt=(4*Ba(0)|0)-1|0;function
+ck(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 Z(b,a){if(a){var
 c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-hZ(d,c){var
+h5(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
@@ -905,109 +905,109 @@ b4(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-ck(a,c){var
-b=ao(a);AE(b,0,a,c);return b}function
-h0(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
-d=ao(a);ci(c,b,d,0,a);return d}return b3(nv)}function
-h1(c,b,a){return aK(h0(c,b,a))}function
-h2(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return ci(e,c,d,b,a);return b3(nw)}function
-bK(e,c,d,b,a){if(0<=a&&0<=c&&!((H(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bF(e,c,d,b,a);return b3(nx)}function
-a6(b,a){return aK(ck(b,a))}function
-du(c,b,a){return aK(h0(bY(c),b,a))}function
-h3(k,g){if(g){var
+cl(a,c){var
+b=ao(a);AC(b,0,a,c);return b}function
+h6(c,b,a){if(0<=b&&0<=a&&!((a1(c)-a|0)<b)){var
+d=ao(a);cj(c,b,d,0,a);return d}return b3(nu)}function
+h7(c,b,a){return aL(h6(c,b,a))}function
+h8(e,c,d,b,a){if(0<=a&&0<=c&&!((a1(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return cj(e,c,d,b,a);return b3(nv)}function
+bL(e,c,d,b,a){if(0<=a&&0<=c&&!((H(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return bG(e,c,d,b,a);return b3(nw)}function
+a6(b,a){return aL(cl(b,a))}function
+du(c,b,a){return aL(h6(bY(c),b,a))}function
+h9(k,g){if(g){var
 h=H(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(H(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(ny),c=n,b=m;continue}var
+j=(H(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(nx),c=n,b=m;continue}var
 l=H(i)+c|0}else
 var
 l=c;var
 f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bF(a,0,f,e,H(a));bF(k,0,f,e+H(a)|0,h);var
-e=(e+H(a)|0)+h|0,d=o;continue}bF(a,0,f,e,H(a))}return aK(f)}}}return nz}function
-h4(b,c){if(0===b)return[0];if(0<=b){var
-d=A0(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bG(a,0,f,e,H(a));bG(k,0,f,e+H(a)|0,h);var
+e=(e+H(a)|0)+h|0,d=o;continue}bG(a,0,f,e,H(a))}return aL(f)}}}return ny}function
+h_(b,c){if(0===b)return[0];if(0<=b){var
+d=AY(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b3(nA)}function
-h5(c){var
+a=h;continue}break}}return d}return b3(nz)}function
+h$(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-h6(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dt<b[1]){if(!((d+c|0)<=dt))throw[0,hT,nD];b[1]=dt}var
-e=ao(b[1]);h2(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ac,nB]}throw[0,ac,nC]}}function
+ia(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dt<b[1]){if(!((d+c|0)<=dt))throw[0,hZ,nC];b[1]=dt}var
+e=ao(b[1]);h8(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ae,nA]}throw[0,ae,nB]}}function
 dv(a,c){var
-b=H(c),d=a[2]+b|0;if(a[3]<d)h6(a,b);bF(c,0,a[1],a[2],b);a[2]=d;return 0}function
+b=H(c),d=a[2]+b|0;if(a[3]<d)ia(a,b);bG(c,0,a[1],a[2],b);a[2]=d;return 0}function
 fD(a){return 5===a[2]?12:-6}function
-h7(a){return[0,0,ao(a)]}function
-h8(a,h){var
-b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);h2(a[2],0,f,0,b);a[2]=f;var
+ib(a){return[0,0,ao(a)]}function
+ic(a,h){var
+b=a1(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ao(i);h8(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cO(a,b){h8(a,1);cK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aE(a,c){var
-b=H(c);h8(a,b);bK(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-h9(a){return h1(a[2],0,a[1])}function
-h_(a){if(typeof
+cO(a,b){ic(a,1);cK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aF(a,c){var
+b=H(c);ic(a,b);bL(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+id(a){return h7(a[2],0,a[1])}function
+ie(a){if(typeof
 a==="number")switch(a){case
-0:return nE;case
-1:return nF;case
-2:return nG;case
-3:return nH;case
-4:return nI;case
-5:return nJ;default:return nK}else
+0:return nD;case
+1:return nE;case
+2:return nF;case
+3:return nG;case
+4:return nH;case
+5:return nI;default:return nJ}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return ax(nL,a6(1,a[1]))}}function
+1:return a[1];default:return ax(nK,a6(1,a[1]))}}function
 fE(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aE(b,nM);var
+d=a[1];aF(b,nL);var
 a=d;continue;case
 1:var
-e=a[1];aE(b,nN);var
+e=a[1];aF(b,nM);var
 a=e;continue;case
 2:var
-f=a[1];aE(b,nO);var
+f=a[1];aF(b,nN);var
 a=f;continue;case
 3:var
-g=a[1];aE(b,nP);var
+g=a[1];aF(b,nO);var
 a=g;continue;case
 4:var
-h=a[1];aE(b,nQ);var
+h=a[1];aF(b,nP);var
 a=h;continue;case
 5:var
-i=a[1];aE(b,nR);var
+i=a[1];aF(b,nQ);var
 a=i;continue;case
 6:var
-j=a[1];aE(b,nS);var
+j=a[1];aF(b,nR);var
 a=j;continue;case
 7:var
-k=a[1];aE(b,nT);var
+k=a[1];aF(b,nS);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aE(b,nU);fE(b,m);aE(b,nV);var
+l=a[2],m=a[1];aF(b,nT);fE(b,m);aF(b,nU);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aE(b,nW);fE(b,o);aE(b,nX);var
+n=a[3],o=a[1];aF(b,nV);fE(b,o);aF(b,nW);var
 a=n;continue;case
 10:var
-p=a[1];aE(b,nY);var
+p=a[1];aF(b,nX);var
 a=p;continue;case
 11:var
-q=a[1];aE(b,nZ);var
+q=a[1];aF(b,nY);var
 a=q;continue;case
 12:var
-r=a[1];aE(b,n0);var
+r=a[1];aF(b,nZ);var
 a=r;continue;case
 13:var
-s=a[1];aE(b,n1);var
+s=a[1];aF(b,n0);var
 a=s;continue;default:var
-t=a[1];aE(b,n2);var
+t=a[1];aF(b,n1);var
 a=t;continue}}function
 an(a){if(typeof
 a==="number")return 0;else
@@ -1028,39 +1028,39 @@ c=a[2],d=a[1];return[9,c,d,an(a[3])];case
 11:return[11,an(a[1])];case
 12:return[12,an(a[1])];case
 13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
-aF(a){if(typeof
+aG(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aF(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aG(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aF(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aG(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aF(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aG(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aF(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aG(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aF(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aG(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aF(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aG(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aF(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aG(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aF(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aG(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aF(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aG(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aF(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aF(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],ao=a[1],l=aG(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aG(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aF(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aG=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aG,aC,aB];case
+n=aG(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
 11:var
-o=aF(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aG(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aF(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aG(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aF(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aF(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+q=aG(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aG(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
 ap(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
@@ -1072,7 +1072,7 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,ac,n3]}else
+9:a=6;break;default:throw[0,ae,n2]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
@@ -1178,35 +1178,35 @@ D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,ac,oa];break;case
+14:a=4;break;default:m=1}if(m)throw[0,ae,n$];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aF(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aG(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,ac,ob];break;case
+14:a=4;break;default:n=1}if(n)throw[0,ae,oa];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ac,oc];case
+b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ae,ob];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ac,od];break;case
+11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ae,oc];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ac,oe];break;case
+12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ae,od];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ac,of];break;default:var
+13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ae,oe];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,25 +1222,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ac,og]}switch(a){case
-0:throw[0,ac,n6];case
-1:throw[0,ac,n7];case
-2:throw[0,ac,n8];case
-3:throw[0,ac,n9];case
-4:throw[0,ac,n_];case
-5:throw[0,ac,n4];case
-6:throw[0,ac,n5];default:throw[0,ac,n$]}}var
-ay=[at,oh,fs(0)];function
-ef(b,a){if(typeof
+14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ae,of]}switch(a){case
+0:throw[0,ae,n5];case
+1:throw[0,ae,n6];case
+2:throw[0,ae,n7];case
+3:throw[0,ae,n8];case
+4:throw[0,ae,n9];case
+5:throw[0,ae,n3];case
+6:throw[0,ae,n4];default:throw[0,ae,n_]}}var
+ay=[at,og,fs(0)];function
+eg(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
 a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ay}}function
 dw(e,b,d){var
-a=ef(e,d);if(typeof
+a=eg(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
 c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ay}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aR(b,c,a){if(typeof
-b==="number")return[0,0,T(c,a)];else
+b==="number")return[0,0,U(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1268,14 +1268,14 @@ a!=="number"&&7===a[0]){var
 n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ec([0,b[1]],[0,o]))throw ay;var
+o=a[1],w=a[2],x=b[2];if(ed([0,b[1]],[0,o]))throw ay;var
 p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ag(f)];if(ec([0,ag(B)],C))throw ay;var
-D=[0,ag(d)];if(ec([0,ag(A)],D))throw ay;var
-q=aF(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aR(ag(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ed([0,ah(B)],C))throw ay;var
+D=[0,ah(d)];if(ed([0,ah(A)],D))throw ay;var
+q=aG(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aR(ah(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1288,82 +1288,82 @@ u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
 v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ay}function
-T(b,a){if(typeof
+U(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=T(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=U(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=T(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=U(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=ef(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=eg(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=T(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
+v=U(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
 3:var
-ad=b[2],w=ef(b[1],a),f=w[2],ae=w[1];if(typeof
+ad=b[2],w=eg(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=T(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
+x=U(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
 4:var
-af=b[4],ah=b[1],g=dw(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ag=b[1],g=dw(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=T(af,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ay;case
+aj=g[2],y=U(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw ay;case
 5:var
 ak=b[4],al=b[1],i=dw(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=T(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
+an=i[2],z=U(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
 6:var
 ao=b[4],ap=b[1],k=dw(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=T(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
+ar=k[2],A=U(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
 7:var
 as=b[4],at=b[1],m=dw(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=T(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
+av=m[2],B=U(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
 8:var
 aw=b[4],ax=b[1],o=dw(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=T(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
+aA=o[2],C=U(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
 9:var
-aB=b[2],D=ef(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=eg(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=T(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
+E=U(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
 10:var
-F=T(b[1],a);return[0,[10,F[1]],F[2]];case
+F=U(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=T(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=U(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=T(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=U(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ec([0,b[2]],[0,I]))throw ay;var
-J=T(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ed([0,b[2]],[0,I]))throw ay;var
+J=U(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ag(K)];if(ec([0,ag(aK)],aM))throw ay;var
-L=T(aJ,ag(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ed([0,ah(aK)],aM))throw ay;var
+L=U(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=T(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=U(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=T(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=U(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=T(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=U(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aS=U[2],V=T(U[1],a),aT=V[1],W=T(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aU=X[2],Y=T(X[1],a),aW=Y[1],Z=T(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
+T=r[1],aS=T[2],V=U(T[1],a),aT=V[1],W=U(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aU=X[2],Y=U(X[1],a),aW=Y[1],Z=U(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=T(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=U(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=T(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=U(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=T(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=U(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
@@ -1371,7 +1371,7 @@ c==="number")switch(c){case
 1:return aV(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=T(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aV(c,d,a)}else
+_=U(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aV(c,d,a)}else
 switch(c[0]){case
 0:return aV(c,d,a);case
 1:return aV(c,d,a);case
@@ -1386,40 +1386,40 @@ switch(c[0]){case
 aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
 10:return aV(c,d,a);default:return aV(c,d,a)}}throw ay}function
 aV(d,c,b){var
-a=T(c,b);return[0,[23,d,a[1]],a[2]]}function
+a=U(c,b);return[0,[23,d,a[1]],a[2]]}function
 aW(k,g,a){var
-b=H(a),h=0<=g?k:0,d=ee(g);if(d<=b)return a;var
-l=2===h?48:32,c=ck(d,l);switch(h){case
-0:bK(a,0,c,0,b);break;case
-1:bK(a,0,c,d-b|0,b);break;default:var
+b=H(a),h=0<=g?k:0,d=ef(g);if(d<=b)return a;var
+l=2===h?48:32,c=cl(d,l);switch(h){case
+0:bL(a,0,c,0,b);break;case
+1:bL(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==S(a,0)&&45!==S(a,0)&&32!==S(a,0)){e=1;i=1}if(!i){cK(c,0,S(a,0));bK(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==T(a,0)&&45!==T(a,0)&&32!==T(a,0)){e=1;i=1}if(!i){cK(c,0,T(a,0));bL(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===S(a,0)){var
-j=0;if(kY!==S(a,1)&&88!==S(a,1)){f=1;j=1}if(!j){cK(c,1,S(a,1));bK(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bK(a,0,c,d-b|0,b)}}return aK(c)}function
+f=0;if(1<b&&48===T(a,0)){var
+j=0;if(kY!==T(a,1)&&88!==T(a,1)){f=1;j=1}if(!j){cK(c,1,T(a,1));bL(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bL(a,0,c,d-b|0,b)}}return aL(c)}function
 cP(k,b){var
-c=ee(k),a=H(b),d=S(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lU>>>0))e=1}else
+c=ef(k),a=H(b),d=T(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lU>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kY===S(b,1)||88===S(b,1))j=1;if(j){var
-h=ck(c+2|0,48);cK(h,1,S(b,1));bK(b,2,h,(c-a|0)+4|0,a-2|0);return aK(h)}}e=1;f=1;break;case
+j=0;if(kY===T(b,1)||88===T(b,1))j=1;if(j){var
+h=cl(c+2|0,48);cK(h,1,T(b,1));bL(b,2,h,(c-a|0)+4|0,a-2|0);return aL(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ck(c+1|0,48);cK(g,0,d);bK(b,1,g,(c-a|0)+2|0,a-1|0);return aK(g)}}if(e&&a<c){var
-i=ck(c,48);bK(b,0,i,c-a|0,a);return aK(i)}return b}function
-oi(k){var
+g=cl(c+1|0,48);cK(g,0,d);bL(b,1,g,(c-a|0)+2|0,a-1|0);return aL(g)}}if(e&&a<c){var
+i=cl(c,48);bL(b,0,i,c-a|0,a);return aL(i)}return b}function
+oh(k){var
 j=0,C=H(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bH(k,j)+mo|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bI(k,j)+mn|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bY(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
+e=bY(k),a=[0,0],t=a1(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
 f=dm(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
@@ -1432,14 +1432,14 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a0(e)){var
-r=a0(e),s=ao(r);ci(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a1(e)){var
+r=a1(e),s=ao(r);cj(e,0,s,0,r);var
 v=s}else{var
 b=ao(a[1]);a[1]=0;var
-u=a0(e)-1|0,z=0;if(!(u<0)){var
+u=a1(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
 c=dm(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hd<=c)d=1;else
+if(hj<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1455,10 +1455,10 @@ switch(c){case
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aK(v)}var
-w=H(o),x=ck(w+2|0,34);bF(o,0,x,1,w);return aK(x)}}function
-h$(d,f){var
-g=ee(f),e=o9[1];switch(d[2]){case
+o=aL(v)}var
+w=H(o),x=cl(w+2|0,34);bG(o,0,x,1,w);return aL(x)}}function
+ig(d,f){var
+g=ef(f),e=o8[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1476,160 +1476,160 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=h7(16);cO(c,37);switch(d[1]){case
+c=ib(16);cO(c,37);switch(d[1]){case
 0:break;case
-1:cO(c,43);break;default:cO(c,32)}if(8<=d[2])cO(c,35);cO(c,46);aE(c,a(t+g));cO(c,b);return h9(c)}function
-eg(m,a){if(13<=m){var
+1:cO(c,43);break;default:cO(c,32)}if(8<=d[2])cO(c,35);cO(c,46);aF(c,a(t+g));cO(c,b);return id(c)}function
+eh(m,a){if(13<=m){var
 g=[0,0],h=H(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bH(a,c)+g7>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bI(a,c)+hb>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
 i=g[1],j=ao(H(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cK(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=H(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bH(a,b);if(9<f+g7>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bI(a,b);if(9<f+hb>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aK(j)}return a}function
+b=p;continue}break}}return aL(j)}return a}function
+o9(b,c){switch(b){case
+1:var
+a=oj;break;case
+2:var
+a=ok;break;case
+4:var
+a=om;break;case
+5:var
+a=on;break;case
+6:var
+a=oo;break;case
+7:var
+a=op;break;case
+8:var
+a=oq;break;case
+9:var
+a=or;break;case
+10:var
+a=os;break;case
+11:var
+a=ot;break;case
+0:case
+13:var
+a=oi;break;case
+3:case
+14:var
+a=ol;break;default:var
+a=ou}return eh(b,fr(a,c))}function
 o_(b,c){switch(b){case
 1:var
-a=ok;break;case
+a=oJ;break;case
 2:var
-a=ol;break;case
+a=oK;break;case
 4:var
-a=on;break;case
+a=oM;break;case
 5:var
-a=oo;break;case
+a=oN;break;case
 6:var
-a=op;break;case
+a=oO;break;case
 7:var
-a=oq;break;case
+a=oP;break;case
 8:var
-a=or;break;case
+a=oQ;break;case
 9:var
-a=os;break;case
+a=oR;break;case
 10:var
-a=ot;break;case
+a=oS;break;case
 11:var
-a=ou;break;case
+a=oT;break;case
 0:case
 13:var
-a=oj;break;case
+a=oI;break;case
 3:case
 14:var
-a=om;break;default:var
-a=ov}return eg(b,fr(a,c))}function
+a=oL;break;default:var
+a=oU}return eh(b,fr(a,c))}function
 o$(b,c){switch(b){case
 1:var
-a=oK;break;case
+a=oW;break;case
 2:var
-a=oL;break;case
+a=oX;break;case
 4:var
-a=oN;break;case
+a=oZ;break;case
 5:var
-a=oO;break;case
+a=o0;break;case
 6:var
-a=oP;break;case
+a=o1;break;case
 7:var
-a=oQ;break;case
+a=o2;break;case
 8:var
-a=oR;break;case
+a=o3;break;case
 9:var
-a=oS;break;case
+a=o4;break;case
 10:var
-a=oT;break;case
+a=o5;break;case
 11:var
-a=oU;break;case
+a=o6;break;case
 0:case
 13:var
-a=oJ;break;case
+a=oV;break;case
 3:case
 14:var
-a=oM;break;default:var
-a=oV}return eg(b,fr(a,c))}function
+a=oY;break;default:var
+a=o7}return eh(b,fr(a,c))}function
 pa(b,c){switch(b){case
 1:var
-a=oX;break;case
-2:var
-a=oY;break;case
-4:var
-a=o0;break;case
-5:var
-a=o1;break;case
-6:var
-a=o2;break;case
-7:var
-a=o3;break;case
-8:var
-a=o4;break;case
-9:var
-a=o5;break;case
-10:var
-a=o6;break;case
-11:var
-a=o7;break;case
-0:case
-13:var
-a=oW;break;case
-3:case
-14:var
-a=oZ;break;default:var
-a=o8}return eg(b,fr(a,c))}function
-pb(b,c){switch(b){case
-1:var
-a=ox;break;case
-2:var
-a=oy;break;case
-4:var
-a=oA;break;case
-5:var
-a=oB;break;case
-6:var
-a=oC;break;case
-7:var
-a=oD;break;case
-8:var
-a=oE;break;case
-9:var
-a=oF;break;case
-10:var
-a=oG;break;case
-11:var
-a=oH;break;case
-0:case
-13:var
 a=ow;break;case
+2:var
+a=ox;break;case
+4:var
+a=oz;break;case
+5:var
+a=oA;break;case
+6:var
+a=oB;break;case
+7:var
+a=oC;break;case
+8:var
+a=oD;break;case
+9:var
+a=oE;break;case
+10:var
+a=oF;break;case
+11:var
+a=oG;break;case
+0:case
+13:var
+a=ov;break;case
 3:case
 14:var
-a=oz;break;default:var
-a=oI}return eg(b,AM(a,c))}function
-bL(c,i,b){function
+a=oy;break;default:var
+a=oH}return eh(b,AK(a,c))}function
+bM(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return AI(b,i,a)}function
+a=32}return AG(b,i,a)}function
 q(c){var
-a=AA(b);return 3===a?b<0.?pd:pe:4<=a?pf:c}switch(c[2]){case
+a=Ay(b);return 3===a?b<0.?pc:pd:4<=a?pe:c}switch(c[2]){case
 5:var
-e=hA(h$(c,i),b),d=0,u=H(e);for(;;){if(d===u)var
+e=hG(ig(c,i),b),d=0,u=H(e);for(;;){if(d===u)var
 p=0;else{var
-k=S(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=T(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:ax(e,pc);return q(v)}case
+v=p?e:ax(e,pb);return q(v)}case
 6:return j(0);case
 7:var
-h=bY(j(0)),f=a0(h);if(0===f)var
+h=bY(j(0)),f=a1(h);if(0===f)var
 o=h;else{var
 m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dm(h,a),s=25<g+lU>>>0?g:g+mo|0;ak(m,a,s);var
+g=dm(h,a),s=25<g+lU>>>0?g:g+mn|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aK(o);case
-8:return q(j(0));default:return hA(h$(c,i),b)}}function
-d4(d,x,w,v){var
+o=m}return aL(o);case
+8:return q(j(0));default:return hG(ig(c,i),b)}}function
+d5(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
@@ -1638,48 +1638,48 @@ y=c[1];return function(c){return K(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=np;else
-if(hd<=c)e=1;else
+d=no;else
+if(hj<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nq;else
+d=np;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nr;break;case
+d=nq;break;case
 9:var
-d=ns;break;case
+d=nr;break;case
 10:var
-d=nt;break;case
+d=ns;break;case
 13:var
-d=nu;break;default:e=1}switch(e){case
+d=nt;break;default:e=1}switch(e){case
 1:var
 f=ao(4);ak(f,0,92);ak(f,1,48+(c/l0|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
-d=aK(f);break;case
+d=aL(f);break;case
 2:var
 g=ao(1);ak(g,0,c);var
-d=aK(g);break}var
-h=H(d),i=ck(h+2|0,39);bF(d,0,i,1,h);return K(b,[4,a,aK(i)],z)};case
+d=aL(g);break}var
+h=H(d),i=cl(h+2|0,39);bG(d,0,i,1,h);return K(b,[4,a,aL(i)],z)};case
 2:var
 A=c[2],B=c[1];return fF(b,a,A,B,function(a){return a});case
-3:return fF(b,a,c[2],c[1],oi);case
-4:return eh(b,a,c[4],c[2],c[3],o_,c[1]);case
-5:return eh(b,a,c[4],c[2],c[3],o$,c[1]);case
-6:return eh(b,a,c[4],c[2],c[3],pa,c[1]);case
-7:return eh(b,a,c[4],c[2],c[3],pb,c[1]);case
+3:return fF(b,a,c[2],c[1],oh);case
+4:return ei(b,a,c[4],c[2],c[3],o9,c[1]);case
+5:return ei(b,a,c[4],c[2],c[3],o_,c[1]);case
+6:return ei(b,a,c[4],c[2],c[3],o$,c[1]);case
+7:return ei(b,a,c[4],c[2],c[3],pa,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,bL(g,d,c)],h)}:function(c){return K(b,[4,a,bL(g,fD(g),c)],h)};var
-X=i[1];return function(c){return K(b,[4,a,bL(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return K(b,[4,a,bM(g,d,c)],h)}:function(c){return K(b,[4,a,bM(g,fD(g),c)],h)};var
+X=i[1];return function(c){return K(b,[4,a,bM(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,aW(n,m,bL(g,d,c))],h)}:function(c){return K(b,[4,a,aW(n,m,bL(g,fD(g),c))],h)};var
-Y=i[1];return function(c){return K(b,[4,a,aW(n,m,bL(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return K(b,[4,a,aW(n,m,bM(g,d,c))],h)}:function(c){return K(b,[4,a,aW(n,m,bM(g,fD(g),c))],h)};var
+Y=i[1];return function(c){return K(b,[4,a,aW(n,m,bM(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return K(b,[4,a,aW(o,e,bL(g,d,c))],h)}:function(d,c){return K(b,[4,a,aW(o,d,bL(g,fD(g),c))],h)};var
-Z=i[1];return function(d,c){return K(b,[4,a,aW(o,d,bL(g,Z,c))],h)}}case
-9:return fF(b,a,c[2],c[1],nk);case
+i==="number")return i?function(e,d,c){return K(b,[4,a,aW(o,e,bM(g,d,c))],h)}:function(d,c){return K(b,[4,a,aW(o,d,bM(g,fD(g),c))],h)};var
+Z=i[1];return function(d,c){return K(b,[4,a,aW(o,d,bM(g,Z,c))],h)}}case
+9:return fF(b,a,c[2],c[1],nj);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,14 +1687,14 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=h7(16);fE(p,D);var
-u=h9(p);return function(c){return K(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=ib(16);fE(p,D);var
+u=id(p);return function(c){return K(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=T(e,ag(an(F)));if(typeof
-c[2]==="number")return K(b,a,ab(c[1],E));throw ay};case
+e=d[1],c=U(e,ah(an(F)));if(typeof
+c[2]==="number")return K(b,a,ad(c[1],E));throw ay};case
 15:var
-G=c[1];return function(d,c){return K(b,[6,a,function(a){return O(d,a,c)}],G)};case
+G=c[1];return function(d,c){return K(b,[6,a,function(a){return P(d,a,c)}],G)};case
 16:var
 I=c[1];return function(c){return K(b,[6,a,c],I)};case
 17:var
@@ -1702,118 +1702,118 @@ a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
 J=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return K(c,[1,b,[0,a]],d)}}(a,b,J),a=M,c=L;continue}var
-N=c[2],P=l[1][1],R=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=R,c=P;continue;case
-19:throw[0,ac,ph];case
+N=c[2],O=l[1][1],Q=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=Q,c=O;continue;case
+19:throw[0,ae,pg];case
 20:var
-S=c[3],U=[8,a,pi];return function(a){return K(b,U,S)};case
+S=c[3],T=[8,a,ph];return function(a){return K(b,T,S)};case
 21:var
-V=c[2];return function(c){return K(b,[4,a,fr(pj,c)],V)};case
+V=c[2];return function(c){return K(b,[4,a,fr(pi,c)],V)};case
 22:var
 W=c[1];return function(c){return K(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-1:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-2:throw[0,ac,pk];default:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f])}else
+0:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+1:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+2:throw[0,ae,pj];default:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-1:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-2:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-3:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-4:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-5:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-6:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-7:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
-8:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);case
+0:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+1:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+2:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+3:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+4:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+5:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+6:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+7:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+8:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?g2(d+1|0,b,a,t,f):aD(g2,[0,b,a,t,f]);case
-10:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f]);default:return d<50?Q(d+1|0,b,a,f):aD(Q,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?g1(d+1|0,b,a,q,r,s):aD(g1,[0,b,a,q,r,s])}}function
-g2(e,d,c,a,b){if(typeof
-a==="number")return e<50?Q(e+1|0,d,c,b):aD(Q,[0,d,c,b]);else
+t=k[2];return d<50?g8(d+1|0,b,a,t,f):aE(g8,[0,b,a,t,f]);case
+10:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);default:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?g7(d+1|0,b,a,q,r,s):aE(g7,[0,b,a,q,r,s])}}function
+g8(e,d,c,a,b){if(typeof
+a==="number")return e<50?R(e+1|0,d,c,b):aE(R,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a2(d,c,f,b)};case
+f=a[1];return function(a){return a3(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a2(d,c,g,b)};case
+g=a[1];return function(a){return a3(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a2(d,c,h,b)};case
+h=a[1];return function(a){return a3(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a2(d,c,i,b)};case
+i=a[1];return function(a){return a3(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a2(d,c,j,b)};case
+j=a[1];return function(a){return a3(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a2(d,c,k,b)};case
+k=a[1];return function(a){return a3(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a2(d,c,l,b)};case
+l=a[1];return function(a){return a3(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a2(d,c,m,b)};case
+m=a[1];return function(a){return a3(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a2(d,c,n,b)};case
+n=a[2];return function(a){return a3(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aL(q,o),b)};case
+o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a3(d,c,aM(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a2(d,c,r,b)};case
+r=a[1];return function(e,a){return a3(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a2(d,c,s,b)};case
+s=a[1];return function(a){return a3(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a2(d,c,t,b)};case
-13:throw[0,ac,pl];default:throw[0,ac,pm]}}function
-Q(d,b,e,a){var
-c=[8,e,pn];return d<50?d4(d+1|0,b,c,a):aD(d4,[0,b,c,a])}function
-g1(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pg(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d4(h+1|0,b,g,a):aD(d4,[0,b,g,a])}function
-K(a,b,c){return hM(d4(0,a,b,c))}function
-a2(a,b,c,d){return hM(g2(0,a,b,c,d))}function
-pg(a,b,c,d,e){return hM(g1(0,a,b,c,d,e))}function
+t=a[1];return function(a){return a3(d,c,t,b)};case
+13:throw[0,ae,pk];default:throw[0,ae,pl]}}function
+R(d,b,e,a){var
+c=[8,e,pm];return d<50?d5(d+1|0,b,c,a):aE(d5,[0,b,c,a])}function
+g7(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pf(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d5(h+1|0,b,g,a):aE(d5,[0,b,g,a])}function
+K(a,b,c){return hS(d5(0,a,b,c))}function
+a3(a,b,c,d){return hS(g8(0,a,b,c,d))}function
+pf(a,b,c,d,e){return hS(g7(0,a,b,c,d,e))}function
 fF(f,d,c,a,b){if(typeof
 a==="number")return function(a){return K(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
 g=a[2],h=a[1];return function(a){return K(f,[4,d,aW(h,g,e(b,a))],c)}}var
 i=a[1];return function(g,a){return K(f,[4,d,aW(i,g,e(b,a))],c)}}}function
-eh(f,e,d,g,c,b,a){if(typeof
+ei(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,cP(g,O(b,a,c))],d)}:function(c){return K(f,[4,e,O(b,a,c)],d)};var
-k=c[1];return function(c){return K(f,[4,e,cP(k,O(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return K(f,[4,e,cP(g,P(b,a,c))],d)}:function(c){return K(f,[4,e,P(b,a,c)],d)};var
+k=c[1];return function(c){return K(f,[4,e,cP(k,P(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,aW(i,h,cP(g,O(b,a,c)))],d)}:function(c){return K(f,[4,e,aW(i,h,O(b,a,c))],d)};var
-l=c[1];return function(c){return K(f,[4,e,aW(i,h,cP(l,O(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return K(f,[4,e,aW(i,h,cP(g,P(b,a,c)))],d)}:function(c){return K(f,[4,e,aW(i,h,P(b,a,c))],d)};var
+l=c[1];return function(c){return K(f,[4,e,aW(i,h,cP(l,P(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return K(f,[4,e,aW(j,h,cP(g,O(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aW(j,g,O(b,a,c))],d)};var
-m=c[1];return function(g,c){return K(f,[4,e,aW(j,g,cP(m,O(b,a,c)))],d)}}}function
-bM(b,f){var
+c==="number")return c?function(h,g,c){return K(f,[4,e,aW(j,h,cP(g,P(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aW(j,g,P(b,a,c))],d)};var
+m=c[1];return function(g,c){return K(f,[4,e,aW(j,g,cP(m,P(b,a,c)))],d)}}}function
+bN(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=h_(a[2]);bM(b,g);return ds(b,h);case
+g=a[1],h=ie(a[2]);bN(b,g);return ds(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bM(b,d);ds(b,po);var
+i=c[1];bN(b,d);ds(b,pn);var
 a=i;continue}var
-j=c[1];bM(b,d);ds(b,pp);var
+j=c[1];bN(b,d);ds(b,po);var
 a=j;continue;case
 6:var
-m=a[2];bM(b,a[1]);return e(m,b);case
-7:bM(b,a[1]);return dp(b);case
+m=a[2];bN(b,a[1]);return e(m,b);case
+7:bN(b,a[1]);return dp(b);case
 8:var
-n=a[2];bM(b,a[1]);return b3(n);case
+n=a[2];bN(b,a[1]);return b3(n);case
 2:case
 4:var
-k=a[2];bM(b,a[1]);return ds(b,k);default:var
-l=a[2];bM(b,a[1]);return m8(b,l)}}function
+k=a[2];bN(b,a[1]);return ds(b,k);default:var
+l=a[2];bN(b,a[1]);return m7(b,l)}}function
 b5(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=h_(a[2]);b5(b,h);return dv(b,i);case
+h=a[1],i=ie(a[2]);b5(b,h);return dv(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b5(b,f);dv(b,pq);var
+j=d[1];b5(b,f);dv(b,pp);var
 a=j;continue}var
-k=d[1];b5(b,f);dv(b,pr);var
+k=d[1];b5(b,f);dv(b,pq);var
 a=k;continue;case
 6:var
 n=a[2];b5(b,a[1]);return dv(b,e(n,0));case
@@ -1825,91 +1825,91 @@ o=a[2];b5(b,a[1]);return b3(o);case
 4:var
 l=a[2];b5(b,a[1]);return dv(b,l);default:var
 m=a[2];b5(b,a[1]);var
-c=b[2];if(b[3]<=c)h6(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
-ia(d,c){var
-a=c[1],b=0;return K(function(a){bM(d,a);return 0},b,a)}function
-fG(a){return ia(bJ,a)}function
+c=b[2];if(b[3]<=c)ia(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+ih(d,c){var
+a=c[1],b=0;return K(function(a){bN(d,a);return 0},b,a)}function
+fG(a){return ih(bK,a)}function
 bn(b){var
 a=b[1];return K(function(d){var
-e=64,b=dt<64?dt:e,c=ao(b),a=[0,c,0,b,c];b5(a,d);return h1(a[1],0,a[2])},0,a)}var
-ei=[0,0];function
+e=64,b=dt<64?dt:e,c=ao(b),a=[0,c,0,b,c];b5(a,d);return h7(a[1],0,a[2])},0,a)}var
+ej=[0,0];function
 fI(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fw(a)===fn)return e(bn(ps),a);if(fw(a)===253){var
-c=hA(no,a),b=0,g=H(c);for(;;){if(g<=b)return ax(c,nn);var
-d=S(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fw(a)===fn)return e(bn(pr),a);if(fw(a)===253){var
+c=hG(nn,a),b=0,g=H(c);for(;;){if(g<=b)return ax(c,nm);var
+d=T(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return pt}return e(bn(pu),a)}function
-ib(b,a){if(b.length-1<=a)return pv;var
-c=ib(b,a+1|0),d=fI(b,a);return O(bn(pw),d,c)}function
+b=b+1|0;continue}return c}}return ps}return e(bn(pt),a)}function
+ii(b,a){if(b.length-1<=a)return pu;var
+c=ii(b,a+1|0),d=fI(b,a);return P(bn(pv),d,c)}function
 fJ(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ei[1]);if(h)return h[1];if(a===fB)return pB;if(a===hV)return pC;if(a[1]===hU){var
-c=a[2],i=c[3],p=c[2],q=c[1];return g3(bn(fH),q,p,i,i+5|0,pD)}if(a[1]===ac){var
-d=a[2],j=d[3],r=d[2],s=d[1];return g3(bn(fH),s,r,j,j+6|0,pE)}if(a[1]===hX){var
-f=a[2],k=f[3],t=f[2],u=f[1];return g3(bn(fH),u,t,k,k+6|0,pF)}if(0===fw(a)){var
+h=o(ej[1]);if(h)return h[1];if(a===fB)return pA;if(a===h1)return pB;if(a[1]===h0){var
+c=a[2],i=c[3],p=c[2],q=c[1];return g9(bn(fH),q,p,i,i+5|0,pC)}if(a[1]===ae){var
+d=a[2],j=d[3],r=d[2],s=d[1];return g9(bn(fH),s,r,j,j+6|0,pD)}if(a[1]===h3){var
+f=a[2],k=f[3],t=f[2],u=f[1];return g9(bn(fH),u,t,k,k+6|0,pE)}if(0===fw(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=ib(a,2),m=fI(a,1),b=O(bn(px),m,l);else
+l=ii(a,2),m=fI(a,1),b=P(bn(pw),m,l);else
 switch(g){case
 0:var
-b=py;break;case
+b=px;break;case
 1:var
-b=pz;break;default:var
-n=fI(a,1),b=e(bn(pA),n)}return ax(v,b)}return a[1]}function
+b=py;break;default:var
+n=fI(a,1),b=e(bn(pz),n)}return ax(v,b)}return a[1]}function
 fK(t,s){var
-d=AC(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+d=AA(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=mW(d,b)[1+b],f=function(a){return function(b){return b?0===a?pG:pH:0===a?pI:pJ}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pK:pM,l=a[2],m=a[7],n=f(a[1]),c=[0,Ar(bn(pL),n,m,l,k,j,i,h)];else
+a=mV(d,b)[1+b],f=function(a){return function(b){return b?0===a?pF:pG:0===a?pH:pI}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pJ:pL,l=a[2],m=a[7],n=f(a[1]),c=[0,Ap(bn(pK),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bn(pN),o)];if(c){var
-q=c[1];e(ia(t,pO),q)}var
+o=f(0),c=[0,e(bn(pM),o)];if(c){var
+q=c[1];e(ih(t,pN),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-ic(c){for(;;){var
-a=ei[1],d=[0,c,a],e=ei[1]===a?(ei[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pQ=pP.slice();function
-pR(d,c){var
-f=fJ(d);e(fG(pS),f);fK(bJ,c);var
-a=A1(0);if(a<0){var
-b=ee(a);hY(mW(pQ,b)[1+b])}return dp(bJ)}var
-pT=[0];hK(a(k1),function(d,i){try{try{var
-b=i?pT:m2(0);try{fC(0)}catch(a){}try{var
-a=pR(d,b),c=a}catch(a){a=fz(a);var
-g=fJ(d);e(fG(pV),g);fK(bJ,b);var
-h=fJ(a);e(fG(pW),h);fK(bJ,m2(0));var
-c=dp(bJ)}var
+ij(c){for(;;){var
+a=ej[1],d=[0,c,a],e=ej[1]===a?(ej[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pP=pO.slice();function
+pQ(d,c){var
+f=fJ(d);e(fG(pR),f);fK(bK,c);var
+a=AZ(0);if(a<0){var
+b=ef(a);h4(mV(pP,b)[1+b])}return dp(bK)}var
+pS=[0];hQ(a(k1),function(d,i){try{try{var
+b=i?pS:m1(0);try{fC(0)}catch(a){}try{var
+a=pQ(d,b),c=a}catch(a){a=fz(a);var
+g=fJ(d);e(fG(pU),g);fK(bK,b);var
+h=fJ(a);e(fG(pV),h);fK(bK,m1(0));var
+c=dp(bK)}var
 f=c}catch(a){a=fz(a);if(a!==fB)throw a;var
-f=hY(pU)}return f}catch(a){return 0}});var
-id=[at,pY,fs(0)],fL=[0,id,[0]],pX=fw(fL)===at?fL:fL[1];hK(a(g9),pX);(function(a){throw a});var
-pZ=v.Array;ic(function(a){return a[1]===id?[0,bm(a[2].toString())]:0});ic(function(a){return a
+f=h4(pT)}return f}catch(a){return 0}});var
+ik=[at,pX,fs(0)],fL=[0,ik,[0]],pW=fw(fL)===at?fL:fL[1];hQ(a(hd),pW);(function(a){throw a});var
+pY=v.Array;ij(function(a){return a[1]===ik?[0,bm(a[2].toString())]:0});ij(function(a){return a
 instanceof
-pZ?0:[0,bm(a.toString())]});var
-d=a1(0),c=a1(1);function
+pY?0:[0,bm(a.toString())]});var
+d=a2(0),c=a2(1);function
 n(a){return C(a,c)}function
-ie(b,a){return C(a1(b),a)}function
-b(b,a){return r(a1(b),a)}function
-bo(b,a){return[0,hP(b,a),ng(b,a)]}function
+il(b,a){return C(a2(b),a)}function
+b(b,a){return r(a2(b),a)}function
+bo(b,a){return[0,hV(b,a),nf(b,a)]}function
 fM(b,a){return D(b,a)?b:a}function
-cl(b,a){return D(b,a)?a:b}function
-aM(a){return a?0:1}function
-ah(b,a){var
+cm(b,a){return D(b,a)?a:b}function
+aN(a){return a?0:1}function
+af(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
 dx(a){return a[1]}function
 dy(a){return a[2]}function
-m(a){var
-b=a?[0,m(a[2])]:a;return b}function
+k(a){var
+b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ig(a){return typeof
-a==="number"?0:[0,ig(a[1])]}function
-ih(d,c){var
+im(a){return typeof
+a==="number"?0:[0,im(a[1])]}function
+io(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ej(a){return ih(a,0)}function
-ii(a){if(typeof
-a==="number")return p1;else
+ek(a){return io(a,0)}function
+ip(a){if(typeof
+a==="number")return p0;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,9 +1944,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ii(a[1])]}}function
+8:return[9,a[1]];default:return[0,ip(a[1])]}}function
 bb(a){if(typeof
-a==="number")return p2;else
+a==="number")return p1;else
 switch(a[0]){case
 0:return[1,ba(a[1])];case
 1:return[3,ba(a[1])];case
@@ -1969,37 +1969,37 @@ switch(a[0]){case
 6:return[2,bb(a[1])];case
 7:return[4,bb(a[1])];case
 8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
-bN(a){return a?a[1]:a}function
+bO(a){return a?a[1]:a}function
 J(b,a){return b?[0,J(b[1],a)]:a}function
 dz(a,b){return a?J(b,dz(a[1],b)):a}function
 dA(b,a){return b?a:a?0:1}function
-_(d,c){var
+M(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-$(d,c){var
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-ij(b,a){return $([0,b],a)}function
-ik(c){var
+iq(b,a){return _([0,b],a)}function
+ir(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 fN(c,b,a){return c?e(b,fN(c[1],b,a)):a}function
-il(a){if(a)var
-b=a[1],d=b?[0,il(b[1])]:b,c=d;else
+is(a){if(a)var
+b=a[1],d=b?[0,is(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ek(a){if(D(a,c))return c;var
-b=bo(a,a1(2)),e=b[1];return al(b[2],d)?n(ek(e)):n(ek(e))}function
-el(c,b){var
-a=hO(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-im(b,i,h){var
+el(a){if(D(a,c))return c;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?n(el(e)):n(el(e))}function
+em(c,b){var
+a=hU(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+it(b,i,h){var
 e=i,a=h;for(;;){if(D(e,c))return a;var
-f=bo(e,a1(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=O(b,a,a);continue}return O(b,a,im(b,g,O(b,a,a)))}}function
-dB(a){return im(J,a,p4)}function
+f=bo(e,a2(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=P(b,a,a);continue}return P(b,a,it(b,g,P(b,a,a)))}}function
+dB(a){return it(J,a,p3)}function
 fO(a){return a?n(fO(a[1])):c}function
-bO(f,e){var
+bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2022,58 +2022,58 @@ u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
 w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fP(a){if(D(a,c))return p5;var
-b=bo(a,a1(2)),e=b[1];return al(b[2],d)?ba(fP(e)):bb(fP(e))}function
-em(a){return ej(fP(a))}function
-io(k,f){if(0<=bI(f)){var
-g=hQ(f);if(0<=g){var
+fP(a){if(D(a,c))return p4;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?ba(fP(e)):bb(fP(e))}function
+en(a){return ek(fP(a))}function
+iu(k,f){if(0<=bJ(f)){var
+g=hW(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(p0)}return d}function
-ip(a){return 0<=bI(a)?a:d}function
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(pZ)}return d}function
+iv(a){return 0<=bJ(a)?a:d}function
 fQ(a){var
-b=bI(a);return 0===b?c:0<b?a:c}function
-iq(m){var
+b=bJ(a);return 0===b?c:0<b?a:c}function
+iw(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bO(a[1],c);case
+1:return bP(a[1],c);case
 2:var
-e=b(2,c);return bO(a[1],e);case
+e=b(2,c);return bP(a[1],e);case
 3:var
-f=n(b(2,c));return bO(a[1],f);case
+f=n(b(2,c));return bP(a[1],f);case
 4:var
-g=b(2,b(2,c));return bO(a[1],g);case
+g=b(2,b(2,c));return bP(a[1],g);case
 5:var
-h=n(b(2,b(2,c)));return bO(a[1],h);case
+h=n(b(2,b(2,c)));return bP(a[1],h);case
 6:var
-i=b(2,n(b(2,c)));return bO(a[1],i);case
+i=b(2,n(b(2,c)));return bP(a[1],i);case
 7:var
-j=n(b(2,n(b(2,c))));return bO(a[1],j);case
+j=n(b(2,n(b(2,c))));return bP(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bO(a[1],k);default:var
-l=n(b(2,b(2,b(2,c))));return bO(a[1],l)}}function
+k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
 b6(b,a){var
-c=bI(a);return 0===c?d:1===c?hP(b,a):ie(-1,hP(ie(-1,b),a))}function
-ir(a){return 0<bI(a)?Bk(a):d}function
+c=bJ(a);return 0===c?d:1===c?hV(b,a):il(-1,hV(il(-1,b),a))}function
+ix(a){return 0<bJ(a)?Bi(a):d}function
 dC(b,c){var
-a=hQ(c);return 0<=a?nh(b,a):ni(b,-a|0)}function
+a=hW(c);return 0<=a?ng(b,a):nh(b,-a|0)}function
 cQ(b,c){var
-a=hQ(c);return 0<=a?ni(b,a):nh(b,-a|0)}function
-en(b,a){return a?a[1]:b}function
+a=hW(c);return 0<=a?nh(b,a):ng(b,-a|0)}function
+eo(b,a){return a?a[1]:b}function
 fR(a){var
 b=a?a[2]:a;return b}function
 E(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aj(d,c){var
+ai(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-is(a){if(a){var
-b=[0,a[1],0];return g(is(a[2]),b)}return a}function
-it(d,c){var
+iy(a){if(a){var
+b=[0,a[1],0];return g(iy(a[2]),b)}return a}function
+iz(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
@@ -2082,11 +2082,11 @@ var
 c=a;return c}function
 z(b,a){if(a){var
 c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
-iu(e,d,c){var
+iA(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=O(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+f=P(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 cR(c,b,a){if(a){var
-d=cR(c,b,a[2]);return O(c,a[1],d)}return b}function
+d=cR(c,b,a[2]);return P(c,a[1],d)}return b}function
 a7(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
@@ -2102,37 +2102,37 @@ fS(b,f){var
 a=f;for(;;){if(a){var
 c=a[2],d=a[1];if(e(b,d))return[0,d,fS(b,c)];var
 a=c;continue}return a}}function
-cm(b,a){if(b)if(a)var
-d=cm(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cn(b,a){if(b)if(a)var
+d=cn(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eo(b,a){if(b)if(a)var
-d=eo(b[1],a[2]),c=[0,a[1],d];else
+ep(b,a){if(b)if(a)var
+d=ep(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-iv(d,c){var
+iB(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 cS(b,a){var
 c=a?[0,b,cS([0,b],a[1])]:a;return c}function
-cn(b,a){var
-c=a?[0,b,cn(b,a[1])]:a;return c}function
-iw(a){if(a){var
-e=iw(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
-ep(j){function
+co(b,a){var
+c=a?[0,b,co(b,a[1])]:a;return c}function
+iC(a){if(a){var
+e=iC(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
+eq(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bI(b)?dB(b):0}function
-ix(c,b){var
-a=hO(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iy(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
-iz(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-iA(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iC([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bJ(b)?dB(b):0}function
+iD(c,b){var
+a=hU(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iE(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
+iF(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iG(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
 aX(a){if(typeof
-a==="number")return p8;else
+a==="number")return p7;else
 switch(a[0]){case
 0:var
 b=aX(a[1]);return ax(a6(1,48),b);case
@@ -2154,49 +2154,49 @@ i=aX(a[1]);return ax(a6(1,55),i);case
 j=aX(a[1]);return ax(a6(1,56),j);default:var
 k=aX(a[1]);return ax(a6(1,57),k)}}function
 dD(a){return typeof
-a==="number"?p9:aX(a)}function
-co(a){return io(b(2,c),a)}function
-iB(b,a){return cQ(a,b)}function
-iC(b,a){return Y(cQ(Y(a),b))}function
-eq(b,a){return Y(b6(Y(b),a))}function
-aN(c,b){var
+a==="number"?p8:aX(a)}function
+cp(a){return iu(b(2,c),a)}function
+iH(b,a){return cQ(a,b)}function
+iI(b,a){return Y(cQ(Y(a),b))}function
+er(b,a){return Y(b6(Y(b),a))}function
+aK(c,b){var
 a=dC(b,c);return[0,a,a]}function
 A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-M(b,a){return[0,b2(b[1],a[2]),b2(b[2],a[1])]}function
-aG(a){return[0,Y(a[2]),Y(a[1])]}function
-iD(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
-f=cl(r(e,b),r(c,a));return[0,fM(r(e,a),r(c,b)),f]}function
+N(b,a){return[0,b2(b[1],a[2]),b2(b[2],a[1])]}function
+aH(a){return[0,Y(a[2]),Y(a[1])]}function
+iJ(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
+f=cm(r(e,b),r(c,a));return[0,fM(r(e,a),r(c,b)),f]}function
 F(c,b,a){var
-d=iD(b[1],b[2],a[1],a[2]),e=iC(c,d[2]);return[0,iB(c,d[1]),e]}function
-ad(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iC(b,cl(c,e)),g=0;if(aa(a[1],d)&&aa(d,a[2])){var
+d=iJ(b[1],b[2],a[1],a[2]),e=iI(c,d[2]);return[0,iH(c,d[1]),e]}function
+$(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iI(b,cm(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iB(b,fM(c,e));return[0,f,h]}function
-iE(b,a){var
-c=dC(co(b),b),d=eq(c,a[1]);return[0,b6(c,a[2]),d]}function
-cp(b,a){if(aa(d,a[1]))return[0,iE(b,a)];var
-c=aa(a[2],d),e=c?[0,aG(iE(b,aG(a)))]:c;return e}function
-cq(f,b){var
-g=aa(d,b[1]);if(g)var
-e=dC(b[2],f),a=ir(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,ir(dC(b[1],f)),i]];else
+f=iH(b,fM(c,e));return[0,f,h]}function
+iK(b,a){var
+c=dC(cp(b),b),d=er(c,a[1]);return[0,b6(c,a[2]),d]}function
+cq(b,a){if(ac(d,a[1]))return[0,iK(b,a)];var
+c=ac(a[2],d),e=c?[0,aH(iK(b,aH(a)))]:c;return e}function
+cr(f,b){var
+g=ac(d,b[1]);if(g)var
+e=dC(b[2],f),a=ix(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,ix(dC(b[1],f)),i]];else
 var
 h=g;return h}function
 a8(e,d,c,b,a){if(b){if(a){var
-g=a8(e,d,c,b[2],a[2]);return[0,O(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+g=a8(e,d,c,b[2],a[2]);return[0,P(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
 b7(b,a){return cQ(b,a)}function
-bP(a,c,b){if(D(d,a)){var
+bQ(a,c,b){if(D(d,a)){var
 e=b[1],f=Y(b7(Y(r(a,b[2])),c));return[0,b7(r(a,e),c),f]}var
 g=b[2],h=Y(b7(Y(r(a,b[1])),c));return[0,b7(r(a,g),c),h]}function
-er(a){var
+es(a){var
 b=Y(cQ(Y(a[2]),c));return[0,cQ(a[1],c),b]}function
 fT(c,b,a){var
-e=iD(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=aa(f,d)?a[2]:a[1],i=eq(f,h),j=aa(g,d)?a[1]:a[2];return[0,b6(g,j),i]}var
-ae=[0,d,d];function
+e=iJ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=er(f,h),j=ac(g,d)?a[1]:a[2];return[0,b6(g,j),i]}var
+aa=[0,d,d];function
 fU(a){return[0,a[1],a[1]]}function
-es(a){return[0,a[2],a[2]]}function
+et(a){return[0,a[2],a[2]]}function
 az(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dC(b[1],a),t=eq(m,n);return[0,[0,b6(m,n),t]];case
+n=b[2],m=dC(b[1],a),t=er(m,n);return[0,[0,b6(m,n),t]];case
 1:var
 c=az(a,b[1]);if(c)var
 d=az(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
@@ -2204,7 +2204,7 @@ var
 o=c;return o;case
 2:var
 e=az(a,b[1]);if(e)var
-f=az(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
+f=az(a,b[2]),v=f?[0,N(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
@@ -2215,69 +2215,69 @@ q=g;return q;case
 4:var
 i=az(a,b[1]);if(i){var
 j=az(a,b[2]);if(j)var
-k=cp(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
+k=cq(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=az(a,b[1]);return l?cq(a,l[1]):l}}function
-iF(a){var
-e=cl(Y(a),d);return fQ(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iG(a){return ip(C(iF(a),a))}function
+l=az(a,b[1]);return l?cr(a,l[1]):l}}function
+iL(a){var
+e=cm(Y(a),d);return fQ(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iM(a){return iv(C(iL(a),a))}function
 b8(f,a,e){var
-b=az(C(f,iF(a)),e);if(b)var
-c=b[1],g=iG(a),h=Y(b7(Y(c[2]),g)),i=iG(a),d=[0,[0,b7(c[1],i),h]];else
+b=az(C(f,iL(a)),e);if(b)var
+c=b[1],g=iM(a),h=Y(b7(Y(c[2]),g)),i=iM(a),d=[0,[0,b7(c[1],i),h]];else
 var
 d=b;return d}function
-aH(d,a){var
+aA(d,a){var
 b=b8(d,a[2],a[1][1]);if(b)var
 c=b8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iH(b,a){var
+iN(b,a){var
 c=Y(b7(Y(a[2]),b));return[0,b7(a[1],b),c]}function
 fV(b,a){var
-c=eq(b[2],a);return[0,b6(b[1],a),c]}function
+c=er(b[2],a);return[0,b6(b[1],a),c]}function
 fW(a,f,b){if(b){var
-d=b[1],g=fW(a,f,d),h=g[2],i=fO(J(dz(p$,d),p_)),j=r(fO(dz(qa,d)),i),e=fV(F(a,g[1],f),j),k=ik(b)?A(h,e):M(h,e);return[0,e,k]}var
-l=aN(a,c);return[0,aN(a,c),l]}function
-iI(f){var
-g=dB(f),e=qb[1],b=g,c=0,a=e;for(;;){if(b){var
+d=b[1],g=fW(a,f,d),h=g[2],i=fO(J(dz(p_,d),p9)),j=r(fO(dz(p$,d)),i),e=fV(F(a,g[1],f),j),k=ir(b)?A(h,e):N(h,e);return[0,e,k]}var
+l=aK(a,c);return[0,aK(a,c),l]}function
+iO(f){var
+g=dB(f),e=qa[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return J(qc,c)}}function
-iJ(a,d){var
-g=co(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fW(a,d,dz(qe,J(iI(a),qd)))[2][2],f=[0,[0,fW(a,d,J(dz(qg,iI(a)),qf))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return J(qb,c)}}function
+iP(a,d){var
+g=cp(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fW(a,d,dz(qd,J(iO(a),qc)))[2][2],f=[0,[0,fW(a,d,J(dz(qf,iO(a)),qe))[2][1],i]];else
 var
 f=e;return f}function
-iK(i){function
+iQ(i){function
 a(h){var
-m=b6(co(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
+m=b6(cp(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
 j=C(a,b(2,c)),k=C(e,b6(f,a)),l=Y(b6(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b2(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iL(e,a){var
+iR(e,a){var
 f=D(d,a);if(f){var
-g=b(2,b(2,c));return iJ(e,fV(ad(e,[0,a,a]),g))}return f}function
-iM(a,d){var
-b=ad(a,d),e=aN(a,c);return M(A(b,b),e)}function
-et(o,u){var
+g=b(2,b(2,c));return iP(e,fV($(e,[0,a,a]),g))}return f}function
+iS(a,d){var
+b=$(a,d),e=aK(a,c);return N(A(b,b),e)}function
+eu(o,u){var
 h=az(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iK(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iK(a),r),f=iL(a,i);if(f){var
-g=iL(a,j);if(g)var
-k=aa(d,f[1][1]),l=k?aa(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iQ(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iQ(a),r),f=iR(a,i);if(f){var
+g=iR(a,j);if(g)var
+k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iJ(a,ad(a,fV(F(a,v,e[1]),s))),p=ah(function(b){return iM(a,iM(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iP(a,$(a,fV(F(a,v,e[1]),s))),p=af(function(b){return iS(a,iS(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ah(function(a){return iH(w,a)},p)}return h}function
-fX(d,a){return et(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
-eu(a){return 0===a[0]?a[2]:a[1]}function
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return af(function(a){return iN(w,a)},p)}return h}function
+fX(d,a){return eu(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+ev(a){return 0===a[0]?a[2]:a[1]}function
 dE(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
@@ -2295,8 +2295,8 @@ g=e(b,a[2]);return[7,e(b,a[1]),g];case
 bc(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?_(b[1],a[1]):0;case
-1:return 1===a[0]?_(b[1],a[1]):0;case
+0:return 0===a[0]?M(b[1],a[1]):0;case
+1:return 1===a[0]?M(b[1],a[1]):0;case
 2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
 e=bc(b[1],a[1]);if(e){var
@@ -2315,92 +2315,92 @@ d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-ev(b){var
+ew(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bp(c,b){var
-a=ev(b);return a?al(c,a[1]):a}function
-dF(a){return aa(fA(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=ew(b);return a?al(c,a[1]):a}function
+dF(a){return ac(fA(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
 G(b,a){if(bp(d,b))return a;if(bp(d,a))return b;var
-c=ev(b);if(c){var
-e=c[1],f=ev(a);if(f){var
+c=ew(b);if(c){var
+e=c[1],f=ew(a);if(f){var
 g=f[1];if(dF(e)&&dF(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cr(a){var
+cs(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return dF(c)?q(Y(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){return bp(d,a)?b:bp(d,b)?cr(a):[0,[4,b,a]]}function
-V(a){var
-c=ev(a);if(c){var
+w(b,a){return bp(d,a)?b:bp(d,b)?cs(a):[0,[4,b,a]]}function
+W(a){var
+c=ew(a);if(c){var
 b=c[1];return dF(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?V(a):[0,[6,a,b]];return b}return a}function
+s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?W(a):[0,[6,a,b]];return b}return a}function
 aq(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
 b9(a){return bp(c,a)?a:[0,[9,a]]}function
-cs(g,f,d,c){var
+ct(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
 h=b[1],i=[0,e(f,dE(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
 dG(a){var
 b=0;function
-c(a){return[0,a]}return cs(q(d),c,a,b)}function
-fY(b,a){if(a){if(bc(b,a[1]))return qh;var
-c=fY(b,a[2]);return ah(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return ct(q(d),c,a,b)}function
+fY(b,a){if(a){if(bc(b,a[1]))return qg;var
+c=fY(b,a[2]);return af(function(a){return[0,a]},c)}return a}function
 bq(c,b){var
 a=fY(b,c),d=a?a[1]:a;return d}function
-ew(d,a){if(fY(d,a[1]))return a;var
+ex(d,a){if(fY(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=ew(b[1],a);break;case
+c=ex(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=ew(b[1],a),c=ew(b[2],h)}var
+h=ex(b[1],a),c=ex(b[2],h)}var
 e=c[2],f=c[1],g=[0,dE(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
 dH(a){var
-b=iu(function(b,a){return ew(a,b)},a,qi),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,is(b[2]),d]}function
-ex(a){return cR(function(a,b){return C(cl(a[2],Y(a[1])),b)},d,a)}function
+b=iA(function(b,a){return ex(a,b)},a,qh),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,iy(b[2]),d]}function
+ey(a){return cR(function(a,b){return C(cm(a[2],Y(a[1])),b)},d,a)}function
 cT(b,c,a){var
-d=ex(a),e=fM(c[2],C(b[2],d)),f=ex(a);return[0,b,[0,cl(c[1],b2(b[1],f)),e],a]}function
-a3(a){return[0,a,a,0]}function
-ey(b,a){var
+d=ey(a),e=fM(c[2],C(b[2],d)),f=ey(a);return[0,b,[0,cm(c[1],b2(b[1],f)),e],a]}function
+aY(a){return[0,a,a,0]}function
+ez(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cT(A(b[1],a[1]),g,f)}function
-iN(b,a){var
-c=a[3],d=b[3],e=a8(function(a){return a},aG,M,d,c),f=M(b[2],a[2]);return cT(M(b[1],a[1]),f,e)}function
-iO(a,c,b){var
+iT(b,a){var
+c=a[3],d=b[3],e=a8(function(a){return a},aH,N,d,c),f=N(b[2],a[2]);return cT(N(b[1],a[1]),f,e)}function
+iU(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=F(a,e,b);return er(A(F(a,d,c),f))}function
-i(b){return er(F(a,e,b))}var
-j=a8(function(b){return er(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cT(F(a,c[1],b[1]),k,j)}function
+f=F(a,e,b);return es(A(F(a,d,c),f))}function
+i(b){return es(F(a,e,b))}var
+j=a8(function(b){return es(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cT(F(a,c[1],b[1]),k,j)}function
 fZ(b,a){return a?e(b,a[1]):a}function
-ez(d,b,a){if(b){if(a)return O(d,b[1],a[1]);var
+eA(d,b,a){if(b){if(a)return P(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
 dI(a,e,d){var
-c=a3(ae);return function(b){switch(b[0]){case
+c=aY(aa);return function(b){switch(b[0]){case
 0:return[0,E(b[1],e,c)];case
 1:return[0,E(b[1],d,c)];case
-2:return[0,a3(aN(a,b[1]))];case
+2:return[0,aY(aK(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return ez(function(b,a){return[0,ey(b,a)]},h,g);case
+g=b[2],h=b[1];return eA(function(b,a){return[0,ez(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return ez(function(b,a){return[0,iN(b,a)]},j,i);case
+i=b[2],j=b[1];return eA(function(b,a){return[0,iT(b,a)]},j,i);case
 5:var
 k=b[1];return fZ(function(a){var
-b=f(aG,a[3]),c=aG(a[2]);return[0,[0,aG(a[1]),c,b]]},k);case
+b=f(aH,a[3]),c=aH(a[2]);return[0,[0,aH(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return ez(function(c,b){return[0,iO(a,c,b)]},m,l);case
+l=b[2],m=b[1];return eA(function(c,b){return[0,iU(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return ez(function(e,g){var
-b=cp(a,g[1]);if(b){var
-c=cp(a,g[2]);if(c)var
-h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,F(a,d,b))},n=function(b){return aG(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cT(d,F(a,e[2],h),p)];else
+n=b[2],o=b[1];return eA(function(e,g){var
+b=cq(a,g[1]);if(b){var
+c=cq(a,g[2]);if(c)var
+h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,F(a,d,b))},n=function(b){return aH(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cT(d,F(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
@@ -2408,11 +2408,11 @@ var
 j=b;return j},o,n);case
 8:var
 p=b[1];return fZ(function(b){var
-c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=ad(a,b[2]);return[0,cT(ad(a,b[1]),g,e)]},p);default:var
+c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=$(a,b[2]);return[0,cT($(a,b[1]),g,e)]},p);default:var
 q=b[1];return fZ(function(e){var
-b=cq(a,e[1]);if(b){var
-g=b[1],c=cq(a,e[2]);if(c){var
-h=c[1],d=cp(a,A(h,g));if(d)var
+b=cr(a,e[1]);if(b){var
+g=b[1],c=cr(a,e[2]);if(c){var
+h=c[1],d=cq(a,A(h,g));if(d)var
 l=e[3],m=d[1],i=[0,cT(g,h,f(function(b){return F(a,m,b)},l))];else
 var
 i=d;var
@@ -2422,143 +2422,164 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
+qi(a){return a}function
 qj(a){return a}function
-qk(a){return a}function
-ql(a,b){return a8(qk,qj,A,a,b)}function
+qk(a,b){return a8(qj,qi,A,a,b)}function
+ql(a){return a}function
 qm(a){return a}function
-qn(a){return a}function
-iP(a,b){return a8(qn,qm,ql,a,b)}function
-f0(b,a,c){if(a){var
+f0(a,b){return a8(qm,ql,qk,a,b)}function
+f1(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=f0(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fT(d,a,b))},j=function(a){return aG(fT(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
-k=f0(b,e,0);return[0,f(function(a){return aG(fT(d,a,b))},a),k]}return c}function
-iQ(a){if(a){var
+g=f1(b,e,c[2]),h=c[1],i=function(c,a){return N(c,fT(d,a,b))},j=function(a){return aH(fT(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
+k=f1(b,e,0);return[0,f(function(a){return aH(fT(d,a,b))},a),k]}return c}function
+iV(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=aa(d,c[1]),h=e?[0,f0(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ac(d,c[1]),h=e?[0,f1(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iR(f,e){var
+iW(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iQ(b);if(c){var
+c=iV(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iS(d,b,a){if(b)if(a)var
-e=a[1],f=iS(d,b[2],a[2]),g=dA(d,b[1])?fU(e):es(e),c=[0,g,f];else
+iX(d,b,a){if(b)if(a)var
+e=a[1],f=iX(d,b[2],a[2]),g=dA(d,b[1])?fU(e):et(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iT(a,b){if(a)if(b)var
-d=iT(a[2],b[2]),c=[0,iS(a[1],a,b[1]),d];else
+iY(a,b){if(a)if(b)var
+d=iY(a[2],b[2]),c=[0,iX(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bQ(a){if(a){var
-b=a[1],c=bQ(b),d=f(function(a){return[0,1,a]},c),e=bQ(b);return g(f(function(a){return[0,0,a]},e),d)}return qo}function
-eA(a){var
-b=m(a);if(iR(b,a))return 1;var
-c=bQ(bN(b));return o(function(c){return iR(b,iT([0,0,c],a))},c)}function
+bR(a){if(a){var
+b=a[1],c=bR(b),d=f(function(a){return[0,1,a]},c),e=bR(b);return g(f(function(a){return[0,0,a]},e),d)}return qn}function
+eB(a){var
+b=k(a);if(iW(b,a))return 1;var
+c=bR(bO(b));return o(function(c){return iW(b,iY([0,0,c],a))},c)}function
 a4(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
 b_(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iU(c,b,a){var
-d=bQ(c);return o(function(c){return e(a,e(a4(function(a){return b_(c,a)}),b))},d)}function
-iV(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bP(b,C(h,c),a)},k=iV(h,j,i),l=function(c,b){var
+d=b[1],f=b[2],g=c[1]?A(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+f2(c,b,a){var
+d=bR(c);return o(function(c){return e(a,e(a4(function(a){return b_(c,a)}),b))},d)}function
+iZ(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bQ(b,C(h,c),a)},k=iZ(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-iW(b,d,a,c){function
+i0(b,d,a,c){function
 e(c,d){var
-e=bP(d,b,a);return M(A(c,c),e)}function
-f(c){return aG(bP(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
-f1(d,i,h,g){var
+e=bQ(d,b,a);return N(A(c,c),e)}function
+f(c){return aH(bQ(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
+f3(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=es(e[2]),k=iP(a,iV(d,f,iW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iX(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=et(e[2]),k=f0(a,iZ(d,f,i0(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+f4(b,a){return[0,[0,0,b],a]}function
 dJ(b,c,g,f,a){function
 d(a){if(a){var
-h=cn([0,aG(a[1][2]),0],b),c=f1(g,f,a[2],h),d=_(m(c),b);if(d)return eA(c);var
+h=co([0,aH(a[1][2]),0],b),c=f3(g,f,a[2],h),d=M(k(c),b);if(d)return eB(c);var
 e=d}else
 var
-e=a;return e}return iU(b,iX(c,a),d)}function
-iY(f,e){var
+e=a;return e}return f2(b,f4(c,a),d)}function
+i1(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iQ([0,[0,fU(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iV([0,[0,fU(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-f2(b,c,a){function
+f5(b,c,a){function
 d(a){if(a){var
-h=cn([0,a[1][2],0],b),c=iY(a[2],h);if(c){var
-d=c[1],e=_(m(d),b);if(e)return eA(d);var
+h=co([0,a[1][2],0],b),c=i1(a[2],h);if(c){var
+d=c[1],e=M(k(d),b);if(e)return eB(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return iU(b,iX(c,a),d)}function
-iZ(a,b){var
-c=b[3],d=a[3],e=a8(function(a){return a},aG,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+g=a;return g}return f2(b,f4(c,a),d)}function
+i2(a,b){var
+c=b[3],d=a[3],e=a8(function(a){return a},aH,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
 dK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 aS(c,b,a){var
-d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
+d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
 dL(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-eB(b,a){var
+eC(b,a){var
 c=aq(b[3],a),d=aq(b[2],a);return[0,aq(b[1],a),d,c]}function
 ar(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return G(G(s(b[1],a[1]),d),c)}function
-f3(a){return eB(a,b9(ar(a,a)))}function
+f6(a){return eC(a,b9(ar(a,a)))}function
 cU(a){var
 b=a[5];return b?b[1]:b9(a[2])}function
-eC(a){return f(function(a){var
+eD(a){return f(function(a){var
 b=a[2];return[0,dK(a[1]),b]},a)}function
-i0(a){return f(function(a){var
+i3(a){return f(function(a){var
 b=q(c);return[0,dK(a[3]),b]},a)}function
-i1(b,a){var
+i4(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-i2(c,b,a){var
-d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
-eD(a,k,j,p,i,h,g){var
-m=i2(iN,h,g),b=i2(function(b,c){return iO(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ey(ey(ey(a3(aN(a,d)),f),e),c),n=bQ(k);return o(function(e){var
-c=i1(function(b){return ad(a,b_(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aN(a,d),o),n),m),f=cq(a,[0,b[2],b[2]]);if(f)var
+i5(c,b,a){var
+d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
+eE(a,k,j,p,i,h,g){var
+m=i5(iT,h,g),b=i5(function(b,c){return iU(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ez(ez(ez(aY(aK(a,d)),f),e),c),n=bR(k);return o(function(e){var
+c=i4(function(b){return $(a,b_(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aK(a,d),o),n),m),f=cr(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
-q=F(a,p,h),k=M(b_(e,l),q),r=j?M(k,b_(e,j[1])):k;return aa(d,r[1])},n)}function
+q=F(a,p,h),k=N(b_(e,l),q),r=j?N(k,b_(e,j[1])):k;return ac(d,r[1])},n)}function
 br(a){return cQ(C(a[1],a[2]),c)}function
 cV(a){var
 b=br(a);return b2(a[2],b)}function
-f4(c,b){if(b)var
-a=b[1],e=f4([0,c],b[2]),f=cV(a),h=[0,[0,cV(a),f],0],i=g(cn(ae,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
+f7(c,b){if(b)var
+a=b[1],e=f7([0,c],b[2]),f=cV(a),h=[0,[0,cV(a),f],0],i=g(co(aa,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
 var
 d=b;return d}function
 dM(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=dM(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qp}function
-i3(d,c,b,a){var
-e=f(a3,b);return cs(0,dI(d,f4(0,a),e),c,0)}function
+f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qo}function
+i6(d,b,a){if(b){if(a){var
+e=i6(d,b[2],a[2]);return A(bQ(b[1],C(d,c),a[1]),e)}return aa}return aa}function
+f8(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i6(e,a,b)},j=f8(e,h),k=f(function(a){var
+e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
+var
+i=a;return i}function
+f9(e,b,d,a){if(b)if(a)var
+f=b[1],g=f9(e,b[2],d,a[2]),c=[0,[0,f,i0(e,a[1][1],d,f)],g];else
+var
+c=a;else
+var
+c=b;return c}function
+f_(e,d,c,b,a){if(a){var
+g=a[2];if(d){var
+i=f_(e,d[1],c,b,g);return[0,[0,N(aa,b),0],i]}var
+j=f(function(a){return[0,N(aa,b),0]},g),h=[0,[0,N(aH(F(e,c,et(a[1][2]))),b),0],j]}else
+var
+h=a;return h}function
+dN(c,a){var
+b=M(k(a),c);return b?eB(a):b}function
+i7(d,c,b,a){var
+e=f(aY,b);return ct(0,dI(d,f7(0,a),e),c,0)}function
 aT(a){if(a){var
 b=a[1];if(b)var
 c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qq}function
-i4(b,a){if(a){var
+d=b;return d}return qp}function
+i8(b,a){if(a){var
 h=a[1],n=h[1],c=aT(f(function(a){return E(a,b,0)},n));if(c){var
 e=E(h[2],b,0);if(e){var
-i=e[1],g=i4(b,a[2]);if(g)var
-j=aa(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=e[1],g=i8(b,a[2]);if(g)var
+j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2566,19 +2587,19 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qr}function
-cu(d,c,b){var
-a=i4(d,c);return a?e(b,a[1]):a}function
-f5(a,b){return o(function(c){var
+m=c;return m}return qq}function
+b$(d,c,b){var
+a=i8(d,c);return a?e(b,a[1]):a}function
+f$(a,b){return o(function(c){var
 a=E(c,b,0),d=a?1:a;return d},a)}function
-eE(b,a){if(b){var
+eF(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-f6(b,a){return b?iZ(a,b[1]):a}function
-f7(h,g,b,f){var
+ga(b,a){return b?i2(a,b[1]):a}function
+gb(h,g,b,f){var
 a=E(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iZ(c,b[1]),e=bQ(g);return o(function(a){return D(d,b_(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-eF(b,a){var
+i=i2(c,b[1]),e=bR(g);return o(function(a){return D(d,b_(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+eG(b,a){var
 c=E(a[1],b,0);if(c){var
 d=E(a[2],b,0);if(d)var
 e=E(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2587,130 +2608,140 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-i5(i,q,J,t,e,b,g,h,a){switch(h[0]){case
+i9(i,l,J,t,e,b,g,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=f5(t,e);if(K){var
-ac=a[2],ad=a[1],af=eE(g,a3(r));return cu(e,q,function(a){return dJ(b,af,ad,ac,a)})}return K;case
+K=f$(t,e);if(K){var
+af=a[2],ag=a[1],ah=eF(g,aY(r));return b$(e,l,function(a){return dJ(b,ah,ag,af,a)})}return K;case
 1:var
-L=f5(t,e);if(L){var
-ag=a[2],ah=a[1],ai=eE(g,a3(r));return cu(e,J,function(a){return dJ(b,ai,ah,ag,a)})}return L;case
+L=f$(t,e);if(L){var
+ai=a[2],aj=a[1],ak=eF(g,aY(r));return b$(e,J,function(a){return dJ(b,ak,aj,ai,a)})}return L;case
 2:var
-M=f5(t,e);if(M){if(g)return 0;var
-N=al(r[1],d),O=N?al(r[2],d):N;if(O){var
-aj=a[2],ak=a[1];return cu(e,q,function(a){var
-c=[0,ae,ae,0];return dJ(b,[0,ae,ae,0],ak,aj,f(function(a){return[0,a[1],c]},a))})}var
-P=O}else
+N=f$(t,e);if(N){if(g)return 0;var
+O=al(r[1],d),P=O?al(r[2],d):O;if(P){var
+am=a[2],an=a[1];return b$(e,l,function(a){var
+c=[0,aa,aa,0];return dJ(b,[0,aa,aa,0],an,am,f(function(a){return[0,a[1],c]},a))})}var
+Q=P}else
 var
-P=M;return P}return 0;case
+Q=N;return Q}return 0;case
 1:var
-Q=h[1];if(typeof
+R=h[1];if(typeof
 a==="number"){if(1===a){var
-am=f6(g,a3(Q));return cu(e,J,function(a){return f2(b,am,a)})}if(!a){var
-an=f6(g,a3(Q));return cu(e,q,function(a){return f2(b,an,a)})}}return 0;case
+ao=ga(g,aY(R));return b$(e,J,function(a){return f5(b,ao,a)})}if(!a){var
+ap=ga(g,aY(R));return b$(e,l,function(a){return f5(b,ap,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],u=a[3],I=function(a){return bP(a,R,aN(i,c))};if(u)var
-ab=f(I,u[2]),j=[0,I(u[1]),ae,ab];else
+S=a[1],u=a[3],I=function(a){return bQ(a,S,aK(i,c))};if(u)var
+ae=f(I,u[2]),j=[0,I(u[1]),aa,ae];else
 var
-j=a3(ae);var
-S=h[1],ao=a[2];return cu(e,q,function(e){var
-h=bQ(b),a=o(function(a){return aa(d,b_(a,j)[1])},h),c=a?dJ(b,eE(g,j),R,ao,e):a;if(c){var
-k=j[3],l=f(function(a){return F(i,S,a)},k),m=j[2];return f2(b,f6(g,[0,F(i,S,j[1]),m,l]),e)}return c})}return 0;case
+j=aY(aa);var
+T=h[1],aq=a[2];return b$(e,l,function(e){var
+h=bR(b),a=o(function(a){return ac(d,b_(a,j)[1])},h),c=a?dJ(b,eF(g,j),S,aq,e):a;if(c){var
+k=j[3],l=f(function(a){return F(i,T,a)},k),m=j[2];return f5(b,ga(g,[0,F(i,T,j[1]),m,l]),e)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return f7(e,b,g,h[1]);return 0;case
+a==="number"&&!a)return gb(e,b,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eE(g,a3(h[2])),as=function(a){return dJ(b,ar,aq,ap,a)};return cu(e,h[1],as)}return 0;case
+ar=a[2],as=a[1],at=eF(g,aY(h[2])),au=function(a){return dJ(b,at,as,ar,a)};return b$(e,h[1],au)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return f7(e,b,g,h[1]);case
-2:return f7(e,b,g,h[2])}return 0;default:if(typeof
+0:return gb(e,b,g,h[1]);case
+2:return gb(e,b,g,h[2])}return 0;case
+6:if(typeof
 a!=="number"&&8===a[0]){var
-v=eF(e,h[1]);if(v){var
-w=eF(e,h[2]);if(w){var
-x=eF(e,h[3]);if(x){var
-y=eF(e,h[4]);if(y){var
-T=y[1],U=x[1],V=w[1],W=v[1],k=a[2],s=h[5],at=a[1];if(k){var
-l=k[2];if(l){var
-n=l[2];if(n){if(n[2])return 0;var
-$=[0,k[1],l[1],n[1]],p=i1(function(d){function
-e(a){return bP(a,at,aN(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=ex(a),h=C(b[2],g),j=ex(a);return[0,b,[0,b2(b[1],j),h],a]}return a3(ae)},$),z=o(function(a){return _(m(a),[0,b])},k),A=z?eD(i,b,g,s,p,W,U):z,B=A?eD(i,b,g,s,p,W,T):A,D=B?eD(i,b,g,s,p,V,U):B;if(D)return eD(i,b,g,s,p,V,T);var
+v=eG(e,h[1]);if(v){var
+w=eG(e,h[2]);if(w){var
+x=eG(e,h[3]);if(x){var
+y=eG(e,h[4]);if(y){var
+U=y[1],V=x[1],W=w[1],X=v[1],m=a[2],s=h[5],av=a[1];if(m){var
+n=m[2];if(n){var
+p=n[2];if(p){if(p[2])return 0;var
+ad=[0,m[1],n[1],p[1]],q=i4(function(d){function
+e(a){return bQ(a,av,aK(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=ey(a),h=C(b[2],g),j=ey(a);return[0,b,[0,b2(b[1],j),h],a]}return aY(aa)},ad),z=o(function(a){return M(k(a),[0,b])},m),A=z?eE(i,b,g,s,q,X,V):z,B=A?eE(i,b,g,s,q,X,U):A,D=B?eE(i,b,g,s,q,W,V):B;if(D)return eE(i,b,g,s,q,W,U);var
 E=D}else
 var
-E=n;var
+E=p;var
 G=E}else
 var
-G=l;var
+G=n;var
 H=G}else
 var
-H=k;return H}var
-X=y}else
+H=m;return H}var
+Y=y}else
 var
-X=x;var
-Y=X}else
-var
-Y=w;var
+Y=x;var
 Z=Y}else
 var
-Z=v;return Z}return 0}}function
-eG(b,a){if(a){var
+Z=w;var
+_=Z}else
+var
+_=v;return _}return 0;default:if(typeof
+a!=="number"&&0===a[0]){var
+$=a[2],ab=a[1],aw=h[2],ax=h[1];return b$(e,l,function(e){var
+a=M(k(e),b),d=a?M(k($),b):a;if(d){var
+f=function(a){if(a){var
+d=a[2],e=M(k(d),b);if(e){var
+g=f8(ab,f9(ab,$,aK(i,c),d));return dN(b,f0(f_(i,ax,aw,a[1][2],d),g))}var
+f=e}else
+var
+f=a;return f},h=g?g[1]:aY(aa);return f2(b,f4(h,e),f)}return d})}return 0}}function
+eH(b,a){if(a){var
 c=a[2];if(b){var
-e=eG(b[1],c);return[0,a[1],e]}var
+e=eH(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i6(r,V,I,H,G,U,T,F,c,C,B){if(C){var
-J=i3(r,V,U,c),g=C,b=B;for(;;){if(g){var
+i_(r,V,I,H,G,U,T,F,c,C,B){if(C){var
+J=i7(r,V,U,c),g=C,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-l=e(F,c);if(l)var
-S=l[1],M=bQ(m(c)),p=o(function(b){return function(a){return aa(b_(a,b)[2],d)}}(S),M);else
+m=e(F,c);if(m)var
+S=m[1],M=bR(k(c)),p=o(function(b){return function(a){return ac(b_(a,b)[2],d)}}(S),M);else
 var
-p=l;if(p){var
+p=m;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
 x=E(n,b,0);if(x){var
-q=aj(T,n);if(q){var
+q=ai(T,n);if(q){var
 y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(F,c),L=0;if(j){var
 s=D(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bP(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bP(i,t,k[1]),P,O]],h=i5(r,I,H,G,J,m(c),R,y,Q);L=1}else
+l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bQ(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bQ(i,t,l[1]),P,O]],h=i9(r,I,H,G,J,k(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i5(r,I,H,G,J,m(c),0,y,a);if(h){var
-g=w,b=eG(n,b);continue}var
+h=i9(r,I,H,G,J,k(c),0,y,a);if(h){var
+g=w,b=eH(n,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-f8(j,i,h,g,f,e,d,c,u,t,s){var
+gc(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i6(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aM,l[1]):l}var
-m=i6(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dM(a[2],b),q=f8(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=i_(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aN,l[1]):l}var
+m=i_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dM(a[2],b),q=gc(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i7(a){return f(function(a){return 1},a)}function
+i$(a){return f(function(a){return 1},a)}function
 cv(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
 k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bo(e,a1(2))[2],d)?0:0;var
-i=bo(f,a1(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
-g=bo(e,a1(2)),p=g[1];if(al(g[2],d)){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bo(e,a2(2))[2],d)?0:0;var
+i=bo(f,a2(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=bo(e,a2(2)),p=g[1];if(al(g[2],d)){var
 f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=bo(e,a1(2)),q=h[1];if(al(h[2],d))return 0;var
+h=bo(e,a2(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
 l=cv(b[1],a[1]);if(l){var
@@ -2725,31 +2756,31 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=cv(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eH(a){switch(a[0]){case
+eI(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iz(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iF(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iz(b,[0,Y(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iF(b,[0,Y(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iA(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iG(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ix(a,[0,d,c]))return 0;var
-b=a[1],e=bI(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iA(g,f)]};break;default:return 0}var
-g=eH(e);if(g){var
-h=eH(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iD(a,[0,d,c]))return 0;var
+b=a[1],e=bJ(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iG(g,f)]};break;default:return 0}var
+g=eI(e);if(g){var
+h=eI(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eH(b);if(f){var
-g=f[1];return e?aM(iy(g,[0,d,c])):iy([0,d,c],g)}var
+f=eI(b);if(f){var
+g=f[1];return e?aN(iE(g,[0,d,c])):iE([0,d,c],g)}var
 a=az(i,b);if(a){var
-h=a[1];return e?aa(d,h[1]):D(d,h[1])}return a}function
-i8(c,b){var
+h=a[1];return e?ac(d,h[1]):D(d,h[1])}return a}function
+ja(c,b){var
 a=az(c,b),d=a?1:a;return d}function
 bs(c,a,b){var
-d=cv(a,b),e=d?i8(c,a):d;return e?e:j(c,0,[2,b,a])}function
+d=cv(a,b),e=d?ja(c,a):d;return e?e:j(c,0,[2,b,a])}function
 cw(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
@@ -2760,11 +2791,11 @@ var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=al(bo(j,a1(2))[2],d)?0:0}else
+a=al(bo(j,a2(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(bo(i,a1(2))[2],d)?0:0}else
+a=al(bo(i,a2(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
 cx(b,a){if(a)var
@@ -2772,27 +2803,27 @@ d=cx([0,b],a[2]),c=[0,cw(a[1],b),d];else
 var
 c=a;return c}function
 a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-f9(b,d,a){switch(a[0]){case
+gd(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(a5(c[3],b),f),i=g(a5(c[2],b),h);return g(a5(c[1],d),i);case
 1:var
 e=a[3],j=e?a5(e[1],d):e,k=g(a5(a[2],b),j);return g(a5(a[1],b),k);default:return a5(a[1],d)}}function
 aI(b,a){var
-c=q(d),e=E(J(qs,a),b,c),f=q(d),g=E(J(qt,a),b,f);return[0,E(a,b,q(d)),g,e]}function
-i9(b,a){return aS(w,aS(G,ct,a),b)}function
-f_(c,b,a){if(a){var
-e=a[2],f=f_(c,fR(b),e),h=a[1];return g(f9(c,en(d,b),h),f)}return a}function
-f$(l,k,h,y){if(h){var
-e=h[1],P=J(y,m(f9(l,en(d,k),e))),Q=h[2],R=f$(l,fR(k),Q,P),a=cx(y,f9(l,en(d,k),e));switch(e[0]){case
+c=q(d),e=E(J(qr,a),b,c),f=q(d),g=E(J(qs,a),b,f);return[0,E(a,b,q(d)),g,e]}function
+jb(b,a){return aS(w,aS(G,cu,a),b)}function
+ge(c,b,a){if(a){var
+e=a[2],f=ge(c,fR(b),e),h=a[1];return g(gd(c,eo(d,b),h),f)}return a}function
+gf(m,l,h,y){if(h){var
+e=h[1],P=J(y,k(gd(m,eo(d,l),e))),Q=h[2],R=gf(m,fR(l),Q,P),a=cx(y,gd(m,eo(d,l),e));switch(e[0]){case
 0:var
-I=e[1][5],u=E(qu,a,q(d)),K=aS(G,ct,aI(a,qv)),g=f3(aI(a,0)),L=aI(a,qw),v=i9(aI(a,qx),L),o=ar(g,v),f=aS(w,v,dL(o,g)),A=ar(f,f),p=w(V(u),A),r=b9(p),i=I?r:cr(r),B=w(o,i),C=aS(G,g,eB(f,i)),n=[0,aS(G,f,dL(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+I=e[1][5],u=E(qt,a,q(d)),K=aS(G,cu,aI(a,qu)),g=f6(aI(a,0)),L=aI(a,qv),v=jb(aI(a,qw),L),o=ar(g,v),f=aS(w,v,dL(o,g)),A=ar(f,f),p=w(W(u),A),r=b9(p),i=I?r:cs(r),B=w(o,i),C=aS(G,g,eC(f,i)),n=[0,aS(G,f,dL(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-x=e[3],M=x?[0,f3(aI(a,qy))]:x,N=aS(G,ct,aI(a,qz)),O=aI(a,qA),b=i9(aI(a,0),O),s=ar(b,b),t=b9(s),D=[0,N],F=ah(function(a){return aS(w,b,dL(ar(a,b),a))},M),n=[0,b,s,eB(b,t),t,0,F,D];break;default:var
-j=f3(aI(a,0)),H=ar(j,ct),n=[0,j,q(c),j,H,0,0,0]}var
+x=e[3],M=x?[0,f6(aI(a,qx))]:x,N=aS(G,cu,aI(a,qy)),O=aI(a,qz),b=jb(aI(a,0),O),s=ar(b,b),t=b9(s),D=[0,N],F=af(function(a){return aS(w,b,dL(ar(a,b),a))},M),n=[0,b,s,eC(b,t),t,0,F,D];break;default:var
+j=f6(aI(a,0)),H=ar(j,cu),n=[0,j,q(c),j,H,0,0,0]}var
 z=[0,n,R]}else
 var
 z=h;return z}function
-bR(b,a){if(typeof
+bt(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2803,11 +2834,13 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[4,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-o=a[3],p=eu(a[2]),l=[1,[1,eu(a[1]),p],o];return[0,[0,l,l],b];case
+p=a[3],q=ev(a[2]),l=[1,[1,ev(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
 n=[4,a[2],a[4]];return[0,[0,n,n],d];case
+13:var
+o=[4,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
@@ -2815,73 +2848,73 @@ f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 3:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-dN(b,a){var
+dO(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eI(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(dN(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=dN(b,a[3]);return g(dN(b,a[2]),j)}function
+eJ(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dO(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dO(b,a[3]);return g(dO(b,a[2]),j)}function
 cW(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=eI(b,a[2]);return g(eI(b,a[1]),e);case
+e=eJ(b,a[2]);return g(eJ(b,a[1]),e);case
 11:var
-f=dN(b,a[3]);return g(dN(b,a[2]),f);case
+f=dO(b,a[3]);return g(dO(b,a[2]),f);case
 12:var
 c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-i_(c,b,a){var
-d=m(cW(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
-i$(k,a,g){switch(g[0]){case
+jc(c,b,a){var
+d=k(cW(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
+jd(k,a,g){switch(g[0]){case
 0:var
-e=aj(k,g[1]);if(e){var
+e=ai(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aI(a,qB);return aS(G,aS(w,l,dL(c,b[1])),d)},m=cU(b),n=h(aq(E(qC,a,q(d)),m)),o=cU(b),p=aq(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
+d=aI(a,qA);return aS(G,aS(w,l,dL(c,b[1])),d)},m=cU(b),n=h(aq(E(qB,a,q(d)),m)),o=cU(b),p=aq(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aI(a,qD);return[0,[0,aI(a,0),r]];default:var
-s=aS(G,ct,aI(a,qE));return[0,[0,aS(G,ct,aI(a,0)),s]]}}function
-ja(f,e,j,d,c){var
-k=eI(e,c),h=cx(j,g(eI(e,d),k)),a=i$(f,eo(qF,h),d);if(a)var
-b=i$(f,iv(qG,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aI(a,qC);return[0,[0,aI(a,0),r]];default:var
+s=aS(G,cu,aI(a,qD));return[0,[0,aS(G,cu,aI(a,0)),s]]}}function
+je(f,e,j,d,c){var
+k=eJ(e,c),h=cx(j,g(eJ(e,d),k)),a=jd(f,ep(qE,h),d);if(a)var
+b=jd(f,iB(qF,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-ga(d,c,b,a){var
+gg(d,c,b,a){var
 e=s(c,b);return w(s(d,a),e)}function
 cy(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jb(a){if(a){var
+jf(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jb(a[2]);if(d)var
+c=b[1],d=jf(a[2]);if(d)var
 g=d[1],h=ar(c,c),e=[0,[0,[0,dK(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qI}function
-eJ(b,d,c,a){if(typeof
+f=b;return f}return qH}function
+eK(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cw(bR(d,a),e);return[0,f(function(a){var
+e=c[1],g=cw(bt(d,a),e);return[0,f(function(a){var
 b=s(a[2],g);return[0,dK(a[1]),b]},b)];case
-9:return jb(b)}return 0}function
-eK(e,k,j,a){var
-U=j[1],b=cw(bR(k,a),U),x=0;if(typeof
+9:return jf(b)}return 0}function
+eL(e,k,j,a){var
+U=j[1],b=cw(bt(k,a),U),x=0;if(typeof
 a==="number")x=1;else
 switch(a[0]){case
 2:var
-W=function(a){return[0,w(a[4],b),0]},g=W,f=a[1];break;case
+V=function(a){return[0,w(a[4],b),0]},g=V,f=a[1];break;case
 3:var
 X=function(a){return[0,w(b,a[4]),0]},g=X,f=a[1];break;case
 4:var
 Y=function(c){var
-a=c[1],d=V(a[3]),e=V(a[2]),f=V(a[1]),g=c[2];return[0,w(w(w(s(V(b),g),f),e),d),0]},g=Y,f=a[1];break;case
+a=c[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=c[2];return[0,w(w(w(s(W(b),g),f),e),d),0]},g=Y,f=a[1];break;case
 6:var
 Z=function(c){var
 a=c[5];if(a)var
-e=V(a[1]),f=s(V(b),e),d=[0,w(c[2],f),0];else
+e=W(a[1]),f=s(W(b),e),d=[0,w(c[2],f),0];else
 var
 d=a;return d},g=Z,f=a[1];break;case
 7:if(e){var
@@ -2890,7 +2923,7 @@ m=l[2];if(m){if(m[2])return 0;var
 A=m[1],B=l[1],C=e[1],o=C[5];if(o){var
 p=B[5];if(p){var
 r=A[5];if(r)var
-h=A[1],i=B[1],t=C[1],P=ga(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=ga(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=ga(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,cr(G(y,D)),0],F=[0,w(y,D),aa];else
+h=A[1],i=B[1],t=C[1],P=gg(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=gg(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=gg(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,cs(G(y,D)),0],F=[0,w(y,D),aa];else
 var
 F=r;var
 H=F}else
@@ -2909,93 +2942,100 @@ L=K}else
 var
 L=e;return L;case
 10:var
-v=ja(e,k,j[2],a[1],a[2]);if(v){var
+v=je(e,k,j[2],a[1],a[2]);if(v){var
 M=v[1],N=M[2],O=M[1];return z(dK,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
 11:var
 ab=function(d){var
 e=d[7];if(e)var
-n=cW(k,a),f=cx(j[2],n),h=aI(f,qH),c=aS(w,aI(f,0),h),i=V(b),l=V(cU(d)),m=aq(V(ar(c,d[1])),l),g=[0,w(w(ar(c,c),m),i),0];else
+n=cW(k,a),f=cx(j[2],n),h=aI(f,qG),c=aS(w,aI(f,0),h),i=W(b),l=W(cU(d)),m=aq(W(ar(c,d[1])),l),g=[0,w(w(ar(c,c),m),i),0];else
 var
 g=e;return g},g=ab,f=a[1];break;case
 12:var
 ac=function(e){var
 o=q(d),p=cW(k,a),r=E(0,cx(j[2],p),o),f=aq(r,cU(e)),g=e[5];if(g){var
-l=b9(e[2]),h=aq(g[1],l),m=s(h,G(b,s(f,V(h))));return[0,w(q(c),m),0]}var
+l=b9(e[2]),h=aq(g[1],l),m=s(h,G(b,s(f,W(h))));return[0,w(q(c),m),0]}var
 i=e[7],n=i?[0,w(w(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
 8:case
 9:var
-u=eJ(e,k,j,a);return u?cy(u[1]):u;default:x=1}if(x)return 0;var
-n=aj(e,f);return n?g(n[1]):n}function
-gb(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gb(d,b,i_(b,e,c),f);return g(eK(d,b,c,e),h)}return a}function
-jc(b,h,k,f,i,o){if(o){var
-a=o[1],X=o[2],Y=jc(b,h,k,f,i_(f,a,i),X);if(typeof
+u=eK(e,k,j,a);return u?cy(u[1]):u;default:x=1}if(x)return 0;var
+n=ai(e,f);return n?g(n[1]):n}function
+gh(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gh(d,b,jc(b,e,c),f);return g(eL(d,b,c,e),h)}return a}function
+jg(b,h,i,g,k,o){if(o){var
+a=o[1],ae=o[2],ag=jg(b,h,i,g,jc(g,a,k),ae);if(typeof
 a==="number")var
-g=[0,[0,ae]];else
+f=[0,[0,aa]];else
 switch(a[0]){case
 0:var
-N=aH(b,bR(f,a)),g=ah(function(a){return[0,ad(b,a)]},N);break;case
+T=aA(b,bt(g,a)),f=af(function(a){return[0,$(b,a)]},T);break;case
 1:var
-O=aH(b,bR(f,a)),g=ah(function(a){return[1,ad(b,a)]},O);break;case
+U=aA(b,bt(g,a)),f=af(function(a){return[1,$(b,a)]},U);break;case
 5:var
-Q=aH(b,bR(f,a)),g=ah(function(a){return[2,ad(b,a)]},Q);break;case
+W=aA(b,bt(g,a)),f=af(function(a){return[2,$(b,a)]},W);break;case
 8:var
-R=eJ(k,f,i,a),g=ah(function(a){var
-d=aN(b,c);return[4,e(a4(h),a),d]},R);break;case
+X=eK(i,g,k,a),f=af(function(a){var
+d=aK(b,c);return[4,e(a4(h),a),d]},X);break;case
 9:var
-r=eJ(k,f,i,a);if(r){var
-s=aH(b,bR(f,a));if(s)var
-S=ad(b,s[1]),T=r[1],z=[0,[4,e(a4(h),T),S]];else
+r=eK(i,g,k,a);if(r){var
+s=aA(b,bt(g,a));if(s)var
+Y=$(b,s[1]),Z=r[1],A=[0,[4,e(a4(h),Z),Y]];else
 var
-z=s;var
-A=z}else
+A=s;var
+B=A}else
 var
-A=r;var
-g=A;break;case
+B=r;var
+f=B;break;case
 10:var
-t=ja(k,f,i[2],a[1],a[2]);if(t){var
-B=t[1],C=B[2],E=B[1],u=aH(b,bR(f,a));if(u){var
-F=u[1],G=D(d,F[1]);if(G)var
+t=je(i,g,k[2],a[1],a[2]);if(t){var
+C=t[1],E=C[2],F=C[1],u=aA(b,bt(g,a));if(u){var
+G=u[1],H=D(d,G[1]);if(H)var
 m=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},U=m(C[2]),V=m(C[1]),W=m(E[2]),H=[0,[6,m(E[1]),W,V,U,F]];else
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},_=m(E[2]),ab=m(E[1]),ac=m(F[2]),I=[0,[6,m(F[1]),ac,ab,_,G]];else
 var
-H=G;var
-I=H}else
-var
-I=u;var
+I=H;var
 J=I}else
 var
-J=t;var
-g=J;break;case
+J=u;var
+K=J}else
+var
+K=t;var
+f=K;break;case
 12:var
-n=eK(k,f,i,a),p=0;if(n)if(n[2])var
-g=0;else{var
-K=j(b,0,a[2]),L=K?j(b,1,a[4]):K;if(L){var
+n=eL(i,g,k,a),p=0;if(n)if(n[2])var
+f=0;else{var
+L=j(b,0,a[2]),M=L?j(b,1,a[4]):L;if(M){var
 v=[0,[3,e(h,n[1])]];p=1}else{var
-v=L;p=1}}else{var
+v=M;p=1}}else{var
 v=n;p=1}if(p)var
-g=v;break;default:var
-l=eK(k,f,i,a),w=0;if(l){var
-q=l[2],x=l[1];if(q)if(q[2])var
-g=0;else
+f=v;break;case
+13:var
+N=a[1],O=ai(i,N),w=0;if(O){var
+P=j(b,1,a[2]),Q=P?j(b,1,a[3]):P;if(Q)var
+ad=aA(b,bt(g,a)),f=af(function(a){return[7,N,$(b,a)]},ad);else{var
+R=Q;w=1}}else{var
+R=O;w=1}if(w)var
+f=R;break;default:var
+l=eL(i,g,k,a),x=0;if(l){var
+q=l[2],y=l[1];if(q)if(q[2])var
+f=0;else
 var
-P=e(h,q[1]),g=[0,[5,e(h,x),P]];else{var
-y=[0,[3,e(h,x)]];w=1}}else{var
-y=l;w=1}if(w)var
-g=y}var
-M=[0,g,Y]}else
+V=e(h,q[1]),f=[0,[5,e(h,y),V]];else{var
+z=[0,[3,e(h,y)]];x=1}}else{var
+z=l;x=1}if(x)var
+f=z}var
+S=[0,f,ag]}else
 var
-M=o;return M}function
-qJ(a){if(typeof
+S=o;return S}function
+qI(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gc(a,p,o){var
-q=a5(p,o),b=f(function(b){return aH(a,b)},q);if(b){var
+gi(a,p,o){var
+q=a5(p,o),b=f(function(b){return aA(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-r=ad(a,i[1]),s=ad(a,h[1]);return aa(d,A(A(ad(a,g[1]),s),r)[1])}var
+r=$(a,i[1]),s=$(a,h[1]);return ac(d,A(A($(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=e;var
@@ -3011,18 +3051,18 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-af(c,b,a){var
-d=O(c,b[3],a[3]),e=O(c,b[2],a[2]);return[0,O(c,b[1],a[1]),e,d]}function
-aA(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+ag(c,b,a){var
+d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
+aB(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aJ(a){return aA([4,[0,c,c],[5,B(a,a)]],a)}function
+aJ(a){return aB([4,[0,c,c],[5,B(a,a)]],a)}function
 cz(c,b,a){var
 d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
 aU(c,b,a){var
 d=cz(c,b[1],a[1]),e=d?cz(c,b[2],a[2]):d;return e?cz(c,b[3],a[3]):e}function
-jd(c,a,b){if(0===a[0])return aU(c,a[1],b);var
+jh(c,a,b){if(0===a[0])return aU(c,a[1],b);var
 d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cz(c,a[4],b[3]):h}function
-je(a,E,H,G){var
+ji(a,E,H,G){var
 h=E[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
@@ -3057,54 +3097,54 @@ var
 D=d;var
 m=D}else
 var
-m=d?0:1;return m?jd(a,E[2],G):m}}function
-bt(c,b,a){var
-d=af(function(b,a){return[1,b,a]},a,b);return af(function(b,a){return[2,b,a]},d,c)}function
-eL(a,e,d,c){var
-b=bt(e,d,c),f=aJ(a),g=aA(B(aJ(a),b),f);return af(function(b,a){return[2,b,a]},b,g)}function
+m=d?0:1;return m?jh(a,E[2],G):m}}function
+bu(c,b,a){var
+d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
+eM(a,e,d,c){var
+b=bu(e,d,c),f=aJ(a),g=aB(B(aJ(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
 cX(f,e,d,a,c){var
-b=eL(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
+b=eM(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
 cY(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
 cZ(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eL(d,f,e,b),h=cX(d,f,e,a[4],b),i=aA([4,[0,c,c],cY(a[5],h)],g),j=aJ(d);return af(function(b,a){return[1,b,a]},j,i);case
-1:return aJ(bt(a[1],a[2],b));default:return aJ(a[1])}}function
-jf(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eM(d,f,e,b),h=cX(d,f,e,a[4],b),i=aB([4,[0,c,c],cY(a[5],h)],g),j=aJ(d);return ag(function(b,a){return[1,b,a]},j,i);case
+1:return aJ(bu(a[1],a[2],b));default:return aJ(a[1])}}function
+jj(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cX(e,d,c,a[4],b),i=cY(a[5],h),j=bt(d,c,b);return[2,B(aJ(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cX(e,d,c,a[4],b),i=cY(a[5],h),j=bu(d,c,b);return[2,B(aJ(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bt(g,f,b);return[5,B(bt(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
-dO(e,b,a){var
+f=a[2],g=a[1],k=bu(g,f,b);return[5,B(bu(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
+dP(e,b,a){var
 f=[0,d,c];return cR(function(c,d){var
 e=B(cZ(c,b),a);return[1,[3,B(cZ(c,b),a),e],d]},f,e)}function
-jg(a){var
+jk(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gd(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cX(b,f,e,d,c),i=aA(cY(a[5],h),g),j=eL(b,f,e,c);return[0,[0,af(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jh(d,i){if(d){var
+gj(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cX(b,f,e,d,c),i=aB(cY(a[5],h),g),j=eM(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jl(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bt(a[1],a[2],i),k=aJ(f),l=aA(B(aJ(f),g),k),h=[0,af(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bu(a[1],a[2],i),k=aJ(f),l=aB(B(aJ(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jh(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jl(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qK}function
+j=b;return j}return qJ}function
 cA(a){return[0,a[1],a[2],a[3]]}function
-ji(a,b){switch(a[0]){case
+jm(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cX(d,g,c,f,b),k=aA(cY(a[5],j),i),l=eL(d,g,c,b),m=af(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[1,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cX(d,g,c,f,b),k=aB(cY(a[5],j),i),l=eM(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bt(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,af(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
-jj(l,b,a){switch(a[0]){case
+h=a[2],e=bu(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
+jn(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=aj(l,a[1]);if(d){var
-e=ji(d[1],b);if(e)var
+m=a[5],d=ai(l,a[1]);if(d){var
+e=jm(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cA(m),c=aA(a,n),d=af(function(b,a){return[2,b,a]},o,c);return af(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
+b=cA(m),c=aB(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
@@ -3112,29 +3152,29 @@ var
 k=d;return k;case
 1:var
 q=cA(a[3]);return[0,[0,cA(a[2]),q]];default:var
-r=cA(a[3]),s=af(function(b,a){return[1,b,a]},b,r),t=cA(a[2]);return[0,[0,af(function(b,a){return[1,b,a]},b,t),s]]}}function
-jk(d,a,c,b){var
-e=aA(a,b),f=aA([2,d,a],c);return af(function(b,a){return[1,b,a]},f,e)}function
-jl(f,g,e,b,q,a){function
+r=cA(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cA(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
+jo(d,a,c,b){var
+e=aB(a,b),f=aB([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
+jp(f,g,e,b,q,a){function
 J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}var
 H=0;if(typeof
 a==="number")H=1;else
 switch(a[0]){case
 0:var
-av=dO(g,e,b);return j(f,1,[2,J(a[1]),av]);case
+av=dP(g,e,b);return j(f,1,[2,J(a[1]),av]);case
 1:var
-aw=J(a[1]);return j(f,1,[2,dO(g,e,b),aw]);case
+aw=J(a[1]);return j(f,1,[2,dP(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[2,ax,jf(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[2,ax,jj(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[2,jf(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[2,jj(a,e),az]},s=aA,r=a[1];break;case
 4:var
 K=a[3],L=a[2],aB=function(a){var
 b=cZ(a,e);return[2,[3,[3,L,L],B(cZ(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dO(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dO(g,e,b),aE],aD]);case
+M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dP(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dP(g,e,b),aE],aD]);case
 6:var
-N=a[2],u=aj(g,a[1]);if(u){var
+N=a[2],u=ai(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
 v=h[4],aF=cX(h[1],h[2],h[3],v,e),O=cY(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
 P=0}else
@@ -3143,9 +3183,9 @@ P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gd(g[1],e);if(w){var
-Q=w[1],x=gd(n[1],e);if(x){var
-R=x[1],y=gd(o[1],e);if(y){var
+w=gj(g[1],e);if(w){var
+Q=w[1],x=gj(n[1],e);if(x){var
+R=x[1],y=gj(o[1],e);if(y){var
 S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=B(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
 V=U}else
 var
@@ -3166,15 +3206,15 @@ _=Z}else
 var
 _=g;return _;case
 8:var
-aG=dO(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
+aG=dP(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=jh(g,e);if(z){var
+$=a[1],z=jl(g,e);if(z){var
 aI=z[1],at=[0,d,c],au=cR(function(a,c){var
 d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],B(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=jj(g,e,ab);if(A){var
-ac=A[1],C=jj(g,e,aa);if(C){var
-ad=C[1],D=b[1],E=b[2],l=b[3],aK=jk(l,E,ad[1],ad[2]),aL=jk(l,D,ac[1],ac[2]),ae=af(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=eu(aa),ag=[3,l,[1,[1,eu(ab),aN],aM]],ah=j(f,1,l),ai=ah?j(f,0,D):ah,ak=ai?j(f,0,[2,l,D]):ai,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,ag,ag],B(ae,ae)]);var
+aa=a[2],ab=a[1],A=jn(g,e,ab);if(A){var
+ac=A[1],C=jn(g,e,aa);if(C){var
+ad=C[1],D=b[1],E=b[2],l=b[3],aK=jo(l,E,ad[1],ad[2]),aL=jo(l,D,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=ev(aa),af=[3,l,[1,[1,ev(ab),aN],aM]],ah=j(f,1,l),aj=ah?j(f,0,D):ah,ak=aj?j(f,0,[2,l,D]):aj,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,af,af],B(ae,ae)]);var
 an=am}else
 var
 an=C;var
@@ -3182,9 +3222,9 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],F=aj(g,a[1]);if(F){var
-G=ji(F[1],e);if(G){var
-m=G[1][1][2],aO=cA(a[3]),aP=cA(a[2]),p=af(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
+ap=a[4],F=ai(g,a[1]);if(F){var
+G=jm(F[1],e);if(G){var
+m=G[1][1][2],aO=cA(a[3]),aP=cA(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
 aQ=B(m,m),aR=B(p,m),aS=[4,[3,B(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,B(p,p),aS]])}var
 ar=aq}else
 var
@@ -3192,23 +3232,23 @@ ar=G;var
 as=ar}else
 var
 as=F;return as;default:H=1}if(H)return 0;var
-t=aj(g,r);return t?j(f,1,s(t[1])):t}function
-b$(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qL(a){switch(a[0]){case
+t=ai(g,r);return t?j(f,1,s(t[1])):t}function
+ca(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qK(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b$(b[3]),f=b$(b[2]);return[0,b$(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=ca(b[3]),f=ca(b[2]);return[0,ca(b[1]),f,e,d,c];case
 1:var
-g=ah(b$,a[3]),h=b$(a[2]);return[1,b$(a[1]),h,g];default:return[2,b$(a[1])]}}function
-jm(c,b){var
-a=b[2],d=0===a[0]?b$(a[1]):[0,a[1],a[2],a[4][1]];return je(c,b,f(qL,b[1]),d)}function
+g=af(ca,a[3]),h=ca(a[2]);return[1,ca(a[1]),h,g];default:return[2,ca(a[1])]}}function
+jq(c,b){var
+a=b[2],d=0===a[0]?ca(a[1]):[0,a[1],a[2],a[4][1]];return ji(c,b,f(qK,b[1]),d)}function
 c0(b,a){if(b){if(a){var
 e=c0(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jn(a,l,k,f){var
+jr(a,l,k,f){var
 b=az(a,l);if(b){var
 c=az(a,k);if(c){var
-d=et(a,f);if(d){var
+d=eu(a,f);if(d){var
 e=fX(a,f);if(e)var
-m=F(a,b[1],e[1]),g=[0,M(F(a,c[1],d[1]),m)];else
+m=F(a,b[1],e[1]),g=[0,N(F(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3220,13 +3260,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jo(f,D,s,C,a,e){function
+js(f,D,s,C,a,e){function
 t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c0(a,a)]}var
 E=s[1];function
 g(b){var
 a=[0,d,c];return cR(function(a,c){var
 d=c0(a,b);return[1,[3,c0(a,b),d],c]},a,E)}var
-u=o(function(a){return _(m(a),D)},a);if(u){var
+u=o(function(a){return M(k(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3236,27 +3276,27 @@ w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},k=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},k=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jn(f,i,h,z);return e?aa(e[1][2],d):e}var
-g=jn(f,i,h,y);return g?aa(d,g[1][1]):g}return k}return 0},k=L,i=e[1];break;case
+e=jr(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=jr(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],M=c0(q,q),N=[3,[3,A,A],[3,g(p),M]],O=c0(p,p);return j(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],N=c0(q,q),O=[3,[3,A,A],[3,g(p),N]],P=c0(p,p);return j(f,1,[2,[3,g(q),P],O])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-l=aj(s[2],i);return l?k(l[1]):l}var
+m=ai(s[2],i);return m?l(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jp(h,g){var
+jt(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3266,44 +3306,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qM(a){return f(function(a){return[0,a,c]},a)}function
-jq(e,m,b,l,a){if(typeof
+qL(a){return f(function(a){return[0,a,c]},a)}function
+ju(e,m,b,l,a){if(typeof
 a==="number"){var
 q=b[3];return a7(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jp(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qM,a[2]);return jo(e,m,b,n[2],s,r)}return g}var
-h=jp(a[1],l);if(h){var
+g=jt(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qL,a[2]);return js(e,m,b,n[2],s,r)}return g}var
+h=jt(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=aj(b[1],a[2]);return k?jo(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=ai(b[1],a[2]);return k?js(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-ge(a){var
-b=aJ(a[1]),c=aA(B(b,a[2]),b),d=a[2];return af(function(b,a){return[2,b,a]},d,c)}function
-gf(a){return aJ(ge(a))}function
-jr(c){var
-a=gf(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gg(a,b){return bt(a[3],a[4],b)}function
-gh(a,b){var
-c=gg(a,b);return B(gf(a),c)}function
-gi(a,b){var
-c=gg(a,b);return B(jr(a),c)}function
-js(a,b){var
-c=gg(a,b);return B(aJ(a[1]),c)}function
-gj(b,a){var
-c=gi(b,a),d=gh(b,a);return[1,[3,d,d],[3,c,c]]}function
-gk(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=js(a,d);return[4,[1,gj(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jt(a,b){var
-f=a[5],c=[2,gk(a,b),f],d=js(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-gl(a,b){var
-c=jt(a,b);return cY(a[7],c)}function
-ju(b,a){var
-c=gj(b,a),d=gi(b,a),e=[3,gl(b,a),d],f=gh(b,a);return[4,[1,[3,gk(b,a),f],e],c]}function
-jv(b,a){var
-c=gj(b,a),d=gh(b,a),e=[3,gl(b,a),d],f=gi(b,a);return[4,[2,[3,gk(b,a),f],e],c]}function
-bu(c){var
+gk(a){var
+b=aJ(a[1]),c=aB(B(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
+gl(a){return aJ(gk(a))}function
+jv(c){var
+a=gl(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gm(a,b){return bu(a[3],a[4],b)}function
+gn(a,b){var
+c=gm(a,b);return B(gl(a),c)}function
+go(a,b){var
+c=gm(a,b);return B(jv(a),c)}function
+jw(a,b){var
+c=gm(a,b);return B(aJ(a[1]),c)}function
+gp(b,a){var
+c=go(b,a),d=gn(b,a);return[1,[3,d,d],[3,c,c]]}function
+gq(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jw(a,d);return[4,[1,gp(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jx(a,b){var
+f=a[5],c=[2,gq(a,b),f],d=jw(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gr(a,b){var
+c=jx(a,b);return cY(a[7],c)}function
+jy(b,a){var
+c=gp(b,a),d=go(b,a),e=[3,gr(b,a),d],f=gn(b,a);return[4,[1,[3,gq(b,a),f],e],c]}function
+jz(b,a){var
+c=gp(b,a),d=gn(b,a),e=[3,gr(b,a),d],f=go(b,a);return[4,[2,[3,gq(b,a),f],e],c]}function
+bv(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3312,15 +3352,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bu(a[2]);return g(bu(a[1]),e)}}function
-bv(e,a,b){switch(a[0]){case
+e=bv(a[2]);return g(bv(a[1]),e)}}function
+bw(e,a,b){switch(a[0]){case
 0:var
 p=a[1];return cw([0,[0,p,p],d],b);case
 1:var
 t=a[1],g=e,u=q(d);for(;;){if(g){var
-l=g[1];if(m0(l[1],t))return l[2];var
+m=g[1];if(mZ(m[1],t))return m[2];var
 g=g[2];continue}return u}case
-2:return cr(bv(e,a[1],b));case
+2:return cs(bw(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
@@ -3330,42 +3370,42 @@ i=a[2],f=a[1],h=s;break;case
 6:var
 i=a[2],f=a[1],h=aq;break;case
 7:var
-j=dB(a[2]),k=bv(e,a[1],b);if(j){if(j[1]){var
-n=V(k),r=function(a){return s(a,n)},o=fN(bN(il(j)),r,n);return ik(j)?o:s(o,k)}return k}return q(c);default:return b9(bv(e,a[1],b))}var
-v=bv(e,i,J(b,m(bu(f))));return h(bv(e,f,b),v)}function
+j=dB(a[2]),l=bw(e,a[1],b);if(j){if(j[1]){var
+n=W(l),r=function(a){return s(a,n)},o=fN(bO(is(j)),r,n);return ir(j)?o:s(o,l)}return l}return q(c);default:return b9(bw(e,a[1],b))}var
+v=bw(e,i,J(b,k(bv(f))));return h(bw(e,f,b),v)}function
 cB(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=J(b,m(bu(e))),k=cB(c,a[2],j),l=g(cB(c,e,b),k);return[0,bv(c,a,b),l];case
+e=a[1],j=J(b,k(bv(e))),l=cB(c,a[2],j),m=g(cB(c,e,b),l);return[0,bw(c,a,b),m];case
 8:var
-n=cB(c,a[1],b);return[0,bv(c,a,b),n];case
+n=cB(c,a[1],b);return[0,bw(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=J(b,m(bu(d))),i=cB(c,a[2],h);return g(cB(c,d,b),i)}}function
-jw(c,a,b){if(a){var
-e=a[1],d=e[2],f=J(b,m(bu(d))),h=a[2],i=bv(c,d,b),j=jw([0,[0,e[1],i],c],h,f);return g(cB(c,d,b),j)}return a}function
-dP(a){return z(bu,a)}function
-jx(c,a,b){if(a)var
-d=a[1],f=J(b,m(bu(d))),g=jx(c,a[2],f),e=[0,bv(c,d,b),g];else
-var
-e=a;return e}function
-jy(c,a,b){if(a){var
-d=a[1],e=J(b,m(bu(d))),f=jy(c,a[2],e);return g(cB(c,d,b),f)}return a}function
-jz(c,a,b){if(a)var
-d=a[1],f=J(b,m(dP(d))),g=jz(c,a[2],f),e=[0,jx(c,d,b),g];else
-var
-e=a;return e}function
+d=a[1],h=J(b,k(bv(d))),i=cB(c,a[2],h);return g(cB(c,d,b),i)}}function
 jA(c,a,b){if(a){var
-d=a[1],e=J(b,m(dP(d))),f=jA(c,a[2],e);return g(jy(c,d,b),f)}return a}function
-jB(a){return f(function(a){return[0,a[2],d]},a)}function
-jC(a){var
-c=cx(0,jB(a[2])),d=cS(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cm(f(dx,a[2]),c);return g(cm(a[1],e),b)}function
-qO(a){if(typeof
+e=a[1],d=e[2],f=J(b,k(bv(d))),h=a[2],i=bw(c,d,b),j=jA([0,[0,e[1],i],c],h,f);return g(cB(c,d,b),j)}return a}function
+dQ(a){return z(bv,a)}function
+jB(c,a,b){if(a)var
+d=a[1],f=J(b,k(bv(d))),g=jB(c,a[2],f),e=[0,bw(c,d,b),g];else
+var
+e=a;return e}function
+jC(c,a,b){if(a){var
+d=a[1],e=J(b,k(bv(d))),f=jC(c,a[2],e);return g(cB(c,d,b),f)}return a}function
+jD(c,a,b){if(a)var
+d=a[1],f=J(b,k(dQ(d))),g=jD(c,a[2],f),e=[0,jB(c,d,b),g];else
+var
+e=a;return e}function
+jE(c,a,b){if(a){var
+d=a[1],e=J(b,k(dQ(d))),f=jE(c,a[2],e);return g(jC(c,d,b),f)}return a}function
+jF(a){return f(function(a){return[0,a[2],d]},a)}function
+jG(a){var
+c=cx(0,jF(a[2])),d=cS(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cn(f(dx,a[2]),c);return g(cn(a[1],e),b)}function
+qN(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gm(b,d){var
+gs(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -3374,32 +3414,32 @@ e=a[1];return a7(function(a){return aw(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gm(b,a[1]);if(c){var
+c=gs(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jD(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jE(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gn(a,c,b){var
-d=[3,jD(a),b],e=[1,[3,jE(a),c],d],f=[3,jE(a),b];return[0,[2,[3,jD(a),c],f],e]}function
-jF(c,a){var
-b=gn(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jG(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jH(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jF(d[1],a):a;case
+jH(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jI(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gt(a,c,b){var
+d=[3,jH(a),b],e=[1,[3,jI(a),c],d],f=[3,jI(a),b];return[0,[2,[3,jH(a),c],f],e]}function
+jJ(c,a){var
+b=gt(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jK(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jL(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jJ(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gn(d[1],a[2],a[3]),m=j[1],k=gn(f[1],j[2],a[1]);return jF(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gt(d[1],a[2],a[3]),m=j[1],k=gt(f[1],j[2],a[1]);return jJ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=B(e,e),n=jG(e,a),o=aA([0,b(2,c),c],n),p=B(e,a),q=aA([3,[0,b(2,c),c],p],e),r=aA([2,[0,c,c],l],a),s=af(function(b,a){return[1,b,a]},r,q);return aA([4,[0,c,c],[1,[0,c,c],l]],af(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jI(b){var
-a=eH(b);return a?ix(a[1],[0,d,c]):a}function
-jJ(a,n,k,i){if(jI(i)){var
+e=[0,d[1],h[1],i[1]],l=B(e,e),n=jK(e,a),o=aB([0,b(2,c),c],n),p=B(e,a),q=aB([3,[0,b(2,c),c],p],e),r=aB([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aB([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jM(b){var
+a=eI(b);return a?iD(a[1],[0,d,c]):a}function
+jN(a,n,k,i){if(jM(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
 f=az(a,k);if(f){var
-g=et(a,[4,i,[0,b(2,c),c]]);if(g){var
+g=eu(a,[4,i,[0,b(2,c),c]]);if(g){var
 h=fX(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=F(a,f[1],g[1]),l=[0,M(h[1],p)];else
+p=F(a,f[1],g[1]),l=[0,N(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3409,25 +3449,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dQ(b,a,c){var
-d=bs(b,a[1],a[2]),e=d?jJ(b,0,c,a[1]):d;return e?jJ(b,1,c,a[2]):e}function
-dR(a,d){if(jI(d))return[0,ae];var
-e=et(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+dR(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?jN(b,0,c,a[1]):d;return e?jN(b,1,c,a[2]):e}function
+dS(a,d){if(jM(d))return[0,aa];var
+e=eu(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
 f=fX(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=A(aN(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cp(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ah(function(d){var
-e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iH(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+h=f[1],i=e[1],j=A(aK(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cq(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return af(function(d){var
+e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-go(d,a){var
+gu(d,a){var
 e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
 cC(a){return[0,[2,[0,d,c],a],a]}function
-jK(a,b,n,m){var
-h=bs(a,[0,d,c],b),i=h?go(a,b):h;if(i){var
-e=dR(a,b);if(e){var
+jO(a,b,n,m){var
+h=bs(a,[0,d,c],b),i=h?gu(a,b):h;if(i){var
+e=dS(a,b);if(e){var
 f=az(a,n);if(f){var
 g=az(a,m);if(g){var
-o=f[1],p=g[1];return D(d,M(F(a,ad(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return D(d,N(F(a,$(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3437,17 +3477,17 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dS(a){return 1===a?qS:qT}function
-gp(d,c,b,a){var
-e=a[1],f=jH(d,c,a[2]),g=af(function(b,a){return[1,b,a]},b,f);return af(function(b,a){return[2,b,a]},g,e)}function
-dT(b,d){var
+dT(a){return 1===a?qR:qS}function
+gv(d,c,b,a){var
+e=a[1],f=jL(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+dU(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dE(function(a){return dT(b,a)},a)]}return[0,dE(function(a){return dT(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dE(function(a){return dU(b,a)},a)]}return[0,dE(function(a){return dU(b,a)},a)]}function
 c1(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aM(_(e,b));return f?aM(_(e,J(d,b))):f;case
+e=a[1],f=aN(M(e,b));return f?aN(M(e,J(d,b))):f;case
 1:case
 2:return 1;case
 5:case
@@ -3456,28 +3496,28 @@ e=a[1],f=aM(_(e,b));return f?aM(_(e,J(d,b))):f;case
 c=a[1];continue;default:var
 g=c1(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dU(c,b,m){var
+dV(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c1(c,b,g),i=h?dU(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c1(c,b,g),i=h?dV(c,b,f):h;if(i)var
 j=i;else{var
-k=dU(c,b,g);if(k)return c1(c,b,f);var
+k=dV(c,b,g);if(k)return c1(c,b,f);var
 j=k}return j;case
 7:var
-l=dU(c,b,a[1]);return l?c1(c,b,a[2]):l;case
+l=dV(c,b,a[1]);return l?c1(c,b,a[2]):l;case
 3:case
 4:var
-e=dU(c,b,a[1]);if(e){var
+e=dV(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return c1(c,b,a[1]);default:return 1}}}function
 cD(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aM(_(a[1],c));case
+0:return aN(M(a[1],c));case
 1:case
 2:return 1;case
 5:case
@@ -3486,14 +3526,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cD(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gq(d,b,m){var
+gw(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gq(d,b,a[1]);if(f){var
+f=gw(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gq(d,b,a[1]);return g?cD(b,a[2]):g;case
+g=gw(d,b,a[1]);return g?cD(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cD(b,i);if(j){var
 k=cD(b,h);if(k)var
@@ -3506,116 +3546,95 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cD(b,c)}}}function
-jL(c,e){var
+jP(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ij(a[1],c);case
+0:return iq(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jL(c,a[1]);if(d){var
+d=jP(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ca(b,a){return a?e(b,a[1]):a}function
-cb(c,b,a){return ca(function(b){return ca(e(c,b),a)},b)}function
-qU(a){return 0===a[0]?a[1]:0}function
-bw(b,a){switch(a[0]){case
+cb(b,a){return a?e(b,a[1]):a}function
+cc(c,b,a){return cb(function(b){return cb(e(c,b),a)},b)}function
+qT(a){return 0===a[0]?a[1]:0}function
+bx(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bw(b,a[1])];default:var
-c=bw(b,a[3]),d=bw(b,a[2]);return[2,bw(b,a[1]),d,c]}}function
-aY(b,c,a){switch(c[0]){case
-0:return bw(e(b,c[1]),a);case
+1:return[1,bx(b,a[1])];default:var
+c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
+aZ(b,c,a){switch(c[0]){case
+0:return bx(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bw(function(a){return O(b,a,k)},d)];case
-1:return[1,aY(b,d,a[1])];default:var
-l=aY(b,d,a[3]),m=aY(b,d,a[2]);return[2,aY(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bx(function(a){return P(b,a,k)},d)];case
+1:return[1,aZ(b,d,a[1])];default:var
+l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return O(b,a,n)},i=function(a){return bw(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return P(b,a,n)},i=function(a){return bx(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
-t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
-gr(c,g,a){if(a)var
+j=a[1],r=aZ(b,f,j),s=aZ(b,g,j);return[2,aZ(b,h,j),s,r];default:var
+t=aZ(b,f,a[3]),u=aZ(b,g,a[2]);return[2,aZ(b,h,a[1]),u,t]}}}function
+gx(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,ad(c,a)];break;case
+f=[0,a,$(c,a)];break;case
 1:var
-h=F(c,a,b),f=[0,er(A(a,b)),h];break;default:var
-f=[0,b,ad(c,b)]}return[0,[0,e(g,f)]]},i=gr(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=F(c,a,b),f=[0,es(A(a,b)),h];break;default:var
+f=[0,b,$(c,b)]}return[0,[0,e(g,f)]]},i=gx(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jM(a){if(a){var
+jQ(a){if(a){var
 b=a[1];if(b)var
-c=jM(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qW}function
-dV(a){if(a){var
-g=a[1],b=g[2],c=jM(g[1]);if(c)if(b){var
-h=b[1],e=dV(a[2]);if(e)var
-i=aa(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qV}function
+dW(a){if(a){var
+g=a[1],b=g[2],c=jQ(g[1]);if(c)if(b){var
+h=b[1],e=dW(a[2]);if(e)var
+i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qX}function
-gs(b,a){var
-c=a[3],d=ah(function(a){var
+f=c;return f}return qW}function
+gy(b,a){var
+c=a[3],d=af(function(a){var
 c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jN(f,d,c,b){if(d){var
+jR(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=gs(function(a){switch(a[0]){case
+a=gy(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jN(bN(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jR(bO(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,gs(qU,b))}function
-dW(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ah(function(a){return bP(f,e,a)},d)}return[0,ae]}function
-jO(d,b,a){if(b){if(a){var
-e=jO(d,b[2],a[2]);return A(bP(b[1],C(d,c),a[1]),e)}return ae}return ae}function
-jP(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jO(e,a,b)},j=jP(e,h),k=f(function(a){var
-e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
-var
-i=a;return i}function
-jQ(e,b,d,a){if(b)if(a)var
-f=b[1],g=jQ(e,b[2],d,a[2]),c=[0,[0,f,iW(e,a[1][1],d,f)],g];else
-var
-c=a;else
-var
-c=b;return c}function
-jR(e,d,c,b,a){if(a){var
-g=a[2];if(d){var
-i=jR(e,d[1],c,b,g);return[0,[0,M(ae,b),0],i]}var
-j=f(function(a){return[0,M(ae,b),0]},g),h=[0,[0,M(aG(F(e,c,es(a[1][2]))),b),0],j]}else
-var
-h=a;return h}function
-eM(c,a){var
-b=_(m(a),c);return b?eA(a):b}function
-qY(c){var
+i=g;return i}return e(c,gy(qT,b))}function
+dX(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return af(function(a){return bQ(f,e,a)},d)}return[0,aa]}function
+qX(c){var
 a=c[2];if(a){var
-b=dW(c[3]);if(b)return D(d,M(a[1],b[1])[1]);var
+b=dX(c[3]);if(b)return D(d,N(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
 jS(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
 jT(a,c,b){var
-e=E(b,c,q(d)),f=cS(0,a);return o(function(b){return dU(a,b,e)},f)}function
-dX(a){var
-b=V(a);return G(q(c),b)}function
+e=E(b,c,q(d)),f=cS(0,a);return o(function(b){return dV(a,b,e)},f)}function
+dY(a){var
+b=W(a);return G(q(c),b)}function
 eN(i,g){var
-h=dX(g),j=V(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cr(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cr(f),a,e]]:[0,[0,h,a,a],[0,a,e,cr(f)],[0,a,f,e]]}function
+h=dY(g),j=W(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cs(f),a,e]]:[0,[0,h,a,a],[0,a,e,cs(f)],[0,a,f,e]]}function
 jU(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
@@ -3628,24 +3647,24 @@ jV(a){switch(a[0]){case
 2:return[0,cC(a[1]),0];default:var
 b=[0,cC(a[2]),0];return[0,cC(a[1]),b]}}function
 c2(a){return[0,[0,a[1]],[0,a[2]]]}function
-jW(a,b){if(0===b[0])return dR(a,b[1]);var
-d=dR(a,b[1]);if(d){var
-e=dR(a,b[2]);if(e){var
-g=ad(a,e[1]),h=cq(a,A(aN(a,c),g)),i=d[1];return ah(function(b){return F(a,i,b)},h)}var
+jW(a,b){if(0===b[0])return dS(a,b[1]);var
+d=dS(a,b[1]);if(d){var
+e=dS(a,b[2]);if(e){var
+g=$(a,e[1]),h=cr(a,A(aK(a,c),g)),i=d[1];return af(function(b){return F(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
 jX(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-n=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
-a==="number")l=1;else
+n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
+a==="number")m=1;else
 switch(a[0]){case
 0:var
 A=a[2],B=a[1],i=o,h=p,g=function(e){var
-a=dV(e[1]);if(a){var
+a=dW(e[1]);if(a){var
 b=e[2];if(b){var
-d=dW(e[3]);if(d){var
-h=d[1],i=cn([0,M(aG(F(j,k,b[1])),h),0],c);return eM(c,f1(B,A,a[1],i))}var
+d=dX(e[3]);if(d){var
+h=d[1],i=co([0,N(aH(F(j,l,b[1])),h),0],c);return dN(c,f3(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3653,22 +3672,22 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+q=al(l[1],d),r=q?al(l[2],d):q;if(!r)return r;var
 D=a[2],G=a[1],i=o,h=p,g=function(e){var
-a=dV(e[1]);if(a){var
-b=dW(e[3]);if(b){var
-g=cn([0,M(ae,b[1]),0],c),h=a[1];return eM(c,f1(G,D,f(function(a){return[0,a[1],ae]},h),g))}var
+a=dW(e[1]);if(a){var
+b=dX(e[3]);if(b){var
+g=co([0,N(aa,b[1]),0],c),h=a[1];return dN(c,f3(G,D,f(function(a){return[0,a[1],aa]},h),g))}var
 d=b}else
 var
-d=a;return d},e=n;break;default:l=1}if(l)return 0;break;case
+d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
 H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
-a=dV(f[1]);if(a){var
+a=dW(f[1]);if(a){var
 b=f[2];if(b){var
-d=dW(f[3]);if(d){var
-k=d[1],l=cn([0,M(F(j,J,b[1]),k),0],c),e=iY(a[1],l);if(e)return eM(c,e[1]);var
+d=dX(f[3]);if(d){var
+k=d[1],l=co([0,N(F(j,J,b[1]),k),0],c),e=i1(a[1],l);if(e)return dN(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3683,67 +3702,67 @@ u=1;if(u)return 0;break;case
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
-a=dV(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],O=b[2],P=b[4],Q=b[1],R=function(f){var
+a=dW(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dW(f[3]);if(e){var
-g=_(m(b),c),h=g?_(m(s),c):g;if(h){var
-n=jP(t,jQ(t,s,d[1],b));return eM(c,iP(jR(j,P,O,e[1],b),n))}var
+e=dX(f[3]);if(e){var
+g=M(k(b),c),h=g?M(k(s),c):g;if(h){var
+n=f8(t,f9(t,s,d[1],b));return dN(c,f0(f_(j,Q,P,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-k=i}else
+l=i}else
 var
-k=d;var
-l=k}else
+l=d;var
+m=l}else
 var
-l=a;return l},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=L,h=O,g=R,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qY,e=0;else
+i=b[1],h=0,g=qX,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jN(e,z,g,gs(function(a){return E(a,y,ra)},C))}function
+C=[0,h,i,x];return jR(e,z,g,gy(function(a){return E(a,y,q$)},C))}function
 jY(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=D(d,o);if(p)var
-h=hO(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=hU(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
 g=p;if(g)return jX(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
 q=f;return q}return jX(m,l,k,j,0,i,a)}return 0}function
-rb(a){if(a[1])return 0;var
+ra(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jZ(a,K,J,I,H,G,h,p,D,V){if(o(rb,D))var
+jZ(a,K,J,I,H,G,h,p,D,V){if(o(ra,D))var
 q=0;else
 var
-S=gr(a,dy,p),R=0,T=g(gr(a,dx,p),S),q=cs(qV,function(b){switch(b[0]){case
-0:return E(b[1],T,[0,[0,ae]]);case
-1:return[0,[0,E(b[1],J,ae)]];case
-2:return[0,[0,aN(a,b[1])]];case
+S=gx(a,dy,p),R=0,T=g(gx(a,dx,p),S),q=ct(qU,function(b){switch(b[0]){case
+0:return E(b[1],T,[0,[0,aa]]);case
+1:return[0,[0,E(b[1],J,aa)]];case
+2:return[0,[0,aK(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aY(function(a,b){return cb(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aZ(function(a,b){return cc(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return cb(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return aZ(function(a,b){return cc(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aG(a)]};return bw(function(a){return ca(j,a)},i);case
+i=b[1],j=function(a){return[0,aH(a)]};return bx(function(a){return cb(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return aY(function(a,b){return cb(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return aZ(function(a,b){return cc(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cp(a,b);return ah(function(b){return F(a,c,b)},d)};return aY(function(a,b){return cb(p,a,b)},o,n);case
+d=cq(a,b);return af(function(b){return F(a,c,b)},d)};return aZ(function(a,b){return cc(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ad(a,b)]};return bw(function(a){return ca(r,a)},q);default:var
-s=b[1],t=function(b){return cq(a,b)};return bw(function(a){return ca(t,a)},s)}},K,R);var
+q=b[1],r=function(b){return[0,$(a,b)]};return bx(function(a){return cb(r,a)},q);default:var
+s=b[1],t=function(b){return cr(a,b)};return bx(function(a){return cb(t,a)},s)}},K,R);var
 e=D,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
 u=E(c,b,0);if(u){var
-l=aj(I,c);if(l){var
+l=ai(I,c);if(l){var
 v=jY(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eG(c,b);continue}var
+e=k,b=eH(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3752,25 +3771,25 @@ var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,ad(a,b)]},p),O=f(dy,r),N=0,P=g(f(dx,r),O),Q=cs(0,function(n){return function(b){switch(b[0]){case
-0:return[0,E(b[1],n,ae)];case
-1:return[0,E(b[1],J,ae)];case
-2:return[0,aN(a,b[1])];case
+U=0,r=f(function(b){return[0,b,$(a,b)]},p),O=f(dy,r),M=0,P=g(f(dx,r),O),Q=ct(0,function(n){return function(b){switch(b[0]){case
+0:return[0,E(b[1],n,aa)];case
+1:return[0,E(b[1],J,aa)];case
+2:return[0,aK(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cb(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return cc(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cb(function(b,a){return[0,M(b,a)]},f,e);case
+e=b[2],f=b[1];return cc(function(b,a){return[0,N(b,a)]},f,e);case
 5:var
-g=b[1];return ca(function(a){return[0,aG(a)]},g);case
+g=b[1];return cb(function(a){return[0,aH(a)]},g);case
 6:var
-h=b[2],i=b[1];return cb(function(c,b){return[0,F(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cc(function(c,b){return[0,F(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cb(function(c,b){var
-d=cp(a,b);return ah(function(b){return F(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cc(function(c,b){var
+d=cq(a,b);return af(function(b){return F(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return ca(function(b){return[0,ad(a,b)]},l);default:var
-m=b[1];return ca(function(b){return cq(a,b)},m)}}}(P),K,N),j=E(h[1],Q,U);if(j){var
-m=aa(j[1][2],d);L=1}else
+l=b[1];return cb(function(b){return[0,$(a,b)]},l);default:var
+m=b[1];return cb(function(b){return cr(a,b)},m)}}}(P),K,M),j=E(h[1],Q,U);if(j){var
+m=ac(j[1][2],d);L=1}else
 var
 s=j}else
 var
@@ -3778,9 +3797,9 @@ s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
 y=E(c,b,0);if(y){var
-n=aj(I,c);if(n){var
+n=ai(I,c);if(n){var
 z=jY(a,H,G,h,q,n[1],i);if(z){var
-e=k,b=eG(c,b);continue}var
+e=k,b=eH(c,b);continue}var
 B=z}else
 var
 B=n;var
@@ -3789,28 +3808,28 @@ var
 C=y;return C}return[0,b]}}function
 j0(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jZ(i,h,g,f,e,d,c,b,a[1],j);return k?o(aM,k[1]):k}var
+k=jZ(i,h,g,f,e,d,c,b,a[1],j);return k?o(aN,k[1]):k}var
 l=jZ(i,h,g,f,e,d,c,b,a[1],j);if(l){var
 m=l[1],n=dM(a[2],b),p=j0(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gt(d,a){var
-e=V(a),f=s(s(q(b(2,c)),a),d);return G(w(V(d),f),e)}function
-gu(a){switch(a){case
-0:return re;case
-1:return rf;default:return 0}}function
+gz(d,a){var
+e=W(a),f=s(s(q(b(2,c)),a),d);return G(w(W(d),f),e)}function
+gA(a){switch(a){case
+0:return rd;case
+1:return re;default:return 0}}function
 eO(b,a){var
 c=a5(a[2],b);return g(a5(a[1],b),c)}function
-j1(r,k,p,u,o,j,t){if(j){var
-v=j[1],x=cx(t,eO(o,v)),R=J(t,m(eO(o,v))),S=j1(r,k,p,u,o,j[2],R),i=aI(x,rg),l=aI(x,0);switch(r){case
+j1(r,l,p,u,o,j,t){if(j){var
+v=j[1],x=cx(t,eO(o,v)),R=J(t,k(eO(o,v))),S=j1(r,l,p,u,o,j[2],R),i=aI(x,rf),m=aI(x,0);switch(r){case
 0:var
-g=[0,rd,rc,q(d)];break;case
+g=[0,rc,rb,q(d)];break;case
 1:var
-g=ct;break;default:var
+g=cu;break;default:var
 H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=aS(w,g,l),z=ar(k[3],i),A=ar(k[2],i),a=[0,ar(k[1],i),A,z],K=gt(g[3],l[3]),L=gt(g[2],l[2]),M=gt(g[1],l[1]),N=G(G(G(ar(i,i),M),L),K),O=ar(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eB([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dL(p,e),a);switch(r){case
+e=aS(w,g,m),z=ar(l[3],i),A=ar(l[2],i),a=[0,ar(l[1],i),A,z],K=gz(g[3],m[3]),L=gz(g[2],m[2]),M=gz(g[1],m[1]),N=G(G(G(ar(i,i),M),L),K),O=ar(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eC([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dL(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
@@ -3819,7 +3838,7 @@ n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
 y=[0,[0,n,Q],S]}else
 var
 y=j;return y}function
-gv(g,a){if(typeof
+gB(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3827,36 +3846,36 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gw(e,d,n,m,l,a){var
-f=s(V(cw(gv(m,a),l)),n);if(typeof
+gC(e,d,n,m,l,a){var
+f=s(W(cw(gB(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aj(d,a[1]);if(b)var
+b=ai(d,a[1]);if(b)var
 g=j(e,0,a[2]),h=g?[0,w(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aj(d,a[1]);if(c)var
+c=ai(d,a[1]);if(c)var
 i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
 j2(a,d,c,b){return f(function(a){var
-e=cw(gv(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
+e=cw(gB(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
 j3(b,g,s,f,i,q,p,o){if(o){var
 X=j3(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a4(g),f),M,ae)];else
+M=e(g,i),h=[0,t(e(a4(g),f),M,aa)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
 O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=gw(b,f,i,q,p,a),h=ah(function(a){return[3,e(g,a)]},P);break;case
+P=gC(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},P);break;case
 3:var
-Q=gw(b,f,i,q,p,a),h=ah(function(a){return[3,e(g,a)]},Q);break;case
+Q=gC(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},Q);break;case
 6:var
-u=a[3],v=a[2],r=aj(f,a[1]),K=0;if(r){var
+u=a[3],v=a[2],r=ai(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
 R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
@@ -3865,7 +3884,7 @@ var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=aj(f,B),L=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=ai(f,B),L=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
 T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
@@ -3875,13 +3894,13 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aN(b,c),V=e(g,i),W=j2(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+U=aK(b,c),V=e(g,i),W=j2(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-N=aH(b,[0,[0,k,k],d]),h=ah(function(a){var
-c=ad(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
+N=aA(b,[0,[0,k,k],d]),h=af(function(a){var
+c=$(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
@@ -3889,96 +3908,96 @@ j4(j,h,i,e,d,a){if(a){var
 n=j4(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
 k=f(dy,j2(h,e,d,b));l=1}if(!l)var
-c=gw(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rh(a){if(typeof
+c=gC(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rg(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 eP(a){var
 b=cv(a[1],[0,d,c]);return b?cv(a[2],[0,d,c]):b}function
-ri(k,a,l,bg){var
-x=a[1],h=dS(x),ap=a[3],bh=[0,[0,[0,ap,ap],l],0],bi=a[2],aq=g(z(function(a){return eO(l,a)},bi),bh),S=m(aq),bj=a[2],bk=m(z(function(a){return eO(l,a)},bj)),as=a[3],bl=cw([0,[0,as,as],l],bk),bm=gu(x),bn=a[5];function
+rh(l,a,m,bg){var
+x=a[1],h=dT(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(z(function(a){return eO(m,a)},bi),bh),T=k(aq),bj=a[2],bk=k(z(function(a){return eO(m,a)},bj)),as=a[3],bl=cw([0,[0,as,as],m],bk),bm=gA(x),bn=a[5];function
 i(a){return[0,[0,J(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dX(i(0)),I=[0,eN(qZ,i(0)),aX];break;case
+aX=dY(i(0)),I=[0,eN(qY,i(0)),aX];break;case
 1:var
-aY=dX(i(0)),aZ=s(dX(i(q0)),aY),a0=s(dX(i(q1)),aZ),a1=eN(0,i(0)),a2=jU(eN(q3,i(q2)),a1),I=[0,jU(eN(q5,i(q4)),a2),a0];break;default:var
-a3=i(q6),a5=i(q7),v=[0,i(0),a5,a3],a6=ar(v,v),a8=G(q(c),a6),aN=ar(v,v),r=v[1],t=v[2],u=v[3],N=function(a){var
-d=V(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
-g=O(f,s(e,d),a);return s(q(b(2,c)),g)},aO=N(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=N(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,N(r),aW,aV],aU,aQ],a8]}var
-C=I[2],K=j1(x,I[1],C,bl,l,a[2],0),bo=J(S,m(a[6])),bp=gu(x),br=a[5];function
+aY=dY(i(0)),aZ=s(dY(i(qZ)),aY),a0=s(dY(i(q0)),aZ),a1=eN(0,i(0)),a2=jU(eN(q2,i(q1)),a1),I=[0,jU(eN(q4,i(q3)),a2),a0];break;default:var
+a3=i(q5),a5=i(q6),v=[0,i(0),a5,a3],a6=ar(v,v),a8=G(q(c),a6),aN=ar(v,v),r=v[1],t=v[2],u=v[3],O=function(a){var
+d=W(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
+g=P(f,s(e,d),a);return s(q(b(2,c)),g)},aO=O(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=O(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=I[2],K=j1(x,I[1],C,bl,m,a[2],0),bo=J(T,k(a[6])),bp=gA(x),br=a[5];function
 B(a){return[0,[0,J(bp,a)]]}var
-af=V([0,[1,bo]]);switch(br[0]){case
+ag=W([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(q8),a_=B(q9),ag=[0,B(0),a_,a9],n=[0,w(af,ar(ag,ag))];break;case
+a9=B(q7),a_=B(q8),ah=[0,B(0),a_,a9],n=[0,w(ag,ar(ah,ah))];break;case
 3:var
-a$=V(B(q_)),ba=V(B(0)),bb=V(B(q$)),n=[0,w(w(s(af,G(q(c),bb)),ba),a$)];break;default:var
+a$=W(B(q9)),ba=W(B(0)),bb=W(B(q_)),n=[0,w(w(s(ag,G(q(c),bb)),ba),a$)];break;default:var
 n=0}var
-bs=n?[0,n[1],0]:n,bt=[0,C,g(j4(k,K,C,l,S,a[6]),bs)],T=g(cy(K),bt),at=dH(f(function(a){return dT(h,a)},T))[1],D=dG(at);function
-y(a){return bq(D,dT(h,a))}var
-bu=ah(y,n),bv=y(C),au=e(a4(y),K),am=gu(x),an=_(m(au),h);if(an)var
-ao=ah(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cS(0,am),R=o(function(a){var
+bs=n?[0,n[1],0]:n,bt=[0,C,g(j4(l,K,C,m,T,a[6]),bs)],U=g(cy(K),bt),at=dH(f(function(a){return dU(h,a)},U))[1],D=dG(at);function
+y(a){return bq(D,dU(h,a))}var
+bu=af(y,n),bv=y(C),au=e(a4(y),K),am=gA(x),an=M(k(au),h);if(an)var
+ao=af(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cS(0,am),S=o(function(a){var
 b=c1(h,a,ae),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
 c=H(b);return cD(J(h,a),c)},d);if(c){var
-e=H(b[2]);return gq(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(b[2]);return gw(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
 e=H(ao[1][1][1]);return cD(J(h,a),e)}var
 d=1}else
 var
 d=c;return d},aM);else
 var
-R=an;var
-bf=R?am:R,av=o(function(a){var
-b=dT(h,a),c=q(d);return bc(E(y(a),D,c),b)},T),aw=av?o(function(a){return jL(h,a)},T):av,ax=aw?a7(rh,a[6]):aw;if(ax){var
+S=an;var
+bf=S?am:S,av=o(function(a){var
+b=dU(h,a),c=q(d);return bc(E(y(a),D,c),b)},U),aw=av?o(function(a){return jP(h,a)},U):av,ax=aw?a7(rg,a[6]):aw;if(ax){var
 L=a[4];switch(x){case
 0:var
-U=eP(L[3]);break;case
+V=eP(L[3]);break;case
 1:var
-U=1;break;default:var
-ak=eP(L[1]),al=ak?eP(L[2]):ak,U=al?eP(L[3]):al}var
-W=U}else
+V=1;break;default:var
+ak=eP(L[1]),al=ak?eP(L[2]):ak,V=al?eP(L[3]):al}var
+X=V}else
 var
-W=ax;var
-ay=W?j(k,1,a[3]):W;if(ay)var
-bw=jV(a[5]),X=o(function(a){var
-b=go(k,a[1]);return b?go(k,a[2]):b},bw);else
+X=ax;var
+ay=X?j(l,1,a[3]):X;if(ay)var
+bw=jV(a[5]),Y=o(function(a){var
+b=gu(l,a[1]);return b?gu(l,a[2]):b},bw);else
 var
-X=ay;if(X){var
-bx=a[6],by=g(aq,f(function(a){return gv(l,a)},bx)),Y=aT(f(function(a){return aH(k,a)},by));if(Y){var
+Y=ay;if(Y){var
+bx=a[6],by=g(aq,f(function(a){return gB(m,a)},bx)),Z=aT(f(function(a){return aA(l,a)},by));if(Z){var
 F=a[4];switch(x){case
 0:var
-Z=[0,F[1],[0,F[2],0]];break;case
+_=[0,F[1],[0,F[2],0]];break;case
 1:var
-Z=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
-Z=0}var
-$=aT(f(function(a){return aH(k,[0,a,l])},Z));if($){var
+_=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
+_=0}var
+$=aT(f(function(a){return aA(l,[0,a,m])},_));if($){var
 az=$[1],p=a[5];switch(p[0]){case
 0:var
-M=[0,c2(p[1]),0];break;case
+N=[0,c2(p[1]),0];break;case
 1:var
-bd=[0,c2(p[3]),0],be=[0,c2(p[2]),bd],M=[0,c2(p[1]),be];break;case
+bd=[0,c2(p[3]),0],be=[0,c2(p[2]),bd],N=[0,c2(p[1]),be];break;case
 2:var
-P=c2(cC(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
-Q=p[2],ai=p[1],aj=[0,[1,cC(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,c2(cC(Q)),0]]]}var
+Q=c2(cC(p[1])),N=[0,Q,[0,Q,[0,Q,0]]];break;default:var
+R=p[2],ai=p[1],aj=[0,[1,cC(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c2(cC(R)),0]]]}var
 aa=aT(f(function(d){var
-a=jW(k,d[1]);if(a)var
-b=jW(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=jW(l,d[1]);if(a)var
+b=jW(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},M));if(aa){var
-aA=aa[1],aB=a[5],bz=1<aB[0]?[0,aB[1],0]:0,ab=aT(f(function(a){return dR(k,a)},bz));if(ab){var
-ac=aT(j3(k,y,bf,K,C,l,S,a[6]));if(ac){var
-ad=ac[1],aC=_(m(g(az,aA)),h),aD=aC?o(function(a){switch(a[0]){case
+c=a;return c},N));if(aa){var
+aB=aa[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ab=aT(f(function(a){return dS(l,a)},bz));if(ab){var
+ac=aT(j3(l,y,bf,K,C,m,T,a[6]));if(ac){var
+ad=ac[1],aD=M(k(g(az,aB)),h),aE=aD?o(function(a){switch(a[0]){case
 2:var
 d=jS(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jS(a[1]),b=[0,a[2],c]}return o(function(a){return jT(h,D,a)},b)},ad):aC,aE=aD?n?jT(h,D,y(n[1])):1:aD;if(aE){var
-bA=f(function(a){return 1},ad),bB=g(az,aA),bC=ah(y,n);return j0(k,at,g(Y[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
-aF=aE}else
-var
-aF=ac;var
+c=jS(a[1]),b=[0,a[2],c]}return o(function(a){return jT(h,D,a)},b)},ad):aD,aF=aE?n?jT(h,D,y(n[1])):1:aE;if(aF){var
+bA=f(function(a){return 1},ad),bB=g(az,aB),bC=af(y,n);return j0(l,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
 aG=aF}else
 var
-aG=ab;var
-aI=aG}else
+aG=ac;var
+aH=aG}else
+var
+aH=ab;var
+aI=aH}else
 var
 aI=aa;var
 aJ=aI}else
@@ -3986,28 +4005,28 @@ var
 aJ=$;var
 aK=aJ}else
 var
-aK=Y;var
+aK=Z;var
 aL=aK}else
 var
-aL=X;return aL}function
+aL=Y;return aL}function
 eQ(b,a){return bs(b,a[1],a[2])}function
-gx(b,a){var
+gD(b,a){var
 c=eQ(b,a[1]),d=c?eQ(b,a[2]):c;return d?eQ(b,a[3]):d}var
 eS=w(q(c),eR);function
 j5(e){var
-a=V(eS);if(e)var
+a=W(eS);if(e)var
 f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=aq(G(q(c),h),g);else
 var
-i=G(q(b(2,c)),a),j=V(eR),d=aq(G(s(q(b(2,c)),j),a),i);return b9(d)}function
+i=G(q(b(2,c)),a),j=W(eR),d=aq(G(s(q(b(2,c)),j),a),i);return b9(d)}function
 j6(d,b,a){if(d){var
 e=j5(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
 h=q(c),i=j5(b),j=aq(q(c),i);return w(s(a,G(q(c),j)),h)}function
 c3(f,e,d,a){var
-g=V(a),h=V(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:aq(eS,s(q(b(2,c)),eR)):aq(eS,q(b(2,c))),k=s(V(j),i);return b9(G(q(c),k))}function
+g=W(a),h=W(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:aq(eS,s(q(b(2,c)),eR)):aq(eS,q(b(2,c))),k=s(W(j),i);return b9(G(q(c),k))}function
 j7(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gy(u,t,s){var
+gE(u,t,s){var
 a=f(function(a){return E(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
@@ -4017,7 +4036,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eA([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eB([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4040,10 +4059,10 @@ r=q}else
 var
 r=a;return r}function
 j8(f,i,e,b,h){var
-j=f?c:d,a=aN(i,j);function
+j=f?c:d,a=aK(i,j);function
 g(b){var
-c=f?fU(b):es(b);return M(c,a)}var
-k=[0,a3(h),0],l=[0,[0,a,b,[0,ae,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+c=f?fU(b):et(b);return N(c,a)}var
+k=[0,aY(h),0],l=[0,[0,a,b,[0,aa,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
 j9(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
@@ -4053,16 +4072,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b_,bQ(rl)),a=gy(p,i3(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b_,bR(rk)),a=gE(p,i7(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j7,rm),a=gy(p,cs(0,dI(g,j8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(j7,rl),a=gE(p,ct(0,dI(g,j8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(j7,rn),a=gy(p,cs(0,dI(g,j8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(j7,rm),a=gE(p,ct(0,dI(g,j8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4072,26 +4091,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?ro:a}else
+y=a?rn:a}else
 var
 y=n;return y}return[0,n]}function
 j_(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j9(f,e,d,c,b,a[1],g);return h?aM(h[1]):h}var
+h=j9(f,e,d,c,b,a[1],g);return h?aN(h[1]):h}var
 i=j9(f,e,d,c,b,a[1],g);if(i){var
 j=i[1],k=dM(a[2],b),l=j_(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gz(a){return io(b(2,c),b2(a,c))}function
+gF(a){return iu(b(2,c),b2(a,c))}function
 c4(i,a,e,w,v){var
-l=a?c:Y(c),f=q(l),g=j6(a,e,rj),h=j6(a,e,rk),m=aq(g,c3(a,e,f,g)),n=[0,G(aq(h,c3(a,e,h,f)),m),0],o=aq(f,c3(a,e,f,g)),p=[0,G(aq(h,c3(a,e,g,h)),o),n],r=aq(f,c3(a,e,h,f)),t=[0,G(aq(g,c3(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dH([0,u,t]),k=[0,d,co(i)];return j_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-j$(a,g,b){if(aa(g,gz(a))){if(b){var
+l=a?c:Y(c),f=q(l),g=j6(a,e,ri),h=j6(a,e,rj),m=aq(g,c3(a,e,f,g)),n=[0,G(aq(h,c3(a,e,h,f)),m),0],o=aq(f,c3(a,e,f,g)),p=[0,G(aq(h,c3(a,e,g,h)),o),n],r=aq(f,c3(a,e,h,f)),t=[0,G(aq(g,c3(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dH([0,u,t]),k=[0,d,cp(i)];return j_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+j$(a,g,b){if(ac(g,gF(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gz(a)],v=co(a),i=[0,gz(a),v],j=c4(a,0,1,h,b[1]),k=j?c4(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,gF(a)],v=cp(a),i=[0,gF(a),v],j=c4(a,0,1,h,b[1]),k=j?c4(a,0,0,i,c[1]):j;if(k){var
 l=c4(a,1,1,h,d[1]);if(l)return c4(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4109,208 +4128,208 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,co(a)],s=c4(a,0,0,r,b[1]);if(s)return c4(a,1,0,r,f[1]);var
+r=[0,g,cp(a)],s=c4(a,0,0,r,b[1]);if(s)return c4(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gA(a){var
-b=[1,[2,d]];return iu(function(b,a){return[1,[3,b,a]]},a,b)}function
-eT(a){return gA(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eU(a,c){return gA(f(function(a){var
-d=[0,a[2]],b=cm(a[1],c);return[1,[7,[1,[8,gA(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+gG(a){var
+b=[1,[2,d]];return iA(function(b,a){return[1,[3,b,a]]},a,b)}function
+eT(a){return gG(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eU(a,c){return gG(f(function(a){var
+d=[0,a[2]],b=cn(a[1],c);return[1,[7,[1,[8,gG(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
 ka(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
 g=a[1],h=dE(function(a){return ka(f,d,c,b,a)},g);return e(dI(f,d,c),h)}function
-rp(a){var
-b=_(m(a),rq);return b?a7(function(a){return aM(al(a,d))},a):b}function
+ro(a){var
+b=M(k(a),rp);return b?a7(function(a){return aN(al(a,d))},a):b}function
 kb(c,f,b,a){if(b)if(a)var
-d=b[1],g=F(c,aN(c,a[1]),f),h=kb(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+d=b[1],g=F(c,aK(c,a[1]),f),h=kb(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eV(b,a){return it(it(b,0),a)}function
-gB(a){if(a){var
-b=a[2],c=a[1];if(b)return eV(c,[0,rs,gB(b)]);var
+eV(b,a){return iz(iz(b,0),a)}function
+gH(a){if(a){var
+b=a[2],c=a[1];if(b)return eV(c,[0,rr,gH(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,ru,eV(gB(a),rt)]}function
-N(a){return[0,rw,eV(gB(a),rv)]}function
-am(a){return[0,ry,[0,a,rx]]}function
-h(b,a){return[0,ax(rA,ax(b,rz)),a]}function
-L(b,a){return N([0,h(b,a),0])}function
+x(a){return[0,rt,eV(gH(a),rs)]}function
+O(a){return[0,rv,eV(gH(a),ru)]}function
+am(a){return[0,rx,[0,a,rw]]}function
+h(b,a){return[0,ax(rz,ax(b,ry)),a]}function
+L(b,a){return O([0,h(b,a),0])}function
 cE(d){var
-b=d,a=p3,e=0;for(;;){if(b){var
-c=ii(a),b=b[1],a=c;continue}return[0,dD(ej(a)),e]}}function
-gC(a){return[0,dD(em(a)),0]}function
-gD(a){var
-c=bI(a),f=0,b=0===c?p7:0<c?[0,em(a)]:[1,em(Y(a))];if(0===b[0])var
+b=d,a=p2,e=0;for(;;){if(b){var
+c=ip(a),b=b[1],a=c;continue}return[0,dD(ek(a)),e]}}function
+gI(a){return[0,dD(en(a)),0]}function
+gJ(a){var
+c=bJ(a),f=0,b=0===c?p6:0<c?[0,en(a)]:[1,en(Y(a))];if(0===b[0])var
 d=dD(b[1]);else
 var
 e=dD(b[1]),d=ax(a6(1,45),e);return[0,d,f]}function
-gE(a){var
-b=0,c=0<bI(a)?em(a):p6;return[0,dD(c),b]}function
-gF(a){switch(a[0]){case
-2:return rC;case
-3:return 2<=a[1]?rD:rE;case
-4:return rF;default:return rB}}function
-dY(b,a){function
-c(c,a){return $(c,gF(a))?dY(b,a):[0,rL,g(dY(b,a),rK)]}switch(a[0]){case
+gK(a){var
+b=0,c=0<bJ(a)?en(a):p5;return[0,dD(c),b]}function
+gL(a){switch(a[0]){case
+2:return rB;case
+3:return 2<=a[1]?rC:rD;case
+4:return rE;default:return rA}}function
+dZ(b,a){function
+c(c,a){return _(c,gL(a))?dZ(b,a):[0,rK,g(dZ(b,a),rJ)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
 f==="number")return[0,aX(h),0];var
-i=[0,rM,[0,aX(f),0]];return[0,aX(h),i];case
+i=[0,rL,[0,aX(f),0]];return[0,aX(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rO,c(rN,a[1])];case
+2:return[0,rN,c(rM,a[1])];case
 3:var
-j=a[3],k=c([0,gF(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gL(a)],j);switch(a[1]){case
 0:var
+d=rF;break;case
+1:var
 d=rG;break;case
-1:var
-d=rH;break;case
 2:var
-d=rI;break;default:var
-d=rJ}var
-l=a[2];return g(c(gF(a),l),[0,d,k]);case
+d=rH;break;default:var
+d=rI}var
+l=a[2];return g(c(gL(a),l),[0,d,k]);case
 4:var
-m=[0,rP,gC(a[2])];return g(c(rQ,a[1]),m);default:return[0,rS,g(dY(b,a[1]),rR)]}}function
-I(a){return[0,rV,g(dY(function(a){throw[0,ac,rU]},a),rT)]}function
-kc(a){return[0,rX,g(dY(function(a){return a},a),rW)]}function
-cc(a){if(0===a[0])return I(a[1]);var
-b=[0,h(rY,I(a[2])),0];return N([0,h(rZ,I(a[1])),b])}function
-dZ(b,a){var
+m=[0,rO,gI(a[2])];return g(c(rP,a[1]),m);default:return[0,rR,g(dZ(b,a[1]),rQ)]}}function
+I(a){return[0,rU,g(dZ(function(a){throw[0,ae,rT]},a),rS)]}function
+kc(a){return[0,rW,g(dZ(function(a){return a},a),rV)]}function
+cd(a){if(0===a[0])return I(a[1]);var
+b=[0,h(rX,I(a[2])),0];return O([0,h(rY,I(a[1])),b])}function
+d0(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
-r0(a){function
-b(a){return dZ(cc,a)}switch(a[0]){case
+rZ(a){function
+b(a){return d0(cd,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?r1:r9,i=[0,h(r2,am(f)),e],j=[0,h(r3,cc(a[4])),i],k=[0,h(r4,b(a[3])),j],l=[0,h(r5,b(a[2])),k],m=[0,h(r6,b(a[1])),l],c=[0,h(r8,am(r7)),m];break;case
+e=0,f=a[5]?r0:r8,i=[0,h(r1,am(f)),e],j=[0,h(r2,cd(a[4])),i],k=[0,h(r3,b(a[3])),j],l=[0,h(r4,b(a[2])),k],m=[0,h(r5,b(a[1])),l],c=[0,h(r7,am(r6)),m];break;case
 1:var
-d=a[3],n=d?[0,h(r_,b(d[1])),0]:d,o=[0,h(r$,b(a[2])),0],p=[0,h(sa,b(a[1])),o],c=g([0,h(sc,am(sb)),p],n);break;default:var
-q=[0,h(sd,b(a[1])),0],c=[0,h(sf,am(se)),q]}return N(c)}function
-sg(a){function
-b(a){return dZ(cc,a)}var
-c=0,d=a[7]?sh:sr,e=[0,h(si,am(d)),c],f=[0,h(sj,cc(a[6])),e],g=[0,h(sk,cc(a[5])),f],i=[0,h(sl,b(a[4])),g],j=[0,h(sm,b(a[3])),i],k=[0,h(sn,b(a[2])),j],l=[0,h(so,b(a[1])),k];return N([0,h(sq,am(sp)),l])}function
-gG(a){switch(a){case
-0:return ss;case
-1:return st;case
-2:return su;case
-3:return sv;case
-4:return sw;case
-5:return sx;case
-6:return sy;case
-7:return sz;case
-8:return sA;case
-9:return sB;default:return sC}}function
-gH(a){switch(a[0]){case
-0:return sD;case
-1:return sE;default:return sF}}function
-d0(a){var
+d=a[3],n=d?[0,h(r9,b(d[1])),0]:d,o=[0,h(r_,b(a[2])),0],p=[0,h(r$,b(a[1])),o],c=g([0,h(sb,am(sa)),p],n);break;default:var
+q=[0,h(sc,b(a[1])),0],c=[0,h(se,am(sd)),q]}return O(c)}function
+sf(a){function
+b(a){return d0(cd,a)}var
+c=0,d=a[7]?sg:sq,e=[0,h(sh,am(d)),c],f=[0,h(si,cd(a[6])),e],g=[0,h(sj,cd(a[5])),f],i=[0,h(sk,b(a[4])),g],j=[0,h(sl,b(a[3])),i],k=[0,h(sm,b(a[2])),j],l=[0,h(sn,b(a[1])),k];return O([0,h(sp,am(so)),l])}function
+gM(a){switch(a){case
+0:return sr;case
+1:return ss;case
+2:return st;case
+3:return su;case
+4:return sv;case
+5:return sw;case
+6:return sx;case
+7:return sy;case
+8:return sz;case
+9:return sA;default:return sB}}function
+gN(a){switch(a[0]){case
+0:return sC;case
+1:return sD;default:return sE}}function
+d1(a){var
 b=a[4],l=0;if(2===b[0])var
 k=[0,I(b[2]),0],f=x([0,I(b[1]),k]);else
 var
 f=I(b[1]);var
-m=[0,h(sG,f),l],n=[0,h(sH,am(gH(a[4]))),m],d=a[3];if(d){var
+m=[0,h(sF,f),l],n=[0,h(sG,am(gN(a[4]))),m],d=a[3];if(d){var
 c=d[1];if(0===c[0])var
-p=x([0,I(c[1]),0]),o=0,q=6===a[1]?sI:sM,i=[0,h(sJ,L(q,p)),o];else
+p=x([0,I(c[1]),0]),o=0,q=6===a[1]?sH:sL,i=[0,h(sI,L(q,p)),o];else
 var
-u=[0,h(sN,x([0,I(c[2]),0])),0],i=[0,h(sP,N([0,h(sO,x([0,I(c[1]),0])),u])),0];var
+u=[0,h(sM,x([0,I(c[2]),0])),0],i=[0,h(sO,O([0,h(sN,x([0,I(c[1]),0])),u])),0];var
 j=i}else
 var
 j=d;var
-r=g(j,n),e=a[2],s=e?[0,h(sK,cE(e[1])),0]:e,t=g(s,r);return N([0,h(sL,am(gG(a[1]))),t])}function
+r=g(j,n),e=a[2],s=e?[0,h(sJ,cE(e[1])),0]:e,t=g(s,r);return O([0,h(sK,am(gM(a[1]))),t])}function
 kd(a){if(0===a[0]){var
-b=[0,h(sQ,dZ(I,a[2])),0];return L(sS,N([0,h(sR,dZ(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,h(sT,x([0,I(a[4]),c])),0],e=[0,h(sU,I(a[3])),d],f=[0,I(a[2]),0];return L(sW,N([0,h(sV,x([0,I(a[1]),f])),e]))}function
-s0(a){function
-b(a){return x(f(cc,a))}var
-c=[0,h(s1,b(a[2])),0],d=[0,h(s2,b(a[1])),c];return N([0,h(s4,am(s3)),d])}function
-tc(a){function
-b(a){return dZ(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(td,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(te,x([0,I(a[3]),f])),0],j=[0,h(tf,I(a[2])),i],k=[0,h(tg,cE(a[1])),j],d=g([0,h(ti,am(th)),k],e);else
+b=[0,h(sP,d0(I,a[2])),0];return L(sR,O([0,h(sQ,d0(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,h(sS,x([0,I(a[4]),c])),0],e=[0,h(sT,I(a[3])),d],f=[0,I(a[2]),0];return L(sV,O([0,h(sU,x([0,I(a[1]),f])),e]))}function
+sZ(a){function
+b(a){return x(f(cd,a))}var
+c=[0,h(s0,b(a[2])),0],d=[0,h(s1,b(a[1])),c];return O([0,h(s3,am(s2)),d])}function
+tb(a){function
+b(a){return d0(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tc,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(td,x([0,I(a[3]),f])),0],j=[0,h(te,I(a[2])),i],k=[0,h(tf,cE(a[1])),j],d=g([0,h(th,am(tg)),k],e);else
 var
-l=[0,h(tj,I(a[4])),0],m=[0,h(tk,b(a[3])),l],n=[0,h(tl,b(a[2])),m],o=a[1]?tm:to,d=[0,h(tn,am(o)),n];return N(d)}function
+l=[0,h(ti,I(a[4])),0],m=[0,h(tj,b(a[3])),l],n=[0,h(tk,b(a[2])),m],o=a[1]?tl:tn,d=[0,h(tm,am(o)),n];return O(d)}function
 ke(d,c,a,b){var
-e=[0,h(tp,x(f(d0,b))),0],i=a?[0,h(tq,x(f(tc,a))),0]:a,j=g(i,e),k=[0,h(tr,kd(c)),0];return N(g([0,h(tt,L(ts,x(f(r0,d)))),k],j))}function
-tu(a){switch(a[0]){case
-0:return L(tv,ke(a[1],a[2],a[3],a[4]));case
+e=[0,h(to,x(f(d1,b))),0],i=a?[0,h(tp,x(f(tb,a))),0]:a,j=g(i,e),k=[0,h(tq,kd(c)),0];return O(g([0,h(ts,L(tr,x(f(rZ,d)))),k],j))}function
+tt(a){switch(a[0]){case
+0:return L(tu,ke(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tw,x(f(d0,a[3]))),0],p=[0,h(tx,kd(a[2])),o];return L(tA,N([0,h(tz,L(ty,x(f(sg,a[1])))),p]));case
+o=[0,h(tv,x(f(d1,a[3]))),0],p=[0,h(tw,kd(a[2])),o];return L(tz,O([0,h(ty,L(tx,x(f(sf,a[1])))),p]));case
 2:var
-q=[0,h(tB,x(f(d0,a[7]))),0],b=a[6],c=function(b,a){var
+q=[0,h(tA,x(f(d1,a[7]))),0],b=a[6],c=function(b,a){var
 c=[0,I(a),0];return x([0,I(b),c])};switch(b[0]){case
 0:var
-d=L(s5,c(b[1],b[2]));break;case
+d=L(s4,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(s6,c(g[1],g[2])),0],m=[0,h(s7,c(i[1],i[2])),l],d=L(s9,N([0,h(s8,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(s5,c(g[1],g[2])),0],m=[0,h(s6,c(i[1],i[2])),l],d=L(s8,O([0,h(s7,c(j[1],j[2])),m]));break;case
 2:var
-d=L(s_,I(b[1]));break;default:var
-n=[0,h(s$,I(b[2])),0],d=L(tb,N([0,h(ta,I(b[1])),n]))}var
-r=[0,h(tC,d),q],s=[0,h(tD,x(f(I,a[5]))),0],t=[0,h(tG,L(tF,N([0,h(tE,x(f(I,a[4]))),s]))),r],u=[0,h(tH,I(a[3])),0],v=N([0,h(tI,x(f(s0,a[2]))),u]);switch(a[1]){case
+d=L(s9,I(b[1]));break;default:var
+n=[0,h(s_,I(b[2])),0],d=L(ta,O([0,h(s$,I(b[1])),n]))}var
+r=[0,h(tB,d),q],s=[0,h(tC,x(f(I,a[5]))),0],t=[0,h(tF,L(tE,O([0,h(tD,x(f(I,a[4]))),s]))),r],u=[0,h(tG,I(a[3])),0],v=O([0,h(tH,x(f(sZ,a[2]))),u]);switch(a[1]){case
 0:var
-e=sX;break;case
+e=sW;break;case
 1:var
-e=sY;break;default:var
-e=sZ}return L(tK,N([0,h(tJ,L(e,v)),t]));case
+e=sX;break;default:var
+e=sY}return L(tJ,O([0,h(tI,L(e,v)),t]));case
 3:var
-w=[0,h(tL,x(f(d0,a[7]))),0],y=[0,h(tM,x(f(I,a[6]))),0],z=[0,h(tP,L(tO,N([0,h(tN,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tR,x(f(function(a){return L(tQ,x(f(kc,a)))},B))),A],D=a[3],E=[0,h(tS,x(f(function(a){var
-b=[0,kc(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tT,x(f(function(a){var
-b=[0,cc(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tX,N([0,h(tW,L(tV,N([0,h(tU,x(f(am,a[1]))),G]))),z]));case
+w=[0,h(tK,x(f(d1,a[7]))),0],y=[0,h(tL,x(f(I,a[6]))),0],z=[0,h(tO,L(tN,O([0,h(tM,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tQ,x(f(function(a){return L(tP,x(f(kc,a)))},B))),A],D=a[3],E=[0,h(tR,x(f(function(a){var
+b=[0,kc(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tS,x(f(function(a){var
+b=[0,cd(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,x(f(am,a[1]))),G]))),z]));case
 4:var
-H=[0,h(tY,x(f(d0,a[3]))),0],J=[0,h(t1,L(t0,N([0,h(tZ,I(a[2])),0]))),H];return L(t5,N([0,h(t4,L(t3,N([0,h(t2,I(a[1])),0]))),J]));case
+H=[0,h(tX,x(f(d1,a[3]))),0],J=[0,h(t0,L(tZ,O([0,h(tY,I(a[2])),0]))),H];return L(t4,O([0,h(t3,L(t2,O([0,h(t1,I(a[1])),0]))),J]));case
 5:var
-K=[0,h(t6,I(a[5])),0];return L(t8,N([0,h(t7,ke(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
-k=a[1],M=0,O=k?cc(k[1]):am(t$);return L(t_,N([0,h(t9,O),M]))}}function
-eW(a){return x(f(gD,a))}function
+K=[0,h(t5,I(a[5])),0];return L(t7,O([0,h(t6,ke(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
+k=a[1],M=0,N=k?cd(k[1]):am(t_);return L(t9,O([0,h(t8,N),M]))}}function
+eW(a){return x(f(gJ,a))}function
 kf(b,a){var
-c=[0,h(ua,gE(a)),0];return N([0,h(ub,x(f(eW,b))),c])}function
+c=[0,h(t$,gK(a)),0];return O([0,h(ua,x(f(eW,b))),c])}function
 eX(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
 b=kf(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?uc:ue;return L(ud,am(c));case
+c=a[1]?ub:ud;return L(uc,am(c));case
 3:var
-d=[0,eW(a[3]),0];return L(uf,x([0,kf(a[1],a[2]),d]));case
+d=[0,eW(a[3]),0];return L(ue,x([0,kf(a[1],a[2]),d]));case
 4:var
-e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return L(ug,x([0,eX(a[1]),f]));case
+e=[0,gK(a[3]),0],f=[0,gJ(a[2]),e];return L(uf,x([0,eX(a[1]),f]));case
 5:var
-g=[0,gE(a[3]),0],h=[0,gD(a[2]),g];return L(uh,x([0,eX(a[1]),h]));default:return L(ui,eX(a[1]))}}function
-uj(a){var
+g=[0,gK(a[3]),0],h=[0,gJ(a[2]),g];return L(ug,x([0,eX(a[1]),h]));default:return L(uh,eX(a[1]))}}function
+ui(a){var
 b=[0,eX(a[2]),0];return x([0,cE(a[1]),b])}function
 kg(a){if(typeof
-a==="number")return am(uk);else{if(0===a[0]){var
-b=[0,x(f(eW,a[2])),0];return L(ul,x([0,cE(a[1]),b]))}var
-c=[0,cE(a[2]),0];return L(um,x([0,cE(a[1]),c]))}}function
-un(a){var
-b=a[4],i=b?[0,h(uo,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(up,kg(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uq,cE(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ur,x(f(uj,[0,c[1],c[2]]))),0]:c;return N(g(n,m))}function
-gI(a){var
-b=h5(h4(H(a),function(b){return S(a,b)}));return o(function(a){var
-b=aM(34===a?1:0),c=b?aM(92===a?1:0):b,d=c?$(uL,ep(a)):c;return d?$(ep(a),uM):d},b)}function
+a==="number")return am(uj);else{if(0===a[0]){var
+b=[0,x(f(eW,a[2])),0];return L(uk,x([0,cE(a[1]),b]))}var
+c=[0,cE(a[2]),0];return L(ul,x([0,cE(a[1]),c]))}}function
+um(a){var
+b=a[4],i=b?[0,h(un,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uo,kg(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(up,cE(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uq,x(f(ui,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
+gO(a){var
+b=h$(h_(H(a),function(b){return T(a,b)}));return o(function(a){var
+b=aN(34===a?1:0),c=b?aN(92===a?1:0):b,d=c?_(uK,eq(a)):c;return d?_(eq(a),uL):d},b)}function
 eY(b){function
 c(f){var
-a=ep(f),b=$(uN,a),c=b?$(a,uO):b;if(c)var
+a=eq(f),b=_(uM,a),c=b?_(a,uN):b;if(c)var
 d=c;else{var
-e=$(uP,a);if(e)return $(a,uQ);var
+e=_(uO,a);if(e)return _(a,uP);var
 d=e}return d}var
-a=h5(h4(H(b),function(a){return S(b,a)}));if(a){var
+a=h$(h_(H(b),function(a){return T(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=ep(a),f=$(uR,e),h=f?$(e,uS):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?$(m(d),uT):f;if(g)return aM(aw(b,uU));var
+e=eq(a),f=_(uQ,e),h=f?_(e,uR):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?_(k(d),uS):f;if(g)return aN(aw(b,uT));var
 h=g}else
 var
 h=a;return h}function
-gJ(c){var
+gP(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return eY(a[1]);case
 3:var
-b=gJ(a[2]);if(b){var
+b=gP(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 c5(m){var
@@ -4324,7 +4343,7 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ej(a[2]);if(typeof
+f=ek(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
@@ -4334,18 +4353,18 @@ g=d;return g;case
 i=c5(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c5(a[1]),l=k?el(b(2,c),j):k;return l?el(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c5(a[1]),l=k?em(b(2,c),j):k;return l?em(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 c6(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bd(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cd(a){return z(c6,bd(a))}function
+ce(a){return z(c6,bd(a))}function
 kh(a){switch(a[0]){case
 0:var
-c=c6(a[4]),d=g(cd(a[3]),c),e=g(cd(a[2]),d);return g(cd(a[1]),e);case
+c=c6(a[4]),d=g(ce(a[3]),c),e=g(ce(a[2]),d);return g(ce(a[1]),e);case
 1:var
-b=a[3],f=b?cd(b[1]):b,h=g(cd(a[2]),f);return g(cd(a[1]),h);default:return cd(a[1])}}function
-uV(a){var
-b=z(c6,[0,a[5],[0,a[6],0]]);return g(z(cd,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+b=a[3],f=b?ce(b[1]):b,h=g(ce(a[2]),f);return g(ce(a[1]),h);default:return ce(a[1])}}function
+uU(a){var
+b=z(c6,[0,a[5],[0,a[6],0]]);return g(z(ce,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
 ki(a){if(0===a[0]){var
 b=bd(a[2]);return g(bd(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 c7(d){var
@@ -4353,16 +4372,16 @@ a=d[4],f=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-uW(a){if(0===a[0]){var
+uV(a){if(0===a[0]){var
 b=a[5],c=b?bd(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(bd(a[3]),d);return g(bd(a[2]),e)}function
 kj(a){var
-d=el(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?el(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+d=em(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?em(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
 kk(a,b){return b?[3,kk(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fN(ig(h),k,c);return[0,iq(ih(ej(a[1]),h)),l];case
-1:throw[0,ac,uX];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fN(im(h),k,c);return[0,iw(io(ek(a[1]),h)),l];case
+1:throw[0,ae,uW];case
 2:var
 e=i(a[1]);return 0===e[0]?[0,Y(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
@@ -4371,17 +4390,17 @@ f=i(a[2]),g=i(a[3]);switch(a[1]){case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=bN(dB(a[2]));return kk(i(a[1]),m);default:return[5,i(a[1])]}}function
+m=bO(dB(a[2]));return kk(i(a[1]),m);default:return[5,i(a[1])]}}function
 bS(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
 be(a){var
 b=bS(a[3]),c=bS(a[2]);return[0,bS(a[1]),c,b]}function
-uY(a){switch(a[0]){case
+uX(a){switch(a[0]){case
 0:var
 b=a[5],c=bS(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
 1:var
-f=ah(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
+f=af(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
 kl(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
@@ -4389,62 +4408,67 @@ h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
 c8(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
 c9(a){if(0===a[0]){var
-b=a[5],h=b?c8(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bN(a[1]),l,k,j,h]}var
+b=a[5],h=b?c8(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bO(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=c8(f),n=c8(g);return[2,i(e),n,m]}var
 o=c8(f),p=c8(g);return[1,i(e),p,o]}function
-gK(b,a){if(a){var
-c=a[1],d=a[2],e=gK(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fS(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:_(b[1],a[1]):0:0===a[0]?0:dA(b[1],a[1]);return aM(d)},h),e)}return a}function
-uZ(a){if(a[1])return 0;var
+gQ(b,a){if(a){var
+c=a[1],d=a[2],e=gQ(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fS(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:M(b[1],a[1]):0:0===a[0]?0:dA(b[1],a[1]);return aN(d)},h),e)}return a}function
+uY(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eZ(e,l,J,b){var
-K=m(e),h=z(function(a){switch(a[1]){case
+eZ(e,m,P,b){var
+Q=k(e),h=z(function(a){switch(a[1]){case
 0:var
-l=a[4];return 0===l[0]?[0,[1,i(l[1])],0]:0;case
+m=a[4];return 0===m[0]?[0,[1,i(m[1])],0]:0;case
 1:var
 e=a[4];switch(e[0]){case
 0:var
-x=e[1],b=function(a){return[2,a,i(x)]};break;case
+A=e[1],b=function(a){return[2,a,i(A)]};break;case
 1:var
-z=e[1],b=function(a){return[3,a,i(z)]};break;default:return 0}break;case
+C=e[1],b=function(a){return[3,a,i(C)]};break;default:return 0}break;case
 2:var
-n=a[4];if(1!==n[0])return 0;var
-g=a[3],A=n[1];if(!g)return g;var
-o=g[1];if(0!==o[0])return 0;var
-B=o[1],b=function(a){var
-b=i(A);return[4,a,i(B),b]};break;case
+o=a[4];if(1!==o[0])return 0;var
+g=a[3],D=o[1];if(!g)return g;var
+p=g[1];if(0!==p[0])return 0;var
+E=p[1],b=function(a){var
+b=i(D);return[4,a,i(E),b]};break;case
 3:var
-p=a[4];return 1===p[0]?[0,[5,i(p[1])],0]:0;case
+q=a[4];return 1===q[0]?[0,[5,i(q[1])],0]:0;case
 4:var
-q=a[4];if(0!==q[0])return 0;var
-C=q[1],b=function(a){return[6,a,i(C)]};break;case
+r=a[4];if(0!==r[0])return 0;var
+F=r[1],b=function(a){return[6,a,i(F)]};break;case
 5:var
-r=a[4];return 0===r[0]?[0,[7,i(r[1])],0]:0;case
+s=a[4];return 0===s[0]?[0,[7,i(s[1])],0]:0;case
 6:var
-s=a[4];if(0===s[0]){var
+t=a[4];if(0===t[0]){var
 h=a[3];if(h){var
-t=h[1];if(0===t[0]){var
-D=i(s[1]);return[0,[8,i(t[1]),D],0]}return 0}return h}return 0;case
+u=h[1];if(0===u[0]){var
+G=i(t[1]);return[0,[8,i(u[1]),G],0]}return 0}return h}return 0;case
 7:var
-u=a[4];return 0===u[0]?[0,[9,i(u[1])],0]:0;case
-8:return 0;case
+v=a[4];return 0===v[0]?[0,[9,i(v[1])],0]:0;case
+8:var
+w=a[4];if(1!==w[0])return 0;var
+j=a[3],H=w[1];if(!j)return j;var
+x=j[1];if(0!==x[0])return 0;var
+I=x[1],b=function(a){var
+b=i(H);return[13,a,i(I),b]};break;case
 9:var
-v=a[4];if(0===v[0]){var
-E=v[1],F=gK(0,J);return f(function(h){var
-e=i(E),a=h[2],b=h[1];if(0===b[0]){var
+y=a[4];if(0===y[0]){var
+J=y[1],K=gQ(0,P);return f(function(h){var
+e=i(J),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?c8(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(_(f,a[1])){var
-j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bN(f),m,l,k]}var
+g=function(a){return a?c8(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(M(f,a[1])){var
+j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bO(f),m,l,k]}var
 n=c9(a);return[10,c9(b),n,e]}var
 o=c9(a);return[10,c9(b),o,e]}var
-p=c9(a);return[10,c9(b),p,e]},F)}return 0;default:var
-w=a[4];if(1!==w[0])return 0;var
-j=a[3],G=w[1];if(!j)return j;var
-k=j[1];if(0===k[0])return 0;var
-H=k[2],I=k[1],b=function(a){var
-b=i(G),c=i(H);return[12,a,i(I),c,b]}}var
-m=a[2],y=m?[0,bN(m[1]),0]:cS(0,K);return f(b,y)},b),a=z(uZ,b),j=a?[0,a[1],a[2]]:u1,k=g(j,h),n=kl(l);return[0,f(uY,e),n,k]}function
+p=c9(a);return[10,c9(b),p,e]},K)}return 0;default:var
+z=a[4];if(1!==z[0])return 0;var
+k=a[3],L=z[1];if(!k)return k;var
+l=k[1];if(0===l[0])return 0;var
+N=l[2],O=l[1],b=function(a){var
+b=i(L),c=i(N);return[12,a,i(O),c,b]}}var
+n=a[2],B=n?[0,bO(n[1]),0]:cS(0,Q);return f(b,B)},b),a=z(uY,b),j=a?[0,a[1],a[2]]:u1,l=g(j,h),n=kl(m);return[0,f(uX,e),n,l]}function
 u2(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
 c_(B,b){var
@@ -4478,13 +4502,13 @@ g=a[3],z=p[1];if(!g)return g;var
 q=g[1];if(0!==q[0])return 0;var
 A=q[1],c=function(a){var
 b=i(z);return[7,a,i(A),b]};break;default:return 0}var
-j=a[2],s=j?[0,bN(j[1]),0]:cS(0,B);return f(c,s)},b),a=z(u2,b),d=a?[0,a[1],a[2]]:u3;return g(d,c)}function
+j=a[2],s=j?[0,bO(j[1]),0]:cS(0,B);return f(c,s)},b),a=z(u2,b),d=a?[0,a[1],a[2]]:u3;return g(d,c)}function
 a9(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
 i=2===a[4][0]?1:0,b=dA(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=$(u4,d);return e?$(d,g):e}var
+d=c[1],e=_(u4,d);return e?_(d,g):e}var
 f=1}else
 var
 f=b;return f;case
@@ -4504,7 +4528,7 @@ km(b){function
 a(e){var
 a=[0,d,c];return E(e,b,[0,a,a])}var
 e=a(u6),f=a(u7);return[0,a(0),f,e]}function
-gL(a){function
+gR(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4514,35 +4538,35 @@ c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 e=i(a[2]);return[3,i(a[1]),e]}}function
 kn(j,a,h,g,e,d,c){function
 b(a){return km(f(bS,a))}var
-k=c_(m(a),c),l=gL(d),n=cm(g,e),o=km(f(function(a){var
+l=c_(k(a),c),m=gR(d),n=cn(g,e),o=km(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
 u8(a){var
 b=a[7],c=bS(a[6]),d=bS(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
-l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 c$(h){var
 a=cR(function(f,e){var
-a=az(l,f);if(a)var
-b=a[1],c=cl(fA(b[1]),fA(b[2]));else
+a=az(m,f);if(a)var
+b=a[1],c=cm(fA(b[1]),fA(b[2]));else
 var
-c=d;return cl(c,e)},d,h);if(aa(d,a)){var
-f=bI(a);if(0===f||!(0<f&&!D(a,c)))var
+c=d;return cm(c,e)},d,h);if(ac(d,a)){var
+f=bJ(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bo(a,a1(2)),e=b[1],g=al(b[2],d)?ek(e):ek(e);return b2(g,l)}return d}function
+b=bo(a,a2(2)),e=b[1],g=al(b[2],d)?el(e):el(e);return b2(g,m)}return d}function
 e0(a){return[0,a[1],[0,a[2],0]]}function
-bx(a){var
+by(a){var
 b=e0(a[3]),c=g(e0(a[2]),b);return g(e0(a[1]),c)}function
 u9(a){return 0===a[0]?e0(a[1][4]):0}function
 u_(a){switch(a[0]){case
 0:var
-b=a[1],c=bx(b[3]);return g(bx(b[2]),c);case
+b=a[1],c=by(b[3]);return g(by(b[2]),c);case
 1:var
-d=bx(a[2]);return g(bx(a[1]),d);default:return 0}}function
+d=by(a[2]);return g(by(a[1]),d);default:return 0}}function
 ko(a){switch(a[0]){case
-0:return c$(bx(a[1][1]));case
+0:return c$(by(a[1][1]));case
 1:var
-b=a[3];return b?c$(bx(b[1])):d;default:return c$(bx(a[1]))}}function
+b=a[3];return b?c$(by(b[1])):d;default:return c$(by(a[1]))}}function
 kp(b){var
 a=z(u9,b),d=a?[0,a[1],a[2]]:z(u_,b);return C(c,c$(d))}function
 e1(a){switch(a[0]){case
@@ -4558,7 +4582,7 @@ i=aw(e,vm),k=i?[0,[8,c,d]]:i;return k;case
 f=e1(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
 g=e1(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=e1(a[1]);return ah(function(a){return[6,a]},n)}}function
+n=e1(a[1]);return af(function(a){return[6,a]},n)}}function
 kq(a){if(a){var
 d=a[1],b=e1(d[2]);if(b)var
 c=kq(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
@@ -4584,25 +4608,25 @@ var
 g=a;else
 var
 g=c;return g}function
-gM(d,a){if(d){if(a){var
-b=da(m(a),a);if(b)var
-e=b[1],c=gM(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gS(d,a){if(d){if(a){var
+b=da(k(a),a);if(b)var
+e=b[1],c=gS(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
 f=b;return f}return vo}return a?0:vp}function
-gN(a){return typeof
+gT(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gO(d,a){if(d)if(a){var
+gU(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gO(k,j);if(e){var
-l=e[1],f=gO(k,l[2]);if(f)var
+e=gU(k,j);if(e){var
+l=e[1],f=gU(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gN(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,gT(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
@@ -4623,58 +4647,59 @@ p=bf(a[1],c),b=[0,[2,p[1]],p[2]]}var
 q=kr(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 ks(b,i){if(b){var
 a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cG(a[5],f[2]),h=cG(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=ks(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gP(a,b){if(a){var
-c=cG(a[1],b),d=gP(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gQ(b){function
+gV(a,b){if(a){var
+c=cG(a[1],b),d=gV(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gW(b){function
 a(a){return E(a,b,[0,d,c])}var
 e=a(vr),f=a(vs);return[0,a(0),f,e]}function
 kt(a,b){if(a){var
-c=a[1],d=gP(c[1],b),e=gP(c[2],d[2]),f=kt(a[2],e[2]),g=f[2],h=f[1],i=gQ(e[1]);return[0,[0,[0,gQ(d[1]),i],h],g]}return[0,0,b]}function
-db(a){return i8(l,a)}function
+c=a[1],d=gV(c[1],b),e=gV(c[2],d[2]),f=kt(a[2],e[2]),g=f[2],h=f[1],i=gW(e[1]);return[0,[0,[0,gW(d[1]),i],h],g]}return[0,0,b]}function
+db(a){return ja(m,a)}function
 vt(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-4:var
-b=j(l,1,a[2]);return b?j(l,1,a[3]):b;case
-5:return j(l,1,[2,a[1],[0,c,c]]);case
-6:return j(l,1,a[2]);case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
+6:return j(m,1,a[2]);case
 8:var
-d=j(l,1,a[1]);return d?j(l,1,a[2]):d;case
-10:return j(l,0,a[3]);case
+d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
+10:return j(m,0,a[3]);case
 11:var
-e=a[4];return 1===e[0]?j(l,0,e[2]):0;case
+e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
 12:var
-f=j(l,0,a[2]),g=f?j(l,0,a[3]):f;return g?j(l,1,a[4]):g;case
+f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
 2:case
-3:return db(a[2]);default:return j(l,1,a[1])}}function
-gR(a){if(typeof
+3:return db(a[2]);case
+4:case
+13:var
+b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
+gX(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(l,1,[2,d,e]),g=f?j(l,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(l,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(l,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
-5:return j(l,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
-k=j(l,1,a[1]);return k?j(l,1,a[2]):k;case
+k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
-1:return j(l,1,a[1]);case
+1:return j(m,1,a[1]);case
 2:case
 3:return db(a[2]);default:var
-i=j(l,1,a[2]);return i?j(l,1,a[3]):i}}function
+i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
 e2(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aM(a7(function(d){return function(a){var
-h=gG(a[1]),e=aw(gG(d[1]),h);if(e)var
-i=gH(a[4]),b=aw(gH(d[4]),i);else
+b=a[2],e=a[1],c=aN(a7(function(d){return function(a){var
+h=gM(a[1]),e=aw(gM(d[1]),h);if(e)var
+i=gN(a[4]),b=aw(gN(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?_(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?M(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d1(a){if(0===a[0])return db(i(a[1]));var
-b=i(a[1]);return j(l,1,[2,i(a[2]),b])}function
+d2(a){if(0===a[0])return db(i(a[1]));var
+b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
 bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ku(a){switch(a[0]){case
 0:var
@@ -4683,49 +4708,49 @@ c=[0,a[4],0],d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e);case
 b=a[3],f=b?bg(b[1]):b,h=g(bg(a[2]),f);return g(bg(a[1]),h);default:return bg(a[1])}}function
 kv(a){var
 b=[0,a[5],[0,a[6],0]],c=g(bg(a[4]),b),d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e)}function
-gS(a){switch(a){case
+gY(a){switch(a){case
 0:return vx;case
 1:return vy;default:return 0}}function
 e3(a){var
-f=a[1],d=j(l,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(l,a[1],a[2]):d;if(e){var
-g=a[2];return j(l,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
-gT(a){var
-e=bs(l,[0,d,c],a);return e?j(l,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
+gZ(a){var
+e=bs(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
 kw(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vv:vw,b=_(m(a),d);return b?o(d1,a):b}var
+d=c?vv:vw,b=M(k(a),d);return b?o(d2,a):b}var
 v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=m(d),h=$(dS(c),E);else
+E=k(d),h=_(dT(c),E);else
 var
 h=v;var
-w=h?$(m(d),vz):h,x=w?j(l,1,i(D)):w;if(x)var
-F=gS(c),k=_(m(t),F);else
+w=h?_(k(d),vz):h,x=w?j(m,1,i(D)):w;if(x)var
+F=gY(c),l=M(k(t),F);else
 var
-k=x;if(k)var
-G=gS(c),n=_(m(s),G);else
+l=x;if(l)var
+G=gY(c),n=M(k(s),G);else
 var
-n=k;if(n)var
-H=cm(t,s),p=o(function(a){var
-b=i(a[2]);return bs(l,i(a[1]),b)},H);else
+n=l;if(n)var
+H=cn(t,s),p=o(function(a){var
+b=i(a[2]);return bs(m,i(a[1]),b)},H);else
 var
 p=n;if(p)if(c){var
-a=gL(r);switch(a[0]){case
+a=gR(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
 z=e3(a[1]),A=z?e3(a[2]):z,e=A?e3(a[3]):A;break;case
 2:var
-e=gT(a[1]);break;default:var
-B=gT(a[1]),e=B?gT(a[2]):B}var
+e=gZ(a[1]);break;default:var
+B=gZ(a[1]),e=B?gZ(a[2]):B}var
 f=e}else
 var
-C=gL(r),J=0===C[0]?e3(C[1]):0,f=J;else
+C=gR(r),J=0===C[0]?e3(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=m(d),I=dS(c),q=o(function(a){var
+b=k(d),I=dT(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=$(u5,e),j=f?$(e,b):f,c=j;else
+e=d[1],f=_(u5,e),j=f?_(e,b):f,c=j;else
 var
 c=1;switch(a[1]){case
 2:if(1===a[4][0]){var
@@ -4733,25 +4758,25 @@ g=a[3];return g?0===g[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
 6:if(0===a[4][0]){var
 h=a[3];return h?0===h[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
 8:if(1===a[4][0]){var
-i=a[3];return i?0===i[1][0]?c?_(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
+i=a[3];return i?0===i[1][0]?c?M(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
 var
 q=f;var
-y=q?e2(g):q;return y?o(gR,c_(m(d),g)):y}function
-gU(j){var
-q=a5(j,c$(bx(j))),a=f(function(a){return aH(l,a)},q);if(a){var
+y=q?e2(g):q;return y?o(gX,c_(k(d),g)):y}function
+g0(j){var
+q=a5(j,c$(by(j))),a=f(function(a){return aA(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return ad(l,a)},r=i(h[1]),s=i(g[1]);return aa(d,A(A(i(e[1]),s),r)[1])}var
+i=function(a){return $(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,A(A(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
-m=k}else
+l=k}else
 var
-m=g;var
-n=m}else
+l=g;var
+n=l}else
 var
 n=b;var
 o=n}else
@@ -4761,167 +4786,173 @@ p=o}else
 var
 p=a;return p}function
 vA(a){switch(a[0]){case
-0:return gU(a[1][1]);case
+0:return g0(a[1][1]);case
 1:var
-b=a[3];return b?gU(b[1]):1;default:return gU(a[1])}}function
-gV(c,a,b,p){if(a7(function(a){return 9===a[1]?1:0},b)){var
-f=$(m(a),vC),h=f?o(function(a){if(0===a[0]){var
-f=a[5],h=j(l,1,i(a[2])),k=h?j(l,0,i(a[3])):h,m=k?j(l,0,i(a[4])):k,e=0;if(m)if(f)var
+b=a[3];return b?g0(b[1]):1;default:return g0(a[1])}}function
+g1(c,a,b,p){if(a7(function(a){return 9===a[1]?1:0},b)){var
+f=_(k(a),vC),h=f?o(function(a){if(0===a[0]){var
+f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
 u=bd(f[1]),b=o(function(a){return db(i(a))},u);else{var
 n=1;e=1}else{var
-n=m;e=1}if(e)var
+n=l;e=1}if(e)var
 b=n}else{var
-p=j(l,1,i(a[4]));if(p)var
+p=j(m,1,i(a[4]));if(p)var
 v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return db(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=$(vB,q);if(r){var
-d=aj(c,bN(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=_(vB,q);if(r){var
+d=ai(c,bO(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-k=gK(0,a),u=k?1:k,n=u;else
+l=gQ(0,a),v=l?1:l,n=v;else
 var
 n=h;var
 d=n}else
 var
 d=a?0:1;var
-q=d?o(vA,p[1]):d,r=q?$(vD,m(c)):q;if(r)var
-v=m(c),e=o(function(a){switch(a[1]){case
+q=d?o(vA,p[1]):d,r=q?_(vD,k(c)):q;if(r)var
+s=k(c),e=o(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
-h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
-b=h[1];break;case
+j=a[2];if(!j)return a[3]?0:1;if(a[3])return 0;var
+b=j[1];break;case
 2:if(1!==a[4][0])return 0;var
-j=a[2];if(!j){var
+l=a[2];if(!l){var
 d=a[3];return d?0===d[1][0]?1:0:d}var
 c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
-b=j[1];break;case
+b=l[1];break;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
 4:if(0!==a[4][0])return 0;var
-k=a[2];if(!k)return a[3]?0:1;if(a[3])return 0;var
-b=k[1];break;case
+m=a[2];if(!m)return a[3]?0:1;if(a[3])return 0;var
+b=m[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
-8:return 0;case
+8:if(1!==a[4][0])return 0;var
+f=a[3];if(!f)return f;if(0!==f[1][0])return 0;var
+n=M(s,u0),i=0;if(n){var
+o=a[2];if(o)var
+b=o[1];else{var
+p=1;i=1}}else{var
+p=n;i=1}if(i)return p;break;case
 10:if(1!==a[4][0])return 0;var
-l=a[2];if(!l){var
-g=a[3];return g?0===g[1][0]?0:1:g}var
-f=a[3];if(!f)return f;if(0===f[1][0])return 0;var
-b=l[1];break;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-i=$(u0,b);return i?$(b,v):i},b);else
+q=a[2];if(!q){var
+h=a[3];return h?0===h[1][0]?0:1:h}var
+g=a[3];if(!g)return g;if(0===g[1][0])return 0;var
+b=q[1];break;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
+k=_(uZ,b);return k?_(b,s):k},b);else
 var
 e=r;var
-s=e?e2(b):e,t=s?o(d1,z(ku,c)):s;return t?o(vt,p[3]):t}function
-gW(b,a){return o(function(c){var
-a=c[2];return a?ij(a[1],b):1},a)}function
-gX(b,a){var
-c=m(fS(function(a){return 0===a[0]?0:1},b));return _(m(a),c)}function
+t=e?e2(b):e,u=t?o(d2,z(ku,c)):t;return u?o(vt,p[3]):u}function
+g2(b,a){return o(function(c){var
+a=c[2];return a?iq(a[1],b):1},a)}function
+g3(b,a){var
+c=k(fS(function(a){return 0===a[0]?0:1},b));return M(k(a),c)}function
 vE(s){var
-fj=gI(s[3]),fk=fj?gI(s[4]):fj;if(fk){var
+fj=gO(s[3]),fk=fj?gO(s[4]):fj;if(fk){var
 as=s[1];if(3===as[0]){var
 fn=o(eY,as[1]);if(fn)var
 is=as[2],cw=o(function(a){return eY(a[1])},is);else
 var
 cw=fn;if(cw)var
 it=as[3],cx=o(function(a){var
-b=eY(a[1]),c=b?gJ(a[2]):b;return c?c5(a[2]):c},it);else
+b=eY(a[1]),c=b?gP(a[2]):b;return c?c5(a[2]):c},it);else
 var
 cx=cw;if(cx)var
-iu=as[4],iw=function(a){var
-b=gJ(a);return b?c5(a):b},ct=o(function(a){return o(iw,a)},iu);else
+iu=as[4],iv=function(a){var
+b=gP(a);return b?c5(a):b},cs=o(function(a){return o(iv,a)},iu);else
 var
-ct=cx}else
+cs=cx}else
 var
-ct=1;var
-cu=ct}else
+cs=1;var
+cu=cs}else
 var
 cu=fk;if(cu){var
 h=s[1];switch(h[0]){case
 0:var
-h7=z(c7,h[4]),h8=g(z(uW,h[3]),h7),h9=g(ki(h[2]),h8),T=g(z(kh,h[1]),h9);break;case
+h7=z(c7,h[4]),h8=g(z(uV,h[3]),h7),h9=g(ki(h[2]),h8),U=g(z(kh,h[1]),h9);break;case
 1:var
-h_=z(c7,h[3]),h$=g(ki(h[2]),h_),T=g(z(uV,h[1]),h$);break;case
+h_=z(c7,h[3]),h$=g(ki(h[2]),h_),U=g(z(uU,h[1]),h$);break;case
 2:var
-ia=z(c7,h[7]),S=h[6];switch(S[0]){case
+ia=z(c7,h[7]),T=h[6];switch(T[0]){case
 1:var
-fg=S[3],fh=S[2],fi=S[1],cq=[0,fi[1],[0,fi[2],[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],0]]]]]];break;case
+fg=T[3],fh=T[2],fi=T[1],cq=[0,fi[1],[0,fi[2],[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],0]]]]]];break;case
 2:var
-cq=[0,S[1],0];break;default:var
-cq=[0,S[1],[0,S[2],0]]}var
-ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],T=g(z(function(a){return z(c6,g(a[1],a[2]))},ig),ie);break;case
+cq=[0,T[1],0];break;default:var
+cq=[0,T[1],[0,T[2],0]]}var
+ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],U=g(z(function(a){return z(c6,g(a[1],a[2]))},ig),ie);break;case
 3:var
-ih=z(c7,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],T=g(z(function(a){return c6(a[2])},ik),ij);break;case
+ih=z(c7,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],U=g(z(function(a){return c6(a[2])},ik),ij);break;case
 4:var
-il=z(c7,h[3]),T=[0,h[1],[0,h[2],il]];break;case
+il=z(c7,h[3]),U=[0,h[1],[0,h[2],il]];break;case
 5:var
-im=z(c7,h[4]),io=g(bd(h[3]),im),ip=g(bd(h[2]),io),iq=g(z(kh,h[1]),ip),T=[0,h[5],iq];break;default:var
-cr=h[1],T=cr?c6(cr[1]):cr}var
-cv=o(c5,T)}else
+im=z(c7,h[4]),io=g(bd(h[3]),im),ip=g(bd(h[2]),io),iq=g(z(kh,h[1]),ip),U=[0,h[5],iq];break;default:var
+cr=h[1],U=cr?c6(cr[1]):cr}var
+cv=o(c5,U)}else
 var
 cv=cu;if(cv){var
-ag=s[2];if(0===ag[0]){var
-fl=kj(ag[1]);if(fl)var
-ir=ag[2],at=o(function(a){var
+ah=s[2];if(0===ah[0]){var
+fl=kj(ah[1]);if(fl)var
+ir=ah[2],at=o(function(a){var
 b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gI(a[1]);case
+1:return gO(a[1]);case
 2:case
 3:return 1;default:var
 a=a[1];continue}},b)},ir);else
 var
 at=fl}else
 var
-fm=kj(ag[1]),at=fm?o(c5,g(ag[2],ag[3])):fm}else
+fm=kj(ah[1]),at=fm?o(c5,g(ah[2],ah[3])):fm}else
 var
 at=cv;if(at){var
 a=s[1];switch(a[0]){case
 0:var
-au=a[4],av=a[3],cM=a[2],U=a[1],ai=s[2];if(0===ai[0]){var
-cN=ai[2],r=eZ(U,cM,av,au),cO=da(m(cN),cN);if(cO){var
+au=a[4],av=a[3],cM=a[2],V=a[1],aj=s[2];if(0===aj[0]){var
+cN=aj[2],r=eZ(V,cM,av,au),cO=da(k(cN),cN);if(cO){var
 fG=cO[1];if(fG[2])return 0;var
-fH=gV(U,av,au,r),fI=fH?gW(vF,cN):fH;if(fI){var
-iJ=fG[1],cP=f(ko,r[1]),w=kp(r[1]),p=ai[1],dT=jm(l,r);if(dT){var
-bK=f_(w,cP,r[1]),W=f$(w,cP,r[1],0),g0=m(r[3]),g1=J(m(bK),g0),dw=[0,m(bK),g1],g2=gb(W,w,dw,r[3]),g3=g(cy(i0(W)),g2),dz=g(cy(eC(W)),g3),dB=dH(dz)[1],aq=dG(dB),dC=o(function(a){var
+fH=g1(V,av,au,r),fI=fH?g2(vF,cN):fH;if(fI){var
+iJ=fG[1],cP=f(ko,r[1]),w=kp(r[1]),p=aj[1],dS=jq(m,r);if(dS){var
+bL=ge(w,cP,r[1]),X=gf(w,cP,r[1],0),gR=k(r[3]),gV=J(k(bL),gR),dw=[0,k(bL),gV],gZ=gh(X,w,dw,r[3]),g0=g(cy(i3(X)),gZ),dz=g(cy(eD(X)),g0),dB=dH(dz)[1],aq=dG(dB),dC=o(function(a){var
 b=q(d);return bc(E(bq(aq,a),aq,b),a)},dz);if(dC){var
-dD=a7(qJ,r[3]);if(dD){var
-bI=cP,aC=r[1];for(;;){if(aC){var
-aD=aC[1],bJ=en(d,bI);switch(aD[0]){case
+dD=a7(qI,r[3]);if(dD){var
+bJ=cP,aD=r[1];for(;;){if(aD){var
+aE=aD[1],bK=eo(d,bJ);switch(aE[0]){case
 0:var
-ds=aD[1],dt=gc(p,ds[1],bJ),dd=0;if(dt){var
-bH=aH(p,[0,ds[4],w]);if(bH)var
-ap=aa(d,bH[1][1]);else{var
-du=bH;dd=1}}else{var
+ds=aE[1],dt=gi(p,ds[1],bK),dd=0;if(dt){var
+bI=aA(p,[0,ds[4],w]);if(bI)var
+ap=ac(d,bI[1][1]);else{var
+du=bI;dd=1}}else{var
 du=dt;dd=1}if(dd)var
 ap=du;break;case
 1:var
-dv=aD[3],ap=dv?gc(p,dv[1],bJ):1;break;default:var
-ap=gc(p,aD[1],bJ)}if(ap){var
-gZ=aC[2],bI=fR(bI),aC=gZ;continue}var
+dv=aE[3],ap=dv?gi(p,dv[1],bK):1;break;default:var
+ap=gi(p,aE[1],bK)}if(ap){var
+gQ=aD[2],bJ=fR(bJ),aD=gQ;continue}var
 dE=ap}else
 var
 dE=1;var
-bL=dE;break}}else
+bM=dE;break}}else
 var
-bL=dD;if(bL){var
-g4=r[3],g5=z(function(a){return cW(w,a)},g4),g6=r[3],g7=g(bK,g(f(function(a){return bR(w,a)},g6),g5)),bM=aT(f(function(a){return aH(p,a)},g7));if(bM){var
-X=r[2];if(0===X[0])var
-dF=X[1];else
+bM=dD;if(bM){var
+g4=r[3],g5=z(function(a){return cW(w,a)},g4),g6=r[3],g7=g(bL,g(f(function(a){return bt(w,a)},g6),g5)),bN=aT(f(function(a){return aA(p,a)},g7));if(bN){var
+Z=r[2];if(0===Z[0])var
+dF=Z[1];else
 var
-aB=X[3],dq=X[2],dr=X[1],dF=[0,[0,[2,dr,aB],[1,dr,aB]],[0,[2,dq,aB],[1,dq,aB]],X[4]];var
-g8=a5(dF,w),bN=aT(f(function(a){return aH(p,a)},g8));if(bN){var
-g9=r[3],bO=aT(jc(p,function(a){return bq(aq,a)},W,w,dw,g9));if(bO){var
-dJ=bO[1],g_=i7(dJ),aE=r[2],g$=bN[1],ha=function(d){if(0===aE[0])return 0;if(d){var
+aC=Z[3],dq=Z[2],dr=Z[1],dF=[0,[0,[2,dr,aC],[1,dr,aC]],[0,[2,dq,aC],[1,dq,aC]],Z[4]];var
+g8=a5(dF,w),bO=aT(f(function(a){return aA(p,a)},g8));if(bO){var
+g9=r[3],bP=aT(jg(p,function(a){return bq(aq,a)},X,w,dw,g9));if(bP){var
+dJ=bP[1],g_=i$(dJ),aF=r[2],g$=bO[1],ha=function(d){if(0===aF[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b8(p,w,aE[1]);if(f){var
-g=b8(p,w,aE[2]);if(g){var
-h=b8(p,w,aE[3]);if(h)var
-r=f[1],s=br(c),i=M([0,br(c),s],r),t=g[1],u=br(b),j=M([0,br(b),u],t),v=cV(b),x=[0,cV(b),v],y=[0,F(p,aG(A(j,j)),x),0],z=cV(c),B=[0,cV(c),z],C=[0,F(p,aG(A(i,i)),B),y],D=ad(p,j),E=ad(p,i),k=[0,[0,M(M(ad(p,h[1]),E),D),ae,C]];else
+b=a[1],c=d[1],f=b8(p,w,aF[1]);if(f){var
+g=b8(p,w,aF[2]);if(g){var
+h=b8(p,w,aF[3]);if(h)var
+r=f[1],s=br(c),i=N([0,br(c),s],r),t=g[1],u=br(b),j=N([0,br(b),u],t),v=cV(b),x=[0,cV(b),v],y=[0,F(p,aH(A(j,j)),x),0],z=cV(c),B=[0,cV(c),z],C=[0,F(p,aH(A(i,i)),B),y],D=$(p,j),E=$(p,i),k=[0,[0,N(N($(p,h[1]),E),D),aa,C]];else
 var
 k=h;var
 l=k}else
@@ -4938,57 +4969,57 @@ var
 o=a;var
 q=o}else
 var
-q=d;return q},hb=bM[1],hc=0,hd=i0(W),he=e(a4(function(a){return bq(aq,a)}),hd),hf=eC(W);return f8(p,dB,e(a4(function(a){return bq(aq,a)}),hf),he,hc,hb,dJ,ha,g$,g_,iJ)}var
-dK=bO}else
+q=d;return q},hb=bN[1],hc=0,hd=i3(X),he=e(a4(function(a){return bq(aq,a)}),hd),hf=eD(X);return gc(p,dB,e(a4(function(a){return bq(aq,a)}),hf),he,hc,hb,dJ,ha,g$,g_,iJ)}var
+dK=bP}else
 var
-dK=bN;var
+dK=bO;var
 dL=dK}else
 var
-dL=bM;var
-bP=dL}else
+dL=bN;var
+bQ=dL}else
 var
-bP=bL}else
+bQ=bM}else
 var
-bP=dC;return bP}return dT}var
+bQ=dC;return bQ}return dS}var
 fJ=fI}else
 var
 fJ=cO;return fJ}var
-be=ai[2];if(be){var
+be=aj[2];if(be){var
 bf=be[2];if(bf){var
 bg=bf[2];if(bg){if(bg[2])return 0;var
-fK=ai[3],fL=kr(U,f(i,fK));if(fL[2])return 0;var
-ak=ai[4];if(typeof
+fK=aj[3],fL=kr(V,f(i,fK));if(fL[2])return 0;var
+ak=aj[4];if(typeof
 ak==="number")var
 G=vq;else
 if(0===ak[0]){var
 cD=ak[2],cE=ak[1];if(cD){var
 a6=cD[1],de=0;if(a6){var
-a8=a6[2],bF=0;if(a8){var
-a_=a8[2],bG=0;if(a_)if(a_[2]){var
-G=0;bF=1;bG=1}else{var
+a8=a6[2],bG=0;if(a8){var
+a_=a8[2],bH=0;if(a_)if(a_[2]){var
+G=0;bG=1;bH=1}else{var
 cG=a_[1],cH=a8[1],cI=a6[1],cJ=cD[2];if(cJ){var
-a$=cJ[1],gT=0;if(a$){var
-ba=a$[2],gU=0;if(ba){var
-bb=ba[2],gY=0;if(bb)if(bb[2]||cJ[2]){var
-G=0;bF=1;bG=1;gT=1;gU=1;gY=1}else
+a$=cJ[1],gL=0;if(a$){var
+ba=a$[2],gM=0;if(ba){var
+bb=ba[2],gN=0;if(bb)if(bb[2]||cJ[2]){var
+G=0;bG=1;bH=1;gL=1;gM=1;gN=1}else
 var
 ft=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,a$[1],ba[1]],bb[1]]]];else
 var
-ft=bb;if(!gY)var
+ft=bb;if(!gN)var
 fu=ft}else
 var
-fu=ba;if(!gU)var
+fu=ba;if(!gM)var
 fv=fu}else
 var
-fv=a$;if(!gT){var
-G=fv;bF=1;bG=1}}else
+fv=a$;if(!gL){var
+G=fv;bG=1;bH=1}}else
 var
 fw=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,cI,cH],cG]]]}else
 var
-fw=a_;if(!bG)var
+fw=a_;if(!bH)var
 fx=fw}else
 var
-fx=a8;if(!bF){var
+fx=a8;if(!bG){var
 fy=fx;de=1}}else{var
 fy=a6;de=1}if(de)var
 G=fy}else
@@ -4996,22 +5027,22 @@ var
 fz=[0,[0,d,d],d],G=[0,[0,cE,fz,fz]]}else
 var
 G=[0,[1,ak[1],ak[2]]];if(G){var
-fM=gX(z(ku,U),fK),fN=fM?gV(U,av,au,eZ(U,cM,av,au)):fM;if(fN){var
-V=G[1],iK=i(bg[1]),iL=i(bf[1]),L=[0,i(be[1]),iL,iK],ax=fL[1],cQ=eZ(U,cM,av,au),dN=je(l,cQ,ax,L);if(dN)if(typeof
-V==="number")return a7(function(a){switch(a[0]){case
+fM=g3(z(ku,V),fK),fN=fM?g1(V,av,au,eZ(V,cM,av,au)):fM;if(fN){var
+W=G[1],iK=i(bg[1]),iL=i(bf[1]),L=[0,i(be[1]),iL,iK],ax=fL[1],cQ=eZ(V,cM,av,au),dN=ji(m,cQ,ax,L);if(dN)if(typeof
+W==="number")return a7(function(a){switch(a[0]){case
 0:var
 b=[0,cX(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-e=a[2],f=a[1],g=bt(f,e,L),b=[0,B(bt(f,e,L),g)];break;default:var
-b=0}return b?j(l,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===V[0]){var
-bQ=aj(cQ[3],V[1]);if(bQ){var
-hg=bQ[1],hh=jg(V[3]);return jl(l,ax,L,jg(V[2]),hh,hg)}return bQ}var
-bT=aj(cQ[3],V[1]);if(bT){var
-bU=aj(ax,V[2]);if(bU){var
-dO=bU[1],hi=bT[1],hj=cZ(dO,L);return jl(l,ax,L,cZ(dO,L),hj,hi)}var
-dR=bU}else
+e=a[2],f=a[1],g=bu(f,e,L),b=[0,B(bu(f,e,L),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===W[0]){var
+bR=ai(cQ[3],W[1]);if(bR){var
+hg=bR[1],hh=jk(W[3]);return jp(m,ax,L,jk(W[2]),hh,hg)}return bR}var
+bT=ai(cQ[3],W[1]);if(bT){var
+bU=ai(ax,W[2]);if(bU){var
+dO=bU[1],hi=bT[1],hj=cZ(dO,L);return jp(m,ax,L,cZ(dO,L),hj,hi)}var
+dP=bU}else
 var
-dR=bT;return dR}return dN}var
+dP=bT;return dP}return dN}var
 fO=fN}else
 var
 fO=G;var
@@ -5025,36 +5056,36 @@ fS=fQ}else
 var
 fS=be;return fS;case
 1:var
-bh=a[3],N=a[1],bi=s[2];if(0===bi[0])return 0;var
+bh=a[3],O=a[1],bi=s[2];if(0===bi[0])return 0;var
 bj=bi[2];if(bj){var
 bk=bj[2];if(bk){var
 bl=bk[2];if(bl){if(bl[2])return 0;var
-fT=bi[3],fU=ks(N,f(i,fT));if(fU[2])return 0;var
-fV=gX(z(kv,N),fT);if(fV){var
-fA=$(vu,m(N));if(fA)var
-iE=m(N),iF=1,cK=o(function(a){return a9(iF,iE,a)},bh);else
+fT=bi[3],fU=ks(O,f(i,fT));if(fU[2])return 0;var
+fV=g3(z(kv,O),fT);if(fV){var
+fA=_(vu,k(O));if(fA)var
+iE=k(O),iF=1,cK=o(function(a){return a9(iF,iE,a)},bh);else
 var
 cK=fA;var
-fB=cK?e2(bh):cK,fC=fB?o(d1,z(kv,N)):fB,iM=fC?o(gR,c_(m(N),bh)):fC,cR=iM}else
+fB=cK?e2(bh):cK,fC=fB?o(d2,z(kv,O)):fB,iM=fC?o(gX,c_(k(O),bh)):fC,cR=iM}else
 var
 cR=fV;if(cR){var
-iN=gN(bi[4]),iO=i(bl[1]),iP=i(bk[1]),O=[0,i(bj[1]),iP,iO],bm=fU[1],iQ=a[2],iA=c_(m(N),bh),iB=kl(iQ),aF=f(u8,N),Z=bm;for(;;){if(aF){if(Z){var
-t=Z[1],R=aF[1],dU=aU(l,R[1],t[1]),dV=dU?aU(l,R[2],t[2]):dU,dW=dV?aU(l,R[3],t[3]):dV,dX=dW?aU(l,R[4],t[4]):dW,dY=dX?cz(l,R[5],t[5]):dX,dZ=dY?cz(l,R[6],t[6]):dY,d0=dZ?j(l,1,t[5]):dZ,d2=d0?j(l,1,t[6]):d0,d3=d2?j(l,1,B(t[1],t[1])):d2;if(d3)var
-hk=ge(t),bV=j(l,1,B(ge(t),hk));else
+iN=gT(bi[4]),iO=i(bl[1]),iP=i(bk[1]),P=[0,i(bj[1]),iP,iO],bm=fU[1],iQ=a[2],iz=c_(k(O),bh),iA=kl(iQ),aG=f(u8,O),ab=bm;for(;;){if(aG){if(ab){var
+t=ab[1],S=aG[1],dU=aU(m,S[1],t[1]),dV=dU?aU(m,S[2],t[2]):dU,dW=dV?aU(m,S[3],t[3]):dV,dX=dW?aU(m,S[4],t[4]):dW,dY=dX?cz(m,S[5],t[5]):dX,dZ=dY?cz(m,S[6],t[6]):dY,d0=dZ?j(m,1,t[5]):dZ,d1=d0?j(m,1,t[6]):d0,d3=d1?j(m,1,B(t[1],t[1])):d1;if(d3)var
+hk=gk(t),bV=j(m,1,B(gk(t),hk));else
 var
 bV=d3;var
-d4=bV?dA(R[7],t[7]):bV;if(d4){var
-aF=aF[2],Z=Z[2];continue}var
+d4=bV?dA(S[7],t[7]):bV;if(d4){var
+aG=aG[2],ab=ab[2];continue}var
 d5=d4}else
 var
-d5=Z;var
+d5=ab;var
 bW=d5}else
 var
-bW=Z?0:1;var
-d6=bW?jd(l,iB,O):bW;if(d6){var
-hl=f(function(a){return jt(a,O)},bm),hm=f(function(a){var
-b=jv(a,O);return[1,ju(a,O),b]},bm);return jq(l,qN,[0,f(function(a){var
-d=jr(a),e=aA(jv(a,O),d),f=gf(a),g=aA(ju(a,O),f),h=af(function(b,a){return[1,b,a]},g,e),i=aA(a[5],h),j=a[3],k=af(function(b,a){return[1,b,a]},j,i),l=a[4],m=af(function(b,a){return[1,b,a]},O,l),n=af(function(b,a){return[2,b,a]},m,k),o=gl(a,O),b=aA([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bm),hm,hl],iA,iN)}return d6}}var
+bW=ab?0:1;var
+d6=bW?jh(m,iA,P):bW;if(d6){var
+hl=f(function(a){return jx(a,P)},bm),hm=f(function(a){var
+b=jz(a,P);return[1,jy(a,P),b]},bm);return ju(m,qM,[0,f(function(a){var
+d=jv(a),e=aB(jz(a,P),d),f=gl(a),g=aB(jy(a,P),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aB(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},P,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gr(a,P),b=aB([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bm),hm,hl],iz,iN)}return d6}}var
 fW=cR}else
 var
 fW=bl;var
@@ -5065,41 +5096,41 @@ fY=fX}else
 var
 fY=bj;return fY;case
 2:var
-bn=a[7],bo=a[6],bp=a[5],bw=a[4],by=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
-cS=ao[2],ay=kn(an,am,by,bw,bp,bo,bn),cT=da(m(cS),cS);if(cT){var
+bn=a[7],bo=a[6],bp=a[5],bx=a[4],bz=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
+cS=ao[2],ay=kn(an,am,bz,bx,bp,bo,bn),cT=da(k(cS),cS);if(cT){var
 fZ=cT[1];if(fZ[2])return 0;var
-f0=kw(an,am,by,bw,bp,bo,bn),f1=f0?gW(dS(an),cS):f0;if(f1){var
+f0=kw(an,am,bz,bx,bp,bo,bn),f1=f0?g2(dT(an),cS):f0;if(f1){var
 iR=fZ[1],iS=ay[2],iT=C(c,c$(z(function(a){var
-b=bx(a[2]);return g(bx(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eX=o(function(a){var
-b=gx(l,a[1]);return b?gx(l,a[2]):b},hS),e0=eX?gx(l,ay[4]):eX;if(e0)var
-hT=jV(ay[5]),cf=o(function(a){return eQ(l,a)},hT);else
+b=by(a[2]);return g(by(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eX=o(function(a){var
+b=gD(m,a[1]);return b?gD(m,a[2]):b},hS),e0=eX?gD(m,ay[4]):eX;if(e0)var
+hT=jV(ay[5]),cf=o(function(a){return eQ(m,a)},hT);else
 var
-cf=e0;return cf?ri(iU,ay,iT,iR):cf}var
+cf=e0;return cf?rh(iU,ay,iT,iR):cf}var
 f2=f1}else
 var
 f2=cT;return f2}var
-f3=ao[3],f5=f(i,ao[2]),f6=gS(an),f7=kt(am,f(i,f3));if(f7[2])return 0;var
-f9=gX(z(function(a){return g(a[1],a[2])},am),f3),ga=f9?kw(an,am,by,bw,bp,bo,bn):f9;if(ga){var
-iV=gN(ao[4]),n=iv(f6,f5),bz=gQ(eo(f6,f5)),bA=f7[1],P=kn(an,am,by,bw,bp,bo,bn),aX=P[2],ab=bA;for(;;){if(aX){if(ab){var
-eO=ab[1],eP=aX[1],eR=aU(l,eP[1],eO[1]),eS=eR?aU(l,eP[2],eO[2]):eR;if(eS){var
-aX=aX[2],ab=ab[2];continue}var
+f3=ao[3],f4=f(i,ao[2]),f5=gY(an),f6=kt(am,f(i,f3));if(f6[2])return 0;var
+f8=g3(z(function(a){return g(a[1],a[2])},am),f3),f9=f8?kw(an,am,bz,bx,bp,bo,bn):f8;if(f9){var
+iV=gT(ao[4]),n=iB(f5,f4),bA=gW(ep(f5,f4)),bB=f6[1],Q=kn(an,am,bz,bx,bp,bo,bn),aX=Q[2],ad=bB;for(;;){if(aX){if(ad){var
+eO=ad[1],eP=aX[1],eR=aU(m,eP[1],eO[1]),eS=eR?aU(m,eP[2],eO[2]):eR;if(eS){var
+aX=aX[2],ad=ad[2];continue}var
 eV=eS}else
 var
-eV=ab;var
+eV=ad;var
 cd=eV}else
 var
-cd=ab?0:1;var
-eW=cd?aU(l,P[4],bz):cd;if(eW){var
-H=P[5];switch(H[0]){case
+cd=ad?0:1;var
+eW=cd?aU(m,Q[4],bA):cd;if(eW){var
+H=Q[5];switch(H[0]){case
 0:var
-x=n?n[2]?0:dQ(l,H[1],n[1]):n;break;case
+x=n?n[2]?0:dR(m,H[1],n[1]):n;break;case
 1:var
 df=0;if(n){var
 aP=n[2],dg=0;if(aP){var
 aQ=aP[2],dh=0;if(aQ)if(aQ[2]){var
 x=0;dg=1;dh=1}else{var
-eu=dQ(l,H[1],n[1]),ev=eu?dQ(l,H[2],aP[1]):eu;if(ev){var
-x=dQ(l,H[3],aQ[1]);dg=1;dh=1}else
+eu=dR(m,H[1],n[1]),ev=eu?dR(m,H[2],aP[1]):eu;if(ev){var
+x=dR(m,H[3],aQ[1]);dg=1;dh=1}else
 var
 ew=ev}else
 var
@@ -5115,65 +5146,65 @@ di=0;if(n){var
 aR=n[2],dj=0;if(aR){var
 aS=aR[2];if(aS)if(aS[2]){var
 x=0;dj=1}else{var
-ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jK(l,H[1],hL,[0,c,c]);dj=1}else
+ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jO(m,H[1],hL,[0,c,c]);dj=1}else
 var
-eD=aS}else
+eC=aS}else
 var
-eD=aR;if(!dj){var
-eE=eD;di=1}}else{var
+eC=aR;if(!dj){var
+eE=eC;di=1}}else{var
 eE=n;di=1}if(di)var
 x=eE;break;default:var
 dk=0;if(n){var
 aV=n[2],dl=0;if(aV){var
 aW=aV[2],dm=0;if(aW)if(aW[2]){var
 x=0;dl=1;dm=1}else{var
-cc=aW[1],eF=aV[1],eG=n[1],eH=jK(l,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
-x=dQ(l,cC(H[2]),cc);dl=1;dm=1}else
+cc=aW[1],eF=aV[1],eG=n[1],eH=jO(m,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
+x=dR(m,cC(H[2]),cc);dl=1;dm=1}else
 var
 eI=eH}else
 var
 eI=aW;if(!dm)var
-eL=eI}else
+eJ=eI}else
 var
-eL=aV;if(!dl){var
-eM=eL;dk=1}}else{var
+eJ=aV;if(!dl){var
+eM=eJ;dk=1}}else{var
 eM=n;dk=1}if(dk)var
 x=eM}var
 ce=x}else
 var
 ce=eW;if(ce){var
-aY=P[5],hP=P[6],hQ=P[3],hR=P[1],eN=function(a){var
-b=gp(aY,n,bz,a);return B(gp(aY,n,bz,a),b)},hM=f(eN,bA),hN=f(function(a){return[0,[5,eN(a)]]},bA),hO=[0,f(function(d){var
-b=aJ(gp(aY,n,bz,d)),a=aA([4,[0,c,c],hQ],jG(jH(aY,n,d[2]),b));switch(hR){case
+aZ=Q[5],hP=Q[6],hQ=Q[3],hR=Q[1],eN=function(a){var
+b=gv(aZ,n,bA,a);return B(gv(aZ,n,bA,a),b)},hM=f(eN,bB),hN=f(function(a){return[0,[5,eN(a)]]},bB),hO=[0,f(function(d){var
+b=aJ(gv(aZ,n,bA,d)),a=aB([4,[0,c,c],hQ],jK(jL(aZ,n,d[2]),b));switch(hR){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bA),hN,hM];return jq(l,dS(P[1]),hO,hP,iV)}return ce}}return ga;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bB),hN,hM];return ju(m,dT(Q[1]),hO,hP,iV)}return ce}}return f9;case
 3:var
-bB=a[7],gd=a[6],gg=a[5],bC=a[4],gh=a[2],gi=a[1],cY=s[2];if(0===cY[0]){var
-c0=cY[2],c1=da(m(c0),c0);if(c1){var
-gj=c1[1];if(gj[2])return 0;var
-iG=m(gd),fD=_(m(gg),iG);if(fD)var
-iH=m(bC),iI=0,cL=o(function(a){return a9(iI,iH,a)},bB);else
+bC=a[7],f_=a[6],f$=a[5],bD=a[4],ga=a[2],gb=a[1],cY=s[2];if(0===cY[0]){var
+c0=cY[2],c1=da(k(c0),c0);if(c1){var
+gd=c1[1];if(gd[2])return 0;var
+iG=k(f_),fD=M(k(f$),iG);if(fD)var
+iH=k(bD),iI=0,cL=o(function(a){return a9(iI,iH,a)},bC);else
 var
 cL=fD;var
-fE=cL?e2(bB):cL,fF=fE?o(function(a){return d1(a[2])},gh):fE,gk=fF?o(gR,c_(m(bC),bB)):fF,gn=gk?gW(m(gi),c0):gk;if(gn){var
-iW=gj[1],iX=a[3],fo=c_(m(bC),bB),ix=cm(gg,gd),cA=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},ix),iy=f(function(a){return f(cF,a)},bC),iz=f(function(a){var
-b=cF(a[2]);return[0,a[1],b]},iX),k=[0,gi,f(function(a){var
-b=bS(a[2]);return[0,a[1],b]},gh),iz,iy],az=cY[1],hF=f(dx,k[2]),b7=g(k[1],hF),aO=m(k[1]),el=$(qP,aO),em=el?$(aO,qQ):el,ep=em?$(aO,m(k[4])):em,eq=ep?$(m(k[4]),qR):ep;if(eq)var
-hG=k[4],b9=o(function(a){return _(m(a),aO)},hG);else
+fE=cL?e2(bC):cL,fF=fE?o(function(a){return d2(a[2])},ga):fE,gg=fF?o(gX,c_(k(bD),bC)):fF,gj=gg?g2(k(gb),c0):gg;if(gj){var
+iW=gd[1],iX=a[3],fo=c_(k(bD),bC),iw=cn(f$,f_),cA=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},iw),ix=f(function(a){return f(cF,a)},bD),iy=f(function(a){var
+b=cF(a[2]);return[0,a[1],b]},iX),l=[0,gb,f(function(a){var
+b=bS(a[2]);return[0,a[1],b]},ga),iy,ix],az=cY[1],hF=f(dx,l[2]),b7=g(l[1],hF),aO=k(l[1]),el=_(qO,aO),em=el?_(aO,qP):el,en=em?_(aO,k(l[4])):em,eq=en?_(k(l[4]),qQ):en;if(eq)var
+hG=l[4],b9=o(function(a){return M(k(a),aO)},hG);else
 var
 b9=eq;if(b9){var
-aN=b7;for(;;){if(aN){var
-ej=aN[2],hE=aN[1],ek=aM(a7(function(b){return function(a){return m0(b,a)}}(hE),ej));if(ek){var
-aN=ej;continue}var
+aM=b7;for(;;){if(aM){var
+ej=aM[2],hE=aM[1],ek=aN(a7(function(b){return function(a){return mZ(b,a)}}(hE),ej));if(ek){var
+aM=ej;continue}var
 er=ek}else
 var
 er=1;var
 b_=er;break}}else
 var
 b_=b9;if(b_){var
-aL=b7,aK=k[3];for(;;){if(aK){var
-ef=aK[1],eg=ef[1],eh=aM(a7(function(b){return function(a){return aw(b,a)}}(eg),aL)),ei=eh?gm(aL,ef[2]):eh;if(ei){var
+aL=b7,aK=l[3];for(;;){if(aK){var
+ef=aK[1],eg=ef[1],eh=aN(a7(function(b){return function(a){return aw(b,a)}}(eg),aL)),ei=eh?gs(aL,ef[2]):eh;if(ei){var
 aL=[0,eg,aL],aK=aK[2];continue}var
 es=ei}else
 var
@@ -5181,25 +5212,25 @@ es=1;var
 b$=es;break}}else
 var
 b$=b_;if(b$)var
-hH=k[4],hI=g(f(dx,k[3]),b7),hJ=function(a){return gm(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
+hH=l[4],hI=g(f(dx,l[3]),b7),hJ=function(a){return gs(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
 var
 ca=b$;if(ca)var
-hK=k[2],cb=o(function(a){return bs(l,a[2][1],a[2][2])},hK);else
+hK=l[2],cb=o(function(a){return bs(m,a[2][1],a[2][2])},hK);else
 var
 cb=ca;var
-et=cb?o(function(a){return bs(l,a[1],a[2])},cA):cb;if(et){var
-ht=m(k[1]),bY=m(k[2]),d9=J(bY,m(dP(f(dy,k[3])))),hu=k[3],ar=jC(k),aI=hu,bX=bY;for(;;){if(aI){var
-d7=aI[1],d8=d7[2],hn=J(bX,m(bu(d8))),ho=aI[2],hp=bv(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
-hv=jz(ar,k[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jA(ar,k[4],d9),hx=k[3],b0=g(jw(jC(k),hx,bY),hw),b1=dH(g(cy(bZ),b0))[1],hy=dG(b1),b2=function(a){return bq(hy,a)},d_=e(a4(b2),bZ),d$=_(m(cA),ht);if(d$)var
+et=cb?o(function(a){return bs(m,a[1],a[2])},cA):cb;if(et){var
+ht=k(l[1]),bY=k(l[2]),d9=J(bY,k(dQ(f(dy,l[3])))),hu=l[3],ar=jG(l),aI=hu,bX=bY;for(;;){if(aI){var
+d7=aI[1],d8=d7[2],hn=J(bX,k(bv(d8))),ho=aI[2],hp=bw(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
+hv=jD(ar,l[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jE(ar,l[4],d9),hx=l[3],b0=g(jA(jG(l),hx,bY),hw),b1=dH(g(cy(bZ),b0))[1],hy=dG(b1),b2=function(a){return bq(hy,a)},d_=e(a4(b2),bZ),d$=M(k(cA),ht);if(d$)var
 hz=g(cy(bZ),b0),b3=o(function(a){var
 b=q(d),c=dG(b1);return bc(E(b2(a),c,b),a)},hz);else
 var
 b3=d$;var
-ea=b3?a7(qO,fo):b3;if(ea){var
-hq=z(dP,k[4]),hr=g(dP(f(dy,k[3])),hq),hs=g(jB(k[2]),hr),b4=aT(f(function(a){return aH(az,a)},hs));if(b4){var
-b5=aT(f(function(a){return aH(az,[0,a,d])},cA));if(b5){var
+ea=b3?a7(qN,fo):b3;if(ea){var
+hq=z(dQ,l[4]),hr=g(dQ(f(dy,l[3])),hq),hs=g(jF(l[2]),hr),b4=aT(f(function(a){return aA(az,a)},hs));if(b4){var
+b5=aT(f(function(a){return aA(az,[0,a,d])},cA));if(b5){var
 b6=aT(f(function(a){if(typeof
-a==="number")return[0,[0,ae]];else
+a==="number")return[0,[0,aa]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5207,8 +5238,8 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aH(az,[0,[0,b,b],d]);return ah(function(a){return e(ad(az,a))},g)},fo));if(b6){var
-eb=b6[1],hA=i7(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return f8(az,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
+g=aA(az,[0,[0,b,b],d]);return af(function(a){return e($(az,a))},g)},fo));if(b6){var
+eb=b6[1],hA=i$(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return gc(az,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
 ec=b6}else
 var
 ec=b5;var
@@ -5218,18 +5249,18 @@ ed=b4;var
 ee=ed}else
 var
 ee=ea;return ee}}return et}var
-go=gn}else
+gm=gj}else
 var
-go=c1;return go}return 0;case
+gm=c1;return gm}return 0;case
 4:if(0===s[2][0]){var
-gq=db(i(a[1]));if(gq){var
-bD=a[3];if(bD){var
-a0=bD[1],cB=a0[4],K=bD[2];if(a0[1]||a0[2]||a0[3])var
+gn=db(i(a[1]));if(gn){var
+bE=a[3];if(bE){var
+a1=bE[1],cB=a1[4],K=bE[2];if(a1[1]||a1[2]||a1[3])var
 u=0;else
 switch(cB[0]){case
 0:var
 dn=0;if(K){var
-a1=K[1],fp=a1[4];if(a1[1]||a1[2]||a1[3])var
+a2=K[1],fp=a2[4];if(a2[1]||a2[2]||a2[3])var
 u=0;else
 if(1===fp[0])if(K[2])var
 u=0;else
@@ -5240,7 +5271,7 @@ fq=K;dn=1}if(dn)var
 u=fq;break;case
 1:var
 dp=0;if(K){var
-a2=K[1],fr=a2[4];if(a2[1]||a2[2]||a2[3])var
+a3=K[1],fr=a3[4];if(a3[1]||a3[2]||a3[3])var
 u=0;else
 if(0===fr[0])if(K[2])var
 u=0;else
@@ -5251,49 +5282,49 @@ fs=K;dp=1}if(dp)var
 u=fs;break;default:var
 u=0}}else
 var
-u=bD;if(u){var
-gr=u[1],gs=gr[2],gt=gr[1],e5=j(l,1,i(a[2])),e6=e5?j(l,1,[2,gs,[0,c,c]]):e5,e7=e6?j(l,1,gt):e6;return e7?j(l,0,[2,[4,[0,c,c],gs],gt]):e7}var
-gu=u}else
+u=bE;if(u){var
+go=u[1],gp=go[2],gq=go[1],e5=j(m,1,i(a[2])),e6=e5?j(m,1,[2,gp,[0,c,c]]):e5,e7=e6?j(m,1,gq):e6;return e7?j(m,0,[2,[4,[0,c,c],gp],gq]):e7}var
+gt=u}else
 var
-gu=gq;return gu}return 0;case
+gt=gn;return gt}return 0;case
 5:var
-gv=a[4],gw=a[1],c2=s[2];if(0===c2[0]){var
-gy=c2[2],v=eZ(gw,[0,a[2],a[3]],0,gv),c3=gO(m(gy),gy);if(c3){var
-gz=c3[1];if(gz[2])return 0;var
-gA=gV(gw,0,gv,v);if(gA){var
-gB=jm(l,v);if(gB){var
-iY=gz[1],gC=f(ko,v[1]),y=kp(v[1]),gD=i(a[5]),Q=c2[1],ci=f_(y,gC,v[1]),I=f$(y,gC,v[1],0),hV=m(v[3]),hW=J(m(ci),hV),aZ=[0,m(ci),hW],hX=gb(I,y,aZ,v[3]),hY=g(f(cU,I),hX),e_=g(cy(eC(I)),hY),e$=dH(e_)[1],cj=dG(e$),fa=v[2];if(0===fa[0]){var
+gu=a[4],gw=a[1],c2=s[2];if(0===c2[0]){var
+gx=c2[2],v=eZ(gw,[0,a[2],a[3]],0,gu),c3=gU(k(gx),gx);if(c3){var
+gy=c3[1];if(gy[2])return 0;var
+gz=g1(gw,0,gu,v);if(gz){var
+gA=jq(m,v);if(gA){var
+iY=gy[1],gB=f(ko,v[1]),y=kp(v[1]),gC=i(a[5]),R=c2[1],ci=ge(y,gB,v[1]),I=gf(y,gB,v[1],0),hV=k(v[3]),hW=J(k(ci),hV),a0=[0,k(ci),hW],hX=gh(I,y,a0,v[3]),hY=g(f(cU,I),hX),e_=g(cy(eD(I)),hY),e$=dH(e_)[1],cj=dG(e$),fa=v[2];if(0===fa[0]){var
 fb=o(function(a){var
-b=q(d);return bc(E(bq(cj,a),cj,b),a)},e_),fc=fb?j(l,1,gD):fb;if(fc){var
-hZ=v[3],h0=z(function(a){return cW(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bR(y,a)},h1),h0)),ck=aT(f(function(a){return aH(Q,a)},h2));if(ck){var
-h3=a5(fa[1],y),cl=aT(f(function(a){return aH(Q,a)},h3));if(cl){var
-cn=b8(Q,y,[4,gD,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cn){var
-cp=v[3],h4=cl[1],h5=cn[1],h6=ck[1],ac=function(a){return bq(cj,a)},e8=f(a3,h6),e9=function(A,x){var
+b=q(d);return bc(E(bq(cj,a),cj,b),a)},e_),fc=fb?j(m,1,gC):fb;if(fc){var
+hZ=v[3],h0=z(function(a){return cW(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bt(y,a)},h1),h0)),ck=aT(f(function(a){return aA(R,a)},h2));if(ck){var
+h3=a5(fa[1],y),cl=aT(f(function(a){return aA(R,a)},h3));if(cl){var
+cm=b8(R,y,[4,gC,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cm){var
+co=v[3],h4=cl[1],h5=cm[1],h6=ck[1],ae=function(a){return bq(cj,a)},e8=f(aY,h6),e9=function(A,x){var
 g=A,a=x;for(;;){if(0===a[0]){var
-h=a[1],k=_(m(h),rr),l=k?o(function(a){var
-d=D(Y(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):k;if(l){var
-n=kb(Q,h5,f4(0,g),h),B=a[2],ae=cs(0,dI(Q,n,e8),e$,0),s=function(b){var
-a=ka(Q,n,e8,ae,b);return a?aa(d,a[1][2][1]):a};return function(k){if(typeof
-k==="number")return a7(function(b){var
-a=E(ac(b[2]),ae,0);return a?D(a[1][2][2],d):a},I);else{if(0===k[0]){var
-t=k[1],u=aj(cp,t);if(u){var
-a=k[2],h=u[1],ar=eo(t,cp),as=m(z(function(a){return cW(y,a)},ar)),at=J(aZ[2],as),v=[0,J(aZ[1],t),at],ai=eC(I),i=e(a4(ac),ai),l=[1,[8,[1,[1,v[1]]]]],F=function(c,b,a){var
+h=a[1],l=M(k(h),rq),m=l?o(function(a){var
+d=D(Y(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
+n=kb(R,h5,f7(0,g),h),B=a[2],ad=ct(0,dI(R,n,e8),e$,0),s=function(b){var
+a=ka(R,n,e8,ad,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
+l==="number")return a7(function(b){var
+a=E(ae(b[2]),ad,0);return a?D(a[1][2][2],d):a},I);else{if(0===l[0]){var
+t=l[1],u=ai(co,t);if(u){var
+a=l[2],h=u[1],ar=ep(t,co),as=k(z(function(a){return cW(y,a)},ar)),at=J(a0[2],as),v=[0,J(a0[1],t),at],aj=eD(I),i=e(a4(ae),aj),m=[1,[8,[1,[1,v[1]]]]],F=function(c,b,a){var
 d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]},A=0;if(typeof
 h==="number")A=1;else
 switch(h[0]){case
 4:var
-n=j(Q,1,h[2]);break;case
+n=j(R,1,h[2]);break;case
 8:var
-n=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
+n=j(R,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
 n=1;var
-G=n?o(rp,a):n,B=0;if(G){var
+G=n?o(ro,a):n,B=0;if(G){var
 g=0;if(typeof
 h!=="number")switch(h[0]){case
 0:var
 af=0;if(a)if(a[2]){var
 b=0;g=2;af=1}else
 var
-K=[0,[0,i,[0,F(i,l,a[1]),0]]];else
+K=[0,[0,i,[0,F(i,m,a[1]),0]]];else
 var
 K=a;if(!af){var
 b=K;g=2}break;case
@@ -5301,7 +5332,7 @@ b=K;g=2}break;case
 ag=0;if(a)if(a[2]){var
 b=0;g=2;ag=1}else
 var
-L=a[1],ak=[1,[6,l,eT(L)]],M=[0,[0,i,[0,[1,[4,eU(i,L),ak]],0]]];else
+L=a[1],ak=[1,[6,m,eT(L)]],M=[0,[0,i,[0,[1,[4,eU(i,L),ak]],0]]];else
 var
 M=a;if(!ag){var
 b=M;g=2}break;case
@@ -5310,10 +5341,10 @@ C=0;if(a){var
 q=a[2],ah=0;if(q)if(q[2]){var
 b=0;g=2;ah=1}else
 var
-O=q[1],P=a[1],am=eT(P),an=[1,[6,l,[1,[6,eU(i,O),am]]]],ao=eT(O),R=[0,[0,i,[0,[1,[4,[1,[6,eU(i,P),ao]],an]],0]]];else
+O=q[1],P=a[1],am=eT(P),an=[1,[6,m,[1,[6,eU(i,O),am]]]],ao=eT(O),Q=[0,[0,i,[0,[1,[4,[1,[6,eU(i,P),ao]],an]],0]]];else
 var
-R=q;if(!ah){var
-S=R;C=1}}else{var
+Q=q;if(!ah){var
+S=Q;C=1}}else{var
 S=a;C=1}if(C){var
 b=S;g=2}break;case
 8:if(a)if(a[2]){var
@@ -5322,22 +5353,23 @@ U=a[1],T=[1,[2,c]];g=1}else{var
 b=a;g=2}break;case
 9:if(a)if(a[2]){var
 b=0;g=2}else{var
-U=a[1],T=l;g=1}else{var
+U=a[1],T=m;g=1}else{var
 b=a;g=2}break;case
 10:case
 11:case
-12:break;default:if(a){var
+12:case
+13:break;default:if(a){var
 b=0;g=2}else{var
-p=eK(I,y,v,h);if(p)var
-al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ac(a)]]]},al)]];else
+p=eL(I,y,v,h);if(p)var
+al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ae(a)]]]},al)]];else
 var
 N=p;var
 b=N;g=2}}switch(g){case
 2:break;case
 0:var
 H=0;B=1;break;default:var
-r=eJ(I,y,v,h);if(r)var
-ap=r[1],V=e(a4(ac),ap),W=[0,[0,V,[0,F(V,T,U),0]]];else
+r=eK(I,y,v,h);if(r)var
+ap=r[1],V=e(a4(ae),ap),W=[0,[0,V,[0,F(V,T,U),0]]];else
 var
 W=r;var
 b=W}}else{var
@@ -5350,16 +5382,16 @@ Z=b;var
 _=Z}else
 var
 _=u;return _}var
-$=k[1],w=aj(cp,$);if(w){var
+$=l[1],w=ai(co,$);if(w){var
 aa=w[1];if(typeof
 aa!=="number"&&1===aa[0]){var
-x=aj(I,k[2]);if(x){var
-av=J(aZ[1],$),ad=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ac(ad[2])]]];return s([1,[4,[1,[8,[0,ac(cU(ad))]]],aq]])}return x}var
+x=ai(I,l[2]);if(x){var
+av=J(a0[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ae(ac[2])]]];return s([1,[4,[1,[8,[0,ae(cU(ac))]]],aq]])}return x}var
 ab=0}else
 var
-ab=w;return ab}}(B)}return l}var
-p=a[1],i=aj(g,p);if(i){var
-q=i[1],C=q[1],r=aM(al(br(q),C));if(r){var
+ab=w;return ab}}(B)}return m}var
+p=a[1],i=ai(g,p);if(i){var
+q=i[1],C=q[1],r=aN(al(br(q),C));if(r){var
 t=dM(p,g),u=e9(t[1],a[2]);if(u){var
 g=t[2],a=a[3];continue}var
 v=u}else
@@ -5368,7 +5400,7 @@ v=r;var
 w=v}else
 var
 w=i;return w}};return e9(h4,iY)}var
-fd=cn}else
+fd=cm}else
 var
 fd=cl;var
 fe=fd}else
@@ -5377,47 +5409,47 @@ fe=ck;var
 ff=fe}else
 var
 ff=fc;return ff}return 0}var
-gE=gB}else
+gE=gA}else
 var
-gE=gA;var
+gE=gz;var
 gF=gE}else
 var
 gF=c3;return gF}return 0;default:var
 gG=a[1];if(gG){var
 gH=gG[1],c4=s[2];if(0===c4[0]){var
-c8=gM(vG,c4[2]);if(c8){var
-gK=d1(gH);if(gK){var
-iZ=c8[1],gL=bS(gH)[2],bE=c4[1],cg=b8(bE,d,gL);if(cg){var
-ch=b8(bE,d,[4,[0,c,c],gL]);if(ch){var
-hU=cg[1][1],e1=aa(co(bE),hU);if(e1)return j$(bE,ch[1][1],iZ);var
+c8=gS(vG,c4[2]);if(c8){var
+gI=d2(gH);if(gI){var
+iZ=c8[1],gJ=bS(gH)[2],bF=c4[1],cg=b8(bF,d,gJ);if(cg){var
+ch=b8(bF,d,[4,[0,c,c],gJ]);if(ch){var
+hU=cg[1][1],e1=ac(cp(bF),hU);if(e1)return j$(bF,ch[1][1],iZ);var
 e3=e1}else
 var
 e3=ch;var
 e4=e3}else
 var
 e4=cg;return e4}var
-gP=gK}else
+gK=gI}else
 var
-gP=c8;return gP}return 0}var
+gK=c8;return gK}return 0}var
 c9=s[2];if(0===c9[0]){var
-dc=gM(vH,c9[2]);return dc?j$(c9[1],d,dc[1]):dc}return 0}}return at}var
+dc=gS(vH,c9[2]);return dc?j$(c9[1],d,dc[1]):dc}return 0}}return at}var
 y=[at,vK,fs(0)],kx=[at,vL,fs(0)];function
 vI(t,b){var
-n=[0,h(uB,am(b[4])),0],o=[0,h(uD,N([0,h(uC,am(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(us,x(f(un,a[2]))),0],d=L(uu,N([0,h(ut,gC(a[1])),i]));else
+n=[0,h(uA,am(b[4])),0],o=[0,h(uC,O([0,h(uB,am(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(ur,x(f(um,a[2]))),0],d=L(ut,O([0,h(us,gI(a[1])),i]));else
 var
-c=a[3],j=[0,h(uv,kg(a[4])),0],k=c?[0,h(uw,x(f(I,c))),0]:c,l=g(k,j),m=[0,h(ux,x(f(I,a[2]))),0],d=L(uz,N(g([0,h(uy,gC(a[1])),m],l)));var
-p=[0,h(uE,d),o],q=0===b[2][0]?uF:uK,r=[0,h(uG,am(q)),p],s=[0,h(uH,tu(b[1])),r],e=aw(h3(vJ,eV(N([0,h(uJ,am(uI)),s]),uA)),t);return e?vE(b):e}function
-U(a){if(0===a[0])return a[1];throw y}function
-W(a){if(1===a[0])return a[1];throw y}function
+c=a[3],j=[0,h(uu,kg(a[4])),0],k=c?[0,h(uv,x(f(I,c))),0]:c,l=g(k,j),m=[0,h(uw,x(f(I,a[2]))),0],d=L(uy,O(g([0,h(ux,gI(a[1])),m],l)));var
+p=[0,h(uD,d),o],q=0===b[2][0]?uE:uJ,r=[0,h(uF,am(q)),p],s=[0,h(uG,tt(b[1])),r],e=aw(h9(vJ,eV(O([0,h(uI,am(uH)),s]),uz)),t);return e?vE(b):e}function
+V(a){if(0===a[0])return a[1];throw y}function
+X(a){if(1===a[0])return a[1];throw y}function
 aO(a){if(2===a[0])return a[1];throw y}function
-d2(a){if(3===a[0])return a[1];throw y}function
-aZ(f,e){var
+d3(a){if(3===a[0])return a[1];throw y}function
+a0(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===AB(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Az(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aZ(c,b);if(a)return a[1];throw y}function
+a=a0(c,b);if(a)return a[1];throw y}function
 dc(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
 dd(a){switch(a[0]){case
@@ -5426,13 +5458,13 @@ b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
 2:return[0,a[1],vM]}throw y}function
 de(e,d){var
-a=Z(e,W(d));if(a){var
+a=Z(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
 e4(i){var
-f=bY(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
+f=bY(i),d=[0,0],e=a1(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dm(f,c)+g7|0;if(9<g>>>0)throw y;switch(g){case
+a=d[1],g=dm(f,c)+hb|0;if(9<g>>>0)throw y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5454,25 +5486,25 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d3(a){return iq(e4(a))}function
+d4(a){return iw(e4(a))}function
 e5(b){var
-a=d2(b);return 45===S(a,0)?Y(d3(du(a,1,H(a)-1|0))):d3(a)}function
-ky(a){return fQ(d3(d2(a)))}function
-e6(a){return ip(d3(d2(a)))}function
+a=d3(b);return 45===T(a,0)?Y(d4(du(a,1,H(a)-1|0))):d4(a)}function
+ky(a){return fQ(d4(d3(a)))}function
+e6(a){return iv(d4(d3(a)))}function
 cH(c){var
-a=d2(c);if(6<H(a))throw y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hG(a))}function
+a=d3(c);if(6<H(a))throw y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hM(a))}function
 kz(a){var
-b=97<=a?1:0,c=b?a<=mI?1:0:b;if(c)var
+b=97<=a?1:0,c=b?a<=mH?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
 kA(z,b){var
 d=H(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?S(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?T(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=S(b,a[1])&&!(57<S(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=T(b,a[1])&&!(57<T(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
 i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
@@ -5480,21 +5512,21 @@ f=n(j);else{var
 u=0;if((a[1]+5|0)<=d&&aw(du(b,a[1],5),vO)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kz(S(b,a[1]))){var
+v=0;if(a[1]<d&&kz(T(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kz(S(b,a[1]))&&95!==S(b,a[1])&&(!(48<=S(b,a[1]))||57<S(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!kz(T(b,a[1]))&&95!==T(b,a[1])&&(!(48<=T(b,a[1]))||57<T(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 f=[1,e(z,du(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
 h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aw(h,vP);if(r)var
 s=r;else
 var
-t=1<H(h)?1:0,s=t?48===S(h,0)?1:0:t;if(s)throw y;if(q){var
-l=q[1],x=0;if(aw(l,vQ)||48===S(l,H(l)-1|0))x=1;else
+t=1<H(h)?1:0,s=t?48===T(h,0)?1:0:t;if(s)throw y;if(q){var
+k=q[1],x=0;if(aw(k,vQ)||48===T(k,H(k)-1|0))x=1;else
 var
-A=e4(l),f=[0,e4(h),A];if(x)throw y}else
+A=e4(k),f=[0,e4(h),A];if(x)throw y}else
 var
 f=[0,e4(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,vN)){if(!(2<H(g))&&2<=hG(g)&&!(64<hG(g)))return[4,f,fQ(d3(g))];throw y}throw y}return f}function
+g=m(0);if(l(g,vN)){if(!(2<H(g))&&2<=hM(g)&&!(64<hM(g)))return[4,f,fQ(d4(g))];throw y}throw y}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -5507,34 +5539,34 @@ h=g(0);if(a[1]<d)throw y;return h}function
 e7(a){return kA(function(a){throw y},a)}function
 kB(a){var
 b=aO(a);return kA(function(a){return a},b)}function
-P(a){return e7(aO(a))}function
+Q(a){return e7(aO(a))}function
 bT(a){if(2===a[0])return[0,e7(a[1])];var
-b=U(a),c=P(p(b,vR));return[1,P(p(b,vS)),c]}function
-X(a){throw[0,kx,ax(h3(vU,a),vT)]}function
+b=V(a),c=Q(p(b,vR));return[1,Q(p(b,vS)),c]}function
+ab(a){throw[0,kx,ax(h9(vU,a),vT)]}function
 kC(c){var
-a=aO(c);if(k(a,vV)){var
-b=k(a,vW);if(b)throw y;return b}return 1}function
+a=aO(c);if(l(a,vV)){var
+b=l(a,vW);if(b)throw y;return b}return 1}function
 vX(d){var
-b=U(d);function
+b=V(d);function
 a(a){return de(bT,p(b,a))}var
-c=aO(p(b,vY));if(k(c,vZ)){if(k(c,v0)){if(k(c,v1))return X([0,v3,[0,c,v2]]);var
-e=aZ(b,v4),f=dc(function(a){return de(bT,a)},e),g=a(v5);return[1,a(v6),g,f]}var
-h=kC(p(b,v7)),i=bT(p(b,v8)),j=a(v9),l=a(v_);return[0,a(v$),l,j,i,h]}return[2,a(wa)]}function
-gY(d){var
-a=U(d);if(a){var
-b=a[1];if(!k(b[1],wb)){var
-c=b[2];if(2===c[0]&&!k(c[1],wc))return 1}}return 0}function
+c=aO(p(b,vY));if(l(c,vZ)){if(l(c,v0)){if(l(c,v1))return ab([0,v3,[0,c,v2]]);var
+e=a0(b,v4),f=dc(function(a){return de(bT,a)},e),g=a(v5);return[1,a(v6),g,f]}var
+h=kC(p(b,v7)),i=bT(p(b,v8)),j=a(v9),k=a(v_);return[0,a(v$),k,j,i,h]}return[2,a(wa)]}function
+g4(d){var
+a=V(d);if(a){var
+b=a[1];if(!l(b[1],wb)){var
+c=b[2];if(2===c[0]&&!l(c[1],wc))return 1}}return 0}function
 wd(c){var
-a=U(c);if(1-gY(c))throw y;function
+a=V(c);if(1-g4(c))throw y;function
 b(b){return de(bT,p(a,b))}var
 d=kC(p(a,we)),e=bT(p(a,wf)),f=bT(p(a,wg)),g=b(wh),h=b(wi),i=b(wj);return[0,b(wk),i,h,g,f,e,d]}function
 df(c,d){var
-a=W(d);if(a){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
-gZ(m){var
-c=U(m),a=aO(p(c,wl)),h=Bb(a,wm),g=0;if(0<=h)if(0<h)if(k(a,wn))if(k(a,wo))if(k(a,wp))if(k(a,wq)){var
-i=k(a,wr);if(i)g=1;else
+g5(m){var
+c=V(m),a=aO(p(c,wl)),h=A$(a,wm),g=0;if(0<=h)if(0<h)if(l(a,wn))if(l(a,wo))if(l(a,wp))if(l(a,wq)){var
+i=l(a,wr);if(i)g=1;else
 var
 b=i}else
 var
@@ -5547,7 +5579,7 @@ var
 b=2;else
 var
 b=1;else
-if(k(a,wI))if(k(a,wJ))if(k(a,wK))if(k(a,wL))if(k(a,wM))g=1;else
+if(l(a,wI))if(l(a,wJ))if(l(a,wK))if(l(a,wL))if(l(a,wM))g=1;else
 var
 b=8;else
 var
@@ -5558,176 +5590,175 @@ var
 b=3;else
 var
 b=9;var
-j=g?X([0,wt,[0,a,ws]]):b;function
+j=g?ab([0,wt,[0,a,ws]]):b;function
 f(a){return p(c,wu)}var
-d=aO(p(c,wv));if(k(d,ww))if(k(d,wx))if(k(d,wy))var
-e=X([0,wA,[0,d,wz]]);else
+d=aO(p(c,wv));if(l(d,ww))if(l(d,wx))if(l(d,wy))var
+e=ab([0,wA,[0,d,wz]]);else
 var
-l=df(P,f(0)),e=[2,l[1],l[2]];else
+k=df(Q,f(0)),e=[2,k[1],k[2]];else
 var
-e=[0,P(f(0))];else
+e=[0,Q(f(0))];else
 var
-e=[1,P(f(0))];function
+e=[1,Q(f(0))];function
 n(t){var
-a=U(t),g=0;switch(j){case
+a=V(t),g=0;switch(j){case
 6:if(a){var
-n=a[1];if(!k(n[1],wC)){var
+n=a[1];if(!l(n[1],wC)){var
 o=n[2];if(1===o[0]){var
 c=o[1],h=0;if(c&&!c[2])if(a[2])h=1;else{var
-m=c[1];g=1;h=1}if(!h&&!a[2])return X(wD)}}}break;case
+m=c[1];g=1;h=1}if(!h&&!a[2])return ab(wD)}}}break;case
 10:if(a){var
-p=a[1];if(!k(p[1],wE)){var
+p=a[1];if(!l(p[1],wE)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]){var
 e=a[2];if(e){var
-r=e[1];if(!k(r[1],wF)){var
+r=e[1];if(!l(r[1],wF)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]&&!e[2]){var
-u=P(f[1]);return[1,P(d[1]),u]}}}}}}}}break;case
+u=Q(f[1]);return[1,Q(d[1]),u]}}}}}}}}break;case
 2:case
 8:if(a){var
-i=a[1];if(!k(i[1],wB)){var
-l=i[2];if(1===l[0]){var
-b=l[1];if(b&&!b[2]&&!a[2]){var
-m=b[1];g=1}}}}break}if(g)return[0,P(m)];throw y}var
-o=dc(n,aZ(c,wG));return[0,j,dc(cH,aZ(c,wH)),o,e]}function
-wN(b){var
-a=gZ(b);return 8===a[1]?X(wO):a}function
-g0(c){var
-a=gZ(c),b=a[1];if(2!==b&&!(4<=b))return a;return X(wP)}function
-wQ(a){var
-b=gZ(a);switch(b[1]){case
+i=a[1];if(!l(i[1],wB)){var
+k=i[2];if(1===k[0]){var
+b=k[1];if(b&&!b[2]&&!a[2]){var
+m=b[1];g=1}}}}break}if(g)return[0,Q(m)];throw y}var
+o=dc(n,a0(c,wG));return[0,j,dc(cH,a0(c,wH)),o,e]}function
+g6(c){var
+a=g5(c),b=a[1];if(2!==b&&!(4<=b))return a;return ab(wN)}function
+wO(a){var
+b=g5(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return g0(a)}}function
-wX(f){var
-a=U(f);function
-d(b){return P(p(a,b))}function
-c(b){return de(P,p(a,b))}var
-b=aO(p(a,wY));if(k(b,wZ)){if(!k(b,w0)){var
-j=p(a,w6),e=df(function(a){return a},j),l=aZ(a,w7),m=dc(function(a){return c(w8)},l),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(w9);return[0,cH(p(a,w_)),q,o,n,m]}if(k(b,w1))throw y}var
-g=d(w2),h=c(w3),i=c(w4);return[1,aw(b,w5),i,h,g]}function
-kD(_){var
-i=dd(_),j=i[1];if(k(j,w$)){if(k(j,xa)){if(k(j,xb))return X([0,xd,[0,j,xc]]);var
-q=p(U(i[2]),xe),O=0;if(2===q[0]){var
-z=k(q[1],xf);if(!z){var
+8:return b;default:return g6(a)}}function
+wV(f){var
+a=V(f);function
+d(b){return Q(p(a,b))}function
+c(b){return de(Q,p(a,b))}var
+b=aO(p(a,wW));if(l(b,wX)){if(!l(b,wY)){var
+j=p(a,w4),e=df(function(a){return a},j),k=a0(a,w5),m=dc(function(a){return c(w6)},k),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(w7);return[0,cH(p(a,w8)),q,o,n,m]}if(l(b,wZ))throw y}var
+g=d(w0),h=c(w1),i=c(w2);return[1,aw(b,w3),i,h,g]}function
+kD(Y){var
+i=dd(Y),j=i[1];if(l(j,w9)){if(l(j,w_)){if(l(j,w$))return ab([0,xb,[0,j,xa]]);var
+q=p(V(i[2]),xc),O=0;if(2===q[0]){var
+z=l(q[1],xd);if(!z){var
 x=z;O=1}}if(!O)var
 x=[0,bT(q)];return[6,x]}var
-A=U(i[2]),f=kD([0,[0,[0,xh,p(A,xg)],0]]);if(0===f[0]){var
+A=V(i[2]),f=kD([0,[0,[0,xf,p(A,xe)],0]]);if(0===f[0]){var
 r=f[2];if(0===r[0]&&!f[3]){var
-$=P(p(A,xj));return[5,f[1],r[1],r[2],f[4],$]}}return X(xi)}var
-b=U(i[2]);function
-B(a){return Z(wN,W(p(b,xk)))}var
-g=dd(p(b,xl)),c=dd(p(b,xm)),a=g[1];if(k(a,xn)&&0!==aZ(b,xo))return X(yk);if(k(a,xp)&&k(a,xq)&&k(a,xr)){if(0===aZ(b,xs)){if(k(a,xt)){var
-Q=0;if(k(a,xu)){if(!k(a,xv)){var
-C=c[1],R=0;if(k(C,xy)&&k(C,xz)){Q=1;R=1}if(!R){var
-l=W(g[2]),d=U(c[2]);if(k(c[1],wR))var
-v=df(P,p(d,wS)),w=df(P,p(d,wT)),S=w[2],T=w[1],V=P(p(d,wU)),s=[1,v[1],v[2],V,T,S];else
+_=Q(p(A,xh));return[5,f[1],r[1],r[2],f[4],_]}}return ab(xg)}var
+b=V(i[2]);function
+B(a){return Z(g5,X(p(b,xi)))}var
+g=dd(p(b,xj)),c=dd(p(b,xk)),a=g[1];if(l(a,xl)&&0!==a0(b,xm))return ab(yi);if(l(a,xn)&&l(a,xo)&&l(a,xp)){if(0===a0(b,xq)){if(l(a,xr)){var
+P=0;if(l(a,xs)){if(!l(a,xt)){var
+C=c[1],R=0;if(l(C,xw)&&l(C,xx)){P=1;R=1}if(!R){var
+k=X(g[2]),d=V(c[2]);if(l(c[1],wP))var
+v=df(Q,p(d,wQ)),w=df(Q,p(d,wR)),S=w[2],T=w[1],U=Q(p(d,wS)),s=[1,v[1],v[2],U,T,S];else
 var
-Y=de(P,p(d,wV)),s=[0,de(P,p(d,wW)),Y];var
-t=aZ(b,xC),D=t?Z(wX,W(t[1])):t,E=b4(gY,l),aa=E?0!==D?1:0:E;if(aa)X(xD);if(b4(gY,l)){var
-ab=Z(g0,W(p(b,xE)));return[1,Z(wd,l),s,ab]}var
-ac=B(0);return[0,Z(vX,l),s,D,ac]}}}else
-if(!k(c[1],xF)){var
-ad=B(0),ae=P(p(U(c[2]),xG));return[4,P(p(U(g[2]),xH)),ae,ad]}if(!Q)return X([0,xx,[0,a,xw]])}else
-if(!k(c[1],xI)){var
-m=U(g[2]),F=U(c[2]),G=function(c,a){var
-b=W(a);return Z(function(d){var
-a=W(d);if(a){var
+W=de(Q,p(d,wT)),s=[0,de(Q,p(d,wU)),W];var
+t=a0(b,xA),D=t?Z(wV,X(t[1])):t,E=b4(g4,k),$=E?0!==D?1:0:E;if($)ab(xB);if(b4(g4,k)){var
+aa=Z(g6,X(p(b,xC)));return[1,Z(wd,k),s,aa]}var
+ac=B(0);return[0,Z(vX,k),s,D,ac]}}}else
+if(!l(c[1],xD)){var
+ad=B(0),ae=Q(p(V(c[2]),xE));return[4,Q(p(V(g[2]),xF)),ae,ad]}if(!P)return ab([0,xv,[0,a,xu]])}else
+if(!l(c[1],xG)){var
+m=V(g[2]),F=V(c[2]),G=function(c,a){var
+b=X(a);return Z(function(d){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
-a=U(d);if(a){var
-b=a[1],c=b[1];if(k(c,xJ)){if(!k(c,xK)&&!a[2])return Z(kB,W(b[2]))}else
-if(!a[2])return X(xL)}throw y},ag=Z(g0,W(p(b,xM))),ah=Z(P,W(p(F,xN))),ai=Z(P,W(p(F,xO))),aj=Z(af,W(p(m,xP))),ak=G(kB,p(m,xQ)),al=G(bT,p(m,xR));return[3,Z(aO,W(p(m,xS))),al,ak,aj,ai,ah,ag]}return X([0,xB,[0,c[1],xA]])}throw y}var
-H=c[1],I=U(g[2]),J=U(c[2]);if(k(H,xT))X([0,xV,[0,H,xU]]);var
-K=aZ(I,xW),am=K?P(K[1]):X([0,yj,[0,a,yi]]);function
+a=V(d);if(a){var
+b=a[1],c=b[1];if(l(c,xH)){if(!l(c,xI)&&!a[2])return Z(kB,X(b[2]))}else
+if(!a[2])return ab(xJ)}throw y},ag=Z(g6,X(p(b,xK))),ah=Z(Q,X(p(F,xL))),ai=Z(Q,X(p(F,xM))),aj=Z(af,X(p(m,xN))),ak=G(kB,p(m,xO)),al=G(bT,p(m,xP));return[3,Z(aO,X(p(m,xQ))),al,ak,aj,ai,ah,ag]}return ab([0,xz,[0,c[1],xy]])}throw y}var
+H=c[1],I=V(g[2]),J=V(c[2]);if(l(H,xR))ab([0,xT,[0,H,xS]]);var
+K=a0(I,xU),am=K?Q(K[1]):ab([0,yh,[0,a,yg]]);function
 an(d){var
-a=U(d);function
-b(b){return Z(bT,W(p(a,b)))}var
-c=aO(p(a,xX)),e=aZ(a,xY);if(!k(c,xZ)&&!e){var
-f=b(x2);return[0,b(x3),f]}return X([0,x1,[0,c,x0]])}var
-h=dd(p(b,x4)),n=h[1];if(k(n,x5))if(k(n,x6))if(k(n,x7)){if(k(n,x8))throw y;var
-L=h[2],ao=P(p(U(L),x9)),o=[3,P(p(U(L),x_)),ao]}else
+a=V(d);function
+b(b){return Z(bT,X(p(a,b)))}var
+c=aO(p(a,xV)),e=a0(a,xW);if(!l(c,xX)&&!e){var
+f=b(x0);return[0,b(x1),f]}return ab([0,xZ,[0,c,xY]])}var
+h=dd(p(b,x2)),n=h[1];if(l(n,x3))if(l(n,x4))if(l(n,x5)){if(l(n,x6))throw y;var
+L=h[2],ao=Q(p(V(L),x7)),o=[3,Q(p(V(L),x8)),ao]}else
 var
-at=h[2],u=function(a){return df(P,p(U(at),a))},au=u(yf),av=u(yg),o=[1,u(yh),av,au];else
+at=h[2],u=function(a){return df(Q,p(V(at),a))},au=u(yd),av=u(ye),o=[1,u(yf),av,au];else
 var
-N=df(P,h[2]),o=[0,N[1],N[2]];else
+N=df(Q,h[2]),o=[0,N[1],N[2]];else
 var
-o=[2,P(h[2])];var
-M=k(a,x$),ap=M?k(a,ya)?2:1:M,aq=Z(wQ,W(p(b,yb))),ar=Z(P,W(p(J,yc))),as=Z(P,W(p(J,yd)));return[2,ap,Z(an,W(p(I,ye))),am,as,ar,o,aq]}function
-kE(a){return Z(e5,W(a))}function
+o=[2,Q(h[2])];var
+M=l(a,x9),ap=M?l(a,x_)?2:1:M,aq=Z(wO,X(p(b,x$))),ar=Z(Q,X(p(J,ya))),as=Z(Q,X(p(J,yb)));return[2,ap,Z(an,X(p(I,yc))),am,as,ar,o,aq]}function
+kE(a){return Z(e5,X(a))}function
 e8(g,m){var
 n=g[2];function
 o(c,b){var
-a=kE(b);if(cj(a)!==c)throw y;return a}switch(m[0]){case
+a=kE(b);if(ck(a)!==c)throw y;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(k(b,yn))if(k(b,yo))if(k(b,yp))if(k(b,yq))if(k(b,yr)){var
-Q=0;if(k(b,ys)&&k(b,yt)&&k(b,yu))Q=1;if(!Q)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(l(b,yl))if(l(b,ym))if(l(b,yn))if(l(b,yo))if(l(b,yp)){var
+Q=0;if(l(b,yq)&&l(b,yr)&&l(b,ys))Q=1;if(!Q)if(c[2])d=1;else{var
 S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 q=J[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!c[2]){var
-Y=e6(s[1]),_=e5(r[1]);return[4,e8(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
-K=U(e[2]),$=W(p(K,yz)),aa=n+1|0,L=Z(function(a){return o(aa,a)},$);if(3===cj(L))return[1,yB,L,e6(p(K,yA))];throw y}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=k(C,yl);if(D){if(k(C,ym))throw y;var
+W=e6(s[1]),Y=e5(r[1]);return[4,e8(g,q[1]),Y,W]}d=1}}}}}else{if(!c[2]){var
+K=V(e[2]),_=X(p(K,yx)),$=n+1|0,L=Z(function(a){return o($,a)},_);if(3===ck(L))return[1,yz,L,e6(p(K,yy))];throw y}d=1}else{if(!c[2]){var
+C=aO(e[2]),D=l(C,yj);if(D){if(l(C,yk))throw y;var
 E=1}else
 var
 E=D;return[2,E]}d=1}else{if(!c[2]){var
-h=e[2],l=0;switch(h[0]){case
+h=e[2],k=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(k(w,yC)&&k(w,yD))if(k(w,yE))a=1;else{var
+N=i[1],w=N[1],a=0;if(l(w,yA)&&l(w,yB))if(l(w,yC))a=1;else{var
 O=N[2];if(1===O[0]){var
 x=O[1];if(x){var
 j=x[1],f=0;switch(j[0]){case
 0:var
 z=j[1];if(z){var
-P=z[1][1],R=0;if(k(P,yG)&&k(P,yH)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(k(j[1],yI)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+P=z[1][1],R=0;if(l(P,yE)&&l(P,yF)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(l(j[1],yG)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 A=x[2];if(A){var
 B=A[2];if(B&&!(B[2]||i[2])){var
-ad=e6(B[1]),ae=e5(A[1]),t=[5,e8(g,j),ae,ad];l=1;a=1}else
+ad=e6(B[1]),ae=e5(A[1]),t=[5,e8(g,j),ae,ad];k=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])l=2}break;case
-2:if(!k(h[1],yJ))l=2;break}switch(l){case
+a=1}if(!a&&!i[2])k=2}break;case
+2:if(!l(h[1],yH))k=2;break}switch(k){case
 0:var
-t=X(yF);break;case
+t=ab(yD);break;case
 2:var
 t=e8(g,h);break}return[6,t]}d=1}else{var
 M=e[2];if(1===M[0]){var
 u=M[1];if(u){var
 v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
-ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
-0:if(!c[2])return X([0,yw,[0,b,yv]]);break;case
+aa=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,aa)]};d=2}}}}switch(d){case
+0:if(!c[2])return ab([0,yu,[0,b,yt]]);break;case
 1:break;default:var
-H=U(G),T=W(p(H,yx)),I=Z(function(a){return o(n,a)},T),V=g[1];if(cj(I)!==V)throw y;return F(I,e6(p(H,yy)))}}break;case
+H=V(G),T=X(p(H,yv)),I=Z(function(a){return o(n,a)},T),U=g[1];if(ck(I)!==U)throw y;return F(I,e6(p(H,yw)))}}break;case
 2:return[0,m[1]]}throw y}function
 kF(j){var
-b=dd(j),a=b[1];if(k(a,yM)){var
-g=k(a,yN);if(!g)return g;if(!k(a,yO)){var
+b=dd(j),a=b[1];if(l(a,yK)){var
+g=l(a,yL);if(!g)return g;if(!l(a,yM)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cH(d[1]);return[1,cH(c[1]),l]}}}}}else{var
+k=cH(d[1]);return[1,cH(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=Z(kE,W(f[1]));return[0,cH(e[1]),m]}}}}return X([0,yQ,[0,a,yP]])}function
-y5(b){var
-a=10<=b[1]?1:0,c=a?1:a;return c}function
-y6(c){var
+m=Z(kE,X(f[1]));return[0,cH(e[1]),m]}}}}return ab([0,yO,[0,a,yN]])}function
+y3(c){var
+a=c[1];if(8!==a){var
+b=10<=a?1:0;if(!b)return b}return 1}function
+y4(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!k(b[1],y7))a=1;break;case
+0:if(!l(b[1],y5))a=1;break;case
 6:a=1;break}return a?1:0}function
-y8(f){var
+y6(f){var
 g=H(f),a=[0,0];function
-h(b){if(a[1]<g)return S(f,a[1]);throw y}function
+h(b){if(a[1]<g)return T(f,a[1]);throw y}function
 i(b){if(h(0)===b){a[1]++;return 0}throw y}function
-u(b,c){for(;;){if(a[1]<g&&e(c,S(f,a[1]))){a[1]++;continue}return du(f,b,a[1]-b|0)}}function
+u(b,c){for(;;){if(a[1]<g&&e(c,T(f,a[1]))){a[1]++;continue}return du(f,b,a[1]-b|0)}}function
 v(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -5748,72 +5779,72 @@ g=125;return[0,w(function(b){var
 a=v(0);i(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,v(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,u(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
-E=o(0,0),x=a[1]<g?1:0,F=x?10===S(f,a[1])?1:0:x;if(F)a[1]++;if(a[1]<g)throw y;var
-l=U(E);if(k(aO(p(l,y9)),y_))throw y;var
-b=kD(p(l,y$));switch(b[0]){case
+E=o(0,0),x=a[1]<g?1:0,F=x?10===T(f,a[1])?1:0:x;if(F)a[1]++;if(a[1]<g)throw y;var
+k=V(E);if(l(aO(p(k,y7)),y8))throw y;var
+b=kD(p(k,y9));switch(b[0]){case
 2:var
-V=1===b[1]?6:3,m=[0,cj(b[2]),V];break;case
+U=1===b[1]?6:3,m=[0,ck(b[2]),U];break;case
 3:var
-Y=cj(b[1]),m=[0,cj(b[4]),Y];break;case
+W=ck(b[1]),m=[0,ck(b[4]),W];break;case
 0:case
 5:var
-m=[0,cj(b[1]),3];break;default:var
-m=zm}var
-q=dd(p(l,za)),r=q[1];if(k(r,yV))if(k(r,yW))var
-c=X([0,yY,[0,r,yX]]);else
+m=[0,ck(b[1]),3];break;default:var
+m=zk}var
+q=dd(p(k,y_)),r=q[1];if(l(r,yT))if(l(r,yU))var
+c=ab([0,yW,[0,r,yV]]);else
 var
-j=U(q[2]),s=aZ(j,yZ),G=s?Z(P,W(s[1])):s,I=kF(p(j,y0)),J=Z(P,W(p(j,y1))),c=[1,ky(p(j,y2)),J,G,I];else
+j=V(q[2]),s=a0(j,yX),G=s?Z(Q,X(s[1])):s,I=kF(p(j,yY)),J=Z(Q,X(p(j,yZ))),c=[1,ky(p(j,y0)),J,G,I];else
 var
-z=U(q[2]),K=W(p(z,y3)),L=Z(function(f){var
-a=U(f);function
+z=V(q[2]),K=X(p(z,y1)),L=Z(function(f){var
+a=V(f);function
 b(d,c){var
-b=aZ(a,c);return b?Z(d,W(b[1])):b}var
-c=b(e5,yR),d=dc(kF,aZ(a,yS)),e=dc(cH,aZ(a,yT));return[0,b(function(g){var
-b=W(g);if(b){var
+b=a0(a,c);return b?Z(d,X(b[1])):b}var
+c=b(e5,yP),d=dc(kF,a0(a,yQ)),e=dc(cH,a0(a,yR));return[0,b(function(g){var
+b=X(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],yK)){if(!a[2]){if(k(d2(e),yL))throw y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yI)){if(!a[2]){if(l(d3(e),yJ))throw y;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e8(m,c);return[0,cH(e),f]}}}throw y},yU),e,d,c]},K),c=[0,ky(p(z,y4)),L];var
+f=e8(m,c);return[0,cH(e),f]}}}throw y},yS),e,d,c]},K),c=[0,ky(p(z,y2)),L];var
 d=0;switch(b[0]){case
 0:var
 A=b[4];if(0===c[0]){var
 D=0;if(b4(function(a){return 10===a[1]?1:0},A)){var
-M=b[1];if(b4(function(a){return 2===a[0]?1:0},M)){X(zb);D=1}}if(!D)d=1}else{var
+M=b[1];if(b4(function(a){return 2===a[0]?1:0},M)){ab(y$);D=1}}if(!D)d=1}else{var
 C=A;d=3}break;case
-1:if(0===c[0])X(zi);else
+1:if(0===c[0])ab(zg);else
 d=2;break;case
 2:if(0===c[0]){var
-R=c[2];if(hZ(function(a){return hZ(y6,a[1])},R))d=1;else
-X(zj)}else{var
-T=b[7];if(b4(function(a){switch(a[1]){case
+R=c[2];if(h5(function(a){return h5(y4,a[1])},R))d=1;else
+ab(zh)}else{var
+S=b[7];if(b4(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},T))X(zk);else
+8:return 1;default:return 0}},S))ab(zi);else
 d=2}break;case
-3:if(1===c[0])X(zl);else
+3:if(1===c[0])ab(zj);else
 d=1;break;case
 5:var
 C=b[4];d=3;break;default:d=1}var
 n=0;switch(d){case
-3:if(b4(y5,C))X(zh);else
+3:if(b4(y3,C))ab(zf);else
 n=2;break;case
 1:n=2;break;case
 2:n=1;break}var
 t=0;switch(n){case
 2:if(5===b[0]){var
-_=0;if(0===c[0]){var
-Q=c[2];if(b4(function(a){return 0!==a[1]?1:0},Q)){X(zg);_=1}}}else
+Y=0;if(0===c[0]){var
+P=c[2];if(b4(function(a){return 0!==a[1]?1:0},P)){ab(ze);Y=1}}}else
 if(0===c[0]){var
-O=c[2];if(b4(function(a){return 0!==a[3]?1:0},O))X(zf);else
+O=c[2];if(b4(function(a){return 0!==a[3]?1:0},O))ab(zd);else
 t=1}else
 t=1;break;case
 1:t=1;break}var
-B=U(p(l,zc)),N=aO(p(B,zd));return[0,b,c,aO(p(B,ze)),N]}function
-zn(c){try{try{var
-d=0,a=y8(c);d=1}catch(a){a=fz(a);if(a[1]===kx)var
+B=V(p(k,za)),N=aO(p(B,zb));return[0,b,c,aO(p(B,zc)),N]}function
+zl(c){try{try{var
+d=0,a=y6(c);d=1}catch(a){a=fz(a);if(a[1]===kx)var
 b=[0,a[2]];else{if(a!==y)throw a;var
 b=2}}if(d)var
-b=vI(c,a)?0===a[2][0]?0:1:2}catch(a){return zo}if(typeof
+b=vI(c,a)?0===a[2][0]?0:1:2}catch(a){return zm}if(typeof
 b==="number")switch(b){case
-0:return zp;case
-1:return zq;default:return zr}return ax(zs,b[1])}Bg.orthocert_verify=AX(function(b){return b1(zn(a(b)))});fC(0);return}(globalThis));
+0:return zn;case
+1:return zo;default:return zp}return ax(zq,b[1])}Be.orthocert_verify=AV(function(b){return b1(zl(a(b)))});fC(0);return}(globalThis));
