@@ -119,7 +119,7 @@ fn is_machine_covered(claim: &MachineClaim, verdict: Verdict) -> bool {
     };
     let is_required = require.iter().all(|requirement| {
         is_quantity(requirement, legs, verdict)
-            && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_))
+            && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_) | Bound::Holds)
             && requirement.given.values().all(|given| given.len() == 1)
     });
     let is_mechanism = match (mechanism, workspace) {
@@ -138,7 +138,7 @@ fn is_machine_covered(claim: &MachineClaim, verdict: Verdict) -> bool {
 fn is_quantity(requirement: &Requirement, legs: &[Leg], verdict: Verdict) -> bool {
     let has_plane = legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
     match requirement.quantity.as_str() {
-        "joint_force" => verdict == Verdict::Certified,
+        "joint_force" | "one_to_one" => verdict == Verdict::Certified,
         "joint_acceleration" => verdict == Verdict::Certified && !has_plane,
         key => QUANTITIES.contains(&key),
     }

@@ -67,3 +67,17 @@ Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0
   (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByLower 3 [[5; 0; 0]; [0; 5; 0]; [0; 0; 5]; [0; 0; 1]]%Z)]%nat) = false.
 Proof. vm_compute. reflexivity. Qed.
 End Forces.
+
+(** Of two points: one matrix for all cells. *)
+Module Positions.
+Local Notation accepts_by Y t := (check_claim_by 32 (3%N, Y) (claim_of sliders [OneToOne]) 9 [0; 0; 0]%Z t).
+Definition Y (n : Z) : list (list Z) := [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
+Definition halved (e f : evidence) : tree := Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, e)])%nat (Leaf [(1, f)])%nat.
+Example certified : accepts_by (Y 8) (halved ByChords ByChords) = true. Proof. vm_compute. reflexivity. Qed.
+Example no_matrix : accepts_by (Y 0) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts_by (Y (-8)) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
+(** A matrix of each cell shows that it has full rank there, and nothing of two points. *)
+Example a_matrix_of_each : accepts_by (Y 8) (halved (ByRank 3 (Y 8)) (ByRank 3 (Y 8))) = false. Proof. vm_compute. reflexivity. Qed.
+Example one_cell_left_out : accepts_by (Y 8) (Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, ByChords)])%nat (Leaf [])) = false. Proof. vm_compute. reflexivity. Qed.
+Example without_a_tree's_own : accepts sliders [OneToOne] [ByChords] = false. Proof. vm_compute. reflexivity. Qed.
+End Positions.

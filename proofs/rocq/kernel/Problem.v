@@ -171,7 +171,7 @@ Qed.
 (** kappa = 1/psi_max, k = 1/psi_min, or the end of a joint's range. *)
 Definition bound_of (s : Z) (r : requirement) : parameter :=
   match r with
-  | NotSingular => (exactly (0 // 1), 0%Z)
+  | NotSingular | OneToOne => (exactly (0 // 1), 0%Z)
   | PsiMax b | PsiMin b => (exactly (Over (1 // 1) b), 0%Z)
   | JointMin _ b | JointMax _ b => (exactly b, s)
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
@@ -215,7 +215,7 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s [| | | | | | | | | | | one other b | i o q d | i a v b |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
   - apply Forall2_app; apply B.
   - cbn. repeat constructor; apply E.
   - cbn. repeat constructor; apply E.
@@ -286,7 +286,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -321,7 +321,7 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
   | Beside i _ _ _ => of_leg i (fun f =>
       match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
   | JointAcceleration i _ _ _ => of_leg i (fun f => acceleration_formula f b (nth 0 (numbered (snd j) (extras s r)) (integer 0)))
-  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ => []
+  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ | OneToOne => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
   match rs with
@@ -332,6 +332,8 @@ Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : l
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
+(** The one matrix of [Chords]. *)
+Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
 Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
@@ -357,6 +359,7 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       | [f] => if Compare.certainly bits false a && Compare.certainly bits true b then Some (AtLeast (place f)) else None
       | _ => None
       end
+  | OneToOne => Some (Chords (fst one_matrix) (snd one_matrix))
   | JointForce i tool b => match nth_error fs i with
       | Some _ => if Compare.certainly bits true tool && Compare.certainly bits true b
           then option_map (fun a => Solved i (sqr bits a)) (enclose_parameter bits (bound_of s r)) else None
@@ -490,7 +493,7 @@ Qed.
 
 (** The whole check: formulas, a tape that stands for them, enclosures, the tree.
     [s], [ds], the tape and the tree are evidence. *)
-Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
+Definition check_claim_by (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let ps := layouts s ds (legs c) in
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
@@ -630,9 +633,9 @@ Proof.
   replace (1 / 1) with 1 by field. split; [lra | unfold Rdiv; rewrite Rinv_1; ring].
 Qed.
 
-Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
+Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils (workspace c) m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -651,6 +654,7 @@ Qed.
 Hypothesis reached : Forall (reaches P) m.
 Hypothesis machine : Forall2 is_leg_of (legs c) m.
 Hypothesis built : Forall well_formed_leg m.
+Hypothesis unique : r = OneToOne -> fulfils (workspace c) m P r.
 
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
 Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
@@ -672,10 +676,10 @@ Lemma ratio_pos : 0 < ratio.
 Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 
 (** The requirements that one formula decides: [f], which is not negative. *)
-Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
+Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils (workspace c) m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -728,10 +732,10 @@ Qed.
 Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
 Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
 
-Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
+Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils (workspace c) m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -856,7 +860,7 @@ Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearanc
   segments fs s (snd j) one other = Some ((a, a'), (c', d')) -> contains distance (bound_value s r) -> (0 <= lo distance)%Z ->
   Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x
     (Apart (ends_at found a) (ends_at found a') (ends_at found c') (ends_at found d') distance) ->
-  fulfils m P r.
+  fulfils (workspace c) m P r.
 Proof.
   intros one other b a a' c' d' distance er es hd d0 H. pose proof ratio_pos as r0.
   pose proof range_found as RF. pose proof extras_at as EX. subst r. cbn [extras range_formula] in *. rewrite es in RF.
@@ -899,7 +903,7 @@ Proof.
 Qed.
 
 Lemma beside_fulfilled : forall i one other b, r = Beside i one other b ->
-  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils m P r.
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
 Proof.
   intros i one other b er [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
   cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
@@ -972,7 +976,7 @@ Qed.
 
 Lemma force_fulfilled : forall i tool b k2 g, r = JointForce i tool b -> nth_error fs i = Some g -> 0 < Claim.value tool -> 0 < Claim.value b ->
   contains k2 ((Claim.value tool / Claim.value b) ^ 2) ->
-  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x (Solved i k2) -> fulfils m P r.
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x (Solved i k2) -> fulfils (workspace c) m P r.
 Proof.
   intros i tool b k2 g er ng t0 b0 K H. subst r. destruct (leg_at i g ng) as [l [nl _]]. cbn [fulfils]. split; [exists l; exact nl |].
   intros tau F lt hF le. cbn [Check.holds] in H. rewrite (rows_found tape _ whole_found) in H. destruct H as [_ [l3 H]].
@@ -995,7 +999,7 @@ Proof.
 Qed.
 
 Lemma acceleration_fulfilled : forall i a v b, r = JointAcceleration i a v b -> 0 <= Claim.value a -> 0 < Claim.value b ->
-  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils m P r.
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
 Proof.
   intros i a v b er a0 b0 [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
   cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (leg_at i g ng) as [l [nl [R0 re]]].
@@ -1040,21 +1044,21 @@ Proof.
       apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. unfold Rdiv in h. lra.
 Qed.
 
-Lemma fulfilled : fulfils m P r.
+Lemma fulfilled : fulfils (workspace c) m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
   pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF. pose proof force_fulfilled as FF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
-      is_least r = false -> fulfils m P r).
+      is_least r = false -> fulfils (workspace c) m P r).
   { intros E least. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
     - apply (SF least f eq_refl), (NN f); [left; reflexivity | exact H].
     - apply (MF least f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -1105,14 +1109,15 @@ Proof.
     apply (FF i tool b (sqr bits a) g eq_refl ng (Compare.positive_sound _ _ c1) (Compare.positive_sound _ _ c2)); [| exact H].
     apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (JointForce i tool b))) as K.
     unfold bound_value in K. cbn [bound_of fst snd exactly greatest Claim.value] in K. rewrite two_to_0 in K. unfold Rdiv in K at 1. rewrite Rinv_1, Rmult_1_r in K. exact K.
+  - exact (unique eq_refl).
 Qed.
 End Accepted.
 
 (** Two bodies on one leg are as far apart as the lines along them. *)
-Theorem beside_keeps : forall m P i one other r r' t u t' u' b,
-  fulfils m P (Beside i one other (Plus (Plus r r') b)) -> fulfils m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
+Theorem beside_keeps : forall w m P i one other r r' t u t' u' b,
+  fulfils w m P (Beside i one other (Plus (Plus r r') b)) -> fulfils w m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
 Proof.
-  intros m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
+  intros w m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
   do 4 eexists. split; [reflexivity |]. split; [reflexivity |]. intros y z _ _. cbn [radius_of].
   set (a1 := 1 - Claim.value t / L). set (a2 := Claim.value u / L). set (a3 := 1 - Claim.value t' / L). set (a4 := Claim.value u' / L).
   specialize (h ((1 - y) * a1 + y * a2) ((1 - z) * a3 + z * a4)). cbn [Claim.value] in h. apply Rle_trans with (1 := h), Req_le.
@@ -1149,10 +1154,55 @@ Proof.
     apply numbered_values, extras_within.
 Qed.
 
-(** Soundness: what the checker accepts is true of every machine and point of the claim. *)
-Theorem check_claim_sound : forall c s ds t, check_claim c s ds t = true -> Statement.holds c.
+(** Two points with the same joint coordinates: the form at the one is that at the other, of the opposite sign. *)
+Lemma chords_cancel : forall s Y places m fs P P' theta,
+  Forall2 (represents (vscale (/ two_to s) P) theta) fs (map (resized (/ two_to s)) m) ->
+  Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
+  Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
+  let v := coordinates (vsub (vscale (/ two_to s) P') (vscale (/ two_to s) P)) in
+  let form_at P := form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (value (coordinates (vscale (/ two_to s) P)) theta) (whole_rows fs))) v in
+  form_at P + form_at P' = 0.
 Proof.
-  intros c s ds t h m P hm hP. unfold check_claim in h. cbn zeta in h.
+  intros s Y places m fs P P' theta h h' ok re re' e v form_at. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
+  unfold form_at. clear form_at. revert Y m h h' ok re re' e. induction fs as [| f fs IH]; intros Y m h h' ok re re' e.
+  - destruct Y; cbn; lra.
+  - destruct m as [| l m]; [inversion h |]. cbn [map] in h, h'. apply cons_related in h as [hl h]. apply cons_related in h' as [hl' h'].
+    apply Forall_cons_iff in ok as [ok1 ok]. apply Forall_cons_iff in re as [re1 re]. apply Forall_cons_iff in re' as [re1' re']. apply Forall_cons_iff in e as [e1 e].
+    destruct Y as [| y Y]; [cbn; lra |]. specialize (IH Y m h h' ok re re' e).
+    change (whole_rows (f :: fs)) with ((list_of (f_A f), f_D f) :: whole_rows fs). rewrite !map_rows_cons. cbn [map fst lower_weights form]. fold (lower_weights places Y v).
+    destruct hl as [_ [[_ hA] _]]. destruct hl' as [_ [[_ hA'] _]]. rewrite !values_list, hA, hA'.
+    assert (G : forall u, Linear.dot (coordinates u) v = Vec3.dot u (vsub (vscale ratio P') (vscale ratio P))) by (intro; apply dot_coordinates). rewrite !G.
+    destruct (resized_same ratio P r0 l) as [_ [j1 q1]]. destruct (resized_same ratio P' r0 l) as [_ [j2 q2]].
+    assert (C : Vec3.dot (vadd (vector_of (resized ratio l) (vscale ratio P)) (vector_of (resized ratio l) (vscale ratio P'))) (vsub (vscale ratio P') (vscale ratio P)) = 0).
+    { apply chord; [apply (well_formed_resized ratio r0 l), ok1 | apply q1, re1 | apply q2, re1' | rewrite j1, j2, e1; reflexivity]. }
+    assert (Da : forall a b w, Vec3.dot (vadd a b) w = Vec3.dot a w + Vec3.dot b w) by (intros; unfold Vec3.dot, vadd; cbn [vx vy vz]; ring). rewrite Da in C.
+    set (t := Linear.dot (map (Y_value places) y) v) in *.
+    set (a := Vec3.dot (vector_of (resized ratio l) (vscale ratio P)) _) in *. set (b := Vec3.dot (vector_of (resized ratio l) (vscale ratio P')) _) in *.
+    assert (E0 : 2 * t * (a + b) = 0) by (rewrite C; ring). lra.
+Qed.
+
+Lemma one_to_one : forall s fs m P P' theta tape, (forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
+  Forall2 (represents (vscale (/ two_to s) P) theta) fs (map (resized (/ two_to s)) m) ->
+  Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
+  Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
+  forall places Y divided,
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P)) (Chords places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P')) (Chords places Y) ->
+  P' = P.
+Proof.
+  intros s fs m P P' theta tape found h h' ok re re' e places Y divided H H'.
+  pose proof (chords_cancel s Y places m fs P P' theta h h' ok re re' e) as C. cbv zeta in C. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
+  set (d := vsub (vscale (/ two_to s) P') (vscale (/ two_to s) P)) in *.
+  destruct (vzero_dec d) as [z | nz].
+  - unfold d, vsub, vscale, vzero in z. injection z as z1 z2 z3. apply vec_ext; apply Rmult_eq_reg_l with (/ two_to s); lra.
+  - exfalso. cbn [Check.holds] in H, H'. rewrite (rows_found tape _ found) in H, H'. destruct H as [_ H], H' as [_ H'].
+    specialize (H (coordinates d) eq_refl (nonzero_coordinates d nz)). specialize (H' (coordinates d) eq_refl (nonzero_coordinates d nz)). lra.
+Qed.
+
+(** Soundness: what the checker accepts is true of every machine and point of the claim. *)
+Theorem check_claim_by_sound : forall c s ds t, check_claim_by c s ds t = true -> Statement.holds c.
+Proof.
+  intros c s ds t h m P0 hm hP0. unfold check_claim_by in h. cbn zeta in h.
   set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c)) in *.
   set (tape := fst (compile needed)) in *.
@@ -1167,6 +1217,19 @@ Proof.
   set (tb := map (bound_value s) (require c) ++ map exact_value (flat_map (extras s) (require c))).
   pose proof (Forall2_app (bounds_within s (require c)) (all_extras_within s (require c))) as B. fold tb in B.
   pose proof (enclosed_all _ _ _ ep (Forall2_app L B)) as T.
+  assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
+    by (intros e i; apply Found, in_or_app; left; exact i).
+  assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
+    by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
+  apply existsb_exists in low as [r0 [i0 l0]]. assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
+  assert (Point : forall P, in_region (workspace c) P -> Forall2 (represents (vscale (/ two_to s) P) (th ++ tb)) fs (map (resized (/ two_to s)) m) /\
+    Forall (reaches P) m /\ injective m P /\ forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
+    map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
+    (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
+    test_of (place (formulas tape)) fs s j r = Some u /\
+    Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
+      (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
+  { intros P hP.
   pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
   pose proof (check_all_open bits tape _ _ _ params tests (tangent (workspace c) s) (th ++ tb) T
@@ -1175,11 +1238,6 @@ Proof.
       (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda z)) d _ a))
     t box _ h X eq_refl) as H. rewrite three_of_them in H.
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
-  assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
-  assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
-    by (intros e i; apply Found, in_or_app; left; exact i).
-  assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
-    by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
   assert (Each : forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
     map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
     (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
@@ -1194,10 +1252,19 @@ Proof.
     - intros f g. apply Found, in_or_app. right. apply in_or_app. right. exact (h3 f g).
     - exact e2.
     - exact (H u iu). }
-  apply existsb_exists in low as [r0 [i0 l0]]. destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
+  destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
   destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
+  split; [exact R |]. split; [exact h1 |]. split; [exact h2 | exact Each]. }
+  pose proof (are_buildable_sound s _ _ hm ds able) as built. destruct (Point P0 hP0) as [R0 [h1 [h2 Each]]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1 hm (are_buildable_sound s _ _ hm ds able)).
+  apply (fulfilled c s ds m P0 (th ++ tb) tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). intro er. subst r.
+  cbn [fulfils]. intros P1 hP1 reached1 same. destruct (Point P1 hP1) as [R1 [_ [_ Each1]]]. destruct (Each1 _ i) as [j1 [u1 [_ [_ [_ [G3 G4]]]]]].
+  cbn [test_of] in F3, G3. injection F3 as <-. injection G3 as <-.
+  exact (one_to_one s fs m P0 P1 (th ++ tb) tape W R0 R1 built h1 reached1 same _ _ _ F4 G4).
 Qed.
 End Precision.
+
+Definition check_claim (bits : positive) : claim -> Z -> list Z -> tree -> bool := check_claim_by bits (0%N, []).
+Corollary check_claim_sound : forall bits c s ds t, check_claim bits c s ds t = true -> Statement.holds c.
+Proof. intro bits. apply check_claim_by_sound. Qed.

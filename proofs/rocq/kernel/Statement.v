@@ -55,6 +55,10 @@ Definition couple (axis w : vec) : vec := vsub w (vscale (dot axis w) axis).
 Definition couple_of (l : leg) (P : vec) : option vec :=
   match l with Extensible base platform (Some axis) => Some (couple axis (span base platform P)) | _ => None end.
 
+(** Row i of A: the leg's vector, or a plane's normal. *)
+Definition vector_of (l : leg) (P : vec) : vec :=
+  match l with Guided l => leg_vector l P | Extensible base platform _ => span base platform P | Plane n => normalised n end.
+
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
 
@@ -144,7 +148,8 @@ Inductive requirement :=
   | Beside (leg : nat) (one other : position) (distance : number)
   (* of no motion of the platform with these acceleration and speed at most *)
   | JointAcceleration (leg : nat) (acceleration speed b : number)
-  | JointForce (leg : nat) (tool b : number).          (* of no static force on the platform up to [tool] *)
+  | JointForce (leg : nat) (tool b : number)           (* of no static force on the platform up to [tool] *)
+  | OneToOne.                                          (* no two points of the workspace have the same joint coordinates *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -154,7 +159,7 @@ Definition is_machine (c : claim) (m : list leg) : Prop := Forall2 is_leg_of (le
 (** M is injective: no motion of the platform leaves all joints at rest. *)
 Definition injective (m : list leg) (P : vec) : Prop := forall v, v <> vzero -> 0 < speed2 m P v.
 
-Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
+Definition fulfils (w : region) (m : list leg) (P : vec) (r : requirement) : Prop :=
   match r with
   | NotSingular => injective m P
   | PsiMax b => forall v, (1 / value b) ^ 2 * norm2 v <= speed2 m P v
@@ -182,11 +187,12 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   (* virtual work: the joint forces tau hold the force F on the platform *)
   | JointForce i tool b => (exists l, nth_error m i = Some l) /\ forall tau F, Datatypes.length tau = Datatypes.length m ->
       (forall v, dot F v = joint_power m tau P v) -> norm2 F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
+  | OneToOne => forall P', in_region w P' -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m -> P' = P
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)
 Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
-  Forall (reaches P) m /\ injective m P /\ Forall (fulfils m P) (require c).
+  Forall (reaches P) m /\ injective m P /\ Forall (fulfils (workspace c) m P) (require c).
 
 Definition holds (c : claim) : Prop :=
   forall m P, is_machine c m -> in_region (workspace c) P -> meets c m P.

@@ -352,7 +352,7 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
-  | JointAcceleration _ _ _ _ | JointForce _ _ _ => false
+  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -417,14 +417,14 @@ Proof.
   - injection h as <- <-. reflexivity.
 Qed.
 
-Lemma fails_sound : forall ls P u v r, fails ls P u v r = true -> ~ fulfils (map leg_of ls) (values P) r.
+Lemma fails_sound : forall w ls P u v r, fails ls P u v r = true -> ~ fulfils w (map leg_of ls) (values P) r.
 Proof.
-  intros ls P u v r h F.
+  intros w ls P u v r h F.
   assert (B : forall b, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u)) = (1 / value b) ^ 2 * norm2 (values u)).
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b |]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -497,6 +497,7 @@ Proof.
     replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
   - discriminate.
   - discriminate.
+  - discriminate.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)
@@ -507,10 +508,10 @@ Proof.
   - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
     apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
     rewrite Forall_forall in reached. apply reached, in_map, il.
-  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound _ _ _ _ _ h).
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound (workspace c) _ _ _ _ _ h).
     rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
-    apply (fails_sound _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+    apply (fails_sound (workspace c) _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
 Qed.
 
 (** ** A claim that is about something *)
@@ -531,12 +532,12 @@ Proof. intros c h. eexists; eexists. apply admits_sound, h. Qed.
 End Precision.
 
 (** A certified claim holds, and there is a machine and a point that it is about. *)
-Definition certify (exact bits : positive) (c : claim) (s : Z) (ds : list Z) (t : Check.tree) : bool :=
-  is_inhabited exact c && check_claim bits c s ds t.
+Definition certify (exact bits : positive) (chords : N * list (list Z)) (c : claim) (s : Z) (ds : list Z) (t : Check.tree) : bool :=
+  is_inhabited exact c && check_claim_by bits chords c s ds t.
 
-Theorem certify_sound : forall exact bits c s ds t, certify exact bits c s ds t = true ->
+Theorem certify_sound : forall exact bits chords c s ds t, certify exact bits chords c s ds t = true ->
   Statement.holds c /\ exists m P, is_about c m P.
 Proof.
-  intros exact bits c s ds t h. apply andb_true_iff in h as [i h].
-  split; [exact (check_claim_sound bits c s ds t h) | exact (inhabited exact c i)].
+  intros exact bits chords c s ds t h. apply andb_true_iff in h as [i h].
+  split; [exact (check_claim_by_sound bits chords c s ds t h) | exact (inhabited exact c i)].
 Qed.

@@ -298,6 +298,36 @@ for (const text of [
   if (answers.some((answer) => answer !== "REJECTED")) fail(`joint_force: ${answers}: ${text("1000")}`);
 }
 console.log(`joint_force: ${forces.length} legs, with one answer at 42 bounds each`);
+
+// One matrix for all cells, which are two: any others on one of them show nothing of both.
+const same = (b) => '{"quantity":"one_to_one","end":"holds"}';
+const by_chords = (chords, steps) => `{"tree":{"precision":32,${chords ? `"chords":${y(chords)},` : ""}"nodes":[{"by":[[0,{"rank":${y([[8, 0, 0], [0, 8, 0], [0, 0, 8]])}}]],` +
+  `"split":1},{"by":[${steps}]},{"by":[${steps}]}]}}`;
+const near = [[8, 0, 0], [0, 8, 0], [0, 0, 8]];
+const sized = (leg) => box.replaceAll('"-20"]', `"${-leg}"]`);
+for (const [legs, workspace, chords, steps, right] of [
+  [three, box, near, '[1,"chords"]', "CERTIFIED"],
+  [three, box, [[8, 1, 0], [0, 7, 0], [-1, 0, 9]], '[1,"chords"]', "CERTIFIED"],
+  [toleranced, cylinder, near, '[1,{"inside":["chords",1,9]}]', "CERTIFIED"],
+  [[three[0], three[1], plane(0, 0, 1)], box, near, '[1,"chords"]', "CERTIFIED"],
+  [[...three, plane(0, 0, 1)], box, [...near, [0, 0, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, [[0, 0, 0], [0, 0, 0], [0, 0, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, near.map((row) => row.map((n) => -n)), '[1,"chords"]', "REJECTED"],
+  [three, box, [[8, 0, 0], [0, 8, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, null, '[1,"chords"]', "REJECTED"],
+  [three, box, near, '[1,"test"]', "REJECTED"],
+  [three, box, near, `[1,{"rank":${y(near)}}]`, "REJECTED"],
+  [three, box, near, `[1,{"lower":${y(near)}}]`, "REJECTED"],
+]) {
+  const text = asks(legs, workspace, same, by_chords(chords, steps))("");
+  const answers = all(text);
+  if (answers.some((answer) => answer !== right)) fail(`one_to_one: ${answers}: ${text}`);
+}
+for (const wrong of ['"end":"holds","bound":"1"', '"end":"min","bound":"1"', '"leg":1,"end":"holds"', '"given":{"tool":["1"]},"end":"holds"']) {
+  const text = asks(three, box, same, by_chords(near, '[1,"chords"]'))("").replace('"end":"holds"', wrong);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`one_to_one: ${all(text)}: ${text}`);
+}
+console.log("one_to_one: with one answer");
 fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.

@@ -173,6 +173,7 @@ let requirement v =
     | "constraint_margin" -> Constraint_
     | "joint_force" -> Force_
     | "joint_acceleration" -> Acceleration_
+    | "one_to_one" -> OneToOne_
     | "clearance" -> Clearance_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
@@ -180,6 +181,7 @@ let requirement v =
     | "max" -> AtMost_ (number (bound ()))
     | "min" -> AtLeast_ (number (bound ()))
     | "within" -> let a, b = two number (bound ()) in Within_ (a, b)
+    | "holds" -> Holds_
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
     | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> Given_ (number x)
@@ -281,12 +283,13 @@ let rec subject v =
 let integers v = List.map integer (array v)
 let face v = match string v with "Q1" -> Q1 | "Q2" -> Q2 | s -> raise Malformed
 (* [n] legs: so many rows of [m] entries. *)
+let row length v = let l = integers v in if List.length l <> length then raise Malformed else l
+let matrix (n, m) v =
+  let l = members v in
+  let y = List.map (row m) (array (get l "y")) in
+  if List.length y <> n then raise Malformed else (y, places (get l "places"))
 let rec evidence (n, m as shape) v =
-  let row length v = let l = integers v in if List.length l <> length then raise Malformed else l in
-  let multiplier f v =
-    let l = members v in
-    let y = List.map (row m) (array (get l "y")) in
-    if List.length y <> n then raise Malformed else f y (places (get l "places")) in
+  let multiplier f v = let y, places = matrix shape v in f y places in
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
@@ -325,14 +328,14 @@ let proof n v =
   match variant v with
   | "tree", t ->
     let l = members t in
-    Nodes (positive (get l "precision"), List.map (node n) (array (get l "nodes")))
+    Nodes (positive (get l "precision"), optional (matrix n) (find l "chords"), List.map (node n) (array (get l "nodes")))
   | "witness", w ->
     let l = members w in
     let machine = match find l "machine" with Some v -> List.map number (array v) | None -> [] in
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
-let is_certified_only r = match r.about_ with Force_ | Acceleration_ -> true | _ -> false
+let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ -> true | _ -> false
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
@@ -349,7 +352,7 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   (match subject_, proof_ with
    | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
-   | Turning_ _, Nodes (_, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
+   | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
@@ -357,9 +360,9 @@ let certificate text =
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
    | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
      not_covered [ "this quantity in a claim that is refuted" ]
-   | NoCube_ _, Nodes (_, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
+   | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
    | NoCube_ _, _ -> ()
-   | _, Nodes (_, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
+   | _, Nodes (_, _, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in

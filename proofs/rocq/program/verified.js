@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(v){"use strict";var
-Be=typeof
-module==="object"&&module.exports||v,hv="spatial",lH="Invalid_argument",fc="precision",au='"',lG="@[",he=1255,lF="inside",mh="Fatal error: exception %s\n",k_=255,lE="yaw",mf="(",mg=0x800,k8="range",k9="tree",hd="jsError",bz=0x8000,lC='the mechanism "',lD="%ni",mK="sqrt(",me=256,d9="offset",md="obligation",bk="machine",k7="End_of_file",ff="strut",k6="center",fp="arm",hc="Failure",mI="serial_margin",mJ="parameters",bX=0xff,hB="bodies",k5="\n",hA="outside",hl="base_axis",hu="ENOENT",mH=122,aP="0",mc="([^/]+)",ht=0xf,d_=128,hb=-48,k4=0xdc00,lB="Sys_blocked_io",mG="fd ",ha="given",mb="ENOTEMPTY",at=248,ma="bound",as="camlinternalFormat.ml",l$="Division_by_zero",mE="by",mF=1027,k3="Sys_error",lA="slider",lz="postulate",l_="torsion",l9="proof",ly="%u",dj="mechanism",fl="row",k2="EEXIST",lx="roll_pitch_yaw",hs="%d",k1="Printexc.handle_uncaught_exception",hk="y",fb="lower",lw="within",l8="cube",k0="clearance",l7="buffer.ml",mD="turned",fa="int_of_string",l6="control",lv="definitions",hj=127,d8=1024,lu="@{",l5="from",hz="e",kY=120,kZ=103,lt=" : flags Open_rdonly and Open_wronly are not compatible",l4="orthocert/2",mC="reach",kX=512,a_="-",mB="witness",bi="platform",kW=0x7ff0,kV="pitch",hy=": Not a directory",ls=" : file already exists",bB="min",mA="trim",dk="workspace",lr="claim",l3="split",mz="legs",bW=0xffffff,l2="joint",kT="formulas",kU="0x",lq='the workspace "',l1="roll",mx="nodes",my="Out_of_memory",kS="psi_max",hx="orientation",lp="angle",fk=254,hw="index out of bounds",l0=100,kR="end",fo="_bigarr02",kQ="%Li",lZ=" : flags Open_text and Open_binary are not compatible",cg="drive",lY="coordinates",lo=", characters ",lX="lower_divided",kP="speed",ln="joints",mw="cylinder",bD=0xffff,ll="acceleration",lm=12520,g$="on",lk="axis",lj="no_cube",mv="parallel_margin",kO='the drive "',fe="fails",hr="Unix.Unix_error",mu="infinity",e$="tool",g_="mkdir",d7=1000,e_="translational",t="",lW="Stack_overflow",mt="characteristic_length",hi="^",e9=": No such file or directory",hq="places",lV="/static/",di=0x3f,lU=-97,lS="stiffness",lT="Not_found",d6="planar",fj="mode",ms="joint_speed",li="Match_failure",kN=", ",kM="transmission",cf="anchor",mr="at",fn=252,kL="joint_force",dh="leg",ch=".",bA="+",lR="joint_acceleration",hp="rmdir",mq=0xf0,mp="spherical",lh="verified.ml",lf="REJECTED",lg="%li",lQ=1026,bC="max",cJ="direction",lP="orthoglide",fm="rank",mo="constraint_margin",mn=-32,kJ="Pervasives.do_at_exit",kK="utf8",ho="test",bU=" ",fd="conditioning",hn="Fatal error: exception ",bj=0x80,kI="Undefined_recursive_module",hh=")",fi="length",lO="base",mm="quantity",lN="joint_range",fh="tilt",kH="Q2",hg="nan",le="reference",lM="point",ld=0xe0,ml="corner",lb="z",lc=0xdfff,lK="version",lL="_",mk="to",bh="/",hm="compare: functional value",mj="Assert_failure",la="provenance",dg="radius",kG="%i",bV="require",fg="side",mi="format",hf="ENOTDIR",lJ="Q1",lI="all",cI="box",k$=250;function
-hR(c,b,a){var
+By=typeof
+module==="object"&&module.exports||v,hz="spatial",lM="Invalid_argument",fc="precision",av='"',lL="@[",hh=1255,lK="inside",ml="Fatal error: exception %s\n",ld=255,lJ="yaw",mj="(",mk=0x800,lb="range",lc="tree",hg="jsError",bz=0x8000,lH='the mechanism "',lI="%ni",mQ="sqrt(",mi=256,d_="offset",mh="obligation",bk="machine",la="End_of_file",ff="strut",k$="center",fq="arm",hf="Failure",mO="serial_margin",mP="parameters",bY=0xff,hF="bodies",k_="\n",hE="outside",hp="base_axis",hy="ENOENT",mN=122,aP="0",mg="([^/]+)",hx=0xf,d$=128,he=-48,k9=0xdc00,lG="Sys_blocked_io",mM="fd ",hd="given",mf="ENOTEMPTY",au=248,fm="bound",at="camlinternalFormat.ml",me="Division_by_zero",mK="by",mL=1027,k8="Sys_error",lF="slider",lE="postulate",md="torsion",mc="proof",lD="%u",dl="mechanism",fl="row",k7="EEXIST",lC="roll_pitch_yaw",hw="%d",k6="Printexc.handle_uncaught_exception",ho="y",fb="lower",lB="within",mb="cube",k5="clearance",ma="buffer.ml",mJ="turned",fa="int_of_string",l$="control",lA="definitions",hn=127,d9=1024,lz="@{",l_="from",hD="e",k3=120,k4=103,ly=" : flags Open_rdonly and Open_wronly are not compatible",l9="orthocert/2",mI="reach",k2=512,a_="-",mH="witness",bi="platform",k1=0x7ff0,k0="pitch",hC=": Not a directory",lx=" : file already exists",bB="min",mG="trim",dm="workspace",lw="claim",l8="split",mF="legs",bX=0xffffff,l7="joint",kY="formulas",kZ="0x",lv='the workspace "',l6="roll",mD="nodes",mE="Out_of_memory",kX="psi_max",hB="orientation",lu="angle",fk=254,hA="index out of bounds",l5=100,kW="end",mC="one_to_one",fp="_bigarr02",kV="%Li",l4=" : flags Open_text and Open_binary are not compatible",ch="drive",l3="coordinates",mB="holds",lt=", characters ",l2="lower_divided",kU="speed",ls="joints",mA="cylinder",bD=0xffff,lq="acceleration",hm="chords",lr=12520,hc="on",lp="axis",lo="no_cube",mz="parallel_margin",kT='the drive "',fe="fails",hv="Unix.Unix_error",my="infinity",e$="tool",hb="mkdir",d8=1000,e_="translational",t="",l1="Stack_overflow",mx="characteristic_length",hl="^",e9=": No such file or directory",hu="places",l0="/static/",dk=0x3f,lZ=-97,lX="stiffness",lY="Not_found",d7="planar",fj="mode",mw="joint_speed",ln="Match_failure",kS=", ",kR="transmission",cg="anchor",mv="at",fo=252,kQ="joint_force",dj="leg",ci=".",bA="+",lW="joint_acceleration",ht="rmdir",mu=0xf0,mt="spherical",lm="verified.ml",lk="REJECTED",ll="%li",lV=1026,bC="max",cL="direction",lU="orthoglide",fn="rank",ms="constraint_margin",mr=-32,kO="Pervasives.do_at_exit",kP="utf8",hs="test",bV=" ",fd="conditioning",hr="Fatal error: exception ",bj=0x80,kN="Undefined_recursive_module",hk=")",fi="length",lT="base",mq="quantity",lS="joint_range",fh="tilt",kM="Q2",hj="nan",lj="reference",lR="point",li=0xe0,mp="corner",lg="z",lh=0xdfff,lP="version",lQ="_",mo="to",bh="/",hq="compare: functional value",mn="Assert_failure",lf="provenance",di="radius",kL="%i",bW="require",fg="side",mm="format",hi="ENOTDIR",lO="Q1",lN="all",cK="box",le=250;function
+hV(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=t;for(;0<a;b+=d8,a-=d8)e+=d.apply(null,c.slice(b,b+Math.min(a,d8)));return e}function
-fq(b){if(v.Uint8Array)var
+e=t;for(;0<a;b+=d9,a-=d9)e+=d.apply(null,c.slice(b,b+Math.min(a,d9)));return e}function
+fr(b){if(v.Uint8Array)var
 c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cj(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hR(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hR(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fq(b);var
+ck(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fr(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bY(a){return a}function
-bG(a,b,c,d,e){cj(bY(a),b,c,d,e);return 0}function
-A8(b,a){throw[0,b,a]}function
-dq(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
+bZ(a){return a}function
+bG(a,b,c,d,e){ck(bZ(a),b,c,d,e);return 0}function
+Bq(b,a){throw[0,b,a]}function
+ds(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
 d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dn(a){if(a.t==2)a.c+=dq(a.l-a.c.length,"\0");else
-a.c=hR(a.c,0,a.c.length);a.t=0}function
-ne(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hj)return false;return true}else
+dq(a){if(a.t==2)a.c+=ds(a.l-a.c.length,"\0");else
+a.c=hV(a.c,0,a.c.length);a.t=0}function
+nk(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hn)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hT(e){for(var
+hX(e){for(var
 j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bj){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>kX){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_){g=h+(f<<6);if(f<ld){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_){g=h+(g<<6);if(f<mq){a=g-0xe2080;if(a<mg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d_&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bD)c+=String.fromCharCode(0xd7c0+(a>>10),k4+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d8){c.substr(0,1);j+=c;c=t}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>k2){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(f<<6);if(f<li){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(g<<6);if(f<mu){a=g-0xe2080;if(a<mk||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bD)c+=String.fromCharCode(0xd7c0+(a>>10),k9+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d9){c.substr(0,1);j+=c;c=t}}return j+c}function
 bE(c,a,b){this.t=c;this.c=a;this.l=b}bE.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dn(this);case
-0:if(ne(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:dq(this);case
+0:if(nk(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bE.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hT(a)};bE.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return hX(a)};bE.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bE(this.t,a,this.l)};function
-mU(a){return new
+m0(a){return new
 bE(0,a,a.length)}function
-a(a){return mU(a)}function
-hP(c,b){A8(c,a(b))}var
+a(a){return m0(a)}function
+hT(c,b){Bq(c,a(b))}var
 aj=[0];function
-av(a){hP(aj.Invalid_argument,a)}function
-mS(){av(hw)}function
-ak(a,c,b){b&=bX;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fq(a)}a.c[c]=b;return 0}function
-cK(b,a,c){if(a>>>0>=b.l)mS();return ak(b,a,c)}function
-dm(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+aw(a){hT(aj.Invalid_argument,a)}function
+mY(){aw(hA)}function
+ak(a,c,b){b&=bY;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fr(a)}a.c[c]=b;return 0}function
+cM(b,a,c){if(a>>>0>=b.l)mY();return ak(b,a,c)}function
+dp(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bZ(c,a){if(c.fun)return bZ(c.fun,a);if(typeof
+b0(c,a){if(c.fun)return b0(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bZ(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return b0(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bZ(c,d)}}function
-d$(){av(hw)}function
-mV(a,b){if(b>>>0>=a.length-1)d$();return a}function
-Ay(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b1(a){a.t&6&&dn(a);return a.c}var
-Bg=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Bf(a){if(Bg)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b0(c,d)}}function
+ea(){aw(hA)}function
+m1(a,b){if(b>>>0>=a.length-1)ea();return a}function
+AS(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b2(a){a.t&6&&dq(a);return a.c}var
+BA=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Bz(a){if(BA)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hH(c){var
+hL(c){var
 a=new(v.Float32Array)(1);a[0]=c;var
 b=new(v.Int32Array)(a.buffer);return b[0]|0}var
-m4=Math.pow(2,-24);function
-A6(a){throw a}function
-m$(){A6(aj.Division_by_zero)}function
-u(b,c,a){this.lo=b&bW;this.mi=c&bW;this.hi=a&bD}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+m_=Math.pow(2,-24);function
+Bo(a){throw a}function
+nf(){Bo(aj.Division_by_zero)}function
+u(b,c,a){this.lo=b&bX;this.mi=c&bX;this.hi=a&bD}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
 u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m4|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m4|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*m_|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m_|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
 u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
 u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
@@ -106,25 +106,25 @@ c=this.hi<<16>>16;if(a<24)return new
 u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bD);return new
-u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bW;this.lo=this.lo<<1&bW};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bW;this.mi=(this.mi>>>1|this.hi<<23)&bW;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
+u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bX;this.lo=this.lo<<1&bX};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bX;this.mi=(this.mi>>>1|this.hi<<23)&bX;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
-b=this;if(a.isZero())m$();var
+b=this;if(a.isZero())nf();var
 d=b.hi^a.hi;if(b.hi&bz)b=b.neg();if(a.hi&bz)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bz)c=c.neg();return c};u.prototype.mod=function(b){var
-a=this;if(b.isZero())m$();var
+a=this;if(b.isZero())nf();var
 d=a.hi;if(a.hi&bz)a=a.neg();if(b.hi&bz)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bz)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bX,this.mi>>16,this.mi>>8&bX,this.mi&bX,this.lo>>16,this.lo>>8&bX,this.lo&bX]};u.prototype.lo32=function(){return this.lo|(this.mi&bX)<<24};u.prototype.hi32=function(){return this.mi>>>8&bD|this.hi<<16};function
-fu(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&bz)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bY,this.mi>>16,this.mi>>8&bY,this.mi&bY,this.lo>>16,this.lo>>8&bY,this.lo&bY]};u.prototype.lo32=function(){return this.lo|(this.mi&bY)<<24};u.prototype.hi32=function(){return this.mi>>>8&bD|this.hi<<16};function
+fv(b,c,a){return new
 u(b,c,a)}function
-ft(a){if(!isFinite(a)){if(isNaN(a))return fu(1,0,kW);return a>0?fu(0,0,kW):fu(0,0,0xfff0)}var
+fu(a){if(!isFinite(a)){if(isNaN(a))return fv(1,0,k1);return a>0?fv(0,0,k1):fv(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bz:a>=0?0:bz;if(f)a=-a;var
-b=Bf(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-mF);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Bz(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lV)}else{a/=Math.pow(2,b-mL);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ht|f|b<<4;return fu(g,e,c)}function
-ec(a){return a.toArray()}function
-mR(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fo)for(var
+g=a|0;c=c&hx|f|b<<4;return fv(g,e,c)}function
+ed(a){return a.toArray()}function
+mX(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fp)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<bD)c.write(16,b.dims[a]);else{c.write(16,bD);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=ec(b.get(a));for(var
+e=ed(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=ec(ft(b.get(a)));for(var
+e=ed(fu(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hH(b.get(a));c.write(32,e)}break;case
+e=hL(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hH(d[1]));c.write(32,hH(d[2]))}break;case
+d=b.get(a);c.write(32,hL(d[1]));c.write(32,hL(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=ec(ft(f[1]));for(var
+f=b.get(a),e=ed(fu(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=ec(ft(f[2]));for(var
+e=ed(fu(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mP(a){switch(a){case
+mV(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-As(c,e){var
+AM(c,e){var
 b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=v,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)av("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aw("Bigarray.create: unsupported kind");var
 d=new
-a(e*mP(c));return d}function
-hI(c){var
+a(e*mV(c));return d}function
+hM(c){var
 a=new(v.Int32Array)(1);a[0]=c;var
 b=new(v.Float32Array)(a.buffer);return b[0]}function
-eb(a){return new
+ec(a){return new
 u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hJ(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ht)==0?b&bz?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ht);if(c>0){a+=16;a*=Math.pow(2,c-mF)}else
-a*=Math.pow(2,-lQ);if(b&bz)a=-a;return a}function
-hC(b){var
+hN(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hx)==0?b&bz?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hx);if(c>0){a+=16;a*=Math.pow(2,c-mL)}else
+a*=Math.pow(2,-lV);if(b&bz)a=-a;return a}function
+hG(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)av("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-AJ(b,a){return new
-u(b&bW,b>>>24&bX|(a&bD)<<8,a>>>16&bD)}function
-hK(a){return a.hi32()}function
-hL(a){return a.lo32()}var
-At=fo;function
-ci(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ci.prototype.caml_custom=At;ci.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aw("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+A3(b,a){return new
+u(b&bX,b>>>24&bY|(a&bD)<<8,a>>>16&bD)}function
+hO(a){return a.hi32()}function
+hP(a){return a.lo32()}var
+AN=fp;function
+cj(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cj.prototype.caml_custom=AN;cj.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))av("bigarray.js: invalid offset");if(this.dims.length!=b.length)av("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d$();c=c*this.dims[a]+b[a]}else
+Array))aw("bigarray.js: invalid offset");if(this.dims.length!=b.length)aw("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ea();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d$();c=c*this.dims[a]+(b[a]-1)}return c};ci.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ea();c=c*this.dims[a]+(b[a]-1)}return c};cj.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return AJ(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return A3(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};ci.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hL(b);this.data[a*2+1]=hK(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};cj.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hP(b);this.data[a*2+1]=hO(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ci.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cj.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hL(b),e=hK(b);if(c==e)this.data.fill(c);else
+c=hP(b),e=hO(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ci.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cj.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dl(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dl.prototype=new
-ci();dl.prototype.offset=function(a){if(typeof
+dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype=new
+cj();dn.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-av("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d$();return a};dl.prototype.get=function(a){return this.data[a]};dl.prototype.set=function(a,b){this.data[a]=b;return 0};dl.prototype.fill=function(a){this.data.fill(a);return 0};function
-mN(c,d,a,b){var
-e=mP(c);if(hC(a)*e!=b.length)av("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dl(c,d,a,b);return new
-ci(c,d,a,b)}function
-bl(b){if(!aj.Failure)aj.Failure=[at,a(hc),-3];hP(aj.Failure,b)}function
-mO(b,v,r){var
+aw("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ea();return a};dn.prototype.get=function(a){return this.data[a]};dn.prototype.set=function(a,b){this.data[a]=b;return 0};dn.prototype.fill=function(a){this.data.fill(a);return 0};function
+mT(c,d,a,b){var
+e=mV(c);if(hG(a)*e!=b.length)aw("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dn(c,d,a,b);return new
+cj(c,d,a,b)}function
+bl(b){if(!aj.Failure)aj.Failure=[au,a(hf),-3];hT(aj.Failure,b)}function
+mU(b,v,r){var
 i=b.read32s();if(i<0||i>16)bl("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bX,o=p>>8&1,h=[];if(r==fo)for(var
+p=b.read32s(),j=p&bY,o=p>>8&1,h=[];if(r==fp)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==bD){var
 t=b.read32u(),u=b.read32u();if(t!=0)bl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hC(h),f=As(j,d),g=mN(j,o,h,f);switch(j){case
+d=hG(h),f=AM(j,d),g=mT(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,122 +282,122 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eb(e);g.set(a,q)}break;case
+q=ec(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hJ(eb(e));g.set(a,k)}break;case
+k=hN(ec(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hI(b.read32s());g.set(a,k)}break;case
+k=hM(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hI(b.read32s()),l=hI(b.read32s());g.set(a,[fk,m,l])}break;case
+m=hM(b.read32s()),l=hM(b.read32s());g.set(a,[fk,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hJ(eb(e));for(var
+m=hN(ec(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hJ(eb(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mN(j,o,h,f)}function
-mM(a,b,c){return a.compare(b,c)}function
-m8(a,b){return Math.imul(a,b)}function
-b0(b,a){a=m8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-AF(a,b){a=b0(a,hL(b));a=b0(a,hK(b));return a}function
-m3(a,b){return AF(a,ft(b))}function
-mQ(c){var
-b=hC(c.dims),d=0;switch(c.kind){case
+l=hN(ec(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mT(j,o,h,f)}function
+mS(a,b,c){return a.compare(b,c)}function
+nc(a,b){return Math.imul(a,b)}function
+b1(b,a){a=nc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+AZ(a,b){a=b1(a,hP(b));a=b1(a,hO(b));return a}function
+m9(a,b){return AZ(a,fu(b))}function
+mW(c){var
+b=hG(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>me)b=me;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b0(d,e)}e=0;switch(b&3){case
+12:if(b>mi)b=mi;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b1(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b0(d,e)}break;case
+1:e|=c.data[a+0];d=b1(d,e)}break;case
 4:case
-5:if(b>d_)b=d_;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b0(d,e)}if((b&1)!=0)d=b0(d,c.data[a]);break;case
+5:if(b>d$)b=d$;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b1(d,e)}if((b&1)!=0)d=b1(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m3(d,c.data[a]);break;case
+a=0;a<b;a++)d=m9(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m3(d,c.data[a]);break}return d}function
-AH(a,b){b[0]=4;return a.read32s()}function
-A3(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m9(d,c.data[a]);break}return d}function
+A1(a,b){b[0]=4;return a.read32s()}function
+Bl(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bl("input_value: native integer value too large");default:bl("input_value: ill-formed native integer")}}function
-AS(c,d){var
+Ba(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eb(b)}function
-AO(e,d,b){var
-c=ec(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ec(b)}function
+A8(e,d,b){var
+c=ed(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-AI(a,b,c){return a.compare(b)}function
-AL(a){return a.lo32()^a.hi32()}var
-mY={"_j":{deserialize:AS,serialize:AO,fixed_length:8,compare:AI,hash:AL},"_i":{deserialize:AH,fixed_length:4},"_n":{deserialize:A3,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mO(a,b,"_bigarray")},serialize:mR,compare:mM,hash:mQ},"_bigarr02":{deserialize:function(a,b){return mO(a,b,fo)},serialize:mR,compare:mM,hash:mQ}};function
-hE(a){return mY[a.caml_custom]&&mY[a.caml_custom].compare}function
-mW(f,c,d,e){var
-b=hE(c);if(b){var
+A2(a,b,c){return a.compare(b)}function
+A5(a){return a.lo32()^a.hi32()}var
+m4={"_j":{deserialize:Ba,serialize:A8,fixed_length:8,compare:A2,hash:A5},"_i":{deserialize:A1,fixed_length:4},"_n":{deserialize:Bl,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mU(a,b,"_bigarray")},serialize:mX,compare:mS,hash:mW},"_bigarr02":{deserialize:function(a,b){return mU(a,b,fp)},serialize:mX,compare:mS,hash:mW}};function
+hI(a){return m4[a.caml_custom]&&m4[a.caml_custom].compare}function
+m2(f,c,d,e){var
+b=hI(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fv(a){return a
+fw(a){return a
 instanceof
 bE}function
-hN(a){return fv(a)}function
-mX(a){if(typeof
-a==="number")return d7;else
-if(fv(a))return fn;else
-if(hN(a))return 1252;else
+hR(a){return fw(a)}function
+m3(a){if(typeof
+a==="number")return d8;else
+if(fw(a))return fo;else
+if(hR(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=k_){var
+Array&&a[0]===a[0]>>>0&&a[0]<=ld){var
 b=a[0]|0;return b==fk?0:b}else
 if(a
 instanceof
-String)return lm;else
+String)return lr;else
 if(typeof
-a=="string")return lm;else
+a=="string")return lr;else
 if(a
 instanceof
-Number)return d7;else
-if(a&&a.caml_custom)return he;else
+Number)return d8;else
+if(a&&a.caml_custom)return hh;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AT(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mT(a,b){a.t&6&&dn(a);b.t&6&&dn(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-A$(a,b){return mT(a,b)}function
-hD(a,b,d){var
+Bb(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mZ(a,b){a.t&6&&dq(a);b.t&6&&dq(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+Bt(a,b){return mZ(a,b)}function
+hH(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mX(a);if(f==k$){a=a[1];continue}var
-g=mX(b);if(g==k$){b=b[1];continue}if(f!==g){if(f==d7){if(g==he)return mW(a,b,-1,d);return-1}if(g==d7){if(f==he)return mW(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:av(hm);break;case
+f=m3(a);if(f==le){a=a[1];continue}var
+g=m3(b);if(g==le){b=b[1];continue}if(f!==g){if(f==d8){if(g==hh)return m2(a,b,-1,d);return-1}if(g==d8){if(f==hh)return m2(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aw(hq);break;case
 248:var
-c=AT(a[2],b[2]);if(c!=0)return c|0;break;case
-249:av(hm);break;case
-250:av("equal: got Forward_tag, should not happen");break;case
-251:av("equal: abstract value");break;case
+c=Bb(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aw(hq);break;case
+250:aw("equal: got Forward_tag, should not happen");break;case
+251:aw("equal: abstract value");break;case
 252:if(a!==b){var
-c=mT(a,b);if(c!=0)return c|0}break;case
-253:av("equal: got Double_tag, should not happen");break;case
-254:av("equal: got Double_array_tag, should not happen");break;case
-255:av("equal: got Custom_tag, should not happen");break;case
-1247:av(hm);break;case
+c=mZ(a,b);if(c!=0)return c|0}break;case
+253:aw("equal: got Double_tag, should not happen");break;case
+254:aw("equal: got Double_array_tag, should not happen");break;case
+255:aw("equal: got Custom_tag, should not happen");break;case
+1247:aw(hq);break;case
 1255:var
-i=hE(a);if(i!=hE(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)av("compare: abstract value");var
+i=hI(a);if(i!=hI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aw("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,167 +405,167 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=b1(a),b=b1(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b2(a),b=b2(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Az(a,b){return hD(a,b,true)}function
-AA(){return[0]}function
-ao(a){if(a<0)av("Bytes.create");return new
+AT(a,b){return hH(a,b,true)}function
+AU(){return[0]}function
+ao(a){if(a<0)aw("Bytes.create");return new
 bE(a?2:9,t,a)}function
-mZ(a,b){return+(hD(a,b,false)==0)}function
-AC(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fq(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hO(d){d=b1(d);var
-e=d.length;if(e>31)av("format_int: format too long");var
-a={justify:bA,signstyle:a_,filler:bU,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+m5(a,b){return+(hH(a,b,false)==0)}function
+AW(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=ds(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fr(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hS(d){d=b2(d);var
+e=d.length;if(e>31)aw("format_int: format too long");var
+a={justify:bA,signstyle:a_,filler:bV,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=a_;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hF(b,f){if(b.uppercase)f=f.toUpperCase();var
+hJ(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a_))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=t;if(b.justify==bA&&b.filler==bU)for(var
-d=e;d<b.width;d++)c+=bU;if(b.signedconv)if(b.sign<0)c+=a_;else
-if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kU;if(b.justify==bA&&b.filler==aP)for(var
+c=t;if(b.justify==bA&&b.filler==bV)for(var
+d=e;d<b.width;d++)c+=bV;if(b.signedconv)if(b.sign<0)c+=a_;else
+if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kZ;if(b.justify==bA&&b.filler==aP)for(var
 d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a_)for(var
-d=e;d<b.width;d++)c+=bU;return a(c)}function
-hG(i,c){function
+d=e;d<b.width;d++)c+=bV;return a(c)}function
+hK(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(bA)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aP);if(b>0)a=a+ch+new
+Array(c+1).join(aP);if(b>0)a=a+ci+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hO(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hg;e.filler=bU}else
-if(!isFinite(c)){a="inf";e.filler=bU}else
+a,e=hS(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hj;e.filler=bV}else
+if(!isFinite(c)){a="inf";e.filler=bV}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hz)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hz),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ch)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hz)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hD),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ch)b--;a=a.slice(0,b+1)}}break}return hF(e,a)}function
-fr(e,c){if(b1(e)==hs)return a(t+c);var
-b=hO(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)}}break}return hJ(e,a)}function
+fs(e,c){if(b2(e)==hw)return a(t+c);var
+b=hS(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bU;var
-f=b.prec-d.length;if(f>0)d=dq(f,aP)+d}return hF(b,d)}var
-A4=0;function
-fs(){return A4++}function
-AW(a){return a.toUtf16()}function
-ee(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bV;var
+f=b.prec-d.length;if(f>0)d=ds(f,aP)+d}return hJ(b,d)}var
+Bm=0;function
+ft(){return Bm++}function
+Be(a){return a.toUtf16()}function
+ef(){return typeof
 v.process!=="undefined"&&typeof
 v.process.versions!=="undefined"&&typeof
 v.process.versions.node!=="undefined"}function
-Bh(){function
+BB(){function
 a(a){if(a.charAt(0)===bh)return[t,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ee()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
-hX=Bh();function
-nc(a){return a.slice(-1)!==bh?a+bh:a}if(ee()&&v.process&&v.process.cwd)var
-ea=v.process.cwd().replace(/\\/g,bh);else
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ef()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+h1=BB();function
+ni(a){return a.slice(-1)!==bh?a+bh:a}if(ef()&&v.process&&v.process.cwd)var
+eb=v.process.cwd().replace(/\\/g,bh);else
 var
-ea="/static";ea=nc(ea);function
-AX(a){a=AW(a);if(!hX(a))a=ea+a;var
-e=hX(a),d=e[1].split(bh),b=[];for(var
+eb="/static";eb=ni(eb);function
+Bf(a){a=Be(a);if(!h1(a))a=eb+a;var
+e=h1(a),d=e[1].split(bh),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Bb(e){for(var
+Bv(e){for(var
 f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bj){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>kX){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mg){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&di)}else
-if(a<0xd800||a>=lc)b+=String.fromCharCode(ld|a>>12,bj|a>>6&di,bj|a&di);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k4||h>lc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mq|a>>18,bj|a>>12&di,bj|a>>6&di,bj|a&di)}if(b.length>d8){b.substr(0,1);f+=b;b=t}}return f+b}function
-Ax(a){var
-b=9;if(!ne(a))b=8,a=Bb(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>k2){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mk){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&dk)}else
+if(a<0xd800||a>=lh)b+=String.fromCharCode(li|a>>12,bj|a>>6&dk,bj|a&dk);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k9||h>lh)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mu|a>>18,bj|a>>12&dk,bj|a>>6&dk,bj|a&dk)}if(b.length>d9){b.substr(0,1);f+=b;b=t}}return f+b}function
+AR(a){var
+b=9;if(!nk(a))b=8,a=Bv(a);return new
 bE(b,a,a.length)}function
-bm(a){return Ax(a)}var
-Bj=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k2,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hu,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hf,mb,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cN(d,f,e,a){var
-b=Bj.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+bm(a){return AR(a)}var
+BD=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hi,mf,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cP(d,f,e,a){var
+b=BD.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,bm(f||t),bm(e||t)];return c}var
-m9={};function
-cL(a){return m9[a]}function
-cM(b,a){throw[0,b].concat(a)}function
-Aw(a){return new
+nd={};function
+cN(a){return nd[a]}function
+cO(b,a){throw[0,b].concat(a)}function
+AQ(a){return new
 bE(4,a,a.length)}function
-S(a){hP(aj.Sys_error,a)}function
-A7(a){S(a+e9)}function
-Av(b,a){if(a>>>0>=b.l)mS();return dm(b,a)}function
+T(a){hT(aj.Sys_error,a)}function
+Bp(a){T(a+e9)}function
+AP(b,a){if(a>>>0>=b.l)mY();return dp(b,a)}function
 a1(a){return a.l}function
-mL(){}function
+mR(){}function
 aC(a){this.data=a}aC.prototype=new
-mL();aC.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);cj(b,0,this.data,0,a)};aC.prototype.length=function(){return a1(this.data)};aC.prototype.write=function(b,d,g,a){var
+mR();aC.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);ck(b,0,this.data,0,a)};aC.prototype.length=function(){return a1(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;cj(f,0,this.data,0,c)}bG(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();cj(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Av(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+e=ao(b+a),f=this.data;this.data=e;ck(f,0,this.data,0,c)}bG(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();ck(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return AP(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
 c=d.split(bh),b=t;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bh;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bh};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aC(bY(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
+aC(bZ(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cL(hr);if(this.exists(c))if(b)cM(b,cN(k2,g_,this.nm(c)));else
-S(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cM(b,cN(hu,g_,this.nm(a)));else
-S(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(hf,g_,this.nm(a)));else
-S(a+hy);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cL(hr),c=a==t?t:this.slash(a),e=new
-RegExp(hi+c+mc);if(!this.exists(a))if(b)cM(b,cN(hu,hp,this.nm(a)));else
-S(a+e9);if(!this.is_dir(a))if(b)cM(b,cN(hf,hp,this.nm(a)));else
-S(a+hy);for(var
+b=d&&cN(hv);if(this.exists(c))if(b)cO(b,cP(k7,hb,this.nm(c)));else
+T(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cO(b,cP(hy,hb,this.nm(a)));else
+T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,hb,this.nm(a)));else
+T(a+hC);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cN(hv),c=a==t?t:this.slash(a),e=new
+RegExp(hl+c+mg);if(!this.exists(a))if(b)cO(b,cP(hy,ht,this.nm(a)));else
+T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,ht,this.nm(a)));else
+T(a+hC);for(var
 d
 in
-this.content)if(d.match(e))if(b)cM(b,cN(mb,hp,this.nm(a)));else
-S(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cO(b,cP(mf,ht,this.nm(a)));else
+T(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==t?t:this.slash(a);if(!this.exists(a))S(a+e9);if(!this.is_dir(a))S(a+hy);var
+f=a==t?t:this.slash(a);if(!this.exists(a))T(a+e9);if(!this.is_dir(a))T(a+hC);var
 g=new
-RegExp(hi+f+mc),d={},c=[];for(var
+RegExp(hl+f+mg),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==t)return true;var
 b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)S(this.nm(a)+lt);if(b.text&&b.binary)S(this.nm(a)+lZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))S(this.nm(a)+" : is a directory");if(b.create&&b.excl)S(this.nm(a)+ls);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)T(this.nm(a)+ly);if(b.text&&b.binary)T(this.nm(a)+l4);this.lookup(a);if(this.content[a]){if(this.is_dir(a))T(this.nm(a)+" : is a directory");if(b.create&&b.excl)T(this.nm(a)+lx);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aC(ao(0));return this.content[a]}else
-A7(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])S(this.nm(c)+ls);if(fv(a))b=new
-aC(a);if(hN(a))b=new
-aC(bY(a));else
+Bp(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])T(this.nm(c)+lx);if(fw(a))b=new
+aC(a);if(hR(a))b=new
+aC(bZ(a));else
 if(a
 instanceof
 Array)b=new
-aC(Aw(a));else
+aC(AQ(a));else
 if(typeof
 a==="string")b=new
-aC(mU(a));else
+aC(m0(a));else
 if(a.toString){var
-d=bY(bm(a.toString()));b=new
+d=bZ(bm(a.toString()));b=new
 aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-S(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-H(a){return a1(a)}function
-bI(b,a){return dm(b,a)}function
-Ar(d){var
-c=H(d),b=new
+T(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+I(a){return a1(a)}function
+bI(b,a){return dp(b,a)}function
+AL(d){var
+c=I(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=bI(d,a);return b}function
-Aq(a){if(a.t!=4)fq(a);return a.c}function
+AK(a){if(a.t!=4)fr(a);return a.c}function
 bF(a){this.fs=require("fs");this.fd=a}bF.prototype=new
-mL();bF.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){S(a.toString())}};bF.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){S(a.toString())}};bF.prototype.write=function(f,b,c,e){var
-a=Ar(b);if(!(a
+mR();bF.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){T(a.toString())}};bF.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){T(a.toString())}};bF.prototype.write=function(f,b,c,e){var
+a=AL(b);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){S(a.toString())}return 0};bF.prototype.read=function(g,d,c,f){var
-a=Aq(d);if(!(a
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){T(a.toString())}return 0};bF.prototype.read=function(g,d,c,f){var
+a=AK(d);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){S(a.toString())}for(var
-b=0;b<f;b++)cK(d,c+b,e[c+b]);return 0};bF.prototype.read_one=function(c){var
-b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){S(a.toString())}return a[0]};bF.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){S(a.toString())}};bF.prototype.constructor=bF;function
-aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){S(a.toString())}};aD.prototype.unlink=function(a,c){try{var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){T(a.toString())}for(var
+b=0;b<f;b++)cM(d,c+b,e[c+b]);return 0};bF.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){T(a.toString())}return a[0]};bF.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){T(a.toString())}};bF.prototype.constructor=bF;function
+aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){T(a.toString())}};aD.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
@@ -575,10 +575,10 @@ d=this.fs.openSync(this.nm(f),b);return new
 bF(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kK);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
-b=cL(hr);if(d&&b){var
-c=cN(a.code,a.syscall,a.path,a.errno);cM(b,c)}else
-S(a.toString())};aD.prototype.stats_from_js=function(a){var
+a=this.fs.readlinkSync(this.nm(b),kP);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=cN(hv);if(d&&b){var
+c=cP(a.code,a.syscall,a.path,a.errno);cO(b,c)}else
+T(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -586,29 +586,29 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
-m2(b){var
-a=hX(b);if(!a)return;return a[0]+bh}var
-fx=m2(ea)||bl("unable to compute caml_root"),dr=[];if(ee())dr.push({path:fx,device:new
-aD(fx)});else
-dr.push({path:fx,device:new
-aQ(fx)});dr.push({path:lV,device:new
-aQ(lV)});function
-ni(b){var
-g=AX(b),b=g.join(bh),f=nc(b),c;for(var
-e=0;e<dr.length;e++){var
-a=dr[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ee()){var
-d=m2(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+m8(b){var
+a=h1(b);if(!a)return;return a[0]+bh}var
+fy=m8(eb)||bl("unable to compute caml_root"),dt=[];if(ef())dt.push({path:fy,device:new
+aD(fy)});else
+dt.push({path:fy,device:new
+aQ(fy)});dt.push({path:l0,device:new
+aQ(l0)});function
+no(b){var
+g=Bf(b),b=g.join(bh),f=ni(b),c;for(var
+e=0;e<dt.length;e++){var
+a=dt[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ef()){var
+d=m8(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aD(d)};dr.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;S("no device found for "+f)}function
-AB(c,b){var
-a=ni(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
-nd(c,b){var
-c=a(c),b=a(b);return AB(c,b)}function
-AE(){var
+aD(d)};dt.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;T("no device found for "+f)}function
+AV(c,b){var
+a=no(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
+nj(c,b){var
+c=a(c),b=a(b);return AV(c,b)}function
+AY(){var
 b=v.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nd(b[a].name,b[a].content);v.jsoo_create_file=nd;v.caml_fs_tmp=[];return 0}function
-m1(){return[0]}function
-AG(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(hg);return bm(a>0?mu:"-infinity")}var
+a=0;a<b.length;a++)nj(b[a].name,b[a].content);v.jsoo_create_file=nj;v.caml_fs_tmp=[];return 0}function
+m7(){return[0]}function
+A0(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(hj);return bm(a>0?my:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
@@ -616,25 +616,25 @@ while(a>=2){a/=2;d++}var
 j=d<0?t:bA,e=t;if(i)e=a_;else
 switch(k){case
 43:e=bA;break;case
-32:e=bU;break;default:break}if(c>=0&&c<13){var
+32:e=bV;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ch);if(h<0)b+=ch+dq(c,aP);else{var
-f=h+1+c;if(b.length<f)b+=dq(f-b.length,aP);else
-b=b.substr(0,f)}}return bm(e+kU+b+"p"+j+d.toString(10))}function
-AN(a){return+a.isZero()}function
-AQ(a){return new
-u(a&bW,a>>24&bW,a>>31&bD)}function
-AR(a){return a.toInt()}function
-AM(a){return+a.isNeg()}function
-AP(a){return a.neg()}function
-AK(g,c){var
-a=hO(g);if(a.signedconv&&AM(c)){a.sign=-1;c=AP(c)}var
-b=t,h=AQ(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AR(e.modulus))+b}while(!AN(c));if(a.prec>=0){a.filler=bU;var
-d=a.prec-b.length;if(d>0)b=dq(d,aP)+b}return hF(a,b)}function
-A5(c){var
-a=0,e=H(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
+h=b.indexOf(ci);if(h<0)b+=ci+ds(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=ds(f-b.length,aP);else
+b=b.substr(0,f)}}return bm(e+kZ+b+"p"+j+d.toString(10))}function
+A7(a){return+a.isZero()}function
+A_(a){return new
+u(a&bX,a>>24&bX,a>>31&bD)}function
+A$(a){return a.toInt()}function
+A6(a){return+a.isNeg()}function
+A9(a){return a.neg()}function
+A4(g,c){var
+a=hS(g);if(a.signedconv&&A6(c)){a.sign=-1;c=A9(c)}var
+b=t,h=A_(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(A$(e.modulus))+b}while(!A7(c));if(a.prec>=0){a.filler=bV;var
+d=a.prec-b.length;if(d>0)b=ds(d,aP)+b}return hJ(a,b)}function
+Bn(c){var
+a=0,e=I(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&bI(c,a)==48)switch(bI(c,a+1)){case
 120:case
@@ -645,39 +645,39 @@ a=0,e=H(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-m_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mH)return a-87;return-1}function
-hM(f){var
-h=A5(f),c=h[0],i=h[1],d=h[2],g=H(f),j=-1>>>0,e=c<g?bI(f,c):0,b=m_(e);if(b<0||b>=d)bl(fa);var
-a=b;for(c++;c<g;c++){e=bI(f,c);if(e==95)continue;b=m_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
-AV(d){return function(){var
+ne(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mN)return a-87;return-1}function
+hQ(f){var
+h=Bn(f),c=h[0],i=h[1],d=h[2],g=I(f),j=-1>>>0,e=c<g?bI(f,c):0,b=ne(e);if(b<0||b>=d)bl(fa);var
+a=b;for(c++;c<g;c++){e=bI(f,c);if(e==95)continue;b=ne(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
+Bd(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bZ(d,c)}else
-return bZ(d,[undefined])}}function
-AY(a,d){if(a<0)d$();var
+a=0;a<b;a++)c[a]=arguments[a];return b0(d,c)}else
+return b0(d,[undefined])}}function
+Bg(a,d){if(a<0)ea();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-AZ(){return 0}var
+Bh(){return 0}var
 bH=new
 Array();function
-dp(c){var
-a=bH[c];if(!a.opened)S("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
+dr(c){var
+a=bH[c];if(!a.opened)T("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
 b=aj.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
-nb(e,f){var
-b=bH[e],d=a(f),c=H(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Bc(a){var
-a=hT(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+nh(e,f){var
+b=bH[e],d=a(f),c=I(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Bw(a){var
+a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Bd(a){var
-a=hT(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Bx(a){var
+a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fy(c,e,d,a){if(aj.fds===undefined)aj.fds=new
+fz(c,e,d,a){if(aj.fds===undefined)aj.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aj.fds[c]=b;if(!aj.fd_last_idx||c>aj.fd_last_idx)aj.fd_last_idx=c;return c}function
-Bk(c,b,g){var
+BE(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,113 +687,113 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)S(b1(c)+lt);if(a.text&&a.binary)S(b1(c)+lZ);var
-d=ni(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fy(f+1,nb,e,a)}fy(0,nb,new
-aC(ao(0)));fy(1,Bd,new
-aC(ao(0)));fy(2,Bc,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)T(b2(c)+ly);if(a.text&&a.binary)T(b2(c)+l4);var
+d=no(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fz(f+1,nh,e,a)}fz(0,nh,new
+aC(ao(0)));fz(1,Bx,new
+aC(ao(0)));fz(2,Bw,new
 aC(ao(0)));function
-A0(a){var
-c=aj.fds[a];if(c.flags.wronly)S(mG+a+" is writeonly");var
-d=null;if(a==0&&ee()){var
-e=require("fs");d=function(){return bm(e.readFileSync(0,kK))}}var
+Bi(a){var
+c=aj.fds[a];if(c.flags.wronly)T(mM+a+" is writeonly");var
+d=null;if(a==0&&ef()){var
+e=require("fs");d=function(){return bm(e.readFileSync(0,kP))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bH[b.fd]=b;return b.fd}function
-m5(c){var
-b=aj.fds[c];if(b.flags.rdonly)S(mG+c+" is readonly");var
+m$(c){var
+b=aj.fds[c];if(b.flags.rdonly)T(mM+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bH[a.fd]=a;return a.fd}function
-A1(){var
+Bj(){var
 b=0;for(var
 a=0;a<bH.length;a++)if(bH[a]&&bH[a].opened&&bH[a].out)b=[0,bH[a].fd,b];return b}function
-aL(a){return a}function
-A2(g,d,h,f){var
-b=bH[g];if(!b.opened)S("Cannot output to a closed channel");var
-a;if(h==0&&a1(d)==f)a=d;else{a=ao(f);cj(d,h,a,0,f)}var
-i=aL(a),c=b1(i),e=c.lastIndexOf(k5);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dp(g);b.buffer+=c.substr(e+1)}return 0}function
-m6(b,a,d,c){return A2(b,bY(a),d,c)}function
-m7(c,b){var
-d=a(String.fromCharCode(b));m6(c,d,0,1);return 0}function
-ed(a,b){return+(hD(a,b,false)!=0)}function
-fw(a){if(a
+aM(a){return a}function
+Bk(g,d,h,f){var
+b=bH[g];if(!b.opened)T("Cannot output to a closed channel");var
+a;if(h==0&&a1(d)==f)a=d;else{a=ao(f);ck(d,h,a,0,f)}var
+i=aM(a),c=b2(i),e=c.lastIndexOf(k_);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dr(g);b.buffer+=c.substr(e+1)}return 0}function
+na(b,a,d,c){return Bk(b,bZ(a),d,c)}function
+nb(c,b){var
+d=a(String.fromCharCode(b));na(c,d,0,1);return 0}function
+ee(a,b){return+(hH(a,b,false)!=0)}function
+fx(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fv(a))return fn;else
-if(hN(a))return fn;else
+if(fw(a))return fo;else
+if(hR(a))return fo;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return k_;else
-return d7}function
+if(a&&a.caml_custom)return ld;else
+return d8}function
 a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
-hQ(a,b){m9[b1(a)]=b;return 0}function
-Au(a,b){if(a===b)return 1;a.t&6&&dn(a);b.t&6&&dn(b);return a.c==b.c?1:0}function
-aw(a,b){return Au(a,b)}function
-A_(){av(hw)}function
-T(b,a){if(a>>>0>=H(b))A_();return bI(b,a)}function
-l(a,b){return 1-aw(a,b)}function
-Ba(){return 0x7FFFFFFF/4|0}function
-hS(a){var
+hU(a,b){nd[b2(a)]=b;return 0}function
+AO(a,b){if(a===b)return 1;a.t&6&&dq(a);b.t&6&&dq(b);return a.c==b.c?1:0}function
+ap(a,b){return AO(a,b)}function
+Bs(){aw(hA)}function
+U(b,a){if(a>>>0>=I(b))Bs();return bI(b,a)}function
+k(a,b){return 1-ap(a,b)}function
+Bu(){return 0x7FFFFFFF/4|0}function
+hW(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
 aE(b,a){return{joo_tramp:b,joo_args:a}}function
-na(a){return a}function
-fz(a){if(a
+ng(a){return a}function
+fA(a){if(a
 instanceof
 Array)return a;if(v.RangeError&&a
 instanceof
-v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return na(aj.Stack_overflow);if(v.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ng(aj.Stack_overflow);if(v.InternalError&&a
 instanceof
-v.InternalError&&a.message&&a.message.match(/too much recursion/i))return na(aj.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return ng(aj.Stack_overflow);if(a
 instanceof
-v.Error&&cL(hd))return[0,cL(hd),a];return[0,aj.Failure,bm(String(a))]}function
-fA(a){return a<0?-a:a}function
+v.Error&&cN(hg))return[0,cN(hg),a];return[0,aj.Failure,bm(String(a))]}function
+fB(a){return a<0?-a:a}function
 C(a,b){return a+b}function
-hU(a,b){return a<b?-1:a>b?1:0}function
-nf(c,b){var
-a=c%b;return a<0?a+fA(b):a}function
-hV(a,b){return(a-nf(a,b))/b}function
+hY(a,b){return a<b?-1:a>b?1:0}function
+nl(c,b){var
+a=c%b;return a<0?a+fB(b):a}function
+hZ(a,b){return(a-nl(a,b))/b}function
 al(a,b){return a==b?1:0}function
 D(a,b){return a<=b?1:0}function
 ac(a,b){return a<b?1:0}function
 r(a,b){return a*b}function
-Y(a){return-a}function
+Z(a){return-a}function
 a2(a){return v.BigInt(a)}function
-ng(a,b){return a<<v.BigInt(b)}function
-nh(a,b){return a>>v.BigInt(b)}function
+nm(a,b){return a<<v.BigInt(b)}function
+nn(a,b){return a>>v.BigInt(b)}function
 bJ(a){return a<0?-1:a>0?1:0}function
-Bi(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+BC(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
 d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b2(a,b){return a-b}function
-hW(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
-AU(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-AD(b){var
-a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AU(b[1]))var
+b3(a,b){return a-b}function
+h0(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+Bc(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+AX(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Bc(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mf;for(var
-d=f;d<e.length;d++){if(d>f)a+=kN;var
+f=2,e=b;a+=mj;for(var
+d=f;d<e.length;d++){if(d>f)a+=kS;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bE)a+=au+c.toString()+au;else
+bE)a+=av+c.toString()+av;else
 if(typeof
-c=="string")a+=au+c.toString()+au;else
-a+=lL}a+=hh}else
-if(b[0]==at)a+=b[1];return a}function
-m0(a){if(a
+c=="string")a+=av+c.toString()+av;else
+a+=lQ}a+=hk}else
+if(b[0]==au)a+=b[1];return a}function
+m6(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==at)){var
-c=cL(k1);if(c)c(a,false);else{var
-d=AD(a),b=cL(kJ);if(b)b(0);v.console.error(hn+d+k5)}}else
+Array&&(a[0]==0||a[0]==au)){var
+c=cN(k6);if(c)c(a,false);else{var
+d=AX(a),b=cN(kO);if(b)b(0);v.console.error(hr+d+k_)}}else
 throw a}function
-A9(){var
-a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m0(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m0(a.error)})}A9();function
-e(a,b){return a.length==1?a(b):bZ(a,[b])}function
-P(a,b,c){return a.length==2?a(b,c):bZ(a,[b,c])}function
-g9(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bZ(a,[b,c,d,e,f])}function
-Ap(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bZ(a,[b,c,d,e,f,g,h])}AE();var
-fB=[at,a(my),-1],h2=[at,a(k3),-2],hZ=[at,a(hc),-3],hY=[at,a(lH),-4],h0=[at,a(li),-8],h1=[at,a(lW),-9],ae=[at,a(mj),-11],h3=[at,a(kI),-12],zr=[4,0,0,0,[12,45,[4,0,0,0,0]]],fH=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lo),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zs=[0,[0,0]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,0],zv=[0,[0,[0,[0,0]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,0]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,0]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],zZ=[0,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,0]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,0],Ao=[0,[0,[0,[0,[0,0]]]]],cu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,h3,kI);a$(10,ae,mj);a$(9,[at,a(lB),-10],lB);a$(8,h1,lW);a$(7,h0,li);a$(6,[at,a(lT),-7],lT);a$(5,[at,a(l$),-6],l$);a$(4,[at,a(k7),-5],k7);a$(3,hY,lH);a$(2,hZ,hc);a$(1,h2,k3);a$(0,fB,my);var
-nn=a("%.12g"),nm=a(ch),nk=a("true"),nl=a("false"),no=a("\\\\"),np=a("\\'"),nq=a("\\b"),nr=a("\\t"),ns=a("\\n"),nt=a("\\r"),nw=a("String.blit / Bytes.blit_string"),nv=a("Bytes.blit"),nu=a("String.sub / Bytes.sub"),ny=a(t),nx=a("String.concat"),nz=a("Array.init"),nC=a("Buffer.add: cannot grow buffer"),nB=[0,a(l7),93,2],nA=[0,a(l7),94,2],nL=a("%c"),nM=a("%s"),nN=a(kG),nO=a(lg),nP=a(lD),nQ=a(kQ),nR=a("%f"),nS=a("%B"),nT=a("%{"),nU=a("%}"),nV=a("%("),nW=a("%)"),nX=a("%a"),nY=a("%t"),nZ=a("%?"),n0=a("%r"),n1=a("%_r"),n2=[0,a(as),850,23],ob=[0,a(as),814,21],n5=[0,a(as),815,21],oc=[0,a(as),818,21],n6=[0,a(as),819,21],od=[0,a(as),822,19],n7=[0,a(as),823,19],oe=[0,a(as),826,22],n8=[0,a(as),827,22],of=[0,a(as),831,30],n9=[0,a(as),832,30],n$=[0,a(as),836,26],n3=[0,a(as),837,26],oa=[0,a(as),846,28],n4=[0,a(as),847,28],n_=[0,a(as),851,23],pi=a(ly),pg=[0,a(as),1558,4],ph=a("Printf: bad conversion %["),pj=[0,a(as),1626,39],pk=[0,a(as),1649,31],pl=[0,a(as),1650,31],pm=a("Printf: bad conversion %_"),pn=a(lu),po=a(lG),pp=a(lu),pq=a(lG),pe=a(hg),pc=a("neg_infinity"),pd=a(mu),pb=a(ch),o8=[0,kZ],oW=a("%+nd"),oX=a("% nd"),oZ=a("%+ni"),o0=a("% ni"),o1=a("%nx"),o2=a("%#nx"),o3=a("%nX"),o4=a("%#nX"),o5=a("%no"),o6=a("%#no"),oV=a("%nd"),oY=a(lD),o7=a("%nu"),oJ=a("%+ld"),oK=a("% ld"),oM=a("%+li"),oN=a("% li"),oO=a("%lx"),oP=a("%#lx"),oQ=a("%lX"),oR=a("%#lX"),oS=a("%lo"),oT=a("%#lo"),oI=a("%ld"),oL=a(lg),oU=a("%lu"),ow=a("%+Ld"),ox=a("% Ld"),oz=a("%+Li"),oA=a("% Li"),oB=a("%Lx"),oC=a("%#Lx"),oD=a("%LX"),oE=a("%#LX"),oF=a("%Lo"),oG=a("%#Lo"),ov=a("%Ld"),oy=a(kQ),oH=a("%Lu"),oj=a("%+d"),ok=a("% d"),om=a("%+i"),on=a("% i"),oo=a("%x"),op=a("%#x"),oq=a("%X"),or=a("%#X"),os=a("%o"),ot=a("%#o"),oi=a(hs),ol=a(kG),ou=a(ly),nD=a("@]"),nE=a("@}"),nF=a("@?"),nG=a("@\n"),nH=a("@."),nI=a("@@"),nJ=a("@%"),nK=a("@"),og=a("CamlinternalFormat.Type_mismatch"),pu=a(t),pv=[0,[11,a(kN),[2,0,[2,0,0]]],a(", %s%s")],pU=[0,[11,a(hn),[2,0,[12,10,0]]],a(mh)],pV=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pT=a("Fatal error: out of memory in uncaught exception handler"),pR=[0,[11,a(hn),[2,0,[12,10,0]]],a(mh)],pN=[0,[2,0,[12,10,0]],a("%s\n")],pF=a("Raised at"),pG=a("Re-raised at"),pH=a("Raised by primitive operation at"),pI=a("Called from"),pJ=a(" (inlined)"),pL=a(t),pK=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lo),zr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pM=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pA=a("Out of memory"),pB=a("Stack overflow"),pC=a("Pattern matching failed"),pD=a("Assertion failed"),pE=a("Undefined recursive module"),pw=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],px=a(t),py=a(t),pz=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pt=[0,[4,0,0,0,0],a(hs)],pr=[0,[3,0,0],a("%S")],ps=a(lL),pO=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pX=a("Jsoo_runtime.Error.Exn"),pZ=a("power"),p9=[0,0],p_=[0,[0,0]],p$=[0,[0,0]],qg=[0,0],qn=[0,0,0],qo=[0,0,0],qp=[0,0],qq=[0,0],qH=[0,0],qJ=[0,0],qV=[0,0],qW=[0,0],rf=[0,[0,[0,0]]],rr=a(","),rJ=[0,a(hh),0],rK=a(mf),rL=a(ch),rM=[0,[0,[0,0]]],rN=a(a_),rO=a(hi),rP=[0,[0,[0,[0,[0,0]]]]],rQ=[0,a(hh),0],rR=a(mK),ub=a(kH),ud=a(lJ),uc=a(ml),ue=a(fd),uf=a(lF),ug=a(mD),uh=a(l6),uW=[0,a(lh),7971,12],u$=a(ho),va=[0,0],vb=a("divided"),vc=[0,1],vd=a("mirror"),ve=[0,3],vf=a("negative"),vg=[0,2],vh=a(hA),vi=[0,4],vj=a(fb),vk=a(lX),vl=a(fm),vm=a(cJ),vn=[0,0],vo=[0,0],vp=[0,0],vJ=a(t),vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,0]]]],vH=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],vB=[0,0],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vq=[0,0],u6=[0,[0,0]],u7=[0,0],u5=[0,0],u4=[0,0],u3=[0,0,0],u1=[0,0,0],u0=[0,[0,[0,0]]],uZ=[0,0],uQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],uR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],uT=a("sqrt"),uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],uz=[0,a("\n"),0],uA=a(lK),uB=a(e$),uC=a(la),uD=a(l9),uE=a("certified"),uJ=a("refuted"),uF=a("verdict"),uG=a(lr),uH=a(l4),uI=a(mi),ur=a(mx),us=a(fc),ut=a(k9),uu=a(fe),uv=a(bk),uw=a(lM),ux=a(fc),uy=a(mB),un=a(mr),uo=a(fe),up=a(l3),uq=a(mE),uj=a(mC),uk=a(md),ul=a(fl),t$=a(hq),ua=a(hk),tP=a(fl),tu=a(bk),tv=a(bV),tw=a(dk),tx=a(e_),ty=a(dj),tz=a(bk),tA=a(bV),tB=a(hx),tC=a(bC),tD=a(bB),tE=a(cI),tF=a(dk),tG=a(mt),tH=a(mz),tI=a(dj),tJ=a(bk),tK=a(bV),tL=a(bC),tM=a(bB),tN=a(cI),tO=a(dk),tQ=a(ln),tR=a(lv),tS=a(mJ),tT=a(lY),tU=a(kT),tV=a(dj),tW=a(bk),tX=a(bV),tY=a(fg),tZ=a(l8),t0=a(dk),t1=a(d9),t2=a(lP),t3=a(dj),t4=a(bk),t5=a(fg),t6=a(bk),t7=a(lj),t_=a(lI),t8=a(kS),t9=a(lz),to=a(bV),tp=a(hB),tq=a(dk),tr=a(e_),ts=a(dj),tc=a(d9),td=a(mA),te=a(dg),tf=a(dh),tg=a(dh),th=a(g$),ti=a(dg),tj=a(mk),tk=a(l5),tl=a(bi),tn=a(lO),tm=a(g$),s4=a(k8),s5=a(lE),s6=a(kV),s7=a(l1),s8=a(lx),s9=a(lp),s_=a(l_),s$=a(fh),ta=a(fh),s0=a(bi),s1=a(cf),s2=a(ff),s3=a(cg),sW=a(d6),sX=a(hv),sY=a(mp),sP=a(bC),sQ=a(bB),sR=a(cI),sS=a(lb),sT=a(dg),sU=a(k6),sV=a(mw),sF=a(ma),sG=a(kR),sL=a(e$),sH=a(l2),sI=a(ha),sM=a(kP),sN=a(ll),sO=a(ha),sJ=a(dh),sK=a(mm),sC=a(bB),sD=a(bC),sE=a(lw),sr=a(kM),ss=a(lN),st=a(ms),su=a(fd),sv=a(mI),sw=a(mv),sx=a(lS),sy=a(mo),sz=a(kL),sA=a(k0),sB=a(lR),sg=a(bA),sq=a(a_),sh=a(fj),si=a(fi),sj=a(fp),sk=a(bi),sl=a(cf),sm=a(le),sn=a(lk),so=a(fp),sp=a(cg),r0=a(bA),r8=a(a_),r1=a(fj),r2=a(fi),r3=a(bi),r4=a(cf),r5=a(cJ),r6=a(lA),r7=a(cg),r9=a(hl),r_=a(bi),r$=a(cf),sa=a(ff),sb=a(cg),sc=a(cJ),sd=a(d6),se=a(cg),rX=a(bC),rY=a(bB),rV=[0,a(au),0],rW=a(au),rT=[0,a(lh),7265,36],rS=[0,a(au),0],rU=a(au),rF=a(bA),rG=a(a_),rH=a("*"),rI=a(bh),rA=[0,[0,[0,[0,[0,0]]]]],rB=[0,[0,[0,0]]],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,[0,[0,0]]]],ry=a('":'),rz=a(au),rw=[0,a(au),0],rx=a(au),ru=[0,a("}"),0],rv=a("{"),rs=[0,a("]"),0],rt=a("["),rq=[0,[0,[0,0]]],rp=[0,[0,[0,0]]],rn=[0,0],rk=[0,[0,[0,0]]],rl=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,0]],rj=[0,[0,[0,0]]],rd=[0,[0,0]],re=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],rc=[0,[0,0]],q$=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,0],q_=[0,[0,0]],qY=[0,[0,0]],qZ=[0,0],q0=[0,[0,0]],q1=[0,0],q2=[0,0],q3=[0,[0,0]],q4=[0,[0,0]],q5=[0,[0,0]],q6=[0,0],qU=[0,0],qS=[0,[0,[0,0]]],qR=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,0],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],qM=[0,[0,[0,0]]],qG=[0,[0,[0,0]]],qE=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qA=[0,[0,0]],qB=[0,0],qC=[0,[0,[0,0]]],qD=[0,[0,[0,0]]],qt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,[0,[0,[0,[0,0]]]]]],qy=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qr=[0,[0,0]],qs=[0,0],qh=[0,0,0],qc=[0,0],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,0]],qa=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],p8=a(aP),p7=a(t),p6=[0,[0,0]],p5=[0,0],p4=[1,0],p3=[0,0],p2=[0,0],p0=[1,0],p1=[1,0],xV=a(cg),xW=a(hl),xX=a(ff),x0=a(bi),x1=a(cf),xY=[0,a('" of such a platform'),0],xZ=a(kO),xH=a("rho"),xI=a(fl),xJ=[0,a("a joint by its coordinate"),0],xi=a(bV),w9=a(bk),w_=a(lj),w$=a(lz),xc=a(kS),xd=a(lI),xe=a(bk),xf=a(bk),xh=a(fg),xg=[0,a("a claim that no cube of such a machine fits"),0],xj=a(dj),xk=a(dk),xl=a(e_),xm=a(hB),yi=[0,a("such a machine with bodies"),0],xn=a(d6),xo=a(hv),xp=a(mp),xq=a(hx),xr=a(kT),xs=a(lP),xt=a(e_),xw=a(cI),xx=a(mw),xA=a(hB),xB=[0,a("a machine with arms and bodies"),0],xC=a(bV),xD=a(l8),xE=a(fg),xF=a(d9),xG=a(cI),xK=a(bV),xL=a(bC),xM=a(bB),xN=a(ln),xO=a(lv),xP=a(mJ),xQ=a(lY),xu=[0,a(au),0],xv=a(lC),xR=a(cI),xS=[0,a('" of a platform that turns'),0],xT=a(lq),xU=a(mt),yg=[0,a('" that does not turn'),0],yh=a(lC),x2=a(hx),x3=a(lp),x4=a(k8),x5=a(lx),x6=a(fh),x7=a(l_),x8=a(fh),yd=a(lE),ye=a(kV),yf=a(l1),x9=a(d6),x_=a(hv),x$=a(bV),ya=a(bC),yb=a(bB),yc=a(mz),xy=[0,a(au),0],xz=a(lq),xa=[0,a(au),0],xb=a('a claim of the kind "'),yl=a(fd),ym=a(l6),yn=a(ml),yo=a(cJ),yp=a(lF),yq=a(fb),yr=a(lX),ys=a(fm),yx=a(hk),yy=a(hq),yz=a(cJ),yt=[0,a(au),0],yu=a('the evidence "'),yv=a(hk),yw=a(hq),yA=a(fb),yB=a(fm),yC=a(mD),yE=a(fb),yF=a(fm),yG=a(ho),yH=a(ho),yD=[0,a("this evidence at control points"),0],y7=a(mi),y8=a(l4),y9=a(lr),zk=[0,3,3],y_=a(l9),y$=[0,a("the acceleration of a joint of a machine with a plane"),0],zg=[0,a('the drive "arm" in a claim that is certified'),0],zh=[0,a("a step of a platform that turns that is not at control points"),0],zi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zj=[0,a("a mechanism by formulas in a claim that is refuted"),0],zf=[0,a("this quantity in a claim that is refuted"),0],zd=[0,a("a leaf that fails"),0],ze=[0,a("a step in a proof that no cube fits"),0],za=a(la),zb=a(lK),zc=a(e$),y5=a(hA),yT=a(k9),yU=a(mB),yX=a(bk),yY=a(fe),yZ=a(lM),y0=a(fc),y1=a(mx),y2=a(fc),yV=[0,a(au),0],yW=a('a proof of the kind "'),yP=a(mr),yQ=a(fe),yR=a(l3),yS=a(mE),yK=a(md),yL=a(mC),yM=a(fl),yN=[0,a(au),0],yO=a('the failure "'),yI=a(hA),yJ=a(aP),yj=a(lJ),yk=a(kH),w6=a(d9),wW=a(g$),wX=a(lO),wY=a(dh),wZ=a(bi),w4=a(mA),w5=a(d9),w7=a(dg),w8=a(dh),w0=a(dg),w1=a(mk),w2=a(l5),w3=a(bi),wP=a(cI),wT=a(bC),wU=a(bB),wQ=a(k6),wR=a(lb),wS=a(dg),wN=[0,a("this quantity of such a mechanism"),0],wC=a(l2),wD=[0,a("a stiffness for each joint"),0],wE=a(ll),wF=a(kP),wB=a(e$),wu=a(ma),wl=a(mm),wm=a(lN),wI=a(k0),wJ=a(fd),wK=a(mo),wL=a(lR),wM=a(kL),wn=a(ms),wo=a(mv),wp=a(mI),wq=a(lS),wr=a(kM),ws=[0,a(au),0],wt=a('the quantity "'),wv=a(kR),ww=a(bC),wx=a(bB),wy=a(lw),wz=[0,a(au),0],wA=a('a bound "'),wG=a(ha),wH=a(dh),we=a(fj),wf=a(fi),wg=a(fp),wh=a(bi),wi=a(cf),wj=a(le),wk=a(lk),wb=a(cg),wc=a(fp),vY=a(cg),vZ=a(d6),v0=a(lA),v1=a(ff),v4=a(hl),v5=a(bi),v6=a(cf),v7=a(fj),v8=a(fi),v9=a(bi),v_=a(cf),v$=a(cJ),wa=a(cJ),v2=[0,a(au),0],v3=a(kO),vV=a(bA),vW=a(a_),vT=a(" is not covered by the verified checker"),vU=a(t),vR=a(bC),vS=a(bB),vN=a(t),vO=a(mK),vP=a(t),vQ=a(t),vM=[1,0],vK=a("Reader.Malformed"),vL=a("Reader.Not_covered"),zm=a(lf),zn=a("CERTIFIED"),zo=a("REFUTED"),zp=a(lf),zq=a("NOT COVERED: ");function
+Br(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m6(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m6(a.error)})}Br();function
+e(a,b){return a.length==1?a(b):b0(a,[b])}function
+Q(a,b,c){return a.length==2?a(b,c):b0(a,[b,c])}function
+ha(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b0(a,[b,c,d,e,f])}function
+AJ(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b0(a,[b,c,d,e,f,g,h])}AY();var
+fC=[au,a(mE),-1],h6=[au,a(k8),-2],h3=[au,a(hf),-3],h2=[au,a(lM),-4],h4=[au,a(ln),-8],h5=[au,a(l1),-9],ae=[au,a(mn),-11],h7=[au,a(kN),-12],zL=[4,0,0,0,[12,45,[4,0,0,0,0]]],fI=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lt),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zM=[0,[0,0]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,0],zP=[0,[0,[0,[0,0]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,0]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,0]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,0],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,0]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,0],AI=[0,[0,[0,[0,[0,0]]]]],cv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,h7,kN);a$(10,ae,mn);a$(9,[au,a(lG),-10],lG);a$(8,h5,l1);a$(7,h4,ln);a$(6,[au,a(lY),-7],lY);a$(5,[au,a(me),-6],me);a$(4,[au,a(la),-5],la);a$(3,h2,lM);a$(2,h3,hf);a$(1,h6,k8);a$(0,fC,mE);var
+nt=a("%.12g"),ns=a(ci),nq=a("true"),nr=a("false"),nu=a("\\\\"),nv=a("\\'"),nw=a("\\b"),nx=a("\\t"),ny=a("\\n"),nz=a("\\r"),nC=a("String.blit / Bytes.blit_string"),nB=a("Bytes.blit"),nA=a("String.sub / Bytes.sub"),nE=a(t),nD=a("String.concat"),nF=a("Array.init"),nI=a("Buffer.add: cannot grow buffer"),nH=[0,a(ma),93,2],nG=[0,a(ma),94,2],nR=a("%c"),nS=a("%s"),nT=a(kL),nU=a(ll),nV=a(lI),nW=a(kV),nX=a("%f"),nY=a("%B"),nZ=a("%{"),n0=a("%}"),n1=a("%("),n2=a("%)"),n3=a("%a"),n4=a("%t"),n5=a("%?"),n6=a("%r"),n7=a("%_r"),n8=[0,a(at),850,23],oh=[0,a(at),814,21],n$=[0,a(at),815,21],oi=[0,a(at),818,21],oa=[0,a(at),819,21],oj=[0,a(at),822,19],ob=[0,a(at),823,19],ok=[0,a(at),826,22],oc=[0,a(at),827,22],ol=[0,a(at),831,30],od=[0,a(at),832,30],of=[0,a(at),836,26],n9=[0,a(at),837,26],og=[0,a(at),846,28],n_=[0,a(at),847,28],oe=[0,a(at),851,23],po=a(lD),pm=[0,a(at),1558,4],pn=a("Printf: bad conversion %["),pp=[0,a(at),1626,39],pq=[0,a(at),1649,31],pr=[0,a(at),1650,31],ps=a("Printf: bad conversion %_"),pt=a(lz),pu=a(lL),pv=a(lz),pw=a(lL),pk=a(hj),pi=a("neg_infinity"),pj=a(my),ph=a(ci),pc=[0,k4],o2=a("%+nd"),o3=a("% nd"),o5=a("%+ni"),o6=a("% ni"),o7=a("%nx"),o8=a("%#nx"),o9=a("%nX"),o_=a("%#nX"),o$=a("%no"),pa=a("%#no"),o1=a("%nd"),o4=a(lI),pb=a("%nu"),oP=a("%+ld"),oQ=a("% ld"),oS=a("%+li"),oT=a("% li"),oU=a("%lx"),oV=a("%#lx"),oW=a("%lX"),oX=a("%#lX"),oY=a("%lo"),oZ=a("%#lo"),oO=a("%ld"),oR=a(ll),o0=a("%lu"),oC=a("%+Ld"),oD=a("% Ld"),oF=a("%+Li"),oG=a("% Li"),oH=a("%Lx"),oI=a("%#Lx"),oJ=a("%LX"),oK=a("%#LX"),oL=a("%Lo"),oM=a("%#Lo"),oB=a("%Ld"),oE=a(kV),oN=a("%Lu"),op=a("%+d"),oq=a("% d"),os=a("%+i"),ot=a("% i"),ou=a("%x"),ov=a("%#x"),ow=a("%X"),ox=a("%#X"),oy=a("%o"),oz=a("%#o"),oo=a(hw),or=a(kL),oA=a(lD),nJ=a("@]"),nK=a("@}"),nL=a("@?"),nM=a("@\n"),nN=a("@."),nO=a("@@"),nP=a("@%"),nQ=a("@"),om=a("CamlinternalFormat.Type_mismatch"),pA=a(t),pB=[0,[11,a(kS),[2,0,[2,0,0]]],a(", %s%s")],p0=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],p1=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pZ=a("Fatal error: out of memory in uncaught exception handler"),pX=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],pT=[0,[2,0,[12,10,0]],a("%s\n")],pL=a("Raised at"),pM=a("Re-raised at"),pN=a("Raised by primitive operation at"),pO=a("Called from"),pP=a(" (inlined)"),pR=a(t),pQ=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lt),zL]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pS=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pG=a("Out of memory"),pH=a("Stack overflow"),pI=a("Pattern matching failed"),pJ=a("Assertion failed"),pK=a("Undefined recursive module"),pC=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pD=a(t),pE=a(t),pF=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pz=[0,[4,0,0,0,0],a(hw)],px=[0,[3,0,0],a("%S")],py=a(lQ),pU=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],p3=a("Jsoo_runtime.Error.Exn"),p5=a("power"),qd=[0,0],qe=[0,[0,0]],qf=[0,[0,0]],qm=[0,0],qt=[0,0,0],qu=[0,0,0],qv=[0,0],qw=[0,0],qN=[0,0],qP=[0,0],q1=[0,0],q2=[0,0],rl=[0,[0,[0,0]]],ry=a(","),rQ=[0,a(hk),0],rR=a(mj),rS=a(ci),rT=[0,[0,[0,0]]],rU=a(a_),rV=a(hl),rW=[0,[0,[0,[0,[0,0]]]]],rX=[0,a(hk),0],rY=a(mQ),um=a(kM),uo=a(lO),un=a(mp),up=a(fd),uq=a(lK),ur=a(mJ),us=a(l$),u8=[0,a(lm),8043,12],vn=a(hs),vo=[0,0],vp=a("divided"),vq=[0,1],vr=a("mirror"),vs=[0,3],vt=a("negative"),vu=[0,2],vv=a(hm),vw=[0,5],vx=a(hE),vy=[0,4],vz=a(fb),vA=a(l2),vB=a(fn),vC=a(cL),vD=[0,0],vE=[0,0],vF=[0,0],v0=a(t),vW=[0,[0,[0,0]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,[0,0]]]],vT=[0,[0,[0,0]]],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],vR=[0,0],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],vN=[0,[0,0]],vO=[0,[0,[0,0]]],vL=[0,[0,[0,0]]],vM=[0,[0,0]],vK=[0,[0,[0,0]]],vH=[0,[0,0]],vI=[0,0],vG=[0,0],vi=[0,[0,0]],vj=[0,0],vh=[0,0],vg=[0,0],vf=[0,0,0],vd=[0,0,0],vc=[0,[0,[0,0]]],vb=[0,0],u$=[0,1,0],u2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],u3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],u4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],u5=a("sqrt"),uW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],uL=[0,a("\n"),0],uM=a(lP),uN=a(e$),uO=a(lf),uP=a(mc),uQ=a("certified"),uV=a("refuted"),uR=a("verdict"),uS=a(lw),uT=a(l9),uU=a(mm),uC=a(mD),uD=a(hm),uE=a(fc),uF=a(lc),uG=a(fe),uH=a(bk),uI=a(lR),uJ=a(fc),uK=a(mH),uy=a(mv),uz=a(fe),uA=a(l8),uB=a(mK),uu=a(mI),uv=a(mh),uw=a(fl),uk=a(hu),ul=a(ho),t0=a(fl),tF=a(bk),tG=a(bW),tH=a(dm),tI=a(e_),tJ=a(dl),tK=a(bk),tL=a(bW),tM=a(hB),tN=a(bC),tO=a(bB),tP=a(cK),tQ=a(dm),tR=a(mx),tS=a(mF),tT=a(dl),tU=a(bk),tV=a(bW),tW=a(bC),tX=a(bB),tY=a(cK),tZ=a(dm),t1=a(ls),t2=a(lA),t3=a(mP),t4=a(l3),t5=a(kY),t6=a(dl),t7=a(bk),t8=a(bW),t9=a(fg),t_=a(mb),t$=a(dm),ua=a(d_),ub=a(lU),uc=a(dl),ud=a(bk),ue=a(fg),uf=a(bk),ug=a(lo),uj=a(lN),uh=a(kX),ui=a(lE),tz=a(bW),tA=a(hF),tB=a(dm),tC=a(e_),tD=a(dl),tn=a(d_),to=a(mG),tp=a(di),tq=a(dj),tr=a(dj),ts=a(hc),tt=a(di),tu=a(mo),tv=a(l_),tw=a(bi),ty=a(lT),tx=a(hc),td=a(lb),te=a(lJ),tf=a(k0),tg=a(l6),th=a(lC),ti=a(lu),tj=a(md),tk=a(fh),tl=a(fh),s$=a(bi),ta=a(cg),tb=a(ff),tc=a(ch),s7=a(d7),s8=a(hz),s9=a(mt),s0=a(bC),s1=a(bB),s2=a(cK),s3=a(lg),s4=a(di),s5=a(k$),s6=a(mA),sR=a(kW),sW=a(e$),sS=a(l7),sT=a(hd),sX=a(kU),sY=a(lq),sZ=a(hd),sU=a(dj),sV=a(mq),sO=a(fm),sP=a(fm),sQ=a(fm),sK=a(mB),sL=a(bB),sM=a(bC),sN=a(lB),sy=a(kR),sz=a(lS),sA=a(mw),sB=a(fd),sC=a(mO),sD=a(mz),sE=a(lX),sF=a(ms),sG=a(kQ),sH=a(k5),sI=a(lW),sJ=a(mC),sn=a(bA),sx=a(a_),so=a(fj),sp=a(fi),sq=a(fq),sr=a(bi),ss=a(cg),st=a(lj),su=a(lp),sv=a(fq),sw=a(ch),r7=a(bA),sd=a(a_),r8=a(fj),r9=a(fi),r_=a(bi),r$=a(cg),sa=a(cL),sb=a(lF),sc=a(ch),se=a(hp),sf=a(bi),sg=a(cg),sh=a(ff),si=a(ch),sj=a(cL),sk=a(d7),sl=a(ch),r4=a(bC),r5=a(bB),r2=[0,a(av),0],r3=a(av),r0=[0,a(lm),7323,36],rZ=[0,a(av),0],r1=a(av),rM=a(bA),rN=a(a_),rO=a("*"),rP=a(bh),rH=[0,[0,[0,[0,[0,0]]]]],rI=[0,[0,[0,0]]],rJ=[0,[0,0]],rK=[0,0],rL=[0,[0,[0,[0,0]]]],rF=a('":'),rG=a(av),rD=[0,a(av),0],rE=a(av),rB=[0,a("}"),0],rC=a("{"),rz=[0,a("]"),0],rA=a("["),rx=[0,[0,[0,0]]],rv=[0,[0,[0,0]]],rt=[0,0],rq=[0,[0,[0,0]]],rr=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rs=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ro=[0,[0,0]],rp=[0,[0,[0,0]]],rj=[0,[0,0]],rk=[0,[0,[0,0]]],rh=[0,[0,[0,0]]],ri=[0,[0,0]],rf=[0,0],rb=[0,[0,0]],rc=[0,0],rd=[0,0],re=[0,[0,0]],q4=[0,[0,0]],q5=[0,0],q6=[0,[0,0]],q7=[0,0],q8=[0,0],q9=[0,[0,0]],q_=[0,[0,0]],q$=[0,[0,0]],ra=[0,0],q0=[0,0],qY=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qU=[0,0],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],qS=[0,[0,[0,0]]],qM=[0,[0,[0,0]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,0]],qH=[0,0],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,0]]],qz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,0]]],qD=[0,[0,[0,[0,[0,[0,0]]]]]],qE=[0,[0,[0,0]]],qF=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qn=[0,0,0],qi=[0,0],qj=[0,[0,0]],qk=[0,0],ql=[0,[0,0]],qg=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],qc=a(aP),qb=a(t),qa=[0,[0,0]],p$=[0,0],p_=[1,0],p9=[0,0],p8=[0,0],p6=[1,0],p7=[1,0],yc=a(ch),yd=a(hp),ye=a(ff),yh=a(bi),yi=a(cg),yf=[0,a('" of such a platform'),0],yg=a(kT),x0=a("rho"),x1=a(fl),x2=[0,a("a joint by its coordinate"),0],xB=a(bW),xq=a(bk),xr=a(lo),xs=a(lE),xv=a(kX),xw=a(lN),xx=a(bk),xy=a(bk),xA=a(fg),xz=[0,a("a claim that no cube of such a machine fits"),0],xC=a(dl),xD=a(dm),xE=a(e_),xF=a(hF),yB=[0,a("such a machine with bodies"),0],xG=a(d7),xH=a(hz),xI=a(mt),xJ=a(hB),xK=a(kY),xL=a(lU),xM=a(e_),xP=a(cK),xQ=a(mA),xT=a(hF),xU=[0,a("a machine with arms and bodies"),0],xV=a(bW),xW=a(mb),xX=a(fg),xY=a(d_),xZ=a(cK),x3=a(bW),x4=a(bC),x5=a(bB),x6=a(ls),x7=a(lA),x8=a(mP),x9=a(l3),xN=[0,a(av),0],xO=a(lH),x_=a(cK),x$=[0,a('" of a platform that turns'),0],ya=a(lv),yb=a(mx),yz=[0,a('" that does not turn'),0],yA=a(lH),yj=a(hB),yk=a(lu),yl=a(lb),ym=a(lC),yn=a(fh),yo=a(md),yp=a(fh),yw=a(lJ),yx=a(k0),yy=a(l6),yq=a(d7),yr=a(hz),ys=a(bW),yt=a(bC),yu=a(bB),yv=a(mF),xR=[0,a(av),0],xS=a(lv),xt=[0,a(av),0],xu=a('a claim of the kind "'),yG=a(fd),yH=a(l$),yI=a(mp),yJ=a(cL),yK=a(lK),yL=a(fb),yM=a(l2),yN=a(fn),yQ=a(ho),yR=a(hu),yS=a(cL),yO=[0,a(av),0],yP=a('the evidence "'),yT=a(fb),yU=a(fn),yV=a(mJ),yX=a(fb),yY=a(fn),yZ=a(hs),y0=a(hs),yW=[0,a("this evidence at control points"),0],zp=a(mm),zq=a(l9),zr=a(lw),zE=[0,3,3],zs=a(mc),zt=[0,a("the acceleration of a joint of a machine with a plane"),0],zA=[0,a('the drive "arm" in a claim that is certified'),0],zB=[0,a("a step of a platform that turns that is not at control points"),0],zC=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zD=[0,a("a mechanism by formulas in a claim that is refuted"),0],zz=[0,a("this quantity in a claim that is refuted"),0],zx=[0,a("a leaf that fails"),0],zy=[0,a("a step in a proof that no cube fits"),0],zu=a(lf),zv=a(lP),zw=a(e$),zn=a(hE),za=a(lc),zb=a(mH),ze=a(bk),zf=a(fe),zg=a(lR),zh=a(fc),zi=a(mD),zj=a(hm),zk=a(fc),zc=[0,a(av),0],zd=a('a proof of the kind "'),y8=a(mv),y9=a(fe),y_=a(l8),y$=a(mK),y3=a(mh),y4=a(mI),y5=a(fl),y6=[0,a(av),0],y7=a('the failure "'),y1=a(hE),y2=a(aP),yE=a(ho),yF=a(hu),yC=a(lO),yD=a(kM),xn=a(d_),xd=a(hc),xe=a(lT),xf=a(dj),xg=a(bi),xl=a(mG),xm=a(d_),xo=a(di),xp=a(dj),xh=a(di),xi=a(mo),xj=a(l_),xk=a(bi),w8=a(cK),xa=a(bC),xb=a(bB),w9=a(k$),w_=a(lg),w$=a(di),w6=[0,a("this quantity of such a mechanism"),0],wU=a(l7),wV=[0,a("a stiffness for each joint"),0],wW=a(lq),wX=a(kU),wT=a(e$),wL=a(fm),wC=a(mq),wD=a(mw),w0=a(k5),w1=a(fd),w2=a(ms),w3=a(lW),w4=a(kQ),w5=a(lS),wE=a(mC),wF=a(mz),wG=a(mO),wH=a(lX),wI=a(kR),wJ=[0,a(av),0],wK=a('the quantity "'),wM=a(kW),wN=a(mB),wO=a(bC),wP=a(bB),wQ=a(lB),wR=[0,a(av),0],wS=a('a bound "'),wY=a(hd),wZ=a(dj),wv=a(fj),ww=a(fi),wx=a(fq),wy=a(bi),wz=a(cg),wA=a(lj),wB=a(lp),ws=a(ch),wt=a(fq),wd=a(ch),we=a(d7),wf=a(lF),wg=a(ff),wj=a(hp),wk=a(bi),wl=a(cg),wm=a(fj),wn=a(fi),wo=a(bi),wp=a(cg),wq=a(cL),wr=a(cL),wh=[0,a(av),0],wi=a(kT),wa=a(bA),wb=a(a_),v_=a(" is not covered by the verified checker"),v$=a(t),v8=a(bC),v9=a(bB),v4=a(t),v5=a(mQ),v6=a(t),v7=a(t),v3=[1,0],v1=a("Reader.Malformed"),v2=a("Reader.Not_covered"),zG=a(lk),zH=a("CERTIFIED"),zI=a("REFUTED"),zJ=a(lk),zK=a("NOT COVERED: ");function
 ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -813,25 +813,25 @@ b=a[1];return[9,b,b,ah(a[3])];case
 11:return[11,ah(a[1])];case
 12:return[12,ah(a[1])];case
 13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
-aM(a,b){if(typeof
+aN(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aM(a[1],b)];case
-1:return[1,aM(a[1],b)];case
-2:return[2,aM(a[1],b)];case
-3:return[3,aM(a[1],b)];case
-4:return[4,aM(a[1],b)];case
-5:return[5,aM(a[1],b)];case
-6:return[6,aM(a[1],b)];case
-7:return[7,aM(a[1],b)];case
+0:return[0,aN(a[1],b)];case
+1:return[1,aN(a[1],b)];case
+2:return[2,aN(a[1],b)];case
+3:return[3,aN(a[1],b)];case
+4:return[4,aN(a[1],b)];case
+5:return[5,aN(a[1],b)];case
+6:return[6,aN(a[1],b)];case
+7:return[7,aN(a[1],b)];case
 8:var
-c=a[1];return[8,c,aM(a[2],b)];case
+c=a[1];return[8,c,aN(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aM(a[3],b)];case
-10:return[10,aM(a[1],b)];case
-11:return[11,aM(a[1],b)];case
-12:return[12,aM(a[1],b)];case
-13:return[13,aM(a[1],b)];default:return[14,aM(a[1],b)]}}function
+d=a[2],e=a[1];return[9,e,d,aN(a[3],b)];case
+10:return[10,aN(a[1],b)];case
+11:return[11,aN(a[1],b)];case
+12:return[12,aN(a[1],b)];case
+13:return[13,aN(a[1],b)];default:return[14,aN(a[1],b)]}}function
 ad(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -877,137 +877,137 @@ E=a[1];return[21,E,ad(a[2],b)];case
 23:var
 F=a[1];return[23,F,ad(a[2],b)];default:var
 G=a[2],H=a[1];return[24,H,G,ad(a[3],b)]}}function
-b3(a){throw[0,hY,a]}function
-ef(a){return 0<=a?a:-a|0}function
+b4(a){throw[0,h2,a]}function
+eg(a){return 0<=a?a:-a|0}function
 ax(d,c){var
-a=H(d),e=H(c),b=ao(a+e|0);bG(d,0,b,0,a);bG(c,0,b,a,e);return aL(b)}function
-nj(a){return a?nk:nl}A0(0);m5(1);var
-bK=m5(2);function
-ds(b,a){return m6(b,a,0,H(a))}function
-h4(a){ds(bK,a);m7(bK,10);return dp(bK)}function
-fC(b){function
+a=I(d),e=I(c),b=ao(a+e|0);bG(d,0,b,0,a);bG(c,0,b,a,e);return aM(b)}function
+np(a){return a?nq:nr}Bi(0);m$(1);var
+bK=m$(2);function
+du(b,a){return na(b,a,0,I(a))}function
+h8(a){du(bK,a);nb(bK,10);return dr(bK)}function
+fD(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dp(d)}catch(a){a=fz(a);if(a[1]!==h2)throw a;var
+c=a[2],d=a[1];try{dr(d)}catch(a){a=fA(a);if(a[1]!==h6)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(A1(0))}hQ(a(kJ),fC);var
-dt=(4*Ba(0)|0)-1|0;function
-ck(c){var
+a=c;continue}return 0}}return a(Bj(0))}hU(a(kO),fD);var
+dv=(4*Bu(0)|0)-1|0;function
+cl(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Z(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-h5(d,c){var
+_(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,_(b,c)]}return 0}function
+h9(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-b4(d,c){var
+b5(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-cl(a,c){var
-b=ao(a);AC(b,0,a,c);return b}function
-h6(c,b,a){if(0<=b&&0<=a&&!((a1(c)-a|0)<b)){var
-d=ao(a);cj(c,b,d,0,a);return d}return b3(nu)}function
-h7(c,b,a){return aL(h6(c,b,a))}function
-h8(e,c,d,b,a){if(0<=a&&0<=c&&!((a1(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return cj(e,c,d,b,a);return b3(nv)}function
-bL(e,c,d,b,a){if(0<=a&&0<=c&&!((H(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return bG(e,c,d,b,a);return b3(nw)}function
-a6(b,a){return aL(cl(b,a))}function
-du(c,b,a){return aL(h6(bY(c),b,a))}function
-h9(k,g){if(g){var
-h=H(k),c=0,b=g,p=0;for(;;){if(b){var
+cm(a,c){var
+b=ao(a);AW(b,0,a,c);return b}function
+h_(c,b,a){if(0<=b&&0<=a&&!((a1(c)-a|0)<b)){var
+d=ao(a);ck(c,b,d,0,a);return d}return b4(nA)}function
+h$(c,b,a){return aM(h_(c,b,a))}function
+ia(e,c,d,b,a){if(0<=a&&0<=c&&!((a1(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return ck(e,c,d,b,a);return b4(nB)}function
+bL(e,c,d,b,a){if(0<=a&&0<=c&&!((I(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return bG(e,c,d,b,a);return b4(nC)}function
+a7(b,a){return aM(cm(b,a))}function
+dw(c,b,a){return aM(h_(bZ(c),b,a))}function
+ib(k,g){if(g){var
+h=I(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(H(i)+h|0)+c|0,m=b[2],n=c<=j?j:b3(nx),c=n,b=m;continue}var
-l=H(i)+c|0}else
+j=(I(i)+h|0)+c|0,m=b[2],n=c<=j?j:b4(nD),c=n,b=m;continue}var
+l=I(i)+c|0}else
 var
 l=c;var
 f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bG(a,0,f,e,H(a));bG(k,0,f,e+H(a)|0,h);var
-e=(e+H(a)|0)+h|0,d=o;continue}bG(a,0,f,e,H(a))}return aL(f)}}}return ny}function
-h_(b,c){if(0===b)return[0];if(0<=b){var
-d=AY(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bG(a,0,f,e,I(a));bG(k,0,f,e+I(a)|0,h);var
+e=(e+I(a)|0)+h|0,d=o;continue}bG(a,0,f,e,I(a))}return aM(f)}}}return nE}function
+ic(b,c){if(0===b)return[0];if(0<=b){var
+d=Bg(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b3(nz)}function
-h$(c){var
+a=h;continue}break}}return d}return b4(nF)}function
+id(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-ia(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dt<b[1]){if(!((d+c|0)<=dt))throw[0,hZ,nC];b[1]=dt}var
-e=ao(b[1]);h8(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ae,nA]}throw[0,ae,nB]}}function
-dv(a,c){var
-b=H(c),d=a[2]+b|0;if(a[3]<d)ia(a,b);bG(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fD(a){return 5===a[2]?12:-6}function
-ib(a){return[0,0,ao(a)]}function
-ic(a,h){var
+ie(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dv<b[1]){if(!((d+c|0)<=dv))throw[0,h3,nI];b[1]=dv}var
+e=ao(b[1]);ia(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ae,nG]}throw[0,ae,nH]}}function
+dx(a,c){var
+b=I(c),d=a[2]+b|0;if(a[3]<d)ie(a,b);bG(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fE(a){return 5===a[2]?12:-6}function
+ig(a){return[0,0,ao(a)]}function
+ih(a,h){var
 b=a1(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);h8(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=ao(i);ia(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cO(a,b){ic(a,1);cK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+cQ(a,b){ih(a,1);cM(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
 aF(a,c){var
-b=H(c);ic(a,b);bL(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-id(a){return h7(a[2],0,a[1])}function
-ie(a){if(typeof
+b=I(c);ih(a,b);bL(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+ii(a){return h$(a[2],0,a[1])}function
+ij(a){if(typeof
 a==="number")switch(a){case
-0:return nD;case
-1:return nE;case
-2:return nF;case
-3:return nG;case
-4:return nH;case
-5:return nI;default:return nJ}else
+0:return nJ;case
+1:return nK;case
+2:return nL;case
+3:return nM;case
+4:return nN;case
+5:return nO;default:return nP}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return ax(nK,a6(1,a[1]))}}function
-fE(b,c){var
+1:return a[1];default:return ax(nQ,a7(1,a[1]))}}function
+fF(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aF(b,nL);var
+d=a[1];aF(b,nR);var
 a=d;continue;case
 1:var
-e=a[1];aF(b,nM);var
+e=a[1];aF(b,nS);var
 a=e;continue;case
 2:var
-f=a[1];aF(b,nN);var
+f=a[1];aF(b,nT);var
 a=f;continue;case
 3:var
-g=a[1];aF(b,nO);var
+g=a[1];aF(b,nU);var
 a=g;continue;case
 4:var
-h=a[1];aF(b,nP);var
+h=a[1];aF(b,nV);var
 a=h;continue;case
 5:var
-i=a[1];aF(b,nQ);var
+i=a[1];aF(b,nW);var
 a=i;continue;case
 6:var
-j=a[1];aF(b,nR);var
+j=a[1];aF(b,nX);var
 a=j;continue;case
 7:var
-k=a[1];aF(b,nS);var
+k=a[1];aF(b,nY);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aF(b,nT);fE(b,m);aF(b,nU);var
+l=a[2],m=a[1];aF(b,nZ);fF(b,m);aF(b,n0);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aF(b,nV);fE(b,o);aF(b,nW);var
+n=a[3],o=a[1];aF(b,n1);fF(b,o);aF(b,n2);var
 a=n;continue;case
 10:var
-p=a[1];aF(b,nX);var
+p=a[1];aF(b,n3);var
 a=p;continue;case
 11:var
-q=a[1];aF(b,nY);var
+q=a[1];aF(b,n4);var
 a=q;continue;case
 12:var
-r=a[1];aF(b,nZ);var
+r=a[1];aF(b,n5);var
 a=r;continue;case
 13:var
-s=a[1];aF(b,n0);var
+s=a[1];aF(b,n6);var
 a=s;continue;default:var
-t=a[1];aF(b,n1);var
+t=a[1];aF(b,n7);var
 a=t;continue}}function
 an(a){if(typeof
 a==="number")return 0;else
@@ -1051,7 +1051,7 @@ j=aG(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};retu
 8:var
 k=aG(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aG(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aG(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],ao=a[1],l=aG(a[3]),ap=l[4],ar=l[3],as=l[2],at=l[1],m=aG(aq(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(ap,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
 n=aG(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
 11:var
@@ -1061,7 +1061,7 @@ p=aG(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};retu
 13:var
 q=aG(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
 r=aG(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ap(c,b){var
+aq(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,ae,n2]}else
+9:a=6;break;default:throw[0,ae,n8]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ap(t,b[1])];case
+0:return[0,aq(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ap(u,b[1])];case
+1:return[1,aq(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ap(v,b[1])];case
+2:return[2,aq(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ap(w,b[1])];case
+3:return[3,aq(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ap(x,b[1])];case
+4:return[4,aq(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ap(y,b[1])];case
+5:return[5,aq(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ap(z,b[1])];case
+6:return[6,aq(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ap(A,b[1])];case
+7:return[7,aq(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
+D=b[1],E=aq(B,b[2]);return[8,aq(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,ae,n$];break;case
+14:a=4;break;default:m=1}if(m)throw[0,ae,of];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aG(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aG(aq(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,aq(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,ae,oa];break;case
+14:a=4;break;default:n=1}if(n)throw[0,ae,og];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,ae,ob];case
+b!=="number"&&10===b[0])return[10,aq(M,b[1])];throw[0,ae,oh];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,ae,oc];break;case
+11:return[11,aq(N,b[1])];default:o=1}if(o)throw[0,ae,oi];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,ae,od];break;case
+12:return[12,aq(O,b[1])];default:p=1}if(p)throw[0,ae,oj];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,ae,oe];break;default:var
+13:return[13,aq(P,b[1])];default:q=1}if(q)throw[0,ae,ok];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,25 +1222,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,ae,of]}switch(a){case
-0:throw[0,ae,n5];case
-1:throw[0,ae,n6];case
-2:throw[0,ae,n7];case
-3:throw[0,ae,n8];case
-4:throw[0,ae,n9];case
-5:throw[0,ae,n3];case
-6:throw[0,ae,n4];default:throw[0,ae,n_]}}var
-ay=[at,og,fs(0)];function
-eg(b,a){if(typeof
+14:return[14,aq(Q,b[1])];default:r=1}if(r)throw[0,ae,ol]}switch(a){case
+0:throw[0,ae,n$];case
+1:throw[0,ae,oa];case
+2:throw[0,ae,ob];case
+3:throw[0,ae,oc];case
+4:throw[0,ae,od];case
+5:throw[0,ae,n9];case
+6:throw[0,ae,n_];default:throw[0,ae,oe]}}var
+ay=[au,om,ft(0)];function
+eh(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
 a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ay}}function
-dw(e,b,d){var
-a=eg(e,d);if(typeof
+dy(e,b,d){var
+a=eh(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
 c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ay}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aR(b,c,a){if(typeof
-b==="number")return[0,0,U(c,a)];else
+b==="number")return[0,0,V(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1268,13 +1268,13 @@ a!=="number"&&7===a[0]){var
 n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ed([0,b[1]],[0,o]))throw ay;var
+o=a[1],w=a[2],x=b[2];if(ee([0,b[1]],[0,o]))throw ay;var
 p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ed([0,ah(B)],C))throw ay;var
-D=[0,ah(d)];if(ed([0,ah(A)],D))throw ay;var
-q=aG(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ee([0,ah(B)],C))throw ay;var
+D=[0,ah(d)];if(ee([0,ah(A)],D))throw ay;var
+q=aG(aq(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
 r=aR(ah(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
@@ -1288,140 +1288,140 @@ u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
 v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ay}function
-U(b,a){if(typeof
+V(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=U(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=V(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=U(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=V(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=eg(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=eh(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=U(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
+v=V(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
 3:var
-ad=b[2],w=eg(b[1],a),f=w[2],ae=w[1];if(typeof
+ad=b[2],w=eh(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=U(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
+x=V(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
 4:var
-af=b[4],ag=b[1],g=dw(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ag=b[1],g=dy(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=U(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw ay;case
+aj=g[2],y=V(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw ay;case
 5:var
-ak=b[4],al=b[1],i=dw(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dy(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=U(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
+an=i[2],z=V(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
 6:var
-ao=b[4],ap=b[1],k=dw(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dy(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=U(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
+ar=k[2],A=V(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
 7:var
-as=b[4],at=b[1],m=dw(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dy(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=U(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
+av=m[2],B=V(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
 8:var
-aw=b[4],ax=b[1],o=dw(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+aw=b[4],ax=b[1],o=dy(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=U(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
+aA=o[2],C=V(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
 9:var
-aB=b[2],D=eg(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=eh(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=U(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
+E=V(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
 10:var
-F=U(b[1],a);return[0,[10,F[1]],F[2]];case
+F=V(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=U(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=V(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=U(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=V(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ed([0,b[2]],[0,I]))throw ay;var
-J=U(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ee([0,b[2]],[0,I]))throw ay;var
+J=V(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ed([0,ah(aK)],aM))throw ay;var
-L=U(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ee([0,ah(aK)],aM))throw ay;var
+L=V(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=U(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=V(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=U(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=V(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=U(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=V(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aS=T[2],V=U(T[1],a),aT=V[1],W=U(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aU=X[2],Y=U(X[1],a),aW=Y[1],Z=U(P,Y[2]);return[0,[18,[1,[0,aW,aU]],Z[1]],Z[2]];case
+T=r[1],aS=T[2],U=V(T[1],a),aT=U[1],W=V(P,U[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aU=X[2],Y=V(X[1],a),aV=Y[1],Z=V(P,Y[2]);return[0,[18,[1,[0,aV,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=U(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=V(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=U(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=V(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=U(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=V(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aV(c,d,a);case
-1:return aV(c,d,a);case
+0:return aW(c,d,a);case
+1:return aW(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=U(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aV(c,d,a)}else
+_=V(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aW(c,d,a)}else
 switch(c[0]){case
-0:return aV(c,d,a);case
-1:return aV(c,d,a);case
-2:return aV(c,d,a);case
-3:return aV(c,d,a);case
-4:return aV(c,d,a);case
-5:return aV(c,d,a);case
-6:return aV(c,d,a);case
-7:return aV(c,d,a);case
-8:return aV([8,c[1],c[2]],d,a);case
+0:return aW(c,d,a);case
+1:return aW(c,d,a);case
+2:return aW(c,d,a);case
+3:return aW(c,d,a);case
+4:return aW(c,d,a);case
+5:return aW(c,d,a);case
+6:return aW(c,d,a);case
+7:return aW(c,d,a);case
+8:return aW([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aV(c,d,a);default:return aV(c,d,a)}}throw ay}function
-aV(d,c,b){var
-a=U(c,b);return[0,[23,d,a[1]],a[2]]}function
-aW(k,g,a){var
-b=H(a),h=0<=g?k:0,d=ef(g);if(d<=b)return a;var
-l=2===h?48:32,c=cl(d,l);switch(h){case
+10:return aW(c,d,a);default:return aW(c,d,a)}}throw ay}function
+aW(d,c,b){var
+a=V(c,b);return[0,[23,d,a[1]],a[2]]}function
+aX(k,g,a){var
+b=I(a),h=0<=g?k:0,d=eg(g);if(d<=b)return a;var
+l=2===h?48:32,c=cm(d,l);switch(h){case
 0:bL(a,0,c,0,b);break;case
 1:bL(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==T(a,0)&&45!==T(a,0)&&32!==T(a,0)){e=1;i=1}if(!i){cK(c,0,T(a,0));bL(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==U(a,0)&&45!==U(a,0)&&32!==U(a,0)){e=1;i=1}if(!i){cM(c,0,U(a,0));bL(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===T(a,0)){var
-j=0;if(kY!==T(a,1)&&88!==T(a,1)){f=1;j=1}if(!j){cK(c,1,T(a,1));bL(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bL(a,0,c,d-b|0,b)}}return aL(c)}function
-cP(k,b){var
-c=ef(k),a=H(b),d=T(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lU>>>0))e=1}else
+f=0;if(1<b&&48===U(a,0)){var
+j=0;if(k3!==U(a,1)&&88!==U(a,1)){f=1;j=1}if(!j){cM(c,1,U(a,1));bL(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bL(a,0,c,d-b|0,b)}}return aM(c)}function
+cR(k,b){var
+c=eg(k),a=I(b),d=U(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lZ>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kY===T(b,1)||88===T(b,1))j=1;if(j){var
-h=cl(c+2|0,48);cK(h,1,T(b,1));bL(b,2,h,(c-a|0)+4|0,a-2|0);return aL(h)}}e=1;f=1;break;case
+j=0;if(k3===U(b,1)||88===U(b,1))j=1;if(j){var
+h=cm(c+2|0,48);cM(h,1,U(b,1));bL(b,2,h,(c-a|0)+4|0,a-2|0);return aM(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cl(c+1|0,48);cK(g,0,d);bL(b,1,g,(c-a|0)+2|0,a-1|0);return aL(g)}}if(e&&a<c){var
-i=cl(c,48);bL(b,0,i,c-a|0,a);return aL(i)}return b}function
-oh(k){var
-j=0,C=H(k);for(;;){if(C<=j)var
+g=cm(c+1|0,48);cM(g,0,d);bL(b,1,g,(c-a|0)+2|0,a-1|0);return aM(g)}}if(e&&a<c){var
+i=cm(c,48);bL(b,0,i,c-a|0,a);return aM(i)}return b}function
+on(k){var
+j=0,C=I(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bI(k,j)+mn|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bI(k,j)+mr|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bY(k),a=[0,0],t=a1(e)-1|0,y=0;if(!(t<0)){var
+e=bZ(k),a=[0,0],t=a1(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dm(e,i),g=0;if(32<=f){var
+f=dp(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1433,13 +1433,13 @@ m=4;break;case
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
 i=B;continue}break}}if(a[1]===a1(e)){var
-r=a1(e),s=ao(r);cj(e,0,s,0,r);var
+r=a1(e),s=ao(r);ck(e,0,s,0,r);var
 v=s}else{var
 b=ao(a[1]);a[1]=0;var
 u=a1(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dm(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hj<=c)d=1;else
+c=dp(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hn<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1449,16 +1449,16 @@ switch(c){case
 9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
 10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
 13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
-1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/l0|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
+1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/l5|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
 2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
 3:ak(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aL(v)}var
-w=H(o),x=cl(w+2|0,34);bG(o,0,x,1,w);return aL(x)}}function
-ig(d,f){var
-g=ef(f),e=o8[1];switch(d[2]){case
+o=aM(v)}var
+w=I(o),x=cm(w+2|0,34);bG(o,0,x,1,w);return aM(x)}}function
+ik(d,f){var
+g=eg(f),e=pc[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=kZ;break;case
+b=k4;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,160 +1476,160 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=ib(16);cO(c,37);switch(d[1]){case
+c=ig(16);cQ(c,37);switch(d[1]){case
 0:break;case
-1:cO(c,43);break;default:cO(c,32)}if(8<=d[2])cO(c,35);cO(c,46);aF(c,a(t+g));cO(c,b);return id(c)}function
-eh(m,a){if(13<=m){var
-g=[0,0],h=H(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bI(a,c)+hb>>>0))g[1]++;var
+1:cQ(c,43);break;default:cQ(c,32)}if(8<=d[2])cQ(c,35);cQ(c,46);aF(c,a(t+g));cQ(c,b);return ii(c)}function
+ei(m,a){if(13<=m){var
+g=[0,0],h=I(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bI(a,c)+he>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ao(H(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cK(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=H(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(I(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cM(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=I(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bI(a,b);if(9<f+hb>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bI(a,b);if(9<f+he>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aL(j)}return a}function
-o9(b,c){switch(b){case
+b=p;continue}break}}return aM(j)}return a}function
+pd(b,c){switch(b){case
 1:var
-a=oj;break;case
-2:var
-a=ok;break;case
-4:var
-a=om;break;case
-5:var
-a=on;break;case
-6:var
-a=oo;break;case
-7:var
 a=op;break;case
-8:var
+2:var
 a=oq;break;case
-9:var
-a=or;break;case
-10:var
+4:var
 a=os;break;case
-11:var
+5:var
 a=ot;break;case
-0:case
-13:var
-a=oi;break;case
-3:case
-14:var
-a=ol;break;default:var
-a=ou}return eh(b,fr(a,c))}function
-o_(b,c){switch(b){case
-1:var
-a=oJ;break;case
-2:var
-a=oK;break;case
-4:var
-a=oM;break;case
-5:var
-a=oN;break;case
 6:var
-a=oO;break;case
+a=ou;break;case
 7:var
-a=oP;break;case
-8:var
-a=oQ;break;case
-9:var
-a=oR;break;case
-10:var
-a=oS;break;case
-11:var
-a=oT;break;case
-0:case
-13:var
-a=oI;break;case
-3:case
-14:var
-a=oL;break;default:var
-a=oU}return eh(b,fr(a,c))}function
-o$(b,c){switch(b){case
-1:var
-a=oW;break;case
-2:var
-a=oX;break;case
-4:var
-a=oZ;break;case
-5:var
-a=o0;break;case
-6:var
-a=o1;break;case
-7:var
-a=o2;break;case
-8:var
-a=o3;break;case
-9:var
-a=o4;break;case
-10:var
-a=o5;break;case
-11:var
-a=o6;break;case
-0:case
-13:var
-a=oV;break;case
-3:case
-14:var
-a=oY;break;default:var
-a=o7}return eh(b,fr(a,c))}function
-pa(b,c){switch(b){case
-1:var
-a=ow;break;case
-2:var
-a=ox;break;case
-4:var
-a=oz;break;case
-5:var
-a=oA;break;case
-6:var
-a=oB;break;case
-7:var
-a=oC;break;case
-8:var
-a=oD;break;case
-9:var
-a=oE;break;case
-10:var
-a=oF;break;case
-11:var
-a=oG;break;case
-0:case
-13:var
 a=ov;break;case
+8:var
+a=ow;break;case
+9:var
+a=ox;break;case
+10:var
+a=oy;break;case
+11:var
+a=oz;break;case
+0:case
+13:var
+a=oo;break;case
 3:case
 14:var
-a=oy;break;default:var
-a=oH}return eh(b,AK(a,c))}function
+a=or;break;default:var
+a=oA}return ei(b,fs(a,c))}function
+pe(b,c){switch(b){case
+1:var
+a=oP;break;case
+2:var
+a=oQ;break;case
+4:var
+a=oS;break;case
+5:var
+a=oT;break;case
+6:var
+a=oU;break;case
+7:var
+a=oV;break;case
+8:var
+a=oW;break;case
+9:var
+a=oX;break;case
+10:var
+a=oY;break;case
+11:var
+a=oZ;break;case
+0:case
+13:var
+a=oO;break;case
+3:case
+14:var
+a=oR;break;default:var
+a=o0}return ei(b,fs(a,c))}function
+pf(b,c){switch(b){case
+1:var
+a=o2;break;case
+2:var
+a=o3;break;case
+4:var
+a=o5;break;case
+5:var
+a=o6;break;case
+6:var
+a=o7;break;case
+7:var
+a=o8;break;case
+8:var
+a=o9;break;case
+9:var
+a=o_;break;case
+10:var
+a=o$;break;case
+11:var
+a=pa;break;case
+0:case
+13:var
+a=o1;break;case
+3:case
+14:var
+a=o4;break;default:var
+a=pb}return ei(b,fs(a,c))}function
+pg(b,c){switch(b){case
+1:var
+a=oC;break;case
+2:var
+a=oD;break;case
+4:var
+a=oF;break;case
+5:var
+a=oG;break;case
+6:var
+a=oH;break;case
+7:var
+a=oI;break;case
+8:var
+a=oJ;break;case
+9:var
+a=oK;break;case
+10:var
+a=oL;break;case
+11:var
+a=oM;break;case
+0:case
+13:var
+a=oB;break;case
+3:case
+14:var
+a=oE;break;default:var
+a=oN}return ei(b,A4(a,c))}function
 bM(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return AG(b,i,a)}function
+a=32}return A0(b,i,a)}function
 q(c){var
-a=Ay(b);return 3===a?b<0.?pc:pd:4<=a?pe:c}switch(c[2]){case
+a=AS(b);return 3===a?b<0.?pi:pj:4<=a?pk:c}switch(c[2]){case
 5:var
-e=hG(ig(c,i),b),d=0,u=H(e);for(;;){if(d===u)var
+e=hK(ik(c,i),b),d=0,u=I(e);for(;;){if(d===u)var
 p=0;else{var
-k=T(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=U(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:ax(e,pb);return q(v)}case
+v=p?e:ax(e,ph);return q(v)}case
 6:return j(0);case
 7:var
-h=bY(j(0)),f=a1(h);if(0===f)var
+h=bZ(j(0)),f=a1(h);if(0===f)var
 o=h;else{var
 m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dm(h,a),s=25<g+lU>>>0?g:g+mn|0;ak(m,a,s);var
+g=dp(h,a),s=25<g+lZ>>>0?g:g+mr|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aL(o);case
-8:return q(j(0));default:return hG(ig(c,i),b)}}function
-d5(d,x,w,v){var
+o=m}return aM(o);case
+8:return q(j(0));default:return hK(ik(c,i),b)}}function
+d6(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
@@ -1638,48 +1638,48 @@ y=c[1];return function(c){return K(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=no;else
-if(hj<=c)e=1;else
+d=nu;else
+if(hn<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=np;else
+d=nv;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nq;break;case
+d=nw;break;case
 9:var
-d=nr;break;case
+d=nx;break;case
 10:var
-d=ns;break;case
+d=ny;break;case
 13:var
-d=nt;break;default:e=1}switch(e){case
+d=nz;break;default:e=1}switch(e){case
 1:var
-f=ao(4);ak(f,0,92);ak(f,1,48+(c/l0|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
-d=aL(f);break;case
+f=ao(4);ak(f,0,92);ak(f,1,48+(c/l5|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
+d=aM(f);break;case
 2:var
 g=ao(1);ak(g,0,c);var
-d=aL(g);break}var
-h=H(d),i=cl(h+2|0,39);bG(d,0,i,1,h);return K(b,[4,a,aL(i)],z)};case
+d=aM(g);break}var
+h=I(d),i=cm(h+2|0,39);bG(d,0,i,1,h);return K(b,[4,a,aM(i)],z)};case
 2:var
-A=c[2],B=c[1];return fF(b,a,A,B,function(a){return a});case
-3:return fF(b,a,c[2],c[1],oh);case
-4:return ei(b,a,c[4],c[2],c[3],o9,c[1]);case
-5:return ei(b,a,c[4],c[2],c[3],o_,c[1]);case
-6:return ei(b,a,c[4],c[2],c[3],o$,c[1]);case
-7:return ei(b,a,c[4],c[2],c[3],pa,c[1]);case
+A=c[2],B=c[1];return fG(b,a,A,B,function(a){return a});case
+3:return fG(b,a,c[2],c[1],on);case
+4:return ej(b,a,c[4],c[2],c[3],pd,c[1]);case
+5:return ej(b,a,c[4],c[2],c[3],pe,c[1]);case
+6:return ej(b,a,c[4],c[2],c[3],pf,c[1]);case
+7:return ej(b,a,c[4],c[2],c[3],pg,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,bM(g,d,c)],h)}:function(c){return K(b,[4,a,bM(g,fD(g),c)],h)};var
+i==="number")return i?function(d,c){return K(b,[4,a,bM(g,d,c)],h)}:function(c){return K(b,[4,a,bM(g,fE(g),c)],h)};var
 X=i[1];return function(c){return K(b,[4,a,bM(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,aW(n,m,bM(g,d,c))],h)}:function(c){return K(b,[4,a,aW(n,m,bM(g,fD(g),c))],h)};var
-Y=i[1];return function(c){return K(b,[4,a,aW(n,m,bM(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return K(b,[4,a,aX(n,m,bM(g,d,c))],h)}:function(c){return K(b,[4,a,aX(n,m,bM(g,fE(g),c))],h)};var
+Y=i[1];return function(c){return K(b,[4,a,aX(n,m,bM(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return K(b,[4,a,aW(o,e,bM(g,d,c))],h)}:function(d,c){return K(b,[4,a,aW(o,d,bM(g,fD(g),c))],h)};var
-Z=i[1];return function(d,c){return K(b,[4,a,aW(o,d,bM(g,Z,c))],h)}}case
-9:return fF(b,a,c[2],c[1],nj);case
+i==="number")return i?function(e,d,c){return K(b,[4,a,aX(o,e,bM(g,d,c))],h)}:function(d,c){return K(b,[4,a,aX(o,d,bM(g,fE(g),c))],h)};var
+Z=i[1];return function(d,c){return K(b,[4,a,aX(o,d,bM(g,Z,c))],h)}}case
+9:return fG(b,a,c[2],c[1],np);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,51 +1687,51 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=ib(16);fE(p,D);var
-u=id(p);return function(c){return K(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=ig(16);fF(p,D);var
+u=ii(p);return function(c){return K(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=U(e,ah(an(F)));if(typeof
+e=d[1],c=V(e,ah(an(F)));if(typeof
 c[2]==="number")return K(b,a,ad(c[1],E));throw ay};case
 15:var
-G=c[1];return function(d,c){return K(b,[6,a,function(a){return P(d,a,c)}],G)};case
+G=c[1];return function(d,c){return K(b,[6,a,function(a){return Q(d,a,c)}],G)};case
 16:var
-I=c[1];return function(c){return K(b,[6,a,c],I)};case
+H=c[1];return function(c){return K(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
 J=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return K(c,[1,b,[0,a]],d)}}(a,b,J),a=M,c=L;continue}var
-N=c[2],O=l[1][1],Q=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=Q,c=O;continue;case
-19:throw[0,ae,pg];case
+N=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=P,c=O;continue;case
+19:throw[0,ae,pm];case
 20:var
-S=c[3],T=[8,a,ph];return function(a){return K(b,T,S)};case
+R=c[3],T=[8,a,pn];return function(a){return K(b,T,R)};case
 21:var
-V=c[2];return function(c){return K(b,[4,a,fr(pi,c)],V)};case
+U=c[2];return function(c){return K(b,[4,a,fs(po,c)],U)};case
 22:var
 W=c[1];return function(c){return K(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-1:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-2:throw[0,ae,pj];default:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f])}else
+0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+2:throw[0,ae,pp];default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-1:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-2:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-3:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-4:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-5:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-6:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-7:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
-8:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);case
+0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+2:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+3:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+4:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+5:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+6:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+7:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+8:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?g8(d+1|0,b,a,t,f):aE(g8,[0,b,a,t,f]);case
-10:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f]);default:return d<50?R(d+1|0,b,a,f):aE(R,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?g7(d+1|0,b,a,q,r,s):aE(g7,[0,b,a,q,r,s])}}function
-g8(e,d,c,a,b){if(typeof
-a==="number")return e<50?R(e+1|0,d,c,b):aE(R,[0,d,c,b]);else
+t=k[2];return d<50?g$(d+1|0,b,a,t,f):aE(g$,[0,b,a,t,f]);case
+10:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?g_(d+1|0,b,a,q,r,s):aE(g_,[0,b,a,q,r,s])}}function
+g$(e,d,c,a,b){if(typeof
+a==="number")return e<50?S(e+1|0,d,c,b):aE(S,[0,d,c,b]);else
 switch(a[0]){case
 0:var
 f=a[1];return function(a){return a3(d,c,f,b)};case
@@ -1752,164 +1752,164 @@ m=a[1];return function(a){return a3(d,c,m,b)};case
 8:var
 n=a[2];return function(a){return a3(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a3(d,c,aM(q,o),b)};case
+o=a[3],p=a[2],q=aq(an(a[1]),p);return function(a){return a3(d,c,aN(q,o),b)};case
 10:var
 r=a[1];return function(e,a){return a3(d,c,r,b)};case
 11:var
 s=a[1];return function(a){return a3(d,c,s,b)};case
 12:var
 t=a[1];return function(a){return a3(d,c,t,b)};case
-13:throw[0,ae,pk];default:throw[0,ae,pl]}}function
-R(d,b,e,a){var
-c=[8,e,pm];return d<50?d5(d+1|0,b,c,a):aE(d5,[0,b,c,a])}function
-g7(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pf(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d5(h+1|0,b,g,a):aE(d5,[0,b,g,a])}function
-K(a,b,c){return hS(d5(0,a,b,c))}function
-a3(a,b,c,d){return hS(g8(0,a,b,c,d))}function
-pf(a,b,c,d,e){return hS(g7(0,a,b,c,d,e))}function
-fF(f,d,c,a,b){if(typeof
+13:throw[0,ae,pq];default:throw[0,ae,pr]}}function
+S(d,b,e,a){var
+c=[8,e,ps];return d<50?d6(d+1|0,b,c,a):aE(d6,[0,b,c,a])}function
+g_(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pl(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d6(h+1|0,b,g,a):aE(d6,[0,b,g,a])}function
+K(a,b,c){return hW(d6(0,a,b,c))}function
+a3(a,b,c,d){return hW(g$(0,a,b,c,d))}function
+pl(a,b,c,d,e){return hW(g_(0,a,b,c,d,e))}function
+fG(f,d,c,a,b){if(typeof
 a==="number")return function(a){return K(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return K(f,[4,d,aW(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return K(f,[4,d,aW(i,g,e(b,a))],c)}}}function
-ei(f,e,d,g,c,b,a){if(typeof
+g=a[2],h=a[1];return function(a){return K(f,[4,d,aX(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return K(f,[4,d,aX(i,g,e(b,a))],c)}}}function
+ej(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,cP(g,P(b,a,c))],d)}:function(c){return K(f,[4,e,P(b,a,c)],d)};var
-k=c[1];return function(c){return K(f,[4,e,cP(k,P(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return K(f,[4,e,cR(g,Q(b,a,c))],d)}:function(c){return K(f,[4,e,Q(b,a,c)],d)};var
+k=c[1];return function(c){return K(f,[4,e,cR(k,Q(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,aW(i,h,cP(g,P(b,a,c)))],d)}:function(c){return K(f,[4,e,aW(i,h,P(b,a,c))],d)};var
-l=c[1];return function(c){return K(f,[4,e,aW(i,h,cP(l,P(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return K(f,[4,e,aX(i,h,cR(g,Q(b,a,c)))],d)}:function(c){return K(f,[4,e,aX(i,h,Q(b,a,c))],d)};var
+l=c[1];return function(c){return K(f,[4,e,aX(i,h,cR(l,Q(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return K(f,[4,e,aW(j,h,cP(g,P(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aW(j,g,P(b,a,c))],d)};var
-m=c[1];return function(g,c){return K(f,[4,e,aW(j,g,cP(m,P(b,a,c)))],d)}}}function
+c==="number")return c?function(h,g,c){return K(f,[4,e,aX(j,h,cR(g,Q(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aX(j,g,Q(b,a,c))],d)};var
+m=c[1];return function(g,c){return K(f,[4,e,aX(j,g,cR(m,Q(b,a,c)))],d)}}}function
 bN(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=ie(a[2]);bN(b,g);return ds(b,h);case
+g=a[1],h=ij(a[2]);bN(b,g);return du(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bN(b,d);ds(b,pn);var
+i=c[1];bN(b,d);du(b,pt);var
 a=i;continue}var
-j=c[1];bN(b,d);ds(b,po);var
+j=c[1];bN(b,d);du(b,pu);var
 a=j;continue;case
 6:var
 m=a[2];bN(b,a[1]);return e(m,b);case
-7:bN(b,a[1]);return dp(b);case
+7:bN(b,a[1]);return dr(b);case
 8:var
-n=a[2];bN(b,a[1]);return b3(n);case
+n=a[2];bN(b,a[1]);return b4(n);case
 2:case
 4:var
-k=a[2];bN(b,a[1]);return ds(b,k);default:var
-l=a[2];bN(b,a[1]);return m7(b,l)}}function
-b5(b,g){var
+k=a[2];bN(b,a[1]);return du(b,k);default:var
+l=a[2];bN(b,a[1]);return nb(b,l)}}function
+b6(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=ie(a[2]);b5(b,h);return dv(b,i);case
+h=a[1],i=ij(a[2]);b6(b,h);return dx(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b5(b,f);dv(b,pp);var
+j=d[1];b6(b,f);dx(b,pv);var
 a=j;continue}var
-k=d[1];b5(b,f);dv(b,pq);var
+k=d[1];b6(b,f);dx(b,pw);var
 a=k;continue;case
 6:var
-n=a[2];b5(b,a[1]);return dv(b,e(n,0));case
+n=a[2];b6(b,a[1]);return dx(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];b5(b,a[1]);return b3(o);case
+o=a[2];b6(b,a[1]);return b4(o);case
 2:case
 4:var
-l=a[2];b5(b,a[1]);return dv(b,l);default:var
-m=a[2];b5(b,a[1]);var
-c=b[2];if(b[3]<=c)ia(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
-ih(d,c){var
+l=a[2];b6(b,a[1]);return dx(b,l);default:var
+m=a[2];b6(b,a[1]);var
+c=b[2];if(b[3]<=c)ie(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+il(d,c){var
 a=c[1],b=0;return K(function(a){bN(d,a);return 0},b,a)}function
-fG(a){return ih(bK,a)}function
+fH(a){return il(bK,a)}function
 bn(b){var
 a=b[1];return K(function(d){var
-e=64,b=dt<64?dt:e,c=ao(b),a=[0,c,0,b,c];b5(a,d);return h7(a[1],0,a[2])},0,a)}var
-ej=[0,0];function
-fI(i,h){var
+e=64,b=dv<64?dv:e,c=ao(b),a=[0,c,0,b,c];b6(a,d);return h$(a[1],0,a[2])},0,a)}var
+ek=[0,0];function
+fJ(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fw(a)===fn)return e(bn(pr),a);if(fw(a)===253){var
-c=hG(nn,a),b=0,g=H(c);for(;;){if(g<=b)return ax(c,nm);var
-d=T(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fx(a)===fo)return e(bn(px),a);if(fx(a)===253){var
+c=hK(nt,a),b=0,g=I(c);for(;;){if(g<=b)return ax(c,ns);var
+d=U(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return ps}return e(bn(pt),a)}function
-ii(b,a){if(b.length-1<=a)return pu;var
-c=ii(b,a+1|0),d=fI(b,a);return P(bn(pv),d,c)}function
-fJ(a){function
+b=b+1|0;continue}return c}}return py}return e(bn(pz),a)}function
+im(b,a){if(b.length-1<=a)return pA;var
+c=im(b,a+1|0),d=fJ(b,a);return Q(bn(pB),d,c)}function
+fK(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ej[1]);if(h)return h[1];if(a===fB)return pA;if(a===h1)return pB;if(a[1]===h0){var
-c=a[2],i=c[3],p=c[2],q=c[1];return g9(bn(fH),q,p,i,i+5|0,pC)}if(a[1]===ae){var
-d=a[2],j=d[3],r=d[2],s=d[1];return g9(bn(fH),s,r,j,j+6|0,pD)}if(a[1]===h3){var
-f=a[2],k=f[3],t=f[2],u=f[1];return g9(bn(fH),u,t,k,k+6|0,pE)}if(0===fw(a)){var
+h=o(ek[1]);if(h)return h[1];if(a===fC)return pG;if(a===h5)return pH;if(a[1]===h4){var
+c=a[2],i=c[3],p=c[2],q=c[1];return ha(bn(fI),q,p,i,i+5|0,pI)}if(a[1]===ae){var
+d=a[2],j=d[3],r=d[2],s=d[1];return ha(bn(fI),s,r,j,j+6|0,pJ)}if(a[1]===h7){var
+f=a[2],k=f[3],t=f[2],u=f[1];return ha(bn(fI),u,t,k,k+6|0,pK)}if(0===fx(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=ii(a,2),m=fI(a,1),b=P(bn(pw),m,l);else
+l=im(a,2),m=fJ(a,1),b=Q(bn(pC),m,l);else
 switch(g){case
 0:var
-b=px;break;case
+b=pD;break;case
 1:var
-b=py;break;default:var
-n=fI(a,1),b=e(bn(pz),n)}return ax(v,b)}return a[1]}function
-fK(t,s){var
-d=AA(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pE;break;default:var
+n=fJ(a,1),b=e(bn(pF),n)}return ax(v,b)}return a[1]}function
+fL(t,s){var
+d=AU(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=mV(d,b)[1+b],f=function(a){return function(b){return b?0===a?pF:pG:0===a?pH:pI}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pJ:pL,l=a[2],m=a[7],n=f(a[1]),c=[0,Ap(bn(pK),n,m,l,k,j,i,h)];else
+a=m1(d,b)[1+b],f=function(a){return function(b){return b?0===a?pL:pM:0===a?pN:pO}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pP:pR,l=a[2],m=a[7],n=f(a[1]),c=[0,AJ(bn(pQ),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bn(pM),o)];if(c){var
-q=c[1];e(ih(t,pN),q)}var
+o=f(0),c=[0,e(bn(pS),o)];if(c){var
+q=c[1];e(il(t,pT),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-ij(c){for(;;){var
-a=ej[1],d=[0,c,a],e=ej[1]===a?(ej[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pP=pO.slice();function
-pQ(d,c){var
-f=fJ(d);e(fG(pR),f);fK(bK,c);var
-a=AZ(0);if(a<0){var
-b=ef(a);h4(mV(pP,b)[1+b])}return dp(bK)}var
-pS=[0];hQ(a(k1),function(d,i){try{try{var
-b=i?pS:m1(0);try{fC(0)}catch(a){}try{var
-a=pQ(d,b),c=a}catch(a){a=fz(a);var
-g=fJ(d);e(fG(pU),g);fK(bK,b);var
-h=fJ(a);e(fG(pV),h);fK(bK,m1(0));var
-c=dp(bK)}var
-f=c}catch(a){a=fz(a);if(a!==fB)throw a;var
-f=h4(pT)}return f}catch(a){return 0}});var
-ik=[at,pX,fs(0)],fL=[0,ik,[0]],pW=fw(fL)===at?fL:fL[1];hQ(a(hd),pW);(function(a){throw a});var
-pY=v.Array;ij(function(a){return a[1]===ik?[0,bm(a[2].toString())]:0});ij(function(a){return a
+io(c){for(;;){var
+a=ek[1],d=[0,c,a],e=ek[1]===a?(ek[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pV=pU.slice();function
+pW(d,c){var
+f=fK(d);e(fH(pX),f);fL(bK,c);var
+a=Bh(0);if(a<0){var
+b=eg(a);h8(m1(pV,b)[1+b])}return dr(bK)}var
+pY=[0];hU(a(k6),function(d,i){try{try{var
+b=i?pY:m7(0);try{fD(0)}catch(a){}try{var
+a=pW(d,b),c=a}catch(a){a=fA(a);var
+g=fK(d);e(fH(p0),g);fL(bK,b);var
+h=fK(a);e(fH(p1),h);fL(bK,m7(0));var
+c=dr(bK)}var
+f=c}catch(a){a=fA(a);if(a!==fC)throw a;var
+f=h8(pZ)}return f}catch(a){return 0}});var
+ip=[au,p3,ft(0)],fM=[0,ip,[0]],p2=fx(fM)===au?fM:fM[1];hU(a(hg),p2);(function(a){throw a});var
+p4=v.Array;io(function(a){return a[1]===ip?[0,bm(a[2].toString())]:0});io(function(a){return a
 instanceof
-pY?0:[0,bm(a.toString())]});var
+p4?0:[0,bm(a.toString())]});var
 d=a2(0),c=a2(1);function
 n(a){return C(a,c)}function
-il(b,a){return C(a2(b),a)}function
+iq(b,a){return C(a2(b),a)}function
 b(b,a){return r(a2(b),a)}function
-bo(b,a){return[0,hV(b,a),nf(b,a)]}function
-fM(b,a){return D(b,a)?b:a}function
-cm(b,a){return D(b,a)?a:b}function
-aN(a){return a?0:1}function
+bo(b,a){return[0,hZ(b,a),nl(b,a)]}function
+fN(b,a){return D(b,a)?b:a}function
+cn(b,a){return D(b,a)?a:b}function
+aK(a){return a?0:1}function
 af(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dx(a){return a[1]}function
-dy(a){return a[2]}function
-k(a){var
-b=a?[0,k(a[2])]:a;return b}function
+dz(a){return a[1]}function
+dA(a){return a[2]}function
+l(a){var
+b=a?[0,l(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-im(a){return typeof
-a==="number"?0:[0,im(a[1])]}function
-io(d,c){var
+ir(a){return typeof
+a==="number"?0:[0,ir(a[1])]}function
+is(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ek(a){return io(a,0)}function
-ip(a){if(typeof
-a==="number")return p0;else
+el(a){return is(a,0)}function
+it(a){if(typeof
+a==="number")return p6;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,9 +1944,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ip(a[1])]}}function
+8:return[9,a[1]];default:return[0,it(a[1])]}}function
 bb(a){if(typeof
-a==="number")return p1;else
+a==="number")return p7;else
 switch(a[0]){case
 0:return[1,ba(a[1])];case
 1:return[3,ba(a[1])];case
@@ -1971,34 +1971,34 @@ switch(a[0]){case
 8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
 bO(a){return a?a[1]:a}function
 J(b,a){return b?[0,J(b[1],a)]:a}function
-dz(a,b){return a?J(b,dz(a[1],b)):a}function
-dA(b,a){return b?a:a?0:1}function
+dB(a,b){return a?J(b,dB(a[1],b)):a}function
+dC(b,a){return b?a:a?0:1}function
 M(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-iq(b,a){return _([0,b],a)}function
-ir(c){var
+iu(b,a){return $([0,b],a)}function
+iv(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fN(c,b,a){return c?e(b,fN(c[1],b,a)):a}function
-is(a){if(a)var
-b=a[1],d=b?[0,is(b[1])]:b,c=d;else
+fO(c,b,a){return c?e(b,fO(c[1],b,a)):a}function
+iw(a){if(a)var
+b=a[1],d=b?[0,iw(b[1])]:b,c=d;else
 var
 c=a;return c}function
-el(a){if(D(a,c))return c;var
-b=bo(a,a2(2)),e=b[1];return al(b[2],d)?n(el(e)):n(el(e))}function
-em(c,b){var
-a=hU(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-it(b,i,h){var
+em(a){if(D(a,c))return c;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?n(em(e)):n(em(e))}function
+en(c,b){var
+a=hY(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+ix(b,i,h){var
 e=i,a=h;for(;;){if(D(e,c))return a;var
 f=bo(e,a2(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=P(b,a,a);continue}return P(b,a,it(b,g,P(b,a,a)))}}function
-dB(a){return it(J,a,p3)}function
-fO(a){return a?n(fO(a[1])):c}function
+e=g,a=Q(b,a,a);continue}return Q(b,a,ix(b,g,Q(b,a,a)))}}function
+dD(a){return ix(J,a,p9)}function
+fP(a){return a?n(fP(a[1])):c}function
 bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -2022,17 +2022,17 @@ u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
 w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fP(a){if(D(a,c))return p4;var
-b=bo(a,a2(2)),e=b[1];return al(b[2],d)?ba(fP(e)):bb(fP(e))}function
-en(a){return ek(fP(a))}function
-iu(k,f){if(0<=bJ(f)){var
-g=hW(f);if(0<=g){var
+fQ(a){if(D(a,c))return p_;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?ba(fQ(e)):bb(fQ(e))}function
+eo(a){return el(fQ(a))}function
+iy(k,f){if(0<=bJ(f)){var
+g=h0(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b3(pZ)}return d}function
-iv(a){return 0<=bJ(a)?a:d}function
-fQ(a){var
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b4(p5)}return d}function
+iz(a){return 0<=bJ(a)?a:d}function
+fR(a){var
 b=bJ(a);return 0===b?c:0<b?a:c}function
-iw(m){var
+iA(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2054,15 +2054,15 @@ j=n(b(2,n(b(2,c))));return bP(a[1],j);case
 8:var
 k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
 l=n(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
-b6(b,a){var
-c=bJ(a);return 0===c?d:1===c?hV(b,a):il(-1,hV(il(-1,b),a))}function
-ix(a){return 0<bJ(a)?Bi(a):d}function
-dC(b,c){var
-a=hW(c);return 0<=a?ng(b,a):nh(b,-a|0)}function
-cQ(b,c){var
-a=hW(c);return 0<=a?nh(b,a):ng(b,-a|0)}function
-eo(b,a){return a?a[1]:b}function
-fR(a){var
+b7(b,a){var
+c=bJ(a);return 0===c?d:1===c?hZ(b,a):iq(-1,hZ(iq(-1,b),a))}function
+iB(a){return 0<bJ(a)?BC(a):d}function
+dE(b,c){var
+a=h0(c);return 0<=a?nm(b,a):nn(b,-a|0)}function
+cS(b,c){var
+a=h0(c);return 0<=a?nn(b,a):nm(b,-a|0)}function
+ep(b,a){return a?a[1]:b}function
+fS(a){var
 b=a?a[2]:a;return b}function
 E(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -2071,9 +2071,9 @@ ai(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iy(a){if(a){var
-b=[0,a[1],0];return g(iy(a[2]),b)}return a}function
-iz(d,c){var
+iC(a){if(a){var
+b=[0,a[1],0];return g(iC(a[2]),b)}return a}function
+iD(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
@@ -2082,12 +2082,12 @@ var
 c=a;return c}function
 z(b,a){if(a){var
 c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
-iA(e,d,c){var
+iE(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=P(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cR(c,b,a){if(a){var
-d=cR(c,b,a[2]);return P(c,a[1],d)}return b}function
-a7(f,d){var
+f=Q(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cT(c,b,a){if(a){var
+d=cT(c,b,a[2]);return Q(c,a[1],d)}return b}function
+a4(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2098,105 +2098,105 @@ o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fS(b,f){var
+fT(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,fS(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fT(b,c)];var
 a=c;continue}return a}}function
-cn(b,a){if(b)if(a)var
-d=cn(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+co(b,a){if(b)if(a)var
+d=co(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ep(b,a){if(b)if(a)var
-d=ep(b[1],a[2]),c=[0,a[1],d];else
+eq(b,a){if(b)if(a)var
+d=eq(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-iB(d,c){var
+iF(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cS(b,a){var
-c=a?[0,b,cS([0,b],a[1])]:a;return c}function
-co(b,a){var
-c=a?[0,b,co(b,a[1])]:a;return c}function
-iC(a){if(a){var
-e=iC(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
-eq(j){function
+cU(b,a){var
+c=a?[0,b,cU([0,b],a[1])]:a;return c}function
+cp(b,a){var
+c=a?[0,b,cp(b,a[1])]:a;return c}function
+iG(a){if(a){var
+e=iG(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
+er(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iC([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bJ(b)?dB(b):0}function
-iD(c,b){var
-a=hU(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iE(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
-iF(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-iG(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
-aX(a){if(typeof
-a==="number")return p7;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iG([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bJ(b)?dD(b):0}function
+iH(c,b){var
+a=hY(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iI(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
+iJ(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iK(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+aY(a){if(typeof
+a==="number")return qb;else
 switch(a[0]){case
 0:var
-b=aX(a[1]);return ax(a6(1,48),b);case
+b=aY(a[1]);return ax(a7(1,48),b);case
 1:var
-c=aX(a[1]);return ax(a6(1,49),c);case
+c=aY(a[1]);return ax(a7(1,49),c);case
 2:var
-d=aX(a[1]);return ax(a6(1,50),d);case
+d=aY(a[1]);return ax(a7(1,50),d);case
 3:var
-e=aX(a[1]);return ax(a6(1,51),e);case
+e=aY(a[1]);return ax(a7(1,51),e);case
 4:var
-f=aX(a[1]);return ax(a6(1,52),f);case
+f=aY(a[1]);return ax(a7(1,52),f);case
 5:var
-g=aX(a[1]);return ax(a6(1,53),g);case
+g=aY(a[1]);return ax(a7(1,53),g);case
 6:var
-h=aX(a[1]);return ax(a6(1,54),h);case
+h=aY(a[1]);return ax(a7(1,54),h);case
 7:var
-i=aX(a[1]);return ax(a6(1,55),i);case
+i=aY(a[1]);return ax(a7(1,55),i);case
 8:var
-j=aX(a[1]);return ax(a6(1,56),j);default:var
-k=aX(a[1]);return ax(a6(1,57),k)}}function
-dD(a){return typeof
-a==="number"?p8:aX(a)}function
-cp(a){return iu(b(2,c),a)}function
-iH(b,a){return cQ(a,b)}function
-iI(b,a){return Y(cQ(Y(a),b))}function
-er(b,a){return Y(b6(Y(b),a))}function
-aK(c,b){var
-a=dC(b,c);return[0,a,a]}function
+j=aY(a[1]);return ax(a7(1,56),j);default:var
+k=aY(a[1]);return ax(a7(1,57),k)}}function
+dF(a){return typeof
+a==="number"?qc:aY(a)}function
+cq(a){return iy(b(2,c),a)}function
+iL(b,a){return cS(a,b)}function
+iM(b,a){return Z(cS(Z(a),b))}function
+es(b,a){return Z(b7(Z(b),a))}function
+aL(c,b){var
+a=dE(b,c);return[0,a,a]}function
 A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-N(b,a){return[0,b2(b[1],a[2]),b2(b[2],a[1])]}function
-aH(a){return[0,Y(a[2]),Y(a[1])]}function
-iJ(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
-f=cm(r(e,b),r(c,a));return[0,fM(r(e,a),r(c,b)),f]}function
+N(b,a){return[0,b3(b[1],a[2]),b3(b[2],a[1])]}function
+aH(a){return[0,Z(a[2]),Z(a[1])]}function
+iN(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
+f=cn(r(e,b),r(c,a));return[0,fN(r(e,a),r(c,b)),f]}function
 F(c,b,a){var
-d=iJ(b[1],b[2],a[1],a[2]),e=iI(c,d[2]);return[0,iH(c,d[1]),e]}function
-$(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iI(b,cm(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
+d=iN(b[1],b[2],a[1],a[2]),e=iM(c,d[2]);return[0,iL(c,d[1]),e]}function
+aa(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iM(b,cn(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iH(b,fM(c,e));return[0,f,h]}function
-iK(b,a){var
-c=dC(cp(b),b),d=er(c,a[1]);return[0,b6(c,a[2]),d]}function
-cq(b,a){if(ac(d,a[1]))return[0,iK(b,a)];var
-c=ac(a[2],d),e=c?[0,aH(iK(b,aH(a)))]:c;return e}function
-cr(f,b){var
+f=iL(b,fN(c,e));return[0,f,h]}function
+iO(b,a){var
+c=dE(cq(b),b),d=es(c,a[1]);return[0,b7(c,a[2]),d]}function
+cr(b,a){if(ac(d,a[1]))return[0,iO(b,a)];var
+c=ac(a[2],d),e=c?[0,aH(iO(b,aH(a)))]:c;return e}function
+cs(f,b){var
 g=ac(d,b[1]);if(g)var
-e=dC(b[2],f),a=ix(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,ix(dC(b[1],f)),i]];else
+e=dE(b[2],f),a=iB(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,iB(dE(b[1],f)),i]];else
 var
 h=g;return h}function
 a8(e,d,c,b,a){if(b){if(a){var
-g=a8(e,d,c,b[2],a[2]);return[0,P(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-b7(b,a){return cQ(b,a)}function
+g=a8(e,d,c,b[2],a[2]);return[0,Q(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+b8(b,a){return cS(b,a)}function
 bQ(a,c,b){if(D(d,a)){var
-e=b[1],f=Y(b7(Y(r(a,b[2])),c));return[0,b7(r(a,e),c),f]}var
-g=b[2],h=Y(b7(Y(r(a,b[1])),c));return[0,b7(r(a,g),c),h]}function
-es(a){var
-b=Y(cQ(Y(a[2]),c));return[0,cQ(a[1],c),b]}function
-fT(c,b,a){var
-e=iJ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=er(f,h),j=ac(g,d)?a[1]:a[2];return[0,b6(g,j),i]}var
-aa=[0,d,d];function
-fU(a){return[0,a[1],a[1]]}function
-et(a){return[0,a[2],a[2]]}function
+e=b[1],f=Z(b8(Z(r(a,b[2])),c));return[0,b8(r(a,e),c),f]}var
+g=b[2],h=Z(b8(Z(r(a,b[1])),c));return[0,b8(r(a,g),c),h]}function
+et(a){var
+b=Z(cS(Z(a[2]),c));return[0,cS(a[1],c),b]}function
+fU(c,b,a){var
+e=iN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=es(f,h),j=ac(g,d)?a[1]:a[2];return[0,b7(g,j),i]}var
+O=[0,d,d];function
+fV(a){return[0,a[1],a[1]]}function
+eu(a){return[0,a[2],a[2]]}function
 az(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dC(b[1],a),t=er(m,n);return[0,[0,b6(m,n),t]];case
+n=b[2],m=dE(b[1],a),t=es(m,n);return[0,[0,b7(m,n),t]];case
 1:var
 c=az(a,b[1]);if(c)var
 d=az(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
@@ -2215,70 +2215,70 @@ q=g;return q;case
 4:var
 i=az(a,b[1]);if(i){var
 j=az(a,b[2]);if(j)var
-k=cq(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
+k=cr(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=az(a,b[1]);return l?cr(a,l[1]):l}}function
-iL(a){var
-e=cm(Y(a),d);return fQ(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iM(a){return iv(C(iL(a),a))}function
-b8(f,a,e){var
-b=az(C(f,iL(a)),e);if(b)var
-c=b[1],g=iM(a),h=Y(b7(Y(c[2]),g)),i=iM(a),d=[0,[0,b7(c[1],i),h]];else
+l=az(a,b[1]);return l?cs(a,l[1]):l}}function
+iP(a){var
+e=cn(Z(a),d);return fR(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iQ(a){return iz(C(iP(a),a))}function
+b9(f,a,e){var
+b=az(C(f,iP(a)),e);if(b)var
+c=b[1],g=iQ(a),h=Z(b8(Z(c[2]),g)),i=iQ(a),d=[0,[0,b8(c[1],i),h]];else
 var
 d=b;return d}function
 aA(d,a){var
-b=b8(d,a[2],a[1][1]);if(b)var
-c=b8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=b9(d,a[2],a[1][1]);if(b)var
+c=b9(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iN(b,a){var
-c=Y(b7(Y(a[2]),b));return[0,b7(a[1],b),c]}function
-fV(b,a){var
-c=er(b[2],a);return[0,b6(b[1],a),c]}function
-fW(a,f,b){if(b){var
-d=b[1],g=fW(a,f,d),h=g[2],i=fO(J(dz(p_,d),p9)),j=r(fO(dz(p$,d)),i),e=fV(F(a,g[1],f),j),k=ir(b)?A(h,e):N(h,e);return[0,e,k]}var
-l=aK(a,c);return[0,aK(a,c),l]}function
-iO(f){var
-g=dB(f),e=qa[1],b=g,c=0,a=e;for(;;){if(b){var
+iR(b,a){var
+c=Z(b8(Z(a[2]),b));return[0,b8(a[1],b),c]}function
+fW(b,a){var
+c=es(b[2],a);return[0,b7(b[1],a),c]}function
+fX(a,f,b){if(b){var
+d=b[1],g=fX(a,f,d),h=g[2],i=fP(J(dB(qe,d),qd)),j=r(fP(dB(qf,d)),i),e=fW(F(a,g[1],f),j),k=iv(b)?A(h,e):N(h,e);return[0,e,k]}var
+l=aL(a,c);return[0,aL(a,c),l]}function
+iS(f){var
+g=dD(f),e=qg[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return J(qb,c)}}function
-iP(a,d){var
-g=cp(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fW(a,d,dz(qd,J(iO(a),qc)))[2][2],f=[0,[0,fW(a,d,J(dz(qf,iO(a)),qe))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return J(qh,c)}}function
+iT(a,d){var
+g=cq(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fX(a,d,dB(qj,J(iS(a),qi)))[2][2],f=[0,[0,fX(a,d,J(dB(ql,iS(a)),qk))[2][1],i]];else
 var
 f=e;return f}function
-iQ(i){function
+iU(i){function
 a(h){var
-m=b6(cp(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
-j=C(a,b(2,c)),k=C(e,b6(f,a)),l=Y(b6(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b2(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iR(e,a){var
+m=b7(cq(i),h),g=dD(i),f=m,e=d,a=c;for(;;){if(g){var
+j=C(a,b(2,c)),k=C(e,b7(f,a)),l=Z(b7(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b3(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iV(e,a){var
 f=D(d,a);if(f){var
-g=b(2,b(2,c));return iP(e,fV($(e,[0,a,a]),g))}return f}function
-iS(a,d){var
-b=$(a,d),e=aK(a,c);return N(A(b,b),e)}function
-eu(o,u){var
+g=b(2,b(2,c));return iT(e,fW(aa(e,[0,a,a]),g))}return f}function
+iW(a,d){var
+b=aa(a,d),e=aL(a,c);return N(A(b,b),e)}function
+ev(o,u){var
 h=az(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b2(iQ(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iQ(a),r),f=iR(a,i);if(f){var
-g=iR(a,j);if(g)var
+v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b3(iU(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iU(a),r),f=iV(a,i);if(f){var
+g=iV(a,j);if(g)var
 k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iP(a,$(a,fV(F(a,v,e[1]),s))),p=af(function(b){return iS(a,iS(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iT(a,aa(a,fW(F(a,v,e[1]),s))),p=af(function(b){return iW(a,iW(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return af(function(a){return iN(w,a)},p)}return h}function
-fX(d,a){return eu(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
-ev(a){return 0===a[0]?a[2]:a[1]}function
-dE(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return af(function(a){return iR(w,a)},p)}return h}function
+fY(d,a){return ev(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+ew(a){return 0===a[0]?a[2]:a[1]}function
+dG(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2315,105 +2315,105 @@ d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-ew(b){var
+ex(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bp(c,b){var
-a=ew(b);return a?al(c,a[1]):a}function
-dF(a){return ac(fA(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=ex(b);return a?al(c,a[1]):a}function
+dH(a){return ac(fB(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
 G(b,a){if(bp(d,b))return a;if(bp(d,a))return b;var
-c=ew(b);if(c){var
-e=c[1],f=ew(a);if(f){var
-g=f[1];if(dF(e)&&dF(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cs(a){var
+c=ex(b);if(c){var
+e=c[1],f=ex(a);if(f){var
+g=f[1];if(dH(e)&&dH(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ct(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dF(c)?q(Y(c)):[0,[5,a]];case
+c=b[1];return dH(c)?q(Z(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){return bp(d,a)?b:bp(d,b)?cs(a):[0,[4,b,a]]}function
-W(a){var
-c=ew(a);if(c){var
-b=c[1];return dF(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?W(a):[0,[6,a,b]];return b}return a}function
-aq(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
-b9(a){return bp(c,a)?a:[0,[9,a]]}function
-ct(g,f,d,c){var
+w(b,a){return bp(d,a)?b:bp(d,b)?ct(a):[0,[4,b,a]]}function
+X(a){var
+c=ex(a);if(c){var
+b=c[1];return dH(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?X(a):[0,[6,a,b]];return b}return a}function
+ar(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
+b_(a){return bp(c,a)?a:[0,[9,a]]}function
+cu(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dE(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dG(a){var
+h=b[1],i=[0,e(f,dG(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dI(a){var
 b=0;function
-c(a){return[0,a]}return ct(q(d),c,a,b)}function
-fY(b,a){if(a){if(bc(b,a[1]))return qg;var
-c=fY(b,a[2]);return af(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return cu(q(d),c,a,b)}function
+fZ(b,a){if(a){if(bc(b,a[1]))return qm;var
+c=fZ(b,a[2]);return af(function(a){return[0,a]},c)}return a}function
 bq(c,b){var
-a=fY(b,c),d=a?a[1]:a;return d}function
-ex(d,a){if(fY(d,a[1]))return a;var
+a=fZ(b,c),d=a?a[1]:a;return d}function
+ey(d,a){if(fZ(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=ex(b[1],a);break;case
+c=ey(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=ex(b[1],a),c=ex(b[2],h)}var
-e=c[2],f=c[1],g=[0,dE(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dH(a){var
-b=iA(function(b,a){return ex(a,b)},a,qh),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,iy(b[2]),d]}function
-ey(a){return cR(function(a,b){return C(cm(a[2],Y(a[1])),b)},d,a)}function
-cT(b,c,a){var
-d=ey(a),e=fM(c[2],C(b[2],d)),f=ey(a);return[0,b,[0,cm(c[1],b2(b[1],f)),e],a]}function
-aY(a){return[0,a,a,0]}function
-ez(b,a){var
+h=ey(b[1],a),c=ey(b[2],h)}var
+e=c[2],f=c[1],g=[0,dG(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dJ(a){var
+b=iE(function(b,a){return ey(a,b)},a,qn),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,iC(b[2]),d]}function
+ez(a){return cT(function(a,b){return C(cn(a[2],Z(a[1])),b)},d,a)}function
+cV(b,c,a){var
+d=ez(a),e=fN(c[2],C(b[2],d)),f=ez(a);return[0,b,[0,cn(c[1],b3(b[1],f)),e],a]}function
+aZ(a){return[0,a,a,0]}function
+eA(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cT(A(b[1],a[1]),g,f)}function
-iT(b,a){var
-c=a[3],d=b[3],e=a8(function(a){return a},aH,N,d,c),f=N(b[2],a[2]);return cT(N(b[1],a[1]),f,e)}function
-iU(a,c,b){var
+f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cV(A(b[1],a[1]),g,f)}function
+iX(b,a){var
+c=a[3],d=b[3],e=a8(function(a){return a},aH,N,d,c),f=N(b[2],a[2]);return cV(N(b[1],a[1]),f,e)}function
+iY(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=F(a,e,b);return es(A(F(a,d,c),f))}function
-i(b){return es(F(a,e,b))}var
-j=a8(function(b){return es(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cT(F(a,c[1],b[1]),k,j)}function
-fZ(b,a){return a?e(b,a[1]):a}function
-eA(d,b,a){if(b){if(a)return P(d,b[1],a[1]);var
+f=F(a,e,b);return et(A(F(a,d,c),f))}function
+i(b){return et(F(a,e,b))}var
+j=a8(function(b){return et(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cV(F(a,c[1],b[1]),k,j)}function
+f0(b,a){return a?e(b,a[1]):a}function
+eB(d,b,a){if(b){if(a)return Q(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dI(a,e,d){var
-c=aY(aa);return function(b){switch(b[0]){case
+dK(a,e,d){var
+c=aZ(O);return function(b){switch(b[0]){case
 0:return[0,E(b[1],e,c)];case
 1:return[0,E(b[1],d,c)];case
-2:return[0,aY(aK(a,b[1]))];case
+2:return[0,aZ(aL(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return eA(function(b,a){return[0,ez(b,a)]},h,g);case
+g=b[2],h=b[1];return eB(function(b,a){return[0,eA(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eA(function(b,a){return[0,iT(b,a)]},j,i);case
+i=b[2],j=b[1];return eB(function(b,a){return[0,iX(b,a)]},j,i);case
 5:var
-k=b[1];return fZ(function(a){var
+k=b[1];return f0(function(a){var
 b=f(aH,a[3]),c=aH(a[2]);return[0,[0,aH(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eA(function(c,b){return[0,iU(a,c,b)]},m,l);case
+l=b[2],m=b[1];return eB(function(c,b){return[0,iY(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return eA(function(e,g){var
-b=cq(a,g[1]);if(b){var
-c=cq(a,g[2]);if(c)var
-h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,F(a,d,b))},n=function(b){return aH(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cT(d,F(a,e[2],h),p)];else
+n=b[2],o=b[1];return eB(function(e,g){var
+b=cr(a,g[1]);if(b){var
+c=cr(a,g[2]);if(c)var
+h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,F(a,d,b))},n=function(b){return aH(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cV(d,F(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fZ(function(b){var
-c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=$(a,b[2]);return[0,cT($(a,b[1]),g,e)]},p);default:var
-q=b[1];return fZ(function(e){var
-b=cr(a,e[1]);if(b){var
-g=b[1],c=cr(a,e[2]);if(c){var
-h=c[1],d=cq(a,A(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cT(g,h,f(function(b){return F(a,m,b)},l))];else
+p=b[1];return f0(function(b){var
+c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=aa(a,b[2]);return[0,cV(aa(a,b[1]),g,e)]},p);default:var
+q=b[1];return f0(function(e){var
+b=cs(a,e[1]);if(b){var
+g=b[1],c=cs(a,e[2]);if(c){var
+h=c[1],d=cr(a,A(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cV(g,h,f(function(b){return F(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2422,163 +2422,164 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-qi(a){return a}function
-qj(a){return a}function
-qk(a,b){return a8(qj,qi,A,a,b)}function
-ql(a){return a}function
-qm(a){return a}function
-f0(a,b){return a8(qm,ql,qk,a,b)}function
-f1(b,a,c){if(a){var
+qo(a){return a}function
+qp(a){return a}function
+qq(a,b){return a8(qp,qo,A,a,b)}function
+qr(a){return a}function
+qs(a){return a}function
+f1(a,b){return a8(qs,qr,qq,a,b)}function
+f2(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=f1(b,e,c[2]),h=c[1],i=function(c,a){return N(c,fT(d,a,b))},j=function(a){return aH(fT(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
-k=f1(b,e,0);return[0,f(function(a){return aH(fT(d,a,b))},a),k]}return c}function
-iV(a){if(a){var
+g=f2(b,e,c[2]),h=c[1],i=function(c,a){return N(c,fU(d,a,b))},j=function(a){return aH(fU(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
+k=f2(b,e,0);return[0,f(function(a){return aH(fU(d,a,b))},a),k]}return c}function
+iZ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ac(d,c[1]),h=e?[0,f1(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ac(d,c[1]),h=e?[0,f2(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iW(f,e){var
+i0(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iV(b);if(c){var
+c=iZ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iX(d,b,a){if(b)if(a)var
-e=a[1],f=iX(d,b[2],a[2]),g=dA(d,b[1])?fU(e):et(e),c=[0,g,f];else
+i1(d,b,a){if(b)if(a)var
+e=a[1],f=i1(d,b[2],a[2]),g=dC(d,b[1])?fV(e):eu(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iY(a,b){if(a)if(b)var
-d=iY(a[2],b[2]),c=[0,iX(a[1],a,b[1]),d];else
+i2(a,b){if(a)if(b)var
+d=i2(a[2],b[2]),c=[0,i1(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bR(a){if(a){var
-b=a[1],c=bR(b),d=f(function(a){return[0,1,a]},c),e=bR(b);return g(f(function(a){return[0,0,a]},e),d)}return qn}function
-eB(a){var
-b=k(a);if(iW(b,a))return 1;var
-c=bR(bO(b));return o(function(c){return iW(b,iY([0,0,c],a))},c)}function
-a4(a){function
+b=a[1],c=bR(b),d=f(function(a){return[0,1,a]},c),e=bR(b);return g(f(function(a){return[0,0,a]},e),d)}return qt}function
+eC(a){var
+b=l(a);if(i0(b,a))return 1;var
+c=bR(bO(b));return o(function(c){return i0(b,i2([0,0,c],a))},c)}function
+a5(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-b_(h,e){var
+b$(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-f2(c,b,a){var
-d=bR(c);return o(function(c){return e(a,e(a4(function(a){return b_(c,a)}),b))},d)}function
-iZ(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bQ(b,C(h,c),a)},k=iZ(h,j,i),l=function(c,b){var
+f3(c,b,a){var
+d=bR(c);return o(function(c){return e(a,e(a5(function(a){return b$(c,a)}),b))},d)}function
+i3(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bQ(b,C(h,c),a)},k=i3(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-i0(b,d,a,c){function
+i4(b,d,a,c){function
 e(c,d){var
 e=bQ(d,b,a);return N(A(c,c),e)}function
 f(c){return aH(bQ(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
-f3(d,i,h,g){var
+f4(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=et(e[2]),k=f0(a,iZ(d,f,i0(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-f4(b,a){return[0,[0,0,b],a]}function
-dJ(b,c,g,f,a){function
+e=b[1],f=c[1],j=eu(e[2]),k=f1(a,i3(d,f,i4(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+f5(b,a){return[0,[0,0,b],a]}function
+cW(b,c,g,f,a){function
 d(a){if(a){var
-h=co([0,aH(a[1][2]),0],b),c=f3(g,f,a[2],h),d=M(k(c),b);if(d)return eB(c);var
+h=cp([0,aH(a[1][2]),0],b),c=f4(g,f,a[2],h),d=M(l(c),b);if(d)return eC(c);var
 e=d}else
 var
-e=a;return e}return f2(b,f4(c,a),d)}function
-i1(f,e){var
+e=a;return e}return f3(b,f5(c,a),d)}function
+i5(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iV([0,[0,fU(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iZ([0,[0,fV(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-f5(b,c,a){function
+f6(b,c,a){function
 d(a){if(a){var
-h=co([0,a[1][2],0],b),c=i1(a[2],h);if(c){var
-d=c[1],e=M(k(d),b);if(e)return eB(d);var
+h=cp([0,a[1][2],0],b),c=i5(a[2],h);if(c){var
+d=c[1],e=M(l(d),b);if(e)return eC(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return f2(b,f4(c,a),d)}function
-i2(a,b){var
+g=a;return g}return f3(b,f5(c,a),d)}function
+i6(b,a){return f(function(a){return[0,a[1],b]},a)}function
+i7(a,b){var
 c=b[3],d=a[3],e=a8(function(a){return a},aH,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
-dK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 aS(c,b,a){var
-d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
-dL(b,a){var
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
+dM(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-eC(b,a){var
-c=aq(b[3],a),d=aq(b[2],a);return[0,aq(b[1],a),d,c]}function
-ar(b,a){var
+eD(b,a){var
+c=ar(b[3],a),d=ar(b[2],a);return[0,ar(b[1],a),d,c]}function
+as(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return G(G(s(b[1],a[1]),d),c)}function
-f6(a){return eC(a,b9(ar(a,a)))}function
-cU(a){var
-b=a[5];return b?b[1]:b9(a[2])}function
-eD(a){return f(function(a){var
-b=a[2];return[0,dK(a[1]),b]},a)}function
-i3(a){return f(function(a){var
-b=q(c);return[0,dK(a[3]),b]},a)}function
-i4(b,a){var
+f7(a){return eD(a,b_(as(a,a)))}function
+cX(a){var
+b=a[5];return b?b[1]:b_(a[2])}function
+eE(a){return f(function(a){var
+b=a[2];return[0,dL(a[1]),b]},a)}function
+i8(a){return f(function(a){var
+b=q(c);return[0,dL(a[3]),b]},a)}function
+i9(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-i5(c,b,a){var
-d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
-eE(a,k,j,p,i,h,g){var
-m=i5(iT,h,g),b=i5(function(b,c){return iU(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=ez(ez(ez(aY(aK(a,d)),f),e),c),n=bR(k);return o(function(e){var
-c=i4(function(b){return $(a,b_(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aK(a,d),o),n),m),f=cr(a,[0,b[2],b[2]]);if(f)var
+i_(c,b,a){var
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
+eF(a,k,j,p,i,h,g){var
+m=i_(iX,h,g),b=i_(function(b,c){return iY(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=eA(eA(eA(aZ(aL(a,d)),f),e),c),n=bR(k);return o(function(e){var
+c=i9(function(b){return aa(a,b$(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aL(a,d),o),n),m),f=cs(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
-q=F(a,p,h),k=N(b_(e,l),q),r=j?N(k,b_(e,j[1])):k;return ac(d,r[1])},n)}function
-br(a){return cQ(C(a[1],a[2]),c)}function
-cV(a){var
-b=br(a);return b2(a[2],b)}function
-f7(c,b){if(b)var
-a=b[1],e=f7([0,c],b[2]),f=cV(a),h=[0,[0,cV(a),f],0],i=g(co(aa,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
+q=F(a,p,h),k=N(b$(e,l),q),r=j?N(k,b$(e,j[1])):k;return ac(d,r[1])},n)}function
+br(a){return cS(C(a[1],a[2]),c)}function
+cY(a){var
+b=br(a);return b3(a[2],b)}function
+f8(c,b){if(b)var
+a=b[1],e=f8([0,c],b[2]),f=cY(a),h=[0,[0,cY(a),f],0],i=g(cp(O,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
 var
 d=b;return d}function
-dM(d,b){if(b){var
+dN(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dM(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qo}function
-i6(d,b,a){if(b){if(a){var
-e=i6(d,b[2],a[2]);return A(bQ(b[1],C(d,c),a[1]),e)}return aa}return aa}function
-f8(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i6(e,a,b)},j=f8(e,h),k=f(function(a){var
+e=dN(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qu}function
+i$(d,b,a){if(b){if(a){var
+e=i$(d,b[2],a[2]);return A(bQ(b[1],C(d,c),a[1]),e)}return O}return O}function
+f9(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i$(e,a,b)},j=f9(e,h),k=f(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-f9(e,b,d,a){if(b)if(a)var
-f=b[1],g=f9(e,b[2],d,a[2]),c=[0,[0,f,i0(e,a[1][1],d,f)],g];else
+f_(e,b,d,a){if(b)if(a)var
+f=b[1],g=f_(e,b[2],d,a[2]),c=[0,[0,f,i4(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-f_(e,d,c,b,a){if(a){var
+f$(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=f_(e,d[1],c,b,g);return[0,[0,N(aa,b),0],i]}var
-j=f(function(a){return[0,N(aa,b),0]},g),h=[0,[0,N(aH(F(e,c,et(a[1][2]))),b),0],j]}else
+i=f$(e,d[1],c,b,g);return[0,[0,N(O,b),0],i]}var
+j=f(function(a){return[0,N(O,b),0]},g),h=[0,[0,N(aH(F(e,c,eu(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-dN(c,a){var
-b=M(k(a),c);return b?eB(a):b}function
-i7(d,c,b,a){var
-e=f(aY,b);return ct(0,dI(d,f7(0,a),e),c,0)}function
+dO(c,a){var
+b=M(l(a),c);return b?eC(a):b}function
+ja(d,c,b,a){var
+e=f(aZ,b);return cu(0,dK(d,f8(0,a),e),c,0)}function
 aT(a){if(a){var
 b=a[1];if(b)var
 c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qp}function
-i8(b,a){if(a){var
+d=b;return d}return qv}function
+jb(b,a){if(a){var
 h=a[1],n=h[1],c=aT(f(function(a){return E(a,b,0)},n));if(c){var
 e=E(h[2],b,0);if(e){var
-i=e[1],g=i8(b,a[2]);if(g)var
+i=e[1],g=jb(b,a[2]);if(g)var
 j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2587,19 +2588,19 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qq}function
-b$(d,c,b){var
-a=i8(d,c);return a?e(b,a[1]):a}function
-f$(a,b){return o(function(c){var
+m=c;return m}return qw}function
+bS(d,c,b){var
+a=jb(d,c);return a?e(b,a[1]):a}function
+ga(a,b){return o(function(c){var
 a=E(c,b,0),d=a?1:a;return d},a)}function
-eF(b,a){if(b){var
+eG(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-ga(b,a){return b?i2(a,b[1]):a}function
-gb(h,g,b,f){var
+gb(b,a){return b?i7(a,b[1]):a}function
+gc(h,g,b,f){var
 a=E(f,h,0);if(a){var
 c=a[1];if(b){var
-i=i2(c,b[1]),e=bR(g);return o(function(a){return D(d,b_(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-eG(b,a){var
+i=i7(c,b[1]),e=bR(g);return o(function(a){return D(d,b$(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+eH(b,a){var
 c=E(a[1],b,0);if(c){var
 d=E(a[2],b,0);if(d)var
 e=E(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2608,59 +2609,58 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-i9(i,l,J,t,e,b,g,h,a){switch(h[0]){case
+jc(i,j,J,t,g,b,e,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=f$(t,e);if(K){var
-af=a[2],ag=a[1],ah=eF(g,aY(r));return b$(e,l,function(a){return dJ(b,ah,ag,af,a)})}return K;case
+K=ga(t,g);if(K){var
+af=a[2],ag=a[1],ah=eG(e,aZ(r));return bS(g,j,function(a){return cW(b,ah,ag,af,a)})}return K;case
 1:var
-L=f$(t,e);if(L){var
-ai=a[2],aj=a[1],ak=eF(g,aY(r));return b$(e,J,function(a){return dJ(b,ak,aj,ai,a)})}return L;case
+L=ga(t,g);if(L){var
+ai=a[2],aj=a[1],ak=eG(e,aZ(r));return bS(g,J,function(a){return cW(b,ak,aj,ai,a)})}return L;case
 2:var
-N=f$(t,e);if(N){if(g)return 0;var
-O=al(r[1],d),P=O?al(r[2],d):O;if(P){var
-am=a[2],an=a[1];return b$(e,l,function(a){var
-c=[0,aa,aa,0];return dJ(b,[0,aa,aa,0],an,am,f(function(a){return[0,a[1],c]},a))})}var
-Q=P}else
+N=ga(t,g);if(N){if(e)return 0;var
+P=al(r[1],d),Q=P?al(r[2],d):P;if(Q){var
+am=a[2],an=a[1];return bS(g,j,function(a){return cW(b,[0,O,O,0],an,am,i6([0,O,O,0],a))})}var
+R=Q}else
 var
-Q=N;return Q}return 0;case
+R=N;return R}return 0;case
 1:var
-R=h[1];if(typeof
+S=h[1];if(typeof
 a==="number"){if(1===a){var
-ao=ga(g,aY(R));return b$(e,J,function(a){return f5(b,ao,a)})}if(!a){var
-ap=ga(g,aY(R));return b$(e,l,function(a){return f5(b,ap,a)})}}return 0;case
+ao=gb(e,aZ(S));return bS(g,J,function(a){return f6(b,ao,a)})}if(!a){var
+ap=gb(e,aZ(S));return bS(g,j,function(a){return f6(b,ap,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-S=a[1],u=a[3],I=function(a){return bQ(a,S,aK(i,c))};if(u)var
-ae=f(I,u[2]),j=[0,I(u[1]),aa,ae];else
+T=a[1],u=a[3],I=function(a){return bQ(a,T,aL(i,c))};if(u)var
+ae=f(I,u[2]),k=[0,I(u[1]),O,ae];else
 var
-j=aY(aa);var
-T=h[1],aq=a[2];return b$(e,l,function(e){var
-h=bR(b),a=o(function(a){return ac(d,b_(a,j)[1])},h),c=a?dJ(b,eF(g,j),S,aq,e):a;if(c){var
-k=j[3],l=f(function(a){return F(i,T,a)},k),m=j[2];return f5(b,ga(g,[0,F(i,T,j[1]),m,l]),e)}return c})}return 0;case
+k=aZ(O);var
+U=h[1],aq=a[2];return bS(g,j,function(g){var
+h=bR(b),a=o(function(a){return ac(d,b$(a,k)[1])},h),c=a?cW(b,eG(e,k),T,aq,g):a;if(c){var
+j=k[3],l=f(function(a){return F(i,U,a)},j),m=k[2];return f6(b,gb(e,[0,F(i,U,k[1]),m,l]),g)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gb(e,b,g,h[1]);return 0;case
+a==="number"&&!a)return gc(g,b,e,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ar=a[2],as=a[1],at=eF(g,aY(h[2])),au=function(a){return dJ(b,at,as,ar,a)};return b$(e,h[1],au)}return 0;case
+ar=a[2],as=a[1],at=eG(e,aZ(h[2])),au=function(a){return cW(b,at,as,ar,a)};return bS(g,h[1],au)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gb(e,b,g,h[1]);case
-2:return gb(e,b,g,h[2])}return 0;case
+0:return gc(g,b,e,h[1]);case
+2:return gc(g,b,e,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=eG(e,h[1]);if(v){var
-w=eG(e,h[2]);if(w){var
-x=eG(e,h[3]);if(x){var
-y=eG(e,h[4]);if(y){var
-U=y[1],V=x[1],W=w[1],X=v[1],m=a[2],s=h[5],av=a[1];if(m){var
+v=eH(g,h[1]);if(v){var
+w=eH(g,h[2]);if(w){var
+x=eH(g,h[3]);if(x){var
+y=eH(g,h[4]);if(y){var
+V=y[1],W=x[1],X=w[1],Y=v[1],m=a[2],s=h[5],av=a[1];if(m){var
 n=m[2];if(n){var
 p=n[2];if(p){if(p[2])return 0;var
-ad=[0,m[1],n[1],p[1]],q=i4(function(d){function
-e(a){return bQ(a,av,aK(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=ey(a),h=C(b[2],g),j=ey(a);return[0,b,[0,b2(b[1],j),h],a]}return aY(aa)},ad),z=o(function(a){return M(k(a),[0,b])},m),A=z?eE(i,b,g,s,q,X,V):z,B=A?eE(i,b,g,s,q,X,U):A,D=B?eE(i,b,g,s,q,W,V):B;if(D)return eE(i,b,g,s,q,W,U);var
+ad=[0,m[1],n[1],p[1]],q=i9(function(d){function
+e(a){return bQ(a,av,aL(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=ez(a),h=C(b[2],g),j=ez(a);return[0,b,[0,b3(b[1],j),h],a]}return aZ(O)},ad),z=o(function(a){return M(l(a),[0,b])},m),A=z?eF(i,b,e,s,q,Y,W):z,B=A?eF(i,b,e,s,q,Y,V):A,D=B?eF(i,b,e,s,q,X,W):B;if(D)return eF(i,b,e,s,q,X,V);var
 E=D}else
 var
 E=p;var
@@ -2670,36 +2670,40 @@ G=n;var
 H=G}else
 var
 H=m;return H}var
-Y=y}else
+Z=y}else
 var
-Y=x;var
-Z=Y}else
-var
-Z=w;var
+Z=x;var
 _=Z}else
 var
-_=v;return _}return 0;default:if(typeof
+_=w;var
+$=_}else
+var
+$=v;return $}return 0;case
+7:if(typeof
 a!=="number"&&0===a[0]){var
-$=a[2],ab=a[1],aw=h[2],ax=h[1];return b$(e,l,function(e){var
-a=M(k(e),b),d=a?M(k($),b):a;if(d){var
-f=function(a){if(a){var
-d=a[2],e=M(k(d),b);if(e){var
-g=f8(ab,f9(ab,$,aK(i,c),d));return dN(b,f0(f_(i,ax,aw,a[1][2],d),g))}var
+aa=a[2],ab=a[1],aw=h[2],ax=h[1];return bS(g,j,function(f){var
+a=M(l(f),b),d=a?M(l(aa),b):a;if(d){var
+g=function(a){if(a){var
+d=a[2],e=M(l(d),b);if(e){var
+g=f9(ab,f_(ab,aa,aL(i,c),d));return dO(b,f1(f$(i,ax,aw,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:aY(aa);return f2(b,f4(h,e),f)}return d})}return 0}}function
-eH(b,a){if(a){var
+f=a;return f},h=e?e[1]:aZ(O);return f3(b,f5(h,f),g)}return d})}return 0;default:if(typeof
+a==="number"&&5<=a){var
+ay=h[2],az=h[1];return bS(g,j,function(d){var
+a=i6([0,O,O,0],d),c=e?e[1]:[0,O,O,0];return cW(b,c,az,ay,a)})}return 0}}function
+eI(b,a){if(a){var
 c=a[2];if(b){var
-e=eH(b[1],c);return[0,a[1],e]}var
+e=eI(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i_(r,V,I,H,G,U,T,F,c,C,B){if(C){var
-J=i7(r,V,U,c),g=C,b=B;for(;;){if(g){var
+jd(r,V,I,H,G,U,T,F,c,C,B){if(C){var
+J=ja(r,V,U,c),g=C,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
-a==="number"&&4<=a){var
+a==="number"&&4===a){var
 m=e(F,c);if(m)var
-S=m[1],M=bR(k(c)),p=o(function(b){return function(a){return ac(b_(a,b)[2],d)}}(S),M);else
+S=m[1],M=bR(l(c)),p=o(function(b){return function(a){return ac(b$(a,b)[2],d)}}(S),M);else
 var
 p=m;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
@@ -2709,31 +2713,31 @@ y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(F,c),L=0;if(j){var
 s=D(d,i);if(s){var
-l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bQ(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bQ(i,t,l[1]),P,O]],h=i9(r,I,H,G,J,k(c),R,y,Q);L=1}else
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bQ(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bQ(i,t,k[1]),P,O]],h=jc(r,I,H,G,J,l(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i9(r,I,H,G,J,k(c),0,y,a);if(h){var
-g=w,b=eH(n,b);continue}var
+h=jc(r,I,H,G,J,l(c),0,y,a);if(h){var
+g=w,b=eI(n,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-gc(j,i,h,g,f,e,d,c,u,t,s){var
+gd(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i_(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aN,l[1]):l}var
-m=i_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dM(a[2],b),q=gc(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=jd(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aK,l[1]):l}var
+m=jd(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dN(a[2],b),q=gd(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i$(a){return f(function(a){return 1},a)}function
-cv(s,r){var
+je(a){return f(function(a){return 1},a)}function
+cw(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
 k=al(b[1],a[1]);if(k){var
@@ -2744,48 +2748,48 @@ f=j,e=p;continue}return 0}if(D(e,c))return 0;var
 h=bo(e,a2(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cv(b[1],a[1]);if(l){var
+l=cw(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cv(b[1],a[1]);if(m){var
+m=cw(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cv(b[1],a[1]);if(n){var
+n=cw(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cv(b[1],a[1]);if(o){var
+o=cw(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eI(a){switch(a[0]){case
+eJ(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iF(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iJ(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iF(b,[0,Y(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iJ(b,[0,Z(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iG(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iK(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iD(a,[0,d,c]))return 0;var
-b=a[1],e=bJ(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iG(g,f)]};break;default:return 0}var
-g=eI(e);if(g){var
-h=eI(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iH(a,[0,d,c]))return 0;var
+b=a[1],e=bJ(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Z(a[2]),Z(b)];return[0,iK(g,f)]};break;default:return 0}var
+g=eJ(e);if(g){var
+h=eJ(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eI(b);if(f){var
-g=f[1];return e?aN(iE(g,[0,d,c])):iE([0,d,c],g)}var
+f=eJ(b);if(f){var
+g=f[1];return e?aK(iI(g,[0,d,c])):iI([0,d,c],g)}var
 a=az(i,b);if(a){var
 h=a[1];return e?ac(d,h[1]):D(d,h[1])}return a}function
-ja(c,b){var
+jf(c,b){var
 a=az(c,b),d=a?1:a;return d}function
 bs(c,a,b){var
-d=cv(a,b),e=d?ja(c,a):d;return e?e:j(c,0,[2,b,a])}function
-cw(m,r){var
+d=cw(a,b),e=d?jf(c,a):d;return e?e:j(c,0,[2,b,a])}function
+cx(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
 j=e[2],n=e[1];if(D(j,c)){var
-k=al(b,n),l=k?dF(b):k;if(l)var
+k=al(b,n),l=k?dH(b):k;if(l)var
 o=al(m[2],d),g=o||al(b,d);else
 var
 g=l;var
@@ -2798,28 +2802,28 @@ var
 a=al(bo(i,a2(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
-cx(b,a){if(a)var
-d=cx([0,b],a[2]),c=[0,cw(a[1],b),d];else
+cy(b,a){if(a)var
+d=cy([0,b],a[2]),c=[0,cx(a[1],b),d];else
 var
 c=a;return c}function
-a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gd(b,d,a){switch(a[0]){case
+a6(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+ge(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a5(c[3],b),f),i=g(a5(c[2],b),h);return g(a5(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a6(c[3],b),f),i=g(a6(c[2],b),h);return g(a6(c[1],d),i);case
 1:var
-e=a[3],j=e?a5(e[1],d):e,k=g(a5(a[2],b),j);return g(a5(a[1],b),k);default:return a5(a[1],d)}}function
+e=a[3],j=e?a6(e[1],d):e,k=g(a6(a[2],b),j);return g(a6(a[1],b),k);default:return a6(a[1],d)}}function
 aI(b,a){var
-c=q(d),e=E(J(qr,a),b,c),f=q(d),g=E(J(qs,a),b,f);return[0,E(a,b,q(d)),g,e]}function
-jb(b,a){return aS(w,aS(G,cu,a),b)}function
-ge(c,b,a){if(a){var
-e=a[2],f=ge(c,fR(b),e),h=a[1];return g(gd(c,eo(d,b),h),f)}return a}function
-gf(m,l,h,y){if(h){var
-e=h[1],P=J(y,k(gd(m,eo(d,l),e))),Q=h[2],R=gf(m,fR(l),Q,P),a=cx(y,gd(m,eo(d,l),e));switch(e[0]){case
+c=q(d),e=E(J(qx,a),b,c),f=q(d),g=E(J(qy,a),b,f);return[0,E(a,b,q(d)),g,e]}function
+jg(b,a){return aS(w,aS(G,cv,a),b)}function
+gf(c,b,a){if(a){var
+e=a[2],f=gf(c,fS(b),e),h=a[1];return g(ge(c,ep(d,b),h),f)}return a}function
+gg(m,k,h,y){if(h){var
+e=h[1],P=J(y,l(ge(m,ep(d,k),e))),Q=h[2],R=gg(m,fS(k),Q,P),a=cy(y,ge(m,ep(d,k),e));switch(e[0]){case
 0:var
-I=e[1][5],u=E(qt,a,q(d)),K=aS(G,cu,aI(a,qu)),g=f6(aI(a,0)),L=aI(a,qv),v=jb(aI(a,qw),L),o=ar(g,v),f=aS(w,v,dL(o,g)),A=ar(f,f),p=w(W(u),A),r=b9(p),i=I?r:cs(r),B=w(o,i),C=aS(G,g,eC(f,i)),n=[0,aS(G,f,dL(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+I=e[1][5],u=E(qz,a,q(d)),K=aS(G,cv,aI(a,qA)),g=f7(aI(a,0)),L=aI(a,qB),v=jg(aI(a,qC),L),o=as(g,v),f=aS(w,v,dM(o,g)),A=as(f,f),p=w(X(u),A),r=b_(p),i=I?r:ct(r),B=w(o,i),C=aS(G,g,eD(f,i)),n=[0,aS(G,f,dM(i,g)),p,C,B,[0,u],0,[0,K]];break;case
 1:var
-x=e[3],M=x?[0,f6(aI(a,qx))]:x,N=aS(G,cu,aI(a,qy)),O=aI(a,qz),b=jb(aI(a,0),O),s=ar(b,b),t=b9(s),D=[0,N],F=af(function(a){return aS(w,b,dL(ar(a,b),a))},M),n=[0,b,s,eC(b,t),t,0,F,D];break;default:var
-j=f6(aI(a,0)),H=ar(j,cu),n=[0,j,q(c),j,H,0,0,0]}var
+x=e[3],M=x?[0,f7(aI(a,qD))]:x,N=aS(G,cv,aI(a,qE)),O=aI(a,qF),b=jg(aI(a,0),O),s=as(b,b),t=b_(s),D=[0,N],F=af(function(a){return aS(w,b,dM(as(a,b),a))},M),n=[0,b,s,eD(b,t),t,0,F,D];break;default:var
+j=f7(aI(a,0)),H=as(j,cv),n=[0,j,q(c),j,H,0,0,0]}var
 z=[0,n,R]}else
 var
 z=h;return z}function
@@ -2834,7 +2838,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[4,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ev(a[2]),l=[1,[1,ev(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=ew(a[2]),l=[1,[1,ew(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2848,73 +2852,73 @@ f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
 3:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-dO(b,a){var
+dP(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eJ(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(dO(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=dO(b,a[3]);return g(dO(b,a[2]),j)}function
-cW(b,a){if(typeof
+eK(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dP(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dP(b,a[3]);return g(dP(b,a[2]),j)}function
+cZ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=eJ(b,a[2]);return g(eJ(b,a[1]),e);case
+e=eK(b,a[2]);return g(eK(b,a[1]),e);case
 11:var
-f=dO(b,a[3]);return g(dO(b,a[2]),f);case
+f=dP(b,a[3]);return g(dP(b,a[2]),f);case
 12:var
 c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jc(c,b,a){var
-d=k(cW(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
-jd(k,a,g){switch(g[0]){case
+jh(c,b,a){var
+d=l(cZ(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
+ji(k,a,g){switch(g[0]){case
 0:var
 e=ai(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aI(a,qA);return aS(G,aS(w,l,dL(c,b[1])),d)},m=cU(b),n=h(aq(E(qB,a,q(d)),m)),o=cU(b),p=aq(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
+d=aI(a,qG);return aS(G,aS(w,l,dM(c,b[1])),d)},m=cX(b),n=h(ar(E(qH,a,q(d)),m)),o=cX(b),p=ar(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aI(a,qC);return[0,[0,aI(a,0),r]];default:var
-s=aS(G,cu,aI(a,qD));return[0,[0,aS(G,cu,aI(a,0)),s]]}}function
-je(f,e,j,d,c){var
-k=eJ(e,c),h=cx(j,g(eJ(e,d),k)),a=jd(f,ep(qE,h),d);if(a)var
-b=jd(f,iB(qF,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aI(a,qI);return[0,[0,aI(a,0),r]];default:var
+s=aS(G,cv,aI(a,qJ));return[0,[0,aS(G,cv,aI(a,0)),s]]}}function
+jj(f,e,j,d,c){var
+k=eK(e,c),h=cy(j,g(eK(e,d),k)),a=ji(f,eq(qK,h),d);if(a)var
+b=ji(f,iF(qL,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-gg(d,c,b,a){var
+gh(d,c,b,a){var
 e=s(c,b);return w(s(d,a),e)}function
-cy(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jf(a){if(a){var
+cz(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jk(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jf(a[2]);if(d)var
-g=d[1],h=ar(c,c),e=[0,[0,[0,dK(c),h],g]];else
+c=b[1],d=jk(a[2]);if(d)var
+g=d[1],h=as(c,c),e=[0,[0,[0,dL(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qH}function
-eK(b,d,c,a){if(typeof
+f=b;return f}return qN}function
+eL(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cw(bt(d,a),e);return[0,f(function(a){var
-b=s(a[2],g);return[0,dK(a[1]),b]},b)];case
-9:return jf(b)}return 0}function
-eL(e,k,j,a){var
-U=j[1],b=cw(bt(k,a),U),x=0;if(typeof
+e=c[1],g=cx(bt(d,a),e);return[0,f(function(a){var
+b=s(a[2],g);return[0,dL(a[1]),b]},b)];case
+9:return jk(b)}return 0}function
+ca(e,k,j,a){var
+U=j[1],b=cx(bt(k,a),U),x=0;if(typeof
 a==="number")x=1;else
 switch(a[0]){case
 2:var
 V=function(a){return[0,w(a[4],b),0]},g=V,f=a[1];break;case
 3:var
-X=function(a){return[0,w(b,a[4]),0]},g=X,f=a[1];break;case
+W=function(a){return[0,w(b,a[4]),0]},g=W,f=a[1];break;case
 4:var
 Y=function(c){var
-a=c[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=c[2];return[0,w(w(w(s(W(b),g),f),e),d),0]},g=Y,f=a[1];break;case
+a=c[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=c[2];return[0,w(w(w(s(X(b),g),f),e),d),0]},g=Y,f=a[1];break;case
 6:var
 Z=function(c){var
 a=c[5];if(a)var
-e=W(a[1]),f=s(W(b),e),d=[0,w(c[2],f),0];else
+e=X(a[1]),f=s(X(b),e),d=[0,w(c[2],f),0];else
 var
 d=a;return d},g=Z,f=a[1];break;case
 7:if(e){var
@@ -2923,7 +2927,7 @@ m=l[2];if(m){if(m[2])return 0;var
 A=m[1],B=l[1],C=e[1],o=C[5];if(o){var
 p=B[5];if(p){var
 r=A[5];if(r)var
-h=A[1],i=B[1],t=C[1],P=gg(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=gg(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=gg(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,cs(G(y,D)),0],F=[0,w(y,D),aa];else
+h=A[1],i=B[1],t=C[1],P=gh(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=gh(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=gh(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,ct(G(y,D)),0],F=[0,w(y,D),aa];else
 var
 F=r;var
 H=F}else
@@ -2942,100 +2946,102 @@ L=K}else
 var
 L=e;return L;case
 10:var
-v=je(e,k,j[2],a[1],a[2]);if(v){var
-M=v[1],N=M[2],O=M[1];return z(dK,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
+v=jj(e,k,j[2],a[1],a[2]);if(v){var
+M=v[1],N=M[2],O=M[1];return z(dL,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
 11:var
 ab=function(d){var
 e=d[7];if(e)var
-n=cW(k,a),f=cx(j[2],n),h=aI(f,qG),c=aS(w,aI(f,0),h),i=W(b),l=W(cU(d)),m=aq(W(ar(c,d[1])),l),g=[0,w(w(ar(c,c),m),i),0];else
+n=cZ(k,a),f=cy(j[2],n),h=aI(f,qM),c=aS(w,aI(f,0),h),i=X(b),l=X(cX(d)),m=ar(X(as(c,d[1])),l),g=[0,w(w(as(c,c),m),i),0];else
 var
 g=e;return g},g=ab,f=a[1];break;case
 12:var
 ac=function(e){var
-o=q(d),p=cW(k,a),r=E(0,cx(j[2],p),o),f=aq(r,cU(e)),g=e[5];if(g){var
-l=b9(e[2]),h=aq(g[1],l),m=s(h,G(b,s(f,W(h))));return[0,w(q(c),m),0]}var
+o=q(d),p=cZ(k,a),r=E(0,cy(j[2],p),o),f=ar(r,cX(e)),g=e[5];if(g){var
+l=b_(e[2]),h=ar(g[1],l),m=s(h,G(b,s(f,X(h))));return[0,w(q(c),m),0]}var
 i=e[7],n=i?[0,w(w(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
 8:case
 9:var
-u=eK(e,k,j,a);return u?cy(u[1]):u;default:x=1}if(x)return 0;var
+u=eL(e,k,j,a);return u?cz(u[1]):u;default:x=1}if(x)return 0;var
 n=ai(e,f);return n?g(n[1]):n}function
-gh(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gh(d,b,jc(b,e,c),f);return g(eL(d,b,c,e),h)}return a}function
-jg(b,h,i,g,k,o){if(o){var
-a=o[1],ae=o[2],ag=jg(b,h,i,g,jc(g,a,k),ae);if(typeof
+gi(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gi(d,b,jh(b,e,c),f);return g(ca(d,b,c,e),h)}return a}function
+jl(b,w,h,i,g,k,o){if(o){var
+a=o[1],ag=o[2],ah=jl(b,w,h,i,g,jh(g,a,k),ag);if(typeof
 a==="number")var
-f=[0,[0,aa]];else
+f=0===a?[0,[0,O]]:[0,[8,w[1],w[2]]];else
 switch(a[0]){case
 0:var
-T=aA(b,bt(g,a)),f=af(function(a){return[0,$(b,a)]},T);break;case
+V=aA(b,bt(g,a)),f=af(function(a){return[0,aa(b,a)]},V);break;case
 1:var
-U=aA(b,bt(g,a)),f=af(function(a){return[1,$(b,a)]},U);break;case
+W=aA(b,bt(g,a)),f=af(function(a){return[1,aa(b,a)]},W);break;case
 5:var
-W=aA(b,bt(g,a)),f=af(function(a){return[2,$(b,a)]},W);break;case
+Y=aA(b,bt(g,a)),f=af(function(a){return[2,aa(b,a)]},Y);break;case
 8:var
-X=eK(i,g,k,a),f=af(function(a){var
-d=aK(b,c);return[4,e(a4(h),a),d]},X);break;case
+Z=eL(i,g,k,a),f=af(function(a){var
+d=aL(b,c);return[4,e(a5(h),a),d]},Z);break;case
 9:var
-r=eK(i,g,k,a);if(r){var
+r=eL(i,g,k,a);if(r){var
 s=aA(b,bt(g,a));if(s)var
-Y=$(b,s[1]),Z=r[1],A=[0,[4,e(a4(h),Z),Y]];else
+_=aa(b,s[1]),$=r[1],B=[0,[4,e(a5(h),$),_]];else
 var
-A=s;var
-B=A}else
+B=s;var
+C=B}else
 var
-B=r;var
-f=B;break;case
+C=r;var
+f=C;break;case
 10:var
-t=je(i,g,k[2],a[1],a[2]);if(t){var
-C=t[1],E=C[2],F=C[1],u=aA(b,bt(g,a));if(u){var
-G=u[1],H=D(d,G[1]);if(H)var
+t=jj(i,g,k[2],a[1],a[2]);if(t){var
+E=t[1],F=E[2],G=E[1],u=aA(b,bt(g,a));if(u){var
+H=u[1],I=D(d,H[1]);if(I)var
 m=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},_=m(E[2]),ab=m(E[1]),ac=m(F[2]),I=[0,[6,m(F[1]),ac,ab,_,G]];else
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},ab=m(F[2]),ac=m(F[1]),ad=m(G[2]),J=[0,[6,m(G[1]),ad,ac,ab,H]];else
 var
-I=H;var
-J=I}else
-var
-J=u;var
+J=I;var
 K=J}else
 var
-K=t;var
-f=K;break;case
+K=u;var
+L=K}else
+var
+L=t;var
+f=L;break;case
 12:var
-n=eL(i,g,k,a),p=0;if(n)if(n[2])var
+n=ca(i,g,k,a),p=0;if(n)if(n[2])var
 f=0;else{var
-L=j(b,0,a[2]),M=L?j(b,1,a[4]):L;if(M){var
+M=j(b,0,a[2]),N=M?j(b,1,a[4]):M;if(N){var
 v=[0,[3,e(h,n[1])]];p=1}else{var
-v=M;p=1}}else{var
+v=N;p=1}}else{var
 v=n;p=1}if(p)var
 f=v;break;case
 13:var
-N=a[1],O=ai(i,N),w=0;if(O){var
-P=j(b,1,a[2]),Q=P?j(b,1,a[3]):P;if(Q)var
-ad=aA(b,bt(g,a)),f=af(function(a){return[7,N,$(b,a)]},ad);else{var
-R=Q;w=1}}else{var
-R=O;w=1}if(w)var
-f=R;break;default:var
-l=eL(i,g,k,a),x=0;if(l){var
-q=l[2],y=l[1];if(q)if(q[2])var
+P=a[1],Q=ai(i,P),x=0;if(Q){var
+R=j(b,1,a[2]),S=R?j(b,1,a[3]):R;if(S)var
+ae=aA(b,bt(g,a)),f=af(function(a){return[7,P,aa(b,a)]},ae);else{var
+T=S;x=1}}else{var
+T=Q;x=1}if(x)var
+f=T;break;default:var
+l=ca(i,g,k,a),y=0;if(l){var
+q=l[2],z=l[1];if(q)if(q[2])var
 f=0;else
 var
-V=e(h,q[1]),f=[0,[5,e(h,y),V]];else{var
-z=[0,[3,e(h,y)]];x=1}}else{var
-z=l;x=1}if(x)var
-f=z}var
-S=[0,f,ag]}else
+X=e(h,q[1]),f=[0,[5,e(h,z),X]];else{var
+A=[0,[3,e(h,z)]];y=1}}else{var
+A=l;y=1}if(y)var
+f=A}var
+U=[0,f,ah]}else
 var
-S=o;return S}function
-qI(a){if(typeof
-a!=="number"&&0!==a[0])return 0;return 1}function
-gi(a,p,o){var
-q=a5(p,o),b=f(function(b){return aA(a,b)},q);if(b){var
+U=o;return U}function
+qO(a){var
+b=0;if(typeof
+a==="number"){if(0!==a)b=1}else
+if(0!==a[0])b=1;return b?0:1}function
+gj(a,p,o){var
+q=a6(p,o),b=f(function(b){return aA(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-r=$(a,i[1]),s=$(a,h[1]);return ac(d,A(A($(a,g[1]),s),r)[1])}var
+r=aa(a,i[1]),s=aa(a,h[1]);return ac(d,A(A(aa(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=e;var
@@ -3052,22 +3058,22 @@ n=m}else
 var
 n=b;return n}function
 ag(c,b,a){var
-d=P(c,b[3],a[3]),e=P(c,b[2],a[2]);return[0,P(c,b[1],a[1]),e,d]}function
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
 aB(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
 aJ(a){return aB([4,[0,c,c],[5,B(a,a)]],a)}function
-cz(c,b,a){var
+cA(c,b,a){var
 d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
 aU(c,b,a){var
-d=cz(c,b[1],a[1]),e=d?cz(c,b[2],a[2]):d;return e?cz(c,b[3],a[3]):e}function
-jh(c,a,b){if(0===a[0])return aU(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cz(c,a[4],b[3]):h}function
-ji(a,E,H,G){var
+d=cA(c,b[1],a[1]),e=d?cA(c,b[2],a[2]):d;return e?cA(c,b[3],a[3]):e}function
+jm(c,a,b){if(0===a[0])return aU(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cA(c,a[4],b[3]):h}function
+jn(a,E,H,G){var
 h=E[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cz(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dA(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cA(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dC(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
@@ -3097,31 +3103,31 @@ var
 D=d;var
 m=D}else
 var
-m=d?0:1;return m?jh(a,E[2],G):m}}function
+m=d?0:1;return m?jm(a,E[2],G):m}}function
 bu(c,b,a){var
 d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
 eM(a,e,d,c){var
 b=bu(e,d,c),f=aJ(a),g=aB(B(aJ(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
-cX(f,e,d,a,c){var
+c0(f,e,d,a,c){var
 b=eM(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
-cY(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cZ(a,b){switch(a[0]){case
+c1(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+c2(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eM(d,f,e,b),h=cX(d,f,e,a[4],b),i=aB([4,[0,c,c],cY(a[5],h)],g),j=aJ(d);return ag(function(b,a){return[1,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=eM(d,f,e,b),h=c0(d,f,e,a[4],b),i=aB([4,[0,c,c],c1(a[5],h)],g),j=aJ(d);return ag(function(b,a){return[1,b,a]},j,i);case
 1:return aJ(bu(a[1],a[2],b));default:return aJ(a[1])}}function
-jj(a,b){switch(a[0]){case
+jo(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cX(e,d,c,a[4],b),i=cY(a[5],h),j=bu(d,c,b);return[2,B(aJ(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c0(e,d,c,a[4],b),i=c1(a[5],h),j=bu(d,c,b);return[2,B(aJ(e),j),i];case
 1:var
 f=a[2],g=a[1],k=bu(g,f,b);return[5,B(bu(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
-dP(e,b,a){var
-f=[0,d,c];return cR(function(c,d){var
-e=B(cZ(c,b),a);return[1,[3,B(cZ(c,b),a),e],d]},f,e)}function
-jk(a){var
+dQ(e,b,a){var
+f=[0,d,c];return cT(function(c,d){var
+e=B(c2(c,b),a);return[1,[3,B(c2(c,b),a),e],d]},f,e)}function
+jp(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gj(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=cX(b,f,e,d,c),i=aB(cY(a[5],h),g),j=eM(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jl(d,i){if(d){var
+gk(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=c0(b,f,e,d,c),i=aB(c1(a[5],h),g),j=eM(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jq(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=bu(a[1],a[2],i),k=aJ(f),l=aB(B(aJ(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
@@ -3130,62 +3136,62 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jl(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jq(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qJ}function
-cA(a){return[0,a[1],a[2],a[3]]}function
-jm(a,b){switch(a[0]){case
+j=b;return j}return qP}function
+cB(a){return[0,a[1],a[2],a[3]]}function
+jr(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=cX(d,g,c,f,b),k=aB(cY(a[5],j),i),l=eM(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=c0(d,g,c,f,b),k=aB(c1(a[5],j),i),l=eM(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=bu(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
-jn(l,b,a){switch(a[0]){case
+js(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=ai(l,a[1]);if(d){var
-e=jm(d[1],b);if(e)var
+e=jr(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cA(m),c=aB(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
+b=cB(m),c=aB(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cA(a[3]);return[0,[0,cA(a[2]),q]];default:var
-r=cA(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cA(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
-jo(d,a,c,b){var
+q=cB(a[3]);return[0,[0,cB(a[2]),q]];default:var
+r=cB(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cB(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
+jt(d,a,c,b){var
 e=aB(a,b),f=aB([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-jp(f,g,e,b,q,a){function
+ju(f,g,e,b,q,a){function
 J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}var
 H=0;if(typeof
 a==="number")H=1;else
 switch(a[0]){case
 0:var
-av=dP(g,e,b);return j(f,1,[2,J(a[1]),av]);case
+av=dQ(g,e,b);return j(f,1,[2,J(a[1]),av]);case
 1:var
-aw=J(a[1]);return j(f,1,[2,dP(g,e,b),aw]);case
+aw=J(a[1]);return j(f,1,[2,dQ(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[2,ax,jj(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[2,ax,jo(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[2,jj(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[2,jo(a,e),az]},s=aA,r=a[1];break;case
 4:var
 K=a[3],L=a[2],aB=function(a){var
-b=cZ(a,e);return[2,[3,[3,L,L],B(cZ(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
+b=c2(a,e);return[2,[3,[3,L,L],B(c2(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dP(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dP(g,e,b),aE],aD]);case
+M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dQ(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dQ(g,e,b),aE],aD]);case
 6:var
 N=a[2],u=ai(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=cX(h[1],h[2],h[3],v,e),O=cY(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
+v=h[4],aF=c0(h[1],h[2],h[3],v,e),O=c1(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gj(g[1],e);if(w){var
-Q=w[1],x=gj(n[1],e);if(x){var
-R=x[1],y=gj(o[1],e);if(y){var
+w=gk(g[1],e);if(w){var
+Q=w[1],x=gk(n[1],e);if(x){var
+R=x[1],y=gk(o[1],e);if(y){var
 S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=B(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
 V=U}else
 var
@@ -3206,15 +3212,15 @@ _=Z}else
 var
 _=g;return _;case
 8:var
-aG=dP(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
+aG=dQ(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=jl(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=cR(function(a,c){var
+$=a[1],z=jq(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=cT(function(a,c){var
 d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],B(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=jn(g,e,ab);if(A){var
-ac=A[1],C=jn(g,e,aa);if(C){var
-ad=C[1],D=b[1],E=b[2],l=b[3],aK=jo(l,E,ad[1],ad[2]),aL=jo(l,D,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=ev(aa),af=[3,l,[1,[1,ev(ab),aN],aM]],ah=j(f,1,l),aj=ah?j(f,0,D):ah,ak=aj?j(f,0,[2,l,D]):aj,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,af,af],B(ae,ae)]);var
+aa=a[2],ab=a[1],A=js(g,e,ab);if(A){var
+ac=A[1],C=js(g,e,aa);if(C){var
+ad=C[1],D=b[1],E=b[2],l=b[3],aK=jt(l,E,ad[1],ad[2]),aL=jt(l,D,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=ew(aa),af=[3,l,[1,[1,ew(ab),aN],aM]],ah=j(f,1,l),aj=ah?j(f,0,D):ah,ak=aj?j(f,0,[2,l,D]):aj,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,af,af],B(ae,ae)]);var
 an=am}else
 var
 an=C;var
@@ -3223,8 +3229,8 @@ var
 ao=A;return ao;case
 11:var
 ap=a[4],F=ai(g,a[1]);if(F){var
-G=jm(F[1],e);if(G){var
-m=G[1][1][2],aO=cA(a[3]),aP=cA(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
+G=jr(F[1],e);if(G){var
+m=G[1][1][2],aO=cB(a[3]),aP=cB(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
 aQ=B(m,m),aR=B(p,m),aS=[4,[3,B(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,B(p,p),aS]])}var
 ar=aq}else
 var
@@ -3233,21 +3239,21 @@ as=ar}else
 var
 as=F;return as;default:H=1}if(H)return 0;var
 t=ai(g,r);return t?j(f,1,s(t[1])):t}function
-ca(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qK(a){switch(a[0]){case
+cb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qQ(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=ca(b[3]),f=ca(b[2]);return[0,ca(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cb(b[3]),f=cb(b[2]);return[0,cb(b[1]),f,e,d,c];case
 1:var
-g=af(ca,a[3]),h=ca(a[2]);return[1,ca(a[1]),h,g];default:return[2,ca(a[1])]}}function
-jq(c,b){var
-a=b[2],d=0===a[0]?ca(a[1]):[0,a[1],a[2],a[4][1]];return ji(c,b,f(qK,b[1]),d)}function
-c0(b,a){if(b){if(a){var
-e=c0(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jr(a,l,k,f){var
+g=af(cb,a[3]),h=cb(a[2]);return[1,cb(a[1]),h,g];default:return[2,cb(a[1])]}}function
+jv(c,b){var
+a=b[2],d=0===a[0]?cb(a[1]):[0,a[1],a[2],a[4][1]];return jn(c,b,f(qQ,b[1]),d)}function
+c3(b,a){if(b){if(a){var
+e=c3(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jw(a,l,k,f){var
 b=az(a,l);if(b){var
 c=az(a,k);if(c){var
-d=eu(a,f);if(d){var
-e=fX(a,f);if(e)var
+d=ev(a,f);if(d){var
+e=fY(a,f);if(e)var
 m=F(a,b[1],e[1]),g=[0,N(F(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3260,13 +3266,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-js(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c0(a,a)]}var
+jx(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c3(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cR(function(a,c){var
-d=c0(a,b);return[1,[3,c0(a,b),d],c]},a,E)}var
-u=o(function(a){return M(k(a),D)},a);if(u){var
+a=[0,d,c];return cT(function(a,c){var
+d=c3(a,b);return[1,[3,c3(a,b),d],c]},a,E)}var
+u=o(function(a){return M(l(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3276,27 +3282,27 @@ w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},k=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},k=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jr(f,i,h,z);return e?ac(e[1][2],d):e}var
-g=jr(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
+e=jw(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=jw(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},k=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],N=c0(q,q),O=[3,[3,A,A],[3,g(p),N]],P=c0(p,p);return j(f,1,[2,[3,g(q),P],O])}var
+p=h[1],q=a[1],A=e[1],N=c3(q,q),O=[3,[3,A,A],[3,g(p),N]],P=c3(p,p);return j(f,1,[2,[3,g(q),P],O])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=ai(s[2],i);return m?l(m[1]):m}var
+m=ai(s[2],i);return m?k(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jt(h,g){var
+jy(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3306,43 +3312,43 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qL(a){return f(function(a){return[0,a,c]},a)}function
-ju(e,m,b,l,a){if(typeof
+qR(a){return f(function(a){return[0,a,c]},a)}function
+jz(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return a7(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jt(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qL,a[2]);return js(e,m,b,n[2],s,r)}return g}var
-h=jt(a[1],l);if(h){var
+q=b[3];return a4(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jy(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qR,a[2]);return jx(e,m,b,n[2],s,r)}return g}var
+h=jy(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=ai(b[1],a[2]);return k?js(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=ai(b[1],a[2]);return k?jx(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-gk(a){var
+gl(a){var
 b=aJ(a[1]),c=aB(B(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
-gl(a){return aJ(gk(a))}function
-jv(c){var
-a=gl(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gm(a,b){return bu(a[3],a[4],b)}function
-gn(a,b){var
-c=gm(a,b);return B(gl(a),c)}function
+gm(a){return aJ(gl(a))}function
+jA(c){var
+a=gm(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gn(a,b){return bu(a[3],a[4],b)}function
 go(a,b){var
-c=gm(a,b);return B(jv(a),c)}function
-jw(a,b){var
-c=gm(a,b);return B(aJ(a[1]),c)}function
-gp(b,a){var
-c=go(b,a),d=gn(b,a);return[1,[3,d,d],[3,c,c]]}function
-gq(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jw(a,d);return[4,[1,gp(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jx(a,b){var
-f=a[5],c=[2,gq(a,b),f],d=jw(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-gr(a,b){var
-c=jx(a,b);return cY(a[7],c)}function
-jy(b,a){var
-c=gp(b,a),d=go(b,a),e=[3,gr(b,a),d],f=gn(b,a);return[4,[1,[3,gq(b,a),f],e],c]}function
-jz(b,a){var
-c=gp(b,a),d=gn(b,a),e=[3,gr(b,a),d],f=go(b,a);return[4,[2,[3,gq(b,a),f],e],c]}function
+c=gn(a,b);return B(gm(a),c)}function
+gp(a,b){var
+c=gn(a,b);return B(jA(a),c)}function
+jB(a,b){var
+c=gn(a,b);return B(aJ(a[1]),c)}function
+gq(b,a){var
+c=gp(b,a),d=go(b,a);return[1,[3,d,d],[3,c,c]]}function
+gr(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jB(a,d);return[4,[1,gq(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jC(a,b){var
+f=a[5],c=[2,gr(a,b),f],d=jB(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gs(a,b){var
+c=jC(a,b);return c1(a[7],c)}function
+jD(b,a){var
+c=gq(b,a),d=gp(b,a),e=[3,gs(b,a),d],f=go(b,a);return[4,[1,[3,gr(b,a),f],e],c]}function
+jE(b,a){var
+c=gq(b,a),d=go(b,a),e=[3,gs(b,a),d],f=gp(b,a);return[4,[2,[3,gr(b,a),f],e],c]}function
 bv(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -3355,12 +3361,12 @@ a=a[1];continue;default:var
 e=bv(a[2]);return g(bv(a[1]),e)}}function
 bw(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cw([0,[0,p,p],d],b);case
+p=a[1];return cx([0,[0,p,p],d],b);case
 1:var
 t=a[1],g=e,u=q(d);for(;;){if(g){var
-m=g[1];if(mZ(m[1],t))return m[2];var
+m=g[1];if(m5(m[1],t))return m[2];var
 g=g[2];continue}return u}case
-2:return cs(bw(e,a[1],b));case
+2:return ct(bw(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
@@ -3368,77 +3374,77 @@ i=a[2],f=a[1],h=w;break;case
 5:var
 i=a[2],f=a[1],h=s;break;case
 6:var
-i=a[2],f=a[1],h=aq;break;case
+i=a[2],f=a[1],h=ar;break;case
 7:var
-j=dB(a[2]),l=bw(e,a[1],b);if(j){if(j[1]){var
-n=W(l),r=function(a){return s(a,n)},o=fN(bO(is(j)),r,n);return ir(j)?o:s(o,l)}return l}return q(c);default:return b9(bw(e,a[1],b))}var
-v=bw(e,i,J(b,k(bv(f))));return h(bw(e,f,b),v)}function
-cB(c,f,b){var
+j=dD(a[2]),k=bw(e,a[1],b);if(j){if(j[1]){var
+n=X(k),r=function(a){return s(a,n)},o=fO(bO(iw(j)),r,n);return iv(j)?o:s(o,k)}return k}return q(c);default:return b_(bw(e,a[1],b))}var
+v=bw(e,i,J(b,l(bv(f))));return h(bw(e,f,b),v)}function
+cC(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=J(b,k(bv(e))),l=cB(c,a[2],j),m=g(cB(c,e,b),l);return[0,bw(c,a,b),m];case
+e=a[1],j=J(b,l(bv(e))),k=cC(c,a[2],j),m=g(cC(c,e,b),k);return[0,bw(c,a,b),m];case
 8:var
-n=cB(c,a[1],b);return[0,bw(c,a,b),n];case
+n=cC(c,a[1],b);return[0,bw(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=J(b,k(bv(d))),i=cB(c,a[2],h);return g(cB(c,d,b),i)}}function
-jA(c,a,b){if(a){var
-e=a[1],d=e[2],f=J(b,k(bv(d))),h=a[2],i=bw(c,d,b),j=jA([0,[0,e[1],i],c],h,f);return g(cB(c,d,b),j)}return a}function
-dQ(a){return z(bv,a)}function
-jB(c,a,b){if(a)var
-d=a[1],f=J(b,k(bv(d))),g=jB(c,a[2],f),e=[0,bw(c,d,b),g];else
+d=a[1],h=J(b,l(bv(d))),i=cC(c,a[2],h);return g(cC(c,d,b),i)}}function
+jF(c,a,b){if(a){var
+e=a[1],d=e[2],f=J(b,l(bv(d))),h=a[2],i=bw(c,d,b),j=jF([0,[0,e[1],i],c],h,f);return g(cC(c,d,b),j)}return a}function
+dR(a){return z(bv,a)}function
+jG(c,a,b){if(a)var
+d=a[1],f=J(b,l(bv(d))),g=jG(c,a[2],f),e=[0,bw(c,d,b),g];else
 var
 e=a;return e}function
-jC(c,a,b){if(a){var
-d=a[1],e=J(b,k(bv(d))),f=jC(c,a[2],e);return g(cB(c,d,b),f)}return a}function
-jD(c,a,b){if(a)var
-d=a[1],f=J(b,k(dQ(d))),g=jD(c,a[2],f),e=[0,jB(c,d,b),g];else
+jH(c,a,b){if(a){var
+d=a[1],e=J(b,l(bv(d))),f=jH(c,a[2],e);return g(cC(c,d,b),f)}return a}function
+jI(c,a,b){if(a)var
+d=a[1],f=J(b,l(dR(d))),g=jI(c,a[2],f),e=[0,jG(c,d,b),g];else
 var
 e=a;return e}function
-jE(c,a,b){if(a){var
-d=a[1],e=J(b,k(dQ(d))),f=jE(c,a[2],e);return g(jC(c,d,b),f)}return a}function
-jF(a){return f(function(a){return[0,a[2],d]},a)}function
-jG(a){var
-c=cx(0,jF(a[2])),d=cS(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cn(f(dx,a[2]),c);return g(cn(a[1],e),b)}function
-qN(a){if(typeof
+jJ(c,a,b){if(a){var
+d=a[1],e=J(b,l(dR(d))),f=jJ(c,a[2],e);return g(jH(c,d,b),f)}return a}function
+jK(a){return f(function(a){return[0,a[2],d]},a)}function
+jL(a){var
+c=cy(0,jK(a[2])),d=cU(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=co(f(dz,a[2]),c);return g(co(a[1],e),b)}function
+qT(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gs(b,d){var
+gt(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a7(function(a){return aw(e,a)},b);case
+e=a[1];return a4(function(a){return ap(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gs(b,a[1]);if(c){var
+c=gt(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jH(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jI(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gt(a,c,b){var
-d=[3,jH(a),b],e=[1,[3,jI(a),c],d],f=[3,jI(a),b];return[0,[2,[3,jH(a),c],f],e]}function
-jJ(c,a){var
-b=gt(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jK(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jL(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jJ(d[1],a):a;case
+jM(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jN(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gu(a,c,b){var
+d=[3,jM(a),b],e=[1,[3,jN(a),c],d],f=[3,jN(a),b];return[0,[2,[3,jM(a),c],f],e]}function
+jO(c,a){var
+b=gu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jP(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jQ(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jO(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gt(d[1],a[2],a[3]),m=j[1],k=gt(f[1],j[2],a[1]);return jJ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gu(d[1],a[2],a[3]),m=j[1],k=gu(f[1],j[2],a[1]);return jO(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=B(e,e),n=jK(e,a),o=aB([0,b(2,c),c],n),p=B(e,a),q=aB([3,[0,b(2,c),c],p],e),r=aB([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aB([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jM(b){var
-a=eI(b);return a?iD(a[1],[0,d,c]):a}function
-jN(a,n,k,i){if(jM(i)){var
+e=[0,d[1],h[1],i[1]],l=B(e,e),n=jP(e,a),o=aB([0,b(2,c),c],n),p=B(e,a),q=aB([3,[0,b(2,c),c],p],e),r=aB([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aB([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jR(b){var
+a=eJ(b);return a?iH(a[1],[0,d,c]):a}function
+jS(a,n,k,i){if(jR(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
 f=az(a,k);if(f){var
-g=eu(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fX(a,[4,i,[0,b(2,c),c]]);if(h)var
+g=ev(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fY(a,[4,i,[0,b(2,c),c]]);if(h)var
 p=F(a,f[1],g[1]),l=[0,N(h[1],p)];else
 var
 l=h;var
@@ -3449,25 +3455,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dR(b,a,c){var
-d=bs(b,a[1],a[2]),e=d?jN(b,0,c,a[1]):d;return e?jN(b,1,c,a[2]):e}function
-dS(a,d){if(jM(d))return[0,aa];var
-e=eu(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fX(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=A(aK(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cq(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return af(function(d){var
-e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+dS(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?jS(b,0,c,a[1]):d;return e?jS(b,1,c,a[2]):e}function
+dT(a,d){if(jR(d))return[0,O];var
+e=ev(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fY(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=A(aL(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cr(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return af(function(d){var
+e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iR(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gu(d,a){var
+gv(d,a){var
 e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-cC(a){return[0,[2,[0,d,c],a],a]}function
-jO(a,b,n,m){var
-h=bs(a,[0,d,c],b),i=h?gu(a,b):h;if(i){var
-e=dS(a,b);if(e){var
+cD(a){return[0,[2,[0,d,c],a],a]}function
+jT(a,b,n,m){var
+h=bs(a,[0,d,c],b),i=h?gv(a,b):h;if(i){var
+e=dT(a,b);if(e){var
 f=az(a,n);if(f){var
 g=az(a,m);if(g){var
-o=f[1],p=g[1];return D(d,N(F(a,$(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return D(d,N(F(a,aa(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3477,66 +3483,66 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dT(a){return 1===a?qR:qS}function
-gv(d,c,b,a){var
-e=a[1],f=jL(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
-dU(b,d){var
+dU(a){return 1===a?qX:qY}function
+gw(d,c,b,a){var
+e=a[1],f=jQ(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+dV(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dE(function(a){return dU(b,a)},a)]}return[0,dE(function(a){return dU(b,a)},a)]}function
-c1(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dG(function(a){return dV(b,a)},a)]}return[0,dG(function(a){return dV(b,a)},a)]}function
+c4(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aN(M(e,b));return f?aN(M(e,J(d,b))):f;case
+e=a[1],f=aK(M(e,b));return f?aK(M(e,J(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c1(d,b,a[1]);if(g){var
+g=c4(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dV(c,b,m){var
+dW(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c1(c,b,g),i=h?dV(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c4(c,b,g),i=h?dW(c,b,f):h;if(i)var
 j=i;else{var
-k=dV(c,b,g);if(k)return c1(c,b,f);var
+k=dW(c,b,g);if(k)return c4(c,b,f);var
 j=k}return j;case
 7:var
-l=dV(c,b,a[1]);return l?c1(c,b,a[2]):l;case
+l=dW(c,b,a[1]);return l?c4(c,b,a[2]):l;case
 3:case
 4:var
-e=dV(c,b,a[1]);if(e){var
+e=dW(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c1(c,b,a[1]);default:return 1}}}function
-cD(c,e){var
+9:return c4(c,b,a[1]);default:return 1}}}function
+cE(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aN(M(a[1],c));case
+0:return aK(M(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cD(c,a[1]);if(d){var
+d=cE(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gw(d,b,m){var
+gx(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gw(d,b,a[1]);if(f){var
+f=gx(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gw(d,b,a[1]);return g?cD(b,a[2]):g;case
+g=gx(d,b,a[1]);return g?cE(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cD(b,i);if(j){var
-k=cD(b,h);if(k)var
+h=a[2],i=a[1],j=cE(b,i);if(j){var
+k=cE(b,h);if(k)var
 e=k;else{var
 l=bc(i,d);if(l){var
 c=h;continue}var
@@ -3545,58 +3551,58 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cD(b,c)}}}function
-jP(c,e){var
+2:return 1;default:return cE(b,c)}}}function
+jU(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return iq(a[1],c);case
+0:return iu(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jP(c,a[1]);if(d){var
+d=jU(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cb(b,a){return a?e(b,a[1]):a}function
-cc(c,b,a){return cb(function(b){return cb(e(c,b),a)},b)}function
-qT(a){return 0===a[0]?a[1]:0}function
+cc(b,a){return a?e(b,a[1]):a}function
+cd(c,b,a){return cc(function(b){return cc(e(c,b),a)},b)}function
+qZ(a){return 0===a[0]?a[1]:0}function
 bx(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
 1:return[1,bx(b,a[1])];default:var
 c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
-aZ(b,c,a){switch(c[0]){case
+a0(b,c,a){switch(c[0]){case
 0:return bx(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bx(function(a){return P(b,a,k)},d)];case
-1:return[1,aZ(b,d,a[1])];default:var
-l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bx(function(a){return Q(b,a,k)},d)];case
+1:return[1,a0(b,d,a[1])];default:var
+l=a0(b,d,a[3]),m=a0(b,d,a[2]);return[2,a0(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return P(b,a,n)},i=function(a){return bx(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return Q(b,a,n)},i=function(a){return bx(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aZ(b,f,j),s=aZ(b,g,j);return[2,aZ(b,h,j),s,r];default:var
-t=aZ(b,f,a[3]),u=aZ(b,g,a[2]);return[2,aZ(b,h,a[1]),u,t]}}}function
-gx(c,g,a){if(a)var
+j=a[1],r=a0(b,f,j),s=a0(b,g,j);return[2,a0(b,h,j),s,r];default:var
+t=a0(b,f,a[3]),u=a0(b,g,a[2]);return[2,a0(b,h,a[1]),u,t]}}}function
+gy(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,$(c,a)];break;case
+f=[0,a,aa(c,a)];break;case
 1:var
-h=F(c,a,b),f=[0,es(A(a,b)),h];break;default:var
-f=[0,b,$(c,b)]}return[0,[0,e(g,f)]]},i=gx(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=F(c,a,b),f=[0,et(A(a,b)),h];break;default:var
+f=[0,b,aa(c,b)]}return[0,[0,e(g,f)]]},i=gy(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jQ(a){if(a){var
+jV(a){if(a){var
 b=a[1];if(b)var
-c=jQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qV}function
-dW(a){if(a){var
-g=a[1],b=g[2],c=jQ(g[1]);if(c)if(b){var
-h=b[1],e=dW(a[2]);if(e)var
+d=b;return d}return q1}function
+dX(a){if(a){var
+g=a[1],b=g[2],c=jV(g[1]);if(c)if(b){var
+h=b[1],e=dX(a[2]);if(e)var
 i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3604,67 +3610,67 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return qW}function
-gy(b,a){var
+f=c;return f}return q2}function
+gz(b,a){var
 c=a[3],d=af(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jR(f,d,c,b){if(d){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a5(b),g),f,d]}function
+jW(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=gy(function(a){switch(a[0]){case
+a=gz(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jR(bO(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jW(bO(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,gy(qT,b))}function
-dX(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return af(function(a){return bQ(f,e,a)},d)}return[0,aa]}function
-qX(c){var
+i=g;return i}return e(c,gz(qZ,b))}function
+dY(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return af(function(a){return bQ(f,e,a)},d)}return[0,O]}function
+q3(c){var
 a=c[2];if(a){var
-b=dX(c[3]);if(b)return D(d,N(a[1],b[1])[1]);var
+b=dY(c[3]);if(b)return D(d,N(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jS(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jT(a,c,b){var
-e=E(b,c,q(d)),f=cS(0,a);return o(function(b){return dV(a,b,e)},f)}function
-dY(a){var
-b=W(a);return G(q(c),b)}function
+jX(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jY(a,c,b){var
+e=E(b,c,q(d)),f=cU(0,a);return o(function(b){return dW(a,b,e)},f)}function
+dZ(a){var
+b=X(a);return G(q(c),b)}function
 eN(i,g){var
-h=dY(g),j=W(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cs(f),a,e]]:[0,[0,h,a,a],[0,a,e,cs(f)],[0,a,f,e]]}function
-jU(b,a){function
+h=dZ(g),j=X(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ct(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ct(f),a,e]]:[0,[0,h,a,a],[0,a,e,ct(f)],[0,a,f,e]]}function
+jZ(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=ar(a,c(function(a){return a[3]})),d=ar(a,c(function(a){return a[2]}));return[0,ar(a,c(function(a){return a[1]})),d,b]}var
+b=as(a,c(function(a){return a[3]})),d=as(a,c(function(a){return a[2]}));return[0,as(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jV(a){switch(a[0]){case
+j0(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cC(a[1]),0];default:var
-b=[0,cC(a[2]),0];return[0,cC(a[1]),b]}}function
-c2(a){return[0,[0,a[1]],[0,a[2]]]}function
-jW(a,b){if(0===b[0])return dS(a,b[1]);var
-d=dS(a,b[1]);if(d){var
-e=dS(a,b[2]);if(e){var
-g=$(a,e[1]),h=cr(a,A(aK(a,c),g)),i=d[1];return af(function(b){return F(a,i,b)},h)}var
+2:return[0,cD(a[1]),0];default:var
+b=[0,cD(a[2]),0];return[0,cD(a[1]),b]}}function
+c5(a){return[0,[0,a[1]],[0,a[2]]]}function
+j1(a,b){if(0===b[0])return dT(a,b[1]);var
+d=dT(a,b[1]);if(d){var
+e=dT(a,b[2]);if(e){var
+g=aa(a,e[1]),h=cs(a,A(aL(a,c),g)),i=d[1];return af(function(b){return F(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jX(j,z,c,y,x,b,a){switch(b[0]){case
+j2(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
+n=b[4],k=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 A=a[2],B=a[1],i=o,h=p,g=function(e){var
-a=dW(e[1]);if(a){var
+a=dX(e[1]);if(a){var
 b=e[2];if(b){var
-d=dX(e[3]);if(d){var
-h=d[1],i=co([0,N(aH(F(j,l,b[1])),h),0],c);return dN(c,f3(B,A,a[1],i))}var
+d=dY(e[3]);if(d){var
+h=d[1],i=cp([0,N(aH(F(j,k,b[1])),h),0],c);return dO(c,f4(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3672,11 +3678,11 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=al(l[1],d),r=q?al(l[2],d):q;if(!r)return r;var
+q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
 D=a[2],G=a[1],i=o,h=p,g=function(e){var
-a=dW(e[1]);if(a){var
-b=dX(e[3]);if(b){var
-g=co([0,N(aa,b[1]),0],c),h=a[1];return dN(c,f3(G,D,f(function(a){return[0,a[1],aa]},h),g))}var
+a=dX(e[1]);if(a){var
+b=dY(e[3]);if(b){var
+g=cp([0,N(O,b[1]),0],c),h=a[1];return dO(c,f4(G,D,f(function(a){return[0,a[1],O]},h),g))}var
 d=b}else
 var
 d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
@@ -3684,10 +3690,10 @@ d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 u=0;if(typeof
 a==="number"&&!a)var
 H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
-a=dW(f[1]);if(a){var
+a=dX(f[1]);if(a){var
 b=f[2];if(b){var
-d=dX(f[3]);if(d){var
-k=d[1],l=co([0,N(F(j,J,b[1]),k),0],c),e=i1(a[1],l);if(e)return dN(c,e[1]);var
+d=dY(f[3]);if(d){var
+k=d[1],l=cp([0,N(F(j,J,b[1]),k),0],c),e=i5(a[1],l);if(e)return dO(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3702,93 +3708,93 @@ u=1;if(u)return 0;break;case
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],L=b[3],O=b[2],P=b[4],Q=b[1],R=function(f){var
-a=dW(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=dX(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dX(f[3]);if(e){var
-g=M(k(b),c),h=g?M(k(s),c):g;if(h){var
-n=f8(t,f9(t,s,d[1],b));return dN(c,f0(f_(j,Q,P,e[1],b),n))}var
+e=dY(f[3]);if(e){var
+g=M(l(b),c),h=g?M(l(s),c):g;if(h){var
+n=f9(t,f_(t,s,d[1],b));return dO(c,f1(f$(j,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-l=i}else
+k=i}else
 var
-l=d;var
-m=l}else
+k=d;var
+m=k}else
 var
-m=a;return m},i=L,h=O,g=R,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=L,h=P,g=S,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qX,e=0;else
+i=b[1],h=0,g=q3,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jR(e,z,g,gy(function(a){return E(a,y,q$)},C))}function
-jY(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jW(e,z,g,gz(function(a){return E(a,y,rf)},C))}function
+j3(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=D(d,o);if(p)var
-h=hU(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=hY(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jX(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return j2(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jX(m,l,k,j,0,i,a)}return 0}function
-ra(a){if(a[1])return 0;var
+q=f;return q}return j2(m,l,k,j,0,i,a)}return 0}function
+rg(a){if(a[1])return 0;var
 b=a[2];if(typeof
-b==="number"&&4<=b)return 1;return 0}function
-jZ(a,K,J,I,H,G,h,p,D,V){if(o(ra,D))var
+b==="number"&&4===b)return 1;return 0}function
+j4(a,K,J,I,H,G,h,p,D,W){if(o(rg,D))var
 q=0;else
 var
-S=gx(a,dy,p),R=0,T=g(gx(a,dx,p),S),q=ct(qU,function(b){switch(b[0]){case
-0:return E(b[1],T,[0,[0,aa]]);case
-1:return[0,[0,E(b[1],J,aa)]];case
-2:return[0,[0,aK(a,b[1])]];case
+T=gy(a,dA,p),S=0,U=g(gy(a,dz,p),T),q=cu(q0,function(b){switch(b[0]){case
+0:return E(b[1],U,[0,[0,O]]);case
+1:return[0,[0,E(b[1],J,O)]];case
+2:return[0,[0,aL(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return aZ(function(a,b){return cc(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return a0(function(a,b){return cd(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return aZ(function(a,b){return cc(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return a0(function(a,b){return cd(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aH(a)]};return bx(function(a){return cb(j,a)},i);case
+i=b[1],j=function(a){return[0,aH(a)]};return bx(function(a){return cc(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return aZ(function(a,b){return cc(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return a0(function(a,b){return cd(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cq(a,b);return af(function(b){return F(a,c,b)},d)};return aZ(function(a,b){return cc(p,a,b)},o,n);case
+d=cr(a,b);return af(function(b){return F(a,c,b)},d)};return a0(function(a,b){return cd(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,$(a,b)]};return bx(function(a){return cb(r,a)},q);default:var
-s=b[1],t=function(b){return cr(a,b)};return bx(function(a){return cb(t,a)},s)}},K,R);var
-e=D,b=V;for(;;){if(e){var
+q=b[1],r=function(b){return[0,aa(a,b)]};return bx(function(a){return cc(r,a)},q);default:var
+s=b[1],t=function(b){return cs(a,b)};return bx(function(a){return cc(t,a)},s)}},K,S);var
+e=D,b=W;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
 u=E(c,b,0);if(u){var
 l=ai(I,c);if(l){var
-v=jY(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eH(c,b);continue}var
+v=j3(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=eI(c,b);continue}var
 w=v}else
 var
 w=l;var
 x=w}else
 var
 x=u;return x}if(typeof
-i==="number"&&4<=i){var
+i==="number"&&4===i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,$(a,b)]},p),O=f(dy,r),M=0,P=g(f(dx,r),O),Q=ct(0,function(n){return function(b){switch(b[0]){case
-0:return[0,E(b[1],n,aa)];case
-1:return[0,E(b[1],J,aa)];case
-2:return[0,aK(a,b[1])];case
+V=0,r=f(function(b){return[0,b,aa(a,b)]},p),P=f(dA,r),M=0,Q=g(f(dz,r),P),R=cu(0,function(n){return function(b){switch(b[0]){case
+0:return[0,E(b[1],n,O)];case
+1:return[0,E(b[1],J,O)];case
+2:return[0,aL(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cc(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return cd(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cc(function(b,a){return[0,N(b,a)]},f,e);case
+e=b[2],f=b[1];return cd(function(b,a){return[0,N(b,a)]},f,e);case
 5:var
-g=b[1];return cb(function(a){return[0,aH(a)]},g);case
+g=b[1];return cc(function(a){return[0,aH(a)]},g);case
 6:var
-h=b[2],i=b[1];return cc(function(c,b){return[0,F(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cd(function(c,b){return[0,F(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cc(function(c,b){var
-d=cq(a,b);return af(function(b){return F(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cd(function(c,b){var
+d=cr(a,b);return af(function(b){return F(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cb(function(b){return[0,$(a,b)]},l);default:var
-m=b[1];return cb(function(b){return cr(a,b)},m)}}}(P),K,M),j=E(h[1],Q,U);if(j){var
+l=b[1];return cc(function(b){return[0,aa(a,b)]},l);default:var
+m=b[1];return cc(function(b){return cs(a,b)},m)}}}(Q),K,M),j=E(h[1],R,V);if(j){var
 m=ac(j[1][2],d);L=1}else
 var
 s=j}else
@@ -3798,38 +3804,38 @@ m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
 y=E(c,b,0);if(y){var
 n=ai(I,c);if(n){var
-z=jY(a,H,G,h,q,n[1],i);if(z){var
-e=k,b=eH(c,b);continue}var
+z=j3(a,H,G,h,q,n[1],i);if(z){var
+e=k,b=eI(c,b);continue}var
 B=z}else
 var
 B=n;var
 C=B}else
 var
 C=y;return C}return[0,b]}}function
-j0(i,h,g,f,e,d,c,t,s,r){var
+j5(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jZ(i,h,g,f,e,d,c,b,a[1],j);return k?o(aN,k[1]):k}var
-l=jZ(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=dM(a[2],b),p=j0(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+k=j4(i,h,g,f,e,d,c,b,a[1],j);return k?o(aK,k[1]):k}var
+l=j4(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dN(a[2],b),p=j5(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gz(d,a){var
-e=W(a),f=s(s(q(b(2,c)),a),d);return G(w(W(d),f),e)}function
-gA(a){switch(a){case
-0:return rd;case
-1:return re;default:return 0}}function
+gA(d,a){var
+e=X(a),f=s(s(q(b(2,c)),a),d);return G(w(X(d),f),e)}function
+gB(a){switch(a){case
+0:return rj;case
+1:return rk;default:return 0}}function
 eO(b,a){var
-c=a5(a[2],b);return g(a5(a[1],b),c)}function
-j1(r,l,p,u,o,j,t){if(j){var
-v=j[1],x=cx(t,eO(o,v)),R=J(t,k(eO(o,v))),S=j1(r,l,p,u,o,j[2],R),i=aI(x,rf),m=aI(x,0);switch(r){case
+c=a6(a[2],b);return g(a6(a[1],b),c)}function
+j6(r,k,p,u,o,j,t){if(j){var
+v=j[1],x=cy(t,eO(o,v)),R=J(t,l(eO(o,v))),S=j6(r,k,p,u,o,j[2],R),i=aI(x,rl),m=aI(x,0);switch(r){case
 0:var
-g=[0,rc,rb,q(d)];break;case
+g=[0,ri,rh,q(d)];break;case
 1:var
-g=cu;break;default:var
+g=cv;break;default:var
 H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=aS(w,g,m),z=ar(l[3],i),A=ar(l[2],i),a=[0,ar(l[1],i),A,z],K=gz(g[3],m[3]),L=gz(g[2],m[2]),M=gz(g[1],m[1]),N=G(G(G(ar(i,i),M),L),K),O=ar(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eC([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dL(p,e),a);switch(r){case
+e=aS(w,g,m),z=as(k[3],i),A=as(k[2],i),a=[0,as(k[1],i),A,z],K=gA(g[3],m[3]),L=gA(g[2],m[2]),M=gA(g[1],m[1]),N=G(G(G(as(i,i),M),L),K),O=as(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eD([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dM(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
@@ -3838,7 +3844,7 @@ n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
 y=[0,[0,n,Q],S]}else
 var
 y=j;return y}function
-gB(g,a){if(typeof
+gC(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3846,8 +3852,8 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gC(e,d,n,m,l,a){var
-f=s(W(cw(gB(m,a),l)),n);if(typeof
+gD(e,d,n,m,l,a){var
+f=s(X(cx(gC(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=ai(d,a[1]);if(b)var
@@ -3859,25 +3865,25 @@ c=ai(d,a[1]);if(c)var
 i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-j2(a,d,c,b){return f(function(a){var
-e=cw(gB(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
-j3(b,g,s,f,i,q,p,o){if(o){var
-X=j3(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+j7(a,d,c,b){return f(function(a){var
+e=cx(gC(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
+j8(b,g,s,f,i,q,p,o){if(o){var
+Y=j8(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a4(g),f),M,aa)];else
+M=e(g,i),h=[0,t(e(a5(g),f),M,O)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
-O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+P=[4,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=gC(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},P);break;case
+Q=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},Q);break;case
 3:var
-Q=gC(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},Q);break;case
+R=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},R);break;case
 6:var
 u=a[3],v=a[2],r=ai(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
+S=[4,u,v],T=[0,r[1],0],k=S,n=T,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
@@ -3886,7 +3892,7 @@ h=y;break;case
 7:var
 z=a[3],A=a[2],B=a[1],C=ai(f,B),L=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
-T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
+U=[4,A,z],k=U,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
 F=E}else
 var
@@ -3894,103 +3900,103 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aK(b,c),V=e(g,i),W=j2(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+V=aL(b,c),W=e(g,i),X=j7(f,q,p,a),I=[0,[0,e(a5(g),X),W,V,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
 N=aA(b,[0,[0,k,k],d]),h=af(function(a){var
-c=$(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
-J=[0,h,X]}else
+c=aa(b,a),d=e(g,i);return m(e(a5(g),n),d,c)},N);var
+J=[0,h,Y]}else
 var
 J=o;return J}function
-j4(j,h,i,e,d,a){if(a){var
-n=j4(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j9(j,h,i,e,d,a){if(a){var
+n=j9(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(dy,j2(h,e,d,b));l=1}if(!l)var
-c=gC(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rg(a){if(typeof
+k=f(dA,j7(h,e,d,b));l=1}if(!l)var
+c=gD(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rm(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 eP(a){var
-b=cv(a[1],[0,d,c]);return b?cv(a[2],[0,d,c]):b}function
-rh(l,a,m,bg){var
-x=a[1],h=dT(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(z(function(a){return eO(m,a)},bi),bh),T=k(aq),bj=a[2],bk=k(z(function(a){return eO(m,a)},bj)),as=a[3],bl=cw([0,[0,as,as],m],bk),bm=gA(x),bn=a[5];function
+b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
+rn(k,a,m,bg){var
+x=a[1],h=dU(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(z(function(a){return eO(m,a)},bi),bh),T=l(aq),bj=a[2],bk=l(z(function(a){return eO(m,a)},bj)),ar=a[3],bl=cx([0,[0,ar,ar],m],bk),bm=gB(x),bn=a[5];function
 i(a){return[0,[0,J(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dY(i(0)),I=[0,eN(qY,i(0)),aX];break;case
+aX=dZ(i(0)),I=[0,eN(q4,i(0)),aX];break;case
 1:var
-aY=dY(i(0)),aZ=s(dY(i(qZ)),aY),a0=s(dY(i(q0)),aZ),a1=eN(0,i(0)),a2=jU(eN(q2,i(q1)),a1),I=[0,jU(eN(q4,i(q3)),a2),a0];break;default:var
-a3=i(q5),a5=i(q6),v=[0,i(0),a5,a3],a6=ar(v,v),a8=G(q(c),a6),aN=ar(v,v),r=v[1],t=v[2],u=v[3],O=function(a){var
-d=W(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
-g=P(f,s(e,d),a);return s(q(b(2,c)),g)},aO=O(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=O(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=I[2],K=j1(x,I[1],C,bl,m,a[2],0),bo=J(T,k(a[6])),bp=gA(x),br=a[5];function
+aY=dZ(i(0)),aZ=s(dZ(i(q5)),aY),a0=s(dZ(i(q6)),aZ),a1=eN(0,i(0)),a2=jZ(eN(q8,i(q7)),a1),I=[0,jZ(eN(q_,i(q9)),a2),a0];break;default:var
+a3=i(q$),a6=i(ra),v=[0,i(0),a6,a3],a7=as(v,v),a8=G(q(c),a7),aN=as(v,v),r=v[1],t=v[2],u=v[3],O=function(a){var
+d=X(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
+g=Q(f,s(e,d),a);return s(q(b(2,c)),g)},aO=O(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=O(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=I[2],K=j6(x,I[1],C,bl,m,a[2],0),bo=J(T,l(a[6])),bp=gB(x),br=a[5];function
 B(a){return[0,[0,J(bp,a)]]}var
-ag=W([0,[1,bo]]);switch(br[0]){case
+ag=X([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(q7),a_=B(q8),ah=[0,B(0),a_,a9],n=[0,w(ag,ar(ah,ah))];break;case
+a9=B(rb),a_=B(rc),ah=[0,B(0),a_,a9],n=[0,w(ag,as(ah,ah))];break;case
 3:var
-a$=W(B(q9)),ba=W(B(0)),bb=W(B(q_)),n=[0,w(w(s(ag,G(q(c),bb)),ba),a$)];break;default:var
+a$=X(B(rd)),ba=X(B(0)),bb=X(B(re)),n=[0,w(w(s(ag,G(q(c),bb)),ba),a$)];break;default:var
 n=0}var
-bs=n?[0,n[1],0]:n,bt=[0,C,g(j4(l,K,C,m,T,a[6]),bs)],U=g(cy(K),bt),at=dH(f(function(a){return dU(h,a)},U))[1],D=dG(at);function
-y(a){return bq(D,dU(h,a))}var
-bu=af(y,n),bv=y(C),au=e(a4(y),K),am=gA(x),an=M(k(au),h);if(an)var
-ao=af(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cS(0,am),S=o(function(a){var
-b=c1(h,a,ae),c=b?o(function(b){var
+bs=n?[0,n[1],0]:n,bt=[0,C,g(j9(k,K,C,m,T,a[6]),bs)],U=g(cz(K),bt),at=dJ(f(function(a){return dV(h,a)},U))[1],D=dI(at);function
+y(a){return bq(D,dV(h,a))}var
+bu=af(y,n),bv=y(C),au=e(a5(y),K),am=gB(x),an=M(l(au),h);if(an)var
+ao=af(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cU(0,am),S=o(function(a){var
+b=c4(h,a,ae),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
-c=H(b);return cD(J(h,a),c)},d);if(c){var
-e=H(b[2]);return gw(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
-e=H(ao[1][1][1]);return cD(J(h,a),e)}var
+c=H(b);return cE(J(h,a),c)},d);if(c){var
+e=H(b[2]);return gx(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cE(J(h,a),e)}var
 d=1}else
 var
 d=c;return d},aM);else
 var
 S=an;var
 bf=S?am:S,av=o(function(a){var
-b=dU(h,a),c=q(d);return bc(E(y(a),D,c),b)},U),aw=av?o(function(a){return jP(h,a)},U):av,ax=aw?a7(rg,a[6]):aw;if(ax){var
+b=dV(h,a),c=q(d);return bc(E(y(a),D,c),b)},U),aw=av?o(function(a){return jU(h,a)},U):av,ax=aw?a4(rm,a[6]):aw;if(ax){var
 L=a[4];switch(x){case
 0:var
 V=eP(L[3]);break;case
 1:var
 V=1;break;default:var
 ak=eP(L[1]),al=ak?eP(L[2]):ak,V=al?eP(L[3]):al}var
-X=V}else
+W=V}else
 var
-X=ax;var
-ay=X?j(l,1,a[3]):X;if(ay)var
-bw=jV(a[5]),Y=o(function(a){var
-b=gu(l,a[1]);return b?gu(l,a[2]):b},bw);else
+W=ax;var
+ay=W?j(k,1,a[3]):W;if(ay)var
+bw=j0(a[5]),Y=o(function(a){var
+b=gv(k,a[1]);return b?gv(k,a[2]):b},bw);else
 var
 Y=ay;if(Y){var
-bx=a[6],by=g(aq,f(function(a){return gB(m,a)},bx)),Z=aT(f(function(a){return aA(l,a)},by));if(Z){var
+bx=a[6],by=g(aq,f(function(a){return gC(m,a)},bx)),Z=aT(f(function(a){return aA(k,a)},by));if(Z){var
 F=a[4];switch(x){case
 0:var
 _=[0,F[1],[0,F[2],0]];break;case
 1:var
 _=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
 _=0}var
-$=aT(f(function(a){return aA(l,[0,a,m])},_));if($){var
+$=aT(f(function(a){return aA(k,[0,a,m])},_));if($){var
 az=$[1],p=a[5];switch(p[0]){case
 0:var
-N=[0,c2(p[1]),0];break;case
+N=[0,c5(p[1]),0];break;case
 1:var
-bd=[0,c2(p[3]),0],be=[0,c2(p[2]),bd],N=[0,c2(p[1]),be];break;case
+bd=[0,c5(p[3]),0],be=[0,c5(p[2]),bd],N=[0,c5(p[1]),be];break;case
 2:var
-Q=c2(cC(p[1])),N=[0,Q,[0,Q,[0,Q,0]]];break;default:var
-R=p[2],ai=p[1],aj=[0,[1,cC(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c2(cC(R)),0]]]}var
+P=c5(cD(p[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
+R=p[2],ai=p[1],aj=[0,[1,cD(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c5(cD(R)),0]]]}var
 aa=aT(f(function(d){var
-a=jW(l,d[1]);if(a)var
-b=jW(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=j1(k,d[1]);if(a)var
+b=j1(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},N));if(aa){var
-aB=aa[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ab=aT(f(function(a){return dS(l,a)},bz));if(ab){var
-ac=aT(j3(l,y,bf,K,C,m,T,a[6]));if(ac){var
-ad=ac[1],aD=M(k(g(az,aB)),h),aE=aD?o(function(a){switch(a[0]){case
+aB=aa[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ab=aT(f(function(a){return dT(k,a)},bz));if(ab){var
+ac=aT(j8(k,y,bf,K,C,m,T,a[6]));if(ac){var
+ad=ac[1],aD=M(l(g(az,aB)),h),aE=aD?o(function(a){switch(a[0]){case
 2:var
-d=jS(a[2]),b=[0,a[3],d];break;case
+d=jX(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jS(a[1]),b=[0,a[2],c]}return o(function(a){return jT(h,D,a)},b)},ad):aD,aF=aE?n?jT(h,D,y(n[1])):1:aE;if(aF){var
-bA=f(function(a){return 1},ad),bB=g(az,aB),bC=af(y,n);return j0(l,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
+c=jX(a[1]),b=[0,a[2],c]}return o(function(a){return jY(h,D,a)},b)},ad):aD,aF=aE?n?jY(h,D,y(n[1])):1:aE;if(aF){var
+bA=f(function(a){return 1},ad),bB=g(az,aB),bC=af(y,n);return j5(k,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
 aG=aF}else
 var
 aG=ac;var
@@ -4010,23 +4016,23 @@ aL=aK}else
 var
 aL=Y;return aL}function
 eQ(b,a){return bs(b,a[1],a[2])}function
-gD(b,a){var
+gE(b,a){var
 c=eQ(b,a[1]),d=c?eQ(b,a[2]):c;return d?eQ(b,a[3]):d}var
 eS=w(q(c),eR);function
-j5(e){var
-a=W(eS);if(e)var
-f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=aq(G(q(c),h),g);else
+j_(e){var
+a=X(eS);if(e)var
+f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=ar(G(q(c),h),g);else
 var
-i=G(q(b(2,c)),a),j=W(eR),d=aq(G(s(q(b(2,c)),j),a),i);return b9(d)}function
-j6(d,b,a){if(d){var
-e=j5(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
-h=q(c),i=j5(b),j=aq(q(c),i);return w(s(a,G(q(c),j)),h)}function
-c3(f,e,d,a){var
-g=W(a),h=W(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:aq(eS,s(q(b(2,c)),eR)):aq(eS,q(b(2,c))),k=s(W(j),i);return b9(G(q(c),k))}function
-j7(g,d){var
+i=G(q(b(2,c)),a),j=X(eR),d=ar(G(s(q(b(2,c)),j),a),i);return b_(d)}function
+j$(d,b,a){if(d){var
+e=j_(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
+h=q(c),i=j_(b),j=ar(q(c),i);return w(s(a,G(q(c),j)),h)}function
+c6(f,e,d,a){var
+g=X(a),h=X(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:ar(eS,s(q(b(2,c)),eR)):ar(eS,q(b(2,c))),k=s(X(j),i);return b_(G(q(c),k))}function
+ka(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gE(u,t,s){var
+gF(u,t,s){var
 a=f(function(a){return E(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
@@ -4036,7 +4042,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eB([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eC([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4058,12 +4064,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-j8(f,i,e,b,h){var
-j=f?c:d,a=aK(i,j);function
+kb(f,i,e,b,h){var
+j=f?c:d,a=aL(i,j);function
 g(b){var
-c=f?fU(b):et(b);return N(c,a)}var
-k=[0,aY(h),0],l=[0,[0,a,b,[0,aa,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-j9(r,g,q,p,e,o,n){if(o){var
+c=f?fV(b):eu(b);return N(c,a)}var
+k=[0,aZ(h),0],l=[0,[0,a,b,[0,O,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kc(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -4072,16 +4078,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b_,bR(rk)),a=gE(p,i7(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b$,bR(rq)),a=gF(p,ja(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j7,rl),a=gE(p,ct(0,dI(g,j8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(ka,rr),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(j7,rm),a=gE(p,ct(0,dI(g,j8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(ka,rs),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4091,27 +4097,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rn:a}else
+y=a?rt:a}else
 var
 y=n;return y}return[0,n]}function
-j_(f,e,d,c,p,o,n){var
+kd(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j9(f,e,d,c,b,a[1],g);return h?aN(h[1]):h}var
-i=j9(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dM(a[2],b),l=j_(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kc(f,e,d,c,b,a[1],g);return h?aK(h[1]):h}var
+i=kc(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dN(a[2],b),l=kd(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gF(a){return iu(b(2,c),b2(a,c))}function
-c4(i,a,e,w,v){var
-l=a?c:Y(c),f=q(l),g=j6(a,e,ri),h=j6(a,e,rj),m=aq(g,c3(a,e,f,g)),n=[0,G(aq(h,c3(a,e,h,f)),m),0],o=aq(f,c3(a,e,f,g)),p=[0,G(aq(h,c3(a,e,g,h)),o),n],r=aq(f,c3(a,e,h,f)),t=[0,G(aq(g,c3(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dH([0,u,t]),k=[0,d,cp(i)];return j_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-j$(a,g,b){if(ac(g,gF(a))){if(b){var
+gG(a){return iy(b(2,c),b3(a,c))}function
+c7(i,a,e,w,v){var
+l=a?c:Z(c),f=q(l),g=j$(a,e,ro),h=j$(a,e,rp),m=ar(g,c6(a,e,f,g)),n=[0,G(ar(h,c6(a,e,h,f)),m),0],o=ar(f,c6(a,e,f,g)),p=[0,G(ar(h,c6(a,e,g,h)),o),n],r=ar(f,c6(a,e,h,f)),t=[0,G(ar(g,c6(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dJ([0,u,t]),k=[0,d,cq(i)];return kd(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+ke(a,g,b){if(ac(g,gG(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gF(a)],v=cp(a),i=[0,gF(a),v],j=c4(a,0,1,h,b[1]),k=j?c4(a,0,0,i,c[1]):j;if(k){var
-l=c4(a,1,1,h,d[1]);if(l)return c4(a,1,0,i,e[1]);var
+h=[0,g,gG(a)],v=cq(a),i=[0,gG(a),v],j=c7(a,0,1,h,b[1]),k=j?c7(a,0,0,i,c[1]):j;if(k){var
+l=c7(a,1,1,h,d[1]);if(l)return c7(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4128,211 +4134,286 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cp(a)],s=c4(a,0,0,r,b[1]);if(s)return c4(a,1,0,r,f[1]);var
+r=[0,g,cq(a)],s=c7(a,0,0,r,b[1]);if(s)return c7(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gG(a){var
-b=[1,[2,d]];return iA(function(b,a){return[1,[3,b,a]]},a,b)}function
-eT(a){return gG(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eU(a,c){return gG(f(function(a){var
-d=[0,a[2]],b=cn(a[1],c);return[1,[7,[1,[8,gG(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-ka(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
-g=a[1],h=dE(function(a){return ka(f,d,c,b,a)},g);return e(dI(f,d,c),h)}function
-ro(a){var
-b=M(k(a),rp);return b?a7(function(a){return aN(al(a,d))},a):b}function
-kb(c,f,b,a){if(b)if(a)var
-d=b[1],g=F(c,aK(c,a[1]),f),h=kb(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+gH(a){var
+b=[1,[2,d]];return iE(function(b,a){return[1,[3,b,a]]},a,b)}function
+eT(a){return gH(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eU(a,c){return gH(f(function(a){var
+d=[0,a[2]],b=co(a[1],c);return[1,[7,[1,[8,gH(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+kf(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
+g=a[1],h=dG(function(a){return kf(f,d,c,b,a)},g);return e(dK(f,d,c),h)}function
+ru(a){var
+b=M(l(a),rv);return b?a4(function(a){return aK(al(a,d))},a):b}function
+rw(x,h,g,k,d,b,a){var
+R=eE(g),i=e(a5(h),R),l=[1,[8,[1,[1,d[1]]]]];function
+y(c,b,a){var
+d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]}var
+v=0;if(typeof
+b==="number")v=1;else
+switch(b[0]){case
+4:var
+m=j(x,1,b[2]);break;case
+8:var
+m=j(x,1,[4,b[2],b[1]]);break;default:v=1}if(v)var
+m=1;var
+z=m?o(ru,a):m;if(z){var
+w=0;if(typeof
+b!=="number")switch(b[0]){case
+0:if(a){if(a[2])return 0;var
+B=[0,[0,i,[0,y(i,l,a[1]),0]]]}else
+var
+B=a;return B;case
+1:if(a){if(a[2])return 0;var
+C=a[1],S=[1,[6,l,eT(C)]],D=[0,[0,i,[0,[1,[4,eU(i,C),S]],0]]]}else
+var
+D=a;return D;case
+2:if(a)return 0;var
+n=ca(g,k,d,b);if(n)var
+T=[0,n[1],n[2]],E=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},T)]];else
+var
+E=n;return E;case
+3:if(a)return 0;var
+p=ca(g,k,d,b);if(p)var
+U=[0,p[1],p[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},U)]];else
+var
+F=p;return F;case
+4:if(a)return 0;var
+q=ca(g,k,d,b);if(q)var
+V=[0,q[1],q[2]],G=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},V)]];else
+var
+G=q;return G;case
+5:if(a){var
+r=a[2];if(r){if(r[2])return 0;var
+H=r[1],I=a[1],W=eT(I),X=[1,[6,l,[1,[6,eU(i,H),W]]]],Y=eT(H),J=[0,[0,i,[0,[1,[4,[1,[6,eU(i,I),Y]],X]],0]]]}else
+var
+J=r;var
+K=J}else
+var
+K=a;return K;case
+6:if(a)return 0;var
+s=ca(g,k,d,b);if(s)var
+Z=[0,s[1],s[2]],L=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},Z)]];else
+var
+L=s;return L;case
+7:if(a)return 0;var
+t=ca(g,k,d,b);if(t)var
+_=[0,t[1],t[2]],M=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},_)]];else
+var
+M=t;return M;case
+8:if(!a)return a;if(a[2])return 0;var
+O=a[1],N=[1,[2,c]];w=1;break;case
+9:if(!a)return a;if(a[2])return 0;var
+O=a[1],N=l;w=1;break}if(w){var
+u=eL(g,k,d,b);if(u)var
+$=u[1],P=e(a5(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
+var
+Q=u;return Q}var
+A=0}else
+var
+A=z;return A}function
+kg(c,f,b,a){if(b)if(a)var
+d=b[1],g=F(c,aL(c,a[1]),f),h=kg(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eV(b,a){return iz(iz(b,0),a)}function
-gH(a){if(a){var
-b=a[2],c=a[1];if(b)return eV(c,[0,rr,gH(b)]);var
+eV(b,a){return iD(iD(b,0),a)}function
+gI(a){if(a){var
+b=a[2],c=a[1];if(b)return eV(c,[0,ry,gI(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,rt,eV(gH(a),rs)]}function
-O(a){return[0,rv,eV(gH(a),ru)]}function
-am(a){return[0,rx,[0,a,rw]]}function
-h(b,a){return[0,ax(rz,ax(b,ry)),a]}function
-L(b,a){return O([0,h(b,a),0])}function
-cE(d){var
-b=d,a=p2,e=0;for(;;){if(b){var
-c=ip(a),b=b[1],a=c;continue}return[0,dD(ek(a)),e]}}function
-gI(a){return[0,dD(en(a)),0]}function
-gJ(a){var
-c=bJ(a),f=0,b=0===c?p6:0<c?[0,en(a)]:[1,en(Y(a))];if(0===b[0])var
-d=dD(b[1]);else
-var
-e=dD(b[1]),d=ax(a6(1,45),e);return[0,d,f]}function
+x(a){return[0,rA,eV(gI(a),rz)]}function
+P(a){return[0,rC,eV(gI(a),rB)]}function
+am(a){return[0,rE,[0,a,rD]]}function
+h(b,a){return[0,ax(rG,ax(b,rF)),a]}function
+L(b,a){return P([0,h(b,a),0])}function
+cF(d){var
+b=d,a=p8,e=0;for(;;){if(b){var
+c=it(a),b=b[1],a=c;continue}return[0,dF(el(a)),e]}}function
+gJ(a){return[0,dF(eo(a)),0]}function
 gK(a){var
-b=0,c=0<bJ(a)?en(a):p5;return[0,dD(c),b]}function
-gL(a){switch(a[0]){case
-2:return rB;case
-3:return 2<=a[1]?rC:rD;case
-4:return rE;default:return rA}}function
-dZ(b,a){function
-c(c,a){return _(c,gL(a))?dZ(b,a):[0,rK,g(dZ(b,a),rJ)]}switch(a[0]){case
+c=bJ(a),f=0,b=0===c?qa:0<c?[0,eo(a)]:[1,eo(Z(a))];if(0===b[0])var
+d=dF(b[1]);else
+var
+e=dF(b[1]),d=ax(a7(1,45),e);return[0,d,f]}function
+gL(a){var
+b=0,c=0<bJ(a)?eo(a):p$;return[0,dF(c),b]}function
+gM(a){switch(a[0]){case
+2:return rI;case
+3:return 2<=a[1]?rJ:rK;case
+4:return rL;default:return rH}}function
+d0(b,a){function
+c(c,a){return $(c,gM(a))?d0(b,a):[0,rR,g(d0(b,a),rQ)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aX(h),0];var
-i=[0,rL,[0,aX(f),0]];return[0,aX(h),i];case
+f==="number")return[0,aY(h),0];var
+i=[0,rS,[0,aY(f),0]];return[0,aY(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rN,c(rM,a[1])];case
+2:return[0,rU,c(rT,a[1])];case
 3:var
-j=a[3],k=c([0,gL(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gM(a)],j);switch(a[1]){case
 0:var
-d=rF;break;case
+d=rM;break;case
 1:var
-d=rG;break;case
+d=rN;break;case
 2:var
-d=rH;break;default:var
-d=rI}var
-l=a[2];return g(c(gL(a),l),[0,d,k]);case
+d=rO;break;default:var
+d=rP}var
+l=a[2];return g(c(gM(a),l),[0,d,k]);case
 4:var
-m=[0,rO,gI(a[2])];return g(c(rP,a[1]),m);default:return[0,rR,g(dZ(b,a[1]),rQ)]}}function
-I(a){return[0,rU,g(dZ(function(a){throw[0,ae,rT]},a),rS)]}function
-kc(a){return[0,rW,g(dZ(function(a){return a},a),rV)]}function
-cd(a){if(0===a[0])return I(a[1]);var
-b=[0,h(rX,I(a[2])),0];return O([0,h(rY,I(a[1])),b])}function
-d0(b,a){var
+m=[0,rV,gJ(a[2])];return g(c(rW,a[1]),m);default:return[0,rY,g(d0(b,a[1]),rX)]}}function
+H(a){return[0,r1,g(d0(function(a){throw[0,ae,r0]},a),rZ)]}function
+kh(a){return[0,r3,g(d0(function(a){return a},a),r2)]}function
+ce(a){if(0===a[0])return H(a[1]);var
+b=[0,h(r4,H(a[2])),0];return P([0,h(r5,H(a[1])),b])}function
+d1(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
-rZ(a){function
-b(a){return d0(cd,a)}switch(a[0]){case
+r6(a){function
+b(a){return d1(ce,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?r0:r8,i=[0,h(r1,am(f)),e],j=[0,h(r2,cd(a[4])),i],k=[0,h(r3,b(a[3])),j],l=[0,h(r4,b(a[2])),k],m=[0,h(r5,b(a[1])),l],c=[0,h(r7,am(r6)),m];break;case
+e=0,f=a[5]?r7:sd,i=[0,h(r8,am(f)),e],j=[0,h(r9,ce(a[4])),i],k=[0,h(r_,b(a[3])),j],l=[0,h(r$,b(a[2])),k],m=[0,h(sa,b(a[1])),l],c=[0,h(sc,am(sb)),m];break;case
 1:var
-d=a[3],n=d?[0,h(r9,b(d[1])),0]:d,o=[0,h(r_,b(a[2])),0],p=[0,h(r$,b(a[1])),o],c=g([0,h(sb,am(sa)),p],n);break;default:var
-q=[0,h(sc,b(a[1])),0],c=[0,h(se,am(sd)),q]}return O(c)}function
-sf(a){function
-b(a){return d0(cd,a)}var
-c=0,d=a[7]?sg:sq,e=[0,h(sh,am(d)),c],f=[0,h(si,cd(a[6])),e],g=[0,h(sj,cd(a[5])),f],i=[0,h(sk,b(a[4])),g],j=[0,h(sl,b(a[3])),i],k=[0,h(sm,b(a[2])),j],l=[0,h(sn,b(a[1])),k];return O([0,h(sp,am(so)),l])}function
-gM(a){switch(a){case
-0:return sr;case
-1:return ss;case
-2:return st;case
-3:return su;case
-4:return sv;case
-5:return sw;case
-6:return sx;case
-7:return sy;case
-8:return sz;case
-9:return sA;default:return sB}}function
-gN(a){switch(a[0]){case
-0:return sC;case
-1:return sD;default:return sE}}function
-d1(a){var
-b=a[4],l=0;if(2===b[0])var
-k=[0,I(b[2]),0],f=x([0,I(b[1]),k]);else
+d=a[3],n=d?[0,h(se,b(d[1])),0]:d,o=[0,h(sf,b(a[2])),0],p=[0,h(sg,b(a[1])),o],c=g([0,h(si,am(sh)),p],n);break;default:var
+q=[0,h(sj,b(a[1])),0],c=[0,h(sl,am(sk)),q]}return P(c)}function
+sm(a){function
+b(a){return d1(ce,a)}var
+c=0,d=a[7]?sn:sx,e=[0,h(so,am(d)),c],f=[0,h(sp,ce(a[6])),e],g=[0,h(sq,ce(a[5])),f],i=[0,h(sr,b(a[4])),g],j=[0,h(ss,b(a[3])),i],k=[0,h(st,b(a[2])),j],l=[0,h(su,b(a[1])),k];return P([0,h(sw,am(sv)),l])}function
+gN(a){switch(a){case
+0:return sy;case
+1:return sz;case
+2:return sA;case
+3:return sB;case
+4:return sC;case
+5:return sD;case
+6:return sE;case
+7:return sF;case
+8:return sG;case
+9:return sH;case
+10:return sI;default:return sJ}}function
+gO(a){if(typeof
+a==="number")return sK;else
+switch(a[0]){case
+0:return sL;case
+1:return sM;default:return sN}}function
+d2(a){var
+b=a[4];if(typeof
+b==="number")var
+c=0;else
+switch(b[0]){case
+0:var
+c=[0,h(sO,H(b[1])),0];break;case
+1:var
+c=[0,h(sP,H(b[1])),0];break;default:var
+k=[0,H(b[2]),0],c=[0,h(sQ,x([0,H(b[1]),k])),0]}var
+l=[0,h(sR,am(gO(a[4]))),c],e=a[3];if(e){var
+d=e[1];if(0===d[0])var
+n=x([0,H(d[1]),0]),m=0,o=6===a[1]?sS:sW,i=[0,h(sT,L(o,n)),m];else
 var
-f=I(b[1]);var
-m=[0,h(sF,f),l],n=[0,h(sG,am(gN(a[4]))),m],d=a[3];if(d){var
-c=d[1];if(0===c[0])var
-p=x([0,I(c[1]),0]),o=0,q=6===a[1]?sH:sL,i=[0,h(sI,L(q,p)),o];else
-var
-u=[0,h(sM,x([0,I(c[2]),0])),0],i=[0,h(sO,O([0,h(sN,x([0,I(c[1]),0])),u])),0];var
+s=[0,h(sX,x([0,H(d[2]),0])),0],i=[0,h(sZ,P([0,h(sY,x([0,H(d[1]),0])),s])),0];var
 j=i}else
 var
-j=d;var
-r=g(j,n),e=a[2],s=e?[0,h(sJ,cE(e[1])),0]:e,t=g(s,r);return O([0,h(sK,am(gM(a[1]))),t])}function
-kd(a){if(0===a[0]){var
-b=[0,h(sP,d0(I,a[2])),0];return L(sR,O([0,h(sQ,d0(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,h(sS,x([0,I(a[4]),c])),0],e=[0,h(sT,I(a[3])),d],f=[0,I(a[2]),0];return L(sV,O([0,h(sU,x([0,I(a[1]),f])),e]))}function
-sZ(a){function
-b(a){return x(f(cd,a))}var
-c=[0,h(s0,b(a[2])),0],d=[0,h(s1,b(a[1])),c];return O([0,h(s3,am(s2)),d])}function
-tb(a){function
-b(a){return d0(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tc,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(td,x([0,I(a[3]),f])),0],j=[0,h(te,I(a[2])),i],k=[0,h(tf,cE(a[1])),j],d=g([0,h(th,am(tg)),k],e);else
+j=e;var
+p=g(j,l),f=a[2],q=f?[0,h(sU,cF(f[1])),0]:f,r=g(q,p);return P([0,h(sV,am(gN(a[1]))),r])}function
+ki(a){if(0===a[0]){var
+b=[0,h(s0,d1(H,a[2])),0];return L(s2,P([0,h(s1,d1(H,a[1])),b]))}var
+c=[0,H(a[5]),0],d=[0,h(s3,x([0,H(a[4]),c])),0],e=[0,h(s4,H(a[3])),d],f=[0,H(a[2]),0];return L(s6,P([0,h(s5,x([0,H(a[1]),f])),e]))}function
+s_(a){function
+b(a){return x(f(ce,a))}var
+c=[0,h(s$,b(a[2])),0],d=[0,h(ta,b(a[1])),c];return P([0,h(tc,am(tb)),d])}function
+tm(a){function
+b(a){return d1(H,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tn,b(c[1])),0]:c,f=[0,H(a[4]),0],i=[0,h(to,x([0,H(a[3]),f])),0],j=[0,h(tp,H(a[2])),i],k=[0,h(tq,cF(a[1])),j],d=g([0,h(ts,am(tr)),k],e);else
 var
-l=[0,h(ti,I(a[4])),0],m=[0,h(tj,b(a[3])),l],n=[0,h(tk,b(a[2])),m],o=a[1]?tl:tn,d=[0,h(tm,am(o)),n];return O(d)}function
-ke(d,c,a,b){var
-e=[0,h(to,x(f(d1,b))),0],i=a?[0,h(tp,x(f(tb,a))),0]:a,j=g(i,e),k=[0,h(tq,kd(c)),0];return O(g([0,h(ts,L(tr,x(f(rZ,d)))),k],j))}function
-tt(a){switch(a[0]){case
-0:return L(tu,ke(a[1],a[2],a[3],a[4]));case
+l=[0,h(tt,H(a[4])),0],m=[0,h(tu,b(a[3])),l],n=[0,h(tv,b(a[2])),m],o=a[1]?tw:ty,d=[0,h(tx,am(o)),n];return P(d)}function
+kj(d,c,a,b){var
+e=[0,h(tz,x(f(d2,b))),0],i=a?[0,h(tA,x(f(tm,a))),0]:a,j=g(i,e),k=[0,h(tB,ki(c)),0];return P(g([0,h(tD,L(tC,x(f(r6,d)))),k],j))}function
+tE(a){switch(a[0]){case
+0:return L(tF,kj(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tv,x(f(d1,a[3]))),0],p=[0,h(tw,kd(a[2])),o];return L(tz,O([0,h(ty,L(tx,x(f(sf,a[1])))),p]));case
+o=[0,h(tG,x(f(d2,a[3]))),0],p=[0,h(tH,ki(a[2])),o];return L(tK,P([0,h(tJ,L(tI,x(f(sm,a[1])))),p]));case
 2:var
-q=[0,h(tA,x(f(d1,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,I(a),0];return x([0,I(b),c])};switch(b[0]){case
+q=[0,h(tL,x(f(d2,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,H(a),0];return x([0,H(b),c])};switch(b[0]){case
 0:var
-d=L(s4,c(b[1],b[2]));break;case
+d=L(td,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(s5,c(g[1],g[2])),0],m=[0,h(s6,c(i[1],i[2])),l],d=L(s8,O([0,h(s7,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(te,c(g[1],g[2])),0],m=[0,h(tf,c(i[1],i[2])),l],d=L(th,P([0,h(tg,c(j[1],j[2])),m]));break;case
 2:var
-d=L(s9,I(b[1]));break;default:var
-n=[0,h(s_,I(b[2])),0],d=L(ta,O([0,h(s$,I(b[1])),n]))}var
-r=[0,h(tB,d),q],s=[0,h(tC,x(f(I,a[5]))),0],t=[0,h(tF,L(tE,O([0,h(tD,x(f(I,a[4]))),s]))),r],u=[0,h(tG,I(a[3])),0],v=O([0,h(tH,x(f(sZ,a[2]))),u]);switch(a[1]){case
+d=L(ti,H(b[1]));break;default:var
+n=[0,h(tj,H(b[2])),0],d=L(tl,P([0,h(tk,H(b[1])),n]))}var
+r=[0,h(tM,d),q],s=[0,h(tN,x(f(H,a[5]))),0],t=[0,h(tQ,L(tP,P([0,h(tO,x(f(H,a[4]))),s]))),r],u=[0,h(tR,H(a[3])),0],v=P([0,h(tS,x(f(s_,a[2]))),u]);switch(a[1]){case
 0:var
-e=sW;break;case
+e=s7;break;case
 1:var
-e=sX;break;default:var
-e=sY}return L(tJ,O([0,h(tI,L(e,v)),t]));case
+e=s8;break;default:var
+e=s9}return L(tU,P([0,h(tT,L(e,v)),t]));case
 3:var
-w=[0,h(tK,x(f(d1,a[7]))),0],y=[0,h(tL,x(f(I,a[6]))),0],z=[0,h(tO,L(tN,O([0,h(tM,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(tQ,x(f(function(a){return L(tP,x(f(kc,a)))},B))),A],D=a[3],E=[0,h(tR,x(f(function(a){var
-b=[0,kc(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tS,x(f(function(a){var
-b=[0,cd(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,x(f(am,a[1]))),G]))),z]));case
+w=[0,h(tV,x(f(d2,a[7]))),0],y=[0,h(tW,x(f(H,a[6]))),0],z=[0,h(tZ,L(tY,P([0,h(tX,x(f(H,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(t1,x(f(function(a){return L(t0,x(f(kh,a)))},B))),A],D=a[3],E=[0,h(t2,x(f(function(a){var
+b=[0,kh(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(t3,x(f(function(a){var
+b=[0,ce(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(t7,P([0,h(t6,L(t5,P([0,h(t4,x(f(am,a[1]))),G]))),z]));case
 4:var
-H=[0,h(tX,x(f(d1,a[3]))),0],J=[0,h(t0,L(tZ,O([0,h(tY,I(a[2])),0]))),H];return L(t4,O([0,h(t3,L(t2,O([0,h(t1,I(a[1])),0]))),J]));case
+I=[0,h(t8,x(f(d2,a[3]))),0],J=[0,h(t$,L(t_,P([0,h(t9,H(a[2])),0]))),I];return L(ud,P([0,h(uc,L(ub,P([0,h(ua,H(a[1])),0]))),J]));case
 5:var
-K=[0,h(t5,I(a[5])),0];return L(t7,O([0,h(t6,ke(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
-k=a[1],M=0,N=k?cd(k[1]):am(t_);return L(t9,O([0,h(t8,N),M]))}}function
-eW(a){return x(f(gJ,a))}function
-kf(b,a){var
-c=[0,h(t$,gK(a)),0];return O([0,h(ua,x(f(eW,b))),c])}function
+K=[0,h(ue,H(a[5])),0];return L(ug,P([0,h(uf,kj(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
+k=a[1],M=0,N=k?ce(k[1]):am(uj);return L(ui,P([0,h(uh,N),M]))}}function
+eW(a){return x(f(gK,a))}function
+gP(b,a){var
+c=[0,h(uk,gL(a)),0];return P([0,h(ul,x(f(eW,b))),c])}function
 eX(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=kf(a[2],a[3]);return L(a[1],b);case
+b=gP(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?ub:ud;return L(uc,am(c));case
+c=a[1]?um:uo;return L(un,am(c));case
 3:var
-d=[0,eW(a[3]),0];return L(ue,x([0,kf(a[1],a[2]),d]));case
+d=[0,eW(a[3]),0];return L(up,x([0,gP(a[1],a[2]),d]));case
 4:var
-e=[0,gK(a[3]),0],f=[0,gJ(a[2]),e];return L(uf,x([0,eX(a[1]),f]));case
+e=[0,gL(a[3]),0],f=[0,gK(a[2]),e];return L(uq,x([0,eX(a[1]),f]));case
 5:var
-g=[0,gK(a[3]),0],h=[0,gJ(a[2]),g];return L(ug,x([0,eX(a[1]),h]));default:return L(uh,eX(a[1]))}}function
-ui(a){var
-b=[0,eX(a[2]),0];return x([0,cE(a[1]),b])}function
-kg(a){if(typeof
-a==="number")return am(uj);else{if(0===a[0]){var
-b=[0,x(f(eW,a[2])),0];return L(uk,x([0,cE(a[1]),b]))}var
-c=[0,cE(a[2]),0];return L(ul,x([0,cE(a[1]),c]))}}function
-um(a){var
-b=a[4],i=b?[0,h(un,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uo,kg(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(up,cE(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uq,x(f(ui,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
-gO(a){var
-b=h$(h_(H(a),function(b){return T(a,b)}));return o(function(a){var
-b=aN(34===a?1:0),c=b?aN(92===a?1:0):b,d=c?_(uK,eq(a)):c;return d?_(eq(a),uL):d},b)}function
+g=[0,gL(a[3]),0],h=[0,gK(a[2]),g];return L(ur,x([0,eX(a[1]),h]));default:return L(us,eX(a[1]))}}function
+ut(a){var
+b=[0,eX(a[2]),0];return x([0,cF(a[1]),b])}function
+kk(a){if(typeof
+a==="number")return am(uu);else{if(0===a[0]){var
+b=[0,x(f(eW,a[2])),0];return L(uv,x([0,cF(a[1]),b]))}var
+c=[0,cF(a[2]),0];return L(uw,x([0,cF(a[1]),c]))}}function
+ux(a){var
+b=a[4],i=b?[0,h(uy,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uz,kk(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uA,cF(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uB,x(f(ut,[0,c[1],c[2]]))),0]:c;return P(g(n,m))}function
+gQ(a){var
+b=id(ic(I(a),function(b){return U(a,b)}));return o(function(a){var
+b=aK(34===a?1:0),c=b?aK(92===a?1:0):b,d=c?$(uW,er(a)):c;return d?$(er(a),uX):d},b)}function
 eY(b){function
 c(f){var
-a=eq(f),b=_(uM,a),c=b?_(a,uN):b;if(c)var
+a=er(f),b=$(uY,a),c=b?$(a,uZ):b;if(c)var
 d=c;else{var
-e=_(uO,a);if(e)return _(a,uP);var
+e=$(u0,a);if(e)return $(a,u1);var
 d=e}return d}var
-a=h$(h_(H(b),function(a){return T(b,a)}));if(a){var
+a=id(ic(I(b),function(a){return U(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eq(a),f=_(uQ,e),h=f?_(e,uR):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(k(d),uS):f;if(g)return aN(aw(b,uT));var
+e=er(a),f=$(u2,e),h=f?$(e,u3):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?$(l(d),u4):f;if(g)return aK(ap(b,u5));var
 h=g}else
 var
 h=a;return h}function
-gP(c){var
+gR(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return eY(a[1]);case
 3:var
-b=gP(a[2]);if(b){var
+b=gR(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-c5(m){var
+c8(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4343,192 +4424,281 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ek(a[2]);if(typeof
+f=el(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=c5(a[2]);if(i){var
+i=c8(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c5(a[1]),l=k?em(b(2,c),j):k;return l?em(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c8(a[1]),l=k?en(b(2,c),j):k;return l?en(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-c6(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+c9(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bd(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ce(a){return z(c6,bd(a))}function
-kh(a){switch(a[0]){case
+cf(a){return z(c9,bd(a))}function
+kl(a){switch(a[0]){case
 0:var
-c=c6(a[4]),d=g(ce(a[3]),c),e=g(ce(a[2]),d);return g(ce(a[1]),e);case
+c=c9(a[4]),d=g(cf(a[3]),c),e=g(cf(a[2]),d);return g(cf(a[1]),e);case
 1:var
-b=a[3],f=b?ce(b[1]):b,h=g(ce(a[2]),f);return g(ce(a[1]),h);default:return ce(a[1])}}function
-uU(a){var
-b=z(c6,[0,a[5],[0,a[6],0]]);return g(z(ce,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-ki(a){if(0===a[0]){var
+b=a[3],f=b?cf(b[1]):b,h=g(cf(a[2]),f);return g(cf(a[1]),h);default:return cf(a[1])}}function
+u6(a){var
+b=z(c9,[0,a[5],[0,a[6],0]]);return g(z(cf,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+km(a){if(0===a[0]){var
 b=bd(a[2]);return g(bd(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c7(d){var
-a=d[4],f=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
+c_(d){var
+a=d[4],f=typeof
+a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-uV(a){if(0===a[0]){var
+u7(a){if(0===a[0]){var
 b=a[5],c=b?bd(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(bd(a[3]),d);return g(bd(a[2]),e)}function
-kj(a){var
-d=em(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?em(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kk(a,b){return b?[3,kk(a,b[1]),a]:a}function
+kn(a){var
+d=en(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?en(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+ko(a,b){return b?[3,ko(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fN(im(h),k,c);return[0,iw(io(ek(a[1]),h)),l];case
-1:throw[0,ae,uW];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fO(ir(h),k,c);return[0,iA(is(el(a[1]),h)),l];case
+1:throw[0,ae,u8];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,Y(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,Z(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=bO(dB(a[2]));return kk(i(a[1]),m);default:return[5,i(a[1])]}}function
-bS(a){if(0===a[0]){var
+m=bO(dD(a[2]));return ko(i(a[1]),m);default:return[5,i(a[1])]}}function
+bT(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
 be(a){var
-b=bS(a[3]),c=bS(a[2]);return[0,bS(a[1]),c,b]}function
-uX(a){switch(a[0]){case
+b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
+u9(a){switch(a[0]){case
 0:var
-b=a[5],c=bS(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
+b=a[5],c=bT(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
 1:var
 f=af(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
-kl(a){if(0===a[0]){var
+kp(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-c8(a){var
+c$(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-c9(a){if(0===a[0]){var
-b=a[5],h=b?c8(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bO(a[1]),l,k,j,h]}var
+da(a){if(0===a[0]){var
+b=a[5],h=b?c$(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bO(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=c8(f),n=c8(g);return[2,i(e),n,m]}var
-o=c8(f),p=c8(g);return[1,i(e),p,o]}function
-gQ(b,a){if(a){var
-c=a[1],d=a[2],e=gQ(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fS(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:M(b[1],a[1]):0:0===a[0]?0:dA(b[1],a[1]);return aN(d)},h),e)}return a}function
-uY(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eZ(e,m,P,b){var
-Q=k(e),h=z(function(a){switch(a[1]){case
+m=c$(f),n=c$(g);return[2,i(e),n,m]}var
+o=c$(f),p=c$(g);return[1,i(e),p,o]}function
+gS(b,a){if(a){var
+c=a[1],d=a[2],e=gS(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fT(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:M(b[1],a[1]):0:0===a[0]?0:dC(b[1],a[1]);return aK(d)},h),e)}return a}function
+u_(b){if(b[1])return 0;var
+a=b[4];if(typeof
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+va(i,a){switch(a[1]){case
 0:var
-m=a[4];return 0===m[0]?[0,[1,i(m[1])],0]:0;case
+j=a[4];if(typeof
+j!=="number"&&2!==j[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-e=a[4];switch(e[0]){case
-0:var
-A=e[1],b=function(a){return[2,a,i(A)]};break;case
-1:var
-C=e[1],b=function(a){return[3,a,i(C)]};break;default:return 0}break;case
+C=0,k=a[4];if(typeof
+k==="number"||2===k[0])C=1;else{var
+l=a[2];if(!l)return a[3]?0:1;if(a[3])return 0;var
+b=l[1]}if(C)return 0;break;case
 2:var
-o=a[4];if(1!==o[0])return 0;var
-g=a[3],D=o[1];if(!g)return g;var
-p=g[1];if(0!==p[0])return 0;var
-E=p[1],b=function(a){var
-b=i(D);return[4,a,i(E),b]};break;case
+D=0,n=a[4];if(typeof
+n==="number"||!(1===n[0]))D=1;else{var
+o=a[2];if(!o){var
+d=a[3];return d?0===d[1][0]?1:0:d}var
+c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
+b=o[1]}if(D)return 0;break;case
 3:var
-q=a[4];return 1===q[0]?[0,[5,i(q[1])],0]:0;case
+p=a[4];if(typeof
+p!=="number"&&1===p[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-r=a[4];if(0!==r[0])return 0;var
-F=r[1],b=function(a){return[6,a,i(F)]};break;case
-5:var
-s=a[4];return 0===s[0]?[0,[7,i(s[1])],0]:0;case
+E=0,q=a[4];if(typeof
+q==="number"||!(0===q[0]))E=1;else{var
+r=a[2];if(!r)return a[3]?0:1;if(a[3])return 0;var
+b=r[1]}if(E)return 0;break;case
 6:var
-t=a[4];if(0===t[0]){var
-h=a[3];if(h){var
-u=h[1];if(0===u[0]){var
-G=i(t[1]);return[0,[8,i(u[1]),G],0]}return 0}return h}return 0;case
-7:var
-v=a[4];return 0===v[0]?[0,[9,i(v[1])],0]:0;case
+t=a[4];if(typeof
+t!=="number"&&0===t[0]){if(a[2])return 0;var
+e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
 8:var
-w=a[4];if(1!==w[0])return 0;var
-j=a[3],H=w[1];if(!j)return j;var
-x=j[1];if(0!==x[0])return 0;var
-I=x[1],b=function(a){var
-b=i(H);return[13,a,i(I),b]};break;case
+F=0,u=a[4];if(typeof
+u==="number"||!(1===u[0]))F=1;else{var
+f=a[3];if(!f)return f;if(0!==f[1][0])return 0;var
+v=M(i,vc),G=0;if(v){var
+w=a[2];if(w){var
+b=w[1];G=1}else
+var
+x=1}else
+var
+x=v;if(!G)return x}if(F)return 0;break;case
+10:var
+H=0,y=a[4];if(typeof
+y==="number"||!(1===y[0]))H=1;else{var
+z=a[2];if(!z){var
+h=a[3];return h?0===h[1][0]?0:1:h}var
+g=a[3];if(!g)return g;if(0===g[1][0])return 0;var
+b=z[1]}if(H)return 0;break;case
+11:var
+A=typeof
+a[4]==="number"?1:0;if(A){if(a[2])return 0;if(a[3])return 0;var
+B=1}else
+var
+B=A;return B;default:var
+s=a[4];if(typeof
+s!=="number"&&0===s[0])return a[2]?0:a[3]?0:1;return 0}var
+m=$(vb,b);return m?$(b,i):m}function
+eZ(e,m,W,b){var
+X=l(e),h=z(function(a){switch(a[1]){case
+0:var
+g=a[4];if(typeof
+g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
+1:var
+e=a[4],w=0;if(typeof
+e==="number")w=1;else
+switch(e[0]){case
+0:var
+G=e[1],b=function(a){return[2,a,i(G)]};break;case
+1:var
+I=e[1],b=function(a){return[3,a,i(I)]};break;default:w=1}if(w)return 0;break;case
+2:var
+h=a[4],C=0;if(typeof
+h==="number"||!(1===h[0]))C=1;else{var
+j=a[3],J=h[1];if(!j)return j;var
+y=j[1];if(0!==y[0])return 0;var
+K=y[1],b=function(a){var
+b=i(J);return[4,a,i(K),b]}}if(C)return 0;break;case
+3:var
+k=a[4];if(typeof
+k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
+4:var
+l=a[4],D=0;if(typeof
+l==="number"||!(0===l[0]))D=1;else
+var
+L=l[1],b=function(a){return[6,a,i(L)]};if(D)return 0;break;case
+5:var
+m=a[4];if(typeof
+m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
+6:var
+n=a[4];if(typeof
+n!=="number"&&0===n[0]){var
+o=a[3];if(o){var
+z=o[1];if(0===z[0]){var
+N=i(n[1]);return[0,[8,i(z[1]),N],0]}return 0}return o}return 0;case
+7:var
+p=a[4];if(typeof
+p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
+8:var
+q=a[4],E=0;if(typeof
+q==="number"||!(1===q[0]))E=1;else{var
+r=a[3],O=q[1];if(!r)return r;var
+A=r[1];if(0!==A[0])return 0;var
+P=A[1],b=function(a){var
+b=i(O);return[13,a,i(P),b]}}if(E)return 0;break;case
 9:var
-y=a[4];if(0===y[0]){var
-J=y[1],K=gQ(0,P);return f(function(h){var
-e=i(J),a=h[2],b=h[1];if(0===b[0]){var
+s=a[4];if(typeof
+s!=="number"&&0===s[0]){var
+Q=s[1],R=gS(0,W);return f(function(h){var
+e=i(Q),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?c8(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(M(f,a[1])){var
+g=function(a){return a?c$(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(M(f,a[1])){var
 j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bO(f),m,l,k]}var
-n=c9(a);return[10,c9(b),n,e]}var
-o=c9(a);return[10,c9(b),o,e]}var
-p=c9(a);return[10,c9(b),p,e]},K)}return 0;default:var
-z=a[4];if(1!==z[0])return 0;var
-k=a[3],L=z[1];if(!k)return k;var
-l=k[1];if(0===l[0])return 0;var
-N=l[2],O=l[1],b=function(a){var
-b=i(L),c=i(N);return[12,a,i(O),c,b]}}var
-n=a[2],B=n?[0,bO(n[1]),0]:cS(0,Q);return f(b,B)},b),a=z(uY,b),j=a?[0,a[1],a[2]]:u1,l=g(j,h),n=kl(m);return[0,f(uX,e),n,l]}function
-u2(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-c_(B,b){var
+n=da(a);return[10,da(b),n,e]}var
+o=da(a);return[10,da(b),o,e]}var
+p=da(a);return[10,da(b),p,e]},R)}return 0;case
+10:var
+t=a[4],F=0;if(typeof
+t==="number"||!(1===t[0]))F=1;else{var
+u=a[3],S=t[1];if(!u)return u;var
+v=u[1];if(0===v[0])return 0;var
+T=v[2],U=v[1],b=function(a){var
+b=i(S),c=i(T);return[12,a,i(U),c,b]}}if(F)return 0;break;default:var
+B=typeof
+a[4]==="number"?1:0,V=B?u$:B;return V}var
+x=a[2],H=x?[0,bO(x[1]),0]:cU(0,X);return f(b,H)},b),a=z(u_,b),j=a?[0,a[1],a[2]]:vd,k=g(j,h),n=kp(m);return[0,f(u9,e),n,k]}function
+ve(b){if(b[1])return 0;var
+a=b[4];if(typeof
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+db(D,b){var
 c=z(function(a){switch(a[1]){case
 0:var
-h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
+d=a[4];if(typeof
+d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
 1:var
-b=a[4];switch(b[0]){case
+b=a[4];if(typeof
+b==="number")return 0;else
+switch(b[0]){case
 0:var
-r=b[1],c=function(a){return[2,a,i(r)]};break;case
+t=b[1],c=function(a){return[2,a,i(t)]};break;case
 1:var
-t=b[1],c=function(a){return[3,a,i(t)]};break;default:var
-u=b[2],v=b[1],c=function(a){var
-b=i(u);return[4,a,i(v),b]}}break;case
+v=b[1],c=function(a){return[3,a,i(v)]};break;default:var
+w=b[2],x=b[1],c=function(a){var
+b=i(w);return[4,a,i(x),b]}}break;case
 2:var
-k=a[4];if(1!==k[0])return 0;var
-d=a[3],w=k[1];if(!d)return d;var
-l=d[1];if(0!==l[0])return 0;var
-x=l[1],c=function(a){var
-b=i(w);return[6,a,i(x),b]};break;case
+e=a[4],r=0;if(typeof
+e==="number"||!(1===e[0]))r=1;else{var
+g=a[3],y=e[1];if(!g)return g;var
+o=g[1];if(0!==o[0])return 0;var
+z=o[1],c=function(a){var
+b=i(y);return[6,a,i(z),b]}}if(r)return 0;break;case
 3:var
-m=a[4];return 1===m[0]?[0,[5,i(m[1])],0]:0;case
+h=a[4];if(typeof
+h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
 6:var
-n=a[4];if(0===n[0]){var
-e=a[3];if(e){var
-o=e[1];if(0===o[0]){var
-y=i(n[1]);return[0,[8,i(o[1]),y],0]}return 0}return e}return 0;case
+j=a[4];if(typeof
+j!=="number"&&0===j[0]){var
+k=a[3];if(k){var
+p=k[1];if(0===p[0]){var
+A=i(j[1]);return[0,[8,i(p[1]),A],0]}return 0}return k}return 0;case
 8:var
-p=a[4];if(1!==p[0])return 0;var
-g=a[3],z=p[1];if(!g)return g;var
-q=g[1];if(0!==q[0])return 0;var
-A=q[1],c=function(a){var
-b=i(z);return[7,a,i(A),b]};break;default:return 0}var
-j=a[2],s=j?[0,bO(j[1]),0]:cS(0,B);return f(c,s)},b),a=z(u2,b),d=a?[0,a[1],a[2]]:u3;return g(d,c)}function
-a9(h,g,a){switch(a[1]){case
-0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
+l=a[4],s=0;if(typeof
+l==="number"||!(1===l[0]))s=1;else{var
+m=a[3],B=l[1];if(!m)return m;var
+q=m[1];if(0!==q[0])return 0;var
+C=q[1],c=function(a){var
+b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
+n=a[2],u=n?[0,bO(n[1]),0]:cU(0,D);return f(c,u)},b),a=z(ve,b),d=a?[0,a[1],a[2]]:vf;return g(d,c)}function
+a9(m,l,a){switch(a[1]){case
+0:var
+b=a[4];if(typeof
+b!=="number"&&2!==b[0])return a[2]?0:a[3]?0:1;return 0;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dA(h,i);if(b){var
-c=a[2];if(c){var
-d=c[1],e=_(u4,d);return e?_(d,g):e}var
-f=1}else
+k=0,c=a[4];if(typeof
+c!=="number"&&2===c[0]){var
+d=1;k=1}if(!k)var
+d=0;var
+e=dC(m,d);if(e){var
+f=a[2];if(f){var
+g=f[1],h=$(vg,g);return h?$(g,l):h}var
+i=1}else
 var
-f=b;return f;case
-3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cF(a){switch(a[0]){case
+i=e;return i;case
+3:var
+j=a[4];if(typeof
+j!=="number"&&1===j[0])return a[2]?0:a[3]?0:1;return 0;default:return 0}}function
+cG(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cF(a[1])];case
+2:return[2,cG(a[1])];case
 3:var
-b=cF(a[2]),c=cF(a[3]);switch(a[1]){case
+b=cG(a[2]),c=cG(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cF(a[1]),d];default:return[8,cF(a[1])]}}function
-km(b){function
+d=a[2];return[7,cG(a[1]),d];default:return[8,cG(a[1])]}}function
+kq(b){function
 a(e){var
 a=[0,d,c];return E(e,b,[0,a,a])}var
-e=a(u6),f=a(u7);return[0,a(0),f,e]}function
-gR(a){function
+e=a(vi),f=a(vj);return[0,a(0),f,e]}function
+gT(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4536,46 +4706,46 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kn(j,a,h,g,e,d,c){function
-b(a){return km(f(bS,a))}var
-l=c_(k(a),c),m=gR(d),n=cn(g,e),o=km(f(function(a){var
+kr(j,a,h,g,e,d,c){function
+b(a){return kq(f(bT,a))}var
+k=db(l(a),c),m=gT(d),n=co(g,e),o=kq(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-u8(a){var
-b=a[7],c=bS(a[6]),d=bS(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
+vk(a){var
+b=a[7],c=bT(a[6]),d=bT(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-c$(h){var
-a=cR(function(f,e){var
+dc(h){var
+a=cT(function(f,e){var
 a=az(m,f);if(a)var
-b=a[1],c=cm(fA(b[1]),fA(b[2]));else
+b=a[1],c=cn(fB(b[1]),fB(b[2]));else
 var
-c=d;return cm(c,e)},d,h);if(ac(d,a)){var
+c=d;return cn(c,e)},d,h);if(ac(d,a)){var
 f=bJ(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bo(a,a2(2)),e=b[1],g=al(b[2],d)?el(e):el(e);return b2(g,m)}return d}function
+b=bo(a,a2(2)),e=b[1],g=al(b[2],d)?em(e):em(e);return b3(g,m)}return d}function
 e0(a){return[0,a[1],[0,a[2],0]]}function
 by(a){var
 b=e0(a[3]),c=g(e0(a[2]),b);return g(e0(a[1]),c)}function
-u9(a){return 0===a[0]?e0(a[1][4]):0}function
-u_(a){switch(a[0]){case
+vl(a){return 0===a[0]?e0(a[1][4]):0}function
+vm(a){switch(a[0]){case
 0:var
 b=a[1],c=by(b[3]);return g(by(b[2]),c);case
 1:var
 d=by(a[2]);return g(by(a[1]),d);default:return 0}}function
-ko(a){switch(a[0]){case
-0:return c$(by(a[1][1]));case
+ks(a){switch(a[0]){case
+0:return dc(by(a[1][1]));case
 1:var
-b=a[3];return b?c$(by(b[1])):d;default:return c$(by(a[1]))}}function
-kp(b){var
-a=z(u9,b),d=a?[0,a[1],a[2]]:z(u_,b);return C(c,c$(d))}function
+b=a[3];return b?dc(by(b[1])):d;default:return dc(by(a[1]))}}function
+kt(b){var
+a=z(vl,b),d=a?[0,a[1],a[2]]:z(vm,b);return C(c,dc(d))}function
 e1(a){switch(a[0]){case
 0:var
-b=a[1];if(aw(b,u$))return va;if(aw(b,vb))return vc;if(aw(b,vd))return ve;if(aw(b,vf))return vg;var
-h=aw(b,vh),j=h?vi:h;return j;case
+b=a[1];if(ap(b,vn))return vo;if(ap(b,vp))return vq;if(ap(b,vr))return vs;if(ap(b,vt))return vu;if(ap(b,vv))return vw;var
+h=ap(b,vx),j=h?vy:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aw(e,vj))return[0,[0,c,d]];if(aw(e,vk))return[0,[1,c,d]];if(aw(e,vl))return[0,[2,c,d]];var
-i=aw(e,vm),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(ap(e,vz))return[0,[0,c,d]];if(ap(e,vA))return[0,[1,c,d]];if(ap(e,vB))return[0,[2,c,d]];var
+i=ap(e,vC),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
@@ -4583,17 +4753,17 @@ f=e1(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
 g=e1(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
 n=e1(a[1]);return af(function(a){return[6,a]},n)}}function
-kq(a){if(a){var
+ku(a){if(a){var
 d=a[1],b=e1(d[2]);if(b)var
-c=kq(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+c=ku(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return vn}function
-da(c,a){if(c)if(a){var
+e=b;return e}return vD}function
+dd(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=kq(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=ku(b[1]);if(d){var
 k=d[1];if(h){var
-e=da(j,i);if(e){var
-l=e[1],f=da(j,l[2]);if(f)var
+e=dd(j,i);if(e){var
+l=e[1],f=dd(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4608,54 +4778,54 @@ var
 g=a;else
 var
 g=c;return g}function
-gS(d,a){if(d){if(a){var
-b=da(k(a),a);if(b)var
-e=b[1],c=gS(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gU(d,a){if(d){if(a){var
+b=dd(l(a),a);if(b)var
+e=b[1],c=gU(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return vo}return a?0:vp}function
-gT(a){return typeof
+f=b;return f}return vE}return a?0:vF}function
+gV(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gU(d,a){if(d)if(a){var
+gW(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gU(k,j);if(e){var
-l=e[1],f=gU(k,l[2]);if(f)var
+e=gW(k,j);if(e){var
+l=e[1],f=gW(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gT(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,gV(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cG(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+cH(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
 bf(a,e){var
-b=cG(a[1],e),c=cG(a[2],b[2]),d=cG(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-kr(d,c){if(d){var
+b=cH(a[1],e),c=cH(a[2],b[2]),d=cH(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kv(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bf(a[1],c),f=bf(a[2],e[2]),g=bf(a[3],f[2]),h=cG(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bf(a[1],c),f=bf(a[2],e[2]),g=bf(a[3],f[2]),h=cH(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=bf(a[1],c),k=j[1],l=bf(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=bf(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=bf(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=kr(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-ks(b,i){if(b){var
-a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cG(a[5],f[2]),h=cG(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=ks(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gV(a,b){if(a){var
-c=cG(a[1],b),d=gV(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gW(b){function
+q=kv(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kw(b,i){if(b){var
+a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cH(a[5],f[2]),h=cH(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kw(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gX(a,b){if(a){var
+c=cH(a[1],b),d=gX(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gY(b){function
 a(a){return E(a,b,[0,d,c])}var
-e=a(vr),f=a(vs);return[0,a(0),f,e]}function
-kt(a,b){if(a){var
-c=a[1],d=gV(c[1],b),e=gV(c[2],d[2]),f=kt(a[2],e[2]),g=f[2],h=f[1],i=gW(e[1]);return[0,[0,[0,gW(d[1]),i],h],g]}return[0,0,b]}function
-db(a){return ja(m,a)}function
-vt(a){if(typeof
+e=a(vH),f=a(vI);return[0,a(0),f,e]}function
+kx(a,b){if(a){var
+c=a[1],d=gX(c[1],b),e=gX(c[2],d[2]),f=kx(a[2],e[2]),g=f[2],h=f[1],i=gY(e[1]);return[0,[0,[0,gY(d[1]),i],h],g]}return[0,0,b]}function
+de(a){return jf(m,a)}function
+vJ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
@@ -4668,11 +4838,11 @@ e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
 12:var
 f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
 2:case
-3:return db(a[2]);case
+3:return de(a[2]);case
 4:case
 13:var
 b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
-gX(a){if(typeof
+gZ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -4683,13 +4853,13 @@ k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
 1:return j(m,1,a[1]);case
 2:case
-3:return db(a[2]);default:var
+3:return de(a[2]);default:var
 i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
 e2(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aN(a7(function(d){return function(a){var
-h=gM(a[1]),e=aw(gM(d[1]),h);if(e)var
-i=gN(a[4]),b=aw(gN(d[4]),i);else
+b=a[2],e=a[1],c=aK(a4(function(d){return function(a){var
+h=gN(a[1]),e=ap(gN(d[1]),h);if(e)var
+i=gO(a[4]),b=ap(gO(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -4698,78 +4868,84 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d2(a){if(0===a[0])return db(i(a[1]));var
+d3(a){if(0===a[0])return de(i(a[1]));var
 b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
 bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ku(a){switch(a[0]){case
+ky(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e);case
 1:var
 b=a[3],f=b?bg(b[1]):b,h=g(bg(a[2]),f);return g(bg(a[1]),h);default:return bg(a[1])}}function
-kv(a){var
+kz(a){var
 b=[0,a[5],[0,a[6],0]],c=g(bg(a[4]),b),d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e)}function
-gY(a){switch(a){case
-0:return vx;case
-1:return vy;default:return 0}}function
+g0(a){switch(a){case
+0:return vN;case
+1:return vO;default:return 0}}function
 e3(a){var
 f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(m,a[1],a[2]):d;if(e){var
 g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
-gZ(a){var
+g1(a){var
 e=bs(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-kw(c,d,D,t,s,r,g){function
+kA(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vv:vw,b=M(k(a),d);return b?o(d2,a):b}var
+d=c?vL:vM,b=M(l(a),d);return b?o(d3,a):b}var
 v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=k(d),h=_(dT(c),E);else
+E=l(d),h=$(dU(c),E);else
 var
 h=v;var
-w=h?_(k(d),vz):h,x=w?j(m,1,i(D)):w;if(x)var
-F=gY(c),l=M(k(t),F);else
+w=h?$(l(d),vP):h,x=w?j(m,1,i(D)):w;if(x)var
+F=g0(c),k=M(l(t),F);else
 var
-l=x;if(l)var
-G=gY(c),n=M(k(s),G);else
+k=x;if(k)var
+G=g0(c),n=M(l(s),G);else
 var
-n=l;if(n)var
-H=cn(t,s),p=o(function(a){var
+n=k;if(n)var
+H=co(t,s),p=o(function(a){var
 b=i(a[2]);return bs(m,i(a[1]),b)},H);else
 var
 p=n;if(p)if(c){var
-a=gR(r);switch(a[0]){case
+a=gT(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
 z=e3(a[1]),A=z?e3(a[2]):z,e=A?e3(a[3]):A;break;case
 2:var
-e=gZ(a[1]);break;default:var
-B=gZ(a[1]),e=B?gZ(a[2]):B}var
+e=g1(a[1]);break;default:var
+B=g1(a[1]),e=B?g1(a[2]):B}var
 f=e}else
 var
-C=gR(r),J=0===C[0]?e3(C[1]):0,f=J;else
+C=gT(r),J=0===C[0]?e3(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=k(d),I=dT(c),q=o(function(a){var
+b=l(d),I=dU(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=_(u5,e),j=f?_(e,b):f,c=j;else
+e=d[1],f=$(vh,e),m=f?$(e,b):f,c=m;else
 var
 c=1;switch(a[1]){case
-2:if(1===a[4][0]){var
-g=a[3];return g?0===g[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
-6:if(0===a[4][0]){var
-h=a[3];return h?0===h[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
-8:if(1===a[4][0]){var
-i=a[3];return i?0===i[1][0]?c?M(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
+2:var
+g=a[4];if(typeof
+g!=="number"&&1===g[0]){var
+h=a[3];return h?0===h[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+6:var
+i=a[4];if(typeof
+i!=="number"&&0===i[0]){var
+j=a[3];return j?0===j[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+8:var
+k=a[4];if(typeof
+k!=="number"&&1===k[0]){var
+l=a[3];return l?0===l[1][0]?c?M(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
 var
 q=f;var
-y=q?e2(g):q;return y?o(gX,c_(k(d),g)):y}function
-g0(j){var
-q=a5(j,c$(by(j))),a=f(function(a){return aA(m,a)},q);if(a){var
+y=q?e2(g):q;return y?o(gZ,db(l(d),g)):y}function
+g2(j){var
+q=a6(j,dc(by(j))),a=f(function(a){return aA(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return $(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,A(A(i(e[1]),s),r)[1])}var
+i=function(a){return aa(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,A(A(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -4785,22 +4961,22 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-vA(a){switch(a[0]){case
-0:return g0(a[1][1]);case
+vQ(a){switch(a[0]){case
+0:return g2(a[1][1]);case
 1:var
-b=a[3];return b?g0(b[1]):1;default:return g0(a[1])}}function
-g1(c,a,b,p){if(a7(function(a){return 9===a[1]?1:0},b)){var
-f=_(k(a),vC),h=f?o(function(a){if(0===a[0]){var
+b=a[3];return b?g2(b[1]):1;default:return g2(a[1])}}function
+g3(c,a,b,p){if(a4(function(a){return 9===a[1]?1:0},b)){var
+f=$(l(a),vS),h=f?o(function(a){if(0===a[0]){var
 f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bd(f[1]),b=o(function(a){return db(i(a))},u);else{var
+u=bd(f[1]),b=o(function(a){return de(i(a))},u);else{var
 n=1;e=1}else{var
 n=l;e=1}if(e)var
 b=n}else{var
 p=j(m,1,i(a[4]));if(p)var
-v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return db(i(a))},w);else
+v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return de(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=_(vB,q);if(r){var
+q=a[1],r=$(vR,q);if(r){var
 d=ai(c,bO(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
@@ -4808,151 +4984,129 @@ s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-l=gQ(0,a),v=l?1:l,n=v;else
+k=gS(0,a),u=k?1:k,n=u;else
 var
 n=h;var
 d=n}else
 var
 d=a?0:1;var
-q=d?o(vA,p[1]):d,r=q?_(vD,k(c)):q;if(r)var
-s=k(c),e=o(function(a){switch(a[1]){case
-0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
-1:if(2===a[4][0])return 0;var
-j=a[2];if(!j)return a[3]?0:1;if(a[3])return 0;var
-b=j[1];break;case
-2:if(1!==a[4][0])return 0;var
-l=a[2];if(!l){var
-d=a[3];return d?0===d[1][0]?1:0:d}var
-c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
-b=l[1];break;case
-3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
-4:if(0!==a[4][0])return 0;var
-m=a[2];if(!m)return a[3]?0:1;if(a[3])return 0;var
-b=m[1];break;case
-6:if(0===a[4][0]){if(a[2])return 0;var
-e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
-8:if(1!==a[4][0])return 0;var
-f=a[3];if(!f)return f;if(0!==f[1][0])return 0;var
-n=M(s,u0),i=0;if(n){var
-o=a[2];if(o)var
-b=o[1];else{var
-p=1;i=1}}else{var
-p=n;i=1}if(i)return p;break;case
-10:if(1!==a[4][0])return 0;var
-q=a[2];if(!q){var
-h=a[3];return h?0===h[1][0]?0:1:h}var
-g=a[3];if(!g)return g;if(0===g[1][0])return 0;var
-b=q[1];break;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-k=_(uZ,b);return k?_(b,s):k},b);else
+q=d?o(vQ,p[1]):d,r=q?$(vT,l(c)):q;if(r)var
+v=l(c),e=o(function(a){return va(v,a)},b);else
 var
 e=r;var
-t=e?e2(b):e,u=t?o(d2,z(ku,c)):t;return u?o(vt,p[3]):u}function
-g2(b,a){return o(function(c){var
-a=c[2];return a?iq(a[1],b):1},a)}function
-g3(b,a){var
-c=k(fS(function(a){return 0===a[0]?0:1},b));return M(k(a),c)}function
-vE(s){var
-fj=gO(s[3]),fk=fj?gO(s[4]):fj;if(fk){var
-as=s[1];if(3===as[0]){var
-fn=o(eY,as[1]);if(fn)var
-is=as[2],cw=o(function(a){return eY(a[1])},is);else
+s=e?e2(b):e,t=s?o(d3,z(ky,c)):s;return t?o(vJ,p[3]):t}function
+vU(b){var
+a=11<=b[1]?1:0,c=a?1:a;return c}function
+g4(b,a){return o(function(c){var
+a=c[2];return a?iu(a[1],b):1},a)}function
+g5(b,a){var
+c=l(fT(function(a){return 0===a[0]?0:1},b));return M(l(a),c)}function
+vV(s){var
+fm=gQ(s[3]),fn=fm?gQ(s[4]):fm;if(fn){var
+at=s[1];if(3===at[0]){var
+fq=o(eY,at[1]);if(fq)var
+ix=at[2],cC=o(function(a){return eY(a[1])},ix);else
 var
-cw=fn;if(cw)var
-it=as[3],cx=o(function(a){var
-b=eY(a[1]),c=b?gP(a[2]):b;return c?c5(a[2]):c},it);else
+cC=fq;if(cC)var
+iy=at[3],cE=o(function(a){var
+b=eY(a[1]),c=b?gR(a[2]):b;return c?c8(a[2]):c},iy);else
 var
-cx=cw;if(cx)var
-iu=as[4],iv=function(a){var
-b=gP(a);return b?c5(a):b},cs=o(function(a){return o(iv,a)},iu);else
+cE=cC;if(cE)var
+iz=at[4],iA=function(a){var
+b=gR(a);return b?c8(a):b},cx=o(function(a){return o(iA,a)},iz);else
 var
-cs=cx}else
+cx=cE}else
 var
-cs=1;var
-cu=cs}else
+cx=1;var
+cy=cx}else
 var
-cu=fk;if(cu){var
+cy=fn;if(cy){var
 h=s[1];switch(h[0]){case
 0:var
-h7=z(c7,h[4]),h8=g(z(uV,h[3]),h7),h9=g(ki(h[2]),h8),U=g(z(kh,h[1]),h9);break;case
+ia=z(c_,h[4]),ib=g(z(u7,h[3]),ia),ic=g(km(h[2]),ib),U=g(z(kl,h[1]),ic);break;case
 1:var
-h_=z(c7,h[3]),h$=g(ki(h[2]),h_),U=g(z(uU,h[1]),h$);break;case
+id=z(c_,h[3]),ie=g(km(h[2]),id),U=g(z(u6,h[1]),ie);break;case
 2:var
-ia=z(c7,h[7]),T=h[6];switch(T[0]){case
+ig=z(c_,h[7]),T=h[6];switch(T[0]){case
 1:var
-fg=T[3],fh=T[2],fi=T[1],cq=[0,fi[1],[0,fi[2],[0,fh[1],[0,fh[2],[0,fg[1],[0,fg[2],0]]]]]];break;case
+fj=T[3],fk=T[2],fl=T[1],cv=[0,fl[1],[0,fl[2],[0,fk[1],[0,fk[2],[0,fj[1],[0,fj[2],0]]]]]];break;case
 2:var
-cq=[0,T[1],0];break;default:var
-cq=[0,T[1],[0,T[2],0]]}var
-ib=g(cq,ia),ic=g(h[5],ib),id=g(h[4],ic),ie=[0,h[3],id],ig=h[2],U=g(z(function(a){return z(c6,g(a[1],a[2]))},ig),ie);break;case
+cv=[0,T[1],0];break;default:var
+cv=[0,T[1],[0,T[2],0]]}var
+ih=g(cv,ig),ii=g(h[5],ih),ij=g(h[4],ii),ik=[0,h[3],ij],il=h[2],U=g(z(function(a){return z(c9,g(a[1],a[2]))},il),ik);break;case
 3:var
-ih=z(c7,h[7]),ii=g(h[6],ih),ij=g(h[5],ii),ik=h[2],U=g(z(function(a){return c6(a[2])},ik),ij);break;case
+im=z(c_,h[7]),io=g(h[6],im),ip=g(h[5],io),iq=h[2],U=g(z(function(a){return c9(a[2])},iq),ip);break;case
 4:var
-il=z(c7,h[3]),U=[0,h[1],[0,h[2],il]];break;case
+ir=z(c_,h[3]),U=[0,h[1],[0,h[2],ir]];break;case
 5:var
-im=z(c7,h[4]),io=g(bd(h[3]),im),ip=g(bd(h[2]),io),iq=g(z(kh,h[1]),ip),U=[0,h[5],iq];break;default:var
-cr=h[1],U=cr?c6(cr[1]):cr}var
-cv=o(c5,U)}else
+is=z(c_,h[4]),it=g(bd(h[3]),is),iu=g(bd(h[2]),it),iv=g(z(kl,h[1]),iu),U=[0,h[5],iv];break;default:var
+cw=h[1],U=cw?c9(cw[1]):cw}var
+cB=o(c8,U)}else
 var
-cv=cu;if(cv){var
-ah=s[2];if(0===ah[0]){var
-fl=kj(ah[1]);if(fl)var
-ir=ah[2],at=o(function(a){var
+cB=cy;if(cB){var
+aj=s[2];if(0===aj[0]){var
+fo=kn(aj[1]);if(fo)var
+iw=aj[3],au=o(function(a){var
 b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gO(a[1]);case
+1:return gQ(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},ir);else
+a=a[1];continue}},b)},iw);else
 var
-at=fl}else
+au=fo}else
 var
-fm=kj(ah[1]),at=fm?o(c5,g(ah[2],ah[3])):fm}else
+fp=kn(aj[1]),au=fp?o(c8,g(aj[2],aj[3])):fp}else
 var
-at=cv;if(at){var
+au=cB;if(au){var
 a=s[1];switch(a[0]){case
 0:var
-au=a[4],av=a[3],cM=a[2],V=a[1],aj=s[2];if(0===aj[0]){var
-cN=aj[2],r=eZ(V,cM,av,au),cO=da(k(cN),cN);if(cO){var
-fG=cO[1];if(fG[2])return 0;var
-fH=g1(V,av,au,r),fI=fH?g2(vF,cN):fH;if(fI){var
-iJ=fG[1],cP=f(ko,r[1]),w=kp(r[1]),p=aj[1],dS=jq(m,r);if(dS){var
-bL=ge(w,cP,r[1]),X=gf(w,cP,r[1],0),gR=k(r[3]),gV=J(k(bL),gR),dw=[0,k(bL),gV],gZ=gh(X,w,dw,r[3]),g0=g(cy(i3(X)),gZ),dz=g(cy(eD(X)),g0),dB=dH(dz)[1],aq=dG(dB),dC=o(function(a){var
-b=q(d);return bc(E(bq(aq,a),aq,b),a)},dz);if(dC){var
-dD=a7(qI,r[3]);if(dD){var
-bJ=cP,aD=r[1];for(;;){if(aD){var
-aE=aD[1],bK=eo(d,bJ);switch(aE[0]){case
+av=a[4],aw=a[3],cR=a[2],V=a[1],W=s[2];if(0===W[0]){var
+cS=W[3],fI=W[2],r=eZ(V,cR,aw,av),cT=dd(l(cS),cS);if(cT){var
+fJ=cT[1];if(fJ[2])return 0;var
+fK=g3(V,aw,av,r),fL=fK?g4(vW,cS):fK;if(fL){var
+iO=fJ[1],cU=f(ks,r[1]),w=kt(r[1]);if(fI)var
+fM=fI[1],fN=[0,fM[2],fM[1]];else
+var
+fN=[0,d,0];var
+p=W[1],d0=jv(m,r);if(d0){var
+bP=gf(w,cU,r[1]),_=gg(w,cU,r[1],0),g2=l(r[3]),g6=J(l(bP),g2),dG=[0,l(bP),g6],g7=gi(_,w,dG,r[3]),g8=g(cz(i8(_)),g7),dH=g(cz(eE(_)),g8),dL=dJ(dH)[1],ar=dI(dL),dM=o(function(a){var
+b=q(d);return bc(E(bq(ar,a),ar,b),a)},dH);if(dM){var
+dO=a4(qO,r[3]);if(dO){var
+bN=cU,aD=r[1];for(;;){if(aD){var
+aE=aD[1],bO=ep(d,bN);switch(aE[0]){case
 0:var
-ds=aE[1],dt=gi(p,ds[1],bK),dd=0;if(dt){var
-bI=aA(p,[0,ds[4],w]);if(bI)var
-ap=ac(d,bI[1][1]);else{var
-du=bI;dd=1}}else{var
-du=dt;dd=1}if(dd)var
-ap=du;break;case
+dB=aE[1],dD=gj(p,dB[1],bO),dj=0;if(dD){var
+bM=aA(p,[0,dB[4],w]);if(bM)var
+aq=ac(d,bM[1][1]);else{var
+dE=bM;dj=1}}else{var
+dE=dD;dj=1}if(dj)var
+aq=dE;break;case
 1:var
-dv=aE[3],ap=dv?gi(p,dv[1],bK):1;break;default:var
-ap=gi(p,aE[1],bK)}if(ap){var
-gQ=aD[2],bJ=fR(bJ),aD=gQ;continue}var
-dE=ap}else
+dF=aE[3],aq=dF?gj(p,dF[1],bO):1;break;default:var
+aq=gj(p,aE[1],bO)}if(aq){var
+g1=aD[2],bN=fS(bN),aD=g1;continue}var
+dP=aq}else
 var
-dE=1;var
-bM=dE;break}}else
+dP=1;var
+bQ=dP;break}}else
 var
-bM=dD;if(bM){var
-g4=r[3],g5=z(function(a){return cW(w,a)},g4),g6=r[3],g7=g(bL,g(f(function(a){return bt(w,a)},g6),g5)),bN=aT(f(function(a){return aA(p,a)},g7));if(bN){var
-Z=r[2];if(0===Z[0])var
-dF=Z[1];else
+bQ=dO;if(bQ){var
+g9=r[3],g_=z(function(a){return cZ(w,a)},g9),g$=r[3],ha=g(bP,g(f(function(a){return bt(w,a)},g$),g_)),bR=aT(f(function(a){return aA(p,a)},ha));if(bR){var
+ab=r[2];if(0===ab[0])var
+dQ=ab[1];else
 var
-aC=Z[3],dq=Z[2],dr=Z[1],dF=[0,[0,[2,dr,aC],[1,dr,aC]],[0,[2,dq,aC],[1,dq,aC]],Z[4]];var
-g8=a5(dF,w),bO=aT(f(function(a){return aA(p,a)},g8));if(bO){var
-g9=r[3],bP=aT(jg(p,function(a){return bq(aq,a)},X,w,dw,g9));if(bP){var
-dJ=bP[1],g_=i$(dJ),aF=r[2],g$=bO[1],ha=function(d){if(0===aF[0])return 0;if(d){var
+aC=ab[3],dx=ab[2],dy=ab[1],dQ=[0,[0,[2,dy,aC],[1,dy,aC]],[0,[2,dx,aC],[1,dx,aC]],ab[4]];var
+hb=a6(dQ,w),bS=aT(f(function(a){return aA(p,a)},hb));if(bS){var
+hc=r[3],bU=aT(jl(p,fN,function(a){return bq(ar,a)},_,w,dG,hc));if(bU){var
+dT=bU[1],hd=je(dT),aF=r[2],he=bS[1],hf=function(d){if(0===aF[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b8(p,w,aF[1]);if(f){var
-g=b8(p,w,aF[2]);if(g){var
-h=b8(p,w,aF[3]);if(h)var
-r=f[1],s=br(c),i=N([0,br(c),s],r),t=g[1],u=br(b),j=N([0,br(b),u],t),v=cV(b),x=[0,cV(b),v],y=[0,F(p,aH(A(j,j)),x),0],z=cV(c),B=[0,cV(c),z],C=[0,F(p,aH(A(i,i)),B),y],D=$(p,j),E=$(p,i),k=[0,[0,N(N($(p,h[1]),E),D),aa,C]];else
+b=a[1],c=d[1],f=b9(p,w,aF[1]);if(f){var
+g=b9(p,w,aF[2]);if(g){var
+h=b9(p,w,aF[3]);if(h)var
+r=f[1],s=br(c),i=N([0,br(c),s],r),t=g[1],u=br(b),j=N([0,br(b),u],t),v=cY(b),x=[0,cY(b),v],y=[0,F(p,aH(A(j,j)),x),0],z=cY(c),B=[0,cY(c),z],C=[0,F(p,aH(A(i,i)),B),y],D=aa(p,j),E=aa(p,i),k=[0,[0,N(N(aa(p,h[1]),E),D),O,C]];else
 var
 k=h;var
 l=k}else
@@ -4969,268 +5123,268 @@ var
 o=a;var
 q=o}else
 var
-q=d;return q},hb=bN[1],hc=0,hd=i3(X),he=e(a4(function(a){return bq(aq,a)}),hd),hf=eD(X);return gc(p,dB,e(a4(function(a){return bq(aq,a)}),hf),he,hc,hb,dJ,ha,g$,g_,iJ)}var
-dK=bP}else
+q=d;return q},hg=bR[1],hh=0,hi=i8(_),hj=e(a5(function(a){return bq(ar,a)}),hi),hk=eE(_);return gd(p,dL,e(a5(function(a){return bq(ar,a)}),hk),hj,hh,hg,dT,hf,he,hd,iO)}var
+dV=bU}else
 var
-dK=bO;var
-dL=dK}else
+dV=bS;var
+dW=dV}else
 var
-dL=bN;var
-bQ=dL}else
+dW=bR;var
+bV=dW}else
 var
-bQ=bM}else
+bV=bQ}else
 var
-bQ=dC;return bQ}return dS}var
-fJ=fI}else
+bV=dM;return bV}return d0}var
+fO=fL}else
 var
-fJ=cO;return fJ}var
-be=aj[2];if(be){var
-bf=be[2];if(bf){var
-bg=bf[2];if(bg){if(bg[2])return 0;var
-fK=aj[3],fL=kr(V,f(i,fK));if(fL[2])return 0;var
-ak=aj[4];if(typeof
+fO=cT;return fO}var
+bg=W[2];if(bg){var
+bh=bg[2];if(bh){var
+bi=bh[2];if(bi){if(bi[2])return 0;var
+fP=W[3],fQ=kv(V,f(i,fP));if(fQ[2])return 0;var
+ak=W[4];if(typeof
 ak==="number")var
-G=vq;else
+y=vG;else
 if(0===ak[0]){var
-cD=ak[2],cE=ak[1];if(cD){var
-a6=cD[1],de=0;if(a6){var
-a8=a6[2],bG=0;if(a8){var
-a_=a8[2],bH=0;if(a_)if(a_[2]){var
-G=0;bG=1;bH=1}else{var
-cG=a_[1],cH=a8[1],cI=a6[1],cJ=cD[2];if(cJ){var
-a$=cJ[1],gL=0;if(a$){var
-ba=a$[2],gM=0;if(ba){var
-bb=ba[2],gN=0;if(bb)if(bb[2]||cJ[2]){var
-G=0;bG=1;bH=1;gL=1;gM=1;gN=1}else
+cJ=ak[2],cK=ak[1];if(cJ){var
+a_=cJ[1],dk=0;if(a_){var
+a$=a_[2],bI=0;if(a$){var
+ba=a$[2],bJ=0;if(ba)if(ba[2]){var
+y=0;bI=1;bJ=1}else{var
+cL=ba[1],cM=a$[1],cN=a_[1],cO=cJ[2];if(cO){var
+bb=cO[1],gS=0;if(bb){var
+be=bb[2],gT=0;if(be){var
+bf=be[2],gX=0;if(bf)if(bf[2]||cO[2]){var
+y=0;bI=1;bJ=1;gS=1;gT=1;gX=1}else
 var
-ft=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,a$[1],ba[1]],bb[1]]]];else
+fv=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,bb[1],be[1]],bf[1]]]];else
 var
-ft=bb;if(!gN)var
-fu=ft}else
+fv=bf;if(!gX)var
+fw=fv}else
 var
-fu=ba;if(!gM)var
-fv=fu}else
-var
-fv=a$;if(!gL){var
-G=fv;bG=1;bH=1}}else
-var
-fw=[0,[0,cE,[0,[0,cI,cH],cG],[0,[0,cI,cH],cG]]]}else
-var
-fw=a_;if(!bH)var
+fw=be;if(!gT)var
 fx=fw}else
 var
-fx=a8;if(!bG){var
-fy=fx;de=1}}else{var
-fy=a6;de=1}if(de)var
-G=fy}else
+fx=bb;if(!gS){var
+y=fx;bI=1;bJ=1}}else
 var
-fz=[0,[0,d,d],d],G=[0,[0,cE,fz,fz]]}else
+fy=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,cN,cM],cL]]]}else
 var
-G=[0,[1,ak[1],ak[2]]];if(G){var
-fM=g3(z(ku,V),fK),fN=fM?g1(V,av,au,eZ(V,cM,av,au)):fM;if(fN){var
-W=G[1],iK=i(bg[1]),iL=i(bf[1]),L=[0,i(be[1]),iL,iK],ax=fL[1],cQ=eZ(V,cM,av,au),dN=ji(m,cQ,ax,L);if(dN)if(typeof
-W==="number")return a7(function(a){switch(a[0]){case
+fy=ba;if(!bJ)var
+fz=fy}else
+var
+fz=a$;if(!bI){var
+fA=fz;dk=1}}else{var
+fA=a_;dk=1}if(dk)var
+y=fA}else
+var
+fB=[0,[0,d,d],d],y=[0,[0,cK,fB,fB]]}else
+var
+y=[0,[1,ak[1],ak[2]]];if(y){var
+fR=g5(z(ky,V),fP),fT=fR?g3(V,aw,av,eZ(V,cR,aw,av)):fR;if(fT){var
+X=y[1],iP=i(bi[1]),iQ=i(bh[1]),L=[0,i(bg[1]),iQ,iP],ax=fQ[1],cV=eZ(V,cR,aw,av),dX=jn(m,cV,ax,L);if(dX)if(typeof
+X==="number")return a4(function(a){switch(a[0]){case
 0:var
-b=[0,cX(a[1],a[2],a[3],a[4],L)];break;case
+b=[0,c0(a[1],a[2],a[3],a[4],L)];break;case
 1:var
 e=a[2],f=a[1],g=bu(f,e,L),b=[0,B(bu(f,e,L),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===W[0]){var
-bR=ai(cQ[3],W[1]);if(bR){var
-hg=bR[1],hh=jk(W[3]);return jp(m,ax,L,jk(W[2]),hh,hg)}return bR}var
-bT=ai(cQ[3],W[1]);if(bT){var
-bU=ai(ax,W[2]);if(bU){var
-dO=bU[1],hi=bT[1],hj=cZ(dO,L);return jp(m,ax,L,cZ(dO,L),hj,hi)}var
-dP=bU}else
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===X[0]){var
+bW=ai(cV[3],X[1]);if(bW){var
+hl=bW[1],hm=jp(X[3]);return ju(m,ax,L,jp(X[2]),hm,hl)}return bW}var
+bX=ai(cV[3],X[1]);if(bX){var
+bY=ai(ax,X[2]);if(bY){var
+dY=bY[1],hn=bX[1],ho=c2(dY,L);return ju(m,ax,L,c2(dY,L),ho,hn)}var
+dZ=bY}else
 var
-dP=bT;return dP}return dN}var
-fO=fN}else
+dZ=bX;return dZ}return dX}var
+fU=fT}else
 var
-fO=G;var
-fP=fO}else
+fU=y;var
+fV=fU}else
 var
-fP=bg;var
-fQ=fP}else
+fV=bi;var
+fW=fV}else
 var
-fQ=bf;var
-fS=fQ}else
-var
-fS=be;return fS;case
-1:var
-bh=a[3],O=a[1],bi=s[2];if(0===bi[0])return 0;var
-bj=bi[2];if(bj){var
-bk=bj[2];if(bk){var
-bl=bk[2];if(bl){if(bl[2])return 0;var
-fT=bi[3],fU=ks(O,f(i,fT));if(fU[2])return 0;var
-fV=g3(z(kv,O),fT);if(fV){var
-fA=_(vu,k(O));if(fA)var
-iE=k(O),iF=1,cK=o(function(a){return a9(iF,iE,a)},bh);else
-var
-cK=fA;var
-fB=cK?e2(bh):cK,fC=fB?o(d2,z(kv,O)):fB,iM=fC?o(gX,c_(k(O),bh)):fC,cR=iM}else
-var
-cR=fV;if(cR){var
-iN=gT(bi[4]),iO=i(bl[1]),iP=i(bk[1]),P=[0,i(bj[1]),iP,iO],bm=fU[1],iQ=a[2],iz=c_(k(O),bh),iA=kl(iQ),aG=f(u8,O),ab=bm;for(;;){if(aG){if(ab){var
-t=ab[1],S=aG[1],dU=aU(m,S[1],t[1]),dV=dU?aU(m,S[2],t[2]):dU,dW=dV?aU(m,S[3],t[3]):dV,dX=dW?aU(m,S[4],t[4]):dW,dY=dX?cz(m,S[5],t[5]):dX,dZ=dY?cz(m,S[6],t[6]):dY,d0=dZ?j(m,1,t[5]):dZ,d1=d0?j(m,1,t[6]):d0,d3=d1?j(m,1,B(t[1],t[1])):d1;if(d3)var
-hk=gk(t),bV=j(m,1,B(gk(t),hk));else
-var
-bV=d3;var
-d4=bV?dA(S[7],t[7]):bV;if(d4){var
-aG=aG[2],ab=ab[2];continue}var
-d5=d4}else
-var
-d5=ab;var
-bW=d5}else
-var
-bW=ab?0:1;var
-d6=bW?jh(m,iA,P):bW;if(d6){var
-hl=f(function(a){return jx(a,P)},bm),hm=f(function(a){var
-b=jz(a,P);return[1,jy(a,P),b]},bm);return ju(m,qM,[0,f(function(a){var
-d=jv(a),e=aB(jz(a,P),d),f=gl(a),g=aB(jy(a,P),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aB(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},P,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gr(a,P),b=aB([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bm),hm,hl],iz,iN)}return d6}}var
-fW=cR}else
-var
-fW=bl;var
+fW=bh;var
 fX=fW}else
 var
-fX=bk;var
-fY=fX}else
+fX=bg;return fX;case
+1:var
+bj=a[3],P=a[1],bk=s[2];if(0===bk[0])return 0;var
+bl=bk[2];if(bl){var
+bm=bl[2];if(bm){var
+bn=bm[2];if(bn){if(bn[2])return 0;var
+fY=bk[3],fZ=kw(P,f(i,fY));if(fZ[2])return 0;var
+f0=g5(z(kz,P),fY);if(f0){var
+fC=$(vK,l(P));if(fC)var
+iJ=l(P),iK=1,cP=o(function(a){return a9(iK,iJ,a)},bj);else
 var
-fY=bj;return fY;case
-2:var
-bn=a[7],bo=a[6],bp=a[5],bx=a[4],bz=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
-cS=ao[2],ay=kn(an,am,bz,bx,bp,bo,bn),cT=da(k(cS),cS);if(cT){var
-fZ=cT[1];if(fZ[2])return 0;var
-f0=kw(an,am,bz,bx,bp,bo,bn),f1=f0?g2(dT(an),cS):f0;if(f1){var
-iR=fZ[1],iS=ay[2],iT=C(c,c$(z(function(a){var
-b=by(a[2]);return g(by(a[1]),b)},iS))),iU=ao[1],hS=ay[2],eX=o(function(a){var
-b=gD(m,a[1]);return b?gD(m,a[2]):b},hS),e0=eX?gD(m,ay[4]):eX;if(e0)var
-hT=jV(ay[5]),cf=o(function(a){return eQ(m,a)},hT);else
+cP=fC;var
+fD=cP?e2(bj):cP,fE=fD?o(d3,z(kz,P)):fD,iR=fE?o(gZ,db(l(P),bj)):fE,cW=iR}else
 var
-cf=e0;return cf?rh(iU,ay,iT,iR):cf}var
+cW=f0;if(cW){var
+iS=gV(bk[4]),iT=i(bn[1]),iU=i(bm[1]),Q=[0,i(bl[1]),iU,iT],bo=fZ[1],iV=a[2],iE=db(l(P),bj),iG=kp(iV),aG=f(vk,P),ad=bo;for(;;){if(aG){if(ad){var
+t=ad[1],S=aG[1],d1=aU(m,S[1],t[1]),d2=d1?aU(m,S[2],t[2]):d1,d4=d2?aU(m,S[3],t[3]):d2,d5=d4?aU(m,S[4],t[4]):d4,d6=d5?cA(m,S[5],t[5]):d5,d7=d6?cA(m,S[6],t[6]):d6,d8=d7?j(m,1,t[5]):d7,d9=d8?j(m,1,t[6]):d8,d_=d9?j(m,1,B(t[1],t[1])):d9;if(d_)var
+hp=gl(t),bZ=j(m,1,B(gl(t),hp));else
+var
+bZ=d_;var
+d$=bZ?dC(S[7],t[7]):bZ;if(d$){var
+aG=aG[2],ad=ad[2];continue}var
+ea=d$}else
+var
+ea=ad;var
+b0=ea}else
+var
+b0=ad?0:1;var
+eb=b0?jm(m,iG,Q):b0;if(eb){var
+hq=f(function(a){return jC(a,Q)},bo),hr=f(function(a){var
+b=jE(a,Q);return[1,jD(a,Q),b]},bo);return jz(m,qS,[0,f(function(a){var
+d=jA(a),e=aB(jE(a,Q),d),f=gm(a),g=aB(jD(a,Q),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aB(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},Q,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gs(a,Q),b=aB([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bo),hr,hq],iE,iS)}return eb}}var
+f1=cW}else
+var
+f1=bn;var
 f2=f1}else
 var
-f2=cT;return f2}var
-f3=ao[3],f4=f(i,ao[2]),f5=gY(an),f6=kt(am,f(i,f3));if(f6[2])return 0;var
-f8=g3(z(function(a){return g(a[1],a[2])},am),f3),f9=f8?kw(an,am,bz,bx,bp,bo,bn):f8;if(f9){var
-iV=gT(ao[4]),n=iB(f5,f4),bA=gW(ep(f5,f4)),bB=f6[1],Q=kn(an,am,bz,bx,bp,bo,bn),aX=Q[2],ad=bB;for(;;){if(aX){if(ad){var
-eO=ad[1],eP=aX[1],eR=aU(m,eP[1],eO[1]),eS=eR?aU(m,eP[2],eO[2]):eR;if(eS){var
-aX=aX[2],ad=ad[2];continue}var
-eV=eS}else
+f2=bm;var
+f3=f2}else
 var
-eV=ad;var
-cd=eV}else
-var
-cd=ad?0:1;var
-eW=cd?aU(m,Q[4],bA):cd;if(eW){var
-H=Q[5];switch(H[0]){case
-0:var
-x=n?n[2]?0:dR(m,H[1],n[1]):n;break;case
-1:var
-df=0;if(n){var
-aP=n[2],dg=0;if(aP){var
-aQ=aP[2],dh=0;if(aQ)if(aQ[2]){var
-x=0;dg=1;dh=1}else{var
-eu=dR(m,H[1],n[1]),ev=eu?dR(m,H[2],aP[1]):eu;if(ev){var
-x=dR(m,H[3],aQ[1]);dg=1;dh=1}else
-var
-ew=ev}else
-var
-ew=aQ;if(!dh)var
-ex=ew}else
-var
-ex=aP;if(!dg){var
-ey=ex;df=1}}else{var
-ey=n;df=1}if(df)var
-x=ey;break;case
+f3=bl;return f3;case
 2:var
-di=0;if(n){var
-aR=n[2],dj=0;if(aR){var
+bp=a[7],bx=a[6],bz=a[5],bA=a[4],bB=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
+c1=ao[3],ay=kr(an,am,bB,bA,bz,bx,bp),c3=dd(l(c1),c1);if(c3){var
+f4=c3[1];if(f4[2])return 0;var
+f5=kA(an,am,bB,bA,bz,bx,bp),f6=f5?g4(dU(an),c1):f5;if(f6){var
+iW=f4[1],iX=ay[2],iY=C(c,dc(z(function(a){var
+b=by(a[2]);return g(by(a[1]),b)},iX))),iZ=ao[1],hX=ay[2],e3=o(function(a){var
+b=gE(m,a[1]);return b?gE(m,a[2]):b},hX),e4=e3?gE(m,ay[4]):e3;if(e4)var
+hY=j0(ay[5]),cj=o(function(a){return eQ(m,a)},hY);else
+var
+cj=e4;return cj?rn(iZ,ay,iY,iW):cj}var
+f7=f6}else
+var
+f7=c3;return f7}var
+f9=ao[3],f_=f(i,ao[2]),f$=g0(an),ga=kx(am,f(i,f9));if(ga[2])return 0;var
+gb=g5(z(function(a){return g(a[1],a[2])},am),f9),gc=gb?kA(an,am,bB,bA,bz,bx,bp):gb;if(gc){var
+i0=gV(ao[4]),n=iF(f$,f_),bC=gY(eq(f$,f_)),bD=ga[1],R=kr(an,am,bB,bA,bz,bx,bp),aX=R[2],ae=bD;for(;;){if(aX){if(ae){var
+eU=ae[1],eV=aX[1],eW=aU(m,eV[1],eU[1]),eX=eW?aU(m,eV[2],eU[2]):eW;if(eX){var
+aX=aX[2],ae=ae[2];continue}var
+e0=eX}else
+var
+e0=ae;var
+ch=e0}else
+var
+ch=ae?0:1;var
+e1=ch?aU(m,R[4],bC):ch;if(e1){var
+I=R[5];switch(I[0]){case
+0:var
+x=n?n[2]?0:dS(m,I[1],n[1]):n;break;case
+1:var
+dl=0;if(n){var
+aP=n[2],dm=0;if(aP){var
+aQ=aP[2],dn=0;if(aQ)if(aQ[2]){var
+x=0;dm=1;dn=1}else{var
+eB=dS(m,I[1],n[1]),eC=eB?dS(m,I[2],aP[1]):eB;if(eC){var
+x=dS(m,I[3],aQ[1]);dm=1;dn=1}else
+var
+eD=eC}else
+var
+eD=aQ;if(!dn)var
+eF=eD}else
+var
+eF=aP;if(!dm){var
+eG=eF;dl=1}}else{var
+eG=n;dl=1}if(dl)var
+x=eG;break;case
+2:var
+dp=0;if(n){var
+aR=n[2],dq=0;if(aR){var
 aS=aR[2];if(aS)if(aS[2]){var
-x=0;dj=1}else{var
-ez=aS[1],eA=aR[1],eB=n[1],hL=B([0,eB,eA,ez],[0,eB,eA,ez]),x=jO(m,H[1],hL,[0,c,c]);dj=1}else
+x=0;dq=1}else{var
+eH=aS[1],eI=aR[1],eJ=n[1],hQ=B([0,eJ,eI,eH],[0,eJ,eI,eH]),x=jT(m,I[1],hQ,[0,c,c]);dq=1}else
 var
-eC=aS}else
+eK=aS}else
 var
-eC=aR;if(!dj){var
-eE=eC;di=1}}else{var
-eE=n;di=1}if(di)var
-x=eE;break;default:var
-dk=0;if(n){var
-aV=n[2],dl=0;if(aV){var
-aW=aV[2],dm=0;if(aW)if(aW[2]){var
-x=0;dl=1;dm=1}else{var
-cc=aW[1],eF=aV[1],eG=n[1],eH=jO(m,H[1],[1,[3,eG,eG],[3,eF,eF]],[1,[0,c,c],[3,cc,cc]]);if(eH){var
-x=dR(m,cC(H[2]),cc);dl=1;dm=1}else
+eK=aR;if(!dq){var
+eL=eK;dp=1}}else{var
+eL=n;dp=1}if(dp)var
+x=eL;break;default:var
+dr=0;if(n){var
+aV=n[2],ds=0;if(aV){var
+aW=aV[2],dt=0;if(aW)if(aW[2]){var
+x=0;ds=1;dt=1}else{var
+cg=aW[1],eM=aV[1],eN=n[1],eO=jT(m,I[1],[1,[3,eN,eN],[3,eM,eM]],[1,[0,c,c],[3,cg,cg]]);if(eO){var
+x=dS(m,cD(I[2]),cg);ds=1;dt=1}else
 var
-eI=eH}else
+eP=eO}else
 var
-eI=aW;if(!dm)var
-eJ=eI}else
+eP=aW;if(!dt)var
+eR=eP}else
 var
-eJ=aV;if(!dl){var
-eM=eJ;dk=1}}else{var
-eM=n;dk=1}if(dk)var
-x=eM}var
-ce=x}else
+eR=aV;if(!ds){var
+eS=eR;dr=1}}else{var
+eS=n;dr=1}if(dr)var
+x=eS}var
+ci=x}else
 var
-ce=eW;if(ce){var
-aZ=Q[5],hP=Q[6],hQ=Q[3],hR=Q[1],eN=function(a){var
-b=gv(aZ,n,bA,a);return B(gv(aZ,n,bA,a),b)},hM=f(eN,bB),hN=f(function(a){return[0,[5,eN(a)]]},bB),hO=[0,f(function(d){var
-b=aJ(gv(aZ,n,bA,d)),a=aB([4,[0,c,c],hQ],jK(jL(aZ,n,d[2]),b));switch(hR){case
+ci=e1;if(ci){var
+aY=R[5],hU=R[6],hV=R[3],hW=R[1],eT=function(a){var
+b=gw(aY,n,bC,a);return B(gw(aY,n,bC,a),b)},hR=f(eT,bD),hS=f(function(a){return[0,[5,eT(a)]]},bD),hT=[0,f(function(d){var
+b=aJ(gw(aY,n,bC,d)),a=aB([4,[0,c,c],hV],jP(jQ(aY,n,d[2]),b));switch(hW){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bB),hN,hM];return ju(m,dT(Q[1]),hO,hP,iV)}return ce}}return f9;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bD),hS,hR];return jz(m,dU(R[1]),hT,hU,i0)}return ci}}return gc;case
 3:var
-bC=a[7],f_=a[6],f$=a[5],bD=a[4],ga=a[2],gb=a[1],cY=s[2];if(0===cY[0]){var
-c0=cY[2],c1=da(k(c0),c0);if(c1){var
-gd=c1[1];if(gd[2])return 0;var
-iG=k(f_),fD=M(k(f$),iG);if(fD)var
-iH=k(bD),iI=0,cL=o(function(a){return a9(iI,iH,a)},bC);else
+bE=a[7],ge=a[6],gh=a[5],bF=a[4],gk=a[2],gn=a[1],c4=s[2];if(0===c4[0]){var
+c5=c4[3],c6=dd(l(c5),c5);if(c6){var
+go=c6[1];if(go[2])return 0;var
+iL=l(ge),fF=M(l(gh),iL);if(fF)var
+iM=l(bF),iN=0,cQ=o(function(a){return a9(iN,iM,a)},bE);else
 var
-cL=fD;var
-fE=cL?e2(bC):cL,fF=fE?o(function(a){return d2(a[2])},ga):fE,gg=fF?o(gX,c_(k(bD),bC)):fF,gj=gg?g2(k(gb),c0):gg;if(gj){var
-iW=gd[1],iX=a[3],fo=c_(k(bD),bC),iw=cn(f$,f_),cA=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},iw),ix=f(function(a){return f(cF,a)},bD),iy=f(function(a){var
-b=cF(a[2]);return[0,a[1],b]},iX),l=[0,gb,f(function(a){var
-b=bS(a[2]);return[0,a[1],b]},ga),iy,ix],az=cY[1],hF=f(dx,l[2]),b7=g(l[1],hF),aO=k(l[1]),el=_(qO,aO),em=el?_(aO,qP):el,en=em?_(aO,k(l[4])):em,eq=en?_(k(l[4]),qQ):en;if(eq)var
-hG=l[4],b9=o(function(a){return M(k(a),aO)},hG);else
+cQ=fF;var
+fG=cQ?e2(bE):cQ,fH=fG?o(function(a){return d3(a[2])},gk):fG,gp=fH?o(gZ,db(l(bF),bE)):fH,gq=gp?g4(l(gn),c5):gp;if(gq){var
+i1=go[1],i2=a[3],fr=db(l(bF),bE),iB=co(gh,ge),cF=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},iB),iC=f(function(a){return f(cG,a)},bF),iD=f(function(a){var
+b=cG(a[2]);return[0,a[1],b]},i2),k=[0,gn,f(function(a){var
+b=bT(a[2]);return[0,a[1],b]},gk),iD,iC],az=c4[1],hK=f(dz,k[2]),ca=g(k[1],hK),aO=l(k[1]),eu=$(qU,aO),ev=eu?$(aO,qV):eu,ew=ev?$(aO,l(k[4])):ev,ex=ew?$(l(k[4]),qW):ew;if(ex)var
+hL=k[4],cb=o(function(a){return M(l(a),aO)},hL);else
 var
-b9=eq;if(b9){var
-aM=b7;for(;;){if(aM){var
-ej=aM[2],hE=aM[1],ek=aN(a7(function(b){return function(a){return mZ(b,a)}}(hE),ej));if(ek){var
-aM=ej;continue}var
-er=ek}else
+cb=ex;if(cb){var
+aN=ca;for(;;){if(aN){var
+es=aN[2],hJ=aN[1],et=aK(a4(function(b){return function(a){return m5(b,a)}}(hJ),es));if(et){var
+aN=es;continue}var
+ey=et}else
 var
-er=1;var
-b_=er;break}}else
+ey=1;var
+cc=ey;break}}else
 var
-b_=b9;if(b_){var
-aL=b7,aK=l[3];for(;;){if(aK){var
-ef=aK[1],eg=ef[1],eh=aN(a7(function(b){return function(a){return aw(b,a)}}(eg),aL)),ei=eh?gs(aL,ef[2]):eh;if(ei){var
-aL=[0,eg,aL],aK=aK[2];continue}var
-es=ei}else
+cc=cb;if(cc){var
+aM=ca,aL=k[3];for(;;){if(aL){var
+em=aL[1],en=em[1],eo=aK(a4(function(b){return function(a){return ap(b,a)}}(en),aM)),er=eo?gt(aM,em[2]):eo;if(er){var
+aM=[0,en,aM],aL=aL[2];continue}var
+ez=er}else
 var
-es=1;var
-b$=es;break}}else
+ez=1;var
+cd=ez;break}}else
 var
-b$=b_;if(b$)var
-hH=l[4],hI=g(f(dx,l[3]),b7),hJ=function(a){return gs(hI,a)},ca=o(function(a){return o(hJ,a)},hH);else
+cd=cc;if(cd)var
+hM=k[4],hN=g(f(dz,k[3]),ca),hO=function(a){return gt(hN,a)},ce=o(function(a){return o(hO,a)},hM);else
 var
-ca=b$;if(ca)var
-hK=l[2],cb=o(function(a){return bs(m,a[2][1],a[2][2])},hK);else
+ce=cd;if(ce)var
+hP=k[2],cf=o(function(a){return bs(m,a[2][1],a[2][2])},hP);else
 var
-cb=ca;var
-et=cb?o(function(a){return bs(m,a[1],a[2])},cA):cb;if(et){var
-ht=k(l[1]),bY=k(l[2]),d9=J(bY,k(dQ(f(dy,l[3])))),hu=l[3],ar=jG(l),aI=hu,bX=bY;for(;;){if(aI){var
-d7=aI[1],d8=d7[2],hn=J(bX,k(bv(d8))),ho=aI[2],hp=bw(ar,d8,bX),ar=[0,[0,d7[1],hp],ar],aI=ho,bX=hn;continue}var
-hv=jD(ar,l[4],d9),bZ=f(function(a){return[0,a,q(c)]},hv),hw=jE(ar,l[4],d9),hx=l[3],b0=g(jA(jG(l),hx,bY),hw),b1=dH(g(cy(bZ),b0))[1],hy=dG(b1),b2=function(a){return bq(hy,a)},d_=e(a4(b2),bZ),d$=M(k(cA),ht);if(d$)var
-hz=g(cy(bZ),b0),b3=o(function(a){var
-b=q(d),c=dG(b1);return bc(E(b2(a),c,b),a)},hz);else
+cf=ce;var
+eA=cf?o(function(a){return bs(m,a[1],a[2])},cF):cf;if(eA){var
+hy=l(k[1]),b2=l(k[2]),ee=J(b2,l(dR(f(dA,k[3])))),hz=k[3],as=jL(k),aI=hz,b1=b2;for(;;){if(aI){var
+ec=aI[1],ed=ec[2],hs=J(b1,l(bv(ed))),ht=aI[2],hu=bw(as,ed,b1),as=[0,[0,ec[1],hu],as],aI=ht,b1=hs;continue}var
+hA=jI(as,k[4],ee),b3=f(function(a){return[0,a,q(c)]},hA),hB=jJ(as,k[4],ee),hC=k[3],b4=g(jF(jL(k),hC,b2),hB),b5=dJ(g(cz(b3),b4))[1],hD=dI(b5),b6=function(a){return bq(hD,a)},ef=e(a5(b6),b3),eg=M(l(cF),hy);if(eg)var
+hE=g(cz(b3),b4),b7=o(function(a){var
+b=q(d),c=dI(b5);return bc(E(b6(a),c,b),a)},hE);else
 var
-b3=d$;var
-ea=b3?a7(qN,fo):b3;if(ea){var
-hq=z(dQ,l[4]),hr=g(dQ(f(dy,l[3])),hq),hs=g(jF(l[2]),hr),b4=aT(f(function(a){return aA(az,a)},hs));if(b4){var
-b5=aT(f(function(a){return aA(az,[0,a,d])},cA));if(b5){var
-b6=aT(f(function(a){if(typeof
-a==="number")return[0,[0,aa]];else
+b7=eg;var
+eh=b7?a4(qT,fr):b7;if(eh){var
+hv=z(dR,k[4]),hw=g(dR(f(dA,k[3])),hv),hx=g(jK(k[2]),hw),b8=aT(f(function(a){return aA(az,a)},hx));if(b8){var
+b_=aT(f(function(a){return aA(az,[0,a,d])},cF));if(b_){var
+b$=aT(f(function(a){if(typeof
+a==="number")return[0,[0,O]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5238,233 +5392,174 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aA(az,[0,[0,b,b],d]);return af(function(a){return e($(az,a))},g)},fo));if(b6){var
-eb=b6[1],hA=i$(eb),hB=b5[1],hC=function(a){return 0},hD=b4[1];return gc(az,b1,d_,d_,f(b2,b0),hD,eb,hC,hB,hA,iW)}var
-ec=b6}else
+g=aA(az,[0,[0,b,b],d]);return af(function(a){return e(aa(az,a))},g)},fr));if(b$){var
+ei=b$[1],hF=je(ei),hG=b_[1],hH=function(a){return 0},hI=b8[1];return gd(az,b5,ef,ef,f(b6,b4),hI,ei,hH,hG,hF,i1)}var
+ej=b$}else
 var
-ec=b5;var
-ed=ec}else
+ej=b_;var
+ek=ej}else
 var
-ed=b4;var
-ee=ed}else
+ek=b8;var
+el=ek}else
 var
-ee=ea;return ee}}return et}var
-gm=gj}else
+el=eh;return el}}return eA}var
+gr=gq}else
 var
-gm=c1;return gm}return 0;case
+gr=c6;return gr}return 0;case
 4:if(0===s[2][0]){var
-gn=db(i(a[1]));if(gn){var
-bE=a[3];if(bE){var
-a1=bE[1],cB=a1[4],K=bE[2];if(a1[1]||a1[2]||a1[3])var
-u=0;else
-switch(cB[0]){case
+gu=de(i(a[1]));if(gu){var
+bG=a[3],du=0;if(bG){var
+a2=bG[1],a3=a2[4],K=bG[2];if(a2[1]||a2[2]||a2[3])var
+u=0;else{var
+H=0;if(typeof
+a3!=="number")switch(a3[0]){case
 0:var
-dn=0;if(K){var
-a2=K[1],fp=a2[4];if(a2[1]||a2[2]||a2[3])var
-u=0;else
-if(1===fp[0])if(K[2])var
-u=0;else
+bK=0;if(K){var
+a7=K[1],cH=a7[4];if(a7[1]||a7[2]||a7[3]){var
+u=0;H=1;bK=1}else{var
+dv=0;if(typeof
+cH!=="number"&&1===cH[0])if(K[2]){var
+u=0;H=1;bK=1;dv=1}else{var
+iH=i(cH[1]),u=[0,[0,i(a3[1]),iH]];H=1;bK=1;dv=1}if(!dv)var
+ft=0}}else
 var
-iC=i(fp[1]),u=[0,[0,i(cB[1]),iC]];else{var
-fq=0;dn=1}}else{var
-fq=K;dn=1}if(dn)var
-u=fq;break;case
+ft=K;if(!bK){var
+u=ft;H=1}break;case
 1:var
-dp=0;if(K){var
-a3=K[1],fr=a3[4];if(a3[1]||a3[2]||a3[3])var
-u=0;else
-if(0===fr[0])if(K[2])var
-u=0;else
+bL=0;if(K){var
+a8=K[1],cI=a8[4];if(a8[1]||a8[2]||a8[3]){var
+u=0;H=1;bL=1}else{var
+dw=0;if(typeof
+cI!=="number"&&0===cI[0])if(K[2]){var
+u=0;H=1;bL=1;dw=1}else{var
+iI=i(a3[1]),u=[0,[0,i(cI[1]),iI]];H=1;bL=1;dw=1}if(!dw)var
+fu=0}}else
 var
-iD=i(cB[1]),u=[0,[0,i(fr[1]),iD]];else{var
-fs=0;dp=1}}else{var
-fs=K;dp=1}if(dp)var
-u=fs;break;default:var
-u=0}}else
+fu=K;if(!bL){var
+u=fu;H=1}break}if(!H){var
+fs=0;du=1}}}else{var
+fs=bG;du=1}if(du)var
+u=fs;if(u){var
+gv=u[1],gx=gv[2],gy=gv[1],e8=j(m,1,i(a[2])),e9=e8?j(m,1,[2,gx,[0,c,c]]):e8,e_=e9?j(m,1,gy):e9;return e_?j(m,0,[2,[4,[0,c,c],gx],gy]):e_}var
+gz=u}else
 var
-u=bE;if(u){var
-go=u[1],gp=go[2],gq=go[1],e5=j(m,1,i(a[2])),e6=e5?j(m,1,[2,gp,[0,c,c]]):e5,e7=e6?j(m,1,gq):e6;return e7?j(m,0,[2,[4,[0,c,c],gp],gq]):e7}var
-gt=u}else
-var
-gt=gn;return gt}return 0;case
+gz=gu;return gz}return 0;case
 5:var
-gu=a[4],gw=a[1],c2=s[2];if(0===c2[0]){var
-gx=c2[2],v=eZ(gw,[0,a[2],a[3]],0,gu),c3=gU(k(gx),gx);if(c3){var
-gy=c3[1];if(gy[2])return 0;var
-gz=g1(gw,0,gu,v);if(gz){var
-gA=jq(m,v);if(gA){var
-iY=gy[1],gB=f(ko,v[1]),y=kp(v[1]),gC=i(a[5]),R=c2[1],ci=ge(y,gB,v[1]),I=gf(y,gB,v[1],0),hV=k(v[3]),hW=J(k(ci),hV),a0=[0,k(ci),hW],hX=gh(I,y,a0,v[3]),hY=g(f(cU,I),hX),e_=g(cy(eD(I)),hY),e$=dH(e_)[1],cj=dG(e$),fa=v[2];if(0===fa[0]){var
-fb=o(function(a){var
-b=q(d);return bc(E(bq(cj,a),cj,b),a)},e_),fc=fb?j(m,1,gC):fb;if(fc){var
-hZ=v[3],h0=z(function(a){return cW(y,a)},hZ),h1=v[3],h2=g(ci,g(f(function(a){return bt(y,a)},h1),h0)),ck=aT(f(function(a){return aA(R,a)},h2));if(ck){var
-h3=a5(fa[1],y),cl=aT(f(function(a){return aA(R,a)},h3));if(cl){var
-cm=b8(R,y,[4,gC,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cm){var
-co=v[3],h4=cl[1],h5=cm[1],h6=ck[1],ae=function(a){return bq(cj,a)},e8=f(aY,h6),e9=function(A,x){var
-g=A,a=x;for(;;){if(0===a[0]){var
-h=a[1],l=M(k(h),rq),m=l?o(function(a){var
-d=D(Y(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
-n=kb(R,h5,f7(0,g),h),B=a[2],ad=ct(0,dI(R,n,e8),e$,0),s=function(b){var
-a=ka(R,n,e8,ad,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
-l==="number")return a7(function(b){var
-a=E(ae(b[2]),ad,0);return a?D(a[1][2][2],d):a},I);else{if(0===l[0]){var
-t=l[1],u=ai(co,t);if(u){var
-a=l[2],h=u[1],ar=ep(t,co),as=k(z(function(a){return cW(y,a)},ar)),at=J(a0[2],as),v=[0,J(a0[1],t),at],aj=eD(I),i=e(a4(ae),aj),m=[1,[8,[1,[1,v[1]]]]],F=function(c,b,a){var
-d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]},A=0;if(typeof
-h==="number")A=1;else
-switch(h[0]){case
-4:var
-n=j(R,1,h[2]);break;case
-8:var
-n=j(R,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
-n=1;var
-G=n?o(ro,a):n,B=0;if(G){var
-g=0;if(typeof
-h!=="number")switch(h[0]){case
-0:var
-af=0;if(a)if(a[2]){var
-b=0;g=2;af=1}else
+c7=a[4],gA=a[1],c$=s[2];if(0===c$[0]){var
+gB=c$[3],v=eZ(gA,[0,a[2],a[3]],0,c7),da=gW(l(gB),gB);if(da){var
+gC=da[1];if(gC[2])return 0;var
+gD=g3(gA,0,c7,v),gF=gD?aK(a4(vU,c7)):gD;if(gF){var
+gG=jv(m,v);if(gG){var
+i3=gC[1],gH=f(ks,v[1]),G=kt(v[1]),gI=i(a[5]),Y=c$[1],cm=gf(G,gH,v[1]),ah=gg(G,gH,v[1],0),h0=l(v[3]),h1=J(l(cm),h0),a0=[0,l(cm),h1],h2=gi(ah,G,a0,v[3]),h3=g(f(cX,ah),h2),fb=g(cz(eE(ah)),h3),fc=dJ(fb)[1],cn=dI(fc),fd=v[2];if(0===fd[0]){var
+fe=o(function(a){var
+b=q(d);return bc(E(bq(cn,a),cn,b),a)},fb),ff=fe?j(m,1,gI):fe;if(ff){var
+h4=v[3],h5=z(function(a){return cZ(G,a)},h4),h6=v[3],h7=g(cm,g(f(function(a){return bt(G,a)},h6),h5)),cp=aT(f(function(a){return aA(Y,a)},h7));if(cp){var
+h8=a6(fd[1],G),cr=aT(f(function(a){return aA(Y,a)},h8));if(cr){var
+cs=b9(Y,G,[4,gI,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cs){var
+ct=v[3],h9=cr[1],h_=cs[1],h$=cp[1],a1=function(a){return bq(cn,a)},e$=f(aZ,h$),fa=function(_,X){var
+f=_,a=X;for(;;){if(0===a[0]){var
+n=a[1],y=M(l(n),rx),A=y?o(function(a){var
+d=D(Z(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},n):y;if(A){var
+B=kg(Y,h_,f8(0,f),n),e=a[2],C=cu(0,dK(Y,B,e$),fc,0),g=function(b){var
+a=kf(Y,B,e$,C,b);return a?ac(d,a[1][2][1]):a};if(typeof
+e==="number")return a4(function(b){var
+a=E(a1(b[2]),C,0);return a?D(a[1][2][2],d):a},ah);else{if(0===e[0]){var
+h=e[1],i=ai(ct,h);if(i){var
+Q=e[2],R=i[1],S=eq(h,ct),T=l(z(function(a){return cZ(G,a)},S)),U=J(a0[2],T),j=rw(Y,a1,ah,G,[0,J(a0[1],h),U],R,Q);if(j){var
+q=j[1],V=q[1],r=o(function(a){return g([0,a[2]])},V);if(r)return o(g,q[2]);var
+s=r}else
 var
-K=[0,[0,i,[0,F(i,m,a[1]),0]]];else
+s=j;var
+t=s}else
 var
-K=a;if(!af){var
-b=K;g=2}break;case
-1:var
-ag=0;if(a)if(a[2]){var
-b=0;g=2;ag=1}else
+t=i;return t}var
+u=e[1],k=ai(ct,u);if(k){var
+v=k[1];if(typeof
+v!=="number"&&1===v[0]){var
+m=ai(ah,e[2]);if(m){var
+W=J(a0[1],u),x=m[1],P=[1,[6,[1,[8,[1,[1,W]]]],[0,a1(x[2])]]];return g([1,[4,[1,[8,[0,a1(cX(x))]]],P]])}return m}var
+w=0}else
 var
-L=a[1],ak=[1,[6,m,eT(L)]],M=[0,[0,i,[0,[1,[4,eU(i,L),ak]],0]]];else
+w=k;return w}}return A}var
+F=a[1],p=ai(f,F);if(p){var
+H=p[1],$=H[1],I=aK(al(br(H),$));if(I){var
+K=dN(F,f),L=fa(K[1],a[2]);if(L){var
+f=K[2],a=a[3];continue}var
+N=L}else
 var
-M=a;if(!ag){var
-b=M;g=2}break;case
-5:var
-C=0;if(a){var
-q=a[2],ah=0;if(q)if(q[2]){var
-b=0;g=2;ah=1}else
+N=I;var
+O=N}else
 var
-O=q[1],P=a[1],am=eT(P),an=[1,[6,m,[1,[6,eU(i,O),am]]]],ao=eT(O),Q=[0,[0,i,[0,[1,[4,[1,[6,eU(i,P),ao]],an]],0]]];else
+O=p;return O}};return fa(h9,i3)}var
+fg=cs}else
 var
-Q=q;if(!ah){var
-S=Q;C=1}}else{var
-S=a;C=1}if(C){var
-b=S;g=2}break;case
-8:if(a)if(a[2]){var
-b=0;g=2}else{var
-U=a[1],T=[1,[2,c]];g=1}else{var
-b=a;g=2}break;case
-9:if(a)if(a[2]){var
-b=0;g=2}else{var
-U=a[1],T=m;g=1}else{var
-b=a;g=2}break;case
-10:case
-11:case
-12:case
-13:break;default:if(a){var
-b=0;g=2}else{var
-p=eL(I,y,v,h);if(p)var
-al=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ae(a)]]]},al)]];else
+fg=cr;var
+fh=fg}else
 var
-N=p;var
-b=N;g=2}}switch(g){case
-2:break;case
-0:var
-H=0;B=1;break;default:var
-r=eK(I,y,v,h);if(r)var
-ap=r[1],V=e(a4(ae),ap),W=[0,[0,V,[0,F(V,T,U),0]]];else
+fh=cp;var
+fi=fh}else
 var
-W=r;var
-b=W}}else{var
-H=G;B=1}if(B)var
-b=H;if(b){var
-X=b[1],au=X[1],Y=o(function(a){return s([0,a[2]])},au);if(Y)return o(s,X[2]);var
-Z=Y}else
+fi=ff;return fi}return 0}var
+gJ=gG}else
 var
-Z=b;var
-_=Z}else
+gJ=gF;var
+gK=gJ}else
 var
-_=u;return _}var
-$=l[1],w=ai(co,$);if(w){var
-aa=w[1];if(typeof
-aa!=="number"&&1===aa[0]){var
-x=ai(I,l[2]);if(x){var
-av=J(a0[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ae(ac[2])]]];return s([1,[4,[1,[8,[0,ae(cU(ac))]]],aq]])}return x}var
-ab=0}else
+gK=da;return gK}return 0;default:var
+gL=a[1];if(gL){var
+gM=gL[1],df=s[2];if(0===df[0]){var
+dg=gU(vX,df[3]);if(dg){var
+gN=d3(gM);if(gN){var
+i4=dg[1],gO=bT(gM)[2],bH=df[1],ck=b9(bH,d,gO);if(ck){var
+cl=b9(bH,d,[4,[0,c,c],gO]);if(cl){var
+hZ=ck[1][1],e5=ac(cq(bH),hZ);if(e5)return ke(bH,cl[1][1],i4);var
+e6=e5}else
 var
-ab=w;return ab}}(B)}return m}var
-p=a[1],i=ai(g,p);if(i){var
-q=i[1],C=q[1],r=aN(al(br(q),C));if(r){var
-t=dM(p,g),u=e9(t[1],a[2]);if(u){var
-g=t[2],a=a[3];continue}var
-v=u}else
+e6=cl;var
+e7=e6}else
 var
-v=r;var
-w=v}else
+e7=ck;return e7}var
+gP=gN}else
 var
-w=i;return w}};return e9(h4,iY)}var
-fd=cm}else
+gP=dg;return gP}return 0}var
+dh=s[2];if(0===dh[0]){var
+di=gU(vY,dh[3]);return di?ke(dh[1],d,di[1]):di}return 0}}return au}var
+y=[au,v1,ft(0)],kB=[au,v2,ft(0)];function
+vZ(y,b){var
+r=[0,h(uM,am(b[4])),0],s=[0,h(uO,P([0,h(uN,am(b[3])),r])),0],a=b[2];if(0===a[0]){var
+c=a[2],l=[0,h(uC,x(f(ux,a[3]))),0];if(c)var
+e=c[1],i=[0,h(uD,gP(e[1],e[2])),0];else
 var
-fd=cl;var
-fe=fd}else
+i=c;var
+m=g(i,l),j=L(uF,P([0,h(uE,gJ(a[1])),m]))}else
 var
-fe=ck;var
-ff=fe}else
-var
-ff=fc;return ff}return 0}var
-gE=gA}else
-var
-gE=gz;var
-gF=gE}else
-var
-gF=c3;return gF}return 0;default:var
-gG=a[1];if(gG){var
-gH=gG[1],c4=s[2];if(0===c4[0]){var
-c8=gS(vG,c4[2]);if(c8){var
-gI=d2(gH);if(gI){var
-iZ=c8[1],gJ=bS(gH)[2],bF=c4[1],cg=b8(bF,d,gJ);if(cg){var
-ch=b8(bF,d,[4,[0,c,c],gJ]);if(ch){var
-hU=cg[1][1],e1=ac(cp(bF),hU);if(e1)return j$(bF,ch[1][1],iZ);var
-e3=e1}else
-var
-e3=ch;var
-e4=e3}else
-var
-e4=cg;return e4}var
-gK=gI}else
-var
-gK=c8;return gK}return 0}var
-c9=s[2];if(0===c9[0]){var
-dc=gS(vH,c9[2]);return dc?j$(c9[1],d,dc[1]):dc}return 0}}return at}var
-y=[at,vK,fs(0)],kx=[at,vL,fs(0)];function
-vI(t,b){var
-n=[0,h(uA,am(b[4])),0],o=[0,h(uC,O([0,h(uB,am(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(ur,x(f(um,a[2]))),0],d=L(ut,O([0,h(us,gI(a[1])),i]));else
-var
-c=a[3],j=[0,h(uu,kg(a[4])),0],k=c?[0,h(uv,x(f(I,c))),0]:c,l=g(k,j),m=[0,h(uw,x(f(I,a[2]))),0],d=L(uy,O(g([0,h(ux,gI(a[1])),m],l)));var
-p=[0,h(uD,d),o],q=0===b[2][0]?uE:uJ,r=[0,h(uF,am(q)),p],s=[0,h(uG,tt(b[1])),r],e=aw(h9(vJ,eV(O([0,h(uI,am(uH)),s]),uz)),t);return e?vE(b):e}function
-V(a){if(0===a[0])return a[1];throw y}function
-X(a){if(1===a[0])return a[1];throw y}function
+d=a[3],n=[0,h(uG,kk(a[4])),0],o=d?[0,h(uH,x(f(H,d))),0]:d,p=g(o,n),q=[0,h(uI,x(f(H,a[2]))),0],j=L(uK,P(g([0,h(uJ,gJ(a[1])),q],p)));var
+t=[0,h(uP,j),s],u=0===b[2][0]?uQ:uV,v=[0,h(uR,am(u)),t],w=[0,h(uS,tE(b[1])),v],k=ap(ib(v0,eV(P([0,h(uU,am(uT)),w]),uL)),y);return k?vV(b):k}function
+W(a){if(0===a[0])return a[1];throw y}function
+Y(a){if(1===a[0])return a[1];throw y}function
 aO(a){if(2===a[0])return a[1];throw y}function
-d3(a){if(3===a[0])return a[1];throw y}function
-a0(f,e){var
+d4(a){if(3===a[0])return a[1];throw y}function
+aV(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Az(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===AT(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=a0(c,b);if(a)return a[1];throw y}function
-dc(b,a){var
+a=aV(c,b);if(a)return a[1];throw y}function
+cI(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dd(a){switch(a[0]){case
+df(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vM]}throw y}function
-de(e,d){var
-a=Z(e,X(d));if(a){var
+2:return[0,a[1],v3]}throw y}function
+dg(e,d){var
+a=_(e,Y(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
 e4(i){var
-f=bY(i),d=[0,0],e=a1(f)-1|0;if(!(e<0)){var
+f=bZ(i),d=[0,0],e=a1(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dm(f,c)+hb|0;if(9<g>>>0)throw y;switch(g){case
+a=d[1],g=dp(f,c)+he|0;if(9<g>>>0)throw y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5486,47 +5581,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d4(a){return iw(e4(a))}function
+d5(a){return iA(e4(a))}function
 e5(b){var
-a=d3(b);return 45===T(a,0)?Y(d4(du(a,1,H(a)-1|0))):d4(a)}function
-ky(a){return fQ(d4(d3(a)))}function
-e6(a){return iv(d4(d3(a)))}function
-cH(c){var
-a=d3(c);if(6<H(a))throw y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hM(a))}function
-kz(a){var
-b=97<=a?1:0,c=b?a<=mH?1:0:b;if(c)var
+a=d4(b);return 45===U(a,0)?Z(d5(dw(a,1,I(a)-1|0))):d5(a)}function
+kC(a){return fR(d5(d4(a)))}function
+e6(a){return iz(d5(d4(a)))}function
+cJ(c){var
+a=d4(c);if(6<I(a))throw y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hQ(a))}function
+kD(a){var
+b=97<=a?1:0,c=b?a<=mN?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kA(z,b){var
-d=H(b),a=[0,0];function
+kE(z,b){var
+d=I(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?T(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?U(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=T(b,a[1])&&!(57<T(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=U(b,a[1])&&!(57<U(b,a[1]))){a[1]++;continue}return dw(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
 i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(du(b,a[1],5),vO)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ap(dw(b,a[1],5),v5)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kz(T(b,a[1]))){var
+v=0;if(a[1]<d&&kD(U(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kz(T(b,a[1]))&&95!==T(b,a[1])&&(!(48<=T(b,a[1]))||57<T(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(z,du(b,o,a[1]-o|0))];break}}else
+w=0;if(!kD(U(b,a[1]))&&95!==U(b,a[1])&&(!(48<=U(b,a[1]))||57<U(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,dw(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aw(h,vP);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ap(h,v6);if(r)var
 s=r;else
 var
-t=1<H(h)?1:0,s=t?48===T(h,0)?1:0:t;if(s)throw y;if(q){var
-k=q[1],x=0;if(aw(k,vQ)||48===T(k,H(k)-1|0))x=1;else
+t=1<I(h)?1:0,s=t?48===U(h,0)?1:0:t;if(s)throw y;if(q){var
+l=q[1],x=0;if(ap(l,v7)||48===U(l,I(l)-1|0))x=1;else
 var
-A=e4(k),f=[0,e4(h),A];if(x)throw y}else
+A=e4(l),f=[0,e4(h),A];if(x)throw y}else
 var
 f=[0,e4(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,vN)){if(!(2<H(g))&&2<=hM(g)&&!(64<hM(g)))return[4,f,fQ(d4(g))];throw y}throw y}return f}function
+g=m(0);if(k(g,v4)){if(!(2<I(g))&&2<=hQ(g)&&!(64<hQ(g)))return[4,f,fR(d5(g))];throw y}throw y}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -5536,37 +5631,37 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw y;return h}function
-e7(a){return kA(function(a){throw y},a)}function
-kB(a){var
-b=aO(a);return kA(function(a){return a},b)}function
-Q(a){return e7(aO(a))}function
-bT(a){if(2===a[0])return[0,e7(a[1])];var
-b=V(a),c=Q(p(b,vR));return[1,Q(p(b,vS)),c]}function
-ab(a){throw[0,kx,ax(h9(vU,a),vT)]}function
-kC(c){var
-a=aO(c);if(l(a,vV)){var
-b=l(a,vW);if(b)throw y;return b}return 1}function
-vX(d){var
-b=V(d);function
-a(a){return de(bT,p(b,a))}var
-c=aO(p(b,vY));if(l(c,vZ)){if(l(c,v0)){if(l(c,v1))return ab([0,v3,[0,c,v2]]);var
-e=a0(b,v4),f=dc(function(a){return de(bT,a)},e),g=a(v5);return[1,a(v6),g,f]}var
-h=kC(p(b,v7)),i=bT(p(b,v8)),j=a(v9),k=a(v_);return[0,a(v$),k,j,i,h]}return[2,a(wa)]}function
-g4(d){var
-a=V(d);if(a){var
-b=a[1];if(!l(b[1],wb)){var
-c=b[2];if(2===c[0]&&!l(c[1],wc))return 1}}return 0}function
-wd(c){var
-a=V(c);if(1-g4(c))throw y;function
-b(b){return de(bT,p(a,b))}var
-d=kC(p(a,we)),e=bT(p(a,wf)),f=bT(p(a,wg)),g=b(wh),h=b(wi),i=b(wj);return[0,b(wk),i,h,g,f,e,d]}function
-df(c,d){var
-a=X(d);if(a){var
+e7(a){return kE(function(a){throw y},a)}function
+kF(a){var
+b=aO(a);return kE(function(a){return a},b)}function
+R(a){return e7(aO(a))}function
+bU(a){if(2===a[0])return[0,e7(a[1])];var
+b=W(a),c=R(p(b,v8));return[1,R(p(b,v9)),c]}function
+ab(a){throw[0,kB,ax(ib(v$,a),v_)]}function
+kG(c){var
+a=aO(c);if(k(a,wa)){var
+b=k(a,wb);if(b)throw y;return b}return 1}function
+wc(d){var
+b=W(d);function
+a(a){return dg(bU,p(b,a))}var
+c=aO(p(b,wd));if(k(c,we)){if(k(c,wf)){if(k(c,wg))return ab([0,wi,[0,c,wh]]);var
+e=aV(b,wj),f=cI(function(a){return dg(bU,a)},e),g=a(wk);return[1,a(wl),g,f]}var
+h=kG(p(b,wm)),i=bU(p(b,wn)),j=a(wo),l=a(wp);return[0,a(wq),l,j,i,h]}return[2,a(wr)]}function
+g6(d){var
+a=W(d);if(a){var
+b=a[1];if(!k(b[1],ws)){var
+c=b[2];if(2===c[0]&&!k(c[1],wt))return 1}}return 0}function
+wu(c){var
+a=W(c);if(1-g6(c))throw y;function
+b(b){return dg(bU,p(a,b))}var
+d=kG(p(a,wv)),e=bU(p(a,ww)),f=bU(p(a,wx)),g=b(wy),h=b(wz),i=b(wA);return[0,b(wB),i,h,g,f,e,d]}function
+dh(c,d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
-g5(m){var
-c=V(m),a=aO(p(c,wl)),h=A$(a,wm),g=0;if(0<=h)if(0<h)if(l(a,wn))if(l(a,wo))if(l(a,wp))if(l(a,wq)){var
-i=l(a,wr);if(i)g=1;else
+g7(n){var
+c=W(n),a=aO(p(c,wC)),h=Bt(a,wD),g=0;if(0<=h)if(0<h)if(k(a,wE))if(k(a,wF))if(k(a,wG))if(k(a,wH)){var
+i=k(a,wI);if(i)g=1;else
 var
 b=i}else
 var
@@ -5576,10 +5671,12 @@ b=4;else
 var
 b=5;else
 var
+b=11;else
+var
 b=2;else
+if(k(a,w0))if(k(a,w1))if(k(a,w2))if(k(a,w3))if(k(a,w4))if(k(a,w5))g=1;else
 var
 b=1;else
-if(l(a,wI))if(l(a,wJ))if(l(a,wK))if(l(a,wL))if(l(a,wM))g=1;else
 var
 b=8;else
 var
@@ -5590,261 +5687,265 @@ var
 b=3;else
 var
 b=9;var
-j=g?ab([0,wt,[0,a,ws]]):b;function
-f(a){return p(c,wu)}var
-d=aO(p(c,wv));if(l(d,ww))if(l(d,wx))if(l(d,wy))var
-e=ab([0,wA,[0,d,wz]]);else
+j=g?ab([0,wK,[0,a,wJ]]):b;function
+f(a){return p(c,wL)}var
+d=aO(p(c,wM)),l=k(d,wN);if(l)if(k(d,wO))if(k(d,wP))if(k(d,wQ))var
+e=ab([0,wS,[0,d,wR]]);else
 var
-k=df(Q,f(0)),e=[2,k[1],k[2]];else
+m=dh(R,f(0)),e=[2,m[1],m[2]];else
 var
-e=[0,Q(f(0))];else
+e=[0,R(f(0))];else
 var
-e=[1,Q(f(0))];function
-n(t){var
-a=V(t),g=0;switch(j){case
+e=[1,R(f(0))];else
+var
+e=l;function
+o(t){var
+a=W(t),g=0;switch(j){case
 6:if(a){var
-n=a[1];if(!l(n[1],wC)){var
+n=a[1];if(!k(n[1],wU)){var
 o=n[2];if(1===o[0]){var
 c=o[1],h=0;if(c&&!c[2])if(a[2])h=1;else{var
-m=c[1];g=1;h=1}if(!h&&!a[2])return ab(wD)}}}break;case
+m=c[1];g=1;h=1}if(!h&&!a[2])return ab(wV)}}}break;case
 10:if(a){var
-p=a[1];if(!l(p[1],wE)){var
+p=a[1];if(!k(p[1],wW)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]){var
 e=a[2];if(e){var
-r=e[1];if(!l(r[1],wF)){var
+r=e[1];if(!k(r[1],wX)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]&&!e[2]){var
-u=Q(f[1]);return[1,Q(d[1]),u]}}}}}}}}break;case
+u=R(f[1]);return[1,R(d[1]),u]}}}}}}}}break;case
 2:case
 8:if(a){var
-i=a[1];if(!l(i[1],wB)){var
-k=i[2];if(1===k[0]){var
-b=k[1];if(b&&!b[2]&&!a[2]){var
-m=b[1];g=1}}}}break}if(g)return[0,Q(m)];throw y}var
-o=dc(n,a0(c,wG));return[0,j,dc(cH,a0(c,wH)),o,e]}function
-g6(c){var
-a=g5(c),b=a[1];if(2!==b&&!(4<=b))return a;return ab(wN)}function
-wO(a){var
-b=g5(a);switch(b[1]){case
+i=a[1];if(!k(i[1],wT)){var
+l=i[2];if(1===l[0]){var
+b=l[1];if(b&&!b[2]&&!a[2]){var
+m=b[1];g=1}}}}break}if(g)return[0,R(m)];throw y}var
+q=cI(o,aV(c,wY));return[0,j,cI(cJ,aV(c,wZ)),q,e]}function
+g8(c){var
+a=g7(c),b=a[1];if(2!==b&&!(4<=b))return a;return ab(w6)}function
+w7(a){var
+b=g7(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return g6(a)}}function
-wV(f){var
-a=V(f);function
-d(b){return Q(p(a,b))}function
-c(b){return de(Q,p(a,b))}var
-b=aO(p(a,wW));if(l(b,wX)){if(!l(b,wY)){var
-j=p(a,w4),e=df(function(a){return a},j),k=a0(a,w5),m=dc(function(a){return c(w6)},k),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(w7);return[0,cH(p(a,w8)),q,o,n,m]}if(l(b,wZ))throw y}var
-g=d(w0),h=c(w1),i=c(w2);return[1,aw(b,w3),i,h,g]}function
-kD(Y){var
-i=dd(Y),j=i[1];if(l(j,w9)){if(l(j,w_)){if(l(j,w$))return ab([0,xb,[0,j,xa]]);var
-q=p(V(i[2]),xc),O=0;if(2===q[0]){var
-z=l(q[1],xd);if(!z){var
+8:return b;default:return g8(a)}}function
+xc(f){var
+a=W(f);function
+d(b){return R(p(a,b))}function
+c(b){return dg(R,p(a,b))}var
+b=aO(p(a,xd));if(k(b,xe)){if(!k(b,xf)){var
+j=p(a,xl),e=dh(function(a){return a},j),l=aV(a,xm),m=cI(function(a){return c(xn)},l),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(xo);return[0,cJ(p(a,xp)),q,o,n,m]}if(k(b,xg))throw y}var
+g=d(xh),h=c(xi),i=c(xj);return[1,ap(b,xk),i,h,g]}function
+kH(X){var
+i=df(X),j=i[1];if(k(j,xq)){if(k(j,xr)){if(k(j,xs))return ab([0,xu,[0,j,xt]]);var
+q=p(W(i[2]),xv),O=0;if(2===q[0]){var
+z=k(q[1],xw);if(!z){var
 x=z;O=1}}if(!O)var
-x=[0,bT(q)];return[6,x]}var
-A=V(i[2]),f=kD([0,[0,[0,xf,p(A,xe)],0]]);if(0===f[0]){var
+x=[0,bU(q)];return[6,x]}var
+A=W(i[2]),f=kH([0,[0,[0,xy,p(A,xx)],0]]);if(0===f[0]){var
 r=f[2];if(0===r[0]&&!f[3]){var
-_=Q(p(A,xh));return[5,f[1],r[1],r[2],f[4],_]}}return ab(xg)}var
-b=V(i[2]);function
-B(a){return Z(g5,X(p(b,xi)))}var
-g=dd(p(b,xj)),c=dd(p(b,xk)),a=g[1];if(l(a,xl)&&0!==a0(b,xm))return ab(yi);if(l(a,xn)&&l(a,xo)&&l(a,xp)){if(0===a0(b,xq)){if(l(a,xr)){var
-P=0;if(l(a,xs)){if(!l(a,xt)){var
-C=c[1],R=0;if(l(C,xw)&&l(C,xx)){P=1;R=1}if(!R){var
-k=X(g[2]),d=V(c[2]);if(l(c[1],wP))var
-v=df(Q,p(d,wQ)),w=df(Q,p(d,wR)),S=w[2],T=w[1],U=Q(p(d,wS)),s=[1,v[1],v[2],U,T,S];else
+Z=R(p(A,xA));return[5,f[1],r[1],r[2],f[4],Z]}}return ab(xz)}var
+b=W(i[2]);function
+B(a){return _(g7,Y(p(b,xB)))}var
+g=df(p(b,xC)),c=df(p(b,xD)),a=g[1];if(k(a,xE)&&0!==aV(b,xF))return ab(yB);if(k(a,xG)&&k(a,xH)&&k(a,xI)){if(0===aV(b,xJ)){if(k(a,xK)){var
+P=0;if(k(a,xL)){if(!k(a,xM)){var
+C=c[1],Q=0;if(k(C,xP)&&k(C,xQ)){P=1;Q=1}if(!Q){var
+l=Y(g[2]),d=W(c[2]);if(k(c[1],w8))var
+v=dh(R,p(d,w9)),w=dh(R,p(d,w_)),S=w[2],T=w[1],U=R(p(d,w$)),s=[1,v[1],v[2],U,T,S];else
 var
-W=de(Q,p(d,wT)),s=[0,de(Q,p(d,wU)),W];var
-t=a0(b,xA),D=t?Z(wV,X(t[1])):t,E=b4(g4,k),$=E?0!==D?1:0:E;if($)ab(xB);if(b4(g4,k)){var
-aa=Z(g6,X(p(b,xC)));return[1,Z(wd,k),s,aa]}var
-ac=B(0);return[0,Z(vX,k),s,D,ac]}}}else
-if(!l(c[1],xD)){var
-ad=B(0),ae=Q(p(V(c[2]),xE));return[4,Q(p(V(g[2]),xF)),ae,ad]}if(!P)return ab([0,xv,[0,a,xu]])}else
-if(!l(c[1],xG)){var
-m=V(g[2]),F=V(c[2]),G=function(c,a){var
-b=X(a);return Z(function(d){var
-a=X(d);if(a){var
+V=dg(R,p(d,xa)),s=[0,dg(R,p(d,xb)),V];var
+t=aV(b,xT),D=t?_(xc,Y(t[1])):t,E=b5(g6,l),$=E?0!==D?1:0:E;if($)ab(xU);if(b5(g6,l)){var
+aa=_(g8,Y(p(b,xV)));return[1,_(wu,l),s,aa]}var
+ac=B(0);return[0,_(wc,l),s,D,ac]}}}else
+if(!k(c[1],xW)){var
+ad=B(0),ae=R(p(W(c[2]),xX));return[4,R(p(W(g[2]),xY)),ae,ad]}if(!P)return ab([0,xO,[0,a,xN]])}else
+if(!k(c[1],xZ)){var
+m=W(g[2]),F=W(c[2]),G=function(c,a){var
+b=Y(a);return _(function(d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
-a=V(d);if(a){var
-b=a[1],c=b[1];if(l(c,xH)){if(!l(c,xI)&&!a[2])return Z(kB,X(b[2]))}else
-if(!a[2])return ab(xJ)}throw y},ag=Z(g6,X(p(b,xK))),ah=Z(Q,X(p(F,xL))),ai=Z(Q,X(p(F,xM))),aj=Z(af,X(p(m,xN))),ak=G(kB,p(m,xO)),al=G(bT,p(m,xP));return[3,Z(aO,X(p(m,xQ))),al,ak,aj,ai,ah,ag]}return ab([0,xz,[0,c[1],xy]])}throw y}var
-H=c[1],I=V(g[2]),J=V(c[2]);if(l(H,xR))ab([0,xT,[0,H,xS]]);var
-K=a0(I,xU),am=K?Q(K[1]):ab([0,yh,[0,a,yg]]);function
+a=W(d);if(a){var
+b=a[1],c=b[1];if(k(c,x0)){if(!k(c,x1)&&!a[2])return _(kF,Y(b[2]))}else
+if(!a[2])return ab(x2)}throw y},ag=_(g8,Y(p(b,x3))),ah=_(R,Y(p(F,x4))),ai=_(R,Y(p(F,x5))),aj=_(af,Y(p(m,x6))),ak=G(kF,p(m,x7)),al=G(bU,p(m,x8));return[3,_(aO,Y(p(m,x9))),al,ak,aj,ai,ah,ag]}return ab([0,xS,[0,c[1],xR]])}throw y}var
+H=c[1],I=W(g[2]),J=W(c[2]);if(k(H,x_))ab([0,ya,[0,H,x$]]);var
+K=aV(I,yb),am=K?R(K[1]):ab([0,yA,[0,a,yz]]);function
 an(d){var
-a=V(d);function
-b(b){return Z(bT,X(p(a,b)))}var
-c=aO(p(a,xV)),e=a0(a,xW);if(!l(c,xX)&&!e){var
-f=b(x0);return[0,b(x1),f]}return ab([0,xZ,[0,c,xY]])}var
-h=dd(p(b,x2)),n=h[1];if(l(n,x3))if(l(n,x4))if(l(n,x5)){if(l(n,x6))throw y;var
-L=h[2],ao=Q(p(V(L),x7)),o=[3,Q(p(V(L),x8)),ao]}else
+a=W(d);function
+b(b){return _(bU,Y(p(a,b)))}var
+c=aO(p(a,yc)),e=aV(a,yd);if(!k(c,ye)&&!e){var
+f=b(yh);return[0,b(yi),f]}return ab([0,yg,[0,c,yf]])}var
+h=df(p(b,yj)),n=h[1];if(k(n,yk))if(k(n,yl))if(k(n,ym)){if(k(n,yn))throw y;var
+L=h[2],ao=R(p(W(L),yo)),o=[3,R(p(W(L),yp)),ao]}else
 var
-at=h[2],u=function(a){return df(Q,p(V(at),a))},au=u(yd),av=u(ye),o=[1,u(yf),av,au];else
+at=h[2],u=function(a){return dh(R,p(W(at),a))},au=u(yw),av=u(yx),o=[1,u(yy),av,au];else
 var
-N=df(Q,h[2]),o=[0,N[1],N[2]];else
+N=dh(R,h[2]),o=[0,N[1],N[2]];else
 var
-o=[2,Q(h[2])];var
-M=l(a,x9),ap=M?l(a,x_)?2:1:M,aq=Z(wO,X(p(b,x$))),ar=Z(Q,X(p(J,ya))),as=Z(Q,X(p(J,yb)));return[2,ap,Z(an,X(p(I,yc))),am,as,ar,o,aq]}function
-kE(a){return Z(e5,X(a))}function
+o=[2,R(h[2])];var
+M=k(a,yq),ap=M?k(a,yr)?2:1:M,aq=_(w7,Y(p(b,ys))),ar=_(R,Y(p(J,yt))),as=_(R,Y(p(J,yu)));return[2,ap,_(an,Y(p(I,yv))),am,as,ar,o,aq]}function
+kI(a){return _(e5,Y(a))}function
+g9(c,b){var
+a=kI(b);if(cl(a)!==c)throw y;return a}function
+kJ(a,d){var
+b=W(d),e=Y(p(b,yE)),f=a[2],c=_(function(a){return g9(f,a)},e),g=a[1];if(cl(c)!==g)throw y;return[0,c,e6(p(b,yF))]}function
 e8(g,m){var
-n=g[2];function
-o(c,b){var
-a=kE(b);if(ck(a)!==c)throw y;return a}switch(m[0]){case
+D=g[2];switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(l(b,yl))if(l(b,ym))if(l(b,yn))if(l(b,yo))if(l(b,yp)){var
-Q=0;if(l(b,yq)&&l(b,yr)&&l(b,ys))Q=1;if(!Q)if(c[2])d=1;else{var
-S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
-J=e[2];if(1===J[0]){var
-q=J[1];if(q){var
-r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!c[2]){var
-W=e6(s[1]),Y=e5(r[1]);return[4,e8(g,q[1]),Y,W]}d=1}}}}}else{if(!c[2]){var
-K=V(e[2]),_=X(p(K,yx)),$=n+1|0,L=Z(function(a){return o($,a)},_);if(3===ck(L))return[1,yz,L,e6(p(K,yy))];throw y}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=l(C,yj);if(D){if(l(C,yk))throw y;var
-E=1}else
+e=c[1],b=e[1],d=0;if(k(b,yG))if(k(b,yH))if(k(b,yI))if(k(b,yJ))if(k(b,yK)){var
+O=0;if(k(b,yL)&&k(b,yM)&&k(b,yN))O=1;if(!O)if(c[2])d=1;else{var
+Q=e[2],F=Q,E=function(c,a){return[1,b,c,a]};d=2}}else{var
+H=e[2];if(1===H[0]){var
+n=H[1];if(n){var
+o=n[2];if(o){var
+q=o[2];if(q&&!q[2]){if(!c[2]){var
+R=e6(q[1]),S=e5(o[1]);return[4,e8(g,n[1]),S,R]}d=1}}}}}else{if(!c[2]){var
+I=W(e[2]),T=Y(p(I,yQ)),U=D+1|0,J=_(function(a){return g9(U,a)},T);if(3===cl(J))return[1,yS,J,e6(p(I,yR))];throw y}d=1}else{if(!c[2]){var
+A=aO(e[2]),B=k(A,yC);if(B){if(k(A,yD))throw y;var
+C=1}else
 var
-E=D;return[2,E]}d=1}else{if(!c[2]){var
-h=e[2],k=0;switch(h[0]){case
+C=B;return[2,C]}d=1}else{if(!c[2]){var
+h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(l(w,yA)&&l(w,yB))if(l(w,yC))a=1;else{var
-O=N[2];if(1===O[0]){var
-x=O[1];if(x){var
-j=x[1],f=0;switch(j[0]){case
+L=i[1],u=L[1],a=0;if(k(u,yT)&&k(u,yU))if(k(u,yV))a=1;else{var
+M=L[2];if(1===M[0]){var
+v=M[1];if(v){var
+j=v[1],f=0;switch(j[0]){case
 0:var
-z=j[1];if(z){var
-P=z[1][1],R=0;if(l(P,yE)&&l(P,yF)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(l(j[1],yG)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-A=x[2];if(A){var
-B=A[2];if(B&&!(B[2]||i[2])){var
-ad=e6(B[1]),ae=e5(A[1]),t=[5,e8(g,j),ae,ad];k=1;a=1}else
+w=j[1];if(w){var
+N=w[1][1],P=0;if(k(N,yX)&&k(N,yY)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(k(j[1],yZ)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+x=v[2];if(x){var
+z=x[2];if(z&&!(z[2]||i[2])){var
+Z=e6(z[1]),$=e5(x[1]),r=[5,e8(g,j),$,Z];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])k=2}break;case
-2:if(!l(h[1],yH))k=2;break}switch(k){case
+a=1}if(!a&&!i[2])l=2}break;case
+2:if(!k(h[1],y0))l=2;break}switch(l){case
 0:var
-t=ab(yD);break;case
+r=ab(yW);break;case
 2:var
-t=e8(g,h);break}return[6,t]}d=1}else{var
-M=e[2];if(1===M[0]){var
-u=M[1];if(u){var
-v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
-aa=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,aa)]};d=2}}}}switch(d){case
-0:if(!c[2])return ab([0,yu,[0,b,yt]]);break;case
+r=e8(g,h);break}return[6,r]}d=1}else{var
+K=e[2];if(1===K[0]){var
+s=K[1];if(s){var
+t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
+V=t[1],X=s[1],F=X,E=function(b,a){return[3,b,a,g9(D+1|0,V)]};d=2}}}}switch(d){case
+0:if(!c[2])return ab([0,yP,[0,b,yO]]);break;case
 1:break;default:var
-H=V(G),T=X(p(H,yv)),I=Z(function(a){return o(n,a)},T),U=g[1];if(ck(I)!==U)throw y;return F(I,e6(p(H,yw)))}}break;case
+G=kJ(g,F);return E(G[1],G[2])}}break;case
 2:return[0,m[1]]}throw y}function
-kF(j){var
-b=dd(j),a=b[1];if(l(a,yK)){var
-g=l(a,yL);if(!g)return g;if(!l(a,yM)){var
+kK(j){var
+b=df(j),a=b[1];if(k(a,y3)){var
+g=k(a,y4);if(!g)return g;if(!k(a,y5)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cH(d[1]);return[1,cH(c[1]),k]}}}}}else{var
+l=cJ(d[1]);return[1,cJ(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=Z(kE,X(f[1]));return[0,cH(e[1]),m]}}}}return ab([0,yO,[0,a,yN]])}function
-y3(c){var
+m=_(kI,Y(f[1]));return[0,cJ(e[1]),m]}}}}return ab([0,y7,[0,a,y6]])}function
+zl(c){var
 a=c[1];if(8!==a){var
 b=10<=a?1:0;if(!b)return b}return 1}function
-y4(c){var
+zm(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],y5))a=1;break;case
+0:if(!k(b[1],zn))a=1;break;case
 6:a=1;break}return a?1:0}function
-y6(f){var
-g=H(f),a=[0,0];function
-h(b){if(a[1]<g)return T(f,a[1]);throw y}function
-i(b){if(h(0)===b){a[1]++;return 0}throw y}function
-u(b,c){for(;;){if(a[1]<g&&e(c,T(f,a[1]))){a[1]++;continue}return du(f,b,a[1]-b|0)}}function
-v(d){i(34);function
+zo(f){var
+h=I(f),a=[0,0];function
+i(b){if(a[1]<h)return U(f,a[1]);throw y}function
+j(b){if(i(0)===b){a[1]++;return 0}throw y}function
+v(b,c){for(;;){if(a[1]<h&&e(c,U(f,a[1]))){a[1]++;continue}return dw(f,b,a[1]-b|0)}}function
+w(d){j(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=u(a[1],b);i(34);return c}function
-w(k,d){if(h(0)===d){a[1]++;return 0}var
+c=v(a[1],b);j(34);return c}function
+x(k,d){if(i(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
-f=g;continue}i(d);var
+g=[0,e(k,0),f];if(44===i(0)){a[1]++;var
+f=g;continue}j(d);var
 b=g,c=0;for(;;){if(b){var
-j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
+h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
 o(c,k){if(64<c)throw y;var
-b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,w(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,w(function(b){var
-a=v(0);i(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,v(0)];if(45===b)d=1}if(d){var
-j=a[1];a[1]++;return[3,u(j,function(a){var
+b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,x(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,x(function(b){var
+a=w(0);j(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,w(0)];if(45===b)d=1}if(d){var
+h=a[1];a[1]++;return[3,v(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
-E=o(0,0),x=a[1]<g?1:0,F=x?10===T(f,a[1])?1:0:x;if(F)a[1]++;if(a[1]<g)throw y;var
-k=V(E);if(l(aO(p(k,y7)),y8))throw y;var
-b=kD(p(k,y9));switch(b[0]){case
+E=o(0,0),z=a[1]<h?1:0,F=z?10===U(f,a[1])?1:0:z;if(F)a[1]++;if(a[1]<h)throw y;var
+m=W(E);if(k(aO(p(m,zp)),zq))throw y;var
+b=kH(p(m,zr));switch(b[0]){case
 2:var
-U=1===b[1]?6:3,m=[0,ck(b[2]),U];break;case
+X=1===b[1]?6:3,g=[0,cl(b[2]),X];break;case
 3:var
-W=ck(b[1]),m=[0,ck(b[4]),W];break;case
+Z=cl(b[1]),g=[0,cl(b[4]),Z];break;case
 0:case
 5:var
-m=[0,ck(b[1]),3];break;default:var
-m=zk}var
-q=dd(p(k,y_)),r=q[1];if(l(r,yT))if(l(r,yU))var
-c=ab([0,yW,[0,r,yV]]);else
+g=[0,cl(b[1]),3];break;default:var
+g=zE}var
+q=df(p(m,zs)),r=q[1];if(k(r,za))if(k(r,zb))var
+c=ab([0,zd,[0,r,zc]]);else
 var
-j=V(q[2]),s=a0(j,yX),G=s?Z(Q,X(s[1])):s,I=kF(p(j,yY)),J=Z(Q,X(p(j,yZ))),c=[1,ky(p(j,y0)),J,G,I];else
+l=W(q[2]),s=aV(l,ze),G=s?_(R,Y(s[1])):s,H=kK(p(l,zf)),J=_(R,Y(p(l,zg))),c=[1,kC(p(l,zh)),J,G,H];else
 var
-z=V(q[2]),K=X(p(z,y1)),L=Z(function(f){var
-a=V(f);function
+t=W(q[2]),K=Y(p(t,zi)),L=_(function(f){var
+a=W(f);function
 b(d,c){var
-b=a0(a,c);return b?Z(d,X(b[1])):b}var
-c=b(e5,yP),d=dc(kF,a0(a,yQ)),e=dc(cH,a0(a,yR));return[0,b(function(g){var
-b=X(g);if(b){var
+b=aV(a,c);return b?_(d,Y(b[1])):b}var
+c=b(e5,y8),d=cI(kK,aV(a,y9)),e=cI(cJ,aV(a,y_));return[0,b(function(h){var
+b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yI)){if(!a[2]){if(l(d3(e),yJ))throw y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],y1)){if(!a[2]){if(k(d4(e),y2))throw y;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e8(m,c);return[0,cH(e),f]}}}throw y},yS),e,d,c]},K),c=[0,ky(p(z,y2)),L];var
+f=e8(g,c);return[0,cJ(e),f]}}}throw y},y$),e,d,c]},K),M=aV(t,zj),N=cI(function(a){return kJ(g,a)},M),c=[0,kC(p(t,zk)),N,L];var
 d=0;switch(b[0]){case
 0:var
 A=b[4];if(0===c[0]){var
-D=0;if(b4(function(a){return 10===a[1]?1:0},A)){var
-M=b[1];if(b4(function(a){return 2===a[0]?1:0},M)){ab(y$);D=1}}if(!D)d=1}else{var
+D=0;if(b5(function(a){return 10===a[1]?1:0},A)){var
+O=b[1];if(b5(function(a){return 2===a[0]?1:0},O)){ab(zt);D=1}}if(!D)d=1}else{var
 C=A;d=3}break;case
-1:if(0===c[0])ab(zg);else
+1:if(0===c[0])ab(zA);else
 d=2;break;case
 2:if(0===c[0]){var
-R=c[2];if(h5(function(a){return h5(y4,a[1])},R))d=1;else
-ab(zh)}else{var
-S=b[7];if(b4(function(a){switch(a[1]){case
+T=c[3];if(h9(function(a){return h9(zm,a[1])},T))d=1;else
+ab(zB)}else{var
+V=b[7];if(b5(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},S))ab(zi);else
+8:return 1;default:return 0}},V))ab(zC);else
 d=2}break;case
-3:if(1===c[0])ab(zj);else
+3:if(1===c[0])ab(zD);else
 d=1;break;case
 5:var
 C=b[4];d=3;break;default:d=1}var
 n=0;switch(d){case
-3:if(b4(y3,C))ab(zf);else
+3:if(b5(zl,C))ab(zz);else
 n=2;break;case
 1:n=2;break;case
 2:n=1;break}var
-t=0;switch(n){case
+u=0;switch(n){case
 2:if(5===b[0]){var
-Y=0;if(0===c[0]){var
-P=c[2];if(b4(function(a){return 0!==a[1]?1:0},P)){ab(ze);Y=1}}}else
+$=0;if(0===c[0]){var
+S=c[3];if(b5(function(a){return 0!==a[1]?1:0},S)){ab(zy);$=1}}}else
 if(0===c[0]){var
-O=c[2];if(b4(function(a){return 0!==a[3]?1:0},O))ab(zd);else
-t=1}else
-t=1;break;case
-1:t=1;break}var
-B=V(p(k,za)),N=aO(p(B,zb));return[0,b,c,aO(p(B,zc)),N]}function
-zl(c){try{try{var
-d=0,a=y6(c);d=1}catch(a){a=fz(a);if(a[1]===kx)var
+Q=c[3];if(b5(function(a){return 0!==a[3]?1:0},Q))ab(zx);else
+u=1}else
+u=1;break;case
+1:u=1;break}var
+B=W(p(m,zu)),P=aO(p(B,zv));return[0,b,c,aO(p(B,zw)),P]}function
+zF(c){try{try{var
+d=0,a=zo(c);d=1}catch(a){a=fA(a);if(a[1]===kB)var
 b=[0,a[2]];else{if(a!==y)throw a;var
 b=2}}if(d)var
-b=vI(c,a)?0===a[2][0]?0:1:2}catch(a){return zm}if(typeof
+b=vZ(c,a)?0===a[2][0]?0:1:2}catch(a){return zG}if(typeof
 b==="number")switch(b){case
-0:return zn;case
-1:return zo;default:return zp}return ax(zq,b[1])}Be.orthocert_verify=AV(function(b){return b1(zl(a(b)))});fC(0);return}(globalThis));
+0:return zH;case
+1:return zI;default:return zJ}return ax(zK,b[1])}By.orthocert_verify=Bd(function(b){return b2(zF(a(b)))});fD(0);return}(globalThis));
