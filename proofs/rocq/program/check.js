@@ -322,12 +322,15 @@ for (const [legs, workspace, chords, steps, right] of [
   const text = asks(legs, workspace, same, by_chords(chords, steps))("");
   const answers = all(text);
   if (answers.some((answer) => answer !== right)) fail(`one_to_one: ${answers}: ${text}`);
+  if (right === "CERTIFIED") read.push(text);
 }
 for (const wrong of ['"end":"holds","bound":"1"', '"end":"min","bound":"1"', '"leg":1,"end":"holds"', '"given":{"tool":["1"]},"end":"holds"']) {
   const text = asks(three, box, same, by_chords(near, '[1,"chords"]'))("").replace('"end":"holds"', wrong);
   if (all(text).some((answer) => answer !== "REJECTED")) fail(`one_to_one: ${all(text)}: ${text}`);
 }
 console.log("one_to_one: with one answer");
+for (const [text, low, high] of [...apart, ...accelerations, ...forces])
+  read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
 fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.
