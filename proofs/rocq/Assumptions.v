@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Machine Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Apart Solve Machine Acceleration Accuracy Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -106,6 +106,18 @@ Check kernel.Machine.row_is_derivative.
 Print Assumptions kernel.Machine.row_is_derivative.
 Check kernel.Machine.three_guided.
 Print Assumptions kernel.Machine.three_guided.
+Check kernel.Machine.chord.
+Print Assumptions kernel.Machine.chord.
+Check kernel.Acceleration.slider_acceleration.
+Print Assumptions kernel.Acceleration.slider_acceleration.
+Check kernel.Acceleration.strut_acceleration.
+Print Assumptions kernel.Acceleration.strut_acceleration.
+Check kernel.Accuracy.one_position.
+Print Assumptions kernel.Accuracy.one_position.
+Check kernel.Solve.solved_sound.
+Print Assumptions kernel.Solve.solved_sound.
+Check kernel.Problem.beside_keeps.
+Print Assumptions kernel.Problem.beside_keeps.
 Check kernel.Problem.check_claim_sound.
 Print Assumptions kernel.Problem.check_claim_sound.
 Check OrthoglideTolerance.certified.

@@ -7,7 +7,7 @@ use crate::escape;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
-    Body, Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
+    Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
 };
 use orthocert_kernel::no_cube::NoCubeClaim;
 use serde_json::Value;
@@ -96,25 +96,30 @@ fn points(certificate: &Certificate) -> usize {
 fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
     match claim {
         Claim::Postulate(_) => true,
-        Claim::Machine(claim) => is_machine_covered(claim) || is_by_configuration(claim, verdict),
+        Claim::Machine(claim) => {
+            is_machine_covered(claim, verdict) || is_by_configuration(claim, verdict)
+        }
         Claim::NoCube(NoCubeClaim { machine, .. }) => {
             let is_box = matches!(machine.workspace, Workspace::Box { .. });
-            is_box && machine.bodies.is_empty() && is_machine_covered(machine)
+            is_box && machine.bodies.is_empty() && is_machine_covered(machine, Verdict::Refuted)
         }
         Claim::Atlas(_) => false,
     }
 }
 
-fn is_machine_covered(claim: &MachineClaim) -> bool {
-    let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
-    let is_known = |key: &str| QUANTITIES.contains(&key);
+fn is_machine_covered(claim: &MachineClaim, verdict: Verdict) -> bool {
+    let MachineClaim { mechanism, workspace, orientation, bodies: _, require } = claim;
     let is_leg = |leg: &Leg| match leg {
         Leg::Slider { .. } | Leg::Strut { .. } | Leg::Planar { .. } => true,
         Leg::Arm { .. } => false,
     };
+    let legs = match mechanism {
+        Mechanism::Translational(legs) => legs.as_slice(),
+        _ => &[],
+    };
     let is_required = require.iter().all(|requirement| {
-        is_known(&requirement.quantity)
-            && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_))
+        is_quantity(requirement, legs, verdict)
+            && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_) | Bound::Holds)
             && requirement.given.values().all(|given| given.len() == 1)
     });
     let is_mechanism = match (mechanism, workspace) {
@@ -126,19 +131,17 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
         }
         _ => false,
     };
-    orientation.is_none() && are_single(bodies) && is_required && is_mechanism
+    orientation.is_none() && is_required && is_mechanism
 }
 
-/// Whether no body is beside another on its leg: their lines' distance is not covered.
-fn are_single(bodies: &[Body]) -> bool {
-    let on_leg = |body: &Body| match body {
-        Body::Leg { leg, offset, .. } => Some((*leg, offset.is_some())),
-        Body::Base { .. } | Body::Platform { .. } => None,
-    };
-    let on_legs: Vec<(usize, bool)> = bodies.iter().filter_map(on_leg).collect();
-    on_legs.iter().enumerate().all(|(i, (leg, beside))| {
-        on_legs[..i].iter().all(|(other, too)| leg != other || !(*beside || *too))
-    })
+/// Whether it reads a requirement of a machine that does not turn its platform: all of them in certified claims.
+fn is_quantity(requirement: &Requirement, legs: &[Leg], verdict: Verdict) -> bool {
+    let has_plane = legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
+    match requirement.quantity.as_str() {
+        "joint_force" | "one_to_one" => verdict == Verdict::Certified,
+        "joint_acceleration" => verdict == Verdict::Certified && !has_plane,
+        key => QUANTITIES.contains(&key),
+    }
 }
 
 /// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds, and

@@ -300,7 +300,7 @@ fn a_page_proves_its_claim_again() {
         assert!(browser.text(".verdict strong").contains("REJECTED"));
         kept("edited", "rejected", &browser.screenshot());
     }
-    let page = folder.report_of_committed("orthoglide-as-built-tight", &[]);
+    let page = folder.report_of_committed("orthoglide-prototype-whole", &[]);
     browser.open(&page);
     assert!(browser.text("#reproved").contains("not covered by the formally verified checker"));
     assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 2);

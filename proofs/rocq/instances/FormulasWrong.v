@@ -168,7 +168,7 @@ Definition digit (d : uint) : term string := Literal d Nil.
 Definition certificate (row : term string) : certificate :=
   Certificate (Formulas_ ["x"] [] [] [[row]] [Literal (D1 Nil) Nil] [Literal (D2 Nil) Nil]
     [Require_ Transmission None None (AtLeast_ (Literal (D0 Nil) (D2 Nil)))])
-    (Nodes 52 [Node [(0%nat, Multiplied "lower" [[(-1)%Z]] 0); (1%nat, Plain "test")] None None []]) "t" "1".
+    (Nodes 52 None [Node [(0%nat, Multiplied "lower" [[(-1)%Z]] 0); (1%nat, Plain "test")] None None []]) "t" "1".
 Definition right := certificate (Binary Multiplication (digit (D2 Nil)) (Negative (Name "x"))).
 (** [(2 * ) - x]: a number without digits. *)
 Definition misread := certificate (Binary Subtraction (Binary Multiplication (digit (D2 Nil)) (digit Nil)) (Name "x")).

@@ -200,7 +200,7 @@ Local Open Scope string_scope.
 Local Notation two := (Literal (Decimal.D2 Decimal.Nil) Decimal.Nil).
 Definition closed (name : string) (least greatest : expression) : certificate :=
   Certificate (Closed_ two two [Require_ Transmission None None (AtLeast_ least); Require_ Transmission None None (AtMost_ greatest)])
-    (Nodes 52 [Node [(1%nat, Plain name)] None None []]) "orthocert" "1".
+    (Nodes 52 None [Node [(1%nat, Plain name)] None None []]) "orthocert" "1".
 Local Notation half := (Binary Division (Literal (Decimal.D1 Decimal.Nil) Decimal.Nil) two).
 
 Example a_closed_design : accept (closed "cube" half two) = true. Proof. vm_compute. reflexivity. Qed.

@@ -50,10 +50,12 @@ Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_.
-(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, and the joints' stiffness, of stiffness. *)
-Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
-Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_.
+(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
+    and its acceleration and speed, of accelerations. *)
+Inductive written_given := Given_ (x : expression) | Motion_ (acceleration speed : expression).
+Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
+Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
 
 Inductive written_region :=
   | Box_ (min max : triple expression)
@@ -98,7 +100,8 @@ Inductive violation := Reach | Obligation (number : nat) (directions : list (lis
 Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
 
 Inductive proof :=
-  | Nodes (precision : positive) (nodes : list node)
+  (* [chords]: the one matrix of the tree, over 2^places *)
+  | Nodes (precision : positive) (chords : option (list (list Z) * N)) (nodes : list node)
   (* [machine]: a value of each tolerance, in order *)
   | ByWitness (precision : positive) (point : list expression) (machine : list expression) (fails : violation).
 
@@ -179,19 +182,20 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
-  | Force_ => "joint_force" | Clearance_ => "clearance"
+  | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one"
   end.
-Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
-Definition bound_text (e : written_end) : text :=
-  match e with AtLeast_ b | AtMost_ b => number b | Within_ a b => array [number a; number b] end.
+Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" | Holds_ => "holds" end.
+Definition bound_text (e : written_end) : list text :=
+  match e with AtLeast_ b | AtMost_ b => [field "bound" (number b)] | Within_ a b => [field "bound" (array [number a; number b])] | Holds_ => [] end.
 Definition requirement_text (r : written_requirement) : text :=
   object (field "quantity" (quoted (about_text (about_ r))) ::
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
-    | Some x => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | None => []
     end ++
-    [field "end" (quoted (end_text (end_ r))); field "bound" (bound_text (end_ r))])%list.
+    field "end" (quoted (end_text (end_ r))) :: bound_text (end_ r))%list.
 
 Definition region_text (w : written_region) : text :=
   match w with
@@ -283,8 +287,9 @@ Definition node_text (n : node) : text :=
 
 Definition proof_text (p : proof) : text :=
   match p with
-  | Nodes bits nodes => variant "tree" (object
-      [field "precision" (positive_text bits); field "nodes" (array (map node_text nodes))])
+  | Nodes bits chords nodes => variant "tree" (object
+      (field "precision" (positive_text bits) :: match chords with Some (y, places) => [field "chords" (multiplier_text y places)] | None => [] end ++
+       [field "nodes" (array (map node_text nodes))]))
   | ByWitness bits point machine fails => variant "witness" (object
       ([field "precision" (positive_text bits); field "point" (array (map number point))] ++
        match machine with [] => [] | l => [field "machine" (array (map number l))] end ++
@@ -293,7 +298,7 @@ Definition proof_text (p : proof) : text :=
 
 Definition print (c : certificate) : text :=
   join (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
-    field "verdict" (quoted (match proof_ c with Nodes _ _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
+    field "verdict" (quoted (match proof_ c with Nodes _ _ _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
     field "proof" (proof_text (proof_ c));
     field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])])
     [String "010" ""].
@@ -354,8 +359,8 @@ Definition in_region (w : written_region) : list expression :=
 Definition in_orientation (o : written_orientation) : list expression :=
   match o with Range_ a b | Tilt_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] | Angle_ a => [a] end.
 Definition in_requirement (r : written_requirement) : list expression :=
-  (match given_ r with Some x => [x] | None => [] end ++
-   match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] end)%list.
+  (match given_ r with Some (Given_ x) => [x] | Some (Motion_ a v) => [a; v] | None => [] end ++
+   match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] | Holds_ => [] end)%list.
 Definition in_body (b : written_body) : list expression :=
   match b with
   | AlongLeg_ _ r t u o => r :: t :: u :: match o with Some o => in_triple o | None => [] end
@@ -386,7 +391,7 @@ Definition is_plain_certificate (c : certificate) : bool :=
   | _ => true
   end && forallb is_written (in_subject (subject_ c)) &&
   match proof_ c with
-  | Nodes bits nodes => is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
+  | Nodes bits _ nodes => is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
   | ByWitness bits point machine _ => is_precision bits && forallb is_written (point ++ machine)%list
   end.
 
@@ -430,10 +435,10 @@ Definition body_of (b : written_body) : body :=
   | Fixed_ true p q r => OnPlatform (denoted r) (position_of p) (position_of q)
   | Fixed_ false p q r => OnBase (denoted r) (position_of p) (position_of q)
   end.
-(** Two bodies on one leg, on the base, or on the platform. *)
+(** Two bodies on the base, on the platform, or on one leg, neither beside it. *)
 Definition are_fixed (b c : written_body) : bool :=
   match b, c with
-  | AlongLeg_ i _ _ _ _, AlongLeg_ j _ _ _ _ => Nat.eqb i j
+  | AlongLeg_ i _ _ _ None, AlongLeg_ j _ _ _ None => Nat.eqb i j
   | Fixed_ a _ _ _, Fixed_ b _ _ _ => Bool.eqb a b
   | _, _ => false
   end.
@@ -444,6 +449,15 @@ Fixpoint pairs_of (before bs : list written_body) : list (written_body * written
   | b :: bs' => filter (fun p => negb (are_fixed (fst p) (snd p))) (map (fun c => (b, c)) before) ++ pairs_of (before ++ [b]) bs'
   end%list.
 
+(** Of two bodies on one leg, the lines along them. *)
+Definition clearance_of (b c : written_body) (gap : Claim.number) : requirement :=
+  match b, c with
+  | AlongLeg_ i r _ _ o, AlongLeg_ j r' _ _ o' =>
+      let offset o := match o with Some o => position_of o | None => Position (0 // 1) (0 // 1) (0 // 1) end in
+      if Nat.eqb i j then Beside (pred i) (offset o) (offset o') (Plus (Plus (denoted r) (denoted r')) gap) else Clearance (body_of b) (body_of c) gap
+  | _, _ => Clearance (body_of b) (body_of c) gap
+  end.
+
 (** Obligations, section 9: a bound on psi from above takes the place of freedom from singularities. *)
 Definition psi_max_of (r : written_requirement) : list requirement :=
   match about_ r, end_ r with Transmission, AtMost_ b => [PsiMax (denoted b)] | _, _ => [] end.
@@ -453,13 +467,16 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | Transmission, AtLeast_ b, _ => [PsiMin (denoted b)]
   | JointRange, AtLeast_ b, _ => each (fun i => JointMin i (denoted b))
   | JointRange, AtMost_ b, _ => each (fun i => JointMax i (denoted b))
-  | Speed_, AtMost_ b, Some tool => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Speed_, AtMost_ b, Some (Given_ tool) => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Force_, AtMost_ b, Some (Given_ tool) => each (fun i => JointForce i (denoted tool) (denoted b))
+  | Acceleration_, AtMost_ b, Some (Motion_ a v) => each (fun i => JointAcceleration i (denoted a) (denoted v) (denoted b))
   | Condition_, AtMost_ b, _ => [ConditionMax (denoted b)]
   | Serial_, AtLeast_ b, _ => each (fun i => SerialMargin i (denoted b))
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
-  | Stiffness_, AtLeast_ b, Some joint => [Stiffness (denoted joint) (denoted b)]
+  | Stiffness_, AtLeast_ b, Some (Given_ joint) => [Stiffness (denoted joint) (denoted b)]
+  | OneToOne_, Holds_, _ => [OneToOne]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
-  | Clearance_, AtLeast_ b, _ => map (fun p => Clearance (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
+  | Clearance_, AtLeast_ b, _ => map (fun p => clearance_of (fst p) (snd p) (denoted b)) (pairs_of [] bs)
   | _, _, _ => []
   end.
 (** The requirement has the keys and the end that it has to have. *)
@@ -467,9 +484,10 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   let is_leg n := Nat.leb 1 n && Nat.leb n legs in
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
-  | Stiffness_, AtLeast_ _, None, Some _ | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None => true
-  | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some _ => is_leg n
-  | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some _ => true
+  | Force_, AtMost_ _, leg, Some (Given_ _) => Nat.eqb legs 3 && match leg with Some n => is_leg n | None => true end
+  | Stiffness_, AtLeast_ _, None, Some (Given_ _) | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None | OneToOne_, Holds_, None, None => true
+  | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some (Given_ _) | Acceleration_, AtMost_ _, Some n, Some (Motion_ _ _) => is_leg n
+  | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some (Given_ _) | Acceleration_, AtMost_ _, None, Some (Motion_ _ _) => true
   | _, _, _, _ => false
   end.
 Definition obligations (legs : nat) (bs : list written_body) (rs : list written_requirement) : list requirement :=
@@ -489,9 +507,9 @@ Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
   | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
   | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
-  | Speed_, AtMost_ b => match given_ r with Some tool => each (fun i => SpeedMax i (denoted tool) (denoted b)) | None => [] end
-  | Force_, AtMost_ b => match given_ r with Some tool => each (fun i => ForceMax i (denoted tool) (denoted b)) | None => [] end
-  | Stiffness_, AtLeast_ b => match given_ r with Some k => [StiffnessMin (denoted k) (denoted b)] | None => [] end
+  | Speed_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => SpeedMax i (denoted tool) (denoted b)) | _ => [] end
+  | Force_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => ForceMax i (denoted tool) (denoted b)) | _ => [] end
+  | Stiffness_, AtLeast_ b => match given_ r with Some (Given_ k) => [StiffnessMin (denoted k) (denoted b)] | _ => [] end
   | _, _ => []
   end.
 Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
@@ -507,9 +525,9 @@ Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) 
 Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) : bool :=
   let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
   match about_ r, end_ r, given_ r with
-  | Speed_, AtMost_ _, Some _ => is_leg
-  | Force_, AtMost_ _, Some _ => is_leg && Nat.eqb legs coordinates
-  | Stiffness_, AtLeast_ _, Some _ => match leg_ r with None => true | Some _ => false end
+  | Speed_, AtMost_ _, Some (Given_ _) => is_leg
+  | Force_, AtMost_ _, Some (Given_ _) => is_leg && Nat.eqb legs coordinates
+  | Stiffness_, AtLeast_ _, Some (Given_ _) => match leg_ r with None => true | Some _ => false end
   | _, _, _ => is_demand false legs r
   end.
 
@@ -568,25 +586,25 @@ Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> forall P, in
 
 Definition means (c : certificate) : Prop :=
   match subject_ c, proof_ c with
-  | Machine_ ls w bs rs, Nodes _ _ =>
+  | Machine_ ls w bs rs, Nodes _ _ _ =>
       Statement.holds (claim_of ls w bs rs) /\ exists m P, is_about (claim_of ls w bs rs) m P
   | Machine_ ls w bs rs, ByWitness _ _ _ _ =>
       exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
   | Arms_ ls w rs, ByWitness _ _ _ _ => let c := arm_claim_of ls w rs in
       exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c)
-  | Arms_ _ _ _, Nodes _ _ => False
+  | Arms_ _ _ _, Nodes _ _ _ => False
   | Turning_ k ls ell a b o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell a b o rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
-  | Turning_ k ls ell a b o rs, Nodes _ _ => let c := turning_claim_of k ls ell a b o rs in
+  | Turning_ k ls ell a b o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell a b o rs in
       turning_holds c /\ exists m P Q, is_about_struts c m P Q
-  | Formulas_ xs ps ds rows a b rs, Nodes _ _ => let c := written_claim_of xs ps ds rows a b rs in
+  | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
-  | Closed_ offset side rs, Nodes _ _ =>
+  | Closed_ offset side rs, Nodes _ _ _ =>
       match closed_bounds rs with Some (least, greatest) => closed_design_holds (denoted side) least greatest (value (denoted offset)) | None => False end
-  | NoCube_ ls a b rs side, Nodes _ _ => let c := claim_of ls (Box_ a b) [] rs in
+  | NoCube_ ls a b rs side, Nodes _ _ _ => let c := claim_of ls (Box_ a b) [] rs in
       has_no_cube c (denoted side) /\ exists m C, is_about c m C
-  | Postulate_ None, Nodes _ _ => forall psi, 1 < psi -> postulate_for psi
-  | Postulate_ (Some q), Nodes _ _ => 1 < value (greatest (tolerance_of q)) /\
+  | Postulate_ None, Nodes _ _ _ => forall psi, 1 < psi -> postulate_for psi
+  | Postulate_ (Some q), Nodes _ _ _ => 1 < value (greatest (tolerance_of q)) /\
       forall psi, 1 < psi -> within (tolerance_of q) psi -> postulate_for psi
   | _, ByWitness _ _ _ _ => False
   end.
@@ -621,7 +639,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
   match s with
   | Plain name =>
       if name =? "test" then Some ByTest else if name =? "divided" then Some ByDivided else if name =? "mirror" then Some ByMirror else
-      if name =? "negative" then Some ByNegative else if name =? "outside" then Some Outside else None
+      if name =? "negative" then Some ByNegative else if name =? "chords" then Some ByChords else if name =? "outside" then Some Outside else None
   | Multiplied name y places =>
       if name =? "lower" then Some (ByLower places y) else if name =? "lower_divided" then Some (ByLowerDivided places y) else
       if name =? "rank" then Some (ByRank places y) else if name =? "direction" then Some (ByDirection places y) else None
@@ -736,7 +754,7 @@ Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim
   end.
 
 (** What the format asks of bounds. *)
-Definition is_number : Claim.number -> bool := Witness.is_number exact_bits.
+Definition is_number : Claim.number -> bool := Compare.is_number exact_bits.
 Definition is_bound (r : requirement) : bool :=
   match r with
   | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => certainly exact_bits true b
@@ -744,8 +762,12 @@ Definition is_bound (r : requirement) : bool :=
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
   | Clearance _ _ b => certainly exact_bits false b
+  | Beside _ _ _ (Plus _ b) => certainly exact_bits false b
+  | Beside _ _ _ _ => false
+  | JointForce _ tool b => certainly exact_bits true tool && certainly exact_bits true b
+  | JointAcceleration _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
   | JointMin _ b | JointMax _ b => is_number b
-  | NotSingular => true
+  | NotSingular | OneToOne => true
   end.
 Definition is_demand_bound (d : demand) : bool :=
   match d with
@@ -810,7 +832,7 @@ Definition is_nonzero (t : tolerances) : bool :=
 Definition has_direction (d : drive) : bool :=
   match d with SliderLeg c => is_nonzero (direction c) | PlanarLeg n => is_nonzero n | StrutLeg _ _ (Some k) => is_nonzero k
   | StrutLeg _ _ None => true end.
-(** Bodies that there are, if and only if their clearance is asked for; two of one leg have no offset. *)
+(** Bodies that there are, if and only if their clearance is asked for. *)
 Definition is_sized (b : written_body) : bool :=
   match b with
   | AlongLeg_ _ r t u o => certainly exact_bits true (denoted r) && certainly exact_bits false (denoted t) && certainly exact_bits false (denoted u) &&
@@ -822,15 +844,15 @@ Definition is_on (ls : list written_leg) (b : written_body) : bool :=
   | AlongLeg_ i _ _ _ _ => Nat.leb 1 i && match nth_error ls (pred i) with Some (Slider_ _ _ _ _ _ | Strut_ _ _ _) => true | _ => false end
   | Fixed_ _ _ _ _ => true
   end.
-Fixpoint are_single (bs : list written_body) : bool :=
-  let is_beside b := match b with AlongLeg_ _ _ _ _ (Some _) => true | _ => false end in
-  match bs with [] => true | b :: bs' => forallb (fun c => negb (are_fixed b c && (is_beside b || is_beside c))) bs' && are_single bs' end.
 Definition are_bodies (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) : bool :=
   if existsb (fun r => match about_ r with Clearance_ => true | _ => false end) rs
-  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && are_single bs && match pairs_of [] bs with [] => false | _ => true end
+  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && match pairs_of [] bs with [] => false | _ => true end
   else match bs with [] => true | _ => false end.
 Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
   are_bodies ls bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
+
+(** What is claimed of the points of a workspace, which a cube is not. *)
+Definition is_of_two_points (r : written_requirement) : bool := match about_ r with OneToOne_ => true | _ => false end.
 
 (** Nodes are halved along coordinates that there are. *)
 Definition splits_below (n : nat) (nodes : list node) : bool :=
@@ -847,11 +869,11 @@ Definition is_one_each (qs : list quantity) (machine : list expression) : bool :
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
-  | Machine_ ls w bs rs, Nodes bits nodes =>
+  | Machine_ ls w bs rs, Nodes bits chords nodes =>
       let k := claim_of ls w bs rs in
       match tree_of (length nodes) nodes with
       | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
-          certify exact_bits bits k (length_order (legs k)) (map direction_order (legs k)) t
+          certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
       | _ => false
       end
   | Machine_ ls w bs rs, ByWitness bits point machine fails =>
@@ -860,10 +882,10 @@ Definition accept (c : certificate) : bool :=
           refute exact_bits (claim_of ls w bs rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
       | _, _, _ => false
       end
-  | NoCube_ ls a b rs side, Nodes bits nodes =>
+  | NoCube_ ls a b rs side, Nodes bits _ nodes =>
       let k := claim_of ls (Box_ a b) [] rs in
       match failing_tree_of (length nodes) nodes with
-      | Some (t, []) => is_well_formed ls [] rs k &&
+      | Some (t, []) => is_well_formed ls [] rs k && negb (existsb is_of_two_points rs) &&
           (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
       | _ => false
       end
@@ -873,7 +895,7 @@ Definition accept (c : certificate) : bool :=
           refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of fails)
       | _, _ => false
       end
-  | Arms_ _ _ _, Nodes _ _ => false
+  | Arms_ _ _ _, Nodes _ _ _ => false
   | Turning_ k ls ell a b o rs, ByWitness bits point machine fails =>
       let point := map denoted point in
       let n := places_of_point k in
@@ -882,23 +904,23 @@ Definition accept (c : certificate) : bool :=
           refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of fails)
       | _ => false
       end
-  | Turning_ k ls ell a b o rs, Nodes bits nodes =>
+  | Turning_ k ls ell a b o rs, Nodes bits _ nodes =>
       let c := turning_claim_of k ls ell a b o rs in
       match tree_of (length nodes) nodes with
       | Some (t, []) => is_turning k ls ell a b o rs && splits_below (dimension k) nodes &&
           certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
-  | Formulas_ xs ps ds rows a b rs, Nodes bits nodes =>
+  | Formulas_ xs ps ds rows a b rs, Nodes bits _ nodes =>
       match tree_of (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas ps rows a b rs && splits_below (length xs) nodes &&
           certify_written exact_bits bits (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
-  | Closed_ offset side rs, Nodes _ _ => is_number (denoted offset) &&
+  | Closed_ offset side rs, Nodes _ _ _ => is_number (denoted offset) &&
       match closed_bounds rs with Some (least, greatest) => check_closed exact_bits (denoted side) least greatest | None => false end
-  | Postulate_ None, Nodes bits nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
-  | Postulate_ (Some q), Nodes bits nodes =>
+  | Postulate_ None, Nodes bits _ nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
+  | Postulate_ (Some q), Nodes bits _ nodes =>
       match trees_of 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
   | _, ByWitness _ _ _ _ => false
   end.
@@ -906,9 +928,9 @@ Definition accept (c : certificate) : bool :=
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
+  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |]], p as [bits chords nodes | bits point machine fails]; try discriminate.
   - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
-    exact (certify_sound _ _ _ _ _ _ h).
+    exact (certify_sound _ _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_legs _ _) as [m [|]]; [| discriminate].
     destruct (failure_of fails) as [f |]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_sound _ _ _ _ _ h).

@@ -7,6 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
+From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -33,7 +34,9 @@ Inductive evidence :=
   (* as [Inside], of what is not negative at the orientations *)
   | Turned (e : evidence) (n : Z) (places : N)
   (* of two bodies: three rows, affine on the cell *)
-  | ByDirection (places : N) (Y : list (list Z)).
+  | ByDirection (places : N) (Y : list (list Z))
+  (* by the one matrix of the whole tree *)
+  | ByChords.
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -41,10 +44,12 @@ Inductive tree :=
   | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
-    least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends. *)
+    least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
+    [Chords]: Y^T A + A^T Y > 0, by one matrix for all cells. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
-  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed).
+  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
+  | Solved (i : nat) (k2 : fixed) | Chords (places : N) (Y : list (list Z)).
 
 Section Precision.
 Variable bits : positive.
@@ -129,6 +134,8 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
       | Some p, Some p', Some q, Some q' => are_apart bits m less distance places Y p p' q q'
       | _, _, _, _ => false
       end
+  | Chords places Y, ByChords => over_rows values whole (chords m less places Y)
+  | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
   | _, _ => false
   end.
 
@@ -212,6 +219,10 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   | Apart p p' q q' distance => let at_ := each (fun i => value x theta (formula_at i)) in
       forall d s t, contains distance d -> 0 <= d -> 0 <= s <= 1 -> 0 <= t <= 1 ->
       let w := away (between s (at_ p) (at_ p')) (between t (at_ q) (at_ q')) in d ^ 2 < inner w w
+  | Solved i k2 => of_these x (map_rows formula_at whole) (fun r => length r = m /\ forall k u, contains k2 k -> 0 <= k -> length u = length r -> nonzero u ->
+      let p := Solve.weighted_sum u (map fst r) in k * (nth i (map snd r) 0 * nth i u 0 ^ 2) < dot p p)
+  | Chords places Y => of_these x (map_rows formula_at whole) (fun r => forall v, length v = m -> nonzero v ->
+      0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v)
   end.
 
 Section Cell.
@@ -348,7 +359,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -402,6 +413,9 @@ Proof.
     cbv zeta. intros d s t hd d0 h0 h1.
     exact (are_apart_sound bits lambda lambda_in less distance d places Y _ _ _ _ _ _ _ _ h hs hd d0
       (end_there_sound _ _ e1) (end_there_sound _ _ e2) (end_there_sound _ _ e3) (end_there_sound _ _ e4) s t h0 h1).
+  - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos. apply (Solve.solved_sound bits _ _ _ _ _ _ _ _ sm rel lambda_in).
+    destruct less as [t |]; [exact hs | exact I].
+  - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos v len nz. eapply chords_sound; eassumption.
 Qed.
 End Cell.
 
@@ -421,7 +435,7 @@ Proof.
   assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
   { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-  destruct e as [| | | | | | | | | e' n places | | | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | | |]; try (apply (K None _ I h)).
   cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
   refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
   destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.

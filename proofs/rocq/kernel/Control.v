@@ -7,6 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Test Definite Cell.
+From Orthocert.kernel Require Export Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -297,50 +298,15 @@ Proof.
         cbn [fst] in e1. rewrite <- e1. exact B.
 Qed.
 
-(** ** A Y^T + Y A^T - w Y Y^T - k D_i e_i e_i^T, a form in the joints' forces *)
-
-Fixpoint weighted_sum (u : list R) (M : list (list R)) : list R :=
-  match u, M with t :: u', r :: M' => comb t 1 r (weighted_sum u' M') | _, _ => [] end.
-Lemma dot_weighted : forall u M v, dot (weighted_sum u M) v = dot u (map (fun r => dot r v) M).
-Proof. induction u as [| t u IH]; intros [| r M] v; cbn [weighted_sum map dot]; try (destruct v; reflexivity). rewrite dot_comb, IH. ring. Qed.
-Lemma dot_commutes : forall u v, dot u v = dot v u.
-Proof. induction u as [| a u IH]; intros [| b v]; cbn [dot]; try reflexivity. rewrite IH. ring. Qed.
-
-Fixpoint real_gram (qs : list (list R * list R)) : list (list R) :=
-  match qs with
-  | [] => []
-  | (h, z) :: rest => (2 * dot h z :: map (fun q => dot (fst q) z + dot h (snd q)) rest) :: real_gram rest
-  end.
-Lemma quad_gram : forall qs u, quad (real_gram qs) u = 2 * dot (weighted_sum u (map fst qs)) (weighted_sum u (map snd qs)).
-Proof.
-  induction qs as [| [h z] qs IH]; intros [| t u]; cbn [real_gram quad map weighted_sum dot]; try ring. rewrite IH. cbn [row_form fst snd].
-  assert (B : dot (map (fun q => dot (fst q) z + dot h (snd q)) qs) u = dot (weighted_sum u (map fst qs)) z + dot h (weighted_sum u (map snd qs))).
-  { rewrite (dot_commutes h), !dot_weighted, !map_map, (dot_commutes u), (dot_commutes u). clear. revert u. induction qs as [| q qs IH]; intros [| t u]; cbn [map dot]; try ring.
-    rewrite IH, (dot_commutes h (snd q)). ring. }
-  rewrite B, dot_comb, !(dot_commutes _ (comb t 1 _ _)), !dot_comb, (dot_commutes z h), (dot_commutes (weighted_sum u (map snd qs)) h), (dot_commutes z), (dot_commutes (weighted_sum u (map snd qs))). ring.
-Qed.
-
-Fixpoint solve_weights (i : nat) (k : R) (u : list R) : list (R * R) :=
-  match u with
-  | [] => []
-  | t :: u' => match i with O => (2 * t, - k * t ^ 2) :: map (fun t => (2 * t, 0)) u' | S i' => (2 * t, 0) :: solve_weights i' k u' end
-  end.
-
-Lemma form_no_D : forall u r v, length u = length r -> form (map (fun t => (2 * t, 0)) u) r v = 2 * dot (weighted_sum u (map fst r)) v.
-Proof. induction u as [| t u IH]; intros [| [a d] r] v l; try discriminate; cbn [map form weighted_sum fst dot]; [ring |]. rewrite IH, dot_comb by (cbn in l; congruence). ring. Qed.
-Lemma form_solve : forall i k u r v, length u = length r ->
-  form (solve_weights i k u) r v = 2 * dot (weighted_sum u (map fst r)) v - k * (nth i (map snd r) 0 * nth i u 0 ^ 2).
-Proof.
-  induction i as [| i IH]; intros k [| t u] [| [a d] r] v l; try discriminate; cbn [solve_weights form map weighted_sum fst snd nth dot]; try ring.
-  - rewrite form_no_D, dot_comb by (cbn in l; congruence). ring.
-  - rewrite IH, dot_comb by (cbn in l; congruence). ring.
-Qed.
-
 (** ** Nodes of a range *)
 
 Section Precision.
 Variable bits : positive.
 Local Notation unit := (unit_R bits).
+Local Notation solve_diagonal := (solve_diagonal bits).
+Local Notation gram_sound := (gram_sound bits).
+Local Notation solve_pairs_sound := (solve_pairs_sound bits).
+Local Notation solve_diagonal_sound := (solve_diagonal_sound bits).
 
 (** The ends, with their squares, and between them no point of the parabola. *)
 Inductive which := Low | Middle | High.
@@ -623,26 +589,6 @@ Qed.
 Definition known_multiple (l : option (option fixed * Z * N)) : option fixed :=
   match l with None => Some zero | Some (g, n, places) => option_map (Arithmetic.dyadic n places) g end.
 
-Fixpoint half_product (places : N) (y : list Z) (z : list fixed) : fixed :=
-  match y, z with n :: y', a :: z' => add (Arithmetic.dyadic n (places + 1) a) (half_product places y' z') | _, _ => zero end.
-Fixpoint gram (places : N) (ps : list (list Z * list fixed)) : triangle :=
-  match ps with
-  | [] => []
-  | (y, z) :: rest => let h := half_product places in
-      (add (h y z) (h y z) :: map (fun q => add (h (fst q) z) (h y (snd q))) rest) :: gram places rest
-  end.
-Fixpoint solve_pairs (places : N) (Y : list (list Z)) (w : fixed) (r : rows fixed) : list (list Z * list fixed) :=
-  match Y, r with y :: Y', (a, _) :: r' => (y, residual places a w y) :: solve_pairs places Y' w r' | _, _ => [] end.
-Fixpoint solve_diagonal (i : nat) (k t : fixed) (r : rows fixed) {struct r} : triangle :=
-  match r with
-  | [] => []
-  | (_, d) :: r' => match i with
-      | O => [sub (neg (mul bits k (upper_end d))) t] :: map (fun _ => [sub zero t]) r'
-      | S i' => [sub zero t] :: solve_diagonal i' k t r'
-      end
-  end.
-
-Definition is_definite (n : nat) (t : triangle) : bool := if Nat.eqb (length t) n then is_positive_definite t else false.
 Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
   | Some rows, Some w, Some t => is_definite n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
@@ -734,61 +680,6 @@ Proof.
   rewrite map_rows_cons. split; constructor; auto.
   - split; [exact (all_known_sound q ps a b h ea) | exact V].
   - exact (contains_positive bits _ _ p V).
-Qed.
-
-Lemma half_product_sound : forall places y z v, Forall2 (contains bits) z v -> contains bits (half_product places y z) (dot (map (Y_half places) y) v).
-Proof.
-  intros places y z v h. revert y. induction h as [| a b z v hb h IH]; intros [| n y]; cbn [half_product map dot]; try apply zero_sound.
-  apply add_sound; [apply Arithmetic.dyadic_sound, hb | apply IH].
-Qed.
-Lemma gram_sound : forall places ps qs, Forall2 (fun p q => fst q = map (Y_half places) (fst p) /\ Forall2 (contains bits) (snd p) (snd q)) ps qs ->
-  triangle_in bits (gram places ps) (real_gram qs).
-Proof.
-  intros places. induction 1 as [| [y z] [h v] ps qs [e hz] hs IH]; cbn [gram real_gram]; constructor; [| exact IH]. cbn [fst snd] in *. subst h. constructor.
-  - replace (2 * dot (map (Y_half places) y) v) with (dot (map (Y_half places) y) v + dot (map (Y_half places) y) v) by ring. apply add_sound; apply half_product_sound, hz.
-  - clear IH. induction hs as [| p q ps qs [e k] hs IH]; cbn [map]; constructor; [| exact IH]. rewrite e. apply add_sound; apply half_product_sound; assumption.
-Qed.
-
-Definition real_pairs (places : N) (Y : list (list Z)) (w : R) (r : rows R) : list (list R * list R) :=
-  map (fun p => (map (Y_half places) (fst p), comb 2 (- w) (fst (snd p)) (map (Y_value places) (fst p)))) (combine Y r).
-Lemma solve_pairs_sound : forall places Y w W i r, contains bits w W -> rows_rel (contains bits) i r ->
-  Forall2 (fun p q => fst q = map (Y_half places) (fst p) /\ Forall2 (contains bits) (snd p) (snd q)) (solve_pairs places Y w i) (real_pairs places Y W r).
-Proof.
-  intros places Y w W i r hw h. revert Y. induction h as [| [a d] [b e] i r [h1 h2] h IH]; intros [| y Y]; cbn; try constructor; [| apply IH].
-  cbn [fst snd] in *. split; [reflexivity | apply residual_sound; assumption].
-Qed.
-Lemma quad_pairs : forall places Y w r u, length Y = length r -> let q := weighted_sum u (map (map (Y_value places)) Y) in
-  quad (real_gram (real_pairs places Y w r)) u = 2 * dot (weighted_sum u (map fst r)) q - w * dot q q.
-Proof.
-  intros places Y w r u l q. rewrite quad_gram. unfold real_pairs. rewrite !map_map. cbn [fst snd].
-  assert (E1 : forall v, 2 * dot (weighted_sum u (map (fun p : list Z * (list R * R) => map (Y_half places) (fst p)) (combine Y r))) v = dot q v).
-  { intro v. unfold q. rewrite !dot_weighted, !map_map. clear q. revert Y r l. induction u as [| t u IH]; intros [| y Y] [| p r] l; try discriminate; cbn [combine map dot fst]; try ring.
-    rewrite <- (IH Y r) by (cbn in l; congruence).
-    assert (H : dot (map (Y_value places) y) v = 2 * dot (map (Y_half places) y) v) by (rewrite <- dot_map, map_map; f_equal; apply map_ext; exact (Y_half_eq places)). rewrite H. ring. }
-  rewrite E1. rewrite dot_commutes.
-  assert (E2 : forall v, dot (weighted_sum u (map (fun p : list Z * (list R * R) => comb 2 (- w) (fst (snd p)) (map (Y_value places) (fst p))) (combine Y r))) v
-    = 2 * dot (weighted_sum u (map fst r)) v - w * dot q v).
-  { intro v. unfold q. clear E1 q. rewrite !dot_weighted, !map_map. revert Y r l. induction u as [| t u IH]; intros [| y Y] [| p r] l; try discriminate; cbn [combine map dot fst snd]; try ring.
-    rewrite IH, dot_comb by (cbn in l; congruence). ring. }
-  apply E2.
-Qed.
-Lemma solve_diagonal_sound : forall i k K t T r s u, contains bits k K -> 0 <= K -> contains bits t T -> rows_rel (contains bits) r s -> length u = length s ->
-  exists S, triangle_in bits (solve_diagonal i k t r) S /\ quad S u <= - K * (nth i (map snd s) 0 * nth i u 0 ^ 2) - T * dot u u.
-Proof.
-  intros i k K t T r s u hk K0 ht h.
-  assert (T0 : contains bits (sub zero t) (- T)) by (replace (- T) with (0 - T) by ring; apply sub_sound; [apply zero_sound | exact ht]).
-  assert (Rest : forall (r : rows fixed) (s : rows R), rows_rel (contains bits) r s -> forall u, length u = length s ->
-    exists S, triangle_in bits (map (fun _ => [sub zero t]) r) S /\ quad S u = - T * dot u u).
-  { clear - T0. induction 1 as [| p q r s _ h IH]; intros [| y u] l; try discriminate; [exists []; split; [constructor | cbn; ring] |].
-    destruct (IH u ltac:(cbn in l; congruence)) as [S [hS e]]. exists ([- T] :: S). split; [cbn [map]; constructor; [constructor; [exact T0 | constructor] | exact hS] |].
-    cbn [quad row_form dot]. rewrite e. ring. }
-  revert i u. induction h as [| [a d] [b e] r s [_ hd] h IH]; intros i [| y u] l; try discriminate; [exists []; split; [cbn [solve_diagonal]; constructor | destruct i; cbn; lra] |].
-  cbn [fst snd] in hd. destruct i as [| i]; cbn [solve_diagonal map snd nth].
-  - destruct (Rest r s h u ltac:(cbn in l; congruence)) as [S [hS q]]. destruct (upper_end_sound bits d e hd) as [g [hg le]].
-    exists ([- (K * g) - T] :: S). split; [constructor; [constructor; [apply sub_sound; [apply neg_sound, mul_sound; assumption | exact ht] | constructor] | exact hS] |].
-    cbn [quad row_form dot]. rewrite q. pose proof (pow2_ge_0 y). assert (K * (e * y ^ 2) <= K * (g * y ^ 2)) by (apply Rmult_le_compat_l; [exact K0 | apply Rmult_le_compat_r; assumption]). lra.
-  - destruct (IH i u ltac:(cbn in l; congruence)) as [S [hS q]]. exists ([- T] :: S). split; [constructor; [constructor; [exact T0 | constructor] | exact hS] |].
-    cbn [quad row_form dot]. lra.
 Qed.
 
 (** ** What the tests show of a cell *)

@@ -82,7 +82,7 @@ Proof. intros [a b c] [d e f]. unfold Vec3.dot. cbn. ring. Qed.
 (** The formulas are those of the leg at [P]. *)
 Definition represents (f : leg_formulas) (l : leg) : Prop :=
   (0 < value (f_D f) -> reaches P l /\ forall v, Vec3.dot (vvalue (f_A f)) v ^ 2 / value (f_D f) = Vec3.dot (row l P) v ^ 2) /\
-  (Forall defined (list_of (f_divided f)) -> reaches P l) /\
+  ((Forall defined (list_of (f_divided f)) -> reaches P l) /\ vvalue (f_A f) = vector_of l P) /\
   vvalue (f_divided f) = row l P /\ value (f_joint f) = joint l P /\
   (reaches P l -> 0 < value (f_D f)) /\
   (forall len, f_length f = Some len -> exists k, l = Guided k /\ value len = leg_length k /\
@@ -118,7 +118,8 @@ Proof.
     assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
     clear - H. generalize dependent (eta l P). intros a a0. generalize (r l P) (axis l). intros q n.
     unfold Vec3.dot, vadd, vscale. cbn [vx vy vz]. field. exact a0.
-  - intro h. apply N. inversion h as [| ? ? h1 _]. subst. cbn [map2 ex] in h1.
+  - split; [| rewrite vvalue_plus, vvalue_scaled, R, E, hn; symmetry; apply leg_vector_eq].
+    intro h. apply N. inversion h as [| ? ? h1 _]. subst. cbn [map2 ex] in h1.
     apply defined_plus in h1. destruct h1 as [_ h1]. exact (defined_over _ _ _ _ h1).
   - rewrite vvalue_plus, vvalue_divided, R, E, hn. reflexivity.
   - rewrite value_minus, value_product, hn, hw, E. reflexivity.
@@ -142,7 +143,7 @@ Proof.
     replace (sqrt (norm2 (span base platform P)) ^ 2) with (norm2 (span base platform P))
       by (rewrite <- Rsqr_pow2, Rsqr_sqrt by lra; reflexivity).
     field. lra.
-  - intro h. inversion h as [| ? ? h1 _]. subst. cbn [divided_by ex] in h1. apply defined_over in h1.
+  - split; [| exact hw]. intro h. inversion h as [| ? ? h1 _]. subst. cbn [divided_by ex] in h1. apply defined_over in h1.
     rewrite value_root, D in h1. destruct (norm2_nonneg (span base platform P)) as [p | z]; [exact p |].
     exfalso. apply h1. rewrite <- z. apply sqrt_0.
   - rewrite vvalue_divided, value_root, D, hw. reflexivity.
@@ -160,7 +161,7 @@ Proof.
   intros ew en n hw hn. unfold planar_formulas.
   split; [| split; [| split; [| split; [| split; [| split; [| split]]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple f_tip reaches row joint].
   - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
-  - intros _. exact I.
+  - split; [intros _; exact I | exact hn].
   - exact hn.
   - rewrite value_product, hn, hw. reflexivity.
   - intros _. cbn. lra.
@@ -187,7 +188,7 @@ Lemma divided_speed : forall fs m, Forall2 represents fs m ->
   Forall (fun p => Forall defined (fst p) /\ defined (snd p)) (divided_rows fs) ->
   Forall (reaches P) m /\ forall v, energy (map_rows value (divided_rows fs)) (coordinates v) = speed2 m P v.
 Proof.
-  induction 1 as [| f l fs m [_ [h1 [h2 _]]] hs IH]; intro p; [split; [constructor | reflexivity] |].
+  induction 1 as [| f l fs m [_ [[h1 _] [h2 _]]] hs IH]; intro p; [split; [constructor | reflexivity] |].
   inversion p as [| ? ? [p1 _] p2]; subst. cbn [fst] in p1. destruct (IH p2) as [I1 I2].
   split; [constructor; auto |]. intro v. cbn [divided_rows map map_rows energy fst snd speed2 fold_right].
   unfold speed2, map_rows, divided_rows in I2. rewrite I2, values_list, dot_coordinates, h2. cbn. field.
@@ -214,6 +215,12 @@ Proof.
   destruct (norm2_nonneg u) as [p | z].
   - pose proof (sqrt_lt_R0 _ p). destruct u. unfold vscale. cbn. f_equal; field; lra.
   - symmetry in z. apply norm2_zero in z. subst u. unfold vscale, vzero. cbn. f_equal; ring.
+Qed.
+
+Lemma normalised_norm : forall v, 0 < norm2 v -> norm2 (normalised v) = 1.
+Proof.
+  intros v h. unfold normalised. rewrite norm2_scale. pose proof (sqrt_lt_R0 _ h) as p.
+  rewrite <- Rsqr_pow2, Rsqr_inv', Rsqr_sqrt by lra. field. lra.
 Qed.
 
 Section Resized.
@@ -270,6 +277,13 @@ Proof.
   unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring.
 Qed.
 
+Lemma well_formed_resized : forall l, match l with Guided l => well_formed l | Extensible _ _ (Some k) => norm2 k = 1 | Extensible _ _ None => True | Plane n => n <> vzero end ->
+  match resized c l with Guided l => well_formed l | Extensible _ _ (Some k) => norm2 k = 1 | Extensible _ _ None => True | Plane n => n <> vzero end.
+Proof.
+  intros [l | base platform [k |] | n] h; cbn [resized]; try exact h. destruct h as [h1 [h2 h3]]. split; [exact h1 |]. split; [| exact h3].
+  cbn [leg_length]. apply Rmult_lt_0_compat; assumption.
+Qed.
+
 Lemma rod_resized : forall l, rod_of (resized c l) (vscale c P) =
   match rod_of l P with Some (C, A, L) => Some (vscale c C, vscale c A, c * L) | None => None end.
 Proof.
@@ -287,6 +301,21 @@ End Resized.
 
 Definition well_formed_leg (l : leg) : Prop :=
   match l with Guided l => well_formed l | Extensible _ _ k => match k with Some k => norm2 k = 1 | None => True end | Plane n => n <> vzero end.
+
+(** The chord between two points with the same joint coordinate is orthogonal to the sum of the leg's vectors there. *)
+Theorem chord : forall l P P', well_formed_leg l -> reaches P l -> reaches P' l -> joint l P' = joint l P ->
+  Vec3.dot (vadd (vector_of l P) (vector_of l P')) (vsub P' P) = 0.
+Proof.
+  assert (K : forall A A' d, vsub A' A = d -> norm2 A' = norm2 A -> Vec3.dot (vadd A A') d = 0).
+  { intros A A' d <- h. replace (Vec3.dot (vadd A A') (vsub A' A)) with (norm2 A' - norm2 A) by (unfold norm2, Vec3.dot, vadd, vsub; cbn [vx vy vz]; ring). lra. }
+  intros [l | base platform k | n] P P' ok h h' e; cbn [vector_of well_formed_leg reaches joint] in *.
+  - apply K; [| rewrite !leg_vector_length by assumption; reflexivity].
+    unfold leg_vector, B_point, C_point. rewrite e. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+  - apply K; [unfold span, vsub, vadd; cbn [vx vy vz]; f_equal; ring |].
+    apply sqrt_inj; [apply norm2_nonneg | apply norm2_nonneg | exact e].
+  - replace (Vec3.dot (vadd (normalised n) (normalised n)) (vsub P' P)) with (2 * (Vec3.dot (normalised n) P' - Vec3.dot (normalised n) P))
+      by (unfold Vec3.dot, vadd, vsub; cbn [vx vy vz]; ring). rewrite e. ring.
+Qed.
 
 (** Along any differentiable trajectory P(t), rho_i' = row_i . P'. *)
 Theorem row_is_derivative : forall l P t V, well_formed_leg l -> reaches (P t) l -> has_velocity P t V ->

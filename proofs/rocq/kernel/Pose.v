@@ -126,7 +126,7 @@ Proof.
   intros cell x t e it hx len ht h.
   assert (None_ : forall e, shows_less (tensors bits tape params cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
-  destruct e as [| | | | | | | | | | | e | |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places |]; try exact (None_ _ h).
+  destruct e as [| | | | | | | | | | | e | | |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors bits tape params cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
@@ -374,7 +374,7 @@ Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax 
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
   match k with InPlane => [tx t; ty t] | InSpace => [tx t; ty t; tz t] | AboutPoint => [] end.
-Definition is_nothing (t : tolerance) : bool := Witness.same (least t) (0 // 1) && Witness.same (greatest t) (0 // 1).
+Definition is_nothing (t : tolerance) : bool := Compare.same (least t) (0 // 1) && Compare.same (greatest t) (0 // 1).
 Definition is_flat (k : motion) (t : tolerances) : bool :=
   match k with InPlane => is_nothing (tz t) | InSpace => true | AboutPoint => is_nothing (tx t) && is_nothing (ty t) && is_nothing (tz t) end.
 
@@ -519,7 +519,7 @@ Qed.
 
 Lemma is_nothing_sound : forall t y, is_nothing t = true -> within t y -> y = 0.
 Proof.
-  intros t y h [l g]. apply andb_true_iff in h as [a b]. apply Witness.same_sound in a, b. rewrite a in l. rewrite b in g. cbn in l, g. lra.
+  intros t y h [l g]. apply andb_true_iff in h as [a b]. apply Compare.same_sound in a, b. rewrite a in l. rewrite b in g. cbn in l, g. lra.
 Qed.
 
 Lemma flat_position : forall k t P, is_flat k t = true -> all_within t P -> is_position k P.

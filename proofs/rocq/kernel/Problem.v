@@ -2,7 +2,8 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula Acceleration.
+From Orthocert.kernel Require Compare Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -158,17 +159,27 @@ Proof.
     rewrite (related_length _ _ _ _ _ L1). rewrite <- app_assoc. exact R2.
 Qed.
 
+Lemma slider_length : forall s drs m, Forall2 is_leg_of drs m -> forall ds j i f k,
+  nth_error (all_formulas s ds drs j) i = Some f -> nth_error m i = Some (Guided k) -> f_length f <> None.
+Proof.
+  induction 1 as [| dr l drs m h hs IH]; intros ds j [| i] f k e n; try discriminate; cbn [all_formulas nth_error] in *; [| exact (IH _ _ _ _ _ e n)].
+  injection e as <-. injection n as ->. destruct dr; try contradiction. discriminate.
+Qed.
+
 (** ** Requirements as tests *)
 
 (** kappa = 1/psi_max, k = 1/psi_min, or the end of a joint's range. *)
 Definition bound_of (s : Z) (r : requirement) : parameter :=
   match r with
-  | NotSingular => (exactly (0 // 1), 0%Z)
+  | NotSingular | OneToOne => (exactly (0 // 1), 0%Z)
   | PsiMax b | PsiMin b => (exactly (Over (1 // 1) b), 0%Z)
   | JointMin _ b | JointMax _ b => (exactly b, s)
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
   | Stiffness joint b => (exactly (Over b joint), 0%Z)
   | Clearance one other b => (exactly (Plus (Plus (radius_of one) (radius_of other)) b), s)
+  | Beside _ _ _ distance => (exactly distance, s)
+  | JointAcceleration _ a _ b => (exactly (Over a b), 0%Z)
+  | JointForce _ tool b => (exactly (Over tool b), 0%Z)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -183,14 +194,19 @@ Lemma bounds_within : forall s rs, Forall2 scaled_within (map (bound_of s) rs) (
 Proof. induction rs; cbn [map]; constructor; auto using bound_within. Qed.
 
 (** The numbers of bodies: six each. *)
+Definition position_numbers (s : Z) (p : Statement.position) : list parameter := [(exactly (px p), s); (exactly (py p), s); (exactly (pz p), s)].
 Definition body_numbers (s : Z) (b : body) : list parameter :=
-  let of_ p := [(exactly (px p), s); (exactly (py p), s); (exactly (pz p), s)] in
   match b with
-  | AlongLeg _ _ t u o => [(exactly t, s); (exactly u, s)] ++ of_ o ++ [(exactly (0 // 1), 0%Z)]
-  | OnBase _ p q | OnPlatform _ p q => of_ p ++ of_ q
+  | AlongLeg _ _ t u o => [(exactly t, s); (exactly u, s)] ++ position_numbers s o ++ [(exactly (0 // 1), 0%Z)]
+  | OnBase _ p q | OnPlatform _ p q => position_numbers s p ++ position_numbers s q
   end.
 Definition extras (s : Z) (r : requirement) : list parameter :=
-  match r with Clearance one other _ => body_numbers s one ++ body_numbers s other | _ => [] end.
+  match r with
+  | Clearance one other _ => body_numbers s one ++ body_numbers s other
+  | Beside _ one other _ => position_numbers s one ++ position_numbers s other
+  | JointAcceleration _ _ v b => [(exactly (Over (Times v v) b), s)]
+  | _ => []
+  end.
 Definition exact_value (p : parameter) : R := Claim.value (greatest (fst p)) / two_to (snd p).
 
 Lemma extras_within : forall s r, Forall2 scaled_within (extras s r) (map exact_value (extras s r)).
@@ -199,7 +215,10 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s []; try constructor. cbn [extras]. rewrite map_app. apply Forall2_app; apply B.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  - apply Forall2_app; apply B.
+  - cbn. repeat constructor; apply E.
+  - cbn. repeat constructor; apply E.
 Qed.
 
 Lemma all_extras_within : forall s rs, Forall2 scaled_within (flat_map (extras s) rs) (map exact_value (flat_map (extras s) rs)).
@@ -231,6 +250,20 @@ Definition segments (fs : list leg_formulas) (s : Z) (j : nat) (one other : body
   let q := numbered j (body_numbers s one ++ body_numbers s other) in
   match segment_formulas fs (firstn 6 q) one, segment_formulas fs (skipn 6 q) other with Some a, Some b => Some (a, b) | _, _ => None end.
 
+(** |d|^2 - (d . A)^2/L^2 - R^2, d from the one line along the leg to the other. *)
+Definition beside_formula (f : leg_formulas) (q : list formula) (b : formula) : formula :=
+  let d := map2 minus (vector_at q 0) (vector_at q 3) in
+  minus (minus (product d d) (over (square (product d (f_A f))) (square (rod f)))) (square b).
+
+(** 1 - t (a + b t^2), t = L/|eta|, of sliders, and 1 - a - b of struts; [a] and [b] over the bound, [b] a speed's square over the length. *)
+Definition acceleration_formula (f : leg_formulas) (a b : formula) : list formula :=
+  let own := over b (rod f) in
+  match f_length f, f_tip f with
+  | Some len, _ => let t := over len (root (f_D f)) in [minus (integer 1) (times t (plus a (times own (square t))))]
+  | None, Some _ => [minus (minus (integer 1) a) own]
+  | None, None => []
+  end.
+
 Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
 Definition determinant (a b c : evec) : formula :=
   plus (minus (times (ex a) (minor (ey b) (ez b) (ey c) (ez c))) (times (ey a) (minor (ex b) (ez b) (ex c) (ez c))))
@@ -253,7 +286,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -285,7 +318,10 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
       | Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d]
       | None => []
       end
-  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
+  | Beside i _ _ _ => of_leg i (fun f =>
+      match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
+  | JointAcceleration i _ _ _ => of_leg i (fun f => acceleration_formula f b (nth 0 (numbered (snd j) (extras s r)) (integer 0)))
+  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ | OneToOne => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
   match rs with
@@ -296,6 +332,8 @@ Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : l
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
+(** The one matrix of [Chords]. *)
+Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
 Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
@@ -315,6 +353,17 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       | Some ((a, b), (c, d)), Some distance => if (0 <=? lo distance)%Z then
           let at_ := ends_at place in Some (Apart (at_ a) (at_ b) (at_ c) (at_ d) distance) else None
       | _, _ => None
+      end
+  | JointAcceleration _ a _ b =>
+      match range_formula fs s j r with
+      | [f] => if Compare.certainly bits false a && Compare.certainly bits true b then Some (AtLeast (place f)) else None
+      | _ => None
+      end
+  | OneToOne => Some (Chords (fst one_matrix) (snd one_matrix))
+  | JointForce i tool b => match nth_error fs i with
+      | Some _ => if Compare.certainly bits true tool && Compare.certainly bits true b
+          then option_map (fun a => Solved i (sqr bits a)) (enclose_parameter bits (bound_of s r)) else None
+      | None => None
       end
   | _ => match range_formula fs s j r with
          | [f] => Some (AtLeast (place f))
@@ -392,9 +441,59 @@ Proof.
     rewrite <- !Rpow_mult_distr, Ex, Ey in G. pose proof (pow2_ge_0 (hX * lx)). pose proof (pow2_ge_0 (hY * ly)). nra.
 Qed.
 
+(** No leg within the tolerances has a direction that is zero, or a length that is not positive. *)
+Definition is_nonzero (t : tolerances) (d : Z) : bool :=
+  match map (enclose_parameter bits) (three t d) with
+  | [Some x; Some y; Some z] => (0 <? lo (add (add (sqr bits x) (sqr bits y)) (sqr bits z)))%Z
+  | _ => false
+  end.
+Definition is_buildable (s d : Z) (dr : drive) : bool :=
+  match dr with
+  | SliderLeg c => is_nonzero (direction c) d && match enclose_parameter bits (Claim.length c, s) with Some a => (0 <? lo a)%Z | None => false end
+  | StrutLeg _ _ None => true
+  | StrutLeg _ _ (Some n) | PlanarLeg n => is_nonzero n d
+  end.
+Fixpoint are_buildable (s : Z) (ds : list Z) (drs : list drive) : bool :=
+  match drs with [] => true | dr :: r => is_buildable s (hd 0%Z ds) dr && are_buildable s (tl ds) r end.
+
+Lemma scaled_positive : forall c x, 0 < x / two_to c -> 0 < x.
+Proof.
+  intros c x h. pose proof (two_to_pos c) as p. replace x with (x / two_to c * two_to c) by (field; lra). apply Rmult_lt_0_compat; assumption.
+Qed.
+
+Lemma is_nonzero_sound : forall t d v, is_nonzero t d = true -> all_within t v -> 0 < norm2 v.
+Proof.
+  intros t d v h w. pose proof (three_within t d v w) as W. unfold is_nonzero in h. cbn [map three] in h.
+  destruct (enclose_parameter bits (tx t, d)) as [x |] eqn:ex; [| discriminate].
+  destruct (enclose_parameter bits (ty t, d)) as [y |] eqn:ey; [| discriminate].
+  destruct (enclose_parameter bits (tz t, d)) as [z |] eqn:ez; [| discriminate]. apply Z.ltb_lt in h.
+  inversion W as [| ? ? ? ? h1 W1]; subst. inversion W1 as [| ? ? ? ? h2 W2]; subst. inversion W2 as [| ? ? ? ? h3 _]; subst.
+  apply (enclose_parameter_sound bits _ _ _ ex) in h1. apply (enclose_parameter_sound bits _ _ _ ey) in h2. apply (enclose_parameter_sound bits _ _ _ ez) in h3.
+  pose proof (contains_positive bits _ _ h (add_sound bits _ _ _ _ (add_sound bits _ _ _ _ (sqr_sound bits _ _ h1) (sqr_sound bits _ _ h2)) (sqr_sound bits _ _ h3))) as p.
+  change (0 < norm2 (vscale (/ two_to d) v)) in p. rewrite norm2_scale in p. pose proof (norm2_nonneg v). pose proof (pow2_ge_0 (/ two_to d)). nra.
+Qed.
+
+Lemma is_buildable_sound : forall s d dr l, is_buildable s d dr = true -> is_leg_of dr l -> well_formed_leg l.
+Proof.
+  intros s d [c | a p [n |] | n] [k | base platform [axis |] | normal] h w; cbn [is_buildable is_leg_of well_formed_leg] in *; try contradiction; try exact I; try tauto.
+  - apply andb_true_iff in h as [h h']. destruct w as [[u [hu ax]] [_ [_ [hl hm]]]]. unfold well_formed. rewrite ax. split; [| split].
+    + apply normalised_norm, (is_nonzero_sound _ _ _ h hu).
+    + destruct (enclose_parameter bits (Claim.length c, s)) as [i |] eqn:e; [| discriminate]. apply Z.ltb_lt in h'.
+      apply (scaled_positive s), (contains_positive bits _ _ h'). apply (enclose_parameter_sound bits _ _ _ e). exists (leg_length k). split; [exact hl | reflexivity].
+    + rewrite hm. destruct (mode c); auto.
+  - destruct w as [_ [_ [u [hu ->]]]]. apply normalised_norm, (is_nonzero_sound _ _ _ h hu).
+  - intro z. pose proof (is_nonzero_sound _ _ _ h w) as p. rewrite z in p. unfold norm2, vzero in p. cbn in p. lra.
+Qed.
+
+Lemma are_buildable_sound : forall s drs m, Forall2 is_leg_of drs m -> forall ds, are_buildable s ds drs = true -> Forall well_formed_leg m.
+Proof.
+  intros s drs m. induction 1 as [| dr l drs m h hs IH]; intros ds k; [constructor |]. cbn [are_buildable] in k.
+  apply andb_true_iff in k as [k1 k2]. constructor; [exact (is_buildable_sound _ _ _ _ k1 h) | exact (IH _ k2)].
+Qed.
+
 (** The whole check: formulas, a tape that stands for them, enclosures, the tree.
     [s], [ds], the tape and the tree are evidence. *)
-Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
+Definition check_claim_by (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let ps := layouts s ds (legs c) in
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
@@ -402,7 +501,7 @@ Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let tape := fst (compile needed) in
   let found := formulas tape in
   if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
-    if existsb is_lower (require c) then
+    if existsb is_lower (require c) && are_buildable s ds (legs c) then
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
             all_some (tests_of (place found) fs s n (require c)) with
@@ -534,9 +633,9 @@ Proof.
   replace (1 / 1) with 1 by field. split; [lra | unfold Rdiv; rewrite Rinv_1; ring].
 Qed.
 
-Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
+Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils (workspace c) m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -553,6 +652,9 @@ Proof.
 Qed.
 
 Hypothesis reached : Forall (reaches P) m.
+Hypothesis machine : Forall2 is_leg_of (legs c) m.
+Hypothesis built : Forall well_formed_leg m.
+Hypothesis unique : r = OneToOne -> fulfils (workspace c) m P r.
 
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
 Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
@@ -574,10 +676,10 @@ Lemma ratio_pos : 0 < ratio.
 Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 
 (** The requirements that one formula decides: [f], which is not negative. *)
-Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
+Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils (workspace c) m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -630,10 +732,10 @@ Qed.
 Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
 Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
 
-Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
+Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils (workspace c) m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -739,15 +841,15 @@ Proof.
     assert (e3 : ratio * L = value x theta (rod f)) by congruence.
     eexists. eexists. split; [reflexivity |].
     assert (O : vvalue Q theta (vector_at q 2) = vscale ratio (located o)).
-    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
+    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
     assert (T0 : value x theta (nth 0 q (integer 0)) = ratio * Claim.value tb) by (rewrite (value_at _ _ _ _ _ V); apply N).
     assert (T1 : value x theta (nth 1 q (integer 0)) = ratio * Claim.value up) by (rewrite (value_at _ _ _ _ _ V); apply N).
     rewrite !vvalue_plus, !vvalue_minus, !vvalue_scaled, value_minus, !value_over, O, T0, T1, <- e1, <- e2, <- e3, !quotient_resized.
     change (value x theta (integer 1)) with 1. unfold vadd, vsub, vscale. cbn [vx vy vz]. split; f_equal; ring.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
+    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers map app nth Nat.add]. rewrite !N.
+    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N.
     unfold vadd, located, vscale. cbn [vx vy vz]. split; f_equal; ring.
 Qed.
 
@@ -758,7 +860,7 @@ Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearanc
   segments fs s (snd j) one other = Some ((a, a'), (c', d')) -> contains distance (bound_value s r) -> (0 <= lo distance)%Z ->
   Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x
     (Apart (ends_at found a) (ends_at found a') (ends_at found c') (ends_at found d') distance) ->
-  fulfils m P r.
+  fulfils (workspace c) m P r.
 Proof.
   intros one other b a a' c' d' distance er es hd d0 H. pose proof ratio_pos as r0.
   pose proof range_found as RF. pose proof extras_at as EX. subst r. cbn [extras range_formula] in *. rewrite es in RF.
@@ -791,21 +893,172 @@ Proof.
   unfold inner, away, between, both, norm2, towards, vsub, vadd, vscale. cbn [along_x along_y along_z vx vy vz]. apply Req_le. ring.
 Qed.
 
-Lemma fulfilled : fulfils m P r.
+Lemma rod_length : forall l C A L, well_formed_leg l -> reaches P l -> rod_of l P = Some (C, A, L) -> norm2 A = L ^ 2 /\ 0 < L ^ 2.
+Proof.
+  intros [k | base platform axis | n] C A L ok re e; cbn [rod_of well_formed_leg reaches] in *; [| | discriminate].
+  - assert (E : leg_vector k P = A /\ leg_length k = L) by (split; congruence). destruct E as [<- <-].
+    split; [exact (leg_vector_length k P ok re) | apply pow_lt, ok].
+  - assert (E : span base platform P = A /\ sqrt (norm2 (span base platform P)) = L) by (split; congruence). destruct E as [<- <-].
+    rewrite <- Rsqr_pow2, Rsqr_sqrt by lra. split; [reflexivity | exact re].
+Qed.
+
+Lemma beside_fulfilled : forall i one other b, r = Beside i one other b ->
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
+Proof.
+  intros i one other b er [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
+  cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
+  set (q := numbered (snd j) (extras s (Beside i one other b))) in *.
+  assert (e1 : beside_formula g q (quantity (bound_of s (Beside i one other b)) (fst j)) = f) by congruence. subst f. clear ef.
+  destruct (leg_at i g ng) as [l [nl [R0 re]]]. destruct R0 as [_ [_ [_ [_ [_ [_ [_ R0]]]]]]]. specialize (R0 tip et).
+  unfold ratio in R0. rewrite rod_resized in R0 by exact r0. fold ratio in R0. destruct (rod_of l P) as [[[C A] L] |] eqn:er; [| discriminate].
+  assert (e2 : vscale ratio A = vvalue Q theta (f_A g)) by congruence. assert (e3 : ratio * L = value x theta (rod g)) by congruence.
+  assert (ok : well_formed_leg l) by (apply (proj1 (Forall_forall _ _) built), (nth_error_In _ _ nl)).
+  destruct (rod_length l C A L ok re er) as [A2 L2]. exists l, C, A, L. split; [exact nl |]. split; [exact er |]. intros t0 u0.
+  assert (N : forall y, exact_value (exactly y, s) = ratio * Claim.value y) by (intro y; unfold exact_value; cbn; unfold Rdiv; fold ratio; ring).
+  assert (O1 : vvalue Q theta (vector_at q 0) = vscale ratio (located one)) by (rewrite (vvalue_at _ _ _ _ _ EX); cbn [extras position_numbers map app nth Nat.add]; rewrite !N; reflexivity).
+  assert (O2 : vvalue Q theta (vector_at q 3) = vscale ratio (located other)) by (rewrite (vvalue_at _ _ _ _ _ EX); cbn [extras position_numbers map app nth Nat.add]; rewrite !N; reflexivity).
+  unfold beside_formula in h. cbv zeta in h. rewrite !value_minus, value_over, !value_square, !value_product, vvalue_minus, O1, O2, <- e2, <- e3, B in h.
+  replace (bound_value s (Beside i one other b)) with (ratio * Claim.value b) in h by (unfold bound_value; cbn; unfold Rdiv; fold ratio; ring).
+  set (d := vsub (located one) (located other)).
+  replace (vsub (vscale ratio (located one)) (vscale ratio (located other))) with (vscale ratio d) in h by (unfold d, vsub, vscale; cbn [vx vy vz]; f_equal; ring).
+  assert (S1 : forall a b c e, Vec3.dot (vscale a b) (vscale c e) = a * c * Vec3.dot b e) by (intros; unfold Vec3.dot, vscale; cbn [vx vy vz]; ring).
+  rewrite !S1 in h. assert (L0 : L <> 0) by (intro z; rewrite z in L2; lra).
+  replace ((ratio * ratio * Vec3.dot d A) ^ 2 / (ratio * L) ^ 2) with (ratio ^ 2 * (Vec3.dot d A ^ 2 / L ^ 2)) in h by (field; split; lra).
+  assert (K : Claim.value b ^ 2 <= norm2 d - Vec3.dot d A ^ 2 / L ^ 2).
+  { apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. rewrite norm2_dot. rewrite Rpow_mult_distr in h. lra. }
+  apply Rle_trans with (1 := K).
+  replace (norm2 (vsub (vadd (vsub C (vscale t0 A)) (located one)) (vadd (vsub C (vscale u0 A)) (located other))))
+    with (norm2 d + 2 * (u0 - t0) * Vec3.dot d A + (u0 - t0) ^ 2 * norm2 A) by (unfold d, norm2, Vec3.dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
+  rewrite A2. pose proof (pow2_ge_0 ((u0 - t0) * L + Vec3.dot d A / L)) as sq.
+  replace (((u0 - t0) * L + Vec3.dot d A / L) ^ 2) with ((u0 - t0) ^ 2 * L ^ 2 + 2 * (u0 - t0) * Vec3.dot d A + Vec3.dot d A ^ 2 / L ^ 2) in sq by (field; exact L0). lra.
+Qed.
+
+(** A = q row, q^2 = D. *)
+Lemma row_scaled : forall g l, represents Q theta g (resized ratio l) -> reaches P l ->
+  exists q, q <> 0 /\ q ^ 2 = value x theta (f_D g) /\ forall v, Vec3.dot (vvalue Q theta (f_A g)) v = q * Vec3.dot (row l P) v.
+Proof.
+  intros g l [R1 [_ [_ [_ [R2 _]]]]] re. pose proof ratio_pos as r0. destruct (resized_same ratio P r0 l) as [er [_ eq]].
+  pose proof (R2 (proj2 eq re)) as D. destruct (R1 D) as [_ h]. rewrite er in h. clear R1 R2 er eq.
+  set (A := vvalue Q theta (f_A g)) in *. set (n := row l P) in *. set (d := value x theta (f_D g)) in *. clearbody A n d.
+  assert (E : forall v, Vec3.dot A v ^ 2 = d * Vec3.dot n v ^ 2) by (intro v; rewrite <- h; field; lra).
+  destruct (Req_dec (norm2 n) 0) as [z | z].
+  - apply norm2_zero in z. subst n. exists (sqrt d). split; [apply Rgt_not_eq, sqrt_lt_R0, D |]. split; [rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra |].
+    intro v. specialize (E v). unfold Vec3.dot, vzero in *. cbn [vx vy vz] in *. nra.
+  - set (q := Vec3.dot A n / norm2 n). assert (q2 : q ^ 2 = d).
+    { unfold q. unfold Rdiv. rewrite Rpow_mult_distr, E, <- norm2_dot. field. exact z. }
+    assert (qn : q <> 0) by (intro k; rewrite k in q2; lra). exists q. split; [exact qn |]. split; [exact q2 |]. intro v.
+    pose proof (E (vadd v n)) as S1. pose proof (E v) as S2. pose proof (E n) as S3.
+    assert (Da : forall u, Vec3.dot u (vadd v n) = Vec3.dot u v + Vec3.dot u n) by (intro; unfold Vec3.dot, vadd; cbn [vx vy vz]; ring). rewrite !Da in S1.
+    assert (M : Vec3.dot A v * Vec3.dot A n = d * (Vec3.dot n v * Vec3.dot n n)) by nra.
+    rewrite <- norm2_dot in M. assert (An : Vec3.dot A n = q * norm2 n) by (unfold q; field; exact z). rewrite An, <- q2 in M.
+    apply Rmult_eq_reg_r with (q * norm2 n); [| apply Rmult_integral_contrapositive_currified; assumption]. rewrite M. ring.
+Qed.
+
+Lemma whole_forces : forall l m0, Forall2 (represents Q theta) l (map (resized ratio) m0) -> Forall (reaches P) m0 ->
+  forall tau, length tau = length m0 -> exists u, length u = length l /\
+    (forall v, Linear.dot (Solve.weighted_sum u (map fst (map_rows (value x theta) (whole_rows l)))) (coordinates v) = joint_power m0 tau P v) /\
+    (l <> [] -> exists w, Solve.weighted_sum u (map fst (map_rows (value x theta) (whole_rows l))) = coordinates w) /\
+    forall i, nth i (map snd (map_rows (value x theta) (whole_rows l))) 0 * nth i u 0 ^ 2 = nth i tau 0 ^ 2.
+Proof.
+  induction l as [| f l IH]; intros [| g m0] R0 RE [| y tau] e; try discriminate; try (inversion R0; fail).
+  - exists []. split; [reflexivity |]. split; [reflexivity |]. split; [intro n; contradiction |]. intros [| i]; cbn; ring.
+  - cbn [map] in R0. apply cons_related in R0 as [R1 R0]. inversion RE as [| ? ? re RE']; subst.
+    destruct (IH m0 R0 RE' tau ltac:(cbn in e; congruence)) as [u [lu [hu [hw hi]]]]. destruct (row_scaled f g R1 re) as [q [qn [q2 hq]]].
+    exists (y / q :: u). change (whole_rows (f :: l)) with ((list_of (f_A f), f_D f) :: whole_rows l). rewrite map_rows_cons. cbn [map fst snd Solve.weighted_sum].
+    split; [cbn; congruence |]. split; [| split].
+    + intro v. rewrite dot_comb, hu, values_list, dot_coordinates, hq. cbn [joint_power]. field. exact qn.
+    + intros _. rewrite values_list. destruct l as [| f' l'].
+      * destruct u; [| discriminate]. exists (vscale (y / q) (vvalue Q theta (f_A f))). reflexivity.
+      * destruct (hw ltac:(discriminate)) as [w ->]. exists (vadd (vscale (y / q) (vvalue Q theta (f_A f))) w).
+        unfold coordinates, comb, vadd, vscale. cbn [merge vx vy vz]. f_equal; [ring |]. f_equal; [ring |]. f_equal; ring.
+    + intros [| i]; cbn [nth]; [| apply hi]. rewrite <- q2. field. exact qn.
+Qed.
+
+Lemma force_fulfilled : forall i tool b k2 g, r = JointForce i tool b -> nth_error fs i = Some g -> 0 < Claim.value tool -> 0 < Claim.value b ->
+  contains k2 ((Claim.value tool / Claim.value b) ^ 2) ->
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x (Solved i k2) -> fulfils (workspace c) m P r.
+Proof.
+  intros i tool b k2 g er ng t0 b0 K H. subst r. destruct (leg_at i g ng) as [l [nl _]]. cbn [fulfils]. split; [exists l; exact nl |].
+  intros tau F lt hF le. cbn [Check.holds] in H. rewrite (rows_found tape _ whole_found) in H. destruct H as [_ [l3 H]].
+  destruct (whole_forces fs m represented reached tau lt) as [u [lu [hu [hw hi]]]].
+  assert (lr : length (map_rows (value x theta) (whole_rows fs)) = length fs) by (unfold map_rows, whole_rows; rewrite !map_length; reflexivity).
+  destruct (hw ltac:(intro z; rewrite z in ng; destruct i; discriminate)) as [w ew].
+  assert (wF : w = F).
+  { assert (G : forall v, Vec3.dot w v = Vec3.dot F v) by (intro v; rewrite hF, <- hu, ew, dot_coordinates; reflexivity).
+    pose proof (G e1) as G1. pose proof (G e2) as G2. pose proof (G e3) as G3. unfold Vec3.dot, e1, e2, e3 in G1, G2, G3. cbn [vx vy vz] in G1, G2, G3. apply vec_ext; lra. }
+  subst w. specialize (hi i). set (tl_ := Claim.value tool) in *. set (y := Claim.value b) in *.
+  enough (Q2 : nth i tau 0 ^ 2 <= y ^ 2) by (apply Rabs_le; split; nra).
+  destruct (Rlt_dec 0 (Linear.dot u u)) as [nz | z].
+  - specialize (H _ u K (pow2_ge_0 _) ltac:(congruence) nz). cbv zeta in H. rewrite ew, dot_coordinates, <- norm2_dot, hi in H.
+    assert (E : (tl_ / y) ^ 2 * nth i tau 0 ^ 2 = tl_ ^ 2 * (nth i tau 0 / y) ^ 2) by (field; lra).
+    assert (t2 : 0 < tl_ ^ 2) by (apply pow_lt; exact t0). assert ((nth i tau 0 / y) ^ 2 < 1) by (apply Rmult_lt_reg_l with (tl_ ^ 2); lra).
+    replace (nth i tau 0 ^ 2) with ((nth i tau 0 / y) ^ 2 * y ^ 2) by (field; lra). pose proof (pow2_ge_0 y). nra.
+  - pose proof (zero_vector u ltac:(lra)) as Z0. assert (un : nth i u 0 = 0).
+    { destruct (nth_in_or_default i u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
+    rewrite <- hi, un. pose proof (pow2_ge_0 y). lra.
+Qed.
+
+Lemma acceleration_fulfilled : forall i a v b, r = JointAcceleration i a v b -> 0 <= Claim.value a -> 0 < Claim.value b ->
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
+Proof.
+  intros i a v b er a0 b0 [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
+  cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (leg_at i g ng) as [l [nl [R0 re]]].
+  assert (ok : well_formed_leg l) by (apply (proj1 (Forall_forall _ _) built), (nth_error_In _ _ nl)).
+  set (q := numbered (snd j) (extras s (JointAcceleration i a v b))) in *.
+  assert (K : value x theta (nth 0 q (integer 0)) = ratio * (Claim.value v ^ 2 / Claim.value b)).
+  { rewrite (value_at _ _ _ _ _ EX). unfold exact_value. cbn. unfold Rdiv. fold ratio. ring. }
+  assert (A : value x theta (quantity (bound_of s (JointAcceleration i a v b)) (fst j)) = Claim.value a / Claim.value b).
+  { rewrite B. unfold bound_value. cbn [bound_of fst snd exactly greatest Claim.value]. rewrite two_to_0. unfold Rdiv. rewrite Rinv_1. ring. }
+  set (fa := quantity (bound_of s (JointAcceleration i a v b)) (fst j)) in *. set (fb := nth 0 q (integer 0)) in *.
+  destruct R0 as [_ [_ [_ [_ [R2 [R3 [_ R7]]]]]]]. destruct (resized_same ratio P r0 l) as [_ [_ eq]]. pose proof (R2 (proj2 eq re)) as D.
+  cbn [fulfils]. exists l. split; [exact nl |]. intros path V e hp hv hc hV hA. unfold acceleration_formula in ef.
+  destruct (f_length g) as [len |] eqn:el.
+  - assert (e1 : minus (integer 1) (times (over len (root (f_D g))) (plus fa (times (over fb (rod g)) (square (over len (root (f_D g))))))) = f) by congruence.
+    subst f. destruct (R3 len eq_refl) as [k' [e2 [e3 [e4 _]]]]. destruct (guided_resized ratio P r0 l k' e2) as [k [-> [g1 [g2 _]]]].
+    cbn [row well_formed_leg reaches] in *. rewrite <- hp in re.
+    destruct (slider_acceleration k path V e ok re hv hc) as [y [h1 h2]]. exists y. split; [exact h1 |].
+    specialize (h2 (Claim.value a) (Claim.value v) a0 hV hA). cbv zeta in h2. apply Rle_trans with (1 := h2).
+    rewrite value_minus, value_times, value_plus, value_times, value_square, !value_over, value_root, A, K in h. unfold rod in h. rewrite el, e3, g1, (e4 D), g2 in h.
+    assert (Sq : sqrt ((ratio * eta k P) ^ 2) = ratio * Kinematics.s k P).
+    { rewrite <- hp. unfold eta. rewrite Rpow_mult_distr, Rpow_mult_distr, (mode_squared k ok), Rmult_1_l, <- Rpow_mult_distr.
+      apply sqrt_pow2. apply Rmult_le_pos; lra. }
+    rewrite Sq in h. rewrite hp in *. change (value x theta (integer 1)) with 1 in h.
+    set (z := Kinematics.s k P) in *. set (L := leg_length k) in *. assert (L0 : 0 < L) by apply ok.
+    replace (ratio * L / (ratio * z)) with (L / z) in h by (field; split; lra).
+    replace (ratio * (Claim.value v ^ 2 / Claim.value b) / (ratio * L)) with (Claim.value v ^ 2 / L / Claim.value b) in h by (field; repeat split; lra).
+    set (A0 := Claim.value a) in *. set (V0 := Claim.value v ^ 2 / L) in *. set (T := L / z) in *. set (b' := Claim.value b) in *.
+    replace (T * (A0 / b' + V0 / b' * T ^ 2)) with (T * (A0 + V0 * T ^ 2) * / b') in h by (field; lra).
+    apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. lra.
+  - destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
+    assert (e1 : minus (minus (integer 1) fa) (over fb (rod g)) = f) by congruence. subst f.
+    specialize (R7 tip eq_refl). unfold ratio in R7. rewrite rod_resized in R7 by exact r0. fold ratio in R7.
+    destruct l as [k | base platform axis | n]; [| | discriminate].
+    + exfalso. exact (slider_length s (legs c) m machine ds 0 i g k ng nl el).
+    + cbn [rod_of] in R7. assert (e2 : value x theta (rod g) = ratio * sqrt (norm2 (span base platform P))) by congruence.
+      cbn [row well_formed_leg reaches] in *. rewrite <- hp in re.
+      destruct (strut_acceleration base platform path V e re hv hc) as [y [h1 h2]]. exists y. split; [exact h1 |].
+      apply Rle_trans with (1 := h2 (Claim.value a) (Claim.value v) a0 hV hA). rewrite !value_minus, value_over, A, K, e2 in h.
+      change (value x theta (integer 1)) with 1 in h. rewrite hp in *. pose proof (sqrt_lt_R0 _ re) as z0. set (z := sqrt (norm2 (span base platform P))) in *.
+      replace (ratio * (Claim.value v ^ 2 / Claim.value b) / (ratio * z)) with (Claim.value v ^ 2 / z / Claim.value b) in h by (field; repeat split; lra).
+      set (A0 := Claim.value a) in *. set (V0 := Claim.value v ^ 2 / z) in *. set (b' := Claim.value b) in *.
+      apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. unfold Rdiv in h. lra.
+Qed.
+
+Lemma fulfilled : fulfils (workspace c) m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
-  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF.
+  pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF. pose proof force_fulfilled as FF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
-      is_least r = false -> fulfils m P r).
+      is_least r = false -> fulfils (workspace c) m P r).
   { intros E least. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
     - apply (SF least f eq_refl), (NN f); [left; reflexivity | exact H].
     - apply (MF least f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -843,8 +1096,33 @@ Proof.
     destruct (enclose_parameter bits (bound_of s (Clearance one other b))) as [distance |] eqn:ed; [| discriminate].
     destruct (0 <=? lo distance)%Z eqn:d0; [| discriminate]. injection T as <-.
     exact (CF one other b a a' c' d' distance eq_refl es (enclose_parameter_sound bits _ _ _ ed (bound_within s _)) (proj1 (Z.leb_le _ _) d0) H).
+  - apply (BF i one other b eq_refl). destruct (range_formula fs s j (Beside i one other b)) as [| f [| g [|]]] eqn:E; try discriminate; injection T as <-.
+    + exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
+    + exfalso. cbn [range_formula] in E. destruct (nth_error fs i) as [k |]; [| discriminate]. destruct (f_tip k); discriminate.
+  - destruct (range_formula fs s j (JointAcceleration i a v b)) as [| f [|]] eqn:E; try discriminate.
+    destruct (Compare.certainly bits false a && Compare.certainly bits true b) eqn:ce; [| discriminate]. injection T as <-.
+    apply andb_true_iff in ce as [c1 c2]. apply (AF i a v b eq_refl (Compare.nonneg_sound _ _ c1) (Compare.positive_sound _ _ c2)).
+    exists f. split; [reflexivity |]. apply (NN f); [left; reflexivity | exact H].
+  - destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate].
+    destruct (Compare.certainly bits true tool && Compare.certainly bits true b) eqn:ce; [| discriminate]. apply andb_true_iff in ce as [c1 c2].
+    destruct (enclose_parameter bits (bound_of s (JointForce i tool b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
+    apply (FF i tool b (sqr bits a) g eq_refl ng (Compare.positive_sound _ _ c1) (Compare.positive_sound _ _ c2)); [| exact H].
+    apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (JointForce i tool b))) as K.
+    unfold bound_value in K. cbn [bound_of fst snd exactly greatest Claim.value] in K. rewrite two_to_0 in K. unfold Rdiv in K at 1. rewrite Rinv_1, Rmult_1_r in K. exact K.
+  - exact (unique eq_refl).
 Qed.
 End Accepted.
+
+(** Two bodies on one leg are as far apart as the lines along them. *)
+Theorem beside_keeps : forall w m P i one other r r' t u t' u' b,
+  fulfils w m P (Beside i one other (Plus (Plus r r') b)) -> fulfils w m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
+Proof.
+  intros w m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
+  do 4 eexists. split; [reflexivity |]. split; [reflexivity |]. intros y z _ _. cbn [radius_of].
+  set (a1 := 1 - Claim.value t / L). set (a2 := Claim.value u / L). set (a3 := 1 - Claim.value t' / L). set (a4 := Claim.value u' / L).
+  specialize (h ((1 - y) * a1 + y * a2) ((1 - z) * a3 + z * a4)). cbn [Claim.value] in h. apply Rle_trans with (1 := h), Req_le.
+  f_equal. unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+Qed.
 
 (** Every requirement has its test, and its numbers their places. *)
 Lemma requirement_at : forall place fs s rs j k r, nth_error rs k = Some r -> exists i front back,
@@ -876,15 +1154,60 @@ Proof.
     apply numbered_values, extras_within.
 Qed.
 
-(** Soundness: what the checker accepts is true of every machine and point of the claim. *)
-Theorem check_claim_sound : forall c s ds t, check_claim c s ds t = true -> Statement.holds c.
+(** Two points with the same joint coordinates: the form at the one is that at the other, of the opposite sign. *)
+Lemma chords_cancel : forall s Y places m fs P P' theta,
+  Forall2 (represents (vscale (/ two_to s) P) theta) fs (map (resized (/ two_to s)) m) ->
+  Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
+  Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
+  let v := coordinates (vsub (vscale (/ two_to s) P') (vscale (/ two_to s) P)) in
+  let form_at P := form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (value (coordinates (vscale (/ two_to s) P)) theta) (whole_rows fs))) v in
+  form_at P + form_at P' = 0.
 Proof.
-  intros c s ds t h m P hm hP. unfold check_claim in h. cbn zeta in h.
+  intros s Y places m fs P P' theta h h' ok re re' e v form_at. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
+  unfold form_at. clear form_at. revert Y m h h' ok re re' e. induction fs as [| f fs IH]; intros Y m h h' ok re re' e.
+  - destruct Y; cbn; lra.
+  - destruct m as [| l m]; [inversion h |]. cbn [map] in h, h'. apply cons_related in h as [hl h]. apply cons_related in h' as [hl' h'].
+    apply Forall_cons_iff in ok as [ok1 ok]. apply Forall_cons_iff in re as [re1 re]. apply Forall_cons_iff in re' as [re1' re']. apply Forall_cons_iff in e as [e1 e].
+    destruct Y as [| y Y]; [cbn; lra |]. specialize (IH Y m h h' ok re re' e).
+    change (whole_rows (f :: fs)) with ((list_of (f_A f), f_D f) :: whole_rows fs). rewrite !map_rows_cons. cbn [map fst lower_weights form]. fold (lower_weights places Y v).
+    destruct hl as [_ [[_ hA] _]]. destruct hl' as [_ [[_ hA'] _]]. rewrite !values_list, hA, hA'.
+    assert (G : forall u, Linear.dot (coordinates u) v = Vec3.dot u (vsub (vscale ratio P') (vscale ratio P))) by (intro; apply dot_coordinates). rewrite !G.
+    destruct (resized_same ratio P r0 l) as [_ [j1 q1]]. destruct (resized_same ratio P' r0 l) as [_ [j2 q2]].
+    assert (C : Vec3.dot (vadd (vector_of (resized ratio l) (vscale ratio P)) (vector_of (resized ratio l) (vscale ratio P'))) (vsub (vscale ratio P') (vscale ratio P)) = 0).
+    { apply chord; [apply (well_formed_resized ratio r0 l), ok1 | apply q1, re1 | apply q2, re1' | rewrite j1, j2, e1; reflexivity]. }
+    assert (Da : forall a b w, Vec3.dot (vadd a b) w = Vec3.dot a w + Vec3.dot b w) by (intros; unfold Vec3.dot, vadd; cbn [vx vy vz]; ring). rewrite Da in C.
+    set (t := Linear.dot (map (Y_value places) y) v) in *.
+    set (a := Vec3.dot (vector_of (resized ratio l) (vscale ratio P)) _) in *. set (b := Vec3.dot (vector_of (resized ratio l) (vscale ratio P')) _) in *.
+    assert (E0 : 2 * t * (a + b) = 0) by (rewrite C; ring). lra.
+Qed.
+
+Lemma one_to_one : forall s fs m P P' theta tape, (forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
+  Forall2 (represents (vscale (/ two_to s) P) theta) fs (map (resized (/ two_to s)) m) ->
+  Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
+  Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
+  forall places Y divided,
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P)) (Chords places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P')) (Chords places Y) ->
+  P' = P.
+Proof.
+  intros s fs m P P' theta tape found h h' ok re re' e places Y divided H H'.
+  pose proof (chords_cancel s Y places m fs P P' theta h h' ok re re' e) as C. cbv zeta in C. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
+  set (d := vsub (vscale (/ two_to s) P') (vscale (/ two_to s) P)) in *.
+  destruct (vzero_dec d) as [z | nz].
+  - unfold d, vsub, vscale, vzero in z. injection z as z1 z2 z3. apply vec_ext; apply Rmult_eq_reg_l with (/ two_to s); lra.
+  - exfalso. cbn [Check.holds] in H, H'. rewrite (rows_found tape _ found) in H, H'. destruct H as [_ H], H' as [_ H'].
+    specialize (H (coordinates d) eq_refl (nonzero_coordinates d nz)). specialize (H' (coordinates d) eq_refl (nonzero_coordinates d nz)). lra.
+Qed.
+
+(** Soundness: what the checker accepts is true of every machine and point of the claim. *)
+Theorem check_claim_by_sound : forall c s ds t, check_claim_by c s ds t = true -> Statement.holds c.
+Proof.
+  intros c s ds t h m P0 hm hP0. unfold check_claim_by in h. cbn zeta in h.
   set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c)) in *.
   set (tape := fst (compile needed)) in *.
   destruct (forallb _ needed) eqn:found; [| discriminate].
-  destruct (existsb is_lower (require c)) eqn:low; [| discriminate].
+  destruct (existsb is_lower (require c) && are_buildable s ds (legs c)) eqn:low; [| discriminate]. apply andb_true_iff in low as [low able].
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three (hull (workspace c)) s))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (tests_of _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
@@ -894,6 +1217,19 @@ Proof.
   set (tb := map (bound_value s) (require c) ++ map exact_value (flat_map (extras s) (require c))).
   pose proof (Forall2_app (bounds_within s (require c)) (all_extras_within s (require c))) as B. fold tb in B.
   pose proof (enclosed_all _ _ _ ep (Forall2_app L B)) as T.
+  assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
+    by (intros e i; apply Found, in_or_app; left; exact i).
+  assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
+    by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
+  apply existsb_exists in low as [r0 [i0 l0]]. assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
+  assert (Point : forall P, in_region (workspace c) P -> Forall2 (represents (vscale (/ two_to s) P) (th ++ tb)) fs (map (resized (/ two_to s)) m) /\
+    Forall (reaches P) m /\ injective m P /\ forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
+    map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
+    (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
+    test_of (place (formulas tape)) fs s j r = Some u /\
+    Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
+      (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
+  { intros P hP.
   pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
   pose proof (check_all_open bits tape _ _ _ params tests (tangent (workspace c) s) (th ++ tb) T
@@ -902,11 +1238,6 @@ Proof.
       (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda z)) d _ a))
     t box _ h X eq_refl) as H. rewrite three_of_them in H.
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
-  assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
-  assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
-    by (intros e i; apply Found, in_or_app; left; exact i).
-  assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
-    by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
   assert (Each : forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
     map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
     (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
@@ -921,10 +1252,19 @@ Proof.
     - intros f g. apply Found, in_or_app. right. apply in_or_app. right. exact (h3 f g).
     - exact e2.
     - exact (H u iu). }
-  apply existsb_exists in low as [r0 [i0 l0]]. destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
+  destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
   destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
+  split; [exact R |]. split; [exact h1 |]. split; [exact h2 | exact Each]. }
+  pose proof (are_buildable_sound s _ _ hm ds able) as built. destruct (Point P0 hP0) as [R0 [h1 [h2 Each]]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V j r F1 F0 F2 u F3 F4 h1).
+  apply (fulfilled c s ds m P0 (th ++ tb) tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). intro er. subst r.
+  cbn [fulfils]. intros P1 hP1 reached1 same. destruct (Point P1 hP1) as [R1 [_ [_ Each1]]]. destruct (Each1 _ i) as [j1 [u1 [_ [_ [_ [G3 G4]]]]]].
+  cbn [test_of] in F3, G3. injection F3 as <-. injection G3 as <-.
+  exact (one_to_one s fs m P0 P1 (th ++ tb) tape W R0 R1 built h1 reached1 same _ _ _ F4 G4).
 Qed.
 End Precision.
+
+Definition check_claim (bits : positive) : claim -> Z -> list Z -> tree -> bool := check_claim_by bits (0%N, []).
+Corollary check_claim_sound : forall bits c s ds t, check_claim bits c s ds t = true -> Statement.holds c.
+Proof. intro bits. apply check_claim_by_sound. Qed.

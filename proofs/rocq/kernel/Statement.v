@@ -6,7 +6,7 @@
     proved; the checker does not. *)
 
 From Coq Require Import ZArith Reals List.
-From Orthocert Require Import Vec3 SingularValues Kinematics Claim.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -55,8 +55,16 @@ Definition couple (axis w : vec) : vec := vsub w (vscale (dot axis w) axis).
 Definition couple_of (l : leg) (P : vec) : option vec :=
   match l with Extensible base platform (Some axis) => Some (couple axis (span base platform P)) | _ => None end.
 
+(** Row i of A: the leg's vector, or a plane's normal. *)
+Definition vector_of (l : leg) (P : vec) : vec :=
+  match l with Guided l => leg_vector l P | Extensible base platform _ => span base platform P | Plane n => normalised n end.
+
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
+
+(** The power of joint forces tau where the platform moves with v. *)
+Fixpoint joint_power (m : list leg) (tau : list R) (P v : vec) : R :=
+  match m, tau with l :: m', t :: tau' => t * dot (row l P) v + joint_power m' tau' P v | _, _ => 0 end.
 
 (** ** Bodies: all within [radius] of a segment *)
 
@@ -135,7 +143,13 @@ Inductive requirement :=
   | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three sliders *)
   | Stiffness (joint b : number)                       (* M^T joint M, with rigid legs *)
   | ConstraintMargin (b : number)                      (* sigma_min of the unit couples, of struts with an axis *)
-  | Clearance (one other : body) (b : number).         (* the distance of two bodies *)
+  | Clearance (one other : body) (b : number)          (* the distance of two bodies *)
+  (* of the lines along a leg, moved by [one] and by [other]: two bodies beside each other on it *)
+  | Beside (leg : nat) (one other : position) (distance : number)
+  (* of no motion of the platform with these acceleration and speed at most *)
+  | JointAcceleration (leg : nat) (acceleration speed b : number)
+  | JointForce (leg : nat) (tool b : number)           (* of no static force on the platform up to [tool] *)
+  | OneToOne.                                          (* no two points of the workspace have the same joint coordinates *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -145,7 +159,7 @@ Definition is_machine (c : claim) (m : list leg) : Prop := Forall2 is_leg_of (le
 (** M is injective: no motion of the platform leaves all joints at rest. *)
 Definition injective (m : list leg) (P : vec) : Prop := forall v, v <> vzero -> 0 < speed2 m P v.
 
-Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
+Definition fulfils (w : region) (m : list leg) (P : vec) (r : requirement) : Prop :=
   match r with
   | NotSingular => injective m P
   | PsiMax b => forall v, (1 / value b) ^ 2 * norm2 v <= speed2 m P v
@@ -164,11 +178,21 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | Clearance one other b => exists p p' q q', segment_of m P one = Some (p, p') /\ segment_of m P other = Some (q, q') /\
       forall s t, 0 <= s <= 1 -> 0 <= t <= 1 ->
       (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q'))
+  | Beside i one other distance => exists l C A L, nth_error m i = Some l /\ rod_of l P = Some (C, A, L) /\ forall t u,
+      value distance ^ 2 <= norm2 (vsub (vadd (vsub C (vscale t A)) (located one)) (vadd (vsub C (vscale u A)) (located other)))
+  (* row . V is the joint's speed *)
+  | JointAcceleration i acceleration speed b => exists l, nth_error m i = Some l /\ forall path V a,
+      path 0 = P -> has_velocity path 0 (V 0) -> has_velocity V 0 a -> norm2 (V 0) <= value speed ^ 2 -> norm2 a <= value acceleration ^ 2 ->
+      exists y, derivable_pt_lim (fun t => dot (row l (path t)) (V t)) 0 y /\ Rabs y <= value b
+  (* virtual work: the joint forces tau hold the force F on the platform *)
+  | JointForce i tool b => (exists l, nth_error m i = Some l) /\ forall tau F, Datatypes.length tau = Datatypes.length m ->
+      (forall v, dot F v = joint_power m tau P v) -> norm2 F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
+  | OneToOne => forall P', in_region w P' -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m -> P' = P
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)
 Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
-  Forall (reaches P) m /\ injective m P /\ Forall (fulfils m P) (require c).
+  Forall (reaches P) m /\ injective m P /\ Forall (fulfils (workspace c) m P) (require c).
 
 Definition holds (c : claim) : Prop :=
   forall m P, is_machine c m -> in_region (workspace c) P -> meets c m P.

@@ -388,6 +388,29 @@ Proof.
   replace (at_lambda lambda (0, [])) with 0 in F by (unfold at_lambda; cbn; ring). rewrite Rmult_0_l in F. exact F.
 Qed.
 
+(** The same form, where [less] is not negative. *)
+Definition chords (m : nat) (less : option slope) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
+  sigma_min m match less with Some t => t | None => Slope zero zero [] end places Y (without_D (Slope zero zero []) r).
+
+Theorem chords_sound : forall less places Y r es lambda v, chords (length lambda) less places Y r = true ->
+  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
+  match less with Some t => exists e, entry_in t e /\ 0 <= at_lambda lambda e | None => True end ->
+  length v = length lambda -> nonzero v ->
+  0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)) v.
+Proof.
+  intros less places Y r es lambda v h hr hl hs len nz.
+  assert (Z : entry_in (Slope zero zero []) (0, [])) by (split; [apply zero_sound | constructor]).
+  assert (T : exists e, entry_in match less with Some t => t | None => Slope zero zero [] end e /\ 0 <= at_lambda lambda e).
+  { destruct less as [t |]; [exact hs |]. exists (0, []). split; [exact Z | unfold at_lambda; cbn; lra]. }
+  destruct T as [e [he e0]]. set (es0 := map (fun p => (fst p, (0, [] : list R))) es).
+  assert (R0 : rows_rel entry_in (without_D (Slope zero zero []) r) es0)
+    by (eapply map_related; [| exact hr]; intros a b [k _]; split; [exact k | exact Z]).
+  assert (E : map_rows (at_lambda lambda) es0 = map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)).
+  { unfold es0, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. unfold at_lambda at 2. cbn. f_equal. ring. }
+  pose proof (sigma_min_form _ _ _ _ _ _ lambda v h he R0 hl len nz) as F. rewrite E in F.
+  assert (0 <= at_lambda lambda e * dot v v) by (apply Rmult_le_pos; [exact e0 | apply Rlt_le, nz]). lra.
+Qed.
+
 (** ** A sign at the vertices *)
 
 Definition sign_there (m : nat) (f : slope) : bool := forallb (fun s => (0 <=? lo (at_vertex s f))%Z) (signs m).

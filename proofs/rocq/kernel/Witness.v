@@ -10,89 +10,17 @@
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Arithmetic Number Machine Problem.
+From Orthocert.kernel Require Export Compare.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(** ** Comparing numbers *)
-
-Fixpoint same (x y : number) : bool :=
-  match x, y with
-  | Ratio n d, Ratio n' d' => (n =? n')%Z && (d =? d')%positive
-  | Plus a b, Plus a' b' | Minus a b, Minus a' b' | Times a b, Times a' b' | Over a b, Over a' b' => same a a' && same b b'
-  | Root a, Root a' => same a a'
-  | _, _ => false
-  end.
-
-Lemma same_sound : forall x y, same x y = true -> x = y.
-Proof.
-  induction x; destruct y; cbn [same]; intro h; try discriminate;
-    try (apply andb_true_iff in h as [h k]; f_equal; auto); [| | f_equal; auto].
-  - apply Z.eqb_eq, h.
-  - apply Pos.eqb_eq, k.
-Qed.
-
-(** The number, where it has no roots. *)
-Fixpoint rational (x : number) : option Q :=
-  let both f a b := match rational a, rational b with Some p, Some q => f p q | _, _ => None end in
-  match x with
-  | Ratio n d => Some (n # d)%Q
-  | Plus a b => both (fun p q => Some (Qplus p q)) a b
-  | Minus a b => both (fun p q => Some (Qminus p q)) a b
-  | Times a b => both (fun p q => Some (Qmult p q)) a b
-  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
-  | Root _ => None
-  end.
-
-Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
-Proof.
-  induction x as [n d | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a _]; intros q h; cbn [rational] in h; [| | | | | discriminate];
-    try (destruct (rational a) as [p |]; [| discriminate]; destruct (rational b) as [r |]; [| discriminate];
-      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
-  - injection h as <-. reflexivity.
-  - injection h as <-. symmetry. apply Q2R_plus.
-  - injection h as <-. symmetry. apply Q2R_minus.
-  - injection h as <-. symmetry. apply Q2R_mult.
-  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
-    intro e. apply Qeq_bool_iff in e. congruence.
-Qed.
-
 Section Precision.
 Variable bits : positive.
-
-(** [0 <= x], or [0 < x]. *)
-Definition certainly (strictly : bool) (x : number) : bool :=
-  match rational x with
-  | Some q => if strictly then negb (Qle_bool q 0) else Qle_bool 0 q
-  | None => match enclose bits x with Some a => if strictly then (0 <? lo a)%Z else (0 <=? lo a)%Z | None => false end
-  end.
-
-Lemma positive_sound : forall x, certainly true x = true -> 0 < value x.
-Proof.
-  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
-  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qlt_Rlt, Qnot_le_lt.
-    intro l. apply Qle_bool_iff in l. rewrite l in h. discriminate.
-  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.ltb_lt in h.
-    exact (contains_positive bits _ _ h (enclose_sound bits _ _ e)).
-Qed.
-
-Lemma nonneg_sound : forall x, certainly false x = true -> 0 <= value x.
-Proof.
-  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
-  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qle_Rle, Qle_bool_iff, h.
-  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.leb_le in h.
-    exact (contains_nonneg bits _ _ h (enclose_sound bits _ _ e)).
-Qed.
-
-(** A number without an enclosure is none: division is total here, and so is the root. *)
-Definition is_number (x : number) : bool := match enclose bits x with Some _ => true | None => false end.
-
-Definition below (x y : number) : bool := same x y && is_number x || certainly false (Minus y x).
-
-Lemma below_sound : forall x y, below x y = true -> value x <= value y.
-Proof.
-  intros x y h. apply orb_true_iff in h as [h | h]; [apply andb_true_iff in h as [h _]; apply same_sound in h; subst; lra |].
-  apply nonneg_sound in h. cbn [value] in h. lra.
-Qed.
+Local Notation certainly := (certainly bits).
+Local Notation below := (below bits).
+Local Notation positive_sound := (positive_sound bits).
+Local Notation nonneg_sound := (nonneg_sound bits).
+Local Notation below_sound := (below_sound bits).
 
 (** ** Vectors of numbers *)
 
@@ -156,12 +84,6 @@ Definition is_exact (d : drive) (l : exact_leg) : bool :=
   | PlanarLeg d, ExactPlanar d' => parts d d' && certainly true (product d' d')
   | _, _ => false
   end.
-
-Lemma normalised_norm : forall v, 0 < norm2 v -> norm2 (normalised v) = 1.
-Proof.
-  intros v h. unfold normalised. rewrite norm2_scale. pose proof (sqrt_lt_R0 _ h) as p.
-  rewrite <- Rsqr_pow2, Rsqr_inv' , Rsqr_sqrt by lra. field. lra.
-Qed.
 
 Lemma is_exact_sound : forall d l, is_exact d l = true -> is_leg_of d (leg_of l) /\ well_formed_leg (leg_of l).
 Proof.
@@ -418,6 +340,19 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           certainly true (Minus (Times d d) (product w w))
       | _, _ => false
       end
+  (* the lines are nearest where d + x A is orthogonal to A *)
+  | Beside i one other b =>
+      match nth_error ls i with
+      | Some l => match nrod l P with
+          | Some (C, A, L) =>
+              let d := each2 Minus (nposition one) (nposition other) in
+              certainly true (product A A) &&
+              certainly true (Minus (Times b b) (Minus (product d d) (Over (Times (product d A) (product d A)) (product A A))))
+          | None => false
+          end
+      | None => false
+      end
+  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -463,30 +398,33 @@ Proof.
   rewrite IH, value_product, values_unit. ring.
 Qed.
 
+Lemma nrod_sound : forall l P C A L, nrod l P = Some (C, A, L) -> rod_of (leg_of l) (values P) = Some (values C, values A, value L).
+Proof.
+  intros [d a p0 len m | a p0 k | d] P C A L e; cbn [nrod] in e; [| | discriminate]; injection e as <- <- <-; cbn [leg_of rod_of].
+  - rewrite leg_vector_eq, values_plus, values_plus, values_scaled, values_unit, value_signed_root,
+      (values_across d a p0 (value len) (if m then 1 else -1) P). reflexivity.
+  - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity.
+Qed.
+
 Lemma nsegment_sound : forall ls P b p q, nsegment ls P b = Some (p, q) -> segment_of (map leg_of ls) (values P) b = Some (values p, values q).
 Proof.
   intros ls P b p q h.
-  assert (Rod : forall l C A L, nrod l P = Some (C, A, L) -> rod_of (leg_of l) (values P) = Some (values C, values A, value L)).
-  { intros [d a p0 len m | a p0 k | d] C A L e; cbn [nrod] in e; [| | discriminate]; injection e as <- <- <-; cbn [leg_of rod_of].
-    - rewrite leg_vector_eq, values_plus, values_plus, values_scaled, values_unit, value_signed_root,
-        (values_across d a p0 (value len) (if m then 1 else -1) P). reflexivity.
-    - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity. }
   destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_of] in *.
   - rewrite nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
     destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate]. cbv zeta in h. injection h as <- <-.
-    rewrite (Rod _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
+    rewrite (nrod_sound _ _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
   - injection h as <- <-. reflexivity.
   - injection h as <- <-. reflexivity.
 Qed.
 
-Lemma fails_sound : forall ls P u v r, fails ls P u v r = true -> ~ fulfils (map leg_of ls) (values P) r.
+Lemma fails_sound : forall w ls P u v r, fails ls P u v r = true -> ~ fulfils w (map leg_of ls) (values P) r.
 Proof.
-  intros ls P u v r h F.
+  intros w ls P u v r h F.
   assert (B : forall b, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u)) = (1 / value b) ^ 2 * norm2 (values u)).
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b |]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -547,6 +485,19 @@ Proof.
       unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; field; lra. }
     rewrite E, norm2_scale in far. assert (n ^ 2 * d ^ 2 <= n ^ 2 * norm2 (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c'))))
       by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact F]). nra.
+  - destruct F as [l [C [A [L [n [e F]]]]]]. destruct (At i l n) as [k [e' ->]]. rewrite e' in h.
+    destruct (nrod k P) as [[[C' A'] L'] |] eqn:er; [| discriminate]. rewrite (nrod_sound _ _ _ _ _ er) in e.
+    assert (eA : values A' = A) by congruence. subst A. cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2.
+    rewrite value_square in h1. cbn [value] in h2. rewrite !value_square, !value_product in h2.
+    set (d := values (each2 Minus (nposition one) (nposition other))) in *. set (a := values A') in *. set (y := dot d a / norm2 a).
+    specialize (F y 0). replace (norm2 (vsub (vadd (vsub C (vscale y a)) (located one)) (vadd (vsub C (vscale 0 a)) (located other))))
+      with (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) in F
+      by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
+          unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
+    replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
+  - discriminate.
+  - discriminate.
+  - discriminate.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)
@@ -557,10 +508,10 @@ Proof.
   - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
     apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
     rewrite Forall_forall in reached. apply reached, in_map, il.
-  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound _ _ _ _ _ h).
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound (workspace c) _ _ _ _ _ h).
     rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
-    apply (fails_sound _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+    apply (fails_sound (workspace c) _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
 Qed.
 
 (** ** A claim that is about something *)
@@ -581,12 +532,12 @@ Proof. intros c h. eexists; eexists. apply admits_sound, h. Qed.
 End Precision.
 
 (** A certified claim holds, and there is a machine and a point that it is about. *)
-Definition certify (exact bits : positive) (c : claim) (s : Z) (ds : list Z) (t : Check.tree) : bool :=
-  is_inhabited exact c && check_claim bits c s ds t.
+Definition certify (exact bits : positive) (chords : N * list (list Z)) (c : claim) (s : Z) (ds : list Z) (t : Check.tree) : bool :=
+  is_inhabited exact c && check_claim_by bits chords c s ds t.
 
-Theorem certify_sound : forall exact bits c s ds t, certify exact bits c s ds t = true ->
+Theorem certify_sound : forall exact bits chords c s ds t, certify exact bits chords c s ds t = true ->
   Statement.holds c /\ exists m P, is_about c m P.
 Proof.
-  intros exact bits c s ds t h. apply andb_true_iff in h as [i h].
-  split; [exact (check_claim_sound bits c s ds t h) | exact (inhabited exact c i)].
+  intros exact bits chords c s ds t h. apply andb_true_iff in h as [i h].
+  split; [exact (check_claim_by_sound bits chords c s ds t h) | exact (inhabited exact c i)].
 Qed.

@@ -203,6 +203,15 @@ const apart = [
     witness([1, 2, 3], '{"obligation":[1,[[1,2,3]]]}', ',"machine":["310","309.9","310.1"]'), "refuted"), 0, 300],
   [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1), fixed("base", [0, 0, 5], [0, 0, 90])],
     witness([1, 2, 303], '{"obligation":[1,[[1,2,3]]]}'), "refuted"), 0, 900],
+  // Beside each other on one leg, neither of them, one, or both as far from the leg as they are.
+  [clear(three, box, [along(1, [0, -40, 0]), along(1, [0, 40, 0])], tree('[1,"test"]'), "certified"), 0, 90],
+  [clear(toleranced, cylinder, [along(2), along(2, [30, 10, 40])], tree('[1,{"inside":["test",1,9]}]'), "certified"), 0, 90],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1, [0, 50, 0]), along(1)],
+    `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}],[1,"test"]]}]}}`, "certified"), 0, 90],
+  [clear(toleranced, box, [along(1, [20, -40, 0]), along(1, [0, 40, 9])],
+    witness([1, 2, 3], '{"obligation":[1,[]]}', ',"machine":["310","309.9","310.1"]'), "refuted"), 0, 120],
+  [clear([struts[0], struts[1], struts[2]], box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]'), [along(1, [0, 50, 0]), along(1)],
+    witness([1, 2, 303], '{"obligation":[1,[]]}'), "refuted"), 0, 120],
 ];
 for (const [text, low, high] of apart) narrowed(text, low, high);
 for (const text of [
@@ -212,6 +221,11 @@ for (const text of [
   clear(three, box, [along(1), along(1)], tree(`[1,${steady}]`), "certified"),
   clear(three, box, [along(1), along(4)], tree(`[1,${steady}]`), "certified"),
   clear([three[0], three[1], plane(0, 0, 1)], box, [along(1), along(3)], tree(`[1,${steady}]`), "certified"),
+  clear([three[0], three[1], plane(0, 0, 1)], box, [along(3), along(3, [0, 50, 0])], tree('[1,"test"]'), "certified"),
+  clear(three, box, [along(1), along(1, [0, 50, 0])], tree(`[1,${steady}]`), "certified"),
+  clear(three, box, [along(1), along(1, [0, 50, 0])], tree('[1,"negative"]'), "certified"),
+  clear(three, box, [along(1), along(1, [50, 0, 0])], tree('[1,"test"]'), "certified"),
+  clear(three, box, [along(1), along(1, [0, 0, 0])], tree('[1,"test"]'), "certified"),
   clear(three, box, [along(1), along(2).replace('"10"', '"-10"')], tree(`[1,${steady}]`), "certified"),
   clear(three, box, [along(1), along(2).replace('"30"', '"-30"')], tree(`[1,${steady}]`), "certified"),
   clear(three, box, legged, witness([1, 2, 3], '{"obligation":[1,[[10,8,9]]]}'), "refuted"),
@@ -220,8 +234,104 @@ for (const text of [
   const answers = all(text("1"));
   if (answers.some((answer) => answer !== "REJECTED")) fail(`clearance: ${answers}: ${text("1")}`);
 }
-fs.rmSync(beside, { recursive: true });
 console.log(`clearance: ${apart.length} pairs of bodies, with one answer at 42 bounds each`);
+
+// Quantities of single legs, in the same way.
+const asks = (legs, workspace, requirement, proof) => (b) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":` +
+  `{"translational":[${legs}]},"workspace":${workspace},"require":[${requirement(b)}]}},"verdict":"certified","proof":${proof},` +
+  `"provenance":{"tool":"t","version":"1"}}\n`;
+const all_struts = [struts[0], struts[1], struts[2]];
+const far = box.replaceAll('"-20"]', '"300"]').replaceAll('"30"]', '"320"]');
+const of_struts = (evidence) => `{"tree":{"precision":32,"nodes":[{"by":[[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}],${evidence}]}]}}`;
+const moves = (leg, a, v) => about("joint_acceleration", "max", `,"leg":${leg},"given":{"acceleration":["${a}"],"speed":["${v}"]}`);
+const accelerations = [
+  [asks(three, box, moves(1, 9000, 1200), tree('[1,"test"]')), 9000, 30000],
+  [asks(toleranced, box, moves(3, 0, 1200), tree('[1,"test"]')), 1, 30000],
+  [asks(toleranced, cylinder, moves(2, 9000, 0), tree('[1,{"inside":["test",1,9]}]')), 9000, 30000],
+  [asks(all_struts, far, moves(2, 9000, 1200), of_struts('[1,"test"]')), 9000, 30000],
+];
+for (const [text, low, high] of accelerations) narrowed(text, low, high);
+for (const text of [
+  asks(three, box, moves(1, -1, 0), tree('[1,"test"]')),
+  asks(three, box, moves(1, 0, -1), tree('[1,"test"]')),
+  asks(three, box, moves(4, 1, 1), tree('[1,"test"]')),
+  asks(three, box, moves(0, 1, 1), tree('[1,"test"]')),
+  asks(three, box, moves(1, 1, 1), tree('[1,"negative"]')),
+  asks(three, box, about("joint_acceleration", "min", `,"given":{"acceleration":["1"],"speed":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+  asks(three, box, about("joint_acceleration", "max", `,"given":{"acceleration":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+  asks(three, box, about("joint_acceleration", "max", `,"given":{"tool":["1"]}`), tree('[1,"test"],[2,"test"],[3,"test"]')),
+]) {
+  const answers = all(text("30000"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`joint_acceleration: ${answers}: ${text("30000")}`);
+}
+for (const b of ["0", "-1"]) {
+  const text = asks(three, box, moves(1, 0, 0), tree('[1,"test"]'))(b);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`joint_acceleration: ${all(text)}: ${text}`);
+}
+console.log(`joint_acceleration: ${accelerations.length} legs, with one answer at 42 bounds each`);
+
+// Forces: a matrix Y near A is evidence.
+const holds_force = (leg, tool) => about("joint_force", "max", `,"leg":${leg},"given":{"tool":["${tool}"]}`);
+const lower = (rows) => `{"lower":${y(rows)}}`;
+const whole = lower([[5, 0, 0], [0, 5, 0], [0, 0, 5]]), slanted = lower([[5, 1, 0], [0, 5, 1], [1, 0, 4]]);
+const forces = [
+  [asks(three, box, holds_force(1, 56), tree(`[1,${whole}]`)), 56, 300],
+  [asks(toleranced, box, holds_force(3, 0.01), tree(`[1,${slanted}]`)), 0.01, 0.1],
+  [asks(toleranced, cylinder, holds_force(2, 56), tree(`[1,{"inside":[${whole},1,9]}]`)), 56, 300],
+  [asks([three[0], three[1], plane(0, 0, 1)], box, holds_force(3, 56), tree(`[1,${lower([[5, 0, 0], [0, 5, 0], [0, 0, 8]])}]`)), 56, 300],
+  [asks(all_struts, far, holds_force(2, 56), of_struts(`[1,${lower([[-6, 0, 5], [3, -5, 5], [3, 5, 5]])}]`)), 56, 3000],
+];
+for (const [text, low, high] of forces) narrowed(text, low, high);
+for (const text of [
+  asks(three, box, holds_force(1, 0), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(1, -56), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(4, 56), tree(`[1,${whole}]`)),
+  asks(three, box, holds_force(1, 56), tree('[1,"test"]')),
+  asks(three, box, holds_force(1, 56), tree(`[1,${whole.replace("lower", "lower_divided")}]`)),
+  asks(three, box, holds_force(1, 56), tree(`[1,${lower([[0, 0, 0], [0, 0, 0], [0, 0, 0]])}]`)),
+  asks(three, box, holds_force(1, 56), tree(`[1,${lower([[-5, 0, 0], [0, -5, 0], [0, 0, -5]])}]`)),
+  // More joints than coordinates.
+  asks([...three, plane(0, 0, 1)], box, holds_force(1, 56), tree(`[1,${lower([[5, 0, 0], [0, 5, 0], [0, 0, 5], [0, 0, 1]])}]`)
+    .replace("[0,0,8]", "[0,0,8],[0,0,0]")),
+]) {
+  const answers = all(text("1000"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`joint_force: ${answers}: ${text("1000")}`);
+}
+console.log(`joint_force: ${forces.length} legs, with one answer at 42 bounds each`);
+
+// One matrix for all cells, which are two: any others on one of them show nothing of both.
+const same = (b) => '{"quantity":"one_to_one","end":"holds"}';
+const by_chords = (chords, steps) => `{"tree":{"precision":32,${chords ? `"chords":${y(chords)},` : ""}"nodes":[{"by":[[0,{"rank":${y([[8, 0, 0], [0, 8, 0], [0, 0, 8]])}}]],` +
+  `"split":1},{"by":[${steps}]},{"by":[${steps}]}]}}`;
+const near = [[8, 0, 0], [0, 8, 0], [0, 0, 8]];
+const sized = (leg) => box.replaceAll('"-20"]', `"${-leg}"]`);
+for (const [legs, workspace, chords, steps, right] of [
+  [three, box, near, '[1,"chords"]', "CERTIFIED"],
+  [three, box, [[8, 1, 0], [0, 7, 0], [-1, 0, 9]], '[1,"chords"]', "CERTIFIED"],
+  [toleranced, cylinder, near, '[1,{"inside":["chords",1,9]}]', "CERTIFIED"],
+  [[three[0], three[1], plane(0, 0, 1)], box, near, '[1,"chords"]', "CERTIFIED"],
+  [[...three, plane(0, 0, 1)], box, [...near, [0, 0, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, [[0, 0, 0], [0, 0, 0], [0, 0, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, near.map((row) => row.map((n) => -n)), '[1,"chords"]', "REJECTED"],
+  [three, box, [[8, 0, 0], [0, 8, 0]], '[1,"chords"]', "REJECTED"],
+  [three, box, null, '[1,"chords"]', "REJECTED"],
+  [three, box, near, '[1,"test"]', "REJECTED"],
+  [three, box, near, `[1,{"rank":${y(near)}}]`, "REJECTED"],
+  [three, box, near, `[1,{"lower":${y(near)}}]`, "REJECTED"],
+]) {
+  const text = asks(legs, workspace, same, by_chords(chords, steps))("");
+  const answers = all(text);
+  if (answers.some((answer) => answer !== right)) fail(`one_to_one: ${answers}: ${text}`);
+  if (right === "CERTIFIED") read.push(text);
+}
+for (const wrong of ['"end":"holds","bound":"1"', '"end":"min","bound":"1"', '"leg":1,"end":"holds"', '"given":{"tool":["1"]},"end":"holds"']) {
+  const text = asks(three, box, same, by_chords(near, '[1,"chords"]'))("").replace('"end":"holds"', wrong);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`one_to_one: ${all(text)}: ${text}`);
+}
+console.log("one_to_one: with one answer");
+for (const [text, low, high] of [...apart, ...accelerations, ...forces])
+  read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
+fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {

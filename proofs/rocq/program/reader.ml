@@ -172,6 +172,8 @@ let requirement v =
     | "stiffness" -> Stiffness_
     | "constraint_margin" -> Constraint_
     | "joint_force" -> Force_
+    | "joint_acceleration" -> Acceleration_
+    | "one_to_one" -> OneToOne_
     | "clearance" -> Clearance_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
@@ -179,19 +181,16 @@ let requirement v =
     | "max" -> AtMost_ (number (bound ()))
     | "min" -> AtLeast_ (number (bound ()))
     | "within" -> let a, b = two number (bound ()) in Within_ (a, b)
+    | "holds" -> Holds_
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
-    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
+    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> Given_ (number x)
+    | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
-(* Of machines of Statement.v, of Configuration.v, and of these of platforms that turn. *)
-let of_machine v =
-  let r = requirement v in
-  match r.about_ with
-  | Force_ -> not_covered [ "this quantity of such a mechanism" ]
-  | _ -> r
+(* Of machines of Configuration.v, and of these of platforms that turn. *)
 let demand v =
   let r = requirement v in
   match r.about_ with
@@ -220,17 +219,13 @@ let body v =
     AlongLeg_ (count (get l "leg"), number "radius", expression (string a), expression (string b), optional (fun _ -> triple "offset") (find l "offset"))
   | ("base" | "platform") as on -> Fixed_ (on = "platform", triple "from", triple "to", number "radius")
   | _ -> raise Malformed
-let is_beside = function AlongLeg_ (_, _, _, _, Some _) -> true | _ -> false
-let rec are_single = function
-  | [] -> true
-  | b :: l -> not (List.exists (fun c -> are_fixed b c && (is_beside b || is_beside c)) l) && are_single l
 
 let rec subject v =
   match variant v with
   | "postulate", v -> Postulate_ (match get (members v) "psi_max" with String "all" -> None | v -> Some (quantity v))
   | "machine", v ->
     let l = members v in
-    let require () = List.map of_machine (array (get l "require")) in
+    let require () = List.map requirement (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
      | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
@@ -261,7 +256,6 @@ let rec subject v =
        let legs = array legs and region = region workspace in
        let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
        if List.exists is_arm legs && bodies <> [] then not_covered [ "a machine with arms and bodies" ];
-       if not (are_single bodies) then not_covered [ "two bodies beside each other on one leg" ];
        if List.exists is_arm legs then Arms_ (List.map arm legs, region, List.map demand (array (get l "require")))
        else Machine_ (List.map leg legs, region, bodies, require ())
      | ("formulas", f), ("box", box) ->
@@ -289,12 +283,13 @@ let rec subject v =
 let integers v = List.map integer (array v)
 let face v = match string v with "Q1" -> Q1 | "Q2" -> Q2 | s -> raise Malformed
 (* [n] legs: so many rows of [m] entries. *)
+let row length v = let l = integers v in if List.length l <> length then raise Malformed else l
+let matrix (n, m) v =
+  let l = members v in
+  let y = List.map (row m) (array (get l "y")) in
+  if List.length y <> n then raise Malformed else (y, places (get l "places"))
 let rec evidence (n, m as shape) v =
-  let row length v = let l = integers v in if List.length l <> length then raise Malformed else l in
-  let multiplier f v =
-    let l = members v in
-    let y = List.map (row m) (array (get l "y")) in
-    if List.length y <> n then raise Malformed else f y (places (get l "places")) in
+  let multiplier f v = let y, places = matrix shape v in f y places in
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
@@ -333,13 +328,14 @@ let proof n v =
   match variant v with
   | "tree", t ->
     let l = members t in
-    Nodes (positive (get l "precision"), List.map (node n) (array (get l "nodes")))
+    Nodes (positive (get l "precision"), optional (matrix n) (find l "chords"), List.map (node n) (array (get l "nodes")))
   | "witness", w ->
     let l = members w in
     let machine = match find l "machine" with Some v -> List.map number (array v) | None -> [] in
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
+let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ -> true | _ -> false
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
@@ -356,13 +352,17 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   (match subject_, proof_ with
    | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
-   | Turning_ _, Nodes (_, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
+   | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
-   | NoCube_ _, Nodes (_, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
+   | Machine_ (legs, _, _, rs), Nodes _ when List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs ->
+     not_covered [ "the acceleration of a joint of a machine with a plane" ]
+   | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
+     not_covered [ "this quantity in a claim that is refuted" ]
+   | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
    | NoCube_ _, _ -> ()
-   | _, Nodes (_, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
+   | _, Nodes (_, _, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in

@@ -3,129 +3,129 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(u){"use strict";var
-A4=typeof
-module==="object"&&module.exports||u,hl="spatial",lE="Invalid_argument",e_="precision",as='"',lD="@[",me="this quantity of such a mechanism",g6=1255,lC="inside",md="Fatal error: exception %s\n",k8=255,lB="yaw",mb="(",mc=0x800,k6="range",k7="tree",g5="jsError",bx=0x8000,lz='the mechanism "',lA="%ni",mH="sqrt(",ma=256,d4="offset",l$="obligation",bj="machine",k5="End_of_file",fb="strut",k4="center",fl="arm",g4="Failure",mF="serial_margin",mG="parameters",bW=0xff,hr="bodies",k3="\n",hq="outside",hb="base_axis",hk="ENOENT",mE=122,aP="0",l_="([^/]+)",hj=0xf,d5=128,g3=-48,k2=0xdc00,ly="Sys_blocked_io",mD="fd ",k1="given",l9="ENOTEMPTY",ar=248,l8="bound",aq="camlinternalFormat.ml",l7="Division_by_zero",mB="by",mC=1027,k0="Sys_error",lx="slider",lw="postulate",l6="torsion",l5="proof",lv="%u",dd="mechanism",fh="row",kZ="EEXIST",lu="roll_pitch_yaw",hi="%d",kY="Printexc.handle_uncaught_exception",ha="y",e9="lower",lt="within",l4="cube",kX="clearance",l3="buffer.ml",mA="turned",e8="int_of_string",l2="control",ls="definitions",g$=127,d3=1024,lr="@{",l1="from",hp="e",kV=120,kW=103,lq=" : flags Open_rdonly and Open_wronly are not compatible",l0="orthocert/2",mz="reach",kU=512,a9="-",my="witness",bh="platform",kT=0x7ff0,kS="pitch",ho=": Not a directory",lp=" : file already exists",bz="min",mx="trim",de="workspace",lo="claim",lZ="split",mw="legs",bV=0xffffff,lY="joint",kQ="formulas",kR="0x",ln='the workspace "',lX="roll",mu="nodes",mv="Out_of_memory",kP="psi_max",hn="orientation",lm="angle",fg=254,hm="index out of bounds",lW=100,kO="end",fk="_bigarr02",kN="%Li",lV=" : flags Open_text and Open_binary are not compatible",cd="drive",lU="coordinates",ll=", characters ",lT="lower_divided",lk="joints",mt="cylinder",bB=0xffff,lj=12520,g2="on",li="axis",lh="no_cube",ms="parallel_margin",kM='the drive "',fa="fails",hh="Unix.Unix_error",mr="infinity",e7="tool",g1="mkdir",d2=1000,e6="translational",s="",lS="Stack_overflow",mq="characteristic_length",g_="^",e5=": No such file or directory",hg="places",lR="/static/",dc=0x3f,lQ=-97,lO="stiffness",lP="Not_found",d1="planar",ff="mode",mp="joint_speed",lg="Match_failure",kL=", ",kK="transmission",cc="anchor",mo="at",fj=252,kJ="joint_force",db="leg",ce=".",by="+",hf="rmdir",mn=0xf0,mm="spherical",lf="verified.ml",ld="REJECTED",le="%li",lN=1026,bA="max",cG="direction",lM="orthoglide",fi="rank",ml="constraint_margin",mk=-32,kH="Pervasives.do_at_exit",kI="utf8",he="test",bT=" ",e$="conditioning",hd="Fatal error: exception ",bi=0x80,kG="Undefined_recursive_module",g9=")",fe="length",lL="base",mj="quantity",lK="joint_range",fd="tilt",kF="Q2",g8="nan",lc="reference",lJ="point",lb=0xe0,mi="corner",k$="z",la=0xdfff,lH="version",lI="_",mh="to",bg="/",hc="compare: functional value",mg="Assert_failure",k_="provenance",da="radius",kE="%i",bU="require",fc="side",mf="format",g7="ENOTDIR",lG="Q1",lF="all",cF="box",k9=250;function
-hH(c,b,a){var
+a.prototype._T_}}(Object));(function(v){"use strict";var
+By=typeof
+module==="object"&&module.exports||v,hz="spatial",lM="Invalid_argument",fc="precision",av='"',lL="@[",hh=1255,lK="inside",ml="Fatal error: exception %s\n",ld=255,lJ="yaw",mj="(",mk=0x800,lb="range",lc="tree",hg="jsError",bz=0x8000,lH='the mechanism "',lI="%ni",mQ="sqrt(",mi=256,d_="offset",mh="obligation",bk="machine",la="End_of_file",ff="strut",k$="center",fq="arm",hf="Failure",mO="serial_margin",mP="parameters",bY=0xff,hF="bodies",k_="\n",hE="outside",hp="base_axis",hy="ENOENT",mN=122,aP="0",mg="([^/]+)",hx=0xf,d$=128,he=-48,k9=0xdc00,lG="Sys_blocked_io",mM="fd ",hd="given",mf="ENOTEMPTY",au=248,fm="bound",at="camlinternalFormat.ml",me="Division_by_zero",mK="by",mL=1027,k8="Sys_error",lF="slider",lE="postulate",md="torsion",mc="proof",lD="%u",dl="mechanism",fl="row",k7="EEXIST",lC="roll_pitch_yaw",hw="%d",k6="Printexc.handle_uncaught_exception",ho="y",fb="lower",lB="within",mb="cube",k5="clearance",ma="buffer.ml",mJ="turned",fa="int_of_string",l$="control",lA="definitions",hn=127,d9=1024,lz="@{",l_="from",hD="e",k3=120,k4=103,ly=" : flags Open_rdonly and Open_wronly are not compatible",l9="orthocert/2",mI="reach",k2=512,a_="-",mH="witness",bi="platform",k1=0x7ff0,k0="pitch",hC=": Not a directory",lx=" : file already exists",bB="min",mG="trim",dm="workspace",lw="claim",l8="split",mF="legs",bX=0xffffff,l7="joint",kY="formulas",kZ="0x",lv='the workspace "',l6="roll",mD="nodes",mE="Out_of_memory",kX="psi_max",hB="orientation",lu="angle",fk=254,hA="index out of bounds",l5=100,kW="end",mC="one_to_one",fp="_bigarr02",kV="%Li",l4=" : flags Open_text and Open_binary are not compatible",ch="drive",l3="coordinates",mB="holds",lt=", characters ",l2="lower_divided",kU="speed",ls="joints",mA="cylinder",bD=0xffff,lq="acceleration",hm="chords",lr=12520,hc="on",lp="axis",lo="no_cube",mz="parallel_margin",kT='the drive "',fe="fails",hv="Unix.Unix_error",my="infinity",e$="tool",hb="mkdir",d8=1000,e_="translational",t="",l1="Stack_overflow",mx="characteristic_length",hl="^",e9=": No such file or directory",hu="places",l0="/static/",dk=0x3f,lZ=-97,lX="stiffness",lY="Not_found",d7="planar",fj="mode",mw="joint_speed",ln="Match_failure",kS=", ",kR="transmission",cg="anchor",mv="at",fo=252,kQ="joint_force",dj="leg",ci=".",bA="+",lW="joint_acceleration",ht="rmdir",mu=0xf0,mt="spherical",lm="verified.ml",lk="REJECTED",ll="%li",lV=1026,bC="max",cL="direction",lU="orthoglide",fn="rank",ms="constraint_margin",mr=-32,kO="Pervasives.do_at_exit",kP="utf8",hs="test",bV=" ",fd="conditioning",hr="Fatal error: exception ",bj=0x80,kN="Undefined_recursive_module",hk=")",fi="length",lT="base",mq="quantity",lS="joint_range",fh="tilt",kM="Q2",hj="nan",lj="reference",lR="point",li=0xe0,mp="corner",lg="z",lh=0xdfff,lP="version",lQ="_",mo="to",bh="/",hq="compare: functional value",mn="Assert_failure",lf="provenance",di="radius",kL="%i",bW="require",fg="side",mm="format",hi="ENOTDIR",lO="Q1",lN="all",cK="box",le=250;function
+hV(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=d3,a-=d3)e+=d.apply(null,c.slice(b,b+Math.min(a,d3)));return e}function
-fm(b){if(u.Uint8Array)var
-c=new(u.Uint8Array)(b.l);else
+e=t;for(;0<a;b+=d9,a-=d9)e+=d.apply(null,c.slice(b,b+Math.min(a,d9)));return e}function
+fr(b){if(v.Uint8Array)var
+c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cg(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fm(b);var
+ck(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fr(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bX(a){return a}function
-bE(a,b,c,d,e){cg(bX(a),b,c,d,e);return 0}function
-AW(b,a){throw[0,b,a]}function
-dj(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
-d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dh(a){if(a.t==2)a.c+=dj(a.l-a.c.length,"\0");else
-a.c=hH(a.c,0,a.c.length);a.t=0}function
-nb(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>g$)return false;return true}else
+bZ(a){return a}function
+bG(a,b,c,d,e){ck(bZ(a),b,c,d,e);return 0}function
+Bq(b,a){throw[0,b,a]}function
+ds(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
+d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dq(a){if(a.t==2)a.c+=ds(a.l-a.c.length,"\0");else
+a.c=hV(a.c,0,a.c.length);a.t=0}function
+nk(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hn)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hJ(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bi){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bi;d++);if(d-b>kU){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(f<<6);if(f<lb){a=g-0x3080;if(a<bi)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5){g=h+(g<<6);if(f<mn){a=g-0xe2080;if(a<mc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d5&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bB)c+=String.fromCharCode(0xd7c0+(a>>10),k2+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d3){c.substr(0,1);j+=c;c=s}}return j+c}function
-bC(c,a,b){this.t=c;this.c=a;this.l=b}bC.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dh(this);case
-0:if(nb(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bC.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hJ(a)};bC.prototype.slice=function(){var
+hX(e){for(var
+j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bj){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>k2){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(f<<6);if(f<li){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(g<<6);if(f<mu){a=g-0xe2080;if(a<mk||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bD)c+=String.fromCharCode(0xd7c0+(a>>10),k9+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>d9){c.substr(0,1);j+=c;c=t}}return j+c}function
+bE(c,a,b){this.t=c;this.c=a;this.l=b}bE.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dq(this);case
+0:if(nk(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bE.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hX(a)};bE.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bC(this.t,a,this.l)};function
-mR(a){return new
-bC(0,a,a.length)}function
-a(a){return mR(a)}function
-hF(c,b){AW(c,a(b))}var
-ah=[0];function
-at(a){hF(ah.Invalid_argument,a)}function
-mP(){at(hm)}function
-aj(a,c,b){b&=bW;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fm(a)}a.c[c]=b;return 0}function
-cH(b,a,c){if(a>>>0>=b.l)mP();return aj(b,a,c)}function
-dg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bE(this.t,a,this.l)};function
+m0(a){return new
+bE(0,a,a.length)}function
+a(a){return m0(a)}function
+hT(c,b){Bq(c,a(b))}var
+aj=[0];function
+aw(a){hT(aj.Invalid_argument,a)}function
+mY(){aw(hA)}function
+ak(a,c,b){b&=bY;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fr(a)}a.c[c]=b;return 0}function
+cM(b,a,c){if(a>>>0>=b.l)mY();return ak(b,a,c)}function
+dp(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bY(c,a){if(c.fun)return bY(c.fun,a);if(typeof
+b0(c,a){if(c.fun)return b0(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bY(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return b0(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bY(c,d)}}function
-d6(){at(hm)}function
-mS(a,b){if(b>>>0>=a.length-1)d6();return a}function
-Am(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b0(a){a.t&6&&dh(a);return a.c}var
-A6=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-A5(a){if(A6)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b0(c,d)}}function
+ea(){aw(hA)}function
+m1(a,b){if(b>>>0>=a.length-1)ea();return a}function
+AS(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b2(a){a.t&6&&dq(a);return a.c}var
+BA=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Bz(a){if(BA)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hx(c){var
-a=new(u.Float32Array)(1);a[0]=c;var
-b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-m1=Math.pow(2,-24);function
-AU(a){throw a}function
-m8(){AU(ah.Division_by_zero)}function
-t(b,c,a){this.lo=b&bV;this.mi=c&bV;this.hi=a&bB}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
-t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
+hL(c){var
+a=new(v.Float32Array)(1);a[0]=c;var
+b=new(v.Int32Array)(a.buffer);return b[0]|0}var
+m_=Math.pow(2,-24);function
+Bo(a){throw a}function
+nf(){Bo(aj.Division_by_zero)}function
+u(b,c,a){this.lo=b&bX;this.mi=c&bX;this.hi=a&bD}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-t(a,b,c)};t.prototype.add=function(a){var
+u(a,b,c)};u.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-t(b,c,d)};t.prototype.sub=function(a){var
+u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
-t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
-t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
-t(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};t.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-t(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-t(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-t(0,0,this.lo<<a-48)};t.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-t(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+u(b,c,d)};u.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*m_|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m_|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
+u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
+u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
+u(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};u.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+u(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+u(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+u(0,0,this.lo<<a-48)};u.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+u(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+u(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bB);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bV;this.lo=this.lo<<1&bV};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bV;this.mi=(this.mi>>>1|this.hi<<23)&bV;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bD);return new
+u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bX;this.lo=this.lo<<1&bX};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bX;this.mi=(this.mi>>>1|this.hi<<23)&bX;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())m8();var
-d=b.hi^a.hi;if(b.hi&bx)b=b.neg();if(a.hi&bx)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bx)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())m8();var
-d=a.hi;if(a.hi&bx)a=a.neg();if(b.hi&bx)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bx)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bW,this.mi>>16,this.mi>>8&bW,this.mi&bW,this.lo>>16,this.lo>>8&bW,this.lo&bW]};t.prototype.lo32=function(){return this.lo|(this.mi&bW)<<24};t.prototype.hi32=function(){return this.mi>>>8&bB|this.hi<<16};function
-fq(b,c,a){return new
-t(b,c,a)}function
-fp(a){if(!isFinite(a)){if(isNaN(a))return fq(1,0,kT);return a>0?fq(0,0,kT):fq(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bx:a>=0?0:bx;if(f)a=-a;var
-b=A5(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lN)}else{a/=Math.pow(2,b-mC);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
+b=this;if(a.isZero())nf();var
+d=b.hi^a.hi;if(b.hi&bz)b=b.neg();if(a.hi&bz)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bz)c=c.neg();return c};u.prototype.mod=function(b){var
+a=this;if(b.isZero())nf();var
+d=a.hi;if(a.hi&bz)a=a.neg();if(b.hi&bz)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bz)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bY,this.mi>>16,this.mi>>8&bY,this.mi&bY,this.lo>>16,this.lo>>8&bY,this.lo&bY]};u.prototype.lo32=function(){return this.lo|(this.mi&bY)<<24};u.prototype.hi32=function(){return this.mi>>>8&bD|this.hi<<16};function
+fv(b,c,a){return new
+u(b,c,a)}function
+fu(a){if(!isFinite(a)){if(isNaN(a))return fv(1,0,k1);return a>0?fv(0,0,k1):fv(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bz:a>=0?0:bz;if(f)a=-a;var
+b=Bz(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lV)}else{a/=Math.pow(2,b-mL);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hj|f|b<<4;return fq(g,e,c)}function
-d9(a){return a.toArray()}function
-mO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fk)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bB)c.write(16,b.dims[a]);else{c.write(16,bB);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hx|f|b<<4;return fv(g,e,c)}function
+ed(a){return a.toArray()}function
+mX(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fp)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bD)c.write(16,b.dims[a]);else{c.write(16,bD);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +142,30 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=d9(b.get(a));for(var
+e=ed(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=d9(fp(b.get(a)));for(var
+e=ed(fu(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hx(b.get(a));c.write(32,e)}break;case
+e=hL(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hx(d[1]));c.write(32,hx(d[2]))}break;case
+d=b.get(a);c.write(32,hL(d[1]));c.write(32,hL(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=d9(fp(f[1]));for(var
+f=b.get(a),e=ed(fu(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=d9(fp(f[2]));for(var
+e=ed(fu(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mM(a){switch(a){case
+mV(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ag(c,e){var
-b=u,a;switch(c){case
+AM(c,e){var
+b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)at("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aw("Bigarray.create: unsupported kind");var
 d=new
-a(e*mM(c));return d}function
-hy(c){var
-a=new(u.Int32Array)(1);a[0]=c;var
-b=new(u.Float32Array)(a.buffer);return b[0]}function
-d8(a){return new
-t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hz(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hj)==0?b&bx?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hj);if(c>0){a+=16;a*=Math.pow(2,c-mC)}else
-a*=Math.pow(2,-lN);if(b&bx)a=-a;return a}function
-hs(b){var
+a(e*mV(c));return d}function
+hM(c){var
+a=new(v.Int32Array)(1);a[0]=c;var
+b=new(v.Float32Array)(a.buffer);return b[0]}function
+ec(a){return new
+u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+hN(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hx)==0?b&bz?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hx);if(c>0){a+=16;a*=Math.pow(2,c-mL)}else
+a*=Math.pow(2,-lV);if(b&bz)a=-a;return a}function
+hG(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)at("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ax(b,a){return new
-t(b&bV,b>>>24&bW|(a&bB)<<8,a>>>16&bB)}function
-hA(a){return a.hi32()}function
-hB(a){return a.lo32()}var
-Ah=fk;function
-cf(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cf.prototype.caml_custom=Ah;cf.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aw("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+A3(b,a){return new
+u(b&bX,b>>>24&bY|(a&bD)<<8,a>>>16&bD)}function
+hO(a){return a.hi32()}function
+hP(a){return a.lo32()}var
+AN=fp;function
+cj(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cj.prototype.caml_custom=AN;cj.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))at("bigarray.js: invalid offset");if(this.dims.length!=b.length)at("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])d6();c=c*this.dims[a]+b[a]}else
+Array))aw("bigarray.js: invalid offset");if(this.dims.length!=b.length)aw("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ea();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])d6();c=c*this.dims[a]+(b[a]-1)}return c};cf.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ea();c=c*this.dims[a]+(b[a]-1)}return c};cj.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ax(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return A3(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fg,e,c];default:return this.data[a]}};cf.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hB(b);this.data[a*2+1]=hA(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};cj.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hP(b);this.data[a*2+1]=hO(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cf.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cj.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hB(b),e=hA(b);if(c==e)this.data.fill(c);else
+c=hP(b),e=hO(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cf.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cj.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype=new
-cf();df.prototype.offset=function(a){if(typeof
+dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype=new
+cj();dn.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-at("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])d6();return a};df.prototype.get=function(a){return this.data[a]};df.prototype.set=function(a,b){this.data[a]=b;return 0};df.prototype.fill=function(a){this.data.fill(a);return 0};function
-mK(c,d,a,b){var
-e=mM(c);if(hs(a)*e!=b.length)at("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-df(c,d,a,b);return new
-cf(c,d,a,b)}function
-bk(b){if(!ah.Failure)ah.Failure=[ar,a(g4),-3];hF(ah.Failure,b)}function
-mL(b,v,r){var
-i=b.read32s();if(i<0||i>16)bk("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bW,o=p>>8&1,h=[];if(r==fk)for(var
+aw("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ea();return a};dn.prototype.get=function(a){return this.data[a]};dn.prototype.set=function(a,b){this.data[a]=b;return 0};dn.prototype.fill=function(a){this.data.fill(a);return 0};function
+mT(c,d,a,b){var
+e=mV(c);if(hG(a)*e!=b.length)aw("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dn(c,d,a,b);return new
+cj(c,d,a,b)}function
+bl(b){if(!aj.Failure)aj.Failure=[au,a(hf),-3];hT(aj.Failure,b)}function
+mU(b,v,r){var
+i=b.read32s();if(i<0||i>16)bl("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bY,o=p>>8&1,h=[];if(r==fp)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bB){var
-t=b.read32u(),u=b.read32u();if(t!=0)bk("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bD){var
+t=b.read32u(),u=b.read32u();if(t!=0)bl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hs(h),f=Ag(j,d),g=mK(j,o,h,f);switch(j){case
+d=hG(h),f=AM(j,d),g=mT(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bk("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bl("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=d8(e);g.set(a,q)}break;case
+q=ec(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hz(d8(e));g.set(a,k)}break;case
+k=hN(ec(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hy(b.read32s());g.set(a,k)}break;case
+k=hM(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hy(b.read32s()),l=hy(b.read32s());g.set(a,[fg,m,l])}break;case
+m=hM(b.read32s()),l=hM(b.read32s());g.set(a,[fk,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hz(d8(e));for(var
+m=hN(ec(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hz(d8(e));g.set(a,[fg,m,l])}break}v[0]=(4+i)*4;return mK(j,o,h,f)}function
-mJ(a,b,c){return a.compare(b,c)}function
-m5(a,b){return Math.imul(a,b)}function
-bZ(b,a){a=m5(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=m5(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-At(a,b){a=bZ(a,hB(b));a=bZ(a,hA(b));return a}function
-m0(a,b){return At(a,fp(b))}function
-mN(c){var
-b=hs(c.dims),d=0;switch(c.kind){case
+l=hN(ec(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mT(j,o,h,f)}function
+mS(a,b,c){return a.compare(b,c)}function
+nc(a,b){return Math.imul(a,b)}function
+b1(b,a){a=nc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+AZ(a,b){a=b1(a,hP(b));a=b1(a,hO(b));return a}function
+m9(a,b){return AZ(a,fu(b))}function
+mW(c){var
+b=hG(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ma)b=ma;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bZ(d,e)}e=0;switch(b&3){case
+12:if(b>mi)b=mi;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b1(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bZ(d,e)}break;case
+1:e|=c.data[a+0];d=b1(d,e)}break;case
 4:case
-5:if(b>d5)b=d5;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bZ(d,e)}if((b&1)!=0)d=bZ(d,c.data[a]);break;case
+5:if(b>d$)b=d$;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b1(d,e)}if((b&1)!=0)d=b1(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=b1(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m0(d,c.data[a]);break;case
+a=0;a<b;a++)d=m9(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m0(d,c.data[a]);break}return d}function
-Av(a,b){b[0]=4;return a.read32s()}function
-AR(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=m9(d,c.data[a]);break}return d}function
+A1(a,b){b[0]=4;return a.read32s()}function
+Bl(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bk("input_value: native integer value too large");default:bk("input_value: ill-formed native integer")}}function
-AG(c,d){var
+2:bl("input_value: native integer value too large");default:bl("input_value: ill-formed native integer")}}function
+Ba(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return d8(b)}function
-AC(e,d,b){var
-c=d9(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ec(b)}function
+A8(e,d,b){var
+c=ed(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Aw(a,b,c){return a.compare(b)}function
-Az(a){return a.lo32()^a.hi32()}var
-mV={"_j":{deserialize:AG,serialize:AC,fixed_length:8,compare:Aw,hash:Az},"_i":{deserialize:Av,fixed_length:4},"_n":{deserialize:AR,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mL(a,b,"_bigarray")},serialize:mO,compare:mJ,hash:mN},"_bigarr02":{deserialize:function(a,b){return mL(a,b,fk)},serialize:mO,compare:mJ,hash:mN}};function
-hu(a){return mV[a.caml_custom]&&mV[a.caml_custom].compare}function
-mT(f,c,d,e){var
-b=hu(c);if(b){var
+A2(a,b,c){return a.compare(b)}function
+A5(a){return a.lo32()^a.hi32()}var
+m4={"_j":{deserialize:Ba,serialize:A8,fixed_length:8,compare:A2,hash:A5},"_i":{deserialize:A1,fixed_length:4},"_n":{deserialize:Bl,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mU(a,b,"_bigarray")},serialize:mX,compare:mS,hash:mW},"_bigarr02":{deserialize:function(a,b){return mU(a,b,fp)},serialize:mX,compare:mS,hash:mW}};function
+hI(a){return m4[a.caml_custom]&&m4[a.caml_custom].compare}function
+m2(f,c,d,e){var
+b=hI(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fr(a){return a
+fw(a){return a
 instanceof
-bC}function
-hD(a){return fr(a)}function
-mU(a){if(typeof
-a==="number")return d2;else
-if(fr(a))return fj;else
-if(hD(a))return 1252;else
+bE}function
+hR(a){return fw(a)}function
+m3(a){if(typeof
+a==="number")return d8;else
+if(fw(a))return fo;else
+if(hR(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=k8){var
-b=a[0]|0;return b==fg?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=ld){var
+b=a[0]|0;return b==fk?0:b}else
 if(a
 instanceof
-String)return lj;else
+String)return lr;else
 if(typeof
-a=="string")return lj;else
+a=="string")return lr;else
 if(a
 instanceof
-Number)return d2;else
-if(a&&a.caml_custom)return g6;else
+Number)return d8;else
+if(a&&a.caml_custom)return hh;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-AH(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mQ(a,b){a.t&6&&dh(a);b.t&6&&dh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-AZ(a,b){return mQ(a,b)}function
-ht(a,b,d){var
+Bb(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mZ(a,b){a.t&6&&dq(a);b.t&6&&dq(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+Bt(a,b){return mZ(a,b)}function
+hH(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=mU(a);if(f==k9){a=a[1];continue}var
-g=mU(b);if(g==k9){b=b[1];continue}if(f!==g){if(f==d2){if(g==g6)return mT(a,b,-1,d);return-1}if(g==d2){if(f==g6)return mT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:at(hc);break;case
+f=m3(a);if(f==le){a=a[1];continue}var
+g=m3(b);if(g==le){b=b[1];continue}if(f!==g){if(f==d8){if(g==hh)return m2(a,b,-1,d);return-1}if(g==d8){if(f==hh)return m2(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aw(hq);break;case
 248:var
-c=AH(a[2],b[2]);if(c!=0)return c|0;break;case
-249:at(hc);break;case
-250:at("equal: got Forward_tag, should not happen");break;case
-251:at("equal: abstract value");break;case
+c=Bb(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aw(hq);break;case
+250:aw("equal: got Forward_tag, should not happen");break;case
+251:aw("equal: abstract value");break;case
 252:if(a!==b){var
-c=mQ(a,b);if(c!=0)return c|0}break;case
-253:at("equal: got Double_tag, should not happen");break;case
-254:at("equal: got Double_array_tag, should not happen");break;case
-255:at("equal: got Custom_tag, should not happen");break;case
-1247:at(hc);break;case
+c=mZ(a,b);if(c!=0)return c|0}break;case
+253:aw("equal: got Double_tag, should not happen");break;case
+254:aw("equal: got Double_array_tag, should not happen");break;case
+255:aw("equal: got Custom_tag, should not happen");break;case
+1247:aw(hq);break;case
 1255:var
-i=hu(a);if(i!=hu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)at("compare: abstract value");var
+i=hI(a);if(i!=hI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aw("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=b0(a),b=b0(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b2(a),b=b2(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-An(a,b){return ht(a,b,true)}function
-Ao(){return[0]}function
-ao(a){if(a<0)at("Bytes.create");return new
-bC(a?2:9,s,a)}function
-mW(a,b){return+(ht(a,b,false)==0)}function
-Aq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=dj(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hE(d){d=b0(d);var
-e=d.length;if(e>31)at("format_int: format too long");var
-a={justify:by,signstyle:a9,filler:bT,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+AT(a,b){return hH(a,b,true)}function
+AU(){return[0]}function
+ao(a){if(a<0)aw("Bytes.create");return new
+bE(a?2:9,t,a)}function
+m5(a,b){return+(hH(a,b,false)==0)}function
+AW(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=ds(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fr(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hS(d){d=b2(d);var
+e=d.length;if(e>31)aw("format_int: format too long");var
+a={justify:bA,signstyle:a_,filler:bV,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a9;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hv(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a9))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==by&&b.filler==bT)for(var
-d=e;d<b.width;d++)c+=bT;if(b.signedconv)if(b.sign<0)c+=a9;else
-if(b.signstyle!=a9)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kR;if(b.justify==by&&b.filler==aP)for(var
-d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a9)for(var
-d=e;d<b.width;d++)c+=bT;return a(c)}function
-hw(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a_;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+hJ(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a_))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=t;if(b.justify==bA&&b.filler==bV)for(var
+d=e;d<b.width;d++)c+=bV;if(b.signedconv)if(b.sign<0)c+=a_;else
+if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kZ;if(b.justify==bA&&b.filler==aP)for(var
+d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a_)for(var
+d=e;d<b.width;d++)c+=bV;return a(c)}function
+hK(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(by)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aP);if(b>0)a=a+ce+new
+c=parseInt(a.toString().split(bA)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aP);if(b>0)a=a+ci+new
 Array(b+1).join(aP);return a}else
 return a.toFixed(b)}}var
-a,e=hE(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=g8;e.filler=bT}else
-if(!isFinite(c)){a="inf";e.filler=bT}else
+a,e=hS(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hj;e.filler=bV}else
+if(!isFinite(c)){a="inf";e.filler=bV}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hp),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hp)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hD),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ce)b--;a=a.slice(0,b+1)}}break}return hv(e,a)}function
-fn(e,c){if(b0(e)==hi)return a(s+c);var
-b=hE(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)}}break}return hJ(e,a)}function
+fs(e,c){if(b2(e)==hw)return a(t+c);var
+b=hS(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bT;var
-f=b.prec-d.length;if(f>0)d=dj(f,aP)+d}return hv(b,d)}var
-AS=0;function
-fo(){return AS++}function
-AK(a){return a.toUtf16()}function
-d$(){return typeof
-u.process!=="undefined"&&typeof
-u.process.versions!=="undefined"&&typeof
-u.process.versions.node!=="undefined"}function
-A7(){function
-a(a){if(a.charAt(0)===bg)return[s,a.substring(1)];return}function
+d=c.toString(b.base);if(b.prec>=0){b.filler=bV;var
+f=b.prec-d.length;if(f>0)d=ds(f,aP)+d}return hJ(b,d)}var
+Bm=0;function
+ft(){return Bm++}function
+Be(a){return a.toUtf16()}function
+ef(){return typeof
+v.process!=="undefined"&&typeof
+v.process.versions!=="undefined"&&typeof
+v.process.versions.node!=="undefined"}function
+BB(){function
+a(a){if(a.charAt(0)===bh)return[t,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return d$()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-hN=A7();function
-m$(a){return a.slice(-1)!==bg?a+bg:a}if(d$()&&u.process&&u.process.cwd)var
-d7=u.process.cwd().replace(/\\/g,bg);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ef()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+h1=BB();function
+ni(a){return a.slice(-1)!==bh?a+bh:a}if(ef()&&v.process&&v.process.cwd)var
+eb=v.process.cwd().replace(/\\/g,bh);else
 var
-d7="/static";d7=m$(d7);function
-AL(a){a=AK(a);if(!hN(a))a=d7+a;var
-e=hN(a),d=e[1].split(bg),b=[];for(var
+eb="/static";eb=ni(eb);function
+Bf(a){a=Be(a);if(!h1(a))a=eb+a;var
+e=h1(a),d=e[1].split(bh),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-A1(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bi){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bi;d++);if(d-c>kU){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bi|a&dc)}else
-if(a<0xd800||a>=la)b+=String.fromCharCode(lb|a>>12,bi|a>>6&dc,bi|a&dc);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k2||h>la)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mn|a>>18,bi|a>>12&dc,bi|a>>6&dc,bi|a&dc)}if(b.length>d3){b.substr(0,1);f+=b;b=s}}return f+b}function
-Al(a){var
-b=9;if(!nb(a))b=8,a=A1(a);return new
-bC(b,a,a.length)}function
-bl(a){return Al(a)}var
-A9=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",kZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hk,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",g7,l9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cK(d,f,e,a){var
-b=A9.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bl(f||s),bl(e||s)];return c}var
-m6={};function
-cI(a){return m6[a]}function
-cJ(b,a){throw[0,b].concat(a)}function
-Ak(a){return new
-bC(4,a,a.length)}function
-Q(a){hF(ah.Sys_error,a)}function
-AV(a){Q(a+e5)}function
-Aj(b,a){if(a>>>0>=b.l)mP();return dg(b,a)}function
-a0(a){return a.l}function
-mI(){}function
-az(a){this.data=a}az.prototype=new
-mI();az.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);cg(b,0,this.data,0,a)};az.prototype.length=function(){return a0(this.data)};az.prototype.write=function(b,d,g,a){var
+Bv(e){for(var
+f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bj){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>k2){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mk){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&dk)}else
+if(a<0xd800||a>=lh)b+=String.fromCharCode(li|a>>12,bj|a>>6&dk,bj|a&dk);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k9||h>lh)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mu|a>>18,bj|a>>12&dk,bj|a>>6&dk,bj|a&dk)}if(b.length>d9){b.substr(0,1);f+=b;b=t}}return f+b}function
+AR(a){var
+b=9;if(!nk(a))b=8,a=Bv(a);return new
+bE(b,a,a.length)}function
+bm(a){return AR(a)}var
+BD=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hi,mf,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cP(d,f,e,a){var
+b=BD.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bm(f||t),bm(e||t)];return c}var
+nd={};function
+cN(a){return nd[a]}function
+cO(b,a){throw[0,b].concat(a)}function
+AQ(a){return new
+bE(4,a,a.length)}function
+T(a){hT(aj.Sys_error,a)}function
+Bp(a){T(a+e9)}function
+AP(b,a){if(a>>>0>=b.l)mY();return dp(b,a)}function
+a1(a){return a.l}function
+mR(){}function
+aC(a){this.data=a}aC.prototype=new
+mR();aC.prototype.truncate=function(a){var
+b=this.data;this.data=ao(a|0);ck(b,0,this.data,0,a)};aC.prototype.length=function(){return a1(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;cg(f,0,this.data,0,c)}bE(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
-e=this.length();cg(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return Aj(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+e=ao(b+a),f=this.data;this.data=e;ck(f,0,this.data,0,c)}bG(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();ck(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return AP(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
-c=d.split(bg),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bg;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bg};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bh),b=t;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bh;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bh};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-az(bX(c[1]))}}};aQ.prototype.exists=function(a){if(a==s)return 1;var
+aC(bZ(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cI(hh);if(this.exists(c))if(b)cJ(b,cK(kZ,g1,this.nm(c)));else
-Q(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cJ(b,cK(hk,g1,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,g1,this.nm(a)));else
-Q(a+ho);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cI(hh),c=a==s?s:this.slash(a),e=new
-RegExp(g_+c+l_);if(!this.exists(a))if(b)cJ(b,cK(hk,hf,this.nm(a)));else
-Q(a+e5);if(!this.is_dir(a))if(b)cJ(b,cK(g7,hf,this.nm(a)));else
-Q(a+ho);for(var
+b=d&&cN(hv);if(this.exists(c))if(b)cO(b,cP(k7,hb,this.nm(c)));else
+T(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cO(b,cP(hy,hb,this.nm(a)));else
+T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,hb,this.nm(a)));else
+T(a+hC);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&cN(hv),c=a==t?t:this.slash(a),e=new
+RegExp(hl+c+mg);if(!this.exists(a))if(b)cO(b,cP(hy,ht,this.nm(a)));else
+T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,ht,this.nm(a)));else
+T(a+hC);for(var
 d
 in
-this.content)if(d.match(e))if(b)cJ(b,cK(l9,hf,this.nm(a)));else
-Q(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cO(b,cP(mf,ht,this.nm(a)));else
+T(this.nm(a)+": Directory not empty");delete
 this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))Q(a+e5);if(!this.is_dir(a))Q(a+ho);var
+f=a==t?t:this.slash(a);if(!this.exists(a))T(a+e9);if(!this.is_dir(a))T(a+hC);var
 g=new
-RegExp(g_+f+l_),d={},c=[];for(var
+RegExp(hl+f+mg),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==s)return true;var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==t)return true;var
 b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)Q(this.nm(a)+lq);if(b.text&&b.binary)Q(this.nm(a)+lV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))Q(this.nm(a)+" : is a directory");if(b.create&&b.excl)Q(this.nm(a)+lp);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)T(this.nm(a)+ly);if(b.text&&b.binary)T(this.nm(a)+l4);this.lookup(a);if(this.content[a]){if(this.is_dir(a))T(this.nm(a)+" : is a directory");if(b.create&&b.excl)T(this.nm(a)+lx);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-az(ao(0));return this.content[a]}else
-AV(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])Q(this.nm(c)+lp);if(fr(a))b=new
-az(a);if(hD(a))b=new
-az(bX(a));else
+aC(ao(0));return this.content[a]}else
+Bp(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])T(this.nm(c)+lx);if(fw(a))b=new
+aC(a);if(hR(a))b=new
+aC(bZ(a));else
 if(a
 instanceof
 Array)b=new
-az(Ak(a));else
+aC(AQ(a));else
 if(typeof
 a==="string")b=new
-az(mR(a));else
+aC(m0(a));else
 if(a.toString){var
-d=bX(bl(a.toString()));b=new
-az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-Q(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-E(a){return a0(a)}function
-bG(b,a){return dg(b,a)}function
-Af(d){var
-c=E(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bG(d,a);return b}function
-Ae(a){if(a.t!=4)fm(a);return a.c}function
-bD(a){this.fs=require("fs");this.fd=a}bD.prototype=new
-mI();bD.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){Q(a.toString())}};bD.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){Q(a.toString())}};bD.prototype.write=function(f,b,c,e){var
-a=Af(b);if(!(a
+d=bZ(bm(a.toString()));b=new
+aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+T(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+I(a){return a1(a)}function
+bI(b,a){return dp(b,a)}function
+AL(d){var
+c=I(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bI(d,a);return b}function
+AK(a){if(a.t!=4)fr(a);return a.c}function
+bF(a){this.fs=require("fs");this.fd=a}bF.prototype=new
+mR();bF.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){T(a.toString())}};bF.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){T(a.toString())}};bF.prototype.write=function(f,b,c,e){var
+a=AL(b);if(!(a
 instanceof
-u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){Q(a.toString())}return 0};bD.prototype.read=function(g,d,c,f){var
-a=Ae(d);if(!(a
+v.Uint8Array))a=new(v.Uint8Array)(a);var
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){T(a.toString())}return 0};bF.prototype.read=function(g,d,c,f){var
+a=AK(d);if(!(a
 instanceof
-u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){Q(a.toString())}for(var
-b=0;b<f;b++)cH(d,c+b,e[c+b]);return 0};bD.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){Q(a.toString())}return a[0]};bD.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){Q(a.toString())}};bD.prototype.constructor=bD;function
-aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){Q(a.toString())}};aA.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
+v.Uint8Array))a=new(v.Uint8Array)(a);var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){T(a.toString())}for(var
+b=0;b<f;b++)cM(d,c+b,e[c+b]);return 0};bF.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){T(a.toString())}return a[0]};bF.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){T(a.toString())}};bF.prototype.constructor=bF;function
+aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){T(a.toString())}};aD.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bD(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kI);return bl(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
-b=cI(hh);if(d&&b){var
-c=cK(a.code,a.syscall,a.path,a.errno);cJ(b,c)}else
-Q(a.toString())};aA.prototype.stats_from_js=function(a){var
+bF(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kP);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=cN(hv);if(d&&b){var
+c=cP(a.code,a.syscall,a.path,a.errno);cO(b,c)}else
+T(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
-mZ(b){var
-a=hN(b);if(!a)return;return a[0]+bg}var
-ft=mZ(d7)||bk("unable to compute caml_root"),dk=[];if(d$())dk.push({path:ft,device:new
-aA(ft)});else
-dk.push({path:ft,device:new
-aQ(ft)});dk.push({path:lR,device:new
-aQ(lR)});function
-nf(b){var
-g=AL(b),b=g.join(bg),f=m$(b),c;for(var
-e=0;e<dk.length;e++){var
-a=dk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&d$()){var
-d=mZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
+m8(b){var
+a=h1(b);if(!a)return;return a[0]+bh}var
+fy=m8(eb)||bl("unable to compute caml_root"),dt=[];if(ef())dt.push({path:fy,device:new
+aD(fy)});else
+dt.push({path:fy,device:new
+aQ(fy)});dt.push({path:l0,device:new
+aQ(l0)});function
+no(b){var
+g=Bf(b),b=g.join(bh),f=ni(b),c;for(var
+e=0;e<dt.length;e++){var
+a=dt[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ef()){var
+d=m8(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aA(d)};dk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;Q("no device found for "+f)}function
-Ap(c,b){var
-a=nf(c);if(!a.device.register)bk("cannot register file");a.device.register(a.rest,b);return 0}function
-na(c,b){var
-c=a(c),b=a(b);return Ap(c,b)}function
-As(){var
-b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)na(b[a].name,b[a].content);u.jsoo_create_file=na;u.caml_fs_tmp=[];return 0}function
-mY(){return[0]}function
-Au(a,c,k){if(!isFinite(a)){if(isNaN(a))return bl(g8);return bl(a>0?mr:"-infinity")}var
+aD(d)};dt.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;T("no device found for "+f)}function
+AV(c,b){var
+a=no(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
+nj(c,b){var
+c=a(c),b=a(b);return AV(c,b)}function
+AY(){var
+b=v.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)nj(b[a].name,b[a].content);v.jsoo_create_file=nj;v.caml_fs_tmp=[];return 0}function
+m7(){return[0]}function
+A0(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(hj);return bm(a>0?my:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:by,e=s;if(i)e=a9;else
+j=d<0?t:bA,e=t;if(i)e=a_;else
 switch(k){case
-43:e=by;break;case
-32:e=bT;break;default:break}if(c>=0&&c<13){var
+43:e=bA;break;case
+32:e=bV;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ce);if(h<0)b+=ce+dj(c,aP);else{var
-f=h+1+c;if(b.length<f)b+=dj(f-b.length,aP);else
-b=b.substr(0,f)}}return bl(e+kR+b+"p"+j+d.toString(10))}function
-AB(a){return+a.isZero()}function
-AE(a){return new
-t(a&bV,a>>24&bV,a>>31&bB)}function
-AF(a){return a.toInt()}function
-AA(a){return+a.isNeg()}function
-AD(a){return a.neg()}function
-Ay(g,c){var
-a=hE(g);if(a.signedconv&&AA(c)){a.sign=-1;c=AD(c)}var
-b=s,h=AE(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(AF(e.modulus))+b}while(!AB(c));if(a.prec>=0){a.filler=bT;var
-d=a.prec-b.length;if(d>0)b=dj(d,aP)+b}return hv(a,b)}function
-AT(c){var
-a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
+h=b.indexOf(ci);if(h<0)b+=ci+ds(c,aP);else{var
+f=h+1+c;if(b.length<f)b+=ds(f-b.length,aP);else
+b=b.substr(0,f)}}return bm(e+kZ+b+"p"+j+d.toString(10))}function
+A7(a){return+a.isZero()}function
+A_(a){return new
+u(a&bX,a>>24&bX,a>>31&bD)}function
+A$(a){return a.toInt()}function
+A6(a){return+a.isNeg()}function
+A9(a){return a.neg()}function
+A4(g,c){var
+a=hS(g);if(a.signedconv&&A6(c)){a.sign=-1;c=A9(c)}var
+b=t,h=A_(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(A$(e.modulus))+b}while(!A7(c));if(a.prec>=0){a.filler=bV;var
+d=a.prec-b.length;if(d>0)b=ds(d,aP)+b}return hJ(a,b)}function
+Bn(c){var
+a=0,e=I(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bG(c,a)==48)switch(bG(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bI(c,a)==48)switch(bI(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=E(c),b=10,d=1;if(e>0)switch(bG(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-m7(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mE)return a-87;return-1}function
-hC(f){var
-h=AT(f),c=h[0],i=h[1],d=h[2],g=E(f),j=-1>>>0,e=c<g?bG(f,c):0,b=m7(e);if(b<0||b>=d)bk(e8);var
-a=b;for(c++;c<g;c++){e=bG(f,c);if(e==95)continue;b=m7(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bk(e8)}if(c!=g)bk(e8);a=i*a;if(d==10&&(a|0)!=a)bk(e8);return a|0}function
-AJ(d){return function(){var
+ne(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mN)return a-87;return-1}function
+hQ(f){var
+h=Bn(f),c=h[0],i=h[1],d=h[2],g=I(f),j=-1>>>0,e=c<g?bI(f,c):0,b=ne(e);if(b<0||b>=d)bl(fa);var
+a=b;for(c++;c<g;c++){e=bI(f,c);if(e==95)continue;b=ne(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
+Bd(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bY(d,c)}else
-return bY(d,[undefined])}}function
-AM(a,d){if(a<0)d6();var
+a=0;a<b;a++)c[a]=arguments[a];return b0(d,c)}else
+return b0(d,[undefined])}}function
+Bg(a,d){if(a<0)ea();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-AN(){return 0}var
-bF=new
+Bh(){return 0}var
+bH=new
 Array();function
-di(c){var
-a=bF[c];if(!a.opened)Q("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ah.fds[a.fd]&&ah.fds[a.fd].output){var
-b=ah.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-m_(e,f){var
-b=bF[e],d=a(f),c=E(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-A2(a){var
-a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+dr(c){var
+a=bH[c];if(!a.opened)T("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
+b=aj.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
+nh(e,f){var
+b=bH[e],d=a(f),c=I(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Bw(a){var
+a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-A3(a){var
-a=hJ(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Bx(a){var
+a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fu(c,e,d,a){if(ah.fds===undefined)ah.fds=new
+fz(c,e,d,a){if(aj.fds===undefined)aj.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ah.fds[c]=b;if(!ah.fd_last_idx||c>ah.fd_last_idx)ah.fd_last_idx=c;return c}function
-A_(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aj.fds[c]=b;if(!aj.fd_last_idx||c>aj.fd_last_idx)aj.fd_last_idx=c;return c}function
+BE(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,327 +687,327 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)Q(b0(c)+lq);if(a.text&&a.binary)Q(b0(c)+lV);var
-d=nf(c),e=d.device.open(d.rest,a),f=ah.fd_last_idx?ah.fd_last_idx:0;return fu(f+1,m_,e,a)}fu(0,m_,new
-az(ao(0)));fu(1,A3,new
-az(ao(0)));fu(2,A2,new
-az(ao(0)));function
-AO(a){var
-c=ah.fds[a];if(c.flags.wronly)Q(mD+a+" is writeonly");var
-d=null;if(a==0&&d$()){var
-e=require("fs");d=function(){return bl(e.readFileSync(0,kI))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bF[b.fd]=b;return b.fd}function
-m2(c){var
-b=ah.fds[c];if(b.flags.rdonly)Q(mD+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bF[a.fd]=a;return a.fd}function
-AP(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)T(b2(c)+ly);if(a.text&&a.binary)T(b2(c)+l4);var
+d=no(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fz(f+1,nh,e,a)}fz(0,nh,new
+aC(ao(0)));fz(1,Bx,new
+aC(ao(0)));fz(2,Bw,new
+aC(ao(0)));function
+Bi(a){var
+c=aj.fds[a];if(c.flags.wronly)T(mM+a+" is writeonly");var
+d=null;if(a==0&&ef()){var
+e=require("fs");d=function(){return bm(e.readFileSync(0,kP))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bH[b.fd]=b;return b.fd}function
+m$(c){var
+b=aj.fds[c];if(b.flags.rdonly)T(mM+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bH[a.fd]=a;return a.fd}function
+Bj(){var
 b=0;for(var
-a=0;a<bF.length;a++)if(bF[a]&&bF[a].opened&&bF[a].out)b=[0,bF[a].fd,b];return b}function
-aJ(a){return a}function
-AQ(g,d,h,f){var
-b=bF[g];if(!b.opened)Q("Cannot output to a closed channel");var
-a;if(h==0&&a0(d)==f)a=d;else{a=ao(f);cg(d,h,a,0,f)}var
-i=aJ(a),c=b0(i),e=c.lastIndexOf(k3);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);di(g);b.buffer+=c.substr(e+1)}return 0}function
-m3(b,a,d,c){return AQ(b,bX(a),d,c)}function
-m4(c,b){var
-d=a(String.fromCharCode(b));m3(c,d,0,1);return 0}function
-d_(a,b){return+(ht(a,b,false)!=0)}function
-fs(a){if(a
+a=0;a<bH.length;a++)if(bH[a]&&bH[a].opened&&bH[a].out)b=[0,bH[a].fd,b];return b}function
+aM(a){return a}function
+Bk(g,d,h,f){var
+b=bH[g];if(!b.opened)T("Cannot output to a closed channel");var
+a;if(h==0&&a1(d)==f)a=d;else{a=ao(f);ck(d,h,a,0,f)}var
+i=aM(a),c=b2(i),e=c.lastIndexOf(k_);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dr(g);b.buffer+=c.substr(e+1)}return 0}function
+na(b,a,d,c){return Bk(b,bZ(a),d,c)}function
+nb(c,b){var
+d=a(String.fromCharCode(b));na(c,d,0,1);return 0}function
+ee(a,b){return+(hH(a,b,false)!=0)}function
+fx(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fr(a))return fj;else
-if(hD(a))return fj;else
+if(fw(a))return fo;else
+if(hR(a))return fo;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return k8;else
-return d2}function
-a_(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ah[b+1]=c;if(a)ah[a]=c}function
-hG(a,b){m6[b0(a)]=b;return 0}function
-Ai(a,b){if(a===b)return 1;a.t&6&&dh(a);b.t&6&&dh(b);return a.c==b.c?1:0}function
-au(a,b){return Ai(a,b)}function
-AY(){at(hm)}function
-R(b,a){if(a>>>0>=E(b))AY();return bG(b,a)}function
-l(a,b){return 1-au(a,b)}function
-A0(){return 0x7FFFFFFF/4|0}function
-hI(a){var
+if(a&&a.caml_custom)return ld;else
+return d8}function
+a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
+hU(a,b){nd[b2(a)]=b;return 0}function
+AO(a,b){if(a===b)return 1;a.t&6&&dq(a);b.t&6&&dq(b);return a.c==b.c?1:0}function
+ap(a,b){return AO(a,b)}function
+Bs(){aw(hA)}function
+U(b,a){if(a>>>0>=I(b))Bs();return bI(b,a)}function
+k(a,b){return 1-ap(a,b)}function
+Bu(){return 0x7FFFFFFF/4|0}function
+hW(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aB(b,a){return{joo_tramp:b,joo_args:a}}function
-m9(a){return a}function
-fv(a){if(a
+aE(b,a){return{joo_tramp:b,joo_args:a}}function
+ng(a){return a}function
+fA(a){if(a
 instanceof
-Array)return a;if(u.RangeError&&a
+Array)return a;if(v.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return m9(ah.Stack_overflow);if(u.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ng(aj.Stack_overflow);if(v.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return m9(ah.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return ng(aj.Stack_overflow);if(a
 instanceof
-u.Error&&cI(g5))return[0,cI(g5),a];return[0,ah.Failure,bl(String(a))]}function
-fw(a){return a<0?-a:a}function
-A(a,b){return a+b}function
-hK(a,b){return a<b?-1:a>b?1:0}function
-nc(c,b){var
-a=c%b;return a<0?a+fw(b):a}function
-hL(a,b){return(a-nc(a,b))/b}function
-ak(a,b){return a==b?1:0}function
-B(a,b){return a<=b?1:0}function
+v.Error&&cN(hg))return[0,cN(hg),a];return[0,aj.Failure,bm(String(a))]}function
+fB(a){return a<0?-a:a}function
+C(a,b){return a+b}function
+hY(a,b){return a<b?-1:a>b?1:0}function
+nl(c,b){var
+a=c%b;return a<0?a+fB(b):a}function
+hZ(a,b){return(a-nl(a,b))/b}function
+al(a,b){return a==b?1:0}function
+D(a,b){return a<=b?1:0}function
 ac(a,b){return a<b?1:0}function
 r(a,b){return a*b}function
-W(a){return-a}function
-a1(a){return u.BigInt(a)}function
-nd(a,b){return a<<u.BigInt(b)}function
-ne(a,b){return a>>u.BigInt(b)}function
-bH(a){return a<0?-1:a>0?1:0}function
-A8(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
-d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b1(a,b){return a-b}function
-hM(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-AI(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ar(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&AI(b[1]))var
+Z(a){return-a}function
+a2(a){return v.BigInt(a)}function
+nm(a,b){return a<<v.BigInt(b)}function
+nn(a,b){return a>>v.BigInt(b)}function
+bJ(a){return a<0?-1:a>0?1:0}function
+BC(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+b3(a,b){return a-b}function
+h0(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+Bc(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+AX(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Bc(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mb;for(var
-d=f;d<e.length;d++){if(d>f)a+=kL;var
+f=2,e=b;a+=mj;for(var
+d=f;d<e.length;d++){if(d>f)a+=kS;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bC)a+=as+c.toString()+as;else
+bE)a+=av+c.toString()+av;else
 if(typeof
-c=="string")a+=as+c.toString()+as;else
-a+=lI}a+=g9}else
-if(b[0]==ar)a+=b[1];return a}function
-mX(a){if(a
+c=="string")a+=av+c.toString()+av;else
+a+=lQ}a+=hk}else
+if(b[0]==au)a+=b[1];return a}function
+m6(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ar)){var
-c=cI(kY);if(c)c(a,false);else{var
-d=Ar(a),b=cI(kH);if(b)b(0);u.console.error(hd+d+k3)}}else
+Array&&(a[0]==0||a[0]==au)){var
+c=cN(k6);if(c)c(a,false);else{var
+d=AX(a),b=cN(kO);if(b)b(0);v.console.error(hr+d+k_)}}else
 throw a}function
-AX(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mX(a.error)})}AX();function
-e(a,b){return a.length==1?a(b):bY(a,[b])}function
-N(a,b,c){return a.length==2?a(b,c):bY(a,[b,c])}function
-g0(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bY(a,[b,c,d,e,f])}function
-Ad(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bY(a,[b,c,d,e,f,g,h])}As();var
-fx=[ar,a(mv),-1],hS=[ar,a(k0),-2],hP=[ar,a(g4),-3],hO=[ar,a(lE),-4],hQ=[ar,a(lg),-8],hR=[ar,a(lS),-9],$=[ar,a(mg),-11],hT=[ar,a(kG),-12],zf=[4,0,0,0,[12,45,[4,0,0,0,0]]],fD=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(ll),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zg=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zg]]]]]]]]]]],zi=[0,0],zj=[0,[0,[0,[0,0]]]],zk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zj]]]]]]]]]]],zl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zk]]]]]]]]]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zl]]]]]]]]]]],zn=[0,[0,0]],zo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zn]]]]]]]]]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zo]]]]]]]]]]],zq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zp]]]]]]]]]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zq]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zs]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zt]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zu]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zv]]]]]]]]]]],zx=[0,[0,0]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zx]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zy]]]]]]]]]]],zA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zz]]]]]]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zA]]]]]]]]]]],zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zB]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zC]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zD]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zF]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zG]]]]]]]]]]],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zH]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zI]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zJ]]]]]]]]]]],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zK]]]]]]]]]]],zM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zL]]]]]]]]]]],zN=[0,0],zO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,0]]]]],z3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,0],Ac=[0,[0,[0,[0,[0,0]]]]],cs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eN=[0,[0,[0,[0,0]]]];a_(11,hT,kG);a_(10,$,mg);a_(9,[ar,a(ly),-10],ly);a_(8,hR,lS);a_(7,hQ,lg);a_(6,[ar,a(lP),-7],lP);a_(5,[ar,a(l7),-6],l7);a_(4,[ar,a(k5),-5],k5);a_(3,hO,lE);a_(2,hP,g4);a_(1,hS,k0);a_(0,fx,mv);var
-nk=a("%.12g"),nj=a(ce),nh=a("true"),ni=a("false"),nl=a("\\\\"),nm=a("\\'"),nn=a("\\b"),no=a("\\t"),np=a("\\n"),nq=a("\\r"),nt=a("String.blit / Bytes.blit_string"),ns=a("Bytes.blit"),nr=a("String.sub / Bytes.sub"),nv=a(s),nu=a("String.concat"),nw=a("Array.init"),nz=a("Buffer.add: cannot grow buffer"),ny=[0,a(l3),93,2],nx=[0,a(l3),94,2],nI=a("%c"),nJ=a("%s"),nK=a(kE),nL=a(le),nM=a(lA),nN=a(kN),nO=a("%f"),nP=a("%B"),nQ=a("%{"),nR=a("%}"),nS=a("%("),nT=a("%)"),nU=a("%a"),nV=a("%t"),nW=a("%?"),nX=a("%r"),nY=a("%_r"),nZ=[0,a(aq),850,23],n_=[0,a(aq),814,21],n2=[0,a(aq),815,21],n$=[0,a(aq),818,21],n3=[0,a(aq),819,21],oa=[0,a(aq),822,19],n4=[0,a(aq),823,19],ob=[0,a(aq),826,22],n5=[0,a(aq),827,22],oc=[0,a(aq),831,30],n6=[0,a(aq),832,30],n8=[0,a(aq),836,26],n0=[0,a(aq),837,26],n9=[0,a(aq),846,28],n1=[0,a(aq),847,28],n7=[0,a(aq),851,23],pf=a(lv),pd=[0,a(aq),1558,4],pe=a("Printf: bad conversion %["),pg=[0,a(aq),1626,39],ph=[0,a(aq),1649,31],pi=[0,a(aq),1650,31],pj=a("Printf: bad conversion %_"),pk=a(lr),pl=a(lD),pm=a(lr),pn=a(lD),pb=a(g8),o$=a("neg_infinity"),pa=a(mr),o_=a(ce),o5=[0,kW],oT=a("%+nd"),oU=a("% nd"),oW=a("%+ni"),oX=a("% ni"),oY=a("%nx"),oZ=a("%#nx"),o0=a("%nX"),o1=a("%#nX"),o2=a("%no"),o3=a("%#no"),oS=a("%nd"),oV=a(lA),o4=a("%nu"),oG=a("%+ld"),oH=a("% ld"),oJ=a("%+li"),oK=a("% li"),oL=a("%lx"),oM=a("%#lx"),oN=a("%lX"),oO=a("%#lX"),oP=a("%lo"),oQ=a("%#lo"),oF=a("%ld"),oI=a(le),oR=a("%lu"),ot=a("%+Ld"),ou=a("% Ld"),ow=a("%+Li"),ox=a("% Li"),oy=a("%Lx"),oz=a("%#Lx"),oA=a("%LX"),oB=a("%#LX"),oC=a("%Lo"),oD=a("%#Lo"),os=a("%Ld"),ov=a(kN),oE=a("%Lu"),og=a("%+d"),oh=a("% d"),oj=a("%+i"),ok=a("% i"),ol=a("%x"),om=a("%#x"),on=a("%X"),oo=a("%#X"),op=a("%o"),oq=a("%#o"),of=a(hi),oi=a(kE),or=a(lv),nA=a("@]"),nB=a("@}"),nC=a("@?"),nD=a("@\n"),nE=a("@."),nF=a("@@"),nG=a("@%"),nH=a("@"),od=a("CamlinternalFormat.Type_mismatch"),pr=a(s),ps=[0,[11,a(kL),[2,0,[2,0,0]]],a(", %s%s")],pR=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pS=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pQ=a("Fatal error: out of memory in uncaught exception handler"),pO=[0,[11,a(hd),[2,0,[12,10,0]]],a(md)],pK=[0,[2,0,[12,10,0]],a("%s\n")],pC=a("Raised at"),pD=a("Re-raised at"),pE=a("Raised by primitive operation at"),pF=a("Called from"),pG=a(" (inlined)"),pI=a(s),pH=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(ll),zf]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pJ=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],px=a("Out of memory"),py=a("Stack overflow"),pz=a("Pattern matching failed"),pA=a("Assertion failed"),pB=a("Undefined recursive module"),pt=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pu=a(s),pv=a(s),pw=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pq=[0,[4,0,0,0,0],a(hi)],po=[0,[3,0,0],a("%S")],pp=a(lI),pL=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pU=a("Jsoo_runtime.Error.Exn"),pW=a("power"),p6=[0,0],p7=[0,[0,0]],p8=[0,[0,0]],qd=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qn=[0,0],qD=[0,0],qF=[0,0],qR=[0,0],qS=[0,0],rb=[0,[0,[0,0]]],rn=a(","),rF=[0,a(g9),0],rG=a(mb),rH=a(ce),rI=[0,[0,[0,0]]],rJ=a(a9),rK=a(g_),rL=[0,[0,[0,[0,[0,0]]]]],rM=[0,a(g9),0],rN=a(mH),t5=a(kF),t7=a(lG),t6=a(mi),t8=a(e$),t9=a(lC),t_=a(mA),t$=a(l2),uO=[0,a(lf),7777,12],u2=a(he),u3=[0,0],u4=a("divided"),u5=[0,1],u6=a("mirror"),u7=[0,3],u8=a("negative"),u9=[0,2],u_=a(hq),u$=[0,4],va=a(e9),vb=a(lT),vc=a(fi),vd=a(cG),ve=[0,0],vf=[0,0],vg=[0,0],vA=a(s),vw=[0,[0,[0,0]]],vx=[0,[0,[0,[0,0]]]],vy=[0,[0,[0,[0,0]]]],vu=[0,[0,[0,0]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zh]]]]]]]]]]],vs=[0,0],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zi]]]]]]]]]]],vo=[0,[0,0]],vp=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,0]],vl=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vh=[0,0],uX=[0,[0,0]],uY=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uR=[0,0],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zm]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zr]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zw]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zE]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],uL=a("sqrt"),uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ur=[0,a("\n"),0],us=a(lH),ut=a(e7),uu=a(k_),uv=a(l5),uw=a("certified"),uB=a("refuted"),ux=a("verdict"),uy=a(lo),uz=a(l0),uA=a(mf),uj=a(mu),uk=a(e_),ul=a(k7),um=a(fa),un=a(bj),uo=a(lJ),up=a(e_),uq=a(my),uf=a(mo),ug=a(fa),uh=a(lZ),ui=a(mB),ub=a(mz),uc=a(l$),ud=a(fh),t3=a(hg),t4=a(ha),tH=a(fh),tm=a(bj),tn=a(bU),to=a(de),tp=a(e6),tq=a(dd),tr=a(bj),ts=a(bU),tt=a(hn),tu=a(bA),tv=a(bz),tw=a(cF),tx=a(de),ty=a(mq),tz=a(mw),tA=a(dd),tB=a(bj),tC=a(bU),tD=a(bA),tE=a(bz),tF=a(cF),tG=a(de),tI=a(lk),tJ=a(ls),tK=a(mG),tL=a(lU),tM=a(kQ),tN=a(dd),tO=a(bj),tP=a(bU),tQ=a(fc),tR=a(l4),tS=a(de),tT=a(d4),tU=a(lM),tV=a(dd),tW=a(bj),tX=a(fc),tY=a(bj),tZ=a(lh),t2=a(lF),t0=a(kP),t1=a(lw),tg=a(bU),th=a(hr),ti=a(de),tj=a(e6),tk=a(dd),s6=a(d4),s7=a(mx),s8=a(da),s9=a(db),s_=a(db),s$=a(g2),ta=a(da),tb=a(mh),tc=a(l1),td=a(bh),tf=a(lL),te=a(g2),sW=a(k6),sX=a(lB),sY=a(kS),sZ=a(lX),s0=a(lu),s1=a(lm),s2=a(l6),s3=a(fd),s4=a(fd),sS=a(bh),sT=a(cc),sU=a(fb),sV=a(cd),sO=a(d1),sP=a(hl),sQ=a(mm),sH=a(bA),sI=a(bz),sJ=a(cF),sK=a(k$),sL=a(da),sM=a(k4),sN=a(mt),sA=a(l8),sB=a(kO),sG=a(e7),sC=a(lY),sD=a(k1),sE=a(db),sF=a(mj),sx=a(bz),sy=a(bA),sz=a(lt),sn=a(kK),so=a(lK),sp=a(mp),sq=a(e$),sr=a(mF),ss=a(ms),st=a(lO),su=a(ml),sv=a(kJ),sw=a(kX),sc=a(by),sm=a(a9),sd=a(ff),se=a(fe),sf=a(fl),sg=a(bh),sh=a(cc),si=a(lc),sj=a(li),sk=a(fl),sl=a(cd),rW=a(by),r4=a(a9),rX=a(ff),rY=a(fe),rZ=a(bh),r0=a(cc),r1=a(cG),r2=a(lx),r3=a(cd),r5=a(hb),r6=a(bh),r7=a(cc),r8=a(fb),r9=a(cd),r_=a(cG),r$=a(d1),sa=a(cd),rT=a(bA),rU=a(bz),rR=[0,a(as),0],rS=a(as),rP=[0,a(lf),7093,36],rO=[0,a(as),0],rQ=a(as),rB=a(by),rC=a(a9),rD=a("*"),rE=a(bg),rw=[0,[0,[0,[0,[0,0]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,[0,[0,0]]]],ru=a('":'),rv=a(as),rs=[0,a(as),0],rt=a(as),rq=[0,a("}"),0],rr=a("{"),ro=[0,a("]"),0],rp=a("["),rm=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,0],rg=[0,[0,[0,0]]],rh=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ri=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],re=[0,[0,0]],rf=[0,[0,[0,0]]],q$=[0,[0,0]],ra=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q_=[0,[0,0]],q7=[0,0],q3=[0,[0,0]],q4=[0,0],q5=[0,0],q6=[0,[0,0]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,0],qY=[0,0],qZ=[0,[0,0]],q0=[0,[0,0]],q1=[0,[0,0]],q2=[0,0],qQ=[0,0],qO=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,0],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],qI=[0,[0,[0,0]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,[0,[0,[0,0]]]]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qo=[0,[0,0]],qp=[0,0],qe=[0,0,0],p$=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,[0,0]],p9=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],p5=a(aP),p4=a(s),p3=[0,[0,0]],p2=[0,0],p1=[1,0],p0=[0,0],pZ=[0,0],pX=[1,0],pY=[1,0],xM=a(cd),xN=a(hb),xO=a(fb),xR=a(bh),xS=a(cc),xP=[0,a('" of such a platform'),0],xQ=a(kM),xy=a("rho"),xz=a(fh),xA=[0,a("a joint by its coordinate"),0],w_=a(bU),wZ=a(bj),w0=a(lh),w1=a(lw),w4=a(kP),w5=a(lF),w6=a(bj),w7=a(bj),w9=a(fc),w8=[0,a("a claim that no cube of such a machine fits"),0],w$=a(dd),xa=a(de),xb=a(e6),xc=a(hr),x$=[0,a("such a machine with bodies"),0],xd=a(d1),xe=a(hl),xf=a(mm),xg=a(hn),xh=a(kQ),xi=a(lM),xj=a(e6),xm=a(cF),xn=a(mt),xq=a(hr),xr=[0,a("a machine with arms and bodies"),0],xs=[0,a("two bodies beside each other on one leg"),0],xt=a(bU),xu=a(l4),xv=a(fc),xw=a(d4),xx=a(cF),xB=a(bU),xC=a(bA),xD=a(bz),xE=a(lk),xF=a(ls),xG=a(mG),xH=a(lU),xk=[0,a(as),0],xl=a(lz),xI=a(cF),xJ=[0,a('" of a platform that turns'),0],xK=a(ln),xL=a(mq),x9=[0,a('" that does not turn'),0],x_=a(lz),xT=a(hn),xU=a(lm),xV=a(k6),xW=a(lu),xX=a(fd),xY=a(l6),xZ=a(fd),x6=a(lB),x7=a(kS),x8=a(lX),x0=a(d1),x1=a(hl),x2=a(bU),x3=a(bA),x4=a(bz),x5=a(mw),xo=[0,a(as),0],xp=a(ln),w2=[0,a(as),0],w3=a('a claim of the kind "'),yc=a(e$),yd=a(l2),ye=a(mi),yf=a(cG),yg=a(lC),yh=a(e9),yi=a(lT),yj=a(fi),yo=a(ha),yp=a(hg),yq=a(cG),yk=[0,a(as),0],yl=a('the evidence "'),ym=a(ha),yn=a(hg),yr=a(e9),ys=a(fi),yt=a(mA),yv=a(e9),yw=a(fi),yx=a(he),yy=a(he),yu=[0,a("this evidence at control points"),0],yX=a(mf),yY=a(l0),yZ=a(lo),y_=[0,3,3],y0=a(l5),y5=[0,a('the drive "arm" in a claim that is certified'),0],y6=[0,a("a step of a platform that turns that is not at control points"),0],y7=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],y8=[0,a("a mechanism by formulas in a claim that is refuted"),0],y9=[0,a("a step in a proof that no cube fits"),0],y1=[0,a("a leaf that fails"),0],y2=a(k_),y3=a(lH),y4=a(e7),yV=a(hq),yK=a(k7),yL=a(my),yO=a(bj),yP=a(fa),yQ=a(lJ),yR=a(e_),yS=a(mu),yT=a(e_),yM=[0,a(as),0],yN=a('a proof of the kind "'),yG=a(mo),yH=a(fa),yI=a(lZ),yJ=a(mB),yB=a(l$),yC=a(mz),yD=a(fh),yE=[0,a(as),0],yF=a('the failure "'),yz=a(hq),yA=a(aP),ya=a(lG),yb=a(kF),wW=a(d4),wM=a(g2),wN=a(lL),wO=a(db),wP=a(bh),wU=a(mx),wV=a(d4),wX=a(da),wY=a(db),wQ=a(da),wR=a(mh),wS=a(l1),wT=a(bh),wF=a(cF),wJ=a(bA),wK=a(bz),wG=a(k4),wH=a(k$),wI=a(da),wD=[0,a(me),0],wC=[0,a(me),0],ws=a(lY),wt=[0,a("a stiffness for each joint"),0],wr=a(e7),wk=a(l8),wc=a(mj),wd=a(mp),ww=a(kX),wx=a(e$),wy=a(ml),wz=a(kJ),wA=a(lK),we=a(ms),wf=a(mF),wg=a(lO),wh=a(kK),wi=[0,a(as),0],wj=a('the quantity "'),wl=a(kO),wm=a(bA),wn=a(bz),wo=a(lt),wp=[0,a(as),0],wq=a('a bound "'),wu=a(k1),wv=a(db),v7=a(ff),v8=a(fe),v9=a(fl),v_=a(bh),v$=a(cc),wa=a(lc),wb=a(li),v4=a(cd),v5=a(fl),vP=a(cd),vQ=a(d1),vR=a(lx),vS=a(fb),vV=a(hb),vW=a(bh),vX=a(cc),vY=a(ff),vZ=a(fe),v0=a(bh),v1=a(cc),v2=a(cG),v3=a(cG),vT=[0,a(as),0],vU=a(kM),vM=a(by),vN=a(a9),vK=a(" is not covered by the verified checker"),vL=a(s),vI=a(bA),vJ=a(bz),vE=a(s),vF=a(mH),vG=a(s),vH=a(s),vD=[1,0],vB=a("Reader.Malformed"),vC=a("Reader.Not_covered"),za=a(ld),zb=a("CERTIFIED"),zc=a("REFUTED"),zd=a(ld),ze=a("NOT COVERED: ");function
-ad(a){if(typeof
+Br(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m6(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m6(a.error)})}Br();function
+e(a,b){return a.length==1?a(b):b0(a,[b])}function
+Q(a,b,c){return a.length==2?a(b,c):b0(a,[b,c])}function
+ha(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b0(a,[b,c,d,e,f])}function
+AJ(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b0(a,[b,c,d,e,f,g,h])}AY();var
+fC=[au,a(mE),-1],h6=[au,a(k8),-2],h3=[au,a(hf),-3],h2=[au,a(lM),-4],h4=[au,a(ln),-8],h5=[au,a(l1),-9],ae=[au,a(mn),-11],h7=[au,a(kN),-12],zL=[4,0,0,0,[12,45,[4,0,0,0,0]]],fI=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lt),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zM=[0,[0,0]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,0],zP=[0,[0,[0,[0,0]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,0]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,0]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,0],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,0]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,0],AI=[0,[0,[0,[0,[0,0]]]]],cv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,h7,kN);a$(10,ae,mn);a$(9,[au,a(lG),-10],lG);a$(8,h5,l1);a$(7,h4,ln);a$(6,[au,a(lY),-7],lY);a$(5,[au,a(me),-6],me);a$(4,[au,a(la),-5],la);a$(3,h2,lM);a$(2,h3,hf);a$(1,h6,k8);a$(0,fC,mE);var
+nt=a("%.12g"),ns=a(ci),nq=a("true"),nr=a("false"),nu=a("\\\\"),nv=a("\\'"),nw=a("\\b"),nx=a("\\t"),ny=a("\\n"),nz=a("\\r"),nC=a("String.blit / Bytes.blit_string"),nB=a("Bytes.blit"),nA=a("String.sub / Bytes.sub"),nE=a(t),nD=a("String.concat"),nF=a("Array.init"),nI=a("Buffer.add: cannot grow buffer"),nH=[0,a(ma),93,2],nG=[0,a(ma),94,2],nR=a("%c"),nS=a("%s"),nT=a(kL),nU=a(ll),nV=a(lI),nW=a(kV),nX=a("%f"),nY=a("%B"),nZ=a("%{"),n0=a("%}"),n1=a("%("),n2=a("%)"),n3=a("%a"),n4=a("%t"),n5=a("%?"),n6=a("%r"),n7=a("%_r"),n8=[0,a(at),850,23],oh=[0,a(at),814,21],n$=[0,a(at),815,21],oi=[0,a(at),818,21],oa=[0,a(at),819,21],oj=[0,a(at),822,19],ob=[0,a(at),823,19],ok=[0,a(at),826,22],oc=[0,a(at),827,22],ol=[0,a(at),831,30],od=[0,a(at),832,30],of=[0,a(at),836,26],n9=[0,a(at),837,26],og=[0,a(at),846,28],n_=[0,a(at),847,28],oe=[0,a(at),851,23],po=a(lD),pm=[0,a(at),1558,4],pn=a("Printf: bad conversion %["),pp=[0,a(at),1626,39],pq=[0,a(at),1649,31],pr=[0,a(at),1650,31],ps=a("Printf: bad conversion %_"),pt=a(lz),pu=a(lL),pv=a(lz),pw=a(lL),pk=a(hj),pi=a("neg_infinity"),pj=a(my),ph=a(ci),pc=[0,k4],o2=a("%+nd"),o3=a("% nd"),o5=a("%+ni"),o6=a("% ni"),o7=a("%nx"),o8=a("%#nx"),o9=a("%nX"),o_=a("%#nX"),o$=a("%no"),pa=a("%#no"),o1=a("%nd"),o4=a(lI),pb=a("%nu"),oP=a("%+ld"),oQ=a("% ld"),oS=a("%+li"),oT=a("% li"),oU=a("%lx"),oV=a("%#lx"),oW=a("%lX"),oX=a("%#lX"),oY=a("%lo"),oZ=a("%#lo"),oO=a("%ld"),oR=a(ll),o0=a("%lu"),oC=a("%+Ld"),oD=a("% Ld"),oF=a("%+Li"),oG=a("% Li"),oH=a("%Lx"),oI=a("%#Lx"),oJ=a("%LX"),oK=a("%#LX"),oL=a("%Lo"),oM=a("%#Lo"),oB=a("%Ld"),oE=a(kV),oN=a("%Lu"),op=a("%+d"),oq=a("% d"),os=a("%+i"),ot=a("% i"),ou=a("%x"),ov=a("%#x"),ow=a("%X"),ox=a("%#X"),oy=a("%o"),oz=a("%#o"),oo=a(hw),or=a(kL),oA=a(lD),nJ=a("@]"),nK=a("@}"),nL=a("@?"),nM=a("@\n"),nN=a("@."),nO=a("@@"),nP=a("@%"),nQ=a("@"),om=a("CamlinternalFormat.Type_mismatch"),pA=a(t),pB=[0,[11,a(kS),[2,0,[2,0,0]]],a(", %s%s")],p0=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],p1=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pZ=a("Fatal error: out of memory in uncaught exception handler"),pX=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],pT=[0,[2,0,[12,10,0]],a("%s\n")],pL=a("Raised at"),pM=a("Re-raised at"),pN=a("Raised by primitive operation at"),pO=a("Called from"),pP=a(" (inlined)"),pR=a(t),pQ=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lt),zL]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pS=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pG=a("Out of memory"),pH=a("Stack overflow"),pI=a("Pattern matching failed"),pJ=a("Assertion failed"),pK=a("Undefined recursive module"),pC=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pD=a(t),pE=a(t),pF=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pz=[0,[4,0,0,0,0],a(hw)],px=[0,[3,0,0],a("%S")],py=a(lQ),pU=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],p3=a("Jsoo_runtime.Error.Exn"),p5=a("power"),qd=[0,0],qe=[0,[0,0]],qf=[0,[0,0]],qm=[0,0],qt=[0,0,0],qu=[0,0,0],qv=[0,0],qw=[0,0],qN=[0,0],qP=[0,0],q1=[0,0],q2=[0,0],rl=[0,[0,[0,0]]],ry=a(","),rQ=[0,a(hk),0],rR=a(mj),rS=a(ci),rT=[0,[0,[0,0]]],rU=a(a_),rV=a(hl),rW=[0,[0,[0,[0,[0,0]]]]],rX=[0,a(hk),0],rY=a(mQ),um=a(kM),uo=a(lO),un=a(mp),up=a(fd),uq=a(lK),ur=a(mJ),us=a(l$),u8=[0,a(lm),8043,12],vn=a(hs),vo=[0,0],vp=a("divided"),vq=[0,1],vr=a("mirror"),vs=[0,3],vt=a("negative"),vu=[0,2],vv=a(hm),vw=[0,5],vx=a(hE),vy=[0,4],vz=a(fb),vA=a(l2),vB=a(fn),vC=a(cL),vD=[0,0],vE=[0,0],vF=[0,0],v0=a(t),vW=[0,[0,[0,0]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,[0,0]]]],vT=[0,[0,[0,0]]],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],vR=[0,0],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],vN=[0,[0,0]],vO=[0,[0,[0,0]]],vL=[0,[0,[0,0]]],vM=[0,[0,0]],vK=[0,[0,[0,0]]],vH=[0,[0,0]],vI=[0,0],vG=[0,0],vi=[0,[0,0]],vj=[0,0],vh=[0,0],vg=[0,0],vf=[0,0,0],vd=[0,0,0],vc=[0,[0,[0,0]]],vb=[0,0],u$=[0,1,0],u2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],u3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],u4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],u5=a("sqrt"),uW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],uL=[0,a("\n"),0],uM=a(lP),uN=a(e$),uO=a(lf),uP=a(mc),uQ=a("certified"),uV=a("refuted"),uR=a("verdict"),uS=a(lw),uT=a(l9),uU=a(mm),uC=a(mD),uD=a(hm),uE=a(fc),uF=a(lc),uG=a(fe),uH=a(bk),uI=a(lR),uJ=a(fc),uK=a(mH),uy=a(mv),uz=a(fe),uA=a(l8),uB=a(mK),uu=a(mI),uv=a(mh),uw=a(fl),uk=a(hu),ul=a(ho),t0=a(fl),tF=a(bk),tG=a(bW),tH=a(dm),tI=a(e_),tJ=a(dl),tK=a(bk),tL=a(bW),tM=a(hB),tN=a(bC),tO=a(bB),tP=a(cK),tQ=a(dm),tR=a(mx),tS=a(mF),tT=a(dl),tU=a(bk),tV=a(bW),tW=a(bC),tX=a(bB),tY=a(cK),tZ=a(dm),t1=a(ls),t2=a(lA),t3=a(mP),t4=a(l3),t5=a(kY),t6=a(dl),t7=a(bk),t8=a(bW),t9=a(fg),t_=a(mb),t$=a(dm),ua=a(d_),ub=a(lU),uc=a(dl),ud=a(bk),ue=a(fg),uf=a(bk),ug=a(lo),uj=a(lN),uh=a(kX),ui=a(lE),tz=a(bW),tA=a(hF),tB=a(dm),tC=a(e_),tD=a(dl),tn=a(d_),to=a(mG),tp=a(di),tq=a(dj),tr=a(dj),ts=a(hc),tt=a(di),tu=a(mo),tv=a(l_),tw=a(bi),ty=a(lT),tx=a(hc),td=a(lb),te=a(lJ),tf=a(k0),tg=a(l6),th=a(lC),ti=a(lu),tj=a(md),tk=a(fh),tl=a(fh),s$=a(bi),ta=a(cg),tb=a(ff),tc=a(ch),s7=a(d7),s8=a(hz),s9=a(mt),s0=a(bC),s1=a(bB),s2=a(cK),s3=a(lg),s4=a(di),s5=a(k$),s6=a(mA),sR=a(kW),sW=a(e$),sS=a(l7),sT=a(hd),sX=a(kU),sY=a(lq),sZ=a(hd),sU=a(dj),sV=a(mq),sO=a(fm),sP=a(fm),sQ=a(fm),sK=a(mB),sL=a(bB),sM=a(bC),sN=a(lB),sy=a(kR),sz=a(lS),sA=a(mw),sB=a(fd),sC=a(mO),sD=a(mz),sE=a(lX),sF=a(ms),sG=a(kQ),sH=a(k5),sI=a(lW),sJ=a(mC),sn=a(bA),sx=a(a_),so=a(fj),sp=a(fi),sq=a(fq),sr=a(bi),ss=a(cg),st=a(lj),su=a(lp),sv=a(fq),sw=a(ch),r7=a(bA),sd=a(a_),r8=a(fj),r9=a(fi),r_=a(bi),r$=a(cg),sa=a(cL),sb=a(lF),sc=a(ch),se=a(hp),sf=a(bi),sg=a(cg),sh=a(ff),si=a(ch),sj=a(cL),sk=a(d7),sl=a(ch),r4=a(bC),r5=a(bB),r2=[0,a(av),0],r3=a(av),r0=[0,a(lm),7323,36],rZ=[0,a(av),0],r1=a(av),rM=a(bA),rN=a(a_),rO=a("*"),rP=a(bh),rH=[0,[0,[0,[0,[0,0]]]]],rI=[0,[0,[0,0]]],rJ=[0,[0,0]],rK=[0,0],rL=[0,[0,[0,[0,0]]]],rF=a('":'),rG=a(av),rD=[0,a(av),0],rE=a(av),rB=[0,a("}"),0],rC=a("{"),rz=[0,a("]"),0],rA=a("["),rx=[0,[0,[0,0]]],rv=[0,[0,[0,0]]],rt=[0,0],rq=[0,[0,[0,0]]],rr=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rs=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ro=[0,[0,0]],rp=[0,[0,[0,0]]],rj=[0,[0,0]],rk=[0,[0,[0,0]]],rh=[0,[0,[0,0]]],ri=[0,[0,0]],rf=[0,0],rb=[0,[0,0]],rc=[0,0],rd=[0,0],re=[0,[0,0]],q4=[0,[0,0]],q5=[0,0],q6=[0,[0,0]],q7=[0,0],q8=[0,0],q9=[0,[0,0]],q_=[0,[0,0]],q$=[0,[0,0]],ra=[0,0],q0=[0,0],qY=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qU=[0,0],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],qS=[0,[0,[0,0]]],qM=[0,[0,[0,0]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,0]],qH=[0,0],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,0]]],qz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,0]]],qD=[0,[0,[0,[0,[0,[0,0]]]]]],qE=[0,[0,[0,0]]],qF=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qn=[0,0,0],qi=[0,0],qj=[0,[0,0]],qk=[0,0],ql=[0,[0,0]],qg=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],qc=a(aP),qb=a(t),qa=[0,[0,0]],p$=[0,0],p_=[1,0],p9=[0,0],p8=[0,0],p6=[1,0],p7=[1,0],yc=a(ch),yd=a(hp),ye=a(ff),yh=a(bi),yi=a(cg),yf=[0,a('" of such a platform'),0],yg=a(kT),x0=a("rho"),x1=a(fl),x2=[0,a("a joint by its coordinate"),0],xB=a(bW),xq=a(bk),xr=a(lo),xs=a(lE),xv=a(kX),xw=a(lN),xx=a(bk),xy=a(bk),xA=a(fg),xz=[0,a("a claim that no cube of such a machine fits"),0],xC=a(dl),xD=a(dm),xE=a(e_),xF=a(hF),yB=[0,a("such a machine with bodies"),0],xG=a(d7),xH=a(hz),xI=a(mt),xJ=a(hB),xK=a(kY),xL=a(lU),xM=a(e_),xP=a(cK),xQ=a(mA),xT=a(hF),xU=[0,a("a machine with arms and bodies"),0],xV=a(bW),xW=a(mb),xX=a(fg),xY=a(d_),xZ=a(cK),x3=a(bW),x4=a(bC),x5=a(bB),x6=a(ls),x7=a(lA),x8=a(mP),x9=a(l3),xN=[0,a(av),0],xO=a(lH),x_=a(cK),x$=[0,a('" of a platform that turns'),0],ya=a(lv),yb=a(mx),yz=[0,a('" that does not turn'),0],yA=a(lH),yj=a(hB),yk=a(lu),yl=a(lb),ym=a(lC),yn=a(fh),yo=a(md),yp=a(fh),yw=a(lJ),yx=a(k0),yy=a(l6),yq=a(d7),yr=a(hz),ys=a(bW),yt=a(bC),yu=a(bB),yv=a(mF),xR=[0,a(av),0],xS=a(lv),xt=[0,a(av),0],xu=a('a claim of the kind "'),yG=a(fd),yH=a(l$),yI=a(mp),yJ=a(cL),yK=a(lK),yL=a(fb),yM=a(l2),yN=a(fn),yQ=a(ho),yR=a(hu),yS=a(cL),yO=[0,a(av),0],yP=a('the evidence "'),yT=a(fb),yU=a(fn),yV=a(mJ),yX=a(fb),yY=a(fn),yZ=a(hs),y0=a(hs),yW=[0,a("this evidence at control points"),0],zp=a(mm),zq=a(l9),zr=a(lw),zE=[0,3,3],zs=a(mc),zt=[0,a("the acceleration of a joint of a machine with a plane"),0],zA=[0,a('the drive "arm" in a claim that is certified'),0],zB=[0,a("a step of a platform that turns that is not at control points"),0],zC=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zD=[0,a("a mechanism by formulas in a claim that is refuted"),0],zz=[0,a("this quantity in a claim that is refuted"),0],zx=[0,a("a leaf that fails"),0],zy=[0,a("a step in a proof that no cube fits"),0],zu=a(lf),zv=a(lP),zw=a(e$),zn=a(hE),za=a(lc),zb=a(mH),ze=a(bk),zf=a(fe),zg=a(lR),zh=a(fc),zi=a(mD),zj=a(hm),zk=a(fc),zc=[0,a(av),0],zd=a('a proof of the kind "'),y8=a(mv),y9=a(fe),y_=a(l8),y$=a(mK),y3=a(mh),y4=a(mI),y5=a(fl),y6=[0,a(av),0],y7=a('the failure "'),y1=a(hE),y2=a(aP),yE=a(ho),yF=a(hu),yC=a(lO),yD=a(kM),xn=a(d_),xd=a(hc),xe=a(lT),xf=a(dj),xg=a(bi),xl=a(mG),xm=a(d_),xo=a(di),xp=a(dj),xh=a(di),xi=a(mo),xj=a(l_),xk=a(bi),w8=a(cK),xa=a(bC),xb=a(bB),w9=a(k$),w_=a(lg),w$=a(di),w6=[0,a("this quantity of such a mechanism"),0],wU=a(l7),wV=[0,a("a stiffness for each joint"),0],wW=a(lq),wX=a(kU),wT=a(e$),wL=a(fm),wC=a(mq),wD=a(mw),w0=a(k5),w1=a(fd),w2=a(ms),w3=a(lW),w4=a(kQ),w5=a(lS),wE=a(mC),wF=a(mz),wG=a(mO),wH=a(lX),wI=a(kR),wJ=[0,a(av),0],wK=a('the quantity "'),wM=a(kW),wN=a(mB),wO=a(bC),wP=a(bB),wQ=a(lB),wR=[0,a(av),0],wS=a('a bound "'),wY=a(hd),wZ=a(dj),wv=a(fj),ww=a(fi),wx=a(fq),wy=a(bi),wz=a(cg),wA=a(lj),wB=a(lp),ws=a(ch),wt=a(fq),wd=a(ch),we=a(d7),wf=a(lF),wg=a(ff),wj=a(hp),wk=a(bi),wl=a(cg),wm=a(fj),wn=a(fi),wo=a(bi),wp=a(cg),wq=a(cL),wr=a(cL),wh=[0,a(av),0],wi=a(kT),wa=a(bA),wb=a(a_),v_=a(" is not covered by the verified checker"),v$=a(t),v8=a(bC),v9=a(bB),v4=a(t),v5=a(mQ),v6=a(t),v7=a(t),v3=[1,0],v1=a("Reader.Malformed"),v2=a("Reader.Not_covered"),zG=a(lk),zH=a("CERTIFIED"),zI=a("REFUTED"),zJ=a(lk),zK=a("NOT COVERED: ");function
+ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ad(a[1])];case
-1:return[1,ad(a[1])];case
-2:return[2,ad(a[1])];case
-3:return[3,ad(a[1])];case
-4:return[4,ad(a[1])];case
-5:return[5,ad(a[1])];case
-6:return[6,ad(a[1])];case
-7:return[7,ad(a[1])];case
+0:return[0,ah(a[1])];case
+1:return[1,ah(a[1])];case
+2:return[2,ah(a[1])];case
+3:return[3,ah(a[1])];case
+4:return[4,ah(a[1])];case
+5:return[5,ah(a[1])];case
+6:return[6,ah(a[1])];case
+7:return[7,ah(a[1])];case
 8:var
-c=a[1];return[8,c,ad(a[2])];case
+c=a[1];return[8,c,ah(a[2])];case
 9:var
-b=a[1];return[9,b,b,ad(a[3])];case
-10:return[10,ad(a[1])];case
-11:return[11,ad(a[1])];case
-12:return[12,ad(a[1])];case
-13:return[13,ad(a[1])];default:return[14,ad(a[1])]}}function
-aK(a,b){if(typeof
+b=a[1];return[9,b,b,ah(a[3])];case
+10:return[10,ah(a[1])];case
+11:return[11,ah(a[1])];case
+12:return[12,ah(a[1])];case
+13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
+aN(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aK(a[1],b)];case
-1:return[1,aK(a[1],b)];case
-2:return[2,aK(a[1],b)];case
-3:return[3,aK(a[1],b)];case
-4:return[4,aK(a[1],b)];case
-5:return[5,aK(a[1],b)];case
-6:return[6,aK(a[1],b)];case
-7:return[7,aK(a[1],b)];case
+0:return[0,aN(a[1],b)];case
+1:return[1,aN(a[1],b)];case
+2:return[2,aN(a[1],b)];case
+3:return[3,aN(a[1],b)];case
+4:return[4,aN(a[1],b)];case
+5:return[5,aN(a[1],b)];case
+6:return[6,aN(a[1],b)];case
+7:return[7,aN(a[1],b)];case
 8:var
-c=a[1];return[8,c,aK(a[2],b)];case
+c=a[1];return[8,c,aN(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aK(a[3],b)];case
-10:return[10,aK(a[1],b)];case
-11:return[11,aK(a[1],b)];case
-12:return[12,aK(a[1],b)];case
-13:return[13,aK(a[1],b)];default:return[14,aK(a[1],b)]}}function
-_(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aN(a[3],b)];case
+10:return[10,aN(a[1],b)];case
+11:return[11,aN(a[1],b)];case
+12:return[12,aN(a[1],b)];case
+13:return[13,aN(a[1],b)];default:return[14,aN(a[1],b)]}}function
+ad(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,_(a[1],b)];case
-1:return[1,_(a[1],b)];case
+0:return[0,ad(a[1],b)];case
+1:return[1,ad(a[1],b)];case
 2:var
-c=a[1];return[2,c,_(a[2],b)];case
+c=a[1];return[2,c,ad(a[2],b)];case
 3:var
-d=a[1];return[3,d,_(a[2],b)];case
+d=a[1];return[3,d,ad(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,_(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ad(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,_(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ad(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,_(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ad(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,_(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ad(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,_(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ad(a[4],b)];case
 9:var
-t=a[1];return[9,t,_(a[2],b)];case
-10:return[10,_(a[1],b)];case
+t=a[1];return[9,t,ad(a[2],b)];case
+10:return[10,ad(a[1],b)];case
 11:var
-u=a[1];return[11,u,_(a[2],b)];case
+u=a[1];return[11,u,ad(a[2],b)];case
 12:var
-v=a[1];return[12,v,_(a[2],b)];case
+v=a[1];return[12,v,ad(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,_(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ad(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,_(a[3],b)];case
-15:return[15,_(a[1],b)];case
-16:return[16,_(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ad(a[3],b)];case
+15:return[15,ad(a[1],b)];case
+16:return[16,ad(a[1],b)];case
 17:var
-A=a[1];return[17,A,_(a[2],b)];case
+A=a[1];return[17,A,ad(a[2],b)];case
 18:var
-B=a[1];return[18,B,_(a[2],b)];case
-19:return[19,_(a[1],b)];case
+B=a[1];return[18,B,ad(a[2],b)];case
+19:return[19,ad(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,_(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ad(a[3],b)];case
 21:var
-E=a[1];return[21,E,_(a[2],b)];case
-22:return[22,_(a[1],b)];case
+E=a[1];return[21,E,ad(a[2],b)];case
+22:return[22,ad(a[1],b)];case
 23:var
-F=a[1];return[23,F,_(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,_(a[3],b)]}}function
-b2(a){throw[0,hO,a]}function
-ea(a){return 0<=a?a:-a|0}function
-av(d,c){var
-a=E(d),e=E(c),b=ao(a+e|0);bE(d,0,b,0,a);bE(c,0,b,a,e);return aJ(b)}function
-ng(a){return a?nh:ni}AO(0);m2(1);var
-bI=m2(2);function
-dl(b,a){return m3(b,a,0,E(a))}function
-hU(a){dl(bI,a);m4(bI,10);return di(bI)}function
-fy(b){function
+F=a[1];return[23,F,ad(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ad(a[3],b)]}}function
+b4(a){throw[0,h2,a]}function
+eg(a){return 0<=a?a:-a|0}function
+ax(d,c){var
+a=I(d),e=I(c),b=ao(a+e|0);bG(d,0,b,0,a);bG(c,0,b,a,e);return aM(b)}function
+np(a){return a?nq:nr}Bi(0);m$(1);var
+bK=m$(2);function
+du(b,a){return na(b,a,0,I(a))}function
+h8(a){du(bK,a);nb(bK,10);return dr(bK)}function
+fD(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{di(d)}catch(a){a=fv(a);if(a[1]!==hS)throw a;var
+c=a[2],d=a[1];try{dr(d)}catch(a){a=fA(a);if(a[1]!==h6)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(AP(0))}hG(a(kH),fy);var
-dm=(4*A0(0)|0)-1|0;function
-ch(c){var
+a=c;continue}return 0}}return a(Bj(0))}hU(a(kO),fD);var
+dv=(4*Bu(0)|0)-1|0;function
+cl(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-X(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hV(d,c){var
+_(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,_(b,c)]}return 0}function
+h9(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-cL(d,c){var
+b5(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-ci(a,c){var
-b=ao(a);Aq(b,0,a,c);return b}function
-hW(c,b,a){if(0<=b&&0<=a&&!((a0(c)-a|0)<b)){var
-d=ao(a);cg(c,b,d,0,a);return d}return b2(nr)}function
-hX(c,b,a){return aJ(hW(c,b,a))}function
-hY(e,c,d,b,a){if(0<=a&&0<=c&&!((a0(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return cg(e,c,d,b,a);return b2(ns)}function
-bJ(e,c,d,b,a){if(0<=a&&0<=c&&!((E(e)-a|0)<c)&&0<=b&&!((a0(d)-a|0)<b))return bE(e,c,d,b,a);return b2(nt)}function
-a5(b,a){return aJ(ci(b,a))}function
-dn(c,b,a){return aJ(hW(bX(c),b,a))}function
-hZ(k,g){if(g){var
-h=E(k),c=0,b=g,p=0;for(;;){if(b){var
+cm(a,c){var
+b=ao(a);AW(b,0,a,c);return b}function
+h_(c,b,a){if(0<=b&&0<=a&&!((a1(c)-a|0)<b)){var
+d=ao(a);ck(c,b,d,0,a);return d}return b4(nA)}function
+h$(c,b,a){return aM(h_(c,b,a))}function
+ia(e,c,d,b,a){if(0<=a&&0<=c&&!((a1(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return ck(e,c,d,b,a);return b4(nB)}function
+bL(e,c,d,b,a){if(0<=a&&0<=c&&!((I(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return bG(e,c,d,b,a);return b4(nC)}function
+a7(b,a){return aM(cm(b,a))}function
+dw(c,b,a){return aM(h_(bZ(c),b,a))}function
+ib(k,g){if(g){var
+h=I(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(E(i)+h|0)+c|0,m=b[2],n=c<=j?j:b2(nu),c=n,b=m;continue}var
-l=E(i)+c|0}else
+j=(I(i)+h|0)+c|0,m=b[2],n=c<=j?j:b4(nD),c=n,b=m;continue}var
+l=I(i)+c|0}else
 var
 l=c;var
 f=ao(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bE(a,0,f,e,E(a));bE(k,0,f,e+E(a)|0,h);var
-e=(e+E(a)|0)+h|0,d=o;continue}bE(a,0,f,e,E(a))}return aJ(f)}}}return nv}function
-h0(b,c){if(0===b)return[0];if(0<=b){var
-d=AM(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bG(a,0,f,e,I(a));bG(k,0,f,e+I(a)|0,h);var
+e=(e+I(a)|0)+h|0,d=o;continue}bG(a,0,f,e,I(a))}return aM(f)}}}return nE}function
+ic(b,c){if(0===b)return[0];if(0<=b){var
+d=Bg(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b2(nw)}function
-h1(c){var
+a=h;continue}break}}return d}return b4(nF)}function
+id(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-h2(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dm<b[1]){if(!((d+c|0)<=dm))throw[0,hP,nz];b[1]=dm}var
-e=ao(b[1]);hY(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,$,nx]}throw[0,$,ny]}}function
-dp(a,c){var
-b=E(c),d=a[2]+b|0;if(a[3]<d)h2(a,b);bE(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fz(a){return 5===a[2]?12:-6}function
-h3(a){return[0,0,ao(a)]}function
-h4(a,h){var
-b=a0(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);hY(a[2],0,f,0,b);a[2]=f;var
+ie(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dv<b[1]){if(!((d+c|0)<=dv))throw[0,h3,nI];b[1]=dv}var
+e=ao(b[1]);ia(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ae,nG]}throw[0,ae,nH]}}function
+dx(a,c){var
+b=I(c),d=a[2]+b|0;if(a[3]<d)ie(a,b);bG(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fE(a){return 5===a[2]?12:-6}function
+ig(a){return[0,0,ao(a)]}function
+ih(a,h){var
+b=a1(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ao(i);ia(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cM(a,b){h4(a,1);cH(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aC(a,c){var
-b=E(c);h4(a,b);bJ(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-h5(a){return hX(a[2],0,a[1])}function
-h6(a){if(typeof
+cQ(a,b){ih(a,1);cM(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aF(a,c){var
+b=I(c);ih(a,b);bL(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+ii(a){return h$(a[2],0,a[1])}function
+ij(a){if(typeof
 a==="number")switch(a){case
-0:return nA;case
-1:return nB;case
-2:return nC;case
-3:return nD;case
-4:return nE;case
-5:return nF;default:return nG}else
+0:return nJ;case
+1:return nK;case
+2:return nL;case
+3:return nM;case
+4:return nN;case
+5:return nO;default:return nP}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return av(nH,a5(1,a[1]))}}function
-fA(b,c){var
+1:return a[1];default:return ax(nQ,a7(1,a[1]))}}function
+fF(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aC(b,nI);var
+d=a[1];aF(b,nR);var
 a=d;continue;case
 1:var
-e=a[1];aC(b,nJ);var
+e=a[1];aF(b,nS);var
 a=e;continue;case
 2:var
-f=a[1];aC(b,nK);var
+f=a[1];aF(b,nT);var
 a=f;continue;case
 3:var
-g=a[1];aC(b,nL);var
+g=a[1];aF(b,nU);var
 a=g;continue;case
 4:var
-h=a[1];aC(b,nM);var
+h=a[1];aF(b,nV);var
 a=h;continue;case
 5:var
-i=a[1];aC(b,nN);var
+i=a[1];aF(b,nW);var
 a=i;continue;case
 6:var
-j=a[1];aC(b,nO);var
+j=a[1];aF(b,nX);var
 a=j;continue;case
 7:var
-k=a[1];aC(b,nP);var
+k=a[1];aF(b,nY);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aC(b,nQ);fA(b,m);aC(b,nR);var
+l=a[2],m=a[1];aF(b,nZ);fF(b,m);aF(b,n0);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aC(b,nS);fA(b,o);aC(b,nT);var
+n=a[3],o=a[1];aF(b,n1);fF(b,o);aF(b,n2);var
 a=n;continue;case
 10:var
-p=a[1];aC(b,nU);var
+p=a[1];aF(b,n3);var
 a=p;continue;case
 11:var
-q=a[1];aC(b,nV);var
+q=a[1];aF(b,n4);var
 a=q;continue;case
 12:var
-r=a[1];aC(b,nW);var
+r=a[1];aF(b,n5);var
 a=r;continue;case
 13:var
-s=a[1];aC(b,nX);var
+s=a[1];aF(b,n6);var
 a=s;continue;default:var
-t=a[1];aC(b,nY);var
+t=a[1];aF(b,n7);var
 a=t;continue}}function
 an(a){if(typeof
 a==="number")return 0;else
@@ -1028,40 +1028,40 @@ c=a[2],d=a[1];return[9,c,d,an(a[3])];case
 11:return[11,an(a[1])];case
 12:return[12,an(a[1])];case
 13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
-aD(a){if(typeof
+aG(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aD(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aG(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aD(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aG(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aD(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aG(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aD(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aG(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aD(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aG(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aD(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aG(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aD(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aG(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aD(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aG(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aD(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aG(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aD(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aD(ap(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],ao=a[1],l=aG(a[3]),ap=l[4],ar=l[3],as=l[2],at=l[1],m=aG(aq(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(ap,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aD(a[1]),aB=n[4],aC=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aC,aB];case
+n=aG(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
 11:var
-o=aD(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aG(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aD(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aG(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aD(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aD(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ap(c,b){var
+q=aG(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aG(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+aq(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,$,nZ]}else
+9:a=6;break;default:throw[0,ae,n8]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ap(t,b[1])];case
+0:return[0,aq(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ap(u,b[1])];case
+1:return[1,aq(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ap(v,b[1])];case
+2:return[2,aq(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ap(w,b[1])];case
+3:return[3,aq(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ap(x,b[1])];case
+4:return[4,aq(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ap(y,b[1])];case
+5:return[5,aq(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ap(z,b[1])];case
+6:return[6,aq(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ap(A,b[1])];case
+7:return[7,aq(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ap(B,b[2]);return[8,ap(C,D),E];case
+D=b[1],E=aq(B,b[2]);return[8,aq(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,$,n8];break;case
+14:a=4;break;default:m=1}if(m)throw[0,ae,of];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aD(ap(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ap(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aG(aq(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,aq(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,$,n9];break;case
+14:a=4;break;default:n=1}if(n)throw[0,ae,og];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ap(M,b[1])];throw[0,$,n_];case
+b!=="number"&&10===b[0])return[10,aq(M,b[1])];throw[0,ae,oh];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ap(N,b[1])];default:o=1}if(o)throw[0,$,n$];break;case
+11:return[11,aq(N,b[1])];default:o=1}if(o)throw[0,ae,oi];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ap(O,b[1])];default:p=1}if(p)throw[0,$,oa];break;case
+12:return[12,aq(O,b[1])];default:p=1}if(p)throw[0,ae,oj];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ap(P,b[1])];default:q=1}if(q)throw[0,$,ob];break;default:var
+13:return[13,aq(P,b[1])];default:q=1}if(q)throw[0,ae,ok];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,25 +1222,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ap(Q,b[1])];default:r=1}if(r)throw[0,$,oc]}switch(a){case
-0:throw[0,$,n2];case
-1:throw[0,$,n3];case
-2:throw[0,$,n4];case
-3:throw[0,$,n5];case
-4:throw[0,$,n6];case
-5:throw[0,$,n0];case
-6:throw[0,$,n1];default:throw[0,$,n7]}}var
-aw=[ar,od,fo(0)];function
-eb(b,a){if(typeof
+14:return[14,aq(Q,b[1])];default:r=1}if(r)throw[0,ae,ol]}switch(a){case
+0:throw[0,ae,n$];case
+1:throw[0,ae,oa];case
+2:throw[0,ae,ob];case
+3:throw[0,ae,oc];case
+4:throw[0,ae,od];case
+5:throw[0,ae,n9];case
+6:throw[0,ae,n_];default:throw[0,ae,oe]}}var
+ay=[au,om,ft(0)];function
+eh(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aw}}function
-dq(e,b,d){var
-a=eb(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ay}}function
+dy(e,b,d){var
+a=eh(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aw}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ay}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aR(b,c,a){if(typeof
-b==="number")return[0,0,S(c,a)];else
+b==="number")return[0,0,V(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1268,14 +1268,14 @@ a!=="number"&&7===a[0]){var
 n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(d_([0,b[1]],[0,o]))throw aw;var
+o=a[1],w=a[2],x=b[2];if(ee([0,b[1]],[0,o]))throw ay;var
 p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ad(f)];if(d_([0,ad(B)],C))throw aw;var
-D=[0,ad(d)];if(d_([0,ad(A)],D))throw aw;var
-q=aD(ap(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aR(ad(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ee([0,ah(B)],C))throw ay;var
+D=[0,ah(d)];if(ee([0,ah(A)],D))throw ay;var
+q=aG(aq(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aR(ah(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1287,141 +1287,141 @@ a!=="number"&&13===a[0]){var
 u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aw}function
-S(b,a){if(typeof
+v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ay}function
+V(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=S(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=V(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=S(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=V(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=eb(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=eh(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=S(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aw;case
+v=V(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
 3:var
-ae=b[2],w=eb(b[1],a),f=w[2],af=w[1];if(typeof
+ad=b[2],w=eh(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=S(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aw;case
+x=V(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
 4:var
-ag=b[4],ah=b[1],g=dq(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ag=b[1],g=dy(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=S(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aw;case
+aj=g[2],y=V(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw ay;case
 5:var
-ak=b[4],al=b[1],i=dq(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dy(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=S(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aw;case
+an=i[2],z=V(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
 6:var
-ao=b[4],ap=b[1],k=dq(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dy(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=S(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aw;case
+ar=k[2],A=V(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
 7:var
-as=b[4],at=b[1],m=dq(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dy(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=S(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aw;case
+av=m[2],B=V(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
 8:var
-ax=b[4],ay=b[1],o=dq(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+aw=b[4],ax=b[1],o=dy(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=S(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aw;case
+aA=o[2],C=V(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
 9:var
-aB=b[2],D=eb(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=eh(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=S(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aw;case
+E=V(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
 10:var
-F=S(b[1],a);return[0,[10,F[1]],F[2]];case
+F=V(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=S(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=V(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=S(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=V(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(d_([0,b[2]],[0,I]))throw aw;var
-J=S(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ee([0,b[2]],[0,I]))throw ay;var
+J=V(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ad(K)];if(d_([0,ad(aK)],aM))throw aw;var
-L=S(aJ,ad(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ee([0,ah(aK)],aM))throw ay;var
+L=V(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=S(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=V(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=S(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=V(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=S(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=V(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aS=U[2],V=S(U[1],a),aT=V[1],W=S(P,V[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=S(X[1],a),aW=Y[1],Z=S(P,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+T=r[1],aS=T[2],U=V(T[1],a),aT=U[1],W=V(P,U[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
+X=r[1],aU=X[2],Y=V(X[1],a),aV=Y[1],Z=V(P,Y[2]);return[0,[18,[1,[0,aV,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=S(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=V(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=S(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=V(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],T=S(b[2],a[1]);return[0,[21,aQ,T[1]],T[2]]}break;case
+aQ=b[1],S=V(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aU(c,d,a);case
-1:return aU(c,d,a);case
+0:return aW(c,d,a);case
+1:return aW(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=S(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aw;default:return aU(c,d,a)}else
+_=V(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aW(c,d,a)}else
 switch(c[0]){case
-0:return aU(c,d,a);case
-1:return aU(c,d,a);case
-2:return aU(c,d,a);case
-3:return aU(c,d,a);case
-4:return aU(c,d,a);case
-5:return aU(c,d,a);case
-6:return aU(c,d,a);case
-7:return aU(c,d,a);case
-8:return aU([8,c[1],c[2]],d,a);case
+0:return aW(c,d,a);case
+1:return aW(c,d,a);case
+2:return aW(c,d,a);case
+3:return aW(c,d,a);case
+4:return aW(c,d,a);case
+5:return aW(c,d,a);case
+6:return aW(c,d,a);case
+7:return aW(c,d,a);case
+8:return aW([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aU(c,d,a);default:return aU(c,d,a)}}throw aw}function
-aU(d,c,b){var
-a=S(c,b);return[0,[23,d,a[1]],a[2]]}function
-aV(k,g,a){var
-b=E(a),h=0<=g?k:0,d=ea(g);if(d<=b)return a;var
-l=2===h?48:32,c=ci(d,l);switch(h){case
-0:bJ(a,0,c,0,b);break;case
-1:bJ(a,0,c,d-b|0,b);break;default:var
+10:return aW(c,d,a);default:return aW(c,d,a)}}throw ay}function
+aW(d,c,b){var
+a=V(c,b);return[0,[23,d,a[1]],a[2]]}function
+aX(k,g,a){var
+b=I(a),h=0<=g?k:0,d=eg(g);if(d<=b)return a;var
+l=2===h?48:32,c=cm(d,l);switch(h){case
+0:bL(a,0,c,0,b);break;case
+1:bL(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==R(a,0)&&45!==R(a,0)&&32!==R(a,0)){e=1;i=1}if(!i){cH(c,0,R(a,0));bJ(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==U(a,0)&&45!==U(a,0)&&32!==U(a,0)){e=1;i=1}if(!i){cM(c,0,U(a,0));bL(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===R(a,0)){var
-j=0;if(kV!==R(a,1)&&88!==R(a,1)){f=1;j=1}if(!j){cH(c,1,R(a,1));bJ(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bJ(a,0,c,d-b|0,b)}}return aJ(c)}function
-cN(k,b){var
-c=ea(k),a=E(b),d=R(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lQ>>>0))e=1}else
+f=0;if(1<b&&48===U(a,0)){var
+j=0;if(k3!==U(a,1)&&88!==U(a,1)){f=1;j=1}if(!j){cM(c,1,U(a,1));bL(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bL(a,0,c,d-b|0,b)}}return aM(c)}function
+cR(k,b){var
+c=eg(k),a=I(b),d=U(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lZ>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(kV===R(b,1)||88===R(b,1))j=1;if(j){var
-h=ci(c+2|0,48);cH(h,1,R(b,1));bJ(b,2,h,(c-a|0)+4|0,a-2|0);return aJ(h)}}e=1;f=1;break;case
+j=0;if(k3===U(b,1)||88===U(b,1))j=1;if(j){var
+h=cm(c+2|0,48);cM(h,1,U(b,1));bL(b,2,h,(c-a|0)+4|0,a-2|0);return aM(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ci(c+1|0,48);cH(g,0,d);bJ(b,1,g,(c-a|0)+2|0,a-1|0);return aJ(g)}}if(e&&a<c){var
-i=ci(c,48);bJ(b,0,i,c-a|0,a);return aJ(i)}return b}function
-oe(k){var
-j=0,C=E(k);for(;;){if(C<=j)var
+g=cm(c+1|0,48);cM(g,0,d);bL(b,1,g,(c-a|0)+2|0,a-1|0);return aM(g)}}if(e&&a<c){var
+i=cm(c,48);bL(b,0,i,c-a|0,a);return aM(i)}return b}function
+on(k){var
+j=0,C=I(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bG(k,j)+mk|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bI(k,j)+mr|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bX(k),a=[0,0],t=a0(e)-1|0,y=0;if(!(t<0)){var
+e=bZ(k),a=[0,0],t=a1(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dg(e,i),g=0;if(32<=f){var
+f=dp(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1432,33 +1432,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a0(e)){var
-r=a0(e),s=ao(r);cg(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a1(e)){var
+r=a1(e),s=ao(r);ck(e,0,s,0,r);var
 v=s}else{var
 b=ao(a[1]);a[1]=0;var
-u=a0(e)-1|0,z=0;if(!(u<0)){var
+u=a1(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dg(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(g$<=c)d=1;else
+c=dp(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hn<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:aj(b,a[1],92);a[1]++;aj(b,a[1],98);break;case
-9:aj(b,a[1],92);a[1]++;aj(b,a[1],116);break;case
-10:aj(b,a[1],92);a[1]++;aj(b,a[1],110);break;case
-13:aj(b,a[1],92);a[1]++;aj(b,a[1],114);break;default:d=1}switch(d){case
-1:aj(b,a[1],92);a[1]++;aj(b,a[1],48+(c/lW|0)|0);a[1]++;aj(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;aj(b,a[1],48+(c%10|0)|0);break;case
-2:aj(b,a[1],92);a[1]++;aj(b,a[1],c);break;case
-3:aj(b,a[1],c);break}a[1]++;var
+8:ak(b,a[1],92);a[1]++;ak(b,a[1],98);break;case
+9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
+10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
+13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
+1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/l5|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
+2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
+3:ak(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aJ(v)}var
-w=E(o),x=ci(w+2|0,34);bE(o,0,x,1,w);return aJ(x)}}function
-h7(d,f){var
-g=ea(f),e=o5[1];switch(d[2]){case
+o=aM(v)}var
+w=I(o),x=cm(w+2|0,34);bG(o,0,x,1,w);return aM(x)}}function
+ik(d,f){var
+g=eg(f),e=pc[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=kW;break;case
+b=k4;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=h3(16);cM(c,37);switch(d[1]){case
+c=ig(16);cQ(c,37);switch(d[1]){case
 0:break;case
-1:cM(c,43);break;default:cM(c,32)}if(8<=d[2])cM(c,35);cM(c,46);aC(c,a(s+g));cM(c,b);return h5(c)}function
-ec(m,a){if(13<=m){var
-g=[0,0],h=E(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bG(a,c)+g3>>>0))g[1]++;var
+1:cQ(c,43);break;default:cQ(c,32)}if(8<=d[2])cQ(c,35);cQ(c,46);aF(c,a(t+g));cQ(c,b);return ii(c)}function
+ei(m,a){if(13<=m){var
+g=[0,0],h=I(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bI(a,c)+he>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ao(E(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cH(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=E(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ao(I(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cM(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=I(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bG(a,b);if(9<f+g3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bI(a,b);if(9<f+he>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aJ(j)}return a}function
-o6(b,c){switch(b){case
+b=p;continue}break}}return aM(j)}return a}function
+pd(b,c){switch(b){case
 1:var
-a=og;break;case
-2:var
-a=oh;break;case
-4:var
-a=oj;break;case
-5:var
-a=ok;break;case
-6:var
-a=ol;break;case
-7:var
-a=om;break;case
-8:var
-a=on;break;case
-9:var
-a=oo;break;case
-10:var
 a=op;break;case
-11:var
+2:var
 a=oq;break;case
-0:case
-13:var
-a=of;break;case
-3:case
-14:var
-a=oi;break;default:var
-a=or}return ec(b,fn(a,c))}function
-o7(b,c){switch(b){case
-1:var
-a=oG;break;case
-2:var
-a=oH;break;case
 4:var
-a=oJ;break;case
-5:var
-a=oK;break;case
-6:var
-a=oL;break;case
-7:var
-a=oM;break;case
-8:var
-a=oN;break;case
-9:var
-a=oO;break;case
-10:var
-a=oP;break;case
-11:var
-a=oQ;break;case
-0:case
-13:var
-a=oF;break;case
-3:case
-14:var
-a=oI;break;default:var
-a=oR}return ec(b,fn(a,c))}function
-o8(b,c){switch(b){case
-1:var
-a=oT;break;case
-2:var
-a=oU;break;case
-4:var
-a=oW;break;case
-5:var
-a=oX;break;case
-6:var
-a=oY;break;case
-7:var
-a=oZ;break;case
-8:var
-a=o0;break;case
-9:var
-a=o1;break;case
-10:var
-a=o2;break;case
-11:var
-a=o3;break;case
-0:case
-13:var
-a=oS;break;case
-3:case
-14:var
-a=oV;break;default:var
-a=o4}return ec(b,fn(a,c))}function
-o9(b,c){switch(b){case
-1:var
-a=ot;break;case
-2:var
-a=ou;break;case
-4:var
-a=ow;break;case
-5:var
-a=ox;break;case
-6:var
-a=oy;break;case
-7:var
-a=oz;break;case
-8:var
-a=oA;break;case
-9:var
-a=oB;break;case
-10:var
-a=oC;break;case
-11:var
-a=oD;break;case
-0:case
-13:var
 a=os;break;case
+5:var
+a=ot;break;case
+6:var
+a=ou;break;case
+7:var
+a=ov;break;case
+8:var
+a=ow;break;case
+9:var
+a=ox;break;case
+10:var
+a=oy;break;case
+11:var
+a=oz;break;case
+0:case
+13:var
+a=oo;break;case
 3:case
 14:var
-a=ov;break;default:var
-a=oE}return ec(b,Ay(a,c))}function
-bK(c,i,b){function
+a=or;break;default:var
+a=oA}return ei(b,fs(a,c))}function
+pe(b,c){switch(b){case
+1:var
+a=oP;break;case
+2:var
+a=oQ;break;case
+4:var
+a=oS;break;case
+5:var
+a=oT;break;case
+6:var
+a=oU;break;case
+7:var
+a=oV;break;case
+8:var
+a=oW;break;case
+9:var
+a=oX;break;case
+10:var
+a=oY;break;case
+11:var
+a=oZ;break;case
+0:case
+13:var
+a=oO;break;case
+3:case
+14:var
+a=oR;break;default:var
+a=o0}return ei(b,fs(a,c))}function
+pf(b,c){switch(b){case
+1:var
+a=o2;break;case
+2:var
+a=o3;break;case
+4:var
+a=o5;break;case
+5:var
+a=o6;break;case
+6:var
+a=o7;break;case
+7:var
+a=o8;break;case
+8:var
+a=o9;break;case
+9:var
+a=o_;break;case
+10:var
+a=o$;break;case
+11:var
+a=pa;break;case
+0:case
+13:var
+a=o1;break;case
+3:case
+14:var
+a=o4;break;default:var
+a=pb}return ei(b,fs(a,c))}function
+pg(b,c){switch(b){case
+1:var
+a=oC;break;case
+2:var
+a=oD;break;case
+4:var
+a=oF;break;case
+5:var
+a=oG;break;case
+6:var
+a=oH;break;case
+7:var
+a=oI;break;case
+8:var
+a=oJ;break;case
+9:var
+a=oK;break;case
+10:var
+a=oL;break;case
+11:var
+a=oM;break;case
+0:case
+13:var
+a=oB;break;case
+3:case
+14:var
+a=oE;break;default:var
+a=oN}return ei(b,A4(a,c))}function
+bM(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return Au(b,i,a)}function
+a=32}return A0(b,i,a)}function
 q(c){var
-a=Am(b);return 3===a?b<0.?o$:pa:4<=a?pb:c}switch(c[2]){case
+a=AS(b);return 3===a?b<0.?pi:pj:4<=a?pk:c}switch(c[2]){case
 5:var
-e=hw(h7(c,i),b),d=0,u=E(e);for(;;){if(d===u)var
+e=hK(ik(c,i),b),d=0,u=I(e);for(;;){if(d===u)var
 p=0;else{var
-k=R(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=U(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:av(e,o_);return q(v)}case
+v=p?e:ax(e,ph);return q(v)}case
 6:return j(0);case
 7:var
-h=bX(j(0)),f=a0(h);if(0===f)var
+h=bZ(j(0)),f=a1(h);if(0===f)var
 o=h;else{var
 m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dg(h,a),s=25<g+lQ>>>0?g:g+mk|0;aj(m,a,s);var
+g=dp(h,a),s=25<g+lZ>>>0?g:g+mr|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aJ(o);case
-8:return q(j(0));default:return hw(h7(c,i),b)}}function
-d0(d,x,w,v){var
+o=m}return aM(o);case
+8:return q(j(0));default:return hK(ik(c,i),b)}}function
+d6(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return I(b,[5,a,c],y)};case
+y=c[1];return function(c){return K(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=nl;else
-if(g$<=c)e=1;else
+d=nu;else
+if(hn<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nm;else
+d=nv;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nn;break;case
+d=nw;break;case
 9:var
-d=no;break;case
+d=nx;break;case
 10:var
-d=np;break;case
+d=ny;break;case
 13:var
-d=nq;break;default:e=1}switch(e){case
+d=nz;break;default:e=1}switch(e){case
 1:var
-f=ao(4);aj(f,0,92);aj(f,1,48+(c/lW|0)|0);aj(f,2,48+((c/10|0)%10|0)|0);aj(f,3,48+(c%10|0)|0);var
-d=aJ(f);break;case
+f=ao(4);ak(f,0,92);ak(f,1,48+(c/l5|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
+d=aM(f);break;case
 2:var
-g=ao(1);aj(g,0,c);var
-d=aJ(g);break}var
-h=E(d),i=ci(h+2|0,39);bE(d,0,i,1,h);return I(b,[4,a,aJ(i)],z)};case
+g=ao(1);ak(g,0,c);var
+d=aM(g);break}var
+h=I(d),i=cm(h+2|0,39);bG(d,0,i,1,h);return K(b,[4,a,aM(i)],z)};case
 2:var
-A=c[2],B=c[1];return fB(b,a,A,B,function(a){return a});case
-3:return fB(b,a,c[2],c[1],oe);case
-4:return ed(b,a,c[4],c[2],c[3],o6,c[1]);case
-5:return ed(b,a,c[4],c[2],c[3],o7,c[1]);case
-6:return ed(b,a,c[4],c[2],c[3],o8,c[1]);case
-7:return ed(b,a,c[4],c[2],c[3],o9,c[1]);case
+A=c[2],B=c[1];return fG(b,a,A,B,function(a){return a});case
+3:return fG(b,a,c[2],c[1],on);case
+4:return ej(b,a,c[4],c[2],c[3],pd,c[1]);case
+5:return ej(b,a,c[4],c[2],c[3],pe,c[1]);case
+6:return ej(b,a,c[4],c[2],c[3],pf,c[1]);case
+7:return ej(b,a,c[4],c[2],c[3],pg,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return I(b,[4,a,bK(g,d,c)],h)}:function(c){return I(b,[4,a,bK(g,fz(g),c)],h)};var
-X=i[1];return function(c){return I(b,[4,a,bK(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return K(b,[4,a,bM(g,d,c)],h)}:function(c){return K(b,[4,a,bM(g,fE(g),c)],h)};var
+X=i[1];return function(c){return K(b,[4,a,bM(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return I(b,[4,a,aV(n,m,bK(g,d,c))],h)}:function(c){return I(b,[4,a,aV(n,m,bK(g,fz(g),c))],h)};var
-Y=i[1];return function(c){return I(b,[4,a,aV(n,m,bK(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return K(b,[4,a,aX(n,m,bM(g,d,c))],h)}:function(c){return K(b,[4,a,aX(n,m,bM(g,fE(g),c))],h)};var
+Y=i[1];return function(c){return K(b,[4,a,aX(n,m,bM(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return I(b,[4,a,aV(o,e,bK(g,d,c))],h)}:function(d,c){return I(b,[4,a,aV(o,d,bK(g,fz(g),c))],h)};var
-Z=i[1];return function(d,c){return I(b,[4,a,aV(o,d,bK(g,Z,c))],h)}}case
-9:return fB(b,a,c[2],c[1],ng);case
+i==="number")return i?function(e,d,c){return K(b,[4,a,aX(o,e,bM(g,d,c))],h)}:function(d,c){return K(b,[4,a,aX(o,d,bM(g,fE(g),c))],h)};var
+Z=i[1];return function(d,c){return K(b,[4,a,aX(o,d,bM(g,Z,c))],h)}}case
+9:return fG(b,a,c[2],c[1],np);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=h3(16);fA(p,D);var
-u=h5(p);return function(c){return I(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=ig(16);fF(p,D);var
+u=ii(p);return function(c){return K(b,[4,a,u],C)};case
 14:var
-F=c[3],G=c[2];return function(d){var
-e=d[1],c=S(e,ad(an(G)));if(typeof
-c[2]==="number")return I(b,a,_(c[1],F));throw aw};case
+E=c[3],F=c[2];return function(d){var
+e=d[1],c=V(e,ah(an(F)));if(typeof
+c[2]==="number")return K(b,a,ad(c[1],E));throw ay};case
 15:var
-H=c[1];return function(d,c){return I(b,[6,a,function(a){return N(d,a,c)}],H)};case
+G=c[1];return function(d,c){return K(b,[6,a,function(a){return Q(d,a,c)}],G)};case
 16:var
-J=c[1];return function(c){return I(b,[6,a,c],J)};case
+H=c[1];return function(c){return K(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-K=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return I(c,[1,b,[0,a]],d)}}(a,b,K),a=M,c=L;continue}var
-O=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return I(c,[1,b,[1,a]],d)}}(a,b,O),a=R,c=Q;continue;case
-19:throw[0,$,pd];case
+J=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return K(c,[1,b,[0,a]],d)}}(a,b,J),a=M,c=L;continue}var
+N=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=P,c=O;continue;case
+19:throw[0,ae,pm];case
 20:var
-T=c[3],U=[8,a,pe];return function(a){return I(b,U,T)};case
+R=c[3],T=[8,a,pn];return function(a){return K(b,T,R)};case
 21:var
-V=c[2];return function(c){return I(b,[4,a,fn(pf,c)],V)};case
+U=c[2];return function(c){return K(b,[4,a,fs(po,c)],U)};case
 22:var
-W=c[1];return function(c){return I(b,[5,a,c],W)};case
+W=c[1];return function(c){return K(b,[5,a,c],W)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-2:throw[0,$,pg];default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}else
+0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+2:throw[0,ae,pp];default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-1:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-2:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-3:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-4:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-5:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-6:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-7:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
-8:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);case
+0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+2:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+3:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+4:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+5:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+6:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+7:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+8:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gZ(d+1|0,b,a,t,f):aB(gZ,[0,b,a,t,f]);case
-10:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f]);default:return d<50?P(d+1|0,b,a,f):aB(P,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gY(d+1|0,b,a,q,r,s):aB(gY,[0,b,a,q,r,s])}}function
-gZ(e,d,c,a,b){if(typeof
-a==="number")return e<50?P(e+1|0,d,c,b):aB(P,[0,d,c,b]);else
+t=k[2];return d<50?g$(d+1|0,b,a,t,f):aE(g$,[0,b,a,t,f]);case
+10:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?g_(d+1|0,b,a,q,r,s):aE(g_,[0,b,a,q,r,s])}}function
+g$(e,d,c,a,b){if(typeof
+a==="number")return e<50?S(e+1|0,d,c,b):aE(S,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a2(d,c,f,b)};case
+f=a[1];return function(a){return a3(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a2(d,c,g,b)};case
+g=a[1];return function(a){return a3(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a2(d,c,h,b)};case
+h=a[1];return function(a){return a3(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a2(d,c,i,b)};case
+i=a[1];return function(a){return a3(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a2(d,c,j,b)};case
+j=a[1];return function(a){return a3(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a2(d,c,k,b)};case
+k=a[1];return function(a){return a3(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a2(d,c,l,b)};case
+l=a[1];return function(a){return a3(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a2(d,c,m,b)};case
+m=a[1];return function(a){return a3(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a2(d,c,n,b)};case
+n=a[2];return function(a){return a3(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ap(an(a[1]),p);return function(a){return a2(d,c,aK(q,o),b)};case
+o=a[3],p=a[2],q=aq(an(a[1]),p);return function(a){return a3(d,c,aN(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a2(d,c,r,b)};case
+r=a[1];return function(e,a){return a3(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a2(d,c,s,b)};case
+s=a[1];return function(a){return a3(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a2(d,c,t,b)};case
-13:throw[0,$,ph];default:throw[0,$,pi]}}function
-P(d,b,e,a){var
-c=[8,e,pj];return d<50?d0(d+1|0,b,c,a):aB(d0,[0,b,c,a])}function
-gY(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pc(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d0(h+1|0,b,g,a):aB(d0,[0,b,g,a])}function
-I(a,b,c){return hI(d0(0,a,b,c))}function
-a2(a,b,c,d){return hI(gZ(0,a,b,c,d))}function
-pc(a,b,c,d,e){return hI(gY(0,a,b,c,d,e))}function
-fB(f,d,c,a,b){if(typeof
-a==="number")return function(a){return I(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return I(f,[4,d,aV(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return I(f,[4,d,aV(i,g,e(b,a))],c)}}}function
-ed(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a3(d,c,t,b)};case
+13:throw[0,ae,pq];default:throw[0,ae,pr]}}function
+S(d,b,e,a){var
+c=[8,e,ps];return d<50?d6(d+1|0,b,c,a):aE(d6,[0,b,c,a])}function
+g_(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pl(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?d6(h+1|0,b,g,a):aE(d6,[0,b,g,a])}function
+K(a,b,c){return hW(d6(0,a,b,c))}function
+a3(a,b,c,d){return hW(g$(0,a,b,c,d))}function
+pl(a,b,c,d,e){return hW(g_(0,a,b,c,d,e))}function
+fG(f,d,c,a,b){if(typeof
+a==="number")return function(a){return K(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return K(f,[4,d,aX(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return K(f,[4,d,aX(i,g,e(b,a))],c)}}}function
+ej(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return I(f,[4,e,cN(g,N(b,a,c))],d)}:function(c){return I(f,[4,e,N(b,a,c)],d)};var
-k=c[1];return function(c){return I(f,[4,e,cN(k,N(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return K(f,[4,e,cR(g,Q(b,a,c))],d)}:function(c){return K(f,[4,e,Q(b,a,c)],d)};var
+k=c[1];return function(c){return K(f,[4,e,cR(k,Q(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return I(f,[4,e,aV(i,h,cN(g,N(b,a,c)))],d)}:function(c){return I(f,[4,e,aV(i,h,N(b,a,c))],d)};var
-l=c[1];return function(c){return I(f,[4,e,aV(i,h,cN(l,N(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return K(f,[4,e,aX(i,h,cR(g,Q(b,a,c)))],d)}:function(c){return K(f,[4,e,aX(i,h,Q(b,a,c))],d)};var
+l=c[1];return function(c){return K(f,[4,e,aX(i,h,cR(l,Q(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return I(f,[4,e,aV(j,h,cN(g,N(b,a,c)))],d)}:function(g,c){return I(f,[4,e,aV(j,g,N(b,a,c))],d)};var
-m=c[1];return function(g,c){return I(f,[4,e,aV(j,g,cN(m,N(b,a,c)))],d)}}}function
-bL(b,f){var
+c==="number")return c?function(h,g,c){return K(f,[4,e,aX(j,h,cR(g,Q(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aX(j,g,Q(b,a,c))],d)};var
+m=c[1];return function(g,c){return K(f,[4,e,aX(j,g,cR(m,Q(b,a,c)))],d)}}}function
+bN(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=h6(a[2]);bL(b,g);return dl(b,h);case
+g=a[1],h=ij(a[2]);bN(b,g);return du(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bL(b,d);dl(b,pk);var
+i=c[1];bN(b,d);du(b,pt);var
 a=i;continue}var
-j=c[1];bL(b,d);dl(b,pl);var
+j=c[1];bN(b,d);du(b,pu);var
 a=j;continue;case
 6:var
-m=a[2];bL(b,a[1]);return e(m,b);case
-7:bL(b,a[1]);return di(b);case
+m=a[2];bN(b,a[1]);return e(m,b);case
+7:bN(b,a[1]);return dr(b);case
 8:var
-n=a[2];bL(b,a[1]);return b2(n);case
+n=a[2];bN(b,a[1]);return b4(n);case
 2:case
 4:var
-k=a[2];bL(b,a[1]);return dl(b,k);default:var
-l=a[2];bL(b,a[1]);return m4(b,l)}}function
-b3(b,g){var
+k=a[2];bN(b,a[1]);return du(b,k);default:var
+l=a[2];bN(b,a[1]);return nb(b,l)}}function
+b6(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=h6(a[2]);b3(b,h);return dp(b,i);case
+h=a[1],i=ij(a[2]);b6(b,h);return dx(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b3(b,f);dp(b,pm);var
+j=d[1];b6(b,f);dx(b,pv);var
 a=j;continue}var
-k=d[1];b3(b,f);dp(b,pn);var
+k=d[1];b6(b,f);dx(b,pw);var
 a=k;continue;case
 6:var
-n=a[2];b3(b,a[1]);return dp(b,e(n,0));case
+n=a[2];b6(b,a[1]);return dx(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];b3(b,a[1]);return b2(o);case
+o=a[2];b6(b,a[1]);return b4(o);case
 2:case
 4:var
-l=a[2];b3(b,a[1]);return dp(b,l);default:var
-m=a[2];b3(b,a[1]);var
-c=b[2];if(b[3]<=c)h2(b,1);aj(b[1],c,m);b[2]=c+1|0;return 0}}function
-h8(d,c){var
-a=c[1],b=0;return I(function(a){bL(d,a);return 0},b,a)}function
-fC(a){return h8(bI,a)}function
-bm(b){var
-a=b[1];return I(function(d){var
-e=64,b=dm<64?dm:e,c=ao(b),a=[0,c,0,b,c];b3(a,d);return hX(a[1],0,a[2])},0,a)}var
-ee=[0,0];function
-fE(i,h){var
+l=a[2];b6(b,a[1]);return dx(b,l);default:var
+m=a[2];b6(b,a[1]);var
+c=b[2];if(b[3]<=c)ie(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+il(d,c){var
+a=c[1],b=0;return K(function(a){bN(d,a);return 0},b,a)}function
+fH(a){return il(bK,a)}function
+bn(b){var
+a=b[1];return K(function(d){var
+e=64,b=dv<64?dv:e,c=ao(b),a=[0,c,0,b,c];b6(a,d);return h$(a[1],0,a[2])},0,a)}var
+ek=[0,0];function
+fJ(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fs(a)===fj)return e(bm(po),a);if(fs(a)===253){var
-c=hw(nk,a),b=0,g=E(c);for(;;){if(g<=b)return av(c,nj);var
-d=R(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fx(a)===fo)return e(bn(px),a);if(fx(a)===253){var
+c=hK(nt,a),b=0,g=I(c);for(;;){if(g<=b)return ax(c,ns);var
+d=U(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return pp}return e(bm(pq),a)}function
-h9(b,a){if(b.length-1<=a)return pr;var
-c=h9(b,a+1|0),d=fE(b,a);return N(bm(ps),d,c)}function
-fF(a){function
+b=b+1|0;continue}return c}}return py}return e(bn(pz),a)}function
+im(b,a){if(b.length-1<=a)return pA;var
+c=im(b,a+1|0),d=fJ(b,a);return Q(bn(pB),d,c)}function
+fK(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ee[1]);if(h)return h[1];if(a===fx)return px;if(a===hR)return py;if(a[1]===hQ){var
-c=a[2],i=c[3],p=c[2],q=c[1];return g0(bm(fD),q,p,i,i+5|0,pz)}if(a[1]===$){var
-d=a[2],j=d[3],r=d[2],s=d[1];return g0(bm(fD),s,r,j,j+6|0,pA)}if(a[1]===hT){var
-f=a[2],k=f[3],t=f[2],u=f[1];return g0(bm(fD),u,t,k,k+6|0,pB)}if(0===fs(a)){var
+h=o(ek[1]);if(h)return h[1];if(a===fC)return pG;if(a===h5)return pH;if(a[1]===h4){var
+c=a[2],i=c[3],p=c[2],q=c[1];return ha(bn(fI),q,p,i,i+5|0,pI)}if(a[1]===ae){var
+d=a[2],j=d[3],r=d[2],s=d[1];return ha(bn(fI),s,r,j,j+6|0,pJ)}if(a[1]===h7){var
+f=a[2],k=f[3],t=f[2],u=f[1];return ha(bn(fI),u,t,k,k+6|0,pK)}if(0===fx(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=h9(a,2),m=fE(a,1),b=N(bm(pt),m,l);else
+l=im(a,2),m=fJ(a,1),b=Q(bn(pC),m,l);else
 switch(g){case
 0:var
-b=pu;break;case
+b=pD;break;case
 1:var
-b=pv;break;default:var
-n=fE(a,1),b=e(bm(pw),n)}return av(v,b)}return a[1]}function
-fG(t,s){var
-d=Ao(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pE;break;default:var
+n=fJ(a,1),b=e(bn(pF),n)}return ax(v,b)}return a[1]}function
+fL(t,s){var
+d=AU(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=mS(d,b)[1+b],f=function(a){return function(b){return b?0===a?pC:pD:0===a?pE:pF}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pG:pI,l=a[2],m=a[7],n=f(a[1]),c=[0,Ad(bm(pH),n,m,l,k,j,i,h)];else
+a=m1(d,b)[1+b],f=function(a){return function(b){return b?0===a?pL:pM:0===a?pN:pO}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?pP:pR,l=a[2],m=a[7],n=f(a[1]),c=[0,AJ(bn(pQ),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bm(pJ),o)];if(c){var
-q=c[1];e(h8(t,pK),q)}var
+o=f(0),c=[0,e(bn(pS),o)];if(c){var
+q=c[1];e(il(t,pT),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-h_(c){for(;;){var
-a=ee[1],d=[0,c,a],e=ee[1]===a?(ee[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pM=pL.slice();function
-pN(d,c){var
-f=fF(d);e(fC(pO),f);fG(bI,c);var
-a=AN(0);if(a<0){var
-b=ea(a);hU(mS(pM,b)[1+b])}return di(bI)}var
-pP=[0];hG(a(kY),function(d,i){try{try{var
-b=i?pP:mY(0);try{fy(0)}catch(a){}try{var
-a=pN(d,b),c=a}catch(a){a=fv(a);var
-g=fF(d);e(fC(pR),g);fG(bI,b);var
-h=fF(a);e(fC(pS),h);fG(bI,mY(0));var
-c=di(bI)}var
-f=c}catch(a){a=fv(a);if(a!==fx)throw a;var
-f=hU(pQ)}return f}catch(a){return 0}});var
-h$=[ar,pU,fo(0)],fH=[0,h$,[0]],pT=fs(fH)===ar?fH:fH[1];hG(a(g5),pT);(function(a){throw a});var
-pV=u.Array;h_(function(a){return a[1]===h$?[0,bl(a[2].toString())]:0});h_(function(a){return a
+io(c){for(;;){var
+a=ek[1],d=[0,c,a],e=ek[1]===a?(ek[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pV=pU.slice();function
+pW(d,c){var
+f=fK(d);e(fH(pX),f);fL(bK,c);var
+a=Bh(0);if(a<0){var
+b=eg(a);h8(m1(pV,b)[1+b])}return dr(bK)}var
+pY=[0];hU(a(k6),function(d,i){try{try{var
+b=i?pY:m7(0);try{fD(0)}catch(a){}try{var
+a=pW(d,b),c=a}catch(a){a=fA(a);var
+g=fK(d);e(fH(p0),g);fL(bK,b);var
+h=fK(a);e(fH(p1),h);fL(bK,m7(0));var
+c=dr(bK)}var
+f=c}catch(a){a=fA(a);if(a!==fC)throw a;var
+f=h8(pZ)}return f}catch(a){return 0}});var
+ip=[au,p3,ft(0)],fM=[0,ip,[0]],p2=fx(fM)===au?fM:fM[1];hU(a(hg),p2);(function(a){throw a});var
+p4=v.Array;io(function(a){return a[1]===ip?[0,bm(a[2].toString())]:0});io(function(a){return a
 instanceof
-pV?0:[0,bl(a.toString())]});var
-d=a1(0),c=a1(1);function
-o(a){return A(a,c)}function
-ia(b,a){return A(a1(b),a)}function
-b(b,a){return r(a1(b),a)}function
-bn(b,a){return[0,hL(b,a),nc(b,a)]}function
-fI(b,a){return B(b,a)?b:a}function
-cj(b,a){return B(b,a)?a:b}function
-aH(a){return a?0:1}function
-ae(b,a){var
+p4?0:[0,bm(a.toString())]});var
+d=a2(0),c=a2(1);function
+n(a){return C(a,c)}function
+iq(b,a){return C(a2(b),a)}function
+b(b,a){return r(a2(b),a)}function
+bo(b,a){return[0,hZ(b,a),nl(b,a)]}function
+fN(b,a){return D(b,a)?b:a}function
+cn(b,a){return D(b,a)?a:b}function
+aK(a){return a?0:1}function
+af(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dr(a){return a[1]}function
-ds(a){return a[2]}function
-k(a){var
-b=a?[0,k(a[2])]:a;return b}function
+dz(a){return a[1]}function
+dA(a){return a[2]}function
+l(a){var
+b=a?[0,l(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ib(a){return typeof
-a==="number"?0:[0,ib(a[1])]}function
-ic(d,c){var
+ir(a){return typeof
+a==="number"?0:[0,ir(a[1])]}function
+is(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ef(a){return ic(a,0)}function
-id(a){if(typeof
-a==="number")return pX;else
+el(a){return is(a,0)}function
+it(a){if(typeof
+a==="number")return p6;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,341 +1944,341 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,id(a[1])]}}function
-ba(a){if(typeof
-a==="number")return pY;else
+8:return[9,a[1]];default:return[0,it(a[1])]}}function
+bb(a){if(typeof
+a==="number")return p7;else
 switch(a[0]){case
-0:return[1,a$(a[1])];case
-1:return[3,a$(a[1])];case
-2:return[5,a$(a[1])];case
-3:return[7,a$(a[1])];case
-4:return[9,a$(a[1])];case
-5:return[1,ba(a[1])];case
-6:return[3,ba(a[1])];case
-7:return[5,ba(a[1])];case
-8:return[7,ba(a[1])];default:return[9,ba(a[1])]}}function
-a$(a){if(typeof
+0:return[1,ba(a[1])];case
+1:return[3,ba(a[1])];case
+2:return[5,ba(a[1])];case
+3:return[7,ba(a[1])];case
+4:return[9,ba(a[1])];case
+5:return[1,bb(a[1])];case
+6:return[3,bb(a[1])];case
+7:return[5,bb(a[1])];case
+8:return[7,bb(a[1])];default:return[9,bb(a[1])]}}function
+ba(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a$(a[1])];case
-1:return[2,a$(a[1])];case
-2:return[4,a$(a[1])];case
-3:return[6,a$(a[1])];case
-4:return[8,a$(a[1])];case
-5:return[0,ba(a[1])];case
-6:return[2,ba(a[1])];case
-7:return[4,ba(a[1])];case
-8:return[6,ba(a[1])];default:return[8,ba(a[1])]}}function
-b4(a){return a?a[1]:a}function
-H(b,a){return b?[0,H(b[1],a)]:a}function
-dt(a,b){return a?H(b,dt(a[1],b)):a}function
-du(b,a){return b?a:a?0:1}function
-aa(d,c){var
+0:return[0,ba(a[1])];case
+1:return[2,ba(a[1])];case
+2:return[4,ba(a[1])];case
+3:return[6,ba(a[1])];case
+4:return[8,ba(a[1])];case
+5:return[0,bb(a[1])];case
+6:return[2,bb(a[1])];case
+7:return[4,bb(a[1])];case
+8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
+bO(a){return a?a[1]:a}function
+J(b,a){return b?[0,J(b[1],a)]:a}function
+dB(a,b){return a?J(b,dB(a[1],b)):a}function
+dC(b,a){return b?a:a?0:1}function
+M(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Y(d,c){var
+$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-ie(b,a){return Y([0,b],a)}function
-ig(c){var
+iu(b,a){return $([0,b],a)}function
+iv(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fJ(c,b,a){return c?e(b,fJ(c[1],b,a)):a}function
-ih(a){if(a)var
-b=a[1],d=b?[0,ih(b[1])]:b,c=d;else
+fO(c,b,a){return c?e(b,fO(c[1],b,a)):a}function
+iw(a){if(a)var
+b=a[1],d=b?[0,iw(b[1])]:b,c=d;else
 var
 c=a;return c}function
-eg(a){if(B(a,c))return c;var
-b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?o(eg(e)):o(eg(e))}function
-eh(c,b){var
-a=hK(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-ii(b,i,h){var
-e=i,a=h;for(;;){if(B(e,c))return a;var
-f=bn(e,a1(2)),g=f[1];if(ak(f[2],d)){var
-e=g,a=N(b,a,a);continue}return N(b,a,ii(b,g,N(b,a,a)))}}function
-dv(a){return ii(H,a,p0)}function
-fK(a){return a?o(fK(a[1])):c}function
-bM(f,e){var
+em(a){if(D(a,c))return c;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?n(em(e)):n(em(e))}function
+en(c,b){var
+a=hY(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+ix(b,i,h){var
+e=i,a=h;for(;;){if(D(e,c))return a;var
+f=bo(e,a2(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=Q(b,a,a);continue}return Q(b,a,ix(b,g,Q(b,a,a)))}}function
+dD(a){return ix(J,a,p9)}function
+fP(a){return a?n(fP(a[1])):c}function
+bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=r(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=r(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=A(c,r(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=C(c,r(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=r(b(2,o(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
+i=r(b(2,n(b(2,b(2,c)))),d),j=C(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=r(b(2,o(b(2,b(2,c)))),d),l=A(o(b(2,c)),k),a=a[1],d=l;continue;case
+k=r(b(2,n(b(2,b(2,c)))),d),l=C(n(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=r(b(2,o(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=r(b(2,n(b(2,b(2,c)))),d),o=C(b(2,b(2,c)),m),a=a[1],d=o;continue;case
 5:var
-p=r(b(2,o(b(2,b(2,c)))),d),q=A(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+p=r(b(2,n(b(2,b(2,c)))),d),q=C(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-s=r(b(2,o(b(2,b(2,c)))),d),t=A(b(2,o(b(2,c))),s),a=a[1],d=t;continue;case
+s=r(b(2,n(b(2,b(2,c)))),d),t=C(b(2,n(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=r(b(2,o(b(2,b(2,c)))),d),v=A(o(b(2,o(b(2,c)))),u),a=a[1],d=v;continue;case
+u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=r(b(2,o(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=r(b(2,o(b(2,b(2,c)))),d),z=A(o(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fL(a){if(B(a,c))return p1;var
-b=bn(a,a1(2)),e=b[1];return ak(b[2],d)?a$(fL(e)):ba(fL(e))}function
-ei(a){return ef(fL(a))}function
-ij(k,f){if(0<=bH(f)){var
-g=hM(f);if(0<=g){var
+w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+fQ(a){if(D(a,c))return p_;var
+b=bo(a,a2(2)),e=b[1];return al(b[2],d)?ba(fQ(e)):bb(fQ(e))}function
+eo(a){return el(fQ(a))}function
+iy(k,f){if(0<=bJ(f)){var
+g=h0(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b2(pW)}return d}function
-ik(a){return 0<=bH(a)?a:d}function
-fM(a){var
-b=bH(a);return 0===b?c:0<b?a:c}function
-il(m){var
+h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b4(p5)}return d}function
+iz(a){return 0<=bJ(a)?a:d}function
+fR(a){var
+b=bJ(a);return 0===b?c:0<b?a:c}function
+iA(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bM(a[1],c);case
+1:return bP(a[1],c);case
 2:var
-e=b(2,c);return bM(a[1],e);case
+e=b(2,c);return bP(a[1],e);case
 3:var
-f=o(b(2,c));return bM(a[1],f);case
+f=n(b(2,c));return bP(a[1],f);case
 4:var
-g=b(2,b(2,c));return bM(a[1],g);case
+g=b(2,b(2,c));return bP(a[1],g);case
 5:var
-h=o(b(2,b(2,c)));return bM(a[1],h);case
+h=n(b(2,b(2,c)));return bP(a[1],h);case
 6:var
-i=b(2,o(b(2,c)));return bM(a[1],i);case
+i=b(2,n(b(2,c)));return bP(a[1],i);case
 7:var
-j=o(b(2,o(b(2,c))));return bM(a[1],j);case
+j=n(b(2,n(b(2,c))));return bP(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
-l=o(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
-b5(b,a){var
-c=bH(a);return 0===c?d:1===c?hL(b,a):ia(-1,hL(ia(-1,b),a))}function
-im(a){return 0<bH(a)?A8(a):d}function
-dw(b,c){var
-a=hM(c);return 0<=a?nd(b,a):ne(b,-a|0)}function
-cO(b,c){var
-a=hM(c);return 0<=a?ne(b,a):nd(b,-a|0)}function
-fN(b,a){return a?a[1]:b}function
-io(a){var
+k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
+b7(b,a){var
+c=bJ(a);return 0===c?d:1===c?hZ(b,a):iq(-1,hZ(iq(-1,b),a))}function
+iB(a){return 0<bJ(a)?BC(a):d}function
+dE(b,c){var
+a=h0(c);return 0<=a?nm(b,a):nn(b,-a|0)}function
+cS(b,c){var
+a=h0(c);return 0<=a?nn(b,a):nm(b,-a|0)}function
+ep(b,a){return a?a[1]:b}function
+fS(a){var
 b=a?a[2]:a;return b}function
-F(e,d,c){var
+E(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-al(d,c){var
+ai(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ip(a){if(a){var
-b=[0,a[1],0];return g(ip(a[2]),b)}return a}function
-iq(d,c){var
+iC(a){if(a){var
+b=[0,a[1],0];return g(iC(a[2]),b)}return a}function
+iD(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-y(b,a){if(a){var
-c=y(b,a[2]);return g(e(b,a[1]),c)}return a}function
-ir(e,d,c){var
+z(b,a){if(a){var
+c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
+iE(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=N(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cP(c,b,a){if(a){var
-d=cP(c,b,a[2]);return N(c,a[1],d)}return b}function
-a6(f,d){var
+f=Q(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cT(c,b,a){if(a){var
+d=cT(c,b,a[2]);return Q(c,a[1],d)}return b}function
+a4(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-n(d,c){var
+o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fO(b,f){var
+fT(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,fO(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,fT(b,c)];var
 a=c;continue}return a}}function
-ck(b,a){if(b)if(a)var
-d=ck(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+co(b,a){if(b)if(a)var
+d=co(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ej(b,a){if(b)if(a)var
-d=ej(b[1],a[2]),c=[0,a[1],d];else
+eq(b,a){if(b)if(a)var
+d=eq(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-is(d,c){var
+iF(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cQ(b,a){var
-c=a?[0,b,cQ([0,b],a[1])]:a;return c}function
-cl(b,a){var
-c=a?[0,b,cl(b,a[1])]:a;return c}function
-it(a){if(a){var
-e=it(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-ek(j){function
+cU(b,a){var
+c=a?[0,b,cU([0,b],a[1])]:a;return c}function
+cp(b,a){var
+c=a?[0,b,cp(b,a[1])]:a;return c}function
+iG(a){if(a){var
+e=iG(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
+er(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=it([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bH(b)?dv(b):0}function
-iu(c,b){var
-a=hK(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iv(b,a){return B(r(b[1],a[2]),r(a[1],b[2]))}function
-iw(b,a){return[0,A(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-ix(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
-aW(a){if(typeof
-a==="number")return p4;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iG([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bJ(b)?dD(b):0}function
+iH(c,b){var
+a=hY(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iI(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
+iJ(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
+iK(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
+aY(a){if(typeof
+a==="number")return qb;else
 switch(a[0]){case
 0:var
-b=aW(a[1]);return av(a5(1,48),b);case
+b=aY(a[1]);return ax(a7(1,48),b);case
 1:var
-c=aW(a[1]);return av(a5(1,49),c);case
+c=aY(a[1]);return ax(a7(1,49),c);case
 2:var
-d=aW(a[1]);return av(a5(1,50),d);case
+d=aY(a[1]);return ax(a7(1,50),d);case
 3:var
-e=aW(a[1]);return av(a5(1,51),e);case
+e=aY(a[1]);return ax(a7(1,51),e);case
 4:var
-f=aW(a[1]);return av(a5(1,52),f);case
+f=aY(a[1]);return ax(a7(1,52),f);case
 5:var
-g=aW(a[1]);return av(a5(1,53),g);case
+g=aY(a[1]);return ax(a7(1,53),g);case
 6:var
-h=aW(a[1]);return av(a5(1,54),h);case
+h=aY(a[1]);return ax(a7(1,54),h);case
 7:var
-i=aW(a[1]);return av(a5(1,55),i);case
+i=aY(a[1]);return ax(a7(1,55),i);case
 8:var
-j=aW(a[1]);return av(a5(1,56),j);default:var
-k=aW(a[1]);return av(a5(1,57),k)}}function
-dx(a){return typeof
-a==="number"?p5:aW(a)}function
-cm(a){return ij(b(2,c),a)}function
-iy(b,a){return cO(a,b)}function
-iz(b,a){return W(cO(W(a),b))}function
-el(b,a){return W(b5(W(b),a))}function
+j=aY(a[1]);return ax(a7(1,56),j);default:var
+k=aY(a[1]);return ax(a7(1,57),k)}}function
+dF(a){return typeof
+a==="number"?qc:aY(a)}function
+cq(a){return iy(b(2,c),a)}function
+iL(b,a){return cS(a,b)}function
+iM(b,a){return Z(cS(Z(a),b))}function
+es(b,a){return Z(b7(Z(b),a))}function
 aL(c,b){var
-a=dw(b,c);return[0,a,a]}function
-C(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-M(b,a){return[0,b1(b[1],a[2]),b1(b[2],a[1])]}function
-aE(a){return[0,W(a[2]),W(a[1])]}function
-iA(e,c,b,a){if(B(d,e))return B(d,b)?[0,r(e,b),r(c,a)]:B(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(B(c,d))return B(d,b)?[0,r(e,a),r(c,b)]:B(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(B(d,b))return[0,r(e,a),r(c,a)];if(B(a,d))return[0,r(c,b),r(e,b)];var
-f=cj(r(e,b),r(c,a));return[0,fI(r(e,a),r(c,b)),f]}function
-D(c,b,a){var
-d=iA(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
-ai(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iz(b,cj(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
+a=dE(b,c);return[0,a,a]}function
+A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+N(b,a){return[0,b3(b[1],a[2]),b3(b[2],a[1])]}function
+aH(a){return[0,Z(a[2]),Z(a[1])]}function
+iN(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
+f=cn(r(e,b),r(c,a));return[0,fN(r(e,a),r(c,b)),f]}function
+F(c,b,a){var
+d=iN(b[1],b[2],a[1],a[2]),e=iM(c,d[2]);return[0,iL(c,d[1]),e]}function
+aa(b,a){var
+c=r(a[1],a[1]),e=r(a[2],a[2]),h=iM(b,cn(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iy(b,fI(c,e));return[0,f,h]}function
-iB(b,a){var
-c=dw(cm(b),b),d=el(c,a[1]);return[0,b5(c,a[2]),d]}function
-cn(b,a){if(ac(d,a[1]))return[0,iB(b,a)];var
-c=ac(a[2],d),e=c?[0,aE(iB(b,aE(a)))]:c;return e}function
-co(f,b){var
+f=iL(b,fN(c,e));return[0,f,h]}function
+iO(b,a){var
+c=dE(cq(b),b),d=es(c,a[1]);return[0,b7(c,a[2]),d]}function
+cr(b,a){if(ac(d,a[1]))return[0,iO(b,a)];var
+c=ac(a[2],d),e=c?[0,aH(iO(b,aH(a)))]:c;return e}function
+cs(f,b){var
 g=ac(d,b[1]);if(g)var
-e=dw(b[2],f),a=im(e),i=ak(r(a,a),e)?a:A(a,c),h=[0,[0,im(dw(b[1],f)),i]];else
+e=dE(b[2],f),a=iB(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,iB(dE(b[1],f)),i]];else
 var
 h=g;return h}function
-a7(e,d,c,b,a){if(b){if(a){var
-g=a7(e,d,c,b[2],a[2]);return[0,N(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-b6(b,a){return cO(b,a)}function
-bN(a,c,b){if(B(d,a)){var
-e=b[1],f=W(b6(W(r(a,b[2])),c));return[0,b6(r(a,e),c),f]}var
-g=b[2],h=W(b6(W(r(a,b[1])),c));return[0,b6(r(a,g),c),h]}function
-em(a){var
-b=W(cO(W(a[2]),c));return[0,cO(a[1],c),b]}function
-fP(c,b,a){var
-e=iA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=el(f,h),j=ac(g,d)?a[1]:a[2];return[0,b5(g,j),i]}var
-ab=[0,d,d];function
-fQ(a){return[0,a[1],a[1]]}function
-en(a){return[0,a[2],a[2]]}function
-ax(a,b){switch(b[0]){case
+a8(e,d,c,b,a){if(b){if(a){var
+g=a8(e,d,c,b[2],a[2]);return[0,Q(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+b8(b,a){return cS(b,a)}function
+bQ(a,c,b){if(D(d,a)){var
+e=b[1],f=Z(b8(Z(r(a,b[2])),c));return[0,b8(r(a,e),c),f]}var
+g=b[2],h=Z(b8(Z(r(a,b[1])),c));return[0,b8(r(a,g),c),h]}function
+et(a){var
+b=Z(cS(Z(a[2]),c));return[0,cS(a[1],c),b]}function
+fU(c,b,a){var
+e=iN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=es(f,h),j=ac(g,d)?a[1]:a[2];return[0,b7(g,j),i]}var
+O=[0,d,d];function
+fV(a){return[0,a[1],a[1]]}function
+eu(a){return[0,a[2],a[2]]}function
+az(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dw(b[1],a),t=el(m,n);return[0,[0,b5(m,n),t]];case
+n=b[2],m=dE(b[1],a),t=es(m,n);return[0,[0,b7(m,n),t]];case
 1:var
-c=ax(a,b[1]);if(c)var
-d=ax(a,b[2]),u=d?[0,C(c[1],d[1])]:d,o=u;else
+c=az(a,b[1]);if(c)var
+d=az(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ax(a,b[1]);if(e)var
-f=ax(a,b[2]),v=f?[0,M(e[1],f[1])]:f,p=v;else
+e=az(a,b[1]);if(e)var
+f=az(a,b[2]),v=f?[0,N(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ax(a,b[1]);if(g)var
-h=ax(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+g=az(a,b[1]);if(g)var
+h=az(a,b[2]),w=h?[0,F(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ax(a,b[1]);if(i){var
-j=ax(a,b[2]);if(j)var
-k=cn(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
+i=az(a,b[1]);if(i){var
+j=az(a,b[2]);if(j)var
+k=cr(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ax(a,b[1]);return l?co(a,l[1]):l}}function
-iC(a){var
-e=cj(W(a),d);return fM(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iD(a){return ik(A(iC(a),a))}function
-b7(f,a,e){var
-b=ax(A(f,iC(a)),e);if(b)var
-c=b[1],g=iD(a),h=W(b6(W(c[2]),g)),i=iD(a),d=[0,[0,b6(c[1],i),h]];else
+l=az(a,b[1]);return l?cs(a,l[1]):l}}function
+iP(a){var
+e=cn(Z(a),d);return fR(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iQ(a){return iz(C(iP(a),a))}function
+b9(f,a,e){var
+b=az(C(f,iP(a)),e);if(b)var
+c=b[1],g=iQ(a),h=Z(b8(Z(c[2]),g)),i=iQ(a),d=[0,[0,b8(c[1],i),h]];else
 var
 d=b;return d}function
-aM(d,a){var
-b=b7(d,a[2],a[1][1]);if(b)var
-c=b7(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aA(d,a){var
+b=b9(d,a[2],a[1][1]);if(b)var
+c=b9(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iE(b,a){var
-c=W(b6(W(a[2]),b));return[0,b6(a[1],b),c]}function
-fR(b,a){var
-c=el(b[2],a);return[0,b5(b[1],a),c]}function
-fS(a,f,b){if(b){var
-d=b[1],g=fS(a,f,d),h=g[2],i=fK(H(dt(p7,d),p6)),j=r(fK(dt(p8,d)),i),e=fR(D(a,g[1],f),j),k=ig(b)?C(h,e):M(h,e);return[0,e,k]}var
+iR(b,a){var
+c=Z(b8(Z(a[2]),b));return[0,b8(a[1],b),c]}function
+fW(b,a){var
+c=es(b[2],a);return[0,b7(b[1],a),c]}function
+fX(a,f,b){if(b){var
+d=b[1],g=fX(a,f,d),h=g[2],i=fP(J(dB(qe,d),qd)),j=r(fP(dB(qf,d)),i),e=fW(F(a,g[1],f),j),k=iv(b)?A(h,e):N(h,e);return[0,e,k]}var
 l=aL(a,c);return[0,aL(a,c),l]}function
-iF(f){var
-g=dv(f),e=p9[1],b=g,c=0,a=e;for(;;){if(b){var
+iS(f){var
+g=dD(f),e=qg[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return H(p_,c)}}function
-iG(a,d){var
-g=cm(a),h=r(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
-i=fS(a,d,dt(qa,H(iF(a),p$)))[2][2],f=[0,[0,fS(a,d,H(dt(qc,iF(a)),qb))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return J(qh,c)}}function
+iT(a,d){var
+g=cq(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fX(a,d,dB(qj,J(iS(a),qi)))[2][2],f=[0,[0,fX(a,d,J(dB(ql,iS(a)),qk))[2][1],i]];else
 var
 f=e;return f}function
-iH(i){function
+iU(i){function
 a(h){var
-m=b5(cm(i),h),g=dv(i),f=m,e=d,a=c;for(;;){if(g){var
-j=A(a,b(2,c)),k=A(e,b5(f,a)),l=W(b5(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return b1(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iI(e,a){var
-f=B(d,a);if(f){var
-g=b(2,b(2,c));return iG(e,fR(ai(e,[0,a,a]),g))}return f}function
-iJ(a,d){var
-b=ai(a,d),e=aL(a,c);return M(C(b,b),e)}function
-eo(n,u){var
-h=ax(A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b1(iH(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(iH(a),r),f=iI(a,i);if(f){var
-g=iI(a,j);if(g)var
+m=b7(cq(i),h),g=dD(i),f=m,e=d,a=c;for(;;){if(g){var
+j=C(a,b(2,c)),k=C(e,b7(f,a)),l=Z(b7(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b3(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iV(e,a){var
+f=D(d,a);if(f){var
+g=b(2,b(2,c));return iT(e,fW(aa(e,[0,a,a]),g))}return f}function
+iW(a,d){var
+b=aa(a,d),e=aL(a,c);return N(A(b,b),e)}function
+ev(o,u){var
+h=az(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b3(iU(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iU(a),r),f=iV(a,i);if(f){var
+g=iV(a,j);if(g)var
 k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),t=iG(a,ai(a,fR(D(a,v,e[1]),s))),p=ae(function(b){return iJ(a,iJ(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iT(a,aa(a,fW(F(a,v,e[1]),s))),p=af(function(b){return iW(a,iW(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ae(function(a){return iE(w,a)},p)}return h}function
-fT(d,a){return eo(d,[2,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
-ep(a){return 0===a[0]?a[2]:a[1]}function
-dy(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return af(function(a){return iR(w,a)},p)}return h}function
+fY(d,a){return ev(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+ew(a){return 0===a[0]?a[2]:a[1]}function
+dG(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2292,128 +2292,128 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bb(j,i){var
+bc(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?aa(b[1],a[1]):0;case
-1:return 1===a[0]?aa(b[1],a[1]):0;case
-2:return 2===a[0]?ak(b[1],a[1]):0;case
+0:return 0===a[0]?M(b[1],a[1]):0;case
+1:return 1===a[0]?M(b[1],a[1]):0;case
+2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bb(b[1],a[1]);if(e){var
+e=bc(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bb(b[1],a[1]);if(f){var
+f=bc(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bb(b[1],a[1]);if(g){var
+g=bc(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bb(b[1],a[1]);if(h){var
+h=bc(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-eq(b){var
+ex(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bo(c,b){var
-a=eq(b);return a?ak(c,a[1]):a}function
-dz(a){return ac(fw(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+bp(c,b){var
+a=ex(b);return a?al(c,a[1]):a}function
+dH(a){return ac(fB(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
-G(b,a){if(bo(d,b))return a;if(bo(d,a))return b;var
-c=eq(b);if(c){var
-e=c[1],f=eq(a);if(f){var
-g=f[1];if(dz(e)&&dz(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cp(a){var
+G(b,a){if(bp(d,b))return a;if(bp(d,a))return b;var
+c=ex(b);if(c){var
+e=c[1],f=ex(a);if(f){var
+g=f[1];if(dH(e)&&dH(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ct(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dz(c)?q(W(c)):[0,[5,a]];case
+c=b[1];return dH(c)?q(Z(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){return bo(d,a)?b:bo(d,b)?cp(a):[0,[4,b,a]]}function
-af(a){var
-c=eq(a);if(c){var
-b=c[1];return dz(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bo(d,a)&&!bo(c,b)){if(!bo(d,b)&&!bo(c,a))return bb(a,b)?af(a):[0,[6,a,b]];return b}return a}function
-aI(b,a){return bo(c,a)?b:[0,[7,b,a]]}function
-cq(a){return bo(c,a)?a:[0,[9,a]]}function
-cr(g,f,d,c){var
+w(b,a){return bp(d,a)?b:bp(d,b)?ct(a):[0,[4,b,a]]}function
+X(a){var
+c=ex(a);if(c){var
+b=c[1];return dH(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?X(a):[0,[6,a,b]];return b}return a}function
+ar(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
+b_(a){return bp(c,a)?a:[0,[9,a]]}function
+cu(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dy(function(b){return function(a){return F(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dA(a){var
+h=b[1],i=[0,e(f,dG(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dI(a){var
 b=0;function
-c(a){return[0,a]}return cr(q(d),c,a,b)}function
-fU(b,a){if(a){if(bb(b,a[1]))return qd;var
-c=fU(b,a[2]);return ae(function(a){return[0,a]},c)}return a}function
-bp(c,b){var
-a=fU(b,c),d=a?a[1]:a;return d}function
-er(d,a){if(fU(d,a[1]))return a;var
+c(a){return[0,a]}return cu(q(d),c,a,b)}function
+fZ(b,a){if(a){if(bc(b,a[1]))return qm;var
+c=fZ(b,a[2]);return af(function(a){return[0,a]},c)}return a}function
+bq(c,b){var
+a=fZ(b,c),d=a?a[1]:a;return d}function
+ey(d,a){if(fZ(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=er(b[1],a);break;case
+c=ey(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=er(b[1],a),c=er(b[2],h)}var
-e=c[2],f=c[1],g=[0,dy(function(a){return bp(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dB(a){var
-b=ir(function(b,a){return er(a,b)},a,qe),c=b[1],d=f(function(a){return bp(c,a)},a);return[0,ip(b[2]),d]}function
-es(a){return cP(function(a,b){return A(cj(a[2],W(a[1])),b)},d,a)}function
-cR(b,c,a){var
-d=es(a),e=fI(c[2],A(b[2],d)),f=es(a);return[0,b,[0,cj(c[1],b1(b[1],f)),e],a]}function
-a3(a){return[0,a,a,0]}function
-et(b,a){var
+h=ey(b[1],a),c=ey(b[2],h)}var
+e=c[2],f=c[1],g=[0,dG(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dJ(a){var
+b=iE(function(b,a){return ey(a,b)},a,qn),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,iC(b[2]),d]}function
+ez(a){return cT(function(a,b){return C(cn(a[2],Z(a[1])),b)},d,a)}function
+cV(b,c,a){var
+d=ez(a),e=fN(c[2],C(b[2],d)),f=ez(a);return[0,b,[0,cn(c[1],b3(b[1],f)),e],a]}function
+aZ(a){return[0,a,a,0]}function
+eA(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a7(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return cR(C(b[1],a[1]),g,f)}function
-iK(b,a){var
-c=a[3],d=b[3],e=a7(function(a){return a},aE,M,d,c),f=M(b[2],a[2]);return cR(M(b[1],a[1]),f,e)}function
-iL(a,c,b){var
-d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cV(A(b[1],a[1]),g,f)}function
+iX(b,a){var
+c=a[3],d=b[3],e=a8(function(a){return a},aH,N,d,c),f=N(b[2],a[2]);return cV(N(b[1],a[1]),f,e)}function
+iY(a,c,b){var
+d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return em(C(D(a,d,c),f))}function
-i(b){return em(D(a,e,b))}var
-j=a7(function(b){return em(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cR(D(a,c[1],b[1]),k,j)}function
-fV(b,a){return a?e(b,a[1]):a}function
-eu(d,b,a){if(b){if(a)return N(d,b[1],a[1]);var
+f=F(a,e,b);return et(A(F(a,d,c),f))}function
+i(b){return et(F(a,e,b))}var
+j=a8(function(b){return et(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cV(F(a,c[1],b[1]),k,j)}function
+f0(b,a){return a?e(b,a[1]):a}function
+eB(d,b,a){if(b){if(a)return Q(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dC(a,e,d){var
-c=a3(ab);return function(b){switch(b[0]){case
-0:return[0,F(b[1],e,c)];case
-1:return[0,F(b[1],d,c)];case
-2:return[0,a3(aL(a,b[1]))];case
+dK(a,e,d){var
+c=aZ(O);return function(b){switch(b[0]){case
+0:return[0,E(b[1],e,c)];case
+1:return[0,E(b[1],d,c)];case
+2:return[0,aZ(aL(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return eu(function(b,a){return[0,et(b,a)]},h,g);case
+g=b[2],h=b[1];return eB(function(b,a){return[0,eA(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eu(function(b,a){return[0,iK(b,a)]},j,i);case
+i=b[2],j=b[1];return eB(function(b,a){return[0,iX(b,a)]},j,i);case
 5:var
-k=b[1];return fV(function(a){var
-b=f(aE,a[3]),c=aE(a[2]);return[0,[0,aE(a[1]),c,b]]},k);case
+k=b[1];return f0(function(a){var
+b=f(aH,a[3]),c=aH(a[2]);return[0,[0,aH(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eu(function(c,b){return[0,iL(a,c,b)]},m,l);case
+l=b[2],m=b[1];return eB(function(c,b){return[0,iY(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return eu(function(e,g){var
-b=cn(a,g[1]);if(b){var
-c=cn(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return M(c,D(a,d,b))},n=function(b){return aE(D(a,d,b))},o=a7(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cR(d,D(a,e[2],h),p)];else
+n=b[2],o=b[1];return eB(function(e,g){var
+b=cr(a,g[1]);if(b){var
+c=cr(a,g[2]);if(c)var
+h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,F(a,d,b))},n=function(b){return aH(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cV(d,F(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fV(function(b){var
-c=b[3],d=C(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ai(a,b[2]);return[0,cR(ai(a,b[1]),g,e)]},p);default:var
-q=b[1];return fV(function(e){var
-b=co(a,e[1]);if(b){var
-g=b[1],c=co(a,e[2]);if(c){var
-h=c[1],d=cn(a,C(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cR(g,h,f(function(b){return D(a,m,b)},l))];else
+p=b[1];return f0(function(b){var
+c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=aa(a,b[2]);return[0,cV(aa(a,b[1]),g,e)]},p);default:var
+q=b[1];return f0(function(e){var
+b=cs(a,e[1]);if(b){var
+g=b[1],c=cs(a,e[2]);if(c){var
+h=c[1],d=cr(a,A(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cV(g,h,f(function(b){return F(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2422,142 +2422,164 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-qf(a){return a}function
-qg(a){return a}function
-qh(a,b){return a7(qg,qf,C,a,b)}function
-qi(a){return a}function
-qj(a){return a}function
-iM(a,b){return a7(qj,qi,qh,a,b)}function
-fW(b,a,c){if(a){var
+qo(a){return a}function
+qp(a){return a}function
+qq(a,b){return a8(qp,qo,A,a,b)}function
+qr(a){return a}function
+qs(a){return a}function
+f1(a,b){return a8(qs,qr,qq,a,b)}function
+f2(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fW(b,e,c[2]),h=c[1],i=function(c,a){return M(c,fP(d,a,b))},j=function(a){return aE(fP(d,a,b))};return[0,a7(function(a){return a},j,i,h,a),g]}var
-k=fW(b,e,0);return[0,f(function(a){return aE(fP(d,a,b))},a),k]}return c}function
-iN(a){if(a){var
+g=f2(b,e,c[2]),h=c[1],i=function(c,a){return N(c,fU(d,a,b))},j=function(a){return aH(fU(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
+k=f2(b,e,0);return[0,f(function(a){return aH(fU(d,a,b))},a),k]}return c}function
+iZ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ac(d,c[1]),h=e?[0,fW(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ac(d,c[1]),h=e?[0,f2(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iO(f,e){var
+i0(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iN(b);if(c){var
+c=iZ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iP(d,b,a){if(b)if(a)var
-e=a[1],f=iP(d,b[2],a[2]),g=du(d,b[1])?fQ(e):en(e),c=[0,g,f];else
+i1(d,b,a){if(b)if(a)var
+e=a[1],f=i1(d,b[2],a[2]),g=dC(d,b[1])?fV(e):eu(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iQ(a,b){if(a)if(b)var
-d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
+i2(a,b){if(a)if(b)var
+d=i2(a[2],b[2]),c=[0,i1(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bO(a){if(a){var
-b=a[1],c=bO(b),d=f(function(a){return[0,1,a]},c),e=bO(b);return g(f(function(a){return[0,0,a]},e),d)}return qk}function
-ev(a){var
-b=k(a);if(iO(b,a))return 1;var
-c=bO(b4(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
-a4(a){function
+bR(a){if(a){var
+b=a[1],c=bR(b),d=f(function(a){return[0,1,a]},c),e=bR(b);return g(f(function(a){return[0,0,a]},e),d)}return qt}function
+eC(a){var
+b=l(a);if(i0(b,a))return 1;var
+c=bR(bO(b));return o(function(c){return i0(b,i2([0,0,c],a))},c)}function
+a5(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-b8(h,e){var
+b$(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iR(c,b,a){var
-d=bO(c);return n(function(c){return e(a,e(a4(function(a){return b8(c,a)}),b))},d)}function
-iS(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bN(b,A(h,c),a)},k=iS(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a7(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+f3(c,b,a){var
+d=bR(c);return o(function(c){return e(a,e(a5(function(a){return b$(c,a)}),b))},d)}function
+i3(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bQ(b,C(h,c),a)},k=i3(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-iT(b,d,a,c){function
+i4(b,d,a,c){function
 e(c,d){var
-e=bN(d,b,a);return M(C(c,c),e)}function
-f(c){return aE(bN(c,b,a))}return a7(function(a){return C(a,a)},f,e,d,c)}function
-fX(d,i,h,g){var
+e=bQ(d,b,a);return N(A(c,c),e)}function
+f(c){return aH(bQ(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
+f4(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=en(e[2]),k=iM(a,iS(d,f,iT(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iU(b,a){return[0,[0,0,b],a]}function
-dD(b,c,g,f,a){function
+e=b[1],f=c[1],j=eu(e[2]),k=f1(a,i3(d,f,i4(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+f5(b,a){return[0,[0,0,b],a]}function
+cW(b,c,g,f,a){function
 d(a){if(a){var
-h=cl([0,aE(a[1][2]),0],b),c=fX(g,f,a[2],h),d=aa(k(c),b);if(d)return ev(c);var
+h=cp([0,aH(a[1][2]),0],b),c=f4(g,f,a[2],h),d=M(l(c),b);if(d)return eC(c);var
 e=d}else
 var
-e=a;return e}return iR(b,iU(c,a),d)}function
-iV(f,e){var
+e=a;return e}return f3(b,f5(c,a),d)}function
+i5(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iN([0,[0,fQ(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=iZ([0,[0,fV(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fY(b,c,a){function
+f6(b,c,a){function
 d(a){if(a){var
-h=cl([0,a[1][2],0],b),c=iV(a[2],h);if(c){var
-d=c[1],e=aa(k(d),b);if(e)return ev(d);var
+h=cp([0,a[1][2],0],b),c=i5(a[2],h);if(c){var
+d=c[1],e=M(l(d),b);if(e)return eC(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return iR(b,iU(c,a),d)}function
-iW(a,b){var
-c=b[3],d=a[3],e=a7(function(a){return a},aE,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
-dE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aX(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-dF(b,a){var
-c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-ew(b,a){var
-c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
-aF(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-fZ(a){return ew(a,cq(aF(a,a)))}function
-ex(a){var
-b=a[5];return b?b[1]:cq(a[2])}function
-ey(a){return f(function(a){var
-b=a[2];return[0,dE(a[1]),b]},a)}function
-iX(a){return f(function(a){var
-b=q(c);return[0,dE(a[3]),b]},a)}function
-iY(b,a){var
+g=a;return g}return f3(b,f5(c,a),d)}function
+i6(b,a){return f(function(a){return[0,a[1],b]},a)}function
+i7(a,b){var
+c=b[3],d=a[3],e=a8(function(a){return a},aH,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
+dL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aS(c,b,a){var
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
+dM(b,a){var
+c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
+eD(b,a){var
+c=ar(b[3],a),d=ar(b[2],a);return[0,ar(b[1],a),d,c]}function
+as(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return G(G(s(b[1],a[1]),d),c)}function
+f7(a){return eD(a,b_(as(a,a)))}function
+cX(a){var
+b=a[5];return b?b[1]:b_(a[2])}function
+eE(a){return f(function(a){var
+b=a[2];return[0,dL(a[1]),b]},a)}function
+i8(a){return f(function(a){var
+b=q(c);return[0,dL(a[3]),b]},a)}function
+i9(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-iZ(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-ez(a,k,j,p,i,h,g){var
-m=iZ(iK,h,g),b=iZ(function(b,c){return iL(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=et(et(et(a3(aL(a,d)),f),e),c),o=bO(k);return n(function(e){var
-c=iY(function(b){return ai(a,b8(e,b))},i),m=c[3],n=c[2],o=c[1],b=C(C(C(aL(a,d),o),n),m),f=co(a,[0,b[2],b[2]]);if(f)var
+i_(c,b,a){var
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
+eF(a,k,j,p,i,h,g){var
+m=i_(iX,h,g),b=i_(function(b,c){return iY(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=eA(eA(eA(aZ(aL(a,d)),f),e),c),n=bR(k);return o(function(e){var
+c=i9(function(b){return aa(a,b$(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aL(a,d),o),n),m),f=cs(a,[0,b[2],b[2]]);if(f)var
 g=f[1],h=[0,g[2],g[2]];else
 var
 h=[0,b[2],b[2]];var
-q=D(a,p,h),k=M(b8(e,l),q),r=j?M(k,b8(e,j[1])):k;return ac(d,r[1])},o)}function
-bq(a){return cO(A(a[1],a[2]),c)}function
-cS(a){var
-b=bq(a);return b1(a[2],b)}function
-f0(c,b){if(b)var
-a=b[1],e=f0([0,c],b[2]),f=cS(a),h=[0,[0,cS(a),f],0],i=g(cl(ab,c),h),j=bq(a),d=[0,[0,[0,bq(a),j],a,i],e];else
+q=F(a,p,h),k=N(b$(e,l),q),r=j?N(k,b$(e,j[1])):k;return ac(d,r[1])},n)}function
+br(a){return cS(C(a[1],a[2]),c)}function
+cY(a){var
+b=br(a);return b3(a[2],b)}function
+f8(c,b){if(b)var
+a=b[1],e=f8([0,c],b[2]),f=cY(a),h=[0,[0,cY(a),f],0],i=g(cp(O,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
 var
 d=b;return d}function
-dG(d,b){if(b){var
+dN(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dG(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bq(a),f],c],h=bq(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
-i0(d,c,b,a){var
-e=f(a3,b);return cr(0,dC(d,f0(0,a),e),c,0)}function
-aS(a){if(a){var
-b=a[1];if(b)var
-c=aS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+e=dN(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qu}function
+i$(d,b,a){if(b){if(a){var
+e=i$(d,b[2],a[2]);return A(bQ(b[1],C(d,c),a[1]),e)}return O}return O}function
+f9(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i$(e,a,b)},j=f9(e,h),k=f(function(a){var
+e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
-d=b;return d}return qm}function
-i1(b,a){if(a){var
-h=a[1],n=h[1],c=aS(f(function(a){return F(a,b,0)},n));if(c){var
-e=F(h[2],b,0);if(e){var
-i=e[1],g=i1(b,a[2]);if(g)var
+i=a;return i}function
+f_(e,b,d,a){if(b)if(a)var
+f=b[1],g=f_(e,b[2],d,a[2]),c=[0,[0,f,i4(e,a[1][1],d,f)],g];else
+var
+c=a;else
+var
+c=b;return c}function
+f$(e,d,c,b,a){if(a){var
+g=a[2];if(d){var
+i=f$(e,d[1],c,b,g);return[0,[0,N(O,b),0],i]}var
+j=f(function(a){return[0,N(O,b),0]},g),h=[0,[0,N(aH(F(e,c,eu(a[1][2]))),b),0],j]}else
+var
+h=a;return h}function
+dO(c,a){var
+b=M(l(a),c);return b?eC(a):b}function
+ja(d,c,b,a){var
+e=f(aZ,b);return cu(0,dK(d,f8(0,a),e),c,0)}function
+aT(a){if(a){var
+b=a[1];if(b)var
+c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return qv}function
+jb(b,a){if(a){var
+h=a[1],n=h[1],c=aT(f(function(a){return E(a,b,0)},n));if(c){var
+e=E(h[2],b,0);if(e){var
+i=e[1],g=jb(b,a[2]);if(g)var
 j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2566,361 +2588,164 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qn}function
-ct(d,c,b){var
-a=i1(d,c);return a?e(b,a[1]):a}function
-f1(a,b){return n(function(c){var
-a=F(c,b,0),d=a?1:a;return d},a)}function
-eA(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a7(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-f2(b,a){return b?iW(a,b[1]):a}function
-f3(h,g,b,f){var
-a=F(f,h,0);if(a){var
+m=c;return m}return qw}function
+bS(d,c,b){var
+a=jb(d,c);return a?e(b,a[1]):a}function
+ga(a,b){return o(function(c){var
+a=E(c,b,0),d=a?1:a;return d},a)}function
+eG(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+gb(b,a){return b?i7(a,b[1]):a}function
+gc(h,g,b,f){var
+a=E(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iW(c,b[1]),e=bO(g);return n(function(a){return B(d,b8(a,i)[1])},e)}return B(d,c[2][1])}return a}function
-eB(b,a){var
-c=F(a[1],b,0);if(c){var
-d=F(a[2],b,0);if(d)var
-e=F(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=i7(c,b[1]),e=bR(g);return o(function(a){return D(d,b$(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+eH(b,a){var
+c=E(a[1],b,0);if(c){var
+d=E(a[2],b,0);if(d)var
+e=E(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-i2(i,q,J,t,e,b,g,h,a){switch(h[0]){case
+jc(i,j,J,t,g,b,e,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=f1(t,e);if(K){var
-ad=a[2],ae=a[1],af=eA(g,a3(r));return ct(e,q,function(a){return dD(b,af,ae,ad,a)})}return K;case
+K=ga(t,g);if(K){var
+af=a[2],ag=a[1],ah=eG(e,aZ(r));return bS(g,j,function(a){return cW(b,ah,ag,af,a)})}return K;case
 1:var
-L=f1(t,e);if(L){var
-ag=a[2],ah=a[1],ai=eA(g,a3(r));return ct(e,J,function(a){return dD(b,ai,ah,ag,a)})}return L;case
+L=ga(t,g);if(L){var
+ai=a[2],aj=a[1],ak=eG(e,aZ(r));return bS(g,J,function(a){return cW(b,ak,aj,ai,a)})}return L;case
 2:var
-M=f1(t,e);if(M){if(g)return 0;var
-N=ak(r[1],d),O=N?ak(r[2],d):N;if(O){var
-aj=a[2],al=a[1];return ct(e,q,function(a){var
-c=[0,ab,ab,0];return dD(b,[0,ab,ab,0],al,aj,f(function(a){return[0,a[1],c]},a))})}var
-P=O}else
+N=ga(t,g);if(N){if(e)return 0;var
+P=al(r[1],d),Q=P?al(r[2],d):P;if(Q){var
+am=a[2],an=a[1];return bS(g,j,function(a){return cW(b,[0,O,O,0],an,am,i6([0,O,O,0],a))})}var
+R=Q}else
 var
-P=M;return P}return 0;case
+R=N;return R}return 0;case
 1:var
-Q=h[1];if(typeof
+S=h[1];if(typeof
 a==="number"){if(1===a){var
-am=f2(g,a3(Q));return ct(e,J,function(a){return fY(b,am,a)})}if(!a){var
-an=f2(g,a3(Q));return ct(e,q,function(a){return fY(b,an,a)})}}return 0;case
+ao=gb(e,aZ(S));return bS(g,J,function(a){return f6(b,ao,a)})}if(!a){var
+ap=gb(e,aZ(S));return bS(g,j,function(a){return f6(b,ap,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],u=a[3],I=function(a){return bN(a,R,aL(i,c))};if(u)var
-$=f(I,u[2]),j=[0,I(u[1]),ab,$];else
+T=a[1],u=a[3],I=function(a){return bQ(a,T,aL(i,c))};if(u)var
+ae=f(I,u[2]),k=[0,I(u[1]),O,ae];else
 var
-j=a3(ab);var
-S=h[1],ao=a[2];return ct(e,q,function(e){var
-h=bO(b),a=n(function(a){return ac(d,b8(a,j)[1])},h),c=a?dD(b,eA(g,j),R,ao,e):a;if(c){var
-k=j[3],l=f(function(a){return D(i,S,a)},k),m=j[2];return fY(b,f2(g,[0,D(i,S,j[1]),m,l]),e)}return c})}return 0;case
+k=aZ(O);var
+U=h[1],aq=a[2];return bS(g,j,function(g){var
+h=bR(b),a=o(function(a){return ac(d,b$(a,k)[1])},h),c=a?cW(b,eG(e,k),T,aq,g):a;if(c){var
+j=k[3],l=f(function(a){return F(i,U,a)},j),m=k[2];return f6(b,gb(e,[0,F(i,U,k[1]),m,l]),g)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return f3(e,b,g,h[1]);return 0;case
+a==="number"&&!a)return gc(g,b,e,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eA(g,a3(h[2])),as=function(a){return dD(b,ar,aq,ap,a)};return ct(e,h[1],as)}return 0;case
+ar=a[2],as=a[1],at=eG(e,aZ(h[2])),au=function(a){return cW(b,at,as,ar,a)};return bS(g,h[1],au)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return f3(e,b,g,h[1]);case
-2:return f3(e,b,g,h[2])}return 0;default:if(typeof
+0:return gc(g,b,e,h[1]);case
+2:return gc(g,b,e,h[2])}return 0;case
+6:if(typeof
 a!=="number"&&8===a[0]){var
-v=eB(e,h[1]);if(v){var
-w=eB(e,h[2]);if(w){var
-x=eB(e,h[3]);if(x){var
-y=eB(e,h[4]);if(y){var
-T=y[1],U=x[1],V=w[1],W=v[1],l=a[2],s=h[5],at=a[1];if(l){var
-m=l[2];if(m){var
-o=m[2];if(o){if(o[2])return 0;var
-_=[0,l[1],m[1],o[1]],p=iY(function(d){function
-e(a){return bN(a,at,aL(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=es(a),h=A(b[2],g),j=es(a);return[0,b,[0,b1(b[1],j),h],a]}return a3(ab)},_),z=n(function(a){return aa(k(a),[0,b])},l),B=z?ez(i,b,g,s,p,W,U):z,C=B?ez(i,b,g,s,p,W,T):B,E=C?ez(i,b,g,s,p,V,U):C;if(E)return ez(i,b,g,s,p,V,T);var
-F=E}else
+v=eH(g,h[1]);if(v){var
+w=eH(g,h[2]);if(w){var
+x=eH(g,h[3]);if(x){var
+y=eH(g,h[4]);if(y){var
+V=y[1],W=x[1],X=w[1],Y=v[1],m=a[2],s=h[5],av=a[1];if(m){var
+n=m[2];if(n){var
+p=n[2];if(p){if(p[2])return 0;var
+ad=[0,m[1],n[1],p[1]],q=i9(function(d){function
+e(a){return bQ(a,av,aL(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=ez(a),h=C(b[2],g),j=ez(a);return[0,b,[0,b3(b[1],j),h],a]}return aZ(O)},ad),z=o(function(a){return M(l(a),[0,b])},m),A=z?eF(i,b,e,s,q,Y,W):z,B=A?eF(i,b,e,s,q,Y,V):A,D=B?eF(i,b,e,s,q,X,W):B;if(D)return eF(i,b,e,s,q,X,V);var
+E=D}else
 var
-F=o;var
-G=F}else
+E=p;var
+G=E}else
 var
-G=m;var
+G=n;var
 H=G}else
 var
-H=l;return H}var
-X=y}else
+H=m;return H}var
+Z=y}else
 var
-X=x;var
-Y=X}else
+Z=x;var
+_=Z}else
 var
-Y=w;var
-Z=Y}else
+_=w;var
+$=_}else
 var
-Z=v;return Z}return 0}}function
-eC(b,a){if(a){var
+$=v;return $}return 0;case
+7:if(typeof
+a!=="number"&&0===a[0]){var
+aa=a[2],ab=a[1],aw=h[2],ax=h[1];return bS(g,j,function(f){var
+a=M(l(f),b),d=a?M(l(aa),b):a;if(d){var
+g=function(a){if(a){var
+d=a[2],e=M(l(d),b);if(e){var
+g=f9(ab,f_(ab,aa,aL(i,c),d));return dO(b,f1(f$(i,ax,aw,a[1][2],d),g))}var
+f=e}else
+var
+f=a;return f},h=e?e[1]:aZ(O);return f3(b,f5(h,f),g)}return d})}return 0;default:if(typeof
+a==="number"&&5<=a){var
+ay=h[2],az=h[1];return bS(g,j,function(d){var
+a=i6([0,O,O,0],d),c=e?e[1]:[0,O,O,0];return cW(b,c,az,ay,a)})}return 0}}function
+eI(b,a){if(a){var
 c=a[2];if(b){var
-e=eC(b[1],c);return[0,a[1],e]}var
+e=eI(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-i3(r,V,I,H,G,U,T,E,c,D,C){if(D){var
-J=i0(r,V,U,c),g=D,b=C;for(;;){if(g){var
-v=g[1],a=v[2],o=v[1],w=g[2];if(typeof
-a==="number"&&4<=a){var
-m=e(E,c);if(m)var
-S=m[1],M=bO(k(c)),p=n(function(b){return function(a){return ac(b8(a,b)[2],d)}}(S),M);else
+jd(r,V,I,H,G,U,T,F,c,C,B){if(C){var
+J=ja(r,V,U,c),g=C,b=B;for(;;){if(g){var
+v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+a==="number"&&4===a){var
+m=e(F,c);if(m)var
+S=m[1],M=bR(l(c)),p=o(function(b){return function(a){return ac(b$(a,b)[2],d)}}(S),M);else
 var
 p=m;if(p){var
 g=w,b=f(function(a){return 0},b);continue}return p}var
-x=F(o,b,0);if(x){var
-q=al(T,o);if(q){var
+x=E(n,b,0);if(x){var
+q=ai(T,n);if(q){var
 y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
-i=a[2],j=e(E,c),L=0;if(j){var
-s=B(d,i);if(s){var
-l=j[1],t=a[3],Q=a[1],N=l[3],O=f(function(b,c){return function(a){return bN(b,c,a)}}(i,t),N),P=l[2],R=[0,[0,bN(i,t,l[1]),P,O]],h=i2(r,I,H,G,J,k(c),R,y,Q);L=1}else
+i=a[2],j=e(F,c),L=0;if(j){var
+s=D(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bQ(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bQ(i,t,k[1]),P,O]],h=jc(r,I,H,G,J,l(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=i2(r,I,H,G,J,k(c),0,y,a);if(h){var
-g=w,b=eC(o,b);continue}var
+h=jc(r,I,H,G,J,l(c),0,y,a);if(h){var
+g=w,b=eI(n,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
-A=x;return A}return[0,b]}}return[0,C]}function
-f4(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,B]}function
+gd(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i3(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aH,l[1]):l}var
-m=i3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dG(a[2],b),q=f4(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
-b=p[2],k=o,a=a[4];continue}var
+l=jd(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aK,l[1]):l}var
+m=jd(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dN(a[2],b),q=gd(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-i4(a){return f(function(a){return 1},a)}function
-cu(m,r){var
-h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(B(j,c)){var
-k=ak(b,n),l=k?dz(b):k;if(l)var
-o=ak(m[2],d),g=o||ak(b,d);else
-var
-g=l;var
-p=g?[0,b]:g,a=p}else
-var
-a=ak(bn(j,a1(2))[2],d)?0:0}else
-var
-a=0;else
-var
-a=ak(bn(i,a1(2))[2],d)?0:0}else
-var
-a=0;return a?q(a[1]):[0,[1,r]]}function
-dH(b,a){if(a)var
-d=dH([0,b],a[2]),c=[0,cu(a[1],b),d];else
-var
-c=a;return c}function
-a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-f5(b,d,a){switch(a[0]){case
-0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
-1:var
-e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
-aN(b,a){var
-c=q(d),e=F(H(qo,a),b,c),f=q(d),g=F(H(qp,a),b,f);return[0,F(a,b,q(d)),g,e]}function
-i5(b,a){return aX(z,aX(G,cs,a),b)}function
-f6(c,b,a){if(a){var
-e=a[2],f=f6(c,io(b),e),h=a[1];return g(f5(c,fN(d,b),h),f)}return a}function
-f7(m,l,h,x){if(h){var
-e=h[1],P=H(x,k(f5(m,fN(d,l),e))),Q=h[2],R=f7(m,io(l),Q,P),a=dH(x,f5(m,fN(d,l),e));switch(e[0]){case
-0:var
-J=e[1][5],u=F(qq,a,q(d)),K=aX(G,cs,aN(a,qr)),g=fZ(aN(a,0)),L=aN(a,qs),v=i5(aN(a,qt),L),o=aF(g,v),f=aX(z,v,dF(o,g)),A=aF(f,f),p=z(af(u),A),r=cq(p),i=J?r:cp(r),B=z(o,i),C=aX(G,g,ew(f,i)),n=[0,aX(G,f,dF(i,g)),p,C,B,[0,u],0,[0,K]];break;case
-1:var
-w=e[3],M=w?[0,fZ(aN(a,qu))]:w,N=aX(G,cs,aN(a,qv)),O=aN(a,qw),b=i5(aN(a,0),O),s=aF(b,b),t=cq(s),D=[0,N],E=ae(function(a){return aX(z,b,dF(aF(a,b),a))},M),n=[0,b,s,ew(b,t),t,0,E,D];break;default:var
-j=fZ(aN(a,0)),I=aF(j,cs),n=[0,j,q(c),j,I,0,0,0]}var
-y=[0,n,R]}else
-var
-y=h;return y}function
-bP(b,a){if(typeof
-a==="number"){var
-e=[0,d,c];return[0,[0,e,e],d]}else
-switch(a[0]){case
-4:var
-h=[4,a[3],a[2]];return[0,[0,h,h],d];case
-6:var
-j=a[2];return[0,[0,j,j],d];case
-8:var
-k=[4,a[2],a[1]];return[0,[0,k,k],d];case
-10:var
-m=a[3],n=ep(a[2]),l=[1,[1,ep(a[1]),n],m];return[0,[0,l,l],b];case
-0:case
-1:var
-f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
-2:case
-3:var
-g=a[2];return[0,[0,g,g],b];default:var
-i=a[1];return[0,[0,i,i],d]}}function
-eD(b,a){function
-e(a){var
-c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}if(0===a[0]){var
-f=[0,d,c],j=g(e(a[5]),[0,[0,[0,f,f],d],0]),h=a[4],i=a[3];return g([0,[0,[0,i,i],b],[0,[0,[0,h,h],b],0]],j)}var
-k=e(a[3]);return g(e(a[2]),k)}function
-eE(b,a){if(typeof
-a!=="number"&&10===a[0]){var
-c=eD(b,a[2]);return g(eD(b,a[1]),c)}return 0}function
-i6(c,b,a){var
-d=k(eE(c,b)),e=H(a[2],d);return[0,[0,a[1]],e]}function
-i7(k,a,g){switch(g[0]){case
-0:var
-e=al(k,g[1]);if(e){var
-b=e[1],f=b[7];if(f)var
-l=f[1],h=function(c){var
-d=aN(a,qx);return aX(G,aX(z,l,dF(c,b[1])),d)},m=ex(b),n=h(aI(F(qy,a,q(d)),m)),o=ex(b),p=aI(F(0,a,q(d)),o),i=[0,[0,h(z(q(c),p)),n]];else
-var
-i=f;var
-j=i}else
-var
-j=e;return j;case
-1:var
-r=aN(a,qz);return[0,[0,aN(a,0),r]];default:var
-s=aX(G,cs,aN(a,qA));return[0,[0,aX(G,cs,aN(a,0)),s]]}}function
-i8(f,e,j,d,c){var
-k=eD(e,c),h=dH(j,g(eD(e,d),k)),a=i7(f,ej(qB,h),d);if(a)var
-b=i7(f,is(qC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
-var
-i=a;return i}function
-f8(d,c,b,a){var
-e=v(c,b);return z(v(d,a),e)}function
-cv(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-i9(a){if(a){var
-b=a[1][6];if(b){var
-c=b[1],d=i9(a[2]);if(d)var
-g=d[1],h=aF(c,c),e=[0,[0,[0,dE(c),h],g]];else
-var
-e=d;var
-f=e}else
-var
-f=b;return f}return qD}function
-eF(b,d,c,a){if(typeof
-a!=="number")switch(a[0]){case
-8:var
-e=c[1],g=cu(bP(d,a),e);return[0,f(function(a){var
-b=v(a[2],g);return[0,dE(a[1]),b]},b)];case
-9:return i9(b)}return 0}function
-f9(b,k,j,a){var
-Q=j[1],e=cu(bP(k,a),Q),s=0;if(typeof
-a==="number")s=1;else
-switch(a[0]){case
-2:var
-R=function(a){return[0,z(a[4],e),0]},g=R,f=a[1];break;case
-3:var
-S=function(a){return[0,z(e,a[4]),0]},g=S,f=a[1];break;case
-4:var
-T=function(b){var
-a=b[1],c=af(a[3]),d=af(a[2]),f=af(a[1]),g=b[2];return[0,z(z(z(v(af(e),g),f),d),c),0]},g=T,f=a[1];break;case
-6:var
-U=function(b){var
-a=b[5];if(a)var
-d=af(a[1]),f=v(af(e),d),c=[0,z(b[2],f),0];else
-var
-c=a;return c},g=U,f=a[1];break;case
-7:if(b){var
-h=b[2];if(h){var
-i=h[2];if(i){if(i[2])return 0;var
-u=i[1],w=h[1],x=b[1],m=x[5];if(m){var
-n=w[5];if(n){var
-o=u[5];if(o)var
-c=u[1],d=w[1],p=x[1],L=f8(d[1],d[2],c[1],c[2]),M=v(p[3],L),N=f8(d[1],d[3],c[1],c[3]),O=v(p[2],N),P=f8(d[2],d[3],c[2],c[3]),t=G(z(v(p[1],P),O),M),V=o[1],W=n[1],A=v(v(v(e,m[1]),W),V),X=[0,cp(G(t,A)),0],B=[0,z(t,A),X];else
-var
-B=o;var
-C=B}else
-var
-C=n;var
-D=C}else
-var
-D=m;var
-E=D}else
-var
-E=i;var
-F=E}else
-var
-F=h;var
-H=F}else
-var
-H=b;return H;case
-10:var
-r=i8(b,k,j[2],a[1],a[2]);if(r){var
-I=r[1],J=I[2],K=I[1];return y(dE,[0,K[1],[0,K[2],[0,J[1],[0,J[2],0]]]])}return r;case
-8:case
-9:var
-q=eF(b,k,j,a);return q?cv(q[1]):q;default:s=1}if(s)return 0;var
-l=al(b,f);return l?g(l[1]):l}function
-f_(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=f_(d,b,i6(b,e,c),f);return g(f9(d,b,c,e),h)}return a}function
-i_(f,h,j,b,i,m){if(m){var
-a=m[1],R=m[2],S=i_(f,h,j,b,i6(b,a,i),R);if(typeof
-a==="number")var
-g=[0,[0,ab]];else
-switch(a[0]){case
-0:var
-H=aM(f,bP(b,a)),g=ae(function(a){return[0,ai(f,a)]},H);break;case
-1:var
-I=aM(f,bP(b,a)),g=ae(function(a){return[1,ai(f,a)]},I);break;case
-5:var
-K=aM(f,bP(b,a)),g=ae(function(a){return[2,ai(f,a)]},K);break;case
-8:var
-L=eF(j,b,i,a),g=ae(function(a){var
-b=aL(f,c);return[4,e(a4(h),a),b]},L);break;case
-9:var
-o=eF(j,b,i,a);if(o){var
-p=aM(f,bP(b,a));if(p)var
-M=ai(f,p[1]),N=o[1],v=[0,[4,e(a4(h),N),M]];else
-var
-v=p;var
-w=v}else
-var
-w=o;var
-g=w;break;case
-10:var
-q=i8(j,b,i[2],a[1],a[2]);if(q){var
-x=q[1],y=x[2],z=x[1],r=aM(f,bP(b,a));if(r){var
-A=r[1],C=B(d,A[1]);if(C)var
-l=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},O=l(y[2]),P=l(y[1]),Q=l(z[2]),D=[0,[6,l(z[1]),Q,P,O,A]];else
-var
-D=C;var
-E=D}else
-var
-E=r;var
-F=E}else
-var
-F=q;var
-g=F;break;default:var
-k=f9(j,b,i,a),s=0;if(k){var
-n=k[2],t=k[1];if(n)if(n[2])var
-g=0;else
-var
-J=e(h,n[1]),g=[0,[5,e(h,t),J]];else{var
-u=[0,[3,e(h,t)]];s=1}}else{var
-u=k;s=1}if(s)var
-g=u}var
-G=[0,g,S]}else
-var
-G=m;return G}function
-qE(a){if(typeof
-a!=="number"&&0!==a[0])return 0;return 1}function
+je(a){return f(function(a){return 1},a)}function
 cw(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=ak(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:ak(bn(e,a1(2))[2],d)?0:0;var
-i=bn(f,a1(2)),j=i[1];if(ak(i[2],d)){if(B(e,c))return 0;var
-g=bn(e,a1(2)),p=g[1];if(ak(g[2],d)){var
-f=j,e=p;continue}return 0}if(B(e,c))return 0;var
-h=bn(e,a1(2)),q=h[1];if(ak(h[2],d))return 0;var
+k=al(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bo(e,a2(2))[2],d)?0:0;var
+i=bo(f,a2(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=bo(e,a2(2)),p=g[1];if(al(g[2],d)){var
+f=j,e=p;continue}return 0}if(D(e,c))return 0;var
+h=bo(e,a2(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
 l=cw(b[1],a[1]);if(l){var
@@ -2935,60 +2760,332 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=cw(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eG(a){switch(a[0]){case
+eJ(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iw(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iJ(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iw(b,[0,W(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iJ(b,[0,Z(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,ix(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iK(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iu(a,[0,d,c]))return 0;var
-b=a[1],e=bH(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,W(a[2]),W(b)];return[0,ix(g,f)]};break;default:return 0}var
-g=eG(e);if(g){var
-h=eG(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iH(a,[0,d,c]))return 0;var
+b=a[1],e=bJ(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Z(a[2]),Z(b)];return[0,iK(g,f)]};break;default:return 0}var
+g=eJ(e);if(g){var
+h=eJ(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eG(b);if(f){var
-g=f[1];return e?aH(iv(g,[0,d,c])):iv([0,d,c],g)}var
-a=ax(i,b);if(a){var
-h=a[1];return e?ac(d,h[1]):B(d,h[1])}return a}function
-i$(c,b){var
-a=ax(c,b),d=a?1:a;return d}function
-br(c,a,b){var
-d=cw(a,b),e=d?i$(c,a):d;return e?e:j(c,0,[2,b,a])}function
+f=eJ(b);if(f){var
+g=f[1];return e?aK(iI(g,[0,d,c])):iI([0,d,c],g)}var
+a=az(i,b);if(a){var
+h=a[1];return e?ac(d,h[1]):D(d,h[1])}return a}function
+jf(c,b){var
+a=az(c,b),d=a?1:a;return d}function
+bs(c,a,b){var
+d=cw(a,b),e=d?jf(c,a):d;return e?e:j(c,0,[2,b,a])}function
+cx(m,r){var
+h=m[1],e=h[2],f=h[1];if(0===f[0]){var
+i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(D(j,c)){var
+k=al(b,n),l=k?dH(b):k;if(l)var
+o=al(m[2],d),g=o||al(b,d);else
+var
+g=l;var
+p=g?[0,b]:g,a=p}else
+var
+a=al(bo(j,a2(2))[2],d)?0:0}else
+var
+a=0;else
+var
+a=al(bo(i,a2(2))[2],d)?0:0}else
+var
+a=0;return a?q(a[1]):[0,[1,r]]}function
+cy(b,a){if(a)var
+d=cy([0,b],a[2]),c=[0,cx(a[1],b),d];else
+var
+c=a;return c}function
+a6(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+ge(b,d,a){switch(a[0]){case
+0:var
+c=a[1],f=[0,[0,c[4],b],0],h=g(a6(c[3],b),f),i=g(a6(c[2],b),h);return g(a6(c[1],d),i);case
+1:var
+e=a[3],j=e?a6(e[1],d):e,k=g(a6(a[2],b),j);return g(a6(a[1],b),k);default:return a6(a[1],d)}}function
+aI(b,a){var
+c=q(d),e=E(J(qx,a),b,c),f=q(d),g=E(J(qy,a),b,f);return[0,E(a,b,q(d)),g,e]}function
+jg(b,a){return aS(w,aS(G,cv,a),b)}function
+gf(c,b,a){if(a){var
+e=a[2],f=gf(c,fS(b),e),h=a[1];return g(ge(c,ep(d,b),h),f)}return a}function
+gg(m,k,h,y){if(h){var
+e=h[1],P=J(y,l(ge(m,ep(d,k),e))),Q=h[2],R=gg(m,fS(k),Q,P),a=cy(y,ge(m,ep(d,k),e));switch(e[0]){case
+0:var
+I=e[1][5],u=E(qz,a,q(d)),K=aS(G,cv,aI(a,qA)),g=f7(aI(a,0)),L=aI(a,qB),v=jg(aI(a,qC),L),o=as(g,v),f=aS(w,v,dM(o,g)),A=as(f,f),p=w(X(u),A),r=b_(p),i=I?r:ct(r),B=w(o,i),C=aS(G,g,eD(f,i)),n=[0,aS(G,f,dM(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+1:var
+x=e[3],M=x?[0,f7(aI(a,qD))]:x,N=aS(G,cv,aI(a,qE)),O=aI(a,qF),b=jg(aI(a,0),O),s=as(b,b),t=b_(s),D=[0,N],F=af(function(a){return aS(w,b,dM(as(a,b),a))},M),n=[0,b,s,eD(b,t),t,0,F,D];break;default:var
+j=f7(aI(a,0)),H=as(j,cv),n=[0,j,q(c),j,H,0,0,0]}var
+z=[0,n,R]}else
+var
+z=h;return z}function
+bt(b,a){if(typeof
+a==="number"){var
+e=[0,d,c];return[0,[0,e,e],d]}else
+switch(a[0]){case
+4:var
+h=[4,a[3],a[2]];return[0,[0,h,h],d];case
+6:var
+j=a[2];return[0,[0,j,j],d];case
+8:var
+k=[4,a[2],a[1]];return[0,[0,k,k],d];case
+10:var
+p=a[3],q=ew(a[2]),l=[1,[1,ew(a[1]),q],p];return[0,[0,l,l],b];case
+11:var
+m=a[4];return[0,[0,m,m],b];case
+12:var
+n=[4,a[2],a[4]];return[0,[0,n,n],d];case
+13:var
+o=[4,a[2],a[3]];return[0,[0,o,o],d];case
+0:case
+1:var
+f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
+2:case
+3:var
+g=a[2];return[0,[0,g,g],b];default:var
+i=a[1];return[0,[0,i,i],d]}}function
+dP(b,a){var
+c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
+eK(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dP(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dP(b,a[3]);return g(dP(b,a[2]),j)}function
+cZ(b,a){if(typeof
+a!=="number")switch(a[0]){case
+10:var
+e=eK(b,a[2]);return g(eK(b,a[1]),e);case
+11:var
+f=dP(b,a[3]);return g(dP(b,a[2]),f);case
+12:var
+c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
+jh(c,b,a){var
+d=l(cZ(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
+ji(k,a,g){switch(g[0]){case
+0:var
+e=ai(k,g[1]);if(e){var
+b=e[1],f=b[7];if(f)var
+l=f[1],h=function(c){var
+d=aI(a,qG);return aS(G,aS(w,l,dM(c,b[1])),d)},m=cX(b),n=h(ar(E(qH,a,q(d)),m)),o=cX(b),p=ar(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
+var
+i=f;var
+j=i}else
+var
+j=e;return j;case
+1:var
+r=aI(a,qI);return[0,[0,aI(a,0),r]];default:var
+s=aS(G,cv,aI(a,qJ));return[0,[0,aS(G,cv,aI(a,0)),s]]}}function
+jj(f,e,j,d,c){var
+k=eK(e,c),h=cy(j,g(eK(e,d),k)),a=ji(f,eq(qK,h),d);if(a)var
+b=ji(f,iF(qL,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+var
+i=a;return i}function
+gh(d,c,b,a){var
+e=s(c,b);return w(s(d,a),e)}function
+cz(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jk(a){if(a){var
+b=a[1][6];if(b){var
+c=b[1],d=jk(a[2]);if(d)var
+g=d[1],h=as(c,c),e=[0,[0,[0,dL(c),h],g]];else
+var
+e=d;var
+f=e}else
+var
+f=b;return f}return qN}function
+eL(b,d,c,a){if(typeof
+a!=="number")switch(a[0]){case
+8:var
+e=c[1],g=cx(bt(d,a),e);return[0,f(function(a){var
+b=s(a[2],g);return[0,dL(a[1]),b]},b)];case
+9:return jk(b)}return 0}function
+ca(e,k,j,a){var
+U=j[1],b=cx(bt(k,a),U),x=0;if(typeof
+a==="number")x=1;else
+switch(a[0]){case
+2:var
+V=function(a){return[0,w(a[4],b),0]},g=V,f=a[1];break;case
+3:var
+W=function(a){return[0,w(b,a[4]),0]},g=W,f=a[1];break;case
+4:var
+Y=function(c){var
+a=c[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=c[2];return[0,w(w(w(s(X(b),g),f),e),d),0]},g=Y,f=a[1];break;case
+6:var
+Z=function(c){var
+a=c[5];if(a)var
+e=X(a[1]),f=s(X(b),e),d=[0,w(c[2],f),0];else
+var
+d=a;return d},g=Z,f=a[1];break;case
+7:if(e){var
+l=e[2];if(l){var
+m=l[2];if(m){if(m[2])return 0;var
+A=m[1],B=l[1],C=e[1],o=C[5];if(o){var
+p=B[5];if(p){var
+r=A[5];if(r)var
+h=A[1],i=B[1],t=C[1],P=gh(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=gh(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=gh(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,ct(G(y,D)),0],F=[0,w(y,D),aa];else
+var
+F=r;var
+H=F}else
+var
+H=p;var
+I=H}else
+var
+I=o;var
+J=I}else
+var
+J=m;var
+K=J}else
+var
+K=l;var
+L=K}else
+var
+L=e;return L;case
+10:var
+v=jj(e,k,j[2],a[1],a[2]);if(v){var
+M=v[1],N=M[2],O=M[1];return z(dL,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
+11:var
+ab=function(d){var
+e=d[7];if(e)var
+n=cZ(k,a),f=cy(j[2],n),h=aI(f,qM),c=aS(w,aI(f,0),h),i=X(b),l=X(cX(d)),m=ar(X(as(c,d[1])),l),g=[0,w(w(as(c,c),m),i),0];else
+var
+g=e;return g},g=ab,f=a[1];break;case
+12:var
+ac=function(e){var
+o=q(d),p=cZ(k,a),r=E(0,cy(j[2],p),o),f=ar(r,cX(e)),g=e[5];if(g){var
+l=b_(e[2]),h=ar(g[1],l),m=s(h,G(b,s(f,X(h))));return[0,w(q(c),m),0]}var
+i=e[7],n=i?[0,w(w(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
+8:case
+9:var
+u=eL(e,k,j,a);return u?cz(u[1]):u;default:x=1}if(x)return 0;var
+n=ai(e,f);return n?g(n[1]):n}function
+gi(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gi(d,b,jh(b,e,c),f);return g(ca(d,b,c,e),h)}return a}function
+jl(b,w,h,i,g,k,o){if(o){var
+a=o[1],ag=o[2],ah=jl(b,w,h,i,g,jh(g,a,k),ag);if(typeof
+a==="number")var
+f=0===a?[0,[0,O]]:[0,[8,w[1],w[2]]];else
+switch(a[0]){case
+0:var
+V=aA(b,bt(g,a)),f=af(function(a){return[0,aa(b,a)]},V);break;case
+1:var
+W=aA(b,bt(g,a)),f=af(function(a){return[1,aa(b,a)]},W);break;case
+5:var
+Y=aA(b,bt(g,a)),f=af(function(a){return[2,aa(b,a)]},Y);break;case
+8:var
+Z=eL(i,g,k,a),f=af(function(a){var
+d=aL(b,c);return[4,e(a5(h),a),d]},Z);break;case
+9:var
+r=eL(i,g,k,a);if(r){var
+s=aA(b,bt(g,a));if(s)var
+_=aa(b,s[1]),$=r[1],B=[0,[4,e(a5(h),$),_]];else
+var
+B=s;var
+C=B}else
+var
+C=r;var
+f=C;break;case
+10:var
+t=jj(i,g,k[2],a[1],a[2]);if(t){var
+E=t[1],F=E[2],G=E[1],u=aA(b,bt(g,a));if(u){var
+H=u[1],I=D(d,H[1]);if(I)var
+m=function(a){var
+b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},ab=m(F[2]),ac=m(F[1]),ad=m(G[2]),J=[0,[6,m(G[1]),ad,ac,ab,H]];else
+var
+J=I;var
+K=J}else
+var
+K=u;var
+L=K}else
+var
+L=t;var
+f=L;break;case
+12:var
+n=ca(i,g,k,a),p=0;if(n)if(n[2])var
+f=0;else{var
+M=j(b,0,a[2]),N=M?j(b,1,a[4]):M;if(N){var
+v=[0,[3,e(h,n[1])]];p=1}else{var
+v=N;p=1}}else{var
+v=n;p=1}if(p)var
+f=v;break;case
+13:var
+P=a[1],Q=ai(i,P),x=0;if(Q){var
+R=j(b,1,a[2]),S=R?j(b,1,a[3]):R;if(S)var
+ae=aA(b,bt(g,a)),f=af(function(a){return[7,P,aa(b,a)]},ae);else{var
+T=S;x=1}}else{var
+T=Q;x=1}if(x)var
+f=T;break;default:var
+l=ca(i,g,k,a),y=0;if(l){var
+q=l[2],z=l[1];if(q)if(q[2])var
+f=0;else
+var
+X=e(h,q[1]),f=[0,[5,e(h,z),X]];else{var
+A=[0,[3,e(h,z)]];y=1}}else{var
+A=l;y=1}if(y)var
+f=A}var
+U=[0,f,ah]}else
+var
+U=o;return U}function
+qO(a){var
+b=0;if(typeof
+a==="number"){if(0!==a)b=1}else
+if(0!==a[0])b=1;return b?0:1}function
+gj(a,p,o){var
+q=a6(p,o),b=f(function(b){return aA(a,b)},q);if(b){var
+g=b[1];if(g){var
+c=b[2];if(c){var
+h=c[1];if(h){var
+e=c[2];if(e){var
+i=e[1];if(i){if(e[2])return 0;var
+r=aa(a,i[1]),s=aa(a,h[1]);return ac(d,A(A(aa(a,g[1]),s),r)[1])}var
+j=i}else
+var
+j=e;var
+k=j}else
+var
+k=h;var
+l=k}else
+var
+l=c;var
+m=l}else
+var
+m=g;var
+n=m}else
+var
+n=b;return n}function
 ag(c,b,a){var
-d=N(c,b[3],a[3]),e=N(c,b[2],a[2]);return[0,N(c,b[1],a[1]),e,d]}function
-ay(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aG(a){return ay([4,[0,c,c],[5,J(a,a)]],a)}function
-cx(c,b,a){var
-d=br(c,b[1],a);return d?br(c,a,b[2]):d}function
-aT(c,b,a){var
-d=cx(c,b[1],a[1]),e=d?cx(c,b[2],a[2]):d;return e?cx(c,b[3],a[3]):e}function
-ja(c,a,b){if(0===a[0])return aT(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cx(c,a[4],b[3]):h}function
-jb(a,D,G,F){var
-h=D[1],d=G;for(;;){if(h){if(d){var
+d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
+aB(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aJ(a){return aB([4,[0,c,c],[5,B(a,a)]],a)}function
+cA(c,b,a){var
+d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
+aU(c,b,a){var
+d=cA(c,b[1],a[1]),e=d?cA(c,b[2],a[2]):d;return e?cA(c,b[3],a[3]):e}function
+jm(c,a,b){if(0===a[0])return aU(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cA(c,a[4],b[3]):h}function
+jn(a,E,H,G){var
+h=E[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aT(a,f[1],i),q=p?j(a,1,J(i,i)):p,r=q?aT(a,f[2],b[2]):q,s=r?aT(a,f[3],b[3]):r,t=s?cx(a,f[4],o):s,u=t?j(a,1,o):t,c=u?du(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cA(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dC(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aT(a,e[1],b[1]),x=w?aT(a,e[2],b[2]):w,n=0;if(x)if(v){var
-E=0;if(g){var
-k=g[1],y=aT(a,v[1],k);if(y){var
-c=j(a,1,J(k,k));E=1}else
+g=b[3],w=aU(a,e[1],b[1]),x=w?aU(a,e[2],b[2]):w,n=0;if(x)if(v){var
+F=0;if(g){var
+k=g[1],y=aU(a,v[1],k);if(y){var
+c=j(a,1,B(k,k));F=1}else
 var
 z=y}else
 var
-z=g;if(!E)var
+z=g;if(!F)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -2997,154 +3094,167 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-l=b[1],B=aT(a,e[1],l),c=B?j(a,1,J(l,l)):B;else
+l=b[1],C=aU(a,e[1],l),c=C?j(a,1,B(l,l)):C;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
-C=c}else
+D=c}else
 var
-C=d;var
-m=C}else
+D=d;var
+m=D}else
 var
-m=d?0:1;return m?ja(a,D[2],F):m}}function
-bs(c,b,a){var
+m=d?0:1;return m?jm(a,E[2],G):m}}function
+bu(c,b,a){var
 d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
-eH(a,e,d,c){var
-b=bs(e,d,c),f=aG(a),g=ay(J(aG(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
-cT(f,e,d,a,c){var
-b=eH(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-cU(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cV(a,b){switch(a[0]){case
+eM(a,e,d,c){var
+b=bu(e,d,c),f=aJ(a),g=aB(B(aJ(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
+c0(f,e,d,a,c){var
+b=eM(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
+c1(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+c2(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eH(d,f,e,b),h=cT(d,f,e,a[4],b),i=ay([4,[0,c,c],cU(a[5],h)],g),j=aG(d);return ag(function(b,a){return[1,b,a]},j,i);case
-1:return aG(bs(a[1],a[2],b));default:return aG(a[1])}}function
-jc(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eM(d,f,e,b),h=c0(d,f,e,a[4],b),i=aB([4,[0,c,c],c1(a[5],h)],g),j=aJ(d);return ag(function(b,a){return[1,b,a]},j,i);case
+1:return aJ(bu(a[1],a[2],b));default:return aJ(a[1])}}function
+jo(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cT(e,d,c,a[4],b),i=cU(a[5],h),j=bs(d,c,b);return[2,J(aG(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c0(e,d,c,a[4],b),i=c1(a[5],h),j=bu(d,c,b);return[2,B(aJ(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bs(g,f,b);return[5,J(bs(g,f,b),k)];default:return J(aG(a[1]),b)}}function
-dI(e,b,a){var
-f=[0,d,c];return cP(function(c,d){var
-e=J(cV(c,b),a);return[1,[3,J(cV(c,b),a),e],d]},f,e)}function
-jd(a){var
+f=a[2],g=a[1],k=bu(g,f,b);return[5,B(bu(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
+dQ(e,b,a){var
+f=[0,d,c];return cT(function(c,d){var
+e=B(c2(c,b),a);return[1,[3,B(c2(c,b),a),e],d]},f,e)}function
+jp(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-f$(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aG(b),h=cT(b,f,e,d,c),i=ay(cU(a[5],h),g),j=eH(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-je(d,i){if(d){var
+gk(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=c0(b,f,e,d,c),i=aB(c1(a[5],h),g),j=eM(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jq(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bs(a[1],a[2],i),k=aG(f),l=ay(J(aG(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bu(a[1],a[2],i),k=aJ(f),l=aB(B(aJ(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=je(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jq(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qF}function
-dJ(a){return[0,a[1],a[2],a[3]]}function
-jf(y,d,a){switch(a[0]){case
+j=b;return j}return qP}function
+cB(a){return[0,a[1],a[2],a[3]]}function
+jr(a,b){switch(a[0]){case
 0:var
-z=a[5],i=al(y,a[1]);if(i){var
-b=i[1];switch(b[0]){case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=c0(d,g,c,f,b),k=aB(c1(a[5],j),i),l=eM(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
+1:var
+h=a[2],e=bu(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
+js(l,b,a){switch(a[0]){case
 0:var
-j=b[4],f=b[3],k=b[2],g=b[1],s=aG(g),t=cT(g,k,f,j,d),u=ay(cU(b[5],t),s),v=eH(g,k,f,d),w=ag(function(b,a){return[1,b,a]},v,u),e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,f),w],j]];break;case
-1:var
-l=b[2],h=bs(b[1],l,d),x=[5,J(h,h)],e=[0,[0,[0,ag(function(b,a){return[1,b,a]},d,l),h],x]];break;default:var
-e=0}if(e)var
-m=e[1],n=m[1],o=m[2],A=n[2],B=n[1],p=function(a){var
-b=dJ(z),c=ay(a,A),d=ag(function(b,a){return[2,b,a]},B,c);return ag(function(b,a){return[1,b,a]},d,b)},C=p([4,a[4],o]),q=[0,[0,p([2,[0,c,c],[4,a[3],o]]),C]];else
+m=a[5],d=ai(l,a[1]);if(d){var
+e=jr(d[1],b);if(e)var
+f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
+b=cB(m),c=aB(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
-q=e;var
-r=q}else
+j=e;var
+k=j}else
 var
-r=i;return r;case
+k=d;return k;case
 1:var
-D=dJ(a[3]);return[0,[0,dJ(a[2]),D]];default:var
-E=dJ(a[3]),F=ag(function(b,a){return[1,b,a]},d,E),G=dJ(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},d,G),F]]}}function
-jg(d,a,c,b){var
-e=ay(a,b),f=ay([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-jh(f,g,e,b,o,a){function
-D(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
-a==="number")return 0;else
+q=cB(a[3]);return[0,[0,cB(a[2]),q]];default:var
+r=cB(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cB(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
+jt(d,a,c,b){var
+e=aB(a,b),f=aB([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
+ju(f,g,e,b,q,a){function
+J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}var
+H=0;if(typeof
+a==="number")H=1;else
 switch(a[0]){case
 0:var
-am=dI(g,e,b);return j(f,1,[2,D(a[1]),am]);case
+av=dQ(g,e,b);return j(f,1,[2,J(a[1]),av]);case
 1:var
-an=D(a[1]);return j(f,1,[2,dI(g,e,b),an]);case
+aw=J(a[1]);return j(f,1,[2,dQ(g,e,b),aw]);case
 2:var
-ao=a[2],ap=function(a){return[2,ao,jc(a,e)]},q=ap,p=a[1];break;case
+ax=a[2],ay=function(a){return[2,ax,jo(a,e)]},s=ay,r=a[1];break;case
 3:var
-aq=a[2],ar=function(a){return[2,jc(a,e),aq]},q=ar,p=a[1];break;case
+az=a[2],aA=function(a){return[2,jo(a,e),az]},s=aA,r=a[1];break;case
 4:var
-E=a[3],F=a[2],as=function(a){var
-b=cV(a,e);return[2,[3,[3,F,F],J(cV(a,e),b)],[3,E,E]]},q=as,p=a[1];break;case
+K=a[3],L=a[2],aB=function(a){var
+b=c2(a,e);return[2,[3,[3,L,L],B(c2(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
 5:var
-G=a[1],at=J(b,b),au=[3,[3,G,G],[3,dI(g,e,o),at]],av=J(o,o);return j(f,1,[2,[3,dI(g,e,b),av],au]);case
+M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dQ(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dQ(g,e,b),aE],aD]);case
 6:var
-H=a[2],s=al(g,a[1]);if(s){var
-h=s[1];if(0===h[0]){var
-t=h[4],aw=cT(h[1],h[2],h[3],t,e),I=cU(h[5],aw);return j(f,1,[2,[3,[3,H,t],[3,H,t]],[3,I,I]])}var
-K=0}else
+N=a[2],u=ai(g,a[1]);if(u){var
+h=u[1];if(0===h[0]){var
+v=h[4],aF=c0(h[1],h[2],h[3],v,e),O=c1(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
+P=0}else
 var
-K=s;return K;case
+P=u;return P;case
 7:if(g){var
-m=g[2];if(m){var
-n=m[2];if(n){if(n[2])return 0;var
-u=f$(g[1],e);if(u){var
-L=u[1],v=f$(m[1],e);if(v){var
-M=v[1],w=f$(n[1],e);if(w){var
-N=w[1],O=[3,[3,[3,a[1],L[2]],M[2]],N[2]],i=N[1],k=M[1],C=J(L[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),P=j(f,1,[2,O,C]);if(P)return j(f,1,[1,O,C]);var
-Q=P}else
-var
-Q=w;var
-R=Q}else
-var
-R=v;var
-S=R}else
-var
-S=u;var
-T=S}else
-var
-T=n;var
-U=T}else
-var
-U=m;var
+n=g[2];if(n){var
+o=n[2];if(o){if(o[2])return 0;var
+w=gk(g[1],e);if(w){var
+Q=w[1],x=gk(n[1],e);if(x){var
+R=x[1],y=gk(o[1],e);if(y){var
+S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=B(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
 V=U}else
 var
-V=g;return V;case
+V=y;var
+W=V}else
+var
+W=x;var
+X=W}else
+var
+X=w;var
+Y=X}else
+var
+Y=o;var
+Z=Y}else
+var
+Z=n;var
+_=Z}else
+var
+_=g;return _;case
 8:var
-ax=dI(g,e,b),ay=J(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],ay],ax]);case
+aG=dQ(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
 9:var
-W=a[1],x=je(g,e);if(x){var
-az=x[1],aj=[0,d,c],ak=cP(function(a,c){var
-d=J(aG(a),b);return[1,[3,J(aG(a),b),d],c]},aj,az);return j(f,1,[2,[3,[3,W,W],J(b,b)],ak])}return x;default:var
-X=a[2],Y=a[1],y=jf(g,e,Y);if(y){var
-Z=y[1],z=jf(g,e,X);if(z){var
-_=z[1],A=b[1],B=b[2],l=b[3],aA=jg(l,B,_[1],_[2]),aB=jg(l,A,Z[1],Z[2]),$=ag(function(b,a){return[2,b,a]},aB,aA),aC=a[3],aD=ep(X),aa=[3,l,[1,[1,ep(Y),aD],aC]],ab=j(f,1,l),ac=ab?j(f,0,A):ab,ad=ac?j(f,0,[2,l,A]):ac,ae=ad?j(f,0,B):ad,af=ae?j(f,0,[2,l,B]):ae;if(af)return j(f,1,[2,[3,aa,aa],J($,$)]);var
-ah=af}else
+$=a[1],z=jq(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=cT(function(a,c){var
+d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],B(b,b)],au])}return z;case
+10:var
+aa=a[2],ab=a[1],A=js(g,e,ab);if(A){var
+ac=A[1],C=js(g,e,aa);if(C){var
+ad=C[1],D=b[1],E=b[2],l=b[3],aK=jt(l,E,ad[1],ad[2]),aL=jt(l,D,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=ew(aa),af=[3,l,[1,[1,ew(ab),aN],aM]],ah=j(f,1,l),aj=ah?j(f,0,D):ah,ak=aj?j(f,0,[2,l,D]):aj,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,af,af],B(ae,ae)]);var
+an=am}else
 var
-ah=z;var
-ai=ah}else
+an=C;var
+ao=an}else
 var
-ai=y;return ai}var
-r=al(g,p);return r?j(f,1,q(r[1])):r}function
-b9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qG(a){switch(a[0]){case
+ao=A;return ao;case
+11:var
+ap=a[4],F=ai(g,a[1]);if(F){var
+G=jr(F[1],e);if(G){var
+m=G[1][1][2],aO=cB(a[3]),aP=cB(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
+aQ=B(m,m),aR=B(p,m),aS=[4,[3,B(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,B(p,p),aS]])}var
+ar=aq}else
+var
+ar=G;var
+as=ar}else
+var
+as=F;return as;default:H=1}if(H)return 0;var
+t=ai(g,r);return t?j(f,1,s(t[1])):t}function
+cb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+qQ(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b9(b[3]),f=b9(b[2]);return[0,b9(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cb(b[3]),f=cb(b[2]);return[0,cb(b[1]),f,e,d,c];case
 1:var
-g=ae(b9,a[3]),h=b9(a[2]);return[1,b9(a[1]),h,g];default:return[2,b9(a[1])]}}function
-ji(c,b){var
-a=b[2],d=0===a[0]?b9(a[1]):[0,a[1],a[2],a[4][1]];return jb(c,b,f(qG,b[1]),d)}function
-cW(b,a){if(b){if(a){var
-e=cW(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jj(a,l,k,f){var
-b=ax(a,l);if(b){var
-c=ax(a,k);if(c){var
-d=eo(a,f);if(d){var
-e=fT(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,M(D(a,c[1],d[1]),m)];else
+g=af(cb,a[3]),h=cb(a[2]);return[1,cb(a[1]),h,g];default:return[2,cb(a[1])]}}function
+jv(c,b){var
+a=b[2],d=0===a[0]?cb(a[1]):[0,a[1],a[2],a[4][1]];return jn(c,b,f(qQ,b[1]),d)}function
+c3(b,a){if(b){if(a){var
+e=c3(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jw(a,l,k,f){var
+b=az(a,l);if(b){var
+c=az(a,k);if(c){var
+d=ev(a,f);if(d){var
+e=fY(a,f);if(e)var
+m=F(a,b[1],e[1]),g=[0,N(F(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3156,13 +3266,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jk(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cW(a,a)]}var
+jx(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c3(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cP(function(a,c){var
-d=cW(a,b);return[1,[3,cW(a,b),d],c]},a,E)}var
-u=n(function(a){return aa(k(a),D)},a);if(u){var
+a=[0,d,c];return cT(function(a,c){var
+d=c3(a,b);return[1,[3,c3(a,b),d],c]},a,E)}var
+u=o(function(a){return M(l(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3172,27 +3282,27 @@ w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
 x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},l=I,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},k=I,i=e[1];break;case
 3:if(a)return 0;var
 J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},l=K,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},k=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jj(f,i,h,z);return e?ac(e[1][2],d):e}var
-g=jj(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},l=L,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=jw(f,i,h,z);return e?ac(e[1][2],d):e}var
+g=jw(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},k=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],M=cW(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cW(p,p);return j(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],N=c3(q,q),O=[3,[3,A,A],[3,g(p),N]],P=c3(p,p);return j(f,1,[2,[3,g(q),P],O])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=al(s[2],i);return m?l(m[1]):m}var
+m=ai(s[2],i);return m?k(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jl(h,g){var
+jy(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3202,44 +3312,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qH(a){return f(function(a){return[0,a,c]},a)}function
-jm(e,m,b,l,a){if(typeof
+qR(a){return f(function(a){return[0,a,c]},a)}function
+jz(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return a6(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jl(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qH,a[2]);return jk(e,m,b,n[2],s,r)}return g}var
-h=jl(a[1],l);if(h){var
+q=b[3];return a4(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jy(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(qR,a[2]);return jx(e,m,b,n[2],s,r)}return g}var
+h=jy(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=al(b[1],a[2]);return k?jk(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=ai(b[1],a[2]);return k?jx(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-ga(a){var
-b=aG(a[1]),c=ay(J(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
-gb(a){return aG(ga(a))}function
-jn(c){var
-a=gb(c),b=aG(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gc(a,b){return bs(a[3],a[4],b)}function
-gd(a,b){var
-c=gc(a,b);return J(gb(a),c)}function
-ge(a,b){var
-c=gc(a,b);return J(jn(a),c)}function
-jo(a,b){var
-c=gc(a,b);return J(aG(a[1]),c)}function
-gf(b,a){var
-c=ge(b,a),d=gd(b,a);return[1,[3,d,d],[3,c,c]]}function
-gg(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jo(a,d);return[4,[1,gf(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jp(a,b){var
-f=a[5],c=[2,gg(a,b),f],d=jo(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-gh(a,b){var
-c=jp(a,b);return cU(a[7],c)}function
-jq(b,a){var
-c=gf(b,a),d=ge(b,a),e=[3,gh(b,a),d],f=gd(b,a);return[4,[1,[3,gg(b,a),f],e],c]}function
-jr(b,a){var
-c=gf(b,a),d=gd(b,a),e=[3,gh(b,a),d],f=ge(b,a);return[4,[2,[3,gg(b,a),f],e],c]}function
-bt(c){var
+gl(a){var
+b=aJ(a[1]),c=aB(B(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
+gm(a){return aJ(gl(a))}function
+jA(c){var
+a=gm(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gn(a,b){return bu(a[3],a[4],b)}function
+go(a,b){var
+c=gn(a,b);return B(gm(a),c)}function
+gp(a,b){var
+c=gn(a,b);return B(jA(a),c)}function
+jB(a,b){var
+c=gn(a,b);return B(aJ(a[1]),c)}function
+gq(b,a){var
+c=gp(b,a),d=go(b,a);return[1,[3,d,d],[3,c,c]]}function
+gr(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jB(a,d);return[4,[1,gq(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jC(a,b){var
+f=a[5],c=[2,gr(a,b),f],d=jB(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gs(a,b){var
+c=jC(a,b);return c1(a[7],c)}function
+jD(b,a){var
+c=gq(b,a),d=gp(b,a),e=[3,gs(b,a),d],f=go(b,a);return[4,[1,[3,gr(b,a),f],e],c]}function
+jE(b,a){var
+c=gq(b,a),d=go(b,a),e=[3,gs(b,a),d],f=gp(b,a);return[4,[2,[3,gr(b,a),f],e],c]}function
+bv(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3248,94 +3358,94 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bt(a[2]);return g(bt(a[1]),e)}}function
-bu(e,a,b){switch(a[0]){case
+e=bv(a[2]);return g(bv(a[1]),e)}}function
+bw(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cu([0,[0,p,p],d],b);case
+p=a[1];return cx([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=q(d);for(;;){if(g){var
-m=g[1];if(mW(m[1],s))return m[2];var
-g=g[2];continue}return t}case
-2:return cp(bu(e,a[1],b));case
+t=a[1],g=e,u=q(d);for(;;){if(g){var
+m=g[1];if(m5(m[1],t))return m[2];var
+g=g[2];continue}return u}case
+2:return ct(bw(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=z;break;case
+i=a[2],f=a[1],h=w;break;case
 5:var
-i=a[2],f=a[1],h=v;break;case
+i=a[2],f=a[1],h=s;break;case
 6:var
-i=a[2],f=a[1],h=aI;break;case
+i=a[2],f=a[1],h=ar;break;case
 7:var
-j=dv(a[2]),l=bu(e,a[1],b);if(j){if(j[1]){var
-n=af(l),r=function(a){return v(a,n)},o=fJ(b4(ih(j)),r,n);return ig(j)?o:v(o,l)}return l}return q(c);default:return cq(bu(e,a[1],b))}var
-u=bu(e,i,H(b,k(bt(f))));return h(bu(e,f,b),u)}function
-cy(c,f,b){var
+j=dD(a[2]),k=bw(e,a[1],b);if(j){if(j[1]){var
+n=X(k),r=function(a){return s(a,n)},o=fO(bO(iw(j)),r,n);return iv(j)?o:s(o,k)}return k}return q(c);default:return b_(bw(e,a[1],b))}var
+v=bw(e,i,J(b,l(bv(f))));return h(bw(e,f,b),v)}function
+cC(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=H(b,k(bt(e))),l=cy(c,a[2],j),m=g(cy(c,e,b),l);return[0,bu(c,a,b),m];case
+e=a[1],j=J(b,l(bv(e))),k=cC(c,a[2],j),m=g(cC(c,e,b),k);return[0,bw(c,a,b),m];case
 8:var
-n=cy(c,a[1],b);return[0,bu(c,a,b),n];case
+n=cC(c,a[1],b);return[0,bw(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=H(b,k(bt(d))),i=cy(c,a[2],h);return g(cy(c,d,b),i)}}function
-js(c,a,b){if(a){var
-e=a[1],d=e[2],f=H(b,k(bt(d))),h=a[2],i=bu(c,d,b),j=js([0,[0,e[1],i],c],h,f);return g(cy(c,d,b),j)}return a}function
-dK(a){return y(bt,a)}function
-jt(c,a,b){if(a)var
-d=a[1],f=H(b,k(bt(d))),g=jt(c,a[2],f),e=[0,bu(c,d,b),g];else
+d=a[1],h=J(b,l(bv(d))),i=cC(c,a[2],h);return g(cC(c,d,b),i)}}function
+jF(c,a,b){if(a){var
+e=a[1],d=e[2],f=J(b,l(bv(d))),h=a[2],i=bw(c,d,b),j=jF([0,[0,e[1],i],c],h,f);return g(cC(c,d,b),j)}return a}function
+dR(a){return z(bv,a)}function
+jG(c,a,b){if(a)var
+d=a[1],f=J(b,l(bv(d))),g=jG(c,a[2],f),e=[0,bw(c,d,b),g];else
 var
 e=a;return e}function
-ju(c,a,b){if(a){var
-d=a[1],e=H(b,k(bt(d))),f=ju(c,a[2],e);return g(cy(c,d,b),f)}return a}function
-jv(c,a,b){if(a)var
-d=a[1],f=H(b,k(dK(d))),g=jv(c,a[2],f),e=[0,jt(c,d,b),g];else
+jH(c,a,b){if(a){var
+d=a[1],e=J(b,l(bv(d))),f=jH(c,a[2],e);return g(cC(c,d,b),f)}return a}function
+jI(c,a,b){if(a)var
+d=a[1],f=J(b,l(dR(d))),g=jI(c,a[2],f),e=[0,jG(c,d,b),g];else
 var
 e=a;return e}function
-jw(c,a,b){if(a){var
-d=a[1],e=H(b,k(dK(d))),f=jw(c,a[2],e);return g(ju(c,d,b),f)}return a}function
-jx(a){return f(function(a){return[0,a[2],d]},a)}function
-jy(a){var
-c=dH(0,jx(a[2])),d=cQ(0,k(a[1])),e=f(function(a){return[0,[0,a]]},d),b=ck(f(dr,a[2]),c);return g(ck(a[1],e),b)}function
-qJ(a){if(typeof
+jJ(c,a,b){if(a){var
+d=a[1],e=J(b,l(dR(d))),f=jJ(c,a[2],e);return g(jH(c,d,b),f)}return a}function
+jK(a){return f(function(a){return[0,a[2],d]},a)}function
+jL(a){var
+c=cy(0,jK(a[2])),d=cU(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=co(f(dz,a[2]),c);return g(co(a[1],e),b)}function
+qT(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gi(b,d){var
+gt(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a6(function(a){return au(e,a)},b);case
+e=a[1];return a4(function(a){return ap(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gi(b,a[1]);if(c){var
+c=gt(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jz(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jA(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gj(a,c,b){var
-d=[3,jz(a),b],e=[1,[3,jA(a),c],d],f=[3,jA(a),b];return[0,[2,[3,jz(a),c],f],e]}function
-jB(c,a){var
-b=gj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jC(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jD(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jB(d[1],a):a;case
+jM(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+jN(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gu(a,c,b){var
+d=[3,jM(a),b],e=[1,[3,jN(a),c],d],f=[3,jN(a),b];return[0,[2,[3,jM(a),c],f],e]}function
+jO(c,a){var
+b=gu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+jP(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+jQ(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jO(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gj(d[1],a[2],a[3]),m=j[1],k=gj(f[1],j[2],a[1]);return jB(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gu(d[1],a[2],a[3]),m=j[1],k=gu(f[1],j[2],a[1]);return jO(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=J(e,e),n=jC(e,a),o=ay([0,b(2,c),c],n),p=J(e,a),q=ay([3,[0,b(2,c),c],p],e),r=ay([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return ay([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jE(b){var
-a=eG(b);return a?iu(a[1],[0,d,c]):a}function
-jF(a,n,k,i){if(jE(i)){var
+e=[0,d[1],h[1],i[1]],l=B(e,e),n=jP(e,a),o=aB([0,b(2,c),c],n),p=B(e,a),q=aB([3,[0,b(2,c),c],p],e),r=aB([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aB([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+jR(b){var
+a=eJ(b);return a?iH(a[1],[0,d,c]):a}function
+jS(a,n,k,i){if(jR(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
-f=ax(a,k);if(f){var
-g=eo(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fT(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),l=[0,M(h[1],p)];else
+f=az(a,k);if(f){var
+g=ev(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fY(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=F(a,f[1],g[1]),l=[0,N(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3344,26 +3454,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?B(d,o[1]):B(o[2],d)}return e}function
-dL(b,a,c){var
-d=br(b,a[1],a[2]),e=d?jF(b,0,c,a[1]):d;return e?jF(b,1,c,a[2]):e}function
-dM(a,d){if(jE(d))return[0,ab];var
-e=eo(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fT(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=C(aL(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cn(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ae(function(d){var
-e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iE(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dS(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?jS(b,0,c,a[1]):d;return e?jS(b,1,c,a[2]):e}function
+dT(a,d){if(jR(d))return[0,O];var
+e=ev(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fY(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=A(aL(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cr(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return af(function(d){var
+e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iR(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gk(d,a){var
-e=j(d,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-cz(a){return[0,[2,[0,d,c],a],a]}function
-jG(a,b,n,m){var
-h=br(a,[0,d,c],b),i=h?gk(a,b):h;if(i){var
-e=dM(a,b);if(e){var
-f=ax(a,n);if(f){var
-g=ax(a,m);if(g){var
-o=f[1],p=g[1];return B(d,M(D(a,ai(a,e[1]),p),o)[1])}var
+gv(d,a){var
+e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+cD(a){return[0,[2,[0,d,c],a],a]}function
+jT(a,b,n,m){var
+h=bs(a,[0,d,c],b),i=h?gv(a,b):h;if(i){var
+e=dT(a,b);if(e){var
+f=az(a,n);if(f){var
+g=az(a,m);if(g){var
+o=f[1],p=g[1];return D(d,N(F(a,aa(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3373,126 +3483,126 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dN(a){return 1===a?qN:qO}function
-gl(d,c,b,a){var
-e=a[1],f=jD(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
-dO(b,d){var
+dU(a){return 1===a?qX:qY}function
+gw(d,c,b,a){var
+e=a[1],f=jQ(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+dV(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dy(function(a){return dO(b,a)},a)]}return[0,dy(function(a){return dO(b,a)},a)]}function
-cX(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dG(function(a){return dV(b,a)},a)]}return[0,dG(function(a){return dV(b,a)},a)]}function
+c4(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aH(aa(e,b));return f?aH(aa(e,H(d,b))):f;case
+e=a[1],f=aK(M(e,b));return f?aK(M(e,J(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cX(d,b,a[1]);if(g){var
+g=c4(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dP(c,b,m){var
+dW(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cX(c,b,g),i=h?dP(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c4(c,b,g),i=h?dW(c,b,f):h;if(i)var
 j=i;else{var
-k=dP(c,b,g);if(k)return cX(c,b,f);var
+k=dW(c,b,g);if(k)return c4(c,b,f);var
 j=k}return j;case
 7:var
-l=dP(c,b,a[1]);return l?cX(c,b,a[2]):l;case
+l=dW(c,b,a[1]);return l?c4(c,b,a[2]):l;case
 3:case
 4:var
-e=dP(c,b,a[1]);if(e){var
+e=dW(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cX(c,b,a[1]);default:return 1}}}function
-cA(c,e){var
+9:return c4(c,b,a[1]);default:return 1}}}function
+cE(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aH(aa(a[1],c));case
+0:return aK(M(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cA(c,a[1]);if(d){var
+d=cE(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gm(d,b,m){var
+gx(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gm(d,b,a[1]);if(f){var
+f=gx(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gm(d,b,a[1]);return g?cA(b,a[2]):g;case
+g=gx(d,b,a[1]);return g?cE(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cA(b,i);if(j){var
-k=cA(b,h);if(k)var
+h=a[2],i=a[1],j=cE(b,i);if(j){var
+k=cE(b,h);if(k)var
 e=k;else{var
-l=bb(i,d);if(l){var
+l=bc(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cA(b,c)}}}function
-jH(c,e){var
+2:return 1;default:return cE(b,c)}}}function
+jU(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ie(a[1],c);case
+0:return iu(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jH(c,a[1]);if(d){var
+d=jU(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b_(b,a){return a?e(b,a[1]):a}function
-b$(c,b,a){return b_(function(b){return b_(e(c,b),a)},b)}function
-qP(a){return 0===a[0]?a[1]:0}function
-bv(b,a){switch(a[0]){case
+cc(b,a){return a?e(b,a[1]):a}function
+cd(c,b,a){return cc(function(b){return cc(e(c,b),a)},b)}function
+qZ(a){return 0===a[0]?a[1]:0}function
+bx(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bv(b,a[1])];default:var
-c=bv(b,a[3]),d=bv(b,a[2]);return[2,bv(b,a[1]),d,c]}}function
-aY(b,c,a){switch(c[0]){case
-0:return bv(e(b,c[1]),a);case
+1:return[1,bx(b,a[1])];default:var
+c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
+a0(b,c,a){switch(c[0]){case
+0:return bx(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bv(function(a){return N(b,a,k)},d)];case
-1:return[1,aY(b,d,a[1])];default:var
-l=aY(b,d,a[3]),m=aY(b,d,a[2]);return[2,aY(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bx(function(a){return Q(b,a,k)},d)];case
+1:return[1,a0(b,d,a[1])];default:var
+l=a0(b,d,a[3]),m=a0(b,d,a[2]);return[2,a0(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return N(b,a,n)},i=function(a){return bv(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return Q(b,a,n)},i=function(a){return bx(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aY(b,f,j),s=aY(b,g,j);return[2,aY(b,h,j),s,r];default:var
-t=aY(b,f,a[3]),u=aY(b,g,a[2]);return[2,aY(b,h,a[1]),u,t]}}}function
-gn(c,g,a){if(a)var
+j=a[1],r=a0(b,f,j),s=a0(b,g,j);return[2,a0(b,h,j),s,r];default:var
+t=a0(b,f,a[3]),u=a0(b,g,a[2]);return[2,a0(b,h,a[1]),u,t]}}}function
+gy(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,ai(c,a)];break;case
+f=[0,a,aa(c,a)];break;case
 1:var
-h=D(c,a,b),f=[0,em(C(a,b)),h];break;default:var
-f=[0,b,ai(c,b)]}return[0,[0,e(g,f)]]},i=gn(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=F(c,a,b),f=[0,et(A(a,b)),h];break;default:var
+f=[0,b,aa(c,b)]}return[0,[0,e(g,f)]]},i=gy(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jI(a){if(a){var
+jV(a){if(a){var
 b=a[1];if(b)var
-c=jI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qR}function
-dQ(a){if(a){var
-g=a[1],b=g[2],c=jI(g[1]);if(c)if(b){var
-h=b[1],e=dQ(a[2]);if(e)var
+d=b;return d}return q1}function
+dX(a){if(a){var
+g=a[1],b=g[2],c=jV(g[1]);if(c)if(b){var
+h=b[1],e=dX(a[2]);if(e)var
 i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3500,88 +3610,67 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return qS}function
-go(b,a){var
-c=a[3],d=ae(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a4(b),g),f,d]}function
-jJ(f,d,c,b){if(d){var
+f=c;return f}return q2}function
+gz(b,a){var
+c=a[3],d=af(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a5(b),g),f,d]}function
+jW(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=go(function(a){switch(a[0]){case
+a=gz(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jJ(b4(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jW(bO(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,go(qP,b))}function
-dR(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ae(function(a){return bN(f,e,a)},d)}return[0,ab]}function
-jK(d,b,a){if(b){if(a){var
-e=jK(d,b[2],a[2]);return C(bN(b[1],A(d,c),a[1]),e)}return ab}return ab}function
-jL(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jK(e,a,b)},j=jL(e,h),k=f(function(a){var
-e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
-var
-i=a;return i}function
-jM(e,b,d,a){if(b)if(a)var
-f=b[1],g=jM(e,b[2],d,a[2]),c=[0,[0,f,iT(e,a[1][1],d,f)],g];else
-var
-c=a;else
-var
-c=b;return c}function
-jN(e,d,c,b,a){if(a){var
-g=a[2];if(d){var
-i=jN(e,d[1],c,b,g);return[0,[0,M(ab,b),0],i]}var
-j=f(function(a){return[0,M(ab,b),0]},g),h=[0,[0,M(aE(D(e,c,en(a[1][2]))),b),0],j]}else
-var
-h=a;return h}function
-eI(c,a){var
-b=aa(k(a),c);return b?ev(a):b}function
-qT(c){var
+i=g;return i}return e(c,gz(qZ,b))}function
+dY(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return af(function(a){return bQ(f,e,a)},d)}return[0,O]}function
+q3(c){var
 a=c[2];if(a){var
-b=dR(c[3]);if(b)return B(d,M(a[1],b[1])[1]);var
+b=dY(c[3]);if(b)return D(d,N(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jO(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
-jP(a,c,b){var
-e=F(b,c,q(d)),f=cQ(0,a);return n(function(b){return dP(a,b,e)},f)}function
-dS(a){var
-b=af(a);return G(q(c),b)}function
-eJ(i,g){var
-h=dS(g),j=af(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cp(f),a,e]]:[0,[0,h,a,a],[0,a,e,cp(f)],[0,a,f,e]]}function
-jQ(b,a){function
+jX(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+jY(a,c,b){var
+e=E(b,c,q(d)),f=cU(0,a);return o(function(b){return dW(a,b,e)},f)}function
+dZ(a){var
+b=X(a);return G(q(c),b)}function
+eN(i,g){var
+h=dZ(g),j=X(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ct(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ct(f),a,e]]:[0,[0,h,a,a],[0,a,e,ct(f)],[0,a,f,e]]}function
+jZ(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
+b=as(a,c(function(a){return a[3]})),d=as(a,c(function(a){return a[2]}));return[0,as(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-jR(a){switch(a[0]){case
+j0(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cz(a[1]),0];default:var
-b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
-cY(a){return[0,[0,a[1]],[0,a[2]]]}function
-jS(a,b){if(0===b[0])return dM(a,b[1]);var
-d=dM(a,b[1]);if(d){var
-e=dM(a,b[2]);if(e){var
-g=ai(a,e[1]),h=co(a,C(aL(a,c),g)),i=d[1];return ae(function(b){return D(a,i,b)},h)}var
+2:return[0,cD(a[1]),0];default:var
+b=[0,cD(a[2]),0];return[0,cD(a[1]),b]}}function
+c5(a){return[0,[0,a[1]],[0,a[2]]]}function
+j1(a,b){if(0===b[0])return dT(a,b[1]);var
+d=dT(a,b[1]);if(d){var
+e=dT(a,b[2]);if(e){var
+g=aa(a,e[1]),h=cs(a,A(aL(a,c),g)),i=d[1];return af(function(b){return F(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-jT(j,z,c,y,x,b,a){switch(b[0]){case
+j2(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
+n=b[4],k=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 A=a[2],B=a[1],i=o,h=p,g=function(e){var
-a=dQ(e[1]);if(a){var
+a=dX(e[1]);if(a){var
 b=e[2];if(b){var
-d=dR(e[3]);if(d){var
-h=d[1],i=cl([0,M(aE(D(j,l,b[1])),h),0],c);return eI(c,fX(B,A,a[1],i))}var
+d=dY(e[3]);if(d){var
+h=d[1],i=cp([0,N(aH(F(j,k,b[1])),h),0],c);return dO(c,f4(B,A,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3589,11 +3678,11 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=ak(l[1],d),r=q?ak(l[2],d):q;if(!r)return r;var
-E=a[2],G=a[1],i=o,h=p,g=function(e){var
-a=dQ(e[1]);if(a){var
-b=dR(e[3]);if(b){var
-g=cl([0,M(ab,b[1]),0],c),h=a[1];return eI(c,fX(G,E,f(function(a){return[0,a[1],ab]},h),g))}var
+q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+D=a[2],G=a[1],i=o,h=p,g=function(e){var
+a=dX(e[1]);if(a){var
+b=dY(e[3]);if(b){var
+g=cp([0,N(O,b[1]),0],c),h=a[1];return dO(c,f4(G,D,f(function(a){return[0,a[1],O]},h),g))}var
 d=b}else
 var
 d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
@@ -3601,10 +3690,10 @@ d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 u=0;if(typeof
 a==="number"&&!a)var
 H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
-a=dQ(f[1]);if(a){var
+a=dX(f[1]);if(a){var
 b=f[2];if(b){var
-d=dR(f[3]);if(d){var
-k=d[1],l=cl([0,M(D(j,J,b[1]),k),0],c),e=iV(a[1],l);if(e)return eI(c,e[1]);var
+d=dY(f[3]);if(d){var
+k=d[1],l=cp([0,N(F(j,J,b[1]),k),0],c),e=i5(a[1],l);if(e)return dO(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3619,93 +3708,93 @@ u=1;if(u)return 0;break;case
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],L=b[3],N=b[2],O=b[4],P=b[1],Q=function(f){var
-a=dQ(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=dX(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dR(f[3]);if(e){var
-g=aa(k(b),c),h=g?aa(k(s),c):g;if(h){var
-n=jL(t,jM(t,s,d[1],b));return eI(c,iM(jN(j,P,O,e[1],b),n))}var
+e=dY(f[3]);if(e){var
+g=M(l(b),c),h=g?M(l(s),c):g;if(h){var
+n=f9(t,f_(t,s,d[1],b));return dO(c,f1(f$(j,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-l=i}else
+k=i}else
 var
-l=d;var
-m=l}else
+k=d;var
+m=k}else
 var
-m=a;return m},i=L,h=N,g=Q,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=L,h=P,g=S,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=qT,e=0;else
+i=b[1],h=0,g=q3,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jJ(e,z,g,go(function(a){return F(a,y,q7)},C))}function
-jU(m,l,k,f,j,i,e){if(typeof
+C=[0,h,i,x];return jW(e,z,g,gz(function(a){return E(a,y,rf)},C))}function
+j3(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=B(d,o);if(p)var
-h=hK(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=D(d,o);if(p)var
+h=hY(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return jT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return j2(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return jT(m,l,k,j,0,i,a)}return 0}function
-q8(a){if(a[1])return 0;var
+q=f;return q}return j2(m,l,k,j,0,i,a)}return 0}function
+rg(a){if(a[1])return 0;var
 b=a[2];if(typeof
-b==="number"&&4<=b)return 1;return 0}function
-jV(a,K,J,I,H,G,h,p,E,V){if(n(q8,E))var
+b==="number"&&4===b)return 1;return 0}function
+j4(a,K,J,I,H,G,h,p,D,W){if(o(rg,D))var
 q=0;else
 var
-S=gn(a,ds,p),R=0,T=g(gn(a,dr,p),S),q=cr(qQ,function(b){switch(b[0]){case
-0:return F(b[1],T,[0,[0,ab]]);case
-1:return[0,[0,F(b[1],J,ab)]];case
+T=gy(a,dA,p),S=0,U=g(gy(a,dz,p),T),q=cu(q0,function(b){switch(b[0]){case
+0:return E(b[1],U,[0,[0,O]]);case
+1:return[0,[0,E(b[1],J,O)]];case
 2:return[0,[0,aL(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aY(function(a,b){return b$(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return a0(function(a,b){return cd(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aY(function(a,b){return b$(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return a0(function(a,b){return cd(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aE(a)]};return bv(function(a){return b_(j,a)},i);case
+i=b[1],j=function(a){return[0,aH(a)]};return bx(function(a){return cc(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return aY(function(a,b){return b$(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return a0(function(a,b){return cd(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cn(a,b);return ae(function(b){return D(a,c,b)},d)};return aY(function(a,b){return b$(p,a,b)},o,n);case
+d=cr(a,b);return af(function(b){return F(a,c,b)},d)};return a0(function(a,b){return cd(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ai(a,b)]};return bv(function(a){return b_(r,a)},q);default:var
-s=b[1],t=function(b){return co(a,b)};return bv(function(a){return b_(t,a)},s)}},K,R);var
-e=E,b=V;for(;;){if(e){var
+q=b[1],r=function(b){return[0,aa(a,b)]};return bx(function(a){return cc(r,a)},q);default:var
+s=b[1],t=function(b){return cs(a,b)};return bx(function(a){return cc(t,a)},s)}},K,S);var
+e=D,b=W;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=F(c,b,0);if(u){var
-l=al(I,c);if(l){var
-v=jU(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eC(c,b);continue}var
+u=E(c,b,0);if(u){var
+l=ai(I,c);if(l){var
+v=j3(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=eI(c,b);continue}var
 w=v}else
 var
 w=l;var
 x=w}else
 var
 x=u;return x}if(typeof
-i==="number"&&4<=i){var
+i==="number"&&4===i){var
 L=0;if(h){var
-U=0,r=f(function(b){return[0,b,ai(a,b)]},p),O=f(ds,r),N=0,P=g(f(dr,r),O),Q=cr(0,function(n){return function(b){switch(b[0]){case
-0:return[0,F(b[1],n,ab)];case
-1:return[0,F(b[1],J,ab)];case
+V=0,r=f(function(b){return[0,b,aa(a,b)]},p),P=f(dA,r),M=0,Q=g(f(dz,r),P),R=cu(0,function(n){return function(b){switch(b[0]){case
+0:return[0,E(b[1],n,O)];case
+1:return[0,E(b[1],J,O)];case
 2:return[0,aL(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b$(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return cd(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b$(function(b,a){return[0,M(b,a)]},f,e);case
+e=b[2],f=b[1];return cd(function(b,a){return[0,N(b,a)]},f,e);case
 5:var
-g=b[1];return b_(function(a){return[0,aE(a)]},g);case
+g=b[1];return cc(function(a){return[0,aH(a)]},g);case
 6:var
-h=b[2],i=b[1];return b$(function(c,b){return[0,D(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cd(function(c,b){return[0,F(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b$(function(c,b){var
-d=cn(a,b);return ae(function(b){return D(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cd(function(c,b){var
+d=cr(a,b);return af(function(b){return F(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b_(function(b){return[0,ai(a,b)]},l);default:var
-m=b[1];return b_(function(b){return co(a,b)},m)}}}(P),K,N),j=F(h[1],Q,U);if(j){var
+l=b[1];return cc(function(b){return[0,aa(a,b)]},l);default:var
+m=b[1];return cc(function(b){return cs(a,b)},m)}}}(Q),K,M),j=E(h[1],R,V);if(j){var
 m=ac(j[1][2],d);L=1}else
 var
 s=j}else
@@ -3713,49 +3802,49 @@ var
 s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=F(c,b,0);if(y){var
-o=al(I,c);if(o){var
-z=jU(a,H,G,h,q,o[1],i);if(z){var
-e=k,b=eC(c,b);continue}var
-A=z}else
+y=E(c,b,0);if(y){var
+n=ai(I,c);if(n){var
+z=j3(a,H,G,h,q,n[1],i);if(z){var
+e=k,b=eI(c,b);continue}var
+B=z}else
 var
-A=o;var
-B=A}else
+B=n;var
+C=B}else
 var
-B=y;return B}return[0,b]}}function
-jW(i,h,g,f,e,d,c,t,s,r){var
+C=y;return C}return[0,b]}}function
+j5(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jV(i,h,g,f,e,d,c,b,a[1],j);return k?n(aH,k[1]):k}var
-l=jV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dG(a[2],b),p=jW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
-b=o[2],j=m,a=a[4];continue}var
+k=j4(i,h,g,f,e,d,c,b,a[1],j);return k?o(aK,k[1]):k}var
+l=j4(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dN(a[2],b),p=j5(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gp(d,a){var
-e=af(a),f=v(v(q(b(2,c)),a),d);return G(z(af(d),f),e)}function
-gq(a){switch(a){case
-0:return q$;case
-1:return ra;default:return 0}}function
-eK(b,a){var
-c=a8(a[2],b);return g(a8(a[1],b),c)}function
-jX(r,l,p,t,o,j,s){if(j){var
-u=j[1],w=dH(s,eK(o,u)),R=H(s,k(eK(o,u))),S=jX(r,l,p,t,o,j[2],R),i=aN(w,rb),m=aN(w,0);switch(r){case
+gA(d,a){var
+e=X(a),f=s(s(q(b(2,c)),a),d);return G(w(X(d),f),e)}function
+gB(a){switch(a){case
+0:return rj;case
+1:return rk;default:return 0}}function
+eO(b,a){var
+c=a6(a[2],b);return g(a6(a[1],b),c)}function
+j6(r,k,p,u,o,j,t){if(j){var
+v=j[1],x=cy(t,eO(o,v)),R=J(t,l(eO(o,v))),S=j6(r,k,p,u,o,j[2],R),i=aI(x,rl),m=aI(x,0);switch(r){case
 0:var
-g=[0,q_,q9,q(d)];break;case
+g=[0,ri,rh,q(d)];break;case
 1:var
-g=cs;break;default:var
-I=q(d),J=q(d),g=[0,q(d),J,I]}var
-e=aX(z,g,m),y=aF(l[3],i),A=aF(l[2],i),a=[0,aF(l[1],i),A,y],K=gp(g[3],m[3]),L=gp(g[2],m[2]),M=gp(g[1],m[1]),N=G(G(G(aF(i,i),M),L),K),O=aF(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ew([0,z(v(a[2],e[3]),F),E,C],t),h=aX(G,dF(p,e),a);switch(r){case
+g=cv;break;default:var
+H=q(d),I=q(d),g=[0,q(d),I,H]}var
+e=aS(w,g,m),z=as(k[3],i),A=as(k[2],i),a=[0,as(k[1],i),A,z],K=gA(g[3],m[3]),L=gA(g[2],m[2]),M=gA(g[1],m[1]),N=G(G(G(as(i,i),M),L),K),O=as(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eD([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dM(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,Q],S]}else
+y=[0,[0,n,Q],S]}else
 var
-x=j;return x}function
-gr(g,a){if(typeof
+y=j;return y}function
+gC(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3763,47 +3852,47 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gs(e,d,n,m,l,a){var
-f=v(af(cu(gr(m,a),l)),n);if(typeof
+gD(e,d,n,m,l,a){var
+f=s(X(cx(gC(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=al(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
+b=ai(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,w(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=al(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,z(f,c[1][2])]:i;else
+c=ai(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-jY(a,d,c,b){return f(function(a){var
-e=cu(gr(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-jZ(b,g,s,f,i,q,p,o){if(o){var
-X=jZ(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+j7(a,d,c,b){return f(function(a){var
+e=cx(gC(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
+j8(b,g,s,f,i,q,p,o){if(o){var
+Y=j8(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a4(g),f),M,ab)];else
+M=e(g,i),h=[0,t(e(a5(g),f),M,O)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
-O=[4,[0,c,c],a[1]],k=O,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+P=[4,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-P=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},P);break;case
+Q=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},Q);break;case
 3:var
-Q=gs(b,f,i,q,p,a),h=ae(function(a){return[3,e(g,a)]},Q);break;case
+R=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},R);break;case
 6:var
-u=a[3],v=a[2],r=al(f,a[1]),K=0;if(r){var
+u=a[3],v=a[2],r=ai(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-R=[4,u,v],S=[0,r[1],0],k=R,n=S,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
+S=[4,u,v],T=[0,r[1],0],k=S,n=T,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=al(f,B),L=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=ai(f,B),L=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
-T=[4,A,z],k=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
+U=[4,A,z],k=U,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
 var
 F=E}else
 var
@@ -3811,140 +3900,140 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-U=aL(b,c),V=e(g,i),W=jY(f,q,p,a),I=[0,[0,e(a4(g),W),V,U,0]];else
+V=aL(b,c),W=e(g,i),X=j7(f,q,p,a),I=[0,[0,e(a5(g),X),W,V,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-N=aM(b,[0,[0,k,k],d]),h=ae(function(a){var
-c=ai(b,a),d=e(g,i);return m(e(a4(g),n),d,c)},N);var
-J=[0,h,X]}else
+N=aA(b,[0,[0,k,k],d]),h=af(function(a){var
+c=aa(b,a),d=e(g,i);return m(e(a5(g),n),d,c)},N);var
+J=[0,h,Y]}else
 var
 J=o;return J}function
-j0(j,h,i,e,d,a){if(a){var
-n=j0(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+j9(j,h,i,e,d,a){if(a){var
+n=j9(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(ds,jY(h,e,d,b));l=1}if(!l)var
-c=gs(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rc(a){if(typeof
+k=f(dA,j7(h,e,d,b));l=1}if(!l)var
+c=gD(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rm(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-eL(a){var
+eP(a){var
 b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
-rd(l,a,m,bg){var
-w=a[1],h=dN(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(y(function(a){return eK(m,a)},bi),bh),S=k(aq),bj=a[2],bk=k(y(function(a){return eK(m,a)},bj)),ar=a[3],bl=cu([0,[0,ar,ar],m],bk),bm=gq(w),bn=a[5];function
-i(a){return[0,[0,H(bm,a)]]}switch(bn[0]){case
+rn(k,a,m,bg){var
+x=a[1],h=dU(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(z(function(a){return eO(m,a)},bi),bh),T=l(aq),bj=a[2],bk=l(z(function(a){return eO(m,a)},bj)),ar=a[3],bl=cx([0,[0,ar,ar],m],bk),bm=gB(x),bn=a[5];function
+i(a){return[0,[0,J(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dS(i(0)),J=[0,eJ(qU,i(0)),aX];break;case
+aX=dZ(i(0)),I=[0,eN(q4,i(0)),aX];break;case
 1:var
-aY=dS(i(0)),aZ=v(dS(i(qV)),aY),a0=v(dS(i(qW)),aZ),a1=eJ(0,i(0)),a2=jQ(eJ(qY,i(qX)),a1),J=[0,jQ(eJ(q0,i(qZ)),a2),a0];break;default:var
-a3=i(q1),a5=i(q2),u=[0,i(0),a5,a3],a7=aF(u,u),a8=G(q(c),a7),aN=aF(u,u),r=u[1],s=u[2],t=u[3],O=function(a){var
-d=af(a),e=v(q(b(2,c)),d);return G(z(q(c),aN),e)},A=function(f,e,d,a){var
-g=N(f,v(e,d),a);return v(q(b(2,c)),g)},aO=O(t),aP=A(G,s,t,r),aQ=[0,A(z,r,t,s),aP,aO],aR=A(z,s,t,r),aT=O(s),aU=[0,A(G,r,s,t),aT,aR],aV=A(G,r,t,s),aW=A(z,r,s,t),J=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=J[2],K=jX(w,J[1],C,bl,m,a[2],0),bo=H(S,k(a[6])),bq=gq(w),br=a[5];function
-B(a){return[0,[0,H(bq,a)]]}var
-ag=af([0,[1,bo]]);switch(br[0]){case
+aY=dZ(i(0)),aZ=s(dZ(i(q5)),aY),a0=s(dZ(i(q6)),aZ),a1=eN(0,i(0)),a2=jZ(eN(q8,i(q7)),a1),I=[0,jZ(eN(q_,i(q9)),a2),a0];break;default:var
+a3=i(q$),a6=i(ra),v=[0,i(0),a6,a3],a7=as(v,v),a8=G(q(c),a7),aN=as(v,v),r=v[1],t=v[2],u=v[3],O=function(a){var
+d=X(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
+g=Q(f,s(e,d),a);return s(q(b(2,c)),g)},aO=O(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=O(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
+C=I[2],K=j6(x,I[1],C,bl,m,a[2],0),bo=J(T,l(a[6])),bp=gB(x),br=a[5];function
+B(a){return[0,[0,J(bp,a)]]}var
+ag=X([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(q3),a_=B(q4),ah=[0,B(0),a_,a9],o=[0,z(ag,aF(ah,ah))];break;case
+a9=B(rb),a_=B(rc),ah=[0,B(0),a_,a9],n=[0,w(ag,as(ah,ah))];break;case
 3:var
-a$=af(B(q5)),ba=af(B(0)),bc=af(B(q6)),o=[0,z(z(v(ag,G(q(c),bc)),ba),a$)];break;default:var
-o=0}var
-bs=o?[0,o[1],0]:o,bt=[0,C,g(j0(l,K,C,m,S,a[6]),bs)],T=g(cv(K),bt),as=dB(f(function(a){return dO(h,a)},T))[1],D=dA(as);function
-x(a){return bp(D,dO(h,a))}var
-bu=ae(x,o),bv=x(C),at=e(a4(x),K),am=gq(w),an=aa(k(at),h);if(an)var
-ao=ae(function(a){return[0,[0,a,d],d]},bu),I=function(a){return F(a,D,q(d))},ad=I(bv),aL=cQ(0,am),R=n(function(a){var
-b=cX(h,a,ad),c=b?n(function(b){var
-d=b[1],c=n(function(b){var
-c=I(b);return cA(H(h,a),c)},d);if(c){var
-e=I(b[2]);return gm(ad,H(h,a),e)}return c},at):b;if(c){if(ao){var
-e=I(ao[1][1][1]);return cA(H(h,a),e)}var
+a$=X(B(rd)),ba=X(B(0)),bb=X(B(re)),n=[0,w(w(s(ag,G(q(c),bb)),ba),a$)];break;default:var
+n=0}var
+bs=n?[0,n[1],0]:n,bt=[0,C,g(j9(k,K,C,m,T,a[6]),bs)],U=g(cz(K),bt),at=dJ(f(function(a){return dV(h,a)},U))[1],D=dI(at);function
+y(a){return bq(D,dV(h,a))}var
+bu=af(y,n),bv=y(C),au=e(a5(y),K),am=gB(x),an=M(l(au),h);if(an)var
+ao=af(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cU(0,am),S=o(function(a){var
+b=c4(h,a,ae),c=b?o(function(b){var
+d=b[1],c=o(function(b){var
+c=H(b);return cE(J(h,a),c)},d);if(c){var
+e=H(b[2]);return gx(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cE(J(h,a),e)}var
 d=1}else
 var
-d=c;return d},aL);else
+d=c;return d},aM);else
 var
-R=an;var
-bf=R?am:R,au=n(function(a){var
-b=dO(h,a),c=q(d);return bb(F(x(a),D,c),b)},T),av=au?n(function(a){return jH(h,a)},T):au,aw=av?a6(rc,a[6]):av;if(aw){var
-L=a[4];switch(w){case
+S=an;var
+bf=S?am:S,av=o(function(a){var
+b=dV(h,a),c=q(d);return bc(E(y(a),D,c),b)},U),aw=av?o(function(a){return jU(h,a)},U):av,ax=aw?a4(rm,a[6]):aw;if(ax){var
+L=a[4];switch(x){case
 0:var
-U=eL(L[3]);break;case
+V=eP(L[3]);break;case
 1:var
-U=1;break;default:var
-ak=eL(L[1]),al=ak?eL(L[2]):ak,U=al?eL(L[3]):al}var
-V=U}else
+V=1;break;default:var
+ak=eP(L[1]),al=ak?eP(L[2]):ak,V=al?eP(L[3]):al}var
+W=V}else
 var
-V=aw;var
-ax=V?j(l,1,a[3]):V;if(ax)var
-bw=jR(a[5]),W=n(function(a){var
-b=gk(l,a[1]);return b?gk(l,a[2]):b},bw);else
+W=ax;var
+ay=W?j(k,1,a[3]):W;if(ay)var
+bw=j0(a[5]),Y=o(function(a){var
+b=gv(k,a[1]);return b?gv(k,a[2]):b},bw);else
 var
-W=ax;if(W){var
-bx=a[6],by=g(aq,f(function(a){return gr(m,a)},bx)),X=aS(f(function(a){return aM(l,a)},by));if(X){var
-E=a[4];switch(w){case
+Y=ay;if(Y){var
+bx=a[6],by=g(aq,f(function(a){return gC(m,a)},bx)),Z=aT(f(function(a){return aA(k,a)},by));if(Z){var
+F=a[4];switch(x){case
 0:var
-Y=[0,E[1],[0,E[2],0]];break;case
+_=[0,F[1],[0,F[2],0]];break;case
 1:var
-Y=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
-Y=0}var
-Z=aS(f(function(a){return aM(l,[0,a,m])},Y));if(Z){var
-ay=Z[1],p=a[5];switch(p[0]){case
+_=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
+_=0}var
+$=aT(f(function(a){return aA(k,[0,a,m])},_));if($){var
+az=$[1],p=a[5];switch(p[0]){case
 0:var
-M=[0,cY(p[1]),0];break;case
+N=[0,c5(p[1]),0];break;case
 1:var
-bd=[0,cY(p[3]),0],be=[0,cY(p[2]),bd],M=[0,cY(p[1]),be];break;case
+bd=[0,c5(p[3]),0],be=[0,c5(p[2]),bd],N=[0,c5(p[1]),be];break;case
 2:var
-P=cY(cz(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
-Q=p[2],ai=p[1],aj=[0,[1,cz(ai)[1],Q],[1,ai,Q]],M=[0,aj,[0,aj,[0,cY(cz(Q)),0]]]}var
-_=aS(f(function(d){var
-a=jS(l,d[1]);if(a)var
-b=jS(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=c5(cD(p[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
+R=p[2],ai=p[1],aj=[0,[1,cD(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c5(cD(R)),0]]]}var
+aa=aT(f(function(d){var
+a=j1(k,d[1]);if(a)var
+b=j1(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},M));if(_){var
-az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aS(f(function(a){return dM(l,a)},bz));if($){var
-ab=aS(jZ(l,x,bf,K,C,m,S,a[6]));if(ab){var
-ac=ab[1],aB=aa(k(g(ay,az)),h),aC=aB?n(function(a){switch(a[0]){case
+c=a;return c},N));if(aa){var
+aB=aa[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ab=aT(f(function(a){return dT(k,a)},bz));if(ab){var
+ac=aT(j8(k,y,bf,K,C,m,T,a[6]));if(ac){var
+ad=ac[1],aD=M(l(g(az,aB)),h),aE=aD?o(function(a){switch(a[0]){case
 2:var
-d=jO(a[2]),b=[0,a[3],d];break;case
+d=jX(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jO(a[1]),b=[0,a[2],c]}return n(function(a){return jP(h,D,a)},b)},ac):aB,aD=aC?o?jP(h,D,x(o[1])):1:aC;if(aD){var
-bA=f(function(a){return 1},ac),bB=g(ay,az),bC=ae(x,o);return jW(l,as,g(X[1],$[1]),ac,h,h,bC,bB,bA,bg)}var
-aE=aD}else
+c=jX(a[1]),b=[0,a[2],c]}return o(function(a){return jY(h,D,a)},b)},ad):aD,aF=aE?n?jY(h,D,y(n[1])):1:aE;if(aF){var
+bA=f(function(a){return 1},ad),bB=g(az,aB),bC=af(y,n);return j5(k,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
+aG=aF}else
 var
-aE=ab;var
-aG=aE}else
-var
-aG=$;var
+aG=ac;var
 aH=aG}else
 var
-aH=_;var
+aH=ab;var
 aI=aH}else
 var
-aI=Z;var
+aI=aa;var
 aJ=aI}else
 var
-aJ=X;var
+aJ=$;var
 aK=aJ}else
 var
-aK=W;return aK}function
-eM(b,a){return br(b,a[1],a[2])}function
-gt(b,a){var
-c=eM(b,a[1]),d=c?eM(b,a[2]):c;return d?eM(b,a[3]):d}var
-eO=z(q(c),eN);function
-j1(e){var
-a=af(eO);if(e)var
-f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aI(G(q(c),h),g);else
+aK=Z;var
+aL=aK}else
 var
-i=G(q(b(2,c)),a),j=af(eN),d=aI(G(v(q(b(2,c)),j),a),i);return cq(d)}function
-j2(d,b,a){if(d){var
-e=j1(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
-h=q(c),i=j1(b),j=aI(q(c),i);return z(v(a,G(q(c),j)),h)}function
-cZ(f,e,d,a){var
-g=af(a),h=af(d),i=z(z(q(b(2,c)),h),g),j=f?e?eO:aI(eO,v(q(b(2,c)),eN)):aI(eO,q(b(2,c))),k=v(af(j),i);return cq(G(q(c),k))}function
-j3(g,d){var
+aL=Y;return aL}function
+eQ(b,a){return bs(b,a[1],a[2])}function
+gE(b,a){var
+c=eQ(b,a[1]),d=c?eQ(b,a[2]):c;return d?eQ(b,a[3]):d}var
+eS=w(q(c),eR);function
+j_(e){var
+a=X(eS);if(e)var
+f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=ar(G(q(c),h),g);else
+var
+i=G(q(b(2,c)),a),j=X(eR),d=ar(G(s(q(b(2,c)),j),a),i);return b_(d)}function
+j$(d,b,a){if(d){var
+e=j_(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
+h=q(c),i=j_(b),j=ar(q(c),i);return w(s(a,G(q(c),j)),h)}function
+c6(f,e,d,a){var
+g=X(a),h=X(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:ar(eS,s(q(b(2,c)),eR)):ar(eS,q(b(2,c))),k=s(X(j),i);return b_(G(q(c),k))}function
+ka(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gu(u,t,s){var
-a=f(function(a){return F(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gF(u,t,s){var
+a=f(function(a){return E(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3952,8 +4041,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return n(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ev([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eC([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3963,10 +4052,10 @@ l=i;var
 m=l}else
 var
 m=c;var
-o=m}else
+n=m}else
 var
-o=h;var
-p=o}else
+n=h;var
+p=n}else
 var
 p=b;var
 q=p}else
@@ -3975,12 +4064,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-j4(f,i,e,b,h){var
+kb(f,i,e,b,h){var
 j=f?c:d,a=aL(i,j);function
 g(b){var
-c=f?fQ(b):en(b);return M(c,a)}var
-k=[0,a3(h),0],l=[0,[0,a,b,[0,ab,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-j5(r,g,q,p,e,o,n){if(o){var
+c=f?fV(b):eu(b);return N(c,a)}var
+k=[0,aZ(h),0],l=[0,[0,a,b,[0,O,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kc(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3989,16 +4078,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b8,bO(rg)),a=gu(p,i0(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(b$,bR(rq)),a=gF(p,ja(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=B(k[2],l[1]);b=1;c=1;d=1;break}else
+a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(j3,rh),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(ka,rr),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(j3,ri),a=gu(p,cr(0,dC(g,j4(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+B=f(ka,rs),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4008,27 +4097,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rj:a}else
+y=a?rt:a}else
 var
 y=n;return y}return[0,n]}function
-j6(f,e,d,c,p,o,n){var
+kd(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=j5(f,e,d,c,b,a[1],g);return h?aH(h[1]):h}var
-i=j5(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dG(a[2],b),l=j6(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kc(f,e,d,c,b,a[1],g);return h?aK(h[1]):h}var
+i=kc(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dN(a[2],b),l=kd(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gv(a){return ij(b(2,c),b1(a,c))}function
-c0(i,a,e,w,u){var
-l=a?c:W(c),f=q(l),g=j2(a,e,re),h=j2(a,e,rf),m=aI(g,cZ(a,e,f,g)),n=[0,G(aI(h,cZ(a,e,h,f)),m),0],o=aI(f,cZ(a,e,f,g)),p=[0,G(aI(h,cZ(a,e,g,h)),o),n],r=aI(f,cZ(a,e,h,f)),s=[0,G(aI(g,cZ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eN):q(b(2,b(2,c))),j=dB([0,t,s]),k=[0,d,cm(i)];return j6(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-j7(a,g,b){if(ac(g,gv(a))){if(b){var
+gG(a){return iy(b(2,c),b3(a,c))}function
+c7(i,a,e,w,v){var
+l=a?c:Z(c),f=q(l),g=j$(a,e,ro),h=j$(a,e,rp),m=ar(g,c6(a,e,f,g)),n=[0,G(ar(h,c6(a,e,h,f)),m),0],o=ar(f,c6(a,e,f,g)),p=[0,G(ar(h,c6(a,e,g,h)),o),n],r=ar(f,c6(a,e,h,f)),t=[0,G(ar(g,c6(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dJ([0,u,t]),k=[0,d,cq(i)];return kd(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+ke(a,g,b){if(ac(g,gG(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gv(a)],v=cm(a),i=[0,gv(a),v],j=c0(a,0,1,h,b[1]),k=j?c0(a,0,0,i,c[1]):j;if(k){var
-l=c0(a,1,1,h,d[1]);if(l)return c0(a,1,0,i,e[1]);var
+h=[0,g,gG(a)],v=cq(a),i=[0,gG(a),v],j=c7(a,0,1,h,b[1]),k=j?c7(a,0,0,i,c[1]):j;if(k){var
+l=c7(a,1,1,h,d[1]);if(l)return c7(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4045,206 +4134,286 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=c0(a,0,0,r,b[1]);if(s)return c0(a,1,0,r,f[1]);var
+r=[0,g,cq(a)],s=c7(a,0,0,r,b[1]);if(s)return c7(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gw(a){var
-b=[1,[2,d]];return ir(function(b,a){return[1,[3,b,a]]},a,b)}function
-eP(a){return gw(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eQ(a,c){return gw(f(function(a){var
-d=[0,a[2]],b=ck(a[1],c);return[1,[7,[1,[8,gw(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-j8(f,d,c,b,a){if(0===a[0])return F(a[1],b,0);var
-g=a[1],h=dy(function(a){return j8(f,d,c,b,a)},g);return e(dC(f,d,c),h)}function
-rk(a){var
-b=aa(k(a),rl);return b?a6(function(a){return aH(ak(a,d))},a):b}function
-j9(c,f,b,a){if(b)if(a)var
-d=b[1],g=D(c,aL(c,a[1]),f),h=j9(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+gH(a){var
+b=[1,[2,d]];return iE(function(b,a){return[1,[3,b,a]]},a,b)}function
+eT(a){return gH(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+eU(a,c){return gH(f(function(a){var
+d=[0,a[2]],b=co(a[1],c);return[1,[7,[1,[8,gH(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+kf(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
+g=a[1],h=dG(function(a){return kf(f,d,c,b,a)},g);return e(dK(f,d,c),h)}function
+ru(a){var
+b=M(l(a),rv);return b?a4(function(a){return aK(al(a,d))},a):b}function
+rw(x,h,g,k,d,b,a){var
+R=eE(g),i=e(a5(h),R),l=[1,[8,[1,[1,d[1]]]]];function
+y(c,b,a){var
+d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]}var
+v=0;if(typeof
+b==="number")v=1;else
+switch(b[0]){case
+4:var
+m=j(x,1,b[2]);break;case
+8:var
+m=j(x,1,[4,b[2],b[1]]);break;default:v=1}if(v)var
+m=1;var
+z=m?o(ru,a):m;if(z){var
+w=0;if(typeof
+b!=="number")switch(b[0]){case
+0:if(a){if(a[2])return 0;var
+B=[0,[0,i,[0,y(i,l,a[1]),0]]]}else
+var
+B=a;return B;case
+1:if(a){if(a[2])return 0;var
+C=a[1],S=[1,[6,l,eT(C)]],D=[0,[0,i,[0,[1,[4,eU(i,C),S]],0]]]}else
+var
+D=a;return D;case
+2:if(a)return 0;var
+n=ca(g,k,d,b);if(n)var
+T=[0,n[1],n[2]],E=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},T)]];else
+var
+E=n;return E;case
+3:if(a)return 0;var
+p=ca(g,k,d,b);if(p)var
+U=[0,p[1],p[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},U)]];else
+var
+F=p;return F;case
+4:if(a)return 0;var
+q=ca(g,k,d,b);if(q)var
+V=[0,q[1],q[2]],G=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},V)]];else
+var
+G=q;return G;case
+5:if(a){var
+r=a[2];if(r){if(r[2])return 0;var
+H=r[1],I=a[1],W=eT(I),X=[1,[6,l,[1,[6,eU(i,H),W]]]],Y=eT(H),J=[0,[0,i,[0,[1,[4,[1,[6,eU(i,I),Y]],X]],0]]]}else
+var
+J=r;var
+K=J}else
+var
+K=a;return K;case
+6:if(a)return 0;var
+s=ca(g,k,d,b);if(s)var
+Z=[0,s[1],s[2]],L=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},Z)]];else
+var
+L=s;return L;case
+7:if(a)return 0;var
+t=ca(g,k,d,b);if(t)var
+_=[0,t[1],t[2]],M=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},_)]];else
+var
+M=t;return M;case
+8:if(!a)return a;if(a[2])return 0;var
+O=a[1],N=[1,[2,c]];w=1;break;case
+9:if(!a)return a;if(a[2])return 0;var
+O=a[1],N=l;w=1;break}if(w){var
+u=eL(g,k,d,b);if(u)var
+$=u[1],P=e(a5(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
+var
+Q=u;return Q}var
+A=0}else
+var
+A=z;return A}function
+kg(c,f,b,a){if(b)if(a)var
+d=b[1],g=F(c,aL(c,a[1]),f),h=kg(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eR(b,a){return iq(iq(b,0),a)}function
-gx(a){if(a){var
-b=a[2],c=a[1];if(b)return eR(c,[0,rn,gx(b)]);var
+eV(b,a){return iD(iD(b,0),a)}function
+gI(a){if(a){var
+b=a[2],c=a[1];if(b)return eV(c,[0,ry,gI(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,rp,eR(gx(a),ro)]}function
-O(a){return[0,rr,eR(gx(a),rq)]}function
-am(a){return[0,rt,[0,a,rs]]}function
-h(b,a){return[0,av(rv,av(b,ru)),a]}function
-L(b,a){return O([0,h(b,a),0])}function
-cB(d){var
-b=d,a=pZ,e=0;for(;;){if(b){var
-c=id(a),b=b[1],a=c;continue}return[0,dx(ef(a)),e]}}function
-gy(a){return[0,dx(ei(a)),0]}function
-gz(a){var
-c=bH(a),f=0,b=0===c?p3:0<c?[0,ei(a)]:[1,ei(W(a))];if(0===b[0])var
-d=dx(b[1]);else
+x(a){return[0,rA,eV(gI(a),rz)]}function
+P(a){return[0,rC,eV(gI(a),rB)]}function
+am(a){return[0,rE,[0,a,rD]]}function
+h(b,a){return[0,ax(rG,ax(b,rF)),a]}function
+L(b,a){return P([0,h(b,a),0])}function
+cF(d){var
+b=d,a=p8,e=0;for(;;){if(b){var
+c=it(a),b=b[1],a=c;continue}return[0,dF(el(a)),e]}}function
+gJ(a){return[0,dF(eo(a)),0]}function
+gK(a){var
+c=bJ(a),f=0,b=0===c?qa:0<c?[0,eo(a)]:[1,eo(Z(a))];if(0===b[0])var
+d=dF(b[1]);else
 var
-e=dx(b[1]),d=av(a5(1,45),e);return[0,d,f]}function
-gA(a){var
-b=0,c=0<bH(a)?ei(a):p2;return[0,dx(c),b]}function
-gB(a){switch(a[0]){case
-2:return rx;case
-3:return 2<=a[1]?ry:rz;case
-4:return rA;default:return rw}}function
-dT(b,a){function
-c(c,a){return Y(c,gB(a))?dT(b,a):[0,rG,g(dT(b,a),rF)]}switch(a[0]){case
+e=dF(b[1]),d=ax(a7(1,45),e);return[0,d,f]}function
+gL(a){var
+b=0,c=0<bJ(a)?eo(a):p$;return[0,dF(c),b]}function
+gM(a){switch(a[0]){case
+2:return rI;case
+3:return 2<=a[1]?rJ:rK;case
+4:return rL;default:return rH}}function
+d0(b,a){function
+c(c,a){return $(c,gM(a))?d0(b,a):[0,rR,g(d0(b,a),rQ)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aW(h),0];var
-i=[0,rH,[0,aW(f),0]];return[0,aW(h),i];case
+f==="number")return[0,aY(h),0];var
+i=[0,rS,[0,aY(f),0]];return[0,aY(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rJ,c(rI,a[1])];case
+2:return[0,rU,c(rT,a[1])];case
 3:var
-j=a[3],k=c([0,gB(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gM(a)],j);switch(a[1]){case
 0:var
-d=rB;break;case
+d=rM;break;case
 1:var
-d=rC;break;case
+d=rN;break;case
 2:var
-d=rD;break;default:var
-d=rE}var
-l=a[2];return g(c(gB(a),l),[0,d,k]);case
+d=rO;break;default:var
+d=rP}var
+l=a[2];return g(c(gM(a),l),[0,d,k]);case
 4:var
-m=[0,rK,gy(a[2])];return g(c(rL,a[1]),m);default:return[0,rN,g(dT(b,a[1]),rM)]}}function
-K(a){return[0,rQ,g(dT(function(a){throw[0,$,rP]},a),rO)]}function
-j_(a){return[0,rS,g(dT(function(a){return a},a),rR)]}function
-ca(a){if(0===a[0])return K(a[1]);var
-b=[0,h(rT,K(a[2])),0];return O([0,h(rU,K(a[1])),b])}function
-dU(b,a){var
-c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-rV(a){function
-b(a){return dU(ca,a)}switch(a[0]){case
+m=[0,rV,gJ(a[2])];return g(c(rW,a[1]),m);default:return[0,rY,g(d0(b,a[1]),rX)]}}function
+H(a){return[0,r1,g(d0(function(a){throw[0,ae,r0]},a),rZ)]}function
+kh(a){return[0,r3,g(d0(function(a){return a},a),r2)]}function
+ce(a){if(0===a[0])return H(a[1]);var
+b=[0,h(r4,H(a[2])),0];return P([0,h(r5,H(a[1])),b])}function
+d1(b,a){var
+c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
+r6(a){function
+b(a){return d1(ce,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?rW:r4,i=[0,h(rX,am(f)),e],j=[0,h(rY,ca(a[4])),i],k=[0,h(rZ,b(a[3])),j],l=[0,h(r0,b(a[2])),k],m=[0,h(r1,b(a[1])),l],c=[0,h(r3,am(r2)),m];break;case
+e=0,f=a[5]?r7:sd,i=[0,h(r8,am(f)),e],j=[0,h(r9,ce(a[4])),i],k=[0,h(r_,b(a[3])),j],l=[0,h(r$,b(a[2])),k],m=[0,h(sa,b(a[1])),l],c=[0,h(sc,am(sb)),m];break;case
 1:var
-d=a[3],n=d?[0,h(r5,b(d[1])),0]:d,o=[0,h(r6,b(a[2])),0],p=[0,h(r7,b(a[1])),o],c=g([0,h(r9,am(r8)),p],n);break;default:var
-q=[0,h(r_,b(a[1])),0],c=[0,h(sa,am(r$)),q]}return O(c)}function
-sb(a){function
-b(a){return dU(ca,a)}var
-c=0,d=a[7]?sc:sm,e=[0,h(sd,am(d)),c],f=[0,h(se,ca(a[6])),e],g=[0,h(sf,ca(a[5])),f],i=[0,h(sg,b(a[4])),g],j=[0,h(sh,b(a[3])),i],k=[0,h(si,b(a[2])),j],l=[0,h(sj,b(a[1])),k];return O([0,h(sl,am(sk)),l])}function
-gC(a){switch(a){case
-0:return sn;case
-1:return so;case
-2:return sp;case
-3:return sq;case
-4:return sr;case
-5:return ss;case
-6:return st;case
-7:return su;case
-8:return sv;default:return sw}}function
-gD(a){switch(a[0]){case
-0:return sx;case
-1:return sy;default:return sz}}function
-dV(a){var
-b=a[4],j=0;if(2===b[0])var
-i=[0,K(b[2]),0],e=w([0,K(b[1]),i]);else
-var
-e=K(b[1]);var
-k=[0,h(sA,e),j],l=[0,h(sB,am(gD(a[4]))),k],c=a[3];if(c)var
-n=w([0,K(c[1]),0]),m=0,o=6===a[1]?sC:sG,f=[0,h(sD,L(o,n)),m];else
-var
-f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(sE,cB(d[1])),0]:d,r=g(q,p);return O([0,h(sF,am(gC(a[1]))),r])}function
-j$(a){if(0===a[0]){var
-b=[0,h(sH,dU(K,a[2])),0];return L(sJ,O([0,h(sI,dU(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,h(sK,w([0,K(a[4]),c])),0],e=[0,h(sL,K(a[3])),d],f=[0,K(a[2]),0];return L(sN,O([0,h(sM,w([0,K(a[1]),f])),e]))}function
-sR(a){function
-b(a){return w(f(ca,a))}var
-c=[0,h(sS,b(a[2])),0],d=[0,h(sT,b(a[1])),c];return O([0,h(sV,am(sU)),d])}function
-s5(a){function
-b(a){return dU(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(s6,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(s7,w([0,K(a[3]),f])),0],j=[0,h(s8,K(a[2])),i],k=[0,h(s9,cB(a[1])),j],d=g([0,h(s$,am(s_)),k],e);else
-var
-l=[0,h(ta,K(a[4])),0],m=[0,h(tb,b(a[3])),l],n=[0,h(tc,b(a[2])),m],o=a[1]?td:tf,d=[0,h(te,am(o)),n];return O(d)}function
-ka(d,c,a,b){var
-e=[0,h(tg,w(f(dV,b))),0],i=a?[0,h(th,w(f(s5,a))),0]:a,j=g(i,e),k=[0,h(ti,j$(c)),0];return O(g([0,h(tk,L(tj,w(f(rV,d)))),k],j))}function
-tl(a){switch(a[0]){case
-0:return L(tm,ka(a[1],a[2],a[3],a[4]));case
+d=a[3],n=d?[0,h(se,b(d[1])),0]:d,o=[0,h(sf,b(a[2])),0],p=[0,h(sg,b(a[1])),o],c=g([0,h(si,am(sh)),p],n);break;default:var
+q=[0,h(sj,b(a[1])),0],c=[0,h(sl,am(sk)),q]}return P(c)}function
+sm(a){function
+b(a){return d1(ce,a)}var
+c=0,d=a[7]?sn:sx,e=[0,h(so,am(d)),c],f=[0,h(sp,ce(a[6])),e],g=[0,h(sq,ce(a[5])),f],i=[0,h(sr,b(a[4])),g],j=[0,h(ss,b(a[3])),i],k=[0,h(st,b(a[2])),j],l=[0,h(su,b(a[1])),k];return P([0,h(sw,am(sv)),l])}function
+gN(a){switch(a){case
+0:return sy;case
+1:return sz;case
+2:return sA;case
+3:return sB;case
+4:return sC;case
+5:return sD;case
+6:return sE;case
+7:return sF;case
+8:return sG;case
+9:return sH;case
+10:return sI;default:return sJ}}function
+gO(a){if(typeof
+a==="number")return sK;else
+switch(a[0]){case
+0:return sL;case
+1:return sM;default:return sN}}function
+d2(a){var
+b=a[4];if(typeof
+b==="number")var
+c=0;else
+switch(b[0]){case
+0:var
+c=[0,h(sO,H(b[1])),0];break;case
 1:var
-o=[0,h(tn,w(f(dV,a[3]))),0],p=[0,h(to,j$(a[2])),o];return L(tr,O([0,h(tq,L(tp,w(f(sb,a[1])))),p]));case
+c=[0,h(sP,H(b[1])),0];break;default:var
+k=[0,H(b[2]),0],c=[0,h(sQ,x([0,H(b[1]),k])),0]}var
+l=[0,h(sR,am(gO(a[4]))),c],e=a[3];if(e){var
+d=e[1];if(0===d[0])var
+n=x([0,H(d[1]),0]),m=0,o=6===a[1]?sS:sW,i=[0,h(sT,L(o,n)),m];else
+var
+s=[0,h(sX,x([0,H(d[2]),0])),0],i=[0,h(sZ,P([0,h(sY,x([0,H(d[1]),0])),s])),0];var
+j=i}else
+var
+j=e;var
+p=g(j,l),f=a[2],q=f?[0,h(sU,cF(f[1])),0]:f,r=g(q,p);return P([0,h(sV,am(gN(a[1]))),r])}function
+ki(a){if(0===a[0]){var
+b=[0,h(s0,d1(H,a[2])),0];return L(s2,P([0,h(s1,d1(H,a[1])),b]))}var
+c=[0,H(a[5]),0],d=[0,h(s3,x([0,H(a[4]),c])),0],e=[0,h(s4,H(a[3])),d],f=[0,H(a[2]),0];return L(s6,P([0,h(s5,x([0,H(a[1]),f])),e]))}function
+s_(a){function
+b(a){return x(f(ce,a))}var
+c=[0,h(s$,b(a[2])),0],d=[0,h(ta,b(a[1])),c];return P([0,h(tc,am(tb)),d])}function
+tm(a){function
+b(a){return d1(H,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tn,b(c[1])),0]:c,f=[0,H(a[4]),0],i=[0,h(to,x([0,H(a[3]),f])),0],j=[0,h(tp,H(a[2])),i],k=[0,h(tq,cF(a[1])),j],d=g([0,h(ts,am(tr)),k],e);else
+var
+l=[0,h(tt,H(a[4])),0],m=[0,h(tu,b(a[3])),l],n=[0,h(tv,b(a[2])),m],o=a[1]?tw:ty,d=[0,h(tx,am(o)),n];return P(d)}function
+kj(d,c,a,b){var
+e=[0,h(tz,x(f(d2,b))),0],i=a?[0,h(tA,x(f(tm,a))),0]:a,j=g(i,e),k=[0,h(tB,ki(c)),0];return P(g([0,h(tD,L(tC,x(f(r6,d)))),k],j))}function
+tE(a){switch(a[0]){case
+0:return L(tF,kj(a[1],a[2],a[3],a[4]));case
+1:var
+o=[0,h(tG,x(f(d2,a[3]))),0],p=[0,h(tH,ki(a[2])),o];return L(tK,P([0,h(tJ,L(tI,x(f(sm,a[1])))),p]));case
 2:var
-q=[0,h(ts,w(f(dV,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,K(a),0];return w([0,K(b),c])};switch(b[0]){case
+q=[0,h(tL,x(f(d2,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,H(a),0];return x([0,H(b),c])};switch(b[0]){case
 0:var
-d=L(sW,c(b[1],b[2]));break;case
+d=L(td,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(sX,c(g[1],g[2])),0],m=[0,h(sY,c(i[1],i[2])),l],d=L(s0,O([0,h(sZ,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(te,c(g[1],g[2])),0],m=[0,h(tf,c(i[1],i[2])),l],d=L(th,P([0,h(tg,c(j[1],j[2])),m]));break;case
 2:var
-d=L(s1,K(b[1]));break;default:var
-n=[0,h(s2,K(b[2])),0],d=L(s4,O([0,h(s3,K(b[1])),n]))}var
-r=[0,h(tt,d),q],s=[0,h(tu,w(f(K,a[5]))),0],t=[0,h(tx,L(tw,O([0,h(tv,w(f(K,a[4]))),s]))),r],u=[0,h(ty,K(a[3])),0],v=O([0,h(tz,w(f(sR,a[2]))),u]);switch(a[1]){case
+d=L(ti,H(b[1]));break;default:var
+n=[0,h(tj,H(b[2])),0],d=L(tl,P([0,h(tk,H(b[1])),n]))}var
+r=[0,h(tM,d),q],s=[0,h(tN,x(f(H,a[5]))),0],t=[0,h(tQ,L(tP,P([0,h(tO,x(f(H,a[4]))),s]))),r],u=[0,h(tR,H(a[3])),0],v=P([0,h(tS,x(f(s_,a[2]))),u]);switch(a[1]){case
 0:var
-e=sO;break;case
+e=s7;break;case
 1:var
-e=sP;break;default:var
-e=sQ}return L(tB,O([0,h(tA,L(e,v)),t]));case
+e=s8;break;default:var
+e=s9}return L(tU,P([0,h(tT,L(e,v)),t]));case
 3:var
-x=[0,h(tC,w(f(dV,a[7]))),0],y=[0,h(tD,w(f(K,a[6]))),0],z=[0,h(tG,L(tF,O([0,h(tE,w(f(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(tI,w(f(function(a){return L(tH,w(f(j_,a)))},B))),A],D=a[3],E=[0,h(tJ,w(f(function(a){var
-b=[0,j_(a[2]),0];return w([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(tK,w(f(function(a){var
-b=[0,ca(a[2]),0];return w([0,am(a[1]),b])},F))),E];return L(tO,O([0,h(tN,L(tM,O([0,h(tL,w(f(am,a[1]))),G]))),z]));case
+w=[0,h(tV,x(f(d2,a[7]))),0],y=[0,h(tW,x(f(H,a[6]))),0],z=[0,h(tZ,L(tY,P([0,h(tX,x(f(H,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(t1,x(f(function(a){return L(t0,x(f(kh,a)))},B))),A],D=a[3],E=[0,h(t2,x(f(function(a){var
+b=[0,kh(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(t3,x(f(function(a){var
+b=[0,ce(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(t7,P([0,h(t6,L(t5,P([0,h(t4,x(f(am,a[1]))),G]))),z]));case
 4:var
-H=[0,h(tP,w(f(dV,a[3]))),0],I=[0,h(tS,L(tR,O([0,h(tQ,K(a[2])),0]))),H];return L(tW,O([0,h(tV,L(tU,O([0,h(tT,K(a[1])),0]))),I]));case
+I=[0,h(t8,x(f(d2,a[3]))),0],J=[0,h(t$,L(t_,P([0,h(t9,H(a[2])),0]))),I];return L(ud,P([0,h(uc,L(ub,P([0,h(ua,H(a[1])),0]))),J]));case
 5:var
-J=[0,h(tX,K(a[5])),0];return L(tZ,O([0,h(tY,ka(a[1],[0,a[2],a[3]],0,a[4])),J]));default:var
-k=a[1],M=0,N=k?ca(k[1]):am(t2);return L(t1,O([0,h(t0,N),M]))}}function
-eS(a){return w(f(gz,a))}function
-kb(b,a){var
-c=[0,h(t3,gA(a)),0];return O([0,h(t4,w(f(eS,b))),c])}function
-eT(a){switch(a[0]){case
+K=[0,h(ue,H(a[5])),0];return L(ug,P([0,h(uf,kj(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
+k=a[1],M=0,N=k?ce(k[1]):am(uj);return L(ui,P([0,h(uh,N),M]))}}function
+eW(a){return x(f(gK,a))}function
+gP(b,a){var
+c=[0,h(uk,gL(a)),0];return P([0,h(ul,x(f(eW,b))),c])}function
+eX(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=kb(a[2],a[3]);return L(a[1],b);case
+b=gP(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?t5:t7;return L(t6,am(c));case
+c=a[1]?um:uo;return L(un,am(c));case
 3:var
-d=[0,eS(a[3]),0];return L(t8,w([0,kb(a[1],a[2]),d]));case
+d=[0,eW(a[3]),0];return L(up,x([0,gP(a[1],a[2]),d]));case
 4:var
-e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return L(t9,w([0,eT(a[1]),f]));case
+e=[0,gL(a[3]),0],f=[0,gK(a[2]),e];return L(uq,x([0,eX(a[1]),f]));case
 5:var
-g=[0,gA(a[3]),0],h=[0,gz(a[2]),g];return L(t_,w([0,eT(a[1]),h]));default:return L(t$,eT(a[1]))}}function
-ua(a){var
-b=[0,eT(a[2]),0];return w([0,cB(a[1]),b])}function
-kc(a){if(typeof
-a==="number")return am(ub);else{if(0===a[0]){var
-b=[0,w(f(eS,a[2])),0];return L(uc,w([0,cB(a[1]),b]))}var
-c=[0,cB(a[2]),0];return L(ud,w([0,cB(a[1]),c]))}}function
-ue(a){var
-b=a[4],i=b?[0,h(uf,eS([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(ug,kc(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uh,cB(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(ui,w(f(ua,[0,c[1],c[2]]))),0]:c;return O(g(n,m))}function
-gE(a){var
-b=h1(h0(E(a),function(b){return R(a,b)}));return n(function(a){var
-b=aH(34===a?1:0),c=b?aH(92===a?1:0):b,d=c?Y(uC,ek(a)):c;return d?Y(ek(a),uD):d},b)}function
-eU(b){function
+g=[0,gL(a[3]),0],h=[0,gK(a[2]),g];return L(ur,x([0,eX(a[1]),h]));default:return L(us,eX(a[1]))}}function
+ut(a){var
+b=[0,eX(a[2]),0];return x([0,cF(a[1]),b])}function
+kk(a){if(typeof
+a==="number")return am(uu);else{if(0===a[0]){var
+b=[0,x(f(eW,a[2])),0];return L(uv,x([0,cF(a[1]),b]))}var
+c=[0,cF(a[2]),0];return L(uw,x([0,cF(a[1]),c]))}}function
+ux(a){var
+b=a[4],i=b?[0,h(uy,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uz,kk(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uA,cF(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uB,x(f(ut,[0,c[1],c[2]]))),0]:c;return P(g(n,m))}function
+gQ(a){var
+b=id(ic(I(a),function(b){return U(a,b)}));return o(function(a){var
+b=aK(34===a?1:0),c=b?aK(92===a?1:0):b,d=c?$(uW,er(a)):c;return d?$(er(a),uX):d},b)}function
+eY(b){function
 c(f){var
-a=ek(f),b=Y(uE,a),c=b?Y(a,uF):b;if(c)var
+a=er(f),b=$(uY,a),c=b?$(a,uZ):b;if(c)var
 d=c;else{var
-e=Y(uG,a);if(e)return Y(a,uH);var
+e=$(u0,a);if(e)return $(a,u1);var
 d=e}return d}var
-a=h1(h0(E(b),function(a){return R(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?n(function(a){var
+a=id(ic(I(b),function(a){return U(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=ek(a),f=Y(uI,e),h=f?Y(e,uJ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Y(k(d),uK):f;if(g)return aH(au(b,uL));var
+e=er(a),f=$(u2,e),h=f?$(e,u3):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?$(l(d),u4):f;if(g)return aK(ap(b,u5));var
 h=g}else
 var
 h=a;return h}function
-gF(c){var
+gR(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eU(a[1]);case
+1:return eY(a[1]);case
 3:var
-b=gF(a[2]);if(b){var
+b=gR(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-c1(m){var
+c8(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4255,171 +4424,281 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ef(a[2]);if(typeof
+f=el(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=c1(a[2]);if(i){var
+i=c8(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c1(a[1]),l=k?eh(b(2,c),j):k;return l?eh(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=c8(a[1]),l=k?en(b(2,c),j):k;return l?en(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-c2(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cb(a){return y(c2,bc(a))}function
-kd(a){switch(a[0]){case
+c9(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bd(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cf(a){return z(c9,bd(a))}function
+kl(a){switch(a[0]){case
 0:var
-c=c2(a[4]),d=g(cb(a[3]),c),e=g(cb(a[2]),d);return g(cb(a[1]),e);case
+c=c9(a[4]),d=g(cf(a[3]),c),e=g(cf(a[2]),d);return g(cf(a[1]),e);case
 1:var
-b=a[3],f=b?cb(b[1]):b,h=g(cb(a[2]),f);return g(cb(a[1]),h);default:return cb(a[1])}}function
-uM(a){var
-b=y(c2,[0,a[5],[0,a[6],0]]);return g(y(cb,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-ke(a){if(0===a[0]){var
-b=bc(a[2]);return g(bc(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c3(c){var
-a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-uN(a){if(0===a[0]){var
-b=a[5],c=b?bc(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bc(a[3]),d);return g(bc(a[2]),e)}function
-kf(a){var
-d=eh(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eh(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kg(a,b){return b?[3,kg(a,b[1]),a]:a}function
+b=a[3],f=b?cf(b[1]):b,h=g(cf(a[2]),f);return g(cf(a[1]),h);default:return cf(a[1])}}function
+u6(a){var
+b=z(c9,[0,a[5],[0,a[6],0]]);return g(z(cf,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+km(a){if(0===a[0]){var
+b=bd(a[2]);return g(bd(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+c_(d){var
+a=d[4],f=typeof
+a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
+b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
+var
+e=c;return g(e,f)}function
+u7(a){if(0===a[0]){var
+b=a[5],c=b?bd(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bd(a[3]),d);return g(bd(a[2]),e)}function
+kn(a){var
+d=en(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?en(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+ko(a,b){return b?[3,ko(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,o(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fJ(ib(h),k,c);return[0,il(ic(ef(a[1]),h)),l];case
-1:throw[0,$,uO];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fO(ir(h),k,c);return[0,iA(is(el(a[1]),h)),l];case
+1:throw[0,ae,u8];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,W(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,Z(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=b4(dv(a[2]));return kg(i(a[1]),m);default:return[5,i(a[1])]}}function
-bQ(a){if(0===a[0]){var
+m=bO(dD(a[2]));return ko(i(a[1]),m);default:return[5,i(a[1])]}}function
+bT(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bd(a){var
-b=bQ(a[3]),c=bQ(a[2]);return[0,bQ(a[1]),c,b]}function
-uP(a){switch(a[0]){case
+be(a){var
+b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
+u9(a){switch(a[0]){case
 0:var
-b=a[5],c=bQ(a[4]),d=bd(a[3]),e=bd(a[2]);return[0,[0,bd(a[1]),e,d,c,b]];case
+b=a[5],c=bT(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
 1:var
-f=ae(bd,a[3]),g=bd(a[2]);return[1,bd(a[1]),g,f];default:return[2,bd(a[1])]}}function
-kh(a){if(0===a[0]){var
+f=af(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
+kp(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dW(a){var
+c$(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-ki(a){if(0===a[0]){var
-b=a[5],h=b?dW(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b4(a[1]),l,k,j,h]}var
+da(a){if(0===a[0]){var
+b=a[5],h=b?c$(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bO(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dW(f),n=dW(g);return[2,i(e),n,m]}var
-o=dW(f),p=dW(g);return[1,i(e),p,o]}function
-gG(b,a){return 0===b[0]?0===a[0]?aa(b[1],a[1]):0:0===a[0]?0:du(b[1],a[1])}function
-gH(b,a){if(a){var
-c=a[1],d=a[2],e=gH(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fO(function(a){return aH(gG(a[1],a[2]))},h),e)}return a}function
-uQ(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-eV(c,j,A,b){var
-B=k(c),d=y(function(a){switch(a[1]){case
+m=c$(f),n=c$(g);return[2,i(e),n,m]}var
+o=c$(f),p=c$(g);return[1,i(e),p,o]}function
+gS(b,a){if(a){var
+c=a[1],d=a[2],e=gS(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fT(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:M(b[1],a[1]):0:0===a[0]?0:dC(b[1],a[1]);return aK(d)},h),e)}return a}function
+u_(b){if(b[1])return 0;var
+a=b[4];if(typeof
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+va(i,a){switch(a[1]){case
 0:var
-g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
+j=a[4];if(typeof
+j!=="number"&&2!==j[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-c=a[4];switch(c[0]){case
-0:var
-r=c[1],b=function(a){return[2,a,i(r)]};break;case
-1:var
-t=c[1],b=function(a){return[3,a,i(t)]};break;default:return 0}break;case
+C=0,k=a[4];if(typeof
+k==="number"||2===k[0])C=1;else{var
+l=a[2];if(!l)return a[3]?0:1;if(a[3])return 0;var
+b=l[1]}if(C)return 0;break;case
 2:var
-j=a[4];if(1!==j[0])return 0;var
-d=a[3],u=j[1];if(!d)return d;var
-v=d[1],b=function(a){var
-b=i(u);return[4,a,i(v),b]};break;case
+D=0,n=a[4];if(typeof
+n==="number"||!(1===n[0]))D=1;else{var
+o=a[2];if(!o){var
+d=a[3];return d?0===d[1][0]?1:0:d}var
+c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
+b=o[1]}if(D)return 0;break;case
 3:var
-k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
+p=a[4];if(typeof
+p!=="number"&&1===p[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-l=a[4];if(0!==l[0])return 0;var
-w=l[1],b=function(a){return[6,a,i(w)]};break;case
-5:var
-m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
+E=0,q=a[4];if(typeof
+q==="number"||!(0===q[0]))E=1;else{var
+r=a[2];if(!r)return a[3]?0:1;if(a[3])return 0;var
+b=r[1]}if(E)return 0;break;case
 6:var
-n=a[4];if(0===n[0]){var
-e=a[3];if(e)var
-x=i(n[1]),o=[0,[8,i(e[1]),x],0];else
-var
-o=e;return o}return 0;case
-7:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;case
-8:return 0;default:var
-q=a[4];if(0===q[0]){var
-y=q[1],z=gH(0,A);return f(function(a){var
-b=i(y),c=ki(a[2]);return[10,ki(a[1]),c,b]},z)}return 0}var
-h=a[2],s=h?[0,b4(h[1]),0]:cQ(0,B);return f(b,s)},b),a=y(uQ,b),e=a?[0,a[1],a[2]]:uS,h=g(e,d),l=kh(j);return[0,f(uP,c),l,h]}function
-uT(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-c4(z,b){var
-c=y(function(a){switch(a[1]){case
-0:var
-h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
-1:var
-b=a[4];switch(b[0]){case
-0:var
-p=b[1],c=function(a){return[2,a,i(p)]};break;case
-1:var
-r=b[1],c=function(a){return[3,a,i(r)]};break;default:var
-s=b[2],t=b[1],c=function(a){var
-b=i(s);return[4,a,i(t),b]}}break;case
-2:var
-k=a[4];if(1!==k[0])return 0;var
-d=a[3],u=k[1];if(!d)return d;var
-v=d[1],c=function(a){var
-b=i(u);return[6,a,i(v),b]};break;case
-3:var
-l=a[4];return 1===l[0]?[0,[5,i(l[1])],0]:0;case
-6:var
-m=a[4];if(0===m[0]){var
-e=a[3];if(e)var
-w=i(m[1]),n=[0,[8,i(e[1]),w],0];else
-var
-n=e;return n}return 0;case
+t=a[4];if(typeof
+t!=="number"&&0===t[0]){if(a[2])return 0;var
+e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
 8:var
-o=a[4];if(1!==o[0])return 0;var
-g=a[3],x=o[1];if(!g)return g;var
-y=g[1],c=function(a){var
-b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,b4(j[1]),0]:cQ(0,z);return f(c,q)},b),a=y(uT,b),d=a?[0,a[1],a[2]]:uU;return g(d,c)}function
-bR(h,g,a){switch(a[1]){case
-0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
-1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=du(h,i);if(b){var
-c=a[2];if(c){var
-d=c[1],e=Y(uV,d);return e?Y(d,g):e}var
-f=1}else
+F=0,u=a[4];if(typeof
+u==="number"||!(1===u[0]))F=1;else{var
+f=a[3];if(!f)return f;if(0!==f[1][0])return 0;var
+v=M(i,vc),G=0;if(v){var
+w=a[2];if(w){var
+b=w[1];G=1}else
 var
-f=b;return f;case
-3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cC(a){switch(a[0]){case
+x=1}else
+var
+x=v;if(!G)return x}if(F)return 0;break;case
+10:var
+H=0,y=a[4];if(typeof
+y==="number"||!(1===y[0]))H=1;else{var
+z=a[2];if(!z){var
+h=a[3];return h?0===h[1][0]?0:1:h}var
+g=a[3];if(!g)return g;if(0===g[1][0])return 0;var
+b=z[1]}if(H)return 0;break;case
+11:var
+A=typeof
+a[4]==="number"?1:0;if(A){if(a[2])return 0;if(a[3])return 0;var
+B=1}else
+var
+B=A;return B;default:var
+s=a[4];if(typeof
+s!=="number"&&0===s[0])return a[2]?0:a[3]?0:1;return 0}var
+m=$(vb,b);return m?$(b,i):m}function
+eZ(e,m,W,b){var
+X=l(e),h=z(function(a){switch(a[1]){case
+0:var
+g=a[4];if(typeof
+g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
+1:var
+e=a[4],w=0;if(typeof
+e==="number")w=1;else
+switch(e[0]){case
+0:var
+G=e[1],b=function(a){return[2,a,i(G)]};break;case
+1:var
+I=e[1],b=function(a){return[3,a,i(I)]};break;default:w=1}if(w)return 0;break;case
+2:var
+h=a[4],C=0;if(typeof
+h==="number"||!(1===h[0]))C=1;else{var
+j=a[3],J=h[1];if(!j)return j;var
+y=j[1];if(0!==y[0])return 0;var
+K=y[1],b=function(a){var
+b=i(J);return[4,a,i(K),b]}}if(C)return 0;break;case
+3:var
+k=a[4];if(typeof
+k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
+4:var
+l=a[4],D=0;if(typeof
+l==="number"||!(0===l[0]))D=1;else
+var
+L=l[1],b=function(a){return[6,a,i(L)]};if(D)return 0;break;case
+5:var
+m=a[4];if(typeof
+m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
+6:var
+n=a[4];if(typeof
+n!=="number"&&0===n[0]){var
+o=a[3];if(o){var
+z=o[1];if(0===z[0]){var
+N=i(n[1]);return[0,[8,i(z[1]),N],0]}return 0}return o}return 0;case
+7:var
+p=a[4];if(typeof
+p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
+8:var
+q=a[4],E=0;if(typeof
+q==="number"||!(1===q[0]))E=1;else{var
+r=a[3],O=q[1];if(!r)return r;var
+A=r[1];if(0!==A[0])return 0;var
+P=A[1],b=function(a){var
+b=i(O);return[13,a,i(P),b]}}if(E)return 0;break;case
+9:var
+s=a[4];if(typeof
+s!=="number"&&0===s[0]){var
+Q=s[1],R=gS(0,W);return f(function(h){var
+e=i(Q),a=h[2],b=h[1];if(0===b[0]){var
+f=b[1];if(0===a[0]){var
+g=function(a){return a?c$(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(M(f,a[1])){var
+j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bO(f),m,l,k]}var
+n=da(a);return[10,da(b),n,e]}var
+o=da(a);return[10,da(b),o,e]}var
+p=da(a);return[10,da(b),p,e]},R)}return 0;case
+10:var
+t=a[4],F=0;if(typeof
+t==="number"||!(1===t[0]))F=1;else{var
+u=a[3],S=t[1];if(!u)return u;var
+v=u[1];if(0===v[0])return 0;var
+T=v[2],U=v[1],b=function(a){var
+b=i(S),c=i(T);return[12,a,i(U),c,b]}}if(F)return 0;break;default:var
+B=typeof
+a[4]==="number"?1:0,V=B?u$:B;return V}var
+x=a[2],H=x?[0,bO(x[1]),0]:cU(0,X);return f(b,H)},b),a=z(u_,b),j=a?[0,a[1],a[2]]:vd,k=g(j,h),n=kp(m);return[0,f(u9,e),n,k]}function
+ve(b){if(b[1])return 0;var
+a=b[4];if(typeof
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+db(D,b){var
+c=z(function(a){switch(a[1]){case
+0:var
+d=a[4];if(typeof
+d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
+1:var
+b=a[4];if(typeof
+b==="number")return 0;else
+switch(b[0]){case
+0:var
+t=b[1],c=function(a){return[2,a,i(t)]};break;case
+1:var
+v=b[1],c=function(a){return[3,a,i(v)]};break;default:var
+w=b[2],x=b[1],c=function(a){var
+b=i(w);return[4,a,i(x),b]}}break;case
+2:var
+e=a[4],r=0;if(typeof
+e==="number"||!(1===e[0]))r=1;else{var
+g=a[3],y=e[1];if(!g)return g;var
+o=g[1];if(0!==o[0])return 0;var
+z=o[1],c=function(a){var
+b=i(y);return[6,a,i(z),b]}}if(r)return 0;break;case
+3:var
+h=a[4];if(typeof
+h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
+6:var
+j=a[4];if(typeof
+j!=="number"&&0===j[0]){var
+k=a[3];if(k){var
+p=k[1];if(0===p[0]){var
+A=i(j[1]);return[0,[8,i(p[1]),A],0]}return 0}return k}return 0;case
+8:var
+l=a[4],s=0;if(typeof
+l==="number"||!(1===l[0]))s=1;else{var
+m=a[3],B=l[1];if(!m)return m;var
+q=m[1];if(0!==q[0])return 0;var
+C=q[1],c=function(a){var
+b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
+n=a[2],u=n?[0,bO(n[1]),0]:cU(0,D);return f(c,u)},b),a=z(ve,b),d=a?[0,a[1],a[2]]:vf;return g(d,c)}function
+a9(m,l,a){switch(a[1]){case
+0:var
+b=a[4];if(typeof
+b!=="number"&&2!==b[0])return a[2]?0:a[3]?0:1;return 0;case
+1:if(a[3])return 0;var
+k=0,c=a[4];if(typeof
+c!=="number"&&2===c[0]){var
+d=1;k=1}if(!k)var
+d=0;var
+e=dC(m,d);if(e){var
+f=a[2];if(f){var
+g=f[1],h=$(vg,g);return h?$(g,l):h}var
+i=1}else
+var
+i=e;return i;case
+3:var
+j=a[4];if(typeof
+j!=="number"&&1===j[0])return a[2]?0:a[3]?0:1;return 0;default:return 0}}function
+cG(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cC(a[1])];case
+2:return[2,cG(a[1])];case
 3:var
-b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
+b=cG(a[2]),c=cG(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-kj(b){function
+d=a[2];return[7,cG(a[1]),d];default:return[8,cG(a[1])]}}function
+kq(b){function
 a(e){var
-a=[0,d,c];return F(e,b,[0,a,a])}var
-e=a(uX),f=a(uY);return[0,a(0),f,e]}function
-gI(a){function
+a=[0,d,c];return E(e,b,[0,a,a])}var
+e=a(vi),f=a(vj);return[0,a(0),f,e]}function
+gT(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4427,64 +4706,64 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kk(j,a,h,g,e,d,c){function
-b(a){return kj(f(bQ,a))}var
-l=c4(k(a),c),m=gI(d),n=ck(g,e),o=kj(f(function(a){var
+kr(j,a,h,g,e,d,c){function
+b(a){return kq(f(bT,a))}var
+k=db(l(a),c),m=gT(d),n=co(g,e),o=kq(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-uZ(a){var
-b=a[7],c=bQ(a[6]),d=bQ(a[5]),e=bd(a[4]),f=bd(a[3]),g=bd(a[2]);return[0,bd(a[1]),g,f,e,d,c,b]}var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
+vk(a){var
+b=a[7],c=bT(a[6]),d=bT(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-c5(h){var
-a=cP(function(f,e){var
-a=ax(m,f);if(a)var
-b=a[1],c=cj(fw(b[1]),fw(b[2]));else
+dc(h){var
+a=cT(function(f,e){var
+a=az(m,f);if(a)var
+b=a[1],c=cn(fB(b[1]),fB(b[2]));else
 var
-c=d;return cj(c,e)},d,h);if(ac(d,a)){var
-f=bH(a);if(0===f||!(0<f&&!B(a,c)))var
+c=d;return cn(c,e)},d,h);if(ac(d,a)){var
+f=bJ(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bn(a,a1(2)),e=b[1],g=ak(b[2],d)?eg(e):eg(e);return b1(g,m)}return d}function
-eW(a){return[0,a[1],[0,a[2],0]]}function
-bw(a){var
-b=eW(a[3]),c=g(eW(a[2]),b);return g(eW(a[1]),c)}function
-u0(a){return 0===a[0]?eW(a[1][4]):0}function
-u1(a){switch(a[0]){case
+b=bo(a,a2(2)),e=b[1],g=al(b[2],d)?em(e):em(e);return b3(g,m)}return d}function
+e0(a){return[0,a[1],[0,a[2],0]]}function
+by(a){var
+b=e0(a[3]),c=g(e0(a[2]),b);return g(e0(a[1]),c)}function
+vl(a){return 0===a[0]?e0(a[1][4]):0}function
+vm(a){switch(a[0]){case
 0:var
-b=a[1],c=bw(b[3]);return g(bw(b[2]),c);case
+b=a[1],c=by(b[3]);return g(by(b[2]),c);case
 1:var
-d=bw(a[2]);return g(bw(a[1]),d);default:return 0}}function
-kl(a){switch(a[0]){case
-0:return c5(bw(a[1][1]));case
+d=by(a[2]);return g(by(a[1]),d);default:return 0}}function
+ks(a){switch(a[0]){case
+0:return dc(by(a[1][1]));case
 1:var
-b=a[3];return b?c5(bw(b[1])):d;default:return c5(bw(a[1]))}}function
-km(b){var
-a=y(u0,b),d=a?[0,a[1],a[2]]:y(u1,b);return A(c,c5(d))}function
-eX(a){switch(a[0]){case
+b=a[3];return b?dc(by(b[1])):d;default:return dc(by(a[1]))}}function
+kt(b){var
+a=z(vl,b),d=a?[0,a[1],a[2]]:z(vm,b);return C(c,dc(d))}function
+e1(a){switch(a[0]){case
 0:var
-b=a[1];if(au(b,u2))return u3;if(au(b,u4))return u5;if(au(b,u6))return u7;if(au(b,u8))return u9;var
-h=au(b,u_),j=h?u$:h;return j;case
+b=a[1];if(ap(b,vn))return vo;if(ap(b,vp))return vq;if(ap(b,vr))return vs;if(ap(b,vt))return vu;if(ap(b,vv))return vw;var
+h=ap(b,vx),j=h?vy:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(au(e,va))return[0,[0,c,d]];if(au(e,vb))return[0,[1,c,d]];if(au(e,vc))return[0,[2,c,d]];var
-i=au(e,vd),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(ap(e,vz))return[0,[0,c,d]];if(ap(e,vA))return[0,[1,c,d]];if(ap(e,vB))return[0,[2,c,d]];var
+i=ap(e,vC),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=eX(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=e1(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=eX(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=eX(a[1]);return ae(function(a){return[6,a]},n)}}function
-kn(a){if(a){var
-d=a[1],b=eX(d[2]);if(b)var
-c=kn(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=e1(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=e1(a[1]);return af(function(a){return[6,a]},n)}}function
+ku(a){if(a){var
+d=a[1],b=e1(d[2]);if(b)var
+c=ku(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return ve}function
-c6(c,a){if(c)if(a){var
+e=b;return e}return vD}function
+dd(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=kn(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=ku(b[1]);if(d){var
 k=d[1];if(h){var
-e=c6(j,i);if(e){var
-l=e[1],f=c6(j,l[2]);if(f)var
+e=dd(j,i);if(e){var
+l=e[1],f=dd(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4499,160 +4778,174 @@ var
 g=a;else
 var
 g=c;return g}function
-gJ(d,a){if(d){if(a){var
-b=c6(k(a),a);if(b)var
-e=b[1],c=gJ(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gU(d,a){if(d){if(a){var
+b=dd(l(a),a);if(b)var
+e=b[1],c=gU(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return vf}return a?0:vg}function
-gK(a){return typeof
+f=b;return f}return vE}return a?0:vF}function
+gV(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gL(d,a){if(d)if(a){var
+gW(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gL(k,j);if(e){var
-l=e[1],f=gL(k,l[2]);if(f)var
+e=gW(k,j);if(e){var
+l=e[1],f=gW(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gK(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,gV(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cD(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-be(a,e){var
-b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-ko(d,c){if(d){var
+cH(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bf(a,e){var
+b=cH(a[1],e),c=cH(a[2],b[2]),d=cH(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kv(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=be(a[1],c),f=be(a[2],e[2]),g=be(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bf(a[1],c),f=bf(a[2],e[2]),g=bf(a[3],f[2]),h=cH(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=be(a[1],c),k=j[1],l=be(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=be(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bf(a[1],c),k=j[1],l=bf(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bf(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=be(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=ko(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-kp(b,i){if(b){var
-a=b[1],c=be(a[1],i),d=be(a[2],c[2]),e=be(a[3],d[2]),f=be(a[4],e[2]),g=cD(a[5],f[2]),h=cD(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kp(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gM(a,b){if(a){var
-c=cD(a[1],b),d=gM(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gN(b){function
-a(a){return F(a,b,[0,d,c])}var
-e=a(vi),f=a(vj);return[0,a(0),f,e]}function
-kq(a,b){if(a){var
-c=a[1],d=gM(c[1],b),e=gM(c[2],d[2]),f=kq(a[2],e[2]),g=f[2],h=f[1],i=gN(e[1]);return[0,[0,[0,gN(d[1]),i],h],g]}return[0,0,b]}function
-c7(a){return i$(m,a)}function
-vk(a){if(typeof
+p=bf(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=kv(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kw(b,i){if(b){var
+a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cH(a[5],f[2]),h=cH(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kw(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gX(a,b){if(a){var
+c=cH(a[1],b),d=gX(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gY(b){function
+a(a){return E(a,b,[0,d,c])}var
+e=a(vH),f=a(vI);return[0,a(0),f,e]}function
+kx(a,b){if(a){var
+c=a[1],d=gX(c[1],b),e=gX(c[2],d[2]),f=kx(a[2],e[2]),g=f[2],h=f[1],i=gY(e[1]);return[0,[0,[0,gY(d[1]),i],h],g]}return[0,0,b]}function
+de(a){return jf(m,a)}function
+vJ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-4:var
-b=j(m,1,a[2]);return b?j(m,1,a[3]):b;case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
 6:return j(m,1,a[2]);case
 8:var
 d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
 10:return j(m,0,a[3]);case
+11:var
+e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
+12:var
+f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
 2:case
-3:return c7(a[2]);default:return j(m,1,a[1])}}function
-gO(a){if(typeof
+3:return de(a[2]);case
+4:case
+13:var
+b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
+gZ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):h;case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
 k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
 1:return j(m,1,a[1]);case
 2:case
-3:return c7(a[2]);default:var
+3:return de(a[2]);default:var
 i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-eY(d){var
+e2(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aH(a6(function(d){return function(a){var
-h=gC(a[1]),e=au(gC(d[1]),h);if(e)var
-i=gD(a[4]),b=au(gD(d[4]),i);else
+b=a[2],e=a[1],c=aK(a4(function(d){return function(a){var
+h=gN(a[1]),e=ap(gN(d[1]),h);if(e)var
+i=gO(a[4]),b=ap(gO(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?aa(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?M(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dX(a){if(0===a[0])return c7(i(a[1]));var
+d3(a){if(0===a[0])return de(i(a[1]));var
 b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
-bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-kr(a){switch(a[0]){case
+bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ky(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e);case
+c=[0,a[4],0],d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e);case
 1:var
-b=a[3],f=b?bf(b[1]):b,h=g(bf(a[2]),f);return g(bf(a[1]),h);default:return bf(a[1])}}function
-ks(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bf(a[4]),b),d=g(bf(a[3]),c),e=g(bf(a[2]),d);return g(bf(a[1]),e)}function
-gP(a){switch(a){case
-0:return vo;case
-1:return vp;default:return 0}}function
-eZ(a){var
-f=a[1],d=j(m,1,[1,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?br(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
-gQ(a){var
-e=br(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-kt(c,d,D,t,s,r,g){function
+b=a[3],f=b?bg(b[1]):b,h=g(bg(a[2]),f);return g(bg(a[1]),h);default:return bg(a[1])}}function
+kz(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bg(a[4]),b),d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e)}function
+g0(a){switch(a){case
+0:return vN;case
+1:return vO;default:return 0}}function
+e3(a){var
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
+g1(a){var
+e=bs(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+kA(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vm:vn,b=aa(k(a),d);return b?n(dX,a):b}var
-v=n(function(a){var
+d=c?vL:vM,b=M(l(a),d);return b?o(d3,a):b}var
+v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=k(d),h=Y(dN(c),E);else
+E=l(d),h=$(dU(c),E);else
 var
 h=v;var
-w=h?Y(k(d),vq):h,x=w?j(m,1,i(D)):w;if(x)var
-F=gP(c),l=aa(k(t),F);else
+w=h?$(l(d),vP):h,x=w?j(m,1,i(D)):w;if(x)var
+F=g0(c),k=M(l(t),F);else
 var
-l=x;if(l)var
-G=gP(c),o=aa(k(s),G);else
+k=x;if(k)var
+G=g0(c),n=M(l(s),G);else
 var
-o=l;if(o)var
-H=ck(t,s),p=n(function(a){var
-b=i(a[2]);return br(m,i(a[1]),b)},H);else
+n=k;if(n)var
+H=co(t,s),p=o(function(a){var
+b=i(a[2]);return bs(m,i(a[1]),b)},H);else
 var
-p=o;if(p)if(c){var
-a=gI(r);switch(a[0]){case
+p=n;if(p)if(c){var
+a=gT(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=eZ(a[1]),A=z?eZ(a[2]):z,e=A?eZ(a[3]):A;break;case
+z=e3(a[1]),A=z?e3(a[2]):z,e=A?e3(a[3]):A;break;case
 2:var
-e=gQ(a[1]);break;default:var
-B=gQ(a[1]),e=B?gQ(a[2]):B}var
+e=g1(a[1]);break;default:var
+B=g1(a[1]),e=B?g1(a[2]):B}var
 f=e}else
 var
-C=gI(r),J=0===C[0]?eZ(C[1]):0,f=J;else
+C=gT(r),J=0===C[0]?e3(C[1]):0,f=J;else
 var
 f=p;if(f)var
-b=k(d),I=dN(c),q=n(function(a){var
+b=l(d),I=dU(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=Y(uW,e),g=f?Y(e,b):f,c=g;else
+e=d[1],f=$(vh,e),m=f?$(e,b):f,c=m;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bR(0,b,a):bR(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bR(0,b,a):bR(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?aa(b,I):c:bR(0,b,a):bR(0,b,a);default:return bR(0,b,a)}},g);else
+2:var
+g=a[4];if(typeof
+g!=="number"&&1===g[0]){var
+h=a[3];return h?0===h[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+6:var
+i=a[4];if(typeof
+i!=="number"&&0===i[0]){var
+j=a[3];return j?0===j[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+8:var
+k=a[4];if(typeof
+k!=="number"&&1===k[0]){var
+l=a[3];return l?0===l[1][0]?c?M(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
 var
 q=f;var
-y=q?eY(g):q;return y?n(gO,c4(k(d),g)):y}function
-gR(j){var
-q=a8(j,c5(bw(j))),a=f(function(a){return aM(m,a)},q);if(a){var
+y=q?e2(g):q;return y?o(gZ,db(l(d),g)):y}function
+g2(j){var
+q=a6(j,dc(by(j))),a=f(function(a){return aA(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return ai(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,C(C(i(e[1]),s),r)[1])}var
+i=function(a){return aa(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,A(A(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -4668,160 +4961,152 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-vr(a){switch(a[0]){case
-0:return gR(a[1][1]);case
+vQ(a){switch(a[0]){case
+0:return g2(a[1][1]);case
 1:var
-b=a[3];return b?gR(b[1]):1;default:return gR(a[1])}}function
-gS(c,a,e,u){if(a6(function(b){var
-a=9<=b[1]?1:0,c=a?1:a;return c},e)){var
-p=Y(k(a),vt),q=p?n(function(a){if(0===a[0]){var
+b=a[3];return b?g2(b[1]):1;default:return g2(a[1])}}function
+g3(c,a,b,p){if(a4(function(a){return 9===a[1]?1:0},b)){var
+f=$(l(a),vS),h=f?o(function(a){if(0===a[0]){var
 f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bc(f[1]),b=n(function(a){return c7(i(a))},u);else{var
-o=1;e=1}else{var
-o=l;e=1}if(e)var
-b=o}else{var
+u=bd(f[1]),b=o(function(a){return de(i(a))},u);else{var
+n=1;e=1}else{var
+n=l;e=1}if(e)var
+b=n}else{var
 p=j(m,1,i(a[4]));if(p)var
-v=bc(a[3]),w=g(bc(a[2]),v),b=n(function(a){return c7(i(a))},w);else
+v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return de(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=Y(vs,q);if(r){var
-d=al(c,b4(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=$(vR,q);if(r){var
+d=ai(c,bO(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):p;if(q){var
-b=a;for(;;){var
-A=function(a){if(0===a[0]){var
-b=a[5],c=b?1:b;return c}return 0};if(b){var
-l=b[2],B=b[1],o=n(function(d,e){return function(a){var
-b=gG(e,a);if(b)var
-f=d(e),c=f||d(a);else
+t=r;return t}return 1}return b},a):f;if(h)var
+k=gS(0,a),u=k?1:k,n=u;else
 var
-c=b;return aH(c)}}(A,B),l);if(o){var
-b=l;continue}var
-r=o}else
+n=h;var
+d=n}else
 var
-r=1;var
-d=r;break}}else
+d=a?0:1;var
+q=d?o(vQ,p[1]):d,r=q?$(vT,l(c)):q;if(r)var
+v=l(c),e=o(function(a){return va(v,a)},b);else
 var
-d=q;if(d)var
-s=gH(0,a),C=s?1:s,t=C;else
+e=r;var
+s=e?e2(b):e,t=s?o(d3,z(ky,c)):s;return t?o(vJ,p[3]):t}function
+vU(b){var
+a=11<=b[1]?1:0,c=a?1:a;return c}function
+g4(b,a){return o(function(c){var
+a=c[2];return a?iu(a[1],b):1},a)}function
+g5(b,a){var
+c=l(fT(function(a){return 0===a[0]?0:1},b));return M(l(a),c)}function
+vV(s){var
+fm=gQ(s[3]),fn=fm?gQ(s[4]):fm;if(fn){var
+at=s[1];if(3===at[0]){var
+fq=o(eY,at[1]);if(fq)var
+ix=at[2],cC=o(function(a){return eY(a[1])},ix);else
 var
-t=d;var
-f=t}else
+cC=fq;if(cC)var
+iy=at[3],cE=o(function(a){var
+b=eY(a[1]),c=b?gR(a[2]):b;return c?c8(a[2]):c},iy);else
 var
-f=a?0:1;var
-v=f?n(vr,u[1]):f,w=v?Y(vu,k(c)):v;if(w)var
-D=k(c),h=n(function(a){switch(a[1]){case
-0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
-1:if(2===a[4][0])return 0;var
-c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
-b=c[1];break;case
-2:if(1!==a[4][0])return 0;var
-e=a[2];if(!e){var
-g=a[3],j=g?1:g;return j}var
-f=a[3];if(!f)return f;var
-b=e[1];break;case
-3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
-4:if(0!==a[4][0])return 0;var
-h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
-b=h[1];break;case
-6:if(0===a[4][0]){if(a[2])return 0;var
-i=a[3],k=i?1:i;return k}return 0;case
-8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=Y(uR,b);return d?Y(b,D):d},e);else
+cE=cC;if(cE)var
+iz=at[4],iA=function(a){var
+b=gR(a);return b?c8(a):b},cx=o(function(a){return o(iA,a)},iz);else
 var
-h=w;var
-x=h?eY(e):h,z=x?n(dX,y(kr,c)):x;return z?n(vk,u[3]):z}function
-gT(b,a){return n(function(c){var
-a=c[2];return a?ie(a[1],b):1},a)}function
-gU(b,a){var
-c=k(fO(function(a){return 0===a[0]?0:1},b));return aa(k(a),c)}function
-vv(p){var
-e5=gE(p[3]),e6=e5?gE(p[4]):e5;if(e6){var
-ar=p[1];if(3===ar[0]){var
-e9=n(eU,ar[1]);if(e9)var
-h$=ar[2],co=n(function(a){return eU(a[1])},h$);else
+cx=cE}else
 var
-co=e9;if(co)var
-ia=ar[3],cp=n(function(a){var
-b=eU(a[1]),c=b?gF(a[2]):b;return c?c1(a[2]):c},ia);else
+cx=1;var
+cy=cx}else
 var
-cp=co;if(cp)var
-ib=ar[4],ic=function(a){var
-b=gF(a);return b?c1(a):b},cj=n(function(a){return n(ic,a)},ib);else
-var
-cj=cp}else
-var
-cj=1;var
-cl=cj}else
-var
-cl=e6;if(cl){var
-h=p[1];switch(h[0]){case
+cy=fn;if(cy){var
+h=s[1];switch(h[0]){case
 0:var
-hQ=y(c3,h[4]),hR=g(y(uN,h[3]),hQ),hS=g(ke(h[2]),hR),T=g(y(kd,h[1]),hS);break;case
+ia=z(c_,h[4]),ib=g(z(u7,h[3]),ia),ic=g(km(h[2]),ib),U=g(z(kl,h[1]),ic);break;case
 1:var
-hT=y(c3,h[3]),hU=g(ke(h[2]),hT),T=g(y(uM,h[1]),hU);break;case
+id=z(c_,h[3]),ie=g(km(h[2]),id),U=g(z(u6,h[1]),ie);break;case
 2:var
-hV=y(c3,h[7]),S=h[6];switch(S[0]){case
+ig=z(c_,h[7]),T=h[6];switch(T[0]){case
 1:var
-e2=S[3],e3=S[2],e4=S[1],ch=[0,e4[1],[0,e4[2],[0,e3[1],[0,e3[2],[0,e2[1],[0,e2[2],0]]]]]];break;case
+fj=T[3],fk=T[2],fl=T[1],cv=[0,fl[1],[0,fl[2],[0,fk[1],[0,fk[2],[0,fj[1],[0,fj[2],0]]]]]];break;case
 2:var
-ch=[0,S[1],0];break;default:var
-ch=[0,S[1],[0,S[2],0]]}var
-hW=g(ch,hV),hX=g(h[5],hW),hY=g(h[4],hX),hZ=[0,h[3],hY],h0=h[2],T=g(y(function(a){return y(c2,g(a[1],a[2]))},h0),hZ);break;case
+cv=[0,T[1],0];break;default:var
+cv=[0,T[1],[0,T[2],0]]}var
+ih=g(cv,ig),ii=g(h[5],ih),ij=g(h[4],ii),ik=[0,h[3],ij],il=h[2],U=g(z(function(a){return z(c9,g(a[1],a[2]))},il),ik);break;case
 3:var
-h1=y(c3,h[7]),h2=g(h[6],h1),h3=g(h[5],h2),h4=h[2],T=g(y(function(a){return c2(a[2])},h4),h3);break;case
+im=z(c_,h[7]),io=g(h[6],im),ip=g(h[5],io),iq=h[2],U=g(z(function(a){return c9(a[2])},iq),ip);break;case
 4:var
-h5=y(c3,h[3]),T=[0,h[1],[0,h[2],h5]];break;case
+ir=z(c_,h[3]),U=[0,h[1],[0,h[2],ir]];break;case
 5:var
-h6=y(c3,h[4]),h7=g(bc(h[3]),h6),h8=g(bc(h[2]),h7),h9=g(y(kd,h[1]),h8),T=[0,h[5],h9];break;default:var
-ci=h[1],T=ci?c2(ci[1]):ci}var
-cn=n(c1,T)}else
+is=z(c_,h[4]),it=g(bd(h[3]),is),iu=g(bd(h[2]),it),iv=g(z(kl,h[1]),iu),U=[0,h[5],iv];break;default:var
+cw=h[1],U=cw?c9(cw[1]):cw}var
+cB=o(c8,U)}else
 var
-cn=cl;if(cn){var
-af=p[2];if(0===af[0]){var
-e7=kf(af[1]);if(e7)var
-h_=af[2],as=n(function(a){var
-b=a[1];return n(function(b){var
+cB=cy;if(cB){var
+aj=s[2];if(0===aj[0]){var
+fo=kn(aj[1]);if(fo)var
+iw=aj[3],au=o(function(a){var
+b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gE(a[1]);case
+1:return gQ(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},h_);else
+a=a[1];continue}},b)},iw);else
 var
-as=e7}else
+au=fo}else
 var
-e8=kf(af[1]),as=e8?n(c1,g(af[2],af[3])):e8}else
+fp=kn(aj[1]),au=fp?o(c8,g(aj[2],aj[3])):fp}else
 var
-as=cn;if(as){var
-a=p[1];switch(a[0]){case
+au=cB;if(au){var
+a=s[1];switch(a[0]){case
 0:var
-at=a[4],av=a[3],cF=a[2],U=a[1],ah=p[2];if(0===ah[0]){var
-cG=ah[2],r=eV(U,cF,av,at),cH=c6(k(cG),cG);if(cH){var
-fq=cH[1];if(fq[2])return 0;var
-fr=gS(U,av,at,r),fs=fr?gT(vw,cG):fr;if(fs){var
-ir=fq[1],ft=f(kl,r[1]),x=km(r[1]),u=ah[1],dw=ji(m,r);if(dw){var
-bD=f6(x,ft,r[1]),X=f7(x,ft,r[1],0),gy=k(r[3]),gz=H(k(bD),gy),dg=[0,k(bD),gz],gA=f_(X,x,dg,r[3]),gB=g(cv(iX(X)),gA),dh=g(cv(ey(X)),gB),di=dB(dh)[1],ap=dA(di),dj=n(function(a){var
-b=q(d);return bb(F(bp(ap,a),ap,b),a)},dh);if(dj){var
-dk=a6(qE,r[3]);if(dk){var
-gC=r[3],gD=y(function(a){return eE(x,a)},gC),gG=r[3],gH=g(bD,g(f(function(a){return bP(x,a)},gG),gD)),bE=aS(f(function(a){return aM(u,a)},gH));if(bE){var
-Z=r[2];if(0===Z[0])var
-dl=Z[1];else
+av=a[4],aw=a[3],cR=a[2],V=a[1],W=s[2];if(0===W[0]){var
+cS=W[3],fI=W[2],r=eZ(V,cR,aw,av),cT=dd(l(cS),cS);if(cT){var
+fJ=cT[1];if(fJ[2])return 0;var
+fK=g3(V,aw,av,r),fL=fK?g4(vW,cS):fK;if(fL){var
+iO=fJ[1],cU=f(ks,r[1]),w=kt(r[1]);if(fI)var
+fM=fI[1],fN=[0,fM[2],fM[1]];else
 var
-aA=Z[3],de=Z[2],df=Z[1],dl=[0,[0,[2,df,aA],[1,df,aA]],[0,[2,de,aA],[1,de,aA]],Z[4]];var
-gI=a8(dl,x),bF=aS(f(function(a){return aM(u,a)},gI));if(bF){var
-gM=r[3],bG=aS(i_(u,function(a){return bp(ap,a)},X,x,dg,gM));if(bG){var
-dm=bG[1],gQ=i4(dm),aB=r[2],gR=bF[1],gV=function(d){if(0===aB[0])return 0;if(d){var
+fN=[0,d,0];var
+p=W[1],d0=jv(m,r);if(d0){var
+bP=gf(w,cU,r[1]),_=gg(w,cU,r[1],0),g2=l(r[3]),g6=J(l(bP),g2),dG=[0,l(bP),g6],g7=gi(_,w,dG,r[3]),g8=g(cz(i8(_)),g7),dH=g(cz(eE(_)),g8),dL=dJ(dH)[1],ar=dI(dL),dM=o(function(a){var
+b=q(d);return bc(E(bq(ar,a),ar,b),a)},dH);if(dM){var
+dO=a4(qO,r[3]);if(dO){var
+bN=cU,aD=r[1];for(;;){if(aD){var
+aE=aD[1],bO=ep(d,bN);switch(aE[0]){case
+0:var
+dB=aE[1],dD=gj(p,dB[1],bO),dj=0;if(dD){var
+bM=aA(p,[0,dB[4],w]);if(bM)var
+aq=ac(d,bM[1][1]);else{var
+dE=bM;dj=1}}else{var
+dE=dD;dj=1}if(dj)var
+aq=dE;break;case
+1:var
+dF=aE[3],aq=dF?gj(p,dF[1],bO):1;break;default:var
+aq=gj(p,aE[1],bO)}if(aq){var
+g1=aD[2],bN=fS(bN),aD=g1;continue}var
+dP=aq}else
+var
+dP=1;var
+bQ=dP;break}}else
+var
+bQ=dO;if(bQ){var
+g9=r[3],g_=z(function(a){return cZ(w,a)},g9),g$=r[3],ha=g(bP,g(f(function(a){return bt(w,a)},g$),g_)),bR=aT(f(function(a){return aA(p,a)},ha));if(bR){var
+ab=r[2];if(0===ab[0])var
+dQ=ab[1];else
+var
+aC=ab[3],dx=ab[2],dy=ab[1],dQ=[0,[0,[2,dy,aC],[1,dy,aC]],[0,[2,dx,aC],[1,dx,aC]],ab[4]];var
+hb=a6(dQ,w),bS=aT(f(function(a){return aA(p,a)},hb));if(bS){var
+hc=r[3],bU=aT(jl(p,fN,function(a){return bq(ar,a)},_,w,dG,hc));if(bU){var
+dT=bU[1],hd=je(dT),aF=r[2],he=bS[1],hf=function(d){if(0===aF[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b7(u,x,aB[1]);if(f){var
-g=b7(u,x,aB[2]);if(g){var
-h=b7(u,x,aB[3]);if(h)var
-q=f[1],r=bq(c),i=M([0,bq(c),r],q),s=g[1],t=bq(b),j=M([0,bq(b),t],s),v=cS(b),w=[0,cS(b),v],y=[0,D(u,aE(C(j,j)),w),0],z=cS(c),A=[0,cS(c),z],B=[0,D(u,aE(C(i,i)),A),y],E=ai(u,j),F=ai(u,i),k=[0,[0,M(M(ai(u,h[1]),F),E),ab,B]];else
+b=a[1],c=d[1],f=b9(p,w,aF[1]);if(f){var
+g=b9(p,w,aF[2]);if(g){var
+h=b9(p,w,aF[3]);if(h)var
+r=f[1],s=br(c),i=N([0,br(c),s],r),t=g[1],u=br(b),j=N([0,br(b),u],t),v=cY(b),x=[0,cY(b),v],y=[0,F(p,aH(A(j,j)),x),0],z=cY(c),B=[0,cY(c),z],C=[0,F(p,aH(A(i,i)),B),y],D=aa(p,j),E=aa(p,i),k=[0,[0,N(N(aa(p,h[1]),E),D),O,C]];else
 var
 k=h;var
 l=k}else
@@ -4836,270 +5121,270 @@ n=e;var
 o=n}else
 var
 o=a;var
-p=o}else
+q=o}else
 var
-p=d;return p},gW=bE[1],gX=0,gY=iX(X),gZ=e(a4(function(a){return bp(ap,a)}),gY),g0=ey(X);return f4(u,di,e(a4(function(a){return bp(ap,a)}),g0),gZ,gX,gW,dm,gV,gR,gQ,ir)}var
-dn=bG}else
+q=d;return q},hg=bR[1],hh=0,hi=i8(_),hj=e(a5(function(a){return bq(ar,a)}),hi),hk=eE(_);return gd(p,dL,e(a5(function(a){return bq(ar,a)}),hk),hj,hh,hg,dT,hf,he,hd,iO)}var
+dV=bU}else
 var
-dn=bF;var
-dp=dn}else
+dV=bS;var
+dW=dV}else
 var
-dp=bE;var
-bH=dp}else
+dW=bR;var
+bV=dW}else
 var
-bH=dk}else
+bV=bQ}else
 var
-bH=dj;return bH}return dw}var
-fu=fs}else
+bV=dM;return bV}return d0}var
+fO=fL}else
 var
-fu=cH;return fu}var
-a_=ah[2];if(a_){var
-a$=a_[2];if(a$){var
-ba=a$[2];if(ba){if(ba[2])return 0;var
-fv=ah[3],fw=ko(U,f(i,fv));if(fw[2])return 0;var
-aj=ah[4];if(typeof
-aj==="number")var
-E=vh;else
-if(0===aj[0]){var
-ct=aj[2],cu=aj[1];if(ct){var
-a0=ct[1],cY=0;if(a0){var
-a1=a0[2],bB=0;if(a1){var
-a2=a1[2],bC=0;if(a2)if(a2[2]){var
-E=0;bB=1;bC=1}else{var
-cw=a2[1],cy=a1[1],cA=a0[1],cB=ct[2];if(cB){var
-a5=cB[1],gv=0;if(a5){var
-a7=a5[2],gw=0;if(a7){var
-a9=a7[2],gx=0;if(a9)if(a9[2]||cB[2]){var
-E=0;bB=1;bC=1;gv=1;gw=1;gx=1}else
+fO=cT;return fO}var
+bg=W[2];if(bg){var
+bh=bg[2];if(bh){var
+bi=bh[2];if(bi){if(bi[2])return 0;var
+fP=W[3],fQ=kv(V,f(i,fP));if(fQ[2])return 0;var
+ak=W[4];if(typeof
+ak==="number")var
+y=vG;else
+if(0===ak[0]){var
+cJ=ak[2],cK=ak[1];if(cJ){var
+a_=cJ[1],dk=0;if(a_){var
+a$=a_[2],bI=0;if(a$){var
+ba=a$[2],bJ=0;if(ba)if(ba[2]){var
+y=0;bI=1;bJ=1}else{var
+cL=ba[1],cM=a$[1],cN=a_[1],cO=cJ[2];if(cO){var
+bb=cO[1],gS=0;if(bb){var
+be=bb[2],gT=0;if(be){var
+bf=be[2],gX=0;if(bf)if(bf[2]||cO[2]){var
+y=0;bI=1;bJ=1;gS=1;gT=1;gX=1}else
 var
-fd=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,a5[1],a7[1]],a9[1]]]];else
+fv=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,bb[1],be[1]],bf[1]]]];else
 var
-fd=a9;if(!gx)var
-fe=fd}else
+fv=bf;if(!gX)var
+fw=fv}else
 var
-fe=a7;if(!gw)var
-ff=fe}else
+fw=be;if(!gT)var
+fx=fw}else
 var
-ff=a5;if(!gv){var
-E=ff;bB=1;bC=1}}else
+fx=bb;if(!gS){var
+y=fx;bI=1;bJ=1}}else
 var
-fg=[0,[0,cu,[0,[0,cA,cy],cw],[0,[0,cA,cy],cw]]]}else
+fy=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,cN,cM],cL]]]}else
 var
-fg=a2;if(!bC)var
-fh=fg}else
-var
-fh=a1;if(!bB){var
-fi=fh;cY=1}}else{var
-fi=a0;cY=1}if(cY)var
-E=fi}else
-var
-fj=[0,[0,d,d],d],E=[0,[0,cu,fj,fj]]}else
-var
-E=[0,[1,aj[1],aj[2]]];if(E){var
-fx=gU(y(kr,U),fv),fy=fx?gS(U,av,at,eV(U,cF,av,at)):fx;if(fy){var
-V=E[1],it=i(ba[1]),iu=i(a$[1]),L=[0,i(a_[1]),iu,it],aw=fw[1],cI=eV(U,cF,av,at),dq=jb(m,cI,aw,L);if(dq)if(typeof
-V==="number")return a6(function(a){switch(a[0]){case
-0:var
-b=[0,cT(a[1],a[2],a[3],a[4],L)];break;case
-1:var
-e=a[2],f=a[1],g=bs(f,e,L),b=[0,J(bs(f,e,L),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aw);else{if(0===V[0]){var
-bI=al(cI[3],V[1]);if(bI){var
-g1=bI[1],g2=jd(V[3]);return jh(m,aw,L,jd(V[2]),g2,g1)}return bI}var
-bJ=al(cI[3],V[1]);if(bJ){var
-bK=al(aw,V[2]);if(bK){var
-dt=bK[1],g3=bJ[1],g4=cV(dt,L);return jh(m,aw,L,cV(dt,L),g4,g3)}var
-dv=bK}else
-var
-dv=bJ;return dv}return dq}var
+fy=ba;if(!bJ)var
 fz=fy}else
 var
-fz=E;var
-fA=fz}else
+fz=a$;if(!bI){var
+fA=fz;dk=1}}else{var
+fA=a_;dk=1}if(dk)var
+y=fA}else
 var
-fA=ba;var
-fB=fA}else
+fB=[0,[0,d,d],d],y=[0,[0,cK,fB,fB]]}else
 var
-fB=a$;var
-fC=fB}else
-var
-fC=a_;return fC;case
-1:var
-bd=a[3],N=a[1],be=p[2];if(0===be[0])return 0;var
-bf=be[2];if(bf){var
-bg=bf[2];if(bg){var
-bh=bg[2];if(bh){if(bh[2])return 0;var
-fD=be[3],fE=kp(N,f(i,fD));if(fE[2])return 0;var
-fF=gU(y(ks,N),fD);if(fF){var
-fk=Y(vl,k(N));if(fk)var
-il=k(N),im=1,cD=n(function(a){return bR(im,il,a)},bd);else
-var
-cD=fk;var
-fl=cD?eY(bd):cD,fm=fl?n(dX,y(ks,N)):fl,iv=fm?n(gO,c4(k(N),bd)):fm,cJ=iv}else
-var
-cJ=fF;if(cJ){var
-iw=gK(be[4]),ix=i(bh[1]),iy=i(bg[1]),O=[0,i(bf[1]),iy,ix],bi=fE[1],iz=a[2],ih=c4(k(N),bd),ii=kh(iz),aC=f(uZ,N),_=bi;for(;;){if(aC){if(_){var
-s=_[1],R=aC[1],dx=aT(m,R[1],s[1]),dy=dx?aT(m,R[2],s[2]):dx,dz=dy?aT(m,R[3],s[3]):dy,dD=dz?aT(m,R[4],s[4]):dz,dE=dD?cx(m,R[5],s[5]):dD,dF=dE?cx(m,R[6],s[6]):dE,dH=dF?j(m,1,s[5]):dF,dI=dH?j(m,1,s[6]):dH,dJ=dI?j(m,1,J(s[1],s[1])):dI;if(dJ)var
-g5=ga(s),bL=j(m,1,J(ga(s),g5));else
-var
-bL=dJ;var
-dM=bL?du(R[7],s[7]):bL;if(dM){var
-aC=aC[2],_=_[2];continue}var
-dO=dM}else
-var
-dO=_;var
-bM=dO}else
-var
-bM=_?0:1;var
-dP=bM?ja(m,ii,O):bM;if(dP){var
-g6=f(function(a){return jp(a,O)},bi),g7=f(function(a){var
-b=jr(a,O);return[1,jq(a,O),b]},bi);return jm(m,qI,[0,f(function(a){var
-d=jn(a),e=ay(jr(a,O),d),f=gb(a),g=ay(jq(a,O),f),h=ag(function(b,a){return[1,b,a]},g,e),i=ay(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},O,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gh(a,O),b=ay([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bi),g7,g6],ih,iw)}return dP}}var
-fG=cJ}else
-var
-fG=bh;var
-fH=fG}else
-var
-fH=bg;var
-fI=fH}else
-var
-fI=bf;return fI;case
-2:var
-bj=a[7],bk=a[6],bl=a[5],bm=a[4],bn=a[3],am=a[2],an=a[1],ao=p[2];if(0===ao[0]){var
-cK=ao[2],ax=kk(an,am,bn,bm,bl,bk,bj),cL=c6(k(cK),cK);if(cL){var
-fJ=cL[1];if(fJ[2])return 0;var
-fK=kt(an,am,bn,bm,bl,bk,bj),fL=fK?gT(dN(an),cK):fK;if(fL){var
-iA=fJ[1],iB=ax[2],iC=A(c,c5(y(function(a){var
-b=bw(a[2]);return g(bw(a[1]),b)},iB))),iD=ao[1],hB=ax[2],eC=n(function(a){var
-b=gt(m,a[1]);return b?gt(m,a[2]):b},hB),eD=eC?gt(m,ax[4]):eC;if(eD)var
-hC=jR(ax[5]),b_=n(function(a){return eM(m,a)},hC);else
-var
-b_=eD;return b_?rd(iD,ax,iC,iA):b_}var
-fM=fL}else
-var
-fM=cL;return fM}var
-fN=ao[3],fO=f(i,ao[2]),fP=gP(an),fQ=kq(am,f(i,fN));if(fQ[2])return 0;var
-fR=gU(y(function(a){return g(a[1],a[2])},am),fN),fS=fR?kt(an,am,bn,bm,bl,bk,bj):fR;if(fS){var
-iE=gK(ao[4]),o=is(fP,fO),bo=gN(ej(fP,fO)),bv=fQ[1],P=kk(an,am,bn,bm,bl,bk,bj),aU=P[2],$=bv;for(;;){if(aU){if($){var
-eu=$[1],ev=aU[1],ew=aT(m,ev[1],eu[1]),ez=ew?aT(m,ev[2],eu[2]):ew;if(ez){var
-aU=aU[2],$=$[2];continue}var
-eA=ez}else
-var
-eA=$;var
-b8=eA}else
-var
-b8=$?0:1;var
-eB=b8?aT(m,P[4],bo):b8;if(eB){var
-G=P[5];switch(G[0]){case
+y=[0,[1,ak[1],ak[2]]];if(y){var
+fR=g5(z(ky,V),fP),fT=fR?g3(V,aw,av,eZ(V,cR,aw,av)):fR;if(fT){var
+X=y[1],iP=i(bi[1]),iQ=i(bh[1]),L=[0,i(bg[1]),iQ,iP],ax=fQ[1],cV=eZ(V,cR,aw,av),dX=jn(m,cV,ax,L);if(dX)if(typeof
+X==="number")return a4(function(a){switch(a[0]){case
 0:var
-w=o?o[2]?0:dL(m,G[1],o[1]):o;break;case
+b=[0,c0(a[1],a[2],a[3],a[4],L)];break;case
 1:var
-cZ=0;if(o){var
-aL=o[2],c0=0;if(aL){var
-aN=aL[2],c8=0;if(aN)if(aN[2]){var
-w=0;c0=1;c8=1}else{var
-ec=dL(m,G[1],o[1]),ed=ec?dL(m,G[2],aL[1]):ec;if(ed){var
-w=dL(m,G[3],aN[1]);c0=1;c8=1}else
+e=a[2],f=a[1],g=bu(f,e,L),b=[0,B(bu(f,e,L),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===X[0]){var
+bW=ai(cV[3],X[1]);if(bW){var
+hl=bW[1],hm=jp(X[3]);return ju(m,ax,L,jp(X[2]),hm,hl)}return bW}var
+bX=ai(cV[3],X[1]);if(bX){var
+bY=ai(ax,X[2]);if(bY){var
+dY=bY[1],hn=bX[1],ho=c2(dY,L);return ju(m,ax,L,c2(dY,L),ho,hn)}var
+dZ=bY}else
 var
-ee=ed}else
+dZ=bX;return dZ}return dX}var
+fU=fT}else
 var
-ee=aN;if(!c8)var
-ef=ee}else
+fU=y;var
+fV=fU}else
 var
-ef=aL;if(!c0){var
-eg=ef;cZ=1}}else{var
-eg=o;cZ=1}if(cZ)var
-w=eg;break;case
+fV=bi;var
+fW=fV}else
+var
+fW=bh;var
+fX=fW}else
+var
+fX=bg;return fX;case
+1:var
+bj=a[3],P=a[1],bk=s[2];if(0===bk[0])return 0;var
+bl=bk[2];if(bl){var
+bm=bl[2];if(bm){var
+bn=bm[2];if(bn){if(bn[2])return 0;var
+fY=bk[3],fZ=kw(P,f(i,fY));if(fZ[2])return 0;var
+f0=g5(z(kz,P),fY);if(f0){var
+fC=$(vK,l(P));if(fC)var
+iJ=l(P),iK=1,cP=o(function(a){return a9(iK,iJ,a)},bj);else
+var
+cP=fC;var
+fD=cP?e2(bj):cP,fE=fD?o(d3,z(kz,P)):fD,iR=fE?o(gZ,db(l(P),bj)):fE,cW=iR}else
+var
+cW=f0;if(cW){var
+iS=gV(bk[4]),iT=i(bn[1]),iU=i(bm[1]),Q=[0,i(bl[1]),iU,iT],bo=fZ[1],iV=a[2],iE=db(l(P),bj),iG=kp(iV),aG=f(vk,P),ad=bo;for(;;){if(aG){if(ad){var
+t=ad[1],S=aG[1],d1=aU(m,S[1],t[1]),d2=d1?aU(m,S[2],t[2]):d1,d4=d2?aU(m,S[3],t[3]):d2,d5=d4?aU(m,S[4],t[4]):d4,d6=d5?cA(m,S[5],t[5]):d5,d7=d6?cA(m,S[6],t[6]):d6,d8=d7?j(m,1,t[5]):d7,d9=d8?j(m,1,t[6]):d8,d_=d9?j(m,1,B(t[1],t[1])):d9;if(d_)var
+hp=gl(t),bZ=j(m,1,B(gl(t),hp));else
+var
+bZ=d_;var
+d$=bZ?dC(S[7],t[7]):bZ;if(d$){var
+aG=aG[2],ad=ad[2];continue}var
+ea=d$}else
+var
+ea=ad;var
+b0=ea}else
+var
+b0=ad?0:1;var
+eb=b0?jm(m,iG,Q):b0;if(eb){var
+hq=f(function(a){return jC(a,Q)},bo),hr=f(function(a){var
+b=jE(a,Q);return[1,jD(a,Q),b]},bo);return jz(m,qS,[0,f(function(a){var
+d=jA(a),e=aB(jE(a,Q),d),f=gm(a),g=aB(jD(a,Q),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aB(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},Q,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gs(a,Q),b=aB([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bo),hr,hq],iE,iS)}return eb}}var
+f1=cW}else
+var
+f1=bn;var
+f2=f1}else
+var
+f2=bm;var
+f3=f2}else
+var
+f3=bl;return f3;case
 2:var
-c9=0;if(o){var
-aO=o[2],c_=0;if(aO){var
-aP=aO[2];if(aP)if(aP[2]){var
-w=0;c_=1}else{var
-eh=aP[1],ei=aO[1],ek=o[1],hu=J([0,ek,ei,eh],[0,ek,ei,eh]),w=jG(m,G[1],hu,[0,c,c]);c_=1}else
+bp=a[7],bx=a[6],bz=a[5],bA=a[4],bB=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
+c1=ao[3],ay=kr(an,am,bB,bA,bz,bx,bp),c3=dd(l(c1),c1);if(c3){var
+f4=c3[1];if(f4[2])return 0;var
+f5=kA(an,am,bB,bA,bz,bx,bp),f6=f5?g4(dU(an),c1):f5;if(f6){var
+iW=f4[1],iX=ay[2],iY=C(c,dc(z(function(a){var
+b=by(a[2]);return g(by(a[1]),b)},iX))),iZ=ao[1],hX=ay[2],e3=o(function(a){var
+b=gE(m,a[1]);return b?gE(m,a[2]):b},hX),e4=e3?gE(m,ay[4]):e3;if(e4)var
+hY=j0(ay[5]),cj=o(function(a){return eQ(m,a)},hY);else
 var
-el=aP}else
+cj=e4;return cj?rn(iZ,ay,iY,iW):cj}var
+f7=f6}else
 var
-el=aO;if(!c_){var
-em=el;c9=1}}else{var
-em=o;c9=1}if(c9)var
-w=em;break;default:var
-c$=0;if(o){var
-aQ=o[2],da=0;if(aQ){var
-aR=aQ[2],db=0;if(aR)if(aR[2]){var
-w=0;da=1;db=1}else{var
-b6=aR[1],en=aQ[1],eo=o[1],ep=jG(m,G[1],[1,[3,eo,eo],[3,en,en]],[1,[0,c,c],[3,b6,b6]]);if(ep){var
-w=dL(m,cz(G[2]),b6);da=1;db=1}else
+f7=c3;return f7}var
+f9=ao[3],f_=f(i,ao[2]),f$=g0(an),ga=kx(am,f(i,f9));if(ga[2])return 0;var
+gb=g5(z(function(a){return g(a[1],a[2])},am),f9),gc=gb?kA(an,am,bB,bA,bz,bx,bp):gb;if(gc){var
+i0=gV(ao[4]),n=iF(f$,f_),bC=gY(eq(f$,f_)),bD=ga[1],R=kr(an,am,bB,bA,bz,bx,bp),aX=R[2],ae=bD;for(;;){if(aX){if(ae){var
+eU=ae[1],eV=aX[1],eW=aU(m,eV[1],eU[1]),eX=eW?aU(m,eV[2],eU[2]):eW;if(eX){var
+aX=aX[2],ae=ae[2];continue}var
+e0=eX}else
 var
-eq=ep}else
+e0=ae;var
+ch=e0}else
 var
-eq=aR;if(!db)var
-er=eq}else
+ch=ae?0:1;var
+e1=ch?aU(m,R[4],bC):ch;if(e1){var
+I=R[5];switch(I[0]){case
+0:var
+x=n?n[2]?0:dS(m,I[1],n[1]):n;break;case
+1:var
+dl=0;if(n){var
+aP=n[2],dm=0;if(aP){var
+aQ=aP[2],dn=0;if(aQ)if(aQ[2]){var
+x=0;dm=1;dn=1}else{var
+eB=dS(m,I[1],n[1]),eC=eB?dS(m,I[2],aP[1]):eB;if(eC){var
+x=dS(m,I[3],aQ[1]);dm=1;dn=1}else
 var
-er=aQ;if(!da){var
-es=er;c$=1}}else{var
-es=o;c$=1}if(c$)var
-w=es}var
-b9=w}else
+eD=eC}else
 var
-b9=eB;if(b9){var
-aV=P[5],hy=P[6],hz=P[3],hA=P[1],et=function(a){var
-b=gl(aV,o,bo,a);return J(gl(aV,o,bo,a),b)},hv=f(et,bv),hw=f(function(a){return[0,[5,et(a)]]},bv),hx=[0,f(function(d){var
-b=aG(gl(aV,o,bo,d)),a=ay([4,[0,c,c],hz],jC(jD(aV,o,d[2]),b));switch(hA){case
+eD=aQ;if(!dn)var
+eF=eD}else
+var
+eF=aP;if(!dm){var
+eG=eF;dl=1}}else{var
+eG=n;dl=1}if(dl)var
+x=eG;break;case
+2:var
+dp=0;if(n){var
+aR=n[2],dq=0;if(aR){var
+aS=aR[2];if(aS)if(aS[2]){var
+x=0;dq=1}else{var
+eH=aS[1],eI=aR[1],eJ=n[1],hQ=B([0,eJ,eI,eH],[0,eJ,eI,eH]),x=jT(m,I[1],hQ,[0,c,c]);dq=1}else
+var
+eK=aS}else
+var
+eK=aR;if(!dq){var
+eL=eK;dp=1}}else{var
+eL=n;dp=1}if(dp)var
+x=eL;break;default:var
+dr=0;if(n){var
+aV=n[2],ds=0;if(aV){var
+aW=aV[2],dt=0;if(aW)if(aW[2]){var
+x=0;ds=1;dt=1}else{var
+cg=aW[1],eM=aV[1],eN=n[1],eO=jT(m,I[1],[1,[3,eN,eN],[3,eM,eM]],[1,[0,c,c],[3,cg,cg]]);if(eO){var
+x=dS(m,cD(I[2]),cg);ds=1;dt=1}else
+var
+eP=eO}else
+var
+eP=aW;if(!dt)var
+eR=eP}else
+var
+eR=aV;if(!ds){var
+eS=eR;dr=1}}else{var
+eS=n;dr=1}if(dr)var
+x=eS}var
+ci=x}else
+var
+ci=e1;if(ci){var
+aY=R[5],hU=R[6],hV=R[3],hW=R[1],eT=function(a){var
+b=gw(aY,n,bC,a);return B(gw(aY,n,bC,a),b)},hR=f(eT,bD),hS=f(function(a){return[0,[5,eT(a)]]},bD),hT=[0,f(function(d){var
+b=aJ(gw(aY,n,bC,d)),a=aB([4,[0,c,c],hV],jP(jQ(aY,n,d[2]),b));switch(hW){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bv),hw,hv];return jm(m,dN(P[1]),hx,hy,iE)}return b9}}return fS;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bD),hS,hR];return jz(m,dU(R[1]),hT,hU,i0)}return ci}}return gc;case
 3:var
-bx=a[7],fT=a[6],fU=a[5],by=a[4],fV=a[2],fW=a[1],cM=p[2];if(0===cM[0]){var
-cN=cM[2],cO=c6(k(cN),cN);if(cO){var
-fX=cO[1];if(fX[2])return 0;var
-io=k(fT),fn=aa(k(fU),io);if(fn)var
-ip=k(by),iq=0,cE=n(function(a){return bR(iq,ip,a)},bx);else
+bE=a[7],ge=a[6],gh=a[5],bF=a[4],gk=a[2],gn=a[1],c4=s[2];if(0===c4[0]){var
+c5=c4[3],c6=dd(l(c5),c5);if(c6){var
+go=c6[1];if(go[2])return 0;var
+iL=l(ge),fF=M(l(gh),iL);if(fF)var
+iM=l(bF),iN=0,cQ=o(function(a){return a9(iN,iM,a)},bE);else
 var
-cE=fn;var
-fo=cE?eY(bx):cE,fp=fo?n(function(a){return dX(a[2])},fV):fo,fY=fp?n(gO,c4(k(by),bx)):fp,fZ=fY?gT(k(fW),cN):fY;if(fZ){var
-iF=fX[1],iG=a[3],e_=c4(k(by),bx),id=ck(fU,fT),cq=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},id),ie=f(function(a){return f(cC,a)},by),ig=f(function(a){var
-b=cC(a[2]);return[0,a[1],b]},iG),l=[0,fW,f(function(a){var
-b=bQ(a[2]);return[0,a[1],b]},fV),ig,ie],az=cM[1],ho=f(dr,l[2]),b0=g(l[1],ho),aK=k(l[1]),d7=Y(qK,aK),d8=d7?Y(aK,qL):d7,d9=d8?Y(aK,k(l[4])):d8,d_=d9?Y(k(l[4]),qM):d9;if(d_)var
-hp=l[4],b1=n(function(a){return aa(k(a),aK)},hp);else
+cQ=fF;var
+fG=cQ?e2(bE):cQ,fH=fG?o(function(a){return d3(a[2])},gk):fG,gp=fH?o(gZ,db(l(bF),bE)):fH,gq=gp?g4(l(gn),c5):gp;if(gq){var
+i1=go[1],i2=a[3],fr=db(l(bF),bE),iB=co(gh,ge),cF=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},iB),iC=f(function(a){return f(cG,a)},bF),iD=f(function(a){var
+b=cG(a[2]);return[0,a[1],b]},i2),k=[0,gn,f(function(a){var
+b=bT(a[2]);return[0,a[1],b]},gk),iD,iC],az=c4[1],hK=f(dz,k[2]),ca=g(k[1],hK),aO=l(k[1]),eu=$(qU,aO),ev=eu?$(aO,qV):eu,ew=ev?$(aO,l(k[4])):ev,ex=ew?$(l(k[4]),qW):ew;if(ex)var
+hL=k[4],cb=o(function(a){return M(l(a),aO)},hL);else
 var
-b1=d_;if(b1){var
-aJ=b0;for(;;){if(aJ){var
-d5=aJ[2],hn=aJ[1],d6=aH(a6(function(b){return function(a){return mW(b,a)}}(hn),d5));if(d6){var
-aJ=d5;continue}var
-d$=d6}else
+cb=ex;if(cb){var
+aN=ca;for(;;){if(aN){var
+es=aN[2],hJ=aN[1],et=aK(a4(function(b){return function(a){return m5(b,a)}}(hJ),es));if(et){var
+aN=es;continue}var
+ey=et}else
 var
-d$=1;var
-b2=d$;break}}else
+ey=1;var
+cc=ey;break}}else
 var
-b2=b1;if(b2){var
-aI=b0,aF=l[3];for(;;){if(aF){var
-d1=aF[1],d2=d1[1],d3=aH(a6(function(b){return function(a){return au(b,a)}}(d2),aI)),d4=d3?gi(aI,d1[2]):d3;if(d4){var
-aI=[0,d2,aI],aF=aF[2];continue}var
-ea=d4}else
+cc=cb;if(cc){var
+aM=ca,aL=k[3];for(;;){if(aL){var
+em=aL[1],en=em[1],eo=aK(a4(function(b){return function(a){return ap(b,a)}}(en),aM)),er=eo?gt(aM,em[2]):eo;if(er){var
+aM=[0,en,aM],aL=aL[2];continue}var
+ez=er}else
 var
-ea=1;var
-b3=ea;break}}else
+ez=1;var
+cd=ez;break}}else
 var
-b3=b2;if(b3)var
-hq=l[4],hr=g(f(dr,l[3]),b0),hs=function(a){return gi(hr,a)},b4=n(function(a){return n(hs,a)},hq);else
+cd=cc;if(cd)var
+hM=k[4],hN=g(f(dz,k[3]),ca),hO=function(a){return gt(hN,a)},ce=o(function(a){return o(hO,a)},hM);else
 var
-b4=b3;if(b4)var
-ht=l[2],b5=n(function(a){return br(m,a[2][1],a[2][2])},ht);else
+ce=cd;if(ce)var
+hP=k[2],cf=o(function(a){return bs(m,a[2][1],a[2][2])},hP);else
 var
-b5=b4;var
-eb=b5?n(function(a){return br(m,a[1],a[2])},cq):b5;if(eb){var
-hc=k(l[1]),bO=k(l[2]),dS=H(bO,k(dK(f(ds,l[3])))),hd=l[3],aq=jy(l),aD=hd,bN=bO;for(;;){if(aD){var
-dQ=aD[1],dR=dQ[2],g8=H(bN,k(bt(dR))),g9=aD[2],g_=bu(aq,dR,bN),aq=[0,[0,dQ[1],g_],aq],aD=g9,bN=g8;continue}var
-he=jv(aq,l[4],dS),bS=f(function(a){return[0,a,q(c)]},he),hf=jw(aq,l[4],dS),hg=l[3],bT=g(js(jy(l),hg,bO),hf),bU=dB(g(cv(bS),bT))[1],hh=dA(bU),bV=function(a){return bp(hh,a)},dT=e(a4(bV),bS),dU=aa(k(cq),hc);if(dU)var
-hi=g(cv(bS),bT),bW=n(function(a){var
-b=q(d),c=dA(bU);return bb(F(bV(a),c,b),a)},hi);else
+cf=ce;var
+eA=cf?o(function(a){return bs(m,a[1],a[2])},cF):cf;if(eA){var
+hy=l(k[1]),b2=l(k[2]),ee=J(b2,l(dR(f(dA,k[3])))),hz=k[3],as=jL(k),aI=hz,b1=b2;for(;;){if(aI){var
+ec=aI[1],ed=ec[2],hs=J(b1,l(bv(ed))),ht=aI[2],hu=bw(as,ed,b1),as=[0,[0,ec[1],hu],as],aI=ht,b1=hs;continue}var
+hA=jI(as,k[4],ee),b3=f(function(a){return[0,a,q(c)]},hA),hB=jJ(as,k[4],ee),hC=k[3],b4=g(jF(jL(k),hC,b2),hB),b5=dJ(g(cz(b3),b4))[1],hD=dI(b5),b6=function(a){return bq(hD,a)},ef=e(a5(b6),b3),eg=M(l(cF),hy);if(eg)var
+hE=g(cz(b3),b4),b7=o(function(a){var
+b=q(d),c=dI(b5);return bc(E(b6(a),c,b),a)},hE);else
 var
-bW=dU;var
-dV=bW?a6(qJ,e_):bW;if(dV){var
-g$=y(dK,l[4]),ha=g(dK(f(ds,l[3])),g$),hb=g(jx(l[2]),ha),bX=aS(f(function(a){return aM(az,a)},hb));if(bX){var
-bY=aS(f(function(a){return aM(az,[0,a,d])},cq));if(bY){var
-bZ=aS(f(function(a){if(typeof
-a==="number")return[0,[0,ab]];else
+b7=eg;var
+eh=b7?a4(qT,fr):b7;if(eh){var
+hv=z(dR,k[4]),hw=g(dR(f(dA,k[3])),hv),hx=g(jK(k[2]),hw),b8=aT(f(function(a){return aA(az,a)},hx));if(b8){var
+b_=aT(f(function(a){return aA(az,[0,a,d])},cF));if(b_){var
+b$=aT(f(function(a){if(typeof
+a==="number")return[0,[0,O]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5107,230 +5392,174 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aM(az,[0,[0,b,b],d]);return ae(function(a){return e(ai(az,a))},g)},e_));if(bZ){var
-dW=bZ[1],hj=i4(dW),hk=bY[1],hl=function(a){return 0},hm=bX[1];return f4(az,bU,dT,dT,f(bV,bT),hm,dW,hl,hk,hj,iF)}var
-dY=bZ}else
+g=aA(az,[0,[0,b,b],d]);return af(function(a){return e(aa(az,a))},g)},fr));if(b$){var
+ei=b$[1],hF=je(ei),hG=b_[1],hH=function(a){return 0},hI=b8[1];return gd(az,b5,ef,ef,f(b6,b4),hI,ei,hH,hG,hF,i1)}var
+ej=b$}else
 var
-dY=bY;var
-dZ=dY}else
+ej=b_;var
+ek=ej}else
 var
-dZ=bX;var
-d0=dZ}else
+ek=b8;var
+el=ek}else
 var
-d0=dV;return d0}}return eb}var
-f1=fZ}else
+el=eh;return el}}return eA}var
+gr=gq}else
 var
-f1=cO;return f1}return 0;case
-4:if(0===p[2][0]){var
-f2=c7(i(a[1]));if(f2){var
-bz=a[3];if(bz){var
-aX=bz[1],cs=aX[4],K=bz[2];if(aX[1]||aX[2]||aX[3])var
-t=0;else
-switch(cs[0]){case
+gr=c6;return gr}return 0;case
+4:if(0===s[2][0]){var
+gu=de(i(a[1]));if(gu){var
+bG=a[3],du=0;if(bG){var
+a2=bG[1],a3=a2[4],K=bG[2];if(a2[1]||a2[2]||a2[3])var
+u=0;else{var
+H=0;if(typeof
+a3!=="number")switch(a3[0]){case
 0:var
-dc=0;if(K){var
-aY=K[1],e$=aY[4];if(aY[1]||aY[2]||aY[3])var
-t=0;else
-if(1===e$[0])if(K[2])var
-t=0;else
+bK=0;if(K){var
+a7=K[1],cH=a7[4];if(a7[1]||a7[2]||a7[3]){var
+u=0;H=1;bK=1}else{var
+dv=0;if(typeof
+cH!=="number"&&1===cH[0])if(K[2]){var
+u=0;H=1;bK=1;dv=1}else{var
+iH=i(cH[1]),u=[0,[0,i(a3[1]),iH]];H=1;bK=1;dv=1}if(!dv)var
+ft=0}}else
 var
-ij=i(e$[1]),t=[0,[0,i(cs[1]),ij]];else{var
-fa=0;dc=1}}else{var
-fa=K;dc=1}if(dc)var
-t=fa;break;case
+ft=K;if(!bK){var
+u=ft;H=1}break;case
 1:var
-dd=0;if(K){var
-aZ=K[1],fb=aZ[4];if(aZ[1]||aZ[2]||aZ[3])var
-t=0;else
-if(0===fb[0])if(K[2])var
-t=0;else
+bL=0;if(K){var
+a8=K[1],cI=a8[4];if(a8[1]||a8[2]||a8[3]){var
+u=0;H=1;bL=1}else{var
+dw=0;if(typeof
+cI!=="number"&&0===cI[0])if(K[2]){var
+u=0;H=1;bL=1;dw=1}else{var
+iI=i(a3[1]),u=[0,[0,i(cI[1]),iI]];H=1;bL=1;dw=1}if(!dw)var
+fu=0}}else
 var
-ik=i(cs[1]),t=[0,[0,i(fb[1]),ik]];else{var
-fc=0;dd=1}}else{var
-fc=K;dd=1}if(dd)var
-t=fc;break;default:var
-t=0}}else
+fu=K;if(!bL){var
+u=fu;H=1}break}if(!H){var
+fs=0;du=1}}}else{var
+fs=bG;du=1}if(du)var
+u=fs;if(u){var
+gv=u[1],gx=gv[2],gy=gv[1],e8=j(m,1,i(a[2])),e9=e8?j(m,1,[2,gx,[0,c,c]]):e8,e_=e9?j(m,1,gy):e9;return e_?j(m,0,[2,[4,[0,c,c],gx],gy]):e_}var
+gz=u}else
 var
-t=bz;if(t){var
-f3=t[1],f5=f3[2],f8=f3[1],eJ=j(m,1,i(a[2])),eK=eJ?j(m,1,[2,f5,[0,c,c]]):eJ,eL=eK?j(m,1,f8):eK;return eL?j(m,0,[2,[4,[0,c,c],f5],f8]):eL}var
-f$=t}else
-var
-f$=f2;return f$}return 0;case
+gz=gu;return gz}return 0;case
 5:var
-gc=a[4],gd=a[1],cP=p[2];if(0===cP[0]){var
-ge=cP[2],v=eV(gd,[0,a[2],a[3]],0,gc),cQ=gL(k(ge),ge);if(cQ){var
-gf=cQ[1];if(gf[2])return 0;var
-gg=gS(gd,0,gc,v);if(gg){var
-gj=ji(m,v);if(gj){var
-iH=gf[1],gk=f(kl,v[1]),z=km(v[1]),gm=i(a[5]),Q=cP[1],cb=f6(z,gk,v[1]),I=f7(z,gk,v[1],0),hE=k(v[3]),hF=H(k(cb),hE),aW=[0,k(cb),hF],hG=f_(I,z,aW,v[3]),hH=g(f(ex,I),hG),eR=g(cv(ey(I)),hH),eS=dB(eR)[1],cc=dA(eS),eT=v[2];if(0===eT[0]){var
-eW=n(function(a){var
-b=q(d);return bb(F(bp(cc,a),cc,b),a)},eR),eX=eW?j(m,1,gm):eW;if(eX){var
-hI=v[3],hJ=y(function(a){return eE(z,a)},hI),hK=v[3],hL=g(cb,g(f(function(a){return bP(z,a)},hK),hJ)),cd=aS(f(function(a){return aM(Q,a)},hL));if(cd){var
-hM=a8(eT[1],z),ce=aS(f(function(a){return aM(Q,a)},hM));if(ce){var
-cf=b7(Q,z,[4,gm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cf){var
-cg=v[3],hN=ce[1],hO=cf[1],hP=cd[1],ad=function(a){return bp(cc,a)},eN=f(a3,hP),eO=function(A,x){var
-g=A,a=x;for(;;){if(0===a[0]){var
-h=a[1],l=aa(k(h),rm),m=l?n(function(a){var
-d=B(W(b(2,b(2,b(2,c)))),a);return d?B(a,b(2,b(2,b(2,c)))):d},h):l;if(m){var
-o=j9(Q,hO,f0(0,g),h),C=a[2],ae=cr(0,dC(Q,o,eN),eS,0),s=function(b){var
-a=j8(Q,o,eN,ae,b);return a?ac(d,a[1][2][1]):a};return function(l){if(typeof
-l==="number")return a6(function(b){var
-a=F(ad(b[2]),ae,0);return a?B(a[1][2][2],d):a},I);else{if(0===l[0]){var
-t=l[1],u=al(cg,t);if(u){var
-a=l[2],h=u[1],ar=ej(t,cg),as=k(y(function(a){return eE(z,a)},ar)),at=H(aW[2],as),v=[0,H(aW[1],t),at],ai=ey(I),i=e(a4(ad),ai),m=[1,[8,[1,[1,v[1]]]]],E=function(c,b,a){var
-d=eQ(c,a);return[1,[4,[1,[6,b,eP(a)]],d]]},A=0;if(typeof
-h==="number")A=1;else
-switch(h[0]){case
-4:var
-o=j(Q,1,h[2]);break;case
-8:var
-o=j(Q,1,[4,h[2],h[1]]);break;default:A=1}if(A)var
-o=1;var
-G=o?n(rk,a):o,C=0;if(G){var
-g=0;if(typeof
-h!=="number")switch(h[0]){case
-0:var
-af=0;if(a)if(a[2]){var
-b=0;g=2;af=1}else
+c7=a[4],gA=a[1],c$=s[2];if(0===c$[0]){var
+gB=c$[3],v=eZ(gA,[0,a[2],a[3]],0,c7),da=gW(l(gB),gB);if(da){var
+gC=da[1];if(gC[2])return 0;var
+gD=g3(gA,0,c7,v),gF=gD?aK(a4(vU,c7)):gD;if(gF){var
+gG=jv(m,v);if(gG){var
+i3=gC[1],gH=f(ks,v[1]),G=kt(v[1]),gI=i(a[5]),Y=c$[1],cm=gf(G,gH,v[1]),ah=gg(G,gH,v[1],0),h0=l(v[3]),h1=J(l(cm),h0),a0=[0,l(cm),h1],h2=gi(ah,G,a0,v[3]),h3=g(f(cX,ah),h2),fb=g(cz(eE(ah)),h3),fc=dJ(fb)[1],cn=dI(fc),fd=v[2];if(0===fd[0]){var
+fe=o(function(a){var
+b=q(d);return bc(E(bq(cn,a),cn,b),a)},fb),ff=fe?j(m,1,gI):fe;if(ff){var
+h4=v[3],h5=z(function(a){return cZ(G,a)},h4),h6=v[3],h7=g(cm,g(f(function(a){return bt(G,a)},h6),h5)),cp=aT(f(function(a){return aA(Y,a)},h7));if(cp){var
+h8=a6(fd[1],G),cr=aT(f(function(a){return aA(Y,a)},h8));if(cr){var
+cs=b9(Y,G,[4,gI,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cs){var
+ct=v[3],h9=cr[1],h_=cs[1],h$=cp[1],a1=function(a){return bq(cn,a)},e$=f(aZ,h$),fa=function(_,X){var
+f=_,a=X;for(;;){if(0===a[0]){var
+n=a[1],y=M(l(n),rx),A=y?o(function(a){var
+d=D(Z(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},n):y;if(A){var
+B=kg(Y,h_,f8(0,f),n),e=a[2],C=cu(0,dK(Y,B,e$),fc,0),g=function(b){var
+a=kf(Y,B,e$,C,b);return a?ac(d,a[1][2][1]):a};if(typeof
+e==="number")return a4(function(b){var
+a=E(a1(b[2]),C,0);return a?D(a[1][2][2],d):a},ah);else{if(0===e[0]){var
+h=e[1],i=ai(ct,h);if(i){var
+Q=e[2],R=i[1],S=eq(h,ct),T=l(z(function(a){return cZ(G,a)},S)),U=J(a0[2],T),j=rw(Y,a1,ah,G,[0,J(a0[1],h),U],R,Q);if(j){var
+q=j[1],V=q[1],r=o(function(a){return g([0,a[2]])},V);if(r)return o(g,q[2]);var
+s=r}else
 var
-K=[0,[0,i,[0,E(i,m,a[1]),0]]];else
+s=j;var
+t=s}else
 var
-K=a;if(!af){var
-b=K;g=2}break;case
-1:var
-ag=0;if(a)if(a[2]){var
-b=0;g=2;ag=1}else
+t=i;return t}var
+u=e[1],k=ai(ct,u);if(k){var
+v=k[1];if(typeof
+v!=="number"&&1===v[0]){var
+m=ai(ah,e[2]);if(m){var
+W=J(a0[1],u),x=m[1],P=[1,[6,[1,[8,[1,[1,W]]]],[0,a1(x[2])]]];return g([1,[4,[1,[8,[0,a1(cX(x))]]],P]])}return m}var
+w=0}else
 var
-L=a[1],aj=[1,[6,m,eP(L)]],M=[0,[0,i,[0,[1,[4,eQ(i,L),aj]],0]]];else
+w=k;return w}}return A}var
+F=a[1],p=ai(f,F);if(p){var
+H=p[1],$=H[1],I=aK(al(br(H),$));if(I){var
+K=dN(F,f),L=fa(K[1],a[2]);if(L){var
+f=K[2],a=a[3];continue}var
+N=L}else
 var
-M=a;if(!ag){var
-b=M;g=2}break;case
-5:var
-D=0;if(a){var
-q=a[2],ah=0;if(q)if(q[2]){var
-b=0;g=2;ah=1}else
+N=I;var
+O=N}else
 var
-O=q[1],P=a[1],am=eP(P),an=[1,[6,m,[1,[6,eQ(i,O),am]]]],ao=eP(O),R=[0,[0,i,[0,[1,[4,[1,[6,eQ(i,P),ao]],an]],0]]];else
+O=p;return O}};return fa(h9,i3)}var
+fg=cs}else
 var
-R=q;if(!ah){var
-S=R;D=1}}else{var
-S=a;D=1}if(D){var
-b=S;g=2}break;case
-8:if(a)if(a[2]){var
-b=0;g=2}else{var
-U=a[1],T=[1,[2,c]];g=1}else{var
-b=a;g=2}break;case
-9:if(a)if(a[2]){var
-b=0;g=2}else{var
-U=a[1],T=m;g=1}else{var
-b=a;g=2}break;case
-10:break;default:if(a){var
-b=0;g=2}else{var
-p=f9(I,z,v,h);if(p)var
-ak=[0,p[1],p[2]],N=[0,[0,0,f(function(a){return[1,[5,[0,ad(a)]]]},ak)]];else
+fg=cr;var
+fh=fg}else
 var
-N=p;var
-b=N;g=2}}switch(g){case
-2:break;case
-0:var
-J=0;C=1;break;default:var
-r=eF(I,z,v,h);if(r)var
-ap=r[1],V=e(a4(ad),ap),W=[0,[0,V,[0,E(V,T,U),0]]];else
+fh=cp;var
+fi=fh}else
 var
-W=r;var
-b=W}}else{var
-J=G;C=1}if(C)var
-b=J;if(b){var
-X=b[1],au=X[1],Y=n(function(a){return s([0,a[2]])},au);if(Y)return n(s,X[2]);var
-Z=Y}else
+fi=ff;return fi}return 0}var
+gJ=gG}else
 var
-Z=b;var
-_=Z}else
+gJ=gF;var
+gK=gJ}else
 var
-_=u;return _}var
-$=l[1],w=al(cg,$);if(w){var
-aa=w[1];if(typeof
-aa!=="number"&&1===aa[0]){var
-x=al(I,l[2]);if(x){var
-av=H(aW[1],$),ac=x[1],aq=[1,[6,[1,[8,[1,[1,av]]]],[0,ad(ac[2])]]];return s([1,[4,[1,[8,[0,ad(ex(ac))]]],aq]])}return x}var
-ab=0}else
+gK=da;return gK}return 0;default:var
+gL=a[1];if(gL){var
+gM=gL[1],df=s[2];if(0===df[0]){var
+dg=gU(vX,df[3]);if(dg){var
+gN=d3(gM);if(gN){var
+i4=dg[1],gO=bT(gM)[2],bH=df[1],ck=b9(bH,d,gO);if(ck){var
+cl=b9(bH,d,[4,[0,c,c],gO]);if(cl){var
+hZ=ck[1][1],e5=ac(cq(bH),hZ);if(e5)return ke(bH,cl[1][1],i4);var
+e6=e5}else
 var
-ab=w;return ab}}(C)}return m}var
-p=a[1],i=al(g,p);if(i){var
-q=i[1],D=q[1],r=aH(ak(bq(q),D));if(r){var
-t=dG(p,g),u=eO(t[1],a[2]);if(u){var
-g=t[2],a=a[3];continue}var
-v=u}else
+e6=cl;var
+e7=e6}else
 var
-v=r;var
-w=v}else
+e7=ck;return e7}var
+gP=gN}else
 var
-w=i;return w}};return eO(hN,iH)}var
-eZ=cf}else
+gP=dg;return gP}return 0}var
+dh=s[2];if(0===dh[0]){var
+di=gU(vY,dh[3]);return di?ke(dh[1],d,di[1]):di}return 0}}return au}var
+y=[au,v1,ft(0)],kB=[au,v2,ft(0)];function
+vZ(y,b){var
+r=[0,h(uM,am(b[4])),0],s=[0,h(uO,P([0,h(uN,am(b[3])),r])),0],a=b[2];if(0===a[0]){var
+c=a[2],l=[0,h(uC,x(f(ux,a[3]))),0];if(c)var
+e=c[1],i=[0,h(uD,gP(e[1],e[2])),0];else
 var
-eZ=ce;var
-e0=eZ}else
+i=c;var
+m=g(i,l),j=L(uF,P([0,h(uE,gJ(a[1])),m]))}else
 var
-e0=cd;var
-e1=e0}else
-var
-e1=eX;return e1}return 0}var
-gn=gj}else
-var
-gn=gg;var
-go=gn}else
-var
-go=cQ;return go}return 0;default:var
-gp=a[1];if(gp){var
-gq=gp[1],cR=p[2];if(0===cR[0]){var
-cU=gJ(vx,cR[2]);if(cU){var
-gr=dX(gq);if(gr){var
-iI=cU[1],gs=bQ(gq)[2],bA=cR[1],b$=b7(bA,d,gs);if(b$){var
-ca=b7(bA,d,[4,[0,c,c],gs]);if(ca){var
-hD=b$[1][1],eG=ac(cm(bA),hD);if(eG)return j7(bA,ca[1][1],iI);var
-eH=eG}else
-var
-eH=ca;var
-eI=eH}else
-var
-eI=b$;return eI}var
-gu=gr}else
-var
-gu=cU;return gu}return 0}var
-cW=p[2];if(0===cW[0]){var
-cX=gJ(vy,cW[2]);return cX?j7(cW[1],d,cX[1]):cX}return 0}}return as}var
-x=[ar,vB,fo(0)],ku=[ar,vC,fo(0)];function
-vz(t,b){var
-n=[0,h(us,am(b[4])),0],o=[0,h(uu,O([0,h(ut,am(b[3])),n])),0],a=b[2];if(0===a[0])var
-i=[0,h(uj,w(f(ue,a[2]))),0],d=L(ul,O([0,h(uk,gy(a[1])),i]));else
-var
-c=a[3],j=[0,h(um,kc(a[4])),0],k=c?[0,h(un,w(f(K,c))),0]:c,l=g(k,j),m=[0,h(uo,w(f(K,a[2]))),0],d=L(uq,O(g([0,h(up,gy(a[1])),m],l)));var
-p=[0,h(uv,d),o],q=0===b[2][0]?uw:uB,r=[0,h(ux,am(q)),p],s=[0,h(uy,tl(b[1])),r],e=au(hZ(vA,eR(O([0,h(uA,am(uz)),s]),ur)),t);return e?vv(b):e}function
-T(a){if(0===a[0])return a[1];throw x}function
-U(a){if(1===a[0])return a[1];throw x}function
-aO(a){if(2===a[0])return a[1];throw x}function
-dY(a){if(3===a[0])return a[1];throw x}function
-aZ(f,e){var
+d=a[3],n=[0,h(uG,kk(a[4])),0],o=d?[0,h(uH,x(f(H,d))),0]:d,p=g(o,n),q=[0,h(uI,x(f(H,a[2]))),0],j=L(uK,P(g([0,h(uJ,gJ(a[1])),q],p)));var
+t=[0,h(uP,j),s],u=0===b[2][0]?uQ:uV,v=[0,h(uR,am(u)),t],w=[0,h(uS,tE(b[1])),v],k=ap(ib(v0,eV(P([0,h(uU,am(uT)),w]),uL)),y);return k?vV(b):k}function
+W(a){if(0===a[0])return a[1];throw y}function
+Y(a){if(1===a[0])return a[1];throw y}function
+aO(a){if(2===a[0])return a[1];throw y}function
+d4(a){if(3===a[0])return a[1];throw y}function
+aV(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===An(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===AT(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aZ(c,b);if(a)return a[1];throw x}function
-c8(b,a){var
+a=aV(c,b);if(a)return a[1];throw y}function
+cI(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-c9(a){switch(a[0]){case
+df(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vD]}throw x}function
-c_(e,d){var
-a=X(e,U(d));if(a){var
+2:return[0,a[1],v3]}throw y}function
+dg(e,d){var
+a=_(e,Y(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-e0(i){var
-f=bX(i),d=[0,0],e=a0(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
+e4(i){var
+f=bZ(i),d=[0,0],e=a1(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dg(f,c)+g3|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=dp(f,c)+he|0;if(9<g>>>0)throw y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5352,87 +5581,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dZ(a){return il(e0(a))}function
-e1(b){var
-a=dY(b);return 45===R(a,0)?W(dZ(dn(a,1,E(a)-1|0))):dZ(a)}function
-kv(a){return fM(dZ(dY(a)))}function
-e2(a){return ik(dZ(dY(a)))}function
-cE(c){var
-a=dY(c);if(6<E(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hC(a))}function
-kw(a){var
-b=97<=a?1:0,c=b?a<=mE?1:0:b;if(c)var
+d5(a){return iA(e4(a))}function
+e5(b){var
+a=d4(b);return 45===U(a,0)?Z(d5(dw(a,1,I(a)-1|0))):d5(a)}function
+kC(a){return fR(d5(d4(a)))}function
+e6(a){return iz(d5(d4(a)))}function
+cJ(c){var
+a=d4(c);if(6<I(a))throw y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hQ(a))}function
+kD(a){var
+b=97<=a?1:0,c=b?a<=mN?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kx(z,b){var
-d=E(b),a=[0,0];function
+kE(z,b){var
+d=I(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?R(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?U(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=R(b,a[1])&&!(57<R(b,a[1]))){a[1]++;continue}return dn(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=U(b,a[1])&&!(57<U(b,a[1]))){a[1]++;continue}return dw(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
+i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&au(dn(b,a[1],5),vF)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ap(dw(b,a[1],5),v5)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kw(R(b,a[1]))){var
+v=0;if(a[1]<d&&kD(U(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kw(R(b,a[1]))&&95!==R(b,a[1])&&(!(48<=R(b,a[1]))||57<R(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(z,dn(b,o,a[1]-o|0))];break}}else
+w=0;if(!kD(U(b,a[1]))&&95!==U(b,a[1])&&(!(48<=U(b,a[1]))||57<U(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(z,dw(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=au(h,vG);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ap(h,v6);if(r)var
 s=r;else
 var
-t=1<E(h)?1:0,s=t?48===R(h,0)?1:0:t;if(s)throw x;if(q){var
-k=q[1],y=0;if(au(k,vH)||48===R(k,E(k)-1|0))y=1;else
+t=1<I(h)?1:0,s=t?48===U(h,0)?1:0:t;if(s)throw y;if(q){var
+l=q[1],x=0;if(ap(l,v7)||48===U(l,I(l)-1|0))x=1;else
 var
-A=e0(k),f=[0,e0(h),A];if(y)throw x}else
+A=e4(l),f=[0,e4(h),A];if(x)throw y}else
 var
-f=[0,e0(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,vE)){if(!(2<E(g))&&2<=hC(g)&&!(64<hC(g)))return[4,f,fM(dZ(g))];throw x}throw x}return f}function
+f=[0,e4(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(k(g,v4)){if(!(2<I(g))&&2<=hQ(g)&&!(64<hQ(g)))return[4,f,fR(d5(g))];throw y}throw y}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw x;var
+g(d){if(64<d)throw y;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw x;return h}function
-e3(a){return kx(function(a){throw x},a)}function
-ky(a){var
-b=aO(a);return kx(function(a){return a},b)}function
-V(a){return e3(aO(a))}function
-bS(a){if(2===a[0])return[0,e3(a[1])];var
-b=T(a),c=V(p(b,vI));return[1,V(p(b,vJ)),c]}function
-Z(a){throw[0,ku,av(hZ(vL,a),vK)]}function
-kz(c){var
-a=aO(c);if(l(a,vM)){var
-b=l(a,vN);if(b)throw x;return b}return 1}function
-vO(d){var
-b=T(d);function
-a(a){return c_(bS,p(b,a))}var
-c=aO(p(b,vP));if(l(c,vQ)){if(l(c,vR)){if(l(c,vS))return Z([0,vU,[0,c,vT]]);var
-e=aZ(b,vV),f=c8(function(a){return c_(bS,a)},e),g=a(vW);return[1,a(vX),g,f]}var
-h=kz(p(b,vY)),i=bS(p(b,vZ)),j=a(v0),k=a(v1);return[0,a(v2),k,j,i,h]}return[2,a(v3)]}function
-gV(d){var
-a=T(d);if(a){var
-b=a[1];if(!l(b[1],v4)){var
-c=b[2];if(2===c[0]&&!l(c[1],v5))return 1}}return 0}function
-v6(c){var
-a=T(c);if(1-gV(c))throw x;function
-b(b){return c_(bS,p(a,b))}var
-d=kz(p(a,v7)),e=bS(p(a,v8)),f=bS(p(a,v9)),g=b(v_),h=b(v$),i=b(wa);return[0,b(wb),i,h,g,f,e,d]}function
-c$(c,d){var
-a=U(d);if(a){var
+h=g(0);if(a[1]<d)throw y;return h}function
+e7(a){return kE(function(a){throw y},a)}function
+kF(a){var
+b=aO(a);return kE(function(a){return a},b)}function
+R(a){return e7(aO(a))}function
+bU(a){if(2===a[0])return[0,e7(a[1])];var
+b=W(a),c=R(p(b,v8));return[1,R(p(b,v9)),c]}function
+ab(a){throw[0,kB,ax(ib(v$,a),v_)]}function
+kG(c){var
+a=aO(c);if(k(a,wa)){var
+b=k(a,wb);if(b)throw y;return b}return 1}function
+wc(d){var
+b=W(d);function
+a(a){return dg(bU,p(b,a))}var
+c=aO(p(b,wd));if(k(c,we)){if(k(c,wf)){if(k(c,wg))return ab([0,wi,[0,c,wh]]);var
+e=aV(b,wj),f=cI(function(a){return dg(bU,a)},e),g=a(wk);return[1,a(wl),g,f]}var
+h=kG(p(b,wm)),i=bU(p(b,wn)),j=a(wo),l=a(wp);return[0,a(wq),l,j,i,h]}return[2,a(wr)]}function
+g6(d){var
+a=W(d);if(a){var
+b=a[1];if(!k(b[1],ws)){var
+c=b[2];if(2===c[0]&&!k(c[1],wt))return 1}}return 0}function
+wu(c){var
+a=W(c);if(1-g6(c))throw y;function
+b(b){return dg(bU,p(a,b))}var
+d=kG(p(a,wv)),e=bU(p(a,ww)),f=bU(p(a,wx)),g=b(wy),h=b(wz),i=b(wA);return[0,b(wB),i,h,g,f,e,d]}function
+dh(c,d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gW(m){var
-c=T(m),a=aO(p(c,wc)),h=AZ(a,wd),g=0;if(0<=h)if(0<h)if(l(a,we))if(l(a,wf))if(l(a,wg)){var
-i=l(a,wh);if(i)g=1;else
+f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
+g7(n){var
+c=W(n),a=aO(p(c,wC)),h=Bt(a,wD),g=0;if(0<=h)if(0<h)if(k(a,wE))if(k(a,wF))if(k(a,wG))if(k(a,wH)){var
+i=k(a,wI);if(i)g=1;else
 var
 b=i}else
 var
@@ -5442,261 +5671,281 @@ b=4;else
 var
 b=5;else
 var
+b=11;else
+var
 b=2;else
-if(l(a,ww))if(l(a,wx))if(l(a,wy))if(l(a,wz))if(l(a,wA))g=1;else
+if(k(a,w0))if(k(a,w1))if(k(a,w2))if(k(a,w3))if(k(a,w4))if(k(a,w5))g=1;else
 var
 b=1;else
 var
 b=8;else
+var
+b=10;else
 var
 b=7;else
 var
 b=3;else
 var
 b=9;var
-j=g?Z([0,wj,[0,a,wi]]):b;function
-f(a){return p(c,wk)}var
-d=aO(p(c,wl));if(l(d,wm))if(l(d,wn))if(l(d,wo))var
-e=Z([0,wq,[0,d,wp]]);else
+j=g?ab([0,wK,[0,a,wJ]]):b;function
+f(a){return p(c,wL)}var
+d=aO(p(c,wM)),l=k(d,wN);if(l)if(k(d,wO))if(k(d,wP))if(k(d,wQ))var
+e=ab([0,wS,[0,d,wR]]);else
 var
-k=c$(V,f(0)),e=[2,k[1],k[2]];else
+m=dh(R,f(0)),e=[2,m[1],m[2]];else
 var
-e=[0,V(f(0))];else
+e=[0,R(f(0))];else
 var
-e=[1,V(f(0))];function
-n(m){var
-a=T(m),d=0;switch(j){case
+e=[1,R(f(0))];else
+var
+e=l;function
+o(t){var
+a=W(t),g=0;switch(j){case
 6:if(a){var
-i=a[1];if(!l(i[1],ws)){var
-k=i[2];if(1===k[0]){var
-c=k[1],e=0;if(c&&!c[2])if(a[2])e=1;else{var
-h=c[1];d=1;e=1}if(!e&&!a[2])return Z(wt)}}}break;case
+n=a[1];if(!k(n[1],wU)){var
+o=n[2];if(1===o[0]){var
+c=o[1],h=0;if(c&&!c[2])if(a[2])h=1;else{var
+m=c[1];g=1;h=1}if(!h&&!a[2])return ab(wV)}}}break;case
+10:if(a){var
+p=a[1];if(!k(p[1],wW)){var
+q=p[2];if(1===q[0]){var
+d=q[1];if(d&&!d[2]){var
+e=a[2];if(e){var
+r=e[1];if(!k(r[1],wX)){var
+s=r[2];if(1===s[0]){var
+f=s[1];if(f&&!f[2]&&!e[2]){var
+u=R(f[1]);return[1,R(d[1]),u]}}}}}}}}break;case
 2:case
 8:if(a){var
-f=a[1];if(!l(f[1],wr)){var
-g=f[2];if(1===g[0]){var
-b=g[1];if(b&&!b[2]&&!a[2]){var
-h=b[1];d=1}}}}break}if(d)return V(h);throw x}var
-o=c8(n,aZ(c,wu));return[0,j,c8(cE,aZ(c,wv)),o,e]}function
-wB(b){var
-a=gW(b);return 8===a[1]?Z(wC):a}function
-gX(c){var
-a=gW(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(wD)}function
-wE(a){var
-b=gW(a);switch(b[1]){case
+i=a[1];if(!k(i[1],wT)){var
+l=i[2];if(1===l[0]){var
+b=l[1];if(b&&!b[2]&&!a[2]){var
+m=b[1];g=1}}}}break}if(g)return[0,R(m)];throw y}var
+q=cI(o,aV(c,wY));return[0,j,cI(cJ,aV(c,wZ)),q,e]}function
+g8(c){var
+a=g7(c),b=a[1];if(2!==b&&!(4<=b))return a;return ab(w6)}function
+w7(a){var
+b=g7(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gX(a)}}function
-wL(f){var
-a=T(f);function
-d(b){return V(p(a,b))}function
-c(b){return c_(V,p(a,b))}var
-b=aO(p(a,wM));if(l(b,wN)){if(!l(b,wO)){var
-j=p(a,wU),e=c$(function(a){return a},j),k=aZ(a,wV),m=c8(function(a){return c(wW)},k),n=e3(aO(e[2])),o=e3(aO(e[1])),q=d(wX);return[0,cE(p(a,wY)),q,o,n,m]}if(l(b,wP))throw x}var
-g=d(wQ),h=c(wR),i=c(wS);return[1,au(b,wT),i,h,g]}function
-kA(a){if(0===a[0]&&a[5])return 1;return 0}function
-kB(ad){var
-j=c9(ad),k=j[1];if(l(k,wZ)){if(l(k,w0)){if(l(k,w1))return Z([0,w3,[0,k,w2]]);var
-r=p(T(j[2]),w4),S=0;if(2===r[0]){var
-D=l(r[1],w5);if(!D){var
-C=D;S=1}}if(!S)var
-C=[0,bS(r)];return[6,C]}var
-E=T(j[2]),f=kB([0,[0,[0,w7,p(E,w6)],0]]);if(0===f[0]){var
-s=f[2];if(0===s[0]&&!f[3]){var
-ae=V(p(E,w9));return[5,f[1],s[1],s[2],f[4],ae]}}return Z(w8)}var
-b=T(j[2]);function
-F(a){return X(wB,U(p(b,w_)))}var
-g=c9(p(b,w$)),c=c9(p(b,xa)),a=g[1];if(l(a,xb)&&0!==aZ(b,xc))return Z(x$);if(l(a,xd)&&l(a,xe)&&l(a,xf)){if(0===aZ(b,xg)){if(l(a,xh)){var
-W=0;if(l(a,xi)){if(!l(a,xj)){var
-G=c[1],Y=0;if(l(G,xm)&&l(G,xn)){W=1;Y=1}if(!Y){var
-m=U(g[2]),d=T(c[2]);if(l(c[1],wF))var
-y=c$(V,p(d,wG)),z=c$(V,p(d,wH)),_=z[2],$=z[1],aa=V(p(d,wI)),t=[1,y[1],y[2],aa,$,_];else
+8:return b;default:return g8(a)}}function
+xc(f){var
+a=W(f);function
+d(b){return R(p(a,b))}function
+c(b){return dg(R,p(a,b))}var
+b=aO(p(a,xd));if(k(b,xe)){if(!k(b,xf)){var
+j=p(a,xl),e=dh(function(a){return a},j),l=aV(a,xm),m=cI(function(a){return c(xn)},l),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(xo);return[0,cJ(p(a,xp)),q,o,n,m]}if(k(b,xg))throw y}var
+g=d(xh),h=c(xi),i=c(xj);return[1,ap(b,xk),i,h,g]}function
+kH(X){var
+i=df(X),j=i[1];if(k(j,xq)){if(k(j,xr)){if(k(j,xs))return ab([0,xu,[0,j,xt]]);var
+q=p(W(i[2]),xv),O=0;if(2===q[0]){var
+z=k(q[1],xw);if(!z){var
+x=z;O=1}}if(!O)var
+x=[0,bU(q)];return[6,x]}var
+A=W(i[2]),f=kH([0,[0,[0,xy,p(A,xx)],0]]);if(0===f[0]){var
+r=f[2];if(0===r[0]&&!f[3]){var
+Z=R(p(A,xA));return[5,f[1],r[1],r[2],f[4],Z]}}return ab(xz)}var
+b=W(i[2]);function
+B(a){return _(g7,Y(p(b,xB)))}var
+g=df(p(b,xC)),c=df(p(b,xD)),a=g[1];if(k(a,xE)&&0!==aV(b,xF))return ab(yB);if(k(a,xG)&&k(a,xH)&&k(a,xI)){if(0===aV(b,xJ)){if(k(a,xK)){var
+P=0;if(k(a,xL)){if(!k(a,xM)){var
+C=c[1],Q=0;if(k(C,xP)&&k(C,xQ)){P=1;Q=1}if(!Q){var
+l=Y(g[2]),d=W(c[2]);if(k(c[1],w8))var
+v=dh(R,p(d,w9)),w=dh(R,p(d,w_)),S=w[2],T=w[1],U=R(p(d,w$)),s=[1,v[1],v[2],U,T,S];else
 var
-ab=c_(V,p(d,wJ)),t=[0,c_(V,p(d,wK)),ab];var
-u=aZ(b,xq),v=u?X(wL,U(u[1])):u,H=cL(gV,m),af=H?0!==v?1:0:H;if(af)Z(xr);var
-i=v;for(;;){if(i){var
-A=i[2],ac=i[1],B=1-cL(function(e){return function(a){var
-b=gG(e,a);if(b){var
-c=kA(e);if(!c)return kA(a);var
-d=c}else
-var
-d=b;return d}}(ac),A);if(B){var
-i=A;continue}var
-I=B}else
-var
-I=1;if(1-I)Z(xs);if(cL(gV,m)){var
-ag=X(gX,U(p(b,xt)));return[1,X(v6,m),t,ag]}var
-ah=F(0);return[0,X(vO,m),t,v,ah]}}}}else
-if(!l(c[1],xu)){var
-ai=F(0),aj=V(p(T(c[2]),xv));return[4,V(p(T(g[2]),xw)),aj,ai]}if(!W)return Z([0,xl,[0,a,xk]])}else
-if(!l(c[1],xx)){var
-n=T(g[2]),J=T(c[2]),K=function(c,a){var
-b=U(a);return X(function(d){var
-a=U(d);if(a){var
+V=dg(R,p(d,xa)),s=[0,dg(R,p(d,xb)),V];var
+t=aV(b,xT),D=t?_(xc,Y(t[1])):t,E=b5(g6,l),$=E?0!==D?1:0:E;if($)ab(xU);if(b5(g6,l)){var
+aa=_(g8,Y(p(b,xV)));return[1,_(wu,l),s,aa]}var
+ac=B(0);return[0,_(wc,l),s,D,ac]}}}else
+if(!k(c[1],xW)){var
+ad=B(0),ae=R(p(W(c[2]),xX));return[4,R(p(W(g[2]),xY)),ae,ad]}if(!P)return ab([0,xO,[0,a,xN]])}else
+if(!k(c[1],xZ)){var
+m=W(g[2]),F=W(c[2]),G=function(c,a){var
+b=Y(a);return _(function(d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aO(a[1]),f]}}throw x},b)},ak=function(d){var
-a=T(d);if(a){var
-b=a[1],c=b[1];if(l(c,xy)){if(!l(c,xz)&&!a[2])return X(ky,U(b[2]))}else
-if(!a[2])return Z(xA)}throw x},al=X(gX,U(p(b,xB))),am=X(V,U(p(J,xC))),an=X(V,U(p(J,xD))),ao=X(ak,U(p(n,xE))),ap=K(ky,p(n,xF)),aq=K(bS,p(n,xG));return[3,X(aO,U(p(n,xH))),aq,ap,ao,an,am,al]}return Z([0,xp,[0,c[1],xo]])}throw x}var
-L=c[1],M=T(g[2]),N=T(c[2]);if(l(L,xI))Z([0,xK,[0,L,xJ]]);var
-O=aZ(M,xL),ar=O?V(O[1]):Z([0,x_,[0,a,x9]]);function
-as(d){var
-a=T(d);function
-b(b){return X(bS,U(p(a,b)))}var
-c=aO(p(a,xM)),e=aZ(a,xN);if(!l(c,xO)&&!e){var
-f=b(xR);return[0,b(xS),f]}return Z([0,xQ,[0,c,xP]])}var
-h=c9(p(b,xT)),o=h[1];if(l(o,xU))if(l(o,xV))if(l(o,xW)){if(l(o,xX))throw x;var
-P=h[2],at=V(p(T(P),xY)),q=[3,V(p(T(P),xZ)),at]}else
+f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
+a=W(d);if(a){var
+b=a[1],c=b[1];if(k(c,x0)){if(!k(c,x1)&&!a[2])return _(kF,Y(b[2]))}else
+if(!a[2])return ab(x2)}throw y},ag=_(g8,Y(p(b,x3))),ah=_(R,Y(p(F,x4))),ai=_(R,Y(p(F,x5))),aj=_(af,Y(p(m,x6))),ak=G(kF,p(m,x7)),al=G(bU,p(m,x8));return[3,_(aO,Y(p(m,x9))),al,ak,aj,ai,ah,ag]}return ab([0,xS,[0,c[1],xR]])}throw y}var
+H=c[1],I=W(g[2]),J=W(c[2]);if(k(H,x_))ab([0,ya,[0,H,x$]]);var
+K=aV(I,yb),am=K?R(K[1]):ab([0,yA,[0,a,yz]]);function
+an(d){var
+a=W(d);function
+b(b){return _(bU,Y(p(a,b)))}var
+c=aO(p(a,yc)),e=aV(a,yd);if(!k(c,ye)&&!e){var
+f=b(yh);return[0,b(yi),f]}return ab([0,yg,[0,c,yf]])}var
+h=df(p(b,yj)),n=h[1];if(k(n,yk))if(k(n,yl))if(k(n,ym)){if(k(n,yn))throw y;var
+L=h[2],ao=R(p(W(L),yo)),o=[3,R(p(W(L),yp)),ao]}else
 var
-ay=h[2],w=function(a){return c$(V,p(T(ay),a))},az=w(x6),aA=w(x7),q=[1,w(x8),aA,az];else
+at=h[2],u=function(a){return dh(R,p(W(at),a))},au=u(yw),av=u(yx),o=[1,u(yy),av,au];else
 var
-R=c$(V,h[2]),q=[0,R[1],R[2]];else
+N=dh(R,h[2]),o=[0,N[1],N[2]];else
 var
-q=[2,V(h[2])];var
-Q=l(a,x0),au=Q?l(a,x1)?2:1:Q,av=X(wE,U(p(b,x2))),aw=X(V,U(p(N,x3))),ax=X(V,U(p(N,x4)));return[2,au,X(as,U(p(M,x5))),ar,ax,aw,q,av]}function
-kC(a){return X(e1,U(a))}function
-e4(g,m){var
-n=g[2];function
-o(c,b){var
-a=kC(b);if(ch(a)!==c)throw x;return a}switch(m[0]){case
+o=[2,R(h[2])];var
+M=k(a,yq),ap=M?k(a,yr)?2:1:M,aq=_(w7,Y(p(b,ys))),ar=_(R,Y(p(J,yt))),as=_(R,Y(p(J,yu)));return[2,ap,_(an,Y(p(I,yv))),am,as,ar,o,aq]}function
+kI(a){return _(e5,Y(a))}function
+g9(c,b){var
+a=kI(b);if(cl(a)!==c)throw y;return a}function
+kJ(a,d){var
+b=W(d),e=Y(p(b,yE)),f=a[2],c=_(function(a){return g9(f,a)},e),g=a[1];if(cl(c)!==g)throw y;return[0,c,e6(p(b,yF))]}function
+e8(g,m){var
+D=g[2];switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(l(b,yc))if(l(b,yd))if(l(b,ye))if(l(b,yf))if(l(b,yg)){var
-Q=0;if(l(b,yh)&&l(b,yi)&&l(b,yj))Q=1;if(!Q)if(c[2])d=1;else{var
-S=e[2],G=S,F=function(c,a){return[1,b,c,a]};d=2}}else{var
-J=e[2];if(1===J[0]){var
-q=J[1];if(q){var
-r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!c[2]){var
-Y=e2(s[1]),_=e1(r[1]);return[4,e4(g,q[1]),_,Y]}d=1}}}}}else{if(!c[2]){var
-K=T(e[2]),$=U(p(K,yo)),aa=n+1|0,L=X(function(a){return o(aa,a)},$);if(3===ch(L))return[1,yq,L,e2(p(K,yp))];throw x}d=1}else{if(!c[2]){var
-C=aO(e[2]),D=l(C,ya);if(D){if(l(C,yb))throw x;var
-E=1}else
+e=c[1],b=e[1],d=0;if(k(b,yG))if(k(b,yH))if(k(b,yI))if(k(b,yJ))if(k(b,yK)){var
+O=0;if(k(b,yL)&&k(b,yM)&&k(b,yN))O=1;if(!O)if(c[2])d=1;else{var
+Q=e[2],F=Q,E=function(c,a){return[1,b,c,a]};d=2}}else{var
+H=e[2];if(1===H[0]){var
+n=H[1];if(n){var
+o=n[2];if(o){var
+q=o[2];if(q&&!q[2]){if(!c[2]){var
+R=e6(q[1]),S=e5(o[1]);return[4,e8(g,n[1]),S,R]}d=1}}}}}else{if(!c[2]){var
+I=W(e[2]),T=Y(p(I,yQ)),U=D+1|0,J=_(function(a){return g9(U,a)},T);if(3===cl(J))return[1,yS,J,e6(p(I,yR))];throw y}d=1}else{if(!c[2]){var
+A=aO(e[2]),B=k(A,yC);if(B){if(k(A,yD))throw y;var
+C=1}else
 var
-E=D;return[2,E]}d=1}else{if(!c[2]){var
-h=e[2],k=0;switch(h[0]){case
+C=B;return[2,C]}d=1}else{if(!c[2]){var
+h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-N=i[1],w=N[1],a=0;if(l(w,yr)&&l(w,ys))if(l(w,yt))a=1;else{var
-O=N[2];if(1===O[0]){var
-y=O[1];if(y){var
-j=y[1],f=0;switch(j[0]){case
+L=i[1],u=L[1],a=0;if(k(u,yT)&&k(u,yU))if(k(u,yV))a=1;else{var
+M=L[2];if(1===M[0]){var
+v=M[1];if(v){var
+j=v[1],f=0;switch(j[0]){case
 0:var
-z=j[1];if(z){var
-P=z[1][1],R=0;if(l(P,yv)&&l(P,yw)){a=1;f=1;R=1}if(!R&&z[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(l(j[1],yx)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-A=y[2];if(A){var
-B=A[2];if(B&&!(B[2]||i[2])){var
-ad=e2(B[1]),ae=e1(A[1]),t=[5,e4(g,j),ae,ad];k=1;a=1}else
+w=j[1];if(w){var
+N=w[1][1],P=0;if(k(N,yX)&&k(N,yY)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(k(j[1],yZ)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+x=v[2];if(x){var
+z=x[2];if(z&&!(z[2]||i[2])){var
+Z=e6(z[1]),$=e5(x[1]),r=[5,e8(g,j),$,Z];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!i[2])k=2}break;case
-2:if(!l(h[1],yy))k=2;break}switch(k){case
+a=1}if(!a&&!i[2])l=2}break;case
+2:if(!k(h[1],y0))l=2;break}switch(l){case
 0:var
-t=Z(yu);break;case
+r=ab(yW);break;case
 2:var
-t=e4(g,h);break}return[6,t]}d=1}else{var
-M=e[2];if(1===M[0]){var
-u=M[1];if(u){var
-v=u[2];if(v&&!v[2])if(c[2])d=1;else{var
-ab=v[1],ac=u[1],G=ac,F=function(b,a){return[3,b,a,o(n+1|0,ab)]};d=2}}}}switch(d){case
-0:if(!c[2])return Z([0,yl,[0,b,yk]]);break;case
+r=e8(g,h);break}return[6,r]}d=1}else{var
+K=e[2];if(1===K[0]){var
+s=K[1];if(s){var
+t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
+V=t[1],X=s[1],F=X,E=function(b,a){return[3,b,a,g9(D+1|0,V)]};d=2}}}}switch(d){case
+0:if(!c[2])return ab([0,yP,[0,b,yO]]);break;case
 1:break;default:var
-H=T(G),V=U(p(H,ym)),I=X(function(a){return o(n,a)},V),W=g[1];if(ch(I)!==W)throw x;return F(I,e2(p(H,yn)))}}break;case
-2:return[0,m[1]]}throw x}function
-kD(j){var
-b=c9(j),a=b[1];if(l(a,yB)){var
-g=l(a,yC);if(!g)return g;if(!l(a,yD)){var
+G=kJ(g,F);return E(G[1],G[2])}}break;case
+2:return[0,m[1]]}throw y}function
+kK(j){var
+b=df(j),a=b[1];if(k(a,y3)){var
+g=k(a,y4);if(!g)return g;if(!k(a,y5)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cE(d[1]);return[1,cE(c[1]),k]}}}}}else{var
+l=cJ(d[1]);return[1,cJ(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=X(kC,U(f[1]));return[0,cE(e[1]),m]}}}}return Z([0,yF,[0,a,yE]])}function
-yU(c){var
+m=_(kI,Y(f[1]));return[0,cJ(e[1]),m]}}}}return ab([0,y7,[0,a,y6]])}function
+zl(c){var
+a=c[1];if(8!==a){var
+b=10<=a?1:0;if(!b)return b}return 1}function
+zm(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],yV))a=1;break;case
+0:if(!k(b[1],zn))a=1;break;case
 6:a=1;break}return a?1:0}function
-yW(f){var
-g=E(f),a=[0,0];function
-h(b){if(a[1]<g)return R(f,a[1]);throw x}function
-i(b){if(h(0)===b){a[1]++;return 0}throw x}function
-s(b,c){for(;;){if(a[1]<g&&e(c,R(f,a[1]))){a[1]++;continue}return dn(f,b,a[1]-b|0)}}function
-t(d){i(34);function
+zo(f){var
+h=I(f),a=[0,0];function
+i(b){if(a[1]<h)return U(f,a[1]);throw y}function
+j(b){if(i(0)===b){a[1]++;return 0}throw y}function
+v(b,c){for(;;){if(a[1]<h&&e(c,U(f,a[1]))){a[1]++;continue}return dw(f,b,a[1]-b|0)}}function
+w(d){j(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=s(a[1],b);i(34);return c}function
-u(k,d){if(h(0)===d){a[1]++;return 0}var
+c=v(a[1],b);j(34);return c}function
+x(k,d){if(i(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
-f=g;continue}i(d);var
+g=[0,e(k,0),f];if(44===i(0)){a[1]++;var
+f=g;continue}j(d);var
 b=g,c=0;for(;;){if(b){var
-j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-n(c,k){if(64<c)throw x;var
-b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,u(function(a){return n(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,u(function(b){var
-a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
-j=a[1];a[1]++;return[3,s(j,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-A=n(0,0),v=a[1]<g?1:0,B=v?10===R(f,a[1])?1:0:v;if(B)a[1]++;if(a[1]<g)throw x;var
-k=T(A);if(l(aO(p(k,yX)),yY))throw x;var
-c=kB(p(k,yZ));switch(c[0]){case
+h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
+o(c,k){if(64<c)throw y;var
+b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,x(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,x(function(b){var
+a=w(0);j(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,w(0)];if(45===b)d=1}if(d){var
+h=a[1];a[1]++;return[3,v(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
+E=o(0,0),z=a[1]<h?1:0,F=z?10===U(f,a[1])?1:0:z;if(F)a[1]++;if(a[1]<h)throw y;var
+m=W(E);if(k(aO(p(m,zp)),zq))throw y;var
+b=kH(p(m,zr));switch(b[0]){case
 2:var
-N=1===c[1]?6:3,m=[0,ch(c[2]),N];break;case
+X=1===b[1]?6:3,g=[0,cl(b[2]),X];break;case
 3:var
-O=ch(c[1]),m=[0,ch(c[4]),O];break;case
+Z=cl(b[1]),g=[0,cl(b[4]),Z];break;case
 0:case
 5:var
-m=[0,ch(c[1]),3];break;default:var
-m=y_}var
-o=c9(p(k,y0)),q=o[1];if(l(q,yK))if(l(q,yL))var
-b=Z([0,yN,[0,q,yM]]);else
+g=[0,cl(b[1]),3];break;default:var
+g=zE}var
+q=df(p(m,zs)),r=q[1];if(k(r,za))if(k(r,zb))var
+c=ab([0,zd,[0,r,zc]]);else
 var
-j=T(o[2]),r=aZ(j,yO),C=r?X(V,U(r[1])):r,D=kD(p(j,yP)),F=X(V,U(p(j,yQ))),b=[1,kv(p(j,yR)),F,C,D];else
+l=W(q[2]),s=aV(l,ze),G=s?_(R,Y(s[1])):s,H=kK(p(l,zf)),J=_(R,Y(p(l,zg))),c=[1,kC(p(l,zh)),J,G,H];else
 var
-w=T(o[2]),G=U(p(w,yS)),H=X(function(f){var
-a=T(f);function
+t=W(q[2]),K=Y(p(t,zi)),L=_(function(f){var
+a=W(f);function
 b(d,c){var
-b=aZ(a,c);return b?X(d,U(b[1])):b}var
-c=b(e1,yG),d=c8(kD,aZ(a,yH)),e=c8(cE,aZ(a,yI));return[0,b(function(g){var
-b=U(g);if(b){var
+b=aV(a,c);return b?_(d,Y(b[1])):b}var
+c=b(e5,y8),d=cI(kK,aV(a,y9)),e=cI(cJ,aV(a,y_));return[0,b(function(h){var
+b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],yz)){if(!a[2]){if(l(dY(e),yA))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],y1)){if(!a[2]){if(k(d4(e),y2))throw y;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e4(m,c);return[0,cE(e),f]}}}throw x},yJ),e,d,c]},G),b=[0,kv(p(w,yT)),H];var
-d=0;switch(c[0]){case
-1:if(0===b[0])Z(y5);else
-d=1;break;case
-2:if(0===b[0]){var
-K=b[2];if(hV(function(a){return hV(yU,a[1])},K))d=2;else
-Z(y6)}else{var
-L=c[7];if(cL(function(a){switch(a[1]){case
+f=e8(g,c);return[0,cJ(e),f]}}}throw y},y$),e,d,c]},K),M=aV(t,zj),N=cI(function(a){return kJ(g,a)},M),c=[0,kC(p(t,zk)),N,L];var
+d=0;switch(b[0]){case
+0:var
+A=b[4];if(0===c[0]){var
+D=0;if(b5(function(a){return 10===a[1]?1:0},A)){var
+O=b[1];if(b5(function(a){return 2===a[0]?1:0},O)){ab(zt);D=1}}if(!D)d=1}else{var
+C=A;d=3}break;case
+1:if(0===c[0])ab(zA);else
+d=2;break;case
+2:if(0===c[0]){var
+T=c[3];if(h9(function(a){return h9(zm,a[1])},T))d=1;else
+ab(zB)}else{var
+V=b[7];if(b5(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},L))Z(y7);else
-d=1}break;case
-3:if(1===b[0])Z(y8);else
-d=2;break;case
+8:return 1;default:return 0}},V))ab(zC);else
+d=2}break;case
+3:if(1===c[0])ab(zD);else
+d=1;break;case
 5:var
-P=0;if(0===b[0]){var
-M=b[2];if(cL(function(a){return 0!==a[1]?1:0},M)){Z(y9);P=1}}break;default:d=2}var
-z=0;switch(d){case
-2:if(0===b[0]){var
-I=b[2];if(cL(function(a){return 0!==a[3]?1:0},I)){Z(y1);z=1}}break;case
-1:break;default:z=1}var
-y=T(p(k,y2)),J=aO(p(y,y3));return[0,c,b,aO(p(y,y4)),J]}function
-y$(c){try{try{var
-d=0,a=yW(c);d=1}catch(a){a=fv(a);if(a[1]===ku)var
-b=[0,a[2]];else{if(a!==x)throw a;var
+C=b[4];d=3;break;default:d=1}var
+n=0;switch(d){case
+3:if(b5(zl,C))ab(zz);else
+n=2;break;case
+1:n=2;break;case
+2:n=1;break}var
+u=0;switch(n){case
+2:if(5===b[0]){var
+$=0;if(0===c[0]){var
+S=c[3];if(b5(function(a){return 0!==a[1]?1:0},S)){ab(zy);$=1}}}else
+if(0===c[0]){var
+Q=c[3];if(b5(function(a){return 0!==a[3]?1:0},Q))ab(zx);else
+u=1}else
+u=1;break;case
+1:u=1;break}var
+B=W(p(m,zu)),P=aO(p(B,zv));return[0,b,c,aO(p(B,zw)),P]}function
+zF(c){try{try{var
+d=0,a=zo(c);d=1}catch(a){a=fA(a);if(a[1]===kB)var
+b=[0,a[2]];else{if(a!==y)throw a;var
 b=2}}if(d)var
-b=vz(c,a)?0===a[2][0]?0:1:2}catch(a){return za}if(typeof
+b=vZ(c,a)?0===a[2][0]?0:1:2}catch(a){return zG}if(typeof
 b==="number")switch(b){case
-0:return zb;case
-1:return zc;default:return zd}return av(ze,b[1])}A4.orthocert_verify=AJ(function(b){return b0(y$(a(b)))});fy(0);return}(globalThis));
+0:return zH;case
+1:return zI;default:return zJ}return ax(zK,b[1])}By.orthocert_verify=Bd(function(b){return b2(zF(a(b)))});fD(0);return}(globalThis));

@@ -1,0 +1,83 @@
+(** * What the checker refuses of single quantities
+
+    An Orthoglide with legs of 310 mm within 0.1 mm on a small cube: each quantity
+    is shown on one leaf, and not where the bound is beyond what is so, by other
+    evidence, or of another leg. *)
+
+From Coq Require Import ZArith NArith Reals List.
+From Orthocert Require Import Claim.
+From Orthocert.kernel Require Import Statement Check Problem.
+Import ListNotations.
+
+Definition point (x y z : Z) : tolerances := Tolerances (exactly (x // 1)) (exactly (y // 1)) (exactly (z // 1)).
+Definition along (x y z : Z) : drive := SliderLeg (Slider (point x y z) (point 0 0 0) (point 0 0 0) (Within (3099 // 10) (3101 // 10)) true).
+Definition side : tolerance := Within (-20 // 1) (30 // 1).
+Definition claim_of (ls : list drive) (rs : list requirement) : claim := MakeClaim ls (Box (Tolerances side side side)) (NotSingular :: rs).
+Definition sliders : list drive := [along 1 0 0; along 0 1 0; along 0 0 1].
+(** The first test by this evidence, and those that follow by these. *)
+Definition leaf (es : list evidence) : tree :=
+  Leaf ((0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]]%Z) :: combine (seq 1 (List.length es)) es)%nat.
+Local Notation accepts ls rs es := (check_claim 32 (claim_of ls rs) 9 [0; 0; 0]%Z (leaf es)).
+
+Module Lines.
+Definition at_ (x y z : Z) : position := Position (x // 1) (y // 1) (z // 1).
+Example apart : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
+Example farther : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (80 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+(** One behind the other, along the leg. *)
+Example along_the_leg : accepts sliders [Beside 0 (at_ 40 0 0) (at_ (-40) 0 0) (20 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example on_each_other : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 40 0) (1 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByNegative] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders [Beside 3 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] [Beside 2 (at_ 0 40 0) (at_ 0 (-40) 0) (1 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+(** A direction that may be zero, or a length that may be negative, is no machine. *)
+Example no_direction : accepts [along 1 0 0; along 0 1 0; along 0 0 1; PlanarLeg (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))]
+  [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example no_length : accepts [along 1 0 0; along 0 1 0; SliderLeg (Slider (point 0 0 1) (point 0 0 0) (point 0 0 0) (exactly (-310 // 1)) true)]
+  [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
+Proof. vm_compute. reflexivity. Qed.
+End Lines.
+
+Module Accelerations.
+Local Notation within_ leg a v b := [JointAcceleration leg (a // 1) (v // 1) (b // 1)].
+Example certified : accepts sliders (within_ 0 9000 1200 14000) [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
+Example less : accepts sliders (within_ 0 9000 1200 13800) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_more_than_the_tool : accepts sliders (within_ 0 9000 0 9000) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example faster : accepts sliders (within_ 0 9000 2000 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_acceleration : accepts sliders (within_ 0 (-9000) 1200 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_bound : accepts sliders (within_ 0 0 1 (-15500)) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders (within_ 3 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] (within_ 2 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+End Accelerations.
+
+Module Forces.
+Definition Y (n : Z) : evidence := ByLower 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
+Local Notation within_ leg tool b := [JointForce leg (tool // 1) (b // 1)].
+Example certified : accepts sliders (within_ 0 56 85) [Y 5] = true. Proof. vm_compute. reflexivity. Qed.
+Example less : accepts sliders (within_ 0 56 55) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example greater_force : accepts sliders (within_ 0 90 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_multiplier : accepts sliders (within_ 0 56 85) [Y 0] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts sliders (within_ 0 56 85) [Y (-5)] = false. Proof. vm_compute. reflexivity. Qed.
+Example by_a_sign : accepts sliders (within_ 0 56 85) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_leg : accepts sliders (within_ 3 56 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_bound : accepts sliders (within_ 0 56 (-85)) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+(** Where there are more joints than coordinates, no force is determined. *)
+Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 0 56 1000)) 9 [0; 0; 0; 0]%Z
+  (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByLower 3 [[5; 0; 0]; [0; 5; 0]; [0; 0; 5]; [0; 0; 1]]%Z)]%nat) = false.
+Proof. vm_compute. reflexivity. Qed.
+End Forces.
+
+(** Of two points: one matrix for all cells. *)
+Module Positions.
+Local Notation accepts_by Y t := (check_claim_by 32 (3%N, Y) (claim_of sliders [OneToOne]) 9 [0; 0; 0]%Z t).
+Definition Y (n : Z) : list (list Z) := [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
+Definition halved (e f : evidence) : tree := Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, e)])%nat (Leaf [(1, f)])%nat.
+Example certified : accepts_by (Y 8) (halved ByChords ByChords) = true. Proof. vm_compute. reflexivity. Qed.
+Example no_matrix : accepts_by (Y 0) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts_by (Y (-8)) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
+(** A matrix of each cell shows that it has full rank there, and nothing of two points. *)
+Example a_matrix_of_each : accepts_by (Y 8) (halved (ByRank 3 (Y 8)) (ByRank 3 (Y 8))) = false. Proof. vm_compute. reflexivity. Qed.
+Example one_cell_left_out : accepts_by (Y 8) (Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, ByChords)])%nat (Leaf [])) = false. Proof. vm_compute. reflexivity. Qed.
+Example without_a_tree's_own : accepts sliders [OneToOne] [ByChords] = false. Proof. vm_compute. reflexivity. Qed.
+End Positions.
