@@ -5,9 +5,11 @@ use super::Goal;
 use orthocert_kernel::paving::{Root, SHARE_BITS};
 use rayon::prelude::*;
 
-/// So many splits below their roots, all subtrees are looked into; deeper, one of so many.
+/// So many splits below their roots, all subtrees are looked into; deeper, one of so many that are still
+/// undecided there, and of few of them more.
 const STEP: u32 = 3;
 const SAMPLE: usize = 32;
+const LEAST: usize = 8;
 /// What is aimed at, relative to the gap that is asked for: the sample errs.
 const AIM: f64 = 0.99;
 
@@ -36,17 +38,18 @@ pub fn depth(
         return Ok(grower.depth);
     }
     let known = (coarse + STEP).min(grower.depth);
-    let mut all = grown(grower, &roots, known)?;
+    let (mut all, undecided) = grown(grower, &roots, known)?;
     if let Some(depth) = chosen(&all, above, 1.0, (coarse, coarse..known + 1), goal) {
         return Ok(depth);
     }
     let open = all.open_at[known as usize] as f64;
     all.add(above);
-    let sample: Vec<Root> = roots.iter().step_by(SAMPLE).copied().collect();
+    let one_of = (undecided.len() / LEAST).clamp(1, SAMPLE);
+    let sample: Vec<Root> = undecided.into_iter().step_by(one_of).collect();
     let mut reach = known;
     while reach < grower.depth {
         reach = (reach + STEP).min(grower.depth);
-        let found = grown(grower, &sample, reach)?;
+        let (found, _) = grown(grower, &sample, reach)?;
         let scale = open / found.open_at[known as usize] as f64;
         let below = (coarse, known + 1..reach + 1);
         if let Some(depth) = chosen(&found, &all, scale, below, goal) {
@@ -56,18 +59,21 @@ pub fn depth(
     Ok(grower.depth)
 }
 
-/// What subtrees come to down to a depth.
-fn grown(grower: &Grower<'_>, roots: &[Root], depth: u32) -> Result<Tally, Cancelled> {
+/// What subtrees come to down to a depth, and those of them that are undecided there.
+fn grown(grower: &Grower<'_>, roots: &[Root], depth: u32) -> Result<(Tally, Vec<Root>), Cancelled> {
     let shallow = Grower { depth, ..*grower };
     let tally = |root: &Root| {
         let mut tally = Tally::up_to(grower.depth);
-        shallow.grow(*root, &mut Vec::new(), &mut tally).map(|()| tally)
+        shallow.grow(*root, &mut Vec::new(), &mut tally)?;
+        let is_undecided = tally.open_at[depth as usize] > 0;
+        Ok((tally, Vec::from_iter(is_undecided.then_some(*root))))
     };
-    let sum = |mut a: Tally, b: Tally| {
+    let sum = |(mut a, mut of_a): (Tally, Vec<Root>), (b, of_b)| {
         a.add(&b);
-        Ok(a)
+        of_a.extend(of_b);
+        Ok((a, of_a))
     };
-    roots.par_iter().map(tally).try_reduce(|| Tally::up_to(grower.depth), sum)
+    roots.par_iter().map(tally).try_reduce(|| (Tally::up_to(grower.depth), Vec::new()), sum)
 }
 
 /// The least depth of a range at which the goal is expected to be reached, or the greatest at which
