@@ -410,8 +410,9 @@ impl Problem {
     /// orientations have none. The matrices of singular values and solutions decrease with the `w D_i`, and so
     /// does `T - kappa^2 w D` of an accuracy; its other one shows `|A^-1 y| < z` for all `|y_i| <= b_i`, and the `b_i` grow
     /// with them. That all `D_i > 0` is harder the less they are; but `T > 0` shows `A` regular by itself, and a
-    /// strut of length zero, `D_i = 0`, has a row `A_i` of zeros. ∎ The inequality of a cylinder has the squares
-    /// with another sign.
+    /// strut of length zero, `D_i = 0`, has a row `A_i` of zeros. Nor have derivatives by tolerances squares of
+    /// positions: of the `w D_i` they are subtracted, for their factor `w` is of orientations alone. ∎ The inequality of a
+    /// cylinder has the squares with another sign.
     fn is_easier_with_less(&self, test: &Test) -> bool {
         let decreases = matches!(test, Test::SigmaMin(_) | Test::Solve(_) | Test::Accuracy(_));
         decreases && self.inside.is_none() && self.legs.len() == self.dimension()

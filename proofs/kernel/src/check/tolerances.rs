@@ -157,8 +157,10 @@ impl<E: Enclosure> Checker<'_, E> {
                     false => 1 << m,
                 };
                 let changes = changes.map_or(0, |&changes| changes * (m + 2) * (m + 2));
-                let there = if is_control { controls().map(at_controls).sum() } else { 0 };
-                changes.saturating_mul(points) + there + self.problem.tape.ops().len()
+                let there = controls().filter(|_| is_control).map(at_controls);
+                there
+                    .fold(changes.saturating_mul(points), usize::saturating_add)
+                    .saturating_add(self.problem.tape.ops().len())
             }
             _ => 0,
         };

@@ -2,7 +2,9 @@
 
 use crate::arithmetic::Random;
 use crate::certificates::claim;
+use crate::motions::decimal;
 use crate::prover::{certificate, Prover};
+use crate::turning::{on_circle, planar, psi, strut};
 use orthocert_kernel::certificate::{Certificate, Evidence, Node, Proof, Step, Tree, Verdict};
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::MachineClaim;
@@ -182,6 +184,124 @@ fn nothing_else_goes_with_it() {
         String::new(),
         vec![vec![1]]
     )));
+}
+
+fn short(x: f64) -> String {
+    decimal((x * 1e6).round() / 1e6)
+}
+
+fn range(x: f64, off: f64) -> String {
+    format!(r#"{{"min":"{}","max":"{}"}}"#, short(x - off), short(x + off))
+}
+
+/// Three struts in the plane, of one of which both ends may be off along x.
+fn three_struts([anchor, platform]: [&dyn Fn(f64) -> String; 2], require: &str) -> MachineClaim {
+    let at = |turn: f64| on_circle(0.5, turn + 80.0);
+    let legs = [
+        strut(
+            &format!(r#"{},"1""#, anchor(0.0)),
+            &format!(r#"{},"0.086824""#, platform(-0.492404)),
+        ),
+        strut(r#""-0.866025","-0.5""#, &at(210.0)),
+        strut(r#""0.866025","-0.5""#, &at(330.0)),
+    ];
+    claim(&planar(&legs, [r#""-0.2","-0.2""#, r#""0.2","0.2""#], r#""-20","20""#, require))
+}
+
+const OFF: f64 = 0.1;
+
+/// The least singular value of such machines, all ends and the middle, at poses of a grid.
+fn worst_of_three_struts() -> f64 {
+    let exact = |part: f64| move |x: f64| format!("\"{}\"", short(x + part * OFF));
+    let parts = [-1.0, 0.0, 1.0];
+    let all = parts.iter().flat_map(|p| parts.iter().map(move |q| (*p, *q)));
+    let sigma = all.flat_map(|(p, q)| {
+        let problem = Problem::new(&three_struts([&exact(p), &exact(q)], "")).expect("a claim");
+        let prover = Prover::new(&problem);
+        let at = |x: &Vec<f64>| prover.matrix(x).expect("within reach").singular_values().min();
+        prover.grid(9).iter().map(at).collect::<Vec<f64>>()
+    });
+    sigma.fold(f64::INFINITY, f64::min)
+}
+
+/// With tolerances.
+fn three_loose_struts(require: &str) -> MachineClaim {
+    three_struts([&|x| range(x, OFF); 2], require)
+}
+
+#[test]
+fn of_platforms_that_turn_at_control_points() {
+    let sigma = worst_of_three_struts();
+    let bound = |part: f64| three_loose_struts(&psi("max", part * sigma));
+    let found = apart(&bound(0.95), 9).expect("true");
+    let printed = found.to_text().expect("a text");
+    assert!(printed.contains(r#"{"tolerances":[{"control":{"lower""#), "{printed}");
+    assert_eq!(Certificate::read(&printed).as_ref(), Ok(&found));
+    assert!(!in_ranges(&bound(0.95), 9));
+    for part in [1.0005, 1.005, 1.05] {
+        assert!(apart(&bound(part), 9).is_none(), "{part}");
+    }
+    // The shortest that the first strut gets.
+    let mut shortest = f64::INFINITY;
+    for (at, turn) in (0..3 * 3 * 3 * 3 * 41).map(|n| (n % 81, n / 81)) {
+        let part = |k: u32| f64::from(at / 3i32.pow(k) % 3) / 2.0 - 0.5;
+        let [x, y, off, own] =
+            [0.4 * part(0), 0.4 * part(1), 0.2 * part(2), 0.2 * part(3) - 0.492404];
+        let (sin, cos) = f64::from(turn - 20).to_radians().sin_cos();
+        let u = x + own * cos - 0.086824 * sin - off;
+        shortest = shortest.min(u.hypot(y + own * sin + 0.086824 * cos - 1.0));
+    }
+    let stroke = |part: f64| {
+        let min = short(shortest * part);
+        three_loose_struts(&format!(
+            r#"{{"quantity":"joint_range","leg":1,"end":"min","bound":"{min}"}}"#
+        ))
+    };
+    let found = apart(&stroke(0.9), 9).expect("true");
+    let printed = found.to_text().expect("a text");
+    assert!(printed.contains(r#"{"tolerances":[{"control":"test"}"#), "{printed}");
+    assert!(!in_ranges(&stroke(0.9), 9));
+    for part in [1.0005, 1.002, 1.02] {
+        assert!(apart(&stroke(part), 9).is_none(), "{part}");
+    }
+}
+
+/// Around evidence at control points nothing else may stand, and nothing in its place.
+#[test]
+fn nothing_else_goes_with_control_points() {
+    let own = three_loose_struts(&psi("max", 0.95 * worst_of_three_struts()));
+    let good = apart(&own, 9).expect("true");
+    let with = |change: &dyn Fn(Evidence) -> Evidence| {
+        let Proof::Tree(mut tree) = good.proof.clone() else { panic!("a tree") };
+        let steps = tree.nodes.iter_mut().flat_map(|node| &mut node.by);
+        let mut apart = steps.filter(|Step(_, by)| matches!(by, Evidence::Tolerances(..)));
+        let step = &mut apart.next().expect("one").1;
+        *step = change(step.clone());
+        drop(apart);
+        check(&certificate(&own, Verdict::Certified, Proof::Tree(tree))).is_ok()
+    };
+    let inner = |change: &dyn Fn(Evidence) -> Evidence| {
+        with(&|evidence| {
+            let Evidence::Tolerances(inner, ends, directions) = evidence else { panic!("one") };
+            Evidence::Tolerances(Box::new(change(*inner)), ends, directions)
+        })
+    };
+    assert!(inner(&|evidence| evidence));
+    assert!(!with(&|evidence| Evidence::Control(Box::new(evidence))), "the other way about");
+    assert!(!inner(&|evidence| Evidence::Control(Box::new(evidence))), "twice");
+    assert!(!inner(&|evidence| Evidence::Turned(Box::new(evidence), 1, 0)), "turned of nothing");
+    assert!(!inner(&|evidence| Evidence::Inside(Box::new(evidence), 1, 0)), "inside of nothing");
+    assert!(!inner(&|_| Evidence::Control(Box::new(Evidence::Test))), "of another test");
+    let at_vertices = |evidence| match evidence {
+        Evidence::Control(inner) => *inner,
+        other => other,
+    };
+    assert!(!inner(&at_vertices), "derivatives are of polynomials alone");
+    let plain = |evidence| match evidence {
+        Evidence::Tolerances(inner, ..) => *inner,
+        other => other,
+    };
+    assert!(!with(&plain), "ranges are too wide");
 }
 
 /// What tolerances change of one obligation in six coordinates would take seconds: it is not taken apart.
