@@ -9,7 +9,7 @@ use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::test::Row;
+use orthocert_kernel::test::{self, Row};
 use std::collections::BTreeMap;
 
 /// Greatest components of directions that are tried: the longer, the less is lost along them, and the
@@ -18,7 +18,8 @@ const LENGTHS: [f64; 2] = [64.0, 8.0];
 
 /// Where a test is nearest to failing.
 struct Worst {
-    /// Where, between the ends of each coordinate's range.
+    /// At which vertex, or control point, and where that is between the ends of each coordinate's range.
+    vertex: usize,
     place: Vec<f64>,
     /// What matrices are least, or greatest, along.
     directions: Vec<DVector<f64>>,
@@ -35,6 +36,8 @@ impl Over<'_> {
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
         let two_ends = self.problem().inputs.iter().filter(|input| input.has_two_ends());
         let middle = "0".repeat(two_ends.count());
+        // What fails mostly fails there.
+        let formulas = test::Over { first: worst.vertex, inside: None, ..*self.formulas };
         let machines = [self.worst_machine(&worst), Some(middle)];
         let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
         let all = machines.iter().flatten().flat_map(|ends| lengths.iter().map(move |l| (ends, l)));
@@ -45,7 +48,7 @@ impl Over<'_> {
             };
             let directions: Vec<Vec<i64>> = worst.directions.iter().map(in_integers).collect();
             let found = self.prover.checker.apart(
-                self.formulas,
+                &formulas,
                 self.place,
                 (ends, &directions),
                 |formulas| {
@@ -107,8 +110,8 @@ impl Over<'_> {
             weights.extend(row.a.iter().zip(direction.iter()).map(entry));
             weights.push((row.d, -sign * part * part));
         }
-        let place = self.place_of(vertex);
-        (direction.amax() > 0.0).then_some(Worst { place, directions: vec![direction], weights })
+        let is_one = direction.amax() > 0.0;
+        is_one.then(|| self.worst_at(vertex, vec![direction], weights))
     }
 
     /// `z = A^-1 b`, `b = B_i e_i`, is longest, along `y = A^-T z`. The derivatives of `-|z|^2` are
@@ -130,8 +133,7 @@ impl Over<'_> {
             weights.extend(row.a.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y * z)));
         }
         let finite = root > 0.0 && y.iter().all(|x| x.is_finite()) && y.amax() > 0.0;
-        let place = self.place_of(vertex);
-        finite.then_some(Worst { place, directions: vec![y], weights })
+        finite.then(|| self.worst_at(vertex, vec![y], weights))
     }
 
     /// The vertex at which a sum is least.
@@ -141,8 +143,7 @@ impl Over<'_> {
             Some((weights.iter().map(term).sum::<Option<f64>>()?, v))
         };
         let least = self.formulas.vertices().filter_map(value).min_by(|a, b| a.0.total_cmp(&b.0));
-        let place = self.place_of(least?.1);
-        Some(Worst { place, directions: Vec::new(), weights })
+        Some(self.worst_at(least?.1, Vec::new(), weights))
     }
 
     /// The weight by which rows are scaled there.
@@ -151,9 +152,15 @@ impl Over<'_> {
         weight.map_or(Some(1.0), |weight| self.at(weight, At::Vertex(vertex)))
     }
 
-    fn place_of(&self, vertex: Vertex) -> Vec<f64> {
+    fn worst_at(
+        &self,
+        vertex: Vertex,
+        directions: Vec<DVector<f64>>,
+        weights: Vec<(Formula, f64)>,
+    ) -> Worst {
         let place = |k| self.formulas.place(k, vertex).unwrap_or(0) as f64;
-        (0..self.formulas.slopes.m).map(place).collect()
+        let place = (0..self.formulas.slopes.m).map(place).collect();
+        Worst { vertex: vertex.index(), place, directions, weights }
     }
 
     /// The ends of all tolerances that make it worst.

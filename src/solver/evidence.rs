@@ -232,7 +232,7 @@ impl Over<'_> {
                 Some(middle(&slope.at_centre) + sign * middle(&slope.slopes[k]))
             }
             At::Vertex(v) => {
-                let own = self.formulas.at(f, v);
+                let own = self.formulas.own_at(f, v);
                 let value = own.or_else(|| self.formulas.of(f).map(|f| f.range))?;
                 Some(middle(&value))
             }

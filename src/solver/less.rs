@@ -156,14 +156,14 @@ impl Over<'_> {
                 Some(least(t))
             }
             (Test::AtLeast(f), _) => {
-                let low = self.formulas.at(*f, v)?;
+                let low = self.formulas.own_at(*f, v)?;
                 Some(low.0)
             }
             (Test::Beyond(f, b), Evidence::Negative) => {
-                Some(-self.formulas.at(*f, v)?.1 - self.formulas.at(*b, v)?.1)
+                Some(-self.formulas.own_at(*f, v)?.1 - self.formulas.own_at(*b, v)?.1)
             }
             (Test::Beyond(f, b), _) => {
-                Some(self.formulas.at(*f, v)?.0 - self.formulas.at(*b, v)?.1)
+                Some(self.formulas.own_at(*f, v)?.0 - self.formulas.own_at(*b, v)?.1)
             }
             _ => None,
         }

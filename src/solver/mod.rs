@@ -63,6 +63,8 @@ pub const FINEST: i32 = 26;
 pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
 /// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
 const GUARD: u32 = 9;
+/// The same where tolerances are apart: what little some change is divided by.
+const GUARD_APART: u32 = 22;
 /// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
 /// others.
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
@@ -316,9 +318,10 @@ pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
 }
 
 /// The precisions at which a proof is tried.
-fn precisions(prover: &Prover<'_>) -> impl Iterator<Item = u32> {
+fn precisions(prover: &Prover<'_>, tree: &Tree) -> impl Iterator<Item = u32> {
     let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
-    let words = 63u32.saturating_sub(GUARD + size);
+    let guard = if tree.takes_tolerances_apart() { GUARD_APART } else { GUARD };
+    let words = 63u32.saturating_sub(guard + size);
     let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
     first.into_iter().chain(PRECISIONS)
 }
@@ -338,7 +341,7 @@ pub(crate) fn tree(
     }
     let nodes = from_root(&prover, budget, control)?;
     let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
-    for bits in precisions(&prover) {
+    for bits in precisions(&prover, &tree) {
         tree.precision = bits;
         if accepts(&tree) {
             return Ok(tree);
@@ -350,7 +353,8 @@ pub(crate) fn tree(
 /// The certificate of a proof.
 fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
-    confirmed(Claim::Machine(claim.clone()), tree, precisions(prover))
+    let precisions = precisions(prover, &tree);
+    confirmed(Claim::Machine(claim.clone()), tree, precisions)
 }
 
 /// The certificate of a tree, at the first of the precisions at which the checker accepts it.

@@ -77,7 +77,7 @@ impl Over<'_> {
     ) -> Option<T> {
         self.prover.checker.at_controls(self.formulas, self.place, test, |formulas| {
             let first = Vertex::first(1).next()?;
-            let lacks = matches!(test, Test::AtLeast(f) if formulas.at(*f, first).is_none());
+            let lacks = matches!(test, Test::AtLeast(f) if formulas.own_at(*f, first).is_none());
             (!lacks).then(|| then(&Over { formulas, ..*self }))?
         })?
     }

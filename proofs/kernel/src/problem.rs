@@ -192,9 +192,11 @@ impl Problem {
     }
 
     fn derivatives(&self) -> Option<Derived> {
-        let by = self.inputs.iter().enumerate().filter(|(_, input)| input.has_two_ends());
-        let by: Vec<Op> = by.map(|(j, _)| Op::Parameter(j)).collect();
-        if by.is_empty() {
+        let is_by = |op: &Op| match *op {
+            Op::Parameter(j) => self.inputs.get(j).is_some_and(Input::has_two_ends),
+            _ => false,
+        };
+        if !self.inputs.iter().any(Input::has_two_ends) {
             return None;
         }
         // Polynomials, where there are such.
@@ -202,13 +204,16 @@ impl Problem {
         let own = own.unwrap_or_else(|| self.legs.iter().map(|leg| leg.row.clone()).collect());
         let rows = self.obligations.iter().map(|obligation| obligation.test.rows(&own));
         let rows: Vec<Vec<Vec<Formula>>> = rows.collect();
-        let formulas: BTreeSet<Formula> = rows.iter().flatten().flatten().copied().collect();
+        let others = self.weight.into_iter().chain(self.turned);
+        let others = others.chain(self.inside.as_ref().map(|inside| inside.g));
+        let formulas: BTreeSet<Formula> =
+            rows.iter().flatten().flatten().copied().chain(others).collect();
         let (mut tape, mut of) = (self.tape.clone(), HashMap::new());
         let (zero, mut spent) = (tape.integer(0), 0usize);
         for formula in formulas {
             let parts = tape.parts(&[formula]);
             let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part).map(|(_, &op)| op);
-            let own: Vec<Op> = ops().filter(|op| by.contains(op)).collect();
+            let own: Vec<Op> = ops().filter(is_by).collect();
             spent = spent.saturating_add(own.len().saturating_mul(ops().count()));
             if spent > MOST_DERIVATIVES {
                 return None;

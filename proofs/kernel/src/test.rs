@@ -85,6 +85,8 @@ pub struct Over<'a, E: Enclosure> {
     pub inside: Option<Vec<E::Number>>,
     /// Where values at vertices are those of one machine: how the others differ. `values` and `controls` are of all.
     pub tolerances: Option<&'a Tolerances<'a, E>>,
+    /// The number of the vertex, or control point, at which matrices are looked at first: a search may know where they fail.
+    pub first: usize,
 }
 
 /// A row at a vertex, and what tolerances change of it.
@@ -96,7 +98,7 @@ pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
 impl<'a, E: Enclosure> Over<'a, E> {
     /// Formulas at vertices, of all machines at once.
     pub fn new(slopes: Slopes<'a, E>, values: &'a Values<Slope<E::Number>>) -> Self {
-        Over { slopes, values, controls: None, inside: None, tolerances: None }
+        Over { slopes, values, controls: None, inside: None, tolerances: None, first: 0 }
     }
     /// The value of a formula over the cell.
     pub fn of(&self, formula: Formula) -> Option<&Slope<E::Number>> {
@@ -113,8 +115,18 @@ impl<'a, E: Enclosure> Over<'a, E> {
         Vertex::first(self.controls.map_or(1 << self.slopes.m, Controls::len))
     }
 
-    /// The value of a formula at a vertex, or control point.
+    /// The value of a formula at a vertex, or control point; with tolerances apart none of what they change.
     pub fn at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
+        let changed =
+            |of: &Tolerances<'_, E>| of.derivatives.get(&formula).is_none_or(|all| !all.is_empty());
+        if self.tolerances.is_some_and(changed) {
+            return None;
+        }
+        self.own_at(formula, vertex)
+    }
+
+    /// The same, where tolerances are apart of the one machine: what they change is yet to be taken off.
+    pub fn own_at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
         match self.controls {
             None => vertex.value(&self.slopes, self.own(formula)?),
             Some(all) => {
@@ -143,7 +155,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
 
     /// The rows at a vertex.
     fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Varied<E::Number>>> {
-        let value = |f: &Formula| self.at(*f, vertex);
+        let value = |f: &Formula| self.own_at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
             let split = |mut s: Vec<E::Number>| s.pop().map(|d| Row { a: s, d });
@@ -173,15 +185,15 @@ impl<'a, E: Enclosure> Over<'a, E> {
 
     fn all_vertices(&self, rows: &[Row<Formula>], holds: impl Fn(Vertex) -> bool) -> bool {
         // No rows at all would have no singular value beyond any bound.
-        !rows.is_empty() && self.is_regular(rows) && self.vertices().all(holds)
+        let mut all = self.vertices().skip(self.first).chain(self.vertices().take(self.first));
+        !rows.is_empty() && self.is_regular(rows) && all.all(holds)
     }
 }
 
 /// `f >= 0` on the cell if it is not negative at its vertices, or control points.
 pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
     let e = over.slopes.arithmetic;
-    let least = |v| e.sub(&over.at(f, v)?, &over.greatest_loss(&[(f, false)], v)?);
-    let holds = |v: Vertex| over.less_inside(least(v)?, v);
+    let holds = |v: Vertex| over.less_inside(over.least_at(f, v)?, v);
     over.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
 }
 

@@ -531,7 +531,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 sigma_min(over, rows, &|v| over.at(*kappa, v), y)
             }
-            (Test::Greatest(rows, k), Evidence::Test) => sigma_max(over, rows, &|v| over.at(*k, v)),
+            (Test::Greatest(rows, k), Evidence::Test) => {
+                sigma_max(over, rows, &|v| over.least_at(*k, v))
+            }
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa, p)) => {
                 self.accuracy(over, place, test, (y, *kappa, *p)).unwrap_or(false)
             }

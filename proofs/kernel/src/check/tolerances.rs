@@ -147,7 +147,7 @@ impl<E: Enclosure> Checker<'_, E> {
         let derived = self.problem.derived.as_ref();
         let of_step = |Step(obligation, evidence): &Step| match evidence {
             Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
-            Evidence::Tolerances(inner, ..) => {
+            Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
                 let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
                 let controls = || controls.into_iter().flatten();
@@ -156,7 +156,13 @@ impl<E: Enclosure> Checker<'_, E> {
                     true => controls().map(|(_, control)| control.points()).max().unwrap_or(0),
                     false => 1 << m,
                 };
-                let changes = changes.map_or(0, |&changes| changes * (m + 2) * (m + 2));
+                // Two matrices of conditioning, two steps from the middle, values at vertices of m + 1 terms.
+                let test = self.problem.obligations.get(*obligation).map(|o| &o.test);
+                let matrices = if matches!(test, Some(Test::Conditioning(_))) { 2 } else { 1 };
+                let steps = if ends.contains('0') { 2 } else { 1 };
+                let values = if is_control { 0 } else { m * (m + 1) };
+                let each = matrices * (steps * (m + 2) * (m + 2) + values);
+                let changes = changes.map_or(0, |&changes| changes * each);
                 let there = controls().filter(|_| is_control).map(at_controls);
                 there
                     .fold(changes.saturating_mul(points), usize::saturating_add)

@@ -100,15 +100,17 @@ pub enum Test {
 }
 
 impl Test {
-    /// The formulas of each row of its matrix, the machine's `own` or others, or of its sign; none of tests
-    /// of whole cells.
+    /// The formulas of each row of its matrix, the machine's `own` or others, of a bound that is one of another
+    /// vertex, or of its sign; none of tests of whole cells.
     pub(crate) fn rows(&self, own: &[Row<Formula>]) -> Vec<Vec<Formula>> {
         let of = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect();
         match self {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                 own.iter().map(of).collect()
             }
-            Test::Least(rows, _) | Test::Greatest(rows, _) => rows.iter().map(of).collect(),
+            Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
+                rows.iter().map(of).chain([vec![*bound]]).collect()
+            }
             Test::AtLeast(f) => vec![vec![*f]],
             Test::Beyond(f, b) => vec![vec![*f, *b]],
             Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {

@@ -271,11 +271,11 @@ impl<'a> Prover<'a> {
         for v in over.vertices() {
             // Bounds are not among the formulas at control points.
             let bound = |f: Formula| over.of(f).map(|f| f.range);
-            let number = |f: Formula| over.at(f, v).or_else(|| bound(f)).map(middle);
+            let number = |f: Formula| over.own_at(f, v).or_else(|| bound(f)).map(middle);
             let margin = self.margin(test, &evidence, form, &number)?;
             let g = match (self.problem.turned, &self.problem.inside) {
-                (Some(g), _) => over.at(g, v)?.1,
-                (None, Some(inside)) if over.controls.is_some() => over.at(inside.g, v)?.1,
+                (Some(g), _) => over.own_at(g, v)?.1,
+                (None, Some(inside)) if over.controls.is_some() => over.own_at(inside.g, v)?.1,
                 (None, Some(inside)) => {
                     let mut t = over.of(inside.g)?.at_centre.0;
                     let gradient = inside.gradient.iter().zip(place.edges);

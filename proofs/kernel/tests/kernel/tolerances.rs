@@ -304,6 +304,40 @@ fn nothing_else_goes_with_control_points() {
     assert!(!with(&plain), "ranges are too wide");
 }
 
+/// The axis of a strut's joint, `[0, -1]`, and the strut, whose end is off by as much.
+fn loose_joint(ends: [&str; 2], bound: &str, evidence: &str) -> String {
+    let [lo, hi] = ends;
+    format!(
+        r#"{{"format":"orthocert/2","claim":{{"machine":{{"mechanism":{{"planar":{{"legs":[{{"drive":"strut","anchor":["0",{{"min":"{lo}","max":"{hi}"}}],"platform":["50","50"]}},{{"drive":"strut","anchor":["-346","-200"],"platform":["-86","50"]}},{{"drive":"strut","anchor":["346","-200"],"platform":["0","-100"]}}],"characteristic_length":"100"}}}},"workspace":{{"box":{{"min":["-0.125","-0.125"],"max":["0.125","0.125"]}}}},"orientation":{{"range":["-0.1","0.1"]}},"require":[{{"quantity":"base_joint","leg":1,"given":{{"axis":["0","-1"]}},"end":"max","bound":"{bound}"}}]}}}},"verdict":"certified","proof":{{"tree":{{"precision":52,"nodes":[{{"by":[[0,{{"control":{{"rank":{{"y":[[0,-1,-1],[1,1,-1],[-1,0,-1]],"places":1}}}}}}],[1,{{"control":"test"}}],[2,{evidence}]]}}]}}}},"provenance":{{"tool":"test","version":"0"}}}}
+"#
+    )
+}
+
+/// The bound of a leg's angle, `U . j`, is another for each machine, and is not that of the one.
+#[test]
+fn bounds_that_tolerances_change_are_lessened_too() {
+    let accepted = |ends, bound, evidence: &str| {
+        check(&Certificate::read(&loose_joint(ends, bound, evidence)).expect("a text")).is_ok()
+    };
+    let apart = |inner: &str, end: &str, direction: &str| {
+        format!(r#"{{"tolerances":[{inner},"{end}",[{direction}]]}}"#)
+    };
+    let all = ["\"test\"", r#"{"control":"test"}"#].into_iter().flat_map(|inner| {
+        let directions = ["[-9,64,0]", "[9,64,0]", "[0,1,0]", "[1,0,0]"];
+        let with = move |end| directions.map(|direction| apart(inner, end, direction));
+        ["-", "+", "0"].into_iter().flat_map(with)
+    });
+    // atan(50/310) is 9.16 degrees.
+    for evidence in all {
+        for bound in ["7.4", "8", "8.6", "9.1"] {
+            assert!(!accepted(["360", "440"], bound, &evidence), "{bound} {evidence}");
+        }
+    }
+    let own = r#"{"control":"test"}"#;
+    assert!(accepted(["399", "401"], "9.5", &apart(own, "+", "[-9,64,0]")));
+    assert!(!accepted(["399", "401"], "9.5", own), "ranges are too wide");
+}
+
 /// What tolerances change of one obligation in six coordinates would take seconds: it is not taken apart.
 #[test]
 fn too_many_changes_are_not_taken_apart() {
