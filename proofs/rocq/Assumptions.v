@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Machine Acceleration Accuracy Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Apart Solve Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -114,6 +114,10 @@ Check kernel.Acceleration.strut_acceleration.
 Print Assumptions kernel.Acceleration.strut_acceleration.
 Check kernel.Accuracy.one_position.
 Print Assumptions kernel.Accuracy.one_position.
+Check kernel.Gradient.derivatives_sound.
+Print Assumptions kernel.Gradient.derivatives_sound.
+Check kernel.Near.accurate_sound.
+Print Assumptions kernel.Near.accurate_sound.
 Check kernel.Solve.solved_sound.
 Print Assumptions kernel.Solve.solved_sound.
 Check kernel.Problem.beside_keeps.

@@ -138,7 +138,7 @@ fn is_machine_covered(claim: &MachineClaim, verdict: Verdict) -> bool {
 fn is_quantity(requirement: &Requirement, legs: &[Leg], verdict: Verdict) -> bool {
     let has_plane = legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
     match requirement.quantity.as_str() {
-        "joint_force" | "one_to_one" => verdict == Verdict::Certified,
+        "joint_force" | "one_to_one" | "accuracy" => verdict == Verdict::Certified,
         "joint_acceleration" => verdict == Verdict::Certified && !has_plane,
         key => QUANTITIES.contains(&key),
     }

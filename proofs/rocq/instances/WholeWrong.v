@@ -81,3 +81,32 @@ Example a_matrix_of_each : accepts_by (Y 8) (halved (ByRank 3 (Y 8)) (ByRank 3 (
 Example one_cell_left_out : accepts_by (Y 8) (Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, ByChords)])%nat (Leaf [])) = false. Proof. vm_compute. reflexivity. Qed.
 Example without_a_tree's_own : accepts sliders [OneToOne] [ByChords] = false. Proof. vm_compute. reflexivity. Qed.
 End Positions.
+
+(** Where joint errors and tolerances put the platform: legs within 0.1 mm, and errors of thousandths of a mm. *)
+Module Errors.
+Definition near (n kappa : Z) : evidence := ByAccuracy 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z kappa.
+Local Notation within_ error b := [Accuracy (error // 1000) (b // 1000)].
+Example certified : accepts sliders (within_ 10 250) [near 8 1] = true. Proof. vm_compute. reflexivity. Qed.
+Example less : accepts sliders (within_ 10 200) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_larger_errors : accepts sliders (within_ 40 250) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+(** So far that the rows differ by more than kappa. *)
+Example too_far : accepts sliders (within_ 10 60000) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example out_of_reach : accepts sliders (within_ 10 300000) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_error : accepts sliders (within_ (-10) 250) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_bound : accepts sliders (within_ 10 (-250)) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_matrix : accepts sliders (within_ 10 250) [near 0 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts sliders (within_ 10 250) [near (-8) 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example no_kappa : accepts sliders (within_ 10 250) [near 8 0] = false. Proof. vm_compute. reflexivity. Qed.
+Example a_greater_kappa : accepts sliders (within_ 10 250) [near 8 8] = false. Proof. vm_compute. reflexivity. Qed.
+Example by_rank : accepts sliders (within_ 10 250) [ByRank 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]]%Z] = false. Proof. vm_compute. reflexivity. Qed.
+(** It shows nothing else. *)
+Example of_another_test : accepts sliders [PsiMin (1 // 10)] [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+(** A tolerance counts: without it, the same bound is far from what is so. *)
+Example exact : accepts (map (fun d => match d with SliderLeg c => SliderLeg (Slider (direction c) (anchor c) (Claim.platform c) (exactly (310 // 1)) true) | d => d end) sliders)
+  (within_ 10 50) [near 8 1] = true.
+Proof. vm_compute. reflexivity. Qed.
+(** More joints than coordinates: joint coordinates near those commanded belong to no position. *)
+Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 10 250)) 9 [0; 0; 0; 0]%Z
+  (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByAccuracy 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]; [0; 0; 1]]%Z 1%Z)]%nat) = false.
+Proof. vm_compute. reflexivity. Qed.
+End Errors.

@@ -50,9 +50,9 @@ Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
-    and its acceleration and speed, of accelerations. *)
+    the joints' error, of accuracy, and its acceleration and speed, of accelerations. *)
 Inductive written_given := Given_ (x : expression) | Motion_ (acceleration speed : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
@@ -90,6 +90,7 @@ Inductive step :=
   | Multiplied (name : string) (y : list (list Z)) (places : N)
   | AtCorner (f : face)
   | Conditioned_ (y : list (list Z)) (places : N) (mu : list Z)
+  | Accurate_ (y : list (list Z)) (places : N) (kappa : Z)
   | Inside_ (s : step) (n : Z) (places : N)
   | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step).
@@ -182,7 +183,7 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
-  | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one"
+  | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one" | Accuracy_ => "accuracy"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" | Holds_ => "holds" end.
 Definition bound_text (e : written_end) : list text :=
@@ -191,7 +192,7 @@ Definition requirement_text (r : written_requirement) : text :=
   object (field "quantity" (quoted (about_text (about_ r))) ::
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
-    | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | Accuracy_ => "joint_error" | _ => "tool" end) (array [number x]))]
     | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | None => []
     end ++
@@ -268,6 +269,7 @@ Fixpoint evidence_text (s : step) : text :=
   | Multiplied name y places => variant name (multiplier_text y places)
   | AtCorner f => variant "corner" (quoted (match f with Q1 => "Q1" | Q2 => "Q2" end))
   | Conditioned_ y places mu => variant "conditioning" (array [multiplier_text y places; integers_text mu])
+  | Accurate_ y places kappa => variant "accuracy" (array [multiplier_text y places; integer_text kappa; natural 0])
   | Inside_ s n places => variant "inside" (array [evidence_text s; integer_text n; places_text places])
   | Turned_ s n places => variant "turned" (array [evidence_text s; integer_text n; places_text places])
   | AtControls_ s => variant "control" (evidence_text s)
@@ -312,7 +314,7 @@ Fixpoint is_plain_step (s : step) : bool :=
   match s with
   | Plain name | Multiplied name _ _ => is_plain name
   | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
-  | AtCorner _ | Conditioned_ _ _ _ => true
+  | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
 Definition is_name (s : string) : bool :=
@@ -475,6 +477,7 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
   | Stiffness_, AtLeast_ b, Some (Given_ joint) => [Stiffness (denoted joint) (denoted b)]
   | OneToOne_, Holds_, _ => [OneToOne]
+  | Accuracy_, AtMost_ b, Some (Given_ error) => [Accuracy (denoted error) (denoted b)]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
   | Clearance_, AtLeast_ b, _ => map (fun p => clearance_of (fst p) (snd p) (denoted b)) (pairs_of [] bs)
   | _, _, _ => []
@@ -485,6 +488,7 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
   | Force_, AtMost_ _, leg, Some (Given_ _) => Nat.eqb legs 3 && match leg with Some n => is_leg n | None => true end
+  | Accuracy_, AtMost_ _, None, Some (Given_ _) => Nat.eqb legs 3
   | Stiffness_, AtLeast_ _, None, Some (Given_ _) | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None | OneToOne_, Holds_, None, None => true
   | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some (Given_ _) | Acceleration_, AtMost_ _, Some n, Some (Motion_ _ _) => is_leg n
   | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some (Given_ _) | Acceleration_, AtMost_ _, None, Some (Motion_ _ _) => true
@@ -645,6 +649,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
       if name =? "rank" then Some (ByRank places y) else if name =? "direction" then Some (ByDirection places y) else None
   | AtCorner f => Some (ByCorner f)
   | Conditioned_ y places mu => Some (ByConditioning places y mu)
+  | Accurate_ y places kappa => Some (ByAccuracy places y kappa)
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
   | Turned_ s n places => match evidence_of s with Some e => Some (Turned e n places) | None => None end
   | AtControls_ s => option_map AtControls (evidence_of s)
@@ -766,6 +771,7 @@ Definition is_bound (r : requirement) : bool :=
   | Beside _ _ _ _ => false
   | JointForce _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | JointAcceleration _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
+  | Accuracy error b => certainly exact_bits false error && certainly exact_bits true b
   | JointMin _ b | JointMax _ b => is_number b
   | NotSingular | OneToOne => true
   end.

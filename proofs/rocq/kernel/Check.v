@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve.
+From Orthocert.kernel Require Solve Near.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -36,7 +36,9 @@ Inductive evidence :=
   (* of two bodies: three rows, affine on the cell *)
   | ByDirection (places : N) (Y : list (list Z))
   (* by the one matrix of the whole tree *)
-  | ByChords.
+  | ByChords
+  (* of accuracy: kappa, over the 2^places of Y *)
+  | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -45,11 +47,13 @@ Inductive tree :=
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
-    [Chords]: Y^T A + A^T Y > 0, by one matrix for all cells. *)
+    [Chords]: Y^T A + A^T Y > 0, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
+    half-width with the derivative by it, errors and half-widths over the distance. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
   | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
-  | Solved (i : nat) (k2 : fixed) | Chords (places : N) (Y : list (list Z)).
+  | Solved (i : nat) (k2 : fixed) | Chords (places : N) (Y : list (list Z))
+  | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat)))).
 
 Section Precision.
 Variable bits : positive.
@@ -139,14 +143,34 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
   | _, _ => false
   end.
 
+(** Slopes of each joint, and its coordinate defined. *)
+Definition joint_over (values : list (option slope)) (j : nat * (fixed * list (fixed * nat))) : option (fixed * list (fixed * slope)) :=
+  match nth (fst j) values None, all_some (map (fun h => option_map (pair (fst h)) (nth (snd h) values None)) (snd (snd j))) with
+  | Some _, Some hs => Some (fst (snd j), hs)
+  | _, _ => None
+  end.
+(** Accuracy is a test of the cell and what is near it. *)
+Definition shows_there (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence) : bool :=
+  match t, e with
+  | Accurate distance joints, ByAccuracy places Y kappa =>
+      let near := Near.evaluate_near bits tape params cell distance in
+      Nat.eqb (length cell) 3 && are_defined near &&
+      match rows_over near divided, rows_over values divided, all_some (map (joint_over values) joints) with
+      | Some far, Some here, Some js =>
+          match Near.triples far with Some far => Near.accurate bits less far here js places Y kappa | None => false end
+      | _, _, _ => false
+      end
+  | _, _ => shows values (length cell) less t e
+  end.
+
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
   | Inside e n places =>
       match inside cell with
-      | Some tangent => (0 <=? n)%Z && shows values (length cell) (Some (dyadic_slope n places tangent)) t e
+      | Some tangent => (0 <=? n)%Z && shows_there values cell (Some (dyadic_slope n places tangent)) t e
       | None => false
       end
-  | _ => shows values (length cell) None t e
+  | _ => shows_there values cell None t e
   end.
 
 Definition is_outside (cell : list fixed) : bool :=
@@ -204,8 +228,28 @@ Definition of_rows (x : list R) (bound : rows R -> Prop) : Prop :=
 
 Definition is_nonneg (x : list R) (f : nat) : Prop := defined x theta (formula_at f) /\ 0 <= value x theta (formula_at f).
 
+(** What joint coordinates may be off by: errors, and derivatives of each for machines of its own. *)
+Definition may_be_off (x : list R) (j : nat * (fixed * list (fixed * nat))) (b : R) : Prop :=
+  exists th e ts, Forall2 contains params th /\ (exists a, contains (fst (snd j)) a /\ Rabs e <= a) /\
+    Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) (snd (snd j)) ts /\
+    b = fold_right (fun p sum => snd p * value x th (formula_at (snd (fst p))) + sum) e (combine (snd (snd j)) ts).
+(** |(A - B) w|^2 *)
+Fixpoint changes (A B : list (list R)) (w : list R) : R :=
+  match A, B with a :: A', b :: B' => (dot a w - dot b w) ^ 2 + changes A' B' w | _, _ => 0 end.
+Definition divided_at (x : list R) : list (list R) := map (fun p => map (fun i => value x theta (formula_at i)) (fst p)) divided.
+Definition accurate_at (x : list R) (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat)))) : Prop :=
+  (forall th, Forall2 contains params th -> Forall (fun j => defined x th (formula_at (fst j))) joints) /\
+  exists g kappa z, 0 <= g /\ g < kappa /\ 0 <= z /\ z + g / (2 * kappa) <= 1 /\
+  (forall d l0 l1 l2, contains distance d -> 0 <= d -> Forall (fun t => -1 <= t <= 1) [l0; l1; l2] -> let y := Near.moved d x [l0; l1; l2] in
+    Forall (fun p => Forall (fun i => defined y theta (formula_at i)) (fst p)) divided /\
+    forall w0 w1 w2, changes (divided_at y) (divided_at x) [w0; w1; w2] <= g ^ 2 * ((w0 ^ 2 + w1 ^ 2 + w2 ^ 2) * (l0 ^ 2 + l1 ^ 2 + l2 ^ 2))) /\
+  forall w0 w1 w2, let w := [w0; w1; w2] in let p := Solve.weighted_sum w (divided_at x) in
+    kappa ^ 2 * dot w w <= dot p p /\
+    forall bs s, Forall2 (may_be_off x) joints bs -> 0 < dot w w + s ^ 2 -> 0 < dot p p + 2 * s * dot bs w + z ^ 2 * s ^ 2.
+
 Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   match t with
+  | Accurate distance joints => (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints
   | SigmaMin low => Forall (fun f => defined x theta (formula_at f)) partial /\
       of_rows x (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> kappa2 * dot v v < energy r v)
   | SigmaMax high => of_rows x (fun r => forall k2 v, contains high k2 -> length v = m -> nonzero v ->
@@ -359,7 +403,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -425,6 +469,97 @@ Hypothesis inside_sound : forall cell lambda x t, inside cell = Some t -> length
   Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
   exists e, entry_in bits t e /\ 0 <= at_lambda lambda e.
 
+Lemma enclosed_entry : forall lambda x cs th s f, enclosed bits lambda x cs th s f ->
+  defined x th f /\ exists e, entry_in bits s e /\ value x th f = at_lambda lambda e.
+Proof.
+  intros lambda x cs th s f [_ [d [h1 [h2 [u [h3 h4]]]]]]. split; [exact d |]. exists (value cs th f, u). split; [split; assumption |]. unfold at_lambda. cbn [fst snd]. lra.
+Qed.
+
+Lemma all_some_nth : forall (A B C : Type) (f : A -> option B) (g : C -> A) l m, all_some (map (fun i => f (g i)) l) = Some m -> Forall2 (fun i b => f (g i) = Some b) l m.
+Proof.
+  intros A B C f g. induction l as [| i l IH]; intros m h; cbn [map all_some] in h; [injection h as <-; constructor |].
+  destruct (f (g i)) eqn:e; [| discriminate]. destruct (all_some _) as [m' |]; [| discriminate]. injection h as <-. constructor; auto.
+Qed.
+
+(** Rows near the cell: how they differ, by slopes. *)
+Lemma rows_near : forall near l y x r far ts, (forall i, encloses bits l y x theta (nth i near None) (formula_at i)) ->
+  rows_over near r = Some far -> Near.triples far = Some ts ->
+  Forall (fun p => Forall (fun i => defined y theta (formula_at i)) (fst p)) r /\
+  exists us, Forall2 (fun t u => forall j, Forall2 contains (slopes (Near.entry_of_row t j)) (u j)) ts us /\
+  forall w0 w1 w2, let at_ z := map (fun p => map (fun i => value z theta (formula_at i)) (fst p)) r in
+    changes (at_ y) (at_ x) [w0; w1; w2] = fold_right (fun u sum => (w0 * dot (u 0%nat) l + w1 * dot (u 1%nat) l + w2 * dot (u 2%nat) l) ^ 2 + sum) 0 us.
+Proof.
+  intros near l y x. induction r as [| [a d] r IH]; intros far ts E h k; cbn [rows_over] in h.
+  - injection h as <-. injection k as <-. split; [constructor |]. exists []. split; [constructor | reflexivity].
+  - destruct (all_some (map _ a)) as [sa |] eqn:ea; [| discriminate]. destruct (nth d near None); [| discriminate].
+    destruct (rows_over near r) as [rest |]; [| discriminate]. destruct (0 <? lo (range s))%Z; [| discriminate]. injection h as <-.
+    cbn [Near.triples] in k. destruct sa as [| s0 [| s1 [| s2 [|]]]]; try discriminate. destruct (Near.triples rest) as [ts' |] eqn:et; [| discriminate]. injection k as <-.
+    destruct (IH rest ts' E eq_refl et) as [I1 [us [I2 I3]]].
+    pose proof (all_some_nth _ _ _ (fun o => o) (fun i => nth i near None) _ _ ea) as G. cbn beta in G.
+    assert (One : forall i s, nth i near None = Some s -> defined y theta (formula_at i) /\ exists u, Forall2 contains (slopes s) u /\
+      value y theta (formula_at i) - value x theta (formula_at i) = dot u l).
+    { intros i s' e. pose proof (E i) as H. rewrite e in H. destruct H as [_ [dd [_ [_ [u [h1 h2]]]]]]. split; [exact dd |]. exists u. split; assumption. }
+    inversion G as [| i0 ? ? ? e0 G1]; subst. inversion G1 as [| i1 ? ? ? e1 G2]; subst. inversion G2 as [| i2 ? ? ? e2 G3]; subst. inversion G3; subst.
+    destruct (One _ _ e0) as [d0 [u0 [v0 q0]]], (One _ _ e1) as [d1 [u1 [v1 q1]]], (One _ _ e2) as [d2 [u2 [v2 q2]]].
+    split; [constructor; [cbn [fst]; repeat constructor; assumption | exact I1] |].
+    exists ((fun j => match j with O => u0 | S O => u1 | _ => u2 end) :: us). split; [constructor; [intros [| [| j]]; assumption | exact I2] |].
+    intros w0 w1 w2. cbv zeta in *. cbn [map fst changes fold_right]. rewrite I3. f_equal. rewrite <- q0, <- q1, <- q2. cbn [map dot]. ring.
+Qed.
+
+Lemma joints_bounded : forall values lambda x cs, (forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (formula_at i)) ->
+  forall joints js bs, all_some (map (joint_over values) joints) = Some js -> Forall2 (may_be_off x) joints bs ->
+  exists rs, Forall2 (Near.bounded_by bits) js rs /\ bs = map (Near.off_by lambda) rs.
+Proof.
+  intros values lambda x cs E joints js bs h k. revert js h. induction k as [| [i [error hs]] b joints bs hb k IH]; intros js h; cbn [map all_some] in h.
+  - injection h as <-. exists []. split; constructor.
+  - destruct (joint_over values (i, (error, hs))) as [j |] eqn:ej; [| discriminate]. destruct (all_some (map _ joints)) as [js' |]; [| discriminate]. injection h as <-.
+    destruct (IH js' eq_refl) as [rs [I1 ->]]. unfold joint_over in ej. cbn [fst snd] in ej. destruct (nth i values None); [| discriminate].
+    destruct (all_some (map _ hs)) as [ss |] eqn:es; [| discriminate]. injection ej as <-.
+    destruct hb as [th [e [ts [hth [he [hts eb]]]]]]. cbn [fst snd] in *. specialize (E th hth).
+    assert (X : exists r, Forall2 (fun h r => (exists a, contains (fst h) a /\ Rabs (fst r) <= a) /\ entry_in bits (snd h) (snd r)) ss r /\
+      fold_right (fun p sum => snd p * value x th (formula_at (snd (fst p))) + sum) e (combine hs ts) = fold_right (fun r sum => fst r * at_lambda lambda (snd r) + sum) e r).
+    { clear - E hts es. revert ss es. induction hts as [| [f d] y hs ts hy hts IH]; intros ss es; cbn [map all_some combine fold_right fst snd] in *; [injection es as <-; exists []; split; [constructor | reflexivity] |].
+      destruct (nth d values None) as [sd |] eqn:ed; [| discriminate]. cbn [option_map] in es. destruct (all_some (map _ hs)) as [ss' |]; [| discriminate]. injection es as <-.
+      destruct (IH ss' eq_refl) as [r [r1 r2]]. pose proof (E d) as Ed. rewrite ed in Ed. destruct (enclosed_entry _ _ _ _ _ _ Ed) as [_ [en [k1 k2]]].
+      exists ((y, en) :: r). split; [constructor; [split; assumption | exact r1] |]. cbn [fold_right fst snd]. rewrite r2, k2. reflexivity. }
+    destruct X as [r [x1 x2]]. exists ((e, r) :: rs). split; [constructor; [split; [exact he | exact x1] | exact I1] |]. cbn [map]. f_equal. rewrite eb, x2. reflexivity.
+Qed.
+
+Lemma accuracy_holds : forall cell x lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains cell x ->
+  (forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate cell) None) (formula_at i)) ->
+  forall less distance joints places Y kappa, harmless lambda less ->
+  shows_there (evaluate cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
+Proof.
+  intros cell x lambda el hlam hx E less distance joints places Y k hless h [d0 [hd0 d00]]. cbn [shows_there] in h. set (values := evaluate cell) in *. cbv zeta in h.
+  set (near := Near.evaluate_near bits tape params cell distance) in *.
+  apply andb_true_iff in h as [h1 h]. apply andb_true_iff in h1 as [l3 _]. apply Nat.eqb_eq in l3.
+  destruct (rows_over near divided) as [far |] eqn:efar; [| discriminate]. destruct (rows_over values divided) as [here |] eqn:ehere; [| discriminate].
+  destruct (all_some (map (joint_over values) joints)) as [js |] eqn:ejs; [| discriminate]. destruct (Near.triples far) as [ts |] eqn:ets; [| discriminate].
+  assert (F : forall d l, contains distance d -> 0 <= d -> length l = 3%nat -> Forall (fun t => -1 <= t <= 1) l ->
+    forall i, encloses bits l (Near.moved d x l) x theta (nth i near None) (formula_at i)).
+  { intros d l hd d0' ll hl. apply Near.near_encloses; try assumption. congruence. }
+  split.
+  { intros th hth. specialize (E th hth). pose proof (all_some_nth _ _ _ (fun o => o) (joint_over values) _ _ ejs) as G. clear - E G.
+    induction G as [| [i [error hs]] j joints js e G IH]; constructor; [| exact IH]. unfold joint_over in e. cbn [fst snd] in *.
+    destruct (nth i values None) as [s |] eqn:n; [| discriminate]. pose proof (E i) as H. rewrite n in H. exact (proj1 (proj2 H)). }
+  assert (Spread : exists g, contains (Near.spread bits ts) g /\ 0 <= g).
+  { destruct (rows_near near _ _ x divided far ts (F d0 [0; 0; 0] hd0 d00 eq_refl ltac:(repeat constructor; lra)) efar ets) as [_ [us [hus _]]].
+    destruct (Near.spread_sound bits ts us 0 0 0 0 0 0 hus) as [g [g1 [g2 _]]]. exists g. split; assumption. }
+  destruct (Near.accurate_sound bits lambda ltac:(congruence) hlam less ts here js places Y k h hless Spread) as [kappa [z [a1 [a2 [a3 [a4 a5]]]]]].
+  set (g := IZR (hi (Near.spread bits ts)) / unit_R bits) in *. exists g, kappa, z. split; [exact a1 |]. split; [exact a2 |]. split; [exact a3 |]. split; [exact a4 |]. split.
+  - intros d l0 l1 l2 hd d1 hl y. destruct (rows_near near _ _ x divided far ts (F d [l0; l1; l2] hd d1 eq_refl hl) efar ets) as [G1 [us [G2 G3]]].
+    split; [exact G1 |]. intros w0 w1 w2. specialize (G3 w0 w1 w2). cbv zeta in G3. unfold divided_at. unfold y. rewrite G3. destruct (Near.spread_sound bits ts us w0 w1 w2 l0 l1 l2 G2) as [g' [b1 [b2 b3]]].
+    apply Rle_trans with (1 := b3). assert (gg : g' <= g).
+    { destruct b1 as [_ b1]. unfold g. pose proof (unit_R_pos bits) as u0. apply Rmult_le_reg_r with (unit_R bits); [exact u0 |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
+    apply Rmult_le_compat_r; [| nra]. pose proof (pow2_ge_0 w0). pose proof (pow2_ge_0 w1). pose proof (pow2_ge_0 w2). pose proof (pow2_ge_0 l0). pose proof (pow2_ge_0 l1). pose proof (pow2_ge_0 l2). apply Rmult_le_pos; lra.
+  - intros w0 w1 w2 w p.
+    destruct (rows_over_sound cell x lambda (E theta theta_in) divided here ehere) as [_ [es [r1 r2]]].
+    assert (Ap : divided_at x = map fst (map_rows (at_lambda lambda) es)).
+    { rewrite <- r2. unfold divided_at, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity. }
+    specialize (a5 es r1). cbv zeta in a5. rewrite <- Ap in a5. destruct (a5 w0 w1 w2) as [c1 c2]. split; [exact c1 |]. intros bs s hb nz.
+    destruct (joints_bounded values lambda x _ E joints js bs ejs hb) as [rs [q1 ->]]. exact (c2 rs s q1 nz).
+Qed.
+
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x ->
   shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
 Proof.
@@ -432,10 +567,16 @@ Proof.
   specialize (C []). cbn [app length] in C.
   pose proof (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C
     (params_hold bits lambda params theta theta_in) tape) as S.
-  assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
-  { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
+  assert (K : forall less e, harmless lambda less -> shows_there (evaluate cell) cell less t e = true -> holds (length cell) x t).
+  { intros less e' hl k.
+    assert (Other : shows (evaluate cell) (length cell) less t e' = true -> holds (length cell) x t).
+    { clear k. intro k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-  destruct e as [| | | | | | | | | e' n places | | | | |]; try (apply (K None _ I h)).
+    destruct t; try exact (Other k). destruct e'; try exact (Other k). cbn [holds].
+    refine (accuracy_holds cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
+    intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
+    exact (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) tape). }
+  destruct e as [| | | | | | | | | e' n places | | | | | |]; try (apply (K None _ I h)).
   cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
   refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
   destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.

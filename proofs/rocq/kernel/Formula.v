@@ -99,7 +99,12 @@ Definition opposite (a : formula) : formula :=
   | F (Neg b) => b
   | _ => F (Neg a)
   end.
-Definition minus (a b : formula) : formula := if is 0 b then a else if is 0 a then opposite b else F (Sub a b).
+Definition minus (a b : formula) : formula :=
+  if is 0 b then a else if is 0 a then opposite b else
+  match a, b with
+  | F (Coord j), F (Coord k) => if Nat.eqb j k then integer 0 else F (Sub a b)
+  | _, _ => F (Sub a b)
+  end.
 Definition square (a : formula) : formula :=
   match integer_of a with Some n => if is_small n then integer (n * n) else F (Sqr a) | None => F (Sqr a) end.
 Definition times (a b : formula) : formula :=
@@ -139,7 +144,9 @@ Qed.
 Lemma value_minus : forall a b, value (minus a b) = value a - value b.
 Proof.
   intros a b. unfold minus. destruct (is 0 b) eqn:q; [rewrite (is_value _ _ q); ring |].
-  destruct (is 0 a) eqn:p; [rewrite (is_value _ _ p), value_opposite; ring | reflexivity].
+  destruct (is 0 a) eqn:p; [rewrite (is_value _ _ p), value_opposite; ring |].
+  destruct a as [[j | | | | | | | | |]]; try reflexivity. destruct b as [[k | | | | | | | | |]]; try reflexivity.
+  destruct (Nat.eqb_spec j k) as [-> |]; [cbn; ring | reflexivity].
 Qed.
 
 Lemma value_square : forall a, value (square a) = value a ^ 2.

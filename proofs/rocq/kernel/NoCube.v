@@ -282,12 +282,12 @@ Qed.
 
 Lemma signs_fail : forall f, In f (range_formula fs s j r) -> value x theta f < 0 ->
   (forall g, In g (range_formula fs s j r) -> value x theta g < 0) ->
-  match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils (workspace c) m P r.
+  match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils c m P r.
 Proof.
   intros f i0 neg all given least F. pose proof (leg_at c s ds m P theta represented reached) as At. fold fs in At. fold ratio in At.
   pose proof ratio_positive as r0. pose proof bound_is as Bj.
   pose proof (bound_here s P theta j r Bj) as B. fold ratio in B.
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b |]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
     try (destruct (nth_error fs k) as [g |] eqn:ng; [| contradiction]; destruct (At k g ng) as [l [nl [R re]]]).
   - destruct i0 as [<- |]; [| contradiction]. destruct F as [l' [n' F]]. rewrite nl in n'. injection n' as <-.
     destruct R as [_ [_ [_ [J _]]]]. rewrite value_minus, J, B, (length_bound (JointMin k b) b eq_refl) in neg.
@@ -347,7 +347,7 @@ Proof.
 Qed.
 
 Lemma requirement_fails_sound : forall directions rows es, requirement_fails found fs s j r directions = Some (rows, es) ->
-  Forall (fun p => 0 < val (Entry (snd p))) rows -> Forall (fun e => 0 < val e) es -> ~ fulfils (workspace c) m P r.
+  Forall (fun p => 0 < val (Entry (snd p))) rows -> Forall (fun e => 0 < val e) es -> ~ fulfils c m P r.
 Proof.
   intros directions rows es h pos hes. unfold requirement_fails in h.
   destruct (_ && forallb is_direction directions) eqn:g; [| discriminate]. apply andb_true_iff in g as [given dirs].
@@ -368,13 +368,13 @@ Proof.
   set (k2 := Apply (Sqr (Apply (Param (fst j))))) in *.
   assert (Signs : match range_formula fs s j r with
       | [] => None | l => Some ([], map (fun f => Apply (Neg (Entry (found f)))) l) end = Some (rows, es) ->
-      match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils (workspace c) m P r).
+      match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils c m P r).
   { intros e t l. destruct (range_formula fs s j r) as [| f fl] eqn:er; [discriminate |]. injection e as <- <-.
     assert (N : forall g, In g (f :: fl) -> value x theta g < 0).
     { intros g ig. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (f :: fl) g ig)) as k.
       cbv beta in k. rewrite (Neg_ g (RF g ig)) in k. lra. }
     apply (SF f); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b |]; cbn [is_least] in *;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b]; cbn [is_least] in *;
     try (destruct directions; [exact (Signs h I eq_refl) | discriminate]).
   - destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
@@ -420,6 +420,7 @@ Proof.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
   - destruct directions as [| ? [| ? [|]]]; discriminate.
+  - destruct directions as [| ? [| ? [|]]]; discriminate.
 Qed.
 End Requirement.
 
@@ -450,7 +451,7 @@ Proof.
 Qed.
 
 Lemma row_fails_sound : forall i b leg f, nth_error (require c) i = Some (PsiMin b) -> nth_error fs leg = Some f ->
-  0 < val (row_fails found f (fst n + i)) -> ~ fulfils (workspace c) m P (PsiMin b).
+  0 < val (row_fails found f (fst n + i)) -> ~ fulfils c m P (PsiMin b).
 Proof.
   intros i b leg f er ef h F. destruct (rods leg f ef) as [l [nl [D N]]].
   assert (E : val (row_fails found f (fst n + i)) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
@@ -624,7 +625,7 @@ Proof.
     + apply Forall_forall. intros p ip. apply Pos, h1, ip.
     + apply Forall_forall. intros e ie. apply Pos, h2, ie.
     + apply met, (nth_error_In _ _ er).
-  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b | | | | | | | | | | | | |]; try discriminate.
+  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b | | | | | | | | | | | | | |]; try discriminate.
     destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate].
     apply (row_fails_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached i b leg g er eg); [apply Pos, hf |].
     apply met, (nth_error_In _ _ er).

@@ -3,7 +3,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula Acceleration.
-From Orthocert.kernel Require Compare Solve.
+From Orthocert.kernel Require Compare Solve Gradient Near Accuracy.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -91,17 +91,41 @@ Proof. intros. unfold vvalue, vector_at. cbn [ex ey ez]. f_equal; apply value_at
 Lemma vvalue_from_base : forall P theta a p, vvalue P theta (from_base a p) = vsub (vadd P (vvalue P theta p)) (vvalue P theta a).
 Proof. intros. unfold from_base. rewrite vvalue_minus, vvalue_plus, vvalue_point. reflexivity. Qed.
 
-Lemma drive_represents : forall s d dr l, is_leg_of dr l -> exists th, Forall2 scaled_within (layout s d dr) th /\
-  forall P front back, represents P (front ++ th ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) l).
+(** With [u] as the direction: what a leg's parameters are. *)
+Definition is_leg_along (u : vec) (dr : drive) (l : leg) : Prop :=
+  match dr, l with
+  | SliderLeg c, Guided l => (all_within (direction c) u /\ axis l = normalised u) /\ all_within (anchor c) (base_point l) /\
+      all_within (platform c) (platform_offset l) /\ within (Claim.length c) (leg_length l) /\ working_mode l = (if mode c then 1 else -1)
+  | StrutLeg a p k, Extensible base platform axis => all_within a base /\ all_within p platform /\
+      match k, axis with None, None => True | Some k, Some axis => all_within k u /\ axis = normalised u | _, _ => False end
+  | PlanarLeg d, Plane n => all_within d n
+  | _, _ => False
+  end.
+Definition parameters_of (s d : Z) (u : vec) (l : leg) : list R :=
+  let of_length v := coordinates (vscale (/ two_to s) v) in
+  match l with
+  | Guided k => coordinates (vscale (/ two_to d) u) ++ of_length (base_point k) ++ of_length (platform_offset k) ++ [/ two_to s * leg_length k]
+  | Extensible base platform axis => of_length base ++ of_length platform ++ match axis with Some _ => coordinates (vscale (/ two_to d) u) | None => [] end
+  | Plane n => coordinates (vscale (/ two_to d) n)
+  end.
+
+Lemma is_leg_has_direction : forall dr l, is_leg_of dr l -> exists u, is_leg_along u dr l.
 Proof.
-  intros s d dr l h. pose proof (Rinv_0_lt_compat _ (two_to_pos d)) as d0.
-  destruct dr as [c | a p ax | n], l as [k | base platform axis | normal]; cbn [is_leg_of] in h; try contradiction.
-  - destruct h as [[u [hu ax]] [ha [hp [hl hm]]]].
-    exists (coordinates (vscale (/ two_to d) u) ++ coordinates (vscale (/ two_to s) (base_point k))
-      ++ coordinates (vscale (/ two_to s) (platform_offset k)) ++ [/ two_to s * leg_length k]).
-    assert (L : Forall2 scaled_within (layout s d (SliderLeg c)) (coordinates (vscale (/ two_to d) u) ++ coordinates (vscale (/ two_to s) (base_point k))
-      ++ coordinates (vscale (/ two_to s) (platform_offset k)) ++ [/ two_to s * leg_length k])).
-    { cbn [layout]. repeat apply Forall2_app; try (apply three_within; assumption).
+  intros [c | a p [k |] | n] [l | base platform [axis |] | normal] h; cbn [is_leg_of is_leg_along] in *; try contradiction; try tauto.
+  - destruct h as [[u hu] h]. exists u. split; assumption.
+  - destruct h as [h1 [h2 [u hu]]]. exists u. auto.
+  - exists vzero. auto.
+  - exists vzero. exact h.
+Qed.
+
+Lemma parameters_represent : forall s d u dr l, is_leg_along u dr l -> Forall2 scaled_within (layout s d dr) (parameters_of s d u l) /\
+  forall P front back, represents P (front ++ parameters_of s d u l ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) l).
+Proof.
+  intros s d u dr l h. pose proof (Rinv_0_lt_compat _ (two_to_pos d)) as d0.
+  destruct dr as [c | a p ax | n], l as [k | base platform axis | normal]; cbn [is_leg_along] in h; try contradiction.
+  - destruct h as [[hu ax] [ha [hp [hl hm]]]].
+    assert (L : Forall2 scaled_within (layout s d (SliderLeg c)) (parameters_of s d u (Guided k))).
+    { cbn [layout parameters_of]. repeat apply Forall2_app; try (apply three_within; assumption).
       constructor; [| constructor]. exists (leg_length k). split; [exact hl | cbn [snd]; unfold Rdiv; ring]. }
     split; [exact L |]. intros P front back.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized] in *.
@@ -112,30 +136,48 @@ Proof.
     + rewrite (value_at _ _ _ _ _ V). reflexivity.
     + exact hm.
   - destruct h as [ha [hp hk]].
-    assert (Axis : exists t, Forall2 scaled_within match ax with Some k => three k d | None => [] end t /\
-      match ax with Some _ => axis = Some (normalised (Vec (nth 0 t 0) (nth 1 t 0) (nth 2 t 0))) | None => axis = None end).
-    { destruct ax as [k |], axis as [v |]; try contradiction; [| exists []; split; [constructor | reflexivity]].
-      destruct hk as [u [hu ->]]. exists (coordinates (vscale (/ two_to d) u)). split; [apply three_within, hu |].
-      cbn [coordinates nth]. f_equal. rewrite <- (normalised_resized (/ two_to d) u d0). reflexivity. }
-    destruct Axis as [t [ht ea]].
-    exists (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform) ++ t).
-    assert (L : Forall2 scaled_within (layout s d (StrutLeg a p ax))
-      (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform) ++ t))
-      by (cbn [layout]; apply Forall2_app; [apply three_within; exact ha |]; apply Forall2_app; [apply three_within; exact hp | exact ht]).
+    assert (L : Forall2 scaled_within (layout s d (StrutLeg a p ax)) (parameters_of s d u (Extensible base platform axis))).
+    { cbn [layout parameters_of]. apply Forall2_app; [apply three_within; exact ha |]. apply Forall2_app; [apply three_within; exact hp |].
+      destruct ax as [k |], axis as [v |]; try contradiction; [apply three_within, hk | constructor]. }
     split; [exact L |]. intros P front back.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized].
     apply strut_represents.
     + rewrite vvalue_from_base, !(vvalue_at _ _ _ _ _ V). reflexivity.
     + rewrite vvalue_plus, vvalue_point, (vvalue_at _ _ _ _ _ V). reflexivity.
-    + destruct ax as [k |]; cbn [option_map]; rewrite ea; [| reflexivity].
-      rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). reflexivity.
-  - exists (coordinates (vscale (/ two_to d) normal)).
-    assert (L : Forall2 scaled_within (layout s d (PlanarLeg n)) (coordinates (vscale (/ two_to d) normal)))
-      by (apply three_within; assumption).
+    + destruct ax as [k |], axis as [v |]; try contradiction; cbn [option_map]; [| reflexivity].
+      rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). destruct hk as [_ ->]. f_equal. exact (normalised_resized (/ two_to d) u d0).
+  - assert (L : Forall2 scaled_within (layout s d (PlanarLeg n)) (parameters_of s d u (Plane normal)))
+      by (cbn [layout]; apply three_within; assumption).
     split; [exact L |]. intros P front back.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized].
     apply planar_represents; [apply vvalue_point |]. rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V).
     exact (normalised_resized (/ two_to d) normal d0).
+Qed.
+
+Lemma drive_represents : forall s d dr l, is_leg_of dr l -> exists th, Forall2 scaled_within (layout s d dr) th /\
+  forall P front back, represents P (front ++ th ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) l).
+Proof. intros s d dr l h. destruct (is_leg_has_direction dr l h) as [u hu]. eexists. exact (parameters_represent s d u dr l hu). Qed.
+
+(** Of the nominal machine they are the middles. *)
+Definition middle_of (p : parameter) : R := middle (fst p) / two_to (snd p).
+Lemma nominal_represents : forall s d dr l, is_leg_of dr l -> Forall2 scaled_within (layout s d dr) (map middle_of (layout s d dr)) /\
+  forall P front back, represents P (front ++ map middle_of (layout s d dr) ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) (nominal_leg dr)).
+Proof.
+  intros s d dr l h.
+  assert (W : forall t x, within t x -> within t (middle t)) by (intros t x; unfold within, middle; lra).
+  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [h1 [h2 h3]]; split; [| split]; cbn [middles vx vy vz]; eapply W; eassumption).
+  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
+    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
+  assert (N : exists u, is_leg_along u dr (nominal_leg dr) /\ parameters_of s d u (nominal_leg dr) = map middle_of (layout s d dr)).
+  { destruct dr as [c | a p [k |] | n], l as [g | base platform [axis |] | normal]; cbn [is_leg_of] in h; try contradiction; try tauto; cbn [nominal_leg is_leg_along layout parameters_of].
+    - destruct h as [[u [hu _]] [ha [hp [hl _]]]]. exists (middles (direction c)). split.
+      + split; [split; [exact (V _ _ hu) | reflexivity] |]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hl) | reflexivity].
+      + rewrite !map_app, !T. cbn [base_point platform_offset leg_length map]. do 3 f_equal. unfold middle_of. cbn [fst snd]. f_equal. unfold Rdiv. ring.
+    - destruct h as [ha [hp [u [hu _]]]]. exists (middles k). split; [| rewrite !map_app, !T; reflexivity].
+      split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (V _ _ hu) | reflexivity].
+    - destruct h as [ha [hp _]]. exists vzero. split; [| rewrite !map_app, !T; reflexivity]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) | exact I].
+    - exists vzero. split; [exact (V _ _ h) | symmetry; apply T]. }
+  destruct N as [u [hu <-]]. exact (parameters_represent s d u dr _ hu).
 Qed.
 
 (** All legs; [ds] has the units of their directions. *)
@@ -159,6 +201,16 @@ Proof.
     rewrite (related_length _ _ _ _ _ L1). rewrite <- app_assoc. exact R2.
 Qed.
 
+Lemma all_nominal_represent : forall s drs m, Forall2 is_leg_of drs m -> forall ds, let th := map middle_of (layouts s ds drs) in
+  Forall2 scaled_within (layouts s ds drs) th /\
+  forall P front back, Forall2 (represents P (front ++ th ++ back)) (all_formulas s ds drs (length front)) (map (resized (/ two_to s)) (map nominal_leg drs)).
+Proof.
+  intros s drs m. induction 1 as [| dr l drs m h hs IH]; intro ds; [split; [constructor | intros; constructor] |].
+  destruct (nominal_represents s (hd 0%Z ds) dr l h) as [L1 R1]. destruct (IH (tl ds)) as [L2 R2]. cbv zeta in *. cbn [layouts]. rewrite map_app.
+  split; [apply Forall2_app; assumption |]. intros P front back. cbn [all_formulas map]. rewrite <- app_assoc. constructor; [apply R1 |].
+  specialize (R2 P (front ++ map middle_of (layout s (hd 0%Z ds) dr)) back). rewrite app_length, map_length, <- !app_assoc in R2. exact R2.
+Qed.
+
 Lemma slider_length : forall s drs m, Forall2 is_leg_of drs m -> forall ds j i f k,
   nth_error (all_formulas s ds drs j) i = Some f -> nth_error m i = Some (Guided k) -> f_length f <> None.
 Proof.
@@ -180,6 +232,7 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | Beside _ _ _ distance => (exactly distance, s)
   | JointAcceleration _ a _ b => (exactly (Over a b), 0%Z)
   | JointForce _ tool b => (exactly (Over tool b), 0%Z)
+  | Accuracy _ b => (exactly b, s)
   | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
@@ -215,7 +268,7 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | | |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
   - apply Forall2_app; apply B.
   - cbn. repeat constructor; apply E.
   - cbn. repeat constructor; apply E.
@@ -286,7 +339,7 @@ Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requ
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -321,13 +374,25 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
   | Beside i _ _ _ => of_leg i (fun f =>
       match f_tip f with Some _ => [beside_formula f (numbered (snd j) (extras s r)) b] | None => [] end)
   | JointAcceleration i _ _ _ => of_leg i (fun f => acceleration_formula f b (nth 0 (numbered (snd j) (extras s r)) (integer 0)))
-  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ | OneToOne => []
+  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list formula :=
   match rs with
   | [] => []
   | r :: rs' => range_formula fs s j r ++ range_formulas fs s (next s r j) rs'
   end.
+
+(** Of accuracy: the parameters with two ends, and derivatives of joint coordinates by them. *)
+Definition none : parameter := (exactly (0 // 1), 0%Z).
+Definition has_two_ends (p : parameter) : bool := negb (Compare.same (least (fst p)) (greatest (fst p))).
+Definition toleranced (ps : list parameter) : list nat := filter (fun j => has_two_ends (nth j ps none)) (seq 0 (length ps)).
+Definition slopes_of (ps : list parameter) (f : leg_formulas) : list (nat * formula) :=
+  filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) (Gradient.derivatives (toleranced ps) (f_joint f))).
+Definition accuracy_formulas (ps : list parameter) (fs : list leg_formulas) (rs : list requirement) : list formula :=
+  if existsb (fun r => match r with Accuracy _ _ => true | _ => false end) rs then flat_map (fun f => f_joint f :: map snd (slopes_of ps f)) fs else [].
+(** Half the width, over the distance. *)
+Definition half_width (s : Z) (b : number) (p : parameter) : parameter :=
+  (exactly (Over (Minus (greatest (fst p)) (least (fst p))) (Times (2 // 1) b)), (snd p - s)%Z).
 
 Section Precision.
 Variable bits : positive.
@@ -336,7 +401,13 @@ Local Notation contains := (contains bits).
 Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
-Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
+Definition joint_test (place : formula -> nat) (ps : list parameter) (s : Z) (error b : number) (f : leg_formulas) : option (nat * (fixed * list (fixed * nat))) :=
+  match enclose_parameter bits (exactly (Over error b), 0%Z),
+    all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) (slopes_of ps f)) with
+  | Some e, Some hs => Some (place (f_joint f), (e, hs))
+  | _, _ => None
+  end.
+Definition test_of (place : formula -> nat) (ps : list parameter) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
   match r with
   | NotSingular => Some (SigmaMin zero)
   | PsiMax _ => option_map (fun a => SigmaMin (sqr bits a)) (enclose_parameter bits (bound_of s r))
@@ -360,6 +431,13 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
       | _ => None
       end
   | OneToOne => Some (Chords (fst one_matrix) (snd one_matrix))
+  | Accuracy error b =>
+      if Nat.eqb (length fs) 3 && Compare.certainly bits false error && Compare.certainly bits true b then
+        match enclose_parameter bits (bound_of s r), all_some (map (joint_test place ps s error b) fs) with
+        | Some d, Some js => Some (Accurate d js)
+        | _, _ => None
+        end
+      else None
   | JointForce i tool b => match nth_error fs i with
       | Some _ => if Compare.certainly bits true tool && Compare.certainly bits true b
           then option_map (fun a => Solved i (sqr bits a)) (enclose_parameter bits (bound_of s r)) else None
@@ -371,8 +449,8 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
          | _ => None
          end
   end.
-Fixpoint tests_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list (option test) :=
-  match rs with [] => [] | r :: rs' => test_of place fs s j r :: tests_of place fs s (next s r j) rs' end.
+Fixpoint tests_of (place : formula -> nat) (ps : list parameter) (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : list requirement) : list (option test) :=
+  match rs with [] => [] | r :: rs' => test_of place ps fs s j r :: tests_of place ps fs s (next s r j) rs' end.
 
 Definition is_lower (r : requirement) : bool := match r with NotSingular | PsiMax _ => true | _ => false end.
 (** ** The workspace *)
@@ -497,14 +575,14 @@ Definition check_claim_by (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let ps := layouts s ds (legs c) in
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
-  let needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) in
+  let needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) ++ accuracy_formulas ps fs (require c) in
   let tape := fst (compile needed) in
   let found := formulas tape in
   if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
     if existsb is_lower (require c) && are_buildable s ds (legs c) then
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
-            all_some (tests_of (place found) fs s n (require c)) with
+            all_some (tests_of (place found) ps fs s n (require c)) with
       | Some params, Some box, Some tests =>
           check bits tape (map_rows (place found) (whole_rows fs)) (map_rows (place found) (divided_rows fs)) []
             params tests (tangent (workspace c) s) box (all_open tests) t
@@ -589,7 +667,7 @@ Proof.
 Qed.
 
 Section Accepted.
-Variables (c : claim) (s : Z) (ds : list Z) (m : list leg) (P : vec) (theta : list R).
+Variables (c : claim) (s : Z) (ds : list Z) (m : list leg) (P : vec) (theta : list R) (params : list fixed).
 Let ratio := / two_to s.
 Let fs := all_formulas s ds (legs c) 0.
 Variable tape : list (op nat).
@@ -619,8 +697,8 @@ Hypothesis bound_at : nth (fst j) theta 0 = bound_value s r.
 Hypothesis extras_at : map (value x theta) (numbered (snd j) (extras s r)) = map exact_value (extras s r).
 Hypothesis range_found : forall f, In f (range_formula fs s j r) -> formula_at tape (found f) = f.
 Variable t : test.
-Hypothesis is_test : test_of found fs s j r = Some t.
-Hypothesis test_holds : Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x t.
+Hypothesis is_test : test_of found (layouts s ds (legs c)) fs s j r = Some t.
+Hypothesis test_holds : Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] params theta 3 x t.
 
 Lemma two_to_0 : two_to 0 = 1.
 Proof. reflexivity. Qed.
@@ -633,9 +711,9 @@ Proof.
   replace (1 / 1) with 1 by field. split; [lra | unfold Rdiv; rewrite Rinv_1; ring].
 Qed.
 
-Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils (workspace c) m P r.
+Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils c m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -654,7 +732,7 @@ Qed.
 Hypothesis reached : Forall (reaches P) m.
 Hypothesis machine : Forall2 is_leg_of (legs c) m.
 Hypothesis built : Forall well_formed_leg m.
-Hypothesis unique : r = OneToOne -> fulfils (workspace c) m P r.
+Hypothesis apart : match r with OneToOne | Accuracy _ _ => fulfils c m P r | _ => True end.
 
 Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
 Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
@@ -676,10 +754,10 @@ Lemma ratio_pos : 0 < ratio.
 Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 
 (** The requirements that one formula decides: [f], which is not negative. *)
-Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils (workspace c) m P r.
+Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils c m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -732,10 +810,10 @@ Qed.
 Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
 Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
 
-Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils (workspace c) m P r.
+Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils c m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -858,9 +936,9 @@ Proof. intros []; reflexivity. Qed.
 
 Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearance one other b ->
   segments fs s (snd j) one other = Some ((a, a'), (c', d')) -> contains distance (bound_value s r) -> (0 <= lo distance)%Z ->
-  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] params theta 3 x
     (Apart (ends_at found a) (ends_at found a') (ends_at found c') (ends_at found d') distance) ->
-  fulfils (workspace c) m P r.
+  fulfils c m P r.
 Proof.
   intros one other b a a' c' d' distance er es hd d0 H. pose proof ratio_pos as r0.
   pose proof range_found as RF. pose proof extras_at as EX. subst r. cbn [extras range_formula] in *. rewrite es in RF.
@@ -903,7 +981,7 @@ Proof.
 Qed.
 
 Lemma beside_fulfilled : forall i one other b, r = Beside i one other b ->
-  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils c m P r.
 Proof.
   intros i one other b er [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
   cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (f_tip g) as [tip |] eqn:et; [| discriminate].
@@ -976,7 +1054,7 @@ Qed.
 
 Lemma force_fulfilled : forall i tool b k2 g, r = JointForce i tool b -> nth_error fs i = Some g -> 0 < Claim.value tool -> 0 < Claim.value b ->
   contains k2 ((Claim.value tool / Claim.value b) ^ 2) ->
-  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x (Solved i k2) -> fulfils (workspace c) m P r.
+  Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] params theta 3 x (Solved i k2) -> fulfils c m P r.
 Proof.
   intros i tool b k2 g er ng t0 b0 K H. subst r. destruct (leg_at i g ng) as [l [nl _]]. cbn [fulfils]. split; [exists l; exact nl |].
   intros tau F lt hF le. cbn [Check.holds] in H. rewrite (rows_found tape _ whole_found) in H. destruct H as [_ [l3 H]].
@@ -999,7 +1077,7 @@ Proof.
 Qed.
 
 Lemma acceleration_fulfilled : forall i a v b, r = JointAcceleration i a v b -> 0 <= Claim.value a -> 0 < Claim.value b ->
-  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils (workspace c) m P r.
+  (exists f, range_formula fs s j r = [f] /\ 0 <= value x theta f) -> fulfils c m P r.
 Proof.
   intros i a v b er a0 b0 [f [ef h]]. pose proof ratio_pos as r0. pose proof bound_here as B. pose proof extras_at as EX. subst r.
   cbn [range_formula] in ef. destruct (nth_error fs i) as [g |] eqn:ng; [| discriminate]. destruct (leg_at i g ng) as [l [nl [R0 re]]].
@@ -1044,21 +1122,21 @@ Proof.
       apply Rmult_le_reg_r with (/ b'); [apply Rinv_0_lt_compat, b0 |]. rewrite Rinv_r by lra. unfold Rdiv in h. lra.
 Qed.
 
-Lemma fulfilled : fulfils (workspace c) m P r.
+Lemma fulfilled : fulfils c m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
   pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
   pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF. pose proof force_fulfilled as FF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
-      is_least r = false -> fulfils (workspace c) m P r).
+      is_least r = false -> fulfils c m P r).
   { intros E least. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
     - apply (SF least f eq_refl), (NN f); [left; reflexivity | exact H].
     - apply (MF least f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b |]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -1109,15 +1187,16 @@ Proof.
     apply (FF i tool b (sqr bits a) g eq_refl ng (Compare.positive_sound _ _ c1) (Compare.positive_sound _ _ c2)); [| exact H].
     apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (JointForce i tool b))) as K.
     unfold bound_value in K. cbn [bound_of fst snd exactly greatest Claim.value] in K. rewrite two_to_0 in K. unfold Rdiv in K at 1. rewrite Rinv_1, Rmult_1_r in K. exact K.
-  - exact (unique eq_refl).
+  - exact apart.
+  - exact apart.
 Qed.
 End Accepted.
 
 (** Two bodies on one leg are as far apart as the lines along them. *)
-Theorem beside_keeps : forall w m P i one other r r' t u t' u' b,
-  fulfils w m P (Beside i one other (Plus (Plus r r') b)) -> fulfils w m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
+Theorem beside_keeps : forall c m P i one other r r' t u t' u' b,
+  fulfils c m P (Beside i one other (Plus (Plus r r') b)) -> fulfils c m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
 Proof.
-  intros w m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
+  intros c m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
   do 4 eexists. split; [reflexivity |]. split; [reflexivity |]. intros y z _ _. cbn [radius_of].
   set (a1 := 1 - Claim.value t / L). set (a2 := Claim.value u / L). set (a3 := 1 - Claim.value t' / L). set (a4 := Claim.value u' / L).
   specialize (h ((1 - y) * a1 + y * a2) ((1 - z) * a3 + z * a4)). cbn [Claim.value] in h. apply Rle_trans with (1 := h), Req_le.
@@ -1125,12 +1204,12 @@ Proof.
 Qed.
 
 (** Every requirement has its test, and its numbers their places. *)
-Lemma requirement_at : forall place fs s rs j k r, nth_error rs k = Some r -> exists i front back,
+Lemma requirement_at : forall place ps fs s rs j k r, nth_error rs k = Some r -> exists i front back,
   i = (fst j + k, snd j + length front)%nat /\ flat_map (extras s) rs = front ++ extras s r ++ back /\
-  In (test_of place fs s i r) (tests_of place fs s j rs) /\
+  In (test_of place ps fs s i r) (tests_of place ps fs s j rs) /\
   forall f, In f (range_formula fs s i r) -> In f (range_formulas fs s j rs).
 Proof.
-  intros place fs s rs. induction rs as [| q rs IH]; intros j [| k] r e; try discriminate.
+  intros place ps fs s rs. induction rs as [| q rs IH]; intros j [| k] r e; try discriminate.
   - injection e as ->. exists j, [], (flat_map (extras s) rs). rewrite !Nat.add_0_r. split; [apply surjective_pairing |].
     split; [reflexivity |]. split; [left; reflexivity |].
     intros f i. cbn [range_formulas]. apply in_or_app. left. exact i.
@@ -1181,16 +1260,16 @@ Proof.
     assert (E0 : 2 * t * (a + b) = 0) by (rewrite C; ring). lra.
 Qed.
 
-Lemma one_to_one : forall s fs m P P' theta tape, (forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
+Lemma one_to_one : forall s fs m P P' theta tape params, (forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
   Forall2 (represents (vscale (/ two_to s) P) theta) fs (map (resized (/ two_to s)) m) ->
   Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
   Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
   forall places Y divided,
-  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P)) (Chords places Y) ->
-  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] theta 3 (coordinates (vscale (/ two_to s) P')) (Chords places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P)) (Chords places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P')) (Chords places Y) ->
   P' = P.
 Proof.
-  intros s fs m P P' theta tape found h h' ok re re' e places Y divided H H'.
+  intros s fs m P P' theta tape params found h h' ok re re' e places Y divided H H'.
   pose proof (chords_cancel s Y places m fs P P' theta h h' ok re re' e) as C. cbv zeta in C. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
   set (d := vsub (vscale (/ two_to s) P') (vscale (/ two_to s) P)) in *.
   destruct (vzero_dec d) as [z | nz].
@@ -1199,18 +1278,304 @@ Proof.
     specialize (H (coordinates d) eq_refl (nonzero_coordinates d nz)). specialize (H' (coordinates d) eq_refl (nonzero_coordinates d nz)). lra.
 Qed.
 
+(** ** Accuracy *)
+
+Lemma two_to_power : forall s, two_to s = powerRZ 2 s.
+Proof.
+  assert (N : forall p, IZR (2 ^ Zpos p) = 2 ^ Pos.to_nat p) by (intro p; rewrite pow_IZR, positive_nat_Z; reflexivity).
+  intros [| p | p]; unfold two_to; cbn [Z.leb Z.compare Z.opp powerRZ]; [reflexivity | apply N | rewrite N; reflexivity].
+Qed.
+Lemma two_to_less : forall a b, two_to (a - b) = two_to a / two_to b.
+Proof. intros a b. rewrite !two_to_power. unfold Z.sub. rewrite powerRZ_add by lra. rewrite powerRZ_neg'. reflexivity. Qed.
+
+(** The parameters on the way from a machine to the nominal one. *)
+Definition on_the_way (t : R) (a b : list R) : list R := map (fun p => fst p + t * (snd p - fst p)) (combine a b).
+Lemma on_the_way_nth : forall t tb a b j, length a = length b ->
+  nth j (on_the_way t a b ++ tb) 0 = nth j (a ++ tb) 0 + t * (nth j (b ++ tb) 0 - nth j (a ++ tb) 0).
+Proof.
+  intros t tb. induction a as [| y a IH]; intros [| z b] j e; try discriminate; [cbn [on_the_way combine map app]; ring |].
+  destruct j as [| j]; [reflexivity | exact (IH b j ltac:(cbn in e; congruence))].
+Qed.
+Lemma on_the_way_ends : forall a b, length a = length b -> on_the_way 0 a b = a /\ on_the_way 1 a b = b.
+Proof.
+  induction a as [| y a IH]; intros [| z b] e; try discriminate; [split; reflexivity |]. destruct (IH b ltac:(cbn in e; congruence)) as [h1 h2].
+  unfold on_the_way in *. cbn [combine map fst snd]. rewrite h1, h2. split; f_equal; ring.
+Qed.
+Lemma on_the_way_within : forall t ps th, 0 <= t <= 1 -> Forall2 scaled_within ps th -> Forall2 scaled_within ps (on_the_way t th (map middle_of ps)).
+Proof.
+  intros t ps th ht. induction 1 as [| p y ps th [x [[h1 h2] ->]] h IH]; [constructor |]. unfold on_the_way in *. cbn [map combine fst snd]. constructor; [| exact IH].
+  exists (x + t * (middle (fst p) - x)). split; [| unfold middle_of, Rdiv; ring]. unfold within, middle in *. set (l := Claim.value (least (fst p))) in *. set (g := Claim.value (greatest (fst p))) in *.
+  assert (0 <= t * (g - l)) by (apply Rmult_le_pos; lra). assert (0 <= (1 - t) * (x - l)) by (apply Rmult_le_pos; lra). assert (0 <= (1 - t) * (g - x)) by (apply Rmult_le_pos; lra). lra.
+Qed.
+
+(** How far the nominal machine is. *)
+Definition width (p : parameter) : R := (Claim.value (greatest (fst p)) - Claim.value (least (fst p))) / 2 / two_to (snd p).
+Lemma way_length : forall tb ps th j, Forall2 scaled_within ps th -> let way := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0 in
+  if Nat.ltb j (length ps) then Rabs way <= width (nth j ps none) else way = 0.
+Proof.
+  intros tb ps th j h. revert j. induction h as [| p y ps th [x [[h1 h2] ->]] h IH]; intro j; cbv zeta; [cbn; ring |].
+  destruct j as [| j]; [| exact (IH j)]. cbn [map app nth length]. change (Nat.ltb 0 (S (length ps))) with true. cbv iota.
+  unfold middle_of, middle, width. pose proof (two_to_pos (snd p)) as t0. set (l := Claim.value (least (fst p))) in *. set (g := Claim.value (greatest (fst p))) in *.
+  replace ((l + g) / 2 / two_to (snd p) - x / two_to (snd p)) with (((l + g) / 2 - x) / two_to (snd p)) by (field; lra).
+  pose proof (Rinv_0_lt_compat _ t0). unfold Rdiv at 1 2. rewrite Rabs_mult, (Rabs_pos_eq (/ two_to (snd p))) by lra. unfold Rdiv. apply Rmult_le_compat_r; [lra |]. apply Rabs_le. lra.
+Qed.
+
+Lemma toleranced_once : forall ps, NoDup (toleranced ps).
+Proof. intro ps. apply NoDup_filter, seq_NoDup. Qed.
+Lemma others_are_exact : forall tb ps th j, Forall2 scaled_within ps th -> ~ In j (toleranced ps) -> nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0 = 0.
+Proof.
+  intros tb ps th j h n. pose proof (way_length tb ps th j h) as W. cbv zeta in W. destruct (Nat.ltb_spec j (length ps)) as [l |]; [| exact W].
+  assert (E : has_two_ends (nth j ps none) = false).
+  { destruct (has_two_ends (nth j ps none)) eqn:e; [| reflexivity]. exfalso. apply n. apply filter_In. split; [apply in_seq; lia | exact e]. }
+  unfold has_two_ends in E. apply negb_false_iff, Compare.same_sound in E. unfold width in W. rewrite E in W.
+  set (way := _ - _) in *. assert (Rabs way <= 0) by (eapply Rle_trans; [exact W |]; apply Req_le; unfold Rdiv; ring).
+  destruct (Req_dec way 0) as [z | z]; [exact z |]. pose proof (Rabs_pos_lt way z). lra.
+Qed.
+
+Lemma terms_of : forall (val : formula -> R) (rate : nat -> R) by_ ds, Linear.dot (map rate by_) (map val ds) =
+  fold_right (fun p sum => rate (fst p) * val (snd p) + sum) 0 (combine by_ ds).
+Proof. intros val rate. induction by_ as [| j b IH]; intros [| n ds]; cbn [map Linear.dot combine fold_right fst snd]; try reflexivity. rewrite IH. reflexivity. Qed.
+Lemma without_zeros : forall x theta rate (l : list (nat * formula)),
+  fold_right (fun p sum => rate (fst p) * value x theta (snd p) + sum) 0 l = fold_right (fun p sum => rate (fst p) * value x theta (snd p) + sum) 0 (filter (fun p => negb (is 0 (snd p))) l).
+Proof.
+  intros x theta rate. induction l as [| [j n] l IH]; [reflexivity |]. cbn [fold_right filter fst snd]. rewrite IH. destruct (is 0 n) eqn:z; cbn [negb fold_right fst snd]; [| reflexivity].
+  rewrite (is_value _ _ _ _ z). ring.
+Qed.
+
+(** What a joint coordinate near that of the nominal machine is off by: the mean value theorem, on the way there. *)
+Lemma joint_is_off : forall s b error ps th tb params tape f l l0 Q y j,
+  let x := coordinates Q in let ratio := / two_to s in
+  Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
+  represents Q (th ++ tb) f l -> represents Q (map middle_of ps ++ tb) f l0 ->
+  (forall e, In e (f_joint f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
+  joint_test (place (formulas tape)) ps s error b f = Some j -> (forall th, Forall2 contains params th -> defined x th (formula_at tape (fst j))) ->
+  0 < Claim.value b -> Rabs (y - joint l0 Q) <= ratio * Claim.value error ->
+  may_be_off bits tape params x j ((y - joint l Q) / (ratio * Claim.value b)).
+Proof.
+  intros s b error ps th tb params tape f l l0 Q y j x ratio hth E R1 R0 found ht def b0 hy.
+  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0. set (D := ratio * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
+  unfold joint_test in ht. destruct (enclose_parameter bits (exactly (Over error b), 0%Z)) as [ie |] eqn:ee; [| discriminate].
+  destruct (all_some _) as [hs |] eqn:eh; [| discriminate]. injection ht as <-. cbn [fst snd] in def. rewrite (found (f_joint f)) in def by (left; reflexivity).
+  assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
+  set (seg t := on_the_way t th (map middle_of ps) ++ tb). set (rate j := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0).
+  assert (In_ : forall t, 0 <= t <= 1 -> Forall2 contains params (seg t)) by (intros t h; apply E, on_the_way_within; assumption).
+  assert (Dv : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun t => value x (seg t) (f_joint f)) t
+    (Linear.dot (map rate (toleranced ps)) (map (value x (seg t)) (Gradient.derivatives (toleranced ps) (f_joint f))))).
+  { intros t h. apply (Gradient.derivatives_sound (toleranced ps) x seg t rate (toleranced_once ps)).
+    - intro k. apply Velocity.derivable_eq with (fun u => nth k (th ++ tb) 0 + rate k * u) (0 + rate k * 1).
+      + apply Velocity.derivable_add; [apply Velocity.derivable_const | apply Velocity.derivable_scal, derivable_pt_lim_id].
+      + intro u. unfold seg. rewrite on_the_way_nth by exact len. unfold rate. ring.
+      + ring.
+    - intros k n. exact (others_are_exact tb ps th k hth n).
+    - apply def, In_, h. }
+  destruct (MVT_cor2 _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
+  destruct R1 as [_ [_ [_ [J1 _]]]]. destruct R0 as [_ [_ [_ [J0 _]]]]. unfold x in M at 1 2. rewrite J1, J0 in M.
+  rewrite terms_of, without_zeros in M. fold (slopes_of ps f) in M.
+  exists (seg t), ((y - joint l0 Q) / D), (map (fun p => rate (fst p) / D) (slopes_of ps f)). cbn [fst snd]. split; [apply In_; lra |]. split.
+  - exists (Claim.value error / Claim.value b). split.
+    + apply (enclose_parameter_sound bits _ _ _ ee). exists (Claim.value error / Claim.value b). split; [unfold within, exactly; cbn; lra |]. cbn [snd]. change (two_to 0) with 1. field. lra.
+    + unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0).
+      replace (Claim.value error * / Claim.value b) with (ratio * Claim.value error * / D) by (unfold D; field; lra). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact hy].
+  - assert (T : forall p, In p (slopes_of ps f) -> forall a, enclose_parameter bits (half_width s b (nth (fst p) ps none)) = Some a -> exists v, contains a v /\ Rabs (rate (fst p) / D) <= v).
+    { intros p ip a e. set (q := nth (fst p) ps none) in *. exists (width q / D). split.
+      - apply (enclose_parameter_sound bits _ _ _ e). unfold half_width. eexists. split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd].
+        rewrite two_to_less. unfold width, D, ratio. pose proof (two_to_pos s). pose proof (two_to_pos (snd q)). cbn. field. repeat split; lra.
+      - apply filter_In in ip as [ip _]. destruct p as [k n]. apply in_combine_l in ip. apply filter_In in ip as [ip _]. apply in_seq in ip. cbn [fst] in *.
+        pose proof (way_length tb ps th k hth) as W. cbv zeta in W. destruct (Nat.ltb_spec k (length ps)); [| lia].
+        unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact W]. }
+    assert (Fo : forall p, In p (slopes_of ps f) -> formula_at tape (place (formulas tape) (snd p)) = snd p) by (intros p ip; apply found; right; apply in_map, ip).
+    assert (G : forall sl hs, (forall p, In p sl -> In p (slopes_of ps f)) ->
+      all_some (map (fun p => option_map (fun a => (a, place (formulas tape) (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) sl) = Some hs ->
+      Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs (map (fun p => rate (fst p) / D) sl) /\ forall e,
+      fold_right (fun p sum => snd p * value x (seg t) (formula_at tape (snd (fst p))) + sum) e (combine hs (map (fun p => rate (fst p) / D) sl))
+      = e + fold_right (fun p sum => rate (fst p) * value x (seg t) (snd p) + sum) 0 sl / D).
+    { induction sl as [| p sl IH]; intros hs' sub eh'; cbn [map all_some] in eh'; [injection eh' as <-; split; [constructor | intro; cbn; field; lra] |].
+      destruct (enclose_parameter bits (half_width s b (nth (fst p) ps none))) as [a |] eqn:ea; [| discriminate]. cbn [option_map] in eh'. destruct (all_some (map _ sl)) as [hs'' |]; [| discriminate]. injection eh' as <-.
+      destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 I2]. split; [cbn [map]; constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I1] |].
+      intro e. cbn [map combine fold_right fst snd]. rewrite I2, (Fo p (sub p (or_introl eq_refl))). field. lra. }
+    destruct (G _ hs (fun p i => i) eh) as [G1 G2]. split; [exact G1 |]. rewrite G2.
+    replace (fold_right _ 0 (slopes_of ps f)) with (joint l0 Q - joint l Q) by lra. field. lra.
+Qed.
+
+Lemma row_divided : forall tape f l Q theta, (forall e, In e (list_of (f_divided f)) -> formula_at tape (place (formulas tape) e) = e) -> represents Q theta f l ->
+  map (fun i => value (coordinates Q) theta (formula_at tape i)) (map (place (formulas tape)) (list_of (f_divided f))) = coordinates (row l Q).
+Proof.
+  intros tape f l Q theta found [_ [_ [R _]]]. rewrite map_map, (map_ext_in _ (value (coordinates Q) theta)) by (intros e i; rewrite (found e i); reflexivity).
+  rewrite values_list, R. reflexivity.
+Qed.
+
+Lemma size_of_squares : forall k u v, 0 <= k -> k ^ 2 * norm2 u <= norm2 v -> k * Accuracy.size u <= Accuracy.size v.
+Proof.
+  intros k u v k0 h. pose proof (Accuracy.size_nonneg u). pose proof (Accuracy.size_nonneg v). rewrite <- !Accuracy.size_square in h. apply Rnot_lt_le. intro n.
+  assert (0 <= k * Accuracy.size u) by (apply Rmult_le_pos; assumption). nra.
+Qed.
+
+Lemma vadd_path : forall Q u v t, Velocity.has_velocity (fun x => vadd Q (vadd u (vscale x v))) t v.
+Proof.
+  intros Q u v t. assert (K : forall a b c, derivable_pt_lim (fun x => a + (b + x * c)) t c).
+  { intros a b c. apply Velocity.derivable_eq with (fun x => (a + b) + c * x) (0 + c * 1); [| intro; ring | ring].
+    apply Velocity.derivable_add; [apply Velocity.derivable_const | apply Velocity.derivable_scal, derivable_pt_lim_id]. }
+  split; [| split]; apply K.
+Qed.
+
+(** Three joints near P: as [Accuracy.one_position] has them. *)
+Lemma one_near : forall tape params theta Q (f1 f2 f3 : leg_formulas) (l1 l2 l3 : leg) d j1 j2 j3 y1 y2 y3 D,
+  let fs := [f1; f2; f3] in let ls := [l1; l2; l3] in
+  (forall Q, Forall2 (represents Q theta) fs ls) -> Forall well_formed_leg ls ->
+  (forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e) -> contains d D -> 0 < D ->
+  accurate_at bits tape (map_rows (place (formulas tape)) (divided_rows fs)) params theta (coordinates Q) d [j1; j2; j3] ->
+  may_be_off bits tape params (coordinates Q) j1 ((y1 - joint l1 Q) / D) -> may_be_off bits tape params (coordinates Q) j2 ((y2 - joint l2 Q) / D) ->
+  may_be_off bits tape params (coordinates Q) j3 ((y3 - joint l3 Q) / D) ->
+  let is_at Q' := Accuracy.size (vsub Q' Q) <= D /\ Forall2 (fun l y => reaches Q' l /\ joint l Q' = y) ls [y1; y2; y3] in
+  exists Q', is_at Q' /\ forall Q'', is_at Q'' -> Q'' = Q'.
+Proof.
+  intros tape params theta Q f1 f2 f3 l1 l2 l3 d j1 j2 j3 y1 y2 y3 D fs ls Rep built found hd D0 [_ [g [kappa [z [g0 [gk [z0 [zg [Close First]]]]]]]]] b1 b2 b3 is_at.
+  assert (Rows : forall Q', divided_at tape (map_rows (place (formulas tape)) (divided_rows fs)) theta (coordinates Q') = [coordinates (row l1 Q'); coordinates (row l2 Q'); coordinates (row l3 Q')]).
+  { intro Q'. pose proof (Rep Q') as h. unfold fs, ls in h. apply cons_related in h as [h1 h]. apply cons_related in h as [h2 h]. apply cons_related in h as [h3 _].
+    assert (Fo : forall f, In f fs -> forall e, In e (list_of (f_divided f)) -> formula_at tape (place (formulas tape) e) = e).
+    { intros f i e ie. apply found. unfold entries. apply in_flat_map. exists (list_of (f_divided f), integer 1). split; [| cbn [fst]; apply in_or_app; left; exact ie].
+      unfold divided_rows. apply in_map_iff. exists f. split; [reflexivity | exact i]. }
+    unfold divided_at, fs, divided_rows, map_rows. cbn [map fst].
+    rewrite (row_divided tape f1 l1 Q' theta (Fo f1 (or_introl eq_refl)) h1), (row_divided tape f2 l2 Q' theta (Fo f2 (or_intror (or_introl eq_refl))) h2),
+      (row_divided tape f3 l3 Q' theta (Fo f3 (or_intror (or_intror (or_introl eq_refl)))) h3). reflexivity. }
+  set (J u := Mat (row l1 (vadd Q u)) (row l2 (vadd Q u)) (row l3 (vadd Q u))).
+  set (F u := Vec (joint l1 (vadd Q u)) (joint l2 (vadd Q u)) (joint l3 (vadd Q u))).
+  assert (Ball : forall u, Accuracy.size u <= D -> Forall (reaches (vadd Q u)) ls /\ forall w, norm2 (mulv (msub (J u) (J vzero)) w) <= g ^ 2 * (norm2 w * (norm2 u / D ^ 2))).
+  { intros u hu. destruct (Accuracy.component u) as [c1 [c2 c3]].
+    assert (In_ : forall a, Rabs a <= Accuracy.size u -> -1 <= a / D <= 1).
+    { intros a h. assert (k : Rabs a <= D) by lra. pose proof (Rle_abs a). pose proof (Rle_abs (- a)) as n. rewrite Rabs_Ropp in n.
+      split; apply Rmult_le_reg_r with D; try exact D0; unfold Rdiv; rewrite Rmult_assoc, Rinv_l by lra; lra. }
+    destruct (Close D (vx u / D) (vy u / D) (vz u / D) hd (Rlt_le _ _ D0) ltac:(repeat (apply Forall_cons; [apply In_; assumption |]); apply Forall_nil)) as [N1 N2].
+    assert (Mv : Near.moved D (coordinates Q) [vx u / D; vy u / D; vz u / D] = coordinates (vadd Q u)).
+    { unfold Near.moved, coordinates, vadd. cbn [combine map fst snd vx vy vz]. f_equal; [field; lra |]. f_equal; [field; lra |]. f_equal. field; lra. }
+    rewrite Mv in N1, N2. split.
+    - pose proof (Rep (vadd Q u)) as h. unfold fs, ls in h |- *. clear N2. unfold fs, divided_rows, map_rows in N1. cbn [map fst snd] in N1.
+      assert (One : forall f l, In f fs -> represents (vadd Q u) theta f l ->
+        Forall (fun i => defined (coordinates (vadd Q u)) theta (formula_at tape i)) (map (place (formulas tape)) (list_of (f_divided f))) -> reaches (vadd Q u) l).
+      { intros f l i [_ [[h1 _] _]] h2. apply h1. apply Forall_forall. intros e ie. rewrite Forall_forall in h2.
+        assert (Fe : formula_at tape (place (formulas tape) e) = e).
+        { apply found. unfold entries. apply in_flat_map. exists (list_of (f_divided f), integer 1). split; [| cbn [fst]; apply in_or_app; left; exact ie].
+          unfold divided_rows. apply in_map_iff. exists f. split; [reflexivity | exact i]. }
+        rewrite <- Fe. apply h2, in_map, ie. }
+      apply cons_related in h as [h1 h]. apply cons_related in h as [h2 h]. apply cons_related in h as [h3 _].
+      apply Forall_cons_iff in N1 as [n1 N1]. apply Forall_cons_iff in N1 as [n2 N1]. apply Forall_cons_iff in N1 as [n3 _]. cbn [fst] in n1, n2, n3.
+      constructor; [exact (One f1 l1 (or_introl eq_refl) h1 n1) |]. constructor; [exact (One f2 l2 (or_intror (or_introl eq_refl)) h2 n2) |].
+      constructor; [exact (One f3 l3 (or_intror (or_intror (or_introl eq_refl))) h3 n3) | constructor].
+    - intro w. specialize (N2 (vx w) (vy w) (vz w)). rewrite !Rows in N2.
+      assert (E : changes [coordinates (row l1 (vadd Q u)); coordinates (row l2 (vadd Q u)); coordinates (row l3 (vadd Q u))] [coordinates (row l1 Q); coordinates (row l2 Q); coordinates (row l3 Q)] [vx w; vy w; vz w]
+        = norm2 (mulv (msub (J u) (J vzero)) w)).
+      { assert (Z : vadd Q vzero = Q) by (apply vec_ext; unfold vadd, vzero; cbn [vx vy vz]; ring). unfold J. rewrite Z.
+        unfold coordinates, norm2, mulv, msub, Vec3.dot, vsub. cbn [changes Linear.dot row1 row2 row3 vx vy vz]. ring. }
+      rewrite E in N2. apply Rle_trans with (1 := N2), Req_le. unfold norm2. field. lra. }
+  assert (W : forall w, Solve.weighted_sum [vx w; vy w; vz w] (divided_at tape (map_rows (place (formulas tape)) (divided_rows fs)) theta (coordinates Q)) = coordinates (mulv (transpose (J vzero)) w)).
+  { intro w. rewrite Rows. assert (Z : vadd Q vzero = Q) by (apply vec_ext; unfold vadd, vzero; cbn [vx vy vz]; ring). unfold J. rewrite Z.
+    unfold coordinates, mulv, transpose, col1, col2, col3, Vec3.dot, comb. cbn [Solve.weighted_sum comb merge map row1 row2 row3 vx vy vz]. unfold comb. cbn [merge map]. f_equal; [ring |]. f_equal; [ring |]. f_equal; ring. }
+  set (b := Vec (y1 - joint l1 Q) (y2 - joint l2 Q) (y3 - joint l3 Q)).
+  destruct (Accuracy.one_position F J D g kappa z b D0 g0 gk z0 zg) as [u [[u1 u2] u3]].
+  - intros u v hu hv t ht. pose proof (Accuracy.on_segment D u v t hu hv ht) as hs. destruct (Ball _ hs) as [re _].
+    apply Forall_cons_iff in re as [r1 re]. apply Forall_cons_iff in re as [r2 re]. apply Forall_cons_iff in re as [r3 _].
+    apply Forall_cons_iff in built as [k1 built]. apply Forall_cons_iff in built as [k2 built]. apply Forall_cons_iff in built as [k3 _].
+    pose proof (vadd_path Q u (vsub v u) t) as hp.
+    split; [| split]; cbn [F J mulv vx vy vz row1 row2 row3]; apply (row_is_derivative _ (fun x => vadd Q (vadd u (vscale x (vsub v u)))) t); assumption.
+  - intros u w hu. destruct (Ball u hu) as [_ h]. specialize (h w). pose proof (Accuracy.size_nonneg u). pose proof (Accuracy.size_nonneg w).
+    assert (G0 : 0 <= g / D) by (apply Rmult_le_pos; [exact g0 | apply Rlt_le, Rinv_0_lt_compat, D0]).
+    apply Accuracy.size_below; [apply Rmult_le_pos; [apply Rmult_le_pos; assumption | assumption] |]. apply Rle_trans with (1 := h), Req_le.
+    rewrite !Rpow_mult_distr, !Accuracy.size_square. unfold Rdiv. rewrite Rpow_mult_distr, pow_inv. field. lra.
+  - intro w. destruct (First (vx w) (vy w) (vz w)) as [h _]. rewrite W in h. change [vx w; vy w; vz w] with (coordinates w) in h. rewrite !dot_coordinates, <- !norm2_dot in h.
+    apply size_of_squares; [lra | exact h].
+  - intros w t nz. destruct (First (vx w) (vy w) (vz w)) as [_ h]. rewrite W in h. change [vx w; vy w; vz w] with (coordinates w) in h. rewrite !dot_coordinates, <- !norm2_dot in h.
+    specialize (h [(y1 - joint l1 Q) / D; (y2 - joint l2 Q) / D; (y3 - joint l3 Q) / D] (D * t) ltac:(repeat (apply Forall2_cons; [assumption |]); constructor)).
+    assert (nz' : 0 < norm2 w + (D * t) ^ 2).
+    { destruct (Req_dec t 0) as [-> | n]; [replace (D * 0) with (0 : R) by ring; lra |]. pose proof (norm2_nonneg w). assert (0 < (D * t) ^ 2); [| lra].
+      rewrite <- Rsqr_pow2. apply Rsqr_pos_lt, Rmult_integral_contrapositive_currified; lra. }
+    specialize (h nz').
+    replace (Linear.dot [(y1 - joint l1 Q) / D; (y2 - joint l2 Q) / D; (y3 - joint l3 Q) / D] (coordinates w)) with (Vec3.dot b w / D) in h
+      by (unfold b, coordinates, Vec3.dot; cbn [Linear.dot vx vy vz]; field; lra).
+    replace (2 * (D * t) * (Vec3.dot b w / D)) with (2 * t * Vec3.dot b w) in h by (field; lra). rewrite !Rpow_mult_distr in h |- *. lra.
+  - assert (Z : vadd Q vzero = Q) by (apply vec_ext; unfold vadd, vzero; cbn [vx vy vz]; ring).
+    assert (Target : vadd (F vzero) b = Vec y1 y2 y3) by (unfold F, b, vadd at 1; rewrite Z; cbn [vx vy vz]; f_equal; ring). rewrite Target in u2. setoid_rewrite Target in u3.
+    assert (Diff : forall v, vsub (vadd Q v) Q = v) by (intro v; apply vec_ext; unfold vsub, vadd; cbn [vx vy vz]; ring).
+    exists (vadd Q u). split.
+    + split; [rewrite Diff; exact u1 |]. destruct (Ball u u1) as [re _]. injection u2 as e1 e2 e3.
+      apply Forall_cons_iff in re as [r1 re]. apply Forall_cons_iff in re as [r2 re]. apply Forall_cons_iff in re as [r3 _].
+      repeat (apply Forall2_cons; [split; assumption |]). constructor.
+    + intros Q'' [h1 h2]. assert (E : Q'' = vadd Q (vsub Q'' Q)) by (apply vec_ext; unfold vsub, vadd; cbn [vx vy vz]; ring).
+      rewrite E. f_equal. apply u3; [exact h1 |]. unfold F. rewrite <- E. unfold ls in h2.
+      apply cons_related in h2 as [[_ e1] h2]. apply cons_related in h2 as [[_ e2] h2]. apply cons_related in h2 as [[_ e3] _]. congruence.
+Qed.
+
+Lemma accuracy_fulfilled : forall c s ds m P th tb params tape whole error b t j, let ps := layouts s ds (legs c) in let fs := all_formulas s ds (legs c) 0 in
+  Forall2 is_leg_of (legs c) m -> Forall well_formed_leg m -> Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
+  (forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
+  (forall f, In f fs -> forall e, In e (f_joint f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
+  (forall P, Forall2 (represents P (th ++ tb)) fs (map (resized (/ two_to s)) m)) ->
+  test_of (place (formulas tape)) ps fs s j (Accuracy error b) = Some t ->
+  Check.holds bits tape whole (map_rows (place (formulas tape)) (divided_rows fs)) [] params (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) t ->
+  fulfils c m P (Accuracy error b).
+Proof.
+  intros c s ds m P th tb params tape whole error b t j ps fs hm built hth E FD FJ Rep ht H rho hrho is_at.
+  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *. set (Q := vscale ratio P) in *.
+  destruct (all_nominal_represent s (legs c) m hm ds) as [_ Nom]. specialize (fun Q => Nom Q [] tb). cbn [app length] in Nom. fold ps ratio fs in Nom.
+  cbn [test_of] in ht. destruct (Nat.eqb (length fs) 3 && Compare.certainly bits false error && Compare.certainly bits true b) eqn:g; [| discriminate].
+  apply andb_true_iff in g as [g b0]. apply andb_true_iff in g as [l3 _]. apply Nat.eqb_eq in l3. apply Compare.positive_sound in b0.
+  destruct (enclose_parameter bits (bound_of s (Accuracy error b))) as [d |] eqn:ed; [| discriminate]. destruct (all_some _) as [js |] eqn:ej; [| discriminate]. injection ht as <-.
+  pose proof (enclose_parameter_sound bits _ _ _ ed (bound_within s (Accuracy error b))) as hd.
+  assert (Ed : bound_value s (Accuracy error b) = ratio * Claim.value b) by (unfold bound_value; cbn; unfold Rdiv; fold ratio; ring). rewrite Ed in hd.
+  assert (D0 : 0 < ratio * Claim.value b) by (apply Rmult_lt_0_compat; assumption).
+  cbn [Check.holds] in H. specialize (H (ex_intro _ _ (conj hd (Rlt_le _ _ D0)))).
+  revert l3 FD FJ Rep Nom ej H. generalize fs. clear fs. intros fs l3 FD FJ Rep Nom ej H.
+  destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate. clear l3.
+  pose proof (related_length _ _ _ _ _ (Rep Q)) as lm. rewrite map_length in lm. destruct m as [| l1 [| l2 [| l3 [|]]]]; try discriminate. clear lm. cbn [map] in Rep.
+  revert Nom hrho. inversion hm as [| d1 ? ds1 ? m1 hm1 e1 e2]; subst. inversion hm1 as [| d2 ? ds2 ? m2 hm2]; subst. inversion hm2 as [| d3 ? ds3 ? m3 hm3]; subst. inversion hm3; subst.
+  cbn [map]. intros Nom hrho. inversion hrho as [| ? y1 ? ? n1 hr1]; subst. inversion hr1 as [| ? y2 ? ? n2 hr2]; subst. inversion hr2 as [| ? y3 ? ? n3 hr3]; subst. inversion hr3; subst.
+  cbn [map all_some] in ej.
+  destruct (joint_test (place (formulas tape)) ps s error b f1) as [j1 |] eqn:t1; [| discriminate]. destruct (joint_test (place (formulas tape)) ps s error b f2) as [j2 |] eqn:t2; [| discriminate].
+  destruct (joint_test (place (formulas tape)) ps s error b f3) as [j3 |] eqn:t3; [| discriminate]. injection ej as <-.
+  assert (Ok : forall l, In l [l1; l2; l3] -> well_formed_leg (resized ratio l)) by (intros l i; apply (well_formed_resized ratio r0 l); rewrite Forall_forall in built; apply built, i).
+  assert (Def : forall j, In j [j1; j2; j3] -> forall th, Forall2 contains params th -> defined (coordinates Q) th (formula_at tape (fst j))).
+  { intros i ij th' h. destruct H as [H _]. specialize (H th' h). rewrite Forall_forall in H. exact (H i ij). }
+  assert (Off : forall f l dr y i, In f [f1; f2; f3] -> In i [j1; j2; j3] -> joint_test (place (formulas tape)) ps s error b f = Some i ->
+    represents Q (th ++ tb) f (resized ratio l) -> represents Q (map middle_of ps ++ tb) f (resized ratio (nominal_leg dr)) ->
+    Rabs (y - joint (nominal_leg dr) P) <= Claim.value error -> may_be_off bits tape params (coordinates Q) i ((ratio * y - joint (resized ratio l) Q) / (ratio * Claim.value b))).
+  { intros f l dr y i If Ij ht h1 h0 hy. refine (joint_is_off s b error ps th tb params tape f _ _ Q (ratio * y) i hth E h1 h0 (FJ f If) ht (Def i Ij) b0 _).
+    destruct (resized_same ratio P r0 (nominal_leg dr)) as [_ [e _]]. fold Q in e. rewrite e, <- Rmult_minus_distr_l, Rabs_mult, (Rabs_pos_eq ratio) by lra. fold ratio.
+    apply Rmult_le_compat_l; [lra | exact hy]. }
+  pose proof (Rep Q) as h. apply cons_related in h as [h1 h]. apply cons_related in h as [h2 h]. apply cons_related in h as [h3 _].
+  pose proof (Nom Q) as h. apply cons_related in h as [k1 h]. apply cons_related in h as [k2 h]. apply cons_related in h as [k3 _].
+  destruct (one_near tape params (th ++ tb) Q f1 f2 f3 (resized ratio l1) (resized ratio l2) (resized ratio l3) d j1 j2 j3 (ratio * y1) (ratio * y2) (ratio * y3) (ratio * Claim.value b)
+    Rep ltac:(repeat (apply Forall_cons; [apply Ok; cbn; tauto |]); apply Forall_nil) FD hd D0 H
+    (Off f1 l1 d1 y1 j1 ltac:(cbn; tauto) ltac:(cbn; tauto) t1 h1 k1 n1) (Off f2 l2 d2 y2 j2 ltac:(cbn; tauto) ltac:(cbn; tauto) t2 h2 k2 n2)
+    (Off f3 l3 d3 y3 j3 ltac:(cbn; tauto) ltac:(cbn; tauto) t3 h3 k3 n3)) as [Q' [[u1 u2] u3]].
+  set (P' := vscale (/ ratio) Q').
+  assert (Back : forall A, vscale ratio (vscale (/ ratio) A) = A) by (intro A; apply vec_ext; unfold vscale; cbn [vx vy vz]; field; lra).
+  assert (One : forall A l y, reaches (vscale ratio A) (resized ratio l) /\ joint (resized ratio l) (vscale ratio A) = ratio * y <-> reaches A l /\ joint l A = y).
+  { intros A l y. destruct (resized_same ratio A r0 l) as [_ [e q]]. rewrite e. split; intros [a1 a2]; (split; [apply q, a1 |]); [apply Rmult_eq_reg_l with ratio; lra | congruence]. }
+  assert (Dist : forall A, Accuracy.size (vsub (vscale ratio A) Q) <= ratio * Claim.value b <-> norm2 (vsub A P) <= Claim.value b ^ 2).
+  { intro A. assert (e : vsub (vscale ratio A) Q = vscale ratio (vsub A P)) by (unfold Q; apply vec_ext; unfold vsub, vscale; cbn [vx vy vz]; ring).
+    rewrite e, Accuracy.size_scaled by lra. split; intro a.
+    - apply Accuracy.size_above. apply Rmult_le_reg_l with ratio; assumption.
+    - apply Rmult_le_compat_l; [lra |]. apply Accuracy.size_below; [lra | exact a]. }
+  exists P'. split.
+  - split; [apply Dist; unfold P'; rewrite Back; exact u1 |].
+    apply cons_related in u2 as [a1 u2]. apply cons_related in u2 as [a2 u2]. apply cons_related in u2 as [a3 _].
+    repeat (apply Forall2_cons; [apply One; unfold P'; rewrite Back; assumption |]). constructor.
+  - intros P'' [a a']. apply cons_related in a' as [a1 a']. apply cons_related in a' as [a2 a']. apply cons_related in a' as [a3 _].
+    unfold P'. rewrite <- (u3 (vscale ratio P'')); [apply vec_ext; unfold vscale; cbn [vx vy vz]; field; lra |].
+    split; [apply Dist, a |]. repeat (apply Forall2_cons; [apply One; assumption |]). constructor.
+Qed.
+
 (** Soundness: what the checker accepts is true of every machine and point of the claim. *)
 Theorem check_claim_by_sound : forall c s ds t, check_claim_by c s ds t = true -> Statement.holds c.
 Proof.
   intros c s ds t h m P0 hm hP0. unfold check_claim_by in h. cbn zeta in h.
   set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
-  set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c)) in *.
+  set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) ++ accuracy_formulas (layouts s ds (legs c)) fs (require c)) in *.
   set (tape := fst (compile needed)) in *.
   destruct (forallb _ needed) eqn:found; [| discriminate].
   destruct (existsb is_lower (require c) && are_buildable s ds (legs c)) eqn:low; [| discriminate]. apply andb_true_iff in low as [low able].
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three (hull (workspace c)) s))) as [box |] eqn:eb; [| discriminate].
-  destruct (all_some (tests_of _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
+  destruct (all_some (tests_of _ _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
   assert (Found : forall e, In e needed -> formula_at tape (place (formulas tape) e) = e).
   { rewrite forallb_forall in found. intros e i. apply same_sound, found, i. }
   destruct (all_represent s (legs c) m hm ds) as [th [L R]].
@@ -1226,9 +1591,9 @@ Proof.
     Forall (reaches P) m /\ injective m P /\ forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
     map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
     (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
-    test_of (place (formulas tape)) fs s j r = Some u /\
+    test_of (place (formulas tape)) (layouts s ds (legs c)) fs s j r = Some u /\
     Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
-      (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
+      params (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
   { intros P hP.
   pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
@@ -1241,27 +1606,31 @@ Proof.
   assert (Each : forall r, In r (require c) -> exists j u, nth (fst j) (th ++ tb) 0 = bound_value s r /\
     map (value (coordinates (vscale (/ two_to s) P)) (th ++ tb)) (numbered (snd j) (extras s r)) = map exact_value (extras s r) /\
     (forall f, In f (range_formula fs s j r) -> formula_at tape (place (formulas tape) f) = f) /\
-    test_of (place (formulas tape)) fs s j r = Some u /\
+    test_of (place (formulas tape)) (layouts s ds (legs c)) fs s j r = Some u /\
     Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
-      (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
+      params (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
   { intros r i. destruct (In_nth_error _ _ i) as [k e].
-    destruct (requirement_at (place (formulas tape)) fs s (require c) n k r e) as [j [front [back [-> [h1 [h2 h3]]]]]].
+    destruct (requirement_at (place (formulas tape)) (layouts s ds (legs c)) fs s (require c) n k r e) as [j [front [back [-> [h1 [h2 h3]]]]]].
     destruct (all_some_in _ _ _ _ et h2) as [u [e2 iu]]. exists (fst n + k, snd n + length front)%nat, u.
     destruct (numbers_at (coordinates (vscale (/ two_to s) P)) s (require c) th k r front back e h1) as [b1 b2]. rewrite <- ln in b1, b2.
     split; [exact b1 |]. split; [exact b2 |]. split; [| split].
-    - intros f g. apply Found, in_or_app. right. apply in_or_app. right. exact (h3 f g).
+    - intros f g. apply Found, in_or_app. right. apply in_or_app. right. apply in_or_app. left. exact (h3 f g).
     - exact e2.
     - exact (H u iu). }
   destruct (Each r0 i0) as [j0 [u0 [E1 [E0 [E2 [E3 E4]]]]]].
-  destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
+  destruct (lower_fulfilled c s ds m P (th ++ tb) params tape R W V j0 r0 E1 E0 E2 u0 E3 E4 l0) as [h1 [h2 _]].
   split; [exact R |]. split; [exact h1 |]. split; [exact h2 | exact Each]. }
   pose proof (are_buildable_sound s _ _ hm ds able) as built. destruct (Point P0 hP0) as [R0 [h1 [h2 Each]]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  apply (fulfilled c s ds m P0 (th ++ tb) tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). intro er. subst r.
-  cbn [fulfils]. intros P1 hP1 reached1 same. destruct (Point P1 hP1) as [R1 [_ [_ Each1]]]. destruct (Each1 _ i) as [j1 [u1 [_ [_ [_ [G3 G4]]]]]].
-  cbn [test_of] in F3, G3. injection F3 as <-. injection G3 as <-.
-  exact (one_to_one s fs m P0 P1 (th ++ tb) tape W R0 R1 built h1 reached1 same _ _ _ F4 G4).
+  apply (fulfilled c s ds m P0 (th ++ tb) params tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). destruct r as [| | | | | | | | | | | | | | | | error b]; try exact I.
+  - cbn [fulfils]. intros P1 hP1 reached1 same. destruct (Point P1 hP1) as [R1 [_ [_ Each1]]]. destruct (Each1 _ i) as [j1 [u1 [_ [_ [_ [G3 G4]]]]]].
+    cbn [test_of] in F3, G3. injection F3 as <-. injection G3 as <-.
+    exact (one_to_one s fs m P0 P1 (th ++ tb) tape params W R0 R1 built h1 reached1 same _ _ _ F4 G4).
+  - refine (accuracy_fulfilled c s ds m P0 th tb params tape _ error b u j hm built L (fun th' L' => enclosed_all _ _ _ ep (Forall2_app L' B)) V _ (fun P => R P [] tb) F3 F4).
+    intros f jf e ie. apply Found, in_or_app. right. apply in_or_app. right. apply in_or_app. right. unfold accuracy_formulas.
+    destruct (existsb _ (require c)) eqn:x; [apply in_flat_map; exists f; split; assumption |].
+    assert (existsb (fun r => match r with Accuracy _ _ => true | _ => false end) (require c) = true) by (apply existsb_exists; exists (Accuracy error b); split; [exact i | reflexivity]). congruence.
 Qed.
 End Precision.
 

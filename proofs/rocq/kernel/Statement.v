@@ -149,17 +149,29 @@ Inductive requirement :=
   (* of no motion of the platform with these acceleration and speed at most *)
   | JointAcceleration (leg : nat) (acceleration speed b : number)
   | JointForce (leg : nat) (tool b : number)           (* of no static force on the platform up to [tool] *)
-  | OneToOne.                                          (* no two points of the workspace have the same joint coordinates *)
+  | OneToOne                                           (* no two points of the workspace have the same joint coordinates *)
+  (* the one position near that of the nominal machine, where joints are off by [error] at most *)
+  | Accuracy (error b : number).
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
 (** [m] is one of the machines that the claim is about. *)
 Definition is_machine (c : claim) (m : list leg) : Prop := Forall2 is_leg_of (legs c) m.
 
+(** The machine in the middle of the tolerances. *)
+Definition middle (t : tolerance) : R := (value (least t) + value (greatest t)) / 2.
+Definition middles (t : tolerances) : vec := Vec (middle (tx t)) (middle (ty t)) (middle (tz t)).
+Definition nominal_leg (d : drive) : leg :=
+  match d with
+  | SliderLeg c => Guided (Leg (normalised (middles (direction c))) (middles (anchor c)) (middles (Claim.platform c)) (middle (Claim.length c)) (if mode c then 1 else -1))
+  | StrutLeg a p k => Extensible (middles a) (middles p) (match k with Some k => Some (normalised (middles k)) | None => None end)
+  | PlanarLeg n => Plane (middles n)
+  end.
+
 (** M is injective: no motion of the platform leaves all joints at rest. *)
 Definition injective (m : list leg) (P : vec) : Prop := forall v, v <> vzero -> 0 < speed2 m P v.
 
-Definition fulfils (w : region) (m : list leg) (P : vec) (r : requirement) : Prop :=
+Definition fulfils (c : claim) (m : list leg) (P : vec) (r : requirement) : Prop :=
   match r with
   | NotSingular => injective m P
   | PsiMax b => forall v, (1 / value b) ^ 2 * norm2 v <= speed2 m P v
@@ -187,12 +199,16 @@ Definition fulfils (w : region) (m : list leg) (P : vec) (r : requirement) : Pro
   (* virtual work: the joint forces tau hold the force F on the platform *)
   | JointForce i tool b => (exists l, nth_error m i = Some l) /\ forall tau F, Datatypes.length tau = Datatypes.length m ->
       (forall v, dot F v = joint_power m tau P v) -> norm2 F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
-  | OneToOne => forall P', in_region w P' -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m -> P' = P
+  | OneToOne => forall P', in_region (workspace c) P' -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m -> P' = P
+  (* rho: joint coordinates near those that the nominal machine has at P *)
+  | Accuracy error b => forall rho, Forall2 (fun d r => Rabs (r - joint (nominal_leg d) P) <= value error) (legs c) rho ->
+      let is_at P' := norm2 (vsub P' P) <= value b ^ 2 /\ Forall2 (fun l r => reaches P' l /\ joint l P' = r) m rho in
+      exists P', is_at P' /\ forall P'', is_at P'' -> P'' = P'
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)
 Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
-  Forall (reaches P) m /\ injective m P /\ Forall (fulfils (workspace c) m P) (require c).
+  Forall (reaches P) m /\ injective m P /\ Forall (fulfils c m P) (require c).
 
 Definition holds (c : claim) : Prop :=
   forall m P, is_machine c m -> in_region (workspace c) P -> meets c m P.

@@ -352,7 +352,7 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
-  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne => false
+  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -417,14 +417,14 @@ Proof.
   - injection h as <- <-. reflexivity.
 Qed.
 
-Lemma fails_sound : forall w ls P u v r, fails ls P u v r = true -> ~ fulfils w (map leg_of ls) (values P) r.
+Lemma fails_sound : forall c ls P u v r, fails ls P u v r = true -> ~ fulfils c (map leg_of ls) (values P) r.
 Proof.
-  intros w ls P u v r h F.
+  intros about ls P u v r h F.
   assert (B : forall b, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u)) = (1 / value b) ^ 2 * norm2 (values u)).
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b |]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b | | error b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -498,6 +498,7 @@ Proof.
   - discriminate.
   - discriminate.
   - discriminate.
+  - discriminate.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)
@@ -508,10 +509,10 @@ Proof.
   - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
     apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
     rewrite Forall_forall in reached. apply reached, in_map, il.
-  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound (workspace c) _ _ _ _ _ h).
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound c _ _ _ _ _ h).
     rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
-    apply (fails_sound (workspace c) _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+    apply (fails_sound c _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
 Qed.
 
 (** ** A claim that is about something *)

@@ -80,6 +80,17 @@ const wrong = [undefined_("1/0"), undefined_("sqrt(-1)")];
 for (const [name, from, to] of [
   ["orthoglide-prototype", '"offset":"0"', '"offset":"1/0"'],
   ["orthoglide-prototype", '"offset":"0"', '"offset":"sqrt(-1)"'],
+  // Each part of what shows accuracy.
+  ["orthoglide-prototype-whole", '"joint_error":["0.01"]', '"joint_error":["0.02"]'],
+  ["orthoglide-prototype-whole", '"joint_error":["0.01"]', '"joint_error":["-0.01"]'],
+  ["orthoglide-prototype-whole", '"bound":"0.114"', '"bound":"0.1"'],
+  ["orthoglide-prototype-whole", '"bound":"0.114"', '"bound":"114"'],
+  ["orthoglide-prototype-whole", '"accuracy":[{"y":[[4', '"accuracy":[{"y":[[-4'],
+  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\}),\d+/, "$1,-1"],
+  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\}),\d+/, "$1,4"],
+  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\},\d+),0/, "$1,1"],
+  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*"places":)2/, "$11"],
+  ["orthoglide-prototype-whole", /\[18,\{"accuracy":.*?,0\]\}\],?/, ""],
   ["tripteron", /"precision":\d+/, '"precision":8'],
   ["tripteron", /"precision":\d+/, '"precision":5000'],
   ["tripteron", /"nodes":\[(.*)\]\}\},"prov/, '"nodes":[{"split":3},$1,$1]}},"prov'],
@@ -329,7 +340,58 @@ for (const wrong of ['"end":"holds","bound":"1"', '"end":"min","bound":"1"', '"l
   if (all(text).some((answer) => answer !== "REJECTED")) fail(`one_to_one: ${all(text)}: ${text}`);
 }
 console.log("one_to_one: with one answer");
-for (const [text, low, high] of [...apart, ...accelerations, ...forces])
+
+// Positions near P: errors of the joints, and tolerances of lengths, directions and places, by which joint coordinates are derived.
+const between = (x) => `{"min":"${+(x - 0.01).toFixed(3)}","max":"${+(x + 0.01).toFixed(3)}"}`;
+const vague = three.map((leg) => leg.replace('"0","0","0"', `"0",${between(0)},"0"`).replace('"direction":["1","0",', `"direction":["1",${between(0.02)},`));
+const vague_struts = all_struts.map((leg) => leg.replace('"platform":["50"', `"platform":[${between(50)}`).replace(/"base_axis":\["-?\d+"/, `"base_axis":[${between(-2)}`));
+const all_between = (...x) => `[${x.map(between)}]`;
+const loose = [0, 1, 2].map((i) => `{"drive":"slider","direction":${all_between(...[0, 1, 2].map((k) => +(k === i)))},"anchor":${all_between(0.5, -0.25, 0.3)},` +
+  `"platform":${all_between(0.2, 0.1, -0.1)},"length":${between(310)},"mode":"+"}`);
+const vague_plane = `{"drive":"planar","direction":["0",${between(0.1)},"1"]}`;
+const off = (error) => about("accuracy", "max", `,"given":{"joint_error":["${error}"]}`);
+const accuracy = (rows, kappa, q = 0) => `{"accuracy":[${y(rows)},${kappa},${q}]}`;
+const nearly = accuracy(near, 1), near_struts = accuracy([[-6, 0, 5], [3, -5, 5], [3, 5, 5]], 1);
+const accuracies = [
+  [asks(three, box, off(0.01), tree(`[1,${nearly}]`)), 0.01, 0.1],
+  [asks(toleranced, box, off(0), tree(`[1,${nearly}]`)), 0.01, 3],
+  [asks(toleranced, cylinder, off(0.01), tree(`[1,{"inside":[${accuracy([[7, 1, 0], [0, 8, -1], [1, 0, 8]], 2)},1,5]}]`)), 0.01, 3],
+  [asks(vague, box, off(0.001), tree(`[1,${nearly}]`)), 0.01, 12],
+  [asks(loose, box, off(0.01), tree(`[1,${accuracy(near, 2)}]`)), 0.1, 20],
+  [asks([three[0], vague[1], vague_plane], box, off(0.01), tree(`[1,${accuracy([[8, 0, 0], [0, 8, 0], [0, 1, 8]], 3)}]`)), 0.01, 9],
+  [asks(all_struts, far, off(0.01), of_struts(`[1,${near_struts}]`)), 0.01, 1],
+  [asks(vague_struts, far, off(0.01), of_struts(`[1,${near_struts}]`)), 0.01, 3],
+  // Errors that are so large that what is near the cell is too far from it.
+  [asks(three, box, off(4), tree(`[1,${nearly}]`)), 4, 12],
+];
+for (const [text, low, high] of accuracies) narrowed(text, low, high);
+for (const text of [
+  asks(three, box, off(-0.01), tree(`[1,${nearly}]`)),
+  asks(three, box, off(0.6), tree(`[1,${nearly}]`)),
+  asks(toleranced, box, off(0.45), tree(`[1,${nearly}]`)),
+  asks(three, box, about("accuracy", "max"), tree(`[1,${nearly}]`)),
+  asks(three, box, about("accuracy", "min", ',"given":{"joint_error":["0"]}'), tree(`[1,${nearly}]`)),
+  asks(three, box, about("accuracy", "max", ',"given":{"tool":["0"]}'), tree(`[1,${nearly}]`)),
+  asks(three, box, about("accuracy", "max", ',"given":{"joint_error":["0"],"max_angle":["1"]}'), tree(`[1,${nearly}]`)),
+  asks(three, box, about("accuracy", "max", ',"leg":1,"given":{"joint_error":["0"]}'), tree(`[1,${nearly}]`)),
+  ...[accuracy(near, 0), accuracy(near, -1), accuracy(near, 8), accuracy(near, 1, 1), accuracy(near.map((row) => row.map((n) => -n)), 1),
+    accuracy([[0, 0, 0], [0, 0, 0], [0, 0, 0]], 1), accuracy([[8, 0, 0], [0, 8, 0], [0, 0, 0]], 1), accuracy([[8, 0, 0], [0, 8, 0]], 1), accuracy(near.map((row) => [...row, 0]), 1),
+    `{"lower":${y(near)}}`, `{"rank":${y(near)}}`, '"test"', '"chords"'].map((evidence) => asks(three, box, off(0.01), tree(`[1,${evidence}]`))),
+  // Evidence of accuracy shows nothing else.
+  asks(three, box, about("transmission", "min"), tree(`[1,${nearly}]`)),
+  // More joints than coordinates, and legs that do not reach what is near.
+  asks([...three, plane(0, 0, 1)], box, off(0.01), tree(`[1,${accuracy([...near, [0, 0, 0]], 1)}]`).replace("[0,0,8]", "[0,0,8],[0,0,0]")),
+  asks(sliders('"43"'), box, off(0.01), tree(`[1,${nearly}]`)),
+]) {
+  const answers = all(text("0.5"));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`accuracy: ${answers}: ${text("0.5")}`);
+}
+for (const b of ["0", "-1"]) {
+  const text = asks(three, box, off(0), tree(`[1,${nearly}]`))(b);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`accuracy: ${all(text)}: ${text}`);
+}
+console.log(`accuracy: ${accuracies.length} machines, with one answer at 42 bounds each`);
+for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accuracies])
   read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
 fs.rmSync(beside, { recursive: true });
 

@@ -174,6 +174,7 @@ let requirement v =
     | "joint_force" -> Force_
     | "joint_acceleration" -> Acceleration_
     | "one_to_one" -> OneToOne_
+    | "accuracy" -> Accuracy_
     | "clearance" -> Clearance_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
@@ -184,7 +185,7 @@ let requirement v =
     | "holds" -> Holds_
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
-    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> Given_ (number x)
+    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] | Accuracy_, [ ("joint_error", Array [ x ]) ] -> Given_ (number x)
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
@@ -295,6 +296,8 @@ let rec evidence (n, m as shape) v =
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
+  | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->
+    if digits q <> "0" then raise Malformed else multiplier (fun y places -> Accurate_ (y, places, integer kappa)) y
   | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row (m + 1) mu)) y
   | Object [ (("lower" | "lower_divided" | "rank") as name, y) ] -> multiplier (fun y places -> Multiplied (name, y, places)) y
   | Object [ ("direction", y) ] ->
@@ -335,7 +338,7 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
-let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ -> true | _ -> false
+let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ | Accuracy_ -> true | _ -> false
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(v){"use strict";var
-By=typeof
-module==="object"&&module.exports||v,hz="spatial",lM="Invalid_argument",fc="precision",av='"',lL="@[",hh=1255,lK="inside",ml="Fatal error: exception %s\n",ld=255,lJ="yaw",mj="(",mk=0x800,lb="range",lc="tree",hg="jsError",bz=0x8000,lH='the mechanism "',lI="%ni",mQ="sqrt(",mi=256,d_="offset",mh="obligation",bk="machine",la="End_of_file",ff="strut",k$="center",fq="arm",hf="Failure",mO="serial_margin",mP="parameters",bY=0xff,hF="bodies",k_="\n",hE="outside",hp="base_axis",hy="ENOENT",mN=122,aP="0",mg="([^/]+)",hx=0xf,d$=128,he=-48,k9=0xdc00,lG="Sys_blocked_io",mM="fd ",hd="given",mf="ENOTEMPTY",au=248,fm="bound",at="camlinternalFormat.ml",me="Division_by_zero",mK="by",mL=1027,k8="Sys_error",lF="slider",lE="postulate",md="torsion",mc="proof",lD="%u",dl="mechanism",fl="row",k7="EEXIST",lC="roll_pitch_yaw",hw="%d",k6="Printexc.handle_uncaught_exception",ho="y",fb="lower",lB="within",mb="cube",k5="clearance",ma="buffer.ml",mJ="turned",fa="int_of_string",l$="control",lA="definitions",hn=127,d9=1024,lz="@{",l_="from",hD="e",k3=120,k4=103,ly=" : flags Open_rdonly and Open_wronly are not compatible",l9="orthocert/2",mI="reach",k2=512,a_="-",mH="witness",bi="platform",k1=0x7ff0,k0="pitch",hC=": Not a directory",lx=" : file already exists",bB="min",mG="trim",dm="workspace",lw="claim",l8="split",mF="legs",bX=0xffffff,l7="joint",kY="formulas",kZ="0x",lv='the workspace "',l6="roll",mD="nodes",mE="Out_of_memory",kX="psi_max",hB="orientation",lu="angle",fk=254,hA="index out of bounds",l5=100,kW="end",mC="one_to_one",fp="_bigarr02",kV="%Li",l4=" : flags Open_text and Open_binary are not compatible",ch="drive",l3="coordinates",mB="holds",lt=", characters ",l2="lower_divided",kU="speed",ls="joints",mA="cylinder",bD=0xffff,lq="acceleration",hm="chords",lr=12520,hc="on",lp="axis",lo="no_cube",mz="parallel_margin",kT='the drive "',fe="fails",hv="Unix.Unix_error",my="infinity",e$="tool",hb="mkdir",d8=1000,e_="translational",t="",l1="Stack_overflow",mx="characteristic_length",hl="^",e9=": No such file or directory",hu="places",l0="/static/",dk=0x3f,lZ=-97,lX="stiffness",lY="Not_found",d7="planar",fj="mode",mw="joint_speed",ln="Match_failure",kS=", ",kR="transmission",cg="anchor",mv="at",fo=252,kQ="joint_force",dj="leg",ci=".",bA="+",lW="joint_acceleration",ht="rmdir",mu=0xf0,mt="spherical",lm="verified.ml",lk="REJECTED",ll="%li",lV=1026,bC="max",cL="direction",lU="orthoglide",fn="rank",ms="constraint_margin",mr=-32,kO="Pervasives.do_at_exit",kP="utf8",hs="test",bV=" ",fd="conditioning",hr="Fatal error: exception ",bj=0x80,kN="Undefined_recursive_module",hk=")",fi="length",lT="base",mq="quantity",lS="joint_range",fh="tilt",kM="Q2",hj="nan",lj="reference",lR="point",li=0xe0,mp="corner",lg="z",lh=0xdfff,lP="version",lQ="_",mo="to",bh="/",hq="compare: functional value",mn="Assert_failure",lf="provenance",di="radius",kL="%i",bW="require",fg="side",mm="format",hi="ENOTDIR",lO="Q1",lN="all",cK="box",le=250;function
-hV(c,b,a){var
+B$=typeof
+module==="object"&&module.exports||v,hG="spatial",l0="Invalid_argument",fm="precision",ay='"',lZ="@[",ho=1255,lY="inside",mz="Fatal error: exception %s\n",lq=255,lX="yaw",mx="(",my=0x800,lo="range",lp="tree",hn="jsError",bF=0x8000,lV='the mechanism "',lW="%ni",m4="sqrt(",mw=256,ee="offset",mv="obligation",bo="machine",ln="End_of_file",fp="strut",lm="center",fB="arm",hm="Failure",m2="serial_margin",m3="parameters",b5=0xff,hM="bodies",ll="\n",hL="outside",hw="base_axis",hF="ENOENT",m1=122,aN="0",mu="([^/]+)",hE=0xf,ef=128,hl=-48,lk=0xdc00,lU="Sys_blocked_io",m0="fd ",hk="given",mt="ENOTEMPTY",ax=248,fx="bound",aw="camlinternalFormat.ml",ms="Division_by_zero",mY="by",mZ=1027,lj="Sys_error",lT="slider",lS="postulate",mr="torsion",lR="joint_error",mq="proof",lQ="%u",dr="mechanism",fw="row",li="EEXIST",lP="roll_pitch_yaw",hD="%d",lh="Printexc.handle_uncaught_exception",hv="y",fl="lower",lO="within",mp="cube",lg="clearance",mo="buffer.ml",mX="turned",fk="int_of_string",mn="control",lN="definitions",hu=127,ed=1024,lM="@{",mm="from",hK="e",le=120,lf=103,lL=" : flags Open_rdonly and Open_wronly are not compatible",ml="orthocert/2",mW="reach",ld=512,bb="-",mV="witness",bm="platform",lc=0x7ff0,lb="pitch",hJ=": Not a directory",lK=" : file already exists",bH="min",mU="trim",ds="workspace",lJ="claim",mk="split",mT="legs",b4=0xffffff,mj="joint",k$="formulas",la="0x",lI='the workspace "',mi="roll",mR="nodes",mS="Out_of_memory",k_="psi_max",hI="orientation",lH="angle",fv=254,hH="index out of bounds",mh=100,k9="end",mQ="one_to_one",fA="_bigarr02",k8="%Li",mg=" : flags Open_text and Open_binary are not compatible",cq="drive",mf="coordinates",mP="holds",lG=", characters ",me="lower_divided",k7="speed",lF="joints",mO="cylinder",bJ=0xffff,lD="acceleration",ht="chords",lE=12520,hj="on",lC="axis",fu="accuracy",lB="no_cube",mN="parallel_margin",k6='the drive "',fo="fails",hC="Unix.Unix_error",mM="infinity",fj="tool",hi="mkdir",ec=1000,fi="translational",t="",md="Stack_overflow",mL="characteristic_length",hs="^",fh=": No such file or directory",hB="places",mc="/static/",dq=0x3f,mb=-97,l$="stiffness",ma="Not_found",eb="planar",ft="mode",mK="joint_speed",lA="Match_failure",k5=", ",k4="transmission",cp="anchor",mJ="at",fz=252,k3="joint_force",dp="leg",cr=".",bG="+",l_="joint_acceleration",hA="rmdir",mI=0xf0,mH="spherical",lz="verified.ml",lx="REJECTED",ly="%li",l9=1026,bI="max",cP="direction",l8="orthoglide",fy="rank",mG="constraint_margin",mF=-32,k1="Pervasives.do_at_exit",k2="utf8",hz="test",b2=" ",fn="conditioning",hy="Fatal error: exception ",bn=0x80,k0="Undefined_recursive_module",hr=")",fs="length",l7="base",mE="quantity",l6="joint_range",fr="tilt",kZ="Q2",hq="nan",lw="reference",l5="point",lv=0xe0,mD="corner",lt="z",lu=0xdfff,l3="version",l4="_",mC="to",bl="/",hx="compare: functional value",mB="Assert_failure",ls="provenance",dn="radius",kY="%i",b3="require",fq="side",mA="format",hp="ENOTDIR",l2="Q1",l1="all",cO="box",lr=250;function
+h2(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=t;for(;0<a;b+=d9,a-=d9)e+=d.apply(null,c.slice(b,b+Math.min(a,d9)));return e}function
-fr(b){if(v.Uint8Array)var
+e=t;for(;0<a;b+=ed,a-=ed)e+=d.apply(null,c.slice(b,b+Math.min(a,ed)));return e}function
+fC(b){if(v.Uint8Array)var
 c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ck(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?hV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fr(b);var
+ct(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?h2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?h2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fC(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bZ(a){return a}function
-bG(a,b,c,d,e){ck(bZ(a),b,c,d,e);return 0}function
-Bq(b,a){throw[0,b,a]}function
-ds(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
+b6(a){return a}function
+bM(a,b,c,d,e){ct(b6(a),b,c,d,e);return 0}function
+B3(b,a){throw[0,b,a]}function
+dx(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
 d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dq(a){if(a.t==2)a.c+=ds(a.l-a.c.length,"\0");else
-a.c=hV(a.c,0,a.c.length);a.t=0}function
-nk(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hn)return false;return true}else
+dv(a){if(a.t==2)a.c+=dx(a.l-a.c.length,"\0");else
+a.c=h2(a.c,0,a.c.length);a.t=0}function
+ny(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hu)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-hX(e){for(var
-j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bj){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bj;d++);if(d-b>k2){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(f<<6);if(f<li){a=g-0x3080;if(a<bj)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$){g=h+(g<<6);if(f<mu){a=g-0xe2080;if(a<mk||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==d$&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bD)c+=String.fromCharCode(0xd7c0+(a>>10),k9+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>d9){c.substr(0,1);j+=c;c=t}}return j+c}function
-bE(c,a,b){this.t=c;this.c=a;this.l=b}bE.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dq(this);case
-0:if(nk(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bE.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return hX(a)};bE.prototype.slice=function(){var
+h4(e){for(var
+j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bn){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bn;d++);if(d-b>ld){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(f<<6);if(f<lv){a=g-0x3080;if(a<bn)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(g<<6);if(f<mI){a=g-0xe2080;if(a<my||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bJ)c+=String.fromCharCode(0xd7c0+(a>>10),lk+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>ed){c.substr(0,1);j+=c;c=t}}return j+c}function
+bK(c,a,b){this.t=c;this.c=a;this.l=b}bK.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dv(this);case
+0:if(ny(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bK.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return h4(a)};bK.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bE(this.t,a,this.l)};function
-m0(a){return new
-bE(0,a,a.length)}function
-a(a){return m0(a)}function
-hT(c,b){Bq(c,a(b))}var
+bK(this.t,a,this.l)};function
+nc(a){return new
+bK(0,a,a.length)}function
+a(a){return nc(a)}function
+h0(c,b){B3(c,a(b))}var
 aj=[0];function
-aw(a){hT(aj.Invalid_argument,a)}function
-mY(){aw(hA)}function
-ak(a,c,b){b&=bY;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fr(a)}a.c[c]=b;return 0}function
-cM(b,a,c){if(a>>>0>=b.l)mY();return ak(b,a,c)}function
-dp(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+az(a){h0(aj.Invalid_argument,a)}function
+na(){az(hH)}function
+ak(a,c,b){b&=b5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fC(a)}a.c[c]=b;return 0}function
+cQ(b,a,c){if(a>>>0>=b.l)na();return ak(b,a,c)}function
+du(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-b0(c,a){if(c.fun)return b0(c.fun,a);if(typeof
+b7(c,a){if(c.fun)return b7(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return b0(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return b7(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b0(c,d)}}function
-ea(){aw(hA)}function
-m1(a,b){if(b>>>0>=a.length-1)ea();return a}function
-AS(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b2(a){a.t&6&&dq(a);return a.c}var
-BA=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Bz(a){if(BA)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b7(c,d)}}function
+eg(){az(hH)}function
+nd(a,b){if(b>>>0>=a.length-1)eg();return a}function
+Bt(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+b9(a){a.t&6&&dv(a);return a.c}var
+Cb=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Ca(a){if(Cb)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hL(c){var
+hS(c){var
 a=new(v.Float32Array)(1);a[0]=c;var
 b=new(v.Int32Array)(a.buffer);return b[0]|0}var
-m_=Math.pow(2,-24);function
-Bo(a){throw a}function
-nf(){Bo(aj.Division_by_zero)}function
-u(b,c,a){this.lo=b&bX;this.mi=c&bX;this.hi=a&bD}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+nm=Math.pow(2,-24);function
+B1(a){throw a}function
+nt(){B1(aj.Division_by_zero)}function
+u(b,c,a){this.lo=b&b4;this.mi=c&b4;this.hi=a&bJ}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
 u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*m_|0)+this.mi*a.lo+this.lo*a.mi,d=(c*m_|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*nm|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nm|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
 u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
 u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bD);return new
-u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bX;this.lo=this.lo<<1&bX};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bX;this.mi=(this.mi>>>1|this.hi<<23)&bX;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
+u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bJ);return new
+u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&b4;this.lo=this.lo<<1&b4};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&b4;this.mi=(this.mi>>>1|this.hi<<23)&b4;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
-b=this;if(a.isZero())nf();var
-d=b.hi^a.hi;if(b.hi&bz)b=b.neg();if(a.hi&bz)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bz)c=c.neg();return c};u.prototype.mod=function(b){var
-a=this;if(b.isZero())nf();var
-d=a.hi;if(a.hi&bz)a=a.neg();if(b.hi&bz)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bz)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&bY,this.mi>>16,this.mi>>8&bY,this.mi&bY,this.lo>>16,this.lo>>8&bY,this.lo&bY]};u.prototype.lo32=function(){return this.lo|(this.mi&bY)<<24};u.prototype.hi32=function(){return this.mi>>>8&bD|this.hi<<16};function
-fv(b,c,a){return new
+b=this;if(a.isZero())nt();var
+d=b.hi^a.hi;if(b.hi&bF)b=b.neg();if(a.hi&bF)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bF)c=c.neg();return c};u.prototype.mod=function(b){var
+a=this;if(b.isZero())nt();var
+d=a.hi;if(a.hi&bF)a=a.neg();if(b.hi&bF)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bF)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&b5,this.mi>>16,this.mi>>8&b5,this.mi&b5,this.lo>>16,this.lo>>8&b5,this.lo&b5]};u.prototype.lo32=function(){return this.lo|(this.mi&b5)<<24};u.prototype.hi32=function(){return this.mi>>>8&bJ|this.hi<<16};function
+fG(b,c,a){return new
 u(b,c,a)}function
-fu(a){if(!isFinite(a)){if(isNaN(a))return fv(1,0,k1);return a>0?fv(0,0,k1):fv(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bz:a>=0?0:bz;if(f)a=-a;var
-b=Bz(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lV)}else{a/=Math.pow(2,b-mL);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+fF(a){if(!isFinite(a)){if(isNaN(a))return fG(1,0,lc);return a>0?fG(0,0,lc):fG(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bF:a>=0?0:bF;if(f)a=-a;var
+b=Ca(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-l9)}else{a/=Math.pow(2,b-mZ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hx|f|b<<4;return fv(g,e,c)}function
-ed(a){return a.toArray()}function
-mX(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fp)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bD)c.write(16,b.dims[a]);else{c.write(16,bD);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hE|f|b<<4;return fG(g,e,c)}function
+ej(a){return a.toArray()}function
+m$(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fA)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bJ)c.write(16,b.dims[a]);else{c.write(16,bJ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=ed(b.get(a));for(var
+e=ej(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=ed(fu(b.get(a)));for(var
+e=ej(fF(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hL(b.get(a));c.write(32,e)}break;case
+e=hS(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hL(d[1]));c.write(32,hL(d[2]))}break;case
+d=b.get(a);c.write(32,hS(d[1]));c.write(32,hS(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=ed(fu(f[1]));for(var
+f=b.get(a),e=ej(fF(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=ed(fu(f[2]));for(var
+e=ej(fF(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-mV(a){switch(a){case
+m9(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-AM(c,e){var
+Bn(c,e){var
 b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=v,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aw("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
 d=new
-a(e*mV(c));return d}function
-hM(c){var
+a(e*m9(c));return d}function
+hT(c){var
 a=new(v.Int32Array)(1);a[0]=c;var
 b=new(v.Float32Array)(a.buffer);return b[0]}function
-ec(a){return new
+ei(a){return new
 u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hN(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hx)==0?b&bz?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hx);if(c>0){a+=16;a*=Math.pow(2,c-mL)}else
-a*=Math.pow(2,-lV);if(b&bz)a=-a;return a}function
-hG(b){var
+hU(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hE)==0?b&bF?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hE);if(c>0){a+=16;a*=Math.pow(2,c-mZ)}else
+a*=Math.pow(2,-l9);if(b&bF)a=-a;return a}function
+hN(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aw("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-A3(b,a){return new
-u(b&bX,b>>>24&bY|(a&bD)<<8,a>>>16&bD)}function
-hO(a){return a.hi32()}function
-hP(a){return a.lo32()}var
-AN=fp;function
-cj(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cj.prototype.caml_custom=AN;cj.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+BE(b,a){return new
+u(b&b4,b>>>24&b5|(a&bJ)<<8,a>>>16&bJ)}function
+hV(a){return a.hi32()}function
+hW(a){return a.lo32()}var
+Bo=fA;function
+cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=Bo;cs.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aw("bigarray.js: invalid offset");if(this.dims.length!=b.length)aw("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ea();c=c*this.dims[a]+b[a]}else
+Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eg();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ea();c=c*this.dims[a]+(b[a]-1)}return c};cj.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eg();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return A3(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return BE(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fk,e,c];default:return this.data[a]}};cj.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hP(b);this.data[a*2+1]=hO(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fv,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hW(b);this.data[a*2+1]=hV(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cj.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hP(b),e=hO(b);if(c==e)this.data.fill(c);else
+c=hW(b),e=hV(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cj.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cs.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype=new
-cj();dn.prototype.offset=function(a){if(typeof
+dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype=new
+cs();dt.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aw("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ea();return a};dn.prototype.get=function(a){return this.data[a]};dn.prototype.set=function(a,b){this.data[a]=b;return 0};dn.prototype.fill=function(a){this.data.fill(a);return 0};function
-mT(c,d,a,b){var
-e=mV(c);if(hG(a)*e!=b.length)aw("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dn(c,d,a,b);return new
-cj(c,d,a,b)}function
-bl(b){if(!aj.Failure)aj.Failure=[au,a(hf),-3];hT(aj.Failure,b)}function
-mU(b,v,r){var
-i=b.read32s();if(i<0||i>16)bl("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bY,o=p>>8&1,h=[];if(r==fp)for(var
+az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eg();return a};dt.prototype.get=function(a){return this.data[a]};dt.prototype.set=function(a,b){this.data[a]=b;return 0};dt.prototype.fill=function(a){this.data.fill(a);return 0};function
+m7(c,d,a,b){var
+e=m9(c);if(hN(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dt(c,d,a,b);return new
+cs(c,d,a,b)}function
+bp(b){if(!aj.Failure)aj.Failure=[ax,a(hm),-3];h0(aj.Failure,b)}function
+m8(b,v,r){var
+i=b.read32s();if(i<0||i>16)bp("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b5,o=p>>8&1,h=[];if(r==fA)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bD){var
-t=b.read32u(),u=b.read32u();if(t!=0)bl("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bJ){var
+t=b.read32u(),u=b.read32u();if(t!=0)bp("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hG(h),f=AM(j,d),g=mT(j,o,h,f);switch(j){case
+d=hN(h),f=Bn(j,d),g=m7(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bl("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bp("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ec(e);g.set(a,q)}break;case
+q=ei(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hN(ec(e));g.set(a,k)}break;case
+k=hU(ei(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hM(b.read32s());g.set(a,k)}break;case
+k=hT(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hM(b.read32s()),l=hM(b.read32s());g.set(a,[fk,m,l])}break;case
+m=hT(b.read32s()),l=hT(b.read32s());g.set(a,[fv,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hN(ec(e));for(var
+m=hU(ei(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hN(ec(e));g.set(a,[fk,m,l])}break}v[0]=(4+i)*4;return mT(j,o,h,f)}function
-mS(a,b,c){return a.compare(b,c)}function
-nc(a,b){return Math.imul(a,b)}function
-b1(b,a){a=nc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-AZ(a,b){a=b1(a,hP(b));a=b1(a,hO(b));return a}function
-m9(a,b){return AZ(a,fu(b))}function
-mW(c){var
-b=hG(c.dims),d=0;switch(c.kind){case
+l=hU(ei(e));g.set(a,[fv,m,l])}break}v[0]=(4+i)*4;return m7(j,o,h,f)}function
+m6(a,b,c){return a.compare(b,c)}function
+nq(a,b){return Math.imul(a,b)}function
+b8(b,a){a=nq(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nq(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+BA(a,b){a=b8(a,hW(b));a=b8(a,hV(b));return a}function
+nl(a,b){return BA(a,fF(b))}function
+m_(c){var
+b=hN(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mi)b=mi;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b1(d,e)}e=0;switch(b&3){case
+12:if(b>mw)b=mw;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b8(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b1(d,e)}break;case
+1:e|=c.data[a+0];d=b8(d,e)}break;case
 4:case
-5:if(b>d$)b=d$;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b1(d,e)}if((b&1)!=0)d=b1(d,c.data[a]);break;case
+5:if(b>ef)b=ef;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b8(d,e)}if((b&1)!=0)d=b8(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b1(d,c.data[a]);break;case
+a=0;a<b;a++)d=b8(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b1(d,c.data[a]);break;case
+a=0;a<b;a++)d=b8(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b1(d,c.data[a]);break;case
+a=0;a<b;a++)d=b8(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=m9(d,c.data[a]);break;case
+a=0;a<b;a++)d=nl(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=m9(d,c.data[a]);break}return d}function
-A1(a,b){b[0]=4;return a.read32s()}function
-Bl(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=nl(d,c.data[a]);break}return d}function
+BC(a,b){b[0]=4;return a.read32s()}function
+BY(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bl("input_value: native integer value too large");default:bl("input_value: ill-formed native integer")}}function
-Ba(c,d){var
+2:bp("input_value: native integer value too large");default:bp("input_value: ill-formed native integer")}}function
+BN(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ec(b)}function
-A8(e,d,b){var
-c=ed(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ei(b)}function
+BJ(e,d,b){var
+c=ej(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-A2(a,b,c){return a.compare(b)}function
-A5(a){return a.lo32()^a.hi32()}var
-m4={"_j":{deserialize:Ba,serialize:A8,fixed_length:8,compare:A2,hash:A5},"_i":{deserialize:A1,fixed_length:4},"_n":{deserialize:Bl,fixed_length:4},"_bigarray":{deserialize:function(a,b){return mU(a,b,"_bigarray")},serialize:mX,compare:mS,hash:mW},"_bigarr02":{deserialize:function(a,b){return mU(a,b,fp)},serialize:mX,compare:mS,hash:mW}};function
-hI(a){return m4[a.caml_custom]&&m4[a.caml_custom].compare}function
-m2(f,c,d,e){var
-b=hI(c);if(b){var
+BD(a,b,c){return a.compare(b)}function
+BG(a){return a.lo32()^a.hi32()}var
+ng={"_j":{deserialize:BN,serialize:BJ,fixed_length:8,compare:BD,hash:BG},"_i":{deserialize:BC,fixed_length:4},"_n":{deserialize:BY,fixed_length:4},"_bigarray":{deserialize:function(a,b){return m8(a,b,"_bigarray")},serialize:m$,compare:m6,hash:m_},"_bigarr02":{deserialize:function(a,b){return m8(a,b,fA)},serialize:m$,compare:m6,hash:m_}};function
+hP(a){return ng[a.caml_custom]&&ng[a.caml_custom].compare}function
+ne(f,c,d,e){var
+b=hP(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fw(a){return a
+fH(a){return a
 instanceof
-bE}function
-hR(a){return fw(a)}function
-m3(a){if(typeof
-a==="number")return d8;else
-if(fw(a))return fo;else
-if(hR(a))return 1252;else
+bK}function
+hY(a){return fH(a)}function
+nf(a){if(typeof
+a==="number")return ec;else
+if(fH(a))return fz;else
+if(hY(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=ld){var
-b=a[0]|0;return b==fk?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=lq){var
+b=a[0]|0;return b==fv?0:b}else
 if(a
 instanceof
-String)return lr;else
+String)return lE;else
 if(typeof
-a=="string")return lr;else
+a=="string")return lE;else
 if(a
 instanceof
-Number)return d8;else
-if(a&&a.caml_custom)return hh;else
+Number)return ec;else
+if(a&&a.caml_custom)return ho;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Bb(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-mZ(a,b){a.t&6&&dq(a);b.t&6&&dq(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-Bt(a,b){return mZ(a,b)}function
-hH(a,b,d){var
+BO(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+nb(a,b){a.t&6&&dv(a);b.t&6&&dv(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+B6(a,b){return nb(a,b)}function
+hO(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=m3(a);if(f==le){a=a[1];continue}var
-g=m3(b);if(g==le){b=b[1];continue}if(f!==g){if(f==d8){if(g==hh)return m2(a,b,-1,d);return-1}if(g==d8){if(f==hh)return m2(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aw(hq);break;case
+f=nf(a);if(f==lr){a=a[1];continue}var
+g=nf(b);if(g==lr){b=b[1];continue}if(f!==g){if(f==ec){if(g==ho)return ne(a,b,-1,d);return-1}if(g==ec){if(f==ho)return ne(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:az(hx);break;case
 248:var
-c=Bb(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aw(hq);break;case
-250:aw("equal: got Forward_tag, should not happen");break;case
-251:aw("equal: abstract value");break;case
+c=BO(a[2],b[2]);if(c!=0)return c|0;break;case
+249:az(hx);break;case
+250:az("equal: got Forward_tag, should not happen");break;case
+251:az("equal: abstract value");break;case
 252:if(a!==b){var
-c=mZ(a,b);if(c!=0)return c|0}break;case
-253:aw("equal: got Double_tag, should not happen");break;case
-254:aw("equal: got Double_array_tag, should not happen");break;case
-255:aw("equal: got Custom_tag, should not happen");break;case
-1247:aw(hq);break;case
+c=nb(a,b);if(c!=0)return c|0}break;case
+253:az("equal: got Double_tag, should not happen");break;case
+254:az("equal: got Double_array_tag, should not happen");break;case
+255:az("equal: got Custom_tag, should not happen");break;case
+1247:az(hx);break;case
 1255:var
-i=hI(a);if(i!=hI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aw("compare: abstract value");var
+i=hP(a);if(i!=hP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=b2(a),b=b2(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=b9(a),b=b9(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-AT(a,b){return hH(a,b,true)}function
-AU(){return[0]}function
-ao(a){if(a<0)aw("Bytes.create");return new
-bE(a?2:9,t,a)}function
-m5(a,b){return+(hH(a,b,false)==0)}function
-AW(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=ds(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fr(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hS(d){d=b2(d);var
-e=d.length;if(e>31)aw("format_int: format too long");var
-a={justify:bA,signstyle:a_,filler:bV,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+Bu(a,b){return hO(a,b,true)}function
+Bv(){return[0]}function
+ar(a){if(a<0)az("Bytes.create");return new
+bK(a?2:9,t,a)}function
+nh(a,b){return+(hO(a,b,false)==0)}function
+Bx(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dx(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fC(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hZ(d){d=b9(d);var
+e=d.length;if(e>31)az("format_int: format too long");var
+a={justify:bG,signstyle:bb,filler:b2,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a_;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aP;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hJ(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a_))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=t;if(b.justify==bA&&b.filler==bV)for(var
-d=e;d<b.width;d++)c+=bV;if(b.signedconv)if(b.sign<0)c+=a_;else
-if(b.signstyle!=a_)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aP;if(b.alternate&&b.base==16)c+=kZ;if(b.justify==bA&&b.filler==aP)for(var
-d=e;d<b.width;d++)c+=aP;c+=f;if(b.justify==a_)for(var
-d=e;d<b.width;d++)c+=bV;return a(c)}function
-hK(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=bb;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aN;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+hQ(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bb))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=t;if(b.justify==bG&&b.filler==b2)for(var
+d=e;d<b.width;d++)c+=b2;if(b.signedconv)if(b.sign<0)c+=bb;else
+if(b.signstyle!=bb)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aN;if(b.alternate&&b.base==16)c+=la;if(b.justify==bG&&b.filler==aN)for(var
+d=e;d<b.width;d++)c+=aN;c+=f;if(b.justify==bb)for(var
+d=e;d<b.width;d++)c+=b2;return a(c)}function
+hR(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bA)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aP);if(b>0)a=a+ci+new
-Array(b+1).join(aP);return a}else
+c=parseInt(a.toString().split(bG)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aN);if(b>0)a=a+cr+new
+Array(b+1).join(aN);return a}else
 return a.toFixed(b)}}var
-a,e=hS(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hj;e.filler=bV}else
-if(!isFinite(c)){a="inf";e.filler=bV}else
+a,e=hZ(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hq;e.filler=b2}else
+if(!isFinite(c)){a="inf";e.filler=b2}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hD),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hD)a=a.slice(0,b-1)+aP+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hK)a=a.slice(0,b-1)+aN+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(hK),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aN)b--;if(a.charAt(b)==cr)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hK)a=a.slice(0,b-1)+aN+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aP)b--;if(a.charAt(b)==ci)b--;a=a.slice(0,b+1)}}break}return hJ(e,a)}function
-fs(e,c){if(b2(e)==hw)return a(t+c);var
-b=hS(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aN)b--;if(a.charAt(b)==cr)b--;a=a.slice(0,b+1)}}break}return hQ(e,a)}function
+fD(e,c){if(b9(e)==hD)return a(t+c);var
+b=hZ(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bV;var
-f=b.prec-d.length;if(f>0)d=ds(f,aP)+d}return hJ(b,d)}var
-Bm=0;function
-ft(){return Bm++}function
-Be(a){return a.toUtf16()}function
-ef(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=b2;var
+f=b.prec-d.length;if(f>0)d=dx(f,aN)+d}return hQ(b,d)}var
+BZ=0;function
+fE(){return BZ++}function
+BR(a){return a.toUtf16()}function
+el(){return typeof
 v.process!=="undefined"&&typeof
 v.process.versions!=="undefined"&&typeof
 v.process.versions.node!=="undefined"}function
-BB(){function
-a(a){if(a.charAt(0)===bh)return[t,a.substring(1)];return}function
+Cc(){function
+a(a){if(a.charAt(0)===bl)return[t,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ef()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
-h1=BB();function
-ni(a){return a.slice(-1)!==bh?a+bh:a}if(ef()&&v.process&&v.process.cwd)var
-eb=v.process.cwd().replace(/\\/g,bh);else
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return el()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+h8=Cc();function
+nw(a){return a.slice(-1)!==bl?a+bl:a}if(el()&&v.process&&v.process.cwd)var
+eh=v.process.cwd().replace(/\\/g,bl);else
 var
-eb="/static";eb=ni(eb);function
-Bf(a){a=Be(a);if(!h1(a))a=eb+a;var
-e=h1(a),d=e[1].split(bh),b=[];for(var
+eh="/static";eh=nw(eh);function
+BS(a){a=BR(a);if(!h8(a))a=eh+a;var
+e=h8(a),d=e[1].split(bl),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Bv(e){for(var
-f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bj){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bj;d++);if(d-c>k2){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mk){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bj|a&dk)}else
-if(a<0xd800||a>=lh)b+=String.fromCharCode(li|a>>12,bj|a>>6&dk,bj|a&dk);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<k9||h>lh)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mu|a>>18,bj|a>>12&dk,bj|a>>6&dk,bj|a&dk)}if(b.length>d9){b.substr(0,1);f+=b;b=t}}return f+b}function
-AR(a){var
-b=9;if(!nk(a))b=8,a=Bv(a);return new
-bE(b,a,a.length)}function
-bm(a){return AR(a)}var
-BD=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",k7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hi,mf,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cP(d,f,e,a){var
-b=BD.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bm(f||t),bm(e||t)];return c}var
-nd={};function
-cN(a){return nd[a]}function
-cO(b,a){throw[0,b].concat(a)}function
-AQ(a){return new
-bE(4,a,a.length)}function
-T(a){hT(aj.Sys_error,a)}function
-Bp(a){T(a+e9)}function
-AP(b,a){if(a>>>0>=b.l)mY();return dp(b,a)}function
-a1(a){return a.l}function
-mR(){}function
-aC(a){this.data=a}aC.prototype=new
-mR();aC.prototype.truncate=function(a){var
-b=this.data;this.data=ao(a|0);ck(b,0,this.data,0,a)};aC.prototype.length=function(){return a1(this.data)};aC.prototype.write=function(b,d,g,a){var
+B8(e){for(var
+f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bn){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bn;d++);if(d-c>ld){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<my){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bn|a&dq)}else
+if(a<0xd800||a>=lu)b+=String.fromCharCode(lv|a>>12,bn|a>>6&dq,bn|a&dq);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<lk||h>lu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mI|a>>18,bn|a>>12&dq,bn|a>>6&dq,bn|a&dq)}if(b.length>ed){b.substr(0,1);f+=b;b=t}}return f+b}function
+Bs(a){var
+b=9;if(!ny(a))b=8,a=B8(a);return new
+bK(b,a,a.length)}function
+bq(a){return Bs(a)}var
+Ce=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",li,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hp,mt,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cT(d,f,e,a){var
+b=Ce.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bq(f||t),bq(e||t)];return c}var
+nr={};function
+cR(a){return nr[a]}function
+cS(b,a){throw[0,b].concat(a)}function
+Br(a){return new
+bK(4,a,a.length)}function
+U(a){h0(aj.Sys_error,a)}function
+B2(a){U(a+fh)}function
+Bq(b,a){if(a>>>0>=b.l)na();return du(b,a)}function
+a4(a){return a.l}function
+m5(){}function
+aG(a){this.data=a}aG.prototype=new
+m5();aG.prototype.truncate=function(a){var
+b=this.data;this.data=ar(a|0);ct(b,0,this.data,0,a)};aG.prototype.length=function(){return a4(this.data)};aG.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ao(b+a),f=this.data;this.data=e;ck(f,0,this.data,0,c)}bG(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();ck(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return AP(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
-aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
-c=d.split(bh),b=t;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bh;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bh};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=ar(b+a),f=this.data;this.data=e;ct(f,0,this.data,0,c)}bM(d,g,this.data,b,a);return 0};aG.prototype.read=function(c,a,d,b){var
+e=this.length();ct(this.data,c,a,d,b);return 0};aG.prototype.read_one=function(a){return Bq(this.data,a)};aG.prototype.close=function(){};aG.prototype.constructor=aG;function
+aR(b,a){this.content={};this.root=b;this.lookupFun=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.create_dir_if_needed=function(d){var
+c=d.split(bl),b=t;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bl;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aR.prototype.slash=function(a){return/\/$/.test(a)?a:a+bl};aR.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aC(bZ(c[1]))}}};aQ.prototype.exists=function(a){if(a==t)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&cN(hv);if(this.exists(c))if(b)cO(b,cP(k7,hb,this.nm(c)));else
-T(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cO(b,cP(hy,hb,this.nm(a)));else
-T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,hb,this.nm(a)));else
-T(a+hC);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
-b=f&&cN(hv),c=a==t?t:this.slash(a),e=new
-RegExp(hl+c+mg);if(!this.exists(a))if(b)cO(b,cP(hy,ht,this.nm(a)));else
-T(a+e9);if(!this.is_dir(a))if(b)cO(b,cP(hi,ht,this.nm(a)));else
-T(a+hC);for(var
+aG(b6(c[1]))}}};aR.prototype.exists=function(a){if(a==t)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aR.prototype.mkdir=function(c,e,d){var
+b=d&&cR(hC);if(this.exists(c))if(b)cS(b,cT(li,hi,this.nm(c)));else
+U(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cS(b,cT(hF,hi,this.nm(a)));else
+U(a+fh);if(!this.is_dir(a))if(b)cS(b,cT(hp,hi,this.nm(a)));else
+U(a+hJ);this.create_dir_if_needed(this.slash(c))};aR.prototype.rmdir=function(a,f){var
+b=f&&cR(hC),c=a==t?t:this.slash(a),e=new
+RegExp(hs+c+mu);if(!this.exists(a))if(b)cS(b,cT(hF,hA,this.nm(a)));else
+U(a+fh);if(!this.is_dir(a))if(b)cS(b,cT(hp,hA,this.nm(a)));else
+U(a+hJ);for(var
 d
 in
-this.content)if(d.match(e))if(b)cO(b,cP(mf,ht,this.nm(a)));else
-T(this.nm(a)+": Directory not empty");delete
-this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==t?t:this.slash(a);if(!this.exists(a))T(a+e9);if(!this.is_dir(a))T(a+hC);var
+this.content)if(d.match(e))if(b)cS(b,cT(mt,hA,this.nm(a)));else
+U(this.nm(a)+": Directory not empty");delete
+this.content[c]};aR.prototype.readdir=function(a){var
+f=a==t?t:this.slash(a);if(!this.exists(a))U(a+fh);if(!this.is_dir(a))U(a+hJ);var
 g=new
-RegExp(hl+f+mg),d={},c=[];for(var
+RegExp(hs+f+mu),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==t)return true;var
-b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aR.prototype.is_dir=function(a){if(a==t)return true;var
+b=this.slash(a);return this.content[b]?1:0};aR.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)T(this.nm(a)+ly);if(b.text&&b.binary)T(this.nm(a)+l4);this.lookup(a);if(this.content[a]){if(this.is_dir(a))T(this.nm(a)+" : is a directory");if(b.create&&b.excl)T(this.nm(a)+lx);var
+this.content[a];return b};aR.prototype.open=function(a,b){if(b.rdonly&&b.wronly)U(this.nm(a)+lL);if(b.text&&b.binary)U(this.nm(a)+mg);this.lookup(a);if(this.content[a]){if(this.is_dir(a))U(this.nm(a)+" : is a directory");if(b.create&&b.excl)U(this.nm(a)+lK);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aC(ao(0));return this.content[a]}else
-Bp(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])T(this.nm(c)+lx);if(fw(a))b=new
-aC(a);if(hR(a))b=new
-aC(bZ(a));else
+aG(ar(0));return this.content[a]}else
+B2(this.nm(a))};aR.prototype.register=function(c,a){var
+b;if(this.content[c])U(this.nm(c)+lK);if(fH(a))b=new
+aG(a);if(hY(a))b=new
+aG(b6(a));else
 if(a
 instanceof
 Array)b=new
-aC(AQ(a));else
+aG(Br(a));else
 if(typeof
 a==="string")b=new
-aC(m0(a));else
+aG(nc(a));else
 if(a.toString){var
-d=bZ(bm(a.toString()));b=new
-aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-T(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-I(a){return a1(a)}function
-bI(b,a){return dp(b,a)}function
-AL(d){var
-c=I(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bI(d,a);return b}function
-AK(a){if(a.t!=4)fr(a);return a.c}function
-bF(a){this.fs=require("fs");this.fd=a}bF.prototype=new
-mR();bF.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){T(a.toString())}};bF.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){T(a.toString())}};bF.prototype.write=function(f,b,c,e){var
-a=AL(b);if(!(a
+d=b6(bq(a.toString()));b=new
+aG(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+U(this.nm(c)+" : registering file with invalid content type")};aR.prototype.constructor=aR;function
+J(a){return a4(a)}function
+bO(b,a){return du(b,a)}function
+Bm(d){var
+c=J(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bO(d,a);return b}function
+Bl(a){if(a.t!=4)fC(a);return a.c}function
+bL(a){this.fs=require("fs");this.fd=a}bL.prototype=new
+m5();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){U(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){U(a.toString())}};bL.prototype.write=function(f,b,c,e){var
+a=Bm(b);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){T(a.toString())}return 0};bF.prototype.read=function(g,d,c,f){var
-a=AK(d);if(!(a
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){U(a.toString())}return 0};bL.prototype.read=function(g,d,c,f){var
+a=Bl(d);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){T(a.toString())}for(var
-b=0;b<f;b++)cM(d,c+b,e[c+b]);return 0};bF.prototype.read_one=function(c){var
-b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){T(a.toString())}return a[0]};bF.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){T(a.toString())}};bF.prototype.constructor=bF;function
-aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){T(a.toString())}};aD.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){U(a.toString())}for(var
+b=0;b<f;b++)cQ(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){U(a.toString())}return a[0]};bL.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){U(a.toString())}};bL.prototype.constructor=bL;function
+aH(a){this.fs=require("fs");this.root=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aH.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){U(a.toString())}};aH.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bF(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),kP);return bm(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
-b=cN(hv);if(d&&b){var
-c=cP(a.code,a.syscall,a.path,a.errno);cO(b,c)}else
-T(a.toString())};aD.prototype.stats_from_js=function(a){var
+bL(d)}catch(a){this.raise_nodejs_error(a,g)}};aH.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),k2);return bq(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.raise_nodejs_error=function(a,d){var
+b=cR(hC);if(d&&b){var
+c=cT(a.code,a.syscall,a.path,a.errno);cS(b,c)}else
+U(a.toString())};aH.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
-m8(b){var
-a=h1(b);if(!a)return;return a[0]+bh}var
-fy=m8(eb)||bl("unable to compute caml_root"),dt=[];if(ef())dt.push({path:fy,device:new
-aD(fy)});else
-dt.push({path:fy,device:new
-aQ(fy)});dt.push({path:l0,device:new
-aQ(l0)});function
-no(b){var
-g=Bf(b),b=g.join(bh),f=ni(b),c;for(var
-e=0;e<dt.length;e++){var
-a=dt[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ef()){var
-d=m8(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aH.prototype.constructor=aH;function
+nk(b){var
+a=h8(b);if(!a)return;return a[0]+bl}var
+fJ=nk(eh)||bp("unable to compute caml_root"),dy=[];if(el())dy.push({path:fJ,device:new
+aH(fJ)});else
+dy.push({path:fJ,device:new
+aR(fJ)});dy.push({path:mc,device:new
+aR(mc)});function
+nC(b){var
+g=BS(b),b=g.join(bl),f=nw(b),c;for(var
+e=0;e<dy.length;e++){var
+a=dy[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&el()){var
+d=nk(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aD(d)};dt.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;T("no device found for "+f)}function
-AV(c,b){var
-a=no(c);if(!a.device.register)bl("cannot register file");a.device.register(a.rest,b);return 0}function
-nj(c,b){var
-c=a(c),b=a(b);return AV(c,b)}function
-AY(){var
+aH(d)};dy.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;U("no device found for "+f)}function
+Bw(c,b){var
+a=nC(c);if(!a.device.register)bp("cannot register file");a.device.register(a.rest,b);return 0}function
+nx(c,b){var
+c=a(c),b=a(b);return Bw(c,b)}function
+Bz(){var
 b=v.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nj(b[a].name,b[a].content);v.jsoo_create_file=nj;v.caml_fs_tmp=[];return 0}function
-m7(){return[0]}function
-A0(a,c,k){if(!isFinite(a)){if(isNaN(a))return bm(hj);return bm(a>0?my:"-infinity")}var
+a=0;a<b.length;a++)nx(b[a].name,b[a].content);v.jsoo_create_file=nx;v.caml_fs_tmp=[];return 0}function
+nj(){return[0]}function
+BB(a,c,k){if(!isFinite(a)){if(isNaN(a))return bq(hq);return bq(a>0?mM:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?t:bA,e=t;if(i)e=a_;else
+j=d<0?t:bG,e=t;if(i)e=bb;else
 switch(k){case
-43:e=bA;break;case
-32:e=bV;break;default:break}if(c>=0&&c<13){var
+43:e=bG;break;case
+32:e=b2;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(ci);if(h<0)b+=ci+ds(c,aP);else{var
-f=h+1+c;if(b.length<f)b+=ds(f-b.length,aP);else
-b=b.substr(0,f)}}return bm(e+kZ+b+"p"+j+d.toString(10))}function
-A7(a){return+a.isZero()}function
-A_(a){return new
-u(a&bX,a>>24&bX,a>>31&bD)}function
-A$(a){return a.toInt()}function
-A6(a){return+a.isNeg()}function
-A9(a){return a.neg()}function
-A4(g,c){var
-a=hS(g);if(a.signedconv&&A6(c)){a.sign=-1;c=A9(c)}var
-b=t,h=A_(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(A$(e.modulus))+b}while(!A7(c));if(a.prec>=0){a.filler=bV;var
-d=a.prec-b.length;if(d>0)b=ds(d,aP)+b}return hJ(a,b)}function
-Bn(c){var
-a=0,e=I(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
+h=b.indexOf(cr);if(h<0)b+=cr+dx(c,aN);else{var
+f=h+1+c;if(b.length<f)b+=dx(f-b.length,aN);else
+b=b.substr(0,f)}}return bq(e+la+b+"p"+j+d.toString(10))}function
+BI(a){return+a.isZero()}function
+BL(a){return new
+u(a&b4,a>>24&b4,a>>31&bJ)}function
+BM(a){return a.toInt()}function
+BH(a){return+a.isNeg()}function
+BK(a){return a.neg()}function
+BF(g,c){var
+a=hZ(g);if(a.signedconv&&BH(c)){a.sign=-1;c=BK(c)}var
+b=t,h=BL(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(BM(e.modulus))+b}while(!BI(c));if(a.prec>=0){a.filler=b2;var
+d=a.prec-b.length;if(d>0)b=dx(d,aN)+b}return hQ(a,b)}function
+B0(c){var
+a=0,e=J(c),b=10,d=1;if(e>0)switch(bO(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bI(c,a)==48)switch(bI(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bO(c,a)==48)switch(bO(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=I(c),b=10,d=1;if(e>0)switch(bI(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-ne(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=mN)return a-87;return-1}function
-hQ(f){var
-h=Bn(f),c=h[0],i=h[1],d=h[2],g=I(f),j=-1>>>0,e=c<g?bI(f,c):0,b=ne(e);if(b<0||b>=d)bl(fa);var
-a=b;for(c++;c<g;c++){e=bI(f,c);if(e==95)continue;b=ne(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bl(fa)}if(c!=g)bl(fa);a=i*a;if(d==10&&(a|0)!=a)bl(fa);return a|0}function
-Bd(d){return function(){var
+ns(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=m1)return a-87;return-1}function
+hX(f){var
+h=B0(f),c=h[0],i=h[1],d=h[2],g=J(f),j=-1>>>0,e=c<g?bO(f,c):0,b=ns(e);if(b<0||b>=d)bp(fk);var
+a=b;for(c++;c<g;c++){e=bO(f,c);if(e==95)continue;b=ns(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bp(fk)}if(c!=g)bp(fk);a=i*a;if(d==10&&(a|0)!=a)bp(fk);return a|0}function
+BQ(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return b0(d,c)}else
-return b0(d,[undefined])}}function
-Bg(a,d){if(a<0)ea();var
+a=0;a<b;a++)c[a]=arguments[a];return b7(d,c)}else
+return b7(d,[undefined])}}function
+BT(a,d){if(a<0)eg();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-Bh(){return 0}var
-bH=new
+BU(){return 0}var
+bN=new
 Array();function
-dr(c){var
-a=bH[c];if(!a.opened)T("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
+dw(c){var
+a=bN[c];if(!a.opened)U("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
 b=aj.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
-nh(e,f){var
-b=bH[e],d=a(f),c=I(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Bw(a){var
-a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+nv(e,f){var
+b=bN[e],d=a(f),c=J(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+B9(a){var
+a=h4(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Bx(a){var
-a=hX(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+B_(a){var
+a=h4(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fz(c,e,d,a){if(aj.fds===undefined)aj.fds=new
+fK(c,e,d,a){if(aj.fds===undefined)aj.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aj.fds[c]=b;if(!aj.fd_last_idx||c>aj.fd_last_idx)aj.fd_last_idx=c;return c}function
-BE(c,b,g){var
+Cf(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,113 +687,113 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)T(b2(c)+ly);if(a.text&&a.binary)T(b2(c)+l4);var
-d=no(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fz(f+1,nh,e,a)}fz(0,nh,new
-aC(ao(0)));fz(1,Bx,new
-aC(ao(0)));fz(2,Bw,new
-aC(ao(0)));function
-Bi(a){var
-c=aj.fds[a];if(c.flags.wronly)T(mM+a+" is writeonly");var
-d=null;if(a==0&&ef()){var
-e=require("fs");d=function(){return bm(e.readFileSync(0,kP))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bH[b.fd]=b;return b.fd}function
-m$(c){var
-b=aj.fds[c];if(b.flags.rdonly)T(mM+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bH[a.fd]=a;return a.fd}function
-Bj(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)U(b9(c)+lL);if(a.text&&a.binary)U(b9(c)+mg);var
+d=nC(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fK(f+1,nv,e,a)}fK(0,nv,new
+aG(ar(0)));fK(1,B_,new
+aG(ar(0)));fK(2,B9,new
+aG(ar(0)));function
+BV(a){var
+c=aj.fds[a];if(c.flags.wronly)U(m0+a+" is writeonly");var
+d=null;if(a==0&&el()){var
+e=require("fs");d=function(){return bq(e.readFileSync(0,k2))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bN[b.fd]=b;return b.fd}function
+nn(c){var
+b=aj.fds[c];if(b.flags.rdonly)U(m0+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bN[a.fd]=a;return a.fd}function
+BW(){var
 b=0;for(var
-a=0;a<bH.length;a++)if(bH[a]&&bH[a].opened&&bH[a].out)b=[0,bH[a].fd,b];return b}function
-aM(a){return a}function
-Bk(g,d,h,f){var
-b=bH[g];if(!b.opened)T("Cannot output to a closed channel");var
-a;if(h==0&&a1(d)==f)a=d;else{a=ao(f);ck(d,h,a,0,f)}var
-i=aM(a),c=b2(i),e=c.lastIndexOf(k_);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dr(g);b.buffer+=c.substr(e+1)}return 0}function
-na(b,a,d,c){return Bk(b,bZ(a),d,c)}function
-nb(c,b){var
-d=a(String.fromCharCode(b));na(c,d,0,1);return 0}function
-ee(a,b){return+(hH(a,b,false)!=0)}function
-fx(a){if(a
+a=0;a<bN.length;a++)if(bN[a]&&bN[a].opened&&bN[a].out)b=[0,bN[a].fd,b];return b}function
+aO(a){return a}function
+BX(g,d,h,f){var
+b=bN[g];if(!b.opened)U("Cannot output to a closed channel");var
+a;if(h==0&&a4(d)==f)a=d;else{a=ar(f);ct(d,h,a,0,f)}var
+i=aO(a),c=b9(i),e=c.lastIndexOf(ll);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dw(g);b.buffer+=c.substr(e+1)}return 0}function
+no(b,a,d,c){return BX(b,b6(a),d,c)}function
+np(c,b){var
+d=a(String.fromCharCode(b));no(c,d,0,1);return 0}function
+ek(a,b){return+(hO(a,b,false)!=0)}function
+fI(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fw(a))return fo;else
-if(hR(a))return fo;else
+if(fH(a))return fz;else
+if(hY(a))return fz;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return ld;else
-return d8}function
-a$(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
-hU(a,b){nd[b2(a)]=b;return 0}function
-AO(a,b){if(a===b)return 1;a.t&6&&dq(a);b.t&6&&dq(b);return a.c==b.c?1:0}function
-ap(a,b){return AO(a,b)}function
-Bs(){aw(hA)}function
-U(b,a){if(a>>>0>=I(b))Bs();return bI(b,a)}function
-k(a,b){return 1-ap(a,b)}function
-Bu(){return 0x7FFFFFFF/4|0}function
-hW(a){var
+if(a&&a.caml_custom)return lq;else
+return ec}function
+bc(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
+h1(a,b){nr[b9(a)]=b;return 0}function
+Bp(a,b){if(a===b)return 1;a.t&6&&dv(a);b.t&6&&dv(b);return a.c==b.c?1:0}function
+as(a,b){return Bp(a,b)}function
+B5(){az(hH)}function
+V(b,a){if(a>>>0>=J(b))B5();return bO(b,a)}function
+k(a,b){return 1-as(a,b)}function
+B7(){return 0x7FFFFFFF/4|0}function
+h3(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aE(b,a){return{joo_tramp:b,joo_args:a}}function
-ng(a){return a}function
-fA(a){if(a
+aI(b,a){return{joo_tramp:b,joo_args:a}}function
+nu(a){return a}function
+fL(a){if(a
 instanceof
 Array)return a;if(v.RangeError&&a
 instanceof
-v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ng(aj.Stack_overflow);if(v.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nu(aj.Stack_overflow);if(v.InternalError&&a
 instanceof
-v.InternalError&&a.message&&a.message.match(/too much recursion/i))return ng(aj.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return nu(aj.Stack_overflow);if(a
 instanceof
-v.Error&&cN(hg))return[0,cN(hg),a];return[0,aj.Failure,bm(String(a))]}function
-fB(a){return a<0?-a:a}function
-C(a,b){return a+b}function
-hY(a,b){return a<b?-1:a>b?1:0}function
-nl(c,b){var
-a=c%b;return a<0?a+fB(b):a}function
-hZ(a,b){return(a-nl(a,b))/b}function
+v.Error&&cR(hn))return[0,cR(hn),a];return[0,aj.Failure,bq(String(a))]}function
+fM(a){return a<0?-a:a}function
+y(a,b){return a+b}function
+h5(a,b){return a<b?-1:a>b?1:0}function
+nz(c,b){var
+a=c%b;return a<0?a+fM(b):a}function
+h6(a,b){return(a-nz(a,b))/b}function
 al(a,b){return a==b?1:0}function
-D(a,b){return a<=b?1:0}function
-ac(a,b){return a<b?1:0}function
-r(a,b){return a*b}function
-Z(a){return-a}function
-a2(a){return v.BigInt(a)}function
-nm(a,b){return a<<v.BigInt(b)}function
-nn(a,b){return a>>v.BigInt(b)}function
-bJ(a){return a<0?-1:a>0?1:0}function
-BC(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+H(a,b){return a<=b?1:0}function
+aa(a,b){return a<b?1:0}function
+s(a,b){return a*b}function
+Y(a){return-a}function
+a5(a){return v.BigInt(a)}function
+nA(a,b){return a<<v.BigInt(b)}function
+nB(a,b){return a>>v.BigInt(b)}function
+bP(a){return a<0?-1:a>0?1:0}function
+Cd(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
 d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b3(a,b){return a-b}function
-h0(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
-Bc(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-AX(b){var
-a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Bc(b[1]))var
+br(a,b){return a-b}function
+h7(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+BP(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+By(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&BP(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mj;for(var
-d=f;d<e.length;d++){if(d>f)a+=kS;var
+f=2,e=b;a+=mx;for(var
+d=f;d<e.length;d++){if(d>f)a+=k5;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bE)a+=av+c.toString()+av;else
+bK)a+=ay+c.toString()+ay;else
 if(typeof
-c=="string")a+=av+c.toString()+av;else
-a+=lQ}a+=hk}else
-if(b[0]==au)a+=b[1];return a}function
-m6(a){if(a
+c=="string")a+=ay+c.toString()+ay;else
+a+=l4}a+=hr}else
+if(b[0]==ax)a+=b[1];return a}function
+ni(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==au)){var
-c=cN(k6);if(c)c(a,false);else{var
-d=AX(a),b=cN(kO);if(b)b(0);v.console.error(hr+d+k_)}}else
+Array&&(a[0]==0||a[0]==ax)){var
+c=cR(lh);if(c)c(a,false);else{var
+d=By(a),b=cR(k1);if(b)b(0);v.console.error(hy+d+ll)}}else
 throw a}function
-Br(){var
-a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){m6(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)m6(a.error)})}Br();function
-e(a,b){return a.length==1?a(b):b0(a,[b])}function
-Q(a,b,c){return a.length==2?a(b,c):b0(a,[b,c])}function
-ha(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b0(a,[b,c,d,e,f])}function
-AJ(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b0(a,[b,c,d,e,f,g,h])}AY();var
-fC=[au,a(mE),-1],h6=[au,a(k8),-2],h3=[au,a(hf),-3],h2=[au,a(lM),-4],h4=[au,a(ln),-8],h5=[au,a(l1),-9],ae=[au,a(mn),-11],h7=[au,a(kN),-12],zL=[4,0,0,0,[12,45,[4,0,0,0,0]]],fI=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lt),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],zM=[0,[0,0]],zN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zM]]]]]]]]]]],zO=[0,0],zP=[0,[0,[0,[0,0]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zP]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zQ]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zR]]]]]]]]]]],zT=[0,[0,0]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zT]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zU]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zV]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zW]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zY]]]]]]]]]]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zZ]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],z3=[0,[0,0]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],Ah=[0,0],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,0]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,0],AI=[0,[0,[0,[0,[0,0]]]]],cv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eR=[0,[0,[0,[0,0]]]];a$(11,h7,kN);a$(10,ae,mn);a$(9,[au,a(lG),-10],lG);a$(8,h5,l1);a$(7,h4,ln);a$(6,[au,a(lY),-7],lY);a$(5,[au,a(me),-6],me);a$(4,[au,a(la),-5],la);a$(3,h2,lM);a$(2,h3,hf);a$(1,h6,k8);a$(0,fC,mE);var
-nt=a("%.12g"),ns=a(ci),nq=a("true"),nr=a("false"),nu=a("\\\\"),nv=a("\\'"),nw=a("\\b"),nx=a("\\t"),ny=a("\\n"),nz=a("\\r"),nC=a("String.blit / Bytes.blit_string"),nB=a("Bytes.blit"),nA=a("String.sub / Bytes.sub"),nE=a(t),nD=a("String.concat"),nF=a("Array.init"),nI=a("Buffer.add: cannot grow buffer"),nH=[0,a(ma),93,2],nG=[0,a(ma),94,2],nR=a("%c"),nS=a("%s"),nT=a(kL),nU=a(ll),nV=a(lI),nW=a(kV),nX=a("%f"),nY=a("%B"),nZ=a("%{"),n0=a("%}"),n1=a("%("),n2=a("%)"),n3=a("%a"),n4=a("%t"),n5=a("%?"),n6=a("%r"),n7=a("%_r"),n8=[0,a(at),850,23],oh=[0,a(at),814,21],n$=[0,a(at),815,21],oi=[0,a(at),818,21],oa=[0,a(at),819,21],oj=[0,a(at),822,19],ob=[0,a(at),823,19],ok=[0,a(at),826,22],oc=[0,a(at),827,22],ol=[0,a(at),831,30],od=[0,a(at),832,30],of=[0,a(at),836,26],n9=[0,a(at),837,26],og=[0,a(at),846,28],n_=[0,a(at),847,28],oe=[0,a(at),851,23],po=a(lD),pm=[0,a(at),1558,4],pn=a("Printf: bad conversion %["),pp=[0,a(at),1626,39],pq=[0,a(at),1649,31],pr=[0,a(at),1650,31],ps=a("Printf: bad conversion %_"),pt=a(lz),pu=a(lL),pv=a(lz),pw=a(lL),pk=a(hj),pi=a("neg_infinity"),pj=a(my),ph=a(ci),pc=[0,k4],o2=a("%+nd"),o3=a("% nd"),o5=a("%+ni"),o6=a("% ni"),o7=a("%nx"),o8=a("%#nx"),o9=a("%nX"),o_=a("%#nX"),o$=a("%no"),pa=a("%#no"),o1=a("%nd"),o4=a(lI),pb=a("%nu"),oP=a("%+ld"),oQ=a("% ld"),oS=a("%+li"),oT=a("% li"),oU=a("%lx"),oV=a("%#lx"),oW=a("%lX"),oX=a("%#lX"),oY=a("%lo"),oZ=a("%#lo"),oO=a("%ld"),oR=a(ll),o0=a("%lu"),oC=a("%+Ld"),oD=a("% Ld"),oF=a("%+Li"),oG=a("% Li"),oH=a("%Lx"),oI=a("%#Lx"),oJ=a("%LX"),oK=a("%#LX"),oL=a("%Lo"),oM=a("%#Lo"),oB=a("%Ld"),oE=a(kV),oN=a("%Lu"),op=a("%+d"),oq=a("% d"),os=a("%+i"),ot=a("% i"),ou=a("%x"),ov=a("%#x"),ow=a("%X"),ox=a("%#X"),oy=a("%o"),oz=a("%#o"),oo=a(hw),or=a(kL),oA=a(lD),nJ=a("@]"),nK=a("@}"),nL=a("@?"),nM=a("@\n"),nN=a("@."),nO=a("@@"),nP=a("@%"),nQ=a("@"),om=a("CamlinternalFormat.Type_mismatch"),pA=a(t),pB=[0,[11,a(kS),[2,0,[2,0,0]]],a(", %s%s")],p0=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],p1=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pZ=a("Fatal error: out of memory in uncaught exception handler"),pX=[0,[11,a(hr),[2,0,[12,10,0]]],a(ml)],pT=[0,[2,0,[12,10,0]],a("%s\n")],pL=a("Raised at"),pM=a("Re-raised at"),pN=a("Raised by primitive operation at"),pO=a("Called from"),pP=a(" (inlined)"),pR=a(t),pQ=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lt),zL]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pS=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pG=a("Out of memory"),pH=a("Stack overflow"),pI=a("Pattern matching failed"),pJ=a("Assertion failed"),pK=a("Undefined recursive module"),pC=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pD=a(t),pE=a(t),pF=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pz=[0,[4,0,0,0,0],a(hw)],px=[0,[3,0,0],a("%S")],py=a(lQ),pU=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],p3=a("Jsoo_runtime.Error.Exn"),p5=a("power"),qd=[0,0],qe=[0,[0,0]],qf=[0,[0,0]],qm=[0,0],qt=[0,0,0],qu=[0,0,0],qv=[0,0],qw=[0,0],qN=[0,0],qP=[0,0],q1=[0,0],q2=[0,0],rl=[0,[0,[0,0]]],ry=a(","),rQ=[0,a(hk),0],rR=a(mj),rS=a(ci),rT=[0,[0,[0,0]]],rU=a(a_),rV=a(hl),rW=[0,[0,[0,[0,[0,0]]]]],rX=[0,a(hk),0],rY=a(mQ),um=a(kM),uo=a(lO),un=a(mp),up=a(fd),uq=a(lK),ur=a(mJ),us=a(l$),u8=[0,a(lm),8043,12],vn=a(hs),vo=[0,0],vp=a("divided"),vq=[0,1],vr=a("mirror"),vs=[0,3],vt=a("negative"),vu=[0,2],vv=a(hm),vw=[0,5],vx=a(hE),vy=[0,4],vz=a(fb),vA=a(l2),vB=a(fn),vC=a(cL),vD=[0,0],vE=[0,0],vF=[0,0],v0=a(t),vW=[0,[0,[0,0]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,[0,0]]]],vT=[0,[0,[0,0]]],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zN]]]]]]]]]]],vR=[0,0],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zO]]]]]]]]]]],vN=[0,[0,0]],vO=[0,[0,[0,0]]],vL=[0,[0,[0,0]]],vM=[0,[0,0]],vK=[0,[0,[0,0]]],vH=[0,[0,0]],vI=[0,0],vG=[0,0],vi=[0,[0,0]],vj=[0,0],vh=[0,0],vg=[0,0],vf=[0,0,0],vd=[0,0,0],vc=[0,[0,[0,0]]],vb=[0,0],u$=[0,1,0],u2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zS]]]]]]]]]]],u3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,zX]]]]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],u4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],u5=a("sqrt"),uW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],uL=[0,a("\n"),0],uM=a(lP),uN=a(e$),uO=a(lf),uP=a(mc),uQ=a("certified"),uV=a("refuted"),uR=a("verdict"),uS=a(lw),uT=a(l9),uU=a(mm),uC=a(mD),uD=a(hm),uE=a(fc),uF=a(lc),uG=a(fe),uH=a(bk),uI=a(lR),uJ=a(fc),uK=a(mH),uy=a(mv),uz=a(fe),uA=a(l8),uB=a(mK),uu=a(mI),uv=a(mh),uw=a(fl),uk=a(hu),ul=a(ho),t0=a(fl),tF=a(bk),tG=a(bW),tH=a(dm),tI=a(e_),tJ=a(dl),tK=a(bk),tL=a(bW),tM=a(hB),tN=a(bC),tO=a(bB),tP=a(cK),tQ=a(dm),tR=a(mx),tS=a(mF),tT=a(dl),tU=a(bk),tV=a(bW),tW=a(bC),tX=a(bB),tY=a(cK),tZ=a(dm),t1=a(ls),t2=a(lA),t3=a(mP),t4=a(l3),t5=a(kY),t6=a(dl),t7=a(bk),t8=a(bW),t9=a(fg),t_=a(mb),t$=a(dm),ua=a(d_),ub=a(lU),uc=a(dl),ud=a(bk),ue=a(fg),uf=a(bk),ug=a(lo),uj=a(lN),uh=a(kX),ui=a(lE),tz=a(bW),tA=a(hF),tB=a(dm),tC=a(e_),tD=a(dl),tn=a(d_),to=a(mG),tp=a(di),tq=a(dj),tr=a(dj),ts=a(hc),tt=a(di),tu=a(mo),tv=a(l_),tw=a(bi),ty=a(lT),tx=a(hc),td=a(lb),te=a(lJ),tf=a(k0),tg=a(l6),th=a(lC),ti=a(lu),tj=a(md),tk=a(fh),tl=a(fh),s$=a(bi),ta=a(cg),tb=a(ff),tc=a(ch),s7=a(d7),s8=a(hz),s9=a(mt),s0=a(bC),s1=a(bB),s2=a(cK),s3=a(lg),s4=a(di),s5=a(k$),s6=a(mA),sR=a(kW),sW=a(e$),sS=a(l7),sT=a(hd),sX=a(kU),sY=a(lq),sZ=a(hd),sU=a(dj),sV=a(mq),sO=a(fm),sP=a(fm),sQ=a(fm),sK=a(mB),sL=a(bB),sM=a(bC),sN=a(lB),sy=a(kR),sz=a(lS),sA=a(mw),sB=a(fd),sC=a(mO),sD=a(mz),sE=a(lX),sF=a(ms),sG=a(kQ),sH=a(k5),sI=a(lW),sJ=a(mC),sn=a(bA),sx=a(a_),so=a(fj),sp=a(fi),sq=a(fq),sr=a(bi),ss=a(cg),st=a(lj),su=a(lp),sv=a(fq),sw=a(ch),r7=a(bA),sd=a(a_),r8=a(fj),r9=a(fi),r_=a(bi),r$=a(cg),sa=a(cL),sb=a(lF),sc=a(ch),se=a(hp),sf=a(bi),sg=a(cg),sh=a(ff),si=a(ch),sj=a(cL),sk=a(d7),sl=a(ch),r4=a(bC),r5=a(bB),r2=[0,a(av),0],r3=a(av),r0=[0,a(lm),7323,36],rZ=[0,a(av),0],r1=a(av),rM=a(bA),rN=a(a_),rO=a("*"),rP=a(bh),rH=[0,[0,[0,[0,[0,0]]]]],rI=[0,[0,[0,0]]],rJ=[0,[0,0]],rK=[0,0],rL=[0,[0,[0,[0,0]]]],rF=a('":'),rG=a(av),rD=[0,a(av),0],rE=a(av),rB=[0,a("}"),0],rC=a("{"),rz=[0,a("]"),0],rA=a("["),rx=[0,[0,[0,0]]],rv=[0,[0,[0,0]]],rt=[0,0],rq=[0,[0,[0,0]]],rr=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rs=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ro=[0,[0,0]],rp=[0,[0,[0,0]]],rj=[0,[0,0]],rk=[0,[0,[0,0]]],rh=[0,[0,[0,0]]],ri=[0,[0,0]],rf=[0,0],rb=[0,[0,0]],rc=[0,0],rd=[0,0],re=[0,[0,0]],q4=[0,[0,0]],q5=[0,0],q6=[0,[0,0]],q7=[0,0],q8=[0,0],q9=[0,[0,0]],q_=[0,[0,0]],q$=[0,[0,0]],ra=[0,0],q0=[0,0],qY=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qU=[0,0],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],qS=[0,[0,[0,0]]],qM=[0,[0,[0,0]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,0]],qH=[0,0],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,0]]],qz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,0]]],qD=[0,[0,[0,[0,[0,[0,0]]]]]],qE=[0,[0,[0,0]]],qF=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qn=[0,0,0],qi=[0,0],qj=[0,[0,0]],qk=[0,0],ql=[0,[0,0]],qg=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],qc=a(aP),qb=a(t),qa=[0,[0,0]],p$=[0,0],p_=[1,0],p9=[0,0],p8=[0,0],p6=[1,0],p7=[1,0],yc=a(ch),yd=a(hp),ye=a(ff),yh=a(bi),yi=a(cg),yf=[0,a('" of such a platform'),0],yg=a(kT),x0=a("rho"),x1=a(fl),x2=[0,a("a joint by its coordinate"),0],xB=a(bW),xq=a(bk),xr=a(lo),xs=a(lE),xv=a(kX),xw=a(lN),xx=a(bk),xy=a(bk),xA=a(fg),xz=[0,a("a claim that no cube of such a machine fits"),0],xC=a(dl),xD=a(dm),xE=a(e_),xF=a(hF),yB=[0,a("such a machine with bodies"),0],xG=a(d7),xH=a(hz),xI=a(mt),xJ=a(hB),xK=a(kY),xL=a(lU),xM=a(e_),xP=a(cK),xQ=a(mA),xT=a(hF),xU=[0,a("a machine with arms and bodies"),0],xV=a(bW),xW=a(mb),xX=a(fg),xY=a(d_),xZ=a(cK),x3=a(bW),x4=a(bC),x5=a(bB),x6=a(ls),x7=a(lA),x8=a(mP),x9=a(l3),xN=[0,a(av),0],xO=a(lH),x_=a(cK),x$=[0,a('" of a platform that turns'),0],ya=a(lv),yb=a(mx),yz=[0,a('" that does not turn'),0],yA=a(lH),yj=a(hB),yk=a(lu),yl=a(lb),ym=a(lC),yn=a(fh),yo=a(md),yp=a(fh),yw=a(lJ),yx=a(k0),yy=a(l6),yq=a(d7),yr=a(hz),ys=a(bW),yt=a(bC),yu=a(bB),yv=a(mF),xR=[0,a(av),0],xS=a(lv),xt=[0,a(av),0],xu=a('a claim of the kind "'),yG=a(fd),yH=a(l$),yI=a(mp),yJ=a(cL),yK=a(lK),yL=a(fb),yM=a(l2),yN=a(fn),yQ=a(ho),yR=a(hu),yS=a(cL),yO=[0,a(av),0],yP=a('the evidence "'),yT=a(fb),yU=a(fn),yV=a(mJ),yX=a(fb),yY=a(fn),yZ=a(hs),y0=a(hs),yW=[0,a("this evidence at control points"),0],zp=a(mm),zq=a(l9),zr=a(lw),zE=[0,3,3],zs=a(mc),zt=[0,a("the acceleration of a joint of a machine with a plane"),0],zA=[0,a('the drive "arm" in a claim that is certified'),0],zB=[0,a("a step of a platform that turns that is not at control points"),0],zC=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],zD=[0,a("a mechanism by formulas in a claim that is refuted"),0],zz=[0,a("this quantity in a claim that is refuted"),0],zx=[0,a("a leaf that fails"),0],zy=[0,a("a step in a proof that no cube fits"),0],zu=a(lf),zv=a(lP),zw=a(e$),zn=a(hE),za=a(lc),zb=a(mH),ze=a(bk),zf=a(fe),zg=a(lR),zh=a(fc),zi=a(mD),zj=a(hm),zk=a(fc),zc=[0,a(av),0],zd=a('a proof of the kind "'),y8=a(mv),y9=a(fe),y_=a(l8),y$=a(mK),y3=a(mh),y4=a(mI),y5=a(fl),y6=[0,a(av),0],y7=a('the failure "'),y1=a(hE),y2=a(aP),yE=a(ho),yF=a(hu),yC=a(lO),yD=a(kM),xn=a(d_),xd=a(hc),xe=a(lT),xf=a(dj),xg=a(bi),xl=a(mG),xm=a(d_),xo=a(di),xp=a(dj),xh=a(di),xi=a(mo),xj=a(l_),xk=a(bi),w8=a(cK),xa=a(bC),xb=a(bB),w9=a(k$),w_=a(lg),w$=a(di),w6=[0,a("this quantity of such a mechanism"),0],wU=a(l7),wV=[0,a("a stiffness for each joint"),0],wW=a(lq),wX=a(kU),wT=a(e$),wL=a(fm),wC=a(mq),wD=a(mw),w0=a(k5),w1=a(fd),w2=a(ms),w3=a(lW),w4=a(kQ),w5=a(lS),wE=a(mC),wF=a(mz),wG=a(mO),wH=a(lX),wI=a(kR),wJ=[0,a(av),0],wK=a('the quantity "'),wM=a(kW),wN=a(mB),wO=a(bC),wP=a(bB),wQ=a(lB),wR=[0,a(av),0],wS=a('a bound "'),wY=a(hd),wZ=a(dj),wv=a(fj),ww=a(fi),wx=a(fq),wy=a(bi),wz=a(cg),wA=a(lj),wB=a(lp),ws=a(ch),wt=a(fq),wd=a(ch),we=a(d7),wf=a(lF),wg=a(ff),wj=a(hp),wk=a(bi),wl=a(cg),wm=a(fj),wn=a(fi),wo=a(bi),wp=a(cg),wq=a(cL),wr=a(cL),wh=[0,a(av),0],wi=a(kT),wa=a(bA),wb=a(a_),v_=a(" is not covered by the verified checker"),v$=a(t),v8=a(bC),v9=a(bB),v4=a(t),v5=a(mQ),v6=a(t),v7=a(t),v3=[1,0],v1=a("Reader.Malformed"),v2=a("Reader.Not_covered"),zG=a(lk),zH=a("CERTIFIED"),zI=a("REFUTED"),zJ=a(lk),zK=a("NOT COVERED: ");function
+B4(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ni(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ni(a.error)})}B4();function
+e(a,b){return a.length==1?a(b):b7(a,[b])}function
+Q(a,b,c){return a.length==2?a(b,c):b7(a,[b,c])}function
+hh(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b7(a,[b,c,d,e,f])}function
+Bk(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b7(a,[b,c,d,e,f,g,h])}Bz();var
+fN=[ax,a(mS),-1],ib=[ax,a(lj),-2],h_=[ax,a(hm),-3],h9=[ax,a(l0),-4],h$=[ax,a(lA),-8],ia=[ax,a(md),-9],af=[ax,a(mB),-11],ic=[ax,a(k0),-12],Am=[4,0,0,0,[12,45,[4,0,0,0,0]]],fT=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lG),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],An=[0,[0,0]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,0],Aq=[0,[0,[0,[0,0]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,0]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,0]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,0],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,0]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,0],Bj=[0,[0,[0,[0,[0,0]]]]],cA=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],e0=[0,[0,[0,[0,0]]]];bc(11,ic,k0);bc(10,af,mB);bc(9,[ax,a(lU),-10],lU);bc(8,ia,md);bc(7,h$,lA);bc(6,[ax,a(ma),-7],ma);bc(5,[ax,a(ms),-6],ms);bc(4,[ax,a(ln),-5],ln);bc(3,h9,l0);bc(2,h_,hm);bc(1,ib,lj);bc(0,fN,mS);var
+nH=a("%.12g"),nG=a(cr),nE=a("true"),nF=a("false"),nI=a("\\\\"),nJ=a("\\'"),nK=a("\\b"),nL=a("\\t"),nM=a("\\n"),nN=a("\\r"),nQ=a("String.blit / Bytes.blit_string"),nP=a("Bytes.blit"),nO=a("String.sub / Bytes.sub"),nS=a(t),nR=a("String.concat"),nT=a("Array.init"),nW=a("Buffer.add: cannot grow buffer"),nV=[0,a(mo),93,2],nU=[0,a(mo),94,2],n5=a("%c"),n6=a("%s"),n7=a(kY),n8=a(ly),n9=a(lW),n_=a(k8),n$=a("%f"),oa=a("%B"),ob=a("%{"),oc=a("%}"),od=a("%("),oe=a("%)"),of=a("%a"),og=a("%t"),oh=a("%?"),oi=a("%r"),oj=a("%_r"),ok=[0,a(aw),850,23],ov=[0,a(aw),814,21],on=[0,a(aw),815,21],ow=[0,a(aw),818,21],oo=[0,a(aw),819,21],ox=[0,a(aw),822,19],op=[0,a(aw),823,19],oy=[0,a(aw),826,22],oq=[0,a(aw),827,22],oz=[0,a(aw),831,30],or=[0,a(aw),832,30],ot=[0,a(aw),836,26],ol=[0,a(aw),837,26],ou=[0,a(aw),846,28],om=[0,a(aw),847,28],os=[0,a(aw),851,23],pC=a(lQ),pA=[0,a(aw),1558,4],pB=a("Printf: bad conversion %["),pD=[0,a(aw),1626,39],pE=[0,a(aw),1649,31],pF=[0,a(aw),1650,31],pG=a("Printf: bad conversion %_"),pH=a(lM),pI=a(lZ),pJ=a(lM),pK=a(lZ),py=a(hq),pw=a("neg_infinity"),px=a(mM),pv=a(cr),pq=[0,lf],pe=a("%+nd"),pf=a("% nd"),ph=a("%+ni"),pi=a("% ni"),pj=a("%nx"),pk=a("%#nx"),pl=a("%nX"),pm=a("%#nX"),pn=a("%no"),po=a("%#no"),pd=a("%nd"),pg=a(lW),pp=a("%nu"),o3=a("%+ld"),o4=a("% ld"),o6=a("%+li"),o7=a("% li"),o8=a("%lx"),o9=a("%#lx"),o_=a("%lX"),o$=a("%#lX"),pa=a("%lo"),pb=a("%#lo"),o2=a("%ld"),o5=a(ly),pc=a("%lu"),oQ=a("%+Ld"),oR=a("% Ld"),oT=a("%+Li"),oU=a("% Li"),oV=a("%Lx"),oW=a("%#Lx"),oX=a("%LX"),oY=a("%#LX"),oZ=a("%Lo"),o0=a("%#Lo"),oP=a("%Ld"),oS=a(k8),o1=a("%Lu"),oD=a("%+d"),oE=a("% d"),oG=a("%+i"),oH=a("% i"),oI=a("%x"),oJ=a("%#x"),oK=a("%X"),oL=a("%#X"),oM=a("%o"),oN=a("%#o"),oC=a(hD),oF=a(kY),oO=a(lQ),nX=a("@]"),nY=a("@}"),nZ=a("@?"),n0=a("@\n"),n1=a("@."),n2=a("@@"),n3=a("@%"),n4=a("@"),oA=a("CamlinternalFormat.Type_mismatch"),pO=a(t),pP=[0,[11,a(k5),[2,0,[2,0,0]]],a(", %s%s")],qc=[0,[11,a(hy),[2,0,[12,10,0]]],a(mz)],qd=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],qb=a("Fatal error: out of memory in uncaught exception handler"),p$=[0,[11,a(hy),[2,0,[12,10,0]]],a(mz)],p7=[0,[2,0,[12,10,0]],a("%s\n")],pZ=a("Raised at"),p0=a("Re-raised at"),p1=a("Raised by primitive operation at"),p2=a("Called from"),p3=a(" (inlined)"),p5=a(t),p4=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lG),Am]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],p6=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pU=a("Out of memory"),pV=a("Stack overflow"),pW=a("Pattern matching failed"),pX=a("Assertion failed"),pY=a("Undefined recursive module"),pQ=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pR=a(t),pS=a(t),pT=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pN=[0,[4,0,0,0,0],a(hD)],pL=[0,[3,0,0],a("%S")],pM=a(l4),p8=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],qf=a("Jsoo_runtime.Error.Exn"),qh=a("power"),qr=[0,0],qs=[0,[0,0]],qt=[0,[0,0]],qA=[0,0],qH=[0,0,0],qI=[0,0,0],qJ=[0,0],qY=[0,0],qZ=[0,0],rf=[0,0],ri=[0,0],ru=[0,0],rv=[0,0],rQ=[0,[0,[0,0]]],r3=a(","),sj=[0,a(hr),0],sk=a(mx),sl=a(cr),sm=[0,[0,[0,0]]],sn=a(bb),so=a(hs),sp=[0,[0,[0,[0,[0,0]]]]],sq=[0,a(hr),0],sr=a(m4),uT=a(kZ),uV=a(l2),uU=a(mD),uW=a(fn),uX=a(fu),uY=a(lY),uZ=a(mX),u0=a(mn),vE=[0,a(lz),8458,12],vW=a(hz),vX=[0,0],vY=a("divided"),vZ=[0,1],v0=a("mirror"),v1=[0,3],v2=a("negative"),v3=[0,2],v4=a(ht),v5=[0,5],v6=a(hL),v7=[0,4],v8=a(fl),v9=a(me),v_=a(fy),v$=a(cP),wa=[0,0],wb=[0,0],wc=[0,0],wx=a(t),wt=[0,[0,[0,0]]],wu=[0,[0,[0,[0,0]]]],wv=[0,[0,[0,[0,0]]]],wq=[0,[0,[0,0]]],wp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],wo=[0,0],wm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wj=[0,[0,0]],wh=[0,[0,[0,0]]],we=[0,[0,0]],wf=[0,0],wd=[0,0],vR=[0,[0,0]],vS=[0,0],vQ=[0,0],vP=[0,0],vO=[0,0,0],vM=[0,0,0],vK=[0,[0,[0,0]]],vL=[0,[0,[0,0]]],vJ=[0,0],vH=[0,1,0],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],vu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],vv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],vw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],vA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],vB=a("sqrt"),vs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],vh=[0,a("\n"),0],vi=a(l3),vj=a(fj),vk=a(ls),vl=a(mq),vm=a("certified"),vr=a("refuted"),vn=a("verdict"),vo=a(lJ),vp=a(ml),vq=a(mA),u_=a(mR),u$=a(ht),va=a(fm),vb=a(lp),vc=a(fo),vd=a(bo),ve=a(l5),vf=a(fm),vg=a(mV),u6=a(mJ),u7=a(fo),u8=a(mk),u9=a(mY),u2=a(mW),u3=a(mv),u4=a(fw),uR=a(hB),uS=a(hv),uv=a(fw),ua=a(bo),ub=a(b3),uc=a(ds),ud=a(fi),ue=a(dr),uf=a(bo),ug=a(b3),uh=a(hI),ui=a(bI),uj=a(bH),uk=a(cO),ul=a(ds),um=a(mL),un=a(mT),uo=a(dr),up=a(bo),uq=a(b3),ur=a(bI),us=a(bH),ut=a(cO),uu=a(ds),uw=a(lF),ux=a(lN),uy=a(m3),uz=a(mf),uA=a(k$),uB=a(dr),uC=a(bo),uD=a(b3),uE=a(fq),uF=a(mp),uG=a(ds),uH=a(ee),uI=a(l8),uJ=a(dr),uK=a(bo),uL=a(fq),uM=a(bo),uN=a(lB),uQ=a(l1),uO=a(k_),uP=a(lS),t6=a(b3),t7=a(hM),t8=a(ds),t9=a(fi),t_=a(dr),tU=a(ee),tV=a(mU),tW=a(dn),tX=a(dp),tY=a(dp),tZ=a(hj),t0=a(dn),t1=a(mC),t2=a(mm),t3=a(bm),t5=a(l7),t4=a(hj),tK=a(lo),tL=a(lX),tM=a(lb),tN=a(mi),tO=a(lP),tP=a(lH),tQ=a(mr),tR=a(fr),tS=a(fr),tG=a(bm),tH=a(cp),tI=a(fp),tJ=a(cq),tC=a(eb),tD=a(hG),tE=a(mH),tv=a(bI),tw=a(bH),tx=a(cO),ty=a(lt),tz=a(dn),tA=a(lm),tB=a(mO),tl=a(k9),tq=a(lR),tr=a(fj),tm=a(mj),tn=a(hk),ts=a(k7),tt=a(lD),tu=a(hk),to=a(dp),tp=a(mE),ti=a(fx),tj=a(fx),tk=a(fx),te=a(mP),tf=a(bH),tg=a(bI),th=a(lO),s3=a(k4),s4=a(l6),s5=a(mK),s6=a(fn),s7=a(m2),s8=a(mN),s9=a(l$),s_=a(mG),s$=a(k3),ta=a(lg),tb=a(l_),tc=a(mQ),td=a(fu),sS=a(bG),s2=a(bb),sT=a(ft),sU=a(fs),sV=a(fB),sW=a(bm),sX=a(cp),sY=a(lw),sZ=a(lC),s0=a(fB),s1=a(cq),sA=a(bG),sI=a(bb),sB=a(ft),sC=a(fs),sD=a(bm),sE=a(cp),sF=a(cP),sG=a(lT),sH=a(cq),sJ=a(hw),sK=a(bm),sL=a(cp),sM=a(fp),sN=a(cq),sO=a(cP),sP=a(eb),sQ=a(cq),sx=a(bI),sy=a(bH),sv=[0,a(ay),0],sw=a(ay),st=[0,a(lz),7731,36],ss=[0,a(ay),0],su=a(ay),sf=a(bG),sg=a(bb),sh=a("*"),si=a(bl),sa=[0,[0,[0,[0,[0,0]]]]],sb=[0,[0,[0,0]]],sc=[0,[0,0]],sd=[0,0],se=[0,[0,[0,[0,0]]]],r_=a('":'),r$=a(ay),r8=[0,a(ay),0],r9=a(ay),r6=[0,a("}"),0],r7=a("{"),r4=[0,a("]"),0],r5=a("["),r2=[0,[0,[0,0]]],r0=[0,[0,[0,0]]],rY=[0,0],rV=[0,[0,[0,0]]],rW=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rX=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rT=[0,[0,0]],rU=[0,[0,[0,0]]],rO=[0,[0,0]],rP=[0,[0,[0,0]]],rM=[0,[0,[0,0]]],rN=[0,[0,0]],rK=[0,0],rG=[0,[0,0]],rH=[0,0],rI=[0,0],rJ=[0,[0,0]],rx=[0,[0,0]],ry=[0,0],rz=[0,[0,0]],rA=[0,0],rB=[0,0],rC=[0,[0,0]],rD=[0,[0,0]],rE=[0,[0,0]],rF=[0,0],rt=[0,0],rr=[0,[0,[0,0]]],rq=[0,[0,[0,[0,[0,[0,0]]]]]],rn=[0,0],ro=[0,[0,[0,[0,[0,[0,0]]]]]],rp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],rl=[0,[0,[0,0]]],rg=[0,[0,[0,0]]],re=[0,[0,[0,0]]],rc=[0,[0,[0,[0,[0,[0,0]]]]]],rd=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,0]],q$=[0,0],ra=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],q3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q4=[0,[0,[0,[0,[0,[0,0]]]]]],q5=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,0]]],q7=[0,[0,[0,[0,[0,[0,0]]]]]],q8=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q1=[0,[0,0]],q2=[0,0],q0=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qU=[0,[0,[0,[0,0]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qS=[0,[0,[0,0]]],qT=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qO=[0,[0,0]],qP=[0,0],qM=[0,[0,0]],qN=[0,0],qK=[0,[0,0]],qL=[0,0],qB=[0,0,0],qw=[0,0],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,0]],qu=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],qq=a(aN),qp=a(t),qo=[0,[0,0]],qn=[0,0],qm=[1,0],ql=[0,0],qk=[0,0],qi=[1,0],qj=[1,0],yN=a(cq),yO=a(hw),yP=a(fp),yS=a(bm),yT=a(cp),yQ=[0,a('" of such a platform'),0],yR=a(k6),yz=a("rho"),yA=a(fw),yB=[0,a("a joint by its coordinate"),0],ya=a(b3),x1=a(bo),x2=a(lB),x3=a(lS),x6=a(k_),x7=a(l1),x8=a(bo),x9=a(bo),x$=a(fq),x_=[0,a("a claim that no cube of such a machine fits"),0],yb=a(dr),yc=a(ds),yd=a(fi),ye=a(hM),za=[0,a("such a machine with bodies"),0],yf=a(eb),yg=a(hG),yh=a(mH),yi=a(hI),yj=a(k$),yk=a(l8),yl=a(fi),yo=a(cO),yp=a(mO),ys=a(hM),yt=[0,a("a machine with arms and bodies"),0],yu=a(b3),yv=a(mp),yw=a(fq),yx=a(ee),yy=a(cO),yC=a(b3),yD=a(bI),yE=a(bH),yF=a(lF),yG=a(lN),yH=a(m3),yI=a(mf),ym=[0,a(ay),0],yn=a(lV),yJ=a(cO),yK=[0,a('" of a platform that turns'),0],yL=a(lI),yM=a(mL),y_=[0,a('" that does not turn'),0],y$=a(lV),yU=a(hI),yV=a(lH),yW=a(lo),yX=a(lP),yY=a(fr),yZ=a(mr),y0=a(fr),y7=a(lX),y8=a(lb),y9=a(mi),y1=a(eb),y2=a(hG),y3=a(b3),y4=a(bI),y5=a(bH),y6=a(mT),yq=[0,a(ay),0],yr=a(lI),x4=[0,a(ay),0],x5=a('a claim of the kind "'),zf=a(fu),zg=a(fn),zh=a(mn),zi=a(mD),zj=a(cP),zk=a(lY),zl=a(fl),zm=a(me),zn=a(fy),zq=a(hv),zr=a(hB),zs=a(cP),zt=a(aN),zo=[0,a(ay),0],zp=a('the evidence "'),zu=a(fl),zv=a(fy),zw=a(mX),zy=a(fl),zz=a(fy),zA=a(hz),zB=a(hz),zx=[0,a("this evidence at control points"),0],z2=a(mA),z3=a(ml),z4=a(lJ),Af=[0,3,3],z5=a(mq),z6=[0,a("the acceleration of a joint of a machine with a plane"),0],Ab=[0,a('the drive "arm" in a claim that is certified'),0],Ac=[0,a("a step of a platform that turns that is not at control points"),0],Ad=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],Ae=[0,a("a mechanism by formulas in a claim that is refuted"),0],Aa=[0,a("this quantity in a claim that is refuted"),0],z_=[0,a("a leaf that fails"),0],z$=[0,a("a step in a proof that no cube fits"),0],z7=a(ls),z8=a(l3),z9=a(fj),z0=a(hL),zN=a(lp),zO=a(mV),zR=a(bo),zS=a(fo),zT=a(l5),zU=a(fm),zV=a(mR),zW=a(ht),zX=a(fm),zP=[0,a(ay),0],zQ=a('a proof of the kind "'),zJ=a(mJ),zK=a(fo),zL=a(mk),zM=a(mY),zE=a(mv),zF=a(mW),zG=a(fw),zH=[0,a(ay),0],zI=a('the failure "'),zC=a(hL),zD=a(aN),zd=a(hv),ze=a(hB),zb=a(l2),zc=a(kZ),xY=a(ee),xO=a(hj),xP=a(l7),xQ=a(dp),xR=a(bm),xW=a(mU),xX=a(ee),xZ=a(dn),x0=a(dp),xS=a(dn),xT=a(mC),xU=a(mm),xV=a(bm),xH=a(cO),xL=a(bI),xM=a(bH),xI=a(lm),xJ=a(lt),xK=a(dn),xF=[0,a("this quantity of such a mechanism"),0],xs=a(mj),xt=[0,a("a stiffness for each joint"),0],xu=a(lD),xv=a(k7),xw=a(lR),xr=a(fj),xj=a(fx),w$=a(mE),xa=a(l6),xz=a(fu),xA=a(lg),xB=a(fn),xC=a(mG),xD=a(l_),xE=a(k3),xb=a(mK),xc=a(mQ),xd=a(mN),xe=a(m2),xf=a(l$),xg=a(k4),xh=[0,a(ay),0],xi=a('the quantity "'),xk=a(k9),xl=a(mP),xm=a(bI),xn=a(bH),xo=a(lO),xp=[0,a(ay),0],xq=a('a bound "'),xx=a(hk),xy=a(dp),w4=a(ft),w5=a(fs),w6=a(fB),w7=a(bm),w8=a(cp),w9=a(lw),w_=a(lC),w1=a(cq),w2=a(fB),wM=a(cq),wN=a(eb),wO=a(lT),wP=a(fp),wS=a(hw),wT=a(bm),wU=a(cp),wV=a(ft),wW=a(fs),wX=a(bm),wY=a(cp),wZ=a(cP),w0=a(cP),wQ=[0,a(ay),0],wR=a(k6),wJ=a(bG),wK=a(bb),wH=a(" is not covered by the verified checker"),wI=a(t),wF=a(bI),wG=a(bH),wB=a(t),wC=a(m4),wD=a(t),wE=a(t),wA=[1,0],wy=a("Reader.Malformed"),wz=a("Reader.Not_covered"),Ah=a(lx),Ai=a("CERTIFIED"),Aj=a("REFUTED"),Ak=a(lx),Al=a("NOT COVERED: ");function
 ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -813,255 +813,255 @@ b=a[1];return[9,b,b,ah(a[3])];case
 11:return[11,ah(a[1])];case
 12:return[12,ah(a[1])];case
 13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
-aN(a,b){if(typeof
+aP(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aN(a[1],b)];case
-1:return[1,aN(a[1],b)];case
-2:return[2,aN(a[1],b)];case
-3:return[3,aN(a[1],b)];case
-4:return[4,aN(a[1],b)];case
-5:return[5,aN(a[1],b)];case
-6:return[6,aN(a[1],b)];case
-7:return[7,aN(a[1],b)];case
+0:return[0,aP(a[1],b)];case
+1:return[1,aP(a[1],b)];case
+2:return[2,aP(a[1],b)];case
+3:return[3,aP(a[1],b)];case
+4:return[4,aP(a[1],b)];case
+5:return[5,aP(a[1],b)];case
+6:return[6,aP(a[1],b)];case
+7:return[7,aP(a[1],b)];case
 8:var
-c=a[1];return[8,c,aN(a[2],b)];case
+c=a[1];return[8,c,aP(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aN(a[3],b)];case
-10:return[10,aN(a[1],b)];case
-11:return[11,aN(a[1],b)];case
-12:return[12,aN(a[1],b)];case
-13:return[13,aN(a[1],b)];default:return[14,aN(a[1],b)]}}function
-ad(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aP(a[3],b)];case
+10:return[10,aP(a[1],b)];case
+11:return[11,aP(a[1],b)];case
+12:return[12,aP(a[1],b)];case
+13:return[13,aP(a[1],b)];default:return[14,aP(a[1],b)]}}function
+ae(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ad(a[1],b)];case
-1:return[1,ad(a[1],b)];case
+0:return[0,ae(a[1],b)];case
+1:return[1,ae(a[1],b)];case
 2:var
-c=a[1];return[2,c,ad(a[2],b)];case
+c=a[1];return[2,c,ae(a[2],b)];case
 3:var
-d=a[1];return[3,d,ad(a[2],b)];case
+d=a[1];return[3,d,ae(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,ad(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ae(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,ad(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ae(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,ad(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ae(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,ad(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ae(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,ad(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ae(a[4],b)];case
 9:var
-t=a[1];return[9,t,ad(a[2],b)];case
-10:return[10,ad(a[1],b)];case
+t=a[1];return[9,t,ae(a[2],b)];case
+10:return[10,ae(a[1],b)];case
 11:var
-u=a[1];return[11,u,ad(a[2],b)];case
+u=a[1];return[11,u,ae(a[2],b)];case
 12:var
-v=a[1];return[12,v,ad(a[2],b)];case
+v=a[1];return[12,v,ae(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,ad(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ae(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,ad(a[3],b)];case
-15:return[15,ad(a[1],b)];case
-16:return[16,ad(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ae(a[3],b)];case
+15:return[15,ae(a[1],b)];case
+16:return[16,ae(a[1],b)];case
 17:var
-A=a[1];return[17,A,ad(a[2],b)];case
+A=a[1];return[17,A,ae(a[2],b)];case
 18:var
-B=a[1];return[18,B,ad(a[2],b)];case
-19:return[19,ad(a[1],b)];case
+B=a[1];return[18,B,ae(a[2],b)];case
+19:return[19,ae(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,ad(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ae(a[3],b)];case
 21:var
-E=a[1];return[21,E,ad(a[2],b)];case
-22:return[22,ad(a[1],b)];case
+E=a[1];return[21,E,ae(a[2],b)];case
+22:return[22,ae(a[1],b)];case
 23:var
-F=a[1];return[23,F,ad(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,ad(a[3],b)]}}function
-b4(a){throw[0,h2,a]}function
-eg(a){return 0<=a?a:-a|0}function
-ax(d,c){var
-a=I(d),e=I(c),b=ao(a+e|0);bG(d,0,b,0,a);bG(c,0,b,a,e);return aM(b)}function
-np(a){return a?nq:nr}Bi(0);m$(1);var
-bK=m$(2);function
-du(b,a){return na(b,a,0,I(a))}function
-h8(a){du(bK,a);nb(bK,10);return dr(bK)}function
-fD(b){function
+F=a[1];return[23,F,ae(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ae(a[3],b)]}}function
+b_(a){throw[0,h9,a]}function
+em(a){return 0<=a?a:-a|0}function
+aA(d,c){var
+a=J(d),e=J(c),b=ar(a+e|0);bM(d,0,b,0,a);bM(c,0,b,a,e);return aO(b)}function
+nD(a){return a?nE:nF}BV(0);nn(1);var
+bQ=nn(2);function
+dz(b,a){return no(b,a,0,J(a))}function
+id(a){dz(bQ,a);np(bQ,10);return dw(bQ)}function
+fO(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dr(d)}catch(a){a=fA(a);if(a[1]!==h6)throw a;var
+c=a[2],d=a[1];try{dw(d)}catch(a){a=fL(a);if(a[1]!==ib)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Bj(0))}hU(a(kO),fD);var
-dv=(4*Bu(0)|0)-1|0;function
-cl(c){var
+a=c;continue}return 0}}return a(BW(0))}h1(a(k1),fO);var
+dA=(4*B7(0)|0)-1|0;function
+cu(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-_(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,_(b,c)]}return 0}function
-h9(d,c){var
+ab(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,ab(b,c)]}return 0}function
+ie(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-b5(d,c){var
+b$(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-cm(a,c){var
-b=ao(a);AW(b,0,a,c);return b}function
-h_(c,b,a){if(0<=b&&0<=a&&!((a1(c)-a|0)<b)){var
-d=ao(a);ck(c,b,d,0,a);return d}return b4(nA)}function
-h$(c,b,a){return aM(h_(c,b,a))}function
-ia(e,c,d,b,a){if(0<=a&&0<=c&&!((a1(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return ck(e,c,d,b,a);return b4(nB)}function
-bL(e,c,d,b,a){if(0<=a&&0<=c&&!((I(e)-a|0)<c)&&0<=b&&!((a1(d)-a|0)<b))return bG(e,c,d,b,a);return b4(nC)}function
-a7(b,a){return aM(cm(b,a))}function
-dw(c,b,a){return aM(h_(bZ(c),b,a))}function
-ib(k,g){if(g){var
-h=I(k),c=0,b=g,p=0;for(;;){if(b){var
+cv(a,c){var
+b=ar(a);Bx(b,0,a,c);return b}function
+ig(c,b,a){if(0<=b&&0<=a&&!((a4(c)-a|0)<b)){var
+d=ar(a);ct(c,b,d,0,a);return d}return b_(nO)}function
+ih(c,b,a){return aO(ig(c,b,a))}function
+ii(e,c,d,b,a){if(0<=a&&0<=c&&!((a4(e)-a|0)<c)&&0<=b&&!((a4(d)-a|0)<b))return ct(e,c,d,b,a);return b_(nP)}function
+bR(e,c,d,b,a){if(0<=a&&0<=c&&!((J(e)-a|0)<c)&&0<=b&&!((a4(d)-a|0)<b))return bM(e,c,d,b,a);return b_(nQ)}function
+a8(b,a){return aO(cv(b,a))}function
+dB(c,b,a){return aO(ig(b6(c),b,a))}function
+ij(k,g){if(g){var
+h=J(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(I(i)+h|0)+c|0,m=b[2],n=c<=j?j:b4(nD),c=n,b=m;continue}var
-l=I(i)+c|0}else
+j=(J(i)+h|0)+c|0,m=b[2],n=c<=j?j:b_(nR),c=n,b=m;continue}var
+l=J(i)+c|0}else
 var
 l=c;var
-f=ao(l),e=p,d=g;for(;;){if(d){var
+f=ar(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bG(a,0,f,e,I(a));bG(k,0,f,e+I(a)|0,h);var
-e=(e+I(a)|0)+h|0,d=o;continue}bG(a,0,f,e,I(a))}return aM(f)}}}return nE}function
-ic(b,c){if(0===b)return[0];if(0<=b){var
-d=Bg(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bM(a,0,f,e,J(a));bM(k,0,f,e+J(a)|0,h);var
+e=(e+J(a)|0)+h|0,d=o;continue}bM(a,0,f,e,J(a))}return aO(f)}}}return nS}function
+ik(b,c){if(0===b)return[0];if(0<=b){var
+d=BT(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b4(nF)}function
-id(c){var
+a=h;continue}break}}return d}return b_(nT)}function
+il(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-ie(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dv<b[1]){if(!((d+c|0)<=dv))throw[0,h3,nI];b[1]=dv}var
-e=ao(b[1]);ia(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ae,nG]}throw[0,ae,nH]}}function
-dx(a,c){var
-b=I(c),d=a[2]+b|0;if(a[3]<d)ie(a,b);bG(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fE(a){return 5===a[2]?12:-6}function
-ig(a){return[0,0,ao(a)]}function
-ih(a,h){var
-b=a1(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ao(i);ia(a[2],0,f,0,b);a[2]=f;var
+im(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dA<b[1]){if(!((d+c|0)<=dA))throw[0,h_,nW];b[1]=dA}var
+e=ar(b[1]);ii(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,af,nU]}throw[0,af,nV]}}function
+dC(a,c){var
+b=J(c),d=a[2]+b|0;if(a[3]<d)im(a,b);bM(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fP(a){return 5===a[2]?12:-6}function
+io(a){return[0,0,ar(a)]}function
+ip(a,h){var
+b=a4(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ar(i);ii(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cQ(a,b){ih(a,1);cM(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aF(a,c){var
-b=I(c);ih(a,b);bL(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-ii(a){return h$(a[2],0,a[1])}function
-ij(a){if(typeof
+cU(a,b){ip(a,1);cQ(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aJ(a,c){var
+b=J(c);ip(a,b);bR(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+iq(a){return ih(a[2],0,a[1])}function
+ir(a){if(typeof
 a==="number")switch(a){case
-0:return nJ;case
-1:return nK;case
-2:return nL;case
-3:return nM;case
-4:return nN;case
-5:return nO;default:return nP}else
+0:return nX;case
+1:return nY;case
+2:return nZ;case
+3:return n0;case
+4:return n1;case
+5:return n2;default:return n3}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return ax(nQ,a7(1,a[1]))}}function
-fF(b,c){var
+1:return a[1];default:return aA(n4,a8(1,a[1]))}}function
+fQ(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aF(b,nR);var
+d=a[1];aJ(b,n5);var
 a=d;continue;case
 1:var
-e=a[1];aF(b,nS);var
+e=a[1];aJ(b,n6);var
 a=e;continue;case
 2:var
-f=a[1];aF(b,nT);var
+f=a[1];aJ(b,n7);var
 a=f;continue;case
 3:var
-g=a[1];aF(b,nU);var
+g=a[1];aJ(b,n8);var
 a=g;continue;case
 4:var
-h=a[1];aF(b,nV);var
+h=a[1];aJ(b,n9);var
 a=h;continue;case
 5:var
-i=a[1];aF(b,nW);var
+i=a[1];aJ(b,n_);var
 a=i;continue;case
 6:var
-j=a[1];aF(b,nX);var
+j=a[1];aJ(b,n$);var
 a=j;continue;case
 7:var
-k=a[1];aF(b,nY);var
+k=a[1];aJ(b,oa);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aF(b,nZ);fF(b,m);aF(b,n0);var
+l=a[2],m=a[1];aJ(b,ob);fQ(b,m);aJ(b,oc);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aF(b,n1);fF(b,o);aF(b,n2);var
+n=a[3],o=a[1];aJ(b,od);fQ(b,o);aJ(b,oe);var
 a=n;continue;case
 10:var
-p=a[1];aF(b,n3);var
+p=a[1];aJ(b,of);var
 a=p;continue;case
 11:var
-q=a[1];aF(b,n4);var
+q=a[1];aJ(b,og);var
 a=q;continue;case
 12:var
-r=a[1];aF(b,n5);var
+r=a[1];aJ(b,oh);var
 a=r;continue;case
 13:var
-s=a[1];aF(b,n6);var
+s=a[1];aJ(b,oi);var
 a=s;continue;default:var
-t=a[1];aF(b,n7);var
+t=a[1];aJ(b,oj);var
 a=t;continue}}function
-an(a){if(typeof
+ap(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,an(a[1])];case
-1:return[1,an(a[1])];case
-2:return[2,an(a[1])];case
-3:return[3,an(a[1])];case
-4:return[4,an(a[1])];case
-5:return[5,an(a[1])];case
-6:return[6,an(a[1])];case
-7:return[7,an(a[1])];case
+0:return[0,ap(a[1])];case
+1:return[1,ap(a[1])];case
+2:return[2,ap(a[1])];case
+3:return[3,ap(a[1])];case
+4:return[4,ap(a[1])];case
+5:return[5,ap(a[1])];case
+6:return[6,ap(a[1])];case
+7:return[7,ap(a[1])];case
 8:var
-b=a[1];return[8,b,an(a[2])];case
+b=a[1];return[8,b,ap(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,an(a[3])];case
-10:return[10,an(a[1])];case
-11:return[11,an(a[1])];case
-12:return[12,an(a[1])];case
-13:return[13,an(a[1])];default:return[14,an(a[1])]}}function
-aG(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ap(a[3])];case
+10:return[10,ap(a[1])];case
+11:return[11,ap(a[1])];case
+12:return[12,ap(a[1])];case
+13:return[13,ap(a[1])];default:return[14,ap(a[1])]}}function
+aK(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aG(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aK(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aG(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aK(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=aG(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aK(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aG(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aK(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aG(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aK(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aG(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aK(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aG(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aK(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=aG(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aK(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=aG(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aK(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],ao=a[1],l=aG(a[3]),ap=l[4],ar=l[3],as=l[2],at=l[1],m=aG(aq(an(ao),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(ap,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aA=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],an=a[1],l=aK(a[3]),ao=l[4],aq=l[3],ar=l[2],as=l[1],m=aK(at(ap(an),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(ao,0);return 0},az=function(a){e(aq,0);e(av,0);return 0},aA=function(a){e(aw,0);e(ar,0);return 0};return[0,function(a){e(as,0);e(ax,0);return 0},aA,az,ay];case
 10:var
-n=aG(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
+n=aK(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
 11:var
-o=aG(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aK(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aL=function(a){e(aI,0);return 0};return[0,function(a){e(aJ,0);return 0},aL,aH,aG];case
 12:var
-p=aG(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aK(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aG(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aG(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-aq(c,b){var
+q=aK(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aK(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+at(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,ae,n8]}else
+9:a=6;break;default:throw[0,af,ok]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,aq(t,b[1])];case
+0:return[0,at(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,aq(u,b[1])];case
+1:return[1,at(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,aq(v,b[1])];case
+2:return[2,at(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,aq(w,b[1])];case
+3:return[3,at(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,aq(x,b[1])];case
+4:return[4,at(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,aq(y,b[1])];case
+5:return[5,at(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,aq(z,b[1])];case
+6:return[6,at(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,aq(A,b[1])];case
+7:return[7,at(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=aq(B,b[2]);return[8,aq(C,D),E];case
+D=b[1],E=at(B,b[2]);return[8,at(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,ae,of];break;case
+14:a=4;break;default:m=1}if(m)throw[0,af,ot];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aG(aq(an(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,aq(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aK(at(ap(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,at(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,ae,og];break;case
+14:a=4;break;default:n=1}if(n)throw[0,af,ou];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,aq(M,b[1])];throw[0,ae,oh];case
+b!=="number"&&10===b[0])return[10,at(M,b[1])];throw[0,af,ov];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,aq(N,b[1])];default:o=1}if(o)throw[0,ae,oi];break;case
+11:return[11,at(N,b[1])];default:o=1}if(o)throw[0,af,ow];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,aq(O,b[1])];default:p=1}if(p)throw[0,ae,oj];break;case
+12:return[12,at(O,b[1])];default:p=1}if(p)throw[0,af,ox];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,aq(P,b[1])];default:q=1}if(q)throw[0,ae,ok];break;default:var
+13:return[13,at(P,b[1])];default:q=1}if(q)throw[0,af,oy];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,206 +1222,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,aq(Q,b[1])];default:r=1}if(r)throw[0,ae,ol]}switch(a){case
-0:throw[0,ae,n$];case
-1:throw[0,ae,oa];case
-2:throw[0,ae,ob];case
-3:throw[0,ae,oc];case
-4:throw[0,ae,od];case
-5:throw[0,ae,n9];case
-6:throw[0,ae,n_];default:throw[0,ae,oe]}}var
-ay=[au,om,ft(0)];function
-eh(b,a){if(typeof
+14:return[14,at(Q,b[1])];default:r=1}if(r)throw[0,af,oz]}switch(a){case
+0:throw[0,af,on];case
+1:throw[0,af,oo];case
+2:throw[0,af,op];case
+3:throw[0,af,oq];case
+4:throw[0,af,or];case
+5:throw[0,af,ol];case
+6:throw[0,af,om];default:throw[0,af,os]}}var
+aB=[ax,oA,fE(0)];function
+en(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ay}}function
-dy(e,b,d){var
-a=eh(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aB}}function
+dD(e,b,d){var
+a=en(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ay}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aR(b,c,a){if(typeof
-b==="number")return[0,0,V(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aB}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aS(b,c,a){if(typeof
+b==="number")return[0,0,W(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aR(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aS(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aR(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aS(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aR(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aS(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aR(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aS(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aR(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aS(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aR(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aS(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aR(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aS(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aR(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aS(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ee([0,b[1]],[0,o]))throw ay;var
-p=aR(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(ek([0,b[1]],[0,o]))throw aB;var
+p=aS(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ee([0,ah(B)],C))throw ay;var
-D=[0,ah(d)];if(ee([0,ah(A)],D))throw ay;var
-q=aG(aq(an(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aR(ah(z),c,y),F=r[2];return[0,[9,f,d,an(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ek([0,ah(B)],C))throw aB;var
+D=[0,ah(d)];if(ek([0,ah(A)],D))throw aB;var
+q=aK(at(ap(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aS(ah(z),c,y),F=r[2];return[0,[9,f,d,ap(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aR(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aS(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aR(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aS(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aR(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aS(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aR(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ay}function
-V(b,a){if(typeof
+v=aS(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aB}function
+W(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=V(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=W(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=V(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=W(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=eh(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=en(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=V(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw ay;case
+v=W(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aB;case
 3:var
-ad=b[2],w=eh(b[1],a),f=w[2],ae=w[1];if(typeof
+ad=b[2],w=en(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=V(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw ay;case
+x=W(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aB;case
 4:var
-af=b[4],ag=b[1],g=dy(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ag=b[1],g=dD(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=V(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw ay;case
+aj=g[2],y=W(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw aB;case
 5:var
-ak=b[4],al=b[1],i=dy(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dD(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=V(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ay;case
+an=i[2],z=W(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aB;case
 6:var
-ao=b[4],ap=b[1],k=dy(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dD(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=V(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw ay;case
+ar=k[2],A=W(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aB;case
 7:var
-as=b[4],at=b[1],m=dy(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dD(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=V(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw ay;case
+av=m[2],B=W(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aB;case
 8:var
-aw=b[4],ax=b[1],o=dy(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+aw=b[4],ax=b[1],o=dD(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=V(aw,p[1]);return[0,[8,ax,az,aA,C[1]],C[2]]}throw ay;case
+az=o[2],C=W(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aB;case
 9:var
-aB=b[2],D=eh(b[1],a),q=D[2],aC=D[1];if(typeof
+aA=b[2],D=en(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=V(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ay;case
+E=W(aA,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aB;case
 10:var
-F=V(b[1],a);return[0,[10,F[1]],F[2]];case
+F=W(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=V(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=W(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=V(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=W(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ee([0,b[2]],[0,I]))throw ay;var
-J=V(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ek([0,b[2]],[0,I]))throw aB;var
+J=W(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ee([0,ah(aK)],aM))throw ay;var
-L=V(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ek([0,ah(aK)],aM))throw aB;var
+L=W(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=V(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=W(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=V(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=W(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=V(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=W(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aS=T[2],U=V(T[1],a),aT=U[1],W=V(P,U[2]);return[0,[18,[0,[0,aT,aS]],W[1]],W[2]]}var
-X=r[1],aU=X[2],Y=V(X[1],a),aV=Y[1],Z=V(P,Y[2]);return[0,[18,[1,[0,aV,aU]],Z[1]],Z[2]];case
+T=r[1],aR=T[2],U=W(T[1],a),aT=U[1],V=W(P,U[2]);return[0,[18,[0,[0,aT,aR]],V[1]],V[2]]}var
+X=r[1],aU=X[2],Y=W(X[1],a),aV=Y[1],Z=W(P,Y[2]);return[0,[18,[1,[0,aV,aU]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=V(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=W(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=V(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=W(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=V(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=W(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aW(c,d,a);case
-1:return aW(c,d,a);case
+0:return aY(c,d,a);case
+1:return aY(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=V(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw ay;default:return aW(c,d,a)}else
+_=W(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aB;default:return aY(c,d,a)}else
 switch(c[0]){case
-0:return aW(c,d,a);case
-1:return aW(c,d,a);case
-2:return aW(c,d,a);case
-3:return aW(c,d,a);case
-4:return aW(c,d,a);case
-5:return aW(c,d,a);case
-6:return aW(c,d,a);case
-7:return aW(c,d,a);case
-8:return aW([8,c[1],c[2]],d,a);case
+0:return aY(c,d,a);case
+1:return aY(c,d,a);case
+2:return aY(c,d,a);case
+3:return aY(c,d,a);case
+4:return aY(c,d,a);case
+5:return aY(c,d,a);case
+6:return aY(c,d,a);case
+7:return aY(c,d,a);case
+8:return aY([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],$=aR(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
-10:return aW(c,d,a);default:return aW(c,d,a)}}throw ay}function
-aW(d,c,b){var
-a=V(c,b);return[0,[23,d,a[1]],a[2]]}function
-aX(k,g,a){var
-b=I(a),h=0<=g?k:0,d=eg(g);if(d<=b)return a;var
-l=2===h?48:32,c=cm(d,l);switch(h){case
-0:bL(a,0,c,0,b);break;case
-1:bL(a,0,c,d-b|0,b);break;default:var
+aW=c[1],$=aS(c[2],d,a),aa=$[2];return[0,[23,[9,aW,$[1]],aa[1]],aa[2]];case
+10:return aY(c,d,a);default:return aY(c,d,a)}}throw aB}function
+aY(d,c,b){var
+a=W(c,b);return[0,[23,d,a[1]],a[2]]}function
+aZ(k,g,a){var
+b=J(a),h=0<=g?k:0,d=em(g);if(d<=b)return a;var
+l=2===h?48:32,c=cv(d,l);switch(h){case
+0:bR(a,0,c,0,b);break;case
+1:bR(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==U(a,0)&&45!==U(a,0)&&32!==U(a,0)){e=1;i=1}if(!i){cM(c,0,U(a,0));bL(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==V(a,0)&&45!==V(a,0)&&32!==V(a,0)){e=1;i=1}if(!i){cQ(c,0,V(a,0));bR(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===U(a,0)){var
-j=0;if(k3!==U(a,1)&&88!==U(a,1)){f=1;j=1}if(!j){cM(c,1,U(a,1));bL(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bL(a,0,c,d-b|0,b)}}return aM(c)}function
-cR(k,b){var
-c=eg(k),a=I(b),d=U(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+lZ>>>0))e=1}else
+f=0;if(1<b&&48===V(a,0)){var
+j=0;if(le!==V(a,1)&&88!==V(a,1)){f=1;j=1}if(!j){cQ(c,1,V(a,1));bR(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bR(a,0,c,d-b|0,b)}}return aO(c)}function
+cV(k,b){var
+c=em(k),a=J(b),d=V(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+mb>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(k3===U(b,1)||88===U(b,1))j=1;if(j){var
-h=cm(c+2|0,48);cM(h,1,U(b,1));bL(b,2,h,(c-a|0)+4|0,a-2|0);return aM(h)}}e=1;f=1;break;case
+j=0;if(le===V(b,1)||88===V(b,1))j=1;if(j){var
+h=cv(c+2|0,48);cQ(h,1,V(b,1));bR(b,2,h,(c-a|0)+4|0,a-2|0);return aO(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cm(c+1|0,48);cM(g,0,d);bL(b,1,g,(c-a|0)+2|0,a-1|0);return aM(g)}}if(e&&a<c){var
-i=cm(c,48);bL(b,0,i,c-a|0,a);return aM(i)}return b}function
-on(k){var
-j=0,C=I(k);for(;;){if(C<=j)var
+g=cv(c+1|0,48);cQ(g,0,d);bR(b,1,g,(c-a|0)+2|0,a-1|0);return aO(g)}}if(e&&a<c){var
+i=cv(c,48);bR(b,0,i,c-a|0,a);return aO(i)}return b}function
+oB(k){var
+j=0,C=J(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bI(k,j)+mr|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bO(k,j)+mF|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bZ(k),a=[0,0],t=a1(e)-1|0,y=0;if(!(t<0)){var
+e=b6(k),a=[0,0],t=a4(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dp(e,i),g=0;if(32<=f){var
+f=du(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1432,14 +1432,14 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a1(e)){var
-r=a1(e),s=ao(r);ck(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a4(e)){var
+r=a4(e),s=ar(r);ct(e,0,s,0,r);var
 v=s}else{var
-b=ao(a[1]);a[1]=0;var
-u=a1(e)-1|0,z=0;if(!(u<0)){var
+b=ar(a[1]);a[1]=0;var
+u=a4(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dp(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hn<=c)d=1;else
+c=du(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hu<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1449,16 +1449,16 @@ switch(c){case
 9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
 10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
 13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
-1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/l5|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
+1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/mh|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
 2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
 3:ak(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aM(v)}var
-w=I(o),x=cm(w+2|0,34);bG(o,0,x,1,w);return aM(x)}}function
-ik(d,f){var
-g=eg(f),e=pc[1];switch(d[2]){case
+o=aO(v)}var
+w=J(o),x=cv(w+2|0,34);bM(o,0,x,1,w);return aO(x)}}function
+is(d,f){var
+g=em(f),e=pq[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=k4;break;case
+b=lf;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=ig(16);cQ(c,37);switch(d[1]){case
+c=io(16);cU(c,37);switch(d[1]){case
 0:break;case
-1:cQ(c,43);break;default:cQ(c,32)}if(8<=d[2])cQ(c,35);cQ(c,46);aF(c,a(t+g));cQ(c,b);return ii(c)}function
-ei(m,a){if(13<=m){var
-g=[0,0],h=I(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bI(a,c)+he>>>0))g[1]++;var
+1:cU(c,43);break;default:cU(c,32)}if(8<=d[2])cU(c,35);cU(c,46);aJ(c,a(t+g));cU(c,b);return iq(c)}function
+eo(m,a){if(13<=m){var
+g=[0,0],h=J(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bO(a,c)+hl>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ao(I(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cM(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=I(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ar(J(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cQ(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=J(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bI(a,b);if(9<f+he>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bO(a,b);if(9<f+hl>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aM(j)}return a}function
-pd(b,c){switch(b){case
+b=p;continue}break}}return aO(j)}return a}function
+pr(b,c){switch(b){case
 1:var
-a=op;break;case
-2:var
-a=oq;break;case
-4:var
-a=os;break;case
-5:var
-a=ot;break;case
-6:var
-a=ou;break;case
-7:var
-a=ov;break;case
-8:var
-a=ow;break;case
-9:var
-a=ox;break;case
-10:var
-a=oy;break;case
-11:var
-a=oz;break;case
-0:case
-13:var
-a=oo;break;case
-3:case
-14:var
-a=or;break;default:var
-a=oA}return ei(b,fs(a,c))}function
-pe(b,c){switch(b){case
-1:var
-a=oP;break;case
-2:var
-a=oQ;break;case
-4:var
-a=oS;break;case
-5:var
-a=oT;break;case
-6:var
-a=oU;break;case
-7:var
-a=oV;break;case
-8:var
-a=oW;break;case
-9:var
-a=oX;break;case
-10:var
-a=oY;break;case
-11:var
-a=oZ;break;case
-0:case
-13:var
-a=oO;break;case
-3:case
-14:var
-a=oR;break;default:var
-a=o0}return ei(b,fs(a,c))}function
-pf(b,c){switch(b){case
-1:var
-a=o2;break;case
-2:var
-a=o3;break;case
-4:var
-a=o5;break;case
-5:var
-a=o6;break;case
-6:var
-a=o7;break;case
-7:var
-a=o8;break;case
-8:var
-a=o9;break;case
-9:var
-a=o_;break;case
-10:var
-a=o$;break;case
-11:var
-a=pa;break;case
-0:case
-13:var
-a=o1;break;case
-3:case
-14:var
-a=o4;break;default:var
-a=pb}return ei(b,fs(a,c))}function
-pg(b,c){switch(b){case
-1:var
-a=oC;break;case
-2:var
 a=oD;break;case
+2:var
+a=oE;break;case
 4:var
-a=oF;break;case
-5:var
 a=oG;break;case
-6:var
+5:var
 a=oH;break;case
-7:var
+6:var
 a=oI;break;case
-8:var
+7:var
 a=oJ;break;case
-9:var
+8:var
 a=oK;break;case
-10:var
+9:var
 a=oL;break;case
-11:var
+10:var
 a=oM;break;case
+11:var
+a=oN;break;case
 0:case
 13:var
-a=oB;break;case
+a=oC;break;case
 3:case
 14:var
-a=oE;break;default:var
-a=oN}return ei(b,A4(a,c))}function
-bM(c,i,b){function
+a=oF;break;default:var
+a=oO}return eo(b,fD(a,c))}function
+ps(b,c){switch(b){case
+1:var
+a=o3;break;case
+2:var
+a=o4;break;case
+4:var
+a=o6;break;case
+5:var
+a=o7;break;case
+6:var
+a=o8;break;case
+7:var
+a=o9;break;case
+8:var
+a=o_;break;case
+9:var
+a=o$;break;case
+10:var
+a=pa;break;case
+11:var
+a=pb;break;case
+0:case
+13:var
+a=o2;break;case
+3:case
+14:var
+a=o5;break;default:var
+a=pc}return eo(b,fD(a,c))}function
+pt(b,c){switch(b){case
+1:var
+a=pe;break;case
+2:var
+a=pf;break;case
+4:var
+a=ph;break;case
+5:var
+a=pi;break;case
+6:var
+a=pj;break;case
+7:var
+a=pk;break;case
+8:var
+a=pl;break;case
+9:var
+a=pm;break;case
+10:var
+a=pn;break;case
+11:var
+a=po;break;case
+0:case
+13:var
+a=pd;break;case
+3:case
+14:var
+a=pg;break;default:var
+a=pp}return eo(b,fD(a,c))}function
+pu(b,c){switch(b){case
+1:var
+a=oQ;break;case
+2:var
+a=oR;break;case
+4:var
+a=oT;break;case
+5:var
+a=oU;break;case
+6:var
+a=oV;break;case
+7:var
+a=oW;break;case
+8:var
+a=oX;break;case
+9:var
+a=oY;break;case
+10:var
+a=oZ;break;case
+11:var
+a=o0;break;case
+0:case
+13:var
+a=oP;break;case
+3:case
+14:var
+a=oS;break;default:var
+a=o1}return eo(b,BF(a,c))}function
+bS(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return A0(b,i,a)}function
+a=32}return BB(b,i,a)}function
 q(c){var
-a=AS(b);return 3===a?b<0.?pi:pj:4<=a?pk:c}switch(c[2]){case
+a=Bt(b);return 3===a?b<0.?pw:px:4<=a?py:c}switch(c[2]){case
 5:var
-e=hK(ik(c,i),b),d=0,u=I(e);for(;;){if(d===u)var
+e=hR(is(c,i),b),d=0,u=J(e);for(;;){if(d===u)var
 p=0;else{var
-k=U(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=V(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:ax(e,ph);return q(v)}case
+v=p?e:aA(e,pv);return q(v)}case
 6:return j(0);case
 7:var
-h=bZ(j(0)),f=a1(h);if(0===f)var
+h=b6(j(0)),f=a4(h);if(0===f)var
 o=h;else{var
-m=ao(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ar(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dp(h,a),s=25<g+lZ>>>0?g:g+mr|0;ak(m,a,s);var
+g=du(h,a),s=25<g+mb>>>0?g:g+mF|0;ak(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aM(o);case
-8:return q(j(0));default:return hK(ik(c,i),b)}}function
-d6(d,x,w,v){var
+o=m}return aO(o);case
+8:return q(j(0));default:return hR(is(c,i),b)}}function
+ea(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return K(b,[5,a,c],y)};case
+y=c[1];return function(c){return M(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=nu;else
-if(hn<=c)e=1;else
+d=nI;else
+if(hu<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nv;else
+d=nJ;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nw;break;case
+d=nK;break;case
 9:var
-d=nx;break;case
+d=nL;break;case
 10:var
-d=ny;break;case
+d=nM;break;case
 13:var
-d=nz;break;default:e=1}switch(e){case
+d=nN;break;default:e=1}switch(e){case
 1:var
-f=ao(4);ak(f,0,92);ak(f,1,48+(c/l5|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
-d=aM(f);break;case
+f=ar(4);ak(f,0,92);ak(f,1,48+(c/mh|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
+d=aO(f);break;case
 2:var
-g=ao(1);ak(g,0,c);var
-d=aM(g);break}var
-h=I(d),i=cm(h+2|0,39);bG(d,0,i,1,h);return K(b,[4,a,aM(i)],z)};case
+g=ar(1);ak(g,0,c);var
+d=aO(g);break}var
+h=J(d),i=cv(h+2|0,39);bM(d,0,i,1,h);return M(b,[4,a,aO(i)],z)};case
 2:var
-A=c[2],B=c[1];return fG(b,a,A,B,function(a){return a});case
-3:return fG(b,a,c[2],c[1],on);case
-4:return ej(b,a,c[4],c[2],c[3],pd,c[1]);case
-5:return ej(b,a,c[4],c[2],c[3],pe,c[1]);case
-6:return ej(b,a,c[4],c[2],c[3],pf,c[1]);case
-7:return ej(b,a,c[4],c[2],c[3],pg,c[1]);case
+A=c[2],B=c[1];return fR(b,a,A,B,function(a){return a});case
+3:return fR(b,a,c[2],c[1],oB);case
+4:return ep(b,a,c[4],c[2],c[3],pr,c[1]);case
+5:return ep(b,a,c[4],c[2],c[3],ps,c[1]);case
+6:return ep(b,a,c[4],c[2],c[3],pt,c[1]);case
+7:return ep(b,a,c[4],c[2],c[3],pu,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,bM(g,d,c)],h)}:function(c){return K(b,[4,a,bM(g,fE(g),c)],h)};var
-X=i[1];return function(c){return K(b,[4,a,bM(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return M(b,[4,a,bS(g,d,c)],h)}:function(c){return M(b,[4,a,bS(g,fP(g),c)],h)};var
+X=i[1];return function(c){return M(b,[4,a,bS(g,X,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return K(b,[4,a,aX(n,m,bM(g,d,c))],h)}:function(c){return K(b,[4,a,aX(n,m,bM(g,fE(g),c))],h)};var
-Y=i[1];return function(c){return K(b,[4,a,aX(n,m,bM(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return M(b,[4,a,aZ(n,m,bS(g,d,c))],h)}:function(c){return M(b,[4,a,aZ(n,m,bS(g,fP(g),c))],h)};var
+Y=i[1];return function(c){return M(b,[4,a,aZ(n,m,bS(g,Y,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return K(b,[4,a,aX(o,e,bM(g,d,c))],h)}:function(d,c){return K(b,[4,a,aX(o,d,bM(g,fE(g),c))],h)};var
-Z=i[1];return function(d,c){return K(b,[4,a,aX(o,d,bM(g,Z,c))],h)}}case
-9:return fG(b,a,c[2],c[1],np);case
+i==="number")return i?function(e,d,c){return M(b,[4,a,aZ(o,e,bS(g,d,c))],h)}:function(d,c){return M(b,[4,a,aZ(o,d,bS(g,fP(g),c))],h)};var
+Z=i[1];return function(d,c){return M(b,[4,a,aZ(o,d,bS(g,Z,c))],h)}}case
+9:return fR(b,a,c[2],c[1],nD);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=ig(16);fF(p,D);var
-u=ii(p);return function(c){return K(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=io(16);fQ(p,D);var
+u=iq(p);return function(c){return M(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=V(e,ah(an(F)));if(typeof
-c[2]==="number")return K(b,a,ad(c[1],E));throw ay};case
+e=d[1],c=W(e,ah(ap(F)));if(typeof
+c[2]==="number")return M(b,a,ae(c[1],E));throw aB};case
 15:var
-G=c[1];return function(d,c){return K(b,[6,a,function(a){return Q(d,a,c)}],G)};case
+G=c[1];return function(d,c){return M(b,[6,a,function(a){return Q(d,a,c)}],G)};case
 16:var
-H=c[1];return function(c){return K(b,[6,a,c],H)};case
+H=c[1];return function(c){return M(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-J=c[2],L=l[1][1],M=0,b=function(b,c,d){return function(a){return K(c,[1,b,[0,a]],d)}}(a,b,J),a=M,c=L;continue}var
-N=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return K(c,[1,b,[1,a]],d)}}(a,b,N),a=P,c=O;continue;case
-19:throw[0,ae,pm];case
+I=c[2],K=l[1][1],L=0,b=function(b,c,d){return function(a){return M(c,[1,b,[0,a]],d)}}(a,b,I),a=L,c=K;continue}var
+N=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return M(c,[1,b,[1,a]],d)}}(a,b,N),a=P,c=O;continue;case
+19:throw[0,af,pA];case
 20:var
-R=c[3],T=[8,a,pn];return function(a){return K(b,T,R)};case
+R=c[3],S=[8,a,pB];return function(a){return M(b,S,R)};case
 21:var
-U=c[2];return function(c){return K(b,[4,a,fs(po,c)],U)};case
+U=c[2];return function(c){return M(b,[4,a,fD(pC,c)],U)};case
 22:var
-W=c[1];return function(c){return K(b,[5,a,c],W)};case
+V=c[1];return function(c){return M(b,[5,a,c],V)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-2:throw[0,ae,pp];default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}else
+0:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+1:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+2:throw[0,af,pD];default:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-1:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-2:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-3:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-4:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-5:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-6:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-7:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
-8:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);case
+0:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+1:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+2:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+3:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+4:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+5:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+6:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+7:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+8:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?g$(d+1|0,b,a,t,f):aE(g$,[0,b,a,t,f]);case
-10:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f]);default:return d<50?S(d+1|0,b,a,f):aE(S,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?g_(d+1|0,b,a,q,r,s):aE(g_,[0,b,a,q,r,s])}}function
-g$(e,d,c,a,b){if(typeof
-a==="number")return e<50?S(e+1|0,d,c,b):aE(S,[0,d,c,b]);else
+t=k[2];return d<50?hg(d+1|0,b,a,t,f):aI(hg,[0,b,a,t,f]);case
+10:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);default:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?hf(d+1|0,b,a,q,r,s):aI(hf,[0,b,a,q,r,s])}}function
+hg(e,d,c,a,b){if(typeof
+a==="number")return e<50?T(e+1|0,d,c,b):aI(T,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a3(d,c,f,b)};case
+f=a[1];return function(a){return a6(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a3(d,c,g,b)};case
+g=a[1];return function(a){return a6(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a3(d,c,h,b)};case
+h=a[1];return function(a){return a6(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a3(d,c,i,b)};case
+i=a[1];return function(a){return a6(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a3(d,c,j,b)};case
+j=a[1];return function(a){return a6(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a3(d,c,k,b)};case
+k=a[1];return function(a){return a6(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a3(d,c,l,b)};case
+l=a[1];return function(a){return a6(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a3(d,c,m,b)};case
+m=a[1];return function(a){return a6(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a3(d,c,n,b)};case
+n=a[2];return function(a){return a6(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=aq(an(a[1]),p);return function(a){return a3(d,c,aN(q,o),b)};case
+o=a[3],p=a[2],q=at(ap(a[1]),p);return function(a){return a6(d,c,aP(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a3(d,c,r,b)};case
+r=a[1];return function(e,a){return a6(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a3(d,c,s,b)};case
+s=a[1];return function(a){return a6(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a3(d,c,t,b)};case
-13:throw[0,ae,pq];default:throw[0,ae,pr]}}function
-S(d,b,e,a){var
-c=[8,e,ps];return d<50?d6(d+1|0,b,c,a):aE(d6,[0,b,c,a])}function
-g_(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pl(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?d6(h+1|0,b,g,a):aE(d6,[0,b,g,a])}function
-K(a,b,c){return hW(d6(0,a,b,c))}function
-a3(a,b,c,d){return hW(g$(0,a,b,c,d))}function
-pl(a,b,c,d,e){return hW(g_(0,a,b,c,d,e))}function
-fG(f,d,c,a,b){if(typeof
-a==="number")return function(a){return K(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return K(f,[4,d,aX(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return K(f,[4,d,aX(i,g,e(b,a))],c)}}}function
-ej(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a6(d,c,t,b)};case
+13:throw[0,af,pE];default:throw[0,af,pF]}}function
+T(d,b,e,a){var
+c=[8,e,pG];return d<50?ea(d+1|0,b,c,a):aI(ea,[0,b,c,a])}function
+hf(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return pz(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?ea(h+1|0,b,g,a):aI(ea,[0,b,g,a])}function
+M(a,b,c){return h3(ea(0,a,b,c))}function
+a6(a,b,c,d){return h3(hg(0,a,b,c,d))}function
+pz(a,b,c,d,e){return h3(hf(0,a,b,c,d,e))}function
+fR(f,d,c,a,b){if(typeof
+a==="number")return function(a){return M(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return M(f,[4,d,aZ(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return M(f,[4,d,aZ(i,g,e(b,a))],c)}}}function
+ep(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,cR(g,Q(b,a,c))],d)}:function(c){return K(f,[4,e,Q(b,a,c)],d)};var
-k=c[1];return function(c){return K(f,[4,e,cR(k,Q(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return M(f,[4,e,cV(g,Q(b,a,c))],d)}:function(c){return M(f,[4,e,Q(b,a,c)],d)};var
+k=c[1];return function(c){return M(f,[4,e,cV(k,Q(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return K(f,[4,e,aX(i,h,cR(g,Q(b,a,c)))],d)}:function(c){return K(f,[4,e,aX(i,h,Q(b,a,c))],d)};var
-l=c[1];return function(c){return K(f,[4,e,aX(i,h,cR(l,Q(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return M(f,[4,e,aZ(i,h,cV(g,Q(b,a,c)))],d)}:function(c){return M(f,[4,e,aZ(i,h,Q(b,a,c))],d)};var
+l=c[1];return function(c){return M(f,[4,e,aZ(i,h,cV(l,Q(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return K(f,[4,e,aX(j,h,cR(g,Q(b,a,c)))],d)}:function(g,c){return K(f,[4,e,aX(j,g,Q(b,a,c))],d)};var
-m=c[1];return function(g,c){return K(f,[4,e,aX(j,g,cR(m,Q(b,a,c)))],d)}}}function
-bN(b,f){var
+c==="number")return c?function(h,g,c){return M(f,[4,e,aZ(j,h,cV(g,Q(b,a,c)))],d)}:function(g,c){return M(f,[4,e,aZ(j,g,Q(b,a,c))],d)};var
+m=c[1];return function(g,c){return M(f,[4,e,aZ(j,g,cV(m,Q(b,a,c)))],d)}}}function
+bT(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=ij(a[2]);bN(b,g);return du(b,h);case
+g=a[1],h=ir(a[2]);bT(b,g);return dz(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bN(b,d);du(b,pt);var
+i=c[1];bT(b,d);dz(b,pH);var
 a=i;continue}var
-j=c[1];bN(b,d);du(b,pu);var
+j=c[1];bT(b,d);dz(b,pI);var
 a=j;continue;case
 6:var
-m=a[2];bN(b,a[1]);return e(m,b);case
-7:bN(b,a[1]);return dr(b);case
+m=a[2];bT(b,a[1]);return e(m,b);case
+7:bT(b,a[1]);return dw(b);case
 8:var
-n=a[2];bN(b,a[1]);return b4(n);case
+n=a[2];bT(b,a[1]);return b_(n);case
 2:case
 4:var
-k=a[2];bN(b,a[1]);return du(b,k);default:var
-l=a[2];bN(b,a[1]);return nb(b,l)}}function
-b6(b,g){var
+k=a[2];bT(b,a[1]);return dz(b,k);default:var
+l=a[2];bT(b,a[1]);return np(b,l)}}function
+ca(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=ij(a[2]);b6(b,h);return dx(b,i);case
+h=a[1],i=ir(a[2]);ca(b,h);return dC(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];b6(b,f);dx(b,pv);var
+j=d[1];ca(b,f);dC(b,pJ);var
 a=j;continue}var
-k=d[1];b6(b,f);dx(b,pw);var
+k=d[1];ca(b,f);dC(b,pK);var
 a=k;continue;case
 6:var
-n=a[2];b6(b,a[1]);return dx(b,e(n,0));case
+n=a[2];ca(b,a[1]);return dC(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];b6(b,a[1]);return b4(o);case
+o=a[2];ca(b,a[1]);return b_(o);case
 2:case
 4:var
-l=a[2];b6(b,a[1]);return dx(b,l);default:var
-m=a[2];b6(b,a[1]);var
-c=b[2];if(b[3]<=c)ie(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
-il(d,c){var
-a=c[1],b=0;return K(function(a){bN(d,a);return 0},b,a)}function
-fH(a){return il(bK,a)}function
-bn(b){var
-a=b[1];return K(function(d){var
-e=64,b=dv<64?dv:e,c=ao(b),a=[0,c,0,b,c];b6(a,d);return h$(a[1],0,a[2])},0,a)}var
-ek=[0,0];function
-fJ(i,h){var
+l=a[2];ca(b,a[1]);return dC(b,l);default:var
+m=a[2];ca(b,a[1]);var
+c=b[2];if(b[3]<=c)im(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
+it(d,c){var
+a=c[1],b=0;return M(function(a){bT(d,a);return 0},b,a)}function
+fS(a){return it(bQ,a)}function
+bs(b){var
+a=b[1];return M(function(d){var
+e=64,b=dA<64?dA:e,c=ar(b),a=[0,c,0,b,c];ca(a,d);return ih(a[1],0,a[2])},0,a)}var
+eq=[0,0];function
+fU(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fx(a)===fo)return e(bn(px),a);if(fx(a)===253){var
-c=hK(nt,a),b=0,g=I(c);for(;;){if(g<=b)return ax(c,ns);var
-d=U(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fI(a)===fz)return e(bs(pL),a);if(fI(a)===253){var
+c=hR(nH,a),b=0,g=J(c);for(;;){if(g<=b)return aA(c,nG);var
+d=V(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return py}return e(bn(pz),a)}function
-im(b,a){if(b.length-1<=a)return pA;var
-c=im(b,a+1|0),d=fJ(b,a);return Q(bn(pB),d,c)}function
-fK(a){function
+b=b+1|0;continue}return c}}return pM}return e(bs(pN),a)}function
+iu(b,a){if(b.length-1<=a)return pO;var
+c=iu(b,a+1|0),d=fU(b,a);return Q(bs(pP),d,c)}function
+fV(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(ek[1]);if(h)return h[1];if(a===fC)return pG;if(a===h5)return pH;if(a[1]===h4){var
-c=a[2],i=c[3],p=c[2],q=c[1];return ha(bn(fI),q,p,i,i+5|0,pI)}if(a[1]===ae){var
-d=a[2],j=d[3],r=d[2],s=d[1];return ha(bn(fI),s,r,j,j+6|0,pJ)}if(a[1]===h7){var
-f=a[2],k=f[3],t=f[2],u=f[1];return ha(bn(fI),u,t,k,k+6|0,pK)}if(0===fx(a)){var
+h=o(eq[1]);if(h)return h[1];if(a===fN)return pU;if(a===ia)return pV;if(a[1]===h$){var
+c=a[2],i=c[3],p=c[2],q=c[1];return hh(bs(fT),q,p,i,i+5|0,pW)}if(a[1]===af){var
+d=a[2],j=d[3],r=d[2],s=d[1];return hh(bs(fT),s,r,j,j+6|0,pX)}if(a[1]===ic){var
+f=a[2],k=f[3],t=f[2],u=f[1];return hh(bs(fT),u,t,k,k+6|0,pY)}if(0===fI(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=im(a,2),m=fJ(a,1),b=Q(bn(pC),m,l);else
+l=iu(a,2),m=fU(a,1),b=Q(bs(pQ),m,l);else
 switch(g){case
 0:var
-b=pD;break;case
+b=pR;break;case
 1:var
-b=pE;break;default:var
-n=fJ(a,1),b=e(bn(pF),n)}return ax(v,b)}return a[1]}function
-fL(t,s){var
-d=AU(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=pS;break;default:var
+n=fU(a,1),b=e(bs(pT),n)}return aA(v,b)}return a[1]}function
+fW(t,s){var
+d=Bv(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=m1(d,b)[1+b],f=function(a){return function(b){return b?0===a?pL:pM:0===a?pN:pO}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?pP:pR,l=a[2],m=a[7],n=f(a[1]),c=[0,AJ(bn(pQ),n,m,l,k,j,i,h)];else
+a=nd(d,b)[1+b],f=function(a){return function(b){return b?0===a?pZ:p0:0===a?p1:p2}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?p3:p5,l=a[2],m=a[7],n=f(a[1]),c=[0,Bk(bs(p4),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bn(pS),o)];if(c){var
-q=c[1];e(il(t,pT),q)}var
+o=f(0),c=[0,e(bs(p6),o)];if(c){var
+q=c[1];e(it(t,p7),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-io(c){for(;;){var
-a=ek[1],d=[0,c,a],e=ek[1]===a?(ek[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-pV=pU.slice();function
-pW(d,c){var
-f=fK(d);e(fH(pX),f);fL(bK,c);var
-a=Bh(0);if(a<0){var
-b=eg(a);h8(m1(pV,b)[1+b])}return dr(bK)}var
-pY=[0];hU(a(k6),function(d,i){try{try{var
-b=i?pY:m7(0);try{fD(0)}catch(a){}try{var
-a=pW(d,b),c=a}catch(a){a=fA(a);var
-g=fK(d);e(fH(p0),g);fL(bK,b);var
-h=fK(a);e(fH(p1),h);fL(bK,m7(0));var
-c=dr(bK)}var
-f=c}catch(a){a=fA(a);if(a!==fC)throw a;var
-f=h8(pZ)}return f}catch(a){return 0}});var
-ip=[au,p3,ft(0)],fM=[0,ip,[0]],p2=fx(fM)===au?fM:fM[1];hU(a(hg),p2);(function(a){throw a});var
-p4=v.Array;io(function(a){return a[1]===ip?[0,bm(a[2].toString())]:0});io(function(a){return a
+iv(c){for(;;){var
+a=eq[1],d=[0,c,a],e=eq[1]===a?(eq[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+p9=p8.slice();function
+p_(d,c){var
+f=fV(d);e(fS(p$),f);fW(bQ,c);var
+a=BU(0);if(a<0){var
+b=em(a);id(nd(p9,b)[1+b])}return dw(bQ)}var
+qa=[0];h1(a(lh),function(d,i){try{try{var
+b=i?qa:nj(0);try{fO(0)}catch(a){}try{var
+a=p_(d,b),c=a}catch(a){a=fL(a);var
+g=fV(d);e(fS(qc),g);fW(bQ,b);var
+h=fV(a);e(fS(qd),h);fW(bQ,nj(0));var
+c=dw(bQ)}var
+f=c}catch(a){a=fL(a);if(a!==fN)throw a;var
+f=id(qb)}return f}catch(a){return 0}});var
+iw=[ax,qf,fE(0)],fX=[0,iw,[0]],qe=fI(fX)===ax?fX:fX[1];h1(a(hn),qe);(function(a){throw a});var
+qg=v.Array;iv(function(a){return a[1]===iw?[0,bq(a[2].toString())]:0});iv(function(a){return a
 instanceof
-p4?0:[0,bm(a.toString())]});var
-d=a2(0),c=a2(1);function
-n(a){return C(a,c)}function
-iq(b,a){return C(a2(b),a)}function
-b(b,a){return r(a2(b),a)}function
-bo(b,a){return[0,hZ(b,a),nl(b,a)]}function
-fN(b,a){return D(b,a)?b:a}function
-cn(b,a){return D(b,a)?a:b}function
-aK(a){return a?0:1}function
-af(b,a){var
+qg?0:[0,bq(a.toString())]});var
+d=a5(0),c=a5(1);function
+p(a){return y(a,c)}function
+ix(b,a){return y(a5(b),a)}function
+b(b,a){return s(a5(b),a)}function
+bt(b,a){return[0,h6(b,a),nz(b,a)]}function
+fY(b,a){return H(b,a)?b:a}function
+bU(b,a){return H(b,a)?a:b}function
+aC(a){return a?0:1}function
+Z(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dz(a){return a[1]}function
-dA(a){return a[2]}function
+dE(a){return a[1]}function
+cW(a){return a[2]}function
 l(a){var
 b=a?[0,l(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-ir(a){return typeof
-a==="number"?0:[0,ir(a[1])]}function
-is(d,c){var
+iy(a){return typeof
+a==="number"?0:[0,iy(a[1])]}function
+iz(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-el(a){return is(a,0)}function
-it(a){if(typeof
-a==="number")return p6;else
+er(a){return iz(a,0)}function
+iA(a){if(typeof
+a==="number")return qi;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,150 +1944,150 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,it(a[1])]}}function
-bb(a){if(typeof
-a==="number")return p7;else
+8:return[9,a[1]];default:return[0,iA(a[1])]}}function
+be(a){if(typeof
+a==="number")return qj;else
 switch(a[0]){case
-0:return[1,ba(a[1])];case
-1:return[3,ba(a[1])];case
-2:return[5,ba(a[1])];case
-3:return[7,ba(a[1])];case
-4:return[9,ba(a[1])];case
-5:return[1,bb(a[1])];case
-6:return[3,bb(a[1])];case
-7:return[5,bb(a[1])];case
-8:return[7,bb(a[1])];default:return[9,bb(a[1])]}}function
-ba(a){if(typeof
+0:return[1,bd(a[1])];case
+1:return[3,bd(a[1])];case
+2:return[5,bd(a[1])];case
+3:return[7,bd(a[1])];case
+4:return[9,bd(a[1])];case
+5:return[1,be(a[1])];case
+6:return[3,be(a[1])];case
+7:return[5,be(a[1])];case
+8:return[7,be(a[1])];default:return[9,be(a[1])]}}function
+bd(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ba(a[1])];case
-1:return[2,ba(a[1])];case
-2:return[4,ba(a[1])];case
-3:return[6,ba(a[1])];case
-4:return[8,ba(a[1])];case
-5:return[0,bb(a[1])];case
-6:return[2,bb(a[1])];case
-7:return[4,bb(a[1])];case
-8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
-bO(a){return a?a[1]:a}function
-J(b,a){return b?[0,J(b[1],a)]:a}function
-dB(a,b){return a?J(b,dB(a[1],b)):a}function
-dC(b,a){return b?a:a?0:1}function
-M(d,c){var
+0:return[0,bd(a[1])];case
+1:return[2,bd(a[1])];case
+2:return[4,bd(a[1])];case
+3:return[6,bd(a[1])];case
+4:return[8,bd(a[1])];case
+5:return[0,be(a[1])];case
+6:return[2,be(a[1])];case
+7:return[4,be(a[1])];case
+8:return[6,be(a[1])];default:return[8,be(a[1])]}}function
+bV(a){return a?a[1]:a}function
+K(b,a){return b?[0,K(b[1],a)]:a}function
+dF(a,b){return a?K(b,dF(a[1],b)):a}function
+dG(b,a){return b?a:a?0:1}function
+E(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-$(d,c){var
+ac(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-iu(b,a){return $([0,b],a)}function
-iv(c){var
+iB(b,a){return ac([0,b],a)}function
+iC(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fO(c,b,a){return c?e(b,fO(c[1],b,a)):a}function
-iw(a){if(a)var
-b=a[1],d=b?[0,iw(b[1])]:b,c=d;else
+fZ(c,b,a){return c?e(b,fZ(c[1],b,a)):a}function
+iD(a){if(a)var
+b=a[1],d=b?[0,iD(b[1])]:b,c=d;else
 var
 c=a;return c}function
-em(a){if(D(a,c))return c;var
-b=bo(a,a2(2)),e=b[1];return al(b[2],d)?n(em(e)):n(em(e))}function
-en(c,b){var
-a=hY(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-ix(b,i,h){var
-e=i,a=h;for(;;){if(D(e,c))return a;var
-f=bo(e,a2(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=Q(b,a,a);continue}return Q(b,a,ix(b,g,Q(b,a,a)))}}function
-dD(a){return ix(J,a,p9)}function
-fP(a){return a?n(fP(a[1])):c}function
-bP(f,e){var
+es(a){if(H(a,c))return c;var
+b=bt(a,a5(2)),e=b[1];return al(b[2],d)?p(es(e)):p(es(e))}function
+et(c,b){var
+a=h5(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+iE(b,i,h){var
+e=i,a=h;for(;;){if(H(e,c))return a;var
+f=bt(e,a5(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=Q(b,a,a);continue}return Q(b,a,iE(b,g,Q(b,a,a)))}}function
+dH(a){return iE(K,a,ql)}function
+f0(a){return a?p(f0(a[1])):c}function
+bW(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=r(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=s(b(2,p(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=C(c,r(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=y(c,s(b(2,p(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=r(b(2,n(b(2,b(2,c)))),d),j=C(b(2,c),i),a=a[1],d=j;continue;case
+i=s(b(2,p(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=r(b(2,n(b(2,b(2,c)))),d),l=C(n(b(2,c)),k),a=a[1],d=l;continue;case
+k=s(b(2,p(b(2,b(2,c)))),d),l=y(p(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=r(b(2,n(b(2,b(2,c)))),d),o=C(b(2,b(2,c)),m),a=a[1],d=o;continue;case
+m=s(b(2,p(b(2,b(2,c)))),d),n=y(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=r(b(2,n(b(2,b(2,c)))),d),q=C(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+o=s(b(2,p(b(2,b(2,c)))),d),q=y(p(b(2,b(2,c))),o),a=a[1],d=q;continue;case
 6:var
-s=r(b(2,n(b(2,b(2,c)))),d),t=C(b(2,n(b(2,c))),s),a=a[1],d=t;continue;case
+r=s(b(2,p(b(2,b(2,c)))),d),t=y(b(2,p(b(2,c))),r),a=a[1],d=t;continue;case
 7:var
-u=r(b(2,n(b(2,b(2,c)))),d),v=C(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
+u=s(b(2,p(b(2,b(2,c)))),d),v=y(p(b(2,p(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=r(b(2,n(b(2,b(2,c)))),d),x=C(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=r(b(2,n(b(2,b(2,c)))),d),z=C(n(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fQ(a){if(D(a,c))return p_;var
-b=bo(a,a2(2)),e=b[1];return al(b[2],d)?ba(fQ(e)):bb(fQ(e))}function
-eo(a){return el(fQ(a))}function
-iy(k,f){if(0<=bJ(f)){var
-g=h0(f);if(0<=g){var
+w=s(b(2,p(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+z=s(b(2,p(b(2,b(2,c)))),d),A=y(p(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
+f1(a){if(H(a,c))return qm;var
+b=bt(a,a5(2)),e=b[1];return al(b[2],d)?bd(f1(e)):be(f1(e))}function
+eu(a){return er(f1(a))}function
+iF(k,f){if(0<=bP(f)){var
+g=h7(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=r(b,b),j=1===(a&1)?r(e,b):e,e=j,b=i,a=h;continue}}return b4(p5)}return d}function
-iz(a){return 0<=bJ(a)?a:d}function
-fR(a){var
-b=bJ(a);return 0===b?c:0<b?a:c}function
-iA(m){var
+h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return b_(qh)}return d}function
+iG(a){return 0<=bP(a)?a:d}function
+f2(a){var
+b=bP(a);return 0===b?c:0<b?a:c}function
+iH(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bP(a[1],c);case
+1:return bW(a[1],c);case
 2:var
-e=b(2,c);return bP(a[1],e);case
+e=b(2,c);return bW(a[1],e);case
 3:var
-f=n(b(2,c));return bP(a[1],f);case
+f=p(b(2,c));return bW(a[1],f);case
 4:var
-g=b(2,b(2,c));return bP(a[1],g);case
+g=b(2,b(2,c));return bW(a[1],g);case
 5:var
-h=n(b(2,b(2,c)));return bP(a[1],h);case
+h=p(b(2,b(2,c)));return bW(a[1],h);case
 6:var
-i=b(2,n(b(2,c)));return bP(a[1],i);case
+i=b(2,p(b(2,c)));return bW(a[1],i);case
 7:var
-j=n(b(2,n(b(2,c))));return bP(a[1],j);case
+j=p(b(2,p(b(2,c))));return bW(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
-l=n(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
-b7(b,a){var
-c=bJ(a);return 0===c?d:1===c?hZ(b,a):iq(-1,hZ(iq(-1,b),a))}function
-iB(a){return 0<bJ(a)?BC(a):d}function
-dE(b,c){var
-a=h0(c);return 0<=a?nm(b,a):nn(b,-a|0)}function
-cS(b,c){var
-a=h0(c);return 0<=a?nn(b,a):nm(b,-a|0)}function
-ep(b,a){return a?a[1]:b}function
-fS(a){var
+k=b(2,b(2,b(2,c)));return bW(a[1],k);default:var
+l=p(b(2,b(2,b(2,c))));return bW(a[1],l)}}function
+cb(b,a){var
+c=bP(a);return 0===c?d:1===c?h6(b,a):ix(-1,h6(ix(-1,b),a))}function
+iI(a){return 0<bP(a)?Cd(a):d}function
+dI(b,c){var
+a=h7(c);return 0<=a?nA(b,a):nB(b,-a|0)}function
+cX(b,c){var
+a=h7(c);return 0<=a?nB(b,a):nA(b,-a|0)}function
+ev(b,a){return a?a[1]:b}function
+f3(a){var
 b=a?a[2]:a;return b}function
-E(e,d,c){var
+z(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 ai(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iC(a){if(a){var
-b=[0,a[1],0];return g(iC(a[2]),b)}return a}function
-iD(d,c){var
+iJ(a){if(a){var
+b=[0,a[1],0];return g(iJ(a[2]),b)}return a}function
+iK(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-z(b,a){if(a){var
-c=z(b,a[2]);return g(e(b,a[1]),c)}return a}function
-iE(e,d,c){var
+C(b,a){if(a){var
+c=C(b,a[2]);return g(e(b,a[1]),c)}return a}function
+f4(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=Q(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cT(c,b,a){if(a){var
-d=cT(c,b,a[2]);return Q(c,a[1],d)}return b}function
-a4(f,d){var
+cw(c,b,a){if(a){var
+d=cw(c,b,a[2]);return Q(c,a[1],d)}return b}function
+aT(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2098,187 +2098,188 @@ o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fT(b,f){var
+dJ(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,fT(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,dJ(b,c)];var
 a=c;continue}return a}}function
-co(b,a){if(b)if(a)var
-d=co(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+bX(b,a){if(b)if(a)var
+d=bX(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eq(b,a){if(b)if(a)var
-d=eq(b[1],a[2]),c=[0,a[1],d];else
+ew(b,a){if(b)if(a)var
+d=ew(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-iF(d,c){var
+iL(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cU(b,a){var
-c=a?[0,b,cU([0,b],a[1])]:a;return c}function
-cp(b,a){var
-c=a?[0,b,cp(b,a[1])]:a;return c}function
-iG(a){if(a){var
-e=iG(a[2]),f=r(b(2,c),e),g=a[1]?c:d;return C(g,f)}return d}function
-er(j){function
+cx(b,a){var
+c=a?[0,b,cx([0,b],a[1])]:a;return c}function
+bu(b,a){var
+c=a?[0,b,bu(b,a[1])]:a;return c}function
+iM(a){if(a){var
+e=iM(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
+ex(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iG([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bJ(b)?dD(b):0}function
-iH(c,b){var
-a=hY(r(c[1],b[2]),r(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iI(b,a){return D(r(b[1],a[2]),r(a[1],b[2]))}function
-iJ(b,a){return[0,C(r(b[1],a[2]),r(a[1],b[2])),r(b[2],a[2])]}function
-iK(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
-aY(a){if(typeof
-a==="number")return qb;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iM([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bP(b)?dH(b):0}function
+iN(c,b){var
+a=h5(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+iO(b,a){return H(s(b[1],a[2]),s(a[1],b[2]))}function
+iP(b,a){return[0,y(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
+iQ(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
+a0(a){if(typeof
+a==="number")return qp;else
 switch(a[0]){case
 0:var
-b=aY(a[1]);return ax(a7(1,48),b);case
+b=a0(a[1]);return aA(a8(1,48),b);case
 1:var
-c=aY(a[1]);return ax(a7(1,49),c);case
+c=a0(a[1]);return aA(a8(1,49),c);case
 2:var
-d=aY(a[1]);return ax(a7(1,50),d);case
+d=a0(a[1]);return aA(a8(1,50),d);case
 3:var
-e=aY(a[1]);return ax(a7(1,51),e);case
+e=a0(a[1]);return aA(a8(1,51),e);case
 4:var
-f=aY(a[1]);return ax(a7(1,52),f);case
+f=a0(a[1]);return aA(a8(1,52),f);case
 5:var
-g=aY(a[1]);return ax(a7(1,53),g);case
+g=a0(a[1]);return aA(a8(1,53),g);case
 6:var
-h=aY(a[1]);return ax(a7(1,54),h);case
+h=a0(a[1]);return aA(a8(1,54),h);case
 7:var
-i=aY(a[1]);return ax(a7(1,55),i);case
+i=a0(a[1]);return aA(a8(1,55),i);case
 8:var
-j=aY(a[1]);return ax(a7(1,56),j);default:var
-k=aY(a[1]);return ax(a7(1,57),k)}}function
-dF(a){return typeof
-a==="number"?qc:aY(a)}function
-cq(a){return iy(b(2,c),a)}function
-iL(b,a){return cS(a,b)}function
-iM(b,a){return Z(cS(Z(a),b))}function
-es(b,a){return Z(b7(Z(b),a))}function
-aL(c,b){var
-a=dE(b,c);return[0,a,a]}function
-A(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-N(b,a){return[0,b3(b[1],a[2]),b3(b[2],a[1])]}function
-aH(a){return[0,Z(a[2]),Z(a[1])]}function
-iN(e,c,b,a){if(D(d,e))return D(d,b)?[0,r(e,b),r(c,a)]:D(a,d)?[0,r(c,b),r(e,a)]:[0,r(c,b),r(c,a)];if(D(c,d))return D(d,b)?[0,r(e,a),r(c,b)]:D(a,d)?[0,r(c,a),r(e,b)]:[0,r(e,a),r(e,b)];if(D(d,b))return[0,r(e,a),r(c,a)];if(D(a,d))return[0,r(c,b),r(e,b)];var
-f=cn(r(e,b),r(c,a));return[0,fN(r(e,a),r(c,b)),f]}function
-F(c,b,a){var
-d=iN(b[1],b[2],a[1],a[2]),e=iM(c,d[2]);return[0,iL(c,d[1]),e]}function
-aa(b,a){var
-c=r(a[1],a[1]),e=r(a[2],a[2]),h=iM(b,cn(c,e)),g=0;if(ac(a[1],d)&&ac(d,a[2])){var
+j=a0(a[1]);return aA(a8(1,56),j);default:var
+k=a0(a[1]);return aA(a8(1,57),k)}}function
+dK(a){return typeof
+a==="number"?qq:a0(a)}function
+cy(a){return iF(b(2,c),a)}function
+iR(b,a){return cX(a,b)}function
+iS(b,a){return Y(cX(Y(a),b))}function
+ey(b,a){return Y(cb(Y(b),a))}function
+au(c,b){var
+a=dI(b,c);return[0,a,a]}function
+B(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+N(b,a){return[0,br(b[1],a[2]),br(b[2],a[1])]}function
+am(a){return[0,Y(a[2]),Y(a[1])]}function
+iT(e,c,b,a){if(H(d,e))return H(d,b)?[0,s(e,b),s(c,a)]:H(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(H(c,d))return H(d,b)?[0,s(e,a),s(c,b)]:H(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(H(d,b))return[0,s(e,a),s(c,a)];if(H(a,d))return[0,s(c,b),s(e,b)];var
+f=bU(s(e,b),s(c,a));return[0,fY(s(e,a),s(c,b)),f]}function
+D(c,b,a){var
+d=iT(b[1],b[2],a[1],a[2]),e=iS(c,d[2]);return[0,iR(c,d[1]),e]}function
+R(b,a){var
+c=s(a[1],a[1]),e=s(a[2],a[2]),h=iS(b,bU(c,e)),g=0;if(aa(a[1],d)&&aa(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iL(b,fN(c,e));return[0,f,h]}function
-iO(b,a){var
-c=dE(cq(b),b),d=es(c,a[1]);return[0,b7(c,a[2]),d]}function
-cr(b,a){if(ac(d,a[1]))return[0,iO(b,a)];var
-c=ac(a[2],d),e=c?[0,aH(iO(b,aH(a)))]:c;return e}function
-cs(f,b){var
-g=ac(d,b[1]);if(g)var
-e=dE(b[2],f),a=iB(e),i=al(r(a,a),e)?a:C(a,c),h=[0,[0,iB(dE(b[1],f)),i]];else
+f=iR(b,fY(c,e));return[0,f,h]}function
+iU(b,a){var
+c=dI(cy(b),b),d=ey(c,a[1]);return[0,cb(c,a[2]),d]}function
+cc(b,a){if(aa(d,a[1]))return[0,iU(b,a)];var
+c=aa(a[2],d),e=c?[0,am(iU(b,am(a)))]:c;return e}function
+cz(f,b){var
+g=aa(d,b[1]);if(g)var
+e=dI(b[2],f),a=iI(e),i=al(s(a,a),e)?a:y(a,c),h=[0,[0,iI(dI(b[1],f)),i]];else
 var
 h=g;return h}function
-a8(e,d,c,b,a){if(b){if(a){var
-g=a8(e,d,c,b[2],a[2]);return[0,Q(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-b8(b,a){return cS(b,a)}function
-bQ(a,c,b){if(D(d,a)){var
-e=b[1],f=Z(b8(Z(r(a,b[2])),c));return[0,b8(r(a,e),c),f]}var
-g=b[2],h=Z(b8(Z(r(a,b[1])),c));return[0,b8(r(a,g),c),h]}function
-et(a){var
-b=Z(cS(Z(a[2]),c));return[0,cS(a[1],c),b]}function
-fU(c,b,a){var
-e=iN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ac(f,d)?a[2]:a[1],i=es(f,h),j=ac(g,d)?a[1]:a[2];return[0,b7(g,j),i]}var
-O=[0,d,d];function
-fV(a){return[0,a[1],a[1]]}function
-eu(a){return[0,a[2],a[2]]}function
-az(a,b){switch(b[0]){case
+a9(e,d,c,b,a){if(b){if(a){var
+g=a9(e,d,c,b[2],a[2]);return[0,Q(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+cd(b,a){return cX(b,a)}function
+bv(a,c,b){if(H(d,a)){var
+e=b[1],f=Y(cd(Y(s(a,b[2])),c));return[0,cd(s(a,e),c),f]}var
+g=b[2],h=Y(cd(Y(s(a,b[1])),c));return[0,cd(s(a,g),c),h]}function
+dL(a){var
+b=Y(cX(Y(a[2]),c));return[0,cX(a[1],c),b]}function
+f5(c,b,a){var
+e=iT(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=aa(f,d)?a[2]:a[1],i=ey(f,h),j=aa(g,d)?a[1]:a[2];return[0,cb(g,j),i]}function
+f6(a){return bU(a[2],Y(a[1]))}var
+L=[0,d,d];function
+f7(a){return[0,a[1],a[1]]}function
+dM(a){return[0,a[2],a[2]]}function
+aD(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dE(b[1],a),t=es(m,n);return[0,[0,b7(m,n),t]];case
+n=b[2],m=dI(b[1],a),t=ey(m,n);return[0,[0,cb(m,n),t]];case
 1:var
-c=az(a,b[1]);if(c)var
-d=az(a,b[2]),u=d?[0,A(c[1],d[1])]:d,o=u;else
+c=aD(a,b[1]);if(c)var
+d=aD(a,b[2]),u=d?[0,B(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=az(a,b[1]);if(e)var
-f=az(a,b[2]),v=f?[0,N(e[1],f[1])]:f,p=v;else
+e=aD(a,b[1]);if(e)var
+f=aD(a,b[2]),v=f?[0,N(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=az(a,b[1]);if(g)var
-h=az(a,b[2]),w=h?[0,F(a,g[1],h[1])]:h,q=w;else
+g=aD(a,b[1]);if(g)var
+h=aD(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=az(a,b[1]);if(i){var
-j=az(a,b[2]);if(j)var
-k=cr(a,j[1]),x=k?[0,F(a,i[1],k[1])]:k,r=x;else
+i=aD(a,b[1]);if(i){var
+j=aD(a,b[2]);if(j)var
+k=cc(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=az(a,b[1]);return l?cs(a,l[1]):l}}function
-iP(a){var
-e=cn(Z(a),d);return fR(C(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iQ(a){return iz(C(iP(a),a))}function
-b9(f,a,e){var
-b=az(C(f,iP(a)),e);if(b)var
-c=b[1],g=iQ(a),h=Z(b8(Z(c[2]),g)),i=iQ(a),d=[0,[0,b8(c[1],i),h]];else
+l=aD(a,b[1]);return l?cz(a,l[1]):l}}function
+iV(a){var
+e=bU(Y(a),d);return f2(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iW(a){return iG(y(iV(a),a))}function
+ce(f,a,e){var
+b=aD(y(f,iV(a)),e);if(b)var
+c=b[1],g=iW(a),h=Y(cd(Y(c[2]),g)),i=iW(a),d=[0,[0,cd(c[1],i),h]];else
 var
 d=b;return d}function
-aA(d,a){var
-b=b9(d,a[2],a[1][1]);if(b)var
-c=b9(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+an(d,a){var
+b=ce(d,a[2],a[1][1]);if(b)var
+c=ce(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-iR(b,a){var
-c=Z(b8(Z(a[2]),b));return[0,b8(a[1],b),c]}function
-fW(b,a){var
-c=es(b[2],a);return[0,b7(b[1],a),c]}function
-fX(a,f,b){if(b){var
-d=b[1],g=fX(a,f,d),h=g[2],i=fP(J(dB(qe,d),qd)),j=r(fP(dB(qf,d)),i),e=fW(F(a,g[1],f),j),k=iv(b)?A(h,e):N(h,e);return[0,e,k]}var
-l=aL(a,c);return[0,aL(a,c),l]}function
-iS(f){var
-g=dD(f),e=qg[1],b=g,c=0,a=e;for(;;){if(b){var
+iX(b,a){var
+c=Y(cd(Y(a[2]),b));return[0,cd(a[1],b),c]}function
+f8(b,a){var
+c=ey(b[2],a);return[0,cb(b[1],a),c]}function
+f9(a,f,b){if(b){var
+d=b[1],g=f9(a,f,d),h=g[2],i=f0(K(dF(qs,d),qr)),j=s(f0(dF(qt,d)),i),e=f8(D(a,g[1],f),j),k=iC(b)?B(h,e):N(h,e);return[0,e,k]}var
+l=au(a,c);return[0,au(a,c),l]}function
+iY(f){var
+g=dH(f),e=qu[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return J(qh,c)}}function
-iT(a,d){var
-g=cq(a),h=r(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fX(a,d,dB(qj,J(iS(a),qi)))[2][2],f=[0,[0,fX(a,d,J(dB(ql,iS(a)),qk))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return K(qv,c)}}function
+iZ(a,d){var
+g=cy(a),h=s(b(2,b(2,c)),g),e=H(d[2],h);if(e)var
+i=f9(a,d,dF(qx,K(iY(a),qw)))[2][2],f=[0,[0,f9(a,d,K(dF(qz,iY(a)),qy))[2][1],i]];else
 var
 f=e;return f}function
-iU(i){function
+i0(i){function
 a(h){var
-m=b7(cq(i),h),g=dD(i),f=m,e=d,a=c;for(;;){if(g){var
-j=C(a,b(2,c)),k=C(e,b7(f,a)),l=Z(b7(f,r(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=r(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return b3(r(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iV(e,a){var
-f=D(d,a);if(f){var
-g=b(2,b(2,c));return iT(e,fW(aa(e,[0,a,a]),g))}return f}function
-iW(a,d){var
-b=aa(a,d),e=aL(a,c);return N(A(b,b),e)}function
-ev(o,u){var
-h=az(C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=C(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b3(iU(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=C(iU(a),r),f=iV(a,i);if(f){var
-g=iV(a,j);if(g)var
-k=ac(d,f[1][1]),l=k?ac(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=cb(cy(i),h),g=dH(i),f=m,e=d,a=c;for(;;){if(g){var
+j=y(a,b(2,c)),k=y(e,cb(f,a)),l=Y(cb(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return br(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
+i1(e,a){var
+f=H(d,a);if(f){var
+g=b(2,b(2,c));return iZ(e,f8(R(e,[0,a,a]),g))}return f}function
+i2(a,d){var
+b=R(a,d),e=au(a,c);return N(B(b,b),e)}function
+ez(n,u){var
+h=aD(y(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=y(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=br(i0(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=y(i0(a),r),f=i1(a,i);if(f){var
+g=i1(a,j);if(g)var
+k=aa(d,f[1][1]),l=k?aa(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=iT(a,aa(a,fW(F(a,v,e[1]),s))),p=af(function(b){return iW(a,iW(a,b))},t);else
+s=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),t=iZ(a,R(a,f8(D(a,v,e[1]),s))),o=Z(function(b){return i2(a,i2(a,b))},t);else
 var
-p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return af(function(a){return iR(w,a)},p)}return h}function
-fY(d,a){return ev(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
-ew(a){return 0===a[0]?a[2]:a[1]}function
-dG(b,a){switch(a[0]){case
+o=e;var
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return Z(function(a){return iX(w,a)},o)}return h}function
+f_(d,a){return ez(d,[2,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
+eA(a){return 0===a[0]?a[2]:a[1]}function
+dN(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2292,128 +2293,130 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bc(j,i){var
+a_(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?M(b[1],a[1]):0;case
-1:return 1===a[0]?M(b[1],a[1]):0;case
+0:return 0===a[0]?E(b[1],a[1]):0;case
+1:return 1===a[0]?E(b[1],a[1]):0;case
 2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bc(b[1],a[1]);if(e){var
+e=a_(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bc(b[1],a[1]);if(f){var
+f=a_(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bc(b[1],a[1]);if(g){var
+g=a_(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bc(b[1],a[1]);if(h){var
+h=a_(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-ex(b){var
+eB(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bp(c,b){var
-a=ex(b);return a?al(c,a[1]):a}function
-dH(a){return ac(fB(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-q(a){return[0,[2,a]]}function
-G(b,a){if(bp(d,b))return a;if(bp(d,a))return b;var
-c=ex(b);if(c){var
-e=c[1],f=ex(a);if(f){var
-g=f[1];if(dH(e)&&dH(g))return q(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ct(a){var
+a1(c,b){var
+a=eB(b);return a?al(c,a[1]):a}function
+dO(a){return aa(fM(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+n(a){return[0,[2,a]]}function
+G(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
+c=eB(b);if(c){var
+e=c[1],f=eB(a);if(f){var
+g=f[1];if(dO(e)&&dO(g))return n(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bY(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dH(c)?q(Z(c)):[0,[5,a]];case
+c=b[1];return dO(c)?n(Y(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){return bp(d,a)?b:bp(d,b)?ct(a):[0,[4,b,a]]}function
-X(a){var
-c=ex(a);if(c){var
-b=c[1];return dH(b)?q(r(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,b){if(!bp(d,a)&&!bp(c,b)){if(!bp(d,b)&&!bp(c,a))return bc(a,b)?X(a):[0,[6,a,b]];return b}return a}function
-ar(b,a){return bp(c,a)?b:[0,[7,b,a]]}function
-b_(a){return bp(c,a)?a:[0,[9,a]]}function
-cu(g,f,d,c){var
+w(b,a){if(a1(d,a))return b;if(a1(d,b))return bY(a);var
+c=b[1];if(0===c[0]){var
+e=a[1];return 0===e[0]?E(c[1],e[1])?n(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+_(a){var
+c=eB(a);if(c){var
+b=c[1];return dO(b)?n(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,b){if(!a1(d,a)&&!a1(c,b)){if(!a1(d,b)&&!a1(c,a))return a_(a,b)?_(a):[0,[6,a,b]];return b}return a}function
+aq(b,a){return a1(c,a)?b:[0,[7,b,a]]}function
+cf(a){return a1(c,a)?a:[0,[9,a]]}function
+cg(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dG(function(b){return function(a){return E(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dI(a){var
+h=b[1],i=[0,e(f,dN(function(b){return function(a){return z(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dP(a){var
 b=0;function
-c(a){return[0,a]}return cu(q(d),c,a,b)}function
-fZ(b,a){if(a){if(bc(b,a[1]))return qm;var
-c=fZ(b,a[2]);return af(function(a){return[0,a]},c)}return a}function
-bq(c,b){var
-a=fZ(b,c),d=a?a[1]:a;return d}function
-ey(d,a){if(fZ(d,a[1]))return a;var
+c(a){return[0,a]}return cg(n(d),c,a,b)}function
+f$(b,a){if(a){if(a_(b,a[1]))return qA;var
+c=f$(b,a[2]);return Z(function(a){return[0,a]},c)}return a}function
+bw(c,b){var
+a=f$(b,c),d=a?a[1]:a;return d}function
+eC(d,a){if(f$(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=ey(b[1],a);break;case
+c=eC(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=ey(b[1],a),c=ey(b[2],h)}var
-e=c[2],f=c[1],g=[0,dG(function(a){return bq(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dJ(a){var
-b=iE(function(b,a){return ey(a,b)},a,qn),c=b[1],d=f(function(a){return bq(c,a)},a);return[0,iC(b[2]),d]}function
-ez(a){return cT(function(a,b){return C(cn(a[2],Z(a[1])),b)},d,a)}function
-cV(b,c,a){var
-d=ez(a),e=fN(c[2],C(b[2],d)),f=ez(a);return[0,b,[0,cn(c[1],b3(b[1],f)),e],a]}function
-aZ(a){return[0,a,a,0]}function
-eA(b,a){var
+h=eC(b[1],a),c=eC(b[2],h)}var
+e=c[2],f=c[1],g=[0,dN(function(a){return bw(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dQ(a){var
+b=f4(function(b,a){return eC(a,b)},a,qB),c=b[1],d=f(function(a){return bw(c,a)},a);return[0,iJ(b[2]),d]}function
+eD(a){return cw(function(b,a){return y(f6(b),a)},d,a)}function
+cY(b,c,a){var
+d=eD(a),e=fY(c[2],y(b[2],d)),f=eD(a);return[0,b,[0,bU(c[1],br(b[1],f)),e],a]}function
+aU(a){return[0,a,a,0]}function
+eE(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a8(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cV(A(b[1],a[1]),g,f)}function
-iX(b,a){var
-c=a[3],d=b[3],e=a8(function(a){return a},aH,N,d,c),f=N(b[2],a[2]);return cV(N(b[1],a[1]),f,e)}function
-iY(a,c,b){var
-d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
+f=a9(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return cY(B(b[1],a[1]),g,f)}function
+i3(b,a){var
+c=a[3],d=b[3],e=a9(function(a){return a},am,N,d,c),f=N(b[2],a[2]);return cY(N(b[1],a[1]),f,e)}function
+i4(a,c,b){var
+d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=F(a,e,b);return et(A(F(a,d,c),f))}function
-i(b){return et(F(a,e,b))}var
-j=a8(function(b){return et(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return cV(F(a,c[1],b[1]),k,j)}function
-f0(b,a){return a?e(b,a[1]):a}function
-eB(d,b,a){if(b){if(a)return Q(d,b[1],a[1]);var
+f=D(a,e,b);return dL(B(D(a,d,c),f))}function
+i(b){return dL(D(a,e,b))}var
+j=a9(function(b){return dL(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cY(D(a,c[1],b[1]),k,j)}function
+ga(b,a){return a?e(b,a[1]):a}function
+eF(d,b,a){if(b){if(a)return Q(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dK(a,e,d){var
-c=aZ(O);return function(b){switch(b[0]){case
-0:return[0,E(b[1],e,c)];case
-1:return[0,E(b[1],d,c)];case
-2:return[0,aZ(aL(a,b[1]))];case
+cZ(a,e,d){var
+c=aU(L);return function(b){switch(b[0]){case
+0:return[0,z(b[1],e,c)];case
+1:return[0,z(b[1],d,c)];case
+2:return[0,aU(au(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return eB(function(b,a){return[0,eA(b,a)]},h,g);case
+g=b[2],h=b[1];return eF(function(b,a){return[0,eE(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eB(function(b,a){return[0,iX(b,a)]},j,i);case
+i=b[2],j=b[1];return eF(function(b,a){return[0,i3(b,a)]},j,i);case
 5:var
-k=b[1];return f0(function(a){var
-b=f(aH,a[3]),c=aH(a[2]);return[0,[0,aH(a[1]),c,b]]},k);case
+k=b[1];return ga(function(a){var
+b=f(am,a[3]),c=am(a[2]);return[0,[0,am(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eB(function(c,b){return[0,iY(a,c,b)]},m,l);case
+l=b[2],m=b[1];return eF(function(c,b){return[0,i4(a,c,b)]},m,l);case
 7:var
-n=b[2],o=b[1];return eB(function(e,g){var
-b=cr(a,g[1]);if(b){var
-c=cr(a,g[2]);if(c)var
-h=c[1],d=F(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,F(a,d,b))},n=function(b){return aH(F(a,d,b))},o=a8(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,cV(d,F(a,e[2],h),p)];else
+n=b[2],o=b[1];return eF(function(e,g){var
+b=cc(a,g[1]);if(b){var
+c=cc(a,g[2]);if(c)var
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,D(a,d,b))},n=function(b){return am(D(a,d,b))},o=a9(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cY(d,D(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return f0(function(b){var
-c=b[3],d=A(b[2],b[1]),e=f(function(b){return F(a,d,b)},c),g=aa(a,b[2]);return[0,cV(aa(a,b[1]),g,e)]},p);default:var
-q=b[1];return f0(function(e){var
-b=cs(a,e[1]);if(b){var
-g=b[1],c=cs(a,e[2]);if(c){var
-h=c[1],d=cr(a,A(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cV(g,h,f(function(b){return F(a,m,b)},l))];else
+p=b[1];return ga(function(b){var
+c=b[3],d=B(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=R(a,b[2]);return[0,cY(R(a,b[1]),g,e)]},p);default:var
+q=b[1];return ga(function(e){var
+b=cz(a,e[1]);if(b){var
+g=b[1],c=cz(a,e[2]);if(c){var
+h=c[1],d=cc(a,B(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cY(g,h,f(function(b){return D(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2422,165 +2425,179 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-qo(a){return a}function
-qp(a){return a}function
-qq(a,b){return a8(qp,qo,A,a,b)}function
-qr(a){return a}function
-qs(a){return a}function
-f1(a,b){return a8(qs,qr,qq,a,b)}function
-f2(b,a,c){if(a){var
+qC(a){return a}function
+qD(a){return a}function
+qE(a,b){return a9(qD,qC,B,a,b)}function
+qF(a){return a}function
+qG(a){return a}function
+dR(a,b){return a9(qG,qF,qE,a,b)}function
+gb(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=f2(b,e,c[2]),h=c[1],i=function(c,a){return N(c,fU(d,a,b))},j=function(a){return aH(fU(d,a,b))};return[0,a8(function(a){return a},j,i,h,a),g]}var
-k=f2(b,e,0);return[0,f(function(a){return aH(fU(d,a,b))},a),k]}return c}function
-iZ(a){if(a){var
+g=gb(b,e,c[2]),h=c[1],i=function(c,a){return N(c,f5(d,a,b))},j=function(a){return am(f5(d,a,b))};return[0,a9(function(a){return a},j,i,h,a),g]}var
+k=gb(b,e,0);return[0,f(function(a){return am(f5(d,a,b))},a),k]}return c}function
+i5(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ac(d,c[1]),h=e?[0,f2(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=aa(d,c[1]),h=e?[0,gb(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-i0(f,e){var
+i6(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=iZ(b);if(c){var
+c=i5(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-i1(d,b,a){if(b)if(a)var
-e=a[1],f=i1(d,b[2],a[2]),g=dC(d,b[1])?fV(e):eu(e),c=[0,g,f];else
+i7(d,b,a){if(b)if(a)var
+e=a[1],f=i7(d,b[2],a[2]),g=dG(d,b[1])?f7(e):dM(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-i2(a,b){if(a)if(b)var
-d=i2(a[2],b[2]),c=[0,i1(a[1],a,b[1]),d];else
+i8(a,b){if(a)if(b)var
+d=i8(a[2],b[2]),c=[0,i7(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bR(a){if(a){var
-b=a[1],c=bR(b),d=f(function(a){return[0,1,a]},c),e=bR(b);return g(f(function(a){return[0,0,a]},e),d)}return qt}function
-eC(a){var
-b=l(a);if(i0(b,a))return 1;var
-c=bR(bO(b));return o(function(c){return i0(b,i2([0,0,c],a))},c)}function
-a5(a){function
+bx(a){if(a){var
+b=a[1],c=bx(b),d=f(function(a){return[0,1,a]},c),e=bx(b);return g(f(function(a){return[0,0,a]},e),d)}return qH}function
+eG(a){var
+b=l(a);if(i6(b,a))return 1;var
+c=bx(bV(b));return o(function(c){return i6(b,i8([0,0,c],a))},c)}function
+a2(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-b$(h,e){var
+bf(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-f3(c,b,a){var
-d=bR(c);return o(function(c){return e(a,e(a5(function(a){return b$(c,a)}),b))},d)}function
-i3(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bQ(b,C(h,c),a)},k=i3(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=a8(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?B(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gc(c,b,a){var
+d=bx(c);return o(function(c){return e(a,e(a2(function(a){return bf(c,a)}),b))},d)}function
+i9(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bv(b,y(h,c),a)},k=i9(h,j,i),l=function(c,b){var
+d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=a9(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-i4(b,d,a,c){function
+i_(b,d,a,c){function
 e(c,d){var
-e=bQ(d,b,a);return N(A(c,c),e)}function
-f(c){return aH(bQ(c,b,a))}return a8(function(a){return A(a,a)},f,e,d,c)}function
-f4(d,i,h,g){var
+e=bv(d,b,a);return N(B(c,c),e)}function
+f(c){return am(bv(c,b,a))}return a9(function(a){return B(a,a)},f,e,d,c)}function
+gd(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=eu(e[2]),k=f1(a,i3(d,f,i4(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-f5(b,a){return[0,[0,0,b],a]}function
-cW(b,c,g,f,a){function
+e=b[1],f=c[1],j=dM(e[2]),k=dR(a,i9(d,f,i_(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+ge(b,a){return[0,[0,0,b],a]}function
+c0(b,c,g,f,a){function
 d(a){if(a){var
-h=cp([0,aH(a[1][2]),0],b),c=f4(g,f,a[2],h),d=M(l(c),b);if(d)return eC(c);var
+h=bu([0,am(a[1][2]),0],b),c=gd(g,f,a[2],h),d=E(l(c),b);if(d)return eG(c);var
 e=d}else
 var
-e=a;return e}return f3(b,f5(c,a),d)}function
-i5(f,e){var
+e=a;return e}return gc(b,ge(c,a),d)}function
+i$(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=iZ([0,[0,fV(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=i5([0,[0,f7(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-f6(b,c,a){function
+gf(b,c,a){function
 d(a){if(a){var
-h=cp([0,a[1][2],0],b),c=i5(a[2],h);if(c){var
-d=c[1],e=M(l(d),b);if(e)return eC(d);var
+h=bu([0,a[1][2],0],b),c=i$(a[2],h);if(c){var
+d=c[1],e=E(l(d),b);if(e)return eG(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return f3(b,f5(c,a),d)}function
-i6(b,a){return f(function(a){return[0,a[1],b]},a)}function
-i7(a,b){var
-c=b[3],d=a[3],e=a8(function(a){return a},aH,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
-dL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aS(c,b,a){var
+g=a;return g}return gc(b,ge(c,a),d)}function
+ja(b,a){return f(function(a){return[0,a[1],b]},a)}function
+jb(a,b){var
+c=b[3],d=a[3],e=a9(function(a){return a},am,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
+dS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aV(c,b,a){var
 d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-dM(b,a){var
-c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-eD(b,a){var
-c=ar(b[3],a),d=ar(b[2],a);return[0,ar(b[1],a),d,c]}function
-as(b,a){var
-c=s(b[3],a[3]),d=s(b[2],a[2]);return G(G(s(b[1],a[1]),d),c)}function
-f7(a){return eD(a,b_(as(a,a)))}function
-cX(a){var
-b=a[5];return b?b[1]:b_(a[2])}function
-eE(a){return f(function(a){var
-b=a[2];return[0,dL(a[1]),b]},a)}function
-i8(a){return f(function(a){var
-b=q(c);return[0,dL(a[3]),b]},a)}function
-i9(b,a){var
+dT(b,a){var
+c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
+eH(b,a){var
+c=aq(b[3],a),d=aq(b[2],a);return[0,aq(b[1],a),d,c]}function
+av(b,a){var
+c=r(b[3],a[3]),d=r(b[2],a[2]);return G(G(r(b[1],a[1]),d),c)}function
+gg(a){return eH(a,cf(av(a,a)))}function
+c1(a){var
+b=a[5];return b?b[1]:cf(a[2])}function
+eI(a){return f(function(a){var
+b=a[2];return[0,dS(a[1]),b]},a)}function
+jc(a){return f(function(a){var
+b=n(c);return[0,dS(a[3]),b]},a)}function
+jd(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-i_(c,b,a){var
+je(c,b,a){var
 d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-eF(a,k,j,p,i,h,g){var
-m=i_(iX,h,g),b=i_(function(b,c){return iY(a,b,c)},i,m),c=b[3],e=b[2],f=b[1],l=eA(eA(eA(aZ(aL(a,d)),f),e),c),n=bR(k);return o(function(e){var
-c=i9(function(b){return aa(a,b$(e,b))},i),m=c[3],n=c[2],o=c[1],b=A(A(A(aL(a,d),o),n),m),f=cs(a,[0,b[2],b[2]]);if(f)var
-g=f[1],h=[0,g[2],g[2]];else
-var
-h=[0,b[2],b[2]];var
-q=F(a,p,h),k=N(b$(e,l),q),r=j?N(k,b$(e,j[1])):k;return ac(d,r[1])},n)}function
-br(a){return cS(C(a[1],a[2]),c)}function
-cY(a){var
-b=br(a);return b3(a[2],b)}function
-f8(c,b){if(b)var
-a=b[1],e=f8([0,c],b[2]),f=cY(a),h=[0,[0,cY(a),f],0],i=g(cp(O,c),h),j=br(a),d=[0,[0,[0,br(a),j],a,i],e];else
+gh(d,a){var
+b=cz(d,[0,a[2],a[2]]);if(b){var
+c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
+eJ(a,m,f,l,e,k,j){var
+n=je(i3,k,j),b=je(function(b,c){return i4(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=eE(eE(eE(aU(au(a,d)),h),g),c),p=bx(m);return o(function(c){var
+b=jd(function(b){return R(a,bf(c,b))},e),h=b[3],j=b[2],k=b[1],m=D(a,l,gh(a,B(B(B(au(a,d),k),j),h))),g=N(bf(c,i),m),n=f?N(g,bf(c,f[1])):g;return aa(d,n[1])},p)}function
+by(a){return cX(y(a[1],a[2]),c)}function
+c2(a){var
+b=by(a);return br(a[2],b)}function
+gi(c,b){if(b)var
+a=b[1],e=gi([0,c],b[2]),f=c2(a),h=[0,[0,c2(a),f],0],i=g(bu(L,c),h),j=by(a),d=[0,[0,[0,by(a),j],a,i],e];else
 var
 d=b;return d}function
-dN(d,b){if(b){var
+dU(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dN(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,br(a),f],c],h=br(a);return[0,[0,[0,a[1],h],c],g]}return qu}function
-i$(d,b,a){if(b){if(a){var
-e=i$(d,b[2],a[2]);return A(bQ(b[1],C(d,c),a[1]),e)}return O}return O}function
-f9(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i$(e,a,b)},j=f9(e,h),k=f(function(a){var
-e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
+e=dU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,by(a),f],c],h=by(a);return[0,[0,[0,a[1],h],c],g]}return qI}function
+jf(d,b,a){if(b){if(a){var
+e=jf(d,b[2],a[2]);return B(bv(b[1],y(d,c),a[1]),e)}return L}return L}function
+eK(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jf(e,a,b)},j=eK(e,h),k=f(function(a){var
+e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
-f_(e,b,d,a){if(b)if(a)var
-f=b[1],g=f_(e,b[2],d,a[2]),c=[0,[0,f,i4(e,a[1][1],d,f)],g];else
+eL(e,b,d,a){if(b)if(a)var
+f=b[1],g=eL(e,b[2],d,a[2]),c=[0,[0,f,i_(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-f$(e,d,c,b,a){if(a){var
+gj(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=f$(e,d[1],c,b,g);return[0,[0,N(O,b),0],i]}var
-j=f(function(a){return[0,N(O,b),0]},g),h=[0,[0,N(aH(F(e,c,eu(a[1][2]))),b),0],j]}else
+i=gj(e,d[1],c,b,g);return[0,[0,N(L,b),0],i]}var
+j=f(function(a){return[0,N(L,b),0]},g),h=[0,[0,N(am(D(e,c,dM(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-dO(c,a){var
-b=M(l(a),c);return b?eC(a):b}function
-ja(d,c,b,a){var
-e=f(aZ,b);return cu(0,dK(d,f8(0,a),e),c,0)}function
-aT(a){if(a){var
-b=a[1];if(b)var
-c=aT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+cB(c,a){var
+b=E(l(a),c);return b?eG(a):b}function
+jg(d,b,a){if(b)var
+c=b[1],f=jg([0,d],b[2],a),h=g(bu(L,d),[0,a,0]),e=[0,[0,c,[0,br(c[1],a[2]),y(c[2],a[2])],h],f];else
 var
-d=b;return d}return qv}function
-jb(b,a){if(a){var
-h=a[1],n=h[1],c=aT(f(function(a){return E(a,b,0)},n));if(c){var
-e=E(h[2],b,0);if(e){var
-i=e[1],g=jb(b,a[2]);if(g)var
-j=ac(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+e=b;return e}function
+jh(d){if(d){var
+a=d[1][1];if(a){var
+b=a[2];if(b){var
+c=b[2];if(c){if(c[2])return 0;var
+g=c[1],h=b[1],i=a[1],j=jh(d[2]);return Z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+e=c}else
+var
+e=b;var
+f=e}else
+var
+f=a;return f}return qJ}function
+ji(d,c,b,a){var
+e=f(aU,b);return cg(0,cZ(d,gi(0,a),e),c,0)}function
+aE(a){if(a){var
+b=a[1];if(b)var
+c=aE(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return qY}function
+eM(b,a){if(a){var
+h=a[1],n=h[1],c=aE(f(function(a){return z(a,b,0)},n));if(c){var
+e=z(h[2],b,0);if(e){var
+i=e[1],g=eM(b,a[2]);if(g)var
+j=aa(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2588,89 +2605,89 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qw}function
-bS(d,c,b){var
-a=jb(d,c);return a?e(b,a[1]):a}function
-ga(a,b){return o(function(c){var
-a=E(c,b,0),d=a?1:a;return d},a)}function
-eG(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a8(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-gb(b,a){return b?i7(a,b[1]):a}function
-gc(h,g,b,f){var
-a=E(f,h,0);if(a){var
+m=c;return m}return qZ}function
+bZ(d,c,b){var
+a=eM(d,c);return a?e(b,a[1]):a}function
+eN(a,b){return o(function(c){var
+a=z(c,b,0),d=a?1:a;return d},a)}function
+eO(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a9(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
+gk(b,a){return b?jb(a,b[1]):a}function
+gl(h,g,b,f){var
+a=z(f,h,0);if(a){var
 c=a[1];if(b){var
-i=i7(c,b[1]),e=bR(g);return o(function(a){return D(d,b$(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-eH(b,a){var
-c=E(a[1],b,0);if(c){var
-d=E(a[2],b,0);if(d)var
-e=E(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jb(c,b[1]),e=bx(g);return o(function(a){return H(d,bf(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+eP(b,a){var
+c=z(a[1],b,0);if(c){var
+d=z(a[2],b,0);if(d)var
+e=z(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-jc(i,j,J,t,g,b,e,h,a){switch(h[0]){case
+jj(i,j,K,t,g,b,e,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=ga(t,g);if(K){var
-af=a[2],ag=a[1],ah=eG(e,aZ(r));return bS(g,j,function(a){return cW(b,ah,ag,af,a)})}return K;case
+M=eN(t,g);if(M){var
+af=a[2],ag=a[1],ah=eO(e,aU(r));return bZ(g,j,function(a){return c0(b,ah,ag,af,a)})}return M;case
 1:var
-L=ga(t,g);if(L){var
-ai=a[2],aj=a[1],ak=eG(e,aZ(r));return bS(g,J,function(a){return cW(b,ak,aj,ai,a)})}return L;case
+N=eN(t,g);if(N){var
+ai=a[2],aj=a[1],ak=eO(e,aU(r));return bZ(g,K,function(a){return c0(b,ak,aj,ai,a)})}return N;case
 2:var
-N=ga(t,g);if(N){if(e)return 0;var
+O=eN(t,g);if(O){if(e)return 0;var
 P=al(r[1],d),Q=P?al(r[2],d):P;if(Q){var
-am=a[2],an=a[1];return bS(g,j,function(a){return cW(b,[0,O,O,0],an,am,i6([0,O,O,0],a))})}var
+am=a[2],an=a[1];return bZ(g,j,function(a){return c0(b,[0,L,L,0],an,am,ja([0,L,L,0],a))})}var
 R=Q}else
 var
-R=N;return R}return 0;case
+R=O;return R}return 0;case
 1:var
 S=h[1];if(typeof
 a==="number"){if(1===a){var
-ao=gb(e,aZ(S));return bS(g,J,function(a){return f6(b,ao,a)})}if(!a){var
-ap=gb(e,aZ(S));return bS(g,j,function(a){return f6(b,ap,a)})}}return 0;case
+ao=gk(e,aU(S));return bZ(g,K,function(a){return gf(b,ao,a)})}if(!a){var
+ap=gk(e,aU(S));return bZ(g,j,function(a){return gf(b,ap,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-T=a[1],u=a[3],I=function(a){return bQ(a,T,aL(i,c))};if(u)var
-ae=f(I,u[2]),k=[0,I(u[1]),O,ae];else
+T=a[1],u=a[3],J=function(a){return bv(a,T,au(i,c))};if(u)var
+ae=f(J,u[2]),k=[0,J(u[1]),L,ae];else
 var
-k=aZ(O);var
-U=h[1],aq=a[2];return bS(g,j,function(g){var
-h=bR(b),a=o(function(a){return ac(d,b$(a,k)[1])},h),c=a?cW(b,eG(e,k),T,aq,g):a;if(c){var
-j=k[3],l=f(function(a){return F(i,U,a)},j),m=k[2];return f6(b,gb(e,[0,F(i,U,k[1]),m,l]),g)}return c})}return 0;case
+k=aU(L);var
+U=h[1],aq=a[2];return bZ(g,j,function(g){var
+h=bx(b),a=o(function(a){return aa(d,bf(a,k)[1])},h),c=a?c0(b,eO(e,k),T,aq,g):a;if(c){var
+j=k[3],l=f(function(a){return D(i,U,a)},j),m=k[2];return gf(b,gk(e,[0,D(i,U,k[1]),m,l]),g)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gc(g,b,e,h[1]);return 0;case
+a==="number"&&!a)return gl(g,b,e,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ar=a[2],as=a[1],at=eG(e,aZ(h[2])),au=function(a){return cW(b,at,as,ar,a)};return bS(g,h[1],au)}return 0;case
+ar=a[2],as=a[1],at=eO(e,aU(h[2])),av=function(a){return c0(b,at,as,ar,a)};return bZ(g,h[1],av)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gc(g,b,e,h[1]);case
-2:return gc(g,b,e,h[2])}return 0;case
+0:return gl(g,b,e,h[1]);case
+2:return gl(g,b,e,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=eH(g,h[1]);if(v){var
-w=eH(g,h[2]);if(w){var
-x=eH(g,h[3]);if(x){var
-y=eH(g,h[4]);if(y){var
-V=y[1],W=x[1],X=w[1],Y=v[1],m=a[2],s=h[5],av=a[1];if(m){var
+v=eP(g,h[1]);if(v){var
+w=eP(g,h[2]);if(w){var
+x=eP(g,h[3]);if(x){var
+z=eP(g,h[4]);if(z){var
+V=z[1],W=x[1],X=w[1],Y=v[1],m=a[2],s=h[5],aw=a[1];if(m){var
 n=m[2];if(n){var
 p=n[2];if(p){if(p[2])return 0;var
-ad=[0,m[1],n[1],p[1]],q=i9(function(d){function
-e(a){return bQ(a,av,aL(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=ez(a),h=C(b[2],g),j=ez(a);return[0,b,[0,b3(b[1],j),h],a]}return aZ(O)},ad),z=o(function(a){return M(l(a),[0,b])},m),A=z?eF(i,b,e,s,q,Y,W):z,B=A?eF(i,b,e,s,q,Y,V):A,D=B?eF(i,b,e,s,q,X,W):B;if(D)return eF(i,b,e,s,q,X,V);var
-E=D}else
+ad=[0,m[1],n[1],p[1]],q=jd(function(d){function
+e(a){return bv(a,aw,au(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=eD(a),h=y(b[2],g),j=eD(a);return[0,b,[0,br(b[1],j),h],a]}return aU(L)},ad),A=o(function(a){return E(l(a),[0,b])},m),B=A?eJ(i,b,e,s,q,Y,W):A,C=B?eJ(i,b,e,s,q,Y,V):B,F=C?eJ(i,b,e,s,q,X,W):C;if(F)return eJ(i,b,e,s,q,X,V);var
+G=F}else
 var
-E=p;var
-G=E}else
-var
-G=n;var
+G=p;var
 H=G}else
 var
-H=m;return H}var
-Z=y}else
+H=n;var
+I=H}else
+var
+I=m;return I}var
+Z=z}else
 var
 Z=x;var
 _=Z}else
@@ -2681,153 +2698,277 @@ var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],aw=h[2],ax=h[1];return bS(g,j,function(f){var
-a=M(l(f),b),d=a?M(l(aa),b):a;if(d){var
+ab=a[2],ac=a[1],ax=h[2],ay=h[1];return bZ(g,j,function(f){var
+a=E(l(f),b),d=a?E(l(ab),b):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=M(l(d),b);if(e){var
-g=f9(ab,f_(ab,aa,aL(i,c),d));return dO(b,f1(f$(i,ax,aw,a[1][2],d),g))}var
+d=a[2],e=E(l(d),b);if(e){var
+g=eK(ac,eL(ac,ab,au(i,c),d));return cB(b,dR(gj(i,ay,ax,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=e?e[1]:aZ(O);return f3(b,f5(h,f),g)}return d})}return 0;default:if(typeof
+f=a;return f},h=e?e[1]:aU(L);return gc(b,ge(h,f),g)}return d})}return 0;case
+8:if(typeof
 a==="number"&&5<=a){var
-ay=h[2],az=h[1];return bS(g,j,function(d){var
-a=i6([0,O,O,0],d),c=e?e[1]:[0,O,O,0];return cW(b,c,az,ay,a)})}return 0}}function
-eI(b,a){if(a){var
+az=h[2],aA=h[1];return bZ(g,j,function(d){var
+a=ja([0,L,L,0],d),c=e?e[1]:[0,L,L,0];return c0(b,c,aA,az,a)})}return 0;default:return 0}}function
+jk(a,X,G,k,p,W,h,j,i,g,b){if(9===g[0]){if(typeof
+b!=="number"&&9===b[0]){var
+Y=g[1],S=f(aU,W),v=cg(0,cZ(a,jg(0,j,Y),S),X,0),H=E(l(j),q0),I=H?eN(p,v):H;if(I){var
+q=eM(v,k);if(q){var
+r=eM(h,k);if(r){var
+_=g[2],s=aE(f(function(b){var
+c=z(b[1],h,0);if(c)var
+e=b[2][2],a=aE(f(function(a){var
+b=z(a[2],h,0);return Z(function(b){return[0,a[1],b]},b)},e)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+var
+d=c;return d},_));if(s){var
+t=jh(q[1]);if(t){var
+J=b[2],u=b[1],K=r[1],$=b[3],ab=s[1],ac=t[1],w=gh(a,cw(function(g,i){function
+b(b,d){var
+a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return f6(z(d,c[3],L))}function
+c(a){var
+b=e(a,qK),c=bU(e(a,qL),b);return bU(e(a,0),c)}var
+d=c(function(a){var
+c=b(qM,a),d=b(qN,a);return y(y(b(0,a),d),c)}),h=[0,d,d],f=c(function(a){var
+c=b(a,qO),d=b(a,qP);return y(y(b(a,0),d),c)});return B(i,R(a,gh(a,D(a,[0,f,f],h))))},L,ac)),m=bv($,u,au(a,c)),x=aa(d,N(m,w)[1]),A=x?E(l(J),qV):x,C=A?E(l(K),qW):A;if(C){var
+n=cc(a,m);if(n){var
+T=dL(D(a,w,n[1])),U=N(au(a,c),T),V=bx(qX);return o(function(j){var
+h=f(function(b){var
+c=b[2],d=b[1];return dM(f4(function(d,b){var
+c=f6(bf(j,b[2]));return B(d,D(a,b[1],[0,c,c]))},c,d))},ab),r=e(a2(function(a){return bf(j,a)}),K),E=i?bf(j,i[1]):L,M=R(a,U),s=R(a,m),q=eK(u,eL(u,J,au(a,c),r)),b=dR(bu([0,am(E),0],qQ),q);if(h){var
+d=h[2];if(d){var
+g=d[2];if(g){if(g[2])return 0;var
+A=d[1],C=h[1],G=g[1],k=cB(qS,dR(bu([0,am(s),0],qR),b));if(k)return o(function(B){var
+H=N(M,E),I=B[2]?A:am(A),J=B[1]?C:am(C),n=0;if(b){var
+a=b[1],k=0;if(a){var
+c=a[2],l=0;if(c){var
+d=c[2],m=0;if(d)if(d[2]){var
+j=0;k=1;l=1;m=1}else{var
+e=b[2],o=0;if(e){var
+f=e[1],p=0;if(f){var
+g=f[2],q=0;if(g)if(g[2]){var
+j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
+h=e[2],D=0;if(h){var
+i=h[1],F=0;if(i)if(i[2]||h[2]){var
+j=0;k=1;l=1;m=1;o=1;p=1;q=1;D=1;F=1}else
+var
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+var
+r=i;if(!F)var
+s=r}else
+var
+s=h;if(!D)var
+t=s}else
+var
+t=g;if(!q)var
+u=t}else
+var
+u=f;if(!p)var
+v=u}else
+var
+v=e;if(!o)var
+w=v}else
+var
+w=d;if(!m)var
+x=w}else
+var
+x=c;if(!l)var
+y=x}else
+var
+y=a;if(!k){var
+z=y;n=1}}else{var
+z=b;n=1}if(n)var
+j=z;return cB(qU,j)},qT);var
+l=k}else
+var
+l=g;var
+n=l}else
+var
+n=d;var
+p=n}else
+var
+p=h;return p},V)}var
+F=n}else
+var
+F=C;return F}var
+M=t}else
+var
+M=s;var
+O=M}else
+var
+O=r;var
+P=O}else
+var
+P=q;var
+Q=P}else
+var
+Q=I;return Q}return jj(a,G,k,p,h,l(j),i,g,b)}return jj(a,G,k,p,h,l(j),i,g,b)}function
+eQ(b,a){if(a){var
 c=a[2];if(b){var
-e=eI(b[1],c);return[0,a[1],e]}var
+e=eQ(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jd(r,V,I,H,G,U,T,F,c,C,B){if(C){var
-J=ja(r,V,U,c),g=C,b=B;for(;;){if(g){var
-v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+jl(t,s,K,J,I,r,U,G,c,F,E){if(F){var
+L=ji(t,s,r,c),g=F,b=E;for(;;){if(g){var
+x=g[1],a=x[2],n=x[1],y=g[2];if(typeof
 a==="number"&&4===a){var
-m=e(F,c);if(m)var
-S=m[1],M=bR(l(c)),p=o(function(b){return function(a){return ac(b$(a,b)[2],d)}}(S),M);else
+m=e(G,c);if(m)var
+T=m[1],O=bx(l(c)),p=o(function(b){return function(a){return aa(bf(a,b)[2],d)}}(T),O);else
 var
 p=m;if(p){var
-g=w,b=f(function(a){return 0},b);continue}return p}var
-x=E(n,b,0);if(x){var
-q=ai(T,n);if(q){var
-y=q[1],K=0;if(typeof
-a==="number"||!(5===a[0]))K=1;else{var
-i=a[2],j=e(F,c),L=0;if(j){var
-s=D(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bQ(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bQ(i,t,k[1]),P,O]],h=jc(r,I,H,G,J,l(c),R,y,Q);L=1}else
+g=y,b=f(function(a){return 0},b);continue}return p}var
+A=z(n,b,0);if(A){var
+q=ai(U,n);if(q){var
+B=q[1],M=0;if(typeof
+a==="number"||!(5===a[0]))M=1;else{var
+i=a[2],j=e(G,c),N=0;if(j){var
+u=H(d,i);if(u){var
+k=j[1],v=a[3],S=a[1],P=k[3],Q=f(function(b,c){return function(a){return bv(b,c,a)}}(i,v),P),R=k[2],h=jk(t,s,K,J,I,r,L,c,[0,[0,bv(i,v,k[1]),R,Q]],B,S);N=1}else
 var
-u=s}else
+w=u}else
 var
-u=j;if(!L)var
-h=u}if(K)var
-h=jc(r,I,H,G,J,l(c),0,y,a);if(h){var
-g=w,b=eI(n,b);continue}var
-z=h}else
+w=j;if(!N)var
+h=w}if(M)var
+h=jk(t,s,K,J,I,r,L,c,0,B,a);if(h){var
+g=y,b=eQ(n,b);continue}var
+C=h}else
 var
-z=q;var
-A=z}else
+C=q;var
+D=C}else
 var
-A=x;return A}return[0,b]}}return[0,B]}function
-gd(j,i,h,g,f,e,d,c,u,t,s){var
+D=A;return D}return[0,b]}}return[0,E]}function
+gm(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jd(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aK,l[1]):l}var
-m=jd(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dN(a[2],b),q=gd(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=jl(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aC,l[1]):l}var
+m=jl(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dU(a[2],b),q=gm(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-je(a){return f(function(a){return 1},a)}function
-cw(s,r){var
+jm(a){return f(function(a){return 1},a)}function
+ch(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
 k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(bo(e,a2(2))[2],d)?0:0;var
-i=bo(f,a2(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
-g=bo(e,a2(2)),p=g[1];if(al(g[2],d)){var
-f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=bo(e,a2(2)),q=h[1];if(al(h[2],d))return 0;var
+f=b[2],e=a[2];for(;;){if(H(f,c))return H(e,c)?1:al(bt(e,a5(2))[2],d)?0:0;var
+i=bt(f,a5(2)),j=i[1];if(al(i[2],d)){if(H(e,c))return 0;var
+g=bt(e,a5(2)),p=g[1];if(al(g[2],d)){var
+f=j,e=p;continue}return 0}if(H(e,c))return 0;var
+h=bt(e,a5(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cw(b[1],a[1]);if(l){var
+l=ch(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cw(b[1],a[1]);if(m){var
+m=ch(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cw(b[1],a[1]);if(n){var
+n=ch(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cw(b[1],a[1]);if(o){var
+o=ch(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eJ(a){switch(a[0]){case
+eR(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iJ(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iP(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iJ(b,[0,Z(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iP(b,[0,Y(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iK(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iQ(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iH(a,[0,d,c]))return 0;var
-b=a[1],e=bJ(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Z(a[2]),Z(b)];return[0,iK(g,f)]};break;default:return 0}var
-g=eJ(e);if(g){var
-h=eJ(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iN(a,[0,d,c]))return 0;var
+b=a[1],e=bP(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iQ(g,f)]};break;default:return 0}var
+g=eR(e);if(g){var
+h=eR(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eJ(b);if(f){var
-g=f[1];return e?aK(iI(g,[0,d,c])):iI([0,d,c],g)}var
-a=az(i,b);if(a){var
-h=a[1];return e?ac(d,h[1]):D(d,h[1])}return a}function
-jf(c,b){var
-a=az(c,b),d=a?1:a;return d}function
-bs(c,a,b){var
-d=cw(a,b),e=d?jf(c,a):d;return e?e:j(c,0,[2,b,a])}function
-cx(m,r){var
+f=eR(b);if(f){var
+g=f[1];return e?aC(iO(g,[0,d,c])):iO([0,d,c],g)}var
+a=aD(i,b);if(a){var
+h=a[1];return e?aa(d,h[1]):H(d,h[1])}return a}function
+jn(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
+bz(c,a,b){var
+d=ch(a,b),e=d?jn(c,a):d;return e?e:j(c,0,[2,b,a])}function
+eS(a,d,b,c){function
+e(d,c){var
+e=bX(a[1],b[1]);return f(function(a){var
+b=r(c,a[2]);return G(r(d,a[1]),b)},e)}if(a_(a[2],b[2])){var
+g=a[2];return[0,e(d,c),g]}var
+h=r(a[2],b[2]),i=r(c,a[2]);return[0,e(r(d,b[2]),i),h]}function
+jo(a){var
+b=n(c);return[0,f(function(a){return n(d)},a),b]}function
+a$(a,i){var
+e=i[1];switch(e[0]){case
+1:var
+j=e[1];if(aT(function(a){return E(j,a)},a)){var
+t=n(c);return[0,f(function(a){var
+b=E(a,j)?c:d;return n(b)},a),t]}return jo(a);case
+3:var
+u=n(c),v=a$(a,e[2]),w=n(c);return eS(a$(a,e[1]),w,v,u);case
+4:var
+x=n(Y(c)),y=a$(a,e[2]),z=n(c);return eS(a$(a,e[1]),z,y,x);case
+5:var
+k=a$(a,e[1]),A=k[2];return[0,f(bY,k[1]),A];case
+6:var
+l=e[2],m=e[1],B=a$(a,l);return eS(a$(a,m),l,B,m);case
+7:var
+p=e[2],C=bY(i),D=a$(a,p),F=n(c),g=eS(a$(a,e[1]),F,D,C),G=g[1];if(o(function(a){return a1(d,a)},G))return g;var
+H=r(g[2],p);return[0,g[1],H];case
+8:var
+q=e[1],s=a$(a,q),I=s[2],J=s[1],K=r(n(b(2,c)),q);return[0,f(function(a){return r(K,a)},J),I];case
+9:var
+h=a$(a,e[1]),L=h[1];if(o(function(a){return a1(d,a)},L)){var
+M=n(c);return[0,h[1],M]}var
+N=r(n(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return jo(a)}}function
+cC(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(D(j,c)){var
-k=al(b,n),l=k?dH(b):k;if(l)var
-o=al(m[2],d),g=o||al(b,d);else
+i=f[2],b=f[1];if(H(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(H(j,c)){var
+k=al(b,o),l=k?dO(b):k;if(l)var
+p=al(m[2],d),g=p||al(b,d);else
 var
 g=l;var
-p=g?[0,b]:g,a=p}else
+q=g?[0,b]:g,a=q}else
 var
-a=al(bo(j,a2(2))[2],d)?0:0}else
+a=al(bt(j,a5(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(bo(i,a2(2))[2],d)?0:0}else
+a=al(bt(i,a5(2))[2],d)?0:0}else
 var
-a=0;return a?q(a[1]):[0,[1,r]]}function
-cy(b,a){if(a)var
-d=cy([0,b],a[2]),c=[0,cx(a[1],b),d];else
+a=0;return a?n(a[1]):[0,[1,r]]}function
+cD(b,a){if(a)var
+d=cD([0,b],a[2]),c=[0,cC(a[1],b),d];else
 var
 c=a;return c}function
-a6(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-ge(b,d,a){switch(a[0]){case
+a7(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gn(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a6(c[3],b),f),i=g(a6(c[2],b),h);return g(a6(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a7(c[3],b),f),i=g(a7(c[2],b),h);return g(a7(c[1],d),i);case
 1:var
-e=a[3],j=e?a6(e[1],d):e,k=g(a6(a[2],b),j);return g(a6(a[1],b),k);default:return a6(a[1],d)}}function
-aI(b,a){var
-c=q(d),e=E(J(qx,a),b,c),f=q(d),g=E(J(qy,a),b,f);return[0,E(a,b,q(d)),g,e]}function
-jg(b,a){return aS(w,aS(G,cv,a),b)}function
-gf(c,b,a){if(a){var
-e=a[2],f=gf(c,fS(b),e),h=a[1];return g(ge(c,ep(d,b),h),f)}return a}function
-gg(m,k,h,y){if(h){var
-e=h[1],P=J(y,l(ge(m,ep(d,k),e))),Q=h[2],R=gg(m,fS(k),Q,P),a=cy(y,ge(m,ep(d,k),e));switch(e[0]){case
+e=a[3],j=e?a7(e[1],d):e,k=g(a7(a[2],b),j);return g(a7(a[1],b),k);default:return a7(a[1],d)}}function
+aL(b,a){var
+c=n(d),e=z(K(q1,a),b,c),f=n(d),g=z(K(q2,a),b,f);return[0,z(a,b,n(d)),g,e]}function
+jp(b,a){return aV(w,aV(G,cA,a),b)}function
+go(c,b,a){if(a){var
+e=a[2],f=go(c,f3(b),e),h=a[1];return g(gn(c,ev(d,b),h),f)}return a}function
+gp(m,k,h,y){if(h){var
+e=h[1],P=K(y,l(gn(m,ev(d,k),e))),Q=h[2],R=gp(m,f3(k),Q,P),a=cD(y,gn(m,ev(d,k),e));switch(e[0]){case
 0:var
-I=e[1][5],u=E(qz,a,q(d)),K=aS(G,cv,aI(a,qA)),g=f7(aI(a,0)),L=aI(a,qB),v=jg(aI(a,qC),L),o=as(g,v),f=aS(w,v,dM(o,g)),A=as(f,f),p=w(X(u),A),r=b_(p),i=I?r:ct(r),B=w(o,i),C=aS(G,g,eD(f,i)),n=[0,aS(G,f,dM(i,g)),p,C,B,[0,u],0,[0,K]];break;case
+I=e[1][5],u=z(q3,a,n(d)),J=aV(G,cA,aL(a,q4)),g=gg(aL(a,0)),L=aL(a,q5),v=jp(aL(a,q6),L),p=av(g,v),f=aV(w,v,dT(p,g)),B=av(f,f),q=w(_(u),B),r=cf(q),i=I?r:bY(r),C=w(p,i),D=aV(G,g,eH(f,i)),o=[0,aV(G,f,dT(i,g)),q,D,C,[0,u],0,[0,J]];break;case
 1:var
-x=e[3],M=x?[0,f7(aI(a,qD))]:x,N=aS(G,cv,aI(a,qE)),O=aI(a,qF),b=jg(aI(a,0),O),s=as(b,b),t=b_(s),D=[0,N],F=af(function(a){return aS(w,b,dM(as(a,b),a))},M),n=[0,b,s,eD(b,t),t,0,F,D];break;default:var
-j=f7(aI(a,0)),H=as(j,cv),n=[0,j,q(c),j,H,0,0,0]}var
-z=[0,n,R]}else
+x=e[3],M=x?[0,gg(aL(a,q7))]:x,N=aV(G,cA,aL(a,q8)),O=aL(a,q9),b=jp(aL(a,0),O),s=av(b,b),t=cf(s),E=[0,N],F=Z(function(a){return aV(w,b,dT(av(a,b),a))},M),o=[0,b,s,eH(b,t),t,0,F,E];break;default:var
+j=gg(aL(a,0)),H=av(j,cA),o=[0,j,n(c),j,H,0,0,0]}var
+A=[0,o,R]}else
 var
-z=h;return z}function
-bt(b,a){if(typeof
+A=h;return A}function
+bg(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2838,7 +2979,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[4,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ew(a[2]),l=[1,[1,ew(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=eA(a[2]),l=[1,[1,eA(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2848,64 +2989,65 @@ o=[4,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
-2:case
-3:var
-g=a[2];return[0,[0,g,g],b];default:var
-i=a[1];return[0,[0,i,i],d]}}function
-dP(b,a){var
+5:case
+7:case
+9:var
+i=a[1];return[0,[0,i,i],d];default:var
+g=a[2];return[0,[0,g,g],b]}}function
+dV(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eK(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(dP(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=dP(b,a[3]);return g(dP(b,a[2]),j)}function
-cZ(b,a){if(typeof
+eT(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(dV(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=dV(b,a[3]);return g(dV(b,a[2]),j)}function
+c3(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=eK(b,a[2]);return g(eK(b,a[1]),e);case
+e=eT(b,a[2]);return g(eT(b,a[1]),e);case
 11:var
-f=dP(b,a[3]);return g(dP(b,a[2]),f);case
+f=dV(b,a[3]);return g(dV(b,a[2]),f);case
 12:var
 c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jh(c,b,a){var
-d=l(cZ(c,b)),e=J(a[2],d);return[0,[0,a[1]],e]}function
-ji(k,a,g){switch(g[0]){case
+jq(c,b,a){var
+d=l(c3(c,b)),e=K(a[2],d);return[0,[0,a[1]],e]}function
+jr(k,a,g){switch(g[0]){case
 0:var
 e=ai(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aI(a,qG);return aS(G,aS(w,l,dM(c,b[1])),d)},m=cX(b),n=h(ar(E(qH,a,q(d)),m)),o=cX(b),p=ar(E(0,a,q(d)),o),i=[0,[0,h(w(q(c),p)),n]];else
+d=aL(a,q_);return aV(G,aV(w,l,dT(c,b[1])),d)},m=c1(b),o=h(aq(z(q$,a,n(d)),m)),p=c1(b),q=aq(z(0,a,n(d)),p),i=[0,[0,h(w(n(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aI(a,qI);return[0,[0,aI(a,0),r]];default:var
-s=aS(G,cv,aI(a,qJ));return[0,[0,aS(G,cv,aI(a,0)),s]]}}function
-jj(f,e,j,d,c){var
-k=eK(e,c),h=cy(j,g(eK(e,d),k)),a=ji(f,eq(qK,h),d);if(a)var
-b=ji(f,iF(qL,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aL(a,ra);return[0,[0,aL(a,0),r]];default:var
+s=aV(G,cA,aL(a,rb));return[0,[0,aV(G,cA,aL(a,0)),s]]}}function
+js(f,e,j,d,c){var
+k=eT(e,c),h=cD(j,g(eT(e,d),k)),a=jr(f,ew(rc,h),d);if(a)var
+b=jr(f,iL(rd,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-gh(d,c,b,a){var
-e=s(c,b);return w(s(d,a),e)}function
-cz(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jk(a){if(a){var
+gq(d,c,b,a){var
+e=r(c,b);return w(r(d,a),e)}function
+cE(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
+jt(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jk(a[2]);if(d)var
-g=d[1],h=as(c,c),e=[0,[0,[0,dL(c),h],g]];else
+c=b[1],d=jt(a[2]);if(d)var
+g=d[1],h=av(c,c),e=[0,[0,[0,dS(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qN}function
-eL(b,d,c,a){if(typeof
+f=b;return f}return rf}function
+eU(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cx(bt(d,a),e);return[0,f(function(a){var
-b=s(a[2],g);return[0,dL(a[1]),b]},b)];case
-9:return jk(b)}return 0}function
-ca(e,k,j,a){var
-U=j[1],b=cx(bt(k,a),U),x=0;if(typeof
+e=c[1],g=cC(bg(d,a),e);return[0,f(function(a){var
+b=r(a[2],g);return[0,dS(a[1]),b]},b)];case
+9:return jt(b)}return 0}function
+ci(e,k,j,a){var
+U=j[1],b=cC(bg(k,a),U),x=0;if(typeof
 a==="number")x=1;else
 switch(a[0]){case
 2:var
@@ -2913,29 +3055,29 @@ V=function(a){return[0,w(a[4],b),0]},g=V,f=a[1];break;case
 3:var
 W=function(a){return[0,w(b,a[4]),0]},g=W,f=a[1];break;case
 4:var
-Y=function(c){var
-a=c[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=c[2];return[0,w(w(w(s(X(b),g),f),e),d),0]},g=Y,f=a[1];break;case
+X=function(c){var
+a=c[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=c[2];return[0,w(w(w(r(_(b),g),f),e),d),0]},g=X,f=a[1];break;case
 6:var
-Z=function(c){var
+Y=function(c){var
 a=c[5];if(a)var
-e=X(a[1]),f=s(X(b),e),d=[0,w(c[2],f),0];else
+e=_(a[1]),f=r(_(b),e),d=[0,w(c[2],f),0];else
 var
-d=a;return d},g=Z,f=a[1];break;case
+d=a;return d},g=Y,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-A=m[1],B=l[1],C=e[1],o=C[5];if(o){var
-p=B[5];if(p){var
-r=A[5];if(r)var
-h=A[1],i=B[1],t=C[1],P=gh(i[1],i[2],h[1],h[2]),Q=s(t[3],P),R=gh(i[1],i[3],h[1],h[3]),S=s(t[2],R),T=gh(i[2],i[3],h[2],h[3]),y=G(w(s(t[1],T),S),Q),_=r[1],$=p[1],D=s(s(s(b,o[1]),$),_),aa=[0,ct(G(y,D)),0],F=[0,w(y,D),aa];else
+A=m[1],B=l[1],D=e[1],p=D[5];if(p){var
+q=B[5];if(q){var
+s=A[5];if(s)var
+h=A[1],i=B[1],t=D[1],P=gq(i[1],i[2],h[1],h[2]),Q=r(t[3],P),R=gq(i[1],i[3],h[1],h[3]),S=r(t[2],R),T=gq(i[2],i[3],h[2],h[3]),y=G(w(r(t[1],T),S),Q),Z=s[1],$=q[1],E=r(r(r(b,p[1]),$),Z),aa=[0,bY(G(y,E)),0],F=[0,w(y,E),aa];else
 var
-F=r;var
+F=s;var
 H=F}else
 var
-H=p;var
+H=q;var
 I=H}else
 var
-I=o;var
+I=p;var
 J=I}else
 var
 J=m;var
@@ -2946,102 +3088,127 @@ L=K}else
 var
 L=e;return L;case
 10:var
-v=jj(e,k,j[2],a[1],a[2]);if(v){var
-M=v[1],N=M[2],O=M[1];return z(dL,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
+v=js(e,k,j[2],a[1],a[2]);if(v){var
+M=v[1],N=M[2],O=M[1];return C(dS,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
 11:var
 ab=function(d){var
 e=d[7];if(e)var
-n=cZ(k,a),f=cy(j[2],n),h=aI(f,qM),c=aS(w,aI(f,0),h),i=X(b),l=X(cX(d)),m=ar(X(as(c,d[1])),l),g=[0,w(w(as(c,c),m),i),0];else
+n=c3(k,a),f=cD(j[2],n),h=aL(f,re),c=aV(w,aL(f,0),h),i=_(b),l=_(c1(d)),m=aq(_(av(c,d[1])),l),g=[0,w(w(av(c,c),m),i),0];else
 var
 g=e;return g},g=ab,f=a[1];break;case
 12:var
 ac=function(e){var
-o=q(d),p=cZ(k,a),r=E(0,cy(j[2],p),o),f=ar(r,cX(e)),g=e[5];if(g){var
-l=b_(e[2]),h=ar(g[1],l),m=s(h,G(b,s(f,X(h))));return[0,w(q(c),m),0]}var
-i=e[7],n=i?[0,w(w(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
+p=n(d),q=c3(k,a),s=z(0,cD(j[2],q),p),f=aq(s,c1(e)),g=e[5];if(g){var
+l=cf(e[2]),h=aq(g[1],l),m=r(h,G(b,r(f,_(h))));return[0,w(n(c),m),0]}var
+i=e[7],o=i?[0,w(w(n(c),b),f),0]:i;return o},g=ac,f=a[1];break;case
 8:case
 9:var
-u=eL(e,k,j,a);return u?cz(u[1]):u;default:x=1}if(x)return 0;var
-n=ai(e,f);return n?g(n[1]):n}function
-gi(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gi(d,b,jh(b,e,c),f);return g(ca(d,b,c,e),h)}return a}function
-jl(b,w,h,i,g,k,o){if(o){var
-a=o[1],ag=o[2],ah=jl(b,w,h,i,g,jh(g,a,k),ag);if(typeof
+u=eU(e,k,j,a);return u?cE(u[1]):u;default:x=1}if(x)return 0;var
+o=ai(e,f);return o?g(o[1]):o}function
+gr(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gr(d,b,jq(b,e,c),f);return g(ci(d,b,c,e),h)}return a}var
+ju=[0,d,c],jv=[0,[0,ju,ju],d];function
+jw(a){var
+b=cx(0,l(a));return dJ(function(c){var
+b=z(c,a,jv);return aC(ch(b[1][1],b[1][2]))},b)}function
+jx(a,g){var
+h=g[4],b=a$(jw(a),h),c=b[1],e=f(function(a){return a1(d,a)?a:aq(a,b[2])},c),i=bX(jw(a),e);return dJ(function(a){return aC(a1(d,a[2]))},i)}function
+jy(g,F,k,D,m,h,n,r){if(r){var
+a=r[1],az=r[2],aA=jy(g,F,k,D,m,h,jq(h,a,n),az);if(typeof
 a==="number")var
-f=0===a?[0,[0,O]]:[0,[8,w[1],w[2]]];else
+i=0===a?[0,[0,L]]:[0,[8,F[1],F[2]]];else
 switch(a[0]){case
 0:var
-V=aA(b,bt(g,a)),f=af(function(a){return[0,aa(b,a)]},V);break;case
+al=an(g,bg(h,a)),i=Z(function(a){return[0,R(g,a)]},al);break;case
 1:var
-W=aA(b,bt(g,a)),f=af(function(a){return[1,aa(b,a)]},W);break;case
+am=an(g,bg(h,a)),i=Z(function(a){return[1,R(g,a)]},am);break;case
 5:var
-Y=aA(b,bt(g,a)),f=af(function(a){return[2,aa(b,a)]},Y);break;case
+ap=an(g,bg(h,a)),i=Z(function(a){return[2,R(g,a)]},ap);break;case
 8:var
-Z=eL(i,g,k,a),f=af(function(a){var
-d=aL(b,c);return[4,e(a5(h),a),d]},Z);break;case
+aq=eU(m,h,n,a),i=Z(function(a){var
+b=au(g,c);return[4,e(a2(k),a),b]},aq);break;case
 9:var
-r=eL(i,g,k,a);if(r){var
-s=aA(b,bt(g,a));if(s)var
-_=aa(b,s[1]),$=r[1],B=[0,[4,e(a5(h),$),_]];else
+u=eU(m,h,n,a);if(u){var
+v=an(g,bg(h,a));if(v)var
+ar=R(g,v[1]),as=u[1],M=[0,[4,e(a2(k),as),ar]];else
 var
-B=s;var
-C=B}else
+M=v;var
+N=M}else
 var
-C=r;var
-f=C;break;case
+N=u;var
+i=N;break;case
 10:var
-t=jj(i,g,k[2],a[1],a[2]);if(t){var
-E=t[1],F=E[2],G=E[1],u=aA(b,bt(g,a));if(u){var
-H=u[1],I=D(d,H[1]);if(I)var
-m=function(a){var
-b=e(h,a[3]),c=e(h,a[2]);return[0,e(h,a[1]),c,b]},ab=m(F[2]),ac=m(F[1]),ad=m(G[2]),J=[0,[6,m(G[1]),ad,ac,ab,H]];else
+w=js(m,h,n[2],a[1],a[2]);if(w){var
+O=w[1],P=O[2],Q=O[1],x=an(g,bg(h,a));if(x){var
+S=x[1],T=H(d,S[1]);if(T)var
+p=function(a){var
+b=e(k,a[3]),c=e(k,a[2]);return[0,e(k,a[1]),c,b]},at=p(P[2]),av=p(P[1]),aw=p(Q[2]),U=[0,[6,p(Q[1]),aw,av,at,S]];else
 var
-J=I;var
-K=J}else
+U=T;var
+V=U}else
 var
-K=u;var
-L=K}else
+V=x;var
+W=V}else
 var
-L=t;var
-f=L;break;case
+W=w;var
+i=W;break;case
 12:var
-n=ca(i,g,k,a),p=0;if(n)if(n[2])var
-f=0;else{var
-M=j(b,0,a[2]),N=M?j(b,1,a[4]):M;if(N){var
-v=[0,[3,e(h,n[1])]];p=1}else{var
-v=N;p=1}}else{var
-v=n;p=1}if(p)var
-f=v;break;case
+q=ci(m,h,n,a),s=0;if(q)if(q[2])var
+i=0;else{var
+X=j(g,0,a[2]),Y=X?j(g,1,a[4]):X;if(Y){var
+y=[0,[3,e(k,q[1])]];s=1}else{var
+y=Y;s=1}}else{var
+y=q;s=1}if(s)var
+i=y;break;case
 13:var
-P=a[1],Q=ai(i,P),x=0;if(Q){var
-R=j(b,1,a[2]),S=R?j(b,1,a[3]):R;if(S)var
-ae=aA(b,bt(g,a)),f=af(function(a){return[7,P,aa(b,a)]},ae);else{var
-T=S;x=1}}else{var
-T=Q;x=1}if(x)var
-f=T;break;default:var
-l=ca(i,g,k,a),y=0;if(l){var
-q=l[2],z=l[1];if(q)if(q[2])var
-f=0;else
+_=a[1],$=ai(m,_),G=0;if($){var
+aa=j(g,1,a[2]),ab=aa?j(g,1,a[3]):aa;if(ab)var
+ax=an(g,bg(h,a)),i=Z(function(a){return[7,_,R(g,a)]},ax);else{var
+ac=ab;G=1}}else{var
+ac=$;G=1}if(G)var
+i=ac;break;case
+14:var
+A=a[2],ad=a[1],ae=E(l(m),rg),af=ae?j(g,0,ad):ae,ag=af?j(g,1,A):af;if(ag){var
+B=an(g,bg(h,a));if(B)var
+C=aE(f(function(n){var
+j=[4,ad,A],a=an(g,[0,[0,j,j],d]);if(a){var
+o=jx(D,n),i=aE(f(function(f){var
+a=z(f[1],D,jv),i=br(a[2],h),j=[3,[0,b(2,c),c],A],d=[4,[2,a[1][2],a[1][1]],j],l=an(g,[0,[0,d,d],i]);return Z(function(a){return[0,a,e(k,f[2])]},l)},o));if(i)var
+p=[0,a[1],i[1]],l=[0,[0,e(k,n[4]),p]];else
 var
-X=e(h,q[1]),f=[0,[5,e(h,z),X]];else{var
-A=[0,[3,e(h,z)]];y=1}}else{var
-A=l;y=1}if(y)var
-f=A}var
-U=[0,f,ah]}else
+l=i;var
+m=l}else
 var
-U=o;return U}function
-qO(a){var
+m=a;return m},m)),ay=C?[0,[9,B[1],C[1]]]:C,ah=ay;else
+var
+ah=B;var
+aj=ah}else
+var
+aj=ag;var
+i=aj;break;default:var
+o=ci(m,h,n,a),I=0;if(o){var
+t=o[2],J=o[1];if(t)if(t[2])var
+i=0;else
+var
+ao=e(k,t[1]),i=[0,[5,e(k,J),ao]];else{var
+K=[0,[3,e(k,J)]];I=1}}else{var
+K=o;I=1}if(I)var
+i=K}var
+ak=[0,i,aA]}else
+var
+ak=r;return ak}function
+rh(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-gj(a,p,o){var
-q=a6(p,o),b=f(function(b){return aA(a,b)},q);if(b){var
+gs(a,p,o){var
+q=a7(p,o),b=f(function(b){return an(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-r=aa(a,i[1]),s=aa(a,h[1]);return ac(d,A(A(aa(a,g[1]),s),r)[1])}var
+r=R(a,i[1]),s=R(a,h[1]);return aa(d,B(B(R(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=e;var
@@ -3059,33 +3226,33 @@ var
 n=b;return n}function
 ag(c,b,a){var
 d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-aB(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-B(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aJ(a){return aB([4,[0,c,c],[5,B(a,a)]],a)}function
-cA(c,b,a){var
-d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
-aU(c,b,a){var
-d=cA(c,b[1],a[1]),e=d?cA(c,b[2],a[2]):d;return e?cA(c,b[3],a[3]):e}function
-jm(c,a,b){if(0===a[0])return aU(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cA(c,a[4],b[3]):h}function
-jn(a,E,H,G){var
-h=E[1],d=H;for(;;){if(h){if(d){var
+aF(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+F(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aM(a){return aF([4,[0,c,c],[5,F(a,a)]],a)}function
+cF(c,b,a){var
+d=bz(c,b[1],a);return d?bz(c,a,b[2]):d}function
+aW(c,b,a){var
+d=cF(c,b[1],a[1]),e=d?cF(c,b[2],a[2]):d;return e?cF(c,b[3],a[3]):e}function
+jz(c,a,b){if(0===a[0])return aW(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cF(c,a[4],b[3]):h}function
+jA(a,D,H,G){var
+h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aU(a,f[1],i),q=p?j(a,1,B(i,i)):p,r=q?aU(a,f[2],b[2]):q,s=r?aU(a,f[3],b[3]):r,t=s?cA(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dC(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aW(a,f[1],i),q=p?j(a,1,F(i,i)):p,r=q?aW(a,f[2],b[2]):q,s=r?aW(a,f[3],b[3]):r,t=s?cF(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dG(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aU(a,e[1],b[1]),x=w?aU(a,e[2],b[2]):w,n=0;if(x)if(v){var
-F=0;if(g){var
-k=g[1],y=aU(a,v[1],k);if(y){var
-c=j(a,1,B(k,k));F=1}else
+g=b[3],w=aW(a,e[1],b[1]),x=w?aW(a,e[2],b[2]):w,n=0;if(x)if(v){var
+E=0;if(g){var
+k=g[1],y=aW(a,v[1],k);if(y){var
+c=j(a,1,F(k,k));E=1}else
 var
 z=y}else
 var
-z=g;if(!F)var
+z=g;if(!E)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -3094,105 +3261,105 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-l=b[1],C=aU(a,e[1],l),c=C?j(a,1,B(l,l)):C;else
+l=b[1],B=aW(a,e[1],l),c=B?j(a,1,F(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
-D=c}else
+C=c}else
 var
-D=d;var
-m=D}else
+C=d;var
+m=C}else
 var
-m=d?0:1;return m?jm(a,E[2],G):m}}function
-bu(c,b,a){var
+m=d?0:1;return m?jz(a,D[2],G):m}}function
+bA(c,b,a){var
 d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
-eM(a,e,d,c){var
-b=bu(e,d,c),f=aJ(a),g=aB(B(aJ(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
-c0(f,e,d,a,c){var
-b=eM(f,e,d,c);return[2,[3,a,a],B(b,b)]}function
-c1(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-c2(a,b){switch(a[0]){case
+eV(a,e,d,c){var
+b=bA(e,d,c),f=aM(a),g=aF(F(aM(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
+c4(f,e,d,a,c){var
+b=eV(f,e,d,c);return[2,[3,a,a],F(b,b)]}function
+c5(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+c6(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eM(d,f,e,b),h=c0(d,f,e,a[4],b),i=aB([4,[0,c,c],c1(a[5],h)],g),j=aJ(d);return ag(function(b,a){return[1,b,a]},j,i);case
-1:return aJ(bu(a[1],a[2],b));default:return aJ(a[1])}}function
-jo(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eV(d,f,e,b),h=c4(d,f,e,a[4],b),i=aF([4,[0,c,c],c5(a[5],h)],g),j=aM(d);return ag(function(b,a){return[1,b,a]},j,i);case
+1:return aM(bA(a[1],a[2],b));default:return aM(a[1])}}function
+jB(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c0(e,d,c,a[4],b),i=c1(a[5],h),j=bu(d,c,b);return[2,B(aJ(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c4(e,d,c,a[4],b),i=c5(a[5],h),j=bA(d,c,b);return[2,F(aM(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bu(g,f,b);return[5,B(bu(g,f,b),k)];default:return B(aJ(a[1]),b)}}function
-dQ(e,b,a){var
-f=[0,d,c];return cT(function(c,d){var
-e=B(c2(c,b),a);return[1,[3,B(c2(c,b),a),e],d]},f,e)}function
-jp(a){var
+f=a[2],g=a[1],k=bA(g,f,b);return[5,F(bA(g,f,b),k)];default:return F(aM(a[1]),b)}}function
+dW(e,b,a){var
+f=[0,d,c];return cw(function(c,d){var
+e=F(c6(c,b),a);return[1,[3,F(c6(c,b),a),e],d]},f,e)}function
+jC(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gk(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aJ(b),h=c0(b,f,e,d,c),i=aB(c1(a[5],h),g),j=eM(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jq(d,i){if(d){var
+gt(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aM(b),h=c4(b,f,e,d,c),i=aF(c5(a[5],h),g),j=eV(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+jD(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bu(a[1],a[2],i),k=aJ(f),l=aB(B(aJ(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bA(a[1],a[2],i),k=aM(f),l=aF(F(aM(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jq(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jD(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qP}function
-cB(a){return[0,a[1],a[2],a[3]]}function
-jr(a,b){switch(a[0]){case
+j=b;return j}return ri}function
+cG(a){return[0,a[1],a[2],a[3]]}function
+jE(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aJ(d),j=c0(d,g,c,f,b),k=aB(c1(a[5],j),i),l=eM(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aM(d),j=c4(d,g,c,f,b),k=aF(c5(a[5],j),i),l=eV(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bu(a[1],h,b),n=[5,B(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
-js(l,b,a){switch(a[0]){case
+h=a[2],e=bA(a[1],h,b),n=[5,F(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
+jF(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=ai(l,a[1]);if(d){var
-e=jr(d[1],b);if(e)var
+e=jE(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cB(m),c=aB(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
+b=cG(m),c=aF(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cB(a[3]);return[0,[0,cB(a[2]),q]];default:var
-r=cB(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cB(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
-jt(d,a,c,b){var
-e=aB(a,b),f=aB([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-ju(f,g,e,b,q,a){function
-J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],B(b,b)]}var
+q=cG(a[3]);return[0,[0,cG(a[2]),q]];default:var
+r=cG(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cG(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
+jG(d,a,c,b){var
+e=aF(a,b),f=aF([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
+jH(f,g,e,b,q,a){function
+J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],F(b,b)]}var
 H=0;if(typeof
 a==="number")H=1;else
 switch(a[0]){case
 0:var
-av=dQ(g,e,b);return j(f,1,[2,J(a[1]),av]);case
+av=dW(g,e,b);return j(f,1,[2,J(a[1]),av]);case
 1:var
-aw=J(a[1]);return j(f,1,[2,dQ(g,e,b),aw]);case
+aw=J(a[1]);return j(f,1,[2,dW(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[2,ax,jo(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[2,ax,jB(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[2,jo(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[2,jB(a,e),az]},s=aA,r=a[1];break;case
 4:var
 K=a[3],L=a[2],aB=function(a){var
-b=c2(a,e);return[2,[3,[3,L,L],B(c2(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
+b=c6(a,e);return[2,[3,[3,L,L],F(c6(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=B(b,b),aD=[3,[3,M,M],[3,dQ(g,e,q),aC]],aE=B(q,q);return j(f,1,[2,[3,dQ(g,e,b),aE],aD]);case
+M=a[1],aC=F(b,b),aD=[3,[3,M,M],[3,dW(g,e,q),aC]],aE=F(q,q);return j(f,1,[2,[3,dW(g,e,b),aE],aD]);case
 6:var
 N=a[2],u=ai(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=c0(h[1],h[2],h[3],v,e),O=c1(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
+v=h[4],aF=c4(h[1],h[2],h[3],v,e),O=c5(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gk(g[1],e);if(w){var
-Q=w[1],x=gk(n[1],e);if(x){var
-R=x[1],y=gk(o[1],e);if(y){var
-S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=B(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
+w=gt(g[1],e);if(w){var
+Q=w[1],x=gt(n[1],e);if(x){var
+R=x[1],y=gt(o[1],e);if(y){var
+S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=F(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
 V=U}else
 var
 V=y;var
@@ -3212,49 +3379,49 @@ _=Z}else
 var
 _=g;return _;case
 8:var
-aG=dQ(g,e,b),aH=B(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
+aG=dW(g,e,b),aH=F(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=jq(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=cT(function(a,c){var
-d=B(aJ(a),b);return[1,[3,B(aJ(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],B(b,b)],au])}return z;case
+$=a[1],z=jD(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=cw(function(a,c){var
+d=F(aM(a),b);return[1,[3,F(aM(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],F(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=js(g,e,ab);if(A){var
-ac=A[1],C=js(g,e,aa);if(C){var
-ad=C[1],D=b[1],E=b[2],l=b[3],aK=jt(l,E,ad[1],ad[2]),aL=jt(l,D,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aL,aK),aM=a[3],aN=ew(aa),af=[3,l,[1,[1,ew(ab),aN],aM]],ah=j(f,1,l),aj=ah?j(f,0,D):ah,ak=aj?j(f,0,[2,l,D]):aj,al=ak?j(f,0,E):ak,am=al?j(f,0,[2,l,E]):al;if(am)return j(f,1,[2,[3,af,af],B(ae,ae)]);var
+aa=a[2],ab=a[1],A=jF(g,e,ab);if(A){var
+ac=A[1],B=jF(g,e,aa);if(B){var
+ad=B[1],C=b[1],D=b[2],l=b[3],aJ=jG(l,D,ad[1],ad[2]),aK=jG(l,C,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aK,aJ),aL=a[3],aN=eA(aa),af=[3,l,[1,[1,eA(ab),aN],aL]],ah=j(f,1,l),aj=ah?j(f,0,C):ah,ak=aj?j(f,0,[2,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[2,l,D]):al;if(am)return j(f,1,[2,[3,af,af],F(ae,ae)]);var
 an=am}else
 var
-an=C;var
+an=B;var
 ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],F=ai(g,a[1]);if(F){var
-G=jr(F[1],e);if(G){var
-m=G[1][1][2],aO=cB(a[3]),aP=cB(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,B(m,m));if(aq){var
-aQ=B(m,m),aR=B(p,m),aS=[4,[3,B(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,B(p,p),aS]])}var
+ap=a[4],E=ai(g,a[1]);if(E){var
+G=jE(E[1],e);if(G){var
+m=G[1][1][2],aO=cG(a[3]),aP=cG(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,F(m,m));if(aq){var
+aQ=F(m,m),aR=F(p,m),aS=[4,[3,F(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,F(p,p),aS]])}var
 ar=aq}else
 var
 ar=G;var
 as=ar}else
 var
-as=F;return as;default:H=1}if(H)return 0;var
+as=E;return as;default:H=1}if(H)return 0;var
 t=ai(g,r);return t?j(f,1,s(t[1])):t}function
-cb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-qQ(a){switch(a[0]){case
+cj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+rj(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=cb(b[3]),f=cb(b[2]);return[0,cb(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cj(b[3]),f=cj(b[2]);return[0,cj(b[1]),f,e,d,c];case
 1:var
-g=af(cb,a[3]),h=cb(a[2]);return[1,cb(a[1]),h,g];default:return[2,cb(a[1])]}}function
-jv(c,b){var
-a=b[2],d=0===a[0]?cb(a[1]):[0,a[1],a[2],a[4][1]];return jn(c,b,f(qQ,b[1]),d)}function
-c3(b,a){if(b){if(a){var
-e=c3(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jw(a,l,k,f){var
-b=az(a,l);if(b){var
-c=az(a,k);if(c){var
-d=ev(a,f);if(d){var
-e=fY(a,f);if(e)var
-m=F(a,b[1],e[1]),g=[0,N(F(a,c[1],d[1]),m)];else
+g=Z(cj,a[3]),h=cj(a[2]);return[1,cj(a[1]),h,g];default:return[2,cj(a[1])]}}function
+jI(c,b){var
+a=b[2],d=0===a[0]?cj(a[1]):[0,a[1],a[2],a[4][1]];return jA(c,b,f(rj,b[1]),d)}function
+c7(b,a){if(b){if(a){var
+e=c7(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jJ(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
+d=ez(a,f);if(d){var
+e=f_(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,N(D(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3266,35 +3433,35 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jx(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c3(a,a)]}var
-E=s[1];function
+jK(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c7(a,a)]}var
+F=s[1];function
 g(b){var
-a=[0,d,c];return cT(function(a,c){var
-d=c3(a,b);return[1,[3,c3(a,b),d],c]},a,E)}var
-u=o(function(a){return M(l(a),D)},a);if(u){var
+a=[0,d,c];return cw(function(a,c){var
+d=c7(a,b);return[1,[3,c7(a,b),d],c]},a,F)}var
+u=o(function(a){return E(l(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-w=a[1],F=g(w);return j(f,1,[2,t(e[1],w),F])}return a;case
+w=a[1],G=g(w);return j(f,1,[2,t(e[1],w),G])}return a;case
 1:if(a){if(a[2])return 0;var
-x=a[1],G=t(e[1],x);return j(f,1,[2,g(x),G])}return a;case
+x=a[1],H=t(e[1],x);return j(f,1,[2,g(x),H])}return a;case
 2:if(a)return 0;var
-H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,H,a[1]]);return 0},k=I,i=e[1];break;case
+I=e[2],J=function(a){if(typeof
+a!=="number"&&0===a[0])return j(f,1,[2,I,a[1]]);return 0},k=J,i=e[1];break;case
 3:if(a)return 0;var
-J=e[2],K=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],J]);return 0},k=K,i=e[1];break;case
+K=e[2],L=function(a){if(typeof
+a!=="number"&&0===a[0])return j(f,1,[2,a[1],K]);return 0},k=L,i=e[1];break;case
 4:if(a)return 0;var
-y=e[3],z=e[2],L=function(a){if(typeof
+y=e[3],z=e[2],M=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jw(f,i,h,z);return e?ac(e[1][2],d):e}var
-g=jw(f,i,h,y);return g?ac(d,g[1][1]):g}return k}return 0},k=L,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=jJ(f,i,h,z);return e?aa(e[1][2],d):e}var
+g=jJ(f,i,h,y);return g?aa(d,g[1][1]):g}return k}return 0},k=M,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],A=e[1],N=c3(q,q),O=[3,[3,A,A],[3,g(p),N]],P=c3(p,p);return j(f,1,[2,[3,g(q),P],O])}var
+n=h[1],q=a[1],A=e[1],N=c7(q,q),O=[3,[3,A,A],[3,g(n),N]],P=c7(n,n);return j(f,1,[2,[3,g(q),P],O])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
@@ -3302,7 +3469,7 @@ m=ai(s[2],i);return m?k(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jy(h,g){var
+jL(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3312,44 +3479,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-qR(a){return f(function(a){return[0,a,c]},a)}function
-jz(e,m,b,l,a){if(typeof
+rk(a){return f(function(a){return[0,a,c]},a)}function
+jM(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return a4(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jy(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(qR,a[2]);return jx(e,m,b,n[2],s,r)}return g}var
-h=jy(a[1],l);if(h){var
+q=b[3];return aT(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jL(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(rk,a[2]);return jK(e,m,b,n[2],s,r)}return g}var
+h=jL(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=ai(b[1],a[2]);return k?jx(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=ai(b[1],a[2]);return k?jK(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-gl(a){var
-b=aJ(a[1]),c=aB(B(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
-gm(a){return aJ(gl(a))}function
-jA(c){var
-a=gm(c),b=aJ(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gn(a,b){return bu(a[3],a[4],b)}function
-go(a,b){var
-c=gn(a,b);return B(gm(a),c)}function
-gp(a,b){var
-c=gn(a,b);return B(jA(a),c)}function
-jB(a,b){var
-c=gn(a,b);return B(aJ(a[1]),c)}function
-gq(b,a){var
-c=gp(b,a),d=go(b,a);return[1,[3,d,d],[3,c,c]]}function
-gr(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jB(a,d);return[4,[1,gq(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jC(a,b){var
-f=a[5],c=[2,gr(a,b),f],d=jB(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-gs(a,b){var
-c=jC(a,b);return c1(a[7],c)}function
-jD(b,a){var
-c=gq(b,a),d=gp(b,a),e=[3,gs(b,a),d],f=go(b,a);return[4,[1,[3,gr(b,a),f],e],c]}function
-jE(b,a){var
-c=gq(b,a),d=go(b,a),e=[3,gs(b,a),d],f=gp(b,a);return[4,[2,[3,gr(b,a),f],e],c]}function
-bv(c){var
+gu(a){var
+b=aM(a[1]),c=aF(F(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
+gv(a){return aM(gu(a))}function
+jN(c){var
+a=gv(c),b=aM(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+gw(a,b){return bA(a[3],a[4],b)}function
+gx(a,b){var
+c=gw(a,b);return F(gv(a),c)}function
+gy(a,b){var
+c=gw(a,b);return F(jN(a),c)}function
+jO(a,b){var
+c=gw(a,b);return F(aM(a[1]),c)}function
+gz(b,a){var
+c=gy(b,a),d=gx(b,a);return[1,[3,d,d],[3,c,c]]}function
+gA(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jO(a,d);return[4,[1,gz(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+jP(a,b){var
+f=a[5],c=[2,gA(a,b),f],d=jO(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+gB(a,b){var
+c=jP(a,b);return c5(a[7],c)}function
+jQ(b,a){var
+c=gz(b,a),d=gy(b,a),e=[3,gB(b,a),d],f=gx(b,a);return[4,[1,[3,gA(b,a),f],e],c]}function
+jR(b,a){var
+c=gz(b,a),d=gx(b,a),e=[3,gB(b,a),d],f=gy(b,a);return[4,[2,[3,gA(b,a),f],e],c]}function
+bB(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3358,94 +3525,94 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bv(a[2]);return g(bv(a[1]),e)}}function
-bw(e,a,b){switch(a[0]){case
+e=bB(a[2]);return g(bB(a[1]),e)}}function
+bC(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cx([0,[0,p,p],d],b);case
+q=a[1];return cC([0,[0,q,q],d],b);case
 1:var
-t=a[1],g=e,u=q(d);for(;;){if(g){var
-m=g[1];if(m5(m[1],t))return m[2];var
+t=a[1],g=e,u=n(d);for(;;){if(g){var
+m=g[1];if(nh(m[1],t))return m[2];var
 g=g[2];continue}return u}case
-2:return ct(bw(e,a[1],b));case
+2:return bY(bC(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
 i=a[2],f=a[1],h=w;break;case
 5:var
-i=a[2],f=a[1],h=s;break;case
+i=a[2],f=a[1],h=r;break;case
 6:var
-i=a[2],f=a[1],h=ar;break;case
+i=a[2],f=a[1],h=aq;break;case
 7:var
-j=dD(a[2]),k=bw(e,a[1],b);if(j){if(j[1]){var
-n=X(k),r=function(a){return s(a,n)},o=fO(bO(iw(j)),r,n);return iv(j)?o:s(o,k)}return k}return q(c);default:return b_(bw(e,a[1],b))}var
-v=bw(e,i,J(b,l(bv(f))));return h(bw(e,f,b),v)}function
-cC(c,f,b){var
+j=dH(a[2]),k=bC(e,a[1],b);if(j){if(j[1]){var
+o=_(k),s=function(a){return r(a,o)},p=fZ(bV(iD(j)),s,o);return iC(j)?p:r(p,k)}return k}return n(c);default:return cf(bC(e,a[1],b))}var
+v=bC(e,i,K(b,l(bB(f))));return h(bC(e,f,b),v)}function
+cH(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=J(b,l(bv(e))),k=cC(c,a[2],j),m=g(cC(c,e,b),k);return[0,bw(c,a,b),m];case
+e=a[1],j=K(b,l(bB(e))),k=cH(c,a[2],j),m=g(cH(c,e,b),k);return[0,bC(c,a,b),m];case
 8:var
-n=cC(c,a[1],b);return[0,bw(c,a,b),n];case
+n=cH(c,a[1],b);return[0,bC(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=J(b,l(bv(d))),i=cC(c,a[2],h);return g(cC(c,d,b),i)}}function
-jF(c,a,b){if(a){var
-e=a[1],d=e[2],f=J(b,l(bv(d))),h=a[2],i=bw(c,d,b),j=jF([0,[0,e[1],i],c],h,f);return g(cC(c,d,b),j)}return a}function
-dR(a){return z(bv,a)}function
-jG(c,a,b){if(a)var
-d=a[1],f=J(b,l(bv(d))),g=jG(c,a[2],f),e=[0,bw(c,d,b),g];else
+d=a[1],h=K(b,l(bB(d))),i=cH(c,a[2],h);return g(cH(c,d,b),i)}}function
+jS(c,a,b){if(a){var
+e=a[1],d=e[2],f=K(b,l(bB(d))),h=a[2],i=bC(c,d,b),j=jS([0,[0,e[1],i],c],h,f);return g(cH(c,d,b),j)}return a}function
+dX(a){return C(bB,a)}function
+jT(c,a,b){if(a)var
+d=a[1],f=K(b,l(bB(d))),g=jT(c,a[2],f),e=[0,bC(c,d,b),g];else
 var
 e=a;return e}function
-jH(c,a,b){if(a){var
-d=a[1],e=J(b,l(bv(d))),f=jH(c,a[2],e);return g(cC(c,d,b),f)}return a}function
-jI(c,a,b){if(a)var
-d=a[1],f=J(b,l(dR(d))),g=jI(c,a[2],f),e=[0,jG(c,d,b),g];else
+jU(c,a,b){if(a){var
+d=a[1],e=K(b,l(bB(d))),f=jU(c,a[2],e);return g(cH(c,d,b),f)}return a}function
+jV(c,a,b){if(a)var
+d=a[1],f=K(b,l(dX(d))),g=jV(c,a[2],f),e=[0,jT(c,d,b),g];else
 var
 e=a;return e}function
-jJ(c,a,b){if(a){var
-d=a[1],e=J(b,l(dR(d))),f=jJ(c,a[2],e);return g(jH(c,d,b),f)}return a}function
-jK(a){return f(function(a){return[0,a[2],d]},a)}function
-jL(a){var
-c=cy(0,jK(a[2])),d=cU(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=co(f(dz,a[2]),c);return g(co(a[1],e),b)}function
-qT(a){if(typeof
+jW(c,a,b){if(a){var
+d=a[1],e=K(b,l(dX(d))),f=jW(c,a[2],e);return g(jU(c,d,b),f)}return a}function
+jX(a){return f(function(a){return[0,a[2],d]},a)}function
+jY(a){var
+c=cD(0,jX(a[2])),d=cx(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=bX(f(dE,a[2]),c);return g(bX(a[1],e),b)}function
+rm(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gt(b,d){var
+gC(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return a4(function(a){return ap(e,a)},b);case
+e=a[1];return aT(function(a){return as(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gt(b,a[1]);if(c){var
+c=gC(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jM(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-jN(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gu(a,c,b){var
-d=[3,jM(a),b],e=[1,[3,jN(a),c],d],f=[3,jN(a),b];return[0,[2,[3,jM(a),c],f],e]}function
-jO(c,a){var
-b=gu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-jP(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-jQ(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jO(d[1],a):a;case
+jZ(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+j0(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+gD(a,c,b){var
+d=[3,jZ(a),b],e=[1,[3,j0(a),c],d],f=[3,j0(a),b];return[0,[2,[3,jZ(a),c],f],e]}function
+j1(c,a){var
+b=gD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+j2(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+j3(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:j1(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gu(d[1],a[2],a[3]),m=j[1],k=gu(f[1],j[2],a[1]);return jO(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gD(d[1],a[2],a[3]),m=j[1],k=gD(f[1],j[2],a[1]);return j1(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=B(e,e),n=jP(e,a),o=aB([0,b(2,c),c],n),p=B(e,a),q=aB([3,[0,b(2,c),c],p],e),r=aB([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aB([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-jR(b){var
-a=eJ(b);return a?iH(a[1],[0,d,c]):a}function
-jS(a,n,k,i){if(jR(i)){var
+e=[0,d[1],h[1],i[1]],l=F(e,e),n=j2(e,a),o=aF([0,b(2,c),c],n),p=F(e,a),q=aF([3,[0,b(2,c),c],p],e),r=aF([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aF([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+j4(b){var
+a=eR(b);return a?iN(a[1],[0,d,c]):a}function
+j5(a,n,k,i){if(j4(i)){var
 q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
-f=az(a,k);if(f){var
-g=ev(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fY(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=F(a,f[1],g[1]),l=[0,N(h[1],p)];else
+f=aD(a,k);if(f){var
+g=ez(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=f_(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),l=[0,N(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3454,26 +3621,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dS(b,a,c){var
-d=bs(b,a[1],a[2]),e=d?jS(b,0,c,a[1]):d;return e?jS(b,1,c,a[2]):e}function
-dT(a,d){if(jR(d))return[0,O];var
-e=ev(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fY(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=A(aL(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cr(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return af(function(d){var
-e=F(C(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iR(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
+dY(b,a,c){var
+d=bz(b,a[1],a[2]),e=d?j5(b,0,c,a[1]):d;return e?j5(b,1,c,a[2]):e}function
+dZ(a,d){if(j4(d))return[0,L];var
+e=ez(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=f_(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=B(au(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cc(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return Z(function(d){var
+e=D(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gv(d,a){var
-e=j(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-cD(a){return[0,[2,[0,d,c],a],a]}function
-jT(a,b,n,m){var
-h=bs(a,[0,d,c],b),i=h?gv(a,b):h;if(i){var
-e=dT(a,b);if(e){var
-f=az(a,n);if(f){var
-g=az(a,m);if(g){var
-o=f[1],p=g[1];return D(d,N(F(a,aa(a,e[1]),p),o)[1])}var
+gE(d,a){var
+e=j(d,1,[1,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
+cI(a){return[0,[2,[0,d,c],a],a]}function
+j6(a,b,n,m){var
+h=bz(a,[0,d,c],b),i=h?gE(a,b):h;if(i){var
+e=dZ(a,b);if(e){var
+f=aD(a,n);if(f){var
+g=aD(a,m);if(g){var
+o=f[1],p=g[1];return H(d,N(D(a,R(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3483,194 +3650,194 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dU(a){return 1===a?qX:qY}function
-gw(d,c,b,a){var
-e=a[1],f=jQ(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
-dV(b,d){var
+d0(a){return 1===a?rq:rr}function
+gF(d,c,b,a){var
+e=a[1],f=j3(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
+d1(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,J(b,c[1])]]:[0,dG(function(a){return dV(b,a)},a)]}return[0,dG(function(a){return dV(b,a)},a)]}function
-c4(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,K(b,c[1])]]:[0,dN(function(a){return d1(b,a)},a)]}return[0,dN(function(a){return d1(b,a)},a)]}function
+c8(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aK(M(e,b));return f?aK(M(e,J(d,b))):f;case
+e=a[1],f=aC(E(e,b));return f?aC(E(e,K(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c4(d,b,a[1]);if(g){var
+g=c8(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dW(c,b,m){var
+d2(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c4(c,b,g),i=h?dW(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c8(c,b,g),i=h?d2(c,b,f):h;if(i)var
 j=i;else{var
-k=dW(c,b,g);if(k)return c4(c,b,f);var
+k=d2(c,b,g);if(k)return c8(c,b,f);var
 j=k}return j;case
 7:var
-l=dW(c,b,a[1]);return l?c4(c,b,a[2]):l;case
+l=d2(c,b,a[1]);return l?c8(c,b,a[2]):l;case
 3:case
 4:var
-e=dW(c,b,a[1]);if(e){var
+e=d2(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c4(c,b,a[1]);default:return 1}}}function
-cE(c,e){var
+9:return c8(c,b,a[1]);default:return 1}}}function
+cJ(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aK(M(a[1],c));case
+0:return aC(E(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cE(c,a[1]);if(d){var
+d=cJ(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gx(d,b,m){var
+gG(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gx(d,b,a[1]);if(f){var
+f=gG(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gx(d,b,a[1]);return g?cE(b,a[2]):g;case
+g=gG(d,b,a[1]);return g?cJ(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cE(b,i);if(j){var
-k=cE(b,h);if(k)var
+h=a[2],i=a[1],j=cJ(b,i);if(j){var
+k=cJ(b,h);if(k)var
 e=k;else{var
-l=bc(i,d);if(l){var
+l=a_(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cE(b,c)}}}function
-jU(c,e){var
+2:return 1;default:return cJ(b,c)}}}function
+j7(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return iu(a[1],c);case
+0:return iB(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=jU(c,a[1]);if(d){var
+d=j7(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cc(b,a){return a?e(b,a[1]):a}function
-cd(c,b,a){return cc(function(b){return cc(e(c,b),a)},b)}function
-qZ(a){return 0===a[0]?a[1]:0}function
-bx(b,a){switch(a[0]){case
+ck(b,a){return a?e(b,a[1]):a}function
+cl(c,b,a){return ck(function(b){return ck(e(c,b),a)},b)}function
+rs(a){return 0===a[0]?a[1]:0}function
+bD(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bx(b,a[1])];default:var
-c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
-a0(b,c,a){switch(c[0]){case
-0:return bx(e(b,c[1]),a);case
+1:return[1,bD(b,a[1])];default:var
+c=bD(b,a[3]),d=bD(b,a[2]);return[2,bD(b,a[1]),d,c]}}function
+a3(b,c,a){switch(c[0]){case
+0:return bD(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bx(function(a){return Q(b,a,k)},d)];case
-1:return[1,a0(b,d,a[1])];default:var
-l=a0(b,d,a[3]),m=a0(b,d,a[2]);return[2,a0(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bD(function(a){return Q(b,a,k)},d)];case
+1:return[1,a3(b,d,a[1])];default:var
+l=a3(b,d,a[3]),m=a3(b,d,a[2]);return[2,a3(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return Q(b,a,n)},i=function(a){return bx(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return Q(b,a,n)},i=function(a){return bD(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=a0(b,f,j),s=a0(b,g,j);return[2,a0(b,h,j),s,r];default:var
-t=a0(b,f,a[3]),u=a0(b,g,a[2]);return[2,a0(b,h,a[1]),u,t]}}}function
-gy(c,g,a){if(a)var
+j=a[1],r=a3(b,f,j),s=a3(b,g,j);return[2,a3(b,h,j),s,r];default:var
+t=a3(b,f,a[3]),u=a3(b,g,a[2]);return[2,a3(b,h,a[1]),u,t]}}}function
+gH(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,aa(c,a)];break;case
+f=[0,a,R(c,a)];break;case
 1:var
-h=F(c,a,b),f=[0,et(A(a,b)),h];break;default:var
-f=[0,b,aa(c,b)]}return[0,[0,e(g,f)]]},i=gy(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=D(c,a,b),f=[0,dL(B(a,b)),h];break;default:var
+f=[0,b,R(c,b)]}return[0,[0,e(g,f)]]},i=gH(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-jV(a){if(a){var
+j8(a){if(a){var
 b=a[1];if(b)var
-c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=j8(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return q1}function
-dX(a){if(a){var
-g=a[1],b=g[2],c=jV(g[1]);if(c)if(b){var
-h=b[1],e=dX(a[2]);if(e)var
-i=ac(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return ru}function
+d3(a){if(a){var
+g=a[1],b=g[2],c=j8(g[1]);if(c)if(b){var
+h=b[1],e=d3(a[2]);if(e)var
+i=aa(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return q2}function
-gz(b,a){var
-c=a[3],d=af(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a5(b),g),f,d]}function
-jW(f,d,c,b){if(d){var
+f=c;return f}return rv}function
+gI(b,a){var
+c=a[3],d=Z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a2(b),g),f,d]}function
+j9(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=gz(function(a){switch(a[0]){case
+a=gI(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return jW(bO(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return j9(bV(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,gz(qZ,b))}function
-dY(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return af(function(a){return bQ(f,e,a)},d)}return[0,O]}function
-q3(c){var
+i=g;return i}return e(c,gI(rs,b))}function
+d4(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return Z(function(a){return bv(f,e,a)},d)}return[0,L]}function
+rw(c){var
 a=c[2];if(a){var
-b=dY(c[3]);if(b)return D(d,N(a[1],b[1])[1]);var
+b=d4(c[3]);if(b)return H(d,N(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jX(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-jY(a,c,b){var
-e=E(b,c,q(d)),f=cU(0,a);return o(function(b){return dW(a,b,e)},f)}function
-dZ(a){var
-b=X(a);return G(q(c),b)}function
-eN(i,g){var
-h=dZ(g),j=X(g),e=w(q(c),j),f=s(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ct(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ct(f),a,e]]:[0,[0,h,a,a],[0,a,e,ct(f)],[0,a,f,e]]}function
-jZ(b,a){function
+j_(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
+j$(a,c,b){var
+e=z(b,c,n(d)),f=cx(0,a);return o(function(b){return d2(a,b,e)},f)}function
+d5(a){var
+b=_(a);return G(n(c),b)}function
+eW(i,g){var
+h=d5(g),j=_(g),e=w(n(c),j),f=r(n(b(2,c)),g),a=n(d);return i?i[1]?[0,[0,e,bY(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bY(f),a,e]]:[0,[0,h,a,a],[0,a,e,bY(f)],[0,a,f,e]]}function
+ka(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=as(a,c(function(a){return a[3]})),d=as(a,c(function(a){return a[2]}));return[0,as(a,c(function(a){return a[1]})),d,b]}var
+b=av(a,c(function(a){return a[3]})),d=av(a,c(function(a){return a[2]}));return[0,av(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-j0(a){switch(a[0]){case
+kb(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cD(a[1]),0];default:var
-b=[0,cD(a[2]),0];return[0,cD(a[1]),b]}}function
-c5(a){return[0,[0,a[1]],[0,a[2]]]}function
-j1(a,b){if(0===b[0])return dT(a,b[1]);var
-d=dT(a,b[1]);if(d){var
-e=dT(a,b[2]);if(e){var
-g=aa(a,e[1]),h=cs(a,A(aL(a,c),g)),i=d[1];return af(function(b){return F(a,i,b)},h)}var
+2:return[0,cI(a[1]),0];default:var
+b=[0,cI(a[2]),0];return[0,cI(a[1]),b]}}function
+c9(a){return[0,[0,a[1]],[0,a[2]]]}function
+kc(a,b){if(0===b[0])return dZ(a,b[1]);var
+d=dZ(a,b[1]);if(d){var
+e=dZ(a,b[2]);if(e){var
+g=R(a,e[1]),h=cz(a,B(au(a,c),g)),i=d[1];return Z(function(b){return D(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-j2(j,z,c,y,x,b,a){switch(b[0]){case
+kd(j,A,c,y,x,b,a){switch(b[0]){case
 0:var
 n=b[4],k=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
-A=a[2],B=a[1],i=o,h=p,g=function(e){var
-a=dX(e[1]);if(a){var
+B=a[2],C=a[1],i=o,h=p,g=function(e){var
+a=d3(e[1]);if(a){var
 b=e[2];if(b){var
-d=dY(e[3]);if(d){var
-h=d[1],i=cp([0,N(aH(F(j,k,b[1])),h),0],c);return dO(c,f4(B,A,a[1],i))}var
+d=d4(e[3]);if(d){var
+h=d[1],i=bu([0,N(am(D(j,k,b[1])),h),0],c);return cB(c,gd(C,B,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3679,21 +3846,21 @@ var
 g=a;return g},e=n;break;case
 2:var
 q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
-D=a[2],G=a[1],i=o,h=p,g=function(e){var
-a=dX(e[1]);if(a){var
-b=dY(e[3]);if(b){var
-g=cp([0,N(O,b[1]),0],c),h=a[1];return dO(c,f4(G,D,f(function(a){return[0,a[1],O]},h),g))}var
+G=a[2],H=a[1],i=o,h=p,g=function(e){var
+a=d3(e[1]);if(a){var
+b=d4(e[3]);if(b){var
+g=bu([0,N(L,b[1]),0],c),h=a[1];return cB(c,gd(H,G,f(function(a){return[0,a[1],L]},h),g))}var
 d=b}else
 var
 d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
-H=b[2],I=b[1],J=b[3],i=H,h=I,K=0,g=function(f){var
-a=dX(f[1]);if(a){var
+I=b[2],J=b[1],K=b[3],i=I,h=J,M=0,g=function(f){var
+a=d3(f[1]);if(a){var
 b=f[2];if(b){var
-d=dY(f[3]);if(d){var
-k=d[1],l=cp([0,N(F(j,J,b[1]),k),0],c),e=i5(a[1],l);if(e)return dO(c,e[1]);var
+d=d4(f[3]);if(d){var
+k=d[1],l=bu([0,N(D(j,K,b[1]),k),0],c),e=i$(a[1],l);if(e)return cB(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3702,18 +3869,18 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},e=K;else
+i=a;return i},e=M;else
 u=1;if(u)return 0;break;case
 2:var
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],L=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=dX(f[1]);if(a){var
+s=a[2],t=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=d3(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dY(f[3]);if(e){var
-g=M(l(b),c),h=g?M(l(s),c):g;if(h){var
-n=f9(t,f_(t,s,d[1],b));return dO(c,f1(f$(j,R,Q,e[1],b),n))}var
+e=d4(f[3]);if(e){var
+g=E(l(b),c),h=g?E(l(s),c):g;if(h){var
+n=eK(t,eL(t,s,d[1],b));return cB(c,dR(gj(j,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3722,53 +3889,53 @@ var
 k=d;var
 m=k}else
 var
-m=a;return m},i=L,h=P,g=S,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=O,h=P,g=S,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=q3,e=0;else
+i=b[1],h=0,g=rw,e=0;else
 w=1;if(w)return 0}var
-C=[0,h,i,x];return jW(e,z,g,gz(function(a){return E(a,y,rf)},C))}function
-j3(m,l,k,f,j,i,e){if(typeof
+F=[0,h,i,x];return j9(e,A,g,gI(function(a){return z(a,y,rK)},F))}function
+ke(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=D(d,o);if(p)var
-h=hY(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=H(d,o);if(p)var
+h=h5(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return j2(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kd(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return j2(m,l,k,j,0,i,a)}return 0}function
-rg(a){if(a[1])return 0;var
+q=f;return q}return kd(m,l,k,j,0,i,a)}return 0}function
+rL(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-j4(a,K,J,I,H,G,h,p,D,W){if(o(rg,D))var
+kf(a,K,J,I,H,G,h,p,F,X){if(o(rL,F))var
 q=0;else
 var
-T=gy(a,dA,p),S=0,U=g(gy(a,dz,p),T),q=cu(q0,function(b){switch(b[0]){case
-0:return E(b[1],U,[0,[0,O]]);case
-1:return[0,[0,E(b[1],J,O)]];case
-2:return[0,[0,aL(a,b[1])]];case
+U=gH(a,cW,p),T=0,V=g(gH(a,dE,p),U),q=cg(rt,function(b){switch(b[0]){case
+0:return z(b[1],V,[0,[0,L]]);case
+1:return[0,[0,z(b[1],J,L)]];case
+2:return[0,[0,au(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,A(b,a)]};return a0(function(a,b){return cd(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return a3(function(a,b){return cl(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return a0(function(a,b){return cd(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return a3(function(a,b){return cl(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aH(a)]};return bx(function(a){return cc(j,a)},i);case
+i=b[1],j=function(a){return[0,am(a)]};return bD(function(a){return ck(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return a0(function(a,b){return cd(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return a3(function(a,b){return cl(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cr(a,b);return af(function(b){return F(a,c,b)},d)};return a0(function(a,b){return cd(p,a,b)},o,n);case
+d=cc(a,b);return Z(function(b){return D(a,c,b)},d)};return a3(function(a,b){return cl(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,aa(a,b)]};return bx(function(a){return cc(r,a)},q);default:var
-s=b[1],t=function(b){return cs(a,b)};return bx(function(a){return cc(t,a)},s)}},K,S);var
-e=D,b=W;for(;;){if(e){var
+q=b[1],r=function(b){return[0,R(a,b)]};return bD(function(a){return ck(r,a)},q);default:var
+s=b[1],t=function(b){return cz(a,b)};return bD(function(a){return ck(t,a)},s)}},K,T);var
+e=F,b=X;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=E(c,b,0);if(u){var
+u=z(c,b,0);if(u){var
 l=ai(I,c);if(l){var
-v=j3(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eI(c,b);continue}var
+v=ke(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=eQ(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3776,75 +3943,75 @@ x=w}else
 var
 x=u;return x}if(typeof
 i==="number"&&4===i){var
-L=0;if(h){var
-V=0,r=f(function(b){return[0,b,aa(a,b)]},p),P=f(dA,r),M=0,Q=g(f(dz,r),P),R=cu(0,function(n){return function(b){switch(b[0]){case
-0:return[0,E(b[1],n,O)];case
-1:return[0,E(b[1],J,O)];case
-2:return[0,aL(a,b[1])];case
+M=0;if(h){var
+W=0,r=f(function(b){return[0,b,R(a,b)]},p),P=f(cW,r),O=0,Q=g(f(dE,r),P),S=cg(0,function(n){return function(b){switch(b[0]){case
+0:return[0,z(b[1],n,L)];case
+1:return[0,z(b[1],J,L)];case
+2:return[0,au(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cd(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return cl(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cd(function(b,a){return[0,N(b,a)]},f,e);case
+e=b[2],f=b[1];return cl(function(b,a){return[0,N(b,a)]},f,e);case
 5:var
-g=b[1];return cc(function(a){return[0,aH(a)]},g);case
+g=b[1];return ck(function(a){return[0,am(a)]},g);case
 6:var
-h=b[2],i=b[1];return cd(function(c,b){return[0,F(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cl(function(c,b){return[0,D(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cd(function(c,b){var
-d=cr(a,b);return af(function(b){return F(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cl(function(c,b){var
+d=cc(a,b);return Z(function(b){return D(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cc(function(b){return[0,aa(a,b)]},l);default:var
-m=b[1];return cc(function(b){return cs(a,b)},m)}}}(Q),K,M),j=E(h[1],R,V);if(j){var
-m=ac(j[1][2],d);L=1}else
+l=b[1];return ck(function(b){return[0,R(a,b)]},l);default:var
+m=b[1];return ck(function(b){return cz(a,b)},m)}}}(Q),K,O),j=z(h[1],S,W);if(j){var
+m=aa(j[1][2],d);M=1}else
 var
 s=j}else
 var
-s=h;if(!L)var
+s=h;if(!M)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=E(c,b,0);if(y){var
+y=z(c,b,0);if(y){var
 n=ai(I,c);if(n){var
-z=j3(a,H,G,h,q,n[1],i);if(z){var
-e=k,b=eI(c,b);continue}var
-B=z}else
+A=ke(a,H,G,h,q,n[1],i);if(A){var
+e=k,b=eQ(c,b);continue}var
+C=A}else
 var
-B=n;var
-C=B}else
+C=n;var
+E=C}else
 var
-C=y;return C}return[0,b]}}function
-j5(i,h,g,f,e,d,c,t,s,r){var
+E=y;return E}return[0,b]}}function
+kg(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=j4(i,h,g,f,e,d,c,b,a[1],j);return k?o(aK,k[1]):k}var
-l=j4(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=dN(a[2],b),p=j5(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+k=kf(i,h,g,f,e,d,c,b,a[1],j);return k?o(aC,k[1]):k}var
+l=kf(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dU(a[2],b),p=kg(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gA(d,a){var
-e=X(a),f=s(s(q(b(2,c)),a),d);return G(w(X(d),f),e)}function
-gB(a){switch(a){case
-0:return rj;case
-1:return rk;default:return 0}}function
-eO(b,a){var
-c=a6(a[2],b);return g(a6(a[1],b),c)}function
-j6(r,k,p,u,o,j,t){if(j){var
-v=j[1],x=cy(t,eO(o,v)),R=J(t,l(eO(o,v))),S=j6(r,k,p,u,o,j[2],R),i=aI(x,rl),m=aI(x,0);switch(r){case
+gJ(d,a){var
+e=_(a),f=r(r(n(b(2,c)),a),d);return G(w(_(d),f),e)}function
+gK(a){switch(a){case
+0:return rO;case
+1:return rP;default:return 0}}function
+eX(b,a){var
+c=a7(a[2],b);return g(a7(a[1],b),c)}function
+kh(s,k,q,u,p,j,t){if(j){var
+v=j[1],x=cD(t,eX(p,v)),R=K(t,l(eX(p,v))),S=kh(s,k,q,u,p,j[2],R),i=aL(x,rQ),m=aL(x,0);switch(s){case
 0:var
-g=[0,ri,rh,q(d)];break;case
+g=[0,rN,rM,n(d)];break;case
 1:var
-g=cv;break;default:var
-H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=aS(w,g,m),z=as(k[3],i),A=as(k[2],i),a=[0,as(k[1],i),A,z],K=gA(g[3],m[3]),L=gA(g[2],m[2]),M=gA(g[1],m[1]),N=G(G(G(as(i,i),M),L),K),O=as(a,e),P=s(q(b(2,c)),O),Q=G(s(p,N),P),B=s(a[2],e[1]),C=w(s(a[1],e[2]),B),D=s(a[1],e[3]),E=w(s(a[3],e[1]),D),F=s(a[3],e[2]),f=eD([0,w(s(a[2],e[3]),F),E,C],u),h=aS(G,dM(p,e),a);switch(r){case
+g=cA;break;default:var
+H=n(d),I=n(d),g=[0,n(d),I,H]}var
+e=aV(w,g,m),z=av(k[3],i),A=av(k[2],i),a=[0,av(k[1],i),A,z],J=gJ(g[3],m[3]),L=gJ(g[2],m[2]),M=gJ(g[1],m[1]),N=G(G(G(av(i,i),M),L),J),O=av(a,e),P=r(n(b(2,c)),O),Q=G(r(q,N),P),B=r(a[2],e[1]),C=w(r(a[1],e[2]),B),D=r(a[1],e[3]),E=w(r(a[3],e[1]),D),F=r(a[3],e[2]),f=eH([0,w(r(a[2],e[3]),F),E,C],u),h=aV(G,dT(q,e),a);switch(s){case
 0:var
-n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+o=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
-n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-y=[0,[0,n,Q],S]}else
+o=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+o=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+y=[0,[0,o,Q],S]}else
 var
 y=j;return y}function
-gC(g,a){if(typeof
+gL(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3852,8 +4019,8 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gD(e,d,n,m,l,a){var
-f=s(X(cx(gC(m,a),l)),n);if(typeof
+gM(e,d,n,m,l,a){var
+f=r(_(cC(gL(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=ai(d,a[1]);if(b)var
@@ -3865,175 +4032,175 @@ c=ai(d,a[1]);if(c)var
 i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-j7(a,d,c,b){return f(function(a){var
-e=cx(gC(d,b),c),f=s(a[2],e);return[0,a[1],f]},a)}function
-j8(b,g,s,f,i,q,p,o){if(o){var
-Y=j8(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+ki(a,d,c,b){return f(function(a){var
+e=cC(gL(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
+kj(b,g,s,f,i,q,p,o){if(o){var
+_=kj(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a5(g),f),M,O)];else
+N=e(g,i),h=[0,t(e(a2(g),f),N,L)];else
 switch(a[0]){case
 0:var
 k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
 P=[4,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-Q=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},Q);break;case
+Q=gM(b,f,i,q,p,a),h=Z(function(a){return[3,e(g,a)]},Q);break;case
 3:var
-R=gD(b,f,i,q,p,a),h=af(function(a){return[3,e(g,a)]},R);break;case
+S=gM(b,f,i,q,p,a),h=Z(function(a){return[3,e(g,a)]},S);break;case
 6:var
 u=a[3],v=a[2],r=ai(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-S=[4,u,v],T=[0,r[1],0],k=S,n=T,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
+T=[4,u,v],U=[0,r[1],0],k=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=ai(f,B),L=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=ai(f,B),M=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
-U=[4,A,z],k=U,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;L=1}else
+V=[4,A,z],k=V,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;M=1}else
 var
 F=E}else
 var
-F=C;if(!L)var
+F=C;if(!M)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-V=aL(b,c),W=e(g,i),X=j7(f,q,p,a),I=[0,[0,e(a5(g),X),W,V,0]];else
+W=au(b,c),X=e(g,i),Y=ki(f,q,p,a),I=[0,[0,e(a2(g),Y),X,W,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-N=aA(b,[0,[0,k,k],d]),h=af(function(a){var
-c=aa(b,a),d=e(g,i);return m(e(a5(g),n),d,c)},N);var
-J=[0,h,Y]}else
+O=an(b,[0,[0,k,k],d]),h=Z(function(a){var
+c=R(b,a),d=e(g,i);return m(e(a2(g),n),d,c)},O);var
+J=[0,h,_]}else
 var
 J=o;return J}function
-j9(j,h,i,e,d,a){if(a){var
-n=j9(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+kk(j,h,i,e,d,a){if(a){var
+n=kk(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(dA,j7(h,e,d,b));l=1}if(!l)var
-c=gD(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rm(a){if(typeof
+k=f(cW,ki(h,e,d,b));l=1}if(!l)var
+c=gM(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+rR(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-eP(a){var
-b=cw(a[1],[0,d,c]);return b?cw(a[2],[0,d,c]):b}function
-rn(k,a,m,bg){var
-x=a[1],h=dU(x),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(z(function(a){return eO(m,a)},bi),bh),T=l(aq),bj=a[2],bk=l(z(function(a){return eO(m,a)},bj)),ar=a[3],bl=cx([0,[0,ar,ar],m],bk),bm=gB(x),bn=a[5];function
-i(a){return[0,[0,J(bm,a)]]}switch(bn[0]){case
+eY(a){var
+b=ch(a[1],[0,d,c]);return b?ch(a[2],[0,d,c]):b}function
+rS(k,a,m,bg){var
+x=a[1],h=d0(x),aq=a[3],bh=[0,[0,[0,aq,aq],m],0],bi=a[2],ar=g(C(function(a){return eX(m,a)},bi),bh),T=l(ar),bj=a[2],bk=l(C(function(a){return eX(m,a)},bj)),as=a[3],bl=cC([0,[0,as,as],m],bk),bm=gK(x),bn=a[5];function
+i(a){return[0,[0,K(bm,a)]]}switch(bn[0]){case
 0:var
-aX=dZ(i(0)),I=[0,eN(q4,i(0)),aX];break;case
+aY=d5(i(0)),J=[0,eW(rx,i(0)),aY];break;case
 1:var
-aY=dZ(i(0)),aZ=s(dZ(i(q5)),aY),a0=s(dZ(i(q6)),aZ),a1=eN(0,i(0)),a2=jZ(eN(q8,i(q7)),a1),I=[0,jZ(eN(q_,i(q9)),a2),a0];break;default:var
-a3=i(q$),a6=i(ra),v=[0,i(0),a6,a3],a7=as(v,v),a8=G(q(c),a7),aN=as(v,v),r=v[1],t=v[2],u=v[3],O=function(a){var
-d=X(a),e=s(q(b(2,c)),d);return G(w(q(c),aN),e)},A=function(f,e,d,a){var
-g=Q(f,s(e,d),a);return s(q(b(2,c)),g)},aO=O(u),aP=A(G,t,u,r),aQ=[0,A(w,r,u,t),aP,aO],aR=A(w,t,u,r),aS=O(t),aU=[0,A(G,r,t,u),aS,aR],aV=A(G,r,u,t),aW=A(w,r,t,u),I=[0,[0,[0,O(r),aW,aV],aU,aQ],a8]}var
-C=I[2],K=j6(x,I[1],C,bl,m,a[2],0),bo=J(T,l(a[6])),bp=gB(x),br=a[5];function
-B(a){return[0,[0,J(bp,a)]]}var
-ag=X([0,[1,bo]]);switch(br[0]){case
+aZ=d5(i(0)),a0=r(d5(i(ry)),aZ),a1=r(d5(i(rz)),a0),a3=eW(0,i(0)),a4=ka(eW(rB,i(rA)),a3),J=[0,ka(eW(rD,i(rC)),a4),a1];break;default:var
+a5=i(rE),a6=i(rF),v=[0,i(0),a6,a5],a7=av(v,v),a8=G(n(c),a7),aO=av(v,v),s=v[1],t=v[2],u=v[3],O=function(a){var
+d=_(a),e=r(n(b(2,c)),d);return G(w(n(c),aO),e)},A=function(f,e,d,a){var
+g=Q(f,r(e,d),a);return r(n(b(2,c)),g)},aP=O(u),aQ=A(G,t,u,s),aR=[0,A(w,s,u,t),aQ,aP],aS=A(w,t,u,s),aU=O(t),aV=[0,A(G,s,t,u),aU,aS],aW=A(G,s,u,t),aX=A(w,s,t,u),J=[0,[0,[0,O(s),aX,aW],aV,aR],a8]}var
+D=J[2],L=kh(x,J[1],D,bl,m,a[2],0),bo=K(T,l(a[6])),bp=gK(x),bq=a[5];function
+B(a){return[0,[0,K(bp,a)]]}var
+ag=_([0,[1,bo]]);switch(bq[0]){case
 2:var
-a9=B(rb),a_=B(rc),ah=[0,B(0),a_,a9],n=[0,w(ag,as(ah,ah))];break;case
+a9=B(rG),a$=B(rH),ah=[0,B(0),a$,a9],p=[0,w(ag,av(ah,ah))];break;case
 3:var
-a$=X(B(rd)),ba=X(B(0)),bb=X(B(re)),n=[0,w(w(s(ag,G(q(c),bb)),ba),a$)];break;default:var
-n=0}var
-bs=n?[0,n[1],0]:n,bt=[0,C,g(j9(k,K,C,m,T,a[6]),bs)],U=g(cz(K),bt),at=dJ(f(function(a){return dV(h,a)},U))[1],D=dI(at);function
-y(a){return bq(D,dV(h,a))}var
-bu=af(y,n),bv=y(C),au=e(a5(y),K),am=gB(x),an=M(l(au),h);if(an)var
-ao=af(function(a){return[0,[0,a,d],d]},bu),H=function(a){return E(a,D,q(d))},ae=H(bv),aM=cU(0,am),S=o(function(a){var
-b=c4(h,a,ae),c=b?o(function(b){var
+ba=_(B(rI)),bb=_(B(0)),bc=_(B(rJ)),p=[0,w(w(r(ag,G(n(c),bc)),bb),ba)];break;default:var
+p=0}var
+br=p?[0,p[1],0]:p,bs=[0,D,g(kk(k,L,D,m,T,a[6]),br)],U=g(cE(L),bs),at=dQ(f(function(a){return d1(h,a)},U))[1],F=dP(at);function
+y(a){return bw(F,d1(h,a))}var
+bt=Z(y,p),bu=y(D),au=e(a2(y),L),am=gK(x),ao=E(l(au),h);if(ao)var
+ap=Z(function(a){return[0,[0,a,d],d]},bt),I=function(a){return z(a,F,n(d))},af=I(bu),aN=cx(0,am),S=o(function(a){var
+b=c8(h,a,af),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
-c=H(b);return cE(J(h,a),c)},d);if(c){var
-e=H(b[2]);return gx(ae,J(h,a),e)}return c},au):b;if(c){if(ao){var
-e=H(ao[1][1][1]);return cE(J(h,a),e)}var
+c=I(b);return cJ(K(h,a),c)},d);if(c){var
+e=I(b[2]);return gG(af,K(h,a),e)}return c},au):b;if(c){if(ap){var
+e=I(ap[1][1][1]);return cJ(K(h,a),e)}var
 d=1}else
 var
-d=c;return d},aM);else
+d=c;return d},aN);else
 var
-S=an;var
-bf=S?am:S,av=o(function(a){var
-b=dV(h,a),c=q(d);return bc(E(y(a),D,c),b)},U),aw=av?o(function(a){return jU(h,a)},U):av,ax=aw?a4(rm,a[6]):aw;if(ax){var
-L=a[4];switch(x){case
+S=ao;var
+bf=S?am:S,aw=o(function(a){var
+b=d1(h,a),c=n(d);return a_(z(y(a),F,c),b)},U),ax=aw?o(function(a){return j7(h,a)},U):aw,ay=ax?aT(rR,a[6]):ax;if(ay){var
+M=a[4];switch(x){case
 0:var
-V=eP(L[3]);break;case
+V=eY(M[3]);break;case
 1:var
 V=1;break;default:var
-ak=eP(L[1]),al=ak?eP(L[2]):ak,V=al?eP(L[3]):al}var
+ak=eY(M[1]),al=ak?eY(M[2]):ak,V=al?eY(M[3]):al}var
 W=V}else
 var
-W=ax;var
-ay=W?j(k,1,a[3]):W;if(ay)var
-bw=j0(a[5]),Y=o(function(a){var
-b=gv(k,a[1]);return b?gv(k,a[2]):b},bw);else
+W=ay;var
+az=W?j(k,1,a[3]):W;if(az)var
+bv=kb(a[5]),X=o(function(a){var
+b=gE(k,a[1]);return b?gE(k,a[2]):b},bv);else
 var
-Y=ay;if(Y){var
-bx=a[6],by=g(aq,f(function(a){return gC(m,a)},bx)),Z=aT(f(function(a){return aA(k,a)},by));if(Z){var
-F=a[4];switch(x){case
+X=az;if(X){var
+bx=a[6],by=g(ar,f(function(a){return gL(m,a)},bx)),Y=aE(f(function(a){return an(k,a)},by));if(Y){var
+H=a[4];switch(x){case
 0:var
-_=[0,F[1],[0,F[2],0]];break;case
+$=[0,H[1],[0,H[2],0]];break;case
 1:var
-_=[0,F[1],[0,F[2],[0,F[3],0]]];break;default:var
-_=0}var
-$=aT(f(function(a){return aA(k,[0,a,m])},_));if($){var
-az=$[1],p=a[5];switch(p[0]){case
+$=[0,H[1],[0,H[2],[0,H[3],0]]];break;default:var
+$=0}var
+aa=aE(f(function(a){return an(k,[0,a,m])},$));if(aa){var
+aA=aa[1],q=a[5];switch(q[0]){case
 0:var
-N=[0,c5(p[1]),0];break;case
+N=[0,c9(q[1]),0];break;case
 1:var
-bd=[0,c5(p[3]),0],be=[0,c5(p[2]),bd],N=[0,c5(p[1]),be];break;case
+bd=[0,c9(q[3]),0],be=[0,c9(q[2]),bd],N=[0,c9(q[1]),be];break;case
 2:var
-P=c5(cD(p[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
-R=p[2],ai=p[1],aj=[0,[1,cD(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c5(cD(R)),0]]]}var
-aa=aT(f(function(d){var
-a=j1(k,d[1]);if(a)var
-b=j1(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=c9(cI(q[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
+R=q[2],ai=q[1],aj=[0,[1,cI(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c9(cI(R)),0]]]}var
+ab=aE(f(function(d){var
+a=kc(k,d[1]);if(a)var
+b=kc(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},N));if(aa){var
-aB=aa[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ab=aT(f(function(a){return dT(k,a)},bz));if(ab){var
-ac=aT(j8(k,y,bf,K,C,m,T,a[6]));if(ac){var
-ad=ac[1],aD=M(l(g(az,aB)),h),aE=aD?o(function(a){switch(a[0]){case
+c=a;return c},N));if(ab){var
+aB=ab[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ac=aE(f(function(a){return dZ(k,a)},bz));if(ac){var
+ad=aE(kj(k,y,bf,L,D,m,T,a[6]));if(ad){var
+ae=ad[1],aD=E(l(g(aA,aB)),h),aF=aD?o(function(a){switch(a[0]){case
 2:var
-d=jX(a[2]),b=[0,a[3],d];break;case
+d=j_(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=jX(a[1]),b=[0,a[2],c]}return o(function(a){return jY(h,D,a)},b)},ad):aD,aF=aE?n?jY(h,D,y(n[1])):1:aE;if(aF){var
-bA=f(function(a){return 1},ad),bB=g(az,aB),bC=af(y,n);return j5(k,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bg)}var
-aG=aF}else
-var
-aG=ac;var
+c=j_(a[1]),b=[0,a[2],c]}return o(function(a){return j$(h,F,a)},b)},ae):aD,aG=aF?p?j$(h,F,y(p[1])):1:aF;if(aG){var
+bA=f(function(a){return 1},ae),bB=g(aA,aB),bC=Z(y,p);return kg(k,at,g(Y[1],ac[1]),ae,h,h,bC,bB,bA,bg)}var
 aH=aG}else
 var
-aH=ab;var
+aH=ad;var
 aI=aH}else
 var
-aI=aa;var
+aI=ac;var
 aJ=aI}else
 var
-aJ=$;var
+aJ=ab;var
 aK=aJ}else
 var
-aK=Z;var
+aK=aa;var
 aL=aK}else
 var
-aL=Y;return aL}function
-eQ(b,a){return bs(b,a[1],a[2])}function
-gE(b,a){var
-c=eQ(b,a[1]),d=c?eQ(b,a[2]):c;return d?eQ(b,a[3]):d}var
-eS=w(q(c),eR);function
-j_(e){var
-a=X(eS);if(e)var
-f=s(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=s(q(b(2,c)),a),d=ar(G(q(c),h),g);else
+aL=Y;var
+aM=aL}else
 var
-i=G(q(b(2,c)),a),j=X(eR),d=ar(G(s(q(b(2,c)),j),a),i);return b_(d)}function
-j$(d,b,a){if(d){var
-e=j_(b),f=G(q(c),e),g=s(w(q(c),a),f);return w(q(c),g)}var
-h=q(c),i=j_(b),j=ar(q(c),i);return w(s(a,G(q(c),j)),h)}function
-c6(f,e,d,a){var
-g=X(a),h=X(d),i=w(w(q(b(2,c)),h),g),j=f?e?eS:ar(eS,s(q(b(2,c)),eR)):ar(eS,q(b(2,c))),k=s(X(j),i);return b_(G(q(c),k))}function
-ka(g,d){var
+aM=X;return aM}function
+eZ(b,a){return bz(b,a[1],a[2])}function
+gN(b,a){var
+c=eZ(b,a[1]),d=c?eZ(b,a[2]):c;return d?eZ(b,a[3]):d}var
+e1=w(n(c),e0);function
+kl(e){var
+a=_(e1);if(e)var
+f=r(n(b(2,c)),a),g=G(n(b(2,b(2,c))),f),h=r(n(b(2,c)),a),d=aq(G(n(c),h),g);else
+var
+i=G(n(b(2,c)),a),j=_(e0),d=aq(G(r(n(b(2,c)),j),a),i);return cf(d)}function
+km(d,b,a){if(d){var
+e=kl(b),f=G(n(c),e),g=r(w(n(c),a),f);return w(n(c),g)}var
+h=n(c),i=kl(b),j=aq(n(c),i);return w(r(a,G(n(c),j)),h)}function
+c_(f,e,d,a){var
+g=_(a),h=_(d),i=w(w(n(b(2,c)),h),g),j=f?e?e1:aq(e1,r(n(b(2,c)),e0)):aq(e1,n(b(2,c))),k=r(_(j),i);return cf(G(n(c),k))}function
+kn(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gF(u,t,s){var
-a=f(function(a){return E(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gO(u,t,s){var
+a=f(function(a){return z(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -4042,7 +4209,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eC([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eG([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4064,12 +4231,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-kb(f,i,e,b,h){var
-j=f?c:d,a=aL(i,j);function
+ko(f,i,e,b,h){var
+j=f?c:d,a=au(i,j);function
 g(b){var
-c=f?fV(b):eu(b);return N(c,a)}var
-k=[0,aZ(h),0],l=[0,[0,a,b,[0,O,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-kc(r,g,q,p,e,o,n){if(o){var
+c=f?f7(b):dM(b);return N(c,a)}var
+k=[0,aU(h),0],l=[0,[0,a,b,[0,L,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kp(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -4078,16 +4245,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(b$,bR(rq)),a=gF(p,ja(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(bf,bx(rV)),a=gO(p,ji(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=D(k[2],l[1]);b=1;c=1;d=1;break}else
+a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(ka,rr),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(kn,rW),a=gO(p,cg(0,cZ(g,ko(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(ka,rs),a=gF(p,cu(0,dK(g,kb(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(kn,rX),a=gO(p,cg(0,cZ(g,ko(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4097,27 +4264,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rt:a}else
+y=a?rY:a}else
 var
 y=n;return y}return[0,n]}function
-kd(f,e,d,c,p,o,n){var
+kq(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=kc(f,e,d,c,b,a[1],g);return h?aK(h[1]):h}var
-i=kc(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dN(a[2],b),l=kd(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kp(f,e,d,c,b,a[1],g);return h?aC(h[1]):h}var
+i=kp(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dU(a[2],b),l=kq(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gG(a){return iy(b(2,c),b3(a,c))}function
-c7(i,a,e,w,v){var
-l=a?c:Z(c),f=q(l),g=j$(a,e,ro),h=j$(a,e,rp),m=ar(g,c6(a,e,f,g)),n=[0,G(ar(h,c6(a,e,h,f)),m),0],o=ar(f,c6(a,e,f,g)),p=[0,G(ar(h,c6(a,e,g,h)),o),n],r=ar(f,c6(a,e,h,f)),t=[0,G(ar(g,c6(a,e,g,h)),r),p],u=a?e?q(b(2,c)):s(q(b(2,b(2,c))),eR):q(b(2,b(2,c))),j=dJ([0,u,t]),k=[0,d,cq(i)];return kd(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-ke(a,g,b){if(ac(g,gG(a))){if(b){var
+gP(a){return iF(b(2,c),br(a,c))}function
+c$(i,a,e,w,v){var
+l=a?c:Y(c),f=n(l),g=km(a,e,rT),h=km(a,e,rU),m=aq(g,c_(a,e,f,g)),o=[0,G(aq(h,c_(a,e,h,f)),m),0],p=aq(f,c_(a,e,f,g)),q=[0,G(aq(h,c_(a,e,g,h)),p),o],s=aq(f,c_(a,e,h,f)),t=[0,G(aq(g,c_(a,e,g,h)),s),q],u=a?e?n(b(2,c)):r(n(b(2,b(2,c))),e0):n(b(2,b(2,c))),j=dQ([0,u,t]),k=[0,d,cy(i)];return kq(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+kr(a,g,b){if(aa(g,gP(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gG(a)],v=cq(a),i=[0,gG(a),v],j=c7(a,0,1,h,b[1]),k=j?c7(a,0,0,i,c[1]):j;if(k){var
-l=c7(a,1,1,h,d[1]);if(l)return c7(a,1,0,i,e[1]);var
+h=[0,g,gP(a)],v=cy(a),i=[0,gP(a),v],j=c$(a,0,1,h,b[1]),k=j?c$(a,0,0,i,c[1]):j;if(k){var
+l=c$(a,1,1,h,d[1]);if(l)return c$(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4134,26 +4301,26 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cq(a)],s=c7(a,0,0,r,b[1]);if(s)return c7(a,1,0,r,f[1]);var
+r=[0,g,cy(a)],s=c$(a,0,0,r,b[1]);if(s)return c$(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gH(a){var
-b=[1,[2,d]];return iE(function(b,a){return[1,[3,b,a]]},a,b)}function
-eT(a){return gH(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-eU(a,c){return gH(f(function(a){var
-d=[0,a[2]],b=co(a[1],c);return[1,[7,[1,[8,gH(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-kf(f,d,c,b,a){if(0===a[0])return E(a[1],b,0);var
-g=a[1],h=dG(function(a){return kf(f,d,c,b,a)},g);return e(dK(f,d,c),h)}function
-ru(a){var
-b=M(l(a),rv);return b?a4(function(a){return aK(al(a,d))},a):b}function
-rw(x,h,g,k,d,b,a){var
-R=eE(g),i=e(a5(h),R),l=[1,[8,[1,[1,d[1]]]]];function
+gQ(a){var
+b=[1,[2,d]];return f4(function(b,a){return[1,[3,b,a]]},a,b)}function
+e2(a){return gQ(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+e3(a,c){return gQ(f(function(a){var
+d=[0,a[2]],b=bX(a[1],c);return[1,[7,[1,[8,gQ(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+ks(f,d,c,b,a){if(0===a[0])return z(a[1],b,0);var
+g=a[1],h=dN(function(a){return ks(f,d,c,b,a)},g);return e(cZ(f,d,c),h)}function
+rZ(a){var
+b=E(l(a),r0);return b?aT(function(a){return aC(al(a,d))},a):b}function
+r1(x,h,g,k,d,b,a){var
+R=eI(g),i=e(a2(h),R),l=[1,[8,[1,[1,d[1]]]]];function
 y(c,b,a){var
-d=eU(c,a);return[1,[4,[1,[6,b,eT(a)]],d]]}var
+d=e3(c,a);return[1,[4,[1,[6,b,e2(a)]],d]]}var
 v=0;if(typeof
 b==="number")v=1;else
 switch(b[0]){case
@@ -4162,7 +4329,7 @@ m=j(x,1,b[2]);break;case
 8:var
 m=j(x,1,[4,b[2],b[1]]);break;default:v=1}if(v)var
 m=1;var
-z=m?o(ru,a):m;if(z){var
+z=m?o(rZ,a):m;if(z){var
 w=0;if(typeof
 b!=="number")switch(b[0]){case
 0:if(a){if(a[2])return 0;var
@@ -4170,39 +4337,39 @@ B=[0,[0,i,[0,y(i,l,a[1]),0]]]}else
 var
 B=a;return B;case
 1:if(a){if(a[2])return 0;var
-C=a[1],S=[1,[6,l,eT(C)]],D=[0,[0,i,[0,[1,[4,eU(i,C),S]],0]]]}else
+C=a[1],S=[1,[6,l,e2(C)]],D=[0,[0,i,[0,[1,[4,e3(i,C),S]],0]]]}else
 var
 D=a;return D;case
 2:if(a)return 0;var
-n=ca(g,k,d,b);if(n)var
+n=ci(g,k,d,b);if(n)var
 T=[0,n[1],n[2]],E=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},T)]];else
 var
 E=n;return E;case
 3:if(a)return 0;var
-p=ca(g,k,d,b);if(p)var
+p=ci(g,k,d,b);if(p)var
 U=[0,p[1],p[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},U)]];else
 var
 F=p;return F;case
 4:if(a)return 0;var
-q=ca(g,k,d,b);if(q)var
+q=ci(g,k,d,b);if(q)var
 V=[0,q[1],q[2]],G=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},V)]];else
 var
 G=q;return G;case
 5:if(a){var
 r=a[2];if(r){if(r[2])return 0;var
-H=r[1],I=a[1],W=eT(I),X=[1,[6,l,[1,[6,eU(i,H),W]]]],Y=eT(H),J=[0,[0,i,[0,[1,[4,[1,[6,eU(i,I),Y]],X]],0]]]}else
+H=r[1],I=a[1],W=e2(I),X=[1,[6,l,[1,[6,e3(i,H),W]]]],Y=e2(H),J=[0,[0,i,[0,[1,[4,[1,[6,e3(i,I),Y]],X]],0]]]}else
 var
 J=r;var
 K=J}else
 var
 K=a;return K;case
 6:if(a)return 0;var
-s=ca(g,k,d,b);if(s)var
+s=ci(g,k,d,b);if(s)var
 Z=[0,s[1],s[2]],L=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},Z)]];else
 var
 L=s;return L;case
 7:if(a)return 0;var
-t=ca(g,k,d,b);if(t)var
+t=ci(g,k,d,b);if(t)var
 _=[0,t[1],t[2]],M=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},_)]];else
 var
 M=t;return M;case
@@ -4210,210 +4377,213 @@ M=t;return M;case
 O=a[1],N=[1,[2,c]];w=1;break;case
 9:if(!a)return a;if(a[2])return 0;var
 O=a[1],N=l;w=1;break}if(w){var
-u=eL(g,k,d,b);if(u)var
-$=u[1],P=e(a5(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
+u=eU(g,k,d,b);if(u)var
+$=u[1],P=e(a2(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
 var
 Q=u;return Q}var
 A=0}else
 var
 A=z;return A}function
-kg(c,f,b,a){if(b)if(a)var
-d=b[1],g=F(c,aL(c,a[1]),f),h=kg(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kt(c,f,b,a){if(b)if(a)var
+d=b[1],g=D(c,au(c,a[1]),f),h=kt(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-eV(b,a){return iD(iD(b,0),a)}function
-gI(a){if(a){var
-b=a[2],c=a[1];if(b)return eV(c,[0,ry,gI(b)]);var
+e4(b,a){return iK(iK(b,0),a)}function
+gR(a){if(a){var
+b=a[2],c=a[1];if(b)return e4(c,[0,r3,gR(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,rA,eV(gI(a),rz)]}function
-P(a){return[0,rC,eV(gI(a),rB)]}function
-am(a){return[0,rE,[0,a,rD]]}function
-h(b,a){return[0,ax(rG,ax(b,rF)),a]}function
-L(b,a){return P([0,h(b,a),0])}function
-cF(d){var
-b=d,a=p8,e=0;for(;;){if(b){var
-c=it(a),b=b[1],a=c;continue}return[0,dF(el(a)),e]}}function
-gJ(a){return[0,dF(eo(a)),0]}function
-gK(a){var
-c=bJ(a),f=0,b=0===c?qa:0<c?[0,eo(a)]:[1,eo(Z(a))];if(0===b[0])var
-d=dF(b[1]);else
+x(a){return[0,r5,e4(gR(a),r4)]}function
+P(a){return[0,r7,e4(gR(a),r6)]}function
+ao(a){return[0,r9,[0,a,r8]]}function
+h(b,a){return[0,aA(r$,aA(b,r_)),a]}function
+O(b,a){return P([0,h(b,a),0])}function
+cm(d){var
+b=d,a=qk,e=0;for(;;){if(b){var
+c=iA(a),b=b[1],a=c;continue}return[0,dK(er(a)),e]}}function
+gS(a){return[0,dK(eu(a)),0]}function
+e5(a){var
+c=bP(a),f=0,b=0===c?qo:0<c?[0,eu(a)]:[1,eu(Y(a))];if(0===b[0])var
+d=dK(b[1]);else
 var
-e=dF(b[1]),d=ax(a7(1,45),e);return[0,d,f]}function
-gL(a){var
-b=0,c=0<bJ(a)?eo(a):p$;return[0,dF(c),b]}function
-gM(a){switch(a[0]){case
-2:return rI;case
-3:return 2<=a[1]?rJ:rK;case
-4:return rL;default:return rH}}function
-d0(b,a){function
-c(c,a){return $(c,gM(a))?d0(b,a):[0,rR,g(d0(b,a),rQ)]}switch(a[0]){case
+e=dK(b[1]),d=aA(a8(1,45),e);return[0,d,f]}function
+gT(a){var
+b=0,c=0<bP(a)?eu(a):qn;return[0,dK(c),b]}function
+gU(a){switch(a[0]){case
+2:return sb;case
+3:return 2<=a[1]?sc:sd;case
+4:return se;default:return sa}}function
+d6(b,a){function
+c(c,a){return ac(c,gU(a))?d6(b,a):[0,sk,g(d6(b,a),sj)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aY(h),0];var
-i=[0,rS,[0,aY(f),0]];return[0,aY(h),i];case
+f==="number")return[0,a0(h),0];var
+i=[0,sl,[0,a0(f),0]];return[0,a0(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,rU,c(rT,a[1])];case
+2:return[0,sn,c(sm,a[1])];case
 3:var
-j=a[3],k=c([0,gM(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gU(a)],j);switch(a[1]){case
 0:var
-d=rM;break;case
+d=sf;break;case
 1:var
-d=rN;break;case
+d=sg;break;case
 2:var
-d=rO;break;default:var
-d=rP}var
-l=a[2];return g(c(gM(a),l),[0,d,k]);case
+d=sh;break;default:var
+d=si}var
+l=a[2];return g(c(gU(a),l),[0,d,k]);case
 4:var
-m=[0,rV,gJ(a[2])];return g(c(rW,a[1]),m);default:return[0,rY,g(d0(b,a[1]),rX)]}}function
-H(a){return[0,r1,g(d0(function(a){throw[0,ae,r0]},a),rZ)]}function
-kh(a){return[0,r3,g(d0(function(a){return a},a),r2)]}function
-ce(a){if(0===a[0])return H(a[1]);var
-b=[0,h(r4,H(a[2])),0];return P([0,h(r5,H(a[1])),b])}function
-d1(b,a){var
+m=[0,so,gS(a[2])];return g(c(sp,a[1]),m);default:return[0,sr,g(d6(b,a[1]),sq)]}}function
+I(a){return[0,su,g(d6(function(a){throw[0,af,st]},a),ss)]}function
+ku(a){return[0,sw,g(d6(function(a){return a},a),sv)]}function
+cn(a){if(0===a[0])return I(a[1]);var
+b=[0,h(sx,I(a[2])),0];return P([0,h(sy,I(a[1])),b])}function
+d7(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
-r6(a){function
-b(a){return d1(ce,a)}switch(a[0]){case
+sz(a){function
+b(a){return d7(cn,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?r7:sd,i=[0,h(r8,am(f)),e],j=[0,h(r9,ce(a[4])),i],k=[0,h(r_,b(a[3])),j],l=[0,h(r$,b(a[2])),k],m=[0,h(sa,b(a[1])),l],c=[0,h(sc,am(sb)),m];break;case
+e=0,f=a[5]?sA:sI,i=[0,h(sB,ao(f)),e],j=[0,h(sC,cn(a[4])),i],k=[0,h(sD,b(a[3])),j],l=[0,h(sE,b(a[2])),k],m=[0,h(sF,b(a[1])),l],c=[0,h(sH,ao(sG)),m];break;case
 1:var
-d=a[3],n=d?[0,h(se,b(d[1])),0]:d,o=[0,h(sf,b(a[2])),0],p=[0,h(sg,b(a[1])),o],c=g([0,h(si,am(sh)),p],n);break;default:var
-q=[0,h(sj,b(a[1])),0],c=[0,h(sl,am(sk)),q]}return P(c)}function
-sm(a){function
-b(a){return d1(ce,a)}var
-c=0,d=a[7]?sn:sx,e=[0,h(so,am(d)),c],f=[0,h(sp,ce(a[6])),e],g=[0,h(sq,ce(a[5])),f],i=[0,h(sr,b(a[4])),g],j=[0,h(ss,b(a[3])),i],k=[0,h(st,b(a[2])),j],l=[0,h(su,b(a[1])),k];return P([0,h(sw,am(sv)),l])}function
-gN(a){switch(a){case
-0:return sy;case
-1:return sz;case
-2:return sA;case
-3:return sB;case
-4:return sC;case
-5:return sD;case
-6:return sE;case
-7:return sF;case
-8:return sG;case
-9:return sH;case
-10:return sI;default:return sJ}}function
-gO(a){if(typeof
-a==="number")return sK;else
+d=a[3],n=d?[0,h(sJ,b(d[1])),0]:d,o=[0,h(sK,b(a[2])),0],p=[0,h(sL,b(a[1])),o],c=g([0,h(sN,ao(sM)),p],n);break;default:var
+q=[0,h(sO,b(a[1])),0],c=[0,h(sQ,ao(sP)),q]}return P(c)}function
+sR(a){function
+b(a){return d7(cn,a)}var
+c=0,d=a[7]?sS:s2,e=[0,h(sT,ao(d)),c],f=[0,h(sU,cn(a[6])),e],g=[0,h(sV,cn(a[5])),f],i=[0,h(sW,b(a[4])),g],j=[0,h(sX,b(a[3])),i],k=[0,h(sY,b(a[2])),j],l=[0,h(sZ,b(a[1])),k];return P([0,h(s1,ao(s0)),l])}function
+gV(a){switch(a){case
+0:return s3;case
+1:return s4;case
+2:return s5;case
+3:return s6;case
+4:return s7;case
+5:return s8;case
+6:return s9;case
+7:return s_;case
+8:return s$;case
+9:return ta;case
+10:return tb;case
+11:return tc;default:return td}}function
+gW(a){if(typeof
+a==="number")return te;else
 switch(a[0]){case
-0:return sL;case
-1:return sM;default:return sN}}function
-d2(a){var
+0:return tf;case
+1:return tg;default:return th}}function
+d8(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(sO,H(b[1])),0];break;case
+c=[0,h(ti,I(b[1])),0];break;case
 1:var
-c=[0,h(sP,H(b[1])),0];break;default:var
-k=[0,H(b[2]),0],c=[0,h(sQ,x([0,H(b[1]),k])),0]}var
-l=[0,h(sR,am(gO(a[4]))),c],e=a[3];if(e){var
+c=[0,h(tj,I(b[1])),0];break;default:var
+l=[0,I(b[2]),0],c=[0,h(tk,x([0,I(b[1]),l])),0]}var
+m=[0,h(tl,ao(gW(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-n=x([0,H(d[1]),0]),m=0,o=6===a[1]?sS:sW,i=[0,h(sT,L(o,n)),m];else
+o=x([0,I(d[1]),0]),i=a[1],n=0,p=6===i?tm:12<=i?tq:tr,j=[0,h(tn,O(p,o)),n];else
 var
-s=[0,h(sX,x([0,H(d[2]),0])),0],i=[0,h(sZ,P([0,h(sY,x([0,H(d[1]),0])),s])),0];var
-j=i}else
+t=[0,h(ts,x([0,I(d[2]),0])),0],j=[0,h(tu,P([0,h(tt,x([0,I(d[1]),0])),t])),0];var
+k=j}else
 var
-j=e;var
-p=g(j,l),f=a[2],q=f?[0,h(sU,cF(f[1])),0]:f,r=g(q,p);return P([0,h(sV,am(gN(a[1]))),r])}function
-ki(a){if(0===a[0]){var
-b=[0,h(s0,d1(H,a[2])),0];return L(s2,P([0,h(s1,d1(H,a[1])),b]))}var
-c=[0,H(a[5]),0],d=[0,h(s3,x([0,H(a[4]),c])),0],e=[0,h(s4,H(a[3])),d],f=[0,H(a[2]),0];return L(s6,P([0,h(s5,x([0,H(a[1]),f])),e]))}function
-s_(a){function
-b(a){return x(f(ce,a))}var
-c=[0,h(s$,b(a[2])),0],d=[0,h(ta,b(a[1])),c];return P([0,h(tc,am(tb)),d])}function
-tm(a){function
-b(a){return d1(H,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tn,b(c[1])),0]:c,f=[0,H(a[4]),0],i=[0,h(to,x([0,H(a[3]),f])),0],j=[0,h(tp,H(a[2])),i],k=[0,h(tq,cF(a[1])),j],d=g([0,h(ts,am(tr)),k],e);else
+k=e;var
+q=g(k,m),f=a[2],r=f?[0,h(to,cm(f[1])),0]:f,s=g(r,q);return P([0,h(tp,ao(gV(a[1]))),s])}function
+kv(a){if(0===a[0]){var
+b=[0,h(tv,d7(I,a[2])),0];return O(tx,P([0,h(tw,d7(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,h(ty,x([0,I(a[4]),c])),0],e=[0,h(tz,I(a[3])),d],f=[0,I(a[2]),0];return O(tB,P([0,h(tA,x([0,I(a[1]),f])),e]))}function
+tF(a){function
+b(a){return x(f(cn,a))}var
+c=[0,h(tG,b(a[2])),0],d=[0,h(tH,b(a[1])),c];return P([0,h(tJ,ao(tI)),d])}function
+tT(a){function
+b(a){return d7(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tU,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(tV,x([0,I(a[3]),f])),0],j=[0,h(tW,I(a[2])),i],k=[0,h(tX,cm(a[1])),j],d=g([0,h(tZ,ao(tY)),k],e);else
 var
-l=[0,h(tt,H(a[4])),0],m=[0,h(tu,b(a[3])),l],n=[0,h(tv,b(a[2])),m],o=a[1]?tw:ty,d=[0,h(tx,am(o)),n];return P(d)}function
-kj(d,c,a,b){var
-e=[0,h(tz,x(f(d2,b))),0],i=a?[0,h(tA,x(f(tm,a))),0]:a,j=g(i,e),k=[0,h(tB,ki(c)),0];return P(g([0,h(tD,L(tC,x(f(r6,d)))),k],j))}function
-tE(a){switch(a[0]){case
-0:return L(tF,kj(a[1],a[2],a[3],a[4]));case
+l=[0,h(t0,I(a[4])),0],m=[0,h(t1,b(a[3])),l],n=[0,h(t2,b(a[2])),m],o=a[1]?t3:t5,d=[0,h(t4,ao(o)),n];return P(d)}function
+kw(d,c,a,b){var
+e=[0,h(t6,x(f(d8,b))),0],i=a?[0,h(t7,x(f(tT,a))),0]:a,j=g(i,e),k=[0,h(t8,kv(c)),0];return P(g([0,h(t_,O(t9,x(f(sz,d)))),k],j))}function
+t$(a){switch(a[0]){case
+0:return O(ua,kw(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(tG,x(f(d2,a[3]))),0],p=[0,h(tH,ki(a[2])),o];return L(tK,P([0,h(tJ,L(tI,x(f(sm,a[1])))),p]));case
+o=[0,h(ub,x(f(d8,a[3]))),0],p=[0,h(uc,kv(a[2])),o];return O(uf,P([0,h(ue,O(ud,x(f(sR,a[1])))),p]));case
 2:var
-q=[0,h(tL,x(f(d2,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,H(a),0];return x([0,H(b),c])};switch(b[0]){case
+q=[0,h(ug,x(f(d8,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,I(a),0];return x([0,I(b),c])};switch(b[0]){case
 0:var
-d=L(td,c(b[1],b[2]));break;case
+d=O(tK,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(te,c(g[1],g[2])),0],m=[0,h(tf,c(i[1],i[2])),l],d=L(th,P([0,h(tg,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(tL,c(g[1],g[2])),0],m=[0,h(tM,c(i[1],i[2])),l],d=O(tO,P([0,h(tN,c(j[1],j[2])),m]));break;case
 2:var
-d=L(ti,H(b[1]));break;default:var
-n=[0,h(tj,H(b[2])),0],d=L(tl,P([0,h(tk,H(b[1])),n]))}var
-r=[0,h(tM,d),q],s=[0,h(tN,x(f(H,a[5]))),0],t=[0,h(tQ,L(tP,P([0,h(tO,x(f(H,a[4]))),s]))),r],u=[0,h(tR,H(a[3])),0],v=P([0,h(tS,x(f(s_,a[2]))),u]);switch(a[1]){case
+d=O(tP,I(b[1]));break;default:var
+n=[0,h(tQ,I(b[2])),0],d=O(tS,P([0,h(tR,I(b[1])),n]))}var
+r=[0,h(uh,d),q],s=[0,h(ui,x(f(I,a[5]))),0],t=[0,h(ul,O(uk,P([0,h(uj,x(f(I,a[4]))),s]))),r],u=[0,h(um,I(a[3])),0],v=P([0,h(un,x(f(tF,a[2]))),u]);switch(a[1]){case
 0:var
-e=s7;break;case
+e=tC;break;case
 1:var
-e=s8;break;default:var
-e=s9}return L(tU,P([0,h(tT,L(e,v)),t]));case
+e=tD;break;default:var
+e=tE}return O(up,P([0,h(uo,O(e,v)),t]));case
 3:var
-w=[0,h(tV,x(f(d2,a[7]))),0],y=[0,h(tW,x(f(H,a[6]))),0],z=[0,h(tZ,L(tY,P([0,h(tX,x(f(H,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(t1,x(f(function(a){return L(t0,x(f(kh,a)))},B))),A],D=a[3],E=[0,h(t2,x(f(function(a){var
-b=[0,kh(a[2]),0];return x([0,am(a[1]),b])},D))),C],F=a[2],G=[0,h(t3,x(f(function(a){var
-b=[0,ce(a[2]),0];return x([0,am(a[1]),b])},F))),E];return L(t7,P([0,h(t6,L(t5,P([0,h(t4,x(f(am,a[1]))),G]))),z]));case
+w=[0,h(uq,x(f(d8,a[7]))),0],y=[0,h(ur,x(f(I,a[6]))),0],z=[0,h(uu,O(ut,P([0,h(us,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(uw,x(f(function(a){return O(uv,x(f(ku,a)))},B))),A],D=a[3],E=[0,h(ux,x(f(function(a){var
+b=[0,ku(a[2]),0];return x([0,ao(a[1]),b])},D))),C],F=a[2],G=[0,h(uy,x(f(function(a){var
+b=[0,cn(a[2]),0];return x([0,ao(a[1]),b])},F))),E];return O(uC,P([0,h(uB,O(uA,P([0,h(uz,x(f(ao,a[1]))),G]))),z]));case
 4:var
-I=[0,h(t8,x(f(d2,a[3]))),0],J=[0,h(t$,L(t_,P([0,h(t9,H(a[2])),0]))),I];return L(ud,P([0,h(uc,L(ub,P([0,h(ua,H(a[1])),0]))),J]));case
+H=[0,h(uD,x(f(d8,a[3]))),0],J=[0,h(uG,O(uF,P([0,h(uE,I(a[2])),0]))),H];return O(uK,P([0,h(uJ,O(uI,P([0,h(uH,I(a[1])),0]))),J]));case
 5:var
-K=[0,h(ue,H(a[5])),0];return L(ug,P([0,h(uf,kj(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
-k=a[1],M=0,N=k?ce(k[1]):am(uj);return L(ui,P([0,h(uh,N),M]))}}function
-eW(a){return x(f(gK,a))}function
-gP(b,a){var
-c=[0,h(uk,gL(a)),0];return P([0,h(ul,x(f(eW,b))),c])}function
-eX(a){switch(a[0]){case
-0:return am(a[1]);case
+K=[0,h(uL,I(a[5])),0];return O(uN,P([0,h(uM,kw(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
+k=a[1],L=0,M=k?cn(k[1]):ao(uQ);return O(uP,P([0,h(uO,M),L]))}}function
+e6(a){return x(f(e5,a))}function
+e7(b,a){var
+c=[0,h(uR,gT(a)),0];return P([0,h(uS,x(f(e6,b))),c])}function
+e8(a){switch(a[0]){case
+0:return ao(a[1]);case
 1:var
-b=gP(a[2],a[3]);return L(a[1],b);case
+b=e7(a[2],a[3]);return O(a[1],b);case
 2:var
-c=a[1]?um:uo;return L(un,am(c));case
+c=a[1]?uT:uV;return O(uU,ao(c));case
 3:var
-d=[0,eW(a[3]),0];return L(up,x([0,gP(a[1],a[2]),d]));case
+d=[0,e6(a[3]),0];return O(uW,x([0,e7(a[1],a[2]),d]));case
 4:var
-e=[0,gL(a[3]),0],f=[0,gK(a[2]),e];return L(uq,x([0,eX(a[1]),f]));case
+e=[0,cm(0),0],f=[0,e5(a[3]),e];return O(uX,x([0,e7(a[1],a[2]),f]));case
 5:var
-g=[0,gL(a[3]),0],h=[0,gK(a[2]),g];return L(ur,x([0,eX(a[1]),h]));default:return L(us,eX(a[1]))}}function
-ut(a){var
-b=[0,eX(a[2]),0];return x([0,cF(a[1]),b])}function
-kk(a){if(typeof
-a==="number")return am(uu);else{if(0===a[0]){var
-b=[0,x(f(eW,a[2])),0];return L(uv,x([0,cF(a[1]),b]))}var
-c=[0,cF(a[2]),0];return L(uw,x([0,cF(a[1]),c]))}}function
-ux(a){var
-b=a[4],i=b?[0,h(uy,eW([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uz,kk(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(uA,cF(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(uB,x(f(ut,[0,c[1],c[2]]))),0]:c;return P(g(n,m))}function
-gQ(a){var
-b=id(ic(I(a),function(b){return U(a,b)}));return o(function(a){var
-b=aK(34===a?1:0),c=b?aK(92===a?1:0):b,d=c?$(uW,er(a)):c;return d?$(er(a),uX):d},b)}function
-eY(b){function
+g=[0,gT(a[3]),0],h=[0,e5(a[2]),g];return O(uY,x([0,e8(a[1]),h]));case
+6:var
+i=[0,gT(a[3]),0],j=[0,e5(a[2]),i];return O(uZ,x([0,e8(a[1]),j]));default:return O(u0,e8(a[1]))}}function
+u1(a){var
+b=[0,e8(a[2]),0];return x([0,cm(a[1]),b])}function
+kx(a){if(typeof
+a==="number")return ao(u2);else{if(0===a[0]){var
+b=[0,x(f(e6,a[2])),0];return O(u3,x([0,cm(a[1]),b]))}var
+c=[0,cm(a[2]),0];return O(u4,x([0,cm(a[1]),c]))}}function
+u5(a){var
+b=a[4],i=b?[0,h(u6,e6([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(u7,kx(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(u8,cm(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(u9,x(f(u1,[0,c[1],c[2]]))),0]:c;return P(g(n,m))}function
+gX(a){var
+b=il(ik(J(a),function(b){return V(a,b)}));return o(function(a){var
+b=aC(34===a?1:0),c=b?aC(92===a?1:0):b,d=c?ac(vs,ex(a)):c;return d?ac(ex(a),vt):d},b)}function
+e9(b){function
 c(f){var
-a=er(f),b=$(uY,a),c=b?$(a,uZ):b;if(c)var
+a=ex(f),b=ac(vu,a),c=b?ac(a,vv):b;if(c)var
 d=c;else{var
-e=$(u0,a);if(e)return $(a,u1);var
+e=ac(vw,a);if(e)return ac(a,vx);var
 d=e}return d}var
-a=id(ic(I(b),function(a){return U(b,a)}));if(a){var
+a=il(ik(J(b),function(a){return V(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=er(a),f=$(u2,e),h=f?$(e,u3):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?$(l(d),u4):f;if(g)return aK(ap(b,u5));var
+e=ex(a),f=ac(vy,e),h=f?ac(e,vz):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?ac(l(d),vA):f;if(g)return aC(as(b,vB));var
 h=g}else
 var
 h=a;return h}function
-gR(c){var
+gY(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eY(a[1]);case
+1:return e9(a[1]);case
 3:var
-b=gR(a[2]);if(b){var
+b=gY(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-c8(m){var
+da(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4424,165 +4594,169 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=el(a[2]);if(typeof
+f=er(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=c8(a[2]);if(i){var
+i=da(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=c8(a[1]),l=k?en(b(2,c),j):k;return l?en(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=da(a[1]),l=k?et(b(2,c),j):k;return l?et(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-c9(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bd(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cf(a){return z(c9,bd(a))}function
-kl(a){switch(a[0]){case
+db(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bh(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+co(a){return C(db,bh(a))}function
+ky(a){switch(a[0]){case
 0:var
-c=c9(a[4]),d=g(cf(a[3]),c),e=g(cf(a[2]),d);return g(cf(a[1]),e);case
+c=db(a[4]),d=g(co(a[3]),c),e=g(co(a[2]),d);return g(co(a[1]),e);case
 1:var
-b=a[3],f=b?cf(b[1]):b,h=g(cf(a[2]),f);return g(cf(a[1]),h);default:return cf(a[1])}}function
-u6(a){var
-b=z(c9,[0,a[5],[0,a[6],0]]);return g(z(cf,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-km(a){if(0===a[0]){var
-b=bd(a[2]);return g(bd(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c_(d){var
+b=a[3],f=b?co(b[1]):b,h=g(co(a[2]),f);return g(co(a[1]),h);default:return co(a[1])}}function
+vC(a){var
+b=C(db,[0,a[5],[0,a[6],0]]);return g(C(co,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+kz(a){if(0===a[0]){var
+b=bh(a[2]);return g(bh(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+dc(d){var
 a=d[4],f=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-u7(a){if(0===a[0]){var
-b=a[5],c=b?bd(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bd(a[3]),d);return g(bd(a[2]),e)}function
-kn(a){var
-d=en(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?en(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-ko(a,b){return b?[3,ko(a,b[1]),a]:a}function
+vD(a){if(0===a[0]){var
+b=a[5],c=b?bh(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bh(a[3]),d);return g(bh(a[2]),e)}function
+kA(a){var
+d=et(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?et(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+kB(a,b){return b?[3,kB(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return r(j,a)},l=fO(ir(h),k,c);return[0,iA(is(el(a[1]),h)),l];case
-1:throw[0,ae,u8];case
+h=a[2],j=b(2,p(b(2,b(2,c)))),k=function(a){return s(j,a)},l=fZ(iy(h),k,c);return[0,iH(iz(er(a[1]),h)),l];case
+1:throw[0,af,vE];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,Z(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,Y(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-m=bO(dD(a[2]));return ko(i(a[1]),m);default:return[5,i(a[1])]}}function
-bT(a){if(0===a[0]){var
+m=bV(dH(a[2]));return kB(i(a[1]),m);default:return[5,i(a[1])]}}function
+b0(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-be(a){var
-b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
-u9(a){switch(a[0]){case
+bi(a){var
+b=b0(a[3]),c=b0(a[2]);return[0,b0(a[1]),c,b]}function
+vF(a){switch(a[0]){case
 0:var
-b=a[5],c=bT(a[4]),d=be(a[3]),e=be(a[2]);return[0,[0,be(a[1]),e,d,c,b]];case
+b=a[5],c=b0(a[4]),d=bi(a[3]),e=bi(a[2]);return[0,[0,bi(a[1]),e,d,c,b]];case
 1:var
-f=af(be,a[3]),g=be(a[2]);return[1,be(a[1]),g,f];default:return[2,be(a[1])]}}function
-kp(a){if(0===a[0]){var
+f=Z(bi,a[3]),g=bi(a[2]);return[1,bi(a[1]),g,f];default:return[2,bi(a[1])]}}function
+kC(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-c$(a){var
+dd(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-da(a){if(0===a[0]){var
-b=a[5],h=b?c$(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bO(a[1]),l,k,j,h]}var
+de(a){if(0===a[0]){var
+b=a[5],h=b?dd(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bV(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=c$(f),n=c$(g);return[2,i(e),n,m]}var
-o=c$(f),p=c$(g);return[1,i(e),p,o]}function
-gS(b,a){if(a){var
-c=a[1],d=a[2],e=gS(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(fT(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:M(b[1],a[1]):0:0===a[0]?0:dC(b[1],a[1]);return aK(d)},h),e)}return a}function
-u_(b){if(b[1])return 0;var
+m=dd(f),n=dd(g);return[2,i(e),n,m]}var
+o=dd(f),p=dd(g);return[1,i(e),p,o]}function
+gZ(b,a){if(a){var
+c=a[1],d=a[2],e=gZ(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(dJ(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:E(b[1],a[1]):0:0===a[0]?0:dG(b[1],a[1]);return aC(d)},h),e)}return a}function
+vG(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-va(i,a){switch(a[1]){case
+vI(c,a){switch(a[1]){case
 0:var
-j=a[4];if(typeof
-j!=="number"&&2!==j[0])return a[2]?0:a[3]?0:1;return 0;case
+k=a[4];if(typeof
+k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-C=0,k=a[4];if(typeof
-k==="number"||2===k[0])C=1;else{var
-l=a[2];if(!l)return a[3]?0:1;if(a[3])return 0;var
-b=l[1]}if(C)return 0;break;case
+F=0,l=a[4];if(typeof
+l==="number"||2===l[0])F=1;else{var
+m=a[2];if(!m)return a[3]?0:1;if(a[3])return 0;var
+b=m[1]}if(F)return 0;break;case
 2:var
-D=0,n=a[4];if(typeof
-n==="number"||!(1===n[0]))D=1;else{var
-o=a[2];if(!o){var
-d=a[3];return d?0===d[1][0]?1:0:d}var
-c=a[3];if(!c)return c;if(0!==c[1][0])return 0;var
-b=o[1]}if(D)return 0;break;case
+G=0,o=a[4];if(typeof
+o==="number"||!(1===o[0]))G=1;else{var
+p=a[2];if(!p){var
+e=a[3];return e?0===e[1][0]?1:0:e}var
+d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
+b=p[1]}if(G)return 0;break;case
 3:var
-p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[2]?0:a[3]?0:1;return 0;case
+q=a[4];if(typeof
+q!=="number"&&1===q[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-E=0,q=a[4];if(typeof
-q==="number"||!(0===q[0]))E=1;else{var
-r=a[2];if(!r)return a[3]?0:1;if(a[3])return 0;var
-b=r[1]}if(E)return 0;break;case
+H=0,r=a[4];if(typeof
+r==="number"||!(0===r[0]))H=1;else{var
+s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
+b=s[1]}if(H)return 0;break;case
 6:var
-t=a[4];if(typeof
-t!=="number"&&0===t[0]){if(a[2])return 0;var
-e=a[3];return e?0===e[1][0]?1:0:e}return 0;case
+u=a[4];if(typeof
+u!=="number"&&0===u[0]){if(a[2])return 0;var
+f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
-F=0,u=a[4];if(typeof
-u==="number"||!(1===u[0]))F=1;else{var
-f=a[3];if(!f)return f;if(0!==f[1][0])return 0;var
-v=M(i,vc),G=0;if(v){var
-w=a[2];if(w){var
-b=w[1];G=1}else
+I=0,v=a[4];if(typeof
+v==="number"||!(1===v[0]))I=1;else{var
+g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
+w=E(c,vK),J=0;if(w){var
+x=a[2];if(x){var
+b=x[1];J=1}else
 var
-x=1}else
+y=1}else
 var
-x=v;if(!G)return x}if(F)return 0;break;case
+y=w;if(!J)return y}if(I)return 0;break;case
 10:var
-H=0,y=a[4];if(typeof
-y==="number"||!(1===y[0]))H=1;else{var
-z=a[2];if(!z){var
-h=a[3];return h?0===h[1][0]?0:1:h}var
-g=a[3];if(!g)return g;if(0===g[1][0])return 0;var
-b=z[1]}if(H)return 0;break;case
+K=0,z=a[4];if(typeof
+z==="number"||!(1===z[0]))K=1;else{var
+A=a[2];if(!A){var
+i=a[3];return i?0===i[1][0]?0:1:i}var
+h=a[3];if(!h)return h;if(0===h[1][0])return 0;var
+b=A[1]}if(K)return 0;break;case
 11:var
-A=typeof
-a[4]==="number"?1:0;if(A){if(a[2])return 0;if(a[3])return 0;var
-B=1}else
+B=typeof
+a[4]==="number"?1:0;if(B){if(a[2])return 0;if(a[3])return 0;var
+C=1}else
 var
-B=A;return B;default:var
-s=a[4];if(typeof
-s!=="number"&&0===s[0])return a[2]?0:a[3]?0:1;return 0}var
-m=$(vb,b);return m?$(b,i):m}function
-eZ(e,m,W,b){var
-X=l(e),h=z(function(a){switch(a[1]){case
+C=B;return C;case
+12:var
+D=a[4];if(typeof
+D!=="number"&&1===D[0]){if(a[2])return 0;var
+j=a[3];return j?0===j[1][0]?E(c,vL):0:j}return 0;default:var
+t=a[4];if(typeof
+t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
+n=ac(vJ,b);return n?ac(b,c):n}function
+e_(e,m,_,b){var
+$=l(e),h=C(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
 1:var
-e=a[4],w=0;if(typeof
-e==="number")w=1;else
+e=a[4],y=0;if(typeof
+e==="number")y=1;else
 switch(e[0]){case
 0:var
-G=e[1],b=function(a){return[2,a,i(G)]};break;case
+K=e[1],b=function(a){return[2,a,i(K)]};break;case
 1:var
-I=e[1],b=function(a){return[3,a,i(I)]};break;default:w=1}if(w)return 0;break;case
+M=e[1],b=function(a){return[3,a,i(M)]};break;default:y=1}if(y)return 0;break;case
 2:var
-h=a[4],C=0;if(typeof
-h==="number"||!(1===h[0]))C=1;else{var
-j=a[3],J=h[1];if(!j)return j;var
-y=j[1];if(0!==y[0])return 0;var
-K=y[1],b=function(a){var
-b=i(J);return[4,a,i(K),b]}}if(C)return 0;break;case
+h=a[4],G=0;if(typeof
+h==="number"||!(1===h[0]))G=1;else{var
+j=a[3],N=h[1];if(!j)return j;var
+A=j[1];if(0!==A[0])return 0;var
+O=A[1],b=function(a){var
+b=i(N);return[4,a,i(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
 4:var
-l=a[4],D=0;if(typeof
-l==="number"||!(0===l[0]))D=1;else
+l=a[4],H=0;if(typeof
+l==="number"||!(0===l[0]))H=1;else
 var
-L=l[1],b=function(a){return[6,a,i(L)]};if(D)return 0;break;case
+P=l[1],b=function(a){return[6,a,i(P)]};if(H)return 0;break;case
 5:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
@@ -4590,44 +4764,50 @@ m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 o=a[3];if(o){var
-z=o[1];if(0===z[0]){var
-N=i(n[1]);return[0,[8,i(z[1]),N],0]}return 0}return o}return 0;case
+B=o[1];if(0===B[0]){var
+Q=i(n[1]);return[0,[8,i(B[1]),Q],0]}return 0}return o}return 0;case
 7:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
 8:var
-q=a[4],E=0;if(typeof
-q==="number"||!(1===q[0]))E=1;else{var
-r=a[3],O=q[1];if(!r)return r;var
-A=r[1];if(0!==A[0])return 0;var
-P=A[1],b=function(a){var
-b=i(O);return[13,a,i(P),b]}}if(E)return 0;break;case
+q=a[4],I=0;if(typeof
+q==="number"||!(1===q[0]))I=1;else{var
+r=a[3],R=q[1];if(!r)return r;var
+C=r[1];if(0!==C[0])return 0;var
+S=C[1],b=function(a){var
+b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-Q=s[1],R=gS(0,W);return f(function(h){var
-e=i(Q),a=h[2],b=h[1];if(0===b[0]){var
+T=s[1],U=gZ(0,_);return f(function(h){var
+e=i(T),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?c$(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(M(f,a[1])){var
-j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bO(f),m,l,k]}var
-n=da(a);return[10,da(b),n,e]}var
-o=da(a);return[10,da(b),o,e]}var
-p=da(a);return[10,da(b),p,e]},R)}return 0;case
+g=function(a){return a?dd(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(E(f,a[1])){var
+j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bV(f),m,l,k]}var
+n=de(a);return[10,de(b),n,e]}var
+o=de(a);return[10,de(b),o,e]}var
+p=de(a);return[10,de(b),p,e]},U)}return 0;case
 10:var
-t=a[4],F=0;if(typeof
-t==="number"||!(1===t[0]))F=1;else{var
-u=a[3],S=t[1];if(!u)return u;var
+t=a[4],J=0;if(typeof
+t==="number"||!(1===t[0]))J=1;else{var
+u=a[3],V=t[1];if(!u)return u;var
 v=u[1];if(0===v[0])return 0;var
-T=v[2],U=v[1],b=function(a){var
-b=i(S),c=i(T);return[12,a,i(U),c,b]}}if(F)return 0;break;default:var
-B=typeof
-a[4]==="number"?1:0,V=B?u$:B;return V}var
-x=a[2],H=x?[0,bO(x[1]),0]:cU(0,X);return f(b,H)},b),a=z(u_,b),j=a?[0,a[1],a[2]]:vd,k=g(j,h),n=kp(m);return[0,f(u9,e),n,k]}function
-ve(b){if(b[1])return 0;var
+W=v[2],X=v[1],b=function(a){var
+b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
+11:var
+D=typeof
+a[4]==="number"?1:0,Y=D?vH:D;return Y;default:var
+w=a[4];if(typeof
+w!=="number"&&1===w[0]){var
+x=a[3];if(x){var
+F=x[1];if(0===F[0]){var
+Z=i(w[1]);return[0,[14,i(F[1]),Z],0]}return 0}return x}return 0}var
+z=a[2],L=z?[0,bV(z[1]),0]:cx(0,$);return f(b,L)},b),a=C(vG,b),j=a?[0,a[1],a[2]]:vM,k=g(j,h),n=kC(m);return[0,f(vF,e),n,k]}function
+vN(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-db(D,b){var
-c=z(function(a){switch(a[1]){case
+df(D,b){var
+c=C(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -4664,41 +4844,42 @@ m=a[3],B=l[1];if(!m)return m;var
 q=m[1];if(0!==q[0])return 0;var
 C=q[1],c=function(a){var
 b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
-n=a[2],u=n?[0,bO(n[1]),0]:cU(0,D);return f(c,u)},b),a=z(ve,b),d=a?[0,a[1],a[2]]:vf;return g(d,c)}function
-a9(m,l,a){switch(a[1]){case
+n=a[2],u=n?[0,bV(n[1]),0]:cx(0,D);return f(c,u)},b),a=C(vN,b),d=a?[0,a[1],a[2]]:vO;return g(d,c)}function
+ba(n,m,a){var
+b=a[1];if(!(4<=b))switch(b){case
 0:var
-b=a[4];if(typeof
-b!=="number"&&2!==b[0])return a[2]?0:a[3]?0:1;return 0;case
+c=a[4];if(typeof
+c!=="number"&&2!==c[0])return a[2]?0:a[3]?0:1;return 0;case
 1:if(a[3])return 0;var
-k=0,c=a[4];if(typeof
-c!=="number"&&2===c[0]){var
-d=1;k=1}if(!k)var
-d=0;var
-e=dC(m,d);if(e){var
-f=a[2];if(f){var
-g=f[1],h=$(vg,g);return h?$(g,l):h}var
-i=1}else
+l=0,d=a[4];if(typeof
+d!=="number"&&2===d[0]){var
+e=1;l=1}if(!l)var
+e=0;var
+f=dG(n,e);if(f){var
+g=a[2];if(g){var
+h=g[1],i=ac(vP,h);return i?ac(h,m):i}var
+j=1}else
 var
-i=e;return i;case
+j=f;return j;case
 3:var
-j=a[4];if(typeof
-j!=="number"&&1===j[0])return a[2]?0:a[3]?0:1;return 0;default:return 0}}function
-cG(a){switch(a[0]){case
+k=a[4];if(typeof
+k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
+cK(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cG(a[1])];case
+2:return[2,cK(a[1])];case
 3:var
-b=cG(a[2]),c=cG(a[3]);switch(a[1]){case
+b=cK(a[2]),c=cK(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cG(a[1]),d];default:return[8,cG(a[1])]}}function
-kq(b){function
+d=a[2];return[7,cK(a[1]),d];default:return[8,cK(a[1])]}}function
+kD(b){function
 a(e){var
-a=[0,d,c];return E(e,b,[0,a,a])}var
-e=a(vi),f=a(vj);return[0,a(0),f,e]}function
-gT(a){function
+a=[0,d,c];return z(e,b,[0,a,a])}var
+e=a(vR),f=a(vS);return[0,a(0),f,e]}function
+g0(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4706,64 +4887,65 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kr(j,a,h,g,e,d,c){function
-b(a){return kq(f(bT,a))}var
-k=db(l(a),c),m=gT(d),n=co(g,e),o=kq(f(function(a){var
+kE(j,a,h,g,e,d,c){function
+b(a){return kD(f(b0,a))}var
+k=df(l(a),c),m=g0(d),n=bX(g,e),o=kD(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
-vk(a){var
-b=a[7],c=bT(a[6]),d=bT(a[5]),e=be(a[4]),f=be(a[3]),g=be(a[2]);return[0,be(a[1]),g,f,e,d,c,b]}var
+vT(a){var
+b=a[7],c=b0(a[6]),d=b0(a[5]),e=bi(a[4]),f=bi(a[3]),g=bi(a[2]);return[0,bi(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dc(h){var
-a=cT(function(f,e){var
-a=az(m,f);if(a)var
-b=a[1],c=cn(fB(b[1]),fB(b[2]));else
+dg(h){var
+a=cw(function(f,e){var
+a=aD(m,f);if(a)var
+b=a[1],c=bU(fM(b[1]),fM(b[2]));else
 var
-c=d;return cn(c,e)},d,h);if(ac(d,a)){var
-f=bJ(a);if(0===f||!(0<f&&!D(a,c)))var
+c=d;return bU(c,e)},d,h);if(aa(d,a)){var
+f=bP(a);if(0===f||!(0<f&&!H(a,c)))var
 g=d;else
 var
-b=bo(a,a2(2)),e=b[1],g=al(b[2],d)?em(e):em(e);return b3(g,m)}return d}function
-e0(a){return[0,a[1],[0,a[2],0]]}function
-by(a){var
-b=e0(a[3]),c=g(e0(a[2]),b);return g(e0(a[1]),c)}function
-vl(a){return 0===a[0]?e0(a[1][4]):0}function
-vm(a){switch(a[0]){case
+b=bt(a,a5(2)),e=b[1],g=al(b[2],d)?es(e):es(e);return br(g,m)}return d}function
+e$(a){return[0,a[1],[0,a[2],0]]}function
+bE(a){var
+b=e$(a[3]),c=g(e$(a[2]),b);return g(e$(a[1]),c)}function
+vU(a){return 0===a[0]?e$(a[1][4]):0}function
+vV(a){switch(a[0]){case
 0:var
-b=a[1],c=by(b[3]);return g(by(b[2]),c);case
+b=a[1],c=bE(b[3]);return g(bE(b[2]),c);case
 1:var
-d=by(a[2]);return g(by(a[1]),d);default:return 0}}function
-ks(a){switch(a[0]){case
-0:return dc(by(a[1][1]));case
+d=bE(a[2]);return g(bE(a[1]),d);default:return 0}}function
+kF(a){switch(a[0]){case
+0:return dg(bE(a[1][1]));case
 1:var
-b=a[3];return b?dc(by(b[1])):d;default:return dc(by(a[1]))}}function
-kt(b){var
-a=z(vl,b),d=a?[0,a[1],a[2]]:z(vm,b);return C(c,dc(d))}function
-e1(a){switch(a[0]){case
+b=a[3];return b?dg(bE(b[1])):d;default:return dg(bE(a[1]))}}function
+kG(b){var
+a=C(vU,b),d=a?[0,a[1],a[2]]:C(vV,b);return y(c,dg(d))}function
+fa(a){switch(a[0]){case
 0:var
-b=a[1];if(ap(b,vn))return vo;if(ap(b,vp))return vq;if(ap(b,vr))return vs;if(ap(b,vt))return vu;if(ap(b,vv))return vw;var
-h=ap(b,vx),j=h?vy:h;return j;case
+b=a[1];if(as(b,vW))return vX;if(as(b,vY))return vZ;if(as(b,v0))return v1;if(as(b,v2))return v3;if(as(b,v4))return v5;var
+h=as(b,v6),j=h?v7:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(ap(e,vz))return[0,[0,c,d]];if(ap(e,vA))return[0,[1,c,d]];if(ap(e,vB))return[0,[2,c,d]];var
-i=ap(e,vC),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(as(e,v8))return[0,[0,c,d]];if(as(e,v9))return[0,[1,c,d]];if(as(e,v_))return[0,[2,c,d]];var
+i=as(e,v$),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
-4:var
-f=e1(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=e1(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=e1(a[1]);return af(function(a){return[6,a]},n)}}function
-ku(a){if(a){var
-d=a[1],b=e1(d[2]);if(b)var
-c=ku(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+f=fa(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+6:var
+g=fa(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=fa(a[1]);return Z(function(a){return[6,a]},n)}}function
+kH(a){if(a){var
+d=a[1],b=fa(d[2]);if(b)var
+c=kH(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return vD}function
-dd(c,a){if(c)if(a){var
+e=b;return e}return wa}function
+dh(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=ku(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=kH(b[1]);if(d){var
 k=d[1];if(h){var
-e=dd(j,i);if(e){var
-l=e[1],f=dd(j,l[2]);if(f)var
+e=dh(j,i);if(e){var
+l=e[1],f=dh(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4778,54 +4960,54 @@ var
 g=a;else
 var
 g=c;return g}function
-gU(d,a){if(d){if(a){var
-b=dd(l(a),a);if(b)var
-e=b[1],c=gU(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+g1(d,a){if(d){if(a){var
+b=dh(l(a),a);if(b)var
+e=b[1],c=g1(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return vE}return a?0:vF}function
-gV(a){return typeof
+f=b;return f}return wb}return a?0:wc}function
+g2(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-gW(d,a){if(d)if(a){var
+g3(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=gW(k,j);if(e){var
-l=e[1],f=gW(k,l[2]);if(f)var
+e=g3(k,j);if(e){var
+l=e[1],f=g3(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,gV(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,g2(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cH(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bf(a,e){var
-b=cH(a[1],e),c=cH(a[2],b[2]),d=cH(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-kv(d,c){if(d){var
+cL(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bj(a,e){var
+b=cL(a[1],e),c=cL(a[2],b[2]),d=cL(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+kI(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bf(a[1],c),f=bf(a[2],e[2]),g=bf(a[3],f[2]),h=cH(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bj(a[1],c),f=bj(a[2],e[2]),g=bj(a[3],f[2]),h=cL(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bf(a[1],c),k=j[1],l=bf(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bf(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bj(a[1],c),k=j[1],l=bj(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bj(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bf(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=kv(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-kw(b,i){if(b){var
-a=b[1],c=bf(a[1],i),d=bf(a[2],c[2]),e=bf(a[3],d[2]),f=bf(a[4],e[2]),g=cH(a[5],f[2]),h=cH(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kw(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gX(a,b){if(a){var
-c=cH(a[1],b),d=gX(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gY(b){function
-a(a){return E(a,b,[0,d,c])}var
-e=a(vH),f=a(vI);return[0,a(0),f,e]}function
-kx(a,b){if(a){var
-c=a[1],d=gX(c[1],b),e=gX(c[2],d[2]),f=kx(a[2],e[2]),g=f[2],h=f[1],i=gY(e[1]);return[0,[0,[0,gY(d[1]),i],h],g]}return[0,0,b]}function
-de(a){return jf(m,a)}function
-vJ(a){if(typeof
+p=bj(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=kI(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+kJ(b,i){if(b){var
+a=b[1],c=bj(a[1],i),d=bj(a[2],c[2]),e=bj(a[3],d[2]),f=bj(a[4],e[2]),g=cL(a[5],f[2]),h=cL(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kJ(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+g4(a,b){if(a){var
+c=cL(a[1],b),d=g4(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+g5(b){function
+a(a){return z(a,b,[0,d,c])}var
+e=a(we),f=a(wf);return[0,a(0),f,e]}function
+kK(a,b){if(a){var
+c=a[1],d=g4(c[1],b),e=g4(c[2],d[2]),f=kK(a[2],e[2]),g=f[2],h=f[1],i=g5(e[1]);return[0,[0,[0,g5(d[1]),i],h],g]}return[0,0,b]}function
+di(a){return jn(m,a)}function
+wg(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
@@ -4837,115 +5019,118 @@ d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
 e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
 12:var
 f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
+14:var
+h=j(m,0,a[1]);return h?j(m,1,a[2]):h;case
 2:case
-3:return de(a[2]);case
+3:return di(a[2]);case
 4:case
 13:var
 b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
-gZ(a){if(typeof
+g6(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
+d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):h;case
 5:return j(m,1,[2,a[1],[0,c,c]]);case
 8:var
 k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
 1:return j(m,1,a[1]);case
 2:case
-3:return de(a[2]);default:var
+3:return di(a[2]);default:var
 i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-e2(d){var
+fb(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aK(a4(function(d){return function(a){var
-h=gN(a[1]),e=ap(gN(d[1]),h);if(e)var
-i=gO(a[4]),b=ap(gO(d[4]),i);else
+b=a[2],e=a[1],c=aC(aT(function(d){return function(a){var
+h=gV(a[1]),e=as(gV(d[1]),h);if(e)var
+i=gW(a[4]),b=as(gW(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?M(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?E(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d3(a){if(0===a[0])return de(i(a[1]));var
+d9(a){if(0===a[0])return di(i(a[1]));var
 b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
-bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ky(a){switch(a[0]){case
+bk(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+kL(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e);case
+c=[0,a[4],0],d=g(bk(a[3]),c),e=g(bk(a[2]),d);return g(bk(a[1]),e);case
 1:var
-b=a[3],f=b?bg(b[1]):b,h=g(bg(a[2]),f);return g(bg(a[1]),h);default:return bg(a[1])}}function
-kz(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bg(a[4]),b),d=g(bg(a[3]),c),e=g(bg(a[2]),d);return g(bg(a[1]),e)}function
-g0(a){switch(a){case
-0:return vN;case
-1:return vO;default:return 0}}function
-e3(a){var
-f=a[1],d=j(m,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bs(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
-g1(a){var
-e=bs(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-kA(c,d,D,t,s,r,g){function
+b=a[3],f=b?bk(b[1]):b,h=g(bk(a[2]),f);return g(bk(a[1]),h);default:return bk(a[1])}}function
+kM(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bk(a[4]),b),d=g(bk(a[3]),c),e=g(bk(a[2]),d);return g(bk(a[1]),e)}function
+g7(a){switch(a){case
+0:return wk;case
+1:return wl;default:return 0}}function
+fc(a){var
+f=a[1],d=j(m,1,[1,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bz(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],g])}return e}function
+g8(a){var
+e=bz(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
+kN(c,d,D,t,s,r,g){function
 u(a){var
-d=c?vL:vM,b=M(l(a),d);return b?o(d3,a):b}var
+d=c?wi:wj,b=E(l(a),d);return b?o(d9,a):b}var
 v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=l(d),h=$(dU(c),E);else
+F=l(d),h=ac(d0(c),F);else
 var
 h=v;var
-w=h?$(l(d),vP):h,x=w?j(m,1,i(D)):w;if(x)var
-F=g0(c),k=M(l(t),F);else
+w=h?ac(l(d),wm):h,x=w?j(m,1,i(D)):w;if(x)var
+G=g7(c),k=E(l(t),G);else
 var
 k=x;if(k)var
-G=g0(c),n=M(l(s),G);else
+H=g7(c),n=E(l(s),H);else
 var
 n=k;if(n)var
-H=co(t,s),p=o(function(a){var
-b=i(a[2]);return bs(m,i(a[1]),b)},H);else
+I=bX(t,s),p=o(function(a){var
+b=i(a[2]);return bz(m,i(a[1]),b)},I);else
 var
 p=n;if(p)if(c){var
-a=gT(r);switch(a[0]){case
+a=g0(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=e3(a[1]),A=z?e3(a[2]):z,e=A?e3(a[3]):A;break;case
+z=fc(a[1]),A=z?fc(a[2]):z,e=A?fc(a[3]):A;break;case
 2:var
-e=g1(a[1]);break;default:var
-B=g1(a[1]),e=B?g1(a[2]):B}var
+e=g8(a[1]);break;default:var
+B=g8(a[1]),e=B?g8(a[2]):B}var
 f=e}else
 var
-C=gT(r),J=0===C[0]?e3(C[1]):0,f=J;else
+C=g0(r),K=0===C[0]?fc(C[1]):0,f=K;else
 var
 f=p;if(f)var
-b=l(d),I=dU(c),q=o(function(a){var
+b=l(d),J=d0(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=$(vh,e),m=f?$(e,b):f,c=m;else
+e=d[1],f=ac(vQ,e),n=f?ac(e,b):f,c=n;else
 var
-c=1;switch(a[1]){case
-2:var
-g=a[4];if(typeof
-g!=="number"&&1===g[0]){var
-h=a[3];return h?0===h[1][0]?c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
+c=1;var
+g=a[1];if(2<=g)switch(g-2|0){case
+0:var
+h=a[4];if(typeof
+h!=="number"&&1===h[0]){var
+i=a[3];return i?0===i[1][0]?c:ba(0,b,a):ba(0,b,a)}return ba(0,b,a);case
+4:var
+j=a[4];if(typeof
+j!=="number"&&0===j[0]){var
+k=a[3];return k?0===k[1][0]?a[2]?0:1:ba(0,b,a):ba(0,b,a)}return ba(0,b,a);case
 6:var
-i=a[4];if(typeof
-i!=="number"&&0===i[0]){var
-j=a[3];return j?0===j[1][0]?a[2]?0:1:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);case
-8:var
-k=a[4];if(typeof
-k!=="number"&&1===k[0]){var
-l=a[3];return l?0===l[1][0]?c?M(b,I):c:a9(0,b,a):a9(0,b,a)}return a9(0,b,a);default:return a9(0,b,a)}},g);else
+l=a[4];if(typeof
+l!=="number"&&1===l[0]){var
+m=a[3];return m?0===m[1][0]?c?E(b,J):c:ba(0,b,a):ba(0,b,a)}return ba(0,b,a)}return ba(0,b,a)},g);else
 var
 q=f;var
-y=q?e2(g):q;return y?o(gZ,db(l(d),g)):y}function
-g2(j){var
-q=a6(j,dc(by(j))),a=f(function(a){return aA(m,a)},q);if(a){var
+y=q?fb(g):q;return y?o(g6,df(l(d),g)):y}function
+g9(j){var
+q=a7(j,dg(bE(j))),a=f(function(a){return an(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return aa(m,a)},r=i(h[1]),s=i(g[1]);return ac(d,A(A(i(e[1]),s),r)[1])}var
+i=function(a){return R(m,a)},r=i(h[1]),s=i(g[1]);return aa(d,B(B(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -4961,152 +5146,154 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-vQ(a){switch(a[0]){case
-0:return g2(a[1][1]);case
+wn(a){switch(a[0]){case
+0:return g9(a[1][1]);case
 1:var
-b=a[3];return b?g2(b[1]):1;default:return g2(a[1])}}function
-g3(c,a,b,p){if(a4(function(a){return 9===a[1]?1:0},b)){var
-f=$(l(a),vS),h=f?o(function(a){if(0===a[0]){var
+b=a[3];return b?g9(b[1]):1;default:return g9(a[1])}}function
+g_(c,a,b,p){if(aT(function(a){return 9===a[1]?1:0},b)){var
+f=ac(l(a),wp),h=f?o(function(a){if(0===a[0]){var
 f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bd(f[1]),b=o(function(a){return de(i(a))},u);else{var
+u=bh(f[1]),b=o(function(a){return di(i(a))},u);else{var
 n=1;e=1}else{var
 n=l;e=1}if(e)var
 b=n}else{var
 p=j(m,1,i(a[4]));if(p)var
-v=bd(a[3]),w=g(bd(a[2]),v),b=o(function(a){return de(i(a))},w);else
+v=bh(a[3]),w=g(bh(a[2]),v),b=o(function(a){return di(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=$(vR,q);if(r){var
-d=ai(c,bO(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=ac(wo,q);if(r){var
+d=ai(c,bV(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-k=gS(0,a),u=k?1:k,n=u;else
+k=gZ(0,a),u=k?1:k,n=u;else
 var
 n=h;var
 d=n}else
 var
 d=a?0:1;var
-q=d?o(vQ,p[1]):d,r=q?$(vT,l(c)):q;if(r)var
-v=l(c),e=o(function(a){return va(v,a)},b);else
+q=d?o(wn,p[1]):d,r=q?ac(wq,l(c)):q;if(r)var
+v=l(c),e=o(function(a){return vI(v,a)},b);else
 var
 e=r;var
-s=e?e2(b):e,t=s?o(d3,z(ky,c)):s;return t?o(vJ,p[3]):t}function
-vU(b){var
-a=11<=b[1]?1:0,c=a?1:a;return c}function
-g4(b,a){return o(function(c){var
-a=c[2];return a?iu(a[1],b):1},a)}function
-g5(b,a){var
-c=l(fT(function(a){return 0===a[0]?0:1},b));return M(l(a),c)}function
-vV(s){var
-fm=gQ(s[3]),fn=fm?gQ(s[4]):fm;if(fn){var
-at=s[1];if(3===at[0]){var
-fq=o(eY,at[1]);if(fq)var
-ix=at[2],cC=o(function(a){return eY(a[1])},ix);else
+s=e?fb(b):e,t=s?o(d9,C(kL,c)):s;return t?o(wg,p[3]):t}function
+wr(a){return 11===a[1]?1:0}function
+g$(b,a){return o(function(c){var
+a=c[2];return a?iB(a[1],b):1},a)}function
+ha(b,a){var
+c=l(dJ(function(a){return 0===a[0]?0:1},b));return E(l(a),c)}function
+ws(s){var
+fn=gX(s[3]),fo=fn?gX(s[4]):fn;if(fo){var
+aw=s[1];if(3===aw[0]){var
+fr=o(e9,aw[1]);if(fr)var
+iA=aw[2],cA=o(function(a){return e9(a[1])},iA);else
 var
-cC=fq;if(cC)var
-iy=at[3],cE=o(function(a){var
-b=eY(a[1]),c=b?gR(a[2]):b;return c?c8(a[2]):c},iy);else
+cA=fr;if(cA)var
+iB=aw[3],cB=o(function(a){var
+b=e9(a[1]),c=b?gY(a[2]):b;return c?da(a[2]):c},iB);else
 var
-cE=cC;if(cE)var
-iz=at[4],iA=function(a){var
-b=gR(a);return b?c8(a):b},cx=o(function(a){return o(iA,a)},iz);else
+cB=cA;if(cB)var
+iC=aw[4],iD=function(a){var
+b=gY(a);return b?da(a):b},cw=o(function(a){return o(iD,a)},iC);else
 var
-cx=cE}else
+cw=cB}else
 var
-cx=1;var
-cy=cx}else
+cw=1;var
+cx=cw}else
 var
-cy=fn;if(cy){var
+cx=fo;if(cx){var
 h=s[1];switch(h[0]){case
 0:var
-ia=z(c_,h[4]),ib=g(z(u7,h[3]),ia),ic=g(km(h[2]),ib),U=g(z(kl,h[1]),ic);break;case
+id=C(dc,h[4]),ie=g(C(vD,h[3]),id),ig=g(kz(h[2]),ie),W=g(C(ky,h[1]),ig);break;case
 1:var
-id=z(c_,h[3]),ie=g(km(h[2]),id),U=g(z(u6,h[1]),ie);break;case
+ih=C(dc,h[3]),ii=g(kz(h[2]),ih),W=g(C(vC,h[1]),ii);break;case
 2:var
-ig=z(c_,h[7]),T=h[6];switch(T[0]){case
+ij=C(dc,h[7]),V=h[6];switch(V[0]){case
 1:var
-fj=T[3],fk=T[2],fl=T[1],cv=[0,fl[1],[0,fl[2],[0,fk[1],[0,fk[2],[0,fj[1],[0,fj[2],0]]]]]];break;case
+fk=V[3],fl=V[2],fm=V[1],cu=[0,fm[1],[0,fm[2],[0,fl[1],[0,fl[2],[0,fk[1],[0,fk[2],0]]]]]];break;case
 2:var
-cv=[0,T[1],0];break;default:var
-cv=[0,T[1],[0,T[2],0]]}var
-ih=g(cv,ig),ii=g(h[5],ih),ij=g(h[4],ii),ik=[0,h[3],ij],il=h[2],U=g(z(function(a){return z(c9,g(a[1],a[2]))},il),ik);break;case
+cu=[0,V[1],0];break;default:var
+cu=[0,V[1],[0,V[2],0]]}var
+ik=g(cu,ij),il=g(h[5],ik),im=g(h[4],il),io=[0,h[3],im],ip=h[2],W=g(C(function(a){return C(db,g(a[1],a[2]))},ip),io);break;case
 3:var
-im=z(c_,h[7]),io=g(h[6],im),ip=g(h[5],io),iq=h[2],U=g(z(function(a){return c9(a[2])},iq),ip);break;case
+iq=C(dc,h[7]),ir=g(h[6],iq),is=g(h[5],ir),it=h[2],W=g(C(function(a){return db(a[2])},it),is);break;case
 4:var
-ir=z(c_,h[3]),U=[0,h[1],[0,h[2],ir]];break;case
+iu=C(dc,h[3]),W=[0,h[1],[0,h[2],iu]];break;case
 5:var
-is=z(c_,h[4]),it=g(bd(h[3]),is),iu=g(bd(h[2]),it),iv=g(z(kl,h[1]),iu),U=[0,h[5],iv];break;default:var
-cw=h[1],U=cw?c9(cw[1]):cw}var
-cB=o(c8,U)}else
+iv=C(dc,h[4]),iw=g(bh(h[3]),iv),ix=g(bh(h[2]),iw),iy=g(C(ky,h[1]),ix),W=[0,h[5],iy];break;default:var
+cv=h[1],W=cv?db(cv[1]):cv}var
+cz=o(da,W)}else
 var
-cB=cy;if(cB){var
+cz=cx;if(cz){var
 aj=s[2];if(0===aj[0]){var
-fo=kn(aj[1]);if(fo)var
-iw=aj[3],au=o(function(a){var
+fp=kA(aj[1]);if(fp)var
+iz=aj[3],ax=o(function(a){var
 b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gQ(a[1]);case
+1:return gX(a[1]);case
 2:case
-3:return 1;default:var
-a=a[1];continue}},b)},iw);else
+3:case
+4:return 1;default:var
+a=a[1];continue}},b)},iz);else
 var
-au=fo}else
+ax=fp}else
 var
-fp=kn(aj[1]),au=fp?o(c8,g(aj[2],aj[3])):fp}else
+fq=kA(aj[1]),ax=fq?o(da,g(aj[2],aj[3])):fq}else
 var
-au=cB;if(au){var
+ax=cz;if(ax){var
 a=s[1];switch(a[0]){case
 0:var
-av=a[4],aw=a[3],cR=a[2],V=a[1],W=s[2];if(0===W[0]){var
-cS=W[3],fI=W[2],r=eZ(V,cR,aw,av),cT=dd(l(cS),cS);if(cT){var
-fJ=cT[1];if(fJ[2])return 0;var
-fK=g3(V,aw,av,r),fL=fK?g4(vW,cS):fK;if(fL){var
-iO=fJ[1],cU=f(ks,r[1]),w=kt(r[1]);if(fI)var
-fM=fI[1],fN=[0,fM[2],fM[1]];else
+ay=a[4],az=a[3],cR=a[2],X=a[1],_=s[2];if(0===_[0]){var
+cS=_[3],fJ=_[2],q=e_(X,cR,az,ay),cT=dh(l(cS),cS);if(cT){var
+fK=cT[1];if(fK[2])return 0;var
+fL=g_(X,az,ay,q),fM=fL?g$(wt,cS):fL;if(fM){var
+iR=fK[1],cU=f(kF,q[1]),w=kG(q[1]);if(fJ)var
+fN=fJ[1],fO=[0,fN[2],fN[1]];else
 var
-fN=[0,d,0];var
-p=W[1],d0=jv(m,r);if(d0){var
-bP=gf(w,cU,r[1]),_=gg(w,cU,r[1],0),g2=l(r[3]),g6=J(l(bP),g2),dG=[0,l(bP),g6],g7=gi(_,w,dG,r[3]),g8=g(cz(i8(_)),g7),dH=g(cz(eE(_)),g8),dL=dJ(dH)[1],ar=dI(dL),dM=o(function(a){var
-b=q(d);return bc(E(bq(ar,a),ar,b),a)},dH);if(dM){var
-dO=a4(qO,r[3]);if(dO){var
-bN=cU,aD=r[1];for(;;){if(aD){var
-aE=aD[1],bO=ep(d,bN);switch(aE[0]){case
+fO=[0,d,0];var
+r=_[1],d1=jI(m,q);if(d1){var
+at=go(w,cU,q[1]),T=gp(w,cU,q[1],0),gV=l(q[3]),gW=K(l(at),gV),dI=[0,l(at),gW],gZ=q[3],dz=aT(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},gZ),g0=dz?C(function(a){var
+b=f(cW,jx(at,a));return[0,a[4],b]},T):dz,g4=g(gr(T,w,dI,q[3]),g0),g8=g(cE(jc(T)),g4),dJ=g(cE(eI(T)),g8),dK=dQ(dJ)[1],au=dP(dK),dL=o(function(a){var
+b=n(d);return a_(z(bw(au,a),au,b),a)},dJ);if(dL){var
+dM=aT(rh,q[3]);if(dM){var
+bO=cU,aH=q[1];for(;;){if(aH){var
+aI=aH[1],bP=ev(d,bO);switch(aI[0]){case
 0:var
-dB=aE[1],dD=gj(p,dB[1],bO),dj=0;if(dD){var
-bM=aA(p,[0,dB[4],w]);if(bM)var
-aq=ac(d,bM[1][1]);else{var
-dE=bM;dj=1}}else{var
-dE=dD;dj=1}if(dj)var
-aq=dE;break;case
+dC=aI[1],dD=gs(r,dC[1],bP),dl=0;if(dD){var
+bN=an(r,[0,dC[4],w]);if(bN)var
+ar=aa(d,bN[1][1]);else{var
+dF=bN;dl=1}}else{var
+dF=dD;dl=1}if(dl)var
+ar=dF;break;case
 1:var
-dF=aE[3],aq=dF?gj(p,dF[1],bO):1;break;default:var
-aq=gj(p,aE[1],bO)}if(aq){var
-g1=aD[2],bN=fS(bN),aD=g1;continue}var
-dP=aq}else
+dH=aI[3],ar=dH?gs(r,dH[1],bP):1;break;default:var
+ar=gs(r,aI[1],bP)}if(ar){var
+gU=aH[2],bO=f3(bO),aH=gU;continue}var
+dN=ar}else
 var
-dP=1;var
-bQ=dP;break}}else
+dN=1;var
+bQ=dN;break}}else
 var
-bQ=dO;if(bQ){var
-g9=r[3],g_=z(function(a){return cZ(w,a)},g9),g$=r[3],ha=g(bP,g(f(function(a){return bt(w,a)},g$),g_)),bR=aT(f(function(a){return aA(p,a)},ha));if(bR){var
-ab=r[2];if(0===ab[0])var
-dQ=ab[1];else
+bQ=dM;if(bQ){var
+g9=q[3],hb=C(function(a){return c3(w,a)},g9),hc=q[3],hd=g(at,g(f(function(a){return bg(w,a)},hc),hb)),bR=aE(f(function(a){return an(r,a)},hd));if(bR){var
+ad=q[2];if(0===ad[0])var
+dO=ad[1];else
 var
-aC=ab[3],dx=ab[2],dy=ab[1],dQ=[0,[0,[2,dy,aC],[1,dy,aC]],[0,[2,dx,aC],[1,dx,aC]],ab[4]];var
-hb=a6(dQ,w),bS=aT(f(function(a){return aA(p,a)},hb));if(bS){var
-hc=r[3],bU=aT(jl(p,fN,function(a){return bq(ar,a)},_,w,dG,hc));if(bU){var
-dT=bU[1],hd=je(dT),aF=r[2],he=bS[1],hf=function(d){if(0===aF[0])return 0;if(d){var
+aG=ad[3],dA=ad[2],dB=ad[1],dO=[0,[0,[2,dB,aG],[1,dB,aG]],[0,[2,dA,aG],[1,dA,aG]],ad[4]];var
+he=a7(dO,w),bS=aE(f(function(a){return an(r,a)},he));if(bS){var
+hf=q[3],bT=aE(jy(r,fO,function(a){return bw(au,a)},at,T,w,dI,hf));if(bT){var
+dR=bT[1],hg=jm(dR),aJ=q[2],hh=bS[1],hi=function(d){if(0===aJ[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b9(p,w,aF[1]);if(f){var
-g=b9(p,w,aF[2]);if(g){var
-h=b9(p,w,aF[3]);if(h)var
-r=f[1],s=br(c),i=N([0,br(c),s],r),t=g[1],u=br(b),j=N([0,br(b),u],t),v=cY(b),x=[0,cY(b),v],y=[0,F(p,aH(A(j,j)),x),0],z=cY(c),B=[0,cY(c),z],C=[0,F(p,aH(A(i,i)),B),y],D=aa(p,j),E=aa(p,i),k=[0,[0,N(N(aa(p,h[1]),E),D),O,C]];else
+b=a[1],c=d[1],f=ce(r,w,aJ[1]);if(f){var
+g=ce(r,w,aJ[2]);if(g){var
+h=ce(r,w,aJ[3]);if(h)var
+q=f[1],s=by(c),i=N([0,by(c),s],q),t=g[1],u=by(b),j=N([0,by(b),u],t),v=c2(b),x=[0,c2(b),v],y=[0,D(r,am(B(j,j)),x),0],z=c2(c),A=[0,c2(c),z],C=[0,D(r,am(B(i,i)),A),y],E=R(r,j),F=R(r,i),k=[0,[0,N(N(R(r,h[1]),F),E),L,C]];else
 var
 k=h;var
 l=k}else
@@ -5121,270 +5308,270 @@ n=e;var
 o=n}else
 var
 o=a;var
-q=o}else
+p=o}else
 var
-q=d;return q},hg=bR[1],hh=0,hi=i8(_),hj=e(a5(function(a){return bq(ar,a)}),hi),hk=eE(_);return gd(p,dL,e(a5(function(a){return bq(ar,a)}),hk),hj,hh,hg,dT,hf,he,hd,iO)}var
-dV=bU}else
+p=d;return p},hj=bR[1],hk=0,hl=jc(T),hm=e(a2(function(a){return bw(au,a)}),hl),hn=eI(T);return gm(r,dK,e(a2(function(a){return bw(au,a)}),hn),hm,hk,hj,dR,hi,hh,hg,iR)}var
+dS=bT}else
 var
-dV=bS;var
-dW=dV}else
+dS=bS;var
+dT=dS}else
 var
-dW=bR;var
-bV=dW}else
+dT=bR;var
+bU=dT}else
 var
-bV=bQ}else
+bU=bQ}else
 var
-bV=dM;return bV}return d0}var
-fO=fL}else
+bU=dL;return bU}return d1}var
+fP=fM}else
 var
-fO=cT;return fO}var
-bg=W[2];if(bg){var
-bh=bg[2];if(bh){var
-bi=bh[2];if(bi){if(bi[2])return 0;var
-fP=W[3],fQ=kv(V,f(i,fP));if(fQ[2])return 0;var
-ak=W[4];if(typeof
+fP=cT;return fP}var
+bi=_[2];if(bi){var
+bj=bi[2];if(bj){var
+bk=bj[2];if(bk){if(bk[2])return 0;var
+fQ=_[3],fR=kI(X,f(i,fQ));if(fR[2])return 0;var
+ak=_[4];if(typeof
 ak==="number")var
-y=vG;else
+A=wd;else
 if(0===ak[0]){var
-cJ=ak[2],cK=ak[1];if(cJ){var
-a_=cJ[1],dk=0;if(a_){var
-a$=a_[2],bI=0;if(a$){var
-ba=a$[2],bJ=0;if(ba)if(ba[2]){var
-y=0;bI=1;bJ=1}else{var
-cL=ba[1],cM=a$[1],cN=a_[1],cO=cJ[2];if(cO){var
-bb=cO[1],gS=0;if(bb){var
-be=bb[2],gT=0;if(be){var
-bf=be[2],gX=0;if(bf)if(bf[2]||cO[2]){var
-y=0;bI=1;bJ=1;gS=1;gT=1;gX=1}else
+cH=ak[2],cJ=ak[1];if(cH){var
+a$=cH[1],dm=0;if(a$){var
+bb=a$[2],bJ=0;if(bb){var
+bc=bb[2],bK=0;if(bc)if(bc[2]){var
+A=0;bJ=1;bK=1}else{var
+cL=bc[1],cM=bb[1],cN=a$[1],cO=cH[2];if(cO){var
+bd=cO[1],gR=0;if(bd){var
+be=bd[2],gS=0;if(be){var
+bf=be[2],gT=0;if(bf)if(bf[2]||cO[2]){var
+A=0;bJ=1;bK=1;gR=1;gS=1;gT=1}else
 var
-fv=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,bb[1],be[1]],bf[1]]]];else
+fw=[0,[0,cJ,[0,[0,cN,cM],cL],[0,[0,bd[1],be[1]],bf[1]]]];else
 var
-fv=bf;if(!gX)var
-fw=fv}else
-var
-fw=be;if(!gT)var
+fw=bf;if(!gT)var
 fx=fw}else
 var
-fx=bb;if(!gS){var
-y=fx;bI=1;bJ=1}}else
+fx=be;if(!gS)var
+fy=fx}else
 var
-fy=[0,[0,cK,[0,[0,cN,cM],cL],[0,[0,cN,cM],cL]]]}else
+fy=bd;if(!gR){var
+A=fy;bJ=1;bK=1}}else
 var
-fy=ba;if(!bJ)var
-fz=fy}else
+fz=[0,[0,cJ,[0,[0,cN,cM],cL],[0,[0,cN,cM],cL]]]}else
 var
-fz=a$;if(!bI){var
-fA=fz;dk=1}}else{var
-fA=a_;dk=1}if(dk)var
-y=fA}else
+fz=bc;if(!bK)var
+fA=fz}else
 var
-fB=[0,[0,d,d],d],y=[0,[0,cK,fB,fB]]}else
+fA=bb;if(!bJ){var
+fB=fA;dm=1}}else{var
+fB=a$;dm=1}if(dm)var
+A=fB}else
 var
-y=[0,[1,ak[1],ak[2]]];if(y){var
-fR=g5(z(ky,V),fP),fT=fR?g3(V,aw,av,eZ(V,cR,aw,av)):fR;if(fT){var
-X=y[1],iP=i(bi[1]),iQ=i(bh[1]),L=[0,i(bg[1]),iQ,iP],ax=fQ[1],cV=eZ(V,cR,aw,av),dX=jn(m,cV,ax,L);if(dX)if(typeof
-X==="number")return a4(function(a){switch(a[0]){case
+fC=[0,[0,d,d],d],A=[0,[0,cJ,fC,fC]]}else
+var
+A=[0,[1,ak[1],ak[2]]];if(A){var
+fS=ha(C(kL,X),fQ),fT=fS?g_(X,az,ay,e_(X,cR,az,ay)):fS;if(fT){var
+$=A[1],iS=i(bk[1]),iT=i(bj[1]),O=[0,i(bi[1]),iT,iS],aA=fR[1],cV=e_(X,cR,az,ay),dV=jA(m,cV,aA,O);if(dV)if(typeof
+$==="number")return aT(function(a){switch(a[0]){case
 0:var
-b=[0,c0(a[1],a[2],a[3],a[4],L)];break;case
+b=[0,c4(a[1],a[2],a[3],a[4],O)];break;case
 1:var
-e=a[2],f=a[1],g=bu(f,e,L),b=[0,B(bu(f,e,L),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},ax);else{if(0===X[0]){var
-bW=ai(cV[3],X[1]);if(bW){var
-hl=bW[1],hm=jp(X[3]);return ju(m,ax,L,jp(X[2]),hm,hl)}return bW}var
-bX=ai(cV[3],X[1]);if(bX){var
-bY=ai(ax,X[2]);if(bY){var
-dY=bY[1],hn=bX[1],ho=c2(dY,L);return ju(m,ax,L,c2(dY,L),ho,hn)}var
+e=a[2],f=a[1],g=bA(f,e,O),b=[0,F(bA(f,e,O),g)];break;default:var
+b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aA);else{if(0===$[0]){var
+bV=ai(cV[3],$[1]);if(bV){var
+ho=bV[1],hp=jC($[3]);return jH(m,aA,O,jC($[2]),hp,ho)}return bV}var
+bW=ai(cV[3],$[1]);if(bW){var
+bY=ai(aA,$[2]);if(bY){var
+dW=bY[1],hq=bW[1],hr=c6(dW,O);return jH(m,aA,O,c6(dW,O),hr,hq)}var
 dZ=bY}else
 var
-dZ=bX;return dZ}return dX}var
+dZ=bW;return dZ}return dV}var
 fU=fT}else
 var
-fU=y;var
+fU=A;var
 fV=fU}else
 var
-fV=bi;var
+fV=bk;var
 fW=fV}else
 var
-fW=bh;var
+fW=bj;var
 fX=fW}else
 var
-fX=bg;return fX;case
+fX=bi;return fX;case
 1:var
-bj=a[3],P=a[1],bk=s[2];if(0===bk[0])return 0;var
-bl=bk[2];if(bl){var
-bm=bl[2];if(bm){var
-bn=bm[2];if(bn){if(bn[2])return 0;var
-fY=bk[3],fZ=kw(P,f(i,fY));if(fZ[2])return 0;var
-f0=g5(z(kz,P),fY);if(f0){var
-fC=$(vK,l(P));if(fC)var
-iJ=l(P),iK=1,cP=o(function(a){return a9(iK,iJ,a)},bj);else
+bl=a[3],P=a[1],bm=s[2];if(0===bm[0])return 0;var
+bn=bm[2];if(bn){var
+bo=bn[2];if(bo){var
+bp=bo[2];if(bp){if(bp[2])return 0;var
+fY=bm[3],fZ=kJ(P,f(i,fY));if(fZ[2])return 0;var
+f0=ha(C(kM,P),fY);if(f0){var
+fD=ac(wh,l(P));if(fD)var
+iM=l(P),iN=1,cP=o(function(a){return ba(iN,iM,a)},bl);else
 var
-cP=fC;var
-fD=cP?e2(bj):cP,fE=fD?o(d3,z(kz,P)):fD,iR=fE?o(gZ,db(l(P),bj)):fE,cW=iR}else
+cP=fD;var
+fE=cP?fb(bl):cP,fF=fE?o(d9,C(kM,P)):fE,iU=fF?o(g6,df(l(P),bl)):fF,cX=iU}else
 var
-cW=f0;if(cW){var
-iS=gV(bk[4]),iT=i(bn[1]),iU=i(bm[1]),Q=[0,i(bl[1]),iU,iT],bo=fZ[1],iV=a[2],iE=db(l(P),bj),iG=kp(iV),aG=f(vk,P),ad=bo;for(;;){if(aG){if(ad){var
-t=ad[1],S=aG[1],d1=aU(m,S[1],t[1]),d2=d1?aU(m,S[2],t[2]):d1,d4=d2?aU(m,S[3],t[3]):d2,d5=d4?aU(m,S[4],t[4]):d4,d6=d5?cA(m,S[5],t[5]):d5,d7=d6?cA(m,S[6],t[6]):d6,d8=d7?j(m,1,t[5]):d7,d9=d8?j(m,1,t[6]):d8,d_=d9?j(m,1,B(t[1],t[1])):d9;if(d_)var
-hp=gl(t),bZ=j(m,1,B(gl(t),hp));else
+cX=f0;if(cX){var
+iV=g2(bm[4]),iW=i(bp[1]),iX=i(bo[1]),Q=[0,i(bn[1]),iX,iW],bq=fZ[1],iY=a[2],iH=df(l(P),bl),iI=kC(iY),aK=f(vT,P),ae=bq;for(;;){if(aK){if(ae){var
+t=ae[1],U=aK[1],d2=aW(m,U[1],t[1]),d3=d2?aW(m,U[2],t[2]):d2,d4=d3?aW(m,U[3],t[3]):d3,d5=d4?aW(m,U[4],t[4]):d4,d6=d5?cF(m,U[5],t[5]):d5,d7=d6?cF(m,U[6],t[6]):d6,d8=d7?j(m,1,t[5]):d7,d_=d8?j(m,1,t[6]):d8,d$=d_?j(m,1,F(t[1],t[1])):d_;if(d$)var
+hs=gu(t),bZ=j(m,1,F(gu(t),hs));else
 var
-bZ=d_;var
-d$=bZ?dC(S[7],t[7]):bZ;if(d$){var
-aG=aG[2],ad=ad[2];continue}var
-ea=d$}else
+bZ=d$;var
+ea=bZ?dG(U[7],t[7]):bZ;if(ea){var
+aK=aK[2],ae=ae[2];continue}var
+eb=ea}else
 var
-ea=ad;var
-b0=ea}else
+eb=ae;var
+b1=eb}else
 var
-b0=ad?0:1;var
-eb=b0?jm(m,iG,Q):b0;if(eb){var
-hq=f(function(a){return jC(a,Q)},bo),hr=f(function(a){var
-b=jE(a,Q);return[1,jD(a,Q),b]},bo);return jz(m,qS,[0,f(function(a){var
-d=jA(a),e=aB(jE(a,Q),d),f=gm(a),g=aB(jD(a,Q),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aB(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},Q,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gs(a,Q),b=aB([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bo),hr,hq],iE,iS)}return eb}}var
-f1=cW}else
+b1=ae?0:1;var
+ec=b1?jz(m,iI,Q):b1;if(ec){var
+ht=f(function(a){return jP(a,Q)},bq),hu=f(function(a){var
+b=jR(a,Q);return[1,jQ(a,Q),b]},bq);return jM(m,rl,[0,f(function(a){var
+d=jN(a),e=aF(jR(a,Q),d),f=gv(a),g=aF(jQ(a,Q),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aF(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},Q,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gB(a,Q),b=aF([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bq),hu,ht],iH,iV)}return ec}}var
+f1=cX}else
 var
-f1=bn;var
+f1=bp;var
 f2=f1}else
 var
-f2=bm;var
-f3=f2}else
+f2=bo;var
+f4=f2}else
 var
-f3=bl;return f3;case
+f4=bn;return f4;case
 2:var
-bp=a[7],bx=a[6],bz=a[5],bA=a[4],bB=a[3],am=a[2],an=a[1],ao=s[2];if(0===ao[0]){var
-c1=ao[3],ay=kr(an,am,bB,bA,bz,bx,bp),c3=dd(l(c1),c1);if(c3){var
-f4=c3[1];if(f4[2])return 0;var
-f5=kA(an,am,bB,bA,bz,bx,bp),f6=f5?g4(dU(an),c1):f5;if(f6){var
-iW=f4[1],iX=ay[2],iY=C(c,dc(z(function(a){var
-b=by(a[2]);return g(by(a[1]),b)},iX))),iZ=ao[1],hX=ay[2],e3=o(function(a){var
-b=gE(m,a[1]);return b?gE(m,a[2]):b},hX),e4=e3?gE(m,ay[4]):e3;if(e4)var
-hY=j0(ay[5]),cj=o(function(a){return eQ(m,a)},hY);else
+br=a[7],bs=a[6],bt=a[5],bu=a[4],bv=a[3],ao=a[2],ap=a[1],aq=s[2];if(0===aq[0]){var
+cY=aq[3],aB=kE(ap,ao,bv,bu,bt,bs,br),c0=dh(l(cY),cY);if(c0){var
+f5=c0[1];if(f5[2])return 0;var
+f6=kN(ap,ao,bv,bu,bt,bs,br),f7=f6?g$(d0(ap),cY):f6;if(f7){var
+iZ=f5[1],i0=aB[2],i1=y(c,dg(C(function(a){var
+b=bE(a[2]);return g(bE(a[1]),b)},i0))),i2=aq[1],h0=aB[2],e1=o(function(a){var
+b=gN(m,a[1]);return b?gN(m,a[2]):b},h0),e2=e1?gN(m,aB[4]):e1;if(e2)var
+h1=kb(aB[5]),cl=o(function(a){return eZ(m,a)},h1);else
 var
-cj=e4;return cj?rn(iZ,ay,iY,iW):cj}var
-f7=f6}else
+cl=e2;return cl?rS(i2,aB,i1,iZ):cl}var
+f8=f7}else
 var
-f7=c3;return f7}var
-f9=ao[3],f_=f(i,ao[2]),f$=g0(an),ga=kx(am,f(i,f9));if(ga[2])return 0;var
-gb=g5(z(function(a){return g(a[1],a[2])},am),f9),gc=gb?kA(an,am,bB,bA,bz,bx,bp):gb;if(gc){var
-i0=gV(ao[4]),n=iF(f$,f_),bC=gY(eq(f$,f_)),bD=ga[1],R=kr(an,am,bB,bA,bz,bx,bp),aX=R[2],ae=bD;for(;;){if(aX){if(ae){var
-eU=ae[1],eV=aX[1],eW=aU(m,eV[1],eU[1]),eX=eW?aU(m,eV[2],eU[2]):eW;if(eX){var
-aX=aX[2],ae=ae[2];continue}var
-e0=eX}else
+f8=c0;return f8}var
+f9=aq[3],f_=f(i,aq[2]),f$=g7(ap),ga=kK(ao,f(i,f9));if(ga[2])return 0;var
+gb=ha(C(function(a){return g(a[1],a[2])},ao),f9),gc=gb?kN(ap,ao,bv,bu,bt,bs,br):gb;if(gc){var
+i3=g2(aq[4]),p=iL(f$,f_),bx=g5(ew(f$,f_)),bD=ga[1],S=kE(ap,ao,bv,bu,bt,bs,br),a0=S[2],af=bD;for(;;){if(a0){if(af){var
+eU=af[1],eV=a0[1],eW=aW(m,eV[1],eU[1]),eX=eW?aW(m,eV[2],eU[2]):eW;if(eX){var
+a0=a0[2],af=af[2];continue}var
+eY=eX}else
 var
-e0=ae;var
-ch=e0}else
+eY=af;var
+cj=eY}else
 var
-ch=ae?0:1;var
-e1=ch?aU(m,R[4],bC):ch;if(e1){var
-I=R[5];switch(I[0]){case
+cj=af?0:1;var
+e0=cj?aW(m,S[4],bx):cj;if(e0){var
+J=S[5];switch(J[0]){case
 0:var
-x=n?n[2]?0:dS(m,I[1],n[1]):n;break;case
+x=p?p[2]?0:dY(m,J[1],p[1]):p;break;case
 1:var
-dl=0;if(n){var
-aP=n[2],dm=0;if(aP){var
-aQ=aP[2],dn=0;if(aQ)if(aQ[2]){var
-x=0;dm=1;dn=1}else{var
-eB=dS(m,I[1],n[1]),eC=eB?dS(m,I[2],aP[1]):eB;if(eC){var
-x=dS(m,I[3],aQ[1]);dm=1;dn=1}else
+dn=0;if(p){var
+aR=p[2],dp=0;if(aR){var
+aS=aR[2],dq=0;if(aS)if(aS[2]){var
+x=0;dp=1;dq=1}else{var
+eC=dY(m,J[1],p[1]),eD=eC?dY(m,J[2],aR[1]):eC;if(eD){var
+x=dY(m,J[3],aS[1]);dp=1;dq=1}else
 var
-eD=eC}else
+eE=eD}else
 var
-eD=aQ;if(!dn)var
-eF=eD}else
+eE=aS;if(!dq)var
+eF=eE}else
 var
-eF=aP;if(!dm){var
-eG=eF;dl=1}}else{var
-eG=n;dl=1}if(dl)var
+eF=aR;if(!dp){var
+eG=eF;dn=1}}else{var
+eG=p;dn=1}if(dn)var
 x=eG;break;case
 2:var
-dp=0;if(n){var
-aR=n[2],dq=0;if(aR){var
-aS=aR[2];if(aS)if(aS[2]){var
-x=0;dq=1}else{var
-eH=aS[1],eI=aR[1],eJ=n[1],hQ=B([0,eJ,eI,eH],[0,eJ,eI,eH]),x=jT(m,I[1],hQ,[0,c,c]);dq=1}else
+dr=0;if(p){var
+aV=p[2],ds=0;if(aV){var
+aX=aV[2];if(aX)if(aX[2]){var
+x=0;ds=1}else{var
+eH=aX[1],eJ=aV[1],eK=p[1],hT=F([0,eK,eJ,eH],[0,eK,eJ,eH]),x=j6(m,J[1],hT,[0,c,c]);ds=1}else
 var
-eK=aS}else
+eL=aX}else
 var
-eK=aR;if(!dq){var
-eL=eK;dp=1}}else{var
-eL=n;dp=1}if(dp)var
-x=eL;break;default:var
-dr=0;if(n){var
-aV=n[2],ds=0;if(aV){var
-aW=aV[2],dt=0;if(aW)if(aW[2]){var
-x=0;ds=1;dt=1}else{var
-cg=aW[1],eM=aV[1],eN=n[1],eO=jT(m,I[1],[1,[3,eN,eN],[3,eM,eM]],[1,[0,c,c],[3,cg,cg]]);if(eO){var
-x=dS(m,cD(I[2]),cg);ds=1;dt=1}else
+eL=aV;if(!ds){var
+eM=eL;dr=1}}else{var
+eM=p;dr=1}if(dr)var
+x=eM;break;default:var
+dt=0;if(p){var
+aY=p[2],du=0;if(aY){var
+aZ=aY[2],dv=0;if(aZ)if(aZ[2]){var
+x=0;du=1;dv=1}else{var
+ci=aZ[1],eN=aY[1],eO=p[1],eP=j6(m,J[1],[1,[3,eO,eO],[3,eN,eN]],[1,[0,c,c],[3,ci,ci]]);if(eP){var
+x=dY(m,cI(J[2]),ci);du=1;dv=1}else
 var
-eP=eO}else
+eQ=eP}else
 var
-eP=aW;if(!dt)var
-eR=eP}else
+eQ=aZ;if(!dv)var
+eR=eQ}else
 var
-eR=aV;if(!ds){var
-eS=eR;dr=1}}else{var
-eS=n;dr=1}if(dr)var
+eR=aY;if(!du){var
+eS=eR;dt=1}}else{var
+eS=p;dt=1}if(dt)var
 x=eS}var
-ci=x}else
+ck=x}else
 var
-ci=e1;if(ci){var
-aY=R[5],hU=R[6],hV=R[3],hW=R[1],eT=function(a){var
-b=gw(aY,n,bC,a);return B(gw(aY,n,bC,a),b)},hR=f(eT,bD),hS=f(function(a){return[0,[5,eT(a)]]},bD),hT=[0,f(function(d){var
-b=aJ(gw(aY,n,bC,d)),a=aB([4,[0,c,c],hV],jP(jQ(aY,n,d[2]),b));switch(hW){case
+ck=e0;if(ck){var
+a1=S[5],hX=S[6],hY=S[3],hZ=S[1],eT=function(a){var
+b=gF(a1,p,bx,a);return F(gF(a1,p,bx,a),b)},hU=f(eT,bD),hV=f(function(a){return[0,[5,eT(a)]]},bD),hW=[0,f(function(d){var
+b=aM(gF(a1,p,bx,d)),a=aF([4,[0,c,c],hY],j2(j3(a1,p,d[2]),b));switch(hZ){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bD),hS,hR];return jz(m,dU(R[1]),hT,hU,i0)}return ci}}return gc;case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bD),hV,hU];return jM(m,d0(S[1]),hW,hX,i3)}return ck}}return gc;case
 3:var
-bE=a[7],ge=a[6],gh=a[5],bF=a[4],gk=a[2],gn=a[1],c4=s[2];if(0===c4[0]){var
-c5=c4[3],c6=dd(l(c5),c5);if(c6){var
-go=c6[1];if(go[2])return 0;var
-iL=l(ge),fF=M(l(gh),iL);if(fF)var
-iM=l(bF),iN=0,cQ=o(function(a){return a9(iN,iM,a)},bE);else
+bF=a[7],gd=a[6],ge=a[5],bG=a[4],gf=a[2],gg=a[1],c5=s[2];if(0===c5[0]){var
+c7=c5[3],c8=dh(l(c7),c7);if(c8){var
+gh=c8[1];if(gh[2])return 0;var
+iO=l(gd),fG=E(l(ge),iO);if(fG)var
+iP=l(bG),iQ=0,cQ=o(function(a){return ba(iQ,iP,a)},bF);else
 var
-cQ=fF;var
-fG=cQ?e2(bE):cQ,fH=fG?o(function(a){return d3(a[2])},gk):fG,gp=fH?o(gZ,db(l(bF),bE)):fH,gq=gp?g4(l(gn),c5):gp;if(gq){var
-i1=go[1],i2=a[3],fr=db(l(bF),bE),iB=co(gh,ge),cF=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},iB),iC=f(function(a){return f(cG,a)},bF),iD=f(function(a){var
-b=cG(a[2]);return[0,a[1],b]},i2),k=[0,gn,f(function(a){var
-b=bT(a[2]);return[0,a[1],b]},gk),iD,iC],az=c4[1],hK=f(dz,k[2]),ca=g(k[1],hK),aO=l(k[1]),eu=$(qU,aO),ev=eu?$(aO,qV):eu,ew=ev?$(aO,l(k[4])):ev,ex=ew?$(l(k[4]),qW):ew;if(ex)var
-hL=k[4],cb=o(function(a){return M(l(a),aO)},hL);else
+cQ=fG;var
+fH=cQ?fb(bF):cQ,fI=fH?o(function(a){return d9(a[2])},gf):fH,gj=fI?o(g6,df(l(bG),bF)):fI,gk=gj?g$(l(gg),c7):gj;if(gk){var
+i4=gh[1],i5=a[3],fs=df(l(bG),bF),iE=bX(ge,gd),cC=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},iE),iF=f(function(a){return f(cK,a)},bG),iG=f(function(a){var
+b=cK(a[2]);return[0,a[1],b]},i5),k=[0,gg,f(function(a){var
+b=b0(a[2]);return[0,a[1],b]},gf),iG,iF],aD=c5[1],hN=f(dE,k[2]),ca=g(k[1],hN),aQ=l(k[1]),et=ac(rn,aQ),eu=et?ac(aQ,ro):et,ex=eu?ac(aQ,l(k[4])):eu,ey=ex?ac(l(k[4]),rp):ex;if(ey)var
+hO=k[4],cb=o(function(a){return E(l(a),aQ)},hO);else
 var
-cb=ex;if(cb){var
-aN=ca;for(;;){if(aN){var
-es=aN[2],hJ=aN[1],et=aK(a4(function(b){return function(a){return m5(b,a)}}(hJ),es));if(et){var
-aN=es;continue}var
-ey=et}else
-var
-ey=1;var
-cc=ey;break}}else
-var
-cc=cb;if(cc){var
-aM=ca,aL=k[3];for(;;){if(aL){var
-em=aL[1],en=em[1],eo=aK(a4(function(b){return function(a){return ap(b,a)}}(en),aM)),er=eo?gt(aM,em[2]):eo;if(er){var
-aM=[0,en,aM],aL=aL[2];continue}var
-ez=er}else
+cb=ey;if(cb){var
+aP=ca;for(;;){if(aP){var
+er=aP[2],hM=aP[1],es=aC(aT(function(b){return function(a){return nh(b,a)}}(hM),er));if(es){var
+aP=er;continue}var
+ez=es}else
 var
 ez=1;var
-cd=ez;break}}else
+cc=ez;break}}else
+var
+cc=cb;if(cc){var
+aO=ca,aN=k[3];for(;;){if(aN){var
+en=aN[1],eo=en[1],ep=aC(aT(function(b){return function(a){return as(b,a)}}(eo),aO)),eq=ep?gC(aO,en[2]):ep;if(eq){var
+aO=[0,eo,aO],aN=aN[2];continue}var
+eA=eq}else
+var
+eA=1;var
+cd=eA;break}}else
 var
 cd=cc;if(cd)var
-hM=k[4],hN=g(f(dz,k[3]),ca),hO=function(a){return gt(hN,a)},ce=o(function(a){return o(hO,a)},hM);else
+hP=k[4],hQ=g(f(dE,k[3]),ca),hR=function(a){return gC(hQ,a)},cf=o(function(a){return o(hR,a)},hP);else
 var
-ce=cd;if(ce)var
-hP=k[2],cf=o(function(a){return bs(m,a[2][1],a[2][2])},hP);else
+cf=cd;if(cf)var
+hS=k[2],ch=o(function(a){return bz(m,a[2][1],a[2][2])},hS);else
 var
-cf=ce;var
-eA=cf?o(function(a){return bs(m,a[1],a[2])},cF):cf;if(eA){var
-hy=l(k[1]),b2=l(k[2]),ee=J(b2,l(dR(f(dA,k[3])))),hz=k[3],as=jL(k),aI=hz,b1=b2;for(;;){if(aI){var
-ec=aI[1],ed=ec[2],hs=J(b1,l(bv(ed))),ht=aI[2],hu=bw(as,ed,b1),as=[0,[0,ec[1],hu],as],aI=ht,b1=hs;continue}var
-hA=jI(as,k[4],ee),b3=f(function(a){return[0,a,q(c)]},hA),hB=jJ(as,k[4],ee),hC=k[3],b4=g(jF(jL(k),hC,b2),hB),b5=dJ(g(cz(b3),b4))[1],hD=dI(b5),b6=function(a){return bq(hD,a)},ef=e(a5(b6),b3),eg=M(l(cF),hy);if(eg)var
-hE=g(cz(b3),b4),b7=o(function(a){var
-b=q(d),c=dI(b5);return bc(E(b6(a),c,b),a)},hE);else
+ch=cf;var
+eB=ch?o(function(a){return bz(m,a[1],a[2])},cC):ch;if(eB){var
+hB=l(k[1]),b3=l(k[2]),ef=K(b3,l(dX(f(cW,k[3])))),hC=k[3],av=jY(k),aL=hC,b2=b3;for(;;){if(aL){var
+ed=aL[1],ee=ed[2],hv=K(b2,l(bB(ee))),hw=aL[2],hx=bC(av,ee,b2),av=[0,[0,ed[1],hx],av],aL=hw,b2=hv;continue}var
+hD=jV(av,k[4],ef),b4=f(function(a){return[0,a,n(c)]},hD),hE=jW(av,k[4],ef),hF=k[3],b5=g(jS(jY(k),hF,b3),hE),b6=dQ(g(cE(b4),b5))[1],hG=dP(b6),b7=function(a){return bw(hG,a)},eg=e(a2(b7),b4),eh=E(l(cC),hB);if(eh)var
+hH=g(cE(b4),b5),b8=o(function(a){var
+b=n(d),c=dP(b6);return a_(z(b7(a),c,b),a)},hH);else
 var
-b7=eg;var
-eh=b7?a4(qT,fr):b7;if(eh){var
-hv=z(dR,k[4]),hw=g(dR(f(dA,k[3])),hv),hx=g(jK(k[2]),hw),b8=aT(f(function(a){return aA(az,a)},hx));if(b8){var
-b_=aT(f(function(a){return aA(az,[0,a,d])},cF));if(b_){var
-b$=aT(f(function(a){if(typeof
-a==="number")return[0,[0,O]];else
+b8=eh;var
+ei=b8?aT(rm,fs):b8;if(ei){var
+hy=C(dX,k[4]),hz=g(dX(f(cW,k[3])),hy),hA=g(jX(k[2]),hz),b9=aE(f(function(a){return an(aD,a)},hA));if(b9){var
+b_=aE(f(function(a){return an(aD,[0,a,d])},cC));if(b_){var
+b$=aE(f(function(a){if(typeof
+a==="number")return[0,[0,L]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5392,80 +5579,80 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aA(az,[0,[0,b,b],d]);return af(function(a){return e(aa(az,a))},g)},fr));if(b$){var
-ei=b$[1],hF=je(ei),hG=b_[1],hH=function(a){return 0},hI=b8[1];return gd(az,b5,ef,ef,f(b6,b4),hI,ei,hH,hG,hF,i1)}var
-ej=b$}else
+g=an(aD,[0,[0,b,b],d]);return Z(function(a){return e(R(aD,a))},g)},fs));if(b$){var
+ej=b$[1],hI=jm(ej),hJ=b_[1],hK=function(a){return 0},hL=b9[1];return gm(aD,b6,eg,eg,f(b7,b5),hL,ej,hK,hJ,hI,i4)}var
+ek=b$}else
 var
-ej=b_;var
-ek=ej}else
-var
-ek=b8;var
+ek=b_;var
 el=ek}else
 var
-el=eh;return el}}return eA}var
-gr=gq}else
+el=b9;var
+em=el}else
 var
-gr=c6;return gr}return 0;case
+em=ei;return em}}return eB}var
+gl=gk}else
+var
+gl=c8;return gl}return 0;case
 4:if(0===s[2][0]){var
-gu=de(i(a[1]));if(gu){var
-bG=a[3],du=0;if(bG){var
-a2=bG[1],a3=a2[4],K=bG[2];if(a2[1]||a2[2]||a2[3])var
+gn=di(i(a[1]));if(gn){var
+bH=a[3],dw=0;if(bH){var
+a5=bH[1],a6=a5[4],M=bH[2];if(a5[1]||a5[2]||a5[3])var
 u=0;else{var
-H=0;if(typeof
-a3!=="number")switch(a3[0]){case
+I=0;if(typeof
+a6!=="number")switch(a6[0]){case
 0:var
-bK=0;if(K){var
-a7=K[1],cH=a7[4];if(a7[1]||a7[2]||a7[3]){var
-u=0;H=1;bK=1}else{var
-dv=0;if(typeof
-cH!=="number"&&1===cH[0])if(K[2]){var
-u=0;H=1;bK=1;dv=1}else{var
-iH=i(cH[1]),u=[0,[0,i(a3[1]),iH]];H=1;bK=1;dv=1}if(!dv)var
-ft=0}}else
-var
-ft=K;if(!bK){var
-u=ft;H=1}break;case
-1:var
-bL=0;if(K){var
-a8=K[1],cI=a8[4];if(a8[1]||a8[2]||a8[3]){var
-u=0;H=1;bL=1}else{var
-dw=0;if(typeof
-cI!=="number"&&0===cI[0])if(K[2]){var
-u=0;H=1;bL=1;dw=1}else{var
-iI=i(a3[1]),u=[0,[0,i(cI[1]),iI]];H=1;bL=1;dw=1}if(!dw)var
+bL=0;if(M){var
+a8=M[1],cD=a8[4];if(a8[1]||a8[2]||a8[3]){var
+u=0;I=1;bL=1}else{var
+dx=0;if(typeof
+cD!=="number"&&1===cD[0])if(M[2]){var
+u=0;I=1;bL=1;dx=1}else{var
+iJ=i(cD[1]),u=[0,[0,i(a6[1]),iJ]];I=1;bL=1;dx=1}if(!dx)var
 fu=0}}else
 var
-fu=K;if(!bL){var
-u=fu;H=1}break}if(!H){var
-fs=0;du=1}}}else{var
-fs=bG;du=1}if(du)var
-u=fs;if(u){var
-gv=u[1],gx=gv[2],gy=gv[1],e8=j(m,1,i(a[2])),e9=e8?j(m,1,[2,gx,[0,c,c]]):e8,e_=e9?j(m,1,gy):e9;return e_?j(m,0,[2,[4,[0,c,c],gx],gy]):e_}var
-gz=u}else
+fu=M;if(!bL){var
+u=fu;I=1}break;case
+1:var
+bM=0;if(M){var
+a9=M[1],cG=a9[4];if(a9[1]||a9[2]||a9[3]){var
+u=0;I=1;bM=1}else{var
+dy=0;if(typeof
+cG!=="number"&&0===cG[0])if(M[2]){var
+u=0;I=1;bM=1;dy=1}else{var
+iK=i(a6[1]),u=[0,[0,i(cG[1]),iK]];I=1;bM=1;dy=1}if(!dy)var
+fv=0}}else
 var
-gz=gu;return gz}return 0;case
+fv=M;if(!bM){var
+u=fv;I=1}break}if(!I){var
+ft=0;dw=1}}}else{var
+ft=bH;dw=1}if(dw)var
+u=ft;if(u){var
+gq=u[1],gt=gq[2],gw=gq[1],e6=j(m,1,i(a[2])),e7=e6?j(m,1,[2,gt,[0,c,c]]):e6,e8=e7?j(m,1,gw):e7;return e8?j(m,0,[2,[4,[0,c,c],gt],gw]):e8}var
+gx=u}else
+var
+gx=gn;return gx}return 0;case
 5:var
-c7=a[4],gA=a[1],c$=s[2];if(0===c$[0]){var
-gB=c$[3],v=eZ(gA,[0,a[2],a[3]],0,c7),da=gW(l(gB),gB);if(da){var
-gC=da[1];if(gC[2])return 0;var
-gD=g3(gA,0,c7,v),gF=gD?aK(a4(vU,c7)):gD;if(gF){var
-gG=jv(m,v);if(gG){var
-i3=gC[1],gH=f(ks,v[1]),G=kt(v[1]),gI=i(a[5]),Y=c$[1],cm=gf(G,gH,v[1]),ah=gg(G,gH,v[1],0),h0=l(v[3]),h1=J(l(cm),h0),a0=[0,l(cm),h1],h2=gi(ah,G,a0,v[3]),h3=g(f(cX,ah),h2),fb=g(cz(eE(ah)),h3),fc=dJ(fb)[1],cn=dI(fc),fd=v[2];if(0===fd[0]){var
-fe=o(function(a){var
-b=q(d);return bc(E(bq(cn,a),cn,b),a)},fb),ff=fe?j(m,1,gI):fe;if(ff){var
-h4=v[3],h5=z(function(a){return cZ(G,a)},h4),h6=v[3],h7=g(cm,g(f(function(a){return bt(G,a)},h6),h5)),cp=aT(f(function(a){return aA(Y,a)},h7));if(cp){var
-h8=a6(fd[1],G),cr=aT(f(function(a){return aA(Y,a)},h8));if(cr){var
-cs=b9(Y,G,[4,gI,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cs){var
-ct=v[3],h9=cr[1],h_=cs[1],h$=cp[1],a1=function(a){return bq(cn,a)},e$=f(aZ,h$),fa=function(_,X){var
-f=_,a=X;for(;;){if(0===a[0]){var
-n=a[1],y=M(l(n),rx),A=y?o(function(a){var
-d=D(Z(b(2,b(2,b(2,c)))),a);return d?D(a,b(2,b(2,b(2,c)))):d},n):y;if(A){var
-B=kg(Y,h_,f8(0,f),n),e=a[2],C=cu(0,dK(Y,B,e$),fc,0),g=function(b){var
-a=kf(Y,B,e$,C,b);return a?ac(d,a[1][2][1]):a};if(typeof
-e==="number")return a4(function(b){var
-a=E(a1(b[2]),C,0);return a?D(a[1][2][2],d):a},ah);else{if(0===e[0]){var
+c9=a[4],gy=a[1],c_=s[2];if(0===c_[0]){var
+gz=c_[3],v=e_(gy,[0,a[2],a[3]],0,c9),c$=g3(l(gz),gz);if(c$){var
+gA=c$[1];if(gA[2])return 0;var
+gD=g_(gy,0,c9,v),gE=gD?aC(aT(wr,c9)):gD;if(gE){var
+gG=jI(m,v);if(gG){var
+i6=gA[1],gH=f(kF,v[1]),G=kG(v[1]),gI=i(a[5]),ab=c_[1],co=go(G,gH,v[1]),ah=gp(G,gH,v[1],0),h3=l(v[3]),h4=K(l(co),h3),a3=[0,l(co),h4],h5=gr(ah,G,a3,v[3]),h6=g(f(c1,ah),h5),fc=g(cE(eI(ah)),h6),fd=dQ(fc)[1],cp=dP(fd),fe=v[2];if(0===fe[0]){var
+ff=o(function(a){var
+b=n(d);return a_(z(bw(cp,a),cp,b),a)},fc),fg=ff?j(m,1,gI):ff;if(fg){var
+h7=v[3],h8=C(function(a){return c3(G,a)},h7),h9=v[3],h_=g(co,g(f(function(a){return bg(G,a)},h9),h8)),cq=aE(f(function(a){return an(ab,a)},h_));if(cq){var
+h$=a7(fe[1],G),cr=aE(f(function(a){return an(ab,a)},h$));if(cr){var
+cs=ce(ab,G,[4,gI,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cs){var
+ct=v[3],ia=cr[1],ib=cs[1],ic=cq[1],a4=function(a){return bw(cp,a)},e$=f(aU,ic),fa=function(Z,X){var
+f=Z,a=X;for(;;){if(0===a[0]){var
+n=a[1],y=E(l(n),r2),A=y?o(function(a){var
+d=H(Y(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},n):y;if(A){var
+B=kt(ab,ib,gi(0,f),n),e=a[2],D=cg(0,cZ(ab,B,e$),fd,0),g=function(b){var
+a=ks(ab,B,e$,D,b);return a?aa(d,a[1][2][1]):a};if(typeof
+e==="number")return aT(function(b){var
+a=z(a4(b[2]),D,0);return a?H(a[1][2][2],d):a},ah);else{if(0===e[0]){var
 h=e[1],i=ai(ct,h);if(i){var
-Q=e[2],R=i[1],S=eq(h,ct),T=l(z(function(a){return cZ(G,a)},S)),U=J(a0[2],T),j=rw(Y,a1,ah,G,[0,J(a0[1],h),U],R,Q);if(j){var
+Q=e[2],R=i[1],S=ew(h,ct),T=l(C(function(a){return c3(G,a)},S)),U=K(a3[2],T),j=r1(ab,a4,ah,G,[0,K(a3[1],h),U],R,Q);if(j){var
 q=j[1],V=q[1],r=o(function(a){return g([0,a[2]])},V);if(r)return o(g,q[2]);var
 s=r}else
 var
@@ -5477,89 +5664,89 @@ u=e[1],k=ai(ct,u);if(k){var
 v=k[1];if(typeof
 v!=="number"&&1===v[0]){var
 m=ai(ah,e[2]);if(m){var
-W=J(a0[1],u),x=m[1],P=[1,[6,[1,[8,[1,[1,W]]]],[0,a1(x[2])]]];return g([1,[4,[1,[8,[0,a1(cX(x))]]],P]])}return m}var
+W=K(a3[1],u),x=m[1],P=[1,[6,[1,[8,[1,[1,W]]]],[0,a4(x[2])]]];return g([1,[4,[1,[8,[0,a4(c1(x))]]],P]])}return m}var
 w=0}else
 var
 w=k;return w}}return A}var
 F=a[1],p=ai(f,F);if(p){var
-H=p[1],$=H[1],I=aK(al(br(H),$));if(I){var
-K=dN(F,f),L=fa(K[1],a[2]);if(L){var
-f=K[2],a=a[3];continue}var
-N=L}else
+I=p[1],_=I[1],J=aC(al(by(I),_));if(J){var
+L=dU(F,f),M=fa(L[1],a[2]);if(M){var
+f=L[2],a=a[3];continue}var
+N=M}else
 var
-N=I;var
+N=J;var
 O=N}else
 var
-O=p;return O}};return fa(h9,i3)}var
-fg=cs}else
+O=p;return O}};return fa(ia,i6)}var
+fh=cs}else
 var
-fg=cr;var
-fh=fg}else
-var
-fh=cp;var
+fh=cr;var
 fi=fh}else
 var
-fi=ff;return fi}return 0}var
+fi=cq;var
+fj=fi}else
+var
+fj=fg;return fj}return 0}var
 gJ=gG}else
 var
-gJ=gF;var
+gJ=gE;var
 gK=gJ}else
 var
-gK=da;return gK}return 0;default:var
+gK=c$;return gK}return 0;default:var
 gL=a[1];if(gL){var
-gM=gL[1],df=s[2];if(0===df[0]){var
-dg=gU(vX,df[3]);if(dg){var
-gN=d3(gM);if(gN){var
-i4=dg[1],gO=bT(gM)[2],bH=df[1],ck=b9(bH,d,gO);if(ck){var
-cl=b9(bH,d,[4,[0,c,c],gO]);if(cl){var
-hZ=ck[1][1],e5=ac(cq(bH),hZ);if(e5)return ke(bH,cl[1][1],i4);var
-e6=e5}else
+gM=gL[1],dd=s[2];if(0===dd[0]){var
+de=g1(wu,dd[3]);if(de){var
+gO=d9(gM);if(gO){var
+i7=de[1],gP=b0(gM)[2],bI=dd[1],cm=ce(bI,d,gP);if(cm){var
+cn=ce(bI,d,[4,[0,c,c],gP]);if(cn){var
+h2=cm[1][1],e3=aa(cy(bI),h2);if(e3)return kr(bI,cn[1][1],i7);var
+e4=e3}else
 var
-e6=cl;var
-e7=e6}else
+e4=cn;var
+e5=e4}else
 var
-e7=ck;return e7}var
-gP=gN}else
+e5=cm;return e5}var
+gQ=gO}else
 var
-gP=dg;return gP}return 0}var
-dh=s[2];if(0===dh[0]){var
-di=gU(vY,dh[3]);return di?ke(dh[1],d,di[1]):di}return 0}}return au}var
-y=[au,v1,ft(0)],kB=[au,v2,ft(0)];function
-vZ(y,b){var
-r=[0,h(uM,am(b[4])),0],s=[0,h(uO,P([0,h(uN,am(b[3])),r])),0],a=b[2];if(0===a[0]){var
-c=a[2],l=[0,h(uC,x(f(ux,a[3]))),0];if(c)var
-e=c[1],i=[0,h(uD,gP(e[1],e[2])),0];else
+gQ=de;return gQ}return 0}var
+dj=s[2];if(0===dj[0]){var
+dk=g1(wv,dj[3]);return dk?kr(dj[1],d,dk[1]):dk}return 0}}return ax}var
+A=[ax,wy,fE(0)],kO=[ax,wz,fE(0)];function
+ww(y,b){var
+r=[0,h(vi,ao(b[4])),0],s=[0,h(vk,P([0,h(vj,ao(b[3])),r])),0],a=b[2];if(0===a[0]){var
+c=a[2],l=[0,h(u_,x(f(u5,a[3]))),0];if(c)var
+e=c[1],i=[0,h(u$,e7(e[1],e[2])),0];else
 var
 i=c;var
-m=g(i,l),j=L(uF,P([0,h(uE,gJ(a[1])),m]))}else
+m=g(i,l),j=O(vb,P([0,h(va,gS(a[1])),m]))}else
 var
-d=a[3],n=[0,h(uG,kk(a[4])),0],o=d?[0,h(uH,x(f(H,d))),0]:d,p=g(o,n),q=[0,h(uI,x(f(H,a[2]))),0],j=L(uK,P(g([0,h(uJ,gJ(a[1])),q],p)));var
-t=[0,h(uP,j),s],u=0===b[2][0]?uQ:uV,v=[0,h(uR,am(u)),t],w=[0,h(uS,tE(b[1])),v],k=ap(ib(v0,eV(P([0,h(uU,am(uT)),w]),uL)),y);return k?vV(b):k}function
-W(a){if(0===a[0])return a[1];throw y}function
-Y(a){if(1===a[0])return a[1];throw y}function
-aO(a){if(2===a[0])return a[1];throw y}function
-d4(a){if(3===a[0])return a[1];throw y}function
-aV(f,e){var
+d=a[3],n=[0,h(vc,kx(a[4])),0],o=d?[0,h(vd,x(f(I,d))),0]:d,p=g(o,n),q=[0,h(ve,x(f(I,a[2]))),0],j=O(vg,P(g([0,h(vf,gS(a[1])),q],p)));var
+t=[0,h(vl,j),s],u=0===b[2][0]?vm:vr,v=[0,h(vn,ao(u)),t],w=[0,h(vo,t$(b[1])),v],k=as(ij(wx,e4(P([0,h(vq,ao(vp)),w]),vh)),y);return k?ws(b):k}function
+X(a){if(0===a[0])return a[1];throw A}function
+$(a){if(1===a[0])return a[1];throw A}function
+aQ(a){if(2===a[0])return a[1];throw A}function
+dj(a){if(3===a[0])return a[1];throw A}function
+aX(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===AT(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Bu(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-p(c,b){var
-a=aV(c,b);if(a)return a[1];throw y}function
-cI(b,a){var
+q(c,b){var
+a=aX(c,b);if(a)return a[1];throw A}function
+cM(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-df(a){switch(a[0]){case
+dk(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],v3]}throw y}function
-dg(e,d){var
-a=_(e,Y(d));if(a){var
+2:return[0,a[1],wA]}throw A}function
+dl(e,d){var
+a=ab(e,$(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw y}function
-e4(i){var
-f=bZ(i),d=[0,0],e=a1(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw A}function
+fd(i){var
+f=b6(i),d=[0,0],e=a4(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dp(f,c)+he|0;if(9<g>>>0)throw y;switch(g){case
+a=d[1],g=du(f,c)+hl|0;if(9<g>>>0)throw A;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5581,87 +5768,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d5(a){return iA(e4(a))}function
-e5(b){var
-a=d4(b);return 45===U(a,0)?Z(d5(dw(a,1,I(a)-1|0))):d5(a)}function
-kC(a){return fR(d5(d4(a)))}function
-e6(a){return iz(d5(d4(a)))}function
-cJ(c){var
-a=d4(c);if(6<I(a))throw y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hQ(a))}function
-kD(a){var
-b=97<=a?1:0,c=b?a<=mN?1:0:b;if(c)var
+d_(a){return iH(fd(a))}function
+d$(b){var
+a=dj(b);return 45===V(a,0)?Y(d_(dB(a,1,J(a)-1|0))):d_(a)}function
+kP(a){return f2(d_(dj(a)))}function
+fe(a){return iG(d_(dj(a)))}function
+cN(c){var
+a=dj(c);if(6<J(a))throw A;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hX(a))}function
+kQ(a){var
+b=97<=a?1:0,c=b?a<=m1?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kE(z,b){var
-d=I(b),a=[0,0];function
+kR(y,b){var
+d=J(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?U(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?V(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=U(b,a[1])&&!(57<U(b,a[1]))){a[1]++;continue}return dw(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=V(b,a[1])&&!(57<V(b,a[1]))){a[1]++;continue}return dB(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw y}function
-i(j){if(64<j)throw y;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw A}function
+i(j){if(64<j)throw A;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&ap(dw(b,a[1],5),v5)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&as(dB(b,a[1],5),wC)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kD(U(b,a[1]))){var
+v=0;if(a[1]<d&&kQ(V(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kD(U(b,a[1]))&&95!==U(b,a[1])&&(!(48<=U(b,a[1]))||57<U(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(z,dw(b,o,a[1]-o|0))];break}}else
+w=0;if(!kQ(V(b,a[1]))&&95!==V(b,a[1])&&(!(48<=V(b,a[1]))||57<V(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(y,dB(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ap(h,v6);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=as(h,wD);if(r)var
 s=r;else
 var
-t=1<I(h)?1:0,s=t?48===U(h,0)?1:0:t;if(s)throw y;if(q){var
-l=q[1],x=0;if(ap(l,v7)||48===U(l,I(l)-1|0))x=1;else
+t=1<J(h)?1:0,s=t?48===V(h,0)?1:0:t;if(s)throw A;if(q){var
+l=q[1],x=0;if(as(l,wE)||48===V(l,J(l)-1|0))x=1;else
 var
-A=e4(l),f=[0,e4(h),A];if(x)throw y}else
+z=fd(l),f=[0,fd(h),z];if(x)throw A}else
 var
-f=[0,e4(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,v4)){if(!(2<I(g))&&2<=hQ(g)&&!(64<hQ(g)))return[4,f,fR(d5(g))];throw y}throw y}return f}function
+f=[0,fd(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(k(g,wB)){if(!(2<J(g))&&2<=hX(g)&&!(64<hX(g)))return[4,f,f2(d_(g))];throw A}throw A}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw y;var
+g(d){if(64<d)throw A;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw y;return h}function
-e7(a){return kE(function(a){throw y},a)}function
-kF(a){var
-b=aO(a);return kE(function(a){return a},b)}function
-R(a){return e7(aO(a))}function
-bU(a){if(2===a[0])return[0,e7(a[1])];var
-b=W(a),c=R(p(b,v8));return[1,R(p(b,v9)),c]}function
-ab(a){throw[0,kB,ax(ib(v$,a),v_)]}function
-kG(c){var
-a=aO(c);if(k(a,wa)){var
-b=k(a,wb);if(b)throw y;return b}return 1}function
-wc(d){var
-b=W(d);function
-a(a){return dg(bU,p(b,a))}var
-c=aO(p(b,wd));if(k(c,we)){if(k(c,wf)){if(k(c,wg))return ab([0,wi,[0,c,wh]]);var
-e=aV(b,wj),f=cI(function(a){return dg(bU,a)},e),g=a(wk);return[1,a(wl),g,f]}var
-h=kG(p(b,wm)),i=bU(p(b,wn)),j=a(wo),l=a(wp);return[0,a(wq),l,j,i,h]}return[2,a(wr)]}function
-g6(d){var
-a=W(d);if(a){var
-b=a[1];if(!k(b[1],ws)){var
-c=b[2];if(2===c[0]&&!k(c[1],wt))return 1}}return 0}function
-wu(c){var
-a=W(c);if(1-g6(c))throw y;function
-b(b){return dg(bU,p(a,b))}var
-d=kG(p(a,wv)),e=bU(p(a,ww)),f=bU(p(a,wx)),g=b(wy),h=b(wz),i=b(wA);return[0,b(wB),i,h,g,f,e,d]}function
-dh(c,d){var
-a=Y(d);if(a){var
+h=g(0);if(a[1]<d)throw A;return h}function
+ff(a){return kR(function(a){throw A},a)}function
+kS(a){var
+b=aQ(a);return kR(function(a){return a},b)}function
+S(a){return ff(aQ(a))}function
+b1(a){if(2===a[0])return[0,ff(a[1])];var
+b=X(a),c=S(q(b,wF));return[1,S(q(b,wG)),c]}function
+ad(a){throw[0,kO,aA(ij(wI,a),wH)]}function
+kT(c){var
+a=aQ(c);if(k(a,wJ)){var
+b=k(a,wK);if(b)throw A;return b}return 1}function
+wL(d){var
+b=X(d);function
+a(a){return dl(b1,q(b,a))}var
+c=aQ(q(b,wM));if(k(c,wN)){if(k(c,wO)){if(k(c,wP))return ad([0,wR,[0,c,wQ]]);var
+e=aX(b,wS),f=cM(function(a){return dl(b1,a)},e),g=a(wT);return[1,a(wU),g,f]}var
+h=kT(q(b,wV)),i=b1(q(b,wW)),j=a(wX),l=a(wY);return[0,a(wZ),l,j,i,h]}return[2,a(w0)]}function
+hb(d){var
+a=X(d);if(a){var
+b=a[1];if(!k(b[1],w1)){var
+c=b[2];if(2===c[0]&&!k(c[1],w2))return 1}}return 0}function
+w3(c){var
+a=X(c);if(1-hb(c))throw A;function
+b(b){return dl(b1,q(a,b))}var
+d=kT(q(a,w4)),e=b1(q(a,w5)),f=b1(q(a,w6)),g=b(w7),h=b(w8),i=b(w9);return[0,b(w_),i,h,g,f,e,d]}function
+dm(c,d){var
+a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw y}function
-g7(n){var
-c=W(n),a=aO(p(c,wC)),h=Bt(a,wD),g=0;if(0<=h)if(0<h)if(k(a,wE))if(k(a,wF))if(k(a,wG))if(k(a,wH)){var
-i=k(a,wI);if(i)g=1;else
+f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw A}function
+hc(n){var
+c=X(n),a=aQ(q(c,w$)),h=B6(a,xa),g=0;if(0<=h)if(0<h)if(k(a,xb))if(k(a,xc))if(k(a,xd))if(k(a,xe))if(k(a,xf)){var
+i=k(a,xg);if(i)g=1;else
 var
 b=i}else
 var
@@ -5674,9 +5861,9 @@ var
 b=11;else
 var
 b=2;else
-if(k(a,w0))if(k(a,w1))if(k(a,w2))if(k(a,w3))if(k(a,w4))if(k(a,w5))g=1;else
 var
 b=1;else
+if(k(a,xz))if(k(a,xA))if(k(a,xB))if(k(a,xC))if(k(a,xD))if(k(a,xE))g=1;else
 var
 b=8;else
 var
@@ -5686,180 +5873,193 @@ b=7;else
 var
 b=3;else
 var
-b=9;var
-j=g?ab([0,wK,[0,a,wJ]]):b;function
-f(a){return p(c,wL)}var
-d=aO(p(c,wM)),l=k(d,wN);if(l)if(k(d,wO))if(k(d,wP))if(k(d,wQ))var
-e=ab([0,wS,[0,d,wR]]);else
+b=9;else
 var
-m=dh(R,f(0)),e=[2,m[1],m[2]];else
+b=12;var
+l=g?ad([0,xi,[0,a,xh]]):b;function
+f(a){return q(c,xj)}var
+d=aQ(q(c,xk)),j=k(d,xl);if(j)if(k(d,xm))if(k(d,xn))if(k(d,xo))var
+e=ad([0,xq,[0,d,xp]]);else
 var
-e=[0,R(f(0))];else
+m=dm(S,f(0)),e=[2,m[1],m[2]];else
 var
-e=[1,R(f(0))];else
+e=[0,S(f(0))];else
 var
-e=l;function
-o(t){var
-a=W(t),g=0;switch(j){case
+e=[1,S(f(0))];else
+var
+e=j;function
+o(w){var
+a=X(w),b=0;switch(l){case
 6:if(a){var
-n=a[1];if(!k(n[1],wU)){var
-o=n[2];if(1===o[0]){var
-c=o[1],h=0;if(c&&!c[2])if(a[2])h=1;else{var
-m=c[1];g=1;h=1}if(!h&&!a[2])return ab(wV)}}}break;case
+o=a[1];if(!k(o[1],xs)){var
+p=o[2];if(1===p[0]){var
+e=p[1],j=0;if(e&&!e[2])if(a[2])j=1;else{var
+d=e[1];b=1;j=1}if(!j&&!a[2])return ad(xt)}}}break;case
 10:if(a){var
-p=a[1];if(!k(p[1],wW)){var
-q=p[2];if(1===q[0]){var
-d=q[1];if(d&&!d[2]){var
-e=a[2];if(e){var
-r=e[1];if(!k(r[1],wX)){var
-s=r[2];if(1===s[0]){var
-f=s[1];if(f&&!f[2]&&!e[2]){var
-u=R(f[1]);return[1,R(d[1]),u]}}}}}}}}break;case
+q=a[1];if(!k(q[1],xu)){var
+r=q[2];if(1===r[0]){var
+f=r[1];if(f&&!f[2]){var
+g=a[2];if(g){var
+s=g[1];if(!k(s[1],xv)){var
+t=s[2];if(1===t[0]){var
+h=t[1];if(h&&!h[2]&&!g[2]){var
+x=S(h[1]);return[1,S(f[1]),x]}}}}}}}}break;case
+12:if(a){var
+u=a[1];if(!k(u[1],xw)){var
+v=u[2];if(1===v[0]){var
+i=v[1];if(i&&!i[2]&&!a[2]){var
+d=i[1];b=1}}}}break;case
 2:case
 8:if(a){var
-i=a[1];if(!k(i[1],wT)){var
-l=i[2];if(1===l[0]){var
-b=l[1];if(b&&!b[2]&&!a[2]){var
-m=b[1];g=1}}}}break}if(g)return[0,R(m)];throw y}var
-q=cI(o,aV(c,wY));return[0,j,cI(cJ,aV(c,wZ)),q,e]}function
-g8(c){var
-a=g7(c),b=a[1];if(2!==b&&!(4<=b))return a;return ab(w6)}function
-w7(a){var
-b=g7(a);switch(b[1]){case
-2:case
-6:case
-8:return b;default:return g8(a)}}function
-xc(f){var
-a=W(f);function
-d(b){return R(p(a,b))}function
-c(b){return dg(R,p(a,b))}var
-b=aO(p(a,xd));if(k(b,xe)){if(!k(b,xf)){var
-j=p(a,xl),e=dh(function(a){return a},j),l=aV(a,xm),m=cI(function(a){return c(xn)},l),n=e7(aO(e[2])),o=e7(aO(e[1])),q=d(xo);return[0,cJ(p(a,xp)),q,o,n,m]}if(k(b,xg))throw y}var
-g=d(xh),h=c(xi),i=c(xj);return[1,ap(b,xk),i,h,g]}function
-kH(X){var
-i=df(X),j=i[1];if(k(j,xq)){if(k(j,xr)){if(k(j,xs))return ab([0,xu,[0,j,xt]]);var
-q=p(W(i[2]),xv),O=0;if(2===q[0]){var
-z=k(q[1],xw);if(!z){var
-x=z;O=1}}if(!O)var
-x=[0,bU(q)];return[6,x]}var
-A=W(i[2]),f=kH([0,[0,[0,xy,p(A,xx)],0]]);if(0===f[0]){var
+m=a[1];if(!k(m[1],xr)){var
+n=m[2];if(1===n[0]){var
+c=n[1];if(c&&!c[2]&&!a[2]){var
+d=c[1];b=1}}}}break}if(b)return[0,S(d)];throw A}var
+p=cM(o,aX(c,xx));return[0,l,cM(cN,aX(c,xy)),p,e]}function
+hd(c){var
+a=hc(c),b=a[1];if(2!==b&&!(4<=b))return a;return ad(xF)}function
+xG(a){var
+b=hc(a),c=b[1];if(2<=c)switch(c-2|0){case
+0:case
+4:case
+6:return b}return hd(a)}function
+xN(f){var
+a=X(f);function
+d(b){return S(q(a,b))}function
+c(b){return dl(S,q(a,b))}var
+b=aQ(q(a,xO));if(k(b,xP)){if(!k(b,xQ)){var
+j=q(a,xW),e=dm(function(a){return a},j),l=aX(a,xX),m=cM(function(a){return c(xY)},l),n=ff(aQ(e[2])),o=ff(aQ(e[1])),p=d(xZ);return[0,cN(q(a,x0)),p,o,n,m]}if(k(b,xR))throw A}var
+g=d(xS),h=c(xT),i=c(xU);return[1,as(b,xV),i,h,g]}function
+kU(W){var
+i=dk(W),j=i[1];if(k(j,x1)){if(k(j,x2)){if(k(j,x3))return ad([0,x5,[0,j,x4]]);var
+p=q(X(i[2]),x6),O=0;if(2===p[0]){var
+y=k(p[1],x7);if(!y){var
+x=y;O=1}}if(!O)var
+x=[0,b1(p)];return[6,x]}var
+z=X(i[2]),f=kU([0,[0,[0,x9,q(z,x8)],0]]);if(0===f[0]){var
 r=f[2];if(0===r[0]&&!f[3]){var
-Z=R(p(A,xA));return[5,f[1],r[1],r[2],f[4],Z]}}return ab(xz)}var
-b=W(i[2]);function
-B(a){return _(g7,Y(p(b,xB)))}var
-g=df(p(b,xC)),c=df(p(b,xD)),a=g[1];if(k(a,xE)&&0!==aV(b,xF))return ab(yB);if(k(a,xG)&&k(a,xH)&&k(a,xI)){if(0===aV(b,xJ)){if(k(a,xK)){var
-P=0;if(k(a,xL)){if(!k(a,xM)){var
-C=c[1],Q=0;if(k(C,xP)&&k(C,xQ)){P=1;Q=1}if(!Q){var
-l=Y(g[2]),d=W(c[2]);if(k(c[1],w8))var
-v=dh(R,p(d,w9)),w=dh(R,p(d,w_)),S=w[2],T=w[1],U=R(p(d,w$)),s=[1,v[1],v[2],U,T,S];else
+Y=S(q(z,x$));return[5,f[1],r[1],r[2],f[4],Y]}}return ad(x_)}var
+b=X(i[2]);function
+B(a){return ab(hc,$(q(b,ya)))}var
+g=dk(q(b,yb)),c=dk(q(b,yc)),a=g[1];if(k(a,yd)&&0!==aX(b,ye))return ad(za);if(k(a,yf)&&k(a,yg)&&k(a,yh)){if(0===aX(b,yi)){if(k(a,yj)){var
+P=0;if(k(a,yk)){if(!k(a,yl)){var
+C=c[1],Q=0;if(k(C,yo)&&k(C,yp)){P=1;Q=1}if(!Q){var
+l=$(g[2]),d=X(c[2]);if(k(c[1],xH))var
+v=dm(S,q(d,xI)),w=dm(S,q(d,xJ)),R=w[2],T=w[1],U=S(q(d,xK)),s=[1,v[1],v[2],U,T,R];else
 var
-V=dg(R,p(d,xa)),s=[0,dg(R,p(d,xb)),V];var
-t=aV(b,xT),D=t?_(xc,Y(t[1])):t,E=b5(g6,l),$=E?0!==D?1:0:E;if($)ab(xU);if(b5(g6,l)){var
-aa=_(g8,Y(p(b,xV)));return[1,_(wu,l),s,aa]}var
-ac=B(0);return[0,_(wc,l),s,D,ac]}}}else
-if(!k(c[1],xW)){var
-ad=B(0),ae=R(p(W(c[2]),xX));return[4,R(p(W(g[2]),xY)),ae,ad]}if(!P)return ab([0,xO,[0,a,xN]])}else
-if(!k(c[1],xZ)){var
-m=W(g[2]),F=W(c[2]),G=function(c,a){var
-b=Y(a);return _(function(d){var
-a=Y(d);if(a){var
+V=dl(S,q(d,xL)),s=[0,dl(S,q(d,xM)),V];var
+t=aX(b,ys),D=t?ab(xN,$(t[1])):t,E=b$(hb,l),Z=E?0!==D?1:0:E;if(Z)ad(yt);if(b$(hb,l)){var
+_=ab(hd,$(q(b,yu)));return[1,ab(w3,l),s,_]}var
+aa=B(0);return[0,ab(wL,l),s,D,aa]}}}else
+if(!k(c[1],yv)){var
+ac=B(0),ae=S(q(X(c[2]),yw));return[4,S(q(X(g[2]),yx)),ae,ac]}if(!P)return ad([0,yn,[0,a,ym]])}else
+if(!k(c[1],yy)){var
+m=X(g[2]),F=X(c[2]),G=function(c,a){var
+b=$(a);return ab(function(d){var
+a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aO(a[1]),f]}}throw y},b)},af=function(d){var
-a=W(d);if(a){var
-b=a[1],c=b[1];if(k(c,x0)){if(!k(c,x1)&&!a[2])return _(kF,Y(b[2]))}else
-if(!a[2])return ab(x2)}throw y},ag=_(g8,Y(p(b,x3))),ah=_(R,Y(p(F,x4))),ai=_(R,Y(p(F,x5))),aj=_(af,Y(p(m,x6))),ak=G(kF,p(m,x7)),al=G(bU,p(m,x8));return[3,_(aO,Y(p(m,x9))),al,ak,aj,ai,ah,ag]}return ab([0,xS,[0,c[1],xR]])}throw y}var
-H=c[1],I=W(g[2]),J=W(c[2]);if(k(H,x_))ab([0,ya,[0,H,x$]]);var
-K=aV(I,yb),am=K?R(K[1]):ab([0,yA,[0,a,yz]]);function
+f=e(c,b[1]);return[0,aQ(a[1]),f]}}throw A},b)},af=function(d){var
+a=X(d);if(a){var
+b=a[1],c=b[1];if(k(c,yz)){if(!k(c,yA)&&!a[2])return ab(kS,$(b[2]))}else
+if(!a[2])return ad(yB)}throw A},ag=ab(hd,$(q(b,yC))),ah=ab(S,$(q(F,yD))),ai=ab(S,$(q(F,yE))),aj=ab(af,$(q(m,yF))),ak=G(kS,q(m,yG)),al=G(b1,q(m,yH));return[3,ab(aQ,$(q(m,yI))),al,ak,aj,ai,ah,ag]}return ad([0,yr,[0,c[1],yq]])}throw A}var
+H=c[1],I=X(g[2]),J=X(c[2]);if(k(H,yJ))ad([0,yL,[0,H,yK]]);var
+K=aX(I,yM),am=K?S(K[1]):ad([0,y$,[0,a,y_]]);function
 an(d){var
-a=W(d);function
-b(b){return _(bU,Y(p(a,b)))}var
-c=aO(p(a,yc)),e=aV(a,yd);if(!k(c,ye)&&!e){var
-f=b(yh);return[0,b(yi),f]}return ab([0,yg,[0,c,yf]])}var
-h=df(p(b,yj)),n=h[1];if(k(n,yk))if(k(n,yl))if(k(n,ym)){if(k(n,yn))throw y;var
-L=h[2],ao=R(p(W(L),yo)),o=[3,R(p(W(L),yp)),ao]}else
+a=X(d);function
+b(b){return ab(b1,$(q(a,b)))}var
+c=aQ(q(a,yN)),e=aX(a,yO);if(!k(c,yP)&&!e){var
+f=b(yS);return[0,b(yT),f]}return ad([0,yR,[0,c,yQ]])}var
+h=dk(q(b,yU)),n=h[1];if(k(n,yV))if(k(n,yW))if(k(n,yX)){if(k(n,yY))throw A;var
+L=h[2],ao=S(q(X(L),yZ)),o=[3,S(q(X(L),y0)),ao]}else
 var
-at=h[2],u=function(a){return dh(R,p(W(at),a))},au=u(yw),av=u(yx),o=[1,u(yy),av,au];else
+at=h[2],u=function(a){return dm(S,q(X(at),a))},au=u(y7),av=u(y8),o=[1,u(y9),av,au];else
 var
-N=dh(R,h[2]),o=[0,N[1],N[2]];else
+N=dm(S,h[2]),o=[0,N[1],N[2]];else
 var
-o=[2,R(h[2])];var
-M=k(a,yq),ap=M?k(a,yr)?2:1:M,aq=_(w7,Y(p(b,ys))),ar=_(R,Y(p(J,yt))),as=_(R,Y(p(J,yu)));return[2,ap,_(an,Y(p(I,yv))),am,as,ar,o,aq]}function
-kI(a){return _(e5,Y(a))}function
-g9(c,b){var
-a=kI(b);if(cl(a)!==c)throw y;return a}function
-kJ(a,d){var
-b=W(d),e=Y(p(b,yE)),f=a[2],c=_(function(a){return g9(f,a)},e),g=a[1];if(cl(c)!==g)throw y;return[0,c,e6(p(b,yF))]}function
-e8(g,m){var
-D=g[2];switch(m[0]){case
+o=[2,S(h[2])];var
+M=k(a,y1),ap=M?k(a,y2)?2:1:M,aq=ab(xG,$(q(b,y3))),ar=ab(S,$(q(J,y4))),as=ab(S,$(q(J,y5)));return[2,ap,ab(an,$(q(I,y6))),am,as,ar,o,aq]}function
+kV(a){return ab(d$,$(a))}function
+he(c,b){var
+a=kV(b);if(cu(a)!==c)throw A;return a}function
+kW(a,d){var
+b=X(d),e=$(q(b,zd)),f=a[2],c=ab(function(a){return he(f,a)},e),g=a[1];if(cu(c)!==g)throw A;return[0,c,fe(q(b,ze))]}function
+fg(g,m){var
+I=g[2];switch(m[0]){case
 0:var
-c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(k(b,yG))if(k(b,yH))if(k(b,yI))if(k(b,yJ))if(k(b,yK)){var
-O=0;if(k(b,yL)&&k(b,yM)&&k(b,yN))O=1;if(!O)if(c[2])d=1;else{var
-Q=e[2],F=Q,E=function(c,a){return[1,b,c,a]};d=2}}else{var
-H=e[2];if(1===H[0]){var
-n=H[1];if(n){var
-o=n[2];if(o){var
-q=o[2];if(q&&!q[2]){if(!c[2]){var
-R=e6(q[1]),S=e5(o[1]);return[4,e8(g,n[1]),S,R]}d=1}}}}}else{if(!c[2]){var
-I=W(e[2]),T=Y(p(I,yQ)),U=D+1|0,J=_(function(a){return g9(U,a)},T);if(3===cl(J))return[1,yS,J,e6(p(I,yR))];throw y}d=1}else{if(!c[2]){var
-A=aO(e[2]),B=k(A,yC);if(B){if(k(A,yD))throw y;var
-C=1}else
+d=m[1];if(d){var
+e=d[1],b=e[1],c=0;if(k(b,zf))if(k(b,zg))if(k(b,zh))if(k(b,zi))if(k(b,zj))if(k(b,zk)){var
+S=0;if(k(b,zl)&&k(b,zm)&&k(b,zn))S=1;if(!S)if(d[2])c=1;else{var
+U=e[2],o=U,n=function(c,a){return[1,b,c,a]};c=2}}else{var
+K=e[2];if(1===K[0]){var
+p=K[1];if(p){var
+r=p[2];if(r){var
+s=r[2];if(s&&!s[2]){if(!d[2]){var
+V=fe(s[1]),W=d$(r[1]);return[5,fg(g,p[1]),W,V]}c=1}}}}}else{if(!d[2]){var
+L=X(e[2]),Y=$(q(L,zq)),Z=I+1|0,M=ab(function(a){return he(Z,a)},Y);if(3===cu(M))return[1,zs,M,fe(q(L,zr))];throw A}c=1}else{if(!d[2]){var
+F=aQ(e[2]),G=k(F,zb);if(G){if(k(F,zc))throw A;var
+H=1}else
 var
-C=B;return[2,C]}d=1}else{if(!c[2]){var
+H=G;return[2,H]}c=1}else{if(!d[2]){var
 h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-L=i[1],u=L[1],a=0;if(k(u,yT)&&k(u,yU))if(k(u,yV))a=1;else{var
-M=L[2];if(1===M[0]){var
-v=M[1];if(v){var
-j=v[1],f=0;switch(j[0]){case
+P=i[1],z=P[1],a=0;if(k(z,zu)&&k(z,zv))if(k(z,zw))a=1;else{var
+Q=P[2];if(1===Q[0]){var
+B=Q[1];if(B){var
+j=B[1],f=0;switch(j[0]){case
 0:var
-w=j[1];if(w){var
-N=w[1][1],P=0;if(k(N,yX)&&k(N,yY)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(k(j[1],yZ)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-x=v[2];if(x){var
-z=x[2];if(z&&!(z[2]||i[2])){var
-Z=e6(z[1]),$=e5(x[1]),r=[5,e8(g,j),$,Z];l=1;a=1}else
+C=j[1];if(C){var
+R=C[1][1],T=0;if(k(R,zy)&&k(R,zz)){a=1;f=1;T=1}if(!T&&C[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(k(j[1],zA)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+D=B[2];if(D){var
+E=D[2];if(E&&!(E[2]||i[2])){var
+af=fe(E[1]),ag=d$(D[1]),t=[6,fg(g,j),ag,af];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!i[2])l=2}break;case
-2:if(!k(h[1],y0))l=2;break}switch(l){case
+2:if(!k(h[1],zB))l=2;break}switch(l){case
 0:var
-r=ab(yW);break;case
+t=ad(zx);break;case
 2:var
-r=e8(g,h);break}return[6,r]}d=1}else{var
-K=e[2];if(1===K[0]){var
-s=K[1];if(s){var
-t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
-V=t[1],X=s[1],F=X,E=function(b,a){return[3,b,a,g9(D+1|0,V)]};d=2}}}}switch(d){case
-0:if(!c[2])return ab([0,yP,[0,b,yO]]);break;case
+t=fg(g,h);break}return[7,t]}c=1}else{var
+N=e[2];if(1===N[0]){var
+u=N[1];if(u){var
+v=u[2];if(v&&!v[2])if(d[2])c=1;else{var
+_=v[1],aa=u[1],o=aa,n=function(b,a){return[3,b,a,he(I+1|0,_)]};c=2}}}}else{var
+O=e[2];if(1===O[0]){var
+w=O[1];if(w){var
+x=w[2];if(x){var
+y=x[2];if(y&&!y[2])if(d[2])c=1;else{var
+ac=x[1];if(k(dj(y[1]),zt))throw A;var
+ae=w[1],o=ae,n=function(b,a){return[4,b,a,d$(ac)]};c=2}}}}}switch(c){case
+0:if(!d[2])return ad([0,zp,[0,b,zo]]);break;case
 1:break;default:var
-G=kJ(g,F);return E(G[1],G[2])}}break;case
-2:return[0,m[1]]}throw y}function
-kK(j){var
-b=df(j),a=b[1];if(k(a,y3)){var
-g=k(a,y4);if(!g)return g;if(!k(a,y5)){var
+J=kW(g,o);return n(J[1],J[2])}}break;case
+2:return[0,m[1]]}throw A}function
+kX(j){var
+b=dk(j),a=b[1];if(k(a,zE)){var
+g=k(a,zF);if(!g)return g;if(!k(a,zG)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cJ(d[1]);return[1,cJ(c[1]),l]}}}}}else{var
+l=cN(d[1]);return[1,cN(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=_(kI,Y(f[1]));return[0,cJ(e[1]),m]}}}}return ab([0,y7,[0,a,y6]])}function
-zl(c){var
+m=ab(kV,$(f[1]));return[0,cN(e[1]),m]}}}}return ad([0,zI,[0,a,zH]])}function
+zY(c){var
 a=c[1];if(8!==a){var
 b=10<=a?1:0;if(!b)return b}return 1}function
-zm(c){var
+zZ(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!k(b[1],zn))a=1;break;case
-6:a=1;break}return a?1:0}function
-zo(f){var
-h=I(f),a=[0,0];function
-i(b){if(a[1]<h)return U(f,a[1]);throw y}function
-j(b){if(i(0)===b){a[1]++;return 0}throw y}function
-v(b,c){for(;;){if(a[1]<h&&e(c,U(f,a[1]))){a[1]++;continue}return dw(f,b,a[1]-b|0)}}function
+0:if(!k(b[1],z0))a=1;break;case
+7:a=1;break}return a?1:0}function
+z1(f){var
+h=J(f),a=[0,0];function
+i(b){if(a[1]<h)return V(f,a[1]);throw A}function
+j(b){if(i(0)===b){a[1]++;return 0}throw A}function
+v(b,c){for(;;){if(a[1]<h&&e(c,V(f,a[1]))){a[1]++;continue}return dB(f,b,a[1]-b|0)}}function
 w(d){j(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -5873,79 +6073,80 @@ g=[0,e(k,0),f];if(44===i(0)){a[1]++;var
 f=g;continue}j(d);var
 b=g,c=0;for(;;){if(b){var
 h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-o(c,k){if(64<c)throw y;var
+o(c,k){if(64<c)throw A;var
 b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
 e=93,f=c+1|0;return[1,x(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
 g=125;return[0,x(function(b){var
 a=w(0);j(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,w(0)];if(45===b)d=1}if(d){var
 h=a[1];a[1]++;return[3,v(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw y}var
-E=o(0,0),z=a[1]<h?1:0,F=z?10===U(f,a[1])?1:0:z;if(F)a[1]++;if(a[1]<h)throw y;var
-m=W(E);if(k(aO(p(m,zp)),zq))throw y;var
-b=kH(p(m,zr));switch(b[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw A}var
+E=o(0,0),y=a[1]<h?1:0,F=y?10===V(f,a[1])?1:0:y;if(F)a[1]++;if(a[1]<h)throw A;var
+m=X(E);if(k(aQ(q(m,z2)),z3))throw A;var
+b=kU(q(m,z4));switch(b[0]){case
 2:var
-X=1===b[1]?6:3,g=[0,cl(b[2]),X];break;case
+W=1===b[1]?6:3,g=[0,cu(b[2]),W];break;case
 3:var
-Z=cl(b[1]),g=[0,cl(b[4]),Z];break;case
+Y=cu(b[1]),g=[0,cu(b[4]),Y];break;case
 0:case
 5:var
-g=[0,cl(b[1]),3];break;default:var
-g=zE}var
-q=df(p(m,zs)),r=q[1];if(k(r,za))if(k(r,zb))var
-c=ab([0,zd,[0,r,zc]]);else
+g=[0,cu(b[1]),3];break;default:var
+g=Af}var
+p=dk(q(m,z5)),r=p[1];if(k(r,zN))if(k(r,zO))var
+c=ad([0,zQ,[0,r,zP]]);else
 var
-l=W(q[2]),s=aV(l,ze),G=s?_(R,Y(s[1])):s,H=kK(p(l,zf)),J=_(R,Y(p(l,zg))),c=[1,kC(p(l,zh)),J,G,H];else
+l=X(p[2]),s=aX(l,zR),G=s?ab(S,$(s[1])):s,H=kX(q(l,zS)),I=ab(S,$(q(l,zT))),c=[1,kP(q(l,zU)),I,G,H];else
 var
-t=W(q[2]),K=Y(p(t,zi)),L=_(function(f){var
-a=W(f);function
+t=X(p[2]),K=$(q(t,zV)),L=ab(function(f){var
+a=X(f);function
 b(d,c){var
-b=aV(a,c);return b?_(d,Y(b[1])):b}var
-c=b(e5,y8),d=cI(kK,aV(a,y9)),e=cI(cJ,aV(a,y_));return[0,b(function(h){var
-b=Y(h);if(b){var
+b=aX(a,c);return b?ab(d,$(b[1])):b}var
+c=b(d$,zJ),d=cM(kX,aX(a,zK)),e=cM(cN,aX(a,zL));return[0,b(function(h){var
+b=$(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],y1)){if(!a[2]){if(k(d4(e),y2))throw y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],zC)){if(!a[2]){if(k(dj(e),zD))throw A;d=1}}else
 d=1;if(d&&!a[2]){var
-f=e8(g,c);return[0,cJ(e),f]}}}throw y},y$),e,d,c]},K),M=aV(t,zj),N=cI(function(a){return kJ(g,a)},M),c=[0,kC(p(t,zk)),N,L];var
+f=fg(g,c);return[0,cN(e),f]}}}throw A},zM),e,d,c]},K),M=aX(t,zW),N=cM(function(a){return kW(g,a)},M),c=[0,kP(q(t,zX)),N,L];var
 d=0;switch(b[0]){case
 0:var
-A=b[4];if(0===c[0]){var
-D=0;if(b5(function(a){return 10===a[1]?1:0},A)){var
-O=b[1];if(b5(function(a){return 2===a[0]?1:0},O)){ab(zt);D=1}}if(!D)d=1}else{var
-C=A;d=3}break;case
-1:if(0===c[0])ab(zA);else
+z=b[4];if(0===c[0]){var
+D=0;if(b$(function(a){return 10===a[1]?1:0},z)){var
+O=b[1];if(b$(function(a){return 2===a[0]?1:0},O)){ad(z6);D=1}}if(!D)d=1}else{var
+C=z;d=3}break;case
+1:if(0===c[0])ad(Ab);else
 d=2;break;case
 2:if(0===c[0]){var
-T=c[3];if(h9(function(a){return h9(zm,a[1])},T))d=1;else
-ab(zB)}else{var
-V=b[7];if(b5(function(a){switch(a[1]){case
-2:case
-6:case
-8:return 1;default:return 0}},V))ab(zC);else
+T=c[3];if(ie(function(a){return ie(zZ,a[1])},T))d=1;else
+ad(Ac)}else{var
+U=b[7];if(b$(function(b){var
+a=b[1];if(2<=a)switch(a-2|0){case
+0:case
+4:case
+6:return 1}return 0},U))ad(Ad);else
 d=2}break;case
-3:if(1===c[0])ab(zD);else
+3:if(1===c[0])ad(Ae);else
 d=1;break;case
 5:var
 C=b[4];d=3;break;default:d=1}var
 n=0;switch(d){case
-3:if(b5(zl,C))ab(zz);else
+3:if(b$(zY,C))ad(Aa);else
 n=2;break;case
 1:n=2;break;case
 2:n=1;break}var
 u=0;switch(n){case
 2:if(5===b[0]){var
-$=0;if(0===c[0]){var
-S=c[3];if(b5(function(a){return 0!==a[1]?1:0},S)){ab(zy);$=1}}}else
+Z=0;if(0===c[0]){var
+R=c[3];if(b$(function(a){return 0!==a[1]?1:0},R)){ad(z$);Z=1}}}else
 if(0===c[0]){var
-Q=c[3];if(b5(function(a){return 0!==a[3]?1:0},Q))ab(zx);else
+Q=c[3];if(b$(function(a){return 0!==a[3]?1:0},Q))ad(z_);else
 u=1}else
 u=1;break;case
 1:u=1;break}var
-B=W(p(m,zu)),P=aO(p(B,zv));return[0,b,c,aO(p(B,zw)),P]}function
-zF(c){try{try{var
-d=0,a=zo(c);d=1}catch(a){a=fA(a);if(a[1]===kB)var
-b=[0,a[2]];else{if(a!==y)throw a;var
+B=X(q(m,z7)),P=aQ(q(B,z8));return[0,b,c,aQ(q(B,z9)),P]}function
+Ag(c){try{try{var
+d=0,a=z1(c);d=1}catch(a){a=fL(a);if(a[1]===kO)var
+b=[0,a[2]];else{if(a!==A)throw a;var
 b=2}}if(d)var
-b=vZ(c,a)?0===a[2][0]?0:1:2}catch(a){return zG}if(typeof
+b=ww(c,a)?0===a[2][0]?0:1:2}catch(a){return Ah}if(typeof
 b==="number")switch(b){case
-0:return zH;case
-1:return zI;default:return zJ}return ax(zK,b[1])}By.orthocert_verify=Bd(function(b){return b2(zF(a(b)))});fD(0);return}(globalThis));
+0:return Ai;case
+1:return Aj;default:return Ak}return aA(Al,b[1])}B$.orthocert_verify=BQ(function(b){return b9(Ag(a(b)))});fO(0);return}(globalThis));
