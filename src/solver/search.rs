@@ -8,7 +8,7 @@ use crate::search::{Budget, Control, Progress, Stop};
 use orthocert_kernel::certificate::Node;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// A box, in the problem's unit.
@@ -20,7 +20,7 @@ const MOST_HALVINGS: u32 = 40;
 const HOPELESS_HALVINGS: u32 = 4;
 /// Boxes of a level from which on the thread pool takes them.
 const PARALLEL_FROM: usize = 32;
-/// Boxes between two looks at the clock.
+/// Boxes between two looks at how far it is.
 const BATCH: usize = 128;
 
 /// A box on which something is open.
@@ -144,21 +144,27 @@ pub fn search(
     let mut tree = vec![branch.begin(problem)?];
     let mut level = vec![0];
     let (mut boxes, mut share, mut stop) = (0, 0.0f64, Stop::Exhausted);
+    let cancel = control.cancel;
     let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
     while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes.saturating_sub(boxes));
         let (mut next, mut tried_here) = (Vec::new(), 0);
         for batch in level[..affordable].chunks(BATCH) {
-            if let Some(reason) = interrupted(&budget, control) {
-                stop = reason;
+            let trials = tried(problem, &tree, batch, || interrupted(&budget, cancel));
+            let mut hopeless = false;
+            for (&at, trial) in batch.iter().zip(trials) {
+                match trial {
+                    Ok(trial) => {
+                        hopeless |= trial.hopeless;
+                        settle(&mut tree, at, trial, &mut next);
+                        (boxes, tried_here) = (boxes + 1, tried_here + 1);
+                    }
+                    Err(reason) => stop = reason,
+                }
+            }
+            if stop != Stop::Exhausted {
                 break;
             }
-            let trials = tried(problem, &tree, batch);
-            let hopeless = trials.iter().any(|trial| trial.hopeless);
-            for (&at, trial) in batch.iter().zip(trials) {
-                settle(&mut tree, at, trial, &mut next);
-            }
-            (boxes, tried_here) = (boxes + batch.len(), tried_here + batch.len());
             if hopeless && ends.hopeless {
                 stop = Stop::Hopeless;
                 break;
@@ -182,20 +188,34 @@ fn growing(item: Open, halvings: Vec<u32>) -> Growing {
     Growing { item, halvings, node: Node::default(), halves: None, tried: false }
 }
 
-fn interrupted(budget: &Budget, control: &Control<'_>) -> Option<Stop> {
-    if control.cancel.load(Ordering::Relaxed) {
-        return Some(Stop::Cancelled);
+fn interrupted(budget: &Budget, cancel: &AtomicBool) -> Result<(), Stop> {
+    if cancel.load(Ordering::Relaxed) {
+        return Err(Stop::Cancelled);
     }
-    budget.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Stop::Time)
+    let is_over = budget.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    if is_over {
+        Err(Stop::Time)
+    } else {
+        Ok(())
+    }
 }
 
-fn tried(problem: &impl Boxes, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
+/// What becomes of each box of a batch, or why it was not tried any more.
+fn tried(
+    problem: &impl Boxes,
+    tree: &[Growing],
+    batch: &[usize],
+    interrupted: impl Fn() -> Result<(), Stop> + Sync,
+) -> Vec<Result<Trial, Stop>> {
     let one = |&at: &usize| {
+        interrupted()?;
         let Open { cell, depth, obligations } = &tree[at].item;
         let asked = *depth >= HOPELESS_HALVINGS * cell.len() as u32;
-        problem.trial(cell, obligations, asked)
+        Ok(problem.trial(cell, obligations, asked))
     };
-    if batch.len() < PARALLEL_FROM {
+    // Boxes of platforms that turn are costly each.
+    let is_small = problem.root().len() <= 3;
+    if is_small && batch.len() < PARALLEL_FROM {
         batch.iter().map(one).collect()
     } else {
         batch.par_iter().map(one).collect()
