@@ -5,11 +5,11 @@ use crate::arithmetic::Enclosure;
 use crate::cell::evaluate;
 use crate::certificate::{Evidence, Node, Step, Tree};
 use crate::control::{Control, Controls};
-use crate::formula::Values;
+use crate::formula::{Formula, Values};
 use crate::quantity::Test;
 use crate::slope::Slope;
 use crate::test::tolerances::Tolerances;
-use crate::test::Over;
+use crate::test::{Over, Row};
 use std::cell::OnceCell;
 
 /// Where a step is made.
@@ -133,8 +133,8 @@ impl<E: Enclosure> Checker<'_, E> {
         own.is_like(&all).then(|| then(&over))
     }
 
-    /// The work of all steps at control points, or with tolerances apart, beside that of formulas over cells:
-    /// at control points these; with tolerances apart all formulas with their derivatives once a node, and
+    /// The work of all steps, beside that of formulas over cells: at vertices a quarter of the operations on
+    /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all formulas with their derivatives once a node, and
     /// for each step those of one machine, and at each vertex or control point all changes.
     pub(super) fn work_of(&self, tree: &Tree) -> usize {
         let (m, signs) = (self.problem.dimension(), |test: &Test| match test {
@@ -145,6 +145,8 @@ impl<E: Enclosure> Checker<'_, E> {
             control.work().saturating_add(control.points().saturating_mul(signs(test)))
         };
         let derived = self.problem.derived.as_ref();
+        let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
+        let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
         let of_step = |Step(obligation, evidence): &Step| match evidence {
             Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
             Evidence::Tolerances(inner, ends, _) => {
@@ -168,7 +170,7 @@ impl<E: Enclosure> Checker<'_, E> {
                     .fold(changes.saturating_mul(points), usize::saturating_add)
                     .saturating_add(self.problem.tape.ops().len())
             }
-            _ => 0,
+            _ => at_vertices.get(*obligation).copied().unwrap_or(0),
         };
         let of_node = |node: &Node| {
             let is_apart = |Step(_, evidence): &Step| matches!(evidence, Evidence::Tolerances(..));
@@ -178,6 +180,19 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         tree.nodes.iter().map(of_node).fold(0, usize::saturating_add)
     }
+}
+
+/// A quarter of the operations of a test on its matrices, at all vertices of `m` coordinates, and with all sign vertices of these.
+fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
+    let n = test.rows(rows).len();
+    let (k, matrices) = match test {
+        Test::AtLeast(_) | Test::Beyond(..) | Test::Apart(_) | Test::Accuracy(_) => return 0,
+        Test::Solve(_) => (n, 1),
+        Test::Conditioning(_) | Test::Curvature(_) => (m, 2),
+        _ => (m, 1),
+    };
+    let signs = (1usize << k) / 2;
+    ((matrices * (n * k * k + signs * k * k * k / 6)) << m) / 4
 }
 
 /// Of a test.

@@ -1,9 +1,10 @@
 //! Claims, proved, printed, read and checked.
 
-use crate::prover::certify;
-use orthocert_kernel::certificate::Certificate;
-use orthocert_kernel::check::check;
+use crate::prover::{certificate, certify};
+use orthocert_kernel::certificate::{Certificate, Evidence, Node, Proof, Step, Tree, Verdict};
+use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::test::Multiplier;
 
 pub fn claim(text: &str) -> MachineClaim {
     serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
@@ -100,4 +101,35 @@ fn a_five_bar_by_its_inverse_kinematics() {
     accepted(
         r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#,
     );
+}
+
+/// Six joints in six coordinates, of which elimination shows nothing, and all sign vertices do.
+fn costly(leaves: usize, precision: u32) -> Certificate {
+    let row = |i: usize| {
+        let entries = (0..6).map(|j| if i == j { "\"1\"" } else { "\"p\"" });
+        format!(r#"{{"row":[{}]}}"#, entries.collect::<Vec<_>>().join(","))
+    };
+    let rows: Vec<String> = (0..6).map(row).collect();
+    let own = claim(&format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":["u","v","w","x","y","z"],"parameters":[["p",{{"min":"0.23","max":"0.27"}}]],"definitions":[],"joints":[{}]}}}},"workspace":{{"box":{{"min":["0","0","0","0","0","0"],"max":["1","1","1","1","1","1"]}}}},"require":[{{"quantity":"joint_force","given":{{"tool":["1"]}},"end":"max","bound":"1000"}}]}}"#,
+        rows.join(",")
+    ));
+    let y = || {
+        let row = |i| (0..6).map(|j| i64::from(i == j)).collect();
+        Multiplier { y: (0..6).map(row).collect(), places: 0 }
+    };
+    let lower = (1..=6).map(|obligation| Step(obligation, Evidence::Lower(y())));
+    let by: Vec<Step> = [Step(0, Evidence::Rank(y()))].into_iter().chain(lower).collect();
+    let split = Node { split: Some(0), ..Node::default() };
+    let leaf = Node { by, ..Node::default() };
+    let halves = (1..leaves).flat_map(|_| [split.clone(), leaf.clone()]);
+    let nodes = halves.chain([leaf.clone()]).collect();
+    certificate(&own, Verdict::Certified, Proof::Tree(Tree { precision, chords: None, nodes }))
+}
+
+/// Matrices at vertices are counted: eight such leaves would take eight seconds.
+#[test]
+fn matrices_in_six_coordinates_are_work() {
+    assert_eq!(check(&costly(2, 52)), Ok(()));
+    assert_eq!(check(&costly(8, 1024)), Err(Rejected::Work));
 }
