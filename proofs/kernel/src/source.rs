@@ -15,6 +15,7 @@ pub const SOURCES: &[(&str, &[u8])] = files![
     "check/mod.rs",
     "check/own.rs",
     "check/tolerances.rs",
+    "check/work.rs",
     "claim.rs",
     "compile.rs",
     "control.rs",

@@ -4,6 +4,7 @@ mod corner;
 mod inside;
 mod own;
 mod tolerances;
+mod work;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::atlas;

@@ -3,13 +3,13 @@
 use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::cell::evaluate;
-use crate::certificate::{Evidence, Node, Step, Tree};
+use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
-use crate::formula::{Formula, Values};
+use crate::formula::Values;
 use crate::quantity::Test;
 use crate::slope::Slope;
 use crate::test::tolerances::Tolerances;
-use crate::test::{Over, Row};
+use crate::test::Over;
 use std::cell::OnceCell;
 
 /// Where a step is made.
@@ -132,67 +132,6 @@ impl<E: Enclosure> Checker<'_, E> {
             Over { controls: Some(&all), inside: None, tolerances: Some(&tolerances), ..*over };
         own.is_like(&all).then(|| then(&over))
     }
-
-    /// The work of all steps, beside that of formulas over cells: at vertices a quarter of the operations on
-    /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all formulas with their derivatives once a node, and
-    /// for each step those of one machine, and at each vertex or control point all changes.
-    pub(super) fn work_of(&self, tree: &Tree) -> usize {
-        let (m, signs) = (self.problem.dimension(), |test: &Test| match test {
-            Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
-            _ => 0,
-        });
-        let at_controls = |(test, control): &(Test, Control)| {
-            control.work().saturating_add(control.points().saturating_mul(signs(test)))
-        };
-        let derived = self.problem.derived.as_ref();
-        let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
-        let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
-        let of_step = |Step(obligation, evidence): &Step| match evidence {
-            Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
-            Evidence::Tolerances(inner, ends, _) => {
-                let is_control = matches!(**inner, Evidence::Control(_));
-                let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
-                let controls = || controls.into_iter().flatten();
-                let changes = derived.and_then(|derived| derived.changes.get(*obligation));
-                let points = match is_control {
-                    true => controls().map(|(_, control)| control.points()).max().unwrap_or(0),
-                    false => 1 << m,
-                };
-                // Two matrices of conditioning, two steps from the middle, values at vertices of m + 1 terms.
-                let test = self.problem.obligations.get(*obligation).map(|o| &o.test);
-                let matrices = if matches!(test, Some(Test::Conditioning(_))) { 2 } else { 1 };
-                let steps = if ends.contains('0') { 2 } else { 1 };
-                let values = if is_control { 0 } else { m * (m + 1) };
-                let each = matrices * (steps * (m + 2) * (m + 2) + values);
-                let changes = changes.map_or(0, |&changes| changes * each);
-                let there = controls().filter(|_| is_control).map(at_controls);
-                there
-                    .fold(changes.saturating_mul(points), usize::saturating_add)
-                    .saturating_add(self.problem.tape.ops().len())
-            }
-            _ => at_vertices.get(*obligation).copied().unwrap_or(0),
-        };
-        let of_node = |node: &Node| {
-            let is_apart = |Step(_, evidence): &Step| matches!(evidence, Evidence::Tolerances(..));
-            let all = derived.filter(|_| node.by.iter().any(is_apart));
-            let all = all.map_or(0, |derived| derived.tape.ops().len());
-            node.by.iter().map(of_step).fold(all, usize::saturating_add)
-        };
-        tree.nodes.iter().map(of_node).fold(0, usize::saturating_add)
-    }
-}
-
-/// A quarter of the operations of a test on its matrices, at all vertices of `m` coordinates, and with all sign vertices of these.
-fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
-    let n = test.rows(rows).len();
-    let (k, matrices) = match test {
-        Test::AtLeast(_) | Test::Beyond(..) | Test::Apart(_) | Test::Accuracy(_) => return 0,
-        Test::Solve(_) => (n, 1),
-        Test::Conditioning(_) | Test::Curvature(_) => (m, 2),
-        _ => (m, 1),
-    };
-    let signs = (1usize << k) / 2;
-    ((matrices * (n * k * k + signs * k * k * k / 6)) << m) / 4
 }
 
 /// Of a test.
