@@ -1,10 +1,11 @@
 //! Headless Chromium, driven by its DevTools protocol over a pair of pipes.
 
+use crate::support::on_path;
 use data_encoding::BASE64;
 use serde_json::{json, Value};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{channel, Receiver};
 use std::time::{Duration, Instant};
@@ -24,26 +25,10 @@ pub struct Browser {
     _profile: TempDir,
 }
 
-/// The browser's program; `None`, after a word on standard error, where there is none and none is
-/// demanded.
-fn program() -> Option<PathBuf> {
-    let folders = std::env::var_os("PATH").unwrap_or_default();
-    let names = ["chromium", "chromium-browser", "google-chrome"];
-    let found = std::env::split_paths(&folders)
-        .flat_map(|folder| names.map(|name| folder.join(name)))
-        .find(|path| path.is_file());
-    if found.is_none() {
-        let demanded = std::env::var("ORTHOCERT_BROWSER").is_ok_and(|value| value == "required");
-        assert!(!demanded, "ORTHOCERT_BROWSER=required, and there is no Chromium on the PATH");
-        eprintln!("skipped: no Chromium on the PATH");
-    }
-    found
-}
-
 impl Browser {
     /// A browser with an empty page of 1060 by 900 pixels.
     pub fn start() -> Option<Self> {
-        let program = program()?;
+        let program = on_path("Chromium", &["chromium", "chromium-browser", "google-chrome"])?;
         let profile = tempfile::tempdir().unwrap();
         // The browser reads commands from its descriptor 3 and answers on 4.
         let mut command = Command::new("sh");

@@ -1,11 +1,12 @@
 //! Reports in a browser: what is drawn, read out, turned and moved, and that nothing is asked of a
 //! network.
 //!
-//! Where there is no Chromium the tests say so and pass, unless `ORTHOCERT_BROWSER` is `required`.
+//! Where there is no Chromium, or no Firefox, the tests say so and pass, unless `ORTHOCERT_BROWSER` is `required`.
 //! The screenshots that they take stay in the target folder, under `tmp/report`.
 
 mod chromium;
 mod desk;
+mod firefox;
 mod support;
 
 use chromium::Browser;

@@ -11,6 +11,21 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
+/// A browser's program; `None`, after a word on standard error, where there is none and none is
+/// demanded.
+pub fn on_path(browser: &str, names: &[&str]) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&folders)
+        .flat_map(|folder| names.iter().map(move |name| folder.join(name)))
+        .find(|path| path.is_file());
+    if found.is_none() {
+        let demanded = std::env::var("ORTHOCERT_BROWSER").is_ok_and(|value| value == "required");
+        assert!(!demanded, "ORTHOCERT_BROWSER=required, and there is no {browser} on the PATH");
+        eprintln!("skipped: no {browser} on the PATH");
+    }
+    found
+}
+
 /// A folder for certificates and reports.
 pub struct Folder(TempDir);
 
