@@ -25,7 +25,7 @@ use orthocert_kernel::test::Row;
 const ROOM: f64 = 1.5;
 /// Obligations of own steps, and of own failures, that have a byte.
 const MOST_STEPS: usize = 16;
-const MOST_FAILURES: usize = 64;
+pub(super) const MOST_FAILURES: usize = 64;
 
 /// Decides cells of one claim.
 pub struct Decider<'a> {
@@ -41,6 +41,8 @@ pub struct Decider<'a> {
     has_tolerances: bool,
     /// So it may of that, and has to be where tests have none of their own.
     gives_evidence: bool,
+    /// Undecided cells are cut.
+    cuts: bool,
 }
 
 /// What becomes of a cell.
@@ -72,10 +74,10 @@ pub enum Fate {
 /// A value that is not negative where a test holds: at the centre, by how much each coordinate moves it to
 /// first order, and, about, beyond that.
 #[derive(Clone, Copy, Default)]
-struct Margin {
-    centre: f64,
-    along: [f64; 3],
-    beyond: [f64; 3],
+pub(super) struct Margin {
+    pub centre: f64,
+    pub along: [f64; 3],
+    pub beyond: [f64; 3],
 }
 
 impl Margin {
@@ -173,7 +175,7 @@ impl<'a> Local<'a> {
     }
 
     /// `|M v|^2/|v|^2`.
-    fn stretched(&self, over: &impl View, v: [f64; 3]) -> Margin {
+    fn stretched(&self, over: &(impl View + ?Sized), v: [f64; 3]) -> Margin {
         let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
         // The middles of slopes, and by how much they vary over the cell.
         let slopes = |f: Formula| {
@@ -223,7 +225,18 @@ impl<'a> Decider<'a> {
             for_all: ForAll::new(subject),
             has_tolerances,
             gives_evidence,
+            cuts: false,
         })
+    }
+
+    /// The same that cuts undecided cells, or not.
+    pub fn with_cuts(self, cuts: bool) -> Self {
+        Decider { cuts, ..self }
+    }
+
+    /// Whether undecided cells are cut.
+    pub fn cuts(&self) -> bool {
+        self.cuts && self.for_all.is_none()
     }
 
     /// The exact judge of every decision.
@@ -258,14 +271,7 @@ impl<'a> Decider<'a> {
         if let Some(for_all) = &self.for_all {
             return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
         }
-        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
-            (edge.index + end) as f64 / (1u64 << edge.level) as f64
-        };
-        let mut ends = [(0.0, 0.0); 3];
-        for ((own, (lo, hi)), edge) in ends.iter_mut().zip(&self.prover.root).zip(&cell.edges) {
-            let at = |u: f64| lo * (1.0 - u) + hi * u;
-            *own = (at(part(edge, 0)), at(part(edge, 1)));
-        }
+        let ends = self.ends(cell);
         let flat = self.flat.as_ref().and_then(|flat| flat.over(&ends));
         if let Some(decision) = flat.and_then(|over| self.decided_there(cell, inherited, &over)) {
             return decision;
@@ -278,8 +284,53 @@ impl<'a> Decider<'a> {
         }
     }
 
+    /// The ends of a cell along each axis.
+    fn ends(&self, cell: &Cell) -> [Pair; 3] {
+        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
+            (edge.index + end) as f64 / (1u64 << edge.level) as f64
+        };
+        let mut ends = [(0.0, 0.0); 3];
+        for ((own, (lo, hi)), edge) in ends.iter_mut().zip(&self.prover.root).zip(&cell.edges) {
+            let at = |u: f64| lo * (1.0 - u) + hi * u;
+            *own = (at(part(edge, 0)), at(part(edge, 1)));
+        }
+        ends
+    }
+
+    /// The coordinates.
+    pub(super) fn dimension(&self) -> usize {
+        self.prover.root.len()
+    }
+
+    /// The obligation that is nearest to failing on a cell on which `inherited` is discharged; `None` where
+    /// not all that are open have margins, and of cells that may not be cut.
+    pub(super) fn nearest(&self, cell: &Cell, inherited: u128) -> Option<(usize, Margin)> {
+        let (open, ends) = (self.open(inherited), self.ends(cell));
+        let least = |over: &dyn View| {
+            let local = self.local(over)?;
+            let margins = open.iter().map(|&o| Some((o, self.margin(over, &local, self.test(o))?)));
+            let margins: Vec<(usize, Margin)> = margins.collect::<Option<_>>()?;
+            margins.into_iter().min_by(|(_, a), (_, b)| a.room().total_cmp(&b.room()))
+        };
+        if !self.cuts || !self.subject.header.may_cut(cell) {
+            return None;
+        }
+        match self.flat.as_ref().and_then(|flat| flat.over(&ends)) {
+            Some(over) => least(&over),
+            None => {
+                let place = ends.into_iter().take(self.dimension()).collect();
+                self.prover.on_own(&place, |over| least(over))
+            }
+        }
+    }
+
     /// Decides a cell on which all is defined and every open test has a margin; another is not.
-    fn decided_there(&self, cell: &Cell, inherited: u128, over: &impl View) -> Option<Decision> {
+    fn decided_there(
+        &self,
+        cell: &Cell,
+        inherited: u128,
+        over: &(impl View + ?Sized),
+    ) -> Option<Decision> {
         let open = self.open(inherited);
         let local = self.local(over)?;
         let margins = open.iter().map(|&o| self.margin(over, &local, self.test(o)).map(Some));
@@ -306,7 +357,7 @@ impl<'a> Decider<'a> {
     }
 
     /// `M` at the centre, if every leg certainly reaches the cell.
-    fn local(&self, over: &impl View) -> Option<Local<'a>> {
+    fn local(&self, over: &(impl View + ?Sized)) -> Option<Local<'a>> {
         let legs = || self.subject.problem.legs.iter().map(|leg| &leg.row);
         let reaches = |row: &Row<Formula>| over.range(row.d).is_some_and(|d| d.0 > 0.0);
         legs().all(reaches).then(|| Local::of(legs(), |f| over.centre(f)))?
@@ -333,7 +384,7 @@ impl<'a> Decider<'a> {
         // What is closest to failing, or fails at the centre.
         let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
-            return self.split(cell, Vec::new(), worst.weights());
+            return self.split(cell, Vec::new(), self.weights(&worst));
         }
         let (mut steps, mut left) = (Vec::new(), Vec::new());
         for (&o, margin) in open.iter().zip(margins) {
@@ -374,10 +425,19 @@ impl<'a> Decider<'a> {
             return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let along = match worst {
-            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => worst.weights(),
+            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => self.weights(&worst),
             _ => padded(over.map_or_else(Vec::new, |over| over.weights(&left))),
         };
         self.split(cell, steps, along)
+    }
+
+    /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
+    /// cut, the first order has no part.
+    fn weights(&self, worst: &Margin) -> [f64; 3] {
+        match self.cuts() && worst.room().abs() < 1.0 {
+            true => worst.beyond,
+            false => worst.weights(),
+        }
     }
 
     fn split(&self, cell: &Cell, steps: Vec<Step>, along: [f64; 3]) -> Decision {
@@ -460,7 +520,12 @@ impl<'a> Decider<'a> {
         self.split(cell, Vec::new(), along)
     }
 
-    fn margin(&self, over: &impl View, local: &Local<'_>, test: &Test) -> Option<Margin> {
+    fn margin(
+        &self,
+        over: &(impl View + ?Sized),
+        local: &Local<'_>,
+        test: &Test,
+    ) -> Option<Margin> {
         let bound = |f: Formula| over.centre(f);
         let less = |stretched: Margin, bound: f64| Margin {
             centre: stretched.centre - bound,
@@ -521,8 +586,8 @@ impl<'a> Decider<'a> {
 }
 
 impl Margin {
-    fn of(over: &impl View, f: Formula) -> Option<Self> {
-        let along = over.slopes(f)?.map(|slope| magnitude(&slope));
+    fn of(over: &(impl View + ?Sized), f: Formula) -> Option<Self> {
+        let along = over.slopes(f)?.map(|slope| magnitude(&slope).copysign(middle(&slope)));
         let along = std::array::from_fn(|k| if k < over.m() { along[k] } else { 0.0 });
         Some(Margin { centre: over.centre(f)?, along, ..Margin::default() })
     }

@@ -3,6 +3,7 @@
 //! | module     | does                                                              |
 //! |------------|-------------------------------------------------------------------|
 //! | `decide`   | what becomes of one cell                                          |
+//! | `cut`      | where one is cut that is neither inner nor outer                  |
 //! | `flat`     | formulas over cells, in doubles                                   |
 //! | `others`   | the same of some coordinates, for all values of the others        |
 //! | `spectrum` | extreme singular values of a matrix                               |
@@ -21,6 +22,7 @@
 //! [`Judge`](orthocert_kernel::paving::Judge) before it is written.
 
 mod components;
+mod cut;
 mod decide;
 mod flat;
 mod isotropy;

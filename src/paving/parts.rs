@@ -46,7 +46,7 @@ impl Parts {
     }
 
     fn grower<'a>(&self, decider: &'a Decider<'a>, cancel: &'a AtomicBool) -> Grower<'a> {
-        Grower { decider, depth: self.subject.header.depth, cancel }
+        Grower { decider, depth: self.subject.header.depth, is_plan: false, cancel }
     }
 
     /// The tree with subtrees left to be grown: at least `enough`, all of one depth, where the tree

@@ -20,6 +20,8 @@ use std::sync::atomic::AtomicBool;
 const COARSE: u32 = 18;
 /// The same of some coordinates for all values of the others, where a cell takes far more.
 const COARSE_FOR_ALL: u32 = 6;
+/// The same where cells are cut, of which fewer are needed.
+const COARSE_WITH_CUTS: u32 = 9;
 const WINDOW_FOR_ALL: usize = 8;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
 pub(super) const WINDOW: usize = 128;
@@ -124,7 +126,8 @@ pub fn pave(
 ) -> Result<Paved, PaveError> {
     let part = unfinished(path);
     let subject = Subject::new(&header(claim, coordinates, DEEPEST)).map_err(PaveError::Claim)?;
-    let decider = Decider::new(&subject).map_err(PaveError::Claim)?;
+    // Where a volume is asked for, undecided boxes are cut.
+    let decider = Decider::new(&subject).map_err(PaveError::Claim)?.with_cuts(goal.depth.is_none());
     let mut held = match resume {
         Resume::Yes => Some(taken_up(&part)?),
         Resume::No => None,
@@ -206,17 +209,17 @@ fn planned(
 ) -> Result<(u32, (Vec<Segment>, u64)), PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
     let coarse = coarse(decider).min(deepest);
-    let grower = Grower { decider, depth: deepest, cancel: control.cancel };
+    let grower = Grower { decider, depth: deepest, is_plan: true, cancel: control.cancel };
     let mut above = Tally::up_to(deepest);
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
     Ok((plan::depth(&grower, &segments, &above, coarse, goal)?, (segments, above.boxes)))
 }
 
 fn coarse(decider: &Decider<'_>) -> u32 {
-    if decider.is_for_all() {
-        COARSE_FOR_ALL
-    } else {
-        COARSE
+    match (decider.is_for_all(), decider.cuts()) {
+        (true, _) => COARSE_FOR_ALL,
+        (false, true) => COARSE_WITH_CUTS,
+        (false, false) => COARSE,
     }
 }
 
@@ -245,7 +248,7 @@ impl<'a> Pass<'a> {
         cancel: &'a AtomicBool,
         known: Option<(Vec<Segment>, u64)>,
     ) -> Result<Self, PaveError> {
-        let grower = Grower { decider, depth: header.depth, cancel };
+        let grower = Grower { decider, depth: header.depth, is_plan: false, cancel };
         let mut above = Tally::up_to(header.depth);
         let coarse = coarse(decider).min(header.depth);
         let (segments, boxes) = match known {
@@ -339,7 +342,8 @@ impl<'a> Pass<'a> {
         };
         let mut reader = Reader::below(input, &self.header, root)?;
         while let Some(visited) = reader.next()? {
-            if visited.item.kind == Kind::Boundary && visited.depth < self.header.depth {
+            let is_left = matches!(visited.item.kind, Kind::Boundary | Kind::Cut(_));
+            if is_left && visited.depth < self.header.depth {
                 return Err(Rejected::Truncated(0));
             }
             self.grower.decider.judge().check(&visited)?;
@@ -385,7 +389,7 @@ fn read_back(input: impl BufRead) -> Result<Paved, Rejected> {
     let mut reader = Reader::new(input)?;
     let mut coarsest: Option<u32> = None;
     while let Some(visited) = reader.next()? {
-        if visited.item.kind == Kind::Boundary {
+        if matches!(visited.item.kind, Kind::Boundary | Kind::Cut(_)) {
             coarsest = Some(coarsest.map_or(visited.depth, |least| least.min(visited.depth)));
         }
     }

@@ -93,12 +93,13 @@ fn chosen(
     for depth in depths {
         let at = depth as usize;
         inner += found.inner_at[at] as f64 * unit * scale;
+        let cut = found.cut_at[at] as f64 * unit * scale;
         boxes += found.boxes_at[at] as f64 * scale;
         if boxes > goal.max_boxes as f64 && depth > coarse {
             return Some(depth - 1);
         }
-        let open = found.open_at[at] as f64 * unit * scale;
-        if goal.gap.is_some_and(|gap| open <= AIM * gap * inner) {
+        let left = found.left_at[at] as f64 * unit * scale;
+        if goal.gap.is_some_and(|gap| left <= AIM * gap * (inner + cut)) {
             return Some(depth);
         }
     }

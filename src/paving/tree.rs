@@ -28,6 +28,10 @@ pub struct Tally {
     pub open_at: Vec<u128>,
     /// Cells tried at each depth.
     pub boxes_at: Vec<u64>,
+    /// Shares of undecided cells at each depth that would be inner if these were cut.
+    pub cut_at: Vec<u128>,
+    /// Shares of them that would still be undecided.
+    pub left_at: Vec<u128>,
 }
 
 impl Tally {
@@ -39,6 +43,8 @@ impl Tally {
             inner_at: vec![0; length],
             open_at: vec![0; length],
             boxes_at: vec![0; length],
+            cut_at: vec![0; length],
+            left_at: vec![0; length],
         }
     }
 
@@ -50,6 +56,8 @@ impl Tally {
         };
         sum(&mut self.inner_at, &other.inner_at);
         sum(&mut self.open_at, &other.open_at);
+        sum(&mut self.cut_at, &other.cut_at);
+        sum(&mut self.left_at, &other.left_at);
         self.boxes_at.iter_mut().zip(&other.boxes_at).for_each(|(to, from)| *to += from);
     }
 }
@@ -60,6 +68,8 @@ pub struct Grower<'a> {
     pub decider: &'a Decider<'a>,
     /// Most splits on a path.
     pub depth: u32,
+    /// Whether cells that may be split are cut also, to see at which depth that would do.
+    pub is_plan: bool,
     /// Set to give up.
     pub cancel: &'a AtomicBool,
 }
@@ -170,17 +180,31 @@ impl Grower<'_> {
         let at = root.depth as usize;
         tally.boxes += 1;
         tally.boxes_at[at] += 1;
-        let kind = match decision.fate {
+        let mut kind = match decision.fate {
             Fate::Closed(kind) => kind,
             Fate::Open(Some(axis)) if root.depth < self.depth => Kind::Split(axis),
             Fate::Open(_) => Kind::Boundary,
         };
+        let share = || self.decider.share(&root.cell);
         match kind {
-            Kind::Inner | Kind::Part(_) => tally.inner_at[at] += self.decider.share(&root.cell),
-            Kind::Split(_) | Kind::Boundary => tally.open_at[at] += self.decider.share(&root.cell),
-            Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored => {}
+            Kind::Inner | Kind::Part(_) => tally.inner_at[at] += share(),
+            Kind::Split(_) | Kind::Boundary => {
+                let whole = share();
+                tally.open_at[at] += whole;
+                let may_be_cut = self.is_plan || kind == Kind::Boundary;
+                let cut =
+                    may_be_cut.then(|| self.decider.cut(&root.cell, root.inherited)).flatten();
+                let [inner, outer] = cut.as_ref().map_or([0, 0], |cut| cut.shares(whole));
+                tally.cut_at[at] += inner;
+                tally.left_at[at] += whole - inner - outer;
+                if let Some(cut) = cut.filter(|_| kind == Kind::Boundary) {
+                    kind = Kind::Cut(cut);
+                }
+            }
+            Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored | Kind::Cut(_) => {}
         }
-        let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
+        let is_left = matches!(kind, Kind::Boundary | Kind::Cut(_));
+        let steps = if is_left { Vec::new() } else { decision.steps };
         (Item { steps, kind }, decision.parts)
     }
 }

@@ -200,7 +200,7 @@ impl Over<'_> {
 
     /// Whether the claim seems to fail so at every point of the box.
     pub(crate) fn fails(&self, failure: &Failure) -> bool {
-        self.prover.checker.fails(self.formulas.values, self.m(), failure)
+        self.prover.checker.fails(self.formulas.slopes, self.formulas.values, failure)
     }
 
     fn is_outside(&self) -> bool {

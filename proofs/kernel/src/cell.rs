@@ -3,7 +3,7 @@
 use crate::arithmetic::Enclosure;
 use crate::fixed::{Integer, Interval};
 use crate::formula::{Op, Tape, Values};
-use crate::slope::{Slope, Slopes};
+use crate::slope::{Slope, Slopes, CORNER_PLACES};
 
 /// A box: for each coordinate a range with ends in multiples of `2^-bits`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,6 +70,9 @@ pub fn evaluate<E: Enclosure>(
 /// `f_v = f(c) + sum_k v_k S_k` and the `S_k` are those of `f` at `x`. *Proof.* `lambda` is a convex
 /// combination of the vertices of `[-1, 1]^m`, and for fixed `x` what is summed is affine in it. ∎
 ///
+/// Of a part of the cell, the hull of its corners, the vertices are these: what is said of the cell is true of
+/// the part, by the same proof.
+///
 /// About a corner, `lambda` is in `[0, 1]^m`, and the vertices are [`Vertex::value_about_corner`].
 ///
 /// So where a set of matrices is convex, and holds the matrices of all `f_v` in their enclosures
@@ -99,12 +102,14 @@ impl Vertex {
         slopes: &Slopes<'_, E>,
         slope: &Slope<E::Number>,
     ) -> Option<E::Number> {
+        let e = slopes.arithmetic;
         let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
-        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| {
-            if self.has(k) {
-                slopes.arithmetic.add(&sum, term)
-            } else {
-                slopes.arithmetic.sub(&sum, term)
+        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match slopes.part {
+            None if self.has(k) => e.add(&sum, term),
+            None => e.sub(&sum, term),
+            Some(corners) => {
+                let lambda = *corners.get(self.index())?.get(k)?;
+                e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)
             }
         })
     }

@@ -27,6 +27,7 @@
 //! make the product affine.
 
 use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::cell::Vertex;
 
 /// Most coordinates of a workspace.
 pub const MOST_COORDINATES: usize = 6;
@@ -49,7 +50,13 @@ pub struct Slopes<'a, E> {
     pub arithmetic: &'a E,
     /// The coordinates.
     pub m: usize,
+    /// The corners of the part of the cell that is meant, where it is not all of it: `lambda`, in units of
+    /// `2^-CORNER_PLACES`. Ranges are those of the cell.
+    pub part: Option<&'a [Vec<i64>]>,
 }
+
+/// Binary places of the corners of a part of a cell.
+pub const CORNER_PLACES: u32 = 16;
 
 impl<E> Clone for Slopes<'_, E> {
     fn clone(&self) -> Self {
@@ -60,6 +67,21 @@ impl<E> Clone for Slopes<'_, E> {
 impl<E> Copy for Slopes<'_, E> {}
 
 impl<E: Enclosure> Slopes<'_, E> {
+    /// How many vertices the cell has, or the part that is meant.
+    pub fn corners(&self) -> usize {
+        self.part.map_or(1 << self.m, <[_]>::len)
+    }
+
+    /// Whether all values of a formula are such numbers; these are a convex set.
+    pub fn all(&self, f: &Slope<E::Number>, are: impl Fn(&E::Number) -> bool) -> bool {
+        match self.part {
+            None => are(&f.range),
+            Some(_) => {
+                Vertex::first(self.corners()).all(|v| v.value(self, f).is_some_and(|x| are(&x)))
+            }
+        }
+    }
+
     /// A number that is the same on the whole cell.
     pub fn constant(&self, number: E::Number) -> Option<Slope<E::Number>> {
         let zero = self.arithmetic.integer(0)?;

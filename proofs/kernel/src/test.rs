@@ -112,7 +112,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
 
     /// The vertices, or control points.
     pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
-        Vertex::first(self.controls.map_or(1 << self.slopes.m, Controls::len))
+        Vertex::first(self.controls.map_or(self.slopes.corners(), Controls::len))
     }
 
     /// The value of a formula at a vertex, or control point; with tolerances apart none of what they change.
@@ -140,6 +140,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
     /// `None` of one that no formula at control points has.
     pub fn place(&self, k: usize, vertex: Vertex) -> Option<i64> {
         match self.controls {
+            None if self.slopes.part.is_some() => None,
             None => Some(if vertex.has(k) { 1 } else { -1 }),
             Some(controls) => controls.place(k, vertex.index()),
         }
@@ -209,13 +210,13 @@ pub fn at_least<E: Enclosure>(
         return false;
     }
     if over.inside.is_none() && over.tolerances.is_none() {
-        return e.is_nonnegative(&f.range);
+        return over.slopes.all(f, |x| e.is_nonnegative(x));
     }
     let holds = |v: Vertex| {
         let least = e.sub(&v.value(&over.slopes, f)?, &over.greatest_loss(parts, v)?)?;
         over.less_inside(least, v)
     };
-    Vertex::all(over.slopes.m).all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
+    over.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
 }
 
 /// **Least singular value.** If `T = Y^T A + A^T Y - Y^T D Y - kappa^2 I` is positive definite at the

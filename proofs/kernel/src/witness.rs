@@ -148,7 +148,11 @@ fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
     }
     let bits = witness.precision;
     let arithmetic = Fixed::<BigInt>::new(bits);
-    let slopes = Slopes { arithmetic: &arithmetic, m: problem.dimension() + problem.names.len() };
+    let slopes = Slopes {
+        arithmetic: &arithmetic,
+        m: problem.dimension() + problem.names.len(),
+        part: None,
+    };
     let parameters = problem.parameters(bits, &witness.machine).ok()?;
     let varying = problem.varying(bits);
     let values = problem.tape.run(&slopes, |op| match op {

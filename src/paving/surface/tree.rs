@@ -1,7 +1,7 @@
 //! The tree of a paving, for its shape alone: what is inner, outer and undecided.
 
 use super::SurfaceError;
-use orthocert_kernel::paving::{Axis, Cell, Header, Kind, Reader};
+use orthocert_kernel::paving::{Axis, Cell, Cut, Header, Kind, Reader};
 use std::io::Read;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -16,6 +16,10 @@ pub const OUTER: Node = 0;
 pub const UNDECIDED: Node = 1;
 /// The node of an inner cell.
 pub const INNER: Node = 2;
+/// How often a cell that is cut is halved, so that its inner part is seen; the unit of its half-widths
+/// has as many halves.
+const CUT_LEVELS: u32 = 6;
+const CUT_UNIT: i64 = 1 << CUT_LEVELS;
 /// The first node that is split.
 const FIRST: Node = 3;
 
@@ -69,6 +73,38 @@ impl Tree {
         Ok(FIRST + (self.splits.len() - 1) as Node) // At most MOST_NODES.
     }
 
+    /// What a part of a cell that is cut is: inner before the first plane, outer beyond the second. It is
+    /// halved so many times where they pass, along the axis that moves them most.
+    fn of_cut(
+        &mut self,
+        cut: &Cut,
+        part: [[i64; 2]; 3],
+        levels: u32,
+        detail: Detail,
+    ) -> Result<Node, SurfaceError> {
+        let terms = || cut.normal.iter().zip(&part);
+        let least: i64 = terms().map(|(n, [lo, hi])| (n * lo).min(n * hi)).sum();
+        let most: i64 = terms().map(|(n, [lo, hi])| (n * lo).max(n * hi)).sum();
+        let [inner, outer] = cut.ends.map(|end| end * CUT_UNIT);
+        if most <= inner {
+            return Ok(INNER);
+        }
+        if least >= outer || levels == 0 {
+            return Ok(if least >= outer { OUTER } else { UNDECIDED });
+        }
+        let moved = |axis: &Axis| {
+            let [lo, hi] = part[axis.index()];
+            cut.normal.get(axis.index()).map_or(0, |n| n.abs() * (hi - lo))
+        };
+        let axis = Axis::ALL.into_iter().max_by_key(moved).unwrap_or(Axis::X);
+        let [lo, hi] = part[axis.index()];
+        let mut halves = [part; 2];
+        halves[0][axis.index()] = [lo, (lo + hi) / 2];
+        halves[1][axis.index()] = [(lo + hi) / 2, hi];
+        let [lower, upper] = halves.map(|half| self.of_cut(cut, half, levels - 1, detail));
+        self.joined(axis, lower?, upper?, detail)
+    }
+
     /// Reads a paving to its end. The shape of the tree and its summary are checked, the evidence is
     /// not. What is left out by symmetry counts as outer.
     ///
@@ -96,6 +132,15 @@ impl Tree {
                 }
                 Kind::Inner | Kind::Part(_) => INNER,
                 Kind::Boundary => UNDECIDED,
+                Kind::Cut(cut) => {
+                    let levels = match detail {
+                        Detail::InnerPart => CUT_LEVELS,
+                        Detail::Depth(depth) => {
+                            depth.saturating_sub(waiting.len() as u32).min(CUT_LEVELS)
+                        }
+                    };
+                    tree.of_cut(&cut, [[-CUT_UNIT, CUT_UNIT]; 3], levels, detail)?
+                }
                 Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored => OUTER,
             };
             while let Some((axis, lower)) = waiting.pop() {

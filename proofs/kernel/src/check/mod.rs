@@ -408,7 +408,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// The arithmetic of slopes in `m` coordinates, and in names.
     pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
-        Slopes { arithmetic: self.arithmetic, m: m + self.problem.names.len() }
+        Slopes { arithmetic: self.arithmetic, m: m + self.problem.names.len(), part: None }
     }
 
     /// What it was given.
@@ -488,7 +488,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         match (test, evidence) {
             (test, Evidence::Control(evidence)) => {
                 let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
-                self.at_controls(over, place, test, then) == Some(true)
+                // Of a part, control points are not known.
+                over.slopes.part.is_none()
+                    && self.at_controls(over, place, test, then) == Some(true)
             }
             (test, Evidence::Turned(evidence, multiple, places)) => {
                 use Evidence::{Control, Corner, Turned};

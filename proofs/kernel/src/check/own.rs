@@ -22,7 +22,7 @@ use crate::certificate::{Evidence, Failure};
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::Slope;
+use crate::slope::{Slope, Slopes};
 use crate::test::{Multiplier, Over, Row};
 use crate::witness::fails_throughout;
 
@@ -122,16 +122,26 @@ impl<E: Enclosure> Checker<'_, E> {
         Some(Multiplier { y, places: PLACES })
     }
 
-    /// Whether the claim fails so at every point of a cell, for every machine.
-    pub fn fails(&self, values: &Values<Slope<E::Number>>, m: usize, failure: &Failure) -> bool {
-        fails_throughout(self.problem, self.slopes(m), values, failure)
+    /// Whether the claim fails so at every point of a cell, or of its part, for every machine.
+    pub fn fails(
+        &self,
+        slopes: Slopes<'_, E>,
+        values: &Values<Slope<E::Number>>,
+        failure: &Failure,
+    ) -> bool {
+        fails_throughout(self.problem, slopes, values, failure)
     }
 
     /// Whether an obligation fails so in its own directions: of singular values those of the centre; or,
     /// of the greatest one, in the row of a leg.
-    pub fn fails_own(&self, values: &Values<Slope<E::Number>>, m: usize, number: usize) -> bool {
+    pub fn fails_own(
+        &self,
+        slopes: Slopes<'_, E>,
+        values: &Values<Slope<E::Number>>,
+        number: usize,
+    ) -> bool {
         let Some(obligation) = self.problem.obligations.get(number) else { return false };
-        let direction = |rows, greatest| self.direction(values, rows, m, greatest);
+        let direction = |rows, greatest| self.direction(values, rows, slopes.m, greatest);
         let directions = || {
             Some(match &obligation.test {
                 Test::SigmaMin(_) => vec![direction(&self.rows, false)?],
@@ -154,8 +164,8 @@ impl<E: Enclosure> Checker<'_, E> {
             Test::SigmaMax(_) => 0..self.rows.len(),
             _ => 0..0,
         };
-        directions().is_some_and(|directions| self.fails(values, m, &of(directions)))
-            || rows.any(|leg| self.fails(values, m, &Failure::Row(number, leg)))
+        directions().is_some_and(|directions| self.fails(slopes, values, &of(directions)))
+            || rows.any(|leg| self.fails(slopes, values, &Failure::Row(number, leg)))
     }
 
     /// Nearly the direction that `M` at the centre stretches most, or least: of `G = M^T M`, or of its

@@ -1,6 +1,7 @@
 //! The bytes of a node: its steps, then its kind.
 
 use super::cell::Axis;
+use super::cut::Cut;
 use super::reader::bytes;
 use super::{Rejected, MOST_OBLIGATIONS};
 use crate::certificate::{Evidence, Failure};
@@ -36,6 +37,8 @@ pub enum Kind {
     Outer(Outer),
     /// It fails so where each other coordinate, in its order, has the value `min + (max - min) n/2^16`.
     At(Vec<i64>, Outer),
+    /// Inner on one side, outer on the other, undecided between.
+    Cut(Cut),
     /// Undecided.
     Boundary,
     /// Left out by symmetry.
@@ -61,6 +64,8 @@ const STEP: u8 = 0x09;
 /// Before an outer kind: where it fails.
 const AT: u8 = 0x0a;
 const OUTSIDE: u8 = 0x0b;
+/// Followed by the normal and the ends, each in a list, and an obligation.
+const CUT: u8 = 0x0c;
 /// With the 15 that follow: the own step of this obligation.
 const OWN_STEP: u8 = 0x10;
 /// With the four that follow: halved along this other coordinate.
@@ -131,6 +136,14 @@ impl Item {
                     continue;
                 }
                 OUTSIDE => (Kind::Outside, None),
+                CUT => {
+                    let normal = source.integers()?;
+                    let Ok(ends) = source.integers()?.try_into() else {
+                        return Err(Rejected::BadCode(node, code));
+                    };
+                    let fails = usize::from(source.byte()?);
+                    (Kind::Cut(Cut { normal, ends, fails }), None)
+                }
                 PART..0x25 => (Kind::Part(usize::from(code - PART)), None),
                 0..INNER => (Kind::Split(Axis::ALL[usize::from(code)]), None),
                 INNER => (Kind::Inner, None),
@@ -180,6 +193,12 @@ impl Item {
                 out.push(AT);
                 put(out, at)?;
                 Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) }.write(out)?;
+            }
+            Kind::Cut(Cut { normal, ends, fails }) => {
+                out.push(CUT);
+                put(out, normal)?;
+                put(out, ends)?;
+                out.push(small(*fails)?);
             }
             Kind::Inner => out.push(INNER),
             Kind::Boundary => out.push(BOUNDARY),

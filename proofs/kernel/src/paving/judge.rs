@@ -2,9 +2,10 @@
 
 use super::cell::{Cell, Edge};
 use super::code::{Item, Kind, Outer, Step};
+use super::cut::{Cut, SLACK_PLACES};
 use super::reader::Visited;
 use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS};
-use crate::arithmetic::Enclosure as _;
+use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::cell::Cell as Ranges;
 use crate::certificate::PRECISIONS;
 use crate::check::{Checker, Place};
@@ -13,6 +14,7 @@ use crate::input::{binary, half_tangent, narrowed, Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::slope::Slopes;
 use crate::test::Over;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -155,7 +157,11 @@ impl<'a> Judge<'a> {
             return Err(Rejected::Step(*node, *o));
         }
         match &item.kind {
-            Kind::Outer(Outer::Own(o)) | Kind::At(_, Outer::Own(o)) if *o >= obligations.len() => {
+            Kind::Outer(Outer::Own(o))
+            | Kind::At(_, Outer::Own(o))
+            | Kind::Cut(Cut { fails: o, .. })
+                if *o >= obligations.len() =>
+            {
                 Err(Rejected::Outer(*node))
             }
             _ => Ok(()),
@@ -239,40 +245,71 @@ impl<'a, Z: Integer> Side<'a, Z> {
             true => self.checker.evaluate(&edges),
             false => self.checker.evaluate_own(&edges),
         };
-        let m = edges.len();
-        let slopes = self.checker.slopes(m);
+        let slopes = self.checker.slopes(edges.len());
         let over = Over::new(slopes, &values);
         let place = Place::new(&edges, [false; 2]);
-        let shown = |obligation: usize, evidence: Option<&_>| {
+        let shown = |over: &Over<'_, _>, obligation: usize, evidence: Option<&_>| {
             let obligations = &subject.problem.obligations;
             let test = &obligations.get(obligation).ok_or(Flaw::Step(obligation))?.test;
             let holds = match evidence {
-                Some(evidence) => self.checker.shows(&over, &place, test, evidence),
-                None => self.checker.shows_own(&over, &place, test),
+                Some(evidence) => self.checker.shows(over, &place, test, evidence),
+                None => self.checker.shows_own(over, &place, test),
             };
             holds.then_some(()).ok_or(Flaw::Step(obligation))
         };
-        item.steps.iter().try_for_each(|Step(o, evidence)| shown(*o, evidence.as_ref()))?;
+        item.steps.iter().try_for_each(|Step(o, evidence)| shown(&over, *o, evidence.as_ref()))?;
+        let rest_shown = |over: &Over<'_, _>| {
+            let open = subject.all() & !discharged(inherited, &item.steps);
+            let mut all = (0..subject.problem.obligations.len()).filter(|&o| open & bit(o) != 0);
+            all.try_for_each(|o| shown(over, o, None))
+        };
         // Points whose box is that of the workspace are certainly in it.
         let is_inside = |g| values.of(g).is_some_and(|g| self.arithmetic.is_nonnegative(&g.range));
         let bound =
             subject.problem.inside.iter().map(|inside| inside.g).chain(subject.problem.turned);
         let fails = match &item.kind {
-            Kind::Inner => {
-                let open = subject.all() & !discharged(inherited, &item.steps);
-                let mut all = 0..subject.problem.obligations.len();
-                return all
-                    .try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
+            Kind::Inner => return rest_shown(&over),
+            Kind::Cut(cut) => {
+                let corners = cut.corners();
+                let [inner, outer] =
+                    [0, 1].map(|side: usize| Slopes { part: Some(&corners[side]), ..slopes });
+                rest_shown(&Over::new(inner, &values))?;
+                self.is_near(subject, cell, &edges) == Some(true)
+                    && self.checker.fails_own(outer, &values, cut.fails)
             }
             Kind::Outside => self.checker.is_outside(&over, &place),
             Kind::At(..) if !bound.clone().all(is_inside) => false,
             Kind::Outer(outer) | Kind::At(_, outer) => match outer {
-                Outer::Own(o) => self.checker.fails_own(&values, m, *o),
-                Outer::Given(failure) => self.checker.fails(&values, m, failure),
+                Outer::Own(o) => self.checker.fails_own(slopes, &values, *o),
+                Outer::Given(failure) => self.checker.fails(slopes, &values, failure),
             },
             Kind::Split(_) | Kind::Part(_) | Kind::Boundary | Kind::Mirrored => true,
         };
         fails.then_some(()).ok_or(Flaw::Outer)
+    }
+
+    /// Whether what is enclosed of a cell differs from it by as little as cuts allow.
+    ///
+    /// **Lemma.** Let both ends of a coordinate, `l` and `r`, be enclosed up to `s`, in `[a, a + s]` and
+    /// `[b - s, b]`, `h` the half-width of `[a, b]` from `c`, `t` one unit in the last place. Where a point is in
+    /// the cell, from -1 at `l` to 1 at `r`, differs from `(x - c)/h` by at most `(s + t)/h`. *Proof.* Both are
+    /// affine in `x`, and do so at both ends: `c - a` is `h`, or `h - t`. ∎ So what is before `c` in
+    /// the cell is before `c + sum |n_k| (s_k + t)/h_k` in what is enclosed.
+    fn is_near(&self, subject: &Subject, cell: &Cell, edges: &Edges<Z>) -> Option<bool> {
+        let (e, [min, max]) = (self.arithmetic, &self.corners);
+        let unit = e.dyadic(1, e.bits(), &e.integer(1)?)?;
+        let mut all = cell.edges.iter().zip(&subject.order[0]).map(|(edge, &k)| {
+            let near = |j: i64| {
+                let Interval { lo, hi } =
+                    Edge::range(e, edge.level, [j, j], [min.get(k)?, max.get(k)?])?;
+                let width = e.sub(&Interval::point(hi), &Interval::point(lo))?;
+                let most = e.dyadic(1 << SLACK_PLACES, 0, &e.add(&width, &unit)?)?;
+                Some(e.is_nonnegative(&e.sub(&edges.get(k)?[2], &most)?))
+            };
+            let [from, to] = edge.ends()?;
+            Some(near(from)? && near(to)?)
+        });
+        all.try_fold(true, |holds, own| Some(holds && own?))
     }
 }
 

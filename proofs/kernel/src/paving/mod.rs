@@ -5,6 +5,7 @@
 //! |------------|-----------------------------------------------------------------------|
 //! | `cell`     | cells, as exact parts of the box                                      |
 //! | `code`     | the bytes of a node                                                   |
+//! | `cut`      | cells that planes cut, and the shares of both sides                   |
 //! | `judge`    | what is shown of a cell, in exact arithmetic                          |
 //! | `reader`   | the nodes of a paving, one by one, and their cells                    |
 //! | `symmetry` | machines that look the same from permuted axes                        |
@@ -17,6 +18,7 @@
 
 mod cell;
 mod code;
+mod cut;
 mod judge;
 mod reader;
 mod symmetry;
@@ -32,6 +34,7 @@ use std::io::{self, BufRead};
 
 pub use cell::{Axis, Cell, Edge, Packed, MAX_AXIS_LEVEL, MOST_OTHERS};
 pub use code::{write_pair, write_steps, Item, Kind, Outer, Step};
+pub use cut::Cut;
 pub use judge::{bit, discharged, Judge, Subject, AT_BITS};
 pub use reader::{header, Reader, Root, Visited};
 pub use symmetry::{is_mirrored, is_symmetric, six_ordered};
@@ -164,13 +167,14 @@ pub struct Summary {
     pub inner: u64,
     /// Cells on which it fails everywhere.
     pub outer: u64,
-    /// Undecided cells.
+    /// Undecided cells, and cells that are cut.
     pub boundary: u64,
     /// Cells that are left out by symmetry.
     pub mirrored: u64,
-    /// The inner cells' share of the box's volume; with symmetry, of all their images.
+    /// The inner cells' share of the box's volume, and that of the inner points of cells that are cut; with
+    /// symmetry, of all their images.
     pub inner_share: Share,
-    /// The undecided cells' share of the box's volume, likewise.
+    /// The share of what is undecided, likewise.
     pub boundary_share: Share,
 }
 
@@ -204,7 +208,8 @@ impl Serialize for Share {
 /// contains the inner cells and meets no outer one. With symmetry: let `D` be the points with
 /// `u_x <= u_y <= u_z`. The region and the box are invariant under the six permutations of the
 /// coordinates, whose images of `D` cover the box and overlap in planes only: volumes are six times
-/// those within `D`, which mirrored cells meet in no inner point. ∎
+/// those within `D`, which mirrored cells meet in no inner point. Of a cell that is cut, the inner points
+/// are in the region and the outer points are not, and it is in `D`. ∎
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shares {
     /// Of the inner cells.
@@ -258,6 +263,8 @@ pub enum Rejected {
     Part(u64),
     /// A cell is not left out by symmetry.
     NotMirrored(u64),
+    /// A cell is cut that cannot be, or by no plane.
+    Cut(u64),
     /// The last line is not the summary of the tree.
     Summary,
 }
@@ -331,6 +338,10 @@ impl fmt::Display for Rejected {
                 f,
                 "node {node} is left out by symmetry, but has points with u_x < u_y < u_z"
             ),
+            Rejected::Cut(node) => write!(
+                f,
+                "node {node} is cut by no plane, or is no cell of all coordinates that stands for itself alone, or for five images"
+            ),
             Rejected::Summary => {
                 write!(f, "the last line is not the summary of the tree, or does not end the file")
             }
@@ -394,7 +405,10 @@ pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected>
     };
     let (mut checked, mut decided) = (0, 0);
     while let Some(visited) = reader.next()? {
-        let is_decided = matches!(visited.item.kind, Kind::Inner | Kind::Outer(_) | Kind::At(..));
+        let is_decided = {
+            use Kind::{At, Cut, Inner, Outer};
+            matches!(visited.item.kind, Inner | Outer(_) | At(..) | Cut(_))
+        };
         decided += u64::from(is_decided);
         match &mut sample {
             Some(sample) if is_decided => {

@@ -2,6 +2,7 @@
 
 use super::cell::{Axis, Cell};
 use super::code::{Item, Kind};
+use super::cut::Cut;
 use super::judge::bit;
 use super::{symmetry, Header, Rejected, Share, Shares, Summary, FORMAT, MAX_LINE, SHARE_BITS};
 use crate::certificate::MOST_LABEL;
@@ -156,6 +157,10 @@ impl<R: Read> Reader<R> {
             Kind::Part(k) => Some((cell.parts(k).filter(|_| k < self.order[1].len()), depth)),
             _ => None,
         };
+        let is_cut = |cut: &Cut| cut.is_of(self.order[0].len()) && self.header.may_cut(&cell);
+        if matches!(&item.kind, Kind::Cut(cut) if !is_cut(cut)) {
+            return Err(Rejected::Cut(node));
+        }
         if let Some((cells, depth)) = halved {
             let (lower, upper) = cells.ok_or(Rejected::TooDeep(node))?;
             let below = |cell| Root { cell, inherited: done, depth };
@@ -185,6 +190,12 @@ impl<R: Read> Reader<R> {
                 1
             }
             Kind::Outer(_) | Kind::At(..) => 2,
+            Kind::Cut(cut) => {
+                let [inner, outer] = cut.shares(share());
+                self.shares.inner += inner;
+                self.shares.boundary += share() - inner - outer;
+                3
+            }
             Kind::Boundary => {
                 self.shares.boundary += share();
                 3
@@ -244,6 +255,13 @@ impl Header {
             // Three levels of at most 40.
             None => 1 << (SHARE_BITS - cell.depth()),
         }
+    }
+
+    /// Whether a cell may be cut: its shares are those of places, and all of it is taken.
+    pub fn may_cut(&self, cell: &Cell) -> bool {
+        let images = if self.symmetry.is_some() { 6 } else { 1 };
+        let is_whole = self.share(cell) == images << (SHARE_BITS - cell.depth());
+        self.coordinates.is_none() && is_whole
     }
 }
 

@@ -50,7 +50,7 @@ pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multipli
                 let rest = e.sub(&v.value(&over.slopes, &f)?, &greatest(v, &g)?)?;
                 Some(e.is_positive(&over.less_inside(rest, v)?))
             };
-            Vertex::all(over.slopes.m).all(|v| holds(v) == Some(true)).then_some(())?;
+            over.vertices().all(|v| holds(v) == Some(true)).then_some(())?;
         }
         Some(())
     };

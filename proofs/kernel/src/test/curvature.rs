@@ -44,7 +44,7 @@ pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
         };
         Some([combined(&b)?, combined(&e.neg(&b)?)?])
     };
-    Vertex::all(over.slopes.m).all(|v| {
+    over.vertices().all(|v| {
         matrices(v).is_some_and(|both| both.into_iter().all(|t| is_positive_definite(e, t)))
     })
 }

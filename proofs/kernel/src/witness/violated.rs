@@ -32,11 +32,11 @@ impl<Z: Integer> Signs for Fixed<Z> {
 
 impl<E: Enclosure> Signs for Slopes<'_, E> {
     fn surely_positive(&self, x: &Slope<E::Number>) -> bool {
-        self.arithmetic.is_positive(&x.range)
+        self.all(x, |x| self.arithmetic.is_positive(x))
     }
 
     fn surely_nonnegative(&self, x: &Slope<E::Number>) -> bool {
-        self.arithmetic.is_nonnegative(&x.range)
+        self.all(x, |x| self.arithmetic.is_nonnegative(x))
     }
 }
 
