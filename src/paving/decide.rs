@@ -7,7 +7,7 @@
 use super::flat::Flat;
 use super::others::ForAll;
 use crate::paving::spectrum::Spectrum;
-use crate::solver::doubles::{magnitude, middle, Pair, Single};
+use crate::solver::doubles::{middle, Pair, Single};
 use crate::solver::evidence::{Over, Prover};
 use crate::solver::refute::directions;
 use crate::solver::sample::{Place, Quality, Sampler};
@@ -98,7 +98,8 @@ impl Margin {
     fn times(self, factor: f64) -> Self {
         let times = |all: [f64; 3]| all.map(|x| x * factor);
         let Margin { centre, along, beyond } = self;
-        Margin { centre: centre * factor, along: times(along), beyond: times(beyond) }
+        let beyond = times(beyond).map(f64::abs);
+        Margin { centre: centre * factor, along: times(along), beyond }
     }
 
     fn plus(self, other: Self) -> Self {
@@ -434,7 +435,8 @@ impl<'a> Decider<'a> {
     /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
     /// cut, the first order has no part.
     fn weights(&self, worst: &Margin) -> [f64; 3] {
-        match self.cuts() && worst.room().abs() < 1.0 {
+        let is_cut = self.cuts() && worst.room().abs() < 1.0;
+        match is_cut && worst.beyond.iter().any(|x| *x > 0.0) {
             true => worst.beyond,
             false => worst.weights(),
         }
@@ -516,7 +518,7 @@ impl<'a> Decider<'a> {
         let known = undefined.into_iter().chain(divisors);
         let margin = |f: Formula| Margin::of(over, f);
         let worst = known.filter_map(margin).min_by(|a, b| a.room().total_cmp(&b.room()));
-        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.along);
+        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.weights());
         self.split(cell, Vec::new(), along)
     }
 
@@ -587,9 +589,12 @@ impl<'a> Decider<'a> {
 
 impl Margin {
     fn of(over: &(impl View + ?Sized), f: Formula) -> Option<Self> {
-        let along = over.slopes(f)?.map(|slope| magnitude(&slope).copysign(middle(&slope)));
-        let along = std::array::from_fn(|k| if k < over.m() { along[k] } else { 0.0 });
-        Some(Margin { centre: over.centre(f)?, along, ..Margin::default() })
+        let slopes = over.slopes(f)?;
+        let of = |part: fn(&Pair) -> f64| {
+            std::array::from_fn(|k| if k < over.m() { part(&slopes[k]) } else { 0.0 })
+        };
+        let [along, beyond] = [of(middle), of(|slope| 0.5 * (slope.1 - slope.0))];
+        Some(Margin { centre: over.centre(f)?, along, beyond })
     }
 }
 

@@ -7,6 +7,7 @@ mod atlas;
 mod certificates;
 mod clearances;
 mod controls;
+mod cuts;
 mod directions;
 mod document;
 mod false_claims;
