@@ -49,10 +49,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME,...")]
     coordinates: Option<String>,
     /// Split undecided boxes until the geometric mean of their edges is at most E, in the design's
-    /// unit of length
+    /// unit of length; none is cut by planes
     #[arg(long, value_name = "E", conflicts_with = "volume_gap", allow_hyphen_values = true)]
     precision: Option<String>,
-    /// Split until the volume of the undecided boxes is at most G times that of the inner ones
+    /// Split, and cut by planes, until what is undecided has at most G times the volume of what is inner
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     volume_gap: Option<String>,
     /// Split no further than about so many boxes allow

@@ -385,7 +385,7 @@ impl<'a> Decider<'a> {
         // What is closest to failing, or fails at the centre.
         let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
-            return self.split(cell, Vec::new(), self.weights(&worst));
+            return self.split(cell, Vec::new(), self.weights(&worst, margins));
         }
         let (mut steps, mut left) = (Vec::new(), Vec::new());
         for (&o, margin) in open.iter().zip(margins) {
@@ -426,16 +426,19 @@ impl<'a> Decider<'a> {
             return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let along = match worst {
-            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => self.weights(&worst),
+            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => {
+                self.weights(&worst, margins)
+            }
             _ => padded(over.map_or_else(Vec::new, |over| over.weights(&left))),
         };
         self.split(cell, steps, along)
     }
 
     /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
-    /// cut, the first order has no part.
-    fn weights(&self, worst: &Margin) -> [f64; 3] {
-        let is_cut = self.cuts() && worst.room().abs() < 1.0;
+    /// cut, the first order has no part. Where more than one obligation ends in the cell, it is not cut.
+    fn weights(&self, worst: &Margin, margins: &[Option<Margin>]) -> [f64; 3] {
+        let ends = |margin: &&Margin| margin.room().abs() < 1.0;
+        let is_cut = self.cuts() && margins.iter().flatten().filter(ends).count() == 1;
         match is_cut && worst.beyond.iter().any(|x| *x > 0.0) {
             true => worst.beyond,
             false => worst.weights(),

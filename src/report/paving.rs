@@ -185,7 +185,12 @@ impl PavingReport {
         }
         out += &row("inner", &self.inner, Toward::Below, "all requirements hold at every point");
         out += &row("outer", &self.outer, Toward::Below, "some requirement fails at every point");
-        out += &row("boundary", &self.boundary, Toward::Above, "undecided");
+        out += &row(
+            "boundary",
+            &self.boundary,
+            Toward::Above,
+            "undecided, or between planes that cut them",
+        );
         if self.mirrored > 0 {
             out += "\n  The machine looks the same from permuted axes: only points with x <= y <= z are\n  \
                 paved, and the shares count all images.\n";

@@ -3,7 +3,7 @@
 use crate::support::{Folder, Run};
 use orthocert::exact::Exact;
 use orthocert_kernel::certificate::Failure;
-use orthocert_kernel::paving::{Item, Kind, Outer, Reader, Step};
+use orthocert_kernel::paving::{Cut, Item, Judge, Kind, Outer, Reader, Step, Subject};
 use serde_json::Value;
 use std::cmp::Ordering;
 use std::io::Write;
@@ -264,7 +264,7 @@ fn boxes_that_are_not_drawn_have_evidence_all_the_same() {
 #[test]
 fn a_paving_through_a_pipe_is_read_once() {
     let folder = folder();
-    folder.run(&["pave", "d.toml", "--precision", "0.015"]).exits(0);
+    folder.run(&["pave", "d.toml", "--precision", "0.01"]).exits(0);
     let bytes = folder.read("d.paving");
     // More than a pipe holds.
     assert!(bytes.len() > 1 << 16);
@@ -581,4 +581,75 @@ fn files_given_to_the_wrong_command_name_the_right_one() {
     for command in ["check", "show", "report"] {
         folder.run(&[command, "d.toml"]).exits(5).complains(&["`orthocert verify` reads designs"]);
     }
+}
+
+/// The factors of the Orthoglide of length 1 at a point, squared, nearly: the rows of `M` are those of `A`,
+/// `(p - rho_i e_i)`, over `eta_i`, and `psi^2` is 1 over an eigenvalue of `M^T M`.
+fn eigenvalues(p: [f64; 3]) -> Option<[f64; 2]> {
+    let entry = |i: usize, j: usize| {
+        let square: f64 = (0..3).filter(|&k| k != i).map(|k| p[k] * p[k]).sum();
+        let eta = (1.0 - square).sqrt();
+        if i == j {
+            1.0
+        } else {
+            p[j] / eta
+        }
+    };
+    let m = nalgebra::Matrix3::from_fn(entry);
+    let all = (m.transpose() * m).symmetric_eigenvalues();
+    all.iter().all(|x| x.is_finite()).then(|| [all.min(), all.max()])
+}
+
+/// Points on both sides of the planes that cut boxes, checked by formulas of their own; planes that are moved
+/// by their distance, either way, so that one side has points of the other, are refused.
+#[test]
+fn planes_that_cut_boxes_are_where_the_requirements_end() {
+    let folder = folder();
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.03"]).exits(0).says(&["planes"]);
+    let bytes = folder.read("d.paving");
+    let mut reader = Reader::new(&bytes[..]).unwrap();
+    let (mut cuts, mut points) = (Vec::new(), [0; 2]);
+    while let Some(visited) = reader.next().unwrap() {
+        let Kind::Cut(cut) = &visited.item.kind else { continue };
+        let n: Vec<f64> = cut.normal.iter().map(|n| *n as f64).collect();
+        for at in 0..1000 {
+            let u = [0, 1, 2].map(|k| (at / 10i32.pow(k) % 10) as f64 / 4.5 - 1.0);
+            let p = [0, 1, 2].map(|k| {
+                let edge = visited.cell.edges[k];
+                let part = (edge.index as f64 + 0.5 + 0.5 * u[k]) / (1u64 << edge.level) as f64;
+                -0.7 + 1.4 * part
+            });
+            let along: f64 = n.iter().zip(u).map(|(n, u)| n * u).sum();
+            let holds = eigenvalues(p).is_some_and(|[least, most]| least >= 0.25 && most <= 4.0);
+            if along <= cut.ends[0] as f64 {
+                assert!(holds, "{p:?} is not inner");
+                points[0] += 1;
+            } else if along >= cut.ends[1] as f64 {
+                assert!(!holds, "{p:?} is not outer");
+                points[1] += 1;
+            }
+        }
+        cuts.push(visited.clone());
+    }
+    assert!(cuts.len() > 1000 && points.iter().all(|n| *n > 100_000), "{} {points:?}", cuts.len());
+    let subject = Subject::new(reader.header()).unwrap();
+    let judge = Judge::new(&subject).unwrap();
+    let mut refused = 0;
+    for visited in cuts {
+        let Kind::Cut(cut) = &visited.item.kind else { continue };
+        let [inner, outer] = cut.ends;
+        let all: i64 = cut.normal.iter().map(|n| n.abs()).sum();
+        let width = outer - inner;
+        for ends in [[outer + width, outer + width], [inner - width, inner - width]] {
+            // Where there is something of both sides.
+            if inner <= -all || outer >= all || ends[0].abs() >= all {
+                continue;
+            }
+            let kind = Kind::Cut(Cut { ends, ..cut.clone() });
+            let item = Item { steps: Vec::new(), kind };
+            assert!(!judge.confirms(&visited.cell, visited.inherited, &item), "{cut:?} {ends:?}");
+            refused += 1;
+        }
+    }
+    assert!(refused > 500, "{refused}");
 }

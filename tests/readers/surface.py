@@ -54,8 +54,10 @@ holds(len(np.unique(of_faces)) == len(points), "a corner is of no face")
 two, four = closed(quads, triangles)
 pieces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], triangles])
 found = enclosed(points[pieces])
-error = abs(found / volume - 1)
-holds(error < 1e-9, f"volume {found} instead of {volume}")
+error = found / volume - 1
+# Of boxes that planes cut, the boxes before the plane are enclosed.
+least = -0.01 if name == "cut" else -1e-9
+holds(least < error < 1e-9, f"volume {found} instead of {volume}")
 holds((points >= low).all() and (points <= high).all(), "a corner is outside the box")
 beyond = np.concatenate(mesh.cell_data["beyond"])
 holds(len(beyond) == len(quads) + len(triangles), "a face without data")

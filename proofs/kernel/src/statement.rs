@@ -62,7 +62,12 @@ pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
     requirements(&mut out, claim)?;
     writeln!(out, "The box{of} is cut into boxes that overlap in faces only, of which")?;
     writeln!(out, "  {} lie in R and {} do not meet R;", summary.inner, summary.outer)?;
-    writeln!(out, "  {} are left undecided;", summary.boundary)?;
+    writeln!(
+        out,
+        "  {} are left undecided, or cut by two planes: all points before one lie in R,",
+        summary.boundary
+    )?;
+    writeln!(out, "  none beyond the other does, and what is between is undecided;")?;
     if header.symmetry.is_some() {
         writeln!(
             out,

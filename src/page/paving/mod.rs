@@ -150,7 +150,8 @@ impl<'a> PavingPage<'a> {
         let headline = format!("\u{2713} CERTIFIED: volume between {low} and {high}");
         let meaning =
             "Every inner box lies in the region where all requirements hold, and no outer box \
-            meets it. The exact checker accepted the evidence of every box.";
+            meets it; nor do the parts of boxes that planes cut off. The exact checker accepted the evidence of \
+            every box.";
         let Provenance { tool, version } = self.accepted.header.provenance.clone();
         Framed {
             kind: "paving",

@@ -66,7 +66,12 @@ impl PavingPage<'_> {
                 (outer, Toward::Below),
                 "at every point some requirement fails",
             ),
-            ("undecided", summary.boundary, (summary.boundary_share, Toward::Above), "nothing"),
+            (
+                "undecided",
+                summary.boundary,
+                (summary.boundary_share, Toward::Above),
+                "nothing; of those that planes cut, it is what lies between these",
+            ),
         ] {
             let _ = write!(
                 out,
