@@ -274,7 +274,7 @@ fn formulas(certificate: &Certificate) -> Result<String, Failure> {
     };
     // The certificate was accepted, so that its claim is well formed.
     let problem = Problem::new(claim).map_err(Failure::input)?;
-    orthocert_kernel::statement::formulas(&problem).map_err(Failure::input)
+    orthocert::report::formulas::formulas(&problem).map_err(Failure::input)
 }
 
 fn without_formulas(found: &str) -> Failure {

@@ -3,6 +3,7 @@
 
 pub mod atlas;
 mod counterexample;
+pub mod formulas;
 mod hint;
 mod kernel;
 mod machine;
