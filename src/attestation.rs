@@ -5,12 +5,12 @@
 //! `https://in-toto.io/attestation/test-result/v0.1`. Its subjects are the two files by their
 //! SHA-256. It is a function of them and of the checker's version alone: there is no time in it.
 
+use crate::accepted::Accepted;
 use crate::batch::requirement::{requirements, Known, Standing};
 use crate::design::Design;
 use crate::digest::sha256;
 use crate::report::counterexample;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::Accepted;
 use serde::Serialize;
 use serde_json::{json, Value};
 

@@ -1,10 +1,11 @@
 //! What a decision about a machine amounts to.
 
+use crate::accepted::{check, Accepted};
 use crate::report::Report;
 use crate::search::Stop;
 use crate::solver::{self, Answer, Undecided, Verification};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::{check, read, Accepted, Rejected};
+use orthocert_checker::{read, Rejected};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;

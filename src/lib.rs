@@ -5,6 +5,7 @@
 //!
 //! | module           | does                                                                  |
 //! |------------------|-----------------------------------------------------------------------|
+//! | [`accepted`]     | accepted certificates, and the size of their proofs                   |
 //! | [`arithmetic`]   | arithmetic with the exact numbers of claims                           |
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
@@ -39,6 +40,7 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
+pub mod accepted;
 pub mod arithmetic;
 pub mod atlas;
 pub mod attestation;

@@ -7,6 +7,7 @@
 //! ```
 
 use crate::schema;
+use orthocert::accepted::check;
 use orthocert::atlas::{assemble, certify, grow, Growing};
 use orthocert::design::{AtlasDesign, Design};
 use orthocert::largest_cube::exclude;
@@ -14,7 +15,7 @@ use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::solver;
 use orthocert_checker::certificate::{Certificate, Claim, Verdict};
-use orthocert_checker::{check, read};
+use orthocert_checker::read;
 use orthocert_kernel::claim::Workspace;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::postulate::PostulateClaim;

@@ -25,13 +25,14 @@ pub use part::{assemble, grow, waiting, Growing, Stopped, Top};
 pub use picture::{picture, Point};
 pub use widest::{widest, Bound, Widest};
 
+use crate::accepted::{size_of_all, Accepted};
 use crate::design::AtlasDesign;
 use crate::solver::certificate;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::{check_part, Accepted, Rejected, TreeSize};
+use orthocert_checker::{check_part, Rejected};
 use orthocert_kernel::atlas::{walk, AtlasCell};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::number::{Expression, Operator};
@@ -56,7 +57,8 @@ pub fn certify(
     (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
     let proof = Proof::Atlas(cells);
     let certificate = certificate(Claim::Atlas(claim), Verdict::Certified, proof);
-    let size = checked(&certificate)?;
+    check(&certificate)?;
+    let size = size_of_all(&certificate.proof);
     let accepted = Accepted { verdict: certificate.verdict, size };
     Ok((certificate, accepted))
 }
@@ -71,15 +73,12 @@ fn fraction(share: &BigRational) -> Expression {
     }
 }
 
-/// Has every part of an atlas checked, side by side; returns its size.
-fn checked(certificate: &Certificate) -> Result<TreeSize, Rejected> {
-    let parts: Vec<Result<TreeSize, Rejected>> = (0..PARTS.get())
+/// Has every part of an atlas checked, side by side; of several refusals, the first part's is said.
+fn check(certificate: &Certificate) -> Result<(), Rejected> {
+    let parts: Vec<Result<(), Rejected>> = (0..PARTS.get())
         .into_par_iter()
         .with_max_len(1)
         .map(|part| check_part(certificate, part, PARTS))
         .collect();
-    parts.into_iter().try_fold(TreeSize::default(), |mut sum, part| {
-        sum.add(part?);
-        Ok(sum)
-    })
+    parts.into_iter().collect()
 }

@@ -346,7 +346,7 @@ mod tests {
         assert!((0.999 * widest..=widest).contains(&near(&margin)), "{margin}");
         assert!((widest..=1.02 * widest).contains(&near(&bound.margin)), "{}", bound.margin);
         for certificate in [certificate, bound.certificate] {
-            let accepted = orthocert_checker::check(&certificate).unwrap();
+            let accepted = crate::accepted::check(&certificate).unwrap();
             assert_eq!(accepted.verdict, Verdict::Certified);
         }
     }

@@ -3,12 +3,13 @@
 use super::input::Begun;
 use super::pave::searched;
 use super::{audit, input, print, Failure, Format, Status};
+use orthocert::accepted::{check, Accepted};
 use orthocert::design::Design;
 use orthocert::digest::Summed;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::shown::Named;
-use orthocert_checker::{check, read, statement, Accepted};
+use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::paving::{self, Extent, Header, Summary};
 use orthocert_kernel::problem::Problem;
@@ -273,7 +274,7 @@ fn formulas(certificate: &Certificate) -> Result<String, Failure> {
     };
     // The certificate was accepted, so that its claim is well formed.
     let problem = Problem::new(claim).map_err(Failure::input)?;
-    orthocert_kernel::statement::formulas(&problem).map_err(Failure::input)
+    orthocert::report::formulas::formulas(&problem).map_err(Failure::input)
 }
 
 fn without_formulas(found: &str) -> Failure {

@@ -3,6 +3,7 @@
 
 use super::check::is_of;
 use super::{certify, input, print, Failure, Status};
+use orthocert::accepted::check;
 use orthocert::decide::recalled;
 use orthocert::design::Design;
 use orthocert::digest::sha256;
@@ -10,8 +11,8 @@ use orthocert::output;
 use orthocert::report::{CertificateFile, Report};
 use orthocert::solver::Verification;
 use orthocert_checker::file::is_stream;
+use orthocert_checker::read;
 use orthocert_checker::shown::Named;
-use orthocert_checker::{check, read};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
 use std::path::Path;

@@ -1,13 +1,13 @@
 //! `orthocert show`.
 
 use super::{input, print, Failure, Format, Status};
+use orthocert::accepted::{size_of, trees, TreeSize};
 use orthocert::decimal::{boxes, exact, grouped};
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::shown::Named;
-use orthocert_checker::{read, statement, TreeSize};
-use orthocert_checker::{size_of, trees};
+use orthocert_checker::{read, statement};
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::certificate::Claim;

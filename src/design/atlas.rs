@@ -215,7 +215,7 @@ impl AtlasDesign {
         let mut machine = self.machine.clone();
         let mut used = Vec::new();
         for number in machine.numbers_mut() {
-            number.names(&mut |name| used.push(name.to_owned()));
+            names(number, &mut used);
         }
         if let Some(spare) = self.parameters.iter().find(|p| !used.contains(&p.name)) {
             return Err(format!("no number of the design depends on {}", spare.name));
@@ -373,4 +373,12 @@ fn at_part(parameters: &[Parameter], part: impl Fn(usize) -> usize) -> Vec<(Stri
         (p.name.clone(), value)
     };
     parameters.iter().enumerate().map(value).collect()
+}
+
+/// Adds the names in an expression.
+fn names(x: &Expression, used: &mut Vec<String>) {
+    if let Expression::Name(name) = x {
+        used.push(name.clone());
+    }
+    x.parts().for_each(|part| names(part, used));
 }

@@ -46,6 +46,7 @@ pub(crate) mod svg;
 mod verified;
 mod words;
 
+use crate::accepted::Accepted;
 use crate::digest::policy_source;
 use crate::escape::{self, xml};
 pub use general::names as coordinates;
@@ -53,7 +54,6 @@ use isomap::Scale;
 use legend::PATTERNS;
 use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
-use orthocert_checker::Accepted;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;
 use scene::{corners_of_cube, first_slice, of_nothing, of_postulate, slice, Scene};

@@ -1,5 +1,6 @@
 use super::*;
-use orthocert_checker::{check, read};
+use crate::accepted::check;
+use orthocert_checker::read;
 
 fn certificate(name: &str) -> Vec<u8> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));

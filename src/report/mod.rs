@@ -3,6 +3,7 @@
 
 pub mod atlas;
 mod counterexample;
+pub mod formulas;
 mod hint;
 mod kernel;
 mod machine;
@@ -22,11 +23,11 @@ pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
+use crate::accepted::TreeSize;
 use crate::exact::Exact;
 use crate::solver;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::TreeSize;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;

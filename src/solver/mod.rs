@@ -43,10 +43,11 @@ pub mod sector;
 pub mod value;
 mod violation;
 
+use crate::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
 use evidence::Prover;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
-use orthocert_checker::{check, Accepted, Rejected};
+use orthocert_checker::Rejected;
 use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;

@@ -1,8 +1,9 @@
 //! Every verdict of `verify`: exit code, report, certificate.
 
 use crate::support::{Folder, LONG};
+use orthocert::accepted::check;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::{check, read};
+use orthocert_checker::read;
 use std::fs;
 use std::path::Path;
 

@@ -1,12 +1,13 @@
 //! Altered certificates: each is rejected, or what it says is still true.
 
 use super::{cube, orthoglide, verified};
+use orthocert::accepted::{check, Accepted};
 use orthocert::design::written;
 use orthocert::exact::Exact;
 use orthocert::solver::sample::{At, Sampler};
 use orthocert::solver::Answer;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::{check, read, Accepted};
+use orthocert_checker::read;
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;

@@ -1,9 +1,10 @@
 //! Verdicts: of the paper's cube for every `psi_max`, in any unit of length.
 
 use super::{cube, verdict, verified};
+use orthocert::accepted::check;
 use orthocert::solver::Answer;
 use orthocert_checker::certificate::{Proof, Verdict};
-use orthocert_checker::{check, read};
+use orthocert_checker::read;
 use orthocert_kernel::certificate::{self as kernel, Step};
 
 /// With the leaves of each tree and the boxes tried, as they are now: they may fall, and rise up to

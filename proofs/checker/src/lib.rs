@@ -8,7 +8,7 @@
 //!
 //! | module             | holds                                                                |
 //! |--------------------|----------------------------------------------------------------------|
-//! | `check`            | reading and checking; the size of proofs; why files are rejected     |
+//! | `check`            | reading and checking; why files are rejected                         |
 //! | [`statement`]      | the claim in words                                                   |
 //! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible  |
 //! | [`shown`]          | names and texts of strangers, as a terminal may be given them        |
@@ -21,7 +21,7 @@ pub mod file;
 pub mod shown;
 pub mod statement;
 
-pub use check::{check, check_part, read, size_of, trees, Accepted, Rejected, TreeSize};
+pub use check::{check, check_part, read, Rejected};
 pub use orthocert_kernel::{certificate, paving};
 
 /// What `orthocert-check --help` prints.

@@ -14,7 +14,7 @@
 use crate::arithmetic::{Arithmetic, Enclosure};
 use num_bigint::BigInt;
 use num_integer::Integer as _;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive};
 
 /// Ends of intervals; `None` where a result does not fit.
 pub trait Integer: Clone + Ord {
@@ -36,8 +36,6 @@ pub trait Integer: Clone + Ord {
     fn product(&self, other: &Self, bits: u32) -> Option<Self>;
     /// `floor(self other / divisor)`, for `divisor > 0`.
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self>;
-    /// `floor(2^(2 bits) / self)`, for `self != 0`.
-    fn inverse(&self, bits: u32) -> Option<Self>;
     /// `floor(sqrt(self 2^bits))` and whether that is the root exactly, for `self >= 0`.
     fn root(&self, bits: u32) -> Option<(Self, bool)>;
     /// `floor(self / 2)`.
@@ -89,11 +87,6 @@ impl Integer for BigInt {
 
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
         divisor.is_positive().then(|| (self * other).div_floor(divisor)).and_then(moderate)
-    }
-
-    fn inverse(&self, bits: u32) -> Option<Self> {
-        let one = BigInt::one() << (2 * u64::from(bits));
-        (!self.is_zero()).then(|| one.div_floor(self))
     }
 
     fn root(&self, bits: u32) -> Option<(Self, bool)> {
@@ -172,14 +165,6 @@ impl Integer for i64 {
         // Rounded toward zero, which is the floor unless the product is negative and something is left.
         let quotient = product / divisor;
         (quotient - i128::from(quotient * divisor > product)).try_into().ok()
-    }
-
-    #[inline]
-    fn inverse(&self, bits: u32) -> Option<Self> {
-        let one = 1i128.checked_shl(2 * bits).filter(|&one| one > 0)?;
-        let quotient = one.checked_div(i128::from(*self))?;
-        // Rounded toward zero, as above.
-        (quotient - i128::from(*self < 0 && quotient * i128::from(*self) != one)).try_into().ok()
     }
 
     #[inline]
@@ -350,14 +335,14 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 }
 
 impl<Z: Integer> Enclosure for Fixed<Z> {
-    /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero.
     #[inline]
     fn recip(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
-        if a.lo.sign() <= 0 && a.hi.sign() >= 0 {
-            return None;
+        if a.hi.sign() < 0 {
+            return self.neg(&self.recip(&self.neg(a)?)?);
         }
-        let hi = a.lo.negated()?.inverse(self.bits)?.negated()?;
-        Some(Interval { lo: a.hi.inverse(self.bits)?, hi })
+        let one = Z::scaled(1, self.bits)?;
+        let hi = one.negated()?.ratio(&one, &a.lo)?.negated()?;
+        Some(Interval { lo: one.ratio(&one, &a.hi)?, hi })
     }
 
     #[inline]

@@ -27,7 +27,7 @@
 //! | [`vary`]       | claims over a cell of parameters                                 |
 //! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
 //! | [`work`]       | what checking costs, estimated before it is done                 |
-//! | [`statement`]  | a claim in words, and its formulas                               |
+//! | [`statement`]  | a claim in words                                                 |
 //! | [`source`]     | the sources of this crate                                        |
 
 #![forbid(unsafe_code)]

@@ -79,12 +79,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    const ALL: [(Operator, u8); 4] = [
-        (Operator::Add, b'+'),
-        (Operator::Sub, b'-'),
-        (Operator::Mul, b'*'),
-        (Operator::Div, b'/'),
-    ];
+    const ALL: [Operator; 4] = [Operator::Add, Operator::Sub, Operator::Mul, Operator::Div];
 
     fn strength(self) -> u8 {
         match self {
@@ -93,12 +88,12 @@ impl Operator {
         }
     }
 
-    fn symbol(self) -> char {
+    fn symbol(self) -> u8 {
         match self {
-            Operator::Add => '+',
-            Operator::Sub => '-',
-            Operator::Mul => '*',
-            Operator::Div => '/',
+            Operator::Add => b'+',
+            Operator::Sub => b'-',
+            Operator::Mul => b'*',
+            Operator::Div => b'/',
         }
     }
 }
@@ -160,10 +155,10 @@ impl Reader<'_> {
         }
         let mut left = self.chain(strength + 1)?;
         loop {
-            let here = |&(operator, byte): &(Operator, u8)| {
-                operator.strength() == strength && self.peek() == Some(byte)
+            let here = |operator: &Operator| {
+                operator.strength() == strength && self.peek() == Some(operator.symbol())
             };
-            let Some((operator, _)) = Operator::ALL.into_iter().find(|o| here(o)) else {
+            let Some(operator) = Operator::ALL.into_iter().find(here) else {
                 return Ok(left);
             };
             self.at += 1;
@@ -298,7 +293,7 @@ impl fmt::Display for Expression {
             }
             Expression::Binary(operator, left, right) => {
                 part(f, left, operator.strength())?;
-                write!(f, "{}", operator.symbol())?;
+                write!(f, "{}", char::from(operator.symbol()))?;
                 part(f, right, operator.strength() + 1)
             }
             Expression::Power(base, n) => {
@@ -460,31 +455,20 @@ impl Expression {
         (value.numer().bits().max(value.denom().bits()) <= MOST_EXACT).then_some(value)
     }
 
-    /// Whether it has names that stand for ranges.
-    pub fn varies(&self) -> bool {
-        match self {
-            Expression::Literal { .. } | Expression::Name(_) => false,
-            Expression::Varying(_) => true,
+    /// The expressions that it is made of.
+    pub fn parts(&self) -> impl Iterator<Item = &Expression> {
+        let [left, right] = match self {
+            Expression::Literal { .. } | Expression::Name(_) | Expression::Varying(_) => [None; 2],
             Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-                inner.varies()
+                [Some(inner), None]
             }
-            Expression::Binary(_, left, right) => left.varies() || right.varies(),
-        }
+            Expression::Binary(_, left, right) => [Some(left), Some(right)],
+        };
+        left.into_iter().chain(right).map(|part| &**part)
     }
 
-    /// Calls `visit` with every name in the expression.
-    pub fn names<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
-        match self {
-            Expression::Literal { .. } => {}
-            Expression::Name(name) => visit(name),
-            Expression::Varying(range) => visit(&range.name),
-            Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-                inner.names(visit);
-            }
-            Expression::Binary(_, left, right) => {
-                left.names(visit);
-                right.names(visit);
-            }
-        }
+    /// Whether it has names that stand for ranges.
+    pub fn varies(&self) -> bool {
+        matches!(self, Expression::Varying(_)) || self.parts().any(Expression::varies)
     }
 }

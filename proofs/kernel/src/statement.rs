@@ -1,12 +1,10 @@
-//! A claim in words: what an accepted certificate establishes, and the formulas that it is about.
+//! A claim in words: what an accepted certificate establishes.
 
 use crate::certificate::{Failure, Verdict, Witness};
 use crate::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation,
 };
 use crate::claim::{Quantity, Requirement, Turning, Workspace};
-use crate::formula::{Formula, Op, Tape};
-use crate::machine::Joint;
 use crate::number::Expression;
 use crate::paving::{Accepted, Share};
 use crate::problem::Problem;
@@ -352,89 +350,4 @@ pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String,
         }
     }
     Ok(out)
-}
-
-/// The formulas of a problem: inputs `p`, coordinates `x`, and, leg by leg, `A`, `D` and `rho`, with
-/// what is used more than once named `t`.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn formulas(problem: &Problem) -> Result<String, fmt::Error> {
-    let mut out = String::new();
-    writeln!(out, "Lengths are divided by 2^{}.", problem.scale)?;
-    let (first, m) = (problem.corners[0].len(), problem.dimension());
-    if first < m {
-        writeln!(out, "Half-angle tangents: x{first} to x{}.", m - 1)?;
-    }
-    for (j, input) in problem.inputs.iter().enumerate() {
-        writeln!(out, "p{j} = {}", input.place)?;
-    }
-    let mut printer = Printer { tape: &problem.tape, out: &mut out, named: Vec::new() };
-    if let Some(weight) = problem.weight {
-        printer.line("w", weight)?;
-    }
-    for (i, leg) in problem.legs.iter().enumerate() {
-        let scaled = leg.scaled.as_ref().map(|row| ("w ", row));
-        for (w, row) in [("", &leg.row)].into_iter().chain(scaled) {
-            for (k, &a) in row.a.iter().enumerate() {
-                printer.line(&format!("{w}A_{}{}", i + 1, k + 1), a)?;
-            }
-            printer.line(&format!("{w}D_{}", i + 1), row.d)?;
-        }
-        match leg.rho {
-            Some(Joint::Length(rho)) => printer.line(&format!("rho_{}", i + 1), rho)?,
-            Some(Joint::Angle { cos, sin }) => {
-                printer.line(&format!("cos(rho_{})", i + 1), cos)?;
-                printer.line(&format!("sin(rho_{})", i + 1), sin)?;
-            }
-            None => {}
-        }
-    }
-    if let Some(g) = problem.turned {
-        printer.line("orientations, where not negative: g", g)?;
-    }
-    Ok(out)
-}
-
-/// Prints entries of a tape, each with those that it needs before it.
-struct Printer<'a> {
-    tape: &'a Tape,
-    out: &'a mut String,
-    named: Vec<Formula>,
-}
-
-impl Printer<'_> {
-    fn line(&mut self, name: &str, formula: Formula) -> fmt::Result {
-        let text = self.text(formula)?;
-        writeln!(self.out, "{name} = {text}")
-    }
-
-    /// An operand: itself, or the name of the entry, which is printed first.
-    fn text(&mut self, formula: Formula) -> Result<String, fmt::Error> {
-        let op = self.tape.op(formula);
-        match op {
-            Op::Coordinate(k) => return Ok(format!("x{k}")),
-            Op::Parameter(j) => return Ok(format!("p{j}")),
-            Op::Integer(n) if n < 0 => return Ok(format!("({n})")),
-            Op::Integer(n) => return Ok(n.to_string()),
-            _ => {}
-        }
-        if let Some(at) = self.named.iter().position(|&known| known == formula) {
-            return Ok(format!("t{at}"));
-        }
-        let text = match op {
-            Op::Add(a, b) => format!("{} + {}", self.text(a)?, self.text(b)?),
-            Op::Sub(a, b) => format!("{} - {}", self.text(a)?, self.text(b)?),
-            Op::Mul(a, b) => format!("{} {}", self.text(a)?, self.text(b)?),
-            Op::Div(a, b) => format!("{}/{}", self.text(a)?, self.text(b)?),
-            Op::Neg(a) => format!("-{}", self.text(a)?),
-            Op::Sqr(a) => format!("{}^2", self.text(a)?),
-            Op::Sqrt(a) => format!("sqrt({})", self.text(a)?),
-            Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => return Err(fmt::Error),
-        };
-        let at = self.named.len();
-        self.named.push(formula);
-        writeln!(self.out, "t{at} = {text}")?;
-        Ok(format!("t{at}"))
-    }
 }

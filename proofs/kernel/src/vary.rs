@@ -89,17 +89,10 @@ pub(crate) fn sloped(
 
 /// Adds the parameters that an expression's names stand for.
 pub(crate) fn parameters(x: &Expression, found: &mut Vec<usize>) {
-    match x {
-        Expression::Literal { .. } | Expression::Name(_) => {}
-        Expression::Varying(range) => found.push(range.parameter),
-        Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-            parameters(inner, found);
-        }
-        Expression::Binary(_, left, right) => {
-            parameters(left, found);
-            parameters(right, found);
-        }
+    if let Expression::Varying(range) = x {
+        found.push(range.parameter);
     }
+    x.parts().for_each(|part| parameters(part, found));
 }
 
 type Number = Interval<BigInt>;

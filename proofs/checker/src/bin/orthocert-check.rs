@@ -47,13 +47,13 @@ fn main() -> ExitCode {
     }
     let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     match accepted {
-        Ok((accepted, certificate)) => {
+        Ok((verdict, certificate)) => {
             let words = statement::established(&certificate);
-            let code = match accepted.verdict {
+            let code = match verdict {
                 Verdict::Certified => ExitCode::SUCCESS,
                 Verdict::Refuted => ExitCode::from(1),
             };
-            print(&format!("ACCEPTED: {}\n{}", accepted.verdict, words.unwrap_or_default()), code)
+            print(&format!("ACCEPTED: {verdict}\n{}", words.unwrap_or_default()), code)
         }
         Err(reason) => {
             complain(&format_args!("REJECTED: {reason}"));

@@ -4,7 +4,7 @@ use super::{Context, Quantity, Test};
 use crate::claim::{self, Mechanism};
 use crate::compile::moved;
 use crate::formula::{Formula, Op};
-use crate::input::{binary, magnitude, ordered, positive, shape_error, ClaimError, Value};
+use crate::input::{binary, magnitude, ordered, shape_error, ClaimError, Value};
 use crate::machine::{motion::Motion, Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::test::accuracy::Accuracy;
@@ -29,12 +29,11 @@ pub(super) const ACCURACY: Quantity = Quantity {
 /// position.
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     context.not_redundant()?;
-    let max = context.greatest()?.clone();
-    positive(context.place, &max)?;
-    let error = context.given("joint_error")?.clone();
-    ordered(context.place, &Expression::integer(0), &error, false)?;
-    let error = binary(Operator::Div, &error, &max);
-    let tolerances = half_widths(context, &max);
+    let max = context.positive_greatest()?;
+    let error = context.given("joint_error")?;
+    ordered(context.place, &Expression::integer(0), error, false)?;
+    let error = binary(Operator::Div, error, max);
+    let tolerances = half_widths(context, max);
     let by: Vec<Op> = tolerances.iter().map(|&(op, _)| op).collect();
     let mut joints = Vec::new();
     for leg in context.legs {
@@ -53,7 +52,7 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
         joints.push((error, each.map(|(&(_, half), slope)| [half, slope]).collect()));
     }
     let mut rows: Vec<_> = context.legs.iter().map(|leg| leg.divided.a.clone()).collect();
-    let distance = context.number(&max, 1);
+    let distance = context.number(max, 1);
     let first = context.motion.velocity.len();
     if context.claim.orientation.is_none() {
         let (far, part) = (rows.clone(), 0..rows.len());
@@ -64,7 +63,7 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     let scaled = context.legs.iter().map(|leg| leg.scaled.clone()).collect::<Option<_>>();
     let (mut scaled, weight): (Vec<_>, _) = (scaled.unwrap_or_default(), context.weight);
     let all = rows.iter_mut().chain(scaled.iter_mut().map(|row| &mut row.a));
-    let (tau, far) = turned_on(context, &max, all)?;
+    let (tau, far) = turned_on(context, max, all)?;
     let parts = [0..first, first..rows.len()].into_iter().filter(|part| !part.is_empty());
     let of = |part| {
         let (rows, far, scaled) = (rows.clone(), far.clone(), scaled.clone());
@@ -81,14 +80,13 @@ fn turned_on<'r>(
     max: &Expression,
     rows: impl Iterator<Item = &'r mut Vec<Formula>>,
 ) -> Result<(Formula, Vec<Vec<Formula>>), ClaimError> {
-    let angle = context.given("max_angle")?.clone();
-    positive(context.place, &angle)?;
-    ordered(context.place, &angle, &Expression::integer(180), true)?;
+    let angle = context.positive_given("max_angle")?;
+    ordered(context.place, angle, &Expression::integer(180), true)?;
     let tau = context.input(Value::HalfTangent(angle.clone()));
     // tau/d, of the order of one, of two numbers of that order.
     let own = magnitude([max].into_iter());
     let own = own.ok_or_else(|| shape_error(context.place, "a distance"))?;
-    let of_one = Value::HalfTangent(angle);
+    let of_one = Value::HalfTangent(angle.clone());
     let of_one = context.builder.input(context.place, of_one, own - context.builder.scale);
     let by = context.builder.number(context.place, max, own);
     let unit = context.tape().div(of_one, by);

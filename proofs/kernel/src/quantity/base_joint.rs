@@ -1,7 +1,7 @@
 //! The angle between a leg and an axis of its joint in the base.
 
 use super::{Context, Quantity, Test};
-use crate::input::{ordered, positive, ClaimError, Value};
+use crate::input::{ordered, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::test::Row;
@@ -31,20 +31,19 @@ pub(super) fn tests(
     leg: Option<&Leg>,
     on_platform: bool,
 ) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.greatest()?.clone();
-    positive(context.place, &bound)?;
-    ordered(context.place, &bound, &Expression::integer(180), false)?;
+    let bound = context.positive_greatest()?;
+    ordered(context.place, bound, &Expression::integer(180), false)?;
     let parts = leg.and_then(|leg| Some((leg.ends, leg.vector?, leg.rod()?)));
     let Some((ends, vector, length)) = parts else {
         return context.refused("of a leg with two ends");
     };
-    let axis = context.all_given("axis")?.to_vec();
+    let axis = context.all_given("axis")?;
     let (motion, turns) = (context.motion, context.claim.orientation.is_some());
     let in_plane = motion.velocity.len() == 2;
     if axis.len() != if in_plane { 2 } else { 3 } {
         return context.refused("given an axis of two numbers in the plane, or three in space");
     }
-    let mut axis = context.direction(&axis)?;
+    let mut axis = context.direction(axis)?;
     let cos = context.input(Value::Cosine(bound.clone()));
     let tape = context.tape();
     axis.resize(3, tape.integer(0));
@@ -52,7 +51,7 @@ pub(super) fn tests(
     let square = tape.norm_squared(&axis);
     let norm = tape.sqrt(square);
     let least = tape.mul(cos, norm);
-    let at_most = |degrees, strict| ordered("", &bound, &Expression::integer(degrees), strict);
+    let at_most = |degrees, strict| ordered("", bound, &Expression::integer(degrees), strict);
     if let Some(ends) = ends.filter(|_| turns && at_most(90, false).is_ok()) {
         let u = motion.vector(tape, &ends, on_platform);
         let along = tape.dot(&u, &axis);

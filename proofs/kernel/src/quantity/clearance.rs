@@ -48,8 +48,8 @@ enum FixedTo {
 /// that. Where trims are longer than the leg, the rod is still the segment between the two points.
 /// Two bodies of one leg, of which one or both are beside it, are parallel: see [`beside`].
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let gap = context.least()?.clone();
-    ordered(context.place, &Expression::integer(0), &gap, false)?;
+    let gap = context.least()?;
+    ordered(context.place, &Expression::integer(0), gap, false)?;
     let bodies = &context.claim.bodies;
     let legs = !matches!(context.claim.mechanism, Mechanism::Formulas(_));
     if !legs || bodies.len() > MOST_BODIES {
@@ -69,7 +69,7 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
                 continue;
             }
             let radii = binary(Operator::Add, one.radius, other.radius);
-            let distance = context.number(&binary(Operator::Add, &radii, &gap), 1);
+            let distance = context.number(&binary(Operator::Add, &radii, gap), 1);
             let (bodies, ends) = ([i + 1, j + 1], [one.ends, other.ends]);
             tests.push(match one.fixed_to {
                 FixedTo::Leg(leg) if !apart => beside(context, leg, [one, other], distance)?,

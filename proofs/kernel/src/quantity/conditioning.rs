@@ -16,8 +16,8 @@ pub(super) const CONDITIONING: Quantity = Quantity {
 };
 
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.greatest()?.clone();
-    ordered(context.place, &Expression::integer(1), &bound, true)?;
-    let c = context.number(&bound, 0);
+    let bound = context.greatest()?;
+    ordered(context.place, &Expression::integer(1), bound, true)?;
+    let c = context.number(bound, 0);
     Ok(vec![Test::Conditioning(context.tape().sqr(c))])
 }

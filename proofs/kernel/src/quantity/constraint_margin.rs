@@ -1,7 +1,7 @@
 //! How well struts keep the platform from turning.
 
 use super::{Context, Quantity, Test};
-use crate::input::{positive, ClaimError};
+use crate::input::ClaimError;
 use crate::machine::Leg;
 
 pub(super) const CONSTRAINT_MARGIN: Quantity = Quantity {
@@ -19,13 +19,12 @@ pub(super) const CONSTRAINT_MARGIN: Quantity = Quantity {
 /// turn where these couples do not span all couples. No `c_i` is zero where it is shown.
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     context.without_rotation()?;
-    let bound = context.least()?.clone();
-    positive(context.place, &bound)?;
+    let bound = context.positive_least()?;
     if context.legs.iter().any(|leg| leg.row.a.len() != 3) {
         return context.refused("of legs in space");
     }
     let rows: Option<Vec<_>> = context.legs.iter().map(|leg| leg.couple.clone()).collect();
     let Some(rows) = rows else { return context.refused("of struts with a base axis") };
-    let kappa = context.number(&bound, 0);
+    let kappa = context.number(bound, 0);
     Ok(vec![Test::Least(rows, context.tape().sqr(kappa))])
 }

@@ -2,7 +2,7 @@
 
 use super::{few, Context, Quantity, Test};
 use crate::formula::{coordinates, Formula};
-use crate::input::{binary, ordered, positive, ClaimError, Value};
+use crate::input::{binary, ordered, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::test::curvature::Curvature;
@@ -31,18 +31,16 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
 /// so that a sign shows it; of others, `H` is the derivative of the row. Where the platform turns, `x'` and
 /// `x''` are `(v, ell omega)` and `(a, ell alpha)`, and `H` is [`Motion`](crate::machine::motion)'s.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let max = context.greatest()?.clone();
-    positive(context.place, &max)?;
+    let max = context.positive_greatest()?;
     let zero = Expression::integer(0);
-    let [acceleration, speed] = ["acceleration", "speed"].map(|name| context.given(name).cloned());
-    let (acceleration, speed) = (acceleration?, speed?);
-    for given in [&acceleration, &speed] {
+    let (acceleration, speed) = (context.given("acceleration")?, context.given("speed")?);
+    for given in [acceleration, speed] {
         ordered(context.place, &zero, given, false)?;
     }
     let Some(leg) = leg else { return context.refused("of a leg") };
-    let square = binary(Operator::Mul, &speed, &speed);
+    let square = binary(Operator::Mul, speed, speed);
     let mut over_max = |x: &Expression, units: i64| {
-        let ratio = binary(Operator::Div, x, &max);
+        let ratio = binary(Operator::Div, x, max);
         if !leg.is_angular() {
             return context.number(&ratio, units);
         }
@@ -50,7 +48,7 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
         let degree = context.input(Value::Radians(Expression::integer(1)));
         context.tape().div(ratio, degree)
     };
-    let (a, b) = (over_max(&acceleration, 0), over_max(&square, 1));
+    let (a, b) = (over_max(acceleration, 0), over_max(&square, 1));
     let one = context.tape().integer(1);
     if context.claim.orientation.is_some() {
         let motion = context.motion;

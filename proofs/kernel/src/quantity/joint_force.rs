@@ -1,7 +1,7 @@
 //! The joint force that a force on the platform asks for.
 
 use super::{Context, Quantity, Test};
-use crate::input::{binary, positive, ClaimError};
+use crate::input::{binary, ClaimError};
 use crate::machine::Leg;
 use crate::number::Operator;
 use crate::test::solve::Solve;
@@ -24,12 +24,10 @@ pub(super) const JOINT_FORCE: Quantity = Quantity {
 /// `z_i`. ∎ With more joints than coordinates forces are not determined. Arms: `z_i` is a length.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     context.not_redundant()?;
-    let max = context.greatest()?.clone();
-    let tool = context.given("tool")?.clone();
-    positive(context.place, &max)?;
-    positive(context.place, &tool)?;
+    let max = context.positive_greatest()?;
+    let tool = context.positive_given("tool")?;
     let units = if context.is_angular() { -1 } else { 0 };
-    let k = context.number(&binary(Operator::Div, &tool, &max), units);
+    let k = context.number(&binary(Operator::Div, tool, max), units);
     let joint =
         context.legs.iter().position(|other| leg.is_some_and(|leg| std::ptr::eq(other, leg)));
     let Some(joint) = joint else { return context.refused("of a leg") };

@@ -1,7 +1,7 @@
 //! The joint speed that a platform speed asks for: `|row_i of M| tool`.
 
 use super::{Context, Quantity, Test};
-use crate::input::{binary, positive, ClaimError, Value};
+use crate::input::{binary, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Operator;
 
@@ -18,11 +18,9 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
 /// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians. Of scaled rows
 /// it is `sigma_max^2 <= w k^2` of that row alone, which, unlike the square, has a form for control points.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let max = context.greatest()?.clone();
-    let tool = context.given("tool")?.clone();
-    positive(context.place, &max)?;
-    positive(context.place, &tool)?;
-    let ratio = binary(Operator::Div, &max, &tool);
+    let max = context.positive_greatest()?;
+    let tool = context.positive_given("tool")?;
+    let ratio = binary(Operator::Div, max, tool);
     let Some(leg) = leg else { return context.refused("of a leg") };
     let k = if leg.is_angular() {
         let scale = -context.builder.scale;

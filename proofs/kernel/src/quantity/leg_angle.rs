@@ -2,7 +2,7 @@
 
 use super::serial_margin::at_least_of_length;
 use super::{Context, Quantity, Test};
-use crate::input::{ordered, positive, ClaimError, Value};
+use crate::input::{ordered, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 
@@ -18,12 +18,11 @@ pub(super) const LEG_ANGLE: Quantity = Quantity {
 
 /// `|eta_i|/L_i >= cos(b)`, for `0 < b <= 90`.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.greatest()?.clone();
-    positive(context.place, &bound)?;
-    ordered(context.place, &bound, &Expression::integer(90), false)?;
+    let bound = context.positive_greatest()?;
+    ordered(context.place, bound, &Expression::integer(90), false)?;
     if leg.is_some_and(Leg::is_angular) {
         return context.refused("of sliders");
     }
-    let cos = context.input(Value::Cosine(bound));
+    let cos = context.input(Value::Cosine(bound.clone()));
     at_least_of_length(context, leg, cos)
 }

@@ -22,7 +22,7 @@ mod transmission;
 use crate::claim::{Bound, MachineClaim, Requirement};
 use crate::compile::{few, few_derivatives, Builder};
 use crate::formula::{Formula, Op, Tape};
-use crate::input::{magnitude, number_error, shape_error, ClaimError, Value};
+use crate::input::{magnitude, number_error, positive, shape_error, ClaimError, Value};
 use crate::machine::{motion::Motion, Leg};
 use crate::number::Expression;
 use crate::problem::Problem;
@@ -142,7 +142,7 @@ pub(crate) struct Context<'a> {
     place: &'a str,
 }
 
-impl Context<'_> {
+impl<'a> Context<'a> {
     fn tape(&mut self) -> &mut Tape {
         &mut self.builder.tape
     }
@@ -188,7 +188,7 @@ impl Context<'_> {
     }
 
     /// All numbers that the requirement gives by this name.
-    fn all_given(&self, name: &str) -> Result<&[Expression], ClaimError> {
+    fn all_given(&self, name: &str) -> Result<&'a [Expression], ClaimError> {
         match self.requirement.given.get(name) {
             Some(numbers) => Ok(numbers),
             None => self.refused("given what it is for"),
@@ -196,7 +196,7 @@ impl Context<'_> {
     }
 
     /// The number that the requirement gives by this name.
-    fn given(&self, name: &str) -> Result<&Expression, ClaimError> {
+    fn given(&self, name: &str) -> Result<&'a Expression, ClaimError> {
         match self.all_given(name)? {
             [number] => Ok(number),
             _ => self.refused("given one number"),
@@ -223,14 +223,32 @@ impl Context<'_> {
         Err(shape_error(self.place, expected))
     }
 
-    fn least(&self) -> Result<&Expression, ClaimError> {
+    /// The number that the requirement gives by this name, greater than zero.
+    fn positive_given(&self, name: &str) -> Result<&'a Expression, ClaimError> {
+        let number = self.given(name)?;
+        positive(self.place, number).map(|()| number)
+    }
+
+    /// The bound from below, greater than zero.
+    fn positive_least(&self) -> Result<&'a Expression, ClaimError> {
+        let bound = self.least()?;
+        positive(self.place, bound).map(|()| bound)
+    }
+
+    /// The bound from above, greater than zero.
+    fn positive_greatest(&self) -> Result<&'a Expression, ClaimError> {
+        let bound = self.greatest()?;
+        positive(self.place, bound).map(|()| bound)
+    }
+
+    fn least(&self) -> Result<&'a Expression, ClaimError> {
         match &self.requirement.bound {
             Bound::Min(bound) => Ok(bound),
             _ => self.refused("a least value"),
         }
     }
 
-    fn greatest(&self) -> Result<&Expression, ClaimError> {
+    fn greatest(&self) -> Result<&'a Expression, ClaimError> {
         match &self.requirement.bound {
             Bound::Max(bound) => Ok(bound),
             _ => self.refused("a greatest value"),
@@ -240,18 +258,17 @@ impl Context<'_> {
 
 /// The greatest psi that a claim asks for.
 pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
-    claim.require.iter().find_map(|requirement| match &requirement.bound {
-        Bound::Max(bound) if requirement.quantity == transmission::TRANSMISSION.key => Some(bound),
-        _ => None,
-    })
+    psi(claim).find_map(|bound| if let Bound::Max(psi) = bound { Some(psi) } else { None })
 }
 
 /// The least psi that a claim asks for.
 pub(crate) fn psi_min(claim: &MachineClaim) -> Option<&Expression> {
-    claim.require.iter().find_map(|requirement| match &requirement.bound {
-        Bound::Min(bound) if requirement.quantity == transmission::TRANSMISSION.key => Some(bound),
-        _ => None,
-    })
+    psi(claim).find_map(|bound| if let Bound::Min(psi) = bound { Some(psi) } else { None })
+}
+
+fn psi(claim: &MachineClaim) -> impl Iterator<Item = &Bound> {
+    let own = claim.require.iter().filter(|own| own.quantity == transmission::TRANSMISSION.key);
+    own.map(|requirement| &requirement.bound)
 }
 
 /// The obligations of a claim: freedom from singularities first, then requirement by requirement and

@@ -2,7 +2,7 @@
 
 use super::{Context, Quantity, Test};
 use crate::formula::{Formula, Tape};
-use crate::input::{positive, ClaimError};
+use crate::input::ClaimError;
 use crate::machine::Leg;
 
 pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
@@ -17,12 +17,11 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
 
 /// `|det A| >= b L_1 .. L_n`, for `b > 0` and as many legs as coordinates.
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.least()?.clone();
-    positive(context.place, &bound)?;
+    let bound = context.positive_least()?;
     if context.builder.turns {
         return context.refused("of a platform that does not turn");
     }
-    let mut least = context.number(&bound, 0);
+    let mut least = context.number(bound, 0);
     let mut rows = Vec::new();
     for leg in context.legs {
         let Some(length) = leg.length.filter(|_| leg.row.a.len() == context.legs.len()) else {

@@ -1,7 +1,7 @@
 //! How far a leg is from a serial singularity: `|eta_i|/L_i`.
 
 use super::{Context, Quantity, Test};
-use crate::input::{positive, ClaimError};
+use crate::input::ClaimError;
 use crate::machine::Leg;
 
 pub(super) const SERIAL_MARGIN: Quantity = Quantity {
@@ -16,9 +16,8 @@ pub(super) const SERIAL_MARGIN: Quantity = Quantity {
 
 /// `eta_i^2 - b^2 L_i^2 >= 0`, for `b > 0`.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.least()?.clone();
-    positive(context.place, &bound)?;
-    let bound = context.number(&bound, 0);
+    let bound = context.positive_least()?;
+    let bound = context.number(bound, 0);
     at_least_of_length(context, leg, bound)
 }
 

@@ -22,9 +22,8 @@ pub(super) const STIFFNESS: Quantity = Quantity {
 /// *Proof.* A displacement `x` of the platform displaces joint `i` by `M_i . x`, which it resists with
 /// the force `k_i M_i . x`; by virtual work the platform feels `M^T diag(k) M x`. ∎
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.least()?.clone();
-    positive(context.place, &bound)?;
-    let given = context.all_given("joint")?.to_vec();
+    let bound = context.positive_least()?;
+    let given = context.all_given("joint")?;
     let units = if context.is_angular() { -2 } else { 0 };
     let (mut rows, weight) = context.own_rows();
     if given.len() != 1 && given.len() != rows.len() {
@@ -32,7 +31,7 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     }
     for (row, k) in rows.iter_mut().zip(given.iter().cycle()) {
         positive(context.place, k)?;
-        let ratio = context.number(&binary(Operator::Div, &bound, k), units);
+        let ratio = context.number(&binary(Operator::Div, bound, k), units);
         row.d = context.tape().mul(row.d, ratio);
     }
     Ok(vec![Test::Least(rows, weight)])

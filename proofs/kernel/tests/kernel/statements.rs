@@ -8,8 +8,7 @@ use orthocert_kernel::certificate::{
 };
 use orthocert_kernel::check::check;
 use orthocert_kernel::number::Expression;
-use orthocert_kernel::problem::Problem;
-use orthocert_kernel::statement::{counterexample, formulas, statement};
+use orthocert_kernel::statement::{counterexample, statement};
 
 const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#;
 
@@ -88,23 +87,6 @@ fn of_a_refutation_with_its_machine() {
             "where transmission is violated",
         ],
     );
-}
-
-#[test]
-fn formulas_are_those_of_the_claim() {
-    let problem = Problem::new(&claim(FIVE_BAR)).expect("a claim");
-    let text = formulas(&problem).expect("words");
-    says(&text, &["p0 = l", "t0 = p0^2", "sqrt(", "A_11 = ", "D_2 = ", "rho_1 = "]);
-    // Every name is given before it is used.
-    let defined = text.lines().filter(|line| line.starts_with('t'));
-    for (known, line) in defined.enumerate() {
-        let (name, is) = line.split_once(" = ").expect("a definition");
-        assert_eq!(name, format!("t{known}"));
-        let words = is.split(|c: char| !c.is_alphanumeric());
-        for used in words.filter_map(|w| w.strip_prefix('t')?.parse::<usize>().ok()) {
-            assert!(used < known, "{line}");
-        }
-    }
 }
 
 #[test]

@@ -8,7 +8,6 @@ use orthocert_kernel::certificate::{Certificate, Claim, Evidence, Failure, Proof
 use orthocert_kernel::check::check;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::statement::formulas;
 use orthocert_kernel::test::Multiplier;
 use orthocert_kernel::witness::{self, WitnessError};
 
@@ -335,11 +334,5 @@ fn what_is_said_of_machines_that_turn() {
     says(
         &said(&planar(&struts, square, "", "")),
         &["In the plane, P = (x, y):", "w_i = P + platform - anchor", "rho' = M P'"],
-    );
-    let problem = Problem::new(&claim(&angle)).expect("a claim");
-    let text = formulas(&problem).expect("words");
-    says(
-        &text,
-        &["Half-angle tangents: x3 to x5.", "w = ", "A_66 = ", "w A_11 = ", "w D_6 = ", "g = "],
     );
 }
