@@ -122,7 +122,7 @@ Check kernel.Solve.solved_sound.
 Print Assumptions kernel.Solve.solved_sound.
 Check kernel.Problem.beside_keeps.
 Print Assumptions kernel.Problem.beside_keeps.
-Check kernel.Problem.check_claim_sound.
+Check @kernel.Problem.check_claim_sound.
 Print Assumptions kernel.Problem.check_claim_sound.
 Check OrthoglideTolerance.certified.
 Print Assumptions OrthoglideTolerance.certified.
@@ -145,7 +145,7 @@ Print Assumptions kernel.Apart.are_apart_sound.
 
 (** ** Certificates as files: what the program accepts *)
 
-Check kernel.Witness.refute_sound.
+Check @kernel.Witness.refute_sound.
 Print Assumptions kernel.Witness.refute_sound.
 Check kernel.NoCube.check_no_cube_sound.
 Print Assumptions kernel.NoCube.check_no_cube_sound.
@@ -173,5 +173,9 @@ Check kernel.Control.controls_decide.
 Print Assumptions kernel.Control.controls_decide.
 Check kernel.Pose.check_turning_sound.
 Print Assumptions kernel.Pose.check_turning_sound.
+Check @Claim.every_value.
+Print Assumptions Claim.every_value.
+Check kernel.Certificate.accept_cells_sound.
+Print Assumptions kernel.Certificate.accept_cells_sound.
 Check kernel.Certificate.verify_sound.
 Print Assumptions kernel.Certificate.verify_sound.

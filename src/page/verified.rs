@@ -5,6 +5,7 @@
 
 use crate::escape;
 use orthocert_checker::certificate::Certificate;
+use orthocert_kernel::atlas::AtlasClaim;
 use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
     Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
@@ -103,7 +104,10 @@ fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
             let is_box = matches!(machine.workspace, Workspace::Box { .. });
             is_box && machine.bodies.is_empty() && is_machine_covered(machine, Verdict::Refuted)
         }
-        Claim::Atlas(_) => false,
+        // Cells are certified, and refuted.
+        Claim::Atlas(AtlasClaim { machine, .. }) => {
+            machine.bodies.is_empty() && is_machine_covered(machine, Verdict::Refuted)
+        }
     }
 }
 

@@ -277,6 +277,7 @@ fn a_page_proves_its_claim_again() {
         ("orthoglide-310-no-cube-of-200", "CERTIFIED"),
         ("spherical-3-ups", "CERTIFIED"),
         ("orthoglide-prototype-whole", "CERTIFIED"),
+        ("orthoglide-atlas", "CERTIFIED"),
     ] {
         let page = folder.report_of_committed(name, &[]);
         browser.open(&page);

@@ -11,6 +11,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** Kinematics *)
 
 Record arm := Arm {
@@ -362,7 +365,7 @@ Proof.
   - split; [exists (values (xaxis l)), (values (xreference l)); rewrite <- values_xpart; auto |]. rewrite m. auto.
   - unfold well_formed_arm. cbn [arm_of motor_axis motor_zero arm_length rod_length arm_mode].
     split; [apply normalised_norm; assumption |]. split; [apply normalised_norm; assumption |]. split; [| split; [assumption | split; [assumption |]]].
-    + rewrite values_xpart. pose proof (normalised_norm (values (xaxis l)) ltac:(assumption)) as u.
+    + rewrite values_xpart. pose proof (normalised_norm (@values names (xaxis l)) ltac:(assumption)) as u.
       generalize dependent (normalised (values (xaxis l))). intros k u. generalize (values (xreference l)). intro x.
       unfold normalised. set (q := / sqrt _). clearbody q. unfold orthogonal_part.
       assert (E : dot k (vscale q (vsub x (vscale (dot k x) k))) = q * (dot k x * (1 - norm2 k))) by (clear; vec_ring).
@@ -404,3 +407,4 @@ Proof.
   destruct (K _ _ h). split; [assumption |]. split; [assumption | exact (is_in_sound bits _ _ p)].
 Qed.
 End Precision.
+End Named.

@@ -7,11 +7,12 @@
     [claim_of] and [means], with the definitions of Statement.v, Witness.v,
     Cubes.v, Closed.v and Kinematics.v. *)
 
-From Coq Require Import ZArith Reals Lra List Bool String Ascii DecimalString.
+From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
 From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
+Local Open Scope nat_scope.
 Local Open Scope list_scope.
 Local Open Scope string_scope.
 Local Notation length := List.length.
@@ -29,7 +30,10 @@ Inductive term (N : Type) :=
   | Power (x : term N) (n : positive)
   | SquareRoot (x : term N).
 Arguments Literal {N}. Arguments Name {N}. Arguments Negative {N}. Arguments Binary {N}. Arguments Power {N}. Arguments SquareRoot {N}.
-Definition expression : Type := term Empty_set.
+(** What a name is: that of a parameter of an atlas; in a cell of it, its number, and from where to where it is there.
+    No text has the second ([is_plain_certificate]). *)
+Inductive reference := Called (name : string) | InCell (k : nat) (a b : Q).
+Definition expression : Type := term reference.
 
 Inductive quantity := One (x : expression) | Between (min max : expression).
 Record triple (A : Type) := Triple { first : A; second : A; third : A }.
@@ -83,7 +87,10 @@ Inductive subject :=
   (* no cube of this side, with its centre in the box *)
   | NoCube_ (legs : list written_leg) (min max : triple expression) (require : list written_requirement) (side : expression)
   (* [None]: every psi *)
-  | Postulate_ (psi : option quantity).
+  | Postulate_ (psi : option quantity)
+  (* parameters by name, and from where to where; legs, workspace and requirements in whose numbers they are named; shares *)
+  | Atlas_ (parameters : list (string * (expression * expression))) (legs : list written_leg) (workspace : written_region)
+      (require : list written_requirement) (certified refuted : expression).
 
 Inductive step :=
   | Plain (name : string)
@@ -100,11 +107,20 @@ Inductive violation := Reach | Obligation (number : nat) (directions : list (lis
 (** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
 Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
 
+(** Of the box of an atlas's parameters, in preorder. *)
+Inductive cell :=
+  (* halved along a parameter *)
+  | Cut (k : nat)
+  | Proved (precision : positive) (chords : option (list (list Z) * N)) (nodes : list node)
+  | Disproved (precision : positive) (point : list expression) (machine : list expression) (how : violation)
+  | Undecided.
+
 Inductive proof :=
   (* [chords]: the one matrix of the tree, over 2^places *)
   | Nodes (precision : positive) (chords : option (list (list Z) * N)) (nodes : list node)
   (* [machine]: a value of each tolerance, in order *)
-  | ByWitness (precision : positive) (point : list expression) (machine : list expression) (fails : violation).
+  | ByWitness (precision : positive) (point : list expression) (machine : list expression) (how : violation)
+  | Cells (cells : list cell).
 
 Record certificate := Certificate { subject_ : subject; proof_ : proof; tool : string; version : string }.
 
@@ -156,7 +172,7 @@ Fixpoint term_text {N : Type} (name : N -> string) (x : term N) : text :=
   | SquareRoot y => "sqrt(" :: term_text name y ++ [")"]
   end%list.
 
-Definition number (x : expression) : text := ("""" :: term_text (fun n : Empty_set => match n with end) x ++ [""""])%list.
+Definition number (x : expression) : text := ("""" :: term_text (fun n => match n with Called s => s | InCell _ _ _ => "" end) x ++ [""""])%list.
 Definition formula (x : term string) : text := ("""" :: term_text (fun n => n) x ++ [""""])%list.
 Definition quantity_text (q : quantity) : text :=
   match q with One x => number x | Between a b => object [field "min" (number a); field "max" (number b)] end.
@@ -257,6 +273,9 @@ Definition subject_text (s : subject) : text :=
        field "require" (array (map requirement_text rs))])
   | Postulate_ psi => variant "postulate" (object
       [field "psi_max" (match psi with None => quoted "all" | Some q => quantity_text q end)])
+  | Atlas_ ps legs w rs certified refuted => variant "atlas" (object
+      [field "parameters" (array (map (fun p => object [field "name" (quoted (fst p)); field "min" (number (fst (snd p))); field "max" (number (snd (snd p)))]) ps));
+       field "machine" (machine_text legs w [] rs); field "certified" (number certified); field "refuted" (number refuted)])
   end.
 
 Definition integers_text (l : list Z) : text := array (map integer_text l).
@@ -287,20 +306,30 @@ Definition node_text (n : node) : text :=
     match fails_ n with Some f => [field "fails" (violation_text f)] | None => [] end ++
     match offset_ n with [] => [] | l => [field "at" (integers_text l)] end)%list.
 
+Definition tree_text (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : text :=
+  object (field "precision" (positive_text bits) :: match chords with Some (y, places) => [field "chords" (multiplier_text y places)] | None => [] end ++
+    [field "nodes" (array (map node_text nodes))])%list.
+Definition witness_text (bits : positive) (point machine : list expression) (how : violation) : text :=
+  object ([field "precision" (positive_text bits); field "point" (array (map number point))] ++
+    match machine with [] => [] | l => [field "machine" (array (map number l))] end ++
+    [field "fails" (violation_text how)])%list.
+Definition cell_text (c : cell) : text :=
+  match c with
+  | Cut k => variant "split" (natural k)
+  | Proved bits chords nodes => variant "certified" (tree_text bits chords nodes)
+  | Disproved bits point machine how => variant "refuted" (witness_text bits point machine how)
+  | Undecided => quoted "undecided"
+  end.
 Definition proof_text (p : proof) : text :=
   match p with
-  | Nodes bits chords nodes => variant "tree" (object
-      (field "precision" (positive_text bits) :: match chords with Some (y, places) => [field "chords" (multiplier_text y places)] | None => [] end ++
-       [field "nodes" (array (map node_text nodes))]))
-  | ByWitness bits point machine fails => variant "witness" (object
-      ([field "precision" (positive_text bits); field "point" (array (map number point))] ++
-       match machine with [] => [] | l => [field "machine" (array (map number l))] end ++
-       [field "fails" (violation_text fails)]))
-  end%list.
+  | Nodes bits chords nodes => variant "tree" (tree_text bits chords nodes)
+  | ByWitness bits point machine how => variant "witness" (witness_text bits point machine how)
+  | Cells cells => variant "atlas" (array (map cell_text cells))
+  end.
 
 Definition print (c : certificate) : text :=
   join (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
-    field "verdict" (quoted (match proof_ c with Nodes _ _ _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
+    field "verdict" (quoted (match proof_ c with Nodes _ _ _ | Cells _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
     field "proof" (proof_text (proof_ c));
     field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])])
     [String "010" ""].
@@ -379,7 +408,18 @@ Definition in_subject (s : subject) : list expression :=
   | NoCube_ ls a b rs side => side :: flat_map in_leg ls ++ in_triple a ++ in_triple b ++ flat_map in_requirement rs
   | Postulate_ (Some q) => in_quantity q
   | Postulate_ None => []
+  | Atlas_ _ ls w rs _ _ => flat_map in_leg ls ++ in_region w ++ flat_map in_requirement rs
   end%list.
+(** Its numbers name these, and nothing else. *)
+Fixpoint is_of (ns : list string) (x : expression) : bool :=
+  match x with
+  | Literal _ _ => true
+  | Name (Called n) => existsb (String.eqb n) ns
+  | Name (InCell _ _ _) => false
+  | Negative y | Power y _ | SquareRoot y => is_of ns y
+  | Binary _ y z => is_of ns y && is_of ns z
+  end.
+Definition are_written (ns : list string) (l : list expression) : bool := forallb (fun x => is_written x && is_of ns x) l.
 Definition is_precision (bits : positive) : bool := Pos.leb 32 bits && Pos.leb bits 1024.
 
 (** Every string of the certificate is one, every number is written as section 3 writes it, and precisions are
@@ -390,11 +430,21 @@ Definition is_plain_certificate (c : certificate) : bool :=
   | Formulas_ xs ps ds rows _ _ _ =>
       forallb is_name xs && forallb (fun p => is_name (fst p)) ps && forallb (fun d => is_name (fst d) && are_names (snd d) && is_written (snd d)) ds &&
       forallb (forallb (fun x => are_names x && is_written x)) rows
+  | Atlas_ ps _ _ _ certified refuted => forallb (fun p => is_name (fst p) && are_written [] [fst (snd p); snd (snd p)]) ps && are_written [] [certified; refuted]
   | _ => true
-  end && forallb is_written (in_subject (subject_ c)) &&
+  end &&
+  let ns := match subject_ c with Atlas_ ps _ _ _ _ _ => map fst ps | _ => [] end in
+  let is_tree bits nodes := is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes in
+  let is_witness bits point machine := is_precision bits && are_written ns (point ++ machine)%list in
+  are_written ns (in_subject (subject_ c)) &&
   match proof_ c with
-  | Nodes bits _ nodes => is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
-  | ByWitness bits point machine _ => is_precision bits && forallb is_written (point ++ machine)%list
+  | Nodes bits _ nodes => is_tree bits nodes
+  | ByWitness bits point machine _ => is_witness bits point machine
+  | Cells cells => forallb (fun x => match x with
+      | Proved bits _ nodes => is_tree bits nodes
+      | Disproved bits point machine _ => is_witness bits point machine
+      | Cut _ | Undecided => true
+      end) cells
   end.
 
 (** ** Meaning *)
@@ -404,7 +454,8 @@ Fixpoint product_of (base : Claim.number) (n : nat) : Claim.number :=
 
 Fixpoint denoted (x : expression) : Claim.number :=
   match x with
-  | Name n => match n with end
+  | Name (Called _) => Over (1 // 1) (0 // 1)     (* no number *)
+  | Name (InCell k a b) => Varying k a b
   | Literal w d => Ratio (Z.of_uint (Decimal.app w d)) (Nat.iter (Decimal.nb_digits d) (Pos.mul 10) 1%positive)
   | Negative y => match denoted y with Ratio n d => Ratio (- n) d | k => Minus (0 // 1) k end
   | Binary o y z =>
@@ -582,7 +633,98 @@ Definition closed_bounds (rs : list written_requirement) : option (Claim.number 
   | _ => None
   end.
 
+(** *** Atlases *)
+
+Definition parameters_ : Type := list (string * (expression * expression)).
+
+(** Of each parameter, the part from n/2^level to (n + 1)/2^level of its range. *)
+Definition part_ : Type := list (Z * nat).
+Definition range_of (p : string * (expression * expression)) (part : Z * nat) : Q * Q :=
+  match rational (denoted (fst (snd p))), rational (denoted (snd (snd p))) with
+  | Some a, Some b => let at_ n := (a + (b - a) * (n # Nat.iter (snd part) xO xH))%Q in (at_ (fst part), at_ (fst part + 1)%Z)
+  | _, _ => (0%Q, 0%Q)
+  end.
+Fixpoint references (k : nat) (ps : parameters_) (part : part_) : list (string * reference) :=
+  match ps, part with
+  | p :: ps', r :: part' => let (a, b) := range_of p r in (fst p, InCell k a b) :: references (S k) ps' part'
+  | _, _ => []
+  end.
+
+(** Names replaced by what they are in a cell. *)
+Section Over.
+Variable rs : list (string * reference).
+Fixpoint over (x : expression) : expression :=
+  match x with
+  | Literal w d => Literal w d
+  | Name (Called n) => match find (fun r => n =? fst r) rs with Some r => Name (snd r) | None => x end
+  | Name (InCell _ _ _) => x
+  | Negative y => Negative (over y)
+  | Binary o y z => Binary o (over y) (over z)
+  | Power y n => Power (over y) n
+  | SquareRoot y => SquareRoot (over y)
+  end.
+Definition quantity_over (q : quantity) : quantity := match q with One x => One (over x) | Between a b => Between (over a) (over b) end.
+Definition triple_over {A : Type} (f : A -> A) (t : triple A) : triple A := Triple (f (first t)) (f (second t)) (f (third t)).
+Definition leg_over (l : written_leg) : written_leg :=
+  let vector := triple_over quantity_over in
+  match l with
+  | Slider_ d a p len m => Slider_ (vector d) (vector a) (vector p) (quantity_over len) m
+  | Strut_ a p k => Strut_ (vector a) (vector p) (option_map vector k)
+  | Planar_ d => Planar_ (vector d)
+  end.
+Definition region_over (w : written_region) : written_region :=
+  match w with
+  | Box_ a b => Box_ (triple_over over a) (triple_over over b)
+  | Cylinder_ x y r bottom top => Cylinder_ (over x) (over y) (over r) (over bottom) (over top)
+  end.
+Definition requirement_over (r : written_requirement) : written_requirement :=
+  Require_ (about_ r) (leg_ r)
+    (match given_ r with Some (Given_ x) => Some (Given_ (over x)) | Some (Motion_ a v) => Some (Motion_ (over a) (over v)) | None => None end)
+    match end_ r with AtLeast_ b => AtLeast_ (over b) | AtMost_ b => AtMost_ (over b) | Within_ a b => Within_ (over a) (over b) | Holds_ => Holds_ end.
+End Over.
+
+(** The tree that cells are in preorder; [depth] is that of the list. *)
+Inductive atlas_tree := Halves (k : nat) (lower upper : atlas_tree) | Whole (c : cell).
+Fixpoint atlas_of (depth : nat) (l : list cell) : option (atlas_tree * list cell) :=
+  match depth, l with
+  | S d, Cut k :: rest =>
+      match atlas_of d rest with
+      | Some (a, rest) => match atlas_of d rest with Some (b, rest) => Some (Halves k a b, rest) | None => None end
+      | None => None
+      end
+  | S _, c :: rest => Some (Whole c, rest)
+  | _, _ => None
+  end.
+Fixpoint halved (upper : bool) (k : nat) (part : part_) : part_ :=
+  match part, k with
+  | (n, level) :: rest, O => ((2 * n + if upper then 1 else 0)%Z, S level) :: rest
+  | r :: rest, S j => r :: halved upper j rest
+  | [], _ => []
+  end.
+Definition is_proved (c : cell) : bool := match c with Proved _ _ _ => true | _ => false end.
+Definition is_disproved (c : cell) : bool := match c with Disproved _ _ _ _ => true | _ => false end.
+(** The share of the box that these cells have: half of what they have of each half. *)
+Fixpoint share (is : cell -> bool) (t : atlas_tree) : Q :=
+  match t with Halves _ a b => ((share is a + share is b) * (1 # 2))%Q | Whole c => if is c then 1%Q else 0%Q end.
+Definition whole_box (ps : parameters_) : part_ := map (fun _ => (0%Z, O)) ps.
+
+(** The claim in a cell: in it parameters vary ([Claim.every_value]). *)
+Definition claim_in (ps : parameters_) (part : part_) (ls : list written_leg) (w : written_region) (rs : list written_requirement) : claim :=
+  let by_name := references 0 ps part in
+  claim_of (map (leg_over by_name) ls) (region_over by_name w) [] (map (requirement_over by_name) rs).
+
 Local Open Scope R_scope.
+
+(** What is said of all cells. *)
+Fixpoint is_atlas (ps : parameters_) (ls : list written_leg) (w : written_region) (rs : list written_requirement) (part : part_) (t : atlas_tree) : Prop :=
+  match t with
+  | Halves k a b => is_atlas ps ls w rs (halved false k part) a /\ is_atlas ps ls w rs (halved true k part) b
+  | Whole (Proved _ _ _) => forall names : naming, let c := claim_in ps part ls w rs in
+      @Statement.holds names c /\ exists m P, @is_about names c m P
+  | Whole (Disproved _ _ _ _) => forall names : naming, let c := claim_in ps part ls w rs in
+      exists m P, @is_about names c m P /\ ~ @meets names c m P
+  | Whole (Cut _ | Undecided) => True
+  end.
 
 Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> forall P, in_cube L psi P ->
   Kinematics.regular (orthoglide L a e) P /\
@@ -596,7 +738,6 @@ Definition means (c : certificate) : Prop :=
       exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
   | Arms_ ls w rs, ByWitness _ _ _ _ => let c := arm_claim_of ls w rs in
       exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c)
-  | Arms_ _ _ _, Nodes _ _ _ => False
   | Turning_ k ls ell a b o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell a b o rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
   | Turning_ k ls ell a b o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell a b o rs in
@@ -610,7 +751,13 @@ Definition means (c : certificate) : Prop :=
   | Postulate_ None, Nodes _ _ _ => forall psi, 1 < psi -> postulate_for psi
   | Postulate_ (Some q), Nodes _ _ _ => 1 < value (greatest (tolerance_of q)) /\
       forall psi, 1 < psi -> within (tolerance_of q) psi -> postulate_for psi
-  | _, ByWitness _ _ _ _ => False
+  | Atlas_ ps ls w rs certified refuted, Cells cells =>
+      match atlas_of (length cells) cells with
+      | Some (t, []) => is_atlas ps ls w rs (whole_box ps) t /\
+          value (denoted certified) <= Q2R (share is_proved t) /\ value (denoted refuted) <= Q2R (share is_disproved t)
+      | _ => False
+      end
+  | _, _ => False
   end.
 
 (** ** What is accepted: [verify_sound] holds of it.
@@ -734,14 +881,24 @@ Fixpoint take_arms (ws : list written_arm) (l : list Claim.number) : list exact_
   | w :: ws' => let (e, l) := take_arm w l in let (es, l) := take_arms ws' l in (e :: es, l)
   end.
 
-Definition failure_of (f : violation) : option failure :=
+(** How many directions a requirement fails in. *)
+Definition directions_of (r : requirement) : nat :=
+  match r with
+  | JointMin _ _ | JointMax _ _ | JointSpeed _ _ _ | SerialMargin _ _ | ParallelMargin _ | Beside _ _ _ _ => 0
+  | ConditionMax _ => 2
+  | _ => 1
+  end.
+Definition failure_of (rs : list requirement) (f : violation) : option failure :=
   match f with
   | Reach => Some OutOfReach
-  | Obligation i [[a; b; c]] => Some (Fails i (a, b, c) (a, b, c))
-  | Obligation i [[a; b; c]; [d; e; f]] => Some (Fails i (a, b, c) (d, e, f))
-  | Obligation i [] => let none := (0, 0, 0)%Z in Some (Fails i none none)
-  | Obligation _ _ => None
-  | Row i leg => Some (FailsAlong i leg)
+  | Obligation i vs =>
+      match option_map directions_of (nth_error rs i), vs with
+      | Some 0%nat, [] => let none := (0, 0, 0)%Z in Some (Fails i none none)
+      | Some 1%nat, [[a; b; c]] => Some (Fails i (a, b, c) (a, b, c))
+      | Some 2%nat, [[a; b; c]; [d; e; f]] => Some (Fails i (a, b, c) (d, e, f))
+      | _, _ => None
+      end
+  | Row i leg => match nth_error rs i with Some (PsiMin _) => Some (FailsAlong i leg) | _ => None end
   end.
 
 Fixpoint take_list (v : list quantity) (l : list Claim.number) : list Claim.number * list Claim.number :=
@@ -792,9 +949,13 @@ Definition is_same (r q : written_requirement) : bool :=
 Fixpoint is_each_once (rs : list written_requirement) : bool :=
   match rs with [] => true | r :: rs' => negb (existsb (is_same r) rs') && is_each_once rs' end.
 
-(** It has a value, and the ends of a tolerance differ. *)
+(** It has a value, and the ends of a tolerance differ, but where they vary. *)
 Definition is_range (q : quantity) : bool :=
-  match q with One x => is_number (denoted x) | Between a b => certainly exact_bits true (Minus (denoted b) (denoted a)) end.
+  match q with
+  | One x => is_number (denoted x)
+  | Between a b => if varies (denoted a) || varies (denoted b) then below exact_bits (denoted a) (denoted b)
+      else certainly exact_bits true (Minus (denoted b) (denoted a))
+  end.
 Definition three_of (t : triple quantity) : list quantity := [first t; second t; third t].
 Definition quantities_of (l : written_leg) : list quantity :=
   match l with
@@ -872,21 +1033,55 @@ Definition are_well_formed_formulas (ps : list (string * quantity)) (rows : list
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
   Nat.eqb (length machine) (length (filter (fun q => match q with Between _ _ => true | One _ => false end) qs)).
 
+Definition accept_tree (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
+    (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
+  let k := claim_of ls w bs rs in
+  match tree_of (length nodes) nodes with
+  | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
+      certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
+  | _ => false
+  end.
+Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
+    (point machine : list expression) (how : violation) : bool :=
+  let k := claim_of ls w bs rs in
+  match point, take_legs ls (map denoted machine), failure_of (require k) how with
+  | [x; y; z], (m, []), Some f => is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs k &&
+      refute exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) f
+  | _, _, _ => false
+  end.
+
+(** One to three parameters, named once, with ranges. *)
+Definition most_level : nat := 60.
+Definition are_parameters (ps : parameters_) : bool :=
+  Nat.leb 1 (length ps) && Nat.leb (length ps) most_parameters && differ (map fst ps) &&
+  forallb (fun p => match rational (denoted (fst (snd p))), rational (denoted (snd (snd p))) with Some a, Some b => negb (Qle_bool b a) | _, _ => false end) ps.
+Fixpoint accept_cells (ps : parameters_) (ls : list written_leg) (w : written_region) (rs : list written_requirement) (part : part_) (t : atlas_tree) : bool :=
+  match t with
+  | Halves k a b => match nth_error part k with Some (_, level) => Nat.ltb level most_level | None => false end &&
+      accept_cells ps ls w rs (halved false k part) a && accept_cells ps ls w rs (halved true k part) b
+  | Whole c =>
+      let by_name := references 0 ps part in
+      let ls := map (leg_over by_name) ls in let w := region_over by_name w in let rs := map (requirement_over by_name) rs in
+      match c with
+      | Proved bits chords nodes => accept_tree ls w [] rs bits chords nodes
+      | Disproved _ point machine how => accept_witness ls w [] rs (map (over by_name) point) (map (over by_name) machine) how
+      | Undecided => true
+      | Cut _ => false
+      end
+  end.
+Definition is_share (x : expression) (found : Q) : bool :=
+  match rational (denoted x) with Some q => Qle_bool 0 q && Qle_bool q found | None => false end.
+
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
-  | Machine_ ls w bs rs, Nodes bits chords nodes =>
-      let k := claim_of ls w bs rs in
-      match tree_of (length nodes) nodes with
-      | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
-          certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
+  | Machine_ ls w bs rs, Nodes bits chords nodes => accept_tree ls w bs rs bits chords nodes
+  | Machine_ ls w bs rs, ByWitness _ point machine how => accept_witness ls w bs rs point machine how
+  | Atlas_ ps ls w rs certified refuted, Cells cells =>
+      match atlas_of (length cells) cells with
+      | Some (t, []) => are_parameters ps && is_share certified (share is_proved t) && is_share refuted (share is_disproved t) &&
+          accept_cells ps ls w rs (whole_box ps) t
       | _ => false
-      end
-  | Machine_ ls w bs rs, ByWitness bits point machine fails =>
-      match point, take_legs ls (map denoted machine), failure_of fails with
-      | [x; y; z], (m, []), Some f => is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs (claim_of ls w bs rs) &&
-          refute exact_bits (claim_of ls w bs rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
-      | _, _, _ => false
       end
   | NoCube_ ls a b rs side, Nodes bits _ nodes =>
       let k := claim_of ls (Box_ a b) [] rs in
@@ -895,19 +1090,18 @@ Definition accept (c : certificate) : bool :=
           (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
       | _ => false
       end
-  | Arms_ ls w rs, ByWitness bits point machine fails =>
+  | Arms_ ls w rs, ByWitness bits point machine how =>
       match point, take_arms ls (map denoted machine) with
       | [x; y; z], (m, []) => is_one_each (flat_map quantities_of_arm ls) machine && are_well_formed_arms ls rs &&
-          refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of fails)
+          refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of how)
       | _, _ => false
       end
-  | Arms_ _ _ _, Nodes _ _ _ => false
-  | Turning_ k ls ell a b o rs, ByWitness bits point machine fails =>
+  | Turning_ k ls ell a b o rs, ByWitness bits point machine how =>
       let point := map denoted point in
       let n := places_of_point k in
       match take_struts ls (map denoted machine) with
       | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell a b o rs &&
-          refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of fails)
+          refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
       | _ => false
       end
   | Turning_ k ls ell a b o rs, Nodes bits _ nodes =>
@@ -928,18 +1122,46 @@ Definition accept (c : certificate) : bool :=
   | Postulate_ None, Nodes bits _ nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
       match trees_of 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
-  | _, ByWitness _ _ _ _ => false
+  | _, _ => false
   end.
+
+Lemma accept_tree_sound : forall (names : naming) ls w bs rs bits chords nodes, accept_tree ls w bs rs bits chords nodes = true ->
+  let c := claim_of ls w bs rs in @Statement.holds names c /\ exists m P, @is_about names c m P.
+Proof.
+  intros names ls w bs rs bits chords nodes h. unfold accept_tree in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate.
+  apply andb_true_iff in h as [_ h]. exact (@certify_sound names _ _ _ _ _ _ _ h).
+Qed.
+
+Lemma accept_witness_sound : forall (names : naming) ls w bs rs point machine how, accept_witness ls w bs rs point machine how = true ->
+  let c := claim_of ls w bs rs in exists m P, @is_about names c m P /\ ~ @meets names c m P.
+Proof.
+  intros names ls w bs rs point machine how h. unfold accept_witness in h. destruct point as [| x [| y [| z [|]]]]; try discriminate.
+  destruct (take_legs _ _) as [m [|]]; [| discriminate]. destruct (failure_of _ how) as [f |]; [| discriminate].
+  apply andb_true_iff in h as [_ h]. exact (@refute_sound names _ _ _ _ _ h).
+Qed.
+
+Lemma accept_cells_sound : forall ps ls w rs t part, accept_cells ps ls w rs part t = true -> is_atlas ps ls w rs part t.
+Proof.
+  intros ps ls w rs. induction t as [k a IHa b IHb | c]; intros part h; cbn [accept_cells is_atlas] in *.
+  - apply andb_true_iff in h as [h hb]. apply andb_true_iff in h as [_ ha]. split; [apply IHa, ha | apply IHb, hb].
+  - destruct c as [k | bits chords nodes | bits point machine how |]; try exact I; intro names; cbv zeta in h.
+    + exact (accept_tree_sound names _ _ _ _ _ _ _ h).
+    + exact (accept_witness_sound names _ _ _ _ _ _ _ h).
+Qed.
+
+Lemma is_share_sound : forall x q, is_share x q = true -> (value (denoted x) <= Q2R q)%R.
+Proof.
+  intros x q h. unfold is_share in h. destruct (rational (denoted x)) as [p |] eqn:e; [| discriminate].
+  apply andb_true_iff in h as [_ h]. rewrite (rational_sound _ _ e). apply Qreals.Qle_Rle, Qle_bool_iff, h.
+Qed.
 
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |]], p as [bits chords nodes | bits point machine fails]; try discriminate.
-  - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
-    exact (certify_sound _ _ _ _ _ _ _ h).
-  - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_legs _ _) as [m [|]]; [| discriminate].
-    destruct (failure_of fails) as [f |]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    exact (refute_sound _ _ _ _ _ h).
+  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
+    p as [bits chords nodes | bits point machine how | cells]; try discriminate.
+  - exact (accept_tree_sound _ _ _ _ _ _ _ _ h).
+  - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_arms _ _) as [m [|]]; [| discriminate].
     apply andb_true_iff in h as [_ h].
     exact (refute_arms_sound _ _ _ _ _ h).
@@ -956,6 +1178,8 @@ Proof.
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
     exact (check_postulate_sound _ _ h L a e hL psi h1 P hP).
+  - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
+    apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.
 Qed.
 
 (** A text, and what was read from it. *)

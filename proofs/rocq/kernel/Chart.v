@@ -11,6 +11,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** Formulas *)
 
 Record emat := EMat { erow1 : evec; erow2 : evec; erow3 : evec }.
@@ -242,3 +245,4 @@ Proof.
   constructor; [exact (enclose_tangent_sound bits _ _ et (A a (or_introl eq_refl))) | apply IH; [intros b i; apply A; right; exact i | reflexivity]].
 Qed.
 End Precision.
+End Named.

@@ -7,6 +7,9 @@ From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Po
 From Orthocert.kernel Require Import Witness.
 Local Open Scope R_scope.
 
+Section Named.
+Context {names : naming}.
+
 (** ** What is claimed *)
 
 (** The leg length that gives the cube [q_1, q_2]^3 this side. *)
@@ -50,3 +53,4 @@ Proof.
     rewrite <- (Rinv_inv p). apply Rinv_le_contravar; lra.
 Qed.
 End Precision.
+End Named.

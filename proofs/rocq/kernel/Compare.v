@@ -6,21 +6,8 @@ From Orthocert.kernel Require Import Number.
 Import ListNotations.
 Local Open Scope R_scope.
 
-Fixpoint same (x y : number) : bool :=
-  match x, y with
-  | Ratio n d, Ratio n' d' => (n =? n')%Z && (d =? d')%positive
-  | Plus a b, Plus a' b' | Minus a b, Minus a' b' | Times a b, Times a' b' | Over a b, Over a' b' => same a a' && same b b'
-  | Root a, Root a' => same a a'
-  | _, _ => false
-  end.
-
-Lemma same_sound : forall x y, same x y = true -> x = y.
-Proof.
-  induction x; destruct y; cbn [same]; intro h; try discriminate;
-    try (apply andb_true_iff in h as [h k]; f_equal; auto); [| | f_equal; auto].
-  - apply Z.eqb_eq, h.
-  - apply Pos.eqb_eq, k.
-Qed.
+Section Named.
+Context {names : naming}.
 
 (** The number, where it has no roots. *)
 Fixpoint rational (x : number) : option Q :=
@@ -31,12 +18,12 @@ Fixpoint rational (x : number) : option Q :=
   | Minus a b => both (fun p q => Some (Qminus p q)) a b
   | Times a b => both (fun p q => Some (Qmult p q)) a b
   | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
-  | Root _ => None
+  | Root _ | Varying _ _ _ => None
   end.
 
 Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
 Proof.
-  induction x as [n d | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a _]; intros q h; cbn [rational] in h; [| | | | | discriminate];
+  induction x as [n d | k a b | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a _]; intros q h; cbn [rational] in h; [| discriminate | | | | | discriminate];
     try (destruct (rational a) as [p |]; [| discriminate]; destruct (rational b) as [r |]; [| discriminate];
       cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
   - injection h as <-. reflexivity.
@@ -85,3 +72,4 @@ Proof.
   apply nonneg_sound in h. cbn [value] in h. lra.
 Qed.
 End Precision.
+End Named.

@@ -10,6 +10,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 Inductive coordinate :=
   | Length (rho : R)
   (* by its cosine and sine *)
@@ -150,10 +153,10 @@ Proof.
   assert (D : forall x y, in_degrees (x - y) = in_degrees x - in_degrees y) by (intros; unfold in_degrees; field).
   destruct least.
   - destruct (before c s a) as [f |] eqn:ef; [| discriminate]. apply before_sound in ef. apply Z.ltb_lt, IZR_lt in h.
-    rewrite ec, es, <- sin_minus, <- D in ef. pose proof (S (angle - value a) ltac:(lra)). destruct ef. nra.
+    rewrite ec, es, <- sin_minus, <- D in ef. pose proof (S (angle - @value names a) ltac:(lra)). destruct ef. nra.
   - destruct (before c s b) as [f |] eqn:ef; [| discriminate]. apply before_sound in ef. apply Z.ltb_lt in h.
     pose proof (contains_positive bits _ _ h ef) as P. rewrite ec, es, <- sin_minus, <- D in P.
-    pose proof (S (value b - angle) ltac:(lra)) as Q. rewrite D, sin_minus in Q. rewrite D, sin_minus in P. lra.
+    pose proof (S (@value names b - angle) ltac:(lra)) as Q. rewrite D, sin_minus in Q. rewrite D, sin_minus in P. lra.
 Qed.
 
 Lemma fails_sound : forall n c k least vs d, stands_for c k -> fails n c least vs d = true -> ~ fulfils n k d.
@@ -228,3 +231,4 @@ Proof.
     exact (fails_sound _ _ _ _ _ _ st h (met _ (test_at_in _ _ _ _ e))).
 Qed.
 End Precision.
+End Named.

@@ -13,6 +13,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** Expressions of entries of a tape *)
 
 Inductive expr := Entry (i : nat) | Apply (o : op expr).
@@ -200,7 +203,7 @@ Lemma whole_found : map_rows (formula_at tape) (map_rows found (whole_rows fs)) 
 Proof. apply rows_found. intros e i. apply is_found, in_or_app. left. exact i. Qed.
 
 Lemma entry_found : forall f, formula_at tape (found f) = f -> val (Entry (found f)) = value x theta f.
-Proof. intros f e. unfold NoCube.val. cbn [formula_of]. rewrite e. reflexivity. Qed.
+Proof. intros f e. unfold Named.val. cbn [formula_of]. rewrite e. reflexivity. Qed.
 
 (** Rows on the tape have the values of their formulas. *)
 Lemma rows_at : forall r, map_rows (formula_at tape) (map_rows found r) = r ->
@@ -639,3 +642,4 @@ Proof.
   intros exact bits c side s ds t h. apply andb_true_iff in h as [i h].
   split; [exact (check_no_cube_sound bits exact c side s ds t h) | exact (inhabited exact c i)].
 Qed.
+End Named.

@@ -4,44 +4,169 @@
     checker's; a power of two is the unit of lengths, so that the integers of
     a check have one size whatever the claim's unit. *)
 
-From Coq Require Import ZArith Reals Lra Lia.
+From Coq Require Import ZArith QArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed Claim.
 From Orthocert.kernel Require Import Arithmetic.
+From Orthocert.kernel Require Slope.
+Import ListNotations.
 Local Open Scope R_scope.
+
+Fixpoint varies (x : number) : bool :=
+  match x with
+  | Ratio _ _ => false
+  | Varying _ _ _ => true
+  | Plus x y | Minus x y | Times x y | Over x y => varies x || varies y
+  | Root x => varies x
+  end.
+
+(** The same expression. *)
+Fixpoint same (x y : number) : bool :=
+  match x, y with
+  | Ratio n d, Ratio n' d' => (n =? n')%Z && (d =? d')%positive
+  | Varying k a b, Varying k' a' b' => Nat.eqb k k' && (Qnum a =? Qnum a')%Z && (Qden a =? Qden a')%positive && (Qnum b =? Qnum b')%Z && (Qden b =? Qden b')%positive
+  | Plus a b, Plus a' b' | Minus a b, Minus a' b' | Times a b, Times a' b' | Over a b, Over a' b' => same a a' && same b b'
+  | Root a, Root a' => same a a'
+  | _, _ => false
+  end.
+
+Lemma same_sound : forall x y, same x y = true -> x = y.
+Proof.
+  induction x as [n d | i [n d] [n' d'] | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros [m e | j [m e] [m' e'] | | | | |] h; cbn [same Qnum Qden] in h; try discriminate;
+    repeat match goal with k : _ && _ = true |- _ => apply andb_true_iff in k as [k ?] end;
+    repeat match goal with
+    | k : (_ =? _)%Z = true |- _ => apply Z.eqb_eq in k
+    | k : (_ =? _)%positive = true |- _ => apply Pos.eqb_eq in k
+    | k : Nat.eqb _ _ = true |- _ => apply Nat.eqb_eq in k
+    end; subst; f_equal; auto.
+Qed.
+
+Section Named.
+Context {names : naming}.
 
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
 
-Fixpoint enclose (x : number) : option fixed :=
+(** Of numbers that do not vary. *)
+Fixpoint steady (x : number) : option fixed :=
   match x with
   | Ratio n d => Some (Fixed.ratio bits n d)
-  | Plus x y => match enclose x, enclose y with Some a, Some b => Some (add a b) | _, _ => None end
-  | Minus x y => match enclose x, enclose y with Some a, Some b => Some (sub a b) | _, _ => None end
-  | Times x y => match enclose x, enclose y with Some a, Some b => Some (mul bits a b) | _, _ => None end
+  | Varying _ _ _ => None
+  | Plus x y => match steady x, steady y with Some a, Some b => Some (add a b) | _, _ => None end
+  | Minus x y => match steady x, steady y with Some a, Some b => Some (sub a b) | _, _ => None end
+  | Times x y => match steady x, steady y with Some a, Some b => Some (mul bits a b) | _, _ => None end
   | Over x y =>
-      match enclose x, enclose y with
+      match steady x, steady y with
       | Some a, Some b => match recip bits b with Some c => Some (mul bits a c) | None => None end
       | _, _ => None
       end
-  | Root x => match enclose x with Some a => root bits a | None => None end
+  | Root x => match steady x with Some a => root bits a | None => None end
   end.
 
-Lemma enclose_sound : forall x a, enclose x = Some a -> contains a (value x).
+Lemma steady_sound : forall x a, steady x = Some a -> contains a (value x).
 Proof.
-  induction x as [n d | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros a h; cbn [enclose] in h.
+  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros a h; cbn [steady] in h.
   - assert (e : Fixed.ratio bits n d = a) by congruence. subst a. apply Fixed.ratio_sound.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
+  - discriminate.
+  - destruct (steady x) as [b |], (steady y) as [c |]; try discriminate.
     assert (e : add b c = a) by congruence. subst a. apply add_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
+  - destruct (steady x) as [b |], (steady y) as [c |]; try discriminate.
     assert (e : sub b c = a) by congruence. subst a. apply sub_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
+  - destruct (steady x) as [b |], (steady y) as [c |]; try discriminate.
     assert (e : mul bits b c = a) by congruence. subst a. apply mul_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
+  - destruct (steady x) as [b |], (steady y) as [c |]; try discriminate.
     destruct (recip bits c) as [d |] eqn:r; [| discriminate].
     assert (e : mul bits b d = a) by congruence. subst a. apply mul_sound; [auto |].
     apply (recip_sound bits c); auto.
-  - destruct (enclose x) as [b |]; [| discriminate]. apply (root_sound bits b); auto.
+  - destruct (steady x) as [b |]; [| discriminate]. apply (root_sound bits b); auto.
+Qed.
+
+(** The others by their slopes in what varies, so that what cancels does: parameter [k] is half its range's width times
+    lambda_k from the middle. *)
+Definition most_parameters : nat := 3.
+Definition ratio_of (q : Q) : fixed := Fixed.ratio bits (Qnum q) (Qden q).
+Definition coordinate (k : nat) (a b : Q) : Slope.slope :=
+  Slope.Slope (ratio_of ((a + b) * (1 # 2))) (Fixed (lo (ratio_of a)) (hi (ratio_of b))) (repeat zero k ++ [ratio_of ((b - a) * (1 # 2))]).
+
+Fixpoint sloped (x : number) : option Slope.slope :=
+  if varies x then
+    match x with
+    | Ratio _ _ => None
+    | Varying k a b => if Nat.ltb k most_parameters && Qle_bool a b then Some (coordinate k a b) else None
+    | Plus x y => Slope.lift2 (fun f g => Some (Slope.s_add f g)) (sloped x) (sloped y)
+    | Minus x y => Slope.lift2 (fun f g => Some (Slope.s_sub f g)) (sloped x) (sloped y)
+    | Times x y => if same x y then Slope.lift (fun f => Some (Slope.s_sqr bits f)) (sloped x)
+        else Slope.lift2 (fun f g => Some (Slope.s_mul bits f g)) (sloped x) (sloped y)
+    | Over x y => Slope.lift2 (Slope.s_div bits) (sloped x) (sloped y)
+    | Root x => Slope.lift (Slope.s_sqrt bits) (sloped x)
+    end
+  else option_map Slope.constant (steady x).
+
+Definition enclose (x : number) : option fixed := if varies x then option_map Slope.range (sloped x) else steady x.
+
+Definition halfway : naming.
+Proof. refine {| along := fun _ => 1 / 2 |}. intros _. lra. Defined.
+Definition lambdas : list R := map (fun k => 2 * along k - 1) (seq 0 most_parameters).
+
+Lemma lambdas_within : Forall (fun t => -1 <= t <= 1) lambdas.
+Proof. apply Forall_map, Forall_forall. intros k _. pose proof (along_within k). lra. Qed.
+
+Lemma steady_value : forall x other, varies x = false -> @value other x = @value names x.
+Proof.
+  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros other h; cbn [varies] in h; try discriminate;
+    try (apply orb_false_iff in h as [h k]); cbn [value]; rewrite ?hx, ?hy by assumption; reflexivity.
+Qed.
+
+Lemma ratio_of_sound : forall q, contains (ratio_of q) (Q2R q).
+Proof. intros [n d]. apply Fixed.ratio_sound. Qed.
+
+Lemma coordinate_holds : forall k a b, (k < most_parameters)%nat -> Q2R a <= Q2R b ->
+  Slope.holds bits lambdas (coordinate k a b) (@value halfway (Varying k a b)) (value (Varying k a b)).
+Proof.
+  intros k a b hk le. pose proof (along_within k) as W. cbn [value along halfway]. split; [| split]; unfold coordinate; cbn [Slope.at_c Slope.range Slope.slopes].
+  - replace (Q2R a + 1 / 2 * (Q2R b - Q2R a)) with (Q2R ((a + b) * (1 # 2))); [apply ratio_of_sound |].
+    rewrite Qreals.Q2R_mult, Qreals.Q2R_plus. unfold Q2R at 3. cbn. field.
+  - pose proof (ratio_of_sound a) as [l _]. pose proof (ratio_of_sound b) as [_ u]. pose proof (unit_R_pos bits) as p.
+    assert (Q2R a <= Q2R a + along k * (Q2R b - Q2R a) <= Q2R b) as [g1 g2] by nra.
+    apply (Rmult_le_compat_r (unit_R bits)) in g1, g2; try lra. unfold Fixed.contains. cbn [lo hi]. lra.
+  - exists (repeat 0 k ++ [Q2R ((b - a) * (1 # 2))]). split.
+    + apply Forall2_app; [clear; induction k; cbn; constructor; auto using zero_sound | constructor; [apply ratio_of_sound | constructor]].
+    + assert (D : forall j h l, Linear.dot (repeat 0 j ++ [h]) l = h * nth j l 0) by (induction j as [| j IH]; intros h [| t l]; cbn [repeat app Linear.dot nth]; try rewrite IH; ring).
+      rewrite D. replace (nth k lambdas 0) with (2 * along k - 1).
+      * rewrite Qreals.Q2R_mult, Qreals.Q2R_minus. replace (Q2R (1 # 2)) with (/ 2) by (unfold Q2R; cbn; lra). lra.
+      * unfold lambdas. rewrite (nth_indep _ 0 (2 * along 0%nat - 1)) by (rewrite map_length, seq_length; exact hk).
+        rewrite (map_nth (fun k => 2 * along k - 1)), seq_nth by exact hk. reflexivity.
+Qed.
+
+Lemma sloped_sound : forall x s, sloped x = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x).
+Proof.
+  assert (C : forall x s, varies x = false -> option_map Slope.constant (steady x) = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x)).
+  { intros x s v h. destruct (steady x) as [a |] eqn:e; [| discriminate]. injection h as <-. rewrite (steady_value x halfway v).
+    apply Slope.constant_holds, steady_sound, e. }
+  assert (L : forall f a s, Slope.lift f a = Some s -> exists t : Slope.slope, a = Some t /\ f t = Some s)
+    by (intros f [t |] s h; [exists t; split; [reflexivity | exact h] | discriminate]).
+  assert (L2 : forall f a b s, Slope.lift2 f a b = Some s -> exists t u : Slope.slope, a = Some t /\ b = Some u /\ f t u = Some s)
+    by (intros f [t |] [u |] s h; try discriminate; exists t, u; split; [reflexivity | split; [reflexivity | exact h]]).
+  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros s h; cbn [sloped] in h;
+    match type of h with (if varies ?z then _ else _) = _ => destruct (varies z) eqn:v; [| exact (C _ s v h)] end.
+  - discriminate.
+  - destruct (Nat.ltb k most_parameters) eqn:hk; [| discriminate]. destruct (Qle_bool p q) eqn:le; [| discriminate]. cbn in h. injection h as <-.
+    apply coordinate_holds; [apply Nat.ltb_lt, hk | apply Qreals.Qle_Rle, Qle_bool_iff, le].
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_add_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_sub_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - destruct (same x y) eqn:S.
+    + apply same_sound in S. subst y. destruct (L _ _ _ h) as [t [e1 e]]. injection e as <-. cbn [value].
+      replace (@value halfway x * @value halfway x) with (@value halfway x ^ 2) by ring. replace (value x * value x) with (value x ^ 2) by ring.
+      exact (Slope.s_sqr_holds bits _ lambdas_within _ _ _ (hx _ e1)).
+    + destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_mul_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. exact (proj2 (proj2 (Slope.s_div_holds bits _ lambdas_within _ _ _ _ _ _ _ e (hx _ e1) (hy _ e2)))).
+  - destruct (L _ _ _ h) as [t [e1 e]]. exact (proj2 (proj2 (Slope.s_sqrt_holds bits _ lambdas_within _ _ _ _ e (hx _ e1)))).
+Qed.
+
+Lemma enclose_sound : forall x a, enclose x = Some a -> contains a (value x).
+Proof.
+  intros x a h. unfold enclose in h. destruct (varies x); [| exact (steady_sound x a h)].
+  destruct (sloped x) as [s |] eqn:e; [| discriminate]. injection h as <-. exact (proj1 (proj2 (sloped_sound x s e))).
 Qed.
 End Precision.
 
@@ -118,3 +243,4 @@ Proof.
   pose proof (C _ _ h1). pose proof (C _ _ h2). lra.
 Qed.
 End Scaled.
+End Named.

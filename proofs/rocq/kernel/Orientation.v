@@ -10,6 +10,9 @@ From Orthocert.kernel Require Import Statement Arithmetic Number Trig Witness.
 Import ListNotations.
 Local Open Scope R_scope.
 
+Section Named.
+Context {names : naming}.
+
 (** ** Rotations, and sets of them *)
 
 Definition rotation_x (a : R) : mat := Mat (Vec 1 0 0) (Vec 0 (cos a) (- sin a)) (Vec 0 (sin a) (cos a)).
@@ -429,10 +432,11 @@ Proof.
     intro v. destruct (values_about _ _ (about_y z (about_x x v)) td) as [_ [_ ->]]. destruct (values_about _ _ (about_x x v) tb) as [_ [-> _]].
     destruct (values_about _ _ v ta) as [-> _]. rewrite !mulv_mulm. reflexivity.
   - destruct (is_up_to_sound _ _ _ h) as [m0 [im le]]. rewrite value_square in le. cbn [value] in le.
-    destruct (up_to_found m (values (Numbers x z w)) m0 im ltac:(lra)) as [Q [hQ e]]. exists Q. split; [exact hQ |]. intro b. apply values_along, e.
+    destruct (up_to_found m (@values names (Numbers x z w)) m0 im ltac:(lra)) as [Q [hQ e]]. exists Q. split; [exact hQ |]. intro b. apply values_along, e.
   - apply andb_true_iff in h as [h k]. destruct (is_up_to_sound _ _ _ h) as [m0 [im le]]. destruct (is_half_tangent_in_sound _ _ k) as [s [hs ts]].
     cbn [value] in le. unfold either_way, within in hs. cbn [least greatest value] in hs.
-    destruct (tilt_found m n (values (Numbers x z w)) s m0 im ltac:(lra) ts) as [Q [hQ e]]; [unfold values; cbn [nx ny nz vx vy vz]; lra |].
+    destruct (tilt_found m n (@values names (Numbers x z w)) s m0 im ltac:(lra) ts) as [Q [hQ e]]; [unfold values; cbn [nx ny nz vx vy vz]; lra |].
     exists Q. split; [exact hQ |]. intro b. apply values_along, e.
 Qed.
 End Precision.
+End Named.

@@ -11,6 +11,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** The tree *)
 
 Section Tree.
@@ -374,7 +377,7 @@ Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax 
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
   match k with InPlane => [tx t; ty t] | InSpace => [tx t; ty t; tz t] | AboutPoint => [] end.
-Definition is_nothing (t : tolerance) : bool := Compare.same (least t) (0 // 1) && Compare.same (greatest t) (0 // 1).
+Definition is_nothing (t : tolerance) : bool := Number.same (least t) (0 // 1) && Number.same (greatest t) (0 // 1).
 Definition is_flat (k : motion) (t : tolerances) : bool :=
   match k with InPlane => is_nothing (tz t) | InSpace => true | AboutPoint => is_nothing (tx t) && is_nothing (ty t) && is_nothing (tz t) end.
 
@@ -519,7 +522,7 @@ Qed.
 
 Lemma is_nothing_sound : forall t y, is_nothing t = true -> within t y -> y = 0.
 Proof.
-  intros t y h [l g]. apply andb_true_iff in h as [a b]. apply Compare.same_sound in a, b. rewrite a in l. rewrite b in g. cbn in l, g. lra.
+  intros t y h [l g]. apply andb_true_iff in h as [a b]. apply Number.same_sound in a, b. rewrite a in l. rewrite b in g. cbn in l, g. lra.
 Qed.
 
 Lemma flat_position : forall k t P, is_flat k t = true -> all_within t P -> is_position k P.
@@ -793,3 +796,4 @@ Proof.
   induction (struts c) as [| u ts IH]; cbn [map]; constructor; [| apply IH; intros v i; apply l; right; exact i].
   specialize (l u (or_introl eq_refl)). apply andb_true_iff in l as [a b]. split; apply (leasts_within exact); assumption.
 Qed.
+End Named.

@@ -8,6 +8,10 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
+
 (** ** The quantities of a claim: constants, where they are small integers, or parameters *)
 
 Definition small (p : parameter) : option Z :=
@@ -24,7 +28,7 @@ Fixpoint numbered (j : nat) (l : list parameter) : list formula :=
 Lemma small_value : forall p n y, small p = Some n -> scaled_within p y -> y = IZR n.
 Proof.
   intros [[a b] u] n y h [x [[h1 h2] ->]]. unfold small in h. cbn [fst snd least greatest] in *.
-  destruct a as [k [| | ] | | | | |]; try discriminate. destruct b as [k' [| | ] | | | | |]; try discriminate.
+  destruct a as [k [| | ] | | | | | |]; try discriminate. destruct b as [k' [| | ] | | | | | |]; try discriminate.
   destruct ((k =? k')%Z && is_small k && ((u =? 0)%Z || (k =? 0)%Z)) eqn:e; [| discriminate]. injection h as <-.
   apply andb_true_iff in e as [e1 e2]. apply andb_true_iff in e1 as [e1 _]. apply Z.eqb_eq in e1. subst k'.
   cbn [Claim.value] in h1, h2. assert (x = IZR k) by lra. subst x.
@@ -384,7 +388,7 @@ Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : l
 
 (** Of accuracy: the parameters with two ends, and derivatives of joint coordinates by them. *)
 Definition none : parameter := (exactly (0 // 1), 0%Z).
-Definition has_two_ends (p : parameter) : bool := negb (Compare.same (least (fst p)) (greatest (fst p))).
+Definition has_two_ends (p : parameter) : bool := negb (Number.same (least (fst p)) (greatest (fst p))).
 Definition toleranced (ps : list parameter) : list nat := filter (fun j => has_two_ends (nth j ps none)) (seq 0 (length ps)).
 Definition slopes_of (ps : list parameter) (f : leg_formulas) : list (nat * formula) :=
   filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) (Gradient.derivatives (toleranced ps) (f_joint f))).
@@ -1327,7 +1331,7 @@ Proof.
   intros tb ps th j h n. pose proof (way_length tb ps th j h) as W. cbv zeta in W. destruct (Nat.ltb_spec j (length ps)) as [l |]; [| exact W].
   assert (E : has_two_ends (nth j ps none) = false).
   { destruct (has_two_ends (nth j ps none)) eqn:e; [| reflexivity]. exfalso. apply n. apply filter_In. split; [apply in_seq; lia | exact e]. }
-  unfold has_two_ends in E. apply negb_false_iff, Compare.same_sound in E. unfold width in W. rewrite E in W.
+  unfold has_two_ends in E. apply negb_false_iff, Number.same_sound in E. unfold width in W. rewrite E in W.
   set (way := _ - _) in *. assert (Rabs way <= 0) by (eapply Rle_trans; [exact W |]; apply Req_le; unfold Rdiv; ring).
   destruct (Req_dec way 0) as [z | z]; [exact z |]. pose proof (Rabs_pos_lt way z). lra.
 Qed.
@@ -1637,3 +1641,4 @@ End Precision.
 Definition check_claim (bits : positive) : claim -> Z -> list Z -> tree -> bool := check_claim_by bits (0%N, []).
 Corollary check_claim_sound : forall bits c s ds t, check_claim bits c s ds t = true -> Statement.holds c.
 Proof. intro bits. apply check_claim_by_sound. Qed.
+End Named.

@@ -10,6 +10,10 @@ From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
 Import ListNotations.
 Local Open Scope R_scope.
 
+Section Named.
+Context {names : naming}.
+
+
 (** ** Machines *)
 
 Inductive leg :=
@@ -212,3 +216,4 @@ Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
 
 Definition holds (c : claim) : Prop :=
   forall m P, is_machine c m -> in_region (workspace c) P -> meets c m P.
+End Named.

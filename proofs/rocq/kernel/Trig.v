@@ -8,6 +8,9 @@ From Orthocert Require Import Fixed Claim.
 From Orthocert.kernel Require Import Arithmetic Number.
 Local Open Scope R_scope.
 
+Section Named.
+Context {names : naming}.
+
 Definition in_degrees (x : R) : R := x * PI / 180.
 
 (** Ends with more places than wanted, rounded outward. *)
@@ -189,3 +192,4 @@ Proof.
   intros bits x c h. apply cosine_sound in h. cbn [value] in h. rewrite <- cos_shift, <- cos_neg.
   replace (- (PI / 2 - in_degrees (value x))) with (in_degrees (value x - 90 / 1)) by (unfold in_degrees; field). exact h.
 Qed.
+End Named.

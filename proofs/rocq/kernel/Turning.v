@@ -12,6 +12,9 @@ Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** Kinematics *)
 
 Record strut := Strut { strut_base : vec; strut_joint : vec }.
@@ -162,3 +165,4 @@ Proof.
   exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _) r).
 Qed.
 End Precision.
+End Named.

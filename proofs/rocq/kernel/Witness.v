@@ -14,6 +14,10 @@ From Orthocert.kernel Require Export Compare.
 Import ListNotations.
 Local Open Scope R_scope.
 
+Section Named.
+Context {names : naming}.
+
+
 Section Precision.
 Variable bits : positive.
 Local Notation certainly := (certainly bits).
@@ -542,3 +546,4 @@ Proof.
   intros exact bits chords c s ds t h. apply andb_true_iff in h as [i h].
   split; [exact (check_claim_by_sound bits chords c s ds t h) | exact (inhabited exact c i)].
 Qed.
+End Named.

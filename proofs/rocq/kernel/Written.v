@@ -11,6 +11,9 @@ Local Open Scope list_scope.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
+Section Named.
+Context {names : naming}.
+
 (** ** What is written, and what it means *)
 
 Inductive written :=
@@ -141,7 +144,7 @@ Section Values.
 Variables x theta : list R.
 Variable env : environment formula.
 Variable renv : environment R.
-Hypothesis names : forall name, value x theta (lookup (integer 0) env name) = lookup 0 renv name.
+Hypothesis agreed : forall name, value x theta (lookup (integer 0) env name) = lookup 0 renv name.
 
 (** The parameters from [j] on are these numbers. *)
 Definition holds_at (j : nat) (ps : list parameter) : Prop :=
@@ -160,7 +163,7 @@ Proof.
     try (apply holds_app in h as [h1 h2]; rewrite ?value_plus, ?value_minus, ?value_times, ?value_over, (IHa _ h1), (IHb _ h2); reflexivity).
   - specialize (h O _ eq_refl). rewrite Nat.add_0_r in h. rewrite (quantity_value _ _ x theta j h eq_refl).
     destruct h as [y [[h1 h2] h3]]. cbn [fst snd exactly least greatest] in *. rewrite h3. change (two_to 0) with 1. lra.
-  - apply names.
+  - apply agreed.
   - rewrite value_opposite, (IH _ h). reflexivity.
   - rewrite value_power, (IH _ h). reflexivity.
   - rewrite value_root, (IH _ h). reflexivity.
@@ -213,10 +216,10 @@ Definition agrees (env : environment formula) (renv : environment R) : Prop :=
 Lemma agrees_cons : forall env renv n f y, agrees env renv -> value x theta f = y -> agrees ((n, f) :: env) ((n, y) :: renv).
 Proof. intros env renv n f y h e name. cbn [lookup]. destruct (String.eqb n name); [exact e | apply h]. Qed.
 
-Lemma agrees_combine : forall names fs ys env renv, map (value x theta) fs = ys -> agrees env renv ->
-  agrees (combine names fs ++ env) (combine names ys ++ renv).
+Lemma agrees_combine : forall ns fs ys env renv, map (value x theta) fs = ys -> agrees env renv ->
+  agrees (combine ns fs ++ env) (combine ns ys ++ renv).
 Proof.
-  intros names fs ys env renv <- h. revert fs. induction names as [| n names IH]; intros [| f fs]; try exact h.
+  intros ns fs ys env renv <- h. revert fs. induction ns as [| n ns IH]; intros [| f fs]; try exact h.
   cbn [combine map app]. apply agrees_cons; [apply IH | reflexivity].
 Qed.
 
@@ -437,20 +440,20 @@ End Precision.
 (** ** Well-formed mechanisms, and claims that are about something *)
 
 (** Names that stand for something. *)
-Fixpoint is_bound_in (names : list string) (e : written) : bool :=
+Fixpoint is_bound_in (ns : list string) (e : written) : bool :=
   match e with
   | Constant _ => true
-  | Named n => existsb (String.eqb n) names
-  | Opposite a | Raised a _ | RootOf a => is_bound_in names a
-  | Sum a b | Difference a b | Product a b | Quotient a b => is_bound_in names a && is_bound_in names b
+  | Named n => existsb (String.eqb n) ns
+  | Opposite a | Raised a _ | RootOf a => is_bound_in ns a
+  | Sum a b | Difference a b | Product a b | Quotient a b => is_bound_in ns a && is_bound_in ns b
   end.
-Fixpoint are_bound_in (names : list string) (ds : list (string * written)) : bool :=
+Fixpoint are_bound_in (ns : list string) (ds : list (string * written)) : bool :=
   match ds with
   | [] => true
-  | (n, e) :: ds' => negb (existsb (String.eqb n) names) && is_bound_in names e && are_bound_in (n :: names) ds'
+  | (n, e) :: ds' => negb (existsb (String.eqb n) ns) && is_bound_in ns e && are_bound_in (n :: ns) ds'
   end.
-Fixpoint differ (names : list string) : bool :=
-  match names with [] => true | n :: l => negb (existsb (String.eqb n) l) && differ l end.
+Fixpoint differ (ns : list string) : bool :=
+  match ns with [] => true | n :: l => negb (existsb (String.eqb n) l) && differ l end.
 Definition is_mechanism (c : mechanism) : bool :=
   let given := coordinate_names c ++ map fst (parameters c) in
   let n := length (coordinate_names c) in
@@ -473,3 +476,4 @@ Proof.
   - induction (box_of c) as [| q l IH]; cbn [map]; constructor; [| apply IH; intros y i; apply b; right; exact i].
     specialize (b q (or_introl eq_refl)). apply below_sound in b. unfold within. lra.
 Qed.
+End Named.

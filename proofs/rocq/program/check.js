@@ -393,6 +393,62 @@ for (const b of ["0", "-1"]) {
 console.log(`accuracy: ${accuracies.length} machines, with one answer at 42 bounds each`);
 for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accuracies])
   read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
+// Atlases: a bound and lengths that are parameters, of which the bound decides.
+const tied = sliders('{"min":"r-0.1","max":"r+1/10"}');
+const by_lower = { by: [[0, { lower: { y: [[8, 0, 0], [0, 8, 0], [0, 0, 8]], places: 3 } }]] };
+const proved = { certified: { precision: 40, nodes: [by_lower] } };
+const witnessed = (point, machine, fails) => ({ refuted: { precision: 64, point, ...(machine && { machine }), fails } });
+const failing = witnessed(["28*r/310", "28*r/310", "28*r/310"], ["r", "r-0.1", "r"], { obligation: [0, [[0, 1, -1]]] });
+const psi_and_r = [{ name: "psi", min: "1.02", max: "1.5" }, { name: "r", min: "308", max: "312" }];
+const some = [{ split: 0 }, { split: 0 }, { split: 0 }, failing, "undecided", "undecided", { split: 1 }, proved, proved];
+const atlas = ({ parameters = psi_and_r, legs = tied, workspace = box, bound = "psi", certified = "1/2", refuted = "1/8", cells = some }) =>
+  `{"format":"orthocert/2","claim":{"atlas":{"parameters":${JSON.stringify(parameters)},"machine":{"mechanism":{"translational":[${legs}]},` +
+  `"workspace":${workspace},"require":[{"quantity":"transmission","end":"max","bound":"${bound}"}]},"certified":"${certified}","refuted":"${refuted}"}},` +
+  `"verdict":"certified","proof":{"atlas":${JSON.stringify(cells)}},"provenance":{"tool":"t","version":"1"}}\n`;
+const with_cell = (i, cell) => some.map((old, k) => (k === i ? cell : old));
+const [psi, r] = psi_and_r;
+const round = `{"cylinder":{"center":["0","0"],"radius":"r/15","z":["-r/15","20"]}}`;
+const atlases = [
+  [{}, "CERTIFIED"],
+  [{ certified: "0", refuted: "1/9" }, "CERTIFIED"],
+  [{ cells: ["undecided"], certified: "0", refuted: "0" }, "CERTIFIED"],
+  [{ workspace: round, cells: [{ split: 0 }, "undecided", proved], refuted: "0" }, "CERTIFIED"],
+  [{ bound: "psi+(r-r)/9" }, "CERTIFIED"],
+  [{ bound: "sqrt(psi*psi)" }, "CERTIFIED"],
+  [{ bound: "psi^2/psi" }, "CERTIFIED"],
+  // The tree of cells, and the shares that they have.
+  [{ certified: "3/5" }, "REJECTED"], [{ refuted: "1/7" }, "REJECTED"], [{ certified: "-1" }, "REJECTED"], [{ certified: "1/0" }, "REJECTED"], [{ refuted: "psi-psi" }, "REJECTED"],
+  [{ certified: "sqrt(1/4)" }, "REJECTED"], [{ cells: [] }, "REJECTED"], [{ cells: some.slice(1) }, "REJECTED"], [{ cells: some.slice(0, -1) }, "REJECTED"],
+  [{ cells: [...some, "undecided"] }, "REJECTED"], [{ cells: with_cell(0, { split: 2 }) }, "REJECTED"], [{ cells: with_cell(0, { split: 1 }) }, "REJECTED"],
+  [{ cells: [...Array(61).fill({ split: 0 }), ...Array(62).fill("undecided")], certified: "0", refuted: "0" }, "REJECTED"],
+  [{ cells: [...Array(60).fill({ split: 0 }), ...Array(61).fill("undecided")], certified: "0", refuted: "0" }, "CERTIFIED"],
+  // Parameters.
+  [{ parameters: [psi] }, "REJECTED"], [{ parameters: [psi, psi, r] }, "REJECTED"], [{ parameters: [psi, r, { ...r, name: "psi" }] }, "REJECTED"],
+  [{ parameters: [psi, r, { ...r, name: "s" }] }, "CERTIFIED"], [{ parameters: [psi, r, { ...r, name: "s" }, { ...r, name: "t" }] }, "REJECTED"],
+  [{ parameters: [], legs: three, bound: "2", cells: [proved], refuted: "0" }, "REJECTED"], [{ parameters: [psi, { ...r, name: "sqrt" }], legs: three }, "REJECTED"],
+  [{ parameters: [psi, { ...r, max: "308" }] }, "REJECTED"], [{ parameters: [psi, { ...r, max: "307" }] }, "REJECTED"], [{ parameters: [psi, { ...r, max: "312*psi" }] }, "REJECTED"],
+  [{ parameters: [psi, { ...r, max: "sqrt(97344)" }] }, "REJECTED"], [{ parameters: [psi, { ...r, name: "1r" }] }, "REJECTED"], [{ parameters: [psi, { ...r, max: "311+1" }] }, "CERTIFIED"],
+  // What is said of cells, for some values and not for all.
+  [{ cells: with_cell(4, proved), certified: "9/16" }, "REJECTED"], [{ cells: with_cell(4, failing), refuted: "1/4" }, "REJECTED"], [{ cells: with_cell(7, failing) }, "REJECTED"],
+  [{ parameters: [{ ...psi, max: "2" }, r] }, "REJECTED"], [{ bound: "psi-0.2" }, "REJECTED"], [{ bound: "psi+0.1" }, "REJECTED"], [{ bound: "phi" }, "REJECTED"], [{ bound: "1/(psi-1.3)" }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["30*r/310", "28", "28"], ["r", "r", "r"], { obligation: [0, [[0, 1, -1]]] })) }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "310", "r"], { obligation: [0, [[0, 1, -1]]] })) }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r"], { obligation: [0, [[0, 1, -1]]] })) }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r", "r"], { obligation: [0, []] })) }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r", "r"], { row: [0, 1] })) }, "REJECTED"],
+  [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r", "r"], "reach")) }, "REJECTED"],
+  [{ cells: with_cell(7, { certified: { precision: 31, nodes: [by_lower] } }) }, "REJECTED"], [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{}] } }) }, "REJECTED"],
+  [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{ split: 3 }, by_lower, by_lower] } }) }, "REJECTED"],
+  // Ends of tolerances in the wrong order, for some values; and a workspace that there is not.
+  [{ legs: sliders('{"min":"r","max":"310"}') }, "REJECTED"], [{ legs: sliders('{"min":"r","max":"r"}') }, "REJECTED"],
+  [{ workspace: box.replace('"-20"', '"r-310"').replace('"30"', '"0"') }, "REJECTED"],
+];
+for (const [parts, right] of atlases) {
+  const text = atlas(parts), answers = all(text);
+  if (answers.some((answer) => answer !== right)) fail(`atlas: ${answers}, and not ${right}: ${text}`);
+}
+read.push(atlas({}), atlas(atlases[3][0]));
+console.log(`atlases: ${atlases.length}, with one answer`);
 fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.

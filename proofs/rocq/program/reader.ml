@@ -130,7 +130,7 @@ let term name text =
       | Some d -> Literal (decimal whole, decimal d) in
   let x = sum 0 in
   if !at < n then raise Malformed else x
-let expression text = term (fun _ -> raise Malformed) text
+let expression text = term (fun name -> Called name) text
 let formula v = term (fun name -> name) (string v)
 
 let number v = expression (string v)
@@ -278,6 +278,13 @@ let rec subject v =
     (match subject (Object [ ("machine", get l "machine") ]) with
      | Machine_ (legs, Box_ (min, max), [], require) -> NoCube_ (legs, min, max, require, number (get l "side"))
      | _ -> not_covered [ "a claim that no cube of such a machine fits" ])
+  | "atlas", v ->
+    let l = members v in
+    let parameter v = let p = members v in (string (get p "name"), (number (get p "min"), number (get p "max"))) in
+    (match subject (Object [ ("machine", get l "machine") ]) with
+     | Machine_ (legs, region, [], require) ->
+       Atlas_ (List.map parameter (array (get l "parameters")), legs, region, require, number (get l "certified"), number (get l "refuted"))
+     | _ -> not_covered [ "an atlas of such a machine" ])
   | claim, _ -> not_covered [ "a claim of the kind \""; claim; "\"" ]
 
 (* Proofs *)
@@ -327,15 +334,25 @@ let node n v =
   let l = members v in
   let list f key = match find l key with Some v -> List.map f (array v) | None -> [] in
   { by_ = list (step n) "by"; split_ = optional count (find l "split"); fails_ = optional fails (find l "fails"); offset_ = list integer "at" }
+let tree n t =
+  let l = members t in
+  (positive (get l "precision"), optional (matrix n) (find l "chords"), List.map (node n) (array (get l "nodes")))
+let witness w =
+  let l = members w in
+  let machine = match find l "machine" with Some v -> List.map number (array v) | None -> [] in
+  (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
+let cell n v =
+  match variant v with
+  | "split", k -> Cut (count k)
+  | "certified", t -> let bits, chords, nodes = tree n t in Proved (bits, chords, nodes)
+  | "refuted", w -> let bits, point, machine, fails = witness w in Disproved (bits, point, machine, fails)
+  | "undecided", _ -> Undecided
+  | _ -> raise Malformed
 let proof n v =
   match variant v with
-  | "tree", t ->
-    let l = members t in
-    Nodes (positive (get l "precision"), optional (matrix n) (find l "chords"), List.map (node n) (array (get l "nodes")))
-  | "witness", w ->
-    let l = members w in
-    let machine = match find l "machine" with Some v -> List.map number (array v) | None -> [] in
-    ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
+  | "tree", t -> let bits, chords, nodes = tree n t in Nodes (bits, chords, nodes)
+  | "witness", w -> let bits, point, machine, fails = witness w in ByWitness (bits, point, machine, fails)
+  | "atlas", cells -> Cells (List.map (cell n) (array cells))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
 let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ | Accuracy_ -> true | _ -> false
@@ -348,24 +365,33 @@ let certificate text =
    | format -> raise Malformed);
   let subject_ = subject (get l "claim") in
   let shape = match subject_ with
-    | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) -> (List.length legs, 3)
+    | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) | Atlas_ (_, legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
     | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
     | Arms_ _ | Closed_ _ | Postulate_ _ -> (3, 3) in
   let proof_ = proof shape (get l "proof") in
+  let plane_accelerates legs rs =
+    List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
+  let has_failure = List.exists (fun n -> n.fails_ <> None) in
   (match subject_, proof_ with
    | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
    | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
-   | Machine_ (legs, _, _, rs), Nodes _ when List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs ->
+   | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
    | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
      not_covered [ "this quantity in a claim that is refuted" ]
    | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
    | NoCube_ _, _ -> ()
-   | _, Nodes (_, _, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
+   | Atlas_ (_, _, _, rs, _, _), Cells cells ->
+     let is_outside cell = match cell with
+       | Disproved _ -> List.exists is_certified_only rs
+       | Proved (_, _, nodes) -> has_failure nodes
+       | _ -> false in
+     if List.exists is_outside cells then not_covered [ "this quantity in a refuted cell of an atlas, or a leaf that fails" ]
+   | _, Nodes (_, _, nodes) when has_failure nodes -> not_covered [ "a leaf that fails" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in
@@ -383,5 +409,5 @@ let verdict text =
   | exception Not_covered why -> Not_known why
   | exception Malformed -> Rejected
   | c when not (verify text c) -> Rejected
-  | { proof_ = Nodes _; _ } -> Certified
+  | { proof_ = Nodes _ | Cells _; _ } -> Certified
   | { proof_ = ByWitness _; _ } -> Refuted

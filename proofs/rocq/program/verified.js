@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(v){"use strict";var
-B$=typeof
-module==="object"&&module.exports||v,hG="spatial",l0="Invalid_argument",fm="precision",ay='"',lZ="@[",ho=1255,lY="inside",mz="Fatal error: exception %s\n",lq=255,lX="yaw",mx="(",my=0x800,lo="range",lp="tree",hn="jsError",bF=0x8000,lV='the mechanism "',lW="%ni",m4="sqrt(",mw=256,ee="offset",mv="obligation",bo="machine",ln="End_of_file",fp="strut",lm="center",fB="arm",hm="Failure",m2="serial_margin",m3="parameters",b5=0xff,hM="bodies",ll="\n",hL="outside",hw="base_axis",hF="ENOENT",m1=122,aN="0",mu="([^/]+)",hE=0xf,ef=128,hl=-48,lk=0xdc00,lU="Sys_blocked_io",m0="fd ",hk="given",mt="ENOTEMPTY",ax=248,fx="bound",aw="camlinternalFormat.ml",ms="Division_by_zero",mY="by",mZ=1027,lj="Sys_error",lT="slider",lS="postulate",mr="torsion",lR="joint_error",mq="proof",lQ="%u",dr="mechanism",fw="row",li="EEXIST",lP="roll_pitch_yaw",hD="%d",lh="Printexc.handle_uncaught_exception",hv="y",fl="lower",lO="within",mp="cube",lg="clearance",mo="buffer.ml",mX="turned",fk="int_of_string",mn="control",lN="definitions",hu=127,ed=1024,lM="@{",mm="from",hK="e",le=120,lf=103,lL=" : flags Open_rdonly and Open_wronly are not compatible",ml="orthocert/2",mW="reach",ld=512,bb="-",mV="witness",bm="platform",lc=0x7ff0,lb="pitch",hJ=": Not a directory",lK=" : file already exists",bH="min",mU="trim",ds="workspace",lJ="claim",mk="split",mT="legs",b4=0xffffff,mj="joint",k$="formulas",la="0x",lI='the workspace "',mi="roll",mR="nodes",mS="Out_of_memory",k_="psi_max",hI="orientation",lH="angle",fv=254,hH="index out of bounds",mh=100,k9="end",mQ="one_to_one",fA="_bigarr02",k8="%Li",mg=" : flags Open_text and Open_binary are not compatible",cq="drive",mf="coordinates",mP="holds",lG=", characters ",me="lower_divided",k7="speed",lF="joints",mO="cylinder",bJ=0xffff,lD="acceleration",ht="chords",lE=12520,hj="on",lC="axis",fu="accuracy",lB="no_cube",mN="parallel_margin",k6='the drive "',fo="fails",hC="Unix.Unix_error",mM="infinity",fj="tool",hi="mkdir",ec=1000,fi="translational",t="",md="Stack_overflow",mL="characteristic_length",hs="^",fh=": No such file or directory",hB="places",mc="/static/",dq=0x3f,mb=-97,l$="stiffness",ma="Not_found",eb="planar",ft="mode",mK="joint_speed",lA="Match_failure",k5=", ",k4="transmission",cp="anchor",mJ="at",fz=252,k3="joint_force",dp="leg",cr=".",bG="+",l_="joint_acceleration",hA="rmdir",mI=0xf0,mH="spherical",lz="verified.ml",lx="REJECTED",ly="%li",l9=1026,bI="max",cP="direction",l8="orthoglide",fy="rank",mG="constraint_margin",mF=-32,k1="Pervasives.do_at_exit",k2="utf8",hz="test",b2=" ",fn="conditioning",hy="Fatal error: exception ",bn=0x80,k0="Undefined_recursive_module",hr=")",fs="length",l7="base",mE="quantity",l6="joint_range",fr="tilt",kZ="Q2",hq="nan",lw="reference",l5="point",lv=0xe0,mD="corner",lt="z",lu=0xdfff,l3="version",l4="_",mC="to",bl="/",hx="compare: functional value",mB="Assert_failure",ls="provenance",dn="radius",kY="%i",b3="require",fq="side",mA="format",hp="ENOTDIR",l2="Q1",l1="all",cO="box",lr=250;function
-h2(c,b,a){var
+Dj=typeof
+module==="object"&&module.exports||v,h7="spatial",my="Invalid_argument",fA="precision",aA='"',mx="@[",hP=1255,mw="inside",m8="Fatal error: exception %s\n",l0=255,mv="yaw",m6="(",m7=0x800,lY="range",lZ="tree",hO="jsError",bL=0x8000,mt='the mechanism "',mu="%ni",nA="sqrt(",m5=256,es="offset",m4="obligation",a4="machine",lX="End_of_file",fD="strut",lW="center",fS="arm",hN="Failure",nz="serial_margin",fR="parameters",ca=0xff,ib="bodies",lV="\n",ia="outside",hX="base_axis",h6="ENOENT",ny=122,aO="0",m3="([^/]+)",h5=0xf,et=128,hM=-48,lU=0xdc00,ms="Sys_blocked_io",nx="fd ",hL="given",m2="ENOTEMPTY",az=248,fN="bound",ay="camlinternalFormat.ml",m1="Division_by_zero",nv="by",nw=1027,lT="Sys_error",mr="slider",mq="postulate",m0="torsion",mp="joint_error",er="refuted",mZ="proof",mo="%u",dy="mechanism",fM="row",lS="EEXIST",mn="roll_pitch_yaw",h4="%d",lR="Printexc.handle_uncaught_exception",hW="y",fz="lower",mm="within",mY="cube",lQ="clearance",mX="buffer.ml",nu="turned",fy="int_of_string",mW="control",ml="definitions",hV=127,eq=1024,mk="@{",lP="name",mV="from",h$="e",lN=120,lO=103,mj=" : flags Open_rdonly and Open_wronly are not compatible",mU="orthocert/2",nt="reach",lM=512,bc="-",ns="witness",bt="platform",lL=0x7ff0,lK="pitch",h_=": Not a directory",mi=" : file already exists",bd="min",nr="trim",dz="workspace",mh="claim",fL="split",nq="legs",b$=0xffffff,mT="joint",lI="formulas",lJ="0x",mg='the workspace "',mS="roll",fK="atlas",no="nodes",np="Out_of_memory",lH="psi_max",h9="orientation",mf="angle",fJ=254,h8="index out of bounds",mR=100,lG="end",nn="one_to_one",fQ="_bigarr02",lF="%Li",mQ=" : flags Open_text and Open_binary are not compatible",cw="drive",mP="coordinates",nm="holds",me=", characters ",mO="lower_divided",lE="speed",md="joints",nl="cylinder",bN=0xffff,mb="acceleration",ep="certified",hU="chords",mc=12520,hK="on",ma="axis",fI="accuracy",l$="no_cube",nk="parallel_margin",lD='the drive "',fC="fails",h3="Unix.Unix_error",nj="infinity",fx="tool",hJ="mkdir",eo=1000,fw="translational",t="",mN="Stack_overflow",ni="characteristic_length",hT="^",fv=": No such file or directory",h2="places",mM="/static/",dx=0x3f,mL=-97,mJ="stiffness",mK="Not_found",en="planar",fH="mode",nh="joint_speed",l_="Match_failure",lC=", ",lB="transmission",cv="anchor",ng="at",fP=252,lA="joint_force",dw="leg",cx=".",bM="+",mI="joint_acceleration",h1="rmdir",nf=0xf0,ne="spherical",l7="REJECTED",l8="undecided",l9="%li",mH=1026,be="max",cX="direction",mG="orthoglide",fO="rank",nd="constraint_margin",nc=-32,ly="Pervasives.do_at_exit",lz="utf8",h0="test",b9=" ",fB="conditioning",hZ="Fatal error: exception ",bu=0x80,lx="Undefined_recursive_module",hS=")",fG="length",mF="base",nb="quantity",mE="joint_range",fF="tilt",lw="Q2",hR="nan",l6="reference",mD="point",l5=0xe0,na="corner",l3="z",l4=0xdfff,mB="version",mC="_",m$="to",bs="/",hY="compare: functional value",m_="Assert_failure",l2="provenance",dv="radius",lv="%i",b_="require",fE="side",m9="format",hQ="ENOTDIR",mA="Q1",mz="all",cW="box",l1=250;function
+it(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=t;for(;0<a;b+=ed,a-=ed)e+=d.apply(null,c.slice(b,b+Math.min(a,ed)));return e}function
-fC(b){if(v.Uint8Array)var
+e=t;for(;0<a;b+=eq,a-=eq)e+=d.apply(null,c.slice(b,b+Math.min(a,eq)));return e}function
+fT(b){if(v.Uint8Array)var
 c=new(v.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ct(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?h2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?h2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fC(b);var
+cz(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fT(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-b6(a){return a}function
-bM(a,b,c,d,e){ct(b6(a),b,c,d,e);return 0}function
-B3(b,a){throw[0,b,a]}function
-dx(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
+cb(a){return a}function
+bQ(a,b,c,d,e){cz(cb(a),b,c,d,e);return 0}function
+Db(b,a){throw[0,b,a]}function
+dE(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
 d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dv(a){if(a.t==2)a.c+=dx(a.l-a.c.length,"\0");else
-a.c=h2(a.c,0,a.c.length);a.t=0}function
-ny(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hu)return false;return true}else
+dC(a){if(a.t==2)a.c+=dE(a.l-a.c.length,"\0");else
+a.c=it(a.c,0,a.c.length);a.t=0}function
+n6(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>hV)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-h4(e){for(var
-j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bn){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bn;d++);if(d-b>ld){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(f<<6);if(f<lv){a=g-0x3080;if(a<bn)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(g<<6);if(f<mI){a=g-0xe2080;if(a<my||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bJ)c+=String.fromCharCode(0xd7c0+(a>>10),lk+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>ed){c.substr(0,1);j+=c;c=t}}return j+c}function
-bK(c,a,b){this.t=c;this.c=a;this.l=b}bK.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dv(this);case
-0:if(ny(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bK.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return h4(a)};bK.prototype.slice=function(){var
+iv(e){for(var
+j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bu){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bu;d++);if(d-b>lM){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(f<<6);if(f<l5){a=g-0x3080;if(a<bu)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(g<<6);if(f<nf){a=g-0xe2080;if(a<m7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==et&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bN)c+=String.fromCharCode(0xd7c0+(a>>10),lU+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eq){c.substr(0,1);j+=c;c=t}}return j+c}function
+bO(c,a,b){this.t=c;this.c=a;this.l=b}bO.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dC(this);case
+0:if(n6(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bO.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iv(a)};bO.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bK(this.t,a,this.l)};function
-nc(a){return new
-bK(0,a,a.length)}function
-a(a){return nc(a)}function
-h0(c,b){B3(c,a(b))}var
-aj=[0];function
-az(a){h0(aj.Invalid_argument,a)}function
-na(){az(hH)}function
-ak(a,c,b){b&=b5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fC(a)}a.c[c]=b;return 0}function
-cQ(b,a,c){if(a>>>0>=b.l)na();return ak(b,a,c)}function
-du(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bO(this.t,a,this.l)};function
+nK(a){return new
+bO(0,a,a.length)}function
+a(a){return nK(a)}function
+ir(c,b){Db(c,a(b))}var
+am=[0];function
+aB(a){ir(am.Invalid_argument,a)}function
+nI(){aB(h8)}function
+an(a,c,b){b&=ca;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fT(a)}a.c[c]=b;return 0}function
+cY(b,a,c){if(a>>>0>=b.l)nI();return an(b,a,c)}function
+dB(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-b7(c,a){if(c.fun)return b7(c.fun,a);if(typeof
+cc(c,a){if(c.fun)return cc(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return b7(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cc(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b7(c,d)}}function
-eg(){az(hH)}function
-nd(a,b){if(b>>>0>=a.length-1)eg();return a}function
-Bt(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-b9(a){a.t&6&&dv(a);return a.c}var
-Cb=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Ca(a){if(Cb)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cc(c,d)}}function
+eu(){aB(h8)}function
+nL(a,b){if(b>>>0>=a.length-1)eu();return a}function
+CD(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+ce(a){a.t&6&&dC(a);return a.c}var
+Dl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Dk(a){if(Dl)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hS(c){var
+ii(c){var
 a=new(v.Float32Array)(1);a[0]=c;var
 b=new(v.Int32Array)(a.buffer);return b[0]|0}var
-nm=Math.pow(2,-24);function
-B1(a){throw a}function
-nt(){B1(aj.Division_by_zero)}function
-u(b,c,a){this.lo=b&b4;this.mi=c&b4;this.hi=a&bJ}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
+nU=Math.pow(2,-24);function
+C$(a){throw a}function
+n1(){C$(am.Division_by_zero)}function
+u(b,c,a){this.lo=b&b$;this.mi=c&b$;this.hi=a&bN}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
 u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 u(b,c,d)};u.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*nm|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nm|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*nU|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nU|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
 u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
 u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bJ);return new
-u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&b4;this.lo=this.lo<<1&b4};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&b4;this.mi=(this.mi>>>1|this.hi<<23)&b4;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
+u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bN);return new
+u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&b$;this.lo=this.lo<<1&b$};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&b$;this.mi=(this.mi>>>1|this.hi<<23)&b$;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
-b=this;if(a.isZero())nt();var
-d=b.hi^a.hi;if(b.hi&bF)b=b.neg();if(a.hi&bF)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bF)c=c.neg();return c};u.prototype.mod=function(b){var
-a=this;if(b.isZero())nt();var
-d=a.hi;if(a.hi&bF)a=a.neg();if(b.hi&bF)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bF)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&b5,this.mi>>16,this.mi>>8&b5,this.mi&b5,this.lo>>16,this.lo>>8&b5,this.lo&b5]};u.prototype.lo32=function(){return this.lo|(this.mi&b5)<<24};u.prototype.hi32=function(){return this.mi>>>8&bJ|this.hi<<16};function
-fG(b,c,a){return new
+b=this;if(a.isZero())n1();var
+d=b.hi^a.hi;if(b.hi&bL)b=b.neg();if(a.hi&bL)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bL)c=c.neg();return c};u.prototype.mod=function(b){var
+a=this;if(b.isZero())n1();var
+d=a.hi;if(a.hi&bL)a=a.neg();if(b.hi&bL)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bL)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&ca,this.mi>>16,this.mi>>8&ca,this.mi&ca,this.lo>>16,this.lo>>8&ca,this.lo&ca]};u.prototype.lo32=function(){return this.lo|(this.mi&ca)<<24};u.prototype.hi32=function(){return this.mi>>>8&bN|this.hi<<16};function
+fX(b,c,a){return new
 u(b,c,a)}function
-fF(a){if(!isFinite(a)){if(isNaN(a))return fG(1,0,lc);return a>0?fG(0,0,lc):fG(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bF:a>=0?0:bF;if(f)a=-a;var
-b=Ca(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-l9)}else{a/=Math.pow(2,b-mZ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+fW(a){if(!isFinite(a)){if(isNaN(a))return fX(1,0,lL);return a>0?fX(0,0,lL):fX(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bL:a>=0?0:bL;if(f)a=-a;var
+b=Dk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mH)}else{a/=Math.pow(2,b-nw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hE|f|b<<4;return fG(g,e,c)}function
-ej(a){return a.toArray()}function
-m$(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fA)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bJ)c.write(16,b.dims[a]);else{c.write(16,bJ);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&h5|f|b<<4;return fX(g,e,c)}function
+ex(a){return a.toArray()}function
+nH(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fQ)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bN)c.write(16,b.dims[a]);else{c.write(16,bN);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=ej(b.get(a));for(var
+e=ex(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=ej(fF(b.get(a)));for(var
+e=ex(fW(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hS(b.get(a));c.write(32,e)}break;case
+e=ii(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hS(d[1]));c.write(32,hS(d[2]))}break;case
+d=b.get(a);c.write(32,ii(d[1]));c.write(32,ii(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=ej(fF(f[1]));for(var
+f=b.get(a),e=ex(fW(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=ej(fF(f[2]));for(var
+e=ex(fW(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-m9(a){switch(a){case
+nF(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Bn(c,e){var
+Cx(c,e){var
 b=v,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=v,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aB("Bigarray.create: unsupported kind");var
 d=new
-a(e*m9(c));return d}function
-hT(c){var
+a(e*nF(c));return d}function
+ij(c){var
 a=new(v.Int32Array)(1);a[0]=c;var
 b=new(v.Float32Array)(a.buffer);return b[0]}function
-ei(a){return new
+ew(a){return new
 u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-hU(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hE)==0?b&bF?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hE);if(c>0){a+=16;a*=Math.pow(2,c-mZ)}else
-a*=Math.pow(2,-l9);if(b&bF)a=-a;return a}function
-hN(b){var
+ik(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h5)==0?b&bL?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&h5);if(c>0){a+=16;a*=Math.pow(2,c-nw)}else
+a*=Math.pow(2,-mH);if(b&bL)a=-a;return a}function
+ic(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-BE(b,a){return new
-u(b&b4,b>>>24&b5|(a&bJ)<<8,a>>>16&bJ)}function
-hV(a){return a.hi32()}function
-hW(a){return a.lo32()}var
-Bo=fA;function
-cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=Bo;cs.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aB("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+CO(b,a){return new
+u(b&b$,b>>>24&ca|(a&bN)<<8,a>>>16&bN)}function
+il(a){return a.hi32()}function
+im(a){return a.lo32()}var
+Cy=fQ;function
+cy(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cy.prototype.caml_custom=Cy;cy.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eg();c=c*this.dims[a]+b[a]}else
+Array))aB("bigarray.js: invalid offset");if(this.dims.length!=b.length)aB("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eu();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eg();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eu();c=c*this.dims[a]+(b[a]-1)}return c};cy.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return BE(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return CO(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fv,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=hW(b);this.data[a*2+1]=hV(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fJ,e,c];default:return this.data[a]}};cy.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=im(b);this.data[a*2+1]=il(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cy.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=hW(b),e=hV(b);if(c==e)this.data.fill(c);else
+c=im(b),e=il(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cs.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cy.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype=new
-cs();dt.prototype.offset=function(a){if(typeof
+dA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dA.prototype=new
+cy();dA.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eg();return a};dt.prototype.get=function(a){return this.data[a]};dt.prototype.set=function(a,b){this.data[a]=b;return 0};dt.prototype.fill=function(a){this.data.fill(a);return 0};function
-m7(c,d,a,b){var
-e=m9(c);if(hN(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dt(c,d,a,b);return new
-cs(c,d,a,b)}function
-bp(b){if(!aj.Failure)aj.Failure=[ax,a(hm),-3];h0(aj.Failure,b)}function
-m8(b,v,r){var
-i=b.read32s();if(i<0||i>16)bp("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b5,o=p>>8&1,h=[];if(r==fA)for(var
+aB("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eu();return a};dA.prototype.get=function(a){return this.data[a]};dA.prototype.set=function(a,b){this.data[a]=b;return 0};dA.prototype.fill=function(a){this.data.fill(a);return 0};function
+nD(c,d,a,b){var
+e=nF(c);if(ic(a)*e!=b.length)aB("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dA(c,d,a,b);return new
+cy(c,d,a,b)}function
+bv(b){if(!am.Failure)am.Failure=[az,a(hN),-3];ir(am.Failure,b)}function
+nE(b,v,r){var
+i=b.read32s();if(i<0||i>16)bv("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ca,o=p>>8&1,h=[];if(r==fQ)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bJ){var
-t=b.read32u(),u=b.read32u();if(t!=0)bp("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bN){var
+t=b.read32u(),u=b.read32u();if(t!=0)bv("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hN(h),f=Bn(j,d),g=m7(j,o,h,f);switch(j){case
+d=ic(h),f=Cx(j,d),g=nD(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bp("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bv("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ei(e);g.set(a,q)}break;case
+q=ew(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=hU(ei(e));g.set(a,k)}break;case
+k=ik(ew(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=hT(b.read32s());g.set(a,k)}break;case
+k=ij(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=hT(b.read32s()),l=hT(b.read32s());g.set(a,[fv,m,l])}break;case
+m=ij(b.read32s()),l=ij(b.read32s());g.set(a,[fJ,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=hU(ei(e));for(var
+m=ik(ew(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=hU(ei(e));g.set(a,[fv,m,l])}break}v[0]=(4+i)*4;return m7(j,o,h,f)}function
-m6(a,b,c){return a.compare(b,c)}function
-nq(a,b){return Math.imul(a,b)}function
-b8(b,a){a=nq(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nq(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-BA(a,b){a=b8(a,hW(b));a=b8(a,hV(b));return a}function
-nl(a,b){return BA(a,fF(b))}function
-m_(c){var
-b=hN(c.dims),d=0;switch(c.kind){case
+l=ik(ew(e));g.set(a,[fJ,m,l])}break}v[0]=(4+i)*4;return nD(j,o,h,f)}function
+nC(a,b,c){return a.compare(b,c)}function
+nY(a,b){return Math.imul(a,b)}function
+cd(b,a){a=nY(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nY(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+CK(a,b){a=cd(a,im(b));a=cd(a,il(b));return a}function
+nT(a,b){return CK(a,fW(b))}function
+nG(c){var
+b=ic(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mw)b=mw;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b8(d,e)}e=0;switch(b&3){case
+12:if(b>m5)b=m5;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cd(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b8(d,e)}break;case
+1:e|=c.data[a+0];d=cd(d,e)}break;case
 4:case
-5:if(b>ef)b=ef;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b8(d,e)}if((b&1)!=0)d=b8(d,c.data[a]);break;case
+5:if(b>et)b=et;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cd(d,e)}if((b&1)!=0)d=cd(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b8(d,c.data[a]);break;case
+a=0;a<b;a++)d=cd(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b8(d,c.data[a]);break;case
+a=0;a<b;a++)d=cd(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b8(d,c.data[a]);break;case
+a=0;a<b;a++)d=cd(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=nl(d,c.data[a]);break;case
+a=0;a<b;a++)d=nT(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=nl(d,c.data[a]);break}return d}function
-BC(a,b){b[0]=4;return a.read32s()}function
-BY(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=nT(d,c.data[a]);break}return d}function
+CM(a,b){b[0]=4;return a.read32s()}function
+C8(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bp("input_value: native integer value too large");default:bp("input_value: ill-formed native integer")}}function
-BN(c,d){var
+2:bv("input_value: native integer value too large");default:bv("input_value: ill-formed native integer")}}function
+CX(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ei(b)}function
-BJ(e,d,b){var
-c=ej(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ew(b)}function
+CT(e,d,b){var
+c=ex(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-BD(a,b,c){return a.compare(b)}function
-BG(a){return a.lo32()^a.hi32()}var
-ng={"_j":{deserialize:BN,serialize:BJ,fixed_length:8,compare:BD,hash:BG},"_i":{deserialize:BC,fixed_length:4},"_n":{deserialize:BY,fixed_length:4},"_bigarray":{deserialize:function(a,b){return m8(a,b,"_bigarray")},serialize:m$,compare:m6,hash:m_},"_bigarr02":{deserialize:function(a,b){return m8(a,b,fA)},serialize:m$,compare:m6,hash:m_}};function
-hP(a){return ng[a.caml_custom]&&ng[a.caml_custom].compare}function
-ne(f,c,d,e){var
-b=hP(c);if(b){var
+CN(a,b,c){return a.compare(b)}function
+CQ(a){return a.lo32()^a.hi32()}var
+nO={"_j":{deserialize:CX,serialize:CT,fixed_length:8,compare:CN,hash:CQ},"_i":{deserialize:CM,fixed_length:4},"_n":{deserialize:C8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nE(a,b,"_bigarray")},serialize:nH,compare:nC,hash:nG},"_bigarr02":{deserialize:function(a,b){return nE(a,b,fQ)},serialize:nH,compare:nC,hash:nG}};function
+ie(a){return nO[a.caml_custom]&&nO[a.caml_custom].compare}function
+nM(f,c,d,e){var
+b=ie(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fH(a){return a
+fY(a){return a
 instanceof
-bK}function
-hY(a){return fH(a)}function
-nf(a){if(typeof
-a==="number")return ec;else
-if(fH(a))return fz;else
-if(hY(a))return 1252;else
+bO}function
+ip(a){return fY(a)}function
+nN(a){if(typeof
+a==="number")return eo;else
+if(fY(a))return fP;else
+if(ip(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=lq){var
-b=a[0]|0;return b==fv?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=l0){var
+b=a[0]|0;return b==fJ?0:b}else
 if(a
 instanceof
-String)return lE;else
+String)return mc;else
 if(typeof
-a=="string")return lE;else
+a=="string")return mc;else
 if(a
 instanceof
-Number)return ec;else
-if(a&&a.caml_custom)return ho;else
+Number)return eo;else
+if(a&&a.caml_custom)return hP;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-BO(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-nb(a,b){a.t&6&&dv(a);b.t&6&&dv(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-B6(a,b){return nb(a,b)}function
-hO(a,b,d){var
+CY(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+nJ(a,b){a.t&6&&dC(a);b.t&6&&dC(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+De(a,b){return nJ(a,b)}function
+id(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nf(a);if(f==lr){a=a[1];continue}var
-g=nf(b);if(g==lr){b=b[1];continue}if(f!==g){if(f==ec){if(g==ho)return ne(a,b,-1,d);return-1}if(g==ec){if(f==ho)return ne(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:az(hx);break;case
+f=nN(a);if(f==l1){a=a[1];continue}var
+g=nN(b);if(g==l1){b=b[1];continue}if(f!==g){if(f==eo){if(g==hP)return nM(a,b,-1,d);return-1}if(g==eo){if(f==hP)return nM(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aB(hY);break;case
 248:var
-c=BO(a[2],b[2]);if(c!=0)return c|0;break;case
-249:az(hx);break;case
-250:az("equal: got Forward_tag, should not happen");break;case
-251:az("equal: abstract value");break;case
+c=CY(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aB(hY);break;case
+250:aB("equal: got Forward_tag, should not happen");break;case
+251:aB("equal: abstract value");break;case
 252:if(a!==b){var
-c=nb(a,b);if(c!=0)return c|0}break;case
-253:az("equal: got Double_tag, should not happen");break;case
-254:az("equal: got Double_array_tag, should not happen");break;case
-255:az("equal: got Custom_tag, should not happen");break;case
-1247:az(hx);break;case
+c=nJ(a,b);if(c!=0)return c|0}break;case
+253:aB("equal: got Double_tag, should not happen");break;case
+254:aB("equal: got Double_array_tag, should not happen");break;case
+255:aB("equal: got Custom_tag, should not happen");break;case
+1247:aB(hY);break;case
 1255:var
-i=hP(a);if(i!=hP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
+i=ie(a);if(i!=ie(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aB("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,180 +405,180 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=b9(a),b=b9(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=ce(a),b=ce(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Bu(a,b){return hO(a,b,true)}function
-Bv(){return[0]}function
-ar(a){if(a<0)az("Bytes.create");return new
-bK(a?2:9,t,a)}function
-nh(a,b){return+(hO(a,b,false)==0)}function
-Bx(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dx(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fC(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-hZ(d){d=b9(d);var
-e=d.length;if(e>31)az("format_int: format too long");var
-a={justify:bG,signstyle:bb,filler:b2,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+CE(a,b){return id(a,b,true)}function
+CF(){return[0]}function
+at(a){if(a<0)aB("Bytes.create");return new
+bO(a?2:9,t,a)}function
+nP(a,b){return+(id(a,b,false)==0)}function
+CH(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fT(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+iq(d){d=ce(d);var
+e=d.length;if(e>31)aB("format_int: format too long");var
+a={justify:bM,signstyle:bc,filler:b9,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=bb;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aN;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-hQ(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bb))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=t;if(b.justify==bG&&b.filler==b2)for(var
-d=e;d<b.width;d++)c+=b2;if(b.signedconv)if(b.sign<0)c+=bb;else
-if(b.signstyle!=bb)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aN;if(b.alternate&&b.base==16)c+=la;if(b.justify==bG&&b.filler==aN)for(var
-d=e;d<b.width;d++)c+=aN;c+=f;if(b.justify==bb)for(var
-d=e;d<b.width;d++)c+=b2;return a(c)}function
-hR(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=bc;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aO;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+ig(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bc))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=t;if(b.justify==bM&&b.filler==b9)for(var
+d=e;d<b.width;d++)c+=b9;if(b.signedconv)if(b.sign<0)c+=bc;else
+if(b.signstyle!=bc)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aO;if(b.alternate&&b.base==16)c+=lJ;if(b.justify==bM&&b.filler==aO)for(var
+d=e;d<b.width;d++)c+=aO;c+=f;if(b.justify==bc)for(var
+d=e;d<b.width;d++)c+=b9;return a(c)}function
+ih(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bG)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aN);if(b>0)a=a+cr+new
-Array(b+1).join(aN);return a}else
+c=parseInt(a.toString().split(bM)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aO);if(b>0)a=a+cx+new
+Array(b+1).join(aO);return a}else
 return a.toFixed(b)}}var
-a,e=hZ(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hq;e.filler=b2}else
-if(!isFinite(c)){a="inf";e.filler=b2}else
+a,e=iq(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hR;e.filler=b9}else
+if(!isFinite(c)){a="inf";e.filler=b9}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==hK)a=a.slice(0,b-1)+aN+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(hK),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aN)b--;if(a.charAt(b)==cr)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==hK)a=a.slice(0,b-1)+aN+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==h$)a=a.slice(0,b-1)+aO+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(h$),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aO)b--;if(a.charAt(b)==cx)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==h$)a=a.slice(0,b-1)+aO+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aN)b--;if(a.charAt(b)==cr)b--;a=a.slice(0,b+1)}}break}return hQ(e,a)}function
-fD(e,c){if(b9(e)==hD)return a(t+c);var
-b=hZ(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aO)b--;if(a.charAt(b)==cx)b--;a=a.slice(0,b+1)}}break}return ig(e,a)}function
+fU(e,c){if(ce(e)==h4)return a(t+c);var
+b=iq(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=b2;var
-f=b.prec-d.length;if(f>0)d=dx(f,aN)+d}return hQ(b,d)}var
-BZ=0;function
-fE(){return BZ++}function
-BR(a){return a.toUtf16()}function
-el(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=b9;var
+f=b.prec-d.length;if(f>0)d=dE(f,aO)+d}return ig(b,d)}var
+C9=0;function
+fV(){return C9++}function
+C1(a){return a.toUtf16()}function
+ez(){return typeof
 v.process!=="undefined"&&typeof
 v.process.versions!=="undefined"&&typeof
 v.process.versions.node!=="undefined"}function
-Cc(){function
-a(a){if(a.charAt(0)===bl)return[t,a.substring(1)];return}function
+Dm(){function
+a(a){if(a.charAt(0)===bs)return[t,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return el()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
-h8=Cc();function
-nw(a){return a.slice(-1)!==bl?a+bl:a}if(el()&&v.process&&v.process.cwd)var
-eh=v.process.cwd().replace(/\\/g,bl);else
+d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ez()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
+iz=Dm();function
+n4(a){return a.slice(-1)!==bs?a+bs:a}if(ez()&&v.process&&v.process.cwd)var
+ev=v.process.cwd().replace(/\\/g,bs);else
 var
-eh="/static";eh=nw(eh);function
-BS(a){a=BR(a);if(!h8(a))a=eh+a;var
-e=h8(a),d=e[1].split(bl),b=[];for(var
+ev="/static";ev=n4(ev);function
+C2(a){a=C1(a);if(!iz(a))a=ev+a;var
+e=iz(a),d=e[1].split(bs),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-B8(e){for(var
-f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bn){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bn;d++);if(d-c>ld){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<my){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bn|a&dq)}else
-if(a<0xd800||a>=lu)b+=String.fromCharCode(lv|a>>12,bn|a>>6&dq,bn|a&dq);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<lk||h>lu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mI|a>>18,bn|a>>12&dq,bn|a>>6&dq,bn|a&dq)}if(b.length>ed){b.substr(0,1);f+=b;b=t}}return f+b}function
-Bs(a){var
-b=9;if(!ny(a))b=8,a=B8(a);return new
-bK(b,a,a.length)}function
-bq(a){return Bs(a)}var
-Ce=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",li,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hp,mt,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cT(d,f,e,a){var
-b=Ce.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bq(f||t),bq(e||t)];return c}var
-nr={};function
-cR(a){return nr[a]}function
-cS(b,a){throw[0,b].concat(a)}function
-Br(a){return new
-bK(4,a,a.length)}function
-U(a){h0(aj.Sys_error,a)}function
-B2(a){U(a+fh)}function
-Bq(b,a){if(a>>>0>=b.l)na();return du(b,a)}function
-a4(a){return a.l}function
-m5(){}function
+Dg(e){for(var
+f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bu){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bu;d++);if(d-c>lM){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<m7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bu|a&dx)}else
+if(a<0xd800||a>=l4)b+=String.fromCharCode(l5|a>>12,bu|a>>6&dx,bu|a&dx);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<lU||h>l4)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nf|a>>18,bu|a>>12&dx,bu|a>>6&dx,bu|a&dx)}if(b.length>eq){b.substr(0,1);f+=b;b=t}}return f+b}function
+CC(a){var
+b=9;if(!n6(a))b=8,a=Dg(a);return new
+bO(b,a,a.length)}function
+bw(a){return CC(a)}var
+Do=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",lS,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h6,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hQ,m2,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c1(d,f,e,a){var
+b=Do.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bw(f||t),bw(e||t)];return c}var
+nZ={};function
+cZ(a){return nZ[a]}function
+c0(b,a){throw[0,b].concat(a)}function
+CB(a){return new
+bO(4,a,a.length)}function
+X(a){ir(am.Sys_error,a)}function
+Da(a){X(a+fv)}function
+CA(b,a){if(a>>>0>=b.l)nI();return dB(b,a)}function
+a5(a){return a.l}function
+nB(){}function
 aG(a){this.data=a}aG.prototype=new
-m5();aG.prototype.truncate=function(a){var
-b=this.data;this.data=ar(a|0);ct(b,0,this.data,0,a)};aG.prototype.length=function(){return a4(this.data)};aG.prototype.write=function(b,d,g,a){var
+nB();aG.prototype.truncate=function(a){var
+b=this.data;this.data=at(a|0);cz(b,0,this.data,0,a)};aG.prototype.length=function(){return a5(this.data)};aG.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ar(b+a),f=this.data;this.data=e;ct(f,0,this.data,0,c)}bM(d,g,this.data,b,a);return 0};aG.prototype.read=function(c,a,d,b){var
-e=this.length();ct(this.data,c,a,d,b);return 0};aG.prototype.read_one=function(a){return Bq(this.data,a)};aG.prototype.close=function(){};aG.prototype.constructor=aG;function
-aR(b,a){this.content={};this.root=b;this.lookupFun=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.create_dir_if_needed=function(d){var
-c=d.split(bl),b=t;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bl;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aR.prototype.slash=function(a){return/\/$/.test(a)?a:a+bl};aR.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=at(b+a),f=this.data;this.data=e;cz(f,0,this.data,0,c)}bQ(d,g,this.data,b,a);return 0};aG.prototype.read=function(c,a,d,b){var
+e=this.length();cz(this.data,c,a,d,b);return 0};aG.prototype.read_one=function(a){return CA(this.data,a)};aG.prototype.close=function(){};aG.prototype.constructor=aG;function
+aT(b,a){this.content={};this.root=b;this.lookupFun=a}aT.prototype.nm=function(a){return this.root+a};aT.prototype.create_dir_if_needed=function(d){var
+c=d.split(bs),b=t;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bs;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aT.prototype.slash=function(a){return/\/$/.test(a)?a:a+bs};aT.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aG(b6(c[1]))}}};aR.prototype.exists=function(a){if(a==t)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aR.prototype.mkdir=function(c,e,d){var
-b=d&&cR(hC);if(this.exists(c))if(b)cS(b,cT(li,hi,this.nm(c)));else
-U(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)cS(b,cT(hF,hi,this.nm(a)));else
-U(a+fh);if(!this.is_dir(a))if(b)cS(b,cT(hp,hi,this.nm(a)));else
-U(a+hJ);this.create_dir_if_needed(this.slash(c))};aR.prototype.rmdir=function(a,f){var
-b=f&&cR(hC),c=a==t?t:this.slash(a),e=new
-RegExp(hs+c+mu);if(!this.exists(a))if(b)cS(b,cT(hF,hA,this.nm(a)));else
-U(a+fh);if(!this.is_dir(a))if(b)cS(b,cT(hp,hA,this.nm(a)));else
-U(a+hJ);for(var
+aG(cb(c[1]))}}};aT.prototype.exists=function(a){if(a==t)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aT.prototype.mkdir=function(c,e,d){var
+b=d&&cZ(h3);if(this.exists(c))if(b)c0(b,c1(lS,hJ,this.nm(c)));else
+X(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)c0(b,c1(h6,hJ,this.nm(a)));else
+X(a+fv);if(!this.is_dir(a))if(b)c0(b,c1(hQ,hJ,this.nm(a)));else
+X(a+h_);this.create_dir_if_needed(this.slash(c))};aT.prototype.rmdir=function(a,f){var
+b=f&&cZ(h3),c=a==t?t:this.slash(a),e=new
+RegExp(hT+c+m3);if(!this.exists(a))if(b)c0(b,c1(h6,h1,this.nm(a)));else
+X(a+fv);if(!this.is_dir(a))if(b)c0(b,c1(hQ,h1,this.nm(a)));else
+X(a+h_);for(var
 d
 in
-this.content)if(d.match(e))if(b)cS(b,cT(mt,hA,this.nm(a)));else
-U(this.nm(a)+": Directory not empty");delete
-this.content[c]};aR.prototype.readdir=function(a){var
-f=a==t?t:this.slash(a);if(!this.exists(a))U(a+fh);if(!this.is_dir(a))U(a+hJ);var
+this.content)if(d.match(e))if(b)c0(b,c1(m2,h1,this.nm(a)));else
+X(this.nm(a)+": Directory not empty");delete
+this.content[c]};aT.prototype.readdir=function(a){var
+f=a==t?t:this.slash(a);if(!this.exists(a))X(a+fv);if(!this.is_dir(a))X(a+h_);var
 g=new
-RegExp(hs+f+mu),d={},c=[];for(var
+RegExp(hT+f+m3),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aR.prototype.is_dir=function(a){if(a==t)return true;var
-b=this.slash(a);return this.content[b]?1:0};aR.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aT.prototype.is_dir=function(a){if(a==t)return true;var
+b=this.slash(a);return this.content[b]?1:0};aT.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aR.prototype.open=function(a,b){if(b.rdonly&&b.wronly)U(this.nm(a)+lL);if(b.text&&b.binary)U(this.nm(a)+mg);this.lookup(a);if(this.content[a]){if(this.is_dir(a))U(this.nm(a)+" : is a directory");if(b.create&&b.excl)U(this.nm(a)+lK);var
+this.content[a];return b};aT.prototype.open=function(a,b){if(b.rdonly&&b.wronly)X(this.nm(a)+mj);if(b.text&&b.binary)X(this.nm(a)+mQ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))X(this.nm(a)+" : is a directory");if(b.create&&b.excl)X(this.nm(a)+mi);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aG(ar(0));return this.content[a]}else
-B2(this.nm(a))};aR.prototype.register=function(c,a){var
-b;if(this.content[c])U(this.nm(c)+lK);if(fH(a))b=new
-aG(a);if(hY(a))b=new
-aG(b6(a));else
+aG(at(0));return this.content[a]}else
+Da(this.nm(a))};aT.prototype.register=function(c,a){var
+b;if(this.content[c])X(this.nm(c)+mi);if(fY(a))b=new
+aG(a);if(ip(a))b=new
+aG(cb(a));else
 if(a
 instanceof
 Array)b=new
-aG(Br(a));else
+aG(CB(a));else
 if(typeof
 a==="string")b=new
-aG(nc(a));else
+aG(nK(a));else
 if(a.toString){var
-d=b6(bq(a.toString()));b=new
+d=cb(bw(a.toString()));b=new
 aG(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-U(this.nm(c)+" : registering file with invalid content type")};aR.prototype.constructor=aR;function
-J(a){return a4(a)}function
-bO(b,a){return du(b,a)}function
-Bm(d){var
-c=J(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bO(d,a);return b}function
-Bl(a){if(a.t!=4)fC(a);return a.c}function
-bL(a){this.fs=require("fs");this.fd=a}bL.prototype=new
-m5();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){U(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){U(a.toString())}};bL.prototype.write=function(f,b,c,e){var
-a=Bm(b);if(!(a
+X(this.nm(c)+" : registering file with invalid content type")};aT.prototype.constructor=aT;function
+K(a){return a5(a)}function
+bS(b,a){return dB(b,a)}function
+Cw(d){var
+c=K(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bS(d,a);return b}function
+Cv(a){if(a.t!=4)fT(a);return a.c}function
+bP(a){this.fs=require("fs");this.fd=a}bP.prototype=new
+nB();bP.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){X(a.toString())}};bP.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){X(a.toString())}};bP.prototype.write=function(f,b,c,e){var
+a=Cw(b);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){U(a.toString())}return 0};bL.prototype.read=function(g,d,c,f){var
-a=Bl(d);if(!(a
+d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){X(a.toString())}return 0};bP.prototype.read=function(g,d,c,f){var
+a=Cv(d);if(!(a
 instanceof
 v.Uint8Array))a=new(v.Uint8Array)(a);var
-e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){U(a.toString())}for(var
-b=0;b<f;b++)cQ(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
-b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){U(a.toString())}return a[0]};bL.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){U(a.toString())}};bL.prototype.constructor=bL;function
-aH(a){this.fs=require("fs");this.root=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aH.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){U(a.toString())}};aH.prototype.unlink=function(a,c){try{var
+e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){X(a.toString())}for(var
+b=0;b<f;b++)cY(d,c+b,e[c+b]);return 0};bP.prototype.read_one=function(c){var
+b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){X(a.toString())}return a[0]};bP.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){X(a.toString())}};bP.prototype.constructor=bP;function
+aH(a){this.fs=require("fs");this.root=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aH.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){X(a.toString())}};aH.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bL(d)}catch(a){this.raise_nodejs_error(a,g)}};aH.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.stat=function(b,c){try{var
+bP(d)}catch(a){this.raise_nodejs_error(a,g)}};aH.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),k2);return bq(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.raise_nodejs_error=function(a,d){var
-b=cR(hC);if(d&&b){var
-c=cT(a.code,a.syscall,a.path,a.errno);cS(b,c)}else
-U(a.toString())};aH.prototype.stats_from_js=function(a){var
+a=this.fs.readlinkSync(this.nm(b),lz);return bw(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.raise_nodejs_error=function(a,d){var
+b=cZ(h3);if(d&&b){var
+c=c1(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
+X(a.toString())};aH.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -586,57 +586,57 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aH.prototype.constructor=aH;function
-nk(b){var
-a=h8(b);if(!a)return;return a[0]+bl}var
-fJ=nk(eh)||bp("unable to compute caml_root"),dy=[];if(el())dy.push({path:fJ,device:new
-aH(fJ)});else
-dy.push({path:fJ,device:new
-aR(fJ)});dy.push({path:mc,device:new
-aR(mc)});function
-nC(b){var
-g=BS(b),b=g.join(bl),f=nw(b),c;for(var
-e=0;e<dy.length;e++){var
-a=dy[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&el()){var
-d=nk(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+nS(b){var
+a=iz(b);if(!a)return;return a[0]+bs}var
+f0=nS(ev)||bv("unable to compute caml_root"),dF=[];if(ez())dF.push({path:f0,device:new
+aH(f0)});else
+dF.push({path:f0,device:new
+aT(f0)});dF.push({path:mM,device:new
+aT(mM)});function
+n_(b){var
+g=C2(b),b=g.join(bs),f=n4(b),c;for(var
+e=0;e<dF.length;e++){var
+a=dF[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ez()){var
+d=nS(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aH(d)};dy.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;U("no device found for "+f)}function
-Bw(c,b){var
-a=nC(c);if(!a.device.register)bp("cannot register file");a.device.register(a.rest,b);return 0}function
-nx(c,b){var
-c=a(c),b=a(b);return Bw(c,b)}function
-Bz(){var
+aH(d)};dF.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;X("no device found for "+f)}function
+CG(c,b){var
+a=n_(c);if(!a.device.register)bv("cannot register file");a.device.register(a.rest,b);return 0}function
+n5(c,b){var
+c=a(c),b=a(b);return CG(c,b)}function
+CJ(){var
 b=v.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nx(b[a].name,b[a].content);v.jsoo_create_file=nx;v.caml_fs_tmp=[];return 0}function
-nj(){return[0]}function
-BB(a,c,k){if(!isFinite(a)){if(isNaN(a))return bq(hq);return bq(a>0?mM:"-infinity")}var
+a=0;a<b.length;a++)n5(b[a].name,b[a].content);v.jsoo_create_file=n5;v.caml_fs_tmp=[];return 0}function
+nR(){return[0]}function
+CL(a,c,k){if(!isFinite(a)){if(isNaN(a))return bw(hR);return bw(a>0?nj:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?t:bG,e=t;if(i)e=bb;else
+j=d<0?t:bM,e=t;if(i)e=bc;else
 switch(k){case
-43:e=bG;break;case
-32:e=b2;break;default:break}if(c>=0&&c<13){var
+43:e=bM;break;case
+32:e=b9;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(cr);if(h<0)b+=cr+dx(c,aN);else{var
-f=h+1+c;if(b.length<f)b+=dx(f-b.length,aN);else
-b=b.substr(0,f)}}return bq(e+la+b+"p"+j+d.toString(10))}function
-BI(a){return+a.isZero()}function
-BL(a){return new
-u(a&b4,a>>24&b4,a>>31&bJ)}function
-BM(a){return a.toInt()}function
-BH(a){return+a.isNeg()}function
-BK(a){return a.neg()}function
-BF(g,c){var
-a=hZ(g);if(a.signedconv&&BH(c)){a.sign=-1;c=BK(c)}var
-b=t,h=BL(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(BM(e.modulus))+b}while(!BI(c));if(a.prec>=0){a.filler=b2;var
-d=a.prec-b.length;if(d>0)b=dx(d,aN)+b}return hQ(a,b)}function
-B0(c){var
-a=0,e=J(c),b=10,d=1;if(e>0)switch(bO(c,a)){case
+h=b.indexOf(cx);if(h<0)b+=cx+dE(c,aO);else{var
+f=h+1+c;if(b.length<f)b+=dE(f-b.length,aO);else
+b=b.substr(0,f)}}return bw(e+lJ+b+"p"+j+d.toString(10))}function
+CS(a){return+a.isZero()}function
+CV(a){return new
+u(a&b$,a>>24&b$,a>>31&bN)}function
+CW(a){return a.toInt()}function
+CR(a){return+a.isNeg()}function
+CU(a){return a.neg()}function
+CP(g,c){var
+a=iq(g);if(a.signedconv&&CR(c)){a.sign=-1;c=CU(c)}var
+b=t,h=CV(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(CW(e.modulus))+b}while(!CS(c));if(a.prec>=0){a.filler=b9;var
+d=a.prec-b.length;if(d>0)b=dE(d,aO)+b}return ig(a,b)}function
+C_(c){var
+a=0,e=K(c),b=10,d=1;if(e>0)switch(bS(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bO(c,a)==48)switch(bO(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bS(c,a)==48)switch(bS(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=J(c),b=10,d=1;if(e>0)switch(bO(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-ns(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=m1)return a-87;return-1}function
-hX(f){var
-h=B0(f),c=h[0],i=h[1],d=h[2],g=J(f),j=-1>>>0,e=c<g?bO(f,c):0,b=ns(e);if(b<0||b>=d)bp(fk);var
-a=b;for(c++;c<g;c++){e=bO(f,c);if(e==95)continue;b=ns(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bp(fk)}if(c!=g)bp(fk);a=i*a;if(d==10&&(a|0)!=a)bp(fk);return a|0}function
-BQ(d){return function(){var
+n0(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ny)return a-87;return-1}function
+io(f){var
+h=C_(f),c=h[0],i=h[1],d=h[2],g=K(f),j=-1>>>0,e=c<g?bS(f,c):0,b=n0(e);if(b<0||b>=d)bv(fy);var
+a=b;for(c++;c<g;c++){e=bS(f,c);if(e==95)continue;b=n0(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bv(fy)}if(c!=g)bv(fy);a=i*a;if(d==10&&(a|0)!=a)bv(fy);return a|0}function
+C0(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return b7(d,c)}else
-return b7(d,[undefined])}}function
-BT(a,d){if(a<0)eg();var
+a=0;a<b;a++)c[a]=arguments[a];return cc(d,c)}else
+return cc(d,[undefined])}}function
+C3(a,d){if(a<0)eu();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-BU(){return 0}var
-bN=new
+C4(){return 0}var
+bR=new
 Array();function
-dw(c){var
-a=bN[c];if(!a.opened)U("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&aj.fds[a.fd]&&aj.fds[a.fd].output){var
-b=aj.fds[a.fd].output;switch(b.length){case
+dD(c){var
+a=bR[c];if(!a.opened)X("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&am.fds[a.fd]&&am.fds[a.fd].output){var
+b=am.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
-nv(e,f){var
-b=bN[e],d=a(f),c=J(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-B9(a){var
-a=h4(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+n3(e,f){var
+b=bR[e],d=a(f),c=K(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Dh(a){var
+a=iv(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-B_(a){var
-a=h4(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Di(a){var
+a=iv(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fK(c,e,d,a){if(aj.fds===undefined)aj.fds=new
+f1(c,e,d,a){if(am.fds===undefined)am.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aj.fds[c]=b;if(!aj.fd_last_idx||c>aj.fd_last_idx)aj.fd_last_idx=c;return c}function
-Cf(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;am.fds[c]=b;if(!am.fd_last_idx||c>am.fd_last_idx)am.fd_last_idx=c;return c}function
+Dp(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,347 +687,347 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)U(b9(c)+lL);if(a.text&&a.binary)U(b9(c)+mg);var
-d=nC(c),e=d.device.open(d.rest,a),f=aj.fd_last_idx?aj.fd_last_idx:0;return fK(f+1,nv,e,a)}fK(0,nv,new
-aG(ar(0)));fK(1,B_,new
-aG(ar(0)));fK(2,B9,new
-aG(ar(0)));function
-BV(a){var
-c=aj.fds[a];if(c.flags.wronly)U(m0+a+" is writeonly");var
-d=null;if(a==0&&el()){var
-e=require("fs");d=function(){return bq(e.readFileSync(0,k2))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bN[b.fd]=b;return b.fd}function
-nn(c){var
-b=aj.fds[c];if(b.flags.rdonly)U(m0+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bN[a.fd]=a;return a.fd}function
-BW(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)X(ce(c)+mj);if(a.text&&a.binary)X(ce(c)+mQ);var
+d=n_(c),e=d.device.open(d.rest,a),f=am.fd_last_idx?am.fd_last_idx:0;return f1(f+1,n3,e,a)}f1(0,n3,new
+aG(at(0)));f1(1,Di,new
+aG(at(0)));f1(2,Dh,new
+aG(at(0)));function
+C5(a){var
+c=am.fds[a];if(c.flags.wronly)X(nx+a+" is writeonly");var
+d=null;if(a==0&&ez()){var
+e=require("fs");d=function(){return bw(e.readFileSync(0,lz))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bR[b.fd]=b;return b.fd}function
+nV(c){var
+b=am.fds[c];if(b.flags.rdonly)X(nx+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bR[a.fd]=a;return a.fd}function
+C6(){var
 b=0;for(var
-a=0;a<bN.length;a++)if(bN[a]&&bN[a].opened&&bN[a].out)b=[0,bN[a].fd,b];return b}function
-aO(a){return a}function
-BX(g,d,h,f){var
-b=bN[g];if(!b.opened)U("Cannot output to a closed channel");var
-a;if(h==0&&a4(d)==f)a=d;else{a=ar(f);ct(d,h,a,0,f)}var
-i=aO(a),c=b9(i),e=c.lastIndexOf(ll);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dw(g);b.buffer+=c.substr(e+1)}return 0}function
-no(b,a,d,c){return BX(b,b6(a),d,c)}function
-np(c,b){var
-d=a(String.fromCharCode(b));no(c,d,0,1);return 0}function
-ek(a,b){return+(hO(a,b,false)!=0)}function
-fI(a){if(a
+a=0;a<bR.length;a++)if(bR[a]&&bR[a].opened&&bR[a].out)b=[0,bR[a].fd,b];return b}function
+aP(a){return a}function
+C7(g,d,h,f){var
+b=bR[g];if(!b.opened)X("Cannot output to a closed channel");var
+a;if(h==0&&a5(d)==f)a=d;else{a=at(f);cz(d,h,a,0,f)}var
+i=aP(a),c=ce(i),e=c.lastIndexOf(lV);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dD(g);b.buffer+=c.substr(e+1)}return 0}function
+nW(b,a,d,c){return C7(b,cb(a),d,c)}function
+nX(c,b){var
+d=a(String.fromCharCode(b));nW(c,d,0,1);return 0}function
+ey(a,b){return+(id(a,b,false)!=0)}function
+fZ(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fH(a))return fz;else
-if(hY(a))return fz;else
+if(fY(a))return fP;else
+if(ip(a))return fP;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return lq;else
-return ec}function
-bc(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);aj[b+1]=c;if(a)aj[a]=c}function
-h1(a,b){nr[b9(a)]=b;return 0}function
-Bp(a,b){if(a===b)return 1;a.t&6&&dv(a);b.t&6&&dv(b);return a.c==b.c?1:0}function
-as(a,b){return Bp(a,b)}function
-B5(){az(hH)}function
-V(b,a){if(a>>>0>=J(b))B5();return bO(b,a)}function
-k(a,b){return 1-as(a,b)}function
-B7(){return 0x7FFFFFFF/4|0}function
-h3(a){var
+if(a&&a.caml_custom)return l0;else
+return eo}function
+bf(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);am[b+1]=c;if(a)am[a]=c}function
+is(a,b){nZ[ce(a)]=b;return 0}function
+Cz(a,b){if(a===b)return 1;a.t&6&&dC(a);b.t&6&&dC(b);return a.c==b.c?1:0}function
+ao(a,b){return Cz(a,b)}function
+Dd(){aB(h8)}function
+Y(b,a){if(a>>>0>=K(b))Dd();return bS(b,a)}function
+k(a,b){return 1-ao(a,b)}function
+Df(){return 0x7FFFFFFF/4|0}function
+iu(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
 aI(b,a){return{joo_tramp:b,joo_args:a}}function
-nu(a){return a}function
-fL(a){if(a
+n2(a){return a}function
+f2(a){if(a
 instanceof
 Array)return a;if(v.RangeError&&a
 instanceof
-v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nu(aj.Stack_overflow);if(v.InternalError&&a
+v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return n2(am.Stack_overflow);if(v.InternalError&&a
 instanceof
-v.InternalError&&a.message&&a.message.match(/too much recursion/i))return nu(aj.Stack_overflow);if(a
+v.InternalError&&a.message&&a.message.match(/too much recursion/i))return n2(am.Stack_overflow);if(a
 instanceof
-v.Error&&cR(hn))return[0,cR(hn),a];return[0,aj.Failure,bq(String(a))]}function
-fM(a){return a<0?-a:a}function
-y(a,b){return a+b}function
-h5(a,b){return a<b?-1:a>b?1:0}function
-nz(c,b){var
-a=c%b;return a<0?a+fM(b):a}function
-h6(a,b){return(a-nz(a,b))/b}function
-al(a,b){return a==b?1:0}function
-H(a,b){return a<=b?1:0}function
-aa(a,b){return a<b?1:0}function
+v.Error&&cZ(hO))return[0,cZ(hO),a];return[0,am.Failure,bw(String(a))]}function
+f3(a){return a<0?-a:a}function
+x(a,b){return a+b}function
+iw(a,b){return a<b?-1:a>b?1:0}function
+n7(c,b){var
+a=c%b;return a<0?a+f3(b):a}function
+ix(a,b){return(a-n7(a,b))/b}function
+ah(a,b){return a==b?1:0}function
+J(a,b){return a<=b?1:0}function
+ad(a,b){return a<b?1:0}function
 s(a,b){return a*b}function
-Y(a){return-a}function
-a5(a){return v.BigInt(a)}function
-nA(a,b){return a<<v.BigInt(b)}function
-nB(a,b){return a>>v.BigInt(b)}function
-bP(a){return a<0?-1:a>0?1:0}function
-Cd(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
+ab(a){return-a}function
+a6(a){return v.BigInt(a)}function
+n8(a,b){return a<<v.BigInt(b)}function
+n9(a,b){return a>>v.BigInt(b)}function
+bT(a){return a<0?-1:a>0?1:0}function
+Dn(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
 d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-br(a,b){return a-b}function
-h7(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
-BP(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-By(b){var
-a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&BP(b[1]))var
+bx(a,b){return a-b}function
+iy(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
+CZ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+CI(b){var
+a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CZ(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mx;for(var
-d=f;d<e.length;d++){if(d>f)a+=k5;var
+f=2,e=b;a+=m6;for(var
+d=f;d<e.length;d++){if(d>f)a+=lC;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bK)a+=ay+c.toString()+ay;else
+bO)a+=aA+c.toString()+aA;else
 if(typeof
-c=="string")a+=ay+c.toString()+ay;else
-a+=l4}a+=hr}else
-if(b[0]==ax)a+=b[1];return a}function
-ni(a){if(a
+c=="string")a+=aA+c.toString()+aA;else
+a+=mC}a+=hS}else
+if(b[0]==az)a+=b[1];return a}function
+nQ(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ax)){var
-c=cR(lh);if(c)c(a,false);else{var
-d=By(a),b=cR(k1);if(b)b(0);v.console.error(hy+d+ll)}}else
+Array&&(a[0]==0||a[0]==az)){var
+c=cZ(lR);if(c)c(a,false);else{var
+d=CI(a),b=cZ(ly);if(b)b(0);v.console.error(hZ+d+lV)}}else
 throw a}function
-B4(){var
-a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ni(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ni(a.error)})}B4();function
-e(a,b){return a.length==1?a(b):b7(a,[b])}function
-Q(a,b,c){return a.length==2?a(b,c):b7(a,[b,c])}function
-hh(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b7(a,[b,c,d,e,f])}function
-Bk(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b7(a,[b,c,d,e,f,g,h])}Bz();var
-fN=[ax,a(mS),-1],ib=[ax,a(lj),-2],h_=[ax,a(hm),-3],h9=[ax,a(l0),-4],h$=[ax,a(lA),-8],ia=[ax,a(md),-9],af=[ax,a(mB),-11],ic=[ax,a(k0),-12],Am=[4,0,0,0,[12,45,[4,0,0,0,0]]],fT=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(lG),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],An=[0,[0,0]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,0],Aq=[0,[0,[0,[0,0]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,0]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,0]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,0],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,0]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,0],Bj=[0,[0,[0,[0,[0,0]]]]],cA=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],e0=[0,[0,[0,[0,0]]]];bc(11,ic,k0);bc(10,af,mB);bc(9,[ax,a(lU),-10],lU);bc(8,ia,md);bc(7,h$,lA);bc(6,[ax,a(ma),-7],ma);bc(5,[ax,a(ms),-6],ms);bc(4,[ax,a(ln),-5],ln);bc(3,h9,l0);bc(2,h_,hm);bc(1,ib,lj);bc(0,fN,mS);var
-nH=a("%.12g"),nG=a(cr),nE=a("true"),nF=a("false"),nI=a("\\\\"),nJ=a("\\'"),nK=a("\\b"),nL=a("\\t"),nM=a("\\n"),nN=a("\\r"),nQ=a("String.blit / Bytes.blit_string"),nP=a("Bytes.blit"),nO=a("String.sub / Bytes.sub"),nS=a(t),nR=a("String.concat"),nT=a("Array.init"),nW=a("Buffer.add: cannot grow buffer"),nV=[0,a(mo),93,2],nU=[0,a(mo),94,2],n5=a("%c"),n6=a("%s"),n7=a(kY),n8=a(ly),n9=a(lW),n_=a(k8),n$=a("%f"),oa=a("%B"),ob=a("%{"),oc=a("%}"),od=a("%("),oe=a("%)"),of=a("%a"),og=a("%t"),oh=a("%?"),oi=a("%r"),oj=a("%_r"),ok=[0,a(aw),850,23],ov=[0,a(aw),814,21],on=[0,a(aw),815,21],ow=[0,a(aw),818,21],oo=[0,a(aw),819,21],ox=[0,a(aw),822,19],op=[0,a(aw),823,19],oy=[0,a(aw),826,22],oq=[0,a(aw),827,22],oz=[0,a(aw),831,30],or=[0,a(aw),832,30],ot=[0,a(aw),836,26],ol=[0,a(aw),837,26],ou=[0,a(aw),846,28],om=[0,a(aw),847,28],os=[0,a(aw),851,23],pC=a(lQ),pA=[0,a(aw),1558,4],pB=a("Printf: bad conversion %["),pD=[0,a(aw),1626,39],pE=[0,a(aw),1649,31],pF=[0,a(aw),1650,31],pG=a("Printf: bad conversion %_"),pH=a(lM),pI=a(lZ),pJ=a(lM),pK=a(lZ),py=a(hq),pw=a("neg_infinity"),px=a(mM),pv=a(cr),pq=[0,lf],pe=a("%+nd"),pf=a("% nd"),ph=a("%+ni"),pi=a("% ni"),pj=a("%nx"),pk=a("%#nx"),pl=a("%nX"),pm=a("%#nX"),pn=a("%no"),po=a("%#no"),pd=a("%nd"),pg=a(lW),pp=a("%nu"),o3=a("%+ld"),o4=a("% ld"),o6=a("%+li"),o7=a("% li"),o8=a("%lx"),o9=a("%#lx"),o_=a("%lX"),o$=a("%#lX"),pa=a("%lo"),pb=a("%#lo"),o2=a("%ld"),o5=a(ly),pc=a("%lu"),oQ=a("%+Ld"),oR=a("% Ld"),oT=a("%+Li"),oU=a("% Li"),oV=a("%Lx"),oW=a("%#Lx"),oX=a("%LX"),oY=a("%#LX"),oZ=a("%Lo"),o0=a("%#Lo"),oP=a("%Ld"),oS=a(k8),o1=a("%Lu"),oD=a("%+d"),oE=a("% d"),oG=a("%+i"),oH=a("% i"),oI=a("%x"),oJ=a("%#x"),oK=a("%X"),oL=a("%#X"),oM=a("%o"),oN=a("%#o"),oC=a(hD),oF=a(kY),oO=a(lQ),nX=a("@]"),nY=a("@}"),nZ=a("@?"),n0=a("@\n"),n1=a("@."),n2=a("@@"),n3=a("@%"),n4=a("@"),oA=a("CamlinternalFormat.Type_mismatch"),pO=a(t),pP=[0,[11,a(k5),[2,0,[2,0,0]]],a(", %s%s")],qc=[0,[11,a(hy),[2,0,[12,10,0]]],a(mz)],qd=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],qb=a("Fatal error: out of memory in uncaught exception handler"),p$=[0,[11,a(hy),[2,0,[12,10,0]]],a(mz)],p7=[0,[2,0,[12,10,0]],a("%s\n")],pZ=a("Raised at"),p0=a("Re-raised at"),p1=a("Raised by primitive operation at"),p2=a("Called from"),p3=a(" (inlined)"),p5=a(t),p4=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(lG),Am]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],p6=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],pU=a("Out of memory"),pV=a("Stack overflow"),pW=a("Pattern matching failed"),pX=a("Assertion failed"),pY=a("Undefined recursive module"),pQ=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],pR=a(t),pS=a(t),pT=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],pN=[0,[4,0,0,0,0],a(hD)],pL=[0,[3,0,0],a("%S")],pM=a(l4),p8=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],qf=a("Jsoo_runtime.Error.Exn"),qh=a("power"),qr=[0,0],qs=[0,[0,0]],qt=[0,[0,0]],qA=[0,0],qH=[0,0,0],qI=[0,0,0],qJ=[0,0],qY=[0,0],qZ=[0,0],rf=[0,0],ri=[0,0],ru=[0,0],rv=[0,0],rQ=[0,[0,[0,0]]],r3=a(","),sj=[0,a(hr),0],sk=a(mx),sl=a(cr),sm=[0,[0,[0,0]]],sn=a(bb),so=a(hs),sp=[0,[0,[0,[0,[0,0]]]]],sq=[0,a(hr),0],sr=a(m4),uT=a(kZ),uV=a(l2),uU=a(mD),uW=a(fn),uX=a(fu),uY=a(lY),uZ=a(mX),u0=a(mn),vE=[0,a(lz),8458,12],vW=a(hz),vX=[0,0],vY=a("divided"),vZ=[0,1],v0=a("mirror"),v1=[0,3],v2=a("negative"),v3=[0,2],v4=a(ht),v5=[0,5],v6=a(hL),v7=[0,4],v8=a(fl),v9=a(me),v_=a(fy),v$=a(cP),wa=[0,0],wb=[0,0],wc=[0,0],wx=a(t),wt=[0,[0,[0,0]]],wu=[0,[0,[0,[0,0]]]],wv=[0,[0,[0,[0,0]]]],wq=[0,[0,[0,0]]],wp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],wo=[0,0],wm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wj=[0,[0,0]],wh=[0,[0,[0,0]]],we=[0,[0,0]],wf=[0,0],wd=[0,0],vR=[0,[0,0]],vS=[0,0],vQ=[0,0],vP=[0,0],vO=[0,0,0],vM=[0,0,0],vK=[0,[0,[0,0]]],vL=[0,[0,[0,0]]],vJ=[0,0],vH=[0,1,0],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],vu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],vv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],vw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],vA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],vB=a("sqrt"),vs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],vh=[0,a("\n"),0],vi=a(l3),vj=a(fj),vk=a(ls),vl=a(mq),vm=a("certified"),vr=a("refuted"),vn=a("verdict"),vo=a(lJ),vp=a(ml),vq=a(mA),u_=a(mR),u$=a(ht),va=a(fm),vb=a(lp),vc=a(fo),vd=a(bo),ve=a(l5),vf=a(fm),vg=a(mV),u6=a(mJ),u7=a(fo),u8=a(mk),u9=a(mY),u2=a(mW),u3=a(mv),u4=a(fw),uR=a(hB),uS=a(hv),uv=a(fw),ua=a(bo),ub=a(b3),uc=a(ds),ud=a(fi),ue=a(dr),uf=a(bo),ug=a(b3),uh=a(hI),ui=a(bI),uj=a(bH),uk=a(cO),ul=a(ds),um=a(mL),un=a(mT),uo=a(dr),up=a(bo),uq=a(b3),ur=a(bI),us=a(bH),ut=a(cO),uu=a(ds),uw=a(lF),ux=a(lN),uy=a(m3),uz=a(mf),uA=a(k$),uB=a(dr),uC=a(bo),uD=a(b3),uE=a(fq),uF=a(mp),uG=a(ds),uH=a(ee),uI=a(l8),uJ=a(dr),uK=a(bo),uL=a(fq),uM=a(bo),uN=a(lB),uQ=a(l1),uO=a(k_),uP=a(lS),t6=a(b3),t7=a(hM),t8=a(ds),t9=a(fi),t_=a(dr),tU=a(ee),tV=a(mU),tW=a(dn),tX=a(dp),tY=a(dp),tZ=a(hj),t0=a(dn),t1=a(mC),t2=a(mm),t3=a(bm),t5=a(l7),t4=a(hj),tK=a(lo),tL=a(lX),tM=a(lb),tN=a(mi),tO=a(lP),tP=a(lH),tQ=a(mr),tR=a(fr),tS=a(fr),tG=a(bm),tH=a(cp),tI=a(fp),tJ=a(cq),tC=a(eb),tD=a(hG),tE=a(mH),tv=a(bI),tw=a(bH),tx=a(cO),ty=a(lt),tz=a(dn),tA=a(lm),tB=a(mO),tl=a(k9),tq=a(lR),tr=a(fj),tm=a(mj),tn=a(hk),ts=a(k7),tt=a(lD),tu=a(hk),to=a(dp),tp=a(mE),ti=a(fx),tj=a(fx),tk=a(fx),te=a(mP),tf=a(bH),tg=a(bI),th=a(lO),s3=a(k4),s4=a(l6),s5=a(mK),s6=a(fn),s7=a(m2),s8=a(mN),s9=a(l$),s_=a(mG),s$=a(k3),ta=a(lg),tb=a(l_),tc=a(mQ),td=a(fu),sS=a(bG),s2=a(bb),sT=a(ft),sU=a(fs),sV=a(fB),sW=a(bm),sX=a(cp),sY=a(lw),sZ=a(lC),s0=a(fB),s1=a(cq),sA=a(bG),sI=a(bb),sB=a(ft),sC=a(fs),sD=a(bm),sE=a(cp),sF=a(cP),sG=a(lT),sH=a(cq),sJ=a(hw),sK=a(bm),sL=a(cp),sM=a(fp),sN=a(cq),sO=a(cP),sP=a(eb),sQ=a(cq),sx=a(bI),sy=a(bH),sv=[0,a(ay),0],sw=a(ay),st=[0,a(lz),7731,36],ss=[0,a(ay),0],su=a(ay),sf=a(bG),sg=a(bb),sh=a("*"),si=a(bl),sa=[0,[0,[0,[0,[0,0]]]]],sb=[0,[0,[0,0]]],sc=[0,[0,0]],sd=[0,0],se=[0,[0,[0,[0,0]]]],r_=a('":'),r$=a(ay),r8=[0,a(ay),0],r9=a(ay),r6=[0,a("}"),0],r7=a("{"),r4=[0,a("]"),0],r5=a("["),r2=[0,[0,[0,0]]],r0=[0,[0,[0,0]]],rY=[0,0],rV=[0,[0,[0,0]]],rW=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rX=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rT=[0,[0,0]],rU=[0,[0,[0,0]]],rO=[0,[0,0]],rP=[0,[0,[0,0]]],rM=[0,[0,[0,0]]],rN=[0,[0,0]],rK=[0,0],rG=[0,[0,0]],rH=[0,0],rI=[0,0],rJ=[0,[0,0]],rx=[0,[0,0]],ry=[0,0],rz=[0,[0,0]],rA=[0,0],rB=[0,0],rC=[0,[0,0]],rD=[0,[0,0]],rE=[0,[0,0]],rF=[0,0],rt=[0,0],rr=[0,[0,[0,0]]],rq=[0,[0,[0,[0,[0,[0,0]]]]]],rn=[0,0],ro=[0,[0,[0,[0,[0,[0,0]]]]]],rp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],rl=[0,[0,[0,0]]],rg=[0,[0,[0,0]]],re=[0,[0,[0,0]]],rc=[0,[0,[0,[0,[0,[0,0]]]]]],rd=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,0]],q$=[0,0],ra=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],q3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q4=[0,[0,[0,[0,[0,[0,0]]]]]],q5=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,0]]],q7=[0,[0,[0,[0,[0,[0,0]]]]]],q8=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q1=[0,[0,0]],q2=[0,0],q0=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qU=[0,[0,[0,[0,0]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qS=[0,[0,[0,0]]],qT=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qO=[0,[0,0]],qP=[0,0],qM=[0,[0,0]],qN=[0,0],qK=[0,[0,0]],qL=[0,0],qB=[0,0,0],qw=[0,0],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,0]],qu=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],qq=a(aN),qp=a(t),qo=[0,[0,0]],qn=[0,0],qm=[1,0],ql=[0,0],qk=[0,0],qi=[1,0],qj=[1,0],yN=a(cq),yO=a(hw),yP=a(fp),yS=a(bm),yT=a(cp),yQ=[0,a('" of such a platform'),0],yR=a(k6),yz=a("rho"),yA=a(fw),yB=[0,a("a joint by its coordinate"),0],ya=a(b3),x1=a(bo),x2=a(lB),x3=a(lS),x6=a(k_),x7=a(l1),x8=a(bo),x9=a(bo),x$=a(fq),x_=[0,a("a claim that no cube of such a machine fits"),0],yb=a(dr),yc=a(ds),yd=a(fi),ye=a(hM),za=[0,a("such a machine with bodies"),0],yf=a(eb),yg=a(hG),yh=a(mH),yi=a(hI),yj=a(k$),yk=a(l8),yl=a(fi),yo=a(cO),yp=a(mO),ys=a(hM),yt=[0,a("a machine with arms and bodies"),0],yu=a(b3),yv=a(mp),yw=a(fq),yx=a(ee),yy=a(cO),yC=a(b3),yD=a(bI),yE=a(bH),yF=a(lF),yG=a(lN),yH=a(m3),yI=a(mf),ym=[0,a(ay),0],yn=a(lV),yJ=a(cO),yK=[0,a('" of a platform that turns'),0],yL=a(lI),yM=a(mL),y_=[0,a('" that does not turn'),0],y$=a(lV),yU=a(hI),yV=a(lH),yW=a(lo),yX=a(lP),yY=a(fr),yZ=a(mr),y0=a(fr),y7=a(lX),y8=a(lb),y9=a(mi),y1=a(eb),y2=a(hG),y3=a(b3),y4=a(bI),y5=a(bH),y6=a(mT),yq=[0,a(ay),0],yr=a(lI),x4=[0,a(ay),0],x5=a('a claim of the kind "'),zf=a(fu),zg=a(fn),zh=a(mn),zi=a(mD),zj=a(cP),zk=a(lY),zl=a(fl),zm=a(me),zn=a(fy),zq=a(hv),zr=a(hB),zs=a(cP),zt=a(aN),zo=[0,a(ay),0],zp=a('the evidence "'),zu=a(fl),zv=a(fy),zw=a(mX),zy=a(fl),zz=a(fy),zA=a(hz),zB=a(hz),zx=[0,a("this evidence at control points"),0],z2=a(mA),z3=a(ml),z4=a(lJ),Af=[0,3,3],z5=a(mq),z6=[0,a("the acceleration of a joint of a machine with a plane"),0],Ab=[0,a('the drive "arm" in a claim that is certified'),0],Ac=[0,a("a step of a platform that turns that is not at control points"),0],Ad=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],Ae=[0,a("a mechanism by formulas in a claim that is refuted"),0],Aa=[0,a("this quantity in a claim that is refuted"),0],z_=[0,a("a leaf that fails"),0],z$=[0,a("a step in a proof that no cube fits"),0],z7=a(ls),z8=a(l3),z9=a(fj),z0=a(hL),zN=a(lp),zO=a(mV),zR=a(bo),zS=a(fo),zT=a(l5),zU=a(fm),zV=a(mR),zW=a(ht),zX=a(fm),zP=[0,a(ay),0],zQ=a('a proof of the kind "'),zJ=a(mJ),zK=a(fo),zL=a(mk),zM=a(mY),zE=a(mv),zF=a(mW),zG=a(fw),zH=[0,a(ay),0],zI=a('the failure "'),zC=a(hL),zD=a(aN),zd=a(hv),ze=a(hB),zb=a(l2),zc=a(kZ),xY=a(ee),xO=a(hj),xP=a(l7),xQ=a(dp),xR=a(bm),xW=a(mU),xX=a(ee),xZ=a(dn),x0=a(dp),xS=a(dn),xT=a(mC),xU=a(mm),xV=a(bm),xH=a(cO),xL=a(bI),xM=a(bH),xI=a(lm),xJ=a(lt),xK=a(dn),xF=[0,a("this quantity of such a mechanism"),0],xs=a(mj),xt=[0,a("a stiffness for each joint"),0],xu=a(lD),xv=a(k7),xw=a(lR),xr=a(fj),xj=a(fx),w$=a(mE),xa=a(l6),xz=a(fu),xA=a(lg),xB=a(fn),xC=a(mG),xD=a(l_),xE=a(k3),xb=a(mK),xc=a(mQ),xd=a(mN),xe=a(m2),xf=a(l$),xg=a(k4),xh=[0,a(ay),0],xi=a('the quantity "'),xk=a(k9),xl=a(mP),xm=a(bI),xn=a(bH),xo=a(lO),xp=[0,a(ay),0],xq=a('a bound "'),xx=a(hk),xy=a(dp),w4=a(ft),w5=a(fs),w6=a(fB),w7=a(bm),w8=a(cp),w9=a(lw),w_=a(lC),w1=a(cq),w2=a(fB),wM=a(cq),wN=a(eb),wO=a(lT),wP=a(fp),wS=a(hw),wT=a(bm),wU=a(cp),wV=a(ft),wW=a(fs),wX=a(bm),wY=a(cp),wZ=a(cP),w0=a(cP),wQ=[0,a(ay),0],wR=a(k6),wJ=a(bG),wK=a(bb),wH=a(" is not covered by the verified checker"),wI=a(t),wF=a(bI),wG=a(bH),wB=a(t),wC=a(m4),wD=a(t),wE=a(t),wA=[1,0],wy=a("Reader.Malformed"),wz=a("Reader.Not_covered"),Ah=a(lx),Ai=a("CERTIFIED"),Aj=a("REFUTED"),Ak=a(lx),Al=a("NOT COVERED: ");function
-ah(a){if(typeof
+Dc(){var
+a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nQ(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nQ(a.error)})}Dc();function
+e(a,b){return a.length==1?a(b):cc(a,[b])}function
+T(a,b,c){return a.length==2?a(b,c):cc(a,[b,c])}function
+hI(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):cc(a,[b,c,d,e,f])}function
+Cu(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):cc(a,[b,c,d,e,f,g,h])}CJ();var
+f4=[az,a(np),-1],iE=[az,a(lT),-2],iB=[az,a(hN),-3],iA=[az,a(my),-4],iC=[az,a(l_),-8],iD=[az,a(mN),-9],aj=[az,a(m_),-11],iF=[az,a(lx),-12],Br=[4,0,0,0,[12,45,[4,0,0,0,0]]],f_=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(me),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],Bs=[0,[0,0]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,0],Bv=[0,[0,[0,[0,0]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,0]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,0]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,0],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,0]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,0],Co=[0,[0,[0,[0,[0,0]]]]],jk=[0,[0,[0,0]]],cH=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fc=[0,[0,[0,[0,0]]]],Cp=[0,[0,[0,[0,[0,0]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]];bf(11,iF,lx);bf(10,aj,m_);bf(9,[az,a(ms),-10],ms);bf(8,iD,mN);bf(7,iC,l_);bf(6,[az,a(mK),-7],mK);bf(5,[az,a(m1),-6],m1);bf(4,[az,a(lX),-5],lX);bf(3,iA,my);bf(2,iB,hN);bf(1,iE,lT);bf(0,f4,np);var
+od=a("%.12g"),oc=a(cx),oa=a("true"),ob=a("false"),oe=a("\\\\"),of=a("\\'"),og=a("\\b"),oh=a("\\t"),oi=a("\\n"),oj=a("\\r"),om=a("String.blit / Bytes.blit_string"),ol=a("Bytes.blit"),ok=a("String.sub / Bytes.sub"),oo=a(t),on=a("String.concat"),op=a("Array.init"),os=a("Buffer.add: cannot grow buffer"),or=[0,a(mX),93,2],oq=[0,a(mX),94,2],oB=a("%c"),oC=a("%s"),oD=a(lv),oE=a(l9),oF=a(mu),oG=a(lF),oH=a("%f"),oI=a("%B"),oJ=a("%{"),oK=a("%}"),oL=a("%("),oM=a("%)"),oN=a("%a"),oO=a("%t"),oP=a("%?"),oQ=a("%r"),oR=a("%_r"),oS=[0,a(ay),850,23],o3=[0,a(ay),814,21],oV=[0,a(ay),815,21],o4=[0,a(ay),818,21],oW=[0,a(ay),819,21],o5=[0,a(ay),822,19],oX=[0,a(ay),823,19],o6=[0,a(ay),826,22],oY=[0,a(ay),827,22],o7=[0,a(ay),831,30],oZ=[0,a(ay),832,30],o1=[0,a(ay),836,26],oT=[0,a(ay),837,26],o2=[0,a(ay),846,28],oU=[0,a(ay),847,28],o0=[0,a(ay),851,23],p_=a(mo),p8=[0,a(ay),1558,4],p9=a("Printf: bad conversion %["),p$=[0,a(ay),1626,39],qa=[0,a(ay),1649,31],qb=[0,a(ay),1650,31],qc=a("Printf: bad conversion %_"),qd=a(mk),qe=a(mx),qf=a(mk),qg=a(mx),p6=a(hR),p4=a("neg_infinity"),p5=a(nj),p3=a(cx),pY=[0,lO],pM=a("%+nd"),pN=a("% nd"),pP=a("%+ni"),pQ=a("% ni"),pR=a("%nx"),pS=a("%#nx"),pT=a("%nX"),pU=a("%#nX"),pV=a("%no"),pW=a("%#no"),pL=a("%nd"),pO=a(mu),pX=a("%nu"),pz=a("%+ld"),pA=a("% ld"),pC=a("%+li"),pD=a("% li"),pE=a("%lx"),pF=a("%#lx"),pG=a("%lX"),pH=a("%#lX"),pI=a("%lo"),pJ=a("%#lo"),py=a("%ld"),pB=a(l9),pK=a("%lu"),pm=a("%+Ld"),pn=a("% Ld"),pp=a("%+Li"),pq=a("% Li"),pr=a("%Lx"),ps=a("%#Lx"),pt=a("%LX"),pu=a("%#LX"),pv=a("%Lo"),pw=a("%#Lo"),pl=a("%Ld"),po=a(lF),px=a("%Lu"),o$=a("%+d"),pa=a("% d"),pc=a("%+i"),pd=a("% i"),pe=a("%x"),pf=a("%#x"),pg=a("%X"),ph=a("%#X"),pi=a("%o"),pj=a("%#o"),o_=a(h4),pb=a(lv),pk=a(mo),ot=a("@]"),ou=a("@}"),ov=a("@?"),ow=a("@\n"),ox=a("@."),oy=a("@@"),oz=a("@%"),oA=a("@"),o8=a("CamlinternalFormat.Type_mismatch"),qk=a(t),ql=[0,[11,a(lC),[2,0,[2,0,0]]],a(", %s%s")],qK=[0,[11,a(hZ),[2,0,[12,10,0]]],a(m8)],qL=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],qJ=a("Fatal error: out of memory in uncaught exception handler"),qH=[0,[11,a(hZ),[2,0,[12,10,0]]],a(m8)],qD=[0,[2,0,[12,10,0]],a("%s\n")],qv=a("Raised at"),qw=a("Re-raised at"),qx=a("Raised by primitive operation at"),qy=a("Called from"),qz=a(" (inlined)"),qB=a(t),qA=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(me),Br]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],qC=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],qq=a("Out of memory"),qr=a("Stack overflow"),qs=a("Pattern matching failed"),qt=a("Assertion failed"),qu=a("Undefined recursive module"),qm=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],qn=a(t),qo=a(t),qp=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],qj=[0,[4,0,0,0,0],a(h4)],qh=[0,[3,0,0],a("%S")],qi=a(mC),qE=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],qN=a("Jsoo_runtime.Error.Exn"),qP=a("power"),qZ=[0,0],q1=[0,0],q2=[0,[0,0]],q3=[0,[0,0]],rd=[0,0,0],re=[0,0,0],rf=[0,0],ru=[0,0],rv=[0,0],rN=[0,0],rQ=[0,0],r2=[0,0],r3=[0,0],sm=[0,[0,[0,0]]],sz=a(","),sR=[0,a(hS),0],sS=a(m6),sT=a(cx),sU=[0,[0,[0,0]]],sV=a(bc),sW=a(hT),sX=[0,[0,[0,[0,[0,0]]]]],sY=[0,a(hS),0],sZ=a(nA),vx=a(lw),vz=a(mA),vy=a(na),vA=a(fB),vB=a(fI),vC=a(mw),vD=a(nu),vE=a(mW),wH=a(h0),wI=[0,0],wJ=a("divided"),wK=[0,1],wL=a("mirror"),wM=[0,3],wN=a("negative"),wO=[0,2],wP=a(hU),wQ=[0,5],wR=a(ia),wS=[0,4],wT=a(fz),wU=a(mO),wV=a(fO),wW=a(cX),wX=[0,0],wY=[0,0],wZ=[0,0],xn=a(t),xk=[0,[0,[0,[0,0]]]],xl=[0,[0,[0,[0,0]]]],xi=[0,0],xg=[0,[0,[0,0]]],xe=[0,[0,[0,0]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],xc=[0,0],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],w_=[0,[0,0]],w$=[0,[0,[0,0]]],w8=[0,[0,[0,0]]],w9=[0,[0,0]],w7=[0,[0,[0,0]]],w4=[0,[0,0]],w5=[0,0],w3=[0,0],w2=[0,[0,0]],w1=[0,0],wA=[0,[0,0]],wB=[0,0],wz=[0,0],wy=[0,0],wx=[0,0,0],wv=[0,0,0],wt=[0,[0,[0,0]]],wu=[0,[0,[0,0]]],ws=[0,0],wq=[0,1,0],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],wk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],wl=a("sqrt"),wc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],v3=[0,a("\n"),0],v4=a(mB),v5=a(fx),v6=a(l2),v7=a(mZ),wb=a(er),v8=a(ep),v9=a("verdict"),v_=a(mh),v$=a(mU),wa=a(m9),v0=a(lZ),v1=a(ns),v2=a(fK),vW=a(l8),vX=a(fL),vY=a(ep),vZ=a(er),vR=a(fC),vS=a(a4),vT=a(mD),vU=a(fA),vO=a(no),vP=a(hU),vQ=a(fA),vK=a(ng),vL=a(fC),vM=a(fL),vN=a(nv),vG=a(nt),vH=a(m4),vI=a(fM),vv=a(h2),vw=a(hW),vq=a(be),vr=a(bd),vs=a(lP),u3=a(fM),uI=a(a4),uJ=a(b_),uK=a(dz),uL=a(fw),uM=a(dy),uN=a(a4),uO=a(b_),uP=a(h9),uQ=a(be),uR=a(bd),uS=a(cW),uT=a(dz),uU=a(ni),uV=a(nq),uW=a(dy),uX=a(a4),uY=a(b_),uZ=a(be),u0=a(bd),u1=a(cW),u2=a(dz),u4=a(md),u5=a(ml),u6=a(fR),u7=a(mP),u8=a(lI),u9=a(dy),u_=a(a4),u$=a(b_),va=a(fE),vb=a(mY),vc=a(dz),vd=a(es),ve=a(mG),vf=a(dy),vg=a(a4),vh=a(fE),vi=a(a4),vj=a(l$),vm=a(mz),vk=a(lH),vl=a(mq),vn=a(er),vo=a(ep),vp=a(a4),vt=a(fR),vu=a(fK),uC=a(b_),uD=a(ib),uE=a(dz),uF=a(fw),uG=a(dy),uq=a(es),ur=a(nr),us=a(dv),ut=a(dw),uu=a(dw),uv=a(hK),uw=a(dv),ux=a(m$),uy=a(mV),uz=a(bt),uB=a(mF),uA=a(hK),ug=a(lY),uh=a(mv),ui=a(lK),uj=a(mS),uk=a(mn),ul=a(mf),um=a(m0),un=a(fF),uo=a(fF),uc=a(bt),ud=a(cv),ue=a(fD),uf=a(cw),t_=a(en),t$=a(h7),ua=a(ne),t3=a(be),t4=a(bd),t5=a(cW),t6=a(l3),t7=a(dv),t8=a(lW),t9=a(nl),tT=a(lG),tY=a(mp),tZ=a(fx),tU=a(mT),tV=a(hL),t0=a(lE),t1=a(mb),t2=a(hL),tW=a(dw),tX=a(nb),tQ=a(fN),tR=a(fN),tS=a(fN),tM=a(nm),tN=a(bd),tO=a(be),tP=a(mm),tz=a(lB),tA=a(mE),tB=a(nh),tC=a(fB),tD=a(nz),tE=a(nk),tF=a(mJ),tG=a(nd),tH=a(lA),tI=a(lQ),tJ=a(mI),tK=a(nn),tL=a(fI),to=a(bM),ty=a(bc),tp=a(fH),tq=a(fG),tr=a(fS),ts=a(bt),tt=a(cv),tu=a(l6),tv=a(ma),tw=a(fS),tx=a(cw),s8=a(bM),te=a(bc),s9=a(fH),s_=a(fG),s$=a(bt),ta=a(cv),tb=a(cX),tc=a(mr),td=a(cw),tf=a(hX),tg=a(bt),th=a(cv),ti=a(fD),tj=a(cw),tk=a(cX),tl=a(en),tm=a(cw),s5=a(be),s6=a(bd),s3=[0,a(aA),0],s4=a(aA),s1=a(t),s0=[0,a(aA),0],s2=a(aA),sN=a(bM),sO=a(bc),sP=a("*"),sQ=a(bs),sI=[0,[0,[0,[0,[0,0]]]]],sJ=[0,[0,[0,0]]],sK=[0,[0,0]],sL=[0,0],sM=[0,[0,[0,[0,0]]]],sG=a('":'),sH=a(aA),sE=[0,a(aA),0],sF=a(aA),sC=[0,a("}"),0],sD=a("{"),sA=[0,a("]"),0],sB=a("["),sy=[0,[0,[0,0]]],sw=[0,[0,[0,0]]],su=[0,0],sr=[0,[0,[0,0]]],ss=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sp=[0,[0,0]],sq=[0,[0,[0,0]]],sk=[0,[0,0]],sl=[0,[0,[0,0]]],si=[0,[0,[0,0]]],sj=[0,[0,0]],sg=[0,0],sc=[0,[0,0]],sd=[0,0],se=[0,0],sf=[0,[0,0]],r5=[0,[0,0]],r6=[0,0],r7=[0,[0,0]],r8=[0,0],r9=[0,0],r_=[0,[0,0]],r$=[0,[0,0]],sa=[0,[0,0]],sb=[0,0],r1=[0,0],rZ=[0,[0,[0,0]]],rY=[0,[0,[0,[0,[0,[0,0]]]]]],rV=[0,0],rW=[0,[0,[0,[0,[0,[0,0]]]]]],rX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],rT=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rM=[0,[0,[0,0]]],rK=[0,[0,[0,[0,[0,[0,0]]]]]],rL=[0,[0,[0,[0,[0,[0,0]]]]]],rG=[0,[0,0]],rH=[0,0],rI=[0,[0,[0,0]]],rJ=[0,[0,[0,0]]],rz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rA=[0,[0,[0,[0,[0,[0,0]]]]]],rB=[0,[0,[0,[0,[0,[0,0]]]]]],rC=[0,[0,[0,0]]],rD=[0,[0,[0,[0,[0,[0,0]]]]]],rE=[0,[0,[0,0]]],rF=[0,[0,[0,0]]],rx=[0,[0,0]],ry=[0,0],rw=[0,[0,[0,0]]],rr=[0,[0,[0,0]]],rs=[0,[0,[0,0]]],rt=[0,[0,[0,0]]],rq=[0,[0,[0,[0,0]]]],rm=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],ro=[0,[0,[0,0]]],rp=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rk=[0,[0,0]],rl=[0,0],ri=[0,[0,0]],rj=[0,0],rg=[0,[0,0]],rh=[0,0],q6=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,[0,0]],q4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],q0=[0,0,0],qY=a(aO),qX=a(t),qW=[0,[0,0]],qV=[0,0],qU=[1,0],qT=[0,0],qS=[0,0],qQ=[1,0],qR=[1,0],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],z4=a(be),z5=a(bd),z6=a(lP),zE=a(cw),zF=a(hX),zG=a(fD),zJ=a(bt),zK=a(cv),zH=[0,a('" of such a platform'),0],zI=a(lD),zq=a("rho"),zr=a(fM),zs=[0,a("a joint by its coordinate"),0],y3=a(b_),yR=a(fK),yS=a(a4),yT=a(l$),yU=a(mq),yX=a(lH),yY=a(mz),yZ=a(a4),y0=a(a4),y2=a(fE),y1=[0,a("a claim that no cube of such a machine fits"),0],y4=a(dy),y5=a(dz),y6=a(fw),y7=a(ib),z3=[0,a("such a machine with bodies"),0],y8=a(en),y9=a(h7),y_=a(ne),y$=a(h9),za=a(lI),zb=a(mG),zc=a(fw),zf=a(cW),zg=a(nl),zj=a(ib),zk=[0,a("a machine with arms and bodies"),0],zl=a(b_),zm=a(mY),zn=a(fE),zo=a(es),zp=a(cW),zt=a(b_),zu=a(be),zv=a(bd),zw=a(md),zx=a(ml),zy=a(fR),zz=a(mP),zd=[0,a(aA),0],ze=a(mt),zA=a(cW),zB=[0,a('" of a platform that turns'),0],zC=a(mg),zD=a(ni),z1=[0,a('" that does not turn'),0],z2=a(mt),zL=a(h9),zM=a(mf),zN=a(lY),zO=a(mn),zP=a(fF),zQ=a(m0),zR=a(fF),zY=a(mv),zZ=a(lK),z0=a(mS),zS=a(en),zT=a(h7),zU=a(b_),zV=a(be),zW=a(bd),zX=a(nq),zh=[0,a(aA),0],zi=a(mg),z7=a(a4),z8=a(a4),z_=a(er),z$=a(ep),Aa=a(fR),z9=[0,a("an atlas of such a machine"),0],yV=[0,a(aA),0],yW=a('a claim of the kind "'),Af=a(fI),Ag=a(fB),Ah=a(mW),Ai=a(na),Aj=a(cX),Ak=a(mw),Al=a(fz),Am=a(mO),An=a(fO),Aq=a(hW),Ar=a(h2),As=a(cX),At=a(aO),Ao=[0,a(aA),0],Ap=a('the evidence "'),Au=a(fz),Av=a(fO),Aw=a(nu),Ay=a(fz),Az=a(fO),AA=a(h0),AB=a(h0),Ax=[0,a("this evidence at control points"),0],A6=a(m9),A7=a(mU),A8=a(mh),Bk=[0,3,3],A9=a(mZ),Bg=[0,a('the drive "arm" in a claim that is certified'),0],Bh=[0,a("a step of a platform that turns that is not at control points"),0],Bi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],Bj=[0,a("a mechanism by formulas in a claim that is refuted"),0],A_=[0,a("the acceleration of a joint of a machine with a plane"),0],Bf=[0,a("this quantity in a claim that is refuted"),0],Bd=[0,a("a step in a proof that no cube fits"),0],Be=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Bc=[0,a("a leaf that fails"),0],A$=a(l2),Ba=a(mB),Bb=a(fx),A4=a(ia),AY=a(fK),AZ=a(lZ),A0=a(ns),A1=[0,a(aA),0],A2=a('a proof of the kind "'),AU=a(ep),AV=a(er),AW=a(fL),AX=a(l8),AQ=a(a4),AR=a(fC),AS=a(mD),AT=a(fA),AN=a(no),AO=a(hU),AP=a(fA),AJ=a(ng),AK=a(fC),AL=a(fL),AM=a(nv),AE=a(m4),AF=a(nt),AG=a(fM),AH=[0,a(aA),0],AI=a('the failure "'),AC=a(ia),AD=a(aO),Ad=a(hW),Ae=a(h2),Ab=a(mA),Ac=a(lw),yO=a(es),yE=a(hK),yF=a(mF),yG=a(dw),yH=a(bt),yM=a(nr),yN=a(es),yP=a(dv),yQ=a(dw),yI=a(dv),yJ=a(m$),yK=a(mV),yL=a(bt),yx=a(cW),yB=a(be),yC=a(bd),yy=a(lW),yz=a(l3),yA=a(dv),yv=[0,a("this quantity of such a mechanism"),0],yi=a(mT),yj=[0,a("a stiffness for each joint"),0],yk=a(mb),yl=a(lE),ym=a(mp),yh=a(fx),x$=a(fN),x1=a(nb),x2=a(mE),yp=a(fI),yq=a(lQ),yr=a(fB),ys=a(nd),yt=a(mI),yu=a(lA),x3=a(nh),x4=a(nn),x5=a(nk),x6=a(nz),x7=a(mJ),x8=a(lB),x9=[0,a(aA),0],x_=a('the quantity "'),ya=a(lG),yb=a(nm),yc=a(be),yd=a(bd),ye=a(mm),yf=[0,a(aA),0],yg=a('a bound "'),yn=a(hL),yo=a(dw),xU=a(fH),xV=a(fG),xW=a(fS),xX=a(bt),xY=a(cv),xZ=a(l6),x0=a(ma),xR=a(cw),xS=a(fS),xC=a(cw),xD=a(en),xE=a(mr),xF=a(fD),xI=a(hX),xJ=a(bt),xK=a(cv),xL=a(fH),xM=a(fG),xN=a(bt),xO=a(cv),xP=a(cX),xQ=a(cX),xG=[0,a(aA),0],xH=a(lD),xz=a(bM),xA=a(bc),xx=a(" is not covered by the verified checker"),xy=a(t),xv=a(be),xw=a(bd),xr=a(t),xs=a(nA),xt=a(t),xu=a(t),xq=[1,0],xo=a("Reader.Malformed"),xp=a("Reader.Not_covered"),Bm=a(l7),Bn=a("CERTIFIED"),Bo=a("REFUTED"),Bp=a(l7),Bq=a("NOT COVERED: ");function
+ai(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ah(a[1])];case
-1:return[1,ah(a[1])];case
-2:return[2,ah(a[1])];case
-3:return[3,ah(a[1])];case
-4:return[4,ah(a[1])];case
-5:return[5,ah(a[1])];case
-6:return[6,ah(a[1])];case
-7:return[7,ah(a[1])];case
+0:return[0,ai(a[1])];case
+1:return[1,ai(a[1])];case
+2:return[2,ai(a[1])];case
+3:return[3,ai(a[1])];case
+4:return[4,ai(a[1])];case
+5:return[5,ai(a[1])];case
+6:return[6,ai(a[1])];case
+7:return[7,ai(a[1])];case
 8:var
-c=a[1];return[8,c,ah(a[2])];case
+c=a[1];return[8,c,ai(a[2])];case
 9:var
-b=a[1];return[9,b,b,ah(a[3])];case
-10:return[10,ah(a[1])];case
-11:return[11,ah(a[1])];case
-12:return[12,ah(a[1])];case
-13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
-aP(a,b){if(typeof
+b=a[1];return[9,b,b,ai(a[3])];case
+10:return[10,ai(a[1])];case
+11:return[11,ai(a[1])];case
+12:return[12,ai(a[1])];case
+13:return[13,ai(a[1])];default:return[14,ai(a[1])]}}function
+aQ(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aP(a[1],b)];case
-1:return[1,aP(a[1],b)];case
-2:return[2,aP(a[1],b)];case
-3:return[3,aP(a[1],b)];case
-4:return[4,aP(a[1],b)];case
-5:return[5,aP(a[1],b)];case
-6:return[6,aP(a[1],b)];case
-7:return[7,aP(a[1],b)];case
+0:return[0,aQ(a[1],b)];case
+1:return[1,aQ(a[1],b)];case
+2:return[2,aQ(a[1],b)];case
+3:return[3,aQ(a[1],b)];case
+4:return[4,aQ(a[1],b)];case
+5:return[5,aQ(a[1],b)];case
+6:return[6,aQ(a[1],b)];case
+7:return[7,aQ(a[1],b)];case
 8:var
-c=a[1];return[8,c,aP(a[2],b)];case
+c=a[1];return[8,c,aQ(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aP(a[3],b)];case
-10:return[10,aP(a[1],b)];case
-11:return[11,aP(a[1],b)];case
-12:return[12,aP(a[1],b)];case
-13:return[13,aP(a[1],b)];default:return[14,aP(a[1],b)]}}function
-ae(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aQ(a[3],b)];case
+10:return[10,aQ(a[1],b)];case
+11:return[11,aQ(a[1],b)];case
+12:return[12,aQ(a[1],b)];case
+13:return[13,aQ(a[1],b)];default:return[14,aQ(a[1],b)]}}function
+af(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ae(a[1],b)];case
-1:return[1,ae(a[1],b)];case
+0:return[0,af(a[1],b)];case
+1:return[1,af(a[1],b)];case
 2:var
-c=a[1];return[2,c,ae(a[2],b)];case
+c=a[1];return[2,c,af(a[2],b)];case
 3:var
-d=a[1];return[3,d,ae(a[2],b)];case
+d=a[1];return[3,d,af(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,ae(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,af(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,ae(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,af(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,ae(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,af(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,ae(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,af(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,ae(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,af(a[4],b)];case
 9:var
-t=a[1];return[9,t,ae(a[2],b)];case
-10:return[10,ae(a[1],b)];case
+t=a[1];return[9,t,af(a[2],b)];case
+10:return[10,af(a[1],b)];case
 11:var
-u=a[1];return[11,u,ae(a[2],b)];case
+u=a[1];return[11,u,af(a[2],b)];case
 12:var
-v=a[1];return[12,v,ae(a[2],b)];case
+v=a[1];return[12,v,af(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,ae(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,af(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,ae(a[3],b)];case
-15:return[15,ae(a[1],b)];case
-16:return[16,ae(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,af(a[3],b)];case
+15:return[15,af(a[1],b)];case
+16:return[16,af(a[1],b)];case
 17:var
-A=a[1];return[17,A,ae(a[2],b)];case
+A=a[1];return[17,A,af(a[2],b)];case
 18:var
-B=a[1];return[18,B,ae(a[2],b)];case
-19:return[19,ae(a[1],b)];case
+B=a[1];return[18,B,af(a[2],b)];case
+19:return[19,af(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,ae(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,af(a[3],b)];case
 21:var
-E=a[1];return[21,E,ae(a[2],b)];case
-22:return[22,ae(a[1],b)];case
+E=a[1];return[21,E,af(a[2],b)];case
+22:return[22,af(a[1],b)];case
 23:var
-F=a[1];return[23,F,ae(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,ae(a[3],b)]}}function
-b_(a){throw[0,h9,a]}function
-em(a){return 0<=a?a:-a|0}function
-aA(d,c){var
-a=J(d),e=J(c),b=ar(a+e|0);bM(d,0,b,0,a);bM(c,0,b,a,e);return aO(b)}function
-nD(a){return a?nE:nF}BV(0);nn(1);var
-bQ=nn(2);function
-dz(b,a){return no(b,a,0,J(a))}function
-id(a){dz(bQ,a);np(bQ,10);return dw(bQ)}function
-fO(b){function
+F=a[1];return[23,F,af(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,af(a[3],b)]}}function
+cf(a){throw[0,iA,a]}function
+eA(a){return 0<=a?a:-a|0}function
+aC(d,c){var
+a=K(d),e=K(c),b=at(a+e|0);bQ(d,0,b,0,a);bQ(c,0,b,a,e);return aP(b)}function
+n$(a){return a?oa:ob}C5(0);nV(1);var
+bU=nV(2);function
+dG(b,a){return nW(b,a,0,K(a))}function
+iG(a){dG(bU,a);nX(bU,10);return dD(bU)}function
+f5(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dw(d)}catch(a){a=fL(a);if(a[1]!==ib)throw a;var
+c=a[2],d=a[1];try{dD(d)}catch(a){a=f2(a);if(a[1]!==iE)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(BW(0))}h1(a(k1),fO);var
-dA=(4*B7(0)|0)-1|0;function
-cu(c){var
+a=c;continue}return 0}}return a(C6(0))}is(a(ly),f5);var
+dH=(4*Df(0)|0)-1|0;function
+cA(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-ab(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,ab(b,c)]}return 0}function
-ie(d,c){var
+Z(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+iH(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-b$(d,c){var
+by(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-cv(a,c){var
-b=ar(a);Bx(b,0,a,c);return b}function
-ig(c,b,a){if(0<=b&&0<=a&&!((a4(c)-a|0)<b)){var
-d=ar(a);ct(c,b,d,0,a);return d}return b_(nO)}function
-ih(c,b,a){return aO(ig(c,b,a))}function
-ii(e,c,d,b,a){if(0<=a&&0<=c&&!((a4(e)-a|0)<c)&&0<=b&&!((a4(d)-a|0)<b))return ct(e,c,d,b,a);return b_(nP)}function
-bR(e,c,d,b,a){if(0<=a&&0<=c&&!((J(e)-a|0)<c)&&0<=b&&!((a4(d)-a|0)<b))return bM(e,c,d,b,a);return b_(nQ)}function
-a8(b,a){return aO(cv(b,a))}function
-dB(c,b,a){return aO(ig(b6(c),b,a))}function
-ij(k,g){if(g){var
-h=J(k),c=0,b=g,p=0;for(;;){if(b){var
+cB(a,c){var
+b=at(a);CH(b,0,a,c);return b}function
+iI(c,b,a){if(0<=b&&0<=a&&!((a5(c)-a|0)<b)){var
+d=at(a);cz(c,b,d,0,a);return d}return cf(ok)}function
+iJ(c,b,a){return aP(iI(c,b,a))}function
+iK(e,c,d,b,a){if(0<=a&&0<=c&&!((a5(e)-a|0)<c)&&0<=b&&!((a5(d)-a|0)<b))return cz(e,c,d,b,a);return cf(ol)}function
+bV(e,c,d,b,a){if(0<=a&&0<=c&&!((K(e)-a|0)<c)&&0<=b&&!((a5(d)-a|0)<b))return bQ(e,c,d,b,a);return cf(om)}function
+a9(b,a){return aP(cB(b,a))}function
+dI(c,b,a){return aP(iI(cb(c),b,a))}function
+iL(k,g){if(g){var
+h=K(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(J(i)+h|0)+c|0,m=b[2],n=c<=j?j:b_(nR),c=n,b=m;continue}var
-l=J(i)+c|0}else
+j=(K(i)+h|0)+c|0,m=b[2],n=c<=j?j:cf(on),c=n,b=m;continue}var
+l=K(i)+c|0}else
 var
 l=c;var
-f=ar(l),e=p,d=g;for(;;){if(d){var
+f=at(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bM(a,0,f,e,J(a));bM(k,0,f,e+J(a)|0,h);var
-e=(e+J(a)|0)+h|0,d=o;continue}bM(a,0,f,e,J(a))}return aO(f)}}}return nS}function
-ik(b,c){if(0===b)return[0];if(0<=b){var
-d=BT(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bQ(a,0,f,e,K(a));bQ(k,0,f,e+K(a)|0,h);var
+e=(e+K(a)|0)+h|0,d=o;continue}bQ(a,0,f,e,K(a))}return aP(f)}}}return oo}function
+iM(b,c){if(0===b)return[0];if(0<=b){var
+d=C3(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return b_(nT)}function
-il(c){var
+a=h;continue}break}}return d}return cf(op)}function
+iN(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-im(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dA<b[1]){if(!((d+c|0)<=dA))throw[0,h_,nW];b[1]=dA}var
-e=ar(b[1]);ii(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,af,nU]}throw[0,af,nV]}}function
-dC(a,c){var
-b=J(c),d=a[2]+b|0;if(a[3]<d)im(a,b);bM(c,0,a[1],a[2],b);a[2]=d;return 0}function
-fP(a){return 5===a[2]?12:-6}function
-io(a){return[0,0,ar(a)]}function
-ip(a,h){var
-b=a4(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ar(i);ii(a[2],0,f,0,b);a[2]=f;var
+iO(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dH<b[1]){if(!((d+c|0)<=dH))throw[0,iB,os];b[1]=dH}var
+e=at(b[1]);iK(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,aj,oq]}throw[0,aj,or]}}function
+dJ(a,c){var
+b=K(c),d=a[2]+b|0;if(a[3]<d)iO(a,b);bQ(c,0,a[1],a[2],b);a[2]=d;return 0}function
+f6(a){return 5===a[2]?12:-6}function
+iP(a){return[0,0,at(a)]}function
+iQ(a,h){var
+b=a5(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=at(i);iK(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cU(a,b){ip(a,1);cQ(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+c2(a,b){iQ(a,1);cY(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
 aJ(a,c){var
-b=J(c);ip(a,b);bR(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-iq(a){return ih(a[2],0,a[1])}function
-ir(a){if(typeof
+b=K(c);iQ(a,b);bV(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+iR(a){return iJ(a[2],0,a[1])}function
+iS(a){if(typeof
 a==="number")switch(a){case
-0:return nX;case
-1:return nY;case
-2:return nZ;case
-3:return n0;case
-4:return n1;case
-5:return n2;default:return n3}else
+0:return ot;case
+1:return ou;case
+2:return ov;case
+3:return ow;case
+4:return ox;case
+5:return oy;default:return oz}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aA(n4,a8(1,a[1]))}}function
-fQ(b,c){var
+1:return a[1];default:return aC(oA,a9(1,a[1]))}}function
+f7(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aJ(b,n5);var
+d=a[1];aJ(b,oB);var
 a=d;continue;case
 1:var
-e=a[1];aJ(b,n6);var
+e=a[1];aJ(b,oC);var
 a=e;continue;case
 2:var
-f=a[1];aJ(b,n7);var
+f=a[1];aJ(b,oD);var
 a=f;continue;case
 3:var
-g=a[1];aJ(b,n8);var
+g=a[1];aJ(b,oE);var
 a=g;continue;case
 4:var
-h=a[1];aJ(b,n9);var
+h=a[1];aJ(b,oF);var
 a=h;continue;case
 5:var
-i=a[1];aJ(b,n_);var
+i=a[1];aJ(b,oG);var
 a=i;continue;case
 6:var
-j=a[1];aJ(b,n$);var
+j=a[1];aJ(b,oH);var
 a=j;continue;case
 7:var
-k=a[1];aJ(b,oa);var
+k=a[1];aJ(b,oI);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aJ(b,ob);fQ(b,m);aJ(b,oc);var
+l=a[2],m=a[1];aJ(b,oJ);f7(b,m);aJ(b,oK);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aJ(b,od);fQ(b,o);aJ(b,oe);var
+n=a[3],o=a[1];aJ(b,oL);f7(b,o);aJ(b,oM);var
 a=n;continue;case
 10:var
-p=a[1];aJ(b,of);var
+p=a[1];aJ(b,oN);var
 a=p;continue;case
 11:var
-q=a[1];aJ(b,og);var
+q=a[1];aJ(b,oO);var
 a=q;continue;case
 12:var
-r=a[1];aJ(b,oh);var
+r=a[1];aJ(b,oP);var
 a=r;continue;case
 13:var
-s=a[1];aJ(b,oi);var
+s=a[1];aJ(b,oQ);var
 a=s;continue;default:var
-t=a[1];aJ(b,oj);var
+t=a[1];aJ(b,oR);var
 a=t;continue}}function
-ap(a){if(typeof
+ar(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ap(a[1])];case
-1:return[1,ap(a[1])];case
-2:return[2,ap(a[1])];case
-3:return[3,ap(a[1])];case
-4:return[4,ap(a[1])];case
-5:return[5,ap(a[1])];case
-6:return[6,ap(a[1])];case
-7:return[7,ap(a[1])];case
+0:return[0,ar(a[1])];case
+1:return[1,ar(a[1])];case
+2:return[2,ar(a[1])];case
+3:return[3,ar(a[1])];case
+4:return[4,ar(a[1])];case
+5:return[5,ar(a[1])];case
+6:return[6,ar(a[1])];case
+7:return[7,ar(a[1])];case
 8:var
-b=a[1];return[8,b,ap(a[2])];case
+b=a[1];return[8,b,ar(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ap(a[3])];case
-10:return[10,ap(a[1])];case
-11:return[11,ap(a[1])];case
-12:return[12,ap(a[1])];case
-13:return[13,ap(a[1])];default:return[14,ap(a[1])]}}function
+c=a[2],d=a[1];return[9,c,d,ar(a[3])];case
+10:return[10,ar(a[1])];case
+11:return[11,ar(a[1])];case
+12:return[12,ar(a[1])];case
+13:return[13,ar(a[1])];default:return[14,ar(a[1])]}}function
 aK(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
@@ -1051,7 +1051,7 @@ j=aK(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};retu
 8:var
 k=aK(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],an=a[1],l=aK(a[3]),ao=l[4],aq=l[3],ar=l[2],as=l[1],m=aK(at(ap(an),am)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(ao,0);return 0},az=function(a){e(aq,0);e(av,0);return 0},aA=function(a){e(aw,0);e(ar,0);return 0};return[0,function(a){e(as,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],an=a[1],l=aK(a[3]),ao=l[4],ap=l[3],aq=l[2],as=l[1],m=aK(au(ar(an),am)),at=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(at,0);e(ao,0);return 0},az=function(a){e(ap,0);e(av,0);return 0},aA=function(a){e(aw,0);e(aq,0);return 0};return[0,function(a){e(as,0);e(ax,0);return 0},aA,az,ay];case
 10:var
 n=aK(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
 11:var
@@ -1061,7 +1061,7 @@ p=aK(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};retu
 13:var
 q=aK(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
 r=aK(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-at(c,b){var
+au(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,af,ok]}else
+9:a=6;break;default:throw[0,aj,oS]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,at(t,b[1])];case
+0:return[0,au(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1088,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,at(u,b[1])];case
+1:return[1,au(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1100,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,at(v,b[1])];case
+2:return[2,au(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,at(w,b[1])];case
+3:return[3,au(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,at(x,b[1])];case
+4:return[4,au(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,at(y,b[1])];case
+5:return[5,au(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,at(z,b[1])];case
+6:return[6,au(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,at(A,b[1])];case
+7:return[7,au(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=at(B,b[2]);return[8,at(C,D),E];case
+D=b[1],E=au(B,b[2]);return[8,au(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,af,ot];break;case
+14:a=4;break;default:m=1}if(m)throw[0,aj,o1];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aK(at(ap(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,at(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aK(au(ar(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,au(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,af,ou];break;case
+14:a=4;break;default:n=1}if(n)throw[0,aj,o2];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,at(M,b[1])];throw[0,af,ov];case
+b!=="number"&&10===b[0])return[10,au(M,b[1])];throw[0,aj,o3];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,at(N,b[1])];default:o=1}if(o)throw[0,af,ow];break;case
+11:return[11,au(N,b[1])];default:o=1}if(o)throw[0,aj,o4];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,at(O,b[1])];default:p=1}if(p)throw[0,af,ox];break;case
+12:return[12,au(O,b[1])];default:p=1}if(p)throw[0,aj,o5];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,at(P,b[1])];default:q=1}if(q)throw[0,af,oy];break;default:var
+13:return[13,au(P,b[1])];default:q=1}if(q)throw[0,aj,o6];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,148 +1222,148 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,at(Q,b[1])];default:r=1}if(r)throw[0,af,oz]}switch(a){case
-0:throw[0,af,on];case
-1:throw[0,af,oo];case
-2:throw[0,af,op];case
-3:throw[0,af,oq];case
-4:throw[0,af,or];case
-5:throw[0,af,ol];case
-6:throw[0,af,om];default:throw[0,af,os]}}var
-aB=[ax,oA,fE(0)];function
-en(b,a){if(typeof
+14:return[14,au(Q,b[1])];default:r=1}if(r)throw[0,aj,o7]}switch(a){case
+0:throw[0,aj,oV];case
+1:throw[0,aj,oW];case
+2:throw[0,aj,oX];case
+3:throw[0,aj,oY];case
+4:throw[0,aj,oZ];case
+5:throw[0,aj,oT];case
+6:throw[0,aj,oU];default:throw[0,aj,o0]}}var
+aD=[az,o8,fV(0)];function
+eB(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aB}}function
-dD(e,b,d){var
-a=en(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aD}}function
+dK(e,b,d){var
+a=eB(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aB}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aS(b,c,a){if(typeof
-b==="number")return[0,0,W(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aD}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aU(b,c,a){if(typeof
+b==="number")return[0,0,_(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aS(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aU(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aS(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aU(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aS(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aU(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aS(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aU(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aS(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aU(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aS(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aU(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aS(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aU(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aS(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aU(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ek([0,b[1]],[0,o]))throw aB;var
-p=aS(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(ey([0,b[1]],[0,o]))throw aD;var
+p=aU(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ah(f)];if(ek([0,ah(B)],C))throw aB;var
-D=[0,ah(d)];if(ek([0,ah(A)],D))throw aB;var
-q=aK(at(ap(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aS(ah(z),c,y),F=r[2];return[0,[9,f,d,ap(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ai(f)];if(ey([0,ai(B)],C))throw aD;var
+D=[0,ai(d)];if(ey([0,ai(A)],D))throw aD;var
+q=aK(au(ar(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aU(ai(z),c,y),F=r[2];return[0,[9,f,d,ar(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aS(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aU(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aS(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aU(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aS(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aU(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aS(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aB}function
-W(b,a){if(typeof
+v=aU(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aD}function
+_(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=W(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=_(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=W(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=_(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=en(b[1],a),e=u[2],ac=u[1];if(typeof
+ab=b[2],u=eB(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=W(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aB;case
+v=_(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aD;case
 3:var
-ad=b[2],w=en(b[1],a),f=w[2],ae=w[1];if(typeof
+ad=b[2],w=eB(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=W(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aB;case
+x=_(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aD;case
 4:var
-af=b[4],ag=b[1],g=dD(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+af=b[4],ag=b[1],g=dK(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=W(af,h[1]);return[0,[4,ag,ai,aj,y[1]],y[2]]}throw aB;case
+aj=g[2],y=_(af,h[1]);return[0,[4,ag,ah,aj,y[1]],y[2]]}throw aD;case
 5:var
-ak=b[4],al=b[1],i=dD(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dK(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=W(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aB;case
+an=i[2],z=_(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aD;case
 6:var
-ao=b[4],ap=b[1],k=dD(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dK(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=W(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aB;case
+ar=k[2],A=_(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aD;case
 7:var
-as=b[4],at=b[1],m=dD(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dK(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=W(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aB;case
+av=m[2],B=_(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aD;case
 8:var
-aw=b[4],ax=b[1],o=dD(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
+aw=b[4],ax=b[1],o=dK(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-az=o[2],C=W(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aB;case
+az=o[2],C=_(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aD;case
 9:var
-aA=b[2],D=en(b[1],a),q=D[2],aC=D[1];if(typeof
+aA=b[2],D=eB(b[1],a),q=D[2],aB=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=W(aA,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aB;case
+E=_(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aD;case
 10:var
-F=W(b[1],a);return[0,[10,F[1]],F[2]];case
+F=_(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=W(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aC=b[1],G=_(b[2],a);return[0,[11,aC,G[1]],G[2]];case
 12:var
-aE=b[1],H=W(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=_(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ek([0,b[2]],[0,I]))throw aB;var
-J=W(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ey([0,b[2]],[0,I]))throw aD;var
+J=_(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ah(K)];if(ek([0,ah(aK)],aM))throw aB;var
-L=W(aJ,ah(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ai(K)];if(ey([0,ai(aK)],aM))throw aD;var
+L=_(aJ,ai(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=W(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=_(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=W(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=_(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=W(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=_(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aR=T[2],U=W(T[1],a),aT=U[1],V=W(P,U[2]);return[0,[18,[0,[0,aT,aR]],V[1]],V[2]]}var
-X=r[1],aU=X[2],Y=W(X[1],a),aV=Y[1],Z=W(P,Y[2]);return[0,[18,[1,[0,aV,aU]],Z[1]],Z[2]];case
+T=r[1],aR=T[2],U=_(T[1],a),aS=U[1],V=_(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
+W=r[1],aT=W[2],X=_(W[1],a),aV=X[1],Y=_(P,X[2]);return[0,[18,[1,[0,aV,aT]],Y[1]],Y[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=W(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=_(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=W(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=_(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=W(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=_(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
@@ -1371,7 +1371,7 @@ c==="number")switch(c){case
 1:return aY(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=W(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw aB;default:return aY(c,d,a)}else
+Z=_(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aD;default:return aY(c,d,a)}else
 switch(c[0]){case
 0:return aY(c,d,a);case
 1:return aY(c,d,a);case
@@ -1383,45 +1383,45 @@ switch(c[0]){case
 7:return aY(c,d,a);case
 8:return aY([8,c[1],c[2]],d,a);case
 9:var
-aW=c[1],$=aS(c[2],d,a),aa=$[2];return[0,[23,[9,aW,$[1]],aa[1]],aa[2]];case
-10:return aY(c,d,a);default:return aY(c,d,a)}}throw aB}function
+aW=c[1],$=aU(c[2],d,a),aa=$[2];return[0,[23,[9,aW,$[1]],aa[1]],aa[2]];case
+10:return aY(c,d,a);default:return aY(c,d,a)}}throw aD}function
 aY(d,c,b){var
-a=W(c,b);return[0,[23,d,a[1]],a[2]]}function
+a=_(c,b);return[0,[23,d,a[1]],a[2]]}function
 aZ(k,g,a){var
-b=J(a),h=0<=g?k:0,d=em(g);if(d<=b)return a;var
-l=2===h?48:32,c=cv(d,l);switch(h){case
-0:bR(a,0,c,0,b);break;case
-1:bR(a,0,c,d-b|0,b);break;default:var
+b=K(a),h=0<=g?k:0,d=eA(g);if(d<=b)return a;var
+l=2===h?48:32,c=cB(d,l);switch(h){case
+0:bV(a,0,c,0,b);break;case
+1:bV(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==V(a,0)&&45!==V(a,0)&&32!==V(a,0)){e=1;i=1}if(!i){cQ(c,0,V(a,0));bR(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==Y(a,0)&&45!==Y(a,0)&&32!==Y(a,0)){e=1;i=1}if(!i){cY(c,0,Y(a,0));bV(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===V(a,0)){var
-j=0;if(le!==V(a,1)&&88!==V(a,1)){f=1;j=1}if(!j){cQ(c,1,V(a,1));bR(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bR(a,0,c,d-b|0,b)}}return aO(c)}function
-cV(k,b){var
-c=em(k),a=J(b),d=V(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+mb>>>0))e=1}else
+f=0;if(1<b&&48===Y(a,0)){var
+j=0;if(lN!==Y(a,1)&&88!==Y(a,1)){f=1;j=1}if(!j){cY(c,1,Y(a,1));bV(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bV(a,0,c,d-b|0,b)}}return aP(c)}function
+c3(k,b){var
+c=eA(k),a=K(b),d=Y(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+mL>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(le===V(b,1)||88===V(b,1))j=1;if(j){var
-h=cv(c+2|0,48);cQ(h,1,V(b,1));bR(b,2,h,(c-a|0)+4|0,a-2|0);return aO(h)}}e=1;f=1;break;case
+j=0;if(lN===Y(b,1)||88===Y(b,1))j=1;if(j){var
+h=cB(c+2|0,48);cY(h,1,Y(b,1));bV(b,2,h,(c-a|0)+4|0,a-2|0);return aP(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cv(c+1|0,48);cQ(g,0,d);bR(b,1,g,(c-a|0)+2|0,a-1|0);return aO(g)}}if(e&&a<c){var
-i=cv(c,48);bR(b,0,i,c-a|0,a);return aO(i)}return b}function
-oB(k){var
-j=0,C=J(k);for(;;){if(C<=j)var
+g=cB(c+1|0,48);cY(g,0,d);bV(b,1,g,(c-a|0)+2|0,a-1|0);return aP(g)}}if(e&&a<c){var
+i=cB(c,48);bV(b,0,i,c-a|0,a);return aP(i)}return b}function
+o9(k){var
+j=0,C=K(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bO(k,j)+mF|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bS(k,j)+nc|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=b6(k),a=[0,0],t=a4(e)-1|0,y=0;if(!(t<0)){var
+e=cb(k),a=[0,0],t=a5(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=du(e,i),g=0;if(32<=f){var
+f=dB(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1432,33 +1432,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a4(e)){var
-r=a4(e),s=ar(r);ct(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a5(e)){var
+r=a5(e),s=at(r);cz(e,0,s,0,r);var
 v=s}else{var
-b=ar(a[1]);a[1]=0;var
-u=a4(e)-1|0,z=0;if(!(u<0)){var
+b=at(a[1]);a[1]=0;var
+u=a5(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=du(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hu<=c)d=1;else
+c=dB(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(hV<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ak(b,a[1],92);a[1]++;ak(b,a[1],98);break;case
-9:ak(b,a[1],92);a[1]++;ak(b,a[1],116);break;case
-10:ak(b,a[1],92);a[1]++;ak(b,a[1],110);break;case
-13:ak(b,a[1],92);a[1]++;ak(b,a[1],114);break;default:d=1}switch(d){case
-1:ak(b,a[1],92);a[1]++;ak(b,a[1],48+(c/mh|0)|0);a[1]++;ak(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ak(b,a[1],48+(c%10|0)|0);break;case
-2:ak(b,a[1],92);a[1]++;ak(b,a[1],c);break;case
-3:ak(b,a[1],c);break}a[1]++;var
+8:an(b,a[1],92);a[1]++;an(b,a[1],98);break;case
+9:an(b,a[1],92);a[1]++;an(b,a[1],116);break;case
+10:an(b,a[1],92);a[1]++;an(b,a[1],110);break;case
+13:an(b,a[1],92);a[1]++;an(b,a[1],114);break;default:d=1}switch(d){case
+1:an(b,a[1],92);a[1]++;an(b,a[1],48+(c/mR|0)|0);a[1]++;an(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;an(b,a[1],48+(c%10|0)|0);break;case
+2:an(b,a[1],92);a[1]++;an(b,a[1],c);break;case
+3:an(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aO(v)}var
-w=J(o),x=cv(w+2|0,34);bM(o,0,x,1,w);return aO(x)}}function
-is(d,f){var
-g=em(f),e=pq[1];switch(d[2]){case
+o=aP(v)}var
+w=K(o),x=cB(w+2|0,34);bQ(o,0,x,1,w);return aP(x)}}function
+iT(d,f){var
+g=eA(f),e=pY[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=lf;break;case
+b=lO;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=io(16);cU(c,37);switch(d[1]){case
+c=iP(16);c2(c,37);switch(d[1]){case
 0:break;case
-1:cU(c,43);break;default:cU(c,32)}if(8<=d[2])cU(c,35);cU(c,46);aJ(c,a(t+g));cU(c,b);return iq(c)}function
-eo(m,a){if(13<=m){var
-g=[0,0],h=J(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bO(a,c)+hl>>>0))g[1]++;var
+1:c2(c,43);break;default:c2(c,32)}if(8<=d[2])c2(c,35);c2(c,46);aJ(c,a(t+g));c2(c,b);return iR(c)}function
+eC(m,a){if(13<=m){var
+g=[0,0],h=K(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bS(a,c)+hM>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ar(J(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cQ(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=J(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=at(K(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cY(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=K(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bO(a,b);if(9<f+hl>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bS(a,b);if(9<f+hM>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aO(j)}return a}function
-pr(b,c){switch(b){case
+b=p;continue}break}}return aP(j)}return a}function
+pZ(b,c){switch(b){case
 1:var
-a=oD;break;case
-2:var
-a=oE;break;case
-4:var
-a=oG;break;case
-5:var
-a=oH;break;case
-6:var
-a=oI;break;case
-7:var
-a=oJ;break;case
-8:var
-a=oK;break;case
-9:var
-a=oL;break;case
-10:var
-a=oM;break;case
-11:var
-a=oN;break;case
-0:case
-13:var
-a=oC;break;case
-3:case
-14:var
-a=oF;break;default:var
-a=oO}return eo(b,fD(a,c))}function
-ps(b,c){switch(b){case
-1:var
-a=o3;break;case
-2:var
-a=o4;break;case
-4:var
-a=o6;break;case
-5:var
-a=o7;break;case
-6:var
-a=o8;break;case
-7:var
-a=o9;break;case
-8:var
-a=o_;break;case
-9:var
 a=o$;break;case
-10:var
+2:var
 a=pa;break;case
-11:var
-a=pb;break;case
-0:case
-13:var
-a=o2;break;case
-3:case
-14:var
-a=o5;break;default:var
-a=pc}return eo(b,fD(a,c))}function
-pt(b,c){switch(b){case
-1:var
-a=pe;break;case
-2:var
-a=pf;break;case
 4:var
-a=ph;break;case
+a=pc;break;case
 5:var
-a=pi;break;case
-6:var
-a=pj;break;case
-7:var
-a=pk;break;case
-8:var
-a=pl;break;case
-9:var
-a=pm;break;case
-10:var
-a=pn;break;case
-11:var
-a=po;break;case
-0:case
-13:var
 a=pd;break;case
-3:case
-14:var
-a=pg;break;default:var
-a=pp}return eo(b,fD(a,c))}function
-pu(b,c){switch(b){case
-1:var
-a=oQ;break;case
-2:var
-a=oR;break;case
-4:var
-a=oT;break;case
-5:var
-a=oU;break;case
 6:var
-a=oV;break;case
+a=pe;break;case
 7:var
-a=oW;break;case
+a=pf;break;case
 8:var
-a=oX;break;case
+a=pg;break;case
 9:var
-a=oY;break;case
+a=ph;break;case
 10:var
-a=oZ;break;case
+a=pi;break;case
 11:var
-a=o0;break;case
+a=pj;break;case
 0:case
 13:var
-a=oP;break;case
+a=o_;break;case
 3:case
 14:var
-a=oS;break;default:var
-a=o1}return eo(b,BF(a,c))}function
-bS(c,i,b){function
+a=pb;break;default:var
+a=pk}return eC(b,fU(a,c))}function
+p0(b,c){switch(b){case
+1:var
+a=pz;break;case
+2:var
+a=pA;break;case
+4:var
+a=pC;break;case
+5:var
+a=pD;break;case
+6:var
+a=pE;break;case
+7:var
+a=pF;break;case
+8:var
+a=pG;break;case
+9:var
+a=pH;break;case
+10:var
+a=pI;break;case
+11:var
+a=pJ;break;case
+0:case
+13:var
+a=py;break;case
+3:case
+14:var
+a=pB;break;default:var
+a=pK}return eC(b,fU(a,c))}function
+p1(b,c){switch(b){case
+1:var
+a=pM;break;case
+2:var
+a=pN;break;case
+4:var
+a=pP;break;case
+5:var
+a=pQ;break;case
+6:var
+a=pR;break;case
+7:var
+a=pS;break;case
+8:var
+a=pT;break;case
+9:var
+a=pU;break;case
+10:var
+a=pV;break;case
+11:var
+a=pW;break;case
+0:case
+13:var
+a=pL;break;case
+3:case
+14:var
+a=pO;break;default:var
+a=pX}return eC(b,fU(a,c))}function
+p2(b,c){switch(b){case
+1:var
+a=pm;break;case
+2:var
+a=pn;break;case
+4:var
+a=pp;break;case
+5:var
+a=pq;break;case
+6:var
+a=pr;break;case
+7:var
+a=ps;break;case
+8:var
+a=pt;break;case
+9:var
+a=pu;break;case
+10:var
+a=pv;break;case
+11:var
+a=pw;break;case
+0:case
+13:var
+a=pl;break;case
+3:case
+14:var
+a=po;break;default:var
+a=px}return eC(b,CP(a,c))}function
+bW(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return BB(b,i,a)}function
+a=32}return CL(b,i,a)}function
 q(c){var
-a=Bt(b);return 3===a?b<0.?pw:px:4<=a?py:c}switch(c[2]){case
+a=CD(b);return 3===a?b<0.?p4:p5:4<=a?p6:c}switch(c[2]){case
 5:var
-e=hR(is(c,i),b),d=0,u=J(e);for(;;){if(d===u)var
+e=ih(iT(c,i),b),d=0,u=K(e);for(;;){if(d===u)var
 p=0;else{var
-k=V(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=Y(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aA(e,pv);return q(v)}case
+v=p?e:aC(e,p3);return q(v)}case
 6:return j(0);case
 7:var
-h=b6(j(0)),f=a4(h);if(0===f)var
+h=cb(j(0)),f=a5(h);if(0===f)var
 o=h;else{var
-m=ar(f),n=f-1|0,r=0;if(!(n<0)){var
+m=at(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=du(h,a),s=25<g+mb>>>0?g:g+mF|0;ak(m,a,s);var
+g=dB(h,a),s=25<g+mL>>>0?g:g+nc|0;an(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aO(o);case
-8:return q(j(0));default:return hR(is(c,i),b)}}function
-ea(d,x,w,v){var
+o=m}return aP(o);case
+8:return q(j(0));default:return ih(iT(c,i),b)}}function
+em(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return M(b,[5,a,c],y)};case
+y=c[1];return function(c){return N(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=nI;else
-if(hu<=c)e=1;else
+d=oe;else
+if(hV<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=nJ;else
+d=of;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=nK;break;case
+d=og;break;case
 9:var
-d=nL;break;case
+d=oh;break;case
 10:var
-d=nM;break;case
+d=oi;break;case
 13:var
-d=nN;break;default:e=1}switch(e){case
+d=oj;break;default:e=1}switch(e){case
 1:var
-f=ar(4);ak(f,0,92);ak(f,1,48+(c/mh|0)|0);ak(f,2,48+((c/10|0)%10|0)|0);ak(f,3,48+(c%10|0)|0);var
-d=aO(f);break;case
+f=at(4);an(f,0,92);an(f,1,48+(c/mR|0)|0);an(f,2,48+((c/10|0)%10|0)|0);an(f,3,48+(c%10|0)|0);var
+d=aP(f);break;case
 2:var
-g=ar(1);ak(g,0,c);var
-d=aO(g);break}var
-h=J(d),i=cv(h+2|0,39);bM(d,0,i,1,h);return M(b,[4,a,aO(i)],z)};case
+g=at(1);an(g,0,c);var
+d=aP(g);break}var
+h=K(d),i=cB(h+2|0,39);bQ(d,0,i,1,h);return N(b,[4,a,aP(i)],z)};case
 2:var
-A=c[2],B=c[1];return fR(b,a,A,B,function(a){return a});case
-3:return fR(b,a,c[2],c[1],oB);case
-4:return ep(b,a,c[4],c[2],c[3],pr,c[1]);case
-5:return ep(b,a,c[4],c[2],c[3],ps,c[1]);case
-6:return ep(b,a,c[4],c[2],c[3],pt,c[1]);case
-7:return ep(b,a,c[4],c[2],c[3],pu,c[1]);case
+A=c[2],B=c[1];return f8(b,a,A,B,function(a){return a});case
+3:return f8(b,a,c[2],c[1],o9);case
+4:return eD(b,a,c[4],c[2],c[3],pZ,c[1]);case
+5:return eD(b,a,c[4],c[2],c[3],p0,c[1]);case
+6:return eD(b,a,c[4],c[2],c[3],p1,c[1]);case
+7:return eD(b,a,c[4],c[2],c[3],p2,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return M(b,[4,a,bS(g,d,c)],h)}:function(c){return M(b,[4,a,bS(g,fP(g),c)],h)};var
-X=i[1];return function(c){return M(b,[4,a,bS(g,X,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return N(b,[4,a,bW(g,d,c)],h)}:function(c){return N(b,[4,a,bW(g,f6(g),c)],h)};var
+V=i[1];return function(c){return N(b,[4,a,bW(g,V,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return M(b,[4,a,aZ(n,m,bS(g,d,c))],h)}:function(c){return M(b,[4,a,aZ(n,m,bS(g,fP(g),c))],h)};var
-Y=i[1];return function(c){return M(b,[4,a,aZ(n,m,bS(g,Y,c))],h)}}var
+i==="number")return i?function(d,c){return N(b,[4,a,aZ(n,m,bW(g,d,c))],h)}:function(c){return N(b,[4,a,aZ(n,m,bW(g,f6(g),c))],h)};var
+X=i[1];return function(c){return N(b,[4,a,aZ(n,m,bW(g,X,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return M(b,[4,a,aZ(o,e,bS(g,d,c))],h)}:function(d,c){return M(b,[4,a,aZ(o,d,bS(g,fP(g),c))],h)};var
-Z=i[1];return function(d,c){return M(b,[4,a,aZ(o,d,bS(g,Z,c))],h)}}case
-9:return fR(b,a,c[2],c[1],nD);case
+i==="number")return i?function(e,d,c){return N(b,[4,a,aZ(o,e,bW(g,d,c))],h)}:function(d,c){return N(b,[4,a,aZ(o,d,bW(g,f6(g),c))],h)};var
+Y=i[1];return function(d,c){return N(b,[4,a,aZ(o,d,bW(g,Y,c))],h)}}case
+9:return f8(b,a,c[2],c[1],n$);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=io(16);fQ(p,D);var
-u=iq(p);return function(c){return M(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=iP(16);f7(p,D);var
+u=iR(p);return function(c){return N(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=W(e,ah(ap(F)));if(typeof
-c[2]==="number")return M(b,a,ae(c[1],E));throw aB};case
+e=d[1],c=_(e,ai(ar(F)));if(typeof
+c[2]==="number")return N(b,a,af(c[1],E));throw aD};case
 15:var
-G=c[1];return function(d,c){return M(b,[6,a,function(a){return Q(d,a,c)}],G)};case
+G=c[1];return function(d,c){return N(b,[6,a,function(a){return T(d,a,c)}],G)};case
 16:var
-H=c[1];return function(c){return M(b,[6,a,c],H)};case
+H=c[1];return function(c){return N(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-I=c[2],K=l[1][1],L=0,b=function(b,c,d){return function(a){return M(c,[1,b,[0,a]],d)}}(a,b,I),a=L,c=K;continue}var
-N=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return M(c,[1,b,[1,a]],d)}}(a,b,N),a=P,c=O;continue;case
-19:throw[0,af,pA];case
+I=c[2],J=l[1][1],L=0,b=function(b,c,d){return function(a){return N(c,[1,b,[0,a]],d)}}(a,b,I),a=L,c=J;continue}var
+M=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return N(c,[1,b,[1,a]],d)}}(a,b,M),a=P,c=O;continue;case
+19:throw[0,aj,p8];case
 20:var
-R=c[3],S=[8,a,pB];return function(a){return M(b,S,R)};case
+Q=c[3],R=[8,a,p9];return function(a){return N(b,R,Q)};case
 21:var
-U=c[2];return function(c){return M(b,[4,a,fD(pC,c)],U)};case
+S=c[2];return function(c){return N(b,[4,a,fU(p_,c)],S)};case
 22:var
-V=c[1];return function(c){return M(b,[5,a,c],V)};case
+U=c[1];return function(c){return N(b,[5,a,c],U)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-1:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-2:throw[0,af,pD];default:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f])}else
+0:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+1:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+2:throw[0,aj,p$];default:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-1:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-2:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-3:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-4:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-5:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-6:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-7:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
-8:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);case
+0:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+1:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+2:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+3:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+4:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+5:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+6:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+7:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+8:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?hg(d+1|0,b,a,t,f):aI(hg,[0,b,a,t,f]);case
-10:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f]);default:return d<50?T(d+1|0,b,a,f):aI(T,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?hf(d+1|0,b,a,q,r,s):aI(hf,[0,b,a,q,r,s])}}function
-hg(e,d,c,a,b){if(typeof
-a==="number")return e<50?T(e+1|0,d,c,b):aI(T,[0,d,c,b]);else
+t=k[2];return d<50?hH(d+1|0,b,a,t,f):aI(hH,[0,b,a,t,f]);case
+10:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);default:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?hG(d+1|0,b,a,q,r,s):aI(hG,[0,b,a,q,r,s])}}function
+hH(e,d,c,a,b){if(typeof
+a==="number")return e<50?W(e+1|0,d,c,b):aI(W,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a6(d,c,f,b)};case
+f=a[1];return function(a){return a7(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a6(d,c,g,b)};case
+g=a[1];return function(a){return a7(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a6(d,c,h,b)};case
+h=a[1];return function(a){return a7(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a6(d,c,i,b)};case
+i=a[1];return function(a){return a7(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a6(d,c,j,b)};case
+j=a[1];return function(a){return a7(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a6(d,c,k,b)};case
+k=a[1];return function(a){return a7(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a6(d,c,l,b)};case
+l=a[1];return function(a){return a7(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a6(d,c,m,b)};case
+m=a[1];return function(a){return a7(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a6(d,c,n,b)};case
+n=a[2];return function(a){return a7(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=at(ap(a[1]),p);return function(a){return a6(d,c,aP(q,o),b)};case
+o=a[3],p=a[2],q=au(ar(a[1]),p);return function(a){return a7(d,c,aQ(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a6(d,c,r,b)};case
+r=a[1];return function(e,a){return a7(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a6(d,c,s,b)};case
+s=a[1];return function(a){return a7(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a6(d,c,t,b)};case
-13:throw[0,af,pE];default:throw[0,af,pF]}}function
-T(d,b,e,a){var
-c=[8,e,pG];return d<50?ea(d+1|0,b,c,a):aI(ea,[0,b,c,a])}function
-hf(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return pz(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?ea(h+1|0,b,g,a):aI(ea,[0,b,g,a])}function
-M(a,b,c){return h3(ea(0,a,b,c))}function
-a6(a,b,c,d){return h3(hg(0,a,b,c,d))}function
-pz(a,b,c,d,e){return h3(hf(0,a,b,c,d,e))}function
-fR(f,d,c,a,b){if(typeof
-a==="number")return function(a){return M(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return M(f,[4,d,aZ(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return M(f,[4,d,aZ(i,g,e(b,a))],c)}}}function
-ep(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a7(d,c,t,b)};case
+13:throw[0,aj,qa];default:throw[0,aj,qb]}}function
+W(d,b,e,a){var
+c=[8,e,qc];return d<50?em(d+1|0,b,c,a):aI(em,[0,b,c,a])}function
+hG(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return p7(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?em(h+1|0,b,g,a):aI(em,[0,b,g,a])}function
+N(a,b,c){return iu(em(0,a,b,c))}function
+a7(a,b,c,d){return iu(hH(0,a,b,c,d))}function
+p7(a,b,c,d,e){return iu(hG(0,a,b,c,d,e))}function
+f8(f,d,c,a,b){if(typeof
+a==="number")return function(a){return N(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return N(f,[4,d,aZ(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return N(f,[4,d,aZ(i,g,e(b,a))],c)}}}function
+eD(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return M(f,[4,e,cV(g,Q(b,a,c))],d)}:function(c){return M(f,[4,e,Q(b,a,c)],d)};var
-k=c[1];return function(c){return M(f,[4,e,cV(k,Q(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return N(f,[4,e,c3(g,T(b,a,c))],d)}:function(c){return N(f,[4,e,T(b,a,c)],d)};var
+k=c[1];return function(c){return N(f,[4,e,c3(k,T(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return M(f,[4,e,aZ(i,h,cV(g,Q(b,a,c)))],d)}:function(c){return M(f,[4,e,aZ(i,h,Q(b,a,c))],d)};var
-l=c[1];return function(c){return M(f,[4,e,aZ(i,h,cV(l,Q(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return N(f,[4,e,aZ(i,h,c3(g,T(b,a,c)))],d)}:function(c){return N(f,[4,e,aZ(i,h,T(b,a,c))],d)};var
+l=c[1];return function(c){return N(f,[4,e,aZ(i,h,c3(l,T(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return M(f,[4,e,aZ(j,h,cV(g,Q(b,a,c)))],d)}:function(g,c){return M(f,[4,e,aZ(j,g,Q(b,a,c))],d)};var
-m=c[1];return function(g,c){return M(f,[4,e,aZ(j,g,cV(m,Q(b,a,c)))],d)}}}function
-bT(b,f){var
+c==="number")return c?function(h,g,c){return N(f,[4,e,aZ(j,h,c3(g,T(b,a,c)))],d)}:function(g,c){return N(f,[4,e,aZ(j,g,T(b,a,c))],d)};var
+m=c[1];return function(g,c){return N(f,[4,e,aZ(j,g,c3(m,T(b,a,c)))],d)}}}function
+bX(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=ir(a[2]);bT(b,g);return dz(b,h);case
+g=a[1],h=iS(a[2]);bX(b,g);return dG(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bT(b,d);dz(b,pH);var
+i=c[1];bX(b,d);dG(b,qd);var
 a=i;continue}var
-j=c[1];bT(b,d);dz(b,pI);var
+j=c[1];bX(b,d);dG(b,qe);var
 a=j;continue;case
 6:var
-m=a[2];bT(b,a[1]);return e(m,b);case
-7:bT(b,a[1]);return dw(b);case
+m=a[2];bX(b,a[1]);return e(m,b);case
+7:bX(b,a[1]);return dD(b);case
 8:var
-n=a[2];bT(b,a[1]);return b_(n);case
+n=a[2];bX(b,a[1]);return cf(n);case
 2:case
 4:var
-k=a[2];bT(b,a[1]);return dz(b,k);default:var
-l=a[2];bT(b,a[1]);return np(b,l)}}function
-ca(b,g){var
+k=a[2];bX(b,a[1]);return dG(b,k);default:var
+l=a[2];bX(b,a[1]);return nX(b,l)}}function
+cg(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=ir(a[2]);ca(b,h);return dC(b,i);case
+h=a[1],i=iS(a[2]);cg(b,h);return dJ(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];ca(b,f);dC(b,pJ);var
+j=d[1];cg(b,f);dJ(b,qf);var
 a=j;continue}var
-k=d[1];ca(b,f);dC(b,pK);var
+k=d[1];cg(b,f);dJ(b,qg);var
 a=k;continue;case
 6:var
-n=a[2];ca(b,a[1]);return dC(b,e(n,0));case
+n=a[2];cg(b,a[1]);return dJ(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];ca(b,a[1]);return b_(o);case
+o=a[2];cg(b,a[1]);return cf(o);case
 2:case
 4:var
-l=a[2];ca(b,a[1]);return dC(b,l);default:var
-m=a[2];ca(b,a[1]);var
-c=b[2];if(b[3]<=c)im(b,1);ak(b[1],c,m);b[2]=c+1|0;return 0}}function
-it(d,c){var
-a=c[1],b=0;return M(function(a){bT(d,a);return 0},b,a)}function
-fS(a){return it(bQ,a)}function
-bs(b){var
-a=b[1];return M(function(d){var
-e=64,b=dA<64?dA:e,c=ar(b),a=[0,c,0,b,c];ca(a,d);return ih(a[1],0,a[2])},0,a)}var
-eq=[0,0];function
-fU(i,h){var
+l=a[2];cg(b,a[1]);return dJ(b,l);default:var
+m=a[2];cg(b,a[1]);var
+c=b[2];if(b[3]<=c)iO(b,1);an(b[1],c,m);b[2]=c+1|0;return 0}}function
+iU(d,c){var
+a=c[1],b=0;return N(function(a){bX(d,a);return 0},b,a)}function
+f9(a){return iU(bU,a)}function
+bz(b){var
+a=b[1];return N(function(d){var
+e=64,b=dH<64?dH:e,c=at(b),a=[0,c,0,b,c];cg(a,d);return iJ(a[1],0,a[2])},0,a)}var
+eE=[0,0];function
+f$(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fI(a)===fz)return e(bs(pL),a);if(fI(a)===253){var
-c=hR(nH,a),b=0,g=J(c);for(;;){if(g<=b)return aA(c,nG);var
-d=V(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(fZ(a)===fP)return e(bz(qh),a);if(fZ(a)===253){var
+c=ih(od,a),b=0,g=K(c);for(;;){if(g<=b)return aC(c,oc);var
+d=Y(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return pM}return e(bs(pN),a)}function
-iu(b,a){if(b.length-1<=a)return pO;var
-c=iu(b,a+1|0),d=fU(b,a);return Q(bs(pP),d,c)}function
-fV(a){function
+b=b+1|0;continue}return c}}return qi}return e(bz(qj),a)}function
+iV(b,a){if(b.length-1<=a)return qk;var
+c=iV(b,a+1|0),d=f$(b,a);return T(bz(ql),d,c)}function
+ga(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(eq[1]);if(h)return h[1];if(a===fN)return pU;if(a===ia)return pV;if(a[1]===h$){var
-c=a[2],i=c[3],p=c[2],q=c[1];return hh(bs(fT),q,p,i,i+5|0,pW)}if(a[1]===af){var
-d=a[2],j=d[3],r=d[2],s=d[1];return hh(bs(fT),s,r,j,j+6|0,pX)}if(a[1]===ic){var
-f=a[2],k=f[3],t=f[2],u=f[1];return hh(bs(fT),u,t,k,k+6|0,pY)}if(0===fI(a)){var
+h=o(eE[1]);if(h)return h[1];if(a===f4)return qq;if(a===iD)return qr;if(a[1]===iC){var
+c=a[2],i=c[3],p=c[2],q=c[1];return hI(bz(f_),q,p,i,i+5|0,qs)}if(a[1]===aj){var
+d=a[2],j=d[3],r=d[2],s=d[1];return hI(bz(f_),s,r,j,j+6|0,qt)}if(a[1]===iF){var
+f=a[2],k=f[3],t=f[2],u=f[1];return hI(bz(f_),u,t,k,k+6|0,qu)}if(0===fZ(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=iu(a,2),m=fU(a,1),b=Q(bs(pQ),m,l);else
+l=iV(a,2),m=f$(a,1),b=T(bz(qm),m,l);else
 switch(g){case
 0:var
-b=pR;break;case
+b=qn;break;case
 1:var
-b=pS;break;default:var
-n=fU(a,1),b=e(bs(pT),n)}return aA(v,b)}return a[1]}function
-fW(t,s){var
-d=Bv(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=qo;break;default:var
+n=f$(a,1),b=e(bz(qp),n)}return aC(v,b)}return a[1]}function
+gb(t,s){var
+d=CF(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=nd(d,b)[1+b],f=function(a){return function(b){return b?0===a?pZ:p0:0===a?p1:p2}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?p3:p5,l=a[2],m=a[7],n=f(a[1]),c=[0,Bk(bs(p4),n,m,l,k,j,i,h)];else
+a=nL(d,b)[1+b],f=function(a){return function(b){return b?0===a?qv:qw:0===a?qx:qy}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?qz:qB,l=a[2],m=a[7],n=f(a[1]),c=[0,Cu(bz(qA),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bs(p6),o)];if(c){var
-q=c[1];e(it(t,p7),q)}var
+o=f(0),c=[0,e(bz(qC),o)];if(c){var
+q=c[1];e(iU(t,qD),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-iv(c){for(;;){var
-a=eq[1],d=[0,c,a],e=eq[1]===a?(eq[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-p9=p8.slice();function
-p_(d,c){var
-f=fV(d);e(fS(p$),f);fW(bQ,c);var
-a=BU(0);if(a<0){var
-b=em(a);id(nd(p9,b)[1+b])}return dw(bQ)}var
-qa=[0];h1(a(lh),function(d,i){try{try{var
-b=i?qa:nj(0);try{fO(0)}catch(a){}try{var
-a=p_(d,b),c=a}catch(a){a=fL(a);var
-g=fV(d);e(fS(qc),g);fW(bQ,b);var
-h=fV(a);e(fS(qd),h);fW(bQ,nj(0));var
-c=dw(bQ)}var
-f=c}catch(a){a=fL(a);if(a!==fN)throw a;var
-f=id(qb)}return f}catch(a){return 0}});var
-iw=[ax,qf,fE(0)],fX=[0,iw,[0]],qe=fI(fX)===ax?fX:fX[1];h1(a(hn),qe);(function(a){throw a});var
-qg=v.Array;iv(function(a){return a[1]===iw?[0,bq(a[2].toString())]:0});iv(function(a){return a
+iW(c){for(;;){var
+a=eE[1],d=[0,c,a],e=eE[1]===a?(eE[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+qF=qE.slice();function
+qG(d,c){var
+f=ga(d);e(f9(qH),f);gb(bU,c);var
+a=C4(0);if(a<0){var
+b=eA(a);iG(nL(qF,b)[1+b])}return dD(bU)}var
+qI=[0];is(a(lR),function(d,i){try{try{var
+b=i?qI:nR(0);try{f5(0)}catch(a){}try{var
+a=qG(d,b),c=a}catch(a){a=f2(a);var
+g=ga(d);e(f9(qK),g);gb(bU,b);var
+h=ga(a);e(f9(qL),h);gb(bU,nR(0));var
+c=dD(bU)}var
+f=c}catch(a){a=f2(a);if(a!==f4)throw a;var
+f=iG(qJ)}return f}catch(a){return 0}});var
+iX=[az,qN,fV(0)],gc=[0,iX,[0]],qM=fZ(gc)===az?gc:gc[1];is(a(hO),qM);(function(a){throw a});var
+qO=v.Array;iW(function(a){return a[1]===iX?[0,bw(a[2].toString())]:0});iW(function(a){return a
 instanceof
-qg?0:[0,bq(a.toString())]});var
-d=a5(0),c=a5(1);function
-p(a){return y(a,c)}function
-ix(b,a){return y(a5(b),a)}function
-b(b,a){return s(a5(b),a)}function
-bt(b,a){return[0,h6(b,a),nz(b,a)]}function
-fY(b,a){return H(b,a)?b:a}function
-bU(b,a){return H(b,a)?a:b}function
-aC(a){return a?0:1}function
-Z(b,a){var
+qO?0:[0,bw(a.toString())]});var
+d=a6(0),c=a6(1);function
+q(a){return x(a,c)}function
+iY(b,a){return x(a6(b),a)}function
+b(b,a){return s(a6(b),a)}function
+bA(b,a){return[0,ix(b,a),n7(b,a)]}function
+gd(b,a){return J(b,a)?b:a}function
+bY(b,a){return J(b,a)?a:b}function
+av(a){return a?0:1}function
+R(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dE(a){return a[1]}function
-cW(a){return a[2]}function
+cC(a){return a[1]}function
+c4(a){return a[2]}function
 l(a){var
 b=a?[0,l(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-iy(a){return typeof
-a==="number"?0:[0,iy(a[1])]}function
-iz(d,c){var
+iZ(a){return typeof
+a==="number"?0:[0,iZ(a[1])]}function
+i0(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-er(a){return iz(a,0)}function
-iA(a){if(typeof
-a==="number")return qi;else
+eF(a){return i0(a,0)}function
+i1(a){if(typeof
+a==="number")return qQ;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,150 +1944,157 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iA(a[1])]}}function
-be(a){if(typeof
-a==="number")return qj;else
+8:return[9,a[1]];default:return[0,i1(a[1])]}}function
+bh(a){if(typeof
+a==="number")return qR;else
 switch(a[0]){case
-0:return[1,bd(a[1])];case
-1:return[3,bd(a[1])];case
-2:return[5,bd(a[1])];case
-3:return[7,bd(a[1])];case
-4:return[9,bd(a[1])];case
-5:return[1,be(a[1])];case
-6:return[3,be(a[1])];case
-7:return[5,be(a[1])];case
-8:return[7,be(a[1])];default:return[9,be(a[1])]}}function
-bd(a){if(typeof
+0:return[1,bg(a[1])];case
+1:return[3,bg(a[1])];case
+2:return[5,bg(a[1])];case
+3:return[7,bg(a[1])];case
+4:return[9,bg(a[1])];case
+5:return[1,bh(a[1])];case
+6:return[3,bh(a[1])];case
+7:return[5,bh(a[1])];case
+8:return[7,bh(a[1])];default:return[9,bh(a[1])]}}function
+bg(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bd(a[1])];case
-1:return[2,bd(a[1])];case
-2:return[4,bd(a[1])];case
-3:return[6,bd(a[1])];case
-4:return[8,bd(a[1])];case
-5:return[0,be(a[1])];case
-6:return[2,be(a[1])];case
-7:return[4,be(a[1])];case
-8:return[6,be(a[1])];default:return[8,be(a[1])]}}function
-bV(a){return a?a[1]:a}function
-K(b,a){return b?[0,K(b[1],a)]:a}function
-dF(a,b){return a?K(b,dF(a[1],b)):a}function
-dG(b,a){return b?a:a?0:1}function
+0:return[0,bg(a[1])];case
+1:return[2,bg(a[1])];case
+2:return[4,bg(a[1])];case
+3:return[6,bg(a[1])];case
+4:return[8,bg(a[1])];case
+5:return[0,bh(a[1])];case
+6:return[2,bh(a[1])];case
+7:return[4,bh(a[1])];case
+8:return[6,bh(a[1])];default:return[8,bh(a[1])]}}function
+bZ(a){return a?a[1]:a}function
+M(b,a){return b?[0,M(b[1],a)]:a}function
+dL(a,b){return a?M(b,dL(a[1],b)):a}function
+dM(b,a){return b?a:a?0:1}function
 E(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ac(d,c){var
+$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-iB(b,a){return ac([0,b],a)}function
-iC(c){var
+eG(b,a){return $([0,b],a)}function
+i2(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fZ(c,b,a){return c?e(b,fZ(c[1],b,a)):a}function
-iD(a){if(a)var
-b=a[1],d=b?[0,iD(b[1])]:b,c=d;else
+eH(c,b,a){return c?e(b,eH(c[1],b,a)):a}function
+i3(a){if(a)var
+b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
 var
 c=a;return c}function
-es(a){if(H(a,c))return c;var
-b=bt(a,a5(2)),e=b[1];return al(b[2],d)?p(es(e)):p(es(e))}function
-et(c,b){var
-a=h5(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-iE(b,i,h){var
-e=i,a=h;for(;;){if(H(e,c))return a;var
-f=bt(e,a5(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=Q(b,a,a);continue}return Q(b,a,iE(b,g,Q(b,a,a)))}}function
-dH(a){return iE(K,a,ql)}function
-f0(a){return a?p(f0(a[1])):c}function
-bW(f,e){var
+eI(a){if(J(a,c))return c;var
+b=bA(a,a6(2)),e=b[1];return ah(b[2],d)?q(eI(e)):q(eI(e))}function
+ge(j,i){var
+b=j,a=i;for(;;){if(J(b,c))return J(a,c)?1:ah(bA(a,a6(2))[2],d)?0:0;var
+g=bA(b,a6(2)),h=g[1];if(ah(g[2],d)){if(J(a,c))return 0;var
+e=bA(a,a6(2)),k=e[1];if(ah(e[2],d)){var
+b=h,a=k;continue}return 0}if(J(a,c))return 0;var
+f=bA(a,a6(2)),l=f[1];if(ah(f[2],d))return 0;var
+b=h,a=l;continue}}function
+eJ(c,b){var
+a=iw(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+i4(b,i,h){var
+e=i,a=h;for(;;){if(J(e,c))return a;var
+f=bA(e,a6(2)),g=f[1];if(ah(f[2],d)){var
+e=g,a=T(b,a,a);continue}return T(b,a,i4(b,g,T(b,a,a)))}}function
+dN(a){return i4(M,a,qT)}function
+gf(a){return a?q(gf(a[1])):c}function
+b0(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=s(b(2,p(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=s(b(2,q(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=y(c,s(b(2,p(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=x(c,s(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=s(b(2,p(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
+i=s(b(2,q(b(2,b(2,c)))),d),j=x(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=s(b(2,p(b(2,b(2,c)))),d),l=y(p(b(2,c)),k),a=a[1],d=l;continue;case
+k=s(b(2,q(b(2,b(2,c)))),d),l=x(q(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=s(b(2,p(b(2,b(2,c)))),d),n=y(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=s(b(2,q(b(2,b(2,c)))),d),n=x(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-o=s(b(2,p(b(2,b(2,c)))),d),q=y(p(b(2,b(2,c))),o),a=a[1],d=q;continue;case
+o=s(b(2,q(b(2,b(2,c)))),d),p=x(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
 6:var
-r=s(b(2,p(b(2,b(2,c)))),d),t=y(b(2,p(b(2,c))),r),a=a[1],d=t;continue;case
+r=s(b(2,q(b(2,b(2,c)))),d),t=x(b(2,q(b(2,c))),r),a=a[1],d=t;continue;case
 7:var
-u=s(b(2,p(b(2,b(2,c)))),d),v=y(p(b(2,p(b(2,c)))),u),a=a[1],d=v;continue;case
+u=s(b(2,q(b(2,b(2,c)))),d),v=x(q(b(2,q(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=s(b(2,p(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-z=s(b(2,p(b(2,b(2,c)))),d),A=y(p(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-f1(a){if(H(a,c))return qm;var
-b=bt(a,a5(2)),e=b[1];return al(b[2],d)?bd(f1(e)):be(f1(e))}function
-eu(a){return er(f1(a))}function
-iF(k,f){if(0<=bP(f)){var
-g=h7(f);if(0<=g){var
+w=s(b(2,q(b(2,b(2,c)))),d),y=x(b(2,b(2,b(2,c))),w),a=a[1],d=y;continue;default:var
+z=s(b(2,q(b(2,b(2,c)))),d),A=x(q(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
+gg(a){if(J(a,c))return qU;var
+b=bA(a,a6(2)),e=b[1];return ah(b[2],d)?bg(gg(e)):bh(gg(e))}function
+eK(a){return eF(gg(a))}function
+i5(k,f){if(0<=bT(f)){var
+g=iy(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return b_(qh)}return d}function
-iG(a){return 0<=bP(a)?a:d}function
-f2(a){var
-b=bP(a);return 0===b?c:0<b?a:c}function
-iH(m){var
+h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return cf(qP)}return d}function
+i6(a){return 0<=bT(a)?a:d}function
+gh(a){var
+b=bT(a);return 0===b?c:0<b?a:c}function
+i7(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bW(a[1],c);case
+1:return b0(a[1],c);case
 2:var
-e=b(2,c);return bW(a[1],e);case
+e=b(2,c);return b0(a[1],e);case
 3:var
-f=p(b(2,c));return bW(a[1],f);case
+f=q(b(2,c));return b0(a[1],f);case
 4:var
-g=b(2,b(2,c));return bW(a[1],g);case
+g=b(2,b(2,c));return b0(a[1],g);case
 5:var
-h=p(b(2,b(2,c)));return bW(a[1],h);case
+h=q(b(2,b(2,c)));return b0(a[1],h);case
 6:var
-i=b(2,p(b(2,c)));return bW(a[1],i);case
+i=b(2,q(b(2,c)));return b0(a[1],i);case
 7:var
-j=p(b(2,p(b(2,c))));return bW(a[1],j);case
+j=q(b(2,q(b(2,c))));return b0(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bW(a[1],k);default:var
-l=p(b(2,b(2,b(2,c))));return bW(a[1],l)}}function
-cb(b,a){var
-c=bP(a);return 0===c?d:1===c?h6(b,a):ix(-1,h6(ix(-1,b),a))}function
-iI(a){return 0<bP(a)?Cd(a):d}function
-dI(b,c){var
-a=h7(c);return 0<=a?nA(b,a):nB(b,-a|0)}function
-cX(b,c){var
-a=h7(c);return 0<=a?nB(b,a):nA(b,-a|0)}function
-ev(b,a){return a?a[1]:b}function
-f3(a){var
+k=b(2,b(2,b(2,c)));return b0(a[1],k);default:var
+l=q(b(2,b(2,b(2,c))));return b0(a[1],l)}}function
+ch(b,a){var
+c=bT(a);return 0===c?d:1===c?ix(b,a):iY(-1,ix(iY(-1,b),a))}function
+i8(a){return 0<bT(a)?Dn(a):d}function
+dO(b,c){var
+a=iy(c);return 0<=a?n8(b,a):n9(b,-a|0)}function
+c5(b,c){var
+a=iy(c);return 0<=a?n9(b,a):n8(b,-a|0)}function
+eL(b,a){return a?a[1]:b}function
+gi(a){var
 b=a?a[2]:a;return b}function
 z(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-ai(d,c){var
+ae(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iJ(a){if(a){var
-b=[0,a[1],0];return g(iJ(a[2]),b)}return a}function
-iK(d,c){var
+i9(a){if(a){var
+b=[0,a[1],0];return g(i9(a[2]),b)}return a}function
+i_(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-C(b,a){if(a){var
-c=C(b,a[2]);return g(e(b,a[1]),c)}return a}function
-f4(e,d,c){var
+A(b,a){if(a){var
+c=A(b,a[2]);return g(e(b,a[1]),c)}return a}function
+gj(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=Q(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cw(c,b,a){if(a){var
-d=cw(c,b,a[2]);return Q(c,a[1],d)}return b}function
-aT(f,d){var
+f=T(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cD(c,b,a){if(a){var
+d=cD(c,b,a[2]);return T(c,a[1],d)}return b}function
+aR(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2098,188 +2105,107 @@ o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-dJ(b,f){var
+dP(b,f){var
 a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,dJ(b,c)];var
+c=a[2],d=a[1];if(e(b,d))return[0,d,dP(b,c)];var
 a=c;continue}return a}}function
-bX(b,a){if(b)if(a)var
-d=bX(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+b1(b,a){if(b)if(a)var
+d=b1(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ew(b,a){if(b)if(a)var
-d=ew(b[1],a[2]),c=[0,a[1],d];else
+eM(b,a){if(b)if(a)var
+d=eM(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-iL(d,c){var
+i$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cx(b,a){var
-c=a?[0,b,cx([0,b],a[1])]:a;return c}function
-bu(b,a){var
-c=a?[0,b,bu(b,a[1])]:a;return c}function
-iM(a){if(a){var
-e=iM(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
-ex(j){function
+cE(b,a){var
+c=a?[0,b,cE([0,b],a[1])]:a;return c}function
+bi(b,a){var
+c=a?[0,b,bi(b,a[1])]:a;return c}function
+ja(a){if(a){var
+e=ja(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return x(g,f)}return d}function
+eN(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iM([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bP(b)?dH(b):0}function
-iN(c,b){var
-a=h5(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-iO(b,a){return H(s(b[1],a[2]),s(a[1],b[2]))}function
-iP(b,a){return[0,y(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
-iQ(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ja([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bT(b)?dN(b):0}function
+jb(c,b){var
+a=iw(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c6(b,a){return J(s(b[1],a[2]),s(a[1],b[2]))}function
+dQ(b,a){return[0,x(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
+c7(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
+gk(b,a){return dQ(b,[0,ab(a[1]),a[2]])}function
 a0(a){if(typeof
-a==="number")return qp;else
+a==="number")return qX;else
 switch(a[0]){case
 0:var
-b=a0(a[1]);return aA(a8(1,48),b);case
+b=a0(a[1]);return aC(a9(1,48),b);case
 1:var
-c=a0(a[1]);return aA(a8(1,49),c);case
+c=a0(a[1]);return aC(a9(1,49),c);case
 2:var
-d=a0(a[1]);return aA(a8(1,50),d);case
+d=a0(a[1]);return aC(a9(1,50),d);case
 3:var
-e=a0(a[1]);return aA(a8(1,51),e);case
+e=a0(a[1]);return aC(a9(1,51),e);case
 4:var
-f=a0(a[1]);return aA(a8(1,52),f);case
+f=a0(a[1]);return aC(a9(1,52),f);case
 5:var
-g=a0(a[1]);return aA(a8(1,53),g);case
+g=a0(a[1]);return aC(a9(1,53),g);case
 6:var
-h=a0(a[1]);return aA(a8(1,54),h);case
+h=a0(a[1]);return aC(a9(1,54),h);case
 7:var
-i=a0(a[1]);return aA(a8(1,55),i);case
+i=a0(a[1]);return aC(a9(1,55),i);case
 8:var
-j=a0(a[1]);return aA(a8(1,56),j);default:var
-k=a0(a[1]);return aA(a8(1,57),k)}}function
-dK(a){return typeof
-a==="number"?qq:a0(a)}function
-cy(a){return iF(b(2,c),a)}function
-iR(b,a){return cX(a,b)}function
-iS(b,a){return Y(cX(Y(a),b))}function
-ey(b,a){return Y(cb(Y(b),a))}function
-au(c,b){var
-a=dI(b,c);return[0,a,a]}function
-B(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-N(b,a){return[0,br(b[1],a[2]),br(b[2],a[1])]}function
-am(a){return[0,Y(a[2]),Y(a[1])]}function
-iT(e,c,b,a){if(H(d,e))return H(d,b)?[0,s(e,b),s(c,a)]:H(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(H(c,d))return H(d,b)?[0,s(e,a),s(c,b)]:H(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(H(d,b))return[0,s(e,a),s(c,a)];if(H(a,d))return[0,s(c,b),s(e,b)];var
-f=bU(s(e,b),s(c,a));return[0,fY(s(e,a),s(c,b)),f]}function
-D(c,b,a){var
-d=iT(b[1],b[2],a[1],a[2]),e=iS(c,d[2]);return[0,iR(c,d[1]),e]}function
-R(b,a){var
-c=s(a[1],a[1]),e=s(a[2],a[2]),h=iS(b,bU(c,e)),g=0;if(aa(a[1],d)&&aa(d,a[2])){var
+j=a0(a[1]);return aC(a9(1,56),j);default:var
+k=a0(a[1]);return aC(a9(1,57),k)}}function
+dR(a){return typeof
+a==="number"?qY:a0(a)}function
+cF(a){return i5(b(2,c),a)}function
+jc(b,a){return c5(a,b)}function
+jd(b,a){return ab(c5(ab(a),b))}function
+eO(b,a){return ab(ch(ab(b),a))}function
+aw(c,b){var
+a=dO(b,c);return[0,a,a]}function
+je(d,c,a){var
+b=dO(c,d),e=eO(b,a);return[0,ch(b,a),e]}function
+C(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
+O(b,a){return[0,bx(b[1],a[2]),bx(b[2],a[1])]}function
+ap(a){return[0,ab(a[2]),ab(a[1])]}function
+jf(e,c,b,a){if(J(d,e))return J(d,b)?[0,s(e,b),s(c,a)]:J(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(J(c,d))return J(d,b)?[0,s(e,a),s(c,b)]:J(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(J(d,b))return[0,s(e,a),s(c,a)];if(J(a,d))return[0,s(c,b),s(e,b)];var
+f=bY(s(e,b),s(c,a));return[0,gd(s(e,a),s(c,b)),f]}function
+F(c,b,a){var
+d=jf(b[1],b[2],a[1],a[2]),e=jd(c,d[2]);return[0,jc(c,d[1]),e]}function
+U(b,a){var
+c=s(a[1],a[1]),e=s(a[2],a[2]),h=jd(b,bY(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iR(b,fY(c,e));return[0,f,h]}function
-iU(b,a){var
-c=dI(cy(b),b),d=ey(c,a[1]);return[0,cb(c,a[2]),d]}function
-cc(b,a){if(aa(d,a[1]))return[0,iU(b,a)];var
-c=aa(a[2],d),e=c?[0,am(iU(b,am(a)))]:c;return e}function
-cz(f,b){var
-g=aa(d,b[1]);if(g)var
-e=dI(b[2],f),a=iI(e),i=al(s(a,a),e)?a:y(a,c),h=[0,[0,iI(dI(b[1],f)),i]];else
+f=jc(b,gd(c,e));return[0,f,h]}function
+jg(b,a){var
+c=dO(cF(b),b),d=eO(c,a[1]);return[0,ch(c,a[2]),d]}function
+ci(b,a){if(ad(d,a[1]))return[0,jg(b,a)];var
+c=ad(a[2],d),e=c?[0,ap(jg(b,ap(a)))]:c;return e}function
+cG(f,b){var
+g=ad(d,b[1]);if(g)var
+e=dO(b[2],f),a=i8(e),i=ah(s(a,a),e)?a:x(a,c),h=[0,[0,i8(dO(b[1],f)),i]];else
 var
 h=g;return h}function
-a9(e,d,c,b,a){if(b){if(a){var
-g=a9(e,d,c,b[2],a[2]);return[0,Q(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-cd(b,a){return cX(b,a)}function
-bv(a,c,b){if(H(d,a)){var
-e=b[1],f=Y(cd(Y(s(a,b[2])),c));return[0,cd(s(a,e),c),f]}var
-g=b[2],h=Y(cd(Y(s(a,b[1])),c));return[0,cd(s(a,g),c),h]}function
-dL(a){var
-b=Y(cX(Y(a[2]),c));return[0,cX(a[1],c),b]}function
-f5(c,b,a){var
-e=iT(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=aa(f,d)?a[2]:a[1],i=ey(f,h),j=aa(g,d)?a[1]:a[2];return[0,cb(g,j),i]}function
-f6(a){return bU(a[2],Y(a[1]))}var
+a_(e,d,c,b,a){if(b){if(a){var
+g=a_(e,d,c,b[2],a[2]);return[0,T(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+cj(b,a){return c5(b,a)}function
+bB(a,c,b){if(J(d,a)){var
+e=b[1],f=ab(cj(ab(s(a,b[2])),c));return[0,cj(s(a,e),c),f]}var
+g=b[2],h=ab(cj(ab(s(a,b[1])),c));return[0,cj(s(a,g),c),h]}function
+dS(a){var
+b=ab(c5(ab(a[2]),c));return[0,c5(a[1],c),b]}function
+gl(c,b,a){var
+e=jf(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=eO(f,h),j=ad(g,d)?a[1]:a[2];return[0,ch(g,j),i]}function
+gm(a){return bY(a[2],ab(a[1]))}var
 L=[0,d,d];function
-f7(a){return[0,a[1],a[1]]}function
-dM(a){return[0,a[2],a[2]]}function
-aD(a,b){switch(b[0]){case
-0:var
-n=b[2],m=dI(b[1],a),t=ey(m,n);return[0,[0,cb(m,n),t]];case
-1:var
-c=aD(a,b[1]);if(c)var
-d=aD(a,b[2]),u=d?[0,B(c[1],d[1])]:d,o=u;else
-var
-o=c;return o;case
-2:var
-e=aD(a,b[1]);if(e)var
-f=aD(a,b[2]),v=f?[0,N(e[1],f[1])]:f,p=v;else
-var
-p=e;return p;case
-3:var
-g=aD(a,b[1]);if(g)var
-h=aD(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
-var
-q=g;return q;case
-4:var
-i=aD(a,b[1]);if(i){var
-j=aD(a,b[2]);if(j)var
-k=cc(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
-var
-r=j;var
-s=r}else
-var
-s=i;return s;default:var
-l=aD(a,b[1]);return l?cz(a,l[1]):l}}function
-iV(a){var
-e=bU(Y(a),d);return f2(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iW(a){return iG(y(iV(a),a))}function
-ce(f,a,e){var
-b=aD(y(f,iV(a)),e);if(b)var
-c=b[1],g=iW(a),h=Y(cd(Y(c[2]),g)),i=iW(a),d=[0,[0,cd(c[1],i),h]];else
-var
-d=b;return d}function
-an(d,a){var
-b=ce(d,a[2],a[1][1]);if(b)var
-c=ce(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
-var
-e=b;return e}function
-iX(b,a){var
-c=Y(cd(Y(a[2]),b));return[0,cd(a[1],b),c]}function
-f8(b,a){var
-c=ey(b[2],a);return[0,cb(b[1],a),c]}function
-f9(a,f,b){if(b){var
-d=b[1],g=f9(a,f,d),h=g[2],i=f0(K(dF(qs,d),qr)),j=s(f0(dF(qt,d)),i),e=f8(D(a,g[1],f),j),k=iC(b)?B(h,e):N(h,e);return[0,e,k]}var
-l=au(a,c);return[0,au(a,c),l]}function
-iY(f){var
-g=dH(f),e=qu[1],b=g,c=0,a=e;for(;;){if(b){var
-d=b[1];if(a){var
-b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return K(qv,c)}}function
-iZ(a,d){var
-g=cy(a),h=s(b(2,b(2,c)),g),e=H(d[2],h);if(e)var
-i=f9(a,d,dF(qx,K(iY(a),qw)))[2][2],f=[0,[0,f9(a,d,K(dF(qz,iY(a)),qy))[2][1],i]];else
-var
-f=e;return f}function
-i0(i){function
-a(h){var
-m=cb(cy(i),h),g=dH(i),f=m,e=d,a=c;for(;;){if(g){var
-j=y(a,b(2,c)),k=y(e,cb(f,a)),l=Y(cb(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return br(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
-i1(e,a){var
-f=H(d,a);if(f){var
-g=b(2,b(2,c));return iZ(e,f8(R(e,[0,a,a]),g))}return f}function
-i2(a,d){var
-b=R(a,d),e=au(a,c);return N(B(b,b),e)}function
-ez(n,u){var
-h=aD(y(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=y(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=br(i0(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=y(i0(a),r),f=i1(a,i);if(f){var
-g=i1(a,j);if(g)var
-k=aa(d,f[1][1]),l=k?aa(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
-var
-m=g;var
-e=m}else
-var
-e=f;if(e)var
-s=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),t=iZ(a,R(a,f8(D(a,v,e[1]),s))),o=Z(function(b){return i2(a,i2(a,b))},t);else
-var
-o=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return Z(function(a){return iX(w,a)},o)}return h}function
-f_(d,a){return ez(d,[2,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
-eA(a){return 0===a[0]?a[2]:a[1]}function
-dN(b,a){switch(a[0]){case
+gn(a){return[0,a[1],a[1]]}function
+dT(a){return[0,a[2],a[2]]}function
+dU(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2293,311 +2219,447 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-a_(j,i){var
+a$(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?E(b[1],a[1]):0;case
 1:return 1===a[0]?E(b[1],a[1]):0;case
-2:return 2===a[0]?al(b[1],a[1]):0;case
+2:return 2===a[0]?ah(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=a_(b[1],a[1]);if(e){var
+e=a$(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=a_(b[1],a[1]);if(f){var
+f=a$(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=a_(b[1],a[1]);if(g){var
+g=a$(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=a_(b[1],a[1]);if(h){var
+h=a$(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-eB(b){var
+eP(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a1(c,b){var
-a=eB(b);return a?al(c,a[1]):a}function
-dO(a){return aa(fM(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=eP(b);return a?ah(c,a[1]):a}function
+dV(a){return ad(f3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 n(a){return[0,[2,a]]}function
-G(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
-c=eB(b);if(c){var
-e=c[1],f=eB(a);if(f){var
-g=f[1];if(dO(e)&&dO(g))return n(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bY(a){var
+I(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
+c=eP(b);if(c){var
+e=c[1],f=eP(a);if(f){var
+g=f[1];if(dV(e)&&dV(g))return n(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+b2(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dO(c)?n(Y(c)):[0,[5,a]];case
+c=b[1];return dV(c)?n(ab(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){if(a1(d,a))return b;if(a1(d,b))return bY(a);var
+y(b,a){if(a1(d,a))return b;if(a1(d,b))return b2(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?E(c[1],e[1])?n(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-_(a){var
-c=eB(a);if(c){var
-b=c[1];return dO(b)?n(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-r(a,b){if(!a1(d,a)&&!a1(c,b)){if(!a1(d,b)&&!a1(c,a))return a_(a,b)?_(a):[0,[6,a,b]];return b}return a}function
-aq(b,a){return a1(c,a)?b:[0,[7,b,a]]}function
-cf(a){return a1(c,a)?a:[0,[9,a]]}function
-cg(g,f,d,c){var
+ac(a){var
+c=eP(a);if(c){var
+b=c[1];return dV(b)?n(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,b){if(!a1(d,a)&&!a1(c,b)){if(!a1(d,b)&&!a1(c,a))return a$(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
+as(b,a){return a1(c,a)?b:[0,[7,b,a]]}function
+ck(a){return a1(c,a)?a:[0,[9,a]]}function
+cl(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dN(function(b){return function(a){return z(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dP(a){var
+h=b[1],i=[0,e(f,dU(function(b){return function(a){return z(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dW(a){var
 b=0;function
-c(a){return[0,a]}return cg(n(d),c,a,b)}function
-f$(b,a){if(a){if(a_(b,a[1]))return qA;var
-c=f$(b,a[2]);return Z(function(a){return[0,a]},c)}return a}function
-bw(c,b){var
-a=f$(b,c),d=a?a[1]:a;return d}function
-eC(d,a){if(f$(d,a[1]))return a;var
+c(a){return[0,a]}return cl(n(d),c,a,b)}function
+go(b,a){if(a){if(a$(b,a[1]))return qZ;var
+c=go(b,a[2]);return R(function(a){return[0,a]},c)}return a}function
+bC(c,b){var
+a=go(b,c),d=a?a[1]:a;return d}function
+eQ(d,a){if(go(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=eC(b[1],a);break;case
+c=eQ(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=eC(b[1],a),c=eC(b[2],h)}var
-e=c[2],f=c[1],g=[0,dN(function(a){return bw(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dQ(a){var
-b=f4(function(b,a){return eC(a,b)},a,qB),c=b[1],d=f(function(a){return bw(c,a)},a);return[0,iJ(b[2]),d]}function
-eD(a){return cw(function(b,a){return y(f6(b),a)},d,a)}function
-cY(b,c,a){var
-d=eD(a),e=fY(c[2],y(b[2],d)),f=eD(a);return[0,b,[0,bU(c[1],br(b[1],f)),e],a]}function
-aU(a){return[0,a,a,0]}function
-eE(b,a){var
+h=eQ(b[1],a),c=eQ(b[2],h)}var
+e=c[2],f=c[1],g=[0,dU(function(a){return bC(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dX(a){var
+b=gj(function(b,a){return eQ(a,b)},a,q0),c=b[1],d=f(function(a){return bC(c,a)},a);return[0,i9(b[2]),d]}function
+eR(a){return cD(function(b,a){return x(gm(b),a)},d,a)}function
+c8(b,c,a){var
+d=eR(a),e=gd(c[2],x(b[2],d)),f=eR(a);return[0,b,[0,bY(c[1],bx(b[1],f)),e],a]}function
+aS(a){return[0,a,a,0]}function
+dY(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a9(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return cY(B(b[1],a[1]),g,f)}function
-i3(b,a){var
-c=a[3],d=b[3],e=a9(function(a){return a},am,N,d,c),f=N(b[2],a[2]);return cY(N(b[1],a[1]),f,e)}function
-i4(a,c,b){var
-d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
+f=a_(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return c8(C(b[1],a[1]),g,f)}function
+gp(b,a){var
+c=a[3],d=b[3],e=a_(function(a){return a},ap,O,d,c),f=O(b[2],a[2]);return c8(O(b[1],a[1]),f,e)}function
+gq(a,c,b){var
+d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return dL(B(D(a,d,c),f))}function
-i(b){return dL(D(a,e,b))}var
-j=a9(function(b){return dL(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return cY(D(a,c[1],b[1]),k,j)}function
-ga(b,a){return a?e(b,a[1]):a}function
-eF(d,b,a){if(b){if(a)return Q(d,b[1],a[1]);var
+f=F(a,e,b);return dS(C(F(a,d,c),f))}function
+i(b){return dS(F(a,e,b))}var
+j=a_(function(b){return dS(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return c8(F(a,c[1],b[1]),k,j)}function
+jh(b,a){var
+c=a[3],d=C(a[2],a[1]),e=f(function(a){return F(b,d,a)},c),g=U(b,a[2]);return c8(U(b,a[1]),g,e)}function
+ji(a,b){var
+c=cG(a,b[1]);if(c){var
+g=c[1],d=cG(a,b[2]);if(d){var
+h=d[1],e=ci(a,C(h,g));if(e)var
+l=b[3],m=e[1],i=[0,c8(g,h,f(function(b){return F(a,m,b)},l))];else
+var
+i=e;var
+j=i}else
+var
+j=d;var
+k=j}else
+var
+k=c;return k}function
+jj(a,c,b){var
+d=ci(a,b[1]);if(d){var
+e=ci(a,b[2]);if(e)var
+h=e[1],g=F(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return O(c,F(a,g,b))},n=function(b){return ap(F(a,g,b))},o=a_(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,c8(g,F(a,c[2],h),p)];else
+var
+i=e;var
+j=i}else
+var
+j=d;return j}function
+dZ(b,a){return a?e(b,a[1]):a}function
+cm(d,b,a){if(b){if(a)return T(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cZ(a,e,d){var
-c=aU(L);return function(b){switch(b[0]){case
-0:return[0,z(b[1],e,c)];case
-1:return[0,z(b[1],d,c)];case
-2:return[0,aU(au(a,b[1]))];case
+c9(b,e,d){var
+c=aS(L);return function(a){switch(a[0]){case
+0:return[0,z(a[1],e,c)];case
+1:return[0,z(a[1],d,c)];case
+2:return[0,aS(aw(b,a[1]))];case
 3:var
-g=b[2],h=b[1];return eF(function(b,a){return[0,eE(b,a)]},h,g);case
+g=a[2],h=a[1];return cm(function(b,a){return[0,dY(b,a)]},h,g);case
 4:var
-i=b[2],j=b[1];return eF(function(b,a){return[0,i3(b,a)]},j,i);case
+i=a[2],j=a[1];return cm(function(b,a){return[0,gp(b,a)]},j,i);case
 5:var
-k=b[1];return ga(function(a){var
-b=f(am,a[3]),c=am(a[2]);return[0,[0,am(a[1]),c,b]]},k);case
+k=a[1];return dZ(function(a){var
+b=f(ap,a[3]),c=ap(a[2]);return[0,[0,ap(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return eF(function(c,b){return[0,i4(a,c,b)]},m,l);case
+l=a[2],m=a[1];return cm(function(c,a){return[0,gq(b,c,a)]},m,l);case
 7:var
-n=b[2],o=b[1];return eF(function(e,g){var
-b=cc(a,g[1]);if(b){var
-c=cc(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return N(c,D(a,d,b))},n=function(b){return am(D(a,d,b))},o=a9(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cY(d,D(a,e[2],h),p)];else
-var
-i=c;var
-j=i}else
-var
-j=b;return j},o,n);case
+n=a[2],o=a[1];return cm(function(a,c){return jj(b,a,c)},o,n);case
 8:var
-p=b[1];return ga(function(b){var
-c=b[3],d=B(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=R(a,b[2]);return[0,cY(R(a,b[1]),g,e)]},p);default:var
-q=b[1];return ga(function(e){var
-b=cz(a,e[1]);if(b){var
-g=b[1],c=cz(a,e[2]);if(c){var
-h=c[1],d=cc(a,B(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cY(g,h,f(function(b){return D(a,m,b)},l))];else
+p=a[1];return dZ(function(a){return[0,jh(b,a)]},p);default:var
+q=a[1];return dZ(function(a){return ji(b,a)},q)}}}function
+d0(c){var
+a=c;for(;;)switch(a[0]){case
+0:return 0;case
+1:return 1;case
+6:var
+a=a[1];continue;default:var
+b=d0(a[1]);if(b)return b;var
+a=a[2];continue}}function
+b3(q,p){var
+b=q,a=p;for(;;)switch(b[0]){case
+0:if(0===a[0]){var
+c=ah(b[1],a[1]);return c?ge(b[2],a[2]):c}return 0;case
+1:var
+d=b[3],e=b[2];if(1===a[0]){var
+f=a[3],g=a[2],h=E(b[1],a[1]),i=h?ah(e[1],g[1]):h,j=i?ge(e[2],g[2]):i,k=j?ah(d[1],f[1]):j;return k?ge(d[2],f[2]):k}return 0;case
+2:if(2===a[0]){var
+l=b3(b[1],a[1]);if(l){var
+b=b[2],a=a[2];continue}return l}return 0;case
+3:if(3===a[0]){var
+m=b3(b[1],a[1]);if(m){var
+b=b[2],a=a[2];continue}return m}return 0;case
+4:if(4===a[0]){var
+n=b3(b[1],a[1]);if(n){var
+b=b[2],a=a[2];continue}return n}return 0;case
+5:if(5===a[0]){var
+o=b3(b[1],a[1]);if(o){var
+b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
+b=b[1],a=a[1];continue}return 0}}function
+bj(a,b){switch(b[0]){case
+0:return[0,je(a,b[1],b[2])];case
+1:return 0;case
+2:var
+c=bj(a,b[1]);if(c)var
+d=bj(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
-i=d;var
-j=i}else
+m=c;return m;case
+3:var
+e=bj(a,b[1]);if(e)var
+f=bj(a,b[2]),s=f?[0,O(e[1],f[1])]:f,n=s;else
 var
-j=c;var
-k=j}else
+n=e;return n;case
+4:var
+g=bj(a,b[1]);if(g)var
+h=bj(a,b[2]),t=h?[0,F(a,g[1],h[1])]:h,o=t;else
 var
-k=b;return k},q)}}}function
-qC(a){return a}function
-qD(a){return a}function
-qE(a,b){return a9(qD,qC,B,a,b)}function
-qF(a){return a}function
-qG(a){return a}function
-dR(a,b){return a9(qG,qF,qE,a,b)}function
-gb(b,a,c){if(a){var
+o=g;return o;case
+5:var
+i=bj(a,b[1]);if(i){var
+j=bj(a,b[2]);if(j)var
+k=ci(a,j[1]),u=k?[0,F(a,i[1],k[1])]:k,p=u;else
+var
+p=j;var
+q=p}else
+var
+q=i;return q;default:var
+l=bj(a,b[1]);return l?cG(a,l[1]):l}}function
+eS(b,a){return je(b,a[1],a[2])}function
+bk(a,d){if(d0(d))switch(d[0]){case
+0:return 0;case
+1:var
+e=d[3],f=d[2],i=d[1],j=eG(i,jk),k=j?c6(f,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,eS(a,c7(gk(e,f),n)),0],p=g(bi(L,i),o),q=eS(a,e)[2],r=[0,eS(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,eS(a,c7(dQ(f,e),s)),r,p]];else
+var
+l=k;return l;case
+2:var
+t=bk(a,d[2]),u=bk(a,d[1]);return cm(function(b,a){return[0,dY(b,a)]},u,t);case
+3:var
+v=bk(a,d[2]),w=bk(a,d[1]);return cm(function(b,a){return[0,gp(b,a)]},w,v);case
+4:var
+m=d[2],h=d[1];if(b3(h,m)){var
+x=bk(a,h);return dZ(function(b){return[0,jh(a,b)]},x)}var
+y=bk(a,m),z=bk(a,h);return cm(function(c,b){return[0,gq(a,c,b)]},z,y);case
+5:var
+A=bk(a,d[2]),B=bk(a,d[1]);return cm(function(b,c){return jj(a,b,c)},B,A);default:var
+C=bk(a,d[1]);return dZ(function(b){return ji(a,b)},C)}return R(aS,bj(a,d))}function
+bD(b,a){if(d0(a)){var
+c=bk(b,a);return R(function(a){return a[2]},c)}return bj(b,a)}function
+jl(a){var
+e=bY(ab(a),d);return gh(x(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jm(a){return i6(x(jl(a),a))}function
+cn(f,a,e){var
+b=bD(x(f,jl(a)),e);if(b)var
+c=b[1],g=jm(a),h=ab(cj(ab(c[2]),g)),i=jm(a),d=[0,[0,cj(c[1],i),h]];else
+var
+d=b;return d}function
+aq(d,a){var
+b=cn(d,a[2],a[1][1]);if(b)var
+c=cn(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+var
+e=b;return e}function
+jn(b,a){var
+c=ab(cj(ab(a[2]),b));return[0,cj(a[1],b),c]}function
+gr(b,a){var
+c=eO(b[2],a);return[0,ch(b[1],a),c]}function
+gs(a,f,b){if(b){var
+d=b[1],g=gs(a,f,d),h=g[2],i=gf(M(dL(q2,d),q1)),j=s(gf(dL(q3,d)),i),e=gr(F(a,g[1],f),j),k=i2(b)?C(h,e):O(h,e);return[0,e,k]}var
+l=aw(a,c);return[0,aw(a,c),l]}function
+jo(f){var
+g=dN(f),e=q4[1],b=g,c=0,a=e;for(;;){if(b){var
+d=b[1];if(a){var
+b=d,a=a[1];continue}var
+b=d,c=[0,c],a=e;continue}return M(q5,c)}}function
+jp(a,d){var
+g=cF(a),h=s(b(2,b(2,c)),g),e=J(d[2],h);if(e)var
+i=gs(a,d,dL(q7,M(jo(a),q6)))[2][2],f=[0,[0,gs(a,d,M(dL(q9,jo(a)),q8))[2][1],i]];else
+var
+f=e;return f}function
+jq(i){function
+a(h){var
+m=ch(cF(i),h),g=dN(i),f=m,e=d,a=c;for(;;){if(g){var
+j=x(a,b(2,c)),k=x(e,ch(f,a)),l=ab(ch(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return bx(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jr(e,a){var
+f=J(d,a);if(f){var
+g=b(2,b(2,c));return jp(e,gr(U(e,[0,a,a]),g))}return f}function
+js(a,d){var
+b=U(a,d),e=aw(a,c);return O(C(b,b),e)}function
+eT(n,u){var
+h=bD(x(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=x(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=bx(jq(a),p),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=x(jq(a),r),f=jr(a,i);if(f){var
+g=jr(a,j);if(g)var
+k=ad(d,f[1][1]),l=k?ad(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+var
+m=g;var
+e=m}else
+var
+e=f;if(e)var
+s=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),t=jp(a,U(a,gr(F(a,v,e[1]),s))),o=R(function(b){return js(a,js(a,b))},t);else
+var
+o=e;var
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return R(function(a){return jn(w,a)},o)}return h}function
+gt(d,a){return eT(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
+eU(a){return 0===a[0]?a[2]:a[1]}function
+q_(a){return a}function
+q$(a){return a}function
+ra(a,b){return a_(q$,q_,C,a,b)}function
+rb(a){return a}function
+rc(a){return a}function
+d1(a,b){return a_(rc,rb,ra,a,b)}function
+gu(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=gb(b,e,c[2]),h=c[1],i=function(c,a){return N(c,f5(d,a,b))},j=function(a){return am(f5(d,a,b))};return[0,a9(function(a){return a},j,i,h,a),g]}var
-k=gb(b,e,0);return[0,f(function(a){return am(f5(d,a,b))},a),k]}return c}function
-i5(a){if(a){var
+g=gu(b,e,c[2]),h=c[1],i=function(c,a){return O(c,gl(d,a,b))},j=function(a){return ap(gl(d,a,b))};return[0,a_(function(a){return a},j,i,h,a),g]}var
+k=gu(b,e,0);return[0,f(function(a){return ap(gl(d,a,b))},a),k]}return c}function
+jt(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=aa(d,c[1]),h=e?[0,gb(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ad(d,c[1]),h=e?[0,gu(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-i6(f,e){var
+ju(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=i5(b);if(c){var
+c=jt(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-i7(d,b,a){if(b)if(a)var
-e=a[1],f=i7(d,b[2],a[2]),g=dG(d,b[1])?f7(e):dM(e),c=[0,g,f];else
+jv(d,b,a){if(b)if(a)var
+e=a[1],f=jv(d,b[2],a[2]),g=dM(d,b[1])?gn(e):dT(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-i8(a,b){if(a)if(b)var
-d=i8(a[2],b[2]),c=[0,i7(a[1],a,b[1]),d];else
+jw(a,b){if(a)if(b)var
+d=jw(a[2],b[2]),c=[0,jv(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bx(a){if(a){var
-b=a[1],c=bx(b),d=f(function(a){return[0,1,a]},c),e=bx(b);return g(f(function(a){return[0,0,a]},e),d)}return qH}function
-eG(a){var
-b=l(a);if(i6(b,a))return 1;var
-c=bx(bV(b));return o(function(c){return i6(b,i8([0,0,c],a))},c)}function
+bE(a){if(a){var
+b=a[1],c=bE(b),d=f(function(a){return[0,1,a]},c),e=bE(b);return g(f(function(a){return[0,0,a]},e),d)}return rd}function
+eV(a){var
+b=l(a);if(ju(b,a))return 1;var
+c=bE(bZ(b));return o(function(c){return ju(b,jw([0,0,c],a))},c)}function
 a2(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-bf(h,e){var
+bl(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?B(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gc(c,b,a){var
-d=bx(c);return o(function(c){return e(a,e(a2(function(a){return bf(c,a)}),b))},d)}function
-i9(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bv(b,y(h,c),a)},k=i9(h,j,i),l=function(c,b){var
-d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=a9(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gv(c,b,a){var
+d=bE(c);return o(function(c){return e(a,e(a2(function(a){return bl(c,a)}),b))},d)}function
+jx(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bB(b,x(h,c),a)},k=jx(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a_(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-i_(b,d,a,c){function
+jy(b,d,a,c){function
 e(c,d){var
-e=bv(d,b,a);return N(B(c,c),e)}function
-f(c){return am(bv(c,b,a))}return a9(function(a){return B(a,a)},f,e,d,c)}function
-gd(d,i,h,g){var
+e=bB(d,b,a);return O(C(c,c),e)}function
+f(c){return ap(bB(c,b,a))}return a_(function(a){return C(a,a)},f,e,d,c)}function
+gw(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dM(e[2]),k=dR(a,i9(d,f,i_(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-ge(b,a){return[0,[0,0,b],a]}function
-c0(b,c,g,f,a){function
+e=b[1],f=c[1],j=dT(e[2]),k=d1(a,jx(d,f,jy(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gx(b,a){return[0,[0,0,b],a]}function
+c_(b,c,g,f,a){function
 d(a){if(a){var
-h=bu([0,am(a[1][2]),0],b),c=gd(g,f,a[2],h),d=E(l(c),b);if(d)return eG(c);var
+h=bi([0,ap(a[1][2]),0],b),c=gw(g,f,a[2],h),d=E(l(c),b);if(d)return eV(c);var
 e=d}else
 var
-e=a;return e}return gc(b,ge(c,a),d)}function
-i$(f,e){var
+e=a;return e}return gv(b,gx(c,a),d)}function
+jz(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=i5([0,[0,f7(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=jt([0,[0,gn(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gf(b,c,a){function
+gy(b,c,a){function
 d(a){if(a){var
-h=bu([0,a[1][2],0],b),c=i$(a[2],h);if(c){var
-d=c[1],e=E(l(d),b);if(e)return eG(d);var
+h=bi([0,a[1][2],0],b),c=jz(a[2],h);if(c){var
+d=c[1],e=E(l(d),b);if(e)return eV(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gc(b,ge(c,a),d)}function
-ja(b,a){return f(function(a){return[0,a[1],b]},a)}function
-jb(a,b){var
-c=b[3],d=a[3],e=a9(function(a){return a},am,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
-dS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+g=a;return g}return gv(b,gx(c,a),d)}function
+jA(b,a){return f(function(a){return[0,a[1],b]},a)}function
+jB(a,b){var
+c=b[3],d=a[3],e=a_(function(a){return a},ap,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
+d2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 aV(c,b,a){var
-d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-dT(b,a){var
+d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
+d3(b,a){var
 c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
-eH(b,a){var
-c=aq(b[3],a),d=aq(b[2],a);return[0,aq(b[1],a),d,c]}function
-av(b,a){var
-c=r(b[3],a[3]),d=r(b[2],a[2]);return G(G(r(b[1],a[1]),d),c)}function
-gg(a){return eH(a,cf(av(a,a)))}function
-c1(a){var
-b=a[5];return b?b[1]:cf(a[2])}function
-eI(a){return f(function(a){var
-b=a[2];return[0,dS(a[1]),b]},a)}function
-jc(a){return f(function(a){var
-b=n(c);return[0,dS(a[3]),b]},a)}function
-jd(b,a){var
+eW(b,a){var
+c=as(b[3],a),d=as(b[2],a);return[0,as(b[1],a),d,c]}function
+ax(b,a){var
+c=r(b[3],a[3]),d=r(b[2],a[2]);return I(I(r(b[1],a[1]),d),c)}function
+gz(a){return eW(a,ck(ax(a,a)))}function
+c$(a){var
+b=a[5];return b?b[1]:ck(a[2])}function
+eX(a){return f(function(a){var
+b=a[2];return[0,d2(a[1]),b]},a)}function
+jC(a){return f(function(a){var
+b=n(c);return[0,d2(a[3]),b]},a)}function
+jD(b,a){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-je(c,b,a){var
-d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-gh(d,a){var
-b=cz(d,[0,a[2],a[2]]);if(b){var
+jE(c,b,a){var
+d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
+gA(d,a){var
+b=cG(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-eJ(a,m,f,l,e,k,j){var
-n=je(i3,k,j),b=je(function(b,c){return i4(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=eE(eE(eE(aU(au(a,d)),h),g),c),p=bx(m);return o(function(c){var
-b=jd(function(b){return R(a,bf(c,b))},e),h=b[3],j=b[2],k=b[1],m=D(a,l,gh(a,B(B(B(au(a,d),k),j),h))),g=N(bf(c,i),m),n=f?N(g,bf(c,f[1])):g;return aa(d,n[1])},p)}function
-by(a){return cX(y(a[1],a[2]),c)}function
-c2(a){var
-b=by(a);return br(a[2],b)}function
-gi(c,b){if(b)var
-a=b[1],e=gi([0,c],b[2]),f=c2(a),h=[0,[0,c2(a),f],0],i=g(bu(L,c),h),j=by(a),d=[0,[0,[0,by(a),j],a,i],e];else
+eY(a,m,f,l,e,k,j){var
+n=jE(gp,k,j),b=jE(function(b,c){return gq(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=dY(dY(dY(aS(aw(a,d)),h),g),c),p=bE(m);return o(function(c){var
+b=jD(function(b){return U(a,bl(c,b))},e),h=b[3],j=b[2],k=b[1],m=F(a,l,gA(a,C(C(C(aw(a,d),k),j),h))),g=O(bl(c,i),m),n=f?O(g,bl(c,f[1])):g;return ad(d,n[1])},p)}function
+bF(a){return c5(x(a[1],a[2]),c)}function
+da(a){var
+b=bF(a);return bx(a[2],b)}function
+gB(c,b){if(b)var
+a=b[1],e=gB([0,c],b[2]),f=da(a),h=[0,[0,da(a),f],0],i=g(bi(L,c),h),j=bF(a),d=[0,[0,[0,bF(a),j],a,i],e];else
 var
 d=b;return d}function
-dU(d,b){if(b){var
+d4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,by(a),f],c],h=by(a);return[0,[0,[0,a[1],h],c],g]}return qI}function
-jf(d,b,a){if(b){if(a){var
-e=jf(d,b[2],a[2]);return B(bv(b[1],y(d,c),a[1]),e)}return L}return L}function
-eK(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jf(e,a,b)},j=eK(e,h),k=f(function(a){var
-e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
+e=d4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bF(a),f],c],h=bF(a);return[0,[0,[0,a[1],h],c],g]}return re}function
+jF(d,b,a){if(b){if(a){var
+e=jF(d,b[2],a[2]);return C(bB(b[1],x(d,c),a[1]),e)}return L}return L}function
+eZ(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jF(e,a,b)},j=eZ(e,h),k=f(function(a){var
+e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-eL(e,b,d,a){if(b)if(a)var
-f=b[1],g=eL(e,b[2],d,a[2]),c=[0,[0,f,i_(e,a[1][1],d,f)],g];else
+e0(e,b,d,a){if(b)if(a)var
+f=b[1],g=e0(e,b[2],d,a[2]),c=[0,[0,f,jy(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gj(e,d,c,b,a){if(a){var
+gC(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gj(e,d[1],c,b,g);return[0,[0,N(L,b),0],i]}var
-j=f(function(a){return[0,N(L,b),0]},g),h=[0,[0,N(am(D(e,c,dM(a[1][2]))),b),0],j]}else
+i=gC(e,d[1],c,b,g);return[0,[0,O(L,b),0],i]}var
+j=f(function(a){return[0,O(L,b),0]},g),h=[0,[0,O(ap(F(e,c,dT(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-cB(c,a){var
-b=E(l(a),c);return b?eG(a):b}function
-jg(d,b,a){if(b)var
-c=b[1],f=jg([0,d],b[2],a),h=g(bu(L,d),[0,a,0]),e=[0,[0,c,[0,br(c[1],a[2]),y(c[2],a[2])],h],f];else
+cI(c,a){var
+b=E(l(a),c);return b?eV(a):b}function
+jG(d,b,a){if(b)var
+c=b[1],f=jG([0,d],b[2],a),h=g(bi(L,d),[0,a,0]),e=[0,[0,c,[0,bx(c[1],a[2]),x(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-jh(d){if(d){var
+jH(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jh(d[2]);return Z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jH(d[2]);return R(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return qJ}function
-ji(d,c,b,a){var
-e=f(aU,b);return cg(0,cZ(d,gi(0,a),e),c,0)}function
+f=a;return f}return rf}function
+jI(d,c,b,a){var
+e=f(aS,b);return cl(0,c9(d,gB(0,a),e),c,0)}function
 aE(a){if(a){var
 b=a[1];if(b)var
 c=aE(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qY}function
-eM(b,a){if(a){var
+d=b;return d}return ru}function
+e1(b,a){if(a){var
 h=a[1],n=h[1],c=aE(f(function(a){return z(a,b,0)},n));if(c){var
 e=z(h[2],b,0);if(e){var
-i=e[1],g=eM(b,a[2]);if(g)var
-j=aa(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=e[1],g=e1(b,a[2]);if(g)var
+j=ad(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2605,19 +2667,19 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return qZ}function
-bZ(d,c,b){var
-a=eM(d,c);return a?e(b,a[1]):a}function
-eN(a,b){return o(function(c){var
+m=c;return m}return rv}function
+b4(d,c,b){var
+a=e1(d,c);return a?e(b,a[1]):a}function
+e2(a,b){return o(function(c){var
 a=z(c,b,0),d=a?1:a;return d},a)}function
-eO(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a9(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-gk(b,a){return b?jb(a,b[1]):a}function
-gl(h,g,b,f){var
+e3(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a_(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+gD(b,a){return b?jB(a,b[1]):a}function
+gE(h,g,b,f){var
 a=z(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jb(c,b[1]),e=bx(g);return o(function(a){return H(d,bf(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-eP(b,a){var
+i=jB(c,b[1]),e=bE(g);return o(function(a){return J(d,bl(a,i)[1])},e)}return J(d,c[2][1])}return a}function
+e4(b,a){var
 c=z(a[1],b,0);if(c){var
 d=z(a[2],b,0);if(d)var
 e=z(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2626,59 +2688,59 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jj(i,j,K,t,g,b,e,h,a){switch(h[0]){case
+jJ(i,j,K,t,g,b,e,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-M=eN(t,g);if(M){var
-af=a[2],ag=a[1],ah=eO(e,aU(r));return bZ(g,j,function(a){return c0(b,ah,ag,af,a)})}return M;case
+M=e2(t,g);if(M){var
+af=a[2],ag=a[1],ai=e3(e,aS(r));return b4(g,j,function(a){return c_(b,ai,ag,af,a)})}return M;case
 1:var
-N=eN(t,g);if(N){var
-ai=a[2],aj=a[1],ak=eO(e,aU(r));return bZ(g,K,function(a){return c0(b,ak,aj,ai,a)})}return N;case
+N=e2(t,g);if(N){var
+aj=a[2],ak=a[1],al=e3(e,aS(r));return b4(g,K,function(a){return c_(b,al,ak,aj,a)})}return N;case
 2:var
-O=eN(t,g);if(O){if(e)return 0;var
-P=al(r[1],d),Q=P?al(r[2],d):P;if(Q){var
-am=a[2],an=a[1];return bZ(g,j,function(a){return c0(b,[0,L,L,0],an,am,ja([0,L,L,0],a))})}var
+O=e2(t,g);if(O){if(e)return 0;var
+P=ah(r[1],d),Q=P?ah(r[2],d):P;if(Q){var
+am=a[2],an=a[1];return b4(g,j,function(a){return c_(b,[0,L,L,0],an,am,jA([0,L,L,0],a))})}var
 R=Q}else
 var
 R=O;return R}return 0;case
 1:var
 S=h[1];if(typeof
 a==="number"){if(1===a){var
-ao=gk(e,aU(S));return bZ(g,K,function(a){return gf(b,ao,a)})}if(!a){var
-ap=gk(e,aU(S));return bZ(g,j,function(a){return gf(b,ap,a)})}}return 0;case
+ao=gD(e,aS(S));return b4(g,K,function(a){return gy(b,ao,a)})}if(!a){var
+ap=gD(e,aS(S));return b4(g,j,function(a){return gy(b,ap,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-T=a[1],u=a[3],J=function(a){return bv(a,T,au(i,c))};if(u)var
+T=a[1],u=a[3],J=function(a){return bB(a,T,aw(i,c))};if(u)var
 ae=f(J,u[2]),k=[0,J(u[1]),L,ae];else
 var
-k=aU(L);var
-U=h[1],aq=a[2];return bZ(g,j,function(g){var
-h=bx(b),a=o(function(a){return aa(d,bf(a,k)[1])},h),c=a?c0(b,eO(e,k),T,aq,g):a;if(c){var
-j=k[3],l=f(function(a){return D(i,U,a)},j),m=k[2];return gf(b,gk(e,[0,D(i,U,k[1]),m,l]),g)}return c})}return 0;case
+k=aS(L);var
+U=h[1],aq=a[2];return b4(g,j,function(g){var
+h=bE(b),a=o(function(a){return ad(d,bl(a,k)[1])},h),c=a?c_(b,e3(e,k),T,aq,g):a;if(c){var
+j=k[3],l=f(function(a){return F(i,U,a)},j),m=k[2];return gy(b,gD(e,[0,F(i,U,k[1]),m,l]),g)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gl(g,b,e,h[1]);return 0;case
+a==="number"&&!a)return gE(g,b,e,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ar=a[2],as=a[1],at=eO(e,aU(h[2])),av=function(a){return c0(b,at,as,ar,a)};return bZ(g,h[1],av)}return 0;case
+ar=a[2],as=a[1],at=e3(e,aS(h[2])),au=function(a){return c_(b,at,as,ar,a)};return b4(g,h[1],au)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gl(g,b,e,h[1]);case
-2:return gl(g,b,e,h[2])}return 0;case
+0:return gE(g,b,e,h[1]);case
+2:return gE(g,b,e,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=eP(g,h[1]);if(v){var
-w=eP(g,h[2]);if(w){var
-x=eP(g,h[3]);if(x){var
-z=eP(g,h[4]);if(z){var
-V=z[1],W=x[1],X=w[1],Y=v[1],m=a[2],s=h[5],aw=a[1];if(m){var
+v=e4(g,h[1]);if(v){var
+w=e4(g,h[2]);if(w){var
+y=e4(g,h[3]);if(y){var
+z=e4(g,h[4]);if(z){var
+V=z[1],W=y[1],X=w[1],Y=v[1],m=a[2],s=h[5],av=a[1];if(m){var
 n=m[2];if(n){var
 p=n[2];if(p){if(p[2])return 0;var
-ad=[0,m[1],n[1],p[1]],q=jd(function(d){function
-e(a){return bv(a,aw,au(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=eD(a),h=y(b[2],g),j=eD(a);return[0,b,[0,br(b[1],j),h],a]}return aU(L)},ad),A=o(function(a){return E(l(a),[0,b])},m),B=A?eJ(i,b,e,s,q,Y,W):A,C=B?eJ(i,b,e,s,q,Y,V):B,F=C?eJ(i,b,e,s,q,X,W):C;if(F)return eJ(i,b,e,s,q,X,V);var
-G=F}else
+ac=[0,m[1],n[1],p[1]],q=jD(function(d){function
+e(a){return bB(a,av,aw(i,c))}if(d){var
+a=f(e,d[2]),b=e(d[1]),g=eR(a),h=x(b[2],g),j=eR(a);return[0,b,[0,bx(b[1],j),h],a]}return aS(L)},ac),A=o(function(a){return E(l(a),[0,b])},m),B=A?eY(i,b,e,s,q,Y,W):A,C=B?eY(i,b,e,s,q,Y,V):B,D=C?eY(i,b,e,s,q,X,W):C;if(D)return eY(i,b,e,s,q,X,V);var
+G=D}else
 var
 G=p;var
 H=G}else
@@ -2689,7 +2751,7 @@ var
 I=m;return I}var
 Z=z}else
 var
-Z=x;var
+Z=y;var
 _=Z}else
 var
 _=w;var
@@ -2698,47 +2760,47 @@ var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ab=a[2],ac=a[1],ax=h[2],ay=h[1];return bZ(g,j,function(f){var
-a=E(l(f),b),d=a?E(l(ab),b):a;if(d){var
+aa=a[2],ab=a[1],ax=h[2],ay=h[1];return b4(g,j,function(f){var
+a=E(l(f),b),d=a?E(l(aa),b):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=E(l(d),b);if(e){var
-g=eK(ac,eL(ac,ab,au(i,c),d));return cB(b,dR(gj(i,ay,ax,a[1][2],d),g))}var
+g=eZ(ab,e0(ab,aa,aw(i,c),d));return cI(b,d1(gC(i,ay,ax,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=e?e[1]:aU(L);return gc(b,ge(h,f),g)}return d})}return 0;case
+f=a;return f},h=e?e[1]:aS(L);return gv(b,gx(h,f),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-az=h[2],aA=h[1];return bZ(g,j,function(d){var
-a=ja([0,L,L,0],d),c=e?e[1]:[0,L,L,0];return c0(b,c,aA,az,a)})}return 0;default:return 0}}function
-jk(a,X,G,k,p,W,h,j,i,g,b){if(9===g[0]){if(typeof
+az=h[2],aA=h[1];return b4(g,j,function(d){var
+a=jA([0,L,L,0],d),c=e?e[1]:[0,L,L,0];return c_(b,c,aA,az,a)})}return 0;default:return 0}}function
+jK(a,Y,G,k,p,X,h,j,i,g,b){if(9===g[0]){if(typeof
 b!=="number"&&9===b[0]){var
-Y=g[1],S=f(aU,W),v=cg(0,cZ(a,jg(0,j,Y),S),X,0),H=E(l(j),q0),I=H?eN(p,v):H;if(I){var
-q=eM(v,k);if(q){var
-r=eM(h,k);if(r){var
+Z=g[1],S=f(aS,X),v=cl(0,c9(a,jG(0,j,Z),S),Y,0),H=E(l(j),rw),I=H?e2(p,v):H;if(I){var
+q=e1(v,k);if(q){var
+r=e1(h,k);if(r){var
 _=g[2],s=aE(f(function(b){var
 c=z(b[1],h,0);if(c)var
 e=b[2][2],a=aE(f(function(a){var
-b=z(a[2],h,0);return Z(function(b){return[0,a[1],b]},b)},e)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+b=z(a[2],h,0);return R(function(b){return[0,a[1],b]},b)},e)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},_));if(s){var
-t=jh(q[1]);if(t){var
-J=b[2],u=b[1],K=r[1],$=b[3],ab=s[1],ac=t[1],w=gh(a,cw(function(g,i){function
+t=jH(q[1]);if(t){var
+J=b[2],u=b[1],K=r[1],$=b[3],aa=s[1],ab=t[1],w=gA(a,cD(function(g,i){function
 b(b,d){var
-a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return f6(z(d,c[3],L))}function
+a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return gm(z(d,c[3],L))}function
 c(a){var
-b=e(a,qK),c=bU(e(a,qL),b);return bU(e(a,0),c)}var
+b=e(a,rg),c=bY(e(a,rh),b);return bY(e(a,0),c)}var
 d=c(function(a){var
-c=b(qM,a),d=b(qN,a);return y(y(b(0,a),d),c)}),h=[0,d,d],f=c(function(a){var
-c=b(a,qO),d=b(a,qP);return y(y(b(a,0),d),c)});return B(i,R(a,gh(a,D(a,[0,f,f],h))))},L,ac)),m=bv($,u,au(a,c)),x=aa(d,N(m,w)[1]),A=x?E(l(J),qV):x,C=A?E(l(K),qW):A;if(C){var
-n=cc(a,m);if(n){var
-T=dL(D(a,w,n[1])),U=N(au(a,c),T),V=bx(qX);return o(function(j){var
+c=b(ri,a),d=b(rj,a);return x(x(b(0,a),d),c)}),h=[0,d,d],f=c(function(a){var
+c=b(a,rk),d=b(a,rl);return x(x(b(a,0),d),c)});return C(i,U(a,gA(a,F(a,[0,f,f],h))))},L,ab)),m=bB($,u,aw(a,c)),y=ad(d,O(m,w)[1]),A=y?E(l(J),rr):y,B=A?E(l(K),rs):A;if(B){var
+n=ci(a,m);if(n){var
+T=dS(F(a,w,n[1])),V=O(aw(a,c),T),W=bE(rt);return o(function(j){var
 h=f(function(b){var
-c=b[2],d=b[1];return dM(f4(function(d,b){var
-c=f6(bf(j,b[2]));return B(d,D(a,b[1],[0,c,c]))},c,d))},ab),r=e(a2(function(a){return bf(j,a)}),K),E=i?bf(j,i[1]):L,M=R(a,U),s=R(a,m),q=eK(u,eL(u,J,au(a,c),r)),b=dR(bu([0,am(E),0],qQ),q);if(h){var
+c=b[2],d=b[1];return dT(gj(function(d,b){var
+c=gm(bl(j,b[2]));return C(d,F(a,b[1],[0,c,c]))},c,d))},aa),r=e(a2(function(a){return bl(j,a)}),K),D=i?bl(j,i[1]):L,M=U(a,V),s=U(a,m),q=eZ(u,e0(u,J,aw(a,c),r)),b=d1(bi([0,ap(D),0],rm),q);if(h){var
 d=h[2];if(d){var
 g=d[2];if(g){if(g[2])return 0;var
-A=d[1],C=h[1],G=g[1],k=cB(qS,dR(bu([0,am(s),0],qR),b));if(k)return o(function(B){var
-H=N(M,E),I=B[2]?A:am(A),J=B[1]?C:am(C),n=0;if(b){var
+A=d[1],B=h[1],G=g[1],k=cI(ro,d1(bi([0,ap(s),0],rn),b));if(k)return o(function(C){var
+H=O(M,D),I=C[2]?A:ap(A),J=C[1]?B:ap(B),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -2747,16 +2809,16 @@ e=b[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
-h=e[2],D=0;if(h){var
+h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1;D=1;F=1}else
+j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
 r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
 var
-s=h;if(!D)var
+s=h;if(!E)var
 t=s}else
 var
 t=g;if(!q)var
@@ -2777,7 +2839,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return cB(qU,j)},qT);var
+j=z;return cI(rq,j)},rp);var
 l=k}else
 var
 l=g;var
@@ -2786,299 +2848,276 @@ var
 n=d;var
 p=n}else
 var
-p=h;return p},V)}var
-F=n}else
+p=h;return p},W)}var
+D=n}else
 var
-F=C;return F}var
+D=B;return D}var
 M=t}else
 var
 M=s;var
-O=M}else
+N=M}else
 var
-O=r;var
-P=O}else
+N=r;var
+P=N}else
 var
 P=q;var
 Q=P}else
 var
-Q=I;return Q}return jj(a,G,k,p,h,l(j),i,g,b)}return jj(a,G,k,p,h,l(j),i,g,b)}function
-eQ(b,a){if(a){var
+Q=I;return Q}return jJ(a,G,k,p,h,l(j),i,g,b)}return jJ(a,G,k,p,h,l(j),i,g,b)}function
+e5(b,a){if(a){var
 c=a[2];if(b){var
-e=eQ(b[1],c);return[0,a[1],e]}var
+e=e5(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jl(t,s,K,J,I,r,U,G,c,F,E){if(F){var
-L=ji(t,s,r,c),g=F,b=E;for(;;){if(g){var
+jL(t,s,K,I,H,r,U,G,c,F,E){if(F){var
+L=jI(t,s,r,c),g=F,b=E;for(;;){if(g){var
 x=g[1],a=x[2],n=x[1],y=g[2];if(typeof
 a==="number"&&4===a){var
 m=e(G,c);if(m)var
-T=m[1],O=bx(l(c)),p=o(function(b){return function(a){return aa(bf(a,b)[2],d)}}(T),O);else
+T=m[1],O=bE(l(c)),p=o(function(b){return function(a){return ad(bl(a,b)[2],d)}}(T),O);else
 var
 p=m;if(p){var
 g=y,b=f(function(a){return 0},b);continue}return p}var
 A=z(n,b,0);if(A){var
-q=ai(U,n);if(q){var
+q=ae(U,n);if(q){var
 B=q[1],M=0;if(typeof
 a==="number"||!(5===a[0]))M=1;else{var
 i=a[2],j=e(G,c),N=0;if(j){var
-u=H(d,i);if(u){var
-k=j[1],v=a[3],S=a[1],P=k[3],Q=f(function(b,c){return function(a){return bv(b,c,a)}}(i,v),P),R=k[2],h=jk(t,s,K,J,I,r,L,c,[0,[0,bv(i,v,k[1]),R,Q]],B,S);N=1}else
+u=J(d,i);if(u){var
+k=j[1],v=a[3],S=a[1],P=k[3],Q=f(function(b,c){return function(a){return bB(b,c,a)}}(i,v),P),R=k[2],h=jK(t,s,K,I,H,r,L,c,[0,[0,bB(i,v,k[1]),R,Q]],B,S);N=1}else
 var
 w=u}else
 var
 w=j;if(!N)var
 h=w}if(M)var
-h=jk(t,s,K,J,I,r,L,c,0,B,a);if(h){var
-g=y,b=eQ(n,b);continue}var
+h=jK(t,s,K,I,H,r,L,c,0,B,a);if(h){var
+g=y,b=e5(n,b);continue}var
 C=h}else
 var
 C=q;var
 D=C}else
 var
 D=A;return D}return[0,b]}}return[0,E]}function
-gm(j,i,h,g,f,e,d,c,u,t,s){var
+gF(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jl(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aC,l[1]):l}var
-m=jl(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=dU(a[2],b),q=gm(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=jL(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(av,l[1]):l}var
+m=jL(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=d4(a[2],b),q=gF(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-jm(a){return f(function(a){return 1},a)}function
-ch(s,r){var
-b=s,a=r;for(;;)switch(b[0]){case
-0:if(0===a[0]){var
-k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(H(f,c))return H(e,c)?1:al(bt(e,a5(2))[2],d)?0:0;var
-i=bt(f,a5(2)),j=i[1];if(al(i[2],d)){if(H(e,c))return 0;var
-g=bt(e,a5(2)),p=g[1];if(al(g[2],d)){var
-f=j,e=p;continue}return 0}if(H(e,c))return 0;var
-h=bt(e,a5(2)),q=h[1];if(al(h[2],d))return 0;var
-f=j,e=q;continue}}return k}return 0;case
-1:if(1===a[0]){var
-l=ch(b[1],a[1]);if(l){var
-b=b[2],a=a[2];continue}return l}return 0;case
-2:if(2===a[0]){var
-m=ch(b[1],a[1]);if(m){var
-b=b[2],a=a[2];continue}return m}return 0;case
-3:if(3===a[0]){var
-n=ch(b[1],a[1]);if(n){var
-b=b[2],a=a[2];continue}return n}return 0;case
-4:if(4===a[0]){var
-o=ch(b[1],a[1]);if(o){var
-b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
-b=b[1],a=a[1];continue}return 0}}function
-eR(a){switch(a[0]){case
+jM(a){return f(function(a){return 1},a)}function
+b5(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
-1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,iP(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,iP(b,[0,Y(a[1]),a[2]])]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dQ(b,a)]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,iQ(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gk(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iN(a,[0,d,c]))return 0;var
-b=a[1],e=bP(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Y(a[2]),Y(b)];return[0,iQ(g,f)]};break;default:return 0}var
-g=eR(e);if(g){var
-h=eR(f);if(h)return b(g[1],h[1]);var
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c7(b,a)]};break;case
+5:var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(jb(a,[0,d,c]))return 0;var
+b=a[1],e=bT(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,ab(a[2]),ab(b)];return[0,c7(g,f)]};break;default:return 0}var
+g=b5(e);if(g){var
+h=b5(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 j(i,e,b){var
-f=eR(b);if(f){var
-g=f[1];return e?aC(iO(g,[0,d,c])):iO([0,d,c],g)}var
-a=aD(i,b);if(a){var
-h=a[1];return e?aa(d,h[1]):H(d,h[1])}return a}function
-jn(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
-bz(c,a,b){var
-d=ch(a,b),e=d?jn(c,a):d;return e?e:j(c,0,[2,b,a])}function
-eS(a,d,b,c){function
+f=b5(b);if(f){var
+g=f[1];return e?av(c6(g,[0,d,c])):c6([0,d,c],g)}var
+a=bD(i,b);if(a){var
+h=a[1];return e?ad(d,h[1]):J(d,h[1])}return a}function
+jN(c,b){var
+a=bD(c,b),d=a?1:a;return d}function
+bm(c,a,b){var
+d=b3(a,b),e=d?jN(c,a):d;return e?e:j(c,0,[3,b,a])}function
+e6(a,d,b,c){function
 e(d,c){var
-e=bX(a[1],b[1]);return f(function(a){var
-b=r(c,a[2]);return G(r(d,a[1]),b)},e)}if(a_(a[2],b[2])){var
+e=b1(a[1],b[1]);return f(function(a){var
+b=r(c,a[2]);return I(r(d,a[1]),b)},e)}if(a$(a[2],b[2])){var
 g=a[2];return[0,e(d,c),g]}var
 h=r(a[2],b[2]),i=r(c,a[2]);return[0,e(r(d,b[2]),i),h]}function
-jo(a){var
+jO(a){var
 b=n(c);return[0,f(function(a){return n(d)},a),b]}function
-a$(a,i){var
+ba(a,i){var
 e=i[1];switch(e[0]){case
 1:var
-j=e[1];if(aT(function(a){return E(j,a)},a)){var
+j=e[1];if(aR(function(a){return E(j,a)},a)){var
 t=n(c);return[0,f(function(a){var
-b=E(a,j)?c:d;return n(b)},a),t]}return jo(a);case
+b=E(a,j)?c:d;return n(b)},a),t]}return jO(a);case
 3:var
-u=n(c),v=a$(a,e[2]),w=n(c);return eS(a$(a,e[1]),w,v,u);case
+u=n(c),v=ba(a,e[2]),w=n(c);return e6(ba(a,e[1]),w,v,u);case
 4:var
-x=n(Y(c)),y=a$(a,e[2]),z=n(c);return eS(a$(a,e[1]),z,y,x);case
+x=n(ab(c)),y=ba(a,e[2]),z=n(c);return e6(ba(a,e[1]),z,y,x);case
 5:var
-k=a$(a,e[1]),A=k[2];return[0,f(bY,k[1]),A];case
+k=ba(a,e[1]),A=k[2];return[0,f(b2,k[1]),A];case
 6:var
-l=e[2],m=e[1],B=a$(a,l);return eS(a$(a,m),l,B,m);case
+l=e[2],m=e[1],B=ba(a,l);return e6(ba(a,m),l,B,m);case
 7:var
-p=e[2],C=bY(i),D=a$(a,p),F=n(c),g=eS(a$(a,e[1]),F,D,C),G=g[1];if(o(function(a){return a1(d,a)},G))return g;var
+p=e[2],C=b2(i),D=ba(a,p),F=n(c),g=e6(ba(a,e[1]),F,D,C),G=g[1];if(o(function(a){return a1(d,a)},G))return g;var
 H=r(g[2],p);return[0,g[1],H];case
 8:var
-q=e[1],s=a$(a,q),I=s[2],J=s[1],K=r(n(b(2,c)),q);return[0,f(function(a){return r(K,a)},J),I];case
+q=e[1],s=ba(a,q),I=s[2],J=s[1],K=r(n(b(2,c)),q);return[0,f(function(a){return r(K,a)},J),I];case
 9:var
-h=a$(a,e[1]),L=h[1];if(o(function(a){return a1(d,a)},L)){var
+h=ba(a,e[1]),L=h[1];if(o(function(a){return a1(d,a)},L)){var
 M=n(c);return[0,h[1],M]}var
-N=r(n(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return jo(a)}}function
-cC(m,r){var
+N=r(n(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return jO(a)}}function
+cJ(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(H(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(H(j,c)){var
-k=al(b,o),l=k?dO(b):k;if(l)var
-p=al(m[2],d),g=p||al(b,d);else
+i=f[2],b=f[1];if(J(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(J(j,c)){var
+k=ah(b,o),l=k?dV(b):k;if(l)var
+p=ah(m[2],d),g=p||ah(b,d);else
 var
 g=l;var
 q=g?[0,b]:g,a=q}else
 var
-a=al(bt(j,a5(2))[2],d)?0:0}else
+a=ah(bA(j,a6(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(bt(i,a5(2))[2],d)?0:0}else
+a=ah(bA(i,a6(2))[2],d)?0:0}else
 var
 a=0;return a?n(a[1]):[0,[1,r]]}function
-cD(b,a){if(a)var
-d=cD([0,b],a[2]),c=[0,cC(a[1],b),d];else
+cK(b,a){if(a)var
+d=cK([0,b],a[2]),c=[0,cJ(a[1],b),d];else
 var
 c=a;return c}function
-a7(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gn(b,d,a){switch(a[0]){case
+a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gG(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a7(c[3],b),f),i=g(a7(c[2],b),h);return g(a7(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
 1:var
-e=a[3],j=e?a7(e[1],d):e,k=g(a7(a[2],b),j);return g(a7(a[1],b),k);default:return a7(a[1],d)}}function
+e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
 aL(b,a){var
-c=n(d),e=z(K(q1,a),b,c),f=n(d),g=z(K(q2,a),b,f);return[0,z(a,b,n(d)),g,e]}function
-jp(b,a){return aV(w,aV(G,cA,a),b)}function
-go(c,b,a){if(a){var
-e=a[2],f=go(c,f3(b),e),h=a[1];return g(gn(c,ev(d,b),h),f)}return a}function
-gp(m,k,h,y){if(h){var
-e=h[1],P=K(y,l(gn(m,ev(d,k),e))),Q=h[2],R=gp(m,f3(k),Q,P),a=cD(y,gn(m,ev(d,k),e));switch(e[0]){case
+c=n(d),e=z(M(rx,a),b,c),f=n(d),g=z(M(ry,a),b,f);return[0,z(a,b,n(d)),g,e]}function
+jP(b,a){return aV(y,aV(I,cH,a),b)}function
+gH(c,b,a){if(a){var
+e=a[2],f=gH(c,gi(b),e),h=a[1];return g(gG(c,eL(d,b),h),f)}return a}function
+gI(m,k,h,x){if(h){var
+e=h[1],P=M(x,l(gG(m,eL(d,k),e))),Q=h[2],S=gI(m,gi(k),Q,P),a=cK(x,gG(m,eL(d,k),e));switch(e[0]){case
 0:var
-I=e[1][5],u=z(q3,a,n(d)),J=aV(G,cA,aL(a,q4)),g=gg(aL(a,0)),L=aL(a,q5),v=jp(aL(a,q6),L),p=av(g,v),f=aV(w,v,dT(p,g)),B=av(f,f),q=w(_(u),B),r=cf(q),i=I?r:bY(r),C=w(p,i),D=aV(G,g,eH(f,i)),o=[0,aV(G,f,dT(i,g)),q,D,C,[0,u],0,[0,J]];break;case
+H=e[1][5],u=z(rz,a,n(d)),J=aV(I,cH,aL(a,rA)),g=gz(aL(a,0)),K=aL(a,rB),v=jP(aL(a,rC),K),p=ax(g,v),f=aV(y,v,d3(p,g)),B=ax(f,f),q=y(ac(u),B),r=ck(q),i=H?r:b2(r),C=y(p,i),D=aV(I,g,eW(f,i)),o=[0,aV(I,f,d3(i,g)),q,D,C,[0,u],0,[0,J]];break;case
 1:var
-x=e[3],M=x?[0,gg(aL(a,q7))]:x,N=aV(G,cA,aL(a,q8)),O=aL(a,q9),b=jp(aL(a,0),O),s=av(b,b),t=cf(s),E=[0,N],F=Z(function(a){return aV(w,b,dT(av(a,b),a))},M),o=[0,b,s,eH(b,t),t,0,F,E];break;default:var
-j=gg(aL(a,0)),H=av(j,cA),o=[0,j,n(c),j,H,0,0,0]}var
-A=[0,o,R]}else
+w=e[3],L=w?[0,gz(aL(a,rD))]:w,N=aV(I,cH,aL(a,rE)),O=aL(a,rF),b=jP(aL(a,0),O),s=ax(b,b),t=ck(s),E=[0,N],F=R(function(a){return aV(y,b,d3(ax(a,b),a))},L),o=[0,b,s,eW(b,t),t,0,F,E];break;default:var
+j=gz(aL(a,0)),G=ax(j,cH),o=[0,j,n(c),j,G,0,0,0]}var
+A=[0,o,S]}else
 var
 A=h;return A}function
-bg(b,a){if(typeof
+bn(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
 4:var
-h=[4,a[3],a[2]];return[0,[0,h,h],d];case
+h=[5,a[3],a[2]];return[0,[0,h,h],d];case
 6:var
 j=a[2];return[0,[0,j,j],d];case
 8:var
-k=[4,a[2],a[1]];return[0,[0,k,k],d];case
+k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eA(a[2]),l=[1,[1,eA(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=eU(a[2]),l=[2,[2,eU(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
-n=[4,a[2],a[4]];return[0,[0,n,n],d];case
+n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
-o=[4,a[2],a[3]];return[0,[0,o,o],d];case
+o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
-f=[4,[0,c,c],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 5:case
 7:case
 9:var
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],b]}}function
-dV(b,a){var
+d5(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eT(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(dV(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=dV(b,a[3]);return g(dV(b,a[2]),j)}function
-c3(b,a){if(typeof
+e7(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(d5(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=d5(b,a[3]);return g(d5(b,a[2]),j)}function
+db(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=eT(b,a[2]);return g(eT(b,a[1]),e);case
+e=e7(b,a[2]);return g(e7(b,a[1]),e);case
 11:var
-f=dV(b,a[3]);return g(dV(b,a[2]),f);case
+f=d5(b,a[3]);return g(d5(b,a[2]),f);case
 12:var
-c=a[3],d=[4,[3,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jq(c,b,a){var
-d=l(c3(c,b)),e=K(a[2],d);return[0,[0,a[1]],e]}function
-jr(k,a,g){switch(g[0]){case
+c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
+jQ(c,b,a){var
+d=l(db(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
+jR(k,a,g){switch(g[0]){case
 0:var
-e=ai(k,g[1]);if(e){var
+e=ae(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aL(a,q_);return aV(G,aV(w,l,dT(c,b[1])),d)},m=c1(b),o=h(aq(z(q$,a,n(d)),m)),p=c1(b),q=aq(z(0,a,n(d)),p),i=[0,[0,h(w(n(c),q)),o]];else
+d=aL(a,rG);return aV(I,aV(y,l,d3(c,b[1])),d)},m=c$(b),o=h(as(z(rH,a,n(d)),m)),p=c$(b),q=as(z(0,a,n(d)),p),i=[0,[0,h(y(n(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aL(a,ra);return[0,[0,aL(a,0),r]];default:var
-s=aV(G,cA,aL(a,rb));return[0,[0,aV(G,cA,aL(a,0)),s]]}}function
-js(f,e,j,d,c){var
-k=eT(e,c),h=cD(j,g(eT(e,d),k)),a=jr(f,ew(rc,h),d);if(a)var
-b=jr(f,iL(rd,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aL(a,rI);return[0,[0,aL(a,0),r]];default:var
+s=aV(I,cH,aL(a,rJ));return[0,[0,aV(I,cH,aL(a,0)),s]]}}function
+jS(f,e,j,d,c){var
+k=e7(e,c),h=cK(j,g(e7(e,d),k)),a=jR(f,eM(rK,h),d);if(a)var
+b=jR(f,i$(rL,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-gq(d,c,b,a){var
-e=r(c,b);return w(r(d,a),e)}function
-cE(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
-jt(a){if(a){var
+gJ(d,c,b,a){var
+e=r(c,b);return y(r(d,a),e)}function
+cL(a){return A(function(a){return g(a[1],[0,a[2],0])},a)}function
+jT(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jt(a[2]);if(d)var
-g=d[1],h=av(c,c),e=[0,[0,[0,dS(c),h],g]];else
+c=b[1],d=jT(a[2]);if(d)var
+g=d[1],h=ax(c,c),e=[0,[0,[0,d2(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return rf}function
-eU(b,d,c,a){if(typeof
+f=b;return f}return rN}function
+e8(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cC(bg(d,a),e);return[0,f(function(a){var
-b=r(a[2],g);return[0,dS(a[1]),b]},b)];case
-9:return jt(b)}return 0}function
-ci(e,k,j,a){var
-U=j[1],b=cC(bg(k,a),U),x=0;if(typeof
-a==="number")x=1;else
+e=c[1],g=cJ(bn(d,a),e);return[0,f(function(a){var
+b=r(a[2],g);return[0,d2(a[1]),b]},b)];case
+9:return jT(b)}return 0}function
+co(e,k,j,a){var
+U=j[1],b=cJ(bn(k,a),U),w=0;if(typeof
+a==="number")w=1;else
 switch(a[0]){case
 2:var
-V=function(a){return[0,w(a[4],b),0]},g=V,f=a[1];break;case
+V=function(a){return[0,y(a[4],b),0]},g=V,f=a[1];break;case
 3:var
-W=function(a){return[0,w(b,a[4]),0]},g=W,f=a[1];break;case
+W=function(a){return[0,y(b,a[4]),0]},g=W,f=a[1];break;case
 4:var
 X=function(c){var
-a=c[1],d=_(a[3]),e=_(a[2]),f=_(a[1]),g=c[2];return[0,w(w(w(r(_(b),g),f),e),d),0]},g=X,f=a[1];break;case
+a=c[1],d=ac(a[3]),e=ac(a[2]),f=ac(a[1]),g=c[2];return[0,y(y(y(r(ac(b),g),f),e),d),0]},g=X,f=a[1];break;case
 6:var
 Y=function(c){var
 a=c[5];if(a)var
-e=_(a[1]),f=r(_(b),e),d=[0,w(c[2],f),0];else
+e=ac(a[1]),f=r(ac(b),e),d=[0,y(c[2],f),0];else
 var
 d=a;return d},g=Y,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-A=m[1],B=l[1],D=e[1],p=D[5];if(p){var
-q=B[5];if(q){var
-s=A[5];if(s)var
-h=A[1],i=B[1],t=D[1],P=gq(i[1],i[2],h[1],h[2]),Q=r(t[3],P),R=gq(i[1],i[3],h[1],h[3]),S=r(t[2],R),T=gq(i[2],i[3],h[2],h[3]),y=G(w(r(t[1],T),S),Q),Z=s[1],$=q[1],E=r(r(r(b,p[1]),$),Z),aa=[0,bY(G(y,E)),0],F=[0,w(y,E),aa];else
+B=m[1],C=l[1],D=e[1],p=D[5];if(p){var
+q=C[5];if(q){var
+s=B[5];if(s)var
+h=B[1],i=C[1],t=D[1],P=gJ(i[1],i[2],h[1],h[2]),Q=r(t[3],P),R=gJ(i[1],i[3],h[1],h[3]),S=r(t[2],R),T=gJ(i[2],i[3],h[2],h[3]),x=I(y(r(t[1],T),S),Q),Z=s[1],_=q[1],E=r(r(r(b,p[1]),_),Z),$=[0,b2(I(x,E)),0],F=[0,y(x,E),$];else
 var
 F=s;var
-H=F}else
+G=F}else
 var
-H=q;var
-I=H}else
+G=q;var
+H=G}else
 var
-I=p;var
-J=I}else
+H=p;var
+J=H}else
 var
 J=m;var
 K=J}else
@@ -3088,49 +3127,49 @@ L=K}else
 var
 L=e;return L;case
 10:var
-v=js(e,k,j[2],a[1],a[2]);if(v){var
-M=v[1],N=M[2],O=M[1];return C(dS,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
+v=jS(e,k,j[2],a[1],a[2]);if(v){var
+M=v[1],N=M[2],O=M[1];return A(d2,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
 11:var
-ab=function(d){var
+aa=function(d){var
 e=d[7];if(e)var
-n=c3(k,a),f=cD(j[2],n),h=aL(f,re),c=aV(w,aL(f,0),h),i=_(b),l=_(c1(d)),m=aq(_(av(c,d[1])),l),g=[0,w(w(av(c,c),m),i),0];else
+n=db(k,a),f=cK(j[2],n),h=aL(f,rM),c=aV(y,aL(f,0),h),i=ac(b),l=ac(c$(d)),m=as(ac(ax(c,d[1])),l),g=[0,y(y(ax(c,c),m),i),0];else
 var
-g=e;return g},g=ab,f=a[1];break;case
+g=e;return g},g=aa,f=a[1];break;case
 12:var
-ac=function(e){var
-p=n(d),q=c3(k,a),s=z(0,cD(j[2],q),p),f=aq(s,c1(e)),g=e[5];if(g){var
-l=cf(e[2]),h=aq(g[1],l),m=r(h,G(b,r(f,_(h))));return[0,w(n(c),m),0]}var
-i=e[7],o=i?[0,w(w(n(c),b),f),0]:i;return o},g=ac,f=a[1];break;case
+ab=function(e){var
+p=n(d),q=db(k,a),s=z(0,cK(j[2],q),p),f=as(s,c$(e)),g=e[5];if(g){var
+l=ck(e[2]),h=as(g[1],l),m=r(h,I(b,r(f,ac(h))));return[0,y(n(c),m),0]}var
+i=e[7],o=i?[0,y(y(n(c),b),f),0]:i;return o},g=ab,f=a[1];break;case
 8:case
 9:var
-u=eU(e,k,j,a);return u?cE(u[1]):u;default:x=1}if(x)return 0;var
-o=ai(e,f);return o?g(o[1]):o}function
-gr(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gr(d,b,jq(b,e,c),f);return g(ci(d,b,c,e),h)}return a}var
-ju=[0,d,c],jv=[0,[0,ju,ju],d];function
-jw(a){var
-b=cx(0,l(a));return dJ(function(c){var
-b=z(c,a,jv);return aC(ch(b[1][1],b[1][2]))},b)}function
-jx(a,g){var
-h=g[4],b=a$(jw(a),h),c=b[1],e=f(function(a){return a1(d,a)?a:aq(a,b[2])},c),i=bX(jw(a),e);return dJ(function(a){return aC(a1(d,a[2]))},i)}function
-jy(g,F,k,D,m,h,n,r){if(r){var
-a=r[1],az=r[2],aA=jy(g,F,k,D,m,h,jq(h,a,n),az);if(typeof
+u=e8(e,k,j,a);return u?cL(u[1]):u;default:w=1}if(w)return 0;var
+o=ae(e,f);return o?g(o[1]):o}function
+gK(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gK(d,b,jQ(b,e,c),f);return g(co(d,b,c,e),h)}return a}var
+jU=[0,d,c],jV=[0,[0,jU,jU],d];function
+jW(a){var
+b=cE(0,l(a));return dP(function(c){var
+b=z(c,a,jV);return av(b3(b[1][1],b[1][2]))},b)}function
+jX(a,g){var
+h=g[4],b=ba(jW(a),h),c=b[1],e=f(function(a){return a1(d,a)?a:as(a,b[2])},c),i=b1(jW(a),e);return dP(function(a){return av(a1(d,a[2]))},i)}function
+jY(g,F,k,D,m,h,n,r){if(r){var
+a=r[1],az=r[2],aA=jY(g,F,k,D,m,h,jQ(h,a,n),az);if(typeof
 a==="number")var
 i=0===a?[0,[0,L]]:[0,[8,F[1],F[2]]];else
 switch(a[0]){case
 0:var
-al=an(g,bg(h,a)),i=Z(function(a){return[0,R(g,a)]},al);break;case
+al=aq(g,bn(h,a)),i=R(function(a){return[0,U(g,a)]},al);break;case
 1:var
-am=an(g,bg(h,a)),i=Z(function(a){return[1,R(g,a)]},am);break;case
+am=aq(g,bn(h,a)),i=R(function(a){return[1,U(g,a)]},am);break;case
 5:var
-ap=an(g,bg(h,a)),i=Z(function(a){return[2,R(g,a)]},ap);break;case
+ao=aq(g,bn(h,a)),i=R(function(a){return[2,U(g,a)]},ao);break;case
 8:var
-aq=eU(m,h,n,a),i=Z(function(a){var
-b=au(g,c);return[4,e(a2(k),a),b]},aq);break;case
+ap=e8(m,h,n,a),i=R(function(a){var
+b=aw(g,c);return[4,e(a2(k),a),b]},ap);break;case
 9:var
-u=eU(m,h,n,a);if(u){var
-v=an(g,bg(h,a));if(v)var
-ar=R(g,v[1]),as=u[1],M=[0,[4,e(a2(k),as),ar]];else
+u=e8(m,h,n,a);if(u){var
+v=aq(g,bn(h,a));if(v)var
+ar=U(g,v[1]),as=u[1],M=[0,[4,e(a2(k),as),ar]];else
 var
 M=v;var
 N=M}else
@@ -3138,77 +3177,77 @@ var
 N=u;var
 i=N;break;case
 10:var
-w=js(m,h,n[2],a[1],a[2]);if(w){var
-O=w[1],P=O[2],Q=O[1],x=an(g,bg(h,a));if(x){var
-S=x[1],T=H(d,S[1]);if(T)var
+w=jS(m,h,n[2],a[1],a[2]);if(w){var
+O=w[1],P=O[2],Q=O[1],x=aq(g,bn(h,a));if(x){var
+S=x[1],T=J(d,S[1]);if(T)var
 p=function(a){var
-b=e(k,a[3]),c=e(k,a[2]);return[0,e(k,a[1]),c,b]},at=p(P[2]),av=p(P[1]),aw=p(Q[2]),U=[0,[6,p(Q[1]),aw,av,at,S]];else
+b=e(k,a[3]),c=e(k,a[2]);return[0,e(k,a[1]),c,b]},at=p(P[2]),au=p(P[1]),av=p(Q[2]),V=[0,[6,p(Q[1]),av,au,at,S]];else
 var
-U=T;var
-V=U}else
-var
-V=x;var
+V=T;var
 W=V}else
 var
-W=w;var
-i=W;break;case
+W=x;var
+X=W}else
+var
+X=w;var
+i=X;break;case
 12:var
-q=ci(m,h,n,a),s=0;if(q)if(q[2])var
+q=co(m,h,n,a),s=0;if(q)if(q[2])var
 i=0;else{var
-X=j(g,0,a[2]),Y=X?j(g,1,a[4]):X;if(Y){var
+Y=j(g,0,a[2]),Z=Y?j(g,1,a[4]):Y;if(Z){var
 y=[0,[3,e(k,q[1])]];s=1}else{var
-y=Y;s=1}}else{var
+y=Z;s=1}}else{var
 y=q;s=1}if(s)var
 i=y;break;case
 13:var
-_=a[1],$=ai(m,_),G=0;if($){var
+_=a[1],$=ae(m,_),G=0;if($){var
 aa=j(g,1,a[2]),ab=aa?j(g,1,a[3]):aa;if(ab)var
-ax=an(g,bg(h,a)),i=Z(function(a){return[7,_,R(g,a)]},ax);else{var
+ax=aq(g,bn(h,a)),i=R(function(a){return[7,_,U(g,a)]},ax);else{var
 ac=ab;G=1}}else{var
 ac=$;G=1}if(G)var
 i=ac;break;case
 14:var
-A=a[2],ad=a[1],ae=E(l(m),rg),af=ae?j(g,0,ad):ae,ag=af?j(g,1,A):af;if(ag){var
-B=an(g,bg(h,a));if(B)var
+A=a[2],ad=a[1],af=E(l(m),rO),ag=af?j(g,0,ad):af,ah=ag?j(g,1,A):ag;if(ah){var
+B=aq(g,bn(h,a));if(B)var
 C=aE(f(function(n){var
-j=[4,ad,A],a=an(g,[0,[0,j,j],d]);if(a){var
-o=jx(D,n),i=aE(f(function(f){var
-a=z(f[1],D,jv),i=br(a[2],h),j=[3,[0,b(2,c),c],A],d=[4,[2,a[1][2],a[1][1]],j],l=an(g,[0,[0,d,d],i]);return Z(function(a){return[0,a,e(k,f[2])]},l)},o));if(i)var
+j=[5,ad,A],a=aq(g,[0,[0,j,j],d]);if(a){var
+o=jX(D,n),i=aE(f(function(f){var
+a=z(f[1],D,jV),i=bx(a[2],h),j=[4,[0,b(2,c),c],A],d=[5,[3,a[1][2],a[1][1]],j],l=aq(g,[0,[0,d,d],i]);return R(function(a){return[0,a,e(k,f[2])]},l)},o));if(i)var
 p=[0,a[1],i[1]],l=[0,[0,e(k,n[4]),p]];else
 var
 l=i;var
 m=l}else
 var
-m=a;return m},m)),ay=C?[0,[9,B[1],C[1]]]:C,ah=ay;else
+m=a;return m},m)),ay=C?[0,[9,B[1],C[1]]]:C,ai=ay;else
 var
-ah=B;var
-aj=ah}else
+ai=B;var
+aj=ai}else
 var
-aj=ag;var
+aj=ah;var
 i=aj;break;default:var
-o=ci(m,h,n,a),I=0;if(o){var
-t=o[2],J=o[1];if(t)if(t[2])var
+o=co(m,h,n,a),H=0;if(o){var
+t=o[2],I=o[1];if(t)if(t[2])var
 i=0;else
 var
-ao=e(k,t[1]),i=[0,[5,e(k,J),ao]];else{var
-K=[0,[3,e(k,J)]];I=1}}else{var
-K=o;I=1}if(I)var
+an=e(k,t[1]),i=[0,[5,e(k,I),an]];else{var
+K=[0,[3,e(k,I)]];H=1}}else{var
+K=o;H=1}if(H)var
 i=K}var
 ak=[0,i,aA]}else
 var
 ak=r;return ak}function
-rh(a){var
+rP(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-gs(a,p,o){var
-q=a7(p,o),b=f(function(b){return an(a,b)},q);if(b){var
+gL(a,p,o){var
+q=a8(p,o),b=f(function(b){return aq(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-r=R(a,i[1]),s=R(a,h[1]);return aa(d,B(B(R(a,g[1]),s),r)[1])}var
+r=U(a,i[1]),s=U(a,h[1]);return ad(d,C(C(U(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=e;var
@@ -3225,22 +3264,22 @@ n=m}else
 var
 n=b;return n}function
 ag(c,b,a){var
-d=Q(c,b[3],a[3]),e=Q(c,b[2],a[2]);return[0,Q(c,b[1],a[1]),e,d]}function
-aF(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-F(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aM(a){return aF([4,[0,c,c],[5,F(a,a)]],a)}function
-cF(c,b,a){var
-d=bz(c,b[1],a);return d?bz(c,a,b[2]):d}function
+d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
+aF(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+G(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aM(a){return aF([5,[0,c,c],[6,G(a,a)]],a)}function
+cM(c,b,a){var
+d=bm(c,b[1],a);return d?bm(c,a,b[2]):d}function
 aW(c,b,a){var
-d=cF(c,b[1],a[1]),e=d?cF(c,b[2],a[2]):d;return e?cF(c,b[3],a[3]):e}function
-jz(c,a,b){if(0===a[0])return aW(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=j(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?j(c,0,d):g;return h?cF(c,a[4],b[3]):h}function
-jA(a,D,H,G){var
+d=cM(c,b[1],a[1]),e=d?cM(c,b[2],a[2]):d;return e?cM(c,b[3],a[3]):e}function
+jZ(c,a,b){if(0===a[0])return aW(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?cM(c,a[4],b[3]):h}function
+j0(a,D,H,F){var
 h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aW(a,f[1],i),q=p?j(a,1,F(i,i)):p,r=q?aW(a,f[2],b[2]):q,s=r?aW(a,f[3],b[3]):r,t=s?cF(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dG(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aW(a,f[1],i),q=p?j(a,1,G(i,i)):p,r=q?aW(a,f[2],b[2]):q,s=r?aW(a,f[3],b[3]):r,t=s?cM(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dM(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
@@ -3248,7 +3287,7 @@ v=e[3];if(1===b[0]){var
 g=b[3],w=aW(a,e[1],b[1]),x=w?aW(a,e[2],b[2]):w,n=0;if(x)if(v){var
 E=0;if(g){var
 k=g[1],y=aW(a,v[1],k);if(y){var
-c=j(a,1,F(k,k));E=1}else
+c=j(a,1,G(k,k));E=1}else
 var
 z=y}else
 var
@@ -3261,7 +3300,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-l=b[1],B=aW(a,e[1],l),c=B?j(a,1,F(l,l)):B;else
+l=b[1],B=aW(a,e[1],l),c=B?j(a,1,G(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -3270,96 +3309,96 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?jz(a,D[2],G):m}}function
-bA(c,b,a){var
-d=ag(function(b,a){return[1,b,a]},a,b);return ag(function(b,a){return[2,b,a]},d,c)}function
-eV(a,e,d,c){var
-b=bA(e,d,c),f=aM(a),g=aF(F(aM(a),b),f);return ag(function(b,a){return[2,b,a]},b,g)}function
-c4(f,e,d,a,c){var
-b=eV(f,e,d,c);return[2,[3,a,a],F(b,b)]}function
-c5(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-c6(a,b){switch(a[0]){case
+m=d?0:1;return m?jZ(a,D[2],F):m}}function
+bG(c,b,a){var
+d=ag(function(b,a){return[2,b,a]},a,b);return ag(function(b,a){return[3,b,a]},d,c)}function
+e9(a,e,d,c){var
+b=bG(e,d,c),f=aM(a),g=aF(G(aM(a),b),f);return ag(function(b,a){return[3,b,a]},b,g)}function
+dc(f,e,d,a,c){var
+b=e9(f,e,d,c);return[3,[4,a,a],G(b,b)]}function
+dd(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+de(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eV(d,f,e,b),h=c4(d,f,e,a[4],b),i=aF([4,[0,c,c],c5(a[5],h)],g),j=aM(d);return ag(function(b,a){return[1,b,a]},j,i);case
-1:return aM(bA(a[1],a[2],b));default:return aM(a[1])}}function
-jB(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=e9(d,f,e,b),h=dc(d,f,e,a[4],b),i=aF([5,[0,c,c],dd(a[5],h)],g),j=aM(d);return ag(function(b,a){return[2,b,a]},j,i);case
+1:return aM(bG(a[1],a[2],b));default:return aM(a[1])}}function
+j1(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c4(e,d,c,a[4],b),i=c5(a[5],h),j=bA(d,c,b);return[2,F(aM(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dc(e,d,c,a[4],b),i=dd(a[5],h),j=bG(d,c,b);return[3,G(aM(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bA(g,f,b);return[5,F(bA(g,f,b),k)];default:return F(aM(a[1]),b)}}function
-dW(e,b,a){var
-f=[0,d,c];return cw(function(c,d){var
-e=F(c6(c,b),a);return[1,[3,F(c6(c,b),a),e],d]},f,e)}function
-jC(a){var
+f=a[2],g=a[1],k=bG(g,f,b);return[6,G(bG(g,f,b),k)];default:return G(aM(a[1]),b)}}function
+d6(e,b,a){var
+f=[0,d,c];return cD(function(c,d){var
+e=G(de(c,b),a);return[2,[4,G(de(c,b),a),e],d]},f,e)}function
+j2(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gt(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aM(b),h=c4(b,f,e,d,c),i=aF(c5(a[5],h),g),j=eV(b,f,e,c);return[0,[0,ag(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-jD(d,i){if(d){var
+gM(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aM(b),h=dc(b,f,e,d,c),i=aF(dd(a[5],h),g),j=e9(b,f,e,c);return[0,[0,ag(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+j3(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bA(a[1],a[2],i),k=aM(f),l=aF(F(aM(f),g),k),h=[0,ag(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bG(a[1],a[2],i),k=aM(f),l=aF(G(aM(f),g),k),h=[0,ag(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jD(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=j3(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return ri}function
-cG(a){return[0,a[1],a[2],a[3]]}function
-jE(a,b){switch(a[0]){case
+j=b;return j}return rQ}function
+cN(a){return[0,a[1],a[2],a[3]]}function
+j4(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aM(d),j=c4(d,g,c,f,b),k=aF(c5(a[5],j),i),l=eV(d,g,c,b),m=ag(function(b,a){return[1,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aM(d),j=dc(d,g,c,f,b),k=aF(dd(a[5],j),i),l=e9(d,g,c,b),m=ag(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bA(a[1],h,b),n=[5,F(e,e)];return[0,[0,[0,ag(function(b,a){return[1,b,a]},b,h),e],n]];default:return 0}}function
-jF(l,b,a){switch(a[0]){case
+h=a[2],e=bG(a[1],h,b),n=[6,G(e,e)];return[0,[0,[0,ag(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+j5(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=ai(l,a[1]);if(d){var
-e=jE(d[1],b);if(e)var
+m=a[5],d=ae(l,a[1]);if(d){var
+e=j4(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cG(m),c=aF(a,n),d=ag(function(b,a){return[2,b,a]},o,c);return ag(function(b,a){return[1,b,a]},d,b)},p=i([4,a[4],h]),j=[0,[0,i([2,[0,c,c],[4,a[3],h]]),p]];else
+b=cN(m),c=aF(a,n),d=ag(function(b,a){return[3,b,a]},o,c);return ag(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cG(a[3]);return[0,[0,cG(a[2]),q]];default:var
-r=cG(a[3]),s=ag(function(b,a){return[1,b,a]},b,r),t=cG(a[2]);return[0,[0,ag(function(b,a){return[1,b,a]},b,t),s]]}}function
-jG(d,a,c,b){var
-e=aF(a,b),f=aF([2,d,a],c);return ag(function(b,a){return[1,b,a]},f,e)}function
-jH(f,g,e,b,q,a){function
-J(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],F(b,b)]}var
+q=cN(a[3]);return[0,[0,cN(a[2]),q]];default:var
+r=cN(a[3]),s=ag(function(b,a){return[2,b,a]},b,r),t=cN(a[2]);return[0,[0,ag(function(b,a){return[2,b,a]},b,t),s]]}}function
+j6(d,a,c,b){var
+e=aF(a,b),f=aF([3,d,a],c);return ag(function(b,a){return[2,b,a]},f,e)}function
+j7(f,g,e,b,q,a){function
+J(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],G(b,b)]}var
 H=0;if(typeof
 a==="number")H=1;else
 switch(a[0]){case
 0:var
-av=dW(g,e,b);return j(f,1,[2,J(a[1]),av]);case
+av=d6(g,e,b);return j(f,1,[3,J(a[1]),av]);case
 1:var
-aw=J(a[1]);return j(f,1,[2,dW(g,e,b),aw]);case
+aw=J(a[1]);return j(f,1,[3,d6(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[2,ax,jB(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[3,ax,j1(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[2,jB(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[3,j1(a,e),az]},s=aA,r=a[1];break;case
 4:var
 K=a[3],L=a[2],aB=function(a){var
-b=c6(a,e);return[2,[3,[3,L,L],F(c6(a,e),b)],[3,K,K]]},s=aB,r=a[1];break;case
+b=de(a,e);return[3,[4,[4,L,L],G(de(a,e),b)],[4,K,K]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=F(b,b),aD=[3,[3,M,M],[3,dW(g,e,q),aC]],aE=F(q,q);return j(f,1,[2,[3,dW(g,e,b),aE],aD]);case
+M=a[1],aC=G(b,b),aD=[4,[4,M,M],[4,d6(g,e,q),aC]],aE=G(q,q);return j(f,1,[3,[4,d6(g,e,b),aE],aD]);case
 6:var
-N=a[2],u=ai(g,a[1]);if(u){var
+N=a[2],u=ae(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=c4(h[1],h[2],h[3],v,e),O=c5(h[5],aF);return j(f,1,[2,[3,[3,N,v],[3,N,v]],[3,O,O]])}var
+v=h[4],aF=dc(h[1],h[2],h[3],v,e),O=dd(h[5],aF);return j(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gt(g[1],e);if(w){var
-Q=w[1],x=gt(n[1],e);if(x){var
-R=x[1],y=gt(o[1],e);if(y){var
-S=y[1],T=[3,[3,[3,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=F(Q[1],[0,[2,[3,k[2],i[3]],[3,k[3],i[2]]],[2,[3,k[3],i[1]],[3,k[1],i[3]]],[2,[3,k[1],i[2]],[3,k[2],i[1]]]]),U=j(f,1,[2,T,I]);if(U)return j(f,1,[1,T,I]);var
+w=gM(g[1],e);if(w){var
+Q=w[1],x=gM(n[1],e);if(x){var
+R=x[1],y=gM(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=G(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,I]);if(U)return j(f,1,[2,T,I]);var
 V=U}else
 var
 V=y;var
@@ -3379,15 +3418,15 @@ _=Z}else
 var
 _=g;return _;case
 8:var
-aG=dW(g,e,b),aH=F(b,b);return j(f,1,[2,[3,[4,a[2],a[1]],aH],aG]);case
+aG=d6(g,e,b),aH=G(b,b);return j(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=jD(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=cw(function(a,c){var
-d=F(aM(a),b);return[1,[3,F(aM(a),b),d],c]},at,aI);return j(f,1,[2,[3,[3,$,$],F(b,b)],au])}return z;case
+$=a[1],z=j3(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=cD(function(a,c){var
+d=G(aM(a),b);return[2,[4,G(aM(a),b),d],c]},at,aI);return j(f,1,[3,[4,[4,$,$],G(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=jF(g,e,ab);if(A){var
-ac=A[1],B=jF(g,e,aa);if(B){var
-ad=B[1],C=b[1],D=b[2],l=b[3],aJ=jG(l,D,ad[1],ad[2]),aK=jG(l,C,ac[1],ac[2]),ae=ag(function(b,a){return[2,b,a]},aK,aJ),aL=a[3],aN=eA(aa),af=[3,l,[1,[1,eA(ab),aN],aL]],ah=j(f,1,l),aj=ah?j(f,0,C):ah,ak=aj?j(f,0,[2,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[2,l,D]):al;if(am)return j(f,1,[2,[3,af,af],F(ae,ae)]);var
+aa=a[2],ab=a[1],A=j5(g,e,ab);if(A){var
+ac=A[1],B=j5(g,e,aa);if(B){var
+ad=B[1],C=b[1],D=b[2],l=b[3],aJ=j6(l,D,ad[1],ad[2]),aK=j6(l,C,ac[1],ac[2]),af=ag(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aN=eU(aa),ah=[4,l,[2,[2,eU(ab),aN],aL]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],G(af,af)]);var
 an=am}else
 var
 an=B;var
@@ -3395,33 +3434,33 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=ai(g,a[1]);if(E){var
-G=jE(E[1],e);if(G){var
-m=G[1][1][2],aO=cG(a[3]),aP=cG(a[2]),p=ag(function(b,a){return[2,b,a]},aP,aO),aq=j(f,1,F(m,m));if(aq){var
-aQ=F(m,m),aR=F(p,m),aS=[4,[3,F(p,m),aR],aQ];return j(f,1,[2,[3,ap,ap],[2,F(p,p),aS]])}var
+ap=a[4],E=ae(g,a[1]);if(E){var
+F=j4(E[1],e);if(F){var
+m=F[1][1][2],aO=cN(a[3]),aP=cN(a[2]),p=ag(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,G(m,m));if(aq){var
+aQ=G(m,m),aR=G(p,m),aS=[5,[4,G(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,G(p,p),aS]])}var
 ar=aq}else
 var
-ar=G;var
+ar=F;var
 as=ar}else
 var
 as=E;return as;default:H=1}if(H)return 0;var
-t=ai(g,r);return t?j(f,1,s(t[1])):t}function
-cj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-rj(a){switch(a[0]){case
+t=ae(g,r);return t?j(f,1,s(t[1])):t}function
+cp(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+rR(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=cj(b[3]),f=cj(b[2]);return[0,cj(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cp(b[3]),f=cp(b[2]);return[0,cp(b[1]),f,e,d,c];case
 1:var
-g=Z(cj,a[3]),h=cj(a[2]);return[1,cj(a[1]),h,g];default:return[2,cj(a[1])]}}function
-jI(c,b){var
-a=b[2],d=0===a[0]?cj(a[1]):[0,a[1],a[2],a[4][1]];return jA(c,b,f(rj,b[1]),d)}function
-c7(b,a){if(b){if(a){var
-e=c7(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jJ(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
-d=ez(a,f);if(d){var
-e=f_(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,N(D(a,c[1],d[1]),m)];else
+g=R(cp,a[3]),h=cp(a[2]);return[1,cp(a[1]),h,g];default:return[2,cp(a[1])]}}function
+j8(c,b){var
+a=b[2],d=0===a[0]?cp(a[1]):[0,a[1],a[2],a[4][1]];return j0(c,b,f(rR,b[1]),d)}function
+df(b,a){if(b){if(a){var
+e=df(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+j9(a,l,k,f){var
+b=bD(a,l);if(b){var
+c=bD(a,k);if(c){var
+d=eT(a,f);if(d){var
+e=gt(a,f);if(e)var
+m=F(a,b[1],e[1]),g=[0,O(F(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3433,43 +3472,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-jK(f,D,s,C,a,e){function
-t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],c7(a,a)]}var
+j_(f,D,s,C,a,e){function
+t(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],df(a,a)]}var
 F=s[1];function
 g(b){var
-a=[0,d,c];return cw(function(a,c){var
-d=c7(a,b);return[1,[3,c7(a,b),d],c]},a,F)}var
+a=[0,d,c];return cD(function(a,c){var
+d=df(a,b);return[2,[4,df(a,b),d],c]},a,F)}var
 u=o(function(a){return E(l(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-w=a[1],G=g(w);return j(f,1,[2,t(e[1],w),G])}return a;case
+w=a[1],G=g(w);return j(f,1,[3,t(e[1],w),G])}return a;case
 1:if(a){if(a[2])return 0;var
-x=a[1],H=t(e[1],x);return j(f,1,[2,g(x),H])}return a;case
+x=a[1],H=t(e[1],x);return j(f,1,[3,g(x),H])}return a;case
 2:if(a)return 0;var
 I=e[2],J=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,I,a[1]]);return 0},k=J,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[3,I,a[1]]);return 0},k=J,i=e[1];break;case
 3:if(a)return 0;var
 K=e[2],L=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[2,a[1],K]);return 0},k=L,i=e[1];break;case
+a!=="number"&&0===a[0])return j(f,1,[3,a[1],K]);return 0},k=L,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],M=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=j(f,0,[2,[1,z,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=jJ(f,i,h,z);return e?aa(e[1][2],d):e}var
-g=jJ(f,i,h,y);return g?aa(d,g[1][1]):g}return k}return 0},k=M,i=e[1];break;case
+h=a[2],i=a[1],k=j(f,0,[3,[2,z,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
+e=j9(f,i,h,z);return e?ad(e[1][2],d):e}var
+g=j9(f,i,h,y);return g?ad(d,g[1][1]):g}return k}return 0},k=M,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],q=a[1],A=e[1],N=c7(q,q),O=[3,[3,A,A],[3,g(n),N]],P=c7(n,n);return j(f,1,[2,[3,g(q),P],O])}var
+n=h[1],p=a[1],A=e[1],N=df(p,p),O=[4,[4,A,A],[4,g(n),N]],P=df(n,n);return j(f,1,[3,[4,g(p),P],O])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=ai(s[2],i);return m?k(m[1]):m}var
+m=ae(s[2],i);return m?k(m[1]):m}var
 v=0}else
 var
 v=u;return v}function
-jL(h,g){var
+j$(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3479,44 +3518,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-rk(a){return f(function(a){return[0,a,c]},a)}function
-jM(e,m,b,l,a){if(typeof
+rS(a){return f(function(a){return[0,a,c]},a)}function
+ka(e,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return aT(function(a){return j(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jL(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(rk,a[2]);return jK(e,m,b,n[2],s,r)}return g}var
-h=jL(a[1],l);if(h){var
+q=b[3];return aR(function(a){return j(e,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=j$(a[1],l);if(g){var
+n=g[1],r=n[1],s=f(rS,a[2]);return j_(e,m,b,n[2],s,r)}return g}var
+h=j$(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=ai(b[1],a[2]);return k?jK(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+k=ae(b[1],a[2]);return k?j_(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-gu(a){var
-b=aM(a[1]),c=aF(F(b,a[2]),b),d=a[2];return ag(function(b,a){return[2,b,a]},d,c)}function
-gv(a){return aM(gu(a))}function
-jN(c){var
-a=gv(c),b=aM(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-gw(a,b){return bA(a[3],a[4],b)}function
-gx(a,b){var
-c=gw(a,b);return F(gv(a),c)}function
-gy(a,b){var
-c=gw(a,b);return F(jN(a),c)}function
-jO(a,b){var
-c=gw(a,b);return F(aM(a[1]),c)}function
-gz(b,a){var
-c=gy(b,a),d=gx(b,a);return[1,[3,d,d],[3,c,c]]}function
-gA(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=jO(a,d);return[4,[1,gz(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-jP(a,b){var
-f=a[5],c=[2,gA(a,b),f],d=jO(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-gB(a,b){var
-c=jP(a,b);return c5(a[7],c)}function
-jQ(b,a){var
-c=gz(b,a),d=gy(b,a),e=[3,gB(b,a),d],f=gx(b,a);return[4,[1,[3,gA(b,a),f],e],c]}function
-jR(b,a){var
-c=gz(b,a),d=gx(b,a),e=[3,gB(b,a),d],f=gy(b,a);return[4,[2,[3,gA(b,a),f],e],c]}function
-bB(c){var
+gN(a){var
+b=aM(a[1]),c=aF(G(b,a[2]),b),d=a[2];return ag(function(b,a){return[3,b,a]},d,c)}function
+gO(a){return aM(gN(a))}function
+kb(c){var
+a=gO(c),b=aM(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gP(a,b){return bG(a[3],a[4],b)}function
+gQ(a,b){var
+c=gP(a,b);return G(gO(a),c)}function
+gR(a,b){var
+c=gP(a,b);return G(kb(a),c)}function
+kc(a,b){var
+c=gP(a,b);return G(aM(a[1]),c)}function
+gS(b,a){var
+c=gR(b,a),d=gQ(b,a);return[2,[4,d,d],[4,c,c]]}function
+gT(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kc(a,d);return[5,[2,gS(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kd(a,b){var
+f=a[5],c=[3,gT(a,b),f],d=kc(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gU(a,b){var
+c=kd(a,b);return dd(a[7],c)}function
+ke(b,a){var
+c=gS(b,a),d=gR(b,a),e=[4,gU(b,a),d],f=gQ(b,a);return[5,[2,[4,gT(b,a),f],e],c]}function
+kf(b,a){var
+c=gS(b,a),d=gQ(b,a),e=[4,gU(b,a),d],f=gR(b,a);return[5,[3,[4,gT(b,a),f],e],c]}function
+bH(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3525,94 +3564,98 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bB(a[2]);return g(bB(a[1]),e)}}function
-bC(e,a,b){switch(a[0]){case
+e=bH(a[2]);return g(bH(a[1]),e)}}function
+bI(e,a,b){switch(a[0]){case
 0:var
-q=a[1];return cC([0,[0,q,q],d],b);case
+q=a[1];return cJ([0,[0,q,q],d],b);case
 1:var
 t=a[1],g=e,u=n(d);for(;;){if(g){var
-m=g[1];if(nh(m[1],t))return m[2];var
+m=g[1];if(nP(m[1],t))return m[2];var
 g=g[2];continue}return u}case
-2:return bY(bC(e,a[1],b));case
+2:return b2(bI(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=G;break;case
+i=a[2],f=a[1],h=I;break;case
 4:var
-i=a[2],f=a[1],h=w;break;case
+i=a[2],f=a[1],h=y;break;case
 5:var
 i=a[2],f=a[1],h=r;break;case
 6:var
-i=a[2],f=a[1],h=aq;break;case
+i=a[2],f=a[1],h=as;break;case
 7:var
-j=dH(a[2]),k=bC(e,a[1],b);if(j){if(j[1]){var
-o=_(k),s=function(a){return r(a,o)},p=fZ(bV(iD(j)),s,o);return iC(j)?p:r(p,k)}return k}return n(c);default:return cf(bC(e,a[1],b))}var
-v=bC(e,i,K(b,l(bB(f))));return h(bC(e,f,b),v)}function
-cH(c,f,b){var
+j=dN(a[2]),k=bI(e,a[1],b);if(j){if(j[1]){var
+o=ac(k),s=function(a){return r(a,o)},p=eH(bZ(i3(j)),s,o);return i2(j)?p:r(p,k)}return k}return n(c);default:return ck(bI(e,a[1],b))}var
+v=bI(e,i,M(b,l(bH(f))));return h(bI(e,f,b),v)}function
+cO(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=K(b,l(bB(e))),k=cH(c,a[2],j),m=g(cH(c,e,b),k);return[0,bC(c,a,b),m];case
+e=a[1],j=M(b,l(bH(e))),k=cO(c,a[2],j),m=g(cO(c,e,b),k);return[0,bI(c,a,b),m];case
 8:var
-n=cH(c,a[1],b);return[0,bC(c,a,b),n];case
+n=cO(c,a[1],b);return[0,bI(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=K(b,l(bB(d))),i=cH(c,a[2],h);return g(cH(c,d,b),i)}}function
-jS(c,a,b){if(a){var
-e=a[1],d=e[2],f=K(b,l(bB(d))),h=a[2],i=bC(c,d,b),j=jS([0,[0,e[1],i],c],h,f);return g(cH(c,d,b),j)}return a}function
-dX(a){return C(bB,a)}function
-jT(c,a,b){if(a)var
-d=a[1],f=K(b,l(bB(d))),g=jT(c,a[2],f),e=[0,bC(c,d,b),g];else
+d=a[1],h=M(b,l(bH(d))),i=cO(c,a[2],h);return g(cO(c,d,b),i)}}function
+kg(c,a,b){if(a){var
+e=a[1],d=e[2],f=M(b,l(bH(d))),h=a[2],i=bI(c,d,b),j=kg([0,[0,e[1],i],c],h,f);return g(cO(c,d,b),j)}return a}function
+d7(a){return A(bH,a)}function
+kh(c,a,b){if(a)var
+d=a[1],f=M(b,l(bH(d))),g=kh(c,a[2],f),e=[0,bI(c,d,b),g];else
 var
 e=a;return e}function
-jU(c,a,b){if(a){var
-d=a[1],e=K(b,l(bB(d))),f=jU(c,a[2],e);return g(cH(c,d,b),f)}return a}function
-jV(c,a,b){if(a)var
-d=a[1],f=K(b,l(dX(d))),g=jV(c,a[2],f),e=[0,jT(c,d,b),g];else
+ki(c,a,b){if(a){var
+d=a[1],e=M(b,l(bH(d))),f=ki(c,a[2],e);return g(cO(c,d,b),f)}return a}function
+kj(c,a,b){if(a)var
+d=a[1],f=M(b,l(d7(d))),g=kj(c,a[2],f),e=[0,kh(c,d,b),g];else
 var
 e=a;return e}function
-jW(c,a,b){if(a){var
-d=a[1],e=K(b,l(dX(d))),f=jW(c,a[2],e);return g(jU(c,d,b),f)}return a}function
-jX(a){return f(function(a){return[0,a[2],d]},a)}function
-jY(a){var
-c=cD(0,jX(a[2])),d=cx(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=bX(f(dE,a[2]),c);return g(bX(a[1],e),b)}function
-rm(a){if(typeof
+kk(c,a,b){if(a){var
+d=a[1],e=M(b,l(d7(d))),f=kk(c,a[2],e);return g(ki(c,d,b),f)}return a}function
+kl(a){return f(function(a){return[0,a[2],d]},a)}function
+km(a){var
+c=cK(0,kl(a[2])),d=cE(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=b1(f(cC,a[2]),c);return g(b1(a[1],e),b)}function
+rU(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gC(b,d){var
+gV(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aT(function(a){return as(e,a)},b);case
+e=a[1];return aR(function(a){return ao(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gC(b,a[1]);if(c){var
+c=gV(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-jZ(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-j0(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-gD(a,c,b){var
-d=[3,jZ(a),b],e=[1,[3,j0(a),c],d],f=[3,j0(a),b];return[0,[2,[3,jZ(a),c],f],e]}function
-j1(c,a){var
-b=gD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-j2(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-j3(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:j1(d[1],a):a;case
+kn(d){var
+a=d;for(;;){if(a){var
+b=a[2],e=a[1],c=av(aR(function(b){return function(a){return nP(b,a)}}(e),b));if(c){var
+a=b;continue}return c}return 1}}function
+ko(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kp(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+gW(a,c,b){var
+d=[4,ko(a),b],e=[2,[4,kp(a),c],d],f=[4,kp(a),b];return[0,[3,[4,ko(a),c],f],e]}function
+kq(c,a){var
+b=gW(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+kr(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ks(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kq(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gD(d[1],a[2],a[3]),m=j[1],k=gD(f[1],j[2],a[1]);return j1(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gW(d[1],a[2],a[3]),m=j[1],k=gW(f[1],j[2],a[1]);return kq(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=F(e,e),n=j2(e,a),o=aF([0,b(2,c),c],n),p=F(e,a),q=aF([3,[0,b(2,c),c],p],e),r=aF([2,[0,c,c],l],a),s=ag(function(b,a){return[1,b,a]},r,q);return aF([4,[0,c,c],[1,[0,c,c],l]],ag(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-j4(b){var
-a=eR(b);return a?iN(a[1],[0,d,c]):a}function
-j5(a,n,k,i){if(j4(i)){var
-q=n?[2,[0,d,c],k]:k;return j(a,0,q)}var
-f=aD(a,k);if(f){var
-g=ez(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=f_(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),l=[0,N(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=G(e,e),n=kr(e,a),o=aF([0,b(2,c),c],n),p=G(e,a),q=aF([4,[0,b(2,c),c],p],e),r=aF([3,[0,c,c],l],a),s=ag(function(b,a){return[2,b,a]},r,q);return aF([5,[0,c,c],[2,[0,c,c],l]],ag(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kt(b){var
+a=b5(b);return a?jb(a[1],[0,d,c]):a}function
+ku(a,n,k,i){if(kt(i)){var
+q=n?[3,[0,d,c],k]:k;return j(a,0,q)}var
+f=bD(a,k);if(f){var
+g=eT(a,[5,i,[0,b(2,c),c]]);if(g){var
+h=gt(a,[5,i,[0,b(2,c),c]]);if(h)var
+p=F(a,f[1],g[1]),l=[0,O(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3621,26 +3664,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-dY(b,a,c){var
-d=bz(b,a[1],a[2]),e=d?j5(b,0,c,a[1]):d;return e?j5(b,1,c,a[2]):e}function
-dZ(a,d){if(j4(d))return[0,L];var
-e=ez(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=f_(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=B(au(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cc(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return Z(function(d){var
-e=D(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return iX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?J(d,o[1]):J(o[2],d)}return e}function
+d8(b,a,c){var
+d=bm(b,a[1],a[2]),e=d?ku(b,0,c,a[1]):d;return e?ku(b,1,c,a[2]):e}function
+d9(a,d){if(kt(d))return[0,L];var
+e=eT(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=gt(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C(aw(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ci(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return R(function(d){var
+e=F(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return jn(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gE(d,a){var
-e=j(d,1,[1,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-cI(a){return[0,[2,[0,d,c],a],a]}function
-j6(a,b,n,m){var
-h=bz(a,[0,d,c],b),i=h?gE(a,b):h;if(i){var
-e=dZ(a,b);if(e){var
-f=aD(a,n);if(f){var
-g=aD(a,m);if(g){var
-o=f[1],p=g[1];return H(d,N(D(a,R(a,e[1]),p),o)[1])}var
+gX(d,a){var
+e=j(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+cP(a){return[0,[3,[0,d,c],a],a]}function
+kv(a,b,n,m){var
+h=bm(a,[0,d,c],b),i=h?gX(a,b):h;if(i){var
+e=d9(a,b);if(e){var
+f=bD(a,n);if(f){var
+g=bD(a,m);if(g){var
+o=f[1],p=g[1];return J(d,O(F(a,U(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3650,194 +3693,194 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-d0(a){return 1===a?rq:rr}function
-gF(d,c,b,a){var
-e=a[1],f=j3(d,c,a[2]),g=ag(function(b,a){return[1,b,a]},b,f);return ag(function(b,a){return[2,b,a]},g,e)}function
-d1(b,d){var
+d_(a){return 1===a?rY:rZ}function
+gY(d,c,b,a){var
+e=a[1],f=ks(d,c,a[2]),g=ag(function(b,a){return[2,b,a]},b,f);return ag(function(b,a){return[3,b,a]},g,e)}function
+d$(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,K(b,c[1])]]:[0,dN(function(a){return d1(b,a)},a)]}return[0,dN(function(a){return d1(b,a)},a)]}function
-c8(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,dU(function(a){return d$(b,a)},a)]}return[0,dU(function(a){return d$(b,a)},a)]}function
+dg(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aC(E(e,b));return f?aC(E(e,K(d,b))):f;case
+e=a[1],f=av(E(e,b));return f?av(E(e,M(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c8(d,b,a[1]);if(g){var
+g=dg(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-d2(c,b,m){var
+ea(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c8(c,b,g),i=h?d2(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dg(c,b,g),i=h?ea(c,b,f):h;if(i)var
 j=i;else{var
-k=d2(c,b,g);if(k)return c8(c,b,f);var
+k=ea(c,b,g);if(k)return dg(c,b,f);var
 j=k}return j;case
 7:var
-l=d2(c,b,a[1]);return l?c8(c,b,a[2]):l;case
+l=ea(c,b,a[1]);return l?dg(c,b,a[2]):l;case
 3:case
 4:var
-e=d2(c,b,a[1]);if(e){var
+e=ea(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c8(c,b,a[1]);default:return 1}}}function
-cJ(c,e){var
+9:return dg(c,b,a[1]);default:return 1}}}function
+cQ(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aC(E(a[1],c));case
+0:return av(E(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cJ(c,a[1]);if(d){var
+d=cQ(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gG(d,b,m){var
+gZ(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gG(d,b,a[1]);if(f){var
+f=gZ(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gG(d,b,a[1]);return g?cJ(b,a[2]):g;case
+g=gZ(d,b,a[1]);return g?cQ(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cJ(b,i);if(j){var
-k=cJ(b,h);if(k)var
+h=a[2],i=a[1],j=cQ(b,i);if(j){var
+k=cQ(b,h);if(k)var
 e=k;else{var
-l=a_(i,d);if(l){var
+l=a$(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cJ(b,c)}}}function
-j7(c,e){var
+2:return 1;default:return cQ(b,c)}}}function
+kw(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return iB(a[1],c);case
+0:return eG(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=j7(c,a[1]);if(d){var
+d=kw(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ck(b,a){return a?e(b,a[1]):a}function
-cl(c,b,a){return ck(function(b){return ck(e(c,b),a)},b)}function
-rs(a){return 0===a[0]?a[1]:0}function
-bD(b,a){switch(a[0]){case
+cq(b,a){return a?e(b,a[1]):a}function
+cr(c,b,a){return cq(function(b){return cq(e(c,b),a)},b)}function
+r0(a){return 0===a[0]?a[1]:0}function
+bJ(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bD(b,a[1])];default:var
-c=bD(b,a[3]),d=bD(b,a[2]);return[2,bD(b,a[1]),d,c]}}function
+1:return[1,bJ(b,a[1])];default:var
+c=bJ(b,a[3]),d=bJ(b,a[2]);return[2,bJ(b,a[1]),d,c]}}function
 a3(b,c,a){switch(c[0]){case
-0:return bD(e(b,c[1]),a);case
+0:return bJ(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bD(function(a){return Q(b,a,k)},d)];case
+k=a[1];return[1,bJ(function(a){return T(b,a,k)},d)];case
 1:return[1,a3(b,d,a[1])];default:var
 l=a3(b,d,a[3]),m=a3(b,d,a[2]);return[2,a3(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return Q(b,a,n)},i=function(a){return bD(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return T(b,a,n)},i=function(a){return bJ(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
 j=a[1],r=a3(b,f,j),s=a3(b,g,j);return[2,a3(b,h,j),s,r];default:var
 t=a3(b,f,a[3]),u=a3(b,g,a[2]);return[2,a3(b,h,a[1]),u,t]}}}function
-gH(c,g,a){if(a)var
+g0(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,R(c,a)];break;case
+f=[0,a,U(c,a)];break;case
 1:var
-h=D(c,a,b),f=[0,dL(B(a,b)),h];break;default:var
-f=[0,b,R(c,b)]}return[0,[0,e(g,f)]]},i=gH(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=F(c,a,b),f=[0,dS(C(a,b)),h];break;default:var
+f=[0,b,U(c,b)]}return[0,[0,e(g,f)]]},i=g0(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-j8(a){if(a){var
+kx(a){if(a){var
 b=a[1];if(b)var
-c=j8(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ru}function
-d3(a){if(a){var
-g=a[1],b=g[2],c=j8(g[1]);if(c)if(b){var
-h=b[1],e=d3(a[2]);if(e)var
-i=aa(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return r2}function
+eb(a){if(a){var
+g=a[1],b=g[2],c=kx(g[1]);if(c)if(b){var
+h=b[1],e=eb(a[2]);if(e)var
+i=ad(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return rv}function
-gI(b,a){var
-c=a[3],d=Z(function(a){var
+f=c;return f}return r3}function
+g1(b,a){var
+c=a[3],d=R(function(a){var
 c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a2(b),g),f,d]}function
-j9(f,d,c,b){if(d){var
+ky(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=gI(function(a){switch(a[0]){case
+a=g1(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return j9(bV(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return ky(bZ(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,gI(rs,b))}function
-d4(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return Z(function(a){return bv(f,e,a)},d)}return[0,L]}function
-rw(c){var
+i=g;return i}return e(c,g1(r0,b))}function
+ec(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return R(function(a){return bB(f,e,a)},d)}return[0,L]}function
+r4(c){var
 a=c[2];if(a){var
-b=d4(c[3]);if(b)return H(d,N(a[1],b[1])[1]);var
+b=ec(c[3]);if(b)return J(d,O(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-j_(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
-j$(a,c,b){var
-e=z(b,c,n(d)),f=cx(0,a);return o(function(b){return d2(a,b,e)},f)}function
-d5(a){var
-b=_(a);return G(n(c),b)}function
-eW(i,g){var
-h=d5(g),j=_(g),e=w(n(c),j),f=r(n(b(2,c)),g),a=n(d);return i?i[1]?[0,[0,e,bY(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bY(f),a,e]]:[0,[0,h,a,a],[0,a,e,bY(f)],[0,a,f,e]]}function
-ka(b,a){function
+kz(a){return A(function(a){return g(a[1],[0,a[2],0])},a)}function
+kA(a,c,b){var
+e=z(b,c,n(d)),f=cE(0,a);return o(function(b){return ea(a,b,e)},f)}function
+ed(a){var
+b=ac(a);return I(n(c),b)}function
+e_(i,g){var
+h=ed(g),j=ac(g),e=y(n(c),j),f=r(n(b(2,c)),g),a=n(d);return i?i[1]?[0,[0,e,b2(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,b2(f),a,e]]:[0,[0,h,a,a],[0,a,e,b2(f)],[0,a,f,e]]}function
+kB(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=av(a,c(function(a){return a[3]})),d=av(a,c(function(a){return a[2]}));return[0,av(a,c(function(a){return a[1]})),d,b]}var
+b=ax(a,c(function(a){return a[3]})),d=ax(a,c(function(a){return a[2]}));return[0,ax(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-kb(a){switch(a[0]){case
+kC(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cI(a[1]),0];default:var
-b=[0,cI(a[2]),0];return[0,cI(a[1]),b]}}function
-c9(a){return[0,[0,a[1]],[0,a[2]]]}function
-kc(a,b){if(0===b[0])return dZ(a,b[1]);var
-d=dZ(a,b[1]);if(d){var
-e=dZ(a,b[2]);if(e){var
-g=R(a,e[1]),h=cz(a,B(au(a,c),g)),i=d[1];return Z(function(b){return D(a,i,b)},h)}var
+2:return[0,cP(a[1]),0];default:var
+b=[0,cP(a[2]),0];return[0,cP(a[1]),b]}}function
+dh(a){return[0,[0,a[1]],[0,a[2]]]}function
+kD(a,b){if(0===b[0])return d9(a,b[1]);var
+d=d9(a,b[1]);if(d){var
+e=d9(a,b[2]);if(e){var
+g=U(a,e[1]),h=cG(a,C(aw(a,c),g)),i=d[1];return R(function(b){return F(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kd(j,A,c,y,x,b,a){switch(b[0]){case
+kE(j,A,c,y,x,b,a){switch(b[0]){case
 0:var
 n=b[4],k=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 B=a[2],C=a[1],i=o,h=p,g=function(e){var
-a=d3(e[1]);if(a){var
+a=eb(e[1]);if(a){var
 b=e[2];if(b){var
-d=d4(e[3]);if(d){var
-h=d[1],i=bu([0,N(am(D(j,k,b[1])),h),0],c);return cB(c,gd(C,B,a[1],i))}var
+d=ec(e[3]);if(d){var
+h=d[1],i=bi([0,O(ap(F(j,k,b[1])),h),0],c);return cI(c,gw(C,B,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3845,11 +3888,11 @@ g=f}else
 var
 g=a;return g},e=n;break;case
 2:var
-q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+q=ah(k[1],d),r=q?ah(k[2],d):q;if(!r)return r;var
 G=a[2],H=a[1],i=o,h=p,g=function(e){var
-a=d3(e[1]);if(a){var
-b=d4(e[3]);if(b){var
-g=bu([0,N(L,b[1]),0],c),h=a[1];return cB(c,gd(H,G,f(function(a){return[0,a[1],L]},h),g))}var
+a=eb(e[1]);if(a){var
+b=ec(e[3]);if(b){var
+g=bi([0,O(L,b[1]),0],c),h=a[1];return cI(c,gw(H,G,f(function(a){return[0,a[1],L]},h),g))}var
 d=b}else
 var
 d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
@@ -3857,10 +3900,10 @@ d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
 u=0;if(typeof
 a==="number"&&!a)var
 I=b[2],J=b[1],K=b[3],i=I,h=J,M=0,g=function(f){var
-a=d3(f[1]);if(a){var
+a=eb(f[1]);if(a){var
 b=f[2];if(b){var
-d=d4(f[3]);if(d){var
-k=d[1],l=bu([0,N(D(j,K,b[1]),k),0],c),e=i$(a[1],l);if(e)return cB(c,e[1]);var
+d=ec(f[3]);if(d){var
+k=d[1],l=bi([0,O(F(j,K,b[1]),k),0],c),e=jz(a[1],l);if(e)return cI(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3875,12 +3918,12 @@ u=1;if(u)return 0;break;case
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=d3(f[1]);if(a){var
+s=a[2],t=a[1],N=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=eb(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=d4(f[3]);if(e){var
+e=ec(f[3]);if(e){var
 g=E(l(b),c),h=g?E(l(s),c):g;if(h){var
-n=eK(t,eL(t,s,d[1],b));return cB(c,dR(gj(j,R,Q,e[1],b),n))}var
+n=eZ(t,e0(t,s,d[1],b));return cI(c,d1(gC(j,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3889,53 +3932,53 @@ var
 k=d;var
 m=k}else
 var
-m=a;return m},i=O,h=P,g=S,e=b[5];if(v)return 0;break;default:var
+m=a;return m},i=N,h=P,g=S,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=rw,e=0;else
+i=b[1],h=0,g=r4,e=0;else
 w=1;if(w)return 0}var
-F=[0,h,i,x];return j9(e,A,g,gI(function(a){return z(a,y,rK)},F))}function
-ke(m,l,k,f,j,i,e){if(typeof
+D=[0,h,i,x];return ky(e,A,g,g1(function(a){return z(a,y,sg)},D))}function
+kF(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=H(d,o);if(p)var
-h=h5(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=J(d,o);if(p)var
+h=iw(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kd(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kE(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kd(m,l,k,j,0,i,a)}return 0}function
-rL(a){if(a[1])return 0;var
+q=f;return q}return kE(m,l,k,j,0,i,a)}return 0}function
+sh(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kf(a,K,J,I,H,G,h,p,F,X){if(o(rL,F))var
+kG(a,K,J,I,H,G,h,p,E,Y){if(o(sh,E))var
 q=0;else
 var
-U=gH(a,cW,p),T=0,V=g(gH(a,dE,p),U),q=cg(rt,function(b){switch(b[0]){case
-0:return z(b[1],V,[0,[0,L]]);case
+V=g0(a,c4,p),T=0,W=g(g0(a,cC,p),V),q=cl(r1,function(b){switch(b[0]){case
+0:return z(b[1],W,[0,[0,L]]);case
 1:return[0,[0,z(b[1],J,L)]];case
-2:return[0,[0,au(a,b[1])]];case
+2:return[0,[0,aw(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return a3(function(a,b){return cl(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return a3(function(a,b){return cr(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return a3(function(a,b){return cl(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return a3(function(a,b){return cr(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,am(a)]};return bD(function(a){return ck(j,a)},i);case
+i=b[1],j=function(a){return[0,ap(a)]};return bJ(function(a){return cq(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,D(a,c,b)]};return a3(function(a,b){return cl(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return a3(function(a,b){return cr(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cc(a,b);return Z(function(b){return D(a,c,b)},d)};return a3(function(a,b){return cl(p,a,b)},o,n);case
+d=ci(a,b);return R(function(b){return F(a,c,b)},d)};return a3(function(a,b){return cr(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,R(a,b)]};return bD(function(a){return ck(r,a)},q);default:var
-s=b[1],t=function(b){return cz(a,b)};return bD(function(a){return ck(t,a)},s)}},K,T);var
-e=F,b=X;for(;;){if(e){var
+q=b[1],r=function(b){return[0,U(a,b)]};return bJ(function(a){return cq(r,a)},q);default:var
+s=b[1],t=function(b){return cG(a,b)};return bJ(function(a){return cq(t,a)},s)}},K,T);var
+e=E,b=Y;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
 u=z(c,b,0);if(u){var
-l=ai(I,c);if(l){var
-v=ke(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=eQ(c,b);continue}var
+l=ae(I,c);if(l){var
+v=kF(a,H,G,h,q,l[1],i);if(v){var
+e=k,b=e5(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3944,25 +3987,25 @@ var
 x=u;return x}if(typeof
 i==="number"&&4===i){var
 M=0;if(h){var
-W=0,r=f(function(b){return[0,b,R(a,b)]},p),P=f(cW,r),O=0,Q=g(f(dE,r),P),S=cg(0,function(n){return function(b){switch(b[0]){case
+X=0,r=f(function(b){return[0,b,U(a,b)]},p),P=f(c4,r),N=0,Q=g(f(cC,r),P),S=cl(0,function(n){return function(b){switch(b[0]){case
 0:return[0,z(b[1],n,L)];case
 1:return[0,z(b[1],J,L)];case
-2:return[0,au(a,b[1])];case
+2:return[0,aw(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cl(function(b,a){return[0,B(b,a)]},d,c);case
+c=b[2],d=b[1];return cr(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cl(function(b,a){return[0,N(b,a)]},f,e);case
+e=b[2],f=b[1];return cr(function(b,a){return[0,O(b,a)]},f,e);case
 5:var
-g=b[1];return ck(function(a){return[0,am(a)]},g);case
+g=b[1];return cq(function(a){return[0,ap(a)]},g);case
 6:var
-h=b[2],i=b[1];return cl(function(c,b){return[0,D(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cr(function(c,b){return[0,F(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cl(function(c,b){var
-d=cc(a,b);return Z(function(b){return D(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cr(function(c,b){var
+d=ci(a,b);return R(function(b){return F(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return ck(function(b){return[0,R(a,b)]},l);default:var
-m=b[1];return ck(function(b){return cz(a,b)},m)}}}(Q),K,O),j=z(h[1],S,W);if(j){var
-m=aa(j[1][2],d);M=1}else
+l=b[1];return cq(function(b){return[0,U(a,b)]},l);default:var
+m=b[1];return cq(function(b){return cG(a,b)},m)}}}(Q),K,N),j=z(h[1],S,X);if(j){var
+m=ad(j[1][2],d);M=1}else
 var
 s=j}else
 var
@@ -3970,96 +4013,96 @@ s=h;if(!M)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
 y=z(c,b,0);if(y){var
-n=ai(I,c);if(n){var
-A=ke(a,H,G,h,q,n[1],i);if(A){var
-e=k,b=eQ(c,b);continue}var
-C=A}else
+n=ae(I,c);if(n){var
+A=kF(a,H,G,h,q,n[1],i);if(A){var
+e=k,b=e5(c,b);continue}var
+B=A}else
 var
-C=n;var
-E=C}else
+B=n;var
+D=B}else
 var
-E=y;return E}return[0,b]}}function
-kg(i,h,g,f,e,d,c,t,s,r){var
+D=y;return D}return[0,b]}}function
+kH(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kf(i,h,g,f,e,d,c,b,a[1],j);return k?o(aC,k[1]):k}var
-l=kf(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=dU(a[2],b),p=kg(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
+k=kG(i,h,g,f,e,d,c,b,a[1],j);return k?o(av,k[1]):k}var
+l=kG(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=d4(a[2],b),p=kH(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gJ(d,a){var
-e=_(a),f=r(r(n(b(2,c)),a),d);return G(w(_(d),f),e)}function
-gK(a){switch(a){case
-0:return rO;case
-1:return rP;default:return 0}}function
-eX(b,a){var
-c=a7(a[2],b);return g(a7(a[1],b),c)}function
-kh(s,k,q,u,p,j,t){if(j){var
-v=j[1],x=cD(t,eX(p,v)),R=K(t,l(eX(p,v))),S=kh(s,k,q,u,p,j[2],R),i=aL(x,rQ),m=aL(x,0);switch(s){case
+g2(d,a){var
+e=ac(a),f=r(r(n(b(2,c)),a),d);return I(y(ac(d),f),e)}function
+g3(a){switch(a){case
+0:return sk;case
+1:return sl;default:return 0}}function
+e$(b,a){var
+c=a8(a[2],b);return g(a8(a[1],b),c)}function
+kI(s,k,q,u,p,j,t){if(j){var
+v=j[1],w=cK(t,e$(p,v)),R=M(t,l(e$(p,v))),S=kI(s,k,q,u,p,j[2],R),i=aL(w,sm),m=aL(w,0);switch(s){case
 0:var
-g=[0,rN,rM,n(d)];break;case
+g=[0,sj,si,n(d)];break;case
 1:var
-g=cA;break;default:var
-H=n(d),I=n(d),g=[0,n(d),I,H]}var
-e=aV(w,g,m),z=av(k[3],i),A=av(k[2],i),a=[0,av(k[1],i),A,z],J=gJ(g[3],m[3]),L=gJ(g[2],m[2]),M=gJ(g[1],m[1]),N=G(G(G(av(i,i),M),L),J),O=av(a,e),P=r(n(b(2,c)),O),Q=G(r(q,N),P),B=r(a[2],e[1]),C=w(r(a[1],e[2]),B),D=r(a[1],e[3]),E=w(r(a[3],e[1]),D),F=r(a[3],e[2]),f=eH([0,w(r(a[2],e[3]),F),E,C],u),h=aV(G,dT(q,e),a);switch(s){case
+g=cH;break;default:var
+G=n(d),H=n(d),g=[0,n(d),H,G]}var
+e=aV(y,g,m),z=ax(k[3],i),A=ax(k[2],i),a=[0,ax(k[1],i),A,z],J=g2(g[3],m[3]),K=g2(g[2],m[2]),L=g2(g[1],m[1]),N=I(I(I(ax(i,i),L),K),J),O=ax(a,e),P=r(n(b(2,c)),O),Q=I(r(q,N),P),B=r(a[2],e[1]),C=y(r(a[1],e[2]),B),D=r(a[1],e[3]),E=y(r(a[3],e[1]),D),F=r(a[3],e[2]),f=eW([0,y(r(a[2],e[3]),F),E,C],u),h=aV(I,d3(q,e),a);switch(s){case
 0:var
 o=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 o=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 o=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-y=[0,[0,o,Q],S]}else
+x=[0,[0,o,Q],S]}else
 var
-y=j;return y}function
-gL(g,a){if(typeof
+x=j;return x}function
+g4(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=[4,a[2],a[1]];return[0,[0,f,f],d];case
+f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gM(e,d,n,m,l,a){var
-f=r(_(cC(gL(m,a),l)),n);if(typeof
+g5(e,d,n,m,l,a){var
+f=r(ac(cJ(g4(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=ai(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,w(b[1][2],f)]:g;else
+b=ae(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,y(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=ai(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,w(f,c[1][2])]:i;else
+c=ae(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,y(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-ki(a,d,c,b){return f(function(a){var
-e=cC(gL(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
-kj(b,g,s,f,i,q,p,o){if(o){var
-_=kj(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kJ(a,d,c,b){return f(function(a){var
+e=cJ(g4(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
+kK(b,g,s,f,i,q,p,o){if(o){var
+_=kK(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
 N=e(g,i),h=[0,t(e(a2(g),f),N,L)];else
 switch(a[0]){case
 0:var
-k=[4,[0,c,c],a[1]],n=f,m=t;l=1;break;case
+k=[5,[0,c,c],a[1]],n=f,m=t;l=1;break;case
 1:var
-P=[4,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+P=[5,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-Q=gM(b,f,i,q,p,a),h=Z(function(a){return[3,e(g,a)]},Q);break;case
+Q=g5(b,f,i,q,p,a),h=R(function(a){return[3,e(g,a)]},Q);break;case
 3:var
-S=gM(b,f,i,q,p,a),h=Z(function(a){return[3,e(g,a)]},S);break;case
+S=g5(b,f,i,q,p,a),h=R(function(a){return[3,e(g,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=ai(f,a[1]),K=0;if(r){var
+u=a[3],v=a[2],r=ae(f,a[1]),K=0;if(r){var
 w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-T=[4,u,v],U=[0,r[1],0],k=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
+T=[5,u,v],V=[0,r[1],0],k=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
 var
 y=x}else
 var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=ai(f,B),M=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=ae(f,B),M=0;if(C){var
 D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
-V=[4,A,z],k=V,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;M=1}else
+W=[5,A,z],k=W,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;M=1}else
 var
 F=E}else
 var
@@ -4067,139 +4110,139 @@ F=C;if(!M)var
 h=F;break;case
 8:var
 G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-W=au(b,c),X=e(g,i),Y=ki(f,q,p,a),I=[0,[0,e(a2(g),Y),X,W,0]];else
+X=aw(b,c),Y=e(g,i),Z=kJ(f,q,p,a),I=[0,[0,e(a2(g),Z),Y,X,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(l)var
-O=an(b,[0,[0,k,k],d]),h=Z(function(a){var
-c=R(b,a),d=e(g,i);return m(e(a2(g),n),d,c)},O);var
+O=aq(b,[0,[0,k,k],d]),h=R(function(a){var
+c=U(b,a),d=e(g,i);return m(e(a2(g),n),d,c)},O);var
 J=[0,h,_]}else
 var
 J=o;return J}function
-kk(j,h,i,e,d,a){if(a){var
-n=kk(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+kL(j,h,i,e,d,a){if(a){var
+n=kL(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(cW,ki(h,e,d,b));l=1}if(!l)var
-c=gM(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-rR(a){if(typeof
+k=f(c4,kJ(h,e,d,b));l=1}if(!l)var
+c=g5(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+sn(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-eY(a){var
-b=ch(a[1],[0,d,c]);return b?ch(a[2],[0,d,c]):b}function
-rS(k,a,m,bg){var
-x=a[1],h=d0(x),aq=a[3],bh=[0,[0,[0,aq,aq],m],0],bi=a[2],ar=g(C(function(a){return eX(m,a)},bi),bh),T=l(ar),bj=a[2],bk=l(C(function(a){return eX(m,a)},bj)),as=a[3],bl=cC([0,[0,as,as],m],bk),bm=gK(x),bn=a[5];function
-i(a){return[0,[0,K(bm,a)]]}switch(bn[0]){case
+fa(a){var
+b=b3(a[1],[0,d,c]);return b?b3(a[2],[0,d,c]):b}function
+so(k,a,m,bg){var
+w=a[1],h=d_(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],ar=g(A(function(a){return e$(m,a)},bi),bh),U=l(ar),bj=a[2],bk=l(A(function(a){return e$(m,a)},bj)),as=a[3],bl=cJ([0,[0,as,as],m],bk),bm=g3(w),bn=a[5];function
+i(a){return[0,[0,M(bm,a)]]}switch(bn[0]){case
 0:var
-aY=d5(i(0)),J=[0,eW(rx,i(0)),aY];break;case
+aY=ed(i(0)),J=[0,e_(r5,i(0)),aY];break;case
 1:var
-aZ=d5(i(0)),a0=r(d5(i(ry)),aZ),a1=r(d5(i(rz)),a0),a3=eW(0,i(0)),a4=ka(eW(rB,i(rA)),a3),J=[0,ka(eW(rD,i(rC)),a4),a1];break;default:var
-a5=i(rE),a6=i(rF),v=[0,i(0),a6,a5],a7=av(v,v),a8=G(n(c),a7),aO=av(v,v),s=v[1],t=v[2],u=v[3],O=function(a){var
-d=_(a),e=r(n(b(2,c)),d);return G(w(n(c),aO),e)},A=function(f,e,d,a){var
-g=Q(f,r(e,d),a);return r(n(b(2,c)),g)},aP=O(u),aQ=A(G,t,u,s),aR=[0,A(w,s,u,t),aQ,aP],aS=A(w,t,u,s),aU=O(t),aV=[0,A(G,s,t,u),aU,aS],aW=A(G,s,u,t),aX=A(w,s,t,u),J=[0,[0,[0,O(s),aX,aW],aV,aR],a8]}var
-D=J[2],L=kh(x,J[1],D,bl,m,a[2],0),bo=K(T,l(a[6])),bp=gK(x),bq=a[5];function
-B(a){return[0,[0,K(bp,a)]]}var
-ag=_([0,[1,bo]]);switch(bq[0]){case
+aZ=ed(i(0)),a0=r(ed(i(r6)),aZ),a1=r(ed(i(r7)),a0),a3=e_(0,i(0)),a4=kB(e_(r9,i(r8)),a3),J=[0,kB(e_(r$,i(r_)),a4),a1];break;default:var
+a5=i(sa),a6=i(sb),v=[0,i(0),a6,a5],a7=ax(v,v),a8=I(n(c),a7),aO=ax(v,v),s=v[1],t=v[2],u=v[3],O=function(a){var
+d=ac(a),e=r(n(b(2,c)),d);return I(y(n(c),aO),e)},B=function(f,e,d,a){var
+g=T(f,r(e,d),a);return r(n(b(2,c)),g)},aP=O(u),aQ=B(I,t,u,s),aS=[0,B(y,s,u,t),aQ,aP],aT=B(y,t,u,s),aU=O(t),aV=[0,B(I,s,t,u),aU,aT],aW=B(I,s,u,t),aX=B(y,s,t,u),J=[0,[0,[0,O(s),aX,aW],aV,aS],a8]}var
+D=J[2],K=kI(w,J[1],D,bl,m,a[2],0),bo=M(U,l(a[6])),bp=g3(w),bq=a[5];function
+C(a){return[0,[0,M(bp,a)]]}var
+ag=ac([0,[1,bo]]);switch(bq[0]){case
 2:var
-a9=B(rG),a$=B(rH),ah=[0,B(0),a$,a9],p=[0,w(ag,av(ah,ah))];break;case
+a9=C(sc),a_=C(sd),ah=[0,C(0),a_,a9],p=[0,y(ag,ax(ah,ah))];break;case
 3:var
-ba=_(B(rI)),bb=_(B(0)),bc=_(B(rJ)),p=[0,w(w(r(ag,G(n(c),bc)),bb),ba)];break;default:var
+ba=ac(C(se)),bb=ac(C(0)),bc=ac(C(sf)),p=[0,y(y(r(ag,I(n(c),bc)),bb),ba)];break;default:var
 p=0}var
-br=p?[0,p[1],0]:p,bs=[0,D,g(kk(k,L,D,m,T,a[6]),br)],U=g(cE(L),bs),at=dQ(f(function(a){return d1(h,a)},U))[1],F=dP(at);function
-y(a){return bw(F,d1(h,a))}var
-bt=Z(y,p),bu=y(D),au=e(a2(y),L),am=gK(x),ao=E(l(au),h);if(ao)var
-ap=Z(function(a){return[0,[0,a,d],d]},bt),I=function(a){return z(a,F,n(d))},af=I(bu),aN=cx(0,am),S=o(function(a){var
-b=c8(h,a,af),c=b?o(function(b){var
+br=p?[0,p[1],0]:p,bs=[0,D,g(kL(k,K,D,m,U,a[6]),br)],V=g(cL(K),bs),at=dX(f(function(a){return d$(h,a)},V))[1],F=dW(at);function
+x(a){return bC(F,d$(h,a))}var
+bt=R(x,p),bu=x(D),au=e(a2(x),K),am=g3(w),an=E(l(au),h);if(an)var
+ao=R(function(a){return[0,[0,a,d],d]},bt),H=function(a){return z(a,F,n(d))},af=H(bu),aN=cE(0,am),S=o(function(a){var
+b=dg(h,a,af),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
-c=I(b);return cJ(K(h,a),c)},d);if(c){var
-e=I(b[2]);return gG(af,K(h,a),e)}return c},au):b;if(c){if(ap){var
-e=I(ap[1][1][1]);return cJ(K(h,a),e)}var
+c=H(b);return cQ(M(h,a),c)},d);if(c){var
+e=H(b[2]);return gZ(af,M(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cQ(M(h,a),e)}var
 d=1}else
 var
 d=c;return d},aN);else
 var
-S=ao;var
-bf=S?am:S,aw=o(function(a){var
-b=d1(h,a),c=n(d);return a_(z(y(a),F,c),b)},U),ax=aw?o(function(a){return j7(h,a)},U):aw,ay=ax?aT(rR,a[6]):ax;if(ay){var
-M=a[4];switch(x){case
+S=an;var
+bf=S?am:S,av=o(function(a){var
+b=d$(h,a),c=n(d);return a$(z(x(a),F,c),b)},V),aw=av?o(function(a){return kw(h,a)},V):av,ay=aw?aR(sn,a[6]):aw;if(ay){var
+L=a[4];switch(w){case
 0:var
-V=eY(M[3]);break;case
+W=fa(L[3]);break;case
 1:var
-V=1;break;default:var
-ak=eY(M[1]),al=ak?eY(M[2]):ak,V=al?eY(M[3]):al}var
-W=V}else
+W=1;break;default:var
+ak=fa(L[1]),al=ak?fa(L[2]):ak,W=al?fa(L[3]):al}var
+X=W}else
 var
-W=ay;var
-az=W?j(k,1,a[3]):W;if(az)var
-bv=kb(a[5]),X=o(function(a){var
-b=gE(k,a[1]);return b?gE(k,a[2]):b},bv);else
+X=ay;var
+az=X?j(k,1,a[3]):X;if(az)var
+bv=kC(a[5]),Y=o(function(a){var
+b=gX(k,a[1]);return b?gX(k,a[2]):b},bv);else
 var
-X=az;if(X){var
-bx=a[6],by=g(ar,f(function(a){return gL(m,a)},bx)),Y=aE(f(function(a){return an(k,a)},by));if(Y){var
-H=a[4];switch(x){case
+Y=az;if(Y){var
+bw=a[6],bx=g(ar,f(function(a){return g4(m,a)},bw)),Z=aE(f(function(a){return aq(k,a)},bx));if(Z){var
+G=a[4];switch(w){case
 0:var
-$=[0,H[1],[0,H[2],0]];break;case
+_=[0,G[1],[0,G[2],0]];break;case
 1:var
-$=[0,H[1],[0,H[2],[0,H[3],0]]];break;default:var
-$=0}var
-aa=aE(f(function(a){return an(k,[0,a,m])},$));if(aa){var
-aA=aa[1],q=a[5];switch(q[0]){case
+_=[0,G[1],[0,G[2],[0,G[3],0]]];break;default:var
+_=0}var
+$=aE(f(function(a){return aq(k,[0,a,m])},_));if($){var
+aA=$[1],q=a[5];switch(q[0]){case
 0:var
-N=[0,c9(q[1]),0];break;case
+N=[0,dh(q[1]),0];break;case
 1:var
-bd=[0,c9(q[3]),0],be=[0,c9(q[2]),bd],N=[0,c9(q[1]),be];break;case
+bd=[0,dh(q[3]),0],be=[0,dh(q[2]),bd],N=[0,dh(q[1]),be];break;case
 2:var
-P=c9(cI(q[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
-R=q[2],ai=q[1],aj=[0,[1,cI(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,c9(cI(R)),0]]]}var
-ab=aE(f(function(d){var
-a=kc(k,d[1]);if(a)var
-b=kc(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+P=dh(cP(q[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
+Q=q[2],ai=q[1],aj=[0,[1,cP(ai)[1],Q],[1,ai,Q]],N=[0,aj,[0,aj,[0,dh(cP(Q)),0]]]}var
+aa=aE(f(function(d){var
+a=kD(k,d[1]);if(a)var
+b=kD(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},N));if(ab){var
-aB=ab[1],aC=a[5],bz=1<aC[0]?[0,aC[1],0]:0,ac=aE(f(function(a){return dZ(k,a)},bz));if(ac){var
-ad=aE(kj(k,y,bf,L,D,m,T,a[6]));if(ad){var
+c=a;return c},N));if(aa){var
+aB=aa[1],aC=a[5],by=1<aC[0]?[0,aC[1],0]:0,ab=aE(f(function(a){return d9(k,a)},by));if(ab){var
+ad=aE(kK(k,x,bf,K,D,m,U,a[6]));if(ad){var
 ae=ad[1],aD=E(l(g(aA,aB)),h),aF=aD?o(function(a){switch(a[0]){case
 2:var
-d=j_(a[2]),b=[0,a[3],d];break;case
+d=kz(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=j_(a[1]),b=[0,a[2],c]}return o(function(a){return j$(h,F,a)},b)},ae):aD,aG=aF?p?j$(h,F,y(p[1])):1:aF;if(aG){var
-bA=f(function(a){return 1},ae),bB=g(aA,aB),bC=Z(y,p);return kg(k,at,g(Y[1],ac[1]),ae,h,h,bC,bB,bA,bg)}var
+c=kz(a[1]),b=[0,a[2],c]}return o(function(a){return kA(h,F,a)},b)},ae):aD,aG=aF?p?kA(h,F,x(p[1])):1:aF;if(aG){var
+bz=f(function(a){return 1},ae),bA=g(aA,aB),bB=R(x,p);return kH(k,at,g(Z[1],ab[1]),ae,h,h,bB,bA,bz,bg)}var
 aH=aG}else
 var
 aH=ad;var
 aI=aH}else
 var
-aI=ac;var
+aI=ab;var
 aJ=aI}else
 var
-aJ=ab;var
+aJ=aa;var
 aK=aJ}else
 var
-aK=aa;var
+aK=$;var
 aL=aK}else
 var
-aL=Y;var
+aL=Z;var
 aM=aL}else
 var
-aM=X;return aM}function
-eZ(b,a){return bz(b,a[1],a[2])}function
-gN(b,a){var
-c=eZ(b,a[1]),d=c?eZ(b,a[2]):c;return d?eZ(b,a[3]):d}var
-e1=w(n(c),e0);function
-kl(e){var
-a=_(e1);if(e)var
-f=r(n(b(2,c)),a),g=G(n(b(2,b(2,c))),f),h=r(n(b(2,c)),a),d=aq(G(n(c),h),g);else
+aM=Y;return aM}function
+fb(b,a){return bm(b,a[1],a[2])}function
+g6(b,a){var
+c=fb(b,a[1]),d=c?fb(b,a[2]):c;return d?fb(b,a[3]):d}var
+fd=y(n(c),fc);function
+kM(e){var
+a=ac(fd);if(e)var
+f=r(n(b(2,c)),a),g=I(n(b(2,b(2,c))),f),h=r(n(b(2,c)),a),d=as(I(n(c),h),g);else
 var
-i=G(n(b(2,c)),a),j=_(e0),d=aq(G(r(n(b(2,c)),j),a),i);return cf(d)}function
-km(d,b,a){if(d){var
-e=kl(b),f=G(n(c),e),g=r(w(n(c),a),f);return w(n(c),g)}var
-h=n(c),i=kl(b),j=aq(n(c),i);return w(r(a,G(n(c),j)),h)}function
-c_(f,e,d,a){var
-g=_(a),h=_(d),i=w(w(n(b(2,c)),h),g),j=f?e?e1:aq(e1,r(n(b(2,c)),e0)):aq(e1,n(b(2,c))),k=r(_(j),i);return cf(G(n(c),k))}function
-kn(g,d){var
+i=I(n(b(2,c)),a),j=ac(fc),d=as(I(r(n(b(2,c)),j),a),i);return ck(d)}function
+kN(d,b,a){if(d){var
+e=kM(b),f=I(n(c),e),g=r(y(n(c),a),f);return y(n(c),g)}var
+h=n(c),i=kM(b),j=as(n(c),i);return y(r(a,I(n(c),j)),h)}function
+di(f,e,d,a){var
+g=ac(a),h=ac(d),i=y(y(n(b(2,c)),h),g),j=f?e?fd:as(fd,r(n(b(2,c)),fc)):as(fd,n(b(2,c))),k=r(ac(j),i);return ck(I(n(c),k))}function
+kO(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-gO(u,t,s){var
+e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+g7(u,t,s){var
 a=f(function(a){return z(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
@@ -4209,7 +4252,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eG([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eV([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4231,12 +4274,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-ko(f,i,e,b,h){var
-j=f?c:d,a=au(i,j);function
+kP(f,i,e,b,h){var
+j=f?c:d,a=aw(i,j);function
 g(b){var
-c=f?f7(b):dM(b);return N(c,a)}var
-k=[0,aU(h),0],l=[0,[0,a,b,[0,L,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-kp(r,g,q,p,e,o,n){if(o){var
+c=f?gn(b):dT(b);return O(c,a)}var
+k=[0,aS(h),0],l=[0,[0,a,b,[0,L,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kQ(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -4245,16 +4288,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(bf,bx(rV)),a=gO(p,ji(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(bl,bE(sr)),a=g7(p,jI(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=H(k[2],l[1]);b=1;c=1;d=1;break}else
+a=J(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(kn,rW),a=gO(p,cg(0,cZ(g,ko(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(kO,ss),a=g7(p,cl(0,c9(g,kP(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(kn,rX),a=gO(p,cg(0,cZ(g,ko(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(kO,st),a=g7(p,cl(0,c9(g,kP(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4264,27 +4307,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?rY:a}else
+y=a?su:a}else
 var
 y=n;return y}return[0,n]}function
-kq(f,e,d,c,p,o,n){var
+kR(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=kp(f,e,d,c,b,a[1],g);return h?aC(h[1]):h}var
-i=kp(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dU(a[2],b),l=kq(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kQ(f,e,d,c,b,a[1],g);return h?av(h[1]):h}var
+i=kQ(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d4(a[2],b),l=kR(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-gP(a){return iF(b(2,c),br(a,c))}function
-c$(i,a,e,w,v){var
-l=a?c:Y(c),f=n(l),g=km(a,e,rT),h=km(a,e,rU),m=aq(g,c_(a,e,f,g)),o=[0,G(aq(h,c_(a,e,h,f)),m),0],p=aq(f,c_(a,e,f,g)),q=[0,G(aq(h,c_(a,e,g,h)),p),o],s=aq(f,c_(a,e,h,f)),t=[0,G(aq(g,c_(a,e,g,h)),s),q],u=a?e?n(b(2,c)):r(n(b(2,b(2,c))),e0):n(b(2,b(2,c))),j=dQ([0,u,t]),k=[0,d,cy(i)];return kq(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-kr(a,g,b){if(aa(g,gP(a))){if(b){var
+g8(a){return i5(b(2,c),bx(a,c))}function
+dj(i,a,e,w,v){var
+l=a?c:ab(c),f=n(l),g=kN(a,e,sp),h=kN(a,e,sq),m=as(g,di(a,e,f,g)),o=[0,I(as(h,di(a,e,h,f)),m),0],p=as(f,di(a,e,f,g)),q=[0,I(as(h,di(a,e,g,h)),p),o],s=as(f,di(a,e,h,f)),t=[0,I(as(g,di(a,e,g,h)),s),q],u=a?e?n(b(2,c)):r(n(b(2,b(2,c))),fc):n(b(2,b(2,c))),j=dX([0,u,t]),k=[0,d,cF(i)];return kR(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+kS(a,g,b){if(ad(g,g8(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,gP(a)],v=cy(a),i=[0,gP(a),v],j=c$(a,0,1,h,b[1]),k=j?c$(a,0,0,i,c[1]):j;if(k){var
-l=c$(a,1,1,h,d[1]);if(l)return c$(a,1,0,i,e[1]);var
+h=[0,g,g8(a)],v=cF(a),i=[0,g8(a),v],j=dj(a,0,1,h,b[1]),k=j?dj(a,0,0,i,c[1]):j;if(k){var
+l=dj(a,1,1,h,d[1]);if(l)return dj(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4301,35 +4344,35 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cy(a)],s=c$(a,0,0,r,b[1]);if(s)return c$(a,1,0,r,f[1]);var
+r=[0,g,cF(a)],s=dj(a,0,0,r,b[1]);if(s)return dj(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-gQ(a){var
-b=[1,[2,d]];return f4(function(b,a){return[1,[3,b,a]]},a,b)}function
-e2(a){return gQ(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-e3(a,c){return gQ(f(function(a){var
-d=[0,a[2]],b=bX(a[1],c);return[1,[7,[1,[8,gQ(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-ks(f,d,c,b,a){if(0===a[0])return z(a[1],b,0);var
-g=a[1],h=dN(function(a){return ks(f,d,c,b,a)},g);return e(cZ(f,d,c),h)}function
-rZ(a){var
-b=E(l(a),r0);return b?aT(function(a){return aC(al(a,d))},a):b}function
-r1(x,h,g,k,d,b,a){var
-R=eI(g),i=e(a2(h),R),l=[1,[8,[1,[1,d[1]]]]];function
+g9(a){var
+b=[1,[2,d]];return gj(function(b,a){return[1,[3,b,a]]},a,b)}function
+fe(a){return g9(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+ff(a,c){return g9(f(function(a){var
+d=[0,a[2]],b=b1(a[1],c);return[1,[7,[1,[8,g9(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+kT(f,d,c,b,a){if(0===a[0])return z(a[1],b,0);var
+g=a[1],h=dU(function(a){return kT(f,d,c,b,a)},g);return e(c9(f,d,c),h)}function
+sv(a){var
+b=E(l(a),sw);return b?aR(function(a){return av(ah(a,d))},a):b}function
+sx(x,h,g,k,d,b,a){var
+R=eX(g),i=e(a2(h),R),l=[1,[8,[1,[1,d[1]]]]];function
 y(c,b,a){var
-d=e3(c,a);return[1,[4,[1,[6,b,e2(a)]],d]]}var
+d=ff(c,a);return[1,[4,[1,[6,b,fe(a)]],d]]}var
 v=0;if(typeof
 b==="number")v=1;else
 switch(b[0]){case
 4:var
 m=j(x,1,b[2]);break;case
 8:var
-m=j(x,1,[4,b[2],b[1]]);break;default:v=1}if(v)var
+m=j(x,1,[5,b[2],b[1]]);break;default:v=1}if(v)var
 m=1;var
-z=m?o(rZ,a):m;if(z){var
+z=m?o(sv,a):m;if(z){var
 w=0;if(typeof
 b!=="number")switch(b[0]){case
 0:if(a){if(a[2])return 0;var
@@ -4337,39 +4380,39 @@ B=[0,[0,i,[0,y(i,l,a[1]),0]]]}else
 var
 B=a;return B;case
 1:if(a){if(a[2])return 0;var
-C=a[1],S=[1,[6,l,e2(C)]],D=[0,[0,i,[0,[1,[4,e3(i,C),S]],0]]]}else
+C=a[1],S=[1,[6,l,fe(C)]],D=[0,[0,i,[0,[1,[4,ff(i,C),S]],0]]]}else
 var
 D=a;return D;case
 2:if(a)return 0;var
-n=ci(g,k,d,b);if(n)var
+n=co(g,k,d,b);if(n)var
 T=[0,n[1],n[2]],E=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},T)]];else
 var
 E=n;return E;case
 3:if(a)return 0;var
-p=ci(g,k,d,b);if(p)var
+p=co(g,k,d,b);if(p)var
 U=[0,p[1],p[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},U)]];else
 var
 F=p;return F;case
 4:if(a)return 0;var
-q=ci(g,k,d,b);if(q)var
+q=co(g,k,d,b);if(q)var
 V=[0,q[1],q[2]],G=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},V)]];else
 var
 G=q;return G;case
 5:if(a){var
 r=a[2];if(r){if(r[2])return 0;var
-H=r[1],I=a[1],W=e2(I),X=[1,[6,l,[1,[6,e3(i,H),W]]]],Y=e2(H),J=[0,[0,i,[0,[1,[4,[1,[6,e3(i,I),Y]],X]],0]]]}else
+H=r[1],I=a[1],W=fe(I),X=[1,[6,l,[1,[6,ff(i,H),W]]]],Y=fe(H),J=[0,[0,i,[0,[1,[4,[1,[6,ff(i,I),Y]],X]],0]]]}else
 var
 J=r;var
 K=J}else
 var
 K=a;return K;case
 6:if(a)return 0;var
-s=ci(g,k,d,b);if(s)var
+s=co(g,k,d,b);if(s)var
 Z=[0,s[1],s[2]],L=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},Z)]];else
 var
 L=s;return L;case
 7:if(a)return 0;var
-t=ci(g,k,d,b);if(t)var
+t=co(g,k,d,b);if(t)var
 _=[0,t[1],t[2]],M=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},_)]];else
 var
 M=t;return M;case
@@ -4377,213 +4420,229 @@ M=t;return M;case
 O=a[1],N=[1,[2,c]];w=1;break;case
 9:if(!a)return a;if(a[2])return 0;var
 O=a[1],N=l;w=1;break}if(w){var
-u=eU(g,k,d,b);if(u)var
+u=e8(g,k,d,b);if(u)var
 $=u[1],P=e(a2(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
 var
 Q=u;return Q}var
 A=0}else
 var
 A=z;return A}function
-kt(c,f,b,a){if(b)if(a)var
-d=b[1],g=D(c,au(c,a[1]),f),h=kt(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+kU(c,f,b,a){if(b)if(a)var
+d=b[1],g=F(c,aw(c,a[1]),f),h=kU(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-e4(b,a){return iK(iK(b,0),a)}function
-gR(a){if(a){var
-b=a[2],c=a[1];if(b)return e4(c,[0,r3,gR(b)]);var
+fg(b,a){return i_(i_(b,0),a)}function
+g_(a){if(a){var
+b=a[2],c=a[1];if(b)return fg(c,[0,sz,g_(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,r5,e4(gR(a),r4)]}function
-P(a){return[0,r7,e4(gR(a),r6)]}function
-ao(a){return[0,r9,[0,a,r8]]}function
-h(b,a){return[0,aA(r$,aA(b,r_)),a]}function
-O(b,a){return P([0,h(b,a),0])}function
-cm(d){var
-b=d,a=qk,e=0;for(;;){if(b){var
-c=iA(a),b=b[1],a=c;continue}return[0,dK(er(a)),e]}}function
-gS(a){return[0,dK(eu(a)),0]}function
-e5(a){var
-c=bP(a),f=0,b=0===c?qo:0<c?[0,eu(a)]:[1,eu(Y(a))];if(0===b[0])var
-d=dK(b[1]);else
+w(a){return[0,sB,fg(g_(a),sA)]}function
+Q(a){return[0,sD,fg(g_(a),sC)]}function
+ak(a){return[0,sF,[0,a,sE]]}function
+h(b,a){return[0,aC(sH,aC(b,sG)),a]}function
+H(b,a){return Q([0,h(b,a),0])}function
+b6(d){var
+b=d,a=qS,e=0;for(;;){if(b){var
+c=i1(a),b=b[1],a=c;continue}return[0,dR(eF(a)),e]}}function
+g$(a){return[0,dR(eK(a)),0]}function
+fh(a){var
+c=bT(a),f=0,b=0===c?qW:0<c?[0,eK(a)]:[1,eK(ab(a))];if(0===b[0])var
+d=dR(b[1]);else
 var
-e=dK(b[1]),d=aA(a8(1,45),e);return[0,d,f]}function
-gT(a){var
-b=0,c=0<bP(a)?eu(a):qn;return[0,dK(c),b]}function
-gU(a){switch(a[0]){case
-2:return sb;case
-3:return 2<=a[1]?sc:sd;case
-4:return se;default:return sa}}function
-d6(b,a){function
-c(c,a){return ac(c,gU(a))?d6(b,a):[0,sk,g(d6(b,a),sj)]}switch(a[0]){case
+e=dR(b[1]),d=aC(a9(1,45),e);return[0,d,f]}function
+ha(a){var
+b=0,c=0<bT(a)?eK(a):qV;return[0,dR(c),b]}function
+hb(a){switch(a[0]){case
+2:return sJ;case
+3:return 2<=a[1]?sK:sL;case
+4:return sM;default:return sI}}function
+ee(b,a){function
+c(c,a){return $(c,hb(a))?ee(b,a):[0,sS,g(ee(b,a),sR)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
 f==="number")return[0,a0(h),0];var
-i=[0,sl,[0,a0(f),0]];return[0,a0(h),i];case
+i=[0,sT,[0,a0(f),0]];return[0,a0(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,sn,c(sm,a[1])];case
+2:return[0,sV,c(sU,a[1])];case
 3:var
-j=a[3],k=c([0,gU(a)],j);switch(a[1]){case
+j=a[3],k=c([0,hb(a)],j);switch(a[1]){case
 0:var
-d=sf;break;case
+d=sN;break;case
 1:var
-d=sg;break;case
+d=sO;break;case
 2:var
-d=sh;break;default:var
-d=si}var
-l=a[2];return g(c(gU(a),l),[0,d,k]);case
+d=sP;break;default:var
+d=sQ}var
+l=a[2];return g(c(hb(a),l),[0,d,k]);case
 4:var
-m=[0,so,gS(a[2])];return g(c(sp,a[1]),m);default:return[0,sr,g(d6(b,a[1]),sq)]}}function
-I(a){return[0,su,g(d6(function(a){throw[0,af,st]},a),ss)]}function
-ku(a){return[0,sw,g(d6(function(a){return a},a),sv)]}function
-cn(a){if(0===a[0])return I(a[1]);var
-b=[0,h(sx,I(a[2])),0];return P([0,h(sy,I(a[1])),b])}function
-d7(b,a){var
-c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return x([0,e(b,a[1]),d])}function
-sz(a){function
-b(a){return d7(cn,a)}switch(a[0]){case
+m=[0,sW,g$(a[2])];return g(c(sX,a[1]),m);default:return[0,sZ,g(ee(b,a[1]),sY)]}}function
+D(a){return[0,s2,g(ee(function(a){return 0===a[0]?a[1]:s1},a),s0)]}function
+kV(a){return[0,s4,g(ee(function(a){return a},a),s3)]}function
+cs(a){if(0===a[0])return D(a[1]);var
+b=[0,h(s5,D(a[2])),0];return Q([0,h(s6,D(a[1])),b])}function
+ef(b,a){var
+c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
+s7(a){function
+b(a){return ef(cs,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?sA:sI,i=[0,h(sB,ao(f)),e],j=[0,h(sC,cn(a[4])),i],k=[0,h(sD,b(a[3])),j],l=[0,h(sE,b(a[2])),k],m=[0,h(sF,b(a[1])),l],c=[0,h(sH,ao(sG)),m];break;case
+e=0,f=a[5]?s8:te,i=[0,h(s9,ak(f)),e],j=[0,h(s_,cs(a[4])),i],k=[0,h(s$,b(a[3])),j],l=[0,h(ta,b(a[2])),k],m=[0,h(tb,b(a[1])),l],c=[0,h(td,ak(tc)),m];break;case
 1:var
-d=a[3],n=d?[0,h(sJ,b(d[1])),0]:d,o=[0,h(sK,b(a[2])),0],p=[0,h(sL,b(a[1])),o],c=g([0,h(sN,ao(sM)),p],n);break;default:var
-q=[0,h(sO,b(a[1])),0],c=[0,h(sQ,ao(sP)),q]}return P(c)}function
-sR(a){function
-b(a){return d7(cn,a)}var
-c=0,d=a[7]?sS:s2,e=[0,h(sT,ao(d)),c],f=[0,h(sU,cn(a[6])),e],g=[0,h(sV,cn(a[5])),f],i=[0,h(sW,b(a[4])),g],j=[0,h(sX,b(a[3])),i],k=[0,h(sY,b(a[2])),j],l=[0,h(sZ,b(a[1])),k];return P([0,h(s1,ao(s0)),l])}function
-gV(a){switch(a){case
-0:return s3;case
-1:return s4;case
-2:return s5;case
-3:return s6;case
-4:return s7;case
-5:return s8;case
-6:return s9;case
-7:return s_;case
-8:return s$;case
-9:return ta;case
-10:return tb;case
-11:return tc;default:return td}}function
-gW(a){if(typeof
-a==="number")return te;else
+d=a[3],n=d?[0,h(tf,b(d[1])),0]:d,o=[0,h(tg,b(a[2])),0],p=[0,h(th,b(a[1])),o],c=g([0,h(tj,ak(ti)),p],n);break;default:var
+q=[0,h(tk,b(a[1])),0],c=[0,h(tm,ak(tl)),q]}return Q(c)}function
+tn(a){function
+b(a){return ef(cs,a)}var
+c=0,d=a[7]?to:ty,e=[0,h(tp,ak(d)),c],f=[0,h(tq,cs(a[6])),e],g=[0,h(tr,cs(a[5])),f],i=[0,h(ts,b(a[4])),g],j=[0,h(tt,b(a[3])),i],k=[0,h(tu,b(a[2])),j],l=[0,h(tv,b(a[1])),k];return Q([0,h(tx,ak(tw)),l])}function
+hc(a){switch(a){case
+0:return tz;case
+1:return tA;case
+2:return tB;case
+3:return tC;case
+4:return tD;case
+5:return tE;case
+6:return tF;case
+7:return tG;case
+8:return tH;case
+9:return tI;case
+10:return tJ;case
+11:return tK;default:return tL}}function
+hd(a){if(typeof
+a==="number")return tM;else
 switch(a[0]){case
-0:return tf;case
-1:return tg;default:return th}}function
-d8(a){var
+0:return tN;case
+1:return tO;default:return tP}}function
+eg(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(ti,I(b[1])),0];break;case
+c=[0,h(tQ,D(b[1])),0];break;case
 1:var
-c=[0,h(tj,I(b[1])),0];break;default:var
-l=[0,I(b[2]),0],c=[0,h(tk,x([0,I(b[1]),l])),0]}var
-m=[0,h(tl,ao(gW(a[4]))),c],e=a[3];if(e){var
+c=[0,h(tR,D(b[1])),0];break;default:var
+l=[0,D(b[2]),0],c=[0,h(tS,w([0,D(b[1]),l])),0]}var
+m=[0,h(tT,ak(hd(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=x([0,I(d[1]),0]),i=a[1],n=0,p=6===i?tm:12<=i?tq:tr,j=[0,h(tn,O(p,o)),n];else
+o=w([0,D(d[1]),0]),i=a[1],n=0,p=6===i?tU:12<=i?tY:tZ,j=[0,h(tV,H(p,o)),n];else
 var
-t=[0,h(ts,x([0,I(d[2]),0])),0],j=[0,h(tu,P([0,h(tt,x([0,I(d[1]),0])),t])),0];var
+t=[0,h(t0,w([0,D(d[2]),0])),0],j=[0,h(t2,Q([0,h(t1,w([0,D(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=g(k,m),f=a[2],r=f?[0,h(to,cm(f[1])),0]:f,s=g(r,q);return P([0,h(tp,ao(gV(a[1]))),s])}function
-kv(a){if(0===a[0]){var
-b=[0,h(tv,d7(I,a[2])),0];return O(tx,P([0,h(tw,d7(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,h(ty,x([0,I(a[4]),c])),0],e=[0,h(tz,I(a[3])),d],f=[0,I(a[2]),0];return O(tB,P([0,h(tA,x([0,I(a[1]),f])),e]))}function
-tF(a){function
-b(a){return x(f(cn,a))}var
-c=[0,h(tG,b(a[2])),0],d=[0,h(tH,b(a[1])),c];return P([0,h(tJ,ao(tI)),d])}function
-tT(a){function
-b(a){return d7(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tU,b(c[1])),0]:c,f=[0,I(a[4]),0],i=[0,h(tV,x([0,I(a[3]),f])),0],j=[0,h(tW,I(a[2])),i],k=[0,h(tX,cm(a[1])),j],d=g([0,h(tZ,ao(tY)),k],e);else
+q=g(k,m),f=a[2],r=f?[0,h(tW,b6(f[1])),0]:f,s=g(r,q);return Q([0,h(tX,ak(hc(a[1]))),s])}function
+kW(a){if(0===a[0]){var
+b=[0,h(t3,ef(D,a[2])),0];return H(t5,Q([0,h(t4,ef(D,a[1])),b]))}var
+c=[0,D(a[5]),0],d=[0,h(t6,w([0,D(a[4]),c])),0],e=[0,h(t7,D(a[3])),d],f=[0,D(a[2]),0];return H(t9,Q([0,h(t8,w([0,D(a[1]),f])),e]))}function
+ub(a){function
+b(a){return w(f(cs,a))}var
+c=[0,h(uc,b(a[2])),0],d=[0,h(ud,b(a[1])),c];return Q([0,h(uf,ak(ue)),d])}function
+up(a){function
+b(a){return ef(D,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(uq,b(c[1])),0]:c,f=[0,D(a[4]),0],i=[0,h(ur,w([0,D(a[3]),f])),0],j=[0,h(us,D(a[2])),i],k=[0,h(ut,b6(a[1])),j],d=g([0,h(uv,ak(uu)),k],e);else
 var
-l=[0,h(t0,I(a[4])),0],m=[0,h(t1,b(a[3])),l],n=[0,h(t2,b(a[2])),m],o=a[1]?t3:t5,d=[0,h(t4,ao(o)),n];return P(d)}function
-kw(d,c,a,b){var
-e=[0,h(t6,x(f(d8,b))),0],i=a?[0,h(t7,x(f(tT,a))),0]:a,j=g(i,e),k=[0,h(t8,kv(c)),0];return P(g([0,h(t_,O(t9,x(f(sz,d)))),k],j))}function
-t$(a){switch(a[0]){case
-0:return O(ua,kw(a[1],a[2],a[3],a[4]));case
+l=[0,h(uw,D(a[4])),0],m=[0,h(ux,b(a[3])),l],n=[0,h(uy,b(a[2])),m],o=a[1]?uz:uB,d=[0,h(uA,ak(o)),n];return Q(d)}function
+he(d,c,a,b){var
+e=[0,h(uC,w(f(eg,b))),0],i=a?[0,h(uD,w(f(up,a))),0]:a,j=g(i,e),k=[0,h(uE,kW(c)),0];return Q(g([0,h(uG,H(uF,w(f(s7,d)))),k],j))}function
+uH(a){switch(a[0]){case
+0:return H(uI,he(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(ub,x(f(d8,a[3]))),0],p=[0,h(uc,kv(a[2])),o];return O(uf,P([0,h(ue,O(ud,x(f(sR,a[1])))),p]));case
+o=[0,h(uJ,w(f(eg,a[3]))),0],p=[0,h(uK,kW(a[2])),o];return H(uN,Q([0,h(uM,H(uL,w(f(tn,a[1])))),p]));case
 2:var
-q=[0,h(ug,x(f(d8,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,I(a),0];return x([0,I(b),c])};switch(b[0]){case
+q=[0,h(uO,w(f(eg,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,D(a),0];return w([0,D(b),c])};switch(b[0]){case
 0:var
-d=O(tK,c(b[1],b[2]));break;case
+d=H(ug,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(tL,c(g[1],g[2])),0],m=[0,h(tM,c(i[1],i[2])),l],d=O(tO,P([0,h(tN,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(uh,c(g[1],g[2])),0],m=[0,h(ui,c(i[1],i[2])),l],d=H(uk,Q([0,h(uj,c(j[1],j[2])),m]));break;case
 2:var
-d=O(tP,I(b[1]));break;default:var
-n=[0,h(tQ,I(b[2])),0],d=O(tS,P([0,h(tR,I(b[1])),n]))}var
-r=[0,h(uh,d),q],s=[0,h(ui,x(f(I,a[5]))),0],t=[0,h(ul,O(uk,P([0,h(uj,x(f(I,a[4]))),s]))),r],u=[0,h(um,I(a[3])),0],v=P([0,h(un,x(f(tF,a[2]))),u]);switch(a[1]){case
+d=H(ul,D(b[1]));break;default:var
+n=[0,h(um,D(b[2])),0],d=H(uo,Q([0,h(un,D(b[1])),n]))}var
+r=[0,h(uP,d),q],s=[0,h(uQ,w(f(D,a[5]))),0],t=[0,h(uT,H(uS,Q([0,h(uR,w(f(D,a[4]))),s]))),r],u=[0,h(uU,D(a[3])),0],v=Q([0,h(uV,w(f(ub,a[2]))),u]);switch(a[1]){case
 0:var
-e=tC;break;case
+e=t_;break;case
 1:var
-e=tD;break;default:var
-e=tE}return O(up,P([0,h(uo,O(e,v)),t]));case
+e=t$;break;default:var
+e=ua}return H(uX,Q([0,h(uW,H(e,v)),t]));case
 3:var
-w=[0,h(uq,x(f(d8,a[7]))),0],y=[0,h(ur,x(f(I,a[6]))),0],z=[0,h(uu,O(ut,P([0,h(us,x(f(I,a[5]))),y]))),w],A=0,B=a[4],C=[0,h(uw,x(f(function(a){return O(uv,x(f(ku,a)))},B))),A],D=a[3],E=[0,h(ux,x(f(function(a){var
-b=[0,ku(a[2]),0];return x([0,ao(a[1]),b])},D))),C],F=a[2],G=[0,h(uy,x(f(function(a){var
-b=[0,cn(a[2]),0];return x([0,ao(a[1]),b])},F))),E];return O(uC,P([0,h(uB,O(uA,P([0,h(uz,x(f(ao,a[1]))),G]))),z]));case
+x=[0,h(uY,w(f(eg,a[7]))),0],y=[0,h(uZ,w(f(D,a[6]))),0],z=[0,h(u2,H(u1,Q([0,h(u0,w(f(D,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(u4,w(f(function(a){return H(u3,w(f(kV,a)))},B))),A],E=a[3],F=[0,h(u5,w(f(function(a){var
+b=[0,kV(a[2]),0];return w([0,ak(a[1]),b])},E))),C],G=a[2],I=[0,h(u6,w(f(function(a){var
+b=[0,cs(a[2]),0];return w([0,ak(a[1]),b])},G))),F];return H(u_,Q([0,h(u9,H(u8,Q([0,h(u7,w(f(ak,a[1]))),I]))),z]));case
 4:var
-H=[0,h(uD,x(f(d8,a[3]))),0],J=[0,h(uG,O(uF,P([0,h(uE,I(a[2])),0]))),H];return O(uK,P([0,h(uJ,O(uI,P([0,h(uH,I(a[1])),0]))),J]));case
+J=[0,h(u$,w(f(eg,a[3]))),0],K=[0,h(vc,H(vb,Q([0,h(va,D(a[2])),0]))),J];return H(vg,Q([0,h(vf,H(ve,Q([0,h(vd,D(a[1])),0]))),K]));case
 5:var
-K=[0,h(uL,I(a[5])),0];return O(uN,P([0,h(uM,kw(a[1],[0,a[2],a[3]],0,a[4])),K]));default:var
-k=a[1],L=0,M=k?cn(k[1]):ao(uQ);return O(uP,P([0,h(uO,M),L]))}}function
-e6(a){return x(f(e5,a))}function
-e7(b,a){var
-c=[0,h(uR,gT(a)),0];return P([0,h(uS,x(f(e6,b))),c])}function
-e8(a){switch(a[0]){case
-0:return ao(a[1]);case
-1:var
-b=e7(a[2],a[3]);return O(a[1],b);case
-2:var
-c=a[1]?uT:uV;return O(uU,ao(c));case
-3:var
-d=[0,e6(a[3]),0];return O(uW,x([0,e7(a[1],a[2]),d]));case
-4:var
-e=[0,cm(0),0],f=[0,e5(a[3]),e];return O(uX,x([0,e7(a[1],a[2]),f]));case
-5:var
-g=[0,gT(a[3]),0],h=[0,e5(a[2]),g];return O(uY,x([0,e8(a[1]),h]));case
+L=[0,h(vh,D(a[5])),0];return H(vj,Q([0,h(vi,he(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-i=[0,gT(a[3]),0],j=[0,e5(a[2]),i];return O(uZ,x([0,e8(a[1]),j]));default:return O(u0,e8(a[1]))}}function
-u1(a){var
-b=[0,e8(a[2]),0];return x([0,cm(a[1]),b])}function
-kx(a){if(typeof
-a==="number")return ao(u2);else{if(0===a[0]){var
-b=[0,x(f(e6,a[2])),0];return O(u3,x([0,cm(a[1]),b]))}var
-c=[0,cm(a[2]),0];return O(u4,x([0,cm(a[1]),c]))}}function
-u5(a){var
-b=a[4],i=b?[0,h(u6,e6([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(u7,kx(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(u8,cm(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(u9,x(f(u1,[0,c[1],c[2]]))),0]:c;return P(g(n,m))}function
-gX(a){var
-b=il(ik(J(a),function(b){return V(a,b)}));return o(function(a){var
-b=aC(34===a?1:0),c=b?aC(92===a?1:0):b,d=c?ac(vs,ex(a)):c;return d?ac(ex(a),vt):d},b)}function
-e9(b){function
+k=a[1],M=0,N=k?cs(k[1]):ak(vm);return H(vl,Q([0,h(vk,N),M]));default:var
+O=[0,h(vn,D(a[6])),0],P=[0,h(vo,D(a[5])),O],R=[0,h(vp,he(a[2],a[3],0,a[4])),P],S=a[1];return H(vu,Q([0,h(vt,w(f(function(a){var
+b=[0,h(vq,D(a[2][2])),0],c=[0,h(vr,D(a[2][1])),b];return Q([0,h(vs,ak(a[1])),c])},S))),R]))}}function
+fi(a){return w(f(fh,a))}function
+fj(b,a){var
+c=[0,h(vv,ha(a)),0];return Q([0,h(vw,w(f(fi,b))),c])}function
+fk(a){switch(a[0]){case
+0:return ak(a[1]);case
+1:var
+b=fj(a[2],a[3]);return H(a[1],b);case
+2:var
+c=a[1]?vx:vz;return H(vy,ak(c));case
+3:var
+d=[0,fi(a[3]),0];return H(vA,w([0,fj(a[1],a[2]),d]));case
+4:var
+e=[0,b6(0),0],f=[0,fh(a[3]),e];return H(vB,w([0,fj(a[1],a[2]),f]));case
+5:var
+g=[0,ha(a[3]),0],h=[0,fh(a[2]),g];return H(vC,w([0,fk(a[1]),h]));case
+6:var
+i=[0,ha(a[3]),0],j=[0,fh(a[2]),i];return H(vD,w([0,fk(a[1]),j]));default:return H(vE,fk(a[1]))}}function
+vF(a){var
+b=[0,fk(a[2]),0];return w([0,b6(a[1]),b])}function
+kX(a){if(typeof
+a==="number")return ak(vG);else{if(0===a[0]){var
+b=[0,w(f(fi,a[2])),0];return H(vH,w([0,b6(a[1]),b]))}var
+c=[0,b6(a[2]),0];return H(vI,w([0,b6(a[1]),c]))}}function
+vJ(a){var
+b=a[4],i=b?[0,h(vK,fi([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vL,kX(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(vM,b6(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(vN,w(f(vF,[0,c[1],c[2]]))),0]:c;return Q(g(n,m))}function
+kY(e,a,d){var
+i=[0,h(vO,w(f(vJ,d))),0];if(a)var
+b=a[1],c=[0,h(vP,fj(b[1],b[2])),0];else
+var
+c=a;var
+j=g(c,i);return Q([0,h(vQ,g$(e)),j])}function
+kZ(d,c,a,b){var
+e=[0,h(vR,kX(b)),0],i=a?[0,h(vS,w(f(D,a))),0]:a,j=g(i,e),k=[0,h(vT,w(f(D,c))),0];return Q(g([0,h(vU,g$(d)),k],j))}function
+vV(a){if(typeof
+a==="number")return ak(vW);else
+switch(a[0]){case
+0:return H(vX,b6(a[1]));case
+1:return H(vY,kY(a[1],a[2],a[3]));default:return H(vZ,kZ(a[1],a[2],a[3],a[4]))}}function
+hf(a){var
+b=iN(iM(K(a),function(b){return Y(a,b)}));return o(function(a){var
+b=av(34===a?1:0),c=b?av(92===a?1:0):b,d=c?$(wc,eN(a)):c;return d?$(eN(a),wd):d},b)}function
+eh(b){function
 c(f){var
-a=ex(f),b=ac(vu,a),c=b?ac(a,vv):b;if(c)var
+a=eN(f),b=$(we,a),c=b?$(a,wf):b;if(c)var
 d=c;else{var
-e=ac(vw,a);if(e)return ac(a,vx);var
+e=$(wg,a);if(e)return $(a,wh);var
 d=e}return d}var
-a=il(ik(J(b),function(a){return V(b,a)}));if(a){var
+a=iN(iM(K(b),function(a){return Y(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=ex(a),f=ac(vy,e),h=f?ac(e,vz):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?ac(l(d),vA):f;if(g)return aC(as(b,vB));var
+e=eN(a),f=$(wi,e),h=f?$(e,wj):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?$(l(d),wk):f;if(g)return av(ao(b,wl));var
 h=g}else
 var
 h=a;return h}function
-gY(c){var
+hg(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return e9(a[1]);case
+1:return eh(a[1]);case
 3:var
-b=gY(a[2]);if(b){var
+b=hg(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-da(m){var
+ei(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4594,83 +4653,96 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=er(a[2]);if(typeof
+f=eF(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=da(a[2]);if(i){var
+i=ei(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=da(a[1]),l=k?et(b(2,c),j):k;return l?et(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=ei(a[1]),l=k?eJ(b(2,c),j):k;return l?eJ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-db(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bh(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-co(a){return C(db,bh(a))}function
-ky(a){switch(a[0]){case
+dk(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bo(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ct(a){return A(dk,bo(a))}function
+hh(a){switch(a[0]){case
 0:var
-c=db(a[4]),d=g(co(a[3]),c),e=g(co(a[2]),d);return g(co(a[1]),e);case
+c=dk(a[4]),d=g(ct(a[3]),c),e=g(ct(a[2]),d);return g(ct(a[1]),e);case
 1:var
-b=a[3],f=b?co(b[1]):b,h=g(co(a[2]),f);return g(co(a[1]),h);default:return co(a[1])}}function
-vC(a){var
-b=C(db,[0,a[5],[0,a[6],0]]);return g(C(co,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-kz(a){if(0===a[0]){var
-b=bh(a[2]);return g(bh(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dc(d){var
+b=a[3],f=b?ct(b[1]):b,h=g(ct(a[2]),f);return g(ct(a[1]),h);default:return ct(a[1])}}function
+wm(a){var
+b=A(dk,[0,a[5],[0,a[6],0]]);return g(A(ct,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+hi(a){if(0===a[0]){var
+b=bo(a[2]);return g(bo(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+cR(d){var
 a=d[4],f=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-vD(a){if(0===a[0]){var
-b=a[5],c=b?bh(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bh(a[3]),d);return g(bh(a[2]),e)}function
-kA(a){var
-d=et(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?et(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-kB(a,b){return b?[3,kB(a,b[1]),a]:a}function
+wn(a){if(0===a[0]){var
+b=a[5],c=b?bo(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bo(a[3]),d);return g(bo(a[2]),e)}function
+k0(b,e){var
+a=e;for(;;)switch(a[0]){case
+0:return 1;case
+1:var
+c=a[1];if(0===c[0]){var
+f=c[1];return aR(function(a){return ao(f,a)},b)}return 0;case
+3:var
+d=k0(b,a[2]);if(d){var
+a=a[3];continue}return d;default:var
+a=a[1];continue}}function
+fl(c,a){return o(function(a){var
+b=ei(a);return b?k0(c,a):b},a)}function
+k1(a){var
+d=eJ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eJ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+k2(a,b){return b?[4,k2(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,p(b(2,b(2,c)))),k=function(a){return s(j,a)},l=fZ(iy(h),k,c);return[0,iH(iz(er(a[1]),h)),l];case
-1:throw[0,af,vE];case
+j=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return s(k,a)},m=eH(iZ(j),l,c);return[0,i7(i0(eF(a[1]),j)),m];case
+1:var
+e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,Y(e[1]),e[2]]:[2,[0,d,c],e];case
+f=i(a[1]);return 0===f[0]?[0,ab(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
-f=i(a[2]),g=i(a[3]);switch(a[1]){case
-0:return[1,f,g];case
-1:return[2,f,g];case
-2:return[3,f,g];default:return[4,f,g]}case
+g=i(a[2]),h=i(a[3]);switch(a[1]){case
+0:return[2,g,h];case
+1:return[3,g,h];case
+2:return[4,g,h];default:return[5,g,h]}case
 4:var
-m=bV(dH(a[2]));return kB(i(a[1]),m);default:return[5,i(a[1])]}}function
-b0(a){if(0===a[0]){var
+n=bZ(dN(a[2]));return k2(i(a[1]),n);default:return[6,i(a[1])]}}function
+b7(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bi(a){var
-b=b0(a[3]),c=b0(a[2]);return[0,b0(a[1]),c,b]}function
-vF(a){switch(a[0]){case
+bp(a){var
+b=b7(a[3]),c=b7(a[2]);return[0,b7(a[1]),c,b]}function
+wo(a){switch(a[0]){case
 0:var
-b=a[5],c=b0(a[4]),d=bi(a[3]),e=bi(a[2]);return[0,[0,bi(a[1]),e,d,c,b]];case
+b=a[5],c=b7(a[4]),d=bp(a[3]),e=bp(a[2]);return[0,[0,bp(a[1]),e,d,c,b]];case
 1:var
-f=Z(bi,a[3]),g=bi(a[2]);return[1,bi(a[1]),g,f];default:return[2,bi(a[1])]}}function
-kC(a){if(0===a[0]){var
+f=R(bp,a[3]),g=bp(a[2]);return[1,bp(a[1]),g,f];default:return[2,bp(a[1])]}}function
+k3(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dd(a){var
+dl(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-de(a){if(0===a[0]){var
-b=a[5],h=b?dd(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bV(a[1]),l,k,j,h]}var
+dm(a){if(0===a[0]){var
+b=a[5],h=b?dl(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bZ(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dd(f),n=dd(g);return[2,i(e),n,m]}var
-o=dd(f),p=dd(g);return[1,i(e),p,o]}function
-gZ(b,a){if(a){var
-c=a[1],d=a[2],e=gZ(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(dJ(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:E(b[1],a[1]):0:0===a[0]?0:dG(b[1],a[1]);return aC(d)},h),e)}return a}function
-vG(b){if(b[1])return 0;var
+m=dl(f),n=dl(g);return[2,i(e),n,m]}var
+o=dl(f),p=dl(g);return[1,i(e),p,o]}function
+hj(b,a){if(a){var
+c=a[1],d=a[2],e=hj(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(dP(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:E(b[1],a[1]):0:0===a[0]?0:dM(b[1],a[1]);return av(d)},h),e)}return a}function
+wp(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-vI(c,a){switch(a[1]){case
+wr(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4702,7 +4774,7 @@ f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 I=0,v=a[4];if(typeof
 v==="number"||!(1===v[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-w=E(c,vK),J=0;if(w){var
+w=E(c,wt),J=0;if(w){var
 x=a[2];if(x){var
 b=x[1];J=1}else
 var
@@ -4725,12 +4797,12 @@ C=B;return C;case
 12:var
 D=a[4];if(typeof
 D!=="number"&&1===D[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?E(c,vL):0:j}return 0;default:var
+j=a[3];return j?0===j[1][0]?E(c,wu):0:j}return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=ac(vJ,b);return n?ac(b,c):n}function
-e_(e,m,_,b){var
-$=l(e),h=C(function(a){switch(a[1]){case
+n=$(ws,b);return n?$(b,c):n}function
+hk(e,m,_,b){var
+$=l(e),h=A(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -4779,14 +4851,14 @@ b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=gZ(0,_);return f(function(h){var
+T=s[1],U=hj(0,_);return f(function(h){var
 e=i(T),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dd(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(E(f,a[1])){var
-j=i(a[2]),k=[1,[1,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bV(f),m,l,k]}var
-n=de(a);return[10,de(b),n,e]}var
-o=de(a);return[10,de(b),o,e]}var
-p=de(a);return[10,de(b),p,e]},U)}return 0;case
+g=function(a){return a?dl(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(E(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bZ(f),m,l,k]}var
+n=dm(a);return[10,dm(b),n,e]}var
+o=dm(a);return[10,dm(b),o,e]}var
+p=dm(a);return[10,dm(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
@@ -4796,18 +4868,18 @@ W=v[2],X=v[1],b=function(a){var
 b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
 11:var
 D=typeof
-a[4]==="number"?1:0,Y=D?vH:D;return Y;default:var
+a[4]==="number"?1:0,Y=D?wq:D;return Y;default:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
 x=a[3];if(x){var
 F=x[1];if(0===F[0]){var
 Z=i(w[1]);return[0,[14,i(F[1]),Z],0]}return 0}return x}return 0}var
-z=a[2],L=z?[0,bV(z[1]),0]:cx(0,$);return f(b,L)},b),a=C(vG,b),j=a?[0,a[1],a[2]]:vM,k=g(j,h),n=kC(m);return[0,f(vF,e),n,k]}function
-vN(b){if(b[1])return 0;var
+z=a[2],L=z?[0,bZ(z[1]),0]:cE(0,$);return f(b,L)},b),a=A(wp,b),j=a?[0,a[1],a[2]]:wv,k=g(j,h),n=k3(m);return[0,f(wo,e),n,k]}function
+ww(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-df(D,b){var
-c=C(function(a){switch(a[1]){case
+dn(D,b){var
+c=A(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -4844,8 +4916,8 @@ m=a[3],B=l[1];if(!m)return m;var
 q=m[1];if(0!==q[0])return 0;var
 C=q[1],c=function(a){var
 b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
-n=a[2],u=n?[0,bV(n[1]),0]:cx(0,D);return f(c,u)},b),a=C(vN,b),d=a?[0,a[1],a[2]]:vO;return g(d,c)}function
-ba(n,m,a){var
+n=a[2],u=n?[0,bZ(n[1]),0]:cE(0,D);return f(c,u)},b),a=A(ww,b),d=a?[0,a[1],a[2]]:wx;return g(d,c)}function
+bb(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4855,31 +4927,31 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=dG(n,e);if(f){var
+f=dM(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ac(vP,h);return i?ac(h,m):i}var
+h=g[1],i=$(wy,h);return i?$(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-cK(a){switch(a[0]){case
+cS(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cK(a[1])];case
+2:return[2,cS(a[1])];case
 3:var
-b=cK(a[2]),c=cK(a[3]);switch(a[1]){case
+b=cS(a[2]),c=cS(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cK(a[1]),d];default:return[8,cK(a[1])]}}function
-kD(b){function
+d=a[2];return[7,cS(a[1]),d];default:return[8,cS(a[1])]}}function
+k4(b){function
 a(e){var
 a=[0,d,c];return z(e,b,[0,a,a])}var
-e=a(vR),f=a(vS);return[0,a(0),f,e]}function
-g0(a){function
+e=a(wA),f=a(wB);return[0,a(0),f,e]}function
+hl(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4887,65 +4959,126 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-kE(j,a,h,g,e,d,c){function
-b(a){return kD(f(b0,a))}var
-k=df(l(a),c),m=g0(d),n=bX(g,e),o=kD(f(function(a){var
+k5(j,a,h,g,e,d,c){function
+b(a){return k4(f(b7,a))}var
+k=dn(l(a),c),m=hl(d),n=b1(g,e),o=k4(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
-vT(a){var
-b=a[7],c=b0(a[6]),d=b0(a[5]),e=bi(a[4]),f=bi(a[3]),g=bi(a[2]);return[0,bi(a[1]),g,f,e,d,c,b]}var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dg(h){var
-a=cw(function(f,e){var
-a=aD(m,f);if(a)var
-b=a[1],c=bU(fM(b[1]),fM(b[2]));else
+wC(a){var
+b=a[7],c=b7(a[6]),d=b7(a[5]),e=bp(a[4]),f=bp(a[3]),g=bp(a[2]);return[0,bp(a[1]),g,f,e,d,c,b]}function
+k6(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=b5(i(g[2][1]));if(k){var
+l=k[1],m=b5(i(g[2][2]));if(m)var
+p=m[1],n=function(a){function
+d(a){return b(2,a)}var
+e=[0,a,eH(h[2],d,c)];return dQ(l,c7(gk(p,l),e))},q=n(x(h[1],c)),f=[0,n(h[1]),q];else
 var
-c=d;return bU(c,e)},d,h);if(aa(d,a)){var
-f=bP(a);if(0===f||!(0<f&&!H(a,c)))var
+f=[0,[0,d,c],[0,d,c]]}else
+var
+f=[0,[0,d,c],[0,d,c]];var
+r=k6([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+var
+j=a;else
+var
+j=e;return j}function
+al(b,a){switch(a[0]){case
+0:return[0,a[1],a[2]];case
+1:var
+f=a[1];if(0===f[0]){var
+c=b,g=f[1];for(;;){if(c){var
+e=c[1];if(!ao(g,e[1])){var
+c=c[2];continue}var
+d=[0,e]}else
+var
+d=c;return d?[1,d[1][2]]:a}}return a;case
+2:return[2,al(b,a[1])];case
+3:var
+h=al(b,a[3]),i=al(b,a[2]);return[3,a[1],i,h];case
+4:var
+j=a[2];return[4,al(b,a[1]),j];default:return[5,al(b,a[1])]}}function
+k7(b,a){if(0===a[0])return[0,al(b,a[1])];var
+c=al(b,a[2]);return[1,al(b,a[1]),c]}function
+hm(b,a){var
+c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
+hn(c,a){if(c)if(a){var
+g=a[2],b=a[1],h=c[1];if(typeof
+b!=="number"&&0===b[0]){var
+e=hn(h,g);if(e){var
+i=e[1],f=hn(h,i[2]);if(f)var
+j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
+var
+k=f;var
+l=k}else
+var
+l=e;return l}var
+d=[0,[0,[1,b],g]]}else
+var
+d=a;else
+var
+d=c;return d}function
+ho(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,ho(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,x(s(b(2,c),l),k),j],h]}else
+var
+i=a;return i}function
+wD(a){if(typeof
+a!=="number"&&1===a[0])return 1;return 0}function
+wE(a){if(typeof
+a!=="number"&&2===a[0])return 1;return 0}function
+fm(f,a){if(0===a[0]){var
+g=[0,c,b(2,c)],h=fm(f,a[3]);return c7(dQ(fm(f,a[2]),h),g)}return e(f,a[1])?[0,c,c]:[0,d,c]}var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+dp(h){var
+a=cD(function(f,e){var
+a=bD(m,f);if(a)var
+b=a[1],c=bY(f3(b[1]),f3(b[2]));else
+var
+c=d;return bY(c,e)},d,h);if(ad(d,a)){var
+f=bT(a);if(0===f||!(0<f&&!J(a,c)))var
 g=d;else
 var
-b=bt(a,a5(2)),e=b[1],g=al(b[2],d)?es(e):es(e);return br(g,m)}return d}function
-e$(a){return[0,a[1],[0,a[2],0]]}function
-bE(a){var
-b=e$(a[3]),c=g(e$(a[2]),b);return g(e$(a[1]),c)}function
-vU(a){return 0===a[0]?e$(a[1][4]):0}function
-vV(a){switch(a[0]){case
+b=bA(a,a6(2)),e=b[1],g=ah(b[2],d)?eI(e):eI(e);return bx(g,m)}return d}function
+fn(a){return[0,a[1],[0,a[2],0]]}function
+bK(a){var
+b=fn(a[3]),c=g(fn(a[2]),b);return g(fn(a[1]),c)}function
+wF(a){return 0===a[0]?fn(a[1][4]):0}function
+wG(a){switch(a[0]){case
 0:var
-b=a[1],c=bE(b[3]);return g(bE(b[2]),c);case
+b=a[1],c=bK(b[3]);return g(bK(b[2]),c);case
 1:var
-d=bE(a[2]);return g(bE(a[1]),d);default:return 0}}function
-kF(a){switch(a[0]){case
-0:return dg(bE(a[1][1]));case
+d=bK(a[2]);return g(bK(a[1]),d);default:return 0}}function
+k8(a){switch(a[0]){case
+0:return dp(bK(a[1][1]));case
 1:var
-b=a[3];return b?dg(bE(b[1])):d;default:return dg(bE(a[1]))}}function
-kG(b){var
-a=C(vU,b),d=a?[0,a[1],a[2]]:C(vV,b);return y(c,dg(d))}function
-fa(a){switch(a[0]){case
+b=a[3];return b?dp(bK(b[1])):d;default:return dp(bK(a[1]))}}function
+k9(b){var
+a=A(wF,b),d=a?[0,a[1],a[2]]:A(wG,b);return x(c,dp(d))}function
+fo(a){switch(a[0]){case
 0:var
-b=a[1];if(as(b,vW))return vX;if(as(b,vY))return vZ;if(as(b,v0))return v1;if(as(b,v2))return v3;if(as(b,v4))return v5;var
-h=as(b,v6),j=h?v7:h;return j;case
+b=a[1];if(ao(b,wH))return wI;if(ao(b,wJ))return wK;if(ao(b,wL))return wM;if(ao(b,wN))return wO;if(ao(b,wP))return wQ;var
+h=ao(b,wR),j=h?wS:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(as(e,v8))return[0,[0,c,d]];if(as(e,v9))return[0,[1,c,d]];if(as(e,v_))return[0,[2,c,d]];var
-i=as(e,v$),k=i?[0,[8,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(ao(e,wT))return[0,[0,c,d]];if(ao(e,wU))return[0,[1,c,d]];if(ao(e,wV))return[0,[2,c,d]];var
+i=ao(e,wW),k=i?[0,[8,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-f=fa(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=fo(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 6:var
-g=fa(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=fa(a[1]);return Z(function(a){return[6,a]},n)}}function
-kH(a){if(a){var
-d=a[1],b=fa(d[2]);if(b)var
-c=kH(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=fo(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=fo(a[1]);return R(function(a){return[6,a]},n)}}function
+k_(a){if(a){var
+d=a[1],b=fo(d[2]);if(b)var
+c=k_(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return wa}function
-dh(c,a){if(c)if(a){var
+e=b;return e}return wX}function
+dq(c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=kH(b[1]);if(d){var
+h=b[2],i=a[2],j=c[1],d=k_(b[1]);if(d){var
 k=d[1];if(h){var
-e=dh(j,i);if(e){var
-l=e[1],f=dh(j,l[2]);if(f)var
+e=dq(j,i);if(e){var
+l=e[1],f=dq(j,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
@@ -4960,90 +5093,99 @@ var
 g=a;else
 var
 g=c;return g}function
-g1(d,a){if(d){if(a){var
-b=dh(l(a),a);if(b)var
-e=b[1],c=g1(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+hp(d,a){if(d){if(a){var
+b=dq(l(a),a);if(b)var
+e=b[1],c=hp(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return wb}return a?0:wc}function
-g2(a){return typeof
+f=b;return f}return wY}return a?0:wZ}function
+hq(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-g3(d,a){if(d)if(a){var
+hr(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=g3(k,j);if(e){var
-l=e[1],f=g3(k,l[2]);if(f)var
+e=hr(k,j);if(e){var
+l=e[1],f=hr(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,g2(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hq(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cL(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bj(a,e){var
-b=cL(a[1],e),c=cL(a[2],b[2]),d=cL(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-kI(d,c){if(d){var
+cT(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bq(a,e){var
+b=cT(a[1],e),c=cT(a[2],b[2]),d=cT(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+k$(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bj(a[1],c),f=bj(a[2],e[2]),g=bj(a[3],f[2]),h=cL(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bq(a[1],c),f=bq(a[2],e[2]),g=bq(a[3],f[2]),h=cT(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bj(a[1],c),k=j[1],l=bj(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bj(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bq(a[1],c),k=j[1],l=bq(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bq(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bj(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=kI(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-kJ(b,i){if(b){var
-a=b[1],c=bj(a[1],i),d=bj(a[2],c[2]),e=bj(a[3],d[2]),f=bj(a[4],e[2]),g=cL(a[5],f[2]),h=cL(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=kJ(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-g4(a,b){if(a){var
-c=cL(a[1],b),d=g4(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-g5(b){function
+p=bq(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=k$(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+la(b,i){if(b){var
+a=b[1],c=bq(a[1],i),d=bq(a[2],c[2]),e=bq(a[3],d[2]),f=bq(a[4],e[2]),g=cT(a[5],f[2]),h=cT(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=la(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+w0(a){if(typeof
+a!=="number")switch(a[0]){case
+5:return w2;case
+2:case
+3:case
+4:case
+6:case
+7:case
+11:return 0}return w1}function
+hs(a,b){if(a){var
+c=cT(a[1],b),d=hs(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+ht(b){function
 a(a){return z(a,b,[0,d,c])}var
-e=a(we),f=a(wf);return[0,a(0),f,e]}function
-kK(a,b){if(a){var
-c=a[1],d=g4(c[1],b),e=g4(c[2],d[2]),f=kK(a[2],e[2]),g=f[2],h=f[1],i=g5(e[1]);return[0,[0,[0,g5(d[1]),i],h],g]}return[0,0,b]}function
-di(a){return jn(m,a)}function
-wg(a){if(typeof
+e=a(w4),f=a(w5);return[0,a(0),f,e]}function
+lb(a,b){if(a){var
+c=a[1],d=hs(c[1],b),e=hs(c[2],d[2]),f=lb(a[2],e[2]),g=f[2],h=f[1],i=ht(e[1]);return[0,[0,[0,ht(d[1]),i],h],g]}return[0,0,b]}function
+dr(a){return jN(m,a)}function
+w6(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return j(m,1,[2,a[1],[0,c,c]]);case
+5:return j(m,1,[3,a[1],[0,c,c]]);case
 6:return j(m,1,a[2]);case
 8:var
 d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
 10:return j(m,0,a[3]);case
 11:var
-e=a[4];return 1===e[0]?j(m,0,e[2]):0;case
+e=a[4];return 2===e[0]?j(m,0,e[2]):0;case
 12:var
 f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
 14:var
 h=j(m,0,a[1]);return h?j(m,1,a[2]):h;case
 2:case
-3:return di(a[2]);case
+3:return dr(a[2]);case
 4:case
 13:var
 b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
-g6(a){if(typeof
+hu(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[2,d,e]),g=f?j(m,1,[2,[1,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[1,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[2,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):h;case
-5:return j(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(m,1,[3,d,e]),g=f?j(m,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(m,1,[3,a[1],[0,c,c]]);case
 8:var
 k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
 0:case
 1:return j(m,1,a[1]);case
 2:case
-3:return di(a[2]);default:var
+3:return dr(a[2]);default:var
 i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-fb(d){var
+fp(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aC(aT(function(d){return function(a){var
-h=gV(a[1]),e=as(gV(d[1]),h);if(e)var
-i=gW(a[4]),b=as(gW(d[4]),i);else
+b=a[2],e=a[1],c=av(aR(function(d){return function(a){var
+h=hc(a[1]),e=ao(hc(d[1]),h);if(e)var
+i=hd(a[4]),b=ao(hd(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5052,85 +5194,87 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d9(a){if(0===a[0])return di(i(a[1]));var
-b=i(a[1]);return j(m,1,[2,i(a[2]),b])}function
-bk(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-kL(a){switch(a[0]){case
+ej(a){if(0===a[0])return dr(i(a[1]));var
+b=a[2],c=a[1];if(!d0(i(c))&&!d0(i(b))){var
+e=i(c);return j(m,1,[3,i(b),e])}var
+d=i(b);return bm(m,i(c),d)}function
+br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lc(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bk(a[3]),c),e=g(bk(a[2]),d);return g(bk(a[1]),e);case
+c=[0,a[4],0],d=g(br(a[3]),c),e=g(br(a[2]),d);return g(br(a[1]),e);case
 1:var
-b=a[3],f=b?bk(b[1]):b,h=g(bk(a[2]),f);return g(bk(a[1]),h);default:return bk(a[1])}}function
-kM(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bk(a[4]),b),d=g(bk(a[3]),c),e=g(bk(a[2]),d);return g(bk(a[1]),e)}function
-g7(a){switch(a){case
-0:return wk;case
-1:return wl;default:return 0}}function
-fc(a){var
-f=a[1],d=j(m,1,[1,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bz(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],g])}return e}function
-g8(a){var
-e=bz(m,[0,d,c],a);return e?j(m,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-kN(c,d,D,t,s,r,g){function
+b=a[3],f=b?br(b[1]):b,h=g(br(a[2]),f);return g(br(a[1]),h);default:return br(a[1])}}function
+ld(a){var
+b=[0,a[5],[0,a[6],0]],c=g(br(a[4]),b),d=g(br(a[3]),c),e=g(br(a[2]),d);return g(br(a[1]),e)}function
+hv(a){switch(a){case
+0:return w_;case
+1:return w$;default:return 0}}function
+fq(a){var
+f=a[1],d=j(m,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?bm(m,a[1],a[2]):d;if(e){var
+g=a[2];return j(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
+hw(a){var
+e=bm(m,[0,d,c],a);return e?j(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+le(c,d,D,t,s,r,g){function
 u(a){var
-d=c?wi:wj,b=E(l(a),d);return b?o(d9,a):b}var
+d=c?w8:w9,b=E(l(a),d);return b?o(ej,a):b}var
 v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-F=l(d),h=ac(d0(c),F);else
+F=l(d),h=$(d_(c),F);else
 var
 h=v;var
-w=h?ac(l(d),wm):h,x=w?j(m,1,i(D)):w;if(x)var
-G=g7(c),k=E(l(t),G);else
+w=h?$(l(d),xa):h,x=w?j(m,1,i(D)):w;if(x)var
+G=hv(c),k=E(l(t),G);else
 var
 k=x;if(k)var
-H=g7(c),n=E(l(s),H);else
+H=hv(c),n=E(l(s),H);else
 var
 n=k;if(n)var
-I=bX(t,s),p=o(function(a){var
-b=i(a[2]);return bz(m,i(a[1]),b)},I);else
+I=b1(t,s),p=o(function(a){var
+b=i(a[2]);return bm(m,i(a[1]),b)},I);else
 var
 p=n;if(p)if(c){var
-a=g0(r);switch(a[0]){case
+a=hl(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=fc(a[1]),A=z?fc(a[2]):z,e=A?fc(a[3]):A;break;case
+z=fq(a[1]),A=z?fq(a[2]):z,e=A?fq(a[3]):A;break;case
 2:var
-e=g8(a[1]);break;default:var
-B=g8(a[1]),e=B?g8(a[2]):B}var
+e=hw(a[1]);break;default:var
+B=hw(a[1]),e=B?hw(a[2]):B}var
 f=e}else
 var
-C=g0(r),K=0===C[0]?fc(C[1]):0,f=K;else
+C=hl(r),K=0===C[0]?fq(C[1]):0,f=K;else
 var
 f=p;if(f)var
-b=l(d),J=d0(c),q=o(function(a){var
+b=l(d),J=d_(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=ac(vQ,e),n=f?ac(e,b):f,c=n;else
+e=d[1],f=$(wz,e),n=f?$(e,b):f,c=n;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:ba(0,b,a):ba(0,b,a)}return ba(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bb(0,b,a):bb(0,b,a)}return bb(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:ba(0,b,a):ba(0,b,a)}return ba(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bb(0,b,a):bb(0,b,a)}return bb(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?E(b,J):c:ba(0,b,a):ba(0,b,a)}return ba(0,b,a)}return ba(0,b,a)},g);else
+m=a[3];return m?0===m[1][0]?c?E(b,J):c:bb(0,b,a):bb(0,b,a)}return bb(0,b,a)}return bb(0,b,a)},g);else
 var
 q=f;var
-y=q?fb(g):q;return y?o(g6,df(l(d),g)):y}function
-g9(j){var
-q=a7(j,dg(bE(j))),a=f(function(a){return an(m,a)},q);if(a){var
+y=q?fp(g):q;return y?o(hu,dn(l(d),g)):y}function
+hx(j){var
+q=a8(j,dp(bK(j))),a=f(function(a){return aq(m,a)},q);if(a){var
 e=a[1];if(e){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return R(m,a)},r=i(h[1]),s=i(g[1]);return aa(d,B(B(i(e[1]),s),r)[1])}var
+i=function(a){return U(m,a)},r=i(h[1]),s=i(g[1]);return ad(d,C(C(i(e[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5146,607 +5290,714 @@ o=e;var
 p=o}else
 var
 p=a;return p}function
-wn(a){switch(a[0]){case
-0:return g9(a[1][1]);case
+xb(a){switch(a[0]){case
+0:return hx(a[1][1]);case
 1:var
-b=a[3];return b?g9(b[1]):1;default:return g9(a[1])}}function
-g_(c,a,b,p){if(aT(function(a){return 9===a[1]?1:0},b)){var
-f=ac(l(a),wp),h=f?o(function(a){if(0===a[0]){var
+b=a[3];return b?hx(b[1]):1;default:return hx(a[1])}}function
+hy(c,a,b,p){if(aR(function(a){return 9===a[1]?1:0},b)){var
+f=$(l(a),xd),h=f?o(function(a){if(0===a[0]){var
 f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bh(f[1]),b=o(function(a){return di(i(a))},u);else{var
+u=bo(f[1]),b=o(function(a){return dr(i(a))},u);else{var
 n=1;e=1}else{var
 n=l;e=1}if(e)var
 b=n}else{var
 p=j(m,1,i(a[4]));if(p)var
-v=bh(a[3]),w=g(bh(a[2]),v),b=o(function(a){return di(i(a))},w);else
+v=bo(a[3]),w=g(bo(a[2]),v),b=o(function(a){return dr(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=ac(wo,q);if(r){var
-d=ai(c,bV(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=$(xc,q);if(r){var
+d=ae(c,bZ(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-k=gZ(0,a),u=k?1:k,n=u;else
+k=hj(0,a),u=k?1:k,n=u;else
 var
 n=h;var
 d=n}else
 var
 d=a?0:1;var
-q=d?o(wn,p[1]):d,r=q?ac(wq,l(c)):q;if(r)var
-v=l(c),e=o(function(a){return vI(v,a)},b);else
+q=d?o(xb,p[1]):d,r=q?$(xe,l(c)):q;if(r)var
+v=l(c),e=o(function(a){return wr(v,a)},b);else
 var
 e=r;var
-s=e?fb(b):e,t=s?o(d9,C(kL,c)):s;return t?o(wg,p[3]):t}function
-wr(a){return 11===a[1]?1:0}function
-g$(b,a){return o(function(c){var
-a=c[2];return a?iB(a[1],b):1},a)}function
-ha(b,a){var
-c=l(dJ(function(a){return 0===a[0]?0:1},b));return E(l(a),c)}function
-ws(s){var
-fn=gX(s[3]),fo=fn?gX(s[4]):fn;if(fo){var
-aw=s[1];if(3===aw[0]){var
-fr=o(e9,aw[1]);if(fr)var
-iA=aw[2],cA=o(function(a){return e9(a[1])},iA);else
+s=e?fp(b):e,t=s?o(ej,A(lc,c)):s;return t?o(w6,p[3]):t}function
+xf(a){return 11===a[1]?1:0}function
+hz(b,a){return o(function(c){var
+a=c[2];return a?eG(a[1],b):1},a)}function
+hA(b,a){var
+c=l(dP(function(a){return 0===a[0]?0:1},b));return E(l(a),c)}function
+lf(ai,aN,ah,ag,a,af,G){var
+b=hk(ai,aN,ah,ag),H=dq(l(G),G);if(H){var
+aj=H[1];if(aj[2])return 0;var
+ak=hy(ai,ah,ag,b),al=ak?hz(xg,G):ak;if(al){var
+aO=aj[1],I=f(k8,b[1]),c=k9(b[1]);if(af)var
+am=af[1],an=[0,am[2],am[1]];else
 var
-cA=fr;if(cA)var
-iB=aw[3],cB=o(function(a){var
-b=e9(a[1]),c=b?gY(a[2]):b;return c?da(a[2]):c},iB);else
-var
-cB=cA;if(cB)var
-iC=aw[4],iD=function(a){var
-b=gY(a);return b?da(a):b},cw=o(function(a){return o(iD,a)},iC);else
-var
-cw=cB}else
-var
-cw=1;var
-cx=cw}else
-var
-cx=fo;if(cx){var
-h=s[1];switch(h[0]){case
+an=[0,d,0];var
+ae=j8(m,b);if(ae){var
+k=gH(c,I,b[1]),h=gI(c,I,b[1],0),as=l(b[3]),at=M(l(k),as),V=[0,l(k),at],au=b[3],K=aR(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},au),av=K?A(function(a){var
+b=f(c4,jX(k,a));return[0,a[4],b]},h):K,aw=g(gK(h,c,V,b[3]),av),ax=g(cL(jC(h)),aw),W=g(cL(eX(h)),ax),X=dX(W)[1],p=dW(X),Y=o(function(a){var
+b=n(d);return a$(z(bC(p,a),p,b),a)},W);if(Y){var
+Z=aR(rP,b[3]);if(Z){var
+v=I,r=b[1];for(;;){if(r){var
+s=r[1],w=eL(d,v);switch(s[0]){case
 0:var
-id=C(dc,h[4]),ie=g(C(vD,h[3]),id),ig=g(kz(h[2]),ie),W=g(C(ky,h[1]),ig);break;case
+Q=s[1],R=gL(a,Q[1],w),J=0;if(R){var
+u=aq(a,[0,Q[4],c]);if(u)var
+j=ad(d,u[1][1]);else{var
+S=u;J=1}}else{var
+S=R;J=1}if(J)var
+j=S;break;case
 1:var
-ih=C(dc,h[3]),ii=g(kz(h[2]),ih),W=g(C(vC,h[1]),ii);break;case
-2:var
-ij=C(dc,h[7]),V=h[6];switch(V[0]){case
-1:var
-fk=V[3],fl=V[2],fm=V[1],cu=[0,fm[1],[0,fm[2],[0,fl[1],[0,fl[2],[0,fk[1],[0,fk[2],0]]]]]];break;case
-2:var
-cu=[0,V[1],0];break;default:var
-cu=[0,V[1],[0,V[2],0]]}var
-ik=g(cu,ij),il=g(h[5],ik),im=g(h[4],il),io=[0,h[3],im],ip=h[2],W=g(C(function(a){return C(db,g(a[1],a[2]))},ip),io);break;case
-3:var
-iq=C(dc,h[7]),ir=g(h[6],iq),is=g(h[5],ir),it=h[2],W=g(C(function(a){return db(a[2])},it),is);break;case
-4:var
-iu=C(dc,h[3]),W=[0,h[1],[0,h[2],iu]];break;case
-5:var
-iv=C(dc,h[4]),iw=g(bh(h[3]),iv),ix=g(bh(h[2]),iw),iy=g(C(ky,h[1]),ix),W=[0,h[5],iy];break;default:var
-cv=h[1],W=cv?db(cv[1]):cv}var
-cz=o(da,W)}else
+T=s[3],j=T?gL(a,T[1],w):1;break;default:var
+j=gL(a,s[1],w)}if(j){var
+ar=r[2],v=gi(v),r=ar;continue}var
+_=j}else
 var
-cz=cx;if(cz){var
-aj=s[2];if(0===aj[0]){var
-fp=kA(aj[1]);if(fp)var
-iz=aj[3],ax=o(function(a){var
+_=1;var
+x=_;break}}else
+var
+x=Z;if(x){var
+ay=b[3],az=A(function(a){return db(c,a)},ay),aA=b[3],aB=g(k,g(f(function(a){return bn(c,a)},aA),az)),y=aE(f(function(b){return aq(a,b)},aB));if(y){var
+i=b[2];if(0===i[0])var
+$=i[1];else
+var
+q=i[3],N=i[2],P=i[1],$=[0,[0,[3,P,q],[2,P,q]],[0,[3,N,q],[2,N,q]],i[4]];var
+aC=a8($,c),B=aE(f(function(b){return aq(a,b)},aC));if(B){var
+aD=b[3],D=aE(jY(a,an,function(a){return bC(p,a)},k,h,c,V,aD));if(D){var
+aa=D[1],aF=jM(aa),t=b[2],aG=B[1],aH=function(f){if(0===t[0])return 0;if(f){var
+b=f[2];if(b){var
+g=b[2];if(g){if(g[2])return 0;var
+d=b[1],e=f[1],h=cn(a,c,t[1]);if(h){var
+i=cn(a,c,t[2]);if(i){var
+j=cn(a,c,t[3]);if(j)var
+s=h[1],u=bF(e),k=O([0,bF(e),u],s),v=i[1],w=bF(d),l=O([0,bF(d),w],v),x=da(d),y=[0,da(d),x],z=[0,F(a,ap(C(l,l)),y),0],A=da(e),B=[0,da(e),A],D=[0,F(a,ap(C(k,k)),B),z],E=U(a,l),G=U(a,k),m=[0,[0,O(O(U(a,j[1]),G),E),L,D]];else
+var
+m=j;var
+n=m}else
+var
+n=i;var
+o=n}else
+var
+o=h;var
+p=o}else
+var
+p=g;var
+q=p}else
+var
+q=b;var
+r=q}else
+var
+r=f;return r},aI=y[1],aJ=0,aK=jC(h),aL=e(a2(function(a){return bC(p,a)}),aK),aM=eX(h);return gF(a,X,e(a2(function(a){return bC(p,a)}),aM),aL,aJ,aI,aa,aH,aG,aF,aO)}var
+ab=D}else
+var
+ab=B;var
+ac=ab}else
+var
+ac=y;var
+E=ac}else
+var
+E=x}else
+var
+E=Y;return E}return ae}var
+ao=al}else
+var
+ao=H;return ao}function
+lg(z,aM,aq,ap,y,ao,h){var
+k=hk(z,aM,aq,ap);if(y){var
+B=y[2];if(B){var
+C=B[2];if(C){if(C[2])return 0;var
+ar=k$(z,f(i,ao));if(ar[2])return 0;var
+as=k[3];if(typeof
+h==="number")var
+a=w3;else
+if(0===h[0]){var
+b=h[2],n=h[1],H=R(w0,ae(as,n)),J=0;if(H){var
+T=H[1];if(T){var
+U=T[1];if(U)if(U[1])var
+a=0;else{var
+K=0;if(b){var
+o=b[1],L=0;if(o){var
+p=o[2],M=0;if(p){var
+q=p[2],N=0;if(q)if(q[2]){var
+a=0;K=1;L=1;M=1;N=1}else{var
+r=b[2],az=0;if(r){var
+s=r[1],aA=0;if(s){var
+t=s[2],aB=0;if(t){var
+u=t[2],aC=0;if(u)if(u[2]||r[2]){var
+a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
+var
+V=[0,[0,n,[0,[0,o[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+var
+V=u;if(!aC)var
+W=V}else
+var
+W=t;if(!aB)var
+X=W}else
+var
+X=s;if(!aA)var
+Y=X}else
+var
+Y=r;if(!az)var
+Z=Y}else
+var
+Z=q;if(!N)var
+_=Z}else
+var
+_=p;if(!M)var
+$=_}else
+var
+$=o;if(!L)var
+aa=$}else
+var
+aa=b;if(!K)var
+a=aa}else{var
+aD=0;if(b){var
+v=b[1],aE=0;if(v){var
+w=v[2],aF=0;if(w){var
+x=w[2],aG=0;if(x)if(x[2]||b[2]){var
+a=0;aD=1;aE=1;aF=1;aG=1}else
+var
+ab=x[1],ac=w[1],ad=v[1],af=[0,[0,n,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+var
+af=x;if(!aG)var
+ag=af}else
+var
+ag=w;if(!aF)var
+ah=ag}else
+var
+ah=v;if(!aE)var
+ai=ah}else
+var
+ai=b;if(!aD)var
+a=ai}}else
+if(b)var
+a=0;else{var
+aj=[0,[0,d,d],d],ak=[0,[0,n,aj,aj]];J=1}}else{var
+ak=H;J=1}if(J)var
+a=ak}else{var
+al=h[1],I=ae(as,al),O=0;if(I){var
+aH=0,am=I[1];if(typeof
+am!=="number"&&1===am[0]){var
+a=[0,[1,al,h[2]]];aH=1}if(!aH){var
+an=0;O=1}}else{var
+an=I;O=1}if(O)var
+a=an}if(a){var
+at=hA(A(lc,z),ao),au=at?hy(z,aq,ap,k):at;if(au){var
+g=a[1],aN=i(C[1]),aO=i(B[1]),e=[0,i(y[1]),aO,aN],l=ar[1],P=j0(m,k,l,e);if(P)if(typeof
+g==="number")return aR(function(a){switch(a[0]){case
+0:var
+b=[0,dc(a[1],a[2],a[3],a[4],e)];break;case
+1:var
+f=a[2],g=a[1],h=bG(g,f,e),b=[0,G(bG(g,f,e),h)];break;default:var
+b=0}return b?j(m,0,[3,[0,d,c],b[1]]):b},l);else{if(0===g[0]){var
+D=ae(k[3],g[1]);if(D){var
+aI=D[1],aJ=j2(g[3]);return j7(m,l,e,j2(g[2]),aJ,aI)}return D}var
+E=ae(k[3],g[1]);if(E){var
+F=ae(l,g[2]);if(F){var
+Q=F[1],aK=E[1],aL=de(Q,e);return j7(m,l,e,de(Q,e),aL,aK)}var
+S=F}else
+var
+S=E;return S}return P}var
+av=au}else
+var
+av=a;var
+aw=av}else
+var
+aw=C;var
+ax=aw}else
+var
+ax=B;var
+ay=ax}else
+var
+ay=y;return ay}function
+lh(m,l,b,k,y,x){var
+e=y,d=x;for(;;){if(0===d[0]){var
+g=d[1],h=ae(e,g),n=h?eG(h[1][2],xh):h;if(n)var
+z=d[2],i=lh(m,l,b,k,ho(0,g,e),z);else
+var
+i=n;if(i){var
+A=d[3],e=ho(1,g,e),d=A;continue}return i}var
+c=d[1],a=k6(0,m,e),o=f(function(b){function
+d(b){return k7(a,b)}function
+c(a){return hm(d,a)}switch(b[0]){case
+0:var
+e=b[5],f=k7(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+1:var
+i=R(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hm(function(b){return al(a,b)},q),s=b[1],j=[0,hm(function(b){return al(a,b)},s),r];else
+var
+t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),w=al(a,b[2]),j=[1,al(a,b[1]),w,v,u,t];var
+p=f(function(e){var
+b=e[4];if(typeof
+b==="number")var
+c=0;else
+switch(b[0]){case
+0:var
+c=[0,al(a,b[1])];break;case
+1:var
+c=[1,al(a,b[1])];break;default:var
+j=al(a,b[2]),c=[2,al(a,b[1]),j]}var
+f=e[3];if(f){var
+d=f[1];if(0===d[0])var
+g=[0,[0,al(a,d[1])]];else
+var
+i=al(a,d[2]),g=[0,[1,al(a,d[1]),i]];var
+h=g}else
+var
+h=f;return[0,e[1],e[2],h,c]},k);if(typeof
+c==="number")return 1;else
+switch(c[0]){case
+0:return 0;case
+1:return lf(o,j,0,p,c[1],c[2],c[3]);default:var
+B=c[4],C=c[3],D=f(function(b){return al(a,b)},C),E=c[2];return lg(o,j,0,p,f(function(b){return al(a,b)},E),D,B)}}}function
+li(h,g){var
+a=b5(i(h));if(a){var
+b=a[1],e=c6([0,d,c],b);if(e)return c6(b,g);var
+f=e}else
+var
+f=a;return f}function
+xj(q){var
+dT=hf(q[3]),dU=dT?hf(q[4]):dT;if(dU){var
+B=q[1];switch(B[0]){case
+3:var
+d3=o(eh,B[1]);if(d3)var
+gp=B[2],bJ=o(function(a){return eh(a[1])},gp);else
+var
+bJ=d3;if(bJ)var
+gq=B[3],bL=o(function(a){var
+b=eh(a[1]),c=b?hg(a[2]):b;return c?ei(a[2]):c},gq);else
+var
+bL=bJ;if(bL)var
+gr=B[4],gs=function(a){var
+b=hg(a);return b?ei(a):b},aA=o(function(a){return o(gs,a)},gr);else
+var
+aA=bL;break;case
+7:var
+gt=B[1],d5=o(function(a){var
+b=eh(a[1]);return b?fl(0,[0,a[2][1],[0,a[2][2],0]]):b},gt),aA=d5?fl(0,[0,B[5],[0,B[6],0]]):d5;break;default:var
+aA=1}var
+bG=aA}else
+var
+bG=dU;var
+b$=0;if(bG){var
+dV=q[1],dY=7===dV[0]?f(cC,dV[1]):0,dZ=function(c,b){var
+a=k1(c);return a?o(function(a){var
 b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return gX(a[1]);case
+1:return hf(a[1]);case
 2:case
 3:case
 4:return 1;default:var
-a=a[1];continue}},b)},iz);else
-var
-ax=fp}else
-var
-fq=kA(aj[1]),ax=fq?o(da,g(aj[2],aj[3])):fq}else
-var
-ax=cz;if(ax){var
-a=s[1];switch(a[0]){case
+a=a[1];continue}},b)},b):a},d0=function(d,c,b){var
+a=k1(d);return a?fl(dY,g(c,b)):a},h=q[1];switch(h[0]){case
 0:var
-ay=a[4],az=a[3],cR=a[2],X=a[1],_=s[2];if(0===_[0]){var
-cS=_[3],fJ=_[2],q=e_(X,cR,az,ay),cT=dh(l(cS),cS);if(cT){var
-fK=cT[1];if(fK[2])return 0;var
-fL=g_(X,az,ay,q),fM=fL?g$(wt,cS):fL;if(fM){var
-iR=fK[1],cU=f(kF,q[1]),w=kG(q[1]);if(fJ)var
-fN=fJ[1],fO=[0,fN[2],fN[1]];else
-var
-fO=[0,d,0];var
-r=_[1],d1=jI(m,q);if(d1){var
-at=go(w,cU,q[1]),T=gp(w,cU,q[1],0),gV=l(q[3]),gW=K(l(at),gV),dI=[0,l(at),gW],gZ=q[3],dz=aT(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},gZ),g0=dz?C(function(a){var
-b=f(cW,jx(at,a));return[0,a[4],b]},T):dz,g4=g(gr(T,w,dI,q[3]),g0),g8=g(cE(jc(T)),g4),dJ=g(cE(eI(T)),g8),dK=dQ(dJ)[1],au=dP(dK),dL=o(function(a){var
-b=n(d);return a_(z(bw(au,a),au,b),a)},dJ);if(dL){var
-dM=aT(rh,q[3]);if(dM){var
-bO=cU,aH=q[1];for(;;){if(aH){var
-aI=aH[1],bP=ev(d,bO);switch(aI[0]){case
-0:var
-dC=aI[1],dD=gs(r,dC[1],bP),dl=0;if(dD){var
-bN=an(r,[0,dC[4],w]);if(bN)var
-ar=aa(d,bN[1][1]);else{var
-dF=bN;dl=1}}else{var
-dF=dD;dl=1}if(dl)var
-ar=dF;break;case
+f4=A(cR,h[4]),f5=g(A(wn,h[3]),f4),f6=g(hi(h[2]),f5),C=g(A(hh,h[1]),f6);break;case
 1:var
-dH=aI[3],ar=dH?gs(r,dH[1],bP):1;break;default:var
-ar=gs(r,aI[1],bP)}if(ar){var
-gU=aH[2],bO=f3(bO),aH=gU;continue}var
-dN=ar}else
-var
-dN=1;var
-bQ=dN;break}}else
-var
-bQ=dM;if(bQ){var
-g9=q[3],hb=C(function(a){return c3(w,a)},g9),hc=q[3],hd=g(at,g(f(function(a){return bg(w,a)},hc),hb)),bR=aE(f(function(a){return an(r,a)},hd));if(bR){var
-ad=q[2];if(0===ad[0])var
-dO=ad[1];else
-var
-aG=ad[3],dA=ad[2],dB=ad[1],dO=[0,[0,[2,dB,aG],[1,dB,aG]],[0,[2,dA,aG],[1,dA,aG]],ad[4]];var
-he=a7(dO,w),bS=aE(f(function(a){return an(r,a)},he));if(bS){var
-hf=q[3],bT=aE(jy(r,fO,function(a){return bw(au,a)},at,T,w,dI,hf));if(bT){var
-dR=bT[1],hg=jm(dR),aJ=q[2],hh=bS[1],hi=function(d){if(0===aJ[0])return 0;if(d){var
-a=d[2];if(a){var
-e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=ce(r,w,aJ[1]);if(f){var
-g=ce(r,w,aJ[2]);if(g){var
-h=ce(r,w,aJ[3]);if(h)var
-q=f[1],s=by(c),i=N([0,by(c),s],q),t=g[1],u=by(b),j=N([0,by(b),u],t),v=c2(b),x=[0,c2(b),v],y=[0,D(r,am(B(j,j)),x),0],z=c2(c),A=[0,c2(c),z],C=[0,D(r,am(B(i,i)),A),y],E=R(r,j),F=R(r,i),k=[0,[0,N(N(R(r,h[1]),F),E),L,C]];else
-var
-k=h;var
-l=k}else
-var
-l=g;var
-m=l}else
-var
-m=f;var
-n=m}else
-var
-n=e;var
-o=n}else
-var
-o=a;var
-p=o}else
-var
-p=d;return p},hj=bR[1],hk=0,hl=jc(T),hm=e(a2(function(a){return bw(au,a)}),hl),hn=eI(T);return gm(r,dK,e(a2(function(a){return bw(au,a)}),hn),hm,hk,hj,dR,hi,hh,hg,iR)}var
-dS=bT}else
-var
-dS=bS;var
-dT=dS}else
-var
-dT=bR;var
-bU=dT}else
-var
-bU=bQ}else
-var
-bU=dL;return bU}return d1}var
-fP=fM}else
-var
-fP=cT;return fP}var
-bi=_[2];if(bi){var
-bj=bi[2];if(bj){var
-bk=bj[2];if(bk){if(bk[2])return 0;var
-fQ=_[3],fR=kI(X,f(i,fQ));if(fR[2])return 0;var
-ak=_[4];if(typeof
-ak==="number")var
-A=wd;else
-if(0===ak[0]){var
-cH=ak[2],cJ=ak[1];if(cH){var
-a$=cH[1],dm=0;if(a$){var
-bb=a$[2],bJ=0;if(bb){var
-bc=bb[2],bK=0;if(bc)if(bc[2]){var
-A=0;bJ=1;bK=1}else{var
-cL=bc[1],cM=bb[1],cN=a$[1],cO=cH[2];if(cO){var
-bd=cO[1],gR=0;if(bd){var
-be=bd[2],gS=0;if(be){var
-bf=be[2],gT=0;if(bf)if(bf[2]||cO[2]){var
-A=0;bJ=1;bK=1;gR=1;gS=1;gT=1}else
-var
-fw=[0,[0,cJ,[0,[0,cN,cM],cL],[0,[0,bd[1],be[1]],bf[1]]]];else
-var
-fw=bf;if(!gT)var
-fx=fw}else
-var
-fx=be;if(!gS)var
-fy=fx}else
-var
-fy=bd;if(!gR){var
-A=fy;bJ=1;bK=1}}else
-var
-fz=[0,[0,cJ,[0,[0,cN,cM],cL],[0,[0,cN,cM],cL]]]}else
-var
-fz=bc;if(!bK)var
-fA=fz}else
-var
-fA=bb;if(!bJ){var
-fB=fA;dm=1}}else{var
-fB=a$;dm=1}if(dm)var
-A=fB}else
-var
-fC=[0,[0,d,d],d],A=[0,[0,cJ,fC,fC]]}else
-var
-A=[0,[1,ak[1],ak[2]]];if(A){var
-fS=ha(C(kL,X),fQ),fT=fS?g_(X,az,ay,e_(X,cR,az,ay)):fS;if(fT){var
-$=A[1],iS=i(bk[1]),iT=i(bj[1]),O=[0,i(bi[1]),iT,iS],aA=fR[1],cV=e_(X,cR,az,ay),dV=jA(m,cV,aA,O);if(dV)if(typeof
-$==="number")return aT(function(a){switch(a[0]){case
-0:var
-b=[0,c4(a[1],a[2],a[3],a[4],O)];break;case
-1:var
-e=a[2],f=a[1],g=bA(f,e,O),b=[0,F(bA(f,e,O),g)];break;default:var
-b=0}return b?j(m,0,[2,[0,d,c],b[1]]):b},aA);else{if(0===$[0]){var
-bV=ai(cV[3],$[1]);if(bV){var
-ho=bV[1],hp=jC($[3]);return jH(m,aA,O,jC($[2]),hp,ho)}return bV}var
-bW=ai(cV[3],$[1]);if(bW){var
-bY=ai(aA,$[2]);if(bY){var
-dW=bY[1],hq=bW[1],hr=c6(dW,O);return jH(m,aA,O,c6(dW,O),hr,hq)}var
-dZ=bY}else
-var
-dZ=bW;return dZ}return dV}var
-fU=fT}else
-var
-fU=A;var
-fV=fU}else
-var
-fV=bk;var
-fW=fV}else
-var
-fW=bj;var
-fX=fW}else
-var
-fX=bi;return fX;case
-1:var
-bl=a[3],P=a[1],bm=s[2];if(0===bm[0])return 0;var
-bn=bm[2];if(bn){var
-bo=bn[2];if(bo){var
-bp=bo[2];if(bp){if(bp[2])return 0;var
-fY=bm[3],fZ=kJ(P,f(i,fY));if(fZ[2])return 0;var
-f0=ha(C(kM,P),fY);if(f0){var
-fD=ac(wh,l(P));if(fD)var
-iM=l(P),iN=1,cP=o(function(a){return ba(iN,iM,a)},bl);else
-var
-cP=fD;var
-fE=cP?fb(bl):cP,fF=fE?o(d9,C(kM,P)):fE,iU=fF?o(g6,df(l(P),bl)):fF,cX=iU}else
-var
-cX=f0;if(cX){var
-iV=g2(bm[4]),iW=i(bp[1]),iX=i(bo[1]),Q=[0,i(bn[1]),iX,iW],bq=fZ[1],iY=a[2],iH=df(l(P),bl),iI=kC(iY),aK=f(vT,P),ae=bq;for(;;){if(aK){if(ae){var
-t=ae[1],U=aK[1],d2=aW(m,U[1],t[1]),d3=d2?aW(m,U[2],t[2]):d2,d4=d3?aW(m,U[3],t[3]):d3,d5=d4?aW(m,U[4],t[4]):d4,d6=d5?cF(m,U[5],t[5]):d5,d7=d6?cF(m,U[6],t[6]):d6,d8=d7?j(m,1,t[5]):d7,d_=d8?j(m,1,t[6]):d8,d$=d_?j(m,1,F(t[1],t[1])):d_;if(d$)var
-hs=gu(t),bZ=j(m,1,F(gu(t),hs));else
-var
-bZ=d$;var
-ea=bZ?dG(U[7],t[7]):bZ;if(ea){var
-aK=aK[2],ae=ae[2];continue}var
-eb=ea}else
-var
-eb=ae;var
-b1=eb}else
-var
-b1=ae?0:1;var
-ec=b1?jz(m,iI,Q):b1;if(ec){var
-ht=f(function(a){return jP(a,Q)},bq),hu=f(function(a){var
-b=jR(a,Q);return[1,jQ(a,Q),b]},bq);return jM(m,rl,[0,f(function(a){var
-d=jN(a),e=aF(jR(a,Q),d),f=gv(a),g=aF(jQ(a,Q),f),h=ag(function(b,a){return[1,b,a]},g,e),i=aF(a[5],h),j=a[3],k=ag(function(b,a){return[1,b,a]},j,i),l=a[4],m=ag(function(b,a){return[1,b,a]},Q,l),n=ag(function(b,a){return[2,b,a]},m,k),o=gB(a,Q),b=aF([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bq),hu,ht],iH,iV)}return ec}}var
-f1=cX}else
-var
-f1=bp;var
-f2=f1}else
-var
-f2=bo;var
-f4=f2}else
-var
-f4=bn;return f4;case
+f7=A(cR,h[3]),f8=g(hi(h[2]),f7),C=g(A(wm,h[1]),f8);break;case
 2:var
-br=a[7],bs=a[6],bt=a[5],bu=a[4],bv=a[3],ao=a[2],ap=a[1],aq=s[2];if(0===aq[0]){var
-cY=aq[3],aB=kE(ap,ao,bv,bu,bt,bs,br),c0=dh(l(cY),cY);if(c0){var
-f5=c0[1];if(f5[2])return 0;var
-f6=kN(ap,ao,bv,bu,bt,bs,br),f7=f6?g$(d0(ap),cY):f6;if(f7){var
-iZ=f5[1],i0=aB[2],i1=y(c,dg(C(function(a){var
-b=bE(a[2]);return g(bE(a[1]),b)},i0))),i2=aq[1],h0=aB[2],e1=o(function(a){var
-b=gN(m,a[1]);return b?gN(m,a[2]):b},h0),e2=e1?gN(m,aB[4]):e1;if(e2)var
-h1=kb(aB[5]),cl=o(function(a){return eZ(m,a)},h1);else
-var
-cl=e2;return cl?rS(i2,aB,i1,iZ):cl}var
-f8=f7}else
-var
-f8=c0;return f8}var
-f9=aq[3],f_=f(i,aq[2]),f$=g7(ap),ga=kK(ao,f(i,f9));if(ga[2])return 0;var
-gb=ha(C(function(a){return g(a[1],a[2])},ao),f9),gc=gb?kN(ap,ao,bv,bu,bt,bs,br):gb;if(gc){var
-i3=g2(aq[4]),p=iL(f$,f_),bx=g5(ew(f$,f_)),bD=ga[1],S=kE(ap,ao,bv,bu,bt,bs,br),a0=S[2],af=bD;for(;;){if(a0){if(af){var
-eU=af[1],eV=a0[1],eW=aW(m,eV[1],eU[1]),eX=eW?aW(m,eV[2],eU[2]):eW;if(eX){var
-a0=a0[2],af=af[2];continue}var
-eY=eX}else
-var
-eY=af;var
-cj=eY}else
-var
-cj=af?0:1;var
-e0=cj?aW(m,S[4],bx):cj;if(e0){var
-J=S[5];switch(J[0]){case
-0:var
-x=p?p[2]?0:dY(m,J[1],p[1]):p;break;case
+f9=A(cR,h[7]),N=h[6];switch(N[0]){case
 1:var
-dn=0;if(p){var
-aR=p[2],dp=0;if(aR){var
-aS=aR[2],dq=0;if(aS)if(aS[2]){var
-x=0;dp=1;dq=1}else{var
-eC=dY(m,J[1],p[1]),eD=eC?dY(m,J[2],aR[1]):eC;if(eD){var
-x=dY(m,J[3],aS[1]);dp=1;dq=1}else
-var
-eE=eD}else
-var
-eE=aS;if(!dq)var
-eF=eE}else
-var
-eF=aR;if(!dp){var
-eG=eF;dn=1}}else{var
-eG=p;dn=1}if(dn)var
-x=eG;break;case
+dQ=N[3],dR=N[2],dS=N[1],bD=[0,dS[1],[0,dS[2],[0,dR[1],[0,dR[2],[0,dQ[1],[0,dQ[2],0]]]]]];break;case
 2:var
-dr=0;if(p){var
-aV=p[2],ds=0;if(aV){var
-aX=aV[2];if(aX)if(aX[2]){var
-x=0;ds=1}else{var
-eH=aX[1],eJ=aV[1],eK=p[1],hT=F([0,eK,eJ,eH],[0,eK,eJ,eH]),x=j6(m,J[1],hT,[0,c,c]);ds=1}else
-var
-eL=aX}else
-var
-eL=aV;if(!ds){var
-eM=eL;dr=1}}else{var
-eM=p;dr=1}if(dr)var
-x=eM;break;default:var
-dt=0;if(p){var
-aY=p[2],du=0;if(aY){var
-aZ=aY[2],dv=0;if(aZ)if(aZ[2]){var
-x=0;du=1;dv=1}else{var
-ci=aZ[1],eN=aY[1],eO=p[1],eP=j6(m,J[1],[1,[3,eO,eO],[3,eN,eN]],[1,[0,c,c],[3,ci,ci]]);if(eP){var
-x=dY(m,cI(J[2]),ci);du=1;dv=1}else
-var
-eQ=eP}else
-var
-eQ=aZ;if(!dv)var
-eR=eQ}else
-var
-eR=aY;if(!du){var
-eS=eR;dt=1}}else{var
-eS=p;dt=1}if(dt)var
-x=eS}var
-ck=x}else
-var
-ck=e0;if(ck){var
-a1=S[5],hX=S[6],hY=S[3],hZ=S[1],eT=function(a){var
-b=gF(a1,p,bx,a);return F(gF(a1,p,bx,a),b)},hU=f(eT,bD),hV=f(function(a){return[0,[5,eT(a)]]},bD),hW=[0,f(function(d){var
-b=aM(gF(a1,p,bx,d)),a=aF([4,[0,c,c],hY],j2(j3(a1,p,d[2]),b));switch(hZ){case
-0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bD),hV,hU];return jM(m,d0(S[1]),hW,hX,i3)}return ck}}return gc;case
+bD=[0,N[1],0];break;default:var
+bD=[0,N[1],[0,N[2],0]]}var
+f_=g(bD,f9),f$=g(h[5],f_),ga=g(h[4],f$),gb=[0,h[3],ga],gc=h[2],C=g(A(function(a){return A(dk,g(a[1],a[2]))},gc),gb);break;case
 3:var
-bF=a[7],gd=a[6],ge=a[5],bG=a[4],gf=a[2],gg=a[1],c5=s[2];if(0===c5[0]){var
-c7=c5[3],c8=dh(l(c7),c7);if(c8){var
-gh=c8[1];if(gh[2])return 0;var
-iO=l(gd),fG=E(l(ge),iO);if(fG)var
-iP=l(bG),iQ=0,cQ=o(function(a){return ba(iQ,iP,a)},bF);else
+gd=A(cR,h[7]),ge=g(h[6],gd),gf=g(h[5],ge),gg=h[2],C=g(A(function(a){return dk(a[2])},gg),gf);break;case
+4:var
+gh=A(cR,h[3]),C=[0,h[1],[0,h[2],gh]];break;case
+5:var
+gi=A(cR,h[4]),gj=g(bo(h[3]),gi),gk=g(bo(h[2]),gj),gl=g(A(hh,h[1]),gk),C=[0,h[5],gl];break;case
+6:var
+bE=h[1],C=bE?dk(bE[1]):bE;break;default:var
+gm=A(cR,h[4]),gn=g(hi(h[3]),gm),C=g(A(hh,h[2]),gn)}var
+d1=fl(dY,C);if(d1){var
+O=q[2];switch(O[0]){case
+0:var
+aa=dZ(O[1],O[3]);break;case
+1:var
+aa=d0(O[1],O[2],O[3]);break;default:var
+go=O[1],aa=o(function(a){if(typeof
+a!=="number")switch(a[0]){case
+1:return dZ(a[1],a[3]);case
+2:return d0(a[1],a[2],a[3])}return 1},go)}}else{var
+d2=d1;b$=1}}else{var
+d2=bG;b$=1}if(b$)var
+aa=d2;if(aa){var
+a=q[1];switch(a[0]){case
+0:var
+en=a[4],eo=a[3],ep=a[2],eq=a[1],P=q[2];switch(P[0]){case
+0:return lf(eq,ep,eo,en,P[1],P[2],P[3]);case
+1:return lg(eq,ep,eo,en,P[2],P[3],P[4]);default:return 0}case
+1:var
+aH=a[3],F=a[1],aI=q[2];if(1===aI[0]){var
+aJ=aI[2];if(aJ){var
+aK=aJ[2];if(aK){var
+aL=aK[2];if(aL){if(aL[2])return 0;var
+er=aI[3],es=la(F,f(i,er));if(es[2])return 0;var
+et=hA(A(ld,F),er);if(et){var
+eb=$(w7,l(F));if(eb)var
+gD=l(F),gE=1,bP=o(function(a){return bb(gE,gD,a)},aH);else
 var
-cQ=fG;var
-fH=cQ?fb(bF):cQ,fI=fH?o(function(a){return d9(a[2])},gf):fH,gj=fI?o(g6,df(l(bG),bF)):fI,gk=gj?g$(l(gg),c7):gj;if(gk){var
-i4=gh[1],i5=a[3],fs=df(l(bG),bF),iE=bX(ge,gd),cC=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},iE),iF=f(function(a){return f(cK,a)},bG),iG=f(function(a){var
-b=cK(a[2]);return[0,a[1],b]},i5),k=[0,gg,f(function(a){var
-b=b0(a[2]);return[0,a[1],b]},gf),iG,iF],aD=c5[1],hN=f(dE,k[2]),ca=g(k[1],hN),aQ=l(k[1]),et=ac(rn,aQ),eu=et?ac(aQ,ro):et,ex=eu?ac(aQ,l(k[4])):eu,ey=ex?ac(l(k[4]),rp):ex;if(ey)var
-hO=k[4],cb=o(function(a){return E(l(a),aQ)},hO);else
+bP=eb;var
+ec=bP?fp(aH):bP,ed=ec?o(ej,A(ld,F)):ec,gM=ed?o(hu,dn(l(F),aH)):ed,bR=gM}else
 var
-cb=ey;if(cb){var
-aP=ca;for(;;){if(aP){var
-er=aP[2],hM=aP[1],es=aC(aT(function(b){return function(a){return nh(b,a)}}(hM),er));if(es){var
-aP=er;continue}var
-ez=es}else
+bR=et;if(bR){var
+gP=hq(aI[4]),gQ=i(aL[1]),gR=i(aK[1]),H=[0,i(aJ[1]),gR,gQ],aN=es[1],gS=a[2],gx=dn(l(F),aH),gy=k3(gS),ai=f(wC,F),S=aN;for(;;){if(ai){if(S){var
+r=S[1],K=ai[1],cm=aW(m,K[1],r[1]),co=cm?aW(m,K[2],r[2]):cm,cp=co?aW(m,K[3],r[3]):co,cq=cp?aW(m,K[4],r[4]):cp,cr=cq?cM(m,K[5],r[5]):cq,cs=cr?cM(m,K[6],r[6]):cr,ct=cs?j(m,1,r[5]):cs,cu=ct?j(m,1,r[6]):ct,cv=cu?j(m,1,G(r[1],r[1])):cu;if(cv)var
+ff=gN(r),a5=j(m,1,G(gN(r),ff));else
 var
-ez=1;var
-cc=ez;break}}else
+a5=cv;var
+cw=a5?dM(K[7],r[7]):a5;if(cw){var
+ai=ai[2],S=S[2];continue}var
+cx=cw}else
 var
-cc=cb;if(cc){var
-aO=ca,aN=k[3];for(;;){if(aN){var
-en=aN[1],eo=en[1],ep=aC(aT(function(b){return function(a){return as(b,a)}}(eo),aO)),eq=ep?gC(aO,en[2]):ep;if(eq){var
-aO=[0,eo,aO],aN=aN[2];continue}var
-eA=eq}else
+cx=S;var
+a6=cx}else
 var
-eA=1;var
-cd=eA;break}}else
+a6=S?0:1;var
+cy=a6?jZ(m,gy,H):a6;if(cy){var
+fg=f(function(a){return kd(a,H)},aN),fh=f(function(a){var
+b=kf(a,H);return[1,ke(a,H),b]},aN);return ka(m,rT,[0,f(function(a){var
+d=kb(a),e=aF(kf(a,H),d),f=gO(a),g=aF(ke(a,H),f),h=ag(function(b,a){return[2,b,a]},g,e),i=aF(a[5],h),j=a[3],k=ag(function(b,a){return[2,b,a]},j,i),l=a[4],m=ag(function(b,a){return[2,b,a]},H,l),n=ag(function(b,a){return[3,b,a]},m,k),o=gU(a,H),b=aF([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aN),fh,fg],gx,gP)}return cy}}var
+eu=bR}else
 var
-cd=cc;if(cd)var
-hP=k[4],hQ=g(f(dE,k[3]),ca),hR=function(a){return gC(hQ,a)},cf=o(function(a){return o(hR,a)},hP);else
+eu=aL;var
+ev=eu}else
 var
-cf=cd;if(cf)var
-hS=k[2],ch=o(function(a){return bz(m,a[2][1],a[2][2])},hS);else
+ev=aK;var
+ew=ev}else
 var
-ch=cf;var
-eB=ch?o(function(a){return bz(m,a[1],a[2])},cC):ch;if(eB){var
-hB=l(k[1]),b3=l(k[2]),ef=K(b3,l(dX(f(cW,k[3])))),hC=k[3],av=jY(k),aL=hC,b2=b3;for(;;){if(aL){var
-ed=aL[1],ee=ed[2],hv=K(b2,l(bB(ee))),hw=aL[2],hx=bC(av,ee,b2),av=[0,[0,ed[1],hx],av],aL=hw,b2=hv;continue}var
-hD=jV(av,k[4],ef),b4=f(function(a){return[0,a,n(c)]},hD),hE=jW(av,k[4],ef),hF=k[3],b5=g(jS(jY(k),hF,b3),hE),b6=dQ(g(cE(b4),b5))[1],hG=dP(b6),b7=function(a){return bw(hG,a)},eg=e(a2(b7),b4),eh=E(l(cC),hB);if(eh)var
-hH=g(cE(b4),b5),b8=o(function(a){var
-b=n(d),c=dP(b6);return a_(z(b7(a),c,b),a)},hH);else
+ew=aJ;return ew}return 0;case
+2:var
+aO=a[7],aP=a[6],aQ=a[5],aT=a[4],aU=a[3],W=a[2],X=a[1],Y=q[2];switch(Y[0]){case
+0:var
+bS=Y[3],ac=k5(X,W,aU,aT,aQ,aP,aO),bT=dq(l(bS),bS);if(bT){var
+ex=bT[1];if(ex[2])return 0;var
+ey=le(X,W,aU,aT,aQ,aP,aO),ez=ey?hz(d_(X),bS):ey;if(ez){var
+gT=ex[1],gW=ac[2],gX=x(c,dp(A(function(a){var
+b=bK(a[2]);return g(bK(a[1]),b)},gW))),gZ=Y[1],fP=ac[2],dx=o(function(a){var
+b=g6(m,a[1]);return b?g6(m,a[2]):b},fP),dy=dx?g6(m,ac[4]):dx;if(dy)var
+fQ=kC(ac[5]),bt=o(function(a){return fb(m,a)},fQ);else
 var
-b8=eh;var
-ei=b8?aT(rm,fs):b8;if(ei){var
-hy=C(dX,k[4]),hz=g(dX(f(cW,k[3])),hy),hA=g(jX(k[2]),hz),b9=aE(f(function(a){return an(aD,a)},hA));if(b9){var
-b_=aE(f(function(a){return an(aD,[0,a,d])},cC));if(b_){var
-b$=aE(f(function(a){if(typeof
+bt=dy;return bt?so(gZ,ac,gX,gT):bt}var
+eA=ez}else
+var
+eA=bT;return eA;case
+1:var
+eB=Y[3],eC=f(i,Y[2]),eD=hv(X),eE=lb(W,f(i,eB));if(eE[2])return 0;var
+eF=hA(A(function(a){return g(a[1],a[2])},W),eB),eG=eF?le(X,W,aU,aT,aQ,aP,aO):eF;if(eG){var
+g0=hq(Y[4]),p=i$(eD,eC),aV=ht(eM(eD,eC)),aX=eE[1],I=k5(X,W,aU,aT,aQ,aP,aO),aw=I[2],T=aX;for(;;){if(aw){if(T){var
+dm=T[1],ds=aw[1],dt=aW(m,ds[1],dm[1]),du=dt?aW(m,ds[2],dm[2]):dt;if(du){var
+aw=aw[2],T=T[2];continue}var
+dv=du}else
+var
+dv=T;var
+br=dv}else
+var
+br=T?0:1;var
+dw=br?aW(m,I[4],aV):br;if(dw){var
+y=I[5];switch(y[0]){case
+0:var
+u=p?p[2]?0:d8(m,y[1],p[1]):p;break;case
+1:var
+ca=0;if(p){var
+an=p[2],cb=0;if(an){var
+ap=an[2],cc=0;if(ap)if(ap[2]){var
+u=0;cb=1;cc=1}else{var
+c1=d8(m,y[1],p[1]),c2=c1?d8(m,y[2],an[1]):c1;if(c2){var
+u=d8(m,y[3],ap[1]);cb=1;cc=1}else
+var
+c3=c2}else
+var
+c3=ap;if(!cc)var
+c5=c3}else
+var
+c5=an;if(!cb){var
+c7=c5;ca=1}}else{var
+c7=p;ca=1}if(ca)var
+u=c7;break;case
+2:var
+cd=0;if(p){var
+ar=p[2],ce=0;if(ar){var
+as=ar[2];if(as)if(as[2]){var
+u=0;ce=1}else{var
+c8=as[1],c_=ar[1],da=p[1],fI=G([0,da,c_,c8],[0,da,c_,c8]),u=kv(m,y[1],fI,[0,c,c]);ce=1}else
+var
+dc=as}else
+var
+dc=ar;if(!ce){var
+dd=dc;cd=1}}else{var
+dd=p;cd=1}if(cd)var
+u=dd;break;default:var
+cf=0;if(p){var
+at=p[2],cg=0;if(at){var
+au=at[2],ch=0;if(au)if(au[2]){var
+u=0;cg=1;ch=1}else{var
+bq=au[1],de=at[1],df=p[1],dg=kv(m,y[1],[2,[4,df,df],[4,de,de]],[2,[0,c,c],[4,bq,bq]]);if(dg){var
+u=d8(m,cP(y[2]),bq);cg=1;ch=1}else
+var
+dh=dg}else
+var
+dh=au;if(!ch)var
+di=dh}else
+var
+di=at;if(!cg){var
+dj=di;cf=1}}else{var
+dj=p;cf=1}if(cf)var
+u=dj}var
+bs=u}else
+var
+bs=dw;if(bs){var
+ax=I[5],fM=I[6],fN=I[3],fO=I[1],dl=function(a){var
+b=gY(ax,p,aV,a);return G(gY(ax,p,aV,a),b)},fJ=f(dl,aX),fK=f(function(a){return[0,[6,dl(a)]]},aX),fL=[0,f(function(d){var
+b=aM(gY(ax,p,aV,d)),a=aF([5,[0,c,c],fN],kr(ks(ax,p,d[2]),b));switch(fO){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aX),fK,fJ];return ka(m,d_(I[1]),fL,fM,g0)}return bs}}return eG;default:return 0}case
+3:var
+aY=a[7],eH=a[6],eI=a[5],aZ=a[4],eJ=a[2],eK=a[1],bU=q[2];if(0===bU[0]){var
+bV=bU[3],bW=dq(l(bV),bV);if(bW){var
+eL=bW[1];if(eL[2])return 0;var
+gG=l(eH),ee=E(l(eI),gG);if(ee)var
+gJ=l(aZ),gL=0,bQ=o(function(a){return bb(gL,gJ,a)},aY);else
+var
+bQ=ee;var
+ef=bQ?fp(aY):bQ,eg=ef?o(function(a){return ej(a[2])},eJ):ef,eN=eg?o(hu,dn(l(aZ),aY)):eg,eO=eN?hz(l(eK),bV):eN;if(eO){var
+g1=eL[1],g2=a[3],d6=dn(l(aZ),aY),gu=b1(eI,eH),bM=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gu),gv=f(function(a){return f(cS,a)},aZ),gw=f(function(a){var
+b=cS(a[2]);return[0,a[1],b]},g2),k=[0,eK,f(function(a){var
+b=b7(a[2]);return[0,a[1],b]},eJ),gw,gv],af=bU[1],fC=f(cC,k[2]),bi=g(k[1],fC),am=l(k[1]),cU=$(rV,am),cV=cU?$(am,rW):cU,cW=cV?$(am,l(k[4])):cV,cX=cW?$(l(k[4]),rX):cW;if(cX)var
+fD=k[4],bj=o(function(a){return E(l(a),am)},fD);else
+var
+bj=cX;var
+cY=bj?kn(bi):bj;if(cY){var
+al=bi,ak=k[3];for(;;){if(ak){var
+cN=ak[1],cO=cN[1],cQ=av(aR(function(b){return function(a){return ao(b,a)}}(cO),al)),cT=cQ?gV(al,cN[2]):cQ;if(cT){var
+al=[0,cO,al],ak=ak[2];continue}var
+cZ=cT}else
+var
+cZ=1;var
+bk=cZ;break}}else
+var
+bk=cY;if(bk)var
+fE=k[4],fF=g(f(cC,k[3]),bi),fG=function(a){return gV(fF,a)},bl=o(function(a){return o(fG,a)},fE);else
+var
+bl=bk;if(bl)var
+fH=k[2],bp=o(function(a){return bm(m,a[2][1],a[2][2])},fH);else
+var
+bp=bl;var
+c0=bp?o(function(a){return bm(m,a[1],a[2])},bM):bp;if(c0){var
+fr=l(k[1]),a9=l(k[2]),cB=M(a9,l(d7(f(c4,k[3])))),fs=k[3],_=km(k),aj=fs,a7=a9;for(;;){if(aj){var
+cz=aj[1],cA=cz[2],fi=M(a7,l(bH(cA))),fj=aj[2],fk=bI(_,cA,a7),_=[0,[0,cz[1],fk],_],aj=fj,a7=fi;continue}var
+ft=kj(_,k[4],cB),a_=f(function(a){return[0,a,n(c)]},ft),fu=kk(_,k[4],cB),fv=k[3],ba=g(kg(km(k),fv,a9),fu),bc=dX(g(cL(a_),ba))[1],fw=dW(bc),bd=function(a){return bC(fw,a)},cD=e(a2(bd),a_),cE=E(l(bM),fr);if(cE)var
+fx=g(cL(a_),ba),be=o(function(a){var
+b=n(d),c=dW(bc);return a$(z(bd(a),c,b),a)},fx);else
+var
+be=cE;var
+cG=be?aR(rU,d6):be;if(cG){var
+fn=A(d7,k[4]),fo=g(d7(f(c4,k[3])),fn),fq=g(kl(k[2]),fo),bf=aE(f(function(a){return aq(af,a)},fq));if(bf){var
+bg=aE(f(function(a){return aq(af,[0,a,d])},bM));if(bg){var
+bh=aE(f(function(a){if(typeof
 a==="number")return[0,[0,L]];else
 switch(a[0]){case
 0:var
-f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
+f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 1:var
-h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
+h=[5,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=an(aD,[0,[0,b,b],d]);return Z(function(a){return e(R(aD,a))},g)},fs));if(b$){var
-ej=b$[1],hI=jm(ej),hJ=b_[1],hK=function(a){return 0},hL=b9[1];return gm(aD,b6,eg,eg,f(b7,b5),hL,ej,hK,hJ,hI,i4)}var
-ek=b$}else
+g=aq(af,[0,[0,b,b],d]);return R(function(a){return e(U(af,a))},g)},d6));if(bh){var
+cH=bh[1],fy=jM(cH),fz=bg[1],fA=function(a){return 0},fB=bf[1];return gF(af,bc,cD,cD,f(bd,ba),fB,cH,fA,fz,fy,g1)}var
+cI=bh}else
 var
-ek=b_;var
-el=ek}else
+cI=bg;var
+cJ=cI}else
 var
-el=b9;var
-em=el}else
+cJ=bf;var
+cK=cJ}else
 var
-em=ei;return em}}return eB}var
-gl=gk}else
+cK=cG;return cK}}return c0}var
+eP=eO}else
 var
-gl=c8;return gl}return 0;case
-4:if(0===s[2][0]){var
-gn=di(i(a[1]));if(gn){var
-bH=a[3],dw=0;if(bH){var
-a5=bH[1],a6=a5[4],M=bH[2];if(a5[1]||a5[2]||a5[3])var
-u=0;else{var
-I=0;if(typeof
-a6!=="number")switch(a6[0]){case
+eP=bW;return eP}return 0;case
+4:if(0===q[2][0]){var
+eQ=dr(i(a[1]));if(eQ){var
+a0=a[3],ci=0;if(a0){var
+aB=a0[1],aC=aB[4],D=a0[2];if(aB[1]||aB[2]||aB[3])var
+s=0;else{var
+w=0;if(typeof
+aC!=="number")switch(aC[0]){case
 0:var
-bL=0;if(M){var
-a8=M[1],cD=a8[4];if(a8[1]||a8[2]||a8[3]){var
-u=0;I=1;bL=1}else{var
-dx=0;if(typeof
-cD!=="number"&&1===cD[0])if(M[2]){var
-u=0;I=1;bL=1;dx=1}else{var
-iJ=i(cD[1]),u=[0,[0,i(a6[1]),iJ]];I=1;bL=1;dx=1}if(!dx)var
-fu=0}}else
+a3=0;if(D){var
+aD=D[1],bN=aD[4];if(aD[1]||aD[2]||aD[3]){var
+s=0;w=1;a3=1}else{var
+cj=0;if(typeof
+bN!=="number"&&1===bN[0])if(D[2]){var
+s=0;w=1;a3=1;cj=1}else{var
+gz=i(bN[1]),s=[0,[0,i(aC[1]),gz]];w=1;a3=1;cj=1}if(!cj)var
+d$=0}}else
 var
-fu=M;if(!bL){var
-u=fu;I=1}break;case
+d$=D;if(!a3){var
+s=d$;w=1}break;case
 1:var
-bM=0;if(M){var
-a9=M[1],cG=a9[4];if(a9[1]||a9[2]||a9[3]){var
-u=0;I=1;bM=1}else{var
-dy=0;if(typeof
-cG!=="number"&&0===cG[0])if(M[2]){var
-u=0;I=1;bM=1;dy=1}else{var
-iK=i(a6[1]),u=[0,[0,i(cG[1]),iK]];I=1;bM=1;dy=1}if(!dy)var
-fv=0}}else
+a4=0;if(D){var
+aG=D[1],bO=aG[4];if(aG[1]||aG[2]||aG[3]){var
+s=0;w=1;a4=1}else{var
+ck=0;if(typeof
+bO!=="number"&&0===bO[0])if(D[2]){var
+s=0;w=1;a4=1;ck=1}else{var
+gA=i(aC[1]),s=[0,[0,i(bO[1]),gA]];w=1;a4=1;ck=1}if(!ck)var
+ea=0}}else
 var
-fv=M;if(!bM){var
-u=fv;I=1}break}if(!I){var
-ft=0;dw=1}}}else{var
-ft=bH;dw=1}if(dw)var
-u=ft;if(u){var
-gq=u[1],gt=gq[2],gw=gq[1],e6=j(m,1,i(a[2])),e7=e6?j(m,1,[2,gt,[0,c,c]]):e6,e8=e7?j(m,1,gw):e7;return e8?j(m,0,[2,[4,[0,c,c],gt],gw]):e8}var
-gx=u}else
+ea=D;if(!a4){var
+s=ea;w=1}break}if(!w){var
+d9=0;ci=1}}}else{var
+d9=a0;ci=1}if(ci)var
+s=d9;if(s){var
+eR=s[1],eS=eR[2],eT=eR[1],dC=j(m,1,i(a[2])),dD=dC?j(m,1,[3,eS,[0,c,c]]):dC,dE=dD?j(m,1,eT):dD;return dE?j(m,0,[3,[5,[0,c,c],eS],eT]):dE}var
+eU=s}else
 var
-gx=gn;return gx}return 0;case
+eU=eQ;return eU}return 0;case
 5:var
-c9=a[4],gy=a[1],c_=s[2];if(0===c_[0]){var
-gz=c_[3],v=e_(gy,[0,a[2],a[3]],0,c9),c$=g3(l(gz),gz);if(c$){var
-gA=c$[1];if(gA[2])return 0;var
-gD=g_(gy,0,c9,v),gE=gD?aC(aT(wr,c9)):gD;if(gE){var
-gG=jI(m,v);if(gG){var
-i6=gA[1],gH=f(kF,v[1]),G=kG(v[1]),gI=i(a[5]),ab=c_[1],co=go(G,gH,v[1]),ah=gp(G,gH,v[1],0),h3=l(v[3]),h4=K(l(co),h3),a3=[0,l(co),h4],h5=gr(ah,G,a3,v[3]),h6=g(f(c1,ah),h5),fc=g(cE(eI(ah)),h6),fd=dQ(fc)[1],cp=dP(fd),fe=v[2];if(0===fe[0]){var
-ff=o(function(a){var
-b=n(d);return a_(z(bw(cp,a),cp,b),a)},fc),fg=ff?j(m,1,gI):ff;if(fg){var
-h7=v[3],h8=C(function(a){return c3(G,a)},h7),h9=v[3],h_=g(co,g(f(function(a){return bg(G,a)},h9),h8)),cq=aE(f(function(a){return an(ab,a)},h_));if(cq){var
-h$=a7(fe[1],G),cr=aE(f(function(a){return an(ab,a)},h$));if(cr){var
-cs=ce(ab,G,[4,gI,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cs){var
-ct=v[3],ia=cr[1],ib=cs[1],ic=cq[1],a4=function(a){return bw(cp,a)},e$=f(aU,ic),fa=function(Z,X){var
-f=Z,a=X;for(;;){if(0===a[0]){var
-n=a[1],y=E(l(n),r2),A=y?o(function(a){var
-d=H(Y(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},n):y;if(A){var
-B=kt(ab,ib,gi(0,f),n),e=a[2],D=cg(0,cZ(ab,B,e$),fd,0),g=function(b){var
-a=ks(ab,B,e$,D,b);return a?aa(d,a[1][2][1]):a};if(typeof
-e==="number")return aT(function(b){var
-a=z(a4(b[2]),D,0);return a?H(a[1][2][2],d):a},ah);else{if(0===e[0]){var
-h=e[1],i=ai(ct,h);if(i){var
-Q=e[2],R=i[1],S=ew(h,ct),T=l(C(function(a){return c3(G,a)},S)),U=K(a3[2],T),j=r1(ab,a4,ah,G,[0,K(a3[1],h),U],R,Q);if(j){var
-q=j[1],V=q[1],r=o(function(a){return g([0,a[2]])},V);if(r)return o(g,q[2]);var
+bX=a[4],eV=a[1],bY=q[2];if(0===bY[0]){var
+eW=bY[3],t=hk(eV,[0,a[2],a[3]],0,bX),bZ=hr(l(eW),eW);if(bZ){var
+eY=bZ[1];if(eY[2])return 0;var
+eZ=hy(eV,0,bX,t),e0=eZ?av(aR(xf,bX)):eZ;if(e0){var
+e1=j8(m,t);if(e1){var
+g3=eY[1],e2=f(k8,t[1]),v=k9(t[1]),e3=i(a[5]),Q=bY[1],bw=gH(v,e2,t[1]),V=gI(v,e2,t[1],0),fS=l(t[3]),fT=M(l(bw),fS),ay=[0,l(bw),fT],fU=gK(V,v,ay,t[3]),fV=g(f(c$,V),fU),dH=g(cL(eX(V)),fV),dI=dX(dH)[1],bx=dW(dI),dJ=t[2];if(0===dJ[0]){var
+dK=o(function(a){var
+b=n(d);return a$(z(bC(bx,a),bx,b),a)},dH),dL=dK?j(m,1,e3):dK;if(dL){var
+fW=t[3],fX=A(function(a){return db(v,a)},fW),fY=t[3],fZ=g(bw,g(f(function(a){return bn(v,a)},fY),fX)),by=aE(f(function(a){return aq(Q,a)},fZ));if(by){var
+f0=a8(dJ[1],v),bz=aE(f(function(a){return aq(Q,a)},f0));if(bz){var
+bA=cn(Q,v,[5,e3,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bA){var
+bB=t[3],f1=bz[1],f2=bA[1],f3=by[1],az=function(a){return bC(bx,a)},dF=f(aS,f3),dG=function(_,Z){var
+f=_,a=Z;for(;;){if(0===a[0]){var
+n=a[1],B=E(l(n),sy),C=B?o(function(a){var
+d=J(ab(b(2,b(2,b(2,c)))),a);return d?J(a,b(2,b(2,b(2,c)))):d},n):B;if(C){var
+D=kU(Q,f2,gB(0,f),n),e=a[2],F=cl(0,c9(Q,D,dF),dI,0),g=function(b){var
+a=kT(Q,D,dF,F,b);return a?ad(d,a[1][2][1]):a};if(typeof
+e==="number")return aR(function(b){var
+a=z(az(b[2]),F,0);return a?J(a[1][2][2],d):a},V);else{if(0===e[0]){var
+h=e[1],i=ae(bB,h);if(i){var
+R=e[2],S=i[1],T=eM(h,bB),U=l(A(function(a){return db(v,a)},T)),W=M(ay[2],U),j=sx(Q,az,V,v,[0,M(ay[1],h),W],S,R);if(j){var
+q=j[1],X=q[1],r=o(function(a){return g([0,a[2]])},X);if(r)return o(g,q[2]);var
 s=r}else
 var
 s=j;var
 t=s}else
 var
 t=i;return t}var
-u=e[1],k=ai(ct,u);if(k){var
-v=k[1];if(typeof
-v!=="number"&&1===v[0]){var
-m=ai(ah,e[2]);if(m){var
-W=K(a3[1],u),x=m[1],P=[1,[6,[1,[8,[1,[1,W]]]],[0,a4(x[2])]]];return g([1,[4,[1,[8,[0,a4(c1(x))]]],P]])}return m}var
-w=0}else
+u=e[1],k=ae(bB,u);if(k){var
+w=k[1];if(typeof
+w!=="number"&&1===w[0]){var
+m=ae(V,e[2]);if(m){var
+Y=M(ay[1],u),y=m[1],P=[1,[6,[1,[8,[1,[1,Y]]]],[0,az(y[2])]]];return g([1,[4,[1,[8,[0,az(c$(y))]]],P]])}return m}var
+x=0}else
 var
-w=k;return w}}return A}var
-F=a[1],p=ai(f,F);if(p){var
-I=p[1],_=I[1],J=aC(al(by(I),_));if(J){var
-L=dU(F,f),M=fa(L[1],a[2]);if(M){var
-f=L[2],a=a[3];continue}var
-N=M}else
+x=k;return x}}return C}var
+G=a[1],p=ae(f,G);if(p){var
+H=p[1],$=H[1],I=av(ah(bF(H),$));if(I){var
+K=d4(G,f),L=dG(K[1],a[2]);if(L){var
+f=K[2],a=a[3];continue}var
+N=L}else
 var
-N=J;var
+N=I;var
 O=N}else
 var
-O=p;return O}};return fa(ia,i6)}var
-fh=cs}else
+O=p;return O}};return dG(f1,g3)}var
+dN=bA}else
 var
-fh=cr;var
-fi=fh}else
+dN=bz;var
+dO=dN}else
 var
-fi=cq;var
-fj=fi}else
+dO=by;var
+dP=dO}else
 var
-fj=fg;return fj}return 0}var
-gJ=gG}else
+dP=dL;return dP}return 0}var
+e4=e1}else
 var
-gJ=gE;var
-gK=gJ}else
-var
-gK=c$;return gK}return 0;default:var
-gL=a[1];if(gL){var
-gM=gL[1],dd=s[2];if(0===dd[0]){var
-de=g1(wu,dd[3]);if(de){var
-gO=d9(gM);if(gO){var
-i7=de[1],gP=b0(gM)[2],bI=dd[1],cm=ce(bI,d,gP);if(cm){var
-cn=ce(bI,d,[4,[0,c,c],gP]);if(cn){var
-h2=cm[1][1],e3=aa(cy(bI),h2);if(e3)return kr(bI,cn[1][1],i7);var
-e4=e3}else
-var
-e4=cn;var
+e4=e0;var
 e5=e4}else
 var
-e5=cm;return e5}var
-gQ=gO}else
+e5=bZ;return e5}return 0;case
+6:var
+e6=a[1];if(e6){var
+e7=e6[1],b0=q[2];if(0===b0[0]){var
+b2=hp(xk,b0[3]);if(b2){var
+e8=ej(e7);if(e8){var
+g4=b2[1],e9=b7(e7)[2],a1=b0[1],bu=cn(a1,d,e9);if(bu){var
+bv=cn(a1,d,[5,[0,c,c],e9]);if(bv){var
+fR=bu[1][1],dz=ad(cF(a1),fR);if(dz)return kS(a1,bv[1][1],g4);var
+dA=dz}else
 var
-gQ=de;return gQ}return 0}var
-dj=s[2];if(0===dj[0]){var
-dk=g1(wv,dj[3]);return dk?kr(dj[1],d,dk[1]):dk}return 0}}return ax}var
-A=[ax,wy,fE(0)],kO=[ax,wz,fE(0)];function
-ww(y,b){var
-r=[0,h(vi,ao(b[4])),0],s=[0,h(vk,P([0,h(vj,ao(b[3])),r])),0],a=b[2];if(0===a[0]){var
-c=a[2],l=[0,h(u_,x(f(u5,a[3]))),0];if(c)var
-e=c[1],i=[0,h(u$,e7(e[1],e[2])),0];else
+dA=bv;var
+dB=dA}else
 var
-i=c;var
-m=g(i,l),j=O(vb,P([0,h(va,gS(a[1])),m]))}else
+dB=bu;return dB}var
+e_=e8}else
 var
-d=a[3],n=[0,h(vc,kx(a[4])),0],o=d?[0,h(vd,x(f(I,d))),0]:d,p=g(o,n),q=[0,h(ve,x(f(I,a[2]))),0],j=O(vg,P(g([0,h(vf,gS(a[1])),q],p)));var
-t=[0,h(vl,j),s],u=0===b[2][0]?vm:vr,v=[0,h(vn,ao(u)),t],w=[0,h(vo,t$(b[1])),v],k=as(ij(wx,e4(P([0,h(vq,ao(vp)),w]),vh)),y);return k?ws(b):k}function
-X(a){if(0===a[0])return a[1];throw A}function
-$(a){if(1===a[0])return a[1];throw A}function
-aQ(a){if(2===a[0])return a[1];throw A}function
-dj(a){if(3===a[0])return a[1];throw A}function
+e_=b2;return e_}return 0}var
+b3=q[2];if(0===b3[0]){var
+b4=hp(xl,b3[3]);return b4?kS(b3[1],d,b4[1]):b4}return 0;default:var
+Z=a[1],e$=q[2];if(2===e$[0]){var
+fa=e$[1],b6=hn(l(fa),fa);if(b6){var
+fc=b6[1];if(fc[2])return 0;var
+b8=fc[1],ek=$(xi,l(Z)),el=ek?$(l(Z),jk):ek,em=el?kn(f(cC,Z)):el,fd=em?o(function(c){var
+a=b5(i(c[2][1]));if(a){var
+b=b5(i(c[2][2]));if(b)return av(c6(b[1],a[1]));var
+d=b}else
+var
+d=a;return d},Z):em;if(fd)var
+g5=fm(wD,b8),b9=li(a[5],g5);else
+var
+b9=fd;if(b9)var
+g7=fm(wE,b8),b_=li(a[6],g7);else
+var
+b_=b9;if(b_){var
+gC=f(function(a){return[0,d,0]},Z);return lh(Z,a[2],a[3],a[4],gC,b8)}var
+fe=b_}else
+var
+fe=b6;return fe}return 0}}return aa}var
+B=[az,xo,fV(0)],lj=[az,xp,fV(0)];function
+xm(m,b){var
+e=[0,h(v4,ak(b[4])),0],g=[0,h(v6,Q([0,h(v5,ak(b[3])),e])),0],a=b[2];switch(a[0]){case
+0:var
+c=H(v0,kY(a[1],a[2],a[3]));break;case
+1:var
+c=H(v1,kZ(a[1],a[2],a[3],a[4]));break;default:var
+c=H(v2,w(f(vV,a[1])))}var
+i=[0,h(v7,c),g],j=1===b[2][0]?wb:v8,k=[0,h(v9,ak(j)),i],l=[0,h(v_,uH(b[1])),k],d=ao(iL(xn,fg(Q([0,h(wa,ak(v$)),l]),v3)),m);return d?xj(b):d}function
+S(a){if(0===a[0])return a[1];throw B}function
+V(a){if(1===a[0])return a[1];throw B}function
+aN(a){if(2===a[0])return a[1];throw B}function
+ds(a){if(3===a[0])return a[1];throw B}function
 aX(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Bu(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===CE(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-q(c,b){var
-a=aX(c,b);if(a)return a[1];throw A}function
-cM(b,a){var
+p(c,b){var
+a=aX(c,b);if(a)return a[1];throw B}function
+cU(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dk(a){switch(a[0]){case
+cV(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],wA]}throw A}function
-dl(e,d){var
-a=ab(e,$(d));if(a){var
+2:return[0,a[1],xq]}throw B}function
+dt(e,d){var
+a=Z(e,V(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw A}function
-fd(i){var
-f=b6(i),d=[0,0],e=a4(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw B}function
+fr(i){var
+f=cb(i),d=[0,0],e=a5(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=du(f,c)+hl|0;if(9<g>>>0)throw A;switch(g){case
+a=d[1],g=dB(f,c)+hM|0;if(9<g>>>0)throw B;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5768,87 +6019,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d_(a){return iH(fd(a))}function
-d$(b){var
-a=dj(b);return 45===V(a,0)?Y(d_(dB(a,1,J(a)-1|0))):d_(a)}function
-kP(a){return f2(d_(dj(a)))}function
-fe(a){return iG(d_(dj(a)))}function
-cN(c){var
-a=dj(c);if(6<J(a))throw A;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hX(a))}function
-kQ(a){var
-b=97<=a?1:0,c=b?a<=m1?1:0:b;if(c)var
+ek(a){return i7(fr(a))}function
+el(b){var
+a=ds(b);return 45===Y(a,0)?ab(ek(dI(a,1,K(a)-1|0))):ek(a)}function
+lk(a){return gh(ek(ds(a)))}function
+fs(a){return i6(ek(ds(a)))}function
+cu(c){var
+a=ds(c);if(6<K(a))throw B;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(io(a))}function
+ll(a){var
+b=97<=a?1:0,c=b?a<=ny?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-kR(y,b){var
-d=J(b),a=[0,0];function
+lm(y,b){var
+d=K(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?V(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?Y(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=V(b,a[1])&&!(57<V(b,a[1]))){a[1]++;continue}return dB(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=Y(b,a[1])&&!(57<Y(b,a[1]))){a[1]++;continue}return dI(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw A}function
-i(j){if(64<j)throw A;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw B}function
+i(j){if(64<j)throw B;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&as(dB(b,a[1],5),wC)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ao(dI(b,a[1],5),xs)){a[1]=a[1]+4|0;var
 f=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&kQ(V(b,a[1]))){var
+v=0;if(a[1]<d&&ll(Y(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!kQ(V(b,a[1]))&&95!==V(b,a[1])&&(!(48<=V(b,a[1]))||57<V(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(y,dB(b,o,a[1]-o|0))];break}}else
+w=0;if(!ll(Y(b,a[1]))&&95!==Y(b,a[1])&&(!(48<=Y(b,a[1]))||57<Y(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(y,dI(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=as(h,wD);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ao(h,xt);if(r)var
 s=r;else
 var
-t=1<J(h)?1:0,s=t?48===V(h,0)?1:0:t;if(s)throw A;if(q){var
-l=q[1],x=0;if(as(l,wE)||48===V(l,J(l)-1|0))x=1;else
+t=1<K(h)?1:0,s=t?48===Y(h,0)?1:0:t;if(s)throw B;if(q){var
+l=q[1],x=0;if(ao(l,xu)||48===Y(l,K(l)-1|0))x=1;else
 var
-z=fd(l),f=[0,fd(h),z];if(x)throw A}else
+z=fr(l),f=[0,fr(h),z];if(x)throw B}else
 var
-f=[0,fd(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,wB)){if(!(2<J(g))&&2<=hX(g)&&!(64<hX(g)))return[4,f,f2(d_(g))];throw A}throw A}return f}function
+f=[0,fr(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(k(g,xr)){if(!(2<K(g))&&2<=io(g)&&!(64<io(g)))return[4,f,gh(ek(g))];throw B}throw B}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw A;var
+g(d){if(64<d)throw B;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw A;return h}function
-ff(a){return kR(function(a){throw A},a)}function
-kS(a){var
-b=aQ(a);return kR(function(a){return a},b)}function
-S(a){return ff(aQ(a))}function
-b1(a){if(2===a[0])return[0,ff(a[1])];var
-b=X(a),c=S(q(b,wF));return[1,S(q(b,wG)),c]}function
-ad(a){throw[0,kO,aA(ij(wI,a),wH)]}function
-kT(c){var
-a=aQ(c);if(k(a,wJ)){var
-b=k(a,wK);if(b)throw A;return b}return 1}function
-wL(d){var
-b=X(d);function
-a(a){return dl(b1,q(b,a))}var
-c=aQ(q(b,wM));if(k(c,wN)){if(k(c,wO)){if(k(c,wP))return ad([0,wR,[0,c,wQ]]);var
-e=aX(b,wS),f=cM(function(a){return dl(b1,a)},e),g=a(wT);return[1,a(wU),g,f]}var
-h=kT(q(b,wV)),i=b1(q(b,wW)),j=a(wX),l=a(wY);return[0,a(wZ),l,j,i,h]}return[2,a(w0)]}function
-hb(d){var
-a=X(d);if(a){var
-b=a[1];if(!k(b[1],w1)){var
-c=b[2];if(2===c[0]&&!k(c[1],w2))return 1}}return 0}function
-w3(c){var
-a=X(c);if(1-hb(c))throw A;function
-b(b){return dl(b1,q(a,b))}var
-d=kT(q(a,w4)),e=b1(q(a,w5)),f=b1(q(a,w6)),g=b(w7),h=b(w8),i=b(w9);return[0,b(w_),i,h,g,f,e,d]}function
-dm(c,d){var
-a=$(d);if(a){var
+h=g(0);if(a[1]<d)throw B;return h}function
+ft(a){return lm(function(a){return[0,a]},a)}function
+ln(a){var
+b=aN(a);return lm(function(a){return a},b)}function
+P(a){return ft(aN(a))}function
+b8(a){if(2===a[0])return[0,ft(a[1])];var
+b=S(a),c=P(p(b,xv));return[1,P(p(b,xw)),c]}function
+aa(a){throw[0,lj,aC(iL(xy,a),xx)]}function
+lo(c){var
+a=aN(c);if(k(a,xz)){var
+b=k(a,xA);if(b)throw B;return b}return 1}function
+xB(d){var
+b=S(d);function
+a(a){return dt(b8,p(b,a))}var
+c=aN(p(b,xC));if(k(c,xD)){if(k(c,xE)){if(k(c,xF))return aa([0,xH,[0,c,xG]]);var
+e=aX(b,xI),f=cU(function(a){return dt(b8,a)},e),g=a(xJ);return[1,a(xK),g,f]}var
+h=lo(p(b,xL)),i=b8(p(b,xM)),j=a(xN),l=a(xO);return[0,a(xP),l,j,i,h]}return[2,a(xQ)]}function
+hB(d){var
+a=S(d);if(a){var
+b=a[1];if(!k(b[1],xR)){var
+c=b[2];if(2===c[0]&&!k(c[1],xS))return 1}}return 0}function
+xT(c){var
+a=S(c);if(1-hB(c))throw B;function
+b(b){return dt(b8,p(a,b))}var
+d=lo(p(a,xU)),e=b8(p(a,xV)),f=b8(p(a,xW)),g=b(xX),h=b(xY),i=b(xZ);return[0,b(x0),i,h,g,f,e,d]}function
+du(c,d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw A}function
-hc(n){var
-c=X(n),a=aQ(q(c,w$)),h=B6(a,xa),g=0;if(0<=h)if(0<h)if(k(a,xb))if(k(a,xc))if(k(a,xd))if(k(a,xe))if(k(a,xf)){var
-i=k(a,xg);if(i)g=1;else
+f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw B}function
+hC(n){var
+c=S(n),a=aN(p(c,x1)),h=De(a,x2),g=0;if(0<=h)if(0<h)if(k(a,x3))if(k(a,x4))if(k(a,x5))if(k(a,x6))if(k(a,x7)){var
+i=k(a,x8);if(i)g=1;else
 var
 b=i}else
 var
@@ -5863,7 +6114,7 @@ var
 b=2;else
 var
 b=1;else
-if(k(a,xz))if(k(a,xA))if(k(a,xB))if(k(a,xC))if(k(a,xD))if(k(a,xE))g=1;else
+if(k(a,yp))if(k(a,yq))if(k(a,yr))if(k(a,ys))if(k(a,yt))if(k(a,yu))g=1;else
 var
 b=8;else
 var
@@ -5876,277 +6127,305 @@ var
 b=9;else
 var
 b=12;var
-l=g?ad([0,xi,[0,a,xh]]):b;function
-f(a){return q(c,xj)}var
-d=aQ(q(c,xk)),j=k(d,xl);if(j)if(k(d,xm))if(k(d,xn))if(k(d,xo))var
-e=ad([0,xq,[0,d,xp]]);else
+l=g?aa([0,x_,[0,a,x9]]):b;function
+f(a){return p(c,x$)}var
+d=aN(p(c,ya)),j=k(d,yb);if(j)if(k(d,yc))if(k(d,yd))if(k(d,ye))var
+e=aa([0,yg,[0,d,yf]]);else
 var
-m=dm(S,f(0)),e=[2,m[1],m[2]];else
+m=du(P,f(0)),e=[2,m[1],m[2]];else
 var
-e=[0,S(f(0))];else
+e=[0,P(f(0))];else
 var
-e=[1,S(f(0))];else
+e=[1,P(f(0))];else
 var
 e=j;function
 o(w){var
-a=X(w),b=0;switch(l){case
+a=S(w),b=0;switch(l){case
 6:if(a){var
-o=a[1];if(!k(o[1],xs)){var
+o=a[1];if(!k(o[1],yi)){var
 p=o[2];if(1===p[0]){var
 e=p[1],j=0;if(e&&!e[2])if(a[2])j=1;else{var
-d=e[1];b=1;j=1}if(!j&&!a[2])return ad(xt)}}}break;case
+d=e[1];b=1;j=1}if(!j&&!a[2])return aa(yj)}}}break;case
 10:if(a){var
-q=a[1];if(!k(q[1],xu)){var
+q=a[1];if(!k(q[1],yk)){var
 r=q[2];if(1===r[0]){var
 f=r[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-s=g[1];if(!k(s[1],xv)){var
+s=g[1];if(!k(s[1],yl)){var
 t=s[2];if(1===t[0]){var
 h=t[1];if(h&&!h[2]&&!g[2]){var
-x=S(h[1]);return[1,S(f[1]),x]}}}}}}}}break;case
+x=P(h[1]);return[1,P(f[1]),x]}}}}}}}}break;case
 12:if(a){var
-u=a[1];if(!k(u[1],xw)){var
+u=a[1];if(!k(u[1],ym)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!a[2]){var
 d=i[1];b=1}}}}break;case
 2:case
 8:if(a){var
-m=a[1];if(!k(m[1],xr)){var
+m=a[1];if(!k(m[1],yh)){var
 n=m[2];if(1===n[0]){var
 c=n[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,S(d)];throw A}var
-p=cM(o,aX(c,xx));return[0,l,cM(cN,aX(c,xy)),p,e]}function
-hd(c){var
-a=hc(c),b=a[1];if(2!==b&&!(4<=b))return a;return ad(xF)}function
-xG(a){var
-b=hc(a),c=b[1];if(2<=c)switch(c-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,P(d)];throw B}var
+q=cU(o,aX(c,yn));return[0,l,cU(cu,aX(c,yo)),q,e]}function
+hD(c){var
+a=hC(c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(yv)}function
+yw(a){var
+b=hC(a),c=b[1];if(2<=c)switch(c-2|0){case
 0:case
 4:case
-6:return b}return hd(a)}function
-xN(f){var
-a=X(f);function
-d(b){return S(q(a,b))}function
-c(b){return dl(S,q(a,b))}var
-b=aQ(q(a,xO));if(k(b,xP)){if(!k(b,xQ)){var
-j=q(a,xW),e=dm(function(a){return a},j),l=aX(a,xX),m=cM(function(a){return c(xY)},l),n=ff(aQ(e[2])),o=ff(aQ(e[1])),p=d(xZ);return[0,cN(q(a,x0)),p,o,n,m]}if(k(b,xR))throw A}var
-g=d(xS),h=c(xT),i=c(xU);return[1,as(b,xV),i,h,g]}function
-kU(W){var
-i=dk(W),j=i[1];if(k(j,x1)){if(k(j,x2)){if(k(j,x3))return ad([0,x5,[0,j,x4]]);var
-p=q(X(i[2]),x6),O=0;if(2===p[0]){var
-y=k(p[1],x7);if(!y){var
-x=y;O=1}}if(!O)var
-x=[0,b1(p)];return[6,x]}var
-z=X(i[2]),f=kU([0,[0,[0,x9,q(z,x8)],0]]);if(0===f[0]){var
-r=f[2];if(0===r[0]&&!f[3]){var
-Y=S(q(z,x$));return[5,f[1],r[1],r[2],f[4],Y]}}return ad(x_)}var
-b=X(i[2]);function
-B(a){return ab(hc,$(q(b,ya)))}var
-g=dk(q(b,yb)),c=dk(q(b,yc)),a=g[1];if(k(a,yd)&&0!==aX(b,ye))return ad(za);if(k(a,yf)&&k(a,yg)&&k(a,yh)){if(0===aX(b,yi)){if(k(a,yj)){var
-P=0;if(k(a,yk)){if(!k(a,yl)){var
-C=c[1],Q=0;if(k(C,yo)&&k(C,yp)){P=1;Q=1}if(!Q){var
-l=$(g[2]),d=X(c[2]);if(k(c[1],xH))var
-v=dm(S,q(d,xI)),w=dm(S,q(d,xJ)),R=w[2],T=w[1],U=S(q(d,xK)),s=[1,v[1],v[2],U,T,R];else
+6:return b}return hD(a)}function
+yD(f){var
+a=S(f);function
+d(b){return P(p(a,b))}function
+c(b){return dt(P,p(a,b))}var
+b=aN(p(a,yE));if(k(b,yF)){if(!k(b,yG)){var
+j=p(a,yM),e=du(function(a){return a},j),l=aX(a,yN),m=cU(function(a){return c(yO)},l),n=ft(aN(e[2])),o=ft(aN(e[1])),q=d(yP);return[0,cu(p(a,yQ)),q,o,n,m]}if(k(b,yH))throw B}var
+g=d(yI),h=c(yJ),i=c(yK);return[1,ao(b,yL),i,h,g]}function
+hE($){var
+f=cV($),g=f[1];if(k(g,yR)){if(k(g,yS)){if(k(g,yT)){if(k(g,yU))return aa([0,yW,[0,g,yV]]);var
+s=p(S(f[2]),yX),R=0;if(2===s[0]){var
+A=k(s[1],yY);if(!A){var
+z=A;R=1}}if(!R)var
+z=[0,b8(s)];return[6,z]}var
+C=S(f[2]),h=hE([0,[0,[0,y0,p(C,yZ)],0]]);if(0===h[0]){var
+t=h[2];if(0===t[0]&&!h[3]){var
+ab=P(p(C,y2));return[5,h[1],t[1],t[2],h[4],ab]}}return aa(y1)}var
+b=S(f[2]),D=function(a){return Z(hC,V(p(b,y3)))},i=cV(p(b,y4)),c=cV(p(b,y5)),a=i[1];if(k(a,y6)&&0!==aX(b,y7))return aa(z3);if(k(a,y8)&&k(a,y9)&&k(a,y_)){if(0===aX(b,y$)){if(k(a,za)){var
+T=0;if(k(a,zb)){if(!k(a,zc)){var
+E=c[1],U=0;if(k(E,zf)&&k(E,zg)){T=1;U=1}if(!U){var
+m=V(i[2]),d=S(c[2]);if(k(c[1],yx))var
+x=du(P,p(d,yy)),y=du(P,p(d,yz)),W=y[2],X=y[1],Y=P(p(d,yA)),u=[1,x[1],x[2],Y,X,W];else
 var
-V=dl(S,q(d,xL)),s=[0,dl(S,q(d,xM)),V];var
-t=aX(b,ys),D=t?ab(xN,$(t[1])):t,E=b$(hb,l),Z=E?0!==D?1:0:E;if(Z)ad(yt);if(b$(hb,l)){var
-_=ab(hd,$(q(b,yu)));return[1,ab(w3,l),s,_]}var
-aa=B(0);return[0,ab(wL,l),s,D,aa]}}}else
-if(!k(c[1],yv)){var
-ac=B(0),ae=S(q(X(c[2]),yw));return[4,S(q(X(g[2]),yx)),ae,ac]}if(!P)return ad([0,yn,[0,a,ym]])}else
-if(!k(c[1],yy)){var
-m=X(g[2]),F=X(c[2]),G=function(c,a){var
-b=$(a);return ab(function(d){var
-a=$(d);if(a){var
+_=dt(P,p(d,yB)),u=[0,dt(P,p(d,yC)),_];var
+v=aX(b,zj),F=v?Z(yD,V(v[1])):v,G=by(hB,m),ac=G?0!==F?1:0:G;if(ac)aa(zk);if(by(hB,m)){var
+ad=Z(hD,V(p(b,zl)));return[1,Z(xT,m),u,ad]}var
+ae=D(0);return[0,Z(xB,m),u,F,ae]}}}else
+if(!k(c[1],zm)){var
+af=D(0),ag=P(p(S(c[2]),zn));return[4,P(p(S(i[2]),zo)),ag,af]}if(!T)return aa([0,ze,[0,a,zd]])}else
+if(!k(c[1],zp)){var
+n=S(i[2]),H=S(c[2]),I=function(c,a){var
+b=V(a);return Z(function(d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aQ(a[1]),f]}}throw A},b)},af=function(d){var
-a=X(d);if(a){var
-b=a[1],c=b[1];if(k(c,yz)){if(!k(c,yA)&&!a[2])return ab(kS,$(b[2]))}else
-if(!a[2])return ad(yB)}throw A},ag=ab(hd,$(q(b,yC))),ah=ab(S,$(q(F,yD))),ai=ab(S,$(q(F,yE))),aj=ab(af,$(q(m,yF))),ak=G(kS,q(m,yG)),al=G(b1,q(m,yH));return[3,ab(aQ,$(q(m,yI))),al,ak,aj,ai,ah,ag]}return ad([0,yr,[0,c[1],yq]])}throw A}var
-H=c[1],I=X(g[2]),J=X(c[2]);if(k(H,yJ))ad([0,yL,[0,H,yK]]);var
-K=aX(I,yM),am=K?S(K[1]):ad([0,y$,[0,a,y_]]);function
-an(d){var
-a=X(d);function
-b(b){return ab(b1,$(q(a,b)))}var
-c=aQ(q(a,yN)),e=aX(a,yO);if(!k(c,yP)&&!e){var
-f=b(yS);return[0,b(yT),f]}return ad([0,yR,[0,c,yQ]])}var
-h=dk(q(b,yU)),n=h[1];if(k(n,yV))if(k(n,yW))if(k(n,yX)){if(k(n,yY))throw A;var
-L=h[2],ao=S(q(X(L),yZ)),o=[3,S(q(X(L),y0)),ao]}else
+f=e(c,b[1]);return[0,aN(a[1]),f]}}throw B},b)},ah=function(d){var
+a=S(d);if(a){var
+b=a[1],c=b[1];if(k(c,zq)){if(!k(c,zr)&&!a[2])return Z(ln,V(b[2]))}else
+if(!a[2])return aa(zs)}throw B},ai=Z(hD,V(p(b,zt))),aj=Z(P,V(p(H,zu))),ak=Z(P,V(p(H,zv))),al=Z(ah,V(p(n,zw))),am=I(ln,p(n,zx)),an=I(b8,p(n,zy));return[3,Z(aN,V(p(n,zz))),an,am,al,ak,aj,ai]}return aa([0,zi,[0,c[1],zh]])}throw B}var
+J=c[1],K=S(i[2]),L=S(c[2]);if(k(J,zA))aa([0,zC,[0,J,zB]]);var
+M=aX(K,zD),ao=M?P(M[1]):aa([0,z2,[0,a,z1]]),ap=function(d){var
+a=S(d);function
+b(b){return Z(b8,V(p(a,b)))}var
+c=aN(p(a,zE)),e=aX(a,zF);if(!k(c,zG)&&!e){var
+f=b(zJ);return[0,b(zK),f]}return aa([0,zI,[0,c,zH]])},j=cV(p(b,zL)),o=j[1];if(k(o,zM))if(k(o,zN))if(k(o,zO)){if(k(o,zP))throw B;var
+N=j[2],aq=P(p(S(N),zQ)),q=[3,P(p(S(N),zR)),aq]}else
 var
-at=h[2],u=function(a){return dm(S,q(X(at),a))},au=u(y7),av=u(y8),o=[1,u(y9),av,au];else
+av=j[2],w=function(a){return du(P,p(S(av),a))},aw=w(zY),ax=w(zZ),q=[1,w(z0),ax,aw];else
 var
-N=dm(S,h[2]),o=[0,N[1],N[2]];else
+Q=du(P,j[2]),q=[0,Q[1],Q[2]];else
 var
-o=[2,S(h[2])];var
-M=k(a,y1),ap=M?k(a,y2)?2:1:M,aq=ab(xG,$(q(b,y3))),ar=ab(S,$(q(J,y4))),as=ab(S,$(q(J,y5)));return[2,ap,ab(an,$(q(I,y6))),am,as,ar,o,aq]}function
-kV(a){return ab(d$,$(a))}function
-he(c,b){var
-a=kV(b);if(cu(a)!==c)throw A;return a}function
-kW(a,d){var
-b=X(d),e=$(q(b,zd)),f=a[2],c=ab(function(a){return he(f,a)},e),g=a[1];if(cu(c)!==g)throw A;return[0,c,fe(q(b,ze))]}function
-fg(g,m){var
+q=[2,P(j[2])];var
+O=k(a,zS),ar=O?k(a,zT)?2:1:O,as=Z(yw,V(p(b,zU))),at=Z(P,V(p(L,zV))),au=Z(P,V(p(L,zW)));return[2,ar,Z(ap,V(p(K,zX))),ao,au,at,q,as]}var
+r=S(f[2]);function
+ay(b){var
+a=S(b),c=P(p(a,z4)),d=[0,P(p(a,z5)),c];return[0,aN(p(a,z6)),d]}var
+l=hE([0,[0,[0,z8,p(r,z7)],0]]);if(0===l[0]&&!l[3]){var
+az=P(p(r,z_)),aA=P(p(r,z$)),aB=l[4],aC=l[2],aD=l[1];return[7,Z(ay,V(p(r,Aa))),aD,aC,aB,aA,az]}return aa(z9)}function
+lp(a){return Z(el,V(a))}function
+hF(c,b){var
+a=lp(b);if(cA(a)!==c)throw B;return a}function
+lq(a,d){var
+b=S(d),e=V(p(b,Ad)),f=a[2],c=Z(function(a){return hF(f,a)},e),g=a[1];if(cA(c)!==g)throw B;return[0,c,fs(p(b,Ae))]}function
+fu(g,m){var
 I=g[2];switch(m[0]){case
 0:var
 d=m[1];if(d){var
-e=d[1],b=e[1],c=0;if(k(b,zf))if(k(b,zg))if(k(b,zh))if(k(b,zi))if(k(b,zj))if(k(b,zk)){var
-S=0;if(k(b,zl)&&k(b,zm)&&k(b,zn))S=1;if(!S)if(d[2])c=1;else{var
-U=e[2],o=U,n=function(c,a){return[1,b,c,a]};c=2}}else{var
+e=d[1],b=e[1],c=0;if(k(b,Af))if(k(b,Ag))if(k(b,Ah))if(k(b,Ai))if(k(b,Aj))if(k(b,Ak)){var
+T=0;if(k(b,Al)&&k(b,Am)&&k(b,An))T=1;if(!T)if(d[2])c=1;else{var
+W=e[2],o=W,n=function(c,a){return[1,b,c,a]};c=2}}else{var
 K=e[2];if(1===K[0]){var
-p=K[1];if(p){var
-r=p[2];if(r){var
+q=K[1];if(q){var
+r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!d[2]){var
-V=fe(s[1]),W=d$(r[1]);return[5,fg(g,p[1]),W,V]}c=1}}}}}else{if(!d[2]){var
-L=X(e[2]),Y=$(q(L,zq)),Z=I+1|0,M=ab(function(a){return he(Z,a)},Y);if(3===cu(M))return[1,zs,M,fe(q(L,zr))];throw A}c=1}else{if(!d[2]){var
-F=aQ(e[2]),G=k(F,zb);if(G){if(k(F,zc))throw A;var
+X=fs(s[1]),Y=el(r[1]);return[5,fu(g,q[1]),Y,X]}c=1}}}}}else{if(!d[2]){var
+L=S(e[2]),_=V(p(L,Aq)),$=I+1|0,M=Z(function(a){return hF($,a)},_);if(3===cA(M))return[1,As,M,fs(p(L,Ar))];throw B}c=1}else{if(!d[2]){var
+F=aN(e[2]),G=k(F,Ab);if(G){if(k(F,Ac))throw B;var
 H=1}else
 var
 H=G;return[2,H]}c=1}else{if(!d[2]){var
 h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-P=i[1],z=P[1],a=0;if(k(z,zu)&&k(z,zv))if(k(z,zw))a=1;else{var
+P=i[1],z=P[1],a=0;if(k(z,Au)&&k(z,Av))if(k(z,Aw))a=1;else{var
 Q=P[2];if(1===Q[0]){var
-B=Q[1];if(B){var
-j=B[1],f=0;switch(j[0]){case
+A=Q[1];if(A){var
+j=A[1],f=0;switch(j[0]){case
 0:var
 C=j[1];if(C){var
-R=C[1][1],T=0;if(k(R,zy)&&k(R,zz)){a=1;f=1;T=1}if(!T&&C[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(k(j[1],zA)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-D=B[2];if(D){var
+R=C[1][1],U=0;if(k(R,Ay)&&k(R,Az)){a=1;f=1;U=1}if(!U&&C[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(k(j[1],AA)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+D=A[2];if(D){var
 E=D[2];if(E&&!(E[2]||i[2])){var
-af=fe(E[1]),ag=d$(D[1]),t=[6,fg(g,j),ag,af];l=1;a=1}else
+af=fs(E[1]),ag=el(D[1]),t=[6,fu(g,j),ag,af];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!i[2])l=2}break;case
-2:if(!k(h[1],zB))l=2;break}switch(l){case
+2:if(!k(h[1],AB))l=2;break}switch(l){case
 0:var
-t=ad(zx);break;case
+t=aa(Ax);break;case
 2:var
-t=fg(g,h);break}return[7,t]}c=1}else{var
+t=fu(g,h);break}return[7,t]}c=1}else{var
 N=e[2];if(1===N[0]){var
 u=N[1];if(u){var
 v=u[2];if(v&&!v[2])if(d[2])c=1;else{var
-_=v[1],aa=u[1],o=aa,n=function(b,a){return[3,b,a,he(I+1|0,_)]};c=2}}}}else{var
+ab=v[1],ac=u[1],o=ac,n=function(b,a){return[3,b,a,hF(I+1|0,ab)]};c=2}}}}else{var
 O=e[2];if(1===O[0]){var
 w=O[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y&&!y[2])if(d[2])c=1;else{var
-ac=x[1];if(k(dj(y[1]),zt))throw A;var
-ae=w[1],o=ae,n=function(b,a){return[4,b,a,d$(ac)]};c=2}}}}}switch(c){case
-0:if(!d[2])return ad([0,zp,[0,b,zo]]);break;case
+ad=x[1];if(k(ds(y[1]),At))throw B;var
+ae=w[1],o=ae,n=function(b,a){return[4,b,a,el(ad)]};c=2}}}}}switch(c){case
+0:if(!d[2])return aa([0,Ap,[0,b,Ao]]);break;case
 1:break;default:var
-J=kW(g,o);return n(J[1],J[2])}}break;case
-2:return[0,m[1]]}throw A}function
-kX(j){var
-b=dk(j),a=b[1];if(k(a,zE)){var
-g=k(a,zF);if(!g)return g;if(!k(a,zG)){var
+J=lq(g,o);return n(J[1],J[2])}}break;case
+2:return[0,m[1]]}throw B}function
+lr(j){var
+b=cV(j),a=b[1];if(k(a,AE)){var
+g=k(a,AF);if(!g)return g;if(!k(a,AG)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cN(d[1]);return[1,cN(c[1]),l]}}}}}else{var
+l=cu(d[1]);return[1,cu(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=ab(kV,$(f[1]));return[0,cN(e[1]),m]}}}}return ad([0,zI,[0,a,zH]])}function
-zY(c){var
+m=Z(lp,V(f[1]));return[0,cu(e[1]),m]}}}}return aa([0,AI,[0,a,AH]])}function
+ls(f,b){var
+a=S(b),c=V(p(a,AN)),d=Z(function(g){var
+a=S(g);function
+b(d,c){var
+b=aX(a,c);return b?Z(d,V(b[1])):b}var
+c=b(el,AJ),d=cU(lr,aX(a,AK)),e=cU(cu,aX(a,AL));return[0,b(function(h){var
+b=V(h);if(b){var
+a=b[2];if(a){var
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],AC)){if(!a[2]){if(k(ds(e),AD))throw B;d=1}}else
+d=1;if(d&&!a[2]){var
+g=fu(f,c);return[0,cu(e),g]}}}throw B},AM),e,d,c]},c),e=aX(a,AO),g=cU(function(a){return lq(f,a)},e);return[0,lk(p(a,AP)),g,d]}function
+lt(c){var
+a=S(c),b=aX(a,AQ),d=b?Z(P,V(b[1])):b,e=lr(p(a,AR)),f=Z(P,V(p(a,AS)));return[0,lk(p(a,AT)),f,d,e]}function
+lu(c){var
 a=c[1];if(8!==a){var
 b=10<=a?1:0;if(!b)return b}return 1}function
-zZ(c){var
+A3(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!k(b[1],z0))a=1;break;case
+0:if(!k(b[1],A4))a=1;break;case
 7:a=1;break}return a?1:0}function
-z1(f){var
-h=J(f),a=[0,0];function
-i(b){if(a[1]<h)return V(f,a[1]);throw A}function
-j(b){if(i(0)===b){a[1]++;return 0}throw A}function
-v(b,c){for(;;){if(a[1]<h&&e(c,V(f,a[1]))){a[1]++;continue}return dB(f,b,a[1]-b|0)}}function
-w(d){j(34);function
+A5(f){var
+j=K(f),a=[0,0];function
+l(b){if(a[1]<j)return Y(f,a[1]);throw B}function
+m(b){if(l(0)===b){a[1]++;return 0}throw B}function
+w(b,c){for(;;){if(a[1]<j&&e(c,Y(f,a[1]))){a[1]++;continue}return dI(f,b,a[1]-b|0)}}function
+x(d){m(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=v(a[1],b);j(34);return c}function
-x(k,d){if(i(0)===d){a[1]++;return 0}var
+c=w(a[1],b);m(34);return c}function
+y(i,d){if(l(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-g=[0,e(k,0),f];if(44===i(0)){a[1]++;var
-f=g;continue}j(d);var
+g=[0,e(i,0),f];if(44===l(0)){a[1]++;var
+f=g;continue}m(d);var
 b=g,c=0;for(;;){if(b){var
 h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-o(c,k){if(64<c)throw A;var
-b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,x(function(a){return o(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,x(function(b){var
-a=w(0);j(58);return[0,a,o(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,w(0)];if(45===b)d=1}if(d){var
-h=a[1];a[1]++;return[3,v(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw A}var
-E=o(0,0),y=a[1]<h?1:0,F=y?10===V(f,a[1])?1:0:y;if(F)a[1]++;if(a[1]<h)throw A;var
-m=X(E);if(k(aQ(q(m,z2)),z3))throw A;var
-b=kU(q(m,z4));switch(b[0]){case
+s(c,i){if(64<c)throw B;var
+b=l(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,y(function(a){return s(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,y(function(b){var
+a=x(0);m(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,x(0)];if(45===b)d=1}if(d){var
+h=a[1];a[1]++;return[3,w(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw B}var
+L=s(0,0),z=a[1]<j?1:0,M=z?10===Y(f,a[1])?1:0:z;if(M)a[1]++;if(a[1]<j)throw B;var
+r=S(L);if(k(aN(p(r,A6)),A7))throw B;var
+b=hE(p(r,A8)),u=0;switch(b[0]){case
 2:var
-W=1===b[1]?6:3,g=[0,cu(b[2]),W];break;case
+X=1===b[1]?6:3,g=[0,cA(b[2]),X];break;case
 3:var
-Y=cu(b[1]),g=[0,cu(b[4]),Y];break;case
+_=cA(b[1]),g=[0,cA(b[4]),_];break;case
+7:var
+A=b[2];u=1;break;case
 0:case
 5:var
-g=[0,cu(b[1]),3];break;default:var
-g=Af}var
-p=dk(q(m,z5)),r=p[1];if(k(r,zN))if(k(r,zO))var
-c=ad([0,zQ,[0,r,zP]]);else
+A=b[1];u=1;break;default:var
+g=Bk}if(u)var
+g=[0,cA(A),3];var
+n=cV(p(r,A9)),o=n[1];if(k(o,AY))if(k(o,AZ))if(k(o,A0))var
+c=aa([0,A2,[0,o,A1]]);else
 var
-l=X(p[2]),s=aX(l,zR),G=s?ab(S,$(s[1])):s,H=kX(q(l,zS)),I=ab(S,$(q(l,zT))),c=[1,kP(q(l,zU)),I,G,H];else
+q=lt(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=X(p[2]),K=$(q(t,zV)),L=ab(function(f){var
-a=X(f);function
-b(d,c){var
-b=aX(a,c);return b?ab(d,$(b[1])):b}var
-c=b(d$,zJ),d=cM(kX,aX(a,zK)),e=cM(cN,aX(a,zL));return[0,b(function(h){var
-b=$(h);if(b){var
-a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],zC)){if(!a[2]){if(k(dj(e),zD))throw A;d=1}}else
-d=1;if(d&&!a[2]){var
-f=fg(g,c);return[0,cN(e),f]}}}throw A},zM),e,d,c]},K),M=aX(t,zW),N=cM(function(a){return kW(g,a)},M),c=[0,kP(q(t,zX)),N,L];var
+t=ls(g,n[2]),c=[0,t[1],t[2],t[3]];else
+var
+N=V(n[2]),c=[2,Z(function(f){var
+a=cV(f),b=a[1];if(k(b,AU)){if(k(b,AV)){if(k(b,AW)){var
+e=k(b,AX);if(e)throw B;return e}return[0,cu(a[2])]}var
+c=lt(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=ls(g,a[2]);return[1,d[1],d[2],d[3]]},N)];function
+O(a){return 0!==a[3]?1:0}function
+C(a){return by(O,a)}var
 d=0;switch(b[0]){case
 0:var
-z=b[4];if(0===c[0]){var
-D=0;if(b$(function(a){return 10===a[1]?1:0},z)){var
-O=b[1];if(b$(function(a){return 2===a[0]?1:0},O)){ad(z6);D=1}}if(!D)d=1}else{var
-C=z;d=3}break;case
-1:if(0===c[0])ad(Ab);else
-d=2;break;case
-2:if(0===c[0]){var
-T=c[3];if(ie(function(a){return ie(zZ,a[1])},T))d=1;else
-ad(Ac)}else{var
-U=b[7];if(b$(function(b){var
+D=b[4];switch(c[0]){case
+0:var
+F=D,E=b[1];d=3;break;case
+1:var
+H=D;d=4;break}break;case
+1:if(0===c[0]){aa(Bg);d=2}break;case
+2:switch(c[0]){case
+0:var
+U=c[3];if(iH(function(a){return iH(A3,a[1])},U))d=1;else{aa(Bh);d=2}break;case
+1:var
+W=b[7];if(by(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},U))ad(Ad);else
-d=2}break;case
-3:if(1===c[0])ad(Ae);else
-d=1;break;case
+6:return 1}return 0},W)){aa(Bi);d=2}break}break;case
+3:switch(c[0]){case
+0:d=1;break;case
+1:aa(Bj);d=2;break}break;case
 5:var
-C=b[4];d=3;break;default:d=1}var
-n=0;switch(d){case
-3:if(b$(zY,C))ad(Aa);else
-n=2;break;case
-1:n=2;break;case
-2:n=1;break}var
-u=0;switch(n){case
-2:if(5===b[0]){var
-Z=0;if(0===c[0]){var
-R=c[3];if(b$(function(a){return 0!==a[1]?1:0},R)){ad(z$);Z=1}}}else
-if(0===c[0]){var
-Q=c[3];if(b$(function(a){return 0!==a[3]?1:0},Q))ad(z_);else
-u=1}else
-u=1;break;case
-1:u=1;break}var
-B=X(q(m,z7)),P=aQ(q(B,z8));return[0,b,c,aQ(q(B,z9)),P]}function
-Ag(c){try{try{var
-d=0,a=z1(c);d=1}catch(a){a=fL(a);if(a[1]===kO)var
-b=[0,a[2]];else{if(a!==A)throw a;var
+H=b[4];d=4;break;case
+7:var
+F=b[4],E=b[2];d=3;break;default:d=1}var
+h=0;switch(d){case
+2:break;case
+3:var
+I=0;if(by(function(a){return 10===a[1]?1:0},F)&&by(function(a){return 2===a[0]?1:0},E)){aa(A_);I=1}if(!I)h=2;break;case
+4:if(by(lu,H))aa(Bf);else
+h=2;break;case
+1:h=2;break;default:h=1}var
+v=0;switch(h){case
+2:var
+i=0;switch(b[0]){case
+5:var
+J=0;if(0===c[0]){var
+Q=c[3];if(by(function(a){return 0!==a[1]?1:0},Q)){aa(Bd);i=1;J=1}}if(!J)i=1;break;case
+7:var
+R=b[4];switch(c[0]){case
+0:break;case
+1:v=1;i=1;break;default:var
+T=function(a){if(typeof
+a!=="number")switch(a[0]){case
+1:return C(a[3]);case
+2:return by(lu,R)}return 0};if(by(T,c[1]))aa(Be);i=1}break}if(!i)if(0===c[0]&&C(c[3]))aa(Bc);else
+v=1;break;case
+1:v=1;break}var
+G=S(p(r,A$)),P=aN(p(G,Ba));return[0,b,c,aN(p(G,Bb)),P]}function
+Bl(c){try{try{var
+d=0,a=A5(c);d=1}catch(a){a=f2(a);if(a[1]===lj)var
+b=[0,a[2]];else{if(a!==B)throw a;var
 b=2}}if(d)var
-b=ww(c,a)?0===a[2][0]?0:1:2}catch(a){return Ah}if(typeof
+b=xm(c,a)?1===a[2][0]?1:0:2}catch(a){return Bm}if(typeof
 b==="number")switch(b){case
-0:return Ai;case
-1:return Aj;default:return Ak}return aA(Al,b[1])}B$.orthocert_verify=BQ(function(b){return b9(Ag(a(b)))});fO(0);return}(globalThis));
+0:return Bn;case
+1:return Bo;default:return Bp}return aC(Bq,b[1])}Dj.orthocert_verify=C0(function(b){return ce(Bl(a(b)))});f5(0);return}(globalThis));
