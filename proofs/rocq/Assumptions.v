@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -175,6 +175,12 @@ Check kernel.Pose.check_turning_sound.
 Print Assumptions kernel.Pose.check_turning_sound.
 Check @Claim.every_value.
 Print Assumptions Claim.every_value.
+Check kernel.Tolerances.mean_value.
+Print Assumptions kernel.Tolerances.mean_value.
+Check kernel.Tolerances.less_changes_sound.
+Print Assumptions kernel.Tolerances.less_changes_sound.
+Check kernel.Check.shows_apart_sound.
+Print Assumptions kernel.Check.shows_apart_sound.
 Check kernel.Certificate.accept_cells_sound.
 Print Assumptions kernel.Certificate.accept_cells_sound.
 Check kernel.Certificate.verify_sound.

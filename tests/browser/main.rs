@@ -278,6 +278,7 @@ fn a_page_proves_its_claim_again() {
         ("spherical-3-ups", "CERTIFIED"),
         ("orthoglide-prototype-whole", "CERTIFIED"),
         ("orthoglide-atlas", "CERTIFIED"),
+        ("orthoglide-as-built-tight", "CERTIFIED"),
     ] {
         let page = folder.report_of_committed(name, &[]);
         browser.open(&page);

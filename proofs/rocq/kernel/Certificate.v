@@ -10,6 +10,7 @@
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
 From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
+From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
 Local Open Scope nat_scope.
@@ -100,7 +101,9 @@ Inductive step :=
   | Accurate_ (y : list (list Z)) (places : N) (kappa : Z)
   | Inside_ (s : step) (n : Z) (places : N)
   | Turned_ (s : step) (n : Z) (places : N)
-  | AtControls_ (s : step).
+  | AtControls_ (s : step)
+  (* [ends]: of each quantity with two ends, where the one machine is *)
+  | Apart_ (s : step) (ends : string) (directions : list (list Z)).
 
 Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat).
 
@@ -292,6 +295,7 @@ Fixpoint evidence_text (s : step) : text :=
   | Inside_ s n places => variant "inside" (array [evidence_text s; integer_text n; places_text places])
   | Turned_ s n places => variant "turned" (array [evidence_text s; integer_text n; places_text places])
   | AtControls_ s => variant "control" (evidence_text s)
+  | Apart_ s ends vs => variant "tolerances" (array [evidence_text s; quoted ends; array (map integers_text vs)])
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
 Definition violation_text (f : violation) : text :=
@@ -343,6 +347,7 @@ Fixpoint is_plain_step (s : step) : bool :=
   match s with
   | Plain name | Multiplied name _ _ => is_plain name
   | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
+  | Apart_ s ends _ => is_plain ends && is_plain_step s
   | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
@@ -786,6 +791,21 @@ Definition length_order (ds : list drive) : Z :=
   let some := match flat_map lengths_of ds with [] => flat_map places_of ds | l => l end in
   (1 + order_of some)%Z.
 
+Definition choice_of (c : ascii) : option Tolerances.choice :=
+  if (c =? "-")%char then Some Tolerances.FromLeast else if (c =? "+")%char then Some Tolerances.FromGreatest
+  else if (c =? "0")%char then Some Tolerances.FromMiddle else None.
+(** For each of these parameters a character. *)
+Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolerances.choice)) :=
+  match free, l with
+  | [], [] => Some []
+  | j :: free', c :: l' => match choice_of c, ends_of free' l' with Some c, Some r => Some ((j, c) :: r) | _, _ => None end
+  | _, _ => None
+  end.
+
+Section Steps.
+(** The parameters with two ends. *)
+Variable free : list nat.
+
 Fixpoint evidence_of (s : step) : option evidence :=
   match s with
   | Plain name =>
@@ -800,6 +820,11 @@ Fixpoint evidence_of (s : step) : option evidence :=
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
   | Turned_ s n places => match evidence_of s with Some e => Some (Turned e n places) | None => None end
   | AtControls_ s => option_map AtControls (evidence_of s)
+  | Apart_ s ends vs =>
+      match free, evidence_of s, ends_of free (list_ascii_of_string ends) with
+      | _ :: _, Some e, Some ends => Some (ByTolerances e ends vs)
+      | _, _, _ => None
+      end
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   match l with
@@ -831,6 +856,8 @@ Fixpoint trees_of (most : nat) (l : list node) : option (list tree) :=
       end
   | O, _ => None
   end.
+
+End Steps.
 
 Definition nfailure_of (f : violation) : nfailure :=
   match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
@@ -1033,10 +1060,15 @@ Definition are_well_formed_formulas (ps : list (string * quantity)) (rows : list
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
   Nat.eqb (length machine) (length (filter (fun q => match q with Between _ _ => true | One _ => false end) qs)).
 
-Definition accept_tree (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
+(** What is within tolerances, counted as formulas count it. *)
+Definition free_parameters (k : claim) : list nat :=
+  let ps := layouts (length_order (legs k)) (map direction_order (legs k)) (legs k) in
+  map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps)).
+(** Tolerances are not taken apart in cells of atlases. *)
+Definition accept_tree (of_cell : bool) (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
   let k := claim_of ls w bs rs in
-  match tree_of (length nodes) nodes with
+  match tree_of (if of_cell then [] else free_parameters k) (length nodes) nodes with
   | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
       certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
   | _ => false
@@ -1063,7 +1095,7 @@ Fixpoint accept_cells (ps : parameters_) (ls : list written_leg) (w : written_re
       let by_name := references 0 ps part in
       let ls := map (leg_over by_name) ls in let w := region_over by_name w in let rs := map (requirement_over by_name) rs in
       match c with
-      | Proved bits chords nodes => accept_tree ls w [] rs bits chords nodes
+      | Proved bits chords nodes => accept_tree true ls w [] rs bits chords nodes
       | Disproved _ point machine how => accept_witness ls w [] rs (map (over by_name) point) (map (over by_name) machine) how
       | Undecided => true
       | Cut _ => false
@@ -1075,7 +1107,7 @@ Definition is_share (x : expression) (found : Q) : bool :=
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
-  | Machine_ ls w bs rs, Nodes bits chords nodes => accept_tree ls w bs rs bits chords nodes
+  | Machine_ ls w bs rs, Nodes bits chords nodes => accept_tree false ls w bs rs bits chords nodes
   | Machine_ ls w bs rs, ByWitness _ point machine how => accept_witness ls w bs rs point machine how
   | Atlas_ ps ls w rs certified refuted, Cells cells =>
       match atlas_of (length cells) cells with
@@ -1106,29 +1138,29 @@ Definition accept (c : certificate) : bool :=
       end
   | Turning_ k ls ell a b o rs, Nodes bits _ nodes =>
       let c := turning_claim_of k ls ell a b o rs in
-      match tree_of (length nodes) nodes with
+      match tree_of [] (length nodes) nodes with
       | Some (t, []) => is_turning k ls ell a b o rs && splits_below (dimension k) nodes &&
           certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits _ nodes =>
-      match tree_of (length nodes) nodes with
+      match tree_of [] (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas ps rows a b rs && splits_below (length xs) nodes &&
           certify_written exact_bits bits (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
   | Closed_ offset side rs, Nodes _ _ _ => is_number (denoted offset) &&
       match closed_bounds rs with Some (least, greatest) => check_closed exact_bits (denoted side) least greatest | None => false end
-  | Postulate_ None, Nodes bits _ nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
+  | Postulate_ None, Nodes bits _ nodes => match trees_of [] 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
-      match trees_of 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
+      match trees_of [] 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
   | _, _ => false
   end.
 
-Lemma accept_tree_sound : forall (names : naming) ls w bs rs bits chords nodes, accept_tree ls w bs rs bits chords nodes = true ->
+Lemma accept_tree_sound : forall (names : naming) of_cell ls w bs rs bits chords nodes, accept_tree of_cell ls w bs rs bits chords nodes = true ->
   let c := claim_of ls w bs rs in @Statement.holds names c /\ exists m P, @is_about names c m P.
 Proof.
-  intros names ls w bs rs bits chords nodes h. unfold accept_tree in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate.
+  intros names of_cell ls w bs rs bits chords nodes h. unfold accept_tree in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate.
   apply andb_true_iff in h as [_ h]. exact (@certify_sound names _ _ _ _ _ _ _ h).
 Qed.
 
@@ -1145,7 +1177,7 @@ Proof.
   intros ps ls w rs. induction t as [k a IHa b IHb | c]; intros part h; cbn [accept_cells is_atlas] in *.
   - apply andb_true_iff in h as [h hb]. apply andb_true_iff in h as [_ ha]. split; [apply IHa, ha | apply IHb, hb].
   - destruct c as [k | bits chords nodes | bits point machine how |]; try exact I; intro names; cbv zeta in h.
-    + exact (accept_tree_sound names _ _ _ _ _ _ _ h).
+    + exact (accept_tree_sound names _ _ _ _ _ _ _ _ h).
     + exact (accept_witness_sound names _ _ _ _ _ _ _ h).
 Qed.
 
@@ -1160,23 +1192,23 @@ Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
   destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
-  - exact (accept_tree_sound _ _ _ _ _ _ _ _ h).
+  - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_arms _ _) as [m [|]]; [| discriminate].
     apply andb_true_iff in h as [_ h].
     exact (refute_arms_sound _ _ _ _ _ h).
-  - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_turning_sound _ _ _ _ _ _ h).
-  - destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ h).
   - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
   - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).
-  - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
+  - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
-  - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
+  - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
     exact (check_postulate_sound _ _ h L a e hL psi h1 P hP).
   - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
     apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.

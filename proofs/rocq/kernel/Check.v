@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near.
+From Orthocert.kernel Require Solve Near Tolerances.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -38,7 +38,9 @@ Inductive evidence :=
   (* by the one matrix of the whole tree *)
   | ByChords
   (* of accuracy: kappa, over the 2^places of Y *)
-  | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z).
+  | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z)
+  (* with tolerances apart: where the one machine is, by the numbers of its parameters, and directions *)
+  | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z)).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -163,8 +165,68 @@ Definition shows_there (values : list (option slope)) (cell : list fixed) (less 
   | _, _ => shows values (length cell) less t e
   end.
 
+(** *** Tolerances apart: of one machine at the vertices, less what all others differ by *)
+
+Fixpoint are_once (l : list nat) : bool := match l with [] => true | j :: l' => negb (existsb (Nat.eqb j) l') && are_once l' end.
+Definition multi_of (values machine : list (option slope)) (duals : list Tolerances.dual) (ends : list (nat * Tolerances.choice)) (i : nat) : option (Tolerances.multi slope) :=
+  match nth i values None, nth i machine None, Tolerances.rates_from 0 ends (nth i duals (None, [])) with
+  | Some _, Some s, Some rs => Some (s, rs)
+  | _, _, _ => None
+  end.
+(** Of which all D_i are positive, for all machines. *)
+Fixpoint rows_apart (values : list (option slope)) (of : nat -> option (Tolerances.multi slope)) (r : rows nat) : option (list (list (Tolerances.multi slope) * Tolerances.multi slope)) :=
+  match r with
+  | [] => Some []
+  | (a, d) :: r' =>
+      match all_some (map of a), of d, nth d values None, rows_apart values of r' with
+      | Some s, Some t, Some u, Some rest => if (0 <? lo (range u))%Z then Some ((s, t) :: rest) else None
+      | _, _, _, _ => None
+      end
+  end.
+
+Definition shows_apart (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence)
+    (ends : list (nat * Tolerances.choice)) (directions : list (list Z)) : bool :=
+  let m := length cell in
+  let coords := coords_from 0 cell in
+  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
+  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let steps := Tolerances.steps ends params in
+  let of := multi_of values machine duals ends in
+  let direction v := map (Fixed.integer bits) v in
+  let subtracted := match less with Some t => t | None => constant zero end in
+  let at_vertices (r : list (list (Tolerances.multi slope) * Tolerances.multi slope)) (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
+    forallb (fun s => holds s (at_vertex s subtracted) (map (Tolerances.varied_at bits s steps) r)) (signs m) in
+  let over (r : rows nat) holds := match rows_apart values of r with Some r => at_vertices r holds | None => false end in
+  let definite t := match t with Some t => Solve.is_definite m t | None => false end in
+  let lower v k places Y r := definite (Tolerances.lower_apart bits (direction v) places Y r (repeat [neg k] m)) in
+  let upper v k r := definite (Tolerances.upper_apart bits (direction v) r (repeat [k] m)) in
+  let sign f := match of f with Some q => at_vertices [([], q)] (fun _ t r => forallb (Tolerances.sign_apart t) r) | None => false end in
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && forallb (fun v => Nat.eqb (length v) m) directions &&
+  match t, e, directions with
+  | SigmaMin low, ByLower places Y, [v] => are_defined values && over whole (fun _ t => lower v (add low t) places Y)
+  | SigmaMin low, ByRank places Y, [v] => are_defined values &&
+      match less with
+      | None => (lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun _ t r => lower v zero places Y (map Tolerances.without_D r))
+      | Some _ => false
+      end
+  | Least r low, ByLower places Y, [v] => over r (fun _ t => lower v (add low t) places Y)
+  | SigmaMax high, ByTest, [v] => over whole (fun _ t => upper v (sub high t))
+  | Conditioning c2, ByConditioning places Y mu, [u; v] => let mu := mu_slope places mu in
+      positive_there m mu &&
+      over whole (fun s t r => let mu := at_vertex s mu in lower u (add mu t) places Y r && upper v (sub (mul bits c2 mu) t) r)
+  | AtLeast f, ByTest, [] | Either f _, ByTest, [] | Either _ f, ByNegative, [] => sign f
+  | Solved i k2, ByLower places Y, [v] => Nat.eqb (length whole) m && over whole (fun _ t => Tolerances.solved_apart bits (direction v) m i k2 t places Y)
+  | _, _, _ => false
+  end.
+
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
+  | ByTolerances (Inside e n places) ends directions =>
+      match inside cell with
+      | Some tangent => (0 <=? n)%Z && shows_apart values cell (Some (dyadic_slope n places tangent)) t e ends directions
+      | None => false
+      end
+  | ByTolerances e ends directions => shows_apart values cell None t e ends directions
   | Inside e n places =>
       match inside cell with
       | Some tangent => (0 <=? n)%Z && shows_there values cell (Some (dyadic_slope n places tangent)) t e
@@ -403,7 +465,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -462,6 +524,291 @@ Proof.
   - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos v len nz. eapply chords_sound; eassumption.
 Qed.
 End Cell.
+
+(** ** What is shown with tolerances apart *)
+
+Lemma are_once_sound : forall l, are_once l = true -> NoDup l.
+Proof.
+  induction l as [| j l IH]; intro h; constructor; cbn [are_once] in h; apply andb_true_iff in h as [h1 h2]; [| exact (IH h2)].
+  intro i. apply negb_true_iff in h1. assert (T : existsb (Nat.eqb j) l = true) by (apply existsb_exists; exists j; split; [exact i | apply Nat.eqb_refl]). congruence.
+Qed.
+
+Section Apart.
+Variables (cell : list fixed) (x lambda : list R).
+Hypothesis lambda_length : length lambda = length cell.
+Hypothesis lambda_in : Forall (fun t => -1 <= t <= 1) lambda.
+Let cs := map (centre_of bits) cell.
+Hypothesis coords_hold : forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k cs 0) (nth k x 0).
+Variable ends : list (nat * Tolerances.choice).
+Hypothesis ends_exist : forallb (fun j => Nat.ltb j (length params)) (map fst ends) = true.
+Hypothesis ends_once : are_once (map fst ends) = true.
+
+Let values := evaluate cell.
+Let coords := coords_from 0 cell.
+Let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [].
+Let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [].
+Let of := multi_of values machine duals ends.
+
+Lemma strides : exists theta0 mss, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) /\ Forall2 (Tolerances.stepped bits) (Tolerances.steps ends params) mss /\
+  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss.
+Proof.
+  destruct (Tolerances.starts_sound bits ends params theta theta_in 0) as [theta0 [h1 [h2 h3]]]. cbn [Nat.add] in h3.
+  pose proof (are_once_sound _ ends_once) as once. rewrite forallb_forall in ends_exist.
+  assert (G : forall l, (forall p, In p l -> In p ends) -> exists mss, Forall2 (Tolerances.stepped bits) (map (fun p => snd (Tolerances.start (nth (fst p) params zero) (snd p))) l) mss /\
+    Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) l mss).
+  { induction l as [| [j c] l IH]; intro sub; [exists []; split; constructor |]. destruct IH as [mss [k1 k2]]; [intros p i; apply sub; right; exact i |].
+    assert (i : In (j, c) ends) by (apply sub; left; reflexivity).
+    specialize (h3 j). rewrite (Tolerances.chosen ends j c once i) in h3.
+    destruct h3 as [ms [g1 g2]]; [apply Nat.ltb_lt, ends_exist; exact (in_map fst _ _ i) |].
+    exists (ms :: mss). split; constructor; try assumption. cbn [fst]. lra. }
+  destruct (G ends (fun p i => i)) as [mss [k1 k2]]. exists theta0, mss. split; [exact h1 |]. split; [exact h2 |]. split; [| split; assumption].
+  intros j n. specialize (h3 j). rewrite (Tolerances.not_chosen ends j n) in h3. exact h3.
+Qed.
+
+Lemma encloses_all : forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (formula_at i).
+Proof.
+  intros th h i. apply (nth_related _ _ _ _ (encloses bits lambda x cs th)); [exact I |].
+  exact (evaluate_sound bits lambda lambda_in x cs th _ _ coords_hold (params_hold bits lambda params th h) tape).
+Qed.
+
+(** The value of a formula, of a machine that differs so from the one. *)
+Definition value_of (mss : list (list (R * R))) (l : list R) (e : Tolerances.multi entry) : R := at_lambda l (Tolerances.moved (fst e) (map Tolerances.stride mss) (snd e)).
+
+Lemma multi_sound : forall theta0 mss i q, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
+  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> of i = Some q ->
+  exists e, Tolerances.multi_in bits q e /\ value x theta (formula_at i) = value_of mss lambda e.
+Proof.
+  intros theta0 mss i q h0 h1 same hs h. unfold of, multi_of in h. destruct (nth i values None) as [sv |] eqn:ev; [| discriminate].
+  destruct (nth i machine None) as [s0 |] eqn:e0; [| discriminate]. destruct (Tolerances.rates_from 0 ends (nth i duals (None, []))) as [rs |] eqn:er; [| discriminate].
+  injection h as <-.
+  assert (D : forall th, Forall2 contains params th -> defined x th (formula_at i)).
+  { intros th hth. pose proof (encloses_all th hth i) as E. rewrite ev in E. exact (proj1 (proj2 E)). }
+  destruct (Tolerances.mean_value bits (map fst ends) x params theta0 theta (formula_at i) (are_once_sound _ ends_once) h1 theta_in D same) as [th [hth V]].
+  assert (M : encloses bits lambda x cs theta0 (nth i machine None) (formula_at i)).
+  { apply (nth_related _ _ _ _ (encloses bits lambda x cs theta0)); [exact I |].
+    exact (evaluate_sound bits lambda lambda_in x cs theta0 _ _ coords_hold (params_hold bits lambda _ theta0 h0) tape). }
+  rewrite e0 in M. destruct M as [_ [_ [m1 [_ [u [m2 m3]]]]]].
+  assert (Q : Tolerances.encloses_rates bits (map fst ends) lambda x cs th (nth i duals (None, [])) (formula_at i)).
+  { apply (nth_related _ _ _ _ (Tolerances.encloses_rates bits (map fst ends) lambda x cs th)); [split; [exact I | intros [| p]; exact I] |].
+    exact (Tolerances.duals_sound bits coords (map constant params) (map fst ends) lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) tape). }
+  destruct Q as [_ Q].
+  destruct (Tolerances.rates_from_sound bits lambda (fun j => Tolerances.rate x th j (formula_at i)) (fun j => Tolerances.rate cs th j (formula_at i)) ends _ 0 rs er Q) as [es [k1 k2]].
+  exists ((value cs theta0 (formula_at i), u), es). split; [split; [split; assumption | exact k1] |].
+  unfold value_of. rewrite Tolerances.at_moved. cbn [fst snd]. rewrite V. f_equal; [unfold at_lambda; cbn [fst snd]; lra |].
+  clear - hs k2. revert es k2. induction hs as [| p ms l mss e hs IH]; intros es k2; inversion k2 as [| ? en ? es' e1 k3]; subst; [reflexivity |].
+  cbn [map Tolerances.sum_over fold_right dot]. unfold Tolerances.sum_over in IH. rewrite (IH es' k3), e, e1. reflexivity.
+Qed.
+
+Lemma multis_sound : forall theta0 mss a qs, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
+  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> all_some (map of a) = Some qs ->
+  Forall (defined x theta) (map formula_at a) /\
+  exists es, Forall2 (Tolerances.multi_in bits) qs es /\ map (value x theta) (map formula_at a) = map (value_of mss lambda) es.
+Proof.
+  intros theta0 mss a qs h0 h1 same hs. revert qs. induction a as [| i a IH]; intros qs h; cbn [map all_some] in h.
+  - injection h as <-. split; [constructor |]. exists []. split; [constructor | reflexivity].
+  - destruct (of i) as [q |] eqn:e; [| discriminate]. destruct (all_some (map of a)) as [qs' |]; [| discriminate]. injection h as <-.
+    destruct (IH qs' eq_refl) as [d [es [k1 k2]]]. destruct (multi_sound theta0 mss i q h0 h1 same hs e) as [en [g1 g2]].
+    split.
+    + cbn [map]. constructor; [| exact d]. pose proof (encloses_all theta theta_in i) as E. unfold of, multi_of in e. destruct (nth i values None); [exact (proj1 (proj2 E)) | discriminate].
+    + exists (en :: es). split; [constructor; assumption |]. cbn [map]. rewrite g2, k2. reflexivity.
+Qed.
+
+Lemma rows_apart_sound : forall theta0 mss r srs, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
+  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> rows_apart values of r = Some srs ->
+  regular x (map_rows formula_at r) /\
+  exists es, Forall2 (fun s e => Forall2 (Tolerances.multi_in bits) (fst s) (fst e) /\ Tolerances.multi_in bits (snd s) (snd e)) srs es /\
+    map_rows (value x theta) (map_rows formula_at r) = map (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es.
+Proof.
+  intros theta0 mss r srs h0 h1 same hs. revert srs. induction r as [| [a d] r IH]; intros srs h; cbn [rows_apart] in h.
+  - injection h as <-. split; [split; constructor |]. exists []. split; [constructor | reflexivity].
+  - destruct (all_some (map of a)) as [sa |] eqn:ea; [| discriminate]. destruct (of d) as [sd |] eqn:ed; [| discriminate].
+    destruct (nth d values None) as [u |] eqn:eu; [| discriminate]. destruct (rows_apart values of r) as [rest |]; [| discriminate].
+    destruct (0 <? lo (range u))%Z eqn:p; [| discriminate]. injection h as <-. apply Z.ltb_lt in p.
+    destruct (IH rest eq_refl) as [[R1 R2] [es [k1 k2]]]. destruct (multis_sound theta0 mss a sa h0 h1 same hs ea) as [d1 [e1 [g1 g2]]].
+    destruct (multi_sound theta0 mss d sd h0 h1 same hs ed) as [e2 [f1 f2]].
+    pose proof (encloses_all theta theta_in d) as E. rewrite eu in E. destruct E as [_ [dd [_ [c2 _]]]]. rewrite !map_rows_cons. split.
+    + split; constructor; cbn [fst snd]; auto. exact (contains_positive bits _ _ p c2).
+    + exists ((e1, e2) :: es). split; [constructor; [split; assumption | exact k1] |]. cbn [map fst snd]. rewrite <- k2, <- g2, <- f2. reflexivity.
+Qed.
+
+(** Vertices decide: of a form of the rows with a constant, and what is subtracted. *)
+Lemma vertices_apart : forall mss (srs : list (list (Tolerances.multi slope) * Tolerances.multi slope)) es less el (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) c p w v,
+  Forall2 (Tolerances.stepped bits) (Tolerances.steps ends params) mss ->
+  Forall2 (fun s e => Forall2 (Tolerances.multi_in bits) (fst s) (fst e) /\ Tolerances.multi_in bits (snd s) (snd e)) srs es -> entry_in bits less el ->
+  forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) = true ->
+  (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
+  (forall s t T i r, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i r -> 0 < c (map corner s) + p * T + form w r v) ->
+  0 < c lambda + p * at_lambda lambda el + form w (map (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es) v.
+Proof.
+  intros mss srs es less el holds_at c p w v hm hr he h affine H. rewrite forallb_forall in h.
+  set (move := fun e : Tolerances.multi entry => Tolerances.moved (fst e) (map Tolerances.stride mss) (snd e)).
+  set (E := map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map move (fst e), move (snd e))) es).
+  assert (R0 : forall l, map (fun e : list (Tolerances.multi entry) * Tolerances.multi entry => (map (value_of mss l) (fst e), value_of mss l (snd e))) es = map_rows (at_lambda l) E).
+  { intro l. unfold E, map_rows. rewrite map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity. }
+  rewrite R0. apply (vertices_decide lambda (fun l => c l + p * at_lambda l el + form w (map_rows (at_lambda l) E) v) lambda_in).
+  - intros before t after. rewrite (form_affine _ _ _ _ _ (at_lambda_affine before t after)).
+    rewrite (affine _ _ _ _ _ (at_lambda_affine before t after)) by field. rewrite (at_lambda_affine before t after el). field.
+  - intros s len. rewrite lambda_length in len. apply (H s (at_vertex s less) _ (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)).
+    + exact len.
+    + apply h. rewrite <- len. apply signs_all.
+    + apply at_vertex_sound, he.
+    + rewrite <- R0. eapply map_related; [| exact hr]. intros q e [k1 k2]. exact (Tolerances.varied_at_sound bits s _ q (fst e) (snd e) mss k1 k2 hm).
+Qed.
+Lemma definite_apart : forall T S v m, match T with Some t => Solve.is_definite m t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t S) ->
+  length v = m -> nonzero v -> 0 < quad S v.
+Proof.
+  intros [t |] S v m h hS len nz; [| discriminate]. specialize (hS t eq_refl). unfold Solve.is_definite in h.
+  destruct (Nat.eqb_spec (length t) m) as [l |]; [| discriminate]. apply (is_positive_definite_sound bits t S h hS v); [| exact nz].
+  rewrite (related_length _ _ _ _ _ hS) in l. congruence.
+Qed.
+
+Lemma lower_apart_shows : forall u k K places Y i r v m, match Tolerances.lower_apart bits u places Y i (repeat [neg k] m) with Some t => Solve.is_definite m t | None => false end = true ->
+  Forall2 (Tolerances.varied_in bits) i r -> contains k K -> length v = m -> nonzero v -> K * dot v v < form (lower_weights places Y v) r v.
+Proof.
+  intros u k K places Y i r v m h hr hk len nz. destruct (Tolerances.lower_apart bits u places Y i (repeat [neg k] m)) as [t |] eqn:e; [| discriminate].
+  destruct (Tolerances.lower_apart_sound bits u places Y i r _ _ t hr (diagonal_in bits _ _ m (neg_sound bits _ _ hk)) e) as [U [hU q]].
+  pose proof (definite_apart (Some t) U v m h ltac:(intros t' e'; injection e' as <-; exact hU) len nz) as P. specialize (q v). rewrite <- len, quad_diagonal in q. lra.
+Qed.
+
+Lemma upper_apart_shows : forall u k K i r v m, match Tolerances.upper_apart bits u i (repeat [k] m) with Some t => Solve.is_definite m t | None => false end = true ->
+  Forall2 (Tolerances.varied_in bits) i r -> contains k K -> length v = m -> nonzero v -> forall z, 0 < K * dot v v + form (upper_weights z) r v.
+Proof.
+  intros u k K i r v m h hr hk len nz z. destruct (Tolerances.upper_apart bits u i (repeat [k] m)) as [t |] eqn:e; [| discriminate].
+  destruct (Tolerances.upper_apart_sound bits u i r _ _ t hr (diagonal_in bits _ _ m hk) e) as [U [hU q]].
+  pose proof (definite_apart (Some t) U v m h ltac:(intros t' e'; injection e' as <-; exact hU) len nz) as P. specialize (q v z). rewrite <- len, quad_diagonal in q. lra.
+Qed.
+
+Theorem shows_apart_sound : forall less t e directions, harmless lambda less -> shows_apart values cell less t e ends directions = true -> holds (length cell) x t.
+Proof.
+  intros less t e directions hs h. unfold shows_apart in h. cbv zeta in h. apply andb_true_iff in h as [_ h].
+  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]].
+  assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
+  { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
+  destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
+  assert (Still : forall k l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> (fun _ : list R => k) l = a * k + b * k).
+  { intros k l l1 l2 a b _ s. replace (a * k + b * k) with ((a + b) * k) by ring. rewrite s. ring. }
+  (* rows, with what is shown of them at the vertices *)
+  assert (Over : forall r (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool),
+    match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
+    regular x (map_rows formula_at r) /\ forall c p w v,
+      (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
+      (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> length i = length r -> 0 < c (map corner s) + p * T + form w real v) ->
+      0 < c lambda + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v).
+  { intros r holds_at k. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate].
+    destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v affine H. rewrite e2.
+    assert (len : length srs = length r) by (rewrite (related_length _ _ _ _ _ e1); rewrite <- (map_length (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es), <- e2; unfold map_rows; rewrite !map_length; reflexivity).
+    apply (vertices_apart mss srs es subtracted el (fun s t i => holds_at s t i && Nat.eqb (length i) (length r)) c p w v hm e1 hel).
+    - rewrite forallb_forall in k |- *. intros s hin. rewrite (k s hin). cbn [andb]. apply Nat.eqb_eq. rewrite map_length. exact len.
+    - exact affine.
+    - intros s t' T i real ls hh ht hr. apply andb_true_iff in hh as [hh hl]. apply Nat.eqb_eq in hl. exact (H s t' T i real ls hh ht hr hl). }
+  assert (Each : forall (r : rows nat) (f g : list bool -> fixed -> list (Tolerances.varied fixed) -> bool), (forall s t i, f s t i = true -> g s t i = true) ->
+    match rows_apart values of r with Some srs => forallb (fun s => f s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
+    match rows_apart values of r with Some srs => forallb (fun s => g s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true).
+  { intros r f g fg k. destruct (rows_apart values of r) as [srs |]; [| discriminate]. rewrite forallb_forall in *. intros s hin. apply fg, k, hin. }
+  assert (Low : forall (bound : list bool -> fixed) K u places Y r v,
+    (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
+    (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
+    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.lower_apart bits u places Y (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [neg (add (bound s) (at_vertex s subtracted))] (length cell)) with
+      Some t => Solve.is_definite (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    regular x (map_rows formula_at r) /\ K lambda * dot v v < energy (map_rows (value x theta) (map_rows formula_at r)) v).
+  { intros bound K u places Y r v affine hk len nz k.
+    destruct (Over r (fun s t i => match Tolerances.lower_apart bits u places Y i (repeat [neg (add (bound s) t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) k) as [reg G].
+    split; [exact reg |]. specialize (G (fun l => - (K l * dot v v)) (- dot v v) (lower_weights places Y v) v).
+    pose proof (lower_energy places Y _ v (proj2 reg)) as E. pose proof (dot_self v) as d0.
+    assert (0 < - (K lambda * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights places Y v) (map_rows (value x theta) (map_rows formula_at r)) v).
+    { apply G.
+      - intros l l1 l2 a b h3 h4. rewrite (affine l l1 l2 a b h3 h4). ring.
+      - intros s t' T i real ls hh ht hr _. pose proof (lower_apart_shows _ _ (K (map corner s) + T) _ _ _ _ _ _ hh hr (add_sound bits _ _ _ _ (hk s ls) ht) len nz). lra. }
+    assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
+  assert (Up : forall (bound : list bool -> fixed) K u r v,
+    (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
+    (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
+    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.upper_apart bits u (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [sub (bound s) (at_vertex s subtracted)] (length cell)) with
+      Some t => Solve.is_definite (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    regular x (map_rows formula_at r) /\ energy (map_rows (value x theta) (map_rows formula_at r)) v < K lambda * dot v v).
+  { intros bound K u r v affine hk len nz k.
+    destruct (Over r (fun s t i => match Tolerances.upper_apart bits u i (repeat [sub (bound s) t] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) k) as [reg G].
+    split; [exact reg |]. destruct (upper_energy _ v (proj2 reg)) as [z E]. specialize (G (fun l => K l * dot v v) (- dot v v) (upper_weights z) v). pose proof (dot_self v) as d0.
+    assert (0 < K lambda * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at r)) v).
+    { apply G.
+      - intros l l1 l2 a b h3 h4. rewrite (affine l l1 l2 a b h3 h4). ring.
+      - intros s t' T i real ls hh ht hr _. pose proof (upper_apart_shows _ _ (K (map corner s) - T) _ _ _ _ hh hr (sub_sound bits _ _ _ _ (hk s ls) ht) len nz z). lra. }
+    assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
+  assert (Sign : forall f, match of f with Some q => forallb (fun s => forallb (Tolerances.sign_apart (at_vertex s subtracted)) [Tolerances.varied_at bits s (Tolerances.steps ends params) ([], q)]) (signs (length cell)) | None => false end = true -> is_nonneg x f).
+  { intros f k. destruct (of f) as [q |] eqn:ef; [| discriminate]. destruct (multi_sound theta0 mss f q h0 h1 same hd ef) as [en [g1 g2]]. split.
+    - pose proof (encloses_all theta theta_in f) as E. unfold of, multi_of in ef. destruct (nth f values None); [exact (proj1 (proj2 E)) | discriminate].
+    - rewrite g2. apply Rnot_lt_le. intro neg0.
+      set (m := - value_of mss lambda en) in *. assert (m0 : 0 < m) by (unfold m; lra).
+      pose proof (vertices_apart mss [([], q)] [([], en)] subtracted el (fun s t i => Nat.eqb (length i) 1 && forallb (Tolerances.sign_apart t) i) (fun _ => m) (-1) [(0, 1)] []
+        hm (Forall2_cons (R := fun s e => Forall2 (Tolerances.multi_in bits) (fst s) (fst e) /\ Tolerances.multi_in bits (snd s) (snd e)) ([], q) ([], en) (conj (Forall2_nil _) g1) (Forall2_nil _)) hel) as W.
+      specialize (W ltac:(cbn [map length Nat.eqb andb]; exact k) (Still _)). cbn [map form dot fst snd] in W.
+      assert (0 < m + -1 * at_lambda lambda el + (0 * 0 + 1 * value_of mss lambda en + 0)); [| unfold m in *; lra].
+      apply W. intros s t' T i real _ hh ht hr. apply andb_true_iff in hh as [hl hh]. destruct hr as [| v A i real hv hr]; [discriminate |]. destruct hr; [| discriminate].
+      cbn [forallb] in hh. apply andb_true_iff in hh as [hh _]. pose proof (Tolerances.sign_apart_sound bits _ _ _ _ hh hv ht). destruct A as [A0 A1]. cbn [snd form fst] in *.
+      replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
+  assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints],
+    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
+  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda (encloses_all theta theta_in) hd') |].
+    exists (map_rows formula_at whole). split; [left; reflexivity |].
+    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y whole v (Still _) (Constant _ _ hk) len nz h)).
+  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
+    cbn [holds]. split; [exact (are_defined_sound cell x lambda (encloses_all theta theta_in) hd') |].
+    exists (map_rows formula_at whole). split; [left; reflexivity |].
+    destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg zero] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h) as [reg G].
+    split; [exact reg |]. intros kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
+    apply (rank_energy places Y _ v (proj2 reg)).
+    assert (W : forall w r, form (map (fun p => (fst p, 0)) w) r v = form w (map (fun p => (fst p, 0)) r) v).
+    { induction w as [| [a b] w I]; intros [| [A D] r]; cbn [map form fst snd]; try reflexivity. rewrite I. ring. }
+    rewrite <- W. specialize (G (fun _ => 0) 0 (map (fun p => (fst p, 0)) (lower_weights places Y v)) v (Still _)). cbv beta in G. rewrite Rmult_0_l, Rplus_0_l, Rplus_0_l in G. apply G.
+    intros s t' T i real _ hh _ hr _. rewrite W, Rmult_0_l, !Rplus_0_l.
+    assert (hr' : Forall2 (Tolerances.varied_in bits) (map Tolerances.without_D i) (map (fun A => (fst A, 0)) real)) by (eapply map_related; [| exact hr]; intros; apply Tolerances.without_D_sound; assumption).
+    pose proof (lower_apart_shows _ _ 0 _ _ _ _ _ _ hh hr' (zero_sound bits) len nz) as P. rewrite Rmult_0_l in P. exact P.
+  - destruct directions as [| u [|]]; try discriminate. cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
+    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.upper_apart bits (map (Fixed.integer bits) u) i (repeat [sub high t] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    split; [exact Reg |]. intros k v hk len nz. exact (proj2 (Up (fun _ => high) (fun _ => k) _ whole v (Still _) (Constant _ _ hk) len nz h)).
+  - destruct directions as [| u0 [| v0 [|]]]; try discriminate. apply andb_true_iff in h as [hp h]. cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
+    pose (FL := fun (s : list bool) (t : fixed) i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u0) places Y i (repeat [neg (add (at_vertex s (mu_slope places mu)) t)] (length cell)) with
+      Some t => Solve.is_definite (length cell) t | None => false end).
+    pose (FU := fun (s : list bool) (t : fixed) i => match Tolerances.upper_apart bits (map (Fixed.integer bits) v0) i (repeat [sub (mul bits c2 (at_vertex s (mu_slope places mu))) t] (length cell)) with
+      Some t => Solve.is_definite (length cell) t | None => false end).
+    pose proof (Each whole (fun s t i => FL s t i && FU s t i) FL (fun s t i k => proj1 (andb_prop _ _ k)) h) as hl.
+    pose proof (Each whole (fun s t i => FL s t i && FU s t i) FU (fun s t i k => proj2 (andb_prop _ _ k)) h) as hu.
+    pose proof (proj1 (Over _ FL hl)) as Reg. unfold FL in hl. unfold FU in hu.
+    split; [exact Reg |]. intros c u v hc lu lv nu nv. destruct (mu_slope_in places mu) as [q hq]. rewrite <- lambda_length in hp. pose proof (positive_there_sound bits _ _ _ hp hq lambda_in) as p0.
+    pose proof (proj2 (Low (fun s => at_vertex s (mu_slope places mu)) (fun l => at_lambda l q) (map (Fixed.integer bits) u0) places Y whole v (fun l l1 l2 a b h3 _ => h3 q) (fun s _ => at_vertex_sound bits s _ _ hq) lv nv hl)) as A.
+    assert (B := proj2 (Up (fun s => mul bits c2 (at_vertex s (mu_slope places mu))) (fun l => c * at_lambda l q) (map (Fixed.integer bits) v0) whole u
+      ltac:(intros l l1 l2 a b h3 _; cbv beta; rewrite (h3 q); ring) (fun s _ => mul_sound bits _ _ _ _ hc (at_vertex_sound bits s _ _ hq)) lu nu hu)). cbv beta in A, B.
+    pose proof (energy_nonneg _ u (proj2 Reg)) as E0. set (M := map_rows (value x theta) (map_rows formula_at whole)) in *. clearbody M. set (a := at_lambda lambda q) in *. clearbody a.
+    unfold nonzero in nu, nv. set (U := dot u u) in *. set (V := dot v v) in *. clearbody U V.
+    assert (c0 : 0 < c). { apply Rnot_le_lt. intro n. assert (c * a <= 0) by nra. nra. }
+    apply Rlt_trans with (c * a * U * V); [apply Rmult_lt_compat_r; assumption |].
+    replace (c * a * U * V) with (c * U * (a * V)) by ring. replace (c * energy M v * U) with (c * U * energy M v) by ring.
+    apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
+  - destruct directions; [| discriminate]. exact (Sign f h).
+  - destruct directions as [| u [|]]; try discriminate. cbn [holds].
+    assert (Reg : regular x (map_rows formula_at r)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y r v (Still _) (Constant _ _ hk) len nz h)).
+  - destruct directions; [| discriminate]. left. exact (Sign f h).
+  - destruct directions; [| discriminate]. right. exact (Sign g h).
+  - destruct directions as [| u0 [|]]; try discriminate. apply andb_true_iff in h as [lw h]. apply Nat.eqb_eq in lw. cbn [holds].
+    destruct (Over whole (fun s t => Tolerances.solved_apart bits (map (Fixed.integer bits) u0) (length cell) i k2 t places Y) h) as [Reg G]. split; [exact Reg |].
+    assert (lr : length (map_rows (value x theta) (map_rows formula_at whole)) = length cell) by (unfold map_rows; rewrite !map_length; exact lw).
+    split; [exact lr |]. intros k u hk k0 lu nz. set (R := map_rows (value x theta) (map_rows formula_at whole)) in *. cbv zeta.
+    set (q := Solve.weighted_sum u (map (map (Y_value places)) Y)). set (p := Solve.weighted_sum u (map fst R)).
+    specialize (G (fun _ => - dot q q) (- dot u u) (Solve.solve_weights i k u) q (Still _)).
+    assert (F : 0 < - dot q q + - dot u u * at_lambda lambda el + form (Solve.solve_weights i k u) R q).
+    { apply G. intros s t' T i' real _ hh ht hr _. pose proof (Tolerances.solved_apart_sound bits _ _ _ _ k _ T _ _ _ _ u hh hr hk k0 ht ltac:(congruence) nz) as P. cbv zeta in P. fold q in P. lra. }
+    rewrite Solve.form_solve in F by congruence. fold p in F. set (B := nth i (map snd R) 0 * nth i u 0 ^ 2) in *.
+    pose proof (Linear.dot_self (comb 1 (- 1) p q)) as N. rewrite dot_comb, !(Solve.dot_commutes _ (comb _ _ _ _)), !dot_comb, (Solve.dot_commutes q p) in N.
+    assert (0 <= dot u u * at_lambda lambda el) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact el0]). lra.
+Qed.
+End Apart.
 
 (** [allowed x]: in the workspace. *)
 Variable allowed : list R -> Prop.
@@ -576,12 +923,20 @@ Proof.
     refine (accuracy_holds cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
     exact (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) tape). }
-  destruct e as [| | | | | | | | | e' n places | | | | | |]; try (apply (K None _ I h)).
-  cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
-  refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
-  destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
-  apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
-  apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p].
+  assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate cell) cell less t e ends directions = true -> holds (length cell) x t).
+  { intros less e' ends directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
+    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 less t e' directions hl k). }
+  assert (Tangent : forall tangent n places, inside cell = Some tangent -> (0 <=? n)%Z = true -> harmless lambda (Some (dyadic_slope n places tangent))).
+  { intros tangent n places i n0. destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
+    destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
+    apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
+    apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p]. }
+  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions]; try (apply (K None _ I h)).
+  - cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
+    exact (K _ _ (Tangent tangent n places eq_refl n0) h).
+  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions']; try (exact (Apart None _ _ _ I h)).
+    destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
+    exact (Apart _ _ _ _ (Tangent tangent n places eq_refl n0) h).
 Qed.
 
 Lemma outside_none : forall cell x, Forall2 contains cell x -> allowed x -> is_outside cell = true -> False.

@@ -129,7 +129,7 @@ Proof.
   intros cell x t e it hx len ht h.
   assert (None_ : forall e, shows_less (tensors bits tape params cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
-  destruct e as [| | | | | | | | | | | e | | | |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places | | |]; try exact (None_ _ h).
+  destruct e as [| | | | | | | | | | | e | | | | |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors bits tape params cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.

@@ -146,7 +146,7 @@ const all = (text) => {
   return [verify(text), exactly(one)];
 };
 // Ever nearer to the last bound with which what is made of it is accepted.
-const narrowed = (text, low, high) => {
+const narrowed = (text, low, high, steps = 40) => {
   const seen = new Set();
   const answer = (b) => {
     const certificate = text(String(+b.toFixed(12)));
@@ -158,7 +158,7 @@ const narrowed = (text, low, high) => {
   let [from, to] = [low, high];
   const first = answer(from);
   answer(to);
-  for (let i = 0; i < 40; i++) {
+  for (let i = 0; i < steps; i++) {
     const middle = (from + to) / 2;
     if (answer(middle) === first) from = middle;
     else to = middle;
@@ -391,8 +391,6 @@ for (const b of ["0", "-1"]) {
   if (all(text).some((answer) => answer !== "REJECTED")) fail(`accuracy: ${all(text)}: ${text}`);
 }
 console.log(`accuracy: ${accuracies.length} machines, with one answer at 42 bounds each`);
-for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accuracies])
-  read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
 // Atlases: a bound and lengths that are parameters, of which the bound decides.
 const tied = sliders('{"min":"r-0.1","max":"r+1/10"}');
 const by_lower = { by: [[0, { lower: { y: [[8, 0, 0], [0, 8, 0], [0, 0, 8]], places: 3 } }]] };
@@ -449,6 +447,70 @@ for (const [parts, right] of atlases) {
 }
 read.push(atlas({}), atlas(atlases[3][0]));
 console.log(`atlases: ${atlases.length}, with one answer`);
+
+// Tolerances apart, in the same way: wide ones, of lengths, and of all that legs have.
+const apartly = (e, ends, ...directions) => `{"tolerances":[${e},"${ends}",${JSON.stringify(directions)}]}`;
+const wide = sliders('{"min":"307","max":"313"}'), mixed_ends = "-0+0-+00--0+-+0+-0+0-0+--0+0-+";
+const one_leaf = (...steps) => `{"tree":{"precision":40,"nodes":[{"by":[${steps}]}]}}`;
+const by_rank = `[0,{"rank":${y(near)}}]`, identity = `{"lower":${y(near)}}`, turned_y = `{"lower":${y([[7, 1, 0], [0, 8, -1], [1, 0, 8]])}}`;
+const struts_rank = `[0,{"rank":${y([[-8, 0, 2], [4, -7, 2], [4, 7, 2]])}}]`;
+const [a, b, c] = [[1, 1, 1], [3, -2, 0], [0, 0, 0]];
+const tools = ',"given":{"tool":["56"]}', moving = ',"given":{"acceleration":["9000"],"speed":["1200"]}', joint = ',"given":{"joint":["3"]}';
+const apart_tolerances = [
+  [asks(wide, box, about("transmission", "max"), one_leaf(`[0,${apartly(identity, "-0+", a)}]`)), 1.01, 3],
+  [asks(loose, box, about("transmission", "max"), one_leaf(`[0,${apartly(turned_y, mixed_ends, b)}]`)), 1.01, 3],
+  [asks(wide, cylinder, about("transmission", "max"), one_leaf(`[0,{"tolerances":[{"inside":[${identity},1,9]},"00+",[[1,2,3]]]}]`)), 1.01, 3],
+  [asks(wide, box, about("transmission", "min"), one_leaf(by_rank, `[1,${apartly('"test"', "+0-", a)}]`)), 0.2, 1],
+  [asks(loose, box, about("transmission", "min"), one_leaf(by_rank, `[1,${apartly('"test"', mixed_ends, b)}]`)), 0.2, 1],
+  [asks(wide, cylinder, about("transmission", "min"), one_leaf(by_rank, `[1,${apartly('{"inside":["test",1,9]}', "---", a)}]`)), 0.2, 1],
+  [asks(wide, box, about("transmission", "min"), one_leaf(by_rank, `[1,${apartly('"test"', "000", c)}]`)), 0.2, 1],
+  [asks(wide, box, about("conditioning", "max"), one_leaf(by_rank, `[1,${apartly(`{"conditioning":[${y(near)},[4,0,0,0]]}`, "0-0", a, b)}]`)), 1.01, 9],
+  [asks(loose, cylinder, about("conditioning", "max"), one_leaf(by_rank, `[1,${apartly(`{"inside":[{"conditioning":[${y(near)},[4,0,0,0]]},1,9]}`, mixed_ends, a, b)}]`)), 1.01, 9],
+  [asks(wide, box, about("joint_range", "min", ',"leg":2'), one_leaf(by_rank, `[1,${apartly('"test"', "0-+")}]`)), -400, 0],
+  [asks(loose, box, about("joint_range", "max", ',"leg":1'), one_leaf(by_rank, `[1,${apartly('"test"', mixed_ends)}]`)), -400, 0],
+  [asks(loose, cylinder, about("joint_range", "max", ',"leg":3'), one_leaf(by_rank, `[1,${apartly('{"inside":["test",3,9]}', mixed_ends)}]`)), -400, 0],
+  [asks(wide, box, about("joint_speed", "max", ',"leg":1' + tools), one_leaf(by_rank, `[1,${apartly('"test"', "+++")}]`)), 56, 90],
+  [asks(loose, box, about("joint_acceleration", "max", ',"leg":2' + moving), one_leaf(by_rank, `[1,${apartly('"test"', mixed_ends)}]`)), 9000, 30000],
+  [asks(wide, box, about("serial_margin", "min", ',"leg":2'), one_leaf(by_rank, `[1,${apartly('"test"', "-+0")}]`)), 0.1, 1],
+  [asks(loose, box, about("parallel_margin", "min"), one_leaf(by_rank, `[1,${apartly('"test"', mixed_ends)}]`)), 0.1, 1],
+  [asks([wide[1], wide[0], wide[2]], box, about("parallel_margin", "min"), one_leaf(`[0,{"rank":${y([near[1], near[0], near[2]])}}]`, `[1,${apartly('"negative"', "0+-")}]`)), 0.1, 1],
+  [asks(loose, box, about("stiffness", "min", joint), one_leaf(by_rank, `[1,${apartly(identity, mixed_ends, a)}]`)), 0.1, 3],
+  [asks(loose, box, about("joint_force", "max", ',"leg":2' + tools), one_leaf(by_rank, `[1,${apartly(turned_y.replace('"places":3', '"places":4'), mixed_ends, b)}]`)), 56, 3000],
+  [asks(wide, box, about("joint_force", "max", ',"leg":1' + tools), one_leaf(by_rank, `[1,${apartly(lower([[5, 0, 0], [0, 5, 0], [0, 0, 5]]), "0-+", a)}]`)), 56, 300],
+  [asks(wide, cylinder, about("joint_force", "max", ',"leg":3' + tools), one_leaf(by_rank, `[1,${apartly(`{"inside":[${whole},1,9]}`, "00+", a)}]`)), 56, 300],
+  [asks(wide, box, about("joint_range", "max", ',"leg":1'), one_leaf(`[0,${apartly(`{"rank":${y(near)}}`, "0-+", a)}]`, '[1,"test"]')), -400, 0],
+  [asks(vague_struts, far, about("transmission", "min"), one_leaf(struts_rank, `[1,${apartly('"test"', "-0+0", a)}]`)), 0.05, 1],
+  [asks(vague_struts, far, about("joint_range", "max"), one_leaf(struts_rank, ...[1, 2, 3].map((i) => `[${i},${apartly('"test"', "0-+0")}]`))), 300, 600],
+  [asks([three[0], vague[1], vague_plane], box, about("transmission", "max"), one_leaf(`[0,${apartly(identity, "0-", a)}]`)), 1.01, 3],
+];
+for (const [text, low, high] of apart_tolerances) {
+  if (all(text(String(low)))[1] === all(text(String(high)))[1]) fail(`tolerances: one answer at ${low} and ${high}: ${text("?")}`);
+  // Squares in derivatives are products here, which rounds otherwise: not to the last bit.
+  narrowed(text, low, high, 18);
+}
+const shown_apart = (step, legs = wide, workspace = box) => asks(legs, workspace, about("transmission", "max"), one_leaf(`[0,${step}]`))("3");
+if (all(shown_apart(apartly(identity, "-0+", a))).some((answer) => answer !== "CERTIFIED")) fail("tolerances: none");
+for (const text of [
+  ...["", "-0", "-0+-", "-0x", "-0 "].map((ends) => shown_apart(apartly(identity, ends, a))),
+  shown_apart(apartly(identity, "", a), three), shown_apart(apartly(identity, "000", a), three),
+  shown_apart(apartly(identity, "-0+")), shown_apart(apartly(identity, "-0+", a, a)), shown_apart(apartly(identity, "-0+", [1, 1])), shown_apart(apartly(identity, "-0+", [1, 1, 1, 1])),
+  shown_apart(apartly(apartly(identity, "-0+", a), "-0+", a)), shown_apart(`{"inside":[${apartly(identity, "-0+", a)},1,9]}`, wide, cylinder),
+  shown_apart(apartly(`{"inside":[${identity},1,9]}`, "-0+", a)), shown_apart(apartly(`{"inside":[${identity},-1,9]}`, "-0+", a), wide, cylinder),
+  shown_apart(apartly(identity.replace("lower", "lower_divided"), "-0+", a)), shown_apart(apartly(identity.replace("lower", "rank"), "-0+", a)),
+  shown_apart(apartly(lower([[8, 0, 0], [0, 8, 0], [0, 0, -8]]), "-0+", a)), shown_apart(apartly('"test"', "-0+", a)), shown_apart(apartly('"outside"', "-0+", a)),
+  asks(wide, box, about("transmission", "min"), one_leaf(by_rank, `[1,${apartly('"divided"', "-0+", a)}]`))("0.2"),
+  asks(wide, box, same, by_chords(near, `[1,${apartly('"chords"', "-0+", a)}]`))(""),
+  asks(toleranced, box, off(0.01), one_leaf(by_rank, `[1,${apartly(nearly, "-0+", a)}]`))("1"),
+  asks(wide, box, about("joint_range", "max", ',"leg":1'), one_leaf(by_rank, `[1,${apartly('"test"', "-0+", a)}]`))("0"),
+  clear(wide, box, legged, one_leaf(by_rank, `[1,${apartly(steady, "-0+", a)}]`), "certified")("1"),
+  atlas({ cells: with_cell(7, { certified: { precision: 40, nodes: [{ by: [[0, { tolerances: [by_lower.by[0][1], "000", [[1, 1, 1]]] }]] }] } }) }),
+]) {
+  const answers = all(text);
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`tolerances: ${answers}: ${text}`);
+}
+console.log(`tolerances: ${apart_tolerances.length} machines, with one answer at 20 bounds each`);
+for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accuracies, ...apart_tolerances])
+  read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
 fs.rmSync(beside, { recursive: true });
 
 // Mutants: one number, key or element of a certificate is another.

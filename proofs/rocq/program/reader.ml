@@ -302,6 +302,7 @@ let rec evidence (n, m as shape) v =
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
+  | Object [ ("tolerances", Array [ e; ends; directions ]) ] -> Apart_ (evidence shape e, string ends, List.map integers (array directions))
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->
     if digits q <> "0" then raise Malformed else multiplier (fun y places -> Accurate_ (y, places, integer kappa)) y
@@ -372,8 +373,10 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
+  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ -> true | _ -> false) n.by_) in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
   (match subject_, proof_ with
+   | (Turning_ _ | Formulas_ _), Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
    | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
    | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]

@@ -3,129 +3,129 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(v){"use strict";var
-Dj=typeof
-module==="object"&&module.exports||v,h7="spatial",my="Invalid_argument",fA="precision",aA='"',mx="@[",hP=1255,mw="inside",m8="Fatal error: exception %s\n",l0=255,mv="yaw",m6="(",m7=0x800,lY="range",lZ="tree",hO="jsError",bL=0x8000,mt='the mechanism "',mu="%ni",nA="sqrt(",m5=256,es="offset",m4="obligation",a4="machine",lX="End_of_file",fD="strut",lW="center",fS="arm",hN="Failure",nz="serial_margin",fR="parameters",ca=0xff,ib="bodies",lV="\n",ia="outside",hX="base_axis",h6="ENOENT",ny=122,aO="0",m3="([^/]+)",h5=0xf,et=128,hM=-48,lU=0xdc00,ms="Sys_blocked_io",nx="fd ",hL="given",m2="ENOTEMPTY",az=248,fN="bound",ay="camlinternalFormat.ml",m1="Division_by_zero",nv="by",nw=1027,lT="Sys_error",mr="slider",mq="postulate",m0="torsion",mp="joint_error",er="refuted",mZ="proof",mo="%u",dy="mechanism",fM="row",lS="EEXIST",mn="roll_pitch_yaw",h4="%d",lR="Printexc.handle_uncaught_exception",hW="y",fz="lower",mm="within",mY="cube",lQ="clearance",mX="buffer.ml",nu="turned",fy="int_of_string",mW="control",ml="definitions",hV=127,eq=1024,mk="@{",lP="name",mV="from",h$="e",lN=120,lO=103,mj=" : flags Open_rdonly and Open_wronly are not compatible",mU="orthocert/2",nt="reach",lM=512,bc="-",ns="witness",bt="platform",lL=0x7ff0,lK="pitch",h_=": Not a directory",mi=" : file already exists",bd="min",nr="trim",dz="workspace",mh="claim",fL="split",nq="legs",b$=0xffffff,mT="joint",lI="formulas",lJ="0x",mg='the workspace "',mS="roll",fK="atlas",no="nodes",np="Out_of_memory",lH="psi_max",h9="orientation",mf="angle",fJ=254,h8="index out of bounds",mR=100,lG="end",nn="one_to_one",fQ="_bigarr02",lF="%Li",mQ=" : flags Open_text and Open_binary are not compatible",cw="drive",mP="coordinates",nm="holds",me=", characters ",mO="lower_divided",lE="speed",md="joints",nl="cylinder",bN=0xffff,mb="acceleration",ep="certified",hU="chords",mc=12520,hK="on",ma="axis",fI="accuracy",l$="no_cube",nk="parallel_margin",lD='the drive "',fC="fails",h3="Unix.Unix_error",nj="infinity",fx="tool",hJ="mkdir",eo=1000,fw="translational",t="",mN="Stack_overflow",ni="characteristic_length",hT="^",fv=": No such file or directory",h2="places",mM="/static/",dx=0x3f,mL=-97,mJ="stiffness",mK="Not_found",en="planar",fH="mode",nh="joint_speed",l_="Match_failure",lC=", ",lB="transmission",cv="anchor",ng="at",fP=252,lA="joint_force",dw="leg",cx=".",bM="+",mI="joint_acceleration",h1="rmdir",nf=0xf0,ne="spherical",l7="REJECTED",l8="undecided",l9="%li",mH=1026,be="max",cX="direction",mG="orthoglide",fO="rank",nd="constraint_margin",nc=-32,ly="Pervasives.do_at_exit",lz="utf8",h0="test",b9=" ",fB="conditioning",hZ="Fatal error: exception ",bu=0x80,lx="Undefined_recursive_module",hS=")",fG="length",mF="base",nb="quantity",mE="joint_range",fF="tilt",lw="Q2",hR="nan",l6="reference",mD="point",l5=0xe0,na="corner",l3="z",l4=0xdfff,mB="version",mC="_",m$="to",bs="/",hY="compare: functional value",m_="Assert_failure",l2="provenance",dv="radius",lv="%i",b_="require",fE="side",m9="format",hQ="ENOTDIR",mA="Q1",mz="all",cW="box",l1=250;function
-it(c,b,a){var
+a.prototype._T_}}(Object));(function(A){"use strict";var
+DX=typeof
+module==="object"&&module.exports||A,im="spatial",mX="Invalid_argument",fM="precision",aC='"',mW="@[",h5=1255,mV="inside",nv="Fatal error: exception %s\n",mm=255,mU="yaw",nt="(",nu=0x800,mk="range",ml="tree",h4="jsError",bR=0x8000,mS='the mechanism "',mT="%ni",nZ="sqrt(",ns=256,eE="offset",nr="obligation",a7="machine",mj="End_of_file",fP="strut",mi="center",f4="arm",h3="Failure",nY="serial_margin",f3="parameters",ci=0xff,it="bodies",mh="\n",is="outside",ib="base_axis",il="ENOENT",nX=122,aQ="0",nq="([^/]+)",ik=0xf,eF=128,h2=-48,mg=0xdc00,mR="Sys_blocked_io",nW="fd ",h1="given",np="ENOTEMPTY",aB=248,fZ="bound",aA="camlinternalFormat.ml",no="Division_by_zero",nU="by",nV=1027,mf="Sys_error",mQ="slider",mP="postulate",nn="torsion",mO="joint_error",eD="refuted",nm="proof",mN="%u",dI="mechanism",fY="row",me="EEXIST",mM="roll_pitch_yaw",ij="%d",md="Printexc.handle_uncaught_exception",ia="y",fL="lower",mL="within",nl="cube",mc="clearance",nk="buffer.ml",nT="turned",fK="int_of_string",nj="control",mK="definitions",h$=127,eC=1024,mJ="@{",mb="name",ni="from",ir="e",l$=120,ma=103,mI=" : flags Open_rdonly and Open_wronly are not compatible",nh="orthocert/2",nS="reach",l_=512,bj="-",nR="witness",bz="platform",l9=0x7ff0,l8="pitch",iq=": Not a directory",mH=" : file already exists",bk="min",nQ="trim",dJ="workspace",mG="claim",fX="split",nP="legs",ch=0xffffff,ng="joint",l6="formulas",l7="0x",mF='the workspace "',nf="roll",fW="atlas",nN="nodes",nO="Out_of_memory",l5="psi_max",ip="orientation",mE="angle",fV=254,io="index out of bounds",ne=100,l4="end",nM="one_to_one",f2="_bigarr02",l3="%Li",nd=" : flags Open_text and Open_binary are not compatible",cD="drive",nc="coordinates",nL="holds",mD=", characters ",nb="lower_divided",l2="speed",mC="joints",nK="cylinder",bT=0xffff,mA="acceleration",eB="certified",h_="chords",mB=12520,h0="on",mz="axis",fU="accuracy",my="no_cube",nJ="parallel_margin",l1='the drive "',fO="fails",ii="Unix.Unix_error",nI="infinity",fJ="tool",hZ="mkdir",eA=1000,fI="translational",mx="tolerances",w="",na="Stack_overflow",nH="characteristic_length",h9="^",fH=": No such file or directory",ih="places",m$="/static/",dH=0x3f,m_=-97,m8="stiffness",m9="Not_found",ez="planar",fT="mode",nG="joint_speed",mw="Match_failure",l0=", ",lZ="transmission",cC="anchor",nF="at",f1=252,lY="joint_force",dG="leg",cE=".",bS="+",m7="joint_acceleration",ig="rmdir",nE=0xf0,nD="spherical",mt="REJECTED",mu="undecided",mv="%li",m6=1026,bl="max",c2="direction",m5="orthoglide",f0="rank",nC="constraint_margin",nB=-32,lW="Pervasives.do_at_exit",lX="utf8",ie="test",cf=" ",fN="conditioning",id="Fatal error: exception ",bA=0x80,lV="Undefined_recursive_module",h8=")",fS="length",m4="base",nA="quantity",m3="joint_range",fR="tilt",lU="Q2",h7="nan",ms="reference",m2="point",mr=0xe0,nz="corner",mp="z",mq=0xdfff,m0="version",m1="_",ny="to",by="/",ic="compare: functional value",nx="Assert_failure",mo="provenance",dF="radius",lT="%i",cg="require",fQ="side",nw="format",h6="ENOTDIR",mZ="Q1",mY="all",c1="box",mn=250;function
+iJ(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=t;for(;0<a;b+=eq,a-=eq)e+=d.apply(null,c.slice(b,b+Math.min(a,eq)));return e}function
-fT(b){if(v.Uint8Array)var
-c=new(v.Uint8Array)(b.l);else
+e=w;for(;0<a;b+=eC,a-=eC)e+=d.apply(null,c.slice(b,b+Math.min(a,eC)));return e}function
+f5(b){if(A.Uint8Array)var
+c=new(A.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cz(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fT(b);var
+cG(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)f5(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-cb(a){return a}function
-bQ(a,b,c,d,e){cz(cb(a),b,c,d,e);return 0}function
-Db(b,a){throw[0,b,a]}function
-dE(b,a){if(b==0)return t;if(a.repeat)return a.repeat(b);var
-d=t,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dC(a){if(a.t==2)a.c+=dE(a.l-a.c.length,"\0");else
-a.c=it(a.c,0,a.c.length);a.t=0}function
-n6(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>hV)return false;return true}else
+cj(a){return a}function
+bW(a,b,c,d,e){cG(cj(a),b,c,d,e);return 0}function
+DQ(b,a){throw[0,b,a]}function
+dO(b,a){if(b==0)return w;if(a.repeat)return a.repeat(b);var
+d=w,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dM(a){if(a.t==2)a.c+=dO(a.l-a.c.length,"\0");else
+a.c=iJ(a.c,0,a.c.length);a.t=0}function
+ou(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>h$)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iv(e){for(var
-j=t,c=t,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bu){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bu;d++);if(d-b>lM){c.substr(0,1);j+=c;c=t;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(f<<6);if(f<l5){a=g-0x3080;if(a<bu)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(g<<6);if(f<nf){a=g-0xe2080;if(a<m7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==et&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bN)c+=String.fromCharCode(0xd7c0+(a>>10),lU+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eq){c.substr(0,1);j+=c;c=t}}return j+c}function
-bO(c,a,b){this.t=c;this.c=a;this.l=b}bO.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dC(this);case
-0:if(n6(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bO.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iv(a)};bO.prototype.slice=function(){var
+iL(e){for(var
+j=w,c=w,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bA){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bA;d++);if(d-b>l_){c.substr(0,1);j+=c;c=w;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(f<<6);if(f<mr){a=g-0x3080;if(a<bA)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(g<<6);if(f<nE){a=g-0xe2080;if(a<nu||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bT)c+=String.fromCharCode(0xd7c0+(a>>10),mg+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eC){c.substr(0,1);j+=c;c=w}}return j+c}function
+bU(c,a,b){this.t=c;this.c=a;this.l=b}bU.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dM(this);case
+0:if(ou(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bU.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iL(a)};bU.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bO(this.t,a,this.l)};function
-nK(a){return new
-bO(0,a,a.length)}function
-a(a){return nK(a)}function
-ir(c,b){Db(c,a(b))}var
-am=[0];function
-aB(a){ir(am.Invalid_argument,a)}function
-nI(){aB(h8)}function
-an(a,c,b){b&=ca;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fT(a)}a.c[c]=b;return 0}function
-cY(b,a,c){if(a>>>0>=b.l)nI();return an(b,a,c)}function
-dB(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bU(this.t,a,this.l)};function
+n9(a){return new
+bU(0,a,a.length)}function
+a(a){return n9(a)}function
+iH(c,b){DQ(c,a(b))}var
+ao=[0];function
+aD(a){iH(ao.Invalid_argument,a)}function
+n7(){aD(io)}function
+aq(a,c,b){b&=ci;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}f5(a)}a.c[c]=b;return 0}function
+c3(b,a,c){if(a>>>0>=b.l)n7();return aq(b,a,c)}function
+dL(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cc(c,a){if(c.fun)return cc(c.fun,a);if(typeof
+bX(c,a){if(c.fun)return bX(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cc(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bX(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cc(c,d)}}function
-eu(){aB(h8)}function
-nL(a,b){if(b>>>0>=a.length-1)eu();return a}function
-CD(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-ce(a){a.t&6&&dC(a);return a.c}var
-Dl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Dk(a){if(Dl)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bX(c,d)}}function
+eG(){aD(io)}function
+n_(a,b){if(b>>>0>=a.length-1)eG();return a}function
+Dg(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+cl(a){a.t&6&&dM(a);return a.c}var
+DZ=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+DY(a){if(DZ)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-ii(c){var
-a=new(v.Float32Array)(1);a[0]=c;var
-b=new(v.Int32Array)(a.buffer);return b[0]|0}var
-nU=Math.pow(2,-24);function
-C$(a){throw a}function
-n1(){C$(am.Division_by_zero)}function
-u(b,c,a){this.lo=b&b$;this.mi=c&b$;this.hi=a&bN}u.prototype.caml_custom="_j";u.prototype.copy=function(){return new
-u(this.lo,this.mi,this.hi)};u.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};u.prototype.neg=function(){var
+iz(c){var
+a=new(A.Float32Array)(1);a[0]=c;var
+b=new(A.Int32Array)(a.buffer);return b[0]|0}var
+oh=Math.pow(2,-24);function
+DO(a){throw a}function
+oo(){DO(ao.Division_by_zero)}function
+z(b,c,a){this.lo=b&ch;this.mi=c&ch;this.hi=a&bT}z.prototype.caml_custom="_j";z.prototype.copy=function(){return new
+z(this.lo,this.mi,this.hi)};z.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-u(a,b,c)};u.prototype.add=function(a){var
+z(a,b,c)};z.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-u(b,c,d)};u.prototype.sub=function(a){var
+z(b,c,d)};z.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-u(b,c,d)};u.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*nU|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nU|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-u(b,c,d)};u.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};u.prototype.isNeg=function(){return this.hi<<16<0};u.prototype.and=function(a){return new
-u(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};u.prototype.or=function(a){return new
-u(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};u.prototype.xor=function(a){return new
-u(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};u.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-u(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-u(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-u(0,0,this.lo<<a-48)};u.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-u(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-u(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-u(this.hi>>a-48,0,0)};u.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+z(b,c,d)};z.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*oh|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oh|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+z(b,c,d)};z.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};z.prototype.isNeg=function(){return this.hi<<16<0};z.prototype.and=function(a){return new
+z(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};z.prototype.or=function(a){return new
+z(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};z.prototype.xor=function(a){return new
+z(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};z.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+z(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+z(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+z(0,0,this.lo<<a-48)};z.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+z(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+z(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+z(this.hi>>a-48,0,0)};z.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-u(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+z(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-u(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bN);return new
-u(this.hi<<16>>a-32,b,b)};u.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&b$;this.lo=this.lo<<1&b$};u.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&b$;this.mi=(this.mi>>>1|this.hi<<23)&b$;this.hi=this.hi>>>1};u.prototype.udivmod=function(e){var
+z(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bT);return new
+z(this.hi<<16>>a-32,b,b)};z.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ch;this.lo=this.lo<<1&ch};z.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ch;this.mi=(this.mi>>>1|this.hi<<23)&ch;this.hi=this.hi>>>1};z.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-u(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};u.prototype.div=function(a){var
-b=this;if(a.isZero())n1();var
-d=b.hi^a.hi;if(b.hi&bL)b=b.neg();if(a.hi&bL)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bL)c=c.neg();return c};u.prototype.mod=function(b){var
-a=this;if(b.isZero())n1();var
-d=a.hi;if(a.hi&bL)a=a.neg();if(b.hi&bL)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bL)c=c.neg();return c};u.prototype.toInt=function(){return this.lo|this.mi<<24};u.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};u.prototype.toArray=function(){return[this.hi>>8,this.hi&ca,this.mi>>16,this.mi>>8&ca,this.mi&ca,this.lo>>16,this.lo>>8&ca,this.lo&ca]};u.prototype.lo32=function(){return this.lo|(this.mi&ca)<<24};u.prototype.hi32=function(){return this.mi>>>8&bN|this.hi<<16};function
-fX(b,c,a){return new
-u(b,c,a)}function
-fW(a){if(!isFinite(a)){if(isNaN(a))return fX(1,0,lL);return a>0?fX(0,0,lL):fX(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bL:a>=0?0:bL;if(f)a=-a;var
-b=Dk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mH)}else{a/=Math.pow(2,b-nw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+z(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};z.prototype.div=function(a){var
+b=this;if(a.isZero())oo();var
+d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};z.prototype.mod=function(b){var
+a=this;if(b.isZero())oo();var
+d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};z.prototype.toInt=function(){return this.lo|this.mi<<24};z.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};z.prototype.toArray=function(){return[this.hi>>8,this.hi&ci,this.mi>>16,this.mi>>8&ci,this.mi&ci,this.lo>>16,this.lo>>8&ci,this.lo&ci]};z.prototype.lo32=function(){return this.lo|(this.mi&ci)<<24};z.prototype.hi32=function(){return this.mi>>>8&bT|this.hi<<16};function
+f9(b,c,a){return new
+z(b,c,a)}function
+f8(a){if(!isFinite(a)){if(isNaN(a))return f9(1,0,l9);return a>0?f9(0,0,l9):f9(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
+b=DY(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m6)}else{a/=Math.pow(2,b-nV);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&h5|f|b<<4;return fX(g,e,c)}function
-ex(a){return a.toArray()}function
-nH(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fQ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bN)c.write(16,b.dims[a]);else{c.write(16,bN);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ik|f|b<<4;return f9(g,e,c)}function
+eJ(a){return a.toArray()}function
+n6(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f2)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bT)c.write(16,b.dims[a]);else{c.write(16,bT);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +142,30 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=ex(b.get(a));for(var
+e=eJ(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=ex(fW(b.get(a)));for(var
+e=eJ(f8(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=ii(b.get(a));c.write(32,e)}break;case
+e=iz(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,ii(d[1]));c.write(32,ii(d[2]))}break;case
+d=b.get(a);c.write(32,iz(d[1]));c.write(32,iz(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=ex(fW(f[1]));for(var
+f=b.get(a),e=eJ(f8(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=ex(fW(f[2]));for(var
+e=eJ(f8(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-nF(a){switch(a){case
+n4(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Cx(c,e){var
-b=v,a;switch(c){case
+Da(c,e){var
+b=A,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=v,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aB("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aD("Bigarray.create: unsupported kind");var
 d=new
-a(e*nF(c));return d}function
-ij(c){var
-a=new(v.Int32Array)(1);a[0]=c;var
-b=new(v.Float32Array)(a.buffer);return b[0]}function
-ew(a){return new
-u(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ik(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h5)==0?b&bL?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&h5);if(c>0){a+=16;a*=Math.pow(2,c-nw)}else
-a*=Math.pow(2,-mH);if(b&bL)a=-a;return a}function
-ic(b){var
+a(e*n4(c));return d}function
+iA(c){var
+a=new(A.Int32Array)(1);a[0]=c;var
+b=new(A.Float32Array)(a.buffer);return b[0]}function
+eI(a){return new
+z(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+iB(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ik)==0?b&bR?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ik);if(c>0){a+=16;a*=Math.pow(2,c-nV)}else
+a*=Math.pow(2,-m6);if(b&bR)a=-a;return a}function
+iu(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aB("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-CO(b,a){return new
-u(b&b$,b>>>24&ca|(a&bN)<<8,a>>>16&bN)}function
-il(a){return a.hi32()}function
-im(a){return a.lo32()}var
-Cy=fQ;function
-cy(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cy.prototype.caml_custom=Cy;cy.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aD("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Dr(b,a){return new
+z(b&ch,b>>>24&ci|(a&bT)<<8,a>>>16&bT)}function
+iC(a){return a.hi32()}function
+iD(a){return a.lo32()}var
+Db=f2;function
+cF(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cF.prototype.caml_custom=Db;cF.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aB("bigarray.js: invalid offset");if(this.dims.length!=b.length)aB("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eu();c=c*this.dims[a]+b[a]}else
+Array))aD("bigarray.js: invalid offset");if(this.dims.length!=b.length)aD("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eG();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eu();c=c*this.dims[a]+(b[a]-1)}return c};cy.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eG();c=c*this.dims[a]+(b[a]-1)}return c};cF.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return CO(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Dr(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fJ,e,c];default:return this.data[a]}};cy.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=im(b);this.data[a*2+1]=il(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fV,e,c];default:return this.data[a]}};cF.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iD(b);this.data[a*2+1]=iC(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cy.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cF.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=im(b),e=il(b);if(c==e)this.data.fill(c);else
+c=iD(b),e=iC(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cy.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cF.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dA.prototype=new
-cy();dA.prototype.offset=function(a){if(typeof
+dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
+cF();dK.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aB("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eu();return a};dA.prototype.get=function(a){return this.data[a]};dA.prototype.set=function(a,b){this.data[a]=b;return 0};dA.prototype.fill=function(a){this.data.fill(a);return 0};function
-nD(c,d,a,b){var
-e=nF(c);if(ic(a)*e!=b.length)aB("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dA(c,d,a,b);return new
-cy(c,d,a,b)}function
-bv(b){if(!am.Failure)am.Failure=[az,a(hN),-3];ir(am.Failure,b)}function
-nE(b,v,r){var
-i=b.read32s();if(i<0||i>16)bv("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ca,o=p>>8&1,h=[];if(r==fQ)for(var
+aD("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eG();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
+n2(c,d,a,b){var
+e=n4(c);if(iu(a)*e!=b.length)aD("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dK(c,d,a,b);return new
+cF(c,d,a,b)}function
+bB(b){if(!ao.Failure)ao.Failure=[aB,a(h3),-3];iH(ao.Failure,b)}function
+n3(b,v,r){var
+i=b.read32s();if(i<0||i>16)bB("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ci,o=p>>8&1,h=[];if(r==f2)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bN){var
-t=b.read32u(),u=b.read32u();if(t!=0)bv("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bT){var
+t=b.read32u(),u=b.read32u();if(t!=0)bB("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ic(h),f=Cx(j,d),g=nD(j,o,h,f);switch(j){case
+d=iu(h),f=Da(j,d),g=n2(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bv("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bB("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ew(e);g.set(a,q)}break;case
+q=eI(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ik(ew(e));g.set(a,k)}break;case
+k=iB(eI(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ij(b.read32s());g.set(a,k)}break;case
+k=iA(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ij(b.read32s()),l=ij(b.read32s());g.set(a,[fJ,m,l])}break;case
+m=iA(b.read32s()),l=iA(b.read32s());g.set(a,[fV,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ik(ew(e));for(var
+m=iB(eI(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ik(ew(e));g.set(a,[fJ,m,l])}break}v[0]=(4+i)*4;return nD(j,o,h,f)}function
-nC(a,b,c){return a.compare(b,c)}function
-nY(a,b){return Math.imul(a,b)}function
-cd(b,a){a=nY(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nY(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-CK(a,b){a=cd(a,im(b));a=cd(a,il(b));return a}function
-nT(a,b){return CK(a,fW(b))}function
-nG(c){var
-b=ic(c.dims),d=0;switch(c.kind){case
+l=iB(eI(e));g.set(a,[fV,m,l])}break}v[0]=(4+i)*4;return n2(j,o,h,f)}function
+n1(a,b,c){return a.compare(b,c)}function
+ol(a,b){return Math.imul(a,b)}function
+ck(b,a){a=ol(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ol(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Dn(a,b){a=ck(a,iD(b));a=ck(a,iC(b));return a}function
+og(a,b){return Dn(a,f8(b))}function
+n5(c){var
+b=iu(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>m5)b=m5;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cd(d,e)}e=0;switch(b&3){case
+12:if(b>ns)b=ns;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ck(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cd(d,e)}break;case
+1:e|=c.data[a+0];d=ck(d,e)}break;case
 4:case
-5:if(b>et)b=et;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cd(d,e)}if((b&1)!=0)d=cd(d,c.data[a]);break;case
+5:if(b>eF)b=eF;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ck(d,e)}if((b&1)!=0)d=ck(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cd(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cd(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cd(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=nT(d,c.data[a]);break;case
+a=0;a<b;a++)d=og(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=nT(d,c.data[a]);break}return d}function
-CM(a,b){b[0]=4;return a.read32s()}function
-C8(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=og(d,c.data[a]);break}return d}function
+Dp(a,b){b[0]=4;return a.read32s()}function
+DL(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bv("input_value: native integer value too large");default:bv("input_value: ill-formed native integer")}}function
-CX(c,d){var
+2:bB("input_value: native integer value too large");default:bB("input_value: ill-formed native integer")}}function
+DA(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ew(b)}function
-CT(e,d,b){var
-c=ex(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eI(b)}function
+Dw(e,d,b){var
+c=eJ(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-CN(a,b,c){return a.compare(b)}function
-CQ(a){return a.lo32()^a.hi32()}var
-nO={"_j":{deserialize:CX,serialize:CT,fixed_length:8,compare:CN,hash:CQ},"_i":{deserialize:CM,fixed_length:4},"_n":{deserialize:C8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nE(a,b,"_bigarray")},serialize:nH,compare:nC,hash:nG},"_bigarr02":{deserialize:function(a,b){return nE(a,b,fQ)},serialize:nH,compare:nC,hash:nG}};function
-ie(a){return nO[a.caml_custom]&&nO[a.caml_custom].compare}function
-nM(f,c,d,e){var
-b=ie(c);if(b){var
+Dq(a,b,c){return a.compare(b)}function
+Dt(a){return a.lo32()^a.hi32()}var
+ob={"_j":{deserialize:DA,serialize:Dw,fixed_length:8,compare:Dq,hash:Dt},"_i":{deserialize:Dp,fixed_length:4},"_n":{deserialize:DL,fixed_length:4},"_bigarray":{deserialize:function(a,b){return n3(a,b,"_bigarray")},serialize:n6,compare:n1,hash:n5},"_bigarr02":{deserialize:function(a,b){return n3(a,b,f2)},serialize:n6,compare:n1,hash:n5}};function
+iw(a){return ob[a.caml_custom]&&ob[a.caml_custom].compare}function
+n$(f,c,d,e){var
+b=iw(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-fY(a){return a
+f_(a){return a
 instanceof
-bO}function
-ip(a){return fY(a)}function
-nN(a){if(typeof
-a==="number")return eo;else
-if(fY(a))return fP;else
-if(ip(a))return 1252;else
+bU}function
+iF(a){return f_(a)}function
+oa(a){if(typeof
+a==="number")return eA;else
+if(f_(a))return f1;else
+if(iF(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=l0){var
-b=a[0]|0;return b==fJ?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=mm){var
+b=a[0]|0;return b==fV?0:b}else
 if(a
 instanceof
-String)return mc;else
+String)return mB;else
 if(typeof
-a=="string")return mc;else
+a=="string")return mB;else
 if(a
 instanceof
-Number)return eo;else
-if(a&&a.caml_custom)return hP;else
+Number)return eA;else
+if(a&&a.caml_custom)return h5;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-CY(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-nJ(a,b){a.t&6&&dC(a);b.t&6&&dC(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-De(a,b){return nJ(a,b)}function
-id(a,b,d){var
+DB(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+n8(a,b){a.t&6&&dM(a);b.t&6&&dM(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+or(a,b){return n8(a,b)}function
+iv(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nN(a);if(f==l1){a=a[1];continue}var
-g=nN(b);if(g==l1){b=b[1];continue}if(f!==g){if(f==eo){if(g==hP)return nM(a,b,-1,d);return-1}if(g==eo){if(f==hP)return nM(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aB(hY);break;case
+f=oa(a);if(f==mn){a=a[1];continue}var
+g=oa(b);if(g==mn){b=b[1];continue}if(f!==g){if(f==eA){if(g==h5)return n$(a,b,-1,d);return-1}if(g==eA){if(f==h5)return n$(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aD(ic);break;case
 248:var
-c=CY(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aB(hY);break;case
-250:aB("equal: got Forward_tag, should not happen");break;case
-251:aB("equal: abstract value");break;case
+c=DB(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aD(ic);break;case
+250:aD("equal: got Forward_tag, should not happen");break;case
+251:aD("equal: abstract value");break;case
 252:if(a!==b){var
-c=nJ(a,b);if(c!=0)return c|0}break;case
-253:aB("equal: got Double_tag, should not happen");break;case
-254:aB("equal: got Double_array_tag, should not happen");break;case
-255:aB("equal: got Custom_tag, should not happen");break;case
-1247:aB(hY);break;case
+c=n8(a,b);if(c!=0)return c|0}break;case
+253:aD("equal: got Double_tag, should not happen");break;case
+254:aD("equal: got Double_array_tag, should not happen");break;case
+255:aD("equal: got Custom_tag, should not happen");break;case
+1247:aD(ic);break;case
 1255:var
-i=ie(a);if(i!=ie(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aB("compare: abstract value");var
+i=iw(a);if(i!=iw(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aD("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=ce(a),b=ce(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=cl(a),b=cl(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-CE(a,b){return id(a,b,true)}function
-CF(){return[0]}function
-at(a){if(a<0)aB("Bytes.create");return new
-bO(a?2:9,t,a)}function
-nP(a,b){return+(id(a,b,false)==0)}function
-CH(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=t;a.t=2}else{a.c=dE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fT(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-iq(d){d=ce(d);var
-e=d.length;if(e>31)aB("format_int: format too long");var
-a={justify:bM,signstyle:bc,filler:b9,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+Dh(a,b){return iv(a,b,true)}function
+Di(){return[0]}function
+aw(a){if(a<0)aD("Bytes.create");return new
+bU(a?2:9,w,a)}function
+oc(a,b){return+(iv(a,b,false)==0)}function
+Dk(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=w;a.t=2}else{a.c=dO(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)f5(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+iG(d){d=cl(d);var
+e=d.length;if(e>31)aD("format_int: format too long");var
+a={justify:bS,signstyle:bj,filler:cf,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=bc;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aO;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-ig(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bc))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=t;if(b.justify==bM&&b.filler==b9)for(var
-d=e;d<b.width;d++)c+=b9;if(b.signedconv)if(b.sign<0)c+=bc;else
-if(b.signstyle!=bc)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aO;if(b.alternate&&b.base==16)c+=lJ;if(b.justify==bM&&b.filler==aO)for(var
-d=e;d<b.width;d++)c+=aO;c+=f;if(b.justify==bc)for(var
-d=e;d<b.width;d++)c+=b9;return a(c)}function
-ih(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=bj;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aQ;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+ix(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bj))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=w;if(b.justify==bS&&b.filler==cf)for(var
+d=e;d<b.width;d++)c+=cf;if(b.signedconv)if(b.sign<0)c+=bj;else
+if(b.signstyle!=bj)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aQ;if(b.alternate&&b.base==16)c+=l7;if(b.justify==bS&&b.filler==aQ)for(var
+d=e;d<b.width;d++)c+=aQ;c+=f;if(b.justify==bj)for(var
+d=e;d<b.width;d++)c+=cf;return a(c)}function
+iy(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bM)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aO);if(b>0)a=a+cx+new
-Array(b+1).join(aO);return a}else
+c=parseInt(a.toString().split(bS)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aQ);if(b>0)a=a+cE+new
+Array(b+1).join(aQ);return a}else
 return a.toFixed(b)}}var
-a,e=iq(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=hR;e.filler=b9}else
-if(!isFinite(c)){a="inf";e.filler=b9}else
+a,e=iG(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=h7;e.filler=cf}else
+if(!isFinite(c)){a="inf";e.filler=cf}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==h$)a=a.slice(0,b-1)+aO+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(h$),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aO)b--;if(a.charAt(b)==cx)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==h$)a=a.slice(0,b-1)+aO+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==ir)a=a.slice(0,b-1)+aQ+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(ir),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cE)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==ir)a=a.slice(0,b-1)+aQ+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aO)b--;if(a.charAt(b)==cx)b--;a=a.slice(0,b+1)}}break}return ig(e,a)}function
-fU(e,c){if(ce(e)==h4)return a(t+c);var
-b=iq(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cE)b--;a=a.slice(0,b+1)}}break}return ix(e,a)}function
+f6(e,c){if(cl(e)==ij)return a(w+c);var
+b=iG(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=b9;var
-f=b.prec-d.length;if(f>0)d=dE(f,aO)+d}return ig(b,d)}var
-C9=0;function
-fV(){return C9++}function
-C1(a){return a.toUtf16()}function
-ez(){return typeof
-v.process!=="undefined"&&typeof
-v.process.versions!=="undefined"&&typeof
-v.process.versions.node!=="undefined"}function
-Dm(){function
-a(a){if(a.charAt(0)===bs)return[t,a.substring(1)];return}function
+d=c.toString(b.base);if(b.prec>=0){b.filler=cf;var
+f=b.prec-d.length;if(f>0)d=dO(f,aQ)+d}return ix(b,d)}var
+DM=0;function
+f7(){return DM++}function
+DE(a){return a.toUtf16()}function
+eL(){return typeof
+A.process!=="undefined"&&typeof
+A.process.versions!=="undefined"&&typeof
+A.process.versions.node!=="undefined"}function
+D0(){function
+a(a){if(a.charAt(0)===by)return[w,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||t,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||t,f=a[2]||t;return[d,c.substring(d.length+f.length)]}return}return ez()&&v.process&&v.process.platform?v.process.platform==="win32"?b:a:a}var
-iz=Dm();function
-n4(a){return a.slice(-1)!==bs?a+bs:a}if(ez()&&v.process&&v.process.cwd)var
-ev=v.process.cwd().replace(/\\/g,bs);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||w,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||w,f=a[2]||w;return[d,c.substring(d.length+f.length)]}return}return eL()&&A.process&&A.process.platform?A.process.platform==="win32"?b:a:a}var
+iP=D0();function
+os(a){return a.slice(-1)!==by?a+by:a}if(eL()&&A.process&&A.process.cwd)var
+eH=A.process.cwd().replace(/\\/g,by);else
 var
-ev="/static";ev=n4(ev);function
-C2(a){a=C1(a);if(!iz(a))a=ev+a;var
-e=iz(a),d=e[1].split(bs),b=[];for(var
+eH="/static";eH=os(eH);function
+DF(a){a=DE(a);if(!iP(a))a=eH+a;var
+e=iP(a),d=e[1].split(by),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Dg(e){for(var
-f=t,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bu){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bu;d++);if(d-c>lM){b.substr(0,1);f+=b;b=t;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<m7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bu|a&dx)}else
-if(a<0xd800||a>=l4)b+=String.fromCharCode(l5|a>>12,bu|a>>6&dx,bu|a&dx);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<lU||h>l4)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nf|a>>18,bu|a>>12&dx,bu|a>>6&dx,bu|a&dx)}if(b.length>eq){b.substr(0,1);f+=b;b=t}}return f+b}function
-CC(a){var
-b=9;if(!n6(a))b=8,a=Dg(a);return new
-bO(b,a,a.length)}function
-bw(a){return CC(a)}var
-Do=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",lS,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h6,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hQ,m2,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c1(d,f,e,a){var
-b=Do.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bw(f||t),bw(e||t)];return c}var
-nZ={};function
-cZ(a){return nZ[a]}function
-c0(b,a){throw[0,b].concat(a)}function
-CB(a){return new
-bO(4,a,a.length)}function
-X(a){ir(am.Sys_error,a)}function
-Da(a){X(a+fv)}function
-CA(b,a){if(a>>>0>=b.l)nI();return dB(b,a)}function
-a5(a){return a.l}function
-nB(){}function
-aG(a){this.data=a}aG.prototype=new
-nB();aG.prototype.truncate=function(a){var
-b=this.data;this.data=at(a|0);cz(b,0,this.data,0,a)};aG.prototype.length=function(){return a5(this.data)};aG.prototype.write=function(b,d,g,a){var
+DU(e){for(var
+f=w,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bA){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bA;d++);if(d-c>l_){b.substr(0,1);f+=b;b=w;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nu){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bA|a&dH)}else
+if(a<0xd800||a>=mq)b+=String.fromCharCode(mr|a>>12,bA|a>>6&dH,bA|a&dH);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mg||h>mq)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nE|a>>18,bA|a>>12&dH,bA|a>>6&dH,bA|a&dH)}if(b.length>eC){b.substr(0,1);f+=b;b=w}}return f+b}function
+Df(a){var
+b=9;if(!ou(a))b=8,a=DU(a);return new
+bU(b,a,a.length)}function
+bC(a){return Df(a)}var
+D2=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",me,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",il,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h6,np,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c6(d,f,e,a){var
+b=D2.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bC(f||w),bC(e||w)];return c}var
+om={};function
+c4(a){return om[a]}function
+c5(b,a){throw[0,b].concat(a)}function
+De(a){return new
+bU(4,a,a.length)}function
+$(a){iH(ao.Sys_error,a)}function
+DP(a){$(a+fH)}function
+Dd(b,a){if(a>>>0>=b.l)n7();return dL(b,a)}function
+a8(a){return a.l}function
+n0(){}function
+aH(a){this.data=a}aH.prototype=new
+n0();aH.prototype.truncate=function(a){var
+b=this.data;this.data=aw(a|0);cG(b,0,this.data,0,a)};aH.prototype.length=function(){return a8(this.data)};aH.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=at(b+a),f=this.data;this.data=e;cz(f,0,this.data,0,c)}bQ(d,g,this.data,b,a);return 0};aG.prototype.read=function(c,a,d,b){var
-e=this.length();cz(this.data,c,a,d,b);return 0};aG.prototype.read_one=function(a){return CA(this.data,a)};aG.prototype.close=function(){};aG.prototype.constructor=aG;function
-aT(b,a){this.content={};this.root=b;this.lookupFun=a}aT.prototype.nm=function(a){return this.root+a};aT.prototype.create_dir_if_needed=function(d){var
-c=d.split(bs),b=t;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bs;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aT.prototype.slash=function(a){return/\/$/.test(a)?a:a+bs};aT.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=aw(b+a),f=this.data;this.data=e;cG(f,0,this.data,0,c)}bW(d,g,this.data,b,a);return 0};aH.prototype.read=function(c,a,d,b){var
+e=this.length();cG(this.data,c,a,d,b);return 0};aH.prototype.read_one=function(a){return Dd(this.data,a)};aH.prototype.close=function(){};aH.prototype.constructor=aH;function
+aU(b,a){this.content={};this.root=b;this.lookupFun=a}aU.prototype.nm=function(a){return this.root+a};aU.prototype.create_dir_if_needed=function(d){var
+c=d.split(by),b=w;for(var
+a=0;a<c.length-1;a++){b+=c[a]+by;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aU.prototype.slash=function(a){return/\/$/.test(a)?a:a+by};aU.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aG(cb(c[1]))}}};aT.prototype.exists=function(a){if(a==t)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aT.prototype.mkdir=function(c,e,d){var
-b=d&&cZ(h3);if(this.exists(c))if(b)c0(b,c1(lS,hJ,this.nm(c)));else
-X(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||t;if(!this.exists(a))if(b)c0(b,c1(h6,hJ,this.nm(a)));else
-X(a+fv);if(!this.is_dir(a))if(b)c0(b,c1(hQ,hJ,this.nm(a)));else
-X(a+h_);this.create_dir_if_needed(this.slash(c))};aT.prototype.rmdir=function(a,f){var
-b=f&&cZ(h3),c=a==t?t:this.slash(a),e=new
-RegExp(hT+c+m3);if(!this.exists(a))if(b)c0(b,c1(h6,h1,this.nm(a)));else
-X(a+fv);if(!this.is_dir(a))if(b)c0(b,c1(hQ,h1,this.nm(a)));else
-X(a+h_);for(var
+aH(cj(c[1]))}}};aU.prototype.exists=function(a){if(a==w)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aU.prototype.mkdir=function(c,e,d){var
+b=d&&c4(ii);if(this.exists(c))if(b)c5(b,c6(me,hZ,this.nm(c)));else
+$(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||w;if(!this.exists(a))if(b)c5(b,c6(il,hZ,this.nm(a)));else
+$(a+fH);if(!this.is_dir(a))if(b)c5(b,c6(h6,hZ,this.nm(a)));else
+$(a+iq);this.create_dir_if_needed(this.slash(c))};aU.prototype.rmdir=function(a,f){var
+b=f&&c4(ii),c=a==w?w:this.slash(a),e=new
+RegExp(h9+c+nq);if(!this.exists(a))if(b)c5(b,c6(il,ig,this.nm(a)));else
+$(a+fH);if(!this.is_dir(a))if(b)c5(b,c6(h6,ig,this.nm(a)));else
+$(a+iq);for(var
 d
 in
-this.content)if(d.match(e))if(b)c0(b,c1(m2,h1,this.nm(a)));else
-X(this.nm(a)+": Directory not empty");delete
-this.content[c]};aT.prototype.readdir=function(a){var
-f=a==t?t:this.slash(a);if(!this.exists(a))X(a+fv);if(!this.is_dir(a))X(a+h_);var
+this.content)if(d.match(e))if(b)c5(b,c6(np,ig,this.nm(a)));else
+$(this.nm(a)+": Directory not empty");delete
+this.content[c]};aU.prototype.readdir=function(a){var
+f=a==w?w:this.slash(a);if(!this.exists(a))$(a+fH);if(!this.is_dir(a))$(a+iq);var
 g=new
-RegExp(hT+f+m3),d={},c=[];for(var
+RegExp(h9+f+nq),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aT.prototype.is_dir=function(a){if(a==t)return true;var
-b=this.slash(a);return this.content[b]?1:0};aT.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aU.prototype.is_dir=function(a){if(a==w)return true;var
+b=this.slash(a);return this.content[b]?1:0};aU.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aT.prototype.open=function(a,b){if(b.rdonly&&b.wronly)X(this.nm(a)+mj);if(b.text&&b.binary)X(this.nm(a)+mQ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))X(this.nm(a)+" : is a directory");if(b.create&&b.excl)X(this.nm(a)+mi);var
+this.content[a];return b};aU.prototype.open=function(a,b){if(b.rdonly&&b.wronly)$(this.nm(a)+mI);if(b.text&&b.binary)$(this.nm(a)+nd);this.lookup(a);if(this.content[a]){if(this.is_dir(a))$(this.nm(a)+" : is a directory");if(b.create&&b.excl)$(this.nm(a)+mH);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aG(at(0));return this.content[a]}else
-Da(this.nm(a))};aT.prototype.register=function(c,a){var
-b;if(this.content[c])X(this.nm(c)+mi);if(fY(a))b=new
-aG(a);if(ip(a))b=new
-aG(cb(a));else
+aH(aw(0));return this.content[a]}else
+DP(this.nm(a))};aU.prototype.register=function(c,a){var
+b;if(this.content[c])$(this.nm(c)+mH);if(f_(a))b=new
+aH(a);if(iF(a))b=new
+aH(cj(a));else
 if(a
 instanceof
 Array)b=new
-aG(CB(a));else
+aH(De(a));else
 if(typeof
 a==="string")b=new
-aG(nK(a));else
+aH(n9(a));else
 if(a.toString){var
-d=cb(bw(a.toString()));b=new
-aG(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-X(this.nm(c)+" : registering file with invalid content type")};aT.prototype.constructor=aT;function
-K(a){return a5(a)}function
-bS(b,a){return dB(b,a)}function
-Cw(d){var
-c=K(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bS(d,a);return b}function
-Cv(a){if(a.t!=4)fT(a);return a.c}function
-bP(a){this.fs=require("fs");this.fd=a}bP.prototype=new
-nB();bP.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){X(a.toString())}};bP.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){X(a.toString())}};bP.prototype.write=function(f,b,c,e){var
-a=Cw(b);if(!(a
+d=cj(bC(a.toString()));b=new
+aH(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+$(this.nm(c)+" : registering file with invalid content type")};aU.prototype.constructor=aU;function
+N(a){return a8(a)}function
+bZ(b,a){return dL(b,a)}function
+C$(d){var
+c=N(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bZ(d,a);return b}function
+C_(a){if(a.t!=4)f5(a);return a.c}function
+bV(a){this.fs=require("fs");this.fd=a}bV.prototype=new
+n0();bV.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){$(a.toString())}};bV.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){$(a.toString())}};bV.prototype.write=function(f,b,c,e){var
+a=C$(b);if(!(a
 instanceof
-v.Uint8Array))a=new(v.Uint8Array)(a);var
-d=v.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){X(a.toString())}return 0};bP.prototype.read=function(g,d,c,f){var
-a=Cv(d);if(!(a
+A.Uint8Array))a=new(A.Uint8Array)(a);var
+d=A.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){$(a.toString())}return 0};bV.prototype.read=function(g,d,c,f){var
+a=C_(d);if(!(a
 instanceof
-v.Uint8Array))a=new(v.Uint8Array)(a);var
-e=v.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){X(a.toString())}for(var
-b=0;b<f;b++)cY(d,c+b,e[c+b]);return 0};bP.prototype.read_one=function(c){var
-b=new(v.Uint8Array)(1),a=v.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){X(a.toString())}return a[0]};bP.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){X(a.toString())}};bP.prototype.constructor=bP;function
-aH(a){this.fs=require("fs");this.root=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aH.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){X(a.toString())}};aH.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.open=function(f,c,g){var
+A.Uint8Array))a=new(A.Uint8Array)(a);var
+e=A.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){$(a.toString())}for(var
+b=0;b<f;b++)c3(d,c+b,e[c+b]);return 0};bV.prototype.read_one=function(c){var
+b=new(A.Uint8Array)(1),a=A.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){$(a.toString())}return a[0]};bV.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){$(a.toString())}};bV.prototype.constructor=bV;function
+aI(a){this.fs=require("fs");this.root=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aI.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){$(a.toString())}};aI.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bP(d)}catch(a){this.raise_nodejs_error(a,g)}};aH.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aH.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),lz);return bw(a)}catch(a){this.raise_nodejs_error(a,c)}};aH.prototype.raise_nodejs_error=function(a,d){var
-b=cZ(h3);if(d&&b){var
-c=c1(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
-X(a.toString())};aH.prototype.stats_from_js=function(a){var
+bV(d)}catch(a){this.raise_nodejs_error(a,g)}};aI.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),lX);return bC(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.raise_nodejs_error=function(a,d){var
+b=c4(ii);if(d&&b){var
+c=c6(a.code,a.syscall,a.path,a.errno);c5(b,c)}else
+$(a.toString())};aI.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aH.prototype.constructor=aH;function
-nS(b){var
-a=iz(b);if(!a)return;return a[0]+bs}var
-f0=nS(ev)||bv("unable to compute caml_root"),dF=[];if(ez())dF.push({path:f0,device:new
-aH(f0)});else
-dF.push({path:f0,device:new
-aT(f0)});dF.push({path:mM,device:new
-aT(mM)});function
-n_(b){var
-g=C2(b),b=g.join(bs),f=n4(b),c;for(var
-e=0;e<dF.length;e++){var
-a=dF[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&ez()){var
-d=nS(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aI.prototype.constructor=aI;function
+of(b){var
+a=iP(b);if(!a)return;return a[0]+by}var
+ga=of(eH)||bB("unable to compute caml_root"),dP=[];if(eL())dP.push({path:ga,device:new
+aI(ga)});else
+dP.push({path:ga,device:new
+aU(ga)});dP.push({path:m$,device:new
+aU(m$)});function
+oy(b){var
+g=DF(b),b=g.join(by),f=os(b),c;for(var
+e=0;e<dP.length;e++){var
+a=dP[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eL()){var
+d=of(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aH(d)};dF.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;X("no device found for "+f)}function
-CG(c,b){var
-a=n_(c);if(!a.device.register)bv("cannot register file");a.device.register(a.rest,b);return 0}function
-n5(c,b){var
-c=a(c),b=a(b);return CG(c,b)}function
-CJ(){var
-b=v.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)n5(b[a].name,b[a].content);v.jsoo_create_file=n5;v.caml_fs_tmp=[];return 0}function
-nR(){return[0]}function
-CL(a,c,k){if(!isFinite(a)){if(isNaN(a))return bw(hR);return bw(a>0?nj:"-infinity")}var
+aI(d)};dP.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;$("no device found for "+f)}function
+Dj(c,b){var
+a=oy(c);if(!a.device.register)bB("cannot register file");a.device.register(a.rest,b);return 0}function
+ot(c,b){var
+c=a(c),b=a(b);return Dj(c,b)}function
+Dm(){var
+b=A.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)ot(b[a].name,b[a].content);A.jsoo_create_file=ot;A.caml_fs_tmp=[];return 0}function
+oe(){return[0]}function
+Do(a,c,k){if(!isFinite(a)){if(isNaN(a))return bC(h7);return bC(a>0?nI:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?t:bM,e=t;if(i)e=bc;else
+j=d<0?w:bS,e=w;if(i)e=bj;else
 switch(k){case
-43:e=bM;break;case
-32:e=b9;break;default:break}if(c>=0&&c<13){var
+43:e=bS;break;case
+32:e=cf;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(cx);if(h<0)b+=cx+dE(c,aO);else{var
-f=h+1+c;if(b.length<f)b+=dE(f-b.length,aO);else
-b=b.substr(0,f)}}return bw(e+lJ+b+"p"+j+d.toString(10))}function
-CS(a){return+a.isZero()}function
-CV(a){return new
-u(a&b$,a>>24&b$,a>>31&bN)}function
-CW(a){return a.toInt()}function
-CR(a){return+a.isNeg()}function
-CU(a){return a.neg()}function
-CP(g,c){var
-a=iq(g);if(a.signedconv&&CR(c)){a.sign=-1;c=CU(c)}var
-b=t,h=CV(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(CW(e.modulus))+b}while(!CS(c));if(a.prec>=0){a.filler=b9;var
-d=a.prec-b.length;if(d>0)b=dE(d,aO)+b}return ig(a,b)}function
-C_(c){var
-a=0,e=K(c),b=10,d=1;if(e>0)switch(bS(c,a)){case
+h=b.indexOf(cE);if(h<0)b+=cE+dO(c,aQ);else{var
+f=h+1+c;if(b.length<f)b+=dO(f-b.length,aQ);else
+b=b.substr(0,f)}}return bC(e+l7+b+"p"+j+d.toString(10))}function
+Dv(a){return+a.isZero()}function
+Dy(a){return new
+z(a&ch,a>>24&ch,a>>31&bT)}function
+Dz(a){return a.toInt()}function
+Du(a){return+a.isNeg()}function
+Dx(a){return a.neg()}function
+Ds(g,c){var
+a=iG(g);if(a.signedconv&&Du(c)){a.sign=-1;c=Dx(c)}var
+b=w,h=Dy(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(Dz(e.modulus))+b}while(!Dv(c));if(a.prec>=0){a.filler=cf;var
+d=a.prec-b.length;if(d>0)b=dO(d,aQ)+b}return ix(a,b)}function
+DN(c){var
+a=0,e=N(c),b=10,d=1;if(e>0)switch(bZ(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bS(c,a)==48)switch(bS(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bZ(c,a)==48)switch(bZ(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=K(c),b=10,d=1;if(e>0)switch(bS(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-n0(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ny)return a-87;return-1}function
-io(f){var
-h=C_(f),c=h[0],i=h[1],d=h[2],g=K(f),j=-1>>>0,e=c<g?bS(f,c):0,b=n0(e);if(b<0||b>=d)bv(fy);var
-a=b;for(c++;c<g;c++){e=bS(f,c);if(e==95)continue;b=n0(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bv(fy)}if(c!=g)bv(fy);a=i*a;if(d==10&&(a|0)!=a)bv(fy);return a|0}function
-C0(d){return function(){var
+on(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nX)return a-87;return-1}function
+iE(f){var
+h=DN(f),c=h[0],i=h[1],d=h[2],g=N(f),j=-1>>>0,e=c<g?bZ(f,c):0,b=on(e);if(b<0||b>=d)bB(fK);var
+a=b;for(c++;c<g;c++){e=bZ(f,c);if(e==95)continue;b=on(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bB(fK)}if(c!=g)bB(fK);a=i*a;if(d==10&&(a|0)!=a)bB(fK);return a|0}function
+DD(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return cc(d,c)}else
-return cc(d,[undefined])}}function
-C3(a,d){if(a<0)eu();var
+a=0;a<b;a++)c[a]=arguments[a];return bX(d,c)}else
+return bX(d,[undefined])}}function
+DG(a,d){if(a<0)eG();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-C4(){return 0}var
-bR=new
+DH(){return 0}var
+bY=new
 Array();function
-dD(c){var
-a=bR[c];if(!a.opened)X("Cannot flush a closed channel");if(!a.buffer||a.buffer==t)return 0;if(a.fd&&am.fds[a.fd]&&am.fds[a.fd].output){var
-b=am.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=t;return 0}function
-n3(e,f){var
-b=bR[e],d=a(f),c=K(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Dh(a){var
-a=iv(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+dN(c){var
+a=bY[c];if(!a.opened)$("Cannot flush a closed channel");if(!a.buffer||a.buffer==w)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+b=ao.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=w;return 0}function
+oq(e,f){var
+b=bY[e],d=a(f),c=N(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+DV(a){var
+a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Di(a){var
-a=iv(a),b=v;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+DW(a){var
+a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-f1(c,e,d,a){if(am.fds===undefined)am.fds=new
+gb(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;am.fds[c]=b;if(!am.fd_last_idx||c>am.fd_last_idx)am.fd_last_idx=c;return c}function
-Dp(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
+D3(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,381 +687,382 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)X(ce(c)+mj);if(a.text&&a.binary)X(ce(c)+mQ);var
-d=n_(c),e=d.device.open(d.rest,a),f=am.fd_last_idx?am.fd_last_idx:0;return f1(f+1,n3,e,a)}f1(0,n3,new
-aG(at(0)));f1(1,Di,new
-aG(at(0)));f1(2,Dh,new
-aG(at(0)));function
-C5(a){var
-c=am.fds[a];if(c.flags.wronly)X(nx+a+" is writeonly");var
-d=null;if(a==0&&ez()){var
-e=require("fs");d=function(){return bw(e.readFileSync(0,lz))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bR[b.fd]=b;return b.fd}function
-nV(c){var
-b=am.fds[c];if(b.flags.rdonly)X(nx+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:t};bR[a.fd]=a;return a.fd}function
-C6(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)$(cl(c)+mI);if(a.text&&a.binary)$(cl(c)+nd);var
+d=oy(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gb(f+1,oq,e,a)}gb(0,oq,new
+aH(aw(0)));gb(1,DW,new
+aH(aw(0)));gb(2,DV,new
+aH(aw(0)));function
+DI(a){var
+c=ao.fds[a];if(c.flags.wronly)$(nW+a+" is writeonly");var
+d=null;if(a==0&&eL()){var
+e=require("fs");d=function(){return bC(e.readFileSync(0,lX))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bY[b.fd]=b;return b.fd}function
+oi(c){var
+b=ao.fds[c];if(b.flags.rdonly)$(nW+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:w};bY[a.fd]=a;return a.fd}function
+DJ(){var
 b=0;for(var
-a=0;a<bR.length;a++)if(bR[a]&&bR[a].opened&&bR[a].out)b=[0,bR[a].fd,b];return b}function
-aP(a){return a}function
-C7(g,d,h,f){var
-b=bR[g];if(!b.opened)X("Cannot output to a closed channel");var
-a;if(h==0&&a5(d)==f)a=d;else{a=at(f);cz(d,h,a,0,f)}var
-i=aP(a),c=ce(i),e=c.lastIndexOf(lV);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dD(g);b.buffer+=c.substr(e+1)}return 0}function
-nW(b,a,d,c){return C7(b,cb(a),d,c)}function
-nX(c,b){var
-d=a(String.fromCharCode(b));nW(c,d,0,1);return 0}function
-ey(a,b){return+(id(a,b,false)!=0)}function
-fZ(a){if(a
+a=0;a<bY.length;a++)if(bY[a]&&bY[a].opened&&bY[a].out)b=[0,bY[a].fd,b];return b}function
+aR(a){return a}function
+DK(g,d,h,f){var
+b=bY[g];if(!b.opened)$("Cannot output to a closed channel");var
+a;if(h==0&&a8(d)==f)a=d;else{a=aw(f);cG(d,h,a,0,f)}var
+i=aR(a),c=cl(i),e=c.lastIndexOf(mh);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dN(g);b.buffer+=c.substr(e+1)}return 0}function
+oj(b,a,d,c){return DK(b,cj(a),d,c)}function
+ok(c,b){var
+d=a(String.fromCharCode(b));oj(c,d,0,1);return 0}function
+eK(a,b){return+(iv(a,b,false)!=0)}function
+f$(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(fY(a))return fP;else
-if(ip(a))return fP;else
+if(f_(a))return f1;else
+if(iF(a))return f1;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return l0;else
-return eo}function
-bf(b,c,a){if(a&&v.toplevelReloc)b=v.toplevelReloc(a);am[b+1]=c;if(a)am[a]=c}function
-is(a,b){nZ[ce(a)]=b;return 0}function
-Cz(a,b){if(a===b)return 1;a.t&6&&dC(a);b.t&6&&dC(b);return a.c==b.c?1:0}function
-ao(a,b){return Cz(a,b)}function
-Dd(){aB(h8)}function
-Y(b,a){if(a>>>0>=K(b))Dd();return bS(b,a)}function
-k(a,b){return 1-ao(a,b)}function
-Df(){return 0x7FFFFFFF/4|0}function
-iu(a){var
+if(a&&a.caml_custom)return mm;else
+return eA}function
+bm(b,c,a){if(a&&A.toplevelReloc)b=A.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
+iI(a,b){om[cl(a)]=b;return 0}function
+Dc(a,b){if(a===b)return 1;a.t&6&&dM(a);b.t&6&&dM(b);return a.c==b.c?1:0}function
+ar(a,b){return Dc(a,b)}function
+DS(){aD(io)}function
+W(b,a){if(a>>>0>=N(b))DS();return bZ(b,a)}function
+l(a,b){return 1-ar(a,b)}function
+DT(){return 0x7FFFFFFF/4|0}function
+iK(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aI(b,a){return{joo_tramp:b,joo_args:a}}function
-n2(a){return a}function
-f2(a){if(a
+aJ(b,a){return{joo_tramp:b,joo_args:a}}function
+op(a){return a}function
+gc(a){if(a
 instanceof
-Array)return a;if(v.RangeError&&a
+Array)return a;if(A.RangeError&&a
 instanceof
-v.RangeError&&a.message&&a.message.match(/maximum call stack/i))return n2(am.Stack_overflow);if(v.InternalError&&a
+A.RangeError&&a.message&&a.message.match(/maximum call stack/i))return op(ao.Stack_overflow);if(A.InternalError&&a
 instanceof
-v.InternalError&&a.message&&a.message.match(/too much recursion/i))return n2(am.Stack_overflow);if(a
+A.InternalError&&a.message&&a.message.match(/too much recursion/i))return op(ao.Stack_overflow);if(a
 instanceof
-v.Error&&cZ(hO))return[0,cZ(hO),a];return[0,am.Failure,bw(String(a))]}function
-f3(a){return a<0?-a:a}function
-x(a,b){return a+b}function
-iw(a,b){return a<b?-1:a>b?1:0}function
-n7(c,b){var
-a=c%b;return a<0?a+f3(b):a}function
-ix(a,b){return(a-n7(a,b))/b}function
-ah(a,b){return a==b?1:0}function
-J(a,b){return a<=b?1:0}function
-ad(a,b){return a<b?1:0}function
+A.Error&&c4(h4))return[0,c4(h4),a];return[0,ao.Failure,bC(String(a))]}function
+gd(a){return a<0?-a:a}function
+B(a,b){return a+b}function
+iM(a,b){return a<b?-1:a>b?1:0}function
+ov(c,b){var
+a=c%b;return a<0?a+gd(b):a}function
+iN(a,b){return(a-ov(a,b))/b}function
+ad(a,b){return a==b?1:0}function
+I(a,b){return a<=b?1:0}function
+S(a,b){return a<b?1:0}function
 s(a,b){return a*b}function
-ab(a){return-a}function
-a6(a){return v.BigInt(a)}function
-n8(a,b){return a<<v.BigInt(b)}function
-n9(a,b){return a>>v.BigInt(b)}function
-bT(a){return a<0?-1:a>0?1:0}function
-Dn(a){if(a<0)throw new(v.Error)("a root of a negative number");if(a<2)return a;var
-d=v.BigInt(1),b=d<<v.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-bx(a,b){return a-b}function
-iy(a){if(a>0x7fffffff||a<-0x80000000)throw new(v.Error)("a number of more than 32 bits");return v.Number(a)}function
-CZ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-CI(b){var
-a=t;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CZ(b[1]))var
+aa(a){return-a}function
+a9(a){return A.BigInt(a)}function
+ow(a,b){return a<<A.BigInt(b)}function
+ox(a,b){return a>>A.BigInt(b)}function
+b0(a){return a<0?-1:a>0?1:0}function
+D1(a){if(a<0)throw new(A.Error)("a root of a negative number");if(a<2)return a;var
+d=A.BigInt(1),b=d<<A.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aS(a,b){return a-b}function
+iO(a){if(a>0x7fffffff||a<-0x80000000)throw new(A.Error)("a number of more than 32 bits");return A.Number(a)}function
+DC(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Dl(b){var
+a=w;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&DC(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=m6;for(var
-d=f;d<e.length;d++){if(d>f)a+=lC;var
+f=2,e=b;a+=nt;for(var
+d=f;d<e.length;d++){if(d>f)a+=l0;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bO)a+=aA+c.toString()+aA;else
+bU)a+=aC+c.toString()+aC;else
 if(typeof
-c=="string")a+=aA+c.toString()+aA;else
-a+=mC}a+=hS}else
-if(b[0]==az)a+=b[1];return a}function
-nQ(a){if(a
+c=="string")a+=aC+c.toString()+aC;else
+a+=m1}a+=h8}else
+if(b[0]==aB)a+=b[1];return a}function
+od(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==az)){var
-c=cZ(lR);if(c)c(a,false);else{var
-d=CI(a),b=cZ(ly);if(b)b(0);v.console.error(hZ+d+lV)}}else
+Array&&(a[0]==0||a[0]==aB)){var
+c=c4(md);if(c)c(a,false);else{var
+d=Dl(a),b=c4(lW);if(b)b(0);A.console.error(id+d+mh)}}else
 throw a}function
-Dc(){var
-a=v;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nQ(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nQ(a.error)})}Dc();function
-e(a,b){return a.length==1?a(b):cc(a,[b])}function
-T(a,b,c){return a.length==2?a(b,c):cc(a,[b,c])}function
-hI(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):cc(a,[b,c,d,e,f])}function
-Cu(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):cc(a,[b,c,d,e,f,g,h])}CJ();var
-f4=[az,a(np),-1],iE=[az,a(lT),-2],iB=[az,a(hN),-3],iA=[az,a(my),-4],iC=[az,a(l_),-8],iD=[az,a(mN),-9],aj=[az,a(m_),-11],iF=[az,a(lx),-12],Br=[4,0,0,0,[12,45,[4,0,0,0,0]]],f_=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(me),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],Bs=[0,[0,0]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,0],Bv=[0,[0,[0,[0,0]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,0]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,0]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,0],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,0]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,0],Co=[0,[0,[0,[0,[0,0]]]]],jk=[0,[0,[0,0]]],cH=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fc=[0,[0,[0,[0,0]]]],Cp=[0,[0,[0,[0,[0,0]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]];bf(11,iF,lx);bf(10,aj,m_);bf(9,[az,a(ms),-10],ms);bf(8,iD,mN);bf(7,iC,l_);bf(6,[az,a(mK),-7],mK);bf(5,[az,a(m1),-6],m1);bf(4,[az,a(lX),-5],lX);bf(3,iA,my);bf(2,iB,hN);bf(1,iE,lT);bf(0,f4,np);var
-od=a("%.12g"),oc=a(cx),oa=a("true"),ob=a("false"),oe=a("\\\\"),of=a("\\'"),og=a("\\b"),oh=a("\\t"),oi=a("\\n"),oj=a("\\r"),om=a("String.blit / Bytes.blit_string"),ol=a("Bytes.blit"),ok=a("String.sub / Bytes.sub"),oo=a(t),on=a("String.concat"),op=a("Array.init"),os=a("Buffer.add: cannot grow buffer"),or=[0,a(mX),93,2],oq=[0,a(mX),94,2],oB=a("%c"),oC=a("%s"),oD=a(lv),oE=a(l9),oF=a(mu),oG=a(lF),oH=a("%f"),oI=a("%B"),oJ=a("%{"),oK=a("%}"),oL=a("%("),oM=a("%)"),oN=a("%a"),oO=a("%t"),oP=a("%?"),oQ=a("%r"),oR=a("%_r"),oS=[0,a(ay),850,23],o3=[0,a(ay),814,21],oV=[0,a(ay),815,21],o4=[0,a(ay),818,21],oW=[0,a(ay),819,21],o5=[0,a(ay),822,19],oX=[0,a(ay),823,19],o6=[0,a(ay),826,22],oY=[0,a(ay),827,22],o7=[0,a(ay),831,30],oZ=[0,a(ay),832,30],o1=[0,a(ay),836,26],oT=[0,a(ay),837,26],o2=[0,a(ay),846,28],oU=[0,a(ay),847,28],o0=[0,a(ay),851,23],p_=a(mo),p8=[0,a(ay),1558,4],p9=a("Printf: bad conversion %["),p$=[0,a(ay),1626,39],qa=[0,a(ay),1649,31],qb=[0,a(ay),1650,31],qc=a("Printf: bad conversion %_"),qd=a(mk),qe=a(mx),qf=a(mk),qg=a(mx),p6=a(hR),p4=a("neg_infinity"),p5=a(nj),p3=a(cx),pY=[0,lO],pM=a("%+nd"),pN=a("% nd"),pP=a("%+ni"),pQ=a("% ni"),pR=a("%nx"),pS=a("%#nx"),pT=a("%nX"),pU=a("%#nX"),pV=a("%no"),pW=a("%#no"),pL=a("%nd"),pO=a(mu),pX=a("%nu"),pz=a("%+ld"),pA=a("% ld"),pC=a("%+li"),pD=a("% li"),pE=a("%lx"),pF=a("%#lx"),pG=a("%lX"),pH=a("%#lX"),pI=a("%lo"),pJ=a("%#lo"),py=a("%ld"),pB=a(l9),pK=a("%lu"),pm=a("%+Ld"),pn=a("% Ld"),pp=a("%+Li"),pq=a("% Li"),pr=a("%Lx"),ps=a("%#Lx"),pt=a("%LX"),pu=a("%#LX"),pv=a("%Lo"),pw=a("%#Lo"),pl=a("%Ld"),po=a(lF),px=a("%Lu"),o$=a("%+d"),pa=a("% d"),pc=a("%+i"),pd=a("% i"),pe=a("%x"),pf=a("%#x"),pg=a("%X"),ph=a("%#X"),pi=a("%o"),pj=a("%#o"),o_=a(h4),pb=a(lv),pk=a(mo),ot=a("@]"),ou=a("@}"),ov=a("@?"),ow=a("@\n"),ox=a("@."),oy=a("@@"),oz=a("@%"),oA=a("@"),o8=a("CamlinternalFormat.Type_mismatch"),qk=a(t),ql=[0,[11,a(lC),[2,0,[2,0,0]]],a(", %s%s")],qK=[0,[11,a(hZ),[2,0,[12,10,0]]],a(m8)],qL=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],qJ=a("Fatal error: out of memory in uncaught exception handler"),qH=[0,[11,a(hZ),[2,0,[12,10,0]]],a(m8)],qD=[0,[2,0,[12,10,0]],a("%s\n")],qv=a("Raised at"),qw=a("Re-raised at"),qx=a("Raised by primitive operation at"),qy=a("Called from"),qz=a(" (inlined)"),qB=a(t),qA=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(me),Br]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],qC=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],qq=a("Out of memory"),qr=a("Stack overflow"),qs=a("Pattern matching failed"),qt=a("Assertion failed"),qu=a("Undefined recursive module"),qm=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],qn=a(t),qo=a(t),qp=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],qj=[0,[4,0,0,0,0],a(h4)],qh=[0,[3,0,0],a("%S")],qi=a(mC),qE=[0,a(t),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],qN=a("Jsoo_runtime.Error.Exn"),qP=a("power"),qZ=[0,0],q1=[0,0],q2=[0,[0,0]],q3=[0,[0,0]],rd=[0,0,0],re=[0,0,0],rf=[0,0],ru=[0,0],rv=[0,0],rN=[0,0],rQ=[0,0],r2=[0,0],r3=[0,0],sm=[0,[0,[0,0]]],sz=a(","),sR=[0,a(hS),0],sS=a(m6),sT=a(cx),sU=[0,[0,[0,0]]],sV=a(bc),sW=a(hT),sX=[0,[0,[0,[0,[0,0]]]]],sY=[0,a(hS),0],sZ=a(nA),vx=a(lw),vz=a(mA),vy=a(na),vA=a(fB),vB=a(fI),vC=a(mw),vD=a(nu),vE=a(mW),wH=a(h0),wI=[0,0],wJ=a("divided"),wK=[0,1],wL=a("mirror"),wM=[0,3],wN=a("negative"),wO=[0,2],wP=a(hU),wQ=[0,5],wR=a(ia),wS=[0,4],wT=a(fz),wU=a(mO),wV=a(fO),wW=a(cX),wX=[0,0],wY=[0,0],wZ=[0,0],xn=a(t),xk=[0,[0,[0,[0,0]]]],xl=[0,[0,[0,[0,0]]]],xi=[0,0],xg=[0,[0,[0,0]]],xe=[0,[0,[0,0]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],xc=[0,0],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],w_=[0,[0,0]],w$=[0,[0,[0,0]]],w8=[0,[0,[0,0]]],w9=[0,[0,0]],w7=[0,[0,[0,0]]],w4=[0,[0,0]],w5=[0,0],w3=[0,0],w2=[0,[0,0]],w1=[0,0],wA=[0,[0,0]],wB=[0,0],wz=[0,0],wy=[0,0],wx=[0,0,0],wv=[0,0,0],wt=[0,[0,[0,0]]],wu=[0,[0,[0,0]]],ws=[0,0],wq=[0,1,0],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],wk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],wl=a("sqrt"),wc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],v3=[0,a("\n"),0],v4=a(mB),v5=a(fx),v6=a(l2),v7=a(mZ),wb=a(er),v8=a(ep),v9=a("verdict"),v_=a(mh),v$=a(mU),wa=a(m9),v0=a(lZ),v1=a(ns),v2=a(fK),vW=a(l8),vX=a(fL),vY=a(ep),vZ=a(er),vR=a(fC),vS=a(a4),vT=a(mD),vU=a(fA),vO=a(no),vP=a(hU),vQ=a(fA),vK=a(ng),vL=a(fC),vM=a(fL),vN=a(nv),vG=a(nt),vH=a(m4),vI=a(fM),vv=a(h2),vw=a(hW),vq=a(be),vr=a(bd),vs=a(lP),u3=a(fM),uI=a(a4),uJ=a(b_),uK=a(dz),uL=a(fw),uM=a(dy),uN=a(a4),uO=a(b_),uP=a(h9),uQ=a(be),uR=a(bd),uS=a(cW),uT=a(dz),uU=a(ni),uV=a(nq),uW=a(dy),uX=a(a4),uY=a(b_),uZ=a(be),u0=a(bd),u1=a(cW),u2=a(dz),u4=a(md),u5=a(ml),u6=a(fR),u7=a(mP),u8=a(lI),u9=a(dy),u_=a(a4),u$=a(b_),va=a(fE),vb=a(mY),vc=a(dz),vd=a(es),ve=a(mG),vf=a(dy),vg=a(a4),vh=a(fE),vi=a(a4),vj=a(l$),vm=a(mz),vk=a(lH),vl=a(mq),vn=a(er),vo=a(ep),vp=a(a4),vt=a(fR),vu=a(fK),uC=a(b_),uD=a(ib),uE=a(dz),uF=a(fw),uG=a(dy),uq=a(es),ur=a(nr),us=a(dv),ut=a(dw),uu=a(dw),uv=a(hK),uw=a(dv),ux=a(m$),uy=a(mV),uz=a(bt),uB=a(mF),uA=a(hK),ug=a(lY),uh=a(mv),ui=a(lK),uj=a(mS),uk=a(mn),ul=a(mf),um=a(m0),un=a(fF),uo=a(fF),uc=a(bt),ud=a(cv),ue=a(fD),uf=a(cw),t_=a(en),t$=a(h7),ua=a(ne),t3=a(be),t4=a(bd),t5=a(cW),t6=a(l3),t7=a(dv),t8=a(lW),t9=a(nl),tT=a(lG),tY=a(mp),tZ=a(fx),tU=a(mT),tV=a(hL),t0=a(lE),t1=a(mb),t2=a(hL),tW=a(dw),tX=a(nb),tQ=a(fN),tR=a(fN),tS=a(fN),tM=a(nm),tN=a(bd),tO=a(be),tP=a(mm),tz=a(lB),tA=a(mE),tB=a(nh),tC=a(fB),tD=a(nz),tE=a(nk),tF=a(mJ),tG=a(nd),tH=a(lA),tI=a(lQ),tJ=a(mI),tK=a(nn),tL=a(fI),to=a(bM),ty=a(bc),tp=a(fH),tq=a(fG),tr=a(fS),ts=a(bt),tt=a(cv),tu=a(l6),tv=a(ma),tw=a(fS),tx=a(cw),s8=a(bM),te=a(bc),s9=a(fH),s_=a(fG),s$=a(bt),ta=a(cv),tb=a(cX),tc=a(mr),td=a(cw),tf=a(hX),tg=a(bt),th=a(cv),ti=a(fD),tj=a(cw),tk=a(cX),tl=a(en),tm=a(cw),s5=a(be),s6=a(bd),s3=[0,a(aA),0],s4=a(aA),s1=a(t),s0=[0,a(aA),0],s2=a(aA),sN=a(bM),sO=a(bc),sP=a("*"),sQ=a(bs),sI=[0,[0,[0,[0,[0,0]]]]],sJ=[0,[0,[0,0]]],sK=[0,[0,0]],sL=[0,0],sM=[0,[0,[0,[0,0]]]],sG=a('":'),sH=a(aA),sE=[0,a(aA),0],sF=a(aA),sC=[0,a("}"),0],sD=a("{"),sA=[0,a("]"),0],sB=a("["),sy=[0,[0,[0,0]]],sw=[0,[0,[0,0]]],su=[0,0],sr=[0,[0,[0,0]]],ss=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sp=[0,[0,0]],sq=[0,[0,[0,0]]],sk=[0,[0,0]],sl=[0,[0,[0,0]]],si=[0,[0,[0,0]]],sj=[0,[0,0]],sg=[0,0],sc=[0,[0,0]],sd=[0,0],se=[0,0],sf=[0,[0,0]],r5=[0,[0,0]],r6=[0,0],r7=[0,[0,0]],r8=[0,0],r9=[0,0],r_=[0,[0,0]],r$=[0,[0,0]],sa=[0,[0,0]],sb=[0,0],r1=[0,0],rZ=[0,[0,[0,0]]],rY=[0,[0,[0,[0,[0,[0,0]]]]]],rV=[0,0],rW=[0,[0,[0,[0,[0,[0,0]]]]]],rX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],rT=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rM=[0,[0,[0,0]]],rK=[0,[0,[0,[0,[0,[0,0]]]]]],rL=[0,[0,[0,[0,[0,[0,0]]]]]],rG=[0,[0,0]],rH=[0,0],rI=[0,[0,[0,0]]],rJ=[0,[0,[0,0]]],rz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rA=[0,[0,[0,[0,[0,[0,0]]]]]],rB=[0,[0,[0,[0,[0,[0,0]]]]]],rC=[0,[0,[0,0]]],rD=[0,[0,[0,[0,[0,[0,0]]]]]],rE=[0,[0,[0,0]]],rF=[0,[0,[0,0]]],rx=[0,[0,0]],ry=[0,0],rw=[0,[0,[0,0]]],rr=[0,[0,[0,0]]],rs=[0,[0,[0,0]]],rt=[0,[0,[0,0]]],rq=[0,[0,[0,[0,0]]]],rm=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],ro=[0,[0,[0,0]]],rp=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rk=[0,[0,0]],rl=[0,0],ri=[0,[0,0]],rj=[0,0],rg=[0,[0,0]],rh=[0,0],q6=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,[0,0]],q4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],q0=[0,0,0],qY=a(aO),qX=a(t),qW=[0,[0,0]],qV=[0,0],qU=[1,0],qT=[0,0],qS=[0,0],qQ=[1,0],qR=[1,0],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],z4=a(be),z5=a(bd),z6=a(lP),zE=a(cw),zF=a(hX),zG=a(fD),zJ=a(bt),zK=a(cv),zH=[0,a('" of such a platform'),0],zI=a(lD),zq=a("rho"),zr=a(fM),zs=[0,a("a joint by its coordinate"),0],y3=a(b_),yR=a(fK),yS=a(a4),yT=a(l$),yU=a(mq),yX=a(lH),yY=a(mz),yZ=a(a4),y0=a(a4),y2=a(fE),y1=[0,a("a claim that no cube of such a machine fits"),0],y4=a(dy),y5=a(dz),y6=a(fw),y7=a(ib),z3=[0,a("such a machine with bodies"),0],y8=a(en),y9=a(h7),y_=a(ne),y$=a(h9),za=a(lI),zb=a(mG),zc=a(fw),zf=a(cW),zg=a(nl),zj=a(ib),zk=[0,a("a machine with arms and bodies"),0],zl=a(b_),zm=a(mY),zn=a(fE),zo=a(es),zp=a(cW),zt=a(b_),zu=a(be),zv=a(bd),zw=a(md),zx=a(ml),zy=a(fR),zz=a(mP),zd=[0,a(aA),0],ze=a(mt),zA=a(cW),zB=[0,a('" of a platform that turns'),0],zC=a(mg),zD=a(ni),z1=[0,a('" that does not turn'),0],z2=a(mt),zL=a(h9),zM=a(mf),zN=a(lY),zO=a(mn),zP=a(fF),zQ=a(m0),zR=a(fF),zY=a(mv),zZ=a(lK),z0=a(mS),zS=a(en),zT=a(h7),zU=a(b_),zV=a(be),zW=a(bd),zX=a(nq),zh=[0,a(aA),0],zi=a(mg),z7=a(a4),z8=a(a4),z_=a(er),z$=a(ep),Aa=a(fR),z9=[0,a("an atlas of such a machine"),0],yV=[0,a(aA),0],yW=a('a claim of the kind "'),Af=a(fI),Ag=a(fB),Ah=a(mW),Ai=a(na),Aj=a(cX),Ak=a(mw),Al=a(fz),Am=a(mO),An=a(fO),Aq=a(hW),Ar=a(h2),As=a(cX),At=a(aO),Ao=[0,a(aA),0],Ap=a('the evidence "'),Au=a(fz),Av=a(fO),Aw=a(nu),Ay=a(fz),Az=a(fO),AA=a(h0),AB=a(h0),Ax=[0,a("this evidence at control points"),0],A6=a(m9),A7=a(mU),A8=a(mh),Bk=[0,3,3],A9=a(mZ),Bg=[0,a('the drive "arm" in a claim that is certified'),0],Bh=[0,a("a step of a platform that turns that is not at control points"),0],Bi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],Bj=[0,a("a mechanism by formulas in a claim that is refuted"),0],A_=[0,a("the acceleration of a joint of a machine with a plane"),0],Bf=[0,a("this quantity in a claim that is refuted"),0],Bd=[0,a("a step in a proof that no cube fits"),0],Be=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Bc=[0,a("a leaf that fails"),0],A$=a(l2),Ba=a(mB),Bb=a(fx),A4=a(ia),AY=a(fK),AZ=a(lZ),A0=a(ns),A1=[0,a(aA),0],A2=a('a proof of the kind "'),AU=a(ep),AV=a(er),AW=a(fL),AX=a(l8),AQ=a(a4),AR=a(fC),AS=a(mD),AT=a(fA),AN=a(no),AO=a(hU),AP=a(fA),AJ=a(ng),AK=a(fC),AL=a(fL),AM=a(nv),AE=a(m4),AF=a(nt),AG=a(fM),AH=[0,a(aA),0],AI=a('the failure "'),AC=a(ia),AD=a(aO),Ad=a(hW),Ae=a(h2),Ab=a(mA),Ac=a(lw),yO=a(es),yE=a(hK),yF=a(mF),yG=a(dw),yH=a(bt),yM=a(nr),yN=a(es),yP=a(dv),yQ=a(dw),yI=a(dv),yJ=a(m$),yK=a(mV),yL=a(bt),yx=a(cW),yB=a(be),yC=a(bd),yy=a(lW),yz=a(l3),yA=a(dv),yv=[0,a("this quantity of such a mechanism"),0],yi=a(mT),yj=[0,a("a stiffness for each joint"),0],yk=a(mb),yl=a(lE),ym=a(mp),yh=a(fx),x$=a(fN),x1=a(nb),x2=a(mE),yp=a(fI),yq=a(lQ),yr=a(fB),ys=a(nd),yt=a(mI),yu=a(lA),x3=a(nh),x4=a(nn),x5=a(nk),x6=a(nz),x7=a(mJ),x8=a(lB),x9=[0,a(aA),0],x_=a('the quantity "'),ya=a(lG),yb=a(nm),yc=a(be),yd=a(bd),ye=a(mm),yf=[0,a(aA),0],yg=a('a bound "'),yn=a(hL),yo=a(dw),xU=a(fH),xV=a(fG),xW=a(fS),xX=a(bt),xY=a(cv),xZ=a(l6),x0=a(ma),xR=a(cw),xS=a(fS),xC=a(cw),xD=a(en),xE=a(mr),xF=a(fD),xI=a(hX),xJ=a(bt),xK=a(cv),xL=a(fH),xM=a(fG),xN=a(bt),xO=a(cv),xP=a(cX),xQ=a(cX),xG=[0,a(aA),0],xH=a(lD),xz=a(bM),xA=a(bc),xx=a(" is not covered by the verified checker"),xy=a(t),xv=a(be),xw=a(bd),xr=a(t),xs=a(nA),xt=a(t),xu=a(t),xq=[1,0],xo=a("Reader.Malformed"),xp=a("Reader.Not_covered"),Bm=a(l7),Bn=a("CERTIFIED"),Bo=a("REFUTED"),Bp=a(l7),Bq=a("NOT COVERED: ");function
-ai(a){if(typeof
+DR(){var
+a=A;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){od(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)od(a.error)})}DR();function
+f(a,b){return a.length==1?a(b):bX(a,[b])}function
+V(a,b,c){return a.length==2?a(b,c):bX(a,[b,c])}function
+C9(a,b,c,d){return a.length==3?a(b,c,d):bX(a,[b,c,d])}function
+hY(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bX(a,[b,c,d,e,f])}function
+C8(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bX(a,[b,c,d,e,f,g,h])}Dm();var
+ge=[aB,a(nO),-1],iU=[aB,a(mf),-2],iR=[aB,a(h3),-3],iQ=[aB,a(mX),-4],iS=[aB,a(mw),-8],iT=[aB,a(na),-9],al=[aB,a(nx),-11],iV=[aB,a(lV),-12],B5=[4,0,0,0,[12,45,[4,0,0,0,0]]],gm=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(mD),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],B6=[0,[0,0]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,0],B9=[0,[0,[0,[0,0]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],Cb=[0,[0,0]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,0]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,0],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,0]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,0],C2=[0,[0,[0,[0,[0,0]]]]],jx=[0,[0,[0,0]]],cN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fr=[0,[0,[0,[0,0]]]],C3=[0,[0,[0,[0,[0,0]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]];bm(11,iV,lV);bm(10,al,nx);bm(9,[aB,a(mR),-10],mR);bm(8,iT,na);bm(7,iS,mw);bm(6,[aB,a(m9),-7],m9);bm(5,[aB,a(no),-6],no);bm(4,[aB,a(mj),-5],mj);bm(3,iQ,mX);bm(2,iR,h3);bm(1,iU,mf);bm(0,ge,nO);var
+oD=a("%.12g"),oC=a(cE),oA=a("true"),oB=a("false"),oE=a("\\\\"),oF=a("\\'"),oG=a("\\b"),oH=a("\\t"),oI=a("\\n"),oJ=a("\\r"),oM=a("String.blit / Bytes.blit_string"),oL=a("Bytes.blit"),oK=a("String.sub / Bytes.sub"),oO=a(w),oN=a("String.concat"),oP=a("Array.init"),oS=a("Buffer.add: cannot grow buffer"),oR=[0,a(nk),93,2],oQ=[0,a(nk),94,2],o1=a("%c"),o2=a("%s"),o3=a(lT),o4=a(mv),o5=a(mT),o6=a(l3),o7=a("%f"),o8=a("%B"),o9=a("%{"),o_=a("%}"),o$=a("%("),pa=a("%)"),pb=a("%a"),pc=a("%t"),pd=a("%?"),pe=a("%r"),pf=a("%_r"),pg=[0,a(aA),850,23],pr=[0,a(aA),814,21],pj=[0,a(aA),815,21],ps=[0,a(aA),818,21],pk=[0,a(aA),819,21],pt=[0,a(aA),822,19],pl=[0,a(aA),823,19],pu=[0,a(aA),826,22],pm=[0,a(aA),827,22],pv=[0,a(aA),831,30],pn=[0,a(aA),832,30],pp=[0,a(aA),836,26],ph=[0,a(aA),837,26],pq=[0,a(aA),846,28],pi=[0,a(aA),847,28],po=[0,a(aA),851,23],qy=a(mN),qw=[0,a(aA),1558,4],qx=a("Printf: bad conversion %["),qz=[0,a(aA),1626,39],qA=[0,a(aA),1649,31],qB=[0,a(aA),1650,31],qC=a("Printf: bad conversion %_"),qD=a(mJ),qE=a(mW),qF=a(mJ),qG=a(mW),qu=a(h7),qs=a("neg_infinity"),qt=a(nI),qr=a(cE),qm=[0,ma],qa=a("%+nd"),qb=a("% nd"),qd=a("%+ni"),qe=a("% ni"),qf=a("%nx"),qg=a("%#nx"),qh=a("%nX"),qi=a("%#nX"),qj=a("%no"),qk=a("%#no"),p$=a("%nd"),qc=a(mT),ql=a("%nu"),pZ=a("%+ld"),p0=a("% ld"),p2=a("%+li"),p3=a("% li"),p4=a("%lx"),p5=a("%#lx"),p6=a("%lX"),p7=a("%#lX"),p8=a("%lo"),p9=a("%#lo"),pY=a("%ld"),p1=a(mv),p_=a("%lu"),pM=a("%+Ld"),pN=a("% Ld"),pP=a("%+Li"),pQ=a("% Li"),pR=a("%Lx"),pS=a("%#Lx"),pT=a("%LX"),pU=a("%#LX"),pV=a("%Lo"),pW=a("%#Lo"),pL=a("%Ld"),pO=a(l3),pX=a("%Lu"),pz=a("%+d"),pA=a("% d"),pC=a("%+i"),pD=a("% i"),pE=a("%x"),pF=a("%#x"),pG=a("%X"),pH=a("%#X"),pI=a("%o"),pJ=a("%#o"),py=a(ij),pB=a(lT),pK=a(mN),oT=a("@]"),oU=a("@}"),oV=a("@?"),oW=a("@\n"),oX=a("@."),oY=a("@@"),oZ=a("@%"),o0=a("@"),pw=a("CamlinternalFormat.Type_mismatch"),qK=a(w),qL=[0,[11,a(l0),[2,0,[2,0,0]]],a(", %s%s")],q_=[0,[11,a(id),[2,0,[12,10,0]]],a(nv)],q$=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],q9=a("Fatal error: out of memory in uncaught exception handler"),q7=[0,[11,a(id),[2,0,[12,10,0]]],a(nv)],q3=[0,[2,0,[12,10,0]],a("%s\n")],qV=a("Raised at"),qW=a("Re-raised at"),qX=a("Raised by primitive operation at"),qY=a("Called from"),qZ=a(" (inlined)"),q1=a(w),q0=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(mD),B5]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],q2=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],qQ=a("Out of memory"),qR=a("Stack overflow"),qS=a("Pattern matching failed"),qT=a("Assertion failed"),qU=a("Undefined recursive module"),qM=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],qN=a(w),qO=a(w),qP=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],qJ=[0,[4,0,0,0,0],a(ij)],qH=[0,[3,0,0],a("%S")],qI=a(m1),q4=[0,a(w),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],rb=a("Jsoo_runtime.Error.Exn"),rd=a("power"),rn=[0,0],rp=[0,0],rq=[0,[0,0]],rr=[0,[0,0]],rD=[0,0,0],rE=[0,0,0],rF=[0,0],rY=[0,0],rZ=[0,0],r2=[0,0],si=[0,0],sl=[0,0],sx=[0,0],sy=[0,0],sT=[0,[0,[0,0]]],s6=a(","),tm=[0,a(h8),0],tn=a(nt),to=a(cE),tp=[0,[0,[0,0]]],tq=a(bj),tr=a(h9),ts=[0,[0,[0,[0,[0,0]]]]],tt=[0,a(h8),0],tu=a(nZ),v4=a(lU),v6=a(mZ),v5=a(nz),v7=a(fN),v8=a(fU),v9=a(mV),v_=a(nT),v$=a(nj),wa=a(mx),xg=[0,0],xh=a(ie),xi=[0,0],xj=a("divided"),xk=[0,1],xl=a("mirror"),xm=[0,3],xn=a("negative"),xo=[0,2],xp=a(h_),xq=[0,5],xr=a(is),xs=[0,4],xt=a(fL),xu=a(nb),xv=a(f0),xw=a(c2),xx=[0,0],xy=[0,0],xz=[0,0],xZ=a(w),xW=[0,[0,[0,[0,0]]]],xX=[0,[0,[0,[0,0]]]],xU=[0,0],xS=[0,[0,[0,0]]],xQ=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],xO=[0,0],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],xK=[0,[0,0]],xL=[0,[0,[0,0]]],xI=[0,[0,[0,0]]],xJ=[0,[0,0]],xH=[0,[0,[0,0]]],xE=[0,[0,0]],xF=[0,0],xD=[0,0],xC=[0,[0,0]],xB=[0,0],xd=[0,0],xe=[0,1],xf=[0,2],w8=[0,[0,0]],w9=[0,0],w7=[0,0],w6=[0,0],w5=[0,0,0],w3=[0,0,0],w1=[0,[0,[0,0]]],w2=[0,[0,[0,0]]],w0=[0,0],wY=[0,1,0],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],wT=a("sqrt"),wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],wz=[0,a("\n"),0],wA=a(m0),wB=a(fJ),wC=a(mo),wD=a(nm),wJ=a(eD),wE=a(eB),wF=a("verdict"),wG=a(mG),wH=a(nh),wI=a(nw),ww=a(ml),wx=a(nR),wy=a(fW),ws=a(mu),wt=a(fX),wu=a(eB),wv=a(eD),wn=a(fO),wo=a(a7),wp=a(m2),wq=a(fM),wk=a(nN),wl=a(h_),wm=a(fM),wg=a(nF),wh=a(fO),wi=a(fX),wj=a(nU),wc=a(nS),wd=a(nr),we=a(fY),v2=a(ih),v3=a(ia),vX=a(bl),vY=a(bk),vZ=a(mb),vy=a(fY),vd=a(a7),ve=a(cg),vf=a(dJ),vg=a(fI),vh=a(dI),vi=a(a7),vj=a(cg),vk=a(ip),vl=a(bl),vm=a(bk),vn=a(c1),vo=a(dJ),vp=a(nH),vq=a(nP),vr=a(dI),vs=a(a7),vt=a(cg),vu=a(bl),vv=a(bk),vw=a(c1),vx=a(dJ),vz=a(mC),vA=a(mK),vB=a(f3),vC=a(nc),vD=a(l6),vE=a(dI),vF=a(a7),vG=a(cg),vH=a(fQ),vI=a(nl),vJ=a(dJ),vK=a(eE),vL=a(m5),vM=a(dI),vN=a(a7),vO=a(fQ),vP=a(a7),vQ=a(my),vT=a(mY),vR=a(l5),vS=a(mP),vU=a(eD),vV=a(eB),vW=a(a7),v0=a(f3),v1=a(fW),u9=a(cg),u_=a(it),u$=a(dJ),va=a(fI),vb=a(dI),uX=a(eE),uY=a(nQ),uZ=a(dF),u0=a(dG),u1=a(dG),u2=a(h0),u3=a(dF),u4=a(ny),u5=a(ni),u6=a(bz),u8=a(m4),u7=a(h0),uN=a(mk),uO=a(mU),uP=a(l8),uQ=a(nf),uR=a(mM),uS=a(mE),uT=a(nn),uU=a(fR),uV=a(fR),uJ=a(bz),uK=a(cC),uL=a(fP),uM=a(cD),uF=a(ez),uG=a(im),uH=a(nD),uy=a(bl),uz=a(bk),uA=a(c1),uB=a(mp),uC=a(dF),uD=a(mi),uE=a(nK),uo=a(l4),ut=a(mO),uu=a(fJ),up=a(ng),uq=a(h1),uv=a(l2),uw=a(mA),ux=a(h1),ur=a(dG),us=a(nA),ul=a(fZ),um=a(fZ),un=a(fZ),uh=a(nL),ui=a(bk),uj=a(bl),uk=a(mL),t6=a(lZ),t7=a(m3),t8=a(nG),t9=a(fN),t_=a(nY),t$=a(nJ),ua=a(m8),ub=a(nC),uc=a(lY),ud=a(mc),ue=a(m7),uf=a(nM),ug=a(fU),tV=a(bS),t5=a(bj),tW=a(fT),tX=a(fS),tY=a(f4),tZ=a(bz),t0=a(cC),t1=a(ms),t2=a(mz),t3=a(f4),t4=a(cD),tD=a(bS),tL=a(bj),tE=a(fT),tF=a(fS),tG=a(bz),tH=a(cC),tI=a(c2),tJ=a(mQ),tK=a(cD),tM=a(ib),tN=a(bz),tO=a(cC),tP=a(fP),tQ=a(cD),tR=a(c2),tS=a(ez),tT=a(cD),tA=a(bl),tB=a(bk),ty=[0,a(aC),0],tz=a(aC),tw=a(w),tv=[0,a(aC),0],tx=a(aC),ti=a(bS),tj=a(bj),tk=a("*"),tl=a(by),td=[0,[0,[0,[0,[0,0]]]]],te=[0,[0,[0,0]]],tf=[0,[0,0]],tg=[0,0],th=[0,[0,[0,[0,0]]]],tb=a('":'),tc=a(aC),s$=[0,a(aC),0],ta=a(aC),s9=[0,a("}"),0],s_=a("{"),s7=[0,a("]"),0],s8=a("["),s5=[0,[0,[0,0]]],s3=[0,[0,[0,0]]],s1=[0,0],sY=[0,[0,[0,0]]],sZ=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s0=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sW=[0,[0,0]],sX=[0,[0,[0,0]]],sR=[0,[0,0]],sS=[0,[0,[0,0]]],sP=[0,[0,[0,0]]],sQ=[0,[0,0]],sN=[0,0],sJ=[0,[0,0]],sK=[0,0],sL=[0,0],sM=[0,[0,0]],sA=[0,[0,0]],sB=[0,0],sC=[0,[0,0]],sD=[0,0],sE=[0,0],sF=[0,[0,0]],sG=[0,[0,0]],sH=[0,[0,0]],sI=[0,0],sw=[0,0],su=[0,[0,[0,0]]],st=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,0],sr=[0,[0,[0,[0,[0,[0,0]]]]]],ss=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],so=[0,[0,[0,0]]],sj=[0,[0,[0,0]]],sh=[0,[0,[0,0]]],sf=[0,[0,[0,[0,[0,[0,0]]]]]],sg=[0,[0,[0,[0,[0,[0,0]]]]]],sb=[0,[0,0]],sc=[0,0],sd=[0,[0,[0,0]]],se=[0,[0,[0,0]]],r6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r7=[0,[0,[0,[0,[0,[0,0]]]]]],r8=[0,[0,[0,[0,[0,[0,0]]]]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,0]]],sa=[0,[0,[0,0]]],r4=[0,[0,0]],r5=[0,0],r3=[0,0,0],r1=[0,0,0],r0=[0,[0,[0,0]]],rW=[0,0],rX=[0,0],rR=[0,[0,[0,0]]],rS=[0,[0,[0,0]]],rT=[0,[0,[0,0]]],rQ=[0,[0,[0,[0,0]]]],rM=[0,[0,[0,0]]],rN=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rK=[0,[0,0]],rL=[0,0],rI=[0,[0,0]],rJ=[0,0],rG=[0,[0,0]],rH=[0,0],ru=[0,0],rv=[0,[0,0]],rw=[0,0],rx=[0,[0,0]],rs=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],ro=[0,0,0],rm=a(aQ),rl=a(w),rk=[0,[0,0]],rj=[0,0],ri=[1,0],rh=[0,0],rg=[0,0],re=[1,0],rf=[1,0],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],AE=a(bl),AF=a(bk),AG=a(mb),Ae=a(cD),Af=a(ib),Ag=a(fP),Aj=a(bz),Ak=a(cC),Ah=[0,a('" of such a platform'),0],Ai=a(l1),z2=a("rho"),z3=a(fY),z4=[0,a("a joint by its coordinate"),0],zD=a(cg),zr=a(fW),zs=a(a7),zt=a(my),zu=a(mP),zx=a(l5),zy=a(mY),zz=a(a7),zA=a(a7),zC=a(fQ),zB=[0,a("a claim that no cube of such a machine fits"),0],zE=a(dI),zF=a(dJ),zG=a(fI),zH=a(it),AD=[0,a("such a machine with bodies"),0],zI=a(ez),zJ=a(im),zK=a(nD),zL=a(ip),zM=a(l6),zN=a(m5),zO=a(fI),zR=a(c1),zS=a(nK),zV=a(it),zW=[0,a("a machine with arms and bodies"),0],zX=a(cg),zY=a(nl),zZ=a(fQ),z0=a(eE),z1=a(c1),z5=a(cg),z6=a(bl),z7=a(bk),z8=a(mC),z9=a(mK),z_=a(f3),z$=a(nc),zP=[0,a(aC),0],zQ=a(mS),Aa=a(c1),Ab=[0,a('" of a platform that turns'),0],Ac=a(mF),Ad=a(nH),AB=[0,a('" that does not turn'),0],AC=a(mS),Al=a(ip),Am=a(mE),An=a(mk),Ao=a(mM),Ap=a(fR),Aq=a(nn),Ar=a(fR),Ay=a(mU),Az=a(l8),AA=a(nf),As=a(ez),At=a(im),Au=a(cg),Av=a(bl),Aw=a(bk),Ax=a(nP),zT=[0,a(aC),0],zU=a(mF),AH=a(a7),AI=a(a7),AK=a(eD),AL=a(eB),AM=a(f3),AJ=[0,a("an atlas of such a machine"),0],zv=[0,a(aC),0],zw=a('a claim of the kind "'),AR=a(mV),AY=a(fU),AZ=a(fN),A0=a(nj),A1=a(nz),A2=a(c2),A3=a(ia),A4=a(ih),A5=a(c2),A6=a(aQ),AS=a(fL),AT=a(nb),AU=a(f0),AV=a(mx),AW=[0,a(aC),0],AX=a('the evidence "'),A7=a(fL),A8=a(f0),A9=a(nT),A$=a(fL),Ba=a(f0),Bb=a(ie),Bc=a(ie),A_=[0,a("this evidence at control points"),0],BH=a(nw),BI=a(nh),BJ=a(mG),BY=[0,3,3],BK=a(nm),BT=[0,a('the drive "arm" in a claim that is certified'),0],BW=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],BX=[0,a("a mechanism by formulas in a claim that is refuted"),0],BU=[0,a('the evidence "tolerances" of such a mechanism'),0],BV=[0,a("a step of a platform that turns that is not at control points"),0],BL=[0,a("the acceleration of a joint of a machine with a plane"),0],BS=[0,a("this quantity in a claim that is refuted"),0],BQ=[0,a("a step in a proof that no cube fits"),0],BR=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BP=[0,a("a leaf that fails"),0],BM=a(mo),BN=a(m0),BO=a(fJ),BF=a(is),Bz=a(fW),BA=a(ml),BB=a(nR),BC=[0,a(aC),0],BD=a('a proof of the kind "'),Bv=a(eB),Bw=a(eD),Bx=a(fX),By=a(mu),Br=a(a7),Bs=a(fO),Bt=a(m2),Bu=a(fM),Bo=a(nN),Bp=a(h_),Bq=a(fM),Bk=a(nF),Bl=a(fO),Bm=a(fX),Bn=a(nU),Bf=a(nr),Bg=a(nS),Bh=a(fY),Bi=[0,a(aC),0],Bj=a('the failure "'),Bd=a(is),Be=a(aQ),AP=a(ia),AQ=a(ih),AN=a(mZ),AO=a(lU),zo=a(eE),ze=a(h0),zf=a(m4),zg=a(dG),zh=a(bz),zm=a(nQ),zn=a(eE),zp=a(dF),zq=a(dG),zi=a(dF),zj=a(ny),zk=a(ni),zl=a(bz),y9=a(c1),zb=a(bl),zc=a(bk),y_=a(mi),y$=a(mp),za=a(dF),y7=[0,a("this quantity of such a mechanism"),0],yU=a(ng),yV=[0,a("a stiffness for each joint"),0],yW=a(mA),yX=a(l2),yY=a(mO),yT=a(fJ),yL=a(fZ),yB=a(nA),yC=a(m3),y1=a(fU),y2=a(mc),y3=a(fN),y4=a(nC),y5=a(m7),y6=a(lY),yD=a(nG),yE=a(nM),yF=a(nJ),yG=a(nY),yH=a(m8),yI=a(lZ),yJ=[0,a(aC),0],yK=a('the quantity "'),yM=a(l4),yN=a(nL),yO=a(bl),yP=a(bk),yQ=a(mL),yR=[0,a(aC),0],yS=a('a bound "'),yZ=a(h1),y0=a(dG),yu=a(fT),yv=a(fS),yw=a(f4),yx=a(bz),yy=a(cC),yz=a(ms),yA=a(mz),yr=a(cD),ys=a(f4),yc=a(cD),yd=a(ez),ye=a(mQ),yf=a(fP),yi=a(ib),yj=a(bz),yk=a(cC),yl=a(fT),ym=a(fS),yn=a(bz),yo=a(cC),yp=a(c2),yq=a(c2),yg=[0,a(aC),0],yh=a(l1),x$=a(bS),ya=a(bj),x9=a(" is not covered by the verified checker"),x_=a(w),x7=a(bl),x8=a(bk),x3=a(w),x4=a(nZ),x5=a(w),x6=a(w),x2=[1,0],x0=a("Reader.Malformed"),x1=a("Reader.Not_covered"),B0=a(mt),B1=a("CERTIFIED"),B2=a("REFUTED"),B3=a(mt),B4=a("NOT COVERED: ");function
+ak(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ai(a[1])];case
-1:return[1,ai(a[1])];case
-2:return[2,ai(a[1])];case
-3:return[3,ai(a[1])];case
-4:return[4,ai(a[1])];case
-5:return[5,ai(a[1])];case
-6:return[6,ai(a[1])];case
-7:return[7,ai(a[1])];case
+0:return[0,ak(a[1])];case
+1:return[1,ak(a[1])];case
+2:return[2,ak(a[1])];case
+3:return[3,ak(a[1])];case
+4:return[4,ak(a[1])];case
+5:return[5,ak(a[1])];case
+6:return[6,ak(a[1])];case
+7:return[7,ak(a[1])];case
 8:var
-c=a[1];return[8,c,ai(a[2])];case
+c=a[1];return[8,c,ak(a[2])];case
 9:var
-b=a[1];return[9,b,b,ai(a[3])];case
-10:return[10,ai(a[1])];case
-11:return[11,ai(a[1])];case
-12:return[12,ai(a[1])];case
-13:return[13,ai(a[1])];default:return[14,ai(a[1])]}}function
-aQ(a,b){if(typeof
+b=a[1];return[9,b,b,ak(a[3])];case
+10:return[10,ak(a[1])];case
+11:return[11,ak(a[1])];case
+12:return[12,ak(a[1])];case
+13:return[13,ak(a[1])];default:return[14,ak(a[1])]}}function
+aT(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aQ(a[1],b)];case
-1:return[1,aQ(a[1],b)];case
-2:return[2,aQ(a[1],b)];case
-3:return[3,aQ(a[1],b)];case
-4:return[4,aQ(a[1],b)];case
-5:return[5,aQ(a[1],b)];case
-6:return[6,aQ(a[1],b)];case
-7:return[7,aQ(a[1],b)];case
+0:return[0,aT(a[1],b)];case
+1:return[1,aT(a[1],b)];case
+2:return[2,aT(a[1],b)];case
+3:return[3,aT(a[1],b)];case
+4:return[4,aT(a[1],b)];case
+5:return[5,aT(a[1],b)];case
+6:return[6,aT(a[1],b)];case
+7:return[7,aT(a[1],b)];case
 8:var
-c=a[1];return[8,c,aQ(a[2],b)];case
+c=a[1];return[8,c,aT(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aQ(a[3],b)];case
-10:return[10,aQ(a[1],b)];case
-11:return[11,aQ(a[1],b)];case
-12:return[12,aQ(a[1],b)];case
-13:return[13,aQ(a[1],b)];default:return[14,aQ(a[1],b)]}}function
-af(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aT(a[3],b)];case
+10:return[10,aT(a[1],b)];case
+11:return[11,aT(a[1],b)];case
+12:return[12,aT(a[1],b)];case
+13:return[13,aT(a[1],b)];default:return[14,aT(a[1],b)]}}function
+ag(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,af(a[1],b)];case
-1:return[1,af(a[1],b)];case
+0:return[0,ag(a[1],b)];case
+1:return[1,ag(a[1],b)];case
 2:var
-c=a[1];return[2,c,af(a[2],b)];case
+c=a[1];return[2,c,ag(a[2],b)];case
 3:var
-d=a[1];return[3,d,af(a[2],b)];case
+d=a[1];return[3,d,ag(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,af(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ag(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,af(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ag(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,af(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ag(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,af(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ag(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,af(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ag(a[4],b)];case
 9:var
-t=a[1];return[9,t,af(a[2],b)];case
-10:return[10,af(a[1],b)];case
+t=a[1];return[9,t,ag(a[2],b)];case
+10:return[10,ag(a[1],b)];case
 11:var
-u=a[1];return[11,u,af(a[2],b)];case
+u=a[1];return[11,u,ag(a[2],b)];case
 12:var
-v=a[1];return[12,v,af(a[2],b)];case
+v=a[1];return[12,v,ag(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,af(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ag(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,af(a[3],b)];case
-15:return[15,af(a[1],b)];case
-16:return[16,af(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ag(a[3],b)];case
+15:return[15,ag(a[1],b)];case
+16:return[16,ag(a[1],b)];case
 17:var
-A=a[1];return[17,A,af(a[2],b)];case
+A=a[1];return[17,A,ag(a[2],b)];case
 18:var
-B=a[1];return[18,B,af(a[2],b)];case
-19:return[19,af(a[1],b)];case
+B=a[1];return[18,B,ag(a[2],b)];case
+19:return[19,ag(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,af(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ag(a[3],b)];case
 21:var
-E=a[1];return[21,E,af(a[2],b)];case
-22:return[22,af(a[1],b)];case
+E=a[1];return[21,E,ag(a[2],b)];case
+22:return[22,ag(a[1],b)];case
 23:var
-F=a[1];return[23,F,af(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,af(a[3],b)]}}function
-cf(a){throw[0,iA,a]}function
-eA(a){return 0<=a?a:-a|0}function
-aC(d,c){var
-a=K(d),e=K(c),b=at(a+e|0);bQ(d,0,b,0,a);bQ(c,0,b,a,e);return aP(b)}function
-n$(a){return a?oa:ob}C5(0);nV(1);var
-bU=nV(2);function
-dG(b,a){return nW(b,a,0,K(a))}function
-iG(a){dG(bU,a);nX(bU,10);return dD(bU)}function
-f5(b){function
+F=a[1];return[23,F,ag(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ag(a[3],b)]}}function
+cm(a){throw[0,iQ,a]}function
+eM(a){return 0<=a?a:-a|0}function
+aE(d,c){var
+a=N(d),e=N(c),b=aw(a+e|0);bW(d,0,b,0,a);bW(c,0,b,a,e);return aR(b)}function
+oz(a){return a?oA:oB}DI(0);oi(1);var
+b1=oi(2);function
+dQ(b,a){return oj(b,a,0,N(a))}function
+iW(a){dQ(b1,a);ok(b1,10);return dN(b1)}function
+gf(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dD(d)}catch(a){a=f2(a);if(a[1]!==iE)throw a;var
+c=a[2],d=a[1];try{dN(d)}catch(a){a=gc(a);if(a[1]!==iU)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(C6(0))}is(a(ly),f5);var
-dH=(4*Df(0)|0)-1|0;function
-cA(c){var
+a=c;continue}return 0}}return a(DJ(0))}iI(a(lW),gf);var
+dR=(4*DT(0)|0)-1|0;function
+cH(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Z(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-iH(d,c){var
+X(b,a){if(a){var
+c=a[2],d=f(b,a[1]);return[0,d,X(b,c)]}return 0}function
+iX(d,c){var
 a=c;for(;;){if(a){var
-f=a[2],b=e(d,a[1]);if(b){var
-a=f;continue}return b}return 1}}function
-by(d,c){var
+e=a[2],b=f(d,a[1]);if(b){var
+a=e;continue}return b}return 1}}function
+bd(d,c){var
 a=c;for(;;){if(a){var
-f=a[2],b=e(d,a[1]);if(b)return b;var
-a=f;continue}return 0}}function
-cB(a,c){var
-b=at(a);CH(b,0,a,c);return b}function
-iI(c,b,a){if(0<=b&&0<=a&&!((a5(c)-a|0)<b)){var
-d=at(a);cz(c,b,d,0,a);return d}return cf(ok)}function
-iJ(c,b,a){return aP(iI(c,b,a))}function
-iK(e,c,d,b,a){if(0<=a&&0<=c&&!((a5(e)-a|0)<c)&&0<=b&&!((a5(d)-a|0)<b))return cz(e,c,d,b,a);return cf(ol)}function
-bV(e,c,d,b,a){if(0<=a&&0<=c&&!((K(e)-a|0)<c)&&0<=b&&!((a5(d)-a|0)<b))return bQ(e,c,d,b,a);return cf(om)}function
-a9(b,a){return aP(cB(b,a))}function
-dI(c,b,a){return aP(iI(cb(c),b,a))}function
-iL(k,g){if(g){var
-h=K(k),c=0,b=g,p=0;for(;;){if(b){var
+e=a[2],b=f(d,a[1]);if(b)return b;var
+a=e;continue}return 0}}function
+cI(a,c){var
+b=aw(a);Dk(b,0,a,c);return b}function
+iY(c,b,a){if(0<=b&&0<=a&&!((a8(c)-a|0)<b)){var
+d=aw(a);cG(c,b,d,0,a);return d}return cm(oK)}function
+iZ(c,b,a){return aR(iY(c,b,a))}function
+i0(e,c,d,b,a){if(0<=a&&0<=c&&!((a8(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return cG(e,c,d,b,a);return cm(oL)}function
+b2(e,c,d,b,a){if(0<=a&&0<=c&&!((N(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return bW(e,c,d,b,a);return cm(oM)}function
+be(b,a){return aR(cI(b,a))}function
+dS(c,b,a){return aR(iY(cj(c),b,a))}function
+i1(k,g){if(g){var
+h=N(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(K(i)+h|0)+c|0,m=b[2],n=c<=j?j:cf(on),c=n,b=m;continue}var
-l=K(i)+c|0}else
+j=(N(i)+h|0)+c|0,m=b[2],n=c<=j?j:cm(oN),c=n,b=m;continue}var
+l=N(i)+c|0}else
 var
 l=c;var
-f=at(l),e=p,d=g;for(;;){if(d){var
+f=aw(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bQ(a,0,f,e,K(a));bQ(k,0,f,e+K(a)|0,h);var
-e=(e+K(a)|0)+h|0,d=o;continue}bQ(a,0,f,e,K(a))}return aP(f)}}}return oo}function
-iM(b,c){if(0===b)return[0];if(0<=b){var
-d=C3(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
-a=g;for(;;){d[1+a]=e(c,a);var
-h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return cf(op)}function
-iN(c){var
+o=d[2];bW(a,0,f,e,N(a));bW(k,0,f,e+N(a)|0,h);var
+e=(e+N(a)|0)+h|0,d=o;continue}bW(a,0,f,e,N(a))}return aR(f)}}}return oO}function
+gg(b,c){if(0===b)return[0];if(0<=b){var
+d=DG(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
+a=g;for(;;){d[1+a]=f(c,a);var
+h=a+1|0;if(e!==a){var
+a=h;continue}break}}return d}return cm(oP)}function
+gh(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-iO(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dH<b[1]){if(!((d+c|0)<=dH))throw[0,iB,os];b[1]=dH}var
-e=at(b[1]);iK(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,aj,oq]}throw[0,aj,or]}}function
-dJ(a,c){var
-b=K(c),d=a[2]+b|0;if(a[3]<d)iO(a,b);bQ(c,0,a[1],a[2],b);a[2]=d;return 0}function
-f6(a){return 5===a[2]?12:-6}function
-iP(a){return[0,0,at(a)]}function
-iQ(a,h){var
-b=a5(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=at(i);iK(a[2],0,f,0,b);a[2]=f;var
+i2(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dR<b[1]){if(!((d+c|0)<=dR))throw[0,iR,oS];b[1]=dR}var
+e=aw(b[1]);i0(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,al,oQ]}throw[0,al,oR]}}function
+dT(a,c){var
+b=N(c),d=a[2]+b|0;if(a[3]<d)i2(a,b);bW(c,0,a[1],a[2],b);a[2]=d;return 0}function
+gi(a){return 5===a[2]?12:-6}function
+i3(a){return[0,0,aw(a)]}function
+i4(a,h){var
+b=a8(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=aw(i);i0(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-c2(a,b){iQ(a,1);cY(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aJ(a,c){var
-b=K(c);iQ(a,b);bV(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-iR(a){return iJ(a[2],0,a[1])}function
-iS(a){if(typeof
+c7(a,b){i4(a,1);c3(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aK(a,c){var
+b=N(c);i4(a,b);b2(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+i5(a){return iZ(a[2],0,a[1])}function
+i6(a){if(typeof
 a==="number")switch(a){case
-0:return ot;case
-1:return ou;case
-2:return ov;case
-3:return ow;case
-4:return ox;case
-5:return oy;default:return oz}else
+0:return oT;case
+1:return oU;case
+2:return oV;case
+3:return oW;case
+4:return oX;case
+5:return oY;default:return oZ}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aC(oA,a9(1,a[1]))}}function
-f7(b,c){var
+1:return a[1];default:return aE(o0,be(1,a[1]))}}function
+gj(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aJ(b,oB);var
+d=a[1];aK(b,o1);var
 a=d;continue;case
 1:var
-e=a[1];aJ(b,oC);var
+e=a[1];aK(b,o2);var
 a=e;continue;case
 2:var
-f=a[1];aJ(b,oD);var
+f=a[1];aK(b,o3);var
 a=f;continue;case
 3:var
-g=a[1];aJ(b,oE);var
+g=a[1];aK(b,o4);var
 a=g;continue;case
 4:var
-h=a[1];aJ(b,oF);var
+h=a[1];aK(b,o5);var
 a=h;continue;case
 5:var
-i=a[1];aJ(b,oG);var
+i=a[1];aK(b,o6);var
 a=i;continue;case
 6:var
-j=a[1];aJ(b,oH);var
+j=a[1];aK(b,o7);var
 a=j;continue;case
 7:var
-k=a[1];aJ(b,oI);var
+k=a[1];aK(b,o8);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aJ(b,oJ);f7(b,m);aJ(b,oK);var
+l=a[2],m=a[1];aK(b,o9);gj(b,m);aK(b,o_);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aJ(b,oL);f7(b,o);aJ(b,oM);var
+n=a[3],o=a[1];aK(b,o$);gj(b,o);aK(b,pa);var
 a=n;continue;case
 10:var
-p=a[1];aJ(b,oN);var
+p=a[1];aK(b,pb);var
 a=p;continue;case
 11:var
-q=a[1];aJ(b,oO);var
+q=a[1];aK(b,pc);var
 a=q;continue;case
 12:var
-r=a[1];aJ(b,oP);var
+r=a[1];aK(b,pd);var
 a=r;continue;case
 13:var
-s=a[1];aJ(b,oQ);var
+s=a[1];aK(b,pe);var
 a=s;continue;default:var
-t=a[1];aJ(b,oR);var
+t=a[1];aK(b,pf);var
 a=t;continue}}function
-ar(a){if(typeof
+at(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ar(a[1])];case
-1:return[1,ar(a[1])];case
-2:return[2,ar(a[1])];case
-3:return[3,ar(a[1])];case
-4:return[4,ar(a[1])];case
-5:return[5,ar(a[1])];case
-6:return[6,ar(a[1])];case
-7:return[7,ar(a[1])];case
+0:return[0,at(a[1])];case
+1:return[1,at(a[1])];case
+2:return[2,at(a[1])];case
+3:return[3,at(a[1])];case
+4:return[4,at(a[1])];case
+5:return[5,at(a[1])];case
+6:return[6,at(a[1])];case
+7:return[7,at(a[1])];case
 8:var
-b=a[1];return[8,b,ar(a[2])];case
+b=a[1];return[8,b,at(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ar(a[3])];case
-10:return[10,ar(a[1])];case
-11:return[11,ar(a[1])];case
-12:return[12,ar(a[1])];case
-13:return[13,ar(a[1])];default:return[14,ar(a[1])]}}function
-aK(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,at(a[3])];case
+10:return[10,at(a[1])];case
+11:return[11,at(a[1])];case
+12:return[12,at(a[1])];case
+13:return[13,at(a[1])];default:return[14,at(a[1])]}}function
+aL(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aK(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aL(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
 1:var
-c=aK(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aL(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
 2:var
-d=aK(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aL(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
 3:var
-f=aK(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+e=aL(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
 4:var
-g=aK(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aL(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
 5:var
-h=aK(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aL(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
 6:var
-i=aK(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aL(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
 7:var
-j=aK(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aL(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
 8:var
-k=aK(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){e(aj,0);return 0};return[0,function(a){e(ak,0);return 0},al,ai,ah];case
+k=aL(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],an=a[1],l=aK(a[3]),ao=l[4],ap=l[3],aq=l[2],as=l[1],m=aK(au(ar(an),am)),at=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(at,0);e(ao,0);return 0},az=function(a){e(ap,0);e(av,0);return 0},aA=function(a){e(aw,0);e(aq,0);return 0};return[0,function(a){e(as,0);e(ax,0);return 0},aA,az,ay];case
+am=a[2],an=a[1],l=aL(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aL(ax(at(an),am)),as=m[4],au=m[3],av=m[2],aw=m[1],ay=function(a){f(as,0);f(ao,0);return 0},az=function(a){f(ap,0);f(au,0);return 0},aA=function(a){f(av,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(aw,0);return 0},aA,az,ay];case
 10:var
-n=aK(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){e(aD,0);return 0};return[0,function(a){e(aE,0);return 0},aF,aC,aB];case
+n=aL(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){f(aD,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aC,aB];case
 11:var
-o=aK(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aL=function(a){e(aI,0);return 0};return[0,function(a){e(aJ,0);return 0},aL,aH,aG];case
+o=aL(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
 12:var
-p=aK(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aL(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){f(aO,0);return 0};return[0,function(a){f(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aK(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=aK(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-au(c,b){var
+q=aL(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
+r=aL(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
+ax(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1072,12 +1073,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,aj,oS]}else
+9:a=6;break;default:throw[0,al,pg]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,au(t,b[1])];case
+0:return[0,ax(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1086,21 +1087,21 @@ b!=="number")switch(b[0]){case
 13:a=3;d=1;break;case
 14:a=4;d=1;break}if(!d)a=7;break;case
 1:var
-f=0,u=c[1];if(typeof
+e=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,au(u,b[1])];case
-8:a=5;f=1;break;case
-9:a=6;f=1;break;case
-10:f=1;break;case
-11:a=1;f=1;break;case
-12:a=2;f=1;break;case
-13:a=3;f=1;break;case
-14:a=4;f=1;break}if(!f)a=7;break;case
+1:return[1,ax(u,b[1])];case
+8:a=5;e=1;break;case
+9:a=6;e=1;break;case
+10:e=1;break;case
+11:a=1;e=1;break;case
+12:a=2;e=1;break;case
+13:a=3;e=1;break;case
+14:a=4;e=1;break}if(!e)a=7;break;case
 2:var
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,au(v,b[1])];case
+2:return[2,ax(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1112,7 +1113,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,au(w,b[1])];case
+3:return[3,ax(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1124,7 +1125,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,au(x,b[1])];case
+4:return[4,ax(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1136,7 +1137,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,au(y,b[1])];case
+5:return[5,ax(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1148,7 +1149,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,au(z,b[1])];case
+6:return[6,ax(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1160,7 +1161,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,au(A,b[1])];case
+7:return[7,ax(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1173,40 +1174,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=au(B,b[2]);return[8,au(C,D),E];case
+D=b[1],E=ax(B,b[2]);return[8,ax(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,aj,o1];break;case
+14:a=4;break;default:m=1}if(m)throw[0,al,pp];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aK(au(ar(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,au(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aL(ax(at(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,ax(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,aj,o2];break;case
+14:a=4;break;default:n=1}if(n)throw[0,al,pq];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,au(M,b[1])];throw[0,aj,o3];case
+b!=="number"&&10===b[0])return[10,ax(M,b[1])];throw[0,al,pr];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,au(N,b[1])];default:o=1}if(o)throw[0,aj,o4];break;case
+11:return[11,ax(N,b[1])];default:o=1}if(o)throw[0,al,ps];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,au(O,b[1])];default:p=1}if(p)throw[0,aj,o5];break;case
+12:return[12,ax(O,b[1])];default:p=1}if(p)throw[0,al,pt];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1215,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,au(P,b[1])];default:q=1}if(q)throw[0,aj,o6];break;default:var
+13:return[13,ax(P,b[1])];default:q=1}if(q)throw[0,al,pu];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,206 +1223,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,au(Q,b[1])];default:r=1}if(r)throw[0,aj,o7]}switch(a){case
-0:throw[0,aj,oV];case
-1:throw[0,aj,oW];case
-2:throw[0,aj,oX];case
-3:throw[0,aj,oY];case
-4:throw[0,aj,oZ];case
-5:throw[0,aj,oT];case
-6:throw[0,aj,oU];default:throw[0,aj,o0]}}var
-aD=[az,o8,fV(0)];function
-eB(b,a){if(typeof
+14:return[14,ax(Q,b[1])];default:r=1}if(r)throw[0,al,pv]}switch(a){case
+0:throw[0,al,pj];case
+1:throw[0,al,pk];case
+2:throw[0,al,pl];case
+3:throw[0,al,pm];case
+4:throw[0,al,pn];case
+5:throw[0,al,ph];case
+6:throw[0,al,pi];default:throw[0,al,po]}}var
+aF=[aB,pw,f7(0)];function
+eN(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aD}}function
-dK(e,b,d){var
-a=eB(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aF}}function
+dU(e,b,d){var
+a=eN(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aD}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aU(b,c,a){if(typeof
-b==="number")return[0,0,_(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aF}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aV(b,c,a){if(typeof
+b==="number")return[0,0,ab(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aU(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aV(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aU(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aV(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aU(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aV(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aU(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aV(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aU(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aV(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aU(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aV(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aU(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aV(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aU(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aV(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(ey([0,b[1]],[0,o]))throw aD;var
-p=aU(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(eK([0,b[1]],[0,o]))throw aF;var
+p=aV(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ai(f)];if(ey([0,ai(B)],C))throw aD;var
-D=[0,ai(d)];if(ey([0,ai(A)],D))throw aD;var
-q=aK(au(ar(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aU(ai(z),c,y),F=r[2];return[0,[9,f,d,ar(r[1])],F]}break;case
+d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ak(e)];if(eK([0,ak(B)],C))throw aF;var
+D=[0,ak(d)];if(eK([0,ak(A)],D))throw aF;var
+q=aL(ax(at(e),d)),E=q[4];f(q[2],0);f(E,0);var
+r=aV(ak(z),c,y),F=r[2];return[0,[9,e,d,at(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aU(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aV(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aU(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aV(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aU(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aV(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aU(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aD}function
-_(b,a){if(typeof
+v=aV(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aF}function
+ab(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=_(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=ab(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=_(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=ab(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ab=b[2],u=eB(b[1],a),e=u[2],ac=u[1];if(typeof
+aa=b[2],u=eN(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=_(ab,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aD;case
+v=ab(aa,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aF;case
 3:var
-ad=b[2],w=eB(b[1],a),f=w[2],ae=w[1];if(typeof
+ad=b[2],w=eN(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=_(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aD;case
+x=ab(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aF;case
 4:var
-af=b[4],ag=b[1],g=dK(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
+af=b[4],ag=b[1],g=dU(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=_(af,h[1]);return[0,[4,ag,ah,aj,y[1]],y[2]]}throw aD;case
+ai=g[2],y=ab(af,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aF;case
 5:var
-ak=b[4],al=b[1],i=dK(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+aj=b[4],al=b[1],i=dU(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=_(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aD;case
+an=i[2],z=ab(aj,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aF;case
 6:var
-ao=b[4],ap=b[1],k=dK(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dU(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=_(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aD;case
+ar=k[2],A=ab(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aF;case
 7:var
-as=b[4],at=b[1],m=dK(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dU(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=_(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aD;case
+av=m[2],B=ab(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aF;case
 8:var
-aw=b[4],ax=b[1],o=dK(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
+aw=b[4],ax=b[1],o=dU(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-az=o[2],C=_(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aD;case
+az=o[2],C=ab(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aF;case
 9:var
-aA=b[2],D=eB(b[1],a),q=D[2],aB=D[1];if(typeof
+aA=b[2],D=eN(b[1],a),q=D[2],aB=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=_(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aD;case
+E=ab(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aF;case
 10:var
-F=_(b[1],a);return[0,[10,F[1]],F[2]];case
+F=ab(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aC=b[1],G=_(b[2],a);return[0,[11,aC,G[1]],G[2]];case
+aC=b[1],G=ab(b[2],a);return[0,[11,aC,G[1]],G[2]];case
 12:var
-aE=b[1],H=_(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aD=b[1],H=ab(b[2],a);return[0,[12,aD,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(ey([0,b[2]],[0,I]))throw aD;var
-J=_(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aE=a[2],aG=b[3],aH=b[1];if(eK([0,b[2]],[0,I]))throw aF;var
+J=ab(aG,aE);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ai(K)];if(ey([0,ai(aK)],aM))throw aD;var
-L=_(aJ,ai(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ak(K)];if(eK([0,ak(aK)],aM))throw aF;var
+L=ab(aJ,ak(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=_(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=ab(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=_(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=ab(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=_(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=ab(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aR=T[2],U=_(T[1],a),aS=U[1],V=_(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
-W=r[1],aT=W[2],X=_(W[1],a),aV=X[1],Y=_(P,X[2]);return[0,[18,[1,[0,aV,aT]],Y[1]],Y[2]];case
+T=r[1],aR=T[2],U=ab(T[1],a),aS=U[1],V=ab(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
+W=r[1],aT=W[2],X=ab(W[1],a),aU=X[1],Y=ab(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=_(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=ab(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=_(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=ab(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=_(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=ab(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aY(c,d,a);case
-1:return aY(c,d,a);case
+0:return a0(c,d,a);case
+1:return a0(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-Z=_(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aD;default:return aY(c,d,a)}else
+Z=ab(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aF;default:return a0(c,d,a)}else
 switch(c[0]){case
-0:return aY(c,d,a);case
-1:return aY(c,d,a);case
-2:return aY(c,d,a);case
-3:return aY(c,d,a);case
-4:return aY(c,d,a);case
-5:return aY(c,d,a);case
-6:return aY(c,d,a);case
-7:return aY(c,d,a);case
-8:return aY([8,c[1],c[2]],d,a);case
+0:return a0(c,d,a);case
+1:return a0(c,d,a);case
+2:return a0(c,d,a);case
+3:return a0(c,d,a);case
+4:return a0(c,d,a);case
+5:return a0(c,d,a);case
+6:return a0(c,d,a);case
+7:return a0(c,d,a);case
+8:return a0([8,c[1],c[2]],d,a);case
 9:var
-aW=c[1],$=aU(c[2],d,a),aa=$[2];return[0,[23,[9,aW,$[1]],aa[1]],aa[2]];case
-10:return aY(c,d,a);default:return aY(c,d,a)}}throw aD}function
-aY(d,c,b){var
-a=_(c,b);return[0,[23,d,a[1]],a[2]]}function
-aZ(k,g,a){var
-b=K(a),h=0<=g?k:0,d=eA(g);if(d<=b)return a;var
-l=2===h?48:32,c=cB(d,l);switch(h){case
-0:bV(a,0,c,0,b);break;case
-1:bV(a,0,c,d-b|0,b);break;default:var
+aW=c[1],_=aV(c[2],d,a),$=_[2];return[0,[23,[9,aW,_[1]],$[1]],$[2]];case
+10:return a0(c,d,a);default:return a0(c,d,a)}}throw aF}function
+a0(d,c,b){var
+a=ab(c,b);return[0,[23,d,a[1]],a[2]]}function
+a1(k,g,a){var
+b=N(a),h=0<=g?k:0,d=eM(g);if(d<=b)return a;var
+l=2===h?48:32,c=cI(d,l);switch(h){case
+0:b2(a,0,c,0,b);break;case
+1:b2(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==Y(a,0)&&45!==Y(a,0)&&32!==Y(a,0)){e=1;i=1}if(!i){cY(c,0,Y(a,0));bV(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==W(a,0)&&45!==W(a,0)&&32!==W(a,0)){e=1;i=1}if(!i){c3(c,0,W(a,0));b2(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===Y(a,0)){var
-j=0;if(lN!==Y(a,1)&&88!==Y(a,1)){f=1;j=1}if(!j){cY(c,1,Y(a,1));bV(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bV(a,0,c,d-b|0,b)}}return aP(c)}function
-c3(k,b){var
-c=eA(k),a=K(b),d=Y(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+mL>>>0))e=1}else
+f=0;if(1<b&&48===W(a,0)){var
+j=0;if(l$!==W(a,1)&&88!==W(a,1)){f=1;j=1}if(!j){c3(c,1,W(a,1));b2(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)b2(a,0,c,d-b|0,b)}}return aR(c)}function
+c8(k,b){var
+c=eM(k),a=N(b),d=W(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+m_>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(lN===Y(b,1)||88===Y(b,1))j=1;if(j){var
-h=cB(c+2|0,48);cY(h,1,Y(b,1));bV(b,2,h,(c-a|0)+4|0,a-2|0);return aP(h)}}e=1;f=1;break;case
+j=0;if(l$===W(b,1)||88===W(b,1))j=1;if(j){var
+h=cI(c+2|0,48);c3(h,1,W(b,1));b2(b,2,h,(c-a|0)+4|0,a-2|0);return aR(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cB(c+1|0,48);cY(g,0,d);bV(b,1,g,(c-a|0)+2|0,a-1|0);return aP(g)}}if(e&&a<c){var
-i=cB(c,48);bV(b,0,i,c-a|0,a);return aP(i)}return b}function
-o9(k){var
-j=0,C=K(k);for(;;){if(C<=j)var
+g=cI(c+1|0,48);c3(g,0,d);b2(b,1,g,(c-a|0)+2|0,a-1|0);return aR(g)}}if(e&&a<c){var
+i=cI(c,48);b2(b,0,i,c-a|0,a);return aR(i)}return b}function
+px(k){var
+j=0,C=N(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bS(k,j)+nc|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bZ(k,j)+nB|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=cb(k),a=[0,0],t=a5(e)-1|0,y=0;if(!(t<0)){var
+e=cj(k),a=[0,0],t=a8(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dB(e,i),g=0;if(32<=f){var
+f=dL(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1432,33 +1433,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a5(e)){var
-r=a5(e),s=at(r);cz(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a8(e)){var
+r=a8(e),s=aw(r);cG(e,0,s,0,r);var
 v=s}else{var
-b=at(a[1]);a[1]=0;var
-u=a5(e)-1|0,z=0;if(!(u<0)){var
+b=aw(a[1]);a[1]=0;var
+u=a8(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dB(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(hV<=c)d=1;else
+c=dL(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(h$<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:an(b,a[1],92);a[1]++;an(b,a[1],98);break;case
-9:an(b,a[1],92);a[1]++;an(b,a[1],116);break;case
-10:an(b,a[1],92);a[1]++;an(b,a[1],110);break;case
-13:an(b,a[1],92);a[1]++;an(b,a[1],114);break;default:d=1}switch(d){case
-1:an(b,a[1],92);a[1]++;an(b,a[1],48+(c/mR|0)|0);a[1]++;an(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;an(b,a[1],48+(c%10|0)|0);break;case
-2:an(b,a[1],92);a[1]++;an(b,a[1],c);break;case
-3:an(b,a[1],c);break}a[1]++;var
+8:aq(b,a[1],92);a[1]++;aq(b,a[1],98);break;case
+9:aq(b,a[1],92);a[1]++;aq(b,a[1],116);break;case
+10:aq(b,a[1],92);a[1]++;aq(b,a[1],110);break;case
+13:aq(b,a[1],92);a[1]++;aq(b,a[1],114);break;default:d=1}switch(d){case
+1:aq(b,a[1],92);a[1]++;aq(b,a[1],48+(c/ne|0)|0);a[1]++;aq(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;aq(b,a[1],48+(c%10|0)|0);break;case
+2:aq(b,a[1],92);a[1]++;aq(b,a[1],c);break;case
+3:aq(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aP(v)}var
-w=K(o),x=cB(w+2|0,34);bQ(o,0,x,1,w);return aP(x)}}function
-iT(d,f){var
-g=eA(f),e=pY[1];switch(d[2]){case
+o=aR(v)}var
+w=N(o),x=cI(w+2|0,34);bW(o,0,x,1,w);return aR(x)}}function
+i7(d,f){var
+g=eM(f),e=qm[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1467,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=lO;break;case
+b=ma;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,48 +1477,20 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=iP(16);c2(c,37);switch(d[1]){case
+c=i3(16);c7(c,37);switch(d[1]){case
 0:break;case
-1:c2(c,43);break;default:c2(c,32)}if(8<=d[2])c2(c,35);c2(c,46);aJ(c,a(t+g));c2(c,b);return iR(c)}function
-eC(m,a){if(13<=m){var
-g=[0,0],h=K(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bS(a,c)+hM>>>0))g[1]++;var
+1:c7(c,43);break;default:c7(c,32)}if(8<=d[2])c7(c,35);c7(c,46);aK(c,a(w+g));c7(c,b);return i5(c)}function
+eO(m,a){if(13<=m){var
+g=[0,0],h=N(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bZ(a,c)+h2>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=at(K(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cY(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=K(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=aw(N(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){c3(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=N(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bS(a,b);if(9<f+hM>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bZ(a,b);if(9<f+h2>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aP(j)}return a}function
-pZ(b,c){switch(b){case
-1:var
-a=o$;break;case
-2:var
-a=pa;break;case
-4:var
-a=pc;break;case
-5:var
-a=pd;break;case
-6:var
-a=pe;break;case
-7:var
-a=pf;break;case
-8:var
-a=pg;break;case
-9:var
-a=ph;break;case
-10:var
-a=pi;break;case
-11:var
-a=pj;break;case
-0:case
-13:var
-a=o_;break;case
-3:case
-14:var
-a=pb;break;default:var
-a=pk}return eC(b,fU(a,c))}function
-p0(b,c){switch(b){case
+b=p;continue}break}}return aR(j)}return a}function
+qn(b,c){switch(b){case
 1:var
 a=pz;break;case
 2:var
@@ -1544,8 +1517,64 @@ a=py;break;case
 3:case
 14:var
 a=pB;break;default:var
-a=pK}return eC(b,fU(a,c))}function
-p1(b,c){switch(b){case
+a=pK}return eO(b,f6(a,c))}function
+qo(b,c){switch(b){case
+1:var
+a=pZ;break;case
+2:var
+a=p0;break;case
+4:var
+a=p2;break;case
+5:var
+a=p3;break;case
+6:var
+a=p4;break;case
+7:var
+a=p5;break;case
+8:var
+a=p6;break;case
+9:var
+a=p7;break;case
+10:var
+a=p8;break;case
+11:var
+a=p9;break;case
+0:case
+13:var
+a=pY;break;case
+3:case
+14:var
+a=p1;break;default:var
+a=p_}return eO(b,f6(a,c))}function
+qp(b,c){switch(b){case
+1:var
+a=qa;break;case
+2:var
+a=qb;break;case
+4:var
+a=qd;break;case
+5:var
+a=qe;break;case
+6:var
+a=qf;break;case
+7:var
+a=qg;break;case
+8:var
+a=qh;break;case
+9:var
+a=qi;break;case
+10:var
+a=qj;break;case
+11:var
+a=qk;break;case
+0:case
+13:var
+a=p$;break;case
+3:case
+14:var
+a=qc;break;default:var
+a=ql}return eO(b,f6(a,c))}function
+qq(b,c){switch(b){case
 1:var
 a=pM;break;case
 2:var
@@ -1572,114 +1601,86 @@ a=pL;break;case
 3:case
 14:var
 a=pO;break;default:var
-a=pX}return eC(b,fU(a,c))}function
-p2(b,c){switch(b){case
-1:var
-a=pm;break;case
-2:var
-a=pn;break;case
-4:var
-a=pp;break;case
-5:var
-a=pq;break;case
-6:var
-a=pr;break;case
-7:var
-a=ps;break;case
-8:var
-a=pt;break;case
-9:var
-a=pu;break;case
-10:var
-a=pv;break;case
-11:var
-a=pw;break;case
-0:case
-13:var
-a=pl;break;case
-3:case
-14:var
-a=po;break;default:var
-a=px}return eC(b,CP(a,c))}function
-bW(c,i,b){function
+a=pX}return eO(b,Ds(a,c))}function
+b3(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return CL(b,i,a)}function
+a=32}return Do(b,i,a)}function
 q(c){var
-a=CD(b);return 3===a?b<0.?p4:p5:4<=a?p6:c}switch(c[2]){case
+a=Dg(b);return 3===a?b<0.?qs:qt:4<=a?qu:c}switch(c[2]){case
 5:var
-e=ih(iT(c,i),b),d=0,u=K(e);for(;;){if(d===u)var
+e=iy(i7(c,i),b),d=0,u=N(e);for(;;){if(d===u)var
 p=0;else{var
-k=Y(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=W(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aC(e,p3);return q(v)}case
+v=p?e:aE(e,qr);return q(v)}case
 6:return j(0);case
 7:var
-h=cb(j(0)),f=a5(h);if(0===f)var
+h=cj(j(0)),f=a8(h);if(0===f)var
 o=h;else{var
-m=at(f),n=f-1|0,r=0;if(!(n<0)){var
+m=aw(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dB(h,a),s=25<g+mL>>>0?g:g+nc|0;an(m,a,s);var
+g=dL(h,a),s=25<g+m_>>>0?g:g+nB|0;aq(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aP(o);case
-8:return q(j(0));default:return ih(iT(c,i),b)}}function
-em(d,x,w,v){var
+o=m}return aR(o);case
+8:return q(j(0));default:return iy(i7(c,i),b)}}function
+ey(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
-c==="number")return e(b,a);else
+c==="number")return f(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return N(b,[5,a,c],y)};case
+y=c[1];return function(c){return P(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=oe;else
-if(hV<=c)e=1;else
+d=oE;else
+if(h$<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=of;else
+d=oF;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=og;break;case
+d=oG;break;case
 9:var
-d=oh;break;case
+d=oH;break;case
 10:var
-d=oi;break;case
+d=oI;break;case
 13:var
-d=oj;break;default:e=1}switch(e){case
+d=oJ;break;default:e=1}switch(e){case
 1:var
-f=at(4);an(f,0,92);an(f,1,48+(c/mR|0)|0);an(f,2,48+((c/10|0)%10|0)|0);an(f,3,48+(c%10|0)|0);var
-d=aP(f);break;case
+f=aw(4);aq(f,0,92);aq(f,1,48+(c/ne|0)|0);aq(f,2,48+((c/10|0)%10|0)|0);aq(f,3,48+(c%10|0)|0);var
+d=aR(f);break;case
 2:var
-g=at(1);an(g,0,c);var
-d=aP(g);break}var
-h=K(d),i=cB(h+2|0,39);bQ(d,0,i,1,h);return N(b,[4,a,aP(i)],z)};case
+g=aw(1);aq(g,0,c);var
+d=aR(g);break}var
+h=N(d),i=cI(h+2|0,39);bW(d,0,i,1,h);return P(b,[4,a,aR(i)],z)};case
 2:var
-A=c[2],B=c[1];return f8(b,a,A,B,function(a){return a});case
-3:return f8(b,a,c[2],c[1],o9);case
-4:return eD(b,a,c[4],c[2],c[3],pZ,c[1]);case
-5:return eD(b,a,c[4],c[2],c[3],p0,c[1]);case
-6:return eD(b,a,c[4],c[2],c[3],p1,c[1]);case
-7:return eD(b,a,c[4],c[2],c[3],p2,c[1]);case
+A=c[2],B=c[1];return gk(b,a,A,B,function(a){return a});case
+3:return gk(b,a,c[2],c[1],px);case
+4:return eP(b,a,c[4],c[2],c[3],qn,c[1]);case
+5:return eP(b,a,c[4],c[2],c[3],qo,c[1]);case
+6:return eP(b,a,c[4],c[2],c[3],qp,c[1]);case
+7:return eP(b,a,c[4],c[2],c[3],qq,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return N(b,[4,a,bW(g,d,c)],h)}:function(c){return N(b,[4,a,bW(g,f6(g),c)],h)};var
-V=i[1];return function(c){return N(b,[4,a,bW(g,V,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return P(b,[4,a,b3(g,d,c)],h)}:function(c){return P(b,[4,a,b3(g,gi(g),c)],h)};var
+U=i[1];return function(c){return P(b,[4,a,b3(g,U,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return N(b,[4,a,aZ(n,m,bW(g,d,c))],h)}:function(c){return N(b,[4,a,aZ(n,m,bW(g,f6(g),c))],h)};var
-X=i[1];return function(c){return N(b,[4,a,aZ(n,m,bW(g,X,c))],h)}}var
+i==="number")return i?function(d,c){return P(b,[4,a,a1(n,m,b3(g,d,c))],h)}:function(c){return P(b,[4,a,a1(n,m,b3(g,gi(g),c))],h)};var
+W=i[1];return function(c){return P(b,[4,a,a1(n,m,b3(g,W,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return N(b,[4,a,aZ(o,e,bW(g,d,c))],h)}:function(d,c){return N(b,[4,a,aZ(o,d,bW(g,f6(g),c))],h)};var
-Y=i[1];return function(d,c){return N(b,[4,a,aZ(o,d,bW(g,Y,c))],h)}}case
-9:return f8(b,a,c[2],c[1],n$);case
+i==="number")return i?function(e,d,c){return P(b,[4,a,a1(o,e,b3(g,d,c))],h)}:function(d,c){return P(b,[4,a,a1(o,d,b3(g,gi(g),c))],h)};var
+X=i[1];return function(d,c){return P(b,[4,a,a1(o,d,b3(g,X,c))],h)}}case
+9:return gk(b,a,c[2],c[1],oz);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1688,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=iP(16);f7(p,D);var
-u=iR(p);return function(c){return N(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=i3(16);gj(p,D);var
+u=i5(p);return function(c){return P(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=_(e,ai(ar(F)));if(typeof
-c[2]==="number")return N(b,a,af(c[1],E));throw aD};case
+e=d[1],c=ab(e,ak(at(F)));if(typeof
+c[2]==="number")return P(b,a,ag(c[1],E));throw aF};case
 15:var
-G=c[1];return function(d,c){return N(b,[6,a,function(a){return T(d,a,c)}],G)};case
+G=c[1];return function(d,c){return P(b,[6,a,function(a){return V(d,a,c)}],G)};case
 16:var
-H=c[1];return function(c){return N(b,[6,a,c],H)};case
+H=c[1];return function(c){return P(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-I=c[2],J=l[1][1],L=0,b=function(b,c,d){return function(a){return N(c,[1,b,[0,a]],d)}}(a,b,I),a=L,c=J;continue}var
-M=c[2],O=l[1][1],P=0,b=function(b,c,d){return function(a){return N(c,[1,b,[1,a]],d)}}(a,b,M),a=P,c=O;continue;case
-19:throw[0,aj,p8];case
+I=c[2],J=l[1][1],K=0,b=function(b,c,d){return function(a){return P(c,[1,b,[0,a]],d)}}(a,b,I),a=K,c=J;continue}var
+L=c[2],M=l[1][1],O=0,b=function(b,c,d){return function(a){return P(c,[1,b,[1,a]],d)}}(a,b,L),a=O,c=M;continue;case
+19:throw[0,al,qw];case
 20:var
-Q=c[3],R=[8,a,p9];return function(a){return N(b,R,Q)};case
+Q=c[3],R=[8,a,qx];return function(a){return P(b,R,Q)};case
 21:var
-S=c[2];return function(c){return N(b,[4,a,fU(p_,c)],S)};case
+S=c[2];return function(c){return P(b,[4,a,f6(qy,c)],S)};case
 22:var
-U=c[1];return function(c){return N(b,[5,a,c],U)};case
+T=c[1];return function(c){return P(b,[5,a,c],T)};case
 23:var
-f=c[2],k=c[1];if(typeof
+e=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-1:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-2:throw[0,aj,p$];default:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f])}else
+0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+2:throw[0,al,qz];default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}else
 switch(k[0]){case
-0:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-1:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-2:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-3:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-4:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-5:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-6:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-7:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
-8:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);case
+0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+2:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+3:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+4:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+5:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+6:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+7:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+8:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
 9:var
-t=k[2];return d<50?hH(d+1|0,b,a,t,f):aI(hH,[0,b,a,t,f]);case
-10:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f]);default:return d<50?W(d+1|0,b,a,f):aI(W,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?hG(d+1|0,b,a,q,r,s):aI(hG,[0,b,a,q,r,s])}}function
-hH(e,d,c,a,b){if(typeof
-a==="number")return e<50?W(e+1|0,d,c,b):aI(W,[0,d,c,b]);else
+t=k[2];return d<50?hX(d+1|0,b,a,t,e):aJ(hX,[0,b,a,t,e]);case
+10:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}default:var
+q=c[3],r=c[1],s=f(c[2],0);return d<50?hW(d+1|0,b,a,q,r,s):aJ(hW,[0,b,a,q,r,s])}}function
+hX(e,d,c,a,b){if(typeof
+a==="number")return e<50?_(e+1|0,d,c,b):aJ(_,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a7(d,c,f,b)};case
+f=a[1];return function(a){return a_(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a7(d,c,g,b)};case
+g=a[1];return function(a){return a_(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a7(d,c,h,b)};case
+h=a[1];return function(a){return a_(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a7(d,c,i,b)};case
+i=a[1];return function(a){return a_(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a7(d,c,j,b)};case
+j=a[1];return function(a){return a_(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a7(d,c,k,b)};case
+k=a[1];return function(a){return a_(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a7(d,c,l,b)};case
+l=a[1];return function(a){return a_(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a7(d,c,m,b)};case
+m=a[1];return function(a){return a_(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a7(d,c,n,b)};case
+n=a[2];return function(a){return a_(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=au(ar(a[1]),p);return function(a){return a7(d,c,aQ(q,o),b)};case
+o=a[3],p=a[2],q=ax(at(a[1]),p);return function(a){return a_(d,c,aT(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a7(d,c,r,b)};case
+r=a[1];return function(e,a){return a_(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a7(d,c,s,b)};case
+s=a[1];return function(a){return a_(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a7(d,c,t,b)};case
-13:throw[0,aj,qa];default:throw[0,aj,qb]}}function
-W(d,b,e,a){var
-c=[8,e,qc];return d<50?em(d+1|0,b,c,a):aI(em,[0,b,c,a])}function
-hG(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return p7(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?em(h+1|0,b,g,a):aI(em,[0,b,g,a])}function
-N(a,b,c){return iu(em(0,a,b,c))}function
-a7(a,b,c,d){return iu(hH(0,a,b,c,d))}function
-p7(a,b,c,d,e){return iu(hG(0,a,b,c,d,e))}function
-f8(f,d,c,a,b){if(typeof
-a==="number")return function(a){return N(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return N(f,[4,d,aZ(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return N(f,[4,d,aZ(i,g,e(b,a))],c)}}}function
-eD(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a_(d,c,t,b)};case
+13:throw[0,al,qA];default:throw[0,al,qB]}}function
+_(d,b,e,a){var
+c=[8,e,qC];return d<50?ey(d+1|0,b,c,a):aJ(ey,[0,b,c,a])}function
+hW(h,b,e,a,d,c){if(d){var
+i=d[1];return function(d){return qv(b,e,a,i,f(c,d))}}var
+g=[4,e,c];return h<50?ey(h+1|0,b,g,a):aJ(ey,[0,b,g,a])}function
+P(a,b,c){return iK(ey(0,a,b,c))}function
+a_(a,b,c,d){return iK(hX(0,a,b,c,d))}function
+qv(a,b,c,d,e){return iK(hW(0,a,b,c,d,e))}function
+gk(e,d,c,a,b){if(typeof
+a==="number")return function(a){return P(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return P(e,[4,d,a1(h,g,f(b,a))],c)}}var
+i=a[1];return function(g,a){return P(e,[4,d,a1(i,g,f(b,a))],c)}}}function
+eP(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return N(f,[4,e,c3(g,T(b,a,c))],d)}:function(c){return N(f,[4,e,T(b,a,c)],d)};var
-k=c[1];return function(c){return N(f,[4,e,c3(k,T(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return P(f,[4,e,c8(g,V(b,a,c))],d)}:function(c){return P(f,[4,e,V(b,a,c)],d)};var
+k=c[1];return function(c){return P(f,[4,e,c8(k,V(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return N(f,[4,e,aZ(i,h,c3(g,T(b,a,c)))],d)}:function(c){return N(f,[4,e,aZ(i,h,T(b,a,c))],d)};var
-l=c[1];return function(c){return N(f,[4,e,aZ(i,h,c3(l,T(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return P(f,[4,e,a1(i,h,c8(g,V(b,a,c)))],d)}:function(c){return P(f,[4,e,a1(i,h,V(b,a,c))],d)};var
+l=c[1];return function(c){return P(f,[4,e,a1(i,h,c8(l,V(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return N(f,[4,e,aZ(j,h,c3(g,T(b,a,c)))],d)}:function(g,c){return N(f,[4,e,aZ(j,g,T(b,a,c))],d)};var
-m=c[1];return function(g,c){return N(f,[4,e,aZ(j,g,c3(m,T(b,a,c)))],d)}}}function
-bX(b,f){var
-a=f;for(;;)if(typeof
+c==="number")return c?function(h,g,c){return P(f,[4,e,a1(j,h,c8(g,V(b,a,c)))],d)}:function(g,c){return P(f,[4,e,a1(j,g,V(b,a,c))],d)};var
+m=c[1];return function(g,c){return P(f,[4,e,a1(j,g,c8(m,V(b,a,c)))],d)}}}function
+b4(b,e){var
+a=e;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=iS(a[2]);bX(b,g);return dG(b,h);case
+g=a[1],h=i6(a[2]);b4(b,g);return dQ(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bX(b,d);dG(b,qd);var
+i=c[1];b4(b,d);dQ(b,qD);var
 a=i;continue}var
-j=c[1];bX(b,d);dG(b,qe);var
+j=c[1];b4(b,d);dQ(b,qE);var
 a=j;continue;case
 6:var
-m=a[2];bX(b,a[1]);return e(m,b);case
-7:bX(b,a[1]);return dD(b);case
+m=a[2];b4(b,a[1]);return f(m,b);case
+7:b4(b,a[1]);return dN(b);case
 8:var
-n=a[2];bX(b,a[1]);return cf(n);case
+n=a[2];b4(b,a[1]);return cm(n);case
 2:case
 4:var
-k=a[2];bX(b,a[1]);return dG(b,k);default:var
-l=a[2];bX(b,a[1]);return nX(b,l)}}function
-cg(b,g){var
+k=a[2];b4(b,a[1]);return dQ(b,k);default:var
+l=a[2];b4(b,a[1]);return ok(b,l)}}function
+cn(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=iS(a[2]);cg(b,h);return dJ(b,i);case
+h=a[1],i=i6(a[2]);cn(b,h);return dT(b,i);case
 1:var
-d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];cg(b,f);dJ(b,qf);var
+d=a[2],e=a[1];if(0===d[0]){var
+j=d[1];cn(b,e);dT(b,qF);var
 a=j;continue}var
-k=d[1];cg(b,f);dJ(b,qg);var
+k=d[1];cn(b,e);dT(b,qG);var
 a=k;continue;case
 6:var
-n=a[2];cg(b,a[1]);return dJ(b,e(n,0));case
+n=a[2];cn(b,a[1]);return dT(b,f(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];cg(b,a[1]);return cf(o);case
+o=a[2];cn(b,a[1]);return cm(o);case
 2:case
 4:var
-l=a[2];cg(b,a[1]);return dJ(b,l);default:var
-m=a[2];cg(b,a[1]);var
-c=b[2];if(b[3]<=c)iO(b,1);an(b[1],c,m);b[2]=c+1|0;return 0}}function
-iU(d,c){var
-a=c[1],b=0;return N(function(a){bX(d,a);return 0},b,a)}function
-f9(a){return iU(bU,a)}function
-bz(b){var
-a=b[1];return N(function(d){var
-e=64,b=dH<64?dH:e,c=at(b),a=[0,c,0,b,c];cg(a,d);return iJ(a[1],0,a[2])},0,a)}var
-eE=[0,0];function
-f$(i,h){var
+l=a[2];cn(b,a[1]);return dT(b,l);default:var
+m=a[2];cn(b,a[1]);var
+c=b[2];if(b[3]<=c)i2(b,1);aq(b[1],c,m);b[2]=c+1|0;return 0}}function
+i8(d,c){var
+a=c[1],b=0;return P(function(a){b4(d,a);return 0},b,a)}function
+gl(a){return i8(b1,a)}function
+bD(b){var
+a=b[1];return P(function(d){var
+e=64,b=dR<64?dR:e,c=aw(b),a=[0,c,0,b,c];cn(a,d);return iZ(a[1],0,a[2])},0,a)}var
+eQ=[0,0];function
+gn(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(fZ(a)===fP)return e(bz(qh),a);if(fZ(a)===253){var
-c=ih(od,a),b=0,g=K(c);for(;;){if(g<=b)return aC(c,oc);var
-d=Y(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
-if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return qi}return e(bz(qj),a)}function
-iV(b,a){if(b.length-1<=a)return qk;var
-c=iV(b,a+1|0),d=f$(b,a);return T(bz(ql),d,c)}function
-ga(a){function
-o(f){var
-b=f;for(;;){if(b){var
+a==="number"?1:0)){if(f$(a)===f1)return f(bD(qH),a);if(f$(a)===253){var
+c=iy(oD,a),b=0,g=N(c);for(;;){if(g<=b)return aE(c,oC);var
+d=W(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
+if(45===d)e=1;if(e){var
+b=b+1|0;continue}return c}}return qI}return f(bD(qJ),a)}function
+i9(b,a){if(b.length-1<=a)return qK;var
+c=i9(b,a+1|0),d=gn(b,a);return V(bD(qL),d,c)}function
+go(a){function
+o(e){var
+b=e;for(;;){if(b){var
 g=b[2],h=b[1];try{var
-d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
+d=0,c=f(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(eE[1]);if(h)return h[1];if(a===f4)return qq;if(a===iD)return qr;if(a[1]===iC){var
-c=a[2],i=c[3],p=c[2],q=c[1];return hI(bz(f_),q,p,i,i+5|0,qs)}if(a[1]===aj){var
-d=a[2],j=d[3],r=d[2],s=d[1];return hI(bz(f_),s,r,j,j+6|0,qt)}if(a[1]===iF){var
-f=a[2],k=f[3],t=f[2],u=f[1];return hI(bz(f_),u,t,k,k+6|0,qu)}if(0===fZ(a)){var
+h=o(eQ[1]);if(h)return h[1];if(a===ge)return qQ;if(a===iT)return qR;if(a[1]===iS){var
+c=a[2],i=c[3],p=c[2],q=c[1];return hY(bD(gm),q,p,i,i+5|0,qS)}if(a[1]===al){var
+d=a[2],j=d[3],r=d[2],s=d[1];return hY(bD(gm),s,r,j,j+6|0,qT)}if(a[1]===iV){var
+e=a[2],k=e[3],t=e[2],u=e[1];return hY(bD(gm),u,t,k,k+6|0,qU)}if(0===f$(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=iV(a,2),m=f$(a,1),b=T(bz(qm),m,l);else
+l=i9(a,2),m=gn(a,1),b=V(bD(qM),m,l);else
 switch(g){case
 0:var
-b=qn;break;case
+b=qN;break;case
 1:var
-b=qo;break;default:var
-n=f$(a,1),b=e(bz(qp),n)}return aC(v,b)}return a[1]}function
-gb(t,s){var
-d=CF(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=qO;break;default:var
+n=gn(a,1),b=f(bD(qP),n)}return aE(v,b)}return a[1]}function
+gp(t,s){var
+d=Di(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=nL(d,b)[1+b],f=function(a){return function(b){return b?0===a?qv:qw:0===a?qx:qy}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?qz:qB,l=a[2],m=a[7],n=f(a[1]),c=[0,Cu(bz(qA),n,m,l,k,j,i,h)];else
+a=n_(d,b)[1+b],e=function(a){return function(b){return b?0===a?qV:qW:0===a?qX:qY}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?qZ:q1,l=a[2],m=a[7],n=e(a[1]),c=[0,C8(bD(q0),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bz(qC),o)];if(c){var
-q=c[1];e(iU(t,qD),q)}var
+o=e(0),c=[0,f(bD(q2),o)];if(c){var
+q=c[1];f(i8(t,q3),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-iW(c){for(;;){var
-a=eE[1],d=[0,c,a],e=eE[1]===a?(eE[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-qF=qE.slice();function
-qG(d,c){var
-f=ga(d);e(f9(qH),f);gb(bU,c);var
-a=C4(0);if(a<0){var
-b=eA(a);iG(nL(qF,b)[1+b])}return dD(bU)}var
-qI=[0];is(a(lR),function(d,i){try{try{var
-b=i?qI:nR(0);try{f5(0)}catch(a){}try{var
-a=qG(d,b),c=a}catch(a){a=f2(a);var
-g=ga(d);e(f9(qK),g);gb(bU,b);var
-h=ga(a);e(f9(qL),h);gb(bU,nR(0));var
-c=dD(bU)}var
-f=c}catch(a){a=f2(a);if(a!==f4)throw a;var
-f=iG(qJ)}return f}catch(a){return 0}});var
-iX=[az,qN,fV(0)],gc=[0,iX,[0]],qM=fZ(gc)===az?gc:gc[1];is(a(hO),qM);(function(a){throw a});var
-qO=v.Array;iW(function(a){return a[1]===iX?[0,bw(a[2].toString())]:0});iW(function(a){return a
+i_(c){for(;;){var
+a=eQ[1],d=[0,c,a],e=eQ[1]===a?(eQ[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+q5=q4.slice();function
+q6(d,c){var
+e=go(d);f(gl(q7),e);gp(b1,c);var
+a=DH(0);if(a<0){var
+b=eM(a);iW(n_(q5,b)[1+b])}return dN(b1)}var
+q8=[0];iI(a(md),function(d,i){try{try{var
+b=i?q8:oe(0);try{gf(0)}catch(a){}try{var
+a=q6(d,b),c=a}catch(a){a=gc(a);var
+g=go(d);f(gl(q_),g);gp(b1,b);var
+h=go(a);f(gl(q$),h);gp(b1,oe(0));var
+c=dN(b1)}var
+e=c}catch(a){a=gc(a);if(a!==ge)throw a;var
+e=iW(q9)}return e}catch(a){return 0}});var
+i$=[aB,rb,f7(0)],gq=[0,i$,[0]],ra=f$(gq)===aB?gq:gq[1];iI(a(h4),ra);(function(a){throw a});var
+rc=A.Array;i_(function(a){return a[1]===i$?[0,bC(a[2].toString())]:0});i_(function(a){return a
 instanceof
-qO?0:[0,bw(a.toString())]});var
-d=a6(0),c=a6(1);function
-q(a){return x(a,c)}function
-iY(b,a){return x(a6(b),a)}function
-b(b,a){return s(a6(b),a)}function
-bA(b,a){return[0,ix(b,a),n7(b,a)]}function
-gd(b,a){return J(b,a)?b:a}function
-bY(b,a){return J(b,a)?a:b}function
-av(a){return a?0:1}function
-R(b,a){var
-c=a?[0,e(b,a[1])]:a;return c}function
-cC(a){return a[1]}function
-c4(a){return a[2]}function
-l(a){var
-b=a?[0,l(a[2])]:a;return b}function
+rc?0:[0,bC(a.toString())]});var
+d=a9(0),c=a9(1);function
+q(a){return B(a,c)}function
+ja(b,a){return B(a9(b),a)}function
+b(b,a){return s(a9(b),a)}function
+bE(b,a){return[0,iN(b,a),ov(b,a)]}function
+gr(b,a){return I(b,a)?b:a}function
+bF(b,a){return I(b,a)?a:b}function
+au(a){return a?0:1}function
+K(b,a){var
+c=a?[0,f(b,a[1])]:a;return c}function
+a2(a){return a[1]}function
+cJ(a){return a[2]}function
+j(a){var
+b=a?[0,j(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-iZ(a){return typeof
-a==="number"?0:[0,iZ(a[1])]}function
-i0(d,c){var
+jb(a){return typeof
+a==="number"?0:[0,jb(a[1])]}function
+jc(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1933,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eF(a){return i0(a,0)}function
-i1(a){if(typeof
-a==="number")return qQ;else
+eR(a){return jc(a,0)}function
+jd(a){if(typeof
+a==="number")return re;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,863 +1945,922 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,i1(a[1])]}}function
-bh(a){if(typeof
-a==="number")return qR;else
+8:return[9,a[1]];default:return[0,jd(a[1])]}}function
+bo(a){if(typeof
+a==="number")return rf;else
 switch(a[0]){case
-0:return[1,bg(a[1])];case
-1:return[3,bg(a[1])];case
-2:return[5,bg(a[1])];case
-3:return[7,bg(a[1])];case
-4:return[9,bg(a[1])];case
-5:return[1,bh(a[1])];case
-6:return[3,bh(a[1])];case
-7:return[5,bh(a[1])];case
-8:return[7,bh(a[1])];default:return[9,bh(a[1])]}}function
-bg(a){if(typeof
+0:return[1,bn(a[1])];case
+1:return[3,bn(a[1])];case
+2:return[5,bn(a[1])];case
+3:return[7,bn(a[1])];case
+4:return[9,bn(a[1])];case
+5:return[1,bo(a[1])];case
+6:return[3,bo(a[1])];case
+7:return[5,bo(a[1])];case
+8:return[7,bo(a[1])];default:return[9,bo(a[1])]}}function
+bn(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bg(a[1])];case
-1:return[2,bg(a[1])];case
-2:return[4,bg(a[1])];case
-3:return[6,bg(a[1])];case
-4:return[8,bg(a[1])];case
-5:return[0,bh(a[1])];case
-6:return[2,bh(a[1])];case
-7:return[4,bh(a[1])];case
-8:return[6,bh(a[1])];default:return[8,bh(a[1])]}}function
-bZ(a){return a?a[1]:a}function
-M(b,a){return b?[0,M(b[1],a)]:a}function
-dL(a,b){return a?M(b,dL(a[1],b)):a}function
-dM(b,a){return b?a:a?0:1}function
-E(d,c){var
+0:return[0,bn(a[1])];case
+1:return[2,bn(a[1])];case
+2:return[4,bn(a[1])];case
+3:return[6,bn(a[1])];case
+4:return[8,bn(a[1])];case
+5:return[0,bo(a[1])];case
+6:return[2,bo(a[1])];case
+7:return[4,bo(a[1])];case
+8:return[6,bo(a[1])];default:return[8,bo(a[1])]}}function
+b5(a){return a?a[1]:a}function
+O(b,a){return b?[0,O(b[1],a)]:a}function
+dV(a,b){return a?O(b,dV(a[1],b)):a}function
+dW(b,a){return b?a:a?0:1}function
+t(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-$(d,c){var
+ac(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-eG(b,a){return $([0,b],a)}function
-i2(c){var
+dX(b,a){return ac([0,b],a)}function
+je(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eH(c,b,a){return c?e(b,eH(c[1],b,a)):a}function
-i3(a){if(a)var
-b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
+eS(c,b,a){return c?f(b,eS(c[1],b,a)):a}function
+jf(a){if(a)var
+b=a[1],d=b?[0,jf(b[1])]:b,c=d;else
 var
 c=a;return c}function
-eI(a){if(J(a,c))return c;var
-b=bA(a,a6(2)),e=b[1];return ah(b[2],d)?q(eI(e)):q(eI(e))}function
-ge(j,i){var
-b=j,a=i;for(;;){if(J(b,c))return J(a,c)?1:ah(bA(a,a6(2))[2],d)?0:0;var
-g=bA(b,a6(2)),h=g[1];if(ah(g[2],d)){if(J(a,c))return 0;var
-e=bA(a,a6(2)),k=e[1];if(ah(e[2],d)){var
-b=h,a=k;continue}return 0}if(J(a,c))return 0;var
-f=bA(a,a6(2)),l=f[1];if(ah(f[2],d))return 0;var
+eT(a){if(I(a,c))return c;var
+b=bE(a,a9(2)),e=b[1];return ad(b[2],d)?q(eT(e)):q(eT(e))}function
+gs(j,i){var
+b=j,a=i;for(;;){if(I(b,c))return I(a,c)?1:ad(bE(a,a9(2))[2],d)?0:0;var
+g=bE(b,a9(2)),h=g[1];if(ad(g[2],d)){if(I(a,c))return 0;var
+e=bE(a,a9(2)),k=e[1];if(ad(e[2],d)){var
+b=h,a=k;continue}return 0}if(I(a,c))return 0;var
+f=bE(a,a9(2)),l=f[1];if(ad(f[2],d))return 0;var
 b=h,a=l;continue}}function
-eJ(c,b){var
-a=iw(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-i4(b,i,h){var
-e=i,a=h;for(;;){if(J(e,c))return a;var
-f=bA(e,a6(2)),g=f[1];if(ah(f[2],d)){var
-e=g,a=T(b,a,a);continue}return T(b,a,i4(b,g,T(b,a,a)))}}function
-dN(a){return i4(M,a,qT)}function
-gf(a){return a?q(gf(a[1])):c}function
-b0(f,e){var
+eU(c,b){var
+a=iM(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+jg(b,i,h){var
+e=i,a=h;for(;;){if(I(e,c))return a;var
+f=bE(e,a9(2)),g=f[1];if(ad(f[2],d)){var
+e=g,a=V(b,a,a);continue}return V(b,a,jg(b,g,V(b,a,a)))}}function
+dY(a){return jg(O,a,rh)}function
+gt(a){return a?q(gt(a[1])):c}function
+b6(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 g=s(b(2,q(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=x(c,s(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=B(c,s(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=s(b(2,q(b(2,b(2,c)))),d),j=x(b(2,c),i),a=a[1],d=j;continue;case
+i=s(b(2,q(b(2,b(2,c)))),d),j=B(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=s(b(2,q(b(2,b(2,c)))),d),l=x(q(b(2,c)),k),a=a[1],d=l;continue;case
+k=s(b(2,q(b(2,b(2,c)))),d),l=B(q(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=s(b(2,q(b(2,b(2,c)))),d),n=x(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=s(b(2,q(b(2,b(2,c)))),d),n=B(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-o=s(b(2,q(b(2,b(2,c)))),d),p=x(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
+o=s(b(2,q(b(2,b(2,c)))),d),p=B(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
 6:var
-r=s(b(2,q(b(2,b(2,c)))),d),t=x(b(2,q(b(2,c))),r),a=a[1],d=t;continue;case
+r=s(b(2,q(b(2,b(2,c)))),d),t=B(b(2,q(b(2,c))),r),a=a[1],d=t;continue;case
 7:var
-u=s(b(2,q(b(2,b(2,c)))),d),v=x(q(b(2,q(b(2,c)))),u),a=a[1],d=v;continue;case
+u=s(b(2,q(b(2,b(2,c)))),d),v=B(q(b(2,q(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=s(b(2,q(b(2,b(2,c)))),d),y=x(b(2,b(2,b(2,c))),w),a=a[1],d=y;continue;default:var
-z=s(b(2,q(b(2,b(2,c)))),d),A=x(q(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-gg(a){if(J(a,c))return qU;var
-b=bA(a,a6(2)),e=b[1];return ah(b[2],d)?bg(gg(e)):bh(gg(e))}function
-eK(a){return eF(gg(a))}function
-i5(k,f){if(0<=bT(f)){var
-g=iy(f);if(0<=g){var
+w=s(b(2,q(b(2,b(2,c)))),d),x=B(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=s(b(2,q(b(2,b(2,c)))),d),z=B(q(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+gu(a){if(I(a,c))return ri;var
+b=bE(a,a9(2)),e=b[1];return ad(b[2],d)?bn(gu(e)):bo(gu(e))}function
+eV(a){return eR(gu(a))}function
+jh(k,f){if(0<=b0(f)){var
+g=iO(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return cf(qP)}return d}function
-i6(a){return 0<=bT(a)?a:d}function
-gh(a){var
-b=bT(a);return 0===b?c:0<b?a:c}function
-i7(m){var
+h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return cm(rd)}return d}function
+ji(a){return 0<=b0(a)?a:d}function
+gv(a){var
+b=b0(a);return 0===b?c:0<b?a:c}function
+jj(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b0(a[1],c);case
+1:return b6(a[1],c);case
 2:var
-e=b(2,c);return b0(a[1],e);case
+e=b(2,c);return b6(a[1],e);case
 3:var
-f=q(b(2,c));return b0(a[1],f);case
+f=q(b(2,c));return b6(a[1],f);case
 4:var
-g=b(2,b(2,c));return b0(a[1],g);case
+g=b(2,b(2,c));return b6(a[1],g);case
 5:var
-h=q(b(2,b(2,c)));return b0(a[1],h);case
+h=q(b(2,b(2,c)));return b6(a[1],h);case
 6:var
-i=b(2,q(b(2,c)));return b0(a[1],i);case
+i=b(2,q(b(2,c)));return b6(a[1],i);case
 7:var
-j=q(b(2,q(b(2,c))));return b0(a[1],j);case
+j=q(b(2,q(b(2,c))));return b6(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return b0(a[1],k);default:var
-l=q(b(2,b(2,b(2,c))));return b0(a[1],l)}}function
-ch(b,a){var
-c=bT(a);return 0===c?d:1===c?ix(b,a):iY(-1,ix(iY(-1,b),a))}function
-i8(a){return 0<bT(a)?Dn(a):d}function
-dO(b,c){var
-a=iy(c);return 0<=a?n8(b,a):n9(b,-a|0)}function
-c5(b,c){var
-a=iy(c);return 0<=a?n9(b,a):n8(b,-a|0)}function
-eL(b,a){return a?a[1]:b}function
-gi(a){var
+k=b(2,b(2,b(2,c)));return b6(a[1],k);default:var
+l=q(b(2,b(2,b(2,c))));return b6(a[1],l)}}function
+co(b,a){var
+c=b0(a);return 0===c?d:1===c?iN(b,a):ja(-1,iN(ja(-1,b),a))}function
+jk(a){return 0<b0(a)?D1(a):d}function
+dZ(b,c){var
+a=iO(c);return 0<=a?ow(b,a):ox(b,-a|0)}function
+cK(b,c){var
+a=iO(c);return 0<=a?ox(b,a):ow(b,-a|0)}function
+eW(b,a){return a?a[1]:b}function
+gw(a){var
 b=a?a[2]:a;return b}function
-z(e,d,c){var
+u(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-ae(d,c){var
+af(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-i9(a){if(a){var
-b=[0,a[1],0];return g(i9(a[2]),b)}return a}function
-i_(d,c){var
+jl(a){if(a){var
+b=[0,a[1],0];return g(jl(a[2]),b)}return a}function
+jm(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-f(b,a){if(a)var
-d=f(b,a[2]),c=[0,e(b,a[1]),d];else
+e(b,a){if(a)var
+d=e(b,a[2]),c=[0,f(b,a[1]),d];else
 var
 c=a;return c}function
-A(b,a){if(a){var
-c=A(b,a[2]);return g(e(b,a[1]),c)}return a}function
-gj(e,d,c){var
+E(b,a){if(a){var
+c=E(b,a[2]);return g(f(b,a[1]),c)}return a}function
+gx(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=T(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-cD(c,b,a){if(a){var
-d=cD(c,b,a[2]);return T(c,a[1],d)}return b}function
-aR(f,d){var
+f=V(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bG(c,b,a){if(a){var
+d=bG(c,b,a[2]);return V(c,a[1],d)}return b}function
+aP(e,d){var
 a=d;for(;;){if(a){var
-b=e(f,a[1]);if(!b){var
+b=f(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-o(d,c){var
+n(d,c){var
 a=c;for(;;){if(a){var
-b=e(d,a[1]);if(b){var
+b=f(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-dP(b,f){var
-a=f;for(;;){if(a){var
-c=a[2],d=a[1];if(e(b,d))return[0,d,dP(b,c)];var
+c9(b,e){var
+a=e;for(;;){if(a){var
+c=a[2],d=a[1];if(f(b,d))return[0,d,c9(b,c)];var
 a=c;continue}return a}}function
-b1(b,a){if(b)if(a)var
-d=b1(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+jn(d,c){var
+a=c;for(;;){if(a){var
+b=a[1];if(f(d,b))return[0,b];var
+a=a[2];continue}return a}}function
+a$(b,a){if(b)if(a)var
+d=a$(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eM(b,a){if(b)if(a)var
-d=eM(b[1],a[2]),c=[0,a[1],d];else
+eX(b,a){if(b)if(a)var
+d=eX(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-i$(d,c){var
+jo(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-cE(b,a){var
-c=a?[0,b,cE([0,b],a[1])]:a;return c}function
-bi(b,a){var
-c=a?[0,b,bi(b,a[1])]:a;return c}function
-ja(a){if(a){var
-e=ja(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return x(g,f)}return d}function
-eN(j){function
+bH(b,a){var
+c=a?[0,b,bH([0,b],a[1])]:a;return c}function
+ba(b,a){var
+c=a?[0,b,ba(b,a[1])]:a;return c}function
+jp(a){if(a){var
+e=jp(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return B(g,f)}return d}function
+eY(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ja([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bT(b)?dN(b):0}function
-jb(c,b){var
-a=iw(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c6(b,a){return J(s(b[1],a[2]),s(a[1],b[2]))}function
-dQ(b,a){return[0,x(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
-c7(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
-gk(b,a){return dQ(b,[0,ab(a[1]),a[2]])}function
-a0(a){if(typeof
-a==="number")return qX;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jp([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<b0(b)?dY(b):0}function
+jq(c,b){var
+a=iM(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c_(b,a){return I(s(b[1],a[2]),s(a[1],b[2]))}function
+d0(b,a){return[0,B(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
+c$(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
+gy(b,a){return d0(b,[0,aa(a[1]),a[2]])}function
+a3(a){if(typeof
+a==="number")return rl;else
 switch(a[0]){case
 0:var
-b=a0(a[1]);return aC(a9(1,48),b);case
+b=a3(a[1]);return aE(be(1,48),b);case
 1:var
-c=a0(a[1]);return aC(a9(1,49),c);case
+c=a3(a[1]);return aE(be(1,49),c);case
 2:var
-d=a0(a[1]);return aC(a9(1,50),d);case
+d=a3(a[1]);return aE(be(1,50),d);case
 3:var
-e=a0(a[1]);return aC(a9(1,51),e);case
+e=a3(a[1]);return aE(be(1,51),e);case
 4:var
-f=a0(a[1]);return aC(a9(1,52),f);case
+f=a3(a[1]);return aE(be(1,52),f);case
 5:var
-g=a0(a[1]);return aC(a9(1,53),g);case
+g=a3(a[1]);return aE(be(1,53),g);case
 6:var
-h=a0(a[1]);return aC(a9(1,54),h);case
+h=a3(a[1]);return aE(be(1,54),h);case
 7:var
-i=a0(a[1]);return aC(a9(1,55),i);case
+i=a3(a[1]);return aE(be(1,55),i);case
 8:var
-j=a0(a[1]);return aC(a9(1,56),j);default:var
-k=a0(a[1]);return aC(a9(1,57),k)}}function
-dR(a){return typeof
-a==="number"?qY:a0(a)}function
-cF(a){return i5(b(2,c),a)}function
-jc(b,a){return c5(a,b)}function
-jd(b,a){return ab(c5(ab(a),b))}function
-eO(b,a){return ab(ch(ab(b),a))}function
-aw(c,b){var
-a=dO(b,c);return[0,a,a]}function
-je(d,c,a){var
-b=dO(c,d),e=eO(b,a);return[0,ch(b,a),e]}function
-C(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
-O(b,a){return[0,bx(b[1],a[2]),bx(b[2],a[1])]}function
-ap(a){return[0,ab(a[2]),ab(a[1])]}function
-jf(e,c,b,a){if(J(d,e))return J(d,b)?[0,s(e,b),s(c,a)]:J(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(J(c,d))return J(d,b)?[0,s(e,a),s(c,b)]:J(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(J(d,b))return[0,s(e,a),s(c,a)];if(J(a,d))return[0,s(c,b),s(e,b)];var
-f=bY(s(e,b),s(c,a));return[0,gd(s(e,a),s(c,b)),f]}function
-F(c,b,a){var
-d=jf(b[1],b[2],a[1],a[2]),e=jd(c,d[2]);return[0,jc(c,d[1]),e]}function
-U(b,a){var
-c=s(a[1],a[1]),e=s(a[2],a[2]),h=jd(b,bY(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
+j=a3(a[1]);return aE(be(1,56),j);default:var
+k=a3(a[1]);return aE(be(1,57),k)}}function
+d1(a){return typeof
+a==="number"?rm:a3(a)}function
+cL(a){return jh(b(2,c),a)}function
+jr(b,a){return cK(a,b)}function
+js(b,a){return aa(cK(aa(a),b))}function
+eZ(b,a){return aa(co(aa(b),a))}function
+am(c,b){var
+a=dZ(b,c);return[0,a,a]}function
+jt(d,c,a){var
+b=dZ(c,d),e=eZ(b,a);return[0,co(b,a),e]}function
+C(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+L(b,a){return[0,aS(b[1],a[2]),aS(b[2],a[1])]}function
+ah(a){return[0,aa(a[2]),aa(a[1])]}function
+ju(e,c,b,a){if(I(d,e))return I(d,b)?[0,s(e,b),s(c,a)]:I(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(I(c,d))return I(d,b)?[0,s(e,a),s(c,b)]:I(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(I(d,b))return[0,s(e,a),s(c,a)];if(I(a,d))return[0,s(c,b),s(e,b)];var
+f=bF(s(e,b),s(c,a));return[0,gr(s(e,a),s(c,b)),f]}function
+v(c,b,a){var
+d=ju(b[1],b[2],a[1],a[2]),e=js(c,d[2]);return[0,jr(c,d[1]),e]}function
+Y(b,a){var
+c=s(a[1],a[1]),e=s(a[2],a[2]),h=js(b,bF(c,e)),g=0;if(S(a[1],d)&&S(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jc(b,gd(c,e));return[0,f,h]}function
-jg(b,a){var
-c=dO(cF(b),b),d=eO(c,a[1]);return[0,ch(c,a[2]),d]}function
-ci(b,a){if(ad(d,a[1]))return[0,jg(b,a)];var
-c=ad(a[2],d),e=c?[0,ap(jg(b,ap(a)))]:c;return e}function
-cG(f,b){var
-g=ad(d,b[1]);if(g)var
-e=dO(b[2],f),a=i8(e),i=ah(s(a,a),e)?a:x(a,c),h=[0,[0,i8(dO(b[1],f)),i]];else
+f=jr(b,gr(c,e));return[0,f,h]}function
+gz(b,a){var
+c=dZ(cL(b),b),d=eZ(c,a[1]);return[0,co(c,a[2]),d]}function
+cp(b,a){if(S(d,a[1]))return[0,gz(b,a)];var
+c=S(a[2],d),e=c?[0,ah(gz(b,ah(a)))]:c;return e}function
+cM(f,b){var
+g=S(d,b[1]);if(g)var
+e=dZ(b[2],f),a=jk(e),i=ad(s(a,a),e)?a:B(a,c),h=[0,[0,jk(dZ(b[1],f)),i]];else
 var
 h=g;return h}function
-a_(e,d,c,b,a){if(b){if(a){var
-g=a_(e,d,c,b[2],a[2]);return[0,T(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-cj(b,a){return c5(b,a)}function
-bB(a,c,b){if(J(d,a)){var
-e=b[1],f=ab(cj(ab(s(a,b[2])),c));return[0,cj(s(a,e),c),f]}var
-g=b[2],h=ab(cj(ab(s(a,b[1])),c));return[0,cj(s(a,g),c),h]}function
-dS(a){var
-b=ab(c5(ab(a[2]),c));return[0,c5(a[1],c),b]}function
-gl(c,b,a){var
-e=jf(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=eO(f,h),j=ad(g,d)?a[1]:a[2];return[0,ch(g,j),i]}function
-gm(a){return bY(a[2],ab(a[1]))}var
-L=[0,d,d];function
-gn(a){return[0,a[1],a[1]]}function
-dT(a){return[0,a[2],a[2]]}function
-dU(b,a){switch(a[0]){case
+bb(f,d,c,b,a){if(b){if(a){var
+g=bb(f,d,c,b[2],a[2]);return[0,V(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cq(b,a){return cK(b,a)}function
+bf(a,c,b){if(I(d,a)){var
+e=b[1],f=aa(cq(aa(s(a,b[2])),c));return[0,cq(s(a,e),c),f]}var
+g=b[2],h=aa(cq(aa(s(a,b[1])),c));return[0,cq(s(a,g),c),h]}function
+b7(a){var
+b=aa(cK(aa(a[2]),c));return[0,cK(a[1],c),b]}function
+d2(c,b,a){var
+e=ju(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=S(f,d)?a[2]:a[1],i=eZ(f,h),j=S(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
+d3(a){return bF(a[2],aa(a[1]))}var
+x=[0,d,d];function
+e0(a){return[0,a[1],a[1]]}function
+da(a){return[0,a[2],a[2]]}function
+db(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=e(b,a[2]);return[3,e(b,a[1]),c];case
+c=f(b,a[2]);return[3,f(b,a[1]),c];case
 4:var
-d=e(b,a[2]);return[4,e(b,a[1]),d];case
-5:return[5,e(b,a[1])];case
+d=f(b,a[2]);return[4,f(b,a[1]),d];case
+5:return[5,f(b,a[1])];case
 6:var
-f=e(b,a[2]);return[6,e(b,a[1]),f];case
+e=f(b,a[2]);return[6,f(b,a[1]),e];case
 7:var
-g=e(b,a[2]);return[7,e(b,a[1]),g];case
-8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-a$(j,i){var
+g=f(b,a[2]);return[7,f(b,a[1]),g];case
+8:return[8,f(b,a[1])];default:return[9,f(b,a[1])]}}function
+bg(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?E(b[1],a[1]):0;case
-1:return 1===a[0]?E(b[1],a[1]):0;case
-2:return 2===a[0]?ah(b[1],a[1]):0;case
+0:return 0===a[0]?t(b[1],a[1]):0;case
+1:return 1===a[0]?t(b[1],a[1]):0;case
+2:return 2===a[0]?ad(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=a$(b[1],a[1]);if(e){var
+e=bg(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=a$(b[1],a[1]);if(f){var
+f=bg(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=a$(b[1],a[1]);if(g){var
+g=bg(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=a$(b[1],a[1]);if(h){var
+h=bg(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-eP(b){var
+e1(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a1(c,b){var
-a=eP(b);return a?ah(c,a[1]):a}function
-dV(a){return ad(f3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-n(a){return[0,[2,a]]}function
-I(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
-c=eP(b);if(c){var
-e=c[1],f=eP(a);if(f){var
-g=f[1];if(dV(e)&&dV(g))return n(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-b2(a){var
+a4(c,b){var
+a=e1(b);return a?ad(c,a[1]):a}function
+d4(a){return S(gd(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+o(a){return[0,[2,a]]}function
+M(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
+c=e1(b);if(c){var
+e=c[1],f=e1(a);if(f){var
+g=f[1];if(d4(e)&&d4(g))return o(B(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+b8(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dV(c)?n(ab(c)):[0,[5,a]];case
+c=b[1];return d4(c)?o(aa(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-y(b,a){if(a1(d,a))return b;if(a1(d,b))return b2(a);var
+D(b,a){if(a4(d,a))return b;if(a4(d,b))return b8(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?E(c[1],e[1])?n(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-ac(a){var
-c=eP(a);if(c){var
-b=c[1];return dV(b)?n(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-r(a,b){if(!a1(d,a)&&!a1(c,b)){if(!a1(d,b)&&!a1(c,a))return a$(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
-as(b,a){return a1(c,a)?b:[0,[7,b,a]]}function
-ck(a){return a1(c,a)?a:[0,[9,a]]}function
-cl(g,f,d,c){var
+e=a[1];return 0===e[0]?t(c[1],e[1])?o(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+ae(a){var
+c=e1(a);if(c){var
+b=c[1];return d4(b)?o(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,b){if(!a4(d,a)&&!a4(c,b)){if(!a4(d,b)&&!a4(c,a))return bg(a,b)?ae(a):[0,[6,a,b]];return b}return a}function
+av(b,a){return a4(c,a)?b:[0,[7,b,a]]}function
+cr(a){return a4(c,a)?a:[0,[9,a]]}function
+bI(g,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dU(function(b){return function(a){return z(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dW(a){var
+h=b[1],i=[0,f(e,db(function(b){return function(a){return u(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d5(a){var
 b=0;function
-c(a){return[0,a]}return cl(n(d),c,a,b)}function
-go(b,a){if(a){if(a$(b,a[1]))return qZ;var
-c=go(b,a[2]);return R(function(a){return[0,a]},c)}return a}function
-bC(c,b){var
-a=go(b,c),d=a?a[1]:a;return d}function
-eQ(d,a){if(go(d,a[1]))return a;var
+c(a){return[0,a]}return bI(o(d),c,a,b)}function
+gA(b,a){if(a){if(bg(b,a[1]))return rn;var
+c=gA(b,a[2]);return K(function(a){return[0,a]},c)}return a}function
+bJ(c,b){var
+a=gA(b,c),d=a?a[1]:a;return d}function
+e2(d,a){if(gA(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=eQ(b[1],a);break;case
+c=e2(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=eQ(b[1],a),c=eQ(b[2],h)}var
-e=c[2],f=c[1],g=[0,dU(function(a){return bC(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dX(a){var
-b=gj(function(b,a){return eQ(a,b)},a,q0),c=b[1],d=f(function(a){return bC(c,a)},a);return[0,i9(b[2]),d]}function
-eR(a){return cD(function(b,a){return x(gm(b),a)},d,a)}function
-c8(b,c,a){var
-d=eR(a),e=gd(c[2],x(b[2],d)),f=eR(a);return[0,b,[0,bY(c[1],bx(b[1],f)),e],a]}function
-aS(a){return[0,a,a,0]}function
-dY(b,a){var
+h=e2(b[1],a),c=e2(b[2],h)}var
+e=c[2],f=c[1],g=[0,db(function(a){return bJ(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d6(a){var
+b=gx(function(b,a){return e2(a,b)},a,ro),c=b[1],d=e(function(a){return bJ(c,a)},a);return[0,jl(b[2]),d]}function
+e3(a){return bG(function(b,a){return B(d3(b),a)},d,a)}function
+dc(b,c,a){var
+d=e3(a),e=gr(c[2],B(b[2],d)),f=e3(a);return[0,b,[0,bF(c[1],aS(b[1],f)),e],a]}function
+ap(a){return[0,a,a,0]}function
+dd(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a_(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return c8(C(b[1],a[1]),g,f)}function
-gp(b,a){var
-c=a[3],d=b[3],e=a_(function(a){return a},ap,O,d,c),f=O(b[2],a[2]);return c8(O(b[1],a[1]),f,e)}function
-gq(a,c,b){var
+f=bb(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return dc(C(b[1],a[1]),g,f)}function
+gB(b,a){var
+c=a[3],d=b[3],e=bb(function(a){return a},ah,L,d,c),f=L(b[2],a[2]);return dc(L(b[1],a[1]),f,e)}function
+gC(a){var
+b=e(ah,a[3]),c=ah(a[2]);return[0,ah(a[1]),c,b]}function
+de(a,c,b){var
 d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=F(a,e,b);return dS(C(F(a,d,c),f))}function
-i(b){return dS(F(a,e,b))}var
-j=a_(function(b){return dS(F(a,d,b))},i,h,g,f),k=F(a,c[2],b[2]);return c8(F(a,c[1],b[1]),k,j)}function
-jh(b,a){var
-c=a[3],d=C(a[2],a[1]),e=f(function(a){return F(b,d,a)},c),g=U(b,a[2]);return c8(U(b,a[1]),g,e)}function
-ji(a,b){var
-c=cG(a,b[1]);if(c){var
-g=c[1],d=cG(a,b[2]);if(d){var
-h=d[1],e=ci(a,C(h,g));if(e)var
-l=b[3],m=e[1],i=[0,c8(g,h,f(function(b){return F(a,m,b)},l))];else
+f=v(a,e,b);return b7(C(v(a,d,c),f))}function
+i(b){return b7(v(a,e,b))}var
+j=bb(function(b){return b7(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return dc(v(a,c[1],b[1]),k,j)}function
+jv(b,a){var
+c=a[3],d=C(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=Y(b,a[2]);return dc(Y(b,a[1]),g,f)}function
+jw(a,b){var
+c=cM(a,b[1]);if(c){var
+g=c[1],d=cM(a,b[2]);if(d){var
+h=d[1],f=cp(a,C(h,g));if(f)var
+l=b[3],m=f[1],i=[0,dc(g,h,e(function(b){return v(a,m,b)},l))];else
 var
-i=e;var
+i=f;var
 j=i}else
 var
 j=d;var
 k=j}else
 var
 k=c;return k}function
-jj(a,c,b){var
-d=ci(a,b[1]);if(d){var
-e=ci(a,b[2]);if(e)var
-h=e[1],g=F(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return O(c,F(a,g,b))},n=function(b){return ap(F(a,g,b))},o=a_(function(a){return a},n,m,l,k),p=f(function(b){return F(a,h,b)},o),i=[0,c8(g,F(a,c[2],h),p)];else
+gD(a,c,b){var
+d=cp(a,b[1]);if(d){var
+f=cp(a,b[2]);if(f)var
+h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return L(c,v(a,g,b))},n=function(b){return ah(v(a,g,b))},o=bb(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,dc(g,v(a,c[2],h),p)];else
 var
-i=e;var
+i=f;var
 j=i}else
 var
 j=d;return j}function
-dZ(b,a){return a?e(b,a[1]):a}function
-cm(d,b,a){if(b){if(a)return T(d,b[1],a[1]);var
+df(b,a){return a?f(b,a[1]):a}function
+b9(d,b,a){if(b){if(a)return V(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-c9(b,e,d){var
-c=aS(L);return function(a){switch(a[0]){case
-0:return[0,z(a[1],e,c)];case
-1:return[0,z(a[1],d,c)];case
-2:return[0,aS(aw(b,a[1]))];case
+cs(b,e,d){var
+c=ap(x);return function(a){switch(a[0]){case
+0:return[0,u(a[1],e,c)];case
+1:return[0,u(a[1],d,c)];case
+2:return[0,ap(am(b,a[1]))];case
 3:var
-g=a[2],h=a[1];return cm(function(b,a){return[0,dY(b,a)]},h,g);case
+f=a[2],g=a[1];return b9(function(b,a){return[0,dd(b,a)]},g,f);case
 4:var
-i=a[2],j=a[1];return cm(function(b,a){return[0,gp(b,a)]},j,i);case
+h=a[2],i=a[1];return b9(function(b,a){return[0,gB(b,a)]},i,h);case
 5:var
-k=a[1];return dZ(function(a){var
-b=f(ap,a[3]),c=ap(a[2]);return[0,[0,ap(a[1]),c,b]]},k);case
+j=a[1];return df(function(a){return[0,gC(a)]},j);case
 6:var
-l=a[2],m=a[1];return cm(function(c,a){return[0,gq(b,c,a)]},m,l);case
+k=a[2],l=a[1];return b9(function(c,a){return[0,de(b,c,a)]},l,k);case
 7:var
-n=a[2],o=a[1];return cm(function(a,c){return jj(b,a,c)},o,n);case
+m=a[2],n=a[1];return b9(function(a,c){return gD(b,a,c)},n,m);case
 8:var
-p=a[1];return dZ(function(a){return[0,jh(b,a)]},p);default:var
-q=a[1];return dZ(function(a){return ji(b,a)},q)}}}function
-d0(c){var
+o=a[1];return df(function(a){return[0,jv(b,a)]},o);default:var
+p=a[1];return df(function(a){return jw(b,a)},p)}}}function
+d7(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d0(a[1]);if(b)return b;var
+b=d7(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b3(q,p){var
+b_(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ah(b[1],a[1]);return c?ge(b[2],a[2]):c}return 0;case
+c=ad(b[1],a[1]);return c?gs(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=E(b[1],a[1]),i=h?ah(e[1],g[1]):h,j=i?ge(e[2],g[2]):i,k=j?ah(d[1],f[1]):j;return k?ge(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=t(b[1],a[1]),i=h?ad(e[1],g[1]):h,j=i?gs(e[2],g[2]):i,k=j?ad(d[1],f[1]):j;return k?gs(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b3(b[1],a[1]);if(l){var
+l=b_(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b3(b[1],a[1]);if(m){var
+m=b_(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b3(b[1],a[1]);if(n){var
+n=b_(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b3(b[1],a[1]);if(o){var
+o=b_(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bj(a,b){switch(b[0]){case
-0:return[0,je(a,b[1],b[2])];case
+bp(a,b){switch(b[0]){case
+0:return[0,jt(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bj(a,b[1]);if(c)var
-d=bj(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
+c=bp(a,b[1]);if(c)var
+d=bp(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bj(a,b[1]);if(e)var
-f=bj(a,b[2]),s=f?[0,O(e[1],f[1])]:f,n=s;else
+e=bp(a,b[1]);if(e)var
+f=bp(a,b[2]),s=f?[0,L(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bj(a,b[1]);if(g)var
-h=bj(a,b[2]),t=h?[0,F(a,g[1],h[1])]:h,o=t;else
+g=bp(a,b[1]);if(g)var
+h=bp(a,b[2]),t=h?[0,v(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bj(a,b[1]);if(i){var
-j=bj(a,b[2]);if(j)var
-k=ci(a,j[1]),u=k?[0,F(a,i[1],k[1])]:k,p=u;else
+i=bp(a,b[1]);if(i){var
+j=bp(a,b[2]);if(j)var
+k=cp(a,j[1]),u=k?[0,v(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bj(a,b[1]);return l?cG(a,l[1]):l}}function
-eS(b,a){return je(b,a[1],a[2])}function
-bk(a,d){if(d0(d))switch(d[0]){case
+l=bp(a,b[1]);return l?cM(a,l[1]):l}}function
+e4(b,a){return jt(b,a[1],a[2])}function
+bq(a,d){if(d7(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],f=d[2],i=d[1],j=eG(i,jk),k=j?c6(f,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,eS(a,c7(gk(e,f),n)),0],p=g(bi(L,i),o),q=eS(a,e)[2],r=[0,eS(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,eS(a,c7(dQ(f,e),s)),r,p]];else
+e=d[3],f=d[2],i=d[1],j=dX(i,jx),k=j?c_(f,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,e4(a,c$(gy(e,f),n)),0],p=g(ba(x,i),o),q=e4(a,e)[2],r=[0,e4(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,e4(a,c$(d0(f,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bk(a,d[2]),u=bk(a,d[1]);return cm(function(b,a){return[0,dY(b,a)]},u,t);case
+t=bq(a,d[2]),u=bq(a,d[1]);return b9(function(b,a){return[0,dd(b,a)]},u,t);case
 3:var
-v=bk(a,d[2]),w=bk(a,d[1]);return cm(function(b,a){return[0,gp(b,a)]},w,v);case
+v=bq(a,d[2]),w=bq(a,d[1]);return b9(function(b,a){return[0,gB(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(b3(h,m)){var
-x=bk(a,h);return dZ(function(b){return[0,jh(a,b)]},x)}var
-y=bk(a,m),z=bk(a,h);return cm(function(c,b){return[0,gq(a,c,b)]},z,y);case
+m=d[2],h=d[1];if(b_(h,m)){var
+y=bq(a,h);return df(function(b){return[0,jv(a,b)]},y)}var
+z=bq(a,m),A=bq(a,h);return b9(function(c,b){return[0,de(a,c,b)]},A,z);case
 5:var
-A=bk(a,d[2]),B=bk(a,d[1]);return cm(function(b,c){return jj(a,b,c)},B,A);default:var
-C=bk(a,d[1]);return dZ(function(b){return ji(a,b)},C)}return R(aS,bj(a,d))}function
-bD(b,a){if(d0(a)){var
-c=bk(b,a);return R(function(a){return a[2]},c)}return bj(b,a)}function
-jl(a){var
-e=bY(ab(a),d);return gh(x(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jm(a){return i6(x(jl(a),a))}function
-cn(f,a,e){var
-b=bD(x(f,jl(a)),e);if(b)var
-c=b[1],g=jm(a),h=ab(cj(ab(c[2]),g)),i=jm(a),d=[0,[0,cj(c[1],i),h]];else
+B=bq(a,d[2]),C=bq(a,d[1]);return b9(function(b,c){return gD(a,b,c)},C,B);default:var
+D=bq(a,d[1]);return df(function(b){return jw(a,b)},D)}return K(ap,bp(a,d))}function
+bK(b,a){if(d7(a)){var
+c=bq(b,a);return K(function(a){return a[2]},c)}return bp(b,a)}function
+jy(a){var
+e=bF(aa(a),d);return gv(B(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jz(a){return ji(B(jy(a),a))}function
+ct(f,a,e){var
+b=bK(B(f,jy(a)),e);if(b)var
+c=b[1],g=jz(a),h=aa(cq(aa(c[2]),g)),i=jz(a),d=[0,[0,cq(c[1],i),h]];else
 var
 d=b;return d}function
-aq(d,a){var
-b=cn(d,a[2],a[1][1]);if(b)var
-c=cn(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+as(d,a){var
+b=ct(d,a[2],a[1][1]);if(b)var
+c=ct(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-jn(b,a){var
-c=ab(cj(ab(a[2]),b));return[0,cj(a[1],b),c]}function
-gr(b,a){var
-c=eO(b[2],a);return[0,ch(b[1],a),c]}function
-gs(a,f,b){if(b){var
-d=b[1],g=gs(a,f,d),h=g[2],i=gf(M(dL(q2,d),q1)),j=s(gf(dL(q3,d)),i),e=gr(F(a,g[1],f),j),k=i2(b)?C(h,e):O(h,e);return[0,e,k]}var
-l=aw(a,c);return[0,aw(a,c),l]}function
-jo(f){var
-g=dN(f),e=q4[1],b=g,c=0,a=e;for(;;){if(b){var
+jA(b,a){var
+c=aa(cq(aa(a[2]),b));return[0,cq(a[1],b),c]}function
+gE(b,a){var
+c=eZ(b[2],a);return[0,co(b[1],a),c]}function
+gF(a,f,b){if(b){var
+d=b[1],g=gF(a,f,d),h=g[2],i=gt(O(dV(rq,d),rp)),j=s(gt(dV(rr,d)),i),e=gE(v(a,g[1],f),j),k=je(b)?C(h,e):L(h,e);return[0,e,k]}var
+l=am(a,c);return[0,am(a,c),l]}function
+jB(f){var
+g=dY(f),e=rs[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return M(q5,c)}}function
-jp(a,d){var
-g=cF(a),h=s(b(2,b(2,c)),g),e=J(d[2],h);if(e)var
-i=gs(a,d,dL(q7,M(jo(a),q6)))[2][2],f=[0,[0,gs(a,d,M(dL(q9,jo(a)),q8))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return O(rt,c)}}function
+jC(a,d){var
+g=cL(a),h=s(b(2,b(2,c)),g),e=I(d[2],h);if(e)var
+i=gF(a,d,dV(rv,O(jB(a),ru)))[2][2],f=[0,[0,gF(a,d,O(dV(rx,jB(a)),rw))[2][1],i]];else
 var
 f=e;return f}function
-jq(i){function
+jD(i){function
 a(h){var
-m=ch(cF(i),h),g=dN(i),f=m,e=d,a=c;for(;;){if(g){var
-j=x(a,b(2,c)),k=x(e,ch(f,a)),l=ab(ch(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return bx(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jr(e,a){var
-f=J(d,a);if(f){var
-g=b(2,b(2,c));return jp(e,gr(U(e,[0,a,a]),g))}return f}function
-js(a,d){var
-b=U(a,d),e=aw(a,c);return O(C(b,b),e)}function
-eT(n,u){var
-h=bD(x(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=x(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=bx(jq(a),p),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=x(jq(a),r),f=jr(a,i);if(f){var
-g=jr(a,j);if(g)var
-k=ad(d,f[1][1]),l=k?ad(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=co(cL(i),h),g=dY(i),f=m,e=d,a=c;for(;;){if(g){var
+j=B(a,b(2,c)),k=B(e,co(f,a)),l=aa(co(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return aS(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jE(e,a){var
+f=I(d,a);if(f){var
+g=b(2,b(2,c));return jC(e,gE(Y(e,[0,a,a]),g))}return f}function
+jF(a,d){var
+b=Y(a,d),e=am(a,c);return L(C(b,b),e)}function
+e5(n,u){var
+h=bK(B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+w=h[1],a=B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=aS(jD(a),p),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=B(jD(a),r),f=jE(a,i);if(f){var
+g=jE(a,j);if(g)var
+k=S(d,f[1][1]),l=k?S(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),t=jp(a,U(a,gr(F(a,v,e[1]),s))),o=R(function(b){return js(a,js(a,b))},t);else
+s=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),t=jC(a,Y(a,gE(v(a,w,e[1]),s))),o=K(function(b){return jF(a,jF(a,b))},t);else
 var
 o=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return R(function(a){return jn(w,a)},o)}return h}function
-gt(d,a){return eT(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
-eU(a){return 0===a[0]?a[2]:a[1]}function
-q_(a){return a}function
-q$(a){return a}function
-ra(a,b){return a_(q$,q_,C,a,b)}function
-rb(a){return a}function
-rc(a){return a}function
-d1(a,b){return a_(rc,rb,ra,a,b)}function
-gu(b,a,c){if(a){var
-e=a[2],d=a[1];if(c){var
-g=gu(b,e,c[2]),h=c[1],i=function(c,a){return O(c,gl(d,a,b))},j=function(a){return ap(gl(d,a,b))};return[0,a_(function(a){return a},j,i,h,a),g]}var
-k=gu(b,e,0);return[0,f(function(a){return ap(gl(d,a,b))},a),k]}return c}function
-jt(a){if(a){var
+x=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return K(function(a){return jA(x,a)},o)}return h}function
+gG(d,a){return e5(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
+e6(a){return 0===a[0]?a[2]:a[1]}function
+ry(a){return a}function
+rz(a){return a}function
+rA(a,b){return bb(rz,ry,C,a,b)}function
+rB(a){return a}function
+rC(a){return a}function
+cu(a,b){return bb(rC,rB,rA,a,b)}function
+gH(b,a,c){if(a){var
+f=a[2],d=a[1];if(c){var
+g=gH(b,f,c[2]),h=c[1],i=function(c,a){return L(c,d2(d,a,b))},j=function(a){return ah(d2(d,a,b))};return[0,bb(function(a){return a},j,i,h,a),g]}var
+k=gH(b,f,0);return[0,e(function(a){return ah(d2(d,a,b))},a),k]}return c}function
+gI(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ad(d,c[1]),h=e?[0,gu(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=S(d,c[1]),h=e?[0,gH(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-ju(f,e){var
+jG(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=jt(b);if(c){var
+c=gI(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jv(d,b,a){if(b)if(a)var
-e=a[1],f=jv(d,b[2],a[2]),g=dM(d,b[1])?gn(e):dT(e),c=[0,g,f];else
+jH(d,b,a){if(b)if(a)var
+e=a[1],f=jH(d,b[2],a[2]),g=dW(d,b[1])?e0(e):da(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jw(a,b){if(a)if(b)var
-d=jw(a[2],b[2]),c=[0,jv(a[1],a,b[1]),d];else
+jI(a,b){if(a)if(b)var
+d=jI(a[2],b[2]),c=[0,jH(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bE(a){if(a){var
-b=a[1],c=bE(b),d=f(function(a){return[0,1,a]},c),e=bE(b);return g(f(function(a){return[0,0,a]},e),d)}return rd}function
-eV(a){var
-b=l(a);if(ju(b,a))return 1;var
-c=bE(bZ(b));return o(function(c){return ju(b,jw([0,0,c],a))},c)}function
-a2(a){function
+br(a){if(a){var
+b=a[1],c=br(b),d=e(function(a){return[0,1,a]},c),f=br(b);return g(e(function(a){return[0,0,a]},f),d)}return rD}function
+e7(a){var
+b=j(a);if(jG(b,a))return 1;var
+c=br(b5(b));return n(function(c){return jG(b,jI([0,0,c],a))},c)}function
+a5(a){function
 b(b){var
-c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-bl(h,e){var
+c=f(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aW(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gv(c,b,a){var
-d=bE(c);return o(function(c){return e(a,e(a2(function(a){return bl(c,a)}),b))},d)}function
-jx(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bB(b,x(h,c),a)},k=jx(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=a_(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):L(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gJ(c,b,a){var
+d=br(c);return n(function(c){return f(a,f(a5(function(a){return aW(c,a)}),b))},d)}function
+gK(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bf(b,B(h,c),a)},k=gK(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=bb(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-jy(b,d,a,c){function
+e8(b,d,a,c){function
 e(c,d){var
-e=bB(d,b,a);return O(C(c,c),e)}function
-f(c){return ap(bB(c,b,a))}return a_(function(a){return C(a,a)},f,e,d,c)}function
-gw(d,i,h,g){var
+e=bf(d,b,a);return L(C(c,c),e)}function
+f(c){return ah(bf(c,b,a))}return bb(function(a){return C(a,a)},f,e,d,c)}function
+gL(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dT(e[2]),k=d1(a,jx(d,f,jy(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gx(b,a){return[0,[0,0,b],a]}function
-c_(b,c,g,f,a){function
+e=b[1],f=c[1],j=da(e[2]),k=cu(a,gK(d,f,e8(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gM(b,a){return[0,[0,0,b],a]}function
+dg(b,c,g,f,a){function
 d(a){if(a){var
-h=bi([0,ap(a[1][2]),0],b),c=gw(g,f,a[2],h),d=E(l(c),b);if(d)return eV(c);var
+h=ba([0,ah(a[1][2]),0],b),c=gL(g,f,a[2],h),d=t(j(c),b);if(d)return e7(c);var
 e=d}else
 var
-e=a;return e}return gv(b,gx(c,a),d)}function
-jz(f,e){var
+e=a;return e}return gJ(b,gM(c,a),d)}function
+jJ(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=jt([0,[0,gn(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gI([0,[0,e0(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gy(b,c,a){function
+gN(b,c,a){function
 d(a){if(a){var
-h=bi([0,a[1][2],0],b),c=jz(a[2],h);if(c){var
-d=c[1],e=E(l(d),b);if(e)return eV(d);var
+h=ba([0,a[1][2],0],b),c=jJ(a[2],h);if(c){var
+d=c[1],e=t(j(d),b);if(e)return e7(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gv(b,gx(c,a),d)}function
-jA(b,a){return f(function(a){return[0,a[1],b]},a)}function
-jB(a,b){var
-c=b[3],d=a[3],e=a_(function(a){return a},ap,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
-d2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aV(c,b,a){var
-d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
-d3(b,a){var
+g=a;return g}return gJ(b,gM(c,a),d)}function
+jK(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jL(b,a){var
+c=br(b);return n(function(b){return S(d,aW(b,a)[1])},c)}function
+jM(c,b,a){var
+d=a[3],f=e(function(a){return bf(c,b,a)},d),g=a[2];return[0,bf(c,b,a[1]),g,f]}function
+jN(a,b){var
+c=b[3],d=a[3],e=bb(function(a){return a},ah,L,d,c),f=a[2];return[0,L(a[1],b[1]),f,e]}function
+d8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aX(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+d9(b,a){var
 c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
-eW(b,a){var
-c=as(b[3],a),d=as(b[2],a);return[0,as(b[1],a),d,c]}function
-ax(b,a){var
-c=r(b[3],a[3]),d=r(b[2],a[2]);return I(I(r(b[1],a[1]),d),c)}function
-gz(a){return eW(a,ck(ax(a,a)))}function
-c$(a){var
-b=a[5];return b?b[1]:ck(a[2])}function
-eX(a){return f(function(a){var
-b=a[2];return[0,d2(a[1]),b]},a)}function
-jC(a){return f(function(a){var
-b=n(c);return[0,d2(a[3]),b]},a)}function
-jD(b,a){var
-c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-jE(c,b,a){var
-d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
-gA(d,a){var
-b=cG(d,[0,a[2],a[2]]);if(b){var
+e9(b,a){var
+c=av(b[3],a),d=av(b[2],a);return[0,av(b[1],a),d,c]}function
+ay(b,a){var
+c=r(b[3],a[3]),d=r(b[2],a[2]);return M(M(r(b[1],a[1]),d),c)}function
+gO(a){return e9(a,cr(ay(a,a)))}function
+dh(a){var
+b=a[5];return b?b[1]:cr(a[2])}function
+e_(a){return e(function(a){var
+b=a[2];return[0,d8(a[1]),b]},a)}function
+jO(a){return e(function(a){var
+b=o(c);return[0,d8(a[3]),b]},a)}function
+jP(b,a){var
+c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
+jQ(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+gP(d,a){var
+b=cM(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-eY(a,m,f,l,e,k,j){var
-n=jE(gp,k,j),b=jE(function(b,c){return gq(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=dY(dY(dY(aS(aw(a,d)),h),g),c),p=bE(m);return o(function(c){var
-b=jD(function(b){return U(a,bl(c,b))},e),h=b[3],j=b[2],k=b[1],m=F(a,l,gA(a,C(C(C(aw(a,d),k),j),h))),g=O(bl(c,i),m),n=f?O(g,bl(c,f[1])):g;return ad(d,n[1])},p)}function
-bF(a){return c5(x(a[1],a[2]),c)}function
-da(a){var
-b=bF(a);return bx(a[2],b)}function
-gB(c,b){if(b)var
-a=b[1],e=gB([0,c],b[2]),f=da(a),h=[0,[0,da(a),f],0],i=g(bi(L,c),h),j=bF(a),d=[0,[0,[0,bF(a),j],a,i],e];else
+e$(a,m,f,l,e,k,j){var
+o=jQ(gB,k,j),b=jQ(function(b,c){return de(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=dd(dd(dd(ap(am(a,d)),h),g),c),p=br(m);return n(function(c){var
+b=jP(function(b){return Y(a,aW(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,gP(a,C(C(C(am(a,d),k),j),h))),g=L(aW(c,i),m),n=f?L(g,aW(c,f[1])):g;return S(d,n[1])},p)}function
+bL(a){return cK(B(a[1],a[2]),c)}function
+di(a){var
+b=bL(a);return aS(a[2],b)}function
+fa(c,b){if(b)var
+a=b[1],e=fa([0,c],b[2]),f=di(a),h=[0,[0,di(a),f],0],i=g(ba(x,c),h),j=bL(a),d=[0,[0,[0,bL(a),j],a,i],e];else
 var
 d=b;return d}function
-d4(d,b){if(b){var
+d_(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bF(a),f],c],h=bF(a);return[0,[0,[0,a[1],h],c],g]}return re}function
-jF(d,b,a){if(b){if(a){var
-e=jF(d,b[2],a[2]);return C(bB(b[1],x(d,c),a[1]),e)}return L}return L}function
-eZ(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jF(e,a,b)},j=eZ(e,h),k=f(function(a){var
+e=d_(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bL(a),f],c],h=bL(a);return[0,[0,[0,a[1],h],c],g]}return rE}function
+jR(d,b,a){if(b){if(a){var
+e=jR(d,b[2],a[2]);return C(bf(b[1],B(d,c),a[1]),e)}return x}return x}function
+d$(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jR(f,a,b)},j=d$(f,h),k=e(function(a){var
 e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-e0(e,b,d,a){if(b)if(a)var
-f=b[1],g=e0(e,b[2],d,a[2]),c=[0,[0,f,jy(e,a[1][1],d,f)],g];else
+ea(e,b,d,a){if(b)if(a)var
+f=b[1],g=ea(e,b[2],d,a[2]),c=[0,[0,f,e8(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gC(e,d,c,b,a){if(a){var
+fb(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gC(e,d[1],c,b,g);return[0,[0,O(L,b),0],i]}var
-j=f(function(a){return[0,O(L,b),0]},g),h=[0,[0,O(ap(F(e,c,dT(a[1][2]))),b),0],j]}else
+i=fb(f,d[1],c,b,g);return[0,[0,L(x,b),0],i]}var
+j=e(function(a){return[0,L(x,b),0]},g),h=[0,[0,L(ah(v(f,c,da(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-cI(c,a){var
-b=E(l(a),c);return b?eV(a):b}function
-jG(d,b,a){if(b)var
-c=b[1],f=jG([0,d],b[2],a),h=g(bi(L,d),[0,a,0]),e=[0,[0,c,[0,bx(c[1],a[2]),x(c[2],a[2])],h],f];else
+b$(c,a){var
+b=t(j(a),c);return b?e7(a):b}function
+jS(d,b,a){if(b)var
+c=b[1],f=jS([0,d],b[2],a),h=g(ba(x,d),[0,a,0]),e=[0,[0,c,[0,aS(c[1],a[2]),B(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-jH(d){if(d){var
+jT(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jH(d[2]);return R(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jT(d[2]);return K(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return rf}function
-jI(d,c,b,a){var
-e=f(aS,b);return cl(0,c9(d,gB(0,a),e),c,0)}function
-aE(a){if(a){var
-b=a[1];if(b)var
-c=aE(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+f=a;return f}return rF}function
+jU(a){return K(function(a){return K(gC,a)},a)}function
+fc(c,b,a){function
+d(a){return de(c,b,a)}return K(function(a){return K(d,a)},a)}function
+jV(c,b,a){function
+d(a){return gD(c,a,b)}return K(function(a){return df(d,a)},a)}function
+fd(b,a){var
+c=a$(b,a);return e(function(c){var
+a=c[2],b=c[1];if(b){if(a){var
+d=a[1],e=b[1];return[0,b9(function(b,a){return[0,dd(b,a)]},e,d)]}return b}return a},c)}function
+jW(a){return ap(am(a,b(2,c)))}function
+jX(b,c,a){if(a)var
+f=a[1],g=jX(b,c,a[2]),d=[0,e(function(a){return ah(v(b,v(b,c,f),a))},a),g];else
 var
-d=b;return d}return ru}function
-e1(b,a){if(a){var
-h=a[1],n=h[1],c=aE(f(function(a){return z(a,b,0)},n));if(c){var
-e=z(h[2],b,0);if(e){var
-i=e[1],g=e1(b,a[2]);if(g)var
-j=ad(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=a;return d}function
+jY(a){return n(function(a){var
+b=ad(a[1],d);return b?ad(a[2],d):b},a)}function
+jZ(c,b,a){var
+d=a$(b,a);return bG(function(a,b){return C(v(c,a[1],a[2]),b)},x,d)}function
+gQ(c,b,a){var
+d=d3(jZ(c,a,b));return bG(function(b,a){return B(d3(b),a)},d,a)}function
+dj(a){return am(a,c)}function
+gR(a,i,c,u,t){var
+f=u,e=t;for(;;){if(f){var
+j=f[1],n=0;if(!jY(c)&&!jY(j)){var
+h=gQ(a,i,j),o=dj(a),p=gQ(a,i,c),b=d2([0,gQ(a,i,c),p],o,[0,h,h])[1],k=S(d,h),l=k?S(d,b):k;if(l)var
+q=b7(gz(a,[0,b,b])),r=function(b){return function(d,c){return L(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cu(e,jX(a,q,bb(function(c){return function(b){return v(a,c,b)}}(s),ah,r,j,c)))];else
+var
+m=l;var
+g=m;n=1}if(!n)var
+g=[0,e];if(g){var
+f=f[2],e=g[1];continue}return g}return[0,e]}}function
+rU(a){var
+b=a[2],c=e(function(a){return[0,a[1],x]},b);return[0,[0,a[1][1],x],c]}function
+j0(c,b,a){if(b){if(a){var
+d=j0(c,b[2],a[2]);return C(bf(b[1],c,a[1]),d)}return x}return x}function
+j1(a,j){switch(j){case
+0:var
+d=aS(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+1:var
+f=aS(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cK(B(a[1],a[2]),c),h=aS(b,a[2]),i=aS(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+j2(d,c,a){if(a)var
+e=a[1],g=j2(d,[0,c],a[2]),b=K(cJ,jn(function(a){return t(a[1],c)},d)),h=b?j1(e,b[1])[1]:e,f=[0,h,g];else
+var
+f=a;return f}var
+rV=ap(x);function
+j3(e,d,c){if(d){var
+f=u(e,c[2],rW),a=f?f[1]:[0,rV];if(a)var
+b=j3([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+var
+g=a;return g}return rX}function
+j4(d,c,b,a){var
+f=e(ap,b);return bI(0,cs(d,fa(0,a),f),c,0)}function
+az(a){if(a){var
+b=a[1];if(b)var
+c=az(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return rY}function
+fe(b,a){if(a){var
+h=a[1],n=h[1],c=az(e(function(a){return u(a,b,0)},n));if(c){var
+f=u(h[2],b,0);if(f){var
+i=f[1],g=fe(b,a[2]);if(g)var
+j=S(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
 var
-l=e;var
+l=f;var
 m=l}else
 var
-m=c;return m}return rv}function
-b4(d,c,b){var
-a=e1(d,c);return a?e(b,a[1]):a}function
-e2(a,b){return o(function(c){var
-a=z(c,b,0),d=a?1:a;return d},a)}function
-e3(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a_(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-gD(b,a){return b?jB(a,b[1]):a}function
-gE(h,g,b,f){var
-a=z(f,h,0);if(a){var
+m=c;return m}return rZ}function
+ca(d,c,b){var
+a=fe(d,c);return a?f(b,a[1]):a}function
+dk(a,b){return n(function(c){var
+a=u(c,b,0),d=a?1:a;return d},a)}function
+ff(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bb(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+gS(b,a){return b?jN(a,b[1]):a}function
+gT(h,g,b,f){var
+a=u(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jB(c,b[1]),e=bE(g);return o(function(a){return J(d,bl(a,i)[1])},e)}return J(d,c[2][1])}return a}function
-e4(b,a){var
-c=z(a[1],b,0);if(c){var
-d=z(a[2],b,0);if(d)var
-e=z(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jN(c,b[1]),e=br(g);return n(function(a){return I(d,aW(a,i)[1])},e)}return I(d,c[2][1])}return a}function
+j5(f,d,a){function
+b(a){return bf(a,d,am(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),x,g]}return ap(x)}function
+fg(b,a){var
+c=u(a[1],b,0);if(c){var
+d=u(a[2],b,0);if(d)var
+e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-jJ(i,j,K,t,g,b,e,h,a){switch(h[0]){case
+j6(i,k,J,u,g,b,f,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-M=e2(t,g);if(M){var
-af=a[2],ag=a[1],ai=e3(e,aS(r));return b4(g,j,function(a){return c_(b,ai,ag,af,a)})}return M;case
+K=dk(u,g);if(K){var
+ab=a[2],ac=a[1],ae=ff(f,ap(r));return ca(g,k,function(a){return dg(b,ae,ac,ab,a)})}return K;case
 1:var
-N=e2(t,g);if(N){var
-aj=a[2],ak=a[1],al=e3(e,aS(r));return b4(g,K,function(a){return c_(b,al,ak,aj,a)})}return N;case
+L=dk(u,g);if(L){var
+af=a[2],ag=a[1],ah=ff(f,ap(r));return ca(g,J,function(a){return dg(b,ah,ag,af,a)})}return L;case
 2:var
-O=e2(t,g);if(O){if(e)return 0;var
-P=ah(r[1],d),Q=P?ah(r[2],d):P;if(Q){var
-am=a[2],an=a[1];return b4(g,j,function(a){return c_(b,[0,L,L,0],an,am,jA([0,L,L,0],a))})}var
-R=Q}else
+M=dk(u,g);if(M){if(f)return 0;var
+N=ad(r[1],d),O=N?ad(r[2],d):N;if(O){var
+ai=a[2],aj=a[1];return ca(g,k,function(a){return dg(b,[0,x,x,0],aj,ai,jK([0,x,x,0],a))})}var
+P=O}else
 var
-R=O;return R}return 0;case
+P=M;return P}return 0;case
 1:var
-S=h[1];if(typeof
+Q=h[1];if(typeof
 a==="number"){if(1===a){var
-ao=gD(e,aS(S));return b4(g,K,function(a){return gy(b,ao,a)})}if(!a){var
-ap=gD(e,aS(S));return b4(g,j,function(a){return gy(b,ap,a)})}}return 0;case
+ak=gS(f,ap(Q));return ca(g,J,function(a){return gN(b,ak,a)})}if(!a){var
+al=gS(f,ap(Q));return ca(g,k,function(a){return gN(b,al,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-T=a[1],u=a[3],J=function(a){return bB(a,T,aw(i,c))};if(u)var
-ae=f(J,u[2]),k=[0,J(u[1]),L,ae];else
-var
-k=aS(L);var
-U=h[1],aq=a[2];return b4(g,j,function(g){var
-h=bE(b),a=o(function(a){return ad(d,bl(a,k)[1])},h),c=a?c_(b,e3(e,k),T,aq,g):a;if(c){var
-j=k[3],l=f(function(a){return F(i,U,a)},j),m=k[2];return gy(b,gD(e,[0,F(i,U,k[1]),m,l]),g)}return c})}return 0;case
+R=a[1],l=j5(i,R,a[3]),S=h[1],an=a[2];return ca(g,k,function(d){var
+a=jL(b,l),c=a?dg(b,ff(f,l),R,an,d):a;if(c){var
+g=l[3],h=e(function(a){return v(i,S,a)},g),j=l[2];return gN(b,gS(f,[0,v(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gE(g,b,e,h[1]);return 0;case
+a==="number"&&!a)return gT(g,b,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ar=a[2],as=a[1],at=e3(e,aS(h[2])),au=function(a){return c_(b,at,as,ar,a)};return b4(g,h[1],au)}return 0;case
+ao=a[2],aq=a[1],ar=ff(f,ap(h[2])),as=function(a){return dg(b,ar,aq,ao,a)};return ca(g,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gE(g,b,e,h[1]);case
-2:return gE(g,b,e,h[2])}return 0;case
+0:return gT(g,b,f,h[1]);case
+2:return gT(g,b,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=e4(g,h[1]);if(v){var
-w=e4(g,h[2]);if(w){var
-y=e4(g,h[3]);if(y){var
-z=e4(g,h[4]);if(z){var
-V=z[1],W=y[1],X=w[1],Y=v[1],m=a[2],s=h[5],av=a[1];if(m){var
-n=m[2];if(n){var
-p=n[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],n[1],p[1]],q=jD(function(d){function
-e(a){return bB(a,av,aw(i,c))}if(d){var
-a=f(e,d[2]),b=e(d[1]),g=eR(a),h=x(b[2],g),j=eR(a);return[0,b,[0,bx(b[1],j),h],a]}return aS(L)},ac),A=o(function(a){return E(l(a),[0,b])},m),B=A?eY(i,b,e,s,q,Y,W):A,C=B?eY(i,b,e,s,q,Y,V):B,D=C?eY(i,b,e,s,q,X,W):C;if(D)return eY(i,b,e,s,q,X,V);var
-G=D}else
+w=fg(g,h[1]);if(w){var
+y=fg(g,h[2]);if(y){var
+z=fg(g,h[3]);if(z){var
+A=fg(g,h[4]);if(A){var
+T=A[1],U=z[1],V=y[1],W=w[1],m=a[2],s=h[5],at=a[1];if(m){var
+o=m[2];if(o){var
+p=o[2];if(p){if(p[2])return 0;var
+aa=[0,m[1],o[1],p[1]],q=jP(function(d){function
+f(a){return bf(a,at,am(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=e3(a),h=B(b[2],g),j=e3(a);return[0,b,[0,aS(b[1],j),h],a]}return ap(x)},aa),C=n(function(a){return t(j(a),[0,b])},m),D=C?e$(i,b,f,s,q,W,U):C,E=D?e$(i,b,f,s,q,W,T):D,F=E?e$(i,b,f,s,q,V,U):E;if(F)return e$(i,b,f,s,q,V,T);var
+G=F}else
 var
 G=p;var
 H=G}else
 var
-H=n;var
+H=o;var
 I=H}else
 var
 I=m;return I}var
-Z=z}else
+X=A}else
 var
-Z=y;var
-_=Z}else
+X=z;var
+Y=X}else
 var
-_=w;var
-$=_}else
+Y=y;var
+Z=Y}else
 var
-$=v;return $}return 0;case
+Z=w;return Z}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],ax=h[2],ay=h[1];return b4(g,j,function(f){var
-a=E(l(f),b),d=a?E(l(aa),b):a;if(d){var
+_=a[2],$=a[1],au=h[2],av=h[1];return ca(g,k,function(e){var
+a=t(j(e),b),d=a?t(j(_),b):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=E(l(d),b);if(e){var
-g=eZ(ab,e0(ab,aa,aw(i,c),d));return cI(b,d1(gC(i,ay,ax,a[1][2],d),g))}var
+d=a[2],e=t(j(d),b);if(e){var
+g=d$($,ea($,_,am(i,c),d));return b$(b,cu(fb(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=e?e[1]:aS(L);return gv(b,gx(h,f),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:ap(x);return gJ(b,gM(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-az=h[2],aA=h[1];return b4(g,j,function(d){var
-a=jA([0,L,L,0],d),c=e?e[1]:[0,L,L,0];return c_(b,c,aA,az,a)})}return 0;default:return 0}}function
-jK(a,Y,G,k,p,X,h,j,i,g,b){if(9===g[0]){if(typeof
+aw=h[2],ax=h[1];return ca(g,k,function(d){var
+a=jK([0,x,x,0],d),c=f?f[1]:[0,x,x,0];return dg(b,c,ax,aw,a)})}return 0;default:return 0}}function
+j7(a,Z,H,l,p,X,h,k,i,g,b){if(9===g[0]){if(typeof
 b!=="number"&&9===b[0]){var
-Z=g[1],S=f(aS,X),v=cl(0,c9(a,jG(0,j,Z),S),Y,0),H=E(l(j),rw),I=H?e2(p,v):H;if(I){var
-q=e1(v,k);if(q){var
-r=e1(h,k);if(r){var
-_=g[2],s=aE(f(function(b){var
-c=z(b[1],h,0);if(c)var
-e=b[2][2],a=aE(f(function(a){var
-b=z(a[2],h,0);return R(function(b){return[0,a[1],b]},b)},e)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+_=g[1],T=e(ap,X),z=bI(0,cs(a,jS(0,k,_),T),Z,0),I=t(j(k),r0),J=I?dk(p,z):I;if(J){var
+q=fe(z,l);if(q){var
+r=fe(h,l);if(r){var
+$=g[2],s=az(e(function(b){var
+c=u(b[1],h,0);if(c)var
+f=b[2][2],a=az(e(function(a){var
+b=u(a[2],h,0);return K(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},_));if(s){var
-t=jH(q[1]);if(t){var
-J=b[2],u=b[1],K=r[1],$=b[3],aa=s[1],ab=t[1],w=gA(a,cD(function(g,i){function
+d=c;return d},$));if(s){var
+w=jT(q[1]);if(w){var
+M=b[2],y=b[1],N=r[1],aa=b[3],ab=s[1],ac=w[1],A=gP(a,bG(function(g,i){function
 b(b,d){var
-a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return gm(z(d,c[3],L))}function
+a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return d3(u(d,c[3],x))}function
 c(a){var
-b=e(a,rg),c=bY(e(a,rh),b);return bY(e(a,0),c)}var
+b=f(a,rG),c=bF(f(a,rH),b);return bF(f(a,0),c)}var
 d=c(function(a){var
-c=b(ri,a),d=b(rj,a);return x(x(b(0,a),d),c)}),h=[0,d,d],f=c(function(a){var
-c=b(a,rk),d=b(a,rl);return x(x(b(a,0),d),c)});return C(i,U(a,gA(a,F(a,[0,f,f],h))))},L,ab)),m=bB($,u,aw(a,c)),y=ad(d,O(m,w)[1]),A=y?E(l(J),rr):y,B=A?E(l(K),rs):A;if(B){var
-n=ci(a,m);if(n){var
-T=dS(F(a,w,n[1])),V=O(aw(a,c),T),W=bE(rt);return o(function(j){var
-h=f(function(b){var
-c=b[2],d=b[1];return dT(gj(function(d,b){var
-c=gm(bl(j,b[2]));return C(d,F(a,b[1],[0,c,c]))},c,d))},aa),r=e(a2(function(a){return bl(j,a)}),K),D=i?bl(j,i[1]):L,M=U(a,V),s=U(a,m),q=eZ(u,e0(u,J,aw(a,c),r)),b=d1(bi([0,ap(D),0],rm),q);if(h){var
+c=b(rI,a),d=b(rJ,a);return B(B(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
+c=b(a,rK),d=b(a,rL);return B(B(b(a,0),d),c)});return C(i,Y(a,gP(a,v(a,[0,e,e],h))))},x,ac)),m=bf(aa,y,am(a,c)),D=S(d,L(m,A)[1]),E=D?t(j(M),rR):D,F=E?t(j(N),rS):E;if(F){var
+o=cp(a,m);if(o){var
+U=b7(v(a,A,o[1])),V=L(am(a,c),U),W=br(rT);return n(function(j){var
+h=e(function(b){var
+c=b[2],d=b[1];return da(gx(function(d,b){var
+c=d3(aW(j,b[2]));return C(d,v(a,b[1],[0,c,c]))},c,d))},ab),r=f(a5(function(a){return aW(j,a)}),N),D=i?aW(j,i[1]):x,K=Y(a,V),s=Y(a,m),q=d$(y,ea(y,M,am(a,c),r)),b=cu(ba([0,ah(D),0],rM),q);if(h){var
 d=h[2];if(d){var
 g=d[2];if(g){if(g[2])return 0;var
-A=d[1],B=h[1],G=g[1],k=cI(ro,d1(bi([0,ap(s),0],rn),b));if(k)return o(function(C){var
-H=O(M,D),I=C[2]?A:ap(A),J=C[1]?B:ap(B),n=0;if(b){var
+A=d[1],B=h[1],G=g[1],k=b$(rO,cu(ba([0,ah(s),0],rN),b));if(k)return n(function(C){var
+H=L(K,D),I=C[2]?A:ah(A),J=C[1]?B:ah(B),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -2839,175 +2899,390 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return cI(rq,j)},rp);var
+j=z;return b$(rQ,j)},rP);var
 l=k}else
 var
 l=g;var
-n=l}else
+o=l}else
 var
-n=d;var
-p=n}else
+o=d;var
+p=o}else
 var
 p=h;return p},W)}var
-D=n}else
+G=o}else
 var
-D=B;return D}var
-M=t}else
+G=F;return G}var
+O=w}else
 var
-M=s;var
-N=M}else
+O=s;var
+P=O}else
 var
-N=r;var
-P=N}else
-var
-P=q;var
+P=r;var
 Q=P}else
 var
-Q=I;return Q}return jJ(a,G,k,p,h,l(j),i,g,b)}return jJ(a,G,k,p,h,l(j),i,g,b)}function
-e5(b,a){if(a){var
+Q=q;var
+R=Q}else
+var
+R=J;return R}return j6(a,H,l,p,h,j(k),i,g,b)}return j6(a,H,l,p,h,j(k),i,g,b)}function
+j8(j,b,a){if(a){var
+k=a[1],l=k[2],c=az(e(b,k[1]));if(c){var
+g=f(b,l);if(g){var
+h=u(l,j,0);if(h){var
+i=j8(j,b,a[2]);if(i)var
+m=S(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
+var
+n=i;var
+o=n}else
+var
+o=h;var
+p=o}else
+var
+p=g;var
+q=p}else
+var
+q=c;return q}return r2}function
+j9(a,U,m,T,w,s,R,D,i,h,l,b){var
+k=j(R),V=fa(0,R),aM=bI(0,cs(a,V,e(ap,j2(l,0,w))),U,0),W=e(a2,l),aN=0,aO=e(ap,w),aQ=bI(r3,function(b){var
+M=db(a2,b),g=f(cs(a,V,aO),M);switch(b[0]){case
+1:var
+u=b[1],d=e(function(d){var
+b=t(u,d),e=b?[0,[0,ap(am(a,c))]]:b;return e},W);break;case
+3:var
+d=fd(b[1][2],b[2][2]);break;case
+4:var
+v=e(jU,b[2][2]),d=fd(b[1][2],v);break;case
+5:var
+d=e(jU,b[1][2]);break;case
+6:var
+n=b[2],o=b[1],h=o[1],l=0;if(h){var
+i=n[1];if(i)var
+w=n[2],x=h[1],y=e(function(b){return fc(a,x,b)},w),z=o[2],A=i[1],d=fd(e(function(b){return fc(a,A,b)},z),y);else{var
+p=i;l=1}}else{var
+p=h;l=1}if(l)var
+d=p;break;case
+7:var
+m=0;if(g){var
+q=b[2],j=q[1];if(j)var
+B=q[2],C=gC(g[1]),D=e(function(b){return fc(a,C,b)},B),E=fd(b[1][2],D),F=j[1],d=e(function(b){return jV(a,F,b)},E);else{var
+r=j;m=1}}else{var
+r=g;m=1}if(m)var
+d=r;break;case
+8:var
+s=b[1],k=s[1];if(k)var
+G=s[2],H=k[1],I=de(a,jW(a),H),d=e(function(b){return fc(a,I,b)},G);else
+var
+d=k;break;case
+9:if(g)var
+J=b[1][2],K=g[1],L=de(a,jW(a),K),d=e(function(b){return jV(a,L,b)},J);else
+var
+d=g;break;default:var
+d=e(function(a){return 0},W)}return[0,g,d]},U,aN),aK=e(function(a){var
+b=a[2];return j1(u(a[1],w,x),b)[2]},l);function
+X(c){var
+d=u(c,s,0);if(d){var
+a=u(c,aM,0);if(a)var
+b=j3(0,l,u(c,aQ,r1)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+var
+e=a;var
+f=e}else
+var
+f=d;return f}function
+E(b){return e(function(b){return am(a,b)},b)}var
+aR=D?D[1]:ap(x);function
+Y(a){return a?b$(k,a[1]):a}function
+y(t,s,f,r,q){var
+u=ba([0,ah(s),0],k),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],j=i[1],d=c[1],m=da(j[2]),n=cu(g,gK(f,d,e8(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(b7,e8(f,a[1],a[2],b))}}(d),o),h=gR(a,v,e(function(b){return bf(b,f,dj(a))},d),p,n);if(h){var
+c=c[2],b=b[2],g=h[1];continue}var
+l=h}else
+var
+l=[0,g];return Y(l)}}function
+Z(z,y,w){var
+A=ba([0,y,0],k),q=E(z),c=w,f=A;for(;;){if(c){var
+j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,e0(g),h],f];if(m){var
+o=S(d,g[1]);if(o)var
+s=e(function(a){var
+b=a[1];return[0,b7(a[2]),b]},m),t=e(function(a){return x},h),u=[0,dj(a),t],v=dj(a),b=gR(a,[0,ah(d2(jZ(a,h,q),v,g)),q],u,s,n);else
+var
+b=o}else
+var
+b=[0,n];if(b){var
+i=gI(b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
+var
+p=b;var
+r=p}else
+var
+r=[0,f];return Y(r)}}var
+aT=e(a2,l),_=n(function(a){return dX(a,j(w))},aT);if(_){var
+r=e(a2,l);for(;;){if(r){var
+P=r[2],aL=r[1],Q=au(aP(function(b){return function(a){return t(b,a)}}(aL),P));if(Q){var
+r=P;continue}var
+$=Q}else
+var
+$=1;var
+F=$;break}}else
+var
+F=_;var
+ab=F?n(function(a){return t(j(a),k)},b):F;if(ab){var
+A=0;switch(i[0]){case
+0:var
+G=i[1],N=0;if(typeof
+h!=="number")switch(h[0]){case
+0:var
+az=0;if(b){if(b[2])return 0;var
+aU=b[1],aV=h[2],aX=h[1],ac=dk(T,s);if(ac){var
+p=function(c,a){var
+b=C(G,a);return function(a){return y(aU,b,aX,aV,a)}},o=m;N=1;az=1}else
+var
+ag=ac}else
+var
+ag=b;if(!az)return ag;break;case
+2:var
+aA=0;if(b){if(b[2])return 0;var
+aZ=b[1],a0=h[2],a1=h[1],ai=dk(T,s),aB=0;if(ai){if(D)return 0;var
+aj=ad(G[1],d),ak=aj?ad(G[2],d):aj;if(ak){var
+p=function(c,b,a){return y(aZ,x,a1,a0,e(rU,a))},o=m;N=1;aA=1;aB=1}else
+var
+al=ak}else
+var
+al=ai;if(!aB)var
+an=al}else
+var
+an=b;if(!aA)return an;break}if(!N)return 0;break;case
+1:var
+aC=0,a3=i[1];if(typeof
+h==="number"&&!h){if(!b)return b;if(b[2])return 0;var
+a4=b[1],p=function(c,a){var
+b=L(a3,a);return function(a){return Z(a4,b,a)}},o=m;aC=1}if(!aC)return 0;break;case
+2:var
+aD=0,a5=i[1];if(typeof
+h==="number"||!(3===h[0]))aD=1;else{var
+aE=0;if(b){var
+z=b[2],aF=0;if(z){if(z[2])return 0;var
+ao=h[1],a6=z[1],a7=b[1],a8=h[2],aq=j5(a,ao,h[3]),ar=jL(k,aq);if(ar){var
+p=function(f,c,b){var
+d=aW(f,aq),e=y(a7,C(d,c),ao,a8,b);return e?Z(a6,L(v(a,a5,d),c),b):e},o=m;aE=1;aF=1}else
+var
+as=ar}else
+var
+as=z;if(!aF)var
+at=as}else
+var
+at=b;if(!aE)return at}if(aD)return 0;break;case
+3:var
+aG=0;if(typeof
+h==="number"&&!h){if(b)return 0;var
+J=i[1];A=1}else
+aG=1;if(aG)return 0;break;case
+4:var
+aH=0,a_=i[2];if(typeof
+h==="number"||!(0===h[0]))aH=1;else{if(!b)return b;if(b[2])return 0;var
+bb=b[1],bc=h[2],bd=h[1],be=function(c,a){var
+b=C(a_,a);return function(a){return y(bb,b,bd,bc,a)}},p=be,o=i[1]}if(aH)return 0;break;case
+5:var
+O=0;if(typeof
+h==="number"&&!(3<=h))switch(h){case
+0:if(b)return 0;var
+J=i[1];A=1;break;case
+2:if(b)return 0;var
+J=i[2];A=1;break;default:O=1}else
+O=1;if(O)return 0;break;case
+7:var
+av=i[2],aw=i[1],aI=0;if(typeof
+h==="number"||!(0===h[0]))aI=1;else{var
+aJ=0;if(b){if(b[2])return 0;var
+q=h[2],M=h[1],bg=b[1],ax=t(j(m),k);if(ax){var
+p=function(b,z){var
+A=E(bg);return function(f){var
+i=t(j(f),k),l=i?t(j(q),k):i;if(l){var
+s=e(a2,f),u=d$(M,ea(M,q,dj(a),s)),w=cu(fb(a,aw,av,z,e(a2,f)),u),b=0,c=f,g=w,y=j(q);for(;;){if(c){var
+o=c[1][2],p=t(b,aw),r=e(function(f,g){return function(d){var
+b=a$(bH(0,j(q)),q);return e(function(b){var
+c=j0(M,b[2],d[1]);if(g&&t(b[1],f))return L(c,b7(v(a,av,d[2])));return c},b)}}(b,p),o),n=bH(0,y),h=gR(a,A,e(function(c){return function(b){return t(b,c)?dj(a):x}}(b),n),r,g);if(h){var
+b=[0,b],c=c[2],g=h[1];continue}var
+d=h}else
+var
+d=[0,g];if(d)return b$(k,d[1]);var
+m=d;break}}else
+var
+m=l;return m}},o=m;aJ=1}else
+var
+ay=ax}else
+var
+ay=b;if(!aJ)return ay}if(aI)return 0;break;default:return 0}if(A){var
+K=X(J);if(!K)return K;var
+a9=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=bG(function(b,a){return B(bF(d,aa(b[2][1])),a)},d,c);return I(d,aS(aS(a[1][2][1],e),b))},a)},af=a9,ae=[0,[0,0,K[1]],0]}else{var
+H=j8(s,X,o);if(!H)return H;var
+af=p,ae=H[1]}var
+aY=br(k);return n(function(b){var
+c=e(function(c){function
+f(a){return aW(b,a[1])}var
+h=0,j=ap(x);function
+d(h,f,b,c){if(b){var
+i=function(a){return aW(h,u(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
+c=v(a,b,l);return[0,e(function(c){return v(a,b,c)},k),c]},n),m)}return b}var
+i=d(b,h,aK,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ae);return C9(af,b,aW(b,aR),c)},aY)}return ab}function
+fh(b,a){if(a){var
 c=a[2];if(b){var
-e=e5(b[1],c);return[0,a[1],e]}var
+e=fh(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jL(t,s,K,I,H,r,U,G,c,F,E){if(F){var
-L=jI(t,s,r,c),g=F,b=E;for(;;){if(g){var
-x=g[1],a=x[2],n=x[1],y=g[2];if(typeof
+j_(m,l,q,T,p,k,_,z,b,R,Q){if(R){var
+r=j4(m,l,k,b),i=R,h=Q;for(;;){if(i){var
+L=i[1],a=L[2],w=L[1],M=i[2];if(typeof
 a==="number"&&4===a){var
-m=e(G,c);if(m)var
-T=m[1],O=bE(l(c)),p=o(function(b){return function(a){return ad(bl(a,b)[2],d)}}(T),O);else
+v=f(z,b);if(v)var
+Z=v[1],W=br(j(b)),x=n(function(b){return function(a){return S(aW(a,b)[2],d)}}(Z),W);else
 var
-p=m;if(p){var
-g=y,b=f(function(a){return 0},b);continue}return p}var
-A=z(n,b,0);if(A){var
-q=ae(U,n);if(q){var
-B=q[1],M=0;if(typeof
-a==="number"||!(5===a[0]))M=1;else{var
-i=a[2],j=e(G,c),N=0;if(j){var
-u=J(d,i);if(u){var
-k=j[1],v=a[3],S=a[1],P=k[3],Q=f(function(b,c){return function(a){return bB(b,c,a)}}(i,v),P),R=k[2],h=jK(t,s,K,I,H,r,L,c,[0,[0,bB(i,v,k[1]),R,Q]],B,S);N=1}else
+x=v;if(x){var
+i=M,h=e(function(a){return 0},h);continue}return x}var
+N=u(w,h,0);if(N){var
+y=af(_,w);if(y){var
+o=y[1],A=0;if(typeof
+a==="number")A=1;else
+switch(a[0]){case
+5:var
+C=a[2],s=f(z,b),U=0;if(s){var
+D=I(d,C);if(D){var
+X=a[1],c=j7(m,l,q,T,p,k,r,b,[0,jM(C,a[3],s[1])],o,X);U=1}else
 var
-w=u}else
+E=D}else
 var
-w=j;if(!N)var
-h=w}if(M)var
-h=jK(t,s,K,I,H,r,L,c,0,B,a);if(h){var
-g=y,b=e5(n,b);continue}var
-C=h}else
+E=s;if(!U)var
+c=E;break;case
+10:var
+F=a[3],G=a[2],g=a[1],B=0;if(typeof
+g!=="number"&&5===g[0]){var
+H=g[2],t=f(z,b),V=0;if(t){var
+J=I(d,H);if(J){var
+Y=g[1],c=j9(m,l,q,p,k,r,b,[0,jM(H,g[3],t[1])],o,Y,G,F);B=1;V=1}else
 var
-C=q;var
-D=C}else
+K=J}else
 var
-D=A;return D}return[0,b]}}return[0,E]}function
-gF(j,i,h,g,f,e,d,c,u,t,s){var
+K=t;if(!V){var
+c=K;B=1}}if(!B)var
+c=j9(m,l,q,p,k,r,b,0,o,g,G,F);break;default:A=1}if(A)var
+c=j7(m,l,q,T,p,k,r,b,0,o,a);if(c){var
+i=M,h=fh(w,h);continue}var
+O=c}else
+var
+O=y;var
+P=O}else
+var
+P=N;return P}return[0,h]}}return[0,Q]}function
+gU(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jL(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(av,l[1]):l}var
-m=jL(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=d4(a[2],b),q=gF(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
-b=p[2],k=n,a=a[4];continue}var
+l=j_(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(au,l[1]):l}var
+m=j_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=d_(a[2],b),q=gU(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-jM(a){return f(function(a){return 1},a)}function
-b5(a){switch(a[0]){case
+j$(a){return e(function(a){return 1},a)}function
+cb(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dQ(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,d0(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gk(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gy(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c7(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c$(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(jb(a,[0,d,c]))return 0;var
-b=a[1],e=bT(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,ab(a[2]),ab(b)];return[0,c7(g,f)]};break;default:return 0}var
-g=b5(e);if(g){var
-h=b5(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(jq(a,[0,d,c]))return 0;var
+b=a[1],e=b0(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,c$(g,f)]};break;default:return 0}var
+g=cb(e);if(g){var
+h=cb(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-j(i,e,b){var
-f=b5(b);if(f){var
-g=f[1];return e?av(c6(g,[0,d,c])):c6([0,d,c],g)}var
-a=bD(i,b);if(a){var
-h=a[1];return e?ad(d,h[1]):J(d,h[1])}return a}function
-jN(c,b){var
-a=bD(c,b),d=a?1:a;return d}function
-bm(c,a,b){var
-d=b3(a,b),e=d?jN(c,a):d;return e?e:j(c,0,[3,b,a])}function
-e6(a,d,b,c){function
-e(d,c){var
-e=b1(a[1],b[1]);return f(function(a){var
-b=r(c,a[2]);return I(r(d,a[1]),b)},e)}if(a$(a[2],b[2])){var
-g=a[2];return[0,e(d,c),g]}var
-h=r(a[2],b[2]),i=r(c,a[2]);return[0,e(r(d,b[2]),i),h]}function
-jO(a){var
-b=n(c);return[0,f(function(a){return n(d)},a),b]}function
-ba(a,i){var
-e=i[1];switch(e[0]){case
+k(i,e,b){var
+f=cb(b);if(f){var
+g=f[1];return e?au(c_(g,[0,d,c])):c_([0,d,c],g)}var
+a=bK(i,b);if(a){var
+h=a[1];return e?S(d,h[1]):I(d,h[1])}return a}function
+ka(c,b){var
+a=bK(c,b),d=a?1:a;return d}function
+bs(c,a,b){var
+d=b_(a,b),e=d?ka(c,a):d;return e?e:k(c,0,[3,b,a])}function
+fi(a,d,b,c){function
+f(d,c){var
+f=a$(a[1],b[1]);return e(function(a){var
+b=r(c,a[2]);return M(r(d,a[1]),b)},f)}if(bg(a[2],b[2])){var
+g=a[2];return[0,f(d,c),g]}var
+h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
+kb(a){var
+b=o(c);return[0,e(function(a){return o(d)},a),b]}function
+bh(a,i){var
+f=i[1];switch(f[0]){case
 1:var
-j=e[1];if(aR(function(a){return E(j,a)},a)){var
-t=n(c);return[0,f(function(a){var
-b=E(a,j)?c:d;return n(b)},a),t]}return jO(a);case
+j=f[1];if(aP(function(a){return t(j,a)},a)){var
+u=o(c);return[0,e(function(a){var
+b=t(a,j)?c:d;return o(b)},a),u]}return kb(a);case
 3:var
-u=n(c),v=ba(a,e[2]),w=n(c);return e6(ba(a,e[1]),w,v,u);case
+v=o(c),w=bh(a,f[2]),x=o(c);return fi(bh(a,f[1]),x,w,v);case
 4:var
-x=n(ab(c)),y=ba(a,e[2]),z=n(c);return e6(ba(a,e[1]),z,y,x);case
+y=o(aa(c)),z=bh(a,f[2]),A=o(c);return fi(bh(a,f[1]),A,z,y);case
 5:var
-k=ba(a,e[1]),A=k[2];return[0,f(b2,k[1]),A];case
+k=bh(a,f[1]),B=k[2];return[0,e(b8,k[1]),B];case
 6:var
-l=e[2],m=e[1],B=ba(a,l);return e6(ba(a,m),l,B,m);case
+l=f[2],m=f[1],C=bh(a,l);return fi(bh(a,m),l,C,m);case
 7:var
-p=e[2],C=b2(i),D=ba(a,p),F=n(c),g=e6(ba(a,e[1]),F,D,C),G=g[1];if(o(function(a){return a1(d,a)},G))return g;var
+p=f[2],D=b8(i),E=bh(a,p),F=o(c),g=fi(bh(a,f[1]),F,E,D),G=g[1];if(n(function(a){return a4(d,a)},G))return g;var
 H=r(g[2],p);return[0,g[1],H];case
 8:var
-q=e[1],s=ba(a,q),I=s[2],J=s[1],K=r(n(b(2,c)),q);return[0,f(function(a){return r(K,a)},J),I];case
+q=f[1],s=bh(a,q),I=s[2],J=s[1],K=r(o(b(2,c)),q);return[0,e(function(a){return r(K,a)},J),I];case
 9:var
-h=ba(a,e[1]),L=h[1];if(o(function(a){return a1(d,a)},L)){var
-M=n(c);return[0,h[1],M]}var
-N=r(n(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return jO(a)}}function
-cJ(m,r){var
+h=bh(a,f[1]),L=h[1];if(n(function(a){return a4(d,a)},L)){var
+M=o(c);return[0,h[1],M]}var
+N=r(o(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return kb(a)}}function
+cO(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(J(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(J(j,c)){var
-k=ah(b,o),l=k?dV(b):k;if(l)var
-p=ah(m[2],d),g=p||ah(b,d);else
+i=f[2],b=f[1];if(I(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(I(j,c)){var
+k=ad(b,n),l=k?d4(b):k;if(l)var
+p=ad(m[2],d),g=p||ad(b,d);else
 var
 g=l;var
 q=g?[0,b]:g,a=q}else
 var
-a=ah(bA(j,a6(2))[2],d)?0:0}else
+a=ad(bE(j,a9(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ah(bA(i,a6(2))[2],d)?0:0}else
+a=ad(bE(i,a9(2))[2],d)?0:0}else
 var
-a=0;return a?n(a[1]):[0,[1,r]]}function
-cK(b,a){if(a)var
-d=cK([0,b],a[2]),c=[0,cJ(a[1],b),d];else
+a=0;return a?o(a[1]):[0,[1,r]]}function
+cP(b,a){if(a)var
+d=cP([0,b],a[2]),c=[0,cO(a[1],b),d];else
 var
 c=a;return c}function
-a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gG(b,d,a){switch(a[0]){case
+bc(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gV(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(a8(c[3],b),f),i=g(a8(c[2],b),h);return g(a8(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bc(c[3],b),f),i=g(bc(c[2],b),h);return g(bc(c[1],d),i);case
 1:var
-e=a[3],j=e?a8(e[1],d):e,k=g(a8(a[2],b),j);return g(a8(a[1],b),k);default:return a8(a[1],d)}}function
-aL(b,a){var
-c=n(d),e=z(M(rx,a),b,c),f=n(d),g=z(M(ry,a),b,f);return[0,z(a,b,n(d)),g,e]}function
-jP(b,a){return aV(y,aV(I,cH,a),b)}function
-gH(c,b,a){if(a){var
-e=a[2],f=gH(c,gi(b),e),h=a[1];return g(gG(c,eL(d,b),h),f)}return a}function
-gI(m,k,h,x){if(h){var
-e=h[1],P=M(x,l(gG(m,eL(d,k),e))),Q=h[2],S=gI(m,gi(k),Q,P),a=cK(x,gG(m,eL(d,k),e));switch(e[0]){case
+e=a[3],j=e?bc(e[1],d):e,k=g(bc(a[2],b),j);return g(bc(a[1],b),k);default:return bc(a[1],d)}}function
+aM(b,a){var
+c=o(d),e=u(O(r4,a),b,c),f=o(d),g=u(O(r5,a),b,f);return[0,u(a,b,o(d)),g,e]}function
+kc(b,a){return aX(D,aX(M,cN,a),b)}function
+fj(c,b,a){if(a){var
+e=a[2],f=fj(c,gw(b),e),h=a[1];return g(gV(c,eW(d,b),h),f)}return a}function
+gW(m,l,h,y){if(h){var
+e=h[1],Q=O(y,j(gV(m,eW(d,l),e))),R=h[2],S=gW(m,gw(l),R,Q),a=cP(y,gV(m,eW(d,l),e));switch(e[0]){case
 0:var
-H=e[1][5],u=z(rz,a,n(d)),J=aV(I,cH,aL(a,rA)),g=gz(aL(a,0)),K=aL(a,rB),v=jP(aL(a,rC),K),p=ax(g,v),f=aV(y,v,d3(p,g)),B=ax(f,f),q=y(ac(u),B),r=ck(q),i=H?r:b2(r),C=y(p,i),D=aV(I,g,eW(f,i)),o=[0,aV(I,f,d3(i,g)),q,D,C,[0,u],0,[0,J]];break;case
+H=e[1][5],v=u(r6,a,o(d)),I=aX(M,cN,aM(a,r7)),g=gO(aM(a,0)),J=aM(a,r8),w=kc(aM(a,r9),J),p=ay(g,w),f=aX(D,w,d9(p,g)),A=ay(f,f),q=D(ae(v),A),r=cr(q),i=H?r:b8(r),B=D(p,i),C=aX(M,g,e9(f,i)),n=[0,aX(M,f,d9(i,g)),q,C,B,[0,v],0,[0,I]];break;case
 1:var
-w=e[3],L=w?[0,gz(aL(a,rD))]:w,N=aV(I,cH,aL(a,rE)),O=aL(a,rF),b=jP(aL(a,0),O),s=ax(b,b),t=ck(s),E=[0,N],F=R(function(a){return aV(y,b,d3(ax(a,b),a))},L),o=[0,b,s,eW(b,t),t,0,F,E];break;default:var
-j=gz(aL(a,0)),G=ax(j,cH),o=[0,j,n(c),j,G,0,0,0]}var
-A=[0,o,S]}else
+x=e[3],L=x?[0,gO(aM(a,r_))]:x,N=aX(M,cN,aM(a,r$)),P=aM(a,sa),b=kc(aM(a,0),P),s=ay(b,b),t=cr(s),E=[0,N],F=K(function(a){return aX(D,b,d9(ay(a,b),a))},L),n=[0,b,s,e9(b,t),t,0,F,E];break;default:var
+k=gO(aM(a,0)),G=ay(k,cN),n=[0,k,o(c),k,G,0,0,0]}var
+z=[0,n,S]}else
 var
-A=h;return A}function
-bn(b,a){if(typeof
+z=h;return z}function
+bt(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -3018,7 +3293,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eU(a[2]),l=[2,[2,eU(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=e6(a[2]),l=[2,[2,e6(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -3033,82 +3308,82 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 9:var
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],b]}}function
-d5(b,a){var
+eb(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-e7(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(d5(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=d5(b,a[3]);return g(d5(b,a[2]),j)}function
-db(b,a){if(typeof
+fk(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(eb(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=eb(b,a[3]);return g(eb(b,a[2]),j)}function
+dl(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=e7(b,a[2]);return g(e7(b,a[1]),e);case
+e=fk(b,a[2]);return g(fk(b,a[1]),e);case
 11:var
-f=d5(b,a[3]);return g(d5(b,a[2]),f);case
+f=eb(b,a[3]);return g(eb(b,a[2]),f);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jQ(c,b,a){var
-d=l(db(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-jR(k,a,g){switch(g[0]){case
+kd(c,b,a){var
+d=j(dl(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
+ke(k,a,g){switch(g[0]){case
 0:var
-e=ae(k,g[1]);if(e){var
+e=af(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aL(a,rG);return aV(I,aV(y,l,d3(c,b[1])),d)},m=c$(b),o=h(as(z(rH,a,n(d)),m)),p=c$(b),q=as(z(0,a,n(d)),p),i=[0,[0,h(y(n(c),q)),o]];else
+d=aM(a,sb);return aX(M,aX(D,l,d9(c,b[1])),d)},m=dh(b),n=h(av(u(sc,a,o(d)),m)),p=dh(b),q=av(u(0,a,o(d)),p),i=[0,[0,h(D(o(c),q)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aL(a,rI);return[0,[0,aL(a,0),r]];default:var
-s=aV(I,cH,aL(a,rJ));return[0,[0,aV(I,cH,aL(a,0)),s]]}}function
-jS(f,e,j,d,c){var
-k=e7(e,c),h=cK(j,g(e7(e,d),k)),a=jR(f,eM(rK,h),d);if(a)var
-b=jR(f,i$(rL,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aM(a,sd);return[0,[0,aM(a,0),r]];default:var
+s=aX(M,cN,aM(a,se));return[0,[0,aX(M,cN,aM(a,0)),s]]}}function
+kf(f,e,j,d,c){var
+k=fk(e,c),h=cP(j,g(fk(e,d),k)),a=ke(f,eX(sf,h),d);if(a)var
+b=ke(f,jo(sg,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-gJ(d,c,b,a){var
-e=r(c,b);return y(r(d,a),e)}function
-cL(a){return A(function(a){return g(a[1],[0,a[2],0])},a)}function
-jT(a){if(a){var
+gX(d,c,b,a){var
+e=r(c,b);return D(r(d,a),e)}function
+cQ(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+kg(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jT(a[2]);if(d)var
-g=d[1],h=ax(c,c),e=[0,[0,[0,d2(c),h],g]];else
+c=b[1],d=kg(a[2]);if(d)var
+g=d[1],h=ay(c,c),e=[0,[0,[0,d8(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return rN}function
-e8(b,d,c,a){if(typeof
+f=b;return f}return si}function
+fl(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=c[1],g=cJ(bn(d,a),e);return[0,f(function(a){var
-b=r(a[2],g);return[0,d2(a[1]),b]},b)];case
-9:return jT(b)}return 0}function
-co(e,k,j,a){var
-U=j[1],b=cJ(bn(k,a),U),w=0;if(typeof
-a==="number")w=1;else
+f=c[1],g=cO(bt(d,a),f);return[0,e(function(a){var
+b=r(a[2],g);return[0,d8(a[1]),b]},b)];case
+9:return kg(b)}return 0}function
+cv(e,k,j,a){var
+U=j[1],b=cO(bt(k,a),U),x=0;if(typeof
+a==="number")x=1;else
 switch(a[0]){case
 2:var
-V=function(a){return[0,y(a[4],b),0]},g=V,f=a[1];break;case
+V=function(a){return[0,D(a[4],b),0]},g=V,f=a[1];break;case
 3:var
-W=function(a){return[0,y(b,a[4]),0]},g=W,f=a[1];break;case
+W=function(a){return[0,D(b,a[4]),0]},g=W,f=a[1];break;case
 4:var
 X=function(c){var
-a=c[1],d=ac(a[3]),e=ac(a[2]),f=ac(a[1]),g=c[2];return[0,y(y(y(r(ac(b),g),f),e),d),0]},g=X,f=a[1];break;case
+a=c[1],d=ae(a[3]),e=ae(a[2]),f=ae(a[1]),g=c[2];return[0,D(D(D(r(ae(b),g),f),e),d),0]},g=X,f=a[1];break;case
 6:var
 Y=function(c){var
 a=c[5];if(a)var
-e=ac(a[1]),f=r(ac(b),e),d=[0,y(c[2],f),0];else
+e=ae(a[1]),f=r(ae(b),e),d=[0,D(c[2],f),0];else
 var
 d=a;return d},g=Y,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-B=m[1],C=l[1],D=e[1],p=D[5];if(p){var
-q=C[5];if(q){var
-s=B[5];if(s)var
-h=B[1],i=C[1],t=D[1],P=gJ(i[1],i[2],h[1],h[2]),Q=r(t[3],P),R=gJ(i[1],i[3],h[1],h[3]),S=r(t[2],R),T=gJ(i[2],i[3],h[2],h[3]),x=I(y(r(t[1],T),S),Q),Z=s[1],_=q[1],E=r(r(r(b,p[1]),_),Z),$=[0,b2(I(x,E)),0],F=[0,y(x,E),$];else
+z=m[1],A=l[1],B=e[1],p=B[5];if(p){var
+q=A[5];if(q){var
+s=z[5];if(s)var
+h=z[1],i=A[1],t=B[1],P=gX(i[1],i[2],h[1],h[2]),Q=r(t[3],P),R=gX(i[1],i[3],h[1],h[3]),S=r(t[2],R),T=gX(i[2],i[3],h[2],h[3]),y=M(D(r(t[1],T),S),Q),Z=s[1],_=q[1],C=r(r(r(b,p[1]),_),Z),$=[0,b8(M(y,C)),0],F=[0,D(y,C),$];else
 var
 F=s;var
 G=F}else
@@ -3117,140 +3392,140 @@ G=q;var
 H=G}else
 var
 H=p;var
-J=H}else
+I=H}else
 var
-J=m;var
+I=m;var
+J=I}else
+var
+J=l;var
 K=J}else
 var
-K=l;var
-L=K}else
-var
-L=e;return L;case
+K=e;return K;case
 10:var
-v=jS(e,k,j[2],a[1],a[2]);if(v){var
-M=v[1],N=M[2],O=M[1];return A(d2,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return v;case
+w=kf(e,k,j[2],a[1],a[2]);if(w){var
+L=w[1],N=L[2],O=L[1];return E(d8,[0,O[1],[0,O[2],[0,N[1],[0,N[2],0]]]])}return w;case
 11:var
 aa=function(d){var
 e=d[7];if(e)var
-n=db(k,a),f=cK(j[2],n),h=aL(f,rM),c=aV(y,aL(f,0),h),i=ac(b),l=ac(c$(d)),m=as(ac(ax(c,d[1])),l),g=[0,y(y(ax(c,c),m),i),0];else
+n=dl(k,a),f=cP(j[2],n),h=aM(f,sh),c=aX(D,aM(f,0),h),i=ae(b),l=ae(dh(d)),m=av(ae(ay(c,d[1])),l),g=[0,D(D(ay(c,c),m),i),0];else
 var
 g=e;return g},g=aa,f=a[1];break;case
 12:var
 ab=function(e){var
-p=n(d),q=db(k,a),s=z(0,cK(j[2],q),p),f=as(s,c$(e)),g=e[5];if(g){var
-l=ck(e[2]),h=as(g[1],l),m=r(h,I(b,r(f,ac(h))));return[0,y(n(c),m),0]}var
-i=e[7],o=i?[0,y(y(n(c),b),f),0]:i;return o},g=ab,f=a[1];break;case
+p=o(d),q=dl(k,a),s=u(0,cP(j[2],q),p),f=av(s,dh(e)),g=e[5];if(g){var
+l=cr(e[2]),h=av(g[1],l),m=r(h,M(b,r(f,ae(h))));return[0,D(o(c),m),0]}var
+i=e[7],n=i?[0,D(D(o(c),b),f),0]:i;return n},g=ab,f=a[1];break;case
 8:case
 9:var
-u=e8(e,k,j,a);return u?cL(u[1]):u;default:w=1}if(w)return 0;var
-o=ae(e,f);return o?g(o[1]):o}function
-gK(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gK(d,b,jQ(b,e,c),f);return g(co(d,b,c,e),h)}return a}var
-jU=[0,d,c],jV=[0,[0,jU,jU],d];function
-jW(a){var
-b=cE(0,l(a));return dP(function(c){var
-b=z(c,a,jV);return av(b3(b[1][1],b[1][2]))},b)}function
-jX(a,g){var
-h=g[4],b=ba(jW(a),h),c=b[1],e=f(function(a){return a1(d,a)?a:as(a,b[2])},c),i=b1(jW(a),e);return dP(function(a){return av(a1(d,a[2]))},i)}function
-jY(g,F,k,D,m,h,n,r){if(r){var
-a=r[1],az=r[2],aA=jY(g,F,k,D,m,h,jQ(h,a,n),az);if(typeof
+v=fl(e,k,j,a);return v?cQ(v[1]):v;default:x=1}if(x)return 0;var
+n=af(e,f);return n?g(n[1]):n}function
+gY(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gY(d,b,kd(b,e,c),f);return g(cv(d,b,c,e),h)}return a}var
+kh=[0,d,c],ki=[0,[0,kh,kh],d];function
+kj(a){return au(b_(a[1][1],a[1][2]))}function
+kk(a){var
+b=bH(0,j(a));return c9(function(b){return kj(u(b,a,ki))},b)}function
+kl(a,g){var
+h=g[4],b=bh(kk(a),h),c=b[1],f=e(function(a){return a4(d,a)?a:av(a,b[2])},c),i=a$(kk(a),f);return c9(function(a){return au(a4(d,a[2]))},i)}function
+km(g,G,l,F,m,h,n,r){if(r){var
+a=r[1],aA=r[2],aB=km(g,G,l,F,m,h,kd(h,a,n),aA);if(typeof
 a==="number")var
-i=0===a?[0,[0,L]]:[0,[8,F[1],F[2]]];else
+i=0===a?[0,[0,x]]:[0,[8,G[1],G[2]]];else
 switch(a[0]){case
 0:var
-al=aq(g,bn(h,a)),i=R(function(a){return[0,U(g,a)]},al);break;case
+al=as(g,bt(h,a)),i=K(function(a){return[0,Y(g,a)]},al);break;case
 1:var
-am=aq(g,bn(h,a)),i=R(function(a){return[1,U(g,a)]},am);break;case
+an=as(g,bt(h,a)),i=K(function(a){return[1,Y(g,a)]},an);break;case
 5:var
-ao=aq(g,bn(h,a)),i=R(function(a){return[2,U(g,a)]},ao);break;case
+ap=as(g,bt(h,a)),i=K(function(a){return[2,Y(g,a)]},ap);break;case
 8:var
-ap=e8(m,h,n,a),i=R(function(a){var
-b=aw(g,c);return[4,e(a2(k),a),b]},ap);break;case
+aq=fl(m,h,n,a),i=K(function(a){var
+b=am(g,c);return[4,f(a5(l),a),b]},aq);break;case
 9:var
-u=e8(m,h,n,a);if(u){var
-v=aq(g,bn(h,a));if(v)var
-ar=U(g,v[1]),as=u[1],M=[0,[4,e(a2(k),as),ar]];else
+w=fl(m,h,n,a);if(w){var
+y=as(g,bt(h,a));if(y)var
+ar=Y(g,y[1]),at=w[1],N=[0,[4,f(a5(l),at),ar]];else
 var
-M=v;var
-N=M}else
+N=y;var
+O=N}else
 var
-N=u;var
-i=N;break;case
+O=w;var
+i=O;break;case
 10:var
-w=jS(m,h,n[2],a[1],a[2]);if(w){var
-O=w[1],P=O[2],Q=O[1],x=aq(g,bn(h,a));if(x){var
-S=x[1],T=J(d,S[1]);if(T)var
+z=kf(m,h,n[2],a[1],a[2]);if(z){var
+P=z[1],Q=P[2],R=P[1],A=as(g,bt(h,a));if(A){var
+S=A[1],T=I(d,S[1]);if(T)var
 p=function(a){var
-b=e(k,a[3]),c=e(k,a[2]);return[0,e(k,a[1]),c,b]},at=p(P[2]),au=p(P[1]),av=p(Q[2]),V=[0,[6,p(Q[1]),av,au,at,S]];else
+b=f(l,a[3]),c=f(l,a[2]);return[0,f(l,a[1]),c,b]},au=p(Q[2]),av=p(Q[1]),aw=p(R[2]),U=[0,[6,p(R[1]),aw,av,au,S]];else
 var
-V=T;var
+U=T;var
+V=U}else
+var
+V=A;var
 W=V}else
 var
-W=x;var
-X=W}else
-var
-X=w;var
-i=X;break;case
+W=z;var
+i=W;break;case
 12:var
-q=co(m,h,n,a),s=0;if(q)if(q[2])var
+q=cv(m,h,n,a),s=0;if(q)if(q[2])var
 i=0;else{var
-Y=j(g,0,a[2]),Z=Y?j(g,1,a[4]):Y;if(Z){var
-y=[0,[3,e(k,q[1])]];s=1}else{var
-y=Z;s=1}}else{var
-y=q;s=1}if(s)var
-i=y;break;case
+X=k(g,0,a[2]),Z=X?k(g,1,a[4]):X;if(Z){var
+B=[0,[3,f(l,q[1])]];s=1}else{var
+B=Z;s=1}}else{var
+B=q;s=1}if(s)var
+i=B;break;case
 13:var
-_=a[1],$=ae(m,_),G=0;if($){var
-aa=j(g,1,a[2]),ab=aa?j(g,1,a[3]):aa;if(ab)var
-ax=aq(g,bn(h,a)),i=R(function(a){return[7,_,U(g,a)]},ax);else{var
-ac=ab;G=1}}else{var
-ac=$;G=1}if(G)var
+_=a[1],$=af(m,_),H=0;if($){var
+aa=k(g,1,a[2]),ab=aa?k(g,1,a[3]):aa;if(ab)var
+ax=as(g,bt(h,a)),i=K(function(a){return[7,_,Y(g,a)]},ax);else{var
+ac=ab;H=1}}else{var
+ac=$;H=1}if(H)var
 i=ac;break;case
 14:var
-A=a[2],ad=a[1],af=E(l(m),rO),ag=af?j(g,0,ad):af,ah=ag?j(g,1,A):ag;if(ah){var
-B=aq(g,bn(h,a));if(B)var
-C=aE(f(function(n){var
-j=[5,ad,A],a=aq(g,[0,[0,j,j],d]);if(a){var
-o=jX(D,n),i=aE(f(function(f){var
-a=z(f[1],D,jV),i=bx(a[2],h),j=[4,[0,b(2,c),c],A],d=[5,[3,a[1][2],a[1][1]],j],l=aq(g,[0,[0,d,d],i]);return R(function(a){return[0,a,e(k,f[2])]},l)},o));if(i)var
-p=[0,a[1],i[1]],l=[0,[0,e(k,n[4]),p]];else
+C=a[2],ad=a[1],ae=t(j(m),sj),ag=ae?k(g,0,ad):ae,ah=ag?k(g,1,C):ag;if(ah){var
+D=as(g,bt(h,a));if(D)var
+E=az(e(function(n){var
+j=[5,ad,C],a=as(g,[0,[0,j,j],d]);if(a){var
+o=kl(F,n),i=az(e(function(e){var
+a=u(e[1],F,ki),i=aS(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],k=as(g,[0,[0,d,d],i]);return K(function(a){return[0,a,f(l,e[2])]},k)},o));if(i)var
+p=[0,a[1],i[1]],k=[0,[0,f(l,n[4]),p]];else
 var
-l=i;var
-m=l}else
+k=i;var
+m=k}else
 var
-m=a;return m},m)),ay=C?[0,[9,B[1],C[1]]]:C,ai=ay;else
+m=a;return m},m)),ay=E?[0,[9,D[1],E[1]]]:E,ai=ay;else
 var
-ai=B;var
+ai=D;var
 aj=ai}else
 var
 aj=ah;var
 i=aj;break;default:var
-o=co(m,h,n,a),H=0;if(o){var
-t=o[2],I=o[1];if(t)if(t[2])var
+o=cv(m,h,n,a),J=0;if(o){var
+v=o[2],L=o[1];if(v)if(v[2])var
 i=0;else
 var
-an=e(k,t[1]),i=[0,[5,e(k,I),an]];else{var
-K=[0,[3,e(k,I)]];H=1}}else{var
-K=o;H=1}if(H)var
-i=K}var
-ak=[0,i,aA]}else
+ao=f(l,v[1]),i=[0,[5,f(l,L),ao]];else{var
+M=[0,[3,f(l,L)]];J=1}}else{var
+M=o;J=1}if(J)var
+i=M}var
+ak=[0,i,aB]}else
 var
 ak=r;return ak}function
-rP(a){var
+sk(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-gL(a,p,o){var
-q=a8(p,o),b=f(function(b){return aq(a,b)},q);if(b){var
+gZ(a,p,o){var
+q=bc(p,o),b=e(function(b){return as(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
-e=c[2];if(e){var
-i=e[1];if(i){if(e[2])return 0;var
-r=U(a,i[1]),s=U(a,h[1]);return ad(d,C(C(U(a,g[1]),s),r)[1])}var
+f=c[2];if(f){var
+i=f[1];if(i){if(f[2])return 0;var
+r=Y(a,i[1]),s=Y(a,h[1]);return S(d,C(C(Y(a,g[1]),s),r)[1])}var
 j=i}else
 var
-j=e;var
+j=f;var
 k=j}else
 var
 k=h;var
@@ -3263,31 +3538,31 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ag(c,b,a){var
-d=T(c,b[3],a[3]),e=T(c,b[2],a[2]);return[0,T(c,b[1],a[1]),e,d]}function
-aF(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-G(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aM(a){return aF([5,[0,c,c],[6,G(a,a)]],a)}function
-cM(c,b,a){var
-d=bm(c,b[1],a);return d?bm(c,a,b[2]):d}function
-aW(c,b,a){var
-d=cM(c,b[1],a[1]),e=d?cM(c,b[2],a[2]):d;return e?cM(c,b[3],a[3]):e}function
-jZ(c,a,b){if(0===a[0])return aW(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?cM(c,a[4],b[3]):h}function
-j0(a,D,H,F){var
-h=D[1],d=H;for(;;){if(h){if(d){var
+ai(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+aG(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+J(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aN(a){return aG([5,[0,c,c],[6,J(a,a)]],a)}function
+cR(c,b,a){var
+d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
+aY(c,b,a){var
+d=cR(c,b[1],a[1]),e=d?cR(c,b[2],a[2]):d;return e?cR(c,b[3],a[3]):e}function
+kn(c,a,b){if(0===a[0])return aY(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=k(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?k(c,0,d):g;return h?cR(c,a[4],b[3]):h}function
+ko(a,D,G,F){var
+h=D[1],d=G;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aW(a,f[1],i),q=p?j(a,1,G(i,i)):p,r=q?aW(a,f[2],b[2]):q,s=r?aW(a,f[3],b[3]):r,t=s?cM(a,f[4],o):s,u=t?j(a,1,o):t,c=u?dM(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aY(a,f[1],i),q=p?k(a,1,J(i,i)):p,r=q?aY(a,f[2],b[2]):q,s=r?aY(a,f[3],b[3]):r,t=s?cR(a,f[4],o):s,u=t?k(a,1,o):t,c=u?dW(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aW(a,e[1],b[1]),x=w?aW(a,e[2],b[2]):w,n=0;if(x)if(v){var
+g=b[3],w=aY(a,e[1],b[1]),x=w?aY(a,e[2],b[2]):w,n=0;if(x)if(v){var
 E=0;if(g){var
-k=g[1],y=aW(a,v[1],k);if(y){var
-c=j(a,1,G(k,k));E=1}else
+j=g[1],y=aY(a,v[1],j);if(y){var
+c=k(a,1,J(j,j));E=1}else
 var
 z=y}else
 var
@@ -3300,7 +3575,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-l=b[1],B=aW(a,e[1],l),c=B?j(a,1,G(l,l)):B;else
+l=b[1],B=aY(a,e[1],l),c=B?k(a,1,J(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -3309,96 +3584,96 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?jZ(a,D[2],F):m}}function
-bG(c,b,a){var
-d=ag(function(b,a){return[2,b,a]},a,b);return ag(function(b,a){return[3,b,a]},d,c)}function
-e9(a,e,d,c){var
-b=bG(e,d,c),f=aM(a),g=aF(G(aM(a),b),f);return ag(function(b,a){return[3,b,a]},b,g)}function
-dc(f,e,d,a,c){var
-b=e9(f,e,d,c);return[3,[4,a,a],G(b,b)]}function
-dd(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-de(a,b){switch(a[0]){case
+m=d?0:1;return m?kn(a,D[2],F):m}}function
+bM(c,b,a){var
+d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
+fm(a,e,d,c){var
+b=bM(e,d,c),f=aN(a),g=aG(J(aN(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
+dm(f,e,d,a,c){var
+b=fm(f,e,d,c);return[3,[4,a,a],J(b,b)]}function
+dn(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+dp(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e9(d,f,e,b),h=dc(d,f,e,a[4],b),i=aF([5,[0,c,c],dd(a[5],h)],g),j=aM(d);return ag(function(b,a){return[2,b,a]},j,i);case
-1:return aM(bG(a[1],a[2],b));default:return aM(a[1])}}function
-j1(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fm(d,f,e,b),h=dm(d,f,e,a[4],b),i=aG([5,[0,c,c],dn(a[5],h)],g),j=aN(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return aN(bM(a[1],a[2],b));default:return aN(a[1])}}function
+kp(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dc(e,d,c,a[4],b),i=dd(a[5],h),j=bG(d,c,b);return[3,G(aM(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dm(e,d,c,a[4],b),i=dn(a[5],h),j=bM(d,c,b);return[3,J(aN(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bG(g,f,b);return[6,G(bG(g,f,b),k)];default:return G(aM(a[1]),b)}}function
-d6(e,b,a){var
-f=[0,d,c];return cD(function(c,d){var
-e=G(de(c,b),a);return[2,[4,G(de(c,b),a),e],d]},f,e)}function
-j2(a){var
+f=a[2],g=a[1],k=bM(g,f,b);return[6,J(bM(g,f,b),k)];default:return J(aN(a[1]),b)}}function
+ec(e,b,a){var
+f=[0,d,c];return bG(function(c,d){var
+e=J(dp(c,b),a);return[2,[4,J(dp(c,b),a),e],d]},f,e)}function
+kq(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gM(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aM(b),h=dc(b,f,e,d,c),i=aF(dd(a[5],h),g),j=e9(b,f,e,c);return[0,[0,ag(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-j3(d,i){if(d){var
+g0(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aN(b),h=dm(b,f,e,d,c),i=aG(dn(a[5],h),g),j=fm(b,f,e,c);return[0,[0,ai(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+kr(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bG(a[1],a[2],i),k=aM(f),l=aF(G(aM(f),g),k),h=[0,ag(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bM(a[1],a[2],i),k=aN(f),l=aG(J(aN(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=j3(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kr(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return rQ}function
-cN(a){return[0,a[1],a[2],a[3]]}function
-j4(a,b){switch(a[0]){case
+j=b;return j}return sl}function
+cS(a){return[0,a[1],a[2],a[3]]}function
+ks(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aM(d),j=dc(d,g,c,f,b),k=aF(dd(a[5],j),i),l=e9(d,g,c,b),m=ag(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ag(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aN(d),j=dm(d,g,c,f,b),k=aG(dn(a[5],j),i),l=fm(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bG(a[1],h,b),n=[6,G(e,e)];return[0,[0,[0,ag(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-j5(l,b,a){switch(a[0]){case
+h=a[2],e=bM(a[1],h,b),n=[6,J(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kt(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=ae(l,a[1]);if(d){var
-e=j4(d[1],b);if(e)var
+m=a[5],d=af(l,a[1]);if(d){var
+e=ks(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cN(m),c=aF(a,n),d=ag(function(b,a){return[3,b,a]},o,c);return ag(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cS(m),c=aG(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cN(a[3]);return[0,[0,cN(a[2]),q]];default:var
-r=cN(a[3]),s=ag(function(b,a){return[2,b,a]},b,r),t=cN(a[2]);return[0,[0,ag(function(b,a){return[2,b,a]},b,t),s]]}}function
-j6(d,a,c,b){var
-e=aF(a,b),f=aF([3,d,a],c);return ag(function(b,a){return[2,b,a]},f,e)}function
-j7(f,g,e,b,q,a){function
-J(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],G(b,b)]}var
-H=0;if(typeof
-a==="number")H=1;else
+q=cS(a[3]);return[0,[0,cS(a[2]),q]];default:var
+r=cS(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cS(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
+ku(d,a,c,b){var
+e=aG(a,b),f=aG([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
+kv(f,g,e,b,q,a){function
+I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],J(b,b)]}var
+G=0;if(typeof
+a==="number")G=1;else
 switch(a[0]){case
 0:var
-av=d6(g,e,b);return j(f,1,[3,J(a[1]),av]);case
+av=ec(g,e,b);return k(f,1,[3,I(a[1]),av]);case
 1:var
-aw=J(a[1]);return j(f,1,[3,d6(g,e,b),aw]);case
+aw=I(a[1]);return k(f,1,[3,ec(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[3,ax,j1(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[3,ax,kp(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[3,j1(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[3,kp(a,e),az]},s=aA,r=a[1];break;case
 4:var
 K=a[3],L=a[2],aB=function(a){var
-b=de(a,e);return[3,[4,[4,L,L],G(de(a,e),b)],[4,K,K]]},s=aB,r=a[1];break;case
+b=dp(a,e);return[3,[4,[4,L,L],J(dp(a,e),b)],[4,K,K]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=G(b,b),aD=[4,[4,M,M],[4,d6(g,e,q),aC]],aE=G(q,q);return j(f,1,[3,[4,d6(g,e,b),aE],aD]);case
+M=a[1],aC=J(b,b),aD=[4,[4,M,M],[4,ec(g,e,q),aC]],aE=J(q,q);return k(f,1,[3,[4,ec(g,e,b),aE],aD]);case
 6:var
-N=a[2],u=ae(g,a[1]);if(u){var
+N=a[2],u=af(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=dc(h[1],h[2],h[3],v,e),O=dd(h[5],aF);return j(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
+v=h[4],aF=dm(h[1],h[2],h[3],v,e),O=dn(h[5],aF);return k(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gM(g[1],e);if(w){var
-Q=w[1],x=gM(n[1],e);if(x){var
-R=x[1],y=gM(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],I=G(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,I]);if(U)return j(f,1,[2,T,I]);var
+w=g0(g[1],e);if(w){var
+Q=w[1],x=g0(n[1],e);if(x){var
+R=x[1],y=g0(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],j=R[1],H=J(Q[1],[0,[3,[4,j[2],i[3]],[4,j[3],i[2]]],[3,[4,j[3],i[1]],[4,j[1],i[3]]],[3,[4,j[1],i[2]],[4,j[2],i[1]]]]),U=k(f,1,[3,T,H]);if(U)return k(f,1,[2,T,H]);var
 V=U}else
 var
 V=y;var
@@ -3418,15 +3693,15 @@ _=Z}else
 var
 _=g;return _;case
 8:var
-aG=d6(g,e,b),aH=G(b,b);return j(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aG=ec(g,e,b),aH=J(b,b);return k(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=j3(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=cD(function(a,c){var
-d=G(aM(a),b);return[2,[4,G(aM(a),b),d],c]},at,aI);return j(f,1,[3,[4,[4,$,$],G(b,b)],au])}return z;case
+$=a[1],z=kr(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=bG(function(a,c){var
+d=J(aN(a),b);return[2,[4,J(aN(a),b),d],c]},at,aI);return k(f,1,[3,[4,[4,$,$],J(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=j5(g,e,ab);if(A){var
-ac=A[1],B=j5(g,e,aa);if(B){var
-ad=B[1],C=b[1],D=b[2],l=b[3],aJ=j6(l,D,ad[1],ad[2]),aK=j6(l,C,ac[1],ac[2]),af=ag(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aN=eU(aa),ah=[4,l,[2,[2,eU(ab),aN],aL]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],G(af,af)]);var
+aa=a[2],ab=a[1],A=kt(g,e,ab);if(A){var
+ac=A[1],B=kt(g,e,aa);if(B){var
+ad=B[1],C=b[1],D=b[2],l=b[3],aJ=ku(l,D,ad[1],ad[2]),aK=ku(l,C,ac[1],ac[2]),ae=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=e6(aa),ag=[4,l,[2,[2,e6(ab),aM],aL]],ah=k(f,1,l),aj=ah?k(f,0,C):ah,ak=aj?k(f,0,[3,l,C]):aj,al=ak?k(f,0,D):ak,am=al?k(f,0,[3,l,D]):al;if(am)return k(f,1,[3,[4,ag,ag],J(ae,ae)]);var
 an=am}else
 var
 an=B;var
@@ -3434,33 +3709,33 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=ae(g,a[1]);if(E){var
-F=j4(E[1],e);if(F){var
-m=F[1][1][2],aO=cN(a[3]),aP=cN(a[2]),p=ag(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,G(m,m));if(aq){var
-aQ=G(m,m),aR=G(p,m),aS=[5,[4,G(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,G(p,p),aS]])}var
+ap=a[4],E=af(g,a[1]);if(E){var
+F=ks(E[1],e);if(F){var
+m=F[1][1][2],aO=cS(a[3]),aP=cS(a[2]),p=ai(function(b,a){return[3,b,a]},aP,aO),aq=k(f,1,J(m,m));if(aq){var
+aQ=J(m,m),aR=J(p,m),aS=[5,[4,J(p,m),aR],aQ];return k(f,1,[3,[4,ap,ap],[3,J(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
-as=E;return as;default:H=1}if(H)return 0;var
-t=ae(g,r);return t?j(f,1,s(t[1])):t}function
-cp(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-rR(a){switch(a[0]){case
+as=E;return as;default:G=1}if(G)return 0;var
+t=af(g,r);return t?k(f,1,s(t[1])):t}function
+cw(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+sm(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=cp(b[3]),f=cp(b[2]);return[0,cp(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cw(b[3]),f=cw(b[2]);return[0,cw(b[1]),f,e,d,c];case
 1:var
-g=R(cp,a[3]),h=cp(a[2]);return[1,cp(a[1]),h,g];default:return[2,cp(a[1])]}}function
-j8(c,b){var
-a=b[2],d=0===a[0]?cp(a[1]):[0,a[1],a[2],a[4][1]];return j0(c,b,f(rR,b[1]),d)}function
-df(b,a){if(b){if(a){var
-e=df(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-j9(a,l,k,f){var
-b=bD(a,l);if(b){var
-c=bD(a,k);if(c){var
-d=eT(a,f);if(d){var
-e=gt(a,f);if(e)var
-m=F(a,b[1],e[1]),g=[0,O(F(a,c[1],d[1]),m)];else
+g=K(cw,a[3]),h=cw(a[2]);return[1,cw(a[1]),h,g];default:return[2,cw(a[1])]}}function
+kw(c,b){var
+a=b[2],d=0===a[0]?cw(a[1]):[0,a[1],a[2],a[4][1]];return ko(c,b,e(sm,b[1]),d)}function
+dq(b,a){if(b){if(a){var
+e=dq(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kx(a,l,k,f){var
+b=bK(a,l);if(b){var
+c=bK(a,k);if(c){var
+d=e5(a,f);if(d){var
+e=gG(a,f);if(e)var
+m=v(a,b[1],e[1]),g=[0,L(v(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3472,43 +3747,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-j_(f,D,s,C,a,e){function
-t(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],df(a,a)]}var
+ky(f,E,s,D,a,e){function
+u(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],dq(a,a)]}var
 F=s[1];function
 g(b){var
-a=[0,d,c];return cD(function(a,c){var
-d=df(a,b);return[2,[4,df(a,b),d],c]},a,F)}var
-u=o(function(a){return E(l(a),D)},a);if(u){var
+a=[0,d,c];return bG(function(a,c){var
+d=dq(a,b);return[2,[4,dq(a,b),d],c]},a,F)}var
+v=n(function(a){return t(j(a),E)},a);if(v){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-w=a[1],G=g(w);return j(f,1,[3,t(e[1],w),G])}return a;case
+x=a[1],G=g(x);return k(f,1,[3,u(e[1],x),G])}return a;case
 1:if(a){if(a[2])return 0;var
-x=a[1],H=t(e[1],x);return j(f,1,[3,g(x),H])}return a;case
+y=a[1],H=u(e[1],y);return k(f,1,[3,g(y),H])}return a;case
 2:if(a)return 0;var
 I=e[2],J=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[3,I,a[1]]);return 0},k=J,i=e[1];break;case
+a!=="number"&&0===a[0])return k(f,1,[3,I,a[1]]);return 0},l=J,i=e[1];break;case
 3:if(a)return 0;var
 K=e[2],L=function(a){if(typeof
-a!=="number"&&0===a[0])return j(f,1,[3,a[1],K]);return 0},k=L,i=e[1];break;case
+a!=="number"&&0===a[0])return k(f,1,[3,a[1],K]);return 0},l=L,i=e[1];break;case
 4:if(a)return 0;var
-y=e[3],z=e[2],M=function(a){if(typeof
+z=e[3],A=e[2],M=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=j(f,0,[3,[2,z,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],y]);if(k){if(C){var
-e=j9(f,i,h,z);return e?ad(e[1][2],d):e}var
-g=j9(f,i,h,y);return g?ad(d,g[1][1]):g}return k}return 0},k=M,i=e[1];break;case
+h=a[2],i=a[1],j=k(f,0,[3,[2,A,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],z]);if(j){if(D){var
+e=kx(f,i,h,A);return e?S(e[1][2],d):e}var
+g=kx(f,i,h,z);return g?S(d,g[1][1]):g}return j}return 0},l=M,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],p=a[1],A=e[1],N=df(p,p),O=[4,[4,A,A],[4,g(n),N]],P=df(n,n);return j(f,1,[3,[4,g(p),P],O])}var
-B=h}else
+o=h[1],p=a[1],B=e[1],N=dq(p,p),O=[4,[4,B,B],[4,g(o),N]],P=dq(o,o);return k(f,1,[3,[4,g(p),P],O])}var
+C=h}else
 var
-B=a;return B;default:r=1}if(!r){var
-m=ae(s[2],i);return m?k(m[1]):m}var
-v=0}else
+C=a;return C;default:r=1}if(!r){var
+m=af(s[2],i);return m?l(m[1]):m}var
+w=0}else
 var
-v=u;return v}function
-j$(h,g){var
+w=v;return w}function
+kz(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3518,44 +3793,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-rS(a){return f(function(a){return[0,a,c]},a)}function
-ka(e,m,b,l,a){if(typeof
+sn(a){return e(function(a){return[0,a,c]},a)}function
+kA(f,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return aR(function(a){return j(e,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=j$(a[1],l);if(g){var
-n=g[1],r=n[1],s=f(rS,a[2]);return j_(e,m,b,n[2],s,r)}return g}var
-h=j$(a[1],l);if(h){var
+q=b[3];return aP(function(a){return k(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=kz(a[1],l);if(g){var
+n=g[1],r=n[1],s=e(sn,a[2]);return ky(f,m,b,n[2],s,r)}return g}var
+h=kz(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-k=ae(b[1],a[2]);return k?j_(e,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+j=af(b[1],a[2]);return j?ky(f,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-gN(a){var
-b=aM(a[1]),c=aF(G(b,a[2]),b),d=a[2];return ag(function(b,a){return[3,b,a]},d,c)}function
-gO(a){return aM(gN(a))}function
-kb(c){var
-a=gO(c),b=aM(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gP(a,b){return bG(a[3],a[4],b)}function
-gQ(a,b){var
-c=gP(a,b);return G(gO(a),c)}function
-gR(a,b){var
-c=gP(a,b);return G(kb(a),c)}function
-kc(a,b){var
-c=gP(a,b);return G(aM(a[1]),c)}function
-gS(b,a){var
-c=gR(b,a),d=gQ(b,a);return[2,[4,d,d],[4,c,c]]}function
-gT(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kc(a,d);return[5,[2,gS(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kd(a,b){var
-f=a[5],c=[3,gT(a,b),f],d=kc(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gU(a,b){var
-c=kd(a,b);return dd(a[7],c)}function
-ke(b,a){var
-c=gS(b,a),d=gR(b,a),e=[4,gU(b,a),d],f=gQ(b,a);return[5,[2,[4,gT(b,a),f],e],c]}function
-kf(b,a){var
-c=gS(b,a),d=gQ(b,a),e=[4,gU(b,a),d],f=gR(b,a);return[5,[3,[4,gT(b,a),f],e],c]}function
-bH(c){var
+g1(a){var
+b=aN(a[1]),c=aG(J(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+g2(a){return aN(g1(a))}function
+kB(c){var
+a=g2(c),b=aN(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g3(a,b){return bM(a[3],a[4],b)}function
+g4(a,b){var
+c=g3(a,b);return J(g2(a),c)}function
+g5(a,b){var
+c=g3(a,b);return J(kB(a),c)}function
+kC(a,b){var
+c=g3(a,b);return J(aN(a[1]),c)}function
+g6(b,a){var
+c=g5(b,a),d=g4(b,a);return[2,[4,d,d],[4,c,c]]}function
+g7(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kC(a,d);return[5,[2,g6(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kD(a,b){var
+f=a[5],c=[3,g7(a,b),f],d=kC(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+g8(a,b){var
+c=kD(a,b);return dn(a[7],c)}function
+kE(b,a){var
+c=g6(b,a),d=g5(b,a),e=[4,g8(b,a),d],f=g4(b,a);return[5,[2,[4,g7(b,a),f],e],c]}function
+kF(b,a){var
+c=g6(b,a),d=g4(b,a),e=[4,g8(b,a),d],f=g5(b,a);return[5,[3,[4,g7(b,a),f],e],c]}function
+bN(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3564,98 +3839,98 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bH(a[2]);return g(bH(a[1]),e)}}function
-bI(e,a,b){switch(a[0]){case
+e=bN(a[2]);return g(bN(a[1]),e)}}function
+bO(e,a,b){switch(a[0]){case
 0:var
-q=a[1];return cJ([0,[0,q,q],d],b);case
+q=a[1];return cO([0,[0,q,q],d],b);case
 1:var
-t=a[1],g=e,u=n(d);for(;;){if(g){var
-m=g[1];if(nP(m[1],t))return m[2];var
+t=a[1],g=e,u=o(d);for(;;){if(g){var
+m=g[1];if(oc(m[1],t))return m[2];var
 g=g[2];continue}return u}case
-2:return b2(bI(e,a[1],b));case
+2:return b8(bO(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=I;break;case
+i=a[2],f=a[1],h=M;break;case
 4:var
-i=a[2],f=a[1],h=y;break;case
+i=a[2],f=a[1],h=D;break;case
 5:var
 i=a[2],f=a[1],h=r;break;case
 6:var
-i=a[2],f=a[1],h=as;break;case
+i=a[2],f=a[1],h=av;break;case
 7:var
-j=dN(a[2]),k=bI(e,a[1],b);if(j){if(j[1]){var
-o=ac(k),s=function(a){return r(a,o)},p=eH(bZ(i3(j)),s,o);return i2(j)?p:r(p,k)}return k}return n(c);default:return ck(bI(e,a[1],b))}var
-v=bI(e,i,M(b,l(bH(f))));return h(bI(e,f,b),v)}function
-cO(c,f,b){var
+k=dY(a[2]),l=bO(e,a[1],b);if(k){if(k[1]){var
+n=ae(l),s=function(a){return r(a,n)},p=eS(b5(jf(k)),s,n);return je(k)?p:r(p,l)}return l}return o(c);default:return cr(bO(e,a[1],b))}var
+v=bO(e,i,O(b,j(bN(f))));return h(bO(e,f,b),v)}function
+cT(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=M(b,l(bH(e))),k=cO(c,a[2],j),m=g(cO(c,e,b),k);return[0,bI(c,a,b),m];case
+e=a[1],k=O(b,j(bN(e))),l=cT(c,a[2],k),m=g(cT(c,e,b),l);return[0,bO(c,a,b),m];case
 8:var
-n=cO(c,a[1],b);return[0,bI(c,a,b),n];case
+n=cT(c,a[1],b);return[0,bO(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=M(b,l(bH(d))),i=cO(c,a[2],h);return g(cO(c,d,b),i)}}function
-kg(c,a,b){if(a){var
-e=a[1],d=e[2],f=M(b,l(bH(d))),h=a[2],i=bI(c,d,b),j=kg([0,[0,e[1],i],c],h,f);return g(cO(c,d,b),j)}return a}function
-d7(a){return A(bH,a)}function
-kh(c,a,b){if(a)var
-d=a[1],f=M(b,l(bH(d))),g=kh(c,a[2],f),e=[0,bI(c,d,b),g];else
+d=a[1],h=O(b,j(bN(d))),i=cT(c,a[2],h);return g(cT(c,d,b),i)}}function
+kG(c,a,b){if(a){var
+e=a[1],d=e[2],f=O(b,j(bN(d))),h=a[2],i=bO(c,d,b),k=kG([0,[0,e[1],i],c],h,f);return g(cT(c,d,b),k)}return a}function
+ed(a){return E(bN,a)}function
+kH(c,a,b){if(a)var
+d=a[1],f=O(b,j(bN(d))),g=kH(c,a[2],f),e=[0,bO(c,d,b),g];else
 var
 e=a;return e}function
-ki(c,a,b){if(a){var
-d=a[1],e=M(b,l(bH(d))),f=ki(c,a[2],e);return g(cO(c,d,b),f)}return a}function
-kj(c,a,b){if(a)var
-d=a[1],f=M(b,l(d7(d))),g=kj(c,a[2],f),e=[0,kh(c,d,b),g];else
+kI(c,a,b){if(a){var
+d=a[1],e=O(b,j(bN(d))),f=kI(c,a[2],e);return g(cT(c,d,b),f)}return a}function
+kJ(c,a,b){if(a)var
+d=a[1],f=O(b,j(ed(d))),g=kJ(c,a[2],f),e=[0,kH(c,d,b),g];else
 var
 e=a;return e}function
-kk(c,a,b){if(a){var
-d=a[1],e=M(b,l(d7(d))),f=kk(c,a[2],e);return g(ki(c,d,b),f)}return a}function
-kl(a){return f(function(a){return[0,a[2],d]},a)}function
-km(a){var
-c=cK(0,kl(a[2])),d=cE(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=b1(f(cC,a[2]),c);return g(b1(a[1],e),b)}function
-rU(a){if(typeof
+kK(c,a,b){if(a){var
+d=a[1],e=O(b,j(ed(d))),f=kK(c,a[2],e);return g(kI(c,d,b),f)}return a}function
+kL(a){return e(function(a){return[0,a[2],d]},a)}function
+kM(a){var
+c=cP(0,kL(a[2])),d=bH(0,j(a[1])),f=e(function(a){return[0,[0,a]]},d),b=a$(e(a2,a[2]),c);return g(a$(a[1],f),b)}function
+sp(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-gV(b,d){var
+g9(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aR(function(a){return ao(e,a)},b);case
+e=a[1];return aP(function(a){return ar(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gV(b,a[1]);if(c){var
+c=g9(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-kn(d){var
+kN(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=av(aR(function(b){return function(a){return nP(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=au(aP(function(b){return function(a){return oc(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ko(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kp(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-gW(a,c,b){var
-d=[4,ko(a),b],e=[2,[4,kp(a),c],d],f=[4,kp(a),b];return[0,[3,[4,ko(a),c],f],e]}function
-kq(c,a){var
-b=gW(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-kr(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ks(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kq(d[1],a):a;case
+kO(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kP(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+g_(a,c,b){var
+d=[4,kO(a),b],e=[2,[4,kP(a),c],d],f=[4,kP(a),b];return[0,[3,[4,kO(a),c],f],e]}function
+kQ(c,a){var
+b=g_(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+kR(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+kS(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kQ(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gW(d[1],a[2],a[3]),m=j[1],k=gW(f[1],j[2],a[1]);return kq(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=g_(d[1],a[2],a[3]),m=j[1],k=g_(f[1],j[2],a[1]);return kQ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=G(e,e),n=kr(e,a),o=aF([0,b(2,c),c],n),p=G(e,a),q=aF([4,[0,b(2,c),c],p],e),r=aF([3,[0,c,c],l],a),s=ag(function(b,a){return[2,b,a]},r,q);return aF([5,[0,c,c],[2,[0,c,c],l]],ag(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kt(b){var
-a=b5(b);return a?jb(a[1],[0,d,c]):a}function
-ku(a,n,k,i){if(kt(i)){var
-q=n?[3,[0,d,c],k]:k;return j(a,0,q)}var
-f=bD(a,k);if(f){var
-g=eT(a,[5,i,[0,b(2,c),c]]);if(g){var
-h=gt(a,[5,i,[0,b(2,c),c]]);if(h)var
-p=F(a,f[1],g[1]),l=[0,O(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=J(e,e),n=kR(e,a),o=aG([0,b(2,c),c],n),p=J(e,a),q=aG([4,[0,b(2,c),c],p],e),r=aG([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return aG([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kT(b){var
+a=cb(b);return a?jq(a[1],[0,d,c]):a}function
+kU(a,n,j,i){if(kT(i)){var
+q=n?[3,[0,d,c],j]:j;return k(a,0,q)}var
+f=bK(a,j);if(f){var
+g=e5(a,[5,i,[0,b(2,c),c]]);if(g){var
+h=gG(a,[5,i,[0,b(2,c),c]]);if(h)var
+p=v(a,f[1],g[1]),l=[0,L(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3664,26 +3939,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?J(d,o[1]):J(o[2],d)}return e}function
-d8(b,a,c){var
-d=bm(b,a[1],a[2]),e=d?ku(b,0,c,a[1]):d;return e?ku(b,1,c,a[2]):e}function
-d9(a,d){if(kt(d))return[0,L];var
-e=eT(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=gt(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=C(aw(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ci(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return R(function(d){var
-e=F(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return jn(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?I(d,o[1]):I(o[2],d)}return e}function
+ee(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?kU(b,0,c,a[1]):d;return e?kU(b,1,c,a[2]):e}function
+ef(a,d){if(kT(d))return[0,x];var
+e=e5(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=gG(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C(am(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cp(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return K(function(d){var
+e=v(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return jA(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-gX(d,a){var
-e=j(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-cP(a){return[0,[3,[0,d,c],a],a]}function
-kv(a,b,n,m){var
-h=bm(a,[0,d,c],b),i=h?gX(a,b):h;if(i){var
-e=d9(a,b);if(e){var
-f=bD(a,n);if(f){var
-g=bD(a,m);if(g){var
-o=f[1],p=g[1];return J(d,O(F(a,U(a,e[1]),p),o)[1])}var
+g$(d,a){var
+e=k(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?k(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+cU(a){return[0,[3,[0,d,c],a],a]}function
+kV(a,b,n,m){var
+h=bs(a,[0,d,c],b),i=h?g$(a,b):h;if(i){var
+e=ef(a,b);if(e){var
+f=bK(a,n);if(f){var
+g=bK(a,m);if(g){var
+o=f[1],p=g[1];return I(d,L(v(a,Y(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3693,217 +3968,217 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-d_(a){return 1===a?rY:rZ}function
-gY(d,c,b,a){var
-e=a[1],f=ks(d,c,a[2]),g=ag(function(b,a){return[2,b,a]},b,f);return ag(function(b,a){return[3,b,a]},g,e)}function
-d$(b,d){var
+eg(a){return 1===a?st:su}function
+ha(d,c,b,a){var
+e=a[1],f=kS(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+eh(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,dU(function(a){return d$(b,a)},a)]}return[0,dU(function(a){return d$(b,a)},a)]}function
-dg(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,db(function(a){return eh(b,a)},a)]}return[0,db(function(a){return eh(b,a)},a)]}function
+dr(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=av(E(e,b));return f?av(E(e,M(d,b))):f;case
+e=a[1],f=au(t(e,b));return f?au(t(e,O(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dg(d,b,a[1]);if(g){var
+g=dr(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ea(c,b,m){var
+ei(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dg(c,b,g),i=h?ea(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dr(c,b,g),i=h?ei(c,b,f):h;if(i)var
 j=i;else{var
-k=ea(c,b,g);if(k)return dg(c,b,f);var
+k=ei(c,b,g);if(k)return dr(c,b,f);var
 j=k}return j;case
 7:var
-l=ea(c,b,a[1]);return l?dg(c,b,a[2]):l;case
+l=ei(c,b,a[1]);return l?dr(c,b,a[2]):l;case
 3:case
 4:var
-e=ea(c,b,a[1]);if(e){var
+e=ei(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dg(c,b,a[1]);default:return 1}}}function
-cQ(c,e){var
+9:return dr(c,b,a[1]);default:return 1}}}function
+cV(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return av(E(a[1],c));case
+0:return au(t(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cQ(c,a[1]);if(d){var
+d=cV(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gZ(d,b,m){var
+hb(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gZ(d,b,a[1]);if(f){var
+f=hb(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gZ(d,b,a[1]);return g?cQ(b,a[2]):g;case
+g=hb(d,b,a[1]);return g?cV(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cQ(b,i);if(j){var
-k=cQ(b,h);if(k)var
+h=a[2],i=a[1],j=cV(b,i);if(j){var
+k=cV(b,h);if(k)var
 e=k;else{var
-l=a$(i,d);if(l){var
+l=bg(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cQ(b,c)}}}function
-kw(c,e){var
+2:return 1;default:return cV(b,c)}}}function
+kW(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return eG(a[1],c);case
+0:return dX(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kw(c,a[1]);if(d){var
+d=kW(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cq(b,a){return a?e(b,a[1]):a}function
-cr(c,b,a){return cq(function(b){return cq(e(c,b),a)},b)}function
-r0(a){return 0===a[0]?a[1]:0}function
-bJ(b,a){switch(a[0]){case
-0:return[0,e(b,a[1])];case
-1:return[1,bJ(b,a[1])];default:var
-c=bJ(b,a[3]),d=bJ(b,a[2]);return[2,bJ(b,a[1]),d,c]}}function
-a3(b,c,a){switch(c[0]){case
-0:return bJ(e(b,c[1]),a);case
+cx(b,a){return a?f(b,a[1]):a}function
+cy(c,b,a){return cx(function(b){return cx(f(c,b),a)},b)}function
+sv(a){return 0===a[0]?a[1]:0}function
+bP(b,a){switch(a[0]){case
+0:return[0,f(b,a[1])];case
+1:return[1,bP(b,a[1])];default:var
+c=bP(b,a[3]),d=bP(b,a[2]);return[2,bP(b,a[1]),d,c]}}function
+a6(b,c,a){switch(c[0]){case
+0:return bP(f(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bJ(function(a){return T(b,a,k)},d)];case
-1:return[1,a3(b,d,a[1])];default:var
-l=a3(b,d,a[3]),m=a3(b,d,a[2]);return[2,a3(b,d,a[1]),m,l]}default:var
-f=c[3],g=c[2],h=c[1];switch(a[0]){case
+k=a[1];return[1,bP(function(a){return V(b,a,k)},d)];case
+1:return[1,a6(b,d,a[1])];default:var
+l=a6(b,d,a[3]),m=a6(b,d,a[2]);return[2,a6(b,d,a[1]),m,l]}default:var
+e=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return T(b,a,n)},i=function(a){return bJ(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return V(b,a,n)},i=function(a){return bP(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=a3(b,f,j),s=a3(b,g,j);return[2,a3(b,h,j),s,r];default:var
-t=a3(b,f,a[3]),u=a3(b,g,a[2]);return[2,a3(b,h,a[1]),u,t]}}}function
-g0(c,g,a){if(a)var
+j=a[1],r=a6(b,e,j),s=a6(b,g,j);return[2,a6(b,h,j),s,r];default:var
+t=a6(b,e,a[3]),u=a6(b,g,a[2]);return[2,a6(b,h,a[1]),u,t]}}}function
+hc(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,U(c,a)];break;case
+e=[0,a,Y(c,a)];break;case
 1:var
-h=F(c,a,b),f=[0,dS(C(a,b)),h];break;default:var
-f=[0,b,U(c,b)]}return[0,[0,e(g,f)]]},i=g0(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=v(c,a,b),e=[0,b7(C(a,b)),h];break;default:var
+e=[0,b,Y(c,b)]}return[0,[0,f(g,e)]]},i=hc(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-kx(a){if(a){var
+kX(a){if(a){var
 b=a[1];if(b)var
-c=kx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r2}function
-eb(a){if(a){var
-g=a[1],b=g[2],c=kx(g[1]);if(c)if(b){var
-h=b[1],e=eb(a[2]);if(e)var
-i=ad(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return sx}function
+ej(a){if(a){var
+g=a[1],b=g[2],c=kX(g[1]);if(c)if(b){var
+h=b[1],e=ej(a[2]);if(e)var
+i=S(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return r3}function
-g1(b,a){var
-c=a[3],d=R(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a2(b),g),f,d]}function
-ky(f,d,c,b){if(d){var
-j=d[1],a=function(e){var
-a=g1(function(a){switch(a[0]){case
+f=c;return f}return sy}function
+hd(b,a){var
+c=a[3],d=K(function(a){var
+c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(a5(b),g),e,d]}function
+kY(e,d,c,b){if(d){var
+j=d[1],a=function(f){var
+a=hd(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
-b=a[3],c=a[2],d=a[1];switch(e){case
+b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return ky(bZ(f),j,c,a)},g=a(0);if(g){var
-h=a(2);if(h)return f?1:a(1);var
+1:return c;default:return b}}},b);return kY(b5(e),j,c,a)},g=a(0);if(g){var
+h=a(2);if(h)return e?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,g1(r0,b))}function
-ec(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return R(function(a){return bB(f,e,a)},d)}return[0,L]}function
-r4(c){var
+i=g;return i}return f(c,hd(sv,b))}function
+ek(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return K(function(a){return bf(f,e,a)},d)}return[0,x]}function
+sz(c){var
 a=c[2];if(a){var
-b=ec(c[3]);if(b)return J(d,O(a[1],b[1])[1]);var
+b=ek(c[3]);if(b)return I(d,L(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kz(a){return A(function(a){return g(a[1],[0,a[2],0])},a)}function
-kA(a,c,b){var
-e=z(b,c,n(d)),f=cE(0,a);return o(function(b){return ea(a,b,e)},f)}function
-ed(a){var
-b=ac(a);return I(n(c),b)}function
-e_(i,g){var
-h=ed(g),j=ac(g),e=y(n(c),j),f=r(n(b(2,c)),g),a=n(d);return i?i[1]?[0,[0,e,b2(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,b2(f),a,e]]:[0,[0,h,a,a],[0,a,e,b2(f)],[0,a,f,e]]}function
-kB(b,a){function
+kZ(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+k0(a,c,b){var
+e=u(b,c,o(d)),f=bH(0,a);return n(function(b){return ei(a,b,e)},f)}function
+el(a){var
+b=ae(a);return M(o(c),b)}function
+fn(i,g){var
+h=el(g),j=ae(g),e=D(o(c),j),f=r(o(b(2,c)),g),a=o(d);return i?i[1]?[0,[0,e,b8(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,b8(f),a,e]]:[0,[0,h,a,a],[0,a,e,b8(f)],[0,a,f,e]]}function
+k1(b,a){function
 c(b){var
-c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
+c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
 d(a){var
-b=ax(a,c(function(a){return a[3]})),d=ax(a,c(function(a){return a[2]}));return[0,ax(a,c(function(a){return a[1]})),d,b]}var
-f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-kC(a){switch(a[0]){case
+b=ay(a,c(function(a){return a[3]})),d=ay(a,c(function(a){return a[2]}));return[0,ay(a,c(function(a){return a[1]})),d,b]}var
+e=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,e]}function
+k2(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cP(a[1]),0];default:var
-b=[0,cP(a[2]),0];return[0,cP(a[1]),b]}}function
-dh(a){return[0,[0,a[1]],[0,a[2]]]}function
-kD(a,b){if(0===b[0])return d9(a,b[1]);var
-d=d9(a,b[1]);if(d){var
-e=d9(a,b[2]);if(e){var
-g=U(a,e[1]),h=cG(a,C(aw(a,c),g)),i=d[1];return R(function(b){return F(a,i,b)},h)}var
+2:return[0,cU(a[1]),0];default:var
+b=[0,cU(a[2]),0];return[0,cU(a[1]),b]}}function
+ds(a){return[0,[0,a[1]],[0,a[2]]]}function
+k3(a,b){if(0===b[0])return ef(a,b[1]);var
+d=ef(a,b[1]);if(d){var
+e=ef(a,b[2]);if(e){var
+g=Y(a,e[1]),h=cM(a,C(am(a,c),g)),i=d[1];return K(function(b){return v(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kE(j,A,c,y,x,b,a){switch(b[0]){case
+k4(k,D,c,C,B,b,a){switch(b[0]){case
 0:var
-n=b[4],k=b[3],o=b[2],p=b[1],m=0;if(typeof
+n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
-B=a[2],C=a[1],i=o,h=p,g=function(e){var
-a=eb(e[1]);if(a){var
+E=a[2],F=a[1],i=o,h=p,g=function(e){var
+a=ej(e[1]);if(a){var
 b=e[2];if(b){var
-d=ec(e[3]);if(d){var
-h=d[1],i=bi([0,O(ap(F(j,k,b[1])),h),0],c);return cI(c,gw(C,B,a[1],i))}var
+d=ek(e[3]);if(d){var
+h=d[1],i=ba([0,L(ah(v(k,l,b[1])),h),0],c);return b$(c,gL(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
 g=f}else
 var
-g=a;return g},e=n;break;case
+g=a;return g},f=n;break;case
 2:var
-q=ah(k[1],d),r=q?ah(k[2],d):q;if(!r)return r;var
-G=a[2],H=a[1],i=o,h=p,g=function(e){var
-a=eb(e[1]);if(a){var
-b=ec(e[3]);if(b){var
-g=bi([0,O(L,b[1]),0],c),h=a[1];return cI(c,gw(H,G,f(function(a){return[0,a[1],L]},h),g))}var
+q=ad(l[1],d),r=q?ad(l[2],d):q;if(!r)return r;var
+H=a[2],I=a[1],i=o,h=p,g=function(f){var
+a=ej(f[1]);if(a){var
+b=ek(f[3]);if(b){var
+g=ba([0,L(x,b[1]),0],c),h=a[1];return b$(c,gL(I,H,e(function(a){return[0,a[1],x]},h),g))}var
 d=b}else
 var
-d=a;return d},e=n;break;default:m=1}if(m)return 0;break;case
+d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
-u=0;if(typeof
+y=0;if(typeof
 a==="number"&&!a)var
-I=b[2],J=b[1],K=b[3],i=I,h=J,M=0,g=function(f){var
-a=eb(f[1]);if(a){var
+J=b[2],K=b[1],M=b[3],i=J,h=K,N=0,g=function(f){var
+a=ej(f[1]);if(a){var
 b=f[2];if(b){var
-d=ec(f[3]);if(d){var
-k=d[1],l=bi([0,O(F(j,K,b[1]),k),0],c),e=jz(a[1],l);if(e)return cI(c,e[1]);var
+d=ek(f[3]);if(d){var
+j=d[1],l=ba([0,L(v(k,M,b[1]),j),0],c),e=jJ(a[1],l);if(e)return b$(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3912,149 +4187,149 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},e=M;else
-u=1;if(u)return 0;break;case
+i=a;return i},f=N;else
+y=1;if(y)return 0;break;case
 2:var
-v=0;if(typeof
-a==="number"||!(0===a[0]))v=1;else
+z=0;if(typeof
+a==="number"||!(0===a[0]))z=1;else
 var
-s=a[2],t=a[1],N=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=eb(f[1]);if(a){var
+s=a[2],w=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=ej(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=ec(f[3]);if(e){var
-g=E(l(b),c),h=g?E(l(s),c):g;if(h){var
-n=eZ(t,e0(t,s,d[1],b));return cI(c,d1(gC(j,R,Q,e[1],b),n))}var
+e=ek(f[3]);if(e){var
+g=t(j(b),c),h=g?t(j(s),c):g;if(h){var
+n=d$(w,ea(w,s,d[1],b));return b$(c,cu(fb(k,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
-k=i}else
+l=i}else
 var
-k=d;var
-m=k}else
+l=d;var
+m=l}else
 var
-m=a;return m},i=N,h=P,g=S,e=b[5];if(v)return 0;break;default:var
-w=0;if(typeof
+m=a;return m},i=O,h=P,g=S,f=b[5];if(z)return 0;break;default:var
+A=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=r4,e=0;else
-w=1;if(w)return 0}var
-D=[0,h,i,x];return ky(e,A,g,g1(function(a){return z(a,y,sg)},D))}function
-kF(m,l,k,f,j,i,e){if(typeof
+i=b[1],h=0,g=sz,f=0;else
+A=1;if(A)return 0}var
+G=[0,h,i,B];return kY(f,D,g,hd(function(a){return u(a,C,sN)},G))}function
+k5(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=J(d,o);if(p)var
-h=iw(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=I(d,o);if(p)var
+h=iM(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kE(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return k4(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kE(m,l,k,j,0,i,a)}return 0}function
-sh(a){if(a[1])return 0;var
+q=f;return q}return k4(m,l,k,j,0,i,a)}return 0}function
+sO(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kG(a,K,J,I,H,G,h,p,E,Y){if(o(sh,E))var
+k6(a,N,M,J,I,H,h,p,G,Z){if(n(sO,G))var
 q=0;else
 var
-V=g0(a,c4,p),T=0,W=g(g0(a,cC,p),V),q=cl(r1,function(b){switch(b[0]){case
-0:return z(b[1],W,[0,[0,L]]);case
-1:return[0,[0,z(b[1],J,L)]];case
-2:return[0,[0,aw(a,b[1])]];case
+V=hc(a,cJ,p),U=0,W=g(hc(a,a2,p),V),q=bI(sw,function(b){switch(b[0]){case
+0:return u(b[1],W,[0,[0,x]]);case
+1:return[0,[0,u(b[1],M,x)]];case
+2:return[0,[0,am(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return a3(function(a,b){return cr(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return a6(function(a,b){return cy(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return a3(function(a,b){return cr(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,L(b,a)]};return a6(function(a,b){return cy(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ap(a)]};return bJ(function(a){return cq(j,a)},i);case
+i=b[1],j=function(a){return[0,ah(a)]};return bP(function(a){return cx(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,F(a,c,b)]};return a3(function(a,b){return cr(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,v(a,c,b)]};return a6(function(a,b){return cy(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=ci(a,b);return R(function(b){return F(a,c,b)},d)};return a3(function(a,b){return cr(p,a,b)},o,n);case
+d=cp(a,b);return K(function(b){return v(a,c,b)},d)};return a6(function(a,b){return cy(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,U(a,b)]};return bJ(function(a){return cq(r,a)},q);default:var
-s=b[1],t=function(b){return cG(a,b)};return bJ(function(a){return cq(t,a)},s)}},K,T);var
-e=E,b=Y;for(;;){if(e){var
-t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=z(c,b,0);if(u){var
-l=ae(I,c);if(l){var
-v=kF(a,H,G,h,q,l[1],i);if(v){var
-e=k,b=e5(c,b);continue}var
-w=v}else
+q=b[1],r=function(b){return[0,Y(a,b)]};return bP(function(a){return cx(r,a)},q);default:var
+s=b[1],t=function(b){return cM(a,b)};return bP(function(a){return cx(t,a)},s)}},N,U);var
+f=G,b=Z;for(;;){if(f){var
+t=f[1],i=t[2],c=t[1],k=f[2];if(c){var
+w=u(c,b,0);if(w){var
+l=af(J,c);if(l){var
+y=k5(a,I,H,h,q,l[1],i);if(y){var
+f=k,b=fh(c,b);continue}var
+z=y}else
 var
-w=l;var
-x=w}else
+z=l;var
+A=z}else
 var
-x=u;return x}if(typeof
+A=w;return A}if(typeof
 i==="number"&&4===i){var
-M=0;if(h){var
-X=0,r=f(function(b){return[0,b,U(a,b)]},p),P=f(c4,r),N=0,Q=g(f(cC,r),P),S=cl(0,function(n){return function(b){switch(b[0]){case
-0:return[0,z(b[1],n,L)];case
-1:return[0,z(b[1],J,L)];case
-2:return[0,aw(a,b[1])];case
+O=0;if(h){var
+X=0,r=e(function(b){return[0,b,Y(a,b)]},p),Q=e(cJ,r),P=0,R=g(e(a2,r),Q),T=bI(0,function(n){return function(b){switch(b[0]){case
+0:return[0,u(b[1],n,x)];case
+1:return[0,u(b[1],M,x)];case
+2:return[0,am(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cr(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return cy(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cr(function(b,a){return[0,O(b,a)]},f,e);case
+e=b[2],f=b[1];return cy(function(b,a){return[0,L(b,a)]},f,e);case
 5:var
-g=b[1];return cq(function(a){return[0,ap(a)]},g);case
+g=b[1];return cx(function(a){return[0,ah(a)]},g);case
 6:var
-h=b[2],i=b[1];return cr(function(c,b){return[0,F(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cy(function(c,b){return[0,v(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cr(function(c,b){var
-d=ci(a,b);return R(function(b){return F(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cy(function(c,b){var
+d=cp(a,b);return K(function(b){return v(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cq(function(b){return[0,U(a,b)]},l);default:var
-m=b[1];return cq(function(b){return cG(a,b)},m)}}}(Q),K,N),j=z(h[1],S,X);if(j){var
-m=ad(j[1][2],d);M=1}else
+l=b[1];return cx(function(b){return[0,Y(a,b)]},l);default:var
+m=b[1];return cx(function(b){return cM(a,b)},m)}}}(R),N,P),j=u(h[1],T,X);if(j){var
+m=S(j[1][2],d);O=1}else
 var
 s=j}else
 var
-s=h;if(!M)var
+s=h;if(!O)var
 m=s;if(m){var
-e=k,b=f(function(a){return 0},b);continue}return m}var
-y=z(c,b,0);if(y){var
-n=ae(I,c);if(n){var
-A=kF(a,H,G,h,q,n[1],i);if(A){var
-e=k,b=e5(c,b);continue}var
-B=A}else
+f=k,b=e(function(a){return 0},b);continue}return m}var
+B=u(c,b,0);if(B){var
+o=af(J,c);if(o){var
+D=k5(a,I,H,h,q,o[1],i);if(D){var
+f=k,b=fh(c,b);continue}var
+E=D}else
 var
-B=n;var
-D=B}else
+E=o;var
+F=E}else
 var
-D=y;return D}return[0,b]}}function
-kH(i,h,g,f,e,d,c,t,s,r){var
+F=B;return F}return[0,b]}}function
+k7(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kG(i,h,g,f,e,d,c,b,a[1],j);return k?o(av,k[1]):k}var
-l=kG(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=d4(a[2],b),p=kH(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
-b=n[2],j=m,a=a[4];continue}var
+k=k6(i,h,g,f,e,d,c,b,a[1],j);return k?n(au,k[1]):k}var
+l=k6(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d_(a[2],b),p=k7(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-g2(d,a){var
-e=ac(a),f=r(r(n(b(2,c)),a),d);return I(y(ac(d),f),e)}function
-g3(a){switch(a){case
-0:return sk;case
-1:return sl;default:return 0}}function
-e$(b,a){var
-c=a8(a[2],b);return g(a8(a[1],b),c)}function
-kI(s,k,q,u,p,j,t){if(j){var
-v=j[1],w=cK(t,e$(p,v)),R=M(t,l(e$(p,v))),S=kI(s,k,q,u,p,j[2],R),i=aL(w,sm),m=aL(w,0);switch(s){case
+he(d,a){var
+e=ae(a),f=r(r(o(b(2,c)),a),d);return M(D(ae(d),f),e)}function
+hf(a){switch(a){case
+0:return sR;case
+1:return sS;default:return 0}}function
+fo(b,a){var
+c=bc(a[2],b);return g(bc(a[1],b),c)}function
+k8(s,l,q,u,p,k,t){if(k){var
+v=k[1],w=cP(t,fo(p,v)),R=O(t,j(fo(p,v))),S=k8(s,l,q,u,p,k[2],R),i=aM(w,sT),m=aM(w,0);switch(s){case
 0:var
-g=[0,sj,si,n(d)];break;case
+g=[0,sQ,sP,o(d)];break;case
 1:var
-g=cH;break;default:var
-G=n(d),H=n(d),g=[0,n(d),H,G]}var
-e=aV(y,g,m),z=ax(k[3],i),A=ax(k[2],i),a=[0,ax(k[1],i),A,z],J=g2(g[3],m[3]),K=g2(g[2],m[2]),L=g2(g[1],m[1]),N=I(I(I(ax(i,i),L),K),J),O=ax(a,e),P=r(n(b(2,c)),O),Q=I(r(q,N),P),B=r(a[2],e[1]),C=y(r(a[1],e[2]),B),D=r(a[1],e[3]),E=y(r(a[3],e[1]),D),F=r(a[3],e[2]),f=eW([0,y(r(a[2],e[3]),F),E,C],u),h=aV(I,d3(q,e),a);switch(s){case
+g=cN;break;default:var
+G=o(d),H=o(d),g=[0,o(d),H,G]}var
+e=aX(D,g,m),y=ay(l[3],i),z=ay(l[2],i),a=[0,ay(l[1],i),z,y],I=he(g[3],m[3]),J=he(g[2],m[2]),K=he(g[1],m[1]),L=M(M(M(ay(i,i),K),J),I),N=ay(a,e),P=r(o(b(2,c)),N),Q=M(r(q,L),P),A=r(a[2],e[1]),B=D(r(a[1],e[2]),A),C=r(a[1],e[3]),E=D(r(a[3],e[1]),C),F=r(a[3],e[2]),f=e9([0,D(r(a[2],e[3]),F),E,B],u),h=aX(M,d9(q,e),a);switch(s){case
 0:var
-o=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
-o=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-o=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,o,Q],S]}else
+n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,n,Q],S]}else
 var
-x=j;return x}function
-g4(g,a){if(typeof
+x=k;return x}function
+hg(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
@@ -4062,154 +4337,154 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-g5(e,d,n,m,l,a){var
-f=r(ac(cJ(g4(m,a),l)),n);if(typeof
+hh(e,d,n,m,l,a){var
+f=r(ae(cO(hg(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=ae(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,y(b[1][2],f)]:g;else
+b=af(d,a[1]);if(b)var
+g=k(e,0,a[2]),h=g?[0,D(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=ae(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,y(f,c[1][2])]:i;else
+c=af(d,a[1]);if(c)var
+i=k(e,0,a[2]),j=i?[0,D(f,c[1][2])]:i;else
 var
-k=c;return k}return 0}function
-kJ(a,d,c,b){return f(function(a){var
-e=cJ(g4(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
-kK(b,g,s,f,i,q,p,o){if(o){var
-_=kK(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+j=c;return j}return 0}function
+k9(a,d,c,b){return e(function(a){var
+e=cO(hg(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
+k_(b,g,s,e,i,q,p,o){if(o){var
+_=k_(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-N=e(g,i),h=[0,t(e(a2(g),f),N,L)];else
+O=f(g,i),h=[0,t(f(a5(g),e),O,x)];else
 switch(a[0]){case
 0:var
-k=[5,[0,c,c],a[1]],n=f,m=t;l=1;break;case
+j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
 1:var
-P=[5,[0,c,c],a[1]],k=P,n=f,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-Q=g5(b,f,i,q,p,a),h=R(function(a){return[3,e(g,a)]},Q);break;case
+R=hh(b,e,i,q,p,a),h=K(function(a){return[3,f(g,a)]},R);break;case
 3:var
-S=g5(b,f,i,q,p,a),h=R(function(a){return[3,e(g,a)]},S);break;case
+S=hh(b,e,i,q,p,a),h=K(function(a){return[3,f(g,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=ae(f,a[1]),K=0;if(r){var
-w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-T=[5,u,v],V=[0,r[1],0],k=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;K=1}else
+u=a[3],v=a[2],r=af(e,a[1]),M=0;if(r){var
+w=k(b,1,v),y=w?k(b,0,u):w;if(y){var
+T=[5,u,v],U=[0,r[1],0],j=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
-y=x}else
+z=y}else
 var
-y=r;if(!K)var
-h=y;break;case
+z=r;if(!M)var
+h=z;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=ae(f,B),M=0;if(C){var
-D=j(b,1,A),E=D?j(b,1,z):D;if(E){var
-W=[5,A,z],k=W,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};l=1;M=1}else
+A=a[3],B=a[2],C=a[1],D=af(e,C),N=0;if(D){var
+E=k(b,1,B),F=E?k(b,1,A):E;if(F){var
+V=[5,B,A],j=V,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};l=1;N=1}else
 var
-F=E}else
+G=F}else
 var
-F=C;if(!M)var
-h=F;break;case
+G=D;if(!N)var
+h=G;break;case
 8:var
-G=j(b,1,a[1]),H=G?j(b,1,a[2]):G;if(H)var
-X=aw(b,c),Y=e(g,i),Z=kJ(f,q,p,a),I=[0,[0,e(a2(g),Z),Y,X,0]];else
+H=k(b,1,a[1]),I=H?k(b,1,a[2]):H;if(I)var
+W=am(b,c),X=f(g,i),Z=k9(e,q,p,a),J=[0,[0,f(a5(g),Z),X,W,0]];else
 var
-I=H;var
-h=I;break;default:var
+J=I;var
+h=J;break;default:var
 h=0}if(l)var
-O=aq(b,[0,[0,k,k],d]),h=R(function(a){var
-c=U(b,a),d=e(g,i);return m(e(a2(g),n),d,c)},O);var
-J=[0,h,_]}else
+P=as(b,[0,[0,j,j],d]),h=K(function(a){var
+c=Y(b,a),d=f(g,i);return m(f(a5(g),n),d,c)},P);var
+L=[0,h,_]}else
 var
-J=o;return J}function
-kL(j,h,i,e,d,a){if(a){var
-n=kL(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+L=o;return L}function
+k$(j,h,i,f,d,a){if(a){var
+n=k$(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(c4,kJ(h,e,d,b));l=1}if(!l)var
-c=g5(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-sn(a){if(typeof
+k=e(cJ,k9(h,f,d,b));l=1}if(!l)var
+c=hh(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+sU(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fa(a){var
-b=b3(a[1],[0,d,c]);return b?b3(a[2],[0,d,c]):b}function
-so(k,a,m,bg){var
-w=a[1],h=d_(w),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],ar=g(A(function(a){return e$(m,a)},bi),bh),U=l(ar),bj=a[2],bk=l(A(function(a){return e$(m,a)},bj)),as=a[3],bl=cJ([0,[0,as,as],m],bk),bm=g3(w),bn=a[5];function
-i(a){return[0,[0,M(bm,a)]]}switch(bn[0]){case
+fp(a){var
+b=b_(a[1],[0,d,c]);return b?b_(a[2],[0,d,c]):b}function
+sV(l,a,m,bf){var
+y=a[1],h=eg(y),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(E(function(a){return fo(m,a)},bi),bh),T=j(aq),bj=a[2],bk=j(E(function(a){return fo(m,a)},bj)),ar=a[3],bl=cO([0,[0,ar,ar],m],bk),bm=hf(y),bn=a[5];function
+i(a){return[0,[0,O(bm,a)]]}switch(bn[0]){case
 0:var
-aY=ed(i(0)),J=[0,e_(r5,i(0)),aY];break;case
+aY=el(i(0)),I=[0,fn(sA,i(0)),aY];break;case
 1:var
-aZ=ed(i(0)),a0=r(ed(i(r6)),aZ),a1=r(ed(i(r7)),a0),a3=e_(0,i(0)),a4=kB(e_(r9,i(r8)),a3),J=[0,kB(e_(r$,i(r_)),a4),a1];break;default:var
-a5=i(sa),a6=i(sb),v=[0,i(0),a6,a5],a7=ax(v,v),a8=I(n(c),a7),aO=ax(v,v),s=v[1],t=v[2],u=v[3],O=function(a){var
-d=ac(a),e=r(n(b(2,c)),d);return I(y(n(c),aO),e)},B=function(f,e,d,a){var
-g=T(f,r(e,d),a);return r(n(b(2,c)),g)},aP=O(u),aQ=B(I,t,u,s),aS=[0,B(y,s,u,t),aQ,aP],aT=B(y,t,u,s),aU=O(t),aV=[0,B(I,s,t,u),aU,aT],aW=B(I,s,u,t),aX=B(y,s,t,u),J=[0,[0,[0,O(s),aX,aW],aV,aS],a8]}var
-D=J[2],K=kI(w,J[1],D,bl,m,a[2],0),bo=M(U,l(a[6])),bp=g3(w),bq=a[5];function
-C(a){return[0,[0,M(bp,a)]]}var
-ag=ac([0,[1,bo]]);switch(bq[0]){case
+aZ=el(i(0)),a0=r(el(i(sB)),aZ),a1=r(el(i(sC)),a0),a2=fn(0,i(0)),a3=k1(fn(sE,i(sD)),a2),I=[0,k1(fn(sG,i(sF)),a3),a1];break;default:var
+a4=i(sH),a6=i(sI),x=[0,i(0),a6,a4],a7=ay(x,x),a8=M(o(c),a7),aO=ay(x,x),s=x[1],v=x[2],w=x[3],P=function(a){var
+d=ae(a),e=r(o(b(2,c)),d);return M(D(o(c),aO),e)},A=function(f,e,d,a){var
+g=V(f,r(e,d),a);return r(o(b(2,c)),g)},aQ=P(w),aR=A(M,v,w,s),aS=[0,A(D,s,w,v),aR,aQ],aT=A(D,v,w,s),aU=P(v),aV=[0,A(M,s,v,w),aU,aT],aW=A(M,s,w,v),aX=A(D,s,v,w),I=[0,[0,[0,P(s),aX,aW],aV,aS],a8]}var
+C=I[2],J=k8(y,I[1],C,bl,m,a[2],0),bo=O(T,j(a[6])),bp=hf(y),bq=a[5];function
+B(a){return[0,[0,O(bp,a)]]}var
+ag=ae([0,[1,bo]]);switch(bq[0]){case
 2:var
-a9=C(sc),a_=C(sd),ah=[0,C(0),a_,a9],p=[0,y(ag,ax(ah,ah))];break;case
+a9=B(sJ),a_=B(sK),ah=[0,B(0),a_,a9],p=[0,D(ag,ay(ah,ah))];break;case
 3:var
-ba=ac(C(se)),bb=ac(C(0)),bc=ac(C(sf)),p=[0,y(y(r(ag,I(n(c),bc)),bb),ba)];break;default:var
+a$=ae(B(sL)),ba=ae(B(0)),bb=ae(B(sM)),p=[0,D(D(r(ag,M(o(c),bb)),ba),a$)];break;default:var
 p=0}var
-br=p?[0,p[1],0]:p,bs=[0,D,g(kL(k,K,D,m,U,a[6]),br)],V=g(cL(K),bs),at=dX(f(function(a){return d$(h,a)},V))[1],F=dW(at);function
-x(a){return bC(F,d$(h,a))}var
-bt=R(x,p),bu=x(D),au=e(a2(x),K),am=g3(w),an=E(l(au),h);if(an)var
-ao=R(function(a){return[0,[0,a,d],d]},bt),H=function(a){return z(a,F,n(d))},af=H(bu),aN=cE(0,am),S=o(function(a){var
-b=dg(h,a,af),c=b?o(function(b){var
-d=b[1],c=o(function(b){var
-c=H(b);return cQ(M(h,a),c)},d);if(c){var
-e=H(b[2]);return gZ(af,M(h,a),e)}return c},au):b;if(c){if(ao){var
-e=H(ao[1][1][1]);return cQ(M(h,a),e)}var
+br=p?[0,p[1],0]:p,bs=[0,C,g(k$(l,J,C,m,T,a[6]),br)],U=g(cQ(J),bs),at=d6(e(function(a){return eh(h,a)},U))[1],F=d5(at);function
+z(a){return bJ(F,eh(h,a))}var
+bt=K(z,p),bu=z(C),au=f(a5(z),J),am=hf(y),an=t(j(au),h);if(an)var
+ao=K(function(a){return[0,[0,a,d],d]},bt),H=function(a){return u(a,F,o(d))},af=H(bu),aN=bH(0,am),S=n(function(a){var
+b=dr(h,a,af),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=H(b);return cV(O(h,a),c)},d);if(c){var
+e=H(b[2]);return hb(af,O(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cV(O(h,a),e)}var
 d=1}else
 var
 d=c;return d},aN);else
 var
 S=an;var
-bf=S?am:S,av=o(function(a){var
-b=d$(h,a),c=n(d);return a$(z(x(a),F,c),b)},V),aw=av?o(function(a){return kw(h,a)},V):av,ay=aw?aR(sn,a[6]):aw;if(ay){var
-L=a[4];switch(w){case
+be=S?am:S,av=n(function(a){var
+b=eh(h,a),c=o(d);return bg(u(z(a),F,c),b)},U),aw=av?n(function(a){return kW(h,a)},U):av,ax=aw?aP(sU,a[6]):aw;if(ax){var
+L=a[4];switch(y){case
 0:var
-W=fa(L[3]);break;case
+W=fp(L[3]);break;case
 1:var
 W=1;break;default:var
-ak=fa(L[1]),al=ak?fa(L[2]):ak,W=al?fa(L[3]):al}var
+ak=fp(L[1]),al=ak?fp(L[2]):ak,W=al?fp(L[3]):al}var
 X=W}else
 var
-X=ay;var
-az=X?j(k,1,a[3]):X;if(az)var
-bv=kC(a[5]),Y=o(function(a){var
-b=gX(k,a[1]);return b?gX(k,a[2]):b},bv);else
+X=ax;var
+aA=X?k(l,1,a[3]):X;if(aA)var
+bv=k2(a[5]),Y=n(function(a){var
+b=g$(l,a[1]);return b?g$(l,a[2]):b},bv);else
 var
-Y=az;if(Y){var
-bw=a[6],bx=g(ar,f(function(a){return g4(m,a)},bw)),Z=aE(f(function(a){return aq(k,a)},bx));if(Z){var
-G=a[4];switch(w){case
+Y=aA;if(Y){var
+bw=a[6],bx=g(aq,e(function(a){return hg(m,a)},bw)),Z=az(e(function(a){return as(l,a)},bx));if(Z){var
+G=a[4];switch(y){case
 0:var
 _=[0,G[1],[0,G[2],0]];break;case
 1:var
 _=[0,G[1],[0,G[2],[0,G[3],0]]];break;default:var
 _=0}var
-$=aE(f(function(a){return aq(k,[0,a,m])},_));if($){var
-aA=$[1],q=a[5];switch(q[0]){case
+$=az(e(function(a){return as(l,[0,a,m])},_));if($){var
+aB=$[1],q=a[5];switch(q[0]){case
 0:var
-N=[0,dh(q[1]),0];break;case
+N=[0,ds(q[1]),0];break;case
 1:var
-bd=[0,dh(q[3]),0],be=[0,dh(q[2]),bd],N=[0,dh(q[1]),be];break;case
+bc=[0,ds(q[3]),0],bd=[0,ds(q[2]),bc],N=[0,ds(q[1]),bd];break;case
 2:var
-P=dh(cP(q[1])),N=[0,P,[0,P,[0,P,0]]];break;default:var
-Q=q[2],ai=q[1],aj=[0,[1,cP(ai)[1],Q],[1,ai,Q]],N=[0,aj,[0,aj,[0,dh(cP(Q)),0]]]}var
-aa=aE(f(function(d){var
-a=kD(k,d[1]);if(a)var
-b=kD(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+Q=ds(cU(q[1])),N=[0,Q,[0,Q,[0,Q,0]]];break;default:var
+R=q[2],ai=q[1],aj=[0,[1,cU(ai)[1],R],[1,ai,R]],N=[0,aj,[0,aj,[0,ds(cU(R)),0]]]}var
+aa=az(e(function(d){var
+a=k3(l,d[1]);if(a)var
+b=k3(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},N));if(aa){var
-aB=aa[1],aC=a[5],by=1<aC[0]?[0,aC[1],0]:0,ab=aE(f(function(a){return d9(k,a)},by));if(ab){var
-ad=aE(kK(k,x,bf,K,D,m,U,a[6]));if(ad){var
-ae=ad[1],aD=E(l(g(aA,aB)),h),aF=aD?o(function(a){switch(a[0]){case
+aC=aa[1],aD=a[5],by=1<aD[0]?[0,aD[1],0]:0,ab=az(e(function(a){return ef(l,a)},by));if(ab){var
+ac=az(k_(l,z,be,J,C,m,T,a[6]));if(ac){var
+ad=ac[1],aE=t(j(g(aB,aC)),h),aF=aE?n(function(a){switch(a[0]){case
 2:var
-d=kz(a[2]),b=[0,a[3],d];break;case
+d=kZ(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=kz(a[1]),b=[0,a[2],c]}return o(function(a){return kA(h,F,a)},b)},ae):aD,aG=aF?p?kA(h,F,x(p[1])):1:aF;if(aG){var
-bz=f(function(a){return 1},ae),bA=g(aA,aB),bB=R(x,p);return kH(k,at,g(Z[1],ab[1]),ae,h,h,bB,bA,bz,bg)}var
+c=kZ(a[1]),b=[0,a[2],c]}return n(function(a){return k0(h,F,a)},b)},ad):aE,aG=aF?p?k0(h,F,z(p[1])):1:aF;if(aG){var
+bz=e(function(a){return 1},ad),bA=g(aB,aC),bB=K(z,p);return k7(l,at,g(Z[1],ab[1]),ad,h,h,bB,bA,bz,bf)}var
 aH=aG}else
 var
-aH=ad;var
+aH=ac;var
 aI=aH}else
 var
 aI=ab;var
@@ -4225,25 +4500,25 @@ aL=Z;var
 aM=aL}else
 var
 aM=Y;return aM}function
-fb(b,a){return bm(b,a[1],a[2])}function
-g6(b,a){var
-c=fb(b,a[1]),d=c?fb(b,a[2]):c;return d?fb(b,a[3]):d}var
-fd=y(n(c),fc);function
-kM(e){var
-a=ac(fd);if(e)var
-f=r(n(b(2,c)),a),g=I(n(b(2,b(2,c))),f),h=r(n(b(2,c)),a),d=as(I(n(c),h),g);else
+fq(b,a){return bs(b,a[1],a[2])}function
+hi(b,a){var
+c=fq(b,a[1]),d=c?fq(b,a[2]):c;return d?fq(b,a[3]):d}var
+fs=D(o(c),fr);function
+la(e){var
+a=ae(fs);if(e)var
+f=r(o(b(2,c)),a),g=M(o(b(2,b(2,c))),f),h=r(o(b(2,c)),a),d=av(M(o(c),h),g);else
 var
-i=I(n(b(2,c)),a),j=ac(fc),d=as(I(r(n(b(2,c)),j),a),i);return ck(d)}function
-kN(d,b,a){if(d){var
-e=kM(b),f=I(n(c),e),g=r(y(n(c),a),f);return y(n(c),g)}var
-h=n(c),i=kM(b),j=as(n(c),i);return y(r(a,I(n(c),j)),h)}function
-di(f,e,d,a){var
-g=ac(a),h=ac(d),i=y(y(n(b(2,c)),h),g),j=f?e?fd:as(fd,r(n(b(2,c)),fc)):as(fd,n(b(2,c))),k=r(ac(j),i);return ck(I(n(c),k))}function
-kO(g,d){var
+i=M(o(b(2,c)),a),j=ae(fr),d=av(M(r(o(b(2,c)),j),a),i);return cr(d)}function
+lb(d,b,a){if(d){var
+e=la(b),f=M(o(c),e),g=r(D(o(c),a),f);return D(o(c),g)}var
+h=o(c),i=la(b),j=av(o(c),i);return D(r(a,M(o(c),j)),h)}function
+dt(f,e,d,a){var
+g=ae(a),h=ae(d),i=D(D(o(b(2,c)),h),g),j=f?e?fs:av(fs,r(o(b(2,c)),fr)):av(fs,o(b(2,c))),k=r(ae(j),i);return cr(M(o(c),k))}function
+lc(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-g7(u,t,s){var
-a=f(function(a){return z(a,t,0)},u);if(a){var
+hj(v,t,s){var
+a=e(function(a){return u(a,t,0)},v);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -4251,8 +4526,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return eV([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+w=j[1],x=i[1],y=h[1],z=g[1];return n(function(a){var
+c=f(a,w),d=f(a,x),e=f(a,y),b=f(a,z);return e7([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4262,10 +4537,10 @@ l=i;var
 m=l}else
 var
 m=c;var
-n=m}else
+o=m}else
 var
-n=h;var
-p=n}else
+o=h;var
+p=o}else
 var
 p=b;var
 q=p}else
@@ -4274,30 +4549,30 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-kP(f,i,e,b,h){var
-j=f?c:d,a=aw(i,j);function
+ld(f,i,e,b,h){var
+j=f?c:d,a=am(i,j);function
 g(b){var
-c=f?gn(b):dT(b);return O(c,a)}var
-k=[0,aS(h),0],l=[0,[0,a,b,[0,L,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-kQ(r,g,q,p,e,o,n){if(o){var
+c=f?e0(b):da(b);return L(c,a)}var
+k=[0,ap(h),0],l=[0,[0,a,b,[0,x,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+le(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
-j=x[2],s=0;if(e){var
-h=e[2],b=0;if(h){var
+j=x[2],s=0;if(f){var
+h=f[2],b=0;if(h){var
 i=h[2],c=0;if(i)if(i[2]){var
 a=0;b=1;c=1}else{var
-t=i[1],k=h[1],l=e[1],d=0;if(typeof
+t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(bl,bE(sr)),a=g7(p,jI(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=e(aW,br(sY)),a=hj(p,j4(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=J(k[2],l[1]);b=1;c=1;d=1;break}else
+a=I(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(kO,ss),a=g7(p,cl(0,c9(g,kP(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lc,sZ),a=hj(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(kO,st),a=g7(p,cl(0,c9(g,kP(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lc,s0),a=hj(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4305,29 +4580,29 @@ v=u}else
 var
 v=h;if(!b){var
 w=v;s=1}}else{var
-w=e;s=1}if(s)var
+w=f;s=1}if(s)var
 a=w;var
-y=a?su:a}else
+y=a?s1:a}else
 var
 y=n;return y}return[0,n]}function
-kR(f,e,d,c,p,o,n){var
+lf(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=kQ(f,e,d,c,b,a[1],g);return h?av(h[1]):h}var
-i=kQ(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d4(a[2],b),l=kR(f,e,d,c,k[1],j,a[3]);if(l){var
+h=le(f,e,d,c,b,a[1],g);return h?au(h[1]):h}var
+i=le(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d_(a[2],b),l=lf(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-g8(a){return i5(b(2,c),bx(a,c))}function
-dj(i,a,e,w,v){var
-l=a?c:ab(c),f=n(l),g=kN(a,e,sp),h=kN(a,e,sq),m=as(g,di(a,e,f,g)),o=[0,I(as(h,di(a,e,h,f)),m),0],p=as(f,di(a,e,f,g)),q=[0,I(as(h,di(a,e,g,h)),p),o],s=as(f,di(a,e,h,f)),t=[0,I(as(g,di(a,e,g,h)),s),q],u=a?e?n(b(2,c)):r(n(b(2,b(2,c))),fc):n(b(2,b(2,c))),j=dX([0,u,t]),k=[0,d,cF(i)];return kR(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-kS(a,g,b){if(ad(g,g8(a))){if(b){var
+hk(a){return jh(b(2,c),aS(a,c))}function
+du(i,a,e,w,v){var
+l=a?c:aa(c),f=o(l),g=lb(a,e,sW),h=lb(a,e,sX),m=av(g,dt(a,e,f,g)),n=[0,M(av(h,dt(a,e,h,f)),m),0],p=av(f,dt(a,e,f,g)),q=[0,M(av(h,dt(a,e,g,h)),p),n],s=av(f,dt(a,e,h,f)),t=[0,M(av(g,dt(a,e,g,h)),s),q],u=a?e?o(b(2,c)):r(o(b(2,b(2,c))),fr):o(b(2,b(2,c))),j=d6([0,u,t]),k=[0,d,cL(i)];return lf(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lg(a,g,b){if(S(g,hk(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,g8(a)],v=cF(a),i=[0,g8(a),v],j=dj(a,0,1,h,b[1]),k=j?dj(a,0,0,i,c[1]):j;if(k){var
-l=dj(a,1,1,h,d[1]);if(l)return dj(a,1,0,i,e[1]);var
+h=[0,g,hk(a)],v=cL(a),i=[0,hk(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
+l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4344,35 +4619,35 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cF(a)],s=dj(a,0,0,r,b[1]);if(s)return dj(a,1,0,r,f[1]);var
+r=[0,g,cL(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-g9(a){var
-b=[1,[2,d]];return gj(function(b,a){return[1,[3,b,a]]},a,b)}function
-fe(a){return g9(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-ff(a,c){return g9(f(function(a){var
-d=[0,a[2]],b=b1(a[1],c);return[1,[7,[1,[8,g9(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-kT(f,d,c,b,a){if(0===a[0])return z(a[1],b,0);var
-g=a[1],h=dU(function(a){return kT(f,d,c,b,a)},g);return e(c9(f,d,c),h)}function
-sv(a){var
-b=E(l(a),sw);return b?aR(function(a){return av(ah(a,d))},a):b}function
-sx(x,h,g,k,d,b,a){var
-R=eX(g),i=e(a2(h),R),l=[1,[8,[1,[1,d[1]]]]];function
+hl(a){var
+b=[1,[2,d]];return gx(function(b,a){return[1,[3,b,a]]},a,b)}function
+ft(a){return hl(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fu(a,c){return hl(e(function(a){var
+d=[0,a[2]],b=a$(a[1],c);return[1,[7,[1,[8,hl(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lh(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
+g=a[1],h=db(function(a){return lh(e,d,c,b,a)},g);return f(cs(e,d,c),h)}function
+s2(a){var
+b=t(j(a),s3);return b?aP(function(a){return au(ad(a,d))},a):b}function
+s4(x,h,g,j,d,b,a){var
+R=e_(g),i=f(a5(h),R),l=[1,[8,[1,[1,d[1]]]]];function
 y(c,b,a){var
-d=ff(c,a);return[1,[4,[1,[6,b,fe(a)]],d]]}var
+d=fu(c,a);return[1,[4,[1,[6,b,ft(a)]],d]]}var
 v=0;if(typeof
 b==="number")v=1;else
 switch(b[0]){case
 4:var
-m=j(x,1,b[2]);break;case
+m=k(x,1,b[2]);break;case
 8:var
-m=j(x,1,[5,b[2],b[1]]);break;default:v=1}if(v)var
+m=k(x,1,[5,b[2],b[1]]);break;default:v=1}if(v)var
 m=1;var
-z=m?o(sv,a):m;if(z){var
+z=m?n(s2,a):m;if(z){var
 w=0;if(typeof
 b!=="number")switch(b[0]){case
 0:if(a){if(a[2])return 0;var
@@ -4380,269 +4655,271 @@ B=[0,[0,i,[0,y(i,l,a[1]),0]]]}else
 var
 B=a;return B;case
 1:if(a){if(a[2])return 0;var
-C=a[1],S=[1,[6,l,fe(C)]],D=[0,[0,i,[0,[1,[4,ff(i,C),S]],0]]]}else
+C=a[1],S=[1,[6,l,ft(C)]],D=[0,[0,i,[0,[1,[4,fu(i,C),S]],0]]]}else
 var
 D=a;return D;case
 2:if(a)return 0;var
-n=co(g,k,d,b);if(n)var
-T=[0,n[1],n[2]],E=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},T)]];else
+o=cv(g,j,d,b);if(o)var
+T=[0,o[1],o[2]],E=[0,[0,0,e(function(a){return[1,[5,[0,f(h,a)]]]},T)]];else
 var
-E=n;return E;case
+E=o;return E;case
 3:if(a)return 0;var
-p=co(g,k,d,b);if(p)var
-U=[0,p[1],p[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},U)]];else
+p=cv(g,j,d,b);if(p)var
+U=[0,p[1],p[2]],F=[0,[0,0,e(function(a){return[1,[5,[0,f(h,a)]]]},U)]];else
 var
 F=p;return F;case
 4:if(a)return 0;var
-q=co(g,k,d,b);if(q)var
-V=[0,q[1],q[2]],G=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},V)]];else
+q=cv(g,j,d,b);if(q)var
+V=[0,q[1],q[2]],G=[0,[0,0,e(function(a){return[1,[5,[0,f(h,a)]]]},V)]];else
 var
 G=q;return G;case
 5:if(a){var
 r=a[2];if(r){if(r[2])return 0;var
-H=r[1],I=a[1],W=fe(I),X=[1,[6,l,[1,[6,ff(i,H),W]]]],Y=fe(H),J=[0,[0,i,[0,[1,[4,[1,[6,ff(i,I),Y]],X]],0]]]}else
+H=r[1],I=a[1],W=ft(I),X=[1,[6,l,[1,[6,fu(i,H),W]]]],Y=ft(H),J=[0,[0,i,[0,[1,[4,[1,[6,fu(i,I),Y]],X]],0]]]}else
 var
 J=r;var
 K=J}else
 var
 K=a;return K;case
 6:if(a)return 0;var
-s=co(g,k,d,b);if(s)var
-Z=[0,s[1],s[2]],L=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},Z)]];else
+s=cv(g,j,d,b);if(s)var
+Z=[0,s[1],s[2]],L=[0,[0,0,e(function(a){return[1,[5,[0,f(h,a)]]]},Z)]];else
 var
 L=s;return L;case
 7:if(a)return 0;var
-t=co(g,k,d,b);if(t)var
-_=[0,t[1],t[2]],M=[0,[0,0,f(function(a){return[1,[5,[0,e(h,a)]]]},_)]];else
+t=cv(g,j,d,b);if(t)var
+_=[0,t[1],t[2]],M=[0,[0,0,e(function(a){return[1,[5,[0,f(h,a)]]]},_)]];else
 var
 M=t;return M;case
 8:if(!a)return a;if(a[2])return 0;var
 O=a[1],N=[1,[2,c]];w=1;break;case
 9:if(!a)return a;if(a[2])return 0;var
 O=a[1],N=l;w=1;break}if(w){var
-u=e8(g,k,d,b);if(u)var
-$=u[1],P=e(a2(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
+u=fl(g,j,d,b);if(u)var
+$=u[1],P=f(a5(h),$),Q=[0,[0,P,[0,y(P,N,O),0]]];else
 var
 Q=u;return Q}var
 A=0}else
 var
 A=z;return A}function
-kU(c,f,b,a){if(b)if(a)var
-d=b[1],g=F(c,aw(c,a[1]),f),h=kU(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+li(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,am(c,a[1]),f),h=li(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fg(b,a){return i_(i_(b,0),a)}function
-g_(a){if(a){var
-b=a[2],c=a[1];if(b)return fg(c,[0,sz,g_(b)]);var
+fv(b,a){return jm(jm(b,0),a)}function
+hm(a){if(a){var
+b=a[2],c=a[1];if(b)return fv(c,[0,s6,hm(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,sB,fg(g_(a),sA)]}function
-Q(a){return[0,sD,fg(g_(a),sC)]}function
-ak(a){return[0,sF,[0,a,sE]]}function
-h(b,a){return[0,aC(sH,aC(b,sG)),a]}function
-H(b,a){return Q([0,h(b,a),0])}function
-b6(d){var
-b=d,a=qS,e=0;for(;;){if(b){var
-c=i1(a),b=b[1],a=c;continue}return[0,dR(eF(a)),e]}}function
-g$(a){return[0,dR(eK(a)),0]}function
-fh(a){var
-c=bT(a),f=0,b=0===c?qW:0<c?[0,eK(a)]:[1,eK(ab(a))];if(0===b[0])var
-d=dR(b[1]);else
+y(a){return[0,s8,fv(hm(a),s7)]}function
+R(a){return[0,s_,fv(hm(a),s9)]}function
+aj(a){return[0,ta,[0,a,s$]]}function
+h(b,a){return[0,aE(tc,aE(b,tb)),a]}function
+H(b,a){return R([0,h(b,a),0])}function
+cc(d){var
+b=d,a=rg,e=0;for(;;){if(b){var
+c=jd(a),b=b[1],a=c;continue}return[0,d1(eR(a)),e]}}function
+hn(a){return[0,d1(eV(a)),0]}function
+fw(a){var
+c=b0(a),f=0,b=0===c?rk:0<c?[0,eV(a)]:[1,eV(aa(a))];if(0===b[0])var
+d=d1(b[1]);else
 var
-e=dR(b[1]),d=aC(a9(1,45),e);return[0,d,f]}function
-ha(a){var
-b=0,c=0<bT(a)?eK(a):qV;return[0,dR(c),b]}function
-hb(a){switch(a[0]){case
-2:return sJ;case
-3:return 2<=a[1]?sK:sL;case
-4:return sM;default:return sI}}function
-ee(b,a){function
-c(c,a){return $(c,hb(a))?ee(b,a):[0,sS,g(ee(b,a),sR)]}switch(a[0]){case
+e=d1(b[1]),d=aE(be(1,45),e);return[0,d,f]}function
+ho(a){var
+b=0,c=0<b0(a)?eV(a):rj;return[0,d1(c),b]}function
+hp(a){switch(a[0]){case
+2:return te;case
+3:return 2<=a[1]?tf:tg;case
+4:return th;default:return td}}function
+em(b,a){function
+c(c,a){return ac(c,hp(a))?em(b,a):[0,tn,g(em(b,a),tm)]}switch(a[0]){case
 0:var
-f=a[2],h=a[1];if(typeof
-f==="number")return[0,a0(h),0];var
-i=[0,sT,[0,a0(f),0]];return[0,a0(h),i];case
-1:return[0,e(b,a[1]),0];case
-2:return[0,sV,c(sU,a[1])];case
+e=a[2],h=a[1];if(typeof
+e==="number")return[0,a3(h),0];var
+i=[0,to,[0,a3(e),0]];return[0,a3(h),i];case
+1:return[0,f(b,a[1]),0];case
+2:return[0,tq,c(tp,a[1])];case
 3:var
-j=a[3],k=c([0,hb(a)],j);switch(a[1]){case
+j=a[3],k=c([0,hp(a)],j);switch(a[1]){case
 0:var
-d=sN;break;case
+d=ti;break;case
 1:var
-d=sO;break;case
+d=tj;break;case
 2:var
-d=sP;break;default:var
-d=sQ}var
-l=a[2];return g(c(hb(a),l),[0,d,k]);case
+d=tk;break;default:var
+d=tl}var
+l=a[2];return g(c(hp(a),l),[0,d,k]);case
 4:var
-m=[0,sW,g$(a[2])];return g(c(sX,a[1]),m);default:return[0,sZ,g(ee(b,a[1]),sY)]}}function
-D(a){return[0,s2,g(ee(function(a){return 0===a[0]?a[1]:s1},a),s0)]}function
-kV(a){return[0,s4,g(ee(function(a){return a},a),s3)]}function
-cs(a){if(0===a[0])return D(a[1]);var
-b=[0,h(s5,D(a[2])),0];return Q([0,h(s6,D(a[1])),b])}function
-ef(b,a){var
-c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-s7(a){function
-b(a){return ef(cs,a)}switch(a[0]){case
+m=[0,tr,hn(a[2])];return g(c(ts,a[1]),m);default:return[0,tu,g(em(b,a[1]),tt)]}}function
+G(a){return[0,tx,g(em(function(a){return 0===a[0]?a[1]:tw},a),tv)]}function
+lj(a){return[0,tz,g(em(function(a){return a},a),ty)]}function
+cz(a){if(0===a[0])return G(a[1]);var
+b=[0,h(tA,G(a[2])),0];return R([0,h(tB,G(a[1])),b])}function
+en(b,a){var
+c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return y([0,f(b,a[1]),d])}function
+tC(a){function
+b(a){return en(cz,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?s8:te,i=[0,h(s9,ak(f)),e],j=[0,h(s_,cs(a[4])),i],k=[0,h(s$,b(a[3])),j],l=[0,h(ta,b(a[2])),k],m=[0,h(tb,b(a[1])),l],c=[0,h(td,ak(tc)),m];break;case
+e=0,f=a[5]?tD:tL,i=[0,h(tE,aj(f)),e],j=[0,h(tF,cz(a[4])),i],k=[0,h(tG,b(a[3])),j],l=[0,h(tH,b(a[2])),k],m=[0,h(tI,b(a[1])),l],c=[0,h(tK,aj(tJ)),m];break;case
 1:var
-d=a[3],n=d?[0,h(tf,b(d[1])),0]:d,o=[0,h(tg,b(a[2])),0],p=[0,h(th,b(a[1])),o],c=g([0,h(tj,ak(ti)),p],n);break;default:var
-q=[0,h(tk,b(a[1])),0],c=[0,h(tm,ak(tl)),q]}return Q(c)}function
-tn(a){function
-b(a){return ef(cs,a)}var
-c=0,d=a[7]?to:ty,e=[0,h(tp,ak(d)),c],f=[0,h(tq,cs(a[6])),e],g=[0,h(tr,cs(a[5])),f],i=[0,h(ts,b(a[4])),g],j=[0,h(tt,b(a[3])),i],k=[0,h(tu,b(a[2])),j],l=[0,h(tv,b(a[1])),k];return Q([0,h(tx,ak(tw)),l])}function
-hc(a){switch(a){case
-0:return tz;case
-1:return tA;case
-2:return tB;case
-3:return tC;case
-4:return tD;case
-5:return tE;case
-6:return tF;case
-7:return tG;case
-8:return tH;case
-9:return tI;case
-10:return tJ;case
-11:return tK;default:return tL}}function
-hd(a){if(typeof
-a==="number")return tM;else
+d=a[3],n=d?[0,h(tM,b(d[1])),0]:d,o=[0,h(tN,b(a[2])),0],p=[0,h(tO,b(a[1])),o],c=g([0,h(tQ,aj(tP)),p],n);break;default:var
+q=[0,h(tR,b(a[1])),0],c=[0,h(tT,aj(tS)),q]}return R(c)}function
+tU(a){function
+b(a){return en(cz,a)}var
+c=0,d=a[7]?tV:t5,e=[0,h(tW,aj(d)),c],f=[0,h(tX,cz(a[6])),e],g=[0,h(tY,cz(a[5])),f],i=[0,h(tZ,b(a[4])),g],j=[0,h(t0,b(a[3])),i],k=[0,h(t1,b(a[2])),j],l=[0,h(t2,b(a[1])),k];return R([0,h(t4,aj(t3)),l])}function
+hq(a){switch(a){case
+0:return t6;case
+1:return t7;case
+2:return t8;case
+3:return t9;case
+4:return t_;case
+5:return t$;case
+6:return ua;case
+7:return ub;case
+8:return uc;case
+9:return ud;case
+10:return ue;case
+11:return uf;default:return ug}}function
+hr(a){if(typeof
+a==="number")return uh;else
 switch(a[0]){case
-0:return tN;case
-1:return tO;default:return tP}}function
-eg(a){var
+0:return ui;case
+1:return uj;default:return uk}}function
+eo(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(tQ,D(b[1])),0];break;case
+c=[0,h(ul,G(b[1])),0];break;case
 1:var
-c=[0,h(tR,D(b[1])),0];break;default:var
-l=[0,D(b[2]),0],c=[0,h(tS,w([0,D(b[1]),l])),0]}var
-m=[0,h(tT,ak(hd(a[4]))),c],e=a[3];if(e){var
+c=[0,h(um,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,h(un,y([0,G(b[1]),l])),0]}var
+m=[0,h(uo,aj(hr(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=w([0,D(d[1]),0]),i=a[1],n=0,p=6===i?tU:12<=i?tY:tZ,j=[0,h(tV,H(p,o)),n];else
+o=y([0,G(d[1]),0]),i=a[1],n=0,p=6===i?up:12<=i?ut:uu,j=[0,h(uq,H(p,o)),n];else
 var
-t=[0,h(t0,w([0,D(d[2]),0])),0],j=[0,h(t2,Q([0,h(t1,w([0,D(d[1]),0])),t])),0];var
+t=[0,h(uv,y([0,G(d[2]),0])),0],j=[0,h(ux,R([0,h(uw,y([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=g(k,m),f=a[2],r=f?[0,h(tW,b6(f[1])),0]:f,s=g(r,q);return Q([0,h(tX,ak(hc(a[1]))),s])}function
-kW(a){if(0===a[0]){var
-b=[0,h(t3,ef(D,a[2])),0];return H(t5,Q([0,h(t4,ef(D,a[1])),b]))}var
-c=[0,D(a[5]),0],d=[0,h(t6,w([0,D(a[4]),c])),0],e=[0,h(t7,D(a[3])),d],f=[0,D(a[2]),0];return H(t9,Q([0,h(t8,w([0,D(a[1]),f])),e]))}function
-ub(a){function
-b(a){return w(f(cs,a))}var
-c=[0,h(uc,b(a[2])),0],d=[0,h(ud,b(a[1])),c];return Q([0,h(uf,ak(ue)),d])}function
-up(a){function
-b(a){return ef(D,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(uq,b(c[1])),0]:c,f=[0,D(a[4]),0],i=[0,h(ur,w([0,D(a[3]),f])),0],j=[0,h(us,D(a[2])),i],k=[0,h(ut,b6(a[1])),j],d=g([0,h(uv,ak(uu)),k],e);else
+q=g(k,m),f=a[2],r=f?[0,h(ur,cc(f[1])),0]:f,s=g(r,q);return R([0,h(us,aj(hq(a[1]))),s])}function
+lk(a){if(0===a[0]){var
+b=[0,h(uy,en(G,a[2])),0];return H(uA,R([0,h(uz,en(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,h(uB,y([0,G(a[4]),c])),0],e=[0,h(uC,G(a[3])),d],f=[0,G(a[2]),0];return H(uE,R([0,h(uD,y([0,G(a[1]),f])),e]))}function
+uI(a){function
+b(a){return y(e(cz,a))}var
+c=[0,h(uJ,b(a[2])),0],d=[0,h(uK,b(a[1])),c];return R([0,h(uM,aj(uL)),d])}function
+uW(a){function
+b(a){return en(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(uX,b(c[1])),0]:c,f=[0,G(a[4]),0],i=[0,h(uY,y([0,G(a[3]),f])),0],j=[0,h(uZ,G(a[2])),i],k=[0,h(u0,cc(a[1])),j],d=g([0,h(u2,aj(u1)),k],e);else
 var
-l=[0,h(uw,D(a[4])),0],m=[0,h(ux,b(a[3])),l],n=[0,h(uy,b(a[2])),m],o=a[1]?uz:uB,d=[0,h(uA,ak(o)),n];return Q(d)}function
-he(d,c,a,b){var
-e=[0,h(uC,w(f(eg,b))),0],i=a?[0,h(uD,w(f(up,a))),0]:a,j=g(i,e),k=[0,h(uE,kW(c)),0];return Q(g([0,h(uG,H(uF,w(f(s7,d)))),k],j))}function
-uH(a){switch(a[0]){case
-0:return H(uI,he(a[1],a[2],a[3],a[4]));case
+l=[0,h(u3,G(a[4])),0],m=[0,h(u4,b(a[3])),l],n=[0,h(u5,b(a[2])),m],o=a[1]?u6:u8,d=[0,h(u7,aj(o)),n];return R(d)}function
+hs(d,c,a,b){var
+f=[0,h(u9,y(e(eo,b))),0],i=a?[0,h(u_,y(e(uW,a))),0]:a,j=g(i,f),k=[0,h(u$,lk(c)),0];return R(g([0,h(vb,H(va,y(e(tC,d)))),k],j))}function
+vc(a){switch(a[0]){case
+0:return H(vd,hs(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(uJ,w(f(eg,a[3]))),0],p=[0,h(uK,kW(a[2])),o];return H(uN,Q([0,h(uM,H(uL,w(f(tn,a[1])))),p]));case
+o=[0,h(ve,y(e(eo,a[3]))),0],p=[0,h(vf,lk(a[2])),o];return H(vi,R([0,h(vh,H(vg,y(e(tU,a[1])))),p]));case
 2:var
-q=[0,h(uO,w(f(eg,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,D(a),0];return w([0,D(b),c])};switch(b[0]){case
+q=[0,h(vj,y(e(eo,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,G(a),0];return y([0,G(b),c])};switch(b[0]){case
 0:var
-d=H(ug,c(b[1],b[2]));break;case
+d=H(uN,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(uh,c(g[1],g[2])),0],m=[0,h(ui,c(i[1],i[2])),l],d=H(uk,Q([0,h(uj,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(uO,c(g[1],g[2])),0],m=[0,h(uP,c(i[1],i[2])),l],d=H(uR,R([0,h(uQ,c(j[1],j[2])),m]));break;case
 2:var
-d=H(ul,D(b[1]));break;default:var
-n=[0,h(um,D(b[2])),0],d=H(uo,Q([0,h(un,D(b[1])),n]))}var
-r=[0,h(uP,d),q],s=[0,h(uQ,w(f(D,a[5]))),0],t=[0,h(uT,H(uS,Q([0,h(uR,w(f(D,a[4]))),s]))),r],u=[0,h(uU,D(a[3])),0],v=Q([0,h(uV,w(f(ub,a[2]))),u]);switch(a[1]){case
+d=H(uS,G(b[1]));break;default:var
+n=[0,h(uT,G(b[2])),0],d=H(uV,R([0,h(uU,G(b[1])),n]))}var
+r=[0,h(vk,d),q],s=[0,h(vl,y(e(G,a[5]))),0],t=[0,h(vo,H(vn,R([0,h(vm,y(e(G,a[4]))),s]))),r],u=[0,h(vp,G(a[3])),0],v=R([0,h(vq,y(e(uI,a[2]))),u]);switch(a[1]){case
 0:var
-e=t_;break;case
+f=uF;break;case
 1:var
-e=t$;break;default:var
-e=ua}return H(uX,Q([0,h(uW,H(e,v)),t]));case
+f=uG;break;default:var
+f=uH}return H(vs,R([0,h(vr,H(f,v)),t]));case
 3:var
-x=[0,h(uY,w(f(eg,a[7]))),0],y=[0,h(uZ,w(f(D,a[6]))),0],z=[0,h(u2,H(u1,Q([0,h(u0,w(f(D,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(u4,w(f(function(a){return H(u3,w(f(kV,a)))},B))),A],E=a[3],F=[0,h(u5,w(f(function(a){var
-b=[0,kV(a[2]),0];return w([0,ak(a[1]),b])},E))),C],G=a[2],I=[0,h(u6,w(f(function(a){var
-b=[0,cs(a[2]),0];return w([0,ak(a[1]),b])},G))),F];return H(u_,Q([0,h(u9,H(u8,Q([0,h(u7,w(f(ak,a[1]))),I]))),z]));case
+w=[0,h(vt,y(e(eo,a[7]))),0],x=[0,h(vu,y(e(G,a[6]))),0],z=[0,h(vx,H(vw,R([0,h(vv,y(e(G,a[5]))),x]))),w],A=0,B=a[4],C=[0,h(vz,y(e(function(a){return H(vy,y(e(lj,a)))},B))),A],D=a[3],E=[0,h(vA,y(e(function(a){var
+b=[0,lj(a[2]),0];return y([0,aj(a[1]),b])},D))),C],F=a[2],I=[0,h(vB,y(e(function(a){var
+b=[0,cz(a[2]),0];return y([0,aj(a[1]),b])},F))),E];return H(vF,R([0,h(vE,H(vD,R([0,h(vC,y(e(aj,a[1]))),I]))),z]));case
 4:var
-J=[0,h(u$,w(f(eg,a[3]))),0],K=[0,h(vc,H(vb,Q([0,h(va,D(a[2])),0]))),J];return H(vg,Q([0,h(vf,H(ve,Q([0,h(vd,D(a[1])),0]))),K]));case
+J=[0,h(vG,y(e(eo,a[3]))),0],K=[0,h(vJ,H(vI,R([0,h(vH,G(a[2])),0]))),J];return H(vN,R([0,h(vM,H(vL,R([0,h(vK,G(a[1])),0]))),K]));case
 5:var
-L=[0,h(vh,D(a[5])),0];return H(vj,Q([0,h(vi,he(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,h(vO,G(a[5])),0];return H(vQ,R([0,h(vP,hs(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-k=a[1],M=0,N=k?cs(k[1]):ak(vm);return H(vl,Q([0,h(vk,N),M]));default:var
-O=[0,h(vn,D(a[6])),0],P=[0,h(vo,D(a[5])),O],R=[0,h(vp,he(a[2],a[3],0,a[4])),P],S=a[1];return H(vu,Q([0,h(vt,w(f(function(a){var
-b=[0,h(vq,D(a[2][2])),0],c=[0,h(vr,D(a[2][1])),b];return Q([0,h(vs,ak(a[1])),c])},S))),R]))}}function
-fi(a){return w(f(fh,a))}function
-fj(b,a){var
-c=[0,h(vv,ha(a)),0];return Q([0,h(vw,w(f(fi,b))),c])}function
-fk(a){switch(a[0]){case
-0:return ak(a[1]);case
+k=a[1],M=0,N=k?cz(k[1]):aj(vT);return H(vS,R([0,h(vR,N),M]));default:var
+O=[0,h(vU,G(a[6])),0],P=[0,h(vV,G(a[5])),O],Q=[0,h(vW,hs(a[2],a[3],0,a[4])),P],S=a[1];return H(v1,R([0,h(v0,y(e(function(a){var
+b=[0,h(vX,G(a[2][2])),0],c=[0,h(vY,G(a[2][1])),b];return R([0,h(vZ,aj(a[1])),c])},S))),Q]))}}function
+ep(a){return y(e(fw,a))}function
+fx(b,a){var
+c=[0,h(v2,ho(a)),0];return R([0,h(v3,y(e(ep,b))),c])}function
+eq(a){switch(a[0]){case
+0:return aj(a[1]);case
 1:var
-b=fj(a[2],a[3]);return H(a[1],b);case
+b=fx(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?vx:vz;return H(vy,ak(c));case
+c=a[1]?v4:v6;return H(v5,aj(c));case
 3:var
-d=[0,fi(a[3]),0];return H(vA,w([0,fj(a[1],a[2]),d]));case
+d=[0,ep(a[3]),0];return H(v7,y([0,fx(a[1],a[2]),d]));case
 4:var
-e=[0,b6(0),0],f=[0,fh(a[3]),e];return H(vB,w([0,fj(a[1],a[2]),f]));case
+f=[0,cc(0),0],g=[0,fw(a[3]),f];return H(v8,y([0,fx(a[1],a[2]),g]));case
 5:var
-g=[0,ha(a[3]),0],h=[0,fh(a[2]),g];return H(vC,w([0,fk(a[1]),h]));case
+h=[0,ho(a[3]),0],i=[0,fw(a[2]),h];return H(v9,y([0,eq(a[1]),i]));case
 6:var
-i=[0,ha(a[3]),0],j=[0,fh(a[2]),i];return H(vD,w([0,fk(a[1]),j]));default:return H(vE,fk(a[1]))}}function
-vF(a){var
-b=[0,fk(a[2]),0];return w([0,b6(a[1]),b])}function
-kX(a){if(typeof
-a==="number")return ak(vG);else{if(0===a[0]){var
-b=[0,w(f(fi,a[2])),0];return H(vH,w([0,b6(a[1]),b]))}var
-c=[0,b6(a[2]),0];return H(vI,w([0,b6(a[1]),c]))}}function
-vJ(a){var
-b=a[4],i=b?[0,h(vK,fi([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vL,kX(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(vM,b6(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(vN,w(f(vF,[0,c[1],c[2]]))),0]:c;return Q(g(n,m))}function
-kY(e,a,d){var
-i=[0,h(vO,w(f(vJ,d))),0];if(a)var
-b=a[1],c=[0,h(vP,fj(b[1],b[2])),0];else
+j=[0,ho(a[3]),0],k=[0,fw(a[2]),j];return H(v_,y([0,eq(a[1]),k]));case
+7:return H(v$,eq(a[1]));default:var
+l=[0,y(e(ep,a[3])),0],m=[0,aj(a[2]),l];return H(wa,y([0,eq(a[1]),m]))}}function
+wb(a){var
+b=[0,eq(a[2]),0];return y([0,cc(a[1]),b])}function
+ll(a){if(typeof
+a==="number")return aj(wc);else{if(0===a[0]){var
+b=[0,y(e(ep,a[2])),0];return H(wd,y([0,cc(a[1]),b]))}var
+c=[0,cc(a[2]),0];return H(we,y([0,cc(a[1]),c]))}}function
+wf(a){var
+b=a[4],i=b?[0,h(wg,ep([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(wh,ll(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(wi,cc(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(wj,y(e(wb,[0,c[1],c[2]]))),0]:c;return R(g(n,m))}function
+lm(f,a,d){var
+i=[0,h(wk,y(e(wf,d))),0];if(a)var
+b=a[1],c=[0,h(wl,fx(b[1],b[2])),0];else
 var
 c=a;var
-j=g(c,i);return Q([0,h(vQ,g$(e)),j])}function
-kZ(d,c,a,b){var
-e=[0,h(vR,kX(b)),0],i=a?[0,h(vS,w(f(D,a))),0]:a,j=g(i,e),k=[0,h(vT,w(f(D,c))),0];return Q(g([0,h(vU,g$(d)),k],j))}function
-vV(a){if(typeof
-a==="number")return ak(vW);else
+j=g(c,i);return R([0,h(wm,hn(f)),j])}function
+ln(d,c,a,b){var
+f=[0,h(wn,ll(b)),0],i=a?[0,h(wo,y(e(G,a))),0]:a,j=g(i,f),k=[0,h(wp,y(e(G,c))),0];return R(g([0,h(wq,hn(d)),k],j))}function
+wr(a){if(typeof
+a==="number")return aj(ws);else
 switch(a[0]){case
-0:return H(vX,b6(a[1]));case
-1:return H(vY,kY(a[1],a[2],a[3]));default:return H(vZ,kZ(a[1],a[2],a[3],a[4]))}}function
-hf(a){var
-b=iN(iM(K(a),function(b){return Y(a,b)}));return o(function(a){var
-b=av(34===a?1:0),c=b?av(92===a?1:0):b,d=c?$(wc,eN(a)):c;return d?$(eN(a),wd):d},b)}function
-eh(b){function
+0:return H(wt,cc(a[1]));case
+1:return H(wu,lm(a[1],a[2],a[3]));default:return H(wv,ln(a[1],a[2],a[3],a[4]))}}function
+fy(a){var
+b=gh(gg(N(a),function(b){return W(a,b)}));return n(function(a){var
+b=au(34===a?1:0),c=b?au(92===a?1:0):b,d=c?ac(wK,eY(a)):c;return d?ac(eY(a),wL):d},b)}function
+er(b){function
 c(f){var
-a=eN(f),b=$(we,a),c=b?$(a,wf):b;if(c)var
+a=eY(f),b=ac(wM,a),c=b?ac(a,wN):b;if(c)var
 d=c;else{var
-e=$(wg,a);if(e)return $(a,wh);var
+e=ac(wO,a);if(e)return ac(a,wP);var
 d=e}return d}var
-a=iN(iM(K(b),function(a){return Y(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?o(function(a){var
+a=gh(gg(N(b),function(a){return W(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eN(a),f=$(wi,e),h=f?$(e,wj):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?$(l(d),wk):f;if(g)return av(ao(b,wl));var
+e=eY(a),f=ac(wQ,e),h=f?ac(e,wR):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?ac(j(d),wS):f;if(g)return au(ar(b,wT));var
 h=g}else
 var
 h=a;return h}function
-hg(c){var
+ht(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eh(a[1]);case
+1:return er(a[1]);case
 3:var
-b=hg(a[2]);if(b){var
+b=ht(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-ei(m){var
+es(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4653,96 +4930,96 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eF(a[2]);if(typeof
+f=eR(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=ei(a[2]);if(i){var
+i=es(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=ei(a[1]),l=k?eJ(b(2,c),j):k;return l?eJ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=es(a[1]),l=k?eU(b(2,c),j):k;return l?eU(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dk(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bo(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ct(a){return A(dk,bo(a))}function
-hh(a){switch(a[0]){case
+dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bu(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cA(a){return E(dv,bu(a))}function
+hu(a){switch(a[0]){case
 0:var
-c=dk(a[4]),d=g(ct(a[3]),c),e=g(ct(a[2]),d);return g(ct(a[1]),e);case
+c=dv(a[4]),d=g(cA(a[3]),c),e=g(cA(a[2]),d);return g(cA(a[1]),e);case
 1:var
-b=a[3],f=b?ct(b[1]):b,h=g(ct(a[2]),f);return g(ct(a[1]),h);default:return ct(a[1])}}function
-wm(a){var
-b=A(dk,[0,a[5],[0,a[6],0]]);return g(A(ct,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-hi(a){if(0===a[0]){var
-b=bo(a[2]);return g(bo(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-cR(d){var
+b=a[3],f=b?cA(b[1]):b,h=g(cA(a[2]),f);return g(cA(a[1]),h);default:return cA(a[1])}}function
+wU(a){var
+b=E(dv,[0,a[5],[0,a[6],0]]);return g(E(cA,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+hv(a){if(0===a[0]){var
+b=bu(a[2]);return g(bu(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+cW(d){var
 a=d[4],f=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-wn(a){if(0===a[0]){var
-b=a[5],c=b?bo(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bo(a[3]),d);return g(bo(a[2]),e)}function
-k0(b,e){var
+wV(a){if(0===a[0]){var
+b=a[5],c=b?bu(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bu(a[3]),d);return g(bu(a[2]),e)}function
+lo(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aR(function(a){return ao(f,a)},b)}return 0;case
+f=c[1];return aP(function(a){return ar(f,a)},b)}return 0;case
 3:var
-d=k0(b,a[2]);if(d){var
+d=lo(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fl(c,a){return o(function(a){var
-b=ei(a);return b?k0(c,a):b},a)}function
-k1(a){var
-d=eJ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eJ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-k2(a,b){return b?[4,k2(a,b[1]),a]:a}function
+fz(c,a){return n(function(a){var
+b=es(a);return b?lo(c,a):b},a)}function
+lp(a){var
+d=eU(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eU(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+lq(a,b){return b?[4,lq(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return s(k,a)},m=eH(iZ(j),l,c);return[0,i7(i0(eF(a[1]),j)),m];case
+j=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return s(k,a)},m=eS(jb(j),l,c);return[0,jj(jc(eR(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,ab(f[1]),f[2]]:[3,[0,d,c],f];case
+f=i(a[1]);return 0===f[0]?[0,aa(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
 g=i(a[2]),h=i(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bZ(dN(a[2]));return k2(i(a[1]),n);default:return[6,i(a[1])]}}function
-b7(a){if(0===a[0]){var
+n=b5(dY(a[2]));return lq(i(a[1]),n);default:return[6,i(a[1])]}}function
+cd(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bp(a){var
-b=b7(a[3]),c=b7(a[2]);return[0,b7(a[1]),c,b]}function
-wo(a){switch(a[0]){case
+bv(a){var
+b=cd(a[3]),c=cd(a[2]);return[0,cd(a[1]),c,b]}function
+wW(a){switch(a[0]){case
 0:var
-b=a[5],c=b7(a[4]),d=bp(a[3]),e=bp(a[2]);return[0,[0,bp(a[1]),e,d,c,b]];case
+b=a[5],c=cd(a[4]),d=bv(a[3]),e=bv(a[2]);return[0,[0,bv(a[1]),e,d,c,b]];case
 1:var
-f=R(bp,a[3]),g=bp(a[2]);return[1,bp(a[1]),g,f];default:return[2,bp(a[1])]}}function
-k3(a){if(0===a[0]){var
+f=K(bv,a[3]),g=bv(a[2]);return[1,bv(a[1]),g,f];default:return[2,bv(a[1])]}}function
+lr(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
+b=i(f(a,c));return[0,i(f(a,d)),b]},e=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,e]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dl(a){var
+dw(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-dm(a){if(0===a[0]){var
-b=a[5],h=b?dl(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bZ(a[1]),l,k,j,h]}var
+dx(a){if(0===a[0]){var
+b=a[5],h=b?dw(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b5(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dl(f),n=dl(g);return[2,i(e),n,m]}var
-o=dl(f),p=dl(g);return[1,i(e),p,o]}function
-hj(b,a){if(a){var
-c=a[1],d=a[2],e=hj(g(b,[0,c,0]),d),h=f(function(a){return[0,c,a]},b);return g(dP(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:E(b[1],a[1]):0:0===a[0]?0:dM(b[1],a[1]);return av(d)},h),e)}return a}function
-wp(b){if(b[1])return 0;var
+m=dw(f),n=dw(g);return[2,i(e),n,m]}var
+o=dw(f),p=dw(g);return[1,i(e),p,o]}function
+hw(b,a){if(a){var
+c=a[1],d=a[2],f=hw(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(c9(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:dW(b[1],a[1]);return au(d)},h),f)}return a}function
+wX(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-wr(c,a){switch(a[1]){case
+wZ(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4767,59 +5044,59 @@ r==="number"||!(0===r[0]))H=1;else{var
 s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
 b=s[1]}if(H)return 0;break;case
 6:var
-u=a[4];if(typeof
-u!=="number"&&0===u[0]){if(a[2])return 0;var
+v=a[4];if(typeof
+v!=="number"&&0===v[0]){if(a[2])return 0;var
 f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
-I=0,v=a[4];if(typeof
-v==="number"||!(1===v[0]))I=1;else{var
+I=0,w=a[4];if(typeof
+w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-w=E(c,wt),J=0;if(w){var
-x=a[2];if(x){var
-b=x[1];J=1}else
+x=t(c,w1),J=0;if(x){var
+y=a[2];if(y){var
+b=y[1];J=1}else
 var
-y=1}else
+z=1}else
 var
-y=w;if(!J)return y}if(I)return 0;break;case
+z=x;if(!J)return z}if(I)return 0;break;case
 10:var
-K=0,z=a[4];if(typeof
-z==="number"||!(1===z[0]))K=1;else{var
-A=a[2];if(!A){var
+K=0,A=a[4];if(typeof
+A==="number"||!(1===A[0]))K=1;else{var
+B=a[2];if(!B){var
 i=a[3];return i?0===i[1][0]?0:1:i}var
 h=a[3];if(!h)return h;if(0===h[1][0])return 0;var
-b=A[1]}if(K)return 0;break;case
+b=B[1]}if(K)return 0;break;case
 11:var
-B=typeof
-a[4]==="number"?1:0;if(B){if(a[2])return 0;if(a[3])return 0;var
-C=1}else
+C=typeof
+a[4]==="number"?1:0;if(C){if(a[2])return 0;if(a[3])return 0;var
+D=1}else
 var
-C=B;return C;case
+D=C;return D;case
 12:var
-D=a[4];if(typeof
-D!=="number"&&1===D[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?E(c,wu):0:j}return 0;default:var
-t=a[4];if(typeof
-t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=$(ws,b);return n?$(b,c):n}function
-hk(e,m,_,b){var
-$=l(e),h=A(function(a){switch(a[1]){case
+E=a[4];if(typeof
+E!=="number"&&1===E[0]){if(a[2])return 0;var
+j=a[3];return j?0===j[1][0]?t(c,w2):0:j}return 0;default:var
+u=a[4];if(typeof
+u!=="number"&&0===u[0])return a[2]?0:a[3]?0:1;return 0}var
+n=ac(w0,b);return n?ac(b,c):n}function
+hx(f,m,_,b){var
+$=j(f),h=E(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
 1:var
-e=a[4],y=0;if(typeof
-e==="number")y=1;else
-switch(e[0]){case
+f=a[4],z=0;if(typeof
+f==="number")z=1;else
+switch(f[0]){case
 0:var
-K=e[1],b=function(a){return[2,a,i(K)]};break;case
+K=f[1],b=function(a){return[2,a,i(K)]};break;case
 1:var
-M=e[1],b=function(a){return[3,a,i(M)]};break;default:y=1}if(y)return 0;break;case
+M=f[1],b=function(a){return[3,a,i(M)]};break;default:z=1}if(z)return 0;break;case
 2:var
 h=a[4],G=0;if(typeof
 h==="number"||!(1===h[0]))G=1;else{var
 j=a[3],N=h[1];if(!j)return j;var
-A=j[1];if(0!==A[0])return 0;var
-O=A[1],b=function(a){var
+B=j[1];if(0!==B[0])return 0;var
+O=B[1],b=function(a){var
 b=i(N);return[4,a,i(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
@@ -4836,8 +5113,8 @@ m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 o=a[3];if(o){var
-B=o[1];if(0===B[0]){var
-Q=i(n[1]);return[0,[8,i(B[1]),Q],0]}return 0}return o}return 0;case
+C=o[1];if(0===C[0]){var
+Q=i(n[1]);return[0,[8,i(C[1]),Q],0]}return 0}return o}return 0;case
 7:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
@@ -4845,41 +5122,41 @@ p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
 q=a[4],I=0;if(typeof
 q==="number"||!(1===q[0]))I=1;else{var
 r=a[3],R=q[1];if(!r)return r;var
-C=r[1];if(0!==C[0])return 0;var
-S=C[1],b=function(a){var
+D=r[1];if(0!==D[0])return 0;var
+S=D[1],b=function(a){var
 b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=hj(0,_);return f(function(h){var
+T=s[1],U=hw(0,_);return e(function(h){var
 e=i(T),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dl(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(E(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bZ(f),m,l,k]}var
-n=dm(a);return[10,dm(b),n,e]}var
-o=dm(a);return[10,dm(b),o,e]}var
-p=dm(a);return[10,dm(b),p,e]},U)}return 0;case
+g=function(a){return a?dw(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(t(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,b5(f),m,l,k]}var
+n=dx(a);return[10,dx(b),n,e]}var
+o=dx(a);return[10,dx(b),o,e]}var
+p=dx(a);return[10,dx(b),p,e]},U)}return 0;case
 10:var
-t=a[4],J=0;if(typeof
-t==="number"||!(1===t[0]))J=1;else{var
-u=a[3],V=t[1];if(!u)return u;var
-v=u[1];if(0===v[0])return 0;var
-W=v[2],X=v[1],b=function(a){var
+u=a[4],J=0;if(typeof
+u==="number"||!(1===u[0]))J=1;else{var
+v=a[3],V=u[1];if(!v)return v;var
+w=v[1];if(0===w[0])return 0;var
+W=w[2],X=w[1],b=function(a){var
 b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
 11:var
-D=typeof
-a[4]==="number"?1:0,Y=D?wq:D;return Y;default:var
-w=a[4];if(typeof
-w!=="number"&&1===w[0]){var
-x=a[3];if(x){var
-F=x[1];if(0===F[0]){var
-Z=i(w[1]);return[0,[14,i(F[1]),Z],0]}return 0}return x}return 0}var
-z=a[2],L=z?[0,bZ(z[1]),0]:cE(0,$);return f(b,L)},b),a=A(wp,b),j=a?[0,a[1],a[2]]:wv,k=g(j,h),n=k3(m);return[0,f(wo,e),n,k]}function
-ww(b){if(b[1])return 0;var
+E=typeof
+a[4]==="number"?1:0,Y=E?wY:E;return Y;default:var
+x=a[4];if(typeof
+x!=="number"&&1===x[0]){var
+y=a[3];if(y){var
+F=y[1];if(0===F[0]){var
+Z=i(x[1]);return[0,[14,i(F[1]),Z],0]}return 0}return y}return 0}var
+A=a[2],L=A?[0,b5(A[1]),0]:bH(0,$);return e(b,L)},b),a=E(wX,b),k=a?[0,a[1],a[2]]:w3,l=g(k,h),n=lr(m);return[0,e(wW,f),n,l]}function
+w4(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-dn(D,b){var
-c=A(function(a){switch(a[1]){case
+dy(D,b){var
+c=E(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -4894,9 +5171,9 @@ v=b[1],c=function(a){return[3,a,i(v)]};break;default:var
 w=b[2],x=b[1],c=function(a){var
 b=i(w);return[4,a,i(x),b]}}break;case
 2:var
-e=a[4],r=0;if(typeof
-e==="number"||!(1===e[0]))r=1;else{var
-g=a[3],y=e[1];if(!g)return g;var
+f=a[4],r=0;if(typeof
+f==="number"||!(1===f[0]))r=1;else{var
+g=a[3],y=f[1];if(!g)return g;var
 o=g[1];if(0!==o[0])return 0;var
 z=o[1],c=function(a){var
 b=i(y);return[6,a,i(z),b]}}if(r)return 0;break;case
@@ -4916,8 +5193,8 @@ m=a[3],B=l[1];if(!m)return m;var
 q=m[1];if(0!==q[0])return 0;var
 C=q[1],c=function(a){var
 b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
-n=a[2],u=n?[0,bZ(n[1]),0]:cE(0,D);return f(c,u)},b),a=A(ww,b),d=a?[0,a[1],a[2]]:wx;return g(d,c)}function
-bb(n,m,a){var
+n=a[2],u=n?[0,b5(n[1]),0]:bH(0,D);return e(c,u)},b),a=E(w4,b),d=a?[0,a[1],a[2]]:w5;return g(d,c)}function
+bi(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4927,31 +5204,31 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=dM(n,e);if(f){var
+f=dW(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=$(wy,h);return i?$(h,m):i}var
+h=g[1],i=ac(w6,h);return i?ac(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-cS(a){switch(a[0]){case
+cX(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cS(a[1])];case
+2:return[2,cX(a[1])];case
 3:var
-b=cS(a[2]),c=cS(a[3]);switch(a[1]){case
+b=cX(a[2]),c=cX(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cS(a[1]),d];default:return[8,cS(a[1])]}}function
-k4(b){function
+d=a[2];return[7,cX(a[1]),d];default:return[8,cX(a[1])]}}function
+ls(b){function
 a(e){var
-a=[0,d,c];return z(e,b,[0,a,a])}var
-e=a(wA),f=a(wB);return[0,a(0),f,e]}function
-hl(a){function
+a=[0,d,c];return u(e,b,[0,a,a])}var
+e=a(w8),f=a(w9);return[0,a(0),f,e]}function
+hy(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4959,52 +5236,47 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-k5(j,a,h,g,e,d,c){function
-b(a){return k4(f(b7,a))}var
-k=dn(l(a),c),m=hl(d),n=b1(g,e),o=k4(f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
-wC(a){var
-b=a[7],c=b7(a[6]),d=b7(a[5]),e=bp(a[4]),f=bp(a[3]),g=bp(a[2]);return[0,bp(a[1]),g,f,e,d,c,b]}function
-k6(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=b5(i(g[2][1]));if(k){var
-l=k[1],m=b5(i(g[2][2]));if(m)var
+lt(k,a,h,g,f,d,c){function
+b(a){return ls(e(cd,a))}var
+l=dy(j(a),c),m=hy(d),n=a$(g,f),o=ls(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,k,e(function(a){var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
+w_(a){var
+b=a[7],c=cd(a[6]),d=cd(a[5]),e=bv(a[4]),f=bv(a[3]),g=bv(a[2]);return[0,bv(a[1]),g,f,e,d,c,b]}function
+lu(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cb(i(g[2][1]));if(k){var
+l=k[1],m=cb(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,eH(h[2],d,c)];return dQ(l,c7(gk(p,l),e))},q=n(x(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,eS(h[2],d,c)];return d0(l,c$(gy(p,l),e))},q=n(B(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=k6([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=lu([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-al(b,a){switch(a[0]){case
+an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
-f=a[1];if(0===f[0]){var
-c=b,g=f[1];for(;;){if(c){var
-e=c[1];if(!ao(g,e[1])){var
-c=c[2];continue}var
-d=[0,e]}else
-var
-d=c;return d?[1,d[1][2]]:a}}return a;case
-2:return[2,al(b,a[1])];case
+c=a[1];if(0===c[0]){var
+e=c[1],d=jn(function(a){return ar(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,an(b,a[1])];case
 3:var
-h=al(b,a[3]),i=al(b,a[2]);return[3,a[1],i,h];case
+f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
-j=a[2];return[4,al(b,a[1]),j];default:return[5,al(b,a[1])]}}function
-k7(b,a){if(0===a[0])return[0,al(b,a[1])];var
-c=al(b,a[2]);return[1,al(b,a[1]),c]}function
-hm(b,a){var
-c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
-hn(c,a){if(c)if(a){var
+h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
+lv(b,a){if(0===a[0])return[0,an(b,a[1])];var
+c=an(b,a[2]);return[1,an(b,a[1]),c]}function
+hz(b,a){var
+c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
+hA(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hn(h,g);if(e){var
-i=e[1],f=hn(h,i[2]);if(f)var
+e=hA(h,g);if(e){var
+i=e[1],f=hA(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5016,265 +5288,286 @@ var
 d=a;else
 var
 d=c;return d}function
-ho(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ho(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,x(s(b(2,c),l),k),j],h]}else
+hB(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hB(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,B(s(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wD(a){if(typeof
+w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wE(a){if(typeof
+xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fm(f,a){if(0===a[0]){var
-g=[0,c,b(2,c)],h=fm(f,a[3]);return c7(dQ(fm(f,a[2]),h),g)}return e(f,a[1])?[0,c,c]:[0,d,c]}var
+fA(e,a){if(0===a[0]){var
+g=[0,c,b(2,c)],h=fA(e,a[3]);return c$(d0(fA(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dp(h){var
-a=cD(function(f,e){var
-a=bD(m,f);if(a)var
-b=a[1],c=bY(f3(b[1]),f3(b[2]));else
+dz(h){var
+a=bG(function(f,e){var
+a=bK(m,f);if(a)var
+b=a[1],c=bF(gd(b[1]),gd(b[2]));else
 var
-c=d;return bY(c,e)},d,h);if(ad(d,a)){var
-f=bT(a);if(0===f||!(0<f&&!J(a,c)))var
+c=d;return bF(c,e)},d,h);if(S(d,a)){var
+f=b0(a);if(0===f||!(0<f&&!I(a,c)))var
 g=d;else
 var
-b=bA(a,a6(2)),e=b[1],g=ah(b[2],d)?eI(e):eI(e);return bx(g,m)}return d}function
-fn(a){return[0,a[1],[0,a[2],0]]}function
-bK(a){var
-b=fn(a[3]),c=g(fn(a[2]),b);return g(fn(a[1]),c)}function
-wF(a){return 0===a[0]?fn(a[1][4]):0}function
-wG(a){switch(a[0]){case
+b=bE(a,a9(2)),e=b[1],g=ad(b[2],d)?eT(e):eT(e);return aS(g,m)}return d}function
+fB(a){return[0,a[1],[0,a[2],0]]}function
+bQ(a){var
+b=fB(a[3]),c=g(fB(a[2]),b);return g(fB(a[1]),c)}function
+xb(a){return 0===a[0]?fB(a[1][4]):0}function
+xc(a){switch(a[0]){case
 0:var
-b=a[1],c=bK(b[3]);return g(bK(b[2]),c);case
+b=a[1],c=bQ(b[3]);return g(bQ(b[2]),c);case
 1:var
-d=bK(a[2]);return g(bK(a[1]),d);default:return 0}}function
-k8(a){switch(a[0]){case
-0:return dp(bK(a[1][1]));case
+d=bQ(a[2]);return g(bQ(a[1]),d);default:return 0}}function
+hC(a){switch(a[0]){case
+0:return dz(bQ(a[1][1]));case
 1:var
-b=a[3];return b?dp(bK(b[1])):d;default:return dp(bK(a[1]))}}function
-k9(b){var
-a=A(wF,b),d=a?[0,a[1],a[2]]:A(wG,b);return x(c,dp(d))}function
-fo(a){switch(a[0]){case
+b=a[3];return b?dz(bQ(b[1])):d;default:return dz(bQ(a[1]))}}function
+hD(b){var
+a=E(xb,b),d=a?[0,a[1],a[2]]:E(xc,b);return B(c,dz(d))}function
+lw(c,a){if(c){if(a){var
+d=a[1];if(45===d)var
+b=xd;else
+if(43===d)var
+b=xe;else
+var
+f=48===d?1:0,i=f?xf:f,b=i;if(b)var
+e=lw(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+var
+g=b;var
+h=g}else
+var
+h=a;return h}return a?0:xg}function
+et(b,a){switch(a[0]){case
 0:var
-b=a[1];if(ao(b,wH))return wI;if(ao(b,wJ))return wK;if(ao(b,wL))return wM;if(ao(b,wN))return wO;if(ao(b,wP))return wQ;var
-h=ao(b,wR),j=h?wS:h;return j;case
+c=a[1];if(ar(c,xh))return xi;if(ar(c,xj))return xk;if(ar(c,xl))return xm;if(ar(c,xn))return xo;if(ar(c,xp))return xq;var
+k=ar(c,xr),p=k?xs:k;return p;case
 1:var
-c=a[3],d=a[2],e=a[1];if(ao(e,wT))return[0,[0,c,d]];if(ao(e,wU))return[0,[1,c,d]];if(ao(e,wV))return[0,[2,c,d]];var
-i=ao(e,wW),k=i?[0,[8,c,d]]:i;return k;case
+d=a[3],e=a[2],f=a[1];if(ar(f,xt))return[0,[0,d,e]];if(ar(f,xu))return[0,[1,d,e]];if(ar(f,xv))return[0,[2,d,e]];var
+l=ar(f,xw),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-f=fo(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+g=et(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-g=fo(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=fo(a[1]);return R(function(a){return[6,a]},n)}}function
-k_(a){if(a){var
-d=a[1],b=fo(d[2]);if(b)var
-c=k_(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+h=et(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+7:var
+t=et(b,a[1]);return K(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=et(b,a[1]);if(i)var
+j=lw(b,gh(gg(N(m),function(a){return W(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
-e=b;return e}return wX}function
-dq(c,a){if(c)if(a){var
-b=a[1];if(b[3])return 0;if(b[4])return 0;var
-h=b[2],i=a[2],j=c[1],d=k_(b[1]);if(d){var
-k=d[1];if(h){var
-e=dq(j,i);if(e){var
-l=e[1],f=dq(j,l[2]);if(f)var
-m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
-var
-n=f;var
+n=i;var
 o=n}else
 var
-o=e;return o}var
-p=[0,[0,[0,k],i]]}else
+o=b;return o}}function
+lx(d,a){if(a){var
+e=a[1],b=et(d,e[2]);if(b)var
+c=lx(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-p=d;var
-g=p}else
+f=b;return f}return xx}function
+dA(d,c,a){if(c)if(a){var
+b=a[1];if(b[3])return 0;if(b[4])return 0;var
+i=b[2],j=a[2],k=c[1],e=lx(d,b[1]);if(e){var
+l=e[1];if(i){var
+f=dA(d,k,j);if(f){var
+m=f[1],g=dA(d,k,m[2]);if(g)var
+n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
-g=a;else
+o=g;var
+p=o}else
 var
-g=c;return g}function
-hp(d,a){if(d){if(a){var
-b=dq(l(a),a);if(b)var
-e=b[1],c=hp(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+p=f;return p}var
+q=[0,[0,[0,l],j]]}else
 var
-f=b;return f}return wY}return a?0:wZ}function
-hq(a){return typeof
+q=e;var
+h=q}else
+var
+h=a;else
+var
+h=c;return h}function
+hE(e,d,a){if(d){if(a){var
+b=dA(e,j(a),a);if(b)var
+f=b[1],c=hE(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+var
+g=b;return g}return xy}return a?0:xz}function
+hF(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hr(d,a){if(d)if(a){var
+hG(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hr(k,j);if(e){var
-l=e[1],f=hr(k,l[2]);if(f)var
+e=hG(k,j);if(e){var
+l=e[1],f=hG(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hq(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hF(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cT(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bq(a,e){var
-b=cT(a[1],e),c=cT(a[2],b[2]),d=cT(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-k$(d,c){if(d){var
+cY(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bw(a,e){var
+b=cY(a[1],e),c=cY(a[2],b[2]),d=cY(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+ly(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bq(a[1],c),f=bq(a[2],e[2]),g=bq(a[3],f[2]),h=cT(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bw(a[1],c),f=bw(a[2],e[2]),g=bw(a[3],f[2]),h=cY(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bq(a[1],c),k=j[1],l=bq(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bq(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bw(a[1],c),k=j[1],l=bw(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bw(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bq(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=k$(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-la(b,i){if(b){var
-a=b[1],c=bq(a[1],i),d=bq(a[2],c[2]),e=bq(a[3],d[2]),f=bq(a[4],e[2]),g=cT(a[5],f[2]),h=cT(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=la(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-w0(a){if(typeof
+p=bw(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=ly(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+lz(b,i){if(b){var
+a=b[1],c=bw(a[1],i),d=bw(a[2],c[2]),e=bw(a[3],d[2]),f=bw(a[4],e[2]),g=cY(a[5],f[2]),h=cY(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=lz(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+xA(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return w2;case
+5:return xC;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return w1}function
-hs(a,b){if(a){var
-c=cT(a[1],b),d=hs(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-ht(b){function
-a(a){return z(a,b,[0,d,c])}var
-e=a(w4),f=a(w5);return[0,a(0),f,e]}function
-lb(a,b){if(a){var
-c=a[1],d=hs(c[1],b),e=hs(c[2],d[2]),f=lb(a[2],e[2]),g=f[2],h=f[1],i=ht(e[1]);return[0,[0,[0,ht(d[1]),i],h],g]}return[0,0,b]}function
-dr(a){return jN(m,a)}function
-w6(a){if(typeof
+11:return 0}return xB}function
+hH(a,b){if(a){var
+c=cY(a[1],b),d=hH(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+hI(b){function
+a(a){return u(a,b,[0,d,c])}var
+e=a(xE),f=a(xF);return[0,a(0),f,e]}function
+lA(a,b){if(a){var
+c=a[1],d=hH(c[1],b),e=hH(c[2],d[2]),f=lA(a[2],e[2]),g=f[2],h=f[1],i=hI(e[1]);return[0,[0,[0,hI(d[1]),i],h],g]}return[0,0,b]}function
+dB(a){return ka(m,a)}function
+xG(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return j(m,1,[3,a[1],[0,c,c]]);case
-6:return j(m,1,a[2]);case
+5:return k(m,1,[3,a[1],[0,c,c]]);case
+6:return k(m,1,a[2]);case
 8:var
-d=j(m,1,a[1]);return d?j(m,1,a[2]):d;case
-10:return j(m,0,a[3]);case
+d=k(m,1,a[1]);return d?k(m,1,a[2]):d;case
+10:return k(m,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?j(m,0,e[2]):0;case
+e=a[4];return 2===e[0]?k(m,0,e[2]):0;case
 12:var
-f=j(m,0,a[2]),g=f?j(m,0,a[3]):f;return g?j(m,1,a[4]):g;case
+f=k(m,0,a[2]),g=f?k(m,0,a[3]):f;return g?k(m,1,a[4]):g;case
 14:var
-h=j(m,0,a[1]);return h?j(m,1,a[2]):h;case
+h=k(m,0,a[1]);return h?k(m,1,a[2]):h;case
 2:case
-3:return dr(a[2]);case
+3:return dB(a[2]);case
 4:case
 13:var
-b=j(m,1,a[2]);return b?j(m,1,a[3]):b;default:return j(m,1,a[1])}}function
-hu(a){if(typeof
+b=k(m,1,a[2]);return b?k(m,1,a[3]):b;default:return k(m,1,a[1])}}function
+hJ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(m,1,[3,d,e]),g=f?j(m,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(m,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return h?j(m,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):h;case
-5:return j(m,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=k(m,1,[3,d,e]),g=f?k(m,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,h=g?k(m,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return h?k(m,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):h;case
+5:return k(m,1,[3,a[1],[0,c,c]]);case
 8:var
-k=j(m,1,a[1]);return k?j(m,1,a[2]):k;case
+j=k(m,1,a[1]);return j?k(m,1,a[2]):j;case
 0:case
-1:return j(m,1,a[1]);case
+1:return k(m,1,a[1]);case
 2:case
-3:return dr(a[2]);default:var
-i=j(m,1,a[2]);return i?j(m,1,a[3]):i}}function
-fp(d){var
+3:return dB(a[2]);default:var
+i=k(m,1,a[2]);return i?k(m,1,a[3]):i}}function
+fC(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=av(aR(function(d){return function(a){var
-h=hc(a[1]),e=ao(hc(d[1]),h);if(e)var
-i=hd(a[4]),b=ao(hd(d[4]),i);else
+b=a[2],e=a[1],c=au(aP(function(d){return function(a){var
+h=hq(a[1]),e=ar(hq(d[1]),h);if(e)var
+i=hr(a[4]),b=ar(hr(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?E(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?t(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ej(a){if(0===a[0])return dr(i(a[1]));var
-b=a[2],c=a[1];if(!d0(i(c))&&!d0(i(b))){var
-e=i(c);return j(m,1,[3,i(b),e])}var
-d=i(b);return bm(m,i(c),d)}function
-br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lc(a){switch(a[0]){case
+eu(a){if(0===a[0])return dB(i(a[1]));var
+b=a[2],c=a[1];if(!d7(i(c))&&!d7(i(b))){var
+e=i(c);return k(m,1,[3,i(b),e])}var
+d=i(b);return bs(m,i(c),d)}function
+bx(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lB(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(br(a[3]),c),e=g(br(a[2]),d);return g(br(a[1]),e);case
+c=[0,a[4],0],d=g(bx(a[3]),c),e=g(bx(a[2]),d);return g(bx(a[1]),e);case
 1:var
-b=a[3],f=b?br(b[1]):b,h=g(br(a[2]),f);return g(br(a[1]),h);default:return br(a[1])}}function
-ld(a){var
-b=[0,a[5],[0,a[6],0]],c=g(br(a[4]),b),d=g(br(a[3]),c),e=g(br(a[2]),d);return g(br(a[1]),e)}function
-hv(a){switch(a){case
-0:return w_;case
-1:return w$;default:return 0}}function
-fq(a){var
-f=a[1],d=j(m,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?bm(m,a[1],a[2]):d;if(e){var
-g=a[2];return j(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
-hw(a){var
-e=bm(m,[0,d,c],a);return e?j(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-le(c,d,D,t,s,r,g){function
-u(a){var
-d=c?w8:w9,b=E(l(a),d);return b?o(ej,a):b}var
-v=o(function(a){var
-b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-F=l(d),h=$(d_(c),F);else
+b=a[3],f=b?bx(b[1]):b,h=g(bx(a[2]),f);return g(bx(a[1]),h);default:return bx(a[1])}}function
+lC(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bx(a[4]),b),d=g(bx(a[3]),c),e=g(bx(a[2]),d);return g(bx(a[1]),e)}function
+hK(a){switch(a){case
+0:return xK;case
+1:return xL;default:return 0}}function
+fD(a){var
+f=a[1],d=k(m,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?bs(m,a[1],a[2]):d;if(e){var
+g=a[2];return k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
+hL(a){var
+e=bs(m,[0,d,c],a);return e?k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+lD(c,d,E,u,s,r,g){function
+v(a){var
+d=c?xI:xJ,b=t(j(a),d);return b?n(eu,a):b}var
+w=n(function(a){var
+b=v(a[1]);return b?v(a[2]):b},d);if(w)var
+F=j(d),h=ac(eg(c),F);else
 var
-h=v;var
-w=h?$(l(d),xa):h,x=w?j(m,1,i(D)):w;if(x)var
-G=hv(c),k=E(l(t),G);else
+h=w;var
+x=h?ac(j(d),xM):h,y=x?k(m,1,i(E)):x;if(y)var
+G=hK(c),l=t(j(u),G);else
 var
-k=x;if(k)var
-H=hv(c),n=E(l(s),H);else
+l=y;if(l)var
+H=hK(c),o=t(j(s),H);else
 var
-n=k;if(n)var
-I=b1(t,s),p=o(function(a){var
-b=i(a[2]);return bm(m,i(a[1]),b)},I);else
+o=l;if(o)var
+I=a$(u,s),p=n(function(a){var
+b=i(a[2]);return bs(m,i(a[1]),b)},I);else
 var
-p=n;if(p)if(c){var
-a=hl(r);switch(a[0]){case
+p=o;if(p)if(c){var
+a=hy(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=fq(a[1]),A=z?fq(a[2]):z,e=A?fq(a[3]):A;break;case
+A=fD(a[1]),B=A?fD(a[2]):A,e=B?fD(a[3]):B;break;case
 2:var
-e=hw(a[1]);break;default:var
-B=hw(a[1]),e=B?hw(a[2]):B}var
+e=hL(a[1]);break;default:var
+C=hL(a[1]),e=C?hL(a[2]):C}var
 f=e}else
 var
-C=hl(r),K=0===C[0]?fq(C[1]):0,f=K;else
+D=hy(r),K=0===D[0]?fD(D[1]):0,f=K;else
 var
 f=p;if(f)var
-b=l(d),J=d_(c),q=o(function(a){var
+b=j(d),J=eg(c),q=n(function(a){var
 d=a[2];if(d)var
-e=d[1],f=$(wz,e),n=f?$(e,b):f,c=n;else
+e=d[1],f=ac(w7,e),n=f?ac(e,b):f,c=n;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bb(0,b,a):bb(0,b,a)}return bb(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bb(0,b,a):bb(0,b,a)}return bb(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?E(b,J):c:bb(0,b,a):bb(0,b,a)}return bb(0,b,a)}return bb(0,b,a)},g);else
+m=a[3];return m?0===m[1][0]?c?t(b,J):c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a)}return bi(0,b,a)},g);else
 var
 q=f;var
-y=q?fp(g):q;return y?o(hu,dn(l(d),g)):y}function
-hx(j){var
-q=a8(j,dp(bK(j))),a=f(function(a){return aq(m,a)},q);if(a){var
-e=a[1];if(e){var
+z=q?fC(g):q;return z?n(hJ,dy(j(d),g)):z}function
+hM(j){var
+q=bc(j,dz(bQ(j))),a=e(function(a){return as(m,a)},q);if(a){var
+f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return U(m,a)},r=i(h[1]),s=i(g[1]);return ad(d,C(C(i(e[1]),s),r)[1])}var
+i=function(a){return Y(m,a)},r=i(h[1]),s=i(g[1]);return S(d,C(C(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5286,96 +5579,100 @@ var
 n=b;var
 o=n}else
 var
-o=e;var
+o=f;var
 p=o}else
 var
 p=a;return p}function
-xb(a){switch(a[0]){case
-0:return hx(a[1][1]);case
+xN(a){switch(a[0]){case
+0:return hM(a[1][1]);case
 1:var
-b=a[3];return b?hx(b[1]):1;default:return hx(a[1])}}function
-hy(c,a,b,p){if(aR(function(a){return 9===a[1]?1:0},b)){var
-f=$(l(a),xd),h=f?o(function(a){if(0===a[0]){var
-f=a[5],h=j(m,1,i(a[2])),k=h?j(m,0,i(a[3])):h,l=k?j(m,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bo(f[1]),b=o(function(a){return dr(i(a))},u);else{var
-n=1;e=1}else{var
-n=l;e=1}if(e)var
-b=n}else{var
-p=j(m,1,i(a[4]));if(p)var
-v=bo(a[3]),w=g(bo(a[2]),v),b=o(function(a){return dr(i(a))},w);else
+b=a[3];return b?hM(b[1]):1;default:return hM(a[1])}}function
+hN(c,a,b,p){if(aP(function(a){return 9===a[1]?1:0},b)){var
+f=ac(j(a),xP),h=f?n(function(a){if(0===a[0]){var
+f=a[5],h=k(m,1,i(a[2])),j=h?k(m,0,i(a[3])):h,l=j?k(m,0,i(a[4])):j,e=0;if(l)if(f)var
+u=bu(f[1]),b=n(function(a){return dB(i(a))},u);else{var
+o=1;e=1}else{var
+o=l;e=1}if(e)var
+b=o}else{var
+p=k(m,1,i(a[4]));if(p)var
+v=bu(a[3]),w=g(bu(a[2]),v),b=n(function(a){return dB(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=$(xc,q);if(r){var
-d=ae(c,bZ(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=ac(xO,q);if(r){var
+d=af(c,b5(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-k=hj(0,a),u=k?1:k,n=u;else
+l=hw(0,a),u=l?1:l,o=u;else
 var
-n=h;var
-d=n}else
+o=h;var
+d=o}else
 var
 d=a?0:1;var
-q=d?o(xb,p[1]):d,r=q?$(xe,l(c)):q;if(r)var
-v=l(c),e=o(function(a){return wr(v,a)},b);else
+q=d?n(xN,p[1]):d,r=q?ac(xQ,j(c)):q;if(r)var
+v=j(c),e=n(function(a){return wZ(v,a)},b);else
 var
 e=r;var
-s=e?fp(b):e,t=s?o(ej,A(lc,c)):s;return t?o(w6,p[3]):t}function
-xf(a){return 11===a[1]?1:0}function
-hz(b,a){return o(function(c){var
-a=c[2];return a?eG(a[1],b):1},a)}function
-hA(b,a){var
-c=l(dP(function(a){return 0===a[0]?0:1},b));return E(l(a),c)}function
-lf(ai,aN,ah,ag,a,af,G){var
-b=hk(ai,aN,ah,ag),H=dq(l(G),G);if(H){var
-aj=H[1];if(aj[2])return 0;var
-ak=hy(ai,ah,ag,b),al=ak?hz(xg,G):ak;if(al){var
-aO=aj[1],I=f(k8,b[1]),c=k9(b[1]);if(af)var
-am=af[1],an=[0,am[2],am[1]];else
+s=e?fC(b):e,t=s?n(eu,E(lB,c)):s;return t?n(xG,p[3]):t}function
+xR(a){return 11===a[1]?1:0}function
+hO(b,a){return n(function(c){var
+a=c[2];return a?dX(a[1],b):1},a)}function
+hP(b,a){var
+c=j(c9(function(a){return 0===a[0]?0:1},b));return t(j(a),c)}function
+lE(aU,ak,aT,aj,ai,b,ag,H){var
+a=hx(ak,aT,aj,ai),aV=j(H);if(aU)var
+al=0;else
 var
-an=[0,d,0];var
-ae=j8(m,b);if(ae){var
-k=gH(c,I,b[1]),h=gI(c,I,b[1],0),as=l(b[3]),at=M(l(k),as),V=[0,l(k),at],au=b[3],K=aR(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},au),av=K?A(function(a){var
-b=f(c4,jX(k,a));return[0,a[4],b]},h):K,aw=g(gK(h,c,V,b[3]),av),ax=g(cL(jC(h)),aw),W=g(cL(eX(h)),ax),X=dX(W)[1],p=dW(X),Y=o(function(a){var
-b=n(d);return a$(z(bC(p,a),p,b),a)},W);if(Y){var
-Z=aR(rP,b[3]);if(Z){var
-v=I,r=b[1];for(;;){if(r){var
-s=r[1],w=eL(d,v);switch(s[0]){case
+aQ=a[1],aR=e(hC,a[1]),af=fj(hD(a[1]),aR,aQ),aS=a$(bH(0,j(af)),af),al=e(a2,c9(function(a){return kj(a[2])},aS));var
+I=dA(al,aV,H);if(I){var
+am=I[1];if(am[2])return 0;var
+an=hN(ak,aj,ai,a),ao=an?hO(xS,H):an;if(ao){var
+aW=am[1],J=e(hC,a[1]),c=hD(a[1]);if(ag)var
+ap=ag[1],aq=[0,ap[2],ap[1]];else
+var
+aq=[0,d,0];var
+ae=kw(m,a);if(ae){var
+l=fj(c,J,a[1]),h=gW(c,J,a[1],0),au=j(a[3]),av=O(j(l),au),V=[0,j(l),av],aw=a[3],M=aP(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},aw),ax=M?E(function(a){var
+b=e(cJ,kl(l,a));return[0,a[4],b]},h):M,ay=g(gY(h,c,V,a[3]),ax),aA=g(cQ(jO(h)),ay),W=g(cQ(e_(h)),aA),X=d6(W)[1],p=d5(X),Z=n(function(a){var
+b=o(d);return bg(u(bJ(p,a),p,b),a)},W);if(Z){var
+_=aP(sk,a[3]);if(_){var
+y=J,r=a[1];for(;;){if(r){var
+s=r[1],z=eW(d,y);switch(s[0]){case
 0:var
-Q=s[1],R=gL(a,Q[1],w),J=0;if(R){var
-u=aq(a,[0,Q[4],c]);if(u)var
-j=ad(d,u[1][1]);else{var
-S=u;J=1}}else{var
-S=R;J=1}if(J)var
-j=S;break;case
+Q=s[1],R=gZ(b,Q[1],z),K=0;if(R){var
+w=as(b,[0,Q[4],c]);if(w)var
+k=S(d,w[1][1]);else{var
+T=w;K=1}}else{var
+T=R;K=1}if(K)var
+k=T;break;case
 1:var
-T=s[3],j=T?gL(a,T[1],w):1;break;default:var
-j=gL(a,s[1],w)}if(j){var
-ar=r[2],v=gi(v),r=ar;continue}var
-_=j}else
+U=s[3],k=U?gZ(b,U[1],z):1;break;default:var
+k=gZ(b,s[1],z)}if(k){var
+at=r[2],y=gw(y),r=at;continue}var
+$=k}else
 var
-_=1;var
-x=_;break}}else
+$=1;var
+A=$;break}}else
 var
-x=Z;if(x){var
-ay=b[3],az=A(function(a){return db(c,a)},ay),aA=b[3],aB=g(k,g(f(function(a){return bn(c,a)},aA),az)),y=aE(f(function(b){return aq(a,b)},aB));if(y){var
-i=b[2];if(0===i[0])var
-$=i[1];else
+A=_;if(A){var
+aB=a[3],aC=E(function(a){return dl(c,a)},aB),aD=a[3],aE=g(l,g(e(function(a){return bt(c,a)},aD),aC)),B=az(e(function(a){return as(b,a)},aE));if(B){var
+i=a[2];if(0===i[0])var
+aa=i[1];else
 var
-q=i[3],N=i[2],P=i[1],$=[0,[0,[3,P,q],[2,P,q]],[0,[3,N,q],[2,N,q]],i[4]];var
-aC=a8($,c),B=aE(f(function(b){return aq(a,b)},aC));if(B){var
-aD=b[3],D=aE(jY(a,an,function(a){return bC(p,a)},k,h,c,V,aD));if(D){var
-aa=D[1],aF=jM(aa),t=b[2],aG=B[1],aH=function(f){if(0===t[0])return 0;if(f){var
-b=f[2];if(b){var
-g=b[2];if(g){if(g[2])return 0;var
-d=b[1],e=f[1],h=cn(a,c,t[1]);if(h){var
-i=cn(a,c,t[2]);if(i){var
-j=cn(a,c,t[3]);if(j)var
-s=h[1],u=bF(e),k=O([0,bF(e),u],s),v=i[1],w=bF(d),l=O([0,bF(d),w],v),x=da(d),y=[0,da(d),x],z=[0,F(a,ap(C(l,l)),y),0],A=da(e),B=[0,da(e),A],D=[0,F(a,ap(C(k,k)),B),z],E=U(a,l),G=U(a,k),m=[0,[0,O(O(U(a,j[1]),G),E),L,D]];else
+q=i[3],N=i[2],P=i[1],aa=[0,[0,[3,P,q],[2,P,q]],[0,[3,N,q],[2,N,q]],i[4]];var
+aF=bc(aa,c),D=az(e(function(a){return as(b,a)},aF));if(D){var
+aG=a[3],F=az(km(b,aq,function(a){return bJ(p,a)},l,h,c,V,aG));if(F){var
+ab=F[1],aH=j$(ab),t=a[2],aI=D[1],aJ=function(f){if(0===t[0])return 0;if(f){var
+a=f[2];if(a){var
+g=a[2];if(g){if(g[2])return 0;var
+d=a[1],e=f[1],h=ct(b,c,t[1]);if(h){var
+i=ct(b,c,t[2]);if(i){var
+j=ct(b,c,t[3]);if(j)var
+s=h[1],u=bL(e),k=L([0,bL(e),u],s),w=i[1],y=bL(d),l=L([0,bL(d),y],w),z=di(d),A=[0,di(d),z],B=[0,v(b,ah(C(l,l)),A),0],D=di(e),E=[0,di(e),D],F=[0,v(b,ah(C(k,k)),E),B],G=Y(b,l),H=Y(b,k),m=[0,[0,L(L(Y(b,j[1]),H),G),x,F]];else
 var
 m=j;var
 n=m}else
@@ -5389,47 +5686,47 @@ var
 p=g;var
 q=p}else
 var
-q=b;var
+q=a;var
 r=q}else
 var
-r=f;return r},aI=y[1],aJ=0,aK=jC(h),aL=e(a2(function(a){return bC(p,a)}),aK),aM=eX(h);return gF(a,X,e(a2(function(a){return bC(p,a)}),aM),aL,aJ,aI,aa,aH,aG,aF,aO)}var
-ab=D}else
+r=f;return r},aK=B[1],aL=0,aM=jO(h),aN=f(a5(function(a){return bJ(p,a)}),aM),aO=e_(h);return gU(b,X,f(a5(function(a){return bJ(p,a)}),aO),aN,aL,aK,ab,aJ,aI,aH,aW)}var
+ac=F}else
 var
-ab=B;var
-ac=ab}else
+ac=D;var
+ad=ac}else
 var
-ac=y;var
-E=ac}else
+ad=B;var
+G=ad}else
 var
-E=x}else
+G=A}else
 var
-E=Y;return E}return ae}var
-ao=al}else
+G=Z;return G}return ae}var
+ar=ao}else
 var
-ao=H;return ao}function
-lg(z,aM,aq,ap,y,ao,h){var
-k=hk(z,aM,aq,ap);if(y){var
-B=y[2];if(B){var
-C=B[2];if(C){if(C[2])return 0;var
-ar=k$(z,f(i,ao));if(ar[2])return 0;var
-as=k[3];if(typeof
+ar=I;return ar}function
+lF(z,aM,aq,ap,y,ao,h){var
+j=hx(z,aM,aq,ap);if(y){var
+A=y[2];if(A){var
+B=A[2];if(B){if(B[2])return 0;var
+ar=ly(z,e(i,ao));if(ar[2])return 0;var
+as=j[3];if(typeof
 h==="number")var
-a=w3;else
+a=xD;else
 if(0===h[0]){var
-b=h[2],n=h[1],H=R(w0,ae(as,n)),J=0;if(H){var
-T=H[1];if(T){var
+b=h[2],n=h[1],G=K(xA,af(as,n)),I=0;if(G){var
+T=G[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
-K=0;if(b){var
-o=b[1],L=0;if(o){var
-p=o[2],M=0;if(p){var
-q=p[2],N=0;if(q)if(q[2]){var
-a=0;K=1;L=1;M=1;N=1}else{var
+L=0;if(b){var
+o=b[1],M=0;if(o){var
+p=o[2],N=0;if(p){var
+q=p[2],O=0;if(q)if(q[2]){var
+a=0;L=1;M=1;N=1;O=1}else{var
 r=b[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
-a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
+a=0;L=1;M=1;N=1;O=1;az=1;aA=1;aB=1;aC=1}else
 var
 V=[0,[0,n,[0,[0,o[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
@@ -5445,16 +5742,16 @@ var
 Y=r;if(!az)var
 Z=Y}else
 var
-Z=q;if(!N)var
+Z=q;if(!O)var
 _=Z}else
 var
-_=p;if(!M)var
+_=p;if(!N)var
 $=_}else
 var
-$=o;if(!L)var
+$=o;if(!M)var
 aa=$}else
 var
-aa=b;if(!K)var
+aa=b;if(!L)var
 a=aa}else{var
 aD=0;if(b){var
 v=b[1],aE=0;if(v){var
@@ -5462,10 +5759,10 @@ w=v[2],aF=0;if(w){var
 x=w[2],aG=0;if(x)if(x[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=x[1],ac=w[1],ad=v[1],af=[0,[0,n,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,n,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-af=x;if(!aG)var
-ag=af}else
+ae=x;if(!aG)var
+ag=ae}else
 var
 ag=w;if(!aF)var
 ah=ag}else
@@ -5477,334 +5774,337 @@ ai=b;if(!aD)var
 a=ai}}else
 if(b)var
 a=0;else{var
-aj=[0,[0,d,d],d],ak=[0,[0,n,aj,aj]];J=1}}else{var
-ak=H;J=1}if(J)var
+aj=[0,[0,d,d],d],ak=[0,[0,n,aj,aj]];I=1}}else{var
+ak=G;I=1}if(I)var
 a=ak}else{var
-al=h[1],I=ae(as,al),O=0;if(I){var
-aH=0,am=I[1];if(typeof
+al=h[1],H=af(as,al),P=0;if(H){var
+aH=0,am=H[1];if(typeof
 am!=="number"&&1===am[0]){var
 a=[0,[1,al,h[2]]];aH=1}if(!aH){var
-an=0;O=1}}else{var
-an=I;O=1}if(O)var
+an=0;P=1}}else{var
+an=H;P=1}if(P)var
 a=an}if(a){var
-at=hA(A(lc,z),ao),au=at?hy(z,aq,ap,k):at;if(au){var
-g=a[1],aN=i(C[1]),aO=i(B[1]),e=[0,i(y[1]),aO,aN],l=ar[1],P=j0(m,k,l,e);if(P)if(typeof
-g==="number")return aR(function(a){switch(a[0]){case
+at=hP(E(lB,z),ao),au=at?hN(z,aq,ap,j):at;if(au){var
+g=a[1],aN=i(B[1]),aO=i(A[1]),f=[0,i(y[1]),aO,aN],l=ar[1],Q=ko(m,j,l,f);if(Q)if(typeof
+g==="number")return aP(function(a){switch(a[0]){case
 0:var
-b=[0,dc(a[1],a[2],a[3],a[4],e)];break;case
+b=[0,dm(a[1],a[2],a[3],a[4],f)];break;case
 1:var
-f=a[2],g=a[1],h=bG(g,f,e),b=[0,G(bG(g,f,e),h)];break;default:var
-b=0}return b?j(m,0,[3,[0,d,c],b[1]]):b},l);else{if(0===g[0]){var
-D=ae(k[3],g[1]);if(D){var
-aI=D[1],aJ=j2(g[3]);return j7(m,l,e,j2(g[2]),aJ,aI)}return D}var
-E=ae(k[3],g[1]);if(E){var
-F=ae(l,g[2]);if(F){var
-Q=F[1],aK=E[1],aL=de(Q,e);return j7(m,l,e,de(Q,e),aL,aK)}var
+e=a[2],g=a[1],h=bM(g,e,f),b=[0,J(bM(g,e,f),h)];break;default:var
+b=0}return b?k(m,0,[3,[0,d,c],b[1]]):b},l);else{if(0===g[0]){var
+C=af(j[3],g[1]);if(C){var
+aI=C[1],aJ=kq(g[3]);return kv(m,l,f,kq(g[2]),aJ,aI)}return C}var
+D=af(j[3],g[1]);if(D){var
+F=af(l,g[2]);if(F){var
+R=F[1],aK=D[1],aL=dp(R,f);return kv(m,l,f,dp(R,f),aL,aK)}var
 S=F}else
 var
-S=E;return S}return P}var
+S=D;return S}return Q}var
 av=au}else
 var
 av=a;var
 aw=av}else
 var
-aw=C;var
+aw=B;var
 ax=aw}else
 var
-ax=B;var
+ax=A;var
 ay=ax}else
 var
 ay=y;return ay}function
-lh(m,l,b,k,y,x){var
-e=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=ae(e,g),n=h?eG(h[1][2],xh):h;if(n)var
-z=d[2],i=lh(m,l,b,k,ho(0,g,e),z);else
+lG(m,l,b,k,y,x){var
+f=y,d=x;for(;;){if(0===d[0]){var
+g=d[1],h=af(f,g),n=h?dX(h[1][2],xT):h;if(n)var
+z=d[2],i=lG(m,l,b,k,hB(0,g,f),z);else
 var
 i=n;if(i){var
-A=d[3],e=ho(1,g,e),d=A;continue}return i}var
-c=d[1],a=k6(0,m,e),o=f(function(b){function
-d(b){return k7(a,b)}function
-c(a){return hm(d,a)}switch(b[0]){case
+A=d[3],f=hB(1,g,f),d=A;continue}return i}var
+c=d[1],a=lu(0,m,f),o=e(function(b){function
+d(b){return lv(a,b)}function
+c(a){return hz(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=k7(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lv(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=R(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hm(function(b){return al(a,b)},q),s=b[1],j=[0,hm(function(b){return al(a,b)},s),r];else
+i=K(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hz(function(b){return an(a,b)},q),s=b[1],j=[0,hz(function(b){return an(a,b)},s),r];else
 var
-t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),w=al(a,b[2]),j=[1,al(a,b[1]),w,v,u,t];var
-p=f(function(e){var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
+p=e(function(e){var
 b=e[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,al(a,b[1])];break;case
+c=[0,an(a,b[1])];break;case
 1:var
-c=[1,al(a,b[1])];break;default:var
-j=al(a,b[2]),c=[2,al(a,b[1]),j]}var
+c=[1,an(a,b[1])];break;default:var
+j=an(a,b[2]),c=[2,an(a,b[1]),j]}var
 f=e[3];if(f){var
 d=f[1];if(0===d[0])var
-g=[0,[0,al(a,d[1])]];else
+g=[0,[0,an(a,d[1])]];else
 var
-i=al(a,d[2]),g=[0,[1,al(a,d[1]),i]];var
+i=an(a,d[2]),g=[0,[1,an(a,d[1]),i]];var
 h=g}else
 var
 h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lf(o,j,0,p,c[1],c[2],c[3]);default:var
-B=c[4],C=c[3],D=f(function(b){return al(a,b)},C),E=c[2];return lg(o,j,0,p,f(function(b){return al(a,b)},E),D,B)}}}function
-li(h,g){var
-a=b5(i(h));if(a){var
-b=a[1],e=c6([0,d,c],b);if(e)return c6(b,g);var
+1:return lE(1,o,j,0,p,c[1],c[2],c[3]);default:var
+B=c[4],C=c[3],D=e(function(b){return an(a,b)},C),E=c[2];return lF(o,j,0,p,e(function(b){return an(a,b)},E),D,B)}}}function
+lH(h,g){var
+a=cb(i(h));if(a){var
+b=a[1],e=c_([0,d,c],b);if(e)return c_(b,g);var
 f=e}else
 var
 f=a;return f}function
-xj(q){var
-dT=hf(q[3]),dU=dT?hf(q[4]):dT;if(dU){var
-B=q[1];switch(B[0]){case
+xV(q){var
+dS=fy(q[3]),dT=dS?fy(q[4]):dS;if(dT){var
+C=q[1];switch(C[0]){case
 3:var
-d3=o(eh,B[1]);if(d3)var
-gp=B[2],bJ=o(function(a){return eh(a[1])},gp);else
+d1=n(er,C[1]);if(d1)var
+gs=C[2],bH=n(function(a){return er(a[1])},gs);else
 var
-bJ=d3;if(bJ)var
-gq=B[3],bL=o(function(a){var
-b=eh(a[1]),c=b?hg(a[2]):b;return c?ei(a[2]):c},gq);else
+bH=d1;if(bH)var
+gt=C[3],bK=n(function(a){var
+b=er(a[1]),c=b?ht(a[2]):b;return c?es(a[2]):c},gt);else
 var
-bL=bJ;if(bL)var
-gr=B[4],gs=function(a){var
-b=hg(a);return b?ei(a):b},aA=o(function(a){return o(gs,a)},gr);else
+bK=bH;if(bK)var
+gu=C[4],gv=function(a){var
+b=ht(a);return b?es(a):b},aC=n(function(a){return n(gv,a)},gu);else
 var
-aA=bL;break;case
+aC=bK;break;case
 7:var
-gt=B[1],d5=o(function(a){var
-b=eh(a[1]);return b?fl(0,[0,a[2][1],[0,a[2][2],0]]):b},gt),aA=d5?fl(0,[0,B[5],[0,B[6],0]]):d5;break;default:var
-aA=1}var
-bG=aA}else
+gw=C[1],d2=n(function(a){var
+b=er(a[1]);return b?fz(0,[0,a[2][1],[0,a[2][2],0]]):b},gw),aC=d2?fz(0,[0,C[5],[0,C[6],0]]):d2;break;default:var
+aC=1}var
+bG=aC}else
 var
-bG=dU;var
+bG=dT;var
 b$=0;if(bG){var
-dV=q[1],dY=7===dV[0]?f(cC,dV[1]):0,dZ=function(c,b){var
-a=k1(c);return a?o(function(a){var
-b=a[1];return o(function(b){var
-a=b[2];for(;;)switch(a[0]){case
+dU=q[1],dV=7===dU[0]?e(a2,dU[1]):0,dX=function(c,b){var
+a=lp(c);return a?n(function(a){var
+b=a[1];return n(function(c){var
+a=c[2];for(;;)switch(a[0]){case
+8:var
+b=fy(a[2]);if(b){var
+a=a[1];continue}return b;case
 0:case
-1:return hf(a[1]);case
+1:return fy(a[1]);case
 2:case
 3:case
 4:return 1;default:var
-a=a[1];continue}},b)},b):a},d0=function(d,c,b){var
-a=k1(d);return a?fl(dY,g(c,b)):a},h=q[1];switch(h[0]){case
+a=a[1];continue}},b)},b):a},dY=function(d,c,b){var
+a=lp(d);return a?fz(dV,g(c,b)):a},h=q[1];switch(h[0]){case
 0:var
-f4=A(cR,h[4]),f5=g(A(wn,h[3]),f4),f6=g(hi(h[2]),f5),C=g(A(hh,h[1]),f6);break;case
+f7=E(cW,h[4]),f8=g(E(wV,h[3]),f7),f9=g(hv(h[2]),f8),D=g(E(hu,h[1]),f9);break;case
 1:var
-f7=A(cR,h[3]),f8=g(hi(h[2]),f7),C=g(A(wm,h[1]),f8);break;case
+f_=E(cW,h[3]),f$=g(hv(h[2]),f_),D=g(E(wU,h[1]),f$);break;case
 2:var
-f9=A(cR,h[7]),N=h[6];switch(N[0]){case
+ga=E(cW,h[7]),N=h[6];switch(N[0]){case
 1:var
-dQ=N[3],dR=N[2],dS=N[1],bD=[0,dS[1],[0,dS[2],[0,dR[1],[0,dR[2],[0,dQ[1],[0,dQ[2],0]]]]]];break;case
+dP=N[3],dQ=N[2],dR=N[1],bE=[0,dR[1],[0,dR[2],[0,dQ[1],[0,dQ[2],[0,dP[1],[0,dP[2],0]]]]]];break;case
 2:var
-bD=[0,N[1],0];break;default:var
-bD=[0,N[1],[0,N[2],0]]}var
-f_=g(bD,f9),f$=g(h[5],f_),ga=g(h[4],f$),gb=[0,h[3],ga],gc=h[2],C=g(A(function(a){return A(dk,g(a[1],a[2]))},gc),gb);break;case
+bE=[0,N[1],0];break;default:var
+bE=[0,N[1],[0,N[2],0]]}var
+gb=g(bE,ga),gc=g(h[5],gb),gd=g(h[4],gc),ge=[0,h[3],gd],gf=h[2],D=g(E(function(a){return E(dv,g(a[1],a[2]))},gf),ge);break;case
 3:var
-gd=A(cR,h[7]),ge=g(h[6],gd),gf=g(h[5],ge),gg=h[2],C=g(A(function(a){return dk(a[2])},gg),gf);break;case
+gg=E(cW,h[7]),gh=g(h[6],gg),gi=g(h[5],gh),gj=h[2],D=g(E(function(a){return dv(a[2])},gj),gi);break;case
 4:var
-gh=A(cR,h[3]),C=[0,h[1],[0,h[2],gh]];break;case
+gk=E(cW,h[3]),D=[0,h[1],[0,h[2],gk]];break;case
 5:var
-gi=A(cR,h[4]),gj=g(bo(h[3]),gi),gk=g(bo(h[2]),gj),gl=g(A(hh,h[1]),gk),C=[0,h[5],gl];break;case
+gl=E(cW,h[4]),gm=g(bu(h[3]),gl),gn=g(bu(h[2]),gm),go=g(E(hu,h[1]),gn),D=[0,h[5],go];break;case
 6:var
-bE=h[1],C=bE?dk(bE[1]):bE;break;default:var
-gm=A(cR,h[4]),gn=g(hi(h[3]),gm),C=g(A(hh,h[2]),gn)}var
-d1=fl(dY,C);if(d1){var
-O=q[2];switch(O[0]){case
+bF=h[1],D=bF?dv(bF[1]):bF;break;default:var
+gp=E(cW,h[4]),gq=g(hv(h[3]),gp),D=g(E(hu,h[2]),gq)}var
+dZ=fz(dV,D);if(dZ){var
+P=q[2];switch(P[0]){case
 0:var
-aa=dZ(O[1],O[3]);break;case
+ab=dX(P[1],P[3]);break;case
 1:var
-aa=d0(O[1],O[2],O[3]);break;default:var
-go=O[1],aa=o(function(a){if(typeof
+ab=dY(P[1],P[2],P[3]);break;default:var
+gr=P[1],ab=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dZ(a[1],a[3]);case
-2:return d0(a[1],a[2],a[3])}return 1},go)}}else{var
-d2=d1;b$=1}}else{var
-d2=bG;b$=1}if(b$)var
-aa=d2;if(aa){var
+1:return dX(a[1],a[3]);case
+2:return dY(a[1],a[2],a[3])}return 1},gr)}}else{var
+d0=dZ;b$=1}}else{var
+d0=bG;b$=1}if(b$)var
+ab=d0;if(ab){var
 a=q[1];switch(a[0]){case
 0:var
-en=a[4],eo=a[3],ep=a[2],eq=a[1],P=q[2];switch(P[0]){case
-0:return lf(eq,ep,eo,en,P[1],P[2],P[3]);case
-1:return lg(eq,ep,eo,en,P[2],P[3],P[4]);default:return 0}case
+ek=a[4],el=a[3],em=a[2],en=a[1],Q=q[2];switch(Q[0]){case
+0:return lE(0,en,em,el,ek,Q[1],Q[2],Q[3]);case
+1:return lF(en,em,el,ek,Q[2],Q[3],Q[4]);default:return 0}case
 1:var
-aH=a[3],F=a[1],aI=q[2];if(1===aI[0]){var
-aJ=aI[2];if(aJ){var
+aI=a[3],G=a[1],aJ=q[2];if(1===aJ[0]){var
 aK=aJ[2];if(aK){var
-aL=aK[2];if(aL){if(aL[2])return 0;var
-er=aI[3],es=la(F,f(i,er));if(es[2])return 0;var
-et=hA(A(ld,F),er);if(et){var
-eb=$(w7,l(F));if(eb)var
-gD=l(F),gE=1,bP=o(function(a){return bb(gE,gD,a)},aH);else
+aL=aK[2];if(aL){var
+aM=aL[2];if(aM){if(aM[2])return 0;var
+eo=aJ[3],ep=lz(G,e(i,eo));if(ep[2])return 0;var
+eq=hP(E(lC,G),eo);if(eq){var
+d9=ac(xH,j(G));if(d9)var
+gF=j(G),gG=1,bS=n(function(a){return bi(gG,gF,a)},aI);else
 var
-bP=eb;var
-ec=bP?fp(aH):bP,ed=ec?o(ej,A(ld,F)):ec,gM=ed?o(hu,dn(l(F),aH)):ed,bR=gM}else
+bS=d9;var
+d$=bS?fC(aI):bS,ea=d$?n(eu,E(lC,G)):d$,gK=ea?n(hJ,dy(j(G),aI)):ea,bU=gK}else
 var
-bR=et;if(bR){var
-gP=hq(aI[4]),gQ=i(aL[1]),gR=i(aK[1]),H=[0,i(aJ[1]),gR,gQ],aN=es[1],gS=a[2],gx=dn(l(F),aH),gy=k3(gS),ai=f(wC,F),S=aN;for(;;){if(ai){if(S){var
-r=S[1],K=ai[1],cm=aW(m,K[1],r[1]),co=cm?aW(m,K[2],r[2]):cm,cp=co?aW(m,K[3],r[3]):co,cq=cp?aW(m,K[4],r[4]):cp,cr=cq?cM(m,K[5],r[5]):cq,cs=cr?cM(m,K[6],r[6]):cr,ct=cs?j(m,1,r[5]):cs,cu=ct?j(m,1,r[6]):ct,cv=cu?j(m,1,G(r[1],r[1])):cu;if(cv)var
-ff=gN(r),a5=j(m,1,G(gN(r),ff));else
+bU=eq;if(bU){var
+gL=hF(aJ[4]),gM=i(aM[1]),gN=i(aL[1]),H=[0,i(aK[1]),gN,gM],aO=ep[1],gO=a[2],gA=dy(j(G),aI),gB=lr(gO),ah=e(w_,G),T=aO;for(;;){if(ah){if(T){var
+r=T[1],M=ah[1],cn=aY(m,M[1],r[1]),co=cn?aY(m,M[2],r[2]):cn,cp=co?aY(m,M[3],r[3]):co,cq=cp?aY(m,M[4],r[4]):cp,cr=cq?cR(m,M[5],r[5]):cq,cu=cr?cR(m,M[6],r[6]):cr,cv=cu?k(m,1,r[5]):cu,cw=cv?k(m,1,r[6]):cv,cx=cw?k(m,1,J(r[1],r[1])):cw;if(cx)var
+ff=g1(r),a6=k(m,1,J(g1(r),ff));else
 var
-a5=cv;var
-cw=a5?dM(K[7],r[7]):a5;if(cw){var
-ai=ai[2],S=S[2];continue}var
-cx=cw}else
+a6=cx;var
+cy=a6?dW(M[7],r[7]):a6;if(cy){var
+ah=ah[2],T=T[2];continue}var
+cz=cy}else
 var
-cx=S;var
-a6=cx}else
+cz=T;var
+a7=cz}else
 var
-a6=S?0:1;var
-cy=a6?jZ(m,gy,H):a6;if(cy){var
-fg=f(function(a){return kd(a,H)},aN),fh=f(function(a){var
-b=kf(a,H);return[1,ke(a,H),b]},aN);return ka(m,rT,[0,f(function(a){var
-d=kb(a),e=aF(kf(a,H),d),f=gO(a),g=aF(ke(a,H),f),h=ag(function(b,a){return[2,b,a]},g,e),i=aF(a[5],h),j=a[3],k=ag(function(b,a){return[2,b,a]},j,i),l=a[4],m=ag(function(b,a){return[2,b,a]},H,l),n=ag(function(b,a){return[3,b,a]},m,k),o=gU(a,H),b=aF([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aN),fh,fg],gx,gP)}return cy}}var
-eu=bR}else
+a7=T?0:1;var
+cA=a7?kn(m,gB,H):a7;if(cA){var
+fg=e(function(a){return kD(a,H)},aO),fh=e(function(a){var
+b=kF(a,H);return[1,kE(a,H),b]},aO);return kA(m,so,[0,e(function(a){var
+d=kB(a),e=aG(kF(a,H),d),f=g2(a),g=aG(kE(a,H),f),h=ai(function(b,a){return[2,b,a]},g,e),i=aG(a[5],h),j=a[3],k=ai(function(b,a){return[2,b,a]},j,i),l=a[4],m=ai(function(b,a){return[2,b,a]},H,l),n=ai(function(b,a){return[3,b,a]},m,k),o=g8(a,H),b=aG([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aO),fh,fg],gA,gL)}return cA}}var
+et=bU}else
 var
-eu=aL;var
-ev=eu}else
+et=aM;var
+ev=et}else
 var
-ev=aK;var
+ev=aL;var
 ew=ev}else
 var
-ew=aJ;return ew}return 0;case
+ew=aK;return ew}return 0;case
 2:var
-aO=a[7],aP=a[6],aQ=a[5],aT=a[4],aU=a[3],W=a[2],X=a[1],Y=q[2];switch(Y[0]){case
+aQ=a[7],aR=a[6],aS=a[5],aT=a[4],aU=a[3],W=a[2],X=a[1],Z=q[2];switch(Z[0]){case
 0:var
-bS=Y[3],ac=k5(X,W,aU,aT,aQ,aP,aO),bT=dq(l(bS),bS);if(bT){var
-ex=bT[1];if(ex[2])return 0;var
-ey=le(X,W,aU,aT,aQ,aP,aO),ez=ey?hz(d_(X),bS):ey;if(ez){var
-gT=ex[1],gW=ac[2],gX=x(c,dp(A(function(a){var
-b=bK(a[2]);return g(bK(a[1]),b)},gW))),gZ=Y[1],fP=ac[2],dx=o(function(a){var
-b=g6(m,a[1]);return b?g6(m,a[2]):b},fP),dy=dx?g6(m,ac[4]):dx;if(dy)var
-fQ=kC(ac[5]),bt=o(function(a){return fb(m,a)},fQ);else
+bV=Z[3],ae=lt(X,W,aU,aT,aS,aR,aQ),bW=dA(0,j(bV),bV);if(bW){var
+ex=bW[1];if(ex[2])return 0;var
+ey=lD(X,W,aU,aT,aS,aR,aQ),ez=ey?hO(eg(X),bV):ey;if(ez){var
+gP=ex[1],gQ=ae[2],gR=B(c,dz(E(function(a){var
+b=bQ(a[2]);return g(bQ(a[1]),b)},gQ))),gS=Z[1],fS=ae[2],ds=n(function(a){var
+b=hi(m,a[1]);return b?hi(m,a[2]):b},fS),dt=ds?hi(m,ae[4]):ds;if(dt)var
+fT=k2(ae[5]),bv=n(function(a){return fq(m,a)},fT);else
 var
-bt=dy;return bt?so(gZ,ac,gX,gT):bt}var
+bv=dt;return bv?sV(gS,ae,gR,gP):bv}var
 eA=ez}else
 var
-eA=bT;return eA;case
+eA=bW;return eA;case
 1:var
-eB=Y[3],eC=f(i,Y[2]),eD=hv(X),eE=lb(W,f(i,eB));if(eE[2])return 0;var
-eF=hA(A(function(a){return g(a[1],a[2])},W),eB),eG=eF?le(X,W,aU,aT,aQ,aP,aO):eF;if(eG){var
-g0=hq(Y[4]),p=i$(eD,eC),aV=ht(eM(eD,eC)),aX=eE[1],I=k5(X,W,aU,aT,aQ,aP,aO),aw=I[2],T=aX;for(;;){if(aw){if(T){var
-dm=T[1],ds=aw[1],dt=aW(m,ds[1],dm[1]),du=dt?aW(m,ds[2],dm[2]):dt;if(du){var
-aw=aw[2],T=T[2];continue}var
-dv=du}else
+eB=Z[3],eC=e(i,Z[2]),eD=hK(X),eE=lA(W,e(i,eB));if(eE[2])return 0;var
+eF=hP(E(function(a){return g(a[1],a[2])},W),eB),eG=eF?lD(X,W,aU,aT,aS,aR,aQ):eF;if(eG){var
+gT=hF(Z[4]),p=jo(eD,eC),aV=hI(eX(eD,eC)),aW=eE[1],L=lt(X,W,aU,aT,aS,aR,aQ),ax=L[2],U=aW;for(;;){if(ax){if(U){var
+dk=U[1],dm=ax[1],dn=aY(m,dm[1],dk[1]),dp=dn?aY(m,dm[2],dk[2]):dn;if(dp){var
+ax=ax[2],U=U[2];continue}var
+dq=dp}else
 var
-dv=T;var
-br=dv}else
+dq=U;var
+bq=dq}else
 var
-br=T?0:1;var
-dw=br?aW(m,I[4],aV):br;if(dw){var
-y=I[5];switch(y[0]){case
+bq=U?0:1;var
+dr=bq?aY(m,L[4],aV):bq;if(dr){var
+A=L[5];switch(A[0]){case
 0:var
-u=p?p[2]?0:d8(m,y[1],p[1]):p;break;case
+w=p?p[2]?0:ee(m,A[1],p[1]):p;break;case
 1:var
 ca=0;if(p){var
-an=p[2],cb=0;if(an){var
-ap=an[2],cc=0;if(ap)if(ap[2]){var
-u=0;cb=1;cc=1}else{var
-c1=d8(m,y[1],p[1]),c2=c1?d8(m,y[2],an[1]):c1;if(c2){var
-u=d8(m,y[3],ap[1]);cb=1;cc=1}else
+an=p[2],cc=0;if(an){var
+ao=an[2],ce=0;if(ao)if(ao[2]){var
+w=0;cc=1;ce=1}else{var
+c3=ee(m,A[1],p[1]),c4=c3?ee(m,A[2],an[1]):c3;if(c4){var
+w=ee(m,A[3],ao[1]);cc=1;ce=1}else
 var
-c3=c2}else
+c5=c4}else
 var
-c3=ap;if(!cc)var
-c5=c3}else
+c5=ao;if(!ce)var
+c6=c5}else
 var
-c5=an;if(!cb){var
-c7=c5;ca=1}}else{var
+c6=an;if(!cc){var
+c7=c6;ca=1}}else{var
 c7=p;ca=1}if(ca)var
-u=c7;break;case
+w=c7;break;case
 2:var
-cd=0;if(p){var
-ar=p[2],ce=0;if(ar){var
-as=ar[2];if(as)if(as[2]){var
-u=0;ce=1}else{var
-c8=as[1],c_=ar[1],da=p[1],fI=G([0,da,c_,c8],[0,da,c_,c8]),u=kv(m,y[1],fI,[0,c,c]);ce=1}else
-var
-dc=as}else
-var
-dc=ar;if(!ce){var
-dd=dc;cd=1}}else{var
-dd=p;cd=1}if(cd)var
-u=dd;break;default:var
 cf=0;if(p){var
-at=p[2],cg=0;if(at){var
-au=at[2],ch=0;if(au)if(au[2]){var
-u=0;cg=1;ch=1}else{var
-bq=au[1],de=at[1],df=p[1],dg=kv(m,y[1],[2,[4,df,df],[4,de,de]],[2,[0,c,c],[4,bq,bq]]);if(dg){var
-u=d8(m,cP(y[2]),bq);cg=1;ch=1}else
+aq=p[2],cg=0;if(aq){var
+at=aq[2];if(at)if(at[2]){var
+w=0;cg=1}else{var
+c8=at[1],c9=aq[1],c$=p[1],fL=J([0,c$,c9,c8],[0,c$,c9,c8]),w=kV(m,A[1],fL,[0,c,c]);cg=1}else
 var
-dh=dg}else
+da=at}else
 var
-dh=au;if(!ch)var
-di=dh}else
+da=aq;if(!cg){var
+db=da;cf=1}}else{var
+db=p;cf=1}if(cf)var
+w=db;break;default:var
+ch=0;if(p){var
+av=p[2],ci=0;if(av){var
+aw=av[2],cj=0;if(aw)if(aw[2]){var
+w=0;ci=1;cj=1}else{var
+bp=aw[1],dc=av[1],dd=p[1],de=kV(m,A[1],[2,[4,dd,dd],[4,dc,dc]],[2,[0,c,c],[4,bp,bp]]);if(de){var
+w=ee(m,cU(A[2]),bp);ci=1;cj=1}else
 var
-di=at;if(!cg){var
-dj=di;cf=1}}else{var
-dj=p;cf=1}if(cf)var
-u=dj}var
-bs=u}else
+df=de}else
 var
-bs=dw;if(bs){var
-ax=I[5],fM=I[6],fN=I[3],fO=I[1],dl=function(a){var
-b=gY(ax,p,aV,a);return G(gY(ax,p,aV,a),b)},fJ=f(dl,aX),fK=f(function(a){return[0,[6,dl(a)]]},aX),fL=[0,f(function(d){var
-b=aM(gY(ax,p,aV,d)),a=aF([5,[0,c,c],fN],kr(ks(ax,p,d[2]),b));switch(fO){case
+df=aw;if(!cj)var
+dg=df}else
+var
+dg=av;if(!ci){var
+di=dg;ch=1}}else{var
+di=p;ch=1}if(ch)var
+w=di}var
+br=w}else
+var
+br=dr;if(br){var
+ay=L[5],fP=L[6],fQ=L[3],fR=L[1],dj=function(a){var
+b=ha(ay,p,aV,a);return J(ha(ay,p,aV,a),b)},fM=e(dj,aW),fN=e(function(a){return[0,[6,dj(a)]]},aW),fO=[0,e(function(d){var
+b=aN(ha(ay,p,aV,d)),a=aG([5,[0,c,c],fQ],kR(kS(ay,p,d[2]),b));switch(fR){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aX),fK,fJ];return ka(m,d_(I[1]),fL,fM,g0)}return bs}}return eG;default:return 0}case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aW),fN,fM];return kA(m,eg(L[1]),fO,fP,gT)}return br}}return eG;default:return 0}case
 3:var
-aY=a[7],eH=a[6],eI=a[5],aZ=a[4],eJ=a[2],eK=a[1],bU=q[2];if(0===bU[0]){var
-bV=bU[3],bW=dq(l(bV),bV);if(bW){var
-eL=bW[1];if(eL[2])return 0;var
-gG=l(eH),ee=E(l(eI),gG);if(ee)var
-gJ=l(aZ),gL=0,bQ=o(function(a){return bb(gL,gJ,a)},aY);else
+aX=a[7],eH=a[6],eI=a[5],aZ=a[4],eJ=a[2],eK=a[1],bX=q[2];if(0===bX[0]){var
+bY=bX[3],bZ=dA(0,j(bY),bY);if(bZ){var
+eL=bZ[1];if(eL[2])return 0;var
+gH=j(eH),eb=t(j(eI),gH);if(eb)var
+gI=j(aZ),gJ=0,bT=n(function(a){return bi(gJ,gI,a)},aX);else
 var
-bQ=ee;var
-ef=bQ?fp(aY):bQ,eg=ef?o(function(a){return ej(a[2])},eJ):ef,eN=eg?o(hu,dn(l(aZ),aY)):eg,eO=eN?hz(l(eK),bV):eN;if(eO){var
-g1=eL[1],g2=a[3],d6=dn(l(aZ),aY),gu=b1(eI,eH),bM=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gu),gv=f(function(a){return f(cS,a)},aZ),gw=f(function(a){var
-b=cS(a[2]);return[0,a[1],b]},g2),k=[0,eK,f(function(a){var
-b=b7(a[2]);return[0,a[1],b]},eJ),gw,gv],af=bU[1],fC=f(cC,k[2]),bi=g(k[1],fC),am=l(k[1]),cU=$(rV,am),cV=cU?$(am,rW):cU,cW=cV?$(am,l(k[4])):cV,cX=cW?$(l(k[4]),rX):cW;if(cX)var
-fD=k[4],bj=o(function(a){return E(l(a),am)},fD);else
+bT=eb;var
+ec=bT?fC(aX):bT,ef=ec?n(function(a){return eu(a[2])},eJ):ec,eM=ef?n(hJ,dy(j(aZ),aX)):ef,eN=eM?hO(j(eK),bY):eM;if(eN){var
+gV=eL[1],gX=a[3],d3=dy(j(aZ),aX),gx=a$(eI,eH),bM=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gx),gy=e(function(a){return e(cX,a)},aZ),gz=e(function(a){var
+b=cX(a[2]);return[0,a[1],b]},gX),l=[0,eK,e(function(a){var
+b=cd(a[2]);return[0,a[1],b]},eJ),gz,gy],ag=bX[1],fF=e(a2,l[2]),bk=g(l[1],fF),am=j(l[1]),cT=ac(sq,am),cV=cT?ac(am,sr):cT,cY=cV?ac(am,j(l[4])):cV,cZ=cY?ac(j(l[4]),ss):cY;if(cZ)var
+fG=l[4],bl=n(function(a){return t(j(a),am)},fG);else
 var
-bj=cX;var
-cY=bj?kn(bi):bj;if(cY){var
-al=bi,ak=k[3];for(;;){if(ak){var
-cN=ak[1],cO=cN[1],cQ=av(aR(function(b){return function(a){return ao(b,a)}}(cO),al)),cT=cQ?gV(al,cN[2]):cQ;if(cT){var
+bl=cZ;var
+c0=bl?kN(bk):bl;if(c0){var
+al=bk,ak=l[3];for(;;){if(ak){var
+cN=ak[1],cO=cN[1],cP=au(aP(function(b){return function(a){return ar(b,a)}}(cO),al)),cS=cP?g9(al,cN[2]):cP;if(cS){var
 al=[0,cO,al],ak=ak[2];continue}var
-cZ=cT}else
+c1=cS}else
 var
-cZ=1;var
-bk=cZ;break}}else
+c1=1;var
+bm=c1;break}}else
 var
-bk=cY;if(bk)var
-fE=k[4],fF=g(f(cC,k[3]),bi),fG=function(a){return gV(fF,a)},bl=o(function(a){return o(fG,a)},fE);else
+bm=c0;if(bm)var
+fH=l[4],fI=g(e(a2,l[3]),bk),fJ=function(a){return g9(fI,a)},bn=n(function(a){return n(fJ,a)},fH);else
 var
-bl=bk;if(bl)var
-fH=k[2],bp=o(function(a){return bm(m,a[2][1],a[2][2])},fH);else
+bn=bm;if(bn)var
+fK=l[2],bo=n(function(a){return bs(m,a[2][1],a[2][2])},fK);else
 var
-bp=bl;var
-c0=bp?o(function(a){return bm(m,a[1],a[2])},bM):bp;if(c0){var
-fr=l(k[1]),a9=l(k[2]),cB=M(a9,l(d7(f(c4,k[3])))),fs=k[3],_=km(k),aj=fs,a7=a9;for(;;){if(aj){var
-cz=aj[1],cA=cz[2],fi=M(a7,l(bH(cA))),fj=aj[2],fk=bI(_,cA,a7),_=[0,[0,cz[1],fk],_],aj=fj,a7=fi;continue}var
-ft=kj(_,k[4],cB),a_=f(function(a){return[0,a,n(c)]},ft),fu=kk(_,k[4],cB),fv=k[3],ba=g(kg(km(k),fv,a9),fu),bc=dX(g(cL(a_),ba))[1],fw=dW(bc),bd=function(a){return bC(fw,a)},cD=e(a2(bd),a_),cE=E(l(bM),fr);if(cE)var
-fx=g(cL(a_),ba),be=o(function(a){var
-b=n(d),c=dW(bc);return a$(z(bd(a),c,b),a)},fx);else
+bo=bn;var
+c2=bo?n(function(a){return bs(m,a[1],a[2])},bM):bo;if(c2){var
+fp=j(l[1]),a9=j(l[2]),cD=O(a9,j(ed(e(cJ,l[3])))),fr=l[3],$=kM(l),aj=fr,a8=a9;for(;;){if(aj){var
+cB=aj[1],cC=cB[2],fi=O(a8,j(bN(cC))),fk=aj[2],fl=bO($,cC,a8),$=[0,[0,cB[1],fl],$],aj=fk,a8=fi;continue}var
+fs=kJ($,l[4],cD),a_=e(function(a){return[0,a,o(c)]},fs),ft=kK($,l[4],cD),fu=l[3],ba=g(kG(kM(l),fu,a9),ft),bb=d6(g(cQ(a_),ba))[1],fv=d5(bb),bd=function(a){return bJ(fv,a)},cE=f(a5(bd),a_),cF=t(j(bM),fp);if(cF)var
+fw=g(cQ(a_),ba),be=n(function(a){var
+b=o(d),c=d5(bb);return bg(u(bd(a),c,b),a)},fw);else
 var
-be=cE;var
-cG=be?aR(rU,d6):be;if(cG){var
-fn=A(d7,k[4]),fo=g(d7(f(c4,k[3])),fn),fq=g(kl(k[2]),fo),bf=aE(f(function(a){return aq(af,a)},fq));if(bf){var
-bg=aE(f(function(a){return aq(af,[0,a,d])},bM));if(bg){var
-bh=aE(f(function(a){if(typeof
-a==="number")return[0,[0,L]];else
+be=cF;var
+cG=be?aP(sp,d3):be;if(cG){var
+fm=E(ed,l[4]),fn=g(ed(e(cJ,l[3])),fm),fo=g(kL(l[2]),fn),bf=az(e(function(a){return as(ag,a)},fo));if(bf){var
+bh=az(e(function(a){return as(ag,[0,a,d])},bM));if(bh){var
+bj=az(e(function(a){if(typeof
+a==="number")return[0,[0,x]];else
 switch(a[0]){case
 0:var
 f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -5812,192 +6112,192 @@ f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[5,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aq(af,[0,[0,b,b],d]);return R(function(a){return e(U(af,a))},g)},d6));if(bh){var
-cH=bh[1],fy=jM(cH),fz=bg[1],fA=function(a){return 0},fB=bf[1];return gF(af,bc,cD,cD,f(bd,ba),fB,cH,fA,fz,fy,g1)}var
-cI=bh}else
+g=as(ag,[0,[0,b,b],d]);return K(function(a){return e(Y(ag,a))},g)},d3));if(bj){var
+cH=bj[1],fx=j$(cH),fB=bh[1],fD=function(a){return 0},fE=bf[1];return gU(ag,bb,cE,cE,e(bd,ba),fE,cH,fD,fB,fx,gV)}var
+cI=bj}else
 var
-cI=bg;var
-cJ=cI}else
+cI=bh;var
+cK=cI}else
 var
-cJ=bf;var
-cK=cJ}else
+cK=bf;var
+cM=cK}else
 var
-cK=cG;return cK}}return c0}var
-eP=eO}else
+cM=cG;return cM}}return c2}var
+eO=eN}else
 var
-eP=bW;return eP}return 0;case
+eO=bZ;return eO}return 0;case
 4:if(0===q[2][0]){var
-eQ=dr(i(a[1]));if(eQ){var
-a0=a[3],ci=0;if(a0){var
-aB=a0[1],aC=aB[4],D=a0[2];if(aB[1]||aB[2]||aB[3])var
+eP=dB(i(a[1]));if(eP){var
+a0=a[3],ck=0;if(a0){var
+aD=a0[1],aE=aD[4],F=a0[2];if(aD[1]||aD[2]||aD[3])var
 s=0;else{var
-w=0;if(typeof
-aC!=="number")switch(aC[0]){case
+z=0;if(typeof
+aE!=="number")switch(aE[0]){case
 0:var
-a3=0;if(D){var
-aD=D[1],bN=aD[4];if(aD[1]||aD[2]||aD[3]){var
-s=0;w=1;a3=1}else{var
-cj=0;if(typeof
-bN!=="number"&&1===bN[0])if(D[2]){var
-s=0;w=1;a3=1;cj=1}else{var
-gz=i(bN[1]),s=[0,[0,i(aC[1]),gz]];w=1;a3=1;cj=1}if(!cj)var
-d$=0}}else
+a3=0;if(F){var
+aF=F[1],bP=aF[4];if(aF[1]||aF[2]||aF[3]){var
+s=0;z=1;a3=1}else{var
+cl=0;if(typeof
+bP!=="number"&&1===bP[0])if(F[2]){var
+s=0;z=1;a3=1;cl=1}else{var
+gC=i(bP[1]),s=[0,[0,i(aE[1]),gC]];z=1;a3=1;cl=1}if(!cl)var
+d7=0}}else
 var
-d$=D;if(!a3){var
-s=d$;w=1}break;case
+d7=F;if(!a3){var
+s=d7;z=1}break;case
 1:var
-a4=0;if(D){var
-aG=D[1],bO=aG[4];if(aG[1]||aG[2]||aG[3]){var
-s=0;w=1;a4=1}else{var
-ck=0;if(typeof
-bO!=="number"&&0===bO[0])if(D[2]){var
-s=0;w=1;a4=1;ck=1}else{var
-gA=i(aC[1]),s=[0,[0,i(bO[1]),gA]];w=1;a4=1;ck=1}if(!ck)var
-ea=0}}else
+a4=0;if(F){var
+aH=F[1],bR=aH[4];if(aH[1]||aH[2]||aH[3]){var
+s=0;z=1;a4=1}else{var
+cm=0;if(typeof
+bR!=="number"&&0===bR[0])if(F[2]){var
+s=0;z=1;a4=1;cm=1}else{var
+gD=i(aE[1]),s=[0,[0,i(bR[1]),gD]];z=1;a4=1;cm=1}if(!cm)var
+d8=0}}else
 var
-ea=D;if(!a4){var
-s=ea;w=1}break}if(!w){var
-d9=0;ci=1}}}else{var
-d9=a0;ci=1}if(ci)var
-s=d9;if(s){var
-eR=s[1],eS=eR[2],eT=eR[1],dC=j(m,1,i(a[2])),dD=dC?j(m,1,[3,eS,[0,c,c]]):dC,dE=dD?j(m,1,eT):dD;return dE?j(m,0,[3,[5,[0,c,c],eS],eT]):dE}var
-eU=s}else
+d8=F;if(!a4){var
+s=d8;z=1}break}if(!z){var
+d4=0;ck=1}}}else{var
+d4=a0;ck=1}if(ck)var
+s=d4;if(s){var
+eQ=s[1],eR=eQ[2],eS=eQ[1],dC=k(m,1,i(a[2])),dD=dC?k(m,1,[3,eR,[0,c,c]]):dC,dE=dD?k(m,1,eS):dD;return dE?k(m,0,[3,[5,[0,c,c],eR],eS]):dE}var
+eT=s}else
 var
-eU=eQ;return eU}return 0;case
+eT=eP;return eT}return 0;case
 5:var
-bX=a[4],eV=a[1],bY=q[2];if(0===bY[0]){var
-eW=bY[3],t=hk(eV,[0,a[2],a[3]],0,bX),bZ=hr(l(eW),eW);if(bZ){var
-eY=bZ[1];if(eY[2])return 0;var
-eZ=hy(eV,0,bX,t),e0=eZ?av(aR(xf,bX)):eZ;if(e0){var
-e1=j8(m,t);if(e1){var
-g3=eY[1],e2=f(k8,t[1]),v=k9(t[1]),e3=i(a[5]),Q=bY[1],bw=gH(v,e2,t[1]),V=gI(v,e2,t[1],0),fS=l(t[3]),fT=M(l(bw),fS),ay=[0,l(bw),fT],fU=gK(V,v,ay,t[3]),fV=g(f(c$,V),fU),dH=g(cL(eX(V)),fV),dI=dX(dH)[1],bx=dW(dI),dJ=t[2];if(0===dJ[0]){var
-dK=o(function(a){var
-b=n(d);return a$(z(bC(bx,a),bx,b),a)},dH),dL=dK?j(m,1,e3):dK;if(dL){var
-fW=t[3],fX=A(function(a){return db(v,a)},fW),fY=t[3],fZ=g(bw,g(f(function(a){return bn(v,a)},fY),fX)),by=aE(f(function(a){return aq(Q,a)},fZ));if(by){var
-f0=a8(dJ[1],v),bz=aE(f(function(a){return aq(Q,a)},f0));if(bz){var
-bA=cn(Q,v,[5,e3,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bA){var
-bB=t[3],f1=bz[1],f2=bA[1],f3=by[1],az=function(a){return bC(bx,a)},dF=f(aS,f3),dG=function(_,Z){var
-f=_,a=Z;for(;;){if(0===a[0]){var
-n=a[1],B=E(l(n),sy),C=B?o(function(a){var
-d=J(ab(b(2,b(2,b(2,c)))),a);return d?J(a,b(2,b(2,b(2,c)))):d},n):B;if(C){var
-D=kU(Q,f2,gB(0,f),n),e=a[2],F=cl(0,c9(Q,D,dF),dI,0),g=function(b){var
-a=kT(Q,D,dF,F,b);return a?ad(d,a[1][2][1]):a};if(typeof
-e==="number")return aR(function(b){var
-a=z(az(b[2]),F,0);return a?J(a[1][2][2],d):a},V);else{if(0===e[0]){var
-h=e[1],i=ae(bB,h);if(i){var
-R=e[2],S=i[1],T=eM(h,bB),U=l(A(function(a){return db(v,a)},T)),W=M(ay[2],U),j=sx(Q,az,V,v,[0,M(ay[1],h),W],S,R);if(j){var
-q=j[1],X=q[1],r=o(function(a){return g([0,a[2]])},X);if(r)return o(g,q[2]);var
+b0=a[4],eU=a[1],b1=q[2];if(0===b1[0]){var
+eV=b1[3],v=hx(eU,[0,a[2],a[3]],0,b0),b2=hG(j(eV),eV);if(b2){var
+eW=b2[1];if(eW[2])return 0;var
+eY=hN(eU,0,b0,v),eZ=eY?au(aP(xR,b0)):eY;if(eZ){var
+e0=kw(m,v);if(e0){var
+gZ=eW[1],e1=e(hC,v[1]),y=hD(v[1]),e2=i(a[5]),R=b1[1],by=fj(y,e1,v[1]),V=gW(y,e1,v[1],0),fV=j(v[3]),fW=O(j(by),fV),aA=[0,j(by),fW],fX=gY(V,y,aA,v[3]),fY=g(e(dh,V),fX),dH=g(cQ(e_(V)),fY),dI=d6(dH)[1],bz=d5(dI),dJ=v[2];if(0===dJ[0]){var
+dK=n(function(a){var
+b=o(d);return bg(u(bJ(bz,a),bz,b),a)},dH),dL=dK?k(m,1,e2):dK;if(dL){var
+fZ=v[3],f0=E(function(a){return dl(y,a)},fZ),f1=v[3],f2=g(by,g(e(function(a){return bt(y,a)},f1),f0)),bA=az(e(function(a){return as(R,a)},f2));if(bA){var
+f3=bc(dJ[1],y),bB=az(e(function(a){return as(R,a)},f3));if(bB){var
+bC=ct(R,y,[5,e2,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bC){var
+bD=v[3],f4=bB[1],f5=bC[1],f6=bA[1],aB=function(a){return bJ(bz,a)},dF=e(ap,f6),dG=function($,_){var
+f=$,a=_;for(;;){if(0===a[0]){var
+o=a[1],B=t(j(o),s5),C=B?n(function(a){var
+d=I(aa(b(2,b(2,b(2,c)))),a);return d?I(a,b(2,b(2,b(2,c)))):d},o):B;if(C){var
+D=li(R,f5,fa(0,f),o),e=a[2],F=bI(0,cs(R,D,dF),dI,0),g=function(b){var
+a=lh(R,D,dF,F,b);return a?S(d,a[1][2][1]):a};if(typeof
+e==="number")return aP(function(b){var
+a=u(aB(b[2]),F,0);return a?I(a[1][2][2],d):a},V);else{if(0===e[0]){var
+h=e[1],i=af(bD,h);if(i){var
+Q=e[2],T=i[1],U=eX(h,bD),W=j(E(function(a){return dl(y,a)},U)),X=O(aA[2],W),k=s4(R,aB,V,y,[0,O(aA[1],h),X],T,Q);if(k){var
+q=k[1],Y=q[1],r=n(function(a){return g([0,a[2]])},Y);if(r)return n(g,q[2]);var
 s=r}else
 var
-s=j;var
-t=s}else
+s=k;var
+v=s}else
 var
-t=i;return t}var
-u=e[1],k=ae(bB,u);if(k){var
-w=k[1];if(typeof
-w!=="number"&&1===w[0]){var
-m=ae(V,e[2]);if(m){var
-Y=M(ay[1],u),y=m[1],P=[1,[6,[1,[8,[1,[1,Y]]]],[0,az(y[2])]]];return g([1,[4,[1,[8,[0,az(c$(y))]]],P]])}return m}var
-x=0}else
+v=i;return v}var
+w=e[1],l=af(bD,w);if(l){var
+x=l[1];if(typeof
+x!=="number"&&1===x[0]){var
+m=af(V,e[2]);if(m){var
+Z=O(aA[1],w),A=m[1],P=[1,[6,[1,[8,[1,[1,Z]]]],[0,aB(A[2])]]];return g([1,[4,[1,[8,[0,aB(dh(A))]]],P]])}return m}var
+z=0}else
 var
-x=k;return x}}return C}var
-G=a[1],p=ae(f,G);if(p){var
-H=p[1],$=H[1],I=av(ah(bF(H),$));if(I){var
-K=d4(G,f),L=dG(K[1],a[2]);if(L){var
+z=l;return z}}return C}var
+G=a[1],p=af(f,G);if(p){var
+H=p[1],ab=H[1],J=au(ad(bL(H),ab));if(J){var
+K=d_(G,f),L=dG(K[1],a[2]);if(L){var
 f=K[2],a=a[3];continue}var
-N=L}else
+M=L}else
 var
-N=I;var
-O=N}else
+M=J;var
+N=M}else
 var
-O=p;return O}};return dG(f1,g3)}var
-dN=bA}else
+N=p;return N}};return dG(f4,gZ)}var
+dM=bC}else
 var
-dN=bz;var
+dM=bB;var
+dN=dM}else
+var
+dN=bA;var
 dO=dN}else
 var
-dO=by;var
-dP=dO}else
+dO=dL;return dO}return 0}var
+e3=e0}else
 var
-dP=dL;return dP}return 0}var
-e4=e1}else
+e3=eZ;var
+e4=e3}else
 var
-e4=e0;var
-e5=e4}else
-var
-e5=bZ;return e5}return 0;case
+e4=b2;return e4}return 0;case
 6:var
-e6=a[1];if(e6){var
-e7=e6[1],b0=q[2];if(0===b0[0]){var
-b2=hp(xk,b0[3]);if(b2){var
-e8=ej(e7);if(e8){var
-g4=b2[1],e9=b7(e7)[2],a1=b0[1],bu=cn(a1,d,e9);if(bu){var
-bv=cn(a1,d,[5,[0,c,c],e9]);if(bv){var
-fR=bu[1][1],dz=ad(cF(a1),fR);if(dz)return kS(a1,bv[1][1],g4);var
-dA=dz}else
+e5=a[1];if(e5){var
+e6=e5[1],b3=q[2];if(0===b3[0]){var
+b4=hE(0,xW,b3[3]);if(b4){var
+e7=eu(e6);if(e7){var
+g0=b4[1],e8=cd(e6)[2],a1=b3[1],bw=ct(a1,d,e8);if(bw){var
+bx=ct(a1,d,[5,[0,c,c],e8]);if(bx){var
+fU=bw[1][1],du=S(cL(a1),fU);if(du)return lg(a1,bx[1][1],g0);var
+dw=du}else
 var
-dA=bv;var
-dB=dA}else
+dw=bx;var
+dx=dw}else
 var
-dB=bu;return dB}var
-e_=e8}else
+dx=bw;return dx}var
+e9=e7}else
 var
-e_=b2;return e_}return 0}var
-b3=q[2];if(0===b3[0]){var
-b4=hp(xl,b3[3]);return b4?kS(b3[1],d,b4[1]):b4}return 0;default:var
-Z=a[1],e$=q[2];if(2===e$[0]){var
-fa=e$[1],b6=hn(l(fa),fa);if(b6){var
-fc=b6[1];if(fc[2])return 0;var
-b8=fc[1],ek=$(xi,l(Z)),el=ek?$(l(Z),jk):ek,em=el?kn(f(cC,Z)):el,fd=em?o(function(c){var
-a=b5(i(c[2][1]));if(a){var
-b=b5(i(c[2][2]));if(b)return av(c6(b[1],a[1]));var
+e9=b4;return e9}return 0}var
+b5=q[2];if(0===b5[0]){var
+b6=hE(0,xX,b5[3]);return b6?lg(b5[1],d,b6[1]):b6}return 0;default:var
+_=a[1],e$=q[2];if(2===e$[0]){var
+fb=e$[1],b7=hA(j(fb),fb);if(b7){var
+fc=b7[1];if(fc[2])return 0;var
+b8=fc[1],eh=ac(xU,j(_)),ei=eh?ac(j(_),jx):eh,ej=ei?kN(e(a2,_)):ei,fd=ej?n(function(c){var
+a=cb(i(c[2][1]));if(a){var
+b=cb(i(c[2][2]));if(b)return au(c_(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},Z):em;if(fd)var
-g5=fm(wD,b8),b9=li(a[5],g5);else
+d=a;return d},_):ej;if(fd)var
+g3=fA(w$,b8),b9=lH(a[5],g3);else
 var
 b9=fd;if(b9)var
-g7=fm(wE,b8),b_=li(a[6],g7);else
+g4=fA(xa,b8),b_=lH(a[6],g4);else
 var
 b_=b9;if(b_){var
-gC=f(function(a){return[0,d,0]},Z);return lh(Z,a[2],a[3],a[4],gC,b8)}var
+gE=e(function(a){return[0,d,0]},_);return lG(_,a[2],a[3],a[4],gE,b8)}var
 fe=b_}else
 var
-fe=b6;return fe}return 0}}return aa}var
-B=[az,xo,fV(0)],lj=[az,xp,fV(0)];function
-xm(m,b){var
-e=[0,h(v4,ak(b[4])),0],g=[0,h(v6,Q([0,h(v5,ak(b[3])),e])),0],a=b[2];switch(a[0]){case
+fe=b7;return fe}return 0}}return ab}var
+F=[aB,x0,f7(0)],lI=[aB,x1,f7(0)];function
+xY(m,b){var
+f=[0,h(wA,aj(b[4])),0],g=[0,h(wC,R([0,h(wB,aj(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(v0,kY(a[1],a[2],a[3]));break;case
+c=H(ww,lm(a[1],a[2],a[3]));break;case
 1:var
-c=H(v1,kZ(a[1],a[2],a[3],a[4]));break;default:var
-c=H(v2,w(f(vV,a[1])))}var
-i=[0,h(v7,c),g],j=1===b[2][0]?wb:v8,k=[0,h(v9,ak(j)),i],l=[0,h(v_,uH(b[1])),k],d=ao(iL(xn,fg(Q([0,h(wa,ak(v$)),l]),v3)),m);return d?xj(b):d}function
-S(a){if(0===a[0])return a[1];throw B}function
-V(a){if(1===a[0])return a[1];throw B}function
-aN(a){if(2===a[0])return a[1];throw B}function
-ds(a){if(3===a[0])return a[1];throw B}function
-aX(f,e){var
+c=H(wx,ln(a[1],a[2],a[3],a[4]));break;default:var
+c=H(wy,y(e(wr,a[1])))}var
+i=[0,h(wD,c),g],j=1===b[2][0]?wJ:wE,k=[0,h(wF,aj(j)),i],l=[0,h(wG,vc(b[1])),k],d=ar(i1(xZ,fv(R([0,h(wI,aj(wH)),l]),wz)),m);return d?xV(b):d}function
+T(a){if(0===a[0])return a[1];throw F}function
+U(a){if(1===a[0])return a[1];throw F}function
+aO(a){if(2===a[0])return a[1];throw F}function
+dC(a){if(3===a[0])return a[1];throw F}function
+aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===CE(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Dh(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aX(c,b);if(a)return a[1];throw B}function
-cU(b,a){var
-c=a?[0,e(b,a[1])]:a;return c}function
-cV(a){switch(a[0]){case
+a=aZ(c,b);if(a)return a[1];throw F}function
+cZ(b,a){var
+c=a?[0,f(b,a[1])]:a;return c}function
+c0(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xq]}throw B}function
-dt(e,d){var
-a=Z(e,V(d));if(a){var
+2:return[0,a[1],x2]}throw F}function
+dD(e,d){var
+a=X(e,U(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw B}function
-fr(i){var
-f=cb(i),d=[0,0],e=a5(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw F}function
+fE(i){var
+f=cj(i),d=[0,0],e=a8(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dB(f,c)+hM|0;if(9<g>>>0)throw B;switch(g){case
+a=d[1],g=dL(f,c)+h2|0;if(9<g>>>0)throw F;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6019,87 +6319,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-ek(a){return i7(fr(a))}function
-el(b){var
-a=ds(b);return 45===Y(a,0)?ab(ek(dI(a,1,K(a)-1|0))):ek(a)}function
-lk(a){return gh(ek(ds(a)))}function
-fs(a){return i6(ek(ds(a)))}function
-cu(c){var
-a=ds(c);if(6<K(a))throw B;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(io(a))}function
-ll(a){var
-b=97<=a?1:0,c=b?a<=ny?1:0:b;if(c)var
+ev(a){return jj(fE(a))}function
+ew(b){var
+a=dC(b);return 45===W(a,0)?aa(ev(dS(a,1,N(a)-1|0))):ev(a)}function
+lJ(a){return gv(ev(dC(a)))}function
+fF(a){return ji(ev(dC(a)))}function
+cB(c){var
+a=dC(c);if(6<N(a))throw F;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iE(a))}function
+lK(a){var
+b=97<=a?1:0,c=b?a<=nX?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lm(y,b){var
-d=K(b),a=[0,0];function
+lL(y,b){var
+d=N(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?Y(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?W(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=Y(b,a[1])&&!(57<Y(b,a[1]))){a[1]++;continue}return dI(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=W(b,a[1])&&!(57<W(b,a[1]))){a[1]++;continue}return dS(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw B}function
-i(j){if(64<j)throw B;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
-f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&ao(dI(b,a[1],5),xs)){a[1]=a[1]+4|0;var
-f=[5,n(j)]}else
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw F}function
+i(j){if(64<j)throw F;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+e=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&ar(dS(b,a[1],5),x4)){a[1]=a[1]+4|0;var
+e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&ll(Y(b,a[1]))){var
+v=0;if(a[1]<d&&lK(W(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!ll(Y(b,a[1]))&&95!==Y(b,a[1])&&(!(48<=Y(b,a[1]))||57<Y(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(y,dI(b,o,a[1]-o|0))];break}}else
+w=0;if(!lK(W(b,a[1]))&&95!==W(b,a[1])&&(!(48<=W(b,a[1]))||57<W(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,f(y,dS(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ao(h,xt);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ar(h,x5);if(r)var
 s=r;else
 var
-t=1<K(h)?1:0,s=t?48===Y(h,0)?1:0:t;if(s)throw B;if(q){var
-l=q[1],x=0;if(ao(l,xu)||48===Y(l,K(l)-1|0))x=1;else
+t=1<N(h)?1:0,s=t?48===W(h,0)?1:0:t;if(s)throw F;if(q){var
+k=q[1],x=0;if(ar(k,x6)||48===W(k,N(k)-1|0))x=1;else
 var
-z=fr(l),f=[0,fr(h),z];if(x)throw B}else
+z=fE(k),e=[0,fE(h),z];if(x)throw F}else
 var
-f=[0,fr(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,xr)){if(!(2<K(g))&&2<=io(g)&&!(64<io(g)))return[4,f,gh(ek(g))];throw B}throw B}return f}function
-f(d){var
+e=[0,fE(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(l(g,x3)){if(!(2<N(g))&&2<=iE(g)&&!(64<iE(g)))return[4,e,gv(ev(g))];throw F}throw F}return e}function
+e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw B;var
-b=f(d);for(;;){if(c(43)){a[1]++;var
-b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
-b=[3,1,b,f(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw B;return h}function
-ft(a){return lm(function(a){return[0,a]},a)}function
-ln(a){var
-b=aN(a);return lm(function(a){return a},b)}function
-P(a){return ft(aN(a))}function
-b8(a){if(2===a[0])return[0,ft(a[1])];var
-b=S(a),c=P(p(b,xv));return[1,P(p(b,xw)),c]}function
-aa(a){throw[0,lj,aC(iL(xy,a),xx)]}function
-lo(c){var
-a=aN(c);if(k(a,xz)){var
-b=k(a,xA);if(b)throw B;return b}return 1}function
-xB(d){var
-b=S(d);function
-a(a){return dt(b8,p(b,a))}var
-c=aN(p(b,xC));if(k(c,xD)){if(k(c,xE)){if(k(c,xF))return aa([0,xH,[0,c,xG]]);var
-e=aX(b,xI),f=cU(function(a){return dt(b8,a)},e),g=a(xJ);return[1,a(xK),g,f]}var
-h=lo(p(b,xL)),i=b8(p(b,xM)),j=a(xN),l=a(xO);return[0,a(xP),l,j,i,h]}return[2,a(xQ)]}function
-hB(d){var
-a=S(d);if(a){var
-b=a[1];if(!k(b[1],xR)){var
-c=b[2];if(2===c[0]&&!k(c[1],xS))return 1}}return 0}function
-xT(c){var
-a=S(c);if(1-hB(c))throw B;function
-b(b){return dt(b8,p(a,b))}var
-d=lo(p(a,xU)),e=b8(p(a,xV)),f=b8(p(a,xW)),g=b(xX),h=b(xY),i=b(xZ);return[0,b(x0),i,h,g,f,e,d]}function
-du(c,d){var
-a=V(d);if(a){var
+g(d){if(64<d)throw F;var
+b=e(d);for(;;){if(c(43)){a[1]++;var
+b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
+b=[3,1,b,e(d)];continue}return b}}var
+h=g(0);if(a[1]<d)throw F;return h}function
+fG(a){return lL(function(a){return[0,a]},a)}function
+lM(a){var
+b=aO(a);return lL(function(a){return a},b)}function
+Q(a){return fG(aO(a))}function
+ce(a){if(2===a[0])return[0,fG(a[1])];var
+b=T(a),c=Q(p(b,x7));return[1,Q(p(b,x8)),c]}function
+Z(a){throw[0,lI,aE(i1(x_,a),x9)]}function
+lN(c){var
+a=aO(c);if(l(a,x$)){var
+b=l(a,ya);if(b)throw F;return b}return 1}function
+yb(d){var
+b=T(d);function
+a(a){return dD(ce,p(b,a))}var
+c=aO(p(b,yc));if(l(c,yd)){if(l(c,ye)){if(l(c,yf))return Z([0,yh,[0,c,yg]]);var
+e=aZ(b,yi),f=cZ(function(a){return dD(ce,a)},e),g=a(yj);return[1,a(yk),g,f]}var
+h=lN(p(b,yl)),i=ce(p(b,ym)),j=a(yn),k=a(yo);return[0,a(yp),k,j,i,h]}return[2,a(yq)]}function
+hQ(d){var
+a=T(d);if(a){var
+b=a[1];if(!l(b[1],yr)){var
+c=b[2];if(2===c[0]&&!l(c[1],ys))return 1}}return 0}function
+yt(c){var
+a=T(c);if(1-hQ(c))throw F;function
+b(b){return dD(ce,p(a,b))}var
+d=lN(p(a,yu)),e=ce(p(a,yv)),f=ce(p(a,yw)),g=b(yx),h=b(yy),i=b(yz);return[0,b(yA),i,h,g,f,e,d]}function
+dE(c,d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw B}function
-hC(n){var
-c=S(n),a=aN(p(c,x1)),h=De(a,x2),g=0;if(0<=h)if(0<h)if(k(a,x3))if(k(a,x4))if(k(a,x5))if(k(a,x6))if(k(a,x7)){var
-i=k(a,x8);if(i)g=1;else
+e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw F}function
+hR(n){var
+c=T(n),a=aO(p(c,yB)),h=or(a,yC),g=0;if(0<=h)if(0<h)if(l(a,yD))if(l(a,yE))if(l(a,yF))if(l(a,yG))if(l(a,yH)){var
+i=l(a,yI);if(i)g=1;else
 var
 b=i}else
 var
@@ -6114,7 +6414,7 @@ var
 b=2;else
 var
 b=1;else
-if(k(a,yp))if(k(a,yq))if(k(a,yr))if(k(a,ys))if(k(a,yt))if(k(a,yu))g=1;else
+if(l(a,y1))if(l(a,y2))if(l(a,y3))if(l(a,y4))if(l(a,y5))if(l(a,y6))g=1;else
 var
 b=8;else
 var
@@ -6127,204 +6427,214 @@ var
 b=9;else
 var
 b=12;var
-l=g?aa([0,x_,[0,a,x9]]):b;function
-f(a){return p(c,x$)}var
-d=aN(p(c,ya)),j=k(d,yb);if(j)if(k(d,yc))if(k(d,yd))if(k(d,ye))var
-e=aa([0,yg,[0,d,yf]]);else
+k=g?Z([0,yK,[0,a,yJ]]):b;function
+f(a){return p(c,yL)}var
+d=aO(p(c,yM)),j=l(d,yN);if(j)if(l(d,yO))if(l(d,yP))if(l(d,yQ))var
+e=Z([0,yS,[0,d,yR]]);else
 var
-m=du(P,f(0)),e=[2,m[1],m[2]];else
+m=dE(Q,f(0)),e=[2,m[1],m[2]];else
 var
-e=[0,P(f(0))];else
+e=[0,Q(f(0))];else
 var
-e=[1,P(f(0))];else
+e=[1,Q(f(0))];else
 var
 e=j;function
 o(w){var
-a=S(w),b=0;switch(l){case
+a=T(w),b=0;switch(k){case
 6:if(a){var
-o=a[1];if(!k(o[1],yi)){var
+o=a[1];if(!l(o[1],yU)){var
 p=o[2];if(1===p[0]){var
 e=p[1],j=0;if(e&&!e[2])if(a[2])j=1;else{var
-d=e[1];b=1;j=1}if(!j&&!a[2])return aa(yj)}}}break;case
+d=e[1];b=1;j=1}if(!j&&!a[2])return Z(yV)}}}break;case
 10:if(a){var
-q=a[1];if(!k(q[1],yk)){var
+q=a[1];if(!l(q[1],yW)){var
 r=q[2];if(1===r[0]){var
 f=r[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-s=g[1];if(!k(s[1],yl)){var
+s=g[1];if(!l(s[1],yX)){var
 t=s[2];if(1===t[0]){var
 h=t[1];if(h&&!h[2]&&!g[2]){var
-x=P(h[1]);return[1,P(f[1]),x]}}}}}}}}break;case
+x=Q(h[1]);return[1,Q(f[1]),x]}}}}}}}}break;case
 12:if(a){var
-u=a[1];if(!k(u[1],ym)){var
+u=a[1];if(!l(u[1],yY)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!a[2]){var
 d=i[1];b=1}}}}break;case
 2:case
 8:if(a){var
-m=a[1];if(!k(m[1],yh)){var
+m=a[1];if(!l(m[1],yT)){var
 n=m[2];if(1===n[0]){var
 c=n[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,P(d)];throw B}var
-q=cU(o,aX(c,yn));return[0,l,cU(cu,aX(c,yo)),q,e]}function
-hD(c){var
-a=hC(c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(yv)}function
-yw(a){var
-b=hC(a),c=b[1];if(2<=c)switch(c-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,Q(d)];throw F}var
+q=cZ(o,aZ(c,yZ));return[0,k,cZ(cB,aZ(c,y0)),q,e]}function
+hS(c){var
+a=hR(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(y7)}function
+y8(a){var
+b=hR(a),c=b[1];if(2<=c)switch(c-2|0){case
 0:case
 4:case
-6:return b}return hD(a)}function
-yD(f){var
-a=S(f);function
-d(b){return P(p(a,b))}function
-c(b){return dt(P,p(a,b))}var
-b=aN(p(a,yE));if(k(b,yF)){if(!k(b,yG)){var
-j=p(a,yM),e=du(function(a){return a},j),l=aX(a,yN),m=cU(function(a){return c(yO)},l),n=ft(aN(e[2])),o=ft(aN(e[1])),q=d(yP);return[0,cu(p(a,yQ)),q,o,n,m]}if(k(b,yH))throw B}var
-g=d(yI),h=c(yJ),i=c(yK);return[1,ao(b,yL),i,h,g]}function
-hE($){var
-f=cV($),g=f[1];if(k(g,yR)){if(k(g,yS)){if(k(g,yT)){if(k(g,yU))return aa([0,yW,[0,g,yV]]);var
-s=p(S(f[2]),yX),R=0;if(2===s[0]){var
-A=k(s[1],yY);if(!A){var
+6:return b}return hS(a)}function
+zd(f){var
+a=T(f);function
+d(b){return Q(p(a,b))}function
+c(b){return dD(Q,p(a,b))}var
+b=aO(p(a,ze));if(l(b,zf)){if(!l(b,zg)){var
+j=p(a,zm),e=dE(function(a){return a},j),k=aZ(a,zn),m=cZ(function(a){return c(zo)},k),n=fG(aO(e[2])),o=fG(aO(e[1])),q=d(zp);return[0,cB(p(a,zq)),q,o,n,m]}if(l(b,zh))throw F}var
+g=d(zi),h=c(zj),i=c(zk);return[1,ar(b,zl),i,h,g]}function
+hT(aa){var
+e=c0(aa),g=e[1];if(l(g,zr)){if(l(g,zs)){if(l(g,zt)){if(l(g,zu))return Z([0,zw,[0,g,zv]]);var
+s=p(T(e[2]),zx),R=0;if(2===s[0]){var
+A=l(s[1],zy);if(!A){var
 z=A;R=1}}if(!R)var
-z=[0,b8(s)];return[6,z]}var
-C=S(f[2]),h=hE([0,[0,[0,y0,p(C,yZ)],0]]);if(0===h[0]){var
+z=[0,ce(s)];return[6,z]}var
+B=T(e[2]),h=hT([0,[0,[0,zA,p(B,zz)],0]]);if(0===h[0]){var
 t=h[2];if(0===t[0]&&!h[3]){var
-ab=P(p(C,y2));return[5,h[1],t[1],t[2],h[4],ab]}}return aa(y1)}var
-b=S(f[2]),D=function(a){return Z(hC,V(p(b,y3)))},i=cV(p(b,y4)),c=cV(p(b,y5)),a=i[1];if(k(a,y6)&&0!==aX(b,y7))return aa(z3);if(k(a,y8)&&k(a,y9)&&k(a,y_)){if(0===aX(b,y$)){if(k(a,za)){var
-T=0;if(k(a,zb)){if(!k(a,zc)){var
-E=c[1],U=0;if(k(E,zf)&&k(E,zg)){T=1;U=1}if(!U){var
-m=V(i[2]),d=S(c[2]);if(k(c[1],yx))var
-x=du(P,p(d,yy)),y=du(P,p(d,yz)),W=y[2],X=y[1],Y=P(p(d,yA)),u=[1,x[1],x[2],Y,X,W];else
+ab=Q(p(B,zC));return[5,h[1],t[1],t[2],h[4],ab]}}return Z(zB)}var
+b=T(e[2]),C=function(a){return X(hR,U(p(b,zD)))},i=c0(p(b,zE)),c=c0(p(b,zF)),a=i[1];if(l(a,zG)&&0!==aZ(b,zH))return Z(AD);if(l(a,zI)&&l(a,zJ)&&l(a,zK)){if(0===aZ(b,zL)){if(l(a,zM)){var
+S=0;if(l(a,zN)){if(!l(a,zO)){var
+D=c[1],V=0;if(l(D,zR)&&l(D,zS)){S=1;V=1}if(!V){var
+m=U(i[2]),d=T(c[2]);if(l(c[1],y9))var
+x=dE(Q,p(d,y_)),y=dE(Q,p(d,y$)),W=y[2],Y=y[1],_=Q(p(d,za)),u=[1,x[1],x[2],_,Y,W];else
 var
-_=dt(P,p(d,yB)),u=[0,dt(P,p(d,yC)),_];var
-v=aX(b,zj),F=v?Z(yD,V(v[1])):v,G=by(hB,m),ac=G?0!==F?1:0:G;if(ac)aa(zk);if(by(hB,m)){var
-ad=Z(hD,V(p(b,zl)));return[1,Z(xT,m),u,ad]}var
-ae=D(0);return[0,Z(xB,m),u,F,ae]}}}else
-if(!k(c[1],zm)){var
-af=D(0),ag=P(p(S(c[2]),zn));return[4,P(p(S(i[2]),zo)),ag,af]}if(!T)return aa([0,ze,[0,a,zd]])}else
-if(!k(c[1],zp)){var
-n=S(i[2]),H=S(c[2]),I=function(c,a){var
-b=V(a);return Z(function(d){var
-a=V(d);if(a){var
+$=dD(Q,p(d,zb)),u=[0,dD(Q,p(d,zc)),$];var
+v=aZ(b,zV),E=v?X(zd,U(v[1])):v,G=bd(hQ,m),ac=G?0!==E?1:0:G;if(ac)Z(zW);if(bd(hQ,m)){var
+ad=X(hS,U(p(b,zX)));return[1,X(yt,m),u,ad]}var
+ae=C(0);return[0,X(yb,m),u,E,ae]}}}else
+if(!l(c[1],zY)){var
+af=C(0),ag=Q(p(T(c[2]),zZ));return[4,Q(p(T(i[2]),z0)),ag,af]}if(!S)return Z([0,zQ,[0,a,zP]])}else
+if(!l(c[1],z1)){var
+n=T(i[2]),H=T(c[2]),I=function(c,a){var
+b=U(a);return X(function(d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aN(a[1]),f]}}throw B},b)},ah=function(d){var
-a=S(d);if(a){var
-b=a[1],c=b[1];if(k(c,zq)){if(!k(c,zr)&&!a[2])return Z(ln,V(b[2]))}else
-if(!a[2])return aa(zs)}throw B},ai=Z(hD,V(p(b,zt))),aj=Z(P,V(p(H,zu))),ak=Z(P,V(p(H,zv))),al=Z(ah,V(p(n,zw))),am=I(ln,p(n,zx)),an=I(b8,p(n,zy));return[3,Z(aN,V(p(n,zz))),an,am,al,ak,aj,ai]}return aa([0,zi,[0,c[1],zh]])}throw B}var
-J=c[1],K=S(i[2]),L=S(c[2]);if(k(J,zA))aa([0,zC,[0,J,zB]]);var
-M=aX(K,zD),ao=M?P(M[1]):aa([0,z2,[0,a,z1]]),ap=function(d){var
-a=S(d);function
-b(b){return Z(b8,V(p(a,b)))}var
-c=aN(p(a,zE)),e=aX(a,zF);if(!k(c,zG)&&!e){var
-f=b(zJ);return[0,b(zK),f]}return aa([0,zI,[0,c,zH]])},j=cV(p(b,zL)),o=j[1];if(k(o,zM))if(k(o,zN))if(k(o,zO)){if(k(o,zP))throw B;var
-N=j[2],aq=P(p(S(N),zQ)),q=[3,P(p(S(N),zR)),aq]}else
+e=f(c,b[1]);return[0,aO(a[1]),e]}}throw F},b)},ah=function(d){var
+a=T(d);if(a){var
+b=a[1],c=b[1];if(l(c,z2)){if(!l(c,z3)&&!a[2])return X(lM,U(b[2]))}else
+if(!a[2])return Z(z4)}throw F},ai=X(hS,U(p(b,z5))),aj=X(Q,U(p(H,z6))),ak=X(Q,U(p(H,z7))),al=X(ah,U(p(n,z8))),am=I(lM,p(n,z9)),an=I(ce,p(n,z_));return[3,X(aO,U(p(n,z$))),an,am,al,ak,aj,ai]}return Z([0,zU,[0,c[1],zT]])}throw F}var
+J=c[1],K=T(i[2]),L=T(c[2]);if(l(J,Aa))Z([0,Ac,[0,J,Ab]]);var
+M=aZ(K,Ad),ao=M?Q(M[1]):Z([0,AC,[0,a,AB]]),ap=function(d){var
+a=T(d);function
+b(b){return X(ce,U(p(a,b)))}var
+c=aO(p(a,Ae)),e=aZ(a,Af);if(!l(c,Ag)&&!e){var
+f=b(Aj);return[0,b(Ak),f]}return Z([0,Ai,[0,c,Ah]])},j=c0(p(b,Al)),o=j[1];if(l(o,Am))if(l(o,An))if(l(o,Ao)){if(l(o,Ap))throw F;var
+N=j[2],aq=Q(p(T(N),Aq)),q=[3,Q(p(T(N),Ar)),aq]}else
 var
-av=j[2],w=function(a){return du(P,p(S(av),a))},aw=w(zY),ax=w(zZ),q=[1,w(z0),ax,aw];else
+av=j[2],w=function(a){return dE(Q,p(T(av),a))},aw=w(Ay),ax=w(Az),q=[1,w(AA),ax,aw];else
 var
-Q=du(P,j[2]),q=[0,Q[1],Q[2]];else
+P=dE(Q,j[2]),q=[0,P[1],P[2]];else
 var
-q=[2,P(j[2])];var
-O=k(a,zS),ar=O?k(a,zT)?2:1:O,as=Z(yw,V(p(b,zU))),at=Z(P,V(p(L,zV))),au=Z(P,V(p(L,zW)));return[2,ar,Z(ap,V(p(K,zX))),ao,au,at,q,as]}var
-r=S(f[2]);function
+q=[2,Q(j[2])];var
+O=l(a,As),ar=O?l(a,At)?2:1:O,as=X(y8,U(p(b,Au))),at=X(Q,U(p(L,Av))),au=X(Q,U(p(L,Aw)));return[2,ar,X(ap,U(p(K,Ax))),ao,au,at,q,as]}var
+r=T(e[2]);function
 ay(b){var
-a=S(b),c=P(p(a,z4)),d=[0,P(p(a,z5)),c];return[0,aN(p(a,z6)),d]}var
-l=hE([0,[0,[0,z8,p(r,z7)],0]]);if(0===l[0]&&!l[3]){var
-az=P(p(r,z_)),aA=P(p(r,z$)),aB=l[4],aC=l[2],aD=l[1];return[7,Z(ay,V(p(r,Aa))),aD,aC,aB,aA,az]}return aa(z9)}function
-lp(a){return Z(el,V(a))}function
-hF(c,b){var
-a=lp(b);if(cA(a)!==c)throw B;return a}function
-lq(a,d){var
-b=S(d),e=V(p(b,Ad)),f=a[2],c=Z(function(a){return hF(f,a)},e),g=a[1];if(cA(c)!==g)throw B;return[0,c,fs(p(b,Ae))]}function
-fu(g,m){var
-I=g[2];switch(m[0]){case
+a=T(b),c=Q(p(a,AE)),d=[0,Q(p(a,AF)),c];return[0,aO(p(a,AG)),d]}var
+k=hT([0,[0,[0,AI,p(r,AH)],0]]);if(0===k[0]&&!k[3]){var
+az=Q(p(r,AK)),aA=Q(p(r,AL)),aB=k[4],aC=k[2],aD=k[1];return[7,X(ay,U(p(r,AM))),aD,aC,aB,aA,az]}return Z(AJ)}function
+hU(a){return X(ew,U(a))}function
+hV(c,b){var
+a=hU(b);if(cH(a)!==c)throw F;return a}function
+lO(a,d){var
+b=T(d),e=U(p(b,AP)),f=a[2],c=X(function(a){return hV(f,a)},e),g=a[1];if(cH(c)!==g)throw F;return[0,c,fF(p(b,AQ))]}function
+ex(g,n){var
+M=g[2];switch(n[0]){case
 0:var
-d=m[1];if(d){var
-e=d[1],b=e[1],c=0;if(k(b,Af))if(k(b,Ag))if(k(b,Ah))if(k(b,Ai))if(k(b,Aj))if(k(b,Ak)){var
-T=0;if(k(b,Al)&&k(b,Am)&&k(b,An))T=1;if(!T)if(d[2])c=1;else{var
-W=e[2],o=W,n=function(c,a){return[1,b,c,a]};c=2}}else{var
-K=e[2];if(1===K[0]){var
-q=K[1];if(q){var
-r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!d[2]){var
-X=fs(s[1]),Y=el(r[1]);return[5,fu(g,q[1]),Y,X]}c=1}}}}}else{if(!d[2]){var
-L=S(e[2]),_=V(p(L,Aq)),$=I+1|0,M=Z(function(a){return hF($,a)},_);if(3===cA(M))return[1,As,M,fs(p(L,Ar))];throw B}c=1}else{if(!d[2]){var
-F=aN(e[2]),G=k(F,Ab);if(G){if(k(F,Ac))throw B;var
-H=1}else
-var
-H=G;return[2,H]}c=1}else{if(!d[2]){var
-h=e[2],l=0;switch(h[0]){case
-0:var
-i=h[1];if(i){var
-P=i[1],z=P[1],a=0;if(k(z,Au)&&k(z,Av))if(k(z,Aw))a=1;else{var
-Q=P[2];if(1===Q[0]){var
-A=Q[1];if(A){var
-j=A[1],f=0;switch(j[0]){case
-0:var
-C=j[1];if(C){var
-R=C[1][1],U=0;if(k(R,Ay)&&k(R,Az)){a=1;f=1;U=1}if(!U&&C[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(k(j[1],AA)){a=1;f=1}break;default:a=1;f=1}if(!f){var
-D=A[2];if(D){var
-E=D[2];if(E&&!(E[2]||i[2])){var
-af=fs(E[1]),ag=el(D[1]),t=[6,fu(g,j),ag,af];l=1;a=1}else
-a=1}else
-a=1}}else
-a=1}else
-a=1}if(!a&&!i[2])l=2}break;case
-2:if(!k(h[1],AB))l=2;break}switch(l){case
-0:var
-t=aa(Ax);break;case
-2:var
-t=fu(g,h);break}return[7,t]}c=1}else{var
-N=e[2];if(1===N[0]){var
-u=N[1];if(u){var
-v=u[2];if(v&&!v[2])if(d[2])c=1;else{var
-ab=v[1],ac=u[1],o=ac,n=function(b,a){return[3,b,a,hF(I+1|0,ab)]};c=2}}}}else{var
+d=n[1];if(d){var
+e=d[1],a=e[1],N=or(a,AR),b=0;if(0<=N)if(0<N){var
+f=0;if(l(a,AS)&&l(a,AT)&&l(a,AU))if(l(a,AV))f=1;else{var
 O=e[2];if(1===O[0]){var
-w=O[1];if(w){var
-x=w[2];if(x){var
-y=x[2];if(y&&!y[2])if(d[2])c=1;else{var
-ad=x[1];if(k(ds(y[1]),At))throw B;var
-ae=w[1],o=ae,n=function(b,a){return[4,b,a,el(ad)]};c=2}}}}}switch(c){case
-0:if(!d[2])return aa([0,Ap,[0,b,Ao]]);break;case
+o=O[1];if(o){var
+q=o[2];if(q){var
+r=q[2];if(r&&!r[2]){if(!d[2]){var
+ab=X(hU,U(r[1])),ac=aO(q[1]);return[8,ex(g,o[1]),ac,ab]}b=1;f=1}else
+f=1}else
+f=1}else
+f=1}else
+f=1}if(!f)if(d[2])b=1;else{var
+ad=e[2],t=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
+Q=e[2];if(1===Q[0]){var
+u=Q[1];if(u){var
+v=u[2];if(v){var
+w=v[2];if(w&&!w[2]){if(!d[2]){var
+ae=fF(w[1]),af=ew(v[1]);return[5,ex(g,u[1]),af,ae]}b=1}}}}}else
+if(l(a,AY))if(l(a,AZ))if(l(a,A0))if(l(a,A1)){if(!l(a,A2)){if(!d[2]){var
+R=T(e[2]),ag=U(p(R,A3)),ah=M+1|0,S=X(function(a){return hV(ah,a)},ag);if(3===cH(S))return[1,A5,S,fF(p(R,A4))];throw F}b=1}}else{if(!d[2]){var
+J=aO(e[2]),K=l(J,AN);if(K){if(l(J,AO))throw F;var
+L=1}else
+var
+L=K;return[2,L]}b=1}else{if(!d[2]){var
+i=e[2],m=0;switch(i[0]){case
+0:var
+j=i[1];if(j){var
+Y=j[1],D=Y[1],c=0;if(l(D,A7)&&l(D,A8))if(l(D,A9))c=1;else{var
+_=Y[2];if(1===_[0]){var
+E=_[1];if(E){var
+k=E[1],h=0;switch(k[0]){case
+0:var
+G=k[1];if(G){var
+$=G[1][1],aa=0;if(l($,A$)&&l($,Ba)){c=1;h=1;aa=1}if(!aa&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(l(k[1],Bb)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+H=E[2];if(H){var
+I=H[2];if(I&&!(I[2]||j[2])){var
+am=fF(I[1]),an=ew(H[1]),x=[6,ex(g,k),an,am];m=1;c=1}else
+c=1}else
+c=1}}else
+c=1}else
+c=1}if(!c&&!j[2])m=2}break;case
+2:if(!l(i[1],Bc))m=2;break}switch(m){case
+0:var
+x=Z(A_);break;case
+2:var
+x=ex(g,i);break}return[7,x]}b=1}else{var
+V=e[2];if(1===V[0]){var
+y=V[1];if(y){var
+z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hV(M+1|0,ai)]};b=2}}}}else{var
+W=e[2];if(1===W[0]){var
+A=W[1];if(A){var
+B=A[2];if(B){var
+C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
+ak=B[1];if(l(dC(C[1]),A6))throw F;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,ew(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return Z([0,AX,[0,a,AW]]);break;case
 1:break;default:var
-J=lq(g,o);return n(J[1],J[2])}}break;case
-2:return[0,m[1]]}throw B}function
-lr(j){var
-b=cV(j),a=b[1];if(k(a,AE)){var
-g=k(a,AF);if(!g)return g;if(!k(a,AG)){var
+P=lO(g,t);return s(P[1],P[2])}}break;case
+2:return[0,n[1]]}throw F}function
+lP(j){var
+b=c0(j),a=b[1];if(l(a,Bf)){var
+g=l(a,Bg);if(!g)return g;if(!l(a,Bh)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cu(d[1]);return[1,cu(c[1]),l]}}}}}else{var
+k=cB(d[1]);return[1,cB(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=Z(lp,V(f[1]));return[0,cu(e[1]),m]}}}}return aa([0,AI,[0,a,AH]])}function
-ls(f,b){var
-a=S(b),c=V(p(a,AN)),d=Z(function(g){var
-a=S(g);function
+m=X(hU,U(f[1]));return[0,cB(e[1]),m]}}}}return Z([0,Bj,[0,a,Bi]])}function
+lQ(f,b){var
+a=T(b),c=U(p(a,Bo)),d=X(function(g){var
+a=T(g);function
 b(d,c){var
-b=aX(a,c);return b?Z(d,V(b[1])):b}var
-c=b(el,AJ),d=cU(lr,aX(a,AK)),e=cU(cu,aX(a,AL));return[0,b(function(h){var
-b=V(h);if(b){var
+b=aZ(a,c);return b?X(d,U(b[1])):b}var
+c=b(ew,Bk),d=cZ(lP,aZ(a,Bl)),e=cZ(cB,aZ(a,Bm));return[0,b(function(h){var
+b=U(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],AC)){if(!a[2]){if(k(ds(e),AD))throw B;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],Bd)){if(!a[2]){if(l(dC(e),Be))throw F;d=1}}else
 d=1;if(d&&!a[2]){var
-g=fu(f,c);return[0,cu(e),g]}}}throw B},AM),e,d,c]},c),e=aX(a,AO),g=cU(function(a){return lq(f,a)},e);return[0,lk(p(a,AP)),g,d]}function
-lt(c){var
-a=S(c),b=aX(a,AQ),d=b?Z(P,V(b[1])):b,e=lr(p(a,AR)),f=Z(P,V(p(a,AS)));return[0,lk(p(a,AT)),f,d,e]}function
-lu(c){var
+g=ex(f,c);return[0,cB(e),g]}}}throw F},Bn),e,d,c]},c),e=aZ(a,Bp),g=cZ(function(a){return lO(f,a)},e);return[0,lJ(p(a,Bq)),g,d]}function
+lR(c){var
+a=T(c),b=aZ(a,Br),d=b?X(Q,U(b[1])):b,e=lP(p(a,Bs)),f=X(Q,U(p(a,Bt)));return[0,lJ(p(a,Bu)),f,d,e]}function
+lS(c){var
 a=c[1];if(8!==a){var
 b=10<=a?1:0;if(!b)return b}return 1}function
-A3(c){var
+BE(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!k(b[1],A4))a=1;break;case
+0:if(!l(b[1],BF))a=1;break;case
 7:a=1;break}return a?1:0}function
-A5(f){var
-j=K(f),a=[0,0];function
-l(b){if(a[1]<j)return Y(f,a[1]);throw B}function
-m(b){if(l(0)===b){a[1]++;return 0}throw B}function
-w(b,c){for(;;){if(a[1]<j&&e(c,Y(f,a[1]))){a[1]++;continue}return dI(f,b,a[1]-b|0)}}function
+BG(g){var
+j=N(g),a=[0,0];function
+k(b){if(a[1]<j)return W(g,a[1]);throw F}function
+m(b){if(k(0)===b){a[1]++;return 0}throw F}function
+w(b,c){for(;;){if(a[1]<j&&f(c,W(g,a[1]))){a[1]++;continue}return dS(g,b,a[1]-b|0)}}function
 x(d){m(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -6332,100 +6642,105 @@ c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 c=w(a[1],b);m(34);return c}function
-y(i,d){if(l(0)===d){a[1]++;return 0}var
-f=0;for(;;){var
-g=[0,e(i,0),f];if(44===l(0)){a[1]++;var
-f=g;continue}m(d);var
+y(i,d){if(k(0)===d){a[1]++;return 0}var
+e=0;for(;;){var
+g=[0,f(i,0),e];if(44===k(0)){a[1]++;var
+e=g;continue}m(d);var
 b=g,c=0;for(;;){if(b){var
 h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-s(c,i){if(64<c)throw B;var
-b=l(0),d=0;if(48<=b){if(91===b){a[1]++;var
+s(c,i){if(64<c)throw F;var
+b=k(0),d=0;if(48<=b){if(91===b){a[1]++;var
 e=93,f=c+1|0;return[1,y(function(a){return s(f,a)},e)]}if(123===b){a[1]++;var
 g=125;return[0,y(function(b){var
 a=x(0);m(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,x(0)];if(45===b)d=1}if(d){var
 h=a[1];a[1]++;return[3,w(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw B}var
-L=s(0,0),z=a[1]<j?1:0,M=z?10===Y(f,a[1])?1:0:z;if(M)a[1]++;if(a[1]<j)throw B;var
-r=S(L);if(k(aN(p(r,A6)),A7))throw B;var
-b=hE(p(r,A8)),u=0;switch(b[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw F}var
+K=s(0,0),z=a[1]<j?1:0,L=z?10===W(g,a[1])?1:0:z;if(L)a[1]++;if(a[1]<j)throw F;var
+r=T(K);if(l(aO(p(r,BH)),BI))throw F;var
+b=hT(p(r,BJ)),u=0;switch(b[0]){case
 2:var
-X=1===b[1]?6:3,g=[0,cA(b[2]),X];break;case
+$=1===b[1]?6:3,h=[0,cH(b[2]),$];break;case
 3:var
-_=cA(b[1]),g=[0,cA(b[4]),_];break;case
+aa=cH(b[1]),h=[0,cH(b[4]),aa];break;case
 7:var
 A=b[2];u=1;break;case
 0:case
 5:var
 A=b[1];u=1;break;default:var
-g=Bk}if(u)var
-g=[0,cA(A),3];var
-n=cV(p(r,A9)),o=n[1];if(k(o,AY))if(k(o,AZ))if(k(o,A0))var
-c=aa([0,A2,[0,o,A1]]);else
+h=BY}if(u)var
+h=[0,cH(A),3];var
+n=c0(p(r,BK)),o=n[1];if(l(o,Bz))if(l(o,BA))if(l(o,BB))var
+c=Z([0,BD,[0,o,BC]]);else
 var
-q=lt(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=lR(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=ls(g,n[2]),c=[0,t[1],t[2],t[3]];else
+t=lQ(h,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-N=V(n[2]),c=[2,Z(function(f){var
-a=cV(f),b=a[1];if(k(b,AU)){if(k(b,AV)){if(k(b,AW)){var
-e=k(b,AX);if(e)throw B;return e}return[0,cu(a[2])]}var
-c=lt(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=ls(g,a[2]);return[1,d[1],d[2],d[3]]},N)];function
-O(a){return 0!==a[3]?1:0}function
-C(a){return by(O,a)}var
+M=U(n[2]),c=[2,X(function(f){var
+a=c0(f),b=a[1];if(l(b,Bv)){if(l(b,Bw)){if(l(b,Bx)){var
+e=l(b,By);if(e)throw F;return e}return[0,cB(a[2])]}var
+c=lR(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lQ(h,a[2]);return[1,d[1],d[2],d[3]]},M)];function
+O(a){var
+b=a[1];return bd(function(a){return 8===a[2][0]?1:0},b)}function
+P(a){return 0!==a[3]?1:0}function
+B(a){return bd(P,a)}var
 d=0;switch(b[0]){case
 0:var
-D=b[4];switch(c[0]){case
+C=b[4];switch(c[0]){case
 0:var
-F=D,E=b[1];d=3;break;case
+E=C,D=b[1];d=4;break;case
 1:var
-H=D;d=4;break}break;case
-1:if(0===c[0]){aa(Bg);d=2}break;case
-2:switch(c[0]){case
-0:var
-U=c[3];if(iH(function(a){return iH(A3,a[1])},U))d=1;else{aa(Bh);d=2}break;case
-1:var
-W=b[7];if(by(function(b){var
+H=C;d=5;break}break;case
+1:if(0===c[0]){Z(BT);d=1}break;case
+2:if(1===c[0]){var
+_=b[7];if(bd(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},W)){aa(Bi);d=2}break}break;case
-3:switch(c[0]){case
-0:d=1;break;case
-1:aa(Bj);d=2;break}break;case
+6:return 1}return 0},_)){Z(BW);d=1}else
+d=3}else
+d=3;break;case
+3:if(1===c[0]){Z(BX);d=1}else
+d=3;break;case
 5:var
-H=b[4];d=4;break;case
+H=b[4];d=5;break;case
 7:var
-F=b[4],E=b[2];d=3;break;default:d=1}var
-h=0;switch(d){case
-2:break;case
-3:var
-I=0;if(by(function(a){return 10===a[1]?1:0},F)&&by(function(a){return 2===a[0]?1:0},E)){aa(A_);I=1}if(!I)h=2;break;case
-4:if(by(lu,H))aa(Bf);else
-h=2;break;case
-1:h=2;break;default:h=1}var
-v=0;switch(h){case
-2:var
+E=b[4],D=b[2];d=4;break;default:d=2}var
+e=0;switch(d){case
+3:if(0===c[0])if(bd(O,c[3])){Z(BU);e=3}else
+if(3===b[0])e=1;else{var
+Y=c[3];if(iX(function(a){return iX(BE,a[1])},Y))e=1;else{Z(BV);e=3}}else
+e=2;break;case
+1:e=3;break;case
+4:var
+I=0;if(bd(function(a){return 10===a[1]?1:0},E)&&bd(function(a){return 2===a[0]?1:0},D)){Z(BL);I=1}if(!I)e=1;break;case
+5:if(bd(lS,H))Z(BS);else
+e=1;break;case
+2:e=1;break;default:e=2}var
+v=0;switch(e){case
+3:break;case
+1:var
 i=0;switch(b[0]){case
 5:var
 J=0;if(0===c[0]){var
-Q=c[3];if(by(function(a){return 0!==a[1]?1:0},Q)){aa(Bd);i=1;J=1}}if(!J)i=1;break;case
+R=c[3];if(bd(function(a){return 0!==a[1]?1:0},R)){Z(BQ);i=1;J=1}}if(!J)i=1;break;case
 7:var
-R=b[4];switch(c[0]){case
+S=b[4];switch(c[0]){case
 0:break;case
 1:v=1;i=1;break;default:var
-T=function(a){if(typeof
+V=function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return C(a[3]);case
-2:return by(lu,R)}return 0};if(by(T,c[1]))aa(Be);i=1}break}if(!i)if(0===c[0]&&C(c[3]))aa(Bc);else
+1:return B(a[3]);case
+2:return bd(lS,S)}return 0};if(bd(V,c[1]))Z(BR);i=1}break}if(!i)if(0===c[0]&&B(c[3]))Z(BP);else
 v=1;break;case
-1:v=1;break}var
-G=S(p(r,A$)),P=aN(p(G,Ba));return[0,b,c,aN(p(G,Bb)),P]}function
-Bl(c){try{try{var
-d=0,a=A5(c);d=1}catch(a){a=f2(a);if(a[1]===lj)var
-b=[0,a[2]];else{if(a!==B)throw a;var
+2:v=1;break}var
+G=T(p(r,BM)),Q=aO(p(G,BN));return[0,b,c,aO(p(G,BO)),Q]}function
+BZ(c){try{try{var
+d=0,a=BG(c);d=1}catch(a){a=gc(a);if(a[1]===lI)var
+b=[0,a[2]];else{if(a!==F)throw a;var
 b=2}}if(d)var
-b=xm(c,a)?1===a[2][0]?1:0:2}catch(a){return Bm}if(typeof
+b=xY(c,a)?1===a[2][0]?1:0:2}catch(a){return B0}if(typeof
 b==="number")switch(b){case
-0:return Bn;case
-1:return Bo;default:return Bp}return aC(Bq,b[1])}Dj.orthocert_verify=C0(function(b){return ce(Bl(a(b)))});f5(0);return}(globalThis));
+0:return B1;case
+1:return B2;default:return B3}return aE(B4,b[1])}DX.orthocert_verify=DD(function(b){return cl(BZ(a(b)))});gf(0);return}(globalThis));
