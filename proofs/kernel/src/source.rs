@@ -32,6 +32,7 @@ pub const SOURCES: &[(&str, &[u8])] = files![
     "orientation.rs",
     "paving/cell.rs",
     "paving/code.rs",
+    "paving/cut.rs",
     "paving/judge.rs",
     "paving/mod.rs",
     "paving/reader.rs",
