@@ -7,7 +7,7 @@
 use super::flat::Flat;
 use super::others::ForAll;
 use crate::paving::spectrum::Spectrum;
-use crate::solver::doubles::{middle, Pair, Single};
+use crate::solver::doubles::{magnitude, middle, Pair, Single};
 use crate::solver::evidence::{Over, Prover};
 use crate::solver::refute::directions;
 use crate::solver::sample::{Place, Quality, Sampler};
@@ -521,7 +521,7 @@ impl<'a> Decider<'a> {
         let known = undefined.into_iter().chain(divisors);
         let margin = |f: Formula| Margin::of(over, f);
         let worst = known.filter_map(margin).min_by(|a, b| a.room().total_cmp(&b.room()));
-        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.weights());
+        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.along);
         self.split(cell, Vec::new(), along)
     }
 
@@ -596,7 +596,9 @@ impl Margin {
         let of = |part: fn(&Pair) -> f64| {
             std::array::from_fn(|k| if k < over.m() { part(&slopes[k]) } else { 0.0 })
         };
-        let [along, beyond] = [of(middle), of(|slope| 0.5 * (slope.1 - slope.0))];
+        // To first order or not: where it may not be defined, all counts.
+        let along = of(|slope| magnitude(slope).copysign(middle(slope)));
+        let beyond = of(|slope| 0.5 * (slope.1 - slope.0));
         Some(Margin { centre: over.centre(f)?, along, beyond })
     }
 }

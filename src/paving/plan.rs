@@ -10,6 +10,8 @@ use rayon::prelude::*;
 const STEP: u32 = 3;
 const SAMPLE: usize = 32;
 const LEAST: usize = 8;
+/// How many boxes the planes of one that is cut take as long as, about.
+const CUT: f64 = 20.0;
 /// What is aimed at, relative to the gap that is asked for: the sample errs.
 const AIM: f64 = 0.99;
 
@@ -95,7 +97,8 @@ fn chosen(
         inner += found.inner_at[at] as f64 * unit * scale;
         let cut = found.cut_at[at] as f64 * unit * scale;
         boxes += found.boxes_at[at] as f64 * scale;
-        if boxes > goal.max_boxes as f64 && depth > coarse {
+        let planes = CUT * found.cuts_at[at] as f64 * scale;
+        if boxes + planes > goal.max_boxes as f64 && depth > coarse {
             return Some(depth - 1);
         }
         let left = found.left_at[at] as f64 * unit * scale;

@@ -28,6 +28,8 @@ pub struct Tally {
     pub open_at: Vec<u128>,
     /// Cells tried at each depth.
     pub boxes_at: Vec<u64>,
+    /// Cells for which planes are looked for at each depth.
+    pub cuts_at: Vec<u64>,
     /// Shares of undecided cells at each depth that would be inner if these were cut.
     pub cut_at: Vec<u128>,
     /// Shares of them that would still be undecided.
@@ -43,6 +45,7 @@ impl Tally {
             inner_at: vec![0; length],
             open_at: vec![0; length],
             boxes_at: vec![0; length],
+            cuts_at: vec![0; length],
             cut_at: vec![0; length],
             left_at: vec![0; length],
         }
@@ -59,6 +62,7 @@ impl Tally {
         sum(&mut self.cut_at, &other.cut_at);
         sum(&mut self.left_at, &other.left_at);
         self.boxes_at.iter_mut().zip(&other.boxes_at).for_each(|(to, from)| *to += from);
+        self.cuts_at.iter_mut().zip(&other.cuts_at).for_each(|(to, from)| *to += from);
     }
 }
 
@@ -191,7 +195,8 @@ impl Grower<'_> {
             Kind::Split(_) | Kind::Boundary => {
                 let whole = share();
                 tally.open_at[at] += whole;
-                let may_be_cut = self.is_plan || kind == Kind::Boundary;
+                let may_be_cut = self.decider.cuts() && (self.is_plan || kind == Kind::Boundary);
+                tally.cuts_at[at] += u64::from(may_be_cut);
                 let cut =
                     may_be_cut.then(|| self.decider.cut(&root.cell, root.inherited)).flatten();
                 let [inner, outer] = cut.as_ref().map_or([0, 0], |cut| cut.shares(whole));

@@ -264,7 +264,7 @@ fn boxes_that_are_not_drawn_have_evidence_all_the_same() {
 #[test]
 fn a_paving_through_a_pipe_is_read_once() {
     let folder = folder();
-    folder.run(&["pave", "d.toml", "--precision", "0.01"]).exits(0);
+    folder.run(&["pave", "d.toml", "--precision", "0.008"]).exits(0);
     let bytes = folder.read("d.paving");
     // More than a pipe holds.
     assert!(bytes.len() > 1 << 16);
