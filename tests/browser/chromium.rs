@@ -1,6 +1,6 @@
 //! Headless Chromium, driven by its DevTools protocol over a pair of pipes.
 
-use crate::support::on_path;
+use crate::support::{ended, on_path};
 use data_encoding::BASE64;
 use serde_json::{json, Value};
 use std::collections::VecDeque;
@@ -260,15 +260,7 @@ impl Drop for Browser {
     fn drop(&mut self) {
         // Its own way first, so that its processes end with it.
         let _ = self.commands.write_all(b"{\"id\":0,\"method\":\"Browser.close\"}\0");
-        let until = Instant::now() + Duration::from_secs(5);
-        while Instant::now() < until {
-            if matches!(self.child.try_wait(), Ok(Some(_))) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        ended(&mut self.child);
     }
 }
 

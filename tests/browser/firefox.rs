@@ -1,7 +1,7 @@
 //! Headless Firefox, driven by its Marionette protocol: texts with their length before them, over a
 //! socket.
 
-use crate::support::{kept, on_path, Folder};
+use crate::support::{ended, kept, on_path, Folder, PROVED};
 use data_encoding::BASE64;
 use serde_json::{json, Value};
 use std::fs::{self, File};
@@ -134,15 +134,7 @@ impl Drop for Firefox {
     fn drop(&mut self) {
         // Its own way first, so that its processes end with it.
         self.send("Marionette:Quit", &json!({ "flags": ["eForceQuit"] }));
-        let until = Instant::now() + Duration::from_secs(5);
-        while Instant::now() < until {
-            if matches!(self.child.try_wait(), Ok(Some(_))) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        ended(&mut self.child);
     }
 }
 
@@ -152,8 +144,6 @@ impl Drop for Firefox {
 fn reports_are_drawn_and_prove_their_claims() {
     let Some(mut firefox) = Firefox::start() else { return };
     let folder = Folder::new();
-    let state = "new Promise((done) => { const look = () => { const s = \
-                 document.getElementById('reproved').dataset.state; s ? done(s) : setTimeout(look, 10); }; look(); })";
     for (name, maps) in [
         ("linear-delta-klipper-cylinder", 3),
         ("postulate-all", 0),
@@ -162,7 +152,7 @@ fn reports_are_drawn_and_prove_their_claims() {
     ] {
         let page = folder.report_of_committed(name, &[]);
         firefox.open(&page);
-        assert_eq!(firefox.evaluate(state), "accepted", "{name}");
+        assert_eq!(firefox.evaluate(PROVED), "accepted", "{name}");
         assert!(firefox.text("#reproved").starts_with("This page proved its claim again"));
         let drawn = "document.querySelectorAll('svg[data-map] .field rect').length";
         assert_eq!(firefox.evaluate(drawn), maps, "{name}");
@@ -174,7 +164,7 @@ fn reports_are_drawn_and_prove_their_claims() {
     assert!(text.contains(from));
     fs::write(&page, text.replacen(from, to, 1)).unwrap();
     firefox.open(&page);
-    assert_eq!(firefox.evaluate(state), "rejected");
+    assert_eq!(firefox.evaluate(PROVED), "rejected");
     assert!(firefox.text(".verdict strong").contains("REJECTED"));
     assert_eq!(firefox.complaints(), Vec::<String>::new());
 }

@@ -10,7 +10,7 @@ mod firefox;
 mod support;
 
 use chromium::Browser;
-use support::{kept, numbers, report, Folder};
+use support::{kept, numbers, report, Folder, PROVED};
 
 /// Pages whose figures are all there, light and dark, without a word on the console.
 #[test]
@@ -264,9 +264,6 @@ fn a_refutation_is_marked_and_hostile_text_stays_text() {
 fn a_page_proves_its_claim_again() {
     let Some(mut browser) = Browser::start() else { return };
     let folder = Folder::new();
-    // Waits until the page has said something.
-    let state = "new Promise((done) => { const look = () => { const s = \
-                 document.getElementById('reproved').dataset.state; s ? done(s) : setTimeout(look, 10); }; look(); })";
     for (name, verdict) in [
         ("orthoglide-prototype", "CERTIFIED"),
         ("linear-delta-klipper-cylinder", "CERTIFIED"),
@@ -282,7 +279,7 @@ fn a_page_proves_its_claim_again() {
     ] {
         let page = folder.report_of_committed(name, &[]);
         browser.open(&page);
-        assert_eq!(browser.evaluate(state), "accepted", "{name}");
+        assert_eq!(browser.evaluate(PROVED), "accepted", "{name}");
         assert!(
             browser.text("#reproved").starts_with("This page proved its claim again"),
             "{name}"
@@ -300,7 +297,7 @@ fn a_page_proves_its_claim_again() {
         assert!(text.contains(from), "{from}");
         std::fs::write(&page, text.replacen(from, to, 1)).unwrap();
         browser.open(&page);
-        assert_eq!(browser.evaluate(state), "rejected", "{from}");
+        assert_eq!(browser.evaluate(PROVED), "rejected", "{from}");
         assert!(browser.text(".verdict strong").contains("REJECTED"));
         kept("edited", "rejected", &browser.screenshot());
     }

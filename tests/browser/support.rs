@@ -8,7 +8,8 @@ use orthocert_kernel::problem::Problem;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A browser's program; `None`, after a word on standard error, where there is none and none is
@@ -24,6 +25,24 @@ pub fn on_path(browser: &str, names: &[&str]) -> Option<PathBuf> {
         eprintln!("skipped: no {browser} on the PATH");
     }
     found
+}
+
+/// What a page says of its claim, once it has proved it again, or not.
+pub const PROVED: &str =
+    "new Promise((done) => { const look = () => { const s = \
+     document.getElementById('reproved').dataset.state; s ? done(s) : setTimeout(look, 10); }; look(); })";
+
+/// Waits for a browser that was asked to end, and ends it if it does not.
+pub fn ended(child: &mut Child) {
+    let until = Instant::now() + Duration::from_secs(5);
+    while Instant::now() < until {
+        if matches!(child.try_wait(), Ok(Some(_))) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let _ = child.kill();
+    let _ = child.wait();
 }
 
 /// A folder for certificates and reports.

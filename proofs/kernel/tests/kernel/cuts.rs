@@ -1,5 +1,6 @@
 //! Cells that planes cut: the parts' corners and shares, and what is accepted of them.
 
+use crate::arithmetic::Random;
 use crate::certificates::claim;
 use crate::pavings::{bare, header_of, reason, written};
 use orthocert_kernel::paving::{
@@ -18,14 +19,9 @@ fn part(share: u128) -> f64 {
     share as f64 / WHOLE as f64
 }
 
-/// Numbers that look random.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self, most: i64) -> i64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 33) as i64 % (2 * most + 1) - most
-    }
+/// A number from `-most` to `most`.
+fn within(random: &mut Random, most: i64) -> i64 {
+    (random.next() >> 33) as i64 % (2 * most + 1) - most
 }
 
 #[test]
@@ -41,11 +37,11 @@ fn shares_are_volumes_rounded_down() {
     // A corner of the cube: 1/48.
     let [inner, outer] = exactly(&[1, -1, 1], [-2, 2]);
     assert!(inner == outer && inner < 1.0 / 48.0 && inner > 1.0 / 48.0 - 2e-6, "{inner}");
-    let mut numbers = Numbers(1);
+    let mut random = Random(1);
     for m in 1..=3 {
         for _ in 0..40 {
-            let normal: Vec<i64> = (0..m).map(|_| numbers.next(9)).collect();
-            let c = numbers.next(20);
+            let normal: Vec<i64> = (0..m).map(|_| within(&mut random, 9)).collect();
+            let c = within(&mut random, 20);
             let cut = cut(&normal, [c, c]);
             if !cut.is_of(m) {
                 continue;
@@ -76,11 +72,11 @@ fn shares_are_volumes_rounded_down() {
 #[test]
 fn corners_hold_all_that_is_before_their_plane() {
     let one = 65536;
-    let mut numbers = Numbers(7);
+    let mut random = Random(7);
     for m in 1..=3usize {
         for _ in 0..60 {
-            let normal: Vec<i64> = (0..m).map(|_| numbers.next(7)).collect();
-            let ends = [numbers.next(14), 15];
+            let normal: Vec<i64> = (0..m).map(|_| within(&mut random, 7)).collect();
+            let ends = [within(&mut random, 14), 15];
             let cut = cut(&normal, ends);
             if !cut.is_of(m) {
                 continue;
@@ -102,7 +98,7 @@ fn corners_hold_all_that_is_before_their_plane() {
                         continue;
                     }
                     for _ in 0..20 {
-                        let w: Vec<i64> = (0..m).map(|_| numbers.next(50)).collect();
+                        let w: Vec<i64> = (0..m).map(|_| within(&mut random, 50)).collect();
                         let most = corners.iter().map(|corner| dot(&w, corner)).max();
                         assert!(most >= Some(dot(&w, &u)), "{normal:?} {end} {u:?}");
                     }
