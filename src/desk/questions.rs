@@ -2,6 +2,7 @@
 
 use crate::limit::limit;
 use crate::machines::MACHINES;
+use orthocert::accepted::{check, Accepted};
 use orthocert::decide::{as_written, by_proof_of};
 use orthocert::decimal::{approximate, exact, significant};
 use orthocert::design::{Design, ReadError, Variable, MAX_FILE};
@@ -12,9 +13,8 @@ use orthocert::report::Report;
 use orthocert::search::{Budget, Control};
 use orthocert::solver::{self, Verification};
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_checker::statement::statement;
-use orthocert::accepted::{check, Accepted};
 use orthocert_checker::read;
+use orthocert_checker::statement::statement;
 use orthocert_kernel::claim::MachineClaim;
 use serde::Deserialize;
 use serde_json::{json, Value};
