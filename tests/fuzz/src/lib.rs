@@ -24,8 +24,8 @@ pub fn examine(bytes: &[u8]) {
     let Ok(certificate) = read(bytes) else { return };
     let text = certificate.to_text().expect("a text");
     assert_eq!(read(text.as_bytes()).as_ref(), Ok(&certificate), "written and read back");
-    let Ok(accepted) = check(&certificate) else { return };
-    statement(&certificate.claim, accepted.verdict).expect("a statement");
+    let Ok(verdict) = check(&certificate) else { return };
+    statement(&certificate.claim, verdict).expect("a statement");
     if let Certificate { claim: Claim::Machine(claim), verdict: Verdict::Certified, .. } =
         &certificate
     {
