@@ -141,6 +141,22 @@ class Commands(unittest.TestCase):
             self.assertTrue(oc.check(paving).accepted)
             self.assertIn("inner", paving._repr_html_())
 
+    def test_boxes_that_planes_cut_are_seen_on_both_sides(self):
+        paving = oc.pave(
+            {
+                "mechanism": {"kind": "orthoglide", "leg_length": 1},
+                "workspace": {"min": ["-7/10"] * 3, "max": ["7/10", "7/10", "701/1000"]},
+                "requirements": {"transmission": {"min": "1/2", "max": 2}},
+            },
+            volume_gap="1/10",
+        )
+        volume = {kind: np.prod(c[..., 1] - c[..., 0], axis=1).sum() for kind, c in paving.boxes().items()}
+        whole = 1.4 * 1.4 * 1.401
+        self.assertAlmostEqual(sum(volume.values()), whole, places=9)
+        inner, outer = volume["inner"] / whole, volume["outer"] / whole
+        self.assertTrue(0.95 * paving.inner_share < inner < paving.inner_share, (inner, paving.inner_share))
+        self.assertTrue(0.95 * paving.outer_share < outer < paving.outer_share, (outer, paving.outer_share))
+
     def test_the_boxes_of_a_paving_have_its_shares(self):
         paving = oc.pave(
             {

@@ -283,7 +283,8 @@ class Paving:
 
     def boxes(self) -> dict[str, np.ndarray]:
         """Arrays of shape (boxes, coordinates, 2), "inner", "outer", "undecided", and "mirrored": those that are
-        left out because the machine and its box are symmetric."""
+        left out because the machine and its box are symmetric. Boxes that planes cut are in boxes of a quarter
+        of their edges, so that less is inner than `inner_share` says."""
         return _paving.boxes(self.file)
 
     def _repr_html_(self) -> str:

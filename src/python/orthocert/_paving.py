@@ -13,6 +13,10 @@ import numpy as np
 from ._program import OrthocertError
 
 
+# How often a cell that planes cut is halved.
+_CUT_LEVELS = 6
+
+
 class _Bytes:
     def __init__(self, data: bytes) -> None:
         self.data, self.at = data, 0
@@ -21,13 +25,17 @@ class _Bytes:
         self.at += 1
         return self.data[self.at - 1]
 
-    def integer(self) -> None:
-        while self.byte() & 0x80:
-            pass
+    def integer(self) -> int:
+        n, shift = 0, 0
+        while True:
+            byte = self.byte()
+            n |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                return n >> 1 if n % 2 == 0 else -(n >> 1) - 1
 
-    def list(self) -> None:
-        for _ in range(self.byte()):
-            self.integer()
+    def list(self) -> list[int]:
+        return [self.integer() for _ in range(self.byte())]
 
     def matrix(self) -> None:
         self.byte()
@@ -49,7 +57,7 @@ def _steps(nodes: _Bytes) -> int:
             continue
         if kind != 0x09:
             return kind
-        nodes.integer()
+        nodes.byte()
         tag = nodes.byte()
         while tag in (9, 10, 11):
             nodes.list()
@@ -84,6 +92,19 @@ def boxes(data: bytes) -> dict[str, Any]:
     def add(kind: str, cell: list[tuple[int, int]]) -> None:
         found[kind].append([edge(k, i, level) for k, (i, level) in enumerate(cell)])
 
+    def add_cut(cell: list[tuple[int, int]], normal: list[int], ends: list[int], levels: int, sides: Any) -> None:
+        """Adds a cell that planes cut: in boxes before the one, beyond the other, and between them."""
+        least = sum(min(n * lo, n * hi) for n, (lo, hi) in zip(normal, sides))
+        most = sum(max(n * lo, n * hi) for n, (lo, hi) in zip(normal, sides))
+        if most <= ends[0] or least >= ends[1] or levels == 0:
+            add("inner" if most <= ends[0] else "outer" if least >= ends[1] else "undecided", cell)
+            return
+        k = max(range(len(cell)), key=lambda k: abs(normal[k]) * (sides[k][1] - sides[k][0]))
+        (i, level), (lo, hi) = cell[k], sides[k]
+        for upper, side in enumerate(((lo, (lo + hi) / 2), ((lo + hi) / 2, hi))):
+            half = cell[:k] + [(2 * i + upper, level + 1)] + cell[k + 1 :]
+            add_cut(half, normal, ends, levels - 1, sides[:k] + [side] + sides[k + 1 :])
+
     while waiting:
         cell = waiting.pop()
         kind = _steps(nodes)
@@ -102,11 +123,16 @@ def boxes(data: bytes) -> dict[str, Any]:
                 add(short[halves // 5], parts[0])
                 add(short[halves % 5], parts[1])
             continue
+        if kind == 0x0C:
+            normal, ends = nodes.list(), nodes.list()
+            nodes.byte()
+            add_cut(cell, normal, ends, _CUT_LEVELS, [(-1.0, 1.0)] * len(cell))
+            continue
         if kind == 0x07:
-            nodes.integer()
-            nodes.integer()
+            nodes.byte()
+            nodes.byte()
         elif kind == 0x08:
-            nodes.integer()
+            nodes.byte()
             nodes.lists()
         name = {3: "inner", 4: "undecided", 5: "mirrored"}.get(kind, "outer")
         add(name, cell)
