@@ -39,6 +39,6 @@ TOML
 done <<'CASES'
 symmetric 0.7 --precision=0.1 100
 plain 0.701 --precision=0.1 100
-large 0.7 --precision=0.02 200000
+large 0.7 --precision=0.0065 200000
 cut 0.701 --volume-gap=0.05 10000
 CASES
