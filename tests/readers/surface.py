@@ -73,7 +73,7 @@ for end in (np.min, np.max):
     holds(near, "bounding boxes differ")
 # Single precision: 2^-24 relative for each coordinate.
 rough = enclosed(solid.vectors)
-holds(abs(rough / volume - 1) < 1e-6, f"volume {rough} instead of {volume} within the triangles")
+holds(abs(rough / found - 1) < 1e-6, f"volume {rough} instead of {found} within the triangles")
 turned = np.einsum("ij,ij->i", np.cross(solid.v1 - solid.v0, solid.v2 - solid.v0), solid.normals)
 holds((turned > 0).all(), "a normal points inwards")
 holds(len(quads) + len(cells["triangle"]) > int(sys.argv[2]), "too few faces to show anything")
