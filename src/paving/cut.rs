@@ -11,8 +11,6 @@ use orthocert_kernel::paving::{Cell, Cut, Item, Kind};
 const NORMAL: f64 = 1024.0;
 /// How much farther from the plane each attempt is than the one before.
 const FARTHER: f64 = 1.3;
-/// The part of what the first order leaves out, nearly, at which attempts begin.
-const NEAREST: f64 = 1.0;
 
 impl Decider<'_> {
     /// Where an undecided cell is cut; `None` where nothing of it would be decided.
@@ -37,7 +35,8 @@ impl Decider<'_> {
             let item = Item { steps: Vec::new(), kind: Kind::Cut(cut) };
             self.judge().confirms(cell, inherited, &item)
         };
-        let first = (NEAREST * scale * beyond.iter().map(|x| x.abs()).sum::<f64>()).max(1.0);
+        // What the first order leaves out, nearly.
+        let first = (scale * beyond.iter().map(|x| x.abs()).sum::<f64>()).max(1.0);
         let tried = |sign: f64, ends: &dyn Fn(i64) -> [i64; 2]| {
             let mut distance = first;
             while distance < all as f64 {

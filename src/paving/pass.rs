@@ -1,15 +1,13 @@
 //! Writes a paving, subtree by subtree, to a file that can be taken up again.
 
-use super::tree::{Cancelled, Grower, Grown, Segment, Tally};
+use super::tree::{is_left, Cancelled, Grower, Grown, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::digest::{hexadecimal, Summed};
 use crate::output::{self, OutputError};
 use crate::search::{Control, Progress, Steps};
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::paving::{
-    self, Header, Kind, Reader, Rejected, Root, Shares, Subject, Summary,
-};
+use orthocert_kernel::paving::{self, Header, Reader, Rejected, Root, Shares, Subject, Summary};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -342,8 +340,7 @@ impl<'a> Pass<'a> {
         };
         let mut reader = Reader::below(input, &self.header, root)?;
         while let Some(visited) = reader.next()? {
-            let is_left = matches!(visited.item.kind, Kind::Boundary | Kind::Cut(_));
-            if is_left && visited.depth < self.header.depth {
+            if is_left(&visited.item.kind) && visited.depth < self.header.depth {
                 return Err(Rejected::Truncated(0));
             }
             self.grower.decider.judge().check(&visited)?;
@@ -389,7 +386,7 @@ fn read_back(input: impl BufRead) -> Result<Paved, Rejected> {
     let mut reader = Reader::new(input)?;
     let mut coarsest: Option<u32> = None;
     while let Some(visited) = reader.next()? {
-        if matches!(visited.item.kind, Kind::Boundary | Kind::Cut(_)) {
+        if is_left(&visited.item.kind) {
             coarsest = Some(coarsest.map_or(visited.depth, |least| least.min(visited.depth)));
         }
     }

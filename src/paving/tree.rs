@@ -66,6 +66,11 @@ impl Tally {
     }
 }
 
+/// Whether something of a cell is left undecided.
+pub(super) fn is_left(kind: &Kind) -> bool {
+    matches!(kind, Kind::Boundary | Kind::Cut(_))
+}
+
 /// Grows trees of one claim down to one depth.
 pub struct Grower<'a> {
     /// Decides the cells.
@@ -208,8 +213,7 @@ impl Grower<'_> {
             }
             Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored | Kind::Cut(_) => {}
         }
-        let is_left = matches!(kind, Kind::Boundary | Kind::Cut(_));
-        let steps = if is_left { Vec::new() } else { decision.steps };
+        let steps = if is_left(&kind) { Vec::new() } else { decision.steps };
         (Item { steps, kind }, decision.parts)
     }
 }

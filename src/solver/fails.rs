@@ -57,7 +57,7 @@ impl<'a> Failing<'a> {
     pub fn throughout(&self, cell: &[Pair]) -> Option<Failure> {
         let problem = self.prover.problem;
         let formulas = self.prover.checker.evaluate(&edges(cell));
-        let slopes = Slopes { arithmetic: &Doubles, m: cell.len(), part: None };
+        let slopes = Slopes::new(&Doubles, cell.len());
         let fails = |failure: &Failure| fails_throughout(problem, slopes, &formulas, failure);
         let centre: Vec<f64> = cell.iter().map(middle).collect();
         let values = self.sampler.at_point(&centre);

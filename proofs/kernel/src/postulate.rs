@@ -239,7 +239,7 @@ impl Part {
 
     /// **Definite.** If `F` is positive definite at the vertices of the cell, `F > 0` on it.
     fn is_definite<E: Enclosure>(&self, e: &E, edges: [[E::Number; 3]; 3]) -> Option<bool> {
-        let slopes = Slopes { arithmetic: e, m: 3, part: None };
+        let slopes = Slopes::new(e, 3);
         let values = evaluate(&self.tape, &[], slopes, &edges);
         let mut vertices = Vertex::all(3);
         Some(vertices.all(|v| {
@@ -272,7 +272,7 @@ impl Part {
             Some([from.clone(), range.clone(), e.sub(&end, &from)?])
         };
         let edges = [about(y)?, about(z)?, [kappa.clone(), kappa.clone(), e.integer(0)?]];
-        let slopes = Slopes { arithmetic: e, m: 3, part: None };
+        let slopes = Slopes::new(e, 3);
         let values = evaluate(&self.tape, &[], slopes, &edges);
         Some(Vertex::all(2).skip(1).all(|v| {
             let matrix = self.matrix(&values, |f| v.value_about_corner(&slopes, f));

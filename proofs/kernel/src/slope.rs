@@ -66,6 +66,13 @@ impl<E> Clone for Slopes<'_, E> {
 
 impl<E> Copy for Slopes<'_, E> {}
 
+impl<'a, E> Slopes<'a, E> {
+    /// Over all of a cell.
+    pub fn new(arithmetic: &'a E, m: usize) -> Self {
+        Slopes { arithmetic, m, part: None }
+    }
+}
+
 impl<E: Enclosure> Slopes<'_, E> {
     /// How many vertices the cell has, or the part that is meant.
     pub fn corners(&self) -> usize {

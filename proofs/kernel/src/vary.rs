@@ -84,7 +84,7 @@ pub(crate) fn sloped(
     m: usize,
     place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Number>> {
-    slope(x, &Slopes { arithmetic: &Fixed::new(bits), m, part: None }, place)
+    slope(x, &Slopes::new(&Fixed::new(bits), m), place)
 }
 
 /// Adds the parameters that an expression's names stand for.

@@ -148,11 +148,7 @@ fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
     }
     let bits = witness.precision;
     let arithmetic = Fixed::<BigInt>::new(bits);
-    let slopes = Slopes {
-        arithmetic: &arithmetic,
-        m: problem.dimension() + problem.names.len(),
-        part: None,
-    };
+    let slopes = Slopes::new(&arithmetic, problem.dimension() + problem.names.len());
     let parameters = problem.parameters(bits, &witness.machine).ok()?;
     let varying = problem.varying(bits);
     let values = problem.tape.run(&slopes, |op| match op {

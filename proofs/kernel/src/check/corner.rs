@@ -43,7 +43,7 @@ impl<E: Enclosure> Checker<'_, E> {
         if !touches {
             return None;
         }
-        let slopes = Slopes { arithmetic: e, m: edges.len(), part: None };
+        let slopes = Slopes::new(e, edges.len());
         let values = self.evaluate(&edges);
         let kappa = &values.of(kappa)?.range;
         let definite = |v: Vertex| {

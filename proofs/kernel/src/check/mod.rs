@@ -408,7 +408,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// The arithmetic of slopes in `m` coordinates, and in names.
     pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
-        Slopes { arithmetic: self.arithmetic, m: m + self.problem.names.len(), part: None }
+        Slopes::new(self.arithmetic, m + self.problem.names.len())
     }
 
     /// What it was given.

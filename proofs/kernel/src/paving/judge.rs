@@ -270,10 +270,9 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let fails = match &item.kind {
             Kind::Inner => return rest_shown(&over),
             Kind::Cut(cut) => {
-                let corners = cut.corners();
-                let [inner, outer] =
-                    [0, 1].map(|side: usize| Slopes { part: Some(&corners[side]), ..slopes });
-                rest_shown(&Over::new(inner, &values))?;
+                let [inner, outer] = cut.corners();
+                rest_shown(&Over::new(Slopes { part: Some(&inner), ..slopes }, &values))?;
+                let outer = Slopes { part: Some(&outer), ..slopes };
                 self.is_near(subject, cell, &edges) == Some(true)
                     && self.checker.fails_own(outer, &values, cut.fails)
             }

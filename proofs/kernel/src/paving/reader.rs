@@ -191,9 +191,10 @@ impl<R: Read> Reader<R> {
             }
             Kind::Outer(_) | Kind::At(..) => 2,
             Kind::Cut(cut) => {
-                let [inner, outer] = cut.shares(share());
+                let whole = share();
+                let [inner, outer] = cut.shares(whole);
                 self.shares.inner += inner;
-                self.shares.boundary += share() - inner - outer;
+                self.shares.boundary += whole - inner - outer;
                 3
             }
             Kind::Boundary => {

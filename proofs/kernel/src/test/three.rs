@@ -136,7 +136,7 @@ mod tests {
                 .collect();
             let range = Interval { lo: -(1i64 << 37), hi: 1 << 37 };
             let edges = Cell(vec![range; 3]).edges().unwrap();
-            let slopes = Slopes { arithmetic: &e, m: 3, part: None };
+            let slopes = Slopes::new(&e, 3);
             let values = evaluate(&tape, &[], slopes, &edges);
             let over = Over::new(slopes, &values);
             let mut entries = |i: usize| (0..3).map(|j| entry(i, j) + numbers.next(3)).collect();

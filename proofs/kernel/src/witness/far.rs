@@ -29,7 +29,7 @@ impl AtPoint<'_> {
             rest = e.add(&rest, &e.mul(&size, &of(*error)?)?)?;
         }
         let edges: Vec<_> = self.point.iter().map(|x| [x.clone(), x.clone(), d.clone()]).collect();
-        let slopes = Slopes { arithmetic: e, m: edges.len(), part: None };
+        let slopes = Slopes::new(e, edges.len());
         let values = near(&self.problem.tape, &self.parameters, slopes, &edges, test, of)?;
         let far = Over::new(slopes, &values);
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());

@@ -81,7 +81,7 @@ impl AtPoint<'_> {
             e.is_positive(&half).then_some([centre, range, half])
         };
         let edges: Vec<_> = least.iter().zip(&greatest).map(edge).collect::<Option<_>>()?;
-        let slopes = Slopes { arithmetic: e, m, part: None };
+        let slopes = Slopes::new(e, m);
         let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
         let ranges: Vec<Number> = edges.iter().map(|[_, range, _]| range.clone()).collect();
         if !self.is_turned(&ranges, |g| values.of(g).map(|g| &g.range)) {

@@ -410,7 +410,7 @@ fn the_spread_of_rows_near_a_cell() {
             |(k, &c): (usize, &f64)| [(c, c), (c - half(k), c + half(k)), (half(k), half(k))];
         let edges: Vec<[Pair; 3]> = centre.iter().enumerate().map(edge).collect();
         let parameters = prover.checker.parameters();
-        let slopes = Slopes { arithmetic: &Rough, m, part: None };
+        let slopes = Slopes::new(&Rough, m);
         let values = near(&problem.tape, parameters, slopes, &edges, test, of).expect("defined");
         let far = Over::new(slopes, &values);
         let bound = spread(&far, test).expect("defined").1;
@@ -522,12 +522,12 @@ fn nothing_is_shown_of_a_pose_that_is_off_by_more() {
                 let pair = |x: &Interval<i64>| (x.lo as f64 / scale, x.hi as f64 / scale);
                 let rough: Vec<_> = edges.iter().map(|edge| edge.each_ref().map(pair)).collect();
                 let values = prover.checker.evaluate(&rough);
-                let slopes = Slopes { arithmetic: &Rough, m, part: None };
+                let slopes = Slopes::new(&Rough, m);
                 let test = &problem.obligations[obligation].test;
                 let proposals = prover.proposals(&Over::new(slopes, &values), test);
                 let place = Place::new(&edges, [false; 2]);
                 let values = exact.evaluate(&edges);
-                let over = Over::new(Slopes { arithmetic: &fixed, m, part: None }, &values);
+                let over = Over::new(Slopes::new(&fixed, m), &values);
                 let holds = |e: &&Evidence| exact.shows(&over, &place, test, e);
                 let found: Vec<&Evidence> = proposals.iter().flatten().filter(holds).collect();
                 shown[usize::from(fails == [false; 2])] += usize::from(!found.is_empty());

@@ -61,12 +61,12 @@ pub fn never_shown(problem: &Problem, at: &[f64], obligation: usize, seed: u64) 
         let pair = |x: &Interval<i64>| (x.lo as f64 / scale, x.hi as f64 / scale);
         let rough: Vec<_> = edges.iter().map(|edge| edge.each_ref().map(pair)).collect();
         let values = prover.checker.evaluate(&rough);
-        let slopes = Slopes { arithmetic: &crate::rough::Rough, m: rough.len(), part: None };
+        let slopes = Slopes::new(&crate::rough::Rough, rough.len());
         let over = Over::new(slopes, &values);
         let Some(proposals) = prover.proposals(&over, test) else { continue };
         let place = Place::new(&edges, [false; 2]);
         let values = exact.evaluate(&edges);
-        let slopes = Slopes { arithmetic: &fixed, m: edges.len(), part: None };
+        let slopes = Slopes::new(&fixed, edges.len());
         let over = Over::new(slopes, &values);
         for evidence in &proposals {
             let mut near: Vec<_> = (0..5).map(|_| changed(evidence, &mut random)).collect();

@@ -253,7 +253,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 let cell = Cell(x.iter().zip(&root.0).map(edge).collect());
                 let edges = cell.edges().expect("edges");
                 let values = exact.evaluate(&edges);
-                let slopes = Slopes { arithmetic: &fixed, m: edges.len(), part: None };
+                let slopes = Slopes::new(&fixed, edges.len());
                 let over = Over::new(slopes, &values);
                 let place = Place::new(&edges, [false; 2]);
                 assert!(!exact.is_outside(&over, &place), "{cell:?}");

@@ -230,7 +230,7 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     let (zero, one) = (tape.integer(0), tape.integer(1));
     let unit = |k: usize| (0..3).map(|j| if j == k { one } else { zero }).collect();
     let mut rows: Vec<_> = (0..3).map(|k| Row { a: unit(k), d: one }).collect();
-    let slopes = Slopes { arithmetic: &fixed, m: 3, part: None };
+    let slopes = Slopes::new(&fixed, 3);
     let values = tape.run(&slopes, |_: Op| None);
     let over = Over::new(slopes, &values);
     let kappa = |_| Some(Interval::point(1i64 << 28));

@@ -202,7 +202,7 @@ fn faces() -> BigInt {
 /// The values of all rows over a cell.
 fn leaf(problem: &Problem, bits: u32, cell: &Cell<BigInt>) -> BigInt {
     let fixed = Fixed::<BigInt>::new(bits);
-    let slopes = Slopes { arithmetic: &fixed, m: 3, part: None };
+    let slopes = Slopes::new(&fixed, 3);
     let parameters = problem.parameters(bits, &[]).expect("parameters");
     let values = evaluate(&problem.tape, &parameters, slopes, &cell.edges().expect("edges"));
     let mut digest = Digest(BigInt::from(0));

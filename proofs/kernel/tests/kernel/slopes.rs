@@ -73,7 +73,7 @@ fn slopes_and_ranges_hold_at_random_points_of_random_formulas() {
         };
         let cell = Cell(vec![edge(), edge(), edge()]);
         let edges = cell.edges().expect("edges");
-        let slopes = Slopes { arithmetic: &fixed, m: 3, part: None };
+        let slopes = Slopes::new(&fixed, 3);
         let values = evaluate(&tape, &[], slopes, &edges);
         let Some(slope) = values.of(f) else { continue };
         for _ in 0..10 {
@@ -117,7 +117,7 @@ fn slopes_of_two_identities_are_not_to_be_mixed() {
     let mut tape = Tape::default();
     let (u, v) = (tape.coordinate(0), tape.coordinate(1));
     let product = tape.mul(u, v);
-    let slopes = Slopes { arithmetic: &fixed, m: 2, part: None };
+    let slopes = Slopes::new(&fixed, 2);
     let values = evaluate(&tape, &[], slopes, &cell.edges().expect("edges"));
     let slope = values.of(product).expect("defined");
     for s in &slope.slopes[..2] {
