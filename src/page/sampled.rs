@@ -69,7 +69,7 @@ impl<'a> Sampled<'a> {
 
     /// The formulas of the nominal machine at a point in the claim's unit; `None` outside the workspace,
     /// out of reach, and at a serial singularity.
-    pub fn at(&self, point: &[f64]) -> Option<At> {
+    pub fn at(&self, point: &[f64]) -> Option<At<'_>> {
         let units = (0..point.len()).map(|k| self.sampler.unit_of(k));
         let own: Vec<f64> = point.iter().zip(units).map(|(x, unit)| x / unit).collect();
         let parts = self.sampler.parts_of(&own);

@@ -4,12 +4,12 @@
 use super::decide::View;
 use crate::solver::doubles::{greatest, least, middle, Doubles, Pair, ROUNDING};
 use crate::solver::evidence::Prover;
+use crate::solver::program::{Input, Program, Slot, Step};
 use orthocert_kernel::arithmetic::{Arithmetic, Enclosure};
-use orthocert_kernel::formula::{Formula, Op, Values};
+use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::Row;
-use std::cell::RefCell;
 
 /// A formula over a cell.
 #[derive(Clone, Copy)]
@@ -23,105 +23,19 @@ struct Entry {
 
 type Ends = [f64; 4];
 
-/// An operation on earlier entries.
-#[derive(Clone, Copy)]
-enum Step {
-    Coordinate(usize),
-    Add(usize, usize),
-    Sub(usize, usize),
-    Neg(usize),
-    Mul(usize, usize),
-    Div(usize, usize),
-    Sqr(usize),
-    Sqrt(usize),
-}
-
-/// The place of an entry: among those of a cell, or, from here on, among those that are the same on all.
-const CONSTANT: usize = 1 << 24;
-
 /// The formulas that a decision is made of.
 pub(super) struct Flat {
-    steps: Vec<Step>,
-    constants: Vec<Entry>,
-    places: Values<usize>,
+    program: Program<Entry>,
     m: usize,
     /// What is undefined unless it is positive, and unless it has a sign.
-    radicands: Vec<usize>,
-    divisors: Vec<usize>,
+    radicands: Vec<Slot>,
+    divisors: Vec<Slot>,
 }
 
 /// Their values over a cell.
 pub(super) struct Over<'a> {
     flat: &'a Flat,
     entries: Vec<Entry>,
-}
-
-/// Writes down the operations on entries.
-#[derive(Default)]
-struct Record {
-    steps: RefCell<Vec<Step>>,
-    constants: RefCell<Vec<Entry>>,
-}
-
-impl Record {
-    fn push(&self, step: Step) -> usize {
-        let mut steps = self.steps.borrow_mut();
-        steps.push(step);
-        steps.len() - 1
-    }
-
-    fn constant(&self, x: f64) -> usize {
-        let mut constants = self.constants.borrow_mut();
-        constants.push(Entry { centre: x, range: (x, x), lo: [0.0; 4], hi: [0.0; 4] });
-        CONSTANT + constants.len() - 1
-    }
-
-    /// A step on two entries, or its value where both are constant.
-    fn of_two(&self, a: usize, b: usize, step: Step, value: Value) -> Option<usize> {
-        let known = |at: usize| Some(self.constants.borrow().get(at.checked_sub(CONSTANT)?)?.range);
-        Some(match known(a).zip(known(b)) {
-            Some((a, b)) => self.constant(value(&a, &b)?.0),
-            None => self.push(step),
-        })
-    }
-}
-
-type Value = fn(&Pair, &Pair) -> Option<Pair>;
-
-impl Arithmetic for Record {
-    type Number = usize;
-
-    fn integer(&self, n: i64) -> Option<usize> {
-        Some(self.constant(n as f64))
-    }
-
-    fn add(&self, &a: &usize, &b: &usize) -> Option<usize> {
-        self.of_two(a, b, Step::Add(a, b), |a, b| Doubles.add(a, b))
-    }
-
-    fn sub(&self, &a: &usize, &b: &usize) -> Option<usize> {
-        self.of_two(a, b, Step::Sub(a, b), |a, b| Doubles.sub(a, b))
-    }
-
-    fn neg(&self, &a: &usize) -> Option<usize> {
-        self.of_two(a, a, Step::Neg(a), |a, _| Doubles.neg(a))
-    }
-
-    fn mul(&self, &a: &usize, &b: &usize) -> Option<usize> {
-        self.of_two(a, b, Step::Mul(a, b), |a, b| Doubles.mul(a, b))
-    }
-
-    fn div(&self, &a: &usize, &b: &usize) -> Option<usize> {
-        self.of_two(a, b, Step::Div(a, b), |a, b| Doubles.div(a, b))
-    }
-
-    fn sqr(&self, &a: &usize) -> Option<usize> {
-        self.of_two(a, a, Step::Sqr(a), |a, _| Doubles.sqr(a))
-    }
-
-    fn sqrt(&self, &a: &usize) -> Option<usize> {
-        self.of_two(a, a, Step::Sqrt(a), |a, _| Doubles.sqrt(a))
-    }
 }
 
 /// The formulas of tests that have a margin.
@@ -151,33 +65,30 @@ impl Flat {
         if !is_plain || !prover.parameters().iter().all(is_known) {
             return None;
         }
-        let record = Record::default();
         let needed = problem.tape.parts(&formulas(problem));
-        let places =
-            problem.tape.run_parts(&record, Some(&needed), &Values::default(), |op| match op {
-                Op::Coordinate(k) if k < m => Some(record.push(Step::Coordinate(k))),
-                Op::Parameter(j) => Some(record.constant(prover.parameters().get(j)?.0)),
-                _ => None,
-            });
+        let program = Program::new(&problem.tape, Some(&needed), Doubles, |op| match op {
+            Op::Coordinate(k) if k < m => Some(Input::Varying(k)),
+            Op::Parameter(j) => Some(Input::Constant(*prover.parameters().get(j)?)),
+            _ => None,
+        });
         let (mut radicands, mut divisors) = (Vec::new(), Vec::new());
         for op in problem.tape.ops() {
             match *op {
-                Op::Sqrt(f) => radicands.extend(places.of(f)),
-                Op::Div(_, f) => divisors.extend(places.of(f)),
+                Op::Sqrt(f) => radicands.extend(program.slot(f)),
+                Op::Div(_, f) => divisors.extend(program.slot(f)),
                 _ => {}
             }
         }
-        let (steps, constants) = (record.steps.into_inner(), record.constants.into_inner());
-        Some(Flat { steps, constants, places, m, radicands, divisors })
+        Some(Flat { program: program.map(constant), m, radicands, divisors })
     }
 
     /// Over a cell between these ends; `None` unless all are defined.
     pub fn over(&self, ends: &[Pair; 3]) -> Option<Over<'_>> {
-        let mut entries: Vec<Entry> = Vec::with_capacity(self.steps.len());
-        for &step in &self.steps {
-            let of = |at: usize| self.entry(&entries, at);
+        let mut entries: Vec<Entry> = Vec::with_capacity(self.program.steps.len());
+        for &step in &self.program.steps {
+            let of = |slot| self.program.at(&entries, slot);
             let entry = match step {
-                Step::Coordinate(k) => coordinate(k, *ends.get(k)?),
+                Step::Input(k) => coordinate(k, *ends.get(k)?),
                 Step::Add(a, b) => of(a)?.plus(of(b)?)?,
                 Step::Sub(a, b) => of(a)?.minus(of(b)?)?,
                 Step::Neg(a) => of(a)?.negated(),
@@ -188,26 +99,18 @@ impl Flat {
             };
             entries.push(entry);
         }
-        let range = |&at: &usize| self.entry(&entries, at).map(|entry| entry.range);
+        let range = |&at: &Slot| self.program.at(&entries, at).map(|entry| entry.range);
         let is_positive = |at| range(at).is_some_and(|(lo, _)| lo > 0.0);
         let has_sign = |at| range(at).is_some_and(|(lo, hi)| lo > 0.0 || hi < 0.0);
         let is_defined =
             self.radicands.iter().all(is_positive) && self.divisors.iter().all(has_sign);
         is_defined.then_some(Over { flat: self, entries })
     }
-
-    #[inline(always)]
-    fn entry<'e>(&'e self, entries: &'e [Entry], at: usize) -> Option<&'e Entry> {
-        match at.checked_sub(CONSTANT) {
-            None => entries.get(at),
-            Some(at) => self.constants.get(at),
-        }
-    }
 }
 
 impl Over<'_> {
     fn of(&self, f: Formula) -> Option<&Entry> {
-        self.flat.entry(&self.entries, *self.flat.places.of(f)?)
+        self.flat.program.at(&self.entries, self.flat.program.slot(f)?)
     }
 }
 
@@ -228,6 +131,10 @@ impl View for Over<'_> {
         let Entry { lo, hi, .. } = self.of(f)?;
         Some([(lo[0], hi[0]), (lo[1], hi[1]), (lo[2], hi[2])])
     }
+}
+
+fn constant(range: Pair) -> Entry {
+    Entry { centre: range.0, range, lo: [0.0; 4], hi: [0.0; 4] }
 }
 
 fn coordinate(k: usize, range: Pair) -> Entry {

@@ -10,7 +10,7 @@
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines                            |
-//! | `needed`   | the formulas that each of them takes                                        |
+//! | `needed`, `program` | the formulas that each of them takes, one after the other        |
 //! | `descent`, `adverse` | the worst of them                                                 |
 //! | `fails`    | how a claim fails at every point of a box                                   |
 //! | `same`     | two points with the same joint coordinates                                  |
@@ -33,6 +33,7 @@ pub mod extremes;
 pub(crate) mod fails;
 mod less;
 mod needed;
+pub(crate) mod program;
 mod propose;
 pub(crate) mod refute;
 mod rows;

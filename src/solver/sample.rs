@@ -5,12 +5,13 @@
 use super::doubles::{middle, pair, Pair, Single};
 use super::evidence::BITS;
 use super::needed::needed;
+use super::program::{Input, Program};
 use super::refute::approximate;
 use super::violation;
 use nalgebra::DMatrix;
 use num_bigint::BigInt;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Quantity, Workspace};
-use orthocert_kernel::formula::{Formula, Op, Values};
+use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::input::{ClaimError, Value};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -68,21 +69,27 @@ pub struct Worst {
 }
 
 /// The formulas of a machine at a point.
-pub struct At {
-    own: Values<f64>,
+pub struct At<'a> {
+    program: &'a Program<f64>,
+    own: Vec<f64>,
     /// Those of the machine in the middle of the tolerances, where they are needed.
-    nominal: Option<Values<f64>>,
+    nominal: Option<Vec<f64>>,
 }
 
-impl At {
+impl At<'_> {
     /// The value of a formula; `None` where it is undefined.
     pub fn of(&self, formula: Formula) -> Option<f64> {
-        self.own.of(formula).copied()
+        self.among(&self.own, formula)
     }
 
     /// That of the machine in the middle of the tolerances, where obligations are about it.
     pub fn nominal(&self, formula: Formula) -> Option<f64> {
-        self.nominal.as_ref()?.of(formula).copied()
+        self.among(self.nominal.as_ref()?, formula)
+    }
+
+    fn among(&self, values: &[f64], formula: Formula) -> Option<f64> {
+        let value = self.program.at(values, self.program.slot(formula)?)?;
+        Some(*value).filter(|x| !x.is_nan())
     }
 }
 
@@ -93,14 +100,16 @@ pub struct Sampler<'a> {
     /// Of each coordinate its least value and its width, in the problem's unit.
     pub(super) box_: Vec<(f64, f64)>,
     parameters: Vec<Pair>,
+    /// All formulas.
+    program: Program<f64>,
     /// The parameters that are intervals; over a cell of an atlas also those that vary by themselves.
     pub(super) free: Vec<usize>,
     /// Of an atlas, the values in the middle and the slopes of parameters that vary with its names.
     varying: Vec<(usize, f64, Vec<f64>)>,
     /// Radicands that depend on the point.
     radicands: Vec<Formula>,
-    /// The entries of the tape that each quality needs.
-    needed: Vec<(Quality, Vec<bool>)>,
+    /// The formulas that each quality needs.
+    needed: Vec<(Quality, Program<f64>)>,
     sign: f64,
 }
 
@@ -144,18 +153,33 @@ impl<'a> Sampler<'a> {
             Op::Sqrt(f) if !constants.contains(&f) => Some(f),
             _ => None,
         };
+        let parameters: Vec<Pair> = parameters.iter().map(|x| pair(x, BITS)).collect();
+        let free: Vec<usize> = free.map(|(j, _)| j).collect();
+        let program = |needed: Option<&[bool]>| {
+            Program::new(&problem.tape, needed, Single, |op| match op {
+                Op::Coordinate(k) => Some(Input::Varying(k)),
+                Op::Parameter(j) if free.contains(&j) || slopes[j].is_some() => {
+                    Some(Input::Varying(m + j))
+                }
+                Op::Parameter(j) => Some(Input::Constant(middle(parameters.get(j)?))),
+                _ => None,
+            })
+        };
+        let radicands = problem.tape.ops().iter().filter_map(radicand).collect();
         let mut sampler = Sampler {
             problem,
             claim,
             box_: root.iter().map(edge).collect(),
-            parameters: parameters.iter().map(|x| pair(x, BITS)).collect(),
-            free: free.map(|(j, _)| j).collect(),
+            program: program(None),
             varying: varying.collect(),
-            radicands: problem.tape.ops().iter().filter_map(radicand).collect(),
+            radicands,
             needed: Vec::new(),
             sign: 1.0,
+            parameters: parameters.clone(),
+            free: free.clone(),
         };
-        sampler.needed = needed(problem, &sampler.radicands, &sampler.qualities());
+        let needed = needed(problem, &sampler.radicands, &sampler.qualities()).into_iter();
+        sampler.needed = needed.map(|(own, needed)| (own, program(Some(&needed)))).collect();
         let centre = sampler.at(&sampler.centre());
         sampler.sign = sampler.determinant(&centre).unwrap_or(1.0).signum();
         Ok(sampler)
@@ -278,41 +302,37 @@ impl<'a> Sampler<'a> {
     }
 
     /// The values of all formulas at a place.
-    pub fn at(&self, place: &Place) -> At {
+    pub fn at(&self, place: &Place) -> At<'_> {
         let is_accuracy = |o: &Obligation| matches!(o.test, Test::Accuracy(_));
-        self.at_parts(place, None, self.problem.obligations.iter().any(is_accuracy))
+        self.at_program(place, &self.program, self.problem.obligations.iter().any(is_accuracy))
     }
 
-    /// The values of what is needed at a place, also for the middle machine where that is asked for.
-    fn at_parts(&self, place: &Place, needed: Option<&[bool]>, nominal: bool) -> At {
-        let mut parameters: Vec<f64> = self.parameters.iter().map(middle).collect();
-        let point = self.point(&place.u);
-        let nominal = nominal.then(|| self.values(&point, &parameters, needed));
+    /// The values of some at a place, also for the middle machine where that is asked for.
+    fn at_program<'s>(&self, place: &Place, program: &'s Program<f64>, nominal: bool) -> At<'s> {
+        let mut inputs = self.inputs(&self.point(&place.u));
+        let nominal = nominal.then(|| program.run(|k| inputs[k]));
+        let (m, names) = (self.box_.len(), place.t.get(self.free.len()..).unwrap_or_default());
         for (&j, t) in self.free.iter().zip(&place.t) {
             let (lo, hi) = self.parameters[j];
-            parameters[j] = lo + t * (hi - lo);
+            inputs[m + j] = lo + t * (hi - lo);
         }
-        let names = place.t.get(self.free.len()..).unwrap_or_default();
         for (j, centre, by) in &self.varying {
             let terms = by.iter().zip(names).map(|(by, t)| by * (2.0 * t - 1.0));
-            parameters[*j] = centre + terms.sum::<f64>();
+            inputs[m + *j] = centre + terms.sum::<f64>();
         }
-        At { own: self.values(&point, &parameters, needed), nominal }
+        At { program, own: program.run(|k| inputs[k]), nominal }
     }
 
     /// The same at a point in the problem's unit, wherever it is, of the middle machine.
-    pub fn at_point(&self, point: &[f64]) -> At {
-        let parameters: Vec<f64> = self.parameters.iter().map(middle).collect();
-        let own = self.values(point, &parameters, None);
-        At { nominal: Some(own.clone()), own }
+    pub fn at_point(&self, point: &[f64]) -> At<'_> {
+        let inputs = self.inputs(point);
+        let own = self.program.run(|k| inputs[k]);
+        At { program: &self.program, nominal: Some(own.clone()), own }
     }
 
-    fn values(&self, point: &[f64], parameters: &[f64], needed: Option<&[bool]>) -> Values<f64> {
-        self.problem.tape.run_parts(&Single, needed, &Values::default(), |op| match op {
-            Op::Coordinate(k) => point.get(k).copied(),
-            Op::Parameter(j) => parameters.get(j).copied(),
-            _ => None,
-        })
+    /// What formulas are run with, of the middle machine.
+    fn inputs(&self, point: &[f64]) -> Vec<f64> {
+        point.iter().copied().chain(self.parameters.iter().map(middle)).collect()
     }
 
     /// The machine of a place: the values of the quantities that are intervals.
@@ -387,10 +407,10 @@ impl<'a> Sampler<'a> {
     }
 
     /// What a quality needs at a place.
-    pub(super) fn at_machine(&self, quality: Quality, place: &Place) -> At {
+    pub(super) fn at_machine(&self, quality: Quality, place: &Place) -> At<'_> {
         let needed = self.needed.iter().find(|(own, _)| *own == quality);
-        let needed = needed.map(|(_, needed)| needed.as_slice());
-        self.at_parts(place, needed, self.accuracy(quality).is_some())
+        let program = needed.map_or(&self.program, |(_, program)| program);
+        self.at_program(place, program, self.accuracy(quality).is_some())
     }
 
     /// The same at a place; nothing else is computed there.
