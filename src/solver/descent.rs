@@ -4,7 +4,7 @@ use super::sample::{Place, Quality, Sampler, Worst};
 
 /// Halvings of the first, coarse descents.
 const COARSE: i32 = 7;
-/// Axes up to which descents go along diagonals at every step.
+/// Axes up to which descents go along diagonals at every step; of more, the last ones alone, at coarse steps.
 const MOST_AXES: usize = 3;
 /// Starts of coarse descents, and of more than [`MOST_AXES`] coordinates where the worst found holds by
 /// at most this: searches there cost far more.
@@ -23,6 +23,15 @@ impl Sampler<'_> {
     /// The place near `start` at which a quality has its least margin, down to steps of `2^-finest` of
     /// the workspace: a compass search for the point, and for the machine first the tolerances' ends.
     pub fn descend(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
+        let mut worst = self.descended(quality, start, finest);
+        if self.across(&mut worst, COARSE.min(finest)) {
+            self.compass(&mut worst, 0..self.box_.len(), COARSE + 1..=finest);
+        }
+        worst
+    }
+
+    /// The same, of more than [`MOST_AXES`] coordinates without diagonals.
+    fn descended(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
         let (m, p) = (self.box_.len(), self.frees());
         let margin = self.margin_at(quality, start);
         let mut worst = Worst { quality, place: start.clone(), margin };
@@ -38,6 +47,15 @@ impl Sampler<'_> {
             self.compass(&mut worst, 0..m, 4..=finest);
         }
         worst
+    }
+
+    /// Of more than [`MOST_AXES`] coordinates, moves the point along diagonals too.
+    fn across(&self, worst: &mut Worst, finest: i32) -> bool {
+        let (m, before) = (self.box_.len(), worst.margin);
+        if m > MOST_AXES {
+            self.steps(worst, 0..m, 1..=finest, true);
+        }
+        worst.margin < before
     }
 
     /// Takes the place at these parts if it is worse than the worst known.
@@ -84,17 +102,25 @@ impl Sampler<'_> {
         ends.fold(false, |moved, (axis, end)| self.considered(worst, &[(axis, end)]) || moved)
     }
 
-    /// Steps along the axes, and, where all of them are up, along the diagonals of pairs.
+    /// Steps along the axes; where they are few along diagonals too, whose number is the square of theirs.
     fn compass(
         &self,
         worst: &mut Worst,
         axes: std::ops::Range<usize>,
         exponents: std::ops::RangeInclusive<i32>,
     ) {
-        // Their number is the square of the axes'.
         let few = axes.len() <= MOST_AXES;
-        let of_points = axes.start < self.box_.len();
-        let diagonal = |exponent: i32| few || of_points && exponent <= COARSE;
+        self.steps(worst, axes, exponents, few);
+    }
+
+    /// Steps along the axes, and, where all of them are up, along the diagonals of pairs.
+    fn steps(
+        &self,
+        worst: &mut Worst,
+        axes: std::ops::Range<usize>,
+        exponents: std::ops::RangeInclusive<i32>,
+        diagonals: bool,
+    ) {
         for exponent in exponents {
             let step = f64::from(-exponent).exp2();
             // A few rounds a step: the next, finer one takes over what is left.
@@ -106,7 +132,7 @@ impl Sampler<'_> {
                     }
                 }
                 let pairs = axes.clone().flat_map(|i| (axes.start..i).map(move |j| (i, j)));
-                for (i, j) in pairs.filter(|_| diagonal(exponent)) {
+                for (i, j) in pairs.filter(|_| diagonals) {
                     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
                         moved = moved || self.stepped(worst, &[(i, a * step), (j, b * step)]);
                     }
@@ -154,12 +180,13 @@ impl Sampler<'_> {
                 if number >= STARTS && !worst.as_ref().is_some_and(is_close) {
                     break;
                 }
-                let found = self.descend(quality, start, COARSE);
+                let found = self.descended(quality, start, COARSE);
                 if worst.as_ref().is_none_or(|worst| found.margin < worst.margin) {
                     worst = Some(found);
                 }
             }
             let mut worst = worst?;
+            self.across(&mut worst, COARSE);
             self.compass(&mut worst, 0..self.box_.len(), COARSE + 1..=finest);
             Some(worst)
         };
