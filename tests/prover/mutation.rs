@@ -128,7 +128,7 @@ fn mutants(certificate: &Value) -> Vec<(String, Value)> {
 }
 
 /// The least margin of a claim at one of the places.
-fn least_margin(sampler: &Sampler<'_>, at: impl Iterator<Item = At>) -> f64 {
+fn least_margin<'a>(sampler: &Sampler<'_>, at: impl Iterator<Item = At<'a>>) -> f64 {
     let of = |at: At| {
         let all = sampler.qualities().into_iter().map(|quality| sampler.margin(quality, &at));
         all.fold(f64::INFINITY, f64::min)
