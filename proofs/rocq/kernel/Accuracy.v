@@ -5,6 +5,7 @@
     and contracts it, and so has one fixed point. *)
 
 From Coq Require Import Reals Lra Psatz.
+From Orthocert Require MeanValue.
 From Orthocert Require Import Vec3 SingularValues Velocity.
 Local Open Scope R_scope.
 
@@ -266,7 +267,7 @@ Qed.
 Lemma rest_between : forall u v, size u <= D -> size v <= D -> size (rest u v) <= g * size (vsub v u).
 Proof.
   intros u v hu hv. set (e := rest u v). pose proof (size_nonneg e) as e0. pose proof (size_nonneg (vsub v u)) as d0.
-  destruct (MVT_cor2 _ _ 0 1 Rlt_0_1 (fun t ht => along e u v hu hv t ht)) as [t [E ht]].
+  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 (fun t ht => along e u v hu hv t ht)) as [t [E ht]].
   rewrite <- rest_along in E. fold e in E. rewrite <- size_dot in E.
   pose proof (on_segment u v t hu hv ltac:(lra)) as hs. pose proof (spread _ (vsub v u) hs) as S.
   pose proof (dot_sizes e (mulv (msub (J (vadd u (vscale t (vsub v u)))) W) (vsub v u))) as C.
@@ -284,7 +285,7 @@ Proof.
   assert (H : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun x => (dot e (f (vadd vzero (vscale x (vsub u vzero)))) - x * dot e (mulv W (vsub u vzero))) + - k * x ^ 2) t
     (dot e (mulv (msub (J (vadd vzero (vscale t (vsub u vzero)))) W) (vsub u vzero)) + - k * (2 * t * 1))).
   { intros t ht. apply derivable_add; [apply along; assumption | apply derivable_scal, derivable_square, derivable_pt_lim_id]. }
-  destruct (MVT_cor2 _ _ 0 1 Rlt_0_1 H) as [t [E ht]]. cbv beta in E.
+  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 H) as [t [E ht]]. cbv beta in E.
   pose proof (rest_along e vzero u) as R. fold e in R. rewrite <- size_dot in R.
   assert (E2 : size e * size e - k = dot e (mulv (msub (J (vadd vzero (vscale t (vsub u vzero)))) W) (vsub u vzero)) + - k * (2 * t * 1)) by lra.
   replace (vadd vzero (vscale t (vsub u vzero))) with (vscale t u) in E2 by (apply vec_ext; unfold vadd, vsub, vscale, vzero; cbn [vx vy vz]; ring).

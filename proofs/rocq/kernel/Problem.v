@@ -1,6 +1,7 @@
 (** * A claim as formulas, a box and tests, and what an accepted tree says of it *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
+From Orthocert Require MeanValue.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Definite Test Apart Cell Check Number Machine Formula Acceleration.
 From Orthocert.kernel Require Compare Solve Gradient Near Accuracy.
@@ -1372,7 +1373,7 @@ Proof.
       + ring.
     - intros k n. exact (others_are_exact tb ps th k hth n).
     - apply def, In_, h. }
-  destruct (MVT_cor2 _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
+  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
   destruct R1 as [_ [_ [_ [J1 _]]]]. destruct R0 as [_ [_ [_ [J0 _]]]]. unfold x in M at 1 2. rewrite J1, J0 in M.
   rewrite terms_of, without_zeros in M. fold (slopes_of ps f) in M.
   exists (seg t), ((y - joint l0 Q) / D), (map (fun p => rate (fst p) / D) (slopes_of ps f)). cbn [fst snd]. split; [apply In_; lra |]. split.

@@ -5,6 +5,7 @@
     are enclosed as the tape is run, beside values. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
+From Orthocert Require MeanValue.
 From Orthocert Require Import Fixed Velocity.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Acceleration.
 From Orthocert.kernel Require Solve.
@@ -124,7 +125,7 @@ Proof.
       + ring.
     - intros j n. rewrite (same j n). ring.
     - apply d, towards_in; assumption. }
-  destruct (MVT_cor2 _ _ 0 1 Rlt_0_1 H) as [u [E hu]]. exists (towards u th0 th). split; [apply towards_in; [lra | assumption ..] |].
+  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 H) as [u [E hu]]. exists (towards u th0 th). split; [apply towards_in; [lra | assumption ..] |].
   assert (E0 : towards 0 th0 th = th0 /\ towards 1 th0 th = th).
   { pose proof (related_length _ _ _ _ _ h0) as l0. pose proof (related_length _ _ _ _ _ h1) as l1. rewrite l0 in l1. clear - l1. revert th l1.
     induction th0 as [| y a IH]; intros [| z b] l; try discriminate; [split; reflexivity |]. cbn [length] in l. destruct (IH b ltac:(congruence)) as [I J].
