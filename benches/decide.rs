@@ -9,10 +9,10 @@
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert::design::Design;
+use orthocert::search::solver::sample::{Place, Quality, Sampler};
+use orthocert::search::solver::value::Bounded;
+use orthocert::search::solver::{number, verify, Answer};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::sample::{Place, Quality, Sampler};
-use orthocert::solver::value::Bounded;
-use orthocert::solver::{number, verify, Answer};
 use orthocert_checker::certificate::Verdict;
 use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::problem::Problem;

@@ -8,7 +8,7 @@
 
 use criterion::{criterion_group, criterion_main, Criterion, Throughput};
 use orthocert::design::Design;
-use orthocert::paving::{header, Decider, Grower, Tally};
+use orthocert::search::paving::{header, Decider, Grower, Tally};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{check, Cell, Edge, Extent, Reader, Root, Subject};
 use std::hint::black_box;

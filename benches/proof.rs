@@ -13,12 +13,12 @@
 
 use criterion::measurement::WallTime;
 use criterion::{criterion_group, criterion_main, BenchmarkGroup, Criterion, Throughput};
-use orthocert::accepted::check;
 use orthocert::design::Design;
+use orthocert::search::accepted::check;
+use orthocert::search::solver::sample::{Place, Sampler};
+use orthocert::search::solver::search::{Branch, Outcome};
+use orthocert::search::solver::{below, verify, Answer};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::sample::{Place, Sampler};
-use orthocert::solver::search::{Branch, Outcome};
-use orthocert::solver::{below, verify, Answer};
 use orthocert_checker::read;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;

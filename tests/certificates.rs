@@ -7,13 +7,13 @@
 //! ```
 
 use crate::schema;
-use orthocert::accepted::check;
-use orthocert::atlas::{assemble, certify, grow, Growing};
 use orthocert::design::{AtlasDesign, Design};
-use orthocert::largest_cube::exclude;
-use orthocert::postulate;
+use orthocert::questions::atlas::{assemble, certify, grow, Growing};
+use orthocert::questions::largest_cube::exclude;
+use orthocert::questions::postulate;
+use orthocert::search::accepted::check;
+use orthocert::search::solver;
 use orthocert::search::{Budget, Control};
-use orthocert::solver;
 use orthocert_checker::certificate::{Certificate, Claim, Verdict};
 use orthocert_checker::read;
 use orthocert_kernel::claim::Workspace;

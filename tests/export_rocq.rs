@@ -1,7 +1,7 @@
 //! What is exported to Rocq, and what is refused. That the files prove what they state is for Rocq
 //! to say: `proofs/rocq/instances`.
 
-use orthocert::export::rocq::{postulate, rocq, ExportError};
+use orthocert::report::export::rocq::{postulate, rocq, ExportError};
 use orthocert_checker::read;
 use orthocert_kernel::certificate::{Certificate, Claim, Proof};
 

@@ -3,8 +3,8 @@
 
 use crate::schema;
 use orthocert::design::{Design, TEMPLATES};
+use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control, Progress};
-use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use std::fs;
 use std::path::Path;

@@ -4,22 +4,23 @@ use super::effort::{time, Work};
 use super::pave::not_taken_up;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::atlas::{
-    self, Bound, Growing, Kept, KeptError, Point, Standing, Stopped, Top, Widest, FORMAT,
-};
-use orthocert::batch::plan::identity;
-use orthocert::decimal::grouped;
 use orthocert::design::{AtlasDesign, Objective};
-use orthocert::digest::sha256;
+use orthocert::exact::decimal::grouped;
 use orthocert::exact::Exact;
-use orthocert::folder::{self, FolderError, SUMS};
-use orthocert::frontier::NoAnswer;
-use orthocert::output;
-use orthocert::paving::unfinished as part_of;
+use orthocert::files::digest::sha256;
+use orthocert::files::folder::{self, FolderError, SUMS};
+use orthocert::files::output;
+use orthocert::jobs::batch::plan::identity;
+use orthocert::questions::atlas::{
+    self, Bound, Growing, Kept, KeptError, Standing, Stopped, Top, Widest, FORMAT,
+};
+use orthocert::questions::frontier::NoAnswer;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
+use orthocert::report::map::{self, Point};
 use orthocert::report::CertificateFile;
+use orthocert::search::paving::unfinished as part_of;
+use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::Certificate;
 use orthocert_checker::shown::Named;
 use orthocert_checker::statement;
@@ -233,11 +234,11 @@ pub fn publish(
         files: vec![file(PICTURE), file(PAGE), file(SUMS)],
         seconds: 0.0,
     };
-    let contours = atlas::contours(design, &cells);
-    let svg = atlas::picture(design, &cells, &contours, &points(&report));
+    let contours = map::contours(design, &cells);
+    let svg = map::picture(design, &cells, &contours, &points(&report));
     let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
     let title = design.title.as_deref().unwrap_or("Atlas");
-    let page = atlas::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
+    let page = map::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
     files.all.extend([(PICTURE, svg), (PAGE, page)]);
     folder::write(folder, &NAMES, &files.all)?;
     report.seconds = started.elapsed().as_secs_f64();

@@ -2,10 +2,11 @@
 
 use super::check::examine;
 use super::{input, print, Failure, Status};
-use orthocert::attestation::{statement, Evidence};
-use orthocert::batch::plan::identity;
 use orthocert::design::Design;
-use orthocert::{escape, output};
+use orthocert::files::output;
+use orthocert::jobs::attestation::{statement, Evidence};
+use orthocert::jobs::batch::plan::identity;
+use orthocert::report::escape;
 use orthocert_checker::shown::Named;
 use std::path::{Path, PathBuf};
 

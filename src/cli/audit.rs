@@ -2,12 +2,12 @@
 
 use super::check::examine;
 use super::{batch, input, interrupt, print, Failure, Format, Status};
-use orthocert::batch::pair::{pairs, Pair};
-use orthocert::batch::run::{run as run_jobs, Outcome};
-use orthocert::batch::{counts, worst, Ending};
-use orthocert::decimal::counted;
 use orthocert::design::Design;
-use orthocert::digest::sha256;
+use orthocert::exact::decimal::counted;
+use orthocert::files::digest::sha256;
+use orthocert::jobs::batch::pair::{pairs, Pair};
+use orthocert::jobs::batch::run::{run as run_jobs, Outcome};
+use orthocert::jobs::batch::{counts, worst, Ending};
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;

@@ -1,15 +1,16 @@
 //! `orthocert verify` of several designs.
 
 use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
-use orthocert::batch::plan::{identity, plan, Planned};
-use orthocert::batch::requirement::{requirements, Known};
-use orthocert::batch::run::{run as run_jobs, Outcome};
-use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
 use orthocert::design::{Design, ReadError};
+use orthocert::files::output;
+use orthocert::jobs::batch::plan::{identity, plan, Planned};
+use orthocert::jobs::batch::run::{run as run_jobs, Outcome};
+use orthocert::jobs::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
+use orthocert::report::escape;
+use orthocert::report::requirement::{requirements, Known};
 use orthocert::report::Report;
+use orthocert::search::solver;
 use orthocert::search::{Budget, Control, Progress};
-use orthocert::solver;
-use orthocert::{escape, output};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Named;
 use std::collections::BTreeSet;

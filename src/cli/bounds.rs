@@ -3,17 +3,17 @@
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
-use orthocert::decimal::{approximate, outward, rounded, Toward};
 use orthocert::design::Design;
+use orthocert::exact::decimal::{approximate, outward, rounded, Toward};
 use orthocert::exact::Exact;
-use orthocert::output;
+use orthocert::files::output;
 use orthocert::report::text::{duration, wrap, WIDTH};
 use orthocert::report::{exactly, point_text, pose_text, CertificateFile};
-use orthocert::search::Budget;
-use orthocert::solver::extremes::{
+use orthocert::search::solver::extremes::{
     enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
 };
-use orthocert::solver::value::{coordinates, in_length, listed, with_unit};
+use orthocert::search::solver::value::{coordinates, in_length, listed, with_unit};
+use orthocert::search::Budget;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::Leg;

@@ -3,10 +3,10 @@
 use super::input::Begun;
 use super::pave::searched;
 use super::{audit, input, print, Failure, Format, Status};
-use orthocert::accepted::{check, Accepted};
 use orthocert::design::Design;
-use orthocert::digest::Summed;
+use orthocert::files::digest::Summed;
 use orthocert::report::Size;
+use orthocert::search::accepted::{check, Accepted};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement};

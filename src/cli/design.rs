@@ -1,9 +1,9 @@
 //! `orthocert design`.
 
 use super::{input, print, Failure, Format, Status};
-use orthocert::decimal::{readable, rounded, Toward};
-use orthocert::dimensions::{dimensions, Dimension, DimensionError, Unit};
+use orthocert::exact::decimal::{readable, rounded, Toward};
 use orthocert::exact::Exact;
+use orthocert::questions::dimensions::{dimensions, Dimension, DimensionError, Unit};
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -2,10 +2,11 @@
 
 use super::{input, interrupt, print, Failure, Status};
 use clap::Subcommand;
-use orthocert::decimal::grouped;
-use orthocert::digest::Summed;
-use orthocert::paving::{surface, Surface, SurfaceError};
-use orthocert::{export, output};
+use orthocert::exact::decimal::grouped;
+use orthocert::files::digest::Summed;
+use orthocert::files::output;
+use orthocert::report::export;
+use orthocert::search::paving::{surface, Surface, SurfaceError};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{file, read};
 use orthocert_kernel::paving::{is_paving, Reader};

@@ -2,11 +2,11 @@
 
 use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
-use orthocert::decimal::{grouped, readable, significant};
 use orthocert::design::{written, Design};
+use orthocert::exact::decimal::{grouped, readable, significant};
 use orthocert::exact::Exact;
-use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
-use orthocert::output;
+use orthocert::files::output;
+use orthocert::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::report::text::{duration, labelled, verbatim};
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -178,7 +178,7 @@ fn reached(bracket: &Bracket) -> Option<f64> {
 
 fn gap(text: &str) -> Result<f64, Failure> {
     let number = input::number("--gap", text)?;
-    match orthocert::decimal::approximate(&number) {
+    match orthocert::exact::decimal::approximate(&number) {
         Some(gap) if (1e-9..=0.5).contains(&gap) => Ok(gap),
         _ => Err(Failure::Input(format!(
             "--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"
@@ -244,5 +244,6 @@ fn text(answer: &Answer, quiet: bool) -> String {
 }
 
 fn exactly(x: &Expression) -> String {
-    x.rational().map_or_else(|| x.to_string(), |x| orthocert::decimal::exact(&Exact::Rational(x)))
+    x.rational()
+        .map_or_else(|| x.to_string(), |x| orthocert::exact::decimal::exact(&Exact::Rational(x)))
 }

@@ -3,12 +3,14 @@
 use super::size::{explain, gap_text};
 use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
-use orthocert::decimal::{exact, grouped, significant};
 use orthocert::design::{text_of, Design, Variable};
+use orthocert::exact::decimal::{exact, grouped, significant};
 use orthocert::exact::Exact;
-use orthocert::limit::Side;
-use orthocert::limit::{limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question};
-use orthocert::output;
+use orthocert::files::output;
+use orthocert::questions::limit::Side;
+use orthocert::questions::limit::{
+    limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
+};
 use orthocert::report::{machine_of_witness, CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::shown::Shown;

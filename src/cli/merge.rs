@@ -2,14 +2,14 @@
 
 use super::effort::Work;
 use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
-use orthocert::batch::plan::identity;
-use orthocert::decimal::counted;
-use orthocert::output;
-use orthocert::paving::PaveError;
+use orthocert::exact::decimal::counted;
+use orthocert::files::output;
+use orthocert::jobs::batch::plan::identity;
+use orthocert::jobs::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use orthocert::report::paving::PavingReport;
 use orthocert::report::text;
-use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
-use orthocert::solver::{concluded, Answer, Undecided};
+use orthocert::search::paving::PaveError;
+use orthocert::search::solver::{concluded, Answer, Undecided};
 use orthocert_checker::shown::Named;
 use orthocert_kernel::certificate::Node;
 use orthocert_kernel::check::MOST_NODES;

@@ -40,7 +40,7 @@ mod verify;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
-use orthocert::output::{self, OutputError};
+use orthocert::files::output::{self, OutputError};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Shown;
 use std::fmt;

@@ -1,9 +1,9 @@
 //! `orthocert paper`.
 
 use super::{certify, print, Failure, Format, Status};
-use orthocert::decimal::{rounded, Toward};
-use orthocert::output;
-use orthocert::paper::{findings, Agreement, Basis, Finding, Value};
+use orthocert::exact::decimal::{rounded, Toward};
+use orthocert::files::output;
+use orthocert::questions::paper::{findings, Agreement, Basis, Finding, Value};
 use orthocert::report::text::{labelled, verbatim};
 use orthocert::report::CertificateFile;
 use serde::Serialize;

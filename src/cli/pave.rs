@@ -1,16 +1,16 @@
 //! `orthocert pave`.
 
 use super::{effort, input, print, progress::Bar, Failure, Format, Status};
-use orthocert::batch::plan::identity;
 use orthocert::design::{written, Design};
-use orthocert::digest::Summed;
 use orthocert::exact::Exact;
-use orthocert::output::{self, OutputError};
-use orthocert::paving::{
+use orthocert::files::digest::Summed;
+use orthocert::files::output::{self, OutputError};
+use orthocert::jobs::batch::plan::identity;
+use orthocert::report::paving::PavingReport;
+use orthocert::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
-use orthocert::report::paving::PavingReport;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
@@ -174,7 +174,7 @@ pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim
 
 /// The names of a claim's coordinates of places, and how many there are.
 fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
-    let names = orthocert::page::coordinates(claim);
+    let names = orthocert::report::page::coordinates(claim);
     let m = match &claim.workspace {
         Workspace::Box { min, .. } => min.len(),
         Workspace::Cylinder { .. } | Workspace::Cube { .. } => 3,
@@ -232,7 +232,7 @@ impl Arguments {
             (None, Some(_)) => None,
             (text, _) => {
                 let gap = positive("--volume-gap", text.as_deref().unwrap_or(GAP))?;
-                orthocert::decimal::approximate(&gap)
+                orthocert::exact::decimal::approximate(&gap)
             }
         };
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })

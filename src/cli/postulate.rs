@@ -3,8 +3,8 @@
 use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use clap::ArgGroup;
 use orthocert::design::written;
-use orthocert::output;
-use orthocert::postulate::prove;
+use orthocert::files::output;
+use orthocert::questions::postulate::prove;
 use orthocert::report::{text, PostulateReport};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::Quantity;

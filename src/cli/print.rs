@@ -1,7 +1,7 @@
 //! Standard output and standard error: every byte that this program prints passes through here.
 
 use super::{progress, Failure};
-use orthocert::escape;
+use orthocert::report::escape;
 use orthocert::report::text::Style;
 use orthocert_checker::shown::lines;
 use serde::Serialize;

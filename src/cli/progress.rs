@@ -3,7 +3,7 @@
 
 use super::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use orthocert::decimal::grouped;
+use orthocert::exact::decimal::grouped;
 use orthocert::report::text::duration;
 use orthocert::search::{Control, Progress, Steps};
 use std::fmt;

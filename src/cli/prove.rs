@@ -3,13 +3,13 @@
 
 use super::check::is_of;
 use super::{certify, input, print, Failure, Status};
-use orthocert::accepted::check;
-use orthocert::decide::recalled;
 use orthocert::design::Design;
-use orthocert::digest::sha256;
-use orthocert::output;
+use orthocert::files::digest::sha256;
+use orthocert::files::output;
+use orthocert::questions::decide::recalled;
 use orthocert::report::{CertificateFile, Report};
-use orthocert::solver::Verification;
+use orthocert::search::accepted::check;
+use orthocert::search::solver::Verification;
 use orthocert_checker::file::is_stream;
 use orthocert_checker::read;
 use orthocert_checker::shown::Named;

@@ -3,9 +3,9 @@
 use super::effort::Work;
 use super::{print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::batch::plan::identity;
+use orthocert::jobs::batch::plan::identity;
+use orthocert::jobs::shard::{self, Ran, RunError};
 use orthocert::search::Control;
-use orthocert::shard::{self, Ran, RunError};
 use orthocert_checker::shown::Named;
 use orthocert_checker::shown::Shown;
 use serde::Serialize;

@@ -1,10 +1,10 @@
 //! `orthocert show`.
 
 use super::{input, print, Failure, Format, Status};
-use orthocert::accepted::{size_of, trees, TreeSize};
-use orthocert::decimal::{boxes, exact, grouped};
+use orthocert::exact::decimal::{boxes, exact, grouped};
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
+use orthocert::search::accepted::{size_of, trees, TreeSize};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement};

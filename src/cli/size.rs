@@ -3,14 +3,14 @@
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use orthocert::decimal::{exact, outward, readable, rounded, Toward};
+use orthocert::exact::decimal::{exact, outward, readable, rounded, Toward};
 use orthocert::exact::Exact;
-use orthocert::frontier::{Bracket, Certified, NoAnswer};
-use orthocert::output;
+use orthocert::files::output;
+use orthocert::questions::frontier::{Bracket, Certified, NoAnswer};
+use orthocert::questions::size::{is_side, Family, Scope, Unknown};
 use orthocert::report::text::{duration, labelled, verbatim, wrap};
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::search::Budget;
-use orthocert::size::{is_side, Family, Scope, Unknown};
 use orthocert_checker::certificate::Certificate;
 use serde::Serialize;
 use std::fmt::Write;

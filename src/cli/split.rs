@@ -3,10 +3,12 @@
 use super::effort::Work;
 use super::{atlas, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::decimal::{counted, grouped};
 use orthocert::design::{is_atlas, AtlasDesign, Design};
-use orthocert::output;
-use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
+use orthocert::exact::decimal::{counted, grouped};
+use orthocert::files::output;
+use orthocert::jobs::shard::{
+    self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
+};
 use orthocert_checker::shown::{Named, Shown};
 use orthocert_kernel::check::MOST_NODES;
 use serde::Serialize;

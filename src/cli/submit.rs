@@ -2,9 +2,9 @@
 
 use super::{merge, print, Failure, Format, Status};
 use clap::ValueEnum;
-use orthocert::engine::{self, Submission};
-use orthocert::output;
-use orthocert::shard::{read_job, JOB_FILE};
+use orthocert::files::output;
+use orthocert::jobs::engine::{self, Submission};
+use orthocert::jobs::shard::{read_job, JOB_FILE};
 use orthocert_checker::shown::{is_unseen, Named, Shown};
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};

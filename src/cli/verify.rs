@@ -2,11 +2,11 @@
 
 use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
 use num_rational::BigRational;
-use orthocert::batch::plan::{certificate_of, identity};
+use orthocert::jobs::batch::plan::{certificate_of, identity};
 use orthocert::report::{text, Margin, Report};
+use orthocert::search::solver;
+use orthocert::search::solver::extremes::{enclose, Extreme};
 use orthocert::search::{Budget, Control};
-use orthocert::solver;
-use orthocert::solver::extremes::{enclose, Extreme};
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use orthocert_kernel::problem::Problem;

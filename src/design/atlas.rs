@@ -3,10 +3,10 @@
 
 use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError, ReadError};
+use super::margin::without_margin;
 use super::number::{exact, ordered};
 use super::refusal::compiled;
 use super::{exactly, mapped_claim, names, text_of, unit, Design};
-use crate::atlas::without_margin;
 use crate::exact::Exact;
 use num_rational::BigRational;
 use orthocert_kernel::atlas::{self as kernel, AtlasClaim, MOST_PARAMETERS};
@@ -87,7 +87,7 @@ pub enum Objective {
     Maximise(Expression),
     /// The least value of one.
     Minimise(Expression),
-    /// The widest margin ([`crate::atlas::tightened`]).
+    /// The widest margin ([`crate::questions::atlas::tightened`]).
     WidestMargin,
 }
 

@@ -9,7 +9,7 @@ use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError};
 use super::number::{centred, quantity};
 use super::suggestion;
-use crate::decimal::{exact, terminating};
+use crate::exact::decimal::{exact, terminating};
 use crate::exact::Exact;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

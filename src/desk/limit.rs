@@ -2,10 +2,10 @@
 
 use crate::questions::{design, run};
 use num_rational::BigRational;
-use orthocert::decimal::exact;
 use orthocert::design::Variable;
+use orthocert::exact::decimal::exact;
 use orthocert::exact::Exact;
-use orthocert::limit::{
+use orthocert::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question, Side,
 };
 use orthocert::search::Budget;

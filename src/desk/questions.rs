@@ -1,17 +1,17 @@
 //! What the page asks, and what is answered.
 
-use crate::limit::limit;
 use crate::machines::MACHINES;
-use orthocert::accepted::{check, Accepted};
-use orthocert::decide::{as_written, by_proof_of};
-use orthocert::decimal::{approximate, exact, significant};
+use crate::questions::limit::limit;
 use orthocert::design::{Design, ReadError, Variable, MAX_FILE};
+use orthocert::exact::decimal::{approximate, exact, significant};
 use orthocert::exact::Exact;
-use orthocert::limit::Place;
-use orthocert::page::{machine, File, Page};
+use orthocert::questions::decide::{as_written, by_proof_of};
+use orthocert::questions::limit::Place;
+use orthocert::report::page::{machine, File, Page};
 use orthocert::report::Report;
+use orthocert::search::accepted::{check, Accepted};
+use orthocert::search::solver::{self, Verification};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::{self, Verification};
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_checker::read;
 use orthocert_checker::statement::statement;

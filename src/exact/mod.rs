@@ -19,6 +19,8 @@
 //! binary digits, roots are at most [`MAX_ROOTS`], each operand is enclosed at most once at each of
 //! three precisions, and clones share its enclosures.
 
+pub mod arithmetic;
+pub mod decimal;
 mod operand;
 mod read;
 

@@ -2,10 +2,12 @@
 
 use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
-use crate::atlas::Standing;
-use crate::decimal::{approximate, boxes, counted, exact, grouped, percent, significant, Toward};
 use crate::design::Parameter;
+use crate::exact::decimal::{
+    approximate, boxes, counted, exact, grouped, percent, significant, Toward,
+};
 use crate::exact::Exact;
+use crate::questions::atlas::Standing;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 use orthocert_checker::shown::Shown;

@@ -1,13 +1,13 @@
 //! A refutation's witness in words, with certified digits of the value that violates the claim.
 
-use crate::batch::requirement::SINGULARITY;
 use crate::exact::Exact;
+use crate::report::requirement::SINGULARITY;
 use serde::Serialize;
 
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counterexample {
-    /// The rule that is broken ([`crate::batch::requirement`]).
+    /// The rule that is broken ([`crate::report::requirement`]).
     #[serde(skip)]
     pub rule: &'static str,
     /// What is violated: `greatest psi <= 2`.

@@ -1,9 +1,9 @@
 //! What may have gone wrong in the design of a claim that is refuted.
 
 use super::Counterexample;
-use crate::batch::requirement::SINGULARITY;
-use crate::decimal::significant;
-use crate::solver::approximate;
+use crate::exact::decimal::significant;
+use crate::report::requirement::SINGULARITY;
+use crate::search::solver::approximate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_kernel::number::Expression;
 

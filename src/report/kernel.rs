@@ -4,14 +4,14 @@ use super::place::FreeParameter;
 use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
 use super::share::sum_above;
 use super::{Counterexample, Row, Setting};
-use crate::batch::requirement::{rule_of, SINGULARITY};
-use crate::decimal::{exact, readable, rounded, significant, Toward};
+use crate::exact::decimal::{exact, readable, rounded, significant, Toward};
 use crate::exact::Exact;
+use crate::report::requirement::{rule_of, SINGULARITY};
+use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
+use crate::search::solver::search::Open;
+use crate::search::solver::value::{with_unit, Bounded};
+use crate::search::solver::Undecided;
 use crate::search::Stop;
-use crate::solver::sample::{Place, Quality, Sampler, Worst};
-use crate::solver::search::Open;
-use crate::solver::value::{with_unit, Bounded};
-use crate::solver::Undecided;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::certificate::{Failure, Witness};
@@ -272,7 +272,7 @@ impl<'a> Facts<'a> {
         let (Some(requirement), Ok(x)) = (requirement, Exact::parse(text, MOST_DIGITS)) else {
             return false;
         };
-        let x = x.as_rational().and_then(crate::solver::number);
+        let x = x.as_rational().and_then(crate::search::solver::number);
         let (Bound::Min(bound) | Bound::Max(bound), Some(x)) = (&mut requirement.bound, x) else {
             return false;
         };

@@ -2,7 +2,7 @@
 
 use super::text::{labelled, WIDTH};
 use super::{FreeParameter, Setting};
-use crate::decimal::{readable, significant};
+use crate::exact::decimal::{readable, significant};
 use std::fmt::Write;
 
 /// Most lines that a machine takes, unless all are asked for.

@@ -3,14 +3,19 @@
 
 pub mod atlas;
 mod counterexample;
+pub mod escape;
+pub mod export;
 pub mod formulas;
 mod hint;
 mod kernel;
 mod machine;
+pub mod map;
+pub mod page;
 pub mod paving;
 mod place;
 mod postulate;
 mod remains;
+pub mod requirement;
 mod share;
 pub mod text;
 mod worst;
@@ -23,9 +28,9 @@ pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
-use crate::accepted::TreeSize;
 use crate::exact::Exact;
-use crate::solver;
+use crate::search::accepted::TreeSize;
+use crate::search::solver;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_kernel::certificate::Claim;

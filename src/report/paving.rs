@@ -1,9 +1,9 @@
 //! What a paving holds, for people and for scripts.
 
-use crate::decimal::{grouped, percent, rounded, significant, Toward};
+use crate::exact::decimal::{grouped, percent, rounded, significant, Toward};
 use crate::exact::Exact;
-use crate::paving::{box_ends, box_volume, Component, Components, Paved};
-use crate::solver::doubles::Pair;
+use crate::search::paving::{box_ends, box_volume, Component, Components, Paved};
+use crate::search::solver::doubles::Pair;
 use num_rational::BigRational;
 use num_traits::Zero;
 use orthocert_checker::shown::Shown;

@@ -1,7 +1,7 @@
 //! Places of the workspace in the design's own units, and the parameters that a tolerance leaves
 //! free.
 
-use crate::decimal::significant;
+use crate::exact::decimal::significant;
 use serde::Serialize;
 
 /// Significant digits of an axis.

@@ -2,7 +2,7 @@
 
 use super::remains::reason;
 use super::{CertificateFile, EarlierFile, Outcome, Size};
-use crate::solver::{Answer, Verification};
+use crate::search::solver::{Answer, Verification};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};

@@ -1,6 +1,6 @@
 //! What remains of an undecided claim: how much, where, why, and what would help.
 
-use crate::decimal::boxes;
+use crate::exact::decimal::boxes;
 use crate::search::Stop;
 use orthocert_checker::Rejected;
 use serde::Serialize;

@@ -5,9 +5,9 @@ use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
     PostulateReport, Remains, Report, Row, Size,
 };
-use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
+use crate::exact::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::exact::Exact;
-use crate::solver::value::{in_length, listed, with_unit};
+use crate::search::solver::value::{in_length, listed, with_unit};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Shown;

@@ -1,7 +1,7 @@
 //! Reports to look at, and looking at pictures.
 
 use orthocert::design::Design;
-use orthocert::solver::sample::{Place, Sampler};
+use orthocert::search::solver::sample::{Place, Sampler};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;

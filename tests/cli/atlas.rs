@@ -276,7 +276,10 @@ fn the_sums_of_a_map_are_those_of_its_files() {
     let mut listed = vec!["SHA256SUMS".to_owned()];
     for line in sums.lines() {
         let (sum, name) = line.split_once("  ").unwrap();
-        assert_eq!(sum, orthocert::digest::sha256(&folder.read(&format!("map.atlas/{name}"))));
+        assert_eq!(
+            sum,
+            orthocert::files::digest::sha256(&folder.read(&format!("map.atlas/{name}")))
+        );
         listed.push(name.to_owned());
     }
     listed.sort();

@@ -216,7 +216,7 @@ fn a_sample_is_drawn_by_a_seed_that_nobody_knew() {
         serde_json::from_str(&folder.run(&["check", "d.paving", "--format", "json"]).stdout)
             .unwrap();
     assert!(whole.get("seed").is_none());
-    assert_eq!(whole["sha256"], orthocert::digest::sha256(&folder.read("d.paving")));
+    assert_eq!(whole["sha256"], orthocert::files::digest::sha256(&folder.read("d.paving")));
     // Where something is false, which draw found it is said.
     let (first, nodes) = nodes(&folder.read("d.paving"));
     let forged: Vec<Item> = nodes
@@ -279,7 +279,7 @@ fn a_paving_through_a_pipe_is_read_once() {
         drop(writer);
         Run::from(child.wait_with_output().unwrap())
     };
-    let sum = orthocert::digest::sha256(&bytes);
+    let sum = orthocert::files::digest::sha256(&bytes);
     piped(&["check", "/dev/stdin"], &bytes).exits(0).says(&["ACCEPTED: paving", &sum]);
     let sampled = ["check", "/dev/stdin", "--sample", "9"];
     piped(&sampled, &bytes).exits(0).says(&["The evidence of 9 of the"]);

@@ -2,7 +2,7 @@
 
 use crate::paving::DESIGN;
 use crate::support::{Folder, Run};
-use orthocert::digest;
+use orthocert::files::digest;
 use orthocert_kernel::paving::{Item, Kind};
 use serde_json::{json, Value};
 use std::fs;

@@ -2,7 +2,7 @@
 
 use crate::atlas::{map, widest};
 use crate::support::Folder;
-use orthocert::shard::{read_shard, sha256, Part, ShardResult, Task};
+use orthocert::jobs::shard::{read_shard, sha256, Part, ShardResult, Task};
 use orthocert_kernel::certificate::Node;
 use std::fs;
 

@@ -1,7 +1,7 @@
 //! Every verdict of `verify`: exit code, report, certificate.
 
 use crate::support::{Folder, LONG};
-use orthocert::accepted::check;
+use orthocert::search::accepted::check;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::read;
 use std::fs;

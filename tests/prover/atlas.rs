@@ -2,13 +2,13 @@
 //! single designs.
 
 use num_traits::ToPrimitive;
-use orthocert::atlas::{
-    assemble, certify, decide, ends, grow, margin, waiting, Decision, Growing, Top,
-};
 use orthocert::design::AtlasDesign;
 use orthocert::exact::Exact;
+use orthocert::questions::atlas::{
+    assemble, certify, decide, ends, grow, margin, waiting, Decision, Growing, Top,
+};
+use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::Verdict;
 use orthocert_kernel::atlas::{walk, AtlasCell, Part};
 use std::path::Path;

@@ -16,8 +16,8 @@ mod oracle;
 mod verdicts;
 
 use orthocert::design::Design;
+use orthocert::search::solver::{verify, Answer, Verification};
 use orthocert::search::{Budget, Control};
-use orthocert::solver::{verify, Answer, Verification};
 use orthocert_checker::certificate::Verdict;
 use orthocert_kernel::claim::MachineClaim;
 use std::sync::atomic::AtomicBool;

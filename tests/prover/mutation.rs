@@ -1,11 +1,11 @@
 //! Altered certificates: each is rejected, or what it says is still true.
 
 use super::{cube, orthoglide, verified};
-use orthocert::accepted::{check, Accepted};
 use orthocert::design::written;
 use orthocert::exact::Exact;
-use orthocert::solver::sample::{At, Sampler};
-use orthocert::solver::Answer;
+use orthocert::search::accepted::{check, Accepted};
+use orthocert::search::solver::sample::{At, Sampler};
+use orthocert::search::solver::Answer;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::read;
 use orthocert_kernel::certificate as kernel;

@@ -1,7 +1,7 @@
 //! Values in doubles against those of another program, in 40 digits.
 
 use super::claim;
-use orthocert::solver::sample::Sampler;
+use orthocert::search::solver::sample::Sampler;
 use orthocert_kernel::problem::Problem;
 use serde_json::Value;
 

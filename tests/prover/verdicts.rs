@@ -1,8 +1,8 @@
 //! Verdicts: of the paper's cube for every `psi_max`, in any unit of length.
 
 use super::{cube, verdict, verified};
-use orthocert::accepted::check;
-use orthocert::solver::Answer;
+use orthocert::search::accepted::check;
+use orthocert::search::solver::Answer;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::read;
 use orthocert_kernel::certificate::{self as kernel, Step};

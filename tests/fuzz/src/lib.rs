@@ -3,7 +3,7 @@
 pub mod edits;
 pub mod reader;
 
-use orthocert::solver::sample::{Place, Sampler};
+use orthocert::search::solver::sample::{Place, Sampler};
 use orthocert_checker::certificate::{Certificate, Claim, Verdict};
 use orthocert_checker::statement::statement;
 use orthocert_checker::{check, read};

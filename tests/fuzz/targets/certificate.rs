@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use num_rational::BigRational;
-use orthocert::solver::number;
+use orthocert::search::solver::number;
 use orthocert_checker::certificate::Certificate;
 use orthocert_fuzz::edits::{edits, paths};
 use orthocert_fuzz::examine;

@@ -1,0 +1,5 @@
+//! What is written: files and folders that appear whole or not at all, and their digests.
+
+pub mod digest;
+pub mod folder;
+pub mod output;

@@ -1,0 +1,283 @@
+//! How far a number of a claim goes before its verdict changes.
+//!
+//! A family of claims depends on one positive number, such that what is proved for one value holds
+//! for all values on one side of it. [`frontier`] looks for the last value at which a test succeeds:
+//! steps of a growing factor until the test changes, then halves by the geometric mean. Every value
+//! tried is a decimal, which is taken exactly. The tests are [`proof`] and [`refutation`], which
+//! give certificates that the exact checker has accepted. Of claims that
+//! are not so ordered, [`limit`](crate::questions::limit) looks for a value of each verdict.
+
+use crate::exact::Exact;
+use crate::search::solver;
+use crate::search::{Budget, Control, Steps};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert_checker::certificate::Certificate;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
+use std::time::Instant;
+
+/// Largest factor between one value and the next that is of use.
+pub const LARGEST_FACTOR: f64 = 10.0;
+
+/// A value, and the certificate of the claim for it.
+pub type Certified = (BigRational, Box<Certificate>);
+
+/// Where the verdict changes, as far as it was found.
+#[derive(Clone, Debug, Default)]
+pub struct Bracket {
+    /// The claim is certified for this value.
+    pub certified: Option<Certified>,
+    /// The claim is refuted for this value.
+    pub refuted: Option<Certified>,
+}
+
+impl Bracket {
+    /// The relative distance of the two ends: greater over smaller, less one.
+    pub fn gap(&self) -> Option<BigRational> {
+        let ((a, _), (b, _)) = self.certified.as_ref().zip(self.refuted.as_ref())?;
+        Some(a.max(b) / a.min(b) - BigRational::from_integer(1.into()))
+    }
+}
+
+/// Why there is no answer at all.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoAnswer {
+    /// It was cancelled.
+    #[error("cancelled")]
+    Cancelled,
+    /// The question does not fit the claim: a sentence that says what was found.
+    #[error("{0}")]
+    Claim(String),
+}
+
+impl From<ClaimError> for NoAnswer {
+    fn from(error: ClaimError) -> Self {
+        NoAnswer::Claim(error.to_string())
+    }
+}
+
+/// On which side of a success all values succeed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Succeeds {
+    /// Smaller values succeed too.
+    Below,
+    /// Greater values succeed too.
+    Above,
+}
+
+/// How a frontier is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk {
+    /// Where it begins.
+    pub start: f64,
+    /// Which side succeeds.
+    pub succeeds: Succeeds,
+    /// The first step's factor; every later one is the square of the one before.
+    pub factor: f64,
+    /// The greatest factor.
+    pub most: f64,
+    /// Whether to go on from a start that succeeds.
+    pub improve: bool,
+    /// Values beyond these are not tried.
+    pub limits: (f64, f64),
+    /// Relative distance, from the last success to the first failure, at which to stop.
+    pub gap: f64,
+    /// The moment at which to stop.
+    pub deadline: Option<Instant>,
+}
+
+impl Walk {
+    fn step(&self, x: f64, factor: f64, success: bool) -> f64 {
+        match (self.succeeds, success) {
+            (Succeeds::Below, true) | (Succeeds::Above, false) => x * factor,
+            (Succeeds::Below, false) | (Succeeds::Above, true) => x / factor,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+}
+
+/// The last value found at which `test` succeeds, and what it gave; `None` where none did. Cancelled, it
+/// has what was found before.
+///
+/// # Errors
+/// Those of `test`.
+pub fn frontier<T>(
+    walk: &Walk,
+    control: &mut Control<'_>,
+    mut test: impl FnMut(&BigRational, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
+) -> Result<Option<(BigRational, T)>, NoAnswer> {
+    let mut steps = Steps::default();
+    let (mut best, mut failed) = (None, None);
+    let (mut x, mut factor) = (walk.start, walk.factor);
+    while !walk.is_over() && (walk.limits.0..=walk.limits.1).contains(&x) {
+        let Some(value) = decimal(x, walk.gap) else { break };
+        // A few more steps outward, then halves.
+        let left = 2 + halves(factor, walk.gap);
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
+        let success = found.is_some();
+        match found {
+            Some(found) => best = Some((x, value, found)),
+            None => failed = Some(x),
+        }
+        if best.is_some() && (failed.is_some() || !walk.improve) {
+            break;
+        }
+        x = walk.step(x, factor, success);
+        factor = (factor * factor).min(walk.most);
+    }
+    while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
+        if walk.is_over()
+            || control.is_cancelled()
+            || (good / bad).max(bad / good) <= 1.0 + walk.gap
+        {
+            break;
+        }
+        let middle = (good * bad).sqrt();
+        let Some(value) = decimal(middle, walk.gap).filter(|value| value != last) else { break };
+        let left = halves((good / bad).max(bad / good), walk.gap);
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
+        match found {
+            Some(found) => best = Some((middle, value, found)),
+            None => failed = Some(middle),
+        }
+    }
+    Ok(best.map(|(_, value, found)| (value, found)))
+}
+
+/// How often a factor is to be halved until it is one of `1 + gap`.
+fn halves(factor: f64, gap: f64) -> usize {
+    (factor.ln() / gap.ln_1p()).log2().ceil().clamp(1.0, 64.0) as usize
+}
+
+/// The decimal nearest to `x > 0` with three digits more than a relative distance of `gap` needs.
+pub fn decimal(x: f64, gap: f64) -> Option<BigRational> {
+    let digits = (3.0 - gap.log10()).ceil().clamp(3.0, 17.0) as usize;
+    let text = format!("{x:.*e}", digits - 1);
+    let value = Exact::parse(&text, 64).ok()?.as_rational()?.clone();
+    value.to_f64().filter(|x| *x > 0.0).map(|_| value)
+}
+
+/// A certificate that `claim` holds, if the search finds one within the budget. A claim that is not
+/// well formed has none.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn proof(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    let found = solver::proof(claim, budget, control).ok();
+    unless_cancelled(control, found)
+}
+
+/// A certificate that `claim` does not hold, if sampling finds a witness. A claim that is not well
+/// formed has none.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn refutation(
+    claim: &MachineClaim,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    unless_cancelled(control, None::<()>)?;
+    Ok(solver::refutation(claim))
+}
+
+fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
+    match control.is_cancelled() {
+        true => Err(NoAnswer::Cancelled),
+        false => Ok(found),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::Progress;
+    use std::sync::atomic::AtomicBool;
+
+    const WALK: Walk = Walk {
+        start: 1.0,
+        succeeds: Succeeds::Below,
+        factor: 10.0,
+        most: LARGEST_FACTOR,
+        improve: true,
+        limits: (1e-12, 1e12),
+        gap: 1e-6,
+        deadline: None,
+    };
+
+    fn found(walk: Walk, succeeds: impl Fn(f64) -> bool) -> Option<f64> {
+        let test = |x: &BigRational, _: &mut Control<'_>| Ok(x.to_f64().filter(|x| succeeds(*x)));
+        let cancel = AtomicBool::new(false);
+        let mut shares = Vec::new();
+        let mut note = |now: Progress| shares.push(now.share);
+        let found = frontier(&walk, &mut Control { cancel: &cancel, progress: &mut note }, test);
+        assert!(shares.is_sorted() && shares.iter().all(|x| (0.0..=1.0).contains(x)), "{shares:?}");
+        found.unwrap().map(|(value, seen)| {
+            assert_eq!(value.to_f64(), Some(seen));
+            seen
+        })
+    }
+
+    #[test]
+    fn the_last_success_is_found_from_either_side() {
+        for threshold in [3e-9, 0.7, 1.0, 42.0, 6e8] {
+            for start in [1e-3, 1.0, 1e4] {
+                let walk = Walk { start, ..WALK };
+                let x = found(walk, |x| x <= threshold).unwrap();
+                assert!(x <= threshold && x * (1.0 + 2e-6) > threshold, "{x} {threshold}");
+                let walk = Walk { succeeds: Succeeds::Above, ..walk };
+                let x = found(walk, |x| x >= threshold).unwrap();
+                assert!(x >= threshold && x < threshold * (1.0 + 2e-6), "{x} {threshold}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_good_start_is_not_improved_unless_asked_for() {
+        let walk = Walk { improve: false, start: 0.3, ..WALK };
+        assert_eq!(found(walk, |x| x <= 5.0), Some(0.3));
+        assert!(found(walk, |x| x <= 0.2).is_some_and(|x| x <= 0.2 && x > 0.199_999));
+    }
+
+    #[test]
+    fn cancelled_it_has_what_was_found_before() {
+        let cancel = AtomicBool::new(false);
+        for most in 0..20 {
+            let mut tried = Vec::new();
+            let test = |x: &BigRational, _: &mut Control<'_>| {
+                if tried.len() == most {
+                    return Err(NoAnswer::Cancelled);
+                }
+                tried.push(x.clone());
+                Ok(x.to_f64().filter(|x| *x <= 42.0))
+            };
+            let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+            let found = frontier(&WALK, control, test).unwrap().map(|(value, _)| value);
+            let forty_two = BigRational::from_integer(42.into());
+            assert_eq!(found, tried.into_iter().filter(|x| *x <= forty_two).max());
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_nothing_succeeds_and_the_limits_hold() {
+        assert_eq!(found(WALK, |_| false), None);
+        let last = found(WALK, |_| true).unwrap();
+        assert!((1e11..=1e12).contains(&last));
+        let walk = Walk { deadline: Some(Instant::now()), ..WALK };
+        assert_eq!(found(walk, |_| true), None);
+    }
+}

@@ -1,0 +1,295 @@
+//! What a designer reads first: how far the quantities of a machine go, and which requirement is nearest
+//! to its limit.
+//!
+//! | module    | does                                                                |
+//! |-----------|---------------------------------------------------------------------|
+//! | `asked`   | which quantities                                                    |
+//! | `nearest` | the requirement with the least margin                               |
+//! | `shares`  | what each tolerance adds to the inaccuracy                          |
+//! | [`text`]  | the answer for people                                               |
+//!
+//! Every value stands beside the certificates that the exact checker has accepted for it; what is only
+//! sampled is named `seen`.
+
+mod asked;
+mod nearest;
+mod shares;
+pub mod text;
+
+pub use asked::Question;
+pub use nearest::Nearest;
+pub use shares::{Share, Shares};
+
+use crate::exact::decimal::{rounded, Toward};
+use crate::exact::Exact;
+use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
+use crate::search::solver::extremes::{enclose, is_singular, Enclosed, NotEnclosed};
+use crate::search::solver::value::Bounded;
+use crate::search::solver::{sector, Verification};
+use crate::search::{Budget, Control, Steps};
+use asked::{asked, Asked};
+use num_rational::BigRational;
+use orthocert_checker::certificate::Verdict;
+use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
+use orthocert_kernel::problem::Problem;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// The answer.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Of the design's own requirements.
+    pub verdict: Outcome,
+    /// The design's title.
+    pub title: Option<String>,
+    /// The design file, as it was named; `None` for the built-in prototype.
+    pub design: Option<String>,
+    /// The unit of all lengths, as the design names it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<&'static str>,
+    /// The names of the workspace's coordinates, in the order of places.
+    pub coordinates: Vec<String>,
+    /// The counterexample of a refutation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub counterexample: Option<Counterexample>,
+    /// Why it is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided: Option<String>,
+    /// The requirement that is nearest to its limit, or violated most.
+    pub nearest: Option<Nearest>,
+    /// How far quantities go.
+    pub values: Vec<Value>,
+    /// What each tolerance adds to the inaccuracy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Shares>,
+    /// What was asked for, and why there is no value.
+    pub left_out: Vec<String>,
+    /// Whether it was interrupted: what was found before is told.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
+    /// Whether the machine has tolerances.
+    #[serde(skip)]
+    pub toleranced: bool,
+    /// Seconds from the start.
+    pub seconds: f64,
+}
+
+/// One end of a quantity.
+#[derive(Clone, Debug, Serialize)]
+pub struct Value {
+    /// The quantity's key.
+    pub quantity: String,
+    /// In words.
+    pub words: String,
+    /// The joint, counted from one; of all joints together, none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<usize>,
+    /// What it is for, in exact numbers.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub given: BTreeMap<String, Vec<String>>,
+    /// Its unit, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
+    /// "least" or "greatest".
+    pub end: &'static str,
+    /// The quantity never goes beyond this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certified: Option<Exact>,
+    /// The quantity somewhere goes as far as this, or farther; certified, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached: Option<Exact>,
+    /// The distance of the two, relative to the quantity's size, rounded up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<String>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_enclosed: Option<String>,
+}
+
+/// Where a quantity ends: beyond the first nothing, beyond the second something, both certified.
+#[derive(Clone, Debug)]
+struct End {
+    certified: BigRational,
+    reached: Option<BigRational>,
+    relative: Option<BigRational>,
+}
+
+impl From<Enclosed> for End {
+    fn from(found: Enclosed) -> Self {
+        let reached = found.refuted.is_some().then_some(found.inner);
+        End { certified: found.outer, reached, relative: Some(found.width) }
+    }
+}
+
+/// A question, and what became of it.
+struct Found {
+    asked: Asked,
+    /// The ends of [`Asked::ends`].
+    ends: Result<Vec<End>, NotEnclosed>,
+}
+
+/// Summarises a claim of which it is known whether it holds; `None` where its numbers exceed what can be
+/// shown.
+///
+/// Cancelled, it has what was found before.
+///
+/// # Errors
+/// If it is not well formed.
+pub fn summary(
+    claim: &MachineClaim,
+    verification: &Verification,
+    question: &Question,
+    budget: Budget,
+    started: Instant,
+    control: &mut Control<'_>,
+) -> Result<Option<Summary>, NotEnclosed> {
+    let problem = Problem::new(claim)?;
+    let Some(report) = Report::new(claim, verification, Duration::ZERO) else { return Ok(None) };
+    let certified = report.verdict == Outcome::Decided(Verdict::Certified);
+    let mut steps = Steps::default();
+    let (all, left_out) = asked(claim, &problem, question);
+    let shares = shares::deviations(claim);
+    let mut left = 1 + all.len() + shares;
+    let singular = match certified {
+        true => Ok(false),
+        false => steps.next(control, left, |control| is_singular(claim, budget, control)),
+    };
+    let singular = match singular {
+        Err(NotEnclosed::Cancelled) => false,
+        known => known?,
+    };
+    let mut found = Vec::new();
+    for asked in all {
+        left -= 1;
+        let ends = match &asked {
+            _ if singular => Err(NotEnclosed::Singular),
+            Asked::Known(_, value) => {
+                // Which the design's own certificate says.
+                let value = value.as_rational().filter(|_| certified).cloned();
+                value.ok_or(NotEnclosed::Undecided).map(|value| {
+                    let reached = Some(value.clone());
+                    let relative = Some(BigRational::from_integer(0.into()));
+                    vec![End { certified: value, reached, relative }]
+                })
+            }
+            _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
+            _ if is_over(budget) => Err(NotEnclosed::Undecided),
+            Asked::Extreme(extreme) => {
+                let found = steps.next(control, left, |control| {
+                    enclose(claim, extreme, &question.gap, budget, control)
+                });
+                found.map(|found| vec![End::from(found)])
+            }
+            Asked::Angle(leg) => {
+                let found = steps.next(control, left, |control| {
+                    sector::enclose(claim, *leg, &question.gap, budget, control)
+                });
+                found.map(|found| {
+                    let sides = found.certified.into_iter().zip(found.reached);
+                    let end = |(certified, reached)| {
+                        let relative = Some(found.width.clone());
+                        End { certified, reached, relative }
+                    };
+                    sides.map(end).collect()
+                })
+            }
+        };
+        if let Err(error @ NotEnclosed::Claim(_)) = ends {
+            return Err(error);
+        }
+        let ends = if certified { tightened(claim, &asked, ends) } else { ends };
+        found.push(Found { asked, ends });
+    }
+    let facts = Facts::new(claim, &problem);
+    let nearest = facts.filter(|_| !singular).and_then(|facts| {
+        nearest::nearest(claim, &problem, &facts, verification, &found, certified)
+    });
+    let accuracy = match singular || control.is_cancelled() {
+        true => None,
+        false => steps.next(control, 1, |control| {
+            shares::shares(claim, &question.gap, &found, budget, control)
+        })?,
+    };
+    let angular = asked::is_angular(&problem);
+    let toleranced = problem.tolerances().next().is_some();
+    Ok(Some(Summary {
+        verdict: report.verdict,
+        title: None,
+        design: None,
+        length_unit: None,
+        coordinates: report.coordinates,
+        counterexample: report.counterexample,
+        undecided: report.undecided.map(|remains| remains.reason),
+        nearest,
+        values: found.iter().flat_map(|found| found.values(angular)).collect(),
+        accuracy,
+        left_out,
+        interrupted: control.is_cancelled(),
+        toleranced,
+        seconds: started.elapsed().as_secs_f64(),
+    }))
+}
+
+/// With what the certificate of the design says where that is more.
+fn tightened(
+    claim: &MachineClaim,
+    asked: &Asked,
+    mut ends: Result<Vec<End>, NotEnclosed>,
+) -> Result<Vec<End>, NotEnclosed> {
+    let Asked::Extreme(extreme) = asked else { return ends };
+    let (one, leg) = (&extreme.bounded().requirement, extreme.bounded().leg.map(|leg| leg + 1));
+    let own = claim.require.iter().filter(|own| {
+        let same = own.quantity == one.quantity && own.given == one.given;
+        same && (own.leg.is_none() || own.leg == leg)
+    });
+    let bounded =
+        |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
+    let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
+        (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
+            exactly(bound)?.as_rational().cloned()
+        }
+        _ => None,
+    });
+    let Some(bound) = bounds.next() else { return ends };
+    match &mut ends {
+        Ok(ends) => {
+            for End { certified, .. } in ends {
+                if extreme.is_greatest() == (bound < *certified) {
+                    certified.clone_from(&bound);
+                }
+            }
+        }
+        Err(NotEnclosed::Undecided) => {
+            ends = Ok(vec![End { certified: bound, reached: None, relative: None }]);
+        }
+        Err(_) => {}
+    }
+    ends
+}
+
+/// Whether the time is up.
+fn is_over(budget: Budget) -> bool {
+    budget.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+}
+
+impl Found {
+    fn values(&self, angular: bool) -> Vec<Value> {
+        let ends = self.asked.ends();
+        let value = |(at, &end): (usize, &&'static str)| {
+            let empty = self.asked.value(end, angular);
+            match &self.ends {
+                Ok(found) => Value {
+                    certified: found.get(at).map(|end| Exact::Rational(end.certified.clone())),
+                    reached: found.get(at).and_then(|end| end.reached.clone()).map(Exact::Rational),
+                    relative: found
+                        .get(at)
+                        .and_then(|end| Some(rounded(end.relative.as_ref()?, 2, Toward::Above))),
+                    ..empty
+                },
+                Err(error) => Value { not_enclosed: Some(error.to_string()), ..empty },
+            }
+        };
+        ends.iter().enumerate().map(value).collect()
+    }
+}

@@ -1,0 +1,170 @@
+//! What each tolerance adds to the inaccuracy: the bound on `accuracy` with one tolerance alone.
+
+use super::{is_over, End, Found};
+use crate::exact::Exact;
+use crate::questions::tolerance::{around, parameters};
+use crate::report::parameter;
+use crate::search::solver::extremes::{enclose, Extreme, NotEnclosed};
+use crate::search::{Budget, Control, Steps};
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement, Turning};
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use serde::Serialize;
+
+/// Where the platform is with one deviation alone.
+#[derive(Clone, Debug, Serialize)]
+pub struct Share {
+    /// The leg, counted from one; none of a mechanism that its user gives, and of the joints' errors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leg: Option<usize>,
+    /// The parameter, or `joint_error`.
+    pub parameter: String,
+    /// With all else exact, the platform is nowhere farther off.
+    pub certified: Exact,
+    /// That in the sum of all rows.
+    pub share: f64,
+}
+
+/// All of them, greatest first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shares {
+    /// One for each deviation.
+    pub alone: Vec<Share>,
+    /// Their sum.
+    pub sum: Exact,
+    /// All at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub together: Option<Exact>,
+    /// Deviations for which no bound was found.
+    pub not_enclosed: Vec<String>,
+}
+
+/// The numbers of a mechanism.
+fn quantities(mechanism: &mut Mechanism) -> Vec<&mut Quantity> {
+    match mechanism {
+        Mechanism::Translational(legs)
+        | Mechanism::Planar(Turning { legs, .. })
+        | Mechanism::Spatial(Turning { legs, .. })
+        | Mechanism::Spherical(Turning { legs, .. }) => {
+            legs.iter_mut().flat_map(parameters).map(|(_, quantity)| quantity).collect()
+        }
+        Mechanism::Orthoglide { .. } => Vec::new(),
+        Mechanism::Formulas(formulas) => formulas.parameters.iter_mut().map(|(_, q)| q).collect(),
+    }
+}
+
+/// The same claim with the `kept`-th toleranced number as it is and all others in the middle of what they
+/// may be; `None` where a number becomes too large.
+fn alone(claim: &MachineClaim, kept: Option<usize>) -> Option<MachineClaim> {
+    let mut claim = claim.clone();
+    if let Mechanism::Translational(legs) = &mut claim.mechanism {
+        // These have no part in where the platform is.
+        for leg in legs {
+            if let Leg::Strut { base_axis, .. } = leg {
+                *base_axis = None;
+            }
+        }
+    }
+    let toleranced = |q: &&mut Quantity| matches!(q, Quantity::Between { .. });
+    let all = quantities(&mut claim.mechanism).into_iter().filter(toleranced);
+    for (at, quantity) in all.enumerate() {
+        if Some(at) != kept {
+            *quantity = around(quantity, &BigRational::zero())?;
+        }
+    }
+    claim.bodies.clear();
+    Some(claim)
+}
+
+/// The accuracy that is required; about a point, no position is off.
+fn bounded(claim: &MachineClaim) -> Option<&Requirement> {
+    let own = claim.require.iter().find(|own| own.quantity == "accuracy");
+    own.filter(|_| !matches!(claim.mechanism, Mechanism::Spherical(_)))
+}
+
+/// How many tolerances [`shares`] takes alone.
+pub fn deviations(claim: &MachineClaim) -> usize {
+    let mut own = claim.clone();
+    let all = quantities(&mut own.mechanism).into_iter();
+    let count = all.filter(|q| matches!(q, Quantity::Between { .. })).count();
+    bounded(claim).map_or(0, |_| count)
+}
+
+/// The shares of a claim that bounds its accuracy and has tolerances.
+///
+/// # Errors
+/// If a claim is not well formed.
+pub fn shares(
+    claim: &MachineClaim,
+    gap: &BigRational,
+    found: &[Found],
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Shares>, NotEnclosed> {
+    let (Some(own), count @ 1..) = (bounded(claim), deviations(claim)) else {
+        return Ok(None);
+    };
+    let exact_joints = {
+        let mut given = own.given.clone();
+        given.insert("joint_error".to_owned(), vec![Expression::integer(0)]);
+        Requirement { given, ..own.clone() }
+    };
+    let has_error = own
+        .given
+        .get("joint_error")
+        .is_some_and(|all| !all.iter().any(|x| x.rational().is_some_and(|x| x.is_zero())));
+    let mut rows = Vec::new();
+    let mut not_enclosed = Vec::new();
+    let deviations = (0..count).map(Some).chain(has_error.then_some(None));
+    let mut steps = Steps::default();
+    for (number, kept) in deviations.enumerate() {
+        let requirement = if kept.is_some() { exact_joints.clone() } else { own.clone() };
+        let one = alone(claim, kept).zip(Extreme::on(requirement, None));
+        let Some((mut one, extreme)) = one else { continue };
+        one.require = vec![extreme.bounded().requirement.clone()];
+        let name = match kept {
+            None => (None, "joint_error".to_owned()),
+            Some(_) => {
+                let problem = Problem::new(&one)?;
+                let place = problem.tolerances().next().map(|(place, ..)| parameter(place));
+                let Some(place) = place else { continue };
+                place
+            }
+        };
+        let bound = match is_over(budget) {
+            true => Err(NotEnclosed::Undecided),
+            false => steps.next(control, 1 + count - number.min(count), |control| {
+                enclose(&one, &extreme, gap, budget, control)
+            }),
+        };
+        match bound {
+            Ok(found) => rows.push((name, found.outer)),
+            Err(_) => not_enclosed.push(named(&name)),
+        }
+    }
+    rows.sort_by(|a, b| b.1.cmp(&a.1));
+    let sum: BigRational = rows.iter().map(|(_, bound)| bound).sum();
+    let share = |((leg, parameter), bound): ((Option<usize>, String), BigRational)| {
+        let share = if sum.is_zero() { None } else { (&bound / &sum).to_f64() };
+        let certified = Exact::Rational(bound);
+        Share { leg, parameter, certified, share: share.unwrap_or(0.0) }
+    };
+    let whole = found.iter().find(|found| found.asked.of().0 == "accuracy");
+    let together = whole.and_then(|found| match found.ends.as_deref() {
+        Ok([End { certified, .. }]) => Some(Exact::Rational(certified.clone())),
+        _ => None,
+    });
+    let alone = rows.into_iter().map(share).collect();
+    Ok(Some(Shares { alone, sum: Exact::Rational(sum.clone()), together, not_enclosed }))
+}
+
+/// A deviation in words.
+pub fn named((leg, parameter): &(Option<usize>, String)) -> String {
+    match (leg, parameter.as_str()) {
+        (_, "joint_error") => "joint errors".to_owned(),
+        (Some(leg), parameter) => format!("{parameter} of leg {leg}"),
+        (None, parameter) => parameter.to_owned(),
+    }
+}

@@ -1,0 +1,274 @@
+//! The widest tolerances with which a design is still certified.
+//!
+//! Every parameter of the named kinds lies within `t` of its nominal value, independently of all
+//! others, and everything else is as in the design. The claims are nested: a machine within a
+//! tolerance is within every wider one. So what is certified for one `t` holds for every smaller
+//! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
+//! a band, where the tolerances, which are not subdivided, are too wide to be proved.
+
+use crate::exact::arithmetic::apply;
+use crate::questions::frontier::{
+    frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+};
+use crate::search::solver::{self, number};
+use crate::search::{Budget, Control};
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
+use orthocert_kernel::number::{Expression, Operator};
+use std::fmt;
+use std::time::Instant;
+
+/// The first tolerance tried, relative to the greatest number of its unit.
+const START: f64 = 1e-3;
+/// Limits of the tolerances tried, relative to the same.
+const LIMITS: (f64, f64) = (1e-12, 10.0);
+/// Share of the gap that is spent on the refuted end.
+const REFUTED_SHARE: f64 = 0.25;
+/// A tolerance that is not yet beyond all machines, relative to the same, and the factor of the
+/// steps from there on.
+const LAST: f64 = 0.1;
+const SHORT: f64 = 1.25;
+/// The first step's factor where the tolerances just short of the refuted one are not proved.
+const UNPROVED: f64 = 1.3;
+
+/// A kind of parameter, which all legs that have it share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// The legs' lengths.
+    LegLength,
+    /// The coordinates of the anchors.
+    Anchor,
+    /// The components of the guides' directions, as they are written.
+    Direction,
+    /// The coordinates of the platform's offsets.
+    Platform,
+    /// The components of the motors' axes, as they are written.
+    Axis,
+    /// The components of the arms' reference directions, as they are written.
+    Reference,
+    /// The arms' lengths.
+    Arm,
+}
+
+/// How many legs a mechanism is given by.
+pub fn legs_of(mechanism: &Mechanism) -> usize {
+    legs(mechanism).len()
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 7] = [
+        Kind::LegLength,
+        Kind::Anchor,
+        Kind::Direction,
+        Kind::Platform,
+        Kind::Axis,
+        Kind::Reference,
+        Kind::Arm,
+    ];
+
+    /// Those that a mechanism has.
+    pub fn of(mechanism: &Mechanism) -> Vec<Kind> {
+        let mut legs = legs(mechanism).to_vec();
+        let there: Vec<Kind> = legs.iter_mut().flat_map(parameters).map(|(kind, _)| kind).collect();
+        Kind::ALL.into_iter().filter(|kind| there.contains(kind)).collect()
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::LegLength => "leg_length",
+            Kind::Anchor => "anchor",
+            Kind::Direction => "direction",
+            Kind::Platform => "platform",
+            Kind::Axis => "axis",
+            Kind::Reference => "reference",
+            Kind::Arm => "arm",
+        }
+    }
+
+    /// Whether its tolerance is one of a direction's components, and not a length.
+    pub fn is_direction(self) -> bool {
+        matches!(self, Kind::Direction | Kind::Axis | Kind::Reference)
+    }
+}
+
+/// The legs of a mechanism.
+fn legs(mechanism: &Mechanism) -> &[Leg] {
+    match mechanism {
+        Mechanism::Translational(legs)
+        | Mechanism::Planar(Turning { legs, .. })
+        | Mechanism::Spatial(Turning { legs, .. })
+        | Mechanism::Spherical(Turning { legs, .. }) => legs,
+        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
+    }
+}
+
+/// The parameters of a leg.
+pub(crate) fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
+    fn vector(kind: Kind, x: &mut Vector) -> impl Iterator<Item = (Kind, &mut Quantity)> {
+        x.iter_mut().map(move |x| (kind, x))
+    }
+    match leg {
+        Leg::Slider { direction, anchor, platform, length, .. } => {
+            let mut all = vec![(Kind::LegLength, length)];
+            all.extend(vector(Kind::Direction, direction));
+            all.extend(vector(Kind::Anchor, anchor));
+            all.extend(vector(Kind::Platform, platform));
+            all
+        }
+        Leg::Strut { anchor, platform, .. } => {
+            vector(Kind::Anchor, anchor).chain(vector(Kind::Platform, platform)).collect()
+        }
+        Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => {
+            let mut all = vec![(Kind::LegLength, length), (Kind::Arm, arm)];
+            all.extend(vector(Kind::Axis, axis));
+            all.extend(vector(Kind::Reference, reference));
+            all.extend(vector(Kind::Anchor, anchor));
+            all.extend(vector(Kind::Platform, platform));
+            all
+        }
+        Leg::Planar { direction } => vector(Kind::Direction, direction).collect(),
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What is widened, and how: every parameter of a kind by its weight times `t`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scheme {
+    /// The kinds, and their weights.
+    pub weights: Vec<(Kind, BigRational)>,
+    /// Of this leg alone, counted from zero; else of all.
+    pub leg: Option<usize>,
+}
+
+impl Scheme {
+    /// Every one of these kinds by `t`.
+    pub fn common(kinds: &[Kind]) -> Self {
+        let one = BigRational::from_integer(1.into());
+        Scheme { weights: kinds.iter().map(|&kind| (kind, one.clone())).collect(), leg: None }
+    }
+
+    /// The claim about every machine of which the named parameters lie within `t` times their
+    /// weight of their nominal values: the middle of what the design admits. `None` where the
+    /// numbers become too large.
+    pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> Option<MachineClaim> {
+        let mut widened = claim.clone();
+        let legs = match &mut widened.mechanism {
+            Mechanism::Translational(legs)
+            | Mechanism::Planar(Turning { legs, .. })
+            | Mechanism::Spatial(Turning { legs, .. })
+            | Mechanism::Spherical(Turning { legs, .. }) => legs,
+            Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => return None,
+        };
+        let wanted = |leg: usize| self.leg.is_none_or(|own| own == leg);
+        let legs = legs.iter_mut().enumerate().filter(|(leg, _)| wanted(*leg));
+        for (kind, quantity) in legs.flat_map(|(_, leg)| parameters(leg)) {
+            if let Some((_, weight)) = self.weights.iter().find(|(own, _)| *own == kind) {
+                *quantity = around(quantity, &(weight * t))?;
+            }
+        }
+        Some(widened)
+    }
+
+    /// The greatest number among the parameters that have the same unit as those named, which
+    /// measures tolerances: directions with directions, lengths with lengths.
+    fn scale(&self, claim: &MachineClaim) -> f64 {
+        let directions = self.weights.iter().all(|(kind, _)| kind.is_direction());
+        let mut legs = legs(&claim.mechanism).to_vec();
+        let all = legs.iter_mut().flat_map(parameters);
+        let same = all.filter(|(kind, _)| kind.is_direction() == directions);
+        let sizes = same.filter_map(|(_, q)| solver::approximate(q.ends()[1])).map(f64::abs);
+        let greatest = sizes.fold(0.0, f64::max);
+        if greatest > 0.0 {
+            greatest
+        } else {
+            1.0
+        }
+    }
+}
+
+/// `nominal - t` to `nominal + t`.
+pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
+    let nominal = match quantity {
+        Quantity::Exactly(x) => x.clone(),
+        Quantity::Between { min, max } => {
+            apply(Operator::Div, &apply(Operator::Add, min, max)?, &Expression::integer(2))?
+        }
+    };
+    if t.is_zero() {
+        return Some(Quantity::Exactly(nominal));
+    }
+    let end = |operator| apply(operator, &nominal, &number(t)?);
+    Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
+}
+
+/// Encloses the widest `t` for which the claim widened by `scheme` holds. The refuted end is found
+/// to a part of `gap`; the certified end is the widest that the search proves, to `gap`. Where there
+/// is a deadline, a third of the time is for the refuted end.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn widest(
+    claim: &MachineClaim,
+    scheme: &Scheme,
+    gap: f64,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    let scale = scheme.scale(claim);
+    let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
+    let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
+    let walk = Walk {
+        start: START * scale,
+        succeeds: Succeeds::Above,
+        factor: 10.0,
+        most: LARGEST_FACTOR,
+        improve: true,
+        limits: (LIMITS.0 * scale, LIMITS.1 * scale),
+        gap: gap * REFUTED_SHARE,
+        deadline: budget.deadline.map(|end| {
+            let now = Instant::now();
+            now + end.saturating_duration_since(now) / 3
+        }),
+    };
+    let refute = |walk: &Walk, control: &mut Control<'_>| {
+        frontier(walk, control, |t, control| match scheme.claim(claim, t) {
+            Some(claim) => refutation(&claim, control),
+            None => Ok(None),
+        })
+    };
+    let refuted = match control.part([0.0, 0.4], |control| refute(&walk, control))? {
+        // Beyond some tolerance there is no machine, a direction being zero: less far, then.
+        None => {
+            let short = Walk { start: LAST * scale, factor: SHORT, most: SHORT, ..walk };
+            control.part([0.4, 0.6], |control| refute(&short, control))?
+        }
+        found => found,
+    };
+    let walk = Walk { succeeds: Succeeds::Below, gap, deadline: budget.deadline, ..walk };
+    let walk = match refuted.as_ref().and_then(|(t, _)| t.to_f64()) {
+        // The best that can be hoped for; where it fails, down by steps that grow.
+        Some(t) => Walk {
+            start: t / (1.0 + gap * (1.0 - REFUTED_SHARE)),
+            factor: UNPROVED,
+            improve: false,
+            ..walk
+        },
+        None => walk,
+    };
+    let certified = control.part([0.6, 1.0], |control| {
+        frontier(&walk, control, |t, control| match scheme.claim(claim, t) {
+            Some(claim) => proof(&claim, budget, control),
+            None => Ok(None),
+        })
+    })?;
+    Ok(Bracket { certified, refuted })
+}

@@ -1,0 +1,275 @@
+//! A kernel claim in words and tables: machine, workspace, requirements, parameters.
+
+use crate::exact::decimal::significant;
+use crate::report::escape::xml;
+use crate::search::solver::approximate;
+use orthocert_kernel::claim::{
+    Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
+};
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::quantity::TABLE;
+use std::fmt::Write;
+
+/// Longest name of a requirement in a table.
+const SHORT: usize = 48;
+
+/// Longest text of a number that is shown whole; the statement has all of it.
+const LONGEST: usize = 24;
+
+/// A number as it is written, or, where that is long, about.
+pub fn number(x: &Expression) -> String {
+    let text = x.to_string();
+    match approximate(x) {
+        Some(value) if text.len() > LONGEST => format!("about {}", significant(value, 9)),
+        _ => text,
+    }
+}
+
+fn numbers(all: &[Expression]) -> String {
+    all.iter().map(number).collect::<Vec<_>>().join(", ")
+}
+
+fn range(min: &Expression, max: &Expression) -> String {
+    format!("[{}, {}]", number(min), number(max))
+}
+
+/// The legs of a mechanism; those of the paper follow from the claim, and users' are formulas.
+pub fn legs(mechanism: &Mechanism) -> &[Leg] {
+    match mechanism {
+        Mechanism::Translational(legs) => legs,
+        Mechanism::Planar(turning)
+        | Mechanism::Spatial(turning)
+        | Mechanism::Spherical(turning) => &turning.legs,
+        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
+    }
+}
+
+/// The machine, on a line.
+pub fn machine(claim: &MachineClaim) -> String {
+    let kind = match &claim.mechanism {
+        Mechanism::Translational(_) => "translational machine",
+        Mechanism::Orthoglide { .. } => {
+            return "The Orthoglide of the paper's Steps 1 to 3".to_owned()
+        }
+        Mechanism::Planar(_) if claim.orientation.is_some() => "planar machine",
+        Mechanism::Planar(_) => "machine that moves a point in the plane",
+        Mechanism::Spatial(_) => "machine with six degrees of freedom",
+        Mechanism::Spherical(_) => "spherical machine",
+        Mechanism::Formulas(formulas) => {
+            let tolerances = formulas.parameters.iter().filter(|(_, q)| is_interval(q)).count();
+            let (names, joints) = (formulas.coordinates.join(", "), formulas.joints.len());
+            let every = if tolerances == 0 { "The mechanism" } else { "Every mechanism" };
+            return format!(
+                "{every} with the coordinates {names} and the inverse kinematics of {joints} joints{}",
+                within(tolerances)
+            );
+        }
+    };
+    let legs = legs(&claim.mechanism);
+    let mut drives: Vec<(&str, usize)> = Vec::new();
+    for leg in legs {
+        let name = drive(leg);
+        match drives.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => drives.push((name, 1)),
+        }
+    }
+    let of = |(name, count): &(&str, usize)| match count {
+        1 => format!("one {name}"),
+        _ => format!("{} {name}s", count_in_words(*count)),
+    };
+    let drives: Vec<String> = drives.iter().map(of).collect();
+    let quantities = legs.iter().flat_map(Leg::quantities).flat_map(|(_, _, all)| all);
+    let tolerances = quantities.filter(|q| is_interval(q)).count();
+    let every = if tolerances == 0 { "A" } else { "Every" };
+    format!("{every} {kind} of {}{}", drives.join(" and "), within(tolerances))
+}
+
+fn within(tolerances: usize) -> String {
+    match tolerances {
+        0 => String::new(),
+        1 => " within one tolerance".to_owned(),
+        n => format!(" within {n} tolerances"),
+    }
+}
+
+fn is_interval(quantity: &Quantity) -> bool {
+    matches!(quantity, Quantity::Between { .. })
+}
+
+fn drive(leg: &Leg) -> &'static str {
+    match leg {
+        Leg::Slider { .. } => "slider",
+        Leg::Strut { .. } => "strut",
+        Leg::Arm { .. } => "arm",
+        Leg::Planar { .. } => "planar leg",
+    }
+}
+
+fn count_in_words(n: usize) -> String {
+    let small = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight"];
+    small.get(n).map_or_else(|| n.to_string(), ToString::to_string)
+}
+
+/// The workspace, on a line.
+pub fn workspace(claim: &MachineClaim) -> String {
+    let positions = match &claim.workspace {
+        Workspace::Cube { side } => Some(format!("the closed cube of side {}", number(side))),
+        Workspace::Box { min, max } if !min.is_empty() => {
+            let edges: Vec<String> =
+                min.iter().zip(max).map(|(min, max)| range(min, max)).collect();
+            let what = match edges.len() {
+                1 => "the interval",
+                2 => "the rectangle",
+                _ => "the box",
+            };
+            Some(format!("{what} {}", edges.join(" \u{d7} ")))
+        }
+        Workspace::Box { .. } => None,
+        Workspace::Cylinder { center, radius, z: [low, high] } => Some(format!(
+            "the cylinder of radius {} about ({}), {} \u{2264} z \u{2264} {}",
+            number(radius),
+            numbers(center),
+            number(low),
+            number(high)
+        )),
+    };
+    let orientations = claim.orientation.as_ref().map(|orientation| match orientation {
+        Orientation::Angle(angle) => format!("turned by at most {}\u{b0} about any axis", number(angle)),
+        Orientation::Tilt { tilt, torsion } => format!(
+            "tilted by at most {}\u{b0} in any direction, with a torsion of at most {}\u{b0} either way",
+            number(tilt),
+            number(torsion)
+        ),
+        Orientation::RollPitchYaw { roll, pitch, yaw } => {
+            let [roll, pitch, yaw] = [roll, pitch, yaw].map(|[min, max]| range(min, max));
+            format!("roll in {roll}, pitch in {pitch}, yaw in {yaw}, in degrees")
+        }
+        Orientation::Range([min, max]) => {
+            format!("turned by an angle in {}, in degrees", range(min, max))
+        }
+    });
+    [positions, orientations].into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// What is bounded, in words: the quantity, its symbol, the leg and what it is for.
+pub fn quantity(requirement: &Requirement) -> String {
+    let known = TABLE.iter().find(|known| known.key == requirement.quantity);
+    let mut out = match known {
+        Some(known) => format!("{}: {}", known.words, known.symbol),
+        None => requirement.quantity.clone(),
+    };
+    if let Some(leg) = requirement.leg {
+        let _ = write!(out, ", leg {leg}");
+    }
+    for (name, given) in &requirement.given {
+        let _ = write!(out, ", {name} = {}", numbers(given));
+    }
+    out
+}
+
+/// The same where it is short, else by its key.
+pub fn short(requirement: &Requirement) -> String {
+    let words = quantity(requirement);
+    if words.chars().count() <= SHORT {
+        return words;
+    }
+    let mut out = requirement.quantity.replace('_', " ");
+    for (name, given) in &requirement.given {
+        let _ = write!(out, ", {} = {}", name.replace('_', " "), numbers(given));
+    }
+    out
+}
+
+/// The bound, in words.
+pub fn bound(requirement: &Requirement) -> String {
+    match &requirement.bound {
+        Bound::Min(bound) => format!("at least {}", number(bound)),
+        Bound::Max(bound) => format!("at most {}", number(bound)),
+        Bound::Within([min, max]) => format!("from {} to {}", number(min), number(max)),
+        Bound::Holds => "holds".to_owned(),
+    }
+}
+
+/// The requirement as a formula: `psi_i <= 2`.
+pub fn formula(requirement: &Requirement) -> String {
+    let known = TABLE.iter().find(|known| known.key == requirement.quantity);
+    let symbol = known.map_or(requirement.quantity.as_str(), |known| known.symbol);
+    let of = requirement.leg.map_or(String::new(), |leg| format!(", leg {leg}"));
+    let text = match &requirement.bound {
+        Bound::Min(bound) => format!("{symbol} \u{2265} {}", number(bound)),
+        Bound::Max(bound) => format!("{symbol} \u{2264} {}", number(bound)),
+        Bound::Within([min, max]) => {
+            format!("{} \u{2264} {symbol} \u{2264} {}", number(min), number(max))
+        }
+        Bound::Holds => requirement.quantity.clone(),
+    };
+    text + &of
+}
+
+/// The machine's numbers, exactly.
+pub fn parameters(claim: &MachineClaim) -> String {
+    match &claim.mechanism {
+        Mechanism::Formulas(formulas) => {
+            let rows = formulas.parameters.iter().map(|(name, q)| (name.clone(), vec![value(q)]));
+            table(&["value".to_owned()], &rows.collect::<Vec<_>>())
+        }
+        mechanism => of_legs(legs(mechanism)),
+    }
+}
+
+fn of_legs(legs: &[Leg]) -> String {
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+    let mut put = |name: &str, leg: usize, text: String| {
+        let at = rows.iter().position(|(known, _)| known == name).unwrap_or_else(|| {
+            rows.push((name.to_owned(), vec![String::new(); legs.len()]));
+            rows.len() - 1
+        });
+        rows[at].1[leg] = text;
+    };
+    for (i, leg) in legs.iter().enumerate() {
+        put("drive", i, drive(leg).to_owned());
+        for (key, _, quantities) in leg.quantities() {
+            put(key, i, quantities.iter().map(value).collect::<Vec<_>>().join(", "));
+        }
+        if let Leg::Slider { mode, .. } | Leg::Arm { mode, .. } = leg {
+            put("mode", i, if mode.as_integer() > 0 { "+" } else { "\u{2212}" }.to_owned());
+        }
+    }
+    let heads: Vec<String> = (1..=legs.len()).map(|i| format!("leg {i}")).collect();
+    table(&heads, &rows)
+}
+
+fn table(heads: &[String], rows: &[(String, Vec<String>)]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut out = "<div class=\"table\"><table><thead><tr><th>parameter</th>".to_owned();
+    for head in heads {
+        let _ = write!(out, "<th>{head}</th>");
+    }
+    out.push_str("</tr></thead><tbody>");
+    for (name, values) in rows {
+        let _ = write!(out, "<tr><td>{}</td>", xml(name));
+        for value in values {
+            let _ = write!(out, "<td>{}</td>", xml(value));
+        }
+        out.push_str("</tr>");
+    }
+    out + "</tbody></table></div>"
+}
+
+fn value(quantity: &Quantity) -> String {
+    match quantity {
+        Quantity::Exactly(x) => number(x),
+        Quantity::Between { min, max } => format!("{} to {}", number(min), number(max)),
+    }
+}
+
+/// The drives that a claim's legs have, as rules of their kinematics name them.
+pub fn drives(claim: &MachineClaim) -> Vec<&'static str> {
+    match &claim.mechanism {
+        Mechanism::Orthoglide { .. } => vec!["slider"],
+        mechanism => legs(mechanism).iter().map(drive).collect(),
+    }
+}

@@ -1,0 +1,216 @@
+//! Drawing: views of space, and the parts of SVG that the figures are made of.
+//!
+//! Figures are styled by classes (`figure.css`), so that a page can show them light or dark and a
+//! file of its own can carry its style.
+
+use super::legs::{dot, Point};
+use crate::report::escape::xml;
+use std::fmt::Write;
+
+/// The style of all figures.
+const STYLE: &str = include_str!("figure.css");
+/// The colours by name, as on a light page; `page.css` has them too, and the dark ones.
+const LIGHT: [(&str, &str); 8] = [
+    ("--ink", "#1b2330"),
+    ("--soft", "#5b6675"),
+    ("--line", "#c4ccd6"),
+    ("--paper", "#ffffff"),
+    ("--accent", "#0b5cad"),
+    ("--tint", "#dbe8f6"),
+    ("--strong", "#b0390e"),
+    ("--hatch", "#8b95a3"),
+];
+
+/// A parallel view.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    right: Point,
+    up: Point,
+    /// From the scene to the viewer.
+    pub toward: Point,
+}
+
+impl View {
+    /// The view from an azimuth (about z, from x) and an elevation, in degrees.
+    pub fn from(azimuth: f64, elevation: f64) -> Self {
+        let ((sa, ca), (se, ce)) =
+            (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
+        View { right: [-sa, ca, 0.0], up: [-ca * se, -sa * se, ce], toward: [ca * ce, sa * ce, se] }
+    }
+
+    /// Where a point is seen: to the right and down.
+    pub fn seen(&self, p: Point) -> [f64; 2] {
+        [dot(self.right, p), -dot(self.up, p)]
+    }
+}
+
+/// A view scaled and moved into a rectangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Fitted {
+    view: View,
+    scale: f64,
+    shift: [f64; 2],
+}
+
+impl Fitted {
+    /// The view in which all `points` are within a `width` by `height` rectangle at `corner`.
+    pub fn new(view: View, points: &[Point], corner: [f64; 2], size: [f64; 2]) -> Self {
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        for p in points {
+            let seen = view.seen(*p);
+            for k in 0..2 {
+                low[k] = low[k].min(seen[k]);
+                high[k] = high[k].max(seen[k]);
+            }
+        }
+        let room = |k: usize| size[k] / (high[k] - low[k]).max(f64::MIN_POSITIVE);
+        let scale = room(0).min(room(1));
+        let shift = [0, 1].map(|k| corner[k] + size[k] / 2.0 - scale * (low[k] + high[k]) / 2.0);
+        Fitted { view, scale, shift }
+    }
+
+    /// Where a point is drawn.
+    pub fn at(&self, p: Point) -> [f64; 2] {
+        let seen = self.view.seen(p);
+        [0, 1].map(|k| self.scale * seen[k] + self.shift[k])
+    }
+}
+
+/// A picture: the content of an `svg` element.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Name of the file and of the element's class.
+    pub name: String,
+    /// What it shows, for those who do not see it.
+    pub title: String,
+    /// Width and height in its own units.
+    pub size: [f64; 2],
+    /// Attributes that scripts go by.
+    pub attributes: String,
+    /// The elements.
+    pub content: String,
+}
+
+impl Picture {
+    /// The element within a page.
+    pub fn inline(&self) -> String {
+        format!("<svg {}>{}</svg>\n", self.opening(), self.body())
+    }
+
+    /// A file of its own.
+    pub fn file(&self) -> String {
+        let opening = self.opening();
+        let style = LIGHT.iter().fold(STYLE.to_owned(), |style, (name, colour)| {
+            style.replace(&format!("var({name})"), colour)
+        });
+        let [width, height] = self.size;
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             width=\"{width}\" height=\"{height}\" {opening}><style>\n{style}</style>\n\
+             <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>{}</svg>\n",
+            self.body()
+        )
+    }
+
+    fn opening(&self) -> String {
+        let [width, height] = self.size;
+        let Picture { name, attributes, .. } = self;
+        format!(
+            "class=\"figure {name}\" viewBox=\"0 0 {width} {height}\" role=\"img\" {attributes}"
+        )
+    }
+
+    fn body(&self) -> String {
+        format!("<title>{}</title>{}", xml(&self.title), self.content)
+    }
+}
+
+/// A list of elements.
+#[derive(Clone, Debug, Default)]
+pub struct Elements(pub String);
+
+impl Elements {
+    /// An element as it is written.
+    pub fn raw(&mut self, element: &str) {
+        self.0.push_str(element);
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, class: &str, a: [f64; 2], b: [f64; 2]) {
+        let ([x1, y1], [x2, y2]) = (a, b);
+        let _ = write!(
+            self.0,
+            "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
+        );
+    }
+
+    /// Straight pieces through points; closed if `closed`.
+    pub fn path(&mut self, class: &str, points: &[[f64; 2]], closed: bool) {
+        let d = path_data(points, closed);
+        let _ = write!(self.0, "<path class=\"{class}\" d=\"{d}\"/>");
+    }
+
+    /// A dot.
+    pub fn dot(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
+        let _ = write!(
+            self.0,
+            "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\"/>"
+        );
+    }
+
+    /// Text at a point; `class` tells its anchor.
+    pub fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        let text = xml(text);
+        let _ = write!(self.0, "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>");
+    }
+}
+
+impl Elements {
+    /// A text from below upward, its middle at a point.
+    pub fn upright(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        let text = xml(text);
+        let turn = format!("translate({x:.1} {y:.1}) rotate(-90)");
+        let _ = write!(self.0, "<text class=\"{class}\" transform=\"{turn}\">{text}</text>");
+    }
+}
+
+/// The `d` of a path through points.
+pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
+    let mut d = String::with_capacity(points.len() * 12);
+    for (i, [x, y]) in points.iter().enumerate() {
+        let _ = write!(d, "{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" });
+    }
+    if closed {
+        d.push('Z');
+    }
+    d
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_colour_of_the_figures_is_known_on_their_own_and_on_the_page() {
+        let page = include_str!("page.css");
+        let mut rest = STYLE;
+        while let Some((_, after)) = rest.split_once("var(") {
+            let (name, after) = after.split_once(')').unwrap();
+            assert!(LIGHT.iter().any(|(known, _)| *known == name), "{name}");
+            rest = after;
+        }
+        for (name, colour) in LIGHT {
+            assert!(page.contains(&format!("{name}: {colour};")), "{name}");
+            assert_eq!(page.matches(&format!("{name}: ")).count(), 3, "{name}: light, dark, dark");
+        }
+    }
+
+    #[test]
+    fn x_is_seen_to_the_left_and_z_up_from_the_first_octant() {
+        let view = View::from(45.0, 30.0);
+        let [[x, _], [y, _], [_, z]] =
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|p| view.seen(p));
+        assert!(x < 0.0 && y > 0.0 && z < 0.0);
+        assert!((dot(view.toward, view.toward) - 1.0).abs() < 1e-12);
+    }
+}

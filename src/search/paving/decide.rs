@@ -1,0 +1,614 @@
+//! What becomes of one cell: proposed in doubles, confirmed in exact arithmetic.
+//!
+//! What a test bounds is looked at to first order: its value at the cell's centre, and by how much each
+//! coordinate moves it. Where that decides the test, the exact judge is asked; where it does not, the
+//! cell is split along the coordinate that moves most what is closest to failing.
+
+use super::flat::Flat;
+use super::others::ForAll;
+use crate::search::paving::spectrum::Spectrum;
+use crate::search::solver::doubles::{magnitude, middle, Pair, Single};
+use crate::search::solver::evidence::{Over, Prover};
+use crate::search::solver::refute::directions;
+use crate::search::solver::sample::{Place, Quality, Sampler};
+use orthocert_kernel::certificate::Failure;
+use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::paving::{
+    bit, discharged, is_mirrored, Axis, Cell, Item, Judge, Kind, Outer, Rejected, Step, Subject,
+    MAX_AXIS_LEVEL,
+};
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::Row;
+
+/// How much a test has to hold by on a cell that is split, for its step to be tried there: in what
+/// the cell moves its value by.
+const ROOM: f64 = 1.5;
+/// Obligations of own steps, and of own failures, that have a byte.
+const MOST_STEPS: usize = 16;
+pub(super) const MOST_FAILURES: usize = 64;
+
+/// Decides cells of one claim.
+pub struct Decider<'a> {
+    subject: &'a Subject,
+    judge: Judge<'a>,
+    prover: Prover<'a>,
+    sampler: Sampler<'a>,
+    /// The formulas of cells whose tests all have a [`Margin`].
+    flat: Option<Flat>,
+    /// Of some coordinates, for all values of the others.
+    for_all: Option<ForAll<'a>>,
+    /// Of a claim about machines within tolerances, evidence may have to be given.
+    has_tolerances: bool,
+    /// So it may of that, and has to be where tests have none of their own.
+    gives_evidence: bool,
+    /// Undecided cells are cut.
+    cuts: bool,
+}
+
+/// What becomes of a cell.
+#[derive(Clone, Debug)]
+pub struct Decision {
+    /// What is shown of all of it.
+    pub steps: Vec<Step>,
+    /// What it is.
+    pub fate: Fate,
+    /// The nodes of its parts, if it is in parts.
+    pub parts: Vec<Item>,
+}
+
+impl Decision {
+    pub(super) fn closed(kind: Kind) -> Self {
+        Decision { steps: Vec::new(), fate: Fate::Closed(kind), parts: Vec::new() }
+    }
+}
+
+/// What a cell is.
+#[derive(Clone, Debug)]
+pub enum Fate {
+    /// Decided.
+    Closed(Kind),
+    /// Undecided; to be split along this axis, if it may be split.
+    Open(Option<Axis>),
+}
+
+/// A value that is not negative where a test holds: at the centre, by how much each coordinate moves it to
+/// first order, and, about, beyond that.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Margin {
+    pub centre: f64,
+    pub along: [f64; 3],
+    pub beyond: [f64; 3],
+}
+
+impl Margin {
+    fn reach(&self) -> f64 {
+        self.along.iter().map(|x| x.abs()).sum()
+    }
+
+    /// How close it is to failing, relative to what the cell moves it by.
+    fn room(&self) -> f64 {
+        self.centre / self.reach().max(f64::MIN_POSITIVE)
+    }
+
+    /// What is gained by halving each coordinate.
+    fn weights(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
+    }
+
+    fn times(self, factor: f64) -> Self {
+        let times = |all: [f64; 3]| all.map(|x| x * factor);
+        let Margin { centre, along, beyond } = self;
+        let beyond = times(beyond).map(f64::abs);
+        Margin { centre: centre * factor, along: times(along), beyond }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
+        let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
+        Margin { centre: self.centre + other.centre, along, beyond }
+    }
+}
+
+/// Formulas over a cell of up to three coordinates, in doubles.
+pub(super) trait View {
+    /// The coordinates.
+    fn m(&self) -> usize;
+    /// At the centre.
+    fn centre(&self, f: Formula) -> Option<f64>;
+    /// On the cell.
+    fn range(&self, f: Formula) -> Option<Pair>;
+    /// The slopes, times the cell's half-widths.
+    fn slopes(&self, f: Formula) -> Option<[Pair; 3]>;
+}
+
+impl View for Over<'_> {
+    fn m(&self) -> usize {
+        Over::m(self)
+    }
+
+    fn centre(&self, f: Formula) -> Option<f64> {
+        Over::centre(self, f)
+    }
+
+    fn range(&self, f: Formula) -> Option<Pair> {
+        self.formulas.of(f).map(|slope| slope.range)
+    }
+
+    fn slopes(&self, f: Formula) -> Option<[Pair; 3]> {
+        self.formulas.of(f).map(|slope| std::array::from_fn(|k| slope.slopes[k]))
+    }
+}
+
+/// `M` at a cell's centre, and what its rows are made of.
+struct Local<'a> {
+    rows: Vec<(&'a Row<Formula>, [f64; 3], f64)>,
+    spectrum: Spectrum,
+}
+
+impl<'a> Local<'a> {
+    /// `None` unless all is defined there.
+    fn of(
+        rows: impl Iterator<Item = &'a Row<Formula>>,
+        centre: impl Fn(Formula) -> Option<f64>,
+    ) -> Option<Self> {
+        let mut own = Vec::with_capacity(6);
+        let (mut gram, mut m) = ([0.0; 6], 0);
+        for row in rows {
+            let d = centre(row.d).filter(|d| *d > 0.0)?;
+            let mut a = [0.0; 3];
+            m = row.a.len();
+            for (a, &f) in a.iter_mut().zip(&row.a) {
+                *a = centre(f)?;
+            }
+            let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+            for (sum, (j, k)) in gram.iter_mut().zip(pairs) {
+                *sum += a[j] * a[k] / d;
+            }
+            own.push((row, a, d));
+        }
+        // Of fewer than three coordinates, the others take nothing away and add nothing: the mean of
+        // the eigenvalues is neither the least nor the greatest alone.
+        let mean = gram.iter().take(m).sum::<f64>() / m as f64;
+        gram[m.min(3)..3].fill(mean);
+        gram.iter()
+            .all(|x| x.is_finite())
+            .then(|| Local { rows: own, spectrum: Spectrum::of(gram) })
+    }
+
+    /// `|M v|^2/|v|^2`.
+    fn stretched(&self, over: &(impl View + ?Sized), v: [f64; 3]) -> Margin {
+        let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
+        // The middles of slopes, and by how much they vary over the cell.
+        let slopes = |f: Formula| {
+            let known = over.slopes(f).unwrap_or_default();
+            (known.map(|x| middle(&x)), known.map(|x| 0.5 * (x.1 - x.0)))
+        };
+        let mut sum = Margin::default();
+        for (row, a, d) in &self.rows {
+            let product = dot(a);
+            sum.centre += product * product / d;
+            let (mut moved, mut varied) = ([0.0; 3], [0.0; 3]);
+            for (&f, v) in row.a.iter().zip(v) {
+                let (middles, vary) = slopes(f);
+                for k in 0..3 {
+                    moved[k] += middles[k] * v;
+                    varied[k] += vary[k] * v.abs();
+                }
+            }
+            let (of_d, d_varies) = slopes(row.d);
+            for k in 0..over.m() {
+                let moved = moved[k] - 0.5 * product * of_d[k] / d;
+                sum.along[k] += 2.0 * product * moved / d;
+                let varied = 2.0 * varied[k] + product.abs() * d_varies[k] / d;
+                sum.beyond[k] += (product.abs() * varied + moved * moved) / d;
+            }
+        }
+        sum.times(dot(&v).recip())
+    }
+}
+
+impl<'a> Decider<'a> {
+    /// For the pavings about a subject.
+    ///
+    /// # Errors
+    /// If one of its numbers cannot be enclosed.
+    pub fn new(subject: &'a Subject) -> Result<Self, Rejected> {
+        let (claim, problem) = (&subject.header.claim, &subject.problem);
+        let has_tolerances = problem.tolerances().next().is_some();
+        let is_general = problem.obligations.iter().any(|own| is_general(&own.test));
+        let (prover, gives_evidence) = (Prover::new(problem)?, has_tolerances || is_general);
+        Ok(Decider {
+            subject,
+            judge: Judge::new(subject)?,
+            flat: Some(&prover).filter(|_| !gives_evidence).and_then(Flat::new),
+            prover,
+            sampler: Sampler::new(claim, problem)?,
+            for_all: ForAll::new(subject),
+            has_tolerances,
+            gives_evidence,
+            cuts: false,
+        })
+    }
+
+    /// The same that cuts undecided cells, or not.
+    pub fn with_cuts(self, cuts: bool) -> Self {
+        Decider { cuts, ..self }
+    }
+
+    /// Whether undecided cells are cut.
+    pub fn cuts(&self) -> bool {
+        self.cuts && self.for_all.is_none()
+    }
+
+    /// The exact judge of every decision.
+    pub fn judge(&self) -> &Judge<'a> {
+        &self.judge
+    }
+
+    /// Whether cells stand for their images under permutations.
+    pub fn is_symmetric(&self) -> bool {
+        self.subject.header.symmetry.is_some()
+    }
+
+    /// Whether some coordinates are paved, for all values of the others.
+    pub fn is_for_all(&self) -> bool {
+        self.for_all.is_some()
+    }
+
+    /// The share of the box that a cell stands for.
+    pub fn share(&self, cell: &Cell) -> u128 {
+        self.subject.header.share(cell)
+    }
+
+    fn test(&self, obligation: usize) -> &'a Test {
+        &self.subject.problem.obligations[obligation].test
+    }
+
+    /// Decides a cell on which `inherited` is discharged already.
+    pub fn decide(&self, cell: &Cell, inherited: u128) -> Decision {
+        if self.is_symmetric() && is_mirrored(cell) {
+            return Decision::closed(Kind::Mirrored);
+        }
+        if let Some(for_all) = &self.for_all {
+            return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
+        }
+        let ends = self.ends(cell);
+        let flat = self.flat.as_ref().and_then(|flat| flat.over(&ends));
+        if let Some(decision) = flat.and_then(|over| self.decided_there(cell, inherited, &over)) {
+            return decision;
+        }
+        let place = ends.into_iter().take(self.prover.root.len()).collect();
+        let decided = |over: &Over<'_>| self.decided(cell, inherited, over);
+        match self.gives_evidence {
+            true => self.prover.on(&place, decided),
+            false => self.prover.on_own(&place, decided),
+        }
+    }
+
+    /// The ends of a cell along each axis.
+    fn ends(&self, cell: &Cell) -> [Pair; 3] {
+        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
+            (edge.index + end) as f64 / (1u64 << edge.level) as f64
+        };
+        let mut ends = [(0.0, 0.0); 3];
+        for ((own, (lo, hi)), edge) in ends.iter_mut().zip(&self.prover.root).zip(&cell.edges) {
+            let at = |u: f64| lo * (1.0 - u) + hi * u;
+            *own = (at(part(edge, 0)), at(part(edge, 1)));
+        }
+        ends
+    }
+
+    /// The coordinates.
+    pub(super) fn dimension(&self) -> usize {
+        self.prover.root.len()
+    }
+
+    /// The obligation that is nearest to failing on a cell on which `inherited` is discharged; `None` where
+    /// not all that are open have margins, and of cells that may not be cut.
+    pub(super) fn nearest(&self, cell: &Cell, inherited: u128) -> Option<(usize, Margin)> {
+        let (open, ends) = (self.open(inherited), self.ends(cell));
+        let least = |over: &dyn View| {
+            let local = self.local(over)?;
+            let margins = open.iter().map(|&o| Some((o, self.margin(over, &local, self.test(o))?)));
+            let margins: Vec<(usize, Margin)> = margins.collect::<Option<_>>()?;
+            margins.into_iter().min_by(|(_, a), (_, b)| a.room().total_cmp(&b.room()))
+        };
+        if !self.cuts || !self.subject.header.may_cut(cell) {
+            return None;
+        }
+        match self.flat.as_ref().and_then(|flat| flat.over(&ends)) {
+            Some(over) => least(&over),
+            None => {
+                let place = ends.into_iter().take(self.dimension()).collect();
+                self.prover.on_own(&place, |over| least(over))
+            }
+        }
+    }
+
+    /// Decides a cell on which all is defined and every open test has a margin; another is not.
+    fn decided_there(
+        &self,
+        cell: &Cell,
+        inherited: u128,
+        over: &(impl View + ?Sized),
+    ) -> Option<Decision> {
+        let open = self.open(inherited);
+        let local = self.local(over)?;
+        let margins = open.iter().map(|&o| self.margin(over, &local, self.test(o)).map(Some));
+        let margins: Vec<_> = margins.collect::<Option<_>>()?;
+        Some(self.with_margins(cell, inherited, (&open, &margins), None))
+    }
+
+    fn decided(&self, cell: &Cell, inherited: u128, over: &Over<'_>) -> Decision {
+        let open = self.open(inherited);
+        let undefined = over.undefined();
+        let local = match self.local(over) {
+            Some(local) if undefined.is_empty() => local,
+            _ => return self.hardly_reached(cell, over, &open, undefined),
+        };
+        let margins: Vec<Option<Margin>> =
+            open.iter().map(|&o| self.margin(over, &local, self.test(o))).collect();
+        self.with_margins(cell, inherited, (&open, &margins), Some(over))
+    }
+
+    /// The obligations that are not discharged.
+    fn open(&self, inherited: u128) -> Vec<usize> {
+        let open = |o: &usize| inherited & bit(*o) == 0;
+        (0..self.subject.problem.obligations.len()).filter(open).collect()
+    }
+
+    /// `M` at the centre, if every leg certainly reaches the cell.
+    fn local(&self, over: &(impl View + ?Sized)) -> Option<Local<'a>> {
+        let legs = || self.subject.problem.legs.iter().map(|leg| &leg.row);
+        let reaches = |row: &Row<Formula>| over.range(row.d).is_some_and(|d| d.0 > 0.0);
+        legs().all(reaches).then(|| Local::of(legs(), |f| over.centre(f)))?
+    }
+
+    fn with_margins(
+        &self,
+        cell: &Cell,
+        inherited: u128,
+        (open, margins): (&[usize], &[Option<Margin>]),
+        over: Option<&Over<'_>>,
+    ) -> Decision {
+        let evidence = |o: usize| over.and_then(|over| over.evidence(self.test(o)));
+        for (&o, margin) in open.iter().zip(margins) {
+            let outer = match margin {
+                Some(margin) if margin.centre + margin.reach() < 0.0 => self.fails(cell, o),
+                Some(_) => None,
+                None => self.fails_elsewise(cell, o),
+            };
+            if let Some(outer) = outer {
+                return Decision::closed(Kind::Outer(outer));
+            }
+        }
+        // What is closest to failing, or fails at the centre.
+        let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
+        if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
+            return self.split(cell, Vec::new(), self.weights(&worst, margins));
+        }
+        let (mut steps, mut left) = (Vec::new(), Vec::new());
+        for (&o, margin) in open.iter().zip(margins) {
+            match margin {
+                Some(margin) if margin.room() > 1.0 => {}
+                Some(_) => left.push(o),
+                None => match evidence(o) {
+                    Some(evidence) => steps.push(Step(o, Some(evidence))),
+                    None => left.push(o),
+                },
+            }
+        }
+        let confirms = |steps: &[Step], kind: Kind| {
+            self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
+        };
+        if left.is_empty() && confirms(&steps, Kind::Inner) {
+            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
+        }
+        let is_split = || Kind::Split(Axis::X);
+        steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
+        let rooms =
+            open.iter().zip(margins).filter_map(|(&o, margin)| Some((o, (*margin)?.room())));
+        let own = rooms.filter(|(_, room)| *room > 1.0);
+        if self.has_tolerances {
+            for (o, _) in own {
+                let given = evidence(o).map(|evidence| Step(o, Some(evidence)));
+                let step = [Some(Step(o, None)).filter(|_| o < MOST_STEPS), given];
+                let mut step = step.into_iter().flatten();
+                steps.extend(step.find(|step| confirms(std::slice::from_ref(step), is_split())));
+            }
+        } else {
+            let roomy = own.filter(|(o, room)| *o < MOST_STEPS && *room > ROOM);
+            let own = roomy.map(|(o, _)| Step(o, None));
+            steps.extend(own.filter(|step| confirms(std::slice::from_ref(step), is_split())));
+        }
+        let done = discharged(inherited, &steps);
+        if done == self.subject.all() {
+            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
+        }
+        let along = match worst {
+            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => {
+                self.weights(&worst, margins)
+            }
+            _ => padded(over.map_or_else(Vec::new, |over| over.weights(&left))),
+        };
+        self.split(cell, steps, along)
+    }
+
+    /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
+    /// cut, the first order has no part. Where more than one obligation ends in the cell, it is not cut.
+    fn weights(&self, worst: &Margin, margins: &[Option<Margin>]) -> [f64; 3] {
+        let ends = |margin: &&Margin| margin.room().abs() < 1.0;
+        let is_cut = self.cuts() && margins.iter().flatten().filter(ends).count() == 1;
+        match is_cut && worst.beyond.iter().any(|x| *x > 0.0) {
+            true => worst.beyond,
+            false => worst.weights(),
+        }
+    }
+
+    fn split(&self, cell: &Cell, steps: Vec<Step>, along: [f64; 3]) -> Decision {
+        let axes = Axis::ALL.into_iter().take(self.prover.root.len());
+        let axis = axes.filter(|axis| cell.edges[axis.index()].level < MAX_AXIS_LEVEL);
+        let axis = axis.max_by(|&a, &b| {
+            let weight = |axis: Axis| along[axis.index()].abs();
+            // The first of equals.
+            weight(a).total_cmp(&weight(b)).then(b.cmp(&a))
+        });
+        Decision { steps, fate: Fate::Open(axis), parts: Vec::new() }
+    }
+
+    /// The failure of an obligation in its own directions, where the judge confirms it.
+    fn fails(&self, cell: &Cell, obligation: usize) -> Option<Outer> {
+        let outer = Outer::Own(obligation);
+        let item = Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) };
+        (obligation < MOST_FAILURES && self.judge.confirms(cell, 0, &item)).then_some(outer)
+    }
+
+    /// The same of a test that has no directions of its own, by those of the cell's centre.
+    fn fails_elsewise(&self, cell: &Cell, obligation: usize) -> Option<Outer> {
+        let at = self.sampler.at(&self.centre(cell));
+        if self.sampler.margin(Quality::Obligation(obligation), &at) >= 0.0 {
+            return None;
+        }
+        if let Test::Conditioning(_) = self.test(obligation) {
+            return self.fails(cell, obligation);
+        }
+        let test = self.test(obligation);
+        let all = directions(test, &self.subject.problem, &self.sampler, &at);
+        let of = |directions| Outer::Given(Failure::Obligation(obligation, directions));
+        all.into_iter().map(of).find(|outer| {
+            let item = Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) };
+            self.judge.confirms(cell, 0, &item)
+        })
+    }
+
+    fn centre(&self, cell: &Cell) -> Place {
+        let u = cell.edges.iter().take(self.prover.root.len());
+        let u = u.map(|edge| (edge.index as f64 + 0.5) * (-f64::from(edge.level)).exp2());
+        Place { u: u.collect(), ..self.sampler.centre() }
+    }
+
+    /// A cell on which some leg may not reach, or a formula is not defined: off the region if that is
+    /// so on all of it, or if a row of `M` is too long there; else split where that is closest.
+    fn hardly_reached(
+        &self,
+        cell: &Cell,
+        over: &Over<'_>,
+        open: &[usize],
+        undefined: Vec<Formula>,
+    ) -> Decision {
+        let problem = &self.subject.problem;
+        let item = |kind| Item { steps: Vec::new(), kind };
+        let seems = |failure: &Failure| over.fails(failure);
+        if seems(&Failure::Reach) {
+            let kind = Kind::Outer(Outer::Given(Failure::Reach));
+            if self.judge.confirms(cell, 0, &item(kind.clone())) {
+                return Decision::closed(kind);
+            }
+        }
+        for &o in open {
+            let is_of_values = match self.test(o) {
+                Test::SigmaMax(_) => {
+                    (0..problem.legs.len()).any(|leg| seems(&Failure::Row(o, leg)))
+                }
+                Test::AtLeast(_) | Test::Beyond(..) => seems(&Failure::Obligation(o, Vec::new())),
+                _ => false,
+            };
+            if let Some(outer) = is_of_values.then(|| self.fails(cell, o)).flatten() {
+                return Decision::closed(Kind::Outer(outer));
+            }
+        }
+        let divisors = problem.legs.iter().map(|leg| leg.row.d);
+        let known = undefined.into_iter().chain(divisors);
+        let margin = |f: Formula| Margin::of(over, f);
+        let worst = known.filter_map(margin).min_by(|a, b| a.room().total_cmp(&b.room()));
+        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.along);
+        self.split(cell, Vec::new(), along)
+    }
+
+    fn margin(
+        &self,
+        over: &(impl View + ?Sized),
+        local: &Local<'_>,
+        test: &Test,
+    ) -> Option<Margin> {
+        let bound = |f: Formula| over.centre(f);
+        let less = |stretched: Margin, bound: f64| Margin {
+            centre: stretched.centre - bound,
+            ..stretched
+        };
+        let least = |local: &Local<'_>| local.stretched(over, local.spectrum.least_direction());
+        Some(match test {
+            Test::SigmaMin(kappa) => less(least(local), bound(*kappa)?),
+            Test::SigmaMax(k) => {
+                let v = local.spectrum.greatest_direction();
+                less(local.stretched(over, v), bound(*k)?).times(-1.0)
+            }
+            Test::Least(rows, kappa) => {
+                let local = Local::of(rows.iter(), |f| over.centre(f))?;
+                less(least(&local), bound(*kappa)?)
+            }
+            Test::Greatest(rows, k) => {
+                let local = Local::of(rows.iter(), |f| over.centre(f))?;
+                let v = local.spectrum.greatest_direction();
+                less(local.stretched(over, v), bound(*k)?).times(-1.0)
+            }
+            Test::AtLeast(f) => Margin::of(over, *f)?,
+            Test::Beyond(f, b) => {
+                let (f, b) = (Margin::of(over, *f)?, Margin::of(over, *b)?);
+                let sign = if f.centre < 0.0 { -1.0 } else { 1.0 };
+                f.times(sign).plus(b.times(-1.0))
+            }
+            Test::Conditioning(_)
+            | Test::OneToOne(_)
+            | Test::Solve(_)
+            | Test::Accuracy(_)
+            | Test::Apart(_)
+            | Test::Curvature(_) => return None,
+        })
+    }
+
+    /// `sigma_max / sigma_min` at the point with these parts of the box, nearly; infinite out of reach,
+    /// and of some coordinates alone.
+    pub(super) fn conditioning(&self, u: [f64; 3]) -> f64 {
+        if self.for_all.is_some() {
+            return f64::INFINITY;
+        }
+        let point: Vec<f64> =
+            self.prover.root.iter().zip(u).map(|((lo, hi), u)| lo * (1.0 - u) + hi * u).collect();
+        let problem = &self.subject.problem;
+        let parameters = self.prover.parameters();
+        let values = problem.tape.run(&Single, |op| match op {
+            Op::Coordinate(k) => point.get(k).copied(),
+            Op::Parameter(j) => parameters.get(j).map(middle),
+            _ => None,
+        });
+        let rows = problem.legs.iter().map(|leg| &leg.row);
+        Local::of(rows, |f| values.of(f).copied()).map_or(f64::INFINITY, |local| {
+            let Spectrum { least, greatest, .. } = local.spectrum;
+            (greatest / least.max(f64::MIN_POSITIVE)).sqrt()
+        })
+    }
+}
+
+impl Margin {
+    fn of(over: &(impl View + ?Sized), f: Formula) -> Option<Self> {
+        let slopes = over.slopes(f)?;
+        let of = |part: fn(&Pair) -> f64| {
+            std::array::from_fn(|k| if k < over.m() { part(&slopes[k]) } else { 0.0 })
+        };
+        // To first order or not: where it may not be defined, all counts.
+        let along = of(|slope| magnitude(slope).copysign(middle(slope)));
+        let beyond = of(|slope| 0.5 * (slope.1 - slope.0));
+        Some(Margin { centre: over.centre(f)?, along, beyond })
+    }
+}
+
+/// Whether a test has no [`Margin`].
+fn is_general(test: &Test) -> bool {
+    use Test::{Accuracy, Apart, Conditioning, Curvature, OneToOne, Solve};
+    matches!(test, OneToOne(_) | Solve(_) | Accuracy(_) | Apart(_) | Curvature(_) | Conditioning(_))
+}
+
+fn padded(weights: Vec<f64>) -> [f64; 3] {
+    std::array::from_fn(|k| weights.get(k).copied().unwrap_or(0.0))
+}

@@ -1,0 +1,426 @@
+//! Decides claims of the kernel: any mechanism, any quantity of its table.
+//!
+//! | module     | does                                                                        |
+//! |------------|-----------------------------------------------------------------------------|
+//! | `doubles`  | what proposals are computed in                                              |
+//! | `evidence` | a problem in doubles, over a box                                            |
+//! | `propose`  | evidence with which the kernel's tests hold on a box                        |
+//! | `apart`    | directions in which tolerances matter most                                  |
+//! | `less`     | how much of the workspace's own inequalities it takes                       |
+//! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
+//! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
+//! | [`sample`] | approximate values at single points and machines                            |
+//! | `needed`, `program` | the formulas that each of them takes, one after the other        |
+//! | `descent`, `adverse` | the worst of them                                                 |
+//! | `fails`    | how a claim fails at every point of a box                                   |
+//! | `same`     | two points with the same joint coordinates                                  |
+//! | `refute`   | a place where an obligation seems to fail as an exact witness               |
+//! | `violation` | how far from holding a test is at a place, and along which direction       |
+//! | [`value`]  | a quantity at a place, in the claim's own unit                              |
+//! | [`extremes`] | encloses how small and how large each quantity gets                       |
+//! | [`sector`] | encloses the angles that a joint takes                                      |
+//!
+//! Nothing in it is trusted: [`orthocert_checker::check`] decides.
+
+mod adverse;
+mod apart;
+mod chords;
+mod descent;
+mod directions;
+pub(crate) mod doubles;
+pub(crate) mod evidence;
+pub mod extremes;
+pub(crate) mod fails;
+mod less;
+mod needed;
+pub(crate) mod program;
+mod propose;
+pub(crate) mod refute;
+mod rows;
+mod same;
+pub mod sample;
+pub mod search;
+pub mod sector;
+pub mod value;
+mod violation;
+
+use crate::search::accepted::{check, Accepted};
+use crate::search::{Budget, Control, Stop};
+use evidence::Prover;
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
+use orthocert_checker::Rejected;
+use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::problem::Problem;
+use sample::{Sampler, Worst};
+use search::{search, Branch, Ends, Open, Outcome};
+
+pub use refute::{approximate, number};
+
+/// Finest step of the search for worst values, `2^-FINEST` of the workspace.
+pub const FINEST: i32 = 26;
+/// Precisions of the exact check, in fractional bits: up to 60 it runs in machine words, if numbers are
+/// small enough.
+pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
+/// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
+const GUARD: u32 = 9;
+/// The same where tolerances are apart: what little some change is divided by.
+const GUARD_APART: u32 = 22;
+/// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
+/// others.
+const MOST_IN_RANGES: [usize; 2] = [8, 2000];
+/// Open boxes from whose centres a violation is looked for.
+const OPEN_CENTRES: usize = 64;
+
+/// The answer to a claim.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// The exact checker has accepted this certificate.
+    Decided {
+        /// The certificate.
+        certificate: Box<Certificate>,
+        /// What the checker says of it.
+        accepted: Accepted,
+    },
+    /// Neither a proof nor a refutation was found within the budget.
+    Undecided(Undecided),
+    /// The verification was cancelled.
+    Cancelled,
+}
+
+/// What remains of an undecided claim.
+#[derive(Clone, Debug)]
+pub struct Undecided {
+    /// The boxes on which something is open.
+    pub open: Vec<Open>,
+    /// Why the search ended.
+    pub stop: Stop,
+    /// The checker's objection, if a complete proof was found but not accepted.
+    pub objection: Option<Rejected>,
+}
+
+/// The result of a verification.
+#[derive(Clone, Debug)]
+pub struct Verification {
+    /// The answer.
+    pub answer: Answer,
+    /// The worst values found, by sampling.
+    pub worst: Vec<Worst>,
+    /// Boxes tried by the search.
+    pub boxes: usize,
+}
+
+/// Decides a claim within a budget.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn verify(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Verification, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let sampler = Sampler::new(claim, &problem)?;
+    let mut worst = sampler.worst_values(FINEST);
+    if let Some(witness) = on_the_spot(claim, &problem, &sampler, &worst) {
+        return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
+    }
+    let [ranges, rest, checks] = parts_of(&problem);
+    let derived = match control.part(ranges, |control| in_ranges(&problem, budget, control)) {
+        Ok(nodes) => {
+            let boxes = nodes.len();
+            let answer = control.part(checks, |_| {
+                Ok::<_, ClaimError>(accepted(claim, &Prover::new(&problem)?, nodes))
+            })?;
+            return Ok(Verification { answer, worst, boxes });
+        }
+        Err(derived) => derived,
+    };
+    let prover = Prover::new(&derived)?;
+    let whole = Branch::whole(&prover);
+    let found = control
+        .part(rest, |control| search(&prover, &whole, Ends::default(), budget, control))
+        .expect("the root is a box of the tree");
+    let boxes = found.boxes;
+    if found.stop == Stop::Cancelled {
+        return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
+    }
+    if found.is_proof() {
+        let answer = control.part(checks, |_| accepted(claim, &prover, found.nodes));
+        return Ok(Verification { answer, worst, boxes });
+    }
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
+    let answer = match refute::refutation(claim, &problem, &sampler, &worst) {
+        Some(witness) => refuted(claim, witness),
+        None => {
+            Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
+        }
+    };
+    Ok(Verification { answer, worst, boxes })
+}
+
+/// Shares of the work: the search in ranges, which only tolerances have, the search, and the exact check.
+fn parts_of(problem: &Problem) -> [[f64; 2]; 3] {
+    let ranges = if problem.tolerances().next().is_some() { 0.3 } else { 0.0 };
+    [[0.0, ranges], [ranges, 0.8], [0.8, 1.0]]
+}
+
+/// A witness against a claim that sampling alone finds.
+fn on_the_spot(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    worst: &[Worst],
+) -> Option<Witness> {
+    refute::refutation(claim, problem, sampler, worst)
+        .or_else(|| same::refutation(claim, problem, sampler))
+}
+
+/// The top of a claim's tree, to be grown in parts: as [`verify`] begins, but for at most so many boxes
+/// in a level. `None` if the claim is refuted on the spot.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn top(
+    claim: &MachineClaim,
+    enough: usize,
+    control: &mut Control<'_>,
+) -> Result<Option<Outcome>, ClaimError> {
+    let problem = in_parts(claim, control)?;
+    let sampler = Sampler::new(claim, &problem)?;
+    let worst = sampler.worst_values(FINEST);
+    if on_the_spot(claim, &problem, &sampler, &worst).is_some() {
+        return Ok(None);
+    }
+    let prover = Prover::new(&problem)?;
+    let ends = Ends { enough: Some(enough), ..Ends::default() };
+    let budget = Budget { max_boxes: usize::MAX, deadline: None };
+    Ok(search(&prover, &Branch::whole(&prover), ends, budget, control))
+}
+
+/// The tree below a branch; none below one that no tree of the claim has.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn below(
+    claim: &MachineClaim,
+    branch: &Branch,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Outcome>, ClaimError> {
+    let problem = in_parts(claim, control)?;
+    Ok(search(&Prover::new(&problem)?, branch, Ends::default(), budget, control))
+}
+
+/// What a tree that was grown in parts, and on which nothing is open, amounts to.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn concluded(
+    claim: &MachineClaim,
+    nodes: Vec<Node>,
+    boxes: usize,
+) -> Result<Verification, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
+    let answer = accepted(claim, &Prover::new(&problem)?, nodes);
+    Ok(Verification { answer, worst, boxes })
+}
+
+/// The certificate of a claim that the search proves within the budget; why there is none, if not.
+///
+/// # Errors
+/// Why the search ended.
+pub fn proof(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Box<Certificate>, Stop> {
+    let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
+    let [ranges, rest, checks] = parts_of(&problem);
+    let in_ranges = control.part(ranges, |control| in_ranges(&problem, budget, control));
+    let (problem, nodes) = match in_ranges {
+        Ok(nodes) => (problem, Some(nodes)),
+        Err(derived) => (*derived, None),
+    };
+    let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
+    let search = |control: &mut Control<'_>| from_root(&prover, budget, control);
+    let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
+    match control.part(checks, |_| accepted(claim, &prover, found)) {
+        Answer::Decided { certificate, .. } => Ok(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
+    }
+}
+
+/// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
+fn in_ranges(
+    problem: &Problem,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Vec<Node>, Box<Problem>> {
+    let derived = Box::new(problem.clone().with_derivatives());
+    if derived.derived.is_none() {
+        return Err(derived);
+    }
+    let most = MOST_IN_RANGES[usize::from(problem.orientation.is_empty())];
+    let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
+    let found = Prover::new(problem).map(|prover| from_root(&prover, budget, control));
+    found.ok().and_then(Result::ok).ok_or(derived)
+}
+
+/// The problem of a claim whose tree is grown in parts, the same for all of them.
+fn in_parts(claim: &MachineClaim, control: &mut Control<'_>) -> Result<Problem, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let budget = Budget { max_boxes: usize::MAX, deadline: None };
+    Ok(match in_ranges(&problem, budget, control) {
+        Ok(_) => problem,
+        Err(derived) => *derived,
+    })
+}
+
+/// The nodes of a tree on which nothing is open; why there are none, if not.
+fn from_root(
+    prover: &Prover<'_>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Vec<Node>, Stop> {
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let found = search(prover, &Branch::whole(prover), ends, budget, control);
+    let found = found.ok_or(Stop::Hopeless)?;
+    if found.is_proof() {
+        Ok(found.nodes)
+    } else {
+        Err(found.stop)
+    }
+}
+
+/// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
+/// well formed.
+pub fn refutation(claim: &MachineClaim) -> Option<Box<Certificate>> {
+    let problem = Problem::new(claim).ok()?;
+    let sampler = Sampler::new(claim, &problem).ok()?;
+    let worst = match problem.tolerances().next() {
+        None => sampler.worst_values(FINEST),
+        Some(_) => sampler.worst_machines(FINEST),
+    };
+    match refuted(claim, refute::refutation(claim, &problem, &sampler, &worst)?) {
+        Answer::Decided { certificate, .. } => Some(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => None,
+    }
+}
+
+/// The worst values of a claim's obligations that sampling finds.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
+    let problem = Problem::new(claim)?;
+    Ok(Sampler::new(claim, &problem)?.worst_values(FINEST))
+}
+
+/// The precisions at which a proof is tried.
+fn precisions(prover: &Prover<'_>, tree: &Tree) -> impl Iterator<Item = u32> {
+    let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
+    let guard = if tree.takes_tolerances_apart() { GUARD_APART } else { GUARD };
+    let words = 63u32.saturating_sub(guard + size);
+    let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
+    first.into_iter().chain(PRECISIONS)
+}
+
+/// A tree on whose leaves every obligation of a problem is discharged, if one is found that `accepts`;
+/// why not, if not. No search is worth it unless tests hold next to each of these points.
+pub(crate) fn tree(
+    problem: &Problem,
+    points: &[Vec<f64>],
+    budget: Budget,
+    control: &mut Control<'_>,
+    accepts: impl Fn(&Tree) -> bool,
+) -> Result<Tree, Stop> {
+    let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
+    if !points.iter().all(|point| prover.holds_next_to(point)) {
+        return Err(Stop::Hopeless);
+    }
+    let nodes = from_root(&prover, budget, control)?;
+    let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
+    for bits in precisions(&prover, &tree) {
+        tree.precision = bits;
+        if accepts(&tree) {
+            return Ok(tree);
+        }
+    }
+    Err(Stop::Exhausted)
+}
+
+/// The certificate of a proof.
+fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
+    let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
+    let precisions = precisions(prover, &tree);
+    confirmed(Claim::Machine(claim.clone()), tree, precisions)
+}
+
+/// The certificate of a tree, at the first of the precisions at which the checker accepts it.
+pub(crate) fn confirmed(
+    claim: Claim,
+    tree: Tree,
+    precisions: impl IntoIterator<Item = u32>,
+) -> Answer {
+    let mut objection = None;
+    let proof = Proof::Tree(tree);
+    let mut whole = certificate(claim, Verdict::Certified, proof);
+    for bits in precisions {
+        if let Proof::Tree(tree) = &mut whole.proof {
+            tree.precision = bits;
+        }
+        match check(&whole) {
+            Ok(accepted) => return Answer::Decided { certificate: Box::new(whole), accepted },
+            Err(reason) => objection = Some(reason),
+        }
+    }
+    Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
+}
+
+/// A certificate by this program.
+pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
+    Certificate {
+        format: FORMAT.to_owned(),
+        claim,
+        verdict,
+        proof,
+        provenance: Provenance {
+            tool: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+    }
+}
+
+/// The refutation by a witness, once the checker has accepted it.
+fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
+    let proof = Proof::Witness(witness);
+    let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
+    match check(&certificate) {
+        Ok(accepted) => Answer::Decided { certificate: Box::new(certificate), accepted },
+        Err(objection) => Answer::Undecided(Undecided {
+            open: Vec::new(),
+            stop: Stop::Exhausted,
+            objection: Some(objection),
+        }),
+    }
+}
+
+/// Improves the worst values from the centres of at most so many of the open boxes.
+fn look_into(sampler: &Sampler<'_>, open: &[Open], centres: usize, worst: &mut [Worst]) {
+    let stride = open.len().div_ceil(centres).max(1);
+    for item in open.iter().step_by(stride) {
+        let start = sampler.place_in(&item.cell);
+        for known in worst.iter_mut() {
+            let found = sampler.descend(known.quality, &start, FINEST);
+            if found.margin < known.margin {
+                *known = found;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

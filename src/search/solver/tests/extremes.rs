@@ -1,0 +1,187 @@
+//! Extremes, and values at places.
+
+use super::kinds::three_rpr;
+use super::*;
+use crate::search::solver::extremes::{enclose, Enclosed, Extreme};
+use crate::search::solver::value::Bounded;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert_kernel::quantity::Test;
+
+fn all(claim: &MachineClaim, wanted: &[&str], relative: (i64, i64)) -> Vec<(String, Enclosed)> {
+    let legs = Problem::new(claim).expect("a claim").legs.len();
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let budget = Budget { max_boxes: 5_000, deadline: None };
+    let width = BigRational::new(relative.0.into(), relative.1.into());
+    let of = |extreme: &Extreme| {
+        let name = extreme.file_stem();
+        let found = enclose(claim, extreme, &width, budget, &mut control);
+        (name.clone(), found.unwrap_or_else(|error| panic!("{name}: {error}")))
+    };
+    let every = Extreme::of(claim, legs);
+    let wanted = every.iter().filter(|one| wanted.contains(&&*one.file_stem()));
+    wanted.map(of).collect()
+}
+
+#[test]
+fn extremes_are_enclosed() {
+    let claim = orthoglide("\"310.7\"", CUBE);
+    let [least, greatest] = psi(&claim);
+    let found = all(
+        &claim,
+        &["psi-least", "psi-greatest", "rho-2-greatest", "serial-margin", "leg-angle"],
+        (1, 1_000_000),
+    );
+    let approximate = |x: &BigRational| x.to_f64().expect("finite");
+    // At (-72, 125, 125) the guide's component of leg 1 is least.
+    let eta = (310.7f64.powi(2) - 2.0 * 125f64.powi(2)).sqrt();
+    let expected = [
+        ("psi-least", least),
+        ("psi-greatest", greatest),
+        ("rho-2-greatest", 125.0 - eta),
+        ("serial-margin", eta / 310.7),
+        ("leg-angle", (eta / 310.7).acos().to_degrees()),
+    ];
+    assert_eq!(found.len(), expected.len());
+    for ((name, enclosed), (wanted, value)) in found.iter().zip(expected) {
+        assert_eq!(name, wanted);
+        let ends = [approximate(&enclosed.inner), approximate(&enclosed.outer)];
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        assert!(low <= value && value <= high, "{name}: {value} in [{low}, {high}]");
+        assert!(high - low < 2e-6 * 383.0f64.max(value.abs()), "{name}: [{low}, {high}]");
+        assert_eq!(enclosed.certified.verdict, Verdict::Certified);
+        let refuted = enclosed.refuted.as_ref().expect("a refutation");
+        assert_eq!(refuted.verdict, Verdict::Refuted);
+        assert!(check(&enclosed.certified).is_ok() && check(refuted).is_ok());
+    }
+}
+
+#[test]
+fn extremes_of_formulas_are_those_of_legs() {
+    let wanted = ["psi-least", "psi-greatest", "conditioning"];
+    let ends = |claim: &MachineClaim| -> Vec<[BigRational; 2]> {
+        let found = all(claim, &wanted, (1, 10_000)).into_iter();
+        found
+            .map(|(_, found)| {
+                [found.inner.clone().min(found.outer.clone()), found.inner.max(found.outer)]
+            })
+            .collect()
+    };
+    let (legs, formulas) = (ends(&orthoglide("\"310.7\"", CUBE)), ends(&orthoglide_by_formulas()));
+    assert_eq!((legs.len(), formulas.len()), (3, 3));
+    for ([a, b], [c, d]) in legs.iter().zip(&formulas) {
+        // Both hold the extreme.
+        assert!(a <= d && c <= b);
+    }
+}
+
+#[test]
+fn extremes_of_a_platform_that_turns() {
+    let claim = three_rpr();
+    let found = all(&claim, &["psi-greatest", "rho-1-greatest", "conditioning"], (1, 1_000));
+    assert_eq!(found.len(), 3);
+    let (_, greatest) = &found[0];
+    let [_, sampled] = psi(&claim);
+    let ends = [&greatest.inner, &greatest.outer].map(|x| x.to_f64().expect("finite"));
+    assert!(ends[0] < sampled && sampled < ends[1], "{sampled} in {ends:?}");
+}
+
+#[test]
+fn a_singular_machine_has_none() {
+    let claim =
+        orthoglide("\"310.7\"", r#"{"box":{"min":["-72","-72","-72"],"max":["222","222","222"]}}"#);
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let budget = Budget { max_boxes: 1000, deadline: None };
+    assert!(crate::search::solver::extremes::is_singular(&claim, budget, &mut control)
+        .expect("a claim"));
+}
+
+/// Values by definition are the bounds that are met with equality.
+#[test]
+fn tolerances_are_enclosed_to_second_order() {
+    // Thirty numbers with tolerances of 1e-4 or so; in ranges the widths are 1e-3 to 3e-2.
+    let file = "tests/designs/orthoglide-as-built.toml";
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let claim = crate::design::Design::read(&file).expect("a design").claim;
+    let wanted = ["psi-least", "psi-greatest", "rho-1-greatest", "parallel-margin", "joint-force"];
+    let found = all(&claim, &wanted, (1, 5_000));
+    assert_eq!(found.len(), wanted.len());
+    for (name, found) in &found {
+        assert!(found.width <= BigRational::new(1.into(), 2_500.into()), "{name}: {}", found.width);
+        let Proof::Tree(tree) = &found.certified.proof else { panic!("a tree") };
+        assert!(tree.takes_tolerances_apart(), "{name}");
+    }
+    // No machine is worse than what is certified, and some is nearly as bad.
+    let problem = Problem::new(&claim).expect("a claim");
+    let sampler = Sampler::new(&claim, &problem).expect("numbers");
+    let number = problem.obligations.iter().position(|o| matches!(o.test, Test::SigmaMin(_)));
+    let bounded = Bounded::of(&claim, &problem, number.expect("psi from above")).expect("psi");
+    let (_, psi) = found.iter().find(|(name, _)| name == "psi-greatest").expect("psi");
+    let outer = psi.outer.to_f64().expect("finite");
+    let (mut state, mut greatest) = (7u32, 0f64);
+    let mut part = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        [0.0, 1.0, f64::from(state) / f64::from(u32::MAX)][(state >> 13) as usize % 3]
+    };
+    for _ in 0..20_000 {
+        let mut place = sampler.centre();
+        place.u.iter_mut().chain(&mut place.t).for_each(|x| *x = part());
+        let value = bounded.value(&claim, &problem, &sampler, &place).expect("a value");
+        greatest = greatest.max(value);
+    }
+    assert!(greatest <= outer && greatest > 0.99 * outer, "{greatest} {outer}");
+}
+
+#[test]
+fn values_are_tight_bounds() {
+    for claim in [orthoglide(r#"{"min":"311","max":"312"}"#, CUBE), rotary()] {
+        let mut claim = claim;
+        let angular = Problem::new(&claim).expect("a claim").legs[0].is_angular();
+        claim.require = vec![
+            require("serial_margin", Bound::Min(decimal(0.4))),
+            require("conditioning", Bound::Max(decimal(4.0))),
+            require("transmission", Bound::Min(decimal(0.7))),
+            Requirement {
+                given: [("tool".to_owned(), vec![Expression::integer(3)])].into(),
+                ..require("joint_speed", Bound::Max(decimal(30.0)))
+            },
+        ];
+        if !angular {
+            claim.require.push(require("leg_angle", Bound::Max(decimal(50.0))));
+        }
+        let problem = Problem::new(&claim).expect("a claim");
+        let sampler = Sampler::new(&claim, &problem).expect("numbers");
+        let mut place = sampler.centre();
+        place.u = vec![0.3, 0.9, 0.6];
+        place.t.iter_mut().for_each(|t| *t = 0.25);
+        let mut compared = 0;
+        for number in 0..problem.obligations.len() {
+            let Some(bounded) = Bounded::of(&claim, &problem, number) else { continue };
+            let value = bounded.value(&claim, &problem, &sampler, &place).expect("a value");
+            let tight = bounded.tight(&claim, &place).expect("a bound");
+            let name = bounded.name();
+            assert!((value - tight).abs() < 1e-9 * value.abs(), "{name}: {value}, {tight}");
+            compared += 1;
+        }
+        assert_eq!(compared, problem.obligations.len() - 1);
+    }
+}
+
+#[test]
+fn descents_find_edges_and_insides() {
+    // The middle of an edge, and of the inside, of a machine given by x and y alone.
+    let claim = five_bar();
+    let claim = with_psi(&claim, 1.0, 1.0);
+    let problem = Problem::new(&claim).expect("a claim");
+    let sampler = Sampler::new(&claim, &problem).expect("numbers");
+    for quality in sampler.qualities() {
+        let start = Place { u: vec![0.9, 0.8], t: vec![] };
+        let found = sampler.descend(quality, &start, 26);
+        for place in sampler.grid() {
+            let margin = sampler.margin(quality, &sampler.at(&place));
+            assert!(found.margin <= margin + 1e-9, "{quality:?}: {} {margin}", found.margin);
+        }
+    }
+}
