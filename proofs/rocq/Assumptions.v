@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -185,3 +185,5 @@ Check kernel.Certificate.accept_cells_sound.
 Print Assumptions kernel.Certificate.accept_cells_sound.
 Check kernel.Certificate.verify_sound.
 Print Assumptions kernel.Certificate.verify_sound.
+Check kernel.PavingText.verify_paving_sound.
+Print Assumptions kernel.PavingText.verify_paving_sound.

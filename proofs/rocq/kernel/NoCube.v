@@ -122,60 +122,69 @@ End Cell.
 
 Definition is_direction (v : list Z) : bool := Nat.eqb (length v) 3 && existsb (fun n => negb (n =? 0)%Z) v.
 
-(** Rows of which all D_i, and expressions which have to be positive; [j] is the place of the requirement's bound. *)
-Definition requirement_fails (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement)
-    (directions : list (list Z)) : option (rows nat * list expr) :=
+(** What fails, by the places of its formulas: along which directions what is then positive. [k]: a bound's square. *)
+Inductive failing :=
+  | Short (r : rows nat) (k : expr)     (* k |v|^2 - |M v|^2 *)
+  | Long (r : rows nat) (k : expr)      (* |M v|^2 - k |v|^2 *)
+  | Uneven (r : rows nat) (k : expr)    (* |M u|^2 |v|^2 - k |M v|^2 |u|^2 *)
+  | Below (fs : list nat).              (* the opposite of each *)
+
+(** [j] is the place of the requirement's bound. *)
+Definition failing_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option failing :=
   let whole := map_rows place (whole_rows fs) in
   let bound2 := Apply (Sqr (Apply (Param (fst j)))) in
-  let short rs k v := Apply (Sub (Apply (Mul k (square_of v))) (image_of rs v)) in
-  let long v := Apply (Sub (image_of whole v) (Apply (Mul bound2 (square_of v)))) in
-  let least k v := match least_rows fs s j r with
-    | Some rs => let rs := map_rows place rs in Some (rs, [short rs k v])
-    | None => None
-    end in
-  let is_given := match r with JointSpeed _ tool _ => certainly bits true tool | Stiffness joint b => certainly bits true (Over b joint) | _ => true end in
-  if is_given && forallb is_direction directions then
-    match r, directions with
-    | PsiMax _, [v] => Some (whole, [short whole bound2 v])
-    | PsiMin _, [v] => Some (whole, [long v])
-    | ConditionMax _, [u; v] => Some (whole, [Apply (Sub (Apply (Mul (image_of whole u) (square_of v)))
-        (Apply (Mul bound2 (Apply (Mul (image_of whole v) (square_of u))))))])
-    | Stiffness _ _, [v] => least (Apply (Integer 1)) v
-    | ConstraintMargin _, [v] => least bound2 v
-    | (JointMin _ _ | JointMax _ _ | JointSpeed _ _ _ | SerialMargin _ _ | ParallelMargin _), [] =>
-        match range_formula fs s j r with
-        | [] => None
-        | l => Some ([], map (fun f => Apply (Neg (Entry (place f)))) l)
-        end
-    | _, _ => None
-    end
-  else None.
+  let least k := option_map (fun rs => Short (map_rows place rs) k) (least_rows fs s j r) in
+  let below := match range_formula fs s j r with [] => None | l => Some (Below (map place l)) end in
+  match r with
+  | PsiMax _ => Some (Short whole bound2)
+  | PsiMin _ => Some (Long whole bound2)
+  | ConditionMax _ => Some (Uneven whole bound2)
+  | Stiffness joint b => if certainly bits true (Over b joint) then least (Apply (Integer 1)) else None
+  | ConstraintMargin _ => least bound2
+  | JointSpeed _ tool _ => if certainly bits true tool then below else None
+  | JointMin _ _ | JointMax _ _ | SerialMargin _ _ | ParallelMargin _ => below
+  | _ => None
+  end.
+
+(** Rows of which all D_i, and expressions which have to be positive. *)
+Definition fails_along (f : failing) (directions : list (list Z)) : option (rows nat * list expr) :=
+  match f, directions with
+  | Short r k, [v] => Some (r, [Apply (Sub (Apply (Mul k (square_of v))) (image_of r v))])
+  | Long r k, [v] => Some (r, [Apply (Sub (image_of r v) (Apply (Mul k (square_of v))))])
+  | Uneven r k, [u; v] => Some (r, [Apply (Sub (Apply (Mul (image_of r u) (square_of v)))
+      (Apply (Mul k (Apply (Mul (image_of r v) (square_of u))))))])
+  | Below l, [] => Some ([], map (fun f => Apply (Neg (Entry f))) l)
+  | _, _ => None
+  end.
 
 (** By the row of a leg that is longer than 1/psi_min: |A_i|^2 > k^2 D_i, or it does not reach. *)
-Definition row_fails (place : formula -> nat) (f : leg_formulas) (j : nat) : expr :=
-  Apply (Sub (Apply (Sqr (Entry (place (rod f))))) (Apply (Mul (Apply (Sqr (Apply (Param j)))) (Entry (place (f_D f)))))).
+Definition row_fails (rod d j : nat) : expr := Apply (Sub (Apply (Sqr (Entry rod))) (Apply (Mul (Apply (Sqr (Apply (Param j)))) (Entry d)))).
 
-Section Fails.
-Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat * nat) (rs : list requirement).
-Variables (coords params : list slope) (values : list (option slope)).
-Let positive (e : expr) : bool := is_positive (eval coords params values e).
-Let place_of (i : nat) : nat * nat := (fst n + i, snd n + length (flat_map (extras s) (firstn i rs)))%nat.
+(** What may fail of a claim. *)
+Record failings := Failings { its_D : list nat; its_rods : list nat; its_requirements : list (option failing) }.
+Definition place_of (n : nat * nat) (s : Z) (rs : list requirement) (i : nat) : nat * nat :=
+  (fst n + i, snd n + length (flat_map (extras s) (firstn i rs)))%nat.
+Definition failings_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat * nat) (rs : list requirement) : failings :=
+  Failings (map (fun f => place (f_D f)) fs) (map (fun f => place (rod f)) fs)
+    (map (fun i => match nth_error rs i with Some r => failing_of place fs s (place_of n s rs i) r | None => None end) (seq 0 (length rs))).
 
-Definition fails_over (f : Configuration.nfailure) : bool :=
+(** [first] is the place of the first bound; what has to be positive is tested by [positive], D_i by their ranges. *)
+Definition fails_over (first : nat) (rs : list requirement) (b : failings) (positive : option slope -> bool)
+    (coords params : list slope) (values : list (option slope)) (f : Configuration.nfailure) : bool :=
+  let is e := positive (eval coords params values e) in
   match f with
-  | Configuration.NOutOfReach => existsb (fun f => match nth (place (f_D f)) values None with Some d => (hi (range d) <=? 0)%Z | None => false end) fs
-  | Configuration.NFails i directions =>
-      match nth_error rs i with
-      | Some r => match requirement_fails place fs s (place_of i) r directions with
-          | Some (rows, es) => forallb (fun p => positive (Entry (snd p))) rows && forallb positive es
+  | Configuration.NOutOfReach => existsb (fun d => match nth d values None with Some d => (hi (range d) <=? 0)%Z | None => false end) (its_D b)
+  | Configuration.NFails i directions => forallb is_direction directions &&
+      match nth i (its_requirements b) None with
+      | Some f => match fails_along f directions with
+          | Some (rows, es) => forallb (fun p => is_positive (nth (snd p) values None)) rows && forallb is es
           | None => false
           end
       | None => false
       end
   | Configuration.NFailsAlong i leg =>
-      match nth_error rs i, nth_error fs leg with Some (PsiMin _), Some f => positive (row_fails place f (fst n + i)) | _, _ => false end
+      match nth_error rs i, nth_error (its_D b) leg, nth_error (its_rods b) leg with Some (PsiMin _), Some d, Some rod => is (row_fails rod d (first + i)) | _, _, _ => false end
   end.
-End Fails.
 
 (** *** What it shows *)
 
@@ -349,11 +358,11 @@ Proof.
     unfold Rabs in F. destruct (Rcase_abs d); lra.
 Qed.
 
-Lemma requirement_fails_sound : forall directions rows es, requirement_fails found fs s j r directions = Some (rows, es) ->
+Lemma requirement_fails_sound : forall f directions rows es, failing_of found fs s j r = Some f -> forallb is_direction directions = true ->
+  fails_along f directions = Some (rows, es) ->
   Forall (fun p => 0 < val (Entry (snd p))) rows -> Forall (fun e => 0 < val e) es -> ~ fulfils c m P r.
 Proof.
-  intros directions rows es h pos hes. unfold requirement_fails in h.
-  destruct (_ && forallb is_direction directions) eqn:g; [| discriminate]. apply andb_true_iff in g as [given dirs].
+  intros f directions rows es hf dirs h pos hes.
   pose proof bound_is as B1. pose proof bound2_val as B2. pose proof signs_fail as SF. pose proof range_found as RF.
   pose proof (fun p => speeds (positive_rows _ whole_found p)) as SP.
   pose proof (rows_at _ whole_found) as RA.
@@ -366,31 +375,33 @@ Proof.
     by (intros p v u e; rewrite val_image, RA, e; apply SP, p).
   assert (Sub_ : forall a b, val (Apply (Sub a b)) = val a - val b) by reflexivity.
   assert (Mul_ : forall a b, val (Apply (Mul a b)) = val a * val b) by reflexivity.
-  assert (Neg_ : forall f, formula_at tape (found f) = f -> val (Apply (Neg (Entry (found f)))) = - value x theta f)
-    by (intros f e; change (- val (Entry (found f)) = - value x theta f); rewrite entry_found by exact e; reflexivity).
-  set (k2 := Apply (Sqr (Apply (Param (fst j))))) in *.
-  assert (Signs : match range_formula fs s j r with
-      | [] => None | l => Some ([], map (fun f => Apply (Neg (Entry (found f)))) l) end = Some (rows, es) ->
+  assert (Neg_ : forall g, formula_at tape (found g) = g -> val (Apply (Neg (Entry (found g)))) = - value x theta g)
+    by (intros g e; change (- val (Entry (found g)) = - value x theta g); rewrite entry_found by exact e; reflexivity).
+  unfold failing_of in hf. set (k2 := Apply (Sqr (Apply (Param (fst j))))) in *.
+  assert (Signs : match range_formula fs s j r with [] => None | l => Some (Below (map found l)) end = Some f ->
       match r with JointSpeed _ tool _ => 0 < Claim.value tool | _ => True end -> is_least r = false -> ~ fulfils c m P r).
-  { intros e t l. destruct (range_formula fs s j r) as [| f fl] eqn:er; [discriminate |]. injection e as <- <-.
-    assert (N : forall g, In g (f :: fl) -> value x theta g < 0).
-    { intros g ig. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (f :: fl) g ig)) as k.
-      cbv beta in k. rewrite (Neg_ g (RF g ig)) in k. lra. }
-    apply (SF f); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
+  { intros e t l. destruct (range_formula fs s j r) as [| g fl] eqn:er; [discriminate |]. injection e as <-.
+    destruct directions; [| discriminate]. cbn [fails_along] in h. injection h as <- <-.
+    change (Forall (fun e => 0 < val e) (map (fun f => Apply (Neg (Entry f))) (map found (g :: fl)))) in hes. rewrite map_map in hes.
+    assert (N : forall k, In k (g :: fl) -> value x theta k < 0).
+    { intros k ik. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (g :: fl) k ik)) as z.
+      cbv beta in z. rewrite (Neg_ k (RF k ik)) in z. lra. }
+    apply (SF g); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
   destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b]; cbn [is_least] in *;
-    try (destruct directions; [exact (Signs h I eq_refl) | discriminate]).
-  - destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
+    try discriminate; try exact (Signs hf I eq_refl).
+  - injection hf as <-. destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
     rewrite Sub_, Mul_, B2, (Sq v u eu), (Im pos v u eu), (psi_bound (PsiMax b) b eq_refl) in hes. specialize (F u). lra.
-  - destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
+  - injection hf as <-. destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
     rewrite Sub_, Mul_, B2, (Sq v u eu), (Im pos v u eu), (psi_bound (PsiMin b) b eq_refl) in hes. specialize (F u). lra.
-  - destruct directions; [| discriminate]. apply (Signs h); [apply (positive_sound bits), given | reflexivity].
-  - destruct directions as [| v [| w [|]]]; try discriminate. injection h as <- <-. intro F.
+  - destruct (certainly bits true tool) eqn:given; [| discriminate]. apply (Signs hf); [apply (positive_sound bits), given | reflexivity].
+  - injection hf as <-. destruct directions as [| v [| w [|]]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu _]]. destruct (Dir w (or_intror (or_introl eq_refl))) as [t [et _]].
     apply Forall_inv in hes. rewrite Sub_, !Mul_, B2, (Sq v u eu), (Sq w t et), (Im pos v u eu), (Im pos w t et),
       (plain_bound (ConditionMax b) b eq_refl) in hes. specialize (F u t). lra.
-  - destruct directions as [| v [|]]; try discriminate. cbn [least_rows] in h. injection h as <- <-. intro F.
+  - destruct (certainly bits true (Over b joint)) eqn:given; [| discriminate]. cbn [least_rows option_map] in hf. injection hf as <-.
+    destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
     set (q := quantity (exactly (Over b joint), 0%Z) (fst n + i)%nat) in *.
     assert (LF : map_rows (formula_at tape) (map_rows found (stiff_rows fs q)) = stiff_rows fs q).
@@ -406,8 +417,8 @@ Proof.
     assert (y * norm2 u - speed2 m P u > 0); [| lra].
     replace (y * norm2 u - speed2 m P u) with (y * (1 * norm2 u - / y * speed2 m P u)) by (field; lra).
     apply Rmult_lt_0_compat; assumption.
-  - destruct directions as [| v [|]]; try discriminate. cbn [least_rows] in h. destruct (couple_rows fs) as [rs |] eqn:er; [| discriminate].
-    injection h as <- <-. intro F. destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
+  - cbn [least_rows option_map] in hf. destruct (couple_rows fs) as [rs |] eqn:er; [| discriminate]. injection hf as <-.
+    destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F. destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
     assert (LF : map_rows (formula_at tape) (map_rows found rs) = rs).
     { apply rows_found. intros e ie. apply RF. cbn [range_formula least_rows]. rewrite er. exact ie. }
     destruct (couples_energy s P theta fs m represented rs er (positive_rows _ LF pos)) as [cs [c1 c2]].
@@ -418,12 +429,6 @@ Proof.
     subst cs'. rewrite Sub_, Mul_, B2, (Sq v u eu), (plain_bound (ConstraintMargin b) b eq_refl) in hes.
     rewrite val_image, (rows_at _ LF), eu in hes. unfold ratio in hes. rewrite c2 in hes.
     specialize (d2 u). lra.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
-  - destruct directions as [| ? [| ? [|]]]; discriminate.
 Qed.
 End Requirement.
 
@@ -454,10 +459,10 @@ Proof.
 Qed.
 
 Lemma row_fails_sound : forall i b leg f, nth_error (require c) i = Some (PsiMin b) -> nth_error fs leg = Some f ->
-  0 < val (row_fails found f (fst n + i)) -> ~ fulfils c m P (PsiMin b).
+  0 < val (row_fails (found (rod f)) (found (f_D f)) (fst n + i)) -> ~ fulfils c m P (PsiMin b).
 Proof.
   intros i b leg f er ef h F. destruct (rods leg f ef) as [l [nl [D N]]].
-  assert (E : val (row_fails found f (fst n + i)) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
+  assert (E : val (row_fails (found (rod f)) (found (f_D f)) (fst n + i)) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
   { change (val (Entry (found (rod f))) ^ 2 - nth (fst n + i) theta 0 ^ 2 * val (Entry (found (f_D f))) = value x theta (rod f) ^ 2 - bound_value s (PsiMin b) ^ 2 * value x theta (f_D f)).
     rewrite (bounds_at i _ er), !entry_found; [reflexivity | |]; apply is_found.
     - apply in_or_app. left. unfold entries, whole_rows. rewrite flat_map_concat_map, in_concat. rewrite map_map.
@@ -472,6 +477,39 @@ Proof.
       clear. induction ms as [| k ms IH]; cbn [fold_right]; [lra |]. pose proof (pow2_ge_0 (Vec3.dot (row k P) (row l P))). lra.
     - specialize (IH i e). unfold speed2 in IH. pose proof (pow2_ge_0 (Vec3.dot (row k P) (row l P))). lra. }
   pose proof (pow2_ge_0 (1 / Claim.value b)). nra.
+Qed.
+
+Lemma fails_over_sound : forall lambda cs coords params values positive f, let b := failings_of found fs s n (require c) in
+  (forall e, encloses bits lambda x cs theta (eval coords params values e) (formula_of tape e)) ->
+  (forall e, positive (eval coords params values e) = true -> 0 < val e) ->
+  fails_over (fst n) (require c) b positive coords params values f = true -> ~ Forall (fulfils c m P) (require c).
+Proof.
+  intros lambda cs coords params values positive f b E Pos hf met. rewrite Forall_forall in met.
+  destruct f as [| i dirs | i leg]; cbn [fails_over] in hf; unfold b, failings_of in hf; cbn [its_D its_rods its_requirements] in hf.
+  - apply existsb_exists in hf as [g' [ig hf]]. apply in_map_iff in ig as [g [<- ig]]. destruct (nth (found (f_D g)) values None) as [d |] eqn:ed; [| discriminate].
+    destruct (In_nth_error _ _ ig) as [k ek]. destruct (leg_at c s ds m P theta represented reached k g ek) as [l [_ [Rl re]]].
+    destruct (row_norm g l Rl re) as [D _]. pose proof (E (Entry (found (f_D g)))) as V.
+    cbn [eval formula_of] in V. rewrite ed in V. destruct V as [_ [_ [_ [V _]]]]. rewrite is_found in V.
+    + apply Z.leb_le, IZR_le in hf. destruct V as [_ V]. pose proof (unit_R_pos bits). nra.
+    + apply in_or_app. left. unfold entries, whole_rows. rewrite flat_map_concat_map, in_concat, map_map.
+      eexists. split; [apply in_map_iff; exists g; split; [reflexivity | exact ig] |]. cbn [snd fst]. apply in_or_app. right. left. reflexivity.
+  - apply andb_true_iff in hf as [hd hf]. destruct (nth i (map _ (seq 0 (length (require c)))) None) as [g |] eqn:eg; [| discriminate].
+    assert (li : (i < length (require c))%nat).
+    { apply Nat.lt_nge. intro ge. rewrite nth_overflow in eg by (rewrite map_length, seq_length; exact ge). discriminate. }
+    match type of eg with nth _ (map ?h _) _ = _ => set (of := h) in eg end.
+    rewrite (nth_indep _ None (of O)), map_nth, seq_nth in eg by (rewrite ?map_length, ?seq_length; exact li). unfold of in eg. cbn [Nat.add] in eg.
+    destruct (nth_error (require c) i) as [r |] eqn:er; [| discriminate].
+    destruct (fails_along g dirs) as [[rows es] |] eqn:ef; [| discriminate].
+    apply andb_true_iff in hf as [h1 h2]. rewrite forallb_forall in h1, h2.
+    apply (requirement_fails_sound i r er reached g dirs rows es eg hd ef).
+    + apply Forall_forall. intros p ip. specialize (h1 p ip). pose proof (E (Entry (snd p))) as V. cbn [eval formula_of] in V.
+      destruct (nth (snd p) values None) as [d |]; [| discriminate]. destruct V as [_ [_ [_ [V _]]]]. apply Z.ltb_lt in h1. exact (contains_positive bits _ _ h1 V).
+    + apply Forall_forall. intros e ie. apply Pos, h2, ie.
+    + apply met, (nth_error_In _ _ er).
+  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b' | | | | | | | | | | | | | |]; try discriminate.
+    rewrite !nth_error_map in hf. destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate]. cbn [option_map] in hf.
+    apply (row_fails_sound i b' leg g er eg); [apply Pos, hf |].
+    apply met, (nth_error_In _ _ er).
 Qed.
 End Shown.
 
@@ -509,15 +547,14 @@ Inductive failing_tree :=
   | Halved (k : nat) (lower upper : failing_tree).
 
 Section Tree.
-Variables (place : formula -> nat) (fs : list leg_formulas) (s : Z) (n : nat * nat) (rs : list requirement).
-Variables (tape : list (op nat)) (params : list fixed) (part : fixed).
+Variables (first : nat) (rs : list requirement) (b : failings) (tape : list (op nat)) (params : list fixed) (part : fixed).
 Let constants := map constant params.
 Let values_at (coords : list slope) := run (option slope) None (slope_op bits coords constants) tape [].
 
 Fixpoint fails_everywhere (cell : list fixed) (t : failing_tree) : bool :=
   match t with
   | Fails_ at_ f => is_offset at_ &&
-      let coords := moved_by part (coords_from 0 cell) at_ in fails_over place fs s n rs coords constants (values_at coords) f
+      let coords := moved_by part (coords_from 0 cell) at_ in fails_over first rs b is_positive coords constants (values_at coords) f
   | Halved k lower upper =>
       match nth_error cell k with
       | Some a => negb (midpoint a =? lo a)%Z &&
@@ -529,7 +566,7 @@ Fixpoint fails_everywhere (cell : list fixed) (t : failing_tree) : bool :=
 Lemma fails_everywhere_sound : forall y t cell x, contains bits part y -> length cell = 3%nat -> Forall2 (contains bits) cell x -> fails_everywhere cell t = true ->
   exists at_ f coords cs lambda, is_offset at_ = true /\ Forall (fun t => -1 <= t <= 1) lambda /\
     (forall k, Slope.holds bits lambda (nth k coords (constant zero)) (nth k cs 0) (nth k (moved y x at_) 0)) /\
-    fails_over place fs s n rs coords constants (values_at coords) f = true.
+    fails_over first rs b is_positive coords constants (values_at coords) f = true.
 Proof.
   intros y t cell x hp. revert cell x. induction t as [at_ f | k lower IHl upper IHu]; intros cell x len hx h; cbn [fails_everywhere] in h.
   - apply andb_true_iff in h as [o h]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hl [_ C]]]]. specialize (C []). cbn [app length] in C.
@@ -557,7 +594,8 @@ Definition check_no_cube (exact : positive) (c : claim) (side : number) (s : Z) 
       forallb (fun e => Formula.same (nth (place found e) found (integer 0)) e) needed && certainly exact true side &&
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three edges s)), enclose_scaled bits s (Over side (16 // 1)) with
-      | Some params, Some box, Some part => fails_everywhere (place found) fs s n (require c) tape params part box t
+      | Some params, Some box, Some part =>
+          fails_everywhere (fst n) (require c) (failings_of (place found) fs s n (require c)) tape params part box t
       | _, _, _ => false
       end
   | Cylinder _ _ _ _ => false
@@ -590,7 +628,7 @@ Proof.
   set (y := Claim.value side / 16 / two_to s).
   assert (Y : contains bits part y).
   { apply enclose_scaled_sound in epart. cbn [Claim.value] in epart. replace (16 / 1) with 16 in epart by field. exact epart. }
-  destruct (fails_everywhere_sound _ _ _ _ _ tape params part y t box _ Y three_of_them X ht) as [at_ [f [coords [cs [lambda [o [hl [hc hf]]]]]]]].
+  destruct (fails_everywhere_sound _ _ _ tape params part y t box _ Y three_of_them X ht) as [at_ [f [coords [cs [lambda [o [hl [hc hf]]]]]]]].
   apply andb_true_iff in o as [o1 o2]. destruct at_ as [| n0 [| n1 [| n2 [|]]]]; try discriminate. clear o1.
   cbn [forallb] in o2. apply andb_true_iff in o2 as [w0 o2]. apply andb_true_iff in o2 as [w1 o2]. apply andb_true_iff in o2 as [w2 _].
   set (P := vadd C (vscale (Claim.value side / 16) (Vec (IZR n0) (IZR n1) (IZR n2)))).
@@ -611,27 +649,8 @@ Proof.
   { intros k r e. unfold n. cbn [fst]. rewrite ln, app_nth2_plus. unfold tb.
     rewrite app_nth1 by (rewrite map_length; apply nth_error_Some; congruence).
     apply nth_error_nth. rewrite nth_error_map, e. reflexivity. }
-  pose proof (is_positive_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) as Pos.
-  intros [reached [_ met]]. rewrite Forall_forall in met. destruct f as [| i dirs | i leg]; cbn [fails_over] in hf.
-  - apply existsb_exists in hf as [g [ig hf]]. destruct (nth (place (formulas tape) (f_D g)) _ None) as [d |] eqn:ed; [| discriminate].
-    destruct (In_nth_error _ _ ig) as [k ek]. destruct (leg_at c s ds m P (th ++ tb) R reached k g ek) as [l [_ [Rl re]]].
-    destruct (row_norm s P (th ++ tb) g l Rl re) as [D _].
-    pose proof (eval_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape (Entry (place (formulas tape) (f_D g)))) as V.
-    cbn [eval formula_of] in V. rewrite ed in V. destruct V as [_ [_ [_ [V _]]]]. rewrite Found in V.
-    + apply Z.leb_le, IZR_le in hf. destruct V as [_ V]. pose proof (unit_R_pos bits). nra.
-    + apply in_or_app. left. unfold entries, whole_rows. rewrite flat_map_concat_map, in_concat, map_map.
-      eexists. split; [apply in_map_iff; exists g; split; [reflexivity | exact ig] |]. cbn [snd fst]. apply in_or_app. right. left. reflexivity.
-  - destruct (nth_error (require c) i) as [r |] eqn:er; [| discriminate].
-    destruct (requirement_fails _ fs s _ r dirs) as [[rows es] |] eqn:ef; [| discriminate].
-    apply andb_true_iff in hf as [h1 h2]. rewrite forallb_forall in h1, h2.
-    apply (requirement_fails_sound c s ds m P (th ++ tb) tape R n bounds_at Found i r er reached dirs rows es ef).
-    + apply Forall_forall. intros p ip. apply Pos, h1, ip.
-    + apply Forall_forall. intros e ie. apply Pos, h2, ie.
-    + apply met, (nth_error_In _ _ er).
-  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b | | | | | | | | | | | | | |]; try discriminate.
-    destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate].
-    apply (row_fails_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached i b leg g er eg); [apply Pos, hf |].
-    apply met, (nth_error_In _ _ er).
+  intros [reached [_ met]]. refine (fails_over_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached lambda cs coords _ _ is_positive f
+    (eval_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) (is_positive_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) hf met).
 Qed.
 End Precision.
 

@@ -5,7 +5,7 @@
     realizers are trusted; ExtrOcamlZBigInt and ExtrOcamlNativeString are Coq's own,
     the others are here, with what they have to be. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNativeString ZArith.
-From Orthocert.kernel Require Import Certificate.
+From Orthocert.kernel Require Import Certificate Paving Own PavingText.
 
 Extract Constant Z.ltb => "Big_int_Z.lt_big_int".
 Extract Constant Z.leb => "Big_int_Z.le_big_int".
@@ -27,4 +27,4 @@ Extract Constant Z.shiftr =>
 Definition of_positive (p : positive) : Z := Zpos p.
 Definition of_natural (n : N) : Z := Z.of_N n.
 
-Extraction "verified.ml" verify Z.add Z.mul Z.opp Z.to_pos Z.to_N of_positive of_natural.
+Extraction "verified.ml" verify open_paving start_paving read_node close_paving own Z.add Z.mul Z.opp Z.to_pos Z.to_N of_positive of_natural.

@@ -513,6 +513,70 @@ for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accur
   read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
 fs.rmSync(beside, { recursive: true });
 
+// Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.
+const designs = path.join(__dirname, "../../../tests/designs");
+const pavings = fs.mkdtempSync(path.join(os.tmpdir(), "pavings-"));
+const delta = ["--box", "-170,170,-170,170,-30,220"];
+const paved = [
+  ["linear-delta-klipper-box", "--precision", "25", ...delta],
+  ["delta-conditioning", "--precision", "25", ...delta],
+  ["delta-parallel-margin", "--precision", "25", ...delta],
+  ["delta-serial-margin", "--precision", "25", ...delta],
+  ["delta-joint-speed", "--precision", "25", ...delta],
+  ["upu-struts", "--precision", "60", "--box", "-300,300,-300,300,100,400"],
+  ["orthoglide-310", "--precision", "25", "--box", "-150,150,-150,150,-150,151"],
+  ["orthoglide-as-built", "--precision", "25", "--box", "-150,150,-150,150,-150,150"],
+  ["linear-delta-klipper-box", "--coordinates", "z", "--precision", "4", "--box", "-60,60,-60,60,-200,400"],
+  ["linear-delta-klipper-box", "--coordinates", "z,x", "--precision", "10", "--box", "-60,60,-60,60,-200,400"],
+].map(([design, ...options], i) => {
+  const file = path.join(pavings, `${i}.paving`);
+  const run = spawnSync(path.join(path.dirname(exact), "orthocert"), ["pave", path.join(designs, `${design}.toml`), ...options, "-o", file, "-q"]);
+  if (run.status === null || !fs.existsSync(file)) fail(`no paving of ${design}: ${run.stderr}`);
+  return fs.readFileSync(file);
+});
+const of_all = (file, bytes) => {
+  fs.writeFileSync(file, bytes);
+  return [natively([file])[0], exactly(file)];
+};
+const own = path.join(pavings, "own.paving");
+const damaged = (bytes) => {
+  const header = bytes.indexOf(10) + 1, last = bytes.lastIndexOf("{");
+  const at = random(4) ? header + random(last - header) : random(bytes.length);
+  const cut = [bytes.subarray(0, at), bytes.subarray(at)];
+  switch (random(4)) {
+    case 0: return Buffer.concat([cut[0], cut[1].subarray(1)]);
+    case 1: return Buffer.concat([cut[0], bytes.subarray(header + random(last - header)).subarray(0, 1), cut[1]]);
+    case 2: return Buffer.concat([cut[0], Buffer.from([random(256)]), cut[1].subarray(1)]);
+    default: return Buffer.concat([cut[0], Buffer.from([cut[1][0] ^ 1 << random(8)]), cut[1].subarray(1)]);
+  }
+};
+// Steps where there are none, obligations that fail nowhere, parts that are left out, and what follows the last line.
+const after_header = (bytes, ...more) => { const at = bytes.indexOf(10) + 1; return Buffer.concat([bytes.subarray(0, at), Buffer.from(more), bytes.subarray(at)]); };
+const renamed = (bytes, from, to) => Buffer.from(bytes.toString("latin1").replace(from, to), "latin1");
+const few = { accepted: 0, rejected: 0, "not covered": 0 };
+paved.forEach((bytes, i) => {
+  const answers = [...of_all(own, bytes), verify(bytes.toString("latin1"))];
+  if (answers.some((answer) => answer !== "CERTIFIED")) fail(`paving ${i}: ${answers}`);
+  for (const wrong of [
+    Buffer.concat([bytes, Buffer.from("\n")]), bytes.subarray(0, bytes.length - 1), after_header(bytes, 4), after_header(bytes, 0x1f), after_header(bytes, 0x10),
+    renamed(bytes, /"inner_share":"\d+/, "$&1"), renamed(bytes, /"boundary_share":"/, "$&1"), renamed(bytes, /"inner":/, "$&1"), renamed(bytes, /"depth":\d+/, '"depth":2'),
+    renamed(bytes, /"precision":\d+/, '"precision":2000'), renamed(bytes, /"bound":"/, "$&0"), renamed(bytes, /"(box":\{"min":\[)"[^"]*/, '"$1"1000'),
+  ]) {
+    const answers = [...of_all(own, wrong), verify(wrong.toString("latin1"))];
+    if (answers.some((answer) => answer !== "REJECTED")) fail(`paving ${i}: ${answers}: ${JSON.stringify(wrong.toString("latin1"))}`);
+  }
+});
+for (let i = 0; i < Number(mutants) / 4; i++) {
+  const bytes = damaged(paved[i % paved.length]);
+  const [answer, right] = of_all(own, bytes);
+  if (answer.startsWith("NOT COVERED")) few["not covered"]++;
+  else if (answer === right) few[answer === "REJECTED" ? "rejected" : "accepted"]++;
+  else fail(`mutant ${i} of a paving: ${answer}, and ${right} by orthocert-check: ${JSON.stringify(bytes.toString("latin1"))}`);
+  if (i % 20 === 0 && verify(bytes.toString("latin1")) !== answer) fail(`mutant ${i} of a paving: ${answer} natively alone`);
+}
+fs.rmSync(pavings, { recursive: true });
+console.log(`pavings: ${paved.length}, with one answer; mutants: ${Object.entries(few).map(([name, n]) => `${n} ${name}`).join(", ")}`);
+
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {
   const certificate = JSON.parse(text);

@@ -1,16 +1,22 @@
-(* orthocert-verified CERT.json..: exit codes as those of orthocert-check, and 3 for what is not covered. *)
-let usage = "usage: orthocert-verified CERT.json..\n\
-Checks certificates by the program extracted from the formal development, and prints a\n\
+(* orthocert-verified FILE..: exit codes as those of orthocert-check, and 3 for what is not covered. *)
+let usage = "usage: orthocert-verified FILE..\n\
+Checks certificates and pavings by the program extracted from the formal development, and prints a\n\
 line for each: CERTIFIED, REFUTED, REJECTED, or NOT COVERED and why.\n\
 Exit codes: 0 certified, 1 refuted, 2 a file cannot be read, 3 not covered,\n\
 5 rejected; of several files the greatest.\n"
 
-let read path =
-  let channel = open_in_bin path in
-  Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
+let verdict channel =
+  let beginning = Bytes.create 64 in
+  let n = input channel beginning 0 64 in
+  seek_in channel 0;
+  if Paving.is_paving (Bytes.sub_string beginning 0 n) then Paving.verdict (Paving.of_channel channel)
+  else Reader.verdict (really_input_string channel (in_channel_length channel))
 
 let check path =
-  match Reader.verdict (read path) with
+  match
+    let channel = open_in_bin path in
+    Fun.protect ~finally:(fun () -> close_in channel) (fun () -> verdict channel)
+  with
   | Certified -> print_endline "CERTIFIED"; 0
   | Refuted -> print_endline "REFUTED"; 1
   | Rejected -> print_endline "REJECTED"; 5

@@ -1,6 +1,6 @@
-(* orthocert_verify(text): "CERTIFIED", "REFUTED", "REJECTED" or "NOT COVERED: why". *)
+(* orthocert_verify(text): "CERTIFIED", "REFUTED", "REJECTED" or "NOT COVERED: why", of a character a byte. *)
 let verdict text =
-  match Reader.verdict text with
+  match if Paving.is_paving text then Paving.verdict (Paving.of_string text) else Reader.verdict text with
   | Certified -> "CERTIFIED"
   | Refuted -> "REFUTED"
   | Rejected -> "REJECTED"
