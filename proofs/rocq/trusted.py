@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Counts the definitions that have to be read to know what verify_sound says: of the roots below, and of all that
+"""Counts the definitions that have to be read to know what verify_sound and verify_paving_sound say: of the roots below, and of all that
 they are made of, as Coq's .glob files of the compiled development have it. Lines without comments and blank lines;
-first those of the statement, then what the checks of shape have besides.
+first those of the statement, then what the checks of shape have besides, then what pavings have.
 
     trusted.py       a line a file
     trusted.py -v    the names too
@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).parent
 STATEMENT = "print is_plain_certificate means".split()
 SHAPES = "is_well_formed are_well_formed_arms is_turning are_well_formed_formulas are_parameters".split()
+PAVINGS = "print_header print_summary is_plain_header means_paving".split()
 KEYWORDS = rb"Definition|Fixpoint|Inductive|Record|Class|Instance|Notation|with"
 
 
@@ -84,8 +85,8 @@ for path in sorted(ROOT.glob("*.v")) + sorted((ROOT / "kernel").glob("*.v")):
             made_of.setdefault(key, set()).add(reference)
 
 seen = set()
-for words, roots in (("statement", STATEMENT), ("checks of shape", SHAPES)):
-    files, wanted = {}, [owner["Orthocert.kernel.Certificate", root] for root in roots]
+for words, module, roots in (("statement", "Certificate", STATEMENT), ("checks of shape", "Certificate", SHAPES), ("pavings", "PavingText", PAVINGS)):
+    files, wanted = {}, [owner[f"Orthocert.kernel.{module}", root] for root in roots]
     while wanted:
         key = wanted.pop()
         if key not in seen:

@@ -555,14 +555,15 @@ const after_header = (bytes, ...more) => { const at = bytes.indexOf(10) + 1; ret
 const renamed = (bytes, from, to) => Buffer.from(bytes.toString("latin1").replace(from, to), "latin1");
 const few = { accepted: 0, rejected: 0, "not covered": 0 };
 paved.forEach((bytes, i) => {
-  const answers = [...of_all(own, bytes), verify(bytes.toString("latin1"))];
+  const answers = of_all(own, bytes);
+  if (!verify(bytes.toString("latin1")).startsWith("NOT COVERED")) fail(`paving ${i}: covered by verified.js`);
   if (answers.some((answer) => answer !== "CERTIFIED")) fail(`paving ${i}: ${answers}`);
   for (const wrong of [
     Buffer.concat([bytes, Buffer.from("\n")]), bytes.subarray(0, bytes.length - 1), after_header(bytes, 4), after_header(bytes, 0x1f), after_header(bytes, 0x10),
     renamed(bytes, /"inner_share":"\d+/, "$&1"), renamed(bytes, /"boundary_share":"/, "$&1"), renamed(bytes, /"inner":/, "$&1"), renamed(bytes, /"depth":\d+/, '"depth":2'),
     renamed(bytes, /"precision":\d+/, '"precision":2000'), renamed(bytes, /"bound":"/, "$&0"), renamed(bytes, /"(box":\{"min":\[)"[^"]*/, '"$1"1000'),
   ]) {
-    const answers = [...of_all(own, wrong), verify(wrong.toString("latin1"))];
+    const answers = of_all(own, wrong);
     if (answers.some((answer) => answer !== "REJECTED")) fail(`paving ${i}: ${answers}: ${JSON.stringify(wrong.toString("latin1"))}`);
   }
 });
@@ -572,7 +573,6 @@ for (let i = 0; i < Number(mutants) / 4; i++) {
   if (answer.startsWith("NOT COVERED")) few["not covered"]++;
   else if (answer === right) few[answer === "REJECTED" ? "rejected" : "accepted"]++;
   else fail(`mutant ${i} of a paving: ${answer}, and ${right} by orthocert-check: ${JSON.stringify(bytes.toString("latin1"))}`);
-  if (i % 20 === 0 && verify(bytes.toString("latin1")) !== answer) fail(`mutant ${i} of a paving: ${answer} natively alone`);
 }
 fs.rmSync(pavings, { recursive: true });
 console.log(`pavings: ${paved.length}, with one answer; mutants: ${Object.entries(few).map(([name, n]) => `${n} ${name}`).join(", ")}`);

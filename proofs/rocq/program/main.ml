@@ -9,7 +9,7 @@ let verdict channel =
   let beginning = Bytes.create 64 in
   let n = input channel beginning 0 64 in
   seek_in channel 0;
-  if Paving.is_paving (Bytes.sub_string beginning 0 n) then Paving.verdict (Paving.of_channel channel)
+  if Reader.is_paving (Bytes.sub_string beginning 0 n) then Paving.verdict (Paving.of_channel channel)
   else Reader.verdict (really_input_string channel (in_channel_length channel))
 
 let check path =

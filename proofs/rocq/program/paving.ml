@@ -6,9 +6,6 @@ open Reader
 (* What is read: its bytes, and the end of the file as [None]. *)
 type source = { byte : unit -> char option }
 let of_channel channel = { byte = fun () -> match input_char channel with c -> Some c | exception End_of_file -> None }
-let of_string text =
-  let at = ref 0 in
-  { byte = fun () -> if !at < String.length text then (incr at; Some text.[!at - 1]) else None }
 
 let next source = match source.byte () with Some c -> Char.code c | None -> raise Malformed
 let most_line = 1 lsl 20
@@ -175,10 +172,3 @@ let verdict source =
   | exception Not_covered why -> Not_known why
   | exception Malformed -> Rejected
   | v -> v
-
-(* What orthocert-check takes for a paving. *)
-let is_paving text =
-  let name = "\"orthocert-paving/" in
-  let n = min 64 (String.length text) - String.length name in
-  let rec at i = i <= n && (String.sub text i (String.length name) = name || at (i + 1)) in
-  at 0

@@ -3,129 +3,129 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(D){"use strict";var
-G9=typeof
-module==="object"&&module.exports||D,i9="spatial",n4="Invalid_argument",d2="precision",ay='"',nu="inner",n3="@[",iT=1255,n2="inside",oE="Fatal error: exception %s\n",go=255,n1="yaw",oC="(",oD=0x800,ns="range",nt="tree",iS="jsError",b1=0x8000,nZ='the mechanism "',n0="%ni",o_="sqrt(",oB="orthocert-paving/3",oA=256,e2="offset",oz="obligation",aZ="machine",o9=4096,nr="End_of_file",gu="strut",nq="center",gN="arm",iR="Failure",o8="serial_margin",gM="parameters",cu=0xff,jd="bodies",np="\n",o7="symmetry",jc="outside",iZ="base_axis",i8="ENOENT",o6=122,no="mirrored",aU="0",oy="([^/]+)",i7=0xf,ct=128,iQ=-48,nn=0xdc00,nY="Sys_blocked_io",o5="fd ",iP="given",ox="ENOTEMPTY",aH=248,gG="bound",aG="camlinternalFormat.ml",ow="Division_by_zero",o3="by",o4=1027,nm="Sys_error",ov="x",nX="slider",nW="postulate",ou="torsion",nV="joint_error",e1="refuted",ot="proof",nl="boundary_share",nU="%u",d5="mechanism",gF="row",nk="EEXIST",nT="roll_pitch_yaw",i6="%d",nj="Printexc.handle_uncaught_exception",e0="y",gn="lower",nS="within",os="cube",ni="clearance",o2="depth",or="buffer.ml",o1="turned",gm="int_of_string",oq="control",nR="definitions",gt=127,eZ=1024,nQ="@{",nh="name",op="from",o0="1",jb="e",nf=120,ng=103,nP=" : flags Open_rdonly and Open_wronly are not compatible",oo="orthocert/2",oZ="reach",ne=512,br="-",oY="witness",bJ="platform",nd=0x7ff0,nc="pitch",ja=": Not a directory",nO=" : file already exists",bs="min",oX="trim",d6="workspace",eY="claim",gE="split",oW="legs",cs=0xffffff,on="joint",na="formulas",nb="0x",nN='the workspace "',om="roll",gD="atlas",oU="nodes",oV="Out_of_memory",m$="psi_max",gL="orientation",nM="angle",gC=254,i$="index out of bounds",ol=100,m_="end",oT="one_to_one",gK="_bigarr02",m9="%Li",ok=" : flags Open_text and Open_binary are not compatible",cP="drive",gB="coordinates",oS="holds",nL=", characters ",oj="lower_divided",m8="speed",nK="joints",oR="cylinder",b3=0xffff,nI="acceleration",eX="certified",iY="chords",nJ=12520,iO="on",nH="outer",nG="axis",gA="accuracy",nF="no_cube",oQ="parallel_margin",m7='the drive "',gs="fails",i5="Unix.Unix_error",oP="infinity",d1="tool",iN="mkdir",eW=1000,gl="translational",nE="tolerances",x="",oi="Stack_overflow",oO="characteristic_length",iX="^",gk=": No such file or directory",i4="places",oh="/static/",d4=0x3f,og=-97,oe="stiffness",of="Not_found",eV="planar",gz="mode",oN="joint_speed",nD="Match_failure",m6=", ",m5="transmission",cO="anchor",oM="at",gJ=252,m4="joint_force",d3="leg",cQ=".",b2="+",od="joint_acceleration",nC="splits",i3="rmdir",oL=0xf0,oK="spherical",nz="REJECTED",nA="undecided",nB="%li",oc=1026,bt="max",dc="direction",ob="orthoglide",gI="rank",oJ="constraint_margin",i_=-32,m2="Pervasives.do_at_exit",m3="utf8",i2="test",cq=" ",gr="conditioning",i1="Fatal error: exception ",bK=0x80,m1="Undefined_recursive_module",iW=")",gy="length",oa="base",oI="quantity",n$="joint_range",gx="tilt",m0="Q2",iV="nan",mZ="inner_share",ny="reference",n_="point",nx=0xe0,oH="corner",gq="z",nw=0xdfff,gw="version",n9="_",oG="to",bq="/",n8="permutations",i0="compare: functional value",oF="Assert_failure",gp="provenance",d0="radius",mY="%i",cr="require",gv="side",n7="boundary",gH="format",iU="ENOTDIR",n6="Q1",n5="all",db="box",nv=250;function
-js(c,b,a){var
-d=String.fromCharCode;if(b==0&&a<=o9&&a==c.length)return d.apply(null,c);var
-e=x;for(;0<a;b+=eZ,a-=eZ)e+=d.apply(null,c.slice(b,b+Math.min(a,eZ)));return e}function
-gP(b){if(D.Uint8Array)var
-c=new(D.Uint8Array)(b.l);else
+a.prototype._T_}}(Object));(function(A){"use strict";var
+D1=typeof
+module==="object"&&module.exports||A,io="spatial",mY="Invalid_argument",fM="precision",aC='"',mX="@[",h6=1255,mW="inside",nw="Fatal error: exception %s\n",mn=255,mV="yaw",nu="(",nv=0x800,ml="range",mm="tree",h5="jsError",bR=0x8000,mT='the mechanism "',mU="%ni",n0="sqrt(",nt=256,eD="offset",ns="obligation",a7="machine",mk="End_of_file",fP="strut",mj="center",f4="arm",h4="Failure",nZ="serial_margin",f3="parameters",ci=0xff,iu="bodies",mi="\n",it="outside",ic="base_axis",im="ENOENT",nY=122,aQ="0",nr="([^/]+)",il=0xf,eE=128,h3=-48,mh=0xdc00,mS="Sys_blocked_io",nX="fd ",h2="given",nq="ENOTEMPTY",aB=248,fZ="bound",aA="camlinternalFormat.ml",np="Division_by_zero",nV="by",nW=1027,mg="Sys_error",mR="slider",mQ="postulate",no="torsion",mP="joint_error",eC="refuted",nn="proof",mO="%u",dI="mechanism",fY="row",mf="EEXIST",mN="roll_pitch_yaw",ik="%d",me="Printexc.handle_uncaught_exception",ib="y",fL="lower",mM="within",nm="cube",md="clearance",nl="buffer.ml",nU="turned",fK="int_of_string",nk="control",mL="definitions",ia=127,eB=1024,mK="@{",mc="name",nj="from",is="e",ma=120,mb=103,mJ=" : flags Open_rdonly and Open_wronly are not compatible",ni="orthocert/2",nT="reach",l$=512,bj="-",nS="witness",bA="platform",l_=0x7ff0,l9="pitch",ir=": Not a directory",mI=" : file already exists",bk="min",nR="trim",dJ="workspace",mH="claim",fX="split",nQ="legs",ch=0xffffff,nh="joint",l7="formulas",l8="0x",mG='the workspace "',ng="roll",fW="atlas",nO="nodes",nP="Out_of_memory",l6="psi_max",iq="orientation",mF="angle",fV=254,ip="index out of bounds",nf=100,l5="end",nN="one_to_one",f2="_bigarr02",l4="%Li",ne=" : flags Open_text and Open_binary are not compatible",cC="drive",nd="coordinates",nM="holds",mE=", characters ",nc="lower_divided",l3="speed",mD="joints",nL="cylinder",bT=0xffff,mB="acceleration",eA="certified",h$="chords",mC=12520,h1="on",mA="axis",fU="accuracy",mz="no_cube",nK="parallel_margin",l2='the drive "',fO="fails",ij="Unix.Unix_error",nJ="infinity",fJ="tool",h0="mkdir",ez=1000,fI="translational",my="tolerances",w="",nb="Stack_overflow",nI="characteristic_length",h_="^",fH=": No such file or directory",ii="places",na="/static/",dH=0x3f,m$=-97,m9="stiffness",m_="Not_found",ey="planar",fT="mode",nH="joint_speed",mx="Match_failure",l1=", ",l0="transmission",cB="anchor",nG="at",f1=252,lZ="joint_force",dG="leg",cD=".",bS="+",m8="joint_acceleration",ih="rmdir",nF=0xf0,nE="spherical",mu="REJECTED",mv="undecided",mw="%li",m7=1026,bl="max",c1="direction",m6="orthoglide",f0="rank",nD="constraint_margin",nC=-32,lX="Pervasives.do_at_exit",lY="utf8",ig="test",cf=" ",fN="conditioning",ie="Fatal error: exception ",bB=0x80,lW="Undefined_recursive_module",h9=")",fS="length",m5="base",nB="quantity",m4="joint_range",fR="tilt",lV="Q2",h8="nan",mt="reference",m3="point",ms=0xe0,nA="corner",mq="z",mr=0xdfff,m1="version",m2="_",nz="to",bz="/",id="compare: functional value",ny="Assert_failure",mp="provenance",dF="radius",lU="%i",cg="require",fQ="side",nx="format",h7="ENOTDIR",m0="Q1",mZ="all",c0="box",mo=250;function
+iJ(c,b,a){var
+d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
+e=w;for(;0<a;b+=eB,a-=eB)e+=d.apply(null,c.slice(b,b+Math.min(a,eB)));return e}function
+f6(b){if(A.Uint8Array)var
+c=new(A.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cS(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?js(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?js(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gP(b);var
+cF(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)f6(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-cv(a){return a}function
-b6(a,b,c,d,e){cS(cv(a),b,c,d,e);return 0}function
-G2(b,a){throw[0,b,a]}function
-d$(b,a){if(b==0)return x;if(a.repeat)return a.repeat(b);var
-d=x,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d9(a){if(a.t==2)a.c+=d$(a.l-a.c.length,"\0");else
-a.c=js(a.c,0,a.c.length);a.t=0}function
-pF(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gt)return false;return true}else
+cj(a){return a}function
+bW(a,b,c,d,e){cF(cj(a),b,c,d,e);return 0}function
+DU(b,a){throw[0,b,a]}function
+dO(b,a){if(b==0)return w;if(a.repeat)return a.repeat(b);var
+d=w,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dM(a){if(a.t==2)a.c+=dO(a.l-a.c.length,"\0");else
+a.c=iJ(a.c,0,a.c.length);a.t=0}function
+ov(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>ia)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-ju(e){for(var
-j=x,c=x,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bK){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bK;d++);if(d-b>ne){c.substr(0,1);j+=c;c=x;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ct){g=h+(f<<6);if(f<nx){a=g-0x3080;if(a<bK)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ct){g=h+(g<<6);if(f<oL){a=g-0xe2080;if(a<oD||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ct&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b3)c+=String.fromCharCode(0xd7c0+(a>>10),nn+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eZ){c.substr(0,1);j+=c;c=x}}return j+c}function
-b4(c,a,b){this.t=c;this.c=a;this.l=b}b4.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d9(this);case
-0:if(pF(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b4.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return ju(a)};b4.prototype.slice=function(){var
+iL(e){for(var
+j=w,c=w,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bB){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bB;d++);if(d-b>l$){c.substr(0,1);j+=c;c=w;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(f<<6);if(f<ms){a=g-0x3080;if(a<bB)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(g<<6);if(f<nF){a=g-0xe2080;if(a<nv||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bT)c+=String.fromCharCode(0xd7c0+(a>>10),mh+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eB){c.substr(0,1);j+=c;c=w}}return j+c}function
+bU(c,a,b){this.t=c;this.c=a;this.l=b}bU.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dM(this);case
+0:if(ov(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bU.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iL(a)};bU.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-b4(this.t,a,this.l)};function
-pi(a){return new
-b4(0,a,a.length)}function
-a(a){return pi(a)}function
-jq(c,b){G2(c,a(b))}var
-at=[0];function
-aI(a){jq(at.Invalid_argument,a)}function
-pg(){aI(i$)}function
-ax(a,c,b){b&=cu;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gP(a)}a.c[c]=b;return 0}function
-dd(b,a,c){if(a>>>0>=b.l)pg();return ax(b,a,c)}function
-d8(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bU(this.t,a,this.l)};function
+n_(a){return new
+bU(0,a,a.length)}function
+a(a){return n_(a)}function
+iH(c,b){DU(c,a(b))}var
+ao=[0];function
+aD(a){iH(ao.Invalid_argument,a)}function
+n8(){aD(ip)}function
+ar(a,c,b){b&=ci;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}f6(a)}a.c[c]=b;return 0}function
+c2(b,a,c){if(a>>>0>=b.l)n8();return ar(b,a,c)}function
+dL(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-b7(c,a){if(c.fun)return b7(c.fun,a);if(typeof
+bX(c,a){if(c.fun)return bX(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return b7(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bX(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b7(c,d)}}function
-e3(){aI(i$)}function
-pj(a,b){if(b>>>0>=a.length-1)e3();return a}function
-Gr(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-cx(a){a.t&6&&d9(a);return a.c}var
-G$=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-G_(a){if(G$)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bX(c,d)}}function
+eF(){aD(ip)}function
+n$(a,b){if(b>>>0>=a.length-1)eF();return a}function
+Dj(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+cl(a){a.t&6&&dM(a);return a.c}var
+D3=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+D2(a){if(D3)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-ji(c){var
-a=new(D.Float32Array)(1);a[0]=c;var
-b=new(D.Int32Array)(a.buffer);return b[0]|0}var
-ps=Math.pow(2,-24);function
-G0(a){throw a}function
-pz(){G0(at.Division_by_zero)}function
-C(b,c,a){this.lo=b&cs;this.mi=c&cs;this.hi=a&b3}C.prototype.caml_custom="_j";C.prototype.copy=function(){return new
-C(this.lo,this.mi,this.hi)};C.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.neg=function(){var
+iz(c){var
+a=new(A.Float32Array)(1);a[0]=c;var
+b=new(A.Int32Array)(a.buffer);return b[0]|0}var
+oi=Math.pow(2,-24);function
+DS(a){throw a}function
+op(){DS(ao.Division_by_zero)}function
+z(b,c,a){this.lo=b&ch;this.mi=c&ch;this.hi=a&bT}z.prototype.caml_custom="_j";z.prototype.copy=function(){return new
+z(this.lo,this.mi,this.hi)};z.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-C(a,b,c)};C.prototype.add=function(a){var
+z(a,b,c)};z.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-C(b,c,d)};C.prototype.sub=function(a){var
+z(b,c,d)};z.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-C(b,c,d)};C.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*ps|0)+this.mi*a.lo+this.lo*a.mi,d=(c*ps|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-C(b,c,d)};C.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};C.prototype.isNeg=function(){return this.hi<<16<0};C.prototype.and=function(a){return new
-C(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};C.prototype.or=function(a){return new
-C(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};C.prototype.xor=function(a){return new
-C(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};C.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-C(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-C(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-C(0,0,this.lo<<a-48)};C.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-C(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-C(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-C(this.hi>>a-48,0,0)};C.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+z(b,c,d)};z.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*oi|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oi|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+z(b,c,d)};z.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};z.prototype.isNeg=function(){return this.hi<<16<0};z.prototype.and=function(a){return new
+z(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};z.prototype.or=function(a){return new
+z(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};z.prototype.xor=function(a){return new
+z(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};z.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+z(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+z(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+z(0,0,this.lo<<a-48)};z.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+z(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+z(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+z(this.hi>>a-48,0,0)};z.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-C(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+z(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-C(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b3);return new
-C(this.hi<<16>>a-32,b,b)};C.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cs;this.lo=this.lo<<1&cs};C.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cs;this.mi=(this.mi>>>1|this.hi<<23)&cs;this.hi=this.hi>>>1};C.prototype.udivmod=function(e){var
+z(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bT);return new
+z(this.hi<<16>>a-32,b,b)};z.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ch;this.lo=this.lo<<1&ch};z.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ch;this.mi=(this.mi>>>1|this.hi<<23)&ch;this.hi=this.hi>>>1};z.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-C(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};C.prototype.div=function(a){var
-b=this;if(a.isZero())pz();var
-d=b.hi^a.hi;if(b.hi&b1)b=b.neg();if(a.hi&b1)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b1)c=c.neg();return c};C.prototype.mod=function(b){var
-a=this;if(b.isZero())pz();var
-d=a.hi;if(a.hi&b1)a=a.neg();if(b.hi&b1)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b1)c=c.neg();return c};C.prototype.toInt=function(){return this.lo|this.mi<<24};C.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};C.prototype.toArray=function(){return[this.hi>>8,this.hi&cu,this.mi>>16,this.mi>>8&cu,this.mi&cu,this.lo>>16,this.lo>>8&cu,this.lo&cu]};C.prototype.lo32=function(){return this.lo|(this.mi&cu)<<24};C.prototype.hi32=function(){return this.mi>>>8&b3|this.hi<<16};function
-gT(b,c,a){return new
-C(b,c,a)}function
-gS(a){if(!isFinite(a)){if(isNaN(a))return gT(1,0,nd);return a>0?gT(0,0,nd):gT(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b1:a>=0?0:b1;if(f)a=-a;var
-b=G_(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-oc)}else{a/=Math.pow(2,b-o4);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+z(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};z.prototype.div=function(a){var
+b=this;if(a.isZero())op();var
+d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};z.prototype.mod=function(b){var
+a=this;if(b.isZero())op();var
+d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};z.prototype.toInt=function(){return this.lo|this.mi<<24};z.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};z.prototype.toArray=function(){return[this.hi>>8,this.hi&ci,this.mi>>16,this.mi>>8&ci,this.mi&ci,this.lo>>16,this.lo>>8&ci,this.lo&ci]};z.prototype.lo32=function(){return this.lo|(this.mi&ci)<<24};z.prototype.hi32=function(){return this.mi>>>8&bT|this.hi<<16};function
+f_(b,c,a){return new
+z(b,c,a)}function
+f9(a){if(!isFinite(a)){if(isNaN(a))return f_(1,0,l_);return a>0?f_(0,0,l_):f_(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
+b=D2(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m7)}else{a/=Math.pow(2,b-nW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&i7|f|b<<4;return gT(g,e,c)}function
-e6(a){return a.toArray()}function
-pf(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gK)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b3)c.write(16,b.dims[a]);else{c.write(16,b3);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&il|f|b<<4;return f_(g,e,c)}function
+eI(a){return a.toArray()}function
+n7(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f2)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bT)c.write(16,b.dims[a]);else{c.write(16,bT);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +142,30 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e6(b.get(a));for(var
+e=eI(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e6(gS(b.get(a)));for(var
+e=eI(f9(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=ji(b.get(a));c.write(32,e)}break;case
+e=iz(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,ji(d[1]));c.write(32,ji(d[2]))}break;case
+d=b.get(a);c.write(32,iz(d[1]));c.write(32,iz(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e6(gS(f[1]));for(var
+f=b.get(a),e=eI(f9(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e6(gS(f[2]));for(var
+e=eI(f9(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-pd(a){switch(a){case
+n5(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Gl(c,e){var
-b=D,a;switch(c){case
+Dd(c,e){var
+b=A,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=D,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aI("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aD("Bigarray.create: unsupported kind");var
 d=new
-a(e*pd(c));return d}function
-jj(c){var
-a=new(D.Int32Array)(1);a[0]=c;var
-b=new(D.Float32Array)(a.buffer);return b[0]}function
-e5(a){return new
-C(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-jk(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&i7)==0?b&b1?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&i7);if(c>0){a+=16;a*=Math.pow(2,c-o4)}else
-a*=Math.pow(2,-oc);if(b&b1)a=-a;return a}function
-je(b){var
+a(e*n5(c));return d}function
+iA(c){var
+a=new(A.Int32Array)(1);a[0]=c;var
+b=new(A.Float32Array)(a.buffer);return b[0]}function
+eH(a){return new
+z(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+iB(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&il)==0?b&bR?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&il);if(c>0){a+=16;a*=Math.pow(2,c-nW)}else
+a*=Math.pow(2,-m7);if(b&bR)a=-a;return a}function
+iv(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aI("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-GC(b,a){return new
-C(b&cs,b>>>24&cu|(a&b3)<<8,a>>>16&b3)}function
-jl(a){return a.hi32()}function
-jm(a){return a.lo32()}var
-Gm=gK;function
-cR(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cR.prototype.caml_custom=Gm;cR.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aD("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Du(b,a){return new
+z(b&ch,b>>>24&ci|(a&bT)<<8,a>>>16&bT)}function
+iC(a){return a.hi32()}function
+iD(a){return a.lo32()}var
+De=f2;function
+cE(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cE.prototype.caml_custom=De;cE.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aI("bigarray.js: invalid offset");if(this.dims.length!=b.length)aI("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])e3();c=c*this.dims[a]+b[a]}else
+Array))aD("bigarray.js: invalid offset");if(this.dims.length!=b.length)aD("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eF();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])e3();c=c*this.dims[a]+(b[a]-1)}return c};cR.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eF();c=c*this.dims[a]+(b[a]-1)}return c};cE.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return GC(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Du(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gC,e,c];default:return this.data[a]}};cR.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jm(b);this.data[a*2+1]=jl(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fV,e,c];default:return this.data[a]}};cE.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iD(b);this.data[a*2+1]=iC(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cR.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cE.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jm(b),e=jl(b);if(c==e)this.data.fill(c);else
+c=iD(b),e=iC(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cR.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cE.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-d7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d7.prototype=new
-cR();d7.prototype.offset=function(a){if(typeof
+dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
+cE();dK.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aI("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])e3();return a};d7.prototype.get=function(a){return this.data[a]};d7.prototype.set=function(a,b){this.data[a]=b;return 0};d7.prototype.fill=function(a){this.data.fill(a);return 0};function
-pb(c,d,a,b){var
-e=pd(c);if(je(a)*e!=b.length)aI("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-d7(c,d,a,b);return new
-cR(c,d,a,b)}function
-bL(b){if(!at.Failure)at.Failure=[aH,a(iR),-3];jq(at.Failure,b)}function
-pc(b,v,r){var
-i=b.read32s();if(i<0||i>16)bL("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cu,o=p>>8&1,h=[];if(r==gK)for(var
+aD("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eF();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
+n3(c,d,a,b){var
+e=n5(c);if(iv(a)*e!=b.length)aD("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dK(c,d,a,b);return new
+cE(c,d,a,b)}function
+bC(b){if(!ao.Failure)ao.Failure=[aB,a(h4),-3];iH(ao.Failure,b)}function
+n4(b,v,r){var
+i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ci,o=p>>8&1,h=[];if(r==f2)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b3){var
-t=b.read32u(),u=b.read32u();if(t!=0)bL("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bT){var
+t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=je(h),f=Gl(j,d),g=pb(j,o,h,f);switch(j){case
+d=iv(h),f=Dd(j,d),g=n3(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bL("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bC("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e5(e);g.set(a,q)}break;case
+q=eH(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=jk(e5(e));g.set(a,k)}break;case
+k=iB(eH(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=jj(b.read32s());g.set(a,k)}break;case
+k=iA(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=jj(b.read32s()),l=jj(b.read32s());g.set(a,[gC,m,l])}break;case
+m=iA(b.read32s()),l=iA(b.read32s());g.set(a,[fV,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=jk(e5(e));for(var
+m=iB(eH(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=jk(e5(e));g.set(a,[gC,m,l])}break}v[0]=(4+i)*4;return pb(j,o,h,f)}function
-pa(a,b,c){return a.compare(b,c)}function
-pw(a,b){return Math.imul(a,b)}function
-cw(b,a){a=pw(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pw(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Gy(a,b){a=cw(a,jm(b));a=cw(a,jl(b));return a}function
-pr(a,b){return Gy(a,gS(b))}function
-pe(c){var
-b=je(c.dims),d=0;switch(c.kind){case
+l=iB(eH(e));g.set(a,[fV,m,l])}break}v[0]=(4+i)*4;return n3(j,o,h,f)}function
+n2(a,b,c){return a.compare(b,c)}function
+om(a,b){return Math.imul(a,b)}function
+ck(b,a){a=om(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=om(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Dq(a,b){a=ck(a,iD(b));a=ck(a,iC(b));return a}function
+oh(a,b){return Dq(a,f9(b))}function
+n6(c){var
+b=iv(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oA)b=oA;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cw(d,e)}e=0;switch(b&3){case
+12:if(b>nt)b=nt;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ck(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cw(d,e)}break;case
+1:e|=c.data[a+0];d=ck(d,e)}break;case
 4:case
-5:if(b>ct)b=ct;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cw(d,e)}if((b&1)!=0)d=cw(d,c.data[a]);break;case
+5:if(b>eE)b=eE;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ck(d,e)}if((b&1)!=0)d=ck(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cw(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cw(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cw(d,c.data[a]);break;case
+a=0;a<b;a++)d=ck(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pr(d,c.data[a]);break;case
+a=0;a<b;a++)d=oh(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pr(d,c.data[a]);break}return d}function
-GA(a,b){b[0]=4;return a.read32s()}function
-GX(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=oh(d,c.data[a]);break}return d}function
+Ds(a,b){b[0]=4;return a.read32s()}function
+DP(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bL("input_value: native integer value too large");default:bL("input_value: ill-formed native integer")}}function
-GL(c,d){var
+2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
+DD(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e5(b)}function
-GH(e,d,b){var
-c=e6(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eH(b)}function
+Dz(e,d,b){var
+c=eI(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-GB(a,b,c){return a.compare(b)}function
-GE(a){return a.lo32()^a.hi32()}var
-pm={"_j":{deserialize:GL,serialize:GH,fixed_length:8,compare:GB,hash:GE},"_i":{deserialize:GA,fixed_length:4},"_n":{deserialize:GX,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pc(a,b,"_bigarray")},serialize:pf,compare:pa,hash:pe},"_bigarr02":{deserialize:function(a,b){return pc(a,b,gK)},serialize:pf,compare:pa,hash:pe}};function
-jf(a){return pm[a.caml_custom]&&pm[a.caml_custom].compare}function
-pk(f,c,d,e){var
-b=jf(c);if(b){var
+Dt(a,b,c){return a.compare(b)}function
+Dw(a){return a.lo32()^a.hi32()}var
+oc={"_j":{deserialize:DD,serialize:Dz,fixed_length:8,compare:Dt,hash:Dw},"_i":{deserialize:Ds,fixed_length:4},"_n":{deserialize:DP,fixed_length:4},"_bigarray":{deserialize:function(a,b){return n4(a,b,"_bigarray")},serialize:n7,compare:n2,hash:n6},"_bigarr02":{deserialize:function(a,b){return n4(a,b,f2)},serialize:n7,compare:n2,hash:n6}};function
+iw(a){return oc[a.caml_custom]&&oc[a.caml_custom].compare}function
+oa(f,c,d,e){var
+b=iw(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-gU(a){return a
+f$(a){return a
 instanceof
-b4}function
-jo(a){return gU(a)}function
-pl(a){if(typeof
-a==="number")return eW;else
-if(gU(a))return gJ;else
-if(jo(a))return 1252;else
+bU}function
+iF(a){return f$(a)}function
+ob(a){if(typeof
+a==="number")return ez;else
+if(f$(a))return f1;else
+if(iF(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=go){var
-b=a[0]|0;return b==gC?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=mn){var
+b=a[0]|0;return b==fV?0:b}else
 if(a
 instanceof
-String)return nJ;else
+String)return mC;else
 if(typeof
-a=="string")return nJ;else
+a=="string")return mC;else
 if(a
 instanceof
-Number)return eW;else
-if(a&&a.caml_custom)return iT;else
+Number)return ez;else
+if(a&&a.caml_custom)return h6;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-GM(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-ph(a,b){a.t&6&&d9(a);b.t&6&&d9(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pC(a,b){return ph(a,b)}function
-gO(a,b,d){var
+DE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+n9(a,b){a.t&6&&dM(a);b.t&6&&dM(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+os(a,b){return n9(a,b)}function
+f5(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pl(a);if(f==nv){a=a[1];continue}var
-g=pl(b);if(g==nv){b=b[1];continue}if(f!==g){if(f==eW){if(g==iT)return pk(a,b,-1,d);return-1}if(g==eW){if(f==iT)return pk(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aI(i0);break;case
+f=ob(a);if(f==mo){a=a[1];continue}var
+g=ob(b);if(g==mo){b=b[1];continue}if(f!==g){if(f==ez){if(g==h6)return oa(a,b,-1,d);return-1}if(g==ez){if(f==h6)return oa(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aD(id);break;case
 248:var
-c=GM(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aI(i0);break;case
-250:aI("equal: got Forward_tag, should not happen");break;case
-251:aI("equal: abstract value");break;case
+c=DE(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aD(id);break;case
+250:aD("equal: got Forward_tag, should not happen");break;case
+251:aD("equal: abstract value");break;case
 252:if(a!==b){var
-c=ph(a,b);if(c!=0)return c|0}break;case
-253:aI("equal: got Double_tag, should not happen");break;case
-254:aI("equal: got Double_array_tag, should not happen");break;case
-255:aI("equal: got Custom_tag, should not happen");break;case
-1247:aI(i0);break;case
+c=n9(a,b);if(c!=0)return c|0}break;case
+253:aD("equal: got Double_tag, should not happen");break;case
+254:aD("equal: got Double_array_tag, should not happen");break;case
+255:aD("equal: got Custom_tag, should not happen");break;case
+1247:aD(id);break;case
 1255:var
-i=jf(a);if(i!=jf(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aI("compare: abstract value");var
+i=iw(a);if(i!=iw(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aD("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=cx(a),b=cx(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=cl(a),b=cl(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Gs(a,b){return gO(a,b,true)}function
-Gt(){return[0]}function
-aB(a){if(a<0)aI("Bytes.create");return new
-b4(a?2:9,x,a)}function
-pn(a,b){return+(gO(a,b,false)==0)}function
-Gv(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=x;a.t=2}else{a.c=d$(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-jp(d){d=cx(d);var
-e=d.length;if(e>31)aI("format_int: format too long");var
-a={justify:b2,signstyle:br,filler:cq,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+Dk(a,b){return f5(a,b,true)}function
+Dl(){return[0]}function
+aw(a){if(a<0)aD("Bytes.create");return new
+bU(a?2:9,w,a)}function
+od(a,b){return+(f5(a,b,false)==0)}function
+Dn(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=w;a.t=2}else{a.c=dO(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)f6(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+iG(d){d=cl(d);var
+e=d.length;if(e>31)aD("format_int: format too long");var
+a={justify:bS,signstyle:bj,filler:cf,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=br;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aU;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-jg(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=br))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=x;if(b.justify==b2&&b.filler==cq)for(var
-d=e;d<b.width;d++)c+=cq;if(b.signedconv)if(b.sign<0)c+=br;else
-if(b.signstyle!=br)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aU;if(b.alternate&&b.base==16)c+=nb;if(b.justify==b2&&b.filler==aU)for(var
-d=e;d<b.width;d++)c+=aU;c+=f;if(b.justify==br)for(var
-d=e;d<b.width;d++)c+=cq;return a(c)}function
-jh(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=bj;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aQ;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+ix(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bj))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=w;if(b.justify==bS&&b.filler==cf)for(var
+d=e;d<b.width;d++)c+=cf;if(b.signedconv)if(b.sign<0)c+=bj;else
+if(b.signstyle!=bj)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aQ;if(b.alternate&&b.base==16)c+=l8;if(b.justify==bS&&b.filler==aQ)for(var
+d=e;d<b.width;d++)c+=aQ;c+=f;if(b.justify==bj)for(var
+d=e;d<b.width;d++)c+=cf;return a(c)}function
+iy(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(b2)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aU);if(b>0)a=a+cQ+new
-Array(b+1).join(aU);return a}else
+c=parseInt(a.toString().split(bS)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aQ);if(b>0)a=a+cD+new
+Array(b+1).join(aQ);return a}else
 return a.toFixed(b)}}var
-a,e=jp(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=iV;e.filler=cq}else
-if(!isFinite(c)){a="inf";e.filler=cq}else
+a,e=iG(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=h8;e.filler=cf}else
+if(!isFinite(c)){a="inf";e.filler=cf}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==jb)a=a.slice(0,b-1)+aU+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(jb),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aU)b--;if(a.charAt(b)==cQ)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==jb)a=a.slice(0,b-1)+aU+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==is)a=a.slice(0,b-1)+aQ+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(is),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cD)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==is)a=a.slice(0,b-1)+aQ+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aU)b--;if(a.charAt(b)==cQ)b--;a=a.slice(0,b+1)}}break}return jg(e,a)}function
-gQ(e,c){if(cx(e)==i6)return a(x+c);var
-b=jp(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cD)b--;a=a.slice(0,b+1)}}break}return ix(e,a)}function
+f7(e,c){if(cl(e)==ik)return a(w+c);var
+b=iG(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=cq;var
-f=b.prec-d.length;if(f>0)d=d$(f,aU)+d}return jg(b,d)}var
-GY=0;function
-gR(){return GY++}function
-GP(a){return a.toUtf16()}function
-e9(){return typeof
-D.process!=="undefined"&&typeof
-D.process.versions!=="undefined"&&typeof
-D.process.versions.node!=="undefined"}function
-Ha(){function
-a(a){if(a.charAt(0)===bq)return[x,a.substring(1)];return}function
+d=c.toString(b.base);if(b.prec>=0){b.filler=cf;var
+f=b.prec-d.length;if(f>0)d=dO(f,aQ)+d}return ix(b,d)}var
+DQ=0;function
+f8(){return DQ++}function
+DH(a){return a.toUtf16()}function
+eK(){return typeof
+A.process!=="undefined"&&typeof
+A.process.versions!=="undefined"&&typeof
+A.process.versions.node!=="undefined"}function
+D4(){function
+a(a){if(a.charAt(0)===bz)return[w,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||x,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||x,f=a[2]||x;return[d,c.substring(d.length+f.length)]}return}return e9()&&D.process&&D.process.platform?D.process.platform==="win32"?b:a:a}var
-jB=Ha();function
-pD(a){return a.slice(-1)!==bq?a+bq:a}if(e9()&&D.process&&D.process.cwd)var
-e4=D.process.cwd().replace(/\\/g,bq);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||w,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||w,f=a[2]||w;return[d,c.substring(d.length+f.length)]}return}return eK()&&A.process&&A.process.platform?A.process.platform==="win32"?b:a:a}var
+iP=D4();function
+ot(a){return a.slice(-1)!==bz?a+bz:a}if(eK()&&A.process&&A.process.cwd)var
+eG=A.process.cwd().replace(/\\/g,bz);else
 var
-e4="/static";e4=pD(e4);function
-GR(a){a=GP(a);if(!jB(a))a=e4+a;var
-e=jB(a),d=e[1].split(bq),b=[];for(var
+eG="/static";eG=ot(eG);function
+DJ(a){a=DH(a);if(!iP(a))a=eG+a;var
+e=iP(a),d=e[1].split(bz),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-G6(e){for(var
-f=x,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bK){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bK;d++);if(d-c>ne){b.substr(0,1);f+=b;b=x;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oD){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bK|a&d4)}else
-if(a<0xd800||a>=nw)b+=String.fromCharCode(nx|a>>12,bK|a>>6&d4,bK|a&d4);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nn||h>nw)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oL|a>>18,bK|a>>12&d4,bK|a>>6&d4,bK|a&d4)}if(b.length>eZ){b.substr(0,1);f+=b;b=x}}return f+b}function
-Gq(a){var
-b=9;if(!pF(a))b=8,a=G6(a);return new
-b4(b,a,a.length)}function
-bM(a){return Gq(a)}var
-Hc=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nk,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",i8,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iU,ox,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dg(d,f,e,a){var
-b=Hc.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bM(f||x),bM(e||x)];return c}var
-px={};function
-de(a){return px[a]}function
-df(b,a){throw[0,b].concat(a)}function
-Gp(a){return new
-b4(4,a,a.length)}function
-ae(a){jq(at.Sys_error,a)}function
-G1(a){ae(a+gk)}function
-Go(b,a){if(a>>>0>=b.l)pg();return d8(b,a)}function
-bc(a){return a.l}function
-o$(){}function
-aM(a){this.data=a}aM.prototype=new
-o$();aM.prototype.truncate=function(a){var
-b=this.data;this.data=aB(a|0);cS(b,0,this.data,0,a)};aM.prototype.length=function(){return bc(this.data)};aM.prototype.write=function(b,d,g,a){var
+DY(e){for(var
+f=w,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bB){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bB;d++);if(d-c>l$){b.substr(0,1);f+=b;b=w;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nv){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bB|a&dH)}else
+if(a<0xd800||a>=mr)b+=String.fromCharCode(ms|a>>12,bB|a>>6&dH,bB|a&dH);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mh||h>mr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nF|a>>18,bB|a>>12&dH,bB|a>>6&dH,bB|a&dH)}if(b.length>eB){b.substr(0,1);f+=b;b=w}}return f+b}function
+Di(a){var
+b=9;if(!ov(a))b=8,a=DY(a);return new
+bU(b,a,a.length)}function
+bD(a){return Di(a)}var
+D6=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",im,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h7,nq,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c5(d,f,e,a){var
+b=D6.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bD(f||w),bD(e||w)];return c}var
+on={};function
+c3(a){return on[a]}function
+c4(b,a){throw[0,b].concat(a)}function
+Dh(a){return new
+bU(4,a,a.length)}function
+$(a){iH(ao.Sys_error,a)}function
+DT(a){$(a+fH)}function
+Dg(b,a){if(a>>>0>=b.l)n8();return dL(b,a)}function
+a8(a){return a.l}function
+n1(){}function
+aH(a){this.data=a}aH.prototype=new
+n1();aH.prototype.truncate=function(a){var
+b=this.data;this.data=aw(a|0);cF(b,0,this.data,0,a)};aH.prototype.length=function(){return a8(this.data)};aH.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=aB(b+a),f=this.data;this.data=e;cS(f,0,this.data,0,c)}b6(d,g,this.data,b,a);return 0};aM.prototype.read=function(c,a,d,b){var
-e=this.length();cS(this.data,c,a,d,b);return 0};aM.prototype.read_one=function(a){return Go(this.data,a)};aM.prototype.close=function(){};aM.prototype.constructor=aM;function
-a0(b,a){this.content={};this.root=b;this.lookupFun=a}a0.prototype.nm=function(a){return this.root+a};a0.prototype.create_dir_if_needed=function(d){var
-c=d.split(bq),b=x;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bq;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a0.prototype.slash=function(a){return/\/$/.test(a)?a:a+bq};a0.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=aw(b+a),f=this.data;this.data=e;cF(f,0,this.data,0,c)}bW(d,g,this.data,b,a);return 0};aH.prototype.read=function(c,a,d,b){var
+e=this.length();cF(this.data,c,a,d,b);return 0};aH.prototype.read_one=function(a){return Dg(this.data,a)};aH.prototype.close=function(){};aH.prototype.constructor=aH;function
+aU(b,a){this.content={};this.root=b;this.lookupFun=a}aU.prototype.nm=function(a){return this.root+a};aU.prototype.create_dir_if_needed=function(d){var
+c=d.split(bz),b=w;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bz;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aU.prototype.slash=function(a){return/\/$/.test(a)?a:a+bz};aU.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aM(cv(c[1]))}}};a0.prototype.exists=function(a){if(a==x)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a0.prototype.mkdir=function(c,e,d){var
-b=d&&de(i5);if(this.exists(c))if(b)df(b,dg(nk,iN,this.nm(c)));else
-ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||x;if(!this.exists(a))if(b)df(b,dg(i8,iN,this.nm(a)));else
-ae(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iU,iN,this.nm(a)));else
-ae(a+ja);this.create_dir_if_needed(this.slash(c))};a0.prototype.rmdir=function(a,f){var
-b=f&&de(i5),c=a==x?x:this.slash(a),e=new
-RegExp(iX+c+oy);if(!this.exists(a))if(b)df(b,dg(i8,i3,this.nm(a)));else
-ae(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iU,i3,this.nm(a)));else
-ae(a+ja);for(var
+aH(cj(c[1]))}}};aU.prototype.exists=function(a){if(a==w)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aU.prototype.mkdir=function(c,e,d){var
+b=d&&c3(ij);if(this.exists(c))if(b)c4(b,c5(mf,h0,this.nm(c)));else
+$(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||w;if(!this.exists(a))if(b)c4(b,c5(im,h0,this.nm(a)));else
+$(a+fH);if(!this.is_dir(a))if(b)c4(b,c5(h7,h0,this.nm(a)));else
+$(a+ir);this.create_dir_if_needed(this.slash(c))};aU.prototype.rmdir=function(a,f){var
+b=f&&c3(ij),c=a==w?w:this.slash(a),e=new
+RegExp(h_+c+nr);if(!this.exists(a))if(b)c4(b,c5(im,ih,this.nm(a)));else
+$(a+fH);if(!this.is_dir(a))if(b)c4(b,c5(h7,ih,this.nm(a)));else
+$(a+ir);for(var
 d
 in
-this.content)if(d.match(e))if(b)df(b,dg(ox,i3,this.nm(a)));else
-ae(this.nm(a)+": Directory not empty");delete
-this.content[c]};a0.prototype.readdir=function(a){var
-f=a==x?x:this.slash(a);if(!this.exists(a))ae(a+gk);if(!this.is_dir(a))ae(a+ja);var
+this.content)if(d.match(e))if(b)c4(b,c5(nq,ih,this.nm(a)));else
+$(this.nm(a)+": Directory not empty");delete
+this.content[c]};aU.prototype.readdir=function(a){var
+f=a==w?w:this.slash(a);if(!this.exists(a))$(a+fH);if(!this.is_dir(a))$(a+ir);var
 g=new
-RegExp(iX+f+oy),d={},c=[];for(var
+RegExp(h_+f+nr),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a0.prototype.is_dir=function(a){if(a==x)return true;var
-b=this.slash(a);return this.content[b]?1:0};a0.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aU.prototype.is_dir=function(a){if(a==w)return true;var
+b=this.slash(a);return this.content[b]?1:0};aU.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a0.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+nP);if(b.text&&b.binary)ae(this.nm(a)+ok);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nO);var
+this.content[a];return b};aU.prototype.open=function(a,b){if(b.rdonly&&b.wronly)$(this.nm(a)+mJ);if(b.text&&b.binary)$(this.nm(a)+ne);this.lookup(a);if(this.content[a]){if(this.is_dir(a))$(this.nm(a)+" : is a directory");if(b.create&&b.excl)$(this.nm(a)+mI);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aM(aB(0));return this.content[a]}else
-G1(this.nm(a))};a0.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+nO);if(gU(a))b=new
-aM(a);if(jo(a))b=new
-aM(cv(a));else
+aH(aw(0));return this.content[a]}else
+DT(this.nm(a))};aU.prototype.register=function(c,a){var
+b;if(this.content[c])$(this.nm(c)+mI);if(f$(a))b=new
+aH(a);if(iF(a))b=new
+aH(cj(a));else
 if(a
 instanceof
 Array)b=new
-aM(Gp(a));else
+aH(Dh(a));else
 if(typeof
 a==="string")b=new
-aM(pi(a));else
+aH(n_(a));else
 if(a.toString){var
-d=cv(bM(a.toString()));b=new
-aM(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ae(this.nm(c)+" : registering file with invalid content type")};a0.prototype.constructor=a0;function
-H(a){return bc(a)}function
-bN(b,a){return d8(b,a)}function
-Gk(d){var
-c=H(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bN(d,a);return b}function
-Gj(a){if(a.t!=4)gP(a);return a.c}function
-b5(a){this.fs=require("fs");this.fd=a}b5.prototype=new
-o$();b5.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};b5.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};b5.prototype.write=function(f,b,c,e){var
-a=Gk(b);if(!(a
+d=cj(bD(a.toString()));b=new
+aH(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+$(this.nm(c)+" : registering file with invalid content type")};aU.prototype.constructor=aU;function
+L(a){return a8(a)}function
+bZ(b,a){return dL(b,a)}function
+Dc(d){var
+c=L(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bZ(d,a);return b}function
+Db(a){if(a.t!=4)f6(a);return a.c}function
+bV(a){this.fs=require("fs");this.fd=a}bV.prototype=new
+n1();bV.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){$(a.toString())}};bV.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){$(a.toString())}};bV.prototype.write=function(f,b,c,e){var
+a=Dc(b);if(!(a
 instanceof
-D.Uint8Array))a=new(D.Uint8Array)(a);var
-d=D.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};b5.prototype.read=function(g,d,c,f){var
-a=Gj(d);if(!(a
+A.Uint8Array))a=new(A.Uint8Array)(a);var
+d=A.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){$(a.toString())}return 0};bV.prototype.read=function(g,d,c,f){var
+a=Db(d);if(!(a
 instanceof
-D.Uint8Array))a=new(D.Uint8Array)(a);var
-e=D.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)dd(d,c+b,e[c+b]);return 0};b5.prototype.read_one=function(c){var
-b=new(D.Uint8Array)(1),a=D.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};b5.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};b5.prototype.constructor=b5;function
-aN(a){this.fs=require("fs");this.root=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aN.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aN.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.open=function(f,c,g){var
+A.Uint8Array))a=new(A.Uint8Array)(a);var
+e=A.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){$(a.toString())}for(var
+b=0;b<f;b++)c2(d,c+b,e[c+b]);return 0};bV.prototype.read_one=function(c){var
+b=new(A.Uint8Array)(1),a=A.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){$(a.toString())}return a[0]};bV.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){$(a.toString())}};bV.prototype.constructor=bV;function
+aI(a){this.fs=require("fs");this.root=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aI.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){$(a.toString())}};aI.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-b5(d)}catch(a){this.raise_nodejs_error(a,g)}};aN.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),m3);return bM(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.raise_nodejs_error=function(a,d){var
-b=de(i5);if(d&&b){var
-c=dg(a.code,a.syscall,a.path,a.errno);df(b,c)}else
-ae(a.toString())};aN.prototype.stats_from_js=function(a){var
+bV(d)}catch(a){this.raise_nodejs_error(a,g)}};aI.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),lY);return bD(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.raise_nodejs_error=function(a,d){var
+b=c3(ij);if(d&&b){var
+c=c5(a.code,a.syscall,a.path,a.errno);c4(b,c)}else
+$(a.toString())};aI.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aN.prototype.constructor=aN;function
-pq(b){var
-a=jB(b);if(!a)return;return a[0]+bq}var
-gW=pq(e4)||bL("unable to compute caml_root"),ea=[];if(e9())ea.push({path:gW,device:new
-aN(gW)});else
-ea.push({path:gW,device:new
-a0(gW)});ea.push({path:oh,device:new
-a0(oh)});function
-pG(b){var
-g=GR(b),b=g.join(bq),f=pD(b),c;for(var
-e=0;e<ea.length;e++){var
-a=ea[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e9()){var
-d=pq(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aI.prototype.constructor=aI;function
+og(b){var
+a=iP(b);if(!a)return;return a[0]+bz}var
+gb=og(eG)||bC("unable to compute caml_root"),dP=[];if(eK())dP.push({path:gb,device:new
+aI(gb)});else
+dP.push({path:gb,device:new
+aU(gb)});dP.push({path:na,device:new
+aU(na)});function
+oz(b){var
+g=DJ(b),b=g.join(bz),f=ot(b),c;for(var
+e=0;e<dP.length;e++){var
+a=dP[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eK()){var
+d=og(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aN(d)};ea.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-Gu(c,b){var
-a=pG(c);if(!a.device.register)bL("cannot register file");a.device.register(a.rest,b);return 0}function
-pE(c,b){var
-c=a(c),b=a(b);return Gu(c,b)}function
-Gx(){var
-b=D.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pE(b[a].name,b[a].content);D.jsoo_create_file=pE;D.caml_fs_tmp=[];return 0}function
-pp(){return[0]}function
-Gz(a,c,k){if(!isFinite(a)){if(isNaN(a))return bM(iV);return bM(a>0?oP:"-infinity")}var
+aI(d)};dP.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;$("no device found for "+f)}function
+Dm(c,b){var
+a=oz(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
+ou(c,b){var
+c=a(c),b=a(b);return Dm(c,b)}function
+Dp(){var
+b=A.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)ou(b[a].name,b[a].content);A.jsoo_create_file=ou;A.caml_fs_tmp=[];return 0}function
+of(){return[0]}function
+Dr(a,c,k){if(!isFinite(a)){if(isNaN(a))return bD(h8);return bD(a>0?nJ:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?x:b2,e=x;if(i)e=br;else
+j=d<0?w:bS,e=w;if(i)e=bj;else
 switch(k){case
-43:e=b2;break;case
-32:e=cq;break;default:break}if(c>=0&&c<13){var
+43:e=bS;break;case
+32:e=cf;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(cQ);if(h<0)b+=cQ+d$(c,aU);else{var
-f=h+1+c;if(b.length<f)b+=d$(f-b.length,aU);else
-b=b.substr(0,f)}}return bM(e+nb+b+"p"+j+d.toString(10))}function
-GG(a){return+a.isZero()}function
-GJ(a){return new
-C(a&cs,a>>24&cs,a>>31&b3)}function
-GK(a){return a.toInt()}function
-GF(a){return+a.isNeg()}function
-GI(a){return a.neg()}function
-GD(g,c){var
-a=jp(g);if(a.signedconv&&GF(c)){a.sign=-1;c=GI(c)}var
-b=x,h=GJ(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(GK(e.modulus))+b}while(!GG(c));if(a.prec>=0){a.filler=cq;var
-d=a.prec-b.length;if(d>0)b=d$(d,aU)+b}return jg(a,b)}function
-GZ(c){var
-a=0,e=H(c),b=10,d=1;if(e>0)switch(bN(c,a)){case
+h=b.indexOf(cD);if(h<0)b+=cD+dO(c,aQ);else{var
+f=h+1+c;if(b.length<f)b+=dO(f-b.length,aQ);else
+b=b.substr(0,f)}}return bD(e+l8+b+"p"+j+d.toString(10))}function
+Dy(a){return+a.isZero()}function
+DB(a){return new
+z(a&ch,a>>24&ch,a>>31&bT)}function
+DC(a){return a.toInt()}function
+Dx(a){return+a.isNeg()}function
+DA(a){return a.neg()}function
+Dv(g,c){var
+a=iG(g);if(a.signedconv&&Dx(c)){a.sign=-1;c=DA(c)}var
+b=w,h=DB(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(DC(e.modulus))+b}while(!Dy(c));if(a.prec>=0){a.filler=cf;var
+d=a.prec-b.length;if(d>0)b=dO(d,aQ)+b}return ix(a,b)}function
+DR(c){var
+a=0,e=L(c),b=10,d=1;if(e>0)switch(bZ(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bN(c,a)==48)switch(bN(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bZ(c,a)==48)switch(bZ(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,40 +645,40 @@ a=0,e=H(c),b=10,d=1;if(e>0)switch(bN(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-py(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o6)return a-87;return-1}function
-jn(f){var
-h=GZ(f),c=h[0],i=h[1],d=h[2],g=H(f),j=-1>>>0,e=c<g?bN(f,c):0,b=py(e);if(b<0||b>=d)bL(gm);var
-a=b;for(c++;c<g;c++){e=bN(f,c);if(e==95)continue;b=py(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bL(gm)}if(c!=g)bL(gm);a=i*a;if(d==10&&(a|0)!=a)bL(gm);return a|0}function
-GO(d){return function(){var
+oo(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nY)return a-87;return-1}function
+iE(f){var
+h=DR(f),c=h[0],i=h[1],d=h[2],g=L(f),j=-1>>>0,e=c<g?bZ(f,c):0,b=oo(e);if(b<0||b>=d)bC(fK);var
+a=b;for(c++;c<g;c++){e=bZ(f,c);if(e==95)continue;b=oo(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(fK)}if(c!=g)bC(fK);a=i*a;if(d==10&&(a|0)!=a)bC(fK);return a|0}function
+DG(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return b7(d,c)}else
-return b7(d,[undefined])}}function
-GQ(a,b){return+(gO(a,b,false)<=0)}function
-GS(a,d){if(a<0)e3();var
+a=0;a<b;a++)c[a]=arguments[a];return bX(d,c)}else
+return bX(d,[undefined])}}function
+DI(a,b){return+(f5(a,b,false)<=0)}function
+DK(a,d){if(a<0)eF();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-GT(){return 0}var
-b8=new
+DL(){return 0}var
+bY=new
 Array();function
-d_(c){var
-a=b8[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==x)return 0;if(a.fd&&at.fds[a.fd]&&at.fds[a.fd].output){var
-b=at.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=x;return 0}function
-pB(e,f){var
-b=b8[e],d=a(f),c=H(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-G7(a){var
-a=ju(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+dN(c){var
+a=bY[c];if(!a.opened)$("Cannot flush a closed channel");if(!a.buffer||a.buffer==w)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+b=ao.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=w;return 0}function
+or(e,f){var
+b=bY[e],d=a(f),c=L(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+DZ(a){var
+a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-G8(a){var
-a=ju(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+D0(a){var
+a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gX(c,e,d,a){if(at.fds===undefined)at.fds=new
+gc(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;at.fds[c]=b;if(!at.fd_last_idx||c>at.fd_last_idx)at.fd_last_idx=c;return c}function
-Hd(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
+D7(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -688,394 +688,382 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(cx(c)+nP);if(a.text&&a.binary)ae(cx(c)+ok);var
-d=pG(c),e=d.device.open(d.rest,a),f=at.fd_last_idx?at.fd_last_idx:0;return gX(f+1,pB,e,a)}gX(0,pB,new
-aM(aB(0)));gX(1,G8,new
-aM(aB(0)));gX(2,G7,new
-aM(aB(0)));function
-GU(a){var
-c=at.fds[a];if(c.flags.wronly)ae(o5+a+" is writeonly");var
-d=null;if(a==0&&e9()){var
-e=require("fs");d=function(){return bM(e.readFileSync(0,m3))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-pt(c){var
-b=at.fds[c];if(b.flags.rdonly)ae(o5+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:x};b8[a.fd]=a;return a.fd}function
-GV(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)$(cl(c)+mJ);if(a.text&&a.binary)$(cl(c)+ne);var
+d=oz(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gc(f+1,or,e,a)}gc(0,or,new
+aH(aw(0)));gc(1,D0,new
+aH(aw(0)));gc(2,DZ,new
+aH(aw(0)));function
+DM(a){var
+c=ao.fds[a];if(c.flags.wronly)$(nX+a+" is writeonly");var
+d=null;if(a==0&&eK()){var
+e=require("fs");d=function(){return bD(e.readFileSync(0,lY))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bY[b.fd]=b;return b.fd}function
+oj(c){var
+b=ao.fds[c];if(b.flags.rdonly)$(nX+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:w};bY[a.fd]=a;return a.fd}function
+DN(){var
 b=0;for(var
-a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
-aV(a){return a}function
-GW(g,d,h,f){var
-b=b8[g];if(!b.opened)ae("Cannot output to a closed channel");var
-a;if(h==0&&bc(d)==f)a=d;else{a=aB(f);cS(d,h,a,0,f)}var
-i=aV(a),c=cx(i),e=c.lastIndexOf(np);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);d_(g);b.buffer+=c.substr(e+1)}return 0}function
-pu(b,a,d,c){return GW(b,cv(a),d,c)}function
-pv(c,b){var
-d=a(String.fromCharCode(b));pu(c,d,0,1);return 0}function
-e7(a,b){return+(gO(a,b,false)!=0)}function
-gV(a){if(a
+a=0;a<bY.length;a++)if(bY[a]&&bY[a].opened&&bY[a].out)b=[0,bY[a].fd,b];return b}function
+aR(a){return a}function
+DO(g,d,h,f){var
+b=bY[g];if(!b.opened)$("Cannot output to a closed channel");var
+a;if(h==0&&a8(d)==f)a=d;else{a=aw(f);cF(d,h,a,0,f)}var
+i=aR(a),c=cl(i),e=c.lastIndexOf(mi);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dN(g);b.buffer+=c.substr(e+1)}return 0}function
+ok(b,a,d,c){return DO(b,cj(a),d,c)}function
+ol(c,b){var
+d=a(String.fromCharCode(b));ok(c,d,0,1);return 0}function
+eJ(a,b){return+(f5(a,b,false)!=0)}function
+ga(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(gU(a))return gJ;else
-if(jo(a))return gJ;else
+if(f$(a))return f1;else
+if(iF(a))return f1;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return go;else
-return eW}function
-bu(b,c,a){if(a&&D.toplevelReloc)b=D.toplevelReloc(a);at[b+1]=c;if(a)at[a]=c}function
-jr(a,b){px[cx(a)]=b;return 0}function
-Gn(a,b){if(a===b)return 1;a.t&6&&d9(a);b.t&6&&d9(b);return a.c==b.c?1:0}function
-ag(a,b){return Gn(a,b)}function
-G4(){aI(i$)}function
-Y(b,a){if(a>>>0>=H(b))G4();return bN(b,a)}function
-k(a,b){return 1-ag(a,b)}function
-G5(){return 0x7FFFFFFF/4|0}function
-jt(a){var
+if(a&&a.caml_custom)return mn;else
+return ez}function
+bm(b,c,a){if(a&&A.toplevelReloc)b=A.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
+iI(a,b){on[cl(a)]=b;return 0}function
+Df(a,b){if(a===b)return 1;a.t&6&&dM(a);b.t&6&&dM(b);return a.c==b.c?1:0}function
+ap(a,b){return Df(a,b)}function
+DW(){aD(ip)}function
+W(b,a){if(a>>>0>=L(b))DW();return bZ(b,a)}function
+l(a,b){return 1-ap(a,b)}function
+DX(){return 0x7FFFFFFF/4|0}function
+iK(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aO(b,a){return{joo_tramp:b,joo_args:a}}function
-pA(a){return a}function
-e8(a){if(a
+aJ(b,a){return{joo_tramp:b,joo_args:a}}function
+oq(a){return a}function
+gd(a){if(a
 instanceof
-Array)return a;if(D.RangeError&&a
+Array)return a;if(A.RangeError&&a
 instanceof
-D.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pA(at.Stack_overflow);if(D.InternalError&&a
+A.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oq(ao.Stack_overflow);if(A.InternalError&&a
 instanceof
-D.InternalError&&a.message&&a.message.match(/too much recursion/i))return pA(at.Stack_overflow);if(a
+A.InternalError&&a.message&&a.message.match(/too much recursion/i))return oq(ao.Stack_overflow);if(a
 instanceof
-D.Error&&de(iS))return[0,de(iS),a];return[0,at.Failure,bM(String(a))]}function
-e_(a){return a<0?-a:a}function
-r(a,b){return a+b}function
-jv(a,b){return a<b?-1:a>b?1:0}function
-jx(c,b){var
-a=c%b;return a<0?a+e_(b):a}function
-jw(a,b){return(a-jx(a,b))/b}function
-M(a,b){return a==b?1:0}function
-E(a,b){return a<=b?1:0}function
-P(a,b){return a<b?1:0}function
+A.Error&&c3(h5))return[0,c3(h5),a];return[0,ao.Failure,bD(String(a))]}function
+ge(a){return a<0?-a:a}function
+B(a,b){return a+b}function
+iM(a,b){return a<b?-1:a>b?1:0}function
+ow(c,b){var
+a=c%b;return a<0?a+ge(b):a}function
+iN(a,b){return(a-ow(a,b))/b}function
+ad(a,b){return a==b?1:0}function
+I(a,b){return a<=b?1:0}function
+S(a,b){return a<b?1:0}function
 s(a,b){return a*b}function
 aa(a){return-a}function
-aC(a){return D.BigInt(a)}function
-jy(a,b){return a<<D.BigInt(b)}function
-jz(a,b){return a>>D.BigInt(b)}function
-a1(a){return a<0?-1:a>0?1:0}function
-Hb(a){if(a<0)throw new(D.Error)("a root of a negative number");if(a<2)return a;var
-d=D.BigInt(1),b=d<<D.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-au(a,b){return a-b}function
-jA(a){if(a>0x7fffffff||a<-0x80000000)throw new(D.Error)("a number of more than 32 bits");return D.Number(a)}function
-GN(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Gw(b){var
-a=x;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&GN(b[1]))var
+a9(a){return A.BigInt(a)}function
+ox(a,b){return a<<A.BigInt(b)}function
+oy(a,b){return a>>A.BigInt(b)}function
+b0(a){return a<0?-1:a>0?1:0}function
+D5(a){if(a<0)throw new(A.Error)("a root of a negative number");if(a<2)return a;var
+d=A.BigInt(1),b=d<<A.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aS(a,b){return a-b}function
+iO(a){if(a>0x7fffffff||a<-0x80000000)throw new(A.Error)("a number of more than 32 bits");return A.Number(a)}function
+DF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Do(b){var
+a=w;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&DF(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oC;for(var
-d=f;d<e.length;d++){if(d>f)a+=m6;var
+f=2,e=b;a+=nu;for(var
+d=f;d<e.length;d++){if(d>f)a+=l1;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b4)a+=ay+c.toString()+ay;else
+bU)a+=aC+c.toString()+aC;else
 if(typeof
-c=="string")a+=ay+c.toString()+ay;else
-a+=n9}a+=iW}else
-if(b[0]==aH)a+=b[1];return a}function
-po(a){if(a
+c=="string")a+=aC+c.toString()+aC;else
+a+=m2}a+=h9}else
+if(b[0]==aB)a+=b[1];return a}function
+oe(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aH)){var
-c=de(nj);if(c)c(a,false);else{var
-d=Gw(a),b=de(m2);if(b)b(0);D.console.error(i1+d+np)}}else
+Array&&(a[0]==0||a[0]==aB)){var
+c=c3(me);if(c)c(a,false);else{var
+d=Do(a),b=c3(lX);if(b)b(0);A.console.error(ie+d+mi)}}else
 throw a}function
-G3(){var
-a=D;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){po(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)po(a.error)})}G3();function
-f(a,b){return a.length==1?a(b):b7(a,[b])}function
-X(a,b,c){return a.length==2?a(b,c):b7(a,[b,c])}function
-Gi(a,b,c,d){return a.length==3?a(b,c,d):b7(a,[b,c,d])}function
-iM(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b7(a,[b,c,d,e,f])}function
-Gh(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b7(a,[b,c,d,e,f,g,h])}Gx();var
-gY=[aH,a(oV),-1],jG=[aH,a(nm),-2],jD=[aH,a(iR),-3],jC=[aH,a(n4),-4],jE=[aH,a(nD),-8],jF=[aH,a(oi),-9],ap=[aH,a(oF),-11],jH=[aH,a(m1),-12],EU=[4,0,0,0,[12,45,[4,0,0,0,0]]],g8=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(nL),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],EV=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],EW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,0]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],E8=[0,0],E9=[0,[0,[0,[0,0]]]],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],E$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],Fa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],Fb=[0,[0,0]],Fc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Fh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Fi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fh]]]]]]]]]]],Fj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fi]]]]]]]]]]],Fk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fj]]]]]]]]]]],Fl=[0,[0,0]],Fm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fl]]]]]]]]]]],Fn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fm]]]]]]]]]]],Fo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fn]]]]]]]]]]],Fp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fo]]]]]]]]]]],Fq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fp]]]]]]]]]]],Fr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fq]]]]]]]]]]],Fs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fr]]]]]]]]]]],Ft=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Fu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ft]]]]]]]]]]],Fv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fu]]]]]]]]]]],Fw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fv]]]]]]]]]]],Fx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fw]]]]]]]]]]],Fy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fx]]]]]]]]]]],Fz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fy]]]]]]]]]]],FA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fz]]]]]]]]]]],FB=[0,0],FC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FB]]]]]]]]]]],FD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FC]]]]]]]]]]],FE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FD]]]]]]]]]]],FF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FE]]]]]]]]]]],FG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FF]]]]]]]]]]],FH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FG]]]]]]]]]]],FI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FH]]]]]]]]]]],FJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FI]]]]]]]]]]],FK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]]],FL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],FM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],FN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],FO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],FQ=[0,[0,[0,[0,[0,0]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]],FV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],FW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FV]]]]]]]]]]],FX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FW]]]]]]]]]]],FY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FX]]]]]]]]]]],FZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FY]]]]]]]]]]],F0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FZ]]]]]]]]]]],F1=[0,0],F2=[0,[0,[0,[0,[0,0]]]]],kn=[0,[0,[0,0]]],cZ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fV=[0,[0,[0,[0,0]]]],F3=[0,[0,[0,[0,[0,0]]]]],F4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F3]]]]]]]]]]],F5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F4]]]]]]]]]]],F6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F5]]]]]]]]]]],F7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F6]]]]]]]]]]],F8=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],F9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F8]]]]]]]]]]],F_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F9]]]]]]]]]]],F$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F_]]]]]]]]]]],Ga=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F$]]]]]]]]]]],Gb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ga]]]]]]]]]]],Gc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gb]]]]]]]]]]],Gd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gc]]]]]]]]]]],Ge=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gd]]]]]]]]]]],Gf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ge]]]]]]]]]]],Gg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gf]]]]]]]]]]];bu(11,jH,m1);bu(10,ap,oF);bu(9,[aH,a(nY),-10],nY);bu(8,jF,oi);bu(7,jE,nD);bu(6,[aH,a(of),-7],of);bu(5,[aH,a(ow),-6],ow);bu(4,[aH,a(nr),-5],nr);bu(3,jC,n4);bu(2,jD,iR);bu(1,jG,nm);bu(0,gY,oV);var
-pL=a("%.12g"),pK=a(cQ),pI=a("true"),pJ=a("false"),pM=a("\\\\"),pN=a("\\'"),pO=a("\\b"),pP=a("\\t"),pQ=a("\\n"),pR=a("\\r"),pT=a("List.init"),pS=a("List.nth"),pW=a("String.blit / Bytes.blit_string"),pV=a("Bytes.blit"),pU=a("String.sub / Bytes.sub"),pY=a(x),pX=a("String.concat"),pZ=a("Array.init"),p2=a("Buffer.add: cannot grow buffer"),p1=[0,a(or),93,2],p0=[0,a(or),94,2],p$=a("%c"),qa=a("%s"),qb=a(mY),qc=a(nB),qd=a(n0),qe=a(m9),qf=a("%f"),qg=a("%B"),qh=a("%{"),qi=a("%}"),qj=a("%("),qk=a("%)"),ql=a("%a"),qm=a("%t"),qn=a("%?"),qo=a("%r"),qp=a("%_r"),qq=[0,a(aG),850,23],qB=[0,a(aG),814,21],qt=[0,a(aG),815,21],qC=[0,a(aG),818,21],qu=[0,a(aG),819,21],qD=[0,a(aG),822,19],qv=[0,a(aG),823,19],qE=[0,a(aG),826,22],qw=[0,a(aG),827,22],qF=[0,a(aG),831,30],qx=[0,a(aG),832,30],qz=[0,a(aG),836,26],qr=[0,a(aG),837,26],qA=[0,a(aG),846,28],qs=[0,a(aG),847,28],qy=[0,a(aG),851,23],rI=a(nU),rG=[0,a(aG),1558,4],rH=a("Printf: bad conversion %["),rJ=[0,a(aG),1626,39],rK=[0,a(aG),1649,31],rL=[0,a(aG),1650,31],rM=a("Printf: bad conversion %_"),rN=a(nQ),rO=a(n3),rP=a(nQ),rQ=a(n3),rE=a(iV),rC=a("neg_infinity"),rD=a(oP),rB=a(cQ),rw=[0,ng],rk=a("%+nd"),rl=a("% nd"),rn=a("%+ni"),ro=a("% ni"),rp=a("%nx"),rq=a("%#nx"),rr=a("%nX"),rs=a("%#nX"),rt=a("%no"),ru=a("%#no"),rj=a("%nd"),rm=a(n0),rv=a("%nu"),q9=a("%+ld"),q_=a("% ld"),ra=a("%+li"),rb=a("% li"),rc=a("%lx"),rd=a("%#lx"),re=a("%lX"),rf=a("%#lX"),rg=a("%lo"),rh=a("%#lo"),q8=a("%ld"),q$=a(nB),ri=a("%lu"),qW=a("%+Ld"),qX=a("% Ld"),qZ=a("%+Li"),q0=a("% Li"),q1=a("%Lx"),q2=a("%#Lx"),q3=a("%LX"),q4=a("%#LX"),q5=a("%Lo"),q6=a("%#Lo"),qV=a("%Ld"),qY=a(m9),q7=a("%Lu"),qJ=a("%+d"),qK=a("% d"),qM=a("%+i"),qN=a("% i"),qO=a("%x"),qP=a("%#x"),qQ=a("%X"),qR=a("%#X"),qS=a("%o"),qT=a("%#o"),qI=a(i6),qL=a(mY),qU=a(nU),p3=a("@]"),p4=a("@}"),p5=a("@?"),p6=a("@\n"),p7=a("@."),p8=a("@@"),p9=a("@%"),p_=a("@"),qG=a("CamlinternalFormat.Type_mismatch"),rU=a(x),rV=[0,[11,a(m6),[2,0,[2,0,0]]],a(", %s%s")],si=[0,[11,a(i1),[2,0,[12,10,0]]],a(oE)],sj=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],sh=a("Fatal error: out of memory in uncaught exception handler"),sf=[0,[11,a(i1),[2,0,[12,10,0]]],a(oE)],sb=[0,[2,0,[12,10,0]],a("%s\n")],r5=a("Raised at"),r6=a("Re-raised at"),r7=a("Raised by primitive operation at"),r8=a("Called from"),r9=a(" (inlined)"),r$=a(x),r_=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(nL),EU]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],sa=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],r0=a("Out of memory"),r1=a("Stack overflow"),r2=a("Pattern matching failed"),r3=a("Assertion failed"),r4=a("Undefined recursive module"),rW=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],rX=a(x),rY=a(x),rZ=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],rT=[0,[4,0,0,0,0],a(i6)],rR=[0,[3,0,0],a("%S")],rS=a(n9),sc=[0,a(x),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],sl=a("Jsoo_runtime.Error.Exn"),sn=a("power"),sx=[0,0],sz=[0,0],sA=[0,[0,0]],sB=[0,[0,0]],sN=[0,0,0],sO=[0,0,0],sP=[0,0],s8=[0,0],s9=[0,0],ta=[0,0],ts=[0,0],tu=[0,0],tG=[0,0],tH=[0,0],t2=[0,[0,[0,0]]],uc=a(","),uu=[0,a(iW),0],uv=a(oC),uw=a(cQ),ux=[0,[0,[0,0]]],uy=a(br),uz=a(iX),uA=[0,[0,[0,[0,[0,0]]]]],uB=[0,a(iW),0],uC=a(o_),xa=a(m0),xc=a(n6),xb=a(oH),xd=a(gr),xe=a(gA),xf=a(n2),xg=a(o1),xh=a(oq),xi=a(nE),yo=[0,0],yp=a(i2),yq=[0,0],yr=a("divided"),ys=[0,1],yt=a("mirror"),yu=[0,3],yv=a("negative"),yw=[0,2],yx=a(iY),yy=[0,5],yz=a(jc),yA=[0,4],yB=a(gn),yC=a(oj),yD=a(gI),yE=a(dc),yF=[0,0],yG=[0,0],yH=[0,0],ze=[0,0],zf=[0,[0,0]],zg=[0,0],zh=[0,[0,0]],zx=[0,[0,0]],zy=[0,[0,0]],zz=[0,0],zA=[0,0],Ab=a(x),Aa=a(x),z8=[0,[0,[0,0]]],z9=[0,0],z7=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],z0=a(nl),z1=a(mZ),z2=a(no),z3=a(n7),z4=a(nH),z5=a(nu),z6=a(nC),zX=[0,a(ay),0],zZ=a(bq),zY=a(ay),zL=a(gw),zM=a(d1),zN=a(gp),zO=a(n8),zP=a(o7),zQ=a(o2),zR=a(d2),zS=a(gB),zT=a(aZ),zU=a(eY),zV=a(oB),zW=a(gH),zI=a(gq),zJ=a(e0),zK=a(ov),zF=[0,[0,0,0],[0,[0,0,[0,0]],[0,[0,0,[0,[0,0]]],[0,[0,[0,0],[0,0]],[0,[0,[0,0],[0,[0,0]]],[0,[0,[0,[0,0]],[0,[0,0]]],0]]]]]],zB=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],zC=[0,[0,0]],zD=[0,0],zE=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zt=[0,0],zu=[0,[0,0]],zv=[0,0],zw=[0,[0,0]],zs=[0,[0,[0,0]]],zr=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zq=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zp=[0,[0,[0,0]]],zk=[0,[0,[0,0]]],zl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],zc=[0,[0,[0,0]]],zd=[0,0,[0,1,[0,2,0]]],y8=[0,0],y9=[0,[0,0]],y_=[0,0],y$=[0,0],za=[0,[0,0]],y7=a(x),y4=[0,[0,[0,[0,0]]]],y5=[0,[0,[0,[0,0]]]],y2=[0,0],y0=[0,[0,[0,0]]],yY=[0,[0,[0,0]]],yX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],yW=[0,0],yU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],yS=[0,[0,0]],yT=[0,[0,[0,0]]],yQ=[0,[0,[0,0]]],yR=[0,[0,0]],yP=[0,[0,[0,0]]],yM=[0,[0,0]],yN=[0,0],yL=[0,0],yK=[0,[0,0]],yJ=[0,0],yl=[0,0],ym=[0,1],yn=[0,2],ye=[0,[0,0]],yf=[0,0],yd=[0,0],yc=[0,0],yb=[0,0,0],x$=[0,0,0],x9=[0,[0,[0,0]]],x_=[0,[0,[0,0]]],x8=[0,0],x6=[0,1,0],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fk]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fs]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FA]]]]]]]]]]],xX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],x1=a("sqrt"),xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F0]]]]]]]]]]],xH=[0,a("\n"),0],xI=a(gw),xJ=a(d1),xK=a(gp),xL=a(ot),xR=a(e1),xM=a(eX),xN=a("verdict"),xO=a(eY),xP=a(oo),xQ=a(gH),xE=a(nt),xF=a(oY),xG=a(gD),xA=a(nA),xB=a(gE),xC=a(eX),xD=a(e1),xv=a(gs),xw=a(aZ),xx=a(n_),xy=a(d2),xs=a(oU),xt=a(iY),xu=a(d2),xo=a(oM),xp=a(gs),xq=a(gE),xr=a(o3),xk=a(oZ),xl=a(oz),xm=a(gF),w_=a(i4),w$=a(e0),w5=a(bt),w6=a(bs),w7=a(nh),wG=a(gF),wl=a(aZ),wm=a(cr),wn=a(d6),wo=a(gl),wp=a(d5),wq=a(aZ),wr=a(cr),ws=a(gL),wt=a(bt),wu=a(bs),wv=a(db),ww=a(d6),wx=a(oO),wy=a(oW),wz=a(d5),wA=a(aZ),wB=a(cr),wC=a(bt),wD=a(bs),wE=a(db),wF=a(d6),wH=a(nK),wI=a(nR),wJ=a(gM),wK=a(gB),wL=a(na),wM=a(d5),wN=a(aZ),wO=a(cr),wP=a(gv),wQ=a(os),wR=a(d6),wS=a(e2),wT=a(ob),wU=a(d5),wV=a(aZ),wW=a(gv),wX=a(aZ),wY=a(nF),w1=a(n5),wZ=a(m$),w0=a(nW),w2=a(e1),w3=a(eX),w4=a(aZ),w8=a(gM),w9=a(gD),wf=a(cr),wg=a(jd),wh=a(d6),wi=a(gl),wj=a(d5),v5=a(e2),v6=a(oX),v7=a(d0),v8=a(d3),v9=a(d3),v_=a(iO),v$=a(d0),wa=a(oG),wb=a(op),wc=a(bJ),we=a(oa),wd=a(iO),vV=a(ns),vW=a(n1),vX=a(nc),vY=a(om),vZ=a(nT),v0=a(nM),v1=a(ou),v2=a(gx),v3=a(gx),vR=a(bJ),vS=a(cO),vT=a(gu),vU=a(cP),vN=a(eV),vO=a(i9),vP=a(oK),vG=a(bt),vH=a(bs),vI=a(db),vJ=a(gq),vK=a(d0),vL=a(nq),vM=a(oR),vw=a(m_),vB=a(nV),vC=a(d1),vx=a(on),vy=a(iP),vD=a(m8),vE=a(nI),vF=a(iP),vz=a(d3),vA=a(oI),vt=a(gG),vu=a(gG),vv=a(gG),vp=a(oS),vq=a(bs),vr=a(bt),vs=a(nS),vc=a(m5),vd=a(n$),ve=a(oN),vf=a(gr),vg=a(o8),vh=a(oQ),vi=a(oe),vj=a(oJ),vk=a(m4),vl=a(ni),vm=a(od),vn=a(oT),vo=a(gA),u3=a(b2),vb=a(br),u4=a(gz),u5=a(gy),u6=a(gN),u7=a(bJ),u8=a(cO),u9=a(ny),u_=a(nG),u$=a(gN),va=a(cP),uL=a(b2),uT=a(br),uM=a(gz),uN=a(gy),uO=a(bJ),uP=a(cO),uQ=a(dc),uR=a(nX),uS=a(cP),uU=a(iZ),uV=a(bJ),uW=a(cO),uX=a(gu),uY=a(cP),uZ=a(dc),u0=a(eV),u1=a(cP),uI=a(bt),uJ=a(bs),uG=[0,a(ay),0],uH=a(ay),uE=a(x),uD=[0,a(ay),0],uF=a(ay),uq=a(b2),ur=a(br),us=a("*"),ut=a(bq),ul=[0,[0,[0,[0,[0,0]]]]],um=[0,[0,[0,0]]],un=[0,[0,0]],uo=[0,0],up=[0,[0,[0,[0,0]]]],uj=a('":'),uk=a(ay),uh=[0,a(ay),0],ui=a(ay),uf=[0,a("}"),0],ug=a("{"),ud=[0,a("]"),0],ue=a("["),ub=[0,[0,[0,0]]],ua=[0,[0,[0,0]]],t_=[0,0],t7=[0,[0,[0,0]]],t8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],t9=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],t5=[0,[0,0]],t6=[0,[0,[0,0]]],t0=[0,[0,0]],t1=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tZ=[0,[0,0]],tW=[0,0],tS=[0,[0,0]],tT=[0,0],tU=[0,0],tV=[0,[0,0]],tJ=[0,[0,0]],tK=[0,0],tL=[0,[0,0]],tM=[0,0],tN=[0,0],tO=[0,[0,0]],tP=[0,[0,0]],tQ=[0,[0,0]],tR=[0,0],tF=[0,0],tD=[0,[0,[0,0]]],tC=[0,[0,[0,[0,[0,[0,0]]]]]],tz=[0,0],tA=[0,[0,[0,[0,[0,[0,0]]]]]],tB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F1]]]]]]]]]]],tx=[0,[0,[0,0]]],tt=[0,[0,[0,0]]],tr=[0,[0,[0,0]]],tp=[0,[0,[0,[0,[0,[0,0]]]]]],tq=[0,[0,[0,[0,[0,[0,0]]]]]],tl=[0,[0,0]],tm=[0,0],tn=[0,[0,[0,0]]],to=[0,[0,[0,0]]],te=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tf=[0,[0,[0,[0,[0,[0,0]]]]]],tg=[0,[0,[0,[0,[0,[0,0]]]]]],th=[0,[0,[0,0]]],ti=[0,[0,[0,[0,[0,[0,0]]]]]],tj=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],tc=[0,[0,0]],td=[0,0],tb=[0,0,0],s$=[0,0,0],s_=[0,[0,[0,0]]],s6=[0,0],s7=[0,0],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],s3=[0,[0,[0,0]]],s0=[0,[0,[0,[0,0]]]],sW=[0,[0,[0,0]]],sX=[0,[0,[0,0]]],sY=[0,[0,[0,0]]],sZ=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sU=[0,[0,0]],sV=[0,0],sS=[0,[0,0]],sT=[0,0],sQ=[0,[0,0]],sR=[0,0],sE=[0,0],sF=[0,[0,0]],sG=[0,0],sH=[0,[0,0]],sC=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F2]]]]]]]]]]],sy=[0,0,0],sw=a(aU),sv=a(x),su=[0,[0,0]],st=[0,0],ss=[1,0],sr=[0,0],sq=[0,0],so=[1,0],sp=[1,0],y1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F7]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gg]]]]]]]]]]],CS=a(bt),CT=a(bs),CU=a(nh),Cs=a(cP),Ct=a(iZ),Cu=a(gu),Cx=a(bJ),Cy=a(cO),Cv=[0,a('" of such a platform'),0],Cw=a(m7),Ce=a("rho"),Cf=a(gF),Cg=[0,a("a joint by its coordinate"),0],BR=a(cr),BF=a(gD),BG=a(aZ),BH=a(nF),BI=a(nW),BL=a(m$),BM=a(n5),BN=a(aZ),BO=a(aZ),BQ=a(gv),BP=[0,a("a claim that no cube of such a machine fits"),0],BS=a(d5),BT=a(d6),BU=a(gl),BV=a(jd),CR=[0,a("such a machine with bodies"),0],BW=a(eV),BX=a(i9),BY=a(oK),BZ=a(gL),B0=a(na),B1=a(ob),B2=a(gl),B5=a(db),B6=a(oR),B9=a(jd),B_=[0,a("a machine with arms and bodies"),0],B$=a(cr),Ca=a(os),Cb=a(gv),Cc=a(e2),Cd=a(db),Ch=a(cr),Ci=a(bt),Cj=a(bs),Ck=a(nK),Cl=a(nR),Cm=a(gM),Cn=a(gB),B3=[0,a(ay),0],B4=a(nZ),Co=a(db),Cp=[0,a('" of a platform that turns'),0],Cq=a(nN),Cr=a(oO),CP=[0,a('" that does not turn'),0],CQ=a(nZ),Cz=a(gL),CA=a(nM),CB=a(ns),CC=a(nT),CD=a(gx),CE=a(ou),CF=a(gx),CM=a(n1),CN=a(nc),CO=a(om),CG=a(eV),CH=a(i9),CI=a(cr),CJ=a(bt),CK=a(bs),CL=a(oW),B7=[0,a(ay),0],B8=a(nN),CV=a(aZ),CW=a(aZ),CY=a(e1),CZ=a(eX),C0=a(gM),CX=[0,a("an atlas of such a machine"),0],BJ=[0,a(ay),0],BK=a('a claim of the kind "'),C5=a(n2),Da=a(gA),Db=a(gr),Dc=a(oq),Dd=a(oH),De=a(dc),Df=a(e0),Dg=a(i4),Dh=a(dc),Di=a(aU),C6=a(gn),C7=a(oj),C8=a(gI),C9=a(nE),C_=[0,a(ay),0],C$=a('the evidence "'),Dj=a(gn),Dk=a(gI),Dl=a(o1),Dn=a(gn),Do=a(gI),Dp=a(i2),Dq=a(i2),Dm=[0,a("this evidence at control points"),0],DV=a(gH),DW=a(oo),DX=a(eY),Ea=[0,3,3],DY=a(ot),D7=[0,a('the drive "arm" in a claim that is certified'),0],D_=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],D$=[0,a("a mechanism by formulas in a claim that is refuted"),0],D8=[0,a('the evidence "tolerances" of such a mechanism'),0],D9=[0,a("a step of a platform that turns that is not at control points"),0],DZ=[0,a("the acceleration of a joint of a machine with a plane"),0],D6=[0,a("this quantity in a claim that is refuted"),0],D4=[0,a("a step in a proof that no cube fits"),0],D5=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],D3=[0,a("a leaf that fails"),0],D0=a(gp),D1=a(gw),D2=a(d1),DT=a(jc),DN=a(gD),DO=a(nt),DP=a(oY),DQ=[0,a(ay),0],DR=a('a proof of the kind "'),DJ=a(eX),DK=a(e1),DL=a(gE),DM=a(nA),DF=a(aZ),DG=a(gs),DH=a(n_),DI=a(d2),DC=a(oU),DD=a(iY),DE=a(d2),Dy=a(oM),Dz=a(gs),DA=a(gE),DB=a(o3),Dt=a(oz),Du=a(oZ),Dv=a(gF),Dw=[0,a(ay),0],Dx=a('the failure "'),Dr=a(jc),Ds=a(aU),C3=a(e0),C4=a(i4),C1=a(n6),C2=a(m0),BC=a(e2),Bs=a(iO),Bt=a(oa),Bu=a(d3),Bv=a(bJ),BA=a(oX),BB=a(e2),BD=a(d0),BE=a(d3),Bw=a(d0),Bx=a(oG),By=a(op),Bz=a(bJ),Bl=a(db),Bp=a(bt),Bq=a(bs),Bm=a(nq),Bn=a(gq),Bo=a(d0),Bj=[0,a("this quantity of such a mechanism"),0],A8=a(on),A9=[0,a("a stiffness for each joint"),0],A_=a(nI),A$=a(m8),Ba=a(nV),A7=a(d1),AZ=a(gG),AP=a(oI),AQ=a(n$),Bd=a(gA),Be=a(ni),Bf=a(gr),Bg=a(oJ),Bh=a(od),Bi=a(m4),AR=a(oN),AS=a(oT),AT=a(oQ),AU=a(o8),AV=a(oe),AW=a(m5),AX=[0,a(ay),0],AY=a('the quantity "'),A0=a(m_),A1=a(oS),A2=a(bt),A3=a(bs),A4=a(nS),A5=[0,a(ay),0],A6=a('a bound "'),Bb=a(iP),Bc=a(d3),AI=a(gz),AJ=a(gy),AK=a(gN),AL=a(bJ),AM=a(cO),AN=a(ny),AO=a(nG),AF=a(cP),AG=a(gN),Aq=a(cP),Ar=a(eV),As=a(nX),At=a(gu),Aw=a(iZ),Ax=a(bJ),Ay=a(cO),Az=a(gz),AA=a(gy),AB=a(bJ),AC=a(cO),AD=a(dc),AE=a(dc),Au=[0,a(ay),0],Av=a(m7),An=a(b2),Ao=a(br),Al=a(" is not covered by the verified checker"),Am=a(x),Aj=a(bt),Ak=a(bs),Af=a(x),Ag=a(o_),Ah=a(x),Ai=a(x),Ae=[1,0],Ac=a("Reader.Malformed"),Ad=a("Reader.Not_covered"),EN=a('"orthocert-paving/'),EL=[0,a("a cell that is cut"),0],EA=a(x),EB=a(o0),EC=a(o0),ED=a(nl),EE=a(mZ),EF=a(no),EG=a(n7),EH=a(nH),EI=a(nu),EJ=a(nC),Ep=[0,a("this quantity in a paving"),0],Eh=a(gH),Ei=a(oB),Ej=a(eY),Ek=a(aZ),El=a(gL),Em=[0,a("a paving of a platform that turns"),0],En=a(eY),Ez=[0,a("a paving of such a mechanism"),0],Eo=[0,a("a paving of a machine with bodies"),0],Eq=a(gp),Er=a(gw),Es=a(d1),Et=a(o7),Eu=a(n8),Ev=a(o2),Ew=a(d2),Ex=a(gB),Ey=[0,a("a paving of a cylinder"),0],Ed=a(ov),Ee=a(e0),Ef=a(gq),EP=a(nz),EQ=a("CERTIFIED"),ER=a("REFUTED"),ES=a(nz),ET=a("NOT COVERED: ");function
-ao(a){if(typeof
+DV(){var
+a=A;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oe(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oe(a.error)})}DV();function
+f(a,b){return a.length==1?a(b):bX(a,[b])}function
+V(a,b,c){return a.length==2?a(b,c):bX(a,[b,c])}function
+Da(a,b,c,d){return a.length==3?a(b,c,d):bX(a,[b,c,d])}function
+hZ(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bX(a,[b,c,d,e,f])}function
+C$(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bX(a,[b,c,d,e,f,g,h])}Dp();var
+gf=[aB,a(nP),-1],iU=[aB,a(mg),-2],iR=[aB,a(h4),-3],iQ=[aB,a(mY),-4],iS=[aB,a(mx),-8],iT=[aB,a(nb),-9],al=[aB,a(ny),-11],iV=[aB,a(lW),-12],B8=[4,0,0,0,[12,45,[4,0,0,0,0]]],gn=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(mE),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],B9=[0,[0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,0],Ca=[0,[0,[0,[0,0]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,0]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,0]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,0],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,0]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,0],C5=[0,[0,[0,[0,[0,0]]]]],jx=[0,[0,[0,0]]],cM=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fr=[0,[0,[0,[0,0]]]],C6=[0,[0,[0,[0,[0,0]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]];bm(11,iV,lW);bm(10,al,ny);bm(9,[aB,a(mS),-10],mS);bm(8,iT,nb);bm(7,iS,mx);bm(6,[aB,a(m_),-7],m_);bm(5,[aB,a(np),-6],np);bm(4,[aB,a(mk),-5],mk);bm(3,iQ,mY);bm(2,iR,h4);bm(1,iU,mg);bm(0,gf,nP);var
+oE=a("%.12g"),oD=a(cD),oB=a("true"),oC=a("false"),oF=a("\\\\"),oG=a("\\'"),oH=a("\\b"),oI=a("\\t"),oJ=a("\\n"),oK=a("\\r"),oN=a("String.blit / Bytes.blit_string"),oM=a("Bytes.blit"),oL=a("String.sub / Bytes.sub"),oP=a(w),oO=a("String.concat"),oQ=a("Array.init"),oT=a("Buffer.add: cannot grow buffer"),oS=[0,a(nl),93,2],oR=[0,a(nl),94,2],o2=a("%c"),o3=a("%s"),o4=a(lU),o5=a(mw),o6=a(mU),o7=a(l4),o8=a("%f"),o9=a("%B"),o_=a("%{"),o$=a("%}"),pa=a("%("),pb=a("%)"),pc=a("%a"),pd=a("%t"),pe=a("%?"),pf=a("%r"),pg=a("%_r"),ph=[0,a(aA),850,23],ps=[0,a(aA),814,21],pk=[0,a(aA),815,21],pt=[0,a(aA),818,21],pl=[0,a(aA),819,21],pu=[0,a(aA),822,19],pm=[0,a(aA),823,19],pv=[0,a(aA),826,22],pn=[0,a(aA),827,22],pw=[0,a(aA),831,30],po=[0,a(aA),832,30],pq=[0,a(aA),836,26],pi=[0,a(aA),837,26],pr=[0,a(aA),846,28],pj=[0,a(aA),847,28],pp=[0,a(aA),851,23],qz=a(mO),qx=[0,a(aA),1558,4],qy=a("Printf: bad conversion %["),qA=[0,a(aA),1626,39],qB=[0,a(aA),1649,31],qC=[0,a(aA),1650,31],qD=a("Printf: bad conversion %_"),qE=a(mK),qF=a(mX),qG=a(mK),qH=a(mX),qv=a(h8),qt=a("neg_infinity"),qu=a(nJ),qs=a(cD),qn=[0,mb],qb=a("%+nd"),qc=a("% nd"),qe=a("%+ni"),qf=a("% ni"),qg=a("%nx"),qh=a("%#nx"),qi=a("%nX"),qj=a("%#nX"),qk=a("%no"),ql=a("%#no"),qa=a("%nd"),qd=a(mU),qm=a("%nu"),p0=a("%+ld"),p1=a("% ld"),p3=a("%+li"),p4=a("% li"),p5=a("%lx"),p6=a("%#lx"),p7=a("%lX"),p8=a("%#lX"),p9=a("%lo"),p_=a("%#lo"),pZ=a("%ld"),p2=a(mw),p$=a("%lu"),pN=a("%+Ld"),pO=a("% Ld"),pQ=a("%+Li"),pR=a("% Li"),pS=a("%Lx"),pT=a("%#Lx"),pU=a("%LX"),pV=a("%#LX"),pW=a("%Lo"),pX=a("%#Lo"),pM=a("%Ld"),pP=a(l4),pY=a("%Lu"),pA=a("%+d"),pB=a("% d"),pD=a("%+i"),pE=a("% i"),pF=a("%x"),pG=a("%#x"),pH=a("%X"),pI=a("%#X"),pJ=a("%o"),pK=a("%#o"),pz=a(ik),pC=a(lU),pL=a(mO),oU=a("@]"),oV=a("@}"),oW=a("@?"),oX=a("@\n"),oY=a("@."),oZ=a("@@"),o0=a("@%"),o1=a("@"),px=a("CamlinternalFormat.Type_mismatch"),qL=a(w),qM=[0,[11,a(l1),[2,0,[2,0,0]]],a(", %s%s")],q$=[0,[11,a(ie),[2,0,[12,10,0]]],a(nw)],ra=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],q_=a("Fatal error: out of memory in uncaught exception handler"),q8=[0,[11,a(ie),[2,0,[12,10,0]]],a(nw)],q4=[0,[2,0,[12,10,0]],a("%s\n")],qW=a("Raised at"),qX=a("Re-raised at"),qY=a("Raised by primitive operation at"),qZ=a("Called from"),q0=a(" (inlined)"),q2=a(w),q1=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(mE),B8]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],q3=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],qR=a("Out of memory"),qS=a("Stack overflow"),qT=a("Pattern matching failed"),qU=a("Assertion failed"),qV=a("Undefined recursive module"),qN=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],qO=a(w),qP=a(w),qQ=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],qK=[0,[4,0,0,0,0],a(ik)],qI=[0,[3,0,0],a("%S")],qJ=a(m2),q5=[0,a(w),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],rc=a("Jsoo_runtime.Error.Exn"),re=a("power"),ro=[0,0],rq=[0,0],rr=[0,[0,0]],rs=[0,[0,0]],rE=[0,0,0],rF=[0,0,0],rG=[0,0],rZ=[0,0],r0=[0,0],r3=[0,0],sj=[0,0],sm=[0,0],sy=[0,0],sz=[0,0],sU=[0,[0,[0,0]]],s6=a(","),tm=[0,a(h9),0],tn=a(nu),to=a(cD),tp=[0,[0,[0,0]]],tq=a(bj),tr=a(h_),ts=[0,[0,[0,[0,[0,0]]]]],tt=[0,a(h9),0],tu=a(n0),v4=a(lV),v6=a(m0),v5=a(nA),v7=a(fN),v8=a(fU),v9=a(mW),v_=a(nU),v$=a(nk),wa=a(my),xg=[0,0],xh=a(ig),xi=[0,0],xj=a("divided"),xk=[0,1],xl=a("mirror"),xm=[0,3],xn=a("negative"),xo=[0,2],xp=a(h$),xq=[0,5],xr=a(it),xs=[0,4],xt=a(fL),xu=a(nc),xv=a(f0),xw=a(c1),xx=[0,0],xy=[0,0],xz=[0,0],xZ=a(w),xW=[0,[0,[0,[0,0]]]],xX=[0,[0,[0,[0,0]]]],xU=[0,0],xS=[0,[0,[0,0]]],xQ=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],xO=[0,0],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],xK=[0,[0,0]],xL=[0,[0,[0,0]]],xI=[0,[0,[0,0]]],xJ=[0,[0,0]],xH=[0,[0,[0,0]]],xE=[0,[0,0]],xF=[0,0],xD=[0,0],xC=[0,[0,0]],xB=[0,0],xd=[0,0],xe=[0,1],xf=[0,2],w8=[0,[0,0]],w9=[0,0],w7=[0,0],w6=[0,0],w5=[0,0,0],w3=[0,0,0],w1=[0,[0,[0,0]]],w2=[0,[0,[0,0]]],w0=[0,0],wY=[0,1,0],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],wT=a("sqrt"),wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],wz=[0,a("\n"),0],wA=a(m1),wB=a(fJ),wC=a(mp),wD=a(nn),wJ=a(eC),wE=a(eA),wF=a("verdict"),wG=a(mH),wH=a(ni),wI=a(nx),ww=a(mm),wx=a(nS),wy=a(fW),ws=a(mv),wt=a(fX),wu=a(eA),wv=a(eC),wn=a(fO),wo=a(a7),wp=a(m3),wq=a(fM),wk=a(nO),wl=a(h$),wm=a(fM),wg=a(nG),wh=a(fO),wi=a(fX),wj=a(nV),wc=a(nT),wd=a(ns),we=a(fY),v2=a(ii),v3=a(ib),vX=a(bl),vY=a(bk),vZ=a(mc),vy=a(fY),vd=a(a7),ve=a(cg),vf=a(dJ),vg=a(fI),vh=a(dI),vi=a(a7),vj=a(cg),vk=a(iq),vl=a(bl),vm=a(bk),vn=a(c0),vo=a(dJ),vp=a(nI),vq=a(nQ),vr=a(dI),vs=a(a7),vt=a(cg),vu=a(bl),vv=a(bk),vw=a(c0),vx=a(dJ),vz=a(mD),vA=a(mL),vB=a(f3),vC=a(nd),vD=a(l7),vE=a(dI),vF=a(a7),vG=a(cg),vH=a(fQ),vI=a(nm),vJ=a(dJ),vK=a(eD),vL=a(m6),vM=a(dI),vN=a(a7),vO=a(fQ),vP=a(a7),vQ=a(mz),vT=a(mZ),vR=a(l6),vS=a(mQ),vU=a(eC),vV=a(eA),vW=a(a7),v0=a(f3),v1=a(fW),u9=a(cg),u_=a(iu),u$=a(dJ),va=a(fI),vb=a(dI),uX=a(eD),uY=a(nR),uZ=a(dF),u0=a(dG),u1=a(dG),u2=a(h1),u3=a(dF),u4=a(nz),u5=a(nj),u6=a(bA),u8=a(m5),u7=a(h1),uN=a(ml),uO=a(mV),uP=a(l9),uQ=a(ng),uR=a(mN),uS=a(mF),uT=a(no),uU=a(fR),uV=a(fR),uJ=a(bA),uK=a(cB),uL=a(fP),uM=a(cC),uF=a(ey),uG=a(io),uH=a(nE),uy=a(bl),uz=a(bk),uA=a(c0),uB=a(mq),uC=a(dF),uD=a(mj),uE=a(nL),uo=a(l5),ut=a(mP),uu=a(fJ),up=a(nh),uq=a(h2),uv=a(l3),uw=a(mB),ux=a(h2),ur=a(dG),us=a(nB),ul=a(fZ),um=a(fZ),un=a(fZ),uh=a(nM),ui=a(bk),uj=a(bl),uk=a(mM),t6=a(l0),t7=a(m4),t8=a(nH),t9=a(fN),t_=a(nZ),t$=a(nK),ua=a(m9),ub=a(nD),uc=a(lZ),ud=a(md),ue=a(m8),uf=a(nN),ug=a(fU),tV=a(bS),t5=a(bj),tW=a(fT),tX=a(fS),tY=a(f4),tZ=a(bA),t0=a(cB),t1=a(mt),t2=a(mA),t3=a(f4),t4=a(cC),tD=a(bS),tL=a(bj),tE=a(fT),tF=a(fS),tG=a(bA),tH=a(cB),tI=a(c1),tJ=a(mR),tK=a(cC),tM=a(ic),tN=a(bA),tO=a(cB),tP=a(fP),tQ=a(cC),tR=a(c1),tS=a(ey),tT=a(cC),tA=a(bl),tB=a(bk),ty=[0,a(aC),0],tz=a(aC),tw=a(w),tv=[0,a(aC),0],tx=a(aC),ti=a(bS),tj=a(bj),tk=a("*"),tl=a(bz),td=[0,[0,[0,[0,[0,0]]]]],te=[0,[0,[0,0]]],tf=[0,[0,0]],tg=[0,0],th=[0,[0,[0,[0,0]]]],tb=a('":'),tc=a(aC),s$=[0,a(aC),0],ta=a(aC),s9=[0,a("}"),0],s_=a("{"),s7=[0,a("]"),0],s8=a("["),s5=[0,[0,[0,0]]],s4=[0,[0,[0,0]]],s2=[0,0],sZ=[0,[0,[0,0]]],s0=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sX=[0,[0,0]],sY=[0,[0,[0,0]]],sS=[0,[0,0]],sT=[0,[0,[0,0]]],sQ=[0,[0,[0,0]]],sR=[0,[0,0]],sO=[0,0],sK=[0,[0,0]],sL=[0,0],sM=[0,0],sN=[0,[0,0]],sB=[0,[0,0]],sC=[0,0],sD=[0,[0,0]],sE=[0,0],sF=[0,0],sG=[0,[0,0]],sH=[0,[0,0]],sI=[0,[0,0]],sJ=[0,0],sx=[0,0],sv=[0,[0,[0,0]]],su=[0,[0,[0,[0,[0,[0,0]]]]]],sr=[0,0],ss=[0,[0,[0,[0,[0,[0,0]]]]]],st=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],sp=[0,[0,[0,0]]],sk=[0,[0,[0,0]]],si=[0,[0,[0,0]]],sg=[0,[0,[0,[0,[0,[0,0]]]]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],sc=[0,[0,0]],sd=[0,0],se=[0,[0,[0,0]]],sf=[0,[0,[0,0]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,[0,[0,[0,0]]]]]],r9=[0,[0,[0,[0,[0,[0,0]]]]]],r_=[0,[0,[0,0]]],r$=[0,[0,[0,[0,[0,[0,0]]]]]],sa=[0,[0,[0,0]]],sb=[0,[0,[0,0]]],r5=[0,[0,0]],r6=[0,0],r4=[0,0,0],r2=[0,0,0],r1=[0,[0,[0,0]]],rX=[0,0],rY=[0,0],rS=[0,[0,[0,0]]],rT=[0,[0,[0,0]]],rU=[0,[0,[0,0]]],rR=[0,[0,[0,[0,0]]]],rN=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,[0,0]]],rQ=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rL=[0,[0,0]],rM=[0,0],rJ=[0,[0,0]],rK=[0,0],rH=[0,[0,0]],rI=[0,0],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rt=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ru=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],rp=[0,0,0],rn=a(aQ),rm=a(w),rl=[0,[0,0]],rk=[0,0],rj=[1,0],ri=[0,0],rh=[0,0],rf=[1,0],rg=[1,0],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],AE=a(bl),AF=a(bk),AG=a(mc),Ae=a(cC),Af=a(ic),Ag=a(fP),Aj=a(bA),Ak=a(cB),Ah=[0,a('" of such a platform'),0],Ai=a(l2),z2=a("rho"),z3=a(fY),z4=[0,a("a joint by its coordinate"),0],zD=a(cg),zr=a(fW),zs=a(a7),zt=a(mz),zu=a(mQ),zx=a(l6),zy=a(mZ),zz=a(a7),zA=a(a7),zC=a(fQ),zB=[0,a("a claim that no cube of such a machine fits"),0],zE=a(dI),zF=a(dJ),zG=a(fI),zH=a(iu),AD=[0,a("such a machine with bodies"),0],zI=a(ey),zJ=a(io),zK=a(nE),zL=a(iq),zM=a(l7),zN=a(m6),zO=a(fI),zR=a(c0),zS=a(nL),zV=a(iu),zW=[0,a("a machine with arms and bodies"),0],zX=a(cg),zY=a(nm),zZ=a(fQ),z0=a(eD),z1=a(c0),z5=a(cg),z6=a(bl),z7=a(bk),z8=a(mD),z9=a(mL),z_=a(f3),z$=a(nd),zP=[0,a(aC),0],zQ=a(mT),Aa=a(c0),Ab=[0,a('" of a platform that turns'),0],Ac=a(mG),Ad=a(nI),AB=[0,a('" that does not turn'),0],AC=a(mT),Al=a(iq),Am=a(mF),An=a(ml),Ao=a(mN),Ap=a(fR),Aq=a(no),Ar=a(fR),Ay=a(mV),Az=a(l9),AA=a(ng),As=a(ey),At=a(io),Au=a(cg),Av=a(bl),Aw=a(bk),Ax=a(nQ),zT=[0,a(aC),0],zU=a(mG),AH=a(a7),AI=a(a7),AK=a(eC),AL=a(eA),AM=a(f3),AJ=[0,a("an atlas of such a machine"),0],zv=[0,a(aC),0],zw=a('a claim of the kind "'),AR=a(mW),AY=a(fU),AZ=a(fN),A0=a(nk),A1=a(nA),A2=a(c1),A3=a(ib),A4=a(ii),A5=a(c1),A6=a(aQ),AS=a(fL),AT=a(nc),AU=a(f0),AV=a(my),AW=[0,a(aC),0],AX=a('the evidence "'),A7=a(fL),A8=a(f0),A9=a(nU),A$=a(fL),Ba=a(f0),Bb=a(ig),Bc=a(ig),A_=[0,a("this evidence at control points"),0],B0=a('"orthocert-paving/'),BH=a(nx),BI=a(ni),BJ=a(mH),BY=[0,3,3],BK=a(nn),BT=[0,a('the drive "arm" in a claim that is certified'),0],BW=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],BX=[0,a("a mechanism by formulas in a claim that is refuted"),0],BU=[0,a('the evidence "tolerances" of such a mechanism'),0],BV=[0,a("a step of a platform that turns that is not at control points"),0],BL=[0,a("the acceleration of a joint of a machine with a plane"),0],BS=[0,a("this quantity in a claim that is refuted"),0],BQ=[0,a("a step in a proof that no cube fits"),0],BR=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BP=[0,a("a leaf that fails"),0],BM=a(mp),BN=a(m1),BO=a(fJ),BF=a(it),Bz=a(fW),BA=a(mm),BB=a(nS),BC=[0,a(aC),0],BD=a('a proof of the kind "'),Bv=a(eA),Bw=a(eC),Bx=a(fX),By=a(mv),Br=a(a7),Bs=a(fO),Bt=a(m3),Bu=a(fM),Bo=a(nO),Bp=a(h$),Bq=a(fM),Bk=a(nG),Bl=a(fO),Bm=a(fX),Bn=a(nV),Bf=a(ns),Bg=a(nT),Bh=a(fY),Bi=[0,a(aC),0],Bj=a('the failure "'),Bd=a(it),Be=a(aQ),AP=a(ib),AQ=a(ii),AN=a(m0),AO=a(lV),zo=a(eD),ze=a(h1),zf=a(m5),zg=a(dG),zh=a(bA),zm=a(nR),zn=a(eD),zp=a(dF),zq=a(dG),zi=a(dF),zj=a(nz),zk=a(nj),zl=a(bA),y9=a(c0),zb=a(bl),zc=a(bk),y_=a(mj),y$=a(mq),za=a(dF),y7=[0,a("this quantity of such a mechanism"),0],yU=a(nh),yV=[0,a("a stiffness for each joint"),0],yW=a(mB),yX=a(l3),yY=a(mP),yT=a(fJ),yL=a(fZ),yB=a(nB),yC=a(m4),y1=a(fU),y2=a(md),y3=a(fN),y4=a(nD),y5=a(m8),y6=a(lZ),yD=a(nH),yE=a(nN),yF=a(nK),yG=a(nZ),yH=a(m9),yI=a(l0),yJ=[0,a(aC),0],yK=a('the quantity "'),yM=a(l5),yN=a(nM),yO=a(bl),yP=a(bk),yQ=a(mM),yR=[0,a(aC),0],yS=a('a bound "'),yZ=a(h2),y0=a(dG),yu=a(fT),yv=a(fS),yw=a(f4),yx=a(bA),yy=a(cB),yz=a(mt),yA=a(mA),yr=a(cC),ys=a(f4),yc=a(cC),yd=a(ey),ye=a(mR),yf=a(fP),yi=a(ic),yj=a(bA),yk=a(cB),yl=a(fT),ym=a(fS),yn=a(bA),yo=a(cB),yp=a(c1),yq=a(c1),yg=[0,a(aC),0],yh=a(l2),x$=a(bS),ya=a(bj),x9=a(" is not covered by the verified checker"),x_=a(w),x7=a(bl),x8=a(bk),x3=a(w),x4=a(n0),x5=a(w),x6=a(w),x2=[1,0],x0=a("Reader.Malformed"),x1=a("Reader.Not_covered"),B3=[0,a("a paving is checked by orthocert-verified")],B2=a(mu),B4=a("CERTIFIED"),B5=a("REFUTED"),B6=a(mu),B7=a("NOT COVERED: ");function
+ak(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ao(a[1])];case
-1:return[1,ao(a[1])];case
-2:return[2,ao(a[1])];case
-3:return[3,ao(a[1])];case
-4:return[4,ao(a[1])];case
-5:return[5,ao(a[1])];case
-6:return[6,ao(a[1])];case
-7:return[7,ao(a[1])];case
+0:return[0,ak(a[1])];case
+1:return[1,ak(a[1])];case
+2:return[2,ak(a[1])];case
+3:return[3,ak(a[1])];case
+4:return[4,ak(a[1])];case
+5:return[5,ak(a[1])];case
+6:return[6,ak(a[1])];case
+7:return[7,ak(a[1])];case
 8:var
-c=a[1];return[8,c,ao(a[2])];case
+c=a[1];return[8,c,ak(a[2])];case
 9:var
-b=a[1];return[9,b,b,ao(a[3])];case
-10:return[10,ao(a[1])];case
-11:return[11,ao(a[1])];case
-12:return[12,ao(a[1])];case
-13:return[13,ao(a[1])];default:return[14,ao(a[1])]}}function
-aW(a,b){if(typeof
+b=a[1];return[9,b,b,ak(a[3])];case
+10:return[10,ak(a[1])];case
+11:return[11,ak(a[1])];case
+12:return[12,ak(a[1])];case
+13:return[13,ak(a[1])];default:return[14,ak(a[1])]}}function
+aT(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aW(a[1],b)];case
-1:return[1,aW(a[1],b)];case
-2:return[2,aW(a[1],b)];case
-3:return[3,aW(a[1],b)];case
-4:return[4,aW(a[1],b)];case
-5:return[5,aW(a[1],b)];case
-6:return[6,aW(a[1],b)];case
-7:return[7,aW(a[1],b)];case
+0:return[0,aT(a[1],b)];case
+1:return[1,aT(a[1],b)];case
+2:return[2,aT(a[1],b)];case
+3:return[3,aT(a[1],b)];case
+4:return[4,aT(a[1],b)];case
+5:return[5,aT(a[1],b)];case
+6:return[6,aT(a[1],b)];case
+7:return[7,aT(a[1],b)];case
 8:var
-c=a[1];return[8,c,aW(a[2],b)];case
+c=a[1];return[8,c,aT(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aW(a[3],b)];case
-10:return[10,aW(a[1],b)];case
-11:return[11,aW(a[1],b)];case
-12:return[12,aW(a[1],b)];case
-13:return[13,aW(a[1],b)];default:return[14,aW(a[1],b)]}}function
-ak(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aT(a[3],b)];case
+10:return[10,aT(a[1],b)];case
+11:return[11,aT(a[1],b)];case
+12:return[12,aT(a[1],b)];case
+13:return[13,aT(a[1],b)];default:return[14,aT(a[1],b)]}}function
+ag(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ak(a[1],b)];case
-1:return[1,ak(a[1],b)];case
+0:return[0,ag(a[1],b)];case
+1:return[1,ag(a[1],b)];case
 2:var
-c=a[1];return[2,c,ak(a[2],b)];case
+c=a[1];return[2,c,ag(a[2],b)];case
 3:var
-d=a[1];return[3,d,ak(a[2],b)];case
+d=a[1];return[3,d,ag(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,ak(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,ag(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,ak(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,ag(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,ak(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,ag(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,ak(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,ag(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,ak(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,ag(a[4],b)];case
 9:var
-t=a[1];return[9,t,ak(a[2],b)];case
-10:return[10,ak(a[1],b)];case
+t=a[1];return[9,t,ag(a[2],b)];case
+10:return[10,ag(a[1],b)];case
 11:var
-u=a[1];return[11,u,ak(a[2],b)];case
+u=a[1];return[11,u,ag(a[2],b)];case
 12:var
-v=a[1];return[12,v,ak(a[2],b)];case
+v=a[1];return[12,v,ag(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,ak(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,ag(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,ak(a[3],b)];case
-15:return[15,ak(a[1],b)];case
-16:return[16,ak(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,ag(a[3],b)];case
+15:return[15,ag(a[1],b)];case
+16:return[16,ag(a[1],b)];case
 17:var
-A=a[1];return[17,A,ak(a[2],b)];case
+A=a[1];return[17,A,ag(a[2],b)];case
 18:var
-B=a[1];return[18,B,ak(a[2],b)];case
-19:return[19,ak(a[1],b)];case
+B=a[1];return[18,B,ag(a[2],b)];case
+19:return[19,ag(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,ak(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,ag(a[3],b)];case
 21:var
-E=a[1];return[21,E,ak(a[2],b)];case
-22:return[22,ak(a[1],b)];case
+E=a[1];return[21,E,ag(a[2],b)];case
+22:return[22,ag(a[1],b)];case
 23:var
-F=a[1];return[23,F,ak(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,ak(a[3],b)]}}function
-bO(a){throw[0,jC,a]}function
-e$(a){return 0<=a?a:-a|0}function
-aJ(d,c){var
-a=H(d),e=H(c),b=aB(a+e|0);b6(d,0,b,0,a);b6(c,0,b,a,e);return aV(b)}function
-pH(a){return a?pI:pJ}function
-jI(a,b){if(a){var
-c=a[1];return[0,c,jI(a[2],b)]}return b}GU(0);pt(1);var
-b9=pt(2);function
-eb(b,a){return pu(b,a,0,H(a))}function
-jJ(a){eb(b9,a);pv(b9,10);return d_(b9)}function
-gZ(b){function
+F=a[1];return[23,F,ag(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,ag(a[3],b)]}}function
+cm(a){throw[0,iQ,a]}function
+eL(a){return 0<=a?a:-a|0}function
+aE(d,c){var
+a=L(d),e=L(c),b=aw(a+e|0);bW(d,0,b,0,a);bW(c,0,b,a,e);return aR(b)}function
+oA(a){return a?oB:oC}DM(0);oj(1);var
+b1=oj(2);function
+dQ(b,a){return ok(b,a,0,L(a))}function
+iW(a){dQ(b1,a);ol(b1,10);return dN(b1)}function
+gg(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{d_(d)}catch(a){a=e8(a);if(a[1]!==jG)throw a;var
+c=a[2],d=a[1];try{dN(d)}catch(a){a=gd(a);if(a[1]!==iU)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(GV(0))}jr(a(m2),gZ);var
-ec=(4*G5(0)|0)-1|0;function
-bj(c){var
+a=c;continue}return 0}}return a(DN(0))}iI(a(lX),gg);var
+dR=(4*DX(0)|0)-1|0;function
+cG(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-g0(d){var
-a=d,b=0;for(;;){if(a){var
-c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-jK(a,c,b){if(c<=a)return 0;var
-d=f(b,a);return[0,d,jK(a+1|0,c,b)]}function
-_(b,a){if(a){var
-c=a[2],d=f(b,a[1]);return[0,d,_(b,c)]}return 0}function
-g1(d,c){var
+X(b,a){if(a){var
+c=a[2],d=f(b,a[1]);return[0,d,X(b,c)]}return 0}function
+iX(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=f(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-bk(d,c){var
+bd(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=f(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-cT(a,c){var
-b=aB(a);Gv(b,0,a,c);return b}function
-jL(c,b,a){if(0<=b&&0<=a&&!((bc(c)-a|0)<b)){var
-d=aB(a);cS(c,b,d,0,a);return d}return bO(pU)}function
-jM(c,b,a){return aV(jL(c,b,a))}function
-jN(e,c,d,b,a){if(0<=a&&0<=c&&!((bc(e)-a|0)<c)&&0<=b&&!((bc(d)-a|0)<b))return cS(e,c,d,b,a);return bO(pV)}function
-b_(e,c,d,b,a){if(0<=a&&0<=c&&!((H(e)-a|0)<c)&&0<=b&&!((bc(d)-a|0)<b))return b6(e,c,d,b,a);return bO(pW)}function
-bl(b,a){return aV(cT(b,a))}function
-cy(c,b,a){return aV(jL(cv(c),b,a))}function
-fa(k,g){if(g){var
-h=H(k),c=0,b=g,p=0;for(;;){if(b){var
+cH(a,c){var
+b=aw(a);Dn(b,0,a,c);return b}function
+iY(c,b,a){if(0<=b&&0<=a&&!((a8(c)-a|0)<b)){var
+d=aw(a);cF(c,b,d,0,a);return d}return cm(oL)}function
+iZ(c,b,a){return aR(iY(c,b,a))}function
+i0(e,c,d,b,a){if(0<=a&&0<=c&&!((a8(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return cF(e,c,d,b,a);return cm(oM)}function
+b2(e,c,d,b,a){if(0<=a&&0<=c&&!((L(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return bW(e,c,d,b,a);return cm(oN)}function
+be(b,a){return aR(cH(b,a))}function
+c6(c,b,a){return aR(iY(cj(c),b,a))}function
+i1(k,g){if(g){var
+h=L(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(H(i)+h|0)+c|0,m=b[2],n=c<=j?j:bO(pX),c=n,b=m;continue}var
-l=H(i)+c|0}else
+j=(L(i)+h|0)+c|0,m=b[2],n=c<=j?j:cm(oO),c=n,b=m;continue}var
+l=L(i)+c|0}else
 var
 l=c;var
-f=aB(l),e=p,d=g;for(;;){if(d){var
+f=aw(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];b6(a,0,f,e,H(a));b6(k,0,f,e+H(a)|0,h);var
-e=(e+H(a)|0)+h|0,d=o;continue}b6(a,0,f,e,H(a))}return aV(f)}}}return pY}function
-g2(b,c){if(0===b)return[0];if(0<=b){var
-d=GS(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
+o=d[2];bW(a,0,f,e,L(a));bW(k,0,f,e+L(a)|0,h);var
+e=(e+L(a)|0)+h|0,d=o;continue}bW(a,0,f,e,L(a))}return aR(f)}}}return oP}function
+gh(b,c){if(0===b)return[0];if(0<=b){var
+d=DK(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
 a=g;for(;;){d[1+a]=f(c,a);var
 h=a+1|0;if(e!==a){var
-a=h;continue}break}}return d}return bO(pZ)}function
-g3(c){var
+a=h;continue}break}}return d}return cm(oQ)}function
+gi(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-jO(a){var
-b=1<=a?a:1,c=ec<b?ec:b,d=aB(c);return[0,d,0,c,d]}function
-jP(a){return jM(a[1],0,a[2])}function
-jQ(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(ec<b[1]){if(!((d+c|0)<=ec))throw[0,jD,p2];b[1]=ec}var
-e=aB(b[1]);jN(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,ap,p0]}throw[0,ap,p1]}}function
-jR(a,c){var
-b=a[2];if(a[3]<=b)jQ(a,1);ax(a[1],b,c);a[2]=b+1|0;return 0}function
-ed(a,c){var
-b=H(c),d=a[2]+b|0;if(a[3]<d)jQ(a,b);b6(c,0,a[1],a[2],b);a[2]=d;return 0}function
-g4(a){return 5===a[2]?12:-6}function
-jS(a){return[0,0,aB(a)]}function
-jT(a,h){var
-b=bc(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=aB(i);jN(a[2],0,f,0,b);a[2]=f;var
+i2(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dR<b[1]){if(!((d+c|0)<=dR))throw[0,iR,oT];b[1]=dR}var
+e=aw(b[1]);i0(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,al,oR]}throw[0,al,oS]}}function
+dS(a,c){var
+b=L(c),d=a[2]+b|0;if(a[3]<d)i2(a,b);bW(c,0,a[1],a[2],b);a[2]=d;return 0}function
+gj(a){return 5===a[2]?12:-6}function
+i3(a){return[0,0,aw(a)]}function
+i4(a,h){var
+b=a8(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=aw(i);i0(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-dh(a,b){jT(a,1);dd(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aP(a,c){var
-b=H(c);jT(a,b);b_(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-jU(a){return jM(a[2],0,a[1])}function
-jV(a){if(typeof
+c7(a,b){i4(a,1);c2(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aK(a,c){var
+b=L(c);i4(a,b);b2(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+i5(a){return iZ(a[2],0,a[1])}function
+i6(a){if(typeof
 a==="number")switch(a){case
-0:return p3;case
-1:return p4;case
-2:return p5;case
-3:return p6;case
-4:return p7;case
-5:return p8;default:return p9}else
+0:return oU;case
+1:return oV;case
+2:return oW;case
+3:return oX;case
+4:return oY;case
+5:return oZ;default:return o0}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aJ(p_,bl(1,a[1]))}}function
-g5(b,c){var
+1:return a[1];default:return aE(o1,be(1,a[1]))}}function
+gk(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aP(b,p$);var
+d=a[1];aK(b,o2);var
 a=d;continue;case
 1:var
-e=a[1];aP(b,qa);var
+e=a[1];aK(b,o3);var
 a=e;continue;case
 2:var
-f=a[1];aP(b,qb);var
+f=a[1];aK(b,o4);var
 a=f;continue;case
 3:var
-g=a[1];aP(b,qc);var
+g=a[1];aK(b,o5);var
 a=g;continue;case
 4:var
-h=a[1];aP(b,qd);var
+h=a[1];aK(b,o6);var
 a=h;continue;case
 5:var
-i=a[1];aP(b,qe);var
+i=a[1];aK(b,o7);var
 a=i;continue;case
 6:var
-j=a[1];aP(b,qf);var
+j=a[1];aK(b,o8);var
 a=j;continue;case
 7:var
-k=a[1];aP(b,qg);var
+k=a[1];aK(b,o9);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aP(b,qh);g5(b,m);aP(b,qi);var
+l=a[2],m=a[1];aK(b,o_);gk(b,m);aK(b,o$);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aP(b,qj);g5(b,o);aP(b,qk);var
+n=a[3],o=a[1];aK(b,pa);gk(b,o);aK(b,pb);var
 a=n;continue;case
 10:var
-p=a[1];aP(b,ql);var
+p=a[1];aK(b,pc);var
 a=p;continue;case
 11:var
-q=a[1];aP(b,qm);var
+q=a[1];aK(b,pd);var
 a=q;continue;case
 12:var
-r=a[1];aP(b,qn);var
+r=a[1];aK(b,pe);var
 a=r;continue;case
 13:var
-s=a[1];aP(b,qo);var
+s=a[1];aK(b,pf);var
 a=s;continue;default:var
-t=a[1];aP(b,qp);var
+t=a[1];aK(b,pg);var
 a=t;continue}}function
-az(a){if(typeof
+at(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,az(a[1])];case
-1:return[1,az(a[1])];case
-2:return[2,az(a[1])];case
-3:return[3,az(a[1])];case
-4:return[4,az(a[1])];case
-5:return[5,az(a[1])];case
-6:return[6,az(a[1])];case
-7:return[7,az(a[1])];case
+0:return[0,at(a[1])];case
+1:return[1,at(a[1])];case
+2:return[2,at(a[1])];case
+3:return[3,at(a[1])];case
+4:return[4,at(a[1])];case
+5:return[5,at(a[1])];case
+6:return[6,at(a[1])];case
+7:return[7,at(a[1])];case
 8:var
-b=a[1];return[8,b,az(a[2])];case
+b=a[1];return[8,b,at(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,az(a[3])];case
-10:return[10,az(a[1])];case
-11:return[11,az(a[1])];case
-12:return[12,az(a[1])];case
-13:return[13,az(a[1])];default:return[14,az(a[1])]}}function
-aQ(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,at(a[3])];case
+10:return[10,at(a[1])];case
+11:return[11,at(a[1])];case
+12:return[12,at(a[1])];case
+13:return[13,at(a[1])];default:return[14,at(a[1])]}}function
+aL(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aQ(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
+b=aL(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
 1:var
-c=aQ(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
+c=aL(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
 2:var
-d=aQ(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
+d=aL(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
 3:var
-e=aQ(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
+e=aL(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
 4:var
-g=aQ(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
+g=aL(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
 5:var
-h=aQ(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
+h=aL(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
 6:var
-i=aQ(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
+i=aL(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
 7:var
-j=aQ(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
+j=aL(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
 8:var
-k=aQ(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
+k=aL(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],an=a[1],l=aQ(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aQ(aD(az(an),am)),as=m[4],at=m[3],au=m[2],av=m[1],aw=function(a){f(as,0);f(ao,0);return 0},ax=function(a){f(ap,0);f(at,0);return 0},ay=function(a){f(au,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(av,0);return 0},ay,ax,aw];case
+am=a[2],an=a[1],l=aL(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aL(ax(at(an),am)),as=m[4],au=m[3],av=m[2],aw=m[1],ay=function(a){f(as,0);f(ao,0);return 0},az=function(a){f(ap,0);f(au,0);return 0},aA=function(a){f(av,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(aw,0);return 0},aA,az,ay];case
 10:var
-n=aQ(a[1]),aA=n[4],aB=n[3],aC=n[2],aE=n[1],aF=function(a){f(aC,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aB,aA];case
+n=aL(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){f(aD,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aC,aB];case
 11:var
-o=aQ(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
+o=aL(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
 12:var
-p=aQ(a[1]),aL=p[4],aM=p[3],aN=p[2],aO=p[1],aP=function(a){f(aN,0);return 0};return[0,function(a){f(aO,0);return 0},aP,aM,aL];case
+p=aL(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){f(aO,0);return 0};return[0,function(a){f(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aQ(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
-r=aQ(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
-aD(c,b){var
+q=aL(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
+r=aL(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
+ax(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1086,12 +1074,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,ap,qq]}else
+9:a=6;break;default:throw[0,al,ph]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,aD(t,b[1])];case
+0:return[0,ax(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1102,7 +1090,7 @@ b!=="number")switch(b[0]){case
 1:var
 e=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,aD(u,b[1])];case
+1:return[1,ax(u,b[1])];case
 8:a=5;e=1;break;case
 9:a=6;e=1;break;case
 10:e=1;break;case
@@ -1114,7 +1102,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,aD(v,b[1])];case
+2:return[2,ax(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1126,7 +1114,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,aD(w,b[1])];case
+3:return[3,ax(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1138,7 +1126,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,aD(x,b[1])];case
+4:return[4,ax(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1150,7 +1138,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,aD(y,b[1])];case
+5:return[5,ax(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1162,7 +1150,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,aD(z,b[1])];case
+6:return[6,ax(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1174,7 +1162,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,aD(A,b[1])];case
+7:return[7,ax(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1187,40 +1175,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=aD(B,b[2]);return[8,aD(C,D),E];case
+D=b[1],E=ax(B,b[2]);return[8,ax(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,ap,qz];break;case
+14:a=4;break;default:m=1}if(m)throw[0,al,pq];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aQ(aD(az(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,aD(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aL(ax(at(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,ax(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,ap,qA];break;case
+14:a=4;break;default:n=1}if(n)throw[0,al,pr];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,aD(M,b[1])];throw[0,ap,qB];case
+b!=="number"&&10===b[0])return[10,ax(M,b[1])];throw[0,al,ps];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,aD(N,b[1])];default:o=1}if(o)throw[0,ap,qC];break;case
+11:return[11,ax(N,b[1])];default:o=1}if(o)throw[0,al,pt];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,aD(O,b[1])];default:p=1}if(p)throw[0,ap,qD];break;case
+12:return[12,ax(O,b[1])];default:p=1}if(p)throw[0,al,pu];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1228,7 +1216,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,aD(P,b[1])];default:q=1}if(q)throw[0,ap,qE];break;default:var
+13:return[13,ax(P,b[1])];default:q=1}if(q)throw[0,al,pv];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1236,206 +1224,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,aD(Q,b[1])];default:r=1}if(r)throw[0,ap,qF]}switch(a){case
-0:throw[0,ap,qt];case
-1:throw[0,ap,qu];case
-2:throw[0,ap,qv];case
-3:throw[0,ap,qw];case
-4:throw[0,ap,qx];case
-5:throw[0,ap,qr];case
-6:throw[0,ap,qs];default:throw[0,ap,qy]}}var
-aK=[aH,qG,gR(0)];function
-fb(b,a){if(typeof
+14:return[14,ax(Q,b[1])];default:r=1}if(r)throw[0,al,pw]}switch(a){case
+0:throw[0,al,pk];case
+1:throw[0,al,pl];case
+2:throw[0,al,pm];case
+3:throw[0,al,pn];case
+4:throw[0,al,po];case
+5:throw[0,al,pi];case
+6:throw[0,al,pj];default:throw[0,al,pp]}}var
+aF=[aB,px,f8(0)];function
+eM(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aK}}function
-ee(e,b,d){var
-a=fb(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aF}}function
+dT(e,b,d){var
+a=eM(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aK}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-a2(b,c,a){if(typeof
-b==="number")return[0,0,af(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aF}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aV(b,c,a){if(typeof
+b==="number")return[0,0,ab(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=a2(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aV(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=a2(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aV(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=a2(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aV(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=a2(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aV(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=a2(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aV(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=a2(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aV(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=a2(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aV(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=a2(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aV(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(e7([0,b[1]],[0,o]))throw aK;var
-p=a2(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(eJ([0,b[1]],[0,o]))throw aF;var
+p=aV(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ao(e)];if(e7([0,ao(B)],C))throw aK;var
-D=[0,ao(d)];if(e7([0,ao(A)],D))throw aK;var
-q=aQ(aD(az(e),d)),E=q[4];f(q[2],0);f(E,0);var
-r=a2(ao(z),c,y),F=r[2];return[0,[9,e,d,az(r[1])],F]}break;case
+d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ak(e)];if(eJ([0,ak(B)],C))throw aF;var
+D=[0,ak(d)];if(eJ([0,ak(A)],D))throw aF;var
+q=aL(ax(at(e),d)),E=q[4];f(q[2],0);f(E,0);var
+r=aV(ak(z),c,y),F=r[2];return[0,[9,e,d,at(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=a2(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aV(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=a2(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aV(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=a2(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aV(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=a2(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aK}function
-af(b,a){if(typeof
+v=aV(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aF}function
+ab(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=af(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=ab(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=af(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=ab(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-aa=b[2],u=fb(b[1],a),e=u[2],ab=u[1];if(typeof
+aa=b[2],u=eM(b[1],a),e=u[2],ac=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=af(aa,e[1]);return[0,[2,ab,v[1]],v[2]]}throw aK;case
+v=ab(aa,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aF;case
 3:var
-ac=b[2],w=fb(b[1],a),f=w[2],ad=w[1];if(typeof
+ad=b[2],w=eM(b[1],a),f=w[2],ae=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=af(ac,f[1]);return[0,[3,ad,x[1]],x[2]]}throw aK;case
+x=ab(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aF;case
 4:var
-ae=b[4],ag=b[1],g=ee(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
+af=b[4],ag=b[1],g=dT(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-ai=g[2],y=af(ae,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aK;case
+ai=g[2],y=ab(af,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aF;case
 5:var
-aj=b[4],ak=b[1],i=ee(b[2],b[3],a),j=i[3],al=i[1];if(typeof
+aj=b[4],al=b[1],i=dT(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-am=i[2],z=af(aj,j[1]);return[0,[5,ak,al,am,z[1]],z[2]]}throw aK;case
+an=i[2],z=ab(aj,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aF;case
 6:var
-an=b[4],ap=b[1],k=ee(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dT(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=af(an,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aK;case
+ar=k[2],A=ab(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aF;case
 7:var
-as=b[4],at=b[1],m=ee(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=dT(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=af(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aK;case
+av=m[2],B=ab(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aF;case
 8:var
-aw=b[4],ax=b[1],o=ee(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
+aw=b[4],ax=b[1],o=dT(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-az=o[2],C=af(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aK;case
+az=o[2],C=ab(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aF;case
 9:var
-aA=b[2],D=fb(b[1],a),q=D[2],aB=D[1];if(typeof
+aA=b[2],D=eM(b[1],a),q=D[2],aB=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=af(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aK;case
+E=ab(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aF;case
 10:var
-F=af(b[1],a);return[0,[10,F[1]],F[2]];case
+F=ab(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aC=b[1],G=af(b[2],a);return[0,[11,aC,G[1]],G[2]];case
+aC=b[1],G=ab(b[2],a);return[0,[11,aC,G[1]],G[2]];case
 12:var
-aD=b[1],H=af(b[2],a);return[0,[12,aD,H[1]],H[2]];case
+aD=b[1],H=ab(b[2],a);return[0,[12,aD,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aE=a[2],aF=b[3],aG=b[1];if(e7([0,b[2]],[0,I]))throw aK;var
-J=af(aF,aE);return[0,[13,aG,I,J[1]],J[2]]}break;case
+I=a[1],aE=a[2],aG=b[3],aH=b[1];if(eJ([0,b[2]],[0,I]))throw aF;var
+J=ab(aG,aE);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aH=a[3],aI=b[3],aJ=b[2],aL=b[1],aM=[0,ao(K)];if(e7([0,ao(aJ)],aM))throw aK;var
-L=af(aI,ao(aH));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ak(K)];if(eJ([0,ak(aK)],aM))throw aF;var
+L=ab(aJ,ak(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=af(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=ab(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=af(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=ab(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=af(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=ab(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aR=T[2],U=af(T[1],a),aS=U[1],V=af(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
-W=r[1],aT=W[2],X=af(W[1],a),aU=X[1],Y=af(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
+T=r[1],aR=T[2],U=ab(T[1],a),aS=U[1],V=ab(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
+W=r[1],aT=W[2],X=ab(W[1],a),aU=X[1],Y=ab(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=af(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=ab(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=af(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=ab(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=af(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=ab(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return a6(c,d,a);case
-1:return a6(c,d,a);case
+0:return a0(c,d,a);case
+1:return a0(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-Z=af(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aK;default:return a6(c,d,a)}else
+Z=ab(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aF;default:return a0(c,d,a)}else
 switch(c[0]){case
-0:return a6(c,d,a);case
-1:return a6(c,d,a);case
-2:return a6(c,d,a);case
-3:return a6(c,d,a);case
-4:return a6(c,d,a);case
-5:return a6(c,d,a);case
-6:return a6(c,d,a);case
-7:return a6(c,d,a);case
-8:return a6([8,c[1],c[2]],d,a);case
+0:return a0(c,d,a);case
+1:return a0(c,d,a);case
+2:return a0(c,d,a);case
+3:return a0(c,d,a);case
+4:return a0(c,d,a);case
+5:return a0(c,d,a);case
+6:return a0(c,d,a);case
+7:return a0(c,d,a);case
+8:return a0([8,c[1],c[2]],d,a);case
 9:var
-aV=c[1],_=a2(c[2],d,a),$=_[2];return[0,[23,[9,aV,_[1]],$[1]],$[2]];case
-10:return a6(c,d,a);default:return a6(c,d,a)}}throw aK}function
-a6(d,c,b){var
-a=af(c,b);return[0,[23,d,a[1]],a[2]]}function
-a7(k,g,a){var
-b=H(a),h=0<=g?k:0,d=e$(g);if(d<=b)return a;var
-l=2===h?48:32,c=cT(d,l);switch(h){case
-0:b_(a,0,c,0,b);break;case
-1:b_(a,0,c,d-b|0,b);break;default:var
+aW=c[1],_=aV(c[2],d,a),$=_[2];return[0,[23,[9,aW,_[1]],$[1]],$[2]];case
+10:return a0(c,d,a);default:return a0(c,d,a)}}throw aF}function
+a0(d,c,b){var
+a=ab(c,b);return[0,[23,d,a[1]],a[2]]}function
+a1(k,g,a){var
+b=L(a),h=0<=g?k:0,d=eL(g);if(d<=b)return a;var
+l=2===h?48:32,c=cH(d,l);switch(h){case
+0:b2(a,0,c,0,b);break;case
+1:b2(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==Y(a,0)&&45!==Y(a,0)&&32!==Y(a,0)){e=1;i=1}if(!i){dd(c,0,Y(a,0));b_(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==W(a,0)&&45!==W(a,0)&&32!==W(a,0)){e=1;i=1}if(!i){c2(c,0,W(a,0));b2(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===Y(a,0)){var
-j=0;if(nf!==Y(a,1)&&88!==Y(a,1)){f=1;j=1}if(!j){dd(c,1,Y(a,1));b_(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)b_(a,0,c,d-b|0,b)}}return aV(c)}function
-di(k,b){var
-c=e$(k),a=H(b),d=Y(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+og>>>0))e=1}else
+f=0;if(1<b&&48===W(a,0)){var
+j=0;if(ma!==W(a,1)&&88!==W(a,1)){f=1;j=1}if(!j){c2(c,1,W(a,1));b2(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)b2(a,0,c,d-b|0,b)}}return aR(c)}function
+c8(k,b){var
+c=eL(k),a=L(b),d=W(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+m$>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(nf===Y(b,1)||88===Y(b,1))j=1;if(j){var
-h=cT(c+2|0,48);dd(h,1,Y(b,1));b_(b,2,h,(c-a|0)+4|0,a-2|0);return aV(h)}}e=1;f=1;break;case
+j=0;if(ma===W(b,1)||88===W(b,1))j=1;if(j){var
+h=cH(c+2|0,48);c2(h,1,W(b,1));b2(b,2,h,(c-a|0)+4|0,a-2|0);return aR(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cT(c+1|0,48);dd(g,0,d);b_(b,1,g,(c-a|0)+2|0,a-1|0);return aV(g)}}if(e&&a<c){var
-i=cT(c,48);b_(b,0,i,c-a|0,a);return aV(i)}return b}function
-qH(k){var
-j=0,C=H(k);for(;;){if(C<=j)var
+g=cH(c+1|0,48);c2(g,0,d);b2(b,1,g,(c-a|0)+2|0,a-1|0);return aR(g)}}if(e&&a<c){var
+i=cH(c,48);b2(b,0,i,c-a|0,a);return aR(i)}return b}function
+py(k){var
+j=0,C=L(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bN(k,j)+i_|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bZ(k,j)+nC|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=cv(k),a=[0,0],t=bc(e)-1|0,y=0;if(!(t<0)){var
+e=cj(k),a=[0,0],t=a8(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=d8(e,i),g=0;if(32<=f){var
+f=dL(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1446,33 +1434,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===bc(e)){var
-r=bc(e),s=aB(r);cS(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===a8(e)){var
+r=a8(e),s=aw(r);cF(e,0,s,0,r);var
 v=s}else{var
-b=aB(a[1]);a[1]=0;var
-u=bc(e)-1|0,z=0;if(!(u<0)){var
+b=aw(a[1]);a[1]=0;var
+u=a8(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=d8(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gt<=c)d=1;else
+c=dL(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(ia<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ax(b,a[1],92);a[1]++;ax(b,a[1],98);break;case
-9:ax(b,a[1],92);a[1]++;ax(b,a[1],116);break;case
-10:ax(b,a[1],92);a[1]++;ax(b,a[1],110);break;case
-13:ax(b,a[1],92);a[1]++;ax(b,a[1],114);break;default:d=1}switch(d){case
-1:ax(b,a[1],92);a[1]++;ax(b,a[1],48+(c/ol|0)|0);a[1]++;ax(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ax(b,a[1],48+(c%10|0)|0);break;case
-2:ax(b,a[1],92);a[1]++;ax(b,a[1],c);break;case
-3:ax(b,a[1],c);break}a[1]++;var
+8:ar(b,a[1],92);a[1]++;ar(b,a[1],98);break;case
+9:ar(b,a[1],92);a[1]++;ar(b,a[1],116);break;case
+10:ar(b,a[1],92);a[1]++;ar(b,a[1],110);break;case
+13:ar(b,a[1],92);a[1]++;ar(b,a[1],114);break;default:d=1}switch(d){case
+1:ar(b,a[1],92);a[1]++;ar(b,a[1],48+(c/nf|0)|0);a[1]++;ar(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ar(b,a[1],48+(c%10|0)|0);break;case
+2:ar(b,a[1],92);a[1]++;ar(b,a[1],c);break;case
+3:ar(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aV(v)}var
-w=H(o),x=cT(w+2|0,34);b6(o,0,x,1,w);return aV(x)}}function
-jW(d,f){var
-g=e$(f),e=rw[1];switch(d[2]){case
+o=aR(v)}var
+w=L(o),x=cH(w+2|0,34);bW(o,0,x,1,w);return aR(x)}}function
+i7(d,f){var
+g=eL(f),e=qn[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1480,7 +1468,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=ng;break;case
+b=mb;break;case
 4:var
 b=71;break;case
 5:var
@@ -1490,210 +1478,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=jS(16);dh(c,37);switch(d[1]){case
+c=i3(16);c7(c,37);switch(d[1]){case
 0:break;case
-1:dh(c,43);break;default:dh(c,32)}if(8<=d[2])dh(c,35);dh(c,46);aP(c,a(x+g));dh(c,b);return jU(c)}function
-fc(m,a){if(13<=m){var
-g=[0,0],h=H(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bN(a,c)+iQ>>>0))g[1]++;var
+1:c7(c,43);break;default:c7(c,32)}if(8<=d[2])c7(c,35);c7(c,46);aK(c,a(w+g));c7(c,b);return i5(c)}function
+eN(m,a){if(13<=m){var
+g=[0,0],h=L(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bZ(a,c)+h3>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=aB(H(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){dd(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=H(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=aw(L(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){c2(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=L(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bN(a,b);if(9<f+iQ>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bZ(a,b);if(9<f+h3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aV(j)}return a}function
-rx(b,c){switch(b){case
+b=p;continue}break}}return aR(j)}return a}function
+qo(b,c){switch(b){case
 1:var
-a=qJ;break;case
+a=pA;break;case
 2:var
-a=qK;break;case
+a=pB;break;case
 4:var
-a=qM;break;case
+a=pD;break;case
 5:var
-a=qN;break;case
+a=pE;break;case
 6:var
-a=qO;break;case
+a=pF;break;case
 7:var
-a=qP;break;case
+a=pG;break;case
 8:var
-a=qQ;break;case
+a=pH;break;case
 9:var
-a=qR;break;case
+a=pI;break;case
 10:var
-a=qS;break;case
+a=pJ;break;case
 11:var
-a=qT;break;case
+a=pK;break;case
 0:case
 13:var
-a=qI;break;case
+a=pz;break;case
 3:case
 14:var
-a=qL;break;default:var
-a=qU}return fc(b,gQ(a,c))}function
-ry(b,c){switch(b){case
+a=pC;break;default:var
+a=pL}return eN(b,f7(a,c))}function
+qp(b,c){switch(b){case
 1:var
-a=q9;break;case
+a=p0;break;case
 2:var
-a=q_;break;case
+a=p1;break;case
 4:var
-a=ra;break;case
+a=p3;break;case
 5:var
-a=rb;break;case
+a=p4;break;case
 6:var
-a=rc;break;case
+a=p5;break;case
 7:var
-a=rd;break;case
+a=p6;break;case
 8:var
-a=re;break;case
+a=p7;break;case
 9:var
-a=rf;break;case
+a=p8;break;case
 10:var
-a=rg;break;case
+a=p9;break;case
 11:var
-a=rh;break;case
+a=p_;break;case
 0:case
 13:var
-a=q8;break;case
+a=pZ;break;case
 3:case
 14:var
-a=q$;break;default:var
-a=ri}return fc(b,gQ(a,c))}function
-rz(b,c){switch(b){case
+a=p2;break;default:var
+a=p$}return eN(b,f7(a,c))}function
+qq(b,c){switch(b){case
 1:var
-a=rk;break;case
+a=qb;break;case
 2:var
-a=rl;break;case
+a=qc;break;case
 4:var
-a=rn;break;case
+a=qe;break;case
 5:var
-a=ro;break;case
+a=qf;break;case
 6:var
-a=rp;break;case
+a=qg;break;case
 7:var
-a=rq;break;case
+a=qh;break;case
 8:var
-a=rr;break;case
+a=qi;break;case
 9:var
-a=rs;break;case
+a=qj;break;case
 10:var
-a=rt;break;case
+a=qk;break;case
 11:var
-a=ru;break;case
+a=ql;break;case
 0:case
 13:var
-a=rj;break;case
+a=qa;break;case
 3:case
 14:var
-a=rm;break;default:var
-a=rv}return fc(b,gQ(a,c))}function
-rA(b,c){switch(b){case
+a=qd;break;default:var
+a=qm}return eN(b,f7(a,c))}function
+qr(b,c){switch(b){case
 1:var
-a=qW;break;case
+a=pN;break;case
 2:var
-a=qX;break;case
+a=pO;break;case
 4:var
-a=qZ;break;case
+a=pQ;break;case
 5:var
-a=q0;break;case
+a=pR;break;case
 6:var
-a=q1;break;case
+a=pS;break;case
 7:var
-a=q2;break;case
+a=pT;break;case
 8:var
-a=q3;break;case
+a=pU;break;case
 9:var
-a=q4;break;case
+a=pV;break;case
 10:var
-a=q5;break;case
+a=pW;break;case
 11:var
-a=q6;break;case
+a=pX;break;case
 0:case
 13:var
-a=qV;break;case
+a=pM;break;case
 3:case
 14:var
-a=qY;break;default:var
-a=q7}return fc(b,GD(a,c))}function
-b$(c,i,b){function
+a=pP;break;default:var
+a=pY}return eN(b,Dv(a,c))}function
+b3(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return Gz(b,i,a)}function
+a=32}return Dr(b,i,a)}function
 q(c){var
-a=Gr(b);return 3===a?b<0.?rC:rD:4<=a?rE:c}switch(c[2]){case
+a=Dj(b);return 3===a?b<0.?qt:qu:4<=a?qv:c}switch(c[2]){case
 5:var
-e=jh(jW(c,i),b),d=0,u=H(e);for(;;){if(d===u)var
+e=iy(i7(c,i),b),d=0,u=L(e);for(;;){if(d===u)var
 p=0;else{var
-k=Y(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=W(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aJ(e,rB);return q(v)}case
+v=p?e:aE(e,qs);return q(v)}case
 6:return j(0);case
 7:var
-h=cv(j(0)),f=bc(h);if(0===f)var
+h=cj(j(0)),f=a8(h);if(0===f)var
 o=h;else{var
-m=aB(f),n=f-1|0,r=0;if(!(n<0)){var
+m=aw(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=d8(h,a),s=25<g+og>>>0?g:g+i_|0;ax(m,a,s);var
+g=dL(h,a),s=25<g+m$>>>0?g:g+nC|0;ar(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aV(o);case
-8:return q(j(0));default:return jh(jW(c,i),b)}}function
-eU(d,x,w,v){var
+o=m}return aR(o);case
+8:return q(j(0));default:return iy(i7(c,i),b)}}function
+ex(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return f(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return V(b,[5,a,c],y)};case
+y=c[1];return function(c){return P(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=pM;else
-if(gt<=c)e=1;else
+d=oF;else
+if(ia<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=pN;else
+d=oG;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=pO;break;case
+d=oH;break;case
 9:var
-d=pP;break;case
+d=oI;break;case
 10:var
-d=pQ;break;case
+d=oJ;break;case
 13:var
-d=pR;break;default:e=1}switch(e){case
+d=oK;break;default:e=1}switch(e){case
 1:var
-f=aB(4);ax(f,0,92);ax(f,1,48+(c/ol|0)|0);ax(f,2,48+((c/10|0)%10|0)|0);ax(f,3,48+(c%10|0)|0);var
-d=aV(f);break;case
+f=aw(4);ar(f,0,92);ar(f,1,48+(c/nf|0)|0);ar(f,2,48+((c/10|0)%10|0)|0);ar(f,3,48+(c%10|0)|0);var
+d=aR(f);break;case
 2:var
-g=aB(1);ax(g,0,c);var
-d=aV(g);break}var
-h=H(d),i=cT(h+2|0,39);b6(d,0,i,1,h);return V(b,[4,a,aV(i)],z)};case
+g=aw(1);ar(g,0,c);var
+d=aR(g);break}var
+h=L(d),i=cH(h+2|0,39);bW(d,0,i,1,h);return P(b,[4,a,aR(i)],z)};case
 2:var
-A=c[2],B=c[1];return g6(b,a,A,B,function(a){return a});case
-3:return g6(b,a,c[2],c[1],qH);case
-4:return fd(b,a,c[4],c[2],c[3],rx,c[1]);case
-5:return fd(b,a,c[4],c[2],c[3],ry,c[1]);case
-6:return fd(b,a,c[4],c[2],c[3],rz,c[1]);case
-7:return fd(b,a,c[4],c[2],c[3],rA,c[1]);case
+A=c[2],B=c[1];return gl(b,a,A,B,function(a){return a});case
+3:return gl(b,a,c[2],c[1],py);case
+4:return eO(b,a,c[4],c[2],c[3],qo,c[1]);case
+5:return eO(b,a,c[4],c[2],c[3],qp,c[1]);case
+6:return eO(b,a,c[4],c[2],c[3],qq,c[1]);case
+7:return eO(b,a,c[4],c[2],c[3],qr,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return V(b,[4,a,b$(g,d,c)],h)}:function(c){return V(b,[4,a,b$(g,g4(g),c)],h)};var
-T=i[1];return function(c){return V(b,[4,a,b$(g,T,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return P(b,[4,a,b3(g,d,c)],h)}:function(c){return P(b,[4,a,b3(g,gj(g),c)],h)};var
+U=i[1];return function(c){return P(b,[4,a,b3(g,U,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return V(b,[4,a,a7(n,m,b$(g,d,c))],h)}:function(c){return V(b,[4,a,a7(n,m,b$(g,g4(g),c))],h)};var
-U=i[1];return function(c){return V(b,[4,a,a7(n,m,b$(g,U,c))],h)}}var
+i==="number")return i?function(d,c){return P(b,[4,a,a1(n,m,b3(g,d,c))],h)}:function(c){return P(b,[4,a,a1(n,m,b3(g,gj(g),c))],h)};var
+W=i[1];return function(c){return P(b,[4,a,a1(n,m,b3(g,W,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return V(b,[4,a,a7(o,e,b$(g,d,c))],h)}:function(d,c){return V(b,[4,a,a7(o,d,b$(g,g4(g),c))],h)};var
-W=i[1];return function(d,c){return V(b,[4,a,a7(o,d,b$(g,W,c))],h)}}case
-9:return g6(b,a,c[2],c[1],pH);case
+i==="number")return i?function(e,d,c){return P(b,[4,a,a1(o,e,b3(g,d,c))],h)}:function(d,c){return P(b,[4,a,a1(o,d,b3(g,gj(g),c))],h)};var
+X=i[1];return function(d,c){return P(b,[4,a,a1(o,d,b3(g,X,c))],h)}}case
+9:return gl(b,a,c[2],c[1],oA);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1701,228 +1689,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=jS(16);g5(p,D);var
-u=jU(p);return function(c){return V(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=i3(16);gk(p,D);var
+u=i5(p);return function(c){return P(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=af(e,ao(az(F)));if(typeof
-c[2]==="number")return V(b,a,ak(c[1],E));throw aK};case
+e=d[1],c=ab(e,ak(at(F)));if(typeof
+c[2]==="number")return P(b,a,ag(c[1],E));throw aF};case
 15:var
-G=c[1];return function(d,c){return V(b,[6,a,function(a){return X(d,a,c)}],G)};case
+G=c[1];return function(d,c){return P(b,[6,a,function(a){return V(d,a,c)}],G)};case
 16:var
-I=c[1];return function(c){return V(b,[6,a,c],I)};case
+H=c[1];return function(c){return P(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-J=c[2],K=l[1][1],L=0,b=function(b,c,d){return function(a){return V(c,[1,b,[0,a]],d)}}(a,b,J),a=L,c=K;continue}var
-M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return V(c,[1,b,[1,a]],d)}}(a,b,M),a=O,c=N;continue;case
-19:throw[0,ap,rG];case
+I=c[2],J=l[1][1],K=0,b=function(b,c,d){return function(a){return P(c,[1,b,[0,a]],d)}}(a,b,I),a=K,c=J;continue}var
+M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return P(c,[1,b,[1,a]],d)}}(a,b,M),a=O,c=N;continue;case
+19:throw[0,al,qx];case
 20:var
-P=c[3],Q=[8,a,rH];return function(a){return V(b,Q,P)};case
+Q=c[3],R=[8,a,qy];return function(a){return P(b,R,Q)};case
 21:var
-R=c[2];return function(c){return V(b,[4,a,gQ(rI,c)],R)};case
+S=c[2];return function(c){return P(b,[4,a,f7(qz,c)],S)};case
 22:var
-S=c[1];return function(c){return V(b,[5,a,c],S)};case
+T=c[1];return function(c){return P(b,[5,a,c],T)};case
 23:var
 e=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-2:throw[0,ap,rJ];default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}else
+0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+2:throw[0,al,qA];default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}else
 switch(k[0]){case
-0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-2:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-3:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-4:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-5:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-6:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-7:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-8:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+2:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+3:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+4:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+5:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+6:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+7:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+8:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
 9:var
-t=k[2];return d<50?iL(d+1|0,b,a,t,e):aO(iL,[0,b,a,t,e]);case
-10:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}default:var
-q=c[3],r=c[1],s=f(c[2],0);return d<50?iK(d+1|0,b,a,q,r,s):aO(iK,[0,b,a,q,r,s])}}function
-iL(e,d,c,a,b){if(typeof
-a==="number")return e<50?ad(e+1|0,d,c,b):aO(ad,[0,d,c,b]);else
+t=k[2];return d<50?hY(d+1|0,b,a,t,e):aJ(hY,[0,b,a,t,e]);case
+10:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}default:var
+q=c[3],r=c[1],s=f(c[2],0);return d<50?hX(d+1|0,b,a,q,r,s):aJ(hX,[0,b,a,q,r,s])}}function
+hY(e,d,c,a,b){if(typeof
+a==="number")return e<50?_(e+1|0,d,c,b):aJ(_,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return bd(d,c,f,b)};case
+f=a[1];return function(a){return a_(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return bd(d,c,g,b)};case
+g=a[1];return function(a){return a_(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return bd(d,c,h,b)};case
+h=a[1];return function(a){return a_(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return bd(d,c,i,b)};case
+i=a[1];return function(a){return a_(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return bd(d,c,j,b)};case
+j=a[1];return function(a){return a_(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return bd(d,c,k,b)};case
+k=a[1];return function(a){return a_(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return bd(d,c,l,b)};case
+l=a[1];return function(a){return a_(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return bd(d,c,m,b)};case
+m=a[1];return function(a){return a_(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return bd(d,c,n,b)};case
+n=a[2];return function(a){return a_(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=aD(az(a[1]),p);return function(a){return bd(d,c,aW(q,o),b)};case
+o=a[3],p=a[2],q=ax(at(a[1]),p);return function(a){return a_(d,c,aT(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return bd(d,c,r,b)};case
+r=a[1];return function(e,a){return a_(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return bd(d,c,s,b)};case
+s=a[1];return function(a){return a_(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return bd(d,c,t,b)};case
-13:throw[0,ap,rK];default:throw[0,ap,rL]}}function
-ad(d,b,e,a){var
-c=[8,e,rM];return d<50?eU(d+1|0,b,c,a):aO(eU,[0,b,c,a])}function
-iK(h,b,e,a,d,c){if(d){var
-i=d[1];return function(d){return rF(b,e,a,i,f(c,d))}}var
-g=[4,e,c];return h<50?eU(h+1|0,b,g,a):aO(eU,[0,b,g,a])}function
-V(a,b,c){return jt(eU(0,a,b,c))}function
-bd(a,b,c,d){return jt(iL(0,a,b,c,d))}function
-rF(a,b,c,d,e){return jt(iK(0,a,b,c,d,e))}function
-g6(e,d,c,a,b){if(typeof
-a==="number")return function(a){return V(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return V(e,[4,d,a7(h,g,f(b,a))],c)}}var
-i=a[1];return function(g,a){return V(e,[4,d,a7(i,g,f(b,a))],c)}}}function
-fd(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return a_(d,c,t,b)};case
+13:throw[0,al,qB];default:throw[0,al,qC]}}function
+_(d,b,e,a){var
+c=[8,e,qD];return d<50?ex(d+1|0,b,c,a):aJ(ex,[0,b,c,a])}function
+hX(h,b,e,a,d,c){if(d){var
+i=d[1];return function(d){return qw(b,e,a,i,f(c,d))}}var
+g=[4,e,c];return h<50?ex(h+1|0,b,g,a):aJ(ex,[0,b,g,a])}function
+P(a,b,c){return iK(ex(0,a,b,c))}function
+a_(a,b,c,d){return iK(hY(0,a,b,c,d))}function
+qw(a,b,c,d,e){return iK(hX(0,a,b,c,d,e))}function
+gl(e,d,c,a,b){if(typeof
+a==="number")return function(a){return P(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return P(e,[4,d,a1(h,g,f(b,a))],c)}}var
+i=a[1];return function(g,a){return P(e,[4,d,a1(i,g,f(b,a))],c)}}}function
+eO(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return V(f,[4,e,di(g,X(b,a,c))],d)}:function(c){return V(f,[4,e,X(b,a,c)],d)};var
-k=c[1];return function(c){return V(f,[4,e,di(k,X(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return P(f,[4,e,c8(g,V(b,a,c))],d)}:function(c){return P(f,[4,e,V(b,a,c)],d)};var
+k=c[1];return function(c){return P(f,[4,e,c8(k,V(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return V(f,[4,e,a7(i,h,di(g,X(b,a,c)))],d)}:function(c){return V(f,[4,e,a7(i,h,X(b,a,c))],d)};var
-l=c[1];return function(c){return V(f,[4,e,a7(i,h,di(l,X(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return P(f,[4,e,a1(i,h,c8(g,V(b,a,c)))],d)}:function(c){return P(f,[4,e,a1(i,h,V(b,a,c))],d)};var
+l=c[1];return function(c){return P(f,[4,e,a1(i,h,c8(l,V(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return V(f,[4,e,a7(j,h,di(g,X(b,a,c)))],d)}:function(g,c){return V(f,[4,e,a7(j,g,X(b,a,c))],d)};var
-m=c[1];return function(g,c){return V(f,[4,e,a7(j,g,di(m,X(b,a,c)))],d)}}}function
-ca(b,e){var
+c==="number")return c?function(h,g,c){return P(f,[4,e,a1(j,h,c8(g,V(b,a,c)))],d)}:function(g,c){return P(f,[4,e,a1(j,g,V(b,a,c))],d)};var
+m=c[1];return function(g,c){return P(f,[4,e,a1(j,g,c8(m,V(b,a,c)))],d)}}}function
+b4(b,e){var
 a=e;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=jV(a[2]);ca(b,g);return eb(b,h);case
+g=a[1],h=i6(a[2]);b4(b,g);return dQ(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];ca(b,d);eb(b,rN);var
+i=c[1];b4(b,d);dQ(b,qE);var
 a=i;continue}var
-j=c[1];ca(b,d);eb(b,rO);var
+j=c[1];b4(b,d);dQ(b,qF);var
 a=j;continue;case
 6:var
-m=a[2];ca(b,a[1]);return f(m,b);case
-7:ca(b,a[1]);return d_(b);case
+m=a[2];b4(b,a[1]);return f(m,b);case
+7:b4(b,a[1]);return dN(b);case
 8:var
-n=a[2];ca(b,a[1]);return bO(n);case
+n=a[2];b4(b,a[1]);return cm(n);case
 2:case
 4:var
-k=a[2];ca(b,a[1]);return eb(b,k);default:var
-l=a[2];ca(b,a[1]);return pv(b,l)}}function
-cz(b,e){var
-a=e;for(;;)if(typeof
+k=a[2];b4(b,a[1]);return dQ(b,k);default:var
+l=a[2];b4(b,a[1]);return ol(b,l)}}function
+cn(b,g){var
+a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=jV(a[2]);cz(b,g);return ed(b,h);case
+h=a[1],i=i6(a[2]);cn(b,h);return dS(b,i);case
 1:var
-c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];cz(b,d);ed(b,rP);var
-a=i;continue}var
-j=c[1];cz(b,d);ed(b,rQ);var
-a=j;continue;case
+d=a[2],e=a[1];if(0===d[0]){var
+j=d[1];cn(b,e);dS(b,qG);var
+a=j;continue}var
+k=d[1];cn(b,e);dS(b,qH);var
+a=k;continue;case
 6:var
-m=a[2];cz(b,a[1]);return ed(b,f(m,0));case
+n=a[2];cn(b,a[1]);return dS(b,f(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-n=a[2];cz(b,a[1]);return bO(n);case
+o=a[2];cn(b,a[1]);return cm(o);case
 2:case
 4:var
-k=a[2];cz(b,a[1]);return ed(b,k);default:var
-l=a[2];cz(b,a[1]);return jR(b,l)}}function
-jX(d,c){var
-a=c[1],b=0;return V(function(a){ca(d,a);return 0},b,a)}function
-g7(a){return jX(b9,a)}function
-bP(b){var
-a=b[1];return V(function(b){var
-a=jO(64);cz(a,b);return jP(a)},0,a)}var
-fe=[0,0];function
-g9(i,h){var
+l=a[2];cn(b,a[1]);return dS(b,l);default:var
+m=a[2];cn(b,a[1]);var
+c=b[2];if(b[3]<=c)i2(b,1);ar(b[1],c,m);b[2]=c+1|0;return 0}}function
+i8(d,c){var
+a=c[1],b=0;return P(function(a){b4(d,a);return 0},b,a)}function
+gm(a){return i8(b1,a)}function
+bE(b){var
+a=b[1];return P(function(d){var
+e=64,b=dR<64?dR:e,c=aw(b),a=[0,c,0,b,c];cn(a,d);return iZ(a[1],0,a[2])},0,a)}var
+eP=[0,0];function
+go(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(gV(a)===gJ)return f(bP(rR),a);if(gV(a)===253){var
-c=jh(pL,a),b=0,g=H(c);for(;;){if(g<=b)return aJ(c,pK);var
-d=Y(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
+a==="number"?1:0)){if(ga(a)===f1)return f(bE(qI),a);if(ga(a)===253){var
+c=iy(oE,a),b=0,g=L(c);for(;;){if(g<=b)return aE(c,oD);var
+d=W(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
 if(45===d)e=1;if(e){var
-b=b+1|0;continue}return c}}return rS}return f(bP(rT),a)}function
-jY(b,a){if(b.length-1<=a)return rU;var
-c=jY(b,a+1|0),d=g9(b,a);return X(bP(rV),d,c)}function
-g_(a){function
+b=b+1|0;continue}return c}}return qJ}return f(bE(qK),a)}function
+i9(b,a){if(b.length-1<=a)return qL;var
+c=i9(b,a+1|0),d=go(b,a);return V(bE(qM),d,c)}function
+gp(a){function
 o(e){var
 b=e;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=f(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(fe[1]);if(h)return h[1];if(a===gY)return r0;if(a===jF)return r1;if(a[1]===jE){var
-c=a[2],i=c[3],p=c[2],q=c[1];return iM(bP(g8),q,p,i,i+5|0,r2)}if(a[1]===ap){var
-d=a[2],j=d[3],r=d[2],s=d[1];return iM(bP(g8),s,r,j,j+6|0,r3)}if(a[1]===jH){var
-e=a[2],k=e[3],t=e[2],u=e[1];return iM(bP(g8),u,t,k,k+6|0,r4)}if(0===gV(a)){var
+h=o(eP[1]);if(h)return h[1];if(a===gf)return qR;if(a===iT)return qS;if(a[1]===iS){var
+c=a[2],i=c[3],p=c[2],q=c[1];return hZ(bE(gn),q,p,i,i+5|0,qT)}if(a[1]===al){var
+d=a[2],j=d[3],r=d[2],s=d[1];return hZ(bE(gn),s,r,j,j+6|0,qU)}if(a[1]===iV){var
+e=a[2],k=e[3],t=e[2],u=e[1];return hZ(bE(gn),u,t,k,k+6|0,qV)}if(0===ga(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=jY(a,2),m=g9(a,1),b=X(bP(rW),m,l);else
+l=i9(a,2),m=go(a,1),b=V(bE(qN),m,l);else
 switch(g){case
 0:var
-b=rX;break;case
+b=qO;break;case
 1:var
-b=rY;break;default:var
-n=g9(a,1),b=f(bP(rZ),n)}return aJ(v,b)}return a[1]}function
-g$(t,s){var
-d=Gt(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=qP;break;default:var
+n=go(a,1),b=f(bE(qQ),n)}return aE(v,b)}return a[1]}function
+gq(t,s){var
+d=Dl(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=pj(d,b)[1+b],e=function(a){return function(b){return b?0===a?r5:r6:0===a?r7:r8}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?r9:r$,l=a[2],m=a[7],n=e(a[1]),c=[0,Gh(bP(r_),n,m,l,k,j,i,h)];else
+a=n$(d,b)[1+b],e=function(a){return function(b){return b?0===a?qW:qX:0===a?qY:qZ}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?q0:q2,l=a[2],m=a[7],n=e(a[1]),c=[0,C$(bE(q1),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=e(0),c=[0,f(bP(sa),o)];if(c){var
-q=c[1];f(jX(t,sb),q)}var
+o=e(0),c=[0,f(bE(q3),o)];if(c){var
+q=c[1];f(i8(t,q4),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-jZ(c){for(;;){var
-a=fe[1],d=[0,c,a],e=fe[1]===a?(fe[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-sd=sc.slice();function
-se(d,c){var
-e=g_(d);f(g7(sf),e);g$(b9,c);var
-a=GT(0);if(a<0){var
-b=e$(a);jJ(pj(sd,b)[1+b])}return d_(b9)}var
-sg=[0];jr(a(nj),function(d,i){try{try{var
-b=i?sg:pp(0);try{gZ(0)}catch(a){}try{var
-a=se(d,b),c=a}catch(a){a=e8(a);var
-g=g_(d);f(g7(si),g);g$(b9,b);var
-h=g_(a);f(g7(sj),h);g$(b9,pp(0));var
-c=d_(b9)}var
-e=c}catch(a){a=e8(a);if(a!==gY)throw a;var
-e=jJ(sh)}return e}catch(a){return 0}});var
-j0=[aH,sl,gR(0)],ha=[0,j0,[0]],sk=gV(ha)===aH?ha:ha[1];jr(a(iS),sk);(function(a){throw a});var
-sm=D.Array;jZ(function(a){return a[1]===j0?[0,bM(a[2].toString())]:0});jZ(function(a){return a
+i_(c){for(;;){var
+a=eP[1],d=[0,c,a],e=eP[1]===a?(eP[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+q6=q5.slice();function
+q7(d,c){var
+e=gp(d);f(gm(q8),e);gq(b1,c);var
+a=DL(0);if(a<0){var
+b=eL(a);iW(n$(q6,b)[1+b])}return dN(b1)}var
+q9=[0];iI(a(me),function(d,i){try{try{var
+b=i?q9:of(0);try{gg(0)}catch(a){}try{var
+a=q7(d,b),c=a}catch(a){a=gd(a);var
+g=gp(d);f(gm(q$),g);gq(b1,b);var
+h=gp(a);f(gm(ra),h);gq(b1,of(0));var
+c=dN(b1)}var
+e=c}catch(a){a=gd(a);if(a!==gf)throw a;var
+e=iW(q_)}return e}catch(a){return 0}});var
+i$=[aB,rc,f8(0)],gr=[0,i$,[0]],rb=ga(gr)===aB?gr:gr[1];iI(a(h5),rb);(function(a){throw a});var
+rd=A.Array;i_(function(a){return a[1]===i$?[0,bD(a[2].toString())]:0});i_(function(a){return a
 instanceof
-sm?0:[0,bM(a.toString())]});var
-d=aC(0),c=aC(1);function
-o(a){return r(a,c)}function
-j1(b,a){return r(aC(b),a)}function
-b(b,a){return s(aC(b),a)}function
-bQ(b,a){return[0,jw(b,a),jx(b,a)]}function
-hb(b,a){return E(b,a)?b:a}function
-bv(b,a){return E(b,a)?a:b}function
-ah(a){return a?0:1}function
-I(b,a){var
+rd?0:[0,bD(a.toString())]});var
+d=a9(0),c=a9(1);function
+q(a){return B(a,c)}function
+ja(b,a){return B(a9(b),a)}function
+b(b,a){return s(a9(b),a)}function
+bF(b,a){return[0,iN(b,a),ow(b,a)]}function
+gs(b,a){return I(b,a)?b:a}function
+bG(b,a){return I(b,a)?a:b}function
+au(a){return a?0:1}function
+J(b,a){var
 c=a?[0,f(b,a[1])]:a;return c}function
-a8(a){return a[1]}function
-cA(a){return a[2]}function
+a2(a){return a[1]}function
+cI(a){return a[2]}function
 j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-j2(a){return typeof
-a==="number"?0:[0,j2(a[1])]}function
-j3(d,c){var
+jb(a){return typeof
+a==="number"?0:[0,jb(a[1])]}function
+jc(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1945,9 +1934,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ff(a){return j3(a,0)}function
-j4(a){if(typeof
-a==="number")return so;else
+eQ(a){return jc(a,0)}function
+jd(a){if(typeof
+a==="number")return rf;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1957,285 +1946,272 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,j4(a[1])]}}function
-bx(a){if(typeof
-a==="number")return sp;else
+8:return[9,a[1]];default:return[0,jd(a[1])]}}function
+bo(a){if(typeof
+a==="number")return rg;else
 switch(a[0]){case
-0:return[1,bw(a[1])];case
-1:return[3,bw(a[1])];case
-2:return[5,bw(a[1])];case
-3:return[7,bw(a[1])];case
-4:return[9,bw(a[1])];case
-5:return[1,bx(a[1])];case
-6:return[3,bx(a[1])];case
-7:return[5,bx(a[1])];case
-8:return[7,bx(a[1])];default:return[9,bx(a[1])]}}function
-bw(a){if(typeof
+0:return[1,bn(a[1])];case
+1:return[3,bn(a[1])];case
+2:return[5,bn(a[1])];case
+3:return[7,bn(a[1])];case
+4:return[9,bn(a[1])];case
+5:return[1,bo(a[1])];case
+6:return[3,bo(a[1])];case
+7:return[5,bo(a[1])];case
+8:return[7,bo(a[1])];default:return[9,bo(a[1])]}}function
+bn(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bw(a[1])];case
-1:return[2,bw(a[1])];case
-2:return[4,bw(a[1])];case
-3:return[6,bw(a[1])];case
-4:return[8,bw(a[1])];case
-5:return[0,bx(a[1])];case
-6:return[2,bx(a[1])];case
-7:return[4,bx(a[1])];case
-8:return[6,bx(a[1])];default:return[8,bx(a[1])]}}function
-cb(a){return a?a[1]:a}function
-Q(b,a){return b?[0,Q(b[1],a)]:a}function
-ef(a,b){return a?Q(b,ef(a[1],b)):a}function
-dj(b,a){return b?a:a?0:1}function
-v(d,c){var
+0:return[0,bn(a[1])];case
+1:return[2,bn(a[1])];case
+2:return[4,bn(a[1])];case
+3:return[6,bn(a[1])];case
+4:return[8,bn(a[1])];case
+5:return[0,bo(a[1])];case
+6:return[2,bo(a[1])];case
+7:return[4,bo(a[1])];case
+8:return[6,bo(a[1])];default:return[8,bo(a[1])]}}function
+b5(a){return a?a[1]:a}function
+O(b,a){return b?[0,O(b[1],a)]:a}function
+dU(a,b){return a?O(b,dU(a[1],b)):a}function
+dV(b,a){return b?a:a?0:1}function
+u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-$(d,c){var
+ac(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-cU(b,a){return $([0,b],a)}function
-j5(c){var
+dW(b,a){return ac([0,b],a)}function
+je(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-j6(h,g,f,e){var
-b=h,c=f,a=e;for(;;){if(b){var
-d=b[1];if(a){var
-b=d,a=a[1];continue}var
-b=d,c=[0,c],a=g;continue}return[0,c,a]}}function
-fg(c,b,a){return c?f(b,fg(c[1],b,a)):a}function
-j7(a){if(a)var
-b=a[1],d=b?[0,j7(b[1])]:b,c=d;else
+eR(c,b,a){return c?f(b,eR(c[1],b,a)):a}function
+jf(a){if(a)var
+b=a[1],d=b?[0,jf(b[1])]:b,c=d;else
 var
 c=a;return c}function
-fh(a){if(E(a,c))return c;var
-b=bQ(a,aC(2)),e=b[1];return M(b[2],d)?o(fh(e)):o(fh(e))}function
-eg(j,i){var
-b=j,a=i;for(;;){if(E(b,c))return E(a,c)?1:M(bQ(a,aC(2))[2],d)?0:0;var
-g=bQ(b,aC(2)),h=g[1];if(M(g[2],d)){if(E(a,c))return 0;var
-e=bQ(a,aC(2)),k=e[1];if(M(e[2],d)){var
-b=h,a=k;continue}return 0}if(E(a,c))return 0;var
-f=bQ(a,aC(2)),l=f[1];if(M(f[2],d))return 0;var
+eS(a){if(I(a,c))return c;var
+b=bF(a,a9(2)),e=b[1];return ad(b[2],d)?q(eS(e)):q(eS(e))}function
+gt(j,i){var
+b=j,a=i;for(;;){if(I(b,c))return I(a,c)?1:ad(bF(a,a9(2))[2],d)?0:0;var
+g=bF(b,a9(2)),h=g[1];if(ad(g[2],d)){if(I(a,c))return 0;var
+e=bF(a,a9(2)),k=e[1];if(ad(e[2],d)){var
+b=h,a=k;continue}return 0}if(I(a,c))return 0;var
+f=bF(a,a9(2)),l=f[1];if(ad(f[2],d))return 0;var
 b=h,a=l;continue}}function
-fi(c,b){var
-a=jv(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-j8(b,i,h){var
-e=i,a=h;for(;;){if(E(e,c))return a;var
-f=bQ(e,aC(2)),g=f[1];if(M(f[2],d)){var
-e=g,a=X(b,a,a);continue}return X(b,a,j8(b,g,X(b,a,a)))}}function
-eh(a){return j8(Q,a,sr)}function
-hc(a){return a?o(hc(a[1])):c}function
-cc(f,e){var
+eT(c,b){var
+a=iM(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+jg(b,i,h){var
+e=i,a=h;for(;;){if(I(e,c))return a;var
+f=bF(e,a9(2)),g=f[1];if(ad(f[2],d)){var
+e=g,a=V(b,a,a);continue}return V(b,a,jg(b,g,V(b,a,a)))}}function
+dX(a){return jg(O,a,ri)}function
+gu(a){return a?q(gu(a[1])):c}function
+b6(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=s(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=s(b(2,q(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=r(c,s(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=B(c,s(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=s(b(2,o(b(2,b(2,c)))),d),j=r(b(2,c),i),a=a[1],d=j;continue;case
+i=s(b(2,q(b(2,b(2,c)))),d),j=B(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=s(b(2,o(b(2,b(2,c)))),d),l=r(o(b(2,c)),k),a=a[1],d=l;continue;case
+k=s(b(2,q(b(2,b(2,c)))),d),l=B(q(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=s(b(2,o(b(2,b(2,c)))),d),n=r(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=s(b(2,q(b(2,b(2,c)))),d),n=B(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=s(b(2,o(b(2,b(2,c)))),d),q=r(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+o=s(b(2,q(b(2,b(2,c)))),d),p=B(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
 6:var
-t=s(b(2,o(b(2,b(2,c)))),d),u=r(b(2,o(b(2,c))),t),a=a[1],d=u;continue;case
+r=s(b(2,q(b(2,b(2,c)))),d),t=B(b(2,q(b(2,c))),r),a=a[1],d=t;continue;case
 7:var
-v=s(b(2,o(b(2,b(2,c)))),d),w=r(o(b(2,o(b(2,c)))),v),a=a[1],d=w;continue;case
+u=s(b(2,q(b(2,b(2,c)))),d),v=B(q(b(2,q(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-x=s(b(2,o(b(2,b(2,c)))),d),y=r(b(2,b(2,b(2,c))),x),a=a[1],d=y;continue;default:var
-z=s(b(2,o(b(2,b(2,c)))),d),A=r(o(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-hd(a){if(E(a,c))return ss;var
-b=bQ(a,aC(2)),e=b[1];return M(b[2],d)?bw(hd(e)):bx(hd(e))}function
-fj(a){return ff(hd(a))}function
-j9(c,b){var
-a=jv(c,b);return 0===a?0:0<=a?2:1}function
-fk(b,a){return 1===j9(b,a)?1:0}function
-dk(k,f){if(0<=a1(f)){var
-g=jA(f);if(0<=g){var
+w=s(b(2,q(b(2,b(2,c)))),d),x=B(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=s(b(2,q(b(2,b(2,c)))),d),z=B(q(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+gv(a){if(I(a,c))return rj;var
+b=bF(a,a9(2)),e=b[1];return ad(b[2],d)?bn(gv(e)):bo(gv(e))}function
+eU(a){return eQ(gv(a))}function
+jh(k,f){if(0<=b0(f)){var
+g=iO(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return bO(sn)}return d}function
-fl(a){return 0<=a1(a)?a:d}function
-ei(a){var
-b=a1(a);return 0===b?c:0<b?a:c}function
-j_(m){var
+h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return cm(re)}return d}function
+ji(a){return 0<=b0(a)?a:d}function
+gw(a){var
+b=b0(a);return 0===b?c:0<b?a:c}function
+jj(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cc(a[1],c);case
+1:return b6(a[1],c);case
 2:var
-e=b(2,c);return cc(a[1],e);case
+e=b(2,c);return b6(a[1],e);case
 3:var
-f=o(b(2,c));return cc(a[1],f);case
+f=q(b(2,c));return b6(a[1],f);case
 4:var
-g=b(2,b(2,c));return cc(a[1],g);case
+g=b(2,b(2,c));return b6(a[1],g);case
 5:var
-h=o(b(2,b(2,c)));return cc(a[1],h);case
+h=q(b(2,b(2,c)));return b6(a[1],h);case
 6:var
-i=b(2,o(b(2,c)));return cc(a[1],i);case
+i=b(2,q(b(2,c)));return b6(a[1],i);case
 7:var
-j=o(b(2,o(b(2,c))));return cc(a[1],j);case
+j=q(b(2,q(b(2,c))));return b6(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return cc(a[1],k);default:var
-l=o(b(2,b(2,b(2,c))));return cc(a[1],l)}}function
-cB(b,a){var
-c=a1(a);return 0===c?d:1===c?jw(b,a):j1(-1,jw(j1(-1,b),a))}function
-j$(a){var
-f=a1(a);if(0===f)return d;if(0<f){if(E(a,c))return d;var
-b=bQ(a,aC(2)),e=b[1];return M(b[2],d)?fh(e):fh(e)}return d}function
-ka(a){return 0<a1(a)?Hb(a):d}function
-cV(b,c){var
-a=jA(c);return 0<=a?jy(b,a):jz(b,-a|0)}function
-by(b,c){var
-a=jA(c);return 0<=a?jz(b,a):jy(b,-a|0)}function
-fm(b,a){return a?a[1]:b}function
-he(a){var
+k=b(2,b(2,b(2,c)));return b6(a[1],k);default:var
+l=q(b(2,b(2,b(2,c))));return b6(a[1],l)}}function
+co(b,a){var
+c=b0(a);return 0===c?d:1===c?iN(b,a):ja(-1,iN(ja(-1,b),a))}function
+jk(a){return 0<b0(a)?D5(a):d}function
+dY(b,c){var
+a=iO(c);return 0<=a?ox(b,a):oy(b,-a|0)}function
+cJ(b,c){var
+a=iO(c);return 0<=a?oy(b,a):ox(b,-a|0)}function
+eV(b,a){return a?a[1]:b}function
+gx(a){var
 b=a?a[2]:a;return b}function
-w(e,d,c){var
+t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-R(d,c){var
+ae(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-kb(a){if(a){var
-b=[0,a[1],0];return g(kb(a[2]),b)}return a}function
-kc(d,c){var
+jl(a){if(a){var
+b=[0,a[1],0];return g(jl(a[2]),b)}return a}function
+jm(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-kd(a){if(a){var
-b=kd(a[2]);return g(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,f(b,a[1]),d];else
 var
 c=a;return c}function
-G(b,a){if(a){var
-c=G(b,a[2]);return g(f(b,a[1]),c)}return a}function
-fn(e,d,c){var
+E(b,a){if(a){var
+c=E(b,a[2]);return g(f(b,a[1]),c)}return a}function
+gy(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=X(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bm(c,b,a){if(a){var
-d=bm(c,b,a[2]);return X(c,a[1],d)}return b}function
-av(e,d){var
+f=V(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bH(c,b,a){if(a){var
+d=bH(c,b,a[2]);return V(c,a[1],d)}return b}function
+aP(e,d){var
 a=d;for(;;){if(a){var
 b=f(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-m(d,c){var
+n(d,c){var
 a=c;for(;;){if(a){var
 b=f(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cC(b,e){var
+c9(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(f(b,d))return[0,d,cC(b,c)];var
+c=a[2],d=a[1];if(f(b,d))return[0,d,c9(b,c)];var
 a=c;continue}return a}}function
-ke(d,c){var
+jn(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(f(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aX(b,a){if(b)if(a)var
-d=aX(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+a$(b,a){if(b)if(a)var
+d=a$(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dl(b,a){if(b)if(a)var
-d=dl(b[1],a[2]),c=[0,a[1],d];else
+eW(b,a){if(b)if(a)var
+d=eW(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-fo(d,c){var
+jo(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-be(b,a){var
-c=a?[0,b,be([0,b],a[1])]:a;return c}function
-a9(b,a){var
-c=a?[0,b,a9(b,a[1])]:a;return c}function
-kf(a){if(a){var
-e=kf(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return r(g,f)}return d}function
-fp(j){function
+bp(b,a){var
+c=a?[0,b,bp([0,b],a[1])]:a;return c}function
+ba(b,a){var
+c=a?[0,b,ba(b,a[1])]:a;return c}function
+jp(a){if(a){var
+e=jp(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return B(g,f)}return d}function
+eX(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kf([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a1(b)?eh(b):0}function
-kg(c,b){var
-a=jv(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-dm(b,a){return E(s(b[1],a[2]),s(a[1],b[2]))}function
-ej(b,a){return[0,r(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
-dn(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
-hf(b,a){return ej(b,[0,aa(a[1]),a[2]])}function
-a_(a){if(typeof
-a==="number")return sv;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jp([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<b0(b)?dX(b):0}function
+jq(c,b){var
+a=iM(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c_(b,a){return I(s(b[1],a[2]),s(a[1],b[2]))}function
+dZ(b,a){return[0,B(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
+c$(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
+gz(b,a){return dZ(b,[0,aa(a[1]),a[2]])}function
+a3(a){if(typeof
+a==="number")return rm;else
 switch(a[0]){case
 0:var
-b=a_(a[1]);return aJ(bl(1,48),b);case
+b=a3(a[1]);return aE(be(1,48),b);case
 1:var
-c=a_(a[1]);return aJ(bl(1,49),c);case
+c=a3(a[1]);return aE(be(1,49),c);case
 2:var
-d=a_(a[1]);return aJ(bl(1,50),d);case
+d=a3(a[1]);return aE(be(1,50),d);case
 3:var
-e=a_(a[1]);return aJ(bl(1,51),e);case
+e=a3(a[1]);return aE(be(1,51),e);case
 4:var
-f=a_(a[1]);return aJ(bl(1,52),f);case
+f=a3(a[1]);return aE(be(1,52),f);case
 5:var
-g=a_(a[1]);return aJ(bl(1,53),g);case
+g=a3(a[1]);return aE(be(1,53),g);case
 6:var
-h=a_(a[1]);return aJ(bl(1,54),h);case
+h=a3(a[1]);return aE(be(1,54),h);case
 7:var
-i=a_(a[1]);return aJ(bl(1,55),i);case
+i=a3(a[1]);return aE(be(1,55),i);case
 8:var
-j=a_(a[1]);return aJ(bl(1,56),j);default:var
-k=a_(a[1]);return aJ(bl(1,57),k)}}function
-ek(a){return typeof
-a==="number"?sw:a_(a)}function
-cW(a){return dk(b(2,c),a)}function
-kh(b,a){return by(a,b)}function
-ki(b,a){return aa(by(aa(a),b))}function
-fq(b,a){return aa(cB(aa(b),a))}function
+j=a3(a[1]);return aE(be(1,56),j);default:var
+k=a3(a[1]);return aE(be(1,57),k)}}function
+d0(a){return typeof
+a==="number"?rn:a3(a)}function
+cK(a){return jh(b(2,c),a)}function
+jr(b,a){return cJ(a,b)}function
+js(b,a){return aa(cJ(aa(a),b))}function
+eY(b,a){return aa(co(aa(b),a))}function
 am(c,b){var
-a=cV(b,c);return[0,a,a]}function
-kj(d,c,a){var
-b=cV(c,d),e=fq(b,a);return[0,cB(b,a),e]}function
-y(b,a){return[0,r(b[1],a[1]),r(b[2],a[2])]}function
-N(b,a){return[0,au(b[1],a[2]),au(b[2],a[1])]}function
-al(a){return[0,aa(a[2]),aa(a[1])]}function
-kk(e,c,b,a){if(E(d,e))return E(d,b)?[0,s(e,b),s(c,a)]:E(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(E(c,d))return E(d,b)?[0,s(e,a),s(c,b)]:E(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(E(d,b))return[0,s(e,a),s(c,a)];if(E(a,d))return[0,s(c,b),s(e,b)];var
-f=bv(s(e,b),s(c,a));return[0,hb(s(e,a),s(c,b)),f]}function
-z(c,b,a){var
-d=kk(b[1],b[2],a[1],a[2]),e=ki(c,d[2]);return[0,kh(c,d[1]),e]}function
-ab(b,a){var
-c=s(a[1],a[1]),e=s(a[2],a[2]),h=ki(b,bv(c,e)),g=0;if(P(a[1],d)&&P(d,a[2])){var
+a=dY(b,c);return[0,a,a]}function
+jt(d,c,a){var
+b=dY(c,d),e=eY(b,a);return[0,co(b,a),e]}function
+C(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+M(b,a){return[0,aS(b[1],a[2]),aS(b[2],a[1])]}function
+ah(a){return[0,aa(a[2]),aa(a[1])]}function
+ju(e,c,b,a){if(I(d,e))return I(d,b)?[0,s(e,b),s(c,a)]:I(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(I(c,d))return I(d,b)?[0,s(e,a),s(c,b)]:I(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(I(d,b))return[0,s(e,a),s(c,a)];if(I(a,d))return[0,s(c,b),s(e,b)];var
+f=bG(s(e,b),s(c,a));return[0,gs(s(e,a),s(c,b)),f]}function
+v(c,b,a){var
+d=ju(b[1],b[2],a[1],a[2]),e=js(c,d[2]);return[0,jr(c,d[1]),e]}function
+Y(b,a){var
+c=s(a[1],a[1]),e=s(a[2],a[2]),h=js(b,bG(c,e)),g=0;if(S(a[1],d)&&S(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kh(b,hb(c,e));return[0,f,h]}function
-hg(b,a){var
-c=cV(cW(b),b),d=fq(c,a[1]);return[0,cB(c,a[2]),d]}function
-cd(b,a){if(P(d,a[1]))return[0,hg(b,a)];var
-c=P(a[2],d),e=c?[0,al(hg(b,al(a)))]:c;return e}function
-cX(f,b){var
-g=P(d,b[1]);if(g)var
-e=cV(b[2],f),a=ka(e),i=M(s(a,a),e)?a:r(a,c),h=[0,[0,ka(cV(b[1],f)),i]];else
+f=jr(b,gs(c,e));return[0,f,h]}function
+gA(b,a){var
+c=dY(cK(b),b),d=eY(c,a[1]);return[0,co(c,a[2]),d]}function
+cp(b,a){if(S(d,a[1]))return[0,gA(b,a)];var
+c=S(a[2],d),e=c?[0,ah(gA(b,ah(a)))]:c;return e}function
+cL(f,b){var
+g=S(d,b[1]);if(g)var
+e=dY(b[2],f),a=jk(e),i=ad(s(a,a),e)?a:B(a,c),h=[0,[0,jk(dY(b[1],f)),i]];else
 var
 h=g;return h}function
-bf(f,d,c,b,a){if(b){if(a){var
-g=bf(f,d,c,b[2],a[2]);return[0,X(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cD(b,a){return by(b,a)}function
-a$(a,c,b){if(E(d,a)){var
-e=b[1],f=aa(cD(aa(s(a,b[2])),c));return[0,cD(s(a,e),c),f]}var
-g=b[2],h=aa(cD(aa(s(a,b[1])),c));return[0,cD(s(a,g),c),h]}function
-ce(a){var
-b=aa(by(aa(a[2]),c));return[0,by(a[1],c),b]}function
-cY(c,b,a){var
-e=kk(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=P(f,d)?a[2]:a[1],i=fq(f,h),j=P(g,d)?a[1]:a[2];return[0,cB(g,j),i]}function
-el(a){return bv(a[2],aa(a[1]))}var
-A=[0,d,d];function
-fr(a){return[0,a[1],a[1]]}function
-dp(a){return[0,a[2],a[2]]}function
-dq(b,a){switch(a[0]){case
+bb(f,d,c,b,a){if(b){if(a){var
+g=bb(f,d,c,b[2],a[2]);return[0,V(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cq(b,a){return cJ(b,a)}function
+bf(a,c,b){if(I(d,a)){var
+e=b[1],f=aa(cq(aa(s(a,b[2])),c));return[0,cq(s(a,e),c),f]}var
+g=b[2],h=aa(cq(aa(s(a,b[1])),c));return[0,cq(s(a,g),c),h]}function
+b7(a){var
+b=aa(cJ(aa(a[2]),c));return[0,cJ(a[1],c),b]}function
+d1(c,b,a){var
+e=ju(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=S(f,d)?a[2]:a[1],i=eY(f,h),j=S(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
+d2(a){return bG(a[2],aa(a[1]))}var
+x=[0,d,d];function
+eZ(a){return[0,a[1],a[1]]}function
+da(a){return[0,a[2],a[2]]}function
+db(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2252,9 +2228,9 @@ g=f(b,a[2]);return[7,f(b,a[1]),g];case
 bg(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?v(b[1],a[1]):0;case
-1:return 1===a[0]?v(b[1],a[1]):0;case
-2:return 2===a[0]?M(b[1],a[1]):0;case
+0:return 0===a[0]?u(b[1],a[1]):0;case
+1:return 1===a[0]?u(b[1],a[1]):0;case
+2:return 2===a[0]?ad(b[1],a[1]):0;case
 3:if(3===a[0]){var
 e=bg(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
@@ -2272,79 +2248,79 @@ d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-fs(b){var
+e0(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-ba(c,b){var
-a=fs(b);return a?M(c,a[1]):a}function
-em(a){return P(e_(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-q(a){return[0,[2,a]]}function
-O(b,a){if(ba(d,b))return a;if(ba(d,a))return b;var
-c=fs(b);if(c){var
-e=c[1],f=fs(a);if(f){var
-g=f[1];if(em(e)&&em(g))return q(r(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cf(a){var
+a4(c,b){var
+a=e0(b);return a?ad(c,a[1]):a}function
+d3(a){return S(ge(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+o(a){return[0,[2,a]]}function
+N(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
+c=e0(b);if(c){var
+e=c[1],f=e0(a);if(f){var
+g=f[1];if(d3(e)&&d3(g))return o(B(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+b8(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return em(c)?q(aa(c)):[0,[5,a]];case
+c=b[1];return d3(c)?o(aa(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-F(b,a){if(ba(d,a))return b;if(ba(d,b))return cf(a);var
+D(b,a){if(a4(d,a))return b;if(a4(d,b))return b8(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?v(c[1],e[1])?q(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-ai(a){var
-c=fs(a);if(c){var
-b=c[1];return em(b)?q(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-u(a,b){if(!ba(d,a)&&!ba(c,b)){if(!ba(d,b)&&!ba(c,a))return bg(a,b)?ai(a):[0,[6,a,b]];return b}return a}function
-aA(b,a){return ba(c,a)?b:[0,[7,b,a]]}function
-cE(a){return ba(c,a)?a:[0,[9,a]]}function
-bR(g,e,d,c){var
+e=a[1];return 0===e[0]?u(c[1],e[1])?o(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+af(a){var
+c=e0(a);if(c){var
+b=c[1];return d3(b)?o(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,b){if(!a4(d,a)&&!a4(c,b)){if(!a4(d,b)&&!a4(c,a))return bg(a,b)?af(a):[0,[6,a,b]];return b}return a}function
+av(b,a){return a4(c,a)?b:[0,[7,b,a]]}function
+cr(a){return a4(c,a)?a:[0,[9,a]]}function
+bI(g,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,f(e,dq(function(b){return function(a){return w(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dr(a){var
+h=b[1],i=[0,f(e,db(function(b){return function(a){return t(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d4(a){var
 b=0;function
-c(a){return[0,a]}return bR(q(d),c,a,b)}function
-hh(b,a){if(a){if(bg(b,a[1]))return sx;var
-c=hh(b,a[2]);return I(function(a){return[0,a]},c)}return a}function
-bz(c,b){var
-a=hh(b,c),d=a?a[1]:a;return d}function
-ft(d,a){if(hh(d,a[1]))return a;var
+c(a){return[0,a]}return bI(o(d),c,a,b)}function
+gB(b,a){if(a){if(bg(b,a[1]))return ro;var
+c=gB(b,a[2]);return J(function(a){return[0,a]},c)}return a}function
+bJ(c,b){var
+a=gB(b,c),d=a?a[1]:a;return d}function
+e1(d,a){if(gB(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=ft(b[1],a);break;case
+c=e1(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=ft(b[1],a),c=ft(b[2],h)}var
-e=c[2],f=c[1],g=[0,dq(function(a){return bz(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-ds(a){var
-b=fn(function(b,a){return ft(a,b)},a,sy),c=b[1],d=e(function(a){return bz(c,a)},a);return[0,kb(b[2]),d]}function
-fu(a){return bm(function(b,a){return r(el(b),a)},d,a)}function
-dt(b,c,a){var
-d=fu(a),e=hb(c[2],r(b[2],d)),f=fu(a);return[0,b,[0,bv(c[1],au(b[1],f)),e],a]}function
+h=e1(b[1],a),c=e1(b[2],h)}var
+e=c[2],f=c[1],g=[0,db(function(a){return bJ(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d5(a){var
+b=gy(function(b,a){return e1(a,b)},a,rp),c=b[1],d=e(function(a){return bJ(c,a)},a);return[0,jl(b[2]),d]}function
+e2(a){return bH(function(b,a){return B(d2(b),a)},d,a)}function
+dc(b,c,a){var
+d=e2(a),e=gs(c[2],B(b[2],d)),f=e2(a);return[0,b,[0,bG(c[1],aS(b[1],f)),e],a]}function
 aq(a){return[0,a,a,0]}function
-du(b,a){var
+dd(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=bf(function(a){return a},e,y,d,c),g=y(b[2],a[2]);return dt(y(b[1],a[1]),g,f)}function
-hi(b,a){var
-c=a[3],d=b[3],e=bf(function(a){return a},al,N,d,c),f=N(b[2],a[2]);return dt(N(b[1],a[1]),f,e)}function
-hj(a){var
-b=e(al,a[3]),c=al(a[2]);return[0,al(a[1]),c,b]}function
-dv(a,c,b){var
-d=y(b[2],b[1]),e=y(c[2],c[1]),f=b[3],g=c[3];function
+f=bb(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return dc(C(b[1],a[1]),g,f)}function
+gC(b,a){var
+c=a[3],d=b[3],e=bb(function(a){return a},ah,M,d,c),f=M(b[2],a[2]);return dc(M(b[1],a[1]),f,e)}function
+gD(a){var
+b=e(ah,a[3]),c=ah(a[2]);return[0,ah(a[1]),c,b]}function
+de(a,c,b){var
+d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=z(a,e,b);return ce(y(z(a,d,c),f))}function
-i(b){return ce(z(a,e,b))}var
-j=bf(function(b){return ce(z(a,d,b))},i,h,g,f),k=z(a,c[2],b[2]);return dt(z(a,c[1],b[1]),k,j)}function
-kl(b,a){var
-c=a[3],d=y(a[2],a[1]),f=e(function(a){return z(b,d,a)},c),g=ab(b,a[2]);return dt(ab(b,a[1]),g,f)}function
-km(a,b){var
-c=cX(a,b[1]);if(c){var
-g=c[1],d=cX(a,b[2]);if(d){var
-h=d[1],f=cd(a,y(h,g));if(f)var
-l=b[3],m=f[1],i=[0,dt(g,h,e(function(b){return z(a,m,b)},l))];else
+f=v(a,e,b);return b7(C(v(a,d,c),f))}function
+i(b){return b7(v(a,e,b))}var
+j=bb(function(b){return b7(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return dc(v(a,c[1],b[1]),k,j)}function
+jv(b,a){var
+c=a[3],d=C(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=Y(b,a[2]);return dc(Y(b,a[1]),g,f)}function
+jw(a,b){var
+c=cL(a,b[1]);if(c){var
+g=c[1],d=cL(a,b[2]);if(d){var
+h=d[1],f=cp(a,C(h,g));if(f)var
+l=b[3],m=f[1],i=[0,dc(g,h,e(function(b){return v(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -2353,396 +2329,399 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-hk(a,c,b){var
-d=cd(a,b[1]);if(d){var
-f=cd(a,b[2]);if(f)var
-h=f[1],g=z(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return N(c,z(a,g,b))},n=function(b){return al(z(a,g,b))},o=bf(function(a){return a},n,m,l,k),p=e(function(b){return z(a,h,b)},o),i=[0,dt(g,z(a,c[2],h),p)];else
+gE(a,c,b){var
+d=cp(a,b[1]);if(d){var
+f=cp(a,b[2]);if(f)var
+h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return M(c,v(a,g,b))},n=function(b){return ah(v(a,g,b))},o=bb(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,dc(g,v(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-dw(b,a){return a?f(b,a[1]):a}function
-cg(d,b,a){if(b){if(a)return X(d,b[1],a[1]);var
+df(b,a){return a?f(b,a[1]):a}function
+b9(d,b,a){if(b){if(a)return V(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cF(b,e,d){var
-c=aq(A);return function(a){switch(a[0]){case
-0:return[0,w(a[1],e,c)];case
-1:return[0,w(a[1],d,c)];case
+cs(b,e,d){var
+c=aq(x);return function(a){switch(a[0]){case
+0:return[0,t(a[1],e,c)];case
+1:return[0,t(a[1],d,c)];case
 2:return[0,aq(am(b,a[1]))];case
 3:var
-f=a[2],g=a[1];return cg(function(b,a){return[0,du(b,a)]},g,f);case
+f=a[2],g=a[1];return b9(function(b,a){return[0,dd(b,a)]},g,f);case
 4:var
-h=a[2],i=a[1];return cg(function(b,a){return[0,hi(b,a)]},i,h);case
+h=a[2],i=a[1];return b9(function(b,a){return[0,gC(b,a)]},i,h);case
 5:var
-j=a[1];return dw(function(a){return[0,hj(a)]},j);case
+j=a[1];return df(function(a){return[0,gD(a)]},j);case
 6:var
-k=a[2],l=a[1];return cg(function(c,a){return[0,dv(b,c,a)]},l,k);case
+k=a[2],l=a[1];return b9(function(c,a){return[0,de(b,c,a)]},l,k);case
 7:var
-m=a[2],n=a[1];return cg(function(a,c){return hk(b,a,c)},n,m);case
+m=a[2],n=a[1];return b9(function(a,c){return gE(b,a,c)},n,m);case
 8:var
-o=a[1];return dw(function(a){return[0,kl(b,a)]},o);default:var
-p=a[1];return dw(function(a){return km(b,a)},p)}}}function
-en(c){var
+o=a[1];return df(function(a){return[0,jv(b,a)]},o);default:var
+p=a[1];return df(function(a){return jw(b,a)},p)}}}function
+d6(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=en(a[1]);if(b)return b;var
+b=d6(a[1]);if(b)return b;var
 a=a[2];continue}}function
-aE(q,p){var
+b_(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=M(b[1],a[1]);return c?eg(b[2],a[2]):c}return 0;case
+c=ad(b[1],a[1]);return c?gt(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=v(b[1],a[1]),i=h?M(e[1],g[1]):h,j=i?eg(e[2],g[2]):i,k=j?M(d[1],f[1]):j;return k?eg(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?ad(e[1],g[1]):h,j=i?gt(e[2],g[2]):i,k=j?ad(d[1],f[1]):j;return k?gt(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=aE(b[1],a[1]);if(l){var
+l=b_(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=aE(b[1],a[1]);if(m){var
+m=b_(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=aE(b[1],a[1]);if(n){var
+n=b_(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=aE(b[1],a[1]);if(o){var
+o=b_(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bA(a,b){switch(b[0]){case
-0:return[0,kj(a,b[1],b[2])];case
+bq(a,b){switch(b[0]){case
+0:return[0,jt(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bA(a,b[1]);if(c)var
-d=bA(a,b[2]),r=d?[0,y(c[1],d[1])]:d,m=r;else
+c=bq(a,b[1]);if(c)var
+d=bq(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bA(a,b[1]);if(e)var
-f=bA(a,b[2]),s=f?[0,N(e[1],f[1])]:f,n=s;else
+e=bq(a,b[1]);if(e)var
+f=bq(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bA(a,b[1]);if(g)var
-h=bA(a,b[2]),t=h?[0,z(a,g[1],h[1])]:h,o=t;else
+g=bq(a,b[1]);if(g)var
+h=bq(a,b[2]),t=h?[0,v(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bA(a,b[1]);if(i){var
-j=bA(a,b[2]);if(j)var
-k=cd(a,j[1]),u=k?[0,z(a,i[1],k[1])]:k,p=u;else
+i=bq(a,b[1]);if(i){var
+j=bq(a,b[2]);if(j)var
+k=cp(a,j[1]),u=k?[0,v(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bA(a,b[1]);return l?cX(a,l[1]):l}}function
-fv(b,a){return kj(b,a[1],a[2])}function
-bB(a,d){if(en(d))switch(d[0]){case
+l=bq(a,b[1]);return l?cL(a,l[1]):l}}function
+e3(b,a){return jt(b,a[1],a[2])}function
+br(a,d){if(d6(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],f=d[2],i=d[1],j=cU(i,kn),k=j?dm(f,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fv(a,dn(hf(e,f),n)),0],p=g(a9(A,i),o),q=fv(a,e)[2],r=[0,fv(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,fv(a,dn(ej(f,e),s)),r,p]];else
+e=d[3],f=d[2],i=d[1],j=dW(i,jx),k=j?c_(f,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,e3(a,c$(gz(e,f),n)),0],p=g(ba(x,i),o),q=e3(a,e)[2],r=[0,e3(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,e3(a,c$(dZ(f,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bB(a,d[2]),u=bB(a,d[1]);return cg(function(b,a){return[0,du(b,a)]},u,t);case
+t=br(a,d[2]),u=br(a,d[1]);return b9(function(b,a){return[0,dd(b,a)]},u,t);case
 3:var
-v=bB(a,d[2]),w=bB(a,d[1]);return cg(function(b,a){return[0,hi(b,a)]},w,v);case
+v=br(a,d[2]),w=br(a,d[1]);return b9(function(b,a){return[0,gC(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(aE(h,m)){var
-x=bB(a,h);return dw(function(b){return[0,kl(a,b)]},x)}var
-y=bB(a,m),z=bB(a,h);return cg(function(c,b){return[0,dv(a,c,b)]},z,y);case
+m=d[2],h=d[1];if(b_(h,m)){var
+y=br(a,h);return df(function(b){return[0,jv(a,b)]},y)}var
+z=br(a,m),A=br(a,h);return b9(function(c,b){return[0,de(a,c,b)]},A,z);case
 5:var
-B=bB(a,d[2]),C=bB(a,d[1]);return cg(function(b,c){return hk(a,b,c)},C,B);default:var
-D=bB(a,d[1]);return dw(function(b){return km(a,b)},D)}return I(aq,bA(a,d))}function
-bS(b,a){if(en(a)){var
-c=bB(b,a);return I(function(a){return a[2]},c)}return bA(b,a)}function
-ko(a){var
-e=bv(aa(a),d);return ei(r(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-kp(a){return fl(r(ko(a),a))}function
-bT(f,a,e){var
-b=bS(r(f,ko(a)),e);if(b)var
-c=b[1],g=kp(a),h=aa(cD(aa(c[2]),g)),i=kp(a),d=[0,[0,cD(c[1],i),h]];else
+B=br(a,d[2]),C=br(a,d[1]);return b9(function(b,c){return gE(a,b,c)},C,B);default:var
+D=br(a,d[1]);return df(function(b){return jw(a,b)},D)}return J(aq,bq(a,d))}function
+bK(b,a){if(d6(a)){var
+c=br(b,a);return J(function(a){return a[2]},c)}return bq(b,a)}function
+jy(a){var
+e=bG(aa(a),d);return gw(B(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jz(a){return ji(B(jy(a),a))}function
+ct(f,a,e){var
+b=bK(B(f,jy(a)),e);if(b)var
+c=b[1],g=jz(a),h=aa(cq(aa(c[2]),g)),i=jz(a),d=[0,[0,cq(c[1],i),h]];else
 var
 d=b;return d}function
-aw(d,a){var
-b=bT(d,a[2],a[1][1]);if(b)var
-c=bT(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+as(d,a){var
+b=ct(d,a[2],a[1][1]);if(b)var
+c=ct(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-kq(b,a){var
-c=aa(cD(aa(a[2]),b));return[0,cD(a[1],b),c]}function
-hl(b,a){var
-c=fq(b[2],a);return[0,cB(b[1],a),c]}function
-hm(a,f,b){if(b){var
-d=b[1],g=hm(a,f,d),h=g[2],i=hc(Q(ef(sA,d),sz)),j=s(hc(ef(sB,d)),i),e=hl(z(a,g[1],f),j),k=j5(b)?y(h,e):N(h,e);return[0,e,k]}var
+jA(b,a){var
+c=aa(cq(aa(a[2]),b));return[0,cq(a[1],b),c]}function
+gF(b,a){var
+c=eY(b[2],a);return[0,co(b[1],a),c]}function
+gG(a,f,b){if(b){var
+d=b[1],g=gG(a,f,d),h=g[2],i=gu(O(dU(rr,d),rq)),j=s(gu(dU(rs,d)),i),e=gF(v(a,g[1],f),j),k=je(b)?C(h,e):M(h,e);return[0,e,k]}var
 l=am(a,c);return[0,am(a,c),l]}function
-kr(b){var
-c=eh(b),a=sC[1];return Q(sD,j6(c,a,0,a)[1])}function
-ks(a,d){var
-g=cW(a),h=s(b(2,b(2,c)),g),e=E(d[2],h);if(e)var
-i=hm(a,d,ef(sF,Q(kr(a),sE)))[2][2],f=[0,[0,hm(a,d,Q(ef(sH,kr(a)),sG))[2][1],i]];else
+jB(f){var
+g=dX(f),e=rt[1],b=g,c=0,a=e;for(;;){if(b){var
+d=b[1];if(a){var
+b=d,a=a[1];continue}var
+b=d,c=[0,c],a=e;continue}return O(ru,c)}}function
+jC(a,d){var
+g=cK(a),h=s(b(2,b(2,c)),g),e=I(d[2],h);if(e)var
+i=gG(a,d,dU(rw,O(jB(a),rv)))[2][2],f=[0,[0,gG(a,d,O(dU(ry,jB(a)),rx))[2][1],i]];else
 var
 f=e;return f}function
-kt(i){function
+jD(i){function
 a(h){var
-m=cB(cW(i),h),g=eh(i),f=m,e=d,a=c;for(;;){if(g){var
-j=r(a,b(2,c)),k=r(e,cB(f,a)),l=aa(cB(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return au(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
-ku(e,a){var
-f=E(d,a);if(f){var
-g=b(2,b(2,c));return ks(e,hl(ab(e,[0,a,a]),g))}return f}function
-kv(a,d){var
-b=ab(a,d),e=am(a,c);return N(y(b,b),e)}function
-fw(n,v){var
-h=bS(r(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),v);if(h){var
-w=h[1],a=r(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=au(kt(a),q),s=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=r(kt(a),s),f=ku(a,i);if(f){var
-g=ku(a,j);if(g)var
-k=P(d,f[1][1]),l=k?P(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=co(cK(i),h),g=dX(i),f=m,e=d,a=c;for(;;){if(g){var
+j=B(a,b(2,c)),k=B(e,co(f,a)),l=aa(co(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return aS(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jE(e,a){var
+f=I(d,a);if(f){var
+g=b(2,b(2,c));return jC(e,gF(Y(e,[0,a,a]),g))}return f}function
+jF(a,d){var
+b=Y(a,d),e=am(a,c);return M(C(b,b),e)}function
+e4(n,u){var
+h=bK(B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+w=h[1],a=B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=aS(jD(a),p),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=B(jD(a),r),f=jE(a,i);if(f){var
+g=jE(a,j);if(g)var
+k=S(d,f[1][1]),l=k?S(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e)var
-t=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),u=ks(a,ab(a,hl(z(a,w,e[1]),t))),p=I(function(b){return kv(a,kv(a,b))},u);else
+s=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),t=jC(a,Y(a,gF(v(a,w,e[1]),s))),o=J(function(b){return jF(a,jF(a,b))},t);else
 var
-p=e;var
-x=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return I(function(a){return kq(x,a)},p)}return h}function
-hn(d,a){return fw(d,[3,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
-fx(a){return 0===a[0]?a[2]:a[1]}function
-sI(a){return a}function
-sJ(a){return a}function
-sK(a,b){return bf(sJ,sI,y,a,b)}function
-sL(a){return a}function
-sM(a){return a}function
-cG(a,b){return bf(sM,sL,sK,a,b)}function
-ho(b,a,c){if(a){var
+o=e;var
+x=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return J(function(a){return jA(x,a)},o)}return h}function
+gH(d,a){return e4(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
+e5(a){return 0===a[0]?a[2]:a[1]}function
+rz(a){return a}function
+rA(a){return a}function
+rB(a,b){return bb(rA,rz,C,a,b)}function
+rC(a){return a}function
+rD(a){return a}function
+cu(a,b){return bb(rD,rC,rB,a,b)}function
+gI(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=ho(b,f,c[2]),h=c[1],i=function(c,a){return N(c,cY(d,a,b))},j=function(a){return al(cY(d,a,b))};return[0,bf(function(a){return a},j,i,h,a),g]}var
-k=ho(b,f,0);return[0,e(function(a){return al(cY(d,a,b))},a),k]}return c}function
-hp(a){if(a){var
+g=gI(b,f,c[2]),h=c[1],i=function(c,a){return M(c,d1(d,a,b))},j=function(a){return ah(d1(d,a,b))};return[0,bb(function(a){return a},j,i,h,a),g]}var
+k=gI(b,f,0);return[0,e(function(a){return ah(d1(d,a,b))},a),k]}return c}function
+gJ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=P(d,c[1]),h=e?[0,ho(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=S(d,c[1]),h=e?[0,gI(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kw(f,e){var
+jG(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hp(b);if(c){var
+c=gJ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-kx(d,b,a){if(b)if(a)var
-e=a[1],f=kx(d,b[2],a[2]),g=dj(d,b[1])?fr(e):dp(e),c=[0,g,f];else
+jH(d,b,a){if(b)if(a)var
+e=a[1],f=jH(d,b[2],a[2]),g=dV(d,b[1])?eZ(e):da(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-ky(a,b){if(a)if(b)var
-d=ky(a[2],b[2]),c=[0,kx(a[1],a,b[1]),d];else
+jI(a,b){if(a)if(b)var
+d=jI(a[2],b[2]),c=[0,jH(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bC(a){if(a){var
-b=a[1],c=bC(b),d=e(function(a){return[0,1,a]},c),f=bC(b);return g(e(function(a){return[0,0,a]},f),d)}return sN}function
-fy(a){var
-b=j(a);if(kw(b,a))return 1;var
-c=bC(cb(b));return m(function(c){return kw(b,ky([0,0,c],a))},c)}function
-aY(a){function
+bs(a){if(a){var
+b=a[1],c=bs(b),d=e(function(a){return[0,1,a]},c),f=bs(b);return g(e(function(a){return[0,0,a]},f),d)}return rE}function
+e6(a){var
+b=j(a);if(jG(b,a))return 1;var
+c=bs(b5(b));return n(function(c){return jG(b,jI([0,0,c],a))},c)}function
+a5(a){function
 b(b){var
 c=f(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-a3(h,e){var
+aW(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?y(a,d):N(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hq(c,b,a){var
-d=bC(c);return m(function(c){return f(a,f(aY(function(a){return a3(c,a)}),b))},d)}function
-hr(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a$(b,r(h,c),a)},k=hr(h,j,i),l=function(c,b){var
-d=a(b,e);return y(a(f,c),d)},m=function(b){return a(b,e)},n=bf(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,y(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gK(c,b,a){var
+d=bs(c);return n(function(c){return f(a,f(a5(function(a){return aW(c,a)}),b))},d)}function
+gL(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bf(b,B(h,c),a)},k=gL(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=bb(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fz(b,d,a,c){function
+e7(b,d,a,c){function
 e(c,d){var
-e=a$(d,b,a);return N(y(c,c),e)}function
-f(c){return al(a$(c,b,a))}return bf(function(a){return y(a,a)},f,e,d,c)}function
-hs(d,i,h,g){var
+e=bf(d,b,a);return M(C(c,c),e)}function
+f(c){return ah(bf(c,b,a))}return bb(function(a){return C(a,a)},f,e,d,c)}function
+gM(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dp(e[2]),k=cG(a,hr(d,f,fz(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-ht(b,a){return[0,[0,0,b],a]}function
-dx(b,c,g,f,a){function
+e=b[1],f=c[1],j=da(e[2]),k=cu(a,gL(d,f,e7(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gN(b,a){return[0,[0,0,b],a]}function
+dg(b,c,g,f,a){function
 d(a){if(a){var
-h=a9([0,al(a[1][2]),0],b),c=hs(g,f,a[2],h),d=v(j(c),b);if(d)return fy(c);var
+h=ba([0,ah(a[1][2]),0],b),c=gM(g,f,a[2],h),d=u(j(c),b);if(d)return e6(c);var
 e=d}else
 var
-e=a;return e}return hq(b,ht(c,a),d)}function
-kz(f,e){var
+e=a;return e}return gK(b,gN(c,a),d)}function
+jJ(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hp([0,[0,fr(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gJ([0,[0,eZ(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hu(b,c,a){function
+gO(b,c,a){function
 d(a){if(a){var
-h=a9([0,a[1][2],0],b),c=kz(a[2],h);if(c){var
-d=c[1],e=v(j(d),b);if(e)return fy(d);var
+h=ba([0,a[1][2],0],b),c=jJ(a[2],h);if(c){var
+d=c[1],e=u(j(d),b);if(e)return e6(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return hq(b,ht(c,a),d)}function
-kA(b,a){return e(function(a){return[0,a[1],b]},a)}function
-kB(b,a){var
-c=bC(b);return m(function(b){return P(d,a3(b,a)[1])},c)}function
-kC(c,b,a){var
-d=a[3],f=e(function(a){return a$(c,b,a)},d),g=a[2];return[0,a$(c,b,a[1]),g,f]}function
-kD(a,b){var
-c=b[3],d=a[3],e=bf(function(a){return a},al,N,d,c),f=a[2];return[0,N(a[1],b[1]),f,e]}function
-eo(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-a4(c,b,a){var
-d=X(c,b[3],a[3]),e=X(c,b[2],a[2]);return[0,X(c,b[1],a[1]),e,d]}function
-ep(b,a){var
-c=u(b,a[3]),d=u(b,a[2]);return[0,u(b,a[1]),d,c]}function
-fA(b,a){var
-c=aA(b[3],a),d=aA(b[2],a);return[0,aA(b[1],a),d,c]}function
-aF(b,a){var
-c=u(b[3],a[3]),d=u(b[2],a[2]);return O(O(u(b[1],a[1]),d),c)}function
-hv(a){return fA(a,cE(aF(a,a)))}function
-c0(a){var
-b=a[5];return b?b[1]:cE(a[2])}function
-dy(a){return e(function(a){var
-b=a[2];return[0,eo(a[1]),b]},a)}function
-fB(a){return e(function(a){var
-b=q(c);return[0,eo(a[3]),b]},a)}function
-kE(b,a){var
+g=a;return g}return gK(b,gN(c,a),d)}function
+jK(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jL(b,a){var
+c=bs(b);return n(function(b){return S(d,aW(b,a)[1])},c)}function
+jM(c,b,a){var
+d=a[3],f=e(function(a){return bf(c,b,a)},d),g=a[2];return[0,bf(c,b,a[1]),g,f]}function
+jN(a,b){var
+c=b[3],d=a[3],e=bb(function(a){return a},ah,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+d7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aX(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+d8(b,a){var
+c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
+e8(b,a){var
+c=av(b[3],a),d=av(b[2],a);return[0,av(b[1],a),d,c]}function
+ay(b,a){var
+c=r(b[3],a[3]),d=r(b[2],a[2]);return N(N(r(b[1],a[1]),d),c)}function
+gP(a){return e8(a,cr(ay(a,a)))}function
+dh(a){var
+b=a[5];return b?b[1]:cr(a[2])}function
+e9(a){return e(function(a){var
+b=a[2];return[0,d7(a[1]),b]},a)}function
+jO(a){return e(function(a){var
+b=o(c);return[0,d7(a[3]),b]},a)}function
+jP(b,a){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-kF(c,b,a){var
-d=X(c,b[3],a[3]),e=X(c,b[2],a[2]);return[0,X(c,b[1],a[1]),e,d]}function
-hw(d,a){var
-b=cX(d,[0,a[2],a[2]]);if(b){var
+jQ(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+gQ(d,a){var
+b=cL(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fC(a,n,f,l,e,k,j){var
-o=kF(hi,k,j),b=kF(function(b,c){return dv(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=du(du(du(aq(am(a,d)),h),g),c),p=bC(n);return m(function(c){var
-b=kE(function(b){return ab(a,a3(c,b))},e),h=b[3],j=b[2],k=b[1],m=z(a,l,hw(a,y(y(y(am(a,d),k),j),h))),g=N(a3(c,i),m),n=f?N(g,a3(c,f[1])):g;return P(d,n[1])},p)}function
-bU(a){return by(r(a[1],a[2]),c)}function
-dz(a){var
-b=bU(a);return au(a[2],b)}function
-eq(c,b){if(b)var
-a=b[1],e=eq([0,c],b[2]),f=dz(a),h=[0,[0,dz(a),f],0],i=g(a9(A,c),h),j=bU(a),d=[0,[0,[0,bU(a),j],a,i],e];else
+e_(a,m,f,l,e,k,j){var
+o=jQ(gC,k,j),b=jQ(function(b,c){return de(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=dd(dd(dd(aq(am(a,d)),h),g),c),p=bs(m);return n(function(c){var
+b=jP(function(b){return Y(a,aW(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,gQ(a,C(C(C(am(a,d),k),j),h))),g=M(aW(c,i),m),n=f?M(g,aW(c,f[1])):g;return S(d,n[1])},p)}function
+bL(a){return cJ(B(a[1],a[2]),c)}function
+di(a){var
+b=bL(a);return aS(a[2],b)}function
+e$(c,b){if(b)var
+a=b[1],e=e$([0,c],b[2]),f=di(a),h=[0,[0,di(a),f],0],i=g(ba(x,c),h),j=bL(a),d=[0,[0,[0,bL(a),j],a,i],e];else
 var
 d=b;return d}function
-er(d,b){if(b){var
+d9(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=er(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bU(a),f],c],h=bU(a);return[0,[0,[0,a[1],h],c],g]}return sO}function
-kG(d,b,a){if(b){if(a){var
-e=kG(d,b[2],a[2]);return y(a$(b[1],r(d,c),a[1]),e)}return A}return A}function
-es(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kG(f,a,b)},j=es(f,h),k=e(function(a){var
-e=b(d,a[2]);return y(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,y(b(d,c),l),k],j];else
+e=d9(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bL(a),f],c],h=bL(a);return[0,[0,[0,a[1],h],c],g]}return rF}function
+jR(d,b,a){if(b){if(a){var
+e=jR(d,b[2],a[2]);return C(bf(b[1],B(d,c),a[1]),e)}return x}return x}function
+d_(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jR(f,a,b)},j=d_(f,h),k=e(function(a){var
+e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-et(e,b,d,a){if(b)if(a)var
-f=b[1],g=et(e,b[2],d,a[2]),c=[0,[0,f,fz(e,a[1][1],d,f)],g];else
+d$(e,b,d,a){if(b)if(a)var
+f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,e7(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fD(f,d,c,b,a){if(a){var
+fa(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fD(f,d[1],c,b,g);return[0,[0,N(A,b),0],i]}var
-j=e(function(a){return[0,N(A,b),0]},g),h=[0,[0,N(al(z(f,c,dp(a[1][2]))),b),0],j]}else
+i=fa(f,d[1],c,b,g);return[0,[0,M(x,b),0],i]}var
+j=e(function(a){return[0,M(x,b),0]},g),h=[0,[0,M(ah(v(f,c,da(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-ch(c,a){var
-b=v(j(a),c);return b?fy(a):b}function
-kH(d,b,a){if(b)var
-c=b[1],f=kH([0,d],b[2],a),h=g(a9(A,d),[0,a,0]),e=[0,[0,c,[0,au(c[1],a[2]),r(c[2],a[2])],h],f];else
+b$(c,a){var
+b=u(j(a),c);return b?e6(a):b}function
+jS(d,b,a){if(b)var
+c=b[1],f=jS([0,d],b[2],a),h=g(ba(x,d),[0,a,0]),e=[0,[0,c,[0,aS(c[1],a[2]),B(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-kI(d){if(d){var
+jT(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kI(d[2]);return I(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jT(d[2]);return J(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sP}function
-kJ(a){return I(function(a){return I(hj,a)},a)}function
-fE(c,b,a){function
-d(a){return dv(c,b,a)}return I(function(a){return I(d,a)},a)}function
-kK(c,b,a){function
-d(a){return hk(c,a,b)}return I(function(a){return dw(d,a)},a)}function
-fF(b,a){var
-c=aX(b,a);return e(function(c){var
+f=a;return f}return rG}function
+jU(a){return J(function(a){return J(gD,a)},a)}function
+fb(c,b,a){function
+d(a){return de(c,b,a)}return J(function(a){return J(d,a)},a)}function
+jV(c,b,a){function
+d(a){return gE(c,a,b)}return J(function(a){return df(d,a)},a)}function
+fc(b,a){var
+c=a$(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cg(function(b,a){return[0,du(b,a)]},e,d)]}return b}return a},c)}function
-kL(a){return aq(am(a,b(2,c)))}function
-kM(b,c,a){if(a)var
-f=a[1],g=kM(b,c,a[2]),d=[0,e(function(a){return al(z(b,z(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,b9(function(b,a){return[0,dd(b,a)]},e,d)]}return b}return a},c)}function
+jW(a){return aq(am(a,b(2,c)))}function
+jX(b,c,a){if(a)var
+f=a[1],g=jX(b,c,a[2]),d=[0,e(function(a){return ah(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-kN(a){return m(function(a){var
-b=M(a[1],d);return b?M(a[2],d):b},a)}function
-kO(c,b,a){var
-d=aX(b,a);return bm(function(a,b){return y(z(c,a[1],a[2]),b)},A,d)}function
-hx(c,b,a){var
-d=el(kO(c,a,b));return bm(function(b,a){return r(el(b),a)},d,a)}function
-dA(a){return am(a,c)}function
-hy(a,i,c,u,t){var
+jY(a){return n(function(a){var
+b=ad(a[1],d);return b?ad(a[2],d):b},a)}function
+jZ(c,b,a){var
+d=a$(b,a);return bH(function(a,b){return C(v(c,a[1],a[2]),b)},x,d)}function
+gR(c,b,a){var
+d=d2(jZ(c,a,b));return bH(function(b,a){return B(d2(b),a)},d,a)}function
+dj(a){return am(a,c)}function
+gS(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!kN(c)&&!kN(j)){var
-h=hx(a,i,j),o=dA(a),p=hx(a,i,c),b=cY([0,hx(a,i,c),p],o,[0,h,h])[1],k=P(d,h),l=k?P(d,b):k;if(l)var
-q=ce(hg(a,[0,b,b])),r=function(b){return function(d,c){return N(z(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cG(e,kM(a,q,bf(function(c){return function(b){return z(a,c,b)}}(s),al,r,j,c)))];else
+j=f[1],n=0;if(!jY(c)&&!jY(j)){var
+h=gR(a,i,j),o=dj(a),p=gR(a,i,c),b=d1([0,gR(a,i,c),p],o,[0,h,h])[1],k=S(d,h),l=k?S(d,b):k;if(l)var
+q=b7(gA(a,[0,b,b])),r=function(b){return function(d,c){return M(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cu(e,jX(a,q,bb(function(c){return function(b){return v(a,c,b)}}(s),ah,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-s4(a){var
-b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-kP(c,b,a){if(b){if(a){var
-d=kP(c,b[2],a[2]);return y(a$(b[1],c,a[1]),d)}return A}return A}function
-kQ(a,j){switch(j){case
+rV(a){var
+b=a[2],c=e(function(a){return[0,a[1],x]},b);return[0,[0,a[1][1],x],c]}function
+j0(c,b,a){if(b){if(a){var
+d=j0(c,b[2],a[2]);return C(bf(b[1],c,a[1]),d)}return x}return x}function
+j1(a,j){switch(j){case
 0:var
-d=au(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aS(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=au(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=by(r(a[1],a[2]),c),h=au(b,a[2]),i=au(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-kR(d,c,a){if(a)var
-e=a[1],g=kR(d,[0,c],a[2]),b=I(cA,ke(function(a){return v(a[1],c)},d)),h=b?kQ(e,b[1])[1]:e,f=[0,h,g];else
+f=aS(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cJ(B(a[1],a[2]),c),h=aS(b,a[2]),i=aS(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+j2(d,c,a){if(a)var
+e=a[1],g=j2(d,[0,c],a[2]),b=J(cI,jn(function(a){return u(a[1],c)},d)),h=b?j1(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-s5=aq(A);function
-kS(e,d,c){if(d){var
-f=w(e,c[2],s6),a=f?f[1]:[0,s5];if(a)var
-b=kS([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+rW=aq(x);function
+j3(e,d,c){if(d){var
+f=t(e,c[2],rX),a=f?f[1]:[0,rW];if(a)var
+b=j3([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return s7}function
-hz(d,c,b,a){var
-f=e(aq,b);return bR(0,cF(d,eq(0,a),f),c,0)}function
-aj(a){if(a){var
+g=a;return g}return rY}function
+j4(d,c,b,a){var
+f=e(aq,b);return bI(0,cs(d,e$(0,a),f),c,0)}function
+az(a){if(a){var
 b=a[1];if(b)var
-c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=az(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s8}function
-fG(b,a){if(a){var
-h=a[1],n=h[1],c=aj(e(function(a){return w(a,b,0)},n));if(c){var
-f=w(h[2],b,0);if(f){var
-i=f[1],g=fG(b,a[2]);if(g)var
-j=P(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return rZ}function
+fd(b,a){if(a){var
+h=a[1],n=h[1],c=az(e(function(a){return t(a,b,0)},n));if(c){var
+f=t(h[2],b,0);if(f){var
+i=f[1],g=fd(b,a[2]);if(g)var
+j=S(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2750,78 +2729,78 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return s9}function
-ci(d,c,b){var
-a=fG(d,c);return a?f(b,a[1]):a}function
-dB(a,b){return m(function(c){var
-a=w(c,b,0),d=a?1:a;return d},a)}function
-fH(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bf(function(a){return a},f,y,e,d),h=a[2];return[0,y(a[1],c[1]),h,g]}return a}function
-hA(b,a){return b?kD(a,b[1]):a}function
-hB(h,g,b,f){var
-a=w(f,h,0);if(a){var
+m=c;return m}return r0}function
+ca(d,c,b){var
+a=fd(d,c);return a?f(b,a[1]):a}function
+dk(a,b){return n(function(c){var
+a=t(c,b,0),d=a?1:a;return d},a)}function
+fe(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bb(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+gT(b,a){return b?jN(a,b[1]):a}function
+gU(h,g,b,f){var
+a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=kD(c,b[1]),e=bC(g);return m(function(a){return E(d,a3(a,i)[1])},e)}return E(d,c[2][1])}return a}function
-kT(f,d,a){function
-b(a){return a$(a,d,am(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),A,g]}return aq(A)}function
-fI(b,a){var
-c=w(a[1],b,0);if(c){var
-d=w(a[2],b,0);if(d)var
-e=w(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jN(c,b[1]),e=bs(g);return n(function(a){return I(d,aW(a,i)[1])},e)}return I(d,c[2][1])}return a}function
+j5(f,d,a){function
+b(a){return bf(a,d,am(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),x,g]}return aq(x)}function
+ff(b,a){var
+c=t(a[1],b,0);if(c){var
+d=t(a[2],b,0);if(d)var
+e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-kU(i,k,J,u,g,b,f,h,a){switch(h[0]){case
+j6(i,k,J,t,g,b,f,h,a){switch(h[0]){case
 0:var
-s=h[1];if(typeof
+r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dB(u,g);if(K){var
-ac=a[2],ad=a[1],ae=fH(f,aq(s));return ci(g,k,function(a){return dx(b,ae,ad,ac,a)})}return K;case
+K=dk(t,g);if(K){var
+ab=a[2],ac=a[1],ae=fe(f,aq(r));return ca(g,k,function(a){return dg(b,ae,ac,ab,a)})}return K;case
 1:var
-L=dB(u,g);if(L){var
-af=a[2],ag=a[1],ah=fH(f,aq(s));return ci(g,J,function(a){return dx(b,ah,ag,af,a)})}return L;case
+L=dk(t,g);if(L){var
+af=a[2],ag=a[1],ah=fe(f,aq(r));return ca(g,J,function(a){return dg(b,ah,ag,af,a)})}return L;case
 2:var
-N=dB(u,g);if(N){if(f)return 0;var
-O=M(s[1],d),P=O?M(s[2],d):O;if(P){var
-ai=a[2],aj=a[1];return ci(g,k,function(a){return dx(b,[0,A,A,0],aj,ai,kA([0,A,A,0],a))})}var
-Q=P}else
+M=dk(t,g);if(M){if(f)return 0;var
+N=ad(r[1],d),O=N?ad(r[2],d):N;if(O){var
+ai=a[2],aj=a[1];return ca(g,k,function(a){return dg(b,[0,x,x,0],aj,ai,jK([0,x,x,0],a))})}var
+P=O}else
 var
-Q=N;return Q}return 0;case
+P=M;return P}return 0;case
 1:var
-R=h[1];if(typeof
+Q=h[1];if(typeof
 a==="number"){if(1===a){var
-ak=hA(f,aq(R));return ci(g,J,function(a){return hu(b,ak,a)})}if(!a){var
-al=hA(f,aq(R));return ci(g,k,function(a){return hu(b,al,a)})}}return 0;case
+ak=gT(f,aq(Q));return ca(g,J,function(a){return gO(b,ak,a)})}if(!a){var
+al=gT(f,aq(Q));return ca(g,k,function(a){return gO(b,al,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-S=a[1],l=kT(i,S,a[3]),T=h[1],an=a[2];return ci(g,k,function(d){var
-a=kB(b,l),c=a?dx(b,fH(f,l),S,an,d):a;if(c){var
-g=l[3],h=e(function(a){return z(i,T,a)},g),j=l[2];return hu(b,hA(f,[0,z(i,T,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=j5(i,R,a[3]),S=h[1],an=a[2];return ca(g,k,function(d){var
+a=jL(b,l),c=a?dg(b,fe(f,l),R,an,d):a;if(c){var
+g=l[3],h=e(function(a){return v(i,S,a)},g),j=l[2];return gO(b,gT(f,[0,v(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hB(g,b,f,h[1]);return 0;case
+a==="number"&&!a)return gU(g,b,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],ar=fH(f,aq(h[2])),as=function(a){return dx(b,ar,ap,ao,a)};return ci(g,h[1],as)}return 0;case
+ao=a[2],ap=a[1],ar=fe(f,aq(h[2])),as=function(a){return dg(b,ar,ap,ao,a)};return ca(g,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hB(g,b,f,h[1]);case
-2:return hB(g,b,f,h[2])}return 0;case
+0:return gU(g,b,f,h[1]);case
+2:return gU(g,b,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-w=fI(g,h[1]);if(w){var
-x=fI(g,h[2]);if(x){var
-y=fI(g,h[3]);if(y){var
-B=fI(g,h[4]);if(B){var
-U=B[1],V=y[1],W=x[1],X=w[1],n=a[2],t=h[5],at=a[1];if(n){var
-o=n[2];if(o){var
+w=ff(g,h[1]);if(w){var
+y=ff(g,h[2]);if(y){var
+z=ff(g,h[3]);if(z){var
+A=ff(g,h[4]);if(A){var
+T=A[1],U=z[1],V=y[1],W=w[1],m=a[2],s=h[5],at=a[1];if(m){var
+o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ab=[0,n[1],o[1],p[1]],q=kE(function(d){function
-f(a){return a$(a,at,am(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fu(a),h=r(b[2],g),j=fu(a);return[0,b,[0,au(b[1],j),h],a]}return aq(A)},ab),C=m(function(a){return v(j(a),[0,b])},n),D=C?fC(i,b,f,t,q,X,V):C,E=D?fC(i,b,f,t,q,X,U):D,F=E?fC(i,b,f,t,q,W,V):E;if(F)return fC(i,b,f,t,q,W,U);var
+aa=[0,m[1],o[1],p[1]],q=jP(function(d){function
+f(a){return bf(a,at,am(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=e2(a),h=B(b[2],g),j=e2(a);return[0,b,[0,aS(b[1],j),h],a]}return aq(x)},aa),C=n(function(a){return u(j(a),[0,b])},m),D=C?e_(i,b,f,s,q,W,U):C,E=D?e_(i,b,f,s,q,W,T):D,F=E?e_(i,b,f,s,q,V,U):E;if(F)return e_(i,b,f,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -2830,59 +2809,59 @@ var
 H=o;var
 I=H}else
 var
-I=n;return I}var
-Y=B}else
+I=m;return I}var
+X=A}else
+var
+X=z;var
+Y=X}else
 var
 Y=y;var
 Z=Y}else
 var
-Z=x;var
-_=Z}else
-var
-_=w;return _}return 0;case
+Z=w;return Z}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-$=a[2],aa=a[1],av=h[2],aw=h[1];return ci(g,k,function(e){var
-a=v(j(e),b),d=a?v(j($),b):a;if(d){var
+_=a[2],$=a[1],au=h[2],av=h[1];return ca(g,k,function(e){var
+a=u(j(e),b),d=a?u(j(_),b):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=v(j(d),b);if(e){var
-g=es(aa,et(aa,$,am(i,c),d));return ch(b,cG(fD(i,aw,av,a[1][2],d),g))}var
+d=a[2],e=u(j(d),b);if(e){var
+g=d_($,d$($,_,am(i,c),d));return b$(b,cu(fa(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:aq(A);return hq(b,ht(h,e),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:aq(x);return gK(b,gN(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-ax=h[2],ay=h[1];return ci(g,k,function(d){var
-a=kA([0,A,A,0],d),c=f?f[1]:[0,A,A,0];return dx(b,c,ay,ax,a)})}return 0;default:return 0}}function
-kV(a,Y,H,l,p,X,h,k,i,g,b){if(9===g[0]){if(typeof
+aw=h[2],ax=h[1];return ca(g,k,function(d){var
+a=jK([0,x,x,0],d),c=f?f[1]:[0,x,x,0];return dg(b,c,ax,aw,a)})}return 0;default:return 0}}function
+j7(a,Z,H,l,p,X,h,k,i,g,b){if(9===g[0]){if(typeof
 b!=="number"&&9===b[0]){var
-Z=g[1],T=e(aq,X),B=bR(0,cF(a,kH(0,k,Z),T),Y,0),J=v(j(k),s_),K=J?dB(p,B):J;if(K){var
-q=fG(B,l);if(q){var
-s=fG(h,l);if(s){var
-_=g[2],t=aj(e(function(b){var
-c=w(b[1],h,0);if(c)var
-f=b[2][2],a=aj(e(function(a){var
-b=w(a[2],h,0);return I(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+_=g[1],T=e(aq,X),z=bI(0,cs(a,jS(0,k,_),T),Z,0),I=u(j(k),r1),K=I?dk(p,z):I;if(K){var
+q=fd(z,l);if(q){var
+r=fd(h,l);if(r){var
+$=g[2],s=az(e(function(b){var
+c=t(b[1],h,0);if(c)var
+f=b[2][2],a=az(e(function(a){var
+b=t(a[2],h,0);return J(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},_));if(t){var
-u=kI(q[1]);if(u){var
-L=b[2],x=b[1],M=s[1],$=b[3],aa=t[1],ac=u[1],C=hw(a,bm(function(g,i){function
+d=c;return d},$));if(s){var
+w=jT(q[1]);if(w){var
+L=b[2],y=b[1],N=r[1],aa=b[3],ab=s[1],ac=w[1],A=gQ(a,bH(function(g,i){function
 b(b,d){var
-a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return el(w(d,c[3],A))}function
+a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return d2(t(d,c[3],x))}function
 c(a){var
-b=f(a,sQ),c=bv(f(a,sR),b);return bv(f(a,0),c)}var
+b=f(a,rH),c=bG(f(a,rI),b);return bG(f(a,0),c)}var
 d=c(function(a){var
-c=b(sS,a),d=b(sT,a);return r(r(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
-c=b(a,sU),d=b(a,sV);return r(r(b(a,0),d),c)});return y(i,ab(a,hw(a,z(a,[0,e,e],h))))},A,ac)),n=a$($,x,am(a,c)),D=P(d,N(n,C)[1]),E=D?v(j(L),s1):D,F=E?v(j(M),s2):E;if(F){var
-o=cd(a,n);if(o){var
-U=ce(z(a,C,o[1])),V=N(am(a,c),U),W=bC(s3);return m(function(j){var
+c=b(rJ,a),d=b(rK,a);return B(B(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
+c=b(a,rL),d=b(a,rM);return B(B(b(a,0),d),c)});return C(i,Y(a,gQ(a,v(a,[0,e,e],h))))},x,ac)),m=bf(aa,y,am(a,c)),D=S(d,M(m,A)[1]),E=D?u(j(L),rS):D,F=E?u(j(N),rT):E;if(F){var
+o=cp(a,m);if(o){var
+U=b7(v(a,A,o[1])),V=M(am(a,c),U),W=bs(rU);return n(function(j){var
 h=e(function(b){var
-c=b[2],d=b[1];return dp(fn(function(d,b){var
-c=el(a3(j,b[2]));return y(d,z(a,b[1],[0,c,c]))},c,d))},aa),r=f(aY(function(a){return a3(j,a)}),M),D=i?a3(j,i[1]):A,K=ab(a,V),s=ab(a,n),q=es(x,et(x,L,am(a,c),r)),b=cG(a9([0,al(D),0],sW),q);if(h){var
+c=b[2],d=b[1];return da(gy(function(d,b){var
+c=d2(aW(j,b[2]));return C(d,v(a,b[1],[0,c,c]))},c,d))},ab),r=f(a5(function(a){return aW(j,a)}),N),D=i?aW(j,i[1]):x,K=Y(a,V),s=Y(a,m),q=d_(y,d$(y,L,am(a,c),r)),b=cu(ba([0,ah(D),0],rN),q);if(h){var
 d=h[2];if(d){var
 g=d[2];if(g){if(g[2])return 0;var
-B=d[1],C=h[1],G=g[1],k=ch(sY,cG(a9([0,al(s),0],sX),b));if(k)return m(function(A){var
-H=N(K,D),I=A[2]?B:al(B),J=A[1]?C:al(C),n=0;if(b){var
+A=d[1],B=h[1],G=g[1],k=b$(rP,cu(ba([0,ah(s),0],rO),b));if(k)return n(function(C){var
+H=M(K,D),I=C[2]?A:ah(A),J=C[1]?B:ah(B),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -2921,7 +2900,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return ch(s0,j)},sZ);var
+j=z;return b$(rR,j)},rQ);var
 l=k}else
 var
 l=g;var
@@ -2934,24 +2913,24 @@ p=h;return p},W)}var
 G=o}else
 var
 G=F;return G}var
-O=u}else
+O=w}else
 var
-O=t;var
-Q=O}else
+O=s;var
+P=O}else
 var
-Q=s;var
+P=r;var
+Q=P}else
+var
+Q=q;var
 R=Q}else
 var
-R=q;var
-S=R}else
-var
-S=K;return S}return kU(a,H,l,p,h,j(k),i,g,b)}return kU(a,H,l,p,h,j(k),i,g,b)}function
-kW(j,b,a){if(a){var
-k=a[1],l=k[2],c=aj(e(b,k[1]));if(c){var
+R=K;return R}return j6(a,H,l,p,h,j(k),i,g,b)}return j6(a,H,l,p,h,j(k),i,g,b)}function
+j8(j,b,a){if(a){var
+k=a[1],l=k[2],c=az(e(b,k[1]));if(c){var
 g=f(b,l);if(g){var
-h=w(l,j,0);if(h){var
-i=kW(j,b,a[2]);if(i)var
-m=P(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
+h=t(l,j,0);if(h){var
+i=j8(j,b,a[2]);if(i)var
+m=S(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
 var
 n=i;var
 o=n}else
@@ -2962,350 +2941,349 @@ var
 p=g;var
 q=p}else
 var
-q=c;return q}return ta}function
-kX(a,V,n,U,u,t,T,D,i,h,l,b){var
-k=j(T),W=eq(0,T),aO=bR(0,cF(a,W,e(aq,kR(l,0,u))),V,0),X=e(a8,l),aP=0,aQ=e(aq,u),aR=bR(tb,function(b){var
-M=dq(a8,b),g=f(cF(a,W,aQ),M);switch(b[0]){case
+q=c;return q}return r3}function
+j9(a,U,m,T,w,s,R,D,i,h,l,b){var
+k=j(R),V=e$(0,R),aM=bI(0,cs(a,V,e(aq,j2(l,0,w))),U,0),W=e(a2,l),aN=0,aO=e(aq,w),aQ=bI(r4,function(b){var
+M=db(a2,b),g=f(cs(a,V,aO),M);switch(b[0]){case
 1:var
 t=b[1],d=e(function(d){var
-b=v(t,d),e=b?[0,[0,aq(am(a,c))]]:b;return e},X);break;case
+b=u(t,d),e=b?[0,[0,aq(am(a,c))]]:b;return e},W);break;case
 3:var
-d=fF(b[1][2],b[2][2]);break;case
+d=fc(b[1][2],b[2][2]);break;case
 4:var
-u=e(kJ,b[2][2]),d=fF(b[1][2],u);break;case
+v=e(jU,b[2][2]),d=fc(b[1][2],v);break;case
 5:var
-d=e(kJ,b[1][2]);break;case
+d=e(jU,b[1][2]);break;case
 6:var
 n=b[2],o=b[1],h=o[1],l=0;if(h){var
 i=n[1];if(i)var
-w=n[2],x=h[1],y=e(function(b){return fE(a,x,b)},w),z=o[2],A=i[1],d=fF(e(function(b){return fE(a,A,b)},z),y);else{var
+w=n[2],x=h[1],y=e(function(b){return fb(a,x,b)},w),z=o[2],A=i[1],d=fc(e(function(b){return fb(a,A,b)},z),y);else{var
 p=i;l=1}}else{var
 p=h;l=1}if(l)var
 d=p;break;case
 7:var
 m=0;if(g){var
 q=b[2],j=q[1];if(j)var
-B=q[2],C=hj(g[1]),D=e(function(b){return fE(a,C,b)},B),E=fF(b[1][2],D),F=j[1],d=e(function(b){return kK(a,F,b)},E);else{var
+B=q[2],C=gD(g[1]),D=e(function(b){return fb(a,C,b)},B),E=fc(b[1][2],D),F=j[1],d=e(function(b){return jV(a,F,b)},E);else{var
 r=j;m=1}}else{var
 r=g;m=1}if(m)var
 d=r;break;case
 8:var
 s=b[1],k=s[1];if(k)var
-G=s[2],H=k[1],I=dv(a,kL(a),H),d=e(function(b){return fE(a,I,b)},G);else
+G=s[2],H=k[1],I=de(a,jW(a),H),d=e(function(b){return fb(a,I,b)},G);else
 var
 d=k;break;case
 9:if(g)var
-J=b[1][2],K=g[1],L=dv(a,kL(a),K),d=e(function(b){return kK(a,L,b)},J);else
+J=b[1][2],K=g[1],L=de(a,jW(a),K),d=e(function(b){return jV(a,L,b)},J);else
 var
 d=g;break;default:var
-d=e(function(a){return 0},X)}return[0,g,d]},V,aP),aM=e(function(a){var
-b=a[2];return kQ(w(a[1],u,A),b)[2]},l);function
-Y(c){var
-d=w(c,t,0);if(d){var
-a=w(c,aO,0);if(a)var
-b=kS(0,l,w(c,aR,s$)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=e(function(a){return 0},W)}return[0,g,d]},U,aN),aK=e(function(a){var
+b=a[2];return j1(t(a[1],w,x),b)[2]},l);function
+X(c){var
+d=t(c,s,0);if(d){var
+a=t(c,aM,0);if(a)var
+b=j3(0,l,t(c,aQ,r2)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-F(b){return e(function(b){return am(a,b)},b)}var
-aS=D?D[1]:aq(A);function
-Z(a){return a?ch(k,a[1]):a}function
-x(t,s,f,r,q){var
-u=a9([0,al(s),0],k),c=r,b=q,g=u,v=F(t);for(;;){if(c&&b){var
-i=b[1],j=i[1],d=c[1],m=dp(j[2]),n=cG(g,hr(f,d,fz(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(ce,fz(f,a[1],a[2],b))}}(d),o),h=hy(a,v,e(function(b){return a$(b,f,dA(a))},d),p,n);if(h){var
+E(b){return e(function(b){return am(a,b)},b)}var
+aR=D?D[1]:aq(x);function
+Y(a){return a?b$(k,a[1]):a}function
+y(t,s,f,r,q){var
+u=ba([0,ah(s),0],k),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],j=i[1],d=c[1],m=da(j[2]),n=cu(g,gL(f,d,e7(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(b7,e7(f,a[1],a[2],b))}}(d),o),h=gS(a,v,e(function(b){return bf(b,f,dj(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
-l=[0,g];return Z(l)}}function
-_(y,x,w){var
-z=a9([0,x,0],k),q=F(y),c=w,f=z;for(;;){if(c){var
-j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,fr(g),h],f];if(m){var
-o=P(d,g[1]);if(o)var
+l=[0,g];return Y(l)}}function
+Z(z,y,w){var
+A=ba([0,y,0],k),q=E(z),c=w,f=A;for(;;){if(c){var
+j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,eZ(g),h],f];if(m){var
+o=S(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ce(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dA(a),t],v=dA(a),b=hy(a,[0,al(cY(kO(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,b7(a[2]),b]},m),t=e(function(a){return x},h),u=[0,dj(a),t],v=dj(a),b=gS(a,[0,ah(d1(jZ(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=hp(b[1]);if(i){var
+i=gJ(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return Z(r)}}var
-aT=e(a8,l),$=m(function(a){return cU(a,j(u))},aT);if($){var
-s=e(a8,l);for(;;){if(s){var
-R=s[2],aN=s[1],S=ah(av(function(b){return function(a){return v(b,a)}}(aN),R));if(S){var
-s=R;continue}var
-ab=S}else
+r=[0,f];return Y(r)}}var
+aT=e(a2,l),_=n(function(a){return dW(a,j(w))},aT);if(_){var
+r=e(a2,l);for(;;){if(r){var
+P=r[2],aL=r[1],Q=au(aP(function(b){return function(a){return u(b,a)}}(aL),P));if(Q){var
+r=P;continue}var
+$=Q}else
 var
-ab=1;var
-G=ab;break}}else
+$=1;var
+F=$;break}}else
 var
-G=$;var
-ac=G?m(function(a){return v(j(a),k)},b):G;if(ac){var
-C=0;switch(i[0]){case
+F=_;var
+ab=F?n(function(a){return u(j(a),k)},b):F;if(ab){var
+A=0;switch(i[0]){case
 0:var
-H=i[1],O=0;if(typeof
+G=i[1],N=0;if(typeof
 h!=="number")switch(h[0]){case
 0:var
-aB=0;if(b){if(b[2])return 0;var
-aU=b[1],aV=h[2],aW=h[1],ad=dB(U,t);if(ad){var
+az=0;if(b){if(b[2])return 0;var
+aU=b[1],aV=h[2],aX=h[1],ac=dk(T,s);if(ac){var
 p=function(c,a){var
-b=y(H,a);return function(a){return x(aU,b,aW,aV,a)}},o=n;O=1;aB=1}else
+b=C(G,a);return function(a){return y(aU,b,aX,aV,a)}},o=m;N=1;az=1}else
 var
-ag=ad}else
+ag=ac}else
 var
-ag=b;if(!aB)return ag;break;case
+ag=b;if(!az)return ag;break;case
 2:var
-aC=0;if(b){if(b[2])return 0;var
-aZ=b[1],a0=h[2],a1=h[1],ai=dB(U,t),aD=0;if(ai){if(D)return 0;var
-aj=M(H[1],d),ak=aj?M(H[2],d):aj;if(ak){var
-p=function(c,b,a){return x(aZ,A,a1,a0,e(s4,a))},o=n;O=1;aC=1;aD=1}else
+aA=0;if(b){if(b[2])return 0;var
+aZ=b[1],a0=h[2],a1=h[1],ai=dk(T,s),aB=0;if(ai){if(D)return 0;var
+aj=ad(G[1],d),ak=aj?ad(G[2],d):aj;if(ak){var
+p=function(c,b,a){return y(aZ,x,a1,a0,e(rV,a))},o=m;N=1;aA=1;aB=1}else
 var
-an=ak}else
+al=ak}else
 var
-an=ai;if(!aD)var
-ao=an}else
+al=ai;if(!aB)var
+an=al}else
 var
-ao=b;if(!aC)return ao;break}if(!O)return 0;break;case
+an=b;if(!aA)return an;break}if(!N)return 0;break;case
 1:var
-aE=0,a2=i[1];if(typeof
+aC=0,a3=i[1];if(typeof
 h==="number"&&!h){if(!b)return b;if(b[2])return 0;var
 a4=b[1],p=function(c,a){var
-b=N(a2,a);return function(a){return _(a4,b,a)}},o=n;aE=1}if(!aE)return 0;break;case
+b=M(a3,a);return function(a){return Z(a4,b,a)}},o=m;aC=1}if(!aC)return 0;break;case
 2:var
-aF=0,a5=i[1];if(typeof
-h==="number"||!(3===h[0]))aF=1;else{var
-aG=0;if(b){var
-B=b[2],aH=0;if(B){if(B[2])return 0;var
-ap=h[1],a6=B[1],a7=b[1],a_=h[2],ar=kT(a,ap,h[3]),as=kB(k,ar);if(as){var
+aD=0,a5=i[1];if(typeof
+h==="number"||!(3===h[0]))aD=1;else{var
+aE=0;if(b){var
+z=b[2],aF=0;if(z){if(z[2])return 0;var
+ao=h[1],a6=z[1],a7=b[1],a8=h[2],ap=j5(a,ao,h[3]),ar=jL(k,ap);if(ar){var
 p=function(f,c,b){var
-d=a3(f,ar),e=x(a7,y(d,c),ap,a_,b);return e?_(a6,N(z(a,a5,d),c),b):e},o=n;aG=1;aH=1}else
+d=aW(f,ap),e=y(a7,C(d,c),ao,a8,b);return e?Z(a6,M(v(a,a5,d),c),b):e},o=m;aE=1;aF=1}else
 var
+as=ar}else
+var
+as=z;if(!aF)var
 at=as}else
 var
-at=B;if(!aH)var
-aw=at}else
-var
-aw=b;if(!aG)return aw}if(aF)return 0;break;case
+at=b;if(!aE)return at}if(aD)return 0;break;case
 3:var
-aI=0;if(typeof
+aG=0;if(typeof
 h==="number"&&!h){if(b)return 0;var
-J=i[1];C=1}else
-aI=1;if(aI)return 0;break;case
+J=i[1];A=1}else
+aG=1;if(aG)return 0;break;case
 4:var
-aJ=0,bb=i[2];if(typeof
-h==="number"||!(0===h[0]))aJ=1;else{if(!b)return b;if(b[2])return 0;var
-bc=b[1],bd=h[2],bf=h[1],bg=function(c,a){var
-b=y(bb,a);return function(a){return x(bc,b,bf,bd,a)}},p=bg,o=i[1]}if(aJ)return 0;break;case
+aH=0,a_=i[2];if(typeof
+h==="number"||!(0===h[0]))aH=1;else{if(!b)return b;if(b[2])return 0;var
+bb=b[1],bc=h[2],bd=h[1],be=function(c,a){var
+b=C(a_,a);return function(a){return y(bb,b,bd,bc,a)}},p=be,o=i[1]}if(aH)return 0;break;case
 5:var
-Q=0;if(typeof
+O=0;if(typeof
 h==="number"&&!(3<=h))switch(h){case
 0:if(b)return 0;var
-J=i[1];C=1;break;case
+J=i[1];A=1;break;case
 2:if(b)return 0;var
-J=i[2];C=1;break;default:Q=1}else
-Q=1;if(Q)return 0;break;case
+J=i[2];A=1;break;default:O=1}else
+O=1;if(O)return 0;break;case
 7:var
-ax=i[2],ay=i[1],aK=0;if(typeof
-h==="number"||!(0===h[0]))aK=1;else{var
-aL=0;if(b){if(b[2])return 0;var
-q=h[2],L=h[1],bh=b[1],az=v(j(n),k);if(az){var
-p=function(b,x){var
-y=F(bh);return function(f){var
-i=v(j(f),k),l=i?v(j(q),k):i;if(l){var
-s=e(a8,f),t=es(L,et(L,q,dA(a),s)),u=cG(fD(a,ay,ax,x,e(a8,f)),t),b=0,c=f,g=u,w=j(q);for(;;){if(c){var
-o=c[1][2],p=v(b,ay),r=e(function(f,g){return function(d){var
-b=aX(be(0,j(q)),q);return e(function(b){var
-c=kP(L,b[2],d[1]);if(g&&v(b[1],f))return N(c,ce(z(a,ax,d[2])));return c},b)}}(b,p),o),n=be(0,w),h=hy(a,y,e(function(c){return function(b){return v(b,c)?dA(a):A}}(b),n),r,g);if(h){var
+av=i[2],aw=i[1],aI=0;if(typeof
+h==="number"||!(0===h[0]))aI=1;else{var
+aJ=0;if(b){if(b[2])return 0;var
+q=h[2],L=h[1],bg=b[1],ax=u(j(m),k);if(ax){var
+p=function(b,z){var
+A=E(bg);return function(f){var
+i=u(j(f),k),l=i?u(j(q),k):i;if(l){var
+s=e(a2,f),t=d_(L,d$(L,q,dj(a),s)),w=cu(fa(a,aw,av,z,e(a2,f)),t),b=0,c=f,g=w,y=j(q);for(;;){if(c){var
+o=c[1][2],p=u(b,aw),r=e(function(f,g){return function(d){var
+b=a$(bp(0,j(q)),q);return e(function(b){var
+c=j0(L,b[2],d[1]);if(g&&u(b[1],f))return M(c,b7(v(a,av,d[2])));return c},b)}}(b,p),o),n=bp(0,y),h=gS(a,A,e(function(c){return function(b){return u(b,c)?dj(a):x}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return ch(k,d[1]);var
+d=[0,g];if(d)return b$(k,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},o=n;aL=1}else
+m=l;return m}},o=m;aJ=1}else
 var
-aA=az}else
+ay=ax}else
 var
-aA=b;if(!aL)return aA}if(aK)return 0;break;default:return 0}if(C){var
-K=Y(J);if(!K)return K;var
-ba=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=bm(function(b,a){return r(bv(d,aa(b[2][1])),a)},d,c);return E(d,au(au(a[1][2][1],e),b))},a)},af=ba,ae=[0,[0,0,K[1]],0]}else{var
-I=kW(t,Y,o);if(!I)return I;var
-af=p,ae=I[1]}var
-aY=bC(k);return m(function(b){var
+ay=b;if(!aJ)return ay}if(aI)return 0;break;default:return 0}if(A){var
+K=X(J);if(!K)return K;var
+a9=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=bH(function(b,a){return B(bG(d,aa(b[2][1])),a)},d,c);return I(d,aS(aS(a[1][2][1],e),b))},a)},af=a9,ae=[0,[0,0,K[1]],0]}else{var
+H=j8(s,X,o);if(!H)return H;var
+af=p,ae=H[1]}var
+aY=bs(k);return n(function(b){var
 c=e(function(c){function
-f(a){return a3(b,a[1])}var
-h=0,j=aq(A);function
+f(a){return aW(b,a[1])}var
+h=0,j=aq(x);function
 d(h,f,b,c){if(b){var
-i=function(a){return a3(h,w(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
-c=z(a,b,l);return[0,e(function(c){return z(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aM,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ae);return Gi(af,b,a3(b,aS),c)},aY)}return ac}function
-fJ(b,a){if(a){var
+i=function(a){return aW(h,t(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
+c=v(a,b,l);return[0,e(function(c){return v(a,b,c)},k),c]},n),m)}return b}var
+i=d(b,h,aK,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ae);return Da(af,b,aW(b,aR),c)},aY)}return ab}function
+fg(b,a){if(a){var
 c=a[2];if(b){var
-e=fJ(b[1],c);return[0,a[1],e]}var
+e=fg(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-kY(q,p,o,L,n,l,$,v,k,b,_,Z){var
-i=_,h=Z;for(;;){if(i){var
-M=i[1],a=M[2],x=M[1],N=i[2];if(typeof
+j_(m,l,q,T,p,k,_,z,b,R,Q){if(R){var
+r=j4(m,l,k,b),i=R,h=Q;for(;;){if(i){var
+L=i[1],a=L[2],w=L[1],M=i[2];if(typeof
 a==="number"&&4===a){var
-u=f(v,b);if(u)var
-Y=u[1],V=bC(j(b)),y=m(function(b){return function(a){return P(a3(a,b)[2],d)}}(Y),V);else
+v=f(z,b);if(v)var
+Z=v[1],W=bs(j(b)),x=n(function(b){return function(a){return S(aW(a,b)[2],d)}}(Z),W);else
 var
-y=u;if(y){var
-i=N,h=e(function(a){return 0},h);continue}return y}var
-O=w(x,h,0);if(O){var
-z=R($,x);if(z){var
-r=z[1],A=0;if(typeof
+x=v;if(x){var
+i=M,h=e(function(a){return 0},h);continue}return x}var
+N=t(w,h,0);if(N){var
+y=ae(_,w);if(y){var
+o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=f(v,b),T=0;if(s){var
-D=E(d,C);if(D){var
-W=a[1],c=kV(q,p,o,L,n,l,k,b,[0,kC(C,a[3],s[1])],r,W);T=1}else
+C=a[2],s=f(z,b),U=0;if(s){var
+D=I(d,C);if(D){var
+X=a[1],c=j7(m,l,q,T,p,k,r,b,[0,jM(C,a[3],s[1])],o,X);U=1}else
 var
-F=D}else
+E=D}else
 var
-F=s;if(!T)var
-c=F;break;case
+E=s;if(!U)var
+c=E;break;case
 10:var
-G=a[3],H=a[2],g=a[1],B=0;if(typeof
+F=a[3],G=a[2],g=a[1],B=0;if(typeof
 g!=="number"&&5===g[0]){var
-I=g[2],t=f(v,b),U=0;if(t){var
-J=E(d,I);if(J){var
-X=g[1],c=kX(q,p,o,n,l,k,b,[0,kC(I,g[3],t[1])],r,X,H,G);B=1;U=1}else
+H=g[2],u=f(z,b),V=0;if(u){var
+J=I(d,H);if(J){var
+Y=g[1],c=j9(m,l,q,p,k,r,b,[0,jM(H,g[3],u[1])],o,Y,G,F);B=1;V=1}else
 var
 K=J}else
 var
-K=t;if(!U){var
+K=u;if(!V){var
 c=K;B=1}}if(!B)var
-c=kX(q,p,o,n,l,k,b,0,r,g,H,G);break;default:A=1}if(A)var
-c=kV(q,p,o,L,n,l,k,b,0,r,a);if(c){var
-i=N,h=fJ(x,h);continue}var
-Q=c}else
+c=j9(m,l,q,p,k,r,b,0,o,g,G,F);break;default:A=1}if(A)var
+c=j7(m,l,q,T,p,k,r,b,0,o,a);if(c){var
+i=M,h=fg(w,h);continue}var
+O=c}else
 var
-Q=z;var
-S=Q}else
+O=y;var
+P=O}else
 var
-S=O;return S}return[0,h]}}function
-kZ(f,e,k,j,i,d,h,g,c,b,a){return b?kY(f,e,k,j,i,d,h,g,hz(f,e,d,c),c,b,a):[0,a]}function
-hC(j,i,h,g,f,e,d,c,u,t,s){var
+P=N;return P}return[0,h]}}return[0,Q]}function
+gV(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kZ(j,i,h,g,f,e,d,c,b,a[1],k);return l?m(ah,l[1]):l}var
-n=kZ(j,i,h,g,f,e,d,c,b,a[1],k);if(n){var
-o=n[1],p=er(a[2],b),q=hC(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=j_(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(au,l[1]):l}var
+m=j_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=d9(a[2],b),q=gV(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
-r=n;return r}}function
-hD(a){return e(function(a){return 1},a)}function
-cj(a){switch(a[0]){case
+r=m;return r}}function
+j$(a){return e(function(a){return 1},a)}function
+cb(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,ej(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dZ(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hf(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gz(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,dn(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c$(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(kg(a,[0,d,c]))return 0;var
-b=a[1],e=a1(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,dn(g,f)]};break;default:return 0}var
-g=cj(e);if(g){var
-h=cj(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(jq(a,[0,d,c]))return 0;var
+b=a[1],e=b0(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,c$(g,f)]};break;default:return 0}var
+g=cb(e);if(g){var
+h=cb(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-l(i,e,b){var
-f=cj(b);if(f){var
-g=f[1];return e?ah(dm(g,[0,d,c])):dm([0,d,c],g)}var
-a=bS(i,b);if(a){var
-h=a[1];return e?P(d,h[1]):E(d,h[1])}return a}function
-k0(c,b){var
-a=bS(c,b),d=a?1:a;return d}function
-bD(c,a,b){var
-d=aE(a,b),e=d?k0(c,a):d;return e?e:l(c,0,[3,b,a])}function
-fK(a,d,b,c){function
+k(i,e,b){var
+f=cb(b);if(f){var
+g=f[1];return e?au(c_(g,[0,d,c])):c_([0,d,c],g)}var
+a=bK(i,b);if(a){var
+h=a[1];return e?S(d,h[1]):I(d,h[1])}return a}function
+ka(c,b){var
+a=bK(c,b),d=a?1:a;return d}function
+bt(c,a,b){var
+d=b_(a,b),e=d?ka(c,a):d;return e?e:k(c,0,[3,b,a])}function
+fh(a,d,b,c){function
 f(d,c){var
-f=aX(a[1],b[1]);return e(function(a){var
-b=u(c,a[2]);return O(u(d,a[1]),b)},f)}if(bg(a[2],b[2])){var
+f=a$(a[1],b[1]);return e(function(a){var
+b=r(c,a[2]);return N(r(d,a[1]),b)},f)}if(bg(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=u(a[2],b[2]),i=u(c,a[2]);return[0,f(u(d,b[2]),i),h]}function
-k1(a){var
-b=q(c);return[0,e(function(a){return q(d)},a),b]}function
-bn(a,i){var
+h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
+kb(a){var
+b=o(c);return[0,e(function(a){return o(d)},a),b]}function
+bh(a,i){var
 f=i[1];switch(f[0]){case
 1:var
-j=f[1];if(av(function(a){return v(j,a)},a)){var
-s=q(c);return[0,e(function(a){var
-b=v(a,j)?c:d;return q(b)},a),s]}return k1(a);case
+j=f[1];if(aP(function(a){return u(j,a)},a)){var
+t=o(c);return[0,e(function(a){var
+b=u(a,j)?c:d;return o(b)},a),t]}return kb(a);case
 3:var
-t=q(c),w=bn(a,f[2]),x=q(c);return fK(bn(a,f[1]),x,w,t);case
+v=o(c),w=bh(a,f[2]),x=o(c);return fh(bh(a,f[1]),x,w,v);case
 4:var
-y=q(aa(c)),z=bn(a,f[2]),A=q(c);return fK(bn(a,f[1]),A,z,y);case
+y=o(aa(c)),z=bh(a,f[2]),A=o(c);return fh(bh(a,f[1]),A,z,y);case
 5:var
-k=bn(a,f[1]),B=k[2];return[0,e(cf,k[1]),B];case
+k=bh(a,f[1]),B=k[2];return[0,e(b8,k[1]),B];case
 6:var
-l=f[2],n=f[1],C=bn(a,l);return fK(bn(a,n),l,C,n);case
+l=f[2],m=f[1],C=bh(a,l);return fh(bh(a,m),l,C,m);case
 7:var
-o=f[2],D=cf(i),E=bn(a,o),F=q(c),g=fK(bn(a,f[1]),F,E,D),G=g[1];if(m(function(a){return ba(d,a)},G))return g;var
-H=u(g[2],o);return[0,g[1],H];case
+p=f[2],D=b8(i),E=bh(a,p),F=o(c),g=fh(bh(a,f[1]),F,E,D),G=g[1];if(n(function(a){return a4(d,a)},G))return g;var
+H=r(g[2],p);return[0,g[1],H];case
 8:var
-p=f[1],r=bn(a,p),I=r[2],J=r[1],K=u(q(b(2,c)),p);return[0,e(function(a){return u(K,a)},J),I];case
+q=f[1],s=bh(a,q),I=s[2],J=s[1],K=r(o(b(2,c)),q);return[0,e(function(a){return r(K,a)},J),I];case
 9:var
-h=bn(a,f[1]),L=h[1];if(m(function(a){return ba(d,a)},L)){var
-M=q(c);return[0,h[1],M]}var
-N=u(q(b(2,c)),i),O=u(h[2],N);return[0,h[1],O];default:return k1(a)}}function
-c1(m,r){var
+h=bh(a,f[1]),L=h[1];if(n(function(a){return a4(d,a)},L)){var
+M=o(c);return[0,h[1],M]}var
+N=r(o(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return kb(a)}}function
+cN(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(E(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(E(j,c)){var
-k=M(b,n),l=k?em(b):k;if(l)var
-o=M(m[2],d),g=o||M(b,d);else
+i=f[2],b=f[1];if(I(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(I(j,c)){var
+k=ad(b,n),l=k?d3(b):k;if(l)var
+p=ad(m[2],d),g=p||ad(b,d);else
 var
 g=l;var
-p=g?[0,b]:g,a=p}else
+q=g?[0,b]:g,a=q}else
 var
-a=M(bQ(j,aC(2))[2],d)?0:0}else
+a=ad(bF(j,a9(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=M(bQ(i,aC(2))[2],d)?0:0}else
+a=ad(bF(i,a9(2))[2],d)?0:0}else
 var
-a=0;return a?q(a[1]):[0,[1,r]]}function
-c2(b,a){if(a)var
-d=c2([0,b],a[2]),c=[0,c1(a[1],b),d];else
+a=0;return a?o(a[1]):[0,[1,r]]}function
+cO(b,a){if(a)var
+d=cO([0,b],a[2]),c=[0,cN(a[1],b),d];else
 var
 c=a;return c}function
-bh(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hE(b,d,a){switch(a[0]){case
+bc(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gW(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bh(c[3],b),f),i=g(bh(c[2],b),h);return g(bh(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bc(c[3],b),f),i=g(bc(c[2],b),h);return g(bc(c[1],d),i);case
 1:var
-e=a[3],j=e?bh(e[1],d):e,k=g(bh(a[2],b),j);return g(bh(a[1],b),k);default:return bh(a[1],d)}}function
-aR(b,a){var
-c=q(d),e=w(Q(tc,a),b,c),f=q(d),g=w(Q(td,a),b,f);return[0,w(a,b,q(d)),g,e]}function
-k2(b,a){return a4(F,a4(O,cZ,a),b)}function
-eu(c,b,a){if(a){var
-e=a[2],f=eu(c,he(b),e),h=a[1];return g(hE(c,fm(d,b),h),f)}return a}function
-fL(m,l,h,y){if(h){var
-e=h[1],P=Q(y,j(hE(m,fm(d,l),e))),R=h[2],S=fL(m,he(l),R,P),a=c2(y,hE(m,fm(d,l),e));switch(e[0]){case
+e=a[3],j=e?bc(e[1],d):e,k=g(bc(a[2],b),j);return g(bc(a[1],b),k);default:return bc(a[1],d)}}function
+aM(b,a){var
+c=o(d),e=t(O(r5,a),b,c),f=o(d),g=t(O(r6,a),b,f);return[0,t(a,b,o(d)),g,e]}function
+kc(b,a){return aX(D,aX(N,cM,a),b)}function
+fi(c,b,a){if(a){var
+e=a[2],f=fi(c,gx(b),e),h=a[1];return g(gW(c,eV(d,b),h),f)}return a}function
+gX(m,l,h,y){if(h){var
+e=h[1],Q=O(y,j(gW(m,eV(d,l),e))),R=h[2],S=gX(m,gx(l),R,Q),a=cO(y,gW(m,eV(d,l),e));switch(e[0]){case
 0:var
-H=e[1][5],u=w(te,a,q(d)),J=a4(O,cZ,aR(a,tf)),g=hv(aR(a,0)),K=aR(a,tg),v=k2(aR(a,th),K),o=aF(g,v),f=a4(F,v,ep(o,g)),A=aF(f,f),p=F(ai(u),A),r=cE(p),i=H?r:cf(r),B=F(o,i),C=a4(O,g,fA(f,i)),n=[0,a4(O,f,ep(i,g)),p,C,B,[0,u],0,[0,J]];break;case
+H=e[1][5],v=t(r7,a,o(d)),I=aX(N,cM,aM(a,r8)),g=gP(aM(a,0)),K=aM(a,r9),w=kc(aM(a,r_),K),p=ay(g,w),f=aX(D,w,d8(p,g)),A=ay(f,f),q=D(af(v),A),r=cr(q),i=H?r:b8(r),B=D(p,i),C=aX(N,g,e8(f,i)),n=[0,aX(N,f,d8(i,g)),q,C,B,[0,v],0,[0,I]];break;case
 1:var
-x=e[3],L=x?[0,hv(aR(a,ti))]:x,M=a4(O,cZ,aR(a,tj)),N=aR(a,tk),b=k2(aR(a,0),N),s=aF(b,b),t=cE(s),D=[0,M],E=I(function(a){return a4(F,b,ep(aF(a,b),a))},L),n=[0,b,s,fA(b,t),t,0,E,D];break;default:var
-k=hv(aR(a,0)),G=aF(k,cZ),n=[0,k,q(c),k,G,0,0,0]}var
+x=e[3],L=x?[0,gP(aM(a,r$))]:x,M=aX(N,cM,aM(a,sa)),P=aM(a,sb),b=kc(aM(a,0),P),s=ay(b,b),u=cr(s),E=[0,M],F=J(function(a){return aX(D,b,d8(ay(a,b),a))},L),n=[0,b,s,e8(b,u),u,0,F,E];break;default:var
+k=gP(aM(a,0)),G=ay(k,cM),n=[0,k,o(c),k,G,0,0,0]}var
 z=[0,n,S]}else
 var
 z=h;return z}function
-bo(b,a){if(typeof
+bu(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -3316,7 +3294,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=fx(a[2]),l=[2,[2,fx(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=e5(a[2]),l=[2,[2,e5(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -3331,90 +3309,90 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-ev(b,a){var
+ea(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fM(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(ev(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=ev(b,a[3]);return g(ev(b,a[2]),j)}function
-c3(b,a){if(typeof
+fj(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(ea(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=ea(b,a[3]);return g(ea(b,a[2]),j)}function
+dl(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fM(b,a[2]);return g(fM(b,a[1]),e);case
+e=fj(b,a[2]);return g(fj(b,a[1]),e);case
 11:var
-f=ev(b,a[3]);return g(ev(b,a[2]),f);case
+f=ea(b,a[3]);return g(ea(b,a[2]),f);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-k3(c,b,a){var
-d=j(c3(c,b)),e=Q(a[2],d);return[0,[0,a[1]],e]}function
-k4(k,a,g){switch(g[0]){case
+kd(c,b,a){var
+d=j(dl(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
+ke(k,a,g){switch(g[0]){case
 0:var
-e=R(k,g[1]);if(e){var
+e=ae(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 l=f[1],h=function(c){var
-d=aR(a,tl);return a4(O,a4(F,l,ep(c,b[1])),d)},m=c0(b),n=h(aA(w(tm,a,q(d)),m)),o=c0(b),p=aA(w(0,a,q(d)),o),i=[0,[0,h(F(q(c),p)),n]];else
+d=aM(a,sc);return aX(N,aX(D,l,d8(c,b[1])),d)},m=dh(b),n=h(av(t(sd,a,o(d)),m)),p=dh(b),q=av(t(0,a,o(d)),p),i=[0,[0,h(D(o(c),q)),n]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aR(a,tn);return[0,[0,aR(a,0),r]];default:var
-s=a4(O,cZ,aR(a,to));return[0,[0,a4(O,cZ,aR(a,0)),s]]}}function
-k5(f,e,j,d,c){var
-k=fM(e,c),h=c2(j,g(fM(e,d),k)),a=k4(f,dl(tp,h),d);if(a)var
-b=k4(f,fo(tq,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aM(a,se);return[0,[0,aM(a,0),r]];default:var
+s=aX(N,cM,aM(a,sf));return[0,[0,aX(N,cM,aM(a,0)),s]]}}function
+kf(f,e,j,d,c){var
+k=fj(e,c),h=cO(j,g(fj(e,d),k)),a=ke(f,eW(sg,h),d);if(a)var
+b=ke(f,jo(sh,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-hF(d,c,b,a){var
-e=u(c,b);return F(u(d,a),e)}function
-ck(a){return G(function(a){return g(a[1],[0,a[2],0])},a)}function
-k6(a){if(a){var
+gY(d,c,b,a){var
+e=r(c,b);return D(r(d,a),e)}function
+cP(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+kg(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=k6(a[2]);if(d)var
-g=d[1],h=aF(c,c),e=[0,[0,[0,eo(c),h],g]];else
+c=b[1],d=kg(a[2]);if(d)var
+g=d[1],h=ay(c,c),e=[0,[0,[0,d7(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return ts}function
-fN(b,d,c,a){if(typeof
+f=b;return f}return sj}function
+fk(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=c1(bo(d,a),f);return[0,e(function(a){var
-b=u(a[2],g);return[0,eo(a[1]),b]},b)];case
-9:return k6(b)}return 0}function
-fO(e,k,j,a){var
-V=j[1],b=c1(bo(k,a),V),x=0;if(typeof
+f=c[1],g=cN(bu(d,a),f);return[0,e(function(a){var
+b=r(a[2],g);return[0,d7(a[1]),b]},b)];case
+9:return kg(b)}return 0}function
+fl(e,k,j,a){var
+U=j[1],b=cN(bu(k,a),U),x=0;if(typeof
 a==="number")x=1;else
 switch(a[0]){case
 2:var
-W=function(a){return[0,F(a[4],b),0]},g=W,f=a[1];break;case
+V=function(a){return[0,D(a[4],b),0]},g=V,f=a[1];break;case
 3:var
-X=function(a){return[0,F(b,a[4]),0]},g=X,f=a[1];break;case
+W=function(a){return[0,D(b,a[4]),0]},g=W,f=a[1];break;case
 4:var
-Y=function(c){var
-a=c[1],d=ai(a[3]),e=ai(a[2]),f=ai(a[1]),g=c[2];return[0,F(F(F(u(ai(b),g),f),e),d),0]},g=Y,f=a[1];break;case
+X=function(c){var
+a=c[1],d=af(a[3]),e=af(a[2]),f=af(a[1]),g=c[2];return[0,D(D(D(r(af(b),g),f),e),d),0]},g=X,f=a[1];break;case
 6:var
-Z=function(c){var
+Y=function(c){var
 a=c[5];if(a)var
-e=ai(a[1]),f=u(ai(b),e),d=[0,F(c[2],f),0];else
+e=af(a[1]),f=r(af(b),e),d=[0,D(c[2],f),0];else
 var
-d=a;return d},g=Z,f=a[1];break;case
+d=a;return d},g=Y,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 m=l[2];if(m){if(m[2])return 0;var
-z=m[1],A=l[1],B=e[1],o=B[5];if(o){var
-p=A[5];if(p){var
-r=z[5];if(r)var
-h=z[1],i=A[1],s=B[1],P=hF(i[1],i[2],h[1],h[2]),Q=u(s[3],P),S=hF(i[1],i[3],h[1],h[3]),T=u(s[2],S),U=hF(i[2],i[3],h[2],h[3]),y=O(F(u(s[1],U),T),Q),_=r[1],$=p[1],C=u(u(u(b,o[1]),$),_),aa=[0,cf(O(y,C)),0],D=[0,F(y,C),aa];else
+z=m[1],A=l[1],B=e[1],p=B[5];if(p){var
+q=A[5];if(q){var
+s=z[5];if(s)var
+h=z[1],i=A[1],u=B[1],P=gY(i[1],i[2],h[1],h[2]),Q=r(u[3],P),R=gY(i[1],i[3],h[1],h[3]),S=r(u[2],R),T=gY(i[2],i[3],h[2],h[3]),y=N(D(r(u[1],T),S),Q),Z=s[1],_=q[1],C=r(r(r(b,p[1]),_),Z),$=[0,b8(N(y,C)),0],F=[0,D(y,C),$];else
 var
-D=r;var
-E=D}else
+F=s;var
+G=F}else
 var
-E=p;var
-H=E}else
+G=q;var
+H=G}else
 var
-H=o;var
+H=p;var
 I=H}else
 var
 I=m;var
@@ -3425,129 +3403,127 @@ K=J}else
 var
 K=e;return K;case
 10:var
-v=k5(e,k,j[2],a[1],a[2]);if(v){var
-L=v[1],M=L[2],N=L[1];return G(eo,[0,N[1],[0,N[2],[0,M[1],[0,M[2],0]]]])}return v;case
+w=kf(e,k,j[2],a[1],a[2]);if(w){var
+L=w[1],M=L[2],O=L[1];return E(d7,[0,O[1],[0,O[2],[0,M[1],[0,M[2],0]]]])}return w;case
 11:var
-ab=function(d){var
+aa=function(d){var
 e=d[7];if(e)var
-n=c3(k,a),f=c2(j[2],n),h=aR(f,tr),c=a4(F,aR(f,0),h),i=ai(b),l=ai(c0(d)),m=aA(ai(aF(c,d[1])),l),g=[0,F(F(aF(c,c),m),i),0];else
+n=dl(k,a),f=cO(j[2],n),h=aM(f,si),c=aX(D,aM(f,0),h),i=af(b),l=af(dh(d)),m=av(af(ay(c,d[1])),l),g=[0,D(D(ay(c,c),m),i),0];else
 var
-g=e;return g},g=ab,f=a[1];break;case
+g=e;return g},g=aa,f=a[1];break;case
 12:var
-ac=function(e){var
-o=q(d),p=c3(k,a),r=w(0,c2(j[2],p),o),f=aA(r,c0(e)),g=e[5];if(g){var
-l=cE(e[2]),h=aA(g[1],l),m=u(h,O(b,u(f,ai(h))));return[0,F(q(c),m),0]}var
-i=e[7],n=i?[0,F(F(q(c),b),f),0]:i;return n},g=ac,f=a[1];break;case
+ab=function(e){var
+p=o(d),q=dl(k,a),s=t(0,cO(j[2],q),p),f=av(s,dh(e)),g=e[5];if(g){var
+l=cr(e[2]),h=av(g[1],l),m=r(h,N(b,r(f,af(h))));return[0,D(o(c),m),0]}var
+i=e[7],n=i?[0,D(D(o(c),b),f),0]:i;return n},g=ab,f=a[1];break;case
 8:case
 9:var
-t=fN(e,k,j,a);return t?ck(t[1]):t;default:x=1}if(x)return 0;var
-n=R(e,f);return n?g(n[1]):n}function
-fP(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=fP(d,b,k3(b,e,c),f);return g(fO(d,b,c,e),h)}return a}var
-k7=[0,d,c],k8=[0,[0,k7,k7],d];function
-k9(a){return ah(aE(a[1][1],a[1][2]))}function
-k_(a){var
-b=be(0,j(a));return cC(function(b){return k9(w(b,a,k8))},b)}function
-k$(a,g){var
-h=g[4],b=bn(k_(a),h),c=b[1],f=e(function(a){return ba(d,a)?a:aA(a,b[2])},c),i=aX(k_(a),f);return cC(function(a){return ah(ba(d,a[2]))},i)}function
-hG(g,H,k,G,m,h,n,r){if(r){var
-a=r[1],aB=r[2],aC=hG(g,H,k,G,m,h,k3(h,a,n),aB);if(typeof
+v=fk(e,k,j,a);return v?cP(v[1]):v;default:x=1}if(x)return 0;var
+n=ae(e,f);return n?g(n[1]):n}function
+gZ(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=gZ(d,b,kd(b,e,c),f);return g(fl(d,b,c,e),h)}return a}var
+kh=[0,d,c],ki=[0,[0,kh,kh],d];function
+kj(a){return au(b_(a[1][1],a[1][2]))}function
+kk(a){var
+b=bp(0,j(a));return c9(function(b){return kj(t(b,a,ki))},b)}function
+kl(a,g){var
+h=g[4],b=bh(kk(a),h),c=b[1],f=e(function(a){return a4(d,a)?a:av(a,b[2])},c),i=a$(kk(a),f);return c9(function(a){return au(a4(d,a[2]))},i)}function
+km(g,G,l,F,m,h,n,r){if(r){var
+a=r[1],aA=r[2],aB=km(g,G,l,F,m,h,kd(h,a,n),aA);if(typeof
 a==="number")var
-i=0===a?[0,[0,A]]:[0,[8,H[1],H[2]]];else
+i=0===a?[0,[0,x]]:[0,[8,G[1],G[2]]];else
 switch(a[0]){case
 0:var
-an=aw(g,bo(h,a)),i=I(function(a){return[0,ab(g,a)]},an);break;case
+al=as(g,bu(h,a)),i=J(function(a){return[0,Y(g,a)]},al);break;case
 1:var
-ao=aw(g,bo(h,a)),i=I(function(a){return[1,ab(g,a)]},ao);break;case
+an=as(g,bu(h,a)),i=J(function(a){return[1,Y(g,a)]},an);break;case
 5:var
-aq=aw(g,bo(h,a)),i=I(function(a){return[2,ab(g,a)]},aq);break;case
+ap=as(g,bu(h,a)),i=J(function(a){return[2,Y(g,a)]},ap);break;case
 8:var
-ar=fN(m,h,n,a),i=I(function(a){var
-b=am(g,c);return[4,f(aY(k),a),b]},ar);break;case
+aq=fk(m,h,n,a),i=J(function(a){var
+b=am(g,c);return[4,f(a5(l),a),b]},aq);break;case
 9:var
-u=fN(m,h,n,a);if(u){var
-x=aw(g,bo(h,a));if(x)var
-as=ab(g,x[1]),at=u[1],N=[0,[4,f(aY(k),at),as]];else
+w=fk(m,h,n,a);if(w){var
+y=as(g,bu(h,a));if(y)var
+ar=Y(g,y[1]),at=w[1],N=[0,[4,f(a5(l),at),ar]];else
 var
-N=x;var
+N=y;var
 O=N}else
 var
-O=u;var
+O=w;var
 i=O;break;case
 10:var
-y=k5(m,h,n[2],a[1],a[2]);if(y){var
-P=y[1],Q=P[2],S=P[1],z=aw(g,bo(h,a));if(z){var
-T=z[1],U=E(d,T[1]);if(U)var
+z=kf(m,h,n[2],a[1],a[2]);if(z){var
+P=z[1],Q=P[2],R=P[1],A=as(g,bu(h,a));if(A){var
+S=A[1],T=I(d,S[1]);if(T)var
 p=function(a){var
-b=f(k,a[3]),c=f(k,a[2]);return[0,f(k,a[1]),c,b]},av=p(Q[2]),ax=p(Q[1]),ay=p(S[2]),V=[0,[6,p(S[1]),ay,ax,av,T]];else
+b=f(l,a[3]),c=f(l,a[2]);return[0,f(l,a[1]),c,b]},au=p(Q[2]),av=p(Q[1]),aw=p(R[2]),U=[0,[6,p(R[1]),aw,av,au,S]];else
 var
-V=U;var
+U=T;var
+V=U}else
+var
+V=A;var
 W=V}else
 var
 W=z;var
-X=W}else
-var
-X=y;var
-i=X;break;case
+i=W;break;case
 12:var
-q=fO(m,h,n,a),s=0;if(q)if(q[2])var
+q=fl(m,h,n,a),s=0;if(q)if(q[2])var
 i=0;else{var
-Y=l(g,0,a[2]),Z=Y?l(g,1,a[4]):Y;if(Z){var
-B=[0,[3,f(k,q[1])]];s=1}else{var
+X=k(g,0,a[2]),Z=X?k(g,1,a[4]):X;if(Z){var
+B=[0,[3,f(l,q[1])]];s=1}else{var
 B=Z;s=1}}else{var
 B=q;s=1}if(s)var
 i=B;break;case
 13:var
-_=a[1],$=R(m,_),J=0;if($){var
-aa=l(g,1,a[2]),ac=aa?l(g,1,a[3]):aa;if(ac)var
-az=aw(g,bo(h,a)),i=I(function(a){return[7,_,ab(g,a)]},az);else{var
-ad=ac;J=1}}else{var
-ad=$;J=1}if(J)var
-i=ad;break;case
+_=a[1],$=ae(m,_),H=0;if($){var
+aa=k(g,1,a[2]),ab=aa?k(g,1,a[3]):aa;if(ab)var
+ax=as(g,bu(h,a)),i=J(function(a){return[7,_,Y(g,a)]},ax);else{var
+ac=ab;H=1}}else{var
+ac=$;H=1}if(H)var
+i=ac;break;case
 14:var
-C=a[2],ae=a[1],af=v(j(m),tt),ag=af?l(g,0,ae):af,ah=ag?l(g,1,C):ag;if(ah){var
-D=aw(g,bo(h,a));if(D)var
-F=aj(e(function(n){var
-j=[5,ae,C],a=aw(g,[0,[0,j,j],d]);if(a){var
-o=k$(G,n),i=aj(e(function(e){var
-a=w(e[1],G,k8),i=au(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],l=aw(g,[0,[0,d,d],i]);return I(function(a){return[0,a,f(k,e[2])]},l)},o));if(i)var
-p=[0,a[1],i[1]],l=[0,[0,f(k,n[4]),p]];else
+C=a[2],ad=a[1],af=u(j(m),sk),ag=af?k(g,0,ad):af,ah=ag?k(g,1,C):ag;if(ah){var
+D=as(g,bu(h,a));if(D)var
+E=az(e(function(n){var
+j=[5,ad,C],a=as(g,[0,[0,j,j],d]);if(a){var
+o=kl(F,n),i=az(e(function(e){var
+a=t(e[1],F,ki),i=aS(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],k=as(g,[0,[0,d,d],i]);return J(function(a){return[0,a,f(l,e[2])]},k)},o));if(i)var
+p=[0,a[1],i[1]],k=[0,[0,f(l,n[4]),p]];else
 var
-l=i;var
-m=l}else
+k=i;var
+m=k}else
 var
-m=a;return m},m)),aA=F?[0,[9,D[1],F[1]]]:F,ai=aA;else
+m=a;return m},m)),ay=E?[0,[9,D[1],E[1]]]:E,ai=ay;else
 var
 ai=D;var
-ak=ai}else
+aj=ai}else
 var
-ak=ah;var
-i=ak;break;default:var
-o=fO(m,h,n,a),K=0;if(o){var
-t=o[2],L=o[1];if(t)if(t[2])var
+aj=ah;var
+i=aj;break;default:var
+o=fl(m,h,n,a),K=0;if(o){var
+v=o[2],L=o[1];if(v)if(v[2])var
 i=0;else
 var
-ap=f(k,t[1]),i=[0,[5,f(k,L),ap]];else{var
-M=[0,[3,f(k,L)]];K=1}}else{var
+ao=f(l,v[1]),i=[0,[5,f(l,L),ao]];else{var
+M=[0,[3,f(l,L)]];K=1}}else{var
 M=o;K=1}if(K)var
 i=M}var
-al=[0,i,aC]}else
+ak=[0,i,aB]}else
 var
-al=r;return al}function
-la(a){var
+ak=r;return ak}function
+sl(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-lb(a){if(0===a[0])return a[1];var
-b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-hH(a,p,o){var
-q=bh(p,o),b=e(function(b){return aw(a,b)},q);if(b){var
+g0(a,p,o){var
+q=bc(p,o),b=e(function(b){return as(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=ab(a,i[1]),s=ab(a,h[1]);return P(d,y(y(ab(a,g[1]),s),r)[1])}var
+r=Y(a,i[1]),s=Y(a,h[1]);return S(d,C(C(Y(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3563,45 +3539,31 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-lc(b,p,o,n){var
-g=o,c=n;for(;;){if(c){var
-e=c[1],h=fm(d,g);switch(e[0]){case
-0:var
-j=e[1],k=hH(b,j[1],h),i=0;if(k){var
-f=aw(b,[0,j[4],p]);if(f)var
-a=P(d,f[1][1]);else{var
-l=f;i=1}}else{var
-l=k;i=1}if(i)var
-a=l;break;case
-1:var
-m=e[3],a=m?hH(b,m[1],h):1;break;default:var
-a=hH(b,e[1],h)}if(a){var
-q=c[2],g=he(g),c=q;continue}return a}return 1}}function
-an(c,b,a){var
-d=X(c,b[3],a[3]),e=X(c,b[2],a[2]);return[0,X(c,b[1],a[1]),e,d]}function
-aL(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-L(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aS(a){return aL([5,[0,c,c],[6,L(a,a)]],a)}function
-c4(c,b,a){var
-d=bD(c,b[1],a);return d?bD(c,a,b[2]):d}function
-a5(c,b,a){var
-d=c4(c,b[1],a[1]),e=d?c4(c,b[2],a[2]):d;return e?c4(c,b[3],a[3]):e}function
-ld(c,a,b){if(0===a[0])return a5(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=l(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?l(c,0,d):g;return h?c4(c,a[4],b[3]):h}function
-le(a,D,G,F){var
+ai(c,b,a){var
+d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
+aG(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+K(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aN(a){return aG([5,[0,c,c],[6,K(a,a)]],a)}function
+cQ(c,b,a){var
+d=bt(c,b[1],a);return d?bt(c,a,b[2]):d}function
+aY(c,b,a){var
+d=cQ(c,b[1],a[1]),e=d?cQ(c,b[2],a[2]):d;return e?cQ(c,b[3],a[3]):e}function
+kn(c,a,b){if(0===a[0])return aY(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=k(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?k(c,0,d):g;return h?cQ(c,a[4],b[3]):h}function
+ko(a,D,G,F){var
 h=D[1],d=G;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=a5(a,f[1],i),q=p?l(a,1,L(i,i)):p,r=q?a5(a,f[2],b[2]):q,s=r?a5(a,f[3],b[3]):r,t=s?c4(a,f[4],o):s,u=t?l(a,1,o):t,c=u?dj(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aY(a,f[1],i),q=p?k(a,1,K(i,i)):p,r=q?aY(a,f[2],b[2]):q,s=r?aY(a,f[3],b[3]):r,t=s?cQ(a,f[4],o):s,u=t?k(a,1,o):t,c=u?dV(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=a5(a,e[1],b[1]),x=w?a5(a,e[2],b[2]):w,n=0;if(x)if(v){var
+g=b[3],w=aY(a,e[1],b[1]),x=w?aY(a,e[2],b[2]):w,n=0;if(x)if(v){var
 E=0;if(g){var
-j=g[1],y=a5(a,v[1],j);if(y){var
-c=l(a,1,L(j,j));E=1}else
+j=g[1],y=aY(a,v[1],j);if(y){var
+c=k(a,1,K(j,j));E=1}else
 var
 z=y}else
 var
@@ -3614,7 +3576,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=a5(a,e[1],k),c=B?l(a,1,L(k,k)):B;else
+l=b[1],B=aY(a,e[1],l),c=B?k(a,1,K(l,l)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -3623,158 +3585,158 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?ld(a,D[2],F):m}}function
-bV(c,b,a){var
-d=an(function(b,a){return[2,b,a]},a,b);return an(function(b,a){return[3,b,a]},d,c)}function
-fQ(a,e,d,c){var
-b=bV(e,d,c),f=aS(a),g=aL(L(aS(a),b),f);return an(function(b,a){return[3,b,a]},b,g)}function
-dC(f,e,d,a,c){var
-b=fQ(f,e,d,c);return[3,[4,a,a],L(b,b)]}function
-dD(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-dE(a,b){switch(a[0]){case
+m=d?0:1;return m?kn(a,D[2],F):m}}function
+bM(c,b,a){var
+d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
+fm(a,e,d,c){var
+b=bM(e,d,c),f=aN(a),g=aG(K(aN(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
+dm(f,e,d,a,c){var
+b=fm(f,e,d,c);return[3,[4,a,a],K(b,b)]}function
+dn(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+dp(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fQ(d,f,e,b),h=dC(d,f,e,a[4],b),i=aL([5,[0,c,c],dD(a[5],h)],g),j=aS(d);return an(function(b,a){return[2,b,a]},j,i);case
-1:return aS(bV(a[1],a[2],b));default:return aS(a[1])}}function
-lf(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fm(d,f,e,b),h=dm(d,f,e,a[4],b),i=aG([5,[0,c,c],dn(a[5],h)],g),j=aN(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return aN(bM(a[1],a[2],b));default:return aN(a[1])}}function
+kp(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dC(e,d,c,a[4],b),i=dD(a[5],h),j=bV(d,c,b);return[3,L(aS(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dm(e,d,c,a[4],b),i=dn(a[5],h),j=bM(d,c,b);return[3,K(aN(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bV(g,f,b);return[6,L(bV(g,f,b),k)];default:return L(aS(a[1]),b)}}function
-ew(e,b,a){var
-f=[0,d,c];return bm(function(c,d){var
-e=L(dE(c,b),a);return[2,[4,L(dE(c,b),a),e],d]},f,e)}function
-lg(a){var
+f=a[2],g=a[1],k=bM(g,f,b);return[6,K(bM(g,f,b),k)];default:return K(aN(a[1]),b)}}function
+eb(e,b,a){var
+f=[0,d,c];return bH(function(c,d){var
+e=K(dp(c,b),a);return[2,[4,K(dp(c,b),a),e],d]},f,e)}function
+kq(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hI(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aS(b),h=dC(b,f,e,d,c),i=aL(dD(a[5],h),g),j=fQ(b,f,e,c);return[0,[0,an(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-lh(d,i){if(d){var
+g1(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aN(b),h=dm(b,f,e,d,c),i=aG(dn(a[5],h),g),j=fm(b,f,e,c);return[0,[0,ai(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+kr(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bV(a[1],a[2],i),k=aS(f),l=aL(L(aS(f),g),k),h=[0,an(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bM(a[1],a[2],i),k=aN(f),l=aG(K(aN(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=lh(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kr(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tu}function
-c5(a){return[0,a[1],a[2],a[3]]}function
-li(a,b){switch(a[0]){case
+j=b;return j}return sm}function
+cR(a){return[0,a[1],a[2],a[3]]}function
+ks(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aS(d),j=dC(d,g,c,f,b),k=aL(dD(a[5],j),i),l=fQ(d,g,c,b),m=an(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,an(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aN(d),j=dm(d,g,c,f,b),k=aG(dn(a[5],j),i),l=fm(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bV(a[1],h,b),n=[6,L(e,e)];return[0,[0,[0,an(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-lj(l,b,a){switch(a[0]){case
+h=a[2],e=bM(a[1],h,b),n=[6,K(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kt(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=R(l,a[1]);if(d){var
-e=li(d[1],b);if(e)var
+m=a[5],d=ae(l,a[1]);if(d){var
+e=ks(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=c5(m),c=aL(a,n),d=an(function(b,a){return[3,b,a]},o,c);return an(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cR(m),c=aG(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=c5(a[3]);return[0,[0,c5(a[2]),q]];default:var
-r=c5(a[3]),s=an(function(b,a){return[2,b,a]},b,r),t=c5(a[2]);return[0,[0,an(function(b,a){return[2,b,a]},b,t),s]]}}function
-lk(d,a,c,b){var
-e=aL(a,b),f=aL([3,d,a],c);return an(function(b,a){return[2,b,a]},f,e)}function
-ll(f,g,e,b,q,a){function
-I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],L(b,b)]}var
+q=cR(a[3]);return[0,[0,cR(a[2]),q]];default:var
+r=cR(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cR(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
+ku(d,a,c,b){var
+e=aG(a,b),f=aG([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
+kv(f,g,e,b,q,a){function
+I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],K(b,b)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-av=ew(g,e,b);return l(f,1,[3,I(a[1]),av]);case
+av=eb(g,e,b);return k(f,1,[3,I(a[1]),av]);case
 1:var
-aw=I(a[1]);return l(f,1,[3,ew(g,e,b),aw]);case
+aw=I(a[1]);return k(f,1,[3,eb(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[3,ax,lf(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[3,ax,kp(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[3,lf(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[3,kp(a,e),az]},s=aA,r=a[1];break;case
 4:var
-J=a[3],K=a[2],aB=function(a){var
-b=dE(a,e);return[3,[4,[4,K,K],L(dE(a,e),b)],[4,J,J]]},s=aB,r=a[1];break;case
+J=a[3],L=a[2],aB=function(a){var
+b=dp(a,e);return[3,[4,[4,L,L],K(dp(a,e),b)],[4,J,J]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=L(b,b),aD=[4,[4,M,M],[4,ew(g,e,q),aC]],aE=L(q,q);return l(f,1,[3,[4,ew(g,e,b),aE],aD]);case
+M=a[1],aC=K(b,b),aD=[4,[4,M,M],[4,eb(g,e,q),aC]],aE=K(q,q);return k(f,1,[3,[4,eb(g,e,b),aE],aD]);case
 6:var
-N=a[2],u=R(g,a[1]);if(u){var
+N=a[2],u=ae(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=dC(h[1],h[2],h[3],v,e),O=dD(h[5],aF);return l(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
+v=h[4],aF=dm(h[1],h[2],h[3],v,e),O=dn(h[5],aF);return k(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=hI(g[1],e);if(w){var
-Q=w[1],x=hI(n[1],e);if(x){var
-S=x[1],y=hI(o[1],e);if(y){var
-T=y[1],U=[4,[4,[4,a[1],Q[2]],S[2]],T[2]],i=T[1],j=S[1],H=L(Q[1],[0,[3,[4,j[2],i[3]],[4,j[3],i[2]]],[3,[4,j[3],i[1]],[4,j[1],i[3]]],[3,[4,j[1],i[2]],[4,j[2],i[1]]]]),V=l(f,1,[3,U,H]);if(V)return l(f,1,[2,U,H]);var
+w=g1(g[1],e);if(w){var
+Q=w[1],x=g1(n[1],e);if(x){var
+R=x[1],y=g1(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],j=R[1],H=K(Q[1],[0,[3,[4,j[2],i[3]],[4,j[3],i[2]]],[3,[4,j[3],i[1]],[4,j[1],i[3]]],[3,[4,j[1],i[2]],[4,j[2],i[1]]]]),U=k(f,1,[3,T,H]);if(U)return k(f,1,[2,T,H]);var
+V=U}else
+var
+V=y;var
 W=V}else
 var
-W=y;var
+W=x;var
 X=W}else
 var
-X=x;var
+X=w;var
 Y=X}else
 var
-Y=w;var
+Y=o;var
 Z=Y}else
 var
-Z=o;var
+Z=n;var
 _=Z}else
 var
-_=n;var
-$=_}else
-var
-$=g;return $;case
+_=g;return _;case
 8:var
-aG=ew(g,e,b),aH=L(b,b);return l(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aG=eb(g,e,b),aH=K(b,b);return k(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-aa=a[1],z=lh(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=bm(function(a,c){var
-d=L(aS(a),b);return[2,[4,L(aS(a),b),d],c]},at,aI);return l(f,1,[3,[4,[4,aa,aa],L(b,b)],au])}return z;case
+$=a[1],z=kr(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=bH(function(a,c){var
+d=K(aN(a),b);return[2,[4,K(aN(a),b),d],c]},at,aI);return k(f,1,[3,[4,[4,$,$],K(b,b)],au])}return z;case
 10:var
-ab=a[2],ac=a[1],A=lj(g,e,ac);if(A){var
-ad=A[1],B=lj(g,e,ab);if(B){var
-ae=B[1],C=b[1],D=b[2],k=b[3],aJ=lk(k,D,ae[1],ae[2]),aK=lk(k,C,ad[1],ad[2]),af=an(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=fx(ab),ag=[4,k,[2,[2,fx(ac),aM],aL]],ah=l(f,1,k),ai=ah?l(f,0,C):ah,aj=ai?l(f,0,[3,k,C]):ai,ak=aj?l(f,0,D):aj,al=ak?l(f,0,[3,k,D]):ak;if(al)return l(f,1,[3,[4,ag,ag],L(af,af)]);var
-am=al}else
+aa=a[2],ab=a[1],A=kt(g,e,ab);if(A){var
+ac=A[1],B=kt(g,e,aa);if(B){var
+ad=B[1],C=b[1],D=b[2],l=b[3],aJ=ku(l,D,ad[1],ad[2]),aK=ku(l,C,ac[1],ac[2]),af=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=e5(aa),ag=[4,l,[2,[2,e5(ab),aM],aL]],ah=k(f,1,l),aj=ah?k(f,0,C):ah,ak=aj?k(f,0,[3,l,C]):aj,al=ak?k(f,0,D):ak,am=al?k(f,0,[3,l,D]):al;if(am)return k(f,1,[3,[4,ag,ag],K(af,af)]);var
+an=am}else
 var
-am=B;var
-ao=am}else
+an=B;var
+ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=R(g,a[1]);if(E){var
-F=li(E[1],e);if(F){var
-m=F[1][1][2],aN=c5(a[3]),aO=c5(a[2]),p=an(function(b,a){return[3,b,a]},aO,aN),aq=l(f,1,L(m,m));if(aq){var
-aP=L(m,m),aQ=L(p,m),aR=[5,[4,L(p,m),aQ],aP];return l(f,1,[3,[4,ap,ap],[3,L(p,p),aR]])}var
+ap=a[4],E=ae(g,a[1]);if(E){var
+F=ks(E[1],e);if(F){var
+m=F[1][1][2],aO=cR(a[3]),aP=cR(a[2]),p=ai(function(b,a){return[3,b,a]},aP,aO),aq=k(f,1,K(m,m));if(aq){var
+aQ=K(m,m),aR=K(p,m),aS=[5,[4,K(p,m),aR],aQ];return k(f,1,[3,[4,ap,ap],[3,K(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=R(g,r);return t?l(f,1,s(t[1])):t}function
-cH(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-tv(a){switch(a[0]){case
+t=ae(g,r);return t?k(f,1,s(t[1])):t}function
+cv(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+sn(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=cH(b[3]),f=cH(b[2]);return[0,cH(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=cv(b[3]),f=cv(b[2]);return[0,cv(b[1]),f,e,d,c];case
 1:var
-g=I(cH,a[3]),h=cH(a[2]);return[1,cH(a[1]),h,g];default:return[2,cH(a[1])]}}function
-hJ(c,b){var
-a=b[2],d=0===a[0]?cH(a[1]):[0,a[1],a[2],a[4][1]];return le(c,b,e(tv,b[1]),d)}function
-dF(b,a){if(b){if(a){var
-e=dF(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-lm(a,l,k,f){var
-b=bS(a,l);if(b){var
-c=bS(a,k);if(c){var
-d=fw(a,f);if(d){var
-e=hn(a,f);if(e)var
-m=z(a,b[1],e[1]),g=[0,N(z(a,c[1],d[1]),m)];else
+g=J(cv,a[3]),h=cv(a[2]);return[1,cv(a[1]),h,g];default:return[2,cv(a[1])]}}function
+kw(c,b){var
+a=b[2],d=0===a[0]?cv(a[1]):[0,a[1],a[2],a[4][1]];return ko(c,b,e(sn,b[1]),d)}function
+dq(b,a){if(b){if(a){var
+e=dq(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kx(a,l,k,f){var
+b=bK(a,l);if(b){var
+c=bK(a,k);if(c){var
+d=e4(a,f);if(d){var
+e=gH(a,f);if(e)var
+m=v(a,b[1],e[1]),g=[0,M(v(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3786,43 +3748,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ln(f,E,s,D,a,e){function
-t(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],dF(a,a)]}var
+ky(f,E,s,D,a,e){function
+t(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],dq(a,a)]}var
 F=s[1];function
 g(b){var
-a=[0,d,c];return bm(function(a,c){var
-d=dF(a,b);return[2,[4,dF(a,b),d],c]},a,F)}var
-u=m(function(a){return v(j(a),E)},a);if(u){var
+a=[0,d,c];return bH(function(a,c){var
+d=dq(a,b);return[2,[4,dq(a,b),d],c]},a,F)}var
+v=n(function(a){return u(j(a),E)},a);if(v){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-x=a[1],G=g(x);return l(f,1,[3,t(e[1],x),G])}return a;case
+x=a[1],G=g(x);return k(f,1,[3,t(e[1],x),G])}return a;case
 1:if(a){if(a[2])return 0;var
-y=a[1],H=t(e[1],y);return l(f,1,[3,g(y),H])}return a;case
+y=a[1],H=t(e[1],y);return k(f,1,[3,g(y),H])}return a;case
 2:if(a)return 0;var
 I=e[2],J=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[3,I,a[1]]);return 0},k=J,i=e[1];break;case
+a!=="number"&&0===a[0])return k(f,1,[3,I,a[1]]);return 0},l=J,i=e[1];break;case
 3:if(a)return 0;var
 K=e[2],L=function(a){if(typeof
-a!=="number"&&0===a[0])return l(f,1,[3,a[1],K]);return 0},k=L,i=e[1];break;case
+a!=="number"&&0===a[0])return k(f,1,[3,a[1],K]);return 0},l=L,i=e[1];break;case
 4:if(a)return 0;var
 z=e[3],A=e[2],M=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=l(f,0,[3,[2,A,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],z]);if(j){if(D){var
-e=lm(f,i,h,A);return e?P(e[1][2],d):e}var
-g=lm(f,i,h,z);return g?P(d,g[1][1]):g}return j}return 0},k=M,i=e[1];break;case
+h=a[2],i=a[1],j=k(f,0,[3,[2,A,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],z]);if(j){if(D){var
+e=kx(f,i,h,A);return e?S(e[1][2],d):e}var
+g=kx(f,i,h,z);return g?S(d,g[1][1]):g}return j}return 0},l=M,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-p=h[1],q=a[1],B=e[1],N=dF(q,q),O=[4,[4,B,B],[4,g(p),N]],Q=dF(p,p);return l(f,1,[3,[4,g(q),Q],O])}var
+o=h[1],p=a[1],B=e[1],N=dq(p,p),O=[4,[4,B,B],[4,g(o),N]],P=dq(o,o);return k(f,1,[3,[4,g(p),P],O])}var
 C=h}else
 var
 C=a;return C;default:r=1}if(!r){var
-n=R(s[2],i);return n?k(n[1]):n}var
+m=ae(s[2],i);return m?l(m[1]):m}var
 w=0}else
 var
-w=u;return w}function
-lo(h,g){var
+w=v;return w}function
+kz(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3832,44 +3794,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-tw(a){return e(function(a){return[0,a,c]},a)}function
-lp(f,m,b,k,a){if(typeof
+so(a){return e(function(a){return[0,a,c]},a)}function
+kA(f,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return av(function(a){return l(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=lo(a[1],k);if(g){var
-n=g[1],r=n[1],s=e(tw,a[2]);return ln(f,m,b,n[2],s,r)}return g}var
-h=lo(a[1],k);if(h){var
+q=b[3];return aP(function(a){return k(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=kz(a[1],l);if(g){var
+n=g[1],r=n[1],s=e(so,a[2]);return ky(f,m,b,n[2],s,r)}return g}var
+h=kz(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=R(b[1],a[2]);return j?ln(f,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
+j=ae(b[1],a[2]);return j?ky(f,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-hK(a){var
-b=aS(a[1]),c=aL(L(b,a[2]),b),d=a[2];return an(function(b,a){return[3,b,a]},d,c)}function
-hL(a){return aS(hK(a))}function
-lq(c){var
-a=hL(c),b=aS(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hM(a,b){return bV(a[3],a[4],b)}function
-hN(a,b){var
-c=hM(a,b);return L(hL(a),c)}function
-hO(a,b){var
-c=hM(a,b);return L(lq(a),c)}function
-lr(a,b){var
-c=hM(a,b);return L(aS(a[1]),c)}function
-hP(b,a){var
-c=hO(b,a),d=hN(b,a);return[2,[4,d,d],[4,c,c]]}function
-hQ(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=lr(a,d);return[5,[2,hP(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-ls(a,b){var
-f=a[5],c=[3,hQ(a,b),f],d=lr(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-hR(a,b){var
-c=ls(a,b);return dD(a[7],c)}function
-lt(b,a){var
-c=hP(b,a),d=hO(b,a),e=[4,hR(b,a),d],f=hN(b,a);return[5,[2,[4,hQ(b,a),f],e],c]}function
-lu(b,a){var
-c=hP(b,a),d=hN(b,a),e=[4,hR(b,a),d],f=hO(b,a);return[5,[3,[4,hQ(b,a),f],e],c]}function
-bW(c){var
+g2(a){var
+b=aN(a[1]),c=aG(K(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+g3(a){return aN(g2(a))}function
+kB(c){var
+a=g3(c),b=aN(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g4(a,b){return bM(a[3],a[4],b)}function
+g5(a,b){var
+c=g4(a,b);return K(g3(a),c)}function
+g6(a,b){var
+c=g4(a,b);return K(kB(a),c)}function
+kC(a,b){var
+c=g4(a,b);return K(aN(a[1]),c)}function
+g7(b,a){var
+c=g6(b,a),d=g5(b,a);return[2,[4,d,d],[4,c,c]]}function
+g8(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kC(a,d);return[5,[2,g7(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kD(a,b){var
+f=a[5],c=[3,g8(a,b),f],d=kC(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+g9(a,b){var
+c=kD(a,b);return dn(a[7],c)}function
+kE(b,a){var
+c=g7(b,a),d=g6(b,a),e=[4,g9(b,a),d],f=g5(b,a);return[5,[2,[4,g8(b,a),f],e],c]}function
+kF(b,a){var
+c=g7(b,a),d=g5(b,a),e=[4,g9(b,a),d],f=g6(b,a);return[5,[3,[4,g8(b,a),f],e],c]}function
+bN(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3878,126 +3840,126 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bW(a[2]);return g(bW(a[1]),e)}}function
-bX(e,a,b){switch(a[0]){case
+e=bN(a[2]);return g(bN(a[1]),e)}}function
+bO(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return c1([0,[0,p,p],d],b);case
+q=a[1];return cN([0,[0,q,q],d],b);case
 1:var
-s=a[1],g=e,t=q(d);for(;;){if(g){var
-m=g[1];if(pn(m[1],s))return m[2];var
-g=g[2];continue}return t}case
-2:return cf(bX(e,a[1],b));case
+t=a[1],g=e,u=o(d);for(;;){if(g){var
+m=g[1];if(od(m[1],t))return m[2];var
+g=g[2];continue}return u}case
+2:return b8(bO(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=O;break;case
+i=a[2],f=a[1],h=N;break;case
 4:var
-i=a[2],f=a[1],h=F;break;case
+i=a[2],f=a[1],h=D;break;case
 5:var
-i=a[2],f=a[1],h=u;break;case
+i=a[2],f=a[1],h=r;break;case
 6:var
-i=a[2],f=a[1],h=aA;break;case
+i=a[2],f=a[1],h=av;break;case
 7:var
-k=eh(a[2]),l=bX(e,a[1],b);if(k){if(k[1]){var
-n=ai(l),r=function(a){return u(a,n)},o=fg(cb(j7(k)),r,n);return j5(k)?o:u(o,l)}return l}return q(c);default:return cE(bX(e,a[1],b))}var
-v=bX(e,i,Q(b,j(bW(f))));return h(bX(e,f,b),v)}function
-c6(c,f,b){var
+k=dX(a[2]),l=bO(e,a[1],b);if(k){if(k[1]){var
+n=af(l),s=function(a){return r(a,n)},p=eR(b5(jf(k)),s,n);return je(k)?p:r(p,l)}return l}return o(c);default:return cr(bO(e,a[1],b))}var
+v=bO(e,i,O(b,j(bN(f))));return h(bO(e,f,b),v)}function
+cS(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=Q(b,j(bW(e))),l=c6(c,a[2],k),m=g(c6(c,e,b),l);return[0,bX(c,a,b),m];case
+e=a[1],k=O(b,j(bN(e))),l=cS(c,a[2],k),m=g(cS(c,e,b),l);return[0,bO(c,a,b),m];case
 8:var
-n=c6(c,a[1],b);return[0,bX(c,a,b),n];case
+n=cS(c,a[1],b);return[0,bO(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=Q(b,j(bW(d))),i=c6(c,a[2],h);return g(c6(c,d,b),i)}}function
-lv(c,a,b){if(a){var
-e=a[1],d=e[2],f=Q(b,j(bW(d))),h=a[2],i=bX(c,d,b),k=lv([0,[0,e[1],i],c],h,f);return g(c6(c,d,b),k)}return a}function
-ex(a){return G(bW,a)}function
-lw(c,a,b){if(a)var
-d=a[1],f=Q(b,j(bW(d))),g=lw(c,a[2],f),e=[0,bX(c,d,b),g];else
+d=a[1],h=O(b,j(bN(d))),i=cS(c,a[2],h);return g(cS(c,d,b),i)}}function
+kG(c,a,b){if(a){var
+e=a[1],d=e[2],f=O(b,j(bN(d))),h=a[2],i=bO(c,d,b),k=kG([0,[0,e[1],i],c],h,f);return g(cS(c,d,b),k)}return a}function
+ec(a){return E(bN,a)}function
+kH(c,a,b){if(a)var
+d=a[1],f=O(b,j(bN(d))),g=kH(c,a[2],f),e=[0,bO(c,d,b),g];else
 var
 e=a;return e}function
-lx(c,a,b){if(a){var
-d=a[1],e=Q(b,j(bW(d))),f=lx(c,a[2],e);return g(c6(c,d,b),f)}return a}function
-ly(c,a,b){if(a)var
-d=a[1],f=Q(b,j(ex(d))),g=ly(c,a[2],f),e=[0,lw(c,d,b),g];else
+kI(c,a,b){if(a){var
+d=a[1],e=O(b,j(bN(d))),f=kI(c,a[2],e);return g(cS(c,d,b),f)}return a}function
+kJ(c,a,b){if(a)var
+d=a[1],f=O(b,j(ec(d))),g=kJ(c,a[2],f),e=[0,kH(c,d,b),g];else
 var
 e=a;return e}function
-lz(c,a,b){if(a){var
-d=a[1],e=Q(b,j(ex(d))),f=lz(c,a[2],e);return g(lx(c,d,b),f)}return a}function
-lA(a){return e(function(a){return[0,a[2],d]},a)}function
-lB(a){var
-c=c2(0,lA(a[2])),d=be(0,j(a[1])),f=e(function(a){return[0,[0,a]]},d),b=aX(e(a8,a[2]),c);return g(aX(a[1],f),b)}function
-ty(a){if(typeof
+kK(c,a,b){if(a){var
+d=a[1],e=O(b,j(ec(d))),f=kK(c,a[2],e);return g(kI(c,d,b),f)}return a}function
+kL(a){return e(function(a){return[0,a[2],d]},a)}function
+kM(a){var
+c=cO(0,kL(a[2])),d=bp(0,j(a[1])),f=e(function(a){return[0,[0,a]]},d),b=a$(e(a2,a[2]),c);return g(a$(a[1],f),b)}function
+sq(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-hS(b,d){var
+g_(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return av(function(a){return ag(e,a)},b);case
+e=a[1];return aP(function(a){return ap(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hS(b,a[1]);if(c){var
+c=g_(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lC(d){var
+kN(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ah(av(function(b){return function(a){return pn(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=au(aP(function(b){return function(a){return od(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-lD(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-lE(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hT(a,c,b){var
-d=[4,lD(a),b],e=[2,[4,lE(a),c],d],f=[4,lE(a),b];return[0,[3,[4,lD(a),c],f],e]}function
-lF(c,a){var
-b=hT(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-lG(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-lH(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:lF(d[1],a):a;case
+kO(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kP(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+g$(a,c,b){var
+d=[4,kO(a),b],e=[2,[4,kP(a),c],d],f=[4,kP(a),b];return[0,[3,[4,kO(a),c],f],e]}function
+kQ(c,a){var
+b=g$(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+kR(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+kS(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kQ(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hT(d[1],a[2],a[3]),m=j[1],k=hT(f[1],j[2],a[1]);return lF(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=g$(d[1],a[2],a[3]),m=j[1],k=g$(f[1],j[2],a[1]);return kQ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=L(e,e),n=lG(e,a),o=aL([0,b(2,c),c],n),p=L(e,a),q=aL([4,[0,b(2,c),c],p],e),r=aL([3,[0,c,c],l],a),s=an(function(b,a){return[2,b,a]},r,q);return aL([5,[0,c,c],[2,[0,c,c],l]],an(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lI(b){var
-a=cj(b);return a?kg(a[1],[0,d,c]):a}function
-lJ(a,n,j,i){if(lI(i)){var
-q=n?[3,[0,d,c],j]:j;return l(a,0,q)}var
-f=bS(a,j);if(f){var
-g=fw(a,[5,i,[0,b(2,c),c]]);if(g){var
-h=hn(a,[5,i,[0,b(2,c),c]]);if(h)var
-p=z(a,f[1],g[1]),k=[0,N(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=K(e,e),n=kR(e,a),o=aG([0,b(2,c),c],n),p=K(e,a),q=aG([4,[0,b(2,c),c],p],e),r=aG([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return aG([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kT(b){var
+a=cb(b);return a?jq(a[1],[0,d,c]):a}function
+kU(a,n,j,i){if(kT(i)){var
+q=n?[3,[0,d,c],j]:j;return k(a,0,q)}var
+f=bK(a,j);if(f){var
+g=e4(a,[5,i,[0,b(2,c),c]]);if(g){var
+h=gH(a,[5,i,[0,b(2,c),c]]);if(h)var
+p=v(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
-k=h;var
-m=k}else
+l=h;var
+m=l}else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
-ey(b,a,c){var
-d=bD(b,a[1],a[2]),e=d?lJ(b,0,c,a[1]):d;return e?lJ(b,1,c,a[2]):e}function
-ez(a,d){if(lI(d))return[0,A];var
-e=fw(r(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=hn(r(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=y(am(r(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(r(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return I(function(d){var
-e=z(r(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return kq(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?I(d,o[1]):I(o[2],d)}return e}function
+ed(b,a,c){var
+d=bt(b,a[1],a[2]),e=d?kU(b,0,c,a[1]):d;return e?kU(b,1,c,a[2]):e}function
+ee(a,d){if(kT(d))return[0,x];var
+e=e4(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=gH(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C(am(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cp(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return J(function(d){var
+e=v(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return jA(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-hU(d,a){var
-e=l(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-c7(a){return[0,[3,[0,d,c],a],a]}function
-lK(a,b,n,m){var
-h=bD(a,[0,d,c],b),i=h?hU(a,b):h;if(i){var
-e=ez(a,b);if(e){var
-f=bS(a,n);if(f){var
-g=bS(a,m);if(g){var
-o=f[1],p=g[1];return E(d,N(z(a,ab(a,e[1]),p),o)[1])}var
+ha(d,a){var
+e=k(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?k(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+cT(a){return[0,[3,[0,d,c],a],a]}function
+kV(a,b,n,m){var
+h=bt(a,[0,d,c],b),i=h?ha(a,b):h;if(i){var
+e=ee(a,b);if(e){var
+f=bK(a,n);if(f){var
+g=bK(a,m);if(g){var
+o=f[1],p=g[1];return I(d,M(v(a,Y(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -4007,66 +3969,66 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-eA(a){return 1===a?tC:tD}function
-hV(d,c,b,a){var
-e=a[1],f=lH(d,c,a[2]),g=an(function(b,a){return[2,b,a]},b,f);return an(function(b,a){return[3,b,a]},g,e)}function
-eB(b,d){var
+ef(a){return 1===a?su:sv}function
+hb(d,c,b,a){var
+e=a[1],f=kS(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+eg(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,Q(b,c[1])]]:[0,dq(function(a){return eB(b,a)},a)]}return[0,dq(function(a){return eB(b,a)},a)]}function
-dG(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,db(function(a){return eg(b,a)},a)]}return[0,db(function(a){return eg(b,a)},a)]}function
+dr(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ah(v(e,b));return f?ah(v(e,Q(d,b))):f;case
+e=a[1],f=au(u(e,b));return f?au(u(e,O(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dG(d,b,a[1]);if(g){var
+g=dr(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eC(c,b,m){var
+eh(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dG(c,b,g),i=h?eC(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dr(c,b,g),i=h?eh(c,b,f):h;if(i)var
 j=i;else{var
-k=eC(c,b,g);if(k)return dG(c,b,f);var
+k=eh(c,b,g);if(k)return dr(c,b,f);var
 j=k}return j;case
 7:var
-l=eC(c,b,a[1]);return l?dG(c,b,a[2]):l;case
+l=eh(c,b,a[1]);return l?dr(c,b,a[2]):l;case
 3:case
 4:var
-e=eC(c,b,a[1]);if(e){var
+e=eh(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dG(c,b,a[1]);default:return 1}}}function
-c8(c,e){var
+9:return dr(c,b,a[1]);default:return 1}}}function
+cU(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ah(v(a[1],c));case
+0:return au(u(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=c8(c,a[1]);if(d){var
+d=cU(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hW(d,b,m){var
+hc(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hW(d,b,a[1]);if(f){var
+f=hc(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hW(d,b,a[1]);return g?c8(b,a[2]):g;case
+g=hc(d,b,a[1]);return g?cU(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=c8(b,i);if(j){var
-k=c8(b,h);if(k)var
+h=a[2],i=a[1],j=cU(b,i);if(j){var
+k=cU(b,h);if(k)var
 e=k;else{var
 l=bg(i,d);if(l){var
 c=h;continue}var
@@ -4075,126 +4037,126 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return c8(b,c)}}}function
-lL(c,e){var
+2:return 1;default:return cU(b,c)}}}function
+kW(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return cU(a[1],c);case
+0:return dW(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=lL(c,a[1]);if(d){var
+d=kW(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cI(b,a){return a?f(b,a[1]):a}function
-cJ(c,b,a){return cI(function(b){return cI(f(c,b),a)},b)}function
-tE(a){return 0===a[0]?a[1]:0}function
-bY(b,a){switch(a[0]){case
+cw(b,a){return a?f(b,a[1]):a}function
+cx(c,b,a){return cw(function(b){return cw(f(c,b),a)},b)}function
+sw(a){return 0===a[0]?a[1]:0}function
+bP(b,a){switch(a[0]){case
 0:return[0,f(b,a[1])];case
-1:return[1,bY(b,a[1])];default:var
-c=bY(b,a[3]),d=bY(b,a[2]);return[2,bY(b,a[1]),d,c]}}function
-bb(b,c,a){switch(c[0]){case
-0:return bY(f(b,c[1]),a);case
+1:return[1,bP(b,a[1])];default:var
+c=bP(b,a[3]),d=bP(b,a[2]);return[2,bP(b,a[1]),d,c]}}function
+a6(b,c,a){switch(c[0]){case
+0:return bP(f(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bY(function(a){return X(b,a,k)},d)];case
-1:return[1,bb(b,d,a[1])];default:var
-l=bb(b,d,a[3]),m=bb(b,d,a[2]);return[2,bb(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bP(function(a){return V(b,a,k)},d)];case
+1:return[1,a6(b,d,a[1])];default:var
+l=a6(b,d,a[3]),m=a6(b,d,a[2]);return[2,a6(b,d,a[1]),m,l]}default:var
 e=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return X(b,a,n)},i=function(a){return bY(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return V(b,a,n)},i=function(a){return bP(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=bb(b,e,j),s=bb(b,g,j);return[2,bb(b,h,j),s,r];default:var
-t=bb(b,e,a[3]),u=bb(b,g,a[2]);return[2,bb(b,h,a[1]),u,t]}}}function
-hX(c,g,a){if(a)var
+j=a[1],r=a6(b,e,j),s=a6(b,g,j);return[2,a6(b,h,j),s,r];default:var
+t=a6(b,e,a[3]),u=a6(b,g,a[2]);return[2,a6(b,h,a[1]),u,t]}}}function
+hd(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-e=[0,a,ab(c,a)];break;case
+e=[0,a,Y(c,a)];break;case
 1:var
-h=z(c,a,b),e=[0,ce(y(a,b)),h];break;default:var
-e=[0,b,ab(c,b)]}return[0,[0,f(g,e)]]},i=hX(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=v(c,a,b),e=[0,b7(C(a,b)),h];break;default:var
+e=[0,b,Y(c,b)]}return[0,[0,f(g,e)]]},i=hd(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-lM(a){if(a){var
+kX(a){if(a){var
 b=a[1];if(b)var
-c=lM(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tG}function
-eD(a){if(a){var
-g=a[1],b=g[2],c=lM(g[1]);if(c)if(b){var
-h=b[1],e=eD(a[2]);if(e)var
-i=P(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return sy}function
+ei(a){if(a){var
+g=a[1],b=g[2],c=kX(g[1]);if(c)if(b){var
+h=b[1],e=ei(a[2]);if(e)var
+i=S(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return tH}function
-hY(b,a){var
-c=a[3],d=I(function(a){var
-c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(aY(b),g),e,d]}function
-lN(e,d,c,b){if(d){var
+f=c;return f}return sz}function
+he(b,a){var
+c=a[3],d=J(function(a){var
+c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(a5(b),g),e,d]}function
+kY(e,d,c,b){if(d){var
 j=d[1],a=function(f){var
-a=hY(function(a){switch(a[0]){case
+a=he(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return lN(cb(e),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return kY(b5(e),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return e?1:a(1);var
 i=h}else
 var
-i=g;return i}return f(c,hY(tE,b))}function
-eE(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return I(function(a){return a$(f,e,a)},d)}return[0,A]}function
-tI(c){var
+i=g;return i}return f(c,he(sw,b))}function
+ej(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return J(function(a){return bf(f,e,a)},d)}return[0,x]}function
+sA(c){var
 a=c[2];if(a){var
-b=eE(c[3]);if(b)return E(d,N(a[1],b[1])[1]);var
+b=ej(c[3]);if(b)return I(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lO(a){return G(function(a){return g(a[1],[0,a[2],0])},a)}function
-lP(a,c,b){var
-e=w(b,c,q(d)),f=be(0,a);return m(function(b){return eC(a,b,e)},f)}function
-eF(a){var
-b=ai(a);return O(q(c),b)}function
-fR(i,g){var
-h=eF(g),j=ai(g),e=F(q(c),j),f=u(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,cf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cf(f),a,e]]:[0,[0,h,a,a],[0,a,e,cf(f)],[0,a,f,e]]}function
-lQ(b,a){function
+kZ(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+k0(a,c,b){var
+e=t(b,c,o(d)),f=bp(0,a);return n(function(b){return eh(a,b,e)},f)}function
+ek(a){var
+b=af(a);return N(o(c),b)}function
+fn(i,g){var
+h=ek(g),j=af(g),e=D(o(c),j),f=r(o(b(2,c)),g),a=o(d);return i?i[1]?[0,[0,e,b8(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,b8(f),a,e]]:[0,[0,h,a,a],[0,a,e,b8(f)],[0,a,f,e]]}function
+k1(b,a){function
 c(b){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
 d(a){var
-b=aF(a,c(function(a){return a[3]})),d=aF(a,c(function(a){return a[2]}));return[0,aF(a,c(function(a){return a[1]})),d,b]}var
+b=ay(a,c(function(a){return a[3]})),d=ay(a,c(function(a){return a[2]}));return[0,ay(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,e]}function
-lR(a){switch(a[0]){case
+k2(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c7(a[1]),0];default:var
-b=[0,c7(a[2]),0];return[0,c7(a[1]),b]}}function
-dH(a){return[0,[0,a[1]],[0,a[2]]]}function
-lS(a,b){if(0===b[0])return ez(a,b[1]);var
-d=ez(a,b[1]);if(d){var
-e=ez(a,b[2]);if(e){var
-g=ab(a,e[1]),h=cX(a,y(am(a,c),g)),i=d[1];return I(function(b){return z(a,i,b)},h)}var
+2:return[0,cT(a[1]),0];default:var
+b=[0,cT(a[2]),0];return[0,cT(a[1]),b]}}function
+ds(a){return[0,[0,a[1]],[0,a[2]]]}function
+k3(a,b){if(0===b[0])return ee(a,b[1]);var
+d=ee(a,b[1]);if(d){var
+e=ee(a,b[2]);if(e){var
+g=Y(a,e[1]),h=cL(a,C(am(a,c),g)),i=d[1];return J(function(b){return v(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-lT(k,D,c,C,B,b,a){switch(b[0]){case
+k4(k,D,c,C,B,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=eD(e[1]);if(a){var
+a=ei(e[1]);if(a){var
 b=e[2];if(b){var
-d=eE(e[3]);if(d){var
-h=d[1],i=a9([0,N(al(z(k,l,b[1])),h),0],c);return ch(c,hs(F,E,a[1],i))}var
+d=ej(e[3]);if(d){var
+h=d[1],i=ba([0,M(ah(v(k,l,b[1])),h),0],c);return b$(c,gM(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -4202,22 +4164,22 @@ g=f}else
 var
 g=a;return g},f=n;break;case
 2:var
-q=M(l[1],d),r=q?M(l[2],d):q;if(!r)return r;var
+q=ad(l[1],d),r=q?ad(l[2],d):q;if(!r)return r;var
 H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=eD(f[1]);if(a){var
-b=eE(f[3]);if(b){var
-g=a9([0,N(A,b[1]),0],c),h=a[1];return ch(c,hs(I,H,e(function(a){return[0,a[1],A]},h),g))}var
+a=ei(f[1]);if(a){var
+b=ej(f[3]);if(b){var
+g=ba([0,M(x,b[1]),0],c),h=a[1];return b$(c,gM(I,H,e(function(a){return[0,a[1],x]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
-u=0;if(typeof
+y=0;if(typeof
 a==="number"&&!a)var
-J=b[2],K=b[1],L=b[3],i=J,h=K,O=0,g=function(f){var
-a=eD(f[1]);if(a){var
+J=b[2],K=b[1],L=b[3],i=J,h=K,N=0,g=function(f){var
+a=ei(f[1]);if(a){var
 b=f[2];if(b){var
-d=eE(f[3]);if(d){var
-j=d[1],l=a9([0,N(z(k,L,b[1]),j),0],c),e=kz(a[1],l);if(e)return ch(c,e[1]);var
+d=ej(f[3]);if(d){var
+j=d[1],l=ba([0,M(v(k,L,b[1]),j),0],c),e=jJ(a[1],l);if(e)return b$(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -4226,18 +4188,18 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},f=O;else
-u=1;if(u)return 0;break;case
+i=a;return i},f=N;else
+y=1;if(y)return 0;break;case
 2:var
-x=0;if(typeof
-a==="number"||!(0===a[0]))x=1;else
+z=0;if(typeof
+a==="number"||!(0===a[0]))z=1;else
 var
-s=a[2],t=a[1],P=b[3],Q=b[2],R=b[4],S=b[1],T=function(f){var
-a=eD(f[1]);if(a){var
+s=a[2],w=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=ei(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=eE(f[3]);if(e){var
-g=v(j(b),c),h=g?v(j(s),c):g;if(h){var
-n=es(t,et(t,s,d[1],b));return ch(c,cG(fD(k,S,R,e[1],b),n))}var
+e=ej(f[3]);if(e){var
+g=u(j(b),c),h=g?u(j(s),c):g;if(h){var
+n=d_(w,d$(w,s,d[1],b));return b$(c,cu(fa(k,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -4246,126 +4208,129 @@ var
 l=d;var
 m=l}else
 var
-m=a;return m},i=P,h=Q,g=T,f=b[5];if(x)return 0;break;default:var
-y=0;if(typeof
+m=a;return m},i=O,h=P,g=S,f=b[5];if(z)return 0;break;default:var
+A=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=tI,f=0;else
-y=1;if(y)return 0}var
-G=[0,h,i,B];return lN(f,D,g,hY(function(a){return w(a,C,tW)},G))}function
-lU(k,j,i,f,h,g,e){if(typeof
+i=b[1],h=0,g=sA,f=0;else
+A=1;if(A)return 0}var
+G=[0,h,i,B];return kY(f,D,g,he(function(a){return t(a,C,sO)},G))}function
+k5(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-l=a[3],m=a[2],n=E(d,m),o=n?fk(l,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):n;if(o)return lT(k,j,i,h,[0,[0,[0,f[1],m],l]],g,a[1]);var
-p=o}else
+n=a[3],o=a[2],p=I(d,o);if(p)var
+h=iM(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-p=f;return p}return lT(k,j,i,h,0,g,a)}return 0}function
-tX(a){if(a[1])return 0;var
+g=p;if(g)return k4(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+q=g}else
+var
+q=f;return q}return k4(m,l,k,j,0,i,a)}return 0}function
+sP(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-lV(a,M,L,K,J,H,h,p,G,Z){if(m(tX,G))var
+k6(a,N,L,K,I,H,h,p,G,Z){if(n(sP,G))var
 q=0;else
 var
-W=hX(a,cA,p),V=0,X=g(hX(a,a8,p),W),q=bR(tF,function(b){switch(b[0]){case
-0:return w(b[1],X,[0,[0,A]]);case
-1:return[0,[0,w(b[1],L,A)]];case
+V=hd(a,cI,p),U=0,W=g(hd(a,a2,p),V),q=bI(sx,function(b){switch(b[0]){case
+0:return t(b[1],W,[0,[0,x]]);case
+1:return[0,[0,t(b[1],L,x)]];case
 2:return[0,[0,am(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,y(b,a)]};return bb(function(a,b){return cJ(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return a6(function(a,b){return cx(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,N(b,a)]};return bb(function(a,b){return cJ(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return a6(function(a,b){return cx(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,al(a)]};return bY(function(a){return cI(j,a)},i);case
+i=b[1],j=function(a){return[0,ah(a)]};return bP(function(a){return cw(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,z(a,c,b)]};return bb(function(a,b){return cJ(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,v(a,c,b)]};return a6(function(a,b){return cx(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cd(a,b);return I(function(b){return z(a,c,b)},d)};return bb(function(a,b){return cJ(p,a,b)},o,n);case
+d=cp(a,b);return J(function(b){return v(a,c,b)},d)};return a6(function(a,b){return cx(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ab(a,b)]};return bY(function(a){return cI(r,a)},q);default:var
-s=b[1],t=function(b){return cX(a,b)};return bY(function(a){return cI(t,a)},s)}},M,V);var
+q=b[1],r=function(b){return[0,Y(a,b)]};return bP(function(a){return cw(r,a)},q);default:var
+s=b[1],u=function(b){return cL(a,b)};return bP(function(a){return cw(u,a)},s)}},N,U);var
 f=G,b=Z;for(;;){if(f){var
-t=f[1],i=t[2],c=t[1],k=f[2];if(c){var
-u=w(c,b,0);if(u){var
-l=R(K,c);if(l){var
-v=lU(a,J,H,h,q,l[1],i);if(v){var
-f=k,b=fJ(c,b);continue}var
-x=v}else
+u=f[1],i=u[2],c=u[1],k=f[2];if(c){var
+w=t(c,b,0);if(w){var
+l=ae(K,c);if(l){var
+y=k5(a,I,H,h,q,l[1],i);if(y){var
+f=k,b=fg(c,b);continue}var
+z=y}else
 var
-x=l;var
-B=x}else
+z=l;var
+A=z}else
 var
-B=u;return B}if(typeof
+A=w;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Y=0,r=e(function(b){return[0,b,ab(a,b)]},p),S=e(cA,r),Q=0,T=g(e(a8,r),S),U=bR(0,function(n){return function(b){switch(b[0]){case
-0:return[0,w(b[1],n,A)];case
-1:return[0,w(b[1],L,A)];case
+X=0,r=e(function(b){return[0,b,Y(a,b)]},p),Q=e(cI,r),P=0,R=g(e(a2,r),Q),T=bI(0,function(n){return function(b){switch(b[0]){case
+0:return[0,t(b[1],n,x)];case
+1:return[0,t(b[1],L,x)];case
 2:return[0,am(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cJ(function(b,a){return[0,y(b,a)]},d,c);case
+c=b[2],d=b[1];return cx(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cJ(function(b,a){return[0,N(b,a)]},f,e);case
+e=b[2],f=b[1];return cx(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return cI(function(a){return[0,al(a)]},g);case
+g=b[1];return cw(function(a){return[0,ah(a)]},g);case
 6:var
-h=b[2],i=b[1];return cJ(function(c,b){return[0,z(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cx(function(c,b){return[0,v(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cJ(function(c,b){var
-d=cd(a,b);return I(function(b){return z(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cx(function(c,b){var
+d=cp(a,b);return J(function(b){return v(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cI(function(b){return[0,ab(a,b)]},l);default:var
-m=b[1];return cI(function(b){return cX(a,b)},m)}}}(T),M,Q),j=w(h[1],U,Y);if(j){var
-n=P(j[1][2],d);O=1}else
+l=b[1];return cw(function(b){return[0,Y(a,b)]},l);default:var
+m=b[1];return cw(function(b){return cL(a,b)},m)}}}(R),N,P),j=t(h[1],T,X);if(j){var
+m=S(j[1][2],d);O=1}else
 var
 s=j}else
 var
 s=h;if(!O)var
-n=s;if(n){var
-f=k,b=e(function(a){return 0},b);continue}return n}var
-C=w(c,b,0);if(C){var
-o=R(K,c);if(o){var
-D=lU(a,J,H,h,q,o[1],i);if(D){var
-f=k,b=fJ(c,b);continue}var
+m=s;if(m){var
+f=k,b=e(function(a){return 0},b);continue}return m}var
+B=t(c,b,0);if(B){var
+o=ae(K,c);if(o){var
+D=k5(a,I,H,h,q,o[1],i);if(D){var
+f=k,b=fg(c,b);continue}var
 E=D}else
 var
 E=o;var
 F=E}else
 var
-F=C;return F}return[0,b]}}function
-lW(i,h,g,f,e,d,c,t,s,r){var
+F=B;return F}return[0,b]}}function
+k7(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=lV(i,h,g,f,e,d,c,b,a[1],j);return k?m(ah,k[1]):k}var
-l=lV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-n=l[1],o=er(a[2],b),p=lW(i,h,g,f,e,d,c,o[1],n,a[3]);if(p){var
-b=o[2],j=n,a=a[4];continue}var
+k=k6(i,h,g,f,e,d,c,b,a[1],j);return k?n(au,k[1]):k}var
+l=k6(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d9(a[2],b),p=k7(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-hZ(d,a){var
-e=ai(a),f=u(u(q(b(2,c)),a),d);return O(F(ai(d),f),e)}function
-h0(a){switch(a){case
-0:return t0;case
-1:return t1;default:return 0}}function
-fS(b,a){var
-c=bh(a[2],b);return g(bh(a[1],b),c)}function
-lX(r,l,p,t,o,k,s){if(k){var
-v=k[1],w=c2(s,fS(o,v)),R=Q(s,j(fS(o,v))),S=lX(r,l,p,t,o,k[2],R),i=aR(w,t2),m=aR(w,0);switch(r){case
+hf(d,a){var
+e=af(a),f=r(r(o(b(2,c)),a),d);return N(D(af(d),f),e)}function
+hg(a){switch(a){case
+0:return sS;case
+1:return sT;default:return 0}}function
+fo(b,a){var
+c=bc(a[2],b);return g(bc(a[1],b),c)}function
+k8(s,l,q,u,p,k,t){if(k){var
+v=k[1],w=cO(t,fo(p,v)),R=O(t,j(fo(p,v))),S=k8(s,l,q,u,p,k[2],R),i=aM(w,sU),m=aM(w,0);switch(s){case
 0:var
-g=[0,tZ,tY,q(d)];break;case
+g=[0,sR,sQ,o(d)];break;case
 1:var
-g=cZ;break;default:var
-G=q(d),H=q(d),g=[0,q(d),H,G]}var
-e=a4(F,g,m),y=aF(l[3],i),z=aF(l[2],i),a=[0,aF(l[1],i),z,y],I=hZ(g[3],m[3]),J=hZ(g[2],m[2]),K=hZ(g[1],m[1]),L=O(O(O(aF(i,i),K),J),I),M=aF(a,e),N=u(q(b(2,c)),M),P=O(u(p,L),N),A=u(a[2],e[1]),B=F(u(a[1],e[2]),A),C=u(a[1],e[3]),D=F(u(a[3],e[1]),C),E=u(a[3],e[2]),f=fA([0,F(u(a[2],e[3]),E),D,B],t),h=a4(O,ep(p,e),a);switch(r){case
+g=cM;break;default:var
+G=o(d),H=o(d),g=[0,o(d),H,G]}var
+e=aX(D,g,m),y=ay(l[3],i),z=ay(l[2],i),a=[0,ay(l[1],i),z,y],I=hf(g[3],m[3]),J=hf(g[2],m[2]),K=hf(g[1],m[1]),L=N(N(N(ay(i,i),K),J),I),M=ay(a,e),P=r(o(b(2,c)),M),Q=N(r(q,L),P),A=r(a[2],e[1]),B=D(r(a[1],e[2]),A),C=r(a[1],e[3]),E=D(r(a[3],e[1]),C),F=r(a[3],e[2]),f=e8([0,D(r(a[2],e[3]),F),E,B],u),h=aX(N,d8(q,e),a);switch(s){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,P],S]}else
+x=[0,[0,n,Q],S]}else
 var
 x=k;return x}function
-h1(g,a){if(typeof
+hh(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
@@ -4373,188 +4338,188 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-h2(e,d,n,m,k,a){var
-f=u(ai(c1(h1(m,a),k)),n);if(typeof
+hi(e,d,n,m,l,a){var
+f=r(af(cN(hh(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=R(d,a[1]);if(b)var
-g=l(e,0,a[2]),h=g?[0,F(b[1][2],f)]:g;else
+b=ae(d,a[1]);if(b)var
+g=k(e,0,a[2]),h=g?[0,D(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=R(d,a[1]);if(c)var
-i=l(e,0,a[2]),j=i?[0,F(f,c[1][2])]:i;else
+c=ae(d,a[1]);if(c)var
+i=k(e,0,a[2]),j=i?[0,D(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-lY(a,d,c,b){return e(function(a){var
-e=c1(h1(d,b),c),f=u(a[2],e);return[0,a[1],f]},a)}function
-lZ(b,g,s,e,i,q,p,o){if(o){var
-_=lZ(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+k9(a,d,c,b){return e(function(a){var
+e=cN(hh(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
+k_(b,g,s,e,i,q,p,o){if(o){var
+_=k_(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=f(g,i),h=[0,t(f(aY(g),e),O,A)];else
+O=f(g,i),h=[0,t(f(a5(g),e),O,x)];else
 switch(a[0]){case
 0:var
-j=[5,[0,c,c],a[1]],n=e,m=t;k=1;break;case
+j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
+Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-S=h2(b,e,i,q,p,a),h=I(function(a){return[3,f(g,a)]},S);break;case
+R=hi(b,e,i,q,p,a),h=J(function(a){return[3,f(g,a)]},R);break;case
 3:var
-T=h2(b,e,i,q,p,a),h=I(function(a){return[3,f(g,a)]},T);break;case
+S=hi(b,e,i,q,p,a),h=J(function(a){return[3,f(g,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=R(e,a[1]),M=0;if(r){var
-w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
-U=[5,u,v],V=[0,r[1],0],j=U,n=V,m=function(c,b,a){return[1,c,b,a]};k=1;M=1}else
+u=a[3],v=a[2],r=ae(e,a[1]),M=0;if(r){var
+w=k(b,1,v),y=w?k(b,0,u):w;if(y){var
+T=[5,u,v],U=[0,r[1],0],j=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
-y=x}else
+z=y}else
 var
-y=r;if(!M)var
-h=y;break;case
+z=r;if(!M)var
+h=z;break;case
 7:var
-z=a[3],B=a[2],C=a[1],D=R(e,C),N=0;if(D){var
-E=l(b,1,B),F=E?l(b,1,z):E;if(F){var
-W=[5,B,z],j=W,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};k=1;N=1}else
+A=a[3],B=a[2],C=a[1],D=ae(e,C),N=0;if(D){var
+E=k(b,1,B),F=E?k(b,1,A):E;if(F){var
+V=[5,B,A],j=V,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};l=1;N=1}else
 var
 G=F}else
 var
 G=D;if(!N)var
 h=G;break;case
 8:var
-H=l(b,1,a[1]),J=H?l(b,1,a[2]):H;if(J)var
-X=am(b,c),Y=f(g,i),Z=lY(e,q,p,a),K=[0,[0,f(aY(g),Z),Y,X,0]];else
+H=k(b,1,a[1]),I=H?k(b,1,a[2]):H;if(I)var
+W=am(b,c),X=f(g,i),Z=k9(e,q,p,a),K=[0,[0,f(a5(g),Z),X,W,0]];else
 var
-K=J;var
+K=I;var
 h=K;break;default:var
-h=0}if(k)var
-P=aw(b,[0,[0,j,j],d]),h=I(function(a){var
-c=ab(b,a),d=f(g,i);return m(f(aY(g),n),d,c)},P);var
+h=0}if(l)var
+P=as(b,[0,[0,j,j],d]),h=J(function(a){var
+c=Y(b,a),d=f(g,i);return m(f(a5(g),n),d,c)},P);var
 L=[0,h,_]}else
 var
 L=o;return L}function
-l0(j,h,i,f,d,a){if(a){var
-n=l0(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
+k$(j,h,i,f,d,a){if(a){var
+n=k$(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(cA,lY(h,f,d,b));l=1}if(!l)var
-c=h2(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-t3(a){if(typeof
+k=e(cI,k9(h,f,d,b));l=1}if(!l)var
+c=hi(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+sV(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fT(a){var
-b=aE(a[1],[0,d,c]);return b?aE(a[2],[0,d,c]):b}function
-t4(k,a,n,bh){var
-y=a[1],h=eA(y),aq=a[3],bi=[0,[0,[0,aq,aq],n],0],bj=a[2],ar=g(G(function(a){return fS(n,a)},bj),bi),T=j(ar),bk=a[2],bl=j(G(function(a){return fS(n,a)},bk)),as=a[3],bm=c1([0,[0,as,as],n],bl),bn=h0(y),bo=a[5];function
-i(a){return[0,[0,Q(bn,a)]]}switch(bo[0]){case
+fp(a){var
+b=b_(a[1],[0,d,c]);return b?b_(a[2],[0,d,c]):b}function
+sW(l,a,m,bf){var
+y=a[1],h=ef(y),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(E(function(a){return fo(m,a)},bi),bh),T=j(aq),bj=a[2],bk=j(E(function(a){return fo(m,a)},bj)),ar=a[3],bl=cN([0,[0,ar,ar],m],bk),bm=hg(y),bn=a[5];function
+i(a){return[0,[0,O(bm,a)]]}switch(bn[0]){case
 0:var
-aZ=eF(i(0)),J=[0,fR(tJ,i(0)),aZ];break;case
+aY=ek(i(0)),I=[0,fn(sB,i(0)),aY];break;case
 1:var
-a0=eF(i(0)),a1=u(eF(i(tK)),a0),a2=u(eF(i(tL)),a1),a3=fR(0,i(0)),a4=lQ(fR(tN,i(tM)),a3),J=[0,lQ(fR(tP,i(tO)),a4),a2];break;default:var
-a5=i(tQ),a6=i(tR),x=[0,i(0),a6,a5],a7=aF(x,x),a8=O(q(c),a7),aP=aF(x,x),r=x[1],s=x[2],t=x[3],N=function(a){var
-d=ai(a),e=u(q(b(2,c)),d);return O(F(q(c),aP),e)},A=function(f,e,d,a){var
-g=X(f,u(e,d),a);return u(q(b(2,c)),g)},aQ=N(t),aR=A(O,s,t,r),aS=[0,A(F,r,t,s),aR,aQ],aT=A(F,s,t,r),aU=N(s),aV=[0,A(O,r,s,t),aU,aT],aW=A(O,r,t,s),aX=A(F,r,s,t),J=[0,[0,[0,N(r),aX,aW],aV,aS],a8]}var
-C=J[2],K=lX(y,J[1],C,bm,n,a[2],0),bp=Q(T,j(a[6])),bq=h0(y),br=a[5];function
-B(a){return[0,[0,Q(bq,a)]]}var
-af=ai([0,[1,bp]]);switch(br[0]){case
+aZ=ek(i(0)),a0=r(ek(i(sC)),aZ),a1=r(ek(i(sD)),a0),a2=fn(0,i(0)),a3=k1(fn(sF,i(sE)),a2),I=[0,k1(fn(sH,i(sG)),a3),a1];break;default:var
+a4=i(sI),a6=i(sJ),x=[0,i(0),a6,a4],a7=ay(x,x),a8=N(o(c),a7),aO=ay(x,x),s=x[1],v=x[2],w=x[3],P=function(a){var
+d=af(a),e=r(o(b(2,c)),d);return N(D(o(c),aO),e)},A=function(f,e,d,a){var
+g=V(f,r(e,d),a);return r(o(b(2,c)),g)},aQ=P(w),aR=A(N,v,w,s),aS=[0,A(D,s,w,v),aR,aQ],aT=A(D,v,w,s),aU=P(v),aV=[0,A(N,s,v,w),aU,aT],aW=A(N,s,w,v),aX=A(D,s,v,w),I=[0,[0,[0,P(s),aX,aW],aV,aS],a8]}var
+C=I[2],K=k8(y,I[1],C,bl,m,a[2],0),bo=O(T,j(a[6])),bq=hg(y),br=a[5];function
+B(a){return[0,[0,O(bq,a)]]}var
+ag=af([0,[1,bo]]);switch(br[0]){case
 2:var
-a9=B(tS),a_=B(tT),ag=[0,B(0),a_,a9],o=[0,F(af,aF(ag,ag))];break;case
+a9=B(sK),a_=B(sL),ah=[0,B(0),a_,a9],p=[0,D(ag,ay(ah,ah))];break;case
 3:var
-a$=ai(B(tU)),ba=ai(B(0)),bb=ai(B(tV)),o=[0,F(F(u(af,O(q(c),bb)),ba),a$)];break;default:var
-o=0}var
-bs=o?[0,o[1],0]:o,bt=[0,C,g(l0(k,K,C,n,T,a[6]),bs)],U=g(ck(K),bt),at=ds(e(function(a){return eB(h,a)},U))[1],D=dr(at);function
-z(a){return bz(D,eB(h,a))}var
-bu=I(z,o),bv=z(C),au=f(aY(z),K),an=h0(y),ao=v(j(au),h);if(ao)var
-ap=I(function(a){return[0,[0,a,d],d]},bu),H=function(a){return w(a,D,q(d))},ae=H(bv),aO=be(0,an),S=m(function(a){var
-b=dG(h,a,ae),c=b?m(function(b){var
-d=b[1],c=m(function(b){var
-c=H(b);return c8(Q(h,a),c)},d);if(c){var
-e=H(b[2]);return hW(ae,Q(h,a),e)}return c},au):b;if(c){if(ap){var
-e=H(ap[1][1][1]);return c8(Q(h,a),e)}var
+a$=af(B(sM)),ba=af(B(0)),bb=af(B(sN)),p=[0,D(D(r(ag,N(o(c),bb)),ba),a$)];break;default:var
+p=0}var
+bs=p?[0,p[1],0]:p,bt=[0,C,g(k$(l,K,C,m,T,a[6]),bs)],U=g(cP(K),bt),at=d5(e(function(a){return eg(h,a)},U))[1],F=d4(at);function
+z(a){return bJ(F,eg(h,a))}var
+bu=J(z,p),bv=z(C),au=f(a5(z),K),am=hg(y),an=u(j(au),h);if(an)var
+ao=J(function(a){return[0,[0,a,d],d]},bu),H=function(a){return t(a,F,o(d))},ae=H(bv),aN=bp(0,am),S=n(function(a){var
+b=dr(h,a,ae),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=H(b);return cU(O(h,a),c)},d);if(c){var
+e=H(b[2]);return hc(ae,O(h,a),e)}return c},au):b;if(c){if(ao){var
+e=H(ao[1][1][1]);return cU(O(h,a),e)}var
 d=1}else
 var
-d=c;return d},aO);else
+d=c;return d},aN);else
 var
-S=ao;var
-bf=S?an:S,ax=m(function(a){var
-b=eB(h,a),c=q(d);return bg(w(z(a),D,c),b)},U),ay=ax?m(function(a){return lL(h,a)},U):ax,az=ay?av(t3,a[6]):ay;if(az){var
+S=an;var
+be=S?am:S,av=n(function(a){var
+b=eg(h,a),c=o(d);return bg(t(z(a),F,c),b)},U),aw=av?n(function(a){return kW(h,a)},U):av,ax=aw?aP(sV,a[6]):aw;if(ax){var
 L=a[4];switch(y){case
 0:var
-V=fT(L[3]);break;case
+W=fp(L[3]);break;case
 1:var
-V=1;break;default:var
-al=fT(L[1]),am=al?fT(L[2]):al,V=am?fT(L[3]):am}var
-W=V}else
+W=1;break;default:var
+ak=fp(L[1]),al=ak?fp(L[2]):ak,W=al?fp(L[3]):al}var
+X=W}else
 var
-W=az;var
-aA=W?l(k,1,a[3]):W;if(aA)var
-bw=lR(a[5]),Y=m(function(a){var
-b=hU(k,a[1]);return b?hU(k,a[2]):b},bw);else
+X=ax;var
+aA=X?k(l,1,a[3]):X;if(aA)var
+bw=k2(a[5]),Y=n(function(a){var
+b=ha(l,a[1]);return b?ha(l,a[2]):b},bw);else
 var
 Y=aA;if(Y){var
-bx=a[6],by=g(ar,e(function(a){return h1(n,a)},bx)),Z=aj(e(function(a){return aw(k,a)},by));if(Z){var
-E=a[4];switch(y){case
+bx=a[6],by=g(aq,e(function(a){return hh(m,a)},bx)),Z=az(e(function(a){return as(l,a)},by));if(Z){var
+G=a[4];switch(y){case
 0:var
-_=[0,E[1],[0,E[2],0]];break;case
+_=[0,G[1],[0,G[2],0]];break;case
 1:var
-_=[0,E[1],[0,E[2],[0,E[3],0]]];break;default:var
+_=[0,G[1],[0,G[2],[0,G[3],0]]];break;default:var
 _=0}var
-$=aj(e(function(a){return aw(k,[0,a,n])},_));if($){var
-aB=$[1],p=a[5];switch(p[0]){case
+$=az(e(function(a){return as(l,[0,a,m])},_));if($){var
+aB=$[1],q=a[5];switch(q[0]){case
 0:var
-M=[0,dH(p[1]),0];break;case
+M=[0,ds(q[1]),0];break;case
 1:var
-bc=[0,dH(p[3]),0],bd=[0,dH(p[2]),bc],M=[0,dH(p[1]),bd];break;case
+bc=[0,ds(q[3]),0],bd=[0,ds(q[2]),bc],M=[0,ds(q[1]),bd];break;case
 2:var
-P=dH(c7(p[1])),M=[0,P,[0,P,[0,P,0]]];break;default:var
-R=p[2],ah=p[1],ak=[0,[1,c7(ah)[1],R],[1,ah,R]],M=[0,ak,[0,ak,[0,dH(c7(R)),0]]]}var
-aa=aj(e(function(d){var
-a=lS(k,d[1]);if(a)var
-b=lS(k,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+Q=ds(cT(q[1])),M=[0,Q,[0,Q,[0,Q,0]]];break;default:var
+R=q[2],ai=q[1],aj=[0,[1,cT(ai)[1],R],[1,ai,R]],M=[0,aj,[0,aj,[0,ds(cT(R)),0]]]}var
+aa=az(e(function(d){var
+a=k3(l,d[1]);if(a)var
+b=k3(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},M));if(aa){var
-aC=aa[1],aD=a[5],bA=1<aD[0]?[0,aD[1],0]:0,ab=aj(e(function(a){return ez(k,a)},bA));if(ab){var
-ac=aj(lZ(k,z,bf,K,C,n,T,a[6]));if(ac){var
-ad=ac[1],aE=v(j(g(aB,aC)),h),aG=aE?m(function(a){switch(a[0]){case
+aC=aa[1],aD=a[5],bz=1<aD[0]?[0,aD[1],0]:0,ab=az(e(function(a){return ee(l,a)},bz));if(ab){var
+ac=az(k_(l,z,be,K,C,m,T,a[6]));if(ac){var
+ad=ac[1],aE=u(j(g(aB,aC)),h),aF=aE?n(function(a){switch(a[0]){case
 2:var
-d=lO(a[2]),b=[0,a[3],d];break;case
+d=kZ(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=lO(a[1]),b=[0,a[2],c]}return m(function(a){return lP(h,D,a)},b)},ad):aE,aH=aG?o?lP(h,D,z(o[1])):1:aG;if(aH){var
-bB=e(function(a){return 1},ad),bC=g(aB,aC),bD=I(z,o);return lW(k,at,g(Z[1],ab[1]),ad,h,h,bD,bC,bB,bh)}var
+c=kZ(a[1]),b=[0,a[2],c]}return n(function(a){return k0(h,F,a)},b)},ad):aE,aG=aF?p?k0(h,F,z(p[1])):1:aF;if(aG){var
+bA=e(function(a){return 1},ad),bB=g(aB,aC),bC=J(z,p);return k7(l,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bf)}var
+aH=aG}else
+var
+aH=ac;var
 aI=aH}else
 var
-aI=ac;var
+aI=ab;var
 aJ=aI}else
 var
-aJ=ab;var
+aJ=aa;var
 aK=aJ}else
 var
-aK=aa;var
+aK=$;var
 aL=aK}else
 var
-aL=$;var
+aL=Z;var
 aM=aL}else
 var
-aM=Z;var
-aN=aM}else
+aM=Y;return aM}function
+fq(b,a){return bt(b,a[1],a[2])}function
+hj(b,a){var
+c=fq(b,a[1]),d=c?fq(b,a[2]):c;return d?fq(b,a[3]):d}var
+fs=D(o(c),fr);function
+la(e){var
+a=af(fs);if(e)var
+f=r(o(b(2,c)),a),g=N(o(b(2,b(2,c))),f),h=r(o(b(2,c)),a),d=av(N(o(c),h),g);else
 var
-aN=Y;return aN}function
-fU(b,a){return bD(b,a[1],a[2])}function
-h3(b,a){var
-c=fU(b,a[1]),d=c?fU(b,a[2]):c;return d?fU(b,a[3]):d}var
-fW=F(q(c),fV);function
-l1(e){var
-a=ai(fW);if(e)var
-f=u(q(b(2,c)),a),g=O(q(b(2,b(2,c))),f),h=u(q(b(2,c)),a),d=aA(O(q(c),h),g);else
-var
-i=O(q(b(2,c)),a),j=ai(fV),d=aA(O(u(q(b(2,c)),j),a),i);return cE(d)}function
-l2(d,b,a){if(d){var
-e=l1(b),f=O(q(c),e),g=u(F(q(c),a),f);return F(q(c),g)}var
-h=q(c),i=l1(b),j=aA(q(c),i);return F(u(a,O(q(c),j)),h)}function
-dI(f,e,d,a){var
-g=ai(a),h=ai(d),i=F(F(q(b(2,c)),h),g),j=f?e?fW:aA(fW,u(q(b(2,c)),fV)):aA(fW,q(b(2,c))),k=u(ai(j),i);return cE(O(q(c),k))}function
-l3(g,d){var
+i=N(o(b(2,c)),a),j=af(fr),d=av(N(r(o(b(2,c)),j),a),i);return cr(d)}function
+lb(d,b,a){if(d){var
+e=la(b),f=N(o(c),e),g=r(D(o(c),a),f);return D(o(c),g)}var
+h=o(c),i=la(b),j=av(o(c),i);return D(r(a,N(o(c),j)),h)}function
+dt(f,e,d,a){var
+g=af(a),h=af(d),i=D(D(o(b(2,c)),h),g),j=f?e?fs:av(fs,r(o(b(2,c)),fr)):av(fs,o(b(2,c))),k=r(af(j),i);return cr(N(o(c),k))}function
+lc(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?y(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-h4(u,t,s){var
-a=e(function(a){return w(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hk(v,u,s){var
+a=e(function(a){return t(a,u,0)},v);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -4562,18 +4527,18 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],x=i[1],y=h[1],z=g[1];return m(function(a){var
-c=f(a,v),d=f(a,x),e=f(a,y),b=f(a,z);return fy([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+w=j[1],x=i[1],y=h[1],z=g[1];return n(function(a){var
+c=f(a,w),d=f(a,x),e=f(a,y),b=f(a,z);return e6([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
 l=k}else
 var
 l=i;var
-n=l}else
+m=l}else
 var
-n=c;var
-o=n}else
+m=c;var
+o=m}else
 var
 o=h;var
 p=o}else
@@ -4585,12 +4550,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-l4(f,i,e,b,h){var
+ld(f,i,e,b,h){var
 j=f?c:d,a=am(i,j);function
 g(b){var
-c=f?fr(b):dp(b);return N(c,a)}var
-k=[0,aq(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-l5(r,g,q,p,f,o,n){if(o){var
+c=f?eZ(b):da(b);return M(c,a)}var
+k=[0,aq(h),0],l=[0,[0,a,b,[0,x,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+le(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4599,16 +4564,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(a3,bC(t7)),a=h4(p,hz(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aW,bs(sZ)),a=hk(p,j4(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=E(k[2],l[1]);b=1;c=1;d=1;break}else
+a=I(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(l3,t8),a=h4(p,bR(0,cF(g,l4(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lc,s0),a=hk(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(l3,t9),a=h4(p,bR(0,cF(g,l4(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lc,s1),a=hk(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4618,27 +4583,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?t_:a}else
+y=a?s2:a}else
 var
 y=n;return y}return[0,n]}function
-l6(f,e,d,c,p,o,n){var
+lf(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=l5(f,e,d,c,b,a[1],g);return h?ah(h[1]):h}var
-i=l5(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=er(a[2],b),l=l6(f,e,d,c,k[1],j,a[3]);if(l){var
+h=le(f,e,d,c,b,a[1],g);return h?au(h[1]):h}var
+i=le(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d9(a[2],b),l=lf(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-h5(a){return dk(b(2,c),au(a,c))}function
-dJ(i,a,e,w,v){var
-l=a?c:aa(c),f=q(l),g=l2(a,e,t5),h=l2(a,e,t6),m=aA(g,dI(a,e,f,g)),n=[0,O(aA(h,dI(a,e,h,f)),m),0],o=aA(f,dI(a,e,f,g)),p=[0,O(aA(h,dI(a,e,g,h)),o),n],r=aA(f,dI(a,e,h,f)),s=[0,O(aA(g,dI(a,e,g,h)),r),p],t=a?e?q(b(2,c)):u(q(b(2,b(2,c))),fV):q(b(2,b(2,c))),j=ds([0,t,s]),k=[0,d,cW(i)];return l6(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-l7(a,g,b){if(P(g,h5(a))){if(b){var
+hl(a){return jh(b(2,c),aS(a,c))}function
+du(i,a,e,w,v){var
+l=a?c:aa(c),f=o(l),g=lb(a,e,sX),h=lb(a,e,sY),m=av(g,dt(a,e,f,g)),n=[0,N(av(h,dt(a,e,h,f)),m),0],p=av(f,dt(a,e,f,g)),q=[0,N(av(h,dt(a,e,g,h)),p),n],s=av(f,dt(a,e,h,f)),t=[0,N(av(g,dt(a,e,g,h)),s),q],u=a?e?o(b(2,c)):r(o(b(2,b(2,c))),fr):o(b(2,b(2,c))),j=d5([0,u,t]),k=[0,d,cK(i)];return lf(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lg(a,g,b){if(S(g,hl(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,h5(a)],v=cW(a),i=[0,h5(a),v],j=dJ(a,0,1,h,b[1]),k=j?dJ(a,0,0,i,c[1]):j;if(k){var
-l=dJ(a,1,1,h,d[1]);if(l)return dJ(a,1,0,i,e[1]);var
+h=[0,g,hl(a)],v=cK(a),i=[0,hl(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
+l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4655,317 +4620,241 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cW(a)],s=dJ(a,0,0,r,b[1]);if(s)return dJ(a,1,0,r,f[1]);var
+r=[0,g,cK(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-h6(a){var
-b=[1,[2,d]];return fn(function(b,a){return[1,[3,b,a]]},a,b)}function
-fX(a){return h6(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fY(a,c){return h6(e(function(a){var
-d=[0,a[2]],b=aX(a[1],c);return[1,[7,[1,[8,h6(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-l8(e,d,c,b,a){if(0===a[0])return w(a[1],b,0);var
-g=a[1],h=dq(function(a){return l8(e,d,c,b,a)},g);return f(cF(e,d,c),h)}function
-h7(a){return a?P(d,a[1][2][1]):a}function
-t$(a){var
-b=v(j(a),ua);return b?av(function(a){return ah(M(a,d))},a):b}function
-l9(w,d,b,n,v,m){var
-a=be(0,j(m)),g=e(function(o){var
-p=R(m,o);if(p){var
-a=p[1],A=dl(o,m),B=j(G(function(a){return c3(n,a)},A)),C=Q(v[2],B),k=[0,Q(v[1],o),C],x=dy(b),i=f(aY(d),x),g=[1,[8,[1,[1,k[1]]]]],h=fO(b,n,k,a),r=h?[0,[3,e(d,[0,h[1],h[2]])]]:h,q=0;if(typeof
-a!=="number")switch(a[0]){case
-0:return[0,[0,i,g]];case
-1:return[0,[1,i,g]];case
-4:var
-s=l(w,1,a[2]),y=s?r:s;return y;case
-5:return[0,[2,i,g]];case
-8:var
-t=l(w,1,[5,a[2],a[1]]);if(!t)return t;var
-u=[1,[2,c]];q=1;break;case
-9:var
-u=g;q=1;break;case
-2:case
-3:case
-6:case
-7:return r}if(q){var
-z=fN(b,n,k,a);return I(function(a){return[0,f(aY(d),a),u]},z)}return 0}return p},a),h=e(function(a){return f(d,c0(a))},b);return[0,e(function(a){return f(d,a[2])},b),h,g]}function
-l_(ag,af,ae,i,ad,ac,ab,k,g){function
-F(a){return f(ad,l8(ag,ac,ab,k,a))}if(typeof
-g==="number"){var
-ah=i[1];return av(function(b){var
-a=w(b,k,0);return a?E(a[1][2][2],d):a},ah)}else{if(0===g[0]){var
-a=g[2],G=m(t$,a);if(G){var
-l=w(g[1],i[3],0);if(l){var
-c=l[1];switch(c[0]){case
-0:var
-q=0;if(a)if(a[2])var
-b=0;else{var
-t=a[1],u=c[1],U=fY(u,t),V=fX(t),v=[0,[0,u,[0,[1,[4,[1,[6,c[2],V]],U]],0]]];q=1}else{var
-v=a;q=1}if(q)var
-b=v;break;case
-1:var
-r=0;if(a)if(a[2])var
-b=0;else{var
-x=a[1],y=c[1],W=fX(x),X=[1,[6,c[2],W]],z=[0,[0,y,[0,[1,[4,fY(y,x),X]],0]]];r=1}else{var
-z=a;r=1}if(r)var
-b=z;break;case
-2:var
-s=0;if(a){var
-h=a[2],T=0;if(h)if(h[2]){var
-b=0;T=1}else
-var
-A=h[1],B=a[1],j=c[1],Y=fX(B),Z=[1,[6,fY(j,A),Y]],_=[1,[6,c[2],Z]],$=fX(A),C=[0,[0,j,[0,[1,[4,[1,[6,fY(j,B),$]],_]],0]]];else
-var
-C=h;if(!T){var
-D=C;s=1}}else{var
-D=a;s=1}if(s)var
-b=D;break;default:if(a)var
-b=0;else
-var
-aa=c[1],b=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aa)]]}if(b){var
-H=b[1],ai=H[1],I=m(function(a){return h7(w(a[2],k,0))},ai);if(I)return m(F,H[2]);var
-J=I}else
-var
-J=b;var
-K=J}else
-var
-K=l;var
-L=K}else
-var
-L=G;return L}var
-M=g[2],N=g[1],n=R(ae,N);if(n){var
-O=n[1];if(typeof
-O!=="number"&&1===O[0]){var
-o=R(i[1],M);if(o){var
-p=R(i[2],M);if(p){var
-aj=Q(af,N);return F([1,[4,[1,[8,[0,p[1]]]],[1,[6,[1,[8,[1,[1,aj]]]],[0,o[1]]]]]])}var
-S=p}else
-var
-S=o;return S}var
-P=0}else
-var
-P=n;return P}}function
-l$(c,f,b,a){if(b)if(a)var
-d=b[1],g=z(c,am(c,a[1]),f),h=l$(c,f,b[2],a[2]),i=d[3],j=y(d[2],g),e=[0,[0,y(d[1],g),j,i],h];else
+hm(a){var
+b=[1,[2,d]];return gy(function(b,a){return[1,[3,b,a]]},a,b)}function
+ft(a){return hm(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fu(a,c){return hm(e(function(a){var
+d=[0,a[2]],b=a$(a[1],c);return[1,[7,[1,[8,hm(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lh(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+g=a[1],h=db(function(a){return lh(e,d,c,b,a)},g);return f(cs(e,d,c),h)}function
+li(a){return a?S(d,a[1][2][1]):a}function
+s3(a){var
+b=u(j(a),s4);return b?aP(function(a){return au(ad(a,d))},a):b}function
+lj(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,am(c,a[1]),f),h=lj(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fZ(b,a){return kc(kc(b,0),a)}function
-h8(a){if(a){var
-b=a[2],c=a[1];if(b)return fZ(c,[0,uc,h8(b)]);var
+fv(b,a){return jm(jm(b,0),a)}function
+hn(a){if(a){var
+b=a[2],c=a[1];if(b)return fv(c,[0,s6,hn(b)]);var
 d=c}else
 var
 d=a;return d}function
-B(a){return[0,ue,fZ(h8(a),ud)]}function
-S(a){return[0,ug,fZ(h8(a),uf)]}function
-ac(a){return[0,ui,[0,a,uh]]}function
-h(b,a){return[0,aJ(uk,aJ(b,uj)),a]}function
-J(b,a){return S([0,h(b,a),0])}function
-cl(d){var
-b=d,a=sq,e=0;for(;;){if(b){var
-c=j4(a),b=b[1],a=c;continue}return[0,ek(ff(a)),e]}}function
-eG(a){return[0,ek(fj(a)),0]}function
-f0(a){var
-c=a1(a),f=0,b=0===c?su:0<c?[0,fj(a)]:[1,fj(aa(a))];if(0===b[0])var
-d=ek(b[1]);else
+y(a){return[0,s8,fv(hn(a),s7)]}function
+R(a){return[0,s_,fv(hn(a),s9)]}function
+aj(a){return[0,ta,[0,a,s$]]}function
+h(b,a){return[0,aE(tc,aE(b,tb)),a]}function
+H(b,a){return R([0,h(b,a),0])}function
+cc(d){var
+b=d,a=rh,e=0;for(;;){if(b){var
+c=jd(a),b=b[1],a=c;continue}return[0,d0(eQ(a)),e]}}function
+ho(a){return[0,d0(eU(a)),0]}function
+fw(a){var
+c=b0(a),f=0,b=0===c?rl:0<c?[0,eU(a)]:[1,eU(aa(a))];if(0===b[0])var
+d=d0(b[1]);else
 var
-e=ek(b[1]),d=aJ(bl(1,45),e);return[0,d,f]}function
-bZ(a){var
-b=0,c=0<a1(a)?fj(a):st;return[0,ek(c),b]}function
-h9(a){switch(a[0]){case
-2:return um;case
-3:return 2<=a[1]?un:uo;case
-4:return up;default:return ul}}function
-eH(b,a){function
-c(c,a){return $(c,h9(a))?eH(b,a):[0,uv,g(eH(b,a),uu)]}switch(a[0]){case
+e=d0(b[1]),d=aE(be(1,45),e);return[0,d,f]}function
+hp(a){var
+b=0,c=0<b0(a)?eU(a):rk;return[0,d0(c),b]}function
+hq(a){switch(a[0]){case
+2:return te;case
+3:return 2<=a[1]?tf:tg;case
+4:return th;default:return td}}function
+el(b,a){function
+c(c,a){return ac(c,hq(a))?el(b,a):[0,tn,g(el(b,a),tm)]}switch(a[0]){case
 0:var
 e=a[2],h=a[1];if(typeof
-e==="number")return[0,a_(h),0];var
-i=[0,uw,[0,a_(e),0]];return[0,a_(h),i];case
+e==="number")return[0,a3(h),0];var
+i=[0,to,[0,a3(e),0]];return[0,a3(h),i];case
 1:return[0,f(b,a[1]),0];case
-2:return[0,uy,c(ux,a[1])];case
+2:return[0,tq,c(tp,a[1])];case
 3:var
-j=a[3],k=c([0,h9(a)],j);switch(a[1]){case
+j=a[3],k=c([0,hq(a)],j);switch(a[1]){case
 0:var
-d=uq;break;case
+d=ti;break;case
 1:var
-d=ur;break;case
+d=tj;break;case
 2:var
-d=us;break;default:var
-d=ut}var
-l=a[2];return g(c(h9(a),l),[0,d,k]);case
+d=tk;break;default:var
+d=tl}var
+l=a[2];return g(c(hq(a),l),[0,d,k]);case
 4:var
-m=[0,uz,eG(a[2])];return g(c(uA,a[1]),m);default:return[0,uC,g(eH(b,a[1]),uB)]}}function
-K(a){return[0,uF,g(eH(function(a){return 0===a[0]?a[1]:uE},a),uD)]}function
-ma(a){return[0,uH,g(eH(function(a){return a},a),uG)]}function
-cK(a){if(0===a[0])return K(a[1]);var
-b=[0,h(uI,K(a[2])),0];return S([0,h(uJ,K(a[1])),b])}function
-eI(b,a){var
-c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return B([0,f(b,a[1]),d])}function
-uK(a){function
-b(a){return eI(cK,a)}switch(a[0]){case
+m=[0,tr,ho(a[2])];return g(c(ts,a[1]),m);default:return[0,tu,g(el(b,a[1]),tt)]}}function
+G(a){return[0,tx,g(el(function(a){return 0===a[0]?a[1]:tw},a),tv)]}function
+lk(a){return[0,tz,g(el(function(a){return a},a),ty)]}function
+cy(a){if(0===a[0])return G(a[1]);var
+b=[0,h(tA,G(a[2])),0];return R([0,h(tB,G(a[1])),b])}function
+em(b,a){var
+c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return y([0,f(b,a[1]),d])}function
+tC(a){function
+b(a){return em(cy,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?uL:uT,i=[0,h(uM,ac(f)),e],j=[0,h(uN,cK(a[4])),i],k=[0,h(uO,b(a[3])),j],l=[0,h(uP,b(a[2])),k],m=[0,h(uQ,b(a[1])),l],c=[0,h(uS,ac(uR)),m];break;case
+e=0,f=a[5]?tD:tL,i=[0,h(tE,aj(f)),e],j=[0,h(tF,cy(a[4])),i],k=[0,h(tG,b(a[3])),j],l=[0,h(tH,b(a[2])),k],m=[0,h(tI,b(a[1])),l],c=[0,h(tK,aj(tJ)),m];break;case
 1:var
-d=a[3],n=d?[0,h(uU,b(d[1])),0]:d,o=[0,h(uV,b(a[2])),0],p=[0,h(uW,b(a[1])),o],c=g([0,h(uY,ac(uX)),p],n);break;default:var
-q=[0,h(uZ,b(a[1])),0],c=[0,h(u1,ac(u0)),q]}return S(c)}function
-u2(a){function
-b(a){return eI(cK,a)}var
-c=0,d=a[7]?u3:vb,e=[0,h(u4,ac(d)),c],f=[0,h(u5,cK(a[6])),e],g=[0,h(u6,cK(a[5])),f],i=[0,h(u7,b(a[4])),g],j=[0,h(u8,b(a[3])),i],k=[0,h(u9,b(a[2])),j],l=[0,h(u_,b(a[1])),k];return S([0,h(va,ac(u$)),l])}function
-h_(a){switch(a){case
-0:return vc;case
-1:return vd;case
-2:return ve;case
-3:return vf;case
-4:return vg;case
-5:return vh;case
-6:return vi;case
-7:return vj;case
-8:return vk;case
-9:return vl;case
-10:return vm;case
-11:return vn;default:return vo}}function
-h$(a){if(typeof
-a==="number")return vp;else
+d=a[3],n=d?[0,h(tM,b(d[1])),0]:d,o=[0,h(tN,b(a[2])),0],p=[0,h(tO,b(a[1])),o],c=g([0,h(tQ,aj(tP)),p],n);break;default:var
+q=[0,h(tR,b(a[1])),0],c=[0,h(tT,aj(tS)),q]}return R(c)}function
+tU(a){function
+b(a){return em(cy,a)}var
+c=0,d=a[7]?tV:t5,e=[0,h(tW,aj(d)),c],f=[0,h(tX,cy(a[6])),e],g=[0,h(tY,cy(a[5])),f],i=[0,h(tZ,b(a[4])),g],j=[0,h(t0,b(a[3])),i],k=[0,h(t1,b(a[2])),j],l=[0,h(t2,b(a[1])),k];return R([0,h(t4,aj(t3)),l])}function
+hr(a){switch(a){case
+0:return t6;case
+1:return t7;case
+2:return t8;case
+3:return t9;case
+4:return t_;case
+5:return t$;case
+6:return ua;case
+7:return ub;case
+8:return uc;case
+9:return ud;case
+10:return ue;case
+11:return uf;default:return ug}}function
+hs(a){if(typeof
+a==="number")return uh;else
 switch(a[0]){case
-0:return vq;case
-1:return vr;default:return vs}}function
-eJ(a){var
+0:return ui;case
+1:return uj;default:return uk}}function
+en(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(vt,K(b[1])),0];break;case
+c=[0,h(ul,G(b[1])),0];break;case
 1:var
-c=[0,h(vu,K(b[1])),0];break;default:var
-l=[0,K(b[2]),0],c=[0,h(vv,B([0,K(b[1]),l])),0]}var
-m=[0,h(vw,ac(h$(a[4]))),c],e=a[3];if(e){var
+c=[0,h(um,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,h(un,y([0,G(b[1]),l])),0]}var
+m=[0,h(uo,aj(hs(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=B([0,K(d[1]),0]),i=a[1],n=0,p=6===i?vx:12<=i?vB:vC,j=[0,h(vy,J(p,o)),n];else
+o=y([0,G(d[1]),0]),i=a[1],n=0,p=6===i?up:12<=i?ut:uu,j=[0,h(uq,H(p,o)),n];else
 var
-t=[0,h(vD,B([0,K(d[2]),0])),0],j=[0,h(vF,S([0,h(vE,B([0,K(d[1]),0])),t])),0];var
+t=[0,h(uv,y([0,G(d[2]),0])),0],j=[0,h(ux,R([0,h(uw,y([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=g(k,m),f=a[2],r=f?[0,h(vz,cl(f[1])),0]:f,s=g(r,q);return S([0,h(vA,ac(h_(a[1]))),s])}function
-mb(a){if(0===a[0]){var
-b=[0,h(vG,eI(K,a[2])),0];return J(vI,S([0,h(vH,eI(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,h(vJ,B([0,K(a[4]),c])),0],e=[0,h(vK,K(a[3])),d],f=[0,K(a[2]),0];return J(vM,S([0,h(vL,B([0,K(a[1]),f])),e]))}function
-vQ(a){function
-b(a){return B(e(cK,a))}var
-c=[0,h(vR,b(a[2])),0],d=[0,h(vS,b(a[1])),c];return S([0,h(vU,ac(vT)),d])}function
-v4(a){function
-b(a){return eI(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(v5,b(c[1])),0]:c,f=[0,K(a[4]),0],i=[0,h(v6,B([0,K(a[3]),f])),0],j=[0,h(v7,K(a[2])),i],k=[0,h(v8,cl(a[1])),j],d=g([0,h(v_,ac(v9)),k],e);else
+q=g(k,m),f=a[2],r=f?[0,h(ur,cc(f[1])),0]:f,s=g(r,q);return R([0,h(us,aj(hr(a[1]))),s])}function
+ll(a){if(0===a[0]){var
+b=[0,h(uy,em(G,a[2])),0];return H(uA,R([0,h(uz,em(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,h(uB,y([0,G(a[4]),c])),0],e=[0,h(uC,G(a[3])),d],f=[0,G(a[2]),0];return H(uE,R([0,h(uD,y([0,G(a[1]),f])),e]))}function
+uI(a){function
+b(a){return y(e(cy,a))}var
+c=[0,h(uJ,b(a[2])),0],d=[0,h(uK,b(a[1])),c];return R([0,h(uM,aj(uL)),d])}function
+uW(a){function
+b(a){return em(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(uX,b(c[1])),0]:c,f=[0,G(a[4]),0],i=[0,h(uY,y([0,G(a[3]),f])),0],j=[0,h(uZ,G(a[2])),i],k=[0,h(u0,cc(a[1])),j],d=g([0,h(u2,aj(u1)),k],e);else
 var
-l=[0,h(v$,K(a[4])),0],m=[0,h(wa,b(a[3])),l],n=[0,h(wb,b(a[2])),m],o=a[1]?wc:we,d=[0,h(wd,ac(o)),n];return S(d)}function
-f1(d,c,a,b){var
-f=[0,h(wf,B(e(eJ,b))),0],i=a?[0,h(wg,B(e(v4,a))),0]:a,j=g(i,f),k=[0,h(wh,mb(c)),0];return S(g([0,h(wj,J(wi,B(e(uK,d)))),k],j))}function
-wk(a){switch(a[0]){case
-0:return J(wl,f1(a[1],a[2],a[3],a[4]));case
+l=[0,h(u3,G(a[4])),0],m=[0,h(u4,b(a[3])),l],n=[0,h(u5,b(a[2])),m],o=a[1]?u6:u8,d=[0,h(u7,aj(o)),n];return R(d)}function
+ht(d,c,a,b){var
+f=[0,h(u9,y(e(en,b))),0],i=a?[0,h(u_,y(e(uW,a))),0]:a,j=g(i,f),k=[0,h(u$,ll(c)),0];return R(g([0,h(vb,H(va,y(e(tC,d)))),k],j))}function
+vc(a){switch(a[0]){case
+0:return H(vd,ht(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(wm,B(e(eJ,a[3]))),0],p=[0,h(wn,mb(a[2])),o];return J(wq,S([0,h(wp,J(wo,B(e(u2,a[1])))),p]));case
+o=[0,h(ve,y(e(en,a[3]))),0],p=[0,h(vf,ll(a[2])),o];return H(vi,R([0,h(vh,H(vg,y(e(tU,a[1])))),p]));case
 2:var
-q=[0,h(wr,B(e(eJ,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,K(a),0];return B([0,K(b),c])};switch(b[0]){case
+q=[0,h(vj,y(e(en,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,G(a),0];return y([0,G(b),c])};switch(b[0]){case
 0:var
-d=J(vV,c(b[1],b[2]));break;case
+d=H(uN,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(vW,c(g[1],g[2])),0],m=[0,h(vX,c(i[1],i[2])),l],d=J(vZ,S([0,h(vY,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(uO,c(g[1],g[2])),0],m=[0,h(uP,c(i[1],i[2])),l],d=H(uR,R([0,h(uQ,c(j[1],j[2])),m]));break;case
 2:var
-d=J(v0,K(b[1]));break;default:var
-n=[0,h(v1,K(b[2])),0],d=J(v3,S([0,h(v2,K(b[1])),n]))}var
-r=[0,h(ws,d),q],s=[0,h(wt,B(e(K,a[5]))),0],t=[0,h(ww,J(wv,S([0,h(wu,B(e(K,a[4]))),s]))),r],u=[0,h(wx,K(a[3])),0],v=S([0,h(wy,B(e(vQ,a[2]))),u]);switch(a[1]){case
+d=H(uS,G(b[1]));break;default:var
+n=[0,h(uT,G(b[2])),0],d=H(uV,R([0,h(uU,G(b[1])),n]))}var
+r=[0,h(vk,d),q],s=[0,h(vl,y(e(G,a[5]))),0],t=[0,h(vo,H(vn,R([0,h(vm,y(e(G,a[4]))),s]))),r],u=[0,h(vp,G(a[3])),0],v=R([0,h(vq,y(e(uI,a[2]))),u]);switch(a[1]){case
 0:var
-f=vN;break;case
+f=uF;break;case
 1:var
-f=vO;break;default:var
-f=vP}return J(wA,S([0,h(wz,J(f,v)),t]));case
+f=uG;break;default:var
+f=uH}return H(vs,R([0,h(vr,H(f,v)),t]));case
 3:var
-w=[0,h(wB,B(e(eJ,a[7]))),0],x=[0,h(wC,B(e(K,a[6]))),0],y=[0,h(wF,J(wE,S([0,h(wD,B(e(K,a[5]))),x]))),w],z=0,A=a[4],C=[0,h(wH,B(e(function(a){return J(wG,B(e(ma,a)))},A))),z],D=a[3],E=[0,h(wI,B(e(function(a){var
-b=[0,ma(a[2]),0];return B([0,ac(a[1]),b])},D))),C],F=a[2],G=[0,h(wJ,B(e(function(a){var
-b=[0,cK(a[2]),0];return B([0,ac(a[1]),b])},F))),E];return J(wN,S([0,h(wM,J(wL,S([0,h(wK,B(e(ac,a[1]))),G]))),y]));case
+w=[0,h(vt,y(e(en,a[7]))),0],x=[0,h(vu,y(e(G,a[6]))),0],z=[0,h(vx,H(vw,R([0,h(vv,y(e(G,a[5]))),x]))),w],A=0,B=a[4],C=[0,h(vz,y(e(function(a){return H(vy,y(e(lk,a)))},B))),A],D=a[3],E=[0,h(vA,y(e(function(a){var
+b=[0,lk(a[2]),0];return y([0,aj(a[1]),b])},D))),C],F=a[2],I=[0,h(vB,y(e(function(a){var
+b=[0,cy(a[2]),0];return y([0,aj(a[1]),b])},F))),E];return H(vF,R([0,h(vE,H(vD,R([0,h(vC,y(e(aj,a[1]))),I]))),z]));case
 4:var
-H=[0,h(wO,B(e(eJ,a[3]))),0],I=[0,h(wR,J(wQ,S([0,h(wP,K(a[2])),0]))),H];return J(wV,S([0,h(wU,J(wT,S([0,h(wS,K(a[1])),0]))),I]));case
+J=[0,h(vG,y(e(en,a[3]))),0],K=[0,h(vJ,H(vI,R([0,h(vH,G(a[2])),0]))),J];return H(vN,R([0,h(vM,H(vL,R([0,h(vK,G(a[1])),0]))),K]));case
 5:var
-L=[0,h(wW,K(a[5])),0];return J(wY,S([0,h(wX,f1(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,h(vO,G(a[5])),0];return H(vQ,R([0,h(vP,ht(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-k=a[1],M=0,N=k?cK(k[1]):ac(w1);return J(w0,S([0,h(wZ,N),M]));default:var
-O=[0,h(w2,K(a[6])),0],P=[0,h(w3,K(a[5])),O],Q=[0,h(w4,f1(a[2],a[3],0,a[4])),P],R=a[1];return J(w9,S([0,h(w8,B(e(function(a){var
-b=[0,h(w5,K(a[2][2])),0],c=[0,h(w6,K(a[2][1])),b];return S([0,h(w7,ac(a[1])),c])},R))),Q]))}}function
-eK(a){return B(e(f0,a))}function
-f2(b,a){var
-c=[0,h(w_,bZ(a)),0];return S([0,h(w$,B(e(eK,b))),c])}function
-eL(a){switch(a[0]){case
-0:return ac(a[1]);case
+k=a[1],M=0,N=k?cy(k[1]):aj(vT);return H(vS,R([0,h(vR,N),M]));default:var
+O=[0,h(vU,G(a[6])),0],P=[0,h(vV,G(a[5])),O],Q=[0,h(vW,ht(a[2],a[3],0,a[4])),P],S=a[1];return H(v1,R([0,h(v0,y(e(function(a){var
+b=[0,h(vX,G(a[2][2])),0],c=[0,h(vY,G(a[2][1])),b];return R([0,h(vZ,aj(a[1])),c])},S))),Q]))}}function
+eo(a){return y(e(fw,a))}function
+fx(b,a){var
+c=[0,h(v2,hp(a)),0];return R([0,h(v3,y(e(eo,b))),c])}function
+ep(a){switch(a[0]){case
+0:return aj(a[1]);case
 1:var
-b=f2(a[2],a[3]);return J(a[1],b);case
+b=fx(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?xa:xc;return J(xb,ac(c));case
+c=a[1]?v4:v6;return H(v5,aj(c));case
 3:var
-d=[0,eK(a[3]),0];return J(xd,B([0,f2(a[1],a[2]),d]));case
+d=[0,eo(a[3]),0];return H(v7,y([0,fx(a[1],a[2]),d]));case
 4:var
-f=[0,cl(0),0],g=[0,f0(a[3]),f];return J(xe,B([0,f2(a[1],a[2]),g]));case
+f=[0,cc(0),0],g=[0,fw(a[3]),f];return H(v8,y([0,fx(a[1],a[2]),g]));case
 5:var
-h=[0,bZ(a[3]),0],i=[0,f0(a[2]),h];return J(xf,B([0,eL(a[1]),i]));case
+h=[0,hp(a[3]),0],i=[0,fw(a[2]),h];return H(v9,y([0,ep(a[1]),i]));case
 6:var
-j=[0,bZ(a[3]),0],k=[0,f0(a[2]),j];return J(xg,B([0,eL(a[1]),k]));case
-7:return J(xh,eL(a[1]));default:var
-l=[0,B(e(eK,a[3])),0],m=[0,ac(a[2]),l];return J(xi,B([0,eL(a[1]),m]))}}function
-xj(a){var
-b=[0,eL(a[2]),0];return B([0,cl(a[1]),b])}function
-mc(a){if(typeof
-a==="number")return ac(xk);else{if(0===a[0]){var
-b=[0,B(e(eK,a[2])),0];return J(xl,B([0,cl(a[1]),b]))}var
-c=[0,cl(a[2]),0];return J(xm,B([0,cl(a[1]),c]))}}function
-xn(a){var
-b=a[4],i=b?[0,h(xo,eK([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(xp,mc(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(xq,cl(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(xr,B(e(xj,[0,c[1],c[2]]))),0]:c;return S(g(n,m))}function
-md(f,a,d){var
-i=[0,h(xs,B(e(xn,d))),0];if(a)var
-b=a[1],c=[0,h(xt,f2(b[1],b[2])),0];else
+j=[0,hp(a[3]),0],k=[0,fw(a[2]),j];return H(v_,y([0,ep(a[1]),k]));case
+7:return H(v$,ep(a[1]));default:var
+l=[0,y(e(eo,a[3])),0],m=[0,aj(a[2]),l];return H(wa,y([0,ep(a[1]),m]))}}function
+wb(a){var
+b=[0,ep(a[2]),0];return y([0,cc(a[1]),b])}function
+lm(a){if(typeof
+a==="number")return aj(wc);else{if(0===a[0]){var
+b=[0,y(e(eo,a[2])),0];return H(wd,y([0,cc(a[1]),b]))}var
+c=[0,cc(a[2]),0];return H(we,y([0,cc(a[1]),c]))}}function
+wf(a){var
+b=a[4],i=b?[0,h(wg,eo([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(wh,lm(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(wi,cc(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(wj,y(e(wb,[0,c[1],c[2]]))),0]:c;return R(g(n,m))}function
+ln(f,a,d){var
+i=[0,h(wk,y(e(wf,d))),0];if(a)var
+b=a[1],c=[0,h(wl,fx(b[1],b[2])),0];else
 var
 c=a;var
-j=g(c,i);return S([0,h(xu,eG(f)),j])}function
-me(d,c,a,b){var
-f=[0,h(xv,mc(b)),0],i=a?[0,h(xw,B(e(K,a))),0]:a,j=g(i,f),k=[0,h(xx,B(e(K,c))),0];return S(g([0,h(xy,eG(d)),k],j))}function
-xz(a){if(typeof
-a==="number")return ac(xA);else
+j=g(c,i);return R([0,h(wm,ho(f)),j])}function
+lo(d,c,a,b){var
+f=[0,h(wn,lm(b)),0],i=a?[0,h(wo,y(e(G,a))),0]:a,j=g(i,f),k=[0,h(wp,y(e(G,c))),0];return R(g([0,h(wq,ho(d)),k],j))}function
+wr(a){if(typeof
+a==="number")return aj(ws);else
 switch(a[0]){case
-0:return J(xB,cl(a[1]));case
-1:return J(xC,md(a[1],a[2],a[3]));default:return J(xD,me(a[1],a[2],a[3],a[4]))}}function
-dK(a){var
-b=g3(g2(H(a),function(b){return Y(a,b)}));return m(function(a){var
-b=ah(34===a?1:0),c=b?ah(92===a?1:0):b,d=c?$(xS,fp(a)):c;return d?$(fp(a),xT):d},b)}function
-eM(b){function
+0:return H(wt,cc(a[1]));case
+1:return H(wu,ln(a[1],a[2],a[3]));default:return H(wv,lo(a[1],a[2],a[3],a[4]))}}function
+fy(a){var
+b=gi(gh(L(a),function(b){return W(a,b)}));return n(function(a){var
+b=au(34===a?1:0),c=b?au(92===a?1:0):b,d=c?ac(wK,eX(a)):c;return d?ac(eX(a),wL):d},b)}function
+eq(b){function
 c(f){var
-a=fp(f),b=$(xU,a),c=b?$(a,xV):b;if(c)var
+a=eX(f),b=ac(wM,a),c=b?ac(a,wN):b;if(c)var
 d=c;else{var
-e=$(xW,a);if(e)return $(a,xX);var
+e=ac(wO,a);if(e)return ac(a,wP);var
 d=e}return d}var
-a=g3(g2(H(b),function(a){return Y(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?m(function(a){var
+a=gi(gh(L(b),function(a){return W(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fp(a),f=$(xY,e),h=f?$(e,xZ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?$(j(d),x0):f;if(g)return ah(ag(b,x1));var
+e=eX(a),f=ac(wQ,e),h=f?ac(e,wR):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?ac(j(d),wS):f;if(g)return au(ap(b,wT));var
 h=g}else
 var
 h=a;return h}function
-ia(c){var
+hu(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eM(a[1]);case
+1:return eq(a[1]);case
 3:var
-b=ia(a[2]);if(b){var
+b=hu(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eN(m){var
+er(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4976,79 +4865,57 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ff(a[2]);if(typeof
+f=eQ(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eN(a[2]);if(i){var
+i=er(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eN(a[1]),l=k?fi(b(2,c),j):k;return l?fi(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=er(a[1]),l=k?eT(b(2,c),j):k;return l?eT(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dL(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cL(a){return G(dL,bE(a))}function
-ib(a){switch(a[0]){case
+dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cz(a){return E(dv,bv(a))}function
+hv(a){switch(a[0]){case
 0:var
-c=dL(a[4]),d=g(cL(a[3]),c),e=g(cL(a[2]),d);return g(cL(a[1]),e);case
+c=dv(a[4]),d=g(cz(a[3]),c),e=g(cz(a[2]),d);return g(cz(a[1]),e);case
 1:var
-b=a[3],f=b?cL(b[1]):b,h=g(cL(a[2]),f);return g(cL(a[1]),h);default:return cL(a[1])}}function
-x2(a){var
-b=G(dL,[0,a[5],[0,a[6],0]]);return g(G(cL,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-ic(a){if(0===a[0]){var
-b=bE(a[2]);return g(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-c9(d){var
+b=a[3],f=b?cz(b[1]):b,h=g(cz(a[2]),f);return g(cz(a[1]),h);default:return cz(a[1])}}function
+wU(a){var
+b=E(dv,[0,a[5],[0,a[6],0]]);return g(E(cz,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+hw(a){if(0===a[0]){var
+b=bv(a[2]);return g(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+cV(d){var
 a=d[4],f=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-x3(a){if(0===a[0]){var
-b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bE(a[3]),d);return g(bE(a[2]),e)}function
-mf(a){switch(a[0]){case
-0:var
-i=G(c9,a[4]),j=g(G(x3,a[3]),i),k=g(ic(a[2]),j);return g(G(ib,a[1]),k);case
-1:var
-l=G(c9,a[3]),m=g(ic(a[2]),l);return g(G(x2,a[1]),m);case
-2:var
-n=G(c9,a[7]),b=a[6];switch(b[0]){case
-1:var
-e=b[3],f=b[2],h=b[1],c=[0,h[1],[0,h[2],[0,f[1],[0,f[2],[0,e[1],[0,e[2],0]]]]]];break;case
-2:var
-c=[0,b[1],0];break;default:var
-c=[0,b[1],[0,b[2],0]]}var
-o=g(c,n),p=g(a[5],o),q=g(a[4],p),r=[0,a[3],q],s=a[2];return g(G(function(a){return G(dL,g(a[1],a[2]))},s),r);case
-3:var
-t=G(c9,a[7]),u=g(a[6],t),v=g(a[5],u),w=a[2];return g(G(function(a){return dL(a[2])},w),v);case
-4:var
-x=G(c9,a[3]);return[0,a[1],[0,a[2],x]];case
-5:var
-y=G(c9,a[4]),z=g(bE(a[3]),y),A=g(bE(a[2]),z),B=g(G(ib,a[1]),A);return[0,a[5],B];case
-6:var
-d=a[1];return d?dL(d[1]):d;default:var
-C=G(c9,a[4]),D=g(ic(a[3]),C);return g(G(ib,a[2]),D)}}function
-mg(b,e){var
+wV(a){if(0===a[0]){var
+b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bv(a[3]),d);return g(bv(a[2]),e)}function
+lp(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return av(function(a){return ag(f,a)},b)}return 0;case
+f=c[1];return aP(function(a){return ap(f,a)},b)}return 0;case
 3:var
-d=mg(b,a[2]);if(d){var
+d=lp(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eO(c,a){return m(function(a){var
-b=eN(a);return b?mg(c,a):b},a)}function
-id(a){var
-d=fi(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?fi(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mh(a,b){return b?[4,mh(a,b[1]),a]:a}function
+fz(c,a){return n(function(a){var
+b=er(a);return b?lp(c,a):b},a)}function
+lq(a){var
+d=eT(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eT(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+lr(a,b){return b?[4,lr(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,o(b(2,b(2,c)))),l=function(a){return s(k,a)},m=fg(j2(j),l,c);return[0,j_(j3(ff(a[1]),j)),m];case
+j=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return s(k,a)},m=eR(jb(j),l,c);return[0,jj(jc(eQ(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5059,35 +4926,35 @@ g=i(a[2]),h=i(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=cb(eh(a[2]));return mh(i(a[1]),n);default:return[6,i(a[1])]}}function
-cm(a){if(0===a[0]){var
+n=b5(dX(a[2]));return lr(i(a[1]),n);default:return[6,i(a[1])]}}function
+cd(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bF(a){var
-b=cm(a[3]),c=cm(a[2]);return[0,cm(a[1]),c,b]}function
-x4(a){switch(a[0]){case
+bw(a){var
+b=cd(a[3]),c=cd(a[2]);return[0,cd(a[1]),c,b]}function
+wW(a){switch(a[0]){case
 0:var
-b=a[5],c=cm(a[4]),d=bF(a[3]),e=bF(a[2]);return[0,[0,bF(a[1]),e,d,c,b]];case
+b=a[5],c=cd(a[4]),d=bw(a[3]),e=bw(a[2]);return[0,[0,bw(a[1]),e,d,c,b]];case
 1:var
-f=I(bF,a[3]),g=bF(a[2]);return[1,bF(a[1]),g,f];default:return[2,bF(a[1])]}}function
-mi(a){if(0===a[0]){var
+f=J(bw,a[3]),g=bw(a[2]);return[1,bw(a[1]),g,f];default:return[2,bw(a[1])]}}function
+ls(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(f(a,c));return[0,i(f(a,d)),b]},e=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,e]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dM(a){var
+dw(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-dN(a){if(0===a[0]){var
-b=a[5],h=b?dM(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,cb(a[1]),l,k,j,h]}var
+dx(a){if(0===a[0]){var
+b=a[5],h=b?dw(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b5(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dM(f),n=dM(g);return[2,i(e),n,m]}var
-o=dM(f),p=dM(g);return[1,i(e),p,o]}function
-ie(b,a){if(a){var
-c=a[1],d=a[2],f=ie(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(cC(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:dj(b[1],a[1]);return ah(d)},h),f)}return a}function
-x5(b){if(b[1])return 0;var
+m=dw(f),n=dw(g);return[2,i(e),n,m]}var
+o=dw(f),p=dw(g);return[1,i(e),p,o]}function
+hx(b,a){if(a){var
+c=a[1],d=a[2],f=hx(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(c9(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:dV(b[1],a[1]);return au(d)},h),f)}return a}function
+wX(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-x7(c,a){switch(a[1]){case
+wZ(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5112,14 +4979,14 @@ r==="number"||!(0===r[0]))H=1;else{var
 s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
 b=s[1]}if(H)return 0;break;case
 6:var
-u=a[4];if(typeof
-u!=="number"&&0===u[0]){if(a[2])return 0;var
+v=a[4];if(typeof
+v!=="number"&&0===v[0]){if(a[2])return 0;var
 f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=v(c,x9),J=0;if(x){var
+x=u(c,w1),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -5142,12 +5009,12 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?v(c,x_):0:j}return 0;default:var
+j=a[3];return j?0===j[1][0]?u(c,w2):0:j}return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=$(x8,b);return n?$(b,c):n}function
-f3(f,m,_,b){var
-$=j(f),h=G(function(a){switch(a[1]){case
+n=ac(w0,b);return n?ac(b,c):n}function
+hy(f,m,_,b){var
+$=j(f),h=E(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -5196,35 +5063,35 @@ b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=ie(0,_);return e(function(h){var
+T=s[1],U=hx(0,_);return e(function(h){var
 e=i(T),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dM(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,cb(f),m,l,k]}var
-n=dN(a);return[10,dN(b),n,e]}var
-o=dN(a);return[10,dN(b),o,e]}var
-p=dN(a);return[10,dN(b),p,e]},U)}return 0;case
+g=function(a){return a?dw(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,b5(f),m,l,k]}var
+n=dx(a);return[10,dx(b),n,e]}var
+o=dx(a);return[10,dx(b),o,e]}var
+p=dx(a);return[10,dx(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
-u=a[3],V=t[1];if(!u)return u;var
-w=u[1];if(0===w[0])return 0;var
+v=a[3],V=t[1];if(!v)return v;var
+w=v[1];if(0===w[0])return 0;var
 W=w[2],X=w[1],b=function(a){var
 b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?x6:E;return Y;default:var
+a[4]==="number"?1:0,Y=E?wY:E;return Y;default:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
 Z=i(x[1]);return[0,[14,i(F[1]),Z],0]}return 0}return y}return 0}var
-A=a[2],L=A?[0,cb(A[1]),0]:be(0,$);return e(b,L)},b),a=G(x5,b),k=a?[0,a[1],a[2]]:x$,l=g(k,h),n=mi(m);return[0,e(x4,f),n,l]}function
-ya(b){if(b[1])return 0;var
+A=a[2],L=A?[0,b5(A[1]),0]:bp(0,$);return e(b,L)},b),a=E(wX,b),k=a?[0,a[1],a[2]]:w3,l=g(k,h),n=ls(m);return[0,e(wW,f),n,l]}function
+w4(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-dO(D,b){var
-c=G(function(a){switch(a[1]){case
+dy(D,b){var
+c=E(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -5261,8 +5128,8 @@ m=a[3],B=l[1];if(!m)return m;var
 q=m[1];if(0!==q[0])return 0;var
 C=q[1],c=function(a){var
 b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
-n=a[2],u=n?[0,cb(n[1]),0]:be(0,D);return e(c,u)},b),a=G(ya,b),d=a?[0,a[1],a[2]]:yb;return g(d,c)}function
-bp(n,m,a){var
+n=a[2],u=n?[0,b5(n[1]),0]:bp(0,D);return e(c,u)},b),a=E(w4,b),d=a?[0,a[1],a[2]]:w5;return g(d,c)}function
+bi(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5272,31 +5139,31 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=dj(n,e);if(f){var
+f=dV(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=$(yc,h);return i?$(h,m):i}var
+h=g[1],i=ac(w6,h);return i?ac(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-c_(a){switch(a[0]){case
+cW(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,c_(a[1])];case
+2:return[2,cW(a[1])];case
 3:var
-b=c_(a[2]),c=c_(a[3]);switch(a[1]){case
+b=cW(a[2]),c=cW(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,c_(a[1]),d];default:return[8,c_(a[1])]}}function
-mj(b){function
+d=a[2];return[7,cW(a[1]),d];default:return[8,cW(a[1])]}}function
+lt(b){function
 a(e){var
-a=[0,d,c];return w(e,b,[0,a,a])}var
-e=a(ye),f=a(yf);return[0,a(0),f,e]}function
-ig(a){function
+a=[0,d,c];return t(e,b,[0,a,a])}var
+e=a(w8),f=a(w9);return[0,a(0),f,e]}function
+hz(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5304,47 +5171,47 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-mk(k,a,h,g,f,d,c){function
-b(a){return mj(e(cm,a))}var
-l=dO(j(a),c),m=ig(d),n=aX(g,f),o=mj(e(function(a){var
+lu(k,a,h,g,f,d,c){function
+b(a){return lt(e(cd,a))}var
+l=dy(j(a),c),m=hz(d),n=a$(g,f),o=lt(e(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,k,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-yg(a){var
-b=a[7],c=cm(a[6]),d=cm(a[5]),e=bF(a[4]),f=bF(a[3]),g=bF(a[2]);return[0,bF(a[1]),g,f,e,d,c,b]}function
-ml(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cj(i(g[2][1]));if(k){var
-l=k[1],m=cj(i(g[2][2]));if(m)var
+w_(a){var
+b=a[7],c=cd(a[6]),d=cd(a[5]),e=bw(a[4]),f=bw(a[3]),g=bw(a[2]);return[0,bw(a[1]),g,f,e,d,c,b]}function
+lv(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cb(i(g[2][1]));if(k){var
+l=k[1],m=cb(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,fg(h[2],d,c)];return ej(l,dn(hf(p,l),e))},q=n(r(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,eR(h[2],d,c)];return dZ(l,c$(gz(p,l),e))},q=n(B(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-s=ml([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],s]}else
+r=lv([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-ar(b,a){switch(a[0]){case
+an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ke(function(a){return ag(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ar(b,a[1])];case
+e=c[1],d=jn(function(a){return ap(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,an(b,a[1])];case
 3:var
-f=ar(b,a[3]),g=ar(b,a[2]);return[3,a[1],g,f];case
+f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ar(b,a[1]),h];default:return[5,ar(b,a[1])]}}function
-mm(b,a){if(0===a[0])return[0,ar(b,a[1])];var
-c=ar(b,a[2]);return[1,ar(b,a[1]),c]}function
-ih(b,a){var
+h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
+lw(b,a){if(0===a[0])return[0,an(b,a[1])];var
+c=an(b,a[2]);return[1,an(b,a[1]),c]}function
+hA(b,a){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-ii(c,a){if(c)if(a){var
+hB(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=ii(h,g);if(e){var
-i=e[1],f=ii(h,i[2]);if(f)var
+e=hB(h,g);if(e){var
+i=e[1],f=hB(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5356,86 +5223,90 @@ var
 d=a;else
 var
 d=c;return d}function
-ij(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ij(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,r(s(b(2,c),l),k),j],h]}else
+hC(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hC(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,B(s(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-yh(a){if(typeof
+w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-yi(a){if(typeof
+xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f4(e,a){if(0===a[0]){var
-g=[0,c,b(2,c)],h=f4(e,a[3]);return dn(ej(f4(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
-n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dP(b){var
-a=bm(function(f,e){var
-a=bS(n,f);if(a)var
-b=a[1],c=bv(e_(b[1]),e_(b[2]));else
+fA(e,a){if(0===a[0]){var
+g=[0,c,b(2,c)],h=fA(e,a[3]);return c$(dZ(fA(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+dz(h){var
+a=bH(function(f,e){var
+a=bK(m,f);if(a)var
+b=a[1],c=bG(ge(b[1]),ge(b[2]));else
 var
-c=d;return bv(c,e)},d,b);return P(d,a)?au(j$(a),n):d}function
-f5(a){return[0,a[1],[0,a[2],0]]}function
-b0(a){var
-b=f5(a[3]),c=g(f5(a[2]),b);return g(f5(a[1]),c)}function
-yj(a){return 0===a[0]?f5(a[1][4]):0}function
-yk(a){switch(a[0]){case
+c=d;return bG(c,e)},d,h);if(S(d,a)){var
+f=b0(a);if(0===f||!(0<f&&!I(a,c)))var
+g=d;else
+var
+b=bF(a,a9(2)),e=b[1],g=ad(b[2],d)?eS(e):eS(e);return aS(g,m)}return d}function
+fB(a){return[0,a[1],[0,a[2],0]]}function
+bQ(a){var
+b=fB(a[3]),c=g(fB(a[2]),b);return g(fB(a[1]),c)}function
+xb(a){return 0===a[0]?fB(a[1][4]):0}function
+xc(a){switch(a[0]){case
 0:var
-b=a[1],c=b0(b[3]);return g(b0(b[2]),c);case
+b=a[1],c=bQ(b[3]);return g(bQ(b[2]),c);case
 1:var
-d=b0(a[2]);return g(b0(a[1]),d);default:return 0}}function
-f6(a){switch(a[0]){case
-0:return dP(b0(a[1][1]));case
+d=bQ(a[2]);return g(bQ(a[1]),d);default:return 0}}function
+hD(a){switch(a[0]){case
+0:return dz(bQ(a[1][1]));case
 1:var
-b=a[3];return b?dP(b0(b[1])):d;default:return dP(b0(a[1]))}}function
-f7(b){var
-a=G(yj,b),d=a?[0,a[1],a[2]]:G(yk,b);return r(c,dP(d))}function
-mn(c,a){if(c){if(a){var
+b=a[3];return b?dz(bQ(b[1])):d;default:return dz(bQ(a[1]))}}function
+hE(b){var
+a=E(xb,b),d=a?[0,a[1],a[2]]:E(xc,b);return B(c,dz(d))}function
+lx(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=yl;else
+b=xd;else
 if(43===d)var
-b=ym;else
+b=xe;else
 var
-f=48===d?1:0,i=f?yn:f,b=i;if(b)var
-e=mn(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?xf:f,b=i;if(b)var
+e=lx(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:yo}function
-eP(b,a){switch(a[0]){case
+h=a;return h}return a?0:xg}function
+es(b,a){switch(a[0]){case
 0:var
-c=a[1];if(ag(c,yp))return yq;if(ag(c,yr))return ys;if(ag(c,yt))return yu;if(ag(c,yv))return yw;if(ag(c,yx))return yy;var
-k=ag(c,yz),p=k?yA:k;return p;case
+c=a[1];if(ap(c,xh))return xi;if(ap(c,xj))return xk;if(ap(c,xl))return xm;if(ap(c,xn))return xo;if(ap(c,xp))return xq;var
+k=ap(c,xr),p=k?xs:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(ag(f,yB))return[0,[0,d,e]];if(ag(f,yC))return[0,[1,d,e]];if(ag(f,yD))return[0,[2,d,e]];var
-l=ag(f,yE),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(ap(f,xt))return[0,[0,d,e]];if(ap(f,xu))return[0,[1,d,e]];if(ap(f,xv))return[0,[2,d,e]];var
+l=ap(f,xw),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eP(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=es(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eP(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=es(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eP(b,a[1]);return I(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eP(b,a[1]);if(i)var
-j=mn(b,g3(g2(H(m),function(a){return Y(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=es(b,a[1]);return J(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=es(b,a[1]);if(i)var
+j=lx(b,gi(gh(L(m),function(a){return W(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mo(d,a){if(a){var
-e=a[1],b=eP(d,e[2]);if(b)var
-c=mo(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+ly(d,a){if(a){var
+e=a[1],b=es(d,e[2]);if(b)var
+c=ly(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return yF}function
-dQ(d,c,a){if(c)if(a){var
+f=b;return f}return xx}function
+dA(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mo(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=ly(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=dQ(d,k,j);if(f){var
-m=f[1],g=dQ(d,k,m[2]);if(g)var
+f=dA(d,k,j);if(f){var
+m=f[1],g=dA(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5450,680 +5321,725 @@ var
 h=a;else
 var
 h=c;return h}function
-ik(e,d,a){if(d){if(a){var
-b=dQ(e,j(a),a);if(b)var
-f=b[1],c=ik(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hF(e,d,a){if(d){if(a){var
+b=dA(e,j(a),a);if(b)var
+f=b[1],c=hF(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return yG}return a?0:yH}function
-il(a){return typeof
+g=b;return g}return xy}return a?0:xz}function
+hG(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-im(d,a){if(d)if(a){var
+hH(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=im(k,j);if(e){var
-l=e[1],f=im(k,l[2]);if(f)var
+e=hH(k,j);if(e){var
+l=e[1],f=hH(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,il(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hG(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-c$(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bG(a,e){var
-b=c$(a[1],e),c=c$(a[2],b[2]),d=c$(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mp(d,c){if(d){var
+cX(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bx(a,e){var
+b=cX(a[1],e),c=cX(a[2],b[2]),d=cX(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+lz(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bG(a[1],c),f=bG(a[2],e[2]),g=bG(a[3],f[2]),h=c$(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bx(a[1],c),f=bx(a[2],e[2]),g=bx(a[3],f[2]),h=cX(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bG(a[1],c),k=j[1],l=bG(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bG(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bx(a[1],c),k=j[1],l=bx(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bx(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bG(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mp(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-mq(b,i){if(b){var
-a=b[1],c=bG(a[1],i),d=bG(a[2],c[2]),e=bG(a[3],d[2]),f=bG(a[4],e[2]),g=c$(a[5],f[2]),h=c$(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=mq(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-yI(a){if(typeof
+p=bx(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=lz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+lA(b,i){if(b){var
+a=b[1],c=bx(a[1],i),d=bx(a[2],c[2]),e=bx(a[3],d[2]),f=bx(a[4],e[2]),g=cX(a[5],f[2]),h=cX(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=lA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+xA(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return yK;case
+5:return xC;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return yJ}function
-io(a,b){if(a){var
-c=c$(a[1],b),d=io(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-ip(b){function
-a(a){return w(a,b,[0,d,c])}var
-e=a(yM),f=a(yN);return[0,a(0),f,e]}function
-mr(a,b){if(a){var
-c=a[1],d=io(c[1],b),e=io(c[2],d[2]),f=mr(a[2],e[2]),g=f[2],h=f[1],i=ip(e[1]);return[0,[0,[0,ip(d[1]),i],h],g]}return[0,0,b]}function
-dR(a){return k0(n,a)}function
-yO(a){if(typeof
+11:return 0}return xB}function
+hI(a,b){if(a){var
+c=cX(a[1],b),d=hI(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+hJ(b){function
+a(a){return t(a,b,[0,d,c])}var
+e=a(xE),f=a(xF);return[0,a(0),f,e]}function
+lB(a,b){if(a){var
+c=a[1],d=hI(c[1],b),e=hI(c[2],d[2]),f=lB(a[2],e[2]),g=f[2],h=f[1],i=hJ(e[1]);return[0,[0,[0,hJ(d[1]),i],h],g]}return[0,0,b]}function
+dB(a){return ka(m,a)}function
+xG(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return l(n,1,[3,a[1],[0,c,c]]);case
-6:return l(n,1,a[2]);case
+5:return k(m,1,[3,a[1],[0,c,c]]);case
+6:return k(m,1,a[2]);case
 8:var
-d=l(n,1,a[1]);return d?l(n,1,a[2]):d;case
-10:return l(n,0,a[3]);case
+d=k(m,1,a[1]);return d?k(m,1,a[2]):d;case
+10:return k(m,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?l(n,0,e[2]):0;case
+e=a[4];return 2===e[0]?k(m,0,e[2]):0;case
 12:var
-f=l(n,0,a[2]),g=f?l(n,0,a[3]):f;return g?l(n,1,a[4]):g;case
+f=k(m,0,a[2]),g=f?k(m,0,a[3]):f;return g?k(m,1,a[4]):g;case
 14:var
-h=l(n,0,a[1]);return h?l(n,1,a[2]):h;case
+h=k(m,0,a[1]);return h?k(m,1,a[2]):h;case
 2:case
-3:return dR(a[2]);case
+3:return dB(a[2]);case
 4:case
 13:var
-b=l(n,1,a[2]);return b?l(n,1,a[3]):b;default:return l(n,1,a[1])}}function
-iq(a){if(typeof
+b=k(m,1,a[2]);return b?k(m,1,a[3]):b;default:return k(m,1,a[1])}}function
+hK(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=l(n,1,[3,d,e]),g=f?l(n,1,[3,[2,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(n,0,[2,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):g;return h?l(n,0,[3,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):h;case
-5:return l(n,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=k(m,1,[3,d,e]),g=f?k(m,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,h=g?k(m,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return h?k(m,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):h;case
+5:return k(m,1,[3,a[1],[0,c,c]]);case
 8:var
-j=l(n,1,a[1]);return j?l(n,1,a[2]):j;case
+j=k(m,1,a[1]);return j?k(m,1,a[2]):j;case
 0:case
-1:return l(n,1,a[1]);case
+1:return k(m,1,a[1]);case
 2:case
-3:return dR(a[2]);default:var
-i=l(n,1,a[2]);return i?l(n,1,a[3]):i}}function
-f8(d){var
+3:return dB(a[2]);default:var
+i=k(m,1,a[2]);return i?k(m,1,a[3]):i}}function
+fC(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ah(av(function(d){return function(a){var
-h=h_(a[1]),e=ag(h_(d[1]),h);if(e)var
-i=h$(a[4]),b=ag(h$(d[4]),i);else
+b=a[2],e=a[1],c=au(aP(function(d){return function(a){var
+h=hr(a[1]),e=ap(hr(d[1]),h);if(e)var
+i=hs(a[4]),b=ap(hs(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?v(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?u(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eQ(a){if(0===a[0])return dR(i(a[1]));var
-b=a[2],c=a[1];if(!en(i(c))&&!en(i(b))){var
-e=i(c);return l(n,1,[3,i(b),e])}var
-d=i(b);return bD(n,i(c),d)}function
-bH(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ms(a){switch(a[0]){case
+et(a){if(0===a[0])return dB(i(a[1]));var
+b=a[2],c=a[1];if(!d6(i(c))&&!d6(i(b))){var
+e=i(c);return k(m,1,[3,i(b),e])}var
+d=i(b);return bt(m,i(c),d)}function
+by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lC(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(bH(a[3]),c),e=g(bH(a[2]),d);return g(bH(a[1]),e);case
+c=[0,a[4],0],d=g(by(a[3]),c),e=g(by(a[2]),d);return g(by(a[1]),e);case
 1:var
-b=a[3],f=b?bH(b[1]):b,h=g(bH(a[2]),f);return g(bH(a[1]),h);default:return bH(a[1])}}function
-mt(a){var
-b=[0,a[5],[0,a[6],0]],c=g(bH(a[4]),b),d=g(bH(a[3]),c),e=g(bH(a[2]),d);return g(bH(a[1]),e)}function
-ir(a){switch(a){case
-0:return yS;case
-1:return yT;default:return 0}}function
-f9(a){var
-f=a[1],d=l(n,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?bD(n,a[1],a[2]):d;if(e){var
-g=a[2];return l(n,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],g])}return e}function
-is(a){var
-e=bD(n,[0,d,c],a);return e?l(n,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-mu(c,d,E,t,s,r,g){function
-u(a){var
-d=c?yQ:yR,b=v(j(a),d);return b?m(eQ,a):b}var
-w=m(function(a){var
-b=u(a[1]);return b?u(a[2]):b},d);if(w)var
-F=j(d),h=$(eA(c),F);else
+b=a[3],f=b?by(b[1]):b,h=g(by(a[2]),f);return g(by(a[1]),h);default:return by(a[1])}}function
+lD(a){var
+b=[0,a[5],[0,a[6],0]],c=g(by(a[4]),b),d=g(by(a[3]),c),e=g(by(a[2]),d);return g(by(a[1]),e)}function
+hL(a){switch(a){case
+0:return xK;case
+1:return xL;default:return 0}}function
+fD(a){var
+f=a[1],d=k(m,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?bt(m,a[1],a[2]):d;if(e){var
+g=a[2];return k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
+hM(a){var
+e=bt(m,[0,d,c],a);return e?k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
+lE(c,d,E,t,s,r,g){function
+v(a){var
+d=c?xI:xJ,b=u(j(a),d);return b?n(et,a):b}var
+w=n(function(a){var
+b=v(a[1]);return b?v(a[2]):b},d);if(w)var
+F=j(d),h=ac(ef(c),F);else
 var
 h=w;var
-x=h?$(j(d),yU):h,y=x?l(n,1,i(E)):x;if(y)var
-G=ir(c),k=v(j(t),G);else
+x=h?ac(j(d),xM):h,y=x?k(m,1,i(E)):x;if(y)var
+G=hL(c),l=u(j(t),G);else
 var
-k=y;if(k)var
-H=ir(c),o=v(j(s),H);else
+l=y;if(l)var
+H=hL(c),o=u(j(s),H);else
 var
-o=k;if(o)var
-I=aX(t,s),p=m(function(a){var
-b=i(a[2]);return bD(n,i(a[1]),b)},I);else
+o=l;if(o)var
+I=a$(t,s),p=n(function(a){var
+b=i(a[2]);return bt(m,i(a[1]),b)},I);else
 var
 p=o;if(p)if(c){var
-a=ig(r);switch(a[0]){case
+a=hz(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-A=f9(a[1]),B=A?f9(a[2]):A,e=B?f9(a[3]):B;break;case
+A=fD(a[1]),B=A?fD(a[2]):A,e=B?fD(a[3]):B;break;case
 2:var
-e=is(a[1]);break;default:var
-C=is(a[1]),e=C?is(a[2]):C}var
+e=hM(a[1]);break;default:var
+C=hM(a[1]),e=C?hM(a[2]):C}var
 f=e}else
 var
-D=ig(r),K=0===D[0]?f9(D[1]):0,f=K;else
+D=hz(r),K=0===D[0]?fD(D[1]):0,f=K;else
 var
 f=p;if(f)var
-b=j(d),J=eA(c),q=m(function(a){var
+b=j(d),J=ef(c),q=n(function(a){var
 d=a[2];if(d)var
-e=d[1],f=$(yd,e),n=f?$(e,b):f,c=n;else
+e=d[1],f=ac(w7,e),n=f?ac(e,b):f,c=n;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bp(0,b,a):bp(0,b,a)}return bp(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bp(0,b,a):bp(0,b,a)}return bp(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?v(b,J):c:bp(0,b,a):bp(0,b,a)}return bp(0,b,a)}return bp(0,b,a)},g);else
+m=a[3];return m?0===m[1][0]?c?u(b,J):c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a)}return bi(0,b,a)},g);else
 var
 q=f;var
-z=q?f8(g):q;return z?m(iq,dO(j(d),g)):z}function
-it(j){var
-q=bh(j,dP(b0(j))),a=e(function(a){return aw(n,a)},q);if(a){var
+z=q?fC(g):q;return z?n(hK,dy(j(d),g)):z}function
+hN(j){var
+q=bc(j,dz(bQ(j))),a=e(function(a){return as(m,a)},q);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return ab(n,a)},r=i(h[1]),s=i(g[1]);return P(d,y(y(i(f[1]),s),r)[1])}var
+i=function(a){return Y(m,a)},r=i(h[1]),s=i(g[1]);return S(d,C(C(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
 l=k}else
 var
 l=g;var
-m=l}else
+n=l}else
 var
-m=b;var
-o=m}else
+n=b;var
+o=n}else
 var
 o=f;var
 p=o}else
 var
 p=a;return p}function
-yV(a){switch(a[0]){case
-0:return it(a[1][1]);case
+xN(a){switch(a[0]){case
+0:return hN(a[1][1]);case
 1:var
-b=a[3];return b?it(b[1]):1;default:return it(a[1])}}function
-f_(c,a,b,p){if(av(function(a){return 9===a[1]?1:0},b)){var
-f=$(j(a),yX),h=f?m(function(a){if(0===a[0]){var
-f=a[5],h=l(n,1,i(a[2])),j=h?l(n,0,i(a[3])):h,k=j?l(n,0,i(a[4])):j,e=0;if(k)if(f)var
-u=bE(f[1]),b=m(function(a){return dR(i(a))},u);else{var
+b=a[3];return b?hN(b[1]):1;default:return hN(a[1])}}function
+hO(c,a,b,p){if(aP(function(a){return 9===a[1]?1:0},b)){var
+f=ac(j(a),xP),h=f?n(function(a){if(0===a[0]){var
+f=a[5],h=k(m,1,i(a[2])),j=h?k(m,0,i(a[3])):h,l=j?k(m,0,i(a[4])):j,e=0;if(l)if(f)var
+u=bv(f[1]),b=n(function(a){return dB(i(a))},u);else{var
 o=1;e=1}else{var
-o=k;e=1}if(e)var
+o=l;e=1}if(e)var
 b=o}else{var
-p=l(n,1,i(a[4]));if(p)var
-v=bE(a[3]),w=g(bE(a[2]),v),b=m(function(a){return dR(i(a))},w);else
+p=k(m,1,i(a[4]));if(p)var
+v=bv(a[3]),w=g(bv(a[2]),v),b=n(function(a){return dB(i(a))},w);else
 var
 b=p}if(b){if(0===a[0]){var
-q=a[1],r=$(yW,q);if(r){var
-d=R(c,cb(q));if(d){if(2===d[1][0])return 0;var
+q=a[1],r=ac(xO,q);if(r){var
+d=ae(c,b5(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-k=ie(0,a),u=k?1:k,o=u;else
+l=hx(0,a),u=l?1:l,o=u;else
 var
 o=h;var
 d=o}else
 var
 d=a?0:1;var
-q=d?m(yV,p[1]):d,r=q?$(yY,j(c)):q;if(r)var
-v=j(c),e=m(function(a){return x7(v,a)},b);else
+q=d?n(xN,p[1]):d,r=q?ac(xQ,j(c)):q;if(r)var
+v=j(c),e=n(function(a){return wZ(v,a)},b);else
 var
 e=r;var
-s=e?f8(b):e,t=s?m(eQ,G(ms,c)):s;return t?m(yO,p[3]):t}function
-yZ(a){return 11===a[1]?1:0}function
-iu(b,a){return m(function(c){var
-a=c[2];return a?cU(a[1],b):1},a)}function
-iv(b,a){var
-c=j(cC(function(a){return 0===a[0]?0:1},b));return v(j(a),c)}function
-mv(aB,S,aA,R,P,b,O,t){var
-a=f3(S,aA,R,P),aC=j(t);if(aB)var
-T=0;else
+s=e?fC(b):e,t=s?n(et,E(lC,c)):s;return t?n(xG,p[3]):t}function
+xR(a){return 11===a[1]?1:0}function
+hP(b,a){return n(function(c){var
+a=c[2];return a?dW(a[1],b):1},a)}function
+hQ(b,a){var
+c=j(c9(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
+lF(aU,ak,aT,aj,ai,b,ag,H){var
+a=hy(ak,aT,aj,ai),aV=j(H);if(aU)var
+al=0;else
 var
-ax=a[1],ay=e(f6,a[1]),M=eu(f7(a[1]),ay,ax),az=aX(be(0,j(M)),M),T=e(a8,cC(function(a){return k9(a[2])},az));var
-u=dQ(T,aC,t);if(u){var
-U=u[1];if(U[2])return 0;var
-V=f_(S,R,P,a),W=V?iu(y0,t):V;if(W){var
-aD=U[1],v=e(f6,a[1]),c=f7(a[1]);if(O)var
-X=O[1],Y=[0,X[2],X[1]];else
+aQ=a[1],aR=e(hD,a[1]),af=fi(hE(a[1]),aR,aQ),aS=a$(bp(0,j(af)),af),al=e(a2,c9(function(a){return kj(a[2])},aS));var
+I=dA(al,aV,H);if(I){var
+am=I[1];if(am[2])return 0;var
+an=hO(ak,aj,ai,a),ao=an?hP(xS,H):an;if(ao){var
+aW=am[1],J=e(hD,a[1]),c=hE(a[1]);if(ag)var
+ap=ag[1],aq=[0,ap[2],ap[1]];else
 var
-Y=[0,d,0];var
-L=hJ(n,a);if(L){var
-i=eu(c,v,a[1]),h=fL(c,v,a[1],0),_=j(a[3]),$=Q(j(i),_),B=[0,j(i),$],aa=a[3],x=av(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},aa),ac=x?G(function(a){var
-b=e(cA,k$(i,a));return[0,a[4],b]},h):x,ad=g(fP(h,c,B,a[3]),ac),ae=g(ck(fB(h)),ad),C=g(ck(dy(h)),ae),D=ds(C)[1],k=dr(D),E=m(function(a){var
-b=q(d);return bg(w(bz(k,a),k,b),a)},C);if(E){var
-F=av(la,a[3]),H=F?lc(b,c,v,a[1]):F;if(H){var
-af=a[3],ag=G(function(a){return c3(c,a)},af),ah=a[3],ai=g(i,g(e(function(a){return bo(c,a)},ah),ag)),o=aj(e(function(a){return aw(b,a)},ai));if(o){var
-ak=bh(lb(a[2]),c),p=aj(e(function(a){return aw(b,a)},ak));if(p){var
-am=a[3],r=aj(hG(b,Y,function(a){return bz(k,a)},i,h,c,B,am));if(r){var
-I=r[1],an=hD(I),l=a[2],ao=p[1],ap=function(f){if(0===l[0])return 0;if(f){var
+aq=[0,d,0];var
+ae=kw(m,a);if(ae){var
+l=fi(c,J,a[1]),h=gX(c,J,a[1],0),au=j(a[3]),av=O(j(l),au),V=[0,j(l),av],aw=a[3],L=aP(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},aw),ax=L?E(function(a){var
+b=e(cI,kl(l,a));return[0,a[4],b]},h):L,ay=g(gZ(h,c,V,a[3]),ax),aA=g(cP(jO(h)),ay),W=g(cP(e9(h)),aA),X=d5(W)[1],p=d4(X),Z=n(function(a){var
+b=o(d);return bg(t(bJ(p,a),p,b),a)},W);if(Z){var
+_=aP(sl,a[3]);if(_){var
+y=J,r=a[1];for(;;){if(r){var
+s=r[1],z=eV(d,y);switch(s[0]){case
+0:var
+Q=s[1],R=g0(b,Q[1],z),K=0;if(R){var
+w=as(b,[0,Q[4],c]);if(w)var
+k=S(d,w[1][1]);else{var
+T=w;K=1}}else{var
+T=R;K=1}if(K)var
+k=T;break;case
+1:var
+U=s[3],k=U?g0(b,U[1],z):1;break;default:var
+k=g0(b,s[1],z)}if(k){var
+at=r[2],y=gx(y),r=at;continue}var
+$=k}else
+var
+$=1;var
+A=$;break}}else
+var
+A=_;if(A){var
+aB=a[3],aC=E(function(a){return dl(c,a)},aB),aD=a[3],aE=g(l,g(e(function(a){return bu(c,a)},aD),aC)),B=az(e(function(a){return as(b,a)},aE));if(B){var
+i=a[2];if(0===i[0])var
+aa=i[1];else
+var
+q=i[3],N=i[2],P=i[1],aa=[0,[0,[3,P,q],[2,P,q]],[0,[3,N,q],[2,N,q]],i[4]];var
+aF=bc(aa,c),D=az(e(function(a){return as(b,a)},aF));if(D){var
+aG=a[3],F=az(km(b,aq,function(a){return bJ(p,a)},l,h,c,V,aG));if(F){var
+ab=F[1],aH=j$(ab),u=a[2],aI=D[1],aJ=function(f){if(0===u[0])return 0;if(f){var
 a=f[2];if(a){var
 g=a[2];if(g){if(g[2])return 0;var
-d=a[1],e=f[1],h=bT(b,c,l[1]);if(h){var
-i=bT(b,c,l[2]);if(i){var
-j=bT(b,c,l[3]);if(j)var
-t=h[1],u=bU(e),k=N([0,bU(e),u],t),v=i[1],w=bU(d),m=N([0,bU(d),w],v),x=dz(d),B=[0,dz(d),x],C=[0,z(b,al(y(m,m)),B),0],D=dz(e),E=[0,dz(e),D],F=[0,z(b,al(y(k,k)),E),C],G=ab(b,m),H=ab(b,k),n=[0,[0,N(N(ab(b,j[1]),H),G),A,F]];else
+d=a[1],e=f[1],h=ct(b,c,u[1]);if(h){var
+i=ct(b,c,u[2]);if(i){var
+j=ct(b,c,u[3]);if(j)var
+s=h[1],t=bL(e),k=M([0,bL(e),t],s),w=i[1],y=bL(d),l=M([0,bL(d),y],w),z=di(d),A=[0,di(d),z],B=[0,v(b,ah(C(l,l)),A),0],D=di(e),E=[0,di(e),D],F=[0,v(b,ah(C(k,k)),E),B],G=Y(b,l),H=Y(b,k),m=[0,[0,M(M(Y(b,j[1]),H),G),x,F]];else
 var
-n=j;var
+m=j;var
+n=m}else
+var
+n=i;var
 o=n}else
 var
-o=i;var
+o=h;var
 p=o}else
 var
-p=h;var
+p=g;var
 q=p}else
 var
-q=g;var
+q=a;var
 r=q}else
 var
-r=a;var
-s=r}else
+r=f;return r},aK=B[1],aL=0,aM=jO(h),aN=f(a5(function(a){return bJ(p,a)}),aM),aO=e9(h);return gV(b,X,f(a5(function(a){return bJ(p,a)}),aO),aN,aL,aK,ab,aJ,aI,aH,aW)}var
+ac=F}else
 var
-s=f;return s},aq=o[1],ar=0,as=fB(h),at=f(aY(function(a){return bz(k,a)}),as),au=dy(h);return hC(b,D,f(aY(function(a){return bz(k,a)}),au),at,ar,aq,I,ap,ao,an,aD)}var
-J=r}else
+ac=D;var
+ad=ac}else
 var
-J=p;var
-K=J}else
+ad=B;var
+G=ad}else
 var
-K=o;var
-s=K}else
+G=A}else
 var
-s=H}else
+G=Z;return G}return ae}var
+ar=ao}else
 var
-s=E;return s}return L}var
-Z=W}else
-var
-Z=u;return Z}function
-mw(z,aN,aq,ap,y,ao,h){var
-j=f3(z,aN,aq,ap);if(y){var
+ar=I;return ar}function
+lG(z,aM,aq,ap,y,ao,h){var
+j=hy(z,aM,aq,ap);if(y){var
 A=y[2];if(A){var
 B=A[2];if(B){if(B[2])return 0;var
-ar=mp(z,e(i,ao));if(ar[2])return 0;var
+ar=lz(z,e(i,ao));if(ar[2])return 0;var
 as=j[3];if(typeof
 h==="number")var
-a=yL;else
+a=xD;else
 if(0===h[0]){var
-b=h[2],m=h[1],F=I(yI,R(as,m)),J=0;if(F){var
-U=F[1];if(U){var
-V=U[1];if(V)if(V[1])var
+b=h[2],n=h[1],G=J(xA,ae(as,n)),I=0;if(G){var
+T=G[1];if(T){var
+U=T[1];if(U)if(U[1])var
 a=0;else{var
-K=0;if(b){var
+L=0;if(b){var
 o=b[1],M=0;if(o){var
 p=o[2],N=0;if(p){var
 q=p[2],O=0;if(q)if(q[2]){var
-a=0;K=1;M=1;N=1;O=1}else{var
-r=b[2],aA=0;if(r){var
-s=r[1],aB=0;if(s){var
-t=s[2],aC=0;if(t){var
-u=t[2],aD=0;if(u)if(u[2]||r[2]){var
-a=0;K=1;M=1;N=1;O=1;aA=1;aB=1;aC=1;aD=1}else
+a=0;L=1;M=1;N=1;O=1}else{var
+r=b[2],az=0;if(r){var
+s=r[1],aA=0;if(s){var
+t=s[2],aB=0;if(t){var
+u=t[2],aC=0;if(u)if(u[2]||r[2]){var
+a=0;L=1;M=1;N=1;O=1;az=1;aA=1;aB=1;aC=1}else
 var
-W=[0,[0,m,[0,[0,o[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+V=[0,[0,n,[0,[0,o[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
-W=u;if(!aD)var
+V=u;if(!aC)var
+W=V}else
+var
+W=t;if(!aB)var
 X=W}else
 var
-X=t;if(!aC)var
+X=s;if(!aA)var
 Y=X}else
 var
-Y=s;if(!aB)var
+Y=r;if(!az)var
 Z=Y}else
 var
-Z=r;if(!aA)var
+Z=q;if(!O)var
 _=Z}else
 var
-_=q;if(!O)var
+_=p;if(!N)var
 $=_}else
 var
-$=p;if(!N)var
+$=o;if(!M)var
 aa=$}else
 var
-aa=o;if(!M)var
-ab=aa}else
+aa=b;if(!L)var
+a=aa}else{var
+aD=0;if(b){var
+v=b[1],aE=0;if(v){var
+w=v[2],aF=0;if(w){var
+x=w[2],aG=0;if(x)if(x[2]||b[2]){var
+a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=b;if(!K)var
-a=ab}else{var
-aE=0;if(b){var
-v=b[1],aF=0;if(v){var
-w=v[2],aG=0;if(w){var
-x=w[2],aH=0;if(x)if(x[2]||b[2]){var
-a=0;aE=1;aF=1;aG=1;aH=1}else
+ab=x[1],ac=w[1],ad=v[1],af=[0,[0,n,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ac=x[1],ad=w[1],ae=v[1],af=[0,[0,m,[0,[0,ae,ad],ac],[0,[0,ae,ad],ac]]];else
-var
-af=x;if(!aH)var
+af=x;if(!aG)var
 ag=af}else
 var
-ag=w;if(!aG)var
+ag=w;if(!aF)var
 ah=ag}else
 var
-ah=v;if(!aF)var
+ah=v;if(!aE)var
 ai=ah}else
 var
-ai=b;if(!aE)var
+ai=b;if(!aD)var
 a=ai}}else
 if(b)var
 a=0;else{var
-aj=[0,[0,d,d],d],ak=[0,[0,m,aj,aj]];J=1}}else{var
-ak=F;J=1}if(J)var
+aj=[0,[0,d,d],d],ak=[0,[0,n,aj,aj]];I=1}}else{var
+ak=G;I=1}if(I)var
 a=ak}else{var
-al=h[1],H=R(as,al),P=0;if(H){var
-aI=0,am=H[1];if(typeof
+al=h[1],H=ae(as,al),P=0;if(H){var
+aH=0,am=H[1];if(typeof
 am!=="number"&&1===am[0]){var
-a=[0,[1,al,h[2]]];aI=1}if(!aI){var
+a=[0,[1,al,h[2]]];aH=1}if(!aH){var
 an=0;P=1}}else{var
 an=H;P=1}if(P)var
 a=an}if(a){var
-at=iv(G(ms,z),ao),au=at?f_(z,aq,ap,j):at;if(au){var
-g=a[1],aO=i(B[1]),aP=i(A[1]),f=[0,i(y[1]),aP,aO],k=ar[1],Q=le(n,j,k,f);if(Q)if(typeof
-g==="number")return av(function(a){switch(a[0]){case
+at=hQ(E(lC,z),ao),au=at?hO(z,aq,ap,j):at;if(au){var
+g=a[1],aN=i(B[1]),aO=i(A[1]),f=[0,i(y[1]),aO,aN],l=ar[1],Q=ko(m,j,l,f);if(Q)if(typeof
+g==="number")return aP(function(a){switch(a[0]){case
 0:var
-b=[0,dC(a[1],a[2],a[3],a[4],f)];break;case
+b=[0,dm(a[1],a[2],a[3],a[4],f)];break;case
 1:var
-e=a[2],g=a[1],h=bV(g,e,f),b=[0,L(bV(g,e,f),h)];break;default:var
-b=0}return b?l(n,0,[3,[0,d,c],b[1]]):b},k);else{if(0===g[0]){var
-C=R(j[3],g[1]);if(C){var
-aJ=C[1],aK=lg(g[3]);return ll(n,k,f,lg(g[2]),aK,aJ)}return C}var
-D=R(j[3],g[1]);if(D){var
-E=R(k,g[2]);if(E){var
-S=E[1],aL=D[1],aM=dE(S,f);return ll(n,k,f,dE(S,f),aM,aL)}var
-T=E}else
+e=a[2],g=a[1],h=bM(g,e,f),b=[0,K(bM(g,e,f),h)];break;default:var
+b=0}return b?k(m,0,[3,[0,d,c],b[1]]):b},l);else{if(0===g[0]){var
+C=ae(j[3],g[1]);if(C){var
+aI=C[1],aJ=kq(g[3]);return kv(m,l,f,kq(g[2]),aJ,aI)}return C}var
+D=ae(j[3],g[1]);if(D){var
+F=ae(l,g[2]);if(F){var
+R=F[1],aK=D[1],aL=dp(R,f);return kv(m,l,f,dp(R,f),aL,aK)}var
+S=F}else
 var
-T=D;return T}return Q}var
-aw=au}else
+S=D;return S}return Q}var
+av=au}else
 var
-aw=a;var
+av=a;var
+aw=av}else
+var
+aw=B;var
 ax=aw}else
 var
-ax=B;var
+ax=A;var
 ay=ax}else
 var
-ay=A;var
-az=ay}else
-var
-az=y;return az}function
-mx(m,l,b,k,y,x){var
+ay=y;return ay}function
+lH(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=R(f,g),n=h?cU(h[1][2],y1):h;if(n)var
-z=d[2],i=mx(m,l,b,k,ij(0,g,f),z);else
+g=d[1],h=ae(f,g),n=h?dW(h[1][2],xT):h;if(n)var
+z=d[2],i=lH(m,l,b,k,hC(0,g,f),z);else
 var
 i=n;if(i){var
-A=d[3],f=ij(1,g,f),d=A;continue}return i}var
-c=d[1],a=ml(0,m,f),o=e(function(b){function
-d(b){return mm(a,b)}function
-c(a){return ih(d,a)}switch(b[0]){case
+A=d[3],f=hC(1,g,f),d=A;continue}return i}var
+c=d[1],a=lv(0,m,f),o=e(function(b){function
+d(b){return lw(a,b)}function
+c(a){return hA(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mm(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lw(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=I(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=ih(function(b){return ar(a,b)},q),s=b[1],j=[0,ih(function(b){return ar(a,b)},s),r];else
+i=J(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hA(function(b){return an(a,b)},q),s=b[1],j=[0,hA(function(b){return an(a,b)},s),r];else
 var
-t=ar(a,b[5]),u=ar(a,b[4]),v=ar(a,b[3]),w=ar(a,b[2]),j=[1,ar(a,b[1]),w,v,u,t];var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(e){var
 b=e[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,ar(a,b[1])];break;case
+c=[0,an(a,b[1])];break;case
 1:var
-c=[1,ar(a,b[1])];break;default:var
-j=ar(a,b[2]),c=[2,ar(a,b[1]),j]}var
+c=[1,an(a,b[1])];break;default:var
+j=an(a,b[2]),c=[2,an(a,b[1]),j]}var
 f=e[3];if(f){var
 d=f[1];if(0===d[0])var
-g=[0,[0,ar(a,d[1])]];else
+g=[0,[0,an(a,d[1])]];else
 var
-i=ar(a,d[2]),g=[0,[1,ar(a,d[1]),i]];var
+i=an(a,d[2]),g=[0,[1,an(a,d[1]),i]];var
 h=g}else
 var
 h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mv(1,o,j,0,p,c[1],c[2],c[3]);default:var
-B=c[4],C=c[3],D=e(function(b){return ar(a,b)},C),E=c[2];return mw(o,j,0,p,e(function(b){return ar(a,b)},E),D,B)}}}function
-my(h,g){var
-a=cj(i(h));if(a){var
-b=a[1],e=dm([0,d,c],b);if(e)return dm(b,g);var
+1:return lF(1,o,j,0,p,c[1],c[2],c[3]);default:var
+B=c[4],C=c[3],D=e(function(b){return an(a,b)},C),E=c[2];return lG(o,j,0,p,e(function(b){return an(a,b)},E),D,B)}}}function
+lI(h,g){var
+a=cb(i(h));if(a){var
+b=a[1],e=c_([0,d,c],b);if(e)return c_(b,g);var
 f=e}else
 var
 f=a;return f}function
-y3(o){var
-dG=dK(o[3]),dH=dG?dK(o[4]):dG;if(dH){var
-z=o[1];switch(z[0]){case
+xV(q){var
+dU=fy(q[3]),dW=dU?fy(q[4]):dU;if(dW){var
+D=q[1];switch(D[0]){case
 3:var
-dT=m(eM,z[1]);if(dT)var
-f0=z[2],by=m(function(a){return eM(a[1])},f0);else
+d3=n(eq,D[1]);if(d3)var
+gD=D[2],bK=n(function(a){return eq(a[1])},gD);else
 var
-by=dT;if(by)var
-f1=z[3],bA=m(function(a){var
-b=eM(a[1]),c=b?ia(a[2]):b;return c?eN(a[2]):c},f1);else
+bK=d3;if(bK)var
+gE=D[3],bM=n(function(a){var
+b=eq(a[1]),c=b?hu(a[2]):b;return c?er(a[2]):c},gE);else
 var
-bA=by;if(bA)var
-f2=z[4],f5=function(a){var
-b=ia(a);return b?eN(a):b},ay=m(function(a){return m(f5,a)},f2);else
+bM=bK;if(bM)var
+gF=D[4],gG=function(a){var
+b=hu(a);return b?er(a):b},aC=n(function(a){return n(gG,a)},gF);else
 var
-ay=bA;break;case
+aC=bM;break;case
 7:var
-f9=z[1],dU=m(function(a){var
-b=eM(a[1]);return b?eO(0,[0,a[2][1],[0,a[2][2],0]]):b},f9),ay=dU?eO(0,[0,z[5],[0,z[6],0]]):dU;break;default:var
-ay=1}var
-bx=ay}else
+gH=D[1],d6=n(function(a){var
+b=eq(a[1]);return b?fz(0,[0,a[2][1],[0,a[2][2],0]]):b},gH),aC=d6?fz(0,[0,D[5],[0,D[6],0]]):d6;break;default:var
+aC=1}var
+bH=aC}else
 var
-bx=dH;var
-b4=0;if(bx){var
-dI=o[1],dJ=7===dI[0]?e(a8,dI[1]):0,dL=function(c,b){var
-a=id(c);return a?m(function(a){var
-b=a[1];return m(function(c){var
+bH=dW;var
+ca=0;if(bH){var
+dX=q[1],dY=7===dX[0]?e(a2,dX[1]):0,dZ=function(c,b){var
+a=lq(c);return a?n(function(a){var
+b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=dK(a[2]);if(b){var
+b=fy(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return dK(a[1]);case
+1:return fy(a[1]);case
 5:case
 6:case
 7:var
-a=a[1];continue;default:return 1}},b)},b):a},dM=function(d,c,b){var
-a=id(d);return a?eO(dJ,g(c,b)):a},dN=eO(dJ,mf(o[1]));if(dN){var
-K=o[2];switch(K[0]){case
+a=a[1];continue;default:return 1}},b)},b):a},d0=function(d,c,b){var
+a=lq(d);return a?fz(dY,g(c,b)):a},h=q[1];switch(h[0]){case
 0:var
-Z=dL(K[1],K[3]);break;case
+gg=E(cV,h[4]),gh=g(E(wV,h[3]),gg),gi=g(hw(h[2]),gh),F=g(E(hv,h[1]),gi);break;case
 1:var
-Z=dM(K[1],K[2],K[3]);break;default:var
-fZ=K[1],Z=m(function(a){if(typeof
-a!=="number")switch(a[0]){case
-1:return dL(a[1],a[3]);case
-2:return dM(a[1],a[2],a[3])}return 1},fZ)}}else{var
-dS=dN;b4=1}}else{var
-dS=bx;b4=1}if(b4)var
-Z=dS;if(Z){var
-a=o[1];switch(a[0]){case
-0:var
-d8=a[4],d9=a[3],d_=a[2],d$=a[1],N=o[2];switch(N[0]){case
-0:return mv(0,d$,d_,d9,d8,N[1],N[2],N[3]);case
-1:return mw(d$,d_,d9,d8,N[2],N[3],N[4]);default:return 0}case
-1:var
-aD=a[3],C=a[1],aE=o[2];if(1===aE[0]){var
-aF=aE[2];if(aF){var
-aG=aF[2];if(aG){var
-aH=aG[2];if(aH){if(aH[2])return 0;var
-ea=aE[3],eb=mq(C,e(i,ea));if(eb[2])return 0;var
-ec=iv(G(mt,C),ea);if(ec){var
-dZ=$(yP,j(C));if(dZ)var
-gh=j(C),gi=1,bF=m(function(a){return bp(gi,gh,a)},aD);else
-var
-bF=dZ;var
-d0=bF?f8(aD):bF,d1=d0?m(eQ,G(mt,C)):d0,gm=d1?m(iq,dO(j(C),aD)):d1,bH=gm}else
-var
-bH=ec;if(bH){var
-gn=il(aE[4]),go=i(aH[1]),gp=i(aG[1]),D=[0,i(aF[1]),gp,go],aI=eb[1],gq=a[2],gc=dO(j(C),aD),gd=mi(gq),ad=e(yg,C),S=aI;for(;;){if(ad){if(S){var
-p=S[1],J=ad[1],ce=a5(n,J[1],p[1]),cf=ce?a5(n,J[2],p[2]):ce,cg=cf?a5(n,J[3],p[3]):cf,ch=cg?a5(n,J[4],p[4]):cg,ci=ch?c4(n,J[5],p[5]):ch,cl=ci?c4(n,J[6],p[6]):ci,cn=cl?l(n,1,p[5]):cl,co=cn?l(n,1,p[6]):cn,cp=co?l(n,1,L(p[1],p[1])):co;if(cp)var
-e7=hK(p),a0=l(n,1,L(hK(p),e7));else
-var
-a0=cp;var
-cq=a0?dj(J[7],p[7]):a0;if(cq){var
-ad=ad[2],S=S[2];continue}var
-cr=cq}else
-var
-cr=S;var
-a1=cr}else
-var
-a1=S?0:1;var
-cs=a1?ld(n,gd,D):a1;if(cs){var
-e8=e(function(a){return ls(a,D)},aI),e9=e(function(a){var
-b=lu(a,D);return[1,lt(a,D),b]},aI);return lp(n,tx,[0,e(function(a){var
-d=lq(a),e=aL(lu(a,D),d),f=hL(a),g=aL(lt(a,D),f),h=an(function(b,a){return[2,b,a]},g,e),i=aL(a[5],h),j=a[3],k=an(function(b,a){return[2,b,a]},j,i),l=a[4],m=an(function(b,a){return[2,b,a]},D,l),n=an(function(b,a){return[3,b,a]},m,k),o=hR(a,D),b=aL([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aI),e9,e8],gc,gn)}return cs}}var
-ed=bH}else
-var
-ed=aH;var
-ee=ed}else
-var
-ee=aG;var
-ef=ee}else
-var
-ef=aF;return ef}return 0;case
+gj=E(cV,h[3]),gk=g(hw(h[2]),gj),F=g(E(wU,h[1]),gk);break;case
 2:var
-aJ=a[7],aK=a[6],aM=a[5],aN=a[4],aO=a[3],U=a[2],V=a[1],W=o[2];switch(W[0]){case
-0:var
-bI=W[3],_=mk(V,U,aO,aN,aM,aK,aJ),bJ=dQ(0,j(bI),bI);if(bJ){var
-eg=bJ[1];if(eg[2])return 0;var
-eh=mu(V,U,aO,aN,aM,aK,aJ),ei=eh?iu(eA(V),bI):eh;if(ei){var
-gr=eg[1],gs=_[2],gt=r(c,dP(G(function(a){var
-b=b0(a[2]);return g(b0(a[1]),b)},gs))),gu=W[1],fD=_[2],dh=m(function(a){var
-b=h3(n,a[1]);return b?h3(n,a[2]):b},fD),di=dh?h3(n,_[4]):dh;if(di)var
-fE=lR(_[5]),bm=m(function(a){return fU(n,a)},fE);else
-var
-bm=di;return bm?t4(gu,_,gt,gr):bm}var
-ej=ei}else
-var
-ej=bJ;return ej;case
+gl=E(cV,h[7]),Q=h[6];switch(Q[0]){case
 1:var
-ek=W[3],el=e(i,W[2]),em=ir(V),en=mr(U,e(i,ek));if(en[2])return 0;var
-eo=iv(G(function(a){return g(a[1],a[2])},U),ek),ep=eo?mu(V,U,aO,aN,aM,aK,aJ):eo;if(ep){var
-gv=il(W[4]),k=fo(em,el),aP=ip(dl(em,el)),aQ=en[1],F=mk(V,U,aO,aN,aM,aK,aJ),at=F[2],T=aQ;for(;;){if(at){if(T){var
-db=T[1],dc=at[1],dd=a5(n,dc[1],db[1]),de=dd?a5(n,dc[2],db[2]):dd;if(de){var
-at=at[2],T=T[2];continue}var
-df=de}else
-var
-df=T;var
-bk=df}else
-var
-bk=T?0:1;var
-dg=bk?a5(n,F[4],aP):bk;if(dg){var
-y=F[5];switch(y[0]){case
-0:var
-u=k?k[2]?0:ey(n,y[1],k[1]):k;break;case
-1:var
-b5=0;if(k){var
-al=k[2],b6=0;if(al){var
-am=al[2],b7=0;if(am)if(am[2]){var
-u=0;b6=1;b7=1}else{var
-cQ=ey(n,y[1],k[1]),cR=cQ?ey(n,y[2],al[1]):cQ;if(cR){var
-u=ey(n,y[3],am[1]);b6=1;b7=1}else
-var
-cS=cR}else
-var
-cS=am;if(!b7)var
-cT=cS}else
-var
-cT=al;if(!b6){var
-cU=cT;b5=1}}else{var
-cU=k;b5=1}if(b5)var
-u=cU;break;case
+dR=Q[3],dS=Q[2],dT=Q[1],bF=[0,dT[1],[0,dT[2],[0,dS[1],[0,dS[2],[0,dR[1],[0,dR[2],0]]]]]];break;case
 2:var
-b8=0;if(k){var
-ao=k[2],b9=0;if(ao){var
-ap=ao[2];if(ap)if(ap[2]){var
-u=0;b9=1}else{var
-cV=ap[1],cX=ao[1],cY=k[1],fw=L([0,cY,cX,cV],[0,cY,cX,cV]),u=lK(n,y[1],fw,[0,c,c]);b9=1}else
-var
-cZ=ap}else
-var
-cZ=ao;if(!b9){var
-c1=cZ;b8=1}}else{var
-c1=k;b8=1}if(b8)var
-u=c1;break;default:var
-b_=0;if(k){var
-ar=k[2],b$=0;if(ar){var
-as=ar[2],ca=0;if(as)if(as[2]){var
-u=0;b$=1;ca=1}else{var
-bj=as[1],c2=ar[1],c5=k[1],c6=lK(n,y[1],[2,[4,c5,c5],[4,c2,c2]],[2,[0,c,c],[4,bj,bj]]);if(c6){var
-u=ey(n,c7(y[2]),bj);b$=1;ca=1}else
-var
-c8=c6}else
-var
-c8=as;if(!ca)var
-c9=c8}else
-var
-c9=ar;if(!b$){var
-c$=c9;b_=1}}else{var
-c$=k;b_=1}if(b_)var
-u=c$}var
-bl=u}else
-var
-bl=dg;if(bl){var
-au=F[5],fA=F[6],fB=F[3],fC=F[1],da=function(a){var
-b=hV(au,k,aP,a);return L(hV(au,k,aP,a),b)},fx=e(da,aQ),fy=e(function(a){return[0,[6,da(a)]]},aQ),fz=[0,e(function(d){var
-b=aS(hV(au,k,aP,d)),a=aL([5,[0,c,c],fB],lG(lH(au,k,d[2]),b));switch(fC){case
-0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aQ),fy,fx];return lp(n,eA(F[1]),fz,fA,gv)}return bl}}return ep;default:return 0}case
+bF=[0,Q[1],0];break;default:var
+bF=[0,Q[1],[0,Q[2],0]]}var
+gm=g(bF,gl),gn=g(h[5],gm),go=g(h[4],gn),gp=[0,h[3],go],gq=h[2],F=g(E(function(a){return E(dv,g(a[1],a[2]))},gq),gp);break;case
 3:var
-aR=a[7],es=a[6],et=a[5],aT=a[4],ev=a[2],ew=a[1],bK=o[2];if(0===bK[0]){var
-bL=bK[3],bM=dQ(0,j(bL),bL);if(bM){var
-ez=bM[1];if(ez[2])return 0;var
-gj=j(es),d2=v(j(et),gj);if(d2)var
-gk=j(aT),gl=0,bG=m(function(a){return bp(gl,gk,a)},aR);else
+gr=E(cV,h[7]),gs=g(h[6],gr),gt=g(h[5],gs),gu=h[2],F=g(E(function(a){return dv(a[2])},gu),gt);break;case
+4:var
+gv=E(cV,h[3]),F=[0,h[1],[0,h[2],gv]];break;case
+5:var
+gw=E(cV,h[4]),gx=g(bv(h[3]),gw),gy=g(bv(h[2]),gx),gz=g(E(hv,h[1]),gy),F=[0,h[5],gz];break;case
+6:var
+bG=h[1],F=bG?dv(bG[1]):bG;break;default:var
+gA=E(cV,h[4]),gB=g(hw(h[3]),gA),F=g(E(hv,h[2]),gB)}var
+d1=fz(dY,F);if(d1){var
+R=q[2];switch(R[0]){case
+0:var
+af=dZ(R[1],R[3]);break;case
+1:var
+af=d0(R[1],R[2],R[3]);break;default:var
+gC=R[1],af=n(function(a){if(typeof
+a!=="number")switch(a[0]){case
+1:return dZ(a[1],a[3]);case
+2:return d0(a[1],a[2],a[3])}return 1},gC)}}else{var
+d2=d1;ca=1}}else{var
+d2=bH;ca=1}if(ca)var
+af=d2;if(af){var
+a=q[1];switch(a[0]){case
+0:var
+em=a[4],en=a[3],eo=a[2],ep=a[1],T=q[2];switch(T[0]){case
+0:return lF(0,ep,eo,en,em,T[1],T[2],T[3]);case
+1:return lG(ep,eo,en,em,T[2],T[3],T[4]);default:return 0}case
+1:var
+aI=a[3],H=a[1],aJ=q[2];if(1===aJ[0]){var
+aK=aJ[2];if(aK){var
+aL=aK[2];if(aL){var
+aM=aL[2];if(aM){if(aM[2])return 0;var
+es=aJ[3],eu=lA(H,e(i,es));if(eu[2])return 0;var
+ev=hQ(E(lD,H),es);if(ev){var
+ea=ac(xH,j(H));if(ea)var
+gQ=j(H),gR=1,bT=n(function(a){return bi(gR,gQ,a)},aI);else
 var
-bG=d2;var
-d3=bG?f8(aR):bG,d4=d3?m(function(a){return eQ(a[2])},ev):d3,eB=d4?m(iq,dO(j(aT),aR)):d4,eC=eB?iu(j(ew),bL):eB;if(eC){var
-gw=ez[1],gx=a[3],dV=dO(j(aT),aR),f$=aX(et,es),bB=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},f$),ga=e(function(a){return e(c_,a)},aT),gb=e(function(a){var
-b=c_(a[2]);return[0,a[1],b]},gx),h=[0,ew,e(function(a){var
-b=cm(a[2]);return[0,a[1],b]},ev),gb,ga],ac=bK[1],fq=e(a8,h[2]),bc=g(h[1],fq),ak=j(h[1]),cJ=$(tz,ak),cK=cJ?$(ak,tA):cJ,cL=cK?$(ak,j(h[4])):cK,cM=cL?$(j(h[4]),tB):cL;if(cM)var
-fr=h[4],bd=m(function(a){return v(j(a),ak)},fr);else
+bT=ea;var
+eb=bT?fC(aI):bT,ee=eb?n(et,E(lD,H)):eb,gW=ee?n(hK,dy(j(H),aI)):ee,bV=gW}else
 var
-bd=cM;var
-cN=bd?lC(bc):bd;if(cN){var
-ai=bc,af=h[3];for(;;){if(af){var
-cE=af[1],cG=cE[1],cH=ah(av(function(b){return function(a){return ag(b,a)}}(cG),ai)),cI=cH?hS(ai,cE[2]):cH;if(cI){var
-ai=[0,cG,ai],af=af[2];continue}var
-cO=cI}else
+bV=ev;if(bV){var
+gY=hG(aJ[4]),g0=i(aM[1]),g1=i(aL[1]),L=[0,i(aK[1]),g1,g0],aO=eu[1],g4=a[2],gL=dy(j(H),aI),gM=ls(g4),aj=e(w_,H),U=aO;for(;;){if(aj){if(U){var
+r=U[1],P=aj[1],co=aY(m,P[1],r[1]),cp=co?aY(m,P[2],r[2]):co,cq=cp?aY(m,P[3],r[3]):cp,cr=cq?aY(m,P[4],r[4]):cq,cu=cr?cQ(m,P[5],r[5]):cr,cv=cu?cQ(m,P[6],r[6]):cu,cw=cv?k(m,1,r[5]):cv,cx=cw?k(m,1,r[6]):cw,cy=cx?k(m,1,K(r[1],r[1])):cx;if(cy)var
+fh=g2(r),a6=k(m,1,K(g2(r),fh));else
 var
-cO=1;var
-be=cO;break}}else
+a6=cy;var
+cz=a6?dV(P[7],r[7]):a6;if(cz){var
+aj=aj[2],U=U[2];continue}var
+cA=cz}else
 var
-be=cN;if(be)var
-fs=h[4],ft=g(e(a8,h[3]),bc),fu=function(a){return hS(ft,a)},bf=m(function(a){return m(fu,a)},fs);else
+cA=U;var
+a7=cA}else
 var
-bf=be;if(bf)var
-fv=h[2],bi=m(function(a){return bD(n,a[2][1],a[2][2])},fv);else
+a7=U?0:1;var
+cB=a7?kn(m,gM,L):a7;if(cB){var
+fj=e(function(a){return kD(a,L)},aO),fm=e(function(a){var
+b=kF(a,L);return[1,kE(a,L),b]},aO);return kA(m,sp,[0,e(function(a){var
+d=kB(a),e=aG(kF(a,L),d),f=g3(a),g=aG(kE(a,L),f),h=ai(function(b,a){return[2,b,a]},g,e),i=aG(a[5],h),j=a[3],k=ai(function(b,a){return[2,b,a]},j,i),l=a[4],m=ai(function(b,a){return[2,b,a]},L,l),n=ai(function(b,a){return[3,b,a]},m,k),o=g9(a,L),b=aG([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aO),fm,fj],gL,gY)}return cB}}var
+ew=bV}else
 var
-bi=bf;var
-cP=bi?m(function(a){return bD(n,a[1],a[2])},bB):bi;if(cP){var
-fe=j(h[1]),a3=j(h[2]),cv=Q(a3,j(ex(e(cA,h[3])))),ff=h[3],Y=lB(h),ae=ff,a2=a3;for(;;){if(ae){var
-ct=ae[1],cu=ct[2],e_=Q(a2,j(bW(cu))),e$=ae[2],fa=bX(Y,cu,a2),Y=[0,[0,ct[1],fa],Y],ae=e$,a2=e_;continue}var
-fg=ly(Y,h[4],cv),a4=e(function(a){return[0,a,q(c)]},fg),fh=lz(Y,h[4],cv),fi=h[3],a6=g(lv(lB(h),fi,a3),fh),a7=ds(g(ck(a4),a6))[1],fj=dr(a7),a9=function(a){return bz(fj,a)},cw=f(aY(a9),a4),cx=v(j(bB),fe);if(cx)var
-fk=g(ck(a4),a6),a_=m(function(a){var
-b=q(d),c=dr(a7);return bg(w(a9(a),c,b),a)},fk);else
+ew=aM;var
+ex=ew}else
 var
-a_=cx;var
-cy=a_?av(ty,dV):a_;if(cy){var
-fb=G(ex,h[4]),fc=g(ex(e(cA,h[3])),fb),fd=g(lA(h[2]),fc),a$=aj(e(function(a){return aw(ac,a)},fd));if(a$){var
-ba=aj(e(function(a){return aw(ac,[0,a,d])},bB));if(ba){var
-bb=aj(e(function(a){if(typeof
-a==="number")return[0,[0,A]];else
+ex=aL;var
+ey=ex}else
+var
+ey=aK;return ey}return 0;case
+2:var
+aQ=a[7],aR=a[6],aS=a[5],aT=a[4],aU=a[3],W=a[2],X=a[1],Z=q[2];switch(Z[0]){case
+0:var
+bW=Z[3],ag=lu(X,W,aU,aT,aS,aR,aQ),bX=dA(0,j(bW),bW);if(bX){var
+ez=bX[1];if(ez[2])return 0;var
+eA=lE(X,W,aU,aT,aS,aR,aQ),eB=eA?hP(ef(X),bW):eA;if(eB){var
+g5=ez[1],g6=ag[2],g7=B(c,dz(E(function(a){var
+b=bQ(a[2]);return g(bQ(a[1]),b)},g6))),g8=Z[1],fY=ag[2],dt=n(function(a){var
+b=hj(m,a[1]);return b?hj(m,a[2]):b},fY),du=dt?hj(m,ag[4]):dt;if(du)var
+fZ=k2(ag[5]),bw=n(function(a){return fq(m,a)},fZ);else
+var
+bw=du;return bw?sW(g8,ag,g7,g5):bw}var
+eC=eB}else
+var
+eC=bX;return eC;case
+1:var
+eD=Z[3],eE=e(i,Z[2]),eF=hL(X),eG=lB(W,e(i,eD));if(eG[2])return 0;var
+eH=hQ(E(function(a){return g(a[1],a[2])},W),eD),eI=eH?lE(X,W,aU,aT,aS,aR,aQ):eH;if(eI){var
+g$=hG(Z[4]),p=jo(eF,eE),aV=hJ(eW(eF,eE)),aW=eG[1],M=lu(X,W,aU,aT,aS,aR,aQ),ay=M[2],V=aW;for(;;){if(ay){if(V){var
+dm=V[1],dn=ay[1],dp=aY(m,dn[1],dm[1]),dq=dp?aY(m,dn[2],dm[2]):dp;if(dq){var
+ay=ay[2],V=V[2];continue}var
+dr=dq}else
+var
+dr=V;var
+br=dr}else
+var
+br=V?0:1;var
+ds=br?aY(m,M[4],aV):br;if(ds){var
+A=M[5];switch(A[0]){case
+0:var
+w=p?p[2]?0:ed(m,A[1],p[1]):p;break;case
+1:var
+cc=0;if(p){var
+ao=p[2],ce=0;if(ao){var
+ar=ao[2],cf=0;if(ar)if(ar[2]){var
+w=0;ce=1;cf=1}else{var
+c4=ed(m,A[1],p[1]),c5=c4?ed(m,A[2],ao[1]):c4;if(c5){var
+w=ed(m,A[3],ar[1]);ce=1;cf=1}else
+var
+c6=c5}else
+var
+c6=ar;if(!cf)var
+c7=c6}else
+var
+c7=ao;if(!ce){var
+c8=c7;cc=1}}else{var
+c8=p;cc=1}if(cc)var
+w=c8;break;case
+2:var
+cg=0;if(p){var
+at=p[2],ch=0;if(at){var
+av=at[2];if(av)if(av[2]){var
+w=0;ch=1}else{var
+c9=av[1],c$=at[1],da=p[1],fR=K([0,da,c$,c9],[0,da,c$,c9]),w=kV(m,A[1],fR,[0,c,c]);ch=1}else
+var
+db=av}else
+var
+db=at;if(!ch){var
+dc=db;cg=1}}else{var
+dc=p;cg=1}if(cg)var
+w=dc;break;default:var
+ci=0;if(p){var
+aw=p[2],cj=0;if(aw){var
+ax=aw[2],ck=0;if(ax)if(ax[2]){var
+w=0;cj=1;ck=1}else{var
+bq=ax[1],dd=aw[1],de=p[1],df=kV(m,A[1],[2,[4,de,de],[4,dd,dd]],[2,[0,c,c],[4,bq,bq]]);if(df){var
+w=ed(m,cT(A[2]),bq);cj=1;ck=1}else
+var
+dg=df}else
+var
+dg=ax;if(!ck)var
+di=dg}else
+var
+di=aw;if(!cj){var
+dj=di;ci=1}}else{var
+dj=p;ci=1}if(ci)var
+w=dj}var
+bs=w}else
+var
+bs=ds;if(bs){var
+aA=M[5],fV=M[6],fW=M[3],fX=M[1],dk=function(a){var
+b=hb(aA,p,aV,a);return K(hb(aA,p,aV,a),b)},fS=e(dk,aW),fT=e(function(a){return[0,[6,dk(a)]]},aW),fU=[0,e(function(d){var
+b=aN(hb(aA,p,aV,d)),a=aG([5,[0,c,c],fW],kR(kS(aA,p,d[2]),b));switch(fX){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aW),fT,fS];return kA(m,ef(M[1]),fU,fV,g$)}return bs}}return eI;default:return 0}case
+3:var
+aX=a[7],eJ=a[6],eK=a[5],aZ=a[4],eL=a[2],eM=a[1],bY=q[2];if(0===bY[0]){var
+bZ=bY[3],b0=dA(0,j(bZ),bZ);if(b0){var
+eN=b0[1];if(eN[2])return 0;var
+gS=j(eJ),eg=u(j(eK),gS);if(eg)var
+gT=j(aZ),gU=0,bU=n(function(a){return bi(gU,gT,a)},aX);else
+var
+bU=eg;var
+eh=bU?fC(aX):bU,ei=eh?n(function(a){return et(a[2])},eL):eh,eO=ei?n(hK,dy(j(aZ),aX)):ei,eP=eO?hP(j(eM),bZ):eO;if(eP){var
+ha=eN[1],hc=a[3],d7=dy(j(aZ),aX),gI=a$(eK,eJ),bP=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gI),gJ=e(function(a){return e(cW,a)},aZ),gK=e(function(a){var
+b=cW(a[2]);return[0,a[1],b]},hc),l=[0,eM,e(function(a){var
+b=cd(a[2]);return[0,a[1],b]},eL),gK,gJ],ah=bY[1],fL=e(a2,l[2]),bk=g(l[1],fL),an=j(l[1]),cX=ac(sr,an),cY=cX?ac(an,ss):cX,cZ=cY?ac(an,j(l[4])):cY,c0=cZ?ac(j(l[4]),st):cZ;if(c0)var
+fM=l[4],bl=n(function(a){return u(j(a),an)},fM);else
+var
+bl=c0;var
+c1=bl?kN(bk):bl;if(c1){var
+am=bk,al=l[3];for(;;){if(al){var
+cO=al[1],cR=cO[1],cS=au(aP(function(b){return function(a){return ap(b,a)}}(cR),am)),cU=cS?g_(am,cO[2]):cS;if(cU){var
+am=[0,cR,am],al=al[2];continue}var
+c2=cU}else
+var
+c2=1;var
+bm=c2;break}}else
+var
+bm=c1;if(bm)var
+fN=l[4],fO=g(e(a2,l[3]),bk),fP=function(a){return g_(fO,a)},bn=n(function(a){return n(fP,a)},fN);else
+var
+bn=bm;if(bn)var
+fQ=l[2],bo=n(function(a){return bt(m,a[2][1],a[2][2])},fQ);else
+var
+bo=bn;var
+c3=bo?n(function(a){return bt(m,a[1],a[2])},bP):bo;if(c3){var
+fw=j(l[1]),a9=j(l[2]),cE=O(a9,j(ec(e(cI,l[3])))),fx=l[3],$=kM(l),ak=fx,a8=a9;for(;;){if(ak){var
+cC=ak[1],cD=cC[2],fn=O(a8,j(bN(cD))),fo=ak[2],fp=bO($,cD,a8),$=[0,[0,cC[1],fp],$],ak=fo,a8=fn;continue}var
+fB=kJ($,l[4],cE),a_=e(function(a){return[0,a,o(c)]},fB),fD=kK($,l[4],cE),fE=l[3],ba=g(kG(kM(l),fE,a9),fD),bb=d5(g(cP(a_),ba))[1],fF=d4(bb),bd=function(a){return bJ(fF,a)},cF=f(a5(bd),a_),cG=u(j(bP),fw);if(cG)var
+fG=g(cP(a_),ba),be=n(function(a){var
+b=o(d),c=d4(bb);return bg(t(bd(a),c,b),a)},fG);else
+var
+be=cG;var
+cH=be?aP(sq,d7):be;if(cH){var
+fr=E(ec,l[4]),fs=g(ec(e(cI,l[3])),fr),fv=g(kL(l[2]),fs),bf=az(e(function(a){return as(ah,a)},fv));if(bf){var
+bh=az(e(function(a){return as(ah,[0,a,d])},bP));if(bh){var
+bj=az(e(function(a){if(typeof
+a==="number")return[0,[0,x]];else
 switch(a[0]){case
 0:var
 f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -6131,624 +6047,243 @@ f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[5,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aw(ac,[0,[0,b,b],d]);return I(function(a){return e(ab(ac,a))},g)},dV));if(bb){var
-cz=bb[1],fl=hD(cz),fm=ba[1],fn=function(a){return 0},fp=a$[1];return hC(ac,a7,cw,cw,e(a9,a6),fp,cz,fn,fm,fl,gw)}var
-cB=bb}else
+g=as(ah,[0,[0,b,b],d]);return J(function(a){return e(Y(ah,a))},g)},d7));if(bj){var
+cJ=bj[1],fH=j$(cJ),fI=bh[1],fJ=function(a){return 0},fK=bf[1];return gV(ah,bb,cF,cF,e(bd,ba),fK,cJ,fJ,fI,fH,ha)}var
+cL=bj}else
 var
-cB=ba;var
-cC=cB}else
+cL=bh;var
+cM=cL}else
 var
-cC=a$;var
-cD=cC}else
+cM=bf;var
+cN=cM}else
 var
-cD=cy;return cD}}return cP}var
-eD=eC}else
+cN=cH;return cN}}return c3}var
+eQ=eP}else
 var
-eD=bM;return eD}return 0;case
-4:if(0===o[2][0]){var
-eE=dR(i(a[1]));if(eE){var
-aU=a[3],cb=0;if(aU){var
-az=aU[1],aA=az[4],B=aU[2];if(az[1]||az[2]||az[3])var
-t=0;else{var
-x=0;if(typeof
-aA!=="number")switch(aA[0]){case
+eQ=b0;return eQ}return 0;case
+4:if(0===q[2][0]){var
+eR=dB(i(a[1]));if(eR){var
+a0=a[3],cl=0;if(a0){var
+aD=a0[1],aE=aD[4],G=a0[2];if(aD[1]||aD[2]||aD[3])var
+v=0;else{var
+z=0;if(typeof
+aE!=="number")switch(aE[0]){case
 0:var
-aW=0;if(B){var
-aB=B[1],bC=aB[4];if(aB[1]||aB[2]||aB[3]){var
-t=0;x=1;aW=1}else{var
-cc=0;if(typeof
-bC!=="number"&&1===bC[0])if(B[2]){var
-t=0;x=1;aW=1;cc=1}else{var
-ge=i(bC[1]),t=[0,[0,i(aA[1]),ge]];x=1;aW=1;cc=1}if(!cc)var
-dX=0}}else
+a3=0;if(G){var
+aF=G[1],bR=aF[4];if(aF[1]||aF[2]||aF[3]){var
+v=0;z=1;a3=1}else{var
+cm=0;if(typeof
+bR!=="number"&&1===bR[0])if(G[2]){var
+v=0;z=1;a3=1;cm=1}else{var
+gN=i(bR[1]),v=[0,[0,i(aE[1]),gN]];z=1;a3=1;cm=1}if(!cm)var
+d_=0}}else
 var
-dX=B;if(!aW){var
-t=dX;x=1}break;case
+d_=G;if(!a3){var
+v=d_;z=1}break;case
 1:var
-aZ=0;if(B){var
-aC=B[1],bE=aC[4];if(aC[1]||aC[2]||aC[3]){var
-t=0;x=1;aZ=1}else{var
-cd=0;if(typeof
-bE!=="number"&&0===bE[0])if(B[2]){var
-t=0;x=1;aZ=1;cd=1}else{var
-gf=i(aA[1]),t=[0,[0,i(bE[1]),gf]];x=1;aZ=1;cd=1}if(!cd)var
-dY=0}}else
+a4=0;if(G){var
+aH=G[1],bS=aH[4];if(aH[1]||aH[2]||aH[3]){var
+v=0;z=1;a4=1}else{var
+cn=0;if(typeof
+bS!=="number"&&0===bS[0])if(G[2]){var
+v=0;z=1;a4=1;cn=1}else{var
+gO=i(aE[1]),v=[0,[0,i(bS[1]),gO]];z=1;a4=1;cn=1}if(!cn)var
+d$=0}}else
 var
-dY=B;if(!aZ){var
-t=dY;x=1}break}if(!x){var
-dW=0;cb=1}}}else{var
-dW=aU;cb=1}if(cb)var
-t=dW;if(t){var
-eF=t[1],eG=eF[2],eH=eF[1],dq=l(n,1,i(a[2])),dt=dq?l(n,1,[3,eG,[0,c,c]]):dq,du=dt?l(n,1,eH):dt;return du?l(n,0,[3,[5,[0,c,c],eG],eH]):du}var
-eI=t}else
+d$=G;if(!a4){var
+v=d$;z=1}break}if(!z){var
+d8=0;cl=1}}}else{var
+d8=a0;cl=1}if(cl)var
+v=d8;if(v){var
+eS=v[1],eT=eS[2],eU=eS[1],dD=k(m,1,i(a[2])),dE=dD?k(m,1,[3,eT,[0,c,c]]):dD,dF=dE?k(m,1,eU):dE;return dF?k(m,0,[3,[5,[0,c,c],eT],eU]):dF}var
+eV=v}else
 var
-eI=eE;return eI}return 0;case
+eV=eR;return eV}return 0;case
 5:var
-bN=a[4],eJ=a[1],bO=o[2];if(0===bO[0]){var
-eK=bO[3],s=f3(eJ,[0,a[2],a[3]],0,bN),bP=im(j(eK),eK);if(bP){var
-eL=bP[1];if(eL[2])return 0;var
-eP=f_(eJ,0,bN,s),eR=eP?ah(av(yZ,bN)):eP;if(eR){var
-eS=hJ(n,s);if(eS){var
-gy=eL[1],eT=e(f6,s[1]),H=f7(s[1]),eU=i(a[5]),O=bO[1],br=eu(H,eT,s[1]),ax=fL(H,eT,s[1],0),fG=j(s[3]),fH=Q(j(br),fG),bs=[0,j(br),fH],fI=fP(ax,H,bs,s[3]),fJ=g(e(c0,ax),fI),dx=g(ck(dy(ax)),fJ),dz=ds(dx)[1],bt=dr(dz),dA=s[2];if(0===dA[0]){var
-dB=m(function(a){var
-b=q(d);return bg(w(bz(bt,a),bt,b),a)},dx),dC=dB?l(n,1,eU):dB;if(dC){var
-fK=s[3],fM=G(function(a){return c3(H,a)},fK),fN=s[3],fO=g(br,g(e(function(a){return bo(H,a)},fN),fM)),bu=aj(e(function(a){return aw(O,a)},fO));if(bu){var
-fQ=bh(dA[1],H),bv=aj(e(function(a){return aw(O,a)},fQ));if(bv){var
-bw=bT(O,H,[5,eU,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bw){var
-fR=bv[1],fS=bw[1],fT=bu[1],fV=s[3],fW=l9(O,function(a){return bz(bt,a)},ax,H,bs,fV),fX=s[3],fY=bs[1],dv=e(aq,fT),dw=function(t,s){var
-d=t,a=s;for(;;){if(0===a[0]){var
-e=a[1],g=v(j(e),ub),h=g?m(function(a){var
-d=E(aa(b(2,b(2,b(2,c)))),a);return d?E(a,b(2,b(2,b(2,c)))):d},e):g;if(h){var
-i=l$(O,fS,eq(0,d),e),u=a[2];return l_(O,fY,fX,fW,h7,i,dv,bR(0,cF(O,i,dv),dz,0),u)}return h}var
-k=a[1],f=R(d,k);if(f){var
-l=f[1],w=l[1],n=ah(M(bU(l),w));if(n){var
-o=er(k,d),p=dw(o[1],a[2]);if(p){var
-d=o[2],a=a[3];continue}var
-q=p}else
-var
-q=n;var
-r=q}else
-var
-r=f;return r}};return dw(fR,gy)}var
-dD=bw}else
-var
-dD=bv;var
-dE=dD}else
-var
-dE=bu;var
-dF=dE}else
-var
-dF=dC;return dF}return 0}var
-eV=eS}else
-var
-eV=eR;var
-eW=eV}else
-var
-eW=bP;return eW}return 0;case
-6:var
-eX=a[1];if(eX){var
-eY=eX[1],bQ=o[2];if(0===bQ[0]){var
-bS=ik(0,y4,bQ[3]);if(bS){var
-eZ=eQ(eY);if(eZ){var
-gz=bS[1],e0=cm(eY)[2],aV=bQ[1],bn=bT(aV,d,e0);if(bn){var
-bq=bT(aV,d,[5,[0,c,c],e0]);if(bq){var
-fF=bn[1][1],dk=P(cW(aV),fF);if(dk)return l7(aV,bq[1][1],gz);var
-dn=dk}else
-var
-dn=bq;var
-dp=dn}else
-var
-dp=bn;return dp}var
-e1=eZ}else
-var
-e1=bS;return e1}return 0}var
-bV=o[2];if(0===bV[0]){var
-bY=ik(0,y5,bV[3]);return bY?l7(bV[1],d,bY[1]):bY}return 0;default:var
-X=a[1],e2=o[2];if(2===e2[0]){var
-e3=e2[1],bZ=ii(j(e3),e3);if(bZ){var
-e4=bZ[1];if(e4[2])return 0;var
-b1=e4[1],d5=$(y2,j(X)),d6=d5?$(j(X),kn):d5,d7=d6?lC(e(a8,X)):d6,e5=d7?m(function(c){var
-a=cj(i(c[2][1]));if(a){var
-b=cj(i(c[2][2]));if(b)return ah(dm(b[1],a[1]));var
-d=b}else
-var
-d=a;return d},X):d7;if(e5)var
-gA=f4(yh,b1),b2=my(a[5],gA);else
-var
-b2=e5;if(b2)var
-gB=f4(yi,b1),b3=my(a[6],gB);else
-var
-b3=b2;if(b3){var
-gg=e(function(a){return[0,d,0]},X);return mx(X,a[2],a[3],a[4],gg,b1)}var
-e6=b3}else
-var
-e6=bZ;return e6}return 0}}return Z}function
-y6(m,b){var
-f=[0,h(xI,ac(b[4])),0],g=[0,h(xK,S([0,h(xJ,ac(b[3])),f])),0],a=b[2];switch(a[0]){case
+b1=a[4],eX=a[1],b2=q[2];if(0===b2[0]){var
+eY=b2[3],s=hy(eX,[0,a[2],a[3]],0,b1),b3=hH(j(eY),eY);if(b3){var
+eZ=b3[1];if(eZ[2])return 0;var
+e0=hO(eX,0,b1,s),e1=e0?au(aP(xR,b1)):e0;if(e1){var
+e2=kw(m,s);if(e2){var
+hd=eZ[1],e3=e(hD,s[1]),y=hE(s[1]),e4=i(a[5]),N=b2[1],bz=fi(y,e3,s[1]),C=gX(y,e3,s[1],0),f4=j(s[3]),f5=O(j(bz),f4),aB=[0,j(bz),f5],f6=gZ(C,y,aB,s[3]),f7=g(e(dh,C),f6),dJ=g(cP(e9(C)),f7),dK=d5(dJ)[1],bA=d4(dK),dL=s[2];if(0===dL[0]){var
+dM=n(function(a){var
+b=o(d);return bg(t(bJ(bA,a),bA,b),a)},dJ),dN=dM?k(m,1,e4):dM;if(dN){var
+f8=s[3],f9=E(function(a){return dl(y,a)},f8),f_=s[3],f$=g(bz,g(e(function(a){return bu(y,a)},f_),f9)),bB=az(e(function(a){return as(N,a)},f$));if(bB){var
+ga=bc(dL[1],y),bC=az(e(function(a){return as(N,a)},ga));if(bC){var
+bD=ct(N,y,[5,e4,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bD){var
+bE=s[3],gb=bC[1],gc=bD[1],gd=bB[1],ab=function(a){return bJ(bA,a)},f1=bp(0,j(bE)),f2=e(function(i){var
+l=ae(bE,i);if(l){var
+a=l[1],u=eW(i,bE),v=j(E(function(a){return dl(y,a)},u)),w=O(aB[2],v),h=[0,O(aB[1],i),w],r=e9(C),g=f(a5(ab),r),b=[1,[8,[1,[1,h[1]]]]],d=fl(C,y,h,a),n=d?[0,[3,e(ab,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a!=="number")switch(a[0]){case
+0:return[0,[0,g,b]];case
+1:return[0,[1,g,b]];case
+4:var
+o=k(N,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,g,b]];case
+8:var
+p=k(N,1,[5,a[2],a[1]]);if(!p)return p;var
+q=[1,[2,c]];m=1;break;case
+9:var
+q=b;m=1;break;case
+2:case
+3:case
+6:case
+7:return n}if(m){var
+t=fk(C,y,h,a);return J(function(a){return[0,f(a5(ab),a),q]},t)}return 0}return l},f1),f3=e(function(a){return ab(dh(a))},C),dG=e(function(a){return ab(a[2])},C),ge=s[3],gf=aB[1],dH=e(aq,gd),dI=function(ay,ax){var
+l=ay,h=ax;for(;;){if(0===h[0]){var
+s=h[1],Z=u(j(s),s5),_=Z?n(function(a){var
+d=I(aa(b(2,b(2,b(2,c)))),a);return d?I(a,b(2,b(2,b(2,c)))):d},s):Z;if(_){var
+$=lj(N,gc,e$(0,l),s),i=h[2],v=bI(0,cs(N,$,dH),dK,0),L=function(a){return li(lh(N,$,dH,v,a))};if(typeof
+i==="number")return aP(function(b){var
+a=t(b,v,0);return a?I(a[1][2][2],d):a},dG);else{if(0===i[0]){var
+a=i[2],M=n(s3,a);if(M){var
+o=t(i[1],f2,0);if(o){var
+g=o[1];switch(g[0]){case
 0:var
-c=J(xE,md(a[1],a[2],a[3]));break;case
+x=0;if(a)if(a[2])var
+f=0;else{var
+A=a[1],B=g[1],al=fu(B,A),am=ft(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],am]],al]],0]]];x=1}else{var
+C=a;x=1}if(x)var
+f=C;break;case
 1:var
-c=J(xF,me(a[1],a[2],a[3],a[4]));break;default:var
-c=J(xG,B(e(xz,a[1])))}var
-i=[0,h(xL,c),g],j=1===b[2][0]?xR:xM,k=[0,h(xN,ac(j)),i],l=[0,h(xO,wk(b[1])),k],d=ag(fa(y7,fZ(S([0,h(xQ,ac(xP)),l]),xH)),m);return d?y3(b):d}function
-f$(g,a){switch(g){case
-0:if(a){var
-c=a[1],h=c?a:c;return h}return y8;case
-1:if(a){var
-d=a[1];if(d){var
-e=d[1],i=e?a:e;return i}return y9}return y_;default:if(a){var
-b=a[1];if(b){if(b[1])return a;var
-f=y$}else
+y=0;if(a)if(a[2])var
+f=0;else{var
+D=a[1],E=g[1],an=ft(D),ao=[1,[6,g[2],an]],F=[0,[0,E,[0,[1,[4,fu(E,D),ao]],0]]];y=1}else{var
+F=a;y=1}if(y)var
+f=F;break;case
+2:var
+z=0;if(a){var
+k=a[2],ak=0;if(k)if(k[2]){var
+f=0;ak=1}else
 var
-f=b;return f}return za}}function
-dS(b,a){var
-c=aE(b[1],a[1]);return c?aE(b[2],a[2]):c}function
-dT(b,a){var
-c=dS(b[1],a[1]),d=c?dS(b[2],a[2]):c;return d?dS(b[3],a[3]):d}function
-zb(b,a){if(typeof
-b==="number"){if(0===b){if(typeof
-a==="number"&&!a)return 1;return 0}}else
-switch(b[0]){case
-0:if(typeof
-a!=="number"&&0===a[0])return aE(b[1],a[1]);return 0;case
-1:if(typeof
-a!=="number"&&1===a[0])return aE(b[1],a[1]);return 0;case
-2:if(typeof
-a!=="number"&&2===a[0]){var
-c=v(b[1],a[1]);return c?aE(b[2],a[2]):c}return 0;case
-3:if(typeof
-a!=="number"&&3===a[0]){var
-d=v(b[1],a[1]);return d?aE(b[2],a[2]):d}return 0;case
-4:if(typeof
-a!=="number"&&4===a[0]){var
-e=v(b[1],a[1]),f=e?aE(b[2],a[2]):e;return f?aE(b[3],a[3]):f}return 0;case
-5:if(typeof
-a!=="number"&&5===a[0])return aE(b[1],a[1]);return 0;case
-6:if(typeof
-a!=="number"&&6===a[0]){var
-g=v(b[1],a[1]);return g?aE(b[2],a[2]):g}return 0;case
-7:if(typeof
-a!=="number"&&7===a[0])return aE(b[1],a[1]);return 0}return 0}function
-ga(a){return dk(b(2,c),a)}var
-iw=b(2,b(2,b(2,o(b(2,o(b(2,o(b(2,c)))))))));function
-mz(a){var
-e=au(iw,bm(function(b,a){return r(b[2],a)},d,a));return dk(b(2,c),e)}function
-ix(k,e,d){var
-a=fo(e,d);if(a)var
-f=a[1],l=a[2],i=o(f[2]),j=f[1],h=[0,[0,r(s(b(2,c),j),k),i],l];else
+G=k[1],H=a[1],m=g[1],ap=ft(H),aq=[1,[6,fu(m,G),ap]],ar=[1,[6,g[2],aq]],as=ft(G),J=[0,[0,m,[0,[1,[4,[1,[6,fu(m,H),as]],ar]],0]]];else
 var
-h=a;return g(dl(e,d),h)}function
-gb(b,a){var
-d=ga(a[2]),e=s(b[1],d),f=ga(b[2]);return E(s(r(a[1],c),f),e)}function
-gc(c,b){var
-d=M(c[1],b[1]);if(d){var
-a=b[2],e=c[2];return 0<a1(e)?0<a1(a)?eg(e,a):0:0<a1(a)?0:1}return d}function
-mA(a){if(a){var
-b=a[2];if(b){var
-c=b[2];if(c){if(c[2])return 0;var
-d=c[1],e=b[1],f=a[1],k=gb(f,e),g=k||gb(e,d);if(!g)return gb(f,d);var
-h=g}else
+J=k;if(!ak){var
+K=J;z=1}}else{var
+K=a;z=1}if(z)var
+f=K;break;default:if(a)var
+f=0;else
 var
-h=c;var
-i=h}else
-var
-i=b;var
-j=i}else
-var
-j=a;return j}function
-iy(j,a){if(j){if(a){var
-f=a[2];if(f){var
-g=f[2];if(g){if(g[2])return d;var
-k=g[1],h=f[1],l=j[1],i=function(g,f){var
-b=R(a,g);if(b){var
-c=b[1],d=R(a,f);if(d){var
-e=d[1],j=0;if(!gb(e,c)&&!gc(c,e)){var
-k=fk(c[2],e[2])?g:f,h=[0,k];j=1}if(!j)return 0}else
-var
-h=d;var
-i=h}else
-var
-i=b;return i};if(mA(a))return d;var
-m=i(0,ze);if(m)var
-e=m[1];else{var
-n=i(zg,zf);if(n)var
-e=n[1];else{var
-p=i(0,zh);if(!p){var
-t=gc(a[1],h)?gc(h,k)?c:o(b(2,c)):gc(h,k)?o(b(2,c)):b(2,o(b(2,c)));return s(mz(a),t)}var
-e=p[1]}}var
-q=iy(l,ix(c,e,a));return r(iy(l,ix(d,e,a)),q)}return d}return d}return d}return d}function
-zj(a){var
-b=0;if(typeof
-a==="number"){if(1!==a)b=1}else
-if(14!==a[0])b=1;return b?1:0}function
-mB(a,e,d,b){function
-c(c){var
-d=a$(c,a,b[2]),e=b[1];return y(a$(au(ga(a),c),a,e),d)}var
-f=c(d)[2];return[0,c(e)[1],f]}var
-zm=b(2,b(2,b(2,o(b(2,b(2,c)))))),mC=b(2,b(2,b(2,b(2,c))));function
-iz(c,a,b){return hz(c,a[1],a[4],b)}function
-iA(h,a,g,b,f,d,c){var
-i=e(function(a){var
-c=a[2],d=c?c[1]:X(g[1],b,a[1]);return[0,a[1],d]},d);function
-j(a){return 0}return kY(h,a[1],a[2],a[3],0,a[4],a[5],j,b,f,i,c)}function
-mD(b,a){return[0,a[1],r(a[2],c),a[3],a[4],a[5],r(a[6],b),a[7],a[8]]}function
-zn(k,b,w,T,u){var
-x=T[1];if(x){var
-p=x[2],f=x[1],h=f[1],a=T[2],aA=b[13],y=function(a){return aA?iy(zi,a):mz(a)},au=aX(h,b[9]),i=e(function(b){var
-a=b[1];return mB(a[2],a[1],r(a[1],c),b[2])},au),U=ah(f[4]);if(U)var
-aB=u[1]?0:1,l=aB;else
-var
-l=U;var
-n=u[2];if(typeof
-n==="number")switch(n){case
-0:var
-V=iz(k,b,i),F=iA(k,b,w,V,i,u[1],f[2]);if(F){var
-G=F[1],az=cC(cA,aX(be(0,j(G)),G)),H=iA(k,b,w,V,i,e(function(a){return[0,a[1],0]},az),G);if(H){var
-W=m(ah,H[1]);if(W)var
-aC=f[4]?a:mD(y(h),a),I=[0,[0,p,aC]];else
-var
-I=W}else
-var
-I=H;var
-Y=I}else
-var
-Y=F;return Y;case
-1:if(l)var
-aD=y(h),Z=[0,[0,p,[0,a[1],a[2],a[3],r(a[4],c),a[5],a[6],a[7],r(a[8],aD)]]];else
-var
-Z=l;return Z;default:var
-_=l?b[13]:l,$=_?mA(h):_,aE=$?[0,[0,p,[0,a[1],a[2],a[3],a[4],r(a[5],c),a[6],a[7],a[8]]]]:$;return aE}else
-switch(n[0]){case
-0:var
-aa=n[1],ab=ah(f[4]);if(ab)var
-aF=b[10],J=av(function(a){return v(aa,a)},aF);else
-var
-J=ab;var
-ac=J?fk(f[3],b[12]):J;if(!ac)return ac;var
-af=[0,r(a[1],c),a[2],a[3],a[4],a[5],a[6],a[7],a[8]],ae=0,ad=c,K=aa;break;case
-1:var
-L=R(b[11],n[1]);if(!L)return L;var
-aJ=f[4]?a:mD(y(h),a),af=aJ,ae=1,ad=d,K=L[1];break;default:var
-M=n[2],an=n[1];if(an){var
-s=b[11],o=an[1],q=i;for(;;){if(s){if(o){var
-t=o[1],C=s[1],D=R(b[9],C);if(D){var
-O=E(d,t),P=O?E(t,ga(mC)):O;if(P){var
-aw=fo([0,C],q),ax=[0,mB(mC,t,t,D[1]),aw],ay=g(dl(C,q),ax),s=s[2],o=o[2],q=ay;continue}var
-Q=P}else
-var
-Q=D;var
-S=Q}else
-var
-S=o;var
-ao=S}else
-var
-ao=o?0:[0,q];var
-A=ao;break}}else
-var
-A=[0,i];if(A){var
-ap=A[1],ar=iz(k,b,ap);if(l)var
-aK=0===M[0]?X(w[2],ar,M[1]):[0,M[1],0],N=av(function(d){var
-a=e(aq,b[4]),c=eq(0,ap);return l_(k,b[7],b[8],b[6],h7,c,a,ar,d)},aK);else
-var
-N=l;if(N)var
-aL=y(h),as=[0,[0,p,[0,a[1],a[2],r(a[3],c),a[4],a[5],a[6],r(a[7],aL),a[8]]]];else
-var
-as=N;var
-at=as}else
-var
-at=A;return at}var
-ag=u[1];if(ag)var
-aG=f[2],z=iA(k,b,w,iz(k,b,i),i,ag,aG);else
-var
-z=[0,f[2]];if(z){var
-aH=z[1],B=R(h,K),ai=B?fk(B[1][2],zm):B;if(ai)var
-aj=function(a){var
-b=r(f[3],ad);return[0,ix(a,K,h),aH,b,ae]},aI=[0,aj(c),p],ak=[0,[0,[0,aj(d),aI],af]];else
-var
-ak=ai;var
-al=ak}else
-var
-al=z;var
-am=al}else
-var
-am=x;return am}function
-zo(a){var
-b=hD(a[5]);return[0,[0,[0,a9([0,d,d],zp),b,d,0],0],[0,d,d,d,d,d,d,d,d]]}function
-mE(d,a,b){return by(by(r(a[1],a[2]),c),au(d,b))}function
-gd(b,a){var
-c=w(a,b,0);return I(function(a){return a[1]},c)}function
-mF(g,f){var
-a=gd(g,f);if(a)var
-b=a[1],c=P(d,b[1]),h=c?[0,b]:c,e=h;else
-var
-e=a;return e}var
-ge=b(2,b(2,o(b(2,b(2,c)))));function
-mG(f,d,b){var
-a=mF(d,b[2]);if(a){var
-g=a[1],h=b[1];return aj(e(function(a){var
-b=gd(d,a);return I(function(a){return mE(f,cY(a,am(f,c),g),ge)},b)},h))}return a}function
-mH(c,b){var
-a=aj(e(c,b)),d=a?a[1]:a;return d}function
-bi(c,b,a){return w(a,w(b,c,0),d)}function
-mI(a){return e(function(b){return e(f(a,b),zr)},zq)}function
-gf(e,d){var
-f=Q(e,d),c=zs[1],a=c,b=j6(f,c,0,c)[2];for(;;){if(a){if(b){var
-a=a[1],b=b[1];continue}return a}return a}}var
-gg=b(2,b(2,o(b(2,o(b(2,c)))))),mJ=b(2,b(2,o(b(2,b(2,c)))));function
-eR(t,q,_,Z){var
-u=aj(e(function(a){var
-k=a[2],l=a[1],b=[0,A];return fn(function(b,a){if(b){var
-c=mF(q,a[2]);if(c){var
-d=gd(q,w(l,a[1],0));if(d){var
-e=gd(q,w(k,a[1],0));if(e)var
-j=cY(d[1],e[1],c[1]),f=[0,y(b[1],j)];else
-var
-f=e;var
-g=f}else
-var
-g=d;var
-h=g}else
-var
-h=c;var
-i=h}else
-var
-i=b;return i},Z,b)},zF));if(u){var
-h=u[1];if(h){var
-i=h[2];if(i){var
-j=i[2];if(j){var
-k=j[2];if(k){var
-l=k[2];if(l){var
-m=l[2];if(m){if(m[2])return 0;var
-F=m[1],G=l[1],H=k[1],I=j[1],J=i[1],K=h[1],L=y(y(K,H),F),v=cd(t,[0,L[2],L[2]]);if(v){var
-$=v[1],a=function(a){return mE(t,z(t,a,$),gg)},aa=[0,a(F),0],ab=[0,a(G),aa],ac=[0,[0,a(I),ab],0],ad=[0,a(G),0],ae=[0,a(H),ad],af=[0,[0,a(J),ae],ac],ag=[0,a(I),0],ah=[0,a(J),ag],b=[0,[0,a(K),ah],af],ai=_?b:mI(function(c,a){var
-d=gf(a,zt),e=gf(a,zu),f=gf(c,zv),g=gf(c,zw),h=bi(b,e,f),i=s(bi(b,d,g),h),j=bi(b,e,g);return au(s(bi(b,d,f),j),i)}),o=zB,n=ai;for(;;){var
-U=kd(n),x=bm(function(b,a){return bv(e_(b),a)},d,U),B=P(d,x);if(B)var
-V=r(j$(x),c),W=function(a){return function(b){return P(gg,a)?by(b,au(a,gg)):cV(b,au(gg,a))}}(V),f=[0,e(function(b){return function(a){return e(b,a)}}(W),n)];else
-var
-f=B;if(f){var
-C=f[1];if(o){var
-X=mI(function(a){return function(c,b){var
-d=bi(a,zx,b),e=s(bi(a,c,zy),d),f=bi(a,zz,b),g=s(bi(a,c,zA),f),h=bi(a,0,b);return r(r(s(bi(a,c,0),h),g),e)}}(C)),o=o[1],n=X;continue}var
-g=[0,C]}else
-var
-g=f;if(g)var
-p=g[1],D=function(b,a){var
-c=bi(p,b,b);return P(bi(p,a,a),c)?b:a},Y=D(D(0,zD),zC),E=[0,e(function(a){var
-b=cV(c,au(mJ,c));return by(r(bi(p,a,Y),b),mJ)},zE)];else
-var
-E=g;return E}}var
-M=v}else
-var
-M=m;var
-N=M}else
-var
-N=l;var
-O=N}else
-var
-O=k;var
-Q=O}else
-var
-Q=j;var
+at=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},at)]]}if(f){var
+P=f[1],av=P[1],Q=n(function(a){return li(t(a[2],v,0))},av);if(Q)return n(L,P[2]);var
 R=Q}else
 var
-R=i;var
+R=f;var
 S=R}else
 var
-S=h;var
+S=o;var
 T=S}else
 var
-T=u;return T}function
-zG(b,a){function
-c(c,d){function
-f(b){var
-a=aj(b),c=a?[0,[0,d,a[1]],0]:a;return c}var
-h=R(a[5],d);if(h){var
-i=h[1];switch(i[0]){case
-0:return f([0,eR(b,c,0,a[2]),0]);case
-1:var
-l=be(0,j(a[2])),m=e(function(a){return[1,d,a]},l);return g(f([0,eR(b,c,1,a[2]),0]),m);case
-2:var
-n=[0,eR(b,c,0,a[2]),0];return f([0,eR(b,c,1,a[2]),n]);case
-4:return f([0,eR(b,c,0,i[1]),0]);case
-3:case
-5:var
-k=[0,[0,d,0],0];break;default:return 0}}else
+T=M;return T}var
+U=i[2],V=i[1],p=ae(ge,V);if(p){var
+W=p[1];if(typeof
+W!=="number"&&1===W[0]){var
+q=ae(dG,U);if(q){var
+r=ae(f3,U);if(r){var
+aw=O(gf,V);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,aw]]]],[0,q[1]]]]]])}var
+Y=r}else
 var
-k=h;return k}return[0,function(e,k){var
-f=R(a[5],k);if(f){var
-c=f[1];switch(c[0]){case
-0:var
-h=c[1],l=a[2],i=mH(function(a){return mG(b,e,a)},l);if(M(h[1],d)&&M(h[2],d))return[2,ge,i];return[0,ge,i];case
-4:var
-m=c[1];return[0,ge,mH(function(a){return mG(b,e,a)},m)];case
-5:var
-g=w(c[1],e,0);if(g){if(E(d,g[1][2][1]))return 0;var
-j=2}else
+Y=q;return Y}var
+X=0}else
 var
-j=g;return j;default:return 0}}return f},c]}function
-zH(a){var
-b=a?a[1]?zI:zJ:zK;return ac(b)}function
-mK(a){var
-b=eg(a[2],c)?0:[0,zZ,eG(a[2])],d=g(b,zX);return[0,zY,g(bZ(a[1]),d)]}function
-mL(a){return f3(a[1],[0,a[2],a[3]],0,a[4])}function
-z$(bn,a){var
-a_=[0,h(zL,ac(a[10])),0],a$=[0,h(zN,S([0,h(zM,ac(a[9])),a_])),0],as=a[8],ba=as?[0,h(zP,ac(zO)),0]:as,bb=g(ba,a$),bc=[0,h(zQ,bZ(a[7])),0],bd=g([0,h(zR,eG(a[6])),bc],bb),F=a[5],be=F?[0,h(zS,B(e(zH,F[1]))),0]:F,bf=g(be,bd),bh=[0,h(zU,J(zT,f1(a[1],[0,a[2],a[3]],0,a[4]))),0],aK=ag(fa(Aa,S(g([0,h(zW,ac(zV)),bh],bf))),bn);if(aK){var
-ay=dK(a[9]),az=ay?dK(a[10]):ay,aA=az?id(a[6]):az;if(aA)var
-bj=b(2,b(2,b(2,o(b(2,o(b(2,o(b(2,c))))))))),bk=2<=j9(a[7],bj)?0:1,K=bk;else
+X=p;return X}}return _}var
+ab=h[1],w=ae(l,ab);if(w){var
+ac=w[1],az=ac[1],af=au(ad(bL(ac),az));if(af){var
+ag=d9(ab,l),ah=dI(ag[1],h[2]);if(ah){var
+l=ag[2],h=h[3];continue}var
+ai=ah}else
 var
-K=aA;var
-aB=K?eO(0,mf([0,a[1],[0,a[2],a[3]],0,a[4]])):K;if(aB){var
-aC=a[5];if(aC){var
-L=aC[1],aD=m(function(a){return cU(a,z8)},L);if(aD){var
-y=L;for(;;){if(y){var
-au=y[2],bi=y[1],ax=ah(av(function(b){return function(a){return v(b,a)}}(bi),au));if(ax){var
-y=au;continue}var
-aE=ax}else
+ai=af;var
+aj=ai}else
 var
-aE=1;var
-M=aE;break}}else
+aj=w;return aj}};return dI(gb,hd)}var
+dO=bD}else
 var
-M=aD;var
-bl=M?$(z9,j(L)):M,aF=bl}else
+dO=bC;var
+dP=dO}else
 var
-aF=1;var
-N=aF}else
+dP=bB;var
+dQ=dP}else
 var
-N=aB;var
-aM=0;if(N)if(a[5]){var
-aL=ah(a[8]);aM=1}else
+dQ=dN;return dQ}return 0}var
+e5=e2}else
 var
-aG=1;else
+e5=e1;var
+e6=e5}else
 var
-aG=N;if(!aM)var
-aL=aG;var
-T=aL}else
-var
-T=aK;if(T){var
-i=mL(a),aH=f_(a[1],0,a[4],i),aI=aH?$(j(i[3]),z_):aH;if(aI){var
-aJ=a[8],at=a[5],bm=a[7],z=at?at[1]:z7,O=e(f6,i[1]),k=f7(i[1]),H=lb(mL(a)[2]),p=a[6],t=eu(k,O,i[1]),l=fL(k,O,i[1],0),aO=j(i[3]),aP=Q(j(t),aO),u=[0,j(t),aP],aQ=fP(l,k,u,i[3]),aR=g(e(c0,l),aQ),aS=g(ck(fB(l)),aR),Y=g(ck(dy(l)),aS),Z=ds(Y)[1],_=dr(Z),r=function(a){return bz(_,a)},aT=function(c){var
-a=bT(p,k,c[1]);if(a)var
-b=bT(p,k,c[2]),e=b?[0,[0,a[1],b[1]]]:b,d=e;else
-var
-d=a;return d},aa=m(function(a){var
-b=q(d);return bg(w(r(a),_,b),a)},Y),ab=aa?av(la,i[3]):aa,ad=ab?lc(p,k,O,i[1]):ab,ae=ad?m(zj,i[3]):ad,af=ae?hJ(n,i):ae,ai=af?m(function(a){return cU(a,zk)},z):af;if(ai){var
-ak=ah(aJ);if(ak)var
-x=ak;else{var
-U=v(j(i[1]),zc);if(U){var
-V=i[2];if(0===V[0])var
-s=V[1],W=dS(s[1],s[2]),aN=W?dS(s[2],s[3]):W,X=aN;else
-var
-X=0;var
-A=X}else
-var
-A=U;var
-a9=A?m(function(c){var
-l=i[1],a=e(function(b){function
-a(a){switch(c){case
-0:return[0,a[2],a[1],a[3]];case
-1:return[0,a[3],a[1],a[2]];default:return[0,a[2],a[3],a[1]]}}switch(b[0]){case
-0:var
-d=b[1],e=d[5],f=d[4],g=a(d[3]),h=a(d[2]);return[0,[0,a(d[1]),h,g,f,e]];case
-1:var
-i=I(a,b[3]),j=a(b[2]);return[1,a(b[1]),j,i];default:return[2,a(b[1])]}},l);if(a){var
-d=a[2];if(d){var
-f=d[2];if(f&&!f[2]){var
-g=f[1],h=d[1],j=a[1];switch(c){case
-0:var
-b=[0,h,[0,j,[0,g,0]]];break;case
-1:var
-b=[0,g,[0,j,[0,h,0]]];break;default:var
-b=[0,h,[0,g,[0,j,0]]]}}else
-var
-b=a}else
-var
-b=a}else
-var
-b=a;var
-n=aX(i[1],b),k=m(function(j){var
-a=j[2],b=j[1];switch(b[0]){case
-0:var
-c=b[1];if(0===a[0]){var
-d=a[1],e=dT(c[1],d[1]),f=e?dT(c[2],d[2]):e,g=f?dT(c[3],d[3]):f,h=g?dS(c[4],d[4]):g;return h?dj(c[5],d[5]):h}return 0;case
-1:if(b[3])return 0;if(1===a[0]){if(a[3])return 0;var
-i=dT(b[1],a[1]);return i?dT(b[2],a[2]):i}return 0;default:return 2===a[0]?dT(b[1],a[1]):0}},n);if(k){var
-o=i[3];return m(function(a){var
-d=0;if(typeof
-a==="number")if(0===a)d=1;else
-d=2;else
-switch(a[0]){case
-2:var
-e=a[2],b=[0,[2,f$(c,a[1]),e]];break;case
-3:var
-f=a[2],b=[0,[3,f$(c,a[1]),f]];break;case
-4:var
-g=a[3],h=a[2],b=[0,[4,f$(c,a[1]),h,g]];break;case
+e6=b3;return e6}return 0;case
 6:var
-j=a[2],b=[0,[6,f$(c,a[1]),j]];break;case
-0:case
-1:case
-5:case
-7:d=1;break;default:d=2}switch(d){case
+e7=a[1];if(e7){var
+e8=e7[1],b4=q[2];if(0===b4[0]){var
+b5=hF(0,xW,b4[3]);if(b5){var
+e_=et(e8);if(e_){var
+he=b5[1],fa=cd(e8)[2],a1=b4[1],bx=ct(a1,d,fa);if(bx){var
+by=ct(a1,d,[5,[0,c,c],fa]);if(by){var
+f0=bx[1][1],dw=S(cK(a1),f0);if(dw)return lg(a1,by[1][1],he);var
+dx=dw}else
+var
+dx=by;var
+dC=dx}else
+var
+dC=bx;return dC}var
+fb=e_}else
+var
+fb=b5;return fb}return 0}var
+b6=q[2];if(0===b6[0]){var
+b7=hF(0,xX,b6[3]);return b7?lg(b6[1],d,b7[1]):b7}return 0;default:var
+_=a[1],fc=q[2];if(2===fc[0]){var
+fd=fc[1],b8=hB(j(fd),fd);if(b8){var
+fe=b8[1];if(fe[2])return 0;var
+b9=fe[1],ej=ac(xU,j(_)),ek=ej?ac(j(_),jx):ej,el=ek?kN(e(a2,_)):ek,ff=el?n(function(c){var
+a=cb(i(c[2][1]));if(a){var
+b=cb(i(c[2][2]));if(b)return au(c_(b[1],a[1]));var
+d=b}else
+var
+d=a;return d},_):el;if(ff)var
+hf=fA(w$,b9),b_=lI(a[5],hf);else
+var
+b_=ff;if(b_)var
+hg=fA(xa,b9),b$=lI(a[6],hg);else
+var
+b$=b_;if(b$){var
+gP=e(function(a){return[0,d,0]},_);return lH(_,a[2],a[3],a[4],gP,b9)}var
+fg=b$}else
+var
+fg=b8;return fg}return 0}}return af}var
+F=[aB,x0,f8(0)],lJ=[aB,x1,f8(0)];function
+xY(m,b){var
+f=[0,h(wA,aj(b[4])),0],g=[0,h(wC,R([0,h(wB,aj(b[3])),f])),0],a=b[2];switch(a[0]){case
+0:var
+c=H(ww,ln(a[1],a[2],a[3]));break;case
 1:var
-b=[0,a];break;case
-2:var
-b=0;break}if(b){var
-k=i[3],l=b[1];return av(function(a){return zb(l,a)},k)}return b},o)}return k},zd):A,x=a9}}else
-var
-x=ai;if(x){var
-aU=i[3],aV=G(function(a){return c3(k,a)},aU),aW=i[3],aZ=g(t,g(e(function(a){return bo(k,a)},aW),aV)),C=aj(e(function(a){return aw(p,a)},aZ));if(C){var
-D=aj(hG(p,[0,d,0],r,t,l,k,u,i[3]));if(D){var
-E=aj(e(aT,[0,H[1],[0,H[2],[0,H[3],0]]]));if(E){var
-al=E[1],am=m(function(c){var
-a=R(al,c);if(a){var
-b=a[1];return P(b[1][2],b[2][1])}return a},z);if(am)var
-a0=cC(function(a){return ah(av(function(b){return v(a,b)},z))},zl),a1=i[3],a2=u[1],a3=l9(p,r,l,k,u,i[3]),a4=D[1],a5=C[1],a6=fB(l),a7=f(aY(r),a6),a8=dy(l),an=[0,[0,Z,f(aY(r),a8),a7,a5,a4,a3,a2,a1,al,z,a0,bm,aJ]];else
-var
-an=am;var
-ao=an}else
-var
-ao=E;var
-ap=ao}else
-var
-ap=D;var
-aq=ap}else
-var
-aq=C;var
-ar=aq}else
-var
-ar=x;return ar}return aI}return T}function
-mM(a,d){var
-e=dk(b(2,c),iw);return M(s(d,a[2]),s(a[1],e))}var
-t=[aH,Ac,gR(0)],iB=[aH,Ad,gR(0)];function
-iC(b){var
-c=H(b),a=[0,0];function
-d(d){if(a[1]<c)return Y(b,a[1]);throw t}function
-e(b){if(d(0)===b){a[1]++;return 0}throw t}function
-h(d,e){for(;;){if(a[1]<c&&f(e,Y(b,a[1]))){a[1]++;continue}return cy(b,d,a[1]-d|0)}}function
-i(d){e(34);function
-b(a){var
-b=34!==a?1:0;if(b)var
-c=92!==a?1:0,d=c?32<=a?1:0:c;else
-var
-d=b;return d}var
-c=h(a[1],b);e(34);return c}function
-j(h,b){if(d(0)===b){a[1]++;return 0}var
-c=0;for(;;){var
-g=[0,f(h,0),c];if(44===d(0)){a[1]++;var
-c=g;continue}e(b);return g0(g)}}function
-g(c,o){if(64<c)throw t;var
-b=d(0),f=0;if(48<=b){if(91===b){a[1]++;var
-k=93,l=c+1|0;return[1,j(function(a){return g(l,a)},k)]}if(123===b){a[1]++;var
-m=125;return[0,j(function(b){var
-a=i(0);e(58);return[0,a,g(c+1|0,0)]},m)]}if(!(58<=b))f=1}else{if(34===b)return[2,i(0)];if(45===b)f=1}if(f){var
-n=a[1];a[1]++;return[3,h(n,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw t}var
-l=g(0,0),k=a[1]<c?1:0,m=k?10===Y(b,a[1])?1:0:k;if(m)a[1]++;if(a[1]<c)throw t;return l}function
-U(a){if(0===a[0])return a[1];throw t}function
-Z(a){if(1===a[0])return a[1];throw t}function
-as(a){if(2===a[0])return a[1];throw t}function
-dU(a){if(3===a[0])return a[1];throw t}function
-aT(f,e){var
+c=H(wx,lo(a[1],a[2],a[3],a[4]));break;default:var
+c=H(wy,y(e(wr,a[1])))}var
+i=[0,h(wD,c),g],j=1===b[2][0]?wJ:wE,k=[0,h(wF,aj(j)),i],l=[0,h(wG,vc(b[1])),k],d=ap(i1(xZ,fv(R([0,h(wI,aj(wH)),l]),wz)),m);return d?xV(b):d}function
+T(a){if(0===a[0])return a[1];throw F}function
+U(a){if(1===a[0])return a[1];throw F}function
+aO(a){if(2===a[0])return a[1];throw F}function
+dC(a){if(3===a[0])return a[1];throw F}function
+aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Gs(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Dk(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aT(c,b);if(a)return a[1];throw t}function
-cM(b,a){var
+a=aZ(c,b);if(a)return a[1];throw F}function
+cY(b,a){var
 c=a?[0,f(b,a[1])]:a;return c}function
-da(a){switch(a[0]){case
+cZ(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Ae]}throw t}function
-dV(e,d){var
-a=_(e,Z(d));if(a){var
+2:return[0,a[1],x2]}throw F}function
+dD(e,d){var
+a=X(e,U(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw t}function
-gh(i){var
-f=cv(i),d=[0,0],e=bc(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw F}function
+fE(i){var
+f=cj(i),d=[0,0],e=a8(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=d8(f,c)+iQ|0;if(9<g>>>0)throw t;switch(g){case
+a=d[1],g=dL(f,c)+h3|0;if(9<g>>>0)throw F;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6770,87 +6305,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-cn(a){return j_(gh(a))}function
-eS(b){var
-a=dU(b);return 45===Y(a,0)?aa(cn(cy(a,1,H(a)-1|0))):cn(a)}function
-iD(a){return ei(cn(dU(a)))}function
-dW(a){return fl(cn(dU(a)))}function
-cN(c){var
-a=dU(c);if(6<H(a))throw t;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jn(a))}function
-mN(a){var
-b=97<=a?1:0,c=b?a<=o6?1:0:b;if(c)var
+eu(a){return jj(fE(a))}function
+ev(b){var
+a=dC(b);return 45===W(a,0)?aa(eu(c6(a,1,L(a)-1|0))):eu(a)}function
+lK(a){return gw(eu(dC(a)))}function
+fF(a){return ji(eu(dC(a)))}function
+cA(c){var
+a=dC(c);if(6<L(a))throw F;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iE(a))}function
+lL(a){var
+b=97<=a?1:0,c=b?a<=nY?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mO(z,b){var
-d=H(b),a=[0,0];function
+lM(y,b){var
+d=L(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?Y(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?W(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=Y(b,a[1])&&!(57<Y(b,a[1]))){a[1]++;continue}return cy(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=W(b,a[1])&&!(57<W(b,a[1]))){a[1]++;continue}return c6(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw t}function
-i(j){if(64<j)throw t;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw F}function
+i(j){if(64<j)throw F;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=n(j);else{var
-v=0;if((a[1]+5|0)<=d&&ag(cy(b,a[1],5),Ag)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ap(c6(b,a[1],5),x4)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
-v=1;if(v){var
-w=0;if(a[1]<d&&mN(Y(b,a[1]))){var
+u=1;if(u){var
+v=0;if(a[1]<d&&lL(W(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-x=0;if(!mN(Y(b,a[1]))&&95!==Y(b,a[1])&&(!(48<=Y(b,a[1]))||57<Y(b,a[1])))x=1;if(!x){a[1]++;continue}}var
-e=[1,f(z,cy(b,o,a[1]-o|0))];break}}else
-w=1;if(w){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ag(h,Ah);if(r)var
+w=0;if(!lL(W(b,a[1]))&&95!==W(b,a[1])&&(!(48<=W(b,a[1]))||57<W(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,f(y,c6(b,o,a[1]-o|0))];break}}else
+v=1;if(v){var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ap(h,x5);if(r)var
 s=r;else
 var
-u=1<H(h)?1:0,s=u?48===Y(h,0)?1:0:u;if(s)throw t;if(q){var
-l=q[1],y=0;if(ag(l,Ai)||48===Y(l,H(l)-1|0))y=1;else
+t=1<L(h)?1:0,s=t?48===W(h,0)?1:0:t;if(s)throw F;if(q){var
+k=q[1],x=0;if(ap(k,x6)||48===W(k,L(k)-1|0))x=1;else
 var
-A=gh(l),e=[0,gh(h),A];if(y)throw t}else
+z=fE(k),e=[0,fE(h),z];if(x)throw F}else
 var
-e=[0,gh(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,Af)){if(!(2<H(g))&&2<=jn(g)&&!(64<jn(g)))return[4,e,ei(cn(g))];throw t}throw t}return e}function
+e=[0,fE(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(l(g,x3)){if(!(2<L(g))&&2<=iE(g)&&!(64<iE(g)))return[4,e,gw(eu(g))];throw F}throw F}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw t;var
+g(d){if(64<d)throw F;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw t;return h}function
-gi(a){return mO(function(a){return[0,a]},a)}function
-mP(a){var
-b=as(a);return mO(function(a){return a},b)}function
-W(a){return gi(as(a))}function
-co(a){if(2===a[0])return[0,gi(a[1])];var
-b=U(a),c=W(p(b,Aj));return[1,W(p(b,Ak)),c]}function
-T(a){throw[0,iB,aJ(fa(Am,a),Al)]}function
-mQ(c){var
-a=as(c);if(k(a,An)){var
-b=k(a,Ao);if(b)throw t;return b}return 1}function
-Ap(d){var
-b=U(d);function
-a(a){return dV(co,p(b,a))}var
-c=as(p(b,Aq));if(k(c,Ar)){if(k(c,As)){if(k(c,At))return T([0,Av,[0,c,Au]]);var
-e=aT(b,Aw),f=cM(function(a){return dV(co,a)},e),g=a(Ax);return[1,a(Ay),g,f]}var
-h=mQ(p(b,Az)),i=co(p(b,AA)),j=a(AB),l=a(AC);return[0,a(AD),l,j,i,h]}return[2,a(AE)]}function
-iE(d){var
+h=g(0);if(a[1]<d)throw F;return h}function
+fG(a){return lM(function(a){return[0,a]},a)}function
+lN(a){var
+b=aO(a);return lM(function(a){return a},b)}function
+Q(a){return fG(aO(a))}function
+ce(a){if(2===a[0])return[0,fG(a[1])];var
+b=T(a),c=Q(p(b,x7));return[1,Q(p(b,x8)),c]}function
+Z(a){throw[0,lJ,aE(i1(x_,a),x9)]}function
+lO(c){var
+a=aO(c);if(l(a,x$)){var
+b=l(a,ya);if(b)throw F;return b}return 1}function
+yb(d){var
+b=T(d);function
+a(a){return dD(ce,p(b,a))}var
+c=aO(p(b,yc));if(l(c,yd)){if(l(c,ye)){if(l(c,yf))return Z([0,yh,[0,c,yg]]);var
+e=aZ(b,yi),f=cY(function(a){return dD(ce,a)},e),g=a(yj);return[1,a(yk),g,f]}var
+h=lO(p(b,yl)),i=ce(p(b,ym)),j=a(yn),k=a(yo);return[0,a(yp),k,j,i,h]}return[2,a(yq)]}function
+hR(d){var
+a=T(d);if(a){var
+b=a[1];if(!l(b[1],yr)){var
+c=b[2];if(2===c[0]&&!l(c[1],ys))return 1}}return 0}function
+yt(c){var
+a=T(c);if(1-hR(c))throw F;function
+b(b){return dD(ce,p(a,b))}var
+d=lO(p(a,yu)),e=ce(p(a,yv)),f=ce(p(a,yw)),g=b(yx),h=b(yy),i=b(yz);return[0,b(yA),i,h,g,f,e,d]}function
+dE(c,d){var
 a=U(d);if(a){var
-b=a[1];if(!k(b[1],AF)){var
-c=b[2];if(2===c[0]&&!k(c[1],AG))return 1}}return 0}function
-AH(c){var
-a=U(c);if(1-iE(c))throw t;function
-b(b){return dV(co,p(a,b))}var
-d=mQ(p(a,AI)),e=co(p(a,AJ)),f=co(p(a,AK)),g=b(AL),h=b(AM),i=b(AN);return[0,b(AO),i,h,g,f,e,d]}function
-dX(c,d){var
-a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw t}function
-iF(n){var
-c=U(n),a=as(p(c,AP)),h=pC(a,AQ),g=0;if(0<=h)if(0<h)if(k(a,AR))if(k(a,AS))if(k(a,AT))if(k(a,AU))if(k(a,AV)){var
-i=k(a,AW);if(i)g=1;else
+e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw F}function
+hS(n){var
+c=T(n),a=aO(p(c,yB)),h=os(a,yC),g=0;if(0<=h)if(0<h)if(l(a,yD))if(l(a,yE))if(l(a,yF))if(l(a,yG))if(l(a,yH)){var
+i=l(a,yI);if(i)g=1;else
 var
 b=i}else
 var
@@ -6865,7 +6400,7 @@ var
 b=2;else
 var
 b=1;else
-if(k(a,Bd))if(k(a,Be))if(k(a,Bf))if(k(a,Bg))if(k(a,Bh))if(k(a,Bi))g=1;else
+if(l(a,y1))if(l(a,y2))if(l(a,y3))if(l(a,y4))if(l(a,y5))if(l(a,y6))g=1;else
 var
 b=8;else
 var
@@ -6878,492 +6413,330 @@ var
 b=9;else
 var
 b=12;var
-l=g?T([0,AY,[0,a,AX]]):b;function
-f(a){return p(c,AZ)}var
-d=as(p(c,A0)),j=k(d,A1);if(j)if(k(d,A2))if(k(d,A3))if(k(d,A4))var
-e=T([0,A6,[0,d,A5]]);else
+k=g?Z([0,yK,[0,a,yJ]]):b;function
+f(a){return p(c,yL)}var
+d=aO(p(c,yM)),j=l(d,yN);if(j)if(l(d,yO))if(l(d,yP))if(l(d,yQ))var
+e=Z([0,yS,[0,d,yR]]);else
 var
-m=dX(W,f(0)),e=[2,m[1],m[2]];else
+m=dE(Q,f(0)),e=[2,m[1],m[2]];else
 var
-e=[0,W(f(0))];else
+e=[0,Q(f(0))];else
 var
-e=[1,W(f(0))];else
+e=[1,Q(f(0))];else
 var
 e=j;function
-o(x){var
-a=U(x),b=0;switch(l){case
+o(w){var
+a=T(w),b=0;switch(k){case
 6:if(a){var
-o=a[1];if(!k(o[1],A8)){var
+o=a[1];if(!l(o[1],yU)){var
 p=o[2];if(1===p[0]){var
 e=p[1],j=0;if(e&&!e[2])if(a[2])j=1;else{var
-d=e[1];b=1;j=1}if(!j&&!a[2])return T(A9)}}}break;case
+d=e[1];b=1;j=1}if(!j&&!a[2])return Z(yV)}}}break;case
 10:if(a){var
-q=a[1];if(!k(q[1],A_)){var
+q=a[1];if(!l(q[1],yW)){var
 r=q[2];if(1===r[0]){var
 f=r[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-s=g[1];if(!k(s[1],A$)){var
-u=s[2];if(1===u[0]){var
-h=u[1];if(h&&!h[2]&&!g[2]){var
-y=W(h[1]);return[1,W(f[1]),y]}}}}}}}}break;case
+s=g[1];if(!l(s[1],yX)){var
+t=s[2];if(1===t[0]){var
+h=t[1];if(h&&!h[2]&&!g[2]){var
+x=Q(h[1]);return[1,Q(f[1]),x]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!k(v[1],Ba)){var
-w=v[2];if(1===w[0]){var
-i=w[1];if(i&&!i[2]&&!a[2]){var
+u=a[1];if(!l(u[1],yY)){var
+v=u[2];if(1===v[0]){var
+i=v[1];if(i&&!i[2]&&!a[2]){var
 d=i[1];b=1}}}}break;case
 2:case
 8:if(a){var
-m=a[1];if(!k(m[1],A7)){var
+m=a[1];if(!l(m[1],yT)){var
 n=m[2];if(1===n[0]){var
 c=n[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,W(d)];throw t}var
-q=cM(o,aT(c,Bb));return[0,l,cM(cN,aT(c,Bc)),q,e]}function
-iG(c){var
-a=iF(c),b=a[1];if(2!==b&&!(4<=b))return a;return T(Bj)}function
-Bk(a){var
-b=iF(a),c=b[1];if(2<=c)switch(c-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,Q(d)];throw F}var
+q=cY(o,aZ(c,yZ));return[0,k,cY(cA,aZ(c,y0)),q,e]}function
+hT(c){var
+a=hS(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(y7)}function
+y8(a){var
+b=hS(a),c=b[1];if(2<=c)switch(c-2|0){case
 0:case
 4:case
-6:return b}return iG(a)}function
-Br(f){var
-a=U(f);function
-d(b){return W(p(a,b))}function
-c(b){return dV(W,p(a,b))}var
-b=as(p(a,Bs));if(k(b,Bt)){if(!k(b,Bu)){var
-j=p(a,BA),e=dX(function(a){return a},j),l=aT(a,BB),m=cM(function(a){return c(BC)},l),n=gi(as(e[2])),o=gi(as(e[1])),q=d(BD);return[0,cN(p(a,BE)),q,o,n,m]}if(k(b,Bv))throw t}var
-g=d(Bw),h=c(Bx),i=c(By);return[1,ag(b,Bz),i,h,g]}function
-gj(aa){var
-e=da(aa),g=e[1];if(k(g,BF)){if(k(g,BG)){if(k(g,BH)){if(k(g,BI))return T([0,BK,[0,g,BJ]]);var
-s=p(U(e[2]),BL),Q=0;if(2===s[0]){var
-B=k(s[1],BM);if(!B){var
-A=B;Q=1}}if(!Q)var
-A=[0,co(s)];return[6,A]}var
-C=U(e[2]),h=gj([0,[0,[0,BO,p(C,BN)],0]]);if(0===h[0]){var
-u=h[2];if(0===u[0]&&!h[3]){var
-ab=W(p(C,BQ));return[5,h[1],u[1],u[2],h[4],ab]}}return T(BP)}var
-b=U(e[2]),D=function(a){return _(iF,Z(p(b,BR)))},i=da(p(b,BS)),c=da(p(b,BT)),a=i[1];if(k(a,BU)&&0!==aT(b,BV))return T(CR);if(k(a,BW)&&k(a,BX)&&k(a,BY)){if(0===aT(b,BZ)){if(k(a,B0)){var
-R=0;if(k(a,B1)){if(!k(a,B2)){var
-E=c[1],S=0;if(k(E,B5)&&k(E,B6)){R=1;S=1}if(!S){var
-m=Z(i[2]),d=U(c[2]);if(k(c[1],Bl))var
-y=dX(W,p(d,Bm)),z=dX(W,p(d,Bn)),V=z[2],X=z[1],Y=W(p(d,Bo)),v=[1,y[1],y[2],Y,X,V];else
+6:return b}return hT(a)}function
+zd(f){var
+a=T(f);function
+d(b){return Q(p(a,b))}function
+c(b){return dD(Q,p(a,b))}var
+b=aO(p(a,ze));if(l(b,zf)){if(!l(b,zg)){var
+j=p(a,zm),e=dE(function(a){return a},j),k=aZ(a,zn),m=cY(function(a){return c(zo)},k),n=fG(aO(e[2])),o=fG(aO(e[1])),q=d(zp);return[0,cA(p(a,zq)),q,o,n,m]}if(l(b,zh))throw F}var
+g=d(zi),h=c(zj),i=c(zk);return[1,ap(b,zl),i,h,g]}function
+hU(aa){var
+e=cZ(aa),g=e[1];if(l(g,zr)){if(l(g,zs)){if(l(g,zt)){if(l(g,zu))return Z([0,zw,[0,g,zv]]);var
+s=p(T(e[2]),zx),R=0;if(2===s[0]){var
+A=l(s[1],zy);if(!A){var
+z=A;R=1}}if(!R)var
+z=[0,ce(s)];return[6,z]}var
+B=T(e[2]),h=hU([0,[0,[0,zA,p(B,zz)],0]]);if(0===h[0]){var
+t=h[2];if(0===t[0]&&!h[3]){var
+ab=Q(p(B,zC));return[5,h[1],t[1],t[2],h[4],ab]}}return Z(zB)}var
+b=T(e[2]),C=function(a){return X(hS,U(p(b,zD)))},i=cZ(p(b,zE)),c=cZ(p(b,zF)),a=i[1];if(l(a,zG)&&0!==aZ(b,zH))return Z(AD);if(l(a,zI)&&l(a,zJ)&&l(a,zK)){if(0===aZ(b,zL)){if(l(a,zM)){var
+S=0;if(l(a,zN)){if(!l(a,zO)){var
+D=c[1],V=0;if(l(D,zR)&&l(D,zS)){S=1;V=1}if(!V){var
+m=U(i[2]),d=T(c[2]);if(l(c[1],y9))var
+x=dE(Q,p(d,y_)),y=dE(Q,p(d,y$)),W=y[2],Y=y[1],_=Q(p(d,za)),u=[1,x[1],x[2],_,Y,W];else
 var
-$=dV(W,p(d,Bp)),v=[0,dV(W,p(d,Bq)),$];var
-w=aT(b,B9),F=w?_(Br,Z(w[1])):w,G=bk(iE,m),ac=G?0!==F?1:0:G;if(ac)T(B_);if(bk(iE,m)){var
-ad=_(iG,Z(p(b,B$)));return[1,_(AH,m),v,ad]}var
-ae=D(0);return[0,_(Ap,m),v,F,ae]}}}else
-if(!k(c[1],Ca)){var
-af=D(0),ag=W(p(U(c[2]),Cb));return[4,W(p(U(i[2]),Cc)),ag,af]}if(!R)return T([0,B4,[0,a,B3]])}else
-if(!k(c[1],Cd)){var
-n=U(i[2]),H=U(c[2]),I=function(c,a){var
-b=Z(a);return _(function(d){var
-a=Z(d);if(a){var
-b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,as(a[1]),e]}}throw t},b)},ah=function(d){var
+$=dD(Q,p(d,zb)),u=[0,dD(Q,p(d,zc)),$];var
+v=aZ(b,zV),E=v?X(zd,U(v[1])):v,G=bd(hR,m),ac=G?0!==E?1:0:G;if(ac)Z(zW);if(bd(hR,m)){var
+ad=X(hT,U(p(b,zX)));return[1,X(yt,m),u,ad]}var
+ae=C(0);return[0,X(yb,m),u,E,ae]}}}else
+if(!l(c[1],zY)){var
+af=C(0),ag=Q(p(T(c[2]),zZ));return[4,Q(p(T(i[2]),z0)),ag,af]}if(!S)return Z([0,zQ,[0,a,zP]])}else
+if(!l(c[1],z1)){var
+n=T(i[2]),H=T(c[2]),I=function(c,a){var
+b=U(a);return X(function(d){var
 a=U(d);if(a){var
-b=a[1],c=b[1];if(k(c,Ce)){if(!k(c,Cf)&&!a[2])return _(mP,Z(b[2]))}else
-if(!a[2])return T(Cg)}throw t},ai=_(iG,Z(p(b,Ch))),aj=_(W,Z(p(H,Ci))),ak=_(W,Z(p(H,Cj))),al=_(ah,Z(p(n,Ck))),am=I(mP,p(n,Cl)),an=I(co,p(n,Cm));return[3,_(as,Z(p(n,Cn))),an,am,al,ak,aj,ai]}return T([0,B8,[0,c[1],B7]])}throw t}var
-J=c[1],K=U(i[2]),L=U(c[2]);if(k(J,Co))T([0,Cq,[0,J,Cp]]);var
-M=aT(K,Cr),ao=M?W(M[1]):T([0,CQ,[0,a,CP]]),ap=function(d){var
-a=U(d);function
-b(b){return _(co,Z(p(a,b)))}var
-c=as(p(a,Cs)),e=aT(a,Ct);if(!k(c,Cu)&&!e){var
-f=b(Cx);return[0,b(Cy),f]}return T([0,Cw,[0,c,Cv]])},j=da(p(b,Cz)),o=j[1];if(k(o,CA))if(k(o,CB))if(k(o,CC)){if(k(o,CD))throw t;var
-N=j[2],aq=W(p(U(N),CE)),q=[3,W(p(U(N),CF)),aq]}else
+b=a[2];if(b&&!b[2]){var
+e=f(c,b[1]);return[0,aO(a[1]),e]}}throw F},b)},ah=function(d){var
+a=T(d);if(a){var
+b=a[1],c=b[1];if(l(c,z2)){if(!l(c,z3)&&!a[2])return X(lN,U(b[2]))}else
+if(!a[2])return Z(z4)}throw F},ai=X(hT,U(p(b,z5))),aj=X(Q,U(p(H,z6))),ak=X(Q,U(p(H,z7))),al=X(ah,U(p(n,z8))),am=I(lN,p(n,z9)),an=I(ce,p(n,z_));return[3,X(aO,U(p(n,z$))),an,am,al,ak,aj,ai]}return Z([0,zU,[0,c[1],zT]])}throw F}var
+J=c[1],K=T(i[2]),L=T(c[2]);if(l(J,Aa))Z([0,Ac,[0,J,Ab]]);var
+M=aZ(K,Ad),ao=M?Q(M[1]):Z([0,AC,[0,a,AB]]),ap=function(d){var
+a=T(d);function
+b(b){return X(ce,U(p(a,b)))}var
+c=aO(p(a,Ae)),e=aZ(a,Af);if(!l(c,Ag)&&!e){var
+f=b(Aj);return[0,b(Ak),f]}return Z([0,Ai,[0,c,Ah]])},j=cZ(p(b,Al)),o=j[1];if(l(o,Am))if(l(o,An))if(l(o,Ao)){if(l(o,Ap))throw F;var
+N=j[2],aq=Q(p(T(N),Aq)),q=[3,Q(p(T(N),Ar)),aq]}else
 var
-aw=j[2],x=function(a){return dX(W,p(U(aw),a))},ax=x(CM),ay=x(CN),q=[1,x(CO),ay,ax];else
+av=j[2],w=function(a){return dE(Q,p(T(av),a))},aw=w(Ay),ax=w(Az),q=[1,w(AA),ax,aw];else
 var
-P=dX(W,j[2]),q=[0,P[1],P[2]];else
+P=dE(Q,j[2]),q=[0,P[1],P[2]];else
 var
-q=[2,W(j[2])];var
-O=k(a,CG),ar=O?k(a,CH)?2:1:O,at=_(Bk,Z(p(b,CI))),au=_(W,Z(p(L,CJ))),av=_(W,Z(p(L,CK)));return[2,ar,_(ap,Z(p(K,CL))),ao,av,au,q,at]}var
-r=U(e[2]);function
-az(b){var
-a=U(b),c=W(p(a,CS)),d=[0,W(p(a,CT)),c];return[0,as(p(a,CU)),d]}var
-l=gj([0,[0,[0,CW,p(r,CV)],0]]);if(0===l[0]&&!l[3]){var
-aA=W(p(r,CY)),aB=W(p(r,CZ)),aC=l[4],aD=l[2],aE=l[1];return[7,_(az,Z(p(r,C0))),aE,aD,aC,aB,aA]}return T(CX)}function
-iH(a){return _(eS,Z(a))}function
-iI(c,b){var
-a=iH(b);if(bj(a)!==c)throw t;return a}function
-mR(a,d){var
-b=U(d),e=Z(p(b,C3)),f=a[2],c=_(function(a){return iI(f,a)},e),g=a[1];if(bj(c)!==g)throw t;return[0,c,dW(p(b,C4))]}function
-eT(g,n){var
+q=[2,Q(j[2])];var
+O=l(a,As),ar=O?l(a,At)?2:1:O,as=X(y8,U(p(b,Au))),at=X(Q,U(p(L,Av))),au=X(Q,U(p(L,Aw)));return[2,ar,X(ap,U(p(K,Ax))),ao,au,at,q,as]}var
+r=T(e[2]);function
+ay(b){var
+a=T(b),c=Q(p(a,AE)),d=[0,Q(p(a,AF)),c];return[0,aO(p(a,AG)),d]}var
+k=hU([0,[0,[0,AI,p(r,AH)],0]]);if(0===k[0]&&!k[3]){var
+az=Q(p(r,AK)),aA=Q(p(r,AL)),aB=k[4],aC=k[2],aD=k[1];return[7,X(ay,U(p(r,AM))),aD,aC,aB,aA,az]}return Z(AJ)}function
+hV(a){return X(ev,U(a))}function
+hW(c,b){var
+a=hV(b);if(cG(a)!==c)throw F;return a}function
+lP(a,d){var
+b=T(d),e=U(p(b,AP)),f=a[2],c=X(function(a){return hW(f,a)},e),g=a[1];if(cG(c)!==g)throw F;return[0,c,fF(p(b,AQ))]}function
+ew(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=pC(a,C5),b=0;if(0<=N)if(0<N){var
-f=0;if(k(a,C6)&&k(a,C7)&&k(a,C8))if(k(a,C9))f=1;else{var
+e=d[1],a=e[1],N=os(a,AR),b=0;if(0<=N)if(0<N){var
+f=0;if(l(a,AS)&&l(a,AT)&&l(a,AU))if(l(a,AV))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=_(iH,Z(r[1])),ac=as(q[1]);return[8,eT(g,o[1]),ac,ab]}b=1;f=1}else
+ab=X(hV,U(r[1])),ac=aO(q[1]);return[8,ew(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-ad=e[2],u=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
+ad=e[2],t=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
 Q=e[2];if(1===Q[0]){var
-v=Q[1];if(v){var
-w=v[2];if(w){var
-x=w[2];if(x&&!x[2]){if(!d[2]){var
-ae=dW(x[1]),af=eS(w[1]);return[5,eT(g,v[1]),af,ae]}b=1}}}}}else
-if(k(a,Da))if(k(a,Db))if(k(a,Dc))if(k(a,Dd)){if(!k(a,De)){if(!d[2]){var
-R=U(e[2]),ag=Z(p(R,Df)),ah=M+1|0,S=_(function(a){return iI(ah,a)},ag);if(3===bj(S))return[1,Dh,S,dW(p(R,Dg))];throw t}b=1}}else{if(!d[2]){var
-J=as(e[2]),K=k(J,C1);if(K){if(k(J,C2))throw t;var
+u=Q[1];if(u){var
+v=u[2];if(v){var
+w=v[2];if(w&&!w[2]){if(!d[2]){var
+ae=fF(w[1]),af=ev(v[1]);return[5,ew(g,u[1]),af,ae]}b=1}}}}}else
+if(l(a,AY))if(l(a,AZ))if(l(a,A0))if(l(a,A1)){if(!l(a,A2)){if(!d[2]){var
+R=T(e[2]),ag=U(p(R,A3)),ah=M+1|0,S=X(function(a){return hW(ah,a)},ag);if(3===cG(S))return[1,A5,S,fF(p(R,A4))];throw F}b=1}}else{if(!d[2]){var
+J=aO(e[2]),K=l(J,AN);if(K){if(l(J,AO))throw F;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],m=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-X=j[1],E=X[1],c=0;if(k(E,Dj)&&k(E,Dk))if(k(E,Dl))c=1;else{var
-Y=X[2];if(1===Y[0]){var
-F=Y[1];if(F){var
-l=F[1],h=0;switch(l[0]){case
+Y=j[1],D=Y[1],c=0;if(l(D,A7)&&l(D,A8))if(l(D,A9))c=1;else{var
+_=Y[2];if(1===_[0]){var
+E=_[1];if(E){var
+k=E[1],h=0;switch(k[0]){case
 0:var
-G=l[1];if(G){var
-$=G[1][1],aa=0;if(k($,Dn)&&k($,Do)){c=1;h=1;aa=1}if(!aa&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(k(l[1],Dp)){c=1;h=1}break;default:c=1;h=1}if(!h){var
-H=F[2];if(H){var
+G=k[1];if(G){var
+$=G[1][1],aa=0;if(l($,A$)&&l($,Ba)){c=1;h=1;aa=1}if(!aa&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(l(k[1],Bb)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-am=dW(I[1]),an=eS(H[1]),y=[6,eT(g,l),an,am];m=1;c=1}else
+am=fF(I[1]),an=ev(H[1]),x=[6,ew(g,k),an,am];m=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])m=2}break;case
-2:if(!k(i[1],Dq))m=2;break}switch(m){case
+2:if(!l(i[1],Bc))m=2;break}switch(m){case
 0:var
-y=T(Dm);break;case
+x=Z(A_);break;case
 2:var
-y=eT(g,i);break}return[7,y]}b=1}else{var
+x=ew(g,i);break}return[7,x]}b=1}else{var
 V=e[2];if(1===V[0]){var
-z=V[1];if(z){var
-A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-ai=A[1],aj=z[1],u=aj,s=function(b,a){return[3,b,a,iI(M+1|0,ai)]};b=2}}}}else{var
+y=V[1];if(y){var
+z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hW(M+1|0,ai)]};b=2}}}}else{var
 W=e[2];if(1===W[0]){var
-B=W[1];if(B){var
-C=B[2];if(C){var
-D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-ak=C[1];if(k(dU(D[1]),Di))throw t;var
-al=B[1],u=al,s=function(b,a){return[4,b,a,eS(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return T([0,C$,[0,a,C_]]);break;case
+A=W[1];if(A){var
+B=A[2];if(B){var
+C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
+ak=B[1];if(l(dC(C[1]),A6))throw F;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,ev(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return Z([0,AX,[0,a,AW]]);break;case
 1:break;default:var
-P=mR(g,u);return s(P[1],P[2])}}break;case
-2:return[0,n[1]]}throw t}function
-mS(j){var
-b=da(j),a=b[1];if(k(a,Dt)){var
-g=k(a,Du);if(!g)return g;if(!k(a,Dv)){var
+P=lP(g,t);return s(P[1],P[2])}}break;case
+2:return[0,n[1]]}throw F}function
+lQ(j){var
+b=cZ(j),a=b[1];if(l(a,Bf)){var
+g=l(a,Bg);if(!g)return g;if(!l(a,Bh)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cN(d[1]);return[1,cN(c[1]),l]}}}}}else{var
+k=cA(d[1]);return[1,cA(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=_(iH,Z(f[1]));return[0,cN(e[1]),m]}}}}return T([0,Dx,[0,a,Dw]])}function
-mT(f,b){var
-a=U(b),c=Z(p(a,DC)),d=_(function(g){var
-a=U(g);function
+m=X(hV,U(f[1]));return[0,cA(e[1]),m]}}}}return Z([0,Bj,[0,a,Bi]])}function
+lR(f,b){var
+a=T(b),c=U(p(a,Bo)),d=X(function(g){var
+a=T(g);function
 b(d,c){var
-b=aT(a,c);return b?_(d,Z(b[1])):b}var
-c=b(eS,Dy),d=cM(mS,aT(a,Dz)),e=cM(cN,aT(a,DA));return[0,b(function(h){var
-b=Z(h);if(b){var
+b=aZ(a,c);return b?X(d,U(b[1])):b}var
+c=b(ev,Bk),d=cY(lQ,aZ(a,Bl)),e=cY(cA,aZ(a,Bm));return[0,b(function(h){var
+b=U(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],Dr)){if(!a[2]){if(k(dU(e),Ds))throw t;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],Bd)){if(!a[2]){if(l(dC(e),Be))throw F;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eT(f,c);return[0,cN(e),g]}}}throw t},DB),e,d,c]},c),e=aT(a,DD),g=cM(function(a){return mR(f,a)},e);return[0,iD(p(a,DE)),g,d]}function
-mU(c){var
-a=U(c),b=aT(a,DF),d=b?_(W,Z(b[1])):b,e=mS(p(a,DG)),f=_(W,Z(p(a,DH)));return[0,iD(p(a,DI)),f,d,e]}function
-mV(c){var
+g=ew(f,c);return[0,cA(e),g]}}}throw F},Bn),e,d,c]},c),e=aZ(a,Bp),g=cY(function(a){return lP(f,a)},e);return[0,lK(p(a,Bq)),g,d]}function
+lS(c){var
+a=T(c),b=aZ(a,Br),d=b?X(Q,U(b[1])):b,e=lQ(p(a,Bs)),f=X(Q,U(p(a,Bt)));return[0,lK(p(a,Bu)),f,d,e]}function
+lT(c){var
 a=c[1];if(8!==a){var
 b=10<=a?1:0;if(!b)return b}return 1}function
-DS(c){var
+BE(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!k(b[1],DT))a=1;break;case
+0:if(!l(b[1],BF))a=1;break;case
 7:a=1;break}return a?1:0}function
-DU(A){var
-j=U(iC(A));if(k(as(p(j,DV)),DW))throw t;var
-a=gj(p(j,DX)),m=0;switch(a[0]){case
+BG(g){var
+j=L(g),a=[0,0];function
+k(b){if(a[1]<j)return W(g,a[1]);throw F}function
+m(b){if(k(0)===b){a[1]++;return 0}throw F}function
+w(b,c){for(;;){if(a[1]<j&&f(c,W(g,a[1]))){a[1]++;continue}return c6(g,b,a[1]-b|0)}}function
+x(d){m(34);function
+b(a){var
+b=34!==a?1:0;if(b)var
+c=92!==a?1:0,d=c?32<=a?1:0:c;else
+var
+d=b;return d}var
+c=w(a[1],b);m(34);return c}function
+y(i,d){if(k(0)===d){a[1]++;return 0}var
+e=0;for(;;){var
+g=[0,f(i,0),e];if(44===k(0)){a[1]++;var
+e=g;continue}m(d);var
+b=g,c=0;for(;;){if(b){var
+h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
+s(c,i){if(64<c)throw F;var
+b=k(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,y(function(a){return s(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,y(function(b){var
+a=x(0);m(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,x(0)];if(45===b)d=1}if(d){var
+h=a[1];a[1]++;return[3,w(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw F}var
+K=s(0,0),z=a[1]<j?1:0,M=z?10===W(g,a[1])?1:0:z;if(M)a[1]++;if(a[1]<j)throw F;var
+r=T(K);if(l(aO(p(r,BH)),BI))throw F;var
+b=hU(p(r,BJ)),u=0;switch(b[0]){case
 2:var
-J=1===a[1]?6:3,e=[0,bj(a[2]),J];break;case
+$=1===b[1]?6:3,h=[0,cG(b[2]),$];break;case
 3:var
-K=bj(a[1]),e=[0,bj(a[4]),K];break;case
+aa=cG(b[1]),h=[0,cG(b[4]),aa];break;case
 7:var
-o=a[2];m=1;break;case
+A=b[2];u=1;break;case
 0:case
 5:var
-o=a[1];m=1;break;default:var
-e=Ea}if(m)var
-e=[0,bj(o),3];var
-g=da(p(j,DY)),h=g[1];if(k(h,DN))if(k(h,DO))if(k(h,DP))var
-b=T([0,DR,[0,h,DQ]]);else
+A=b[1];u=1;break;default:var
+h=BY}if(u)var
+h=[0,cG(A),3];var
+n=cZ(p(r,BK)),o=n[1];if(l(o,Bz))if(l(o,BA))if(l(o,BB))var
+c=Z([0,BD,[0,o,BC]]);else
 var
-i=mU(g[2]),b=[1,i[1],i[2],i[3],i[4]];else
+q=lS(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-l=mT(e,g[2]),b=[0,l[1],l[2],l[3]];else
+t=lR(h,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-z=Z(g[2]),b=[2,_(function(g){var
-a=da(g),b=a[1];if(k(b,DJ)){if(k(b,DK)){if(k(b,DL)){var
-f=k(b,DM);if(f)throw t;return f}return[0,cN(a[2])]}var
-c=mU(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mT(e,a[2]);return[1,d[1],d[2],d[3]]},z)];function
-B(a){var
-b=a[1];return bk(function(a){return 8===a[2][0]?1:0},b)}function
-C(a){return 0!==a[3]?1:0}function
-q(a){return bk(C,a)}var
-c=0;switch(a[0]){case
+N=U(n[2]),c=[2,X(function(f){var
+a=cZ(f),b=a[1];if(l(b,Bv)){if(l(b,Bw)){if(l(b,Bx)){var
+e=l(b,By);if(e)throw F;return e}return[0,cA(a[2])]}var
+c=lS(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lR(h,a[2]);return[1,d[1],d[2],d[3]]},N)];function
+O(a){var
+b=a[1];return bd(function(a){return 8===a[2][0]?1:0},b)}function
+P(a){return 0!==a[3]?1:0}function
+B(a){return bd(P,a)}var
+d=0;switch(b[0]){case
 0:var
-r=a[4];switch(b[0]){case
+C=b[4];switch(c[0]){case
 0:var
-u=r,s=a[1];c=4;break;case
+E=C,D=b[1];d=4;break;case
 1:var
-w=r;c=5;break}break;case
-1:if(0===b[0]){T(D7);c=1}break;case
-2:if(1===b[0]){var
-I=a[7];if(bk(function(b){var
+H=C;d=5;break}break;case
+1:if(0===c[0]){Z(BT);d=1}break;case
+2:if(1===c[0]){var
+_=b[7];if(bd(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},I)){T(D_);c=1}else
-c=3}else
-c=3;break;case
-3:if(1===b[0]){T(D$);c=1}else
-c=3;break;case
+6:return 1}return 0},_)){Z(BW);d=1}else
+d=3}else
+d=3;break;case
+3:if(1===c[0]){Z(BX);d=1}else
+d=3;break;case
 5:var
-w=a[4];c=5;break;case
+H=b[4];d=5;break;case
 7:var
-u=a[4],s=a[2];c=4;break;default:c=2}var
-d=0;switch(c){case
-3:if(0===b[0])if(bk(B,b[3])){T(D8);d=3}else
-if(3===a[0])d=1;else{var
-H=b[3];if(g1(function(a){return g1(DS,a[1])},H))d=1;else{T(D9);d=3}}else
-d=2;break;case
-1:d=3;break;case
+E=b[4],D=b[2];d=4;break;default:d=2}var
+e=0;switch(d){case
+3:if(0===c[0])if(bd(O,c[3])){Z(BU);e=3}else
+if(3===b[0])e=1;else{var
+Y=c[3];if(iX(function(a){return iX(BE,a[1])},Y))e=1;else{Z(BV);e=3}}else
+e=2;break;case
+1:e=3;break;case
 4:var
-x=0;if(bk(function(a){return 10===a[1]?1:0},u)&&bk(function(a){return 2===a[0]?1:0},s)){T(DZ);x=1}if(!x)d=1;break;case
-5:if(bk(mV,w))T(D6);else
-d=1;break;case
-2:d=1;break;default:d=2}var
-n=0;switch(d){case
+I=0;if(bd(function(a){return 10===a[1]?1:0},E)&&bd(function(a){return 2===a[0]?1:0},D)){Z(BL);I=1}if(!I)e=1;break;case
+5:if(bd(lT,H))Z(BS);else
+e=1;break;case
+2:e=1;break;default:e=2}var
+v=0;switch(e){case
 3:break;case
 1:var
-f=0;switch(a[0]){case
+i=0;switch(b[0]){case
 5:var
-y=0;if(0===b[0]){var
-E=b[3];if(bk(function(a){return 0!==a[1]?1:0},E)){T(D4);f=1;y=1}}if(!y)f=1;break;case
+J=0;if(0===c[0]){var
+R=c[3];if(bd(function(a){return 0!==a[1]?1:0},R)){Z(BQ);i=1;J=1}}if(!J)i=1;break;case
 7:var
-F=a[4];switch(b[0]){case
+S=b[4];switch(c[0]){case
 0:break;case
-1:n=1;f=1;break;default:var
-G=function(a){if(typeof
+1:v=1;i=1;break;default:var
+V=function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return q(a[3]);case
-2:return bk(mV,F)}return 0};if(bk(G,b[1]))T(D5);f=1}break}if(!f)if(0===b[0]&&q(b[3]))T(D3);else
-n=1;break;case
-2:n=1;break}var
-v=U(p(j,D0)),D=as(p(v,D1));return[0,a,b,as(p(v,D2)),D]}function
-Eb(b){var
-a=[0,0];return[0,function(e){var
-c=a[1]<H(b)?1:0,d=c?(a[1]++,[0,Y(b,a[1]-1|0)]):c;return d}]}function
-cp(b){var
-a=f(b[1],0);if(a)return a[1];throw t}function
-mW(d){var
-a=jO(o9);for(;;){var
-b=f(d[1],0);if(b){var
-c=b[1];if(10===c)return jP(a);if((a[2]+1|0)<1048576){jR(a,c);continue}}throw t}}function
-bI(a){return 0<a?[0,bI(a-1|0)]:0}function
-Ec(c){var
-a=as(c),b=k(a,Ed);if(b){if(k(a,Ee)){if(k(a,Ef))throw t;return bI(2)}return bI(1)}return b}function
-Eg(o){var
-a=U(iC(o));if(k(as(p(a,Eh)),Ei))throw t;var
-g=p(a,Ej);if(0===g[0]){var
-d=g[1];if(d){var
-h=d[1];if(!k(h[1],Ek)&&!d[2]){if(0!==aT(U(h[2]),El))T(Em);var
-b=gj(p(a,En));if(0===b[0]){var
-e=b[2];if(0===e[0]){if(b[3])return T(Eo);var
-i=b[4],c=i;for(;;){if(c){var
-j=c[1][1],n=c[2];if(11===j)throw t;if(8<=j)T(Ep);var
-c=n;continue}var
-l=U(p(a,Eq)),q=as(p(l,Er)),r=as(p(l,Es)),f=aT(a,Et);if(f){if(!ag(as(f[1]),Eu))throw t;var
-m=1}else
-var
-m=f;var
-s=dW(p(a,Ev)),u=iD(p(a,Ew)),v=aT(a,Ex),w=cM(function(a){return _(Ec,Z(a))},v);return[0,b[1],e[1],e[2],i,w,u,s,m,r,q]}}return T(Ey)}return T(Ez)}}}throw t}function
-EK(l){var
-e=aC(0),a=0;for(;;){var
-b=cp(l),f=b&gt,g=63<a?1:0;if(g)var
-c=g;else{var
-i=63===a?1:0,j=i?1<f?1:0:i;if(j)var
-c=j;else
-var
-k=0===b?1:0,c=k?0<a?1:0:k}if(c)throw t;var
-d=r(e,jy(aC(f),a));if(ct<=b){var
-e=d,a=a+7|0;continue}var
-h=jz(d,1);return 0===a1(jx(d,aC(2)))?h:aa(o(h))}}function
-iJ(d,g){function
-e(a){return f(g,d)}var
-a=cp(d);if(16<a)throw t;if(0<=a){if(50<a){var
-c=0,b=0;for(;;){if(a<=b)return g0(c);var
-c=[0,e(b),c],b=b+1|0;continue}}return jK(0,a,e)}return bO(pT)}function
-dY(a){return iJ(a,EK)}function
-dZ(a){var
-b=cp(a);return[0,aC(b),iJ(a,dY)]}function
-mX(q,a){function
-g(a){if(a){var
-b=a[2];if(b&&!b[2]){var
-c=b[1];if(0<=a1(c)&&E(c,aC(go)))return[0,a[1],c]}}throw t}var
-b=cp(a);if(!(11<b>>>0))switch(b){case
-0:return 0;case
-1:return 1;case
-2:var
-h=dZ(a);return[0,h[1],h[2]];case
-3:var
-i=dZ(a);return[1,i[1],i[2]];case
-4:var
-j=dZ(a);return[2,j[1],j[2]];case
-5:var
-k=dZ(a),r=dY(a);return[3,k[1],k[2],r];case
-6:var
-l=dZ(a),c=dY(a);if(c){var
-d=c[2];if(!d)return[9,l[1],l[2],c[1]];if(!d[2]){var
-m=d[1];if(0<a1(m)&&E(m,aC(go)))return 0}}throw t;case
-7:var
-n=dZ(a);return[8,n[1],n[2]];case
-8:return 2;default:if(q<=b){var
-e=dY(a),f=mX(b+1|0,a);if(9===b){if(0===e)return[6,f];throw t}if(10===b){var
-o=g(e);return[7,f,o[1],o[2]]}var
-p=g(e);return[5,f,p[1],p[2]]}}throw t}function
-EM(b){var
-c=H(b),g=64,h=GQ(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+1:return B(a[3]);case
+2:return bd(lT,S)}return 0};if(bd(V,c[1]))Z(BR);i=1}break}if(!i)if(0===c[0]&&B(c[3]))Z(BP);else
+v=1;break;case
+2:v=1;break}var
+G=T(p(r,BM)),Q=aO(p(G,BN));return[0,b,c,aO(p(G,BO)),Q]}function
+BZ(b){var
+c=L(b),g=64,h=DI(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ag(cy(b,a,18),EN);if(!e){var
+e=ap(c6(b,a,18),B0);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
 f=d;return f}}function
-EO(a){try{if(EM(a)){var
-d=Eb(a);try{var
-k=mW(d),n=Eg(k),l=z$(k,n);if(l)var
-o=l[1],aG=zG(n[6],o),aH=bj(n[1]),s=function(aI){var
-m=aI;a:for(;;){if(0===m[1]){var
-ai=mW(d);if(0===f(d[1],0)){var
-Q=U(iC(ai)),R=function(m){var
-c=as(p(Q,m)),d=[0,0],e=[0,H(c)],g=H(c)-1|0;if(!(g<0)){var
-a=g;for(;;){if(bN(c,a)===47){var
-k=d[1];d[1]=[0,cy(c,a+1|0,(e[1]-a|0)-1|0),k];e[1]=a}var
-l=a-1|0;if(0!==a){var
-a=l;continue}break}}var
-f=d[1],b=cy(c,0,e[1]);if(f){if(f[2])throw t;var
-h=f[1],i=ag(b,EA);if(i)var
-j=i;else
-var
-o=0===(Y(b,H(b)-1|0)&1)?1:0,j=o||ag(h,EB);if(j)throw t;var
-n=ei(cn(h));return[0,fl(cn(b)),n]}var
-q=ei(cn(EC));return[0,fl(cn(b)),q]},l=function(a){return dW(p(Q,a))},V=R(ED),W=R(EE),X=l(EF),Z=l(EG),_=l(EH),$=l(EI),aa=l(EJ),F=m[1]?0:1;if(F)var
-ao=[0,h(z0,mK(V)),0],ap=[0,h(z1,mK(W)),ao],aq=[0,h(z2,bZ(X)),ap],ar=[0,h(z3,bZ(Z)),aq],at=[0,h(z4,bZ(_)),ar],au=[0,h(z5,bZ($)),at],u=ag(fa(Ab,S([0,h(z6,bZ(aa)),au])),ai);else
-var
-u=F;var
-ak=0;if(u){var
-e=m[2],G=M(e[1],aa),I=G?M(e[2],$):G,J=I?M(e[3],_):I,K=J?M(e[4],Z):J,L=K?M(e[5],X):K;if(L)var
-av=dk(b(2,c),iw),v=M(r(r(e[6],e[7]),e[8]),av);else
-var
-v=L;var
-N=v?mM(W,e[6]):v;if(N){var
-aj=mM(V,e[8]);ak=1}else
-var
-O=N}else
-var
-O=u;if(!ak)var
-aj=O;if(aj)return 0}return 2}var
-aJ=o[10],ad=function(g){return function(d){if(0<=d){var
-a=g,c=d;for(;;){if(a){var
-e=a[2],f=a[1];if(0!==c){var
-a=e,c=c-1|0;continue}var
-b=[0,f]}else
-var
-b=0;break}}else
-var
-b=bO(pS);if(b)return[0,b[1]];throw t}}(aJ),k=0,w=0;for(;;){if(ct<bj(k))throw t;var
-j=function(c,f){return function(a){var
-e=0;if(c){var
-d=0;if(typeof
-a!=="number"&&2===a[0]&&!a[1]){var
-b=[2,[0,c[1]],a[2]];d=1}if(!d)throw t}else
-var
-b=a;return[0,[0,g0(f),b],e]}}(w,k),a=cp(d);if(16<=a&&!(32<=a)){var
-k=[0,[0,bI(a-16|0),0],k];continue}var
-ae=a-9|0,D=0;if(3<ae>>>0)D=1;else
-switch(ae){case
-0:var
-aE=cp(d),g=mX(0,d),ab=function(a){var
-b=a[2],c=bj(b)===aH?1:0;if(c)var
-d=g1(function(a){return 3===bj(a)?1:0},b),e=d?P(a[1],aC(64)):d;else
-var
-e=c;return e},E=0;if(typeof
-g==="number")E=1;else
-switch(g[0]){case
-3:var
-ac=ab([0,g[1],g[2]]),aw=ac?4===bj(g[3])?1:0:ac,z=aw;break;case
-0:case
-1:case
-2:var
-z=ab([0,g[1],g[2]]);break;default:E=1}if(E)var
-z=1;var
-aF=z?g:[6,g],k=[0,[0,bI(aE),[0,aF]],k];continue;case
-1:if(0===w){var
-w=[0,dY(d)];continue}D=1;break;case
-2:throw t;default:var
-i=T(EL)}if(D){var
-al=0;if(32<=a&&!(37<=a))var
-i=j([1,bI(a+i_|0)]);else
-al=1;if(al)if(3<=a){var
-af=a-3|0;if(5<af>>>0){var
-am=0;if(64<=a&&!(ct<=a))var
-i=j([2,0,[0,bI(a-64|0)]]);else
-am=1;if(am){var
-an=0;if(ct<=a&&a<203)var
-x=a-128|0,ah=function(b){if(2<b>>>0)var
-a=[2,0,[0,bI(b-3|0)]];else
-switch(b){case
-0:var
-a=0;break;case
-1:var
-a=1;break;default:var
-a=2}return[0,0,a]},ax=[0,ah(x%5|0),0],ay=[0,ah((x/5|0)%5|0),ax],i=jI(j(ad(x/25|0)),ay);else
-an=1;if(an)throw t}}else{var
-s=0;switch(af){case
-0:var
-i=j(0);break;case
-1:var
-i=j(1);break;case
-2:var
-i=j(2);break;case
-3:var
-y=0;s=1;break;case
-4:var
-az=cp(d),aA=bI(cp(d)),y=[1,bI(az),aA];s=1;break;default:var
-aB=cp(d),aD=iJ(d,dY),y=[0,bI(aB),aD];s=1}if(s)var
-i=j([2,0,[1,y]])}}else
-var
-i=j(ad(a))}var
-A=m,q=i;for(;;){if(q){var
-B=zn(n[6],o,aG,A,q[1]);if(B){var
-A=B[1],q=q[2];continue}var
-C=B}else
-var
-C=[0,A];if(C){var
-m=C[1];continue a}return 2}}}},m=s(zo(o));else
-var
-m=2;var
-g=m}catch(a){a=e8(a);if(a[1]===iB)var
-g=[0,a[2]];else{if(a!==t)throw a;var
-g=2}}var
-e=g}else{try{var
-q=0,j=DU(a);q=1}catch(a){a=e8(a);if(a[1]===iB)var
-i=[0,a[2]];else{if(a!==t)throw a;var
-i=2}}if(q)var
-i=y6(a,j)?1===j[2][0]?1:0:2;var
-e=i}}catch(a){return EP}if(typeof
-e==="number")switch(e){case
-0:return EQ;case
-1:return ER;default:return ES}return aJ(ET,e[1])}G9.orthocert_verify=GO(function(b){return cx(EO(a(b)))});gZ(0);return}(globalThis));
+B1(b){try{if(BZ(b))var
+a=B3;else{try{var
+e=0,d=BG(b);e=1}catch(a){a=gd(a);if(a[1]===lJ)var
+c=[0,a[2]];else{if(a!==F)throw a;var
+c=2}}if(e)var
+c=xY(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return B2}if(typeof
+a==="number")switch(a){case
+0:return B4;case
+1:return B5;default:return B6}return aE(B7,a[1])}D1.orthocert_verify=DG(function(b){return cl(B1(a(b)))});gg(0);return}(globalThis));
