@@ -17,6 +17,7 @@ use crate::questions::frontier::{
 use crate::questions::largest_cube::exclude;
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::questions::tolerance::parameters;
+use crate::search::solver::value::depends_on_length;
 use crate::search::solver::{approximate, number};
 use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
@@ -345,20 +346,13 @@ fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
     })
 }
 
-/// Demands that what is required of a machine does not depend on the unit of length: angles,
-/// determinants and quotients of lengths do not, nor do joints along lengths to tool velocities and
-/// forces. Angles of arms to them do.
+/// Demands that what is required of a machine does not depend on the unit of length.
 fn scale_free(claim: &MachineClaim) -> Result<(), NoAnswer> {
     let angular = match &claim.mechanism {
         Mechanism::Translational(legs) => legs.iter().any(|leg| matches!(leg, Leg::Arm { .. })),
         _ => false,
     };
-    let depends = |own: &&Requirement| match own.quantity.as_str() {
-        "conditioning" | "serial_margin" | "parallel_margin" | "constraint_margin"
-        | "leg_angle" | "base_joint" | "platform_joint" | "one_to_one" => false,
-        TRANSMISSION | "joint_speed" | "joint_force" | "stiffness" => angular,
-        _ => true,
-    };
+    let depends = |own: &&Requirement| depends_on_length(&own.quantity, angular);
     let Some(found) = claim.require.iter().find(depends) else { return Ok(()) };
     let of_arms = if found.quantity == "joint_range" || !angular { "" } else { " of arms" };
     Err(NoAnswer::Claim(format!(

@@ -44,6 +44,17 @@ pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
     }
 }
 
+/// Whether a bound on a quantity depends on the unit of length: angles, determinants and quotients of lengths do
+/// not, nor do joints along lengths to tool velocities and forces. `angular` joints to them do.
+pub fn depends_on_length(quantity: &str, angular: bool) -> bool {
+    match quantity {
+        "conditioning" | "serial_margin" | "parallel_margin" | "constraint_margin"
+        | "leg_angle" | "base_joint" | "platform_joint" | "one_to_one" => false,
+        "transmission" | "joint_speed" | "joint_force" | "stiffness" => angular,
+        _ => true,
+    }
+}
+
 /// A quantity's name with its unit in a table, where the unit has an angle in it.
 pub fn with_unit(name: &str, unit: Option<&str>) -> String {
     match unit.filter(|unit| has_angle(unit)) {

@@ -256,6 +256,24 @@ impl<'a> Context<'a> {
     }
 }
 
+/// The determinant, by the first row: `sum_j (-1)^j a_0j det(the rows below without column j)`.
+fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
+    let Some((first, below)) = rows.split_first() else { return tape.integer(1) };
+    let mut sum = tape.integer(0);
+    for (j, &a) in first.iter().enumerate() {
+        let without = |row: &Vec<Formula>| {
+            let mut row = row.clone();
+            row.remove(j);
+            row
+        };
+        let minor: Vec<Vec<Formula>> = below.iter().map(without).collect();
+        let minor = determinant(tape, &minor);
+        let term = tape.mul(a, minor);
+        sum = if j % 2 == 0 { tape.add(sum, term) } else { tape.sub(sum, term) };
+    }
+    sum
+}
+
 /// The greatest psi that a claim asks for.
 pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
     psi(claim).find_map(|bound| if let Bound::Max(psi) = bound { Some(psi) } else { None })

@@ -1,7 +1,6 @@
 //! How far a machine is from a parallel singularity: `|det U|`, rows of `U` the unit leg vectors.
 
-use super::{Context, Quantity, Test};
-use crate::formula::{Formula, Tape};
+use super::{determinant, Context, Quantity, Test};
 use crate::input::ClaimError;
 use crate::machine::Leg;
 
@@ -32,22 +31,4 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     }
     let det = determinant(context.tape(), &rows);
     Ok(vec![Test::Beyond(det, least)])
-}
-
-/// By the first row: `sum_j (-1)^j a_0j det(the rows below without column j)`.
-fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
-    let Some((first, below)) = rows.split_first() else { return tape.integer(1) };
-    let mut sum = tape.integer(0);
-    for (j, &a) in first.iter().enumerate() {
-        let without = |row: &Vec<Formula>| {
-            let mut row = row.clone();
-            row.remove(j);
-            row
-        };
-        let minor: Vec<Vec<Formula>> = below.iter().map(without).collect();
-        let minor = determinant(tape, &minor);
-        let term = tape.mul(a, minor);
-        sum = if j % 2 == 0 { tape.add(sum, term) } else { tape.sub(sum, term) };
-    }
-    sum
 }
