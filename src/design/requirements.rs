@@ -34,6 +34,7 @@ const REQUIREMENTS: &[Requirement] = &[
     Requirement { key: "joint_speed", read: joint_speed },
     Requirement { key: "joint_acceleration", read: joint_acceleration },
     Requirement { key: "joint_force", read: joint_force },
+    Requirement { key: "load", read: load },
     Requirement { key: "stiffness", read: stiffness },
     Requirement { key: "accuracy", read: accuracy },
     Requirement { key: "one_to_one", read: one_to_one },
@@ -364,6 +365,37 @@ fn joint_force(
     let [tool, max] = positives(value, ["tool", "max"], "a force", accepted)?;
     not_redundant(value, machine, key)?;
     Ok(vec![Demand { given: vec![("tool", vec![tool])], ..Demand::of(key, Bound::Max(max)) }])
+}
+
+/// Holding one force on the platform asks no more than `max` of a joint.
+fn load(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let [coordinates, turns] = machine.mechanism.coordinates();
+    let accepted = match coordinates {
+        2 => "{ force = [0, -100], max = 250 }: the force on the platform, not zero, and the joints' limit, of arms a torque",
+        _ => "{ force = [0, 0, -100], max = 250 }: the force on the platform, not zero, a number for each coordinate, and the joints' limit, of arms a torque",
+    };
+    if turns > 0 {
+        let found = "a platform that turns";
+        return Err(value.error(Defect::Conflict, found, "load where it does not; joint_force"));
+    }
+    not_redundant(value, machine, key)?;
+    let table = value.table(accepted)?;
+    table.only(&["force", "max"])?;
+    let of_platform = table.require("force", accepted)?;
+    let numbers = of_platform.list(accepted)?;
+    let force = numbers.iter().map(exact).collect::<Result<Vec<_>, _>>()?;
+    let is_zero = |x: &Exact| x.sign() == Some(0);
+    if force.len() != coordinates || force.iter().all(is_zero) {
+        return Err(of_platform.error(Defect::OutOfDomain, of_platform.found(), accepted));
+    }
+    let bound = table.require("max", accepted)?;
+    let max = exact(&bound)?;
+    positive(&bound, &max, "a force")?;
+    Ok(vec![Demand { given: vec![("force", force)], ..Demand::of(key, Bound::Max(max)) }])
 }
 
 /// With joints of a stiffness, one or one a leg, the platform's least stiffness is at least `min`.

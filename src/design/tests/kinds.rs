@@ -219,6 +219,10 @@ fn requirements() -> Vec<(&'static str, Value)> {
             json!([{ "quantity": "joint_force", "given": { "tool": ["100"] }, "end": "max", "bound": "250" }]),
         ),
         (
+            "load = { force = [0, -1.5, \"-1/3\"], max = 250 }",
+            json!([{ "quantity": "load", "given": { "force": ["0", "-1.5", "-1/3"] }, "end": "max", "bound": "250" }]),
+        ),
+        (
             "accuracy = { joint_error = 0.01, max = 0.05 }",
             json!([{ "quantity": "accuracy", "given": { "joint_error": ["0.01"] }, "end": "max", "bound": "0.05" }]),
         ),

@@ -135,6 +135,14 @@ fn requirements_that_only_the_kernel_knows() {
             "requirements.joint_acceleration.max", OutOfDomain, "0", "greater than 0"),
         row!("force without a tool", LEGS, [(26, "joint_force = { max = 2 }")], 26,
             "requirements.joint_force.tool", MissingKey, "nothing: the key is missing", "{ tool = 100, max = 250 }"),
+        row!("load of no force", LEGS, [(26, "load = { force = [0, 0, 0], max = 2 }")], 26,
+            "requirements.load.force", OutOfDomain, "an array of 3 elements", "not zero"),
+        row!("load of two numbers", LEGS, [(26, "load = { force = [1, 0], max = 2 }")], 26,
+            "requirements.load.force", OutOfDomain, "an array of 2 elements", "a number for each coordinate"),
+        row!("load without a bound", LEGS, [(26, "load = { force = [1, 0, 0] }")], 26,
+            "requirements.load.max", MissingKey, "nothing: the key is missing", "{ force = [0, 0, -100], max = 250 }"),
+        row!("load of a platform that turns", SPATIAL, [(17, "load = { force = [1, 0, 0], max = 2 }")], 17,
+            "requirements.load", Conflict, "a platform that turns", "joint_force"),
         row!("not one to one", LEGS, [(26, "one_to_one = false")], 26, "requirements.one_to_one",
             OutOfDomain, "the boolean false", "true, or nothing: the key is missing"),
         row!("one to one of half a turn", SPATIAL, [(15, "orientation = { angle = 90 }"), (17, "one_to_one = true")], 17,
@@ -201,6 +209,7 @@ fn requirements_that_only_the_kernel_knows() {
     };
     for line in [
         "joint_force = { tool = 1, max = 2 }",
+        "load = { force = [1, 0, 0], max = 2 }",
         "accuracy = { joint_error = 1, max = 2 }",
         "parallel_margin = { min = 0.1 }",
     ] {

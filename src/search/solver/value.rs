@@ -38,7 +38,7 @@ pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
         "leg_angle" | "base_joint" | "platform_joint" => Some("deg"),
         "accuracy" | "clearance" => Some("length"),
         "stiffness" => Some("force/length"),
-        "joint_force" => Some(if angular { "torque" } else { "force" }),
+        "joint_force" | "load" => Some(if angular { "torque" } else { "force" }),
         "joint_acceleration" => Some(if angular { "deg/time^2" } else { "length/time^2" }),
         _ => None,
     }
@@ -50,7 +50,7 @@ pub fn depends_on_length(quantity: &str, angular: bool) -> bool {
     match quantity {
         "conditioning" | "serial_margin" | "parallel_margin" | "constraint_margin"
         | "leg_angle" | "base_joint" | "platform_joint" | "one_to_one" => false,
-        "transmission" | "joint_speed" | "joint_force" | "stiffness" => angular,
+        "transmission" | "joint_speed" | "joint_force" | "load" | "stiffness" => angular,
         _ => true,
     }
 }
@@ -269,6 +269,9 @@ impl Bounded {
                 }
                 ("joint_force" | "accuracy" | "joint_acceleration", _) => {
                     Some(bound * (1.0 - margin))
+                }
+                ("load", Test::Beyond(det, replaced)) => {
+                    Some(bound * (at.of(*replaced)? / at.of(*det)?).abs())
                 }
                 // Of the cosine's multiple in the row.
                 ("base_joint" | "platform_joint", Test::Greatest(rows, along)) => {

@@ -12,6 +12,7 @@ mod joint_force;
 mod joint_range;
 mod joint_speed;
 mod leg_angle;
+mod load;
 mod one_to_one;
 mod parallel_margin;
 mod platform_joint;
@@ -51,7 +52,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 16] = [
+pub const TABLE: [&Quantity; 17] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -62,6 +63,7 @@ pub const TABLE: [&Quantity; 16] = [
     &stiffness::STIFFNESS,
     &joint_acceleration::JOINT_ACCELERATION,
     &joint_force::JOINT_FORCE,
+    &load::LOAD,
     &accuracy::ACCURACY,
     &clearance::CLEARANCE,
     &constraint_margin::CONSTRAINT_MARGIN,

@@ -10,6 +10,7 @@ use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::Multiplier;
 use std::collections::BTreeMap;
 
@@ -410,6 +411,54 @@ fn joint_force() {
     let asked = Asked { quantity: "joint_force", leg: None, given, end: End::Max };
     Problem::new(&asked.of(&linear_delta(SLAB), 1e3)).expect("well formed");
     assert!(Problem::new(&asked.of(&redundant, 1e3)).is_err(), "forces are not determined");
+}
+
+#[test]
+fn load() {
+    for (machine, leg, angular, force, most) in [
+        (linear_delta(SLAB), 1, false, &[20.0, -30.0, -100.0][..], 40),
+        (orthoglide(), 2, false, &[0.0, 0.0, -100.0], 60),
+        (struts(), 3, false, &[-50.0, 0.0, 1.0], 120),
+        (rotary(), 1, true, &[0.0, 0.0, -100.0], 900),
+        (claim(TWO_SLIDERS), 1, false, &[3.0, -4.0], 30),
+    ] {
+        let given: &[(&str, &[f64])] = &[("force", force)];
+        let asked = Asked { quantity: "load", leg: Some(leg), given, end: End::Max };
+        let problem = Problem::new(&asked.of(&machine, 1e3)).expect("a claim");
+        let prover = Prover::new(&problem);
+        let unit = if angular { (problem.scale as f64).exp2() } else { 1.0 };
+        let force = nalgebra::DVector::from_row_slice(force);
+        let held = |x: &[f64]| {
+            let transposed = prover.matrix(x).expect("defined").transpose();
+            transposed.lu().solve(&force).expect("regular")[leg - 1]
+        };
+        let (worst, at) = prover.greatest(|x| held(x).abs());
+        asked.is_proved(&machine, worst * unit, most);
+        let short = Problem::new(&asked.of(&machine, worst * unit * 0.99)).expect("a claim");
+        let prover = Prover::new(&short);
+        let values = prover.values(&at);
+        let value = |f| values.of(f).expect("defined").0;
+        // Each sign of the load has its own test.
+        let number = short.obligations.iter().position(|own| match own.test {
+            Test::Beyond(det, b) => value(det).abs() < value(b),
+            _ => false,
+        });
+        let fails = Failure::Obligation(number.expect("one of the two"), Vec::new());
+        asked.is_refuted(&machine, worst * unit, &at, &[], &fails);
+    }
+    let refused = |machine: &MachineClaim, force: &[f64], bound: f64| {
+        let given: &[(&str, &[f64])] = &[("force", force)];
+        let asked = Asked { quantity: "load", leg: None, given, end: End::Max };
+        assert!(Problem::new(&asked.of(machine, bound)).is_err(), "{force:?} {bound}");
+    };
+    refused(&linear_delta(SLAB), &[0.0, 0.0, 0.0], 1.0);
+    refused(&linear_delta(SLAB), &[1.0, 0.0], 1.0);
+    refused(&linear_delta(SLAB), &[1.0, 0.0, 0.0], 0.0);
+    let mut redundant = linear_delta(SLAB);
+    if let orthocert_kernel::claim::Mechanism::Translational(legs) = &mut redundant.mechanism {
+        legs.push(legs[0].clone());
+    }
+    refused(&redundant, &[1.0, 0.0, 0.0], 1.0);
 }
 
 #[test]
