@@ -87,6 +87,31 @@ pub(super) fn polar(degrees: &Number, radius: Option<&Number>) -> Option<[String
     Some(components.map(|component| value(&component, radius)))
 }
 
+/// Decimals around the tangent of half of an angle in degrees, which is between -180 and 180.
+pub(super) fn half_tangent(degrees: &Number) -> Option<[String; 2]> {
+    if degrees.value.sign() == Some(0) {
+        return Some(["0".to_owned(), "0".to_owned()]);
+    }
+    let half = degrees.value.clone().over(Exact::integer(2)).ok()?;
+    let [cos, sin] = cos_sin(|bits| half.enclose(bits), BITS)?;
+    let quotient = |sin: &BigInt, up: bool| {
+        // The smaller divisor gives the greater quotient in size.
+        let cos = if up == (*sin > BigInt::zero()) { &cos.lo } else { &cos.hi };
+        (*cos > BigInt::zero()).then(|| decimal(sin, cos, up))
+    };
+    Some([quotient(&sin.lo, false)?, quotient(&sin.hi, true)?])
+}
+
+/// `n/d` in [`PLACES`] places, rounded down or up.
+fn decimal(n: &BigInt, d: &BigInt, up: bool) -> String {
+    let ten = BigInt::from(10).pow(PLACES);
+    let (floor, rest) = (n * &ten).div_mod_floor(d);
+    let digits = if up && !rest.is_zero() { floor + 1 } else { floor };
+    let sign = if digits < BigInt::zero() { "-" } else { "" };
+    let (whole, part) = digits.magnitude().div_rem(ten.magnitude());
+    format!("{sign}{whole}.{part:0>18}")
+}
+
 /// `(sin, -cos)`, likewise: horizontal axes for which arms count upwards; negated, downwards.
 fn axis(degrees: &Number, downwards: bool) -> Option<[String; 2]> {
     let quarter = Exact::integer(if downwards { 270 } else { 90 });
@@ -117,17 +142,10 @@ fn components(degrees: &Exact) -> Option<[Component; 2]> {
         return Some([Component::Exactly(COSINES[step]), Component::Exactly(COSINES[sine])]);
     }
     let [cos, sin] = cos_sin(|bits| degrees.enclose(bits), BITS)?;
-    let ten = BigInt::from(10).pow(PLACES);
-    let decimal = |n: &BigInt, up: bool| {
-        let one = BigInt::from(1) << BITS;
-        let (floor, rest) = (n * &ten).div_mod_floor(&one);
-        let digits = if up && !rest.is_zero() { floor + 1 } else { floor };
-        let sign = if digits < BigInt::zero() { "-" } else { "" };
-        let (whole, part) = digits.magnitude().div_rem(ten.magnitude());
-        format!("{sign}{whole}.{part:0>18}")
+    let one = BigInt::from(1) << BITS;
+    let around = |x: &Interval<BigInt>| {
+        Component::Between(decimal(&x.lo, &one, false), decimal(&x.hi, &one, true))
     };
-    let around =
-        |x: &Interval<BigInt>| Component::Between(decimal(&x.lo, false), decimal(&x.hi, true));
     Some([around(&cos), around(&sin)])
 }
 

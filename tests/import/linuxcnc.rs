@@ -501,13 +501,11 @@ fn hexapods() {
         ("setp genhexkins.base.0.w 1", "machine.hal:2: found a line"),
         ("setp genhexkins.base.0.x [HEX]X", "found \"[HEX]X\""),
         ("net tool-offset genhexkins.tool-offset motion.tooloffset.z", "motion.tooloffset.z"),
-        ("loadrt pentakins", "five struts on rings about the spindle"),
+        ("loadrt pentakins", "pentakins and genhexkins"),
     ] {
         let error = hal(&format!("{module}{lines}\n")).expect_err(lines).to_string();
         assert!(error.contains(told), "{lines}: {error}");
     }
-    let error = hal("loadrt pentakins\n").unwrap_err().to_string();
-    assert!(error.contains("five struts on rings about the spindle"), "{error}");
     let linked = "loadrt genhexkins\nnet t genhexkins.tool-offset motion.tooloffset.z\n";
     let files = files(&[("m.hal", linked)]);
     let imported = ignoring(linuxcnc, &files, &["m.hal"], &["motion.tooloffset.z"]).unwrap();
@@ -551,4 +549,122 @@ fn the_limits_of_a_hexapod() {
     same_lengths(&unbounded, &shipped_hexapod(), false);
     let error = ini("30", " sparm=identityfirst").unwrap_err().to_string();
     assert!(error.contains("coordinates=xyzabc"), "{error}");
+}
+
+/// src/emc/kinematics/pentakins.c, `pentakins_read_hal_pins`, `InvKins`; src/libposemath/_posemath.c,
+/// `pmRpyMatConvert` of no yaw.
+struct Pentapod {
+    base: [[f64; 3]; 5],
+    effector: [[f64; 2]; 5],
+    tool_offset: f64,
+}
+
+impl Pentapod {
+    fn joints(&self, tran: [f64; 3], [a, b]: [f64; 2]) -> [f64; 5] {
+        let ((sa, ca), (sb, cb)) = (a.to_radians().sin_cos(), b.to_radians().sin_cos());
+        let columns = [[cb, 0.0, -sb], [sb * sa, ca, cb * sa], [sb * ca, -sa, cb * ca]];
+        std::array::from_fn(|i| {
+            let mut base = self.base[i];
+            base[2] += self.tool_offset;
+            let [radius, height] = self.effector[i];
+            let [x, y, z] =
+                columns.map(|column| (0..3).map(|k| column[k] * (base[k] - tran[k])).sum::<f64>());
+            let across = (sq(x) + sq(y)).sqrt() - radius;
+            (sq(z - height - self.tool_offset) + sq(across)).sqrt()
+        })
+    }
+}
+
+fn shipped_pentapod() -> Pentapod {
+    let height = 895.56;
+    Pentapod {
+        base: [
+            [-418.03, 324.56, height],
+            [417.96, 324.56, height],
+            [-418.03, -325.44, height],
+            [417.96, -325.44, height],
+            [-0.06, -492.96, height],
+        ],
+        effector: [-185.50, -159.50, -67.50, -41.50, -14.00].map(|z| [80.32, z]),
+        tool_offset: 0.0,
+    }
+}
+
+/// The joint coordinates of the claim's own formulas, about a pose.
+fn same_joints_of_a_pentapod(imported: &Imported, firmware: &Pentapod) {
+    let claim = decided(imported);
+    let problem = kernel::problem::Problem::new(&claim).expect("a claim");
+    let fixed = kernel::fixed::Fixed::<BigInt>::new(96);
+    let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
+    let unit = (problem.scale as f64).exp2();
+    let mut random = Random(7);
+    for _ in 0..50 {
+        let tran = random.three().map(|u| 600.0 * u - 300.0);
+        let [a, b, _] = random.three().map(|u| 60.0 * u - 30.0);
+        let half = [a, b].map(|angle| (angle.to_radians() / 2.0).tan());
+        let coordinates: Vec<f64> = tran.into_iter().chain(half).map(|x| x / unit).collect();
+        let values = problem.tape.run(&fixed, |op| match op {
+            kernel::formula::Op::Coordinate(k) => {
+                let x = (coordinates[k] * 52f64.exp2()).round() as i64;
+                Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
+            }
+            kernel::formula::Op::Parameter(j) => parameters.get(j).cloned(),
+            _ => None,
+        });
+        for (i, (leg, theirs)) in problem.legs.iter().zip(firmware.joints(tran, [a, b])).enumerate()
+        {
+            let Some(kernel::machine::Joint::Length(rho)) = leg.rho else { panic!("a length") };
+            let rho = values.of(rho).expect("defined");
+            let ours =
+                rho.lo.to_string().parse::<f64>().expect("a number") * (-96f64).exp2() * unit;
+            assert!((ours - theirs).abs() < 1e-9, "joint {i} at {tran:?} {a} {b}: {ours} {theirs}");
+        }
+    }
+}
+
+#[test]
+fn pentapods() {
+    let module = "loadrt pentakins\n";
+    let plain = hal(module).unwrap();
+    same_joints_of_a_pentapod(&plain, &shipped_pentapod());
+    assert_eq!(plain.defaults.len(), 25 + 1);
+    let mut other = shipped_pentapod();
+    (other.base[3], other.effector[4]) = ([0.5, -250.0, 901.25], [75.5, -20.0]);
+    other.tool_offset = 120.5;
+    let pins = "setp pentakins.base.3.x .5\nsetp pentakins.base.3.y -250\n\
+                setp pentakins.base.3.z 901.25\nsetp pentakins.effector.4.r 75.5\n\
+                setp pentakins.effector.4.z -20.0\nsetp pentakins.tool-offset 120.5\n\
+                setp pentakins.max-error 50\n";
+    same_joints_of_a_pentapod(&hal(&format!("{module}{pins}")).unwrap(), &other);
+    for (lines, told) in [
+        ("setp pentakins.base.5.x 1", "machine.hal:2: found a line"),
+        ("setp pentakins.effector.0.x 1", "machine.hal:2: found a line"),
+        ("setp pentakins.effector.0.r [HEX]R", "found \"[HEX]R\""),
+        ("net tool-offset pentakins.tool-offset motion.tooloffset.z", "motion.tooloffset.z"),
+    ] {
+        let error = hal(&format!("{module}{lines}\n")).expect_err(lines).to_string();
+        assert!(error.contains(told), "{lines}: {error}");
+    }
+    let mut text = String::from("[KINS]\nKINEMATICS = pentakins\nJOINTS = 5\n");
+    for (axis, least, greatest) in [
+        ("X", "-20", "20"),
+        ("Y", "-20", "20"),
+        ("Z", "430", "470"),
+        ("A", "-3", "2"),
+        ("B", "0", "90"),
+    ] {
+        text.push_str(&format!("[AXIS_{axis}]\nMIN_LIMIT = {least}\nMAX_LIMIT = {greatest}\n"));
+    }
+    for joint in 0..5 {
+        text.push_str(&format!("[JOINT_{joint}]\nMIN_LIMIT = 400\nMAX_LIMIT = 1200\n"));
+    }
+    let limited = import(linuxcnc, &[("m.ini", &text)]).unwrap();
+    same_joints_of_a_pentapod(&limited, &shipped_pentapod());
+    let claim = serde_json::to_value(decided(&limited)).expect("a value");
+    // tan(-1.5 degrees) from below; tan(45 degrees) = 1 from above.
+    let [min, max] = ["min", "max"].map(|end| claim["workspace"]["box"][end].clone());
+    assert_eq!(min, serde_json::json!(["-20", "-20", "430", "-0.026185921569186929", "0"]));
+    assert_eq!(max[4], "1.000000000000000001");
+    let asked = claim["require"].as_array().expect("some");
+    assert!(!asked.is_empty() && asked.iter().all(|r| r["quantity"] == "joint_range"), "{asked:?}");
 }

@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The modules whose pins are followed.
-pub(super) const MODULES: [&str; 4] =
-    ["lineardeltakins", "rotarydeltakins", "tripodkins", "genhexkins"];
+pub(super) const MODULES: [&str; 5] =
+    ["lineardeltakins", "rotarydeltakins", "tripodkins", "genhexkins", "pentakins"];
 /// Components that only read the pins which draw a machine.
 const READERS: [&str; 3] = ["lineardelta.", "rotarydelta.", "hexagui."];
 /// Programs of LinuxCNC that set no pin of a kinematics module, nor run such as might.
@@ -331,7 +331,10 @@ const PINS: [&str; 9] = [
 /// refuses it.
 fn is_no_pin(name: &str) -> bool {
     name.contains(['\'', '"'])
-        || (is_geometry(name) && !PINS.contains(&name) && !is_of_a_hexapod(name))
+        || (is_geometry(name)
+            && !PINS.contains(&name)
+            && !is_of_a_hexapod(name)
+            && !is_of_a_pentapod(name))
 }
 
 /// Whether a pin is one of `genhexkins`.
@@ -359,6 +362,26 @@ fn is_of_a_hexapod(name: &str) -> bool {
     match parts[..] {
         ["base" | "platform" | "base-n" | "platform-n", n, "x" | "y" | "z"] => strut(n),
         ["correction", n] => strut(n),
+        _ => OTHERS.contains(&name),
+    }
+}
+
+/// Whether a pin is one of `pentakins`.
+fn is_of_a_pentapod(name: &str) -> bool {
+    const OTHERS: [&str; 6] = [
+        "tool-offset",
+        "convergence-criterion",
+        "limit-iterations",
+        "max-error",
+        "last-iterations",
+        "max-iterations",
+    ];
+    let Some(name) = name.strip_prefix("pentakins.") else { return false };
+    let parts: Vec<&str> = name.split('.').collect();
+    match parts[..] {
+        ["base", n, "x" | "y" | "z"] | ["effector", n, "r" | "z"] => {
+            matches!(n, "0" | "1" | "2" | "3" | "4")
+        }
         _ => OTHERS.contains(&name),
     }
 }

@@ -99,7 +99,7 @@ pub(super) fn hexapod(
 }
 
 /// A height with what is added to it.
-fn raised(z: &Number, offsets: &[Number]) -> String {
+pub(super) fn raised(z: &Number, offsets: &[Number]) -> String {
     let added = offsets.iter().filter(|offset| offset.value.sign() != Some(0));
     let added: String = added.map(|offset| format!("+({})", offset.text)).collect();
     if added.is_empty() {

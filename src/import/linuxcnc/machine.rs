@@ -2,6 +2,7 @@
 
 use super::hal::{Hal, MODULES};
 use super::hexapod::hexapod;
+use super::pentapod::pentapod;
 use crate::import::settings::Settings;
 use crate::import::toml::{
     cylinder, factors_per_radian, less, polar, slider, strut, Arm, Machine, Number, FACTORS,
@@ -21,15 +22,8 @@ pub(super) fn machine(settings: &mut Settings, hal: &mut Hal) -> Result<Machine,
     let other = |found: &str| ImportError::OtherMachine {
         file: named.file.clone(),
         found: found.to_owned(),
-        expected: "lineardeltakins, rotarydeltakins, tripodkins, genhexkins",
+        expected: "lineardeltakins, rotarydeltakins, tripodkins, genhexkins, pentakins",
     };
-    if module == "pentakins" {
-        return Err(settings.refused(
-            "pentakins has five struts on rings about the spindle, each strut in a plane through its \
-             axis, and five coordinates: no leg of a design is one of these; kind = \"formulas\" takes \
-             the lengths as formulas",
-        ));
-    }
     let Some(module) = MODULES.into_iter().find(|known| *known == module) else {
         return Err(other(module));
     };
@@ -50,6 +44,7 @@ pub(super) fn machine(settings: &mut Settings, hal: &mut Hal) -> Result<Machine,
         "lineardeltakins" => linear_delta(settings, hal),
         "rotarydeltakins" => rotary_delta(settings, hal),
         "genhexkins" => hexapod(settings, hal, &named),
+        "pentakins" => pentapod(settings, hal),
         _ => tripod(settings, hal),
     };
     machine.map(|machine| Machine { unit, ..machine })

@@ -1,17 +1,19 @@
-//! LinuxCNC: `lineardeltakins`, `rotarydeltakins`, `tripodkins` and `genhexkins`, from an INI file and the HAL
-//! files that it names, or from HAL files alone; after src/emc/kinematics.
+//! LinuxCNC: `lineardeltakins`, `rotarydeltakins`, `tripodkins`, `genhexkins` and `pentakins`, from an INI file and
+//! the HAL files that it names, or from HAL files alone; after src/emc/kinematics.
 //!
 //! `lineardeltakins` has its joints 0, 1, 2 at 90, 210 and 330 degrees and the distance `R`, rods of
 //! length `L`, and the carriage above the platform. `rotarydeltakins` has its hips at 270, 30 and 150
 //! degrees, the height 0 and the distance `platformradius`, thighs whose angles count *downwards* from
 //! the horizontal, and feet at the distance `footradius` from the controlled point, which is below.
 //! `tripodkins` has three struts from (0, 0), (Bx, 0) and (Cx, Cy). `genhexkins` has six, from `base` to
-//! `platform`, of a platform that is turned by A about x, then B about y, then C about z.
+//! `platform`, of a platform that is turned by A about x, then B about y, then C about z. `pentakins` has five, from
+//! `base` to rings about its spindle, which is turned by A and B.
 
 mod hal;
 mod hexapod;
 mod ini;
 mod machine;
+mod pentapod;
 
 use super::files::Reading;
 use super::settings::Settings;
@@ -46,7 +48,7 @@ const LIBRARY: [&str; 18] = [
 /// that are not where it names them; or HAL files alone, in the order in which they are run.
 ///
 /// # Errors
-/// If LinuxCNC would not run them, if they load none of the four modules, or if something that may
+/// If LinuxCNC would not run them, if they load none of the five modules, or if something that may
 /// set one of the module's pins is not understood.
 pub fn linuxcnc(
     files: &dyn Files,
