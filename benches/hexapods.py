@@ -5,9 +5,9 @@
 
 `table`: hexapods of fixed dimensions, with bounds so many percent of the extreme singular values of M. `random`:
 twenty hexapods, six planar and six spherical machines drawn at random, with bounds 0.1 % beyond the extremes, to be
-certified, and 0.1 % inside, to be refuted; and hexapods over boxes that grow towards a singularity and beyond. The extremes are
-sampled by kinematics of this file's own (rotations by half-angle tangents, ascents from the best of random poses). The
-times are processor time of `orthocert verify --threads 1`, with its exact check, and of `orthocert-check` on the
+certified, and 0.1 % inside, to be refuted; and hexapods over workspaces 10, 1 and 0.1 % narrower than the first that
+has a singularity, to be certified, and wider, to be refuted. The extremes are sampled by kinematics of this file's
+own (rotations by half-angle tangents, ascents from the best of random poses). The times are processor time of `orthocert verify --threads 1`, with its exact check, and of `orthocert-check` on the
 certificate, starts of processes included. Needs numpy.
 """
 
@@ -87,28 +87,34 @@ class Machine:
             moment = np.cross(arm, unit)
         return np.concatenate([unit, moment / self.ell], axis=2) if self.positions else moment / self.ell
 
-    def extremes(self, seed):
-        """The least and the greatest singular value, by ascents."""
+    def least(self, value, seed, starts=60, steps=1_500):
+        """The least value of a function of matrices, by descents."""
         random = np.random.default_rng(seed)
         n = self.positions + (1 if self.kind == "planar" else 3)
-        found = []
-        for place, sign in ((-1, 1), (0, -1)):
-            value = lambda u: sign * np.linalg.svd(self.matrices(u), compute_uv=False)[:, place]  # noqa: E731
-            u = random.random((20_000, n)) * 1.4 - 0.2
-            u = np.clip(u, 0, 1)
-            known = value(u)
-            best = np.argsort(known)[:60]
-            u, known = u[best], known[best]
-            size = np.full(60, 0.2)
-            for _ in range(1_500):
-                step = random.normal(size=u.shape) * (random.random(u.shape) < random.random((60, 1)))
-                after = np.clip(u + size[:, None] * step, 0, 1)
-                then = value(after)
-                better = then < known
-                u[better], known[better] = after[better], then[better]
-                size = np.clip(size * np.where(better, 1.5, 0.93), 1e-8, 0.3)
-            found.append(sign * known.min())
-        return found
+        u = np.clip(random.random((20_000, n)) * 1.4 - 0.2, 0, 1)
+        known = value(self.matrices(u))
+        best = np.argsort(known)[:starts]
+        u, known = u[best], known[best]
+        size = np.full(starts, 0.2)
+        for _ in range(steps):
+            step = random.normal(size=u.shape) * (random.random(u.shape) < random.random((starts, 1)))
+            after = np.clip(u + size[:, None] * step, 0, 1)
+            then = value(self.matrices(after))
+            better = then < known
+            u[better], known[better] = after[better], then[better]
+            size = np.clip(size * np.where(better, 1.5, 0.93), 1e-8, 0.3)
+        return known.min()
+
+    def extremes(self, seed):
+        """The least and the greatest singular value."""
+        singular = lambda m: np.linalg.svd(m, compute_uv=False)  # noqa: E731
+        return self.least(lambda m: singular(m)[:, -1], seed), -self.least(lambda m: -singular(m)[:, 0], seed)
+
+    def least_determinant(self, seed):
+        """The least determinant of M over that in the middle."""
+        n = self.positions + (1 if self.kind == "planar" else 3)
+        middle = np.linalg.det(self.matrices(np.full((1, n), 0.5)))
+        return self.least(lambda m: np.linalg.det(m) / middle, seed, 30, 400)
 
 
 def cayley(c):
@@ -253,6 +259,26 @@ def drawn_hexapod(random, reach, turned):
     return Machine("spatial", round(base * part, 3), a, b, box, orientation)
 
 
+def grown(machine, part):
+    """The same machine over a box and angles that are so many times as wide."""
+    middle, half = machine.box.mean(axis=0), (machine.box[1] - machine.box[0]) / 2 * part
+    angles = {key: [round(x * part, 6) for x in v] if isinstance(v, list) else round(v * part, 6)
+              for key, v in machine.orientation.items()}
+    return Machine(machine.kind, machine.ell, machine.a, machine.b, [middle - half, middle + half], angles)
+
+
+def first_singular(machine, seed):
+    """How many times as wide the first workspace is in which det M has both signs, by ascents."""
+    is_regular = lambda part: grown(machine, part).least_determinant(seed) > 0  # noqa: E731
+    low, high = 1.0, 2.0
+    while is_regular(high):
+        low, high = high, 1.3 * high
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if is_regular(middle) else (low, middle)
+    return low
+
+
 def drawn_planar(random):
     a = [circle(random.uniform(0.9, 1.1), 90 + third + random.uniform(-10, 10)) for third in (0, 120, 240)]
     b = [circle(random.uniform(0.2, 0.3), 90 + third - random.uniform(50, 70)) for third in (0, 120, 240)]
@@ -293,20 +319,14 @@ def drawn():
             wrong += found[0] != expected
             times.setdefault((kind, expected), []).append(found)
     for count in range(6):
-        machine = drawn_hexapod(random, 0.25, 25)
-        for part in (1.0, 1.3, 1.6):
-            box = np.array(machine.box)
-            middle, half = box.mean(axis=0), (box[1] - box[0]) / 2 * part
-            grown = {key: [x * part for x in value] if isinstance(value, list) else value * part
-                     for key, value in machine.orientation.items()}
-            near = Machine("spatial", machine.ell, machine.a, machine.b, [middle - half, middle + half],
-                           {key: [round(x, 3) for x in v] if isinstance(v, list) else round(v, 3)
-                            for key, v in grown.items()})
-            low, _ = near.extremes(count)
-            found = row(f"wide {count + 1}, {part}: {near.orientation} ({low:.5f})", "regular", near, REGULAR,
-                        "decided")
-            wrong += found[0] == "undecided"
-            times.setdefault(("wide", "decided"), []).append(found)
+        machine = drawn_hexapod(random, 0.12, 12)
+        part = first_singular(machine, count)
+        for off in (0.9, 0.99, 0.999, 1.001, 1.01, 1.1):
+            near = grown(machine, part * off)
+            expected = "certified" if off < 1 else "refuted"
+            found = row(f"grown {count + 1}, {off}: {near.orientation}", "regular", near, REGULAR, expected)
+            wrong += found[0] != expected
+            times.setdefault(("grown", expected), []).append(found)
     head("machines", "expected", "claims", "leaves, median", "greatest", "proof, median", "greatest", "check, greatest")
     for (kind, expected), all_found in times.items():
         leaves, proof, check = ([found[k] for found in all_found] for k in (1, 2, 3))

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The same paving and the same yes/no questions for orthocert, Codac and IBEX, on this machine in one
-# run. Prints Markdown; what is compared, and how, stands in peers.py.
-# usage: benches/peers/run.sh [EDGE...] > benches/runs/DATE-peers.md
+# run; or, of --hexapods, whether hexapods are regular. Prints Markdown; what is compared, and how, stands in
+# peers.py and hexapod.py.
+# usage: benches/peers/run.sh [--hexapods | EDGE...] > benches/runs/DATE-peers.md
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
@@ -13,4 +14,9 @@ if [ ! -x "$venv/bin/python" ]; then
   "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
 fi
 cargo build --release --locked --quiet
-"$venv/bin/python" "$here/peers.py" "${CARGO_TARGET_DIR:-target}/release/orthocert" "$@"
+orthocert=${CARGO_TARGET_DIR:-target}/release/orthocert
+if [ "${1-}" = --hexapods ]; then
+  "$venv/bin/python" "$here/hexapod.py" "$orthocert"
+else
+  "$venv/bin/python" "$here/peers.py" "$orthocert" "$@"
+fi
