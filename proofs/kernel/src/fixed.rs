@@ -161,6 +161,9 @@ impl Integer for i64 {
         if *divisor <= 0 {
             return None;
         }
+        if let Some(floor) = by_digits(*self, *other, *divisor) {
+            return Some(floor);
+        }
         let (product, divisor) = (i128::from(*self) * i128::from(*other), i128::from(*divisor));
         // Rounded toward zero, which is the floor unless the product is negative and something is left.
         let quotient = product / divisor;
@@ -189,6 +192,33 @@ impl Integer for i64 {
     fn word(&self) -> Option<i64> {
         Some(*self)
     }
+}
+
+/// `floor(a b / divisor)`, for `divisor > 0`, by two digits of 32 bits; only where no instruction divides 128 bits, as
+/// in WebAssembly. However the digits are found, `q` is the floor if `0 <= a b - q divisor < divisor`.
+#[inline]
+fn by_digits(a: i64, b: i64, divisor: i64) -> Option<i64> {
+    let (product, shift) = (i128::from(a) * i128::from(b), divisor.leading_zeros());
+    let size = product.unsigned_abs();
+    if !cfg!(any(test, target_family = "wasm")) || (size >> 64) as u64 >= divisor as u64 {
+        return None;
+    }
+    let (size, by) = (size << shift, (divisor as u64) << shift);
+    let (high, low) = (by >> 32, by & 0xffff_ffff);
+    // A digit of the quotient from the upper half of the divisor is at most two too great.
+    let digit = |rest: u64, next: u64| {
+        let (mut digit, mut over) = (rest / high, rest % high);
+        while over >> 32 == 0 && (digit >> 32 != 0 || digit * low > (over << 32 | next)) {
+            (digit, over) = (digit - 1, over + high);
+        }
+        (digit, (rest << 32 | next).wrapping_sub(digit.wrapping_mul(by)))
+    };
+    let (upper, rest) = digit((size >> 64) as u64, (size >> 32) as u64 & 0xffff_ffff);
+    let (lower, rest) = digit(rest, size as u64 & 0xffff_ffff);
+    let quotient = i128::from(upper << 32 | lower);
+    let floor = if product < 0 { -quotient - i128::from(rest != 0) } else { quotient };
+    let divisor = i128::from(divisor);
+    (0..divisor).contains(&(product - floor * divisor)).then(|| floor.try_into().ok())?
 }
 
 /// `[lo, hi] / 2^bits`, with `lo <= hi`.
@@ -408,5 +438,41 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
     /// The middle; precisions are 32 bits or more, places fewer.
     fn rounded(&self, a: &Interval<Z>, places: u32) -> Option<i64> {
         a.lo.plus(&a.hi)?.half().dyadic(1, self.bits.checked_sub(places)?)?.word()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_divided_by_digits_is_the_floor() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let (size, kind) = (state >> 58, state >> 32 & 7);
+            match kind {
+                0 => [0, 1, -1, i64::MAX, i64::MIN][size as usize % 5],
+                1 => 1i64.wrapping_shl(size as u32),
+                _ => {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    (state as i64).wrapping_mul(0x9e37_79b9_7f4a_7c15_u64 as i64) >> size
+                }
+            }
+        };
+        let mut found = 0;
+        for n in 0..200_000 {
+            let (a, b, divisor) = (next(), next(), next().max(1));
+            // Some quotients are integers.
+            let a = if n % 4 == 0 { (a % 1000).saturating_mul(divisor) } else { a };
+            let [big, other, by] = [a, b, divisor].map(BigInt::from);
+            let floor = (big * other).div_floor(&by).to_i64();
+            assert_eq!(a.ratio(&b, &divisor), floor, "{a} {b} {divisor}");
+            if let Some(own) = by_digits(a, b, divisor) {
+                assert_eq!(Some(own), floor, "{a} {b} {divisor}");
+                found += 1;
+            }
+        }
+        assert!(found > 80_000, "{found}");
     }
 }
