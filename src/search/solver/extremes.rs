@@ -325,9 +325,11 @@ pub fn enclose(
                     let inner_claim = extreme.claim(claim, &inner);
                     let well_formed = inner_claim.filter(|claim| Problem::new(claim).is_ok());
                     let refuted = match well_formed {
-                        Some(claim) => {
-                            Some(refute(&claim, &known.place).ok_or(NotEnclosed::Undecided)?)
-                        }
+                        Some(claim) => match refute(&claim, &known.place) {
+                            // What is too near to its bound to be refuted may not be at a looser width.
+                            None => break,
+                            found => found,
+                        },
                         None => None,
                     };
                     return Ok(Enclosed { width, inner, outer, refuted, certified, boxes });
