@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -157,8 +157,12 @@ Check kernel.Arm.rod_closes.
 Print Assumptions kernel.Arm.rod_closes.
 Check kernel.Arm.angle_velocity.
 Print Assumptions kernel.Arm.angle_velocity.
-Check kernel.Arm.refute_arms_sound.
-Print Assumptions kernel.Arm.refute_arms_sound.
+Check kernel.Legs.driven_velocity.
+Print Assumptions kernel.Legs.driven_velocity.
+Check kernel.Legs.refute_driven_sound.
+Print Assumptions kernel.Legs.refute_driven_sound.
+Check kernel.Driven.check_driven_sound.
+Print Assumptions kernel.Driven.check_driven_sound.
 Check kernel.Written.check_written_sound.
 Print Assumptions kernel.Written.check_written_sound.
 Check kernel.Orientation.rotation_about_rotates.

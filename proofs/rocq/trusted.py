@@ -13,7 +13,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).parent
 STATEMENT = "print is_plain_certificate means".split()
-SHAPES = "is_well_formed are_well_formed_arms is_turning are_well_formed_formulas are_parameters".split()
+SHAPES = "is_well_formed are_well_formed_legs is_turning are_well_formed_formulas are_parameters".split()
 PAVINGS = "print_header print_summary is_plain_header means_paving".split()
 KEYWORDS = rb"Definition|Fixpoint|Inductive|Record|Class|Instance|Notation|with"
 

@@ -146,7 +146,7 @@ Local Open Scope string_scope.
 Local Notation x := (Named "x").
 Local Notation one := (Constant (1 // 1)).
 Definition claim (definitions : list (string * written)) (entry : written) : written_claim :=
-  MakeWrittenClaim (Mechanism ["x"] [] definitions [[entry]]) [Within (1 // 1) (2 // 1)] [Nonsingular].
+  MakeWrittenClaim (Mechanism ["x"] [] definitions [ByRow [entry]]) [Within (1 // 1) (2 // 1)] [Nonsingular].
 Definition accepts (c : written_claim) : bool := certify_written 512 52 c (Leaf [(0%nat, ByLower 0%N [[1%Z]])]).
 Local Notation rate := (Sum one (Raised x 2)).
 
@@ -166,7 +166,7 @@ Import Certificate.
 Local Open Scope string_scope.
 Definition digit (d : uint) : term string := Literal d Nil.
 Definition certificate (row : term string) : certificate :=
-  Certificate (Formulas_ ["x"] [] [] [[row]] [Literal (D1 Nil) Nil] [Literal (D2 Nil) Nil]
+  Certificate (Formulas_ ["x"] [] [] [Row_ [row]] [Literal (D1 Nil) Nil] [Literal (D2 Nil) Nil]
     [Require_ Transmission None None (AtLeast_ (Literal (D0 Nil) (D2 Nil)))])
     (Nodes 52 None [Node [(0%nat, Multiplied "lower" [[(-1)%Z]] 0); (1%nat, Plain "test")] None None []]) "t" "1".
 Definition right := certificate (Binary Multiplication (digit (D2 Nil)) (Negative (Name "x"))).

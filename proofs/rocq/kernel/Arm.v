@@ -1,4 +1,4 @@
-(** * Legs on arms that turn: kinematics, claims, and refutations
+(** * Legs on arms that turn: kinematics, and in exact numbers
 
     A rod of length L joins the platform to an arm of length r, which turns about
     a fixed axis; the joint coordinate is the arm's angle. *)
@@ -230,7 +230,7 @@ Proof.
       with (n * (c * ((g' - c * a - s * b) / h)) + 2 * (A * a + B * b) * s) by (rewrite <- Rs; ring). field. split; assumption.
 Qed.
 
-(** ** Claims *)
+(** ** Arms within tolerances *)
 
 (** An axis and a reference of any length but zero; the arm at the angle 0 is along the part of the
     reference that is orthogonal to the axis. *)
@@ -248,17 +248,7 @@ Definition is_arm (d : arm_drive) (l : arm) : Prop :=
   within (arm_within d) (arm_length l) /\ within (rod_within d) (rod_length l) /\
   arm_mode l = (if is_positive_mode d then 1 else -1).
 
-Record arm_claim := MakeArmClaim { arms : list arm_drive; arm_workspace : region; arm_demands : list demand }.
-
-(** M in radians per length. *)
-Definition arms_at (m : list arm) (P : vec) : configuration :=
-  Configuration (map (fun l => coordinates (arm_row l P)) m) (map (fun l => Angle (arm_cosine l P) (arm_sine l P)) m)
-    (Forall (fun l => arm_reaches l P) m).
-
-Definition is_about_arms (c : arm_claim) (m : list arm) (P : vec) : Prop :=
-  Forall2 is_arm (arms c) m /\ Forall well_formed_arm m /\ in_region (arm_workspace c) P.
-
-(** ** A machine and a point in exact numbers *)
+(** ** A leg and a point in exact numbers *)
 
 Record exact_arm := ExactArm {
   xaxis : numbers; xreference : numbers; xanchor : numbers; xplatform : numbers; xarm : number; xrod : number; xmode : bool }.
@@ -371,40 +361,6 @@ Proof.
       assert (E : dot k (vscale q (vsub x (vscale (dot k x) k))) = q * (dot k x * (1 - norm2 k))) by (clear; vec_ring).
       rewrite E, u. ring.
     + destruct (xmode l); auto.
-Qed.
-
-Fixpoint all_exact (ds : list arm_drive) (ls : list exact_arm) : bool :=
-  match ds, ls with
-  | [], [] => true
-  | d :: ds', l :: ls' => is_exact_arm d l && all_exact ds' ls'
-  | _, _ => false
-  end.
-
-Definition exact_arms_at (ls : list exact_arm) (P : numbers) : nconfiguration :=
-  NConfiguration (map (fun l => let r := xrow l P in [nx r; ny r; nz r]) ls) (map (fun l => NAngle (xcosine l P) (xsine l P)) ls)
-    (map (fun l => xclearance l P) ls).
-
-Lemma exact_arms_stand : forall ls P, stands_for (exact_arms_at ls P) (arms_at (map arm_of ls) (values P)).
-Proof.
-  intros ls P. split; [| split]; cbn [jacobian joints reached njacobian njoints reserves exact_arms_at arms_at]; rewrite ?map_map.
-  - apply map_ext. intro l. rewrite <- values_xrow. reflexivity.
-  - apply map_ext. intro l. cbn [coordinate_of]. rewrite value_xcosine, value_xsine. reflexivity.
-  - rewrite Forall_map. intro h. rewrite Forall_map. revert h. apply Forall_impl. intros l h. rewrite value_xclearance. exact h.
-Qed.
-
-Definition refute_arms (c : arm_claim) (ls : list exact_arm) (P : numbers) (f : nfailure) : bool :=
-  all_exact (arms c) ls && is_in bits (arm_workspace c) P && refutes bits 3 (exact_arms_at ls P) (arm_demands c) f.
-
-(** A machine of the claim that can be built does not meet it at some point of the workspace. *)
-Theorem refute_arms_sound : forall c ls P f, refute_arms c ls P f = true ->
-  exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c).
-Proof.
-  intros c ls P f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h p]. exists (map arm_of ls), (values P).
-  split; [| exact (refutes_sound bits _ _ _ _ _ (exact_arms_stand ls P) r)].
-  assert (K : forall ds ls, all_exact ds ls = true -> Forall2 is_arm ds (map arm_of ls) /\ Forall well_formed_arm (map arm_of ls)).
-  { induction ds as [| d ds IH]; intros [| l k] e; cbn [all_exact map] in *; try discriminate; [split; constructor |].
-    apply andb_true_iff in e as [e1 e2]. destruct (IH k e2), (is_exact_arm_sound d l e1). split; constructor; assumption. }
-  destruct (K _ _ h). split; [assumption |]. split; [assumption | exact (is_in_sound bits _ _ p)].
 Qed.
 End Precision.
 End Named.

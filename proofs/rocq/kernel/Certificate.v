@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
+From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Legs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -50,12 +50,13 @@ Inductive written_body :=
   | AlongLeg_ (leg : nat) (radius after_base before_platform : expression) (offset : option (triple expression))
   | Fixed_ (on_platform : bool) (from to : triple expression) (radius : expression).
 
-(** A rod on an arm; all legs of a machine, or none. *)
-Record written_arm := Arm_ {
-  axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
-  arm_ : quantity; rod_ : quantity; mode_ : bool }.
+(** Legs of machines whose claims are those of Legs.v, their vectors of as many numbers as there are: rods on arms, of all legs or none. *)
+Inductive written_driven :=
+  | AnySlider_ (direction anchor platform : list quantity) (length : quantity) (mode : bool)
+  | AnyStrut_ (anchor platform : list quantity)
+  | AnyArm_ (axis reference anchor platform : list quantity) (arm rod : quantity) (mode : bool).
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
     the joints' error, of accuracy, and its acceleration and speed, of accelerations. *)
 Inductive written_given := Given_ (x : expression) | Motion_ (acceleration speed : expression).
@@ -65,6 +66,11 @@ Record written_requirement := Require_ { about_ : about; leg_ : option nat; give
 Inductive written_region :=
   | Box_ (min max : triple expression)
   | Cylinder_ (center_x center_y radius bottom top : expression).
+(** Of a box as many numbers as the platform has coordinates of place. *)
+Inductive written_place := AnyBox_ (min max : list expression) | AnyCylinder_ (center_x center_y radius bottom top : expression).
+
+(** A joint of a mechanism by formulas: its row of M, or its coordinate. *)
+Inductive written_form := Row_ (row : list (term string)) | Rho_ (rho : term string).
 
 (** Degrees. *)
 Inductive written_orientation :=
@@ -76,13 +82,15 @@ Inductive written_orientation :=
 Inductive subject :=
   (* legs that do not turn the platform *)
   | Machine_ (legs : list written_leg) (workspace : written_region) (bodies : list written_body) (require : list written_requirement)
-  | Arms_ (arms : list written_arm) (workspace : written_region) (require : list written_requirement)
+  (* legs in any motion; a length and orientations of platforms that turn *)
+  | Legs_ (kind : mobility) (legs : list written_driven) (length : option expression) (workspace : written_place)
+      (orientation : option written_orientation) (require : list written_requirement)
   (* struts of a platform that turns: its joint in the base and on the platform, each of two numbers in the plane *)
   | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (min max : list expression)
       (orientation : written_orientation) (require : list written_requirement)
-  (* by formulas: names, and the rows of M of all joints *)
+  (* by formulas: names, and all joints *)
   | Formulas_ (coordinates : list string) (parameters : list (string * quantity)) (definitions : list (string * term string))
-      (rows : list (list (term string))) (min max : list expression) (require : list written_requirement)
+      (joints : list written_form) (min max : list expression) (require : list written_requirement)
   (* the Orthoglide on the paper's cube *)
   | Closed_ (offset side : expression) (require : list written_requirement)
   (* no cube of this side, with its centre in the box *)
@@ -191,11 +199,16 @@ Definition leg_text (l : written_leg) : text :=
   | Planar_ d => [field "drive" (quoted "planar"); field "direction" (vector d)]
   end%list.
 
-Definition arm_text (l : written_arm) : text :=
-  let vector := triple_text quantity_text in
-  object [field "drive" (quoted "arm"); field "axis" (vector (axis_ l)); field "reference" (vector (reference_ l));
-    field "anchor" (vector (anchor_ l)); field "platform" (vector (platform_ l)); field "arm" (quantity_text (arm_ l));
-    field "length" (quantity_text (rod_ l)); field "mode" (quoted (if mode_ l then "+" else "-"))].
+Definition driven_text (l : written_driven) : text :=
+  let vector v := array (map quantity_text v) in
+  let mode (m : bool) := field "mode" (quoted (if m then "+" else "-")) in
+  object match l with
+  | AnySlider_ d a p len m => [field "drive" (quoted "slider"); field "direction" (vector d); field "anchor" (vector a);
+      field "platform" (vector p); field "length" (quantity_text len); mode m]
+  | AnyStrut_ a p => [field "drive" (quoted "strut"); field "anchor" (vector a); field "platform" (vector p)]
+  | AnyArm_ k x a p r len m => [field "drive" (quoted "arm"); field "axis" (vector k); field "reference" (vector x); field "anchor" (vector a);
+      field "platform" (vector p); field "arm" (quantity_text r); field "length" (quantity_text len); mode m]
+  end.
 
 Definition about_text (a : about) : string :=
   match a with
@@ -203,6 +216,7 @@ Definition about_text (a : about) : string :=
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
   | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one" | Accuracy_ => "accuracy"
+  | LegAngle_ => "leg_angle"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" | Holds_ => "holds" end.
 Definition bound_text (e : written_end) : list text :=
@@ -224,6 +238,11 @@ Definition region_text (w : written_region) : text :=
       [field "center" (array [number x; number y]); field "radius" (number r); field "z" (array [number bottom; number top])])
   end.
 
+Definition place_text (w : written_place) : text :=
+  match w with
+  | AnyBox_ a b => variant "box" (object [field "min" (array (map number a)); field "max" (array (map number b))])
+  | AnyCylinder_ x y r bottom top => region_text (Cylinder_ x y r bottom top)
+  end.
 Definition motion_text (k : motion) : string := match k with InPlane => "planar" | InSpace => "spatial" | AboutPoint => "spherical" end.
 Definition turning_strut_text (l : list quantity * list quantity) : text :=
   let vector v := array (map quantity_text v) in
@@ -253,10 +272,15 @@ Definition subject_text (s : subject) : text :=
   match s with
   | Machine_ legs w bs rs => variant "machine" (machine_text legs w bs rs)
   | NoCube_ legs a b rs side => variant "no_cube" (object [field "machine" (machine_text legs (Box_ a b) [] rs); field "side" (number side)])
-  | Arms_ legs w rs => variant "machine" (object
-      [field "mechanism" (variant "translational" (array (map arm_text legs)));
-       field "workspace" (region_text w);
-       field "require" (array (map requirement_text rs))])
+  | Legs_ k ls ell w o rs =>
+      let legs := array (map driven_text ls) in
+      let turning name := variant name (object (field "legs" legs :: match ell with Some x => [field "characteristic_length" (number x)] | None => [] end)) in
+      variant "machine" (object (field "mechanism" match k with
+          | Translates => variant "translational" legs
+          | TranslatesInPlane => turning "planar"
+          | Turns m => turning (motion_text m)
+          end :: field "workspace" (place_text w) :: match o with Some o => [field "orientation" (orientation_text o)] | None => [] end ++
+        [field "require" (array (map requirement_text rs))]))%list
   | Turning_ k ls ell a b o rs => variant "machine" (object
       [field "mechanism" (variant (motion_text k) (object
          [field "legs" (array (map turning_strut_text ls)); field "characteristic_length" (number ell)]));
@@ -267,7 +291,7 @@ Definition subject_text (s : subject) : text :=
       [field "mechanism" (variant "formulas" (object
          [field "coordinates" (array (map quoted xs)); field "parameters" (array (map (fun p => array [quoted (fst p); quantity_text (snd p)]) ps));
           field "definitions" (array (map (fun d => array [quoted (fst d); formula (snd d)]) ds));
-          field "joints" (array (map (fun r => variant "row" (array (map formula r))) rows))]));
+          field "joints" (array (map (fun j => match j with Row_ r => variant "row" (array (map formula r)) | Rho_ x => variant "rho" (formula x) end) rows))]));
        field "workspace" (variant "box" (object [field "min" (array (map number a)); field "max" (array (map number b))]));
        field "require" (array (map requirement_text rs))])
   | Closed_ offset side rs => variant "machine" (object
@@ -388,8 +412,14 @@ Definition in_leg (l : written_leg) : list expression :=
   | Strut_ a p k => in_vector a ++ in_vector p ++ match k with Some k => in_vector k | None => [] end
   | Planar_ d => in_vector d
   end%list.
-Definition in_arm (l : written_arm) : list expression :=
-  (flat_map in_vector [axis_ l; reference_ l; anchor_ l; platform_ l] ++ flat_map in_quantity [arm_ l; rod_ l])%list.
+Definition in_driven (l : written_driven) : list expression :=
+  flat_map in_quantity match l with
+  | AnySlider_ d a p len _ => d ++ a ++ p ++ [len]
+  | AnyStrut_ a p => a ++ p
+  | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len]
+  end%list.
+Definition in_place (w : written_place) : list expression :=
+  match w with AnyBox_ a b => a ++ b | AnyCylinder_ x y r bottom top => [x; y; r; bottom; top] end%list.
 Definition in_region (w : written_region) : list expression :=
   match w with Box_ a b => in_triple a ++ in_triple b | Cylinder_ x y r bottom top => [x; y; r; bottom; top] end%list.
 Definition in_orientation (o : written_orientation) : list expression :=
@@ -405,7 +435,8 @@ Definition in_body (b : written_body) : list expression :=
 Definition in_subject (s : subject) : list expression :=
   match s with
   | Machine_ ls w bs rs => flat_map in_leg ls ++ in_region w ++ flat_map in_body bs ++ flat_map in_requirement rs
-  | Arms_ ls w rs => flat_map in_arm ls ++ in_region w ++ flat_map in_requirement rs
+  | Legs_ _ ls ell w o rs => flat_map in_driven ls ++ match ell with Some x => [x] | None => [] end ++ in_place w ++
+      match o with Some o => in_orientation o | None => [] end ++ flat_map in_requirement rs
   | Turning_ _ ls ell a b o rs =>
       flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: a ++ b ++ in_orientation o ++ flat_map in_requirement rs
   | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
@@ -434,7 +465,7 @@ Definition is_plain_certificate (c : certificate) : bool :=
   match subject_ c with
   | Formulas_ xs ps ds rows _ _ _ =>
       forallb is_name xs && forallb (fun p => is_name (fst p)) ps && forallb (fun d => is_name (fst d) && are_names (snd d) && is_written (snd d)) ds &&
-      forallb (forallb (fun x => are_names x && is_written x)) rows
+      forallb (fun j => forallb (fun x => are_names x && is_written x) match j with Row_ r => r | Rho_ x => [x] end) rows
   | Atlas_ ps _ _ _ certified refuted => forallb (fun p => is_name (fst p) && are_written [] [fst (snd p); snd (snd p)]) ps && are_written [] [certified; refuted]
   | _ => true
   end &&
@@ -559,7 +590,7 @@ Definition claim_of (ls : list written_leg) (w : written_region) (bs : list writ
 (** The same of machines whose claims are those of Configuration.v; their joints are angles, or not. *)
 Definition factor_max_of (r : written_requirement) : list demand :=
   match about_ r, end_ r with Transmission, AtMost_ b => [FactorMax (denoted b)] | _, _ => [] end.
-Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
+Definition demand_of (are_angles : bool) (legs : nat) (r : written_requirement) : list demand :=
   let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
   match about_ r, end_ r with
   | Transmission, AtLeast_ b => [FactorMin (denoted b)]
@@ -567,13 +598,16 @@ Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
   | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
   | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
-  | Speed_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => SpeedMax i (denoted tool) (denoted b)) | _ => [] end
+  | Speed_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => (if are_angles then TurnMax else SpeedMax) i (denoted tool) (denoted b)) | _ => [] end
   | Force_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => ForceMax i (denoted tool) (denoted b)) | _ => [] end
   | Stiffness_, AtLeast_ b => match given_ r with Some (Given_ k) => [StiffnessMin (denoted k) (denoted b)] | _ => [] end
+  | Serial_, AtLeast_ b => each (fun i => SerialMin i (denoted b))
+  | LegAngle_, AtMost_ b => each (fun i => LegAngleMax i (denoted b))
+  | Parallel_, AtLeast_ b => [ParallelMin (denoted b)]
   | _, _ => []
   end.
-Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
-  (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of legs) rs)%list.
+Definition demands (are_angles : bool) (legs : nat) (rs : list written_requirement) : list demand :=
+  (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of are_angles legs) rs)%list.
 Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) : bool :=
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None => true
@@ -591,6 +625,17 @@ Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) 
   | _, _, _ => is_demand false legs r
   end.
 
+(** Of legs in any motion; forces and determinants of as many as coordinates. *)
+Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r : written_requirement) : bool :=
+  let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
+  match about_ r, end_ r, given_ r with
+  | Serial_, AtLeast_ _, None => is_leg
+  | LegAngle_, AtMost_ _, None => is_leg && negb are_angles
+  | Parallel_, AtLeast_ _, None => Nat.eqb legs (freedom k) && match k, leg_ r with Turns _, _ | _, Some _ => false | _, None => true end
+  | JointRange, e, None => is_leg && Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end
+  | _, _, _ => is_turning_demand (freedom k) legs r
+  end.
+
 Fixpoint written_of (x : term string) : written :=
   match x with
   | Literal w d => Constant (denoted (Literal w d))
@@ -602,10 +647,10 @@ Fixpoint written_of (x : term string) : written :=
   | SquareRoot y => RootOf (written_of y)
   end.
 Definition written_claim_of (xs : list string) (ps : list (string * quantity)) (ds : list (string * term string))
-    (rows : list (list (term string))) (a b : list expression) (rs : list written_requirement) : written_claim :=
+    (rows : list written_form) (a b : list expression) (rs : list written_requirement) : written_claim :=
   MakeWrittenClaim
-    (Mechanism xs (map (fun p => (fst p, tolerance_of (snd p))) ps) (map (fun d => (fst d, written_of (snd d))) ds) (map (map written_of) rows))
-    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands (length rows) rs).
+    (Mechanism xs (map (fun p => (fst p, tolerance_of (snd p))) ps) (map (fun d => (fst d, written_of (snd d))) ds) (map (fun j => match j with Row_ r => ByRow (map written_of r) | Rho_ x => ByCoordinate (written_of x) end) rows))
+    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands false (length rows) rs).
 
 (** A vector whose last components are 0 where they are not written. *)
 Definition vector_of (l : list tolerance) : tolerances :=
@@ -622,13 +667,28 @@ Definition turning_claim_of (k : motion) (ls : list (list quantity * list quanti
     (o : written_orientation) (rs : list written_requirement) : turning_claim :=
   let vector v := vector_of (map tolerance_of v) in
   MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell)
-    (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b))) (orientation_of o) (demands (length ls) rs).
+    (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b))) (orientation_of o) (demands false (length ls) rs).
 
-Definition arm_drive_of (l : written_arm) : arm_drive :=
-  ArmDrive (tolerances_of (axis_ l)) (tolerances_of (reference_ l)) (tolerances_of (anchor_ l)) (tolerances_of (platform_ l))
-    (tolerance_of (arm_ l)) (tolerance_of (rod_ l)) (mode_ l).
-Definition arm_claim_of (ls : list written_arm) (w : written_region) (rs : list written_requirement) : arm_claim :=
-  MakeArmClaim (map arm_drive_of ls) (region_of w) (demands (length ls) rs).
+(** In the plane arms turn about z. *)
+Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
+  let vector v := vector_of (map tolerance_of v) in
+  match l with
+  | AnySlider_ d a p len m => LinearDrive (SliderLeg (Slider (vector d) (vector a) (vector p) (tolerance_of len) m))
+  | AnyStrut_ a p => LinearDrive (StrutLeg (vector a) (vector p) None)
+  | AnyArm_ axis x a p r len m =>
+      let turns := match axis with [] => Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)) | _ => vector axis end in
+      RotaryDrive (ArmDrive turns (vector x) (vector a) (vector p) (tolerance_of r) (tolerance_of len) m)
+  end.
+Definition place_in (w : written_place) : region :=
+  match w with
+  | AnyBox_ a b => Box (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)))
+  | AnyCylinder_ x y r bottom top => region_of (Cylinder_ x y r bottom top)
+  end.
+Definition has_arms (ls : list written_driven) : bool := existsb (fun l => match l with AnyArm_ _ _ _ _ _ _ _ => true | _ => false end) ls.
+Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
+    (rs : list written_requirement) : driven_claim :=
+  MakeDrivenClaim k (map (any_drive_of k) ls) (match ell with Some x => denoted x | None => 1 // 1 end) (place_in w) (option_map orientation_of o)
+    (demands (has_arms ls) (length ls) rs).
 
 (** The bounds on psi of the closed design, which asks for nothing else. *)
 Definition closed_bounds (rs : list written_requirement) : option (Claim.number * Claim.number) :=
@@ -741,8 +801,10 @@ Definition means (c : certificate) : Prop :=
       Statement.holds (claim_of ls w bs rs) /\ exists m P, is_about (claim_of ls w bs rs) m P
   | Machine_ ls w bs rs, ByWitness _ _ _ _ =>
       exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
-  | Arms_ ls w rs, ByWitness _ _ _ _ => let c := arm_claim_of ls w rs in
-      exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c)
+  | Legs_ k ls ell w o rs, Nodes _ _ _ => let c := driven_claim_of k ls ell w o rs in
+      driven_holds c /\ exists m P Q, is_about_driven c m P Q
+  | Legs_ k ls ell w o rs, ByWitness _ _ _ _ => let c := driven_claim_of k ls ell w o rs in
+      exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
   | Turning_ k ls ell a b o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell a b o rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
   | Turning_ k ls ell a b o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell a b o rs in
@@ -769,7 +831,7 @@ Definition means (c : certificate) : Prop :=
 
     [means] takes a claim's shape for granted: requirements of the form of their quantity, legs counted from one, as many
     numbers as there are coordinates, names given once. What [accept] demands of shapes, the functions [is_well_formed],
-    [are_well_formed_arms], [is_turning] and [are_well_formed_formulas], has to be read for that, and nothing else below. *)
+    [are_well_formed_legs], [is_turning] and [are_well_formed_formulas], has to be read for that, and nothing else below. *)
 
 Local Close Scope R_scope.
 
@@ -898,16 +960,6 @@ Fixpoint take_legs (ws : list written_leg) (l : list Claim.number) : list exact_
   | w :: ws' => let (e, l) := take_leg w l in let (es, l) := take_legs ws' l in (e :: es, l)
   end.
 
-Definition take_arm (w : written_arm) (l : list Claim.number) : exact_arm * list Claim.number :=
-  let (k, l) := take3 (axis_ w) l in let (x, l) := take3 (reference_ w) l in let (a, l) := take3 (anchor_ w) l in
-  let (p, l) := take3 (platform_ w) l in let (r, l) := take (arm_ w) l in let (rod, l) := take (rod_ w) l in
-  (ExactArm k x a p r rod (mode_ w), l).
-Fixpoint take_arms (ws : list written_arm) (l : list Claim.number) : list exact_arm * list Claim.number :=
-  match ws with
-  | [] => ([], l)
-  | w :: ws' => let (e, l) := take_arm w l in let (es, l) := take_arms ws' l in (e :: es, l)
-  end.
-
 (** How many directions a requirement fails in. *)
 Definition directions_of (r : requirement) : nat :=
   match r with
@@ -942,6 +994,24 @@ Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim
       (StrutNumbers (numbers_of a) (numbers_of p) :: es, l)
   end.
 
+Definition take_driven (w : written_driven) (l : list Claim.number) : exact_driven * list Claim.number :=
+  match w with
+  | AnySlider_ d a p len m =>
+      let (d, l) := take_list d l in let (a, l) := take_list a l in let (p, l) := take_list p l in let (len, l) := take len l in
+      (XLinear (ExactSlider (numbers_of d) (numbers_of a) (numbers_of p) len m), l)
+  | AnyStrut_ a p => let (a, l) := take_list a l in let (p, l) := take_list p l in (XLinear (ExactStrut (numbers_of a) (numbers_of p) None), l)
+  | AnyArm_ k x a p r len m =>
+      let (k', l) := take_list k l in let (x, l) := take_list x l in let (a, l) := take_list a l in let (p, l) := take_list p l in
+      let (r, l) := take r l in let (len, l) := take len l in
+      let axis := match k with [] => Numbers (0 // 1) (0 // 1) (1 // 1) | _ => numbers_of k' end in
+      (XRotary (ExactArm axis (numbers_of x) (numbers_of a) (numbers_of p) r len m), l)
+  end.
+Fixpoint take_all_driven (ws : list written_driven) (l : list Claim.number) : list exact_driven * list Claim.number :=
+  match ws with
+  | [] => ([], l)
+  | w :: ws' => let (e, l) := take_driven w l in let (es, l) := take_all_driven ws' l in (e :: es, l)
+  end.
+
 (** What the format asks of bounds. *)
 Definition is_number : Claim.number -> bool := Compare.is_number exact_bits.
 Definition is_bound (r : requirement) : bool :=
@@ -966,7 +1036,9 @@ Definition is_demand_bound (d : demand) : bool :=
   | AngleWithin _ a b => certainly exact_bits true (Minus b a) && certainly exact_bits true (Minus (Plus a (180 // 1)) b)
       && certainly exact_bits false (Plus a (360 // 1)) && certainly exact_bits false (Minus (360 // 1) b)
   | LengthMin _ b | LengthMax _ b => is_number b
-  | SpeedMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
+  | SerialMin _ b | ParallelMin b => certainly exact_bits true b
+  | LegAngleMax _ b => certainly exact_bits true b && certainly exact_bits false (Minus (90 // 1) b)
+  | SpeedMax _ a b | TurnMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
@@ -991,12 +1063,6 @@ Definition quantities_of (l : written_leg) : list quantity :=
   | Planar_ d => three_of d
   end%list.
 
-Definition quantities_of_arm (l : written_arm) : list quantity :=
-  (three_of (axis_ l) ++ three_of (reference_ l) ++ three_of (anchor_ l) ++ three_of (platform_ l) ++ [arm_ l; rod_ l])%list.
-Definition are_well_formed_arms (ls : list written_arm) (rs : list written_requirement) : bool :=
-  Nat.leb 3 (length ls) && forallb (is_demand true (length ls)) rs && is_each_once rs &&
-  forallb is_range (flat_map quantities_of_arm ls) && forallb is_demand_bound (demands (length ls) rs).
-
 (** Numbers of a vector of the legs, and of the platform's point. *)
 Definition places_in (k : motion) : nat := match k with InPlane => 2 | _ => 3 end.
 Definition places_of_point (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
@@ -1015,7 +1081,35 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | (InSpace | AboutPoint), TurnedUpTo a => is_less_than_half_turn a
   | (InSpace | AboutPoint), Tilted a b => is_less_than_half_turn a && is_less_than_half_turn b
   | _, _ => false
-  end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
+  end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands false (length ls) rs).
+
+Definition quantities_of_driven (l : written_driven) : list quantity :=
+  match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p => a ++ p | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
+Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
+    (rs : list written_requirement) : bool :=
+  let flat := match k with TranslatesInPlane | Turns InPlane => true | _ => false end in
+  let is_vector (v : list quantity) := Nat.eqb (length v) (if flat then 2 else 3) in
+  let arms := has_arms ls in
+  forallb (fun l => match l with
+    | AnySlider_ d a p _ _ => negb arms && is_vector d && is_vector a && is_vector p
+    | AnyStrut_ a p => negb arms && is_vector a && is_vector p && match k with Turns _ => false | _ => true end
+    | AnyArm_ axis x a p _ _ _ => (if flat then match axis with [] => true | _ => false end else is_vector axis) && is_vector x && is_vector a && is_vector p
+    end) ls &&
+  Nat.leb (freedom k) (length ls) && Nat.leb (length ls) 12 && forallb is_range (flat_map quantities_of_driven ls) &&
+  match w with
+  | AnyBox_ a b => Nat.eqb (length a) (if flat then 2 else 3) && Nat.eqb (length b) (if flat then 2 else 3) &&
+      forallb (fun p => below exact_bits (denoted (fst p)) (denoted (snd p))) (combine a b)
+  | AnyCylinder_ _ _ r bottom top => match k with Translates => true | _ => false end && certainly exact_bits true (denoted r) && below exact_bits (denoted bottom) (denoted top)
+  end &&
+  match k, ell, option_map orientation_of o with
+  | (Translates | TranslatesInPlane), None, None => true
+  | Turns InPlane, Some x, Some (TurnedBy t) => certainly exact_bits true (denoted x) && is_angle_range t
+  | Turns InSpace, Some x, Some (RollPitchYaw a b c) => certainly exact_bits true (denoted x) && is_angle_range a && is_angle_range b && is_angle_range c
+  | Turns InSpace, Some x, Some (TurnedUpTo a) => certainly exact_bits true (denoted x) && is_less_than_half_turn a
+  | Turns InSpace, Some x, Some (Tilted a b) => certainly exact_bits true (denoted x) && is_less_than_half_turn a && is_less_than_half_turn b
+  | _, _, _ => false
+  end &&
+  forallb (is_driven_demand arms k (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) rs).
 
 (** No machine within the tolerances has a direction that is zero. *)
 Definition is_nonzero (t : tolerances) : bool :=
@@ -1052,9 +1146,15 @@ Definition is_of_two_points (r : written_requirement) : bool := match about_ r w
 Definition splits_below (n : nat) (nodes : list node) : bool :=
   forallb (fun x => match split_ x with Some k => Nat.ltb k n | None => true end) nodes.
 
-Definition are_well_formed_formulas (ps : list (string * quantity)) (rows : list (list (term string))) (a b : list expression) (rs : list written_requirement) : bool :=
-  Nat.eqb (length a) (length b) && forallb (is_demand false (length rows)) rs && is_each_once rs &&
-  forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands (length rows) rs).
+Definition are_well_formed_formulas (xs : list string) (ps : list (string * quantity)) (rows : list written_form) (a b : list expression) (rs : list written_requirement) : bool :=
+  let n := length (xs) in
+  let has_coordinate r := match about_ r with
+    | JointRange => forallb (fun j => match nth_error rows j with Some (Rho_ _) => true | _ => false end)
+        match leg_ r with Some k => [pred k] | None => seq 0 (length rows) end
+    | _ => true
+    end in
+  Nat.eqb (length a) (length b) && forallb (fun r => is_turning_demand n (length rows) r && has_coordinate r) rs && is_each_once rs &&
+  forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) rs).
 
 (** A witness has a number for each tolerance. *)
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
@@ -1071,6 +1171,31 @@ Definition accept_tree (of_cell : bool) (ls : list written_leg) (w : written_reg
   match tree_of (if of_cell then [] else free_parameters k) (length nodes) nodes with
   | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
       certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
+  | _ => false
+  end.
+(** Units of legs in any motion. *)
+Definition any_lengths (d : any_drive) : list Claim.number := match d with LinearDrive d => lengths_of d | RotaryDrive a => (ends (arm_within a) ++ ends (rod_within a))%list end.
+Definition any_places (d : any_drive) : list Claim.number :=
+  match d with LinearDrive d => places_of d | RotaryDrive a => (ends3 (anchor_within a) ++ ends3 (platform_within a))%list end.
+Definition any_length_order (ds : list any_drive) : Z := (1 + order_of match flat_map any_lengths ds with [] => flat_map any_places ds | l => l end)%Z.
+Definition any_direction_orders (d : any_drive) : Z * Z :=
+  match d with LinearDrive d => (direction_order d, 0%Z) | RotaryDrive a => (order_of (ends3 (axis_within a)), order_of (ends3 (reference_within a))) end.
+Definition accept_driven_tree (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
+    (rs : list written_requirement) (bits : positive) (nodes : list node) : bool :=
+  let c := driven_claim_of k ls ell w o rs in
+  let s := any_length_order (drives c) in let ds := map any_direction_orders (drives c) in
+  let ps := Drives.driven_layouts s ds (drives c) in
+  match tree_of (map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps))) (length nodes) nodes with
+  | Some (t, []) => are_well_formed_legs k ls ell w o rs && splits_below (freedom k) nodes && certify_driven exact_bits bits c s ds t
+  | _ => false
+  end.
+Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
+    (rs : list written_requirement) (point machine : list expression) (how : violation) : bool :=
+  let n := match k with Translates => 3 | TranslatesInPlane => 2 | Turns m => places_of_point m end in
+  let point := map denoted point in
+  match take_all_driven ls (map denoted machine) with
+  | (m, []) => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
+      refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
   | _ => false
   end.
 Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
@@ -1122,12 +1247,8 @@ Definition accept (c : certificate) : bool :=
           (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
       | _ => false
       end
-  | Arms_ ls w rs, ByWitness bits point machine how =>
-      match point, take_arms ls (map denoted machine) with
-      | [x; y; z], (m, []) => is_one_each (flat_map quantities_of_arm ls) machine && are_well_formed_arms ls rs &&
-          refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of how)
-      | _, _ => false
-      end
+  | Legs_ k ls ell w o rs, Nodes bits _ nodes => accept_driven_tree k ls ell w o rs bits nodes
+  | Legs_ k ls ell w o rs, ByWitness _ point machine how => accept_driven_witness k ls ell w o rs point machine how
   | Turning_ k ls ell a b o rs, ByWitness bits point machine how =>
       let point := map denoted point in
       let n := places_of_point k in
@@ -1145,7 +1266,7 @@ Definition accept (c : certificate) : bool :=
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits _ nodes =>
       match tree_of [] (length nodes) nodes with
-      | Some (t, []) => are_well_formed_formulas ps rows a b rs && splits_below (length xs) nodes &&
+      | Some (t, []) => are_well_formed_formulas xs ps rows a b rs && splits_below (length xs) nodes &&
           certify_written exact_bits bits (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
@@ -1190,13 +1311,14 @@ Qed.
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w bs rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
+  destruct s as [ls w bs rs | k ls ell w o rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
-  - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_arms _ _) as [m [|]]; [| discriminate].
-    apply andb_true_iff in h as [_ h].
-    exact (refute_arms_sound _ _ _ _ _ h).
+  - unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+    exact (certify_driven_sound _ _ _ _ _ _ h).
+  - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
+    exact (refute_driven_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].

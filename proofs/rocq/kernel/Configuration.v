@@ -20,8 +20,11 @@ Inductive coordinate :=
   (* of a joint that is given by its row of M alone *)
   | Unknown.
 
-(** A machine at a point. [reached]: all is defined there, and no leg is serially singular. *)
-Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; reached : Prop }.
+(** A leg of fixed length: its vector, as many components as the platform has, its component eta along the motion of its driven end, and its length. *)
+Record rod := Rod { rod_vector : list R; rod_eta : R; rod_size : R }.
+
+(** A machine at a point. [reached]: all is defined there, and no leg is serially singular. [rods]: of its legs, or none. *)
+Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; rods : list (option rod); reached : Prop }.
 
 (** |M v|^2 *)
 Definition speed2 (M : list (list R)) (v : list R) : R := fold_right (fun row sum => dot row v ^ 2 + sum) 0 M.
@@ -35,7 +38,18 @@ Inductive demand :=
   | Conditioned (b : number)                           (* sigma_max / sigma_min *)
   (* of joints that are lengths: a joint's speed, and its static force, at a speed of the platform, or a force on it, up to [tool] *)
   | SpeedMax (joint : nat) (tool b : number) | ForceMax (joint : nat) (tool b : number)
-  | StiffnessMin (k b : number).                       (* the least eigenvalue of k M^T M *)
+  | StiffnessMin (k b : number)                        (* the least eigenvalue of k M^T M *)
+  | TurnMax (joint : nat) (tool b : number)            (* of joints that are angles, degrees: their speed *)
+  (* of legs of fixed length: |eta|/L, its arc cosine in degrees, and |det A| over the product of all lengths *)
+  | SerialMin (leg : nat) (b : number) | LegAngleMax (leg : nat) (b : number) | ParallelMin (b : number).
+
+(** By the first row. *)
+Definition determinant (rows : list (list R)) : R :=
+  match rows with
+  | [[a; b]; [c; d]] => a * d - b * c
+  | [[a; b; c]; [d; e; f]; [g; h; i]] => a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+  | _ => 0
+  end.
 
 (** No motion of the platform, of [n] coordinates, leaves all joints at rest. *)
 Definition injective (n : nat) (c : configuration) : Prop :=
@@ -60,6 +74,12 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
       forall v, length v = n -> dot v v <= value tool ^ 2 -> Rabs (dot row v) <= value b
   | ForceMax i tool b => forall tau F, holds_force n (jacobian c) tau F -> dot F F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
   | StiffnessMin k b => forall v, length v = n -> value b * dot v v <= value k * speed2 (jacobian c) v
+  | TurnMax i tool b => exists row, nth_error (jacobian c) i = Some row /\
+      forall v, length v = n -> dot v v <= value tool ^ 2 -> Rabs (dot row v) <= in_degrees (value b)
+  | SerialMin i b => exists l, nth_error (rods c) i = Some (Some l) /\ value b * rod_size l <= Rabs (rod_eta l)
+  | LegAngleMax i b => exists l, nth_error (rods c) i = Some (Some l) /\ cos (in_degrees (value b)) * rod_size l <= Rabs (rod_eta l)
+  | ParallelMin b => exists ls, rods c = map Some ls /\
+      fold_left (fun p l => p * rod_size l) ls (value b) <= Rabs (determinant (map rod_vector ls))
   end.
 
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
@@ -69,12 +89,14 @@ Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
 
 Inductive ncoordinate := NLength (rho : number) | NAngle (cosine sine : number) | NUnknown.
 (** [reserves]: where it is reached, these are positive. *)
-Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; reserves : list number }.
+Record nrod := NRod { nrod_vector : list number; nrod_eta : number; nrod_size : number }.
+Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; nrods : list (option nrod); reserves : list number }.
 
 Definition coordinate_of (x : ncoordinate) : coordinate :=
   match x with NLength x => Length (value x) | NAngle c s => Angle (value c) (value s) | NUnknown => Unknown end.
+Definition real_rod (l : nrod) : rod := Rod (map value (nrod_vector l)) (value (nrod_eta l)) (value (nrod_size l)).
 Definition stands_for (n : nconfiguration) (c : configuration) : Prop :=
-  jacobian c = map (map value) (njacobian n) /\ joints c = map coordinate_of (njoints n) /\
+  jacobian c = map (map value) (njacobian n) /\ joints c = map coordinate_of (njoints n) /\ rods c = map (option_map real_rod) (nrods n) /\
   (reached c -> Forall (fun x => 0 < value x) (reserves n)).
 
 Fixpoint ndot (u v : list number) : number :=
@@ -92,6 +114,26 @@ Lemma value_nspeed2 : forall M v, value (nspeed2 M v) = speed2 (map (map value) 
 Proof.
   intros M v. induction M as [| row M IH]; [exact zero_value |]. cbn [nspeed2 speed2 map fold_right value].
   unfold nspeed2, speed2 in IH. rewrite IH, value_ndot. ring.
+Qed.
+
+Definition ndeterminant (rows : list (list number)) : number :=
+  let minor a b c d := Minus (Times a d) (Times b c) in
+  match rows with
+  | [[a; b]; [c; d]] => minor a b c d
+  | [[a; b; c]; [d; e; f]; [g; h; i]] => Plus (Minus (Times a (minor e f h i)) (Times b (minor d f g i))) (Times c (minor d e g h))
+  | _ => 0 // 1
+  end.
+Lemma value_ndeterminant : forall rows, value (ndeterminant rows) = determinant (map (map value) rows).
+Proof.
+  intros [| [| a [| b [| c [| ? ?]]]] [| [| d [| e [| f [| ? ?]]]] [| [| g [| h [| i [| ? ?]]]] [| ? ?]]]]; cbn [ndeterminant determinant map]; try exact zero_value; cbn [value]; ring.
+Qed.
+(** The legs, where all have fixed lengths. *)
+Fixpoint all_rods (l : list (option nrod)) : option (list nrod) :=
+  match l with [] => Some [] | Some q :: l' => option_map (cons q) (all_rods l') | None :: _ => None end.
+Lemma all_rods_sound : forall l qs, all_rods l = Some qs -> l = map Some qs.
+Proof.
+  induction l as [| [q |] l IH]; intros qs h; cbn [all_rods] in h; try discriminate; [injection h as <-; reflexivity |].
+  destruct (all_rods l) as [r |]; [| discriminate]. injection h as <-. cbn [map]. rewrite (IH r eq_refl). reflexivity.
 Qed.
 
 Section Precision.
@@ -130,6 +172,8 @@ Definition fails (n : nat) (c : nconfiguration) (least : bool) (vs : list (list 
   let bound b u := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u) in
   let speed := nspeed2 (njacobian c) in
   let of i f := match nth_error (njoints c) i with Some x => f x | None => false end in
+  let of_row i f := match nth_error (njacobian c) i with Some row => Nat.eqb (length row) n && f row | None => false end in
+  let of_rod i f := match nth_error (nrods c) i with Some (Some l) => f l | _ => false end in
   forallb (fun v => Nat.eqb (length v) n) vs &&
   match d, vs with
   | FactorMax b, [u] => certainly true (Minus (bound b u) (speed u))
@@ -139,8 +183,44 @@ Definition fails (n : nat) (c : nconfiguration) (least : bool) (vs : list (list 
   | AngleWithin i a b, [] => of i (fun x => beyond least x a b)
   | Conditioned b, [u; v] =>
       certainly true (Minus (Times (speed u) (ndot v v)) (Times (Times b b) (Times (speed v) (ndot u u))))
+  (* in the direction of the row itself *)
+  | SpeedMax i tool b, [] => of_row i (fun row => let k := Over b tool in certainly true tool && certainly true (Minus (ndot row row) (Times k k)))
+  | TurnMax i tool b, [] => of_row i (fun row => certainly true tool && certainly false b &&
+      match enclose bits (ndot row row), enclose bits (Over b tool) with
+      | Some s, Some k => match radians bits k with Some k => is_positive (Some (sub s (sqr bits k))) | None => false end
+      | _, _ => false
+      end)
+  | StiffnessMin k b, [v] => certainly true (Minus (Times b (ndot v v)) (Times k (speed v)))
+  | SerialMin i b, [] => of_rod i (fun l => let least := Times b (nrod_size l) in
+      certainly true least && certainly true (Minus (Times least least) (Times (nrod_eta l) (nrod_eta l))))
+  | LegAngleMax i b, [] => of_rod i (fun l =>
+      match cosine bits b, enclose bits (nrod_size l), enclose bits (nrod_eta l) with
+      | Some c, Some size, Some eta => let least := mul bits c size in is_positive (Some least) && is_positive (Some (sub (sqr bits least) (sqr bits eta)))
+      | _, _, _ => false
+      end)
+  | ParallelMin b, [] => match all_rods (nrods c) with
+      | Some ls => let least := fold_left (fun p l => Times p (nrod_size l)) ls b in let d := ndeterminant (map nrod_vector ls) in
+          certainly true (Minus least d) && certainly true (Plus least d)
+      | None => false
+      end
   | _, _ => false
   end.
+
+Lemma is_positive_sound : forall a x, is_positive (Some a) = true -> contains bits a x -> 0 < x.
+Proof. intros a x h. cbn [is_positive] in h. apply Z.ltb_lt in h. apply contains_positive, h. Qed.
+
+(** A row longer than k is faster than k tool in its own direction. *)
+Lemma fast_row : forall row tool k, 0 < tool -> 0 <= k -> k ^ 2 < dot row row ->
+  exists v, length v = length row /\ dot v v <= tool ^ 2 /\ k * tool < Rabs (dot row v).
+Proof.
+  intros row tool k t0 k0 h. assert (r0 : 0 < dot row row) by (pose proof (pow2_ge_0 k); lra). pose proof (sqrt_lt_R0 _ r0) as s0.
+  assert (S : sqrt (dot row row) ^ 2 = dot row row) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra). set (s := sqrt (dot row row)) in *.
+  exists (map (Rmult (tool / s)) row). split; [apply map_length |].
+  assert (E : forall u, dot u (map (Rmult (tool / s)) row) = tool / s * dot u row).
+  { intro u. clearbody s. clear. revert row. induction u as [| a u IH]; intros [| b row]; cbn [dot map]; rewrite ?IH; ring. }
+  rewrite !E, dot_map, <- S. split; [right; field; lra |]. replace (tool / s * s ^ 2) with (tool * s) by (field; lra).
+  rewrite Rabs_right by (apply Rle_ge, Rmult_le_pos; lra). assert (k < s) by (apply Rnot_le_lt; intro n; nra). nra.
+Qed.
 
 Lemma beyond_sound : forall least x a b angle, beyond least x a b = true -> value a <= angle <= value b ->
   coordinate_of x <> Angle (cos (in_degrees angle)) (sin (in_degrees angle)).
@@ -161,7 +241,7 @@ Qed.
 
 Lemma fails_sound : forall n c k least vs d, stands_for c k -> fails n c least vs d = true -> ~ fulfils n k d.
 Proof.
-  intros n c k least vs d [J [X _]] h F. unfold fails in h. cbv zeta in h.
+  intros n c k least vs d [J [X [B0 _]]] h F. unfold fails in h. cbv zeta in h.
   apply andb_true_iff in h as [hv h]. rewrite forallb_forall in hv.
   assert (Of : forall v, In v vs -> length (map value v) = n) by (intros v i; rewrite map_length; apply Nat.eqb_eq, hv, i).
   assert (B : forall b u, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u)) = (1 / value b) ^ 2 * dot (map value u) (map value u)).
@@ -169,7 +249,12 @@ Proof.
   assert (At : forall i x, nth_error (joints k) i = Some x -> exists y, nth_error (njoints c) i = Some y /\ x = coordinate_of y).
   { intros i x e. rewrite X, nth_error_map in e. destruct (nth_error (njoints c) i) as [y |]; [| discriminate].
     injection e as <-. exists y. split; reflexivity. }
-  destruct d as [| b | b | i b | i b | i a b | b | i a b | i a b | a b]; cbn [fulfils] in F; [discriminate | | | | | | | discriminate | discriminate | discriminate];
+  assert (AtRow : forall i row, nth_error (jacobian k) i = Some row -> exists y, nth_error (njacobian c) i = Some y /\ row = map value y).
+  { intros i x e. rewrite J, nth_error_map in e. destruct (nth_error (njacobian c) i) as [y |]; [| discriminate]. injection e as <-. exists y. split; reflexivity. }
+  assert (AtRod : forall i l, nth_error (rods k) i = Some (Some l) -> exists y, nth_error (nrods c) i = Some (Some y) /\ l = real_rod y).
+  { intros i x e. rewrite B0, nth_error_map in e. destruct (nth_error (nrods c) i) as [[y |] |]; try discriminate. injection e as <-. exists y. split; reflexivity. }
+  assert (Short : forall x y, 0 < x -> y ^ 2 < x ^ 2 -> Rabs y < x) by (intros x y x0 l; rewrite <- (Rabs_right x) by lra; apply Rsqr_lt_abs_0; rewrite !Rsqr_pow2; exact l).
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b]; cbn [fulfils] in F;
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
     set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.
@@ -183,6 +268,41 @@ Proof.
     exact (beyond_sound _ _ _ _ _ h l (eq_sym q)).
   - apply positive_sound in h. cbn [value] in h. rewrite !value_nspeed2, !value_ndot, <- J in h.
     specialize (F _ _ (Of u ltac:(left; reflexivity)) (Of v ltac:(right; left; reflexivity))). nra.
+  - destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
+    apply andb_true_iff in h as [t0 h]. apply positive_sound in t0, h. cbn [value] in h. rewrite value_ndot in h.
+    pose proof (Rabs_pos (value b / value tool)) as k0.
+    destruct (fast_row (map value y) (value tool) (Rabs (value b / value tool)) t0 k0) as [v [lv [sv fv]]].
+    { replace (Rabs (value b / value tool) ^ 2) with ((value b / value tool) ^ 2) by (rewrite <- !Rsqr_pow2; apply Rsqr_abs). lra. }
+    specialize (F v ltac:(rewrite lv, map_length; exact hl) sv).
+    assert (value b <= Rabs (value b / value tool) * value tool).
+    { replace (value b) with (value b / value tool * value tool) at 1 by (field; lra). apply Rmult_le_compat_r; [lra | apply Rle_abs]. }
+    lra.
+  - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite J, <- value_nspeed2, <- value_ndot in F. cbn [value] in h. lra.
+  - destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
+    apply andb_true_iff in h as [t0 h]. apply andb_true_iff in t0 as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
+    destruct (enclose bits (ndot y y)) as [sq |] eqn:e1; [| discriminate]. destruct (enclose bits (Over b tool)) as [q |] eqn:e2; [| discriminate].
+    destruct (radians bits q) as [r |] eqn:e3; [| discriminate]. apply enclose_sound in e1, e2. pose proof (radians_sound bits _ _ _ e3 e2) as R0.
+    pose proof (is_positive_sound _ _ h (sub_sound bits _ _ _ _ e1 (sqr_sound bits _ _ R0))) as P. rewrite value_ndot in P. cbn [value] in P.
+    assert (k0 : 0 <= in_degrees (value b / value tool)).
+    { unfold in_degrees. pose proof PI_RGT_0. apply Rmult_le_pos; [| lra]. apply Rmult_le_pos; [| lra]. apply Rmult_le_pos; [exact b0 | apply Rlt_le, Rinv_0_lt_compat, t0]. }
+    destruct (fast_row (map value y) (value tool) (in_degrees (value b / value tool)) t0 k0) as [v [lv [sv fv]]]; [lra |].
+    specialize (F v ltac:(rewrite lv, map_length; exact hl) sv).
+    replace (in_degrees (value b / value tool) * value tool) with (in_degrees (value b)) in fv by (unfold in_degrees; field; lra). lra.
+  - destruct F as [l [e F]]. destruct (AtRod i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [p h]. apply positive_sound in p, h.
+    cbn [value real_rod rod_size rod_eta] in *. pose proof (Short _ (value (nrod_eta y)) p) as K. assert (Rabs (value (nrod_eta y)) < value b * value (nrod_size y)) by (apply K; lra). lra.
+  - destruct F as [l [e F]]. destruct (AtRod i _ e) as [y [e' ->]]. rewrite e' in h. destruct (cosine bits b) as [cb |] eqn:e1; [| discriminate].
+    destruct (enclose bits (nrod_size y)) as [size |] eqn:e2; [| discriminate]. destruct (enclose bits (nrod_eta y)) as [eta |] eqn:e3; [| discriminate].
+    apply andb_true_iff in h as [p h]. apply cosine_sound in e1. apply enclose_sound in e2, e3. pose proof (mul_sound bits _ _ _ _ e1 e2) as M.
+    pose proof (is_positive_sound _ _ p M) as p'. pose proof (is_positive_sound _ _ h (sub_sound bits _ _ _ _ (sqr_sound bits _ _ M) (sqr_sound bits _ _ e3))) as h'.
+    cbn [real_rod rod_size rod_eta] in F. pose proof (Short _ (value (nrod_eta y)) p') as K. assert (Rabs (value (nrod_eta y)) < cos (in_degrees (value b)) * value (nrod_size y)) by (apply K; lra). lra.
+  - destruct F as [ls [e F]]. destruct (all_rods (nrods c)) as [ns |] eqn:en; [| discriminate]. apply all_rods_sound in en. rewrite B0, en, map_map in e.
+    assert (El : ls = map real_rod ns).
+    { clear - e. revert ls e. induction ns as [| q ns IH]; intros [| l ls] e; cbn [map] in *; try discriminate; [reflexivity |]. injection e as e1 e2. cbn [option_map] in e1. rewrite <- (IH ls e2). congruence. }
+    subst ls. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2. cbn [value] in h1, h2. rewrite value_ndeterminant, !map_map in h1, h2.
+    rewrite map_map in F. cbn [real_rod rod_vector] in F.
+    assert (P : value (fold_left (fun p l => Times p (nrod_size l)) ns b) = fold_left (fun p l => p * rod_size l) (map real_rod ns) (value b)).
+    { clear. revert b. induction ns as [| q ns IH]; intro b; cbn [fold_left map]; [reflexivity |]. rewrite IH. reflexivity. }
+    rewrite P in h1, h2. set (d := determinant _) in *. unfold Rabs in F. destruct (Rcase_abs d); lra.
 Qed.
 
 (** Of the test [number] of the demands, where one that has two ends has two tests, the demand, and whether it is its first. *)
@@ -223,7 +343,7 @@ Theorem refutes_sound : forall n c k ds f, stands_for c k -> refutes n c ds f = 
 Proof.
   intros n c k ds f st h [re [_ met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i]; cbn [refutes] in h.
   - apply existsb_exists in h as [x [i h]]. apply nonneg_sound in h. cbn [value] in h.
-    destruct st as [_ [_ R]]. specialize (R re). rewrite Forall_forall in R. specialize (R x i). lra.
+    destruct st as [_ [_ [_ R]]]. specialize (R re). rewrite Forall_forall in R. specialize (R x i). lra.
   - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate].
     exact (fails_sound _ _ _ _ _ _ st h (met d (test_at_in _ _ _ _ e))).
   - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate]. destruct d; try discriminate.

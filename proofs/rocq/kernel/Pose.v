@@ -367,7 +367,7 @@ Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula)
       | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
       | None => None
       end
-  | AngleWithin _ _ _ | Conditioned _ => None
+  | _ => None
   end.
 Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
   match ds with [] => [] | d :: ds' => pose_test place ends rows w s j d :: pose_tests place ends rows w s (S j) ds' end.
@@ -682,7 +682,7 @@ Proof.
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b']; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b]; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
   4-5: cbn [own_formulas length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
     pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ (or_introl eq_refl))) as FF;
@@ -777,20 +777,24 @@ Proof.
   split; [| split]; apply (least_within exact); assumption.
 Qed.
 
+Lemma some_orientation : forall exact o, forallb (is_met exact) (angles_of o) = true -> exists Q, in_orientations o Q.
+Proof.
+  intros exact o' o. rewrite forallb_forall in o. destruct o' as [a | r q y | m | m n]; cbn [angles_of in_orientations] in *.
+  - eexists. exists (Claim.value (least a)). split; [apply (least_within exact), o; left; reflexivity | reflexivity].
+  - eexists. exists (Claim.value (least r)), (Claim.value (least q)), (Claim.value (least y)).
+    split; [apply (least_within exact), o; left; reflexivity |]. split; [apply (least_within exact), o; right; left; reflexivity |].
+    split; [apply (least_within exact), o; right; right; left; reflexivity | reflexivity].
+  - destruct (either_met exact m (o _ (or_introl eq_refl))) as [z0 z1]. eexists. exists e1, 0. split; [unfold norm2; cbn; ring | split; [exact (conj z0 z1) | reflexivity]].
+  - pose proof (either_met exact m (o _ (or_introl eq_refl))) as hm. pose proof (either_met exact n (o _ (or_intror (or_introl eq_refl)))) as hn.
+    eexists. exists 0, 0, 0. split; [exact hm | split; [lra | reflexivity]].
+Qed.
+
 Theorem certify_turning_sound : forall exact bits c s t, certify_turning exact bits c s t = true ->
   turning_holds c /\ exists m P Q, is_about_struts c m P Q.
 Proof.
   intros exact bits c s t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
   split; [exact (check_turning_sound bits c s t k) |].
-  assert (T : exists Q, in_orientations (turned c) Q).
-  { rewrite forallb_forall in o. destruct (turned c) as [a | r q y | m | m n]; cbn [angles_of in_orientations] in *.
-    - eexists. exists (Claim.value (least a)). split; [apply (least_within exact), o; left; reflexivity | reflexivity].
-    - eexists. exists (Claim.value (least r)), (Claim.value (least q)), (Claim.value (least y)).
-      split; [apply (least_within exact), o; left; reflexivity |]. split; [apply (least_within exact), o; right; left; reflexivity |].
-      split; [apply (least_within exact), o; right; right; left; reflexivity | reflexivity].
-    - destruct (either_met exact m (o _ (or_introl eq_refl))) as [z0 z1]. eexists. exists e1, 0. split; [unfold norm2; cbn; ring | split; [exact (conj z0 z1) | reflexivity]].
-    - pose proof (either_met exact m (o _ (or_introl eq_refl))) as hm. pose proof (either_met exact n (o _ (or_intror (or_introl eq_refl)))) as hn.
-      eexists. exists 0, 0, 0. split; [exact hm | split; [lra | reflexivity]]. }
+  pose proof (some_orientation exact _ o) as T.
   destruct T as [Q hQ]. exists (map (fun t => Strut (leasts_of (fst t)) (leasts_of (snd t))) (struts c)), (leasts_of (positions c)), Q.
   split; [| split; [exact (leasts_within exact _ p) | exact hQ]]. rewrite forallb_forall in l.
   induction (struts c) as [| u ts IH]; cbn [map]; constructor; [| apply IH; intros v i; apply l; right; exact i].

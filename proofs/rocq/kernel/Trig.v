@@ -177,6 +177,8 @@ Definition cosine (bits : positive) (degrees : number) : option fixed :=
   | Some d => option_map (shortened 64) (cos_of (bits + 64) d)
   | None => None
   end.
+Definition radians (bits : positive) (degrees : fixed) : option fixed :=
+  option_map (fun p => over (mul bits degrees (shortened 64 p)) 180) (pi (bits + 64)).
 (** The sine of an angle is the cosine of 90 degrees less. *)
 Definition sine (bits : positive) (degrees : number) : option fixed := cosine bits (Minus degrees (90 // 1)).
 
@@ -185,6 +187,12 @@ Proof.
   intros bits x c h. unfold cosine in h. destruct (enclose (bits + 64) x) as [d |] eqn:e; [| discriminate].
   destruct (cos_of (bits + 64) d) as [c' |] eqn:ec; [| discriminate]. injection h as <-.
   apply shortened_sound, (cos_of_sound _ _ _ _ ec), enclose_sound, e.
+Qed.
+
+Lemma radians_sound : forall bits d x r, radians bits d = Some r -> contains bits d x -> contains bits r (in_degrees x).
+Proof.
+  intros bits d x r h hd. unfold radians in h. destruct (pi (bits + 64)) as [p |] eqn:e; [| discriminate]. injection h as <-.
+  apply over_sound, mul_sound; [exact hd | apply shortened_sound, pi_sound, e].
 Qed.
 
 Lemma sine_sound : forall bits x c, sine bits x = Some c -> contains bits c (sin (in_degrees (value x))).

@@ -39,7 +39,7 @@ Definition strut_row (k : motion) (ell : R) (l : strut) (P : vec) (Q : mat) : li
   let u := normalised (strut_vector l P Q) in twist k u (vscale (/ ell) (cross (arm_of_joint l Q) u)).
 
 Definition struts_at (k : motion) (ell : R) (m : list strut) (P : vec) (Q : mat) : configuration :=
-  Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m)
+  Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m) (map (fun _ => None) m)
     (Forall (fun l => 0 < norm2 (strut_vector l P Q)) m).
 
 (** The motion's own velocities. *)
@@ -109,7 +109,7 @@ Definition xstrut_row (k : motion) (ell : number) (o : orientations) (c : list n
 
 Definition exact_struts_at (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (ls : list exact_strut) : nconfiguration :=
   let square l := product (xvector o c P l) (xvector o c P l) in
-  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map square ls).
+  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map (fun _ => None) ls) (map square ls).
 End Exact.
 
 Section Stand.
@@ -125,11 +125,12 @@ Proof.
   intros k ell P ls.
   assert (S : forall l, value (product (xvector o c P l) (xvector o c P l)) = norm2 (strut_vector (strut_of l) (values P) Q))
     by (intro l; rewrite value_square, values_xvector; reflexivity).
-  split; [| split]; cbn [jacobian joints reached njacobian njoints reserves exact_struts_at struts_at]; rewrite ?map_map.
+  split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves exact_struts_at struts_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold strut_row, xstrut_row. rewrite <- values_xvector, <- values_unit.
     assert (I : value (Over (1 // 1) ell) = / value ell) by (cbn [value]; unfold Rdiv; rewrite Rinv_1; ring).
     unfold arm_of_joint. cbn [strut_joint strut_of]. rewrite <- is_turn, <- I. destruct k; reflexivity.
   - apply map_ext. intro l. cbn [coordinate_of value]. rewrite S. reflexivity.
+  - reflexivity.
   - rewrite Forall_map. intro h. rewrite Forall_map. revert h. apply Forall_impl. intros l h. rewrite S. exact h.
 Qed.
 End Stand.

@@ -1,11 +1,12 @@
 (** * Mechanisms by formulas: claims, formulas on a tape, certificates and refutations
 
     A user names coordinates, parameters within tolerances and definitions, and
-    gives each joint by its row of M. *)
+    gives each joint by its coordinate, or by its row of M. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
-From Orthocert Require Import Fixed Claim.
-From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration.
+From Orthocert Require Import Velocity Fixed Claim.
+From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Drives Driven.
+From Orthocert.kernel Require Gradient.
 Import ListNotations.
 Local Open Scope list_scope.
 Local Open Scope R_scope.
@@ -51,12 +52,13 @@ Fixpoint is_defined (env : environment R) (e : written) : Prop :=
   | RootOf a => is_defined env a /\ 0 < meaning env a
   end.
 
-(** [rows]: of each joint, the entries of its row of M. *)
+(** A joint by the entries of its row of M, or by its coordinate. *)
+Inductive written_joint := ByRow (row : list written) | ByCoordinate (rho : written).
 Record mechanism := Mechanism {
   coordinate_names : list string;
   parameters : list (string * tolerance);
   definitions : list (string * written);
-  joint_rows : list (list written)
+  joint_forms : list written_joint
 }.
 Record written_claim := MakeWrittenClaim { by_formulas : mechanism; box_of : list tolerance; written_demands : list demand }.
 
@@ -68,18 +70,30 @@ Fixpoint extended (env : environment R) (ds : list (string * written)) : environ
 Fixpoint all_defined (env : environment R) (ds : list (string * written)) : Prop :=
   match ds with [] => True | (n, e) :: ds' => is_defined env e /\ all_defined ((n, meaning env e) :: env) ds' end.
 
-(** The machine with the parameters [theta] at the coordinates [x]. *)
-Definition machine_at (c : mechanism) (theta x : list R) : configuration :=
-  let env := extended (given c x theta) (definitions c) in
-  Configuration (map (map (meaning env)) (joint_rows c)) (map (fun _ => Unknown) (joint_rows c))
-    (all_defined (given c x theta) (definitions c) /\ Forall (Forall (is_defined env)) (joint_rows c)).
+Definition environment_at (c : mechanism) (theta x : list R) : environment R := extended (given c x theta) (definitions c).
+(** The row of M: as it is given, or with row . x' the rate of the joint's coordinate along every path of the coordinates. *)
+Definition is_row (c : mechanism) (theta x : list R) (j : written_joint) (row : list R) : Prop :=
+  let n := length (coordinate_names c) in
+  match j with
+  | ByRow es => row = map (meaning (environment_at c theta x)) es
+  | ByCoordinate e => length row = n /\ forall path v, (forall t, length (path t) = n) -> path 0 = x ->
+      (forall k, derivable_pt_lim (fun t => nth k (path t) 0) 0 (nth k v 0)) ->
+      derivable_pt_lim (fun t => meaning (environment_at c theta (path t)) e) 0 (Linear.dot row v)
+  end.
+(** The machine with the parameters [theta] at the coordinates [x], with these rows. *)
+Definition machine_at (c : mechanism) (theta x : list R) (M : list (list R)) : configuration :=
+  let env := environment_at c theta x in
+  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c))
+    (all_defined (given c x theta) (definitions c) /\
+     Forall (fun j => match j with ByRow es => Forall (is_defined env) es | ByCoordinate e => is_defined env e end) (joint_forms c)).
 
 Definition is_about_written (c : written_claim) (theta x : list R) : Prop :=
   Forall2 (fun p y => within (snd p) y) (parameters (by_formulas c)) theta /\ Forall2 within (box_of c) x.
 
 (** Every machine of the claim meets it at every point of the box. *)
 Definition written_holds (c : written_claim) : Prop := forall theta x, is_about_written c theta x ->
-  Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x) (written_demands c).
+  exists M, Forall2 (is_row (by_formulas c) theta x) (joint_forms (by_formulas c)) M /\
+    Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x M) (written_demands c).
 
 (** ** As formulas: numbers are parameters of the tape, one each *)
 
@@ -202,10 +216,76 @@ Fixpoint row_of (env : environment formula) (es : list written) (j : nat) : list
   match es with [] => [] | e :: es' => formula_of env e j :: row_of env es' (j + length (literals e)) end.
 Fixpoint row_partials (env : environment formula) (es : list written) (j : nat) : list formula :=
   match es with [] => [] | e :: es' => partials env e j ++ row_partials env es' (j + length (literals e)) end.
-Fixpoint rows_of (env : environment formula) (rows : list (list written)) (j : nat) : list (list formula) :=
-  match rows with [] => [] | r :: rows' => row_of env r j :: rows_of env rows' (j + length (all_literals r)) end.
-Fixpoint rows_partials (env : environment formula) (rows : list (list written)) (j : nat) : list formula :=
-  match rows with [] => [] | r :: rows' => row_partials env r j ++ rows_partials env rows' (j + length (all_literals r)) end.
+Definition joint_literals (j : written_joint) : list parameter := match j with ByRow es => all_literals es | ByCoordinate e => literals e end.
+Definition joint_partials (env : environment formula) (j : written_joint) (i : nat) : list formula :=
+  match j with ByRow es => row_partials env es i | ByCoordinate e => formula_of env e i :: partials env e i end.
+Fixpoint joints_partials (env : environment formula) (js : list written_joint) (i : nat) : list formula :=
+  match js with [] => [] | j :: js' => joint_partials env j i ++ joints_partials env js' (i + length (joint_literals j)) end.
+
+(** *** Derivatives by coordinates: those by parameters, where these and coordinates change places *)
+
+Fixpoint swapped (f : formula) : formula :=
+  match f with F o => F match o with Coord k => Param k | Param k => Coord k | _ => map_op swapped o end end.
+Definition coordinate_gradient (n : nat) (f : formula) : list formula * formula :=
+  let g := Gradient.gradient (seq 0 n) (swapped f) in (map swapped (fst g), swapped (snd g)).
+
+Fixpoint value_swapped (x theta : list R) (f : formula) {struct f} : value theta x (swapped f) = value x theta f.
+Proof.
+  destruct f as [o]. destruct o; cbn [swapped map_op value real_op]; rewrite ?(value_swapped x theta); reflexivity.
+Qed.
+Fixpoint defined_swapped (x theta : list R) (f : formula) {struct f} : defined x theta f -> defined theta x (swapped f).
+Proof.
+  destruct f as [o]. destruct o; cbn [swapped map_op defined all_op defined_op]; rewrite ?(value_swapped x theta); intro h; try exact h;
+    repeat match goal with k : _ /\ _ |- _ => destruct k end; repeat split; auto using defined_swapped.
+Qed.
+
+(** square(sqrt x) = x, of formulas that are defined. *)
+Fixpoint without_roots (a : formula) : formula :=
+  match a with
+  | F (Sqrt r) => r
+  | F (Neg b) => without_roots b
+  | F (Mul b c) => times (without_roots b) (without_roots c)
+  | _ => square a
+  end.
+Fixpoint without_roots_value (x theta : list R) (a : formula) {struct a} : defined x theta a -> value x theta (without_roots a) = value x theta a ^ 2.
+Proof.
+  intro d. destruct a as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b]; cbn [without_roots]; try (apply Formula.value_square).
+  - destruct d as [_ d]. cbn [map_op all_op] in d. rewrite (without_roots_value x theta b d). cbn [value map_op real_op]. ring.
+  - destruct d as [_ [d1 d2]]. rewrite value_times, (without_roots_value x theta b d1), (without_roots_value x theta c d2). cbn [value map_op real_op]. ring.
+  - destruct d as [d _]. cbn [map_op defined_op] in d. cbn [value map_op real_op]. rewrite <- Rsqr_pow2, Rsqr_sqrt by lra. reflexivity.
+Qed.
+
+(** A denominator is defined where the formula is. *)
+Lemma defined_times_of : forall x theta a b, defined x theta a -> defined x theta b -> defined x theta (times a b).
+Proof.
+  intros x theta a b da db. unfold times. destruct (is 0 a || is 1 b); [exact da |]. destruct (is 0 b || is 1 a); [exact db |].
+  destruct (same a b); [| split; [exact I | split; assumption]]. unfold square. destruct (integer_of a) as [n |]; [destruct (is_small n) |]; try (split; [exact I | exact I]); split; try exact I; exact da.
+Qed.
+Fixpoint denominator_defined (by_ : list nat) (x theta : list R) (f : formula) {struct f} : defined x theta f -> defined x theta (snd (Gradient.gradient by_ f)).
+Proof.
+  assert (C : forall a p b q, defined x theta (snd a) -> defined x theta (snd b) -> defined x theta (snd (Gradient.combined a p b q)))
+    by (intros a p b q da db; unfold Gradient.combined; destruct (same (snd a) (snd b)); cbn [snd]; [exact da | apply defined_times_of; assumption]).
+  assert (One : forall n, defined x theta (integer n)) by (intro n; split; exact I).
+  intro d. destruct f as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b]; cbn [Gradient.gradient]; try (apply One).
+  - destruct (existsb _ by_); apply One.
+  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
+  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
+  - destruct d as [_ d]. cbn [snd]. apply denominator_defined, d.
+  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
+  - destruct d as [_ [d1 d2]]. set (g := Gradient.combined _ _ _ _). assert (dg : defined x theta (snd g)) by (apply C; apply denominator_defined; assumption).
+    destruct (forallb _ _); [exact dg |]. cbn [snd]. apply defined_times_of; [exact dg | exact d2].
+  - destruct d as [_ d]. cbn [snd]. apply denominator_defined, d.
+  - assert (dd := d). destruct d as [_ d]. cbv zeta. destruct (forallb _ _); cbn [snd]; [apply One |]. apply defined_times_of; [apply denominator_defined, d |]. apply defined_times_of; [apply One | exact dd].
+Qed.
+
+Definition of_joint (n : nat) (env : environment formula) (j : written_joint) (i : nat) : pose_formulas :=
+  match j with
+  | ByRow es => let r := row_of env es i in PoseFormulas r (integer 1) r EUnknown [] None []
+  | ByCoordinate e => let f := formula_of env e i in let (N, E) := coordinate_gradient n f in
+      PoseFormulas N (without_roots E) (map (fun a => if same a E then integer 1 else over a E) N) (ELength f) [] None []
+  end.
+Fixpoint all_joints (n : nat) (env : environment formula) (js : list written_joint) (i : nat) : list pose_formulas :=
+  match js with [] => [] | j :: js' => of_joint n env j i :: all_joints n env js' (i + length (joint_literals j)) end.
 
 Section Mechanism.
 Variables x theta : list R.
@@ -246,71 +326,40 @@ Proof.
     constructor; [exact (partials_defined x theta env renv h e j H1 D1) | exact (I2 D2)].
 Qed.
 
-Lemma rows_agree : forall rows env renv j, agrees env renv -> holds_at theta j (flat_map all_literals rows) ->
-  map (map (value x theta)) (rows_of env rows j) = map (map (meaning renv)) rows /\
-  (Forall (defined x theta) (rows_partials env rows j) -> Forall (Forall (is_defined renv)) rows).
-Proof.
-  induction rows as [| r rows IH]; intros env renv j h H; [split; [reflexivity | constructor] |].
-  cbn [flat_map] in H. apply holds_app in H as [H1 H2]. destruct (IH _ _ _ h H2) as [I1 I2].
-  destruct (row_agrees r env renv j h H1) as [J1 J2]. split.
-  - cbn [rows_of map]. rewrite J1, I1. reflexivity.
-  - intro D. cbn [rows_partials] in D. apply Forall_app in D as [D1 D2]. constructor; auto.
-Qed.
-
-Lemma row_energy : forall rows v, energy (map_rows (value x theta) (map (fun a => (a, integer 1)) rows)) v = speed2 (map (map (value x theta)) rows) v.
-Proof.
-  induction rows as [| a rows IH]; intro v; [reflexivity |]. cbn [map]. rewrite map_rows_cons. cbn [energy speed2 fold_right].
-  rewrite IH. unfold speed2. cbn. field.
-Qed.
 End Mechanism.
 
 (** ** Checking *)
 
 Definition exact_parameters (ps : list (string * tolerance)) : list parameter := map (fun p => (snd p, 0%Z)) ps.
 Definition inputs (c : mechanism) : list parameter :=
-  exact_parameters (parameters c) ++ all_literals (map snd (definitions c)) ++ flat_map all_literals (joint_rows c).
+  exact_parameters (parameters c) ++ all_literals (map snd (definitions c)) ++ flat_map joint_literals (joint_forms c).
 Definition given_formulas (c : mechanism) : environment formula :=
   given c (map (fun k => F (Coord k)) (seq 0 (length (coordinate_names c)))) (numbered 0 (exact_parameters (parameters c))).
 
 Section Precision.
 Variable bits : positive.
 
-Definition written_test (d : demand) : option test :=
-  let squared make x := option_map (fun a => make (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
-  match d with
-  | Nonsingular => Some (SigmaMin zero)
-  | FactorMax b => squared SigmaMin (Over (1 // 1) b)
-  | FactorMin b => squared SigmaMax (Over (1 // 1) b)
-  | Conditioned b => squared Conditioning b
-  | LengthMin _ _ | LengthMax _ _ | AngleWithin _ _ _ | SpeedMax _ _ _ | ForceMax _ _ _ | StiffnessMin _ _ => None
-  end.
-Definition excludes_singularities (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
-
 Definition check_written (c : written_claim) (t : tree) : bool :=
-  let f := by_formulas c in let n := length (coordinate_names f) in
+  let f := by_formulas c in let n := length (coordinate_names f) in let demands := written_demands c in
   let j := length (parameters f) in let i := (j + length (all_literals (map snd (definitions f))))%nat in
   let env := named (given_formulas f) (definitions f) j in
-  let rows := map (fun a => (a, integer 1)) (rows_of env (joint_rows f) i) in
-  let partial := named_partials (given_formulas f) (definitions f) j ++ rows_partials env (joint_rows f) i in
-  let tape := fst (compile (entries rows ++ partial)) in
+  let fs := all_joints n env (joint_forms f) i in
+  let partial := named_partials (given_formulas f) (definitions f) j ++ joints_partials env (joint_forms f) i in
+  let at_ := length (inputs f) in
+  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each (own_of fs) false 0 at_ demands in
+  let tape := fst (compile wanted) in
   let place := place (formulas tape) in
-  let found := map_rows place rows in
-  Nat.eqb (length (box_of c)) n &&
-  forallb (fun e => Formula.same (nth (place e) (formulas tape) (integer 0)) e) (entries rows ++ partial) &&
-  existsb excludes_singularities (written_demands c) &&
-  match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)),
-        all_some (map written_test (written_demands c)) with
-  | Some params, Some box, Some tests => check bits tape found found (map place partial) params tests (fun _ => None) box (all_open tests) t
-  | _, _, _ => false
+  Nat.eqb (length (box_of c)) n && forallb (fun j => match j with ByRow es => Nat.eqb (length es) n | ByCoordinate _ => true end) (joint_forms f) &&
+  forallb (fun e => Formula.same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands &&
+  match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (enclose_input bits) (flat_map (inputs_of false 0) demands)),
+        all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each (tests_for bits place fs false 0) false 0 at_ demands) with
+  | Some params, Some numbers, Some box, Some tests =>
+      check bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) tests (fun _ => None) box (all_open tests) t
+  | _, _, _, _ => false
   end.
 
 Lemma within_scaled : forall t y, within t y -> scaled_within (t, 0%Z) y.
 Proof. intros t y h. exists y. split; [exact h |]. cbn [snd]. change (two_to 0) with 1. field. Qed.
-
-Lemma squared_sound : forall x a, enclose_parameter bits (exactly x, 0%Z) = Some a -> contains bits (sqr bits a) (Claim.value x ^ 2).
-Proof.
-  intros x a e. apply sqr_sound, (enclose_parameter_sound bits _ _ _ e), within_scaled. unfold within, exactly. cbn [least greatest]. lra.
-Qed.
 
 Lemma literals_exact : forall e, Forall2 scaled_within (literals e) (map (fun p => Claim.value (least (fst p))) (literals e)).
 Proof.
@@ -331,109 +380,170 @@ Proof.
   induction h as [| q y ps th hq h IH]; intros [| i] n; try discriminate; cbn [nth_error app nth] in *; [injection n as <-; exact hq | exact (IH i n)].
 Qed.
 
-(** What a test shows of the rows' |M v|^2. *)
-Lemma demand_fulfilled : forall d t n c r, written_test d = Some t ->
-  (forall v, energy r v = speed2 (jacobian c) v) ->
-  match t with
-  | SigmaMin low => forall k v, contains bits low k -> length v = n -> nonzero v -> k * dot v v < energy r v
-  | SigmaMax high => forall k v, contains bits high k -> length v = n -> nonzero v -> energy r v < k * dot v v
-  | Conditioning c2 => forall c u v, contains bits c2 c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
-      energy r u * dot v v < c * energy r v * dot u u
-  | _ => False
-  end ->
-  fulfils n c d /\ (excludes_singularities d = true -> injective n c).
+Lemma dot_rates : forall l v (r : nat -> R) a, (forall k, (k < length l)%nat -> r (a + k)%nat = nth k v 0) -> Linear.dot (map r (seq a (length l))) l = Linear.dot l v.
 Proof.
-  intros d t n c r e E H.
-  assert (Z : forall v, ~ nonzero v -> dot v v = 0 /\ speed2 (jacobian c) v = 0).
-  { intros v z. assert (dot v v <= 0) by (apply Rnot_lt_le; exact z). pose proof (zero_vector v ltac:(assumption)) as F. split; [apply dot_zero, F |].
-    unfold speed2. clear - F. induction (jacobian c) as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F). ring. }
-  assert (N : forall v, nonzero v \/ ~ nonzero v) by (intro v; destruct (Rlt_dec 0 (dot v v)); auto).
-  destruct d as [| b | b | i b | i b | i a b | b | i a b | i a b | a b]; cbn [written_test] in e; try discriminate.
-  - injection e as <-. assert (J : injective n c).
-    { intros v l nz. rewrite <- E. specialize (H 0 v (zero_sound bits) l nz). lra. }
-    split; [exact J | intros _; exact J].
-  - destruct (enclose_parameter bits _) as [a |] eqn:ea; [| discriminate]. injection e as <-. pose proof (squared_sound _ _ ea) as K.
-    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field.
-    assert (J : forall v, length v = n -> nonzero v -> (1 / Claim.value b) ^ 2 * dot v v < speed2 (jacobian c) v)
-      by (intros v l nz; rewrite <- E; exact (H _ v K l nz)).
-    split.
-    + intros v l. destruct (N v) as [nz | z]; [apply Rlt_le, J; assumption | destruct (Z v z) as [-> ->]; lra].
-    + intros _ v l nz. specialize (J v l nz). pose proof (pow2_ge_0 (1 / Claim.value b)). unfold nonzero in nz. nra.
-  - destruct (enclose_parameter bits _) as [a |] eqn:ea; [| discriminate]. injection e as <-. pose proof (squared_sound _ _ ea) as K.
-    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. split; [| discriminate].
-    intros v l. destruct (N v) as [nz | z]; [rewrite <- E; apply Rlt_le, H; assumption | destruct (Z v z) as [-> ->]; lra].
-  - destruct (enclose_parameter bits _) as [a |] eqn:ea; [| discriminate]. injection e as <-. pose proof (squared_sound _ _ ea) as K.
-    split; [| discriminate]. intros u v lu lv.
-    destruct (N u) as [nu | zu]; [| destruct (Z u zu) as [-> ->]; lra]. destruct (N v) as [nv | zv]; [| destruct (Z v zv) as [-> ->]; lra].
-    rewrite <- !E. specialize (H _ u v K lu lv nu nv). lra.
+  induction l as [| y l IH]; intros v r a h; [reflexivity |]. cbn [length seq map Linear.dot].
+  pose proof (h O ltac:(cbn; lia)) as h0. rewrite Nat.add_0_r in h0. destruct v as [| b v].
+  - rewrite (IH [] r (S a)) by (intros k hk; rewrite Nat.add_succ_comm, (h (S k)) by (cbn; lia); destruct k; reflexivity). cbn [nth] in h0. rewrite h0. destruct l; cbn; ring.
+  - rewrite (IH v r (S a)) by (intros k hk; rewrite Nat.add_succ_comm; apply (h (S k)); cbn; lia). cbn [nth] in h0. rewrite h0. ring.
 Qed.
+
+(** What the formulas of a joint are. *)
+Section Joints.
+Variables (c : mechanism) (theta th x : list R).
+Let n := length (coordinate_names c).
+Variable env : environment formula.
+Hypothesis agree : forall y, length y = n -> agrees y th env (environment_at c theta y).
+Hypothesis lx : length x = n.
+Definition coordinate_at (j : written_joint) : coordinate := match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning (environment_at c theta x) e) end.
+Definition joint_defined (j : written_joint) : Prop :=
+  match j with ByRow es => Forall (is_defined (environment_at c theta x)) es | ByCoordinate e => is_defined (environment_at c theta x) e end.
+
+Lemma joint_good : forall j i, holds_at th i (joint_literals j) -> match j with ByRow es => length es = n | ByCoordinate _ => True end ->
+  Forall (defined x th) (joint_partials env j i) ->
+  joint_defined j /\ exists row, is_row c theta x j row /\ is_good x th 0 n false (of_joint n env j i) (Seen row (coordinate_at j) None True).
+Proof.
+  assert (one : / two_to 0 = 1) by (change (two_to 0) with 1; field).
+  intros j i h lj D. destruct j as [es | e]; cbn [joint_literals joint_partials joint_defined coordinate_at is_row of_joint] in *.
+  - destruct (row_agrees x th es env (environment_at c theta x) i (agree x lx) h) as [V P0]. split; [exact (P0 D) |].
+    exists (map (meaning (environment_at c theta x)) es). split; [reflexivity |]. unfold is_good. cbv zeta. cbn [seen_row seen_joint seen_rod seen_reach d_A d_D d_divided d_joint d_rod d_vector rate].
+    rewrite one, map_length. split; [exact lj |]. split; [reflexivity |]. split; [exact (fun _ => I) |]. split; [intros _; cbn; lra |]. split; [exact (fun _ => I) |].
+    intros _. split; [exists 1; split; [cbn; ring |] | split; [| split; exact I]]; rewrite V; symmetry; rewrite <- (map_id (map _ es)) at 2; apply map_ext; intro; ring.
+  - inversion D as [| ? ? D0 D1]; subst. split; [exact (partials_defined x th env _ (agree x lx) e i h D1) |]. set (f := formula_of env e i) in *.
+    assert (V : forall y, length y = n -> value y th f = meaning (environment_at c theta y) e) by (intros y ly; exact (formula_value y th env _ (agree y ly) e i h)).
+    set (g := Gradient.gradient (seq 0 n) (swapped f)). assert (G : coordinate_gradient n f = (map swapped (fst g), swapped (snd g))) by reflexivity. rewrite G.
+    assert (gl : length (fst g) = n) by (unfold g; rewrite Gradient.gradient_length, seq_length; reflexivity).
+    assert (dE : defined x th (swapped (snd g))) by (apply defined_swapped; apply denominator_defined; apply defined_swapped; exact D0).
+    set (E := value x th (swapped (snd g))). set (row := map (fun a => value x th a / E) (map swapped (fst g))).
+    assert (Along : forall path v, (forall t, length (path t) = n) -> path 0 = x -> (forall k, derivable_pt_lim (fun t => nth k (path t) 0) 0 (nth k v 0)) ->
+      E <> 0 /\ derivable_pt_lim (fun t => value (path t) th f) 0 (Linear.dot row v)).
+    { intros path v lp p0 hp. set (r := fun k => if Nat.ltb k n then nth k v 0 else 0).
+      assert (S : Gradient.is_derivative (seq 0 n) th path 0 r (swapped f) g).
+      { apply Gradient.gradient_sound.
+        - apply seq_NoDup.
+        - intro k. unfold r. destruct (Nat.ltb_spec k n) as [l | l]; [apply hp |]. eapply derivable_eq; [apply (derivable_const 0) | | reflexivity].
+          intro t. cbn beta. apply nth_overflow. rewrite lp. exact l.
+        - intros k hk. unfold r. destruct (Nat.ltb_spec k n) as [l | l]; [exfalso; apply hk, in_seq; lia | reflexivity].
+        - rewrite p0. apply defined_swapped. exact D0. }
+      destruct S as [nz S]. rewrite p0, <- (value_swapped th x) in nz. split; [exact nz |].
+      eapply derivable_eq; [exact S | intro t; cbn beta; symmetry; apply (value_swapped (path t) th) |].
+      unfold Gradient.along. rewrite p0. rewrite <- (value_swapped th x (snd g)). fold E.
+      assert (Q : map (value th x) (fst g) = map (value x th) (map swapped (fst g))) by (rewrite map_map; apply map_ext; intro a; symmetry; apply (value_swapped th x)).
+      rewrite Q. pose proof (dot_rates (map (value x th) (map swapped (fst g))) v r 0) as K. rewrite !map_length, gl in K. rewrite K.
+      - unfold row. generalize (map swapped (fst g)). intro l. clear - nz. revert v. induction l as [| a l IH]; intros [| b v]; cbn [map Linear.dot]; unfold Rdiv; try ring. rewrite IH. unfold Rdiv. ring.
+      - intros k hk. cbn [Nat.add]. unfold r. destruct (Nat.ltb_spec k n); [reflexivity | lia]. }
+    assert (nz : E <> 0).
+    { destruct (Along (fun _ => x) [] (fun _ => lx) eq_refl) as [k _]; [| exact k]. intro k. destruct k; apply derivable_const. }
+    exists row. split.
+    + split; [unfold row; rewrite !map_length; exact gl |]. intros path v lp p0 hp. destruct (Along path v lp p0 hp) as [_ K].
+      eapply derivable_eq; [exact K | intro t; cbn beta; symmetry; apply V, lp | reflexivity].
+    + unfold is_good. cbv zeta. cbn [seen_row seen_joint seen_rod seen_reach d_A d_D d_divided d_joint d_rod d_vector rate].
+      rewrite one. split; [unfold row; rewrite !map_length; exact gl |]. split; [reflexivity |]. split; [exact (fun _ => I) |].
+      assert (VD : value x th (without_roots (swapped (snd g))) = E ^ 2) by (apply without_roots_value; exact dE).
+      split; [intros _; rewrite VD, <- Rsqr_pow2; apply Rlt_0_sqr; exact nz |]. split; [exact (fun _ => I) |]. intros _. split; [| split; [| split; [| exact I]]].
+      * exists E. split; [symmetry; exact VD |]. unfold row. generalize (map swapped (fst g)). intro N0. rewrite map_map. apply map_ext. intro a. field. exact nz.
+      * unfold row. generalize (map swapped (fst g)). intro N0. rewrite !map_map. apply map_ext. intro a. destruct (same a (swapped (snd g))) eqn:sm.
+        -- apply same_sound in sm. rewrite sm. fold E. cbn. field. exact nz.
+        -- rewrite value_over. fold E. field. exact nz.
+      * cbn [joint_is]. rewrite one, (V x lx). ring.
+Qed.
+
+Lemma joints_good : forall js i, holds_at th i (flat_map joint_literals js) -> Forall (fun j => match j with ByRow es => length es = n | ByCoordinate _ => True end) js ->
+  Forall (defined x th) (joints_partials env js i) ->
+  Forall joint_defined js /\ exists M, Forall2 (is_row c theta x) js M /\
+    Forall2 (is_good x th 0 n false) (all_joints n env js i) (map (fun p => Seen (snd p) (coordinate_at (fst p)) None True) (combine js M)).
+Proof.
+  induction js as [| j js IH]; intros i h l D; [split; [constructor |]; exists []; split; constructor |].
+  cbn [flat_map] in h. apply holds_app in h as [h1 h2]. inversion l as [| ? ? l1 l2]; subst. cbn [joints_partials] in D. apply Forall_app in D as [D1 D2].
+  destruct (joint_good j i h1 l1 D1) as [J1 [row [R1 G1]]]. destruct (IH _ h2 l2 D2) as [J2 [M [R2 G2]]].
+  split; [constructor; assumption |]. exists (row :: M). split; [constructor; assumption |]. cbn [all_joints combine map fst snd]. constructor; assumption.
+Qed.
+End Joints.
 
 Theorem check_written_sound : forall c t, check_written c t = true -> written_holds c.
 Proof.
   intros c t h theta x [hp hb]. unfold check_written in h. cbv zeta in h. set (f := by_formulas c) in *.
-  set (n := length (coordinate_names f)) in *. set (j := length (parameters f)) in *.
+  set (n := length (coordinate_names f)) in *. set (j := length (parameters f)) in *. set (demands := written_demands c) in *.
   set (i := (j + length (all_literals (map snd (definitions f))))%nat) in *.
-  set (env := named (given_formulas f) (definitions f) j) in *.
-  set (rows := map (fun a => (a, integer 1)) (rows_of env (joint_rows f) i)) in *.
-  set (partial := named_partials (given_formulas f) (definitions f) j ++ rows_partials env (joint_rows f) i) in *.
-  set (tape := fst (compile (entries rows ++ partial))) in *. set (place := place (formulas tape)) in *.
-  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h low]. apply andb_true_iff in h as [len found]. apply Nat.eqb_eq in len.
+  set (env := named (given_formulas f) (definitions f) j) in *. set (fs := all_joints n env (joint_forms f) i) in *.
+  set (partial := named_partials (given_formulas f) (definitions f) j ++ joints_partials env (joint_forms f) i) in *. set (at_ := length (inputs f)) in *.
+  set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each (own_of fs) false 0 at_ demands) in *.
+  set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
+  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h low]. apply andb_true_iff in h as [h found]. apply andb_true_iff in h as [len shapes]. apply Nat.eqb_eq in len.
   destruct (all_some (map (enclose_parameter bits) (inputs f))) as [params |] eqn:ep; [| discriminate].
+  destruct (all_some (map (enclose_input bits) _)) as [numbers |] eqn:ei; [| discriminate].
   destruct (all_some (map _ (box_of c))) as [box |] eqn:eb; [| discriminate].
-  destruct (all_some (map written_test _)) as [tests |] eqn:et; [| discriminate].
+  destruct (all_some (of_each _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
   (* parameters of the tape: those of the mechanism, and the numbers in its formulas *)
   assert (P : Forall2 scaled_within (exact_parameters (parameters f)) theta).
   { unfold exact_parameters. clear - hp. induction hp; cbn [map]; constructor; auto. apply within_scaled; assumption. }
-  destruct (exact_list written literals (fun e => ex_intro _ _ (literals_exact e)) (map snd (definitions f))) as [y1 D].
-  destruct (exact_list (list written) all_literals (exact_list written literals (fun e => ex_intro _ _ (literals_exact e))) (joint_rows f)) as [y2 J].
-  set (th := theta ++ y1 ++ y2).
+  assert (Lit : forall es, exists y, Forall2 scaled_within (all_literals es) y) by exact (exact_list written literals (fun e => ex_intro _ _ (literals_exact e))).
+  destruct (Lit (map snd (definitions f))) as [y1 D].
+  destruct (exact_list written_joint joint_literals (fun a => match a with ByRow es => Lit es | ByCoordinate e => ex_intro _ _ (literals_exact e) end) (joint_forms f)) as [y2 J].
+  set (ins := flat_map (inputs_of false 0) demands) in *. set (th := theta ++ y1 ++ y2 ++ map input_value ins).
   assert (lt : length theta = j) by (unfold j; rewrite <- (related_length _ _ _ _ _ P); apply map_length).
-  assert (T : Forall2 (contains bits) params th) by (apply (enclosed_all bits _ _ _ ep); repeat apply Forall2_app; assumption).
+  assert (T : Forall2 (contains bits) (params ++ numbers) th).
+  { unfold th. rewrite !app_assoc. apply Forall2_app; [rewrite <- app_assoc; apply (enclosed_all bits _ _ _ ep); repeat apply Forall2_app; assumption |].
+    clear - ei. revert numbers ei. induction ins as [| a l IH]; intros numbers e; cbn [map all_some] in *; [injection e as <-; constructor |].
+    destruct (enclose_input bits a) as [b |] eqn:e1; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. injection e as <-. constructor; [exact (enclose_input_sound bits _ _ e1) | exact (IH r eq_refl)]. }
   assert (X : Forall2 (contains bits) box x).
   { clear - eb hb. revert box eb. induction hb as [| b y bs ys h hs IH]; intros box e; cbn [map all_some] in e; [injection e as <-; constructor |].
     destruct (enclose_parameter bits (b, 0%Z)) as [a |] eqn:ea; [| discriminate]. destruct (all_some _) as [l |]; [| discriminate].
     injection e as <-. constructor; [exact (enclose_parameter_sound bits _ _ _ ea (within_scaled _ _ h)) | auto]. }
   assert (lx : length x = n) by (rewrite <- (related_length _ _ _ _ _ hb); exact len).
   assert (lb : length box = n) by (rewrite (related_length _ _ _ _ _ X); exact lx).
-  assert (A : agrees x th (given_formulas f) (given f x theta)).
-  { apply agrees_combine.
-    - rewrite map_map. fold n. rewrite <- lx. clear. change (map (fun k => nth k x 0) (seq 0 (length x)) = x).
-      apply nth_ext with 0 0; rewrite map_length, seq_length; [reflexivity |]. intros k hk.
-      rewrite (nth_indep _ 0 (nth 0 x 0)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => nth k x 0)), seq_nth by exact hk. reflexivity.
-    - rewrite <- (app_nil_r (combine _ (numbered _ _))), <- (app_nil_r (combine _ theta)). apply agrees_combine; [| intro; reflexivity].
-      exact (numbered_values _ _ x [] (y1 ++ y2) P). }
   assert (H1 : holds_at th j (all_literals (map snd (definitions f)))) by (rewrite <- lt; apply holds_at_of; exact D).
-  assert (H2 : holds_at th i (flat_map all_literals (joint_rows f))).
-  { pose proof (holds_at_of (theta ++ y1) _ y2 [] J) as K. rewrite app_nil_r, <- app_assoc in K. unfold i, th.
+  assert (Agree : forall y, length y = n -> agrees y th env (environment_at f theta y) /\
+    (Forall (defined y th) (named_partials (given_formulas f) (definitions f) j) -> all_defined (given f y theta) (definitions f))).
+  { intros y ly. apply named_agrees; [| exact H1]. apply agrees_combine.
+    - rewrite map_map. fold n. rewrite <- ly. clear. change (map (fun k => nth k y 0) (seq 0 (length y)) = y).
+      apply nth_ext with 0 0; rewrite map_length, seq_length; [reflexivity |]. intros k hk.
+      rewrite (nth_indep _ 0 (nth 0 y 0)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => nth k y 0)), seq_nth by exact hk. reflexivity.
+    - rewrite <- (app_nil_r (combine _ (numbered _ _))), <- (app_nil_r (combine _ theta)). apply agrees_combine; [| intro; reflexivity].
+      exact (numbered_values _ _ y [] (y1 ++ y2 ++ map input_value ins) P). }
+  assert (H2 : holds_at th i (flat_map joint_literals (joint_forms f))).
+  { pose proof (holds_at_of (theta ++ y1) _ y2 (map input_value ins) J) as K. rewrite <- app_assoc in K. unfold i, th.
     replace (j + length (all_literals (map snd (definitions f))))%nat with (length (theta ++ y1)); [exact K |].
     rewrite app_length, lt. f_equal. symmetry. exact (related_length _ _ _ _ _ D). }
-  destruct (named_agrees x th _ _ _ _ A H1) as [A1 D1]. fold env in A1. destruct (rows_agree x th _ _ _ _ A1 H2) as [A2 D2].
-  rewrite forallb_forall in found. assert (Found : forall e, In e (entries rows ++ partial) -> formula_at tape (place e) = e)
-    by (intros e k; apply Formula.same_sound, found, k).
-  assert (R : map_rows (formula_at tape) (map_rows place rows) = rows) by (apply (rows_found tape); intros e k; apply Found, in_or_app; left; exact k).
-  pose proof (check_all_open bits tape _ _ _ params tests (fun _ => None) th T (fun _ => True)
+  assert (Found : forall e, In e wanted -> formula_at tape (place e) = e) by (rewrite forallb_forall in found; intros e k; apply Formula.same_sound, found, k).
+  pose proof (check_all_open bits tape _ _ _ (params ++ numbers) tests (fun _ => None) th T (fun _ => True)
     (fun _ _ _ _ e => ltac:(discriminate e)) t box x C X I) as H. rewrite lb in H.
-  assert (Rows : forall bound, of_rows tape (map_rows place rows) (map_rows place rows) th x bound -> bound (map_rows (value x th) rows)).
-  { intros bound [r [which [_ B]]]. rewrite R in which. destruct which as [-> | ->]; exact B. }
-  assert (E : forall v, energy (map_rows (value x th) rows) v = speed2 (jacobian (machine_at f theta x)) v)
-    by (intro v; unfold rows; rewrite row_energy, A2; reflexivity).
-  assert (Each : forall d, In d (written_demands c) -> fulfils n (machine_at f theta x) d /\
-    (excludes_singularities d = true -> injective n (machine_at f theta x) /\ reached (machine_at f theta x))).
-  { intros d k. assert (K : In (written_test d) (map written_test (written_demands c))) by (apply in_map, k).
-    destruct (all_some_in _ _ _ _ et K) as [u [eu iu]]. specialize (H u iu).
-    assert (S : excludes_singularities d = true -> reached (machine_at f theta x)).
-    { intro s. assert (Q : Forall (defined x th) partial).
-      { destruct d; try discriminate; cbn [written_test] in eu; [| destruct (enclose_parameter bits _); [| discriminate]]; injection eu as <-;
-          destruct H as [H _]; rewrite Forall_map, Forall_forall in H; apply Forall_forall; intros e q;
-          (specialize (H e q); rewrite Found in H; [exact H | apply in_or_app; right; exact q]). }
-      apply Forall_app in Q as [Q1 Q2]. split; [exact (D1 Q1) | exact (D2 Q2)]. }
-    enough (W : fulfils n (machine_at f theta x) d /\ (excludes_singularities d = true -> injective n (machine_at f theta x)))
-      by (destruct W as [W1 W2]; split; [exact W1 | intro s; split; [exact (W2 s) | exact (S s)]]).
-    apply (demand_fulfilled d u n (machine_at f theta x) (map_rows (value x th) rows) eu E).
-    destruct d; cbn [written_test] in eu; try discriminate; try (destruct (enclose_parameter bits _); [| discriminate]); injection eu as <-;
-      cbn [Check.holds] in H; [exact (Rows _ (proj2 H)) | exact (Rows _ (proj2 H)) | exact (Rows _ H) | exact (Rows _ H)]. }
-  apply existsb_exists in low as [d0 [i0 s0]]. destruct (Each d0 i0) as [_ K0]. destruct (K0 s0) as [K1 K2].
-  split; [exact K2 |]. split; [exact K1 |]. apply Forall_forall. intros d k. exact (proj1 (Each d k)).
+  assert (la : length (theta ++ y1 ++ y2) = at_).
+  { symmetry. unfold at_. apply (related_length _ _ scaled_within). unfold inputs. repeat apply Forall2_app; assumption. }
+  assert (HT : forall d, In d demands -> exists q, map (value x th) q = map input_value (inputs_of false 0 d) /\
+    (forall g, In g (own_of fs q d) -> formula_at tape (place g) = g) /\
+    (forall o, In o (tests_for bits place fs false 0 q d) -> exists t, o = Some t /\
+      Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) th n x t)).
+  { intros d id. destruct (of_each_at false 0 demands d x (theta ++ y1 ++ y2) [] id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1.
+    rewrite app_nil_r, <- !app_assoc in q1. fold th in q1. rewrite la in q2. exists q. split; [exact q1 |]. split.
+    - intros g k. apply Found. unfold wanted. do 3 (apply in_or_app; right). exact (q2 _ _ _ k).
+    - intros o k. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs false 0) o k)) as [u [e iu]]. exists u. split; [exact e | exact (H u iu)]. }
+  assert (Low : exists low c0, contains bits low c0 /\ 0 <= c0 /\ Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) th n x (SigmaMin low)).
+  { apply existsb_exists in low as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
+    - injection e1 as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact hu].
+    - destruct (enclose_parameter bits _) as [a |] eqn:ew; [| discriminate]. injection e1 as <-. eexists; eexists. split; [exact (squared_rate bits 0 false _ _ ew) |]. split; [apply pow2_ge_0 | exact hu]. }
+  destruct Low as [lowest [c0 [hc0 [c00 [BU LOW]]]]].
+  assert (DP : Forall (defined x th) partial).
+  { apply Forall_forall. intros g k. rewrite Forall_map, Forall_forall in BU. specialize (BU g k). rewrite Found in BU; [exact BU |]. unfold wanted. apply in_or_app. right. apply in_or_app. right. apply in_or_app. left. exact k. }
+  apply Forall_app in DP as [DP1 DP2].
+  assert (SH : Forall (fun j => match j with ByRow es => length es = n | ByCoordinate _ => True end) (joint_forms f)).
+  { rewrite forallb_forall in shapes. apply Forall_forall. intros q k. specialize (shapes q k). destruct q; [apply Nat.eqb_eq, shapes | exact I]. }
+  destruct (joints_good f theta th x env (fun y ly => proj1 (Agree y ly)) lx (joint_forms f) i H2 SH DP2) as [JD [M [RM good]]].
+  exists M. split; [exact RM |]. set (looks := map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M)) in *.
+  assert (lM : length M = length (joint_forms f)) by (symmetry; exact (related_length _ _ _ _ _ RM)).
+  assert (E1 : map seen_row looks = M /\ map seen_joint looks = map (coordinate_at f theta x) (joint_forms f) /\ map seen_rod looks = map (fun _ => None) (joint_forms f)).
+  { unfold looks. clear - lM. revert M lM. induction (joint_forms f) as [| a l IH]; intros [| r M] e; try discriminate; [repeat split |]. destruct (IH M ltac:(cbn in e; congruence)) as [I1 [I2 I3]]. cbn [combine map seen_row seen_joint seen_rod fst snd]. rewrite I1, I2, I3. repeat split. }
+  destruct E1 as [E1 [E2 E3]].
+  assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; left; exact k).
+  assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; right; apply in_or_app; left; exact k).
+  destruct (of_rows_energy x th 0 n false fs looks tape good W1 W2 _ LOW) as [RE [r [b e]]]. cbn [jacobian] in e. rewrite E1 in e.
+  split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split.
+  - intros v lv nz. specialize (b c0 v hc0 lv nz). rewrite e in b. unfold nonzero in nz. cbn [machine_at jacobian].
+    assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
+    pose proof (mu_pos 0 false) as m0. assert (0 < (/ two_to (rate false 0)) ^ 2) by (apply pow_lt, m0). nra.
+  - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
+    pose proof (demand_met bits x th 0 n false fs looks tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3) as met.
+    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ met).
 Qed.
 End Precision.
 
@@ -457,9 +567,8 @@ Fixpoint differ (ns : list string) : bool :=
 Definition is_mechanism (c : mechanism) : bool :=
   let given := coordinate_names c ++ map fst (parameters c) in
   let n := length (coordinate_names c) in
-  Nat.leb 1 n && Nat.leb n 6 && Nat.leb n (length (joint_rows c)) && Nat.leb (length (joint_rows c)) 12 &&
-  forallb (fun r => Nat.eqb (length r) n) (joint_rows c) && differ given && are_bound_in given (definitions c) &&
-  forallb (forallb (is_bound_in (map fst (definitions c) ++ given))) (joint_rows c).
+  Nat.leb 1 n && Nat.leb n 6 && Nat.leb n (length (joint_forms c)) && Nat.leb (length (joint_forms c)) 12 && differ given && are_bound_in given (definitions c) &&
+  forallb (fun j => forallb (is_bound_in (map fst (definitions c) ++ given)) match j with ByRow es => es | ByCoordinate e => [e] end) (joint_forms c).
 
 Definition certify_written (exact bits : positive) (c : written_claim) (t : tree) : bool :=
   is_mechanism (by_formulas c) && forallb (fun p => below exact (least (snd p)) (greatest (snd p))) (parameters (by_formulas c)) &&

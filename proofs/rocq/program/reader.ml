@@ -151,16 +151,20 @@ let leg v =
   | "planar" -> Planar_ (vector "direction")
   | drive -> not_covered [ "the drive \""; drive; "\"" ]
 let is_arm v = match members v with ("drive", String "arm") :: _ -> true | _ -> false
-let arm v =
+(* A leg in any motion. *)
+let driven v =
   let l = members v in
-  if not (is_arm v) then raise Malformed;
-  let vector key = triple quantity (get l key) in
-  { axis_ = vector "axis"; reference_ = vector "reference"; anchor_ = vector "anchor"; platform_ = vector "platform";
-    arm_ = quantity (get l "arm"); rod_ = quantity (get l "length"); mode_ = mode (get l "mode") }
+  let vector key = List.map quantity (array (get l key)) in
+  match string (get l "drive"), find l "base_axis" with
+  | "slider", None -> AnySlider_ (vector "direction", vector "anchor", vector "platform", quantity (get l "length"), mode (get l "mode"))
+  | "strut", None -> AnyStrut_ (vector "anchor", vector "platform")
+  | "arm", None -> AnyArm_ (vector "axis", vector "reference", vector "anchor", vector "platform", quantity (get l "arm"), quantity (get l "length"), mode (get l "mode"))
+  | drive, _ -> not_covered [ "the drive \""; drive; "\" of such a machine" ]
+let is_strut v = match members v with ("drive", String "strut") :: _ -> true | _ -> false
 
 let two f v = match array v with [ x; y ] -> (f x, f y) | _ -> raise Malformed
 
-let requirement v =
+let requirement ?(turns = false) v =
   let l = members v in
   let about_ = match string (get l "quantity") with
     | "transmission" -> Transmission
@@ -176,6 +180,7 @@ let requirement v =
     | "one_to_one" -> OneToOne_
     | "accuracy" -> Accuracy_
     | "clearance" -> Clearance_
+    | "leg_angle" -> LegAngle_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
   let end_ = match string (get l "end") with
@@ -187,6 +192,7 @@ let requirement v =
   let given v = match about_, members v with
     | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] | Accuracy_, [ ("joint_error", Array [ x ]) ] -> Given_ (number x)
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
+    | Accuracy_, [ ("joint_error", _); ("max_angle", _) ] when turns -> not_covered [ "accuracy of a platform that turns" ]
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
@@ -198,10 +204,16 @@ let demand v =
   | Transmission | JointRange | Condition_ -> r
   | _ -> not_covered [ "this quantity of such a mechanism" ]
 let turning_demand v =
-  let r = requirement v in
+  let r = requirement ~turns:true v in
   match r.about_ with
   | Speed_ | Force_ | Stiffness_ -> r
   | _ -> demand v
+
+let driven_demand v =
+  let r = requirement ~turns:true v in
+  match r.about_ with
+  | Serial_ | Parallel_ | LegAngle_ -> r
+  | _ -> turning_demand v
 
 let region (kind, v) =
   let l = members v in
@@ -210,6 +222,13 @@ let region (kind, v) =
   | _ ->
     let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
     Cylinder_ (x, y, number (get l "radius"), bottom, top)
+
+let place (kind, v) =
+  let l = members v in
+  match kind with
+  | "box" -> AnyBox_ (List.map number (array (get l "min")), List.map number (array (get l "max")))
+  | _ -> let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
+    AnyCylinder_ (x, y, number (get l "radius"), bottom, top)
 
 let body v =
   let l = members v in
@@ -229,19 +248,11 @@ let rec subject v =
     let require () = List.map requirement (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
      | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
-     | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
-       let t = members t and w = members w in
+     | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w as region) ->
+       let t = members t in
        if workspace <> "box" then not_covered [ "the workspace \""; workspace; "\" of a platform that turns" ];
-       let ell = match find t "characteristic_length" with
-         | Some v -> number v
-         | None -> not_covered [ "the mechanism \""; kind; "\" that does not turn" ] in
-       let strut v =
-         let l = members v in
-         let vector key = List.map quantity (array (get l key)) in
-         match string (get l "drive"), find l "base_axis" with
-         | "strut", None -> (vector "anchor", vector "platform")
-         | drive, _ -> not_covered [ "the drive \""; drive; "\" of such a platform" ] in
-       let orientation = match variant (get l "orientation") with
+       let ell = optional number (find t "characteristic_length") in
+       let orientation v = match variant v with
          | "range", v -> let a, b = two number v in Range_ (a, b)
          | "roll_pitch_yaw", v ->
            let range key = two number (get (members v) key) in
@@ -249,28 +260,51 @@ let rec subject v =
          | "angle", v -> Angle_ (number v)
          | "tilt", v -> Tilt_ (number (get (members v) "tilt"), number (get (members v) "torsion"))
          | _ -> raise Malformed in
+       let orientation = optional orientation (find l "orientation") in
        let motion = match kind with "planar" -> InPlane | "spatial" -> InSpace | _ -> AboutPoint in
-       Turning_ (motion, List.map strut (array (get t "legs")), ell, List.map number (array (get w "min")),
-         List.map number (array (get w "max")), orientation, List.map turning_demand (array (get l "require")))
+       let legs = array (get t "legs") in
+       (match ell, orientation with
+        | Some ell, Some orientation when List.for_all is_strut legs ->
+          let w = members w in
+          let strut v =
+            let l = members v in
+            let vector key = List.map quantity (array (get l key)) in
+            if find l "base_axis" <> None then not_covered [ "a base axis of such a platform" ];
+            (vector "anchor", vector "platform") in
+          Turning_ (motion, List.map strut legs, ell, List.map number (array (get w "min")),
+            List.map number (array (get w "max")), orientation, List.map turning_demand (array (get l "require")))
+        | _ ->
+          let kind = match ell with None when kind = "planar" -> TranslatesInPlane | _ -> Turns motion in
+          if orientation <> None && List.exists is_strut legs then not_covered [ "a platform that turns on struts and other drives" ];
+          Legs_ (kind, List.map driven legs, ell, place region, orientation, List.map driven_demand (array (get l "require"))))
      | _ when find l "orientation" <> None -> raise Malformed
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
-       let legs = array legs and region = region workspace in
+       let legs = array legs in
        let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
-       if List.exists is_arm legs && bodies <> [] then not_covered [ "a machine with arms and bodies" ];
-       if List.exists is_arm legs then Arms_ (List.map arm legs, region, List.map demand (array (get l "require")))
-       else Machine_ (List.map leg legs, region, bodies, require ())
+       let require = require () in
+       if List.exists is_arm legs || List.exists (fun r -> r.about_ = LegAngle_) require then begin
+         if bodies <> [] then not_covered [ "such a machine with bodies" ];
+         Legs_ (Translates, List.map driven legs, None, place workspace, None, List.map driven_demand (array (get l "require")))
+       end else begin
+         let legs = List.map leg legs in
+         if List.exists (fun r -> r.about_ = Parallel_) require && List.exists (function Slider_ _ -> false | _ -> true) legs then
+           not_covered [ "the distance from parallel singularities of other drives than sliders" ];
+         Machine_ (legs, region workspace, bodies, require)
+       end
      | ("formulas", f), ("box", box) ->
        let f = members f and box = members box in
        let pairs item v = List.map (fun v -> match array v with [ name; x ] -> (string name, item x) | _ -> raise Malformed) (array v) in
        let row v = match members v with
-         | [ ("row", row) ] -> List.map formula (array row)
-         | [ ("rho", _) ] -> not_covered [ "a joint by its coordinate" ]
+         | [ ("row", row) ] -> Row_ (List.map formula (array row))
+         | [ ("rho", rho) ] -> Rho_ (formula rho)
          | _ -> raise Malformed in
        Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), pairs formula (get f "definitions"),
          List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
-         List.map demand (array (get l "require")))
+         List.map turning_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
-       Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require ())
+       let require = require () in
+       if List.exists (fun r -> r.about_ <> Transmission) require || List.length require <> 2 then not_covered [ "what else is asked of the closed design" ];
+       Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require)
      | (("translational" | "formulas"), _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
      | (mechanism, _), _ -> not_covered [ "the mechanism \""; mechanism; "\"" ])
   | "no_cube", v ->
@@ -369,7 +403,8 @@ let certificate text =
     | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) | Atlas_ (_, legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
     | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
-    | Arms_ _ | Closed_ _ | Postulate_ _ -> (3, 3) in
+    | Legs_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with TranslatesInPlane -> 2 | Turns InSpace -> 6 | _ -> 3)
+    | Closed_ _ | Postulate_ _ -> (3, 3) in
   let proof_ = proof shape (get l "proof") in
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
@@ -377,7 +412,9 @@ let certificate text =
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
   (match subject_, proof_ with
    | (Turning_ _ | Formulas_ _), Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
-   | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
+   | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
+     not_covered [ "this set of orientations with such drives" ]
+   | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->

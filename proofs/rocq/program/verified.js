@@ -3,129 +3,129 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(A){"use strict";var
-D1=typeof
-module==="object"&&module.exports||A,io="spatial",mY="Invalid_argument",fM="precision",aC='"',mX="@[",h6=1255,mW="inside",nw="Fatal error: exception %s\n",mn=255,mV="yaw",nu="(",nv=0x800,ml="range",mm="tree",h5="jsError",bR=0x8000,mT='the mechanism "',mU="%ni",n0="sqrt(",nt=256,eD="offset",ns="obligation",a7="machine",mk="End_of_file",fP="strut",mj="center",f4="arm",h4="Failure",nZ="serial_margin",f3="parameters",ci=0xff,iu="bodies",mi="\n",it="outside",ic="base_axis",im="ENOENT",nY=122,aQ="0",nr="([^/]+)",il=0xf,eE=128,h3=-48,mh=0xdc00,mS="Sys_blocked_io",nX="fd ",h2="given",nq="ENOTEMPTY",aB=248,fZ="bound",aA="camlinternalFormat.ml",np="Division_by_zero",nV="by",nW=1027,mg="Sys_error",mR="slider",mQ="postulate",no="torsion",mP="joint_error",eC="refuted",nn="proof",mO="%u",dI="mechanism",fY="row",mf="EEXIST",mN="roll_pitch_yaw",ik="%d",me="Printexc.handle_uncaught_exception",ib="y",fL="lower",mM="within",nm="cube",md="clearance",nl="buffer.ml",nU="turned",fK="int_of_string",nk="control",mL="definitions",ia=127,eB=1024,mK="@{",mc="name",nj="from",is="e",ma=120,mb=103,mJ=" : flags Open_rdonly and Open_wronly are not compatible",ni="orthocert/2",nT="reach",l$=512,bj="-",nS="witness",bA="platform",l_=0x7ff0,l9="pitch",ir=": Not a directory",mI=" : file already exists",bk="min",nR="trim",dJ="workspace",mH="claim",fX="split",nQ="legs",ch=0xffffff,nh="joint",l7="formulas",l8="0x",mG='the workspace "',ng="roll",fW="atlas",nO="nodes",nP="Out_of_memory",l6="psi_max",iq="orientation",mF="angle",fV=254,ip="index out of bounds",nf=100,l5="end",nN="one_to_one",f2="_bigarr02",l4="%Li",ne=" : flags Open_text and Open_binary are not compatible",cC="drive",nd="coordinates",nM="holds",mE=", characters ",nc="lower_divided",l3="speed",mD="joints",nL="cylinder",bT=0xffff,mB="acceleration",eA="certified",h$="chords",mC=12520,h1="on",mA="axis",fU="accuracy",mz="no_cube",nK="parallel_margin",l2='the drive "',fO="fails",ij="Unix.Unix_error",nJ="infinity",fJ="tool",h0="mkdir",ez=1000,fI="translational",my="tolerances",w="",nb="Stack_overflow",nI="characteristic_length",h_="^",fH=": No such file or directory",ii="places",na="/static/",dH=0x3f,m$=-97,m9="stiffness",m_="Not_found",ey="planar",fT="mode",nH="joint_speed",mx="Match_failure",l1=", ",l0="transmission",cB="anchor",nG="at",f1=252,lZ="joint_force",dG="leg",cD=".",bS="+",m8="joint_acceleration",ih="rmdir",nF=0xf0,nE="spherical",mu="REJECTED",mv="undecided",mw="%li",m7=1026,bl="max",c1="direction",m6="orthoglide",f0="rank",nD="constraint_margin",nC=-32,lX="Pervasives.do_at_exit",lY="utf8",ig="test",cf=" ",fN="conditioning",ie="Fatal error: exception ",bB=0x80,lW="Undefined_recursive_module",h9=")",fS="length",m5="base",nB="quantity",m4="joint_range",fR="tilt",lV="Q2",h8="nan",mt="reference",m3="point",ms=0xe0,nA="corner",mq="z",mr=0xdfff,m1="version",m2="_",nz="to",bz="/",id="compare: functional value",ny="Assert_failure",mp="provenance",dF="radius",lU="%i",cg="require",fQ="side",nx="format",h7="ENOTDIR",m0="Q1",mZ="all",c0="box",mo=250;function
-iJ(c,b,a){var
+a.prototype._T_}}(Object));(function(C){"use strict";var
+Gj=typeof
+module==="object"&&module.exports||C,iY="spatial",n6="Invalid_argument",gi="precision",aF='"',n5="@[",iG=1255,n4="inside",oF="Fatal error: exception %s\n",nx=255,n3="yaw",oD="(",oE=0x800,nv="range",nw="tree",iF="jsError",b1=0x8000,n2="%ni",o7="sqrt(",oC=256,eY="offset",oB="obligation",bh="machine",nt="this quantity of such a mechanism in a claim that is refuted",nu="End_of_file",d4="strut",iE="center",e1="arm",iD="Failure",o6="serial_margin",gz="parameters",cx=0xff,i5="bodies",ns="\n",i4="outside",gm="base_axis",iX="ENOENT",o5=122,aW="0",oA="([^/]+)",iW=0xf,e0=128,iC=-48,nr=0xdc00,n1="Sys_blocked_io",o4="fd ",iB="given",oz="ENOTEMPTY",aE=248,nq="such a machine with bodies",gu="bound",aD="camlinternalFormat.ml",oy="Division_by_zero",o2="by",o3=1027,np="Sys_error",gl="slider",n0="postulate",ox="torsion",nZ="joint_error",eX="refuted",ow="proof",nY="%u",d6="mechanism",gt="row",no="EEXIST",nX="roll_pitch_yaw",iV="%d",nn="Printexc.handle_uncaught_exception",iO="y",gh="lower",nW="within",ov="cube",nm="clearance",ou="buffer.ml",o1="turned",gg="int_of_string",ot="control",nV="definitions",iN=127,eW=1024,nU="@{",nl="name",os="from",i3="e",nj=120,nk=103,nT=" : flags Open_rdonly and Open_wronly are not compatible",or="orthocert/2",o0="reach",ni=512,bw="-",oZ="witness",a6="platform",nh=0x7ff0,ng="pitch",i2=": Not a directory",nS=" : file already exists",bf="min",oY="trim",d7="workspace",nR="claim",gs="split",i1="legs",cv=0xffffff,oq="joint",ne="formulas",nf="0x",nQ='the workspace "',op="roll",gr="atlas",oW="nodes",oX="Out_of_memory",nd="psi_max",gy="orientation",nP="angle",gq=254,i0="index out of bounds",oo=100,nc="end",oV="one_to_one",gx="_bigarr02",nb="%Li",on=" : flags Open_text and Open_binary are not compatible",bK="drive",om="coordinates",oU="holds",nO=", characters ",ol="lower_divided",na="speed",nN="joints",oT="cylinder",b4=0xffff,nL="acceleration",eV="certified",iM="chords",nM=12520,iA="on",nK="axis",gp="accuracy",nJ="no_cube",oS="parallel_margin",m$='the drive "',gk="fails",iU="Unix.Unix_error",oR="infinity",gf="tool",iz="mkdir",nI="rho",eU=1000,ge="translational",nH="tolerances",z="",ok="Stack_overflow",iZ="characteristic_length",iL="^",gd=": No such file or directory",iT="places",oj="/static/",d3=0x3f,oi=-97,og="stiffness",oh="Not_found",dp="planar",eZ="mode",oQ="joint_speed",nG="Match_failure",m_=", ",m9="transmission",bv="anchor",oP="at",gw=252,m8="joint_force",d2="leg",cU=".",b3="+",of="joint_acceleration",iS="rmdir",oO=0xf0,oN="spherical",nD="REJECTED",nE="undecided",nF="%li",oe=1026,bg="max",cw="direction",oc="leg_angle",od="orthoglide",gv="rank",oM="constraint_margin",oL=-32,m6="Pervasives.do_at_exit",m7="utf8",iR="test",cu=" ",gj="conditioning",iQ="Fatal error: exception ",bJ=0x80,m5="Undefined_recursive_module",iK=")",d5="length",ob="base",oK="quantity",oa="joint_range",go="tilt",m4="Q2",iJ="nan",nC="reference",n$="point",nB=0xe0,oJ="corner",iI="z",nA=0xdfff,n9="version",n_="_",oI="to",bI="/",iP="compare: functional value",oH="Assert_failure",nz="provenance",dn="radius",m3="%i",b2="require",gn="side",oG="format",iH="ENOTDIR",n8="Q1",n7="all",ct="box",ny=250;function
+ji(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=w;for(;0<a;b+=eB,a-=eB)e+=d.apply(null,c.slice(b,b+Math.min(a,eB)));return e}function
-f6(b){if(A.Uint8Array)var
-c=new(A.Uint8Array)(b.l);else
+e=z;for(;0<a;b+=eW,a-=eW)e+=d.apply(null,c.slice(b,b+Math.min(a,eW)));return e}function
+gB(b){if(C.Uint8Array)var
+c=new(C.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cF(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iJ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)f6(b);var
+cW(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ji(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?ji(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gB(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-cj(a){return a}function
-bW(a,b,c,d,e){cF(cj(a),b,c,d,e);return 0}function
-DU(b,a){throw[0,b,a]}function
-dO(b,a){if(b==0)return w;if(a.repeat)return a.repeat(b);var
-d=w,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dM(a){if(a.t==2)a.c+=dO(a.l-a.c.length,"\0");else
-a.c=iJ(a.c,0,a.c.length);a.t=0}function
-ov(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>ia)return false;return true}else
+cy(a){return a}function
+b7(a,b,c,d,e){cW(cy(a),b,c,d,e);return 0}function
+Gc(b,a){throw[0,b,a]}function
+ea(b,a){if(b==0)return z;if(a.repeat)return a.repeat(b);var
+d=z,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+d_(a){if(a.t==2)a.c+=ea(a.l-a.c.length,"\0");else
+a.c=ji(a.c,0,a.c.length);a.t=0}function
+pC(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>iN)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iL(e){for(var
-j=w,c=w,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bB){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bB;d++);if(d-b>l$){c.substr(0,1);j+=c;c=w;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(f<<6);if(f<ms){a=g-0x3080;if(a<bB)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(g<<6);if(f<nF){a=g-0xe2080;if(a<nv||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bT)c+=String.fromCharCode(0xd7c0+(a>>10),mh+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eB){c.substr(0,1);j+=c;c=w}}return j+c}function
-bU(c,a,b){this.t=c;this.c=a;this.l=b}bU.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dM(this);case
-0:if(ov(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bU.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iL(a)};bU.prototype.slice=function(){var
+jk(e){for(var
+j=z,c=z,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bJ){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bJ;d++);if(d-b>ni){c.substr(0,1);j+=c;c=z;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0){g=h+(f<<6);if(f<nB){a=g-0x3080;if(a<bJ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0){g=h+(g<<6);if(f<oO){a=g-0xe2080;if(a<oE||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b4)c+=String.fromCharCode(0xd7c0+(a>>10),nr+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eW){c.substr(0,1);j+=c;c=z}}return j+c}function
+b5(c,a,b){this.t=c;this.c=a;this.l=b}b5.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:d_(this);case
+0:if(pC(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};b5.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return jk(a)};b5.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bU(this.t,a,this.l)};function
-n_(a){return new
-bU(0,a,a.length)}function
-a(a){return n_(a)}function
-iH(c,b){DU(c,a(b))}var
-ao=[0];function
-aD(a){iH(ao.Invalid_argument,a)}function
-n8(){aD(ip)}function
-ar(a,c,b){b&=ci;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}f6(a)}a.c[c]=b;return 0}function
-c2(b,a,c){if(a>>>0>=b.l)n8();return ar(b,a,c)}function
-dL(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+b5(this.t,a,this.l)};function
+pf(a){return new
+b5(0,a,a.length)}function
+a(a){return pf(a)}function
+jg(c,b){Gc(c,a(b))}var
+av=[0];function
+aG(a){jg(av.Invalid_argument,a)}function
+pd(){aG(i0)}function
+ax(a,c,b){b&=cx;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gB(a)}a.c[c]=b;return 0}function
+dq(b,a,c){if(a>>>0>=b.l)pd();return ax(b,a,c)}function
+d9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bX(c,a){if(c.fun)return bX(c.fun,a);if(typeof
+b8(c,a){if(c.fun)return b8(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bX(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return b8(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bX(c,d)}}function
-eF(){aD(ip)}function
-n$(a,b){if(b>>>0>=a.length-1)eF();return a}function
-Dj(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-cl(a){a.t&6&&dM(a);return a.c}var
-D3=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-D2(a){if(D3)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b8(c,d)}}function
+e2(){aG(i0)}function
+pg(a,b){if(b>>>0>=a.length-1)e2();return a}function
+FD(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+cA(a){a.t&6&&d_(a);return a.c}var
+Gl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Gk(a){if(Gl)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iz(c){var
-a=new(A.Float32Array)(1);a[0]=c;var
-b=new(A.Int32Array)(a.buffer);return b[0]|0}var
-oi=Math.pow(2,-24);function
-DS(a){throw a}function
-op(){DS(ao.Division_by_zero)}function
-z(b,c,a){this.lo=b&ch;this.mi=c&ch;this.hi=a&bT}z.prototype.caml_custom="_j";z.prototype.copy=function(){return new
-z(this.lo,this.mi,this.hi)};z.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};z.prototype.neg=function(){var
+i_(c){var
+a=new(C.Float32Array)(1);a[0]=c;var
+b=new(C.Int32Array)(a.buffer);return b[0]|0}var
+pp=Math.pow(2,-24);function
+Ga(a){throw a}function
+pw(){Ga(av.Division_by_zero)}function
+B(b,c,a){this.lo=b&cv;this.mi=c&cv;this.hi=a&b4}B.prototype.caml_custom="_j";B.prototype.copy=function(){return new
+B(this.lo,this.mi,this.hi)};B.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};B.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};B.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-z(a,b,c)};z.prototype.add=function(a){var
+B(a,b,c)};B.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-z(b,c,d)};z.prototype.sub=function(a){var
+B(b,c,d)};B.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-z(b,c,d)};z.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*oi|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oi|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-z(b,c,d)};z.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};z.prototype.isNeg=function(){return this.hi<<16<0};z.prototype.and=function(a){return new
-z(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};z.prototype.or=function(a){return new
-z(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};z.prototype.xor=function(a){return new
-z(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};z.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-z(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-z(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-z(0,0,this.lo<<a-48)};z.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-z(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-z(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-z(this.hi>>a-48,0,0)};z.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+B(b,c,d)};B.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*pp|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pp|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+B(b,c,d)};B.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};B.prototype.isNeg=function(){return this.hi<<16<0};B.prototype.and=function(a){return new
+B(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};B.prototype.or=function(a){return new
+B(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};B.prototype.xor=function(a){return new
+B(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};B.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+B(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+B(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+B(0,0,this.lo<<a-48)};B.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+B(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+B(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+B(this.hi>>a-48,0,0)};B.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-z(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+B(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-z(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bT);return new
-z(this.hi<<16>>a-32,b,b)};z.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&ch;this.lo=this.lo<<1&ch};z.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&ch;this.mi=(this.mi>>>1|this.hi<<23)&ch;this.hi=this.hi>>>1};z.prototype.udivmod=function(e){var
+B(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b4);return new
+B(this.hi<<16>>a-32,b,b)};B.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cv;this.lo=this.lo<<1&cv};B.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cv;this.mi=(this.mi>>>1|this.hi<<23)&cv;this.hi=this.hi>>>1};B.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-z(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};z.prototype.div=function(a){var
-b=this;if(a.isZero())op();var
-d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};z.prototype.mod=function(b){var
-a=this;if(b.isZero())op();var
-d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};z.prototype.toInt=function(){return this.lo|this.mi<<24};z.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};z.prototype.toArray=function(){return[this.hi>>8,this.hi&ci,this.mi>>16,this.mi>>8&ci,this.mi&ci,this.lo>>16,this.lo>>8&ci,this.lo&ci]};z.prototype.lo32=function(){return this.lo|(this.mi&ci)<<24};z.prototype.hi32=function(){return this.mi>>>8&bT|this.hi<<16};function
-f_(b,c,a){return new
-z(b,c,a)}function
-f9(a){if(!isFinite(a)){if(isNaN(a))return f_(1,0,l_);return a>0?f_(0,0,l_):f_(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
-b=D2(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m7)}else{a/=Math.pow(2,b-nW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+B(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};B.prototype.div=function(a){var
+b=this;if(a.isZero())pw();var
+d=b.hi^a.hi;if(b.hi&b1)b=b.neg();if(a.hi&b1)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&b1)c=c.neg();return c};B.prototype.mod=function(b){var
+a=this;if(b.isZero())pw();var
+d=a.hi;if(a.hi&b1)a=a.neg();if(b.hi&b1)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&b1)c=c.neg();return c};B.prototype.toInt=function(){return this.lo|this.mi<<24};B.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};B.prototype.toArray=function(){return[this.hi>>8,this.hi&cx,this.mi>>16,this.mi>>8&cx,this.mi&cx,this.lo>>16,this.lo>>8&cx,this.lo&cx]};B.prototype.lo32=function(){return this.lo|(this.mi&cx)<<24};B.prototype.hi32=function(){return this.mi>>>8&b4|this.hi<<16};function
+gF(b,c,a){return new
+B(b,c,a)}function
+gE(a){if(!isFinite(a)){if(isNaN(a))return gF(1,0,nh);return a>0?gF(0,0,nh):gF(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?b1:a>=0?0:b1;if(f)a=-a;var
+b=Gk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-oe)}else{a/=Math.pow(2,b-o3);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&il|f|b<<4;return f_(g,e,c)}function
-eI(a){return a.toArray()}function
-n7(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f2)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bT)c.write(16,b.dims[a]);else{c.write(16,bT);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&iW|f|b<<4;return gF(g,e,c)}function
+e5(a){return a.toArray()}function
+pc(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gx)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b4)c.write(16,b.dims[a]);else{c.write(16,b4);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +142,30 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eI(b.get(a));for(var
+e=e5(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eI(f9(b.get(a)));for(var
+e=e5(gE(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iz(b.get(a));c.write(32,e)}break;case
+e=i_(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iz(d[1]));c.write(32,iz(d[2]))}break;case
+d=b.get(a);c.write(32,i_(d[1]));c.write(32,i_(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eI(f9(f[1]));for(var
+f=b.get(a),e=e5(gE(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eI(f9(f[2]));for(var
+e=e5(gE(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-n5(a){switch(a){case
+pa(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Dd(c,e){var
-b=A,a;switch(c){case
+Fx(c,e){var
+b=C,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=A,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aD("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aG("Bigarray.create: unsupported kind");var
 d=new
-a(e*n5(c));return d}function
-iA(c){var
-a=new(A.Int32Array)(1);a[0]=c;var
-b=new(A.Float32Array)(a.buffer);return b[0]}function
-eH(a){return new
-z(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iB(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&il)==0?b&bR?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&il);if(c>0){a+=16;a*=Math.pow(2,c-nW)}else
-a*=Math.pow(2,-m7);if(b&bR)a=-a;return a}function
-iv(b){var
+a(e*pa(c));return d}function
+i$(c){var
+a=new(C.Int32Array)(1);a[0]=c;var
+b=new(C.Float32Array)(a.buffer);return b[0]}function
+e4(a){return new
+B(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+ja(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iW)==0?b&b1?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iW);if(c>0){a+=16;a*=Math.pow(2,c-o3)}else
+a*=Math.pow(2,-oe);if(b&b1)a=-a;return a}function
+i6(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aD("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Du(b,a){return new
-z(b&ch,b>>>24&ci|(a&bT)<<8,a>>>16&bT)}function
-iC(a){return a.hi32()}function
-iD(a){return a.lo32()}var
-De=f2;function
-cE(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cE.prototype.caml_custom=De;cE.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aG("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+FO(b,a){return new
+B(b&cv,b>>>24&cx|(a&b4)<<8,a>>>16&b4)}function
+jb(a){return a.hi32()}function
+jc(a){return a.lo32()}var
+Fy=gx;function
+cV(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cV.prototype.caml_custom=Fy;cV.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aD("bigarray.js: invalid offset");if(this.dims.length!=b.length)aD("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])eF();c=c*this.dims[a]+b[a]}else
+Array))aG("bigarray.js: invalid offset");if(this.dims.length!=b.length)aG("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])e2();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])eF();c=c*this.dims[a]+(b[a]-1)}return c};cE.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])e2();c=c*this.dims[a]+(b[a]-1)}return c};cV.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Du(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return FO(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fV,e,c];default:return this.data[a]}};cE.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iD(b);this.data[a*2+1]=iC(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gq,e,c];default:return this.data[a]}};cV.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=jc(b);this.data[a*2+1]=jb(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cE.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cV.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iD(b),e=iC(b);if(c==e)this.data.fill(c);else
+c=jc(b),e=jb(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cE.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cV.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
-cE();dK.prototype.offset=function(a){if(typeof
+d8(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d8.prototype=new
+cV();d8.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aD("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])eF();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
-n3(c,d,a,b){var
-e=n5(c);if(iv(a)*e!=b.length)aD("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dK(c,d,a,b);return new
-cE(c,d,a,b)}function
-bC(b){if(!ao.Failure)ao.Failure=[aB,a(h4),-3];iH(ao.Failure,b)}function
-n4(b,v,r){var
-i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ci,o=p>>8&1,h=[];if(r==f2)for(var
+aG("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])e2();return a};d8.prototype.get=function(a){return this.data[a]};d8.prototype.set=function(a,b){this.data[a]=b;return 0};d8.prototype.fill=function(a){this.data.fill(a);return 0};function
+o_(c,d,a,b){var
+e=pa(c);if(i6(a)*e!=b.length)aG("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+d8(c,d,a,b);return new
+cV(c,d,a,b)}function
+bL(b){if(!av.Failure)av.Failure=[aE,a(iD),-3];jg(av.Failure,b)}function
+o$(b,v,r){var
+i=b.read32s();if(i<0||i>16)bL("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cx,o=p>>8&1,h=[];if(r==gx)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bT){var
-t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b4){var
+t=b.read32u(),u=b.read32u();if(t!=0)bL("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iv(h),f=Dd(j,d),g=n3(j,o,h,f);switch(j){case
+d=i6(h),f=Fx(j,d),g=o_(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bC("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bL("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eH(e);g.set(a,q)}break;case
+q=e4(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iB(eH(e));g.set(a,k)}break;case
+k=ja(e4(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iA(b.read32s());g.set(a,k)}break;case
+k=i$(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iA(b.read32s()),l=iA(b.read32s());g.set(a,[fV,m,l])}break;case
+m=i$(b.read32s()),l=i$(b.read32s());g.set(a,[gq,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iB(eH(e));for(var
+m=ja(e4(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iB(eH(e));g.set(a,[fV,m,l])}break}v[0]=(4+i)*4;return n3(j,o,h,f)}function
-n2(a,b,c){return a.compare(b,c)}function
-om(a,b){return Math.imul(a,b)}function
-ck(b,a){a=om(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=om(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Dq(a,b){a=ck(a,iD(b));a=ck(a,iC(b));return a}function
-oh(a,b){return Dq(a,f9(b))}function
-n6(c){var
-b=iv(c.dims),d=0;switch(c.kind){case
+l=ja(e4(e));g.set(a,[gq,m,l])}break}v[0]=(4+i)*4;return o_(j,o,h,f)}function
+o9(a,b,c){return a.compare(b,c)}function
+pt(a,b){return Math.imul(a,b)}function
+cz(b,a){a=pt(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pt(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+FK(a,b){a=cz(a,jc(b));a=cz(a,jb(b));return a}function
+po(a,b){return FK(a,gE(b))}function
+pb(c){var
+b=i6(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>nt)b=nt;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ck(d,e)}e=0;switch(b&3){case
+12:if(b>oC)b=oC;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cz(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=ck(d,e)}break;case
+1:e|=c.data[a+0];d=cz(d,e)}break;case
 4:case
-5:if(b>eE)b=eE;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ck(d,e)}if((b&1)!=0)d=ck(d,c.data[a]);break;case
+5:if(b>e0)b=e0;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cz(d,e)}if((b&1)!=0)d=cz(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ck(d,c.data[a]);break;case
+a=0;a<b;a++)d=cz(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ck(d,c.data[a]);break;case
+a=0;a<b;a++)d=cz(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=ck(d,c.data[a]);break;case
+a=0;a<b;a++)d=cz(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=oh(d,c.data[a]);break;case
+a=0;a<b;a++)d=po(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=oh(d,c.data[a]);break}return d}function
-Ds(a,b){b[0]=4;return a.read32s()}function
-DP(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=po(d,c.data[a]);break}return d}function
+FM(a,b){b[0]=4;return a.read32s()}function
+F9(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
-DD(c,d){var
+2:bL("input_value: native integer value too large");default:bL("input_value: ill-formed native integer")}}function
+FX(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eH(b)}function
-Dz(e,d,b){var
-c=eI(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e4(b)}function
+FT(e,d,b){var
+c=e5(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Dt(a,b,c){return a.compare(b)}function
-Dw(a){return a.lo32()^a.hi32()}var
-oc={"_j":{deserialize:DD,serialize:Dz,fixed_length:8,compare:Dt,hash:Dw},"_i":{deserialize:Ds,fixed_length:4},"_n":{deserialize:DP,fixed_length:4},"_bigarray":{deserialize:function(a,b){return n4(a,b,"_bigarray")},serialize:n7,compare:n2,hash:n6},"_bigarr02":{deserialize:function(a,b){return n4(a,b,f2)},serialize:n7,compare:n2,hash:n6}};function
-iw(a){return oc[a.caml_custom]&&oc[a.caml_custom].compare}function
-oa(f,c,d,e){var
-b=iw(c);if(b){var
+FN(a,b,c){return a.compare(b)}function
+FQ(a){return a.lo32()^a.hi32()}var
+pj={"_j":{deserialize:FX,serialize:FT,fixed_length:8,compare:FN,hash:FQ},"_i":{deserialize:FM,fixed_length:4},"_n":{deserialize:F9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o$(a,b,"_bigarray")},serialize:pc,compare:o9,hash:pb},"_bigarr02":{deserialize:function(a,b){return o$(a,b,gx)},serialize:pc,compare:o9,hash:pb}};function
+i7(a){return pj[a.caml_custom]&&pj[a.caml_custom].compare}function
+ph(f,c,d,e){var
+b=i7(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-f$(a){return a
+gG(a){return a
 instanceof
-bU}function
-iF(a){return f$(a)}function
-ob(a){if(typeof
-a==="number")return ez;else
-if(f$(a))return f1;else
-if(iF(a))return 1252;else
+b5}function
+je(a){return gG(a)}function
+pi(a){if(typeof
+a==="number")return eU;else
+if(gG(a))return gw;else
+if(je(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=mn){var
-b=a[0]|0;return b==fV?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=nx){var
+b=a[0]|0;return b==gq?0:b}else
 if(a
 instanceof
-String)return mC;else
+String)return nM;else
 if(typeof
-a=="string")return mC;else
+a=="string")return nM;else
 if(a
 instanceof
-Number)return ez;else
-if(a&&a.caml_custom)return h6;else
+Number)return eU;else
+if(a&&a.caml_custom)return iG;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-DE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-n9(a,b){a.t&6&&dM(a);b.t&6&&dM(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-os(a,b){return n9(a,b)}function
-f5(a,b,d){var
+FY(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pe(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+pz(a,b){return pe(a,b)}function
+gA(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=ob(a);if(f==mo){a=a[1];continue}var
-g=ob(b);if(g==mo){b=b[1];continue}if(f!==g){if(f==ez){if(g==h6)return oa(a,b,-1,d);return-1}if(g==ez){if(f==h6)return oa(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aD(id);break;case
+f=pi(a);if(f==ny){a=a[1];continue}var
+g=pi(b);if(g==ny){b=b[1];continue}if(f!==g){if(f==eU){if(g==iG)return ph(a,b,-1,d);return-1}if(g==eU){if(f==iG)return ph(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aG(iP);break;case
 248:var
-c=DE(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aD(id);break;case
-250:aD("equal: got Forward_tag, should not happen");break;case
-251:aD("equal: abstract value");break;case
+c=FY(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aG(iP);break;case
+250:aG("equal: got Forward_tag, should not happen");break;case
+251:aG("equal: abstract value");break;case
 252:if(a!==b){var
-c=n9(a,b);if(c!=0)return c|0}break;case
-253:aD("equal: got Double_tag, should not happen");break;case
-254:aD("equal: got Double_array_tag, should not happen");break;case
-255:aD("equal: got Custom_tag, should not happen");break;case
-1247:aD(id);break;case
+c=pe(a,b);if(c!=0)return c|0}break;case
+253:aG("equal: got Double_tag, should not happen");break;case
+254:aG("equal: got Double_array_tag, should not happen");break;case
+255:aG("equal: got Custom_tag, should not happen");break;case
+1247:aG(iP);break;case
 1255:var
-i=iw(a);if(i!=iw(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aD("compare: abstract value");var
+i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aG("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=cl(a),b=cl(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=cA(a),b=cA(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Dk(a,b){return f5(a,b,true)}function
-Dl(){return[0]}function
-aw(a){if(a<0)aD("Bytes.create");return new
-bU(a?2:9,w,a)}function
-od(a,b){return+(f5(a,b,false)==0)}function
-Dn(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=w;a.t=2}else{a.c=dO(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)f6(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-iG(d){d=cl(d);var
-e=d.length;if(e>31)aD("format_int: format too long");var
-a={justify:bS,signstyle:bj,filler:cf,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+FE(a,b){return gA(a,b,true)}function
+FF(){return[0]}function
+aA(a){if(a<0)aG("Bytes.create");return new
+b5(a?2:9,z,a)}function
+pk(a,b){return+(gA(a,b,false)==0)}function
+FH(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=z;a.t=2}else{a.c=ea(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gB(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+jf(d){d=cA(d);var
+e=d.length;if(e>31)aG("format_int: format too long");var
+a={justify:b3,signstyle:bw,filler:cu,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=bj;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aQ;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-ix(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bj))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=w;if(b.justify==bS&&b.filler==cf)for(var
-d=e;d<b.width;d++)c+=cf;if(b.signedconv)if(b.sign<0)c+=bj;else
-if(b.signstyle!=bj)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aQ;if(b.alternate&&b.base==16)c+=l8;if(b.justify==bS&&b.filler==aQ)for(var
-d=e;d<b.width;d++)c+=aQ;c+=f;if(b.justify==bj)for(var
-d=e;d<b.width;d++)c+=cf;return a(c)}function
-iy(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=bw;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aW;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+i8(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bw))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=z;if(b.justify==b3&&b.filler==cu)for(var
+d=e;d<b.width;d++)c+=cu;if(b.signedconv)if(b.sign<0)c+=bw;else
+if(b.signstyle!=bw)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aW;if(b.alternate&&b.base==16)c+=nf;if(b.justify==b3&&b.filler==aW)for(var
+d=e;d<b.width;d++)c+=aW;c+=f;if(b.justify==bw)for(var
+d=e;d<b.width;d++)c+=cu;return a(c)}function
+i9(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bS)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aQ);if(b>0)a=a+cD+new
-Array(b+1).join(aQ);return a}else
+c=parseInt(a.toString().split(b3)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aW);if(b>0)a=a+cU+new
+Array(b+1).join(aW);return a}else
 return a.toFixed(b)}}var
-a,e=iG(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=h8;e.filler=cf}else
-if(!isFinite(c)){a="inf";e.filler=cf}else
+a,e=jf(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=iJ;e.filler=cu}else
+if(!isFinite(c)){a="inf";e.filler=cu}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==is)a=a.slice(0,b-1)+aQ+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(is),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cD)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==is)a=a.slice(0,b-1)+aQ+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==i3)a=a.slice(0,b-1)+aW+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(i3),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aW)b--;if(a.charAt(b)==cU)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==i3)a=a.slice(0,b-1)+aW+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aQ)b--;if(a.charAt(b)==cD)b--;a=a.slice(0,b+1)}}break}return ix(e,a)}function
-f7(e,c){if(cl(e)==ik)return a(w+c);var
-b=iG(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aW)b--;if(a.charAt(b)==cU)b--;a=a.slice(0,b+1)}}break}return i8(e,a)}function
+gC(e,c){if(cA(e)==iV)return a(z+c);var
+b=jf(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=cf;var
-f=b.prec-d.length;if(f>0)d=dO(f,aQ)+d}return ix(b,d)}var
-DQ=0;function
-f8(){return DQ++}function
-DH(a){return a.toUtf16()}function
-eK(){return typeof
-A.process!=="undefined"&&typeof
-A.process.versions!=="undefined"&&typeof
-A.process.versions.node!=="undefined"}function
-D4(){function
-a(a){if(a.charAt(0)===bz)return[w,a.substring(1)];return}function
+d=c.toString(b.base);if(b.prec>=0){b.filler=cu;var
+f=b.prec-d.length;if(f>0)d=ea(f,aW)+d}return i8(b,d)}var
+F_=0;function
+gD(){return F_++}function
+F1(a){return a.toUtf16()}function
+e7(){return typeof
+C.process!=="undefined"&&typeof
+C.process.versions!=="undefined"&&typeof
+C.process.versions.node!=="undefined"}function
+Gm(){function
+a(a){if(a.charAt(0)===bI)return[z,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||w,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||w,f=a[2]||w;return[d,c.substring(d.length+f.length)]}return}return eK()&&A.process&&A.process.platform?A.process.platform==="win32"?b:a:a}var
-iP=D4();function
-ot(a){return a.slice(-1)!==bz?a+bz:a}if(eK()&&A.process&&A.process.cwd)var
-eG=A.process.cwd().replace(/\\/g,bz);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||z,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||z,f=a[2]||z;return[d,c.substring(d.length+f.length)]}return}return e7()&&C.process&&C.process.platform?C.process.platform==="win32"?b:a:a}var
+jo=Gm();function
+pA(a){return a.slice(-1)!==bI?a+bI:a}if(e7()&&C.process&&C.process.cwd)var
+e3=C.process.cwd().replace(/\\/g,bI);else
 var
-eG="/static";eG=ot(eG);function
-DJ(a){a=DH(a);if(!iP(a))a=eG+a;var
-e=iP(a),d=e[1].split(bz),b=[];for(var
+e3="/static";e3=pA(e3);function
+F3(a){a=F1(a);if(!jo(a))a=e3+a;var
+e=jo(a),d=e[1].split(bI),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-DY(e){for(var
-f=w,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bB){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bB;d++);if(d-c>l$){b.substr(0,1);f+=b;b=w;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<nv){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bB|a&dH)}else
-if(a<0xd800||a>=mr)b+=String.fromCharCode(ms|a>>12,bB|a>>6&dH,bB|a&dH);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mh||h>mr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nF|a>>18,bB|a>>12&dH,bB|a>>6&dH,bB|a&dH)}if(b.length>eB){b.substr(0,1);f+=b;b=w}}return f+b}function
-Di(a){var
-b=9;if(!ov(a))b=8,a=DY(a);return new
-bU(b,a,a.length)}function
-bD(a){return Di(a)}var
-D6=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",im,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h7,nq,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c5(d,f,e,a){var
-b=D6.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bD(f||w),bD(e||w)];return c}var
-on={};function
-c3(a){return on[a]}function
-c4(b,a){throw[0,b].concat(a)}function
-Dh(a){return new
-bU(4,a,a.length)}function
-$(a){iH(ao.Sys_error,a)}function
-DT(a){$(a+fH)}function
-Dg(b,a){if(a>>>0>=b.l)n8();return dL(b,a)}function
-a8(a){return a.l}function
-n1(){}function
-aH(a){this.data=a}aH.prototype=new
-n1();aH.prototype.truncate=function(a){var
-b=this.data;this.data=aw(a|0);cF(b,0,this.data,0,a)};aH.prototype.length=function(){return a8(this.data)};aH.prototype.write=function(b,d,g,a){var
+Gg(e){for(var
+f=z,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bJ){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bJ;d++);if(d-c>ni){b.substr(0,1);f+=b;b=z;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oE){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bJ|a&d3)}else
+if(a<0xd800||a>=nA)b+=String.fromCharCode(nB|a>>12,bJ|a>>6&d3,bJ|a&d3);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nr||h>nA)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oO|a>>18,bJ|a>>12&d3,bJ|a>>6&d3,bJ|a&d3)}if(b.length>eW){b.substr(0,1);f+=b;b=z}}return f+b}function
+FC(a){var
+b=9;if(!pC(a))b=8,a=Gg(a);return new
+b5(b,a,a.length)}function
+bM(a){return FC(a)}var
+Go=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",no,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iX,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iH,oz,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dt(d,f,e,a){var
+b=Go.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bM(f||z),bM(e||z)];return c}var
+pu={};function
+dr(a){return pu[a]}function
+ds(b,a){throw[0,b].concat(a)}function
+FB(a){return new
+b5(4,a,a.length)}function
+ae(a){jg(av.Sys_error,a)}function
+Gb(a){ae(a+gd)}function
+FA(b,a){if(a>>>0>=b.l)pd();return d9(b,a)}function
+bi(a){return a.l}function
+o8(){}function
+aM(a){this.data=a}aM.prototype=new
+o8();aM.prototype.truncate=function(a){var
+b=this.data;this.data=aA(a|0);cW(b,0,this.data,0,a)};aM.prototype.length=function(){return bi(this.data)};aM.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=aw(b+a),f=this.data;this.data=e;cF(f,0,this.data,0,c)}bW(d,g,this.data,b,a);return 0};aH.prototype.read=function(c,a,d,b){var
-e=this.length();cF(this.data,c,a,d,b);return 0};aH.prototype.read_one=function(a){return Dg(this.data,a)};aH.prototype.close=function(){};aH.prototype.constructor=aH;function
-aU(b,a){this.content={};this.root=b;this.lookupFun=a}aU.prototype.nm=function(a){return this.root+a};aU.prototype.create_dir_if_needed=function(d){var
-c=d.split(bz),b=w;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bz;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aU.prototype.slash=function(a){return/\/$/.test(a)?a:a+bz};aU.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=aA(b+a),f=this.data;this.data=e;cW(f,0,this.data,0,c)}b7(d,g,this.data,b,a);return 0};aM.prototype.read=function(c,a,d,b){var
+e=this.length();cW(this.data,c,a,d,b);return 0};aM.prototype.read_one=function(a){return FA(this.data,a)};aM.prototype.close=function(){};aM.prototype.constructor=aM;function
+a1(b,a){this.content={};this.root=b;this.lookupFun=a}a1.prototype.nm=function(a){return this.root+a};a1.prototype.create_dir_if_needed=function(d){var
+c=d.split(bI),b=z;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bI;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a1.prototype.slash=function(a){return/\/$/.test(a)?a:a+bI};a1.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aH(cj(c[1]))}}};aU.prototype.exists=function(a){if(a==w)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aU.prototype.mkdir=function(c,e,d){var
-b=d&&c3(ij);if(this.exists(c))if(b)c4(b,c5(mf,h0,this.nm(c)));else
-$(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||w;if(!this.exists(a))if(b)c4(b,c5(im,h0,this.nm(a)));else
-$(a+fH);if(!this.is_dir(a))if(b)c4(b,c5(h7,h0,this.nm(a)));else
-$(a+ir);this.create_dir_if_needed(this.slash(c))};aU.prototype.rmdir=function(a,f){var
-b=f&&c3(ij),c=a==w?w:this.slash(a),e=new
-RegExp(h_+c+nr);if(!this.exists(a))if(b)c4(b,c5(im,ih,this.nm(a)));else
-$(a+fH);if(!this.is_dir(a))if(b)c4(b,c5(h7,ih,this.nm(a)));else
-$(a+ir);for(var
+aM(cy(c[1]))}}};a1.prototype.exists=function(a){if(a==z)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a1.prototype.mkdir=function(c,e,d){var
+b=d&&dr(iU);if(this.exists(c))if(b)ds(b,dt(no,iz,this.nm(c)));else
+ae(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||z;if(!this.exists(a))if(b)ds(b,dt(iX,iz,this.nm(a)));else
+ae(a+gd);if(!this.is_dir(a))if(b)ds(b,dt(iH,iz,this.nm(a)));else
+ae(a+i2);this.create_dir_if_needed(this.slash(c))};a1.prototype.rmdir=function(a,f){var
+b=f&&dr(iU),c=a==z?z:this.slash(a),e=new
+RegExp(iL+c+oA);if(!this.exists(a))if(b)ds(b,dt(iX,iS,this.nm(a)));else
+ae(a+gd);if(!this.is_dir(a))if(b)ds(b,dt(iH,iS,this.nm(a)));else
+ae(a+i2);for(var
 d
 in
-this.content)if(d.match(e))if(b)c4(b,c5(nq,ih,this.nm(a)));else
-$(this.nm(a)+": Directory not empty");delete
-this.content[c]};aU.prototype.readdir=function(a){var
-f=a==w?w:this.slash(a);if(!this.exists(a))$(a+fH);if(!this.is_dir(a))$(a+ir);var
+this.content)if(d.match(e))if(b)ds(b,dt(oz,iS,this.nm(a)));else
+ae(this.nm(a)+": Directory not empty");delete
+this.content[c]};a1.prototype.readdir=function(a){var
+f=a==z?z:this.slash(a);if(!this.exists(a))ae(a+gd);if(!this.is_dir(a))ae(a+i2);var
 g=new
-RegExp(h_+f+nr),d={},c=[];for(var
+RegExp(iL+f+oA),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aU.prototype.is_dir=function(a){if(a==w)return true;var
-b=this.slash(a);return this.content[b]?1:0};aU.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a1.prototype.is_dir=function(a){if(a==z)return true;var
+b=this.slash(a);return this.content[b]?1:0};a1.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aU.prototype.open=function(a,b){if(b.rdonly&&b.wronly)$(this.nm(a)+mJ);if(b.text&&b.binary)$(this.nm(a)+ne);this.lookup(a);if(this.content[a]){if(this.is_dir(a))$(this.nm(a)+" : is a directory");if(b.create&&b.excl)$(this.nm(a)+mI);var
+this.content[a];return b};a1.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+nT);if(b.text&&b.binary)ae(this.nm(a)+on);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nS);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aH(aw(0));return this.content[a]}else
-DT(this.nm(a))};aU.prototype.register=function(c,a){var
-b;if(this.content[c])$(this.nm(c)+mI);if(f$(a))b=new
-aH(a);if(iF(a))b=new
-aH(cj(a));else
+aM(aA(0));return this.content[a]}else
+Gb(this.nm(a))};a1.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+nS);if(gG(a))b=new
+aM(a);if(je(a))b=new
+aM(cy(a));else
 if(a
 instanceof
 Array)b=new
-aH(Dh(a));else
+aM(FB(a));else
 if(typeof
 a==="string")b=new
-aH(n_(a));else
+aM(pf(a));else
 if(a.toString){var
-d=cj(bD(a.toString()));b=new
-aH(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-$(this.nm(c)+" : registering file with invalid content type")};aU.prototype.constructor=aU;function
-L(a){return a8(a)}function
-bZ(b,a){return dL(b,a)}function
-Dc(d){var
-c=L(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bZ(d,a);return b}function
-Db(a){if(a.t!=4)f6(a);return a.c}function
-bV(a){this.fs=require("fs");this.fd=a}bV.prototype=new
-n1();bV.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){$(a.toString())}};bV.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){$(a.toString())}};bV.prototype.write=function(f,b,c,e){var
-a=Dc(b);if(!(a
+d=cy(bM(a.toString()));b=new
+aM(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ae(this.nm(c)+" : registering file with invalid content type")};a1.prototype.constructor=a1;function
+P(a){return bi(a)}function
+b_(b,a){return d9(b,a)}function
+Fw(d){var
+c=P(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=b_(d,a);return b}function
+Fv(a){if(a.t!=4)gB(a);return a.c}function
+b6(a){this.fs=require("fs");this.fd=a}b6.prototype=new
+o8();b6.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};b6.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};b6.prototype.write=function(f,b,c,e){var
+a=Fw(b);if(!(a
 instanceof
-A.Uint8Array))a=new(A.Uint8Array)(a);var
-d=A.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){$(a.toString())}return 0};bV.prototype.read=function(g,d,c,f){var
-a=Db(d);if(!(a
+C.Uint8Array))a=new(C.Uint8Array)(a);var
+d=C.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};b6.prototype.read=function(g,d,c,f){var
+a=Fv(d);if(!(a
 instanceof
-A.Uint8Array))a=new(A.Uint8Array)(a);var
-e=A.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){$(a.toString())}for(var
-b=0;b<f;b++)c2(d,c+b,e[c+b]);return 0};bV.prototype.read_one=function(c){var
-b=new(A.Uint8Array)(1),a=A.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){$(a.toString())}return a[0]};bV.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){$(a.toString())}};bV.prototype.constructor=bV;function
-aI(a){this.fs=require("fs");this.root=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aI.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){$(a.toString())}};aI.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.open=function(f,c,g){var
+C.Uint8Array))a=new(C.Uint8Array)(a);var
+e=C.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
+b=0;b<f;b++)dq(d,c+b,e[c+b]);return 0};b6.prototype.read_one=function(c){var
+b=new(C.Uint8Array)(1),a=C.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};b6.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};b6.prototype.constructor=b6;function
+aN(a){this.fs=require("fs");this.root=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aN.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aN.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bV(d)}catch(a){this.raise_nodejs_error(a,g)}};aI.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aI.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),lY);return bD(a)}catch(a){this.raise_nodejs_error(a,c)}};aI.prototype.raise_nodejs_error=function(a,d){var
-b=c3(ij);if(d&&b){var
-c=c5(a.code,a.syscall,a.path,a.errno);c4(b,c)}else
-$(a.toString())};aI.prototype.stats_from_js=function(a){var
+b6(d)}catch(a){this.raise_nodejs_error(a,g)}};aN.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),m7);return bM(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.raise_nodejs_error=function(a,d){var
+b=dr(iU);if(d&&b){var
+c=dt(a.code,a.syscall,a.path,a.errno);ds(b,c)}else
+ae(a.toString())};aN.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aI.prototype.constructor=aI;function
-og(b){var
-a=iP(b);if(!a)return;return a[0]+bz}var
-gb=og(eG)||bC("unable to compute caml_root"),dP=[];if(eK())dP.push({path:gb,device:new
-aI(gb)});else
-dP.push({path:gb,device:new
-aU(gb)});dP.push({path:na,device:new
-aU(na)});function
-oz(b){var
-g=DJ(b),b=g.join(bz),f=ot(b),c;for(var
-e=0;e<dP.length;e++){var
-a=dP[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eK()){var
-d=og(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aN.prototype.constructor=aN;function
+pn(b){var
+a=jo(b);if(!a)return;return a[0]+bI}var
+gI=pn(e3)||bL("unable to compute caml_root"),eb=[];if(e7())eb.push({path:gI,device:new
+aN(gI)});else
+eb.push({path:gI,device:new
+a1(gI)});eb.push({path:oj,device:new
+a1(oj)});function
+pG(b){var
+g=F3(b),b=g.join(bI),f=pA(b),c;for(var
+e=0;e<eb.length;e++){var
+a=eb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e7()){var
+d=pn(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aI(d)};dP.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;$("no device found for "+f)}function
-Dm(c,b){var
-a=oz(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
-ou(c,b){var
-c=a(c),b=a(b);return Dm(c,b)}function
-Dp(){var
-b=A.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ou(b[a].name,b[a].content);A.jsoo_create_file=ou;A.caml_fs_tmp=[];return 0}function
-of(){return[0]}function
-Dr(a,c,k){if(!isFinite(a)){if(isNaN(a))return bD(h8);return bD(a>0?nJ:"-infinity")}var
+aN(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
+FG(c,b){var
+a=pG(c);if(!a.device.register)bL("cannot register file");a.device.register(a.rest,b);return 0}function
+pB(c,b){var
+c=a(c),b=a(b);return FG(c,b)}function
+FJ(){var
+b=C.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)pB(b[a].name,b[a].content);C.jsoo_create_file=pB;C.caml_fs_tmp=[];return 0}function
+pm(){return[0]}function
+FL(a,c,k){if(!isFinite(a)){if(isNaN(a))return bM(iJ);return bM(a>0?oR:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?w:bS,e=w;if(i)e=bj;else
+j=d<0?z:b3,e=z;if(i)e=bw;else
 switch(k){case
-43:e=bS;break;case
-32:e=cf;break;default:break}if(c>=0&&c<13){var
+43:e=b3;break;case
+32:e=cu;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(cD);if(h<0)b+=cD+dO(c,aQ);else{var
-f=h+1+c;if(b.length<f)b+=dO(f-b.length,aQ);else
-b=b.substr(0,f)}}return bD(e+l8+b+"p"+j+d.toString(10))}function
-Dy(a){return+a.isZero()}function
-DB(a){return new
-z(a&ch,a>>24&ch,a>>31&bT)}function
-DC(a){return a.toInt()}function
-Dx(a){return+a.isNeg()}function
-DA(a){return a.neg()}function
-Dv(g,c){var
-a=iG(g);if(a.signedconv&&Dx(c)){a.sign=-1;c=DA(c)}var
-b=w,h=DB(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(DC(e.modulus))+b}while(!Dy(c));if(a.prec>=0){a.filler=cf;var
-d=a.prec-b.length;if(d>0)b=dO(d,aQ)+b}return ix(a,b)}function
-DR(c){var
-a=0,e=L(c),b=10,d=1;if(e>0)switch(bZ(c,a)){case
+h=b.indexOf(cU);if(h<0)b+=cU+ea(c,aW);else{var
+f=h+1+c;if(b.length<f)b+=ea(f-b.length,aW);else
+b=b.substr(0,f)}}return bM(e+nf+b+"p"+j+d.toString(10))}function
+FS(a){return+a.isZero()}function
+FV(a){return new
+B(a&cv,a>>24&cv,a>>31&b4)}function
+FW(a){return a.toInt()}function
+FR(a){return+a.isNeg()}function
+FU(a){return a.neg()}function
+FP(g,c){var
+a=jf(g);if(a.signedconv&&FR(c)){a.sign=-1;c=FU(c)}var
+b=z,h=FV(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(FW(e.modulus))+b}while(!FS(c));if(a.prec>=0){a.filler=cu;var
+d=a.prec-b.length;if(d>0)b=ea(d,aW)+b}return i8(a,b)}function
+F$(c){var
+a=0,e=P(c),b=10,d=1;if(e>0)switch(b_(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bZ(c,a)==48)switch(bZ(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&b_(c,a)==48)switch(b_(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,40 +645,40 @@ a=0,e=L(c),b=10,d=1;if(e>0)switch(bZ(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oo(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nY)return a-87;return-1}function
-iE(f){var
-h=DR(f),c=h[0],i=h[1],d=h[2],g=L(f),j=-1>>>0,e=c<g?bZ(f,c):0,b=oo(e);if(b<0||b>=d)bC(fK);var
-a=b;for(c++;c<g;c++){e=bZ(f,c);if(e==95)continue;b=oo(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(fK)}if(c!=g)bC(fK);a=i*a;if(d==10&&(a|0)!=a)bC(fK);return a|0}function
-DG(d){return function(){var
+pv(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o5)return a-87;return-1}function
+jd(f){var
+h=F$(f),c=h[0],i=h[1],d=h[2],g=P(f),j=-1>>>0,e=c<g?b_(f,c):0,b=pv(e);if(b<0||b>=d)bL(gg);var
+a=b;for(c++;c<g;c++){e=b_(f,c);if(e==95)continue;b=pv(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bL(gg)}if(c!=g)bL(gg);a=i*a;if(d==10&&(a|0)!=a)bL(gg);return a|0}function
+F0(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bX(d,c)}else
-return bX(d,[undefined])}}function
-DI(a,b){return+(f5(a,b,false)<=0)}function
-DK(a,d){if(a<0)eF();var
+a=0;a<b;a++)c[a]=arguments[a];return b8(d,c)}else
+return b8(d,[undefined])}}function
+F2(a,b){return+(gA(a,b,false)<=0)}function
+F4(a,d){if(a<0)e2();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-DL(){return 0}var
-bY=new
+F5(){return 0}var
+b9=new
 Array();function
-dN(c){var
-a=bY[c];if(!a.opened)$("Cannot flush a closed channel");if(!a.buffer||a.buffer==w)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
-b=ao.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=w;return 0}function
-or(e,f){var
-b=bY[e],d=a(f),c=L(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-DZ(a){var
-a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+d$(c){var
+a=b9[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==z)return 0;if(a.fd&&av.fds[a.fd]&&av.fds[a.fd].output){var
+b=av.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=z;return 0}function
+py(e,f){var
+b=b9[e],d=a(f),c=P(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Gh(a){var
+a=jk(a),b=C;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-D0(a){var
-a=iL(a),b=A;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Gi(a){var
+a=jk(a),b=C;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gc(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gJ(c,e,d,a){if(av.fds===undefined)av.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-D7(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;av.fds[c]=b;if(!av.fd_last_idx||c>av.fd_last_idx)av.fd_last_idx=c;return c}function
+Gp(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -688,382 +688,382 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)$(cl(c)+mJ);if(a.text&&a.binary)$(cl(c)+ne);var
-d=oz(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gc(f+1,or,e,a)}gc(0,or,new
-aH(aw(0)));gc(1,D0,new
-aH(aw(0)));gc(2,DZ,new
-aH(aw(0)));function
-DM(a){var
-c=ao.fds[a];if(c.flags.wronly)$(nX+a+" is writeonly");var
-d=null;if(a==0&&eK()){var
-e=require("fs");d=function(){return bD(e.readFileSync(0,lY))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bY[b.fd]=b;return b.fd}function
-oj(c){var
-b=ao.fds[c];if(b.flags.rdonly)$(nX+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:w};bY[a.fd]=a;return a.fd}function
-DN(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(cA(c)+nT);if(a.text&&a.binary)ae(cA(c)+on);var
+d=pG(c),e=d.device.open(d.rest,a),f=av.fd_last_idx?av.fd_last_idx:0;return gJ(f+1,py,e,a)}gJ(0,py,new
+aM(aA(0)));gJ(1,Gi,new
+aM(aA(0)));gJ(2,Gh,new
+aM(aA(0)));function
+F6(a){var
+c=av.fds[a];if(c.flags.wronly)ae(o4+a+" is writeonly");var
+d=null;if(a==0&&e7()){var
+e=require("fs");d=function(){return bM(e.readFileSync(0,m7))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b9[b.fd]=b;return b.fd}function
+pq(c){var
+b=av.fds[c];if(b.flags.rdonly)ae(o4+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:z};b9[a.fd]=a;return a.fd}function
+F7(){var
 b=0;for(var
-a=0;a<bY.length;a++)if(bY[a]&&bY[a].opened&&bY[a].out)b=[0,bY[a].fd,b];return b}function
-aR(a){return a}function
-DO(g,d,h,f){var
-b=bY[g];if(!b.opened)$("Cannot output to a closed channel");var
-a;if(h==0&&a8(d)==f)a=d;else{a=aw(f);cF(d,h,a,0,f)}var
-i=aR(a),c=cl(i),e=c.lastIndexOf(mi);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);dN(g);b.buffer+=c.substr(e+1)}return 0}function
-ok(b,a,d,c){return DO(b,cj(a),d,c)}function
-ol(c,b){var
-d=a(String.fromCharCode(b));ok(c,d,0,1);return 0}function
-eJ(a,b){return+(f5(a,b,false)!=0)}function
-ga(a){if(a
+a=0;a<b9.length;a++)if(b9[a]&&b9[a].opened&&b9[a].out)b=[0,b9[a].fd,b];return b}function
+aX(a){return a}function
+F8(g,d,h,f){var
+b=b9[g];if(!b.opened)ae("Cannot output to a closed channel");var
+a;if(h==0&&bi(d)==f)a=d;else{a=aA(f);cW(d,h,a,0,f)}var
+i=aX(a),c=cA(i),e=c.lastIndexOf(ns);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);d$(g);b.buffer+=c.substr(e+1)}return 0}function
+pr(b,a,d,c){return F8(b,cy(a),d,c)}function
+ps(c,b){var
+d=a(String.fromCharCode(b));pr(c,d,0,1);return 0}function
+e6(a,b){return+(gA(a,b,false)!=0)}function
+gH(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(f$(a))return f1;else
-if(iF(a))return f1;else
+if(gG(a))return gw;else
+if(je(a))return gw;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return mn;else
-return ez}function
-bm(b,c,a){if(a&&A.toplevelReloc)b=A.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-iI(a,b){on[cl(a)]=b;return 0}function
-Df(a,b){if(a===b)return 1;a.t&6&&dM(a);b.t&6&&dM(b);return a.c==b.c?1:0}function
-ap(a,b){return Df(a,b)}function
-DW(){aD(ip)}function
-W(b,a){if(a>>>0>=L(b))DW();return bZ(b,a)}function
-l(a,b){return 1-ap(a,b)}function
-DX(){return 0x7FFFFFFF/4|0}function
-iK(a){var
+if(a&&a.caml_custom)return nx;else
+return eU}function
+bx(b,c,a){if(a&&C.toplevelReloc)b=C.toplevelReloc(a);av[b+1]=c;if(a)av[a]=c}function
+jh(a,b){pu[cA(a)]=b;return 0}function
+Fz(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
+aq(a,b){return Fz(a,b)}function
+Ge(){aG(i0)}function
+ab(b,a){if(a>>>0>=P(b))Ge();return b_(b,a)}function
+m(a,b){return 1-aq(a,b)}function
+Gf(){return 0x7FFFFFFF/4|0}function
+jj(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aJ(b,a){return{joo_tramp:b,joo_args:a}}function
-oq(a){return a}function
-gd(a){if(a
+aO(b,a){return{joo_tramp:b,joo_args:a}}function
+px(a){return a}function
+gK(a){if(a
 instanceof
-Array)return a;if(A.RangeError&&a
+Array)return a;if(C.RangeError&&a
 instanceof
-A.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oq(ao.Stack_overflow);if(A.InternalError&&a
+C.RangeError&&a.message&&a.message.match(/maximum call stack/i))return px(av.Stack_overflow);if(C.InternalError&&a
 instanceof
-A.InternalError&&a.message&&a.message.match(/too much recursion/i))return oq(ao.Stack_overflow);if(a
+C.InternalError&&a.message&&a.message.match(/too much recursion/i))return px(av.Stack_overflow);if(a
 instanceof
-A.Error&&c3(h5))return[0,c3(h5),a];return[0,ao.Failure,bD(String(a))]}function
-ge(a){return a<0?-a:a}function
-B(a,b){return a+b}function
-iM(a,b){return a<b?-1:a>b?1:0}function
-ow(c,b){var
-a=c%b;return a<0?a+ge(b):a}function
-iN(a,b){return(a-ow(a,b))/b}function
-ad(a,b){return a==b?1:0}function
-I(a,b){return a<=b?1:0}function
-S(a,b){return a<b?1:0}function
-s(a,b){return a*b}function
+C.Error&&dr(iF))return[0,dr(iF),a];return[0,av.Failure,bM(String(a))]}function
+gL(a){return a<0?-a:a}function
+y(a,b){return a+b}function
+jl(a,b){return a<b?-1:a>b?1:0}function
+pD(c,b){var
+a=c%b;return a<0?a+gL(b):a}function
+jm(a,b){return(a-pD(a,b))/b}function
+ah(a,b){return a==b?1:0}function
+M(a,b){return a<=b?1:0}function
+$(a,b){return a<b?1:0}function
+u(a,b){return a*b}function
 aa(a){return-a}function
-a9(a){return A.BigInt(a)}function
-ox(a,b){return a<<A.BigInt(b)}function
-oy(a,b){return a>>A.BigInt(b)}function
-b0(a){return a<0?-1:a>0?1:0}function
-D5(a){if(a<0)throw new(A.Error)("a root of a negative number");if(a<2)return a;var
-d=A.BigInt(1),b=d<<A.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aS(a,b){return a-b}function
-iO(a){if(a>0x7fffffff||a<-0x80000000)throw new(A.Error)("a number of more than 32 bits");return A.Number(a)}function
-DF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Do(b){var
-a=w;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&DF(b[1]))var
+bj(a){return C.BigInt(a)}function
+pE(a,b){return a<<C.BigInt(b)}function
+pF(a,b){return a>>C.BigInt(b)}function
+b$(a){return a<0?-1:a>0?1:0}function
+Gn(a){if(a<0)throw new(C.Error)("a root of a negative number");if(a<2)return a;var
+d=C.BigInt(1),b=d<<C.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aY(a,b){return a-b}function
+jn(a){if(a>0x7fffffff||a<-0x80000000)throw new(C.Error)("a number of more than 32 bits");return C.Number(a)}function
+FZ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+FI(b){var
+a=z;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&FZ(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nu;for(var
-d=f;d<e.length;d++){if(d>f)a+=l1;var
+f=2,e=b;a+=oD;for(var
+d=f;d<e.length;d++){if(d>f)a+=m_;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bU)a+=aC+c.toString()+aC;else
+b5)a+=aF+c.toString()+aF;else
 if(typeof
-c=="string")a+=aC+c.toString()+aC;else
-a+=m2}a+=h9}else
-if(b[0]==aB)a+=b[1];return a}function
-oe(a){if(a
+c=="string")a+=aF+c.toString()+aF;else
+a+=n_}a+=iK}else
+if(b[0]==aE)a+=b[1];return a}function
+pl(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aB)){var
-c=c3(me);if(c)c(a,false);else{var
-d=Do(a),b=c3(lX);if(b)b(0);A.console.error(ie+d+mi)}}else
+Array&&(a[0]==0||a[0]==aE)){var
+c=dr(nn);if(c)c(a,false);else{var
+d=FI(a),b=dr(m6);if(b)b(0);C.console.error(iQ+d+ns)}}else
 throw a}function
-DV(){var
-a=A;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oe(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oe(a.error)})}DV();function
-f(a,b){return a.length==1?a(b):bX(a,[b])}function
-V(a,b,c){return a.length==2?a(b,c):bX(a,[b,c])}function
-Da(a,b,c,d){return a.length==3?a(b,c,d):bX(a,[b,c,d])}function
-hZ(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bX(a,[b,c,d,e,f])}function
-C$(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bX(a,[b,c,d,e,f,g,h])}Dp();var
-gf=[aB,a(nP),-1],iU=[aB,a(mg),-2],iR=[aB,a(h4),-3],iQ=[aB,a(mY),-4],iS=[aB,a(mx),-8],iT=[aB,a(nb),-9],al=[aB,a(ny),-11],iV=[aB,a(lW),-12],B8=[4,0,0,0,[12,45,[4,0,0,0,0]]],gn=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(mE),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],B9=[0,[0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,0],Ca=[0,[0,[0,[0,0]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,0]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,0]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,0],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,0]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,0],C5=[0,[0,[0,[0,[0,0]]]]],jx=[0,[0,[0,0]]],cM=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fr=[0,[0,[0,[0,0]]]],C6=[0,[0,[0,[0,[0,0]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]];bm(11,iV,lW);bm(10,al,ny);bm(9,[aB,a(mS),-10],mS);bm(8,iT,nb);bm(7,iS,mx);bm(6,[aB,a(m_),-7],m_);bm(5,[aB,a(np),-6],np);bm(4,[aB,a(mk),-5],mk);bm(3,iQ,mY);bm(2,iR,h4);bm(1,iU,mg);bm(0,gf,nP);var
-oE=a("%.12g"),oD=a(cD),oB=a("true"),oC=a("false"),oF=a("\\\\"),oG=a("\\'"),oH=a("\\b"),oI=a("\\t"),oJ=a("\\n"),oK=a("\\r"),oN=a("String.blit / Bytes.blit_string"),oM=a("Bytes.blit"),oL=a("String.sub / Bytes.sub"),oP=a(w),oO=a("String.concat"),oQ=a("Array.init"),oT=a("Buffer.add: cannot grow buffer"),oS=[0,a(nl),93,2],oR=[0,a(nl),94,2],o2=a("%c"),o3=a("%s"),o4=a(lU),o5=a(mw),o6=a(mU),o7=a(l4),o8=a("%f"),o9=a("%B"),o_=a("%{"),o$=a("%}"),pa=a("%("),pb=a("%)"),pc=a("%a"),pd=a("%t"),pe=a("%?"),pf=a("%r"),pg=a("%_r"),ph=[0,a(aA),850,23],ps=[0,a(aA),814,21],pk=[0,a(aA),815,21],pt=[0,a(aA),818,21],pl=[0,a(aA),819,21],pu=[0,a(aA),822,19],pm=[0,a(aA),823,19],pv=[0,a(aA),826,22],pn=[0,a(aA),827,22],pw=[0,a(aA),831,30],po=[0,a(aA),832,30],pq=[0,a(aA),836,26],pi=[0,a(aA),837,26],pr=[0,a(aA),846,28],pj=[0,a(aA),847,28],pp=[0,a(aA),851,23],qz=a(mO),qx=[0,a(aA),1558,4],qy=a("Printf: bad conversion %["),qA=[0,a(aA),1626,39],qB=[0,a(aA),1649,31],qC=[0,a(aA),1650,31],qD=a("Printf: bad conversion %_"),qE=a(mK),qF=a(mX),qG=a(mK),qH=a(mX),qv=a(h8),qt=a("neg_infinity"),qu=a(nJ),qs=a(cD),qn=[0,mb],qb=a("%+nd"),qc=a("% nd"),qe=a("%+ni"),qf=a("% ni"),qg=a("%nx"),qh=a("%#nx"),qi=a("%nX"),qj=a("%#nX"),qk=a("%no"),ql=a("%#no"),qa=a("%nd"),qd=a(mU),qm=a("%nu"),p0=a("%+ld"),p1=a("% ld"),p3=a("%+li"),p4=a("% li"),p5=a("%lx"),p6=a("%#lx"),p7=a("%lX"),p8=a("%#lX"),p9=a("%lo"),p_=a("%#lo"),pZ=a("%ld"),p2=a(mw),p$=a("%lu"),pN=a("%+Ld"),pO=a("% Ld"),pQ=a("%+Li"),pR=a("% Li"),pS=a("%Lx"),pT=a("%#Lx"),pU=a("%LX"),pV=a("%#LX"),pW=a("%Lo"),pX=a("%#Lo"),pM=a("%Ld"),pP=a(l4),pY=a("%Lu"),pA=a("%+d"),pB=a("% d"),pD=a("%+i"),pE=a("% i"),pF=a("%x"),pG=a("%#x"),pH=a("%X"),pI=a("%#X"),pJ=a("%o"),pK=a("%#o"),pz=a(ik),pC=a(lU),pL=a(mO),oU=a("@]"),oV=a("@}"),oW=a("@?"),oX=a("@\n"),oY=a("@."),oZ=a("@@"),o0=a("@%"),o1=a("@"),px=a("CamlinternalFormat.Type_mismatch"),qL=a(w),qM=[0,[11,a(l1),[2,0,[2,0,0]]],a(", %s%s")],q$=[0,[11,a(ie),[2,0,[12,10,0]]],a(nw)],ra=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],q_=a("Fatal error: out of memory in uncaught exception handler"),q8=[0,[11,a(ie),[2,0,[12,10,0]]],a(nw)],q4=[0,[2,0,[12,10,0]],a("%s\n")],qW=a("Raised at"),qX=a("Re-raised at"),qY=a("Raised by primitive operation at"),qZ=a("Called from"),q0=a(" (inlined)"),q2=a(w),q1=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(mE),B8]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],q3=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],qR=a("Out of memory"),qS=a("Stack overflow"),qT=a("Pattern matching failed"),qU=a("Assertion failed"),qV=a("Undefined recursive module"),qN=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],qO=a(w),qP=a(w),qQ=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],qK=[0,[4,0,0,0,0],a(ik)],qI=[0,[3,0,0],a("%S")],qJ=a(m2),q5=[0,a(w),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],rc=a("Jsoo_runtime.Error.Exn"),re=a("power"),ro=[0,0],rq=[0,0],rr=[0,[0,0]],rs=[0,[0,0]],rE=[0,0,0],rF=[0,0,0],rG=[0,0],rZ=[0,0],r0=[0,0],r3=[0,0],sj=[0,0],sm=[0,0],sy=[0,0],sz=[0,0],sU=[0,[0,[0,0]]],s6=a(","),tm=[0,a(h9),0],tn=a(nu),to=a(cD),tp=[0,[0,[0,0]]],tq=a(bj),tr=a(h_),ts=[0,[0,[0,[0,[0,0]]]]],tt=[0,a(h9),0],tu=a(n0),v4=a(lV),v6=a(m0),v5=a(nA),v7=a(fN),v8=a(fU),v9=a(mW),v_=a(nU),v$=a(nk),wa=a(my),xg=[0,0],xh=a(ig),xi=[0,0],xj=a("divided"),xk=[0,1],xl=a("mirror"),xm=[0,3],xn=a("negative"),xo=[0,2],xp=a(h$),xq=[0,5],xr=a(it),xs=[0,4],xt=a(fL),xu=a(nc),xv=a(f0),xw=a(c1),xx=[0,0],xy=[0,0],xz=[0,0],xZ=a(w),xW=[0,[0,[0,[0,0]]]],xX=[0,[0,[0,[0,0]]]],xU=[0,0],xS=[0,[0,[0,0]]],xQ=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],xO=[0,0],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],xK=[0,[0,0]],xL=[0,[0,[0,0]]],xI=[0,[0,[0,0]]],xJ=[0,[0,0]],xH=[0,[0,[0,0]]],xE=[0,[0,0]],xF=[0,0],xD=[0,0],xC=[0,[0,0]],xB=[0,0],xd=[0,0],xe=[0,1],xf=[0,2],w8=[0,[0,0]],w9=[0,0],w7=[0,0],w6=[0,0],w5=[0,0,0],w3=[0,0,0],w1=[0,[0,[0,0]]],w2=[0,[0,[0,0]]],w0=[0,0],wY=[0,1,0],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],wT=a("sqrt"),wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],wz=[0,a("\n"),0],wA=a(m1),wB=a(fJ),wC=a(mp),wD=a(nn),wJ=a(eC),wE=a(eA),wF=a("verdict"),wG=a(mH),wH=a(ni),wI=a(nx),ww=a(mm),wx=a(nS),wy=a(fW),ws=a(mv),wt=a(fX),wu=a(eA),wv=a(eC),wn=a(fO),wo=a(a7),wp=a(m3),wq=a(fM),wk=a(nO),wl=a(h$),wm=a(fM),wg=a(nG),wh=a(fO),wi=a(fX),wj=a(nV),wc=a(nT),wd=a(ns),we=a(fY),v2=a(ii),v3=a(ib),vX=a(bl),vY=a(bk),vZ=a(mc),vy=a(fY),vd=a(a7),ve=a(cg),vf=a(dJ),vg=a(fI),vh=a(dI),vi=a(a7),vj=a(cg),vk=a(iq),vl=a(bl),vm=a(bk),vn=a(c0),vo=a(dJ),vp=a(nI),vq=a(nQ),vr=a(dI),vs=a(a7),vt=a(cg),vu=a(bl),vv=a(bk),vw=a(c0),vx=a(dJ),vz=a(mD),vA=a(mL),vB=a(f3),vC=a(nd),vD=a(l7),vE=a(dI),vF=a(a7),vG=a(cg),vH=a(fQ),vI=a(nm),vJ=a(dJ),vK=a(eD),vL=a(m6),vM=a(dI),vN=a(a7),vO=a(fQ),vP=a(a7),vQ=a(mz),vT=a(mZ),vR=a(l6),vS=a(mQ),vU=a(eC),vV=a(eA),vW=a(a7),v0=a(f3),v1=a(fW),u9=a(cg),u_=a(iu),u$=a(dJ),va=a(fI),vb=a(dI),uX=a(eD),uY=a(nR),uZ=a(dF),u0=a(dG),u1=a(dG),u2=a(h1),u3=a(dF),u4=a(nz),u5=a(nj),u6=a(bA),u8=a(m5),u7=a(h1),uN=a(ml),uO=a(mV),uP=a(l9),uQ=a(ng),uR=a(mN),uS=a(mF),uT=a(no),uU=a(fR),uV=a(fR),uJ=a(bA),uK=a(cB),uL=a(fP),uM=a(cC),uF=a(ey),uG=a(io),uH=a(nE),uy=a(bl),uz=a(bk),uA=a(c0),uB=a(mq),uC=a(dF),uD=a(mj),uE=a(nL),uo=a(l5),ut=a(mP),uu=a(fJ),up=a(nh),uq=a(h2),uv=a(l3),uw=a(mB),ux=a(h2),ur=a(dG),us=a(nB),ul=a(fZ),um=a(fZ),un=a(fZ),uh=a(nM),ui=a(bk),uj=a(bl),uk=a(mM),t6=a(l0),t7=a(m4),t8=a(nH),t9=a(fN),t_=a(nZ),t$=a(nK),ua=a(m9),ub=a(nD),uc=a(lZ),ud=a(md),ue=a(m8),uf=a(nN),ug=a(fU),tV=a(bS),t5=a(bj),tW=a(fT),tX=a(fS),tY=a(f4),tZ=a(bA),t0=a(cB),t1=a(mt),t2=a(mA),t3=a(f4),t4=a(cC),tD=a(bS),tL=a(bj),tE=a(fT),tF=a(fS),tG=a(bA),tH=a(cB),tI=a(c1),tJ=a(mR),tK=a(cC),tM=a(ic),tN=a(bA),tO=a(cB),tP=a(fP),tQ=a(cC),tR=a(c1),tS=a(ey),tT=a(cC),tA=a(bl),tB=a(bk),ty=[0,a(aC),0],tz=a(aC),tw=a(w),tv=[0,a(aC),0],tx=a(aC),ti=a(bS),tj=a(bj),tk=a("*"),tl=a(bz),td=[0,[0,[0,[0,[0,0]]]]],te=[0,[0,[0,0]]],tf=[0,[0,0]],tg=[0,0],th=[0,[0,[0,[0,0]]]],tb=a('":'),tc=a(aC),s$=[0,a(aC),0],ta=a(aC),s9=[0,a("}"),0],s_=a("{"),s7=[0,a("]"),0],s8=a("["),s5=[0,[0,[0,0]]],s4=[0,[0,[0,0]]],s2=[0,0],sZ=[0,[0,[0,0]]],s0=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sX=[0,[0,0]],sY=[0,[0,[0,0]]],sS=[0,[0,0]],sT=[0,[0,[0,0]]],sQ=[0,[0,[0,0]]],sR=[0,[0,0]],sO=[0,0],sK=[0,[0,0]],sL=[0,0],sM=[0,0],sN=[0,[0,0]],sB=[0,[0,0]],sC=[0,0],sD=[0,[0,0]],sE=[0,0],sF=[0,0],sG=[0,[0,0]],sH=[0,[0,0]],sI=[0,[0,0]],sJ=[0,0],sx=[0,0],sv=[0,[0,[0,0]]],su=[0,[0,[0,[0,[0,[0,0]]]]]],sr=[0,0],ss=[0,[0,[0,[0,[0,[0,0]]]]]],st=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],sp=[0,[0,[0,0]]],sk=[0,[0,[0,0]]],si=[0,[0,[0,0]]],sg=[0,[0,[0,[0,[0,[0,0]]]]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],sc=[0,[0,0]],sd=[0,0],se=[0,[0,[0,0]]],sf=[0,[0,[0,0]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,[0,[0,[0,0]]]]]],r9=[0,[0,[0,[0,[0,[0,0]]]]]],r_=[0,[0,[0,0]]],r$=[0,[0,[0,[0,[0,[0,0]]]]]],sa=[0,[0,[0,0]]],sb=[0,[0,[0,0]]],r5=[0,[0,0]],r6=[0,0],r4=[0,0,0],r2=[0,0,0],r1=[0,[0,[0,0]]],rX=[0,0],rY=[0,0],rS=[0,[0,[0,0]]],rT=[0,[0,[0,0]]],rU=[0,[0,[0,0]]],rR=[0,[0,[0,[0,0]]]],rN=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,[0,0]]],rQ=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rL=[0,[0,0]],rM=[0,0],rJ=[0,[0,0]],rK=[0,0],rH=[0,[0,0]],rI=[0,0],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rt=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ru=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],rp=[0,0,0],rn=a(aQ),rm=a(w),rl=[0,[0,0]],rk=[0,0],rj=[1,0],ri=[0,0],rh=[0,0],rf=[1,0],rg=[1,0],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],AE=a(bl),AF=a(bk),AG=a(mc),Ae=a(cC),Af=a(ic),Ag=a(fP),Aj=a(bA),Ak=a(cB),Ah=[0,a('" of such a platform'),0],Ai=a(l2),z2=a("rho"),z3=a(fY),z4=[0,a("a joint by its coordinate"),0],zD=a(cg),zr=a(fW),zs=a(a7),zt=a(mz),zu=a(mQ),zx=a(l6),zy=a(mZ),zz=a(a7),zA=a(a7),zC=a(fQ),zB=[0,a("a claim that no cube of such a machine fits"),0],zE=a(dI),zF=a(dJ),zG=a(fI),zH=a(iu),AD=[0,a("such a machine with bodies"),0],zI=a(ey),zJ=a(io),zK=a(nE),zL=a(iq),zM=a(l7),zN=a(m6),zO=a(fI),zR=a(c0),zS=a(nL),zV=a(iu),zW=[0,a("a machine with arms and bodies"),0],zX=a(cg),zY=a(nm),zZ=a(fQ),z0=a(eD),z1=a(c0),z5=a(cg),z6=a(bl),z7=a(bk),z8=a(mD),z9=a(mL),z_=a(f3),z$=a(nd),zP=[0,a(aC),0],zQ=a(mT),Aa=a(c0),Ab=[0,a('" of a platform that turns'),0],Ac=a(mG),Ad=a(nI),AB=[0,a('" that does not turn'),0],AC=a(mT),Al=a(iq),Am=a(mF),An=a(ml),Ao=a(mN),Ap=a(fR),Aq=a(no),Ar=a(fR),Ay=a(mV),Az=a(l9),AA=a(ng),As=a(ey),At=a(io),Au=a(cg),Av=a(bl),Aw=a(bk),Ax=a(nQ),zT=[0,a(aC),0],zU=a(mG),AH=a(a7),AI=a(a7),AK=a(eC),AL=a(eA),AM=a(f3),AJ=[0,a("an atlas of such a machine"),0],zv=[0,a(aC),0],zw=a('a claim of the kind "'),AR=a(mW),AY=a(fU),AZ=a(fN),A0=a(nk),A1=a(nA),A2=a(c1),A3=a(ib),A4=a(ii),A5=a(c1),A6=a(aQ),AS=a(fL),AT=a(nc),AU=a(f0),AV=a(my),AW=[0,a(aC),0],AX=a('the evidence "'),A7=a(fL),A8=a(f0),A9=a(nU),A$=a(fL),Ba=a(f0),Bb=a(ig),Bc=a(ig),A_=[0,a("this evidence at control points"),0],B0=a('"orthocert-paving/'),BH=a(nx),BI=a(ni),BJ=a(mH),BY=[0,3,3],BK=a(nn),BT=[0,a('the drive "arm" in a claim that is certified'),0],BW=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],BX=[0,a("a mechanism by formulas in a claim that is refuted"),0],BU=[0,a('the evidence "tolerances" of such a mechanism'),0],BV=[0,a("a step of a platform that turns that is not at control points"),0],BL=[0,a("the acceleration of a joint of a machine with a plane"),0],BS=[0,a("this quantity in a claim that is refuted"),0],BQ=[0,a("a step in a proof that no cube fits"),0],BR=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BP=[0,a("a leaf that fails"),0],BM=a(mp),BN=a(m1),BO=a(fJ),BF=a(it),Bz=a(fW),BA=a(mm),BB=a(nS),BC=[0,a(aC),0],BD=a('a proof of the kind "'),Bv=a(eA),Bw=a(eC),Bx=a(fX),By=a(mv),Br=a(a7),Bs=a(fO),Bt=a(m3),Bu=a(fM),Bo=a(nO),Bp=a(h$),Bq=a(fM),Bk=a(nG),Bl=a(fO),Bm=a(fX),Bn=a(nV),Bf=a(ns),Bg=a(nT),Bh=a(fY),Bi=[0,a(aC),0],Bj=a('the failure "'),Bd=a(it),Be=a(aQ),AP=a(ib),AQ=a(ii),AN=a(m0),AO=a(lV),zo=a(eD),ze=a(h1),zf=a(m5),zg=a(dG),zh=a(bA),zm=a(nR),zn=a(eD),zp=a(dF),zq=a(dG),zi=a(dF),zj=a(nz),zk=a(nj),zl=a(bA),y9=a(c0),zb=a(bl),zc=a(bk),y_=a(mj),y$=a(mq),za=a(dF),y7=[0,a("this quantity of such a mechanism"),0],yU=a(nh),yV=[0,a("a stiffness for each joint"),0],yW=a(mB),yX=a(l3),yY=a(mP),yT=a(fJ),yL=a(fZ),yB=a(nB),yC=a(m4),y1=a(fU),y2=a(md),y3=a(fN),y4=a(nD),y5=a(m8),y6=a(lZ),yD=a(nH),yE=a(nN),yF=a(nK),yG=a(nZ),yH=a(m9),yI=a(l0),yJ=[0,a(aC),0],yK=a('the quantity "'),yM=a(l5),yN=a(nM),yO=a(bl),yP=a(bk),yQ=a(mM),yR=[0,a(aC),0],yS=a('a bound "'),yZ=a(h2),y0=a(dG),yu=a(fT),yv=a(fS),yw=a(f4),yx=a(bA),yy=a(cB),yz=a(mt),yA=a(mA),yr=a(cC),ys=a(f4),yc=a(cC),yd=a(ey),ye=a(mR),yf=a(fP),yi=a(ic),yj=a(bA),yk=a(cB),yl=a(fT),ym=a(fS),yn=a(bA),yo=a(cB),yp=a(c1),yq=a(c1),yg=[0,a(aC),0],yh=a(l2),x$=a(bS),ya=a(bj),x9=a(" is not covered by the verified checker"),x_=a(w),x7=a(bl),x8=a(bk),x3=a(w),x4=a(n0),x5=a(w),x6=a(w),x2=[1,0],x0=a("Reader.Malformed"),x1=a("Reader.Not_covered"),B3=[0,a("a paving is checked by orthocert-verified")],B2=a(mu),B4=a("CERTIFIED"),B5=a("REFUTED"),B6=a(mu),B7=a("NOT COVERED: ");function
-ak(a){if(typeof
+Gd(){var
+a=C;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pl(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pl(a.error)})}Gd();function
+f(a,b){return a.length==1?a(b):b8(a,[b])}function
+_(a,b,c){return a.length==2?a(b,c):b8(a,[b,c])}function
+Fu(a,b,c,d){return a.length==3?a(b,c,d):b8(a,[b,c,d])}function
+iy(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b8(a,[b,c,d,e,f])}function
+Ft(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b8(a,[b,c,d,e,f,g,h])}FJ();var
+gM=[aE,a(oX),-1],jt=[aE,a(np),-2],jq=[aE,a(iD),-3],jp=[aE,a(n6),-4],jr=[aE,a(nG),-8],js=[aE,a(ok),-9],as=[aE,a(oH),-11],ju=[aE,a(m5),-12],En=[4,0,0,0,[12,45,[4,0,0,0,0]]],gV=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(nO),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],Eo=[0,[0,0]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],Eq=[0,0],Er=[0,0],Es=[0,[0,[0,[0,0]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,0]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],EE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],EF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],EG=[0,[0,0]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],EM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],EN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EM]]]]]]]]]]],EO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EO]]]]]]]]]]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]]],ER=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],ES=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],EW=[0,0],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],E8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],E$=[0,[0,[0,[0,[0,0]]]]],Fa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],Fb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],Fc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]],Fh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Fi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fh]]]]]]]]]]],Fj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fi]]]]]]]]]]],Fk=[0,0],Fl=[0,[0,0]],Fm=[0,0],Fn=[0,[0,[0,[0,[0,0]]]]],j7=[0,[0,[0,0]]],cJ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fV=[0,[0,[0,[0,0]]]],Fo=[0,[0,[0,[0,[0,0]]]]],Fp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fo]]]]]]]]]]],Fq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fp]]]]]]]]]]],Fr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fq]]]]]]]]]]],Fs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fr]]]]]]]]]]];bx(11,ju,m5);bx(10,as,oH);bx(9,[aE,a(n1),-10],n1);bx(8,js,ok);bx(7,jr,nG);bx(6,[aE,a(oh),-7],oh);bx(5,[aE,a(oy),-6],oy);bx(4,[aE,a(nu),-5],nu);bx(3,jp,n6);bx(2,jq,iD);bx(1,jt,np);bx(0,gM,oX);var
+pL=a("%.12g"),pK=a(cU),pI=a("true"),pJ=a("false"),pM=a("\\\\"),pN=a("\\'"),pO=a("\\b"),pP=a("\\t"),pQ=a("\\n"),pR=a("\\r"),pU=a("String.blit / Bytes.blit_string"),pT=a("Bytes.blit"),pS=a("String.sub / Bytes.sub"),pW=a(z),pV=a("String.concat"),pX=a("Array.init"),p0=a("Buffer.add: cannot grow buffer"),pZ=[0,a(ou),93,2],pY=[0,a(ou),94,2],p9=a("%c"),p_=a("%s"),p$=a(m3),qa=a(nF),qb=a(n2),qc=a(nb),qd=a("%f"),qe=a("%B"),qf=a("%{"),qg=a("%}"),qh=a("%("),qi=a("%)"),qj=a("%a"),qk=a("%t"),ql=a("%?"),qm=a("%r"),qn=a("%_r"),qo=[0,a(aD),850,23],qz=[0,a(aD),814,21],qr=[0,a(aD),815,21],qA=[0,a(aD),818,21],qs=[0,a(aD),819,21],qB=[0,a(aD),822,19],qt=[0,a(aD),823,19],qC=[0,a(aD),826,22],qu=[0,a(aD),827,22],qD=[0,a(aD),831,30],qv=[0,a(aD),832,30],qx=[0,a(aD),836,26],qp=[0,a(aD),837,26],qy=[0,a(aD),846,28],qq=[0,a(aD),847,28],qw=[0,a(aD),851,23],rG=a(nY),rE=[0,a(aD),1558,4],rF=a("Printf: bad conversion %["),rH=[0,a(aD),1626,39],rI=[0,a(aD),1649,31],rJ=[0,a(aD),1650,31],rK=a("Printf: bad conversion %_"),rL=a(nU),rM=a(n5),rN=a(nU),rO=a(n5),rC=a(iJ),rA=a("neg_infinity"),rB=a(oR),rz=a(cU),ru=[0,nk],ri=a("%+nd"),rj=a("% nd"),rl=a("%+ni"),rm=a("% ni"),rn=a("%nx"),ro=a("%#nx"),rp=a("%nX"),rq=a("%#nX"),rr=a("%no"),rs=a("%#no"),rh=a("%nd"),rk=a(n2),rt=a("%nu"),q7=a("%+ld"),q8=a("% ld"),q_=a("%+li"),q$=a("% li"),ra=a("%lx"),rb=a("%#lx"),rc=a("%lX"),rd=a("%#lX"),re=a("%lo"),rf=a("%#lo"),q6=a("%ld"),q9=a(nF),rg=a("%lu"),qU=a("%+Ld"),qV=a("% Ld"),qX=a("%+Li"),qY=a("% Li"),qZ=a("%Lx"),q0=a("%#Lx"),q1=a("%LX"),q2=a("%#LX"),q3=a("%Lo"),q4=a("%#Lo"),qT=a("%Ld"),qW=a(nb),q5=a("%Lu"),qH=a("%+d"),qI=a("% d"),qK=a("%+i"),qL=a("% i"),qM=a("%x"),qN=a("%#x"),qO=a("%X"),qP=a("%#X"),qQ=a("%o"),qR=a("%#o"),qG=a(iV),qJ=a(m3),qS=a(nY),p1=a("@]"),p2=a("@}"),p3=a("@?"),p4=a("@\n"),p5=a("@."),p6=a("@@"),p7=a("@%"),p8=a("@"),qE=a("CamlinternalFormat.Type_mismatch"),rS=a(z),rT=[0,[11,a(m_),[2,0,[2,0,0]]],a(", %s%s")],sg=[0,[11,a(iQ),[2,0,[12,10,0]]],a(oF)],sh=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],sf=a("Fatal error: out of memory in uncaught exception handler"),sd=[0,[11,a(iQ),[2,0,[12,10,0]]],a(oF)],r$=[0,[2,0,[12,10,0]],a("%s\n")],r3=a("Raised at"),r4=a("Re-raised at"),r5=a("Raised by primitive operation at"),r6=a("Called from"),r7=a(" (inlined)"),r9=a(z),r8=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(nO),En]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],r_=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],rY=a("Out of memory"),rZ=a("Stack overflow"),r0=a("Pattern matching failed"),r1=a("Assertion failed"),r2=a("Undefined recursive module"),rU=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],rV=a(z),rW=a(z),rX=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],rR=[0,[4,0,0,0,0],a(iV)],rP=[0,[3,0,0],a("%S")],rQ=a(n_),sa=[0,a(z),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],sj=a("Jsoo_runtime.Error.Exn"),sl=a("power"),sv=[0,0],sx=[0,0],sy=[0,[0,0]],sz=[0,[0,0]],sL=[0,0,0],sM=[0,0,0],sN=[0,0],s6=[0,0],s7=[0,0],s_=[0,0],tq=[0,0],tt=[0,0],tu=[0,0],tA=[0,0],tB=[0,0],tW=[0,[0,[0,0]]],t$=[0,0],uv=a(","),uN=[0,a(iK),0],uO=a(oD),uP=a(cU),uQ=[0,[0,[0,0]]],uR=a(bw),uS=a(iL),uT=[0,[0,[0,[0,[0,0]]]]],uU=[0,a(iK),0],uV=a(o7),xM=a(m4),xO=a(n8),xN=a(oJ),xP=a(gj),xQ=a(gp),xR=a(n4),xS=a(o1),xT=a(ot),xU=a(nH),yY=[0,0],yZ=a(iR),y0=[0,0],y1=a("divided"),y2=[0,1],y3=a("mirror"),y4=[0,3],y5=a("negative"),y6=[0,2],y7=a(iM),y8=[0,5],y9=a(i4),y_=[0,4],y$=a(gh),za=a(ol),zb=a(gv),zc=a(cw),zd=[0,0],ze=[0,0],zf=[0,0],zQ=a(z),zN=[0,[0,[0,[0,0]]]],zO=[0,[0,[0,[0,0]]]],zL=[0,0],zI=[0,[0,0]],zJ=[0,[0,[0,0]]],zE=[0,[0,[0,0]]],zC=[0,[0,[0,0]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],zA=[0,0],zs=[0,[0,0]],zt=[0,[0,[0,0]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],zv=[0,[0,0]],zy=[0,[0,[0,0]]],zw=[0,[0,0]],zx=[0,[0,[0,0]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],zp=[0,[0,0]],zq=[0,[0,[0,0]]],zn=[0,[0,[0,0]]],zo=[0,[0,0]],zk=[0,[0,0]],zl=[0,0],zj=[0,0],zi=[0,[0,0]],zh=[0,0],yV=[0,0],yW=[0,1],yX=[0,2],yR=[0,[0,0]],yS=[0,0],yQ=[0,0],yP=[0,0],yO=[0,0],yN=[0,0,0],yL=[0,0,0],yJ=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yI=[0,0],yG=[0,1,0],yy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],yz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],yu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],yv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EN]]]]]]]]]]],yw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],yx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],yA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],yB=a("sqrt"),ys=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],yt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fj]]]]]]]]]]],yh=[0,a("\n"),0],yi=a(n9),yj=a(gf),yk=a(nz),yl=a(ow),yr=a(eX),ym=a(eV),yn=a("verdict"),yo=a(nR),yp=a(or),yq=a(oG),ye=a(nw),yf=a(oZ),yg=a(gr),ya=a(nE),yb=a(gs),yc=a(eV),yd=a(eX),x7=a(gk),x8=a(bh),x9=a(n$),x_=a(gi),x4=a(oW),x5=a(iM),x6=a(gi),x0=a(oP),x1=a(gk),x2=a(gs),x3=a(o2),xW=a(o0),xX=a(oB),xY=a(gt),xK=a(iT),xL=a(iO),xF=a(bg),xG=a(bf),xH=a(nl),xf=a(gt),xg=a(nI),wS=a(bh),wT=a(b2),wU=a(gy),wV=a(d7),wW=a(dp),w1=a(ge),wX=a(iZ),wY=a(i1),wZ=a(d6),w0=a(bh),w2=a(b2),w3=a(gy),w4=a(bg),w5=a(bf),w6=a(ct),w7=a(d7),w8=a(iZ),w9=a(i1),w_=a(d6),w$=a(bh),xa=a(b2),xb=a(bg),xc=a(bf),xd=a(ct),xe=a(d7),xh=a(nN),xi=a(nV),xj=a(gz),xk=a(om),xl=a(ne),xm=a(d6),xn=a(bh),xo=a(b2),xp=a(gn),xq=a(ov),xr=a(d7),xs=a(eY),xt=a(od),xu=a(d6),xv=a(bh),xw=a(gn),xx=a(bh),xy=a(nJ),xB=a(n7),xz=a(nd),xA=a(n0),xC=a(eX),xD=a(eV),xE=a(bh),xI=a(gz),xJ=a(gr),wM=a(b2),wN=a(i5),wO=a(d7),wP=a(ge),wQ=a(d6),wA=a(eY),wB=a(oY),wC=a(dn),wD=a(d2),wE=a(d2),wF=a(iA),wG=a(dn),wH=a(oI),wI=a(os),wJ=a(a6),wL=a(ob),wK=a(iA),wq=a(nv),wr=a(n3),ws=a(ng),wt=a(op),wu=a(nX),wv=a(nP),ww=a(ox),wx=a(go),wy=a(go),wm=a(a6),wn=a(bv),wo=a(d4),wp=a(bK),wi=a(dp),wj=a(iY),wk=a(oN),wf=a(bg),wg=a(bf),wh=a(ct),v_=a(bg),v$=a(bf),wa=a(ct),wb=a(iI),wc=a(dn),wd=a(iE),we=a(oT),v0=a(nc),v6=a(gf),v5=a(nZ),v1=a(oq),v2=a(iB),v7=a(na),v8=a(nL),v9=a(iB),v3=a(d2),v4=a(oK),vX=a(gu),vY=a(gu),vZ=a(gu),vT=a(oU),vU=a(bf),vV=a(bg),vW=a(nW),vF=a(m9),vG=a(oa),vH=a(oQ),vI=a(gj),vJ=a(o6),vK=a(oS),vL=a(og),vM=a(oM),vN=a(m8),vO=a(nm),vP=a(of),vQ=a(oV),vR=a(gp),vS=a(oc),vk=a(b3),vm=a(bw),vl=a(eZ),vn=a(d5),vo=a(a6),vp=a(bv),vq=a(cw),vr=a(gl),vs=a(bK),vt=a(a6),vu=a(bv),vv=a(d4),vw=a(bK),vx=a(d5),vy=a(e1),vz=a(a6),vA=a(bv),vB=a(nC),vC=a(nK),vD=a(e1),vE=a(bK),u4=a(b3),va=a(bw),u5=a(eZ),u6=a(d5),u7=a(a6),u8=a(bv),u9=a(cw),u_=a(gl),u$=a(bK),vb=a(gm),vc=a(a6),vd=a(bv),ve=a(d4),vf=a(bK),vg=a(cw),vh=a(dp),vi=a(bK),u1=a(bg),u2=a(bf),uZ=[0,a(aF),0],u0=a(aF),uX=a(z),uW=[0,a(aF),0],uY=a(aF),uJ=a(b3),uK=a(bw),uL=a("*"),uM=a(bI),uE=[0,[0,[0,[0,[0,0]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,0]],uH=[0,0],uI=[0,[0,[0,[0,0]]]],uC=a('":'),uD=a(aF),uA=[0,a(aF),0],uB=a(aF),uy=[0,a("}"),0],uz=a("{"),uw=[0,a("]"),0],ux=a("["),uu=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],ur=[0,0],uo=[0,[0,[0,0]]],up=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],uq=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],um=[0,[0,0]],un=[0,[0,[0,0]]],uj=[0,0],uk=[0,[0,[0,[0,[0,[0,0]]]]]],ul=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fk]]]]]]]]]]],ug=[0,0],ud=[0,0,0],ue=[0,0,0],uf=[0,0,0],ua=[0,[0,0]],ub=[0,[0,[0,0]]],uc=[0,0],t1=[0,[0,[0,[0,[0,[0,0]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t3=[0,[0,[0,0]]],t4=[0,[0,[0,0]]],t5=[0,[0,[0,[0,[0,[0,0]]]]]],t6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fl]]]]]]]]]]],t8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fm]]]]]]]]]]],t9=[0,[0,[0,0]]],t_=[0,[0,[0,[0,[0,[0,0]]]]]],tZ=[0,[0,0]],t0=[0,[0,[0,0]]],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,0]],tQ=[0,0],tM=[0,[0,0]],tN=[0,0],tO=[0,0],tP=[0,[0,0]],tD=[0,[0,0]],tE=[0,0],tF=[0,[0,0]],tG=[0,0],tH=[0,0],tI=[0,[0,0]],tJ=[0,[0,0]],tK=[0,[0,0]],tL=[0,0],tz=[0,0],tx=[0,[0,[0,0]]],tw=[0,[0,[0,[0,[0,[0,0]]]]]],tr=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,[0,[0,[0,[0,0]]]]]],tj=[0,[0,0]],tk=[0,0],tl=[0,[0,[0,0]]],tm=[0,[0,[0,0]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],td=[0,[0,[0,[0,[0,[0,0]]]]]],te=[0,[0,[0,[0,[0,[0,0]]]]]],tf=[0,[0,[0,0]]],tg=[0,[0,[0,[0,[0,[0,0]]]]]],th=[0,[0,[0,0]]],ti=[0,[0,[0,0]]],ta=[0,[0,0]],tb=[0,0],s$=[0,0,0],s9=[0,0,0],s8=[0,[0,[0,0]]],s4=[0,0],s5=[0,0],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],sY=[0,[0,[0,[0,0]]]],sU=[0,[0,[0,0]]],sV=[0,[0,[0,0]]],sW=[0,[0,[0,0]]],sX=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sS=[0,[0,0]],sT=[0,0],sQ=[0,[0,0]],sR=[0,0],sO=[0,[0,0]],sP=[0,0],sC=[0,0],sD=[0,[0,0]],sE=[0,0],sF=[0,[0,0]],sA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fn]]]]]]]]]]],sw=[0,0,0],su=a(aW),st=a(z),ss=[0,[0,0]],sr=[0,0],sq=[1,0],sp=[0,0],so=[0,0],sm=[1,0],sn=[1,0],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fs]]]]]]]]]]],CU=a(bg),CV=a(bf),CW=a(nl),CJ=a(gm),CK=[0,a("a base axis of such a platform"),0],CL=a(a6),CM=a(bv),Cw=a(nP),Cx=a(nv),Cy=a(nX),Cz=a(go),CA=a(ox),CB=a(go),CC=a(n3),CD=a(ng),CE=a(op),Cj=a(nI),Ck=a(gt),BU=a(b2),BI=a(gr),BJ=a(bh),BK=a(nJ),BL=a(n0),BO=a(nd),BP=a(n7),BQ=a(bh),BR=a(bh),BT=a(gn),BS=[0,a("a claim that no cube of such a machine fits"),0],BV=a(d6),BW=a(d7),BX=a(ge),BY=a(i5),CT=[0,a(nq),0],BZ=a(dp),B0=a(iY),B1=a(oN),B2=a(gy),B3=a(ne),B4=a(od),B5=a(ge),B8=a(ct),B9=a(oT),Ca=a(i5),Cb=[0,a(nq),0],Cc=a(b2),Cd=[0,a("the distance from parallel singularities of other drives than sliders"),0],Ce=a(ov),Cf=[0,a("what else is asked of the closed design"),0],Cg=a(gn),Ch=a(eY),Ci=a(ct),Cl=a(b2),Cm=a(bg),Cn=a(bf),Co=a(nN),Cp=a(nV),Cq=a(gz),Cr=a(om),B6=[0,a(aF),0],B7=a('the mechanism "'),Cs=a(ct),Ct=[0,a('" of a platform that turns'),0],Cu=a(nQ),Cv=a(iZ),CF=a(gy),CG=a(dp),CH=a(iY),CI=a(i1),CN=a(b2),CO=a(bg),CP=a(bf),CS=a(dp),CQ=[0,a("a platform that turns on struts and other drives"),0],CR=a(b2),B_=[0,a(aF),0],B$=a(nQ),CX=a(bh),CY=a(bh),C0=a(eX),C1=a(eV),C2=a(gz),CZ=[0,a("an atlas of such a machine"),0],BM=[0,a(aF),0],BN=a('a claim of the kind "'),C7=a(n4),Dc=a(gp),Dd=a(gj),De=a(ot),Df=a(oJ),Dg=a(cw),Dh=a(iO),Di=a(iT),Dj=a(cw),Dk=a(aW),C8=a(gh),C9=a(ol),C_=a(gv),C$=a(nH),Da=[0,a(aF),0],Db=a('the evidence "'),Dl=a(gh),Dm=a(gv),Dn=a(o1),Dp=a(gh),Dq=a(gv),Dr=a(iR),Ds=a(iR),Do=[0,a("this evidence at control points"),0],Ef=a('"orthocert-paving/'),DX=a(oG),DY=a(or),DZ=a(nR),Ed=[0,3,3],D0=a(ow),D9=[0,a("this set of orientations with such drives"),0],D_=[0,a(nt),0],Eb=[0,a(nt),0],Ec=[0,a("a mechanism by formulas in a claim that is refuted"),0],D$=[0,a('the evidence "tolerances" of such a mechanism'),0],Ea=[0,a("a step of a platform that turns that is not at control points"),0],D1=[0,a("the acceleration of a joint of a machine with a plane"),0],D8=[0,a("this quantity in a claim that is refuted"),0],D6=[0,a("a step in a proof that no cube fits"),0],D7=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],D5=[0,a("a leaf that fails"),0],D2=a(nz),D3=a(n9),D4=a(gf),DV=a(i4),DP=a(gr),DQ=a(nw),DR=a(oZ),DS=[0,a(aF),0],DT=a('a proof of the kind "'),DL=a(eV),DM=a(eX),DN=a(gs),DO=a(nE),DH=a(bh),DI=a(gk),DJ=a(n$),DK=a(gi),DE=a(oW),DF=a(iM),DG=a(gi),DA=a(oP),DB=a(gk),DC=a(gs),DD=a(o2),Dv=a(oB),Dw=a(o0),Dx=a(gt),Dy=[0,a(aF),0],Dz=a('the failure "'),Dt=a(i4),Du=a(aW),C5=a(iO),C6=a(iT),C3=a(n8),C4=a(m4),BF=a(eY),Bv=a(iA),Bw=a(ob),Bx=a(d2),By=a(a6),BD=a(oY),BE=a(eY),BG=a(dn),BH=a(d2),Bz=a(dn),BA=a(oI),BB=a(os),BC=a(a6),Bo=a(ct),Bs=a(bg),Bt=a(bf),Bp=a(iE),Bq=a(iI),Br=a(dn),Bi=a(ct),Bm=a(bg),Bn=a(bf),Bj=a(iE),Bk=a(iI),Bl=a(dn),Bh=[0,1],Bg=[0,1],Bf=[0,a("this quantity of such a mechanism"),0],A1=a(oq),A2=[0,a("a stiffness for each joint"),0],A3=a(nL),A4=a(na),A5=a(nZ),A6=a("max_angle"),A7=[0,a("accuracy of a platform that turns"),0],A0=a(gf),AS=a(gu),AI=a(oK),AJ=a(oQ),A_=a(gp),A$=a(nm),Ba=a(gj),Bb=a(oM),Bc=a(of),Bd=a(m8),Be=a(oa),AK=a(oc),AL=a(oV),AM=a(oS),AN=a(o6),AO=a(og),AP=a(m9),AQ=[0,a(aF),0],AR=a('the quantity "'),AT=a(nc),AU=a(oU),AV=a(bg),AW=a(bf),AX=a(nW),AY=[0,a(aF),0],AZ=a('a bound "'),A8=a(iB),A9=a(d2),AG=a(bK),AH=a(d4),Al=a(bK),Am=a(gm),An=a(e1),Ao=a(gl),Ap=a(d4),As=a(a6),At=a(bv),Au=a(eZ),Av=a(d5),Aw=a(a6),Ax=a(bv),Ay=a(cw),Az=a(eZ),AA=a(d5),AB=a(e1),AC=a(a6),AD=a(bv),AE=a(nC),AF=a(nK),Aq=[0,a('" of such a machine'),0],Ar=a(m$),Aj=a(bK),Ak=a(e1),z5=a(bK),z6=a(dp),z7=a(gl),z8=a(d4),z$=a(gm),Aa=a(a6),Ab=a(bv),Ac=a(eZ),Ad=a(d5),Ae=a(a6),Af=a(bv),Ag=a(cw),Ah=a(cw),z9=[0,a(aF),0],z_=a(m$),z2=a(b3),z3=a(bw),z0=a(" is not covered by the verified checker"),z1=a(z),zY=a(bg),zZ=a(bf),zU=a(z),zV=a(o7),zW=a(z),zX=a(z),zT=[1,0],zR=a("Reader.Malformed"),zS=a("Reader.Not_covered"),Ei=[0,a("a paving is checked by orthocert-verified")],Eh=a(nD),Ej=a("CERTIFIED"),Ek=a("REFUTED"),El=a(nD),Em=a("NOT COVERED: ");function
+ar(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ak(a[1])];case
-1:return[1,ak(a[1])];case
-2:return[2,ak(a[1])];case
-3:return[3,ak(a[1])];case
-4:return[4,ak(a[1])];case
-5:return[5,ak(a[1])];case
-6:return[6,ak(a[1])];case
-7:return[7,ak(a[1])];case
+0:return[0,ar(a[1])];case
+1:return[1,ar(a[1])];case
+2:return[2,ar(a[1])];case
+3:return[3,ar(a[1])];case
+4:return[4,ar(a[1])];case
+5:return[5,ar(a[1])];case
+6:return[6,ar(a[1])];case
+7:return[7,ar(a[1])];case
 8:var
-c=a[1];return[8,c,ak(a[2])];case
+c=a[1];return[8,c,ar(a[2])];case
 9:var
-b=a[1];return[9,b,b,ak(a[3])];case
-10:return[10,ak(a[1])];case
-11:return[11,ak(a[1])];case
-12:return[12,ak(a[1])];case
-13:return[13,ak(a[1])];default:return[14,ak(a[1])]}}function
-aT(a,b){if(typeof
+b=a[1];return[9,b,b,ar(a[3])];case
+10:return[10,ar(a[1])];case
+11:return[11,ar(a[1])];case
+12:return[12,ar(a[1])];case
+13:return[13,ar(a[1])];default:return[14,ar(a[1])]}}function
+aZ(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aT(a[1],b)];case
-1:return[1,aT(a[1],b)];case
-2:return[2,aT(a[1],b)];case
-3:return[3,aT(a[1],b)];case
-4:return[4,aT(a[1],b)];case
-5:return[5,aT(a[1],b)];case
-6:return[6,aT(a[1],b)];case
-7:return[7,aT(a[1],b)];case
+0:return[0,aZ(a[1],b)];case
+1:return[1,aZ(a[1],b)];case
+2:return[2,aZ(a[1],b)];case
+3:return[3,aZ(a[1],b)];case
+4:return[4,aZ(a[1],b)];case
+5:return[5,aZ(a[1],b)];case
+6:return[6,aZ(a[1],b)];case
+7:return[7,aZ(a[1],b)];case
 8:var
-c=a[1];return[8,c,aT(a[2],b)];case
+c=a[1];return[8,c,aZ(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aT(a[3],b)];case
-10:return[10,aT(a[1],b)];case
-11:return[11,aT(a[1],b)];case
-12:return[12,aT(a[1],b)];case
-13:return[13,aT(a[1],b)];default:return[14,aT(a[1],b)]}}function
-ag(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aZ(a[3],b)];case
+10:return[10,aZ(a[1],b)];case
+11:return[11,aZ(a[1],b)];case
+12:return[12,aZ(a[1],b)];case
+13:return[13,aZ(a[1],b)];default:return[14,aZ(a[1],b)]}}function
+an(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ag(a[1],b)];case
-1:return[1,ag(a[1],b)];case
+0:return[0,an(a[1],b)];case
+1:return[1,an(a[1],b)];case
 2:var
-c=a[1];return[2,c,ag(a[2],b)];case
+c=a[1];return[2,c,an(a[2],b)];case
 3:var
-d=a[1];return[3,d,ag(a[2],b)];case
+d=a[1];return[3,d,an(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,ag(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,an(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,ag(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,an(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,ag(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,an(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,ag(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,an(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,ag(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,an(a[4],b)];case
 9:var
-t=a[1];return[9,t,ag(a[2],b)];case
-10:return[10,ag(a[1],b)];case
+t=a[1];return[9,t,an(a[2],b)];case
+10:return[10,an(a[1],b)];case
 11:var
-u=a[1];return[11,u,ag(a[2],b)];case
+u=a[1];return[11,u,an(a[2],b)];case
 12:var
-v=a[1];return[12,v,ag(a[2],b)];case
+v=a[1];return[12,v,an(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,ag(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,an(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,ag(a[3],b)];case
-15:return[15,ag(a[1],b)];case
-16:return[16,ag(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,an(a[3],b)];case
+15:return[15,an(a[1],b)];case
+16:return[16,an(a[1],b)];case
 17:var
-A=a[1];return[17,A,ag(a[2],b)];case
+A=a[1];return[17,A,an(a[2],b)];case
 18:var
-B=a[1];return[18,B,ag(a[2],b)];case
-19:return[19,ag(a[1],b)];case
+B=a[1];return[18,B,an(a[2],b)];case
+19:return[19,an(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,ag(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,an(a[3],b)];case
 21:var
-E=a[1];return[21,E,ag(a[2],b)];case
-22:return[22,ag(a[1],b)];case
+E=a[1];return[21,E,an(a[2],b)];case
+22:return[22,an(a[1],b)];case
 23:var
-F=a[1];return[23,F,ag(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,ag(a[3],b)]}}function
-cm(a){throw[0,iQ,a]}function
-eL(a){return 0<=a?a:-a|0}function
-aE(d,c){var
-a=L(d),e=L(c),b=aw(a+e|0);bW(d,0,b,0,a);bW(c,0,b,a,e);return aR(b)}function
-oA(a){return a?oB:oC}DM(0);oj(1);var
-b1=oj(2);function
-dQ(b,a){return ok(b,a,0,L(a))}function
-iW(a){dQ(b1,a);ol(b1,10);return dN(b1)}function
-gg(b){function
+F=a[1];return[23,F,an(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,an(a[3],b)]}}function
+cB(a){throw[0,jp,a]}function
+e8(a){return 0<=a?a:-a|0}function
+aH(d,c){var
+a=P(d),e=P(c),b=aA(a+e|0);b7(d,0,b,0,a);b7(c,0,b,a,e);return aX(b)}function
+pH(a){return a?pI:pJ}F6(0);pq(1);var
+ca=pq(2);function
+ec(b,a){return pr(b,a,0,P(a))}function
+jv(a){ec(ca,a);ps(ca,10);return d$(ca)}function
+gN(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{dN(d)}catch(a){a=gd(a);if(a[1]!==iU)throw a;var
+c=a[2],d=a[1];try{d$(d)}catch(a){a=gK(a);if(a[1]!==jt)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(DN(0))}iI(a(lX),gg);var
-dR=(4*DX(0)|0)-1|0;function
-cG(c){var
+a=c;continue}return 0}}return a(F7(0))}jh(a(m6),gN);var
+ed=(4*Gf(0)|0)-1|0;function
+cb(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-X(b,a){if(a){var
-c=a[2],d=f(b,a[1]);return[0,d,X(b,c)]}return 0}function
-iX(d,c){var
+R(b,a){if(a){var
+c=a[2],d=f(b,a[1]);return[0,d,R(b,c)]}return 0}function
+gO(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=f(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-bd(d,c){var
+aI(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=f(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-cH(a,c){var
-b=aw(a);Dn(b,0,a,c);return b}function
-iY(c,b,a){if(0<=b&&0<=a&&!((a8(c)-a|0)<b)){var
-d=aw(a);cF(c,b,d,0,a);return d}return cm(oL)}function
-iZ(c,b,a){return aR(iY(c,b,a))}function
-i0(e,c,d,b,a){if(0<=a&&0<=c&&!((a8(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return cF(e,c,d,b,a);return cm(oM)}function
-b2(e,c,d,b,a){if(0<=a&&0<=c&&!((L(e)-a|0)<c)&&0<=b&&!((a8(d)-a|0)<b))return bW(e,c,d,b,a);return cm(oN)}function
-be(b,a){return aR(cH(b,a))}function
-c6(c,b,a){return aR(iY(cj(c),b,a))}function
-i1(k,g){if(g){var
-h=L(k),c=0,b=g,p=0;for(;;){if(b){var
+cX(a,c){var
+b=aA(a);FH(b,0,a,c);return b}function
+jw(c,b,a){if(0<=b&&0<=a&&!((bi(c)-a|0)<b)){var
+d=aA(a);cW(c,b,d,0,a);return d}return cB(pS)}function
+jx(c,b,a){return aX(jw(c,b,a))}function
+jy(e,c,d,b,a){if(0<=a&&0<=c&&!((bi(e)-a|0)<c)&&0<=b&&!((bi(d)-a|0)<b))return cW(e,c,d,b,a);return cB(pT)}function
+cc(e,c,d,b,a){if(0<=a&&0<=c&&!((P(e)-a|0)<c)&&0<=b&&!((bi(d)-a|0)<b))return b7(e,c,d,b,a);return cB(pU)}function
+bq(b,a){return aX(cX(b,a))}function
+du(c,b,a){return aX(jw(cy(c),b,a))}function
+jz(k,g){if(g){var
+h=P(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(L(i)+h|0)+c|0,m=b[2],n=c<=j?j:cm(oO),c=n,b=m;continue}var
-l=L(i)+c|0}else
+j=(P(i)+h|0)+c|0,m=b[2],n=c<=j?j:cB(pV),c=n,b=m;continue}var
+l=P(i)+c|0}else
 var
 l=c;var
-f=aw(l),e=p,d=g;for(;;){if(d){var
+f=aA(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bW(a,0,f,e,L(a));bW(k,0,f,e+L(a)|0,h);var
-e=(e+L(a)|0)+h|0,d=o;continue}bW(a,0,f,e,L(a))}return aR(f)}}}return oP}function
-gh(b,c){if(0===b)return[0];if(0<=b){var
-d=DK(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
+o=d[2];b7(a,0,f,e,P(a));b7(k,0,f,e+P(a)|0,h);var
+e=(e+P(a)|0)+h|0,d=o;continue}b7(a,0,f,e,P(a))}return aX(f)}}}return pW}function
+gP(b,c){if(0===b)return[0];if(0<=b){var
+d=F4(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
 a=g;for(;;){d[1+a]=f(c,a);var
 h=a+1|0;if(e!==a){var
-a=h;continue}break}}return d}return cm(oQ)}function
-gi(c){var
+a=h;continue}break}}return d}return cB(pX)}function
+gQ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-i2(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(dR<b[1]){if(!((d+c|0)<=dR))throw[0,iR,oT];b[1]=dR}var
-e=aw(b[1]);i0(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,al,oR]}throw[0,al,oS]}}function
-dS(a,c){var
-b=L(c),d=a[2]+b|0;if(a[3]<d)i2(a,b);bW(c,0,a[1],a[2],b);a[2]=d;return 0}function
-gj(a){return 5===a[2]?12:-6}function
-i3(a){return[0,0,aw(a)]}function
-i4(a,h){var
-b=a8(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=aw(i);i0(a[2],0,f,0,b);a[2]=f;var
+jA(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(ed<b[1]){if(!((d+c|0)<=ed))throw[0,jq,p0];b[1]=ed}var
+e=aA(b[1]);jy(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,as,pY]}throw[0,as,pZ]}}function
+ee(a,c){var
+b=P(c),d=a[2]+b|0;if(a[3]<d)jA(a,b);b7(c,0,a[1],a[2],b);a[2]=d;return 0}function
+gR(a){return 5===a[2]?12:-6}function
+jB(a){return[0,0,aA(a)]}function
+jC(a,h){var
+b=bi(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=aA(i);jy(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-c7(a,b){i4(a,1);c2(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aK(a,c){var
-b=L(c);i4(a,b);b2(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-i5(a){return iZ(a[2],0,a[1])}function
-i6(a){if(typeof
+dv(a,b){jC(a,1);dq(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aP(a,c){var
+b=P(c);jC(a,b);cc(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+jD(a){return jx(a[2],0,a[1])}function
+jE(a){if(typeof
 a==="number")switch(a){case
-0:return oU;case
-1:return oV;case
-2:return oW;case
-3:return oX;case
-4:return oY;case
-5:return oZ;default:return o0}else
+0:return p1;case
+1:return p2;case
+2:return p3;case
+3:return p4;case
+4:return p5;case
+5:return p6;default:return p7}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aE(o1,be(1,a[1]))}}function
-gk(b,c){var
+1:return a[1];default:return aH(p8,bq(1,a[1]))}}function
+gS(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aK(b,o2);var
+d=a[1];aP(b,p9);var
 a=d;continue;case
 1:var
-e=a[1];aK(b,o3);var
+e=a[1];aP(b,p_);var
 a=e;continue;case
 2:var
-f=a[1];aK(b,o4);var
+f=a[1];aP(b,p$);var
 a=f;continue;case
 3:var
-g=a[1];aK(b,o5);var
+g=a[1];aP(b,qa);var
 a=g;continue;case
 4:var
-h=a[1];aK(b,o6);var
+h=a[1];aP(b,qb);var
 a=h;continue;case
 5:var
-i=a[1];aK(b,o7);var
+i=a[1];aP(b,qc);var
 a=i;continue;case
 6:var
-j=a[1];aK(b,o8);var
+j=a[1];aP(b,qd);var
 a=j;continue;case
 7:var
-k=a[1];aK(b,o9);var
+k=a[1];aP(b,qe);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aK(b,o_);gk(b,m);aK(b,o$);var
+l=a[2],m=a[1];aP(b,qf);gS(b,m);aP(b,qg);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aK(b,pa);gk(b,o);aK(b,pb);var
+n=a[3],o=a[1];aP(b,qh);gS(b,o);aP(b,qi);var
 a=n;continue;case
 10:var
-p=a[1];aK(b,pc);var
+p=a[1];aP(b,qj);var
 a=p;continue;case
 11:var
-q=a[1];aK(b,pd);var
+q=a[1];aP(b,qk);var
 a=q;continue;case
 12:var
-r=a[1];aK(b,pe);var
+r=a[1];aP(b,ql);var
 a=r;continue;case
 13:var
-s=a[1];aK(b,pf);var
+s=a[1];aP(b,qm);var
 a=s;continue;default:var
-t=a[1];aK(b,pg);var
+t=a[1];aP(b,qn);var
 a=t;continue}}function
-at(a){if(typeof
+ay(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,at(a[1])];case
-1:return[1,at(a[1])];case
-2:return[2,at(a[1])];case
-3:return[3,at(a[1])];case
-4:return[4,at(a[1])];case
-5:return[5,at(a[1])];case
-6:return[6,at(a[1])];case
-7:return[7,at(a[1])];case
+0:return[0,ay(a[1])];case
+1:return[1,ay(a[1])];case
+2:return[2,ay(a[1])];case
+3:return[3,ay(a[1])];case
+4:return[4,ay(a[1])];case
+5:return[5,ay(a[1])];case
+6:return[6,ay(a[1])];case
+7:return[7,ay(a[1])];case
 8:var
-b=a[1];return[8,b,at(a[2])];case
+b=a[1];return[8,b,ay(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,at(a[3])];case
-10:return[10,at(a[1])];case
-11:return[11,at(a[1])];case
-12:return[12,at(a[1])];case
-13:return[13,at(a[1])];default:return[14,at(a[1])]}}function
-aL(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ay(a[3])];case
+10:return[10,ay(a[1])];case
+11:return[11,ay(a[1])];case
+12:return[12,ay(a[1])];case
+13:return[13,ay(a[1])];default:return[14,ay(a[1])]}}function
+aQ(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aL(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
+b=aQ(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
 1:var
-c=aL(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
+c=aQ(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
 2:var
-d=aL(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
+d=aQ(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
 3:var
-e=aL(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
+e=aQ(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
 4:var
-g=aL(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
+g=aQ(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
 5:var
-h=aL(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
+h=aQ(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
 6:var
-i=aL(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
+i=aQ(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
 7:var
-j=aL(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
+j=aQ(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
 8:var
-k=aL(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
+k=aQ(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
 9:var
-am=a[2],an=a[1],l=aL(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aL(ax(at(an),am)),as=m[4],au=m[3],av=m[2],aw=m[1],ay=function(a){f(as,0);f(ao,0);return 0},az=function(a){f(ap,0);f(au,0);return 0},aA=function(a){f(av,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(aw,0);return 0},aA,az,ay];case
+am=a[2],an=a[1],l=aQ(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aQ(aB(ay(an),am)),as=m[4],at=m[3],au=m[2],av=m[1],aw=function(a){f(as,0);f(ao,0);return 0},ax=function(a){f(ap,0);f(at,0);return 0},az=function(a){f(au,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(av,0);return 0},az,ax,aw];case
 10:var
-n=aL(a[1]),aB=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){f(aD,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aC,aB];case
+n=aQ(a[1]),aA=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){f(aD,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aC,aA];case
 11:var
-o=aL(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
+o=aQ(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
 12:var
-p=aL(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){f(aO,0);return 0};return[0,function(a){f(aP,0);return 0},aQ,aN,aM];case
+p=aQ(a[1]),aL=p[4],aM=p[3],aN=p[2],aO=p[1],aP=function(a){f(aN,0);return 0};return[0,function(a){f(aO,0);return 0},aP,aM,aL];case
 13:var
-q=aL(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
-r=aL(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
-ax(c,b){var
+q=aQ(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
+r=aQ(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
+aB(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1074,12 +1074,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,al,ph]}else
+9:a=6;break;default:throw[0,as,qo]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ax(t,b[1])];case
+0:return[0,aB(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1090,7 +1090,7 @@ b!=="number")switch(b[0]){case
 1:var
 e=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ax(u,b[1])];case
+1:return[1,aB(u,b[1])];case
 8:a=5;e=1;break;case
 9:a=6;e=1;break;case
 10:e=1;break;case
@@ -1102,7 +1102,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ax(v,b[1])];case
+2:return[2,aB(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1114,7 +1114,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ax(w,b[1])];case
+3:return[3,aB(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1126,7 +1126,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ax(x,b[1])];case
+4:return[4,aB(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1138,7 +1138,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ax(y,b[1])];case
+5:return[5,aB(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1150,7 +1150,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ax(z,b[1])];case
+6:return[6,aB(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1162,7 +1162,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ax(A,b[1])];case
+7:return[7,aB(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1175,40 +1175,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ax(B,b[2]);return[8,ax(C,D),E];case
+D=b[1],E=aB(B,b[2]);return[8,aB(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,al,pq];break;case
+14:a=4;break;default:m=1}if(m)throw[0,as,qx];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=aL(ax(at(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,ax(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aQ(aB(ay(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,aB(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,al,pr];break;case
+14:a=4;break;default:n=1}if(n)throw[0,as,qy];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ax(M,b[1])];throw[0,al,ps];case
+b!=="number"&&10===b[0])return[10,aB(M,b[1])];throw[0,as,qz];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ax(N,b[1])];default:o=1}if(o)throw[0,al,pt];break;case
+11:return[11,aB(N,b[1])];default:o=1}if(o)throw[0,as,qA];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ax(O,b[1])];default:p=1}if(p)throw[0,al,pu];break;case
+12:return[12,aB(O,b[1])];default:p=1}if(p)throw[0,as,qB];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1216,7 +1216,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ax(P,b[1])];default:q=1}if(q)throw[0,al,pv];break;default:var
+13:return[13,aB(P,b[1])];default:q=1}if(q)throw[0,as,qC];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1224,206 +1224,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ax(Q,b[1])];default:r=1}if(r)throw[0,al,pw]}switch(a){case
-0:throw[0,al,pk];case
-1:throw[0,al,pl];case
-2:throw[0,al,pm];case
-3:throw[0,al,pn];case
-4:throw[0,al,po];case
-5:throw[0,al,pi];case
-6:throw[0,al,pj];default:throw[0,al,pp]}}var
-aF=[aB,px,f8(0)];function
-eM(b,a){if(typeof
+14:return[14,aB(Q,b[1])];default:r=1}if(r)throw[0,as,qD]}switch(a){case
+0:throw[0,as,qr];case
+1:throw[0,as,qs];case
+2:throw[0,as,qt];case
+3:throw[0,as,qu];case
+4:throw[0,as,qv];case
+5:throw[0,as,qp];case
+6:throw[0,as,qq];default:throw[0,as,qw]}}var
+aJ=[aE,qE,gD(0)];function
+e9(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aF}}function
-dT(e,b,d){var
-a=eM(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aJ}}function
+ef(e,b,d){var
+a=e9(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aF}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aV(b,c,a){if(typeof
-b==="number")return[0,0,ab(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aJ}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+a2(b,c,a){if(typeof
+b==="number")return[0,0,af(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aV(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=a2(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aV(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=a2(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aV(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=a2(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aV(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=a2(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aV(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=a2(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aV(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=a2(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aV(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=a2(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aV(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=a2(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(eJ([0,b[1]],[0,o]))throw aF;var
-p=aV(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(e6([0,b[1]],[0,o]))throw aJ;var
+p=a2(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ak(e)];if(eJ([0,ak(B)],C))throw aF;var
-D=[0,ak(d)];if(eJ([0,ak(A)],D))throw aF;var
-q=aL(ax(at(e),d)),E=q[4];f(q[2],0);f(E,0);var
-r=aV(ak(z),c,y),F=r[2];return[0,[9,e,d,at(r[1])],F]}break;case
+d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ar(e)];if(e6([0,ar(B)],C))throw aJ;var
+D=[0,ar(d)];if(e6([0,ar(A)],D))throw aJ;var
+q=aQ(aB(ay(e),d)),E=q[4];f(q[2],0);f(E,0);var
+r=a2(ar(z),c,y),F=r[2];return[0,[9,e,d,ay(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aV(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=a2(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aV(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=a2(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aV(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=a2(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aV(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aF}function
-ab(b,a){if(typeof
+v=a2(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aJ}function
+af(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=ab(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=af(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=ab(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=af(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-aa=b[2],u=eM(b[1],a),e=u[2],ac=u[1];if(typeof
+aa=b[2],u=e9(b[1],a),e=u[2],ab=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=ab(aa,e[1]);return[0,[2,ac,v[1]],v[2]]}throw aF;case
+v=af(aa,e[1]);return[0,[2,ab,v[1]],v[2]]}throw aJ;case
 3:var
-ad=b[2],w=eM(b[1],a),f=w[2],ae=w[1];if(typeof
+ac=b[2],w=e9(b[1],a),f=w[2],ad=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=ab(ad,f[1]);return[0,[3,ae,x[1]],x[2]]}throw aF;case
+x=af(ac,f[1]);return[0,[3,ad,x[1]],x[2]]}throw aJ;case
 4:var
-af=b[4],ag=b[1],g=dT(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
+ae=b[4],ag=b[1],g=ef(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-ai=g[2],y=ab(af,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aF;case
+ai=g[2],y=af(ae,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aJ;case
 5:var
-aj=b[4],al=b[1],i=dT(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+aj=b[4],ak=b[1],i=ef(b[2],b[3],a),j=i[3],al=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=ab(aj,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aF;case
+am=i[2],z=af(aj,j[1]);return[0,[5,ak,al,am,z[1]],z[2]]}throw aJ;case
 6:var
-ao=b[4],ap=b[1],k=dT(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+an=b[4],ao=b[1],k=ef(b[2],b[3],a),l=k[3],ap=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=ab(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw aF;case
+aq=k[2],A=af(an,l[1]);return[0,[6,ao,ap,aq,A[1]],A[2]]}throw aJ;case
 7:var
-as=b[4],at=b[1],m=dT(b[2],b[3],a),n=m[3],au=m[1];if(typeof
+as=b[4],at=b[1],m=ef(b[2],b[3],a),n=m[3],au=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-av=m[2],B=ab(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aF;case
+av=m[2],B=af(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aJ;case
 8:var
-aw=b[4],ax=b[1],o=dT(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
+aw=b[4],ax=b[1],o=ef(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-az=o[2],C=ab(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aF;case
+az=o[2],C=af(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aJ;case
 9:var
-aA=b[2],D=eM(b[1],a),q=D[2],aB=D[1];if(typeof
+aA=b[2],D=e9(b[1],a),q=D[2],aB=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=ab(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aF;case
+E=af(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aJ;case
 10:var
-F=ab(b[1],a);return[0,[10,F[1]],F[2]];case
+F=af(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aC=b[1],G=ab(b[2],a);return[0,[11,aC,G[1]],G[2]];case
+aC=b[1],G=af(b[2],a);return[0,[11,aC,G[1]],G[2]];case
 12:var
-aD=b[1],H=ab(b[2],a);return[0,[12,aD,H[1]],H[2]];case
+aD=b[1],H=af(b[2],a);return[0,[12,aD,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aE=a[2],aG=b[3],aH=b[1];if(eJ([0,b[2]],[0,I]))throw aF;var
-J=ab(aG,aE);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aE=a[2],aF=b[3],aG=b[1];if(e6([0,b[2]],[0,I]))throw aJ;var
+J=af(aF,aE);return[0,[13,aG,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aI=a[3],aJ=b[3],aK=b[2],aL=b[1],aM=[0,ak(K)];if(eJ([0,ak(aK)],aM))throw aF;var
-L=ab(aJ,ak(aI));return[0,[14,aL,K,L[1]],L[2]]}break;case
+K=a[1],aH=a[3],aI=b[3],aK=b[2],aL=b[1],aM=[0,ar(K)];if(e6([0,ar(aK)],aM))throw aJ;var
+L=af(aI,ar(aH));return[0,[14,aL,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-M=ab(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
+M=af(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-N=ab(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
+N=af(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aN=b[1],O=ab(b[2],a);return[0,[17,aN,O[1]],O[2]];case
+aN=b[1],O=af(b[2],a);return[0,[17,aN,O[1]],O[2]];case
 18:var
 P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aR=T[2],U=ab(T[1],a),aS=U[1],V=ab(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
-W=r[1],aT=W[2],X=ab(W[1],a),aU=X[1],Y=ab(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
+T=r[1],aR=T[2],U=af(T[1],a),aS=U[1],V=af(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
+W=r[1],aT=W[2],X=af(W[1],a),aU=X[1],Y=af(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-Q=ab(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
+Q=af(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=ab(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
+aO=b[2],aP=b[1],R=af(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aQ=b[1],S=ab(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
+aQ=b[1],S=af(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return a0(c,d,a);case
-1:return a0(c,d,a);case
+0:return a7(c,d,a);case
+1:return a7(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-Z=ab(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aF;default:return a0(c,d,a)}else
+Z=af(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aJ;default:return a7(c,d,a)}else
 switch(c[0]){case
-0:return a0(c,d,a);case
-1:return a0(c,d,a);case
-2:return a0(c,d,a);case
-3:return a0(c,d,a);case
-4:return a0(c,d,a);case
-5:return a0(c,d,a);case
-6:return a0(c,d,a);case
-7:return a0(c,d,a);case
-8:return a0([8,c[1],c[2]],d,a);case
+0:return a7(c,d,a);case
+1:return a7(c,d,a);case
+2:return a7(c,d,a);case
+3:return a7(c,d,a);case
+4:return a7(c,d,a);case
+5:return a7(c,d,a);case
+6:return a7(c,d,a);case
+7:return a7(c,d,a);case
+8:return a7([8,c[1],c[2]],d,a);case
 9:var
-aW=c[1],_=aV(c[2],d,a),$=_[2];return[0,[23,[9,aW,_[1]],$[1]],$[2]];case
-10:return a0(c,d,a);default:return a0(c,d,a)}}throw aF}function
-a0(d,c,b){var
-a=ab(c,b);return[0,[23,d,a[1]],a[2]]}function
-a1(k,g,a){var
-b=L(a),h=0<=g?k:0,d=eL(g);if(d<=b)return a;var
-l=2===h?48:32,c=cH(d,l);switch(h){case
-0:b2(a,0,c,0,b);break;case
-1:b2(a,0,c,d-b|0,b);break;default:var
+aV=c[1],_=a2(c[2],d,a),$=_[2];return[0,[23,[9,aV,_[1]],$[1]],$[2]];case
+10:return a7(c,d,a);default:return a7(c,d,a)}}throw aJ}function
+a7(d,c,b){var
+a=af(c,b);return[0,[23,d,a[1]],a[2]]}function
+a8(k,g,a){var
+b=P(a),h=0<=g?k:0,d=e8(g);if(d<=b)return a;var
+l=2===h?48:32,c=cX(d,l);switch(h){case
+0:cc(a,0,c,0,b);break;case
+1:cc(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==W(a,0)&&45!==W(a,0)&&32!==W(a,0)){e=1;i=1}if(!i){c2(c,0,W(a,0));b2(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==ab(a,0)&&45!==ab(a,0)&&32!==ab(a,0)){e=1;i=1}if(!i){dq(c,0,ab(a,0));cc(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===W(a,0)){var
-j=0;if(ma!==W(a,1)&&88!==W(a,1)){f=1;j=1}if(!j){c2(c,1,W(a,1));b2(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)b2(a,0,c,d-b|0,b)}}return aR(c)}function
-c8(k,b){var
-c=eL(k),a=L(b),d=W(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+m$>>>0))e=1}else
+f=0;if(1<b&&48===ab(a,0)){var
+j=0;if(nj!==ab(a,1)&&88!==ab(a,1)){f=1;j=1}if(!j){dq(c,1,ab(a,1));cc(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)cc(a,0,c,d-b|0,b)}}return aX(c)}function
+dw(k,b){var
+c=e8(k),a=P(b),d=ab(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+oi>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(ma===W(b,1)||88===W(b,1))j=1;if(j){var
-h=cH(c+2|0,48);c2(h,1,W(b,1));b2(b,2,h,(c-a|0)+4|0,a-2|0);return aR(h)}}e=1;f=1;break;case
+j=0;if(nj===ab(b,1)||88===ab(b,1))j=1;if(j){var
+h=cX(c+2|0,48);dq(h,1,ab(b,1));cc(b,2,h,(c-a|0)+4|0,a-2|0);return aX(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cH(c+1|0,48);c2(g,0,d);b2(b,1,g,(c-a|0)+2|0,a-1|0);return aR(g)}}if(e&&a<c){var
-i=cH(c,48);b2(b,0,i,c-a|0,a);return aR(i)}return b}function
-py(k){var
-j=0,C=L(k);for(;;){if(C<=j)var
+g=cX(c+1|0,48);dq(g,0,d);cc(b,1,g,(c-a|0)+2|0,a-1|0);return aX(g)}}if(e&&a<c){var
+i=cX(c,48);cc(b,0,i,c-a|0,a);return aX(i)}return b}function
+qF(k){var
+j=0,C=P(k);for(;;){if(C<=j)var
 o=k;else{var
-n=bZ(k,j)+nC|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=b_(k,j)+oL|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=cj(k),a=[0,0],t=a8(e)-1|0,y=0;if(!(t<0)){var
+e=cy(k),a=[0,0],t=bi(e)-1|0,y=0;if(!(t<0)){var
 i=y;for(;;){var
-f=dL(e,i),g=0;if(32<=f){var
+f=d9(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1434,33 +1434,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===a8(e)){var
-r=a8(e),s=aw(r);cF(e,0,s,0,r);var
+i=B;continue}break}}if(a[1]===bi(e)){var
+r=bi(e),s=aA(r);cW(e,0,s,0,r);var
 v=s}else{var
-b=aw(a[1]);a[1]=0;var
-u=a8(e)-1|0,z=0;if(!(u<0)){var
+b=aA(a[1]);a[1]=0;var
+u=bi(e)-1|0,z=0;if(!(u<0)){var
 h=z;for(;;){var
-c=dL(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(ia<=c)d=1;else
+c=d9(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(iN<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ar(b,a[1],92);a[1]++;ar(b,a[1],98);break;case
-9:ar(b,a[1],92);a[1]++;ar(b,a[1],116);break;case
-10:ar(b,a[1],92);a[1]++;ar(b,a[1],110);break;case
-13:ar(b,a[1],92);a[1]++;ar(b,a[1],114);break;default:d=1}switch(d){case
-1:ar(b,a[1],92);a[1]++;ar(b,a[1],48+(c/nf|0)|0);a[1]++;ar(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ar(b,a[1],48+(c%10|0)|0);break;case
-2:ar(b,a[1],92);a[1]++;ar(b,a[1],c);break;case
-3:ar(b,a[1],c);break}a[1]++;var
+8:ax(b,a[1],92);a[1]++;ax(b,a[1],98);break;case
+9:ax(b,a[1],92);a[1]++;ax(b,a[1],116);break;case
+10:ax(b,a[1],92);a[1]++;ax(b,a[1],110);break;case
+13:ax(b,a[1],92);a[1]++;ax(b,a[1],114);break;default:d=1}switch(d){case
+1:ax(b,a[1],92);a[1]++;ax(b,a[1],48+(c/oo|0)|0);a[1]++;ax(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ax(b,a[1],48+(c%10|0)|0);break;case
+2:ax(b,a[1],92);a[1]++;ax(b,a[1],c);break;case
+3:ax(b,a[1],c);break}a[1]++;var
 A=h+1|0;if(u!==h){var
 h=A;continue}break}}var
 v=b}var
-o=aR(v)}var
-w=L(o),x=cH(w+2|0,34);bW(o,0,x,1,w);return aR(x)}}function
-i7(d,f){var
-g=eL(f),e=qn[1];switch(d[2]){case
+o=aX(v)}var
+w=P(o),x=cX(w+2|0,34);b7(o,0,x,1,w);return aX(x)}}function
+jF(d,f){var
+g=e8(f),e=ru[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1468,7 +1468,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=mb;break;case
+b=nk;break;case
 4:var
 b=71;break;case
 5:var
@@ -1478,210 +1478,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=i3(16);c7(c,37);switch(d[1]){case
+c=jB(16);dv(c,37);switch(d[1]){case
 0:break;case
-1:c7(c,43);break;default:c7(c,32)}if(8<=d[2])c7(c,35);c7(c,46);aK(c,a(w+g));c7(c,b);return i5(c)}function
-eN(m,a){if(13<=m){var
-g=[0,0],h=L(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bZ(a,c)+h3>>>0))g[1]++;var
+1:dv(c,43);break;default:dv(c,32)}if(8<=d[2])dv(c,35);dv(c,46);aP(c,a(z+g));dv(c,b);return jD(c)}function
+e_(m,a){if(13<=m){var
+g=[0,0],h=P(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<b_(a,c)+iC>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=aw(L(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){c2(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=L(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=aA(P(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){dq(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=P(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bZ(a,b);if(9<f+h3>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=b_(a,b);if(9<f+iC>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aR(j)}return a}function
-qo(b,c){switch(b){case
+b=p;continue}break}}return aX(j)}return a}function
+rv(b,c){switch(b){case
 1:var
-a=pA;break;case
+a=qH;break;case
 2:var
-a=pB;break;case
+a=qI;break;case
 4:var
-a=pD;break;case
+a=qK;break;case
 5:var
-a=pE;break;case
+a=qL;break;case
 6:var
-a=pF;break;case
+a=qM;break;case
 7:var
-a=pG;break;case
+a=qN;break;case
 8:var
-a=pH;break;case
+a=qO;break;case
 9:var
-a=pI;break;case
+a=qP;break;case
 10:var
-a=pJ;break;case
+a=qQ;break;case
 11:var
-a=pK;break;case
+a=qR;break;case
 0:case
 13:var
-a=pz;break;case
+a=qG;break;case
 3:case
 14:var
-a=pC;break;default:var
-a=pL}return eN(b,f7(a,c))}function
-qp(b,c){switch(b){case
+a=qJ;break;default:var
+a=qS}return e_(b,gC(a,c))}function
+rw(b,c){switch(b){case
 1:var
-a=p0;break;case
+a=q7;break;case
 2:var
-a=p1;break;case
+a=q8;break;case
 4:var
-a=p3;break;case
+a=q_;break;case
 5:var
-a=p4;break;case
+a=q$;break;case
 6:var
-a=p5;break;case
+a=ra;break;case
 7:var
-a=p6;break;case
+a=rb;break;case
 8:var
-a=p7;break;case
+a=rc;break;case
 9:var
-a=p8;break;case
+a=rd;break;case
 10:var
-a=p9;break;case
+a=re;break;case
 11:var
-a=p_;break;case
+a=rf;break;case
 0:case
 13:var
-a=pZ;break;case
+a=q6;break;case
 3:case
 14:var
-a=p2;break;default:var
-a=p$}return eN(b,f7(a,c))}function
-qq(b,c){switch(b){case
+a=q9;break;default:var
+a=rg}return e_(b,gC(a,c))}function
+rx(b,c){switch(b){case
 1:var
-a=qb;break;case
+a=ri;break;case
 2:var
-a=qc;break;case
+a=rj;break;case
 4:var
-a=qe;break;case
+a=rl;break;case
 5:var
-a=qf;break;case
+a=rm;break;case
 6:var
-a=qg;break;case
+a=rn;break;case
 7:var
-a=qh;break;case
+a=ro;break;case
 8:var
-a=qi;break;case
+a=rp;break;case
 9:var
-a=qj;break;case
+a=rq;break;case
 10:var
-a=qk;break;case
+a=rr;break;case
 11:var
-a=ql;break;case
+a=rs;break;case
 0:case
 13:var
-a=qa;break;case
+a=rh;break;case
 3:case
 14:var
-a=qd;break;default:var
-a=qm}return eN(b,f7(a,c))}function
-qr(b,c){switch(b){case
+a=rk;break;default:var
+a=rt}return e_(b,gC(a,c))}function
+ry(b,c){switch(b){case
 1:var
-a=pN;break;case
+a=qU;break;case
 2:var
-a=pO;break;case
+a=qV;break;case
 4:var
-a=pQ;break;case
+a=qX;break;case
 5:var
-a=pR;break;case
+a=qY;break;case
 6:var
-a=pS;break;case
+a=qZ;break;case
 7:var
-a=pT;break;case
+a=q0;break;case
 8:var
-a=pU;break;case
+a=q1;break;case
 9:var
-a=pV;break;case
+a=q2;break;case
 10:var
-a=pW;break;case
+a=q3;break;case
 11:var
-a=pX;break;case
+a=q4;break;case
 0:case
 13:var
-a=pM;break;case
+a=qT;break;case
 3:case
 14:var
-a=pP;break;default:var
-a=pY}return eN(b,Dv(a,c))}function
-b3(c,i,b){function
+a=qW;break;default:var
+a=q5}return e_(b,FP(a,c))}function
+cd(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return Dr(b,i,a)}function
+a=32}return FL(b,i,a)}function
 q(c){var
-a=Dj(b);return 3===a?b<0.?qt:qu:4<=a?qv:c}switch(c[2]){case
+a=FD(b);return 3===a?b<0.?rA:rB:4<=a?rC:c}switch(c[2]){case
 5:var
-e=iy(i7(c,i),b),d=0,u=L(e);for(;;){if(d===u)var
+e=i9(jF(c,i),b),d=0,u=P(e);for(;;){if(d===u)var
 p=0;else{var
-k=W(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=ab(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aE(e,qs);return q(v)}case
+v=p?e:aH(e,rz);return q(v)}case
 6:return j(0);case
 7:var
-h=cj(j(0)),f=a8(h);if(0===f)var
+h=cy(j(0)),f=bi(h);if(0===f)var
 o=h;else{var
-m=aw(f),n=f-1|0,r=0;if(!(n<0)){var
+m=aA(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=dL(h,a),s=25<g+m$>>>0?g:g+nC|0;ar(m,a,s);var
+g=d9(h,a),s=25<g+oi>>>0?g:g+oL|0;ax(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aR(o);case
-8:return q(j(0));default:return iy(i7(c,i),b)}}function
-ex(d,x,w,v){var
+o=m}return aX(o);case
+8:return q(j(0));default:return i9(jF(c,i),b)}}function
+eT(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return f(b,a);else
 switch(c[0]){case
 0:var
-y=c[1];return function(c){return P(b,[5,a,c],y)};case
+y=c[1];return function(c){return U(b,[5,a,c],y)};case
 1:var
 z=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=oF;else
-if(ia<=c)e=1;else
+d=pM;else
+if(iN<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=oG;else
+d=pN;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=oH;break;case
+d=pO;break;case
 9:var
-d=oI;break;case
+d=pP;break;case
 10:var
-d=oJ;break;case
+d=pQ;break;case
 13:var
-d=oK;break;default:e=1}switch(e){case
+d=pR;break;default:e=1}switch(e){case
 1:var
-f=aw(4);ar(f,0,92);ar(f,1,48+(c/nf|0)|0);ar(f,2,48+((c/10|0)%10|0)|0);ar(f,3,48+(c%10|0)|0);var
-d=aR(f);break;case
+f=aA(4);ax(f,0,92);ax(f,1,48+(c/oo|0)|0);ax(f,2,48+((c/10|0)%10|0)|0);ax(f,3,48+(c%10|0)|0);var
+d=aX(f);break;case
 2:var
-g=aw(1);ar(g,0,c);var
-d=aR(g);break}var
-h=L(d),i=cH(h+2|0,39);bW(d,0,i,1,h);return P(b,[4,a,aR(i)],z)};case
+g=aA(1);ax(g,0,c);var
+d=aX(g);break}var
+h=P(d),i=cX(h+2|0,39);b7(d,0,i,1,h);return U(b,[4,a,aX(i)],z)};case
 2:var
-A=c[2],B=c[1];return gl(b,a,A,B,function(a){return a});case
-3:return gl(b,a,c[2],c[1],py);case
-4:return eO(b,a,c[4],c[2],c[3],qo,c[1]);case
-5:return eO(b,a,c[4],c[2],c[3],qp,c[1]);case
-6:return eO(b,a,c[4],c[2],c[3],qq,c[1]);case
-7:return eO(b,a,c[4],c[2],c[3],qr,c[1]);case
+A=c[2],B=c[1];return gT(b,a,A,B,function(a){return a});case
+3:return gT(b,a,c[2],c[1],qF);case
+4:return e$(b,a,c[4],c[2],c[3],rv,c[1]);case
+5:return e$(b,a,c[4],c[2],c[3],rw,c[1]);case
+6:return e$(b,a,c[4],c[2],c[3],rx,c[1]);case
+7:return e$(b,a,c[4],c[2],c[3],ry,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return P(b,[4,a,b3(g,d,c)],h)}:function(c){return P(b,[4,a,b3(g,gj(g),c)],h)};var
-U=i[1];return function(c){return P(b,[4,a,b3(g,U,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return U(b,[4,a,cd(g,d,c)],h)}:function(c){return U(b,[4,a,cd(g,gR(g),c)],h)};var
+T=i[1];return function(c){return U(b,[4,a,cd(g,T,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return P(b,[4,a,a1(n,m,b3(g,d,c))],h)}:function(c){return P(b,[4,a,a1(n,m,b3(g,gj(g),c))],h)};var
-W=i[1];return function(c){return P(b,[4,a,a1(n,m,b3(g,W,c))],h)}}var
+i==="number")return i?function(d,c){return U(b,[4,a,a8(n,m,cd(g,d,c))],h)}:function(c){return U(b,[4,a,a8(n,m,cd(g,gR(g),c))],h)};var
+V=i[1];return function(c){return U(b,[4,a,a8(n,m,cd(g,V,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return P(b,[4,a,a1(o,e,b3(g,d,c))],h)}:function(d,c){return P(b,[4,a,a1(o,d,b3(g,gj(g),c))],h)};var
-X=i[1];return function(d,c){return P(b,[4,a,a1(o,d,b3(g,X,c))],h)}}case
-9:return gl(b,a,c[2],c[1],oA);case
+i==="number")return i?function(e,d,c){return U(b,[4,a,a8(o,e,cd(g,d,c))],h)}:function(d,c){return U(b,[4,a,a8(o,d,cd(g,gR(g),c))],h)};var
+W=i[1];return function(d,c){return U(b,[4,a,a8(o,d,cd(g,W,c))],h)}}case
+9:return gT(b,a,c[2],c[1],pH);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1689,229 +1689,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-C=c[3],D=c[2],p=i3(16);gk(p,D);var
-u=i5(p);return function(c){return P(b,[4,a,u],C)};case
+C=c[3],D=c[2],p=jB(16);gS(p,D);var
+u=jD(p);return function(c){return U(b,[4,a,u],C)};case
 14:var
 E=c[3],F=c[2];return function(d){var
-e=d[1],c=ab(e,ak(at(F)));if(typeof
-c[2]==="number")return P(b,a,ag(c[1],E));throw aF};case
+e=d[1],c=af(e,ar(ay(F)));if(typeof
+c[2]==="number")return U(b,a,an(c[1],E));throw aJ};case
 15:var
-G=c[1];return function(d,c){return P(b,[6,a,function(a){return V(d,a,c)}],G)};case
+G=c[1];return function(d,c){return U(b,[6,a,function(a){return _(d,a,c)}],G)};case
 16:var
-H=c[1];return function(c){return P(b,[6,a,c],H)};case
+H=c[1];return function(c){return U(b,[6,a,c],H)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-I=c[2],J=l[1][1],K=0,b=function(b,c,d){return function(a){return P(c,[1,b,[0,a]],d)}}(a,b,I),a=K,c=J;continue}var
-M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return P(c,[1,b,[1,a]],d)}}(a,b,M),a=O,c=N;continue;case
-19:throw[0,al,qx];case
+I=c[2],J=l[1][1],K=0,b=function(b,c,d){return function(a){return U(c,[1,b,[0,a]],d)}}(a,b,I),a=K,c=J;continue}var
+L=c[2],M=l[1][1],N=0,b=function(b,c,d){return function(a){return U(c,[1,b,[1,a]],d)}}(a,b,L),a=N,c=M;continue;case
+19:throw[0,as,rE];case
 20:var
-Q=c[3],R=[8,a,qy];return function(a){return P(b,R,Q)};case
+O=c[3],Q=[8,a,rF];return function(a){return U(b,Q,O)};case
 21:var
-S=c[2];return function(c){return P(b,[4,a,f7(qz,c)],S)};case
+R=c[2];return function(c){return U(b,[4,a,gC(rG,c)],R)};case
 22:var
-T=c[1];return function(c){return P(b,[5,a,c],T)};case
+S=c[1];return function(c){return U(b,[5,a,c],S)};case
 23:var
 e=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-2:throw[0,al,qA];default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}else
+0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+2:throw[0,as,rH];default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}else
 switch(k[0]){case
-0:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-1:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-2:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-3:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-4:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-5:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-6:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-7:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
-8:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);case
+0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+2:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+3:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+4:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+5:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+6:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+7:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
+8:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
 9:var
-t=k[2];return d<50?hY(d+1|0,b,a,t,e):aJ(hY,[0,b,a,t,e]);case
-10:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e]);default:return d<50?_(d+1|0,b,a,e):aJ(_,[0,b,a,e])}default:var
-q=c[3],r=c[1],s=f(c[2],0);return d<50?hX(d+1|0,b,a,q,r,s):aJ(hX,[0,b,a,q,r,s])}}function
-hY(e,d,c,a,b){if(typeof
-a==="number")return e<50?_(e+1|0,d,c,b):aJ(_,[0,d,c,b]);else
+t=k[2];return d<50?ix(d+1|0,b,a,t,e):aO(ix,[0,b,a,t,e]);case
+10:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}default:var
+q=c[3],r=c[1],s=f(c[2],0);return d<50?iw(d+1|0,b,a,q,r,s):aO(iw,[0,b,a,q,r,s])}}function
+ix(e,d,c,a,b){if(typeof
+a==="number")return e<50?ad(e+1|0,d,c,b):aO(ad,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return a_(d,c,f,b)};case
+f=a[1];return function(a){return bk(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return a_(d,c,g,b)};case
+g=a[1];return function(a){return bk(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return a_(d,c,h,b)};case
+h=a[1];return function(a){return bk(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return a_(d,c,i,b)};case
+i=a[1];return function(a){return bk(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return a_(d,c,j,b)};case
+j=a[1];return function(a){return bk(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return a_(d,c,k,b)};case
+k=a[1];return function(a){return bk(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return a_(d,c,l,b)};case
+l=a[1];return function(a){return bk(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return a_(d,c,m,b)};case
+m=a[1];return function(a){return bk(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return a_(d,c,n,b)};case
+n=a[2];return function(a){return bk(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ax(at(a[1]),p);return function(a){return a_(d,c,aT(q,o),b)};case
+o=a[3],p=a[2],q=aB(ay(a[1]),p);return function(a){return bk(d,c,aZ(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return a_(d,c,r,b)};case
+r=a[1];return function(e,a){return bk(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return a_(d,c,s,b)};case
+s=a[1];return function(a){return bk(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return a_(d,c,t,b)};case
-13:throw[0,al,qB];default:throw[0,al,qC]}}function
-_(d,b,e,a){var
-c=[8,e,qD];return d<50?ex(d+1|0,b,c,a):aJ(ex,[0,b,c,a])}function
-hX(h,b,e,a,d,c){if(d){var
-i=d[1];return function(d){return qw(b,e,a,i,f(c,d))}}var
-g=[4,e,c];return h<50?ex(h+1|0,b,g,a):aJ(ex,[0,b,g,a])}function
-P(a,b,c){return iK(ex(0,a,b,c))}function
-a_(a,b,c,d){return iK(hY(0,a,b,c,d))}function
-qw(a,b,c,d,e){return iK(hX(0,a,b,c,d,e))}function
-gl(e,d,c,a,b){if(typeof
-a==="number")return function(a){return P(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return P(e,[4,d,a1(h,g,f(b,a))],c)}}var
-i=a[1];return function(g,a){return P(e,[4,d,a1(i,g,f(b,a))],c)}}}function
-eO(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return bk(d,c,t,b)};case
+13:throw[0,as,rI];default:throw[0,as,rJ]}}function
+ad(d,b,e,a){var
+c=[8,e,rK];return d<50?eT(d+1|0,b,c,a):aO(eT,[0,b,c,a])}function
+iw(h,b,e,a,d,c){if(d){var
+i=d[1];return function(d){return rD(b,e,a,i,f(c,d))}}var
+g=[4,e,c];return h<50?eT(h+1|0,b,g,a):aO(eT,[0,b,g,a])}function
+U(a,b,c){return jj(eT(0,a,b,c))}function
+bk(a,b,c,d){return jj(ix(0,a,b,c,d))}function
+rD(a,b,c,d,e){return jj(iw(0,a,b,c,d,e))}function
+gT(e,d,c,a,b){if(typeof
+a==="number")return function(a){return U(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return U(e,[4,d,a8(h,g,f(b,a))],c)}}var
+i=a[1];return function(g,a){return U(e,[4,d,a8(i,g,f(b,a))],c)}}}function
+e$(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return P(f,[4,e,c8(g,V(b,a,c))],d)}:function(c){return P(f,[4,e,V(b,a,c)],d)};var
-k=c[1];return function(c){return P(f,[4,e,c8(k,V(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return U(f,[4,e,dw(g,_(b,a,c))],d)}:function(c){return U(f,[4,e,_(b,a,c)],d)};var
+k=c[1];return function(c){return U(f,[4,e,dw(k,_(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return P(f,[4,e,a1(i,h,c8(g,V(b,a,c)))],d)}:function(c){return P(f,[4,e,a1(i,h,V(b,a,c))],d)};var
-l=c[1];return function(c){return P(f,[4,e,a1(i,h,c8(l,V(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return U(f,[4,e,a8(i,h,dw(g,_(b,a,c)))],d)}:function(c){return U(f,[4,e,a8(i,h,_(b,a,c))],d)};var
+l=c[1];return function(c){return U(f,[4,e,a8(i,h,dw(l,_(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return P(f,[4,e,a1(j,h,c8(g,V(b,a,c)))],d)}:function(g,c){return P(f,[4,e,a1(j,g,V(b,a,c))],d)};var
-m=c[1];return function(g,c){return P(f,[4,e,a1(j,g,c8(m,V(b,a,c)))],d)}}}function
-b4(b,e){var
+c==="number")return c?function(h,g,c){return U(f,[4,e,a8(j,h,dw(g,_(b,a,c)))],d)}:function(g,c){return U(f,[4,e,a8(j,g,_(b,a,c))],d)};var
+m=c[1];return function(g,c){return U(f,[4,e,a8(j,g,dw(m,_(b,a,c)))],d)}}}function
+ce(b,e){var
 a=e;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=i6(a[2]);b4(b,g);return dQ(b,h);case
+g=a[1],h=jE(a[2]);ce(b,g);return ec(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];b4(b,d);dQ(b,qE);var
+i=c[1];ce(b,d);ec(b,rL);var
 a=i;continue}var
-j=c[1];b4(b,d);dQ(b,qF);var
+j=c[1];ce(b,d);ec(b,rM);var
 a=j;continue;case
 6:var
-m=a[2];b4(b,a[1]);return f(m,b);case
-7:b4(b,a[1]);return dN(b);case
+m=a[2];ce(b,a[1]);return f(m,b);case
+7:ce(b,a[1]);return d$(b);case
 8:var
-n=a[2];b4(b,a[1]);return cm(n);case
+n=a[2];ce(b,a[1]);return cB(n);case
 2:case
 4:var
-k=a[2];b4(b,a[1]);return dQ(b,k);default:var
-l=a[2];b4(b,a[1]);return ol(b,l)}}function
-cn(b,g){var
+k=a[2];ce(b,a[1]);return ec(b,k);default:var
+l=a[2];ce(b,a[1]);return ps(b,l)}}function
+cC(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=i6(a[2]);cn(b,h);return dS(b,i);case
+h=a[1],i=jE(a[2]);cC(b,h);return ee(b,i);case
 1:var
 d=a[2],e=a[1];if(0===d[0]){var
-j=d[1];cn(b,e);dS(b,qG);var
+j=d[1];cC(b,e);ee(b,rN);var
 a=j;continue}var
-k=d[1];cn(b,e);dS(b,qH);var
+k=d[1];cC(b,e);ee(b,rO);var
 a=k;continue;case
 6:var
-n=a[2];cn(b,a[1]);return dS(b,f(n,0));case
+n=a[2];cC(b,a[1]);return ee(b,f(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];cn(b,a[1]);return cm(o);case
+o=a[2];cC(b,a[1]);return cB(o);case
 2:case
 4:var
-l=a[2];cn(b,a[1]);return dS(b,l);default:var
-m=a[2];cn(b,a[1]);var
-c=b[2];if(b[3]<=c)i2(b,1);ar(b[1],c,m);b[2]=c+1|0;return 0}}function
-i8(d,c){var
-a=c[1],b=0;return P(function(a){b4(d,a);return 0},b,a)}function
-gm(a){return i8(b1,a)}function
-bE(b){var
-a=b[1];return P(function(d){var
-e=64,b=dR<64?dR:e,c=aw(b),a=[0,c,0,b,c];cn(a,d);return iZ(a[1],0,a[2])},0,a)}var
-eP=[0,0];function
-go(i,h){var
+l=a[2];cC(b,a[1]);return ee(b,l);default:var
+m=a[2];cC(b,a[1]);var
+c=b[2];if(b[3]<=c)jA(b,1);ax(b[1],c,m);b[2]=c+1|0;return 0}}function
+jG(d,c){var
+a=c[1],b=0;return U(function(a){ce(d,a);return 0},b,a)}function
+gU(a){return jG(ca,a)}function
+bN(b){var
+a=b[1];return U(function(d){var
+e=64,b=ed<64?ed:e,c=aA(b),a=[0,c,0,b,c];cC(a,d);return jx(a[1],0,a[2])},0,a)}var
+fa=[0,0];function
+gW(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(ga(a)===f1)return f(bE(qI),a);if(ga(a)===253){var
-c=iy(oE,a),b=0,g=L(c);for(;;){if(g<=b)return aE(c,oD);var
-d=W(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
+a==="number"?1:0)){if(gH(a)===gw)return f(bN(rP),a);if(gH(a)===253){var
+c=i9(pL,a),b=0,g=P(c);for(;;){if(g<=b)return aH(c,pK);var
+d=ab(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
 if(45===d)e=1;if(e){var
-b=b+1|0;continue}return c}}return qJ}return f(bE(qK),a)}function
-i9(b,a){if(b.length-1<=a)return qL;var
-c=i9(b,a+1|0),d=go(b,a);return V(bE(qM),d,c)}function
-gp(a){function
+b=b+1|0;continue}return c}}return rQ}return f(bN(rR),a)}function
+jH(b,a){if(b.length-1<=a)return rS;var
+c=jH(b,a+1|0),d=gW(b,a);return _(bN(rT),d,c)}function
+gX(a){function
 o(e){var
 b=e;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=f(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(eP[1]);if(h)return h[1];if(a===gf)return qR;if(a===iT)return qS;if(a[1]===iS){var
-c=a[2],i=c[3],p=c[2],q=c[1];return hZ(bE(gn),q,p,i,i+5|0,qT)}if(a[1]===al){var
-d=a[2],j=d[3],r=d[2],s=d[1];return hZ(bE(gn),s,r,j,j+6|0,qU)}if(a[1]===iV){var
-e=a[2],k=e[3],t=e[2],u=e[1];return hZ(bE(gn),u,t,k,k+6|0,qV)}if(0===ga(a)){var
+h=o(fa[1]);if(h)return h[1];if(a===gM)return rY;if(a===js)return rZ;if(a[1]===jr){var
+c=a[2],i=c[3],p=c[2],q=c[1];return iy(bN(gV),q,p,i,i+5|0,r0)}if(a[1]===as){var
+d=a[2],j=d[3],r=d[2],s=d[1];return iy(bN(gV),s,r,j,j+6|0,r1)}if(a[1]===ju){var
+e=a[2],k=e[3],t=e[2],u=e[1];return iy(bN(gV),u,t,k,k+6|0,r2)}if(0===gH(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=i9(a,2),m=go(a,1),b=V(bE(qN),m,l);else
+l=jH(a,2),m=gW(a,1),b=_(bN(rU),m,l);else
 switch(g){case
 0:var
-b=qO;break;case
+b=rV;break;case
 1:var
-b=qP;break;default:var
-n=go(a,1),b=f(bE(qQ),n)}return aE(v,b)}return a[1]}function
-gq(t,s){var
-d=Dl(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=rW;break;default:var
+n=gW(a,1),b=f(bN(rX),n)}return aH(v,b)}return a[1]}function
+gY(t,s){var
+d=FF(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=n$(d,b)[1+b],e=function(a){return function(b){return b?0===a?qW:qX:0===a?qY:qZ}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?q0:q2,l=a[2],m=a[7],n=e(a[1]),c=[0,C$(bE(q1),n,m,l,k,j,i,h)];else
+a=pg(d,b)[1+b],e=function(a){return function(b){return b?0===a?r3:r4:0===a?r5:r6}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?r7:r9,l=a[2],m=a[7],n=e(a[1]),c=[0,Ft(bN(r8),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=e(0),c=[0,f(bE(q3),o)];if(c){var
-q=c[1];f(i8(t,q4),q)}var
+o=e(0),c=[0,f(bN(r_),o)];if(c){var
+q=c[1];f(jG(t,r$),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-i_(c){for(;;){var
-a=eP[1],d=[0,c,a],e=eP[1]===a?(eP[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-q6=q5.slice();function
-q7(d,c){var
-e=gp(d);f(gm(q8),e);gq(b1,c);var
-a=DL(0);if(a<0){var
-b=eL(a);iW(n$(q6,b)[1+b])}return dN(b1)}var
-q9=[0];iI(a(me),function(d,i){try{try{var
-b=i?q9:of(0);try{gg(0)}catch(a){}try{var
-a=q7(d,b),c=a}catch(a){a=gd(a);var
-g=gp(d);f(gm(q$),g);gq(b1,b);var
-h=gp(a);f(gm(ra),h);gq(b1,of(0));var
-c=dN(b1)}var
-e=c}catch(a){a=gd(a);if(a!==gf)throw a;var
-e=iW(q_)}return e}catch(a){return 0}});var
-i$=[aB,rc,f8(0)],gr=[0,i$,[0]],rb=ga(gr)===aB?gr:gr[1];iI(a(h5),rb);(function(a){throw a});var
-rd=A.Array;i_(function(a){return a[1]===i$?[0,bD(a[2].toString())]:0});i_(function(a){return a
+jI(c){for(;;){var
+a=fa[1],d=[0,c,a],e=fa[1]===a?(fa[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+sb=sa.slice();function
+sc(d,c){var
+e=gX(d);f(gU(sd),e);gY(ca,c);var
+a=F5(0);if(a<0){var
+b=e8(a);jv(pg(sb,b)[1+b])}return d$(ca)}var
+se=[0];jh(a(nn),function(d,i){try{try{var
+b=i?se:pm(0);try{gN(0)}catch(a){}try{var
+a=sc(d,b),c=a}catch(a){a=gK(a);var
+g=gX(d);f(gU(sg),g);gY(ca,b);var
+h=gX(a);f(gU(sh),h);gY(ca,pm(0));var
+c=d$(ca)}var
+e=c}catch(a){a=gK(a);if(a!==gM)throw a;var
+e=jv(sf)}return e}catch(a){return 0}});var
+jJ=[aE,sj,gD(0)],gZ=[0,jJ,[0]],si=gH(gZ)===aE?gZ:gZ[1];jh(a(iF),si);(function(a){throw a});var
+sk=C.Array;jI(function(a){return a[1]===jJ?[0,bM(a[2].toString())]:0});jI(function(a){return a
 instanceof
-rd?0:[0,bD(a.toString())]});var
-d=a9(0),c=a9(1);function
-q(a){return B(a,c)}function
-ja(b,a){return B(a9(b),a)}function
-b(b,a){return s(a9(b),a)}function
-bF(b,a){return[0,iN(b,a),ow(b,a)]}function
-gs(b,a){return I(b,a)?b:a}function
-bG(b,a){return I(b,a)?a:b}function
-au(a){return a?0:1}function
-J(b,a){var
+sk?0:[0,bM(a.toString())]});var
+d=bj(0),c=bj(1);function
+r(a){return y(a,c)}function
+jK(b,a){return y(bj(b),a)}function
+b(b,a){return u(bj(b),a)}function
+bO(b,a){return[0,jm(b,a),pD(b,a)]}function
+g0(b,a){return M(b,a)?b:a}function
+bP(b,a){return M(b,a)?a:b}function
+at(a){return a?0:1}function
+D(b,a){var
 c=a?[0,f(b,a[1])]:a;return c}function
-a2(a){return a[1]}function
-cI(a){return a[2]}function
-j(a){var
-b=a?[0,j(a[2])]:a;return b}function
+a3(a){return a[1]}function
+cY(a){return a[2]}function
+k(a){var
+b=a?[0,k(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-jb(a){return typeof
-a==="number"?0:[0,jb(a[1])]}function
-jc(d,c){var
+jL(a){return typeof
+a==="number"?0:[0,jL(a[1])]}function
+jM(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1934,9 +1934,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eQ(a){return jc(a,0)}function
-jd(a){if(typeof
-a==="number")return rf;else
+fb(a){return jM(a,0)}function
+jN(a){if(typeof
+a==="number")return sm;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1946,157 +1946,159 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jd(a[1])]}}function
-bo(a){if(typeof
-a==="number")return rg;else
+8:return[9,a[1]];default:return[0,jN(a[1])]}}function
+bz(a){if(typeof
+a==="number")return sn;else
 switch(a[0]){case
-0:return[1,bn(a[1])];case
-1:return[3,bn(a[1])];case
-2:return[5,bn(a[1])];case
-3:return[7,bn(a[1])];case
-4:return[9,bn(a[1])];case
-5:return[1,bo(a[1])];case
-6:return[3,bo(a[1])];case
-7:return[5,bo(a[1])];case
-8:return[7,bo(a[1])];default:return[9,bo(a[1])]}}function
-bn(a){if(typeof
+0:return[1,by(a[1])];case
+1:return[3,by(a[1])];case
+2:return[5,by(a[1])];case
+3:return[7,by(a[1])];case
+4:return[9,by(a[1])];case
+5:return[1,bz(a[1])];case
+6:return[3,bz(a[1])];case
+7:return[5,bz(a[1])];case
+8:return[7,bz(a[1])];default:return[9,bz(a[1])]}}function
+by(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bn(a[1])];case
-1:return[2,bn(a[1])];case
-2:return[4,bn(a[1])];case
-3:return[6,bn(a[1])];case
-4:return[8,bn(a[1])];case
-5:return[0,bo(a[1])];case
-6:return[2,bo(a[1])];case
-7:return[4,bo(a[1])];case
-8:return[6,bo(a[1])];default:return[8,bo(a[1])]}}function
-b5(a){return a?a[1]:a}function
-O(b,a){return b?[0,O(b[1],a)]:a}function
-dU(a,b){return a?O(b,dU(a[1],b)):a}function
-dV(b,a){return b?a:a?0:1}function
-u(d,c){var
+0:return[0,by(a[1])];case
+1:return[2,by(a[1])];case
+2:return[4,by(a[1])];case
+3:return[6,by(a[1])];case
+4:return[8,by(a[1])];case
+5:return[0,bz(a[1])];case
+6:return[2,bz(a[1])];case
+7:return[4,bz(a[1])];case
+8:return[6,bz(a[1])];default:return[8,bz(a[1])]}}function
+bQ(a){return a?a[1]:a}function
+Q(b,a){return b?[0,Q(b[1],a)]:a}function
+eg(a,b){return a?Q(b,eg(a[1],b)):a}function
+cZ(b,a){return b?a:a?0:1}function
+v(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ac(d,c){var
+Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dW(b,a){return ac([0,b],a)}function
-je(c){var
+eh(b,a){return Z([0,b],a)}function
+jO(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eR(c,b,a){return c?f(b,eR(c[1],b,a)):a}function
-jf(a){if(a)var
-b=a[1],d=b?[0,jf(b[1])]:b,c=d;else
+fc(c,b,a){return c?f(b,fc(c[1],b,a)):a}function
+jP(a){if(a)var
+b=a[1],d=b?[0,jP(b[1])]:b,c=d;else
 var
 c=a;return c}function
-eS(a){if(I(a,c))return c;var
-b=bF(a,a9(2)),e=b[1];return ad(b[2],d)?q(eS(e)):q(eS(e))}function
-gt(j,i){var
-b=j,a=i;for(;;){if(I(b,c))return I(a,c)?1:ad(bF(a,a9(2))[2],d)?0:0;var
-g=bF(b,a9(2)),h=g[1];if(ad(g[2],d)){if(I(a,c))return 0;var
-e=bF(a,a9(2)),k=e[1];if(ad(e[2],d)){var
-b=h,a=k;continue}return 0}if(I(a,c))return 0;var
-f=bF(a,a9(2)),l=f[1];if(ad(f[2],d))return 0;var
+fd(a){if(M(a,c))return c;var
+b=bO(a,bj(2)),e=b[1];return ah(b[2],d)?r(fd(e)):r(fd(e))}function
+g1(j,i){var
+b=j,a=i;for(;;){if(M(b,c))return M(a,c)?1:ah(bO(a,bj(2))[2],d)?0:0;var
+g=bO(b,bj(2)),h=g[1];if(ah(g[2],d)){if(M(a,c))return 0;var
+e=bO(a,bj(2)),k=e[1];if(ah(e[2],d)){var
+b=h,a=k;continue}return 0}if(M(a,c))return 0;var
+f=bO(a,bj(2)),l=f[1];if(ah(f[2],d))return 0;var
 b=h,a=l;continue}}function
-eT(c,b){var
-a=iM(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-jg(b,i,h){var
-e=i,a=h;for(;;){if(I(e,c))return a;var
-f=bF(e,a9(2)),g=f[1];if(ad(f[2],d)){var
-e=g,a=V(b,a,a);continue}return V(b,a,jg(b,g,V(b,a,a)))}}function
-dX(a){return jg(O,a,ri)}function
-gu(a){return a?q(gu(a[1])):c}function
-b6(f,e){var
+fe(c,b){var
+a=jl(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+jQ(b,i,h){var
+e=i,a=h;for(;;){if(M(e,c))return a;var
+f=bO(e,bj(2)),g=f[1];if(ah(f[2],d)){var
+e=g,a=_(b,a,a);continue}return _(b,a,jQ(b,g,_(b,a,a)))}}function
+ei(a){return jQ(Q,a,sp)}function
+g2(a){return a?r(g2(a[1])):c}function
+cf(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=s(b(2,q(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=u(b(2,r(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=B(c,s(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=y(c,u(b(2,r(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=s(b(2,q(b(2,b(2,c)))),d),j=B(b(2,c),i),a=a[1],d=j;continue;case
+i=u(b(2,r(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=s(b(2,q(b(2,b(2,c)))),d),l=B(q(b(2,c)),k),a=a[1],d=l;continue;case
+k=u(b(2,r(b(2,b(2,c)))),d),l=y(r(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=s(b(2,q(b(2,b(2,c)))),d),n=B(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=u(b(2,r(b(2,b(2,c)))),d),n=y(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-o=s(b(2,q(b(2,b(2,c)))),d),p=B(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
+o=u(b(2,r(b(2,b(2,c)))),d),p=y(r(b(2,b(2,c))),o),a=a[1],d=p;continue;case
 6:var
-r=s(b(2,q(b(2,b(2,c)))),d),t=B(b(2,q(b(2,c))),r),a=a[1],d=t;continue;case
+q=u(b(2,r(b(2,b(2,c)))),d),s=y(b(2,r(b(2,c))),q),a=a[1],d=s;continue;case
 7:var
-u=s(b(2,q(b(2,b(2,c)))),d),v=B(q(b(2,q(b(2,c)))),u),a=a[1],d=v;continue;case
+t=u(b(2,r(b(2,b(2,c)))),d),v=y(r(b(2,r(b(2,c)))),t),a=a[1],d=v;continue;case
 8:var
-w=s(b(2,q(b(2,b(2,c)))),d),x=B(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=s(b(2,q(b(2,b(2,c)))),d),z=B(q(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-gv(a){if(I(a,c))return rj;var
-b=bF(a,a9(2)),e=b[1];return ad(b[2],d)?bn(gv(e)):bo(gv(e))}function
-eU(a){return eQ(gv(a))}function
-jh(k,f){if(0<=b0(f)){var
-g=iO(f);if(0<=g){var
+w=u(b(2,r(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+z=u(b(2,r(b(2,b(2,c)))),d),A=y(r(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
+g3(a){if(M(a,c))return sq;var
+b=bO(a,bj(2)),e=b[1];return ah(b[2],d)?by(g3(e)):bz(g3(e))}function
+ff(a){return fb(g3(a))}function
+jR(k,f){if(0<=b$(f)){var
+g=jn(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=s(b,b),j=1===(a&1)?s(e,b):e,e=j,b=i,a=h;continue}}return cm(re)}return d}function
-ji(a){return 0<=b0(a)?a:d}function
-gw(a){var
-b=b0(a);return 0===b?c:0<b?a:c}function
-jj(m){var
+h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return cB(sl)}return d}function
+jS(a){return 0<=b$(a)?a:d}function
+g4(a){var
+b=b$(a);return 0===b?c:0<b?a:c}function
+jT(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b6(a[1],c);case
+1:return cf(a[1],c);case
 2:var
-e=b(2,c);return b6(a[1],e);case
+e=b(2,c);return cf(a[1],e);case
 3:var
-f=q(b(2,c));return b6(a[1],f);case
+f=r(b(2,c));return cf(a[1],f);case
 4:var
-g=b(2,b(2,c));return b6(a[1],g);case
+g=b(2,b(2,c));return cf(a[1],g);case
 5:var
-h=q(b(2,b(2,c)));return b6(a[1],h);case
+h=r(b(2,b(2,c)));return cf(a[1],h);case
 6:var
-i=b(2,q(b(2,c)));return b6(a[1],i);case
+i=b(2,r(b(2,c)));return cf(a[1],i);case
 7:var
-j=q(b(2,q(b(2,c))));return b6(a[1],j);case
+j=r(b(2,r(b(2,c))));return cf(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return b6(a[1],k);default:var
-l=q(b(2,b(2,b(2,c))));return b6(a[1],l)}}function
-co(b,a){var
-c=b0(a);return 0===c?d:1===c?iN(b,a):ja(-1,iN(ja(-1,b),a))}function
-jk(a){return 0<b0(a)?D5(a):d}function
-dY(b,c){var
-a=iO(c);return 0<=a?ox(b,a):oy(b,-a|0)}function
-cJ(b,c){var
-a=iO(c);return 0<=a?oy(b,a):ox(b,-a|0)}function
-eV(b,a){return a?a[1]:b}function
-gx(a){var
+k=b(2,b(2,b(2,c)));return cf(a[1],k);default:var
+l=r(b(2,b(2,b(2,c))));return cf(a[1],l)}}function
+cD(b,a){var
+c=b$(a);return 0===c?d:1===c?jm(b,a):jK(-1,jm(jK(-1,b),a))}function
+jU(a){return 0<b$(a)?Gn(a):d}function
+ej(b,c){var
+a=jn(c);return 0<=a?pE(b,a):pF(b,-a|0)}function
+c0(b,c){var
+a=jn(c);return 0<=a?pF(b,a):pE(b,-a|0)}function
+dx(b,a){return a?a[1]:b}function
+ek(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-ae(d,c){var
+X(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jl(a){if(a){var
-b=[0,a[1],0];return g(jl(a[2]),b)}return a}function
-jm(d,c){var
+jV(a){if(a){var
+b=[0,a[1],0];return g(jV(a[2]),b)}return a}function
+jW(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
+jX(a){if(a){var
+b=jX(a[2]);return g(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,f(b,a[1]),d];else
 var
 c=a;return c}function
 E(b,a){if(a){var
 c=E(b,a[2]);return g(f(b,a[1]),c)}return a}function
-gy(e,d,c){var
+dy(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=V(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bH(c,b,a){if(a){var
-d=bH(c,b,a[2]);return V(c,a[1],d)}return b}function
-aP(e,d){var
+f=_(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bR(c,b,a){if(a){var
+d=bR(c,b,a[2]);return _(c,a[1],d)}return b}function
+aK(e,d){var
 a=d;for(;;){if(a){var
 b=f(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2107,111 +2109,111 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=f(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-c9(b,e){var
+c1(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(f(b,d))return[0,d,c9(b,c)];var
+c=a[2],d=a[1];if(f(b,d))return[0,d,c1(b,c)];var
 a=c;continue}return a}}function
-jn(d,c){var
+jY(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(f(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-a$(b,a){if(b)if(a)var
-d=a$(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+a0(b,a){if(b)if(a)var
+d=a0(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eW(b,a){if(b)if(a)var
-d=eW(b[1],a[2]),c=[0,a[1],d];else
+el(b,a){if(b)if(a)var
+d=el(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-jo(d,c){var
+g5(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-bp(b,a){var
-c=a?[0,b,bp([0,b],a[1])]:a;return c}function
-ba(b,a){var
-c=a?[0,b,ba(b,a[1])]:a;return c}function
-jp(a){if(a){var
-e=jp(a[2]),f=s(b(2,c),e),g=a[1]?c:d;return B(g,f)}return d}function
-eX(j){function
+a9(b,a){var
+c=a?[0,b,a9([0,b],a[1])]:a;return c}function
+bl(b,a){var
+c=a?[0,b,bl(b,a[1])]:a;return c}function
+jZ(a){if(a){var
+e=jZ(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
+fg(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jp([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<b0(b)?dX(b):0}function
-jq(c,b){var
-a=iM(s(c[1],b[2]),s(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c_(b,a){return I(s(b[1],a[2]),s(a[1],b[2]))}function
-dZ(b,a){return[0,B(s(b[1],a[2]),s(a[1],b[2])),s(b[2],a[2])]}function
-c$(b,a){return[0,s(b[1],a[1]),s(b[2],a[2])]}function
-gz(b,a){return dZ(b,[0,aa(a[1]),a[2]])}function
-a3(a){if(typeof
-a==="number")return rm;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jZ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<b$(b)?ei(b):0}function
+j0(c,b){var
+a=jl(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+dz(b,a){return M(u(b[1],a[2]),u(a[1],b[2]))}function
+em(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
+dA(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
+g6(b,a){return em(b,[0,aa(a[1]),a[2]])}function
+a_(a){if(typeof
+a==="number")return st;else
 switch(a[0]){case
 0:var
-b=a3(a[1]);return aE(be(1,48),b);case
+b=a_(a[1]);return aH(bq(1,48),b);case
 1:var
-c=a3(a[1]);return aE(be(1,49),c);case
+c=a_(a[1]);return aH(bq(1,49),c);case
 2:var
-d=a3(a[1]);return aE(be(1,50),d);case
+d=a_(a[1]);return aH(bq(1,50),d);case
 3:var
-e=a3(a[1]);return aE(be(1,51),e);case
+e=a_(a[1]);return aH(bq(1,51),e);case
 4:var
-f=a3(a[1]);return aE(be(1,52),f);case
+f=a_(a[1]);return aH(bq(1,52),f);case
 5:var
-g=a3(a[1]);return aE(be(1,53),g);case
+g=a_(a[1]);return aH(bq(1,53),g);case
 6:var
-h=a3(a[1]);return aE(be(1,54),h);case
+h=a_(a[1]);return aH(bq(1,54),h);case
 7:var
-i=a3(a[1]);return aE(be(1,55),i);case
+i=a_(a[1]);return aH(bq(1,55),i);case
 8:var
-j=a3(a[1]);return aE(be(1,56),j);default:var
-k=a3(a[1]);return aE(be(1,57),k)}}function
-d0(a){return typeof
-a==="number"?rn:a3(a)}function
-cK(a){return jh(b(2,c),a)}function
-jr(b,a){return cJ(a,b)}function
-js(b,a){return aa(cJ(aa(a),b))}function
-eY(b,a){return aa(co(aa(b),a))}function
-am(c,b){var
-a=dY(b,c);return[0,a,a]}function
-jt(d,c,a){var
-b=dY(c,d),e=eY(b,a);return[0,co(b,a),e]}function
-C(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-M(b,a){return[0,aS(b[1],a[2]),aS(b[2],a[1])]}function
-ah(a){return[0,aa(a[2]),aa(a[1])]}function
-ju(e,c,b,a){if(I(d,e))return I(d,b)?[0,s(e,b),s(c,a)]:I(a,d)?[0,s(c,b),s(e,a)]:[0,s(c,b),s(c,a)];if(I(c,d))return I(d,b)?[0,s(e,a),s(c,b)]:I(a,d)?[0,s(c,a),s(e,b)]:[0,s(e,a),s(e,b)];if(I(d,b))return[0,s(e,a),s(c,a)];if(I(a,d))return[0,s(c,b),s(e,b)];var
-f=bG(s(e,b),s(c,a));return[0,gs(s(e,a),s(c,b)),f]}function
-v(c,b,a){var
-d=ju(b[1],b[2],a[1],a[2]),e=js(c,d[2]);return[0,jr(c,d[1]),e]}function
-Y(b,a){var
-c=s(a[1],a[1]),e=s(a[2],a[2]),h=js(b,bG(c,e)),g=0;if(S(a[1],d)&&S(d,a[2])){var
+j=a_(a[1]);return aH(bq(1,56),j);default:var
+k=a_(a[1]);return aH(bq(1,57),k)}}function
+en(a){return typeof
+a==="number"?su:a_(a)}function
+c2(a){return jR(b(2,c),a)}function
+j1(b,a){return c0(a,b)}function
+j2(b,a){return aa(c0(aa(a),b))}function
+fh(b,a){return aa(cD(aa(b),a))}function
+ap(c,b){var
+a=ej(b,c);return[0,a,a]}function
+j3(d,c,a){var
+b=ej(c,d),e=fh(b,a);return[0,cD(b,a),e]}function
+G(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+L(b,a){return[0,aY(b[1],a[2]),aY(b[2],a[1])]}function
+ao(a){return[0,aa(a[2]),aa(a[1])]}function
+j4(e,c,b,a){if(M(d,e))return M(d,b)?[0,u(e,b),u(c,a)]:M(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(M(c,d))return M(d,b)?[0,u(e,a),u(c,b)]:M(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(M(d,b))return[0,u(e,a),u(c,a)];if(M(a,d))return[0,u(c,b),u(e,b)];var
+f=bP(u(e,b),u(c,a));return[0,g0(u(e,a),u(c,b)),f]}function
+w(c,b,a){var
+d=j4(b[1],b[2],a[1],a[2]),e=j2(c,d[2]);return[0,j1(c,d[1]),e]}function
+V(b,a){var
+c=u(a[1],a[1]),e=u(a[2],a[2]),h=j2(b,bP(c,e)),g=0;if($(a[1],d)&&$(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jr(b,gs(c,e));return[0,f,h]}function
-gA(b,a){var
-c=dY(cK(b),b),d=eY(c,a[1]);return[0,co(c,a[2]),d]}function
-cp(b,a){if(S(d,a[1]))return[0,gA(b,a)];var
-c=S(a[2],d),e=c?[0,ah(gA(b,ah(a)))]:c;return e}function
-cL(f,b){var
-g=S(d,b[1]);if(g)var
-e=dY(b[2],f),a=jk(e),i=ad(s(a,a),e)?a:B(a,c),h=[0,[0,jk(dY(b[1],f)),i]];else
+f=j1(b,g0(c,e));return[0,f,h]}function
+g7(b,a){var
+c=ej(c2(b),b),d=fh(c,a[1]);return[0,cD(c,a[2]),d]}function
+cE(b,a){if($(d,a[1]))return[0,g7(b,a)];var
+c=$(a[2],d),e=c?[0,ao(g7(b,ao(a)))]:c;return e}function
+c3(f,b){var
+g=$(d,b[1]);if(g)var
+e=ej(b[2],f),a=jU(e),i=ah(u(a,a),e)?a:y(a,c),h=[0,[0,jU(ej(b[1],f)),i]];else
 var
 h=g;return h}function
-bb(f,d,c,b,a){if(b){if(a){var
-g=bb(f,d,c,b[2],a[2]);return[0,V(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cq(b,a){return cJ(b,a)}function
-bf(a,c,b){if(I(d,a)){var
-e=b[1],f=aa(cq(aa(s(a,b[2])),c));return[0,cq(s(a,e),c),f]}var
-g=b[2],h=aa(cq(aa(s(a,b[1])),c));return[0,cq(s(a,g),c),h]}function
-b7(a){var
-b=aa(cJ(aa(a[2]),c));return[0,cJ(a[1],c),b]}function
-d1(c,b,a){var
-e=ju(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=S(f,d)?a[2]:a[1],i=eY(f,h),j=S(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
-d2(a){return bG(a[2],aa(a[1]))}var
-x=[0,d,d];function
-eZ(a){return[0,a[1],a[1]]}function
-da(a){return[0,a[2],a[2]]}function
-db(b,a){switch(a[0]){case
+bm(f,d,c,b,a){if(b){if(a){var
+g=bm(f,d,c,b[2],a[2]);return[0,_(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cF(b,a){return c0(b,a)}function
+br(a,c,b){if(M(d,a)){var
+e=b[1],f=aa(cF(aa(u(a,b[2])),c));return[0,cF(u(a,e),c),f]}var
+g=b[2],h=aa(cF(aa(u(a,b[1])),c));return[0,cF(u(a,g),c),h]}function
+cg(a){var
+b=aa(c0(aa(a[2]),c));return[0,c0(a[1],c),b]}function
+eo(c,b,a){var
+e=j4(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=$(f,d)?a[2]:a[1],i=fh(f,h),j=$(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
+ep(a){return bP(a[2],aa(a[1]))}var
+A=[0,d,d];function
+fi(a){return[0,a[1],a[1]]}function
+dB(a){return[0,a[2],a[2]]}function
+c4(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2225,102 +2227,102 @@ e=f(b,a[2]);return[6,f(b,a[1]),e];case
 7:var
 g=f(b,a[2]);return[7,f(b,a[1]),g];case
 8:return[8,f(b,a[1])];default:return[9,f(b,a[1])]}}function
-bg(j,i){var
+a$(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?u(b[1],a[1]):0;case
-1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?ad(b[1],a[1]):0;case
+0:return 0===a[0]?v(b[1],a[1]):0;case
+1:return 1===a[0]?v(b[1],a[1]):0;case
+2:return 2===a[0]?ah(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bg(b[1],a[1]);if(e){var
+e=a$(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bg(b[1],a[1]);if(f){var
+f=a$(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bg(b[1],a[1]);if(g){var
+g=a$(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bg(b[1],a[1]);if(h){var
+h=a$(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-e0(b){var
+fj(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a4(c,b){var
-a=e0(b);return a?ad(c,a[1]):a}function
-d3(a){return S(ge(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-o(a){return[0,[2,a]]}function
-N(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
-c=e0(b);if(c){var
-e=c[1],f=e0(a);if(f){var
-g=f[1];if(d3(e)&&d3(g))return o(B(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-b8(a){var
+ba(c,b){var
+a=fj(b);return a?ah(c,a[1]):a}function
+eq(a){return $(gL(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+l(a){return[0,[2,a]]}function
+F(b,a){if(ba(d,b))return a;if(ba(d,a))return b;var
+c=fj(b);if(c){var
+e=c[1],f=fj(a);if(f){var
+g=f[1];if(eq(e)&&eq(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bS(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return d3(c)?o(aa(c)):[0,[5,a]];case
+c=b[1];return eq(c)?l(aa(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-D(b,a){if(a4(d,a))return b;if(a4(d,b))return b8(a);var
+s(b,a){if(ba(d,a))return b;if(ba(d,b))return bS(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?u(c[1],e[1])?o(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-af(a){var
-c=e0(a);if(c){var
-b=c[1];return d3(b)?o(s(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-r(a,b){if(!a4(d,a)&&!a4(c,b)){if(!a4(d,b)&&!a4(c,a))return bg(a,b)?af(a):[0,[6,a,b]];return b}return a}function
-av(b,a){return a4(c,a)?b:[0,[7,b,a]]}function
-cr(a){return a4(c,a)?a:[0,[9,a]]}function
-bI(g,e,d,c){var
+e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+J(a){var
+c=fj(a);if(c){var
+b=c[1];return eq(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,b){if(!ba(d,a)&&!ba(c,b)){if(!ba(d,b)&&!ba(c,a))return a$(a,b)?J(a):[0,[6,a,b]];return b}return a}function
+ai(b,a){return ba(c,a)?b:[0,[7,b,a]]}function
+aT(a){return ba(c,a)?a:[0,[9,a]]}function
+bT(g,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,f(e,db(function(b){return function(a){return t(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-d4(a){var
+h=b[1],i=[0,f(e,c4(function(b){return function(a){return t(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+c5(a){var
 b=0;function
-c(a){return[0,a]}return bI(o(d),c,a,b)}function
-gB(b,a){if(a){if(bg(b,a[1]))return ro;var
-c=gB(b,a[2]);return J(function(a){return[0,a]},c)}return a}function
-bJ(c,b){var
-a=gB(b,c),d=a?a[1]:a;return d}function
-e1(d,a){if(gB(d,a[1]))return a;var
+c(a){return[0,a]}return bT(l(d),c,a,b)}function
+g8(b,a){if(a){if(a$(b,a[1]))return sv;var
+c=g8(b,a[2]);return D(function(a){return[0,a]},c)}return a}function
+bA(c,b){var
+a=g8(b,c),d=a?a[1]:a;return d}function
+fk(d,a){if(g8(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=e1(b[1],a);break;case
+c=fk(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=e1(b[1],a),c=e1(b[2],h)}var
-e=c[2],f=c[1],g=[0,db(function(a){return bJ(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-d5(a){var
-b=gy(function(b,a){return e1(a,b)},a,rp),c=b[1],d=e(function(a){return bJ(c,a)},a);return[0,jl(b[2]),d]}function
-e2(a){return bH(function(b,a){return B(d2(b),a)},d,a)}function
-dc(b,c,a){var
-d=e2(a),e=gs(c[2],B(b[2],d)),f=e2(a);return[0,b,[0,bG(c[1],aS(b[1],f)),e],a]}function
-aq(a){return[0,a,a,0]}function
-dd(b,a){var
+h=fk(b[1],a),c=fk(b[2],h)}var
+e=c[2],f=c[1],g=[0,c4(function(a){return bA(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dC(a){var
+b=dy(function(b,a){return fk(a,b)},a,sw),c=b[1],d=e(function(a){return bA(c,a)},a);return[0,jV(b[2]),d]}function
+fl(a){return bR(function(b,a){return y(ep(b),a)},d,a)}function
+dD(b,c,a){var
+d=fl(a),e=g0(c[2],y(b[2],d)),f=fl(a);return[0,b,[0,bP(c[1],aY(b[1],f)),e],a]}function
+aw(a){return[0,a,a,0]}function
+dE(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=bb(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return dc(C(b[1],a[1]),g,f)}function
-gC(b,a){var
-c=a[3],d=b[3],e=bb(function(a){return a},ah,M,d,c),f=M(b[2],a[2]);return dc(M(b[1],a[1]),f,e)}function
-gD(a){var
-b=e(ah,a[3]),c=ah(a[2]);return[0,ah(a[1]),c,b]}function
-de(a,c,b){var
-d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+f=bm(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return dD(G(b[1],a[1]),g,f)}function
+g9(b,a){var
+c=a[3],d=b[3],e=bm(function(a){return a},ao,L,d,c),f=L(b[2],a[2]);return dD(L(b[1],a[1]),f,e)}function
+g_(a){var
+b=e(ao,a[3]),c=ao(a[2]);return[0,ao(a[1]),c,b]}function
+dF(a,c,b){var
+d=G(b[2],b[1]),e=G(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=v(a,e,b);return b7(C(v(a,d,c),f))}function
-i(b){return b7(v(a,e,b))}var
-j=bb(function(b){return b7(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return dc(v(a,c[1],b[1]),k,j)}function
-jv(b,a){var
-c=a[3],d=C(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=Y(b,a[2]);return dc(Y(b,a[1]),g,f)}function
-jw(a,b){var
-c=cL(a,b[1]);if(c){var
-g=c[1],d=cL(a,b[2]);if(d){var
-h=d[1],f=cp(a,C(h,g));if(f)var
-l=b[3],m=f[1],i=[0,dc(g,h,e(function(b){return v(a,m,b)},l))];else
+f=w(a,e,b);return cg(G(w(a,d,c),f))}function
+i(b){return cg(w(a,e,b))}var
+j=bm(function(b){return cg(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return dD(w(a,c[1],b[1]),k,j)}function
+j5(b,a){var
+c=a[3],d=G(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=V(b,a[2]);return dD(V(b,a[1]),g,f)}function
+j6(a,b){var
+c=c3(a,b[1]);if(c){var
+g=c[1],d=c3(a,b[2]);if(d){var
+h=d[1],f=cE(a,G(h,g));if(f)var
+l=b[3],m=f[1],i=[0,dD(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -2329,399 +2331,411 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-gE(a,c,b){var
-d=cp(a,b[1]);if(d){var
-f=cp(a,b[2]);if(f)var
-h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return M(c,v(a,g,b))},n=function(b){return ah(v(a,g,b))},o=bb(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,dc(g,v(a,c[2],h),p)];else
+g$(a,c,b){var
+d=cE(a,b[1]);if(d){var
+f=cE(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return L(c,w(a,g,b))},n=function(b){return ao(w(a,g,b))},o=bm(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,dD(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-df(b,a){return a?f(b,a[1]):a}function
-b9(d,b,a){if(b){if(a)return V(d,b[1],a[1]);var
+dG(b,a){return a?f(b,a[1]):a}function
+ch(d,b,a){if(b){if(a)return _(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cs(b,e,d){var
-c=aq(x);return function(a){switch(a[0]){case
+cG(b,e,d){var
+c=aw(A);return function(a){switch(a[0]){case
 0:return[0,t(a[1],e,c)];case
 1:return[0,t(a[1],d,c)];case
-2:return[0,aq(am(b,a[1]))];case
+2:return[0,aw(ap(b,a[1]))];case
 3:var
-f=a[2],g=a[1];return b9(function(b,a){return[0,dd(b,a)]},g,f);case
+f=a[2],g=a[1];return ch(function(b,a){return[0,dE(b,a)]},g,f);case
 4:var
-h=a[2],i=a[1];return b9(function(b,a){return[0,gC(b,a)]},i,h);case
+h=a[2],i=a[1];return ch(function(b,a){return[0,g9(b,a)]},i,h);case
 5:var
-j=a[1];return df(function(a){return[0,gD(a)]},j);case
+j=a[1];return dG(function(a){return[0,g_(a)]},j);case
 6:var
-k=a[2],l=a[1];return b9(function(c,a){return[0,de(b,c,a)]},l,k);case
+k=a[2],l=a[1];return ch(function(c,a){return[0,dF(b,c,a)]},l,k);case
 7:var
-m=a[2],n=a[1];return b9(function(a,c){return gE(b,a,c)},n,m);case
+m=a[2],n=a[1];return ch(function(a,c){return g$(b,a,c)},n,m);case
 8:var
-o=a[1];return df(function(a){return[0,jv(b,a)]},o);default:var
-p=a[1];return df(function(a){return jw(b,a)},p)}}}function
-d6(c){var
+o=a[1];return dG(function(a){return[0,j5(b,a)]},o);default:var
+p=a[1];return dG(function(a){return j6(b,a)},p)}}}function
+er(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d6(a[1]);if(b)return b;var
+b=er(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b_(q,p){var
+ci(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ad(b[1],a[1]);return c?gt(b[2],a[2]):c}return 0;case
+c=ah(b[1],a[1]);return c?g1(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?ad(e[1],g[1]):h,j=i?gt(e[2],g[2]):i,k=j?ad(d[1],f[1]):j;return k?gt(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ah(e[1],g[1]):h,j=i?g1(e[2],g[2]):i,k=j?ah(d[1],f[1]):j;return k?g1(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b_(b[1],a[1]);if(l){var
+l=ci(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b_(b[1],a[1]);if(m){var
+m=ci(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b_(b[1],a[1]);if(n){var
+n=ci(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b_(b[1],a[1]);if(o){var
+o=ci(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bq(a,b){switch(b[0]){case
-0:return[0,jt(a,b[1],b[2])];case
+bB(a,b){switch(b[0]){case
+0:return[0,j3(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bq(a,b[1]);if(c)var
-d=bq(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
+c=bB(a,b[1]);if(c)var
+d=bB(a,b[2]),r=d?[0,G(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bq(a,b[1]);if(e)var
-f=bq(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
+e=bB(a,b[1]);if(e)var
+f=bB(a,b[2]),s=f?[0,L(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bq(a,b[1]);if(g)var
-h=bq(a,b[2]),t=h?[0,v(a,g[1],h[1])]:h,o=t;else
+g=bB(a,b[1]);if(g)var
+h=bB(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bq(a,b[1]);if(i){var
-j=bq(a,b[2]);if(j)var
-k=cp(a,j[1]),u=k?[0,v(a,i[1],k[1])]:k,p=u;else
+i=bB(a,b[1]);if(i){var
+j=bB(a,b[2]);if(j)var
+k=cE(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bq(a,b[1]);return l?cL(a,l[1]):l}}function
-e3(b,a){return jt(b,a[1],a[2])}function
-br(a,d){if(d6(d))switch(d[0]){case
+l=bB(a,b[1]);return l?c3(a,l[1]):l}}function
+fm(b,a){return j3(b,a[1],a[2])}function
+bC(a,d){if(er(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],f=d[2],i=d[1],j=dW(i,jx),k=j?c_(f,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,e3(a,c$(gz(e,f),n)),0],p=g(ba(x,i),o),q=e3(a,e)[2],r=[0,e3(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,e3(a,c$(dZ(f,e),s)),r,p]];else
+e=d[3],f=d[2],i=d[1],j=eh(i,j7),k=j?dz(f,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fm(a,dA(g6(e,f),n)),0],p=g(bl(A,i),o),q=fm(a,e)[2],r=[0,fm(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,fm(a,dA(em(f,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=br(a,d[2]),u=br(a,d[1]);return b9(function(b,a){return[0,dd(b,a)]},u,t);case
+t=bC(a,d[2]),u=bC(a,d[1]);return ch(function(b,a){return[0,dE(b,a)]},u,t);case
 3:var
-v=br(a,d[2]),w=br(a,d[1]);return b9(function(b,a){return[0,gC(b,a)]},w,v);case
+v=bC(a,d[2]),w=bC(a,d[1]);return ch(function(b,a){return[0,g9(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(b_(h,m)){var
-y=br(a,h);return df(function(b){return[0,jv(a,b)]},y)}var
-z=br(a,m),A=br(a,h);return b9(function(c,b){return[0,de(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(ci(h,m)){var
+x=bC(a,h);return dG(function(b){return[0,j5(a,b)]},x)}var
+y=bC(a,m),z=bC(a,h);return ch(function(c,b){return[0,dF(a,c,b)]},z,y);case
 5:var
-B=br(a,d[2]),C=br(a,d[1]);return b9(function(b,c){return gE(a,b,c)},C,B);default:var
-D=br(a,d[1]);return df(function(b){return jw(a,b)},D)}return J(aq,bq(a,d))}function
-bK(b,a){if(d6(a)){var
-c=br(b,a);return J(function(a){return a[2]},c)}return bq(b,a)}function
-jy(a){var
-e=bG(aa(a),d);return gw(B(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jz(a){return ji(B(jy(a),a))}function
-ct(f,a,e){var
-b=bK(B(f,jy(a)),e);if(b)var
-c=b[1],g=jz(a),h=aa(cq(aa(c[2]),g)),i=jz(a),d=[0,[0,cq(c[1],i),h]];else
+B=bC(a,d[2]),C=bC(a,d[1]);return ch(function(b,c){return g$(a,b,c)},C,B);default:var
+E=bC(a,d[1]);return dG(function(b){return j6(a,b)},E)}return D(aw,bB(a,d))}function
+bb(b,a){if(er(a)){var
+c=bC(b,a);return D(function(a){return a[2]},c)}return bB(b,a)}function
+j8(a){var
+e=bP(aa(a),d);return g4(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+j9(a){return jS(y(j8(a),a))}function
+cH(f,a,e){var
+b=bb(y(f,j8(a)),e);if(b)var
+c=b[1],g=j9(a),h=aa(cF(aa(c[2]),g)),i=j9(a),d=[0,[0,cF(c[1],i),h]];else
 var
 d=b;return d}function
-as(d,a){var
-b=ct(d,a[2],a[1][1]);if(b)var
-c=ct(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aj(d,a){var
+b=cH(d,a[2],a[1][1]);if(b)var
+c=cH(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-jA(b,a){var
-c=aa(cq(aa(a[2]),b));return[0,cq(a[1],b),c]}function
-gF(b,a){var
-c=eY(b[2],a);return[0,co(b[1],a),c]}function
-gG(a,f,b){if(b){var
-d=b[1],g=gG(a,f,d),h=g[2],i=gu(O(dU(rr,d),rq)),j=s(gu(dU(rs,d)),i),e=gF(v(a,g[1],f),j),k=je(b)?C(h,e):M(h,e);return[0,e,k]}var
-l=am(a,c);return[0,am(a,c),l]}function
-jB(f){var
-g=dX(f),e=rt[1],b=g,c=0,a=e;for(;;){if(b){var
+ha(b,a){var
+c=aa(cF(aa(a[2]),b));return[0,cF(a[1],b),c]}function
+fn(b,a){var
+c=fh(b[2],a);return[0,cD(b[1],a),c]}function
+hb(a,f,b){if(b){var
+d=b[1],g=hb(a,f,d),h=g[2],i=g2(Q(eg(sy,d),sx)),j=u(g2(eg(sz,d)),i),e=fn(w(a,g[1],f),j),k=jO(b)?G(h,e):L(h,e);return[0,e,k]}var
+l=ap(a,c);return[0,ap(a,c),l]}function
+j_(f){var
+g=ei(f),e=sA[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return O(ru,c)}}function
-jC(a,d){var
-g=cK(a),h=s(b(2,b(2,c)),g),e=I(d[2],h);if(e)var
-i=gG(a,d,dU(rw,O(jB(a),rv)))[2][2],f=[0,[0,gG(a,d,O(dU(ry,jB(a)),rx))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return Q(sB,c)}}function
+j$(a,d){var
+g=c2(a),h=u(b(2,b(2,c)),g),e=M(d[2],h);if(e)var
+i=hb(a,d,eg(sD,Q(j_(a),sC)))[2][2],f=[0,[0,hb(a,d,Q(eg(sF,j_(a)),sE))[2][1],i]];else
 var
 f=e;return f}function
-jD(i){function
+ka(i){function
 a(h){var
-m=co(cK(i),h),g=dX(i),f=m,e=d,a=c;for(;;){if(g){var
-j=B(a,b(2,c)),k=B(e,co(f,a)),l=aa(co(f,s(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=s(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return aS(s(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jE(e,a){var
-f=I(d,a);if(f){var
-g=b(2,b(2,c));return jC(e,gF(Y(e,[0,a,a]),g))}return f}function
-jF(a,d){var
-b=Y(a,d),e=am(a,c);return M(C(b,b),e)}function
-e4(n,u){var
-h=bK(B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-w=h[1],a=B(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=aS(jD(a),p),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=B(jD(a),r),f=jE(a,i);if(f){var
-g=jE(a,j);if(g)var
-k=S(d,f[1][1]),l=k?S(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
+m=cD(c2(i),h),g=ei(i),f=m,e=d,a=c;for(;;){if(g){var
+j=y(a,b(2,c)),k=y(e,cD(f,a)),l=aa(cD(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aY(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
+kb(e,a){var
+f=M(d,a);if(f){var
+g=b(2,b(2,c));return j$(e,fn(V(e,[0,a,a]),g))}return f}function
+kc(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aY(ka(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(ka(a),n),e=kb(a,g);if(e){var
+f=kb(a,h);if(f)var
+i=$(d,e[1][1]),j=i?$(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
-m=g;var
-e=m}else
+k=f;var
+l=k}else
 var
-e=f;if(e)var
-s=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),t=jC(a,Y(a,gF(v(a,w,e[1]),s))),o=J(function(b){return jF(a,jF(a,b))},t);else
+l=e;return l}function
+kd(a,d){var
+b=V(a,d),e=ap(a,c);return L(G(b,b),e)}function
+dH(f,j){var
+e=bb(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=kc(a);if(d)var
+h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=j$(a,V(a,fn(w(a,k,d[1]),h))),g=D(function(b){return kd(a,kd(a,b))},i);else
 var
-o=e;var
-x=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return J(function(a){return jA(x,a)},o)}return h}function
-gH(d,a){return e4(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
-e5(a){return 0===a[0]?a[2]:a[1]}function
-rz(a){return a}function
-rA(a){return a}function
-rB(a,b){return bb(rA,rz,C,a,b)}function
-rC(a){return a}function
-rD(a){return a}function
-cu(a,b){return bb(rD,rC,rB,a,b)}function
-gI(b,a,c){if(a){var
+g=d;var
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return D(function(a){return ha(l,a)},g)}return e}function
+ke(a,d){var
+e=kc(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return D(function(e){var
+f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return fn(w(a,d,ha(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fo(d,a){return dH(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
+fp(a){return 0===a[0]?a[2]:a[1]}function
+sG(a){return a}function
+sH(a){return a}function
+sI(a,b){return bm(sH,sG,G,a,b)}function
+sJ(a){return a}function
+sK(a){return a}function
+cI(a,b){return bm(sK,sJ,sI,a,b)}function
+hc(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gI(b,f,c[2]),h=c[1],i=function(c,a){return M(c,d1(d,a,b))},j=function(a){return ah(d1(d,a,b))};return[0,bb(function(a){return a},j,i,h,a),g]}var
-k=gI(b,f,0);return[0,e(function(a){return ah(d1(d,a,b))},a),k]}return c}function
-gJ(a){if(a){var
+g=hc(b,f,c[2]),h=c[1],i=function(c,a){return L(c,eo(d,a,b))},j=function(a){return ao(eo(d,a,b))};return[0,bm(function(a){return a},j,i,h,a),g]}var
+k=hc(b,f,0);return[0,e(function(a){return ao(eo(d,a,b))},a),k]}return c}function
+hd(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=S(d,c[1]),h=e?[0,gI(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=$(d,c[1]),h=e?[0,hc(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jG(f,e){var
+kf(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gJ(b);if(c){var
+c=hd(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jH(d,b,a){if(b)if(a)var
-e=a[1],f=jH(d,b[2],a[2]),g=dV(d,b[1])?eZ(e):da(e),c=[0,g,f];else
+kg(d,b,a){if(b)if(a)var
+e=a[1],f=kg(d,b[2],a[2]),g=cZ(d,b[1])?fi(e):dB(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jI(a,b){if(a)if(b)var
-d=jI(a[2],b[2]),c=[0,jH(a[1],a,b[1]),d];else
+kh(a,b){if(a)if(b)var
+d=kh(a[2],b[2]),c=[0,kg(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bs(a){if(a){var
-b=a[1],c=bs(b),d=e(function(a){return[0,1,a]},c),f=bs(b);return g(e(function(a){return[0,0,a]},f),d)}return rE}function
-e6(a){var
-b=j(a);if(jG(b,a))return 1;var
-c=bs(b5(b));return n(function(c){return jG(b,jI([0,0,c],a))},c)}function
-a5(a){function
+bD(a){if(a){var
+b=a[1],c=bD(b),d=e(function(a){return[0,1,a]},c),f=bD(b);return g(e(function(a){return[0,0,a]},f),d)}return sL}function
+fq(a){var
+b=k(a);if(kf(b,a))return 1;var
+c=bD(bQ(b));return n(function(c){return kf(b,kh([0,0,c],a))},c)}function
+aR(a){function
 b(b){var
 c=f(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aW(h,e){var
+a4(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gK(c,b,a){var
-d=bs(c);return n(function(c){return f(a,f(a5(function(a){return aW(c,a)}),b))},d)}function
-gL(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bf(b,B(h,c),a)},k=gL(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=bb(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?G(a,d):L(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+he(c,b,a){var
+d=bD(c);return n(function(c){return f(a,f(aR(function(a){return a4(c,a)}),b))},d)}function
+hf(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return br(b,y(h,c),a)},k=hf(h,j,i),l=function(c,b){var
+d=a(b,e);return G(a(f,c),d)},m=function(b){return a(b,e)},n=bm(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,G(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-e7(b,d,a,c){function
+fr(b,d,a,c){function
 e(c,d){var
-e=bf(d,b,a);return M(C(c,c),e)}function
-f(c){return ah(bf(c,b,a))}return bb(function(a){return C(a,a)},f,e,d,c)}function
-gM(d,i,h,g){var
+e=br(d,b,a);return L(G(c,c),e)}function
+f(c){return ao(br(c,b,a))}return bm(function(a){return G(a,a)},f,e,d,c)}function
+hg(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=da(e[2]),k=cu(a,gL(d,f,e7(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gN(b,a){return[0,[0,0,b],a]}function
-dg(b,c,g,f,a){function
+e=b[1],f=c[1],j=dB(e[2]),k=cI(a,hf(d,f,fr(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hh(b,a){return[0,[0,0,b],a]}function
+dI(b,c,g,f,a){function
 d(a){if(a){var
-h=ba([0,ah(a[1][2]),0],b),c=gM(g,f,a[2],h),d=u(j(c),b);if(d)return e6(c);var
+h=bl([0,ao(a[1][2]),0],b),c=hg(g,f,a[2],h),d=v(k(c),b);if(d)return fq(c);var
 e=d}else
 var
-e=a;return e}return gK(b,gN(c,a),d)}function
-jJ(f,e){var
+e=a;return e}return he(b,hh(c,a),d)}function
+ki(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gJ([0,[0,eZ(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=hd([0,[0,fi(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gO(b,c,a){function
+hi(b,c,a){function
 d(a){if(a){var
-h=ba([0,a[1][2],0],b),c=jJ(a[2],h);if(c){var
-d=c[1],e=u(j(d),b);if(e)return e6(d);var
+h=bl([0,a[1][2],0],b),c=ki(a[2],h);if(c){var
+d=c[1],e=v(k(d),b);if(e)return fq(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gK(b,gN(c,a),d)}function
-jK(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jL(b,a){var
-c=bs(b);return n(function(b){return S(d,aW(b,a)[1])},c)}function
-jM(c,b,a){var
-d=a[3],f=e(function(a){return bf(c,b,a)},d),g=a[2];return[0,bf(c,b,a[1]),g,f]}function
-jN(a,b){var
-c=b[3],d=a[3],e=bb(function(a){return a},ah,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
-d7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aX(c,b,a){var
-d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
-d8(b,a){var
-c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
-e8(b,a){var
-c=av(b[3],a),d=av(b[2],a);return[0,av(b[1],a),d,c]}function
-ay(b,a){var
-c=r(b[3],a[3]),d=r(b[2],a[2]);return N(N(r(b[1],a[1]),d),c)}function
-gP(a){return e8(a,cr(ay(a,a)))}function
-dh(a){var
-b=a[5];return b?b[1]:cr(a[2])}function
-e9(a){return e(function(a){var
-b=a[2];return[0,d7(a[1]),b]},a)}function
-jO(a){return e(function(a){var
-b=o(c);return[0,d7(a[3]),b]},a)}function
-jP(b,a){var
+g=a;return g}return he(b,hh(c,a),d)}function
+kj(b,a){return e(function(a){return[0,a[1],b]},a)}function
+kk(b,a){var
+c=bD(b);return n(function(b){return $(d,a4(b,a)[1])},c)}function
+kl(c,b,a){var
+d=a[3],f=e(function(a){return br(c,b,a)},d),g=a[2];return[0,br(c,b,a[1]),g,f]}function
+km(a,b){var
+c=b[3],d=a[3],e=bm(function(a){return a},ao,L,d,c),f=a[2];return[0,L(a[1],b[1]),f,e]}function
+c6(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aC(c,b,a){var
+d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
+cj(b,a){var
+c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
+c7(b,a){var
+c=ai(b[3],a),d=ai(b[2],a);return[0,ai(b[1],a),d,c]}function
+ag(b,a){var
+c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
+c8(a){return c7(a,aT(ag(a,a)))}function
+dJ(a){var
+b=a[5];return b?b[1]:aT(a[2])}function
+kn(b,a){return b?a:bS(a)}function
+ko(e,a,i,d,h){var
+f=ag(a,e),b=aC(s,e,cj(f,a)),j=ag(b,b),g=s(J(d),j),c=kn(h,aT(g)),k=s(f,c),l=aC(F,a,c7(b,c));return[0,aC(F,b,cj(c,a)),g,l,k,[0,d],0,[0,i]]}function
+kp(a,e,d){var
+b=ag(a,a),c=aT(b),f=[0,e],g=D(function(b){return aC(s,a,cj(ag(b,a),b))},d);return[0,a,b,c7(a,c),c,0,g,f]}function
+kq(b,a){var
+d=ag(a,b);return[0,a,l(c),a,d,0,0,0]}function
+fs(a){return e(function(a){var
+b=a[2];return[0,c6(a[1]),b]},a)}function
+kr(a){return e(function(a){var
+b=l(c);return[0,c6(a[3]),b]},a)}function
+ks(b,a){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-jQ(c,b,a){var
-d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
-gQ(d,a){var
-b=cL(d,[0,a[2],a[2]]);if(b){var
+kt(c,b,a){var
+d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
+hj(d,a){var
+b=c3(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-e_(a,m,f,l,e,k,j){var
-o=jQ(gC,k,j),b=jQ(function(b,c){return de(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=dd(dd(dd(aq(am(a,d)),h),g),c),p=bs(m);return n(function(c){var
-b=jP(function(b){return Y(a,aW(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,gQ(a,C(C(C(am(a,d),k),j),h))),g=M(aW(c,i),m),n=f?M(g,aW(c,f[1])):g;return S(d,n[1])},p)}function
-bL(a){return cJ(B(a[1],a[2]),c)}function
-di(a){var
-b=bL(a);return aS(a[2],b)}function
-e$(c,b){if(b)var
-a=b[1],e=e$([0,c],b[2]),f=di(a),h=[0,[0,di(a),f],0],i=g(ba(x,c),h),j=bL(a),d=[0,[0,[0,bL(a),j],a,i],e];else
+ft(a,m,f,l,e,k,j){var
+o=kt(g9,k,j),b=kt(function(b,c){return dF(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=dE(dE(dE(aw(ap(a,d)),h),g),c),p=bD(m);return n(function(c){var
+b=ks(function(b){return V(a,a4(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,hj(a,G(G(G(ap(a,d),k),j),h))),g=L(a4(c,i),m),n=f?L(g,a4(c,f[1])):g;return $(d,n[1])},p)}function
+bU(a){return c0(y(a[1],a[2]),c)}function
+dK(a){var
+b=bU(a);return aY(a[2],b)}function
+fu(c,b){if(b)var
+a=b[1],e=fu([0,c],b[2]),f=dK(a),h=[0,[0,dK(a),f],0],i=g(bl(A,c),h),j=bU(a),d=[0,[0,[0,bU(a),j],a,i],e];else
 var
 d=b;return d}function
-d9(d,b){if(b){var
+es(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d9(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bL(a),f],c],h=bL(a);return[0,[0,[0,a[1],h],c],g]}return rF}function
-jR(d,b,a){if(b){if(a){var
-e=jR(d,b[2],a[2]);return C(bf(b[1],B(d,c),a[1]),e)}return x}return x}function
-d_(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jR(f,a,b)},j=d_(f,h),k=e(function(a){var
-e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
+e=es(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bU(a),f],c],h=bU(a);return[0,[0,[0,a[1],h],c],g]}return sM}function
+ku(d,b,a){if(b){if(a){var
+e=ku(d,b[2],a[2]);return G(br(b[1],y(d,c),a[1]),e)}return A}return A}function
+et(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ku(f,a,b)},j=et(f,h),k=e(function(a){var
+e=b(d,a[2]);return G(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,G(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d$(e,b,d,a){if(b)if(a)var
-f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,e7(e,a[1][1],d,f)],g];else
+eu(e,b,d,a){if(b)if(a)var
+f=b[1],g=eu(e,b[2],d,a[2]),c=[0,[0,f,fr(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fa(f,d,c,b,a){if(a){var
+fv(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fa(f,d[1],c,b,g);return[0,[0,M(x,b),0],i]}var
-j=e(function(a){return[0,M(x,b),0]},g),h=[0,[0,M(ah(v(f,c,da(a[1][2]))),b),0],j]}else
+i=fv(f,d[1],c,b,g);return[0,[0,L(A,b),0],i]}var
+j=e(function(a){return[0,L(A,b),0]},g),h=[0,[0,L(ao(w(f,c,dB(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-b$(c,a){var
-b=u(j(a),c);return b?e6(a):b}function
-jS(d,b,a){if(b)var
-c=b[1],f=jS([0,d],b[2],a),h=g(ba(x,d),[0,a,0]),e=[0,[0,c,[0,aS(c[1],a[2]),B(c[2],a[2])],h],f];else
+ck(c,a){var
+b=v(k(a),c);return b?fq(a):b}function
+kv(d,b,a){if(b)var
+c=b[1],f=kv([0,d],b[2],a),h=g(bl(A,d),[0,a,0]),e=[0,[0,c,[0,aY(c[1],a[2]),y(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-jT(d){if(d){var
+kw(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jT(d[2]);return J(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kw(d[2]);return D(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return rG}function
-jU(a){return J(function(a){return J(gD,a)},a)}function
-fb(c,b,a){function
-d(a){return de(c,b,a)}return J(function(a){return J(d,a)},a)}function
-jV(c,b,a){function
-d(a){return gE(c,a,b)}return J(function(a){return df(d,a)},a)}function
-fc(b,a){var
-c=a$(b,a);return e(function(c){var
+f=a;return f}return sN}function
+kx(a){return D(function(a){return D(g_,a)},a)}function
+fw(c,b,a){function
+d(a){return dF(c,b,a)}return D(function(a){return D(d,a)},a)}function
+ky(c,b,a){function
+d(a){return g$(c,a,b)}return D(function(a){return dG(d,a)},a)}function
+fx(b,a){var
+c=a0(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,b9(function(b,a){return[0,dd(b,a)]},e,d)]}return b}return a},c)}function
-jW(a){return aq(am(a,b(2,c)))}function
-jX(b,c,a){if(a)var
-f=a[1],g=jX(b,c,a[2]),d=[0,e(function(a){return ah(v(b,v(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,ch(function(b,a){return[0,dE(b,a)]},e,d)]}return b}return a},c)}function
+kz(a){return aw(ap(a,b(2,c)))}function
+kA(b,c,a){if(a)var
+f=a[1],g=kA(b,c,a[2]),d=[0,e(function(a){return ao(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jY(a){return n(function(a){var
-b=ad(a[1],d);return b?ad(a[2],d):b},a)}function
-jZ(c,b,a){var
-d=a$(b,a);return bH(function(a,b){return C(v(c,a[1],a[2]),b)},x,d)}function
-gR(c,b,a){var
-d=d2(jZ(c,a,b));return bH(function(b,a){return B(d2(b),a)},d,a)}function
-dj(a){return am(a,c)}function
-gS(a,i,c,u,t){var
+kB(a){return n(function(a){var
+b=ah(a[1],d);return b?ah(a[2],d):b},a)}function
+kC(c,b,a){var
+d=a0(b,a);return bR(function(a,b){return G(w(c,a[1],a[2]),b)},A,d)}function
+hk(c,b,a){var
+d=ep(kC(c,a,b));return bR(function(b,a){return y(ep(b),a)},d,a)}function
+dL(a){return ap(a,c)}function
+hl(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jY(c)&&!jY(j)){var
-h=gR(a,i,j),o=dj(a),p=gR(a,i,c),b=d1([0,gR(a,i,c),p],o,[0,h,h])[1],k=S(d,h),l=k?S(d,b):k;if(l)var
-q=b7(gA(a,[0,b,b])),r=function(b){return function(d,c){return M(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cu(e,jX(a,q,bb(function(c){return function(b){return v(a,c,b)}}(s),ah,r,j,c)))];else
+j=f[1],n=0;if(!kB(c)&&!kB(j)){var
+h=hk(a,i,j),o=dL(a),p=hk(a,i,c),b=eo([0,hk(a,i,c),p],o,[0,h,h])[1],k=$(d,h),l=k?$(d,b):k;if(l)var
+q=cg(g7(a,[0,b,b])),r=function(b){return function(d,c){return L(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cI(e,kA(a,q,bm(function(c){return function(b){return w(a,c,b)}}(s),ao,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-rV(a){var
-b=a[2],c=e(function(a){return[0,a[1],x]},b);return[0,[0,a[1][1],x],c]}function
-j0(c,b,a){if(b){if(a){var
-d=j0(c,b[2],a[2]);return C(bf(b[1],c,a[1]),d)}return x}return x}function
-j1(a,j){switch(j){case
+s2(a){var
+b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
+kD(c,b,a){if(b){if(a){var
+d=kD(c,b[2],a[2]);return G(br(b[1],c,a[1]),d)}return A}return A}function
+kE(a,j){switch(j){case
 0:var
-d=aS(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aY(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aS(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cJ(B(a[1],a[2]),c),h=aS(b,a[2]),i=aS(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-j2(d,c,a){if(a)var
-e=a[1],g=j2(d,[0,c],a[2]),b=J(cI,jn(function(a){return u(a[1],c)},d)),h=b?j1(e,b[1])[1]:e,f=[0,h,g];else
+f=aY(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=c0(y(a[1],a[2]),c),h=aY(b,a[2]),i=aY(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+kF(d,c,a){if(a)var
+e=a[1],g=kF(d,[0,c],a[2]),b=D(cY,jY(function(a){return v(a[1],c)},d)),h=b?kE(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-rW=aq(x);function
-j3(e,d,c){if(d){var
-f=t(e,c[2],rX),a=f?f[1]:[0,rW];if(a)var
-b=j3([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+s3=aw(A);function
+kG(e,d,c){if(d){var
+f=t(e,c[2],s4),a=f?f[1]:[0,s3];if(a)var
+b=kG([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return rY}function
-j4(d,c,b,a){var
-f=e(aq,b);return bI(0,cs(d,e$(0,a),f),c,0)}function
-az(a){if(a){var
+g=a;return g}return s5}function
+kH(d,c,b,a){var
+f=e(aw,b);return bT(0,cG(d,fu(0,a),f),c,0)}function
+ak(a){if(a){var
 b=a[1];if(b)var
-c=az(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ak(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rZ}function
-fd(b,a){if(a){var
-h=a[1],n=h[1],c=az(e(function(a){return t(a,b,0)},n));if(c){var
+d=b;return d}return s6}function
+fy(b,a){if(a){var
+h=a[1],n=h[1],c=ak(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=fd(b,a[2]);if(g)var
-j=S(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fy(b,a[2]);if(g)var
+j=$(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2729,22 +2743,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return r0}function
-ca(d,c,b){var
-a=fd(d,c);return a?f(b,a[1]):a}function
-dk(a,b){return n(function(c){var
+m=c;return m}return s7}function
+cl(d,c,b){var
+a=fy(d,c);return a?f(b,a[1]):a}function
+dM(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-fe(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bb(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-gT(b,a){return b?jN(a,b[1]):a}function
-gU(h,g,b,f){var
+fz(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bm(function(a){return a},f,G,e,d),h=a[2];return[0,G(a[1],c[1]),h,g]}return a}function
+hm(b,a){return b?km(a,b[1]):a}function
+hn(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jN(c,b[1]),e=bs(g);return n(function(a){return I(d,aW(a,i)[1])},e)}return I(d,c[2][1])}return a}function
-j5(f,d,a){function
-b(a){return bf(a,d,am(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),x,g]}return aq(x)}function
-ff(b,a){var
+i=km(c,b[1]),e=bD(g);return n(function(a){return M(d,a4(a,i)[1])},e)}return M(d,c[2][1])}return a}function
+kI(f,d,a){function
+b(a){return br(a,d,ap(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),A,g]}return aw(A)}function
+fA(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2753,54 +2767,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-j6(i,k,J,t,g,b,f,h,a){switch(h[0]){case
+kJ(i,j,J,t,g,b,f,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dk(t,g);if(K){var
-ab=a[2],ac=a[1],ae=fe(f,aq(r));return ca(g,k,function(a){return dg(b,ae,ac,ab,a)})}return K;case
+K=dM(t,g);if(K){var
+ab=a[2],ac=a[1],ad=fz(f,aw(r));return cl(g,j,function(a){return dI(b,ad,ac,ab,a)})}return K;case
 1:var
-L=dk(t,g);if(L){var
-af=a[2],ag=a[1],ah=fe(f,aq(r));return ca(g,J,function(a){return dg(b,ah,ag,af,a)})}return L;case
+L=dM(t,g);if(L){var
+ae=a[2],af=a[1],ag=fz(f,aw(r));return cl(g,J,function(a){return dI(b,ag,af,ae,a)})}return L;case
 2:var
-M=dk(t,g);if(M){if(f)return 0;var
-N=ad(r[1],d),O=N?ad(r[2],d):N;if(O){var
-ai=a[2],aj=a[1];return ca(g,k,function(a){return dg(b,[0,x,x,0],aj,ai,jK([0,x,x,0],a))})}var
+M=dM(t,g);if(M){if(f)return 0;var
+N=ah(r[1],d),O=N?ah(r[2],d):N;if(O){var
+ai=a[2],aj=a[1];return cl(g,j,function(a){return dI(b,[0,A,A,0],aj,ai,kj([0,A,A,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-ak=gT(f,aq(Q));return ca(g,J,function(a){return gO(b,ak,a)})}if(!a){var
-al=gT(f,aq(Q));return ca(g,k,function(a){return gO(b,al,a)})}}return 0;case
+ak=hm(f,aw(Q));return cl(g,J,function(a){return hi(b,ak,a)})}if(!a){var
+al=hm(f,aw(Q));return cl(g,j,function(a){return hi(b,al,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=j5(i,R,a[3]),S=h[1],an=a[2];return ca(g,k,function(d){var
-a=jL(b,l),c=a?dg(b,fe(f,l),R,an,d):a;if(c){var
-g=l[3],h=e(function(a){return v(i,S,a)},g),j=l[2];return gO(b,gT(f,[0,v(i,S,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=kI(i,R,a[3]),S=h[1],am=a[2];return cl(g,j,function(d){var
+a=kk(b,l),c=a?dI(b,fz(f,l),R,am,d):a;if(c){var
+g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return hi(b,hm(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gU(g,b,f,h[1]);return 0;case
+a==="number"&&!a)return hn(g,b,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],ar=fe(f,aq(h[2])),as=function(a){return dg(b,ar,ap,ao,a)};return ca(g,h[1],as)}return 0;case
+an=a[2],ao=a[1],aq=fz(f,aw(h[2])),ar=function(a){return dI(b,aq,ao,an,a)};return cl(g,h[1],ar)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gU(g,b,f,h[1]);case
-2:return gU(g,b,f,h[2])}return 0;case
+0:return hn(g,b,f,h[1]);case
+2:return hn(g,b,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-w=ff(g,h[1]);if(w){var
-y=ff(g,h[2]);if(y){var
-z=ff(g,h[3]);if(z){var
-A=ff(g,h[4]);if(A){var
-T=A[1],U=z[1],V=y[1],W=w[1],m=a[2],s=h[5],at=a[1];if(m){var
+u=fA(g,h[1]);if(u){var
+x=fA(g,h[2]);if(x){var
+z=fA(g,h[3]);if(z){var
+B=fA(g,h[4]);if(B){var
+T=B[1],U=z[1],V=x[1],W=u[1],m=a[2],s=h[5],as=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aa=[0,m[1],o[1],p[1]],q=jP(function(d){function
-f(a){return bf(a,at,am(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=e2(a),h=B(b[2],g),j=e2(a);return[0,b,[0,aS(b[1],j),h],a]}return aq(x)},aa),C=n(function(a){return u(j(a),[0,b])},m),D=C?e_(i,b,f,s,q,W,U):C,E=D?e_(i,b,f,s,q,W,T):D,F=E?e_(i,b,f,s,q,V,U):E;if(F)return e_(i,b,f,s,q,V,T);var
+aa=[0,m[1],o[1],p[1]],q=ks(function(d){function
+f(a){return br(a,as,ap(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fl(a),h=y(b[2],g),j=fl(a);return[0,b,[0,aY(b[1],j),h],a]}return aw(A)},aa),C=n(function(a){return v(k(a),[0,b])},m),D=C?ft(i,b,f,s,q,W,U):C,E=D?ft(i,b,f,s,q,W,T):D,F=E?ft(i,b,f,s,q,V,U):E;if(F)return ft(i,b,f,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -2810,58 +2824,58 @@ H=o;var
 I=H}else
 var
 I=m;return I}var
-X=A}else
+X=B}else
 var
 X=z;var
 Y=X}else
 var
-Y=y;var
+Y=x;var
 Z=Y}else
 var
-Z=w;return Z}return 0;case
+Z=u;return Z}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-_=a[2],$=a[1],au=h[2],av=h[1];return ca(g,k,function(e){var
-a=u(j(e),b),d=a?u(j(_),b):a;if(d){var
+_=a[2],$=a[1],at=h[2],au=h[1];return cl(g,j,function(e){var
+a=v(k(e),b),d=a?v(k(_),b):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=u(j(d),b);if(e){var
-g=d_($,d$($,_,am(i,c),d));return b$(b,cu(fa(i,av,au,a[1][2],d),g))}var
+d=a[2],e=v(k(d),b);if(e){var
+g=et($,eu($,_,ap(i,c),d));return ck(b,cI(fv(i,au,at,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:aq(x);return gK(b,gN(h,e),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:aw(A);return he(b,hh(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aw=h[2],ax=h[1];return ca(g,k,function(d){var
-a=jK([0,x,x,0],d),c=f?f[1]:[0,x,x,0];return dg(b,c,ax,aw,a)})}return 0;default:return 0}}function
-j7(a,Z,H,l,p,X,h,k,i,g,b){if(9===g[0]){if(typeof
+av=h[2],ax=h[1];return cl(g,j,function(d){var
+a=kj([0,A,A,0],d),c=f?f[1]:[0,A,A,0];return dI(b,c,ax,av,a)})}return 0;default:return 0}}function
+kK(a,Y,I,l,p,X,h,j,i,g,b){if(9===g[0]){if(typeof
 b!=="number"&&9===b[0]){var
-_=g[1],T=e(aq,X),z=bI(0,cs(a,jS(0,k,_),T),Z,0),I=u(j(k),r1),K=I?dk(p,z):I;if(K){var
-q=fd(z,l);if(q){var
-r=fd(h,l);if(r){var
-$=g[2],s=az(e(function(b){var
+Z=g[1],S=e(aw,X),z=bT(0,cG(a,kv(0,j,Z),S),Y,0),J=v(k(j),s8),K=J?dM(p,z):J;if(K){var
+q=fy(z,l);if(q){var
+r=fy(h,l);if(r){var
+_=g[2],s=ak(e(function(b){var
 c=t(b[1],h,0);if(c)var
-f=b[2][2],a=az(e(function(a){var
-b=t(a[2],h,0);return J(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+f=b[2][2],a=ak(e(function(a){var
+b=t(a[2],h,0);return D(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},$));if(s){var
-w=jT(q[1]);if(w){var
-L=b[2],y=b[1],N=r[1],aa=b[3],ab=s[1],ac=w[1],A=gQ(a,bH(function(g,i){function
+d=c;return d},_));if(s){var
+u=kw(q[1]);if(u){var
+M=b[2],x=b[1],N=r[1],aa=b[3],ab=s[1],ac=u[1],B=hj(a,bR(function(g,i){function
 b(b,d){var
-a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return d2(t(d,c[3],x))}function
+a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return ep(t(d,c[3],A))}function
 c(a){var
-b=f(a,rH),c=bG(f(a,rI),b);return bG(f(a,0),c)}var
+b=f(a,sO),c=bP(f(a,sP),b);return bP(f(a,0),c)}var
 d=c(function(a){var
-c=b(rJ,a),d=b(rK,a);return B(B(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
-c=b(a,rL),d=b(a,rM);return B(B(b(a,0),d),c)});return C(i,Y(a,gQ(a,v(a,[0,e,e],h))))},x,ac)),m=bf(aa,y,am(a,c)),D=S(d,M(m,A)[1]),E=D?u(j(L),rS):D,F=E?u(j(N),rT):E;if(F){var
-o=cp(a,m);if(o){var
-U=b7(v(a,A,o[1])),V=M(am(a,c),U),W=bs(rU);return n(function(j){var
+c=b(sQ,a),d=b(sR,a);return y(y(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
+c=b(a,sS),d=b(a,sT);return y(y(b(a,0),d),c)});return G(i,V(a,hj(a,w(a,[0,e,e],h))))},A,ac)),m=br(aa,x,ap(a,c)),C=$(d,L(m,B)[1]),E=C?v(k(M),sZ):C,F=E?v(k(N),s0):E;if(F){var
+o=cE(a,m);if(o){var
+T=cg(w(a,B,o[1])),U=L(ap(a,c),T),W=bD(s1);return n(function(j){var
 h=e(function(b){var
-c=b[2],d=b[1];return da(gy(function(d,b){var
-c=d2(aW(j,b[2]));return C(d,v(a,b[1],[0,c,c]))},c,d))},ab),r=f(a5(function(a){return aW(j,a)}),N),D=i?aW(j,i[1]):x,K=Y(a,V),s=Y(a,m),q=d_(y,d$(y,L,am(a,c),r)),b=cu(ba([0,ah(D),0],rN),q);if(h){var
+c=b[2],d=b[1];return dB(dy(function(d,b){var
+c=ep(a4(j,b[2]));return G(d,w(a,b[1],[0,c,c]))},c,d))},ab),r=f(aR(function(a){return a4(j,a)}),N),D=i?a4(j,i[1]):A,K=V(a,U),s=V(a,m),q=et(x,eu(x,M,ap(a,c),r)),b=cI(bl([0,ao(D),0],sU),q);if(h){var
 d=h[2];if(d){var
 g=d[2];if(g){if(g[2])return 0;var
-A=d[1],B=h[1],G=g[1],k=b$(rP,cu(ba([0,ah(s),0],rO),b));if(k)return n(function(C){var
-H=M(K,D),I=C[2]?A:ah(A),J=C[1]?B:ah(B),n=0;if(b){var
+B=d[1],C=h[1],H=g[1],k=ck(sW,cI(bl([0,ao(s),0],sV),b));if(k)return n(function(A){var
+G=L(K,D),I=A[2]?B:ao(B),J=A[1]?C:ao(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -2874,7 +2888,7 @@ h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,H,0]],[0,[0,G,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -2900,7 +2914,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return b$(rR,j)},rQ);var
+j=z;return ck(sY,j)},sX);var
 l=k}else
 var
 l=g;var
@@ -2910,10 +2924,10 @@ o=d;var
 p=o}else
 var
 p=h;return p},W)}var
-G=o}else
+H=o}else
 var
-G=F;return G}var
-O=w}else
+H=F;return H}var
+O=u}else
 var
 O=s;var
 P=O}else
@@ -2924,13 +2938,13 @@ var
 Q=q;var
 R=Q}else
 var
-R=K;return R}return j6(a,H,l,p,h,j(k),i,g,b)}return j6(a,H,l,p,h,j(k),i,g,b)}function
-j8(j,b,a){if(a){var
-k=a[1],l=k[2],c=az(e(b,k[1]));if(c){var
+R=K;return R}return kJ(a,I,l,p,h,k(j),i,g,b)}return kJ(a,I,l,p,h,k(j),i,g,b)}function
+kL(j,b,a){if(a){var
+k=a[1],l=k[2],c=ak(e(b,k[1]));if(c){var
 g=f(b,l);if(g){var
 h=t(l,j,0);if(h){var
-i=j8(j,b,a[2]);if(i)var
-m=S(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
+i=kL(j,b,a[2]);if(i)var
+m=$(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
 var
 n=i;var
 o=n}else
@@ -2941,349 +2955,349 @@ var
 p=g;var
 q=p}else
 var
-q=c;return q}return r3}function
-j9(a,U,m,T,w,s,R,D,i,h,l,b){var
-k=j(R),V=e$(0,R),aM=bI(0,cs(a,V,e(aq,j2(l,0,w))),U,0),W=e(a2,l),aN=0,aO=e(aq,w),aQ=bI(r4,function(b){var
-M=db(a2,b),g=f(cs(a,V,aO),M);switch(b[0]){case
+q=c;return q}return s_}function
+kM(a,T,m,S,u,s,R,C,i,h,l,b){var
+j=k(R),U=fu(0,R),aN=bT(0,cG(a,U,e(aw,kF(l,0,u))),T,0),V=e(a3,l),aO=0,aP=e(aw,u),aQ=bT(s$,function(b){var
+M=c4(a3,b),g=f(cG(a,U,aP),M);switch(b[0]){case
 1:var
 t=b[1],d=e(function(d){var
-b=u(t,d),e=b?[0,[0,aq(am(a,c))]]:b;return e},W);break;case
+b=v(t,d),e=b?[0,[0,aw(ap(a,c))]]:b;return e},V);break;case
 3:var
-d=fc(b[1][2],b[2][2]);break;case
+d=fx(b[1][2],b[2][2]);break;case
 4:var
-v=e(jU,b[2][2]),d=fc(b[1][2],v);break;case
+u=e(kx,b[2][2]),d=fx(b[1][2],u);break;case
 5:var
-d=e(jU,b[1][2]);break;case
+d=e(kx,b[1][2]);break;case
 6:var
 n=b[2],o=b[1],h=o[1],l=0;if(h){var
 i=n[1];if(i)var
-w=n[2],x=h[1],y=e(function(b){return fb(a,x,b)},w),z=o[2],A=i[1],d=fc(e(function(b){return fb(a,A,b)},z),y);else{var
+w=n[2],x=h[1],y=e(function(b){return fw(a,x,b)},w),z=o[2],A=i[1],d=fx(e(function(b){return fw(a,A,b)},z),y);else{var
 p=i;l=1}}else{var
 p=h;l=1}if(l)var
 d=p;break;case
 7:var
 m=0;if(g){var
 q=b[2],j=q[1];if(j)var
-B=q[2],C=gD(g[1]),D=e(function(b){return fb(a,C,b)},B),E=fc(b[1][2],D),F=j[1],d=e(function(b){return jV(a,F,b)},E);else{var
+B=q[2],C=g_(g[1]),D=e(function(b){return fw(a,C,b)},B),E=fx(b[1][2],D),F=j[1],d=e(function(b){return ky(a,F,b)},E);else{var
 r=j;m=1}}else{var
 r=g;m=1}if(m)var
 d=r;break;case
 8:var
 s=b[1],k=s[1];if(k)var
-G=s[2],H=k[1],I=de(a,jW(a),H),d=e(function(b){return fb(a,I,b)},G);else
+G=s[2],H=k[1],I=dF(a,kz(a),H),d=e(function(b){return fw(a,I,b)},G);else
 var
 d=k;break;case
 9:if(g)var
-J=b[1][2],K=g[1],L=de(a,jW(a),K),d=e(function(b){return jV(a,L,b)},J);else
+J=b[1][2],K=g[1],L=dF(a,kz(a),K),d=e(function(b){return ky(a,L,b)},J);else
 var
 d=g;break;default:var
-d=e(function(a){return 0},W)}return[0,g,d]},U,aN),aK=e(function(a){var
-b=a[2];return j1(t(a[1],w,x),b)[2]},l);function
-X(c){var
+d=e(function(a){return 0},V)}return[0,g,d]},T,aO),aL=e(function(a){var
+b=a[2];return kE(t(a[1],u,A),b)[2]},l);function
+W(c){var
 d=t(c,s,0);if(d){var
-a=t(c,aM,0);if(a)var
-b=j3(0,l,t(c,aQ,r2)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+a=t(c,aN,0);if(a)var
+b=kG(0,l,t(c,aQ,s9)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-E(b){return e(function(b){return am(a,b)},b)}var
-aR=D?D[1]:aq(x);function
-Y(a){return a?b$(k,a[1]):a}function
-y(t,s,f,r,q){var
-u=ba([0,ah(s),0],k),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],j=i[1],d=c[1],m=da(j[2]),n=cu(g,gL(f,d,e7(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(b7,e7(f,a[1],a[2],b))}}(d),o),h=gS(a,v,e(function(b){return bf(b,f,dj(a))},d),p,n);if(h){var
+D(b){return e(function(b){return ap(a,b)},b)}var
+aR=C?C[1]:aw(A);function
+X(a){return a?ck(j,a[1]):a}function
+x(t,s,f,r,q){var
+u=bl([0,ao(s),0],j),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=dB(k[2]),n=cI(g,hf(f,d,fr(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(cg,fr(f,a[1],a[2],b))}}(d),o),h=hl(a,v,e(function(b){return br(b,f,dL(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
-l=[0,g];return Y(l)}}function
-Z(z,y,w){var
-A=ba([0,y,0],k),q=E(z),c=w,f=A;for(;;){if(c){var
-j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,eZ(g),h],f];if(m){var
-o=S(d,g[1]);if(o)var
+l=[0,g];return X(l)}}function
+Y(y,x,w){var
+z=bl([0,x,0],j),q=D(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fi(g),h],f];if(m){var
+o=$(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,b7(a[2]),b]},m),t=e(function(a){return x},h),u=[0,dj(a),t],v=dj(a),b=gS(a,[0,ah(d1(jZ(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,cg(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dL(a),t],v=dL(a),b=hl(a,[0,ao(eo(kC(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gJ(b[1]);if(i){var
+i=hd(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return Y(r)}}var
-aT=e(a2,l),_=n(function(a){return dW(a,j(w))},aT);if(_){var
-r=e(a2,l);for(;;){if(r){var
-P=r[2],aL=r[1],Q=au(aP(function(b){return function(a){return u(b,a)}}(aL),P));if(Q){var
+r=[0,f];return X(r)}}var
+aS=e(a3,l),Z=n(function(a){return eh(a,k(u))},aS);if(Z){var
+r=e(a3,l);for(;;){if(r){var
+P=r[2],aM=r[1],Q=at(aK(function(b){return function(a){return v(b,a)}}(aM),P));if(Q){var
 r=P;continue}var
-$=Q}else
+_=Q}else
 var
-$=1;var
-F=$;break}}else
+_=1;var
+E=_;break}}else
 var
-F=_;var
-ab=F?n(function(a){return u(j(a),k)},b):F;if(ab){var
-A=0;switch(i[0]){case
+E=Z;var
+ab=E?n(function(a){return v(k(a),j)},b):E;if(ab){var
+B=0;switch(i[0]){case
 0:var
-G=i[1],N=0;if(typeof
+F=i[1],N=0;if(typeof
 h!=="number")switch(h[0]){case
 0:var
 az=0;if(b){if(b[2])return 0;var
-aU=b[1],aV=h[2],aX=h[1],ac=dk(T,s);if(ac){var
+aT=b[1],aU=h[2],aV=h[1],ac=dM(S,s);if(ac){var
 p=function(c,a){var
-b=C(G,a);return function(a){return y(aU,b,aX,aV,a)}},o=m;N=1;az=1}else
+b=G(F,a);return function(a){return x(aT,b,aV,aU,a)}},o=m;N=1;az=1}else
 var
-ag=ac}else
+af=ac}else
 var
-ag=b;if(!az)return ag;break;case
+af=b;if(!az)return af;break;case
 2:var
 aA=0;if(b){if(b[2])return 0;var
-aZ=b[1],a0=h[2],a1=h[1],ai=dk(T,s),aB=0;if(ai){if(D)return 0;var
-aj=ad(G[1],d),ak=aj?ad(G[2],d):aj;if(ak){var
-p=function(c,b,a){return y(aZ,x,a1,a0,e(rV,a))},o=m;N=1;aA=1;aB=1}else
+aX=b[1],aZ=h[2],a1=h[1],ag=dM(S,s),aB=0;if(ag){if(C)return 0;var
+ai=ah(F[1],d),aj=ai?ah(F[2],d):ai;if(aj){var
+p=function(c,b,a){return x(aX,A,a1,aZ,e(s2,a))},o=m;N=1;aA=1;aB=1}else
 var
+ak=aj}else
+var
+ak=ag;if(!aB)var
 al=ak}else
 var
-al=ai;if(!aB)var
-an=al}else
-var
-an=b;if(!aA)return an;break}if(!N)return 0;break;case
+al=b;if(!aA)return al;break}if(!N)return 0;break;case
 1:var
-aC=0,a3=i[1];if(typeof
+aC=0,a2=i[1];if(typeof
 h==="number"&&!h){if(!b)return b;if(b[2])return 0;var
-a4=b[1],p=function(c,a){var
-b=M(a3,a);return function(a){return Z(a4,b,a)}},o=m;aC=1}if(!aC)return 0;break;case
+a5=b[1],p=function(c,a){var
+b=L(a2,a);return function(a){return Y(a5,b,a)}},o=m;aC=1}if(!aC)return 0;break;case
 2:var
-aD=0,a5=i[1];if(typeof
+aD=0,a6=i[1];if(typeof
 h==="number"||!(3===h[0]))aD=1;else{var
 aE=0;if(b){var
 z=b[2],aF=0;if(z){if(z[2])return 0;var
-ao=h[1],a6=z[1],a7=b[1],a8=h[2],ap=j5(a,ao,h[3]),ar=jL(k,ap);if(ar){var
+am=h[1],a7=z[1],a8=b[1],a_=h[2],an=kI(a,am,h[3]),aq=kk(j,an);if(aq){var
 p=function(f,c,b){var
-d=aW(f,ap),e=y(a7,C(d,c),ao,a8,b);return e?Z(a6,M(v(a,a5,d),c),b):e},o=m;aE=1;aF=1}else
+d=a4(f,an),e=x(a8,G(d,c),am,a_,b);return e?Y(a7,L(w(a,a6,d),c),b):e},o=m;aE=1;aF=1}else
 var
+ar=aq}else
+var
+ar=z;if(!aF)var
 as=ar}else
 var
-as=z;if(!aF)var
-at=as}else
-var
-at=b;if(!aE)return at}if(aD)return 0;break;case
+as=b;if(!aE)return as}if(aD)return 0;break;case
 3:var
 aG=0;if(typeof
 h==="number"&&!h){if(b)return 0;var
-J=i[1];A=1}else
+I=i[1];B=1}else
 aG=1;if(aG)return 0;break;case
 4:var
-aH=0,a_=i[2];if(typeof
+aH=0,ba=i[2];if(typeof
 h==="number"||!(0===h[0]))aH=1;else{if(!b)return b;if(b[2])return 0;var
 bb=b[1],bc=h[2],bd=h[1],be=function(c,a){var
-b=C(a_,a);return function(a){return y(bb,b,bd,bc,a)}},p=be,o=i[1]}if(aH)return 0;break;case
+b=G(ba,a);return function(a){return x(bb,b,bd,bc,a)}},p=be,o=i[1]}if(aH)return 0;break;case
 5:var
 O=0;if(typeof
 h==="number"&&!(3<=h))switch(h){case
 0:if(b)return 0;var
-J=i[1];A=1;break;case
+I=i[1];B=1;break;case
 2:if(b)return 0;var
-J=i[2];A=1;break;default:O=1}else
+I=i[2];B=1;break;default:O=1}else
 O=1;if(O)return 0;break;case
 7:var
-av=i[2],aw=i[1],aI=0;if(typeof
+au=i[2],av=i[1],aI=0;if(typeof
 h==="number"||!(0===h[0]))aI=1;else{var
 aJ=0;if(b){if(b[2])return 0;var
-q=h[2],L=h[1],bg=b[1],ax=u(j(m),k);if(ax){var
-p=function(b,z){var
-A=E(bg);return function(f){var
-i=u(j(f),k),l=i?u(j(q),k):i;if(l){var
-s=e(a2,f),t=d_(L,d$(L,q,dj(a),s)),w=cu(fa(a,aw,av,z,e(a2,f)),t),b=0,c=f,g=w,y=j(q);for(;;){if(c){var
-o=c[1][2],p=u(b,aw),r=e(function(f,g){return function(d){var
-b=a$(bp(0,j(q)),q);return e(function(b){var
-c=j0(L,b[2],d[1]);if(g&&u(b[1],f))return M(c,b7(v(a,av,d[2])));return c},b)}}(b,p),o),n=bp(0,y),h=gS(a,A,e(function(c){return function(b){return u(b,c)?dj(a):x}}(b),n),r,g);if(h){var
+q=h[2],K=h[1],bf=b[1],ax=v(k(m),j);if(ax){var
+p=function(b,y){var
+z=D(bf);return function(f){var
+i=v(k(f),j),l=i?v(k(q),j):i;if(l){var
+s=e(a3,f),t=et(K,eu(K,q,dL(a),s)),u=cI(fv(a,av,au,y,e(a3,f)),t),b=0,c=f,g=u,x=k(q);for(;;){if(c){var
+o=c[1][2],p=v(b,av),r=e(function(f,g){return function(d){var
+b=a0(a9(0,k(q)),q);return e(function(b){var
+c=kD(K,b[2],d[1]);if(g&&v(b[1],f))return L(c,cg(w(a,au,d[2])));return c},b)}}(b,p),o),n=a9(0,x),h=hl(a,z,e(function(c){return function(b){return v(b,c)?dL(a):A}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return b$(k,d[1]);var
+d=[0,g];if(d)return ck(j,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},o=m;aJ=1}else
 var
 ay=ax}else
 var
-ay=b;if(!aJ)return ay}if(aI)return 0;break;default:return 0}if(A){var
-K=X(J);if(!K)return K;var
-a9=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bH(function(b,a){return B(bG(d,aa(b[2][1])),a)},d,c);return I(d,aS(aS(a[1][2][1],e),b))},a)},af=a9,ae=[0,[0,0,K[1]],0]}else{var
-H=j8(s,X,o);if(!H)return H;var
-af=p,ae=H[1]}var
-aY=bs(k);return n(function(b){var
+ay=b;if(!aJ)return ay}if(aI)return 0;break;default:return 0}if(B){var
+J=W(I);if(!J)return J;var
+a$=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=bR(function(b,a){return y(bP(d,aa(b[2][1])),a)},d,c);return M(d,aY(aY(a[1][2][1],e),b))},a)},ae=a$,ad=[0,[0,0,J[1]],0]}else{var
+H=kL(s,W,o);if(!H)return H;var
+ae=p,ad=H[1]}var
+aW=bD(j);return n(function(b){var
 c=e(function(c){function
-f(a){return aW(b,a[1])}var
-h=0,j=aq(x);function
+f(a){return a4(b,a[1])}var
+h=0,j=aw(A);function
 d(h,f,b,c){if(b){var
-i=function(a){return aW(h,t(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
-c=v(a,b,l);return[0,e(function(c){return v(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aK,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ae);return Da(af,b,aW(b,aR),c)},aY)}return ab}function
-fg(b,a){if(a){var
+i=function(a){return a4(h,t(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
+c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
+i=d(b,h,aL,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ad);return Fu(ae,b,a4(b,aR),c)},aW)}return ab}function
+fB(b,a){if(a){var
 c=a[2];if(b){var
-e=fg(b[1],c);return[0,a[1],e]}var
+e=fB(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-j_(m,l,q,T,p,k,_,z,b,R,Q){if(R){var
-r=j4(m,l,k,b),i=R,h=Q;for(;;){if(i){var
-L=i[1],a=L[2],w=L[1],M=i[2];if(typeof
+kN(m,l,q,S,p,j,_,z,b,R,Q){if(R){var
+r=kH(m,l,j,b),i=R,h=Q;for(;;){if(i){var
+K=i[1],a=K[2],w=K[1],L=i[2];if(typeof
 a==="number"&&4===a){var
 v=f(z,b);if(v)var
-Z=v[1],W=bs(j(b)),x=n(function(b){return function(a){return S(aW(a,b)[2],d)}}(Z),W);else
+Z=v[1],V=bD(k(b)),x=n(function(b){return function(a){return $(a4(a,b)[2],d)}}(Z),V);else
 var
 x=v;if(x){var
-i=M,h=e(function(a){return 0},h);continue}return x}var
+i=L,h=e(function(a){return 0},h);continue}return x}var
 N=t(w,h,0);if(N){var
-y=ae(_,w);if(y){var
+y=X(_,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=f(z,b),U=0;if(s){var
-D=I(d,C);if(D){var
-X=a[1],c=j7(m,l,q,T,p,k,r,b,[0,jM(C,a[3],s[1])],o,X);U=1}else
+C=a[2],s=f(z,b),T=0;if(s){var
+D=M(d,C);if(D){var
+W=a[1],c=kK(m,l,q,S,p,j,r,b,[0,kl(C,a[3],s[1])],o,W);T=1}else
 var
 E=D}else
 var
-E=s;if(!U)var
+E=s;if(!T)var
 c=E;break;case
 10:var
 F=a[3],G=a[2],g=a[1],B=0;if(typeof
 g!=="number"&&5===g[0]){var
-H=g[2],u=f(z,b),V=0;if(u){var
-J=I(d,H);if(J){var
-Y=g[1],c=j9(m,l,q,p,k,r,b,[0,jM(H,g[3],u[1])],o,Y,G,F);B=1;V=1}else
+H=g[2],u=f(z,b),U=0;if(u){var
+I=M(d,H);if(I){var
+Y=g[1],c=kM(m,l,q,p,j,r,b,[0,kl(H,g[3],u[1])],o,Y,G,F);B=1;U=1}else
 var
-K=J}else
+J=I}else
 var
-K=u;if(!V){var
-c=K;B=1}}if(!B)var
-c=j9(m,l,q,p,k,r,b,0,o,g,G,F);break;default:A=1}if(A)var
-c=j7(m,l,q,T,p,k,r,b,0,o,a);if(c){var
-i=M,h=fg(w,h);continue}var
+J=u;if(!U){var
+c=J;B=1}}if(!B)var
+c=kM(m,l,q,p,j,r,b,0,o,g,G,F);break;default:A=1}if(A)var
+c=kK(m,l,q,S,p,j,r,b,0,o,a);if(c){var
+i=L,h=fB(w,h);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,h]}}return[0,Q]}function
-gV(j,i,h,g,f,e,d,c,u,t,s){var
+fC(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=j_(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(au,l[1]):l}var
-m=j_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=d9(a[2],b),q=gV(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=kN(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(at,l[1]):l}var
+m=kN(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=es(a[2],b),q=fC(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-j$(a){return e(function(a){return 1},a)}function
-cb(a){switch(a[0]){case
+ho(a){return e(function(a){return 1},a)}function
+cm(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dZ(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,em(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gz(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,g6(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c$(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,dA(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(jq(a,[0,d,c]))return 0;var
-b=a[1],e=b0(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,c$(g,f)]};break;default:return 0}var
-g=cb(e);if(g){var
-h=cb(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(j0(a,[0,d,c]))return 0;var
+b=a[1],e=b$(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,dA(g,f)]};break;default:return 0}var
+g=cm(e);if(g){var
+h=cm(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-k(i,e,b){var
-f=cb(b);if(f){var
-g=f[1];return e?au(c_(g,[0,d,c])):c_([0,d,c],g)}var
-a=bK(i,b);if(a){var
-h=a[1];return e?S(d,h[1]):I(d,h[1])}return a}function
-ka(c,b){var
-a=bK(c,b),d=a?1:a;return d}function
-bt(c,a,b){var
-d=b_(a,b),e=d?ka(c,a):d;return e?e:k(c,0,[3,b,a])}function
-fh(a,d,b,c){function
+j(i,e,b){var
+f=cm(b);if(f){var
+g=f[1];return e?at(dz(g,[0,d,c])):dz([0,d,c],g)}var
+a=bb(i,b);if(a){var
+h=a[1];return e?$(d,h[1]):M(d,h[1])}return a}function
+kO(c,b){var
+a=bb(c,b),d=a?1:a;return d}function
+bn(c,a,b){var
+d=ci(a,b),e=d?kO(c,a):d;return e?e:j(c,0,[3,b,a])}function
+fD(a,d,b,c){function
 f(d,c){var
-f=a$(a[1],b[1]);return e(function(a){var
-b=r(c,a[2]);return N(r(d,a[1]),b)},f)}if(bg(a[2],b[2])){var
+f=a0(a[1],b[1]);return e(function(a){var
+b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(a$(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
-kb(a){var
-b=o(c);return[0,e(function(a){return o(d)},a),b]}function
-bh(a,i){var
+h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
+kP(a){var
+b=l(c);return[0,e(function(a){return l(d)},a),b]}function
+bo(a,i){var
 f=i[1];switch(f[0]){case
 1:var
-j=f[1];if(aP(function(a){return u(j,a)},a)){var
-t=o(c);return[0,e(function(a){var
-b=u(a,j)?c:d;return o(b)},a),t]}return kb(a);case
+j=f[1];if(aK(function(a){return v(j,a)},a)){var
+t=l(c);return[0,e(function(a){var
+b=v(a,j)?c:d;return l(b)},a),t]}return kP(a);case
 3:var
-v=o(c),w=bh(a,f[2]),x=o(c);return fh(bh(a,f[1]),x,w,v);case
+u=l(c),w=bo(a,f[2]),x=l(c);return fD(bo(a,f[1]),x,w,u);case
 4:var
-y=o(aa(c)),z=bh(a,f[2]),A=o(c);return fh(bh(a,f[1]),A,z,y);case
+y=l(aa(c)),z=bo(a,f[2]),A=l(c);return fD(bo(a,f[1]),A,z,y);case
 5:var
-k=bh(a,f[1]),B=k[2];return[0,e(b8,k[1]),B];case
+k=bo(a,f[1]),B=k[2];return[0,e(bS,k[1]),B];case
 6:var
-l=f[2],m=f[1],C=bh(a,l);return fh(bh(a,m),l,C,m);case
+m=f[2],p=f[1],C=bo(a,m);return fD(bo(a,p),m,C,p);case
 7:var
-p=f[2],D=b8(i),E=bh(a,p),F=o(c),g=fh(bh(a,f[1]),F,E,D),G=g[1];if(n(function(a){return a4(d,a)},G))return g;var
-H=r(g[2],p);return[0,g[1],H];case
+q=f[2],D=bS(i),E=bo(a,q),F=l(c),g=fD(bo(a,f[1]),F,E,D),G=g[1];if(n(function(a){return ba(d,a)},G))return g;var
+H=o(g[2],q);return[0,g[1],H];case
 8:var
-q=f[1],s=bh(a,q),I=s[2],J=s[1],K=r(o(b(2,c)),q);return[0,e(function(a){return r(K,a)},J),I];case
+r=f[1],s=bo(a,r),I=s[2],J=s[1],K=o(l(b(2,c)),r);return[0,e(function(a){return o(K,a)},J),I];case
 9:var
-h=bh(a,f[1]),L=h[1];if(n(function(a){return a4(d,a)},L)){var
-M=o(c);return[0,h[1],M]}var
-N=r(o(b(2,c)),i),O=r(h[2],N);return[0,h[1],O];default:return kb(a)}}function
-cN(m,r){var
-h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(I(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(I(j,c)){var
-k=ad(b,n),l=k?d3(b):k;if(l)var
-p=ad(m[2],d),g=p||ad(b,d);else
+h=bo(a,f[1]),L=h[1];if(n(function(a){return ba(d,a)},L)){var
+M=l(c);return[0,h[1],M]}var
+N=o(l(b(2,c)),i),O=o(h[2],N);return[0,h[1],O];default:return kP(a)}}function
+cn(n,r){var
+h=n[1],e=h[2],f=h[1];if(0===f[0]){var
+i=f[2],b=f[1];if(M(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(M(j,c)){var
+k=ah(b,o),m=k?eq(b):k;if(m)var
+p=ah(n[2],d),g=p||ah(b,d);else
 var
-g=l;var
+g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=ad(bF(j,a9(2))[2],d)?0:0}else
+a=ah(bO(j,bj(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ad(bF(i,a9(2))[2],d)?0:0}else
+a=ah(bO(i,bj(2))[2],d)?0:0}else
 var
-a=0;return a?o(a[1]):[0,[1,r]]}function
-cO(b,a){if(a)var
-d=cO([0,b],a[2]),c=[0,cN(a[1],b),d];else
+a=0;return a?l(a[1]):[0,[1,r]]}function
+cK(b,a){if(a)var
+d=cK([0,b],a[2]),c=[0,cn(a[1],b),d];else
 var
 c=a;return c}function
-bc(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gW(b,d,a){switch(a[0]){case
+aU(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fE(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bc(c[3],b),f),i=g(bc(c[2],b),h);return g(bc(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(aU(c[3],b),f),i=g(aU(c[2],b),h);return g(aU(c[1],d),i);case
 1:var
-e=a[3],j=e?bc(e[1],d):e,k=g(bc(a[2],b),j);return g(bc(a[1],b),k);default:return bc(a[1],d)}}function
-aM(b,a){var
-c=o(d),e=t(O(r5,a),b,c),f=o(d),g=t(O(r6,a),b,f);return[0,t(a,b,o(d)),g,e]}function
-kc(b,a){return aX(D,aX(N,cM,a),b)}function
-fi(c,b,a){if(a){var
-e=a[2],f=fi(c,gx(b),e),h=a[1];return g(gW(c,eV(d,b),h),f)}return a}function
-gX(m,l,h,y){if(h){var
-e=h[1],Q=O(y,j(gW(m,eV(d,l),e))),R=h[2],S=gX(m,gx(l),R,Q),a=cO(y,gW(m,eV(d,l),e));switch(e[0]){case
+e=a[3],j=e?aU(e[1],d):e,k=g(aU(a[2],b),j);return g(aU(a[1],b),k);default:return aU(a[1],d)}}function
+al(b,a){var
+c=l(d),e=t(Q(ta,a),b,c),f=l(d),g=t(Q(tb,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+kQ(b,a){return aC(s,aC(F,cJ,a),b)}function
+fF(c,b,a){if(a){var
+e=a[2],f=fF(c,ek(b),e),h=a[1];return g(fE(c,dx(d,b),h),f)}return a}function
+hp(f,e,c,i){if(c){var
+b=c[1],v=Q(i,k(fE(f,dx(d,e),b))),w=c[2],x=hp(f,ek(e),w,v),a=cK(i,fE(f,dx(d,e),b));switch(b[0]){case
 0:var
-H=e[1][5],v=t(r7,a,o(d)),I=aX(N,cM,aM(a,r8)),g=gP(aM(a,0)),K=aM(a,r9),w=kc(aM(a,r_),K),p=ay(g,w),f=aX(D,w,d8(p,g)),A=ay(f,f),q=D(af(v),A),r=cr(q),i=H?r:b8(r),B=D(p,i),C=aX(N,g,e8(f,i)),n=[0,aX(N,f,d8(i,g)),q,C,B,[0,v],0,[0,I]];break;case
+m=b[1][5],n=t(tc,a,l(d)),o=aC(F,cJ,al(a,td)),p=c8(al(a,0)),q=al(a,te),g=ko(kQ(al(a,tf),q),p,o,n,m);break;case
 1:var
-x=e[3],L=x?[0,gP(aM(a,r$))]:x,M=aX(N,cM,aM(a,sa)),P=aM(a,sb),b=kc(aM(a,0),P),s=ay(b,b),u=cr(s),E=[0,M],F=J(function(a){return aX(D,b,d8(ay(a,b),a))},L),n=[0,b,s,e8(b,u),u,0,F,E];break;default:var
-k=gP(aM(a,0)),G=ay(k,cM),n=[0,k,o(c),k,G,0,0,0]}var
-z=[0,n,S]}else
+h=b[3],r=h?[0,c8(al(a,tg))]:h,s=aC(F,cJ,al(a,th)),u=al(a,ti),g=kp(kQ(al(a,0),u),s,r);break;default:var
+g=kq(cJ,c8(al(a,0)))}var
+j=[0,g,x]}else
 var
-z=h;return z}function
-bu(b,a){if(typeof
+j=c;return j}function
+bE(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -3294,7 +3308,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e5(a[2]),l=[2,[2,e5(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=fp(a[2]),l=[2,[2,fp(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -3309,221 +3323,247 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-ea(b,a){var
+ev(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fj(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(ea(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=ea(b,a[3]);return g(ea(b,a[2]),j)}function
-dl(b,a){if(typeof
+fG(b,a){if(0===a[0]){var
+e=[0,d,c],i=g(ev(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
+j=ev(b,a[3]);return g(ev(b,a[2]),j)}function
+dN(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fj(b,a[2]);return g(fj(b,a[1]),e);case
+e=fG(b,a[2]);return g(fG(b,a[1]),e);case
 11:var
-f=ea(b,a[3]);return g(ea(b,a[2]),f);case
+f=ev(b,a[3]);return g(ev(b,a[2]),f);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-kd(c,b,a){var
-d=j(dl(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
-ke(k,a,g){switch(g[0]){case
+kR(c,b,a){var
+d=k(dN(c,b)),e=Q(a[2],d);return[0,[0,a[1]],e]}function
+kS(k,a,g){switch(g[0]){case
 0:var
-e=ae(k,g[1]);if(e){var
+e=X(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
-l=f[1],h=function(c){var
-d=aM(a,sc);return aX(N,aX(D,l,d8(c,b[1])),d)},m=dh(b),n=h(av(t(sd,a,o(d)),m)),p=dh(b),q=av(t(0,a,o(d)),p),i=[0,[0,h(D(o(c),q)),n]];else
+m=f[1],h=function(c){var
+d=al(a,tj);return aC(F,aC(s,m,cj(c,b[1])),d)},n=dJ(b),o=h(ai(t(tk,a,l(d)),n)),p=dJ(b),q=ai(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aM(a,se);return[0,[0,aM(a,0),r]];default:var
-s=aX(N,cM,aM(a,sf));return[0,[0,aX(N,cM,aM(a,0)),s]]}}function
-kf(f,e,j,d,c){var
-k=fj(e,c),h=cO(j,g(fj(e,d),k)),a=ke(f,eW(sg,h),d);if(a)var
-b=ke(f,jo(sh,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=al(a,tl);return[0,[0,al(a,0),r]];default:var
+u=aC(F,cJ,al(a,tm));return[0,[0,aC(F,cJ,al(a,0)),u]]}}function
+kT(f,e,j,d,c){var
+k=fG(e,c),h=cK(j,g(fG(e,d),k)),a=kS(f,el(tn,h),d);if(a)var
+b=kS(f,g5(to,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-gY(d,c,b,a){var
-e=r(c,b);return D(r(d,a),e)}function
-cP(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
-kg(a){if(a){var
+c9(d,c,b,a){var
+e=o(c,b);return s(o(d,a),e)}function
+bV(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+kU(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kg(a[2]);if(d)var
-g=d[1],h=ay(c,c),e=[0,[0,[0,d7(c),h],g]];else
+c=b[1],d=kU(a[2]);if(d)var
+g=d[1],h=ag(c,c),e=[0,[0,[0,c6(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return sj}function
-fk(b,d,c,a){if(typeof
+f=b;return f}return tq}function
+fH(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=cN(bu(d,a),f);return[0,e(function(a){var
-b=r(a[2],g);return[0,d7(a[1]),b]},b)];case
-9:return kg(b)}return 0}function
-fl(e,k,j,a){var
-U=j[1],b=cN(bu(k,a),U),x=0;if(typeof
-a==="number")x=1;else
+f=c[1],g=cn(bE(d,a),f);return[0,e(function(a){var
+b=o(a[2],g);return[0,c6(a[1]),b]},b)];case
+9:return kU(b)}return 0}function
+fI(e,k,j,a){var
+V=j[1],b=cn(bE(k,a),V),y=0;if(typeof
+a==="number")y=1;else
 switch(a[0]){case
 2:var
-V=function(a){return[0,D(a[4],b),0]},g=V,f=a[1];break;case
+W=function(a){return[0,s(a[4],b),0]},g=W,f=a[1];break;case
 3:var
-W=function(a){return[0,D(b,a[4]),0]},g=W,f=a[1];break;case
+Y=function(a){return[0,s(b,a[4]),0]},g=Y,f=a[1];break;case
 4:var
-X=function(c){var
-a=c[1],d=af(a[3]),e=af(a[2]),f=af(a[1]),g=c[2];return[0,D(D(D(r(af(b),g),f),e),d),0]},g=X,f=a[1];break;case
+Z=function(c){var
+a=c[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=c[2];return[0,s(s(s(o(J(b),g),f),e),d),0]},g=Z,f=a[1];break;case
 6:var
-Y=function(c){var
+_=function(c){var
 a=c[5];if(a)var
-e=af(a[1]),f=r(af(b),e),d=[0,D(c[2],f),0];else
+e=J(a[1]),f=o(J(b),e),d=[0,s(c[2],f),0];else
 var
-d=a;return d},g=Y,f=a[1];break;case
+d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
-l=e[2];if(l){var
-m=l[2];if(m){if(m[2])return 0;var
-z=m[1],A=l[1],B=e[1],p=B[5];if(p){var
-q=A[5];if(q){var
-s=z[5];if(s)var
-h=z[1],i=A[1],u=B[1],P=gY(i[1],i[2],h[1],h[2]),Q=r(u[3],P),R=gY(i[1],i[3],h[1],h[3]),S=r(u[2],R),T=gY(i[2],i[3],h[2],h[3]),y=N(D(r(u[1],T),S),Q),Z=s[1],_=q[1],C=r(r(r(b,p[1]),_),Z),$=[0,b8(N(y,C)),0],F=[0,D(y,C),$];else
+m=e[2];if(m){var
+n=m[2];if(n){if(n[2])return 0;var
+A=n[1],B=m[1],C=e[1],q=C[5];if(q){var
+r=B[5];if(r){var
+u=A[5];if(u)var
+h=A[1],i=B[1],v=C[1],Q=c9(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=c9(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=c9(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=u[1],aa=r[1],D=o(o(o(b,q[1]),aa),$),ab=[0,bS(F(z,D)),0],G=[0,s(z,D),ab];else
 var
-F=s;var
-G=F}else
-var
-G=q;var
+G=u;var
 H=G}else
 var
-H=p;var
+H=r;var
 I=H}else
 var
-I=m;var
-J=I}else
+I=q;var
+K=I}else
 var
-J=l;var
-K=J}else
+K=n;var
+L=K}else
 var
-K=e;return K;case
+L=m;var
+M=L}else
+var
+M=e;return M;case
 10:var
-w=kf(e,k,j[2],a[1],a[2]);if(w){var
-L=w[1],M=L[2],O=L[1];return E(d7,[0,O[1],[0,O[2],[0,M[1],[0,M[2],0]]]])}return w;case
+x=kT(e,k,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return E(c6,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
-aa=function(d){var
+ac=function(d){var
 e=d[7];if(e)var
-n=dl(k,a),f=cO(j[2],n),h=aM(f,si),c=aX(D,aM(f,0),h),i=af(b),l=af(dh(d)),m=av(af(ay(c,d[1])),l),g=[0,D(D(ay(c,c),m),i),0];else
+n=dN(k,a),f=cK(j[2],n),h=al(f,tp),c=aC(s,al(f,0),h),i=J(b),l=J(dJ(d)),m=ai(J(ag(c,d[1])),l),g=[0,s(s(ag(c,c),m),i),0];else
 var
-g=e;return g},g=aa,f=a[1];break;case
+g=e;return g},g=ac,f=a[1];break;case
 12:var
-ab=function(e){var
-p=o(d),q=dl(k,a),s=t(0,cO(j[2],q),p),f=av(s,dh(e)),g=e[5];if(g){var
-l=cr(e[2]),h=av(g[1],l),m=r(h,N(b,r(f,af(h))));return[0,D(o(c),m),0]}var
-i=e[7],n=i?[0,D(D(o(c),b),f),0]:i;return n},g=ab,f=a[1];break;case
+ad=function(e){var
+q=l(d),r=dN(k,a),u=t(0,cK(j[2],r),q),f=ai(u,dJ(e)),g=e[5];if(g){var
+m=aT(e[2]),h=ai(g[1],m),n=o(h,F(b,o(f,J(h))));return[0,s(l(c),n),0]}var
+i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=ad,f=a[1];break;case
 8:case
 9:var
-v=fk(e,k,j,a);return v?cP(v[1]):v;default:x=1}if(x)return 0;var
-n=ae(e,f);return n?g(n[1]):n}function
-gZ(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=gZ(d,b,kd(b,e,c),f);return g(fl(d,b,c,e),h)}return a}var
-kh=[0,d,c],ki=[0,[0,kh,kh],d];function
-kj(a){return au(b_(a[1][1],a[1][2]))}function
-kk(a){var
-b=bp(0,j(a));return c9(function(b){return kj(t(b,a,ki))},b)}function
-kl(a,g){var
-h=g[4],b=bh(kk(a),h),c=b[1],f=e(function(a){return a4(d,a)?a:av(a,b[2])},c),i=a$(kk(a),f);return c9(function(a){return au(a4(d,a[2]))},i)}function
-km(g,G,l,F,m,h,n,r){if(r){var
-a=r[1],aA=r[2],aB=km(g,G,l,F,m,h,kd(h,a,n),aA);if(typeof
+w=fH(e,k,j,a);return w?bV(w[1]):w;default:y=1}if(y)return 0;var
+p=X(e,f);return p?g(p[1]):p}function
+hq(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=hq(d,b,kR(b,e,c),f);return g(fI(d,b,c,e),h)}return a}var
+kV=[0,d,c],kW=[0,[0,kV,kV],d];function
+hr(a){return at(ci(a[1][1],a[1][2]))}function
+kX(a){var
+b=a9(0,k(a));return c1(function(b){return hr(t(b,a,kW))},b)}function
+kY(a,g){var
+h=g[4],b=bo(kX(a),h),c=b[1],f=e(function(a){return ba(d,a)?a:ai(a,b[2])},c),i=a0(kX(a),f);return c1(function(a){return at(ba(d,a[2]))},i)}function
+kZ(g,H,l,G,m,h,n,r){if(r){var
+a=r[1],aA=r[2],aB=kZ(g,H,l,G,m,h,kR(h,a,n),aA);if(typeof
 a==="number")var
-i=0===a?[0,[0,x]]:[0,[8,G[1],G[2]]];else
+i=0===a?[0,[0,A]]:[0,[8,H[1],H[2]]];else
 switch(a[0]){case
 0:var
-al=as(g,bu(h,a)),i=J(function(a){return[0,Y(g,a)]},al);break;case
+an=aj(g,bE(h,a)),i=D(function(a){return[0,V(g,a)]},an);break;case
 1:var
-an=as(g,bu(h,a)),i=J(function(a){return[1,Y(g,a)]},an);break;case
+ao=aj(g,bE(h,a)),i=D(function(a){return[1,V(g,a)]},ao);break;case
 5:var
-ap=as(g,bu(h,a)),i=J(function(a){return[2,Y(g,a)]},ap);break;case
+ar=aj(g,bE(h,a)),i=D(function(a){return[2,V(g,a)]},ar);break;case
 8:var
-aq=fk(m,h,n,a),i=J(function(a){var
-b=am(g,c);return[4,f(a5(l),a),b]},aq);break;case
+as=fH(m,h,n,a),i=D(function(a){var
+b=ap(g,c);return[4,f(aR(l),a),b]},as);break;case
 9:var
-w=fk(m,h,n,a);if(w){var
-y=as(g,bu(h,a));if(y)var
-ar=Y(g,y[1]),at=w[1],N=[0,[4,f(a5(l),at),ar]];else
+w=fH(m,h,n,a);if(w){var
+x=aj(g,bE(h,a));if(x)var
+at=V(g,x[1]),au=w[1],N=[0,[4,f(aR(l),au),at]];else
 var
-N=y;var
+N=x;var
 O=N}else
 var
 O=w;var
 i=O;break;case
 10:var
-z=kf(m,h,n[2],a[1],a[2]);if(z){var
-P=z[1],Q=P[2],R=P[1],A=as(g,bu(h,a));if(A){var
-S=A[1],T=I(d,S[1]);if(T)var
+y=kT(m,h,n[2],a[1],a[2]);if(y){var
+P=y[1],Q=P[2],R=P[1],z=aj(g,bE(h,a));if(z){var
+S=z[1],T=M(d,S[1]);if(T)var
 p=function(a){var
-b=f(l,a[3]),c=f(l,a[2]);return[0,f(l,a[1]),c,b]},au=p(Q[2]),av=p(Q[1]),aw=p(R[2]),U=[0,[6,p(R[1]),aw,av,au,S]];else
+b=f(l,a[3]),c=f(l,a[2]);return[0,f(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),U=[0,[6,p(R[1]),ax,aw,av,S]];else
 var
 U=T;var
-V=U}else
-var
-V=A;var
-W=V}else
+W=U}else
 var
 W=z;var
-i=W;break;case
+Y=W}else
+var
+Y=y;var
+i=Y;break;case
 12:var
-q=fl(m,h,n,a),s=0;if(q)if(q[2])var
+q=fI(m,h,n,a),s=0;if(q)if(q[2])var
 i=0;else{var
-X=k(g,0,a[2]),Z=X?k(g,1,a[4]):X;if(Z){var
+Z=j(g,0,a[2]),_=Z?j(g,1,a[4]):Z;if(_){var
 B=[0,[3,f(l,q[1])]];s=1}else{var
-B=Z;s=1}}else{var
+B=_;s=1}}else{var
 B=q;s=1}if(s)var
 i=B;break;case
 13:var
-_=a[1],$=ae(m,_),H=0;if($){var
-aa=k(g,1,a[2]),ab=aa?k(g,1,a[3]):aa;if(ab)var
-ax=as(g,bu(h,a)),i=J(function(a){return[7,_,Y(g,a)]},ax);else{var
-ac=ab;H=1}}else{var
-ac=$;H=1}if(H)var
-i=ac;break;case
+$=a[1],aa=X(m,$),I=0;if(aa){var
+ab=j(g,1,a[2]),ac=ab?j(g,1,a[3]):ab;if(ac)var
+ay=aj(g,bE(h,a)),i=D(function(a){return[7,$,V(g,a)]},ay);else{var
+ad=ac;I=1}}else{var
+ad=aa;I=1}if(I)var
+i=ad;break;case
 14:var
-C=a[2],ad=a[1],af=u(j(m),sk),ag=af?k(g,0,ad):af,ah=ag?k(g,1,C):ag;if(ah){var
-D=as(g,bu(h,a));if(D)var
-E=az(e(function(n){var
-j=[5,ad,C],a=as(g,[0,[0,j,j],d]);if(a){var
-o=kl(F,n),i=az(e(function(e){var
-a=t(e[1],F,ki),i=aS(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],k=as(g,[0,[0,d,d],i]);return J(function(a){return[0,a,f(l,e[2])]},k)},o));if(i)var
+C=a[2],ae=a[1],af=v(k(m),tr),ag=af?j(g,0,ae):af,ah=ag?j(g,1,C):ag;if(ah){var
+E=aj(g,bE(h,a));if(E)var
+F=ak(e(function(n){var
+j=[5,ae,C],a=aj(g,[0,[0,j,j],d]);if(a){var
+o=kY(G,n),i=ak(e(function(e){var
+a=t(e[1],G,kW),i=aY(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],k=aj(g,[0,[0,d,d],i]);return D(function(a){return[0,a,f(l,e[2])]},k)},o));if(i)var
 p=[0,a[1],i[1]],k=[0,[0,f(l,n[4]),p]];else
 var
 k=i;var
 m=k}else
 var
-m=a;return m},m)),ay=E?[0,[9,D[1],E[1]]]:E,ai=ay;else
+m=a;return m},m)),az=F?[0,[9,E[1],F[1]]]:F,ai=az;else
 var
-ai=D;var
-aj=ai}else
+ai=E;var
+al=ai}else
 var
-aj=ah;var
-i=aj;break;default:var
-o=fl(m,h,n,a),K=0;if(o){var
-v=o[2],L=o[1];if(v)if(v[2])var
+al=ah;var
+i=al;break;default:var
+o=fI(m,h,n,a),J=0;if(o){var
+u=o[2],K=o[1];if(u)if(u[2])var
 i=0;else
 var
-ao=f(l,v[1]),i=[0,[5,f(l,L),ao]];else{var
-M=[0,[3,f(l,L)]];K=1}}else{var
-M=o;K=1}if(K)var
-i=M}var
-ak=[0,i,aB]}else
+aq=f(l,u[1]),i=[0,[5,f(l,K),aq]];else{var
+L=[0,[3,f(l,K)]];J=1}}else{var
+L=o;J=1}if(J)var
+i=L}var
+am=[0,i,aB]}else
 var
-ak=r;return ak}function
-sl(a){var
+am=r;return am}function
+ts(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-g0(a,p,o){var
-q=bc(p,o),b=e(function(b){return as(a,b)},q);if(b){var
+fJ(a){if(0===a[0])return a[1];var
+b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
+k0(a,c,g,b){if(0===c[0])return 0;if(b){var
+d=b[2];if(d){var
+h=d[2];if(h){if(h[2])return 0;var
+e=d[1],f=b[1],i=cH(a,g,c[1]);if(i){var
+j=cH(a,g,c[2]);if(j){var
+k=cH(a,g,c[3]);if(k)var
+t=i[1],u=bU(f),l=L([0,bU(f),u],t),v=j[1],x=bU(e),m=L([0,bU(e),x],v),y=dK(e),z=[0,dK(e),y],B=[0,w(a,ao(G(m,m)),z),0],C=dK(f),D=[0,dK(f),C],E=[0,w(a,ao(G(l,l)),D),B],F=V(a,m),H=V(a,l),n=[0,[0,L(L(V(a,k[1]),H),F),A,E]];else
+var
+n=k;var
+o=n}else
+var
+o=j;var
+p=o}else
+var
+p=i;var
+q=p}else
+var
+q=h;var
+r=q}else
+var
+r=d;var
+s=r}else
+var
+s=b;return s}function
+hs(a,p,o){var
+q=aU(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=Y(a,i[1]),s=Y(a,h[1]);return S(d,C(C(Y(a,g[1]),s),r)[1])}var
+r=V(a,i[1]),s=V(a,h[1]);return $(d,G(G(V(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3539,170 +3579,163 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ai(c,b,a){var
-d=V(c,b[3],a[3]),e=V(c,b[2],a[2]);return[0,V(c,b[1],a[1]),e,d]}function
-aG(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-K(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aN(a){return aG([5,[0,c,c],[6,K(a,a)]],a)}function
-cQ(c,b,a){var
-d=bt(c,b[1],a);return d?bt(c,a,b[2]):d}function
-aY(c,b,a){var
-d=cQ(c,b[1],a[1]),e=d?cQ(c,b[2],a[2]):d;return e?cQ(c,b[3],a[3]):e}function
-kn(c,a,b){if(0===a[0])return aY(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=k(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?k(c,0,d):g;return h?cQ(c,a[4],b[3]):h}function
-ko(a,D,G,F){var
-h=D[1],d=G;for(;;){if(h){if(d){var
-b=d[1],e=h[1];switch(e[0]){case
+ac(c,b,a){var
+d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
+az(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+N(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aL(a){return az([5,[0,c,c],[6,N(a,a)]],a)}function
+c_(c,b,a){var
+d=bn(c,b[1],a);return d?bn(c,a,b[2]):d}function
+a5(c,b,a){var
+d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
+k1(b,c,a){switch(c[0]){case
 0:var
-f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aY(a,f[1],i),q=p?k(a,1,K(i,i)):p,r=q?aY(a,f[2],b[2]):q,s=r?aY(a,f[3],b[3]):r,t=s?cQ(a,f[4],o):s,u=t?k(a,1,o):t,c=u?dV(f[5],b[5]):u;else
-var
-c=0;break;case
+d=c[1];if(0===a[0]){var
+i=a[4],f=a[1],k=a5(b,d[1],f),l=k?j(b,1,N(f,f)):k,m=l?a5(b,d[2],a[2]):l,n=m?a5(b,d[3],a[3]):m,o=n?c_(b,d[4],i):n,p=o?j(b,1,i):o;return p?cZ(d[5],a[5]):p}return 0;case
 1:var
-v=e[3];if(1===b[0]){var
-g=b[3],w=aY(a,e[1],b[1]),x=w?aY(a,e[2],b[2]):w,n=0;if(x)if(v){var
-E=0;if(g){var
-j=g[1],y=aY(a,v[1],j);if(y){var
-c=k(a,1,K(j,j));E=1}else
+q=c[3];if(1===a[0]){var
+e=a[3],r=a5(b,c[1],a[1]),s=r?a5(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=a5(b,q[1],g);if(t)return j(b,1,N(g,g));var
+u=t}else
 var
-z=y}else
+u=e;return u}if(e)return 0;var
+v=1}else
 var
-z=g;if(!E)var
-c=z}else
-if(g)var
-c=0;else{var
-A=1;n=1}else{var
-A=x;n=1}if(n)var
-c=A}else
+v=s;return v}return 0;default:if(2===a[0]){var
+h=a[1],w=a5(b,c[1],h);return w?j(b,1,N(h,h)):w}return 0}}function
+ht(c,a,b){if(0===a[0])return a5(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?c_(c,a[4],b[3]):h}function
+k2(g,f,i,h){var
+b=f[1],a=i;for(;;){if(b){if(a){var
+d=k1(g,b[1],a[1]);if(d){var
+b=b[2],a=a[2];continue}var
+e=d}else
 var
-c=0;break;default:if(2===b[0])var
-l=b[1],B=aY(a,e[1],l),c=B?k(a,1,K(l,l)):B;else
+e=a;var
+c=e}else
 var
-c=0}if(c){var
-h=h[2],d=d[2];continue}var
-C=c}else
-var
-C=d;var
-m=C}else
-var
-m=d?0:1;return m?kn(a,D[2],F):m}}function
-bM(c,b,a){var
-d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-fm(a,e,d,c){var
-b=bM(e,d,c),f=aN(a),g=aG(K(aN(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
-dm(f,e,d,a,c){var
-b=fm(f,e,d,c);return[3,[4,a,a],K(b,b)]}function
-dn(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-dp(a,b){switch(a[0]){case
+c=a?0:1;return c?ht(g,f[2],h):c}}function
+bW(c,b,a){var
+d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
+ew(a,e,d,c){var
+b=bW(e,d,c),f=aL(a),g=az(N(aL(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
+c$(f,e,d,a,c){var
+b=ew(f,e,d,c);return[3,[4,a,a],N(b,b)]}function
+da(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+db(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fm(d,f,e,b),h=dm(d,f,e,a[4],b),i=aG([5,[0,c,c],dn(a[5],h)],g),j=aN(d);return ai(function(b,a){return[2,b,a]},j,i);case
-1:return aN(bM(a[1],a[2],b));default:return aN(a[1])}}function
-kp(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ew(d,f,e,b),h=c$(d,f,e,a[4],b),i=az([5,[0,c,c],da(a[5],h)],g),j=aL(d);return ac(function(b,a){return[2,b,a]},j,i);case
+1:return aL(bW(a[1],a[2],b));default:return aL(a[1])}}function
+hu(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dm(e,d,c,a[4],b),i=dn(a[5],h),j=bM(d,c,b);return[3,K(aN(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c$(e,d,c,a[4],b),i=da(a[5],h),j=bW(d,c,b);return[3,N(aL(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bM(g,f,b);return[6,K(bM(g,f,b),k)];default:return K(aN(a[1]),b)}}function
-eb(e,b,a){var
-f=[0,d,c];return bH(function(c,d){var
-e=K(dp(c,b),a);return[2,[4,K(dp(c,b),a),e],d]},f,e)}function
-kq(a){var
+f=a[2],g=a[1],k=bW(g,f,b);return[6,N(bW(g,f,b),k)];default:return N(aL(a[1]),b)}}function
+k3(a,b){switch(a[0]){case
+0:return[0,c$(a[1],a[2],a[3],a[4],b)];case
+1:var
+c=a[2],d=a[1],e=bW(d,c,b);return[0,N(bW(d,c,b),e)];default:return 0}}function
+ex(e,b,a){var
+f=[0,d,c];return bR(function(c,d){var
+e=N(db(c,b),a);return[2,[4,N(db(c,b),a),e],d]},f,e)}function
+k4(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-g1(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aN(b),h=dm(b,f,e,d,c),i=aG(dn(a[5],h),g),j=fm(b,f,e,c);return[0,[0,ai(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-kr(d,i){if(d){var
+hv(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aL(b),h=c$(b,f,e,d,c),i=az(da(a[5],h),g),j=ew(b,f,e,c);return[0,[0,ac(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+k5(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bM(a[1],a[2],i),k=aN(f),l=aG(K(aN(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bW(a[1],a[2],i),k=aL(f),l=az(N(aL(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kr(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=k5(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return sm}function
-cR(a){return[0,a[1],a[2],a[3]]}function
-ks(a,b){switch(a[0]){case
+j=b;return j}return tt}function
+dc(a){return[0,a[1],a[2],a[3]]}function
+k6(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aN(d),j=dm(d,g,c,f,b),k=aG(dn(a[5],j),i),l=fm(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aL(d),j=c$(d,g,c,f,b),k=az(da(a[5],j),i),l=ew(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bM(a[1],h,b),n=[6,K(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kt(l,b,a){switch(a[0]){case
+h=a[2],e=bW(a[1],h,b),n=[6,N(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+k7(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=ae(l,a[1]);if(d){var
-e=ks(d[1],b);if(e)var
+m=a[5],d=X(l,a[1]);if(d){var
+e=k6(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cR(m),c=aG(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=dc(m),c=az(a,n),d=ac(function(b,a){return[3,b,a]},o,c);return ac(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cR(a[3]);return[0,[0,cR(a[2]),q]];default:var
-r=cR(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cR(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
-ku(d,a,c,b){var
-e=aG(a,b),f=aG([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-kv(f,g,e,b,q,a){function
-I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],K(b,b)]}var
+q=dc(a[3]);return[0,[0,dc(a[2]),q]];default:var
+r=dc(a[3]),s=ac(function(b,a){return[2,b,a]},b,r),t=dc(a[2]);return[0,[0,ac(function(b,a){return[2,b,a]},b,t),s]]}}function
+k8(d,a,c,b){var
+e=az(a,b),f=az([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
+k9(f,g,e,b,q,a){function
+I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],N(b,b)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-av=eb(g,e,b);return k(f,1,[3,I(a[1]),av]);case
+av=ex(g,e,b);return j(f,1,[3,I(a[1]),av]);case
 1:var
-aw=I(a[1]);return k(f,1,[3,eb(g,e,b),aw]);case
+aw=I(a[1]);return j(f,1,[3,ex(g,e,b),aw]);case
 2:var
-ax=a[2],ay=function(a){return[3,ax,kp(a,e)]},s=ay,r=a[1];break;case
+ax=a[2],ay=function(a){return[3,ax,hu(a,e)]},s=ay,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[3,kp(a,e),az]},s=aA,r=a[1];break;case
+az=a[2],aA=function(a){return[3,hu(a,e),az]},s=aA,r=a[1];break;case
 4:var
-J=a[3],L=a[2],aB=function(a){var
-b=dp(a,e);return[3,[4,[4,L,L],K(dp(a,e),b)],[4,J,J]]},s=aB,r=a[1];break;case
+J=a[3],K=a[2],aB=function(a){var
+b=db(a,e);return[3,[4,[4,K,K],N(db(a,e),b)],[4,J,J]]},s=aB,r=a[1];break;case
 5:var
-M=a[1],aC=K(b,b),aD=[4,[4,M,M],[4,eb(g,e,q),aC]],aE=K(q,q);return k(f,1,[3,[4,eb(g,e,b),aE],aD]);case
+L=a[1],aC=N(b,b),aD=[4,[4,L,L],[4,ex(g,e,q),aC]],aE=N(q,q);return j(f,1,[3,[4,ex(g,e,b),aE],aD]);case
 6:var
-N=a[2],u=ae(g,a[1]);if(u){var
+M=a[2],u=X(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=dm(h[1],h[2],h[3],v,e),O=dn(h[5],aF);return k(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
+v=h[4],aF=c$(h[1],h[2],h[3],v,e),O=da(h[5],aF);return j(f,1,[3,[4,[4,M,v],[4,M,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=g1(g[1],e);if(w){var
-Q=w[1],x=g1(n[1],e);if(x){var
-R=x[1],y=g1(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],j=R[1],H=K(Q[1],[0,[3,[4,j[2],i[3]],[4,j[3],i[2]]],[3,[4,j[3],i[1]],[4,j[1],i[3]]],[3,[4,j[1],i[2]],[4,j[2],i[1]]]]),U=k(f,1,[3,T,H]);if(U)return k(f,1,[2,T,H]);var
+w=hv(g[1],e);if(w){var
+Q=w[1],x=hv(n[1],e);if(x){var
+R=x[1],y=hv(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],H=N(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,H]);if(U)return j(f,1,[2,T,H]);var
 V=U}else
 var
 V=y;var
 W=V}else
 var
 W=x;var
-X=W}else
+Y=W}else
 var
-X=w;var
-Y=X}else
-var
-Y=o;var
+Y=w;var
 Z=Y}else
 var
-Z=n;var
+Z=o;var
 _=Z}else
 var
-_=g;return _;case
+_=n;var
+$=_}else
+var
+$=g;return $;case
 8:var
-aG=eb(g,e,b),aH=K(b,b);return k(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aG=ex(g,e,b),aH=N(b,b);return j(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-$=a[1],z=kr(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=bH(function(a,c){var
-d=K(aN(a),b);return[2,[4,K(aN(a),b),d],c]},at,aI);return k(f,1,[3,[4,[4,$,$],K(b,b)],au])}return z;case
+aa=a[1],z=k5(g,e);if(z){var
+aI=z[1],at=[0,d,c],au=bR(function(a,c){var
+d=N(aL(a),b);return[2,[4,N(aL(a),b),d],c]},at,aI);return j(f,1,[3,[4,[4,aa,aa],N(b,b)],au])}return z;case
 10:var
-aa=a[2],ab=a[1],A=kt(g,e,ab);if(A){var
-ac=A[1],B=kt(g,e,aa);if(B){var
-ad=B[1],C=b[1],D=b[2],l=b[3],aJ=ku(l,D,ad[1],ad[2]),aK=ku(l,C,ac[1],ac[2]),af=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=e5(aa),ag=[4,l,[2,[2,e5(ab),aM],aL]],ah=k(f,1,l),aj=ah?k(f,0,C):ah,ak=aj?k(f,0,[3,l,C]):aj,al=ak?k(f,0,D):ak,am=al?k(f,0,[3,l,D]):al;if(am)return k(f,1,[3,[4,ag,ag],K(af,af)]);var
+ab=a[2],ad=a[1],A=k7(g,e,ad);if(A){var
+ae=A[1],B=k7(g,e,ab);if(B){var
+af=B[1],C=b[1],D=b[2],l=b[3],aJ=k8(l,D,af[1],af[2]),aK=k8(l,C,ae[1],ae[2]),ag=ac(function(b,a){return[3,b,a]},aK,aJ),aM=a[3],aN=fp(ab),ah=[4,l,[2,[2,fp(ad),aN],aM]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],N(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -3710,33 +3743,37 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=ae(g,a[1]);if(E){var
-F=ks(E[1],e);if(F){var
-m=F[1][1][2],aO=cR(a[3]),aP=cR(a[2]),p=ai(function(b,a){return[3,b,a]},aP,aO),aq=k(f,1,K(m,m));if(aq){var
-aQ=K(m,m),aR=K(p,m),aS=[5,[4,K(p,m),aR],aQ];return k(f,1,[3,[4,ap,ap],[3,K(p,p),aS]])}var
+ap=a[4],E=X(g,a[1]);if(E){var
+F=k6(E[1],e);if(F){var
+m=F[1][1][2],aO=dc(a[3]),aP=dc(a[2]),p=ac(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,N(m,m));if(aq){var
+aQ=N(m,m),aR=N(p,m),aS=[5,[4,N(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,N(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=ae(g,r);return t?k(f,1,s(t[1])):t}function
-cv(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-sn(a){switch(a[0]){case
+t=X(g,r);return t?j(f,1,s(t[1])):t}function
+bs(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+k_(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=cv(b[3]),f=cv(b[2]);return[0,cv(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bs(b[3]),f=bs(b[2]);return[0,bs(b[1]),f,e,d,c];case
 1:var
-g=J(cv,a[3]),h=cv(a[2]);return[1,cv(a[1]),h,g];default:return[2,cv(a[1])]}}function
-kw(c,b){var
-a=b[2],d=0===a[0]?cv(a[1]):[0,a[1],a[2],a[4][1]];return ko(c,b,e(sn,b[1]),d)}function
-dq(b,a){if(b){if(a){var
-e=dq(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kx(a,l,k,f){var
-b=bK(a,l);if(b){var
-c=bK(a,k);if(c){var
-d=e4(a,f);if(d){var
-e=gH(a,f);if(e)var
-m=v(a,b[1],e[1]),g=[0,M(v(a,c[1],d[1]),m)];else
+g=D(bs,a[3]),h=bs(a[2]);return[1,bs(a[1]),h,g];default:return[2,bs(a[1])]}}function
+k$(a){return 0===a[0]?bs(a[1]):[0,a[1],a[2],a[4][1]]}function
+la(b,a){var
+c=k$(a[2]);return k2(b,a,e(k_,a[1]),c)}function
+co(b,a){if(b){if(a){var
+e=co(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+lb(a){if(a){var
+b=a[1];if(b){var
+c=b[1],d=lb(a[2]);return D(function(a){return[0,c,a]},d)}return b}return tu}function
+lc(a,l,k,f){var
+b=bb(a,l);if(b){var
+c=bb(a,k);if(c){var
+d=dH(a,f);if(d){var
+e=fo(a,f);if(e)var
+m=w(a,b[1],e[1]),g=[0,L(w(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3748,43 +3785,142 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ky(f,E,s,D,a,e){function
-t(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],dq(a,a)]}var
-F=s[1];function
-g(b){var
-a=[0,d,c];return bH(function(a,c){var
-d=dq(a,b);return[2,[4,dq(a,b),d],c]},a,F)}var
-v=n(function(a){return u(j(a),E)},a);if(v){var
-r=0;if(typeof
-e==="number")r=1;else
-switch(e[0]){case
-0:if(a){if(a[2])return 0;var
-x=a[1],G=g(x);return k(f,1,[3,t(e[1],x),G])}return a;case
-1:if(a){if(a[2])return 0;var
-y=a[1],H=t(e[1],y);return k(f,1,[3,g(y),H])}return a;case
-2:if(a)return 0;var
-I=e[2],J=function(a){if(typeof
-a!=="number"&&0===a[0])return k(f,1,[3,I,a[1]]);return 0},l=J,i=e[1];break;case
-3:if(a)return 0;var
-K=e[2],L=function(a){if(typeof
-a!=="number"&&0===a[0])return k(f,1,[3,a[1],K]);return 0},l=L,i=e[1];break;case
-4:if(a)return 0;var
-z=e[3],A=e[2],M=function(a){if(typeof
-a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=k(f,0,[3,[2,A,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],z]);if(j){if(D){var
-e=kx(f,i,h,A);return e?S(e[1][2],d):e}var
-g=kx(f,i,h,z);return g?S(d,g[1][1]):g}return j}return 0},l=M,i=e[1];break;case
-5:if(a){var
-h=a[2];if(h){if(h[2])return 0;var
-o=h[1],p=a[1],B=e[1],N=dq(p,p),O=[4,[4,B,B],[4,g(o),N]],P=dq(o,o);return k(f,1,[3,[4,g(p),P],O])}var
-C=h}else
+fK(a){return a?$(d,a[1][1]):a}function
+ld(a,ab,m,aD,g,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],co(a,a)]}var
+aE=m[1];function
+o(b){var
+a=[0,d,c];return bR(function(a,c){var
+d=co(a,b);return[2,[4,co(a,b),d],c]},a,aE)}var
+ad=n(function(a){return v(k(a),ab)},g);if(ad){var
+i=0;if(typeof
+f==="number")i=1;else
+switch(f[0]){case
+0:if(g){if(g[2])return 0;var
+af=g[1],aF=o(af);return j(a,1,[3,ac(f[1],af),aF])}return g;case
+1:if(g){if(g[2])return 0;var
+ag=g[1],aG=ac(f[1],ag);return j(a,1,[3,o(ag),aG])}return g;case
+2:if(g)return 0;var
+aH=f[2],aI=function(b){if(typeof
+b!=="number"&&0===b[0])return j(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+3:if(g)return 0;var
+aJ=f[2],aK=function(b){if(typeof
+b!=="number"&&0===b[0])return j(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+4:if(g)return 0;var
+ah=f[3],ai=f[2],aL=function(e){if(typeof
+e!=="number"&&1===e[0]){var
+g=e[2],h=e[1],i=j(a,0,[3,[2,ai,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],ah]);if(i){if(aD){var
+f=lc(a,h,g,ai);return f?$(f[1][2],d):f}return fK(lc(a,h,g,ah))}return i}return 0},H=aL,G=f[1];break;case
+5:if(g){var
+q=g[2];if(q){if(q[2])return 0;var
+J=q[1],K=g[1],aj=f[1],aM=co(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=co(J,J);return j(a,1,[3,[4,o(K),aO],aN])}var
+ak=q}else
 var
-C=a;return C;default:r=1}if(!r){var
-m=ae(s[2],i);return m?l(m[1]):m}var
-w=0}else
+ak=g;return ak;case
+6:if(g)return 0;var
+al=f[2],aP=f[3],aQ=function(b){var
+c=[5,aP,al],d=j(a,1,al);return d?j(a,1,[3,co(b,b),[4,c,c]]):d},an=aQ,am=f[1];i=3;break;case
+8:if(g){if(g[2])return 0;var
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=co(N,N);return j(a,1,[3,[4,f[2],aT],aS])}return g;case
+9:if(g)return 0;var
+ar=f[3],as=f[2],aU=function(e){var
+f=j(a,1,as),g=f?j(a,0,ar):f;if(g){var
+b=bb(a,co(e,e));if(b){var
+c=bb(a,[5,ar,as]);if(c){var
+d=ke(a,c[1]);if(d){var
+l=V(a,d[1]);return fK([0,L(b[1],l)])}var
+h=d}else
 var
-w=v;return w}function
-kz(h,g){var
+h=c;var
+i=h}else
+var
+i=b;var
+k=i}else
+var
+k=g;return k},an=aU,am=f[1];i=3;break;case
+10:if(g)return 0;var
+aV=f[2],aW=function(b){var
+c=[4,aV,b[3]],d=j(a,1,c);return d?j(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];i=2;break;case
+11:if(g)return 0;var
+aX=f[2],aY=function(e){var
+b=dH(a,aX);if(b){var
+c=bb(a,e[3]);if(c){var
+d=bb(a,e[2]);if(d){var
+f=w(a,b[1],c[1]),g=fK([0,f]);if(g){var
+k=V(a,d[1]);return fK([0,L(V(a,f),k)])}var
+h=g}else
+var
+h=d;var
+i=h}else
+var
+i=c;var
+j=i}else
+var
+j=b;return j},au=aY,at=f[1];i=2;break;case
+12:if(g)return 0;var
+Q=lb(m[3]);if(Q){var
+aw=Q[1],aZ=f[1],ax=dy(function(b,a){return[4,b,a[3]]},aw,aZ),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+s=R[1];if(s){var
+t=s[2];if(t){var
+u=t[2],S=t[1],T=s[1],l=R[2];if(u)if(u[2]||!l)var
+h=[0,d,c];else{var
+x=l[1];if(x){var
+y=x[2];if(y){var
+z=y[2];if(z&&!z[2]){var
+A=l[2];if(A){var
+B=A[1];if(B){var
+C=B[2];if(C){var
+D=C[2];if(D&&!(D[2]||A[2]))var
+U=D[1],W=C[1],Y=B[1],Z=z[1],_=y[1],aa=x[1],aA=p(aa,_,Y,W),aB=[4,u[1],aA],aC=[4,S,p(aa,Z,Y,U)],h=[2,[3,[4,T,p(_,Z,W,U)],aC],aB];else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+if(l){var
+E=l[1];if(E)var
+F=E[2],h=F?F[2]?[0,d,c]:l[2]?[0,d,c]:p(T,S,E[1],F[1]):[0,d,c];else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c]}else
+var
+h=[0,d,c];var
+ay=j(a,1,[3,ax,h]);if(ay)return j(a,1,[2,ax,h]);var
+az=ay}else
+var
+az=Q;return az;default:i=1}switch(i){case
+1:var
+ae=0;break;case
+2:var
+O=X(m[3],at);if(O){var
+P=O[1];if(P)return au(P[1]);var
+av=P}else
+var
+av=O;return av;case
+3:var
+M=X(m[1],am);if(M){var
+ao=M[1],ap=v(k(ao),ab);if(ap)return an(ao);var
+aq=ap}else
+var
+aq=M;return aq;default:var
+I=X(m[2],G);return I?H(I[1]):I}}else
+var
+ae=ad;return ae}function
+le(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3794,144 +3930,69 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-so(a){return e(function(a){return[0,a,c]},a)}function
-kA(f,m,b,l,a){if(typeof
+tv(a){return e(function(a){return[0,a,c]},a)}function
+lf(f,m,b,l,a){if(typeof
 a==="number"){var
-q=b[3];return aP(function(a){return k(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=kz(a[1],l);if(g){var
-n=g[1],r=n[1],s=e(so,a[2]);return ky(f,m,b,n[2],s,r)}return g}var
-h=kz(a[1],l);if(h){var
+q=b[4];return aK(function(a){return j(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=le(a[1],l);if(g){var
+n=g[1],r=n[1],s=e(tv,a[2]);return ld(f,m,b,n[2],s,r)}return g}var
+h=le(a[1],l);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=ae(b[1],a[2]);return j?ky(f,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
+k=X(b[1],a[2]);return k?ld(f,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-g2(a){var
-b=aN(a[1]),c=aG(K(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-g3(a){return aN(g2(a))}function
-kB(c){var
-a=g3(c),b=aN(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g4(a,b){return bM(a[3],a[4],b)}function
-g5(a,b){var
-c=g4(a,b);return K(g3(a),c)}function
-g6(a,b){var
-c=g4(a,b);return K(kB(a),c)}function
-kC(a,b){var
-c=g4(a,b);return K(aN(a[1]),c)}function
-g7(b,a){var
-c=g6(b,a),d=g5(b,a);return[2,[4,d,d],[4,c,c]]}function
-g8(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kC(a,d);return[5,[2,g7(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kD(a,b){var
-f=a[5],c=[3,g8(a,b),f],d=kC(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-g9(a,b){var
-c=kD(a,b);return dn(a[7],c)}function
-kE(b,a){var
-c=g7(b,a),d=g6(b,a),e=[4,g9(b,a),d],f=g5(b,a);return[5,[2,[4,g8(b,a),f],e],c]}function
-kF(b,a){var
-c=g7(b,a),d=g5(b,a),e=[4,g9(b,a),d],f=g6(b,a);return[5,[3,[4,g8(b,a),f],e],c]}function
-bN(c){var
-a=c;for(;;)switch(a[0]){case
-0:var
-b=a[1];return[0,[0,[0,b,b],d],0];case
-1:return 0;case
-2:case
-7:case
-8:var
-a=a[1];continue;default:var
-e=bN(a[2]);return g(bN(a[1]),e)}}function
-bO(e,a,b){switch(a[0]){case
-0:var
-q=a[1];return cN([0,[0,q,q],d],b);case
-1:var
-t=a[1],g=e,u=o(d);for(;;){if(g){var
-m=g[1];if(od(m[1],t))return m[2];var
-g=g[2];continue}return u}case
-2:return b8(bO(e,a[1],b));case
-3:var
-i=a[2],f=a[1],h=N;break;case
-4:var
-i=a[2],f=a[1],h=D;break;case
-5:var
-i=a[2],f=a[1],h=r;break;case
-6:var
-i=a[2],f=a[1],h=av;break;case
-7:var
-k=dX(a[2]),l=bO(e,a[1],b);if(k){if(k[1]){var
-n=af(l),s=function(a){return r(a,n)},p=eR(b5(jf(k)),s,n);return je(k)?p:r(p,l)}return l}return o(c);default:return cr(bO(e,a[1],b))}var
-v=bO(e,i,O(b,j(bN(f))));return h(bO(e,f,b),v)}function
-cS(c,f,b){var
-a=f;for(;;)switch(a[0]){case
-6:var
-e=a[1],k=O(b,j(bN(e))),l=cS(c,a[2],k),m=g(cS(c,e,b),l);return[0,bO(c,a,b),m];case
-8:var
-n=cS(c,a[1],b);return[0,bO(c,a,b),n];case
-2:case
-7:var
-a=a[1];continue;case
-0:case
-1:return 0;default:var
-d=a[1],h=O(b,j(bN(d))),i=cS(c,a[2],h);return g(cS(c,d,b),i)}}function
-kG(c,a,b){if(a){var
-e=a[1],d=e[2],f=O(b,j(bN(d))),h=a[2],i=bO(c,d,b),k=kG([0,[0,e[1],i],c],h,f);return g(cS(c,d,b),k)}return a}function
-ec(a){return E(bN,a)}function
-kH(c,a,b){if(a)var
-d=a[1],f=O(b,j(bN(d))),g=kH(c,a[2],f),e=[0,bO(c,d,b),g];else
-var
-e=a;return e}function
-kI(c,a,b){if(a){var
-d=a[1],e=O(b,j(bN(d))),f=kI(c,a[2],e);return g(cS(c,d,b),f)}return a}function
-kJ(c,a,b){if(a)var
-d=a[1],f=O(b,j(ec(d))),g=kJ(c,a[2],f),e=[0,kH(c,d,b),g];else
-var
-e=a;return e}function
-kK(c,a,b){if(a){var
-d=a[1],e=O(b,j(ec(d))),f=kK(c,a[2],e);return g(kI(c,d,b),f)}return a}function
-kL(a){return e(function(a){return[0,a[2],d]},a)}function
-kM(a){var
-c=cO(0,kL(a[2])),d=bp(0,j(a[1])),f=e(function(a){return[0,[0,a]]},d),b=a$(e(a2,a[2]),c);return g(a$(a[1],f),b)}function
-sq(a){if(typeof
-a!=="number"&&0!==a[0])return 0;return 1}function
-g_(b,d){var
-a=d;for(;;)switch(a[0]){case
-0:return 1;case
-1:var
-e=a[1];return aP(function(a){return ap(e,a)},b);case
-2:case
-7:case
-8:var
-a=a[1];continue;default:var
-c=g_(b,a[1]);if(c){var
-a=a[2];continue}return c}}function
-kN(d){var
-a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=au(aP(function(b){return function(a){return od(b,a)}}(e),b));if(c){var
-a=b;continue}return c}return 1}}function
-kO(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kP(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-g$(a,c,b){var
-d=[4,kO(a),b],e=[2,[4,kP(a),c],d],f=[4,kP(a),b];return[0,[3,[4,kO(a),c],f],e]}function
-kQ(c,a){var
-b=g$(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-kR(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-kS(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kQ(d[1],a):a;case
+hw(a){var
+b=aL(a[1]),c=az(N(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
+hx(a){return aL(hw(a))}function
+lg(c){var
+a=hx(c),b=aL(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hy(a,b){return bW(a[3],a[4],b)}function
+hz(a,b){var
+c=hy(a,b);return N(hx(a),c)}function
+hA(a,b){var
+c=hy(a,b);return N(lg(a),c)}function
+lh(a,b){var
+c=hy(a,b);return N(aL(a[1]),c)}function
+hB(b,a){var
+c=hA(b,a),d=hz(b,a);return[2,[4,d,d],[4,c,c]]}function
+hC(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=lh(a,d);return[5,[2,hB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+li(a,b){var
+f=a[5],c=[3,hC(a,b),f],d=lh(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fL(a,b){var
+c=li(a,b);return da(a[7],c)}function
+lj(b,a){var
+c=hB(b,a),d=hA(b,a),e=[4,fL(b,a),d],f=hz(b,a);return[5,[2,[4,hC(b,a),f],e],c]}function
+lk(b,a){var
+c=hB(b,a),d=hz(b,a),e=[4,fL(b,a),d],f=hA(b,a);return[5,[3,[4,hC(b,a),f],e],c]}function
+ll(a,b){var
+c=lg(a),d=az(lk(a,b),c),e=hx(a),f=az(lj(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=az(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
+lm(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+ln(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hD(a,c,b){var
+d=[4,lm(a),b],e=[2,[4,ln(a),c],d],f=[4,ln(a),b];return[0,[3,[4,lm(a),c],f],e]}function
+lo(c,a){var
+b=hD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+hE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hF(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:lo(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=g$(d[1],a[2],a[3]),m=j[1],k=g$(f[1],j[2],a[1]);return kQ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hD(d[1],a[2],a[3]),m=j[1],k=hD(f[1],j[2],a[1]);return lo(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=K(e,e),n=kR(e,a),o=aG([0,b(2,c),c],n),p=K(e,a),q=aG([4,[0,b(2,c),c],p],e),r=aG([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return aG([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kT(b){var
-a=cb(b);return a?jq(a[1],[0,d,c]):a}function
-kU(a,n,j,i){if(kT(i)){var
-q=n?[3,[0,d,c],j]:j;return k(a,0,q)}var
-f=bK(a,j);if(f){var
-g=e4(a,[5,i,[0,b(2,c),c]]);if(g){var
-h=gH(a,[5,i,[0,b(2,c),c]]);if(h)var
-p=v(a,f[1],g[1]),l=[0,M(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=N(e,e),n=hE(e,a),o=az([0,b(2,c),c],n),p=N(e,a),q=az([4,[0,b(2,c),c],p],e),r=az([3,[0,c,c],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return az([5,[0,c,c],[2,[0,c,c],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+lp(b){var
+a=cm(b);return a?j0(a[1],[0,d,c]):a}function
+lq(a,n,k,i){if(lp(i)){var
+q=n?[3,[0,d,c],k]:k;return j(a,0,q)}var
+f=bb(a,k);if(f){var
+g=dH(a,[5,i,[0,b(2,c),c]]);if(g){var
+h=fo(a,[5,i,[0,b(2,c),c]]);if(h)var
+p=w(a,f[1],g[1]),l=[0,L(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -3940,26 +4001,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?I(d,o[1]):I(o[2],d)}return e}function
-ed(b,a,c){var
-d=bt(b,a[1],a[2]),e=d?kU(b,0,c,a[1]):d;return e?kU(b,1,c,a[2]):e}function
-ee(a,d){if(kT(d))return[0,x];var
-e=e4(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=gH(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=C(am(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cp(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return J(function(d){var
-e=v(B(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return jA(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?M(d,o[1]):M(o[2],d)}return e}function
+ey(b,a,c){var
+d=bn(b,a[1],a[2]),e=d?lq(b,0,c,a[1]):d;return e?lq(b,1,c,a[2]):e}function
+dO(a,d){if(lp(d))return[0,A];var
+e=dH(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fo(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=G(ap(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cE(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return D(function(d){var
+e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return ha(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ha(d,a){var
-e=k(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?k(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-cT(a){return[0,[3,[0,d,c],a],a]}function
-kV(a,b,n,m){var
-h=bt(a,[0,d,c],b),i=h?ha(a,b):h;if(i){var
-e=ee(a,b);if(e){var
-f=bK(a,n);if(f){var
-g=bK(a,m);if(g){var
-o=f[1],p=g[1];return I(d,M(v(a,Y(a,e[1]),p),o)[1])}var
+ez(d,a){var
+e=j(d,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
+dd(a){return[0,[3,[0,d,c],a],a]}function
+lr(a,b,n,m){var
+h=bn(a,[0,d,c],b),i=h?ez(a,b):h;if(i){var
+e=dO(a,b);if(e){var
+f=bb(a,n);if(f){var
+g=bb(a,m);if(g){var
+o=f[1],p=g[1];return M(d,L(w(a,V(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3969,194 +4030,258 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-ef(a){return 1===a?su:sv}function
-hb(d,c,b,a){var
-e=a[1],f=kS(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-eg(b,d){var
+ls(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:ey(d,b[1],a[1]):a;case
+1:if(a){var
+e=a[2];if(e){var
+f=e[2];if(f){if(f[2])return 0;var
+l=ey(d,b[1],a[1]),m=l?ey(d,b[2],e[1]):l;if(m)return ey(d,b[3],f[1]);var
+n=m}else
+var
+n=f;var
+o=n}else
+var
+o=e;var
+p=o}else
+var
+p=a;return p;case
+2:if(a){var
+g=a[2];if(g){var
+h=g[2];if(h){if(h[2])return 0;var
+q=h[1],r=g[1],s=a[1],B=N([0,s,r,q],[0,s,r,q]);return lr(d,b[1],B,[0,c,c])}var
+t=h}else
+var
+t=g;var
+u=t}else
+var
+u=a;return u;default:if(a){var
+i=a[2];if(i){var
+j=i[2];if(j){if(j[2])return 0;var
+k=j[1],v=i[1],w=a[1],x=lr(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ey(d,dd(b[2]),k);var
+y=x}else
+var
+y=j;var
+z=y}else
+var
+z=i;var
+A=z}else
+var
+A=a;return A}}function
+dP(a){return 1===a?tw:tx}function
+hG(d,c,b,a){var
+e=a[1],f=hF(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
+lt(c,b,a){switch(c){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
+eA(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,db(function(a){return eg(b,a)},a)]}return[0,db(function(a){return eg(b,a)},a)]}function
-dr(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,Q(b,c[1])]]:[0,c4(function(a){return eA(b,a)},a)]}return[0,c4(function(a){return eA(b,a)},a)]}function
+dQ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=au(u(e,b));return f?au(u(e,O(d,b))):f;case
+e=a[1],f=at(v(e,b));return f?at(v(e,Q(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dr(d,b,a[1]);if(g){var
+g=dQ(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eh(c,b,m){var
+eB(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dr(c,b,g),i=h?eh(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dQ(c,b,g),i=h?eB(c,b,f):h;if(i)var
 j=i;else{var
-k=eh(c,b,g);if(k)return dr(c,b,f);var
+k=eB(c,b,g);if(k)return dQ(c,b,f);var
 j=k}return j;case
 7:var
-l=eh(c,b,a[1]);return l?dr(c,b,a[2]):l;case
+l=eB(c,b,a[1]);return l?dQ(c,b,a[2]):l;case
 3:case
 4:var
-e=eh(c,b,a[1]);if(e){var
+e=eB(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dr(c,b,a[1]);default:return 1}}}function
-cU(c,e){var
+9:return dQ(c,b,a[1]);default:return 1}}}function
+de(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return au(u(a[1],c));case
+0:return at(v(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cU(c,a[1]);if(d){var
+d=de(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hc(d,b,m){var
+hH(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hc(d,b,a[1]);if(f){var
+f=hH(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hc(d,b,a[1]);return g?cU(b,a[2]):g;case
+g=hH(d,b,a[1]);return g?de(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cU(b,i);if(j){var
-k=cU(b,h);if(k)var
+h=a[2],i=a[1],j=de(b,i);if(j){var
+k=de(b,h);if(k)var
 e=k;else{var
-l=bg(i,d);if(l){var
+l=a$(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cU(b,c)}}}function
-kW(c,e){var
+2:return 1;default:return de(b,c)}}}function
+lu(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dW(a[1],c);case
+0:return eh(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kW(c,a[1]);if(d){var
+d=lu(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cw(b,a){return a?f(b,a[1]):a}function
-cx(c,b,a){return cw(function(b){return cw(f(c,b),a)},b)}function
-sw(a){return 0===a[0]?a[1]:0}function
-bP(b,a){switch(a[0]){case
+cL(b,a){return a?f(b,a[1]):a}function
+cM(c,b,a){return cL(function(b){return cL(f(c,b),a)},b)}function
+ty(a){return 0===a[0]?a[1]:0}function
+bX(b,a){switch(a[0]){case
 0:return[0,f(b,a[1])];case
-1:return[1,bP(b,a[1])];default:var
-c=bP(b,a[3]),d=bP(b,a[2]);return[2,bP(b,a[1]),d,c]}}function
-a6(b,c,a){switch(c[0]){case
-0:return bP(f(b,c[1]),a);case
+1:return[1,bX(b,a[1])];default:var
+c=bX(b,a[3]),d=bX(b,a[2]);return[2,bX(b,a[1]),d,c]}}function
+bc(b,c,a){switch(c[0]){case
+0:return bX(f(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bP(function(a){return V(b,a,k)},d)];case
-1:return[1,a6(b,d,a[1])];default:var
-l=a6(b,d,a[3]),m=a6(b,d,a[2]);return[2,a6(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bX(function(a){return _(b,a,k)},d)];case
+1:return[1,bc(b,d,a[1])];default:var
+l=bc(b,d,a[3]),m=bc(b,d,a[2]);return[2,bc(b,d,a[1]),m,l]}default:var
 e=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return V(b,a,n)},i=function(a){return bP(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return _(b,a,n)},i=function(a){return bX(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=a6(b,e,j),s=a6(b,g,j);return[2,a6(b,h,j),s,r];default:var
-t=a6(b,e,a[3]),u=a6(b,g,a[2]);return[2,a6(b,h,a[1]),u,t]}}}function
-hd(c,g,a){if(a)var
+j=a[1],r=bc(b,e,j),s=bc(b,g,j);return[2,bc(b,h,j),s,r];default:var
+t=bc(b,e,a[3]),u=bc(b,g,a[2]);return[2,bc(b,h,a[1]),u,t]}}}function
+hI(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-e=[0,a,Y(c,a)];break;case
+e=[0,a,V(c,a)];break;case
 1:var
-h=v(c,a,b),e=[0,b7(C(a,b)),h];break;default:var
-e=[0,b,Y(c,b)]}return[0,[0,f(g,e)]]},i=hd(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=w(c,a,b),e=[0,cg(G(a,b)),h];break;default:var
+e=[0,b,V(c,b)]}return[0,[0,f(g,e)]]},i=hI(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-kX(a){if(a){var
+lv(a){if(a){var
 b=a[1];if(b)var
-c=kX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=lv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sy}function
-ei(a){if(a){var
-g=a[1],b=g[2],c=kX(g[1]);if(c)if(b){var
-h=b[1],e=ei(a[2]);if(e)var
-i=S(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return tA}function
+eC(a){if(a){var
+g=a[1],b=g[2],c=lv(g[1]);if(c)if(b){var
+h=b[1],e=eC(a[2]);if(e)var
+i=$(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return sz}function
-he(b,a){var
-c=a[3],d=J(function(a){var
-c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(a5(b),g),e,d]}function
-kY(e,d,c,b){if(d){var
+f=c;return f}return tB}function
+hJ(b,a){var
+c=a[3],d=D(function(a){var
+c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(aR(b),g),e,d]}function
+lw(e,d,c,b){if(d){var
 j=d[1],a=function(f){var
-a=he(function(a){switch(a[0]){case
+a=hJ(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return kY(b5(e),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return lw(bQ(e),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return e?1:a(1);var
 i=h}else
 var
-i=g;return i}return f(c,he(sw,b))}function
-ej(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return J(function(a){return bf(f,e,a)},d)}return[0,x]}function
-sA(c){var
+i=g;return i}return f(c,hJ(ty,b))}function
+eD(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return D(function(a){return br(f,e,a)},d)}return[0,A]}function
+tC(c){var
 a=c[2];if(a){var
-b=ej(c[3]);if(b)return I(d,M(a[1],b[1])[1]);var
+b=eD(c[3]);if(b)return M(d,L(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kZ(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
-k0(a,c,b){var
-e=t(b,c,o(d)),f=bp(0,a);return n(function(b){return eh(a,b,e)},f)}function
-ek(a){var
-b=af(a);return N(o(c),b)}function
-fn(i,g){var
-h=ek(g),j=af(g),e=D(o(c),j),f=r(o(b(2,c)),g),a=o(d);return i?i[1]?[0,[0,e,b8(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,b8(f),a,e]]:[0,[0,h,a,a],[0,a,e,b8(f)],[0,a,f,e]]}function
-k1(b,a){function
+lx(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
+ly(a,c,b){var
+e=t(b,c,l(d)),f=a9(0,a);return n(function(b){return eB(a,b,e)},f)}function
+eE(a){var
+b=J(a);return F(l(c),b)}function
+fM(i,g){var
+h=eE(g),j=J(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bS(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bS(f),a,e]]:[0,[0,h,a,a],[0,a,e,bS(f)],[0,a,f,e]]}function
+lz(b,a){var
+c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
+lA(b,a){function
 c(b){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
 d(a){var
-b=ay(a,c(function(a){return a[3]})),d=ay(a,c(function(a){return a[2]}));return[0,ay(a,c(function(a){return a[1]})),d,b]}var
+b=ag(a,c(function(a){return a[3]})),d=ag(a,c(function(a){return a[2]}));return[0,ag(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,e]}function
-k2(a){switch(a[0]){case
+lB(w,v){function
+a(a){return[0,[0,Q(v,a)]]}switch(w[0]){case
+0:var
+x=eE(a(0));return[0,fM(tD,a(0)),x];case
+1:var
+y=eE(a(0)),z=o(eE(a(tE)),y),A=o(eE(a(tF)),z),B=fM(0,a(0)),C=lA(fM(tH,a(tG)),B);return[0,lA(fM(tJ,a(tI)),C),A];default:var
+D=a(tK),E=a(tL),g=[0,a(0),E,D],G=ag(g,g),H=F(l(c),G),j=ag(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=J(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
+g=_(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+lC(a){return 1<a[0]?[0,a[1],0]:0}function
+fN(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cT(a[1]),0];default:var
-b=[0,cT(a[2]),0];return[0,cT(a[1]),b]}}function
-ds(a){return[0,[0,a[1]],[0,a[2]]]}function
-k3(a,b){if(0===b[0])return ee(a,b[1]);var
-d=ee(a,b[1]);if(d){var
-e=ee(a,b[2]);if(e){var
-g=Y(a,e[1]),h=cL(a,C(am(a,c),g)),i=d[1];return J(function(b){return v(a,i,b)},h)}var
+2:return[0,dd(a[1]),0];default:var
+b=[0,dd(a[2]),0];return[0,dd(a[1]),b]}}function
+dR(a){return[0,[0,a[1]],[0,a[2]]]}function
+lD(a){switch(a[0]){case
+0:return[0,dR(a[1]),0];case
+1:var
+f=[0,dR(a[3]),0],g=[0,dR(a[2]),f];return[0,dR(a[1]),g];case
+2:var
+b=dR(dd(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dd(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dR(dd(c)),0]]]}}function
+lE(a,b){if(0===b[0])return dO(a,b[1]);var
+d=dO(a,b[1]);if(d){var
+e=dO(a,b[2]);if(e){var
+g=V(a,e[1]),h=c3(a,G(ap(a,c),g)),i=d[1];return D(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-k4(k,D,c,C,B,b,a){switch(b[0]){case
+lF(d,c){var
+a=lE(d,c[1]);if(a)var
+b=lE(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+var
+e=a;return e}function
+lG(j,D,c,C,B,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=ei(e[1]);if(a){var
+a=eC(e[1]);if(a){var
 b=e[2];if(b){var
-d=ej(e[3]);if(d){var
-h=d[1],i=ba([0,M(ah(v(k,l,b[1])),h),0],c);return b$(c,gM(F,E,a[1],i))}var
+d=eD(e[3]);if(d){var
+h=d[1],i=bl([0,L(ao(w(j,l,b[1])),h),0],c);return ck(c,hg(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -4164,22 +4289,22 @@ g=f}else
 var
 g=a;return g},f=n;break;case
 2:var
-q=ad(l[1],d),r=q?ad(l[2],d):q;if(!r)return r;var
+q=ah(l[1],d),r=q?ah(l[2],d):q;if(!r)return r;var
 H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=ei(f[1]);if(a){var
-b=ej(f[3]);if(b){var
-g=ba([0,M(x,b[1]),0],c),h=a[1];return b$(c,gM(I,H,e(function(a){return[0,a[1],x]},h),g))}var
+a=eC(f[1]);if(a){var
+b=eD(f[3]);if(b){var
+g=bl([0,L(A,b[1]),0],c),h=a[1];return ck(c,hg(I,H,e(function(a){return[0,a[1],A]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
-y=0;if(typeof
+x=0;if(typeof
 a==="number"&&!a)var
-J=b[2],K=b[1],L=b[3],i=J,h=K,N=0,g=function(f){var
-a=ei(f[1]);if(a){var
+J=b[2],K=b[1],M=b[3],i=J,h=K,N=0,g=function(f){var
+a=eC(f[1]);if(a){var
 b=f[2];if(b){var
-d=ej(f[3]);if(d){var
-j=d[1],l=ba([0,M(v(k,L,b[1]),j),0],c),e=jJ(a[1],l);if(e)return b$(c,e[1]);var
+d=eD(f[3]);if(d){var
+k=d[1],l=bl([0,L(w(j,M,b[1]),k),0],c),e=ki(a[1],l);if(e)return ck(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -4189,17 +4314,17 @@ h=b;var
 i=h}else
 var
 i=a;return i},f=N;else
-y=1;if(y)return 0;break;case
+x=1;if(x)return 0;break;case
 2:var
-z=0;if(typeof
-a==="number"||!(0===a[0]))z=1;else
+y=0;if(typeof
+a==="number"||!(0===a[0]))y=1;else
 var
-s=a[2],w=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=ei(f[1]);if(a){var
+s=a[2],u=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=eC(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=ej(f[3]);if(e){var
-g=u(j(b),c),h=g?u(j(s),c):g;if(h){var
-n=d_(w,d$(w,s,d[1],b));return b$(c,cu(fa(k,R,Q,e[1],b),n))}var
+e=eD(f[3]);if(e){var
+g=v(k(b),c),h=g?v(k(s),c):g;if(h){var
+n=et(u,eu(u,s,d[1],b));return ck(c,cI(fv(j,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -4208,80 +4333,80 @@ var
 l=d;var
 m=l}else
 var
-m=a;return m},i=O,h=P,g=S,f=b[5];if(z)return 0;break;default:var
-A=0;if(typeof
+m=a;return m},i=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
+z=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=sA,f=0;else
-A=1;if(A)return 0}var
-G=[0,h,i,B];return kY(f,D,g,he(function(a){return t(a,C,sO)},G))}function
-k5(m,l,k,f,j,i,e){if(typeof
+i=b[1],h=0,g=tC,f=0;else
+z=1;if(z)return 0}var
+G=[0,h,i,B];return lw(f,D,g,hJ(function(a){return t(a,C,tQ)},G))}function
+lH(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=I(d,o);if(p)var
-h=iM(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=M(d,o);if(p)var
+h=jl(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return k4(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return lG(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return k4(m,l,k,j,0,i,a)}return 0}function
-sP(a){if(a[1])return 0;var
+q=f;return q}return lG(m,l,k,j,0,i,a)}return 0}function
+tR(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-k6(a,N,L,K,I,H,h,p,G,Z){if(n(sP,G))var
+lI(a,N,M,K,J,I,h,p,H,Z){if(n(tR,H))var
 q=0;else
 var
-V=hd(a,cI,p),U=0,W=g(hd(a,a2,p),V),q=bI(sx,function(b){switch(b[0]){case
-0:return t(b[1],W,[0,[0,x]]);case
-1:return[0,[0,t(b[1],L,x)]];case
-2:return[0,[0,am(a,b[1])]];case
+U=hI(a,cY,p),T=0,W=g(hI(a,a3,p),U),q=bT(tz,function(b){switch(b[0]){case
+0:return t(b[1],W,[0,[0,A]]);case
+1:return[0,[0,t(b[1],M,A)]];case
+2:return[0,[0,ap(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return a6(function(a,b){return cx(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,G(b,a)]};return bc(function(a,b){return cM(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return a6(function(a,b){return cx(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,L(b,a)]};return bc(function(a,b){return cM(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ah(a)]};return bP(function(a){return cw(j,a)},i);case
+i=b[1],j=function(a){return[0,ao(a)]};return bX(function(a){return cL(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,v(a,c,b)]};return a6(function(a,b){return cx(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return bc(function(a,b){return cM(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cp(a,b);return J(function(b){return v(a,c,b)},d)};return a6(function(a,b){return cx(p,a,b)},o,n);case
+d=cE(a,b);return D(function(b){return w(a,c,b)},d)};return bc(function(a,b){return cM(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,Y(a,b)]};return bP(function(a){return cw(r,a)},q);default:var
-s=b[1],u=function(b){return cL(a,b)};return bP(function(a){return cw(u,a)},s)}},N,U);var
-f=G,b=Z;for(;;){if(f){var
+q=b[1],r=function(b){return[0,V(a,b)]};return bX(function(a){return cL(r,a)},q);default:var
+s=b[1],u=function(b){return c3(a,b)};return bX(function(a){return cL(u,a)},s)}},N,T);var
+f=H,b=Z;for(;;){if(f){var
 u=f[1],i=u[2],c=u[1],k=f[2];if(c){var
-w=t(c,b,0);if(w){var
-l=ae(K,c);if(l){var
-y=k5(a,I,H,h,q,l[1],i);if(y){var
-f=k,b=fg(c,b);continue}var
+v=t(c,b,0);if(v){var
+l=X(K,c);if(l){var
+x=lH(a,J,I,h,q,l[1],i);if(x){var
+f=k,b=fB(c,b);continue}var
+y=x}else
+var
+y=l;var
 z=y}else
 var
-z=l;var
-A=z}else
-var
-A=w;return A}if(typeof
+z=v;return z}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-X=0,r=e(function(b){return[0,b,Y(a,b)]},p),Q=e(cI,r),P=0,R=g(e(a2,r),Q),T=bI(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,x)];case
-1:return[0,t(b[1],L,x)];case
-2:return[0,am(a,b[1])];case
+Y=0,r=e(function(b){return[0,b,V(a,b)]},p),Q=e(cY,r),P=0,R=g(e(a3,r),Q),S=bT(0,function(n){return function(b){switch(b[0]){case
+0:return[0,t(b[1],n,A)];case
+1:return[0,t(b[1],M,A)];case
+2:return[0,ap(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cx(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return cM(function(b,a){return[0,G(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cx(function(b,a){return[0,M(b,a)]},f,e);case
+e=b[2],f=b[1];return cM(function(b,a){return[0,L(b,a)]},f,e);case
 5:var
-g=b[1];return cw(function(a){return[0,ah(a)]},g);case
+g=b[1];return cL(function(a){return[0,ao(a)]},g);case
 6:var
-h=b[2],i=b[1];return cx(function(c,b){return[0,v(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cM(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cx(function(c,b){var
-d=cp(a,b);return J(function(b){return v(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cM(function(c,b){var
+d=cE(a,b);return D(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cw(function(b){return[0,Y(a,b)]},l);default:var
-m=b[1];return cw(function(b){return cL(a,b)},m)}}}(R),N,P),j=t(h[1],T,X);if(j){var
-m=S(j[1][2],d);O=1}else
+l=b[1];return cL(function(b){return[0,V(a,b)]},l);default:var
+m=b[1];return cL(function(b){return c3(a,b)},m)}}}(R),N,P),j=t(h[1],S,Y);if(j){var
+m=$(j[1][2],d);O=1}else
 var
 s=j}else
 var
@@ -4289,48 +4414,45 @@ s=h;if(!O)var
 m=s;if(m){var
 f=k,b=e(function(a){return 0},b);continue}return m}var
 B=t(c,b,0);if(B){var
-o=ae(K,c);if(o){var
-D=k5(a,I,H,h,q,o[1],i);if(D){var
-f=k,b=fg(c,b);continue}var
-E=D}else
+o=X(K,c);if(o){var
+C=lH(a,J,I,h,q,o[1],i);if(C){var
+f=k,b=fB(c,b);continue}var
+E=C}else
 var
 E=o;var
 F=E}else
 var
 F=B;return F}return[0,b]}}function
-k7(i,h,g,f,e,d,c,t,s,r){var
+lJ(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=k6(i,h,g,f,e,d,c,b,a[1],j);return k?n(au,k[1]):k}var
-l=k6(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=d9(a[2],b),p=k7(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=lI(i,h,g,f,e,d,c,b,a[1],j);return k?n(at,k[1]):k}var
+l=lI(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=es(a[2],b),p=lJ(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-hf(d,a){var
-e=af(a),f=r(r(o(b(2,c)),a),d);return N(D(af(d),f),e)}function
-hg(a){switch(a){case
-0:return sS;case
-1:return sT;default:return 0}}function
-fo(b,a){var
-c=bc(a[2],b);return g(bc(a[1],b),c)}function
-k8(s,l,q,u,p,k,t){if(k){var
-v=k[1],w=cO(t,fo(p,v)),R=O(t,j(fo(p,v))),S=k8(s,l,q,u,p,k[2],R),i=aM(w,sU),m=aM(w,0);switch(s){case
-0:var
-g=[0,sR,sQ,o(d)];break;case
-1:var
-g=cM;break;default:var
-G=o(d),H=o(d),g=[0,o(d),H,G]}var
-e=aX(D,g,m),y=ay(l[3],i),z=ay(l[2],i),a=[0,ay(l[1],i),z,y],I=hf(g[3],m[3]),J=hf(g[2],m[2]),K=hf(g[1],m[1]),L=N(N(N(ay(i,i),K),J),I),M=ay(a,e),P=r(o(b(2,c)),M),Q=N(r(q,L),P),A=r(a[2],e[1]),B=D(r(a[1],e[2]),A),C=r(a[1],e[3]),E=D(r(a[3],e[1]),C),F=r(a[3],e[2]),f=e8([0,D(r(a[2],e[3]),F),E,B],u),h=aX(N,d8(q,e),a);switch(s){case
-0:var
-n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
-1:var
-n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,Q],S]}else
+hK(b,a){var
+c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
+hL(d,a){var
+e=J(a),f=o(o(l(b(2,c)),a),d);return F(s(J(d),f),e)}function
+lK(c,b,a){switch(c){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
+hM(a){switch(a){case
+0:return[0,tT,tS,l(d)];case
+1:return cJ;default:var
+b=l(d),c=l(d);return[0,l(d),c,b]}}function
+fO(a){switch(a){case
+0:return tU;case
+1:return tV;default:return 0}}function
+fP(b,a){var
+c=aU(a[2],b);return g(aU(a[1],b),c)}function
+lL(j,q,i,p,h,d,n){if(d)var
+r=d[1],t=cK(n,fP(h,r)),D=Q(n,k(fP(h,r))),E=lL(j,q,i,p,h,d[2],D),m=al(t,tW),e=al(t,0),a=hM(j),f=aC(s,a,e),g=lz(q,m),v=hL(a[3],e[3]),w=hL(a[2],e[2]),x=hL(a[1],e[1]),y=F(F(F(ag(m,m),x),w),v),z=ag(g,f),A=o(l(b(2,c)),z),B=F(o(i,y),A),C=c7(hK(g,f),p),u=[0,[0,lK(j,aC(F,cj(i,f),g),C),B],E];else
 var
-x=k;return x}function
-hh(g,a){if(typeof
+u=d;return u}function
+hN(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
@@ -4338,187 +4460,568 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-hi(e,d,n,m,l,a){var
-f=r(af(cN(hh(m,a),l)),n);if(typeof
+hO(e,d,n,m,l,a){var
+f=o(J(cn(hN(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=ae(d,a[1]);if(b)var
-g=k(e,0,a[2]),h=g?[0,D(b[1][2],f)]:g;else
+b=X(d,a[1]);if(b)var
+g=j(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=ae(d,a[1]);if(c)var
-i=k(e,0,a[2]),j=i?[0,D(f,c[1][2])]:i;else
+c=X(d,a[1]);if(c)var
+i=j(e,0,a[2]),k=i?[0,s(f,c[1][2])]:i;else
 var
-j=c;return j}return 0}function
-k9(a,d,c,b){return e(function(a){var
-e=cN(hh(d,b),c),f=r(a[2],e);return[0,a[1],f]},a)}function
-k_(b,g,s,e,i,q,p,o){if(o){var
-_=k_(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+k=c;return k}return 0}function
+lM(a,d,c,b){return e(function(a){var
+e=cn(hN(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+lN(b,g,s,e,i,q,p,o){if(o){var
+$=lN(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=f(g,i),h=[0,t(f(a5(g),e),O,x)];else
+O=f(g,i),h=[0,t(f(aR(g),e),O,A)];else
 switch(a[0]){case
 0:var
-j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
+k=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+Q=[5,[0,c,c],a[1]],k=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-R=hi(b,e,i,q,p,a),h=J(function(a){return[3,f(g,a)]},R);break;case
+R=hO(b,e,i,q,p,a),h=D(function(a){return[3,f(g,a)]},R);break;case
 3:var
-S=hi(b,e,i,q,p,a),h=J(function(a){return[3,f(g,a)]},S);break;case
+S=hO(b,e,i,q,p,a),h=D(function(a){return[3,f(g,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=ae(e,a[1]),M=0;if(r){var
-w=k(b,1,v),y=w?k(b,0,u):w;if(y){var
-T=[5,u,v],U=[0,r[1],0],j=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
+u=a[3],v=a[2],r=X(e,a[1]),M=0;if(r){var
+w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
+T=[5,u,v],U=[0,r[1],0],k=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
-z=y}else
+y=x}else
 var
-z=r;if(!M)var
-h=z;break;case
+y=r;if(!M)var
+h=y;break;case
 7:var
-A=a[3],B=a[2],C=a[1],D=ae(e,C),N=0;if(D){var
-E=k(b,1,B),F=E?k(b,1,A):E;if(F){var
-V=[5,B,A],j=V,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};l=1;N=1}else
+z=a[3],B=a[2],C=a[1],E=X(e,C),N=0;if(E){var
+F=j(b,1,B),G=F?j(b,1,z):F;if(G){var
+W=[5,B,z],k=W,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};l=1;N=1}else
 var
-G=F}else
+H=G}else
 var
-G=D;if(!N)var
-h=G;break;case
+H=E;if(!N)var
+h=H;break;case
 8:var
-H=k(b,1,a[1]),I=H?k(b,1,a[2]):H;if(I)var
-W=am(b,c),X=f(g,i),Z=k9(e,q,p,a),K=[0,[0,f(a5(g),Z),X,W,0]];else
+I=j(b,1,a[1]),J=I?j(b,1,a[2]):I;if(J)var
+Y=ap(b,c),Z=f(g,i),_=lM(e,q,p,a),K=[0,[0,f(aR(g),_),Z,Y,0]];else
 var
-K=I;var
+K=J;var
 h=K;break;default:var
 h=0}if(l)var
-P=as(b,[0,[0,j,j],d]),h=J(function(a){var
-c=Y(b,a),d=f(g,i);return m(f(a5(g),n),d,c)},P);var
-L=[0,h,_]}else
+P=aj(b,[0,[0,k,k],d]),h=D(function(a){var
+c=V(b,a),d=f(g,i);return m(f(aR(g),n),d,c)},P);var
+L=[0,h,$]}else
 var
 L=o;return L}function
-k$(j,h,i,f,d,a){if(a){var
-n=k$(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
+lO(j,h,i,f,d,a){if(a){var
+n=lO(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(cI,k9(h,f,d,b));l=1}if(!l)var
-c=hi(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-sV(a){if(typeof
+k=e(cY,lM(h,f,d,b));l=1}if(!l)var
+c=hO(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+tX(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fp(a){var
-b=b_(a[1],[0,d,c]);return b?b_(a[2],[0,d,c]):b}function
-sW(l,a,m,bf){var
-y=a[1],h=ef(y),ap=a[3],bh=[0,[0,[0,ap,ap],m],0],bi=a[2],aq=g(E(function(a){return fo(m,a)},bi),bh),T=j(aq),bj=a[2],bk=j(E(function(a){return fo(m,a)},bj)),ar=a[3],bl=cN([0,[0,ar,ar],m],bk),bm=hg(y),bn=a[5];function
-i(a){return[0,[0,O(bm,a)]]}switch(bn[0]){case
-0:var
-aY=ek(i(0)),I=[0,fn(sB,i(0)),aY];break;case
-1:var
-aZ=ek(i(0)),a0=r(ek(i(sC)),aZ),a1=r(ek(i(sD)),a0),a2=fn(0,i(0)),a3=k1(fn(sF,i(sE)),a2),I=[0,k1(fn(sH,i(sG)),a3),a1];break;default:var
-a4=i(sI),a6=i(sJ),x=[0,i(0),a6,a4],a7=ay(x,x),a8=N(o(c),a7),aO=ay(x,x),s=x[1],v=x[2],w=x[3],P=function(a){var
-d=af(a),e=r(o(b(2,c)),d);return N(D(o(c),aO),e)},A=function(f,e,d,a){var
-g=V(f,r(e,d),a);return r(o(b(2,c)),g)},aQ=P(w),aR=A(N,v,w,s),aS=[0,A(D,s,w,v),aR,aQ],aT=A(D,v,w,s),aU=P(v),aV=[0,A(N,s,v,w),aU,aT],aW=A(N,s,w,v),aX=A(D,s,v,w),I=[0,[0,[0,P(s),aX,aW],aV,aS],a8]}var
-C=I[2],K=k8(y,I[1],C,bl,m,a[2],0),bo=O(T,j(a[6])),bq=hg(y),br=a[5];function
-B(a){return[0,[0,O(bq,a)]]}var
-ag=af([0,[1,bo]]);switch(br[0]){case
+lP(b,a){switch(b){case
+0:return[0,a[1],[0,a[2],0]];case
+1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
+fQ(a){var
+b=ci(a[1],[0,d,c]);return b?ci(a[2],[0,d,c]):b}function
+hP(d,a){switch(d){case
+0:return fQ(a[3]);case
+1:return 1;default:var
+b=fQ(a[1]),c=b?fQ(a[2]):b;return c?fQ(a[3]):c}}function
+eF(b,a){return bn(b,a[1],a[2])}function
+hQ(b,a){var
+c=eF(b,a[1]),d=c?eF(b,a[2]):c;return d?eF(b,a[3]):d}function
+tY(z,h,a,m,a0){var
+a1=a[2],at=n(function(a){var
+b=hQ(z,a[1]);return b?hQ(z,a[2]):b},a1),au=at?hQ(z,a[4]):at;if(au)var
+a2=fN(a[5]),O=n(function(a){return eF(z,a)},a2);else
+var
+O=au;if(O){var
+p=a[1],b=dP(p),W=a[3],aC=[0,[0,[0,W,W],m],0],aD=a[2],X=g(E(function(a){return fP(m,a)},aD),aC),B=k(X),aE=a[2],aF=k(E(function(a){return fP(m,a)},aE)),Y=a[3],aG=cn([0,[0,Y,Y],m],aF),aH=fO(p),Z=lB(a[5],aH),u=Z[2],y=lL(p,Z[1],u,aG,m,a[2],0),aI=Q(B,k(a[6])),aJ=fO(p),aL=a[5],r=function(a){return[0,[0,Q(aJ,a)]]},R=J([0,[1,aI]]);switch(aL[0]){case
 2:var
-a9=B(sK),a_=B(sL),ah=[0,B(0),a_,a9],p=[0,D(ag,ay(ah,ah))];break;case
+aw=r(tM),ax=r(tN),S=[0,r(0),ax,aw],i=[0,s(R,ag(S,S))];break;case
 3:var
-a$=af(B(sM)),ba=af(B(0)),bb=af(B(sN)),p=[0,D(D(r(ag,N(o(c),bb)),ba),a$)];break;default:var
-p=0}var
-bs=p?[0,p[1],0]:p,bt=[0,C,g(k$(l,K,C,m,T,a[6]),bs)],U=g(cP(K),bt),at=d5(e(function(a){return eg(h,a)},U))[1],F=d4(at);function
-z(a){return bJ(F,eg(h,a))}var
-bu=J(z,p),bv=z(C),au=f(a5(z),K),am=hg(y),an=u(j(au),h);if(an)var
-ao=J(function(a){return[0,[0,a,d],d]},bu),H=function(a){return t(a,F,o(d))},ae=H(bv),aN=bp(0,am),S=n(function(a){var
-b=dr(h,a,ae),c=b?n(function(b){var
-d=b[1],c=n(function(b){var
-c=H(b);return cU(O(h,a),c)},d);if(c){var
-e=H(b[2]);return hc(ae,O(h,a),e)}return c},au):b;if(c){if(ao){var
-e=H(ao[1][1][1]);return cU(O(h,a),e)}var
-d=1}else
+ay=J(r(tO)),az=J(r(0)),aA=J(r(tP)),i=[0,s(s(o(R,F(l(c),aA)),az),ay)];break;default:var
+i=0}var
+aM=i?[0,i[1],0]:i,aN=[0,u,g(lO(h,y,u,m,B,a[6]),aM)],C=g(bV(y),aN),_=dC(e(function(a){return eA(b,a)},C))[1],w=c5(_),q=function(a){return bA(w,eA(b,a))},aO=D(q,i),aP=q(u),$=f(aR(q),y),T=fO(p),U=v(k($),b);if(U)var
+V=D(function(a){return[0,[0,a,d],d]},aO),x=function(a){return t(a,w,l(d))},P=x(aP),av=a9(0,T),A=n(function(a){var
+c=dQ(b,a,P),d=c?n(function(c){var
+e=c[1],d=n(function(c){var
+d=x(c);return de(Q(b,a),d)},e);if(d){var
+f=x(c[2]);return hH(P,Q(b,a),f)}return d},$):c;if(d){if(V){var
+f=x(V[1][1][1]);return de(Q(b,a),f)}var
+e=1}else
 var
-d=c;return d},aN);else
+e=d;return e},av);else
 var
-S=an;var
-be=S?am:S,av=n(function(a){var
-b=eg(h,a),c=o(d);return bg(t(z(a),F,c),b)},U),aw=av?n(function(a){return kW(h,a)},U):av,ax=aw?aP(sV,a[6]):aw;if(ax){var
-L=a[4];switch(y){case
-0:var
-W=fp(L[3]);break;case
-1:var
-W=1;break;default:var
-ak=fp(L[1]),al=ak?fp(L[2]):ak,W=al?fp(L[3]):al}var
-X=W}else
+A=U;var
+aB=A?T:A,aa=n(function(a){var
+c=eA(b,a),e=l(d);return a$(t(q(a),w,e),c)},C),ab=aa?n(function(a){return lu(b,a)},C):aa,ac=ab?aK(tX,a[6]):ab,ad=ac?hP(p,a[4]):ac,ae=ad?j(h,1,a[3]):ad;if(ae)var
+aQ=fN(a[5]),G=n(function(a){var
+b=ez(h,a[1]);return b?ez(h,a[2]):b},aQ);else
 var
-X=ax;var
-aA=X?k(l,1,a[3]):X;if(aA)var
-bw=k2(a[5]),Y=n(function(a){var
-b=ha(l,a[1]);return b?ha(l,a[2]):b},bw);else
-var
-Y=aA;if(Y){var
-bx=a[6],by=g(aq,e(function(a){return hh(m,a)},bx)),Z=az(e(function(a){return as(l,a)},by));if(Z){var
-G=a[4];switch(y){case
-0:var
-_=[0,G[1],[0,G[2],0]];break;case
-1:var
-_=[0,G[1],[0,G[2],[0,G[3],0]]];break;default:var
-_=0}var
-$=az(e(function(a){return as(l,[0,a,m])},_));if($){var
-aB=$[1],q=a[5];switch(q[0]){case
-0:var
-M=[0,ds(q[1]),0];break;case
-1:var
-bc=[0,ds(q[3]),0],bd=[0,ds(q[2]),bc],M=[0,ds(q[1]),bd];break;case
+G=ae;if(G){var
+aS=a[6],aT=g(X,e(function(a){return hN(m,a)},aS)),H=ak(e(function(a){return aj(h,a)},aT));if(H){var
+aU=lP(p,a[4]),I=ak(e(function(a){return aj(h,[0,a,m])},aU));if(I){var
+af=I[1],aV=lD(a[5]),K=ak(e(function(a){return lF(h,a)},aV));if(K){var
+ah=K[1],aW=lC(a[5]),L=ak(e(function(a){return dO(h,a)},aW));if(L){var
+M=ak(lN(h,q,aB,y,u,m,B,a[6]));if(M){var
+N=M[1],ai=v(k(g(af,ah)),b),al=ai?n(function(a){switch(a[0]){case
 2:var
-Q=ds(cT(q[1])),M=[0,Q,[0,Q,[0,Q,0]]];break;default:var
-R=q[2],ai=q[1],aj=[0,[1,cT(ai)[1],R],[1,ai,R]],M=[0,aj,[0,aj,[0,ds(cT(R)),0]]]}var
-aa=az(e(function(d){var
-a=k3(l,d[1]);if(a)var
-b=k3(l,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
-var
-c=a;return c},M));if(aa){var
-aC=aa[1],aD=a[5],bz=1<aD[0]?[0,aD[1],0]:0,ab=az(e(function(a){return ee(l,a)},bz));if(ab){var
-ac=az(k_(l,z,be,K,C,m,T,a[6]));if(ac){var
-ad=ac[1],aE=u(j(g(aB,aC)),h),aF=aE?n(function(a){switch(a[0]){case
-2:var
-d=kZ(a[2]),b=[0,a[3],d];break;case
+e=lx(a[2]),c=[0,a[3],e];break;case
 3:var
-b=[0,a[1],0];break;default:var
-c=kZ(a[1]),b=[0,a[2],c]}return n(function(a){return k0(h,F,a)},b)},ad):aE,aG=aF?p?k0(h,F,z(p[1])):1:aF;if(aG){var
-bA=e(function(a){return 1},ad),bB=g(aB,aC),bC=J(z,p);return k7(l,at,g(Z[1],ab[1]),ad,h,h,bC,bB,bA,bf)}var
-aH=aG}else
+c=[0,a[1],0];break;default:var
+d=lx(a[1]),c=[0,a[2],d]}return n(function(a){return ly(b,w,a)},c)},N):ai,am=al?i?ly(b,w,q(i[1])):1:al;if(am){var
+aX=e(function(a){return 1},N),aY=g(af,ah),aZ=D(q,i);return lJ(h,_,g(H[1],L[1]),N,b,b,aZ,aY,aX,a0)}var
+an=am}else
 var
-aH=ac;var
-aI=aH}else
+an=M;var
+ao=an}else
 var
-aI=ab;var
-aJ=aI}else
+ao=L;var
+ap=ao}else
 var
-aJ=aa;var
-aK=aJ}else
+ap=K;var
+aq=ap}else
 var
-aK=$;var
-aL=aK}else
+aq=I;var
+ar=aq}else
 var
-aL=Z;var
-aM=aL}else
+ar=H;var
+as=ar}else
 var
-aM=Y;return aM}function
-fq(b,a){return bt(b,a[1],a[2])}function
-hj(b,a){var
-c=fq(b,a[1]),d=c?fq(b,a[2]):c;return d?fq(b,a[3]):d}var
-fs=D(o(c),fr);function
-la(e){var
-a=af(fs);if(e)var
-f=r(o(b(2,c)),a),g=N(o(b(2,b(2,c))),f),h=r(o(b(2,c)),a),d=av(N(o(c),h),g);else
+as=G;return as}return O}function
+bd(a){return typeof
+a==="number"?a?tZ:t0:dP(a[1])}function
+hR(a){if(0===a[0]){var
+b=a[1];switch(b[0]){case
+0:return b[3];case
+1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
+lQ(b,c,a){return b?hF(b[1],c,a):a}function
+cN(d,c,b,a){var
+e=hR(a),f=lQ(d,c,hR(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
+lR(b,a){var
+c=typeof
+b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
+d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
-i=N(o(b(2,c)),a),j=af(fr),d=av(N(r(o(b(2,c)),j),a),i);return cr(d)}function
-lb(d,b,a){if(d){var
-e=la(b),f=N(o(c),e),g=r(D(o(c),a),f);return D(o(c),g)}var
-h=o(c),i=la(b),j=av(o(c),i);return D(r(a,N(o(c),j)),h)}function
-dt(f,e,d,a){var
-g=af(a),h=af(d),i=D(D(o(b(2,c)),h),g),j=f?e?fs:av(fs,r(o(b(2,c)),fr)):av(fs,o(b(2,c))),k=r(af(j),i);return cr(N(o(c),k))}function
-lc(g,d){var
+d=c;return d}function
+lS(b,w,v){var
+e=w,d=v;for(;;){if(e){if(d){var
+f=d[1],i=e[1];if(0===i[0])var
+g=0===f[0]?k1(b,i[1],f[1]):0;else
+if(0===f[0])var
+g=0;else{var
+a=f[1],c=i[1],k=a5(b,c[1],a[1]),l=k?a5(b,c[2],a[2]):k,m=l?a5(b,c[3],a[3]):l,n=m?a5(b,c[4],a[4]):m,o=n?c_(b,c[5],a[5]):n,p=o?c_(b,c[6],a[6]):o,q=p?j(b,1,a[5]):p,r=q?j(b,1,a[6]):q,s=r?j(b,1,N(a[1],a[1])):r;if(s)var
+u=hw(a),h=j(b,1,N(hw(a),u));else
+var
+h=s;var
+g=h?cZ(c[7],a[7]):h}if(g){var
+e=e[2],d=d[2];continue}var
+t=g}else
+var
+t=d;return t}return d?0:1}}function
+lT(a){return typeof
+a==="number"?a?hM(0):cJ:hM(a[1])}function
+hS(b,d,c){if(0===c[0])return fE(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(aU(a[4],b),e),h=g(aU(a[3],b),f),i=g(aU(a[2],d[2]),h);return g(aU(a[1],d[1]),i)}function
+hT(b,a){if(b){var
+c=b[1],d=c[2];return c7(lz(c[1],a),d)}return a}function
+lU(f,w,am,M,ak,v,aj){if(v){var
+j=v[1],an=dx([0,d,d],ak),a=cK(aj,hS(M,an,j)),B=function(c,b){var
+d=al(a,c);return aC(s,aC(F,lT(f),b),d)};if(0===j[0]){var
+C=j[1];switch(C[0]){case
+0:var
+$=hT(w,al(a,t1)),aM=C[1][5],D=t(t2,a,l(d)),E=al(a,0),aa=B(t3,$),h=ko(aa,c8(E),aa,D,aM),ap=[0,aT(D),0],aq=[0,aT(ag(E,E)),ap],m=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],D]],aq],$];break;case
+1:var
+ab=hT(w,al(a,t4)),ac=C[3],G=ac?[0,al(a,t5)]:ac,ad=B(0,ab),n=kp(ad,ad,0);if(G)var
+N=G[1],O=[0,aT(ag(N,N)),0];else
+var
+O=G;var
+m=[0,[0,n[1],n[2],n[3],[0,n[4]],0,O],ab];break;default:var
+aN=l(d),aO=l(d),aP=[0,l(d),aO,aN],H=al(a,0),aQ=lT(f),p=kq(aQ,c8(H)),ar=[0,aT(ag(H,H)),0],m=[0,[0,p[1],p[2],p[3],[0,p[4]],0,ar],aP]}}else
+var
+ae=hT(w,al(a,t6)),aR=j[1][7],u=t(t7,a,l(d)),e=t(t8,a,l(d)),af=al(a,t9),I=al(a,0),K=B(t_,ae),i=c8(I),x=aC(s,af,cj(ag(i,af),i)),y=c8(x),P=hK(i,y),q=ag(K,y),r=ag(K,P),z=ag(i,K),as=J(r),R=F(J(q),as),at=J(u),au=s(J(e),at),S=F(J(z),au),av=o(l(b(2,c)),e),aw=J(s(ai(F(R,S),av),e)),ax=J(z),A=s(s(J(u),ax),aw),T=ai(l(c),R),ay=l(b(2,c)),az=o(S,T),U=ai(s(l(c),az),ay),V=kn(aR,o(e,aT(A))),W=o(V,T),aA=o(W,r),X=s(o(U,q),aA),aB=o(W,q),Y=F(o(U,r),aB),aD=cj(z,i),aE=cj(Y,P),Z=aC(F,aC(F,cj(X,y),aE),aD),aF=[0,aT(u),0],aG=[0,aT(e),aF],aH=[0,aT(ag(x,x)),aG],aI=[0,aT(ag(I,I)),aH],aJ=ai(s(r,Y),e),aK=[1,ai(s(q,X),e),aJ],aL=c7(Z,V),m=[0,[0,Z,o(J(e),A),aL,aK,[0,[0,A,u]],aI],ae];var
+aZ=Q(aj,k(hS(M,an,j))),a0=v[2],a1=lU(f,w,am,M,ek(ak),a0,aZ),g=m[1],a2=m[2],ah=function(a){var
+b=c7(hK(a2,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:c6(a):lK(f[1],a,b)},L=g[1],_=typeof
+f==="number"?1:0,aS=g[6],aU=g[5],aV=_?f?[0,L[1],[0,L[2],0]]:c6(L):_,aW=g[4],aX=ah(g[3]),aY=g[2],ao=[0,[0,ah(g[1]),aY,aX,aW,aV,aU,aS],a1]}else
+var
+ao=v;return ao}function
+hU(c,b,a){if(a){var
+e=a[2],f=hU(c,ek(b),e),h=a[1];return g(hS(c,dx([0,d,d],b),h),f)}return a}function
+lV(b,a){if(a){var
+g=lV([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cn([0,[0,d,d],c[2]],b);else
+var
+e=[0,[1,b]];var
+f=[0,e,g]}else
+var
+f=a;return f}function
+hV(b,a){return b?aa(a):d}function
+fR(c,b,a){if(typeof
+a!=="number")switch(a[0]){case
+4:var
+e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
+6:return[0,[0,[5,a[3],a[2]],d],0];case
+8:var
+g=hV(c,b),h=y(hV(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],aa(b)],0];case
+10:return[0,[0,a[2],d],0];case
+11:return[0,[2,a[2]],0];case
+12:return[0,[0,a[1],d],0];case
+2:case
+3:return[0,[0,a[2],b],0]}return 0}function
+lW(a){if(a){var
+b=a[1][6];if(b)var
+c=lW(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+var
+d=b;return d}return t$}function
+lX(y,U,b){function
+c(a){return t(a,U,l(d))}function
+N(a){var
+e=a[2],f=o(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dy(function(b,a){return s(b,J(a))},g,f),d],b]}function
+O(e){var
+a=e[6];if(a)var
+b=a[1],f=J(b[2]),g=o(J(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+var
+d=a;return d}var
+C=0;if(typeof
+b==="number")C=1;else
+switch(b[0]){case
+2:var
+V=function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0]){var
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
+3:var
+W=function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0]){var
+d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=W,f=b[1];break;case
+4:var
+Y=function(e){var
+a=e[4];if(typeof
+a!=="number"&&1===a[0]){var
+b=a[2],d=a[1],f=o(c(ua),b),g=[0,[0,s(o(c(ub),d),f),0],0],h=o(d,c(uc));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+6:var
+Z=function(a){var
+b=a[4];if(typeof
+b!=="number"&&1===b[0])return 0;return N(a)},g=Z,f=b[1];break;case
+9:var
+_=function(a){var
+b=a[4];if(typeof
+b!=="number"&&1===b[0])return N(a);return 0},g=_,f=b[1];break;case
+10:var
+g=O,f=b[1];break;case
+11:var
+$=function(a){var
+b=a[4];if(typeof
+b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
+12:var
+A=lW(y);if(A){var
+aa=c(0),P=dy(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+h=B[2],i=B[1];if(i){var
+j=i[2],D=i[1];if(j){var
+k=j[2],E=j[1];if(k)if(k[2]||!h)var
+a=l(d);else{var
+m=h[2],n=h[1];if(n){var
+p=n[2],G=n[1];if(p){var
+q=p[2],H=p[1];if(q){var
+I=q[1];if(q[2]||!m)var
+a=l(d);else{var
+r=m[1];if(r){var
+u=r[2],K=r[1];if(u){var
+v=u[2],L=u[1];if(v){var
+M=v[1];if(v[2]||m[2])var
+a=l(d);else
+var
+R=c9(G,H,K,L),S=o(k[1],R),T=o(E,c9(G,I,K,M)),a=F(s(o(D,c9(H,I,L,M)),T),S)}else
+var
+a=l(d)}else
+var
+a=l(d)}else
+var
+a=l(d)}}else
+var
+a=l(d)}else
+var
+a=l(d)}else
+var
+a=l(d)}else
+if(h){var
+w=h[1];if(w)var
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):c9(D,E,w[1],x[1]):l(d);else
+var
+a=l(d)}else
+var
+a=l(d)}else
+var
+a=l(d)}else
+var
+a=l(d)}else
+var
+a=l(d);var
+ab=[0,bS(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+var
+Q=A;return Q;default:C=1}if(C)return 0;var
+z=X(y,f);return z?g(z[1]):z}function
+fS(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fT(a){return e(function(a){var
+b=l(c);return[0,a[3],b]},a)}function
+lY(a,b){return e(function(a){var
+c=o(a[2],b);return[0,a[1],c]},a)}function
+lZ(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bV(lY(c,t(0,b,l(d))));return jX(lX(c,b,a))}function
+eG(f,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=eG(f,c,b,Q(e,k(fR(c,b,d))),h);return g(_(f,lV(e,fR(c,b,d)),d),i)}return a}function
+l0(b,a){switch(a[0]){case
+0:var
+d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
+1:var
+e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?ke(b,c[1]):c;case
+2:return dH(b,a[1]);default:return fo(b,a[1])}}function
+l1(g,h,m,I,H,q,a){if(typeof
+a==="number")return[0,[0,[0,A]],0];else
+switch(a[0]){case
+0:var
+J=[5,[0,c,c],a[1]],i=J,n=function(a){return[0,a]};break;case
+1:var
+M=[5,[0,c,c],a[1]],i=M,n=function(a){return[1,a]};break;case
+5:var
+x=a[1],P=0,Q=aj(g,[0,[0,x,x],d]);return[0,D(function(a){return[2,V(g,a)]},Q),P];case
+7:var
+y=a[3],z=a[2],B=a[1];if(!X(m,B))return uf;var
+G=0;if(j(g,1,z)&&j(g,1,y))var
+R=[5,z,y],i=R,n=function(a){return[7,B,a]};else
+G=1;if(G)return ue;break;case
+8:var
+C=j(g,1,a[1]),S=0,E=C?j(g,1,a[2]):C;if(E)var
+T=ap(g,c),U=lY(m,t(0,q,l(d))),F=[0,[4,f(aR(h),U),T]];else
+var
+F=E;return[0,F,S];default:var
+p=0;if(typeof
+a==="number")p=1;else
+switch(a[0]){case
+4:var
+s=a[3],u=a[2],v=j(g,1,[3,s,u]),O=v?j(g,1,[3,[2,u,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],s]):v,k=O;break;case
+6:case
+9:var
+w=j(g,1,a[2]),k=w?j(g,0,a[3]):w;break;default:p=1}if(p)var
+k=1;var
+o=k?lX(m,q,a):k;if(o){var
+N=[0,o[1],o[2]];return e(function(a){if(a){var
+b=a[2],c=a[1];if(b){if(b[2])return 0;var
+e=f(h,b[1]);return[0,[5,f(h,c),e]]}var
+d=[0,[3,f(h,c)]]}else
+var
+d=a;return d},N)}return ud}var
+K=0,L=aj(g,[0,[0,i,i],hV(I,H)]);return[0,D(function(a){return n(V(g,a))},L),K]}function
+l2(a){if(typeof
+a!=="number"&&0!==a[0])return 0;return 1}function
+uh(b){if(0===b[0])return[0,k_(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bs(a[4]),g=bs(a[3]),h=bs(a[2]);return[1,[0,bs(a[1]),h,g,f,e,d,c]]}function
+ui(K,c,a,h,an,aS){var
+aT=e(uh,a[2]),ao=lS(K,a[2],aT);if(ao)var
+aU=k$(a[4]),L=ht(K,a[4],aU);else
+var
+L=ao;if(L){var
+ap=a[5];if(ap)var
+aV=fN(ap[1]),aq=n(function(a){return eF(K,a)},aV);else
+var
+aq=1;var
+M=aq}else
+var
+M=L;if(M){var
+b=a[1],au=bd(b),q=a[6],x=hU(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,k(x)],y=a[2],o=y?0===y[1][0]?0:1:y,av=a[5],aw=D(function(a){var
+c=typeof
+b==="number"?0:fO(b[1]);return lB(a,c)},av),ax=a[2],i=lU(b,aw,cn(S,k(x)),h,an,ax,0),U=E(function(a){return a[7]},i),ay=g(U,eG(function(a,b){return lZ(i,a,b)},o,h,T,q)),az=g(bV(fT(i)),ay),V=g(bV(fS(i)),az),z=dC(V)[1],aA=c5(z),p=function(a){return bA(aA,a)},W=n(function(a){var
+b=l(d),c=c5(z);return a$(t(p(a),c,b),a)},V),X=W?aK(l2,q):W;if(X){var
+Y=a[4];if(typeof
+b==="number")var
+Z=b?hP(0,fJ(Y)):1;else
+var
+as=fJ(Y),Z=hP(b[1],as);var
+A=Z}else
+var
+A=X;if(A){var
+O=a[1];if(typeof
+O==="number")var
+r=a[5]?0:1;else
+if(2<=O[1])var
+r=0;else{var
+u=a[5],N=0;if(u){var
+P=j(c,1,a[3]);if(P)var
+at=fN(u[1]),r=n(function(a){var
+b=ez(c,a[1]);return b?ez(c,a[2]):b},at);else{var
+Q=P;N=1}}else{var
+Q=u;N=1}if(N)var
+r=Q}var
+B=r}else
+var
+B=A;if(B)var
+aB=a[2],C=n(function(a){var
+b=0===a[0]?0:1;return cZ(b,o)},aB);else
+var
+C=B;if(C){var
+aC=g(x,[0,S,0]),F=ak(e(function(a){return aj(c,a)},aC));if(F){var
+aD=E(function(a){return fR(o,h,a)},q),G=ak(e(function(a){return l0(c,a)},aD));if(G){var
+m=fJ(a[4]),aE=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lP(b[1],m),H=ak(e(function(a){return aj(c,[0,a,h])},aE));if(H){var
+_=H[1],$=a[5];if($)var
+aF=lD($[1]),s=ak(e(function(a){return lF(c,a)},aF));else
+var
+s=ug;if(s){var
+aa=s[1],w=a[5],aG=w?lC(w[1]):w,I=ak(e(function(a){return dO(c,a)},aG));if(I){var
+J=ak(eG(function(a,b){return l1(c,p,i,o,h,a,b)},o,h,T,q));if(J){var
+ab=J[1],ac=v(k(g(_,aa)),au);if(ac){var
+aH=ho(ab),aI=g(_,aa),ar=0,aJ=a[4];if(typeof
+b==="number"&&!b){var
+ad=function(a){return k0(c,aJ,h,a)};ar=1}if(!ar)var
+ad=function(a){return 0};var
+aL=g(G[1],I[1]),aM=g(F[1],aL),aN=e(p,U),aO=fT(i),aP=f(aR(p),aO),aQ=fS(i);return fC(c,z,f(aR(p),aQ),aP,aN,aM,ab,ad,aI,aH,aS)}var
+ae=ac}else
+var
+ae=J;var
+af=ae}else
+var
+af=I;var
+ag=af}else
+var
+ag=s;var
+ah=ag}else
+var
+ah=H;var
+ai=ah}else
+var
+ai=G;var
+al=ai}else
+var
+al=F;var
+am=al}else
+var
+am=C;return am}return M}function
+bF(c){var
+a=c;for(;;)switch(a[0]){case
+0:var
+b=a[1];return[0,[0,[0,b,b],d],0];case
+1:return 0;case
+2:case
+7:case
+8:var
+a=a[1];continue;default:var
+e=bF(a[2]);return g(bF(a[1]),e)}}function
+bt(e,a,b){switch(a[0]){case
+0:var
+r=a[1];return cn([0,[0,r,r],d],b);case
+1:var
+u=a[1],g=e,v=l(d);for(;;){if(g){var
+n=g[1];if(pk(n[1],u))return n[2];var
+g=g[2];continue}return v}case
+2:return bS(bt(e,a[1],b));case
+3:var
+i=a[2],f=a[1],h=F;break;case
+4:var
+i=a[2],f=a[1],h=s;break;case
+5:var
+i=a[2],f=a[1],h=o;break;case
+6:var
+i=a[2],f=a[1],h=ai;break;case
+7:var
+j=ei(a[2]),m=bt(e,a[1],b);if(j){if(j[1]){var
+p=J(m),t=function(a){return o(a,p)},q=fc(bQ(jP(j)),t,p);return jO(j)?q:o(q,m)}return m}return l(c);default:return aT(bt(e,a[1],b))}var
+w=bt(e,i,Q(b,k(bF(f))));return h(bt(e,f,b),w)}function
+cO(c,f,b){var
+a=f;for(;;)switch(a[0]){case
+6:var
+e=a[1],j=Q(b,k(bF(e))),l=cO(c,a[2],j),m=g(cO(c,e,b),l);return[0,bt(c,a,b),m];case
+8:var
+n=cO(c,a[1],b);return[0,bt(c,a,b),n];case
+2:case
+7:var
+a=a[1];continue;case
+0:case
+1:return 0;default:var
+d=a[1],h=Q(b,k(bF(d))),i=cO(c,a[2],h);return g(cO(c,d,b),i)}}function
+l3(c,a,b){if(a){var
+e=a[1],d=e[2],f=Q(b,k(bF(d))),h=a[2],i=bt(c,d,b),j=l3([0,[0,e[1],i],c],h,f);return g(cO(c,d,b),j)}return a}function
+hW(a){return E(bF,a)}function
+l4(c,a,b){if(a)var
+d=a[1],f=Q(b,k(bF(d))),g=l4(c,a[2],f),e=[0,bt(c,d,b),g];else
+var
+e=a;return e}function
+l5(c,a,b){if(a){var
+d=a[1],e=Q(b,k(bF(d))),f=l5(c,a[2],e);return g(cO(c,d,b),f)}return a}function
+hX(a){return 0===a[0]?hW(a[1]):bF(a[1])}function
+l6(c,b,a){if(b){var
+d=b[1],i=Q(a,k(hX(d))),j=l6(c,b[2],i);if(0===d[0])var
+f=l5(c,d[1],a);else
+var
+e=d[1],h=cO(c,e,a),f=[0,bt(c,e,a),h];return g(f,j)}return b}function
+fU(c){var
+a=c[1];switch(a[0]){case
+0:var
+b=[1,a[1]];break;case
+1:var
+b=[0,a[1]];break;default:var
+b=c4(fU,a)}return[0,b]}function
+hY(c){var
+b=c;for(;;){var
+a=b[1];switch(a[0]){case
+5:var
+b=a[1];continue;case
+6:var
+d=hY(a[2]);return o(hY(a[1]),d);case
+9:return a[1];default:return J(b)}}}function
+l7(n,g,a,f){if(a){var
+b=a[1],w=Q(f,k(hX(b))),x=l7(n,g,a[2],w);if(0===b[0])var
+j=l4(g,b[1],f),o=[0,j,l(c),j,0,0,0,0];else
+var
+m=bt(g,b[1],f),q=fU(m),h=bo(a9(0,n),q),d=fU(h[2]),i=e(fU,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return a$(a,d)?l(c):ai(a,d)},i),o=[0,i,hY(d),v,u,t,s,r];var
+p=[0,o,x]}else
+var
+p=a;return p}function
+l8(a){return e(function(a){return[0,a[2],d]},a)}function
+l9(a){var
+b=E(hX,a[4]),c=g(hW(e(cY,a[3])),b);return g(l8(a[2]),c)}function
+l_(a){var
+c=cK(0,l8(a[2])),d=a9(0,k(a[1])),f=e(function(a){return[0,[0,a]]},d),b=a0(e(a3,a[2]),c);return g(a0(a[1],f),b)}function
+hZ(b,d){var
+a=d;for(;;)switch(a[0]){case
+0:return 1;case
+1:var
+e=a[1];return aK(function(a){return aq(e,a)},b);case
+2:case
+7:case
+8:var
+a=a[1];continue;default:var
+c=hZ(b,a[1]);if(c){var
+a=a[2];continue}return c}}function
+l$(d){var
+a=d;for(;;){if(a){var
+b=a[2],e=a[1],c=at(aK(function(b){return function(a){return pk(b,a)}}(e),b));if(c){var
+a=b;continue}return c}return 1}}var
+fW=s(l(c),fV);function
+ma(e){var
+a=J(fW);if(e)var
+f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=ai(F(l(c),h),g);else
+var
+i=F(l(b(2,c)),a),j=J(fV),d=ai(F(o(l(b(2,c)),j),a),i);return aT(d)}function
+mb(d,b,a){if(d){var
+e=ma(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=ma(b),j=ai(l(c),i);return s(o(a,F(l(c),j)),h)}function
+dS(f,e,d,a){var
+g=J(a),h=J(d),i=s(s(l(b(2,c)),h),g),j=f?e?fW:ai(fW,o(l(b(2,c)),fV)):ai(fW,l(b(2,c))),k=o(J(j),i);return aT(F(l(c),k))}function
+mc(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hk(v,u,s){var
+e=b[2],f=c[1]?G(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+h0(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
@@ -4528,7 +5031,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 w=j[1],x=i[1],y=h[1],z=g[1];return n(function(a){var
-c=f(a,w),d=f(a,x),e=f(a,y),b=f(a,z);return e6([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=f(a,w),d=f(a,x),e=f(a,y),b=f(a,z);return fq([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -4550,12 +5053,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-ld(f,i,e,b,h){var
-j=f?c:d,a=am(i,j);function
+md(f,i,e,b,h){var
+j=f?c:d,a=ap(i,j);function
 g(b){var
-c=f?eZ(b):da(b);return M(c,a)}var
-k=[0,aq(h),0],l=[0,[0,a,b,[0,x,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-le(r,g,q,p,f,o,n){if(o){var
+c=f?fi(b):dB(b);return L(c,a)}var
+k=[0,aw(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+me(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4564,16 +5067,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aW,bs(sZ)),a=hk(p,j4(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(a4,bD(uo)),a=h0(p,kH(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=I(k[2],l[1]);b=1;c=1;d=1;break}else
+a=M(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lc,s0),a=hk(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(mc,up),a=h0(p,bT(0,cG(g,md(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lc,s1),a=hk(p,bI(0,cs(g,ld(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(mc,uq),a=h0(p,bT(0,cG(g,md(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4583,27 +5086,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?s2:a}else
+y=a?ur:a}else
 var
 y=n;return y}return[0,n]}function
-lf(f,e,d,c,p,o,n){var
+mf(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=le(f,e,d,c,b,a[1],g);return h?au(h[1]):h}var
-i=le(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d9(a[2],b),l=lf(f,e,d,c,k[1],j,a[3]);if(l){var
+h=me(f,e,d,c,b,a[1],g);return h?at(h[1]):h}var
+i=me(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=es(a[2],b),l=mf(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hl(a){return jh(b(2,c),aS(a,c))}function
-du(i,a,e,w,v){var
-l=a?c:aa(c),f=o(l),g=lb(a,e,sX),h=lb(a,e,sY),m=av(g,dt(a,e,f,g)),n=[0,N(av(h,dt(a,e,h,f)),m),0],p=av(f,dt(a,e,f,g)),q=[0,N(av(h,dt(a,e,g,h)),p),n],s=av(f,dt(a,e,h,f)),t=[0,N(av(g,dt(a,e,g,h)),s),q],u=a?e?o(b(2,c)):r(o(b(2,b(2,c))),fr):o(b(2,b(2,c))),j=d5([0,u,t]),k=[0,d,cK(i)];return lf(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lg(a,g,b){if(S(g,hl(a))){if(b){var
+h1(a){return jR(b(2,c),aY(a,c))}function
+dT(i,a,e,w,v){var
+m=a?c:aa(c),f=l(m),g=mb(a,e,um),h=mb(a,e,un),n=ai(g,dS(a,e,f,g)),p=[0,F(ai(h,dS(a,e,h,f)),n),0],q=ai(f,dS(a,e,f,g)),r=[0,F(ai(h,dS(a,e,g,h)),q),p],s=ai(f,dS(a,e,h,f)),t=[0,F(ai(g,dS(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fV):l(b(2,b(2,c))),j=dC([0,u,t]),k=[0,d,c2(i)];return mf(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+mg(a,g,b){if($(g,h1(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hl(a)],v=cK(a),i=[0,hl(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
-l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
+h=[0,g,h1(a)],v=c2(a),i=[0,h1(a),v],j=dT(a,0,1,h,b[1]),k=j?dT(a,0,0,i,c[1]):j;if(k){var
+l=dT(a,1,1,h,d[1]);if(l)return dT(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4620,241 +5123,255 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cK(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
+r=[0,g,c2(a)],s=dT(a,0,0,r,b[1]);if(s)return dT(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hm(a){var
-b=[1,[2,d]];return gy(function(b,a){return[1,[3,b,a]]},a,b)}function
-ft(a){return hm(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fu(a,c){return hm(e(function(a){var
-d=[0,a[2]],b=a$(a[1],c);return[1,[7,[1,[8,hm(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lh(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-g=a[1],h=db(function(a){return lh(e,d,c,b,a)},g);return f(cs(e,d,c),h)}function
-li(a){return a?S(d,a[1][2][1]):a}function
-s3(a){var
-b=u(j(a),s4);return b?aP(function(a){return au(ad(a,d))},a):b}function
-lj(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,am(c,a[1]),f),h=lj(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+h2(a){var
+b=[1,[2,d]];return dy(function(b,a){return[1,[3,b,a]]},a,b)}function
+fX(a){return h2(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fY(a,c){return h2(e(function(a){var
+d=[0,a[2]],b=a0(a[1],c);return[1,[7,[1,[8,h2(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mh(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+g=a[1],h=c4(function(a){return mh(e,d,c,b,a)},g);return f(cG(e,d,c),h)}function
+mi(a){return a?$(d,a[1][2][1]):a}function
+us(a){var
+b=v(k(a),ut);return b?aK(function(a){return at(ah(a,d))},a):b}function
+mj(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,ap(c,a[1]),f),h=mj(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fv(b,a){return jm(jm(b,0),a)}function
-hn(a){if(a){var
-b=a[2],c=a[1];if(b)return fv(c,[0,s6,hn(b)]);var
+fZ(b,a){return jW(jW(b,0),a)}function
+h3(a){if(a){var
+b=a[2],c=a[1];if(b)return fZ(c,[0,uv,h3(b)]);var
 d=c}else
 var
 d=a;return d}function
-y(a){return[0,s8,fv(hn(a),s7)]}function
-R(a){return[0,s_,fv(hn(a),s9)]}function
-aj(a){return[0,ta,[0,a,s$]]}function
-h(b,a){return[0,aE(tc,aE(b,tb)),a]}function
-H(b,a){return R([0,h(b,a),0])}function
-cc(d){var
-b=d,a=rh,e=0;for(;;){if(b){var
-c=jd(a),b=b[1],a=c;continue}return[0,d0(eQ(a)),e]}}function
-ho(a){return[0,d0(eU(a)),0]}function
-fw(a){var
-c=b0(a),f=0,b=0===c?rl:0<c?[0,eU(a)]:[1,eU(aa(a))];if(0===b[0])var
-d=d0(b[1]);else
+x(a){return[0,ux,fZ(h3(a),uw)]}function
+S(a){return[0,uz,fZ(h3(a),uy)]}function
+am(a){return[0,uB,[0,a,uA]]}function
+h(b,a){return[0,aH(uD,aH(b,uC)),a]}function
+I(b,a){return S([0,h(b,a),0])}function
+cp(d){var
+b=d,a=so,e=0;for(;;){if(b){var
+c=jN(a),b=b[1],a=c;continue}return[0,en(fb(a)),e]}}function
+h4(a){return[0,en(ff(a)),0]}function
+f0(a){var
+c=b$(a),f=0,b=0===c?ss:0<c?[0,ff(a)]:[1,ff(aa(a))];if(0===b[0])var
+d=en(b[1]);else
 var
-e=d0(b[1]),d=aE(be(1,45),e);return[0,d,f]}function
-hp(a){var
-b=0,c=0<b0(a)?eU(a):rk;return[0,d0(c),b]}function
-hq(a){switch(a[0]){case
-2:return te;case
-3:return 2<=a[1]?tf:tg;case
-4:return th;default:return td}}function
-el(b,a){function
-c(c,a){return ac(c,hq(a))?el(b,a):[0,tn,g(el(b,a),tm)]}switch(a[0]){case
+e=en(b[1]),d=aH(bq(1,45),e);return[0,d,f]}function
+h5(a){var
+b=0,c=0<b$(a)?ff(a):sr;return[0,en(c),b]}function
+h6(a){switch(a[0]){case
+2:return uF;case
+3:return 2<=a[1]?uG:uH;case
+4:return uI;default:return uE}}function
+eH(b,a){function
+c(c,a){return Z(c,h6(a))?eH(b,a):[0,uO,g(eH(b,a),uN)]}switch(a[0]){case
 0:var
 e=a[2],h=a[1];if(typeof
-e==="number")return[0,a3(h),0];var
-i=[0,to,[0,a3(e),0]];return[0,a3(h),i];case
+e==="number")return[0,a_(h),0];var
+i=[0,uP,[0,a_(e),0]];return[0,a_(h),i];case
 1:return[0,f(b,a[1]),0];case
-2:return[0,tq,c(tp,a[1])];case
+2:return[0,uR,c(uQ,a[1])];case
 3:var
-j=a[3],k=c([0,hq(a)],j);switch(a[1]){case
+j=a[3],k=c([0,h6(a)],j);switch(a[1]){case
 0:var
-d=ti;break;case
+d=uJ;break;case
 1:var
-d=tj;break;case
+d=uK;break;case
 2:var
-d=tk;break;default:var
-d=tl}var
-l=a[2];return g(c(hq(a),l),[0,d,k]);case
+d=uL;break;default:var
+d=uM}var
+l=a[2];return g(c(h6(a),l),[0,d,k]);case
 4:var
-m=[0,tr,ho(a[2])];return g(c(ts,a[1]),m);default:return[0,tu,g(el(b,a[1]),tt)]}}function
-G(a){return[0,tx,g(el(function(a){return 0===a[0]?a[1]:tw},a),tv)]}function
-lk(a){return[0,tz,g(el(function(a){return a},a),ty)]}function
-cy(a){if(0===a[0])return G(a[1]);var
-b=[0,h(tA,G(a[2])),0];return R([0,h(tB,G(a[1])),b])}function
-em(b,a){var
-c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return y([0,f(b,a[1]),d])}function
-tC(a){function
-b(a){return em(cy,a)}switch(a[0]){case
+m=[0,uS,h4(a[2])];return g(c(uT,a[1]),m);default:return[0,uV,g(eH(b,a[1]),uU)]}}function
+H(a){return[0,uY,g(eH(function(a){return 0===a[0]?a[1]:uX},a),uW)]}function
+h7(a){return[0,u0,g(eH(function(a){return a},a),uZ)]}function
+cq(a){if(0===a[0])return H(a[1]);var
+b=[0,h(u1,H(a[2])),0];return S([0,h(u2,H(a[1])),b])}function
+f1(b,a){var
+c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return x([0,f(b,a[1]),d])}function
+u3(a){function
+b(a){return f1(cq,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?tD:tL,i=[0,h(tE,aj(f)),e],j=[0,h(tF,cy(a[4])),i],k=[0,h(tG,b(a[3])),j],l=[0,h(tH,b(a[2])),k],m=[0,h(tI,b(a[1])),l],c=[0,h(tK,aj(tJ)),m];break;case
+e=0,f=a[5]?u4:va,i=[0,h(u5,am(f)),e],j=[0,h(u6,cq(a[4])),i],k=[0,h(u7,b(a[3])),j],l=[0,h(u8,b(a[2])),k],m=[0,h(u9,b(a[1])),l],c=[0,h(u$,am(u_)),m];break;case
 1:var
-d=a[3],n=d?[0,h(tM,b(d[1])),0]:d,o=[0,h(tN,b(a[2])),0],p=[0,h(tO,b(a[1])),o],c=g([0,h(tQ,aj(tP)),p],n);break;default:var
-q=[0,h(tR,b(a[1])),0],c=[0,h(tT,aj(tS)),q]}return R(c)}function
-tU(a){function
-b(a){return em(cy,a)}var
-c=0,d=a[7]?tV:t5,e=[0,h(tW,aj(d)),c],f=[0,h(tX,cy(a[6])),e],g=[0,h(tY,cy(a[5])),f],i=[0,h(tZ,b(a[4])),g],j=[0,h(t0,b(a[3])),i],k=[0,h(t1,b(a[2])),j],l=[0,h(t2,b(a[1])),k];return R([0,h(t4,aj(t3)),l])}function
-hr(a){switch(a){case
-0:return t6;case
-1:return t7;case
-2:return t8;case
-3:return t9;case
-4:return t_;case
-5:return t$;case
-6:return ua;case
-7:return ub;case
-8:return uc;case
-9:return ud;case
-10:return ue;case
-11:return uf;default:return ug}}function
-hs(a){if(typeof
-a==="number")return uh;else
+d=a[3],n=d?[0,h(vb,b(d[1])),0]:d,o=[0,h(vc,b(a[2])),0],p=[0,h(vd,b(a[1])),o],c=g([0,h(vf,am(ve)),p],n);break;default:var
+q=[0,h(vg,b(a[1])),0],c=[0,h(vi,am(vh)),q]}return S(c)}function
+vj(a){function
+b(a){return x(e(cq,a))}function
+d(a){var
+b=a?vk:vm;return h(vl,am(b))}switch(a[0]){case
+0:var
+f=[0,d(a[5]),0],g=[0,h(vn,cq(a[4])),f],i=[0,h(vo,b(a[3])),g],j=[0,h(vp,b(a[2])),i],k=[0,h(vq,b(a[1])),j],c=[0,h(vs,am(vr)),k];break;case
+1:var
+l=[0,h(vt,b(a[2])),0],m=[0,h(vu,b(a[1])),l],c=[0,h(vw,am(vv)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,h(vx,cq(a[6])),n],p=[0,h(vy,cq(a[5])),o],q=[0,h(vz,b(a[4])),p],r=[0,h(vA,b(a[3])),q],s=[0,h(vB,b(a[2])),r],t=[0,h(vC,b(a[1])),s],c=[0,h(vE,am(vD)),t]}return S(c)}function
+h8(a){switch(a){case
+0:return vF;case
+1:return vG;case
+2:return vH;case
+3:return vI;case
+4:return vJ;case
+5:return vK;case
+6:return vL;case
+7:return vM;case
+8:return vN;case
+9:return vO;case
+10:return vP;case
+11:return vQ;case
+12:return vR;default:return vS}}function
+h9(a){if(typeof
+a==="number")return vT;else
 switch(a[0]){case
-0:return ui;case
-1:return uj;default:return uk}}function
-en(a){var
+0:return vU;case
+1:return vV;default:return vW}}function
+eI(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(ul,G(b[1])),0];break;case
+c=[0,h(vX,H(b[1])),0];break;case
 1:var
-c=[0,h(um,G(b[1])),0];break;default:var
-l=[0,G(b[2]),0],c=[0,h(un,y([0,G(b[1]),l])),0]}var
-m=[0,h(uo,aj(hs(a[4]))),c],e=a[3];if(e){var
+c=[0,h(vY,H(b[1])),0];break;default:var
+l=[0,H(b[2]),0],c=[0,h(vZ,x([0,H(b[1]),l])),0]}var
+m=[0,h(v0,am(h9(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=y([0,G(d[1]),0]),i=a[1],n=0,p=6===i?up:12<=i?ut:uu,j=[0,h(uq,H(p,o)),n];else
+o=x([0,H(d[1]),0]),i=a[1],n=0,p=6===i?v1:12===i?v5:v6,j=[0,h(v2,I(p,o)),n];else
 var
-t=[0,h(uv,y([0,G(d[2]),0])),0],j=[0,h(ux,R([0,h(uw,y([0,G(d[1]),0])),t])),0];var
+t=[0,h(v7,x([0,H(d[2]),0])),0],j=[0,h(v9,S([0,h(v8,x([0,H(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=g(k,m),f=a[2],r=f?[0,h(ur,cc(f[1])),0]:f,s=g(r,q);return R([0,h(us,aj(hr(a[1]))),s])}function
-ll(a){if(0===a[0]){var
-b=[0,h(uy,em(G,a[2])),0];return H(uA,R([0,h(uz,em(G,a[1])),b]))}var
-c=[0,G(a[5]),0],d=[0,h(uB,y([0,G(a[4]),c])),0],e=[0,h(uC,G(a[3])),d],f=[0,G(a[2]),0];return H(uE,R([0,h(uD,y([0,G(a[1]),f])),e]))}function
-uI(a){function
-b(a){return y(e(cy,a))}var
-c=[0,h(uJ,b(a[2])),0],d=[0,h(uK,b(a[1])),c];return R([0,h(uM,aj(uL)),d])}function
-uW(a){function
-b(a){return em(G,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(uX,b(c[1])),0]:c,f=[0,G(a[4]),0],i=[0,h(uY,y([0,G(a[3]),f])),0],j=[0,h(uZ,G(a[2])),i],k=[0,h(u0,cc(a[1])),j],d=g([0,h(u2,aj(u1)),k],e);else
+q=g(k,m),f=a[2],r=f?[0,h(v3,cp(f[1])),0]:f,s=g(r,q);return S([0,h(v4,am(h8(a[1]))),s])}function
+mk(a){if(0===a[0]){var
+b=[0,h(v_,f1(H,a[2])),0];return I(wa,S([0,h(v$,f1(H,a[1])),b]))}var
+c=[0,H(a[5]),0],d=[0,h(wb,x([0,H(a[4]),c])),0],e=[0,h(wc,H(a[3])),d],f=[0,H(a[2]),0];return I(we,S([0,h(wd,x([0,H(a[1]),f])),e]))}function
+ml(a){switch(a){case
+0:return wi;case
+1:return wj;default:return wk}}function
+wl(a){function
+b(a){return x(e(cq,a))}var
+c=[0,h(wm,b(a[2])),0],d=[0,h(wn,b(a[1])),c];return S([0,h(wp,am(wo)),d])}function
+mm(a){function
+b(b,a){var
+c=[0,H(a),0];return x([0,H(b),c])}switch(a[0]){case
+0:return I(wq,b(a[1],a[2]));case
+1:var
+c=a[3],d=a[2],e=a[1],f=[0,h(wr,b(c[1],c[2])),0],g=[0,h(ws,b(d[1],d[2])),f];return I(wu,S([0,h(wt,b(e[1],e[2])),g]));case
+2:return I(wv,H(a[1]));default:var
+i=[0,h(ww,H(a[2])),0];return I(wy,S([0,h(wx,H(a[1])),i]))}}function
+wz(a){function
+b(a){return f1(H,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(wA,b(c[1])),0]:c,f=[0,H(a[4]),0],i=[0,h(wB,x([0,H(a[3]),f])),0],j=[0,h(wC,H(a[2])),i],k=[0,h(wD,cp(a[1])),j],d=g([0,h(wF,am(wE)),k],e);else
 var
-l=[0,h(u3,G(a[4])),0],m=[0,h(u4,b(a[3])),l],n=[0,h(u5,b(a[2])),m],o=a[1]?u6:u8,d=[0,h(u7,aj(o)),n];return R(d)}function
-ht(d,c,a,b){var
-f=[0,h(u9,y(e(en,b))),0],i=a?[0,h(u_,y(e(uW,a))),0]:a,j=g(i,f),k=[0,h(u$,ll(c)),0];return R(g([0,h(vb,H(va,y(e(tC,d)))),k],j))}function
-vc(a){switch(a[0]){case
-0:return H(vd,ht(a[1],a[2],a[3],a[4]));case
+l=[0,h(wG,H(a[4])),0],m=[0,h(wH,b(a[3])),l],n=[0,h(wI,b(a[2])),m],o=a[1]?wJ:wL,d=[0,h(wK,am(o)),n];return S(d)}function
+h_(d,c,a,b){var
+f=[0,h(wM,x(e(eI,b))),0],i=a?[0,h(wN,x(e(wz,a))),0]:a,j=g(i,f),k=[0,h(wO,mk(c)),0];return S(g([0,h(wQ,I(wP,x(e(u3,d)))),k],j))}function
+wR(a){switch(a[0]){case
+0:return I(wS,h_(a[1],a[2],a[3],a[4]));case
 1:var
-o=[0,h(ve,y(e(en,a[3]))),0],p=[0,h(vf,ll(a[2])),o];return H(vi,R([0,h(vh,H(vg,y(e(tU,a[1])))),p]));case
+c=a[5],d=a[3],f=a[1],i=x(e(vj,a[2])),p=[0,h(wT,x(e(eI,a[6]))),0],q=c?[0,h(wU,mm(c[1])),0]:c,r=g(q,p),b=a[4];if(0===b[0])var
+o=[0,h(wf,x(e(H,b[2]))),0],j=I(wh,S([0,h(wg,x(e(H,b[1]))),o]));else
+var
+j=mk([1,b[1],b[2],b[3],b[4],b[5]]);var
+n=0,s=[0,h(wV,j),r];if(typeof
+f==="number")if(f)var
+k=wW;else{var
+l=I(w1,i);n=1}else
+var
+k=ml(f[1]);if(!n)var
+t=d?[0,h(wX,H(d[1])),0]:d,l=I(k,S([0,h(wY,i),t]));return I(w0,S([0,h(wZ,l),s]));case
 2:var
-q=[0,h(vj,y(e(en,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,G(a),0];return y([0,G(b),c])};switch(b[0]){case
-0:var
-d=H(uN,c(b[1],b[2]));break;case
-1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(uO,c(g[1],g[2])),0],m=[0,h(uP,c(i[1],i[2])),l],d=H(uR,R([0,h(uQ,c(j[1],j[2])),m]));break;case
-2:var
-d=H(uS,G(b[1]));break;default:var
-n=[0,h(uT,G(b[2])),0],d=H(uV,R([0,h(uU,G(b[1])),n]))}var
-r=[0,h(vk,d),q],s=[0,h(vl,y(e(G,a[5]))),0],t=[0,h(vo,H(vn,R([0,h(vm,y(e(G,a[4]))),s]))),r],u=[0,h(vp,G(a[3])),0],v=R([0,h(vq,y(e(uI,a[2]))),u]);switch(a[1]){case
-0:var
-f=uF;break;case
-1:var
-f=uG;break;default:var
-f=uH}return H(vs,R([0,h(vr,H(f,v)),t]));case
+u=[0,h(w2,x(e(eI,a[7]))),0],v=[0,h(w3,mm(a[6])),u],w=[0,h(w4,x(e(H,a[5]))),0],y=[0,h(w7,I(w6,S([0,h(w5,x(e(H,a[4]))),w]))),v],z=[0,h(w8,H(a[3])),0],A=S([0,h(w9,x(e(wl,a[2]))),z]);return I(w$,S([0,h(w_,I(ml(a[1]),A)),y]));case
 3:var
-w=[0,h(vt,y(e(en,a[7]))),0],x=[0,h(vu,y(e(G,a[6]))),0],z=[0,h(vx,H(vw,R([0,h(vv,y(e(G,a[5]))),x]))),w],A=0,B=a[4],C=[0,h(vz,y(e(function(a){return H(vy,y(e(lk,a)))},B))),A],D=a[3],E=[0,h(vA,y(e(function(a){var
-b=[0,lk(a[2]),0];return y([0,aj(a[1]),b])},D))),C],F=a[2],I=[0,h(vB,y(e(function(a){var
-b=[0,cy(a[2]),0];return y([0,aj(a[1]),b])},F))),E];return H(vF,R([0,h(vE,H(vD,R([0,h(vC,y(e(aj,a[1]))),I]))),z]));case
+B=[0,h(xa,x(e(eI,a[7]))),0],C=[0,h(xb,x(e(H,a[6]))),0],D=[0,h(xe,I(xd,S([0,h(xc,x(e(H,a[5]))),C]))),B],E=0,F=a[4],G=[0,h(xh,x(e(function(a){return 0===a[0]?I(xf,x(e(h7,a[1]))):I(xg,h7(a[1]))},F))),E],J=a[3],K=[0,h(xi,x(e(function(a){var
+b=[0,h7(a[2]),0];return x([0,am(a[1]),b])},J))),G],L=a[2],M=[0,h(xj,x(e(function(a){var
+b=[0,cq(a[2]),0];return x([0,am(a[1]),b])},L))),K];return I(xn,S([0,h(xm,I(xl,S([0,h(xk,x(e(am,a[1]))),M]))),D]));case
 4:var
-J=[0,h(vG,y(e(en,a[3]))),0],K=[0,h(vJ,H(vI,R([0,h(vH,G(a[2])),0]))),J];return H(vN,R([0,h(vM,H(vL,R([0,h(vK,G(a[1])),0]))),K]));case
+N=[0,h(xo,x(e(eI,a[3]))),0],O=[0,h(xr,I(xq,S([0,h(xp,H(a[2])),0]))),N];return I(xv,S([0,h(xu,I(xt,S([0,h(xs,H(a[1])),0]))),O]));case
 5:var
-L=[0,h(vO,G(a[5])),0];return H(vQ,R([0,h(vP,ht(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+P=[0,h(xw,H(a[5])),0];return I(xy,S([0,h(xx,h_(a[1],[0,a[2],a[3]],0,a[4])),P]));case
 6:var
-k=a[1],M=0,N=k?cy(k[1]):aj(vT);return H(vS,R([0,h(vR,N),M]));default:var
-O=[0,h(vU,G(a[6])),0],P=[0,h(vV,G(a[5])),O],Q=[0,h(vW,ht(a[2],a[3],0,a[4])),P],S=a[1];return H(v1,R([0,h(v0,y(e(function(a){var
-b=[0,h(vX,G(a[2][2])),0],c=[0,h(vY,G(a[2][1])),b];return R([0,h(vZ,aj(a[1])),c])},S))),Q]))}}function
-eo(a){return y(e(fw,a))}function
-fx(b,a){var
-c=[0,h(v2,hp(a)),0];return R([0,h(v3,y(e(eo,b))),c])}function
-ep(a){switch(a[0]){case
-0:return aj(a[1]);case
+m=a[1],Q=0,R=m?cq(m[1]):am(xB);return I(xA,S([0,h(xz,R),Q]));default:var
+T=[0,h(xC,H(a[6])),0],U=[0,h(xD,H(a[5])),T],V=[0,h(xE,h_(a[2],a[3],0,a[4])),U],W=a[1];return I(xJ,S([0,h(xI,x(e(function(a){var
+b=[0,h(xF,H(a[2][2])),0],c=[0,h(xG,H(a[2][1])),b];return S([0,h(xH,am(a[1])),c])},W))),V]))}}function
+eJ(a){return x(e(f0,a))}function
+f2(b,a){var
+c=[0,h(xK,h5(a)),0];return S([0,h(xL,x(e(eJ,b))),c])}function
+eK(a){switch(a[0]){case
+0:return am(a[1]);case
 1:var
-b=fx(a[2],a[3]);return H(a[1],b);case
+b=f2(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?v4:v6;return H(v5,aj(c));case
+c=a[1]?xM:xO;return I(xN,am(c));case
 3:var
-d=[0,eo(a[3]),0];return H(v7,y([0,fx(a[1],a[2]),d]));case
+d=[0,eJ(a[3]),0];return I(xP,x([0,f2(a[1],a[2]),d]));case
 4:var
-f=[0,cc(0),0],g=[0,fw(a[3]),f];return H(v8,y([0,fx(a[1],a[2]),g]));case
+f=[0,cp(0),0],g=[0,f0(a[3]),f];return I(xQ,x([0,f2(a[1],a[2]),g]));case
 5:var
-h=[0,hp(a[3]),0],i=[0,fw(a[2]),h];return H(v9,y([0,ep(a[1]),i]));case
+h=[0,h5(a[3]),0],i=[0,f0(a[2]),h];return I(xR,x([0,eK(a[1]),i]));case
 6:var
-j=[0,hp(a[3]),0],k=[0,fw(a[2]),j];return H(v_,y([0,ep(a[1]),k]));case
-7:return H(v$,ep(a[1]));default:var
-l=[0,y(e(eo,a[3])),0],m=[0,aj(a[2]),l];return H(wa,y([0,ep(a[1]),m]))}}function
-wb(a){var
-b=[0,ep(a[2]),0];return y([0,cc(a[1]),b])}function
-lm(a){if(typeof
-a==="number")return aj(wc);else{if(0===a[0]){var
-b=[0,y(e(eo,a[2])),0];return H(wd,y([0,cc(a[1]),b]))}var
-c=[0,cc(a[2]),0];return H(we,y([0,cc(a[1]),c]))}}function
-wf(a){var
-b=a[4],i=b?[0,h(wg,eo([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(wh,lm(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(wi,cc(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(wj,y(e(wb,[0,c[1],c[2]]))),0]:c;return R(g(n,m))}function
-ln(f,a,d){var
-i=[0,h(wk,y(e(wf,d))),0];if(a)var
-b=a[1],c=[0,h(wl,fx(b[1],b[2])),0];else
+j=[0,h5(a[3]),0],k=[0,f0(a[2]),j];return I(xS,x([0,eK(a[1]),k]));case
+7:return I(xT,eK(a[1]));default:var
+l=[0,x(e(eJ,a[3])),0],m=[0,am(a[2]),l];return I(xU,x([0,eK(a[1]),m]))}}function
+xV(a){var
+b=[0,eK(a[2]),0];return x([0,cp(a[1]),b])}function
+mn(a){if(typeof
+a==="number")return am(xW);else{if(0===a[0]){var
+b=[0,x(e(eJ,a[2])),0];return I(xX,x([0,cp(a[1]),b]))}var
+c=[0,cp(a[2]),0];return I(xY,x([0,cp(a[1]),c]))}}function
+xZ(a){var
+b=a[4],i=b?[0,h(x0,eJ([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(x1,mn(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(x2,cp(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(x3,x(e(xV,[0,c[1],c[2]]))),0]:c;return S(g(n,m))}function
+mo(f,a,d){var
+i=[0,h(x4,x(e(xZ,d))),0];if(a)var
+b=a[1],c=[0,h(x5,f2(b[1],b[2])),0];else
 var
 c=a;var
-j=g(c,i);return R([0,h(wm,ho(f)),j])}function
-lo(d,c,a,b){var
-f=[0,h(wn,lm(b)),0],i=a?[0,h(wo,y(e(G,a))),0]:a,j=g(i,f),k=[0,h(wp,y(e(G,c))),0];return R(g([0,h(wq,ho(d)),k],j))}function
-wr(a){if(typeof
-a==="number")return aj(ws);else
+j=g(c,i);return S([0,h(x6,h4(f)),j])}function
+mp(d,c,a,b){var
+f=[0,h(x7,mn(b)),0],i=a?[0,h(x8,x(e(H,a))),0]:a,j=g(i,f),k=[0,h(x9,x(e(H,c))),0];return S(g([0,h(x_,h4(d)),k],j))}function
+x$(a){if(typeof
+a==="number")return am(ya);else
 switch(a[0]){case
-0:return H(wt,cc(a[1]));case
-1:return H(wu,ln(a[1],a[2],a[3]));default:return H(wv,lo(a[1],a[2],a[3],a[4]))}}function
-fy(a){var
-b=gi(gh(L(a),function(b){return W(a,b)}));return n(function(a){var
-b=au(34===a?1:0),c=b?au(92===a?1:0):b,d=c?ac(wK,eX(a)):c;return d?ac(eX(a),wL):d},b)}function
-eq(b){function
+0:return I(yb,cp(a[1]));case
+1:return I(yc,mo(a[1],a[2],a[3]));default:return I(yd,mp(a[1],a[2],a[3],a[4]))}}function
+f3(a){var
+b=gQ(gP(P(a),function(b){return ab(a,b)}));return n(function(a){var
+b=at(34===a?1:0),c=b?at(92===a?1:0):b,d=c?Z(ys,fg(a)):c;return d?Z(fg(a),yt):d},b)}function
+eL(b){function
 c(f){var
-a=eX(f),b=ac(wM,a),c=b?ac(a,wN):b;if(c)var
+a=fg(f),b=Z(yu,a),c=b?Z(a,yv):b;if(c)var
 d=c;else{var
-e=ac(wO,a);if(e)return ac(a,wP);var
+e=Z(yw,a);if(e)return Z(a,yx);var
 d=e}return d}var
-a=gi(gh(L(b),function(a){return W(b,a)}));if(a){var
+a=gQ(gP(P(b),function(a){return ab(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eX(a),f=ac(wQ,e),h=f?ac(e,wR):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?ac(j(d),wS):f;if(g)return au(ap(b,wT));var
+e=fg(a),f=Z(yy,e),h=f?Z(e,yz):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(k(d),yA):f;if(g)return at(aq(b,yB));var
 h=g}else
 var
 h=a;return h}function
-hu(c){var
+h$(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eq(a[1]);case
+1:return eL(a[1]);case
 3:var
-b=hu(a[2]);if(b){var
+b=h$(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-er(m){var
+eM(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4865,57 +5382,65 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eQ(a[2]);if(typeof
+f=fb(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=er(a[2]);if(i){var
+i=eM(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=er(a[1]),l=k?eT(b(2,c),j):k;return l?eT(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eM(a[1]),l=k?fe(b(2,c),j):k;return l?fe(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cz(a){return E(dv,bv(a))}function
-hv(a){switch(a[0]){case
+dU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bG(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+df(a){return E(dU,bG(a))}function
+ia(a){switch(a[0]){case
 0:var
-c=dv(a[4]),d=g(cz(a[3]),c),e=g(cz(a[2]),d);return g(cz(a[1]),e);case
+c=dU(a[4]),d=g(df(a[3]),c),e=g(df(a[2]),d);return g(df(a[1]),e);case
 1:var
-b=a[3],f=b?cz(b[1]):b,h=g(cz(a[2]),f);return g(cz(a[1]),h);default:return cz(a[1])}}function
-wU(a){var
-b=E(dv,[0,a[5],[0,a[6],0]]);return g(E(cz,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-hw(a){if(0===a[0]){var
-b=bv(a[2]);return g(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-cV(d){var
+b=a[3],f=b?df(b[1]):b,h=g(df(a[2]),f);return g(df(a[1]),h);default:return df(a[1])}}function
+yC(a){switch(a[0]){case
+0:var
+c=g(a[3],[0,a[4],0]),d=g(a[2],c),b=g(a[1],d);break;case
+1:var
+b=g(a[1],a[2]);break;default:var
+e=g(a[4],[0,a[5],[0,a[6],0]]),f=g(a[3],e),h=g(a[2],f),b=g(a[1],h)}return E(dU,b)}function
+mq(a){if(0===a[0]){var
+b=bG(a[2]);return g(bG(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mr(a){switch(a[0]){case
+1:var
+b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
+2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
+dg(d){var
 a=d[4],f=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return g(e,f)}function
-wV(a){if(0===a[0]){var
-b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bv(a[3]),d);return g(bv(a[2]),e)}function
-lp(b,e){var
+yD(a){if(0===a[0]){var
+b=a[5],c=b?bG(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(bG(a[3]),d);return g(bG(a[2]),e)}function
+ms(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aP(function(a){return ap(f,a)},b)}return 0;case
+f=c[1];return aK(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=lp(b,a[2]);if(d){var
+d=ms(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fz(c,a){return n(function(a){var
-b=er(a);return b?lp(c,a):b},a)}function
-lq(a){var
-d=eT(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eT(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-lr(a,b){return b?[4,lr(a,b[1]),a]:a}function
+f4(c,a){return n(function(a){var
+b=eM(a);return b?ms(c,a):b},a)}function
+mt(a){var
+d=fe(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?fe(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+mu(a,b){return b?[4,mu(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return s(k,a)},m=eR(jb(j),l,c);return[0,jj(jc(eQ(a[1]),j)),m];case
+j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=fc(jL(j),l,c);return[0,jT(jM(fb(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -4926,35 +5451,35 @@ g=i(a[2]),h=i(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=b5(dX(a[2]));return lr(i(a[1]),n);default:return[6,i(a[1])]}}function
-cd(a){if(0===a[0]){var
+n=bQ(ei(a[2]));return mu(i(a[1]),n);default:return[6,i(a[1])]}}function
+bH(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-bw(a){var
-b=cd(a[3]),c=cd(a[2]);return[0,cd(a[1]),c,b]}function
-wW(a){switch(a[0]){case
+dh(a){var
+b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
+yE(a){switch(a[0]){case
 0:var
-b=a[5],c=cd(a[4]),d=bw(a[3]),e=bw(a[2]);return[0,[0,bw(a[1]),e,d,c,b]];case
+b=a[5],c=bH(a[4]),d=dh(a[3]),e=dh(a[2]);return[0,[0,dh(a[1]),e,d,c,b]];case
 1:var
-f=J(bw,a[3]),g=bw(a[2]);return[1,bw(a[1]),g,f];default:return[2,bw(a[1])]}}function
-ls(a){if(0===a[0]){var
+f=D(dh,a[3]),g=dh(a[2]);return[1,dh(a[1]),g,f];default:return[2,dh(a[1])]}}function
+mv(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(f(a,c));return[0,i(f(a,d)),b]},e=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,e]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dw(a){var
+dV(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-dx(a){if(0===a[0]){var
-b=a[5],h=b?dw(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,b5(a[1]),l,k,j,h]}var
+dW(a){if(0===a[0]){var
+b=a[5],h=b?dV(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bQ(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dw(f),n=dw(g);return[2,i(e),n,m]}var
-o=dw(f),p=dw(g);return[1,i(e),p,o]}function
-hx(b,a){if(a){var
-c=a[1],d=a[2],f=hx(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(c9(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:dV(b[1],a[1]);return au(d)},h),f)}return a}function
-wX(b){if(b[1])return 0;var
+m=dV(f),n=dV(g);return[2,i(e),n,m]}var
+o=dV(f),p=dV(g);return[1,i(e),p,o]}function
+ib(b,a){if(a){var
+c=a[1],d=a[2],f=ib(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(c1(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:cZ(b[1],a[1]);return at(d)},h),f)}return a}function
+yF(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-wZ(c,a){switch(a[1]){case
+yH(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4979,14 +5504,14 @@ r==="number"||!(0===r[0]))H=1;else{var
 s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
 b=s[1]}if(H)return 0;break;case
 6:var
-v=a[4];if(typeof
-v!=="number"&&0===v[0]){if(a[2])return 0;var
+u=a[4];if(typeof
+u!=="number"&&0===u[0]){if(a[2])return 0;var
 f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=u(c,w1),J=0;if(x){var
+x=v(c,yJ),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -5009,12 +5534,13 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?u(c,w2):0:j}return 0;default:var
+j=a[3];return j?0===j[1][0]?v(c,yK):0:j}return 0;case
+13:return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=ac(w0,b);return n?ac(b,c):n}function
-hy(f,m,_,b){var
-$=j(f),h=E(function(a){switch(a[1]){case
+n=Z(yI,b);return n?Z(b,c):n}function
+ic(f,m,_,b){var
+$=k(f),h=E(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -5063,73 +5589,87 @@ b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=hx(0,_);return e(function(h){var
+T=s[1],U=ib(0,_);return e(function(h){var
 e=i(T),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dw(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,b5(f),m,l,k]}var
-n=dx(a);return[10,dx(b),n,e]}var
-o=dx(a);return[10,dx(b),o,e]}var
-p=dx(a);return[10,dx(b),p,e]},U)}return 0;case
+g=function(a){return a?dV(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bQ(f),m,l,k]}var
+n=dW(a);return[10,dW(b),n,e]}var
+o=dW(a);return[10,dW(b),o,e]}var
+p=dW(a);return[10,dW(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
-v=a[3],V=t[1];if(!v)return v;var
-w=v[1];if(0===w[0])return 0;var
+u=a[3],V=t[1];if(!u)return u;var
+w=u[1];if(0===w[0])return 0;var
 W=w[2],X=w[1],b=function(a){var
 b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?wY:E;return Y;default:var
+a[4]==="number"?1:0,Y=E?yG:E;return Y;case
+12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
-Z=i(x[1]);return[0,[14,i(F[1]),Z],0]}return 0}return y}return 0}var
-A=a[2],L=A?[0,b5(A[1]),0]:bp(0,$);return e(b,L)},b),a=E(wX,b),k=a?[0,a[1],a[2]]:w3,l=g(k,h),n=ls(m);return[0,e(wW,f),n,l]}function
-w4(b){if(b[1])return 0;var
+Z=i(x[1]);return[0,[14,i(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
+A=a[2],L=A?[0,bQ(A[1]),0]:a9(0,$);return e(b,L)},b),a=E(yF,b),j=a?[0,a[1],a[2]]:yL,l=g(j,h),n=mv(m);return[0,e(yE,f),n,l]}function
+yM(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-dy(D,b){var
+dX(L,K,b){var
 c=E(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
 1:var
-b=a[4];if(typeof
-b==="number")return 0;else
-switch(b[0]){case
+c=a[4];if(typeof
+c==="number")return 0;else
+switch(c[0]){case
 0:var
-t=b[1],c=function(a){return[2,a,i(t)]};break;case
+y=c[1],b=function(a){return[2,a,i(y)]};break;case
 1:var
-v=b[1],c=function(a){return[3,a,i(v)]};break;default:var
-w=b[2],x=b[1],c=function(a){var
-b=i(w);return[4,a,i(x),b]}}break;case
+A=c[1],b=function(a){return[3,a,i(A)]};break;default:var
+B=c[2],C=c[1],b=function(a){var
+b=i(B);return[4,a,i(C),b]}}break;case
 2:var
-f=a[4],r=0;if(typeof
-f==="number"||!(1===f[0]))r=1;else{var
-g=a[3],y=f[1];if(!g)return g;var
-o=g[1];if(0!==o[0])return 0;var
-z=o[1],c=function(a){var
-b=i(y);return[6,a,i(z),b]}}if(r)return 0;break;case
+f=a[4],u=0;if(typeof
+f==="number"||!(1===f[0]))u=1;else{var
+g=a[3],D=f[1];if(!g)return g;var
+r=g[1];if(0!==r[0])return 0;var
+E=r[1],b=function(a){var
+b=i(E),c=i(D);return L?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
 3:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
+4:var
+j=a[4],v=0;if(typeof
+j==="number"||!(0===j[0]))v=1;else
+var
+F=j[1],b=function(a){return[10,a,i(F)]};if(v)return 0;break;case
+5:var
+k=a[4];if(typeof
+k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
 6:var
-j=a[4];if(typeof
-j!=="number"&&0===j[0]){var
-k=a[3];if(k){var
-p=k[1];if(0===p[0]){var
-A=i(j[1]);return[0,[8,i(p[1]),A],0]}return 0}return k}return 0;case
+l=a[4];if(typeof
+l!=="number"&&0===l[0]){var
+m=a[3];if(m){var
+s=m[1];if(0===s[0]){var
+G=i(l[1]);return[0,[8,i(s[1]),G],0]}return 0}return m}return 0;case
 8:var
-l=a[4],s=0;if(typeof
-l==="number"||!(1===l[0]))s=1;else{var
-m=a[3],B=l[1];if(!m)return m;var
-q=m[1];if(0!==q[0])return 0;var
-C=q[1],c=function(a){var
-b=i(B);return[7,a,i(C),b]}}if(s)return 0;break;default:return 0}var
-n=a[2],u=n?[0,b5(n[1]),0]:bp(0,D);return e(c,u)},b),a=E(w4,b),d=a?[0,a[1],a[2]]:w5;return g(d,c)}function
-bi(n,m,a){var
+n=a[4],w=0;if(typeof
+n==="number"||!(1===n[0]))w=1;else{var
+o=a[3],H=n[1];if(!o)return o;var
+t=o[1];if(0!==t[0])return 0;var
+I=t[1],b=function(a){var
+b=i(H);return[7,a,i(I),b]}}if(w)return 0;break;case
+13:var
+p=a[4],x=0;if(typeof
+p==="number"||!(1===p[0]))x=1;else
+var
+J=p[1],b=function(a){return[11,a,i(J)]};if(x)return 0;break;default:return 0}var
+q=a[2],z=q?[0,bQ(q[1]),0]:a9(0,K);return e(b,z)},b),a=E(yM,b),d=a?[0,a[1],a[2]]:yN;return g(d,c)}function
+bY(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5139,31 +5679,49 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=dV(n,e);if(f){var
+f=cZ(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ac(w6,h);return i?ac(h,m):i}var
+h=g[1],i=Z(yO,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-cW(a){switch(a[0]){case
+bZ(n,b,a){var
+d=a[2];if(d)var
+e=d[1],f=Z(yP,e),o=f?Z(e,b):f,c=o;else
+var
+c=1;var
+g=a[1];if(2<=g)switch(g-2|0){case
+0:var
+h=a[4];if(typeof
+h!=="number"&&1===h[0]){var
+i=a[3];return i?0===i[1][0]?c:bY(0,b,a):bY(0,b,a)}return bY(0,b,a);case
+4:var
+j=a[4];if(typeof
+j!=="number"&&0===j[0]){var
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bY(0,b,a):bY(0,b,a)}return bY(0,b,a);case
+6:var
+l=a[4];if(typeof
+l!=="number"&&1===l[0]){var
+m=a[3];return m?0===m[1][0]?c?v(b,n):c:bY(0,b,a):bY(0,b,a)}return bY(0,b,a)}return bY(0,b,a)}function
+cP(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cW(a[1])];case
+2:return[2,cP(a[1])];case
 3:var
-b=cW(a[2]),c=cW(a[3]);switch(a[1]){case
+b=cP(a[2]),c=cP(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cW(a[1]),d];default:return[8,cW(a[1])]}}function
-lt(b){function
+d=a[2];return[7,cP(a[1]),d];default:return[8,cP(a[1])]}}function
+f5(b){function
 a(e){var
 a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(w8),f=a(w9);return[0,a(0),f,e]}function
-hz(a){function
+e=a(yR),f=a(yS);return[0,a(0),f,e]}function
+di(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5171,47 +5729,63 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-lu(k,a,h,g,f,d,c){function
-b(a){return lt(e(cd,a))}var
-l=dy(j(a),c),m=hz(d),n=a$(g,f),o=lt(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,k,e(function(a){var
+mw(j,a,h,g,f,d,c){function
+b(a){return f5(e(bH,a))}var
+l=dX(0,k(a),c),m=di(d),n=a0(g,f),o=f5(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-w_(a){var
-b=a[7],c=cd(a[6]),d=cd(a[5]),e=bw(a[4]),f=bw(a[3]),g=bw(a[2]);return[0,bw(a[1]),g,f,e,d,c,b]}function
-lv(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cb(i(g[2][1]));if(k){var
-l=k[1],m=cb(i(g[2][2]));if(m)var
+mx(a){return aK(function(a){return 2===a[0]?1:0},a)}function
+my(m,b,f,a,l,j){var
+n=k(b),o=dX(mx(b),n,j),p=D(di,l);if(0===a[0])var
+h=a0(a[1],a[2]),g=[0,f5(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},h))];else
+var
+g=mv([1,a[1],a[2],a[3],a[4],a[5]]);var
+q=f?i(f[1]):[0,c,c];return[0,m,e(function(a){function
+b(a){return f5(e(bH,a))}switch(a[0]){case
+0:var
+k=a[5],l=bH(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+1:var
+o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
+f=a[1];if(f)var
+g=b(f);else
+var
+h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bH(a[6]),r=bH(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
+mz(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cm(i(g[2][1]));if(k){var
+l=k[1],m=cm(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,eR(h[2],d,c)];return dZ(l,c$(gz(p,l),e))},q=n(B(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,fc(h[2],d,c)];return em(l,dA(g6(p,l),e))},q=n(y(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=lv([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mz([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-an(b,a){switch(a[0]){case
+au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jn(function(a){return ap(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,an(b,a[1])];case
+e=c[1],d=jY(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,au(b,a[1])];case
 3:var
-f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
+f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-lw(b,a){if(0===a[0])return[0,an(b,a[1])];var
-c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-hA(b,a){var
+h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
+mA(b,a){if(0===a[0])return[0,au(b,a[1])];var
+c=au(b,a[2]);return[1,au(b,a[1]),c]}function
+id(b,a){var
 c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-hB(c,a){if(c)if(a){var
+ie(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hB(h,g);if(e){var
-i=e[1],f=hB(h,i[2]);if(f)var
+e=ie(h,g);if(e){var
+i=e[1],f=ie(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5223,90 +5797,90 @@ var
 d=a;else
 var
 d=c;return d}function
-hC(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hC(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,B(s(b(2,c),l),k),j],h]}else
+ig(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,ig(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(u(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-w$(a){if(typeof
+yT(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-xa(a){if(typeof
+yU(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fA(e,a){if(0===a[0]){var
-g=[0,c,b(2,c)],h=fA(e,a[3]);return c$(dZ(fA(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dz(h){var
-a=bH(function(f,e){var
-a=bK(m,f);if(a)var
-b=a[1],c=bG(ge(b[1]),ge(b[2]));else
+f6(e,a){if(0===a[0]){var
+g=[0,c,b(2,c)],h=f6(e,a[3]);return dA(em(f6(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
+q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+cr(h){var
+a=bR(function(f,e){var
+a=bb(q,f);if(a)var
+b=a[1],c=bP(gL(b[1]),gL(b[2]));else
 var
-c=d;return bG(c,e)},d,h);if(S(d,a)){var
-f=b0(a);if(0===f||!(0<f&&!I(a,c)))var
+c=d;return bP(c,e)},d,h);if($(d,a)){var
+f=b$(a);if(0===f||!(0<f&&!M(a,c)))var
 g=d;else
 var
-b=bF(a,a9(2)),e=b[1],g=ad(b[2],d)?eS(e):eS(e);return aS(g,m)}return d}function
-fB(a){return[0,a[1],[0,a[2],0]]}function
-bQ(a){var
-b=fB(a[3]),c=g(fB(a[2]),b);return g(fB(a[1]),c)}function
-xb(a){return 0===a[0]?fB(a[1][4]):0}function
-xc(a){switch(a[0]){case
+b=bO(a,bj(2)),e=b[1],g=ah(b[2],d)?fd(e):fd(e);return aY(g,q)}return d}function
+dY(a){return[0,a[1],[0,a[2],0]]}function
+be(a){var
+b=dY(a[3]),c=g(dY(a[2]),b);return g(dY(a[1]),c)}function
+mB(a){return 0===a[0]?dY(a[1][4]):0}function
+mC(a){switch(a[0]){case
 0:var
-b=a[1],c=bQ(b[3]);return g(bQ(b[2]),c);case
+b=a[1],c=be(b[3]);return g(be(b[2]),c);case
 1:var
-d=bQ(a[2]);return g(bQ(a[1]),d);default:return 0}}function
-hD(a){switch(a[0]){case
-0:return dz(bQ(a[1][1]));case
+d=be(a[2]);return g(be(a[1]),d);default:return 0}}function
+f7(a){switch(a[0]){case
+0:return cr(be(a[1][1]));case
 1:var
-b=a[3];return b?dz(bQ(b[1])):d;default:return dz(bQ(a[1]))}}function
-hE(b){var
-a=E(xb,b),d=a?[0,a[1],a[2]]:E(xc,b);return B(c,dz(d))}function
-lx(c,a){if(c){if(a){var
+b=a[3];return b?cr(be(b[1])):d;default:return cr(be(a[1]))}}function
+ih(b){var
+a=E(mB,b),d=a?[0,a[1],a[2]]:E(mC,b);return y(c,cr(d))}function
+mD(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=xd;else
+b=yV;else
 if(43===d)var
-b=xe;else
+b=yW;else
 var
-f=48===d?1:0,i=f?xf:f,b=i;if(b)var
-e=lx(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?yX:f,b=i;if(b)var
+e=mD(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:xg}function
-es(b,a){switch(a[0]){case
+h=a;return h}return a?0:yY}function
+eN(b,a){switch(a[0]){case
 0:var
-c=a[1];if(ap(c,xh))return xi;if(ap(c,xj))return xk;if(ap(c,xl))return xm;if(ap(c,xn))return xo;if(ap(c,xp))return xq;var
-k=ap(c,xr),p=k?xs:k;return p;case
+c=a[1];if(aq(c,yZ))return y0;if(aq(c,y1))return y2;if(aq(c,y3))return y4;if(aq(c,y5))return y6;if(aq(c,y7))return y8;var
+k=aq(c,y9),p=k?y_:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(ap(f,xt))return[0,[0,d,e]];if(ap(f,xu))return[0,[1,d,e]];if(ap(f,xv))return[0,[2,d,e]];var
-l=ap(f,xw),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(aq(f,y$))return[0,[0,d,e]];if(aq(f,za))return[0,[1,d,e]];if(aq(f,zb))return[0,[2,d,e]];var
+l=aq(f,zc),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=es(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eN(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=es(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eN(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=es(b,a[1]);return J(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=es(b,a[1]);if(i)var
-j=lx(b,gi(gh(L(m),function(a){return W(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eN(b,a[1]);return D(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eN(b,a[1]);if(i)var
+j=mD(b,gQ(gP(P(m),function(a){return ab(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-ly(d,a){if(a){var
-e=a[1],b=es(d,e[2]);if(b)var
-c=ly(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+mE(d,a){if(a){var
+e=a[1],b=eN(d,e[2]);if(b)var
+c=mE(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return xx}function
-dA(d,c,a){if(c)if(a){var
+f=b;return f}return zd}function
+dj(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=ly(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mE(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=dA(d,k,j);if(f){var
-m=f[1],g=dA(d,k,m[2]);if(g)var
+f=dj(d,k,j);if(f){var
+m=f[1],g=dj(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5321,807 +5895,812 @@ var
 h=a;else
 var
 h=c;return h}function
-hF(e,d,a){if(d){if(a){var
-b=dA(e,j(a),a);if(b)var
-f=b[1],c=hF(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+ii(e,d,a){if(d){if(a){var
+b=dj(e,k(a),a);if(b)var
+f=b[1],c=ii(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return xy}return a?0:xz}function
-hG(a){return typeof
+g=b;return g}return ze}return a?0:zf}function
+ij(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hH(d,a){if(d)if(a){var
+ik(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hH(k,j);if(e){var
-l=e[1],f=hH(k,l[2]);if(f)var
+e=ik(k,j);if(e){var
+l=e[1],f=ik(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hG(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,ij(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cX(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-bx(a,e){var
-b=cX(a[1],e),c=cX(a[2],b[2]),d=cX(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lz(d,c){if(d){var
+cQ(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+dk(a,e){var
+b=cQ(a[1],e),c=cQ(a[2],b[2]),d=cQ(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+mF(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bx(a[1],c),f=bx(a[2],e[2]),g=bx(a[3],f[2]),h=cX(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dk(a[1],c),f=dk(a[2],e[2]),g=dk(a[3],f[2]),h=cQ(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bx(a[1],c),k=j[1],l=bx(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bx(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dk(a[1],c),k=j[1],l=dk(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dk(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bx(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-lA(b,i){if(b){var
-a=b[1],c=bx(a[1],i),d=bx(a[2],c[2]),e=bx(a[3],d[2]),f=bx(a[4],e[2]),g=cX(a[5],f[2]),h=cX(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=lA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-xA(a){if(typeof
+p=dk(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=mF(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+zg(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return xC;case
+5:return zi;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return xB}function
-hI(a,b){if(a){var
-c=cX(a[1],b),d=hI(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-hJ(b){function
+11:return 0}return zh}function
+bu(a,b){if(a){var
+c=cQ(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+bp(b){function
 a(a){return t(a,b,[0,d,c])}var
-e=a(xE),f=a(xF);return[0,a(0),f,e]}function
-lB(a,b){if(a){var
-c=a[1],d=hI(c[1],b),e=hI(c[2],d[2]),f=lB(a[2],e[2]),g=f[2],h=f[1],i=hJ(e[1]);return[0,[0,[0,hJ(d[1]),i],h],g]}return[0,0,b]}function
-dB(a){return ka(m,a)}function
-xG(a){if(typeof
+e=a(zk),f=a(zl);return[0,a(0),f,e]}function
+mG(a,b){if(a){var
+c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=mG(a[2],e[2]),g=f[2],h=f[1],i=bp(e[1]);return[0,[0,[0,bp(d[1]),i],h],g]}return[0,0,b]}function
+mH(f,b){if(f){var
+a=f[1];switch(a[0]){case
+0:var
+g=bu(a[1],b),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=cQ(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=bp(i[1]),y=bp(h[1]),e=[0,[0,[0,bp(g[1]),y,x,w,v]],u];break;case
+1:var
+k=bu(a[1],b),l=bu(a[2],k[2]),z=l[2],A=bp(l[1]),e=[0,[0,[1,bp(k[1]),A,0]],z];break;default:var
+m=a[1],n=bu(m,b),o=bu(a[2],n[2]),p=bu(a[3],o[2]),q=bu(a[4],p[2]),r=cQ(a[5],q[2]),s=cQ(a[6],r[2]),B=m?bp(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=bp(q[1]),H=bp(p[1]),e=[0,[1,[0,B,bp(o[1]),H,G,F,E,D]],C]}var
+t=mH(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dZ(a){return kO(q,a)}function
+zm(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return k(m,1,[3,a[1],[0,c,c]]);case
-6:return k(m,1,a[2]);case
+5:return j(q,1,[3,a[1],[0,c,c]]);case
+6:return j(q,1,a[2]);case
 8:var
-d=k(m,1,a[1]);return d?k(m,1,a[2]):d;case
-10:return k(m,0,a[3]);case
+d=j(q,1,a[1]);return d?j(q,1,a[2]):d;case
+10:return j(q,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?k(m,0,e[2]):0;case
+e=a[4];return 2===e[0]?j(q,0,e[2]):0;case
 12:var
-f=k(m,0,a[2]),g=f?k(m,0,a[3]):f;return g?k(m,1,a[4]):g;case
+f=j(q,0,a[2]),g=f?j(q,0,a[3]):f;return g?j(q,1,a[4]):g;case
 14:var
-h=k(m,0,a[1]);return h?k(m,1,a[2]):h;case
+h=j(q,0,a[1]);return h?j(q,1,a[2]):h;case
 2:case
-3:return dB(a[2]);case
+3:return dZ(a[2]);case
 4:case
 13:var
-b=k(m,1,a[2]);return b?k(m,1,a[3]):b;default:return k(m,1,a[1])}}function
-hK(a){if(typeof
+b=j(q,1,a[2]);return b?j(q,1,a[3]):b;default:return j(q,1,a[1])}}function
+il(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=k(m,1,[3,d,e]),g=f?k(m,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,h=g?k(m,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return h?k(m,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):h;case
-5:return k(m,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=j(q,1,[3,d,e]),g=f?j(q,1,[3,[2,e,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(q,0,[2,e,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c]]):g;return h?j(q,0,[3,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c],d]):h;case
+5:return j(q,1,[3,a[1],[0,c,c]]);case
 8:var
-j=k(m,1,a[1]);return j?k(m,1,a[2]):j;case
-0:case
-1:return k(m,1,a[1]);case
+k=j(q,1,a[1]);return k?j(q,1,a[2]):k;case
+10:return j(q,1,a[2]);case
+11:var
+l=a[2],m=j(q,1,l);return m?j(q,0,[3,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c],l]):m;case
 2:case
-3:return dB(a[2]);default:var
-i=k(m,1,a[2]);return i?k(m,1,a[3]):i}}function
-fC(d){var
+3:return dZ(a[2]);case
+0:case
+1:case
+12:return j(q,1,a[1]);default:var
+i=j(q,1,a[2]);return i?j(q,1,a[3]):i}}function
+f8(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=au(aP(function(d){return function(a){var
-h=hr(a[1]),e=ap(hr(d[1]),h);if(e)var
-i=hs(a[4]),b=ap(hs(d[4]),i);else
+b=a[2],e=a[1],c=at(aK(function(d){return function(a){var
+h=h8(a[1]),e=aq(h8(d[1]),h);if(e)var
+i=h9(a[4]),b=aq(h9(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?u(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?v(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-et(a){if(0===a[0])return dB(i(a[1]));var
-b=a[2],c=a[1];if(!d6(i(c))&&!d6(i(b))){var
-e=i(c);return k(m,1,[3,i(b),e])}var
-d=i(b);return bt(m,i(c),d)}function
-by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lC(a){switch(a[0]){case
+eO(a){if(0===a[0])return dZ(i(a[1]));var
+b=a[2],c=a[1];if(!er(i(c))&&!er(i(b))){var
+e=i(c);return j(q,1,[3,i(b),e])}var
+d=i(b);return bn(q,i(c),d)}function
+dl(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+mI(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(by(a[3]),c),e=g(by(a[2]),d);return g(by(a[1]),e);case
+c=[0,a[4],0],d=g(dl(a[3]),c),e=g(dl(a[2]),d);return g(dl(a[1]),e);case
 1:var
-b=a[3],f=b?by(b[1]):b,h=g(by(a[2]),f);return g(by(a[1]),h);default:return by(a[1])}}function
-lD(a){var
-b=[0,a[5],[0,a[6],0]],c=g(by(a[4]),b),d=g(by(a[3]),c),e=g(by(a[2]),d);return g(by(a[1]),e)}function
-hL(a){switch(a){case
-0:return xK;case
-1:return xL;default:return 0}}function
-fD(a){var
-f=a[1],d=k(m,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?bt(m,a[1],a[2]):d;if(e){var
-g=a[2];return k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
-hM(a){var
-e=bt(m,[0,d,c],a);return e?k(m,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-lE(c,d,E,t,s,r,g){function
-v(a){var
-d=c?xI:xJ,b=u(j(a),d);return b?n(et,a):b}var
-w=n(function(a){var
-b=v(a[1]);return b?v(a[2]):b},d);if(w)var
-F=j(d),h=ac(ef(c),F);else
+b=a[3],f=b?dl(b[1]):b,h=g(dl(a[2]),f);return g(dl(a[1]),h);default:return dl(a[1])}}function
+f9(a){switch(a){case
+0:return zp;case
+1:return zq;default:return 0}}function
+cR(a){var
+f=a[1],d=j(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?bn(q,a[1],a[2]):d;if(e){var
+g=a[2];return j(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],g])}return e}function
+d0(a){var
+e=bn(q,[0,d,c],a);return e?j(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
+mJ(b,c,D,s,r,p,f){function
+t(a){var
+d=b?zn:zo,c=v(k(a),d);return c?n(eO,a):c}var
+u=n(function(a){var
+b=t(a[1]);return b?t(a[2]):b},c);if(u)var
+E=k(c),g=Z(dP(b),E);else
 var
-h=w;var
-x=h?ac(j(d),xM):h,y=x?k(m,1,i(E)):x;if(y)var
-G=hL(c),l=u(j(t),G);else
+g=u;var
+w=g?Z(k(c),zr):g,x=w?j(q,1,i(D)):w;if(x)var
+F=f9(b),h=v(k(s),F);else
 var
-l=y;if(l)var
-H=hL(c),o=u(j(s),H);else
+h=x;if(h)var
+G=f9(b),l=v(k(r),G);else
 var
-o=l;if(o)var
-I=a$(t,s),p=n(function(a){var
-b=i(a[2]);return bt(m,i(a[1]),b)},I);else
+l=h;if(l)var
+H=a0(s,r),m=n(function(a){var
+b=i(a[2]);return bn(q,i(a[1]),b)},H);else
 var
-p=o;if(p)if(c){var
-a=hz(r);switch(a[0]){case
+m=l;if(m)if(b){var
+a=di(p);switch(a[0]){case
 0:var
-e=0;break;case
+d=0;break;case
 1:var
-A=fD(a[1]),B=A?fD(a[2]):A,e=B?fD(a[3]):B;break;case
+z=cR(a[1]),A=z?cR(a[2]):z,d=A?cR(a[3]):A;break;case
 2:var
-e=hM(a[1]);break;default:var
-C=hM(a[1]),e=C?hM(a[2]):C}var
-f=e}else
+d=d0(a[1]);break;default:var
+B=d0(a[1]),d=B?d0(a[2]):B}var
+e=d}else
 var
-D=hz(r),K=0===D[0]?fD(D[1]):0,f=K;else
+C=di(p),K=0===C[0]?cR(C[1]):0,e=K;else
 var
-f=p;if(f)var
-b=j(d),J=ef(c),q=n(function(a){var
-d=a[2];if(d)var
-e=d[1],f=ac(w7,e),n=f?ac(e,b):f,c=n;else
+e=m;if(e)var
+I=k(c),J=dP(b),o=n(function(a){return bZ(J,I,a)},f);else
 var
-c=1;var
-g=a[1];if(2<=g)switch(g-2|0){case
+o=e;var
+y=o?f8(f):o;return y?n(il,dX(0,k(c),f)):y}function
+mK(a){switch(a[0]){case
 0:var
-h=a[4];if(typeof
-h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
-4:var
-j=a[4];if(typeof
-j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bi(0,b,a):bi(0,b,a)}return bi(0,b,a);case
-6:var
-l=a[4];if(typeof
-l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,J):c:bi(0,b,a):bi(0,b,a)}return bi(0,b,a)}return bi(0,b,a)},g);else
+b=g(a[3],[0,a[4],0]),c=g(a[2],b);return g(a[1],c);case
+1:return g(a[1],a[2]);default:var
+d=g(a[4],[0,a[5],[0,a[6],0]]),e=g(a[3],d),f=g(a[2],e);return g(a[1],f)}}function
+mL(a,f,e,h,s,r){var
+o=typeof
+a==="number"?a?1:a:a[1]?0:1;function
+d(a){var
+b=o?zs:zt;return v(k(a),b)}var
+l=mx(f),B=n(function(b){switch(b[0]){case
+0:var
+c=at(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+1:var
+g=at(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+j=typeof
+a==="number"?1:0,k=j?1:j;else
 var
-q=f;var
-z=q?fC(g):q;return z?n(hK,dy(j(d),g)):z}function
-hN(j){var
-q=bc(j,dz(bQ(j))),a=e(function(a){return as(m,a)},q);if(a){var
+k=i;return k;default:var
+m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(B)var
+Y=k(f),t=Z(bd(a),Y);else
+var
+t=B;var
+C=t?Z(k(f),zu):t,F=C?n(eO,E(mK,f)):C;if(F)if(0===h[0]){var
+G=h[2],H=h[1],_=o?zv:zy,I=v(k(H),_);if(I)var
+$=o?zw:zx,u=v(k(G),$);else
+var
+u=I;if(u)var
+aa=a0(H,G),J=n(function(a){var
+b=i(a[2]);return bn(q,i(a[1]),b)},aa);else
+var
+J=u;var
+m=J}else{var
+X=0;if(typeof
+a==="number"&&!a){var
+A=1;X=1}if(!X)var
+A=0;var
+W=A?j(q,1,i(h[3])):A;if(W)var
+ac=i(h[5]),m=bn(q,i(h[4]),ac);else
+var
+m=W}else
+var
+m=F;if(m)if(typeof
+a==="number")if(e)var
+b=0;else
+var
+ab=D(di,s)?0:1,b=ab;else
+switch(a[1]){case
+0:if(e){var
+x=D(di,s);if(x){var
+L=x[1];if(0===L[0])var
+M=j(q,1,i(e[1])),N=M?cR(L[1]):M;else
+var
+N=0;var
+O=N}else
+var
+O=x;var
+b=O}else
+var
+b=e;break;case
+1:if(e){var
+y=e[1],z=D(di,s);if(z){var
+g=z[1];switch(g[0]){case
+0:var
+p=0;break;case
+1:var
+Q=j(q,1,i(y)),R=Q?cR(g[1]):Q,S=R?cR(g[2]):R,p=S?cR(g[3]):S;break;case
+2:var
+T=j(q,1,i(y)),p=T?d0(g[1]):T;break;default:var
+U=j(q,1,i(y)),V=U?d0(g[1]):U,p=V?d0(g[2]):V}var
+P=p}else
+var
+P=z;var
+b=P}else
+var
+b=e;break;default:var
+b=0}else
+var
+b=m;if(b)var
+c=k(f),w=n(function(b){var
+f=b[2];if(f)var
+g=f[1],h=Z(yQ,g),r=h?Z(g,c):h,d=r;else
+var
+d=1;switch(b[1]){case
+1:if(b[3])return bZ(bd(a),c,b);if(d){var
+q=0,i=b[4];if(typeof
+i!=="number"&&2===i[0]){var
+j=1;q=1}if(!q)var
+j=0;return cZ(l,j)}return d;case
+4:var
+k=b[4];if(typeof
+k!=="number"&&0===k[0])return b[3]?bZ(bd(a),c,b):d;return bZ(bd(a),c,b);case
+5:var
+m=b[4];if(typeof
+m!=="number"&&0===m[0]){if(b[3])return bZ(bd(a),c,b);var
+n=v(c,bd(a));if(n){var
+o=typeof
+a==="number"?1:0;if(o){if(b[2])return 0;var
+e=1}else
+var
+e=o}else
+var
+e=n;return e}return bZ(bd(a),c,b);case
+13:var
+p=b[4];if(typeof
+p!=="number"&&1===p[0])return b[3]?bZ(bd(a),c,b):d?at(l):d;return bZ(bd(a),c,b);default:return bZ(bd(a),c,b)}},r);else
+var
+w=b;var
+K=w?f8(r):w;return K?n(il,dX(l,k(f),r)):K}function
+im(j){var
+p=aU(j,cr(be(j))),a=e(function(a){return aj(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return Y(m,a)},r=i(h[1]),s=i(g[1]);return S(d,C(C(i(f[1]),s),r)[1])}var
+i=function(a){return V(q,a)},r=i(h[1]),s=i(g[1]);return $(d,G(G(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
 l=k}else
 var
 l=g;var
-n=l}else
+m=l}else
 var
-n=b;var
+m=b;var
+n=m}else
+var
+n=f;var
 o=n}else
 var
-o=f;var
-p=o}else
-var
-p=a;return p}function
-xN(a){switch(a[0]){case
-0:return hN(a[1][1]);case
+o=a;return o}function
+zz(a){switch(a[0]){case
+0:return im(a[1][1]);case
 1:var
-b=a[3];return b?hN(b[1]):1;default:return hN(a[1])}}function
-hO(c,a,b,p){if(aP(function(a){return 9===a[1]?1:0},b)){var
-f=ac(j(a),xP),h=f?n(function(a){if(0===a[0]){var
-f=a[5],h=k(m,1,i(a[2])),j=h?k(m,0,i(a[3])):h,l=j?k(m,0,i(a[4])):j,e=0;if(l)if(f)var
-u=bv(f[1]),b=n(function(a){return dB(i(a))},u);else{var
-o=1;e=1}else{var
-o=l;e=1}if(e)var
-b=o}else{var
-p=k(m,1,i(a[4]));if(p)var
-v=bv(a[3]),w=g(bv(a[2]),v),b=n(function(a){return dB(i(a))},w);else
+b=a[3];return b?im(b[1]):1;default:return im(a[1])}}function
+io(c,a,b,o){if(aK(function(a){return 9===a[1]?1:0},b)){var
+f=Z(k(a),zB),h=f?n(function(a){if(0===a[0]){var
+f=a[5],h=j(q,1,i(a[2])),k=h?j(q,0,i(a[3])):h,l=k?j(q,0,i(a[4])):k,e=0;if(l)if(f)var
+u=bG(f[1]),b=n(function(a){return dZ(i(a))},u);else{var
+m=1;e=1}else{var
+m=l;e=1}if(e)var
+b=m}else{var
+o=j(q,1,i(a[4]));if(o)var
+v=bG(a[3]),w=g(bG(a[2]),v),b=n(function(a){return dZ(i(a))},w);else
 var
-b=p}if(b){if(0===a[0]){var
-q=a[1],r=ac(xO,q);if(r){var
-d=ae(c,b5(q));if(d){if(2===d[1][0])return 0;var
+b=o}if(b){if(0===a[0]){var
+p=a[1],r=Z(zA,p);if(r){var
+d=X(c,bQ(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):f;if(h)var
-l=hx(0,a),u=l?1:l,o=u;else
+l=ib(0,a),u=l?1:l,m=u;else
 var
-o=h;var
-d=o}else
+m=h;var
+d=m}else
 var
 d=a?0:1;var
-q=d?n(xN,p[1]):d,r=q?ac(xQ,j(c)):q;if(r)var
-v=j(c),e=n(function(a){return wZ(v,a)},b);else
+p=d?n(zz,o[1]):d,r=p?Z(zC,k(c)):p;if(r)var
+v=k(c),e=n(function(a){return yH(v,a)},b);else
 var
 e=r;var
-s=e?fC(b):e,t=s?n(et,E(lC,c)):s;return t?n(xG,p[3]):t}function
-xR(a){return 11===a[1]?1:0}function
-hP(b,a){return n(function(c){var
-a=c[2];return a?dW(a[1],b):1},a)}function
-hQ(b,a){var
-c=j(c9(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
-lF(aU,ak,aT,aj,ai,b,ag,H){var
-a=hy(ak,aT,aj,ai),aV=j(H);if(aU)var
-al=0;else
+s=e?f8(b):e,t=s?n(eO,E(mI,c)):s;return t?n(zm,o[3]):t}function
+zD(a){return 11===a[1]?1:0}function
+f_(b,a){return n(function(c){var
+a=c[2];return a?eh(a[1],b):1},a)}function
+ip(b,a){var
+c=k(c1(function(a){return 0===a[0]?0:1},b));return v(k(a),c)}function
+mM(aI,Z,aH,Y,X,b,W,A){var
+a=ic(Z,aH,Y,X),aJ=k(A);if(aI)var
+_=0;else
 var
-aQ=a[1],aR=e(hD,a[1]),af=fi(hE(a[1]),aR,aQ),aS=a$(bp(0,j(af)),af),al=e(a2,c9(function(a){return kj(a[2])},aS));var
-I=dA(al,aV,H);if(I){var
-am=I[1];if(am[2])return 0;var
-an=hO(ak,aj,ai,a),ao=an?hP(xS,H):an;if(ao){var
-aW=am[1],J=e(hD,a[1]),c=hE(a[1]);if(ag)var
-ap=ag[1],aq=[0,ap[2],ap[1]];else
+aE=a[1],aF=e(f7,a[1]),V=fF(ih(a[1]),aF,aE),aG=a0(a9(0,k(V)),V),_=e(a3,c1(function(a){return hr(a[2])},aG));var
+B=dj(_,aJ,A);if(B){var
+aa=B[1];if(aa[2])return 0;var
+ab=io(Z,Y,X,a),ac=ab?f_(zE,A):ab;if(ac){var
+aL=aa[1],C=e(f7,a[1]),c=ih(a[1]);if(W)var
+ad=W[1],ae=[0,ad[2],ad[1]];else
 var
-aq=[0,d,0];var
-ae=kw(m,a);if(ae){var
-l=fi(c,J,a[1]),h=gX(c,J,a[1],0),au=j(a[3]),av=O(j(l),au),V=[0,j(l),av],aw=a[3],L=aP(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},aw),ax=L?E(function(a){var
-b=e(cI,kl(l,a));return[0,a[4],b]},h):L,ay=g(gZ(h,c,V,a[3]),ax),aA=g(cP(jO(h)),ay),W=g(cP(e9(h)),aA),X=d5(W)[1],p=d4(X),Z=n(function(a){var
-b=o(d);return bg(t(bJ(p,a),p,b),a)},W);if(Z){var
-_=aP(sl,a[3]);if(_){var
-y=J,r=a[1];for(;;){if(r){var
-s=r[1],z=eV(d,y);switch(s[0]){case
+ae=[0,d,0];var
+U=la(q,a);if(U){var
+j=fF(c,C,a[1]),h=hp(c,C,a[1],0),ah=k(a[3]),ai=Q(k(j),ah),K=[0,k(j),ai],al=a[3],F=aK(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},al),am=F?E(function(a){var
+b=e(cY,kY(j,a));return[0,a[4],b]},h):F,an=g(hq(h,c,K,a[3]),am),ao=g(bV(kr(h)),an),L=g(bV(fs(h)),ao),M=dC(L)[1],m=c5(M),N=n(function(a){var
+b=l(d);return a$(t(bA(m,a),m,b),a)},L);if(N){var
+O=aK(ts,a[3]);if(O){var
+s=C,o=a[1];for(;;){if(o){var
+p=o[1],u=dx(d,s);switch(p[0]){case
 0:var
-Q=s[1],R=g0(b,Q[1],z),K=0;if(R){var
-w=as(b,[0,Q[4],c]);if(w)var
-k=S(d,w[1][1]);else{var
-T=w;K=1}}else{var
-T=R;K=1}if(K)var
-k=T;break;case
+G=p[1],H=hs(b,G[1],u),D=0;if(H){var
+r=aj(b,[0,G[4],c]);if(r)var
+i=$(d,r[1][1]);else{var
+I=r;D=1}}else{var
+I=H;D=1}if(D)var
+i=I;break;case
 1:var
-U=s[3],k=U?g0(b,U[1],z):1;break;default:var
-k=g0(b,s[1],z)}if(k){var
-at=r[2],y=gx(y),r=at;continue}var
-$=k}else
+J=p[3],i=J?hs(b,J[1],u):1;break;default:var
+i=hs(b,p[1],u)}if(i){var
+ag=o[2],s=ek(s),o=ag;continue}var
+P=i}else
 var
-$=1;var
-A=$;break}}else
+P=1;var
+v=P;break}}else
 var
-A=_;if(A){var
-aB=a[3],aC=E(function(a){return dl(c,a)},aB),aD=a[3],aE=g(l,g(e(function(a){return bu(c,a)},aD),aC)),B=az(e(function(a){return as(b,a)},aE));if(B){var
-i=a[2];if(0===i[0])var
-aa=i[1];else
+v=O;if(v){var
+ap=a[3],aq=E(function(a){return dN(c,a)},ap),ar=a[3],as=g(j,g(e(function(a){return bE(c,a)},ar),aq)),w=ak(e(function(a){return aj(b,a)},as));if(w){var
+at=aU(fJ(a[2]),c),x=ak(e(function(a){return aj(b,a)},at));if(x){var
+au=a[3],y=ak(kZ(b,ae,function(a){return bA(m,a)},j,h,c,K,au));if(y){var
+R=y[1],av=ho(R),aw=x[1],ax=a[2],ay=function(a){return k0(b,ax,c,a)},az=w[1],aA=0,aB=kr(h),aC=f(aR(function(a){return bA(m,a)}),aB),aD=fs(h);return fC(b,M,f(aR(function(a){return bA(m,a)}),aD),aC,aA,az,R,ay,aw,av,aL)}var
+S=y}else
 var
-q=i[3],N=i[2],P=i[1],aa=[0,[0,[3,P,q],[2,P,q]],[0,[3,N,q],[2,N,q]],i[4]];var
-aF=bc(aa,c),D=az(e(function(a){return as(b,a)},aF));if(D){var
-aG=a[3],F=az(km(b,aq,function(a){return bJ(p,a)},l,h,c,V,aG));if(F){var
-ab=F[1],aH=j$(ab),u=a[2],aI=D[1],aJ=function(f){if(0===u[0])return 0;if(f){var
-a=f[2];if(a){var
-g=a[2];if(g){if(g[2])return 0;var
-d=a[1],e=f[1],h=ct(b,c,u[1]);if(h){var
-i=ct(b,c,u[2]);if(i){var
-j=ct(b,c,u[3]);if(j)var
-s=h[1],t=bL(e),k=M([0,bL(e),t],s),w=i[1],y=bL(d),l=M([0,bL(d),y],w),z=di(d),A=[0,di(d),z],B=[0,v(b,ah(C(l,l)),A),0],D=di(e),E=[0,di(e),D],F=[0,v(b,ah(C(k,k)),E),B],G=Y(b,l),H=Y(b,k),m=[0,[0,M(M(Y(b,j[1]),H),G),x,F]];else
+S=x;var
+T=S}else
 var
-m=j;var
-n=m}else
+T=w;var
+z=T}else
 var
-n=i;var
-o=n}else
+z=v}else
 var
-o=h;var
-p=o}else
+z=N;return z}return U}var
+af=ac}else
 var
-p=g;var
-q=p}else
-var
-q=a;var
-r=q}else
-var
-r=f;return r},aK=B[1],aL=0,aM=jO(h),aN=f(a5(function(a){return bJ(p,a)}),aM),aO=e9(h);return gV(b,X,f(a5(function(a){return bJ(p,a)}),aO),aN,aL,aK,ab,aJ,aI,aH,aW)}var
-ac=F}else
-var
-ac=D;var
-ad=ac}else
-var
-ad=B;var
-G=ad}else
-var
-G=A}else
-var
-G=Z;return G}return ae}var
-ar=ao}else
-var
-ar=I;return ar}function
-lG(z,aM,aq,ap,y,ao,h){var
-j=hy(z,aM,aq,ap);if(y){var
+af=B;return af}function
+zF(a){if(0===a[0])return mB(a[1]);var
+b=a[1],c=dY(b[6]);return g(dY(b[5]),c)}function
+zG(a){if(0===a[0])return mC(a[1]);var
+b=a[1],c=be(b[4]);return g(be(b[3]),c)}function
+zH(a){if(0===a[0])return[0,f7(a[1]),d];var
+b=a[1],c=cr(be(b[2]));return[0,cr(be(b[1])),c]}function
+mN(z,aM,ap,ao,y,an,g){var
+k=ic(z,aM,ap,ao);if(y){var
 A=y[2];if(A){var
 B=A[2];if(B){if(B[2])return 0;var
-ar=lz(z,e(i,ao));if(ar[2])return 0;var
-as=j[3];if(typeof
-h==="number")var
-a=xD;else
-if(0===h[0]){var
-b=h[2],n=h[1],G=J(xA,ae(as,n)),I=0;if(G){var
-T=G[1];if(T){var
-U=T[1];if(U)if(U[1])var
+aq=mF(z,e(i,an));if(aq[2])return 0;var
+ar=k[3];if(typeof
+g==="number")var
+a=zj;else
+if(0===g[0]){var
+b=g[2],m=g[1],H=D(zg,X(ar,m)),J=0;if(H){var
+S=H[1];if(S){var
+T=S[1];if(T)if(T[1])var
 a=0;else{var
-L=0;if(b){var
-o=b[1],M=0;if(o){var
-p=o[2],N=0;if(p){var
-q=p[2],O=0;if(q)if(q[2]){var
-a=0;L=1;M=1;N=1;O=1}else{var
-r=b[2],az=0;if(r){var
-s=r[1],aA=0;if(s){var
-t=s[2],aB=0;if(t){var
-u=t[2],aC=0;if(u)if(u[2]||r[2]){var
-a=0;L=1;M=1;N=1;O=1;az=1;aA=1;aB=1;aC=1}else
+K=0;if(b){var
+n=b[1],L=0;if(n){var
+o=n[2],M=0;if(o){var
+p=o[2],N=0;if(p)if(p[2]){var
+a=0;K=1;L=1;M=1;N=1}else{var
+r=b[2],ay=0;if(r){var
+s=r[1],az=0;if(s){var
+t=s[2],aA=0;if(t){var
+u=t[2],aB=0;if(u)if(u[2]||r[2]){var
+a=0;K=1;L=1;M=1;N=1;ay=1;az=1;aA=1;aB=1}else
 var
-V=[0,[0,n,[0,[0,o[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+U=[0,[0,m,[0,[0,n[1],o[1]],p[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
-V=u;if(!aC)var
+U=u;if(!aB)var
+V=U}else
+var
+V=t;if(!aA)var
 W=V}else
 var
-W=t;if(!aB)var
-X=W}else
+W=s;if(!az)var
+Y=W}else
 var
-X=s;if(!aA)var
-Y=X}else
-var
-Y=r;if(!az)var
+Y=r;if(!ay)var
 Z=Y}else
 var
-Z=q;if(!O)var
+Z=p;if(!N)var
 _=Z}else
 var
-_=p;if(!N)var
+_=o;if(!M)var
 $=_}else
 var
-$=o;if(!M)var
+$=n;if(!L)var
 aa=$}else
 var
-aa=b;if(!L)var
+aa=b;if(!K)var
 a=aa}else{var
-aD=0;if(b){var
-v=b[1],aE=0;if(v){var
-w=v[2],aF=0;if(w){var
-x=w[2],aG=0;if(x)if(x[2]||b[2]){var
-a=0;aD=1;aE=1;aF=1;aG=1}else
+aC=0;if(b){var
+v=b[1],aD=0;if(v){var
+w=v[2],aE=0;if(w){var
+x=w[2],aF=0;if(x)if(x[2]||b[2]){var
+a=0;aC=1;aD=1;aE=1;aF=1}else
 var
-ab=x[1],ac=w[1],ad=v[1],af=[0,[0,n,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-af=x;if(!aG)var
+ae=x;if(!aF)var
+af=ae}else
+var
+af=w;if(!aE)var
 ag=af}else
 var
-ag=w;if(!aF)var
+ag=v;if(!aD)var
 ah=ag}else
 var
-ah=v;if(!aE)var
-ai=ah}else
-var
-ai=b;if(!aD)var
-a=ai}}else
+ah=b;if(!aC)var
+a=ah}}else
 if(b)var
 a=0;else{var
-aj=[0,[0,d,d],d],ak=[0,[0,n,aj,aj]];I=1}}else{var
-ak=G;I=1}if(I)var
-a=ak}else{var
-al=h[1],H=ae(as,al),P=0;if(H){var
-aH=0,am=H[1];if(typeof
-am!=="number"&&1===am[0]){var
-a=[0,[1,al,h[2]]];aH=1}if(!aH){var
-an=0;P=1}}else{var
-an=H;P=1}if(P)var
-a=an}if(a){var
-at=hQ(E(lC,z),ao),au=at?hO(z,aq,ap,j):at;if(au){var
-g=a[1],aN=i(B[1]),aO=i(A[1]),f=[0,i(y[1]),aO,aN],l=ar[1],Q=ko(m,j,l,f);if(Q)if(typeof
-g==="number")return aP(function(a){switch(a[0]){case
-0:var
-b=[0,dm(a[1],a[2],a[3],a[4],f)];break;case
-1:var
-e=a[2],g=a[1],h=bM(g,e,f),b=[0,K(bM(g,e,f),h)];break;default:var
-b=0}return b?k(m,0,[3,[0,d,c],b[1]]):b},l);else{if(0===g[0]){var
-C=ae(j[3],g[1]);if(C){var
-aI=C[1],aJ=kq(g[3]);return kv(m,l,f,kq(g[2]),aJ,aI)}return C}var
-D=ae(j[3],g[1]);if(D){var
-F=ae(l,g[2]);if(F){var
-R=F[1],aK=D[1],aL=dp(R,f);return kv(m,l,f,dp(R,f),aL,aK)}var
-S=F}else
+ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
+aj=H;J=1}if(J)var
+a=aj}else{var
+ak=g[1],I=X(ar,ak),O=0;if(I){var
+aG=0,al=I[1];if(typeof
+al!=="number"&&1===al[0]){var
+a=[0,[1,ak,g[2]]];aG=1}if(!aG){var
+am=0;O=1}}else{var
+am=I;O=1}if(O)var
+a=am}if(a){var
+as=ip(E(mI,z),an),at=as?io(z,ap,ao,k):as;if(at){var
+f=a[1],aN=i(B[1]),aO=i(A[1]),h=[0,i(y[1]),aO,aN],l=aq[1],P=k2(q,k,l,h);if(P)if(typeof
+f==="number")return aK(function(b){var
+a=k3(b,h);return a?j(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
+C=X(k[3],f[1]);if(C){var
+aH=C[1],aI=k4(f[3]);return k9(q,l,h,k4(f[2]),aI,aH)}return C}var
+F=X(k[3],f[1]);if(F){var
+G=X(l,f[2]);if(G){var
+Q=G[1],aJ=F[1],aL=db(Q,h);return k9(q,l,h,db(Q,h),aL,aJ)}var
+R=G}else
 var
-S=D;return S}return Q}var
+R=F;return R}return P}var
+au=at}else
+var
+au=a;var
 av=au}else
 var
-av=a;var
+av=B;var
 aw=av}else
 var
-aw=B;var
+aw=A;var
 ax=aw}else
 var
-ax=A;var
-ay=ax}else
-var
-ay=y;return ay}function
-lH(m,l,b,k,y,x){var
+ax=y;return ax}function
+mO(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=ae(f,g),n=h?dW(h[1][2],xT):h;if(n)var
-z=d[2],i=lH(m,l,b,k,hC(0,g,f),z);else
+g=d[1],h=X(f,g),n=h?eh(h[1][2],zK):h;if(n)var
+z=d[2],i=mO(m,l,b,k,ig(0,g,f),z);else
 var
 i=n;if(i){var
-A=d[3],f=hC(1,g,f),d=A;continue}return i}var
-c=d[1],a=lv(0,m,f),o=e(function(b){function
-d(b){return lw(a,b)}function
-c(a){return hA(d,a)}switch(b[0]){case
+A=d[3],f=ig(1,g,f),d=A;continue}return i}var
+c=d[1],a=mz(0,m,f),o=e(function(b){function
+d(b){return mA(a,b)}function
+c(a){return id(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lw(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mA(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=J(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hA(function(b){return an(a,b)},q),s=b[1],j=[0,hA(function(b){return an(a,b)},s),r];else
+i=D(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=id(function(b){return au(a,b)},q),s=b[1],j=[0,id(function(b){return au(a,b)},s),r];else
 var
-t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
+t=au(a,b[5]),u=au(a,b[4]),v=au(a,b[3]),w=au(a,b[2]),j=[1,au(a,b[1]),w,v,u,t];var
 p=e(function(e){var
 b=e[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,an(a,b[1])];break;case
+c=[0,au(a,b[1])];break;case
 1:var
-c=[1,an(a,b[1])];break;default:var
-j=an(a,b[2]),c=[2,an(a,b[1]),j]}var
+c=[1,au(a,b[1])];break;default:var
+j=au(a,b[2]),c=[2,au(a,b[1]),j]}var
 f=e[3];if(f){var
 d=f[1];if(0===d[0])var
-g=[0,[0,an(a,d[1])]];else
+g=[0,[0,au(a,d[1])]];else
 var
-i=an(a,d[2]),g=[0,[1,an(a,d[1]),i]];var
+i=au(a,d[2]),g=[0,[1,au(a,d[1]),i]];var
 h=g}else
 var
 h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lF(1,o,j,0,p,c[1],c[2],c[3]);default:var
-B=c[4],C=c[3],D=e(function(b){return an(a,b)},C),E=c[2];return lG(o,j,0,p,e(function(b){return an(a,b)},E),D,B)}}}function
-lI(h,g){var
-a=cb(i(h));if(a){var
-b=a[1],e=c_([0,d,c],b);if(e)return c_(b,g);var
+1:return mM(1,o,j,0,p,c[1],c[2],c[3]);default:var
+B=c[4],C=c[3],E=e(function(b){return au(a,b)},C),F=c[2];return mN(o,j,0,p,e(function(b){return au(a,b)},F),E,B)}}}function
+mP(h,g){var
+a=cm(i(h));if(a){var
+b=a[1],e=dz([0,d,c],b);if(e)return dz(b,g);var
 f=e}else
 var
 f=a;return f}function
-xV(q){var
-dU=fy(q[3]),dW=dU?fy(q[4]):dU;if(dW){var
-D=q[1];switch(D[0]){case
+zM(o){var
+dh=f3(o[3]),di=dh?f3(o[4]):dh;if(di){var
+F=o[1];switch(F[0]){case
 3:var
-d3=n(eq,D[1]);if(d3)var
-gD=D[2],bK=n(function(a){return eq(a[1])},gD);else
+dr=n(eL,F[1]);if(dr)var
+gr=F[2],bz=n(function(a){return eL(a[1])},gr);else
 var
-bK=d3;if(bK)var
-gE=D[3],bM=n(function(a){var
-b=eq(a[1]),c=b?hu(a[2]):b;return c?er(a[2]):c},gE);else
+bz=dr;if(bz)var
+gs=F[3],bB=n(function(a){var
+b=eL(a[1]),c=b?h$(a[2]):b;return c?eM(a[2]):c},gs);else
 var
-bM=bK;if(bM)var
-gF=D[4],gG=function(a){var
-b=hu(a);return b?er(a):b},aC=n(function(a){return n(gG,a)},gF);else
+bB=bz;if(bB)var
+gt=F[4],ax=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
+b=h$(a);return b?eM(a):b},b)},gt);else
 var
-aC=bM;break;case
+ax=bB;break;case
 7:var
-gH=D[1],d6=n(function(a){var
-b=eq(a[1]);return b?fz(0,[0,a[2][1],[0,a[2][2],0]]):b},gH),aC=d6?fz(0,[0,D[5],[0,D[6],0]]):d6;break;default:var
-aC=1}var
-bH=aC}else
+gu=F[1],ds=n(function(a){var
+b=eL(a[1]);return b?f4(0,[0,a[2][1],[0,a[2][2],0]]):b},gu),ax=ds?f4(0,[0,F[5],[0,F[6],0]]):ds;break;default:var
+ax=1}var
+by=ax}else
 var
-bH=dW;var
-ca=0;if(bH){var
-dX=q[1],dY=7===dX[0]?e(a2,dX[1]):0,dZ=function(c,b){var
-a=lq(c);return a?n(function(a){var
+by=di;var
+b_=0;if(by){var
+dk=o[1],dl=7===dk[0]?e(a3,dk[1]):0,dm=function(c,b){var
+a=mt(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fy(a[2]);if(b){var
+b=f3(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fy(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},b)},b):a},d0=function(d,c,b){var
-a=lq(d);return a?fz(dY,g(c,b)):a},h=q[1];switch(h[0]){case
+1:return f3(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}},b)},b):a},dn=function(d,c,b){var
+a=mt(d);return a?f4(dl,g(c,b)):a},h=o[1];switch(h[0]){case
 0:var
-gg=E(cV,h[4]),gh=g(E(wV,h[3]),gg),gi=g(hw(h[2]),gh),F=g(E(hv,h[1]),gi);break;case
+fP=E(dg,h[4]),fQ=g(E(yD,h[3]),fP),fU=g(mq(h[2]),fQ),G=g(E(ia,h[1]),fU);break;case
 1:var
-gj=E(cV,h[3]),gk=g(hw(h[2]),gj),F=g(E(wU,h[1]),gk);break;case
+bv=h[5],bw=h[3],fV=E(dg,h[6]),fW=bv?mr(bv[1]):bv,fZ=g(fW,fV),C=h[4],f0=0===C[0]?g(C[1],C[2]):[0,C[1],[0,C[2],[0,C[3],[0,C[4],[0,C[5],0]]]]],f1=g(f0,fZ),f2=bw?[0,bw[1],0]:bw,f5=g(f2,f1),G=g(E(yC,h[2]),f5);break;case
 2:var
-gl=E(cV,h[7]),Q=h[6];switch(Q[0]){case
-1:var
-dR=Q[3],dS=Q[2],dT=Q[1],bF=[0,dT[1],[0,dT[2],[0,dS[1],[0,dS[2],[0,dR[1],[0,dR[2],0]]]]]];break;case
-2:var
-bF=[0,Q[1],0];break;default:var
-bF=[0,Q[1],[0,Q[2],0]]}var
-gm=g(bF,gl),gn=g(h[5],gm),go=g(h[4],gn),gp=[0,h[3],go],gq=h[2],F=g(E(function(a){return E(dv,g(a[1],a[2]))},gq),gp);break;case
+f$=E(dg,h[7]),ga=g(mr(h[6]),f$),gb=g(h[5],ga),gc=g(h[4],gb),gd=[0,h[3],gc],ge=h[2],G=g(E(function(a){return E(dU,g(a[1],a[2]))},ge),gd);break;case
 3:var
-gr=E(cV,h[7]),gs=g(h[6],gr),gt=g(h[5],gs),gu=h[2],F=g(E(function(a){return dv(a[2])},gu),gt);break;case
+gf=E(dg,h[7]),gg=g(h[6],gf),gh=g(h[5],gg),gi=h[2],G=g(E(function(a){return dU(a[2])},gi),gh);break;case
 4:var
-gv=E(cV,h[3]),F=[0,h[1],[0,h[2],gv]];break;case
+gj=E(dg,h[3]),G=[0,h[1],[0,h[2],gj]];break;case
 5:var
-gw=E(cV,h[4]),gx=g(bv(h[3]),gw),gy=g(bv(h[2]),gx),gz=g(E(hv,h[1]),gy),F=[0,h[5],gz];break;case
+gk=E(dg,h[4]),gl=g(bG(h[3]),gk),gm=g(bG(h[2]),gl),gn=g(E(ia,h[1]),gm),G=[0,h[5],gn];break;case
 6:var
-bG=h[1],F=bG?dv(bG[1]):bG;break;default:var
-gA=E(cV,h[4]),gB=g(hw(h[3]),gA),F=g(E(hv,h[2]),gB)}var
-d1=fz(dY,F);if(d1){var
-R=q[2];switch(R[0]){case
+bx=h[1],G=bx?dU(bx[1]):bx;break;default:var
+go=E(dg,h[4]),gp=g(mq(h[3]),go),G=g(E(ia,h[2]),gp)}var
+dp=f4(dl,G);if(dp){var
+L=o[2];switch(L[0]){case
 0:var
-af=dZ(R[1],R[3]);break;case
+ai=dm(L[1],L[3]);break;case
 1:var
-af=d0(R[1],R[2],R[3]);break;default:var
-gC=R[1],af=n(function(a){if(typeof
+ai=dn(L[1],L[2],L[3]);break;default:var
+gq=L[1],ai=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dZ(a[1],a[3]);case
-2:return d0(a[1],a[2],a[3])}return 1},gC)}}else{var
-d2=d1;ca=1}}else{var
-d2=bH;ca=1}if(ca)var
-af=d2;if(af){var
-a=q[1];switch(a[0]){case
+1:return dm(a[1],a[3]);case
+2:return dn(a[1],a[2],a[3])}return 1},gq)}}else{var
+dq=dp;b_=1}}else{var
+dq=by;b_=1}if(b_)var
+ai=dq;if(ai){var
+a=o[1];switch(a[0]){case
 0:var
-em=a[4],en=a[3],eo=a[2],ep=a[1],T=q[2];switch(T[0]){case
-0:return lF(0,ep,eo,en,em,T[1],T[2],T[3]);case
-1:return lG(ep,eo,en,em,T[2],T[3],T[4]);default:return 0}case
+dV=a[4],dW=a[3],dY=a[2],d0=a[1],O=o[2];switch(O[0]){case
+0:return mM(0,d0,dY,dW,dV,O[1],O[2],O[3]);case
+1:return mN(d0,dY,dW,dV,O[2],O[3],O[4]);default:return 0}case
 1:var
-aI=a[3],H=a[1],aJ=q[2];if(1===aJ[0]){var
-aK=aJ[2];if(aK){var
-aL=aK[2];if(aL){var
-aM=aL[2];if(aM){if(aM[2])return 0;var
-es=aJ[3],eu=lA(H,e(i,es));if(eu[2])return 0;var
-ev=hQ(E(lD,H),es);if(ev){var
-ea=ac(xH,j(H));if(ea)var
-gQ=j(H),gR=1,bT=n(function(a){return bi(gR,gQ,a)},aI);else
+aF=a[6],aG=a[5],aH=a[4],aI=a[3],S=a[2],z=a[1],T=o[2];switch(T[0]){case
+0:var
+bN=T[3],gI=T[1],aE=my(z,S,aI,aH,aG,aF),dD=aE[2],bJ=E(zF,dD),gD=bJ?[0,bJ[1],bJ[2]]:E(zG,dD),dB=y(c,cr(gD)),dE=e(zH,aE[2]),dF=hU(dB,dE,aE[2]),gE=k(bN),gF=a0(a9(0,k(dF)),dF),bK=dj(e(a3,c1(function(a){return hr(a[2])},gF)),gE,bN);if(bK){var
+dG=bK[1];if(dG[2])return 0;var
+dH=mL(z,S,aI,aH,aG,aF),dI=dH?f_(bd(z),bN):dH;if(dI)return ui(q,gI,aE,dB,dE,dG[1]);var
+dK=dI}else
 var
-bT=ea;var
-eb=bT?fC(aI):bT,ee=eb?n(et,E(lD,H)):eb,gW=ee?n(hK,dy(j(H),aI)):ee,bV=gW}else
+dK=bK;return dK;case
+1:var
+d1=T[3],gJ=T[4],gK=T[2],dL=typeof
+z==="number"?z?zI:zJ:f9(z[1]),bL=e(i,gK),dM=mH(S,e(i,d1));if(dM[2])return 0;var
+dO=ip(E(mK,S),d1),dQ=dO?mL(z,S,aI,aH,aG,aF):dO;if(dQ)var
+gG=bd(z),bM=v(k(bL),gG);else
 var
-bV=ev;if(bV){var
-gY=hG(aJ[4]),g0=i(aM[1]),g1=i(aL[1]),L=[0,i(aK[1]),g1,g0],aO=eu[1],g4=a[2],gL=dy(j(H),aI),gM=ls(g4),aj=e(w_,H),U=aO;for(;;){if(aj){if(U){var
-r=U[1],P=aj[1],co=aY(m,P[1],r[1]),cp=co?aY(m,P[2],r[2]):co,cq=cp?aY(m,P[3],r[3]):cp,cr=cq?aY(m,P[4],r[4]):cq,cu=cr?cQ(m,P[5],r[5]):cr,cv=cu?cQ(m,P[6],r[6]):cu,cw=cv?k(m,1,r[5]):cv,cx=cw?k(m,1,r[6]):cw,cy=cx?k(m,1,K(r[1],r[1])):cx;if(cy)var
-fh=g2(r),a6=k(m,1,K(g2(r),fh));else
+bM=dQ;if(bM){var
+gH=ij(gJ),s=g5(dL,bL),x=bp(el(dL,bL)),ag=dM[1],I=my(z,S,aI,aH,aG,aF),cp=lS(q,I[2],ag);if(cp){var
+cl=ht(q,I[4],x),b$=0;if(cl){var
+cn=I[5];if(cn)var
+aZ=ls(q,cn[1],s);else
+if(s)var
+aZ=0;else{var
+co=1;b$=1}}else{var
+co=cl;b$=1}if(b$)var
+aZ=co;var
+a1=aZ}else
 var
-a6=cy;var
-cz=a6?dV(P[7],r[7]):a6;if(cz){var
-aj=aj[2],U=U[2];continue}var
-cA=cz}else
+a1=cp;if(a1){var
+w=I[5],ab=I[1],eZ=I[6],e0=I[3],eV=E(function(a){if(0===a[0]){var
+c=cN(w,s,x,a),b=k3(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=cN(w,s,x,a);return[0,li(a[1],e),0]},ag),eW=e(function(d){var
+b=cN(w,s,x,d);if(0===d[0]){var
+a=d[1];if(0===a[0]){var
+f=a[4],g=a[3],h=a[2],e=a[1],j=c$(e,h,g,f,b),i=da(a[5],j),k=az(i,aL(e)),l=ew(e,h,g,b);return[0,[0,lR(ab,ac(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fL(c,b),o=ll(c,b),p=c[4],q=ac(function(b,a){return[2,b,a]},b,p);return[0,[0,lR(ab,ac(function(b,a){return[3,b,a]},q,o)),n,m]]},ag),eX=e(function(a){if(0===a[0]){var
+c=cN(w,s,x,a);return[0,hu(a[1],c)]}var
+b=a[1],d=lk(b,cN(w,s,x,a));return[1,lj(b,cN(w,s,x,a)),d]},ag),eY=[0,e(function(b){if(0===b[0])var
+k=cN(w,s,x,b),a=db(b[1],k);else
 var
-cA=U;var
-a7=cA}else
-var
-a7=U?0:1;var
-cB=a7?kn(m,gM,L):a7;if(cB){var
-fj=e(function(a){return kD(a,L)},aO),fm=e(function(a){var
-b=kF(a,L);return[1,kE(a,L),b]},aO);return kA(m,sp,[0,e(function(a){var
-d=kB(a),e=aG(kF(a,L),d),f=g3(a),g=aG(kE(a,L),f),h=ai(function(b,a){return[2,b,a]},g,e),i=aG(a[5],h),j=a[3],k=ai(function(b,a){return[2,b,a]},j,i),l=a[4],m=ai(function(b,a){return[2,b,a]},L,l),n=ai(function(b,a){return[3,b,a]},m,k),o=g9(a,L),b=aG([5,[0,c,c],[4,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},aO),fm,fj],gL,gY)}return cB}}var
-ew=bV}else
-var
-ew=aM;var
-ex=ew}else
-var
-ex=aL;var
-ey=ex}else
-var
-ey=aK;return ey}return 0;case
+e=cN(w,s,x,b),d=b[1],f=ll(d,e),g=d[4],h=ac(function(b,a){return[2,b,a]},e,g),i=ac(function(b,a){return[3,b,a]},h,f),j=fL(d,e),a=az([5,[0,c,c],[4,d[5],j]],i);var
+l=az([5,[0,c,c],e0],hE(lQ(w,s,hR(b)),a));return typeof
+ab==="number"?ab?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:lt(ab[1],a,l)},ag),eX,eW,eV];return lf(q,bd(I[1]),eY,eZ,gH)}return a1}return bM;default:return 0}case
 2:var
-aQ=a[7],aR=a[6],aS=a[5],aT=a[4],aU=a[3],W=a[2],X=a[1],Z=q[2];switch(Z[0]){case
+aJ=a[7],aM=a[6],aN=a[5],aO=a[4],aP=a[3],U=a[2],V=a[1],W=o[2];switch(W[0]){case
 0:var
-bW=Z[3],ag=lu(X,W,aU,aT,aS,aR,aQ),bX=dA(0,j(bW),bW);if(bX){var
-ez=bX[1];if(ez[2])return 0;var
-eA=lE(X,W,aU,aT,aS,aR,aQ),eB=eA?hP(ef(X),bW):eA;if(eB){var
-g5=ez[1],g6=ag[2],g7=B(c,dz(E(function(a){var
-b=bQ(a[2]);return g(bQ(a[1]),b)},g6))),g8=Z[1],fY=ag[2],dt=n(function(a){var
-b=hj(m,a[1]);return b?hj(m,a[2]):b},fY),du=dt?hj(m,ag[4]):dt;if(du)var
-fZ=k2(ag[5]),bw=n(function(a){return fq(m,a)},fZ);else
+bO=W[3],d2=mw(V,U,aP,aO,aN,aM,aJ),bP=dj(0,k(bO),bO);if(bP){var
+d3=bP[1];if(d3[2])return 0;var
+d4=mJ(V,U,aP,aO,aN,aM,aJ),d5=d4?f_(dP(V),bO):d4;if(d5){var
+gL=d3[1],gM=d2[2],gN=y(c,cr(E(function(a){var
+b=be(a[2]);return g(be(a[1]),b)},gM)));return tY(q,W[1],d2,gN,gL)}var
+d6=d5}else
 var
-bw=du;return bw?sW(g8,ag,g7,g5):bw}var
-eC=eB}else
-var
-eC=bX;return eC;case
+d6=bP;return d6;case
 1:var
-eD=Z[3],eE=e(i,Z[2]),eF=hL(X),eG=lB(W,e(i,eD));if(eG[2])return 0;var
-eH=hQ(E(function(a){return g(a[1],a[2])},W),eD),eI=eH?lE(X,W,aU,aT,aS,aR,aQ):eH;if(eI){var
-g$=hG(Z[4]),p=jo(eF,eE),aV=hJ(eW(eF,eE)),aW=eG[1],M=lu(X,W,aU,aT,aS,aR,aQ),ay=M[2],V=aW;for(;;){if(ay){if(V){var
-dm=V[1],dn=ay[1],dp=aY(m,dn[1],dm[1]),dq=dp?aY(m,dn[2],dm[2]):dp;if(dq){var
-ay=ay[2],V=V[2];continue}var
-dr=dq}else
+d7=W[3],d8=e(i,W[2]),d9=f9(V),d_=mG(U,e(i,d7));if(d_[2])return 0;var
+d$=ip(E(function(a){return g(a[1],a[2])},U),d7),ea=d$?mJ(V,U,aP,aO,aN,aM,aJ):d$;if(ea){var
+gO=ij(W[4]),al=g5(d9,d8),aQ=bp(el(d9,d8)),am=d_[1],J=mw(V,U,aP,aO,aN,aM,aJ),ao=J[2],P=am;for(;;){if(ao){if(P){var
+ce=P[1],cf=ao[1],cg=a5(q,cf[1],ce[1]),ch=cg?a5(q,cf[2],ce[2]):cg;if(ch){var
+ao=ao[2],P=P[2];continue}var
+ci=ch}else
 var
-dr=V;var
-br=dr}else
+ci=P;var
+aY=ci}else
 var
-br=V?0:1;var
-ds=br?aY(m,M[4],aV):br;if(ds){var
-A=M[5];switch(A[0]){case
-0:var
-w=p?p[2]?0:ed(m,A[1],p[1]):p;break;case
-1:var
-cc=0;if(p){var
-ao=p[2],ce=0;if(ao){var
-ar=ao[2],cf=0;if(ar)if(ar[2]){var
-w=0;ce=1;cf=1}else{var
-c4=ed(m,A[1],p[1]),c5=c4?ed(m,A[2],ao[1]):c4;if(c5){var
-w=ed(m,A[3],ar[1]);ce=1;cf=1}else
-var
-c6=c5}else
-var
-c6=ar;if(!cf)var
-c7=c6}else
-var
-c7=ao;if(!ce){var
-c8=c7;cc=1}}else{var
-c8=p;cc=1}if(cc)var
-w=c8;break;case
-2:var
-cg=0;if(p){var
-at=p[2],ch=0;if(at){var
-av=at[2];if(av)if(av[2]){var
-w=0;ch=1}else{var
-c9=av[1],c$=at[1],da=p[1],fR=K([0,da,c$,c9],[0,da,c$,c9]),w=kV(m,A[1],fR,[0,c,c]);ch=1}else
-var
-db=av}else
-var
-db=at;if(!ch){var
-dc=db;cg=1}}else{var
-dc=p;cg=1}if(cg)var
-w=dc;break;default:var
-ci=0;if(p){var
-aw=p[2],cj=0;if(aw){var
-ax=aw[2],ck=0;if(ax)if(ax[2]){var
-w=0;cj=1;ck=1}else{var
-bq=ax[1],dd=aw[1],de=p[1],df=kV(m,A[1],[2,[4,de,de],[4,dd,dd]],[2,[0,c,c],[4,bq,bq]]);if(df){var
-w=ed(m,cT(A[2]),bq);cj=1;ck=1}else
-var
-dg=df}else
-var
-dg=ax;if(!ck)var
-di=dg}else
-var
-di=aw;if(!cj){var
-dj=di;ci=1}}else{var
-dj=p;ci=1}if(ci)var
-w=dj}var
-bs=w}else
-var
-bs=ds;if(bs){var
-aA=M[5],fV=M[6],fW=M[3],fX=M[1],dk=function(a){var
-b=hb(aA,p,aV,a);return K(hb(aA,p,aV,a),b)},fS=e(dk,aW),fT=e(function(a){return[0,[6,dk(a)]]},aW),fU=[0,e(function(d){var
-b=aN(hb(aA,p,aV,d)),a=aG([5,[0,c,c],fW],kR(kS(aA,p,d[2]),b));switch(fX){case
-0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},aW),fT,fS];return kA(m,ef(M[1]),fU,fV,g$)}return bs}}return eI;default:return 0}case
+aY=P?0:1;var
+cj=aY?a5(q,J[4],aQ):aY,ck=cj?ls(q,J[5],al):cj;if(ck){var
+ap=J[5],eS=J[6],eT=J[3],eU=J[1],cd=function(a){var
+b=hG(ap,al,aQ,a);return N(hG(ap,al,aQ,a),b)},eN=e(cd,am),eP=e(function(a){return 0},am),eQ=e(function(a){return[0,[6,cd(a)]]},am),eR=[0,e(function(b){var
+a=aL(hG(ap,al,aQ,b));return lt(eU,a,az([5,[0,c,c],eT],hE(hF(ap,al,b[2]),a)))},am),eQ,eP,eN];return lf(q,dP(J[1]),eR,eS,gO)}return ck}}return ea;default:return 0}case
 3:var
-aX=a[7],eJ=a[6],eK=a[5],aZ=a[4],eL=a[2],eM=a[1],bY=q[2];if(0===bY[0]){var
-bZ=bY[3],b0=dA(0,j(bZ),bZ);if(b0){var
-eN=b0[1];if(eN[2])return 0;var
-gS=j(eJ),eg=u(j(eK),gS);if(eg)var
-gT=j(aZ),gU=0,bU=n(function(a){return bi(gU,gT,a)},aX);else
+aS=a[7],eb=a[6],ec=a[5],Y=a[4],ed=a[2],bR=a[1],bS=o[2];if(0===bS[0]){var
+bW=bS[3],bX=dj(0,k(bW),bW);if(bX){var
+ee=bX[1];if(ee[2])return 0;var
+gB=k(bR),gC=k(eb),dw=v(k(ec),gC),dx=dw?n(function(a){var
+b=bZ(gB,k(Y),a);if(b){if(1===a[1]){var
+c=a[2],d=c?[0,bQ(c[1]),0]:a9(0,k(Y));return n(function(b){var
+a=X(Y,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},aS):dw,dy=dx?f8(aS):dx,dA=dy?n(function(a){return eO(a[2])},ed):dy,ef=dA?n(il,dX(0,k(Y),aS)):dA,eg=ef?f_(k(bR),bW):ef;if(eg){var
+gP=ee[1],gQ=a[3],ay=dX(0,k(Y),aS),gv=a0(ec,eb),bC=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gv),gw=e(function(a){return 0===a[0]?[0,e(cP,a[1])]:[1,cP(a[1])]},Y),gx=e(function(a){var
+b=cP(a[2]);return[0,a[1],b]},gQ),m=[0,bR,e(function(a){var
+b=bH(a[2]);return[0,a[1],b]},ed),gx,gw],an=bS[1],fn=e(a3,m[2]),bf=g(m[1],fn),bg=k(m[1]),cL=Z(uj,bg),cM=cL?Z(bg,uk):cL,cO=cM?Z(bg,k(m[4])):cM,cQ=cO?Z(k(m[4]),ul):cO,cR=cQ?l$(bf):cQ;if(cR){var
+au=bf,as=m[3];for(;;){if(as){var
+cF=as[1],cI=cF[1],cJ=at(aK(function(b){return function(a){return aq(b,a)}}(cI),au)),cK=cJ?hZ(au,cF[2]):cJ;if(cK){var
+au=[0,cI,au],as=as[2];continue}var
+cS=cK}else
 var
-bU=eg;var
-eh=bU?fC(aX):bU,ei=eh?n(function(a){return et(a[2])},eL):eh,eO=ei?n(hK,dy(j(aZ),aX)):ei,eP=eO?hP(j(eM),bZ):eO;if(eP){var
-ha=eN[1],hc=a[3],d7=dy(j(aZ),aX),gI=a$(eK,eJ),bP=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gI),gJ=e(function(a){return e(cW,a)},aZ),gK=e(function(a){var
-b=cW(a[2]);return[0,a[1],b]},hc),l=[0,eM,e(function(a){var
-b=cd(a[2]);return[0,a[1],b]},eL),gK,gJ],ah=bY[1],fL=e(a2,l[2]),bk=g(l[1],fL),an=j(l[1]),cX=ac(sr,an),cY=cX?ac(an,ss):cX,cZ=cY?ac(an,j(l[4])):cY,c0=cZ?ac(j(l[4]),st):cZ;if(c0)var
-fM=l[4],bl=n(function(a){return u(j(a),an)},fM);else
+cS=1;var
+bh=cS;break}}else
 var
-bl=c0;var
-c1=bl?kN(bk):bl;if(c1){var
-am=bk,al=l[3];for(;;){if(al){var
-cO=al[1],cR=cO[1],cS=au(aP(function(b){return function(a){return ap(b,a)}}(cR),am)),cU=cS?g_(am,cO[2]):cS;if(cU){var
-am=[0,cR,am],al=al[2];continue}var
-c2=cU}else
+bh=cR;if(bh)var
+fo=m[4],bi=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=g(e(a3,m[3]),bf);return n(function(a){return hZ(c,a)},b)},fo);else
 var
-c2=1;var
-bm=c2;break}}else
+bi=bh;if(bi)var
+fp=m[2],bj=n(function(a){return bn(q,a[2][1],a[2][2])},fp);else
 var
-bm=c1;if(bm)var
-fN=l[4],fO=g(e(a2,l[3]),bk),fP=function(a){return g_(fO,a)},bn=n(function(a){return n(fP,a)},fN);else
+bj=bi;var
+cT=bj?n(function(a){return bn(q,a[1],a[2])},bC):bj;if(cT){var
+a4=k(m[1]),a6=k(m[2]),ct=Q(a6,k(hW(e(cY,m[3])))),e4=m[3],ad=l_(m),ar=e4,a2=a6;for(;;){if(ar){var
+cq=ar[1],cs=cq[2],e1=Q(a2,k(bF(cs))),e2=ar[2],e3=bt(ad,cs,a2),ad=[0,[0,cq[1],e3],ad],ar=e2,a2=e1;continue}var
+R=l7(a4,ad,m[4],ct),e5=l6(ad,m[4],ct),e6=m[3],cu=g(l3(l_(m),e6,a6),e5),cv=k(l9(m)),e7=0,e8=g(cu,eG(function(a,b){return lZ(R,a,b)},e7,d,cv,ay)),e9=g(bV(fT(R)),e8),cw=g(bV(fS(R)),e9),a7=dC(cw)[1],e_=c5(a7),ae=function(a){return bA(e_,a)},cx=v(k(bC),a4);if(cx)var
+e$=m[4],a8=n(function(a){return 0===a[0]?v(k(a[1]),a4):1},e$);else
 var
-bn=bm;if(bn)var
-fQ=l[2],bo=n(function(a){return bt(m,a[2][1],a[2][2])},fQ);else
+a8=cx;var
+cy=a8?n(function(a){var
+b=l(d),c=c5(a7);return a$(t(ae(a),c,b),a)},cw):a8,cz=cy?aK(l2,ay):cy;if(cz){var
+fa=l9(m),a_=ak(e(function(a){return aj(an,a)},fa));if(a_){var
+fb=0,fc=E(function(a){return fR(fb,d,a)},ay),ba=ak(e(function(a){return l0(an,a)},fc));if(ba){var
+bb=ak(e(function(a){return aj(an,[0,a,d])},bC));if(bb){var
+fd=0,fe=0,bc=ak(eG(function(a,b){return l1(an,ae,R,fe,d,a,b)},fd,d,cv,ay));if(bc){var
+cA=bc[1],ff=ho(cA),fg=bb[1],fh=function(a){return 0},fi=g(a_[1],ba[1]),fj=e(ae,cu),fk=fT(R),fl=f(aR(ae),fk),fm=fS(R);return fC(an,a7,f(aR(ae),fm),fl,fj,fi,cA,fh,fg,ff,gP)}var
+cB=bc}else
 var
-bo=bn;var
-c3=bo?n(function(a){return bt(m,a[1],a[2])},bP):bo;if(c3){var
-fw=j(l[1]),a9=j(l[2]),cE=O(a9,j(ec(e(cI,l[3])))),fx=l[3],$=kM(l),ak=fx,a8=a9;for(;;){if(ak){var
-cC=ak[1],cD=cC[2],fn=O(a8,j(bN(cD))),fo=ak[2],fp=bO($,cD,a8),$=[0,[0,cC[1],fp],$],ak=fo,a8=fn;continue}var
-fB=kJ($,l[4],cE),a_=e(function(a){return[0,a,o(c)]},fB),fD=kK($,l[4],cE),fE=l[3],ba=g(kG(kM(l),fE,a9),fD),bb=d5(g(cP(a_),ba))[1],fF=d4(bb),bd=function(a){return bJ(fF,a)},cF=f(a5(bd),a_),cG=u(j(bP),fw);if(cG)var
-fG=g(cP(a_),ba),be=n(function(a){var
-b=o(d),c=d4(bb);return bg(t(bd(a),c,b),a)},fG);else
+cB=bb;var
+cC=cB}else
 var
-be=cG;var
-cH=be?aP(sq,d7):be;if(cH){var
-fr=E(ec,l[4]),fs=g(ec(e(cI,l[3])),fr),fv=g(kL(l[2]),fs),bf=az(e(function(a){return as(ah,a)},fv));if(bf){var
-bh=az(e(function(a){return as(ah,[0,a,d])},bP));if(bh){var
-bj=az(e(function(a){if(typeof
-a==="number")return[0,[0,x]];else
-switch(a[0]){case
+cC=ba;var
+cD=cC}else
+var
+cD=a_;var
+cE=cD}else
+var
+cE=cz;return cE}}return cT}var
+eh=eg}else
+var
+eh=bX;return eh}return 0;case
+4:if(0===o[2][0]){var
+ei=dZ(i(a[1]));if(ei){var
+aT=a[3],ca=0;if(aT){var
+aA=aT[1],aB=aA[4],H=aT[2];if(aA[1]||aA[2]||aA[3])var
+r=0;else{var
+A=0;if(typeof
+aB!=="number")switch(aB[0]){case
 0:var
-f=[5,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
+aW=0;if(H){var
+aC=H[1],bD=aC[4];if(aC[1]||aC[2]||aC[3]){var
+r=0;A=1;aW=1}else{var
+cb=0;if(typeof
+bD!=="number"&&1===bD[0])if(H[2]){var
+r=0;A=1;aW=1;cb=1}else{var
+gy=i(bD[1]),r=[0,[0,i(aB[1]),gy]];A=1;aW=1;cb=1}if(!cb)var
+du=0}}else
+var
+du=H;if(!aW){var
+r=du;A=1}break;case
 1:var
-h=[5,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
+aX=0;if(H){var
+aD=H[1],bI=aD[4];if(aD[1]||aD[2]||aD[3]){var
+r=0;A=1;aX=1}else{var
+cc=0;if(typeof
+bI!=="number"&&0===bI[0])if(H[2]){var
+r=0;A=1;aX=1;cc=1}else{var
+gz=i(aB[1]),r=[0,[0,i(bI[1]),gz]];A=1;aX=1;cc=1}if(!cc)var
+dv=0}}else
+var
+dv=H;if(!aX){var
+r=dv;A=1}break}if(!A){var
+dt=0;ca=1}}}else{var
+dt=aT;ca=1}if(ca)var
+r=dt;if(r){var
+ej=r[1],ek=ej[2],em=ej[1],cX=j(q,1,i(a[2])),cZ=cX?j(q,1,[3,ek,[0,c,c]]):cX,c0=cZ?j(q,1,em):cZ;return c0?j(q,0,[3,[5,[0,c,c],ek],em]):c0}var
+en=r}else
+var
+en=ei;return en}return 0;case
 5:var
-i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=as(ah,[0,[0,b,b],d]);return J(function(a){return e(Y(ah,a))},g)},d7));if(bj){var
-cJ=bj[1],fH=j$(cJ),fI=bh[1],fJ=function(a){return 0},fK=bf[1];return gV(ah,bb,cF,cF,e(bd,ba),fK,cJ,fJ,fI,fH,ha)}var
-cL=bj}else
-var
-cL=bh;var
-cM=cL}else
-var
-cM=bf;var
-cN=cM}else
-var
-cN=cH;return cN}}return c3}var
-eQ=eP}else
-var
-eQ=b0;return eQ}return 0;case
-4:if(0===q[2][0]){var
-eR=dB(i(a[1]));if(eR){var
-a0=a[3],cl=0;if(a0){var
-aD=a0[1],aE=aD[4],G=a0[2];if(aD[1]||aD[2]||aD[3])var
-v=0;else{var
-z=0;if(typeof
-aE!=="number")switch(aE[0]){case
-0:var
-a3=0;if(G){var
-aF=G[1],bR=aF[4];if(aF[1]||aF[2]||aF[3]){var
-v=0;z=1;a3=1}else{var
-cm=0;if(typeof
-bR!=="number"&&1===bR[0])if(G[2]){var
-v=0;z=1;a3=1;cm=1}else{var
-gN=i(bR[1]),v=[0,[0,i(aE[1]),gN]];z=1;a3=1;cm=1}if(!cm)var
-d_=0}}else
-var
-d_=G;if(!a3){var
-v=d_;z=1}break;case
-1:var
-a4=0;if(G){var
-aH=G[1],bS=aH[4];if(aH[1]||aH[2]||aH[3]){var
-v=0;z=1;a4=1}else{var
-cn=0;if(typeof
-bS!=="number"&&0===bS[0])if(G[2]){var
-v=0;z=1;a4=1;cn=1}else{var
-gO=i(aE[1]),v=[0,[0,i(bS[1]),gO]];z=1;a4=1;cn=1}if(!cn)var
-d$=0}}else
-var
-d$=G;if(!a4){var
-v=d$;z=1}break}if(!z){var
-d8=0;cl=1}}}else{var
-d8=a0;cl=1}if(cl)var
-v=d8;if(v){var
-eS=v[1],eT=eS[2],eU=eS[1],dD=k(m,1,i(a[2])),dE=dD?k(m,1,[3,eT,[0,c,c]]):dD,dF=dE?k(m,1,eU):dE;return dF?k(m,0,[3,[5,[0,c,c],eT],eU]):dF}var
-eV=v}else
-var
-eV=eR;return eV}return 0;case
-5:var
-b1=a[4],eX=a[1],b2=q[2];if(0===b2[0]){var
-eY=b2[3],s=hy(eX,[0,a[2],a[3]],0,b1),b3=hH(j(eY),eY);if(b3){var
-eZ=b3[1];if(eZ[2])return 0;var
-e0=hO(eX,0,b1,s),e1=e0?au(aP(xR,b1)):e0;if(e1){var
-e2=kw(m,s);if(e2){var
-hd=eZ[1],e3=e(hD,s[1]),y=hE(s[1]),e4=i(a[5]),N=b2[1],bz=fi(y,e3,s[1]),C=gX(y,e3,s[1],0),f4=j(s[3]),f5=O(j(bz),f4),aB=[0,j(bz),f5],f6=gZ(C,y,aB,s[3]),f7=g(e(dh,C),f6),dJ=g(cP(e9(C)),f7),dK=d5(dJ)[1],bA=d4(dK),dL=s[2];if(0===dL[0]){var
-dM=n(function(a){var
-b=o(d);return bg(t(bJ(bA,a),bA,b),a)},dJ),dN=dM?k(m,1,e4):dM;if(dN){var
-f8=s[3],f9=E(function(a){return dl(y,a)},f8),f_=s[3],f$=g(bz,g(e(function(a){return bu(y,a)},f_),f9)),bB=az(e(function(a){return as(N,a)},f$));if(bB){var
-ga=bc(dL[1],y),bC=az(e(function(a){return as(N,a)},ga));if(bC){var
-bD=ct(N,y,[5,e4,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bD){var
-bE=s[3],gb=bC[1],gc=bD[1],gd=bB[1],ab=function(a){return bJ(bA,a)},f1=bp(0,j(bE)),f2=e(function(i){var
-l=ae(bE,i);if(l){var
-a=l[1],u=eW(i,bE),v=j(E(function(a){return dl(y,a)},u)),w=O(aB[2],v),h=[0,O(aB[1],i),w],r=e9(C),g=f(a5(ab),r),b=[1,[8,[1,[1,h[1]]]]],d=fl(C,y,h,a),n=d?[0,[3,e(ab,[0,d[1],d[2]])]]:d,m=0;if(typeof
+bY=a[4],eo=a[1],b0=o[2];if(0===b0[0]){var
+ep=b0[3],p=ic(eo,[0,a[2],a[3]],0,bY),b1=ik(k(ep),ep);if(b1){var
+eq=b1[1];if(eq[2])return 0;var
+er=io(eo,0,bY,p),et=er?at(aK(zD,bY)):er;if(et){var
+eu=la(q,p);if(eu){var
+gR=eq[1],ev=e(f7,p[1]),u=ih(p[1]),ex=i(a[5]),K=b0[1],bm=fF(u,ev,p[1]),B=hp(u,ev,p[1],0),fw=k(p[3]),fx=Q(k(bm),fw),av=[0,k(bm),fx],fy=hq(B,u,av,p[3]),fz=g(e(dJ,B),fy),c7=g(bV(fs(B)),fz),c8=dC(c7)[1],bo=c5(c8),c9=p[2];if(0===c9[0]){var
+c_=n(function(a){var
+b=l(d);return a$(t(bA(bo,a),bo,b),a)},c7),dc=c_?j(q,1,ex):c_;if(dc){var
+fA=p[3],fB=E(function(a){return dN(u,a)},fA),fD=p[3],fE=g(bm,g(e(function(a){return bE(u,a)},fD),fB)),bq=ak(e(function(a){return aj(K,a)},fE));if(bq){var
+fG=aU(c9[1],u),br=ak(e(function(a){return aj(K,a)},fG));if(br){var
+bs=cH(K,u,[5,ex,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bs){var
+bu=p[3],fJ=br[1],fK=bs[1],fM=bq[1],af=function(a){return bA(bo,a)},fr=a9(0,k(bu)),ft=e(function(i){var
+l=X(bu,i);if(l){var
+a=l[1],v=el(i,bu),w=k(E(function(a){return dN(u,a)},v)),x=Q(av[2],w),h=[0,Q(av[1],i),x],r=fs(B),g=f(aR(af),r),b=[1,[8,[1,[1,h[1]]]]],d=fI(B,u,h,a),n=d?[0,[3,e(af,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,b]];case
 1:return[0,[1,g,b]];case
 4:var
-o=k(N,1,a[2]),s=o?n:o;return s;case
+o=j(K,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,g,b]];case
 8:var
-p=k(N,1,[5,a[2],a[1]]);if(!p)return p;var
+p=j(K,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,c]];m=1;break;case
 9:var
 q=b;m=1;break;case
@@ -6129,44 +6708,44 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fk(C,y,h,a);return J(function(a){return[0,f(a5(ab),a),q]},t)}return 0}return l},f1),f3=e(function(a){return ab(dh(a))},C),dG=e(function(a){return ab(a[2])},C),ge=s[3],gf=aB[1],dH=e(aq,gd),dI=function(ay,ax){var
+t=fH(B,u,h,a);return D(function(a){return[0,f(aR(af),a),q]},t)}return 0}return l},fr),fv=e(function(a){return af(dJ(a))},B),c3=e(function(a){return af(a[2])},B),fN=p[3],fO=av[1],c4=e(aw,fM),c6=function(ay,ax){var
 l=ay,h=ax;for(;;){if(0===h[0]){var
-s=h[1],Z=u(j(s),s5),_=Z?n(function(a){var
-d=I(aa(b(2,b(2,b(2,c)))),a);return d?I(a,b(2,b(2,b(2,c)))):d},s):Z;if(_){var
-$=lj(N,gc,e$(0,l),s),i=h[2],v=bI(0,cs(N,$,dH),dK,0),L=function(a){return li(lh(N,$,dH,v,a))};if(typeof
-i==="number")return aP(function(b){var
-a=t(b,v,0);return a?I(a[1][2][2],d):a},dG);else{if(0===i[0]){var
-a=i[2],M=n(s3,a);if(M){var
-o=t(i[1],f2,0);if(o){var
+s=h[1],_=v(k(s),uu),$=_?n(function(a){var
+d=M(aa(b(2,b(2,b(2,c)))),a);return d?M(a,b(2,b(2,b(2,c)))):d},s):_;if($){var
+ab=mj(K,fK,fu(0,l),s),i=h[2],u=bT(0,cG(K,ab,c4),c8,0),L=function(a){return mi(mh(K,ab,c4,u,a))};if(typeof
+i==="number")return aK(function(b){var
+a=t(b,u,0);return a?M(a[1][2][2],d):a},c3);else{if(0===i[0]){var
+a=i[2],N=n(us,a);if(N){var
+o=t(i[1],ft,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],al=fu(B,A),am=ft(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],am]],al]],0]]];x=1}else{var
+A=a[1],B=g[1],al=fY(B,A),am=fX(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],am]],al]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],an=ft(D),ao=[1,[6,g[2],an]],F=[0,[0,E,[0,[1,[4,fu(E,D),ao]],0]]];y=1}else{var
+D=a[1],E=g[1],an=fX(D),ao=[1,[6,g[2],an]],F=[0,[0,E,[0,[1,[4,fY(E,D),ao]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
 z=0;if(a){var
-k=a[2],ak=0;if(k)if(k[2]){var
+j=a[2],ak=0;if(j)if(j[2]){var
 f=0;ak=1}else
 var
-G=k[1],H=a[1],m=g[1],ap=ft(H),aq=[1,[6,fu(m,G),ap]],ar=[1,[6,g[2],aq]],as=ft(G),J=[0,[0,m,[0,[1,[4,[1,[6,fu(m,H),as]],ar]],0]]];else
+G=j[1],H=a[1],m=g[1],ap=fX(H),aq=[1,[6,fY(m,G),ap]],ar=[1,[6,g[2],aq]],as=fX(G),I=[0,[0,m,[0,[1,[4,[1,[6,fY(m,H),as]],ar]],0]]];else
 var
-J=k;if(!ak){var
-K=J;z=1}}else{var
-K=a;z=1}if(z)var
-f=K;break;default:if(a)var
+I=j;if(!ak){var
+J=I;z=1}}else{var
+J=a;z=1}if(z)var
+f=J;break;default:if(a)var
 f=0;else
 var
-at=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},at)]]}if(f){var
-P=f[1],av=P[1],Q=n(function(a){return li(t(a[2],v,0))},av);if(Q)return n(L,P[2]);var
-R=Q}else
+au=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},au)]]}if(f){var
+O=f[1],av=O[1],P=n(function(a){return mi(t(a[2],u,0))},av);if(P)return n(L,O[2]);var
+R=P}else
 var
 R=f;var
 S=R}else
@@ -6174,116 +6753,116 @@ var
 S=o;var
 T=S}else
 var
-T=M;return T}var
-U=i[2],V=i[1],p=ae(ge,V);if(p){var
+T=N;return T}var
+U=i[2],V=i[1],p=X(fN,V);if(p){var
 W=p[1];if(typeof
 W!=="number"&&1===W[0]){var
-q=ae(dG,U);if(q){var
-r=ae(f3,U);if(r){var
-aw=O(gf,V);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,aw]]]],[0,q[1]]]]]])}var
-Y=r}else
+q=X(c3,U);if(q){var
+r=X(fv,U);if(r){var
+aw=Q(fO,V);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,aw]]]],[0,q[1]]]]]])}var
+Z=r}else
 var
-Y=q;return Y}var
-X=0}else
+Z=q;return Z}var
+Y=0}else
 var
-X=p;return X}}return _}var
-ab=h[1],w=ae(l,ab);if(w){var
-ac=w[1],az=ac[1],af=au(ad(bL(ac),az));if(af){var
-ag=d9(ab,l),ah=dI(ag[1],h[2]);if(ah){var
-l=ag[2],h=h[3];continue}var
-ai=ah}else
+Y=p;return Y}}return $}var
+ac=h[1],w=X(l,ac);if(w){var
+ad=w[1],az=ad[1],ae=at(ah(bU(ad),az));if(ae){var
+af=es(ac,l),ag=c6(af[1],h[2]);if(ag){var
+l=af[2],h=h[3];continue}var
+ai=ag}else
 var
-ai=af;var
+ai=ae;var
 aj=ai}else
 var
-aj=w;return aj}};return dI(gb,hd)}var
-dO=bD}else
+aj=w;return aj}};return c6(fJ,gR)}var
+dd=bs}else
 var
-dO=bC;var
-dP=dO}else
+dd=br;var
+de=dd}else
 var
-dP=bB;var
-dQ=dP}else
+de=bq;var
+df=de}else
 var
-dQ=dN;return dQ}return 0}var
-e5=e2}else
+df=dc;return df}return 0}var
+ey=eu}else
 var
-e5=e1;var
-e6=e5}else
+ey=et;var
+ez=ey}else
 var
-e6=b3;return e6}return 0;case
+ez=b1;return ez}return 0;case
 6:var
-e7=a[1];if(e7){var
-e8=e7[1],b4=q[2];if(0===b4[0]){var
-b5=hF(0,xW,b4[3]);if(b5){var
-e_=et(e8);if(e_){var
-he=b5[1],fa=cd(e8)[2],a1=b4[1],bx=ct(a1,d,fa);if(bx){var
-by=ct(a1,d,[5,[0,c,c],fa]);if(by){var
-f0=bx[1][1],dw=S(cK(a1),f0);if(dw)return lg(a1,by[1][1],he);var
-dx=dw}else
+eA=a[1];if(eA){var
+eB=eA[1],b2=o[2];if(0===b2[0]){var
+b3=ii(0,zN,b2[3]);if(b3){var
+eC=eO(eB);if(eC){var
+gS=b3[1],eD=bH(eB)[2],aV=b2[1],bk=cH(aV,d,eD);if(bk){var
+bl=cH(aV,d,[5,[0,c,c],eD]);if(bl){var
+fq=bk[1][1],cU=$(c2(aV),fq);if(cU)return mg(aV,bl[1][1],gS);var
+cV=cU}else
 var
-dx=by;var
-dC=dx}else
+cV=bl;var
+cW=cV}else
 var
-dC=bx;return dC}var
-fb=e_}else
+cW=bk;return cW}var
+eE=eC}else
 var
-fb=b5;return fb}return 0}var
-b6=q[2];if(0===b6[0]){var
-b7=hF(0,xX,b6[3]);return b7?lg(b6[1],d,b7[1]):b7}return 0;default:var
-_=a[1],fc=q[2];if(2===fc[0]){var
-fd=fc[1],b8=hB(j(fd),fd);if(b8){var
-fe=b8[1];if(fe[2])return 0;var
-b9=fe[1],ej=ac(xU,j(_)),ek=ej?ac(j(_),jx):ej,el=ek?kN(e(a2,_)):ek,ff=el?n(function(c){var
-a=cb(i(c[2][1]));if(a){var
-b=cb(i(c[2][2]));if(b)return au(c_(b[1],a[1]));var
+eE=b3;return eE}return 0}var
+b4=o[2];if(0===b4[0]){var
+b5=ii(0,zO,b4[3]);return b5?mg(b4[1],d,b5[1]):b5}return 0;default:var
+_=a[1],eF=o[2];if(2===eF[0]){var
+eH=eF[1],b6=ie(k(eH),eH);if(b6){var
+eI=b6[1];if(eI[2])return 0;var
+b7=eI[1],dR=Z(zL,k(_)),dS=dR?Z(k(_),j7):dR,dT=dS?l$(e(a3,_)):dS,eJ=dT?n(function(c){var
+a=cm(i(c[2][1]));if(a){var
+b=cm(i(c[2][2]));if(b)return at(dz(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},_):el;if(ff)var
-hf=fA(w$,b9),b_=lI(a[5],hf);else
+d=a;return d},_):dT;if(eJ)var
+gT=f6(yT,b7),b8=mP(a[5],gT);else
 var
-b_=ff;if(b_)var
-hg=fA(xa,b9),b$=lI(a[6],hg);else
+b8=eJ;if(b8)var
+gU=f6(yU,b7),b9=mP(a[6],gU);else
 var
-b$=b_;if(b$){var
-gP=e(function(a){return[0,d,0]},_);return lH(_,a[2],a[3],a[4],gP,b9)}var
-fg=b$}else
+b9=b8;if(b9){var
+gA=e(function(a){return[0,d,0]},_);return mO(_,a[2],a[3],a[4],gA,b7)}var
+eK=b9}else
 var
-fg=b8;return fg}return 0}}return af}var
-F=[aB,x0,f8(0)],lJ=[aB,x1,f8(0)];function
-xY(m,b){var
-f=[0,h(wA,aj(b[4])),0],g=[0,h(wC,R([0,h(wB,aj(b[3])),f])),0],a=b[2];switch(a[0]){case
+eK=b6;return eK}return 0}}return ai}var
+K=[aE,zR,gD(0)],mQ=[aE,zS,gD(0)];function
+zP(m,b){var
+f=[0,h(yi,am(b[4])),0],g=[0,h(yk,S([0,h(yj,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(ww,ln(a[1],a[2],a[3]));break;case
+c=I(ye,mo(a[1],a[2],a[3]));break;case
 1:var
-c=H(wx,lo(a[1],a[2],a[3],a[4]));break;default:var
-c=H(wy,y(e(wr,a[1])))}var
-i=[0,h(wD,c),g],j=1===b[2][0]?wJ:wE,k=[0,h(wF,aj(j)),i],l=[0,h(wG,vc(b[1])),k],d=ap(i1(xZ,fv(R([0,h(wI,aj(wH)),l]),wz)),m);return d?xV(b):d}function
-T(a){if(0===a[0])return a[1];throw F}function
-U(a){if(1===a[0])return a[1];throw F}function
-aO(a){if(2===a[0])return a[1];throw F}function
-dC(a){if(3===a[0])return a[1];throw F}function
-aZ(f,e){var
+c=I(yf,mp(a[1],a[2],a[3],a[4]));break;default:var
+c=I(yg,x(e(x$,a[1])))}var
+i=[0,h(yl,c),g],j=1===b[2][0]?yr:ym,k=[0,h(yn,am(j)),i],l=[0,h(yo,wR(b[1])),k],d=aq(jz(zQ,fZ(S([0,h(yq,am(yp)),l]),yh)),m);return d?zM(b):d}function
+Y(a){if(0===a[0])return a[1];throw K}function
+T(a){if(1===a[0])return a[1];throw K}function
+aS(a){if(2===a[0])return a[1];throw K}function
+d1(a){if(3===a[0])return a[1];throw K}function
+aV(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Dk(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===FE(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aZ(c,b);if(a)return a[1];throw F}function
-cY(b,a){var
+a=aV(c,b);if(a)return a[1];throw K}function
+cs(b,a){var
 c=a?[0,f(b,a[1])]:a;return c}function
-cZ(a){switch(a[0]){case
+dm(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],x2]}throw F}function
-dD(e,d){var
-a=X(e,U(d));if(a){var
+2:return[0,a[1],zT]}throw K}function
+eP(e,d){var
+a=R(e,T(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw F}function
-fE(i){var
-f=cj(i),d=[0,0],e=a8(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw K}function
+f$(i){var
+f=cy(i),d=[0,0],e=bi(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=dL(f,c)+h3|0;if(9<g>>>0)throw F;switch(g){case
+a=d[1],g=d9(f,c)+iC|0;if(9<g>>>0)throw K;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6305,89 +6884,98 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eu(a){return jj(fE(a))}function
-ev(b){var
-a=dC(b);return 45===W(a,0)?aa(eu(c6(a,1,L(a)-1|0))):eu(a)}function
-lK(a){return gw(eu(dC(a)))}function
-fF(a){return ji(eu(dC(a)))}function
-cA(c){var
-a=dC(c);if(6<L(a))throw F;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iE(a))}function
-lL(a){var
-b=97<=a?1:0,c=b?a<=nY?1:0:b;if(c)var
+eQ(a){return jT(f$(a))}function
+eR(b){var
+a=d1(b);return 45===ab(a,0)?aa(eQ(du(a,1,P(a)-1|0))):eQ(a)}function
+mR(a){return g4(eQ(d1(a)))}function
+ga(a){return jS(eQ(d1(a)))}function
+cS(c){var
+a=d1(c);if(6<P(a))throw K;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(jd(a))}function
+mS(a){var
+b=97<=a?1:0,c=b?a<=o5?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lM(y,b){var
-d=L(b),a=[0,0];function
+mT(y,b){var
+d=P(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?W(b,a[1])===e?1:0:c;return f}function
-m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=W(b,a[1])&&!(57<W(b,a[1]))){a[1]++;continue}return c6(b,c,a[1]-c|0)}}function
+c=a[1]<d?1:0,f=c?ab(b,a[1])===e?1:0:c;return f}function
+l(e){var
+c=a[1];for(;;){if(a[1]<d&&48<=ab(b,a[1])&&!(57<ab(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw F}function
-i(j){if(64<j)throw F;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw K}function
+i(j){if(64<j)throw K;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&ap(c6(b,a[1],5),x4)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aq(du(b,a[1],5),zV)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lL(W(b,a[1]))){var
+v=0;if(a[1]<d&&mS(ab(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lL(W(b,a[1]))&&95!==W(b,a[1])&&(!(48<=W(b,a[1]))||57<W(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,f(y,c6(b,o,a[1]-o|0))];break}}else
+w=0;if(!mS(ab(b,a[1]))&&95!==ab(b,a[1])&&(!(48<=ab(b,a[1]))||57<ab(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,f(y,du(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=ap(h,x5);if(r)var
+h=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(h,zW);if(r)var
 s=r;else
 var
-t=1<L(h)?1:0,s=t?48===W(h,0)?1:0:t;if(s)throw F;if(q){var
-k=q[1],x=0;if(ap(k,x6)||48===W(k,L(k)-1|0))x=1;else
+t=1<P(h)?1:0,s=t?48===ab(h,0)?1:0:t;if(s)throw K;if(q){var
+k=q[1],x=0;if(aq(k,zX)||48===ab(k,P(k)-1|0))x=1;else
 var
-z=fE(k),e=[0,fE(h),z];if(x)throw F}else
+z=f$(k),e=[0,f$(h),z];if(x)throw K}else
 var
-e=[0,fE(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(l(g,x3)){if(!(2<L(g))&&2<=iE(g)&&!(64<iE(g)))return[4,e,gw(eu(g))];throw F}throw F}return e}function
+e=[0,f$(h),0]}}}if(c(94)){a[1]++;var
+g=l(0);if(m(g,zU)){if(!(2<P(g))&&2<=jd(g)&&!(64<jd(g)))return[4,e,g4(eQ(g))];throw K}throw K}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw F;var
+g(d){if(64<d)throw K;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw F;return h}function
-fG(a){return lM(function(a){return[0,a]},a)}function
-lN(a){var
-b=aO(a);return lM(function(a){return a},b)}function
-Q(a){return fG(aO(a))}function
-ce(a){if(2===a[0])return[0,fG(a[1])];var
-b=T(a),c=Q(p(b,x7));return[1,Q(p(b,x8)),c]}function
-Z(a){throw[0,lJ,aE(i1(x_,a),x9)]}function
-lO(c){var
-a=aO(c);if(l(a,x$)){var
-b=l(a,ya);if(b)throw F;return b}return 1}function
-yb(d){var
-b=T(d);function
-a(a){return dD(ce,p(b,a))}var
-c=aO(p(b,yc));if(l(c,yd)){if(l(c,ye)){if(l(c,yf))return Z([0,yh,[0,c,yg]]);var
-e=aZ(b,yi),f=cY(function(a){return dD(ce,a)},e),g=a(yj);return[1,a(yk),g,f]}var
-h=lO(p(b,yl)),i=ce(p(b,ym)),j=a(yn),k=a(yo);return[0,a(yp),k,j,i,h]}return[2,a(yq)]}function
-hR(d){var
+h=g(0);if(a[1]<d)throw K;return h}function
+gb(a){return mT(function(a){return[0,a]},a)}function
+iq(a){var
+b=aS(a);return mT(function(a){return a},b)}function
+O(a){return gb(aS(a))}function
+b0(a){if(2===a[0])return[0,gb(a[1])];var
+b=Y(a),c=O(p(b,zY));return[1,O(p(b,zZ)),c]}function
+W(a){throw[0,mQ,aH(jz(z1,a),z0)]}function
+ir(c){var
+a=aS(c);if(m(a,z2)){var
+b=m(a,z3);if(b)throw K;return b}return 1}function
+z4(d){var
+b=Y(d);function
+a(a){return eP(b0,p(b,a))}var
+c=aS(p(b,z5));if(m(c,z6)){if(m(c,z7)){if(m(c,z8))return W([0,z_,[0,c,z9]]);var
+e=aV(b,z$),f=cs(function(a){return eP(b0,a)},e),g=a(Aa);return[1,a(Ab),g,f]}var
+h=ir(p(b,Ac)),i=b0(p(b,Ad)),j=a(Ae),k=a(Af);return[0,a(Ag),k,j,i,h]}return[2,a(Ah)]}function
+Ai(d){var
+a=Y(d);if(a){var
+b=a[1];if(!m(b[1],Aj)){var
+c=b[2];if(2===c[0]&&!m(c[1],Ak))return 1}}return 0}function
+mU(e){var
+b=Y(e);function
+a(a){return R(b0,T(p(b,a)))}var
+c=aS(p(b,Al)),d=aV(b,Am);if(m(c,An)){if(m(c,Ao)){if(!m(c,Ap)&&!d){var
+f=a(As);return[1,a(At),f]}}else
+if(!d){var
+g=ir(p(b,Au)),h=b0(p(b,Av)),i=a(Aw),j=a(Ax);return[0,a(Ay),j,i,h,g]}}else
+if(!d){var
+k=ir(p(b,Az)),l=b0(p(b,AA)),n=b0(p(b,AB)),o=a(AC),q=a(AD),r=a(AE);return[2,a(AF),r,q,o,n,l,k]}return W([0,Ar,[0,c,Aq]])}function
+mV(d){var
+a=Y(d);if(a){var
+b=a[1];if(!m(b[1],AG)){var
+c=b[2];if(2===c[0]&&!m(c[1],AH))return 1}}return 0}function
+cT(c,d){var
 a=T(d);if(a){var
-b=a[1];if(!l(b[1],yr)){var
-c=b[2];if(2===c[0]&&!l(c[1],ys))return 1}}return 0}function
-yt(c){var
-a=T(c);if(1-hR(c))throw F;function
-b(b){return dD(ce,p(a,b))}var
-d=lO(p(a,yu)),e=ce(p(a,yv)),f=ce(p(a,yw)),g=b(yx),h=b(yy),i=b(yz);return[0,b(yA),i,h,g,f,e,d]}function
-dE(c,d){var
-a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw F}function
-hS(n){var
-c=T(n),a=aO(p(c,yB)),h=os(a,yC),g=0;if(0<=h)if(0<h)if(l(a,yD))if(l(a,yE))if(l(a,yF))if(l(a,yG))if(l(a,yH)){var
-i=l(a,yI);if(i)g=1;else
+e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw K}function
+gc(f,o){var
+x=f?f[1]:f,c=Y(o),a=aS(p(c,AI)),i=pz(a,AJ),h=0;if(0<=i)if(0<i)if(m(a,AK))if(m(a,AL))if(m(a,AM))if(m(a,AN))if(m(a,AO)){var
+j=m(a,AP);if(j)h=1;else
 var
-b=i}else
+b=j}else
 var
 b=6;else
 var
@@ -6397,10 +6985,12 @@ b=5;else
 var
 b=11;else
 var
+b=13;else
+var
 b=2;else
+if(m(a,A_))if(m(a,A$))if(m(a,Ba))if(m(a,Bb))if(m(a,Bc))if(m(a,Bd))if(m(a,Be))h=1;else
 var
 b=1;else
-if(l(a,y1))if(l(a,y2))if(l(a,y3))if(l(a,y4))if(l(a,y5))if(l(a,y6))g=1;else
 var
 b=8;else
 var
@@ -6413,125 +7003,135 @@ var
 b=9;else
 var
 b=12;var
-k=g?Z([0,yK,[0,a,yJ]]):b;function
-f(a){return p(c,yL)}var
-d=aO(p(c,yM)),j=l(d,yN);if(j)if(l(d,yO))if(l(d,yP))if(l(d,yQ))var
-e=Z([0,yS,[0,d,yR]]);else
+l=h?W([0,AR,[0,a,AQ]]):b;function
+g(a){return p(c,AS)}var
+d=aS(p(c,AT)),k=m(d,AU);if(k)if(m(d,AV))if(m(d,AW))if(m(d,AX))var
+e=W([0,AZ,[0,d,AY]]);else
 var
-m=dE(Q,f(0)),e=[2,m[1],m[2]];else
+n=cT(O,g(0)),e=[2,n[1],n[2]];else
 var
-e=[0,Q(f(0))];else
+e=[0,O(g(0))];else
 var
-e=[1,Q(f(0))];else
+e=[1,O(g(0))];else
 var
-e=j;function
-o(w){var
-a=T(w),b=0;switch(k){case
+e=k;function
+q(y){var
+a=Y(y),b=0;switch(l){case
 6:if(a){var
-o=a[1];if(!l(o[1],yU)){var
-p=o[2];if(1===p[0]){var
-e=p[1],j=0;if(e&&!e[2])if(a[2])j=1;else{var
-d=e[1];b=1;j=1}if(!j&&!a[2])return Z(yV)}}}break;case
+p=a[1];if(!m(p[1],A1)){var
+q=p[2];if(1===q[0]){var
+e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
+d=e[1];b=1;k=1}if(!k&&!a[2])return W(A2)}}}break;case
 10:if(a){var
-q=a[1];if(!l(q[1],yW)){var
-r=q[2];if(1===r[0]){var
-f=r[1];if(f&&!f[2]){var
+r=a[1];if(!m(r[1],A3)){var
+s=r[2];if(1===s[0]){var
+f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-s=g[1];if(!l(s[1],yX)){var
-t=s[2];if(1===t[0]){var
-h=t[1];if(h&&!h[2]&&!g[2]){var
-x=Q(h[1]);return[1,Q(f[1]),x]}}}}}}}}break;case
+t=g[1];if(!m(t[1],A4)){var
+u=t[2];if(1===u[0]){var
+h=u[1];if(h&&!h[2]&&!g[2]){var
+z=O(h[1]);return[1,O(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-u=a[1];if(!l(u[1],yY)){var
-v=u[2];if(1===v[0]){var
-i=v[1];if(i&&!i[2]&&!a[2]){var
-d=i[1];b=1}}}}break;case
+v=a[1];if(!m(v[1],A5)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],A6)&&!i[2]&&x)return W(A7)}else
+if(1===w[0]){var
+j=w[1];if(j&&!j[2]){var
+d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-m=a[1];if(!l(m[1],yT)){var
-n=m[2];if(1===n[0]){var
-c=n[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,Q(d)];throw F}var
-q=cY(o,aZ(c,yZ));return[0,k,cY(cA,aZ(c,y0)),q,e]}function
-hT(c){var
-a=hS(c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(y7)}function
-y8(a){var
-b=hS(a),c=b[1];if(2<=c)switch(c-2|0){case
+n=a[1];if(!m(n[1],A0)){var
+o=n[2];if(1===o[0]){var
+c=o[1];if(c&&!c[2]&&!a[2]){var
+d=c[1];b=1}}}}break}if(b)return[0,O(d)];throw K}var
+r=cs(q,aV(c,A8));return[0,l,cs(cS,aV(c,A9)),r,e]}function
+is(c){var
+d=gc(Bg,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
-6:return b}return hT(a)}function
-zd(f){var
-a=T(f);function
-d(b){return Q(p(a,b))}function
-c(b){return dD(Q,p(a,b))}var
-b=aO(p(a,ze));if(l(b,zf)){if(!l(b,zg)){var
-j=p(a,zm),e=dE(function(a){return a},j),k=aZ(a,zn),m=cY(function(a){return c(zo)},k),n=fG(aO(e[2])),o=fG(aO(e[1])),q=d(zp);return[0,cA(p(a,zq)),q,o,n,m]}if(l(b,zh))throw F}var
-g=d(zi),h=c(zj),i=c(zk);return[1,ap(b,zl),i,h,g]}function
-hU(aa){var
-e=cZ(aa),g=e[1];if(l(g,zr)){if(l(g,zs)){if(l(g,zt)){if(l(g,zu))return Z([0,zw,[0,g,zv]]);var
-s=p(T(e[2]),zx),R=0;if(2===s[0]){var
-A=l(s[1],zy);if(!A){var
-z=A;R=1}}if(!R)var
-z=[0,ce(s)];return[6,z]}var
-B=T(e[2]),h=hU([0,[0,[0,zA,p(B,zz)],0]]);if(0===h[0]){var
-t=h[2];if(0===t[0]&&!h[3]){var
-ab=Q(p(B,zC));return[5,h[1],t[1],t[2],h[4],ab]}}return Z(zB)}var
-b=T(e[2]),C=function(a){return X(hS,U(p(b,zD)))},i=cZ(p(b,zE)),c=cZ(p(b,zF)),a=i[1];if(l(a,zG)&&0!==aZ(b,zH))return Z(AD);if(l(a,zI)&&l(a,zJ)&&l(a,zK)){if(0===aZ(b,zL)){if(l(a,zM)){var
-S=0;if(l(a,zN)){if(!l(a,zO)){var
-D=c[1],V=0;if(l(D,zR)&&l(D,zS)){S=1;V=1}if(!V){var
-m=U(i[2]),d=T(c[2]);if(l(c[1],y9))var
-x=dE(Q,p(d,y_)),y=dE(Q,p(d,y$)),W=y[2],Y=y[1],_=Q(p(d,za)),u=[1,x[1],x[2],_,Y,W];else
+6:return d}var
+a=gc(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return W(Bf)}function
+mW(c){var
+d=gc(Bh,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:is(c)}function
+mX(b){var
+a=Y(b[2]);if(m(b[1],Bo)){var
+c=cT(O,p(a,Bp)),d=cT(O,p(a,Bq)),e=d[2],f=d[1],g=O(p(a,Br));return[1,c[1],c[2],g,f,e]}var
+h=R(O,T(p(a,Bs)));return[0,R(O,T(p(a,Bt))),h]}function
+Bu(f){var
+a=Y(f);function
+d(b){return O(p(a,b))}function
+c(b){return eP(O,p(a,b))}var
+b=aS(p(a,Bv));if(m(b,Bw)){if(!m(b,Bx)){var
+j=p(a,BD),e=cT(function(a){return a},j),k=aV(a,BE),l=cs(function(a){return c(BF)},k),n=gb(aS(e[2])),o=gb(aS(e[1])),q=d(BG);return[0,cS(p(a,BH)),q,o,n,l]}if(m(b,By))throw K}var
+g=d(Bz),h=c(BA),i=c(BB);return[1,aq(b,BC),i,h,g]}function
+it(ad){var
+e=dm(ad),g=e[1];if(m(g,BI)){if(m(g,BJ)){if(m(g,BK)){if(m(g,BL))return W([0,BN,[0,g,BM]]);var
+r=p(Y(e[2]),BO),V=0;if(2===r[0]){var
+A=m(r[1],BP);if(!A){var
+z=A;V=1}}if(!V)var
+z=[0,b0(r)];return[6,z]}var
+B=Y(e[2]),h=it([0,[0,[0,BR,p(B,BQ)],0]]);if(0===h[0]){var
+s=h[2];if(0===s[0]&&!h[3]){var
+ae=O(p(B,BT));return[5,h[1],s[1],s[2],h[4],ae]}}return W(BS)}var
+b=Y(e[2]),C=function(c){var
+a=T(p(b,BU));return R(function(a){return gc(0,a)},a)},i=dm(p(b,BV)),a=dm(p(b,BW)),c=i[1];if(m(c,BX)&&0!==aV(b,BY))return W(CT);if(m(c,BZ)&&m(c,B0)&&m(c,B1)){if(0===aV(b,B2)){if(m(c,B3)){var
+X=0;if(m(c,B4)){if(!m(c,B5)){var
+D=a[1],Z=0;if(m(D,B8)&&m(D,B9)){X=1;Z=1}if(!Z){var
+t=T(i[2]),u=aV(b,Ca),E=u?R(Bu,T(u[1])):u,v=C(0);if(!aI(Ai,t)&&!aI(function(a){return 13===a[1]?1:0},v)){var
+F=R(z4,t),G=aI(function(a){return 5===a[1]?1:0},v),ah=G?aI(function(a){return 0===a[0]?0:1},F):G;if(ah)W(Cd);var
+d=Y(a[2]);if(m(a[1],Bi))var
+x=cT(O,p(d,Bj)),y=cT(O,p(d,Bk)),$=y[2],aa=y[1],ab=O(p(d,Bl)),H=[1,x[1],x[2],ab,aa,$];else
 var
-$=dD(Q,p(d,zb)),u=[0,dD(Q,p(d,zc)),$];var
-v=aZ(b,zV),E=v?X(zd,U(v[1])):v,G=bd(hR,m),ac=G?0!==E?1:0:G;if(ac)Z(zW);if(bd(hR,m)){var
-ad=X(hT,U(p(b,zX)));return[1,X(yt,m),u,ad]}var
-ae=C(0);return[0,X(yb,m),u,E,ae]}}}else
-if(!l(c[1],zY)){var
-af=C(0),ag=Q(p(T(c[2]),zZ));return[4,Q(p(T(i[2]),z0)),ag,af]}if(!S)return Z([0,zQ,[0,a,zP]])}else
-if(!l(c[1],z1)){var
-n=T(i[2]),H=T(c[2]),I=function(c,a){var
-b=U(a);return X(function(d){var
-a=U(d);if(a){var
-b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,aO(a[1]),e]}}throw F},b)},ah=function(d){var
+ac=eP(O,p(d,Bm)),H=[0,eP(O,p(d,Bn)),ac];return[0,F,H,E,v]}if(0!==E)W(Cb);var
+af=R(mW,T(p(b,Cc))),ag=mX(a);return[1,0,R(mU,t),0,ag,0,af]}}}else
+if(!m(a[1],Ce)){var
+w=C(0),ai=aI(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==cb(w)?1:0);if(aj)W(Cf);var
+ak=O(p(Y(a[2]),Cg));return[4,O(p(Y(i[2]),Ch)),ak,w]}if(!X)return W([0,B7,[0,c,B6]])}else
+if(!m(a[1],Ci)){var
+k=Y(i[2]),I=Y(a[2]),J=function(c,a){var
+b=T(a);return R(function(d){var
 a=T(d);if(a){var
-b=a[1],c=b[1];if(l(c,z2)){if(!l(c,z3)&&!a[2])return X(lN,U(b[2]))}else
-if(!a[2])return Z(z4)}throw F},ai=X(hT,U(p(b,z5))),aj=X(Q,U(p(H,z6))),ak=X(Q,U(p(H,z7))),al=X(ah,U(p(n,z8))),am=I(lN,p(n,z9)),an=I(ce,p(n,z_));return[3,X(aO,U(p(n,z$))),an,am,al,ak,aj,ai]}return Z([0,zU,[0,c[1],zT]])}throw F}var
-J=c[1],K=T(i[2]),L=T(c[2]);if(l(J,Aa))Z([0,Ac,[0,J,Ab]]);var
-M=aZ(K,Ad),ao=M?Q(M[1]):Z([0,AC,[0,a,AB]]),ap=function(d){var
-a=T(d);function
-b(b){return X(ce,U(p(a,b)))}var
-c=aO(p(a,Ae)),e=aZ(a,Af);if(!l(c,Ag)&&!e){var
-f=b(Aj);return[0,b(Ak),f]}return Z([0,Ai,[0,c,Ah]])},j=cZ(p(b,Al)),o=j[1];if(l(o,Am))if(l(o,An))if(l(o,Ao)){if(l(o,Ap))throw F;var
-N=j[2],aq=Q(p(T(N),Aq)),q=[3,Q(p(T(N),Ar)),aq]}else
-var
-av=j[2],w=function(a){return dE(Q,p(T(av),a))},aw=w(Ay),ax=w(Az),q=[1,w(AA),ax,aw];else
-var
-P=dE(Q,j[2]),q=[0,P[1],P[2]];else
-var
-q=[2,Q(j[2])];var
-O=l(a,As),ar=O?l(a,At)?2:1:O,as=X(y8,U(p(b,Au))),at=X(Q,U(p(L,Av))),au=X(Q,U(p(L,Aw)));return[2,ar,X(ap,U(p(K,Ax))),ao,au,at,q,as]}var
-r=T(e[2]);function
-ay(b){var
-a=T(b),c=Q(p(a,AE)),d=[0,Q(p(a,AF)),c];return[0,aO(p(a,AG)),d]}var
-k=hU([0,[0,[0,AI,p(r,AH)],0]]);if(0===k[0]&&!k[3]){var
-az=Q(p(r,AK)),aA=Q(p(r,AL)),aB=k[4],aC=k[2],aD=k[1];return[7,X(ay,U(p(r,AM))),aD,aC,aB,aA,az]}return Z(AJ)}function
-hV(a){return X(ev,U(a))}function
-hW(c,b){var
-a=hV(b);if(cG(a)!==c)throw F;return a}function
-lP(a,d){var
-b=T(d),e=U(p(b,AP)),f=a[2],c=X(function(a){return hW(f,a)},e),g=a[1];if(cG(c)!==g)throw F;return[0,c,fF(p(b,AQ))]}function
-ew(g,n){var
+b=a[2];if(b&&!b[2]){var
+e=f(c,b[1]);return[0,aS(a[1]),e]}}throw K},b)},al=function(d){var
+a=Y(d);if(a){var
+b=a[1],c=b[1];if(m(c,Cj)){if(!m(c,Ck)&&!a[2])return[0,R(iq,T(b[2]))]}else
+if(!a[2])return[1,iq(b[2])]}throw K},am=R(is,T(p(b,Cl))),an=R(O,T(p(I,Cm))),ao=R(O,T(p(I,Cn))),ap=R(al,T(p(k,Co))),ar=J(iq,p(k,Cp)),as=J(b0,p(k,Cq));return[3,R(aS,T(p(k,Cr))),as,ar,ap,ao,an,am]}return W([0,B$,[0,a[1],B_]])}throw K}var
+L=a[1],M=Y(i[2]);if(m(L,Cs))W([0,Cu,[0,L,Ct]]);var
+l=cs(O,aV(M,Cv)),at=function(f){var
+a=dm(f),b=a[1];if(m(b,Cw)){if(m(b,Cx)){if(m(b,Cy)){if(m(b,Cz))throw K;var
+d=a[2],g=O(p(Y(d),CA));return[3,O(p(Y(d),CB)),g]}var
+h=a[2],c=function(a){return cT(O,p(Y(h),a))},i=c(CC),j=c(CD);return[1,c(CE),j,i]}var
+e=cT(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},n=cs(at,aV(b,CF)),N=m(c,CG),P=N?m(c,CH)?2:1:N,o=T(p(M,CI));if(l&&n&&gO(mV,o)){var
+Q=Y(a[2]),au=function(c){var
+a=Y(c);function
+b(b){return R(b0,T(p(a,b)))}if(0!==aV(a,CJ))W(CK);var
+d=b(CL);return[0,b(CM),d]},av=R(is,T(p(b,CN))),aw=n[1],ax=R(O,T(p(Q,CO))),ay=R(O,T(p(Q,CP))),az=l[1];return[2,P,R(au,o),az,ay,ax,aw,av]}var
+_=0;if(!l&&aq(c,CS)){var
+S=1;_=1}if(!_)var
+S=[0,P];var
+U=0!==n?1:0,aA=U?aI(mV,o):U;if(aA)W(CQ);var
+aB=R(mW,T(p(b,CR))),aC=mX(a);return[1,S,R(mU,o),l,aC,n,aB]}var
+q=Y(e[2]);function
+aD(b){var
+a=Y(b),c=O(p(a,CU)),d=[0,O(p(a,CV)),c];return[0,aS(p(a,CW)),d]}var
+j=it([0,[0,[0,CY,p(q,CX)],0]]);if(0===j[0]&&!j[3]){var
+aE=O(p(q,C0)),aF=O(p(q,C1)),aG=j[4],aH=j[2],aJ=j[1];return[7,R(aD,T(p(q,C2))),aJ,aH,aG,aF,aE]}return W(CZ)}function
+iu(a){return R(eR,T(a))}function
+iv(c,b){var
+a=iu(b);if(cb(a)!==c)throw K;return a}function
+mY(a,d){var
+b=Y(d),e=T(p(b,C5)),f=a[2],c=R(function(a){return iv(f,a)},e),g=a[1];if(cb(c)!==g)throw K;return[0,c,ga(p(b,C6))]}function
+eS(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=os(a,AR),b=0;if(0<=N)if(0<N){var
-f=0;if(l(a,AS)&&l(a,AT)&&l(a,AU))if(l(a,AV))f=1;else{var
+e=d[1],a=e[1],N=pz(a,C7),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,C8)&&m(a,C9)&&m(a,C_))if(m(a,C$))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=X(hV,U(r[1])),ac=aO(q[1]);return[8,ew(g,o[1]),ac,ab]}b=1;f=1}else
+ab=R(iu,T(r[1])),ac=aS(q[1]);return[8,eS(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6541,202 +7141,220 @@ Q=e[2];if(1===Q[0]){var
 u=Q[1];if(u){var
 v=u[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=fF(w[1]),af=ev(v[1]);return[5,ew(g,u[1]),af,ae]}b=1}}}}}else
-if(l(a,AY))if(l(a,AZ))if(l(a,A0))if(l(a,A1)){if(!l(a,A2)){if(!d[2]){var
-R=T(e[2]),ag=U(p(R,A3)),ah=M+1|0,S=X(function(a){return hW(ah,a)},ag);if(3===cG(S))return[1,A5,S,fF(p(R,A4))];throw F}b=1}}else{if(!d[2]){var
-J=aO(e[2]),K=l(J,AN);if(K){if(l(J,AO))throw F;var
+ae=ga(w[1]),af=eR(v[1]);return[5,eS(g,u[1]),af,ae]}b=1}}}}}else
+if(m(a,Dc))if(m(a,Dd))if(m(a,De))if(m(a,Df)){if(!m(a,Dg)){if(!d[2]){var
+S=Y(e[2]),ag=T(p(S,Dh)),ah=M+1|0,U=R(function(a){return iv(ah,a)},ag);if(3===cb(U))return[1,Dj,U,ga(p(S,Di))];throw K}b=1}}else{if(!d[2]){var
+I=aS(e[2]),J=m(I,C3);if(J){if(m(I,C4))throw K;var
 L=1}else
 var
-L=K;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],m=0;switch(i[0]){case
+L=J;return[2,L]}b=1}else{if(!d[2]){var
+i=e[2],l=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Y=j[1],D=Y[1],c=0;if(l(D,A7)&&l(D,A8))if(l(D,A9))c=1;else{var
-_=Y[2];if(1===_[0]){var
+Z=j[1],D=Z[1],c=0;if(m(D,Dl)&&m(D,Dm))if(m(D,Dn))c=1;else{var
+_=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 k=E[1],h=0;switch(k[0]){case
 0:var
-G=k[1];if(G){var
-$=G[1][1],aa=0;if(l($,A$)&&l($,Ba)){c=1;h=1;aa=1}if(!aa&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(l(k[1],Bb)){c=1;h=1}break;default:c=1;h=1}if(!h){var
-H=E[2];if(H){var
-I=H[2];if(I&&!(I[2]||j[2])){var
-am=fF(I[1]),an=ev(H[1]),x=[6,ew(g,k),an,am];m=1;c=1}else
+F=k[1];if(F){var
+$=F[1][1],aa=0;if(m($,Dp)&&m($,Dq)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(k[1],Dr)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+G=E[2];if(G){var
+H=G[2];if(H&&!(H[2]||j[2])){var
+am=ga(H[1]),an=eR(G[1]),x=[6,eS(g,k),an,am];l=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
-c=1}if(!c&&!j[2])m=2}break;case
-2:if(!l(i[1],Bc))m=2;break}switch(m){case
+c=1}if(!c&&!j[2])l=2}break;case
+2:if(!m(i[1],Ds))l=2;break}switch(l){case
 0:var
-x=Z(A_);break;case
+x=W(Do);break;case
 2:var
-x=ew(g,i);break}return[7,x]}b=1}else{var
+x=eS(g,i);break}return[7,x]}b=1}else{var
 V=e[2];if(1===V[0]){var
 y=V[1];if(y){var
 z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hW(M+1|0,ai)]};b=2}}}}else{var
-W=e[2];if(1===W[0]){var
-A=W[1];if(A){var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,iv(M+1|0,ai)]};b=2}}}}else{var
+X=e[2];if(1===X[0]){var
+A=X[1];if(A){var
 B=A[2];if(B){var
 C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(l(dC(C[1]),A6))throw F;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,ev(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return Z([0,AX,[0,a,AW]]);break;case
+ak=B[1];if(m(d1(C[1]),Dk))throw K;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,eR(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return W([0,Db,[0,a,Da]]);break;case
 1:break;default:var
-P=lP(g,t);return s(P[1],P[2])}}break;case
-2:return[0,n[1]]}throw F}function
-lQ(j){var
-b=cZ(j),a=b[1];if(l(a,Bf)){var
-g=l(a,Bg);if(!g)return g;if(!l(a,Bh)){var
+P=mY(g,t);return s(P[1],P[2])}}break;case
+2:return[0,n[1]]}throw K}function
+mZ(j){var
+b=dm(j),a=b[1];if(m(a,Dv)){var
+g=m(a,Dw);if(!g)return g;if(!m(a,Dx)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cA(d[1]);return[1,cA(c[1]),k]}}}}}else{var
+k=cS(d[1]);return[1,cS(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-m=X(hV,U(f[1]));return[0,cA(e[1]),m]}}}}return Z([0,Bj,[0,a,Bi]])}function
-lR(f,b){var
-a=T(b),c=U(p(a,Bo)),d=X(function(g){var
-a=T(g);function
+l=R(iu,T(f[1]));return[0,cS(e[1]),l]}}}}return W([0,Dz,[0,a,Dy]])}function
+m0(f,b){var
+a=Y(b),c=T(p(a,DE)),d=R(function(g){var
+a=Y(g);function
 b(d,c){var
-b=aZ(a,c);return b?X(d,U(b[1])):b}var
-c=b(ev,Bk),d=cY(lQ,aZ(a,Bl)),e=cY(cA,aZ(a,Bm));return[0,b(function(h){var
-b=U(h);if(b){var
+b=aV(a,c);return b?R(d,T(b[1])):b}var
+c=b(eR,DA),d=cs(mZ,aV(a,DB)),e=cs(cS,aV(a,DC));return[0,b(function(h){var
+b=T(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],Bd)){if(!a[2]){if(l(dC(e),Be))throw F;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Dt)){if(!a[2]){if(m(d1(e),Du))throw K;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ew(f,c);return[0,cA(e),g]}}}throw F},Bn),e,d,c]},c),e=aZ(a,Bp),g=cY(function(a){return lP(f,a)},e);return[0,lK(p(a,Bq)),g,d]}function
-lS(c){var
-a=T(c),b=aZ(a,Br),d=b?X(Q,U(b[1])):b,e=lQ(p(a,Bs)),f=X(Q,U(p(a,Bt)));return[0,lK(p(a,Bu)),f,d,e]}function
-lT(c){var
-a=c[1];if(8!==a){var
-b=10<=a?1:0;if(!b)return b}return 1}function
-BE(c){var
+g=eS(f,c);return[0,cS(e),g]}}}throw K},DD),e,d,c]},c),e=aV(a,DF),g=cs(function(a){return mY(f,a)},e);return[0,mR(p(a,DG)),g,d]}function
+m1(c){var
+a=Y(c),b=aV(a,DH),d=b?R(O,T(b[1])):b,e=mZ(p(a,DI)),f=R(O,T(p(a,DJ)));return[0,mR(p(a,DK)),f,d,e]}function
+m2(c){var
+a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
+if(8===a)b=1;return b?1:0}function
+DU(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!l(b[1],BF))a=1;break;case
+0:if(!m(b[1],DV))a=1;break;case
 7:a=1;break}return a?1:0}function
-BG(g){var
-j=L(g),a=[0,0];function
-k(b){if(a[1]<j)return W(g,a[1]);throw F}function
-m(b){if(k(0)===b){a[1]++;return 0}throw F}function
-w(b,c){for(;;){if(a[1]<j&&f(c,W(g,a[1]))){a[1]++;continue}return c6(g,b,a[1]-b|0)}}function
-x(d){m(34);function
-b(a){var
+DW(h){var
+j=P(h),b=[0,0];function
+k(a){if(b[1]<j)return ab(h,b[1]);throw K}function
+l(a){if(k(0)===a){b[1]++;return 0}throw K}function
+z(a,c){for(;;){if(b[1]<j&&f(c,ab(h,b[1]))){b[1]++;continue}return du(h,a,b[1]-a|0)}}function
+A(d){l(34);function
+a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=w(a[1],b);m(34);return c}function
-y(i,d){if(k(0)===d){a[1]++;return 0}var
+c=z(b[1],a);l(34);return c}function
+B(i,d){if(k(0)===d){b[1]++;return 0}var
 e=0;for(;;){var
-g=[0,f(i,0),e];if(44===k(0)){a[1]++;var
-e=g;continue}m(d);var
-b=g,c=0;for(;;){if(b){var
-h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-s(c,i){if(64<c)throw F;var
-b=k(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,y(function(a){return s(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,y(function(b){var
-a=x(0);m(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,x(0)];if(45===b)d=1}if(d){var
-h=a[1];a[1]++;return[3,w(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw F}var
-K=s(0,0),z=a[1]<j?1:0,M=z?10===W(g,a[1])?1:0:z;if(M)a[1]++;if(a[1]<j)throw F;var
-r=T(K);if(l(aO(p(r,BH)),BI))throw F;var
-b=hU(p(r,BJ)),u=0;switch(b[0]){case
+g=[0,f(i,0),e];if(44===k(0)){b[1]++;var
+e=g;continue}l(d);var
+a=g,c=0;for(;;){if(a){var
+h=[0,a[1],c],a=a[2],c=h;continue}return c}}}function
+s(c,i){if(64<c)throw K;var
+a=k(0),d=0;if(48<=a){if(91===a){b[1]++;var
+e=93,f=c+1|0;return[1,B(function(a){return s(f,a)},e)]}if(123===a){b[1]++;var
+g=125;return[0,B(function(b){var
+a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
+h=b[1];b[1]++;return[3,z(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw K}var
+N=s(0,0),C=b[1]<j?1:0,O=C?10===ab(h,b[1])?1:0:C;if(O)b[1]++;if(b[1]<j)throw K;var
+r=Y(N);if(m(aS(p(r,DX)),DY))throw K;var
+a=it(p(r,DZ)),w=0;switch(a[0]){case
+1:var
+u=a[1],x=0;if(typeof
+u==="number")if(u)var
+v=2;else
+x=1;else
+if(1===u[1])var
+v=6;else
+x=1;if(x)var
+v=3;var
+g=[0,cb(a[2]),v];break;case
 2:var
-$=1===b[1]?6:3,h=[0,cG(b[2]),$];break;case
+ae=1===a[1]?6:3,g=[0,cb(a[2]),ae];break;case
 3:var
-aa=cG(b[1]),h=[0,cG(b[4]),aa];break;case
+af=cb(a[1]),g=[0,cb(a[4]),af];break;case
 7:var
-A=b[2];u=1;break;case
+D=a[2];w=1;break;case
 0:case
 5:var
-A=b[1];u=1;break;default:var
-h=BY}if(u)var
-h=[0,cG(A),3];var
-n=cZ(p(r,BK)),o=n[1];if(l(o,Bz))if(l(o,BA))if(l(o,BB))var
-c=Z([0,BD,[0,o,BC]]);else
+D=a[1];w=1;break;default:var
+g=Ed}if(w)var
+g=[0,cb(D),3];var
+n=dm(p(r,D0)),o=n[1];if(m(o,DP))if(m(o,DQ))if(m(o,DR))var
+c=W([0,DT,[0,o,DS]]);else
 var
-q=lS(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=m1(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=lR(h,n[2]),c=[0,t[1],t[2],t[3]];else
+t=m0(g,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-N=U(n[2]),c=[2,X(function(f){var
-a=cZ(f),b=a[1];if(l(b,Bv)){if(l(b,Bw)){if(l(b,Bx)){var
-e=l(b,By);if(e)throw F;return e}return[0,cA(a[2])]}var
-c=lS(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=lR(h,a[2]);return[1,d[1],d[2],d[3]]},N)];function
-O(a){var
-b=a[1];return bd(function(a){return 8===a[2][0]?1:0},b)}function
-P(a){return 0!==a[3]?1:0}function
-B(a){return bd(P,a)}var
-d=0;switch(b[0]){case
+Q=T(n[2]),c=[2,R(function(f){var
+a=dm(f),b=a[1];if(m(b,DL)){if(m(b,DM)){if(m(b,DN)){var
+e=m(b,DO);if(e)throw K;return e}return[0,cS(a[2])]}var
+c=m1(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=m0(g,a[2]);return[1,d[1],d[2],d[3]]},Q)];function
+S(a){var
+b=a[1];return aI(function(a){return 8===a[2][0]?1:0},b)}function
+U(a){return 0!==a[3]?1:0}function
+E(a){return aI(U,a)}var
+d=0;switch(a[0]){case
 0:var
-C=b[4];switch(c[0]){case
+F=a[4];switch(c[0]){case
 0:var
-E=C,D=b[1];d=4;break;case
+H=F,G=a[1];d=4;break;case
 1:var
-H=C;d=5;break}break;case
-1:if(0===c[0]){Z(BT);d=1}break;case
+J=F;d=5;break}break;case
+1:switch(c[0]){case
+0:var
+$=c[3];if(aI(function(a){var
+b=a[1];return aI(function(a){switch(a[2][0]){case
+6:case
+7:return 1;default:return 0}},b)},$)){W(D9);d=1}else
+d=2;break;case
+1:var
+aa=a[6];if(aI(function(a){return 8===a[1]?1:0},aa)){W(D_);d=1}break}break;case
 2:if(1===c[0]){var
-_=b[7];if(bd(function(b){var
+ad=a[7];if(aI(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},_)){Z(BW);d=1}else
+6:return 1}return 0},ad)){W(Eb);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){Z(BX);d=1}else
+3:if(1===c[0]){W(Ec);d=1}else
 d=3;break;case
 5:var
-H=b[4];d=5;break;case
+J=a[4];d=5;break;case
 7:var
-E=b[4],D=b[2];d=4;break;default:d=2}var
+H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(bd(O,c[3])){Z(BU);e=3}else
-if(3===b[0])e=1;else{var
-Y=c[3];if(iX(function(a){return iX(BE,a[1])},Y))e=1;else{Z(BV);e=3}}else
+3:if(0===c[0])if(aI(S,c[3])){W(D$);e=3}else
+if(3===a[0])e=1;else{var
+ac=c[3];if(gO(function(a){return gO(DU,a[1])},ac))e=1;else{W(Ea);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-I=0;if(bd(function(a){return 10===a[1]?1:0},E)&&bd(function(a){return 2===a[0]?1:0},D)){Z(BL);I=1}if(!I)e=1;break;case
-5:if(bd(lT,H))Z(BS);else
+L=0;if(aI(function(a){return 10===a[1]?1:0},H)&&aI(function(a){return 2===a[0]?1:0},G)){W(D1);L=1}if(!L)e=1;break;case
+5:if(aI(m2,J))W(D8);else
 e=1;break;case
 2:e=1;break;default:e=2}var
-v=0;switch(e){case
+y=0;switch(e){case
 3:break;case
 1:var
-i=0;switch(b[0]){case
+i=0;switch(a[0]){case
 5:var
-J=0;if(0===c[0]){var
-R=c[3];if(bd(function(a){return 0!==a[1]?1:0},R)){Z(BQ);i=1;J=1}}if(!J)i=1;break;case
+M=0;if(0===c[0]){var
+X=c[3];if(aI(function(a){return 0!==a[1]?1:0},X)){W(D6);i=1;M=1}}if(!M)i=1;break;case
 7:var
-S=b[4];switch(c[0]){case
+Z=a[4];switch(c[0]){case
 0:break;case
-1:v=1;i=1;break;default:var
-V=function(a){if(typeof
+1:y=1;i=1;break;default:var
+_=function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return B(a[3]);case
-2:return bd(lT,S)}return 0};if(bd(V,c[1]))Z(BR);i=1}break}if(!i)if(0===c[0]&&B(c[3]))Z(BP);else
-v=1;break;case
-2:v=1;break}var
-G=T(p(r,BM)),Q=aO(p(G,BN));return[0,b,c,aO(p(G,BO)),Q]}function
-BZ(b){var
-c=L(b),g=64,h=DI(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+1:return E(a[3]);case
+2:return aI(m2,Z)}return 0};if(aI(_,c[1]))W(D7);i=1}break}if(!i)if(0===c[0]&&E(c[3]))W(D5);else
+y=1;break;case
+2:y=1;break}var
+I=Y(p(r,D2)),V=aS(p(I,D3));return[0,a,c,aS(p(I,D4)),V]}function
+Ee(b){var
+c=P(b),g=64,h=F2(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ap(c6(b,a,18),B0);if(!e){var
+e=aq(du(b,a,18),Ef);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
 f=d;return f}}function
-B1(b){try{if(BZ(b))var
-a=B3;else{try{var
-e=0,d=BG(b);e=1}catch(a){a=gd(a);if(a[1]===lJ)var
-c=[0,a[2]];else{if(a!==F)throw a;var
+Eg(b){try{if(Ee(b))var
+a=Ei;else{try{var
+e=0,d=DW(b);e=1}catch(a){a=gK(a);if(a[1]===mQ)var
+c=[0,a[2]];else{if(a!==K)throw a;var
 c=2}}if(e)var
-c=xY(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return B2}if(typeof
+c=zP(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Eh}if(typeof
 a==="number")switch(a){case
-0:return B4;case
-1:return B5;default:return B6}return aE(B7,a[1])}D1.orthocert_verify=DG(function(b){return cl(B1(a(b)))});gg(0);return}(globalThis));
+0:return Ej;case
+1:return Ek;default:return El}return aH(Em,a[1])}Gj.orthocert_verify=F0(function(b){return cA(Eg(a(b)))});gN(0);return}(globalThis));

@@ -8,7 +8,7 @@ use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::atlas::AtlasClaim;
 use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
-    Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
+    Bound, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
 };
 use orthocert_kernel::no_cube::NoCubeClaim;
 use serde_json::Value;
@@ -98,7 +98,9 @@ fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
     match claim {
         Claim::Postulate(_) => true,
         Claim::Machine(claim) => {
-            is_machine_covered(claim, verdict) || is_by_configuration(claim, verdict)
+            is_machine_covered(claim, verdict)
+                || is_by_configuration(claim, verdict)
+                || is_in_any_motion(claim, verdict)
         }
         Claim::NoCube(NoCubeClaim { machine, .. }) => {
             let is_box = matches!(machine.workspace, Workspace::Box { .. });
@@ -144,34 +146,26 @@ fn is_quantity(requirement: &Requirement, legs: &[Leg], verdict: Verdict) -> boo
     match requirement.quantity.as_str() {
         "joint_force" | "one_to_one" | "accuracy" => verdict == Verdict::Certified,
         "joint_acceleration" => verdict == Verdict::Certified && !has_plane,
+        "parallel_margin" => legs.iter().all(|leg| matches!(leg, Leg::Slider { .. })),
         key => QUANTITIES.contains(&key),
     }
 }
 
-/// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds, and
-/// certified ones about joint speeds and forces and stiffness of platforms that turn.
+/// Claims about transmission, condition numbers and joint coordinates of struts that turn their platform, and
+/// certified ones about mechanisms by formulas, and about joint speeds and forces and stiffness.
 fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
     let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
-    let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
     let is_strut = |leg: &Leg| matches!(leg, Leg::Strut { base_axis: None, .. });
-    let turns =
-        matches!(mechanism, Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_));
     let is_required = |requirement: &Requirement| match requirement.quantity.as_str() {
         "transmission" | "conditioning" | "joint_range" => true,
         "joint_speed" | "joint_force" | "stiffness" => {
             let is_one = requirement.given.values().all(|given| given.len() == 1);
-            turns && verdict == Verdict::Certified && is_one
+            verdict == Verdict::Certified && is_one
         }
         _ => false,
     };
     let is_mechanism = match (mechanism, workspace) {
-        (Mechanism::Translational(legs), Workspace::Box { .. } | Workspace::Cylinder { .. }) => {
-            verdict == Verdict::Refuted && legs.iter().all(is_arm)
-        }
-        (Mechanism::Formulas(formulas), Workspace::Box { .. }) => {
-            let is_row = |joint: &JointFormula| matches!(joint, JointFormula::Row(_));
-            verdict == Verdict::Certified && formulas.joints.iter().all(is_row)
-        }
+        (Mechanism::Formulas(_), Workspace::Box { .. }) => verdict == Verdict::Certified,
         (
             Mechanism::Planar(Turning { legs, .. })
             | Mechanism::Spatial(Turning { legs, .. })
@@ -181,4 +175,36 @@ fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
         _ => false,
     };
     bodies.is_empty() && is_mechanism && require.iter().all(is_required)
+}
+
+/// Claims about arms, and about sliders where the platform turns, moves in the plane, or angles of legs are asked for.
+fn is_in_any_motion(claim: &MachineClaim, verdict: Verdict) -> bool {
+    let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
+    let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
+    let has_angle = require.iter().any(|requirement| requirement.quantity == "leg_angle");
+    let (legs, turns) = match mechanism {
+        Mechanism::Translational(legs) if has_angle || legs.iter().any(is_arm) => (legs, false),
+        Mechanism::Planar(Turning { legs, .. }) | Mechanism::Spatial(Turning { legs, .. }) => {
+            (legs, orientation.is_some())
+        }
+        _ => return false,
+    };
+    let is_leg = |leg: &Leg| match leg {
+        Leg::Slider { .. } | Leg::Arm { .. } => true,
+        Leg::Strut { base_axis: None, .. } => !turns,
+        _ => false,
+    };
+    let is_workspace = match workspace {
+        Workspace::Box { .. } => true,
+        Workspace::Cylinder { .. } => matches!(mechanism, Mechanism::Translational(_)),
+        Workspace::Cube { .. } => false,
+    };
+    let is_required = |requirement: &Requirement| match requirement.quantity.as_str() {
+        "transmission" | "conditioning" | "joint_range" | "serial_margin" | "leg_angle" => true,
+        "joint_speed" | "stiffness" => requirement.given.values().all(|given| given.len() == 1),
+        "joint_force" => verdict == Verdict::Certified,
+        "parallel_margin" => !turns,
+        _ => false,
+    };
+    bodies.is_empty() && is_workspace && legs.iter().all(is_leg) && require.iter().all(is_required)
 }

@@ -1,0 +1,442 @@
+(** * Legs in any motion as formulas: that they are the kinematics
+
+    The formulas are those of machine/mod.rs and machine/motion.rs; [s]: lengths
+    are divided by 2^s. *)
+
+From Coq Require Import ZArith Reals Lra Lia List Bool.
+From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
+From Orthocert.kernel Require Import Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Pose Configuration Arm Legs.
+Import ListNotations.
+Local Open Scope R_scope.
+Local Notation length := Datatypes.length.
+
+Section Named.
+Context {names : naming}.
+
+(** ** A leg by the way from its base end to the platform's joint *)
+
+Inductive ejoint := ELength (f : formula) | EAngle (c s : formula) | EUnknown.
+(** A_i, D_i, the row divided by B_i; of legs of fixed length eta^2 and the length; and what is defined of a leg that can be built. *)
+Record drive_formulas := DriveFormulas { b_A : evec; b_D : formula; b_divided : evec; b_joint : ejoint; b_rod : option (formula * formula); b_built : list formula }.
+
+(** [d]: a direction, of any length but zero. *)
+Definition slider_drive (w d : evec) (len : formula) (mode : bool) : drive_formulas :=
+  let f := slider_formulas w (unit_vector d) w len mode in
+  DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) (Some (f_D f, len)) [root (Machine.product d d); root len].
+Definition strut_drive (w : evec) (axis : option evec) : drive_formulas :=
+  let f := strut_formulas w w None in
+  DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) None (match axis with Some k => [root (Machine.product k k)] | None => [] end).
+Definition plane_drive (w d : evec) : drive_formulas :=
+  let f := planar_formulas w (unit_vector d) in
+  DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) None [root (Machine.product d d)].
+Definition arm_part (k x : evec) : evec := map2 minus x (Machine.scaled (Machine.product k x) k).
+Definition arm_drive_formulas (w axis reference : evec) (r len : formula) (mode : bool) : drive_formulas :=
+  let k := unit_vector axis in let y := arm_part k reference in let e := unit_vector y in let f := ecross k e in
+  let alpha := Machine.product w e in let beta := Machine.product w f in let kappa := Machine.product k w in
+  let n := plus (square alpha) (square beta) in
+  let c := plus (square kappa) (minus (square r) (square len)) in
+  let g := over (plus n c) (times (integer 2) r) in
+  let d := minus (minus (square len) (square kappa)) (square (minus g r)) in
+  let i := over (integer 1) n in
+  let p := over (minus (integer 1) (times c i)) (integer 2) in
+  let s := signed mode (times r (root d)) in
+  let q := times s i in
+  let ae := minus (times p alpha) (times q beta) in let af := plus (times p beta) (times q alpha) in
+  let A := map2 plus (map2 plus (Machine.scaled ae e) (Machine.scaled af f)) (Machine.scaled kappa k) in
+  DriveFormulas A (times (square r) d) (divided_by A s) (EAngle (over (minus alpha ae) r) (over (minus beta af) r)) (Some (d, len))
+    [root (Machine.product axis axis); root (Machine.product y y); root r; root len].
+
+(** Rates of lengths are those in any unit; those of angles are over a length. *)
+Definition rate_unit (s : Z) (l : driven) : R := match l with Linear _ => 1 | Rotary _ => two_to s end.
+
+Section Values.
+Variables x theta : list R.
+Variable s : Z.
+Local Notation value := (Formula.value x theta).
+Local Notation val3 := (val3 x theta).
+Local Notation defined := (Formula.defined x theta).
+Let u := / two_to s.
+
+Lemma val3_unit : forall a, val3 (unit_vector a) = normalised (val3 a).
+Proof. intro a. unfold unit_vector, normalised. rewrite val3_divided, value_root, value_dot, norm2_dot. reflexivity. Qed.
+Lemma value_signed' : forall (mode : bool) a, value (signed mode a) = (if mode then 1 else -1) * value a.
+Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
+Lemma defined_root' : forall a, defined (root a) -> 0 < value a.
+Proof. intros a. unfold root. destruct (is 1 a) eqn:q; [rewrite (is_value _ _ _ _ q); intros; lra | intros [h _]; exact h]. Qed.
+
+Definition joint_is (e : ejoint) (c : coordinate) : Prop :=
+  match e, c with
+  | ELength f, Length rho => value f = u * rho
+  | EAngle a b, Angle c s => value a = c /\ value b = s
+  | EUnknown, Unknown => True
+  | _, _ => False
+  end.
+
+(** Formulas of a drive are those of the leg, at C. *)
+Definition drives_as (b : drive_formulas) (l : driven) (C : vec) : Prop :=
+  (Forall defined (b_built b) -> well_formed_driven l) /\
+  (well_formed_driven l ->
+    (0 < value (b_D b) -> own_reach l C) /\ (own_reach l C -> 0 < value (b_D b)) /\ (defined (ex (b_divided b)) -> own_reach l C) /\
+    (own_reach l C ->
+      (exists q, q ^ 2 = value (b_D b) /\ val3 (b_A b) = vscale (q * rate_unit s l) (own_row l C)) /\
+      val3 (b_divided b) = vscale (rate_unit s l) (own_row l C) /\ joint_is (b_joint b) (own_joint l C) /\
+      match b_rod b with
+      | Some (e2, len) => exists A eta L, own_rod l C = Some (A, eta, L) /\ value e2 = (u * eta) ^ 2 /\ value len = u * L /\ val3 (b_A b) = vscale u A
+      | None => True
+      end)).
+
+Lemma u_pos : 0 < u.
+Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
+
+Lemma slider_drives : forall w d len (mode : bool) l C v,
+  val3 w = vscale u (Kinematics.w l C) -> axis l = normalised v -> (exists c, 0 < c /\ val3 d = vscale c v) -> value len = u * leg_length l ->
+  working_mode l = (if mode then 1 else -1) -> drives_as (slider_drive w d len mode) (Linear (Guided l)) C.
+Proof.
+  pose proof u_pos as u0. intros w d len mode l C v hw ha [c [c0 hd]] hl hm.
+  assert (hn : val3 (unit_vector d) = axis l) by (rewrite val3_unit, hd, ha; apply normalised_resized, c0).
+  unfold slider_drive, slider_formulas. cbn zeta. cbn [f_A f_D f_divided f_joint].
+  set (n := unit_vector d) in *. set (er := map2 minus w (Machine.scaled (Machine.product n w) n)). set (ed := minus (square len) (Machine.product er er)).
+  set (ee := signed mode (root ed)).
+  assert (R : val3 er = vscale u (r l C)).
+  { unfold er, r. rewrite val3_minus, val3_scaled, value_dot, hn, hw. unfold vsub, vscale, Vec3.dot. cbn [vx vy vz]. f_equal; ring. }
+  assert (D : value ed = u ^ 2 * (leg_length l ^ 2 - norm2 (r l C))).
+  { unfold ed. rewrite value_minus, Formula.value_square, value_dot, R, hl, <- norm2_dot, norm2_scale. ring. }
+  assert (E : value ee = u * eta l C).
+  { unfold ee, eta, Kinematics.s. rewrite value_signed', value_root, D, hm, sqrt_resized by exact u0. ring. }
+  assert (T : 0 < value ed -> 0 < Kinematics.s l C).
+  { rewrite D. intro h. apply sqrt_lt_R0. apply Rmult_lt_reg_l with (u ^ 2); [apply pow_lt, u0 | lra]. }
+  split; [| intro ok; split; [| split; [| split]]]; cbn [b_built b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod reaches row joint rate_unit well_formed_driven well_formed_leg].
+  - intro h. inversion h as [| ? ? h1 h2]; subst. inversion h2 as [| ? ? h3 _]; subst. apply defined_root' in h1, h3.
+    rewrite value_dot, hd, <- norm2_dot, norm2_scale in h1. rewrite hl in h3. pose proof (pow_lt c 2 c0).
+    assert (n0 : 0 < norm2 v) by (apply Rmult_lt_reg_l with (c ^ 2); lra). unfold well_formed. rewrite ha, hm. split; [apply normalised_norm, n0 |].
+    split; [apply Rmult_lt_reg_l with u; lra | destruct mode; auto].
+  - exact T.
+  - intro h. rewrite D. apply Rmult_lt_0_compat; [apply pow_lt, u0 |]. unfold Kinematics.s in h. destruct (Rlt_le_dec 0 (leg_length l ^ 2 - norm2 (r l C))) as [p | q]; [exact p |].
+    rewrite sqrt_neg_0 in h by exact q. lra.
+  - intro h. cbn [map2 ex] in h. apply defined_plus in h as [_ h]. cbn [divided_by ex] in h. apply defined_over in h. rewrite E in h.
+    unfold eta in h. destruct (sqrt_pos (leg_length l ^ 2 - norm2 (r l C))) as [p | z]; [exact p |]. exfalso. apply h. unfold Kinematics.s. rewrite <- z. ring.
+  - intro reach. pose proof (eta_nonzero l C ok reach) as e0.
+    assert (Sq : value ed = (u * eta l C) ^ 2).
+    { rewrite D. unfold eta. rewrite !Rpow_mult_distr, (s_squared l C reach), hm. destruct mode; ring. }
+    assert (A : val3 (map2 plus er (Machine.scaled ee n)) = vscale u (leg_vector l C)).
+    { rewrite val3_plus, val3_scaled, R, E, hn, leg_vector_eq. unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
+    split; [| split; [| split]].
+    + exists (u * eta l C). split; [symmetry; exact Sq |]. rewrite A, leg_vector_eq. unfold Jinv_row. generalize (r l C) (axis l). intros p q.
+      unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; exact e0.
+    + rewrite val3_plus, val3_divided, R, E, hn. unfold Jinv_row. generalize (r l C) (axis l). intros p q. unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; split; try exact e0; lra.
+    + cbn [joint_is]. rewrite value_minus, value_dot, hn, hw, E. unfold rho. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
+    + exists (leg_vector l C), (eta l C), (leg_length l). split; [reflexivity |]. split; [exact Sq |]. split; [exact hl | exact A].
+Qed.
+
+Lemma strut_drives : forall w axis base platform ax C, val3 w = vscale u (span base platform C) ->
+  match axis, ax with Some a, Some k => exists c v, 0 < c /\ val3 a = vscale c v /\ k = normalised v | None, None => True | _, _ => False end ->
+  drives_as (strut_drive w axis) (Linear (Extensible base platform ax)) C.
+Proof.
+  pose proof u_pos as u0. intros w axis base platform ax C hw hk. unfold strut_drive, strut_formulas. cbn zeta. cbn [f_A f_D f_divided f_joint].
+  assert (D : value (Machine.product w w) = u ^ 2 * norm2 (span base platform C)) by (rewrite value_dot, hw, <- norm2_dot, norm2_scale; reflexivity).
+  assert (L : value (root (Machine.product w w)) = u * sqrt (norm2 (span base platform C))) by (rewrite value_root, D; apply sqrt_resized, u0).
+  assert (T : 0 < value (Machine.product w w) -> 0 < norm2 (span base platform C)).
+  { rewrite D. intro h. apply Rmult_lt_reg_l with (u ^ 2); [apply pow_lt, u0 | lra]. }
+  split; [| intros _; split; [| split; [| split]]]; cbn [b_built b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod reaches row joint rate_unit well_formed_driven well_formed_leg].
+  - intro h. destruct axis as [a |], ax as [k |]; try contradiction; [| exact I]. destruct hk as [c [v [c0 [ha ->]]]]. inversion h as [| ? ? h1 _]; subst. apply defined_root' in h1.
+    rewrite value_dot, ha, <- norm2_dot, norm2_scale in h1. pose proof (pow_lt c 2 c0). apply normalised_norm. apply Rmult_lt_reg_l with (c ^ 2); lra.
+  - exact T.
+  - intro h. rewrite D. apply Rmult_lt_0_compat; [apply pow_lt, u0 | exact h].
+  - cbn [divided_by ex]. intro h. apply defined_over in h. rewrite L in h. destruct (norm2_nonneg (span base platform C)) as [p | z]; [exact p |].
+    exfalso. apply h. rewrite <- z, sqrt_0. ring.
+  - intro reach. pose proof (sqrt_lt_R0 _ reach) as s0. assert (S : sqrt (norm2 (span base platform C)) ^ 2 = norm2 (span base platform C)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+    split; [| split; [| split; [exact L | exact I]]].
+    + exists (u * sqrt (norm2 (span base platform C))). split; [rewrite D, Rpow_mult_distr, S; reflexivity |]. rewrite hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
+    + rewrite val3_divided, L, hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
+Qed.
+
+Lemma plane_drives : forall w d n C, val3 w = vscale u C -> (exists c, 0 < c /\ val3 d = vscale c n) -> drives_as (plane_drive w d) (Linear (Plane n)) C.
+Proof.
+  intros w d n C hw [c [c0 hd]]. unfold plane_drive, planar_formulas. cbn [f_A f_D f_divided f_joint].
+  assert (hn : val3 (unit_vector d) = normalised n) by (rewrite val3_unit, hd; apply normalised_resized, c0).
+  split; [| intros _; split; [| split; [| split]]]; cbn [b_built b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod reaches row joint rate_unit well_formed_driven well_formed_leg]; auto.
+  - intros h z. subst n. inversion h as [| ? ? h1 _]; subst. apply defined_root' in h1. rewrite value_dot, hd in h1. unfold Vec3.dot, vscale, vzero in h1. cbn in h1. lra.
+  - intros _. cbn. lra.
+  - intros _. split; [exists 1; split; [cbn; ring |]; rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |].
+    split; [rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |]. split; [| exact I].
+    cbn [joint_is]. rewrite value_dot, hn, hw. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
+Qed.
+
+(** In the frame of the arm. *)
+Lemma framed : forall k e w, norm2 k = 1 -> norm2 e = 1 -> Vec3.dot k e = 0 ->
+  w = vadd (vadd (vscale (Vec3.dot e w) e) (vscale (Vec3.dot (cross k e) w) (cross k e))) (vscale (Vec3.dot k w) k).
+Proof.
+  intros k e w hk he ho. assert (G := fun v => gram_product k e w v hk he ho).
+  pose proof (G e1) as G1. pose proof (G e2) as G2. pose proof (G e3) as G3.
+  unfold Vec3.dot at 1 in G1. unfold Vec3.dot at 1 in G2. unfold Vec3.dot at 1 in G3. unfold e1, e2, e3 in G1, G2, G3. cbn [vx vy vz] in G1, G2, G3.
+  apply vec_ext; unfold vadd, vscale; cbn [vx vy vz].
+  - replace (vx w) with (vx w * 1 + vy w * 0 + vz w * 0) at 1 by ring. rewrite G1. unfold Vec3.dot. cbn [vx vy vz]. ring.
+  - replace (vy w) with (vx w * 0 + vy w * 1 + vz w * 0) at 1 by ring. rewrite G2. unfold Vec3.dot. cbn [vx vy vz]. ring.
+  - replace (vz w) with (vx w * 0 + vy w * 0 + vz w * 1) at 1 by ring. rewrite G3. unfold Vec3.dot. cbn [vx vy vz]. ring.
+Qed.
+
+Lemma dot_swapped : forall a b, Vec3.dot a b = Vec3.dot b a.
+Proof. intros. unfold Vec3.dot. ring. Qed.
+Lemma dot_scaled : forall c a b, Vec3.dot a (vscale c b) = c * Vec3.dot a b.
+Proof. intros. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring. Qed.
+
+Lemma arm_drives : forall w axis reference r len (mode : bool) l C v y,
+  val3 w = vscale u (from_motor l C) -> (exists c, 0 < c /\ val3 axis = vscale c v) -> (exists c, 0 < c /\ val3 reference = vscale c y) ->
+  motor_axis l = normalised v -> motor_zero l = normalised (orthogonal_part (normalised v) y) -> value r = u * arm_length l -> value len = u * rod_length l ->
+  arm_mode l = (if mode then 1 else -1) -> drives_as (arm_drive_formulas w axis reference r len mode) (Rotary l) C.
+Proof.
+  pose proof u_pos as u0. intros w axis reference r len mode l C v y hw [c1 [c10 ha]] [c2 [c20 hy]] hk he hr hL hm.
+  assert (Ek : val3 (unit_vector axis) = motor_axis l) by (rewrite val3_unit, ha, hk; apply normalised_resized, c10).
+  assert (Ey : val3 (arm_part (unit_vector axis) reference) = vscale c2 (orthogonal_part (normalised v) y)).
+  { unfold arm_part, orthogonal_part. rewrite val3_minus, val3_scaled, value_dot, Ek, hk, hy. unfold vsub, vscale, Vec3.dot. cbn [vx vy vz]. f_equal; ring. }
+  assert (Ee : val3 (unit_vector (arm_part (unit_vector axis) reference)) = motor_zero l) by (rewrite val3_unit, Ey, he; apply normalised_resized, c20).
+  unfold arm_drive_formulas. cbv zeta. set (k := unit_vector axis) in *. set (e := unit_vector (arm_part k reference)) in *. set (f := ecross k e).
+  assert (Ef : val3 f = quarter l) by (unfold f; rewrite val3_cross, Ek, Ee; reflexivity).
+  set (alpha := Machine.product w e). set (beta := Machine.product w f). set (kappa := Machine.product k w).
+  assert (Va : value alpha = u * along l C) by (unfold alpha; rewrite value_dot, hw, Ee, dot_swapped, dot_scaled; reflexivity).
+  assert (Vb : value beta = u * across l C) by (unfold beta; rewrite value_dot, hw, Ef, dot_swapped, dot_scaled; reflexivity).
+  assert (Vk : value kappa = u * height l C) by (unfold kappa; rewrite value_dot, hw, Ek, dot_scaled; reflexivity).
+  set (n := plus (square alpha) (square beta)). set (c := plus (square kappa) (minus (square r) (square len))). set (g := over (plus n c) (times (integer 2) r)).
+  set (d := minus (minus (square len) (square kappa)) (square (minus g r))). set (i := over (integer 1) n).
+  set (p := over (minus (integer 1) (times c i)) (integer 2)). set (sg := signed mode (times r (root d))). set (q := times sg i).
+  set (ae := minus (times p alpha) (times q beta)). set (af := plus (times p beta) (times q alpha)).
+  set (A := map2 plus (map2 plus (Machine.scaled ae e) (Machine.scaled af f)) (Machine.scaled kappa k)).
+  set (N0 := along l C ^ 2 + across l C ^ 2). set (c0 := height l C ^ 2 + (arm_length l ^ 2 - rod_length l ^ 2)).
+  assert (Vn : value n = u ^ 2 * N0) by (unfold n; rewrite value_plus, !Formula.value_square, Va, Vb; unfold N0; ring).
+  assert (Vc : value c = u ^ 2 * c0) by (unfold c; rewrite value_plus, value_minus, !Formula.value_square, Vk, hr, hL; unfold c0; ring).
+  assert (two : value (integer 2) = 2) by reflexivity. assert (one : value (integer 1) = 1) by reflexivity.
+  split; [| intro ok].
+  - cbn [b_built well_formed_driven]. intro h. inversion h as [| ? ? h1 H]; subst. inversion H as [| ? ? h2 H']; subst. inversion H' as [| ? ? h3 H'']; subst. inversion H'' as [| ? ? h4 _]; subst.
+    apply defined_root' in h1, h2, h3, h4. rewrite value_dot, ha, <- norm2_dot, norm2_scale in h1. rewrite value_dot, Ey, <- norm2_dot, norm2_scale in h2. rewrite hr in h3. rewrite hL in h4.
+    pose proof (pow_lt c1 2 c10). pose proof (pow_lt c2 2 c20). assert (n1 : 0 < norm2 v) by (apply Rmult_lt_reg_l with (c1 ^ 2); lra).
+    assert (n2 : 0 < norm2 (orthogonal_part (normalised v) y)) by (apply Rmult_lt_reg_l with (c2 ^ 2); lra).
+    unfold well_formed_arm. rewrite hk, he, hm. split; [apply normalised_norm, n1 |]. split; [apply normalised_norm, n2 |]. split; [| split; [| split]].
+    + pose proof (normalised_norm v n1) as un. set (z := normalised v) in *. clearbody z. unfold normalised. set (t := / sqrt _). clearbody t. unfold orthogonal_part.
+      assert (E : Vec3.dot z (vscale t (vsub y (vscale (Vec3.dot z y) z))) = t * (Vec3.dot z y * (1 - norm2 z))) by (clear; vec_ring). rewrite E, un. ring.
+    + apply Rmult_lt_reg_l with u; lra.
+    + apply Rmult_lt_reg_l with u; lra.
+    + destruct mode; auto.
+  - assert (ok' := ok). destruct ok' as [k1 [e1' [ke [r0 [L0 _]]]]]. cbn [b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod rate_unit].
+    assert (Vg : value g = u * forward l C).
+    { unfold g, forward. rewrite value_over, value_plus, value_times, Vn, Vc, hr, two. fold N0 c0. field. split; lra. }
+    assert (Vd : value d = u ^ 2 * clearance l C) by (unfold d, clearance; rewrite !value_minus, !Formula.value_square, value_minus, Vk, Vg, hr, hL; ring).
+    assert (Vs : value sg = u ^ 2 * (arm_length l * arm_eta l C)).
+    { unfold sg, arm_eta. rewrite value_signed', value_times, value_root, Vd, hr, hm, sqrt_resized by exact u0. ring. }
+    assert (VD : value (times (square r) d) = u ^ 4 * (arm_length l ^ 2 * clearance l C)) by (rewrite value_times, Formula.value_square, Vd, hr; ring).
+    pose proof (pow_lt u 4 u0) as u4. pose proof (pow_lt _ 2 r0) as r2.
+    split; [| split; [| split]].
+    + rewrite VD. intro h. unfold arm_reaches. apply Rmult_lt_reg_l with (u ^ 4 * arm_length l ^ 2); [apply Rmult_lt_0_compat; assumption | lra].
+    + intro h. rewrite VD. apply Rmult_lt_0_compat; [exact u4 |]. apply Rmult_lt_0_compat; assumption.
+    + cbn [divided_by ex]. intro h. apply defined_over in h. rewrite Vs in h. unfold arm_reaches. apply Rnot_le_lt. intro z. apply h. unfold arm_eta. rewrite sqrt_neg_0 by exact z. ring.
+    + intro reach. destruct (distance_split l C ok reach) as [_ NN]. fold N0 in NN. pose proof (eta_squared l C ok reach) as E2.
+      assert (h0 : arm_eta l C <> 0) by (intro z; rewrite z in E2; unfold arm_reaches in reach; lra).
+      assert (Vi : value i = / (u ^ 2 * N0)) by (unfold i; rewrite value_over, one, Vn; unfold Rdiv; ring).
+      assert (Vp : value p = (1 - c0 / N0) / 2) by (unfold p; rewrite value_over, value_minus, value_times, one, two, Vc, Vi; field; split; lra).
+      assert (Vq : value q = arm_length l * arm_eta l C / N0) by (unfold q; rewrite value_times, Vs, Vi; field; split; lra).
+      assert (F : forward l C = (N0 + c0) / (2 * arm_length l)) by reflexivity.
+      assert (Vae : value ae = u * (along l C - arm_length l * arm_cosine l C)).
+      { unfold ae. rewrite value_minus, !value_times, Vp, Vq, Va, Vb. unfold arm_cosine. fold N0. rewrite F. field. split; lra. }
+      assert (Vaf : value af = u * (across l C - arm_length l * arm_sine l C)).
+      { unfold af. rewrite value_plus, !value_times, Vp, Vq, Va, Vb. unfold arm_sine. fold N0. rewrite F. field. split; lra. }
+      assert (VA : val3 A = vscale u (Arm.rod l C)).
+      { unfold A. rewrite !val3_plus, !val3_scaled, Vae, Vaf, Vk, Ee, Ef, Ek. pose proof (framed _ _ (from_motor l C) k1 e1' ke) as W. fold (quarter l) (along l C) (across l C) (height l C) in W.
+        assert (E : Arm.rod l C = vsub (from_motor l C) (vscale (arm_length l) (vadd (vscale (arm_cosine l C) (motor_zero l)) (vscale (arm_sine l C) (quarter l)))))
+          by (unfold Arm.rod, elbow, from_motor, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
+        rewrite E. rewrite W at 1. generalize (motor_zero l) (quarter l) (motor_axis l). intros a b z. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
+      assert (UT : two_to s = / u) by (unfold u; rewrite Rinv_inv; reflexivity).
+      split; [| split; [| split]].
+      * exists (u ^ 2 * (arm_length l * arm_eta l C)). split; [rewrite VD, <- E2; ring |]. rewrite VA, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
+      * rewrite val3_divided, VA, Vs, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
+      * cbn [joint_is]. rewrite !value_over, !value_minus, Vae, Vaf, Va, Vb, hr. split; field; split; lra.
+      * exists (Arm.rod l C), (arm_eta l C), (rod_length l). split; [reflexivity |]. split; [rewrite Vd, <- E2; ring |]. split; [exact hL | exact VA].
+Qed.
+End Values.
+
+(** ** Formulas of legs in a pose *)
+
+Definition eplace (k : mobility) : evec := match k with Translates => point | TranslatesInPlane => eposition InPlane | Turns k => eposition k end.
+Definition evelocities (k : mobility) (v w : evec) : list formula :=
+  match k with Translates => list_of v | TranslatesInPlane => [ex v; ey v] | Turns k => etwist k v w end.
+Definition ecomponents (k : mobility) (a : evec) : list formula := match k with Translates => list_of a | TranslatesInPlane => [ex a; ey a] | Turns _ => [] end.
+
+(** Units of directions: of an arm, of its axis and of its reference. *)
+Definition driven_layout (s : Z) (d : Z * Z) (dr : any_drive) : list parameter :=
+  match dr with
+  | LinearDrive dr => layout s (fst d) dr
+  | RotaryDrive a => three (axis_within a) (fst d) ++ three (reference_within a) (snd d) ++ three (anchor_within a) s ++ three (platform_within a) s ++
+      [(arm_within a, s); (rod_within a, s)]
+  end.
+
+Record pose_formulas := PoseFormulas { d_A : list formula; d_D : formula; d_divided : list formula; d_joint : ejoint;
+  d_vector : list formula; d_rod : option (formula * formula); d_built : list formula }.
+
+Section Formulas.
+Variables (k : mobility) (turn : option (emat * formula)) (ell : formula) (s : Z).
+Definition eturned (b : evec) : evec := match turn with Some (N, w) => divided_by (emulv N b) w | None => b end.
+
+Definition drive_at (dr : any_drive) (q : list formula) : drive_formulas * evec :=
+  let way a r := map2 minus (map2 plus (eplace k) r) (vector_at q a) in
+  match dr with
+  | LinearDrive (SliderLeg c) => let r := eturned (vector_at q 6) in (slider_drive (way 3%nat r) (vector_at q 0) (nth 9 q (integer 0)) (mode c), r)
+  | LinearDrive (StrutLeg _ _ ax) => let r := eturned (vector_at q 3) in
+      (strut_drive (way 0%nat r) match ax with Some _ => Some (vector_at q 6) | None => None end, r)
+  | LinearDrive (PlanarLeg _) => (plane_drive (eplace k) (vector_at q 0), EVec (integer 0) (integer 0) (integer 0))
+  | RotaryDrive a => let r := eturned (vector_at q 9) in
+      (arm_drive_formulas (way 6%nat r) (vector_at q 0) (vector_at q 3) (nth 12 q (integer 0)) (nth 13 q (integer 0)) (is_positive_mode a), r)
+  end.
+Definition pose_of (b : drive_formulas) (r : evec) : pose_formulas :=
+  let row a := evelocities k a (divided_by (ecross r a) ell) in
+  PoseFormulas (row (b_A b)) (b_D b) (row (b_divided b)) (b_joint b) (ecomponents k (b_A b)) (b_rod b) (b_built b).
+Fixpoint all_driven (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list pose_formulas :=
+  match drs with
+  | [] => []
+  | dr :: r => let d := hd (0, 0)%Z ds in let (b, a) := drive_at dr (numbered j (driven_layout s d dr)) in
+      pose_of b a :: all_driven (tl ds) r (j + length (driven_layout s d dr))
+  end.
+End Formulas.
+Fixpoint driven_layouts (s : Z) (ds : list (Z * Z)) (drs : list any_drive) : list parameter :=
+  match drs with [] => [] | dr :: r => driven_layout s (hd (0, 0)%Z ds) dr ++ driven_layouts s (tl ds) r end.
+
+(** What the formulas of a leg are in a pose. *)
+Definition stands_in (x theta : list R) (s : Z) (k : mobility) (L : R) (P : vec) (Q : mat) (f : pose_formulas) (l : driven) : Prop :=
+  let value := Formula.value x theta in let u := / two_to s in let row := driven_row k L P Q l in let mu := rate_unit s l in
+  let reach := own_reach l (carried l P Q) in
+  (Forall (Formula.defined x theta) (d_built f) -> well_formed_driven l) /\
+  (well_formed_driven l ->
+    (0 < value (d_D f) -> reach) /\ (reach -> 0 < value (d_D f)) /\ (Forall (Formula.defined x theta) (d_divided f) -> k <> Turns AboutPoint -> reach) /\
+    (reach ->
+      (exists q, q ^ 2 = value (d_D f) /\ map value (d_A f) = map (Rmult (q * mu)) row) /\ map value (d_divided f) = map (Rmult mu) row /\
+      joint_is x theta s (d_joint f) (own_joint l (carried l P Q)) /\
+      match d_rod f with
+      | Some (e2, len) => exists q, driven_rod k P Q l = Some q /\ value e2 = (u * rod_eta q) ^ 2 /\ value len = u * rod_size q /\ map value (d_vector f) = map (Rmult u) (rod_vector q)
+      | None => True
+      end)).
+
+Section Values.
+Variables x theta : list R.
+Variables (s : Z) (k : mobility) (turn : option (emat * formula)) (ell : formula) (L : R) (P : vec) (Q : mat).
+Local Notation value := (Formula.value x theta).
+Local Notation val3 := (val3 x theta).
+Let u := / two_to s.
+Hypothesis place_is : val3 (eplace k) = vscale u P.
+Hypothesis turn_is : match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ value w = W | None => Q = midentity end.
+Hypothesis length_is : match k with Turns _ => L <> 0 /\ value ell = u * L | _ => True end.
+
+Lemma turned_is : forall b, val3 (eturned turn b) = mulv Q (val3 b).
+Proof.
+  intro b. unfold eturned. destruct turn as [[N w] |].
+  - destruct turn_is as [W [W0 [hN hw]]]. rewrite val3_divided, val3_mulv, hN, hw, mulv_mscale. unfold vscale. cbn [vx vy vz].
+    destruct (mulv Q (val3 b)) as [a1 a2 a3]. cbn [vx vy vz]. f_equal; field; lra.
+  - rewrite turn_is, mulv_identity. reflexivity.
+Qed.
+
+Lemma row_is : forall a r c l, val3 a = vscale c (own_row l (carried l P Q)) -> val3 r = vscale u (mulv Q (offset l)) ->
+  map value (evelocities k a (divided_by (ecross r a) ell)) = map (Rmult c) (driven_row k L P Q l).
+Proof.
+  intros a r c l ha hr. unfold driven_row. cbv zeta. set (row := own_row l (carried l P Q)) in *. set (o := mulv Q (offset l)) in *.
+  assert (T : forall m, k = Turns m -> val3 (divided_by (ecross r a) ell) = vscale c (vscale (/ L) (cross o row))).
+  { intros m e. rewrite e in length_is. destruct length_is as [L0 hl]. rewrite val3_divided, val3_cross, ha, hr, hl. clearbody row o. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as u0. fold u in u0.
+    unfold vscale, cross. cbn [vx vy vz]. f_equal; field; split; try exact L0; lra. }
+  assert (A : [value (ex a); value (ey a); value (ez a)] = map (Rmult c) (coordinates row)) by (pose proof ha as h; unfold Chart.val3, vscale in h; injection h as -> -> ->; reflexivity).
+  destruct k as [| | m]; cbn [evelocities velocities].
+  - exact A.
+  - cbn [map coordinates] in A |- *. injection A as -> -> _. reflexivity.
+  - rewrite twist_values, ha, (T m eq_refl). apply twist_scaled.
+Qed.
+
+Lemma pose_stands : forall b r l, drives_as x theta s b l (carried l P Q) -> val3 r = vscale u (mulv Q (offset l)) ->
+  stands_in x theta s k L P Q (pose_of k ell b r) l.
+Proof.
+  intros b r l [B H] hr. unfold stands_in. cbv zeta. cbn [pose_of d_A d_D d_divided d_joint d_vector d_rod d_built].
+  split; [exact B |]. intro ok. destruct (H ok) as [H1 [H2 [H3 H4]]]. split; [exact H1 |]. split; [exact H2 |]. split.
+  - intros D nk. apply H3. destruct k as [| | []]; cbn [evelocities etwist list_of] in D; try (inversion D; assumption). contradiction nk; reflexivity.
+  - intro reach. destruct (H4 reach) as [[q [q2 qA]] [D [J R0]]]. split; [exists q; split; [exact q2 | exact (row_is _ _ _ _ qA hr)] |].
+    split; [exact (row_is _ _ _ _ D hr) |]. split; [exact J |]. destruct (b_rod b) as [[e2 len] |]; [| exact I].
+    destruct R0 as [A [eta [size [o [v1 [v2 v3]]]]]]. exists (Rod (components k A) eta size). split; [unfold driven_rod; rewrite o; reflexivity |].
+    cbn [rod_eta rod_size rod_vector]. split; [exact v1 |]. split; [exact v2 |]. unfold Chart.val3, vscale in v3. injection v3 as a1 a2 a3.
+    destruct k; cbn [ecomponents components list_of map coordinates]; rewrite ?a1, ?a2, ?a3; reflexivity.
+Qed.
+End Values.
+
+Lemma two_to_scaled : forall d c, exists q, 0 < q /\ vscale (/ two_to d) c = vscale q c.
+Proof. intros d c. exists (/ two_to d). split; [apply Rinv_0_lt_compat, two_to_pos | reflexivity]. Qed.
+
+Lemma val3_at : forall x theta q th j, map (Formula.value x theta) q = th -> val3 x theta (vector_at q j) = Vec (nth j th 0) (nth (1 + j) th 0) (nth (2 + j) th 0).
+Proof. intros x theta q th j <-. unfold val3, vector_at. cbn [ex ey ez]. f_equal; symmetry; exact (map_nth (Formula.value x theta) q (integer 0) _). Qed.
+Lemma value_nth : forall x theta q th j, map (Formula.value x theta) q = th -> Formula.value x theta (nth j q (integer 0)) = nth j th 0.
+Proof. intros x theta q th j <-. symmetry. exact (map_nth (Formula.value x theta) q (integer 0) _). Qed.
+
+Lemma legs_stand : forall s drs m, Forall2 is_driven drs m -> forall ds, exists th, Forall2 scaled_within (driven_layouts s ds drs) th /\
+  forall x front back k turn ell L P Q, let theta := front ++ th ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P ->
+    match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ Formula.value x theta w = W | None => Q = midentity end ->
+    match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
+    Forall2 (stands_in x theta s k L P Q) (all_driven k turn ell s ds drs (length front)) m.
+Proof.
+  intros s drs m h. induction h as [| dr l drs m hd_ hs IH]; intro ds; [exists []; split; [constructor | intros; constructor] |].
+  set (d := hd (0, 0)%Z ds). destruct (IH (tl ds)) as [t2 [L2 R2]]. clear IH.
+  assert (One : exists t1, Forall2 scaled_within (driven_layout s d dr) t1 /\ forall x front back k turn ell L P Q, let theta := front ++ t1 ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P ->
+    match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ Formula.value x theta w = W | None => Q = midentity end ->
+    match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
+    let (b, a) := drive_at k turn dr (numbered (length front) (driven_layout s d dr)) in stands_in x theta s k L P Q (pose_of k ell b a) l).
+  { clear - hd_. pose proof (Rinv_0_lt_compat _ (two_to_pos (fst d))) as d1. pose proof (Rinv_0_lt_compat _ (two_to_pos (snd d))) as d2.
+    destruct dr as [dr | a], l as [l | l]; cbn [is_driven] in hd_; try contradiction.
+    - destruct (is_leg_has_direction dr l hd_) as [v hv]. destruct (parameters_represent s (fst d) v dr l hv) as [L1 _].
+      exists (parameters_of s (fst d) v l). split; [exact L1 |]. intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl.
+      set (theta := front ++ parameters_of s (fst d) v l ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
+      cbn [driven_layout]. set (q := numbered (length front) (layout s (fst d) dr)) in *.
+      pose proof (turned_is x theta turn Q ht) as T.
+      destruct dr as [c | a p ax | n], l as [i | base platform axis | normal]; cbn [is_leg_along] in hv; try contradiction; cbn [drive_at].
+      + destruct hv as [[hu ax] [ha [hp' [hl' hm]]]]. apply (pose_stands x theta s k ell L P Q hp hl).
+        * apply (slider_drives x theta s _ _ _ _ _ _ v); [| exact ax | exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity] | rewrite (value_nth _ _ _ _ _ V); reflexivity | exact hm].
+          rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
+          change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
+          rewrite mulv_scale. unfold Kinematics.w, carried. cbn [offset]. destruct (mulv Q (platform_offset i)) as [o1 o2 o3].
+          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+        * rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
+          change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
+          apply mulv_scale.
+      + destruct hv as [ha [hp' hk]]. apply (pose_stands x theta s k ell L P Q hp hl).
+        * apply strut_drives; [| destruct ax as [a' |], axis as [k' |]; try contradiction; [| exact I]; exists (/ two_to (fst d)), v; split; [exact d1 |]; split; [rewrite (val3_at _ _ _ _ _ V); reflexivity | exact (proj2 hk)]].
+          rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
+          change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
+          rewrite mulv_scale. unfold span, carried. cbn [offset]. destruct (mulv Q platform) as [o1 o2 o3].
+          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+        * rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
+          change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
+          apply mulv_scale.
+      + apply (pose_stands x theta s k ell L P Q hp hl).
+        * apply plane_drives; [| exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity]].
+          rewrite hp. f_equal. unfold carried. cbn [offset]. unfold mulv, Vec3.dot, vsub, vadd, vzero. cbn [vx vy vz]. destruct P as [p1 p2 p3]. cbn [vx vy vz]. f_equal; ring.
+        * cbn [offset]. unfold val3, mulv, Vec3.dot, vscale, vzero. cbn [ex ey ez vx vy vz integer Formula.value map_op real_op]. f_equal; ring.
+    - destruct hd_ as [[v [y [hv [hy [ha he]]]]] [hb [hp' [hr [hl' hm]]]]].
+      set (t1 := coordinates (vscale (/ two_to (fst d)) v) ++ coordinates (vscale (/ two_to (snd d)) y) ++ coordinates (vscale (/ two_to s) (motor l)) ++
+        coordinates (vscale (/ two_to s) (arm_offset l)) ++ [/ two_to s * arm_length l; / two_to s * rod_length l]).
+      assert (L1 : Forall2 scaled_within (driven_layout s d (RotaryDrive a)) t1).
+      { unfold t1. cbn [driven_layout]. repeat apply Forall2_app; try (apply three_within; assumption).
+        constructor; [exists (arm_length l); split; [exact hr | cbn [snd]; unfold Rdiv; ring] |].
+        constructor; [exists (rod_length l); split; [exact hl' | cbn [snd]; unfold Rdiv; ring] | constructor]. }
+      exists t1. split; [exact L1 |]. intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl.
+      set (theta := front ++ t1 ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
+      set (q := numbered (length front) (driven_layout s d (RotaryDrive a))) in *. pose proof (turned_is x theta turn Q ht) as T. cbn [drive_at].
+      apply (pose_stands x theta s k ell L P Q hp hl).
+      + apply (arm_drives x theta s _ _ _ _ _ _ l _ v y); try assumption.
+        * rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [t1 coordinates app nth Nat.add]. unfold t1. cbn [coordinates app nth Nat.add].
+          change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
+          rewrite mulv_scale. unfold from_motor, carried. cbn [offset]. destruct (mulv Q (arm_offset l)) as [o1 o2 o3].
+          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+        * exists (/ two_to (fst d)). split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
+        * exists (/ two_to (snd d)). split; [exact d2 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
+        * rewrite (value_nth _ _ _ _ _ V). reflexivity.
+        * rewrite (value_nth _ _ _ _ _ V). reflexivity.
+      + rewrite T, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add offset].
+        change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
+        apply mulv_scale. }
+  destruct One as [t1 [L1 R1]]. exists (t1 ++ t2). split; [cbn [driven_layouts]; apply Forall2_app; assumption |].
+  intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl. cbn [all_driven]. fold d.
+  rewrite <- app_assoc in *. specialize (R1 x front (t2 ++ back) k turn ell L P Q hp ht hl).
+  destruct (drive_at k turn dr _) as [b a]. constructor; [exact R1 |].
+  specialize (R2 x (front ++ t1) back k turn ell L P Q). cbv zeta in R2. rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. rewrite <- !app_assoc in R2. exact (R2 hp ht hl).
+Qed.
+End Named.

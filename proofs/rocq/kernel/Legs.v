@@ -1,0 +1,227 @@
+(** * Sliders, struts and arms of platforms that turn or not: kinematics, claims, and refutations
+
+    A leg meets the platform at its joint alone, so that its kinematics are those
+    of a platform that does not turn, at another point. *)
+
+From Coq Require Import ZArith Reals Lra Lia List Bool.
+From Orthocert.kernel Require Import Linear.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
+From Orthocert.kernel Require Import Statement Number Machine Witness Configuration Arm Orientation Turning.
+Import ListNotations.
+Local Open Scope R_scope.
+Local Notation length := Datatypes.length.
+
+Section Named.
+Context {names : naming}.
+
+(** ** Kinematics *)
+
+(** Without turning, in space or in the plane of x and y; or as platforms that turn move. *)
+Inductive mobility := Translates | TranslatesInPlane | Turns (k : motion).
+Definition velocities (k : mobility) (v omega : vec) : list R :=
+  match k with Translates => coordinates v | TranslatesInPlane => [vx v; vy v] | Turns k => twist k v omega end.
+Definition freedom (k : mobility) : nat := match k with Translates => 3 | TranslatesInPlane => 2 | Turns k => dimension k end.
+Definition has_velocities (k : mobility) (v omega : vec) : Prop :=
+  match k with Translates => omega = vzero | TranslatesInPlane => vz v = 0 /\ omega = vzero | Turns k => is_of k v omega end.
+
+(** A leg whose joint coordinate is a length, or an angle. *)
+Inductive driven := Linear (l : Statement.leg) | Rotary (l : arm).
+
+(** From the platform's point to its joint, in its own frame. *)
+Definition offset (l : driven) : vec :=
+  match l with Linear (Guided k) => platform_offset k | Linear (Extensible _ p _) => p | Linear (Plane _) => vzero | Rotary k => arm_offset k end.
+(** The platform that does not turn, and has this joint where it is: at P + Q offset. *)
+Definition carried (l : driven) (P : vec) (Q : mat) : vec := vsub (vadd P (mulv Q (offset l))) (offset l).
+
+Definition own_row (l : driven) (C : vec) : vec := match l with Linear k => row k C | Rotary k => arm_row k C end.
+Definition own_joint (l : driven) (C : vec) : coordinate :=
+  match l with Linear k => Length (joint k C) | Rotary k => Angle (arm_cosine k C) (arm_sine k C) end.
+Definition own_reach (l : driven) (C : vec) : Prop := match l with Linear k => reaches C k | Rotary k => arm_reaches k C end.
+(** The vector of a leg of fixed length, eta, and its length. *)
+Definition own_rod (l : driven) (C : vec) : option (vec * R * R) :=
+  match l with
+  | Linear (Guided k) => Some (leg_vector k C, eta k C, leg_length k)
+  | Rotary k => Some (Arm.rod k C, arm_eta k C, rod_length k)
+  | _ => None
+  end.
+
+(** joint' = row . v + ((r x row)/ell) . (ell omega), r from the platform's point to its joint ([driven_velocity]). *)
+Definition driven_row (k : mobility) (ell : R) (P : vec) (Q : mat) (l : driven) : list R :=
+  let u := own_row l (carried l P Q) in velocities k u (vscale (/ ell) (cross (mulv Q (offset l)) u)).
+(** Components of a vector that there are; of platforms that turn none are asked for. *)
+Definition components (k : mobility) (a : vec) : list R :=
+  match k with Translates => coordinates a | TranslatesInPlane => [vx a; vy a] | Turns _ => [] end.
+Definition driven_rod (k : mobility) (P : vec) (Q : mat) (l : driven) : option Configuration.rod :=
+  option_map (fun q => let '(a, eta, len) := q in Rod (components k a) eta len) (own_rod l (carried l P Q)).
+Definition legs_at (k : mobility) (ell : R) (m : list driven) (P : vec) (Q : mat) : configuration :=
+  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m)
+    (Forall (fun l => own_reach l (carried l P Q)) m).
+
+Definition well_formed_driven (l : driven) : Prop := match l with Linear k => well_formed_leg k | Rotary k => well_formed_arm k end.
+
+(** A guard on the model: along any differentiable motion, the joint's coordinate changes at the speed row . twist. *)
+Theorem driven_velocity : forall k ell l P Q t v omega, ell <> 0 -> well_formed_driven l -> own_reach l (carried l (P t) (Q t)) ->
+  has_velocity P t v -> turns Q t omega -> has_velocities k v omega ->
+  let rate := Linear.dot (driven_row k ell (P t) (Q t) l) (velocities k v (vscale ell omega)) in
+  match l with
+  | Linear i => derivable_pt_lim (fun u => joint i (carried l (P u) (Q u))) t rate
+  | Rotary i => derivable_pt_lim (fun u => arm_cosine i (carried l (P u) (Q u))) t (- arm_sine i (carried l (P t) (Q t)) * rate) /\
+      derivable_pt_lim (fun u => arm_sine i (carried l (P u) (Q u))) t (arm_cosine i (carried l (P t) (Q t)) * rate)
+  end.
+Proof.
+  intros k ell l P Q t v omega e0 ok reach hP hQ hk. cbv zeta. set (r := mulv (Q t) (offset l)).
+  assert (W : has_velocity (fun u => carried l (P u) (Q u)) t (vadd v (cross omega r))).
+  { destruct hP as [p1 [p2 p3]]. destruct (hQ (offset l)) as [q1 [q2 q3]].
+    assert (K : forall f g d e c, derivable_pt_lim f t d -> derivable_pt_lim g t e -> derivable_pt_lim (fun u => f u + g u - c) t (d + e)).
+    { intros f g d e c hf hg. apply derivable_eq with (fun u => f u + g u + - c) (d + e + 0); try (intros; ring).
+      apply derivable_add; [apply derivable_add; assumption | apply derivable_const]. }
+    split; [| split]; unfold carried; cbn [vsub vadd vx vy vz] in *; apply K; assumption. }
+  assert (E : Linear.dot (driven_row k ell (P t) (Q t) l) (velocities k v (vscale ell omega)) = Vec3.dot (own_row l (carried l (P t) (Q t))) (vadd v (cross omega r))).
+  { unfold driven_row. cbv zeta. fold r. generalize (own_row l (carried l (P t) (Q t))) r. clear - e0 hk. intros [a b c] [p q s]. destruct v as [v1 v2 v3], omega as [o1 o2 o3].
+    destruct k as [| | k]; cbn [has_velocities vz] in hk.
+    - injection hk as -> -> ->. unfold Vec3.dot, vadd, vscale, cross. cbn. ring.
+    - destruct hk as [-> hk]. injection hk as -> -> ->. unfold Vec3.dot, vadd, vscale, cross. cbn. ring.
+    - destruct k; cbn [is_of vx vy vz] in hk.
+      + destruct hk as [-> [-> ->]]. unfold Vec3.dot, vadd, vscale, cross. cbn. field. exact e0.
+      + unfold Vec3.dot, vadd, vscale, cross. cbn. field. exact e0.
+      + injection hk as -> -> ->. unfold Vec3.dot, vadd, vscale, cross. cbn. field. exact e0. }
+  rewrite E. destruct l as [i | i]; cbn [own_row own_reach well_formed_driven] in *.
+  - exact (row_is_derivative i _ t _ ok reach W).
+  - exact (angle_velocity i _ t _ ok reach W).
+Qed.
+
+(** ** Claims *)
+
+Inductive any_drive := LinearDrive (d : drive) | RotaryDrive (d : arm_drive).
+Definition is_driven (d : any_drive) (l : driven) : Prop :=
+  match d, l with LinearDrive d, Linear l => is_leg_of d l | RotaryDrive d, Rotary l => is_arm d l | _, _ => False end.
+
+(** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. *)
+Record driven_claim := MakeDrivenClaim {
+  mobility_of : mobility; drives : list any_drive; length_of : number; place_of : region; turned_by : option orientations; driven_demands : list demand
+}.
+Definition is_pose (c : driven_claim) (P : vec) (Q : mat) : Prop :=
+  in_region (place_of c) P /\ match turned_by c with Some o => in_orientations o Q | None => Q = midentity end.
+Definition is_about_driven (c : driven_claim) (m : list driven) (P : vec) (Q : mat) : Prop := Forall2 is_driven (drives c) m /\ is_pose c P Q.
+Definition meets_driven (c : driven_claim) (m : list driven) (P : vec) (Q : mat) : Prop :=
+  Configuration.meets (freedom (mobility_of c)) (legs_at (mobility_of c) (value (length_of c)) m P Q) (driven_demands c).
+
+(** Every machine of the claim can be built, and meets it in every pose. *)
+Definition driven_holds (c : driven_claim) : Prop := forall m P Q, is_about_driven c m P Q -> Forall well_formed_driven m /\ meets_driven c m P Q.
+
+(** ** A machine and a pose in exact numbers *)
+
+Inductive exact_driven := XLinear (l : exact_leg) | XRotary (l : exact_arm).
+Definition driven_of (l : exact_driven) : driven := match l with XLinear k => Linear (leg_of k) | XRotary k => Rotary (arm_of k) end.
+
+Definition nvelocities (k : mobility) (v w : numbers) : list number :=
+  match k with Translates => [nx v; ny v; nz v] | TranslatesInPlane => [nx v; ny v] | Turns k => ntwist k v w end.
+Definition xoffset (l : exact_driven) : numbers :=
+  match l with
+  | XLinear (ExactSlider _ _ p _ _ | ExactStrut _ p _) => p
+  | XLinear (ExactPlanar _) => Numbers (0 // 1) (0 // 1) (0 // 1)
+  | XRotary k => xplatform k
+  end.
+
+Section Pose.
+Variables (k : mobility) (ell : number) (o : option orientations) (c : list number) (P : numbers).
+Definition nturn (b : numbers) : numbers := match o with Some o => turn o c b | None => b end.
+Definition xcarried (l : exact_driven) : numbers := each2 Minus (each2 Plus P (nturn (xoffset l))) (xoffset l).
+Definition xdriven_row (l : exact_driven) : list number :=
+  let u := match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end in
+  nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u)).
+Definition xdriven_joint (l : exact_driven) : ncoordinate :=
+  match l with XLinear i => NLength (njoint i (xcarried l)) | XRotary i => NAngle (xcosine i (xcarried l)) (xsine i (xcarried l)) end.
+Definition ncomponents (a : numbers) : list number := match k with Translates => [nx a; ny a; nz a] | TranslatesInPlane => [nx a; ny a] | Turns _ => [] end.
+Definition xdriven_rod (l : exact_driven) : option nrod :=
+  let C := xcarried l in
+  match l with
+  | XLinear (ExactSlider d a p len m) =>
+      let eta := signed_root m (clearance2 d a p len C) in Some (NRod (ncomponents (each2 Plus (Witness.across d a p C) (scaled eta (unit_of d)))) eta len)
+  | XRotary i => Some (NRod (ncomponents (each2 Minus (each2 Plus C (xplatform i)) (xelbow i C))) (xeta i C) (xrod i))
+  | _ => None
+  end.
+Definition xreserves (l : exact_driven) : list number :=
+  match l with XLinear i => match reserve i (xcarried l) with Some x => [x] | None => [] end | XRotary i => [xclearance i (xcarried l)] end.
+Definition exact_legs_at (ls : list exact_driven) : nconfiguration :=
+  NConfiguration (map xdriven_row ls) (map xdriven_joint ls) (map xdriven_rod ls) (flat_map xreserves ls).
+
+Variable Q : mat.
+Hypothesis is_turn : forall b, values (nturn b) = mulv Q (values b).
+
+Lemma values_carried : forall l, values (xcarried l) = carried (driven_of l) (values P) Q.
+Proof.
+  intro l. assert (O : values (xoffset l) = offset (driven_of l)).
+  { destruct l as [[d a p len m | a p q | d] | i]; try reflexivity. unfold values. cbn. unfold vzero. f_equal; lra. }
+  unfold xcarried, carried. rewrite values_minus, values_plus, is_turn, O. reflexivity.
+Qed.
+
+Lemma exact_legs_stand : forall ls, stands_for (exact_legs_at ls) (legs_at k (value ell) (map driven_of ls) (values P) Q).
+Proof.
+  assert (O : forall l, values (xoffset l) = offset (driven_of l)).
+  { intros [[d a p len m | a p q | d] | i]; try reflexivity. unfold values. cbn. unfold vzero. f_equal; lra. }
+  intro ls. split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves exact_legs_at legs_at]; rewrite ?map_map.
+  - apply map_ext. intro l. unfold driven_row, xdriven_row. cbv zeta. rewrite <- values_carried.
+    assert (U : own_row (driven_of l) (values (xcarried l)) = values (match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end))
+      by (destruct l as [i | i]; cbn [own_row driven_of]; [rewrite values_row | rewrite values_xrow]; reflexivity).
+    assert (I : value (Over (1 // 1) ell) = / value ell) by (cbn [value]; unfold Rdiv; rewrite Rinv_1; ring).
+    rewrite U, <- O, <- is_turn, <- I. destruct k as [| | []]; reflexivity.
+  - apply map_ext. intro l. rewrite <- values_carried. destruct l as [i | i]; cbn [own_joint driven_of xdriven_joint coordinate_of];
+      [rewrite value_joint | rewrite value_xcosine, value_xsine]; reflexivity.
+  - apply map_ext. intro l. unfold driven_rod, xdriven_rod. cbv zeta. rewrite <- values_carried. destruct l as [[d a p len m | a p q | d] | i]; cbn [own_rod driven_of leg_of option_map]; try reflexivity.
+    + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_signed_root.
+      destruct (nvector_sound (ExactSlider d a p len m) (xcarried (XLinear (ExactSlider d a p len m))) _ _ eq_refl) as [i [e1 [e2 _]]]. cbn [leg_of] in e1. injection e1 as <-.
+      rewrite <- e2. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
+    + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_xeta.
+      assert (E : Arm.rod (arm_of i) (values (xcarried (XRotary i))) = values (each2 Minus (each2 Plus (xcarried (XRotary i)) (xplatform i)) (xelbow i (xcarried (XRotary i))))).
+      { unfold Arm.rod, elbow, xelbow. rewrite !values_minus, !values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter, value_xcosine, value_xsine. reflexivity. }
+      rewrite E. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
+  - rewrite Forall_map. intro h. induction h as [| l ls h hs IH]; [constructor |]. cbn [flat_map]. apply Forall_app. split; [| exact IH].
+    rewrite <- values_carried in h. destruct l as [i | i]; cbn [xreserves own_reach driven_of] in *.
+    + destruct (reserve i (xcarried (XLinear i))) as [x |] eqn:e; [| constructor]. constructor; [| constructor]. apply Rnot_le_lt. intro n. exact (reserve_sound i _ x e n h).
+    + constructor; [| constructor]. rewrite value_xclearance. exact h.
+Qed.
+End Pose.
+
+Section Precision.
+Variable bits : positive.
+
+Definition is_exact_driven (d : any_drive) (l : exact_driven) : bool :=
+  match d, l with LinearDrive d, XLinear l => is_exact bits d l | RotaryDrive d, XRotary l => is_exact_arm bits d l | _, _ => false end.
+Fixpoint all_exact (ds : list any_drive) (ls : list exact_driven) : bool :=
+  match ds, ls with
+  | [], [] => true
+  | d :: ds', l :: ls' => is_exact_driven d l && all_exact ds' ls'
+  | _, _ => false
+  end.
+Definition is_exact_pose (c : driven_claim) (P : numbers) (t : list number) : bool :=
+  is_in bits (place_of c) P && match turned_by c, t with Some o, _ => is_orientation bits o t | None, [] => true | None, _ => false end.
+
+Lemma all_exact_sound : forall ds ls, all_exact ds ls = true -> Forall2 is_driven ds (map driven_of ls) /\ Forall well_formed_driven (map driven_of ls).
+Proof.
+  induction ds as [| d ds IH]; intros [| l ls] h; cbn [all_exact map] in *; try discriminate; [split; constructor |].
+  apply andb_true_iff in h as [h1 h2]. destruct (IH ls h2). destruct d, l; try discriminate; cbn [is_exact_driven driven_of] in *;
+    [destruct (is_exact_sound bits _ _ h1) | destruct (is_exact_arm_sound bits _ _ h1)]; split; constructor; assumption.
+Qed.
+
+Lemma is_exact_pose_sound : forall c P t, is_exact_pose c P t = true -> exists Q, is_pose c (values P) Q /\ forall b, values (nturn (turned_by c) t b) = mulv Q (values b).
+Proof.
+  intros c P t h. apply andb_true_iff in h as [p h]. unfold is_pose, nturn. destruct (turned_by c) as [o |].
+  - destruct (is_orientation_sound bits _ _ h) as [Q [q1 q2]]. exists Q. split; [split; [exact (is_in_sound bits _ _ p) | exact q1] | exact q2].
+  - exists midentity. split; [split; [exact (is_in_sound bits _ _ p) | reflexivity] |]. intro b. rewrite mulv_identity. reflexivity.
+Qed.
+
+Definition refute_driven (c : driven_claim) (ls : list exact_driven) (P : numbers) (t : list number) (f : nfailure) : bool :=
+  all_exact (drives c) ls && is_exact_pose c P t &&
+  refutes bits (freedom (mobility_of c)) (exact_legs_at (mobility_of c) (length_of c) (turned_by c) t P ls) (driven_demands c) f.
+
+(** A machine of the claim that can be built does not meet it in some pose of the workspace. *)
+Theorem refute_driven_sound : forall c ls P t f, refute_driven c ls P t f = true ->
+  exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q.
+Proof.
+  intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h p]. destruct (all_exact_sound _ _ h) as [h1 h2].
+  destruct (is_exact_pose_sound _ _ _ p) as [Q [q1 q2]]. exists (map driven_of ls), (values P), Q. split; [exact h2 |]. split; [split; assumption |].
+  exact (refutes_sound bits _ _ _ _ _ (exact_legs_stand _ _ _ _ _ Q q2 ls) r).
+Qed.
+End Precision.
+End Named.
