@@ -30,7 +30,7 @@ from pathlib import Path
 import numpy as np
 from codac import AnalyticFunction, EvalMode, Interval, IntervalMatrix, IntervalVector, Matrix, VectorVar, det, mat, sqr, vec
 
-PATIENCE = 30  # seconds
+PATIENCE = 5  # seconds
 
 
 def circle(radius, degrees):
