@@ -350,6 +350,19 @@ fn quantities() {
     }
 }
 
+/// The formulas of a slider have its position along the guide in them, which its accuracy does not depend on.
+#[test]
+fn accuracy_does_not_depend_on_the_stretch_of_the_guides() {
+    let tall = linear_delta(r#"{"box":{"min":["-60","-60","0"],"max":["60","60","200"]}}"#);
+    let text = serde_json::to_string(&tall).expect("a claim");
+    let text = text.replace(r#""length":"333""#, r#""length":{"min":"332.98","max":"333.02"}"#);
+    let height = r#",{"min":"-0.02","max":"0.02"}],"platform""#;
+    let tall = claim(&text.replace(r#","0"],"platform""#, height));
+    let asked = ("accuracy", &[("joint_error", 0.01)][..]);
+    let leaves = on_both_sides("linear Delta", &tall, asked, Bound::Max, 0.01);
+    assert!(leaves <= 200, "{leaves}");
+}
+
 #[test]
 fn bodies_keep_their_distance() {
     let mut machine = linear_delta(SLAB);
