@@ -303,7 +303,10 @@ fn words(answer: &Answer, quiet: bool) -> String {
         let _ = writeln!(out, "{key} of {design}\n");
         line(&mut out, "own value", &format!("{own}{tolerance}, {verdict}"));
     }
-    for row in &answer.limits {
+    // What was looked for, before where there is none.
+    let (found, none): (Vec<&Row>, Vec<&Row>) =
+        answer.limits.iter().partition(|row| row.gap.is_some());
+    for row in found.into_iter().chain(none) {
         let title = title(row);
         if quiet {
             let value = |end: &Option<Value>| {

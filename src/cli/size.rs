@@ -12,6 +12,7 @@ use orthocert::report::text::{duration, labelled, verbatim, wrap};
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::search::Budget;
 use orthocert_checker::certificate::Certificate;
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,8 @@ use std::time::Instant;
 /// Boxes after which a size counts as not certified; of centres, as not refuted for every
 /// axis-aligned placement.
 const BOXES: u64 = 20_000;
+/// Longest text of an exact number.
+const MOST_DIGITS: usize = 1000;
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
 
@@ -74,6 +77,9 @@ struct Answer {
     /// What fails first in a smaller machine, the cube placed so.
     #[serde(skip_serializing_if = "Option::is_none")]
     limited_by: Option<Counterexample>,
+    /// The length that all legs have in common, for scale 1.
+    #[serde(skip)]
+    length: Option<Exact>,
     #[serde(skip_serializing_if = "Option::is_none")]
     length_unit: Option<&'static str>,
     /// Whether it was interrupted: this is what was found before.
@@ -116,13 +122,27 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let answer = answer(&family, (found, excluded), side, width, arguments)?;
     let why = !answer.gap_reached && !answer.interrupted;
     let missed = why.then(|| missed(budget));
-    let answer = Answer { length_unit: design.unit, missed, ..answer };
+    let length = common_length(claim);
+    let answer = Answer { length, length_unit: design.unit, missed, ..answer };
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
     let status = if answer.gap_reached { Status::Done } else { Status::Undecided };
     interrupt::unless_cancelled(status)
+}
+
+/// The length that all legs have, if it is one exact number.
+fn common_length(claim: &MachineClaim) -> Option<Exact> {
+    let Mechanism::Translational(legs) = &claim.mechanism else { return None };
+    let length = |leg: &Leg| match leg {
+        Leg::Slider { length: Quantity::Exactly(length), .. }
+        | Leg::Arm { length: Quantity::Exactly(length), .. } => Some(length.clone()),
+        _ => None,
+    };
+    let first = length(legs.first()?)?;
+    let same = legs.iter().all(|leg| length(leg).as_ref() == Some(&first));
+    same.then(|| Exact::parse(&first.to_string(), MOST_DIGITS).ok()).flatten()
 }
 
 fn side(text: &str) -> Result<BigRational, Failure> {
@@ -229,6 +249,7 @@ fn answer(
         centre_for_size_one: family.centre.clone().map(Exact::Rational),
         centre,
         limited_by: limit,
+        length: None,
         length_unit: None,
         interrupted: interrupt::is_cancelled(),
         certificates,
@@ -299,6 +320,15 @@ fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
     match &answer.certified {
         Some(size) => labelled(&mut out, "certified", &value(size, Toward::Above)),
         None => labelled(&mut out, "certified", "none: no proof was found"),
+    }
+    let scaled = answer.length.as_ref().zip(answer.certified.as_ref());
+    let scaled = scaled.filter(|_| answer.unknown == "scale").and_then(|(length, size)| {
+        let whole = size.clone().times(length.clone()).ok()?;
+        let unit = with_unit(answer.length_unit);
+        Some(format!("{}{unit}, for the {} of the design", readable(&whole), readable(length)))
+    });
+    if let Some(text) = scaled {
+        labelled(&mut out, "leg length", &text);
     }
     match &answer.refuted {
         Some(size) => {

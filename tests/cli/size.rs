@@ -134,6 +134,8 @@ fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
     let ((low, high), (twice_low, twice_high)) = (scale("100"), scale("200"));
     assert!(low < high && high / low < 1.02);
     assert!((twice_low / low - 2.0).abs() < 0.05 && (twice_high / high - 2.0).abs() < 0.05);
+    let arguments = ["size", "linear-delta-linuxcnc-box.toml", "--cube", "100", "--gap", "1e-2"];
+    folder.run(&arguments).exits(0).says(&["leg length", "for the 269 of the design"]);
 }
 
 #[test]
