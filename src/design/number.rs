@@ -288,10 +288,10 @@ fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &s
     let before = text.get(..error.at).unwrap_or(text);
     let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
     let found = format!("{} ({at_character})", value.found());
-    let accepted = match suggestion::without_unit(text, error.at) {
-        Some(number) => format!("{accepted}; numbers carry no unit: {number}"),
-        None => accepted.to_owned(),
-    };
+    let unit = suggestion::without_unit(text, error.at);
+    let hint = unit.map(|number| format!("; numbers carry no unit: {number}"));
+    let other = || suggestion::notation(text, error.at).map(|how| format!("; {how}"));
+    let accepted = format!("{accepted}{}", hint.or_else(other).unwrap_or_default());
     let at = value.place(text, before.len()..before.len() + 1);
     value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
 }

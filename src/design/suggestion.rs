@@ -2,10 +2,30 @@
 
 use super::UNITS;
 
-/// `"; did you mean ...?"` for the word of `accepted` nearest to `word`, as `show` writes it; empty
-/// if none is near.
+/// What is called otherwise here: the names that others have for it.
+const OTHERWISE: [(&str, &[&str]); 12] = [
+    ("slider", &["prismatic", "linear", "guide", "rail", "prs", "pus", "puu"]),
+    ("arm", &["rotary", "revolute", "crank", "motor", "rss", "rus"]),
+    ("strut", &["extensible", "actuator", "cylinder", "jack", "ups", "sps", "upu"]),
+    ("in", &["inch", "inches", "zoll"]),
+    ("m", &["metre", "meter", "metres", "meters"]),
+    ("um", &["µm", "μm", "micron", "microns", "micrometre", "micrometer"]),
+    ("length", &["leg_length", "rod_length", "arm_length"]),
+    ("arm", &["crank_length", "arm_length"]),
+    ("transmission", &["psi", "velocity", "transmission_factor", "transmission_factors"]),
+    ("conditioning", &["condition", "condition_number"]),
+    ("joint_range", &["stroke", "strokes", "joint_limits", "rho"]),
+    ("clearance", &["collision", "collisions"]),
+];
+
+/// `"; did you mean ...?"` for the word of `accepted` that `word` is another name of, or else is nearest to
+/// it, as `show` writes it; empty if there is none.
 pub(super) fn hint(word: &str, accepted: &[&str], show: impl Fn(&str) -> String) -> String {
     let word = word.to_lowercase();
+    let mut otherwise = OTHERWISE.iter().filter(|(name, _)| accepted.contains(name));
+    if let Some((name, _)) = otherwise.find(|(_, all)| all.contains(&word.as_str())) {
+        return format!("; did you mean {}?", show(name));
+    }
     let ranked = accepted.iter().map(|name| (distance(&word, name), *name));
     let near =
         |(edits, name): &(usize, &str)| *edits <= name.len().div_ceil(3) && *edits < name.len();
@@ -30,6 +50,21 @@ pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
     match unit {
         unit if UNITS.contains(&unit) => Some(format!("{number:?}{}", title())),
         "deg" | "°" | "degrees" => Some(format!("{number:?}, in degrees where a key says so")),
+        _ => None,
+    }
+}
+
+/// How a number is written that is written otherwise from character `at` on: with a decimal comma, a share, a
+/// power, a function.
+pub(super) fn notation(text: &str, at: usize) -> Option<&'static str> {
+    let rest = text.get(at..)?.trim_start();
+    match rest.chars().next()? {
+        ',' => Some("a point begins the decimals: 333.5"),
+        '%' => Some("tolerances have the unit of their number: \"333 ± 0.1\""),
+        '^' | '*' => Some("a power is a product: \"18*18\""),
+        c if c.is_alphabetic() && !rest.starts_with("sqrt") => {
+            Some("of names and functions there is sqrt alone: of others, the decimals")
+        }
         _ => None,
     }
 }
@@ -114,5 +149,15 @@ mod tests {
         assert_eq!(hint("mx"), "; did you mean max?");
         assert_eq!(hint("speed"), "");
         assert_eq!(hint(&"m".repeat(1000)), "");
+    }
+
+    #[test]
+    fn other_names_are_known() {
+        let hint = |word, accepted: &[&str]| hint(word, accepted, |w| w.to_owned());
+        assert_eq!(hint("Prismatic", &["slider", "strut"]), "; did you mean slider?");
+        assert_eq!(hint("inch", &["mm", "in"]), "; did you mean in?");
+        assert_eq!(hint("psi", &["transmission", "stiffness"]), "; did you mean transmission?");
+        assert_eq!(hint("leg_length", &["drive", "length"]), "; did you mean length?");
+        assert_eq!(hint("leg_length", &["drive", "mode"]), "");
     }
 }

@@ -108,7 +108,13 @@ fn tolerances_where_there_can_be_none() {
         row!("without a value", BOX, [(4, "leg_length = \"310 ±\"")], 4, "mechanism.leg_length",
             NotANumber, "at character 6", "a number or a tolerance"),
         row!("percent", BOX, [(4, "leg_length = \"310 ± 1%\"")], 4, "mechanism.leg_length",
-            NotANumber, "unexpected text at character 8", "a number or a tolerance"),
+            NotANumber, "unexpected text at character 8", "the unit of their number: \"333 ± 0.1\""),
+        row!("comma", BOX, [(4, "leg_length = \"310,5\"")], 4, "mechanism.leg_length",
+            NotANumber, "unexpected text at character 4", "a point begins the decimals"),
+        row!("power", BOX, [(4, "leg_length = \"18**2\"")], 4, "mechanism.leg_length",
+            NotANumber, "at character 4", "a power is a product: \"18*18\""),
+        row!("cosine", BOX, [(4, "leg_length = \"310*cos(30)\"")], 4, "mechanism.leg_length",
+            NotANumber, "at character 5", "there is sqrt alone"),
     ]);
 }
 
