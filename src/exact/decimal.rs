@@ -177,7 +177,16 @@ pub fn outward(x: &Exact, digits: u32, toward: Toward) -> String {
     let short = digits + 3;
     match terminating(x, short).filter(|text| text.len() <= short as usize) {
         Some(text) => text,
-        None => rounded(x, digits, toward),
+        None => briefly(x, digits, toward),
+    }
+}
+
+/// [`rounded`] to at most so many digits, without trailing zeros.
+pub fn briefly(x: &BigRational, digits: u32, toward: Toward) -> String {
+    let text = rounded(x, digits, toward);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+        None => trimmed(&text).to_owned(),
     }
 }
 
@@ -215,11 +224,7 @@ pub fn significant(value: f64, digits: u32) -> String {
 /// A share in per cent, of at most so many significant digits, without trailing zeros: what is proved
 /// of a part is rounded down, what is open up, so that no more is shown than is proved.
 pub fn percent(share: &BigRational, digits: u32, toward: Toward) -> String {
-    let text = rounded(&scaled(share, 2), digits, toward);
-    match text.split_once('e') {
-        Some((mantissa, exponent)) => format!("{}e{exponent} %", trimmed(mantissa)),
-        None => format!("{} %", trimmed(&text)),
-    }
+    format!("{} %", briefly(&scaled(share, 2), digits, toward))
 }
 
 fn trimmed(decimal: &str) -> &str {
@@ -282,6 +287,20 @@ mod tests {
             let x = exact(text);
             assert_eq!(rounded(&x, 4, Toward::Below), below, "{text}");
             assert_eq!(rounded(&x, 4, Toward::Above), above, "{text}");
+        }
+    }
+
+    #[test]
+    fn briefly_there_are_no_zeros_behind() {
+        for (text, below, above) in [
+            ("0.000326429", "0.0003264", "0.0003265"),
+            ("0.00999999", "0.009999", "0.01"),
+            ("2.00001e-30", "2e-30", "2.001e-30"),
+            ("1999999", "1999000", "2000000"),
+        ] {
+            let x = exact(text);
+            assert_eq!(briefly(&x, 4, Toward::Below), below, "{text}");
+            assert_eq!(briefly(&x, 4, Toward::Above), above, "{text}");
         }
     }
 

@@ -29,7 +29,7 @@ const TIE: f64 = 1e-9;
 /// Digits of a violating value: as few as show the violation.
 const DIGITS: std::ops::RangeInclusive<u32> = 6..=17;
 /// Parts of the way from the bound to the value that are tried, where the witness shows less.
-const PARTS: [f64; 4] = [1.0, 0.99, 0.9, 0.5];
+const PARTS: [f64; 6] = [1.0, 0.99, 0.9, 0.5, 0.1, 0.01];
 /// Longest text of an exact number.
 const MOST_DIGITS: usize = 1000;
 /// Regions that are described one by one.
@@ -260,7 +260,7 @@ impl<'a> Facts<'a> {
         let text = shown.next();
         Some(match text {
             Some(text) => format!("{name} {reverse} {text}"),
-            None => format!("{name} is beyond it"),
+            None => format!("{name} {} {}", &reverse[..1], sides[0]),
         })
     }
 

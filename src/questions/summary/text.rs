@@ -2,13 +2,13 @@
 
 use super::shares::named;
 use super::{Nearest, Shares, Summary, Value};
-use crate::exact::decimal::{outward, percent, rounded, significant, Toward};
+use crate::exact::decimal::{briefly, outward, percent, significant, Toward};
 use crate::exact::Exact;
 use crate::report::text::{describe_counterexample, headline_of, labelled, meaning, wrap, Style};
 use crate::report::{machine_at_ends, pose_text};
 use crate::search::solver::value::in_length;
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use std::fmt::Write;
 
 /// Significant digits of numbers that are longer.
@@ -80,6 +80,7 @@ fn nearest(out: &mut String, found: &Nearest, coordinates: &[String], length: Op
             part(&found.margin_at_least, Toward::Below),
             part(most, Toward::Above)
         ),
+        (None, _) if least.is_zero() => "it holds; how much is left is not known".to_owned(),
         (None, _) => format!("at least {} left", part(&found.margin_at_least, Toward::Below)),
     };
     let name = in_length(&found.requirement, found.unit, length);
@@ -246,17 +247,19 @@ fn shares(out: &mut String, found: &Shares) {
     }
     let width = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     for (name, bound) in &lines {
-        let text = rounded(bound, FEW, Toward::Above);
+        let text = briefly(bound, FEW, Toward::Above);
         let part = if total.is_positive() { (bound / &total) * hundred() } else { total.clone() };
         let part = part.round().to_integer();
         let _ = writeln!(out, "    {name:width$}  {text:<10}  {part:>3} %");
     }
-    let sum = rounded(&total, FEW, Toward::Above);
+    let sum = briefly(&total, FEW, Toward::Above);
     let whole = together.as_ref().and_then(Exact::as_rational);
-    let whole = whole.map(|x| format!("; all at once: {}", rounded(x, FEW, Toward::Above)));
+    let whole = whole.map(|x| format!("; all at once: {}", briefly(x, FEW, Toward::Above)));
     let _ = writeln!(out, "    {:width$}  {sum}{}", "sum", whole.unwrap_or_default());
     if !not_enclosed.is_empty() {
-        wrap(out, &format!("no bound was found for: {}", not_enclosed.join(", ")), 4);
+        let (named, more) = not_enclosed.split_at(not_enclosed.len().min(OTHERS));
+        let more = if more.is_empty() { String::new() } else { format!(", {} more", more.len()) };
+        wrap(out, &format!("no bound was found for: {}{more}", named.join(", ")), 4);
     }
 }
 

@@ -9,7 +9,8 @@ use super::sampled::{positions, Sampled, Worst};
 use super::scene::{Scene, Slice};
 use super::shape::shape;
 use super::subdivision::{pairs, Root, Subdivision};
-use crate::exact::decimal::significant;
+use crate::exact::decimal::{exact, significant};
+use crate::report::exactly;
 use crate::report::pose_text;
 use crate::report::text::machine;
 use crate::search::solver::approximate;
@@ -394,8 +395,9 @@ fn axes(claim: &MachineClaim) -> Vec<String> {
 
 /// The counterexample in a table: names and values.
 pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(String, String)> {
+    let number = |x: &Expression| exactly(x).map_or_else(|| x.to_string(), |x| exact(&x));
     let list = |x: &[Expression]| {
-        let all: Vec<String> = x.iter().map(ToString::to_string).collect();
+        let all: Vec<String> = x.iter().map(number).collect();
         format!("({})", all.join(", "))
     };
     let problem = Problem::new(claim).ok();
@@ -420,7 +422,7 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
     }
     if let Some(problem) = &problem {
         for ((place, _, _), x) in problem.tolerances().zip(&witness.machine) {
-            rows.push((place.to_owned(), x.to_string()));
+            rows.push((place.to_owned(), number(x)));
         }
     }
     if let kernel::Failure::Obligation(_, directions) = &witness.fails {
