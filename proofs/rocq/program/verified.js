@@ -3,129 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(C){"use strict";var
-Gj=typeof
-module==="object"&&module.exports||C,iY="spatial",n6="Invalid_argument",gi="precision",aF='"',n5="@[",iG=1255,n4="inside",oF="Fatal error: exception %s\n",nx=255,n3="yaw",oD="(",oE=0x800,nv="range",nw="tree",iF="jsError",b1=0x8000,n2="%ni",o7="sqrt(",oC=256,eY="offset",oB="obligation",bh="machine",nt="this quantity of such a mechanism in a claim that is refuted",nu="End_of_file",d4="strut",iE="center",e1="arm",iD="Failure",o6="serial_margin",gz="parameters",cx=0xff,i5="bodies",ns="\n",i4="outside",gm="base_axis",iX="ENOENT",o5=122,aW="0",oA="([^/]+)",iW=0xf,e0=128,iC=-48,nr=0xdc00,n1="Sys_blocked_io",o4="fd ",iB="given",oz="ENOTEMPTY",aE=248,nq="such a machine with bodies",gu="bound",aD="camlinternalFormat.ml",oy="Division_by_zero",o2="by",o3=1027,np="Sys_error",gl="slider",n0="postulate",ox="torsion",nZ="joint_error",eX="refuted",ow="proof",nY="%u",d6="mechanism",gt="row",no="EEXIST",nX="roll_pitch_yaw",iV="%d",nn="Printexc.handle_uncaught_exception",iO="y",gh="lower",nW="within",ov="cube",nm="clearance",ou="buffer.ml",o1="turned",gg="int_of_string",ot="control",nV="definitions",iN=127,eW=1024,nU="@{",nl="name",os="from",i3="e",nj=120,nk=103,nT=" : flags Open_rdonly and Open_wronly are not compatible",or="orthocert/2",o0="reach",ni=512,bw="-",oZ="witness",a6="platform",nh=0x7ff0,ng="pitch",i2=": Not a directory",nS=" : file already exists",bf="min",oY="trim",d7="workspace",nR="claim",gs="split",i1="legs",cv=0xffffff,oq="joint",ne="formulas",nf="0x",nQ='the workspace "',op="roll",gr="atlas",oW="nodes",oX="Out_of_memory",nd="psi_max",gy="orientation",nP="angle",gq=254,i0="index out of bounds",oo=100,nc="end",oV="one_to_one",gx="_bigarr02",nb="%Li",on=" : flags Open_text and Open_binary are not compatible",bK="drive",om="coordinates",oU="holds",nO=", characters ",ol="lower_divided",na="speed",nN="joints",oT="cylinder",b4=0xffff,nL="acceleration",eV="certified",iM="chords",nM=12520,iA="on",nK="axis",gp="accuracy",nJ="no_cube",oS="parallel_margin",m$='the drive "',gk="fails",iU="Unix.Unix_error",oR="infinity",gf="tool",iz="mkdir",nI="rho",eU=1000,ge="translational",nH="tolerances",z="",ok="Stack_overflow",iZ="characteristic_length",iL="^",gd=": No such file or directory",iT="places",oj="/static/",d3=0x3f,oi=-97,og="stiffness",oh="Not_found",dp="planar",eZ="mode",oQ="joint_speed",nG="Match_failure",m_=", ",m9="transmission",bv="anchor",oP="at",gw=252,m8="joint_force",d2="leg",cU=".",b3="+",of="joint_acceleration",iS="rmdir",oO=0xf0,oN="spherical",nD="REJECTED",nE="undecided",nF="%li",oe=1026,bg="max",cw="direction",oc="leg_angle",od="orthoglide",gv="rank",oM="constraint_margin",oL=-32,m6="Pervasives.do_at_exit",m7="utf8",iR="test",cu=" ",gj="conditioning",iQ="Fatal error: exception ",bJ=0x80,m5="Undefined_recursive_module",iK=")",d5="length",ob="base",oK="quantity",oa="joint_range",go="tilt",m4="Q2",iJ="nan",nC="reference",n$="point",nB=0xe0,oJ="corner",iI="z",nA=0xdfff,n9="version",n_="_",oI="to",bI="/",iP="compare: functional value",oH="Assert_failure",nz="provenance",dn="radius",m3="%i",b2="require",gn="side",oG="format",iH="ENOTDIR",n8="Q1",n7="all",ct="box",ny=250;function
-ji(c,b,a){var
+a.prototype._T_}}(Object));(function(E){"use strict";var
+hH="spatial",nj="Invalid_argument",fD="precision",as='"',hG=1255,ni="inside",mr="(",ms=0x800,nh="yaw",mo="range",mp="tree",mq="jsError",bB=0x8000,ng="sqrt(",mn=256,mm="obligation",eh="offset",aY="machine",mk="this quantity of such a mechanism in a claim that is refuted",ml="End_of_file",dr="strut",hF="center",eg="arm",hE="Failure",nf="serial_margin",fN="parameters",bZ=0xff,hU="bodies",hT="outside",fM="base_axis",hD="ENOENT",ne=122,mj="([^/]+)",hS="0",hC=0xf,ef=128,mi=0xdc00,nc="Sys_blocked_io",nd="fd ",hB="given",mh="ENOTEMPTY",aE=248,mg="such a machine with bodies",fC="bound",mf="Division_by_zero",na="by",nb=1027,me="Sys_error",fL="slider",md="torsion",m$="postulate",mc="proof",m_="joint_error",ee="refuted",dm="mechanism",fB="row",mb="EEXIST",m9="roll_pitch_yaw",hR="y",ma="cube",fA="lower",m8="within",l$="clearance",m7="turned",l_="control",fz="int_of_string",m6="definitions",ed=1024,l8="from",l9="name",m5=" : flags Open_rdonly and Open_wronly are not compatible",l7="orthocert/2",m4="reach",l6=512,m3="witness",ec="-",aN="platform",l5=0x7ff0,l4="pitch",hQ=": Not a directory",aW="min",m1="trim",dq="workspace",m2=" : file already exists",fy="split",hP="legs",m0="claim",l3="joint",cL=0xffffff,l2="formulas",l1="roll",fx="atlas",mX='the workspace "',mY="nodes",mZ="Out_of_memory",l0="psi_max",fK="orientation",fw=254,mW="angle",hO="index out of bounds",lZ="end",mV="one_to_one",fJ="_bigarr02",lY=" : flags Open_text and Open_binary are not compatible",bl="drive",lX="coordinates",mU="holds",lW="lower_divided",lV="speed",mS="cylinder",mT="joints",bY=0xffff,mQ="acceleration",eb="certified",hN="chords",mR=12520,hA="on",fv="accuracy",mP="axis",mO="no_cube",mN="parallel_margin",lU='the drive "',hz="Unix.Unix_error",fI="fails",fu="tool",hy="mkdir",mM="rho",fH=1000,ft="translational",mL="tolerances",lT="Stack_overflow",hM="characteristic_length",O="",hL="^",hx="places",fs=": No such file or directory",lS="/static/",dp=0x3f,lQ="stiffness",lR="Not_found",cK="planar",ea="mode",mK="joint_speed",mJ="Match_failure",lP="transmission",a9="anchor",mI="at",lO="joint_force",dn="leg",lN="joint_acceleration",fG="+",hw="rmdir",mH=0xf0,mG="spherical",lM=1026,mE="REJECTED",mF="undecided",aX="max",bX="direction",lK="leg_angle",lL="orthoglide",fF="rank",mD="constraint_margin",hv="test",lI="Pervasives.do_at_exit",lJ="utf8",bk=0x80,fE="conditioning",dl="length",lH="Undefined_recursive_module",hK=")",lG="base",mC="quantity",lF="joint_range",fr="tilt",lE="Q2",mB="reference",lD="point",mz="corner",mA=0xe0,lC="version",hJ="z",mx="to",my=0xdfff,hu="compare: functional value",mw="Assert_failure",bm="/",mv="provenance",cJ="radius",fq="side",bC="require",mu="format",lB="Q1",hI="ENOTDIR",lA="all",bW="box",mt=250;function
+h7(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=z;for(;0<a;b+=eW,a-=eW)e+=d.apply(null,c.slice(b,b+Math.min(a,eW)));return e}function
-gB(b){if(C.Uint8Array)var
-c=new(C.Uint8Array)(b.l);else
+e=O;for(;0<a;b+=ed,a-=ed)e+=d.apply(null,c.slice(b,b+Math.min(a,ed)));return e}function
+fP(b){if(E.Uint8Array)var
+c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-cW(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ji(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?ji(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gB(b);var
+ei(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?h7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?h7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fP(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-cy(a){return a}function
-b7(a,b,c,d,e){cW(cy(a),b,c,d,e);return 0}function
-Gc(b,a){throw[0,b,a]}function
-ea(b,a){if(b==0)return z;if(a.repeat)return a.repeat(b);var
-d=z,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d_(a){if(a.t==2)a.c+=ea(a.l-a.c.length,"\0");else
-a.c=ji(a.c,0,a.c.length);a.t=0}function
-pC(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>iN)return false;return true}else
-return!/[^\x00-\x7f]/.test(a)}function
-jk(e){for(var
-j=z,c=z,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bJ){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bJ;d++);if(d-b>ni){c.substr(0,1);j+=c;c=z;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0){g=h+(f<<6);if(f<nB){a=g-0x3080;if(a<bJ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0){g=h+(g<<6);if(f<oO){a=g-0xe2080;if(a<oE||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e0&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b4)c+=String.fromCharCode(0xd7c0+(a>>10),nr+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eW){c.substr(0,1);j+=c;c=z}}return j+c}function
-b5(c,a,b){this.t=c;this.c=a;this.l=b}b5.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d_(this);case
-0:if(pC(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b5.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return jk(a)};b5.prototype.slice=function(){var
-a=this.t==4?this.c.slice():this.c;return new
-b5(this.t,a,this.l)};function
-pf(a){return new
-b5(0,a,a.length)}function
-a(a){return pf(a)}function
-jg(c,b){Gc(c,a(b))}var
-av=[0];function
-aG(a){jg(av.Invalid_argument,a)}function
-pd(){aG(i0)}function
-ax(a,c,b){b&=cx;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gB(a)}a.c[c]=b;return 0}function
-dq(b,a,c){if(a>>>0>=b.l)pd();return ax(b,a,c)}function
-d9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+du(a){return a}function
+dt(a,b,c,d,e){ei(du(a),b,c,d,e);return 0}function
+hW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-b8(c,a){if(c.fun)return b8(c.fun,a);if(typeof
+cM(c,a){if(c.fun)return cM(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return b8(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cM(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return b8(c,d)}}function
-e2(){aG(i0)}function
-pg(a,b){if(b>>>0>=a.length-1)e2();return a}function
-FD(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-cA(a){a.t&6&&d_(a);return a.c}var
-Gl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Gk(a){if(Gl)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cM(c,d)}}function
+nL(b,a){if(b==0)return O;if(a.repeat)return a.repeat(b);var
+d=O,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dv(a){if(a.t==2)a.c+=nL(a.l-a.c.length,"\0");else
+a.c=h7(a.c,0,a.c.length);a.t=0}function
+dw(a){a.t&6&&dv(a);return a.c}var
+BM=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+BL(a){if(BM)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-i_(c){var
-a=new(C.Float32Array)(1);a[0]=c;var
-b=new(C.Int32Array)(a.buffer);return b[0]|0}var
-pp=Math.pow(2,-24);function
-Ga(a){throw a}function
-pw(){Ga(av.Division_by_zero)}function
-B(b,c,a){this.lo=b&cv;this.mi=c&cv;this.hi=a&b4}B.prototype.caml_custom="_j";B.prototype.copy=function(){return new
-B(this.lo,this.mi,this.hi)};B.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};B.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};B.prototype.neg=function(){var
+hZ(c){var
+a=new(E.Float32Array)(1);a[0]=c;var
+b=new(E.Int32Array)(a.buffer);return b[0]|0}var
+nC=Math.pow(2,-24);function
+BC(a){throw a}var
+an=[0];function
+nI(){BC(an.Division_by_zero)}function
+D(b,c,a){this.lo=b&cL;this.mi=c&cL;this.hi=a&bY}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-B(a,b,c)};B.prototype.add=function(a){var
+D(a,b,c)};D.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-B(b,c,d)};B.prototype.sub=function(a){var
+D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-B(b,c,d)};B.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pp|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pp|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-B(b,c,d)};B.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};B.prototype.isNeg=function(){return this.hi<<16<0};B.prototype.and=function(a){return new
-B(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};B.prototype.or=function(a){return new
-B(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};B.prototype.xor=function(a){return new
-B(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};B.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-B(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-B(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-B(0,0,this.lo<<a-48)};B.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-B(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-B(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-B(this.hi>>a-48,0,0)};B.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+D(b,c,d)};D.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*nC|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nC|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
+D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
+D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
+D(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};D.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+D(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+D(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+D(0,0,this.lo<<a-48)};D.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+D(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+D(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-B(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-B(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b4);return new
-B(this.hi<<16>>a-32,b,b)};B.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cv;this.lo=this.lo<<1&cv};B.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cv;this.mi=(this.mi>>>1|this.hi<<23)&cv;this.hi=this.hi>>>1};B.prototype.udivmod=function(e){var
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bY);return new
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cL;this.lo=this.lo<<1&cL};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cL;this.mi=(this.mi>>>1|this.hi<<23)&cL;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-B(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};B.prototype.div=function(a){var
-b=this;if(a.isZero())pw();var
-d=b.hi^a.hi;if(b.hi&b1)b=b.neg();if(a.hi&b1)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b1)c=c.neg();return c};B.prototype.mod=function(b){var
-a=this;if(b.isZero())pw();var
-d=a.hi;if(a.hi&b1)a=a.neg();if(b.hi&b1)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b1)c=c.neg();return c};B.prototype.toInt=function(){return this.lo|this.mi<<24};B.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};B.prototype.toArray=function(){return[this.hi>>8,this.hi&cx,this.mi>>16,this.mi>>8&cx,this.mi&cx,this.lo>>16,this.lo>>8&cx,this.lo&cx]};B.prototype.lo32=function(){return this.lo|(this.mi&cx)<<24};B.prototype.hi32=function(){return this.mi>>>8&b4|this.hi<<16};function
-gF(b,c,a){return new
-B(b,c,a)}function
-gE(a){if(!isFinite(a)){if(isNaN(a))return gF(1,0,nh);return a>0?gF(0,0,nh):gF(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b1:a>=0?0:b1;if(f)a=-a;var
-b=Gk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-oe)}else{a/=Math.pow(2,b-o3);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
+b=this;if(a.isZero())nI();var
+d=b.hi^a.hi;if(b.hi&bB)b=b.neg();if(a.hi&bB)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bB)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())nI();var
+d=a.hi;if(a.hi&bB)a=a.neg();if(b.hi&bB)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bB)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&bZ,this.mi>>16,this.mi>>8&bZ,this.mi&bZ,this.lo>>16,this.lo>>8&bZ,this.lo&bZ]};D.prototype.lo32=function(){return this.lo|(this.mi&bZ)<<24};D.prototype.hi32=function(){return this.mi>>>8&bY|this.hi<<16};function
+fR(b,c,a){return new
+D(b,c,a)}function
+fQ(a){if(!isFinite(a)){if(isNaN(a))return fR(1,0,l5);return a>0?fR(0,0,l5):fR(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bB:a>=0?0:bB;if(f)a=-a;var
+b=BL(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lM)}else{a/=Math.pow(2,b-nb);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iW|f|b<<4;return gF(g,e,c)}function
-e5(a){return a.toArray()}function
-pc(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gx)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b4)c.write(16,b.dims[a]);else{c.write(16,b4);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hC|f|b<<4;return fR(g,e,c)}function
+el(a){return a.toArray()}function
+nq(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fJ)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bY)c.write(16,b.dims[a]);else{c.write(16,bY);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e5(b.get(a));for(var
+e=el(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e5(gE(b.get(a)));for(var
+e=el(fQ(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=i_(b.get(a));c.write(32,e)}break;case
+e=hZ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,i_(d[1]));c.write(32,i_(d[2]))}break;case
+d=b.get(a);c.write(32,hZ(d[1]));c.write(32,hZ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e5(gE(f[1]));for(var
+f=b.get(a),e=el(fQ(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e5(gE(f[2]));for(var
+e=el(fQ(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-pa(a){switch(a){case
+BE(b,a){throw[0,b,a]}function
+nQ(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
+return!/[^\x00-\x7f]/.test(a)}function
+h8(e){for(var
+j=O,c=O,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bk){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bk;d++);if(d-b>l6){c.substr(0,1);j+=c;c=O;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(f<<6);if(f<mA){a=g-0x3080;if(a<bk)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(g<<6);if(f<mH){a=g-0xe2080;if(a<ms||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bY)c+=String.fromCharCode(0xd7c0+(a>>10),mi+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>ed){c.substr(0,1);j+=c;c=O}}return j+c}function
+bD(c,a,b){this.t=c;this.c=a;this.l=b}bD.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dv(this);case
+0:if(nQ(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bD.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return h8(a)};bD.prototype.slice=function(){var
+a=this.t==4?this.c.slice():this.c;return new
+bD(this.t,a,this.l)};function
+nt(a){return new
+bD(0,a,a.length)}function
+a(a){return nt(a)}function
+h6(c,b){BE(c,a(b))}function
+ay(a){h6(an.Invalid_argument,a)}function
+no(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Fx(c,e){var
-b=C,a;switch(c){case
+A8(c,e){var
+b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +171,52 @@ b=C,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aG("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)ay("Bigarray.create: unsupported kind");var
 d=new
-a(e*pa(c));return d}function
-i$(c){var
-a=new(C.Int32Array)(1);a[0]=c;var
-b=new(C.Float32Array)(a.buffer);return b[0]}function
-e4(a){return new
-B(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ja(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iW)==0?b&b1?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iW);if(c>0){a+=16;a*=Math.pow(2,c-o3)}else
-a*=Math.pow(2,-oe);if(b&b1)a=-a;return a}function
-i6(b){var
+a(e*no(c));return d}function
+h0(c){var
+a=new(E.Int32Array)(1);a[0]=c;var
+b=new(E.Float32Array)(a.buffer);return b[0]}function
+ek(a){return new
+D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+h1(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hC)==0?b&bB?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hC);if(c>0){a+=16;a*=Math.pow(2,c-nb)}else
+a*=Math.pow(2,-lM);if(b&bB)a=-a;return a}function
+hV(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aG("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-FO(b,a){return new
-B(b&cv,b>>>24&cx|(a&b4)<<8,a>>>16&b4)}function
-jb(a){return a.hi32()}function
-jc(a){return a.lo32()}var
-Fy=gx;function
-cV(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cV.prototype.caml_custom=Fy;cV.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)ay("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Bm(b,a){return new
+D(b&cL,b>>>24&bZ|(a&bY)<<8,a>>>16&bY)}function
+h2(a){return a.hi32()}function
+h3(a){return a.lo32()}function
+fO(){ay(hO)}var
+A9=fJ;function
+ch(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ch.prototype.caml_custom=A9;ch.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aG("bigarray.js: invalid offset");if(this.dims.length!=b.length)aG("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])e2();c=c*this.dims[a]+b[a]}else
+Array))ay("bigarray.js: invalid offset");if(this.dims.length!=b.length)ay("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])fO();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])e2();c=c*this.dims[a]+(b[a]-1)}return c};cV.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])fO();c=c*this.dims[a]+(b[a]-1)}return c};ch.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return FO(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Bm(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gq,e,c];default:return this.data[a]}};cV.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jc(b);this.data[a*2+1]=jb(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fw,e,c];default:return this.data[a]}};ch.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=h3(b);this.data[a*2+1]=h2(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cV.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ch.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jc(b),e=jb(b);if(c==e)this.data.fill(c);else
+c=h3(b),e=h2(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cV.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ch.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-d8(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d8.prototype=new
-cV();d8.prototype.offset=function(a){if(typeof
+ds(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ds.prototype=new
+ch();ds.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aG("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])e2();return a};d8.prototype.get=function(a){return this.data[a]};d8.prototype.set=function(a,b){this.data[a]=b;return 0};d8.prototype.fill=function(a){this.data.fill(a);return 0};function
-o_(c,d,a,b){var
-e=pa(c);if(i6(a)*e!=b.length)aG("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-d8(c,d,a,b);return new
-cV(c,d,a,b)}function
-bL(b){if(!av.Failure)av.Failure=[aE,a(iD),-3];jg(av.Failure,b)}function
-o$(b,v,r){var
-i=b.read32s();if(i<0||i>16)bL("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cx,o=p>>8&1,h=[];if(r==gx)for(var
+ay("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])fO();return a};ds.prototype.get=function(a){return this.data[a]};ds.prototype.set=function(a,b){this.data[a]=b;return 0};ds.prototype.fill=function(a){this.data.fill(a);return 0};function
+nm(c,d,a,b){var
+e=no(c);if(hV(a)*e!=b.length)ay("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+ds(c,d,a,b);return new
+ch(c,d,a,b)}function
+bn(b){if(!an.Failure)an.Failure=[aE,a(hE),-3];h6(an.Failure,b)}function
+nn(b,v,r){var
+i=b.read32s();if(i<0||i>16)bn("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bZ,o=p>>8&1,h=[];if(r==fJ)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b4){var
-t=b.read32u(),u=b.read32u();if(t!=0)bL("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bY){var
+t=b.read32u(),u=b.read32u();if(t!=0)bn("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=i6(h),f=Fx(j,d),g=o_(j,o,h,f);switch(j){case
+d=hV(h),f=A8(j,d),g=nm(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bL("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bn("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e4(e);g.set(a,q)}break;case
+q=ek(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ja(e4(e));g.set(a,k)}break;case
+k=h1(ek(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=i$(b.read32s());g.set(a,k)}break;case
+k=h0(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i$(b.read32s()),l=i$(b.read32s());g.set(a,[gq,m,l])}break;case
+m=h0(b.read32s()),l=h0(b.read32s());g.set(a,[fw,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ja(e4(e));for(var
+m=h1(ek(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ja(e4(e));g.set(a,[gq,m,l])}break}v[0]=(4+i)*4;return o_(j,o,h,f)}function
-o9(a,b,c){return a.compare(b,c)}function
-pt(a,b){return Math.imul(a,b)}function
-cz(b,a){a=pt(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pt(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-FK(a,b){a=cz(a,jc(b));a=cz(a,jb(b));return a}function
-po(a,b){return FK(a,gE(b))}function
-pb(c){var
-b=i6(c.dims),d=0;switch(c.kind){case
+l=h1(ek(e));g.set(a,[fw,m,l])}break}v[0]=(4+i)*4;return nm(j,o,h,f)}function
+nl(a,b,c){return a.compare(b,c)}function
+nF(a,b){return Math.imul(a,b)}function
+b0(b,a){a=nF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Bj(a,b){a=b0(a,h3(b));a=b0(a,h2(b));return a}function
+nB(a,b){return Bj(a,fQ(b))}function
+np(c){var
+b=hV(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oC)b=oC;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cz(d,e)}e=0;switch(b&3){case
+12:if(b>mn)b=mn;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b0(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cz(d,e)}break;case
+1:e|=c.data[a+0];d=b0(d,e)}break;case
 4:case
-5:if(b>e0)b=e0;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cz(d,e)}if((b&1)!=0)d=cz(d,c.data[a]);break;case
+5:if(b>ef)b=ef;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b0(d,e)}if((b&1)!=0)d=b0(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cz(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cz(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cz(d,c.data[a]);break;case
+a=0;a<b;a++)d=b0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=po(d,c.data[a]);break;case
+a=0;a<b;a++)d=nB(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=po(d,c.data[a]);break}return d}function
-FM(a,b){b[0]=4;return a.read32s()}function
-F9(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=nB(d,c.data[a]);break}return d}function
+Bk(a,b){b[0]=4;return a.read32s()}function
+Bz(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bL("input_value: native integer value too large");default:bL("input_value: ill-formed native integer")}}function
-FX(c,d){var
+2:bn("input_value: native integer value too large");default:bn("input_value: ill-formed native integer")}}function
+Bp(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e4(b)}function
-FT(e,d,b){var
-c=e5(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ek(b)}function
+Bo(e,d,b){var
+c=el(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-FN(a,b,c){return a.compare(b)}function
-FQ(a){return a.lo32()^a.hi32()}var
-pj={"_j":{deserialize:FX,serialize:FT,fixed_length:8,compare:FN,hash:FQ},"_i":{deserialize:FM,fixed_length:4},"_n":{deserialize:F9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o$(a,b,"_bigarray")},serialize:pc,compare:o9,hash:pb},"_bigarr02":{deserialize:function(a,b){return o$(a,b,gx)},serialize:pc,compare:o9,hash:pb}};function
-i7(a){return pj[a.caml_custom]&&pj[a.caml_custom].compare}function
-ph(f,c,d,e){var
-b=i7(c);if(b){var
+Bl(a,b,c){return a.compare(b)}function
+Bn(a){return a.lo32()^a.hi32()}var
+nw={"_j":{deserialize:Bp,serialize:Bo,fixed_length:8,compare:Bl,hash:Bn},"_i":{deserialize:Bk,fixed_length:4},"_n":{deserialize:Bz,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nn(a,b,"_bigarray")},serialize:nq,compare:nl,hash:np},"_bigarr02":{deserialize:function(a,b){return nn(a,b,fJ)},serialize:nq,compare:nl,hash:np}};function
+hY(a){return nw[a.caml_custom]&&nw[a.caml_custom].compare}function
+nu(f,c,d,e){var
+b=hY(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-gG(a){return a
+h5(a){return a
 instanceof
-b5}function
-je(a){return gG(a)}function
-pi(a){if(typeof
-a==="number")return eU;else
-if(gG(a))return gw;else
-if(je(a))return 1252;else
+bD}function
+nD(a){return h5(a)}function
+nv(a){if(typeof
+a==="number")return fH;else
+if(h5(a))return 252;else
+if(nD(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=nx){var
-b=a[0]|0;return b==gq?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=255){var
+b=a[0]|0;return b==fw?0:b}else
 if(a
 instanceof
-String)return nM;else
+String)return mR;else
 if(typeof
-a=="string")return nM;else
+a=="string")return mR;else
 if(a
 instanceof
-Number)return eU;else
-if(a&&a.caml_custom)return iG;else
+Number)return fH;else
+if(a&&a.caml_custom)return hG;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-FY(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pe(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pz(a,b){return pe(a,b)}function
-gA(a,b,d){var
+Bq(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+ns(a,b){a.t&6&&dv(a);b.t&6&&dv(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+nM(a,b){return ns(a,b)}function
+hX(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pi(a);if(f==ny){a=a[1];continue}var
-g=pi(b);if(g==ny){b=b[1];continue}if(f!==g){if(f==eU){if(g==iG)return ph(a,b,-1,d);return-1}if(g==eU){if(f==iG)return ph(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aG(iP);break;case
+f=nv(a);if(f==mt){a=a[1];continue}var
+g=nv(b);if(g==mt){b=b[1];continue}if(f!==g){if(f==fH){if(g==hG)return nu(a,b,-1,d);return-1}if(g==fH){if(f==hG)return nu(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ay(hu);break;case
 248:var
-c=FY(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aG(iP);break;case
-250:aG("equal: got Forward_tag, should not happen");break;case
-251:aG("equal: abstract value");break;case
+c=Bq(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ay(hu);break;case
+250:ay("equal: got Forward_tag, should not happen");break;case
+251:ay("equal: abstract value");break;case
 252:if(a!==b){var
-c=pe(a,b);if(c!=0)return c|0}break;case
-253:aG("equal: got Double_tag, should not happen");break;case
-254:aG("equal: got Double_array_tag, should not happen");break;case
-255:aG("equal: got Custom_tag, should not happen");break;case
-1247:aG(iP);break;case
+c=ns(a,b);if(c!=0)return c|0}break;case
+253:ay("equal: got Double_tag, should not happen");break;case
+254:ay("equal: got Double_array_tag, should not happen");break;case
+255:ay("equal: got Custom_tag, should not happen");break;case
+1247:ay(hu);break;case
 1255:var
-i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aG("compare: abstract value");var
+i=hY(a);if(i!=hY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ay("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=cA(a),b=cA(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dw(a),b=dw(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-FE(a,b){return gA(a,b,true)}function
-FF(){return[0]}function
-aA(a){if(a<0)aG("Bytes.create");return new
-b5(a?2:9,z,a)}function
-pk(a,b){return+(gA(a,b,false)==0)}function
-FH(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=z;a.t=2}else{a.c=ea(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gB(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-jf(d){d=cA(d);var
-e=d.length;if(e>31)aG("format_int: format too long");var
-a={justify:b3,signstyle:bw,filler:cu,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
-c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=bw;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aW;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-i8(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=bw))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=z;if(b.justify==b3&&b.filler==cu)for(var
-d=e;d<b.width;d++)c+=cu;if(b.signedconv)if(b.sign<0)c+=bw;else
-if(b.signstyle!=bw)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aW;if(b.alternate&&b.base==16)c+=nf;if(b.justify==b3&&b.filler==aW)for(var
-d=e;d<b.width;d++)c+=aW;c+=f;if(b.justify==bw)for(var
-d=e;d<b.width;d++)c+=cu;return a(c)}function
-i9(i,c){function
-j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(b3)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aW);if(b>0)a=a+cU+new
-Array(b+1).join(aW);return a}else
-return a.toFixed(b)}}var
-a,e=jf(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=iJ;e.filler=cu}else
-if(!isFinite(c)){a="inf";e.filler=cu}else
-switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==i3)a=a.slice(0,b-1)+aW+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(i3),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aW)b--;if(a.charAt(b)==cU)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==i3)a=a.slice(0,b-1)+aW+a.slice(b-1);break}else{var
-f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
-while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aW)b--;if(a.charAt(b)==cU)b--;a=a.slice(0,b+1)}}break}return i8(e,a)}function
-gC(e,c){if(cA(e)==iV)return a(z+c);var
-b=jf(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
-c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=cu;var
-f=b.prec-d.length;if(f>0)d=ea(f,aW)+d}return i8(b,d)}var
-F_=0;function
-gD(){return F_++}function
-F1(a){return a.toUtf16()}function
-e7(){return typeof
-C.process!=="undefined"&&typeof
-C.process.versions!=="undefined"&&typeof
-C.process.versions.node!=="undefined"}function
-Gm(){function
-a(a){if(a.charAt(0)===bI)return[z,a.substring(1)];return}function
+Be(a,b){return hX(a,b,true)}function
+bF(a){if(a<0)ay("Bytes.create");return new
+bD(a?2:9,O,a)}function
+nx(a,b){return+(hX(a,b,false)==0)}function
+Bg(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=O;a.t=2}else{a.c=nL(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+BA=0;function
+nz(){return BA++}function
+Bs(a){return a.toUtf16()}function
+em(){return typeof
+E.process!=="undefined"&&typeof
+E.process.versions!=="undefined"&&typeof
+E.process.versions.node!=="undefined"}function
+BN(){function
+a(a){if(a.charAt(0)===bm)return[O,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||z,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||z,f=a[2]||z;return[d,c.substring(d.length+f.length)]}return}return e7()&&C.process&&C.process.platform?C.process.platform==="win32"?b:a:a}var
-jo=Gm();function
-pA(a){return a.slice(-1)!==bI?a+bI:a}if(e7()&&C.process&&C.process.cwd)var
-e3=C.process.cwd().replace(/\\/g,bI);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||O,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||O,f=a[2]||O;return[d,c.substring(d.length+f.length)]}return}return em()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+ia=BN();function
+nN(a){return a.slice(-1)!==bm?a+bm:a}if(em()&&E.process&&E.process.cwd)var
+ej=E.process.cwd().replace(/\\/g,bm);else
 var
-e3="/static";e3=pA(e3);function
-F3(a){a=F1(a);if(!jo(a))a=e3+a;var
-e=jo(a),d=e[1].split(bI),b=[];for(var
+ej="/static";ej=nN(ej);function
+Bu(a){a=Bs(a);if(!ia(a))a=ej+a;var
+e=ia(a),d=e[1].split(bm),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Gg(e){for(var
-f=z,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bJ){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bJ;d++);if(d-c>ni){b.substr(0,1);f+=b;b=z;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oE){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bJ|a&d3)}else
-if(a<0xd800||a>=nA)b+=String.fromCharCode(nB|a>>12,bJ|a>>6&d3,bJ|a&d3);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nr||h>nA)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oO|a>>18,bJ|a>>12&d3,bJ|a>>6&d3,bJ|a&d3)}if(b.length>eW){b.substr(0,1);f+=b;b=z}}return f+b}function
-FC(a){var
-b=9;if(!pC(a))b=8,a=Gg(a);return new
-b5(b,a,a.length)}function
-bM(a){return FC(a)}var
-Go=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",no,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iX,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iH,oz,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dt(d,f,e,a){var
-b=Go.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bM(f||z),bM(e||z)];return c}var
-pu={};function
-dr(a){return pu[a]}function
-ds(b,a){throw[0,b].concat(a)}function
-FB(a){return new
-b5(4,a,a.length)}function
-ae(a){jg(av.Sys_error,a)}function
-Gb(a){ae(a+gd)}function
-FA(b,a){if(a>>>0>=b.l)pd();return d9(b,a)}function
-bi(a){return a.l}function
-o8(){}function
-aM(a){this.data=a}aM.prototype=new
-o8();aM.prototype.truncate=function(a){var
-b=this.data;this.data=aA(a|0);cW(b,0,this.data,0,a)};aM.prototype.length=function(){return bi(this.data)};aM.prototype.write=function(b,d,g,a){var
+BI(e){for(var
+f=O,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bk){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bk;d++);if(d-c>l6){b.substr(0,1);f+=b;b=O;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<ms){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bk|a&dp)}else
+if(a<0xd800||a>=my)b+=String.fromCharCode(mA|a>>12,bk|a>>6&dp,bk|a&dp);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mi||h>my)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mH|a>>18,bk|a>>12&dp,bk|a>>6&dp,bk|a&dp)}if(b.length>ed){b.substr(0,1);f+=b;b=O}}return f+b}function
+Bb(a){var
+b=9;if(!nQ(a))b=8,a=BI(a);return new
+bD(b,a,a.length)}function
+dx(a){return Bb(a)}var
+BQ=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mb,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hD,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hI,mh,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cQ(d,f,e,a){var
+b=BQ.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dx(f||O),dx(e||O)];return c}var
+nG={};function
+cN(a){return nG[a]}function
+cO(b,a){throw[0,b].concat(a)}function
+Ba(a){return new
+bD(4,a,a.length)}function
+aa(a){h6(an.Sys_error,a)}function
+BD(a){aa(a+fs)}function
+nr(){ay(hO)}function
+A$(b,a){if(a>>>0>=b.l)nr();return hW(b,a)}function
+fS(a){return a.l}function
+nk(){}function
+aw(a){this.data=a}aw.prototype=new
+nk();aw.prototype.truncate=function(a){var
+b=this.data;this.data=bF(a|0);ei(b,0,this.data,0,a)};aw.prototype.length=function(){return fS(this.data)};aw.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=aA(b+a),f=this.data;this.data=e;cW(f,0,this.data,0,c)}b7(d,g,this.data,b,a);return 0};aM.prototype.read=function(c,a,d,b){var
-e=this.length();cW(this.data,c,a,d,b);return 0};aM.prototype.read_one=function(a){return FA(this.data,a)};aM.prototype.close=function(){};aM.prototype.constructor=aM;function
-a1(b,a){this.content={};this.root=b;this.lookupFun=a}a1.prototype.nm=function(a){return this.root+a};a1.prototype.create_dir_if_needed=function(d){var
-c=d.split(bI),b=z;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bI;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a1.prototype.slash=function(a){return/\/$/.test(a)?a:a+bI};a1.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bF(b+a),f=this.data;this.data=e;ei(f,0,this.data,0,c)}dt(d,g,this.data,b,a);return 0};aw.prototype.read=function(c,a,d,b){var
+e=this.length();ei(this.data,c,a,d,b);return 0};aw.prototype.read_one=function(a){return A$(this.data,a)};aw.prototype.close=function(){};aw.prototype.constructor=aw;function
+aI(b,a){this.content={};this.root=b;this.lookupFun=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.create_dir_if_needed=function(d){var
+c=d.split(bm),b=O;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bm;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aI.prototype.slash=function(a){return/\/$/.test(a)?a:a+bm};aI.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aM(cy(c[1]))}}};a1.prototype.exists=function(a){if(a==z)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a1.prototype.mkdir=function(c,e,d){var
-b=d&&dr(iU);if(this.exists(c))if(b)ds(b,dt(no,iz,this.nm(c)));else
-ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||z;if(!this.exists(a))if(b)ds(b,dt(iX,iz,this.nm(a)));else
-ae(a+gd);if(!this.is_dir(a))if(b)ds(b,dt(iH,iz,this.nm(a)));else
-ae(a+i2);this.create_dir_if_needed(this.slash(c))};a1.prototype.rmdir=function(a,f){var
-b=f&&dr(iU),c=a==z?z:this.slash(a),e=new
-RegExp(iL+c+oA);if(!this.exists(a))if(b)ds(b,dt(iX,iS,this.nm(a)));else
-ae(a+gd);if(!this.is_dir(a))if(b)ds(b,dt(iH,iS,this.nm(a)));else
-ae(a+i2);for(var
+aw(du(c[1]))}}};aI.prototype.exists=function(a){if(a==O)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aI.prototype.mkdir=function(c,e,d){var
+b=d&&cN(hz);if(this.exists(c))if(b)cO(b,cQ(mb,hy,this.nm(c)));else
+aa(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||O;if(!this.exists(a))if(b)cO(b,cQ(hD,hy,this.nm(a)));else
+aa(a+fs);if(!this.is_dir(a))if(b)cO(b,cQ(hI,hy,this.nm(a)));else
+aa(a+hQ);this.create_dir_if_needed(this.slash(c))};aI.prototype.rmdir=function(a,f){var
+b=f&&cN(hz),c=a==O?O:this.slash(a),e=new
+RegExp(hL+c+mj);if(!this.exists(a))if(b)cO(b,cQ(hD,hw,this.nm(a)));else
+aa(a+fs);if(!this.is_dir(a))if(b)cO(b,cQ(hI,hw,this.nm(a)));else
+aa(a+hQ);for(var
 d
 in
-this.content)if(d.match(e))if(b)ds(b,dt(oz,iS,this.nm(a)));else
-ae(this.nm(a)+": Directory not empty");delete
-this.content[c]};a1.prototype.readdir=function(a){var
-f=a==z?z:this.slash(a);if(!this.exists(a))ae(a+gd);if(!this.is_dir(a))ae(a+i2);var
+this.content)if(d.match(e))if(b)cO(b,cQ(mh,hw,this.nm(a)));else
+aa(this.nm(a)+": Directory not empty");delete
+this.content[c]};aI.prototype.readdir=function(a){var
+f=a==O?O:this.slash(a);if(!this.exists(a))aa(a+fs);if(!this.is_dir(a))aa(a+hQ);var
 g=new
-RegExp(iL+f+oA),d={},c=[];for(var
+RegExp(hL+f+mj),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a1.prototype.is_dir=function(a){if(a==z)return true;var
-b=this.slash(a);return this.content[b]?1:0};a1.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aI.prototype.is_dir=function(a){if(a==O)return true;var
+b=this.slash(a);return this.content[b]?1:0};aI.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a1.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+nT);if(b.text&&b.binary)ae(this.nm(a)+on);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nS);var
+this.content[a];return b};aI.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aa(this.nm(a)+m5);if(b.text&&b.binary)aa(this.nm(a)+lY);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aa(this.nm(a)+" : is a directory");if(b.create&&b.excl)aa(this.nm(a)+m2);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aM(aA(0));return this.content[a]}else
-Gb(this.nm(a))};a1.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+nS);if(gG(a))b=new
-aM(a);if(je(a))b=new
-aM(cy(a));else
+aw(bF(0));return this.content[a]}else
+BD(this.nm(a))};aI.prototype.register=function(c,a){var
+b;if(this.content[c])aa(this.nm(c)+m2);if(h5(a))b=new
+aw(a);if(nD(a))b=new
+aw(du(a));else
 if(a
 instanceof
 Array)b=new
-aM(FB(a));else
+aw(Ba(a));else
 if(typeof
 a==="string")b=new
-aM(pf(a));else
+aw(nt(a));else
 if(a.toString){var
-d=cy(bM(a.toString()));b=new
-aM(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ae(this.nm(c)+" : registering file with invalid content type")};a1.prototype.constructor=a1;function
-P(a){return bi(a)}function
-b_(b,a){return d9(b,a)}function
-Fw(d){var
-c=P(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=b_(d,a);return b}function
-Fv(a){if(a.t!=4)gB(a);return a.c}function
-b6(a){this.fs=require("fs");this.fd=a}b6.prototype=new
-o8();b6.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};b6.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};b6.prototype.write=function(f,b,c,e){var
-a=Fw(b);if(!(a
+d=du(dx(a.toString()));b=new
+aw(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aa(this.nm(c)+" : registering file with invalid content type")};aI.prototype.constructor=aI;function
+aj(a){return fS(a)}function
+cP(b,a){return hW(b,a)}function
+A7(d){var
+c=aj(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=cP(d,a);return b}function
+A6(a){if(a.t!=4)fP(a);return a.c}function
+Bd(a,c,b){b&=bZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fP(a)}a.c[c]=b;return 0}function
+Bc(b,a,c){if(a>>>0>=b.l)nr();return Bd(b,a,c)}function
+bE(a){this.fs=require("fs");this.fd=a}bE.prototype=new
+nk();bE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aa(a.toString())}};bE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aa(a.toString())}};bE.prototype.write=function(f,b,c,e){var
+a=A7(b);if(!(a
 instanceof
-C.Uint8Array))a=new(C.Uint8Array)(a);var
-d=C.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};b6.prototype.read=function(g,d,c,f){var
-a=Fv(d);if(!(a
+E.Uint8Array))a=new(E.Uint8Array)(a);var
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aa(a.toString())}return 0};bE.prototype.read=function(g,d,c,f){var
+a=A6(d);if(!(a
 instanceof
-C.Uint8Array))a=new(C.Uint8Array)(a);var
-e=C.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)dq(d,c+b,e[c+b]);return 0};b6.prototype.read_one=function(c){var
-b=new(C.Uint8Array)(1),a=C.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};b6.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};b6.prototype.constructor=b6;function
-aN(a){this.fs=require("fs");this.root=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aN.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aN.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.open=function(f,c,g){var
+E.Uint8Array))a=new(E.Uint8Array)(a);var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aa(a.toString())}for(var
+b=0;b<f;b++)Bc(d,c+b,e[c+b]);return 0};bE.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aa(a.toString())}return a[0]};bE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aa(a.toString())}};bE.prototype.constructor=bE;function
+ax(a){this.fs=require("fs");this.root=a}ax.prototype.nm=function(a){return this.root+a};ax.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ax.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aa(a.toString())}};ax.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-b6(d)}catch(a){this.raise_nodejs_error(a,g)}};aN.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),m7);return bM(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.raise_nodejs_error=function(a,d){var
-b=dr(iU);if(d&&b){var
-c=dt(a.code,a.syscall,a.path,a.errno);ds(b,c)}else
-ae(a.toString())};aN.prototype.stats_from_js=function(a){var
+bE(d)}catch(a){this.raise_nodejs_error(a,g)}};ax.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),lJ);return dx(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.raise_nodejs_error=function(a,d){var
+b=cN(hz);if(d&&b){var
+c=cQ(a.code,a.syscall,a.path,a.errno);cO(b,c)}else
+aa(a.toString())};ax.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aN.prototype.constructor=aN;function
-pn(b){var
-a=jo(b);if(!a)return;return a[0]+bI}var
-gI=pn(e3)||bL("unable to compute caml_root"),eb=[];if(e7())eb.push({path:gI,device:new
-aN(gI)});else
-eb.push({path:gI,device:new
-a1(gI)});eb.push({path:oj,device:new
-a1(oj)});function
-pG(b){var
-g=F3(b),b=g.join(bI),f=pA(b),c;for(var
-e=0;e<eb.length;e++){var
-a=eb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e7()){var
-d=pn(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ax.prototype.constructor=ax;function
+nA(b){var
+a=ia(b);if(!a)return;return a[0]+bm}var
+fT=nA(ej)||bn("unable to compute caml_root"),dy=[];if(em())dy.push({path:fT,device:new
+ax(fT)});else
+dy.push({path:fT,device:new
+aI(fT)});dy.push({path:lS,device:new
+aI(lS)});function
+nU(b){var
+g=Bu(b),b=g.join(bm),f=nN(b),c;for(var
+e=0;e<dy.length;e++){var
+a=dy[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&em()){var
+d=nA(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aN(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-FG(c,b){var
-a=pG(c);if(!a.device.register)bL("cannot register file");a.device.register(a.rest,b);return 0}function
-pB(c,b){var
-c=a(c),b=a(b);return FG(c,b)}function
-FJ(){var
-b=C.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pB(b[a].name,b[a].content);C.jsoo_create_file=pB;C.caml_fs_tmp=[];return 0}function
-pm(){return[0]}function
-FL(a,c,k){if(!isFinite(a)){if(isNaN(a))return bM(iJ);return bM(a>0?oR:"-infinity")}var
-i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
-d=0;if(a==0);else
-if(a<1)while(a<1&&d>-1022){a*=2;d--}else
-while(a>=2){a/=2;d++}var
-j=d<0?z:b3,e=z;if(i)e=bw;else
-switch(k){case
-43:e=b3;break;case
-32:e=cu;break;default:break}if(c>=0&&c<13){var
-g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
-b=a.toString(16);if(c>=0){var
-h=b.indexOf(cU);if(h<0)b+=cU+ea(c,aW);else{var
-f=h+1+c;if(b.length<f)b+=ea(f-b.length,aW);else
-b=b.substr(0,f)}}return bM(e+nf+b+"p"+j+d.toString(10))}function
-FS(a){return+a.isZero()}function
-FV(a){return new
-B(a&cv,a>>24&cv,a>>31&b4)}function
-FW(a){return a.toInt()}function
-FR(a){return+a.isNeg()}function
-FU(a){return a.neg()}function
-FP(g,c){var
-a=jf(g);if(a.signedconv&&FR(c)){a.sign=-1;c=FU(c)}var
-b=z,h=FV(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(FW(e.modulus))+b}while(!FS(c));if(a.prec>=0){a.filler=cu;var
-d=a.prec-b.length;if(d>0)b=ea(d,aW)+b}return i8(a,b)}function
-F$(c){var
-a=0,e=P(c),b=10,d=1;if(e>0)switch(b_(c,a)){case
+ax(d)};dy.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aa("no device found for "+f)}function
+Bf(c,b){var
+a=nU(c);if(!a.device.register)bn("cannot register file");a.device.register(a.rest,b);return 0}function
+nP(c,b){var
+c=a(c),b=a(b);return Bf(c,b)}function
+Bi(){var
+b=E.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)nP(b[a].name,b[a].content);E.jsoo_create_file=nP;E.caml_fs_tmp=[];return 0}function
+BB(c){var
+a=0,e=aj(c),b=10,d=1;if(e>0)switch(cP(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&b_(c,a)==48)switch(b_(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&cP(c,a)==48)switch(cP(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,40 +583,33 @@ a=0,e=P(c),b=10,d=1;if(e>0)switch(b_(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pv(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o5)return a-87;return-1}function
-jd(f){var
-h=F$(f),c=h[0],i=h[1],d=h[2],g=P(f),j=-1>>>0,e=c<g?b_(f,c):0,b=pv(e);if(b<0||b>=d)bL(gg);var
-a=b;for(c++;c<g;c++){e=b_(f,c);if(e==95)continue;b=pv(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bL(gg)}if(c!=g)bL(gg);a=i*a;if(d==10&&(a|0)!=a)bL(gg);return a|0}function
-F0(d){return function(){var
-b=arguments.length;if(b>0){var
-c=new
-Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return b8(d,c)}else
-return b8(d,[undefined])}}function
-F2(a,b){return+(gA(a,b,false)<=0)}function
-F4(a,d){if(a<0)e2();var
+nH(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ne)return a-87;return-1}function
+h4(f){var
+h=BB(f),c=h[0],i=h[1],d=h[2],g=aj(f),j=-1>>>0,e=c<g?cP(f,c):0,b=nH(e);if(b<0||b>=d)bn(fz);var
+a=b;for(c++;c<g;c++){e=cP(f,c);if(e==95)continue;b=nH(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bn(fz)}if(c!=g)bn(fz);a=i*a;if(d==10&&(a|0)!=a)bn(fz);return a|0}function
+Bt(a,b){return+(hX(a,b,false)<=0)}function
+Bv(a,d){if(a<0)fO();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
-c=1;c<a;c++)b[c]=d;return b}function
-F5(){return 0}var
-b9=new
+c=1;c<a;c++)b[c]=d;return b}var
+b1=new
 Array();function
-d$(c){var
-a=b9[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==z)return 0;if(a.fd&&av.fds[a.fd]&&av.fds[a.fd].output){var
-b=av.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=z;return 0}function
-py(e,f){var
-b=b9[e],d=a(f),c=P(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Gh(a){var
-a=jk(a),b=C;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Bw(c){var
+a=b1[c];if(!a.opened)aa("Cannot flush a closed channel");if(!a.buffer||a.buffer==O)return 0;if(a.fd&&an.fds[a.fd]&&an.fds[a.fd].output){var
+b=an.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=O;return 0}function
+nK(e,f){var
+b=b1[e],d=a(f),c=aj(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+BJ(a){var
+a=h8(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Gi(a){var
-a=jk(a),b=C;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+BK(a){var
+a=h8(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gJ(c,e,d,a){if(av.fds===undefined)av.fds=new
+fV(c,e,d,a){if(an.fds===undefined)an.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;av.fds[c]=b;if(!av.fd_last_idx||c>av.fd_last_idx)av.fd_last_idx=c;return c}function
-Gp(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;an.fds[c]=b;if(!an.fd_last_idx||c>an.fd_last_idx)an.fd_last_idx=c;return c}function
+BR(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -688,1230 +619,157 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(cA(c)+nT);if(a.text&&a.binary)ae(cA(c)+on);var
-d=pG(c),e=d.device.open(d.rest,a),f=av.fd_last_idx?av.fd_last_idx:0;return gJ(f+1,py,e,a)}gJ(0,py,new
-aM(aA(0)));gJ(1,Gi,new
-aM(aA(0)));gJ(2,Gh,new
-aM(aA(0)));function
-F6(a){var
-c=av.fds[a];if(c.flags.wronly)ae(o4+a+" is writeonly");var
-d=null;if(a==0&&e7()){var
-e=require("fs");d=function(){return bM(e.readFileSync(0,m7))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b9[b.fd]=b;return b.fd}function
-pq(c){var
-b=av.fds[c];if(b.flags.rdonly)ae(o4+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:z};b9[a.fd]=a;return a.fd}function
-F7(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aa(dw(c)+m5);if(a.text&&a.binary)aa(dw(c)+lY);var
+d=nU(c),e=d.device.open(d.rest,a),f=an.fd_last_idx?an.fd_last_idx:0;return fV(f+1,nK,e,a)}fV(0,nK,new
+aw(bF(0)));fV(1,BK,new
+aw(bF(0)));fV(2,BJ,new
+aw(bF(0)));function
+Bx(a){var
+c=an.fds[a];if(c.flags.wronly)aa(nd+a+" is writeonly");var
+d=null;if(a==0&&em()){var
+e=require("fs");d=function(){return dx(e.readFileSync(0,lJ))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b1[b.fd]=b;return b.fd}function
+nE(c){var
+b=an.fds[c];if(b.flags.rdonly)aa(nd+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:O};b1[a.fd]=a;return a.fd}function
+By(){var
 b=0;for(var
-a=0;a<b9.length;a++)if(b9[a]&&b9[a].opened&&b9[a].out)b=[0,b9[a].fd,b];return b}function
-aX(a){return a}function
-F8(g,d,h,f){var
-b=b9[g];if(!b.opened)ae("Cannot output to a closed channel");var
-a;if(h==0&&bi(d)==f)a=d;else{a=aA(f);cW(d,h,a,0,f)}var
-i=aX(a),c=cA(i),e=c.lastIndexOf(ns);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);d$(g);b.buffer+=c.substr(e+1)}return 0}function
-pr(b,a,d,c){return F8(b,cy(a),d,c)}function
-ps(c,b){var
-d=a(String.fromCharCode(b));pr(c,d,0,1);return 0}function
-e6(a,b){return+(gA(a,b,false)!=0)}function
-gH(a){if(a
+a=0;a<b1.length;a++)if(b1[a]&&b1[a].opened&&b1[a].out)b=[0,b1[a].fd,b];return b}function
+a_(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);an[b+1]=c;if(a)an[a]=c}function
+BF(a,b){nG[dw(a)]=b;return 0}function
+A_(a,b){if(a===b)return 1;a.t&6&&dv(a);b.t&6&&dv(b);return a.c==b.c?1:0}function
+ak(a,b){return A_(a,b)}function
+BH(){ay(hO)}function
+aF(b,a){if(a>>>0>=aj(b))BH();return cP(b,a)}function
+m(a,b){return 1-ak(a,b)}function
+fU(a){return a}function
+nJ(a){return a}function
+nO(a){if(a
 instanceof
-Array&&a[0]==a[0]>>>0)return a[0];else
-if(gG(a))return gw;else
-if(je(a))return gw;else
-if(a
+Array)return a;if(E.RangeError&&a
 instanceof
-Function||typeof
-a=="function")return 247;else
-if(a&&a.caml_custom)return nx;else
-return eU}function
-bx(b,c,a){if(a&&C.toplevelReloc)b=C.toplevelReloc(a);av[b+1]=c;if(a)av[a]=c}function
-jh(a,b){pu[cA(a)]=b;return 0}function
-Fz(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
-aq(a,b){return Fz(a,b)}function
-Ge(){aG(i0)}function
-ab(b,a){if(a>>>0>=P(b))Ge();return b_(b,a)}function
-m(a,b){return 1-aq(a,b)}function
-Gf(){return 0x7FFFFFFF/4|0}function
-jj(a){var
-b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aO(b,a){return{joo_tramp:b,joo_args:a}}function
-px(a){return a}function
-gK(a){if(a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nJ(an.Stack_overflow);if(E.InternalError&&a
 instanceof
-Array)return a;if(C.RangeError&&a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return nJ(an.Stack_overflow);if(a
 instanceof
-C.RangeError&&a.message&&a.message.match(/maximum call stack/i))return px(av.Stack_overflow);if(C.InternalError&&a
-instanceof
-C.InternalError&&a.message&&a.message.match(/too much recursion/i))return px(av.Stack_overflow);if(a
-instanceof
-C.Error&&dr(iF))return[0,dr(iF),a];return[0,av.Failure,bM(String(a))]}function
-gL(a){return a<0?-a:a}function
+E.Error&&cN(mq))return[0,cN(mq),a];return[0,an.Failure,dx(String(a))]}function
+fW(a){return a<0?-a:a}function
 y(a,b){return a+b}function
-jl(a,b){return a<b?-1:a>b?1:0}function
-pD(c,b){var
-a=c%b;return a<0?a+gL(b):a}function
-jm(a,b){return(a-pD(a,b))/b}function
-ah(a,b){return a==b?1:0}function
-M(a,b){return a<=b?1:0}function
-$(a,b){return a<b?1:0}function
+h9(a,b){return a<b?-1:a>b?1:0}function
+nR(c,b){var
+a=c%b;return a<0?a+fW(b):a}function
+h_(a,b){return(a-nR(a,b))/b}function
+ab(a,b){return a==b?1:0}function
+BO(c){E.orthocert_verify=function(b){return dw(cM(c,[a(b)]))}}function
+L(a,b){return a<=b?1:0}function
+Y(a,b){return a<b?1:0}function
 u(a,b){return a*b}function
-aa(a){return-a}function
-bj(a){return C.BigInt(a)}function
-pE(a,b){return a<<C.BigInt(b)}function
-pF(a,b){return a>>C.BigInt(b)}function
-b$(a){return a<0?-1:a>0?1:0}function
-Gn(a){if(a<0)throw new(C.Error)("a root of a negative number");if(a<2)return a;var
-d=C.BigInt(1),b=d<<C.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aY(a,b){return a-b}function
-jn(a){if(a>0x7fffffff||a<-0x80000000)throw new(C.Error)("a number of more than 32 bits");return C.Number(a)}function
-FZ(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-FI(b){var
-a=z;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&FZ(b[1]))var
+Z(a){return-a}function
+aZ(a){return E.BigInt(a)}function
+nS(a,b){return a<<E.BigInt(b)}function
+nT(a,b){return a>>E.BigInt(b)}function
+bG(a){return a<0?-1:a>0?1:0}function
+BP(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aG(a,b){return a-b}function
+h$(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+Br(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Bh(b){var
+a=O;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Br(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oD;for(var
-d=f;d<e.length;d++){if(d>f)a+=m_;var
+f=2,e=b;a+=mr;for(var
+d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b5)a+=aF+c.toString()+aF;else
+bD)a+=as+c.toString()+as;else
 if(typeof
-c=="string")a+=aF+c.toString()+aF;else
-a+=n_}a+=iK}else
+c=="string")a+=as+c.toString()+as;else
+a+="_"}a+=hK}else
 if(b[0]==aE)a+=b[1];return a}function
-pl(a){if(a
+ny(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aE)){var
-c=dr(nn);if(c)c(a,false);else{var
-d=FI(a),b=dr(m6);if(b)b(0);C.console.error(iQ+d+ns)}}else
+c=cN("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Bh(a),b=cN(lI);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Gd(){var
-a=C;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pl(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pl(a.error)})}Gd();function
-f(a,b){return a.length==1?a(b):b8(a,[b])}function
-_(a,b,c){return a.length==2?a(b,c):b8(a,[b,c])}function
-Fu(a,b,c,d){return a.length==3?a(b,c,d):b8(a,[b,c,d])}function
-iy(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):b8(a,[b,c,d,e,f])}function
-Ft(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):b8(a,[b,c,d,e,f,g,h])}FJ();var
-gM=[aE,a(oX),-1],jt=[aE,a(np),-2],jq=[aE,a(iD),-3],jp=[aE,a(n6),-4],jr=[aE,a(nG),-8],js=[aE,a(ok),-9],as=[aE,a(oH),-11],ju=[aE,a(m5),-12],En=[4,0,0,0,[12,45,[4,0,0,0,0]]],gV=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(nO),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],Eo=[0,[0,0]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],Eq=[0,0],Er=[0,0],Es=[0,[0,[0,[0,0]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,0]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],EE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],EF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],EG=[0,[0,0]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],EM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],EN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EM]]]]]]]]]]],EO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EO]]]]]]]]]]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]]],ER=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],ES=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],EW=[0,0],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],E8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],E$=[0,[0,[0,[0,[0,0]]]]],Fa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],Fb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],Fc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]],Fh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Fi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fh]]]]]]]]]]],Fj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fi]]]]]]]]]]],Fk=[0,0],Fl=[0,[0,0]],Fm=[0,0],Fn=[0,[0,[0,[0,[0,0]]]]],j7=[0,[0,[0,0]]],cJ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fV=[0,[0,[0,[0,0]]]],Fo=[0,[0,[0,[0,[0,0]]]]],Fp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fo]]]]]]]]]]],Fq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fp]]]]]]]]]]],Fr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fq]]]]]]]]]]],Fs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fr]]]]]]]]]]];bx(11,ju,m5);bx(10,as,oH);bx(9,[aE,a(n1),-10],n1);bx(8,js,ok);bx(7,jr,nG);bx(6,[aE,a(oh),-7],oh);bx(5,[aE,a(oy),-6],oy);bx(4,[aE,a(nu),-5],nu);bx(3,jp,n6);bx(2,jq,iD);bx(1,jt,np);bx(0,gM,oX);var
-pL=a("%.12g"),pK=a(cU),pI=a("true"),pJ=a("false"),pM=a("\\\\"),pN=a("\\'"),pO=a("\\b"),pP=a("\\t"),pQ=a("\\n"),pR=a("\\r"),pU=a("String.blit / Bytes.blit_string"),pT=a("Bytes.blit"),pS=a("String.sub / Bytes.sub"),pW=a(z),pV=a("String.concat"),pX=a("Array.init"),p0=a("Buffer.add: cannot grow buffer"),pZ=[0,a(ou),93,2],pY=[0,a(ou),94,2],p9=a("%c"),p_=a("%s"),p$=a(m3),qa=a(nF),qb=a(n2),qc=a(nb),qd=a("%f"),qe=a("%B"),qf=a("%{"),qg=a("%}"),qh=a("%("),qi=a("%)"),qj=a("%a"),qk=a("%t"),ql=a("%?"),qm=a("%r"),qn=a("%_r"),qo=[0,a(aD),850,23],qz=[0,a(aD),814,21],qr=[0,a(aD),815,21],qA=[0,a(aD),818,21],qs=[0,a(aD),819,21],qB=[0,a(aD),822,19],qt=[0,a(aD),823,19],qC=[0,a(aD),826,22],qu=[0,a(aD),827,22],qD=[0,a(aD),831,30],qv=[0,a(aD),832,30],qx=[0,a(aD),836,26],qp=[0,a(aD),837,26],qy=[0,a(aD),846,28],qq=[0,a(aD),847,28],qw=[0,a(aD),851,23],rG=a(nY),rE=[0,a(aD),1558,4],rF=a("Printf: bad conversion %["),rH=[0,a(aD),1626,39],rI=[0,a(aD),1649,31],rJ=[0,a(aD),1650,31],rK=a("Printf: bad conversion %_"),rL=a(nU),rM=a(n5),rN=a(nU),rO=a(n5),rC=a(iJ),rA=a("neg_infinity"),rB=a(oR),rz=a(cU),ru=[0,nk],ri=a("%+nd"),rj=a("% nd"),rl=a("%+ni"),rm=a("% ni"),rn=a("%nx"),ro=a("%#nx"),rp=a("%nX"),rq=a("%#nX"),rr=a("%no"),rs=a("%#no"),rh=a("%nd"),rk=a(n2),rt=a("%nu"),q7=a("%+ld"),q8=a("% ld"),q_=a("%+li"),q$=a("% li"),ra=a("%lx"),rb=a("%#lx"),rc=a("%lX"),rd=a("%#lX"),re=a("%lo"),rf=a("%#lo"),q6=a("%ld"),q9=a(nF),rg=a("%lu"),qU=a("%+Ld"),qV=a("% Ld"),qX=a("%+Li"),qY=a("% Li"),qZ=a("%Lx"),q0=a("%#Lx"),q1=a("%LX"),q2=a("%#LX"),q3=a("%Lo"),q4=a("%#Lo"),qT=a("%Ld"),qW=a(nb),q5=a("%Lu"),qH=a("%+d"),qI=a("% d"),qK=a("%+i"),qL=a("% i"),qM=a("%x"),qN=a("%#x"),qO=a("%X"),qP=a("%#X"),qQ=a("%o"),qR=a("%#o"),qG=a(iV),qJ=a(m3),qS=a(nY),p1=a("@]"),p2=a("@}"),p3=a("@?"),p4=a("@\n"),p5=a("@."),p6=a("@@"),p7=a("@%"),p8=a("@"),qE=a("CamlinternalFormat.Type_mismatch"),rS=a(z),rT=[0,[11,a(m_),[2,0,[2,0,0]]],a(", %s%s")],sg=[0,[11,a(iQ),[2,0,[12,10,0]]],a(oF)],sh=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],sf=a("Fatal error: out of memory in uncaught exception handler"),sd=[0,[11,a(iQ),[2,0,[12,10,0]]],a(oF)],r$=[0,[2,0,[12,10,0]],a("%s\n")],r3=a("Raised at"),r4=a("Re-raised at"),r5=a("Raised by primitive operation at"),r6=a("Called from"),r7=a(" (inlined)"),r9=a(z),r8=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(nO),En]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],r_=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],rY=a("Out of memory"),rZ=a("Stack overflow"),r0=a("Pattern matching failed"),r1=a("Assertion failed"),r2=a("Undefined recursive module"),rU=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],rV=a(z),rW=a(z),rX=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],rR=[0,[4,0,0,0,0],a(iV)],rP=[0,[3,0,0],a("%S")],rQ=a(n_),sa=[0,a(z),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],sj=a("Jsoo_runtime.Error.Exn"),sl=a("power"),sv=[0,0],sx=[0,0],sy=[0,[0,0]],sz=[0,[0,0]],sL=[0,0,0],sM=[0,0,0],sN=[0,0],s6=[0,0],s7=[0,0],s_=[0,0],tq=[0,0],tt=[0,0],tu=[0,0],tA=[0,0],tB=[0,0],tW=[0,[0,[0,0]]],t$=[0,0],uv=a(","),uN=[0,a(iK),0],uO=a(oD),uP=a(cU),uQ=[0,[0,[0,0]]],uR=a(bw),uS=a(iL),uT=[0,[0,[0,[0,[0,0]]]]],uU=[0,a(iK),0],uV=a(o7),xM=a(m4),xO=a(n8),xN=a(oJ),xP=a(gj),xQ=a(gp),xR=a(n4),xS=a(o1),xT=a(ot),xU=a(nH),yY=[0,0],yZ=a(iR),y0=[0,0],y1=a("divided"),y2=[0,1],y3=a("mirror"),y4=[0,3],y5=a("negative"),y6=[0,2],y7=a(iM),y8=[0,5],y9=a(i4),y_=[0,4],y$=a(gh),za=a(ol),zb=a(gv),zc=a(cw),zd=[0,0],ze=[0,0],zf=[0,0],zQ=a(z),zN=[0,[0,[0,[0,0]]]],zO=[0,[0,[0,[0,0]]]],zL=[0,0],zI=[0,[0,0]],zJ=[0,[0,[0,0]]],zE=[0,[0,[0,0]]],zC=[0,[0,[0,0]]],zB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],zA=[0,0],zs=[0,[0,0]],zt=[0,[0,[0,0]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],zv=[0,[0,0]],zy=[0,[0,[0,0]]],zw=[0,[0,0]],zx=[0,[0,[0,0]]],zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],zp=[0,[0,0]],zq=[0,[0,[0,0]]],zn=[0,[0,[0,0]]],zo=[0,[0,0]],zk=[0,[0,0]],zl=[0,0],zj=[0,0],zi=[0,[0,0]],zh=[0,0],yV=[0,0],yW=[0,1],yX=[0,2],yR=[0,[0,0]],yS=[0,0],yQ=[0,0],yP=[0,0],yO=[0,0],yN=[0,0,0],yL=[0,0,0],yJ=[0,[0,[0,0]]],yK=[0,[0,[0,0]]],yI=[0,0],yG=[0,1,0],yy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],yz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],yu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],yv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EN]]]]]]]]]]],yw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],yx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],yA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],yB=a("sqrt"),ys=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],yt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fj]]]]]]]]]]],yh=[0,a("\n"),0],yi=a(n9),yj=a(gf),yk=a(nz),yl=a(ow),yr=a(eX),ym=a(eV),yn=a("verdict"),yo=a(nR),yp=a(or),yq=a(oG),ye=a(nw),yf=a(oZ),yg=a(gr),ya=a(nE),yb=a(gs),yc=a(eV),yd=a(eX),x7=a(gk),x8=a(bh),x9=a(n$),x_=a(gi),x4=a(oW),x5=a(iM),x6=a(gi),x0=a(oP),x1=a(gk),x2=a(gs),x3=a(o2),xW=a(o0),xX=a(oB),xY=a(gt),xK=a(iT),xL=a(iO),xF=a(bg),xG=a(bf),xH=a(nl),xf=a(gt),xg=a(nI),wS=a(bh),wT=a(b2),wU=a(gy),wV=a(d7),wW=a(dp),w1=a(ge),wX=a(iZ),wY=a(i1),wZ=a(d6),w0=a(bh),w2=a(b2),w3=a(gy),w4=a(bg),w5=a(bf),w6=a(ct),w7=a(d7),w8=a(iZ),w9=a(i1),w_=a(d6),w$=a(bh),xa=a(b2),xb=a(bg),xc=a(bf),xd=a(ct),xe=a(d7),xh=a(nN),xi=a(nV),xj=a(gz),xk=a(om),xl=a(ne),xm=a(d6),xn=a(bh),xo=a(b2),xp=a(gn),xq=a(ov),xr=a(d7),xs=a(eY),xt=a(od),xu=a(d6),xv=a(bh),xw=a(gn),xx=a(bh),xy=a(nJ),xB=a(n7),xz=a(nd),xA=a(n0),xC=a(eX),xD=a(eV),xE=a(bh),xI=a(gz),xJ=a(gr),wM=a(b2),wN=a(i5),wO=a(d7),wP=a(ge),wQ=a(d6),wA=a(eY),wB=a(oY),wC=a(dn),wD=a(d2),wE=a(d2),wF=a(iA),wG=a(dn),wH=a(oI),wI=a(os),wJ=a(a6),wL=a(ob),wK=a(iA),wq=a(nv),wr=a(n3),ws=a(ng),wt=a(op),wu=a(nX),wv=a(nP),ww=a(ox),wx=a(go),wy=a(go),wm=a(a6),wn=a(bv),wo=a(d4),wp=a(bK),wi=a(dp),wj=a(iY),wk=a(oN),wf=a(bg),wg=a(bf),wh=a(ct),v_=a(bg),v$=a(bf),wa=a(ct),wb=a(iI),wc=a(dn),wd=a(iE),we=a(oT),v0=a(nc),v6=a(gf),v5=a(nZ),v1=a(oq),v2=a(iB),v7=a(na),v8=a(nL),v9=a(iB),v3=a(d2),v4=a(oK),vX=a(gu),vY=a(gu),vZ=a(gu),vT=a(oU),vU=a(bf),vV=a(bg),vW=a(nW),vF=a(m9),vG=a(oa),vH=a(oQ),vI=a(gj),vJ=a(o6),vK=a(oS),vL=a(og),vM=a(oM),vN=a(m8),vO=a(nm),vP=a(of),vQ=a(oV),vR=a(gp),vS=a(oc),vk=a(b3),vm=a(bw),vl=a(eZ),vn=a(d5),vo=a(a6),vp=a(bv),vq=a(cw),vr=a(gl),vs=a(bK),vt=a(a6),vu=a(bv),vv=a(d4),vw=a(bK),vx=a(d5),vy=a(e1),vz=a(a6),vA=a(bv),vB=a(nC),vC=a(nK),vD=a(e1),vE=a(bK),u4=a(b3),va=a(bw),u5=a(eZ),u6=a(d5),u7=a(a6),u8=a(bv),u9=a(cw),u_=a(gl),u$=a(bK),vb=a(gm),vc=a(a6),vd=a(bv),ve=a(d4),vf=a(bK),vg=a(cw),vh=a(dp),vi=a(bK),u1=a(bg),u2=a(bf),uZ=[0,a(aF),0],u0=a(aF),uX=a(z),uW=[0,a(aF),0],uY=a(aF),uJ=a(b3),uK=a(bw),uL=a("*"),uM=a(bI),uE=[0,[0,[0,[0,[0,0]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,0]],uH=[0,0],uI=[0,[0,[0,[0,0]]]],uC=a('":'),uD=a(aF),uA=[0,a(aF),0],uB=a(aF),uy=[0,a("}"),0],uz=a("{"),uw=[0,a("]"),0],ux=a("["),uu=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],ur=[0,0],uo=[0,[0,[0,0]]],up=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],uq=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],um=[0,[0,0]],un=[0,[0,[0,0]]],uj=[0,0],uk=[0,[0,[0,[0,[0,[0,0]]]]]],ul=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fk]]]]]]]]]]],ug=[0,0],ud=[0,0,0],ue=[0,0,0],uf=[0,0,0],ua=[0,[0,0]],ub=[0,[0,[0,0]]],uc=[0,0],t1=[0,[0,[0,[0,[0,[0,0]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t3=[0,[0,[0,0]]],t4=[0,[0,[0,0]]],t5=[0,[0,[0,[0,[0,[0,0]]]]]],t6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fl]]]]]]]]]]],t8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fm]]]]]]]]]]],t9=[0,[0,[0,0]]],t_=[0,[0,[0,[0,[0,[0,0]]]]]],tZ=[0,[0,0]],t0=[0,[0,[0,0]]],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,0]],tQ=[0,0],tM=[0,[0,0]],tN=[0,0],tO=[0,0],tP=[0,[0,0]],tD=[0,[0,0]],tE=[0,0],tF=[0,[0,0]],tG=[0,0],tH=[0,0],tI=[0,[0,0]],tJ=[0,[0,0]],tK=[0,[0,0]],tL=[0,0],tz=[0,0],tx=[0,[0,[0,0]]],tw=[0,[0,[0,[0,[0,[0,0]]]]]],tr=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,[0,[0,[0,[0,0]]]]]],tj=[0,[0,0]],tk=[0,0],tl=[0,[0,[0,0]]],tm=[0,[0,[0,0]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],td=[0,[0,[0,[0,[0,[0,0]]]]]],te=[0,[0,[0,[0,[0,[0,0]]]]]],tf=[0,[0,[0,0]]],tg=[0,[0,[0,[0,[0,[0,0]]]]]],th=[0,[0,[0,0]]],ti=[0,[0,[0,0]]],ta=[0,[0,0]],tb=[0,0],s$=[0,0,0],s9=[0,0,0],s8=[0,[0,[0,0]]],s4=[0,0],s5=[0,0],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],sY=[0,[0,[0,[0,0]]]],sU=[0,[0,[0,0]]],sV=[0,[0,[0,0]]],sW=[0,[0,[0,0]]],sX=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sS=[0,[0,0]],sT=[0,0],sQ=[0,[0,0]],sR=[0,0],sO=[0,[0,0]],sP=[0,0],sC=[0,0],sD=[0,[0,0]],sE=[0,0],sF=[0,[0,0]],sA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fn]]]]]]]]]]],sw=[0,0,0],su=a(aW),st=a(z),ss=[0,[0,0]],sr=[0,0],sq=[1,0],sp=[0,0],so=[0,0],sm=[1,0],sn=[1,0],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fs]]]]]]]]]]],CU=a(bg),CV=a(bf),CW=a(nl),CJ=a(gm),CK=[0,a("a base axis of such a platform"),0],CL=a(a6),CM=a(bv),Cw=a(nP),Cx=a(nv),Cy=a(nX),Cz=a(go),CA=a(ox),CB=a(go),CC=a(n3),CD=a(ng),CE=a(op),Cj=a(nI),Ck=a(gt),BU=a(b2),BI=a(gr),BJ=a(bh),BK=a(nJ),BL=a(n0),BO=a(nd),BP=a(n7),BQ=a(bh),BR=a(bh),BT=a(gn),BS=[0,a("a claim that no cube of such a machine fits"),0],BV=a(d6),BW=a(d7),BX=a(ge),BY=a(i5),CT=[0,a(nq),0],BZ=a(dp),B0=a(iY),B1=a(oN),B2=a(gy),B3=a(ne),B4=a(od),B5=a(ge),B8=a(ct),B9=a(oT),Ca=a(i5),Cb=[0,a(nq),0],Cc=a(b2),Cd=[0,a("the distance from parallel singularities of other drives than sliders"),0],Ce=a(ov),Cf=[0,a("what else is asked of the closed design"),0],Cg=a(gn),Ch=a(eY),Ci=a(ct),Cl=a(b2),Cm=a(bg),Cn=a(bf),Co=a(nN),Cp=a(nV),Cq=a(gz),Cr=a(om),B6=[0,a(aF),0],B7=a('the mechanism "'),Cs=a(ct),Ct=[0,a('" of a platform that turns'),0],Cu=a(nQ),Cv=a(iZ),CF=a(gy),CG=a(dp),CH=a(iY),CI=a(i1),CN=a(b2),CO=a(bg),CP=a(bf),CS=a(dp),CQ=[0,a("a platform that turns on struts and other drives"),0],CR=a(b2),B_=[0,a(aF),0],B$=a(nQ),CX=a(bh),CY=a(bh),C0=a(eX),C1=a(eV),C2=a(gz),CZ=[0,a("an atlas of such a machine"),0],BM=[0,a(aF),0],BN=a('a claim of the kind "'),C7=a(n4),Dc=a(gp),Dd=a(gj),De=a(ot),Df=a(oJ),Dg=a(cw),Dh=a(iO),Di=a(iT),Dj=a(cw),Dk=a(aW),C8=a(gh),C9=a(ol),C_=a(gv),C$=a(nH),Da=[0,a(aF),0],Db=a('the evidence "'),Dl=a(gh),Dm=a(gv),Dn=a(o1),Dp=a(gh),Dq=a(gv),Dr=a(iR),Ds=a(iR),Do=[0,a("this evidence at control points"),0],Ef=a('"orthocert-paving/'),DX=a(oG),DY=a(or),DZ=a(nR),Ed=[0,3,3],D0=a(ow),D9=[0,a("this set of orientations with such drives"),0],D_=[0,a(nt),0],Eb=[0,a(nt),0],Ec=[0,a("a mechanism by formulas in a claim that is refuted"),0],D$=[0,a('the evidence "tolerances" of such a mechanism'),0],Ea=[0,a("a step of a platform that turns that is not at control points"),0],D1=[0,a("the acceleration of a joint of a machine with a plane"),0],D8=[0,a("this quantity in a claim that is refuted"),0],D6=[0,a("a step in a proof that no cube fits"),0],D7=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],D5=[0,a("a leaf that fails"),0],D2=a(nz),D3=a(n9),D4=a(gf),DV=a(i4),DP=a(gr),DQ=a(nw),DR=a(oZ),DS=[0,a(aF),0],DT=a('a proof of the kind "'),DL=a(eV),DM=a(eX),DN=a(gs),DO=a(nE),DH=a(bh),DI=a(gk),DJ=a(n$),DK=a(gi),DE=a(oW),DF=a(iM),DG=a(gi),DA=a(oP),DB=a(gk),DC=a(gs),DD=a(o2),Dv=a(oB),Dw=a(o0),Dx=a(gt),Dy=[0,a(aF),0],Dz=a('the failure "'),Dt=a(i4),Du=a(aW),C5=a(iO),C6=a(iT),C3=a(n8),C4=a(m4),BF=a(eY),Bv=a(iA),Bw=a(ob),Bx=a(d2),By=a(a6),BD=a(oY),BE=a(eY),BG=a(dn),BH=a(d2),Bz=a(dn),BA=a(oI),BB=a(os),BC=a(a6),Bo=a(ct),Bs=a(bg),Bt=a(bf),Bp=a(iE),Bq=a(iI),Br=a(dn),Bi=a(ct),Bm=a(bg),Bn=a(bf),Bj=a(iE),Bk=a(iI),Bl=a(dn),Bh=[0,1],Bg=[0,1],Bf=[0,a("this quantity of such a mechanism"),0],A1=a(oq),A2=[0,a("a stiffness for each joint"),0],A3=a(nL),A4=a(na),A5=a(nZ),A6=a("max_angle"),A7=[0,a("accuracy of a platform that turns"),0],A0=a(gf),AS=a(gu),AI=a(oK),AJ=a(oQ),A_=a(gp),A$=a(nm),Ba=a(gj),Bb=a(oM),Bc=a(of),Bd=a(m8),Be=a(oa),AK=a(oc),AL=a(oV),AM=a(oS),AN=a(o6),AO=a(og),AP=a(m9),AQ=[0,a(aF),0],AR=a('the quantity "'),AT=a(nc),AU=a(oU),AV=a(bg),AW=a(bf),AX=a(nW),AY=[0,a(aF),0],AZ=a('a bound "'),A8=a(iB),A9=a(d2),AG=a(bK),AH=a(d4),Al=a(bK),Am=a(gm),An=a(e1),Ao=a(gl),Ap=a(d4),As=a(a6),At=a(bv),Au=a(eZ),Av=a(d5),Aw=a(a6),Ax=a(bv),Ay=a(cw),Az=a(eZ),AA=a(d5),AB=a(e1),AC=a(a6),AD=a(bv),AE=a(nC),AF=a(nK),Aq=[0,a('" of such a machine'),0],Ar=a(m$),Aj=a(bK),Ak=a(e1),z5=a(bK),z6=a(dp),z7=a(gl),z8=a(d4),z$=a(gm),Aa=a(a6),Ab=a(bv),Ac=a(eZ),Ad=a(d5),Ae=a(a6),Af=a(bv),Ag=a(cw),Ah=a(cw),z9=[0,a(aF),0],z_=a(m$),z2=a(b3),z3=a(bw),z0=a(" is not covered by the verified checker"),z1=a(z),zY=a(bg),zZ=a(bf),zU=a(z),zV=a(o7),zW=a(z),zX=a(z),zT=[1,0],zR=a("Reader.Malformed"),zS=a("Reader.Not_covered"),Ei=[0,a("a paving is checked by orthocert-verified")],Eh=a(nD),Ej=a("CERTIFIED"),Ek=a("REFUTED"),El=a(nD),Em=a("NOT COVERED: ");function
-ar(a){if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:return[0,ar(a[1])];case
-1:return[1,ar(a[1])];case
-2:return[2,ar(a[1])];case
-3:return[3,ar(a[1])];case
-4:return[4,ar(a[1])];case
-5:return[5,ar(a[1])];case
-6:return[6,ar(a[1])];case
-7:return[7,ar(a[1])];case
-8:var
-c=a[1];return[8,c,ar(a[2])];case
-9:var
-b=a[1];return[9,b,b,ar(a[3])];case
-10:return[10,ar(a[1])];case
-11:return[11,ar(a[1])];case
-12:return[12,ar(a[1])];case
-13:return[13,ar(a[1])];default:return[14,ar(a[1])]}}function
-aZ(a,b){if(typeof
-a==="number")return b;else
-switch(a[0]){case
-0:return[0,aZ(a[1],b)];case
-1:return[1,aZ(a[1],b)];case
-2:return[2,aZ(a[1],b)];case
-3:return[3,aZ(a[1],b)];case
-4:return[4,aZ(a[1],b)];case
-5:return[5,aZ(a[1],b)];case
-6:return[6,aZ(a[1],b)];case
-7:return[7,aZ(a[1],b)];case
-8:var
-c=a[1];return[8,c,aZ(a[2],b)];case
-9:var
-d=a[2],e=a[1];return[9,e,d,aZ(a[3],b)];case
-10:return[10,aZ(a[1],b)];case
-11:return[11,aZ(a[1],b)];case
-12:return[12,aZ(a[1],b)];case
-13:return[13,aZ(a[1],b)];default:return[14,aZ(a[1],b)]}}function
-an(a,b){if(typeof
-a==="number")return b;else
-switch(a[0]){case
-0:return[0,an(a[1],b)];case
-1:return[1,an(a[1],b)];case
-2:var
-c=a[1];return[2,c,an(a[2],b)];case
-3:var
-d=a[1];return[3,d,an(a[2],b)];case
-4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,an(a[4],b)];case
-5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,an(a[4],b)];case
-6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,an(a[4],b)];case
-7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,an(a[4],b)];case
-8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,an(a[4],b)];case
-9:var
-t=a[1];return[9,t,an(a[2],b)];case
-10:return[10,an(a[1],b)];case
-11:var
-u=a[1];return[11,u,an(a[2],b)];case
-12:var
-v=a[1];return[12,v,an(a[2],b)];case
-13:var
-w=a[2],x=a[1];return[13,x,w,an(a[3],b)];case
-14:var
-y=a[2],z=a[1];return[14,z,y,an(a[3],b)];case
-15:return[15,an(a[1],b)];case
-16:return[16,an(a[1],b)];case
-17:var
-A=a[1];return[17,A,an(a[2],b)];case
-18:var
-B=a[1];return[18,B,an(a[2],b)];case
-19:return[19,an(a[1],b)];case
-20:var
-C=a[2],D=a[1];return[20,D,C,an(a[3],b)];case
-21:var
-E=a[1];return[21,E,an(a[2],b)];case
-22:return[22,an(a[1],b)];case
-23:var
-F=a[1];return[23,F,an(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,an(a[3],b)]}}function
-cB(a){throw[0,jp,a]}function
-e8(a){return 0<=a?a:-a|0}function
-aH(d,c){var
-a=P(d),e=P(c),b=aA(a+e|0);b7(d,0,b,0,a);b7(c,0,b,a,e);return aX(b)}function
-pH(a){return a?pI:pJ}F6(0);pq(1);var
-ca=pq(2);function
-ec(b,a){return pr(b,a,0,P(a))}function
-jv(a){ec(ca,a);ps(ca,10);return d$(ca)}function
-gN(b){function
+BG(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ny(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ny(a.error)})}BG();function
+l(a,b){return a.length==1?a(b):cM(a,[b])}function
+ar(a,b,c){return a.length==2?a(b,c):cM(a,[b,c])}function
+A5(a,b,c,d){return a.length==3?a(b,c,d):cM(a,[b,c,d])}Bi();var
+ic=[aE,a(me),-2],ib=[aE,a(nj),-4],z0=[0,[0,0]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,0],z3=[0,0],z4=[0,[0,[0,[0,0]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,0]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,0]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,0],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,0]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,0],AX=[0,[0,0]],AY=[0,0],AZ=[0,[0,[0,[0,[0,0]]]]],iE=[0,[0,[0,0]]],b8=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],e8=[0,[0,[0,[0,0]]]],A0=[0,[0,[0,[0,[0,0]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]];a_(11,[aE,a(lH),-12],lH);a_(10,[aE,a(mw),-11],mw);a_(9,[aE,a(nc),-10],nc);a_(8,[aE,a(lT),-9],lT);a_(7,[aE,a(mJ),-8],mJ);a_(6,[aE,a(lR),-7],lR);a_(5,[aE,a(mf),-6],mf);a_(4,[aE,a(ml),-5],ml);a_(3,ib,nj);a_(2,[aE,a(hE),-3],hE);a_(1,ic,me);a_(0,[aE,a(mZ),-1],mZ);var
+nV=a("String.sub / Bytes.sub"),nX=a(O),nW=a("String.concat"),nY=a("Array.init"),nZ=a("power"),n9=[0,0],n$=[0,0],oa=[0,[0,0]],ob=[0,[0,0]],on=[0,0,0],oo=[0,0,0],op=[0,0],oI=[0,0],oJ=[0,0],oM=[0,0],o4=[0,0],o7=[0,0],o8=[0,0],pc=[0,0],pd=[0,0],py=[0,[0,[0,0]]],pN=[0,0],p9=a(","),qp=[0,a(hK),0],qq=a(mr),qr=a("."),qs=[0,[0,[0,0]]],qt=a(ec),qu=a(hL),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,a(hK),0],qx=a(ng),to=a(lE),tq=a(lB),tp=a(mz),tr=a(fE),ts=a(fv),tt=a(ni),tu=a(m7),tv=a(l_),tw=a(mL),uA=[0,0],uB=a(hv),uC=[0,0],uD=a("divided"),uE=[0,1],uF=a("mirror"),uG=[0,3],uH=a("negative"),uI=[0,2],uJ=a(hN),uK=[0,5],uL=a(hT),uM=[0,4],uN=a(fA),uO=a(lW),uP=a(fF),uQ=a(bX),uR=[0,0],uS=[0,0],uT=[0,0],vs=a(O),vp=[0,[0,[0,[0,0]]]],vq=[0,[0,[0,[0,0]]]],vn=[0,0],vk=[0,[0,0]],vl=[0,[0,[0,0]]],vg=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],vc=[0,0],u6=[0,[0,0]],u7=[0,[0,[0,0]]],u8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],u9=[0,[0,0]],va=[0,[0,[0,0]]],u_=[0,[0,0]],u$=[0,[0,[0,0]]],u5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],u3=[0,[0,0]],u4=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,0]],uY=[0,[0,0]],uZ=[0,0],uX=[0,0],uW=[0,[0,0]],uV=[0,0],ux=[0,0],uy=[0,1],uz=[0,2],ut=[0,[0,0]],uu=[0,0],us=[0,0],ur=[0,0],uq=[0,0],up=[0,0,0],un=[0,0,0],ul=[0,[0,[0,0]]],um=[0,[0,[0,0]]],uk=[0,0],ui=[0,1,0],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],t8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],t_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],t$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],ud=a("sqrt"),t6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],t7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],tV=[0,a("\n"),0],tW=a(lC),tX=a(fu),tY=a(mv),tZ=a(mc),t5=a(ee),t0=a(eb),t1=a("verdict"),t2=a(m0),t3=a(l7),t4=a(mu),tS=a(mp),tT=a(m3),tU=a(fx),tO=a(mF),tP=a(fy),tQ=a(eb),tR=a(ee),tJ=a(fI),tK=a(aY),tL=a(lD),tM=a(fD),tG=a(mY),tH=a(hN),tI=a(fD),tC=a(mI),tD=a(fI),tE=a(fy),tF=a(na),ty=a(m4),tz=a(mm),tA=a(fB),tm=a(hx),tn=a(hR),th=a(aX),ti=a(aW),tj=a(l9),sT=a(fB),sU=a(mM),su=a(aY),sv=a(bC),sw=a(fK),sx=a(dq),sy=a(cK),sD=a(ft),sz=a(hM),sA=a(hP),sB=a(dm),sC=a(aY),sE=a(bC),sF=a(fK),sG=a(aX),sH=a(aW),sI=a(bW),sJ=a(dq),sK=a(hM),sL=a(hP),sM=a(dm),sN=a(aY),sO=a(bC),sP=a(aX),sQ=a(aW),sR=a(bW),sS=a(dq),sV=a(mT),sW=a(m6),sX=a(fN),sY=a(lX),sZ=a(l2),s0=a(dm),s1=a(aY),s2=a(bC),s3=a(fq),s4=a(ma),s5=a(dq),s6=a(eh),s7=a(lL),s8=a(dm),s9=a(aY),s_=a(fq),s$=a(aY),ta=a(mO),td=a(lA),tb=a(l0),tc=a(m$),te=a(ee),tf=a(eb),tg=a(aY),tk=a(fN),tl=a(fx),so=a(bC),sp=a(hU),sq=a(dq),sr=a(ft),ss=a(dm),sc=a(eh),sd=a(m1),se=a(cJ),sf=a(dn),sg=a(dn),sh=a(hA),si=a(cJ),sj=a(mx),sk=a(l8),sl=a(aN),sn=a(lG),sm=a(hA),r4=a(mo),r5=a(nh),r6=a(l4),r7=a(l1),r8=a(m9),r9=a(mW),r_=a(md),r$=a(fr),sa=a(fr),r0=a(aN),r1=a(a9),r2=a(dr),r3=a(bl),rW=a(cK),rX=a(hH),rY=a(mG),rT=a(aX),rU=a(aW),rV=a(bW),rM=a(aX),rN=a(aW),rO=a(bW),rP=a(hJ),rQ=a(cJ),rR=a(hF),rS=a(mS),rC=a(lZ),rI=a(fu),rH=a(m_),rD=a(l3),rE=a(hB),rJ=a(lV),rK=a(mQ),rL=a(hB),rF=a(dn),rG=a(mC),rz=a(fC),rA=a(fC),rB=a(fC),rv=a(mU),rw=a(aW),rx=a(aX),ry=a(m8),rh=a(lP),ri=a(lF),rj=a(mK),rk=a(fE),rl=a(nf),rm=a(mN),rn=a(lQ),ro=a(mD),rp=a(lO),rq=a(l$),rr=a(lN),rs=a(mV),rt=a(fv),ru=a(lK),qY=a(fG),q0=a(ec),qZ=a(ea),q1=a(dl),q2=a(aN),q3=a(a9),q4=a(bX),q5=a(fL),q6=a(bl),q7=a(aN),q8=a(a9),q9=a(dr),q_=a(bl),q$=a(dl),ra=a(eg),rb=a(aN),rc=a(a9),rd=a(mB),re=a(mP),rf=a(eg),rg=a(bl),qG=a(fG),qO=a(ec),qH=a(ea),qI=a(dl),qJ=a(aN),qK=a(a9),qL=a(bX),qM=a(fL),qN=a(bl),qP=a(fM),qQ=a(aN),qR=a(a9),qS=a(dr),qT=a(bl),qU=a(bX),qV=a(cK),qW=a(bl),qD=a(aX),qE=a(aW),qB=[0,a(as),0],qC=a(as),qz=a(O),qy=[0,a(as),0],qA=a(as),ql=a(fG),qm=a(ec),qn=a("*"),qo=a(bm),qg=[0,[0,[0,[0,[0,0]]]]],qh=[0,[0,[0,0]]],qi=[0,[0,0]],qj=[0,0],qk=[0,[0,[0,[0,0]]]],qe=a('":'),qf=a(as),qc=[0,a(as),0],qd=a(as),qa=[0,a("}"),0],qb=a("{"),p_=[0,a("]"),0],p$=a("["),p8=[0,[0,[0,0]]],p7=[0,[0,[0,0]]],p5=[0,0],p2=[0,[0,[0,0]]],p3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p4=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p0=[0,[0,0]],p1=[0,[0,[0,0]]],pX=[0,0],pY=[0,[0,[0,[0,[0,[0,0]]]]]],pZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],pU=[0,0],pR=[0,0,0],pS=[0,0,0],pT=[0,0,0],pO=[0,[0,0]],pP=[0,[0,[0,0]]],pQ=[0,0],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pF=[0,[0,[0,0]]],pG=[0,[0,[0,0]]],pH=[0,[0,[0,[0,[0,[0,0]]]]]],pI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],pK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],pL=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],pw=[0,[0,0]],px=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],pv=[0,[0,0]],ps=[0,0],po=[0,[0,0]],pp=[0,0],pq=[0,0],pr=[0,[0,0]],pf=[0,[0,0]],pg=[0,0],ph=[0,[0,0]],pi=[0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,[0,0]],pm=[0,[0,0]],pn=[0,0],pb=[0,0],o$=[0,[0,[0,0]]],o_=[0,[0,[0,[0,[0,[0,0]]]]]],o5=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o1=[0,[0,[0,[0,[0,[0,0]]]]]],o2=[0,[0,[0,[0,[0,[0,0]]]]]],oX=[0,[0,0]],oY=[0,0],oZ=[0,[0,[0,0]]],o0=[0,[0,[0,0]]],oQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],oR=[0,[0,[0,[0,[0,[0,0]]]]]],oS=[0,[0,[0,[0,[0,[0,0]]]]]],oT=[0,[0,[0,0]]],oU=[0,[0,[0,[0,[0,[0,0]]]]]],oV=[0,[0,[0,0]]],oW=[0,[0,[0,0]]],oO=[0,[0,0]],oP=[0,0],oN=[0,0,0],oL=[0,0,0],oK=[0,[0,[0,0]]],oG=[0,0],oH=[0,0],oB=[0,[0,[0,0]]],oC=[0,[0,[0,0]]],oD=[0,[0,[0,0]]],oA=[0,[0,[0,[0,0]]]],ow=[0,[0,[0,0]]],ox=[0,[0,[0,0]]],oy=[0,[0,[0,0]]],oz=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ou=[0,[0,0]],ov=[0,0],os=[0,[0,0]],ot=[0,0],oq=[0,[0,0]],or=[0,0],oe=[0,0],of=[0,[0,0]],og=[0,0],oh=[0,[0,0]],oc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],od=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],n_=[0,0,0],n8=a(hS),n7=a(O),n6=[0,[0,0]],n5=[0,0],n4=[1,0],n3=[0,0],n2=[0,0],n0=[1,0],n1=[1,0],vm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],yw=a(aX),yx=a(aW),yy=a(l9),yl=a(fM),ym=[0,a("a base axis of such a platform"),0],yn=a(aN),yo=a(a9),x_=a(mW),x$=a(mo),ya=a(m9),yb=a(fr),yc=a(md),yd=a(fr),ye=a(nh),yf=a(l4),yg=a(l1),xX=a(mM),xY=a(fB),xw=a(bC),xk=a(fx),xl=a(aY),xm=a(mO),xn=a(m$),xq=a(l0),xr=a(lA),xs=a(aY),xt=a(aY),xv=a(fq),xu=[0,a("a claim that no cube of such a machine fits"),0],xx=a(dm),xy=a(dq),xz=a(ft),xA=a(hU),yv=[0,a(mg),0],xB=a(cK),xC=a(hH),xD=a(mG),xE=a(fK),xF=a(l2),xG=a(lL),xH=a(ft),xK=a(bW),xL=a(mS),xO=a(hU),xP=[0,a(mg),0],xQ=a(bC),xR=[0,a("the distance from parallel singularities of other drives than sliders"),0],xS=a(ma),xT=[0,a("what else is asked of the closed design"),0],xU=a(fq),xV=a(eh),xW=a(bW),xZ=a(bC),x0=a(aX),x1=a(aW),x2=a(mT),x3=a(m6),x4=a(fN),x5=a(lX),xI=[0,a(as),0],xJ=a('the mechanism "'),x6=a(bW),x7=[0,a('" of a platform that turns'),0],x8=a(mX),x9=a(hM),yh=a(fK),yi=a(cK),yj=a(hH),yk=a(hP),yp=a(bC),yq=a(aX),yr=a(aW),yu=a(cK),ys=[0,a("a platform that turns on struts and other drives"),0],yt=a(bC),xM=[0,a(as),0],xN=a(mX),yz=a(aY),yA=a(aY),yC=a(ee),yD=a(eb),yE=a(fN),yB=[0,a("an atlas of such a machine"),0],xo=[0,a(as),0],xp=a('a claim of the kind "'),yJ=a(ni),yQ=a(fv),yR=a(fE),yS=a(l_),yT=a(mz),yU=a(bX),yV=a(hR),yW=a(hx),yX=a(bX),yY=a(hS),yK=a(fA),yL=a(lW),yM=a(fF),yN=a(mL),yO=[0,a(as),0],yP=a('the evidence "'),yZ=a(fA),y0=a(fF),y1=a(m7),y3=a(fA),y4=a(fF),y5=a(hv),y6=a(hv),y2=[0,a("this evidence at control points"),0],zT=a('"orthocert-paving/'),zz=a(mu),zA=a(l7),zB=a(m0),zR=[0,3,3],zC=a(mc),zL=[0,a("this set of orientations with such drives"),0],zM=[0,a(mk),0],zP=[0,a(mk),0],zQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],zN=[0,a('the evidence "tolerances" of such a mechanism'),0],zO=[0,a("a step of a platform that turns that is not at control points"),0],zD=[0,a("the acceleration of a joint of a machine with a plane"),0],zK=[0,a("this quantity in a claim that is refuted"),0],zI=[0,a("a step in a proof that no cube fits"),0],zJ=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],zH=[0,a("a leaf that fails"),0],zE=a(mv),zF=a(lC),zG=a(fu),zx=a(hT),zr=a(fx),zs=a(mp),zt=a(m3),zu=[0,a(as),0],zv=a('a proof of the kind "'),zn=a(eb),zo=a(ee),zp=a(fy),zq=a(mF),zj=a(aY),zk=a(fI),zl=a(lD),zm=a(fD),zg=a(mY),zh=a(hN),zi=a(fD),zc=a(mI),zd=a(fI),ze=a(fy),zf=a(na),y9=a(mm),y_=a(m4),y$=a(fB),za=[0,a(as),0],zb=a('the failure "'),y7=a(hT),y8=a(hS),yH=a(hR),yI=a(hx),yF=a(lB),yG=a(lE),xh=a(eh),w9=a(hA),w_=a(lG),w$=a(dn),xa=a(aN),xf=a(m1),xg=a(eh),xi=a(cJ),xj=a(dn),xb=a(cJ),xc=a(mx),xd=a(l8),xe=a(aN),w2=a(bW),w6=a(aX),w7=a(aW),w3=a(hF),w4=a(hJ),w5=a(cJ),wW=a(bW),w0=a(aX),w1=a(aW),wX=a(hF),wY=a(hJ),wZ=a(cJ),wV=[0,1],wU=[0,1],wT=[0,a("this quantity of such a mechanism"),0],wD=a(l3),wE=[0,a("a stiffness for each joint"),0],wF=a(mQ),wG=a(lV),wH=a(m_),wI=a("max_angle"),wJ=[0,a("accuracy of a platform that turns"),0],wC=a(fu),wu=a(fC),wk=a(mC),wl=a(mK),wM=a(fv),wN=a(l$),wO=a(fE),wP=a(mD),wQ=a(lN),wR=a(lO),wS=a(lF),wm=a(lK),wn=a(mV),wo=a(mN),wp=a(nf),wq=a(lQ),wr=a(lP),ws=[0,a(as),0],wt=a('the quantity "'),wv=a(lZ),ww=a(mU),wx=a(aX),wy=a(aW),wz=a(m8),wA=[0,a(as),0],wB=a('a bound "'),wK=a(hB),wL=a(dn),wi=a(bl),wj=a(dr),vZ=a(bl),v0=a(fM),v1=a(eg),v2=a(fL),v3=a(dr),v6=a(aN),v7=a(a9),v8=a(ea),v9=a(dl),v_=a(aN),v$=a(a9),wa=a(bX),wb=a(ea),wc=a(dl),wd=a(eg),we=a(aN),wf=a(a9),wg=a(mB),wh=a(mP),v4=[0,a('" of such a machine'),0],v5=a(lU),vX=a(bl),vY=a(eg),vH=a(bl),vI=a(cK),vJ=a(fL),vK=a(dr),vN=a(fM),vO=a(aN),vP=a(a9),vQ=a(ea),vR=a(dl),vS=a(aN),vT=a(a9),vU=a(bX),vV=a(bX),vL=[0,a(as),0],vM=a(lU),vE=a(fG),vF=a(ec),vC=a(" is not covered by the verified checker"),vD=a(O),vA=a(aX),vB=a(aW),vw=a(O),vx=a(ng),vy=a(O),vz=a(O),vv=[1,0],vt=a("Reader.Malformed"),vu=a("Reader.Not_covered"),zV=[0,a("a paving is checked by orthocert-verified")],zU=a(mE),zW=a("CERTIFIED"),zX=a("REFUTED"),zY=a(mE),zZ=a("NOT COVERED: ");function
+en(a){throw[0,ib,a]}function
+aJ(d,c){var
+a=aj(d),e=aj(c),b=bF(a+e|0);dt(d,0,b,0,a);dt(c,0,b,a,e);return fU(b)}Bx(0);nE(1);nE(2);function
+id(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{d$(d)}catch(a){a=gK(a);if(a[1]!==jt)throw a;var
+c=a[2],d=a[1];try{Bw(d)}catch(a){a=nO(a);if(a[1]!==ic)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(F7(0))}jh(a(m6),gN);var
-ed=(4*Gf(0)|0)-1|0;function
-cb(c){var
+a=c;continue}return 0}}return a(By(0))}BF(a(lI),id);function
+bH(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-R(b,a){if(a){var
-c=a[2],d=f(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gO(d,c){var
+Q(b,a){if(a){var
+c=a[2],d=l(b,a[1]);return[0,d,Q(b,c)]}return 0}function
+fX(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=f(d,a[1]);if(b){var
+e=a[2],b=l(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aI(d,c){var
+at(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=f(d,a[1]);if(b)return b;var
+e=a[2],b=l(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-cX(a,c){var
-b=aA(a);FH(b,0,a,c);return b}function
-jw(c,b,a){if(0<=b&&0<=a&&!((bi(c)-a|0)<b)){var
-d=aA(a);cW(c,b,d,0,a);return d}return cB(pS)}function
-jx(c,b,a){return aX(jw(c,b,a))}function
-jy(e,c,d,b,a){if(0<=a&&0<=c&&!((bi(e)-a|0)<c)&&0<=b&&!((bi(d)-a|0)<b))return cW(e,c,d,b,a);return cB(pT)}function
-cc(e,c,d,b,a){if(0<=a&&0<=c&&!((P(e)-a|0)<c)&&0<=b&&!((bi(d)-a|0)<b))return b7(e,c,d,b,a);return cB(pU)}function
-bq(b,a){return aX(cX(b,a))}function
-du(c,b,a){return aX(jw(cy(c),b,a))}function
-jz(k,g){if(g){var
-h=P(k),c=0,b=g,p=0;for(;;){if(b){var
+a$(b,c){var
+a=bF(b);Bg(a,0,b,c);return fU(a)}function
+cR(g,b,a){var
+d=du(g),f=0;if(0<=b&&0<=a&&!((fS(d)-a|0)<b)){var
+c=bF(a);ei(d,b,c,0,a);var
+e=c;f=1}if(!f)var
+e=en(nV);return fU(e)}function
+ie(k,g){if(g){var
+h=aj(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(P(i)+h|0)+c|0,m=b[2],n=c<=j?j:cB(pV),c=n,b=m;continue}var
-l=P(i)+c|0}else
+j=(aj(i)+h|0)+c|0,m=b[2],n=c<=j?j:en(nW),c=n,b=m;continue}var
+l=aj(i)+c|0}else
 var
 l=c;var
-f=aA(l),e=p,d=g;for(;;){if(d){var
+f=bF(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];b7(a,0,f,e,P(a));b7(k,0,f,e+P(a)|0,h);var
-e=(e+P(a)|0)+h|0,d=o;continue}b7(a,0,f,e,P(a))}return aX(f)}}}return pW}function
-gP(b,c){if(0===b)return[0];if(0<=b){var
-d=F4(b,f(c,0)),e=b-1|0,g=1;if(!(e<1)){var
-a=g;for(;;){d[1+a]=f(c,a);var
-h=a+1|0;if(e!==a){var
-a=h;continue}break}}return d}return cB(pX)}function
-gQ(c){var
+o=d[2];dt(a,0,f,e,aj(a));dt(k,0,f,e+aj(a)|0,h);var
+e=(e+aj(a)|0)+h|0,d=o;continue}dt(a,0,f,e,aj(a))}return fU(f)}}}return nX}function
+fY(b,c){if(0===b)return[0];if(0<=b){var
+d=Bv(b,l(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=l(c,a);var
+g=a+1|0;if(e!==a){var
+a=g;continue}break}}return d}return en(nY)}function
+fZ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
-d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-jA(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(ed<b[1]){if(!((d+c|0)<=ed))throw[0,jq,p0];b[1]=ed}var
-e=aA(b[1]);jy(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,as,pY]}throw[0,as,pZ]}}function
-ee(a,c){var
-b=P(c),d=a[2]+b|0;if(a[3]<d)jA(a,b);b7(c,0,a[1],a[2],b);a[2]=d;return 0}function
-gR(a){return 5===a[2]?12:-6}function
-jB(a){return[0,0,aA(a)]}function
-jC(a,h){var
-b=bi(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=aA(i);jy(a[2],0,f,0,b);a[2]=f;var
-g=0}else
-var
-g=d;return g}function
-dv(a,b){jC(a,1);dq(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aP(a,c){var
-b=P(c);jC(a,b);cc(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-jD(a){return jx(a[2],0,a[1])}function
-jE(a){if(typeof
-a==="number")switch(a){case
-0:return p1;case
-1:return p2;case
-2:return p3;case
-3:return p4;case
-4:return p5;case
-5:return p6;default:return p7}else
-switch(a[0]){case
-0:return a[1];case
-1:return a[1];default:return aH(p8,bq(1,a[1]))}}function
-gS(b,c){var
-a=c;for(;;)if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:var
-d=a[1];aP(b,p9);var
-a=d;continue;case
-1:var
-e=a[1];aP(b,p_);var
-a=e;continue;case
-2:var
-f=a[1];aP(b,p$);var
-a=f;continue;case
-3:var
-g=a[1];aP(b,qa);var
-a=g;continue;case
-4:var
-h=a[1];aP(b,qb);var
-a=h;continue;case
-5:var
-i=a[1];aP(b,qc);var
-a=i;continue;case
-6:var
-j=a[1];aP(b,qd);var
-a=j;continue;case
-7:var
-k=a[1];aP(b,qe);var
-a=k;continue;case
-8:var
-l=a[2],m=a[1];aP(b,qf);gS(b,m);aP(b,qg);var
-a=l;continue;case
-9:var
-n=a[3],o=a[1];aP(b,qh);gS(b,o);aP(b,qi);var
-a=n;continue;case
-10:var
-p=a[1];aP(b,qj);var
-a=p;continue;case
-11:var
-q=a[1];aP(b,qk);var
-a=q;continue;case
-12:var
-r=a[1];aP(b,ql);var
-a=r;continue;case
-13:var
-s=a[1];aP(b,qm);var
-a=s;continue;default:var
-t=a[1];aP(b,qn);var
-a=t;continue}}function
-ay(a){if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:return[0,ay(a[1])];case
-1:return[1,ay(a[1])];case
-2:return[2,ay(a[1])];case
-3:return[3,ay(a[1])];case
-4:return[4,ay(a[1])];case
-5:return[5,ay(a[1])];case
-6:return[6,ay(a[1])];case
-7:return[7,ay(a[1])];case
-8:var
-b=a[1];return[8,b,ay(a[2])];case
-9:var
-c=a[2],d=a[1];return[9,c,d,ay(a[3])];case
-10:return[10,ay(a[1])];case
-11:return[11,ay(a[1])];case
-12:return[12,ay(a[1])];case
-13:return[13,ay(a[1])];default:return[14,ay(a[1])]}}function
-aQ(a){if(typeof
-a==="number"){var
-s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
-switch(a[0]){case
-0:var
-b=aQ(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){f(x,0);return 0};return[0,function(a){f(y,0);return 0},z,w,v];case
-1:var
-c=aQ(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){f(C,0);return 0};return[0,function(a){f(D,0);return 0},E,B,A];case
-2:var
-d=aQ(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){f(H,0);return 0};return[0,function(a){f(I,0);return 0},J,G,F];case
-3:var
-e=aQ(a[1]),K=e[4],L=e[3],M=e[2],N=e[1],O=function(a){f(M,0);return 0};return[0,function(a){f(N,0);return 0},O,L,K];case
-4:var
-g=aQ(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){f(R,0);return 0};return[0,function(a){f(S,0);return 0},T,Q,P];case
-5:var
-h=aQ(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){f(W,0);return 0};return[0,function(a){f(X,0);return 0},Y,V,U];case
-6:var
-i=aQ(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){f($,0);return 0};return[0,function(a){f(aa,0);return 0},ab,_,Z];case
-7:var
-j=aQ(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){f(ae,0);return 0};return[0,function(a){f(af,0);return 0},ag,ad,ac];case
-8:var
-k=aQ(a[2]),ah=k[4],ai=k[3],aj=k[2],ak=k[1],al=function(a){f(aj,0);return 0};return[0,function(a){f(ak,0);return 0},al,ai,ah];case
-9:var
-am=a[2],an=a[1],l=aQ(a[3]),ao=l[4],ap=l[3],aq=l[2],ar=l[1],m=aQ(aB(ay(an),am)),as=m[4],at=m[3],au=m[2],av=m[1],aw=function(a){f(as,0);f(ao,0);return 0},ax=function(a){f(ap,0);f(at,0);return 0},az=function(a){f(au,0);f(aq,0);return 0};return[0,function(a){f(ar,0);f(av,0);return 0},az,ax,aw];case
-10:var
-n=aQ(a[1]),aA=n[4],aC=n[3],aD=n[2],aE=n[1],aF=function(a){f(aD,0);return 0};return[0,function(a){f(aE,0);return 0},aF,aC,aA];case
-11:var
-o=aQ(a[1]),aG=o[4],aH=o[3],aI=o[2],aJ=o[1],aK=function(a){f(aI,0);return 0};return[0,function(a){f(aJ,0);return 0},aK,aH,aG];case
-12:var
-p=aQ(a[1]),aL=p[4],aM=p[3],aN=p[2],aO=p[1],aP=function(a){f(aN,0);return 0};return[0,function(a){f(aO,0);return 0},aP,aM,aL];case
-13:var
-q=aQ(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){f(aR,0);return 0},aW=function(a){f(aS,0);return 0},aX=function(a){f(aT,0);return 0};return[0,function(a){f(aU,0);return 0},aX,aW,aV];default:var
-r=aQ(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){f(aY,0);return 0},a3=function(a){f(aZ,0);return 0},a4=function(a){f(a0,0);return 0};return[0,function(a){f(a1,0);return 0},a4,a3,a2]}}function
-aB(c,b){var
-a=0;if(typeof
-c==="number")if(typeof
-b==="number")return 0;else
-switch(b[0]){case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;case
-8:a=5;break;case
-9:a=6;break;default:throw[0,as,qo]}else
-switch(c[0]){case
-0:var
-d=0,t=c[1];if(typeof
-b!=="number")switch(b[0]){case
-0:return[0,aB(t,b[1])];case
-8:a=5;d=1;break;case
-9:a=6;d=1;break;case
-10:d=1;break;case
-11:a=1;d=1;break;case
-12:a=2;d=1;break;case
-13:a=3;d=1;break;case
-14:a=4;d=1;break}if(!d)a=7;break;case
-1:var
-e=0,u=c[1];if(typeof
-b!=="number")switch(b[0]){case
-1:return[1,aB(u,b[1])];case
-8:a=5;e=1;break;case
-9:a=6;e=1;break;case
-10:e=1;break;case
-11:a=1;e=1;break;case
-12:a=2;e=1;break;case
-13:a=3;e=1;break;case
-14:a=4;e=1;break}if(!e)a=7;break;case
-2:var
-g=0,v=c[1];if(typeof
-b==="number")g=1;else
-switch(b[0]){case
-2:return[2,aB(v,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:g=1}if(g)a=7;break;case
-3:var
-h=0,w=c[1];if(typeof
-b==="number")h=1;else
-switch(b[0]){case
-3:return[3,aB(w,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:h=1}if(h)a=7;break;case
-4:var
-i=0,x=c[1];if(typeof
-b==="number")i=1;else
-switch(b[0]){case
-4:return[4,aB(x,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:i=1}if(i)a=7;break;case
-5:var
-j=0,y=c[1];if(typeof
-b==="number")j=1;else
-switch(b[0]){case
-5:return[5,aB(y,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:j=1}if(j)a=7;break;case
-6:var
-k=0,z=c[1];if(typeof
-b==="number")k=1;else
-switch(b[0]){case
-6:return[6,aB(z,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:k=1}if(k)a=7;break;case
-7:var
-l=0,A=c[1];if(typeof
-b==="number")l=1;else
-switch(b[0]){case
-7:return[7,aB(A,b[1])];case
-8:a=5;break;case
-9:a=6;break;case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:l=1}if(l)a=7;break;case
-8:var
-m=0,B=c[2],C=c[1];if(typeof
-b==="number")m=1;else
-switch(b[0]){case
-8:var
-D=b[1],E=aB(B,b[2]);return[8,aB(C,D),E];case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,as,qx];break;case
-9:var
-n=0,F=c[3],G=c[2],H=c[1];if(typeof
-b==="number")n=1;else
-switch(b[0]){case
-8:a=5;break;case
-9:var
-I=b[3],J=b[2],K=b[1],s=aQ(aB(ay(G),K)),L=s[4];f(s[2],0);f(L,0);return[9,H,J,aB(F,I)];case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,as,qy];break;case
-10:var
-M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,aB(M,b[1])];throw[0,as,qz];case
-11:var
-o=0,N=c[1];if(typeof
-b==="number")o=1;else
-switch(b[0]){case
-10:break;case
-11:return[11,aB(N,b[1])];default:o=1}if(o)throw[0,as,qA];break;case
-12:var
-p=0,O=c[1];if(typeof
-b==="number")p=1;else
-switch(b[0]){case
-10:break;case
-11:a=1;break;case
-12:return[12,aB(O,b[1])];default:p=1}if(p)throw[0,as,qB];break;case
-13:var
-q=0,P=c[1];if(typeof
-b==="number")q=1;else
-switch(b[0]){case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:return[13,aB(P,b[1])];default:q=1}if(q)throw[0,as,qC];break;default:var
-r=0,Q=c[1];if(typeof
-b==="number")r=1;else
-switch(b[0]){case
-10:break;case
-11:a=1;break;case
-12:a=2;break;case
-13:a=3;break;case
-14:return[14,aB(Q,b[1])];default:r=1}if(r)throw[0,as,qD]}switch(a){case
-0:throw[0,as,qr];case
-1:throw[0,as,qs];case
-2:throw[0,as,qt];case
-3:throw[0,as,qu];case
-4:throw[0,as,qv];case
-5:throw[0,as,qp];case
-6:throw[0,as,qq];default:throw[0,as,qw]}}var
-aJ=[aE,qE,gD(0)];function
-e9(b,a){if(typeof
-b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aJ}}function
-ef(e,b,d){var
-a=e9(e,d);if(typeof
-b==="number"){if(b){var
-c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aJ}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-a2(b,c,a){if(typeof
-b==="number")return[0,0,af(c,a)];else
-switch(b[0]){case
-0:if(typeof
-a!=="number"&&0===a[0]){var
-g=a2(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
-1:if(typeof
-a!=="number"&&1===a[0]){var
-h=a2(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
-2:if(typeof
-a!=="number"&&2===a[0]){var
-i=a2(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
-3:if(typeof
-a!=="number"&&3===a[0]){var
-j=a2(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
-4:if(typeof
-a!=="number"&&4===a[0]){var
-k=a2(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
-5:if(typeof
-a!=="number"&&5===a[0]){var
-l=a2(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
-6:if(typeof
-a!=="number"&&6===a[0]){var
-m=a2(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
-7:if(typeof
-a!=="number"&&7===a[0]){var
-n=a2(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
-8:if(typeof
-a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(e6([0,b[1]],[0,o]))throw aJ;var
-p=a2(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
-9:if(typeof
-a!=="number"&&9===a[0]){var
-d=a[2],e=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ar(e)];if(e6([0,ar(B)],C))throw aJ;var
-D=[0,ar(d)];if(e6([0,ar(A)],D))throw aJ;var
-q=aQ(aB(ay(e),d)),E=q[4];f(q[2],0);f(E,0);var
-r=a2(ar(z),c,y),F=r[2];return[0,[9,e,d,ay(r[1])],F]}break;case
-10:if(typeof
-a!=="number"&&10===a[0]){var
-s=a2(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
-11:if(typeof
-a!=="number"&&11===a[0]){var
-t=a2(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
-13:if(typeof
-a!=="number"&&13===a[0]){var
-u=a2(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
-14:if(typeof
-a!=="number"&&14===a[0]){var
-v=a2(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aJ}function
-af(b,a){if(typeof
-b==="number")return[0,0,a];else
-switch(b[0]){case
-0:if(typeof
-a!=="number"&&0===a[0]){var
-s=af(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
-1:if(typeof
-a!=="number"&&0===a[0]){var
-t=af(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
-2:var
-aa=b[2],u=e9(b[1],a),e=u[2],ab=u[1];if(typeof
-e!=="number"&&1===e[0]){var
-v=af(aa,e[1]);return[0,[2,ab,v[1]],v[2]]}throw aJ;case
-3:var
-ac=b[2],w=e9(b[1],a),f=w[2],ad=w[1];if(typeof
-f!=="number"&&1===f[0]){var
-x=af(ac,f[1]);return[0,[3,ad,x[1]],x[2]]}throw aJ;case
-4:var
-ae=b[4],ag=b[1],g=ef(b[2],b[3],a),h=g[3],ah=g[1];if(typeof
-h!=="number"&&2===h[0]){var
-ai=g[2],y=af(ae,h[1]);return[0,[4,ag,ah,ai,y[1]],y[2]]}throw aJ;case
-5:var
-aj=b[4],ak=b[1],i=ef(b[2],b[3],a),j=i[3],al=i[1];if(typeof
-j!=="number"&&3===j[0]){var
-am=i[2],z=af(aj,j[1]);return[0,[5,ak,al,am,z[1]],z[2]]}throw aJ;case
-6:var
-an=b[4],ao=b[1],k=ef(b[2],b[3],a),l=k[3],ap=k[1];if(typeof
-l!=="number"&&4===l[0]){var
-aq=k[2],A=af(an,l[1]);return[0,[6,ao,ap,aq,A[1]],A[2]]}throw aJ;case
-7:var
-as=b[4],at=b[1],m=ef(b[2],b[3],a),n=m[3],au=m[1];if(typeof
-n!=="number"&&5===n[0]){var
-av=m[2],B=af(as,n[1]);return[0,[7,at,au,av,B[1]],B[2]]}throw aJ;case
-8:var
-aw=b[4],ax=b[1],o=ef(b[2],b[3],a),p=o[3],ay=o[1];if(typeof
-p!=="number"&&6===p[0]){var
-az=o[2],C=af(aw,p[1]);return[0,[8,ax,ay,az,C[1]],C[2]]}throw aJ;case
-9:var
-aA=b[2],D=e9(b[1],a),q=D[2],aB=D[1];if(typeof
-q!=="number"&&7===q[0]){var
-E=af(aA,q[1]);return[0,[9,aB,E[1]],E[2]]}throw aJ;case
-10:var
-F=af(b[1],a);return[0,[10,F[1]],F[2]];case
-11:var
-aC=b[1],G=af(b[2],a);return[0,[11,aC,G[1]],G[2]];case
-12:var
-aD=b[1],H=af(b[2],a);return[0,[12,aD,H[1]],H[2]];case
-13:if(typeof
-a!=="number"&&8===a[0]){var
-I=a[1],aE=a[2],aF=b[3],aG=b[1];if(e6([0,b[2]],[0,I]))throw aJ;var
-J=af(aF,aE);return[0,[13,aG,I,J[1]],J[2]]}break;case
-14:if(typeof
-a!=="number"&&9===a[0]){var
-K=a[1],aH=a[3],aI=b[3],aK=b[2],aL=b[1],aM=[0,ar(K)];if(e6([0,ar(aK)],aM))throw aJ;var
-L=af(aI,ar(aH));return[0,[14,aL,K,L[1]],L[2]]}break;case
-15:if(typeof
-a!=="number"&&10===a[0]){var
-M=af(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
-16:if(typeof
-a!=="number"&&11===a[0]){var
-N=af(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
-17:var
-aN=b[1],O=af(b[2],a);return[0,[17,aN,O[1]],O[2]];case
-18:var
-P=b[2],r=b[1];if(0===r[0]){var
-T=r[1],aR=T[2],U=af(T[1],a),aS=U[1],V=af(P,U[2]);return[0,[18,[0,[0,aS,aR]],V[1]],V[2]]}var
-W=r[1],aT=W[2],X=af(W[1],a),aU=X[1],Y=af(P,X[2]);return[0,[18,[1,[0,aU,aT]],Y[1]],Y[2]];case
-19:if(typeof
-a!=="number"&&13===a[0]){var
-Q=af(b[1],a[1]);return[0,[19,Q[1]],Q[2]]}break;case
-20:if(typeof
-a!=="number"&&1===a[0]){var
-aO=b[2],aP=b[1],R=af(b[3],a[1]);return[0,[20,aP,aO,R[1]],R[2]]}break;case
-21:if(typeof
-a!=="number"&&2===a[0]){var
-aQ=b[1],S=af(b[2],a[1]);return[0,[21,aQ,S[1]],S[2]]}break;case
-23:var
-d=b[2],c=b[1];if(typeof
-c==="number")switch(c){case
-0:return a7(c,d,a);case
-1:return a7(c,d,a);case
-2:if(typeof
-a!=="number"&&14===a[0]){var
-Z=af(d,a[1]);return[0,[23,2,Z[1]],Z[2]]}throw aJ;default:return a7(c,d,a)}else
-switch(c[0]){case
-0:return a7(c,d,a);case
-1:return a7(c,d,a);case
-2:return a7(c,d,a);case
-3:return a7(c,d,a);case
-4:return a7(c,d,a);case
-5:return a7(c,d,a);case
-6:return a7(c,d,a);case
-7:return a7(c,d,a);case
-8:return a7([8,c[1],c[2]],d,a);case
-9:var
-aV=c[1],_=a2(c[2],d,a),$=_[2];return[0,[23,[9,aV,_[1]],$[1]],$[2]];case
-10:return a7(c,d,a);default:return a7(c,d,a)}}throw aJ}function
-a7(d,c,b){var
-a=af(c,b);return[0,[23,d,a[1]],a[2]]}function
-a8(k,g,a){var
-b=P(a),h=0<=g?k:0,d=e8(g);if(d<=b)return a;var
-l=2===h?48:32,c=cX(d,l);switch(h){case
-0:cc(a,0,c,0,b);break;case
-1:cc(a,0,c,d-b|0,b);break;default:var
-e=0;if(0<b){var
-i=0;if(43!==ab(a,0)&&45!==ab(a,0)&&32!==ab(a,0)){e=1;i=1}if(!i){dq(c,0,ab(a,0));cc(a,1,c,(d-b|0)+1|0,b-1|0)}}else
-e=1;if(e){var
-f=0;if(1<b&&48===ab(a,0)){var
-j=0;if(nj!==ab(a,1)&&88!==ab(a,1)){f=1;j=1}if(!j){dq(c,1,ab(a,1));cc(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)cc(a,0,c,d-b|0,b)}}return aX(c)}function
-dw(k,b){var
-c=e8(k),a=P(b),d=ab(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+oi>>>0))e=1}else
-if(65<=d)e=1}else{var
-f=0;if(32!==d)if(43<=d)switch(d-43|0){case
-5:if(a<(c+2|0)&&1<a){var
-j=0;if(nj===ab(b,1)||88===ab(b,1))j=1;if(j){var
-h=cX(c+2|0,48);dq(h,1,ab(b,1));cc(b,2,h,(c-a|0)+4|0,a-2|0);return aX(h)}}e=1;f=1;break;case
-0:case
-2:break;case
-1:case
-3:case
-4:f=1;break;default:e=1;f=1}else
-f=1;if(!f&&a<(c+1|0)){var
-g=cX(c+1|0,48);dq(g,0,d);cc(b,1,g,(c-a|0)+2|0,a-1|0);return aX(g)}}if(e&&a<c){var
-i=cX(c,48);cc(b,0,i,c-a|0,a);return aX(i)}return b}function
-qF(k){var
-j=0,C=P(k);for(;;){if(C<=j)var
-o=k;else{var
-n=b_(k,j)+oL|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
-if(2===n)p=1;if(!p){var
-j=j+1|0;continue}var
-e=cy(k),a=[0,0],t=bi(e)-1|0,y=0;if(!(t<0)){var
-i=y;for(;;){var
-f=d9(e,i),g=0;if(32<=f){var
-l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
-if(56<l-1>>>0){g=1;q=1}if(!q){var
-m=1;g=2}}else
-if(11<=f){if(13===f)g=1}else
-if(8<=f)g=1;switch(g){case
-0:var
-m=4;break;case
-1:var
-m=2;break}a[1]=a[1]+m|0;var
-B=i+1|0;if(t!==i){var
-i=B;continue}break}}if(a[1]===bi(e)){var
-r=bi(e),s=aA(r);cW(e,0,s,0,r);var
-v=s}else{var
-b=aA(a[1]);a[1]=0;var
-u=bi(e)-1|0,z=0;if(!(u<0)){var
-h=z;for(;;){var
-c=d9(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(iN<=c)d=1;else
-d=3;else
-if(32<=c)if(34<=c)d=2;else
-d=3;else
-if(14<=c)d=1;else
-switch(c){case
-8:ax(b,a[1],92);a[1]++;ax(b,a[1],98);break;case
-9:ax(b,a[1],92);a[1]++;ax(b,a[1],116);break;case
-10:ax(b,a[1],92);a[1]++;ax(b,a[1],110);break;case
-13:ax(b,a[1],92);a[1]++;ax(b,a[1],114);break;default:d=1}switch(d){case
-1:ax(b,a[1],92);a[1]++;ax(b,a[1],48+(c/oo|0)|0);a[1]++;ax(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ax(b,a[1],48+(c%10|0)|0);break;case
-2:ax(b,a[1],92);a[1]++;ax(b,a[1],c);break;case
-3:ax(b,a[1],c);break}a[1]++;var
-A=h+1|0;if(u!==h){var
-h=A;continue}break}}var
-v=b}var
-o=aX(v)}var
-w=P(o),x=cX(w+2|0,34);b7(o,0,x,1,w);return aX(x)}}function
-jF(d,f){var
-g=e8(f),e=ru[1];switch(d[2]){case
-0:var
-b=102;break;case
-1:var
-b=101;break;case
-2:var
-b=69;break;case
-3:var
-b=nk;break;case
-4:var
-b=71;break;case
-5:var
-b=e;break;case
-6:var
-b=104;break;case
-7:var
-b=72;break;default:var
-b=70}var
-c=jB(16);dv(c,37);switch(d[1]){case
-0:break;case
-1:dv(c,43);break;default:dv(c,32)}if(8<=d[2])dv(c,35);dv(c,46);aP(c,a(z+g));dv(c,b);return jD(c)}function
-e_(m,a){if(13<=m){var
-g=[0,0],h=P(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<b_(a,c)+iC>>>0))g[1]++;var
-q=c+1|0;if(h!==c){var
-c=q;continue}break}}var
-i=g[1],j=aA(P(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){dq(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=P(a)-1|0,o=0;if(!(l<0)){var
-b=o;for(;;){var
-f=b_(a,b);if(9<f+iC>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
-p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aX(j)}return a}function
-rv(b,c){switch(b){case
-1:var
-a=qH;break;case
-2:var
-a=qI;break;case
-4:var
-a=qK;break;case
-5:var
-a=qL;break;case
-6:var
-a=qM;break;case
-7:var
-a=qN;break;case
-8:var
-a=qO;break;case
-9:var
-a=qP;break;case
-10:var
-a=qQ;break;case
-11:var
-a=qR;break;case
-0:case
-13:var
-a=qG;break;case
-3:case
-14:var
-a=qJ;break;default:var
-a=qS}return e_(b,gC(a,c))}function
-rw(b,c){switch(b){case
-1:var
-a=q7;break;case
-2:var
-a=q8;break;case
-4:var
-a=q_;break;case
-5:var
-a=q$;break;case
-6:var
-a=ra;break;case
-7:var
-a=rb;break;case
-8:var
-a=rc;break;case
-9:var
-a=rd;break;case
-10:var
-a=re;break;case
-11:var
-a=rf;break;case
-0:case
-13:var
-a=q6;break;case
-3:case
-14:var
-a=q9;break;default:var
-a=rg}return e_(b,gC(a,c))}function
-rx(b,c){switch(b){case
-1:var
-a=ri;break;case
-2:var
-a=rj;break;case
-4:var
-a=rl;break;case
-5:var
-a=rm;break;case
-6:var
-a=rn;break;case
-7:var
-a=ro;break;case
-8:var
-a=rp;break;case
-9:var
-a=rq;break;case
-10:var
-a=rr;break;case
-11:var
-a=rs;break;case
-0:case
-13:var
-a=rh;break;case
-3:case
-14:var
-a=rk;break;default:var
-a=rt}return e_(b,gC(a,c))}function
-ry(b,c){switch(b){case
-1:var
-a=qU;break;case
-2:var
-a=qV;break;case
-4:var
-a=qX;break;case
-5:var
-a=qY;break;case
-6:var
-a=qZ;break;case
-7:var
-a=q0;break;case
-8:var
-a=q1;break;case
-9:var
-a=q2;break;case
-10:var
-a=q3;break;case
-11:var
-a=q4;break;case
-0:case
-13:var
-a=qT;break;case
-3:case
-14:var
-a=qW;break;default:var
-a=q5}return e_(b,FP(a,c))}function
-cd(c,i,b){function
-j(d){switch(c[1]){case
-0:var
-a=45;break;case
-1:var
-a=43;break;default:var
-a=32}return FL(b,i,a)}function
-q(c){var
-a=FD(b);return 3===a?b<0.?rA:rB:4<=a?rC:c}switch(c[2]){case
-5:var
-e=i9(jF(c,i),b),d=0,u=P(e);for(;;){if(d===u)var
-p=0;else{var
-k=ab(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
-if(21<k-1>>>0)l=1;if(!l){var
-d=d+1|0;continue}var
-p=1}var
-v=p?e:aH(e,rz);return q(v)}case
-6:return j(0);case
-7:var
-h=cy(j(0)),f=bi(h);if(0===f)var
-o=h;else{var
-m=aA(f),n=f-1|0,r=0;if(!(n<0)){var
-a=r;for(;;){var
-g=d9(h,a),s=25<g+oi>>>0?g:g+oL|0;ax(m,a,s);var
-t=a+1|0;if(n!==a){var
-a=t;continue}break}}var
-o=m}return aX(o);case
-8:return q(j(0));default:return i9(jF(c,i),b)}}function
-eT(d,x,w,v){var
-b=x,a=w,c=v;for(;;)if(typeof
-c==="number")return f(b,a);else
-switch(c[0]){case
-0:var
-y=c[1];return function(c){return U(b,[5,a,c],y)};case
-1:var
-z=c[1];return function(c){var
-e=0;if(40<=c)if(92===c)var
-d=pM;else
-if(iN<=c)e=1;else
-e=2;else
-if(32<=c)if(39<=c)var
-d=pN;else
-e=2;else
-if(14<=c)e=1;else
-switch(c){case
-8:var
-d=pO;break;case
-9:var
-d=pP;break;case
-10:var
-d=pQ;break;case
-13:var
-d=pR;break;default:e=1}switch(e){case
-1:var
-f=aA(4);ax(f,0,92);ax(f,1,48+(c/oo|0)|0);ax(f,2,48+((c/10|0)%10|0)|0);ax(f,3,48+(c%10|0)|0);var
-d=aX(f);break;case
-2:var
-g=aA(1);ax(g,0,c);var
-d=aX(g);break}var
-h=P(d),i=cX(h+2|0,39);b7(d,0,i,1,h);return U(b,[4,a,aX(i)],z)};case
-2:var
-A=c[2],B=c[1];return gT(b,a,A,B,function(a){return a});case
-3:return gT(b,a,c[2],c[1],qF);case
-4:return e$(b,a,c[4],c[2],c[3],rv,c[1]);case
-5:return e$(b,a,c[4],c[2],c[3],rw,c[1]);case
-6:return e$(b,a,c[4],c[2],c[3],rx,c[1]);case
-7:return e$(b,a,c[4],c[2],c[3],ry,c[1]);case
-8:var
-h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
-j==="number"){if(typeof
-i==="number")return i?function(d,c){return U(b,[4,a,cd(g,d,c)],h)}:function(c){return U(b,[4,a,cd(g,gR(g),c)],h)};var
-T=i[1];return function(c){return U(b,[4,a,cd(g,T,c)],h)}}else{if(0===j[0]){var
-m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return U(b,[4,a,a8(n,m,cd(g,d,c))],h)}:function(c){return U(b,[4,a,a8(n,m,cd(g,gR(g),c))],h)};var
-V=i[1];return function(c){return U(b,[4,a,a8(n,m,cd(g,V,c))],h)}}var
-o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return U(b,[4,a,a8(o,e,cd(g,d,c))],h)}:function(d,c){return U(b,[4,a,a8(o,d,cd(g,gR(g),c))],h)};var
-W=i[1];return function(d,c){return U(b,[4,a,a8(o,d,cd(g,W,c))],h)}}case
-9:return gT(b,a,c[2],c[1],pH);case
-10:var
-a=[7,a],c=c[1];continue;case
-11:var
-a=[2,a,c[1]],c=c[2];continue;case
-12:var
-a=[3,a,c[1]],c=c[2];continue;case
-13:var
-C=c[3],D=c[2],p=jB(16);gS(p,D);var
-u=jD(p);return function(c){return U(b,[4,a,u],C)};case
-14:var
-E=c[3],F=c[2];return function(d){var
-e=d[1],c=af(e,ar(ay(F)));if(typeof
-c[2]==="number")return U(b,a,an(c[1],E));throw aJ};case
-15:var
-G=c[1];return function(d,c){return U(b,[6,a,function(a){return _(d,a,c)}],G)};case
-16:var
-H=c[1];return function(c){return U(b,[6,a,c],H)};case
-17:var
-a=[0,a,c[1]],c=c[2];continue;case
-18:var
-l=c[1];if(0===l[0]){var
-I=c[2],J=l[1][1],K=0,b=function(b,c,d){return function(a){return U(c,[1,b,[0,a]],d)}}(a,b,I),a=K,c=J;continue}var
-L=c[2],M=l[1][1],N=0,b=function(b,c,d){return function(a){return U(c,[1,b,[1,a]],d)}}(a,b,L),a=N,c=M;continue;case
-19:throw[0,as,rE];case
-20:var
-O=c[3],Q=[8,a,rF];return function(a){return U(b,Q,O)};case
-21:var
-R=c[2];return function(c){return U(b,[4,a,gC(rG,c)],R)};case
-22:var
-S=c[1];return function(c){return U(b,[5,a,c],S)};case
-23:var
-e=c[2],k=c[1];if(typeof
-k==="number")switch(k){case
-0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-2:throw[0,as,rH];default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}else
-switch(k[0]){case
-0:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-1:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-2:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-3:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-4:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-5:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-6:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-7:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-8:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);case
-9:var
-t=k[2];return d<50?ix(d+1|0,b,a,t,e):aO(ix,[0,b,a,t,e]);case
-10:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e]);default:return d<50?ad(d+1|0,b,a,e):aO(ad,[0,b,a,e])}default:var
-q=c[3],r=c[1],s=f(c[2],0);return d<50?iw(d+1|0,b,a,q,r,s):aO(iw,[0,b,a,q,r,s])}}function
-ix(e,d,c,a,b){if(typeof
-a==="number")return e<50?ad(e+1|0,d,c,b):aO(ad,[0,d,c,b]);else
-switch(a[0]){case
-0:var
-f=a[1];return function(a){return bk(d,c,f,b)};case
-1:var
-g=a[1];return function(a){return bk(d,c,g,b)};case
-2:var
-h=a[1];return function(a){return bk(d,c,h,b)};case
-3:var
-i=a[1];return function(a){return bk(d,c,i,b)};case
-4:var
-j=a[1];return function(a){return bk(d,c,j,b)};case
-5:var
-k=a[1];return function(a){return bk(d,c,k,b)};case
-6:var
-l=a[1];return function(a){return bk(d,c,l,b)};case
-7:var
-m=a[1];return function(a){return bk(d,c,m,b)};case
-8:var
-n=a[2];return function(a){return bk(d,c,n,b)};case
-9:var
-o=a[3],p=a[2],q=aB(ay(a[1]),p);return function(a){return bk(d,c,aZ(q,o),b)};case
-10:var
-r=a[1];return function(e,a){return bk(d,c,r,b)};case
-11:var
-s=a[1];return function(a){return bk(d,c,s,b)};case
-12:var
-t=a[1];return function(a){return bk(d,c,t,b)};case
-13:throw[0,as,rI];default:throw[0,as,rJ]}}function
-ad(d,b,e,a){var
-c=[8,e,rK];return d<50?eT(d+1|0,b,c,a):aO(eT,[0,b,c,a])}function
-iw(h,b,e,a,d,c){if(d){var
-i=d[1];return function(d){return rD(b,e,a,i,f(c,d))}}var
-g=[4,e,c];return h<50?eT(h+1|0,b,g,a):aO(eT,[0,b,g,a])}function
-U(a,b,c){return jj(eT(0,a,b,c))}function
-bk(a,b,c,d){return jj(ix(0,a,b,c,d))}function
-rD(a,b,c,d,e){return jj(iw(0,a,b,c,d,e))}function
-gT(e,d,c,a,b){if(typeof
-a==="number")return function(a){return U(e,[4,d,f(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return U(e,[4,d,a8(h,g,f(b,a))],c)}}var
-i=a[1];return function(g,a){return U(e,[4,d,a8(i,g,f(b,a))],c)}}}function
-e$(f,e,d,g,c,b,a){if(typeof
-g==="number"){if(typeof
-c==="number")return c?function(g,c){return U(f,[4,e,dw(g,_(b,a,c))],d)}:function(c){return U(f,[4,e,_(b,a,c)],d)};var
-k=c[1];return function(c){return U(f,[4,e,dw(k,_(b,a,c))],d)}}else{if(0===g[0]){var
-h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return U(f,[4,e,a8(i,h,dw(g,_(b,a,c)))],d)}:function(c){return U(f,[4,e,a8(i,h,_(b,a,c))],d)};var
-l=c[1];return function(c){return U(f,[4,e,a8(i,h,dw(l,_(b,a,c)))],d)}}var
-j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return U(f,[4,e,a8(j,h,dw(g,_(b,a,c)))],d)}:function(g,c){return U(f,[4,e,a8(j,g,_(b,a,c))],d)};var
-m=c[1];return function(g,c){return U(f,[4,e,a8(j,g,dw(m,_(b,a,c)))],d)}}}function
-ce(b,e){var
-a=e;for(;;)if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:var
-g=a[1],h=jE(a[2]);ce(b,g);return ec(b,h);case
-1:var
-c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];ce(b,d);ec(b,rL);var
-a=i;continue}var
-j=c[1];ce(b,d);ec(b,rM);var
-a=j;continue;case
-6:var
-m=a[2];ce(b,a[1]);return f(m,b);case
-7:ce(b,a[1]);return d$(b);case
-8:var
-n=a[2];ce(b,a[1]);return cB(n);case
-2:case
-4:var
-k=a[2];ce(b,a[1]);return ec(b,k);default:var
-l=a[2];ce(b,a[1]);return ps(b,l)}}function
-cC(b,g){var
-a=g;for(;;)if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:var
-h=a[1],i=jE(a[2]);cC(b,h);return ee(b,i);case
-1:var
-d=a[2],e=a[1];if(0===d[0]){var
-j=d[1];cC(b,e);ee(b,rN);var
-a=j;continue}var
-k=d[1];cC(b,e);ee(b,rO);var
-a=k;continue;case
-6:var
-n=a[2];cC(b,a[1]);return ee(b,f(n,0));case
-7:var
-a=a[1];continue;case
-8:var
-o=a[2];cC(b,a[1]);return cB(o);case
-2:case
-4:var
-l=a[2];cC(b,a[1]);return ee(b,l);default:var
-m=a[2];cC(b,a[1]);var
-c=b[2];if(b[3]<=c)jA(b,1);ax(b[1],c,m);b[2]=c+1|0;return 0}}function
-jG(d,c){var
-a=c[1],b=0;return U(function(a){ce(d,a);return 0},b,a)}function
-gU(a){return jG(ca,a)}function
-bN(b){var
-a=b[1];return U(function(d){var
-e=64,b=ed<64?ed:e,c=aA(b),a=[0,c,0,b,c];cC(a,d);return jx(a[1],0,a[2])},0,a)}var
-fa=[0,0];function
-gW(i,h){var
-a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(gH(a)===gw)return f(bN(rP),a);if(gH(a)===253){var
-c=i9(pL,a),b=0,g=P(c);for(;;){if(g<=b)return aH(c,pK);var
-d=ab(c,b),e=0;if(48<=d){if(!(58<=d))e=1}else
-if(45===d)e=1;if(e){var
-b=b+1|0;continue}return c}}return rQ}return f(bN(rR),a)}function
-jH(b,a){if(b.length-1<=a)return rS;var
-c=jH(b,a+1|0),d=gW(b,a);return _(bN(rT),d,c)}function
-gX(a){function
-o(e){var
-b=e;for(;;){if(b){var
-g=b[2],h=b[1];try{var
-d=0,c=f(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
-b=g;continue}return 0}}var
-h=o(fa[1]);if(h)return h[1];if(a===gM)return rY;if(a===js)return rZ;if(a[1]===jr){var
-c=a[2],i=c[3],p=c[2],q=c[1];return iy(bN(gV),q,p,i,i+5|0,r0)}if(a[1]===as){var
-d=a[2],j=d[3],r=d[2],s=d[1];return iy(bN(gV),s,r,j,j+6|0,r1)}if(a[1]===ju){var
-e=a[2],k=e[3],t=e[2],u=e[1];return iy(bN(gV),u,t,k,k+6|0,r2)}if(0===gH(a)){var
-g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=jH(a,2),m=gW(a,1),b=_(bN(rU),m,l);else
-switch(g){case
-0:var
-b=rV;break;case
-1:var
-b=rW;break;default:var
-n=gW(a,1),b=f(bN(rX),n)}return aH(v,b)}return a[1]}function
-gY(t,s){var
-d=FF(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
-b=p;for(;;){var
-a=pg(d,b)[1+b],e=function(a){return function(b){return b?0===a?r3:r4:0===a?r5:r6}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?r7:r9,l=a[2],m=a[7],n=e(a[1]),c=[0,Ft(bN(r8),n,m,l,k,j,i,h)];else
-if(a[1])var
-c=0;else
-var
-o=e(0),c=[0,f(bN(r_),o)];if(c){var
-q=c[1];f(jG(t,r$),q)}var
-r=b+1|0;if(g!==b){var
-b=r;continue}break}}return 0}function
-jI(c){for(;;){var
-a=fa[1],d=[0,c,a],e=fa[1]===a?(fa[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-sb=sa.slice();function
-sc(d,c){var
-e=gX(d);f(gU(sd),e);gY(ca,c);var
-a=F5(0);if(a<0){var
-b=e8(a);jv(pg(sb,b)[1+b])}return d$(ca)}var
-se=[0];jh(a(nn),function(d,i){try{try{var
-b=i?se:pm(0);try{gN(0)}catch(a){}try{var
-a=sc(d,b),c=a}catch(a){a=gK(a);var
-g=gX(d);f(gU(sg),g);gY(ca,b);var
-h=gX(a);f(gU(sh),h);gY(ca,pm(0));var
-c=d$(ca)}var
-e=c}catch(a){a=gK(a);if(a!==gM)throw a;var
-e=jv(sf)}return e}catch(a){return 0}});var
-jJ=[aE,sj,gD(0)],gZ=[0,jJ,[0]],si=gH(gZ)===aE?gZ:gZ[1];jh(a(iF),si);(function(a){throw a});var
-sk=C.Array;jI(function(a){return a[1]===jJ?[0,bM(a[2].toString())]:0});jI(function(a){return a
-instanceof
-sk?0:[0,bM(a.toString())]});var
-d=bj(0),c=bj(1);function
+d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
+d=aZ(0),c=aZ(1);function
 r(a){return y(a,c)}function
-jK(b,a){return y(bj(b),a)}function
-b(b,a){return u(bj(b),a)}function
-bO(b,a){return[0,jm(b,a),pD(b,a)]}function
-g0(b,a){return M(b,a)?b:a}function
-bP(b,a){return M(b,a)?a:b}function
-at(a){return a?0:1}function
-D(b,a){var
-c=a?[0,f(b,a[1])]:a;return c}function
-a3(a){return a[1]}function
-cY(a){return a[2]}function
-k(a){var
-b=a?[0,k(a[2])]:a;return b}function
-g(a,b){if(a){var
-c=g(a[2],b);return[0,a[1],c]}return b}function
-jL(a){return typeof
-a==="number"?0:[0,jL(a[1])]}function
-jM(d,c){var
+ig(b,a){return y(aZ(b),a)}function
+b(b,a){return u(aZ(b),a)}function
+bo(b,a){return[0,h_(b,a),nR(b,a)]}function
+f0(b,a){return L(b,a)?b:a}function
+bp(b,a){return L(b,a)?a:b}function
+al(a){return a?0:1}function
+A(b,a){var
+c=a?[0,l(b,a[1])]:a;return c}function
+aK(a){return a[1]}function
+ci(a){return a[2]}function
+j(a){var
+b=a?[0,j(a[2])]:a;return b}function
+f(a,b){if(a){var
+c=f(a[2],b);return[0,a[1],c]}return b}function
+ih(a){return typeof
+a==="number"?0:[0,ih(a[1])]}function
+ii(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1934,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fb(a){return jM(a,0)}function
-jN(a){if(typeof
-a==="number")return sm;else
+eo(a){return ii(a,0)}function
+ij(a){if(typeof
+a==="number")return n0;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1946,69 +804,69 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jN(a[1])]}}function
-bz(a){if(typeof
-a==="number")return sn;else
+8:return[9,a[1]];default:return[0,ij(a[1])]}}function
+bb(a){if(typeof
+a==="number")return n1;else
 switch(a[0]){case
-0:return[1,by(a[1])];case
-1:return[3,by(a[1])];case
-2:return[5,by(a[1])];case
-3:return[7,by(a[1])];case
-4:return[9,by(a[1])];case
-5:return[1,bz(a[1])];case
-6:return[3,bz(a[1])];case
-7:return[5,bz(a[1])];case
-8:return[7,bz(a[1])];default:return[9,bz(a[1])]}}function
-by(a){if(typeof
+0:return[1,ba(a[1])];case
+1:return[3,ba(a[1])];case
+2:return[5,ba(a[1])];case
+3:return[7,ba(a[1])];case
+4:return[9,ba(a[1])];case
+5:return[1,bb(a[1])];case
+6:return[3,bb(a[1])];case
+7:return[5,bb(a[1])];case
+8:return[7,bb(a[1])];default:return[9,bb(a[1])]}}function
+ba(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,by(a[1])];case
-1:return[2,by(a[1])];case
-2:return[4,by(a[1])];case
-3:return[6,by(a[1])];case
-4:return[8,by(a[1])];case
-5:return[0,bz(a[1])];case
-6:return[2,bz(a[1])];case
-7:return[4,bz(a[1])];case
-8:return[6,bz(a[1])];default:return[8,bz(a[1])]}}function
-bQ(a){return a?a[1]:a}function
-Q(b,a){return b?[0,Q(b[1],a)]:a}function
-eg(a,b){return a?Q(b,eg(a[1],b)):a}function
-cZ(b,a){return b?a:a?0:1}function
+0:return[0,ba(a[1])];case
+1:return[2,ba(a[1])];case
+2:return[4,ba(a[1])];case
+3:return[6,ba(a[1])];case
+4:return[8,ba(a[1])];case
+5:return[0,bb(a[1])];case
+6:return[2,bb(a[1])];case
+7:return[4,bb(a[1])];case
+8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
+bq(a){return a?a[1]:a}function
+P(b,a){return b?[0,P(b[1],a)]:a}function
+dz(a,b){return a?P(b,dz(a[1],b)):a}function
+cj(b,a){return b?a:a?0:1}function
 v(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+X(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-eh(b,a){return Z([0,b],a)}function
-jO(c){var
+dA(b,a){return X([0,b],a)}function
+ik(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fc(c,b,a){return c?f(b,fc(c[1],b,a)):a}function
-jP(a){if(a)var
-b=a[1],d=b?[0,jP(b[1])]:b,c=d;else
+ep(c,b,a){return c?l(b,ep(c[1],b,a)):a}function
+il(a){if(a)var
+b=a[1],d=b?[0,il(b[1])]:b,c=d;else
 var
 c=a;return c}function
-fd(a){if(M(a,c))return c;var
-b=bO(a,bj(2)),e=b[1];return ah(b[2],d)?r(fd(e)):r(fd(e))}function
-g1(j,i){var
-b=j,a=i;for(;;){if(M(b,c))return M(a,c)?1:ah(bO(a,bj(2))[2],d)?0:0;var
-g=bO(b,bj(2)),h=g[1];if(ah(g[2],d)){if(M(a,c))return 0;var
-e=bO(a,bj(2)),k=e[1];if(ah(e[2],d)){var
-b=h,a=k;continue}return 0}if(M(a,c))return 0;var
-f=bO(a,bj(2)),l=f[1];if(ah(f[2],d))return 0;var
+eq(a){if(L(a,c))return c;var
+b=bo(a,aZ(2)),e=b[1];return ab(b[2],d)?r(eq(e)):r(eq(e))}function
+f1(j,i){var
+b=j,a=i;for(;;){if(L(b,c))return L(a,c)?1:ab(bo(a,aZ(2))[2],d)?0:0;var
+g=bo(b,aZ(2)),h=g[1];if(ab(g[2],d)){if(L(a,c))return 0;var
+e=bo(a,aZ(2)),k=e[1];if(ab(e[2],d)){var
+b=h,a=k;continue}return 0}if(L(a,c))return 0;var
+f=bo(a,aZ(2)),l=f[1];if(ab(f[2],d))return 0;var
 b=h,a=l;continue}}function
-fe(c,b){var
-a=jl(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-jQ(b,i,h){var
-e=i,a=h;for(;;){if(M(e,c))return a;var
-f=bO(e,bj(2)),g=f[1];if(ah(f[2],d)){var
-e=g,a=_(b,a,a);continue}return _(b,a,jQ(b,g,_(b,a,a)))}}function
-ei(a){return jQ(Q,a,sp)}function
-g2(a){return a?r(g2(a[1])):c}function
-cf(f,e){var
+er(c,b){var
+a=h9(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+im(b,i,h){var
+e=i,a=h;for(;;){if(L(e,c))return a;var
+f=bo(e,aZ(2)),g=f[1];if(ab(f[2],d)){var
+e=g,a=ar(b,a,a);continue}return ar(b,a,im(b,g,ar(b,a,a)))}}function
+dB(a){return im(P,a,n3)}function
+f2(a){return a?r(f2(a[1])):c}function
+bI(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2031,298 +889,298 @@ t=u(b(2,r(b(2,b(2,c)))),d),v=y(r(b(2,r(b(2,c)))),t),a=a[1],d=v;continue;case
 8:var
 w=u(b(2,r(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 z=u(b(2,r(b(2,b(2,c)))),d),A=y(r(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-g3(a){if(M(a,c))return sq;var
-b=bO(a,bj(2)),e=b[1];return ah(b[2],d)?by(g3(e)):bz(g3(e))}function
-ff(a){return fb(g3(a))}function
-jR(k,f){if(0<=b$(f)){var
-g=jn(f);if(0<=g){var
+f3(a){if(L(a,c))return n4;var
+b=bo(a,aZ(2)),e=b[1];return ab(b[2],d)?ba(f3(e)):bb(f3(e))}function
+es(a){return eo(f3(a))}function
+io(k,f){if(0<=bG(f)){var
+g=h$(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return cB(sl)}return d}function
-jS(a){return 0<=b$(a)?a:d}function
-g4(a){var
-b=b$(a);return 0===b?c:0<b?a:c}function
-jT(m){var
+h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return en(nZ)}return d}function
+ip(a){return 0<=bG(a)?a:d}function
+f4(a){var
+b=bG(a);return 0===b?c:0<b?a:c}function
+iq(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cf(a[1],c);case
+1:return bI(a[1],c);case
 2:var
-e=b(2,c);return cf(a[1],e);case
+e=b(2,c);return bI(a[1],e);case
 3:var
-f=r(b(2,c));return cf(a[1],f);case
+f=r(b(2,c));return bI(a[1],f);case
 4:var
-g=b(2,b(2,c));return cf(a[1],g);case
+g=b(2,b(2,c));return bI(a[1],g);case
 5:var
-h=r(b(2,b(2,c)));return cf(a[1],h);case
+h=r(b(2,b(2,c)));return bI(a[1],h);case
 6:var
-i=b(2,r(b(2,c)));return cf(a[1],i);case
+i=b(2,r(b(2,c)));return bI(a[1],i);case
 7:var
-j=r(b(2,r(b(2,c))));return cf(a[1],j);case
+j=r(b(2,r(b(2,c))));return bI(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return cf(a[1],k);default:var
-l=r(b(2,b(2,b(2,c))));return cf(a[1],l)}}function
-cD(b,a){var
-c=b$(a);return 0===c?d:1===c?jm(b,a):jK(-1,jm(jK(-1,b),a))}function
-jU(a){return 0<b$(a)?Gn(a):d}function
-ej(b,c){var
-a=jn(c);return 0<=a?pE(b,a):pF(b,-a|0)}function
-c0(b,c){var
-a=jn(c);return 0<=a?pF(b,a):pE(b,-a|0)}function
-dx(b,a){return a?a[1]:b}function
-ek(a){var
+k=b(2,b(2,b(2,c)));return bI(a[1],k);default:var
+l=r(b(2,b(2,b(2,c))));return bI(a[1],l)}}function
+b2(b,a){var
+c=bG(a);return 0===c?d:1===c?h_(b,a):ig(-1,h_(ig(-1,b),a))}function
+ir(a){return 0<bG(a)?BP(a):d}function
+dC(b,c){var
+a=h$(c);return 0<=a?nS(b,a):nT(b,-a|0)}function
+ck(b,c){var
+a=h$(c);return 0<=a?nT(b,a):nS(b,-a|0)}function
+cS(b,a){return a?a[1]:b}function
+dD(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-X(d,c){var
+V(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jV(a){if(a){var
-b=[0,a[1],0];return g(jV(a[2]),b)}return a}function
-jW(d,c){var
+is(a){if(a){var
+b=[0,a[1],0];return f(is(a[2]),b)}return a}function
+it(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-jX(a){if(a){var
-b=jX(a[2]);return g(a[1],b)}return a}function
+iu(a){if(a){var
+b=iu(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,f(b,a[1]),d];else
+d=e(b,a[2]),c=[0,l(b,a[1]),d];else
 var
 c=a;return c}function
-E(b,a){if(a){var
-c=E(b,a[2]);return g(f(b,a[1]),c)}return a}function
-dy(e,d,c){var
+B(b,a){if(a){var
+c=B(b,a[2]);return f(l(b,a[1]),c)}return a}function
+cT(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=_(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bR(c,b,a){if(a){var
-d=bR(c,b,a[2]);return _(c,a[1],d)}return b}function
-aK(e,d){var
+f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+br(c,b,a){if(a){var
+d=br(c,b,a[2]);return ar(c,a[1],d)}return b}function
+au(e,d){var
 a=d;for(;;){if(a){var
-b=f(e,a[1]);if(!b){var
+b=l(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 n(d,c){var
 a=c;for(;;){if(a){var
-b=f(d,a[1]);if(b){var
+b=l(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-c1(b,e){var
+cl(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(f(b,d))return[0,d,c1(b,c)];var
+c=a[2],d=a[1];if(l(b,d))return[0,d,cl(b,c)];var
 a=c;continue}return a}}function
-jY(d,c){var
+iv(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(f(d,b))return[0,b];var
+b=a[1];if(l(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-a0(b,a){if(b)if(a)var
-d=a0(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aH(b,a){if(b)if(a)var
+d=aH(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-el(b,a){if(b)if(a)var
-d=el(b[1],a[2]),c=[0,a[1],d];else
+dE(b,a){if(b)if(a)var
+d=dE(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-g5(d,c){var
+f5(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-a9(b,a){var
-c=a?[0,b,a9([0,b],a[1])]:a;return c}function
-bl(b,a){var
-c=a?[0,b,bl(b,a[1])]:a;return c}function
-jZ(a){if(a){var
-e=jZ(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
-fg(j){function
+aO(b,a){var
+c=a?[0,b,aO([0,b],a[1])]:a;return c}function
+a0(b,a){var
+c=a?[0,b,a0(b,a[1])]:a;return c}function
+iw(a){if(a){var
+e=iw(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
+et(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jZ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<b$(b)?ei(b):0}function
-j0(c,b){var
-a=jl(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-dz(b,a){return M(u(b[1],a[2]),u(a[1],b[2]))}function
-em(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
-dA(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
-g6(b,a){return em(b,[0,aa(a[1]),a[2]])}function
-a_(a){if(typeof
-a==="number")return st;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bG(b)?dB(b):0}function
+ix(c,b){var
+a=h9(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cU(b,a){return L(u(b[1],a[2]),u(a[1],b[2]))}function
+dF(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
+cV(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
+f6(b,a){return dF(b,[0,Z(a[1]),a[2]])}function
+aP(a){if(typeof
+a==="number")return n7;else
 switch(a[0]){case
 0:var
-b=a_(a[1]);return aH(bq(1,48),b);case
+b=aP(a[1]);return aJ(a$(1,48),b);case
 1:var
-c=a_(a[1]);return aH(bq(1,49),c);case
+c=aP(a[1]);return aJ(a$(1,49),c);case
 2:var
-d=a_(a[1]);return aH(bq(1,50),d);case
+d=aP(a[1]);return aJ(a$(1,50),d);case
 3:var
-e=a_(a[1]);return aH(bq(1,51),e);case
+e=aP(a[1]);return aJ(a$(1,51),e);case
 4:var
-f=a_(a[1]);return aH(bq(1,52),f);case
+f=aP(a[1]);return aJ(a$(1,52),f);case
 5:var
-g=a_(a[1]);return aH(bq(1,53),g);case
+g=aP(a[1]);return aJ(a$(1,53),g);case
 6:var
-h=a_(a[1]);return aH(bq(1,54),h);case
+h=aP(a[1]);return aJ(a$(1,54),h);case
 7:var
-i=a_(a[1]);return aH(bq(1,55),i);case
+i=aP(a[1]);return aJ(a$(1,55),i);case
 8:var
-j=a_(a[1]);return aH(bq(1,56),j);default:var
-k=a_(a[1]);return aH(bq(1,57),k)}}function
-en(a){return typeof
-a==="number"?su:a_(a)}function
-c2(a){return jR(b(2,c),a)}function
-j1(b,a){return c0(a,b)}function
-j2(b,a){return aa(c0(aa(a),b))}function
-fh(b,a){return aa(cD(aa(b),a))}function
-ap(c,b){var
-a=ej(b,c);return[0,a,a]}function
-j3(d,c,a){var
-b=ej(c,d),e=fh(b,a);return[0,cD(b,a),e]}function
-G(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-L(b,a){return[0,aY(b[1],a[2]),aY(b[2],a[1])]}function
-ao(a){return[0,aa(a[2]),aa(a[1])]}function
-j4(e,c,b,a){if(M(d,e))return M(d,b)?[0,u(e,b),u(c,a)]:M(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(M(c,d))return M(d,b)?[0,u(e,a),u(c,b)]:M(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(M(d,b))return[0,u(e,a),u(c,a)];if(M(a,d))return[0,u(c,b),u(e,b)];var
-f=bP(u(e,b),u(c,a));return[0,g0(u(e,a),u(c,b)),f]}function
+j=aP(a[1]);return aJ(a$(1,56),j);default:var
+k=aP(a[1]);return aJ(a$(1,57),k)}}function
+dG(a){return typeof
+a==="number"?n8:aP(a)}function
+cm(a){return io(b(2,c),a)}function
+iy(b,a){return ck(a,b)}function
+iz(b,a){return Z(ck(Z(a),b))}function
+eu(b,a){return Z(b2(Z(b),a))}function
+ai(c,b){var
+a=dC(b,c);return[0,a,a]}function
+iA(d,c,a){var
+b=dC(c,d),e=eu(b,a);return[0,b2(b,a),e]}function
+F(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+K(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
+ah(a){return[0,Z(a[2]),Z(a[1])]}function
+iB(e,c,b,a){if(L(d,e))return L(d,b)?[0,u(e,b),u(c,a)]:L(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(L(c,d))return L(d,b)?[0,u(e,a),u(c,b)]:L(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(L(d,b))return[0,u(e,a),u(c,a)];if(L(a,d))return[0,u(c,b),u(e,b)];var
+f=bp(u(e,b),u(c,a));return[0,f0(u(e,a),u(c,b)),f]}function
 w(c,b,a){var
-d=j4(b[1],b[2],a[1],a[2]),e=j2(c,d[2]);return[0,j1(c,d[1]),e]}function
-V(b,a){var
-c=u(a[1],a[1]),e=u(a[2],a[2]),h=j2(b,bP(c,e)),g=0;if($(a[1],d)&&$(d,a[2])){var
+d=iB(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
+T(b,a){var
+c=u(a[1],a[1]),e=u(a[2],a[2]),h=iz(b,bp(c,e)),g=0;if(Y(a[1],d)&&Y(d,a[2])){var
 f=d;g=1}if(!g)var
-f=j1(b,g0(c,e));return[0,f,h]}function
-g7(b,a){var
-c=ej(c2(b),b),d=fh(c,a[1]);return[0,cD(c,a[2]),d]}function
-cE(b,a){if($(d,a[1]))return[0,g7(b,a)];var
-c=$(a[2],d),e=c?[0,ao(g7(b,ao(a)))]:c;return e}function
-c3(f,b){var
-g=$(d,b[1]);if(g)var
-e=ej(b[2],f),a=jU(e),i=ah(u(a,a),e)?a:y(a,c),h=[0,[0,jU(ej(b[1],f)),i]];else
+f=iy(b,f0(c,e));return[0,f,h]}function
+f7(b,a){var
+c=dC(cm(b),b),d=eu(c,a[1]);return[0,b2(c,a[2]),d]}function
+b3(b,a){if(Y(d,a[1]))return[0,f7(b,a)];var
+c=Y(a[2],d),e=c?[0,ah(f7(b,ah(a)))]:c;return e}function
+cn(f,b){var
+g=Y(d,b[1]);if(g)var
+e=dC(b[2],f),a=ir(e),i=ab(u(a,a),e)?a:y(a,c),h=[0,[0,ir(dC(b[1],f)),i]];else
 var
 h=g;return h}function
-bm(f,d,c,b,a){if(b){if(a){var
-g=bm(f,d,c,b[2],a[2]);return[0,_(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cF(b,a){return c0(b,a)}function
-br(a,c,b){if(M(d,a)){var
-e=b[1],f=aa(cF(aa(u(a,b[2])),c));return[0,cF(u(a,e),c),f]}var
-g=b[2],h=aa(cF(aa(u(a,b[1])),c));return[0,cF(u(a,g),c),h]}function
-cg(a){var
-b=aa(c0(aa(a[2]),c));return[0,c0(a[1],c),b]}function
-eo(c,b,a){var
-e=j4(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=$(f,d)?a[2]:a[1],i=fh(f,h),j=$(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
-ep(a){return bP(a[2],aa(a[1]))}var
-A=[0,d,d];function
-fi(a){return[0,a[1],a[1]]}function
-dB(a){return[0,a[2],a[2]]}function
-c4(b,a){switch(a[0]){case
+a1(f,d,c,b,a){if(b){if(a){var
+g=a1(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+b4(b,a){return ck(b,a)}function
+a5(a,c,b){if(L(d,a)){var
+e=b[1],f=Z(b4(Z(u(a,b[2])),c));return[0,b4(u(a,e),c),f]}var
+g=b[2],h=Z(b4(Z(u(a,b[1])),c));return[0,b4(u(a,g),c),h]}function
+bJ(a){var
+b=Z(ck(Z(a[2]),c));return[0,ck(a[1],c),b]}function
+dH(c,b,a){var
+e=iB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Y(f,d)?a[2]:a[1],i=eu(f,h),j=Y(g,d)?a[1]:a[2];return[0,b2(g,j),i]}function
+dI(a){return bp(a[2],Z(a[1]))}var
+z=[0,d,d];function
+ev(a){return[0,a[1],a[1]]}function
+cW(a){return[0,a[2],a[2]]}function
+co(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=f(b,a[2]);return[3,f(b,a[1]),c];case
+c=l(b,a[2]);return[3,l(b,a[1]),c];case
 4:var
-d=f(b,a[2]);return[4,f(b,a[1]),d];case
-5:return[5,f(b,a[1])];case
+d=l(b,a[2]);return[4,l(b,a[1]),d];case
+5:return[5,l(b,a[1])];case
 6:var
-e=f(b,a[2]);return[6,f(b,a[1]),e];case
+e=l(b,a[2]);return[6,l(b,a[1]),e];case
 7:var
-g=f(b,a[2]);return[7,f(b,a[1]),g];case
-8:return[8,f(b,a[1])];default:return[9,f(b,a[1])]}}function
-a$(j,i){var
+f=l(b,a[2]);return[7,l(b,a[1]),f];case
+8:return[8,l(b,a[1])];default:return[9,l(b,a[1])]}}function
+aQ(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?v(b[1],a[1]):0;case
 1:return 1===a[0]?v(b[1],a[1]):0;case
-2:return 2===a[0]?ah(b[1],a[1]):0;case
+2:return 2===a[0]?ab(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=a$(b[1],a[1]);if(e){var
+e=aQ(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=a$(b[1],a[1]);if(f){var
+f=aQ(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=a$(b[1],a[1]);if(g){var
+g=aQ(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=a$(b[1],a[1]);if(h){var
+h=aQ(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-fj(b){var
+ew(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-ba(c,b){var
-a=fj(b);return a?ah(c,a[1]):a}function
-eq(a){return $(gL(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-l(a){return[0,[2,a]]}function
-F(b,a){if(ba(d,b))return a;if(ba(d,a))return b;var
-c=fj(b);if(c){var
-e=c[1],f=fj(a);if(f){var
-g=f[1];if(eq(e)&&eq(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bS(a){var
+aR(c,b){var
+a=ew(b);return a?ab(c,a[1]):a}function
+dJ(a){return Y(fW(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+k(a){return[0,[2,a]]}function
+C(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
+c=ew(b);if(c){var
+e=c[1],f=ew(a);if(f){var
+g=f[1];if(dJ(e)&&dJ(g))return k(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bs(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eq(c)?l(aa(c)):[0,[5,a]];case
+c=b[1];return dJ(c)?k(Z(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(ba(d,a))return b;if(ba(d,b))return bS(a);var
+s(b,a){if(aR(d,a))return b;if(aR(d,b))return bs(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-J(a){var
-c=fj(a);if(c){var
-b=c[1];return eq(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,b){if(!ba(d,a)&&!ba(c,b)){if(!ba(d,b)&&!ba(c,a))return a$(a,b)?J(a):[0,[6,a,b]];return b}return a}function
-ai(b,a){return ba(c,a)?b:[0,[7,b,a]]}function
-aT(a){return ba(c,a)?a:[0,[9,a]]}function
-bT(g,e,d,c){var
+e=a[1];return 0===e[0]?v(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+I(a){var
+c=ew(a);if(c){var
+b=c[1];return dJ(b)?k(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aQ(a,b)?I(a):[0,[6,a,b]];return b}return a}function
+ac(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
+aB(a){return aR(c,a)?a:[0,[9,a]]}function
+bt(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,f(e,c4(function(b){return function(a){return t(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-c5(a){var
+g=b[1],h=[0,l(e,co(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cp(a){var
 b=0;function
-c(a){return[0,a]}return bT(l(d),c,a,b)}function
-g8(b,a){if(a){if(a$(b,a[1]))return sv;var
-c=g8(b,a[2]);return D(function(a){return[0,a]},c)}return a}function
-bA(c,b){var
-a=g8(b,c),d=a?a[1]:a;return d}function
-fk(d,a){if(g8(d,a[1]))return a;var
+c(a){return[0,a]}return bt(k(d),c,a,b)}function
+f8(b,a){if(a){if(aQ(b,a[1]))return n9;var
+c=f8(b,a[2]);return A(function(a){return[0,a]},c)}return a}function
+bc(c,b){var
+a=f8(b,c),d=a?a[1]:a;return d}function
+ex(d,a){if(f8(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=fk(b[1],a);break;case
+c=ex(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=fk(b[1],a),c=fk(b[2],h)}var
-e=c[2],f=c[1],g=[0,c4(function(a){return bA(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dC(a){var
-b=dy(function(b,a){return fk(a,b)},a,sw),c=b[1],d=e(function(a){return bA(c,a)},a);return[0,jV(b[2]),d]}function
-fl(a){return bR(function(b,a){return y(ep(b),a)},d,a)}function
-dD(b,c,a){var
-d=fl(a),e=g0(c[2],y(b[2],d)),f=fl(a);return[0,b,[0,bP(c[1],aY(b[1],f)),e],a]}function
-aw(a){return[0,a,a,0]}function
-dE(b,a){var
+h=ex(b[1],a),c=ex(b[2],h)}var
+e=c[2],f=c[1],g=[0,co(function(a){return bc(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+cX(a){var
+b=cT(function(b,a){return ex(a,b)},a,n_),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,is(b[2]),d]}function
+ey(a){return br(function(b,a){return y(dI(b),a)},d,a)}function
+cY(b,c,a){var
+d=ey(a),e=f0(c[2],y(b[2],d)),f=ey(a);return[0,b,[0,bp(c[1],aG(b[1],f)),e],a]}function
+ao(a){return[0,a,a,0]}function
+cZ(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=bm(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return dD(G(b[1],a[1]),g,f)}function
-g9(b,a){var
-c=a[3],d=b[3],e=bm(function(a){return a},ao,L,d,c),f=L(b[2],a[2]);return dD(L(b[1],a[1]),f,e)}function
-g_(a){var
-b=e(ao,a[3]),c=ao(a[2]);return[0,ao(a[1]),c,b]}function
-dF(a,c,b){var
-d=G(b[2],b[1]),e=G(c[2],c[1]),f=b[3],g=c[3];function
+f=a1(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return cY(F(b[1],a[1]),g,f)}function
+f9(b,a){var
+c=a[3],d=b[3],e=a1(function(a){return a},ah,K,d,c),f=K(b[2],a[2]);return cY(K(b[1],a[1]),f,e)}function
+f_(a){var
+b=e(ah,a[3]),c=ah(a[2]);return[0,ah(a[1]),c,b]}function
+c0(a,c,b){var
+d=F(b[2],b[1]),e=F(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=w(a,e,b);return cg(G(w(a,d,c),f))}function
-i(b){return cg(w(a,e,b))}var
-j=bm(function(b){return cg(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return dD(w(a,c[1],b[1]),k,j)}function
-j5(b,a){var
-c=a[3],d=G(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=V(b,a[2]);return dD(V(b,a[1]),g,f)}function
-j6(a,b){var
-c=c3(a,b[1]);if(c){var
-g=c[1],d=c3(a,b[2]);if(d){var
-h=d[1],f=cE(a,G(h,g));if(f)var
-l=b[3],m=f[1],i=[0,dD(g,h,e(function(b){return w(a,m,b)},l))];else
+f=w(a,e,b);return bJ(F(w(a,d,c),f))}function
+i(b){return bJ(w(a,e,b))}var
+j=a1(function(b){return bJ(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return cY(w(a,c[1],b[1]),k,j)}function
+iC(b,a){var
+c=a[3],d=F(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=T(b,a[2]);return cY(T(b,a[1]),g,f)}function
+iD(a,b){var
+c=cn(a,b[1]);if(c){var
+g=c[1],d=cn(a,b[2]);if(d){var
+h=d[1],f=b3(a,F(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cY(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -2331,411 +1189,411 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-g$(a,c,b){var
-d=cE(a,b[1]);if(d){var
-f=cE(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return L(c,w(a,g,b))},n=function(b){return ao(w(a,g,b))},o=bm(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,dD(g,w(a,c[2],h),p)];else
+f$(a,c,b){var
+d=b3(a,b[1]);if(d){var
+f=b3(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return ah(w(a,g,b))},o=a1(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,cY(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-dG(b,a){return a?f(b,a[1]):a}function
-ch(d,b,a){if(b){if(a)return _(d,b[1],a[1]);var
+c1(b,a){return a?l(b,a[1]):a}function
+bK(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cG(b,e,d){var
-c=aw(A);return function(a){switch(a[0]){case
+b5(b,e,d){var
+c=ao(z);return function(a){switch(a[0]){case
 0:return[0,t(a[1],e,c)];case
 1:return[0,t(a[1],d,c)];case
-2:return[0,aw(ap(b,a[1]))];case
+2:return[0,ao(ai(b,a[1]))];case
 3:var
-f=a[2],g=a[1];return ch(function(b,a){return[0,dE(b,a)]},g,f);case
+f=a[2],g=a[1];return bK(function(b,a){return[0,cZ(b,a)]},g,f);case
 4:var
-h=a[2],i=a[1];return ch(function(b,a){return[0,g9(b,a)]},i,h);case
+h=a[2],i=a[1];return bK(function(b,a){return[0,f9(b,a)]},i,h);case
 5:var
-j=a[1];return dG(function(a){return[0,g_(a)]},j);case
+j=a[1];return c1(function(a){return[0,f_(a)]},j);case
 6:var
-k=a[2],l=a[1];return ch(function(c,a){return[0,dF(b,c,a)]},l,k);case
+k=a[2],l=a[1];return bK(function(c,a){return[0,c0(b,c,a)]},l,k);case
 7:var
-m=a[2],n=a[1];return ch(function(a,c){return g$(b,a,c)},n,m);case
+m=a[2],n=a[1];return bK(function(a,c){return f$(b,a,c)},n,m);case
 8:var
-o=a[1];return dG(function(a){return[0,j5(b,a)]},o);default:var
-p=a[1];return dG(function(a){return j6(b,a)},p)}}}function
-er(c){var
+o=a[1];return c1(function(a){return[0,iC(b,a)]},o);default:var
+p=a[1];return c1(function(a){return iD(b,a)},p)}}}function
+dK(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=er(a[1]);if(b)return b;var
+b=dK(a[1]);if(b)return b;var
 a=a[2];continue}}function
-ci(q,p){var
+bL(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ah(b[1],a[1]);return c?g1(b[2],a[2]):c}return 0;case
+c=ab(b[1],a[1]);return c?f1(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ah(e[1],g[1]):h,j=i?g1(e[2],g[2]):i,k=j?ah(d[1],f[1]):j;return k?g1(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ab(e[1],g[1]):h,j=i?f1(e[2],g[2]):i,k=j?ab(d[1],f[1]):j;return k?f1(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=ci(b[1],a[1]);if(l){var
+l=bL(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=ci(b[1],a[1]);if(m){var
+m=bL(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=ci(b[1],a[1]);if(n){var
+n=bL(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=ci(b[1],a[1]);if(o){var
+o=bL(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bB(a,b){switch(b[0]){case
-0:return[0,j3(a,b[1],b[2])];case
+bd(a,b){switch(b[0]){case
+0:return[0,iA(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bB(a,b[1]);if(c)var
-d=bB(a,b[2]),r=d?[0,G(c[1],d[1])]:d,m=r;else
+c=bd(a,b[1]);if(c)var
+d=bd(a,b[2]),r=d?[0,F(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bB(a,b[1]);if(e)var
-f=bB(a,b[2]),s=f?[0,L(e[1],f[1])]:f,n=s;else
+e=bd(a,b[1]);if(e)var
+f=bd(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bB(a,b[1]);if(g)var
-h=bB(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
+g=bd(a,b[1]);if(g)var
+h=bd(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bB(a,b[1]);if(i){var
-j=bB(a,b[2]);if(j)var
-k=cE(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+i=bd(a,b[1]);if(i){var
+j=bd(a,b[2]);if(j)var
+k=b3(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bB(a,b[1]);return l?c3(a,l[1]):l}}function
-fm(b,a){return j3(b,a[1],a[2])}function
-bC(a,d){if(er(d))switch(d[0]){case
+l=bd(a,b[1]);return l?cn(a,l[1]):l}}function
+ez(b,a){return iA(b,a[1],a[2])}function
+be(a,d){if(dK(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],f=d[2],i=d[1],j=eh(i,j7),k=j?dz(f,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fm(a,dA(g6(e,f),n)),0],p=g(bl(A,i),o),q=fm(a,e)[2],r=[0,fm(a,f)[1],q],s=[0,c,b(2,c)],l=[0,[0,fm(a,dA(em(f,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dA(i,iE),k=j?cU(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,ez(a,cV(f6(e,g),n)),0],p=f(a0(z,i),o),q=ez(a,e)[2],r=[0,ez(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,ez(a,cV(dF(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bC(a,d[2]),u=bC(a,d[1]);return ch(function(b,a){return[0,dE(b,a)]},u,t);case
+t=be(a,d[2]),u=be(a,d[1]);return bK(function(b,a){return[0,cZ(b,a)]},u,t);case
 3:var
-v=bC(a,d[2]),w=bC(a,d[1]);return ch(function(b,a){return[0,g9(b,a)]},w,v);case
+v=be(a,d[2]),w=be(a,d[1]);return bK(function(b,a){return[0,f9(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(ci(h,m)){var
-x=bC(a,h);return dG(function(b){return[0,j5(a,b)]},x)}var
-y=bC(a,m),z=bC(a,h);return ch(function(c,b){return[0,dF(a,c,b)]},z,y);case
+m=d[2],h=d[1];if(bL(h,m)){var
+x=be(a,h);return c1(function(b){return[0,iC(a,b)]},x)}var
+y=be(a,m),B=be(a,h);return bK(function(c,b){return[0,c0(a,c,b)]},B,y);case
 5:var
-B=bC(a,d[2]),C=bC(a,d[1]);return ch(function(b,c){return g$(a,b,c)},C,B);default:var
-E=bC(a,d[1]);return dG(function(b){return j6(a,b)},E)}return D(aw,bB(a,d))}function
-bb(b,a){if(er(a)){var
-c=bC(b,a);return D(function(a){return a[2]},c)}return bB(b,a)}function
-j8(a){var
-e=bP(aa(a),d);return g4(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-j9(a){return jS(y(j8(a),a))}function
-cH(f,a,e){var
-b=bb(y(f,j8(a)),e);if(b)var
-c=b[1],g=j9(a),h=aa(cF(aa(c[2]),g)),i=j9(a),d=[0,[0,cF(c[1],i),h]];else
+C=be(a,d[2]),D=be(a,d[1]);return bK(function(b,c){return f$(a,b,c)},D,C);default:var
+E=be(a,d[1]);return c1(function(b){return iD(a,b)},E)}return A(ao,bd(a,d))}function
+aS(b,a){if(dK(a)){var
+c=be(b,a);return A(function(a){return a[2]},c)}return bd(b,a)}function
+iF(a){var
+e=bp(Z(a),d);return f4(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iG(a){return ip(y(iF(a),a))}function
+b6(f,a,e){var
+b=aS(y(f,iF(a)),e);if(b)var
+c=b[1],g=iG(a),h=Z(b4(Z(c[2]),g)),i=iG(a),d=[0,[0,b4(c[1],i),h]];else
 var
 d=b;return d}function
-aj(d,a){var
-b=cH(d,a[2],a[1][1]);if(b)var
-c=cH(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+ad(d,a){var
+b=b6(d,a[2],a[1][1]);if(b)var
+c=b6(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-ha(b,a){var
-c=aa(cF(aa(a[2]),b));return[0,cF(a[1],b),c]}function
-fn(b,a){var
-c=fh(b[2],a);return[0,cD(b[1],a),c]}function
-hb(a,f,b){if(b){var
-d=b[1],g=hb(a,f,d),h=g[2],i=g2(Q(eg(sy,d),sx)),j=u(g2(eg(sz,d)),i),e=fn(w(a,g[1],f),j),k=jO(b)?G(h,e):L(h,e);return[0,e,k]}var
-l=ap(a,c);return[0,ap(a,c),l]}function
-j_(f){var
-g=ei(f),e=sA[1],b=g,c=0,a=e;for(;;){if(b){var
+ga(b,a){var
+c=Z(b4(Z(a[2]),b));return[0,b4(a[1],b),c]}function
+eA(b,a){var
+c=eu(b[2],a);return[0,b2(b[1],a),c]}function
+gb(a,f,b){if(b){var
+d=b[1],g=gb(a,f,d),h=g[2],i=f2(P(dz(oa,d),n$)),j=u(f2(dz(ob,d)),i),e=eA(w(a,g[1],f),j),k=ik(b)?F(h,e):K(h,e);return[0,e,k]}var
+l=ai(a,c);return[0,ai(a,c),l]}function
+iH(f){var
+g=dB(f),e=oc[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return Q(sB,c)}}function
-j$(a,d){var
-g=c2(a),h=u(b(2,b(2,c)),g),e=M(d[2],h);if(e)var
-i=hb(a,d,eg(sD,Q(j_(a),sC)))[2][2],f=[0,[0,hb(a,d,Q(eg(sF,j_(a)),sE))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return P(od,c)}}function
+iI(a,d){var
+g=cm(a),h=u(b(2,b(2,c)),g),e=L(d[2],h);if(e)var
+i=gb(a,d,dz(of,P(iH(a),oe)))[2][2],f=[0,[0,gb(a,d,P(dz(oh,iH(a)),og))[2][1],i]];else
 var
 f=e;return f}function
-ka(i){function
+iJ(i){function
 a(h){var
-m=cD(c2(i),h),g=ei(i),f=m,e=d,a=c;for(;;){if(g){var
-j=y(a,b(2,c)),k=y(e,cD(f,a)),l=aa(cD(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aY(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
-kb(e,a){var
-f=M(d,a);if(f){var
-g=b(2,b(2,c));return j$(e,fn(V(e,[0,a,a]),g))}return f}function
-kc(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aY(ka(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(ka(a),n),e=kb(a,g);if(e){var
-f=kb(a,h);if(f)var
-i=$(d,e[1][1]),j=i?$(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+m=b2(cm(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
+j=y(a,b(2,c)),k=y(e,b2(f,a)),l=Z(b2(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aG(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iK(e,a){var
+f=L(d,a);if(f){var
+g=b(2,b(2,c));return iI(e,eA(T(e,[0,a,a]),g))}return f}function
+iL(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(iJ(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(iJ(a),n),e=iK(a,g);if(e){var
+f=iK(a,h);if(f)var
+i=Y(d,e[1][1]),j=i?Y(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-kd(a,d){var
-b=V(a,d),e=ap(a,c);return L(G(b,b),e)}function
-dH(f,j){var
-e=bb(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=kc(a);if(d)var
-h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=j$(a,V(a,fn(w(a,k,d[1]),h))),g=D(function(b){return kd(a,kd(a,b))},i);else
+iM(a,d){var
+b=T(a,d),e=ai(a,c);return K(F(b,b),e)}function
+c2(f,j){var
+e=aS(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=iL(a);if(d)var
+h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=iI(a,T(a,eA(w(a,k,d[1]),h))),g=A(function(b){return iM(a,iM(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return D(function(a){return ha(l,a)},g)}return e}function
-ke(a,d){var
-e=kc(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return D(function(e){var
-f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return fn(w(a,d,ha(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fo(d,a){return dH(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
-fp(a){return 0===a[0]?a[2]:a[1]}function
-sG(a){return a}function
-sH(a){return a}function
-sI(a,b){return bm(sH,sG,G,a,b)}function
-sJ(a){return a}function
-sK(a){return a}function
-cI(a,b){return bm(sK,sJ,sI,a,b)}function
-hc(b,a,c){if(a){var
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return A(function(a){return ga(l,a)},g)}return e}function
+iN(a,d){var
+e=iL(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return A(function(e){var
+f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return eA(w(a,d,ga(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+eB(d,a){return c2(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
+eC(a){return 0===a[0]?a[2]:a[1]}function
+oi(a){return a}function
+oj(a){return a}function
+ok(a,b){return a1(oj,oi,F,a,b)}function
+ol(a){return a}function
+om(a){return a}function
+b7(a,b){return a1(om,ol,ok,a,b)}function
+gc(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=hc(b,f,c[2]),h=c[1],i=function(c,a){return L(c,eo(d,a,b))},j=function(a){return ao(eo(d,a,b))};return[0,bm(function(a){return a},j,i,h,a),g]}var
-k=hc(b,f,0);return[0,e(function(a){return ao(eo(d,a,b))},a),k]}return c}function
-hd(a){if(a){var
+g=gc(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dH(d,a,b))},j=function(a){return ah(dH(d,a,b))};return[0,a1(function(a){return a},j,i,h,a),g]}var
+k=gc(b,f,0);return[0,e(function(a){return ah(dH(d,a,b))},a),k]}return c}function
+gd(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=$(d,c[1]),h=e?[0,hc(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=Y(d,c[1]),h=e?[0,gc(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kf(f,e){var
+iO(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hd(b);if(c){var
+c=gd(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-kg(d,b,a){if(b)if(a)var
-e=a[1],f=kg(d,b[2],a[2]),g=cZ(d,b[1])?fi(e):dB(e),c=[0,g,f];else
+iP(d,b,a){if(b)if(a)var
+e=a[1],f=iP(d,b[2],a[2]),g=cj(d,b[1])?ev(e):cW(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-kh(a,b){if(a)if(b)var
-d=kh(a[2],b[2]),c=[0,kg(a[1],a,b[1]),d];else
+iQ(a,b){if(a)if(b)var
+d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bD(a){if(a){var
-b=a[1],c=bD(b),d=e(function(a){return[0,1,a]},c),f=bD(b);return g(e(function(a){return[0,0,a]},f),d)}return sL}function
-fq(a){var
-b=k(a);if(kf(b,a))return 1;var
-c=bD(bQ(b));return n(function(c){return kf(b,kh([0,0,c],a))},c)}function
-aR(a){function
+bf(a){if(a){var
+b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return on}function
+eD(a){var
+b=j(a);if(iO(b,a))return 1;var
+c=bf(bq(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
+az(a){function
 b(b){var
-c=f(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-a4(h,e){var
+c=l(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aL(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?G(a,d):L(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-he(c,b,a){var
-d=bD(c);return n(function(c){return f(a,f(aR(function(a){return a4(c,a)}),b))},d)}function
-hf(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return br(b,y(h,c),a)},k=hf(h,j,i),l=function(c,b){var
-d=a(b,e);return G(a(f,c),d)},m=function(b){return a(b,e)},n=bm(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,G(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?F(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+ge(c,b,a){var
+d=bf(c);return n(function(c){return l(a,l(az(function(a){return aL(c,a)}),b))},d)}function
+gf(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a5(b,y(h,c),a)},k=gf(h,j,i),l=function(c,b){var
+d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=a1(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fr(b,d,a,c){function
+eE(b,d,a,c){function
 e(c,d){var
-e=br(d,b,a);return L(G(c,c),e)}function
-f(c){return ao(br(c,b,a))}return bm(function(a){return G(a,a)},f,e,d,c)}function
-hg(d,i,h,g){var
+e=a5(d,b,a);return K(F(c,c),e)}function
+f(c){return ah(a5(c,b,a))}return a1(function(a){return F(a,a)},f,e,d,c)}function
+gg(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dB(e[2]),k=cI(a,hf(d,f,fr(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hh(b,a){return[0,[0,0,b],a]}function
-dI(b,c,g,f,a){function
+e=b[1],f=c[1],j=cW(e[2]),k=b7(a,gf(d,f,eE(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gh(b,a){return[0,[0,0,b],a]}function
+c3(b,c,g,f,a){function
 d(a){if(a){var
-h=bl([0,ao(a[1][2]),0],b),c=hg(g,f,a[2],h),d=v(k(c),b);if(d)return fq(c);var
+h=a0([0,ah(a[1][2]),0],b),c=gg(g,f,a[2],h),d=v(j(c),b);if(d)return eD(c);var
 e=d}else
 var
-e=a;return e}return he(b,hh(c,a),d)}function
-ki(f,e){var
+e=a;return e}return ge(b,gh(c,a),d)}function
+iR(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hd([0,[0,fi(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gd([0,[0,ev(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hi(b,c,a){function
+gi(b,c,a){function
 d(a){if(a){var
-h=bl([0,a[1][2],0],b),c=ki(a[2],h);if(c){var
-d=c[1],e=v(k(d),b);if(e)return fq(d);var
+h=a0([0,a[1][2],0],b),c=iR(a[2],h);if(c){var
+d=c[1],e=v(j(d),b);if(e)return eD(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return he(b,hh(c,a),d)}function
-kj(b,a){return e(function(a){return[0,a[1],b]},a)}function
-kk(b,a){var
-c=bD(b);return n(function(b){return $(d,a4(b,a)[1])},c)}function
-kl(c,b,a){var
-d=a[3],f=e(function(a){return br(c,b,a)},d),g=a[2];return[0,br(c,b,a[1]),g,f]}function
-km(a,b){var
-c=b[3],d=a[3],e=bm(function(a){return a},ao,L,d,c),f=a[2];return[0,L(a[1],b[1]),f,e]}function
-c6(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aC(c,b,a){var
-d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
-cj(b,a){var
+g=a;return g}return ge(b,gh(c,a),d)}function
+iS(b,a){return e(function(a){return[0,a[1],b]},a)}function
+iT(b,a){var
+c=bf(b);return n(function(b){return Y(d,aL(b,a)[1])},c)}function
+iU(c,b,a){var
+d=a[3],f=e(function(a){return a5(c,b,a)},d),g=a[2];return[0,a5(c,b,a[1]),g,f]}function
+iV(a,b){var
+c=b[3],d=a[3],e=a1(function(a){return a},ah,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
+cq(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+aq(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+bM(b,a){var
 c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-c7(b,a){var
-c=ai(b[3],a),d=ai(b[2],a);return[0,ai(b[1],a),d,c]}function
-ag(b,a){var
-c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-c8(a){return c7(a,aT(ag(a,a)))}function
-dJ(a){var
-b=a[5];return b?b[1]:aT(a[2])}function
-kn(b,a){return b?a:bS(a)}function
-ko(e,a,i,d,h){var
-f=ag(a,e),b=aC(s,e,cj(f,a)),j=ag(b,b),g=s(J(d),j),c=kn(h,aT(g)),k=s(f,c),l=aC(F,a,c7(b,c));return[0,aC(F,b,cj(c,a)),g,l,k,[0,d],0,[0,i]]}function
-kp(a,e,d){var
-b=ag(a,a),c=aT(b),f=[0,e],g=D(function(b){return aC(s,a,cj(ag(b,a),b))},d);return[0,a,b,c7(a,c),c,0,g,f]}function
-kq(b,a){var
-d=ag(a,b);return[0,a,l(c),a,d,0,0,0]}function
-fs(a){return e(function(a){var
-b=a[2];return[0,c6(a[1]),b]},a)}function
-kr(a){return e(function(a){var
-b=l(c);return[0,c6(a[3]),b]},a)}function
-ks(b,a){var
-c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-kt(c,b,a){var
-d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
-hj(d,a){var
-b=c3(d,[0,a[2],a[2]]);if(b){var
+cr(b,a){var
+c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
+$(b,a){var
+c=o(b[3],a[3]),d=o(b[2],a[2]);return C(C(o(b[1],a[1]),d),c)}function
+cs(a){return cr(a,aB($(a,a)))}function
+c4(a){var
+b=a[5];return b?b[1]:aB(a[2])}function
+iW(b,a){return b?a:bs(a)}function
+iX(e,a,i,d,h){var
+f=$(a,e),b=aq(s,e,bM(f,a)),j=$(b,b),g=s(I(d),j),c=iW(h,aB(g)),k=s(f,c),l=aq(C,a,cr(b,c));return[0,aq(C,b,bM(c,a)),g,l,k,[0,d],0,[0,i]]}function
+iY(a,e,d){var
+b=$(a,a),c=aB(b),f=[0,e],g=A(function(b){return aq(s,a,bM($(b,a),b))},d);return[0,a,b,cr(a,c),c,0,g,f]}function
+iZ(b,a){var
+d=$(a,b);return[0,a,k(c),a,d,0,0,0]}function
+eF(a){return e(function(a){var
+b=a[2];return[0,cq(a[1]),b]},a)}function
+i0(a){return e(function(a){var
+b=k(c);return[0,cq(a[3]),b]},a)}function
+i1(b,a){var
+c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
+i2(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+gj(d,a){var
+b=cn(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-ft(a,m,f,l,e,k,j){var
-o=kt(g9,k,j),b=kt(function(b,c){return dF(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=dE(dE(dE(aw(ap(a,d)),h),g),c),p=bD(m);return n(function(c){var
-b=ks(function(b){return V(a,a4(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,hj(a,G(G(G(ap(a,d),k),j),h))),g=L(a4(c,i),m),n=f?L(g,a4(c,f[1])):g;return $(d,n[1])},p)}function
-bU(a){return c0(y(a[1],a[2]),c)}function
-dK(a){var
-b=bU(a);return aY(a[2],b)}function
-fu(c,b){if(b)var
-a=b[1],e=fu([0,c],b[2]),f=dK(a),h=[0,[0,dK(a),f],0],i=g(bl(A,c),h),j=bU(a),d=[0,[0,[0,bU(a),j],a,i],e];else
+eG(a,m,f,l,e,k,j){var
+o=i2(f9,k,j),b=i2(function(b,c){return c0(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cZ(cZ(cZ(ao(ai(a,d)),h),g),c),p=bf(m);return n(function(c){var
+b=i1(function(b){return T(a,aL(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gj(a,F(F(F(ai(a,d),k),j),h))),g=K(aL(c,i),m),n=f?K(g,aL(c,f[1])):g;return Y(d,n[1])},p)}function
+bu(a){return ck(y(a[1],a[2]),c)}function
+c5(a){var
+b=bu(a);return aG(a[2],b)}function
+eH(c,b){if(b)var
+a=b[1],e=eH([0,c],b[2]),g=c5(a),h=[0,[0,c5(a),g],0],i=f(a0(z,c),h),j=bu(a),d=[0,[0,[0,bu(a),j],a,i],e];else
 var
 d=b;return d}function
-es(d,b){if(b){var
+dL(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=es(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bU(a),f],c],h=bU(a);return[0,[0,[0,a[1],h],c],g]}return sM}function
-ku(d,b,a){if(b){if(a){var
-e=ku(d,b[2],a[2]);return G(br(b[1],y(d,c),a[1]),e)}return A}return A}function
-et(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ku(f,a,b)},j=et(f,h),k=e(function(a){var
-e=b(d,a[2]);return G(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,G(b(d,c),l),k],j];else
+e=dL(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bu(a),f],c],h=bu(a);return[0,[0,[0,a[1],h],c],g]}return oo}function
+i3(d,b,a){if(b){if(a){var
+e=i3(d,b[2],a[2]);return F(a5(b[1],y(d,c),a[1]),e)}return z}return z}function
+dM(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(f,a,b)},j=dM(f,h),k=e(function(a){var
+e=b(d,a[2]);return F(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,F(b(d,c),l),k],j];else
 var
 i=a;return i}function
-eu(e,b,d,a){if(b)if(a)var
-f=b[1],g=eu(e,b[2],d,a[2]),c=[0,[0,f,fr(e,a[1][1],d,f)],g];else
+dN(e,b,d,a){if(b)if(a)var
+f=b[1],g=dN(e,b[2],d,a[2]),c=[0,[0,f,eE(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fv(f,d,c,b,a){if(a){var
+eI(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fv(f,d[1],c,b,g);return[0,[0,L(A,b),0],i]}var
-j=e(function(a){return[0,L(A,b),0]},g),h=[0,[0,L(ao(w(f,c,dB(a[1][2]))),b),0],j]}else
+i=eI(f,d[1],c,b,g);return[0,[0,K(z,b),0],i]}var
+j=e(function(a){return[0,K(z,b),0]},g),h=[0,[0,K(ah(w(f,c,cW(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-ck(c,a){var
-b=v(k(a),c);return b?fq(a):b}function
-kv(d,b,a){if(b)var
-c=b[1],f=kv([0,d],b[2],a),h=g(bl(A,d),[0,a,0]),e=[0,[0,c,[0,aY(c[1],a[2]),y(c[2],a[2])],h],f];else
+bN(c,a){var
+b=v(j(a),c);return b?eD(a):b}function
+i4(d,b,a){if(b)var
+c=b[1],g=i4([0,d],b[2],a),h=f(a0(z,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),y(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kw(d){if(d){var
+i5(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kw(d[2]);return D(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=i5(d[2]);return A(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sN}function
-kx(a){return D(function(a){return D(g_,a)},a)}function
-fw(c,b,a){function
-d(a){return dF(c,b,a)}return D(function(a){return D(d,a)},a)}function
-ky(c,b,a){function
-d(a){return g$(c,a,b)}return D(function(a){return dG(d,a)},a)}function
-fx(b,a){var
-c=a0(b,a);return e(function(c){var
+f=a;return f}return op}function
+i6(a){return A(function(a){return A(f_,a)},a)}function
+eJ(c,b,a){function
+d(a){return c0(c,b,a)}return A(function(a){return A(d,a)},a)}function
+i7(c,b,a){function
+d(a){return f$(c,a,b)}return A(function(a){return c1(d,a)},a)}function
+eK(b,a){var
+c=aH(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,ch(function(b,a){return[0,dE(b,a)]},e,d)]}return b}return a},c)}function
-kz(a){return aw(ap(a,b(2,c)))}function
-kA(b,c,a){if(a)var
-f=a[1],g=kA(b,c,a[2]),d=[0,e(function(a){return ao(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bK(function(b,a){return[0,cZ(b,a)]},e,d)]}return b}return a},c)}function
+i8(a){return ao(ai(a,b(2,c)))}function
+i9(b,c,a){if(a)var
+f=a[1],g=i9(b,c,a[2]),d=[0,e(function(a){return ah(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-kB(a){return n(function(a){var
-b=ah(a[1],d);return b?ah(a[2],d):b},a)}function
-kC(c,b,a){var
-d=a0(b,a);return bR(function(a,b){return G(w(c,a[1],a[2]),b)},A,d)}function
-hk(c,b,a){var
-d=ep(kC(c,a,b));return bR(function(b,a){return y(ep(b),a)},d,a)}function
-dL(a){return ap(a,c)}function
-hl(a,i,c,u,t){var
+i_(a){return n(function(a){var
+b=ab(a[1],d);return b?ab(a[2],d):b},a)}function
+i$(c,b,a){var
+d=aH(b,a);return br(function(a,b){return F(w(c,a[1],a[2]),b)},z,d)}function
+gk(c,b,a){var
+d=dI(i$(c,a,b));return br(function(b,a){return y(dI(b),a)},d,a)}function
+c6(a){return ai(a,c)}function
+gl(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!kB(c)&&!kB(j)){var
-h=hk(a,i,j),o=dL(a),p=hk(a,i,c),b=eo([0,hk(a,i,c),p],o,[0,h,h])[1],k=$(d,h),l=k?$(d,b):k;if(l)var
-q=cg(g7(a,[0,b,b])),r=function(b){return function(d,c){return L(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cI(e,kA(a,q,bm(function(c){return function(b){return w(a,c,b)}}(s),ao,r,j,c)))];else
+j=f[1],n=0;if(!i_(c)&&!i_(j)){var
+h=gk(a,i,j),o=c6(a),p=gk(a,i,c),b=dH([0,gk(a,i,c),p],o,[0,h,h])[1],k=Y(d,h),l=k?Y(d,b):k;if(l)var
+q=bJ(f7(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b7(e,i9(a,q,a1(function(c){return function(b){return w(a,c,b)}}(s),ah,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-s2(a){var
-b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-kD(c,b,a){if(b){if(a){var
-d=kD(c,b[2],a[2]);return G(br(b[1],c,a[1]),d)}return A}return A}function
-kE(a,j){switch(j){case
+oE(a){var
+b=a[2],c=e(function(a){return[0,a[1],z]},b);return[0,[0,a[1][1],z],c]}function
+ja(c,b,a){if(b){if(a){var
+d=ja(c,b[2],a[2]);return F(a5(b[1],c,a[1]),d)}return z}return z}function
+jb(a,j){switch(j){case
 0:var
-d=aY(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aY(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=c0(y(a[1],a[2]),c),h=aY(b,a[2]),i=aY(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-kF(d,c,a){if(a)var
-e=a[1],g=kF(d,[0,c],a[2]),b=D(cY,jY(function(a){return v(a[1],c)},d)),h=b?kE(e,b[1])[1]:e,f=[0,h,g];else
+f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=ck(y(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jc(d,c,a){if(a)var
+e=a[1],g=jc(d,[0,c],a[2]),b=A(ci,iv(function(a){return v(a[1],c)},d)),h=b?jb(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-s3=aw(A);function
-kG(e,d,c){if(d){var
-f=t(e,c[2],s4),a=f?f[1]:[0,s3];if(a)var
-b=kG([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+oF=ao(z);function
+jd(e,d,c){if(d){var
+f=t(e,c[2],oG),a=f?f[1]:[0,oF];if(a)var
+b=jd([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return s5}function
-kH(d,c,b,a){var
-f=e(aw,b);return bT(0,cG(d,fu(0,a),f),c,0)}function
-ak(a){if(a){var
+g=a;return g}return oH}function
+je(d,c,b,a){var
+f=e(ao,b);return bt(0,b5(d,eH(0,a),f),c,0)}function
+ae(a){if(a){var
 b=a[1];if(b)var
-c=ak(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ae(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s6}function
-fy(b,a){if(a){var
-h=a[1],n=h[1],c=ak(e(function(a){return t(a,b,0)},n));if(c){var
+d=b;return d}return oI}function
+eL(b,a){if(a){var
+h=a[1],n=h[1],c=ae(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=fy(b,a[2]);if(g)var
-j=$(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=eL(b,a[2]);if(g)var
+j=Y(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2743,22 +1601,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return s7}function
-cl(d,c,b){var
-a=fy(d,c);return a?f(b,a[1]):a}function
-dM(a,b){return n(function(c){var
+m=c;return m}return oJ}function
+bO(d,c,b){var
+a=eL(d,c);return a?l(b,a[1]):a}function
+c7(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-fz(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=bm(function(a){return a},f,G,e,d),h=a[2];return[0,G(a[1],c[1]),h,g]}return a}function
-hm(b,a){return b?km(a,b[1]):a}function
-hn(h,g,b,f){var
+eM(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a1(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
+gm(b,a){return b?iV(a,b[1]):a}function
+gn(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=km(c,b[1]),e=bD(g);return n(function(a){return M(d,a4(a,i)[1])},e)}return M(d,c[2][1])}return a}function
-kI(f,d,a){function
-b(a){return br(a,d,ap(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),A,g]}return aw(A)}function
-fA(b,a){var
+i=iV(c,b[1]),e=bf(g);return n(function(a){return L(d,aL(a,i)[1])},e)}return L(d,c[2][1])}return a}function
+jf(f,d,a){function
+b(a){return a5(a,d,ai(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),z,g]}return ao(z)}function
+eN(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2767,54 +1625,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-kJ(i,j,J,t,g,b,f,h,a){switch(h[0]){case
+jg(i,k,J,t,g,b,f,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dM(t,g);if(K){var
-ab=a[2],ac=a[1],ad=fz(f,aw(r));return cl(g,j,function(a){return dI(b,ad,ac,ab,a)})}return K;case
+K=c7(t,g);if(K){var
+ac=a[2],ad=a[1],ae=eM(f,ao(r));return bO(g,k,function(a){return c3(b,ae,ad,ac,a)})}return K;case
 1:var
-L=dM(t,g);if(L){var
-ae=a[2],af=a[1],ag=fz(f,aw(r));return cl(g,J,function(a){return dI(b,ag,af,ae,a)})}return L;case
+L=c7(t,g);if(L){var
+af=a[2],ag=a[1],ah=eM(f,ao(r));return bO(g,J,function(a){return c3(b,ah,ag,af,a)})}return L;case
 2:var
-M=dM(t,g);if(M){if(f)return 0;var
-N=ah(r[1],d),O=N?ah(r[2],d):N;if(O){var
-ai=a[2],aj=a[1];return cl(g,j,function(a){return dI(b,[0,A,A,0],aj,ai,kj([0,A,A,0],a))})}var
+M=c7(t,g);if(M){if(f)return 0;var
+N=ab(r[1],d),O=N?ab(r[2],d):N;if(O){var
+aj=a[2],ak=a[1];return bO(g,k,function(a){return c3(b,[0,z,z,0],ak,aj,iS([0,z,z,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-ak=hm(f,aw(Q));return cl(g,J,function(a){return hi(b,ak,a)})}if(!a){var
-al=hm(f,aw(Q));return cl(g,j,function(a){return hi(b,al,a)})}}return 0;case
+al=gm(f,ao(Q));return bO(g,J,function(a){return gi(b,al,a)})}if(!a){var
+am=gm(f,ao(Q));return bO(g,k,function(a){return gi(b,am,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=kI(i,R,a[3]),S=h[1],am=a[2];return cl(g,j,function(d){var
-a=kk(b,l),c=a?dI(b,fz(f,l),R,am,d):a;if(c){var
-g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return hi(b,hm(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=jf(i,R,a[3]),S=h[1],an=a[2];return bO(g,k,function(d){var
+a=iT(b,l),c=a?c3(b,eM(f,l),R,an,d):a;if(c){var
+g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gi(b,gm(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hn(g,b,f,h[1]);return 0;case
+a==="number"&&!a)return gn(g,b,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-an=a[2],ao=a[1],aq=fz(f,aw(h[2])),ar=function(a){return dI(b,aq,ao,an,a)};return cl(g,h[1],ar)}return 0;case
+ap=a[2],aq=a[1],ar=eM(f,ao(h[2])),as=function(a){return c3(b,ar,aq,ap,a)};return bO(g,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hn(g,b,f,h[1]);case
-2:return hn(g,b,f,h[2])}return 0;case
+0:return gn(g,b,f,h[1]);case
+2:return gn(g,b,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-u=fA(g,h[1]);if(u){var
-x=fA(g,h[2]);if(x){var
-z=fA(g,h[3]);if(z){var
-B=fA(g,h[4]);if(B){var
-T=B[1],U=z[1],V=x[1],W=u[1],m=a[2],s=h[5],as=a[1];if(m){var
+u=eN(g,h[1]);if(u){var
+x=eN(g,h[2]);if(x){var
+A=eN(g,h[3]);if(A){var
+B=eN(g,h[4]);if(B){var
+T=B[1],U=A[1],V=x[1],W=u[1],m=a[2],s=h[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aa=[0,m[1],o[1],p[1]],q=ks(function(d){function
-f(a){return br(a,as,ap(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fl(a),h=y(b[2],g),j=fl(a);return[0,b,[0,aY(b[1],j),h],a]}return aw(A)},aa),C=n(function(a){return v(k(a),[0,b])},m),D=C?ft(i,b,f,s,q,W,U):C,E=D?ft(i,b,f,s,q,W,T):D,F=E?ft(i,b,f,s,q,V,U):E;if(F)return ft(i,b,f,s,q,V,T);var
+aa=[0,m[1],o[1],p[1]],q=i1(function(d){function
+f(a){return a5(a,at,ai(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=ey(a),h=y(b[2],g),j=ey(a);return[0,b,[0,aG(b[1],j),h],a]}return ao(z)},aa),C=n(function(a){return v(j(a),[0,b])},m),D=C?eG(i,b,f,s,q,W,U):C,E=D?eG(i,b,f,s,q,W,T):D,F=E?eG(i,b,f,s,q,V,U):E;if(F)return eG(i,b,f,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -2826,7 +1684,7 @@ var
 I=m;return I}var
 X=B}else
 var
-X=z;var
+X=A;var
 Y=X}else
 var
 Y=x;var
@@ -2835,47 +1693,47 @@ var
 Z=u;return Z}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-_=a[2],$=a[1],at=h[2],au=h[1];return cl(g,j,function(e){var
-a=v(k(e),b),d=a?v(k(_),b):a;if(d){var
+_=a[2],$=a[1],au=h[2],av=h[1];return bO(g,k,function(e){var
+a=v(j(e),b),d=a?v(j(_),b):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=v(k(d),b);if(e){var
-g=et($,eu($,_,ap(i,c),d));return ck(b,cI(fv(i,au,at,a[1][2],d),g))}var
+d=a[2],e=v(j(d),b);if(e){var
+g=dM($,dN($,_,ai(i,c),d));return bN(b,b7(eI(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:aw(A);return he(b,hh(h,e),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:ao(z);return ge(b,gh(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-av=h[2],ax=h[1];return cl(g,j,function(d){var
-a=kj([0,A,A,0],d),c=f?f[1]:[0,A,A,0];return dI(b,c,ax,av,a)})}return 0;default:return 0}}function
-kK(a,Y,I,l,p,X,h,j,i,g,b){if(9===g[0]){if(typeof
+aw=h[2],ax=h[1];return bO(g,k,function(d){var
+a=iS([0,z,z,0],d),c=f?f[1]:[0,z,z,0];return c3(b,c,ax,aw,a)})}return 0;default:return 0}}function
+jh(a,Z,I,k,p,X,g,i,h,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-Z=g[1],S=e(aw,X),z=bT(0,cG(a,kv(0,j,Z),S),Y,0),J=v(k(j),s8),K=J?dM(p,z):J;if(K){var
-q=fy(z,l);if(q){var
-r=fy(h,l);if(r){var
-_=g[2],s=ak(e(function(b){var
-c=t(b[1],h,0);if(c)var
-f=b[2][2],a=ak(e(function(a){var
-b=t(a[2],h,0);return D(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+_=f[1],S=e(ao,X),B=bt(0,b5(a,i4(0,i,_),S),Z,0),J=v(j(i),oK),L=J?c7(p,B):J;if(L){var
+q=eL(B,k);if(q){var
+r=eL(g,k);if(r){var
+$=f[2],s=ae(e(function(b){var
+c=t(b[1],g,0);if(c)var
+f=b[2][2],a=ae(e(function(a){var
+b=t(a[2],g,0);return A(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},_));if(s){var
-u=kw(q[1]);if(u){var
-M=b[2],x=b[1],N=r[1],aa=b[3],ab=s[1],ac=u[1],B=hj(a,bR(function(g,i){function
+d=c;return d},$));if(s){var
+u=i5(q[1]);if(u){var
+M=b[2],x=b[1],N=r[1],aa=b[3],ab=s[1],ac=u[1],C=gj(a,br(function(f,h){function
 b(b,d){var
-a=g[1],c=b?b[1]?g[2]:a[2]:a[1];return ep(t(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dI(t(d,c[3],z))}function
 c(a){var
-b=f(a,sO),c=bP(f(a,sP),b);return bP(f(a,0),c)}var
+b=l(a,oq),c=bp(l(a,or),b);return bp(l(a,0),c)}var
 d=c(function(a){var
-c=b(sQ,a),d=b(sR,a);return y(y(b(0,a),d),c)}),h=[0,d,d],e=c(function(a){var
-c=b(a,sS),d=b(a,sT);return y(y(b(a,0),d),c)});return G(i,V(a,hj(a,w(a,[0,e,e],h))))},A,ac)),m=br(aa,x,ap(a,c)),C=$(d,L(m,B)[1]),E=C?v(k(M),sZ):C,F=E?v(k(N),s0):E;if(F){var
-o=cE(a,m);if(o){var
-T=cg(w(a,B,o[1])),U=L(ap(a,c),T),W=bD(s1);return n(function(j){var
-h=e(function(b){var
-c=b[2],d=b[1];return dB(dy(function(d,b){var
-c=ep(a4(j,b[2]));return G(d,w(a,b[1],[0,c,c]))},c,d))},ab),r=f(aR(function(a){return a4(j,a)}),N),D=i?a4(j,i[1]):A,K=V(a,U),s=V(a,m),q=et(x,eu(x,M,ap(a,c),r)),b=cI(bl([0,ao(D),0],sU),q);if(h){var
-d=h[2];if(d){var
-g=d[2];if(g){if(g[2])return 0;var
-B=d[1],C=h[1],H=g[1],k=ck(sW,cI(bl([0,ao(s),0],sV),b));if(k)return n(function(A){var
-G=L(K,D),I=A[2]?B:ao(B),J=A[1]?C:ao(C),n=0;if(b){var
+c=b(os,a),d=b(ot,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,ou),d=b(a,ov);return y(y(b(a,0),d),c)});return F(h,T(a,gj(a,w(a,[0,e,e],g))))},z,ac)),m=a5(aa,x,ai(a,c)),D=Y(d,K(m,C)[1]),E=D?v(j(M),oB):D,G=E?v(j(N),oC):E;if(G){var
+o=b3(a,m);if(o){var
+U=bJ(w(a,C,o[1])),V=K(ai(a,c),U),W=bf(oD);return n(function(i){var
+g=e(function(b){var
+c=b[2],d=b[1];return cW(cT(function(d,b){var
+c=dI(aL(i,b[2]));return F(d,w(a,b[1],[0,c,c]))},c,d))},ab),r=l(az(function(a){return aL(i,a)}),N),D=h?aL(i,h[1]):z,L=T(a,V),s=T(a,m),q=dM(x,dN(x,M,ai(a,c),r)),b=b7(a0([0,ah(D),0],ow),q);if(g){var
+d=g[2];if(d){var
+f=d[2];if(f){if(f[2])return 0;var
+A=d[1],B=g[1],G=f[1],j=bN(oy,b7(a0([0,ah(s),0],ox),b));if(j)return n(function(C){var
+H=K(L,D),I=C[2]?A:ah(A),J=C[1]?B:ah(B),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -2888,7 +1746,7 @@ h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,H,0]],[0,[0,G,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -2914,19 +1772,19 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return ck(sY,j)},sX);var
-l=k}else
+j=z;return bN(oA,j)},oz);var
+k=j}else
 var
-l=g;var
-o=l}else
+k=f;var
+o=k}else
 var
 o=d;var
 p=o}else
 var
-p=h;return p},W)}var
+p=g;return p},W)}var
 H=o}else
 var
-H=F;return H}var
+H=G;return H}var
 O=u}else
 var
 O=s;var
@@ -2938,366 +1796,366 @@ var
 Q=q;var
 R=Q}else
 var
-R=K;return R}return kJ(a,I,l,p,h,k(j),i,g,b)}return kJ(a,I,l,p,h,k(j),i,g,b)}function
-kL(j,b,a){if(a){var
-k=a[1],l=k[2],c=ak(e(b,k[1]));if(c){var
-g=f(b,l);if(g){var
-h=t(l,j,0);if(h){var
-i=kL(j,b,a[2]);if(i)var
-m=$(d,h[1][2][1]),n=m?[0,[0,[0,c[1],g[1]],i[1]]]:m;else
+R=L;return R}return jg(a,I,k,p,g,j(i),h,f,b)}return jg(a,I,k,p,g,j(i),h,f,b)}function
+ji(i,b,a){if(a){var
+j=a[1],k=j[2],c=ae(e(b,j[1]));if(c){var
+f=l(b,k);if(f){var
+g=t(k,i,0);if(g){var
+h=ji(i,b,a[2]);if(h)var
+m=Y(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
-n=i;var
+n=h;var
 o=n}else
 var
-o=h;var
+o=g;var
 p=o}else
 var
-p=g;var
+p=f;var
 q=p}else
 var
-q=c;return q}return s_}function
-kM(a,T,m,S,u,s,R,C,i,h,l,b){var
-j=k(R),U=fu(0,R),aN=bT(0,cG(a,U,e(aw,kF(l,0,u))),T,0),V=e(a3,l),aO=0,aP=e(aw,u),aQ=bT(s$,function(b){var
-M=c4(a3,b),g=f(cG(a,U,aP),M);switch(b[0]){case
+q=c;return q}return oM}function
+jj(a,T,m,S,u,s,R,C,h,g,k,b){var
+i=j(R),U=eH(0,R),aS=bt(0,b5(a,U,e(ao,jc(k,0,u))),T,0),V=e(aK,k),aT=0,aU=e(ao,u),aV=bt(oN,function(b){var
+M=co(aK,b),f=l(b5(a,U,aU),M);switch(b[0]){case
 1:var
 t=b[1],d=e(function(d){var
-b=v(t,d),e=b?[0,[0,aw(ap(a,c))]]:b;return e},V);break;case
+b=v(t,d),e=b?[0,[0,ao(ai(a,c))]]:b;return e},V);break;case
 3:var
-d=fx(b[1][2],b[2][2]);break;case
+d=eK(b[1][2],b[2][2]);break;case
 4:var
-u=e(kx,b[2][2]),d=fx(b[1][2],u);break;case
+u=e(i6,b[2][2]),d=eK(b[1][2],u);break;case
 5:var
-d=e(kx,b[1][2]);break;case
+d=e(i6,b[1][2]);break;case
 6:var
-n=b[2],o=b[1],h=o[1],l=0;if(h){var
-i=n[1];if(i)var
-w=n[2],x=h[1],y=e(function(b){return fw(a,x,b)},w),z=o[2],A=i[1],d=fx(e(function(b){return fw(a,A,b)},z),y);else{var
-p=i;l=1}}else{var
-p=h;l=1}if(l)var
+n=b[2],o=b[1],g=o[1],k=0;if(g){var
+h=n[1];if(h)var
+w=n[2],x=g[1],y=e(function(b){return eJ(a,x,b)},w),z=o[2],A=h[1],d=eK(e(function(b){return eJ(a,A,b)},z),y);else{var
+p=h;k=1}}else{var
+p=g;k=1}if(k)var
 d=p;break;case
 7:var
-m=0;if(g){var
-q=b[2],j=q[1];if(j)var
-B=q[2],C=g_(g[1]),D=e(function(b){return fw(a,C,b)},B),E=fx(b[1][2],D),F=j[1],d=e(function(b){return ky(a,F,b)},E);else{var
-r=j;m=1}}else{var
-r=g;m=1}if(m)var
+m=0;if(f){var
+q=b[2],i=q[1];if(i)var
+B=q[2],C=f_(f[1]),D=e(function(b){return eJ(a,C,b)},B),E=eK(b[1][2],D),F=i[1],d=e(function(b){return i7(a,F,b)},E);else{var
+r=i;m=1}}else{var
+r=f;m=1}if(m)var
 d=r;break;case
 8:var
-s=b[1],k=s[1];if(k)var
-G=s[2],H=k[1],I=dF(a,kz(a),H),d=e(function(b){return fw(a,I,b)},G);else
+s=b[1],j=s[1];if(j)var
+G=s[2],H=j[1],I=c0(a,i8(a),H),d=e(function(b){return eJ(a,I,b)},G);else
 var
-d=k;break;case
-9:if(g)var
-J=b[1][2],K=g[1],L=dF(a,kz(a),K),d=e(function(b){return ky(a,L,b)},J);else
+d=j;break;case
+9:if(f)var
+J=b[1][2],K=f[1],L=c0(a,i8(a),K),d=e(function(b){return i7(a,L,b)},J);else
 var
-d=g;break;default:var
-d=e(function(a){return 0},V)}return[0,g,d]},T,aO),aL=e(function(a){var
-b=a[2];return kE(t(a[1],u,A),b)[2]},l);function
+d=f;break;default:var
+d=e(function(a){return 0},V)}return[0,f,d]},T,aT),aQ=e(function(a){var
+b=a[2];return jb(t(a[1],u,z),b)[2]},k);function
 W(c){var
 d=t(c,s,0);if(d){var
-a=t(c,aN,0);if(a)var
-b=kG(0,l,t(c,aQ,s9)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+a=t(c,aS,0);if(a)var
+b=jd(0,k,t(c,aV,oL)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-D(b){return e(function(b){return ap(a,b)},b)}var
-aR=C?C[1]:aw(A);function
-X(a){return a?ck(j,a[1]):a}function
+D(b){return e(function(b){return ai(a,b)},b)}var
+aW=C?C[1]:ao(z);function
+X(a){return a?bN(i,a[1]):a}function
 x(t,s,f,r,q){var
-u=bl([0,ao(s),0],j),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=dB(k[2]),n=cI(g,hf(f,d,fr(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(cg,fr(f,a[1],a[2],b))}}(d),o),h=hl(a,v,e(function(b){return br(b,f,dL(a))},d),p,n);if(h){var
+u=a0([0,ah(s),0],i),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
+j=b[1],k=j[1],d=c[1],m=cW(k[2]),n=b7(g,gf(f,d,eE(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(bJ,eE(f,a[1],a[2],b))}}(d),o),h=gl(a,v,e(function(b){return a5(b,f,c6(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return X(l)}}function
-Y(y,x,w){var
-z=bl([0,x,0],j),q=D(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fi(g),h],f];if(m){var
-o=$(d,g[1]);if(o)var
+_(y,x,w){var
+A=a0([0,x,0],i),q=D(y),c=w,f=A;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ev(g),h],f];if(m){var
+o=Y(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,cg(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dL(a),t],v=dL(a),b=hl(a,[0,ao(eo(kC(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,bJ(a[2]),b]},m),t=e(function(a){return z},h),u=[0,c6(a),t],v=c6(a),b=gl(a,[0,ah(dH(i$(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=hd(b[1]);if(i){var
-c=c[2],f=i[1];continue}var
-p=i}else
+j=gd(b[1]);if(j){var
+c=c[2],f=j[1];continue}var
+p=j}else
 var
 p=b;var
 r=p}else
 var
 r=[0,f];return X(r)}}var
-aS=e(a3,l),Z=n(function(a){return eh(a,k(u))},aS);if(Z){var
-r=e(a3,l);for(;;){if(r){var
-P=r[2],aM=r[1],Q=at(aK(function(b){return function(a){return v(b,a)}}(aM),P));if(Q){var
+aX=e(aK,k),$=n(function(a){return dA(a,j(u))},aX);if($){var
+r=e(aK,k);for(;;){if(r){var
+P=r[2],aR=r[1],Q=al(au(function(b){return function(a){return v(b,a)}}(aR),P));if(Q){var
 r=P;continue}var
-_=Q}else
+aa=Q}else
 var
-_=1;var
-E=_;break}}else
+aa=1;var
+E=aa;break}}else
 var
-E=Z;var
-ab=E?n(function(a){return v(k(a),j)},b):E;if(ab){var
-B=0;switch(i[0]){case
+E=$;var
+ac=E?n(function(a){return v(j(a),i)},b):E;if(ac){var
+B=0;switch(h[0]){case
 0:var
-F=i[1],N=0;if(typeof
-h!=="number")switch(h[0]){case
+G=h[1],N=0;if(typeof
+g!=="number")switch(g[0]){case
 0:var
-az=0;if(b){if(b[2])return 0;var
-aT=b[1],aU=h[2],aV=h[1],ac=dM(S,s);if(ac){var
-p=function(c,a){var
-b=G(F,a);return function(a){return x(aT,b,aV,aU,a)}},o=m;N=1;az=1}else
-var
-af=ac}else
-var
-af=b;if(!az)return af;break;case
-2:var
 aA=0;if(b){if(b[2])return 0;var
-aX=b[1],aZ=h[2],a1=h[1],ag=dM(S,s),aB=0;if(ag){if(C)return 0;var
-ai=ah(F[1],d),aj=ai?ah(F[2],d):ai;if(aj){var
-p=function(c,b,a){return x(aX,A,a1,aZ,e(s2,a))},o=m;N=1;aA=1;aB=1}else
+aY=b[1],aZ=g[2],a1=g[1],ad=c7(S,s);if(ad){var
+p=function(c,a){var
+b=F(G,a);return function(a){return x(aY,b,a1,aZ,a)}},o=m;N=1;aA=1}else
 var
-ak=aj}else
+ag=ad}else
 var
-ak=ag;if(!aB)var
-al=ak}else
-var
-al=b;if(!aA)return al;break}if(!N)return 0;break;case
-1:var
-aC=0,a2=i[1];if(typeof
-h==="number"&&!h){if(!b)return b;if(b[2])return 0;var
-a5=b[1],p=function(c,a){var
-b=L(a2,a);return function(a){return Y(a5,b,a)}},o=m;aC=1}if(!aC)return 0;break;case
+ag=b;if(!aA)return ag;break;case
 2:var
-aD=0,a6=i[1];if(typeof
-h==="number"||!(3===h[0]))aD=1;else{var
-aE=0;if(b){var
-z=b[2],aF=0;if(z){if(z[2])return 0;var
-am=h[1],a7=z[1],a8=b[1],a_=h[2],an=kI(a,am,h[3]),aq=kk(j,an);if(aq){var
+aB=0;if(b){if(b[2])return 0;var
+a3=b[1],a4=g[2],a6=g[1],aj=c7(S,s),aC=0;if(aj){if(C)return 0;var
+ak=ab(G[1],d),am=ak?ab(G[2],d):ak;if(am){var
+p=function(c,b,a){return x(a3,z,a6,a4,e(oE,a))},o=m;N=1;aB=1;aC=1}else
+var
+an=am}else
+var
+an=aj;if(!aC)var
+ap=an}else
+var
+ap=b;if(!aB)return ap;break}if(!N)return 0;break;case
+1:var
+aD=0,a7=h[1];if(typeof
+g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
+a8=b[1],p=function(c,a){var
+b=K(a7,a);return function(a){return _(a8,b,a)}},o=m;aD=1}if(!aD)return 0;break;case
+2:var
+aE=0,a9=h[1];if(typeof
+g==="number"||!(3===g[0]))aE=1;else{var
+aF=0;if(b){var
+A=b[2],aI=0;if(A){if(A[2])return 0;var
+aq=g[1],a_=A[1],a$=b[1],ba=g[2],ar=jf(a,aq,g[3]),as=iT(i,ar);if(as){var
 p=function(f,c,b){var
-d=a4(f,an),e=x(a8,G(d,c),am,a_,b);return e?Y(a7,L(w(a,a6,d),c),b):e},o=m;aE=1;aF=1}else
+d=aL(f,ar),e=x(a$,F(d,c),aq,ba,b);return e?_(a_,K(w(a,a9,d),c),b):e},o=m;aF=1;aI=1}else
 var
-ar=aq}else
+at=as}else
 var
-ar=z;if(!aF)var
-as=ar}else
+at=A;if(!aI)var
+av=at}else
 var
-as=b;if(!aE)return as}if(aD)return 0;break;case
+av=b;if(!aF)return av}if(aE)return 0;break;case
 3:var
-aG=0;if(typeof
-h==="number"&&!h){if(b)return 0;var
-I=i[1];B=1}else
-aG=1;if(aG)return 0;break;case
+aJ=0;if(typeof
+g==="number"&&!g){if(b)return 0;var
+I=h[1];B=1}else
+aJ=1;if(aJ)return 0;break;case
 4:var
-aH=0,ba=i[2];if(typeof
-h==="number"||!(0===h[0]))aH=1;else{if(!b)return b;if(b[2])return 0;var
-bb=b[1],bc=h[2],bd=h[1],be=function(c,a){var
-b=G(ba,a);return function(a){return x(bb,b,bd,bc,a)}},p=be,o=i[1]}if(aH)return 0;break;case
+aM=0,bc=h[2];if(typeof
+g==="number"||!(0===g[0]))aM=1;else{if(!b)return b;if(b[2])return 0;var
+bd=b[1],be=g[2],bg=g[1],bh=function(c,a){var
+b=F(bc,a);return function(a){return x(bd,b,bg,be,a)}},p=bh,o=h[1]}if(aM)return 0;break;case
 5:var
 O=0;if(typeof
-h==="number"&&!(3<=h))switch(h){case
+g==="number"&&!(3<=g))switch(g){case
 0:if(b)return 0;var
-I=i[1];B=1;break;case
+I=h[1];B=1;break;case
 2:if(b)return 0;var
-I=i[2];B=1;break;default:O=1}else
+I=h[2];B=1;break;default:O=1}else
 O=1;if(O)return 0;break;case
 7:var
-au=i[2],av=i[1],aI=0;if(typeof
-h==="number"||!(0===h[0]))aI=1;else{var
-aJ=0;if(b){if(b[2])return 0;var
-q=h[2],K=h[1],bf=b[1],ax=v(k(m),j);if(ax){var
+aw=h[2],ax=h[1],aN=0;if(typeof
+g==="number"||!(0===g[0]))aN=1;else{var
+aP=0;if(b){if(b[2])return 0;var
+q=g[2],M=g[1],bi=b[1],ay=v(j(m),i);if(ay){var
 p=function(b,y){var
-z=D(bf);return function(f){var
-i=v(k(f),j),l=i?v(k(q),j):i;if(l){var
-s=e(a3,f),t=et(K,eu(K,q,dL(a),s)),u=cI(fv(a,av,au,y,e(a3,f)),t),b=0,c=f,g=u,x=k(q);for(;;){if(c){var
-o=c[1][2],p=v(b,av),r=e(function(f,g){return function(d){var
-b=a0(a9(0,k(q)),q);return e(function(b){var
-c=kD(K,b[2],d[1]);if(g&&v(b[1],f))return L(c,cg(w(a,au,d[2])));return c},b)}}(b,p),o),n=a9(0,x),h=hl(a,z,e(function(c){return function(b){return v(b,c)?dL(a):A}}(b),n),r,g);if(h){var
+A=D(bi);return function(f){var
+k=v(j(f),i),l=k?v(j(q),i):k;if(l){var
+s=e(aK,f),t=dM(M,dN(M,q,c6(a),s)),u=b7(eI(a,ax,aw,y,e(aK,f)),t),b=0,c=f,g=u,x=j(q);for(;;){if(c){var
+o=c[1][2],p=v(b,ax),r=e(function(f,g){return function(d){var
+b=aH(aO(0,j(q)),q);return e(function(b){var
+c=ja(M,b[2],d[1]);if(g&&v(b[1],f))return K(c,bJ(w(a,aw,d[2])));return c},b)}}(b,p),o),n=aO(0,x),h=gl(a,A,e(function(c){return function(b){return v(b,c)?c6(a):z}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return ck(j,d[1]);var
+d=[0,g];if(d)return bN(i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},o=m;aJ=1}else
+m=l;return m}},o=m;aP=1}else
 var
-ay=ax}else
+az=ay}else
 var
-ay=b;if(!aJ)return ay}if(aI)return 0;break;default:return 0}if(B){var
+az=b;if(!aP)return az}if(aN)return 0;break;default:return 0}if(B){var
 J=W(I);if(!J)return J;var
-a$=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bR(function(b,a){return y(bP(d,aa(b[2][1])),a)},d,c);return M(d,aY(aY(a[1][2][1],e),b))},a)},ae=a$,ad=[0,[0,0,J[1]],0]}else{var
-H=kL(s,W,o);if(!H)return H;var
-ae=p,ad=H[1]}var
-aW=bD(j);return n(function(b){var
+bb=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=br(function(b,a){return y(bp(d,Z(b[2][1])),a)},d,c);return L(d,aG(aG(a[1][2][1],e),b))},a)},af=bb,ae=[0,[0,0,J[1]],0]}else{var
+H=ji(s,W,o);if(!H)return H;var
+af=p,ae=H[1]}var
+a2=bf(i);return n(function(b){var
 c=e(function(c){function
-f(a){return a4(b,a[1])}var
-h=0,j=aw(A);function
-d(h,f,b,c){if(b){var
-i=function(a){return a4(h,t(f,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,f],b[2],c),n=b[1];return g(e(function(b){var
+g(a){return aL(b,a[1])}var
+h=0,j=ao(z);function
+d(h,g,b,c){if(b){var
+i=function(a){return aL(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aL,c),k=f(c[2]);return[0,[0,e(f,c[1]),k],i]},ad);return Fu(ae,b,a4(b,aR),c)},aW)}return ab}function
-fB(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ae);return A5(af,b,aL(b,aW),c)},a2)}return ac}function
+eO(b,a){if(a){var
 c=a[2];if(b){var
-e=fB(b[1],c);return[0,a[1],e]}var
+e=eO(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-kN(m,l,q,S,p,j,_,z,b,R,Q){if(R){var
-r=kH(m,l,j,b),i=R,h=Q;for(;;){if(i){var
-K=i[1],a=K[2],w=K[1],L=i[2];if(typeof
+jk(m,k,q,S,p,i,$,z,b,R,Q){if(R){var
+r=je(m,k,i,b),h=R,g=Q;for(;;){if(h){var
+K=h[1],a=K[2],w=K[1],M=h[2];if(typeof
 a==="number"&&4===a){var
-v=f(z,b);if(v)var
-Z=v[1],V=bD(k(b)),x=n(function(b){return function(a){return $(a4(a,b)[2],d)}}(Z),V);else
+v=l(z,b);if(v)var
+_=v[1],W=bf(j(b)),x=n(function(b){return function(a){return Y(aL(a,b)[2],d)}}(_),W);else
 var
 x=v;if(x){var
-i=L,h=e(function(a){return 0},h);continue}return x}var
-N=t(w,h,0);if(N){var
-y=X(_,w);if(y){var
+h=M,g=e(function(a){return 0},g);continue}return x}var
+N=t(w,g,0);if(N){var
+y=V($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=f(z,b),T=0;if(s){var
-D=M(d,C);if(D){var
-W=a[1],c=kK(m,l,q,S,p,j,r,b,[0,kl(C,a[3],s[1])],o,W);T=1}else
+C=a[2],s=l(z,b),T=0;if(s){var
+D=L(d,C);if(D){var
+X=a[1],c=jh(m,k,q,S,p,i,r,b,[0,iU(C,a[3],s[1])],o,X);T=1}else
 var
 E=D}else
 var
 E=s;if(!T)var
 c=E;break;case
 10:var
-F=a[3],G=a[2],g=a[1],B=0;if(typeof
-g!=="number"&&5===g[0]){var
-H=g[2],u=f(z,b),U=0;if(u){var
-I=M(d,H);if(I){var
-Y=g[1],c=kM(m,l,q,p,j,r,b,[0,kl(H,g[3],u[1])],o,Y,G,F);B=1;U=1}else
+F=a[3],G=a[2],f=a[1],B=0;if(typeof
+f!=="number"&&5===f[0]){var
+H=f[2],u=l(z,b),U=0;if(u){var
+I=L(d,H);if(I){var
+Z=f[1],c=jj(m,k,q,p,i,r,b,[0,iU(H,f[3],u[1])],o,Z,G,F);B=1;U=1}else
 var
 J=I}else
 var
 J=u;if(!U){var
 c=J;B=1}}if(!B)var
-c=kM(m,l,q,p,j,r,b,0,o,g,G,F);break;default:A=1}if(A)var
-c=kK(m,l,q,S,p,j,r,b,0,o,a);if(c){var
-i=L,h=fB(w,h);continue}var
+c=jj(m,k,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
+c=jh(m,k,q,S,p,i,r,b,0,o,a);if(c){var
+h=M,g=eO(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
-P=N;return P}return[0,h]}}return[0,Q]}function
-fC(j,i,h,g,f,e,d,c,u,t,s){var
+P=N;return P}return[0,g]}}return[0,Q]}function
+eP(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kN(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(at,l[1]):l}var
-m=kN(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=es(a[2],b),q=fC(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jk(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(al,l[1]):l}var
+m=jk(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dL(a[2],b),q=eP(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-ho(a){return e(function(a){return 1},a)}function
-cm(a){switch(a[0]){case
+go(a){return e(function(a){return 1},a)}function
+bP(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,em(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dF(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,g6(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,f6(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,dA(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,cV(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(j0(a,[0,d,c]))return 0;var
-b=a[1],e=b$(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,aa(a[2]),aa(b)];return[0,dA(g,f)]};break;default:return 0}var
-g=cm(e);if(g){var
-h=cm(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ix(a,[0,d,c]))return 0;var
+b=a[1],e=bG(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Z(a[2]),Z(b)];return[0,cV(g,f)]};break;default:return 0}var
+g=bP(e);if(g){var
+h=bP(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-j(i,e,b){var
-f=cm(b);if(f){var
-g=f[1];return e?at(dz(g,[0,d,c])):dz([0,d,c],g)}var
-a=bb(i,b);if(a){var
-h=a[1];return e?$(d,h[1]):M(d,h[1])}return a}function
-kO(c,b){var
-a=bb(c,b),d=a?1:a;return d}function
-bn(c,a,b){var
-d=ci(a,b),e=d?kO(c,a):d;return e?e:j(c,0,[3,b,a])}function
-fD(a,d,b,c){function
+i(i,e,b){var
+f=bP(b);if(f){var
+g=f[1];return e?al(cU(g,[0,d,c])):cU([0,d,c],g)}var
+a=aS(i,b);if(a){var
+h=a[1];return e?Y(d,h[1]):L(d,h[1])}return a}function
+jl(c,b){var
+a=aS(c,b),d=a?1:a;return d}function
+a2(c,a,b){var
+d=bL(a,b),e=d?jl(c,a):d;return e?e:i(c,0,[3,b,a])}function
+eQ(a,d,b,c){function
 f(d,c){var
-f=a0(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(a$(a[2],b[2])){var
+f=aH(a[1],b[1]);return e(function(a){var
+b=o(c,a[2]);return C(o(d,a[1]),b)},f)}if(aQ(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-kP(a){var
-b=l(c);return[0,e(function(a){return l(d)},a),b]}function
-bo(a,i){var
+jm(a){var
+b=k(c);return[0,e(function(a){return k(d)},a),b]}function
+a3(a,i){var
 f=i[1];switch(f[0]){case
 1:var
-j=f[1];if(aK(function(a){return v(j,a)},a)){var
-t=l(c);return[0,e(function(a){var
-b=v(a,j)?c:d;return l(b)},a),t]}return kP(a);case
+j=f[1];if(au(function(a){return v(j,a)},a)){var
+t=k(c);return[0,e(function(a){var
+b=v(a,j)?c:d;return k(b)},a),t]}return jm(a);case
 3:var
-u=l(c),w=bo(a,f[2]),x=l(c);return fD(bo(a,f[1]),x,w,u);case
+u=k(c),w=a3(a,f[2]),x=k(c);return eQ(a3(a,f[1]),x,w,u);case
 4:var
-y=l(aa(c)),z=bo(a,f[2]),A=l(c);return fD(bo(a,f[1]),A,z,y);case
+y=k(Z(c)),z=a3(a,f[2]),A=k(c);return eQ(a3(a,f[1]),A,z,y);case
 5:var
-k=bo(a,f[1]),B=k[2];return[0,e(bS,k[1]),B];case
+l=a3(a,f[1]),B=l[2];return[0,e(bs,l[1]),B];case
 6:var
-m=f[2],p=f[1],C=bo(a,m);return fD(bo(a,p),m,C,p);case
+m=f[2],p=f[1],C=a3(a,m);return eQ(a3(a,p),m,C,p);case
 7:var
-q=f[2],D=bS(i),E=bo(a,q),F=l(c),g=fD(bo(a,f[1]),F,E,D),G=g[1];if(n(function(a){return ba(d,a)},G))return g;var
+q=f[2],D=bs(i),E=a3(a,q),F=k(c),g=eQ(a3(a,f[1]),F,E,D),G=g[1];if(n(function(a){return aR(d,a)},G))return g;var
 H=o(g[2],q);return[0,g[1],H];case
 8:var
-r=f[1],s=bo(a,r),I=s[2],J=s[1],K=o(l(b(2,c)),r);return[0,e(function(a){return o(K,a)},J),I];case
+r=f[1],s=a3(a,r),I=s[2],J=s[1],K=o(k(b(2,c)),r);return[0,e(function(a){return o(K,a)},J),I];case
 9:var
-h=bo(a,f[1]),L=h[1];if(n(function(a){return ba(d,a)},L)){var
-M=l(c);return[0,h[1],M]}var
-N=o(l(b(2,c)),i),O=o(h[2],N);return[0,h[1],O];default:return kP(a)}}function
-cn(n,r){var
+h=a3(a,f[1]),L=h[1];if(n(function(a){return aR(d,a)},L)){var
+M=k(c);return[0,h[1],M]}var
+N=o(k(b(2,c)),i),O=o(h[2],N);return[0,h[1],O];default:return jm(a)}}function
+bQ(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(M(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(M(j,c)){var
-k=ah(b,o),m=k?eq(b):k;if(m)var
-p=ah(n[2],d),g=p||ah(b,d);else
+i=f[2],b=f[1];if(L(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(L(j,c)){var
+l=ab(b,o),m=l?dJ(b):l;if(m)var
+p=ab(n[2],d),g=p||ab(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=ah(bO(j,bj(2))[2],d)?0:0}else
+a=ab(bo(j,aZ(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ah(bO(i,bj(2))[2],d)?0:0}else
+a=ab(bo(i,aZ(2))[2],d)?0:0}else
 var
-a=0;return a?l(a[1]):[0,[1,r]]}function
-cK(b,a){if(a)var
-d=cK([0,b],a[2]),c=[0,cn(a[1],b),d];else
+a=0;return a?k(a[1]):[0,[1,r]]}function
+b9(b,a){if(a)var
+d=b9([0,b],a[2]),c=[0,bQ(a[1],b),d];else
 var
 c=a;return c}function
-aU(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fE(b,d,a){switch(a[0]){case
+aC(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+eR(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(aU(c[3],b),f),i=g(aU(c[2],b),h);return g(aU(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aC(c[3],b),g),i=f(aC(c[2],b),h);return f(aC(c[1],d),i);case
 1:var
-e=a[3],j=e?aU(e[1],d):e,k=g(aU(a[2],b),j);return g(aU(a[1],b),k);default:return aU(a[1],d)}}function
-al(b,a){var
-c=l(d),e=t(Q(ta,a),b,c),f=l(d),g=t(Q(tb,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-kQ(b,a){return aC(s,aC(F,cJ,a),b)}function
-fF(c,b,a){if(a){var
-e=a[2],f=fF(c,ek(b),e),h=a[1];return g(fE(c,dx(d,b),h),f)}return a}function
-hp(f,e,c,i){if(c){var
-b=c[1],v=Q(i,k(fE(f,dx(d,e),b))),w=c[2],x=hp(f,ek(e),w,v),a=cK(i,fE(f,dx(d,e),b));switch(b[0]){case
+e=a[3],j=e?aC(e[1],d):e,k=f(aC(a[2],b),j);return f(aC(a[1],b),k);default:return aC(a[1],d)}}function
+af(b,a){var
+c=k(d),e=t(P(oO,a),b,c),f=k(d),g=t(P(oP,a),b,f);return[0,t(a,b,k(d)),g,e]}function
+jn(b,a){return aq(s,aq(C,b8,a),b)}function
+eS(c,b,a){if(a){var
+e=a[2],g=eS(c,dD(b),e),h=a[1];return f(eR(c,cS(d,b),h),g)}return a}function
+gp(f,e,c,i){if(c){var
+b=c[1],v=P(i,j(eR(f,cS(d,e),b))),w=c[2],x=gp(f,dD(e),w,v),a=b9(i,eR(f,cS(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(tc,a,l(d)),o=aC(F,cJ,al(a,td)),p=c8(al(a,0)),q=al(a,te),g=ko(kQ(al(a,tf),q),p,o,n,m);break;case
+m=b[1][5],n=t(oQ,a,k(d)),o=aq(C,b8,af(a,oR)),p=cs(af(a,0)),q=af(a,oS),g=iX(jn(af(a,oT),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,c8(al(a,tg))]:h,s=aC(F,cJ,al(a,th)),u=al(a,ti),g=kp(kQ(al(a,0),u),s,r);break;default:var
-g=kq(cJ,c8(al(a,0)))}var
-j=[0,g,x]}else
+h=b[3],r=h?[0,cs(af(a,oU))]:h,s=aq(C,b8,af(a,oV)),u=af(a,oW),g=iY(jn(af(a,0),u),s,r);break;default:var
+g=iZ(b8,cs(af(a,0)))}var
+l=[0,g,x]}else
 var
-j=c;return j}function
-bE(b,a){if(typeof
+l=c;return l}function
+bg(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -3308,7 +2166,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=fp(a[2]),l=[2,[2,fp(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=eC(a[2]),l=[2,[2,eC(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -3323,91 +2181,91 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-ev(b,a){var
+dO(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fG(b,a){if(0===a[0]){var
-e=[0,d,c],i=g(ev(b,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],b],[0,[0,[0,f,f],b],0]],i)}var
-j=ev(b,a[3]);return g(ev(b,a[2]),j)}function
-dN(b,a){if(typeof
+eT(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(dO(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=dO(b,a[3]);return f(dO(b,a[2]),j)}function
+c8(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fG(b,a[2]);return g(fG(b,a[1]),e);case
+e=eT(b,a[2]);return f(eT(b,a[1]),e);case
 11:var
-f=ev(b,a[3]);return g(ev(b,a[2]),f);case
+g=dO(b,a[3]);return f(dO(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-kR(c,b,a){var
-d=k(dN(c,b)),e=Q(a[2],d);return[0,[0,a[1]],e]}function
-kS(k,a,g){switch(g[0]){case
+jo(c,b,a){var
+d=j(c8(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+jp(l,a,g){switch(g[0]){case
 0:var
-e=X(k,g[1]);if(e){var
+e=V(l,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 m=f[1],h=function(c){var
-d=al(a,tj);return aC(F,aC(s,m,cj(c,b[1])),d)},n=dJ(b),o=h(ai(t(tk,a,l(d)),n)),p=dJ(b),q=ai(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
+d=af(a,oX);return aq(C,aq(s,m,bM(c,b[1])),d)},n=c4(b),o=h(ac(t(oY,a,k(d)),n)),p=c4(b),q=ac(t(0,a,k(d)),p),i=[0,[0,h(s(k(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=al(a,tl);return[0,[0,al(a,0),r]];default:var
-u=aC(F,cJ,al(a,tm));return[0,[0,aC(F,cJ,al(a,0)),u]]}}function
-kT(f,e,j,d,c){var
-k=fG(e,c),h=cK(j,g(fG(e,d),k)),a=kS(f,el(tn,h),d);if(a)var
-b=kS(f,g5(to,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=af(a,oZ);return[0,[0,af(a,0),r]];default:var
+u=aq(C,b8,af(a,o0));return[0,[0,aq(C,b8,af(a,0)),u]]}}function
+jq(g,e,j,d,c){var
+k=eT(e,c),h=b9(j,f(eT(e,d),k)),a=jp(g,dE(o1,h),d);if(a)var
+b=jp(g,f5(o2,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-c9(d,c,b,a){var
+ct(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bV(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
-kU(a){if(a){var
+bv(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+jr(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kU(a[2]);if(d)var
-g=d[1],h=ag(c,c),e=[0,[0,[0,c6(c),h],g]];else
+c=b[1],d=jr(a[2]);if(d)var
+g=d[1],h=$(c,c),e=[0,[0,[0,cq(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tq}function
-fH(b,d,c,a){if(typeof
+f=b;return f}return o4}function
+eU(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=cn(bE(d,a),f);return[0,e(function(a){var
-b=o(a[2],g);return[0,c6(a[1]),b]},b)];case
-9:return kU(b)}return 0}function
-fI(e,k,j,a){var
-V=j[1],b=cn(bE(k,a),V),y=0;if(typeof
+f=c[1],g=bQ(bg(d,a),f);return[0,e(function(a){var
+b=o(a[2],g);return[0,cq(a[1]),b]},b)];case
+9:return jr(b)}return 0}function
+eV(e,l,j,a){var
+W=j[1],b=bQ(bg(l,a),W),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
-W=function(a){return[0,s(a[4],b),0]},g=W,f=a[1];break;case
+X=function(a){return[0,s(a[4],b),0]},g=X,f=a[1];break;case
 3:var
 Y=function(a){return[0,s(b,a[4]),0]},g=Y,f=a[1];break;case
 4:var
 Z=function(c){var
-a=c[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=c[2];return[0,s(s(s(o(J(b),g),f),e),d),0]},g=Z,f=a[1];break;case
+a=c[1],d=I(a[3]),e=I(a[2]),f=I(a[1]),g=c[2];return[0,s(s(s(o(I(b),g),f),e),d),0]},g=Z,f=a[1];break;case
 6:var
 _=function(c){var
 a=c[5];if(a)var
-e=J(a[1]),f=o(J(b),e),d=[0,s(c[2],f),0];else
+e=I(a[1]),f=o(I(b),e),d=[0,s(c[2],f),0];else
 var
 d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-A=n[1],B=m[1],C=e[1],q=C[5];if(q){var
-r=B[5];if(r){var
+A=n[1],D=m[1],E=e[1],q=E[5];if(q){var
+r=D[5];if(r){var
 u=A[5];if(u)var
-h=A[1],i=B[1],v=C[1],Q=c9(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=c9(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=c9(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=u[1],aa=r[1],D=o(o(o(b,q[1]),aa),$),ab=[0,bS(F(z,D)),0],G=[0,s(z,D),ab];else
+h=A[1],i=D[1],v=E[1],Q=ct(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=ct(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=ct(i[2],i[3],h[2],h[3]),z=C(s(o(v[1],U),T),R),aa=u[1],ab=r[1],F=o(o(o(b,q[1]),ab),aa),ad=[0,bs(C(z,F)),0],G=[0,s(z,F),ad];else
 var
 G=u;var
 H=G}else
 var
 H=r;var
-I=H}else
+J=H}else
 var
-I=q;var
-K=I}else
+J=q;var
+K=J}else
 var
 K=n;var
 L=K}else
@@ -3417,128 +2275,128 @@ M=L}else
 var
 M=e;return M;case
 10:var
-x=kT(e,k,j[2],a[1],a[2]);if(x){var
-N=x[1],O=N[2],P=N[1];return E(c6,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
+x=jq(e,l,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return B(cq,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
-ac=function(d){var
+ae=function(d){var
 e=d[7];if(e)var
-n=dN(k,a),f=cK(j[2],n),h=al(f,tp),c=aC(s,al(f,0),h),i=J(b),l=J(dJ(d)),m=ai(J(ag(c,d[1])),l),g=[0,s(s(ag(c,c),m),i),0];else
+n=c8(l,a),f=b9(j[2],n),h=af(f,o3),c=aq(s,af(f,0),h),i=I(b),k=I(c4(d)),m=ac(I($(c,d[1])),k),g=[0,s(s($(c,c),m),i),0];else
 var
-g=e;return g},g=ac,f=a[1];break;case
+g=e;return g},g=ae,f=a[1];break;case
 12:var
-ad=function(e){var
-q=l(d),r=dN(k,a),u=t(0,cK(j[2],r),q),f=ai(u,dJ(e)),g=e[5];if(g){var
-m=aT(e[2]),h=ai(g[1],m),n=o(h,F(b,o(f,J(h))));return[0,s(l(c),n),0]}var
-i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=ad,f=a[1];break;case
+ag=function(e){var
+q=k(d),r=c8(l,a),u=t(0,b9(j[2],r),q),f=ac(u,c4(e)),g=e[5];if(g){var
+m=aB(e[2]),h=ac(g[1],m),n=o(h,C(b,o(f,I(h))));return[0,s(k(c),n),0]}var
+i=e[7],p=i?[0,s(s(k(c),b),f),0]:i;return p},g=ag,f=a[1];break;case
 8:case
 9:var
-w=fH(e,k,j,a);return w?bV(w[1]):w;default:y=1}if(y)return 0;var
-p=X(e,f);return p?g(p[1]):p}function
-hq(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=hq(d,b,kR(b,e,c),f);return g(fI(d,b,c,e),h)}return a}var
-kV=[0,d,c],kW=[0,[0,kV,kV],d];function
-hr(a){return at(ci(a[1][1],a[1][2]))}function
-kX(a){var
-b=a9(0,k(a));return c1(function(b){return hr(t(b,a,kW))},b)}function
-kY(a,g){var
-h=g[4],b=bo(kX(a),h),c=b[1],f=e(function(a){return ba(d,a)?a:ai(a,b[2])},c),i=a0(kX(a),f);return c1(function(a){return at(ba(d,a[2]))},i)}function
-kZ(g,H,l,G,m,h,n,r){if(r){var
-a=r[1],aA=r[2],aB=kZ(g,H,l,G,m,h,kR(h,a,n),aA);if(typeof
+w=eU(e,l,j,a);return w?bv(w[1]):w;default:y=1}if(y)return 0;var
+p=V(e,f);return p?g(p[1]):p}function
+gq(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gq(d,b,jo(b,e,c),g);return f(eV(d,b,c,e),h)}return a}var
+js=[0,d,c],jt=[0,[0,js,js],d];function
+gr(a){return al(bL(a[1][1],a[1][2]))}function
+ju(a){var
+b=aO(0,j(a));return cl(function(b){return gr(t(b,a,jt))},b)}function
+jv(a,g){var
+h=g[4],b=a3(ju(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ac(a,b[2])},c),i=aH(ju(a),f);return cl(function(a){return al(aR(d,a[2]))},i)}function
+jw(f,H,k,G,m,g,n,r){if(r){var
+a=r[1],aB=r[2],aC=jw(f,H,k,G,m,g,jo(g,a,n),aB);if(typeof
 a==="number")var
-i=0===a?[0,[0,A]]:[0,[8,H[1],H[2]]];else
+h=0===a?[0,[0,z]]:[0,[8,H[1],H[2]]];else
 switch(a[0]){case
 0:var
-an=aj(g,bE(h,a)),i=D(function(a){return[0,V(g,a)]},an);break;case
+ao=ad(f,bg(g,a)),h=A(function(a){return[0,T(f,a)]},ao);break;case
 1:var
-ao=aj(g,bE(h,a)),i=D(function(a){return[1,V(g,a)]},ao);break;case
+ap=ad(f,bg(g,a)),h=A(function(a){return[1,T(f,a)]},ap);break;case
 5:var
-ar=aj(g,bE(h,a)),i=D(function(a){return[2,V(g,a)]},ar);break;case
+ar=ad(f,bg(g,a)),h=A(function(a){return[2,T(f,a)]},ar);break;case
 8:var
-as=fH(m,h,n,a),i=D(function(a){var
-b=ap(g,c);return[4,f(aR(l),a),b]},as);break;case
+as=eU(m,g,n,a),h=A(function(a){var
+b=ai(f,c);return[4,l(az(k),a),b]},as);break;case
 9:var
-w=fH(m,h,n,a);if(w){var
-x=aj(g,bE(h,a));if(x)var
-at=V(g,x[1]),au=w[1],N=[0,[4,f(aR(l),au),at]];else
+w=eU(m,g,n,a);if(w){var
+x=ad(f,bg(g,a));if(x)var
+at=T(f,x[1]),au=w[1],N=[0,[4,l(az(k),au),at]];else
 var
 N=x;var
 O=N}else
 var
 O=w;var
-i=O;break;case
+h=O;break;case
 10:var
-y=kT(m,h,n[2],a[1],a[2]);if(y){var
-P=y[1],Q=P[2],R=P[1],z=aj(g,bE(h,a));if(z){var
-S=z[1],T=M(d,S[1]);if(T)var
+y=jq(m,g,n[2],a[1],a[2]);if(y){var
+P=y[1],Q=P[2],R=P[1],B=ad(f,bg(g,a));if(B){var
+S=B[1],U=L(d,S[1]);if(U)var
 p=function(a){var
-b=f(l,a[3]),c=f(l,a[2]);return[0,f(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),U=[0,[6,p(R[1]),ax,aw,av,S]];else
+b=l(k,a[3]),c=l(k,a[2]);return[0,l(k,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),W=[0,[6,p(R[1]),ax,aw,av,S]];else
 var
-U=T;var
-W=U}else
+W=U;var
+X=W}else
 var
-W=z;var
-Y=W}else
+X=B;var
+Y=X}else
 var
 Y=y;var
-i=Y;break;case
+h=Y;break;case
 12:var
-q=fI(m,h,n,a),s=0;if(q)if(q[2])var
-i=0;else{var
-Z=j(g,0,a[2]),_=Z?j(g,1,a[4]):Z;if(_){var
-B=[0,[3,f(l,q[1])]];s=1}else{var
-B=_;s=1}}else{var
-B=q;s=1}if(s)var
-i=B;break;case
+q=eV(m,g,n,a),s=0;if(q)if(q[2])var
+h=0;else{var
+Z=i(f,0,a[2]),_=Z?i(f,1,a[4]):Z;if(_){var
+C=[0,[3,l(k,q[1])]];s=1}else{var
+C=_;s=1}}else{var
+C=q;s=1}if(s)var
+h=C;break;case
 13:var
-$=a[1],aa=X(m,$),I=0;if(aa){var
-ab=j(g,1,a[2]),ac=ab?j(g,1,a[3]):ab;if(ac)var
-ay=aj(g,bE(h,a)),i=D(function(a){return[7,$,V(g,a)]},ay);else{var
-ad=ac;I=1}}else{var
-ad=aa;I=1}if(I)var
-i=ad;break;case
+$=a[1],aa=V(m,$),I=0;if(aa){var
+ab=i(f,1,a[2]),ac=ab?i(f,1,a[3]):ab;if(ac)var
+ay=ad(f,bg(g,a)),h=A(function(a){return[7,$,T(f,a)]},ay);else{var
+af=ac;I=1}}else{var
+af=aa;I=1}if(I)var
+h=af;break;case
 14:var
-C=a[2],ae=a[1],af=v(k(m),tr),ag=af?j(g,0,ae):af,ah=ag?j(g,1,C):ag;if(ah){var
-E=aj(g,bE(h,a));if(E)var
-F=ak(e(function(n){var
-j=[5,ae,C],a=aj(g,[0,[0,j,j],d]);if(a){var
-o=kY(G,n),i=ak(e(function(e){var
-a=t(e[1],G,kW),i=aY(a[2],h),j=[4,[0,b(2,c),c],C],d=[5,[3,a[1][2],a[1][1]],j],k=aj(g,[0,[0,d,d],i]);return D(function(a){return[0,a,f(l,e[2])]},k)},o));if(i)var
-p=[0,a[1],i[1]],k=[0,[0,f(l,n[4]),p]];else
+D=a[2],ag=a[1],ah=v(j(m),o5),aj=ah?i(f,0,ag):ah,ak=aj?i(f,1,D):aj;if(ak){var
+E=ad(f,bg(g,a));if(E)var
+F=ae(e(function(n){var
+i=[5,ag,D],a=ad(f,[0,[0,i,i],d]);if(a){var
+o=jv(G,n),h=ae(e(function(e){var
+a=t(e[1],G,jt),h=aG(a[2],g),i=[4,[0,b(2,c),c],D],d=[5,[3,a[1][2],a[1][1]],i],j=ad(f,[0,[0,d,d],h]);return A(function(a){return[0,a,l(k,e[2])]},j)},o));if(h)var
+p=[0,a[1],h[1]],j=[0,[0,l(k,n[4]),p]];else
 var
-k=i;var
-m=k}else
+j=h;var
+m=j}else
 var
-m=a;return m},m)),az=F?[0,[9,E[1],F[1]]]:F,ai=az;else
+m=a;return m},m)),aA=F?[0,[9,E[1],F[1]]]:F,al=aA;else
 var
-ai=E;var
-al=ai}else
+al=E;var
+am=al}else
 var
-al=ah;var
-i=al;break;default:var
-o=fI(m,h,n,a),J=0;if(o){var
+am=ak;var
+h=am;break;default:var
+o=eV(m,g,n,a),J=0;if(o){var
 u=o[2],K=o[1];if(u)if(u[2])var
-i=0;else
+h=0;else
 var
-aq=f(l,u[1]),i=[0,[5,f(l,K),aq]];else{var
-L=[0,[3,f(l,K)]];J=1}}else{var
-L=o;J=1}if(J)var
-i=L}var
-am=[0,i,aB]}else
+aq=l(k,u[1]),h=[0,[5,l(k,K),aq]];else{var
+M=[0,[3,l(k,K)]];J=1}}else{var
+M=o;J=1}if(J)var
+h=M}var
+an=[0,h,aC]}else
 var
-am=r;return am}function
-ts(a){var
+an=r;return an}function
+o6(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-fJ(a){if(0===a[0])return a[1];var
+eW(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-k0(a,c,g,b){if(0===c[0])return 0;if(b){var
+jx(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cH(a,g,c[1]);if(i){var
-j=cH(a,g,c[2]);if(j){var
-k=cH(a,g,c[3]);if(k)var
-t=i[1],u=bU(f),l=L([0,bU(f),u],t),v=j[1],x=bU(e),m=L([0,bU(e),x],v),y=dK(e),z=[0,dK(e),y],B=[0,w(a,ao(G(m,m)),z),0],C=dK(f),D=[0,dK(f),C],E=[0,w(a,ao(G(l,l)),D),B],F=V(a,m),H=V(a,l),n=[0,[0,L(L(V(a,k[1]),H),F),A,E]];else
+e=d[1],f=b[1],i=b6(a,g,c[1]);if(i){var
+j=b6(a,g,c[2]);if(j){var
+k=b6(a,g,c[3]);if(k)var
+t=i[1],u=bu(f),l=K([0,bu(f),u],t),v=j[1],x=bu(e),m=K([0,bu(e),x],v),y=c5(e),A=[0,c5(e),y],B=[0,w(a,ah(F(m,m)),A),0],C=c5(f),D=[0,c5(f),C],E=[0,w(a,ah(F(l,l)),D),B],G=T(a,m),H=T(a,l),n=[0,[0,K(K(T(a,k[1]),H),G),z,E]];else
 var
 n=k;var
 o=n}else
@@ -3556,14 +2414,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-hs(a,p,o){var
-q=aU(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
+gs(a,p,o){var
+q=aC(p,o),b=e(function(b){return ad(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=V(a,i[1]),s=V(a,h[1]);return $(d,G(G(V(a,g[1]),s),r)[1])}var
+r=T(a,i[1]),s=T(a,h[1]);return Y(d,F(F(T(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3579,163 +2437,163 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ac(c,b,a){var
-d=_(c,b[3],a[3]),e=_(c,b[2],a[2]);return[0,_(c,b[1],a[1]),e,d]}function
-az(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-N(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aL(a){return az([5,[0,c,c],[6,N(a,a)]],a)}function
-c_(c,b,a){var
-d=bn(c,b[1],a);return d?bn(c,a,b[2]):d}function
-a5(c,b,a){var
-d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
-k1(b,c,a){switch(c[0]){case
+_(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+M(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+av(a){return ap([5,[0,c,c],[6,M(a,a)]],a)}function
+cu(c,b,a){var
+d=a2(c,b[1],a);return d?a2(c,a,b[2]):d}function
+aM(c,b,a){var
+d=cu(c,b[1],a[1]),e=d?cu(c,b[2],a[2]):d;return e?cu(c,b[3],a[3]):e}function
+jy(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-i=a[4],f=a[1],k=a5(b,d[1],f),l=k?j(b,1,N(f,f)):k,m=l?a5(b,d[2],a[2]):l,n=m?a5(b,d[3],a[3]):m,o=n?c_(b,d[4],i):n,p=o?j(b,1,i):o;return p?cZ(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aM(b,d[1],f),l=k?i(b,1,M(f,f)):k,m=l?aM(b,d[2],a[2]):l,n=m?aM(b,d[3],a[3]):m,o=n?cu(b,d[4],j):n,p=o?i(b,1,j):o;return p?cj(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a5(b,c[1],a[1]),s=r?a5(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=a5(b,q[1],g);if(t)return j(b,1,N(g,g));var
+e=a[3],r=aM(b,c[1],a[1]),s=r?aM(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=aM(b,q[1],g);if(t)return i(b,1,M(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=a5(b,c[1],h);return w?j(b,1,N(h,h)):w}return 0}}function
-ht(c,a,b){if(0===a[0])return a5(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?c_(c,a[4],b[3]):h}function
-k2(g,f,i,h){var
+h=a[1],w=aM(b,c[1],h);return w?i(b,1,M(h,h)):w}return 0}}function
+gt(c,a,b){if(0===a[0])return aM(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cu(c,a[4],b[3]):h}function
+jz(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=k1(g,b[1],a[1]);if(d){var
+d=jy(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?ht(g,f[2],h):c}}function
-bW(c,b,a){var
-d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
-ew(a,e,d,c){var
-b=bW(e,d,c),f=aL(a),g=az(N(aL(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
-c$(f,e,d,a,c){var
-b=ew(f,e,d,c);return[3,[4,a,a],N(b,b)]}function
-da(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-db(a,b){switch(a[0]){case
+c=a?0:1;return c?gt(g,f[2],h):c}}function
+bw(c,b,a){var
+d=_(function(b,a){return[2,b,a]},a,b);return _(function(b,a){return[3,b,a]},d,c)}function
+dP(a,e,d,c){var
+b=bw(e,d,c),f=av(a),g=ap(M(av(a),b),f);return _(function(b,a){return[3,b,a]},b,g)}function
+cv(f,e,d,a,c){var
+b=dP(f,e,d,c);return[3,[4,a,a],M(b,b)]}function
+cw(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cx(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ew(d,f,e,b),h=c$(d,f,e,a[4],b),i=az([5,[0,c,c],da(a[5],h)],g),j=aL(d);return ac(function(b,a){return[2,b,a]},j,i);case
-1:return aL(bW(a[1],a[2],b));default:return aL(a[1])}}function
-hu(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=dP(d,f,e,b),h=cv(d,f,e,a[4],b),i=ap([5,[0,c,c],cw(a[5],h)],g),j=av(d);return _(function(b,a){return[2,b,a]},j,i);case
+1:return av(bw(a[1],a[2],b));default:return av(a[1])}}function
+gu(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c$(e,d,c,a[4],b),i=da(a[5],h),j=bW(d,c,b);return[3,N(aL(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cv(e,d,c,a[4],b),i=cw(a[5],h),j=bw(d,c,b);return[3,M(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bW(g,f,b);return[6,N(bW(g,f,b),k)];default:return N(aL(a[1]),b)}}function
-k3(a,b){switch(a[0]){case
-0:return[0,c$(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=bw(g,f,b);return[6,M(bw(g,f,b),k)];default:return M(av(a[1]),b)}}function
+jA(a,b){switch(a[0]){case
+0:return[0,cv(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bW(d,c,b);return[0,N(bW(d,c,b),e)];default:return 0}}function
-ex(e,b,a){var
-f=[0,d,c];return bR(function(c,d){var
-e=N(db(c,b),a);return[2,[4,N(db(c,b),a),e],d]},f,e)}function
-k4(a){var
+c=a[2],d=a[1],e=bw(d,c,b);return[0,M(bw(d,c,b),e)];default:return 0}}function
+dQ(e,b,a){var
+f=[0,d,c];return br(function(c,d){var
+e=M(cx(c,b),a);return[2,[4,M(cx(c,b),a),e],d]},f,e)}function
+jB(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hv(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aL(b),h=c$(b,f,e,d,c),i=az(da(a[5],h),g),j=ew(b,f,e,c);return[0,[0,ac(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-k5(d,i){if(d){var
+gv(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=av(b),h=cv(b,f,e,d,c),i=ap(cw(a[5],h),g),j=dP(b,f,e,c);return[0,[0,_(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+jC(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bW(a[1],a[2],i),k=aL(f),l=az(N(aL(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bw(a[1],a[2],i),k=av(f),l=ap(M(av(f),g),k),h=[0,_(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=k5(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tt}function
-dc(a){return[0,a[1],a[2],a[3]]}function
-k6(a,b){switch(a[0]){case
+j=b;return j}return o7}function
+cy(a){return[0,a[1],a[2],a[3]]}function
+jD(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aL(d),j=c$(d,g,c,f,b),k=az(da(a[5],j),i),l=ew(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cv(d,g,c,f,b),k=ap(cw(a[5],j),i),l=dP(d,g,c,b),m=_(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,_(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bW(a[1],h,b),n=[6,N(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-k7(l,b,a){switch(a[0]){case
+h=a[2],e=bw(a[1],h,b),n=[6,M(e,e)];return[0,[0,[0,_(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+jE(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=X(l,a[1]);if(d){var
-e=k6(d[1],b);if(e)var
+m=a[5],d=V(l,a[1]);if(d){var
+e=jD(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=dc(m),c=az(a,n),d=ac(function(b,a){return[3,b,a]},o,c);return ac(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cy(m),c=ap(a,n),d=_(function(b,a){return[3,b,a]},o,c);return _(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=dc(a[3]);return[0,[0,dc(a[2]),q]];default:var
-r=dc(a[3]),s=ac(function(b,a){return[2,b,a]},b,r),t=dc(a[2]);return[0,[0,ac(function(b,a){return[2,b,a]},b,t),s]]}}function
-k8(d,a,c,b){var
-e=az(a,b),f=az([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
-k9(f,g,e,b,q,a){function
-I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],N(b,b)]}var
+q=cy(a[3]);return[0,[0,cy(a[2]),q]];default:var
+r=cy(a[3]),s=_(function(b,a){return[2,b,a]},b,r),t=cy(a[2]);return[0,[0,_(function(b,a){return[2,b,a]},b,t),s]]}}function
+jF(d,a,c,b){var
+e=ap(a,b),f=ap([3,d,a],c);return _(function(b,a){return[2,b,a]},f,e)}function
+jG(f,g,e,b,q,a){function
+I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],M(b,b)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-av=ex(g,e,b);return j(f,1,[3,I(a[1]),av]);case
+aw=dQ(g,e,b);return i(f,1,[3,I(a[1]),aw]);case
 1:var
-aw=I(a[1]);return j(f,1,[3,ex(g,e,b),aw]);case
+ax=I(a[1]);return i(f,1,[3,dQ(g,e,b),ax]);case
 2:var
-ax=a[2],ay=function(a){return[3,ax,hu(a,e)]},s=ay,r=a[1];break;case
+ay=a[2],az=function(a){return[3,ay,gu(a,e)]},s=az,r=a[1];break;case
 3:var
-az=a[2],aA=function(a){return[3,hu(a,e),az]},s=aA,r=a[1];break;case
+aA=a[2],aB=function(a){return[3,gu(a,e),aA]},s=aB,r=a[1];break;case
 4:var
-J=a[3],K=a[2],aB=function(a){var
-b=db(a,e);return[3,[4,[4,K,K],N(db(a,e),b)],[4,J,J]]},s=aB,r=a[1];break;case
+J=a[3],K=a[2],aC=function(a){var
+b=cx(a,e);return[3,[4,[4,K,K],M(cx(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aC=N(b,b),aD=[4,[4,L,L],[4,ex(g,e,q),aC]],aE=N(q,q);return j(f,1,[3,[4,ex(g,e,b),aE],aD]);case
+L=a[1],aD=M(b,b),aE=[4,[4,L,L],[4,dQ(g,e,q),aD]],aF=M(q,q);return i(f,1,[3,[4,dQ(g,e,b),aF],aE]);case
 6:var
-M=a[2],u=X(g,a[1]);if(u){var
+N=a[2],u=V(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aF=c$(h[1],h[2],h[3],v,e),O=da(h[5],aF);return j(f,1,[3,[4,[4,M,v],[4,M,v]],[4,O,O]])}var
+v=h[4],aG=cv(h[1],h[2],h[3],v,e),O=cw(h[5],aG);return i(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=hv(g[1],e);if(w){var
-Q=w[1],x=hv(n[1],e);if(x){var
-R=x[1],y=hv(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],H=N(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,H]);if(U)return j(f,1,[2,T,H]);var
-V=U}else
+w=gv(g[1],e);if(w){var
+Q=w[1],x=gv(n[1],e);if(x){var
+R=x[1],y=gv(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=M(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=i(f,1,[3,T,H]);if(U)return i(f,1,[2,T,H]);var
+W=U}else
 var
-V=y;var
-W=V}else
+W=y;var
+X=W}else
 var
-W=x;var
-Y=W}else
+X=x;var
+Y=X}else
 var
 Y=w;var
 Z=Y}else
 var
 Z=o;var
-_=Z}else
+$=Z}else
 var
-_=n;var
-$=_}else
+$=n;var
+aa=$}else
 var
-$=g;return $;case
+aa=g;return aa;case
 8:var
-aG=ex(g,e,b),aH=N(b,b);return j(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aH=dQ(g,e,b),aI=M(b,b);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-aa=a[1],z=k5(g,e);if(z){var
-aI=z[1],at=[0,d,c],au=bR(function(a,c){var
-d=N(aL(a),b);return[2,[4,N(aL(a),b),d],c]},at,aI);return j(f,1,[3,[4,[4,aa,aa],N(b,b)],au])}return z;case
+ab=a[1],z=jC(g,e);if(z){var
+aJ=z[1],at=[0,d,c],au=br(function(a,c){var
+d=M(av(a),b);return[2,[4,M(av(a),b),d],c]},at,aJ);return i(f,1,[3,[4,[4,ab,ab],M(b,b)],au])}return z;case
 10:var
-ab=a[2],ad=a[1],A=k7(g,e,ad);if(A){var
-ae=A[1],B=k7(g,e,ab);if(B){var
-af=B[1],C=b[1],D=b[2],l=b[3],aJ=k8(l,D,af[1],af[2]),aK=k8(l,C,ae[1],ae[2]),ag=ac(function(b,a){return[3,b,a]},aK,aJ),aM=a[3],aN=fp(ab),ah=[4,l,[2,[2,fp(ad),aN],aM]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],N(ag,ag)]);var
+ac=a[2],ad=a[1],A=jE(g,e,ad);if(A){var
+ae=A[1],B=jE(g,e,ac);if(B){var
+af=B[1],C=b[1],D=b[2],l=b[3],aK=jF(l,D,af[1],af[2]),aL=jF(l,C,ae[1],ae[2]),ag=_(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eC(ac),ah=[4,l,[2,[2,eC(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],M(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -3743,37 +2601,37 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=X(g,a[1]);if(E){var
-F=k6(E[1],e);if(F){var
-m=F[1][1][2],aO=dc(a[3]),aP=dc(a[2]),p=ac(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,N(m,m));if(aq){var
-aQ=N(m,m),aR=N(p,m),aS=[5,[4,N(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,N(p,p),aS]])}var
+ap=a[4],E=V(g,a[1]);if(E){var
+F=jD(E[1],e);if(F){var
+m=F[1][1][2],aO=cy(a[3]),aP=cy(a[2]),p=_(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,M(m,m));if(aq){var
+aQ=M(m,m),aR=M(p,m),aS=[5,[4,M(p,m),aR],aQ];return i(f,1,[3,[4,ap,ap],[3,M(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=X(g,r);return t?j(f,1,s(t[1])):t}function
-bs(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-k_(a){switch(a[0]){case
+t=V(g,r);return t?i(f,1,s(t[1])):t}function
+a6(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+jH(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bs(b[3]),f=bs(b[2]);return[0,bs(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=a6(b[3]),f=a6(b[2]);return[0,a6(b[1]),f,e,d,c];case
 1:var
-g=D(bs,a[3]),h=bs(a[2]);return[1,bs(a[1]),h,g];default:return[2,bs(a[1])]}}function
-k$(a){return 0===a[0]?bs(a[1]):[0,a[1],a[2],a[4][1]]}function
-la(b,a){var
-c=k$(a[2]);return k2(b,a,e(k_,a[1]),c)}function
-co(b,a){if(b){if(a){var
-e=co(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-lb(a){if(a){var
+g=A(a6,a[3]),h=a6(a[2]);return[1,a6(a[1]),h,g];default:return[2,a6(a[1])]}}function
+jI(a){return 0===a[0]?a6(a[1]):[0,a[1],a[2],a[4][1]]}function
+jJ(b,a){var
+c=jI(a[2]);return jz(b,a,e(jH,a[1]),c)}function
+bR(b,a){if(b){if(a){var
+e=bR(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jK(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=lb(a[2]);return D(function(a){return[0,c,a]},d)}return b}return tu}function
-lc(a,l,k,f){var
-b=bb(a,l);if(b){var
-c=bb(a,k);if(c){var
-d=dH(a,f);if(d){var
-e=fo(a,f);if(e)var
-m=w(a,b[1],e[1]),g=[0,L(w(a,c[1],d[1]),m)];else
+c=b[1],d=jK(a[2]);return A(function(a){return[0,c,a]},d)}return b}return o8}function
+jL(a,l,k,f){var
+b=aS(a,l);if(b){var
+c=aS(a,k);if(c){var
+d=c2(a,f);if(d){var
+e=eB(a,f);if(e)var
+m=w(a,b[1],e[1]),g=[0,K(w(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3785,69 +2643,69 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fK(a){return a?$(d,a[1][1]):a}function
-ld(a,ab,m,aD,g,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],co(a,a)]}var
+eX(a){return a?Y(d,a[1][1]):a}function
+jM(a,ab,m,aD,g,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bR(a,a)]}var
 aE=m[1];function
 o(b){var
-a=[0,d,c];return bR(function(a,c){var
-d=co(a,b);return[2,[4,co(a,b),d],c]},a,aE)}var
-ad=n(function(a){return v(k(a),ab)},g);if(ad){var
-i=0;if(typeof
-f==="number")i=1;else
+a=[0,d,c];return br(function(a,c){var
+d=bR(a,b);return[2,[4,bR(a,b),d],c]},a,aE)}var
+ad=n(function(a){return v(j(a),ab)},g);if(ad){var
+k=0;if(typeof
+f==="number")k=1;else
 switch(f[0]){case
 0:if(g){if(g[2])return 0;var
-af=g[1],aF=o(af);return j(a,1,[3,ac(f[1],af),aF])}return g;case
+af=g[1],aF=o(af);return i(a,1,[3,ac(f[1],af),aF])}return g;case
 1:if(g){if(g[2])return 0;var
-ag=g[1],aG=ac(f[1],ag);return j(a,1,[3,o(ag),aG])}return g;case
+ag=g[1],aG=ac(f[1],ag);return i(a,1,[3,o(ag),aG])}return g;case
 2:if(g)return 0;var
 aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return j(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+b!=="number"&&0===b[0])return i(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
 3:if(g)return 0;var
 aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return j(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+b!=="number"&&0===b[0])return i(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
 4:if(g)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],h=e[1],i=j(a,0,[3,[2,ai,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],ah]);if(i){if(aD){var
-f=lc(a,h,g,ai);return f?$(f[1][2],d):f}return fK(lc(a,h,g,ah))}return i}return 0},H=aL,G=f[1];break;case
+g=e[2],h=e[1],j=i(a,0,[3,[2,ai,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
+f=jL(a,h,g,ai);return f?Y(f[1][2],d):f}return eX(jL(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(g){var
 q=g[2];if(q){if(q[2])return 0;var
-J=q[1],K=g[1],aj=f[1],aM=co(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=co(J,J);return j(a,1,[3,[4,o(K),aO],aN])}var
+J=q[1],L=g[1],aj=f[1],aM=bR(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bR(J,J);return i(a,1,[3,[4,o(L),aO],aN])}var
 ak=q}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=j(a,1,al);return d?j(a,1,[3,co(b,b),[4,c,c]]):d},an=aQ,am=f[1];i=3;break;case
+c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bR(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=co(N,N);return j(a,1,[3,[4,f[2],aT],aS])}return g;case
+N=g[1],aR=o(N),aT=[4,f[1],aR],aU=bR(N,N);return i(a,1,[3,[4,f[2],aU],aT])}return g;case
 9:if(g)return 0;var
-ar=f[3],as=f[2],aU=function(e){var
-f=j(a,1,as),g=f?j(a,0,ar):f;if(g){var
-b=bb(a,co(e,e));if(b){var
-c=bb(a,[5,ar,as]);if(c){var
-d=ke(a,c[1]);if(d){var
-l=V(a,d[1]);return fK([0,L(b[1],l)])}var
+ar=f[3],as=f[2],aV=function(e){var
+f=i(a,1,as),g=f?i(a,0,ar):f;if(g){var
+b=aS(a,bR(e,e));if(b){var
+c=aS(a,[5,ar,as]);if(c){var
+d=iN(a,c[1]);if(d){var
+l=T(a,d[1]);return eX([0,K(b[1],l)])}var
 h=d}else
 var
 h=c;var
-i=h}else
+j=h}else
 var
-i=b;var
-k=i}else
+j=b;var
+k=j}else
 var
-k=g;return k},an=aU,am=f[1];i=3;break;case
+k=g;return k},an=aV,am=f[1];k=3;break;case
 10:if(g)return 0;var
-aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=j(a,1,c);return d?j(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];i=2;break;case
+aW=f[2],aX=function(b){var
+c=[4,aW,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
 11:if(g)return 0;var
-aX=f[2],aY=function(e){var
-b=dH(a,aX);if(b){var
-c=bb(a,e[3]);if(c){var
-d=bb(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fK([0,f]);if(g){var
-k=V(a,d[1]);return fK([0,L(V(a,f),k)])}var
+aY=f[2],aZ=function(e){var
+b=c2(a,aY);if(b){var
+c=aS(a,e[3]);if(c){var
+d=aS(a,e[2]);if(d){var
+f=w(a,b[1],c[1]),g=eX([0,f]);if(g){var
+k=T(a,d[1]);return eX([0,K(T(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3856,13 +2714,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},au=aY,at=f[1];i=2;break;case
+j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
-Q=lb(m[3]);if(Q){var
-aw=Q[1],aZ=f[1],ax=dy(function(b,a){return[4,b,a[3]]},aw,aZ),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+Q=jK(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=cT(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
 s=R[1];if(s){var
 t=s[2];if(t){var
-u=t[2],S=t[1],T=s[1],l=R[2];if(u)if(u[2]||!l)var
+u=t[2],S=t[1],U=s[1],l=R[2];if(u)if(u[2]||!l)var
 h=[0,d,c];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
@@ -3871,7 +2729,7 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-U=D[1],W=C[1],Y=B[1],Z=z[1],_=y[1],aa=x[1],aA=p(aa,_,Y,W),aB=[4,u[1],aA],aC=[4,S,p(aa,Z,Y,U)],h=[2,[3,[4,T,p(_,Z,W,U)],aC],aB];else
+W=D[1],X=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,X),aB=[4,u[1],aA],aC=[4,S,p(aa,_,Z,W)],h=[2,[3,[4,U,p($,_,X,W)],aC],aB];else
 var
 h=[0,d,c]}else
 var
@@ -3888,7 +2746,7 @@ var
 h=[0,d,c]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],h=F?F[2]?[0,d,c]:l[2]?[0,d,c]:p(T,S,E[1],F[1]):[0,d,c];else
+F=E[2],h=F?F[2]?[0,d,c]:l[2]?[0,d,c]:p(U,S,E[1],F[1]):[0,d,c];else
 var
 h=[0,d,c]}else
 var
@@ -3899,28 +2757,28 @@ var
 h=[0,d,c]}else
 var
 h=[0,d,c];var
-ay=j(a,1,[3,ax,h]);if(ay)return j(a,1,[2,ax,h]);var
+ay=i(a,1,[3,ax,h]);if(ay)return i(a,1,[2,ax,h]);var
 az=ay}else
 var
-az=Q;return az;default:i=1}switch(i){case
+az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=X(m[3],at);if(O){var
+O=V(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=X(m[1],am);if(M){var
-ao=M[1],ap=v(k(ao),ab);if(ap)return an(ao);var
+M=V(m[1],am);if(M){var
+ao=M[1],ap=v(j(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=M;return aq;default:var
-I=X(m[2],G);return I?H(I[1]):I}}else
+I=V(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-le(h,g){var
+jN(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3930,69 +2788,69 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-tv(a){return e(function(a){return[0,a,c]},a)}function
-lf(f,m,b,l,a){if(typeof
+o9(a){return e(function(a){return[0,a,c]},a)}function
+jO(f,m,b,l,a){if(typeof
 a==="number"){var
-q=b[4];return aK(function(a){return j(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=le(a[1],l);if(g){var
-n=g[1],r=n[1],s=e(tv,a[2]);return ld(f,m,b,n[2],s,r)}return g}var
-h=le(a[1],l);if(h){var
-o=h[1],i=o[1];if(typeof
-i!=="number"&&1===i[0]){var
-k=X(b[1],a[2]);return k?ld(f,m,b,o[2],[0,k[1],0],[1,i[1]]):k}var
+q=b[4];return au(function(a){return i(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jN(a[1],l);if(g){var
+n=g[1],r=n[1],s=e(o9,a[2]);return jM(f,m,b,n[2],s,r)}return g}var
+h=jN(a[1],l);if(h){var
+o=h[1],j=o[1];if(typeof
+j!=="number"&&1===j[0]){var
+k=V(b[1],a[2]);return k?jM(f,m,b,o[2],[0,k[1],0],[1,j[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-hw(a){var
-b=aL(a[1]),c=az(N(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
-hx(a){return aL(hw(a))}function
-lg(c){var
-a=hx(c),b=aL(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hy(a,b){return bW(a[3],a[4],b)}function
-hz(a,b){var
-c=hy(a,b);return N(hx(a),c)}function
-hA(a,b){var
-c=hy(a,b);return N(lg(a),c)}function
-lh(a,b){var
-c=hy(a,b);return N(aL(a[1]),c)}function
-hB(b,a){var
-c=hA(b,a),d=hz(b,a);return[2,[4,d,d],[4,c,c]]}function
-hC(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=lh(a,d);return[5,[2,hB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-li(a,b){var
-f=a[5],c=[3,hC(a,b),f],d=lh(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fL(a,b){var
-c=li(a,b);return da(a[7],c)}function
-lj(b,a){var
-c=hB(b,a),d=hA(b,a),e=[4,fL(b,a),d],f=hz(b,a);return[5,[2,[4,hC(b,a),f],e],c]}function
-lk(b,a){var
-c=hB(b,a),d=hz(b,a),e=[4,fL(b,a),d],f=hA(b,a);return[5,[3,[4,hC(b,a),f],e],c]}function
-ll(a,b){var
-c=lg(a),d=az(lk(a,b),c),e=hx(a),f=az(lj(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=az(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
-lm(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-ln(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hD(a,c,b){var
-d=[4,lm(a),b],e=[2,[4,ln(a),c],d],f=[4,ln(a),b];return[0,[3,[4,lm(a),c],f],e]}function
-lo(c,a){var
-b=hD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-hE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hF(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:lo(d[1],a):a;case
+gw(a){var
+b=av(a[1]),c=ap(M(b,a[2]),b),d=a[2];return _(function(b,a){return[3,b,a]},d,c)}function
+gx(a){return av(gw(a))}function
+jP(c){var
+a=gx(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gy(a,b){return bw(a[3],a[4],b)}function
+gz(a,b){var
+c=gy(a,b);return M(gx(a),c)}function
+gA(a,b){var
+c=gy(a,b);return M(jP(a),c)}function
+jQ(a,b){var
+c=gy(a,b);return M(av(a[1]),c)}function
+gB(b,a){var
+c=gA(b,a),d=gz(b,a);return[2,[4,d,d],[4,c,c]]}function
+gC(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=jQ(a,d);return[5,[2,gB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jR(a,b){var
+f=a[5],c=[3,gC(a,b),f],d=jQ(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+eY(a,b){var
+c=jR(a,b);return cw(a[7],c)}function
+jS(b,a){var
+c=gB(b,a),d=gA(b,a),e=[4,eY(b,a),d],f=gz(b,a);return[5,[2,[4,gC(b,a),f],e],c]}function
+jT(b,a){var
+c=gB(b,a),d=gz(b,a),e=[4,eY(b,a),d],f=gA(b,a);return[5,[3,[4,gC(b,a),f],e],c]}function
+jU(a,b){var
+c=jP(a),d=ap(jT(a,b),c),e=gx(a),f=ap(jS(a,b),e),g=_(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return _(function(b,a){return[2,b,a]},i,h)}function
+jV(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+jW(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+gD(a,c,b){var
+d=[4,jV(a),b],e=[2,[4,jW(a),c],d],f=[4,jW(a),b];return[0,[3,[4,jV(a),c],f],e]}function
+jX(c,a){var
+b=gD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+gE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gF(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:jX(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hD(d[1],a[2],a[3]),m=j[1],k=hD(f[1],j[2],a[1]);return lo(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gD(d[1],a[2],a[3]),m=j[1],k=gD(f[1],j[2],a[1]);return jX(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=N(e,e),n=hE(e,a),o=az([0,b(2,c),c],n),p=N(e,a),q=az([4,[0,b(2,c),c],p],e),r=az([3,[0,c,c],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return az([5,[0,c,c],[2,[0,c,c],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lp(b){var
-a=cm(b);return a?j0(a[1],[0,d,c]):a}function
-lq(a,n,k,i){if(lp(i)){var
-q=n?[3,[0,d,c],k]:k;return j(a,0,q)}var
-f=bb(a,k);if(f){var
-g=dH(a,[5,i,[0,b(2,c),c]]);if(g){var
-h=fo(a,[5,i,[0,b(2,c),c]]);if(h)var
-p=w(a,f[1],g[1]),l=[0,L(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=M(e,e),n=gE(e,a),o=ap([0,b(2,c),c],n),p=M(e,a),q=ap([4,[0,b(2,c),c],p],e),r=ap([3,[0,c,c],l],a),s=_(function(b,a){return[2,b,a]},r,q);return ap([5,[0,c,c],[2,[0,c,c],l]],_(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+jY(b){var
+a=bP(b);return a?ix(a[1],[0,d,c]):a}function
+jZ(a,n,k,j){if(jY(j)){var
+q=n?[3,[0,d,c],k]:k;return i(a,0,q)}var
+f=aS(a,k);if(f){var
+g=c2(a,[5,j,[0,b(2,c),c]]);if(g){var
+h=eB(a,[5,j,[0,b(2,c),c]]);if(h)var
+p=w(a,f[1],g[1]),l=[0,K(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -4001,26 +2859,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?M(d,o[1]):M(o[2],d)}return e}function
-ey(b,a,c){var
-d=bn(b,a[1],a[2]),e=d?lq(b,0,c,a[1]):d;return e?lq(b,1,c,a[2]):e}function
-dO(a,d){if(lp(d))return[0,A];var
-e=dH(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fo(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=G(ap(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cE(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return D(function(d){var
-e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return ha(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?L(d,o[1]):L(o[2],d)}return e}function
+dR(b,a,c){var
+d=a2(b,a[1],a[2]),e=d?jZ(b,0,c,a[1]):d;return e?jZ(b,1,c,a[2]):e}function
+c9(a,d){if(jY(d))return[0,z];var
+e=c2(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=eB(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=F(ai(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b3(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return A(function(d){var
+e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return ga(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ez(d,a){var
-e=j(d,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]);return e?j(d,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-dd(a){return[0,[3,[0,d,c],a],a]}function
-lr(a,b,n,m){var
-h=bn(a,[0,d,c],b),i=h?ez(a,b):h;if(i){var
-e=dO(a,b);if(e){var
-f=bb(a,n);if(f){var
-g=bb(a,m);if(g){var
-o=f[1],p=g[1];return M(d,L(w(a,V(a,e[1]),p),o)[1])}var
+dS(d,a){var
+e=i(d,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]);return e?i(d,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
+cz(a){return[0,[3,[0,d,c],a],a]}function
+j0(a,b,n,m){var
+h=a2(a,[0,d,c],b),i=h?dS(a,b):h;if(i){var
+e=c9(a,b);if(e){var
+f=aS(a,n);if(f){var
+g=aS(a,m);if(g){var
+o=f[1],p=g[1];return L(d,K(w(a,T(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -4030,12 +2888,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-ls(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ey(d,b[1],a[1]):a;case
+j1(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:dR(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ey(d,b[1],a[1]),m=l?ey(d,b[2],e[1]):l;if(m)return ey(d,b[3],f[1]);var
+l=dR(d,b[1],a[1]),m=l?dR(d,b[2],e[1]):l;if(m)return dR(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -4048,7 +2906,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=N([0,s,r,q],[0,s,r,q]);return lr(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=M([0,s,r,q],[0,s,r,q]);return j0(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -4057,7 +2915,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lr(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ey(d,dd(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=j0(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return dR(d,cz(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -4067,221 +2925,221 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dP(a){return 1===a?tw:tx}function
-hG(d,c,b,a){var
-e=a[1],f=hF(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-lt(c,b,a){switch(c){case
+c_(a){return 1===a?o_:o$}function
+gG(d,c,b,a){var
+e=a[1],f=gF(d,c,a[2]),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
+j2(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-eA(b,d){var
+dT(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,Q(b,c[1])]]:[0,c4(function(a){return eA(b,a)},a)]}return[0,c4(function(a){return eA(b,a)},a)]}function
-dQ(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,co(function(a){return dT(b,a)},a)]}return[0,co(function(a){return dT(b,a)},a)]}function
+c$(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=at(v(e,b));return f?at(v(e,Q(d,b))):f;case
+e=a[1],f=al(v(e,b));return f?al(v(e,P(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dQ(d,b,a[1]);if(g){var
+g=c$(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eB(c,b,m){var
+dU(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dQ(c,b,g),i=h?eB(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c$(c,b,g),i=h?dU(c,b,f):h;if(i)var
 j=i;else{var
-k=eB(c,b,g);if(k)return dQ(c,b,f);var
+k=dU(c,b,g);if(k)return c$(c,b,f);var
 j=k}return j;case
 7:var
-l=eB(c,b,a[1]);return l?dQ(c,b,a[2]):l;case
+l=dU(c,b,a[1]);return l?c$(c,b,a[2]):l;case
 3:case
 4:var
-e=eB(c,b,a[1]);if(e){var
+e=dU(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dQ(c,b,a[1]);default:return 1}}}function
-de(c,e){var
+9:return c$(c,b,a[1]);default:return 1}}}function
+cA(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return at(v(a[1],c));case
+0:return al(v(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=de(c,a[1]);if(d){var
+d=cA(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hH(d,b,m){var
+gH(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hH(d,b,a[1]);if(f){var
+f=gH(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hH(d,b,a[1]);return g?de(b,a[2]):g;case
+g=gH(d,b,a[1]);return g?cA(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=de(b,i);if(j){var
-k=de(b,h);if(k)var
+h=a[2],i=a[1],j=cA(b,i);if(j){var
+k=cA(b,h);if(k)var
 e=k;else{var
-l=a$(i,d);if(l){var
+l=aQ(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return de(b,c)}}}function
-lu(c,e){var
+2:return 1;default:return cA(b,c)}}}function
+j3(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return eh(a[1],c);case
+0:return dA(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=lu(c,a[1]);if(d){var
+d=j3(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cL(b,a){return a?f(b,a[1]):a}function
-cM(c,b,a){return cL(function(b){return cL(f(c,b),a)},b)}function
-ty(a){return 0===a[0]?a[1]:0}function
-bX(b,a){switch(a[0]){case
-0:return[0,f(b,a[1])];case
-1:return[1,bX(b,a[1])];default:var
-c=bX(b,a[3]),d=bX(b,a[2]);return[2,bX(b,a[1]),d,c]}}function
-bc(b,c,a){switch(c[0]){case
-0:return bX(f(b,c[1]),a);case
+b_(b,a){return a?l(b,a[1]):a}function
+b$(c,b,a){return b_(function(b){return b_(l(c,b),a)},b)}function
+pa(a){return 0===a[0]?a[1]:0}function
+bx(b,a){switch(a[0]){case
+0:return[0,l(b,a[1])];case
+1:return[1,bx(b,a[1])];default:var
+c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
+aT(b,c,a){switch(c[0]){case
+0:return bx(l(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bX(function(a){return _(b,a,k)},d)];case
-1:return[1,bc(b,d,a[1])];default:var
-l=bc(b,d,a[3]),m=bc(b,d,a[2]);return[2,bc(b,d,a[1]),m,l]}default:var
-e=c[3],g=c[2],h=c[1];switch(a[0]){case
+j=a[1];return[1,bx(function(a){return ar(b,a,j)},d)];case
+1:return[1,aT(b,d,a[1])];default:var
+k=aT(b,d,a[3]),m=aT(b,d,a[2]);return[2,aT(b,d,a[1]),m,k]}default:var
+e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return _(b,a,n)},i=function(a){return bX(o,a)},p=i(e),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return bx(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bc(b,e,j),s=bc(b,g,j);return[2,bc(b,h,j),s,r];default:var
-t=bc(b,e,a[3]),u=bc(b,g,a[2]);return[2,bc(b,h,a[1]),u,t]}}}function
-hI(c,g,a){if(a)var
-d=a[1],b=function(i){var
-a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
+i=a[1],r=aT(b,e,i),s=aT(b,f,i);return[2,aT(b,g,i),s,r];default:var
+t=aT(b,e,a[3]),u=aT(b,f,a[2]);return[2,aT(b,g,a[1]),u,t]}}}function
+gI(c,f,a){if(a)var
+d=a[1],b=function(h){var
+a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,V(c,a)];break;case
+e=[0,a,T(c,a)];break;case
 1:var
-h=w(c,a,b),e=[0,cg(G(a,b)),h];break;default:var
-e=[0,b,V(c,b)]}return[0,[0,f(g,e)]]},i=hI(c,g,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+g=w(c,a,b),e=[0,bJ(F(a,b)),g];break;default:var
+e=[0,b,T(c,b)]}return[0,[0,l(f,e)]]},h=gI(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),k=b(1),g=[0,[2,b(0),k,j],i];else
 var
-h=a;return h}function
-lv(a){if(a){var
+g=a;return g}function
+j4(a){if(a){var
 b=a[1];if(b)var
-c=lv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=j4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tA}function
-eC(a){if(a){var
-g=a[1],b=g[2],c=lv(g[1]);if(c)if(b){var
-h=b[1],e=eC(a[2]);if(e)var
-i=$(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return pc}function
+dV(a){if(a){var
+g=a[1],b=g[2],c=j4(g[1]);if(c)if(b){var
+h=b[1],e=dV(a[2]);if(e)var
+i=Y(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return tB}function
-hJ(b,a){var
-c=a[3],d=D(function(a){var
-c=a[2],d=a[1][2];return[0,[0,f(b,a[1][1]),d],c]},c),e=f(b,a[2]),g=a[1];return[0,f(aR(b),g),e,d]}function
-lw(e,d,c,b){if(d){var
-j=d[1],a=function(f){var
-a=hJ(function(a){switch(a[0]){case
+f=c;return f}return pd}function
+gJ(b,a){var
+c=a[3],d=A(function(a){var
+c=a[2],d=a[1][2];return[0,[0,l(b,a[1][1]),d],c]},c),e=l(b,a[2]),f=a[1];return[0,l(az(b),f),e,d]}function
+j5(e,d,c,b){if(d){var
+i=d[1],a=function(f){var
+a=gJ(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return lw(bQ(e),j,c,a)},g=a(0);if(g){var
-h=a(2);if(h)return e?1:a(1);var
-i=h}else
+1:return c;default:return b}}},b);return j5(bq(e),i,c,a)},f=a(0);if(f){var
+g=a(2);if(g)return e?1:a(1);var
+h=g}else
 var
-i=g;return i}return f(c,hJ(ty,b))}function
-eD(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return D(function(a){return br(f,e,a)},d)}return[0,A]}function
-tC(c){var
+h=f;return h}return l(c,gJ(pa,b))}function
+dW(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return A(function(a){return a5(f,e,a)},d)}return[0,z]}function
+pe(c){var
 a=c[2];if(a){var
-b=eD(c[3]);if(b)return M(d,L(a[1],b[1])[1]);var
+b=dW(c[3]);if(b)return L(d,K(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lx(a){return E(function(a){return g(a[1],[0,a[2],0])},a)}function
-ly(a,c,b){var
-e=t(b,c,l(d)),f=a9(0,a);return n(function(b){return eB(a,b,e)},f)}function
-eE(a){var
-b=J(a);return F(l(c),b)}function
-fM(i,g){var
-h=eE(g),j=J(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bS(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bS(f),a,e]]:[0,[0,h,a,a],[0,a,e,bS(f)],[0,a,f,e]]}function
-lz(b,a){var
-c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
-lA(b,a){function
+j6(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+j7(a,c,b){var
+e=t(b,c,k(d)),f=aO(0,a);return n(function(b){return dU(a,b,e)},f)}function
+dX(a){var
+b=I(a);return C(k(c),b)}function
+eZ(i,g){var
+h=dX(g),j=I(g),e=s(k(c),j),f=o(k(b(2,c)),g),a=k(d);return i?i[1]?[0,[0,e,bs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bs(f),a,e]]:[0,[0,h,a,a],[0,a,e,bs(f)],[0,a,f,e]]}function
+j8(b,a){var
+c=$(b[3],a),d=$(b[2],a);return[0,$(b[1],a),d,c]}function
+j9(b,a){function
 c(b){var
-c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
+c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
 d(a){var
-b=ag(a,c(function(a){return a[3]})),d=ag(a,c(function(a){return a[2]}));return[0,ag(a,c(function(a){return a[1]})),d,b]}var
-e=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,e]}function
-lB(w,v){function
-a(a){return[0,[0,Q(v,a)]]}switch(w[0]){case
+b=$(a,c(function(a){return a[3]})),d=$(a,c(function(a){return a[2]}));return[0,$(a,c(function(a){return a[1]})),d,b]}var
+e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
+j_(w,v){function
+a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
 0:var
-x=eE(a(0));return[0,fM(tD,a(0)),x];case
+x=dX(a(0));return[0,eZ(pf,a(0)),x];case
 1:var
-y=eE(a(0)),z=o(eE(a(tE)),y),A=o(eE(a(tF)),z),B=fM(0,a(0)),C=lA(fM(tH,a(tG)),B);return[0,lA(fM(tJ,a(tI)),C),A];default:var
-D=a(tK),E=a(tL),g=[0,a(0),E,D],G=ag(g,g),H=F(l(c),G),j=ag(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=J(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
-g=_(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-lC(a){return 1<a[0]?[0,a[1],0]:0}function
-fN(a){switch(a[0]){case
+y=dX(a(0)),z=o(dX(a(pg)),y),A=o(dX(a(ph)),z),B=eZ(0,a(0)),D=j9(eZ(pj,a(pi)),B);return[0,j9(eZ(pl,a(pk)),D),A];default:var
+E=a(pm),F=a(pn),g=[0,a(0),F,E],G=$(g,g),H=C(k(c),G),j=$(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=I(a),e=o(k(b(2,c)),d);return C(s(k(c),j),e)},h=function(f,e,d,a){var
+g=ar(f,o(e,d),a);return o(k(b(2,c)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,l],p=h(s,e,f,d),q=i(e),r=[0,h(C,d,e,f),q,p],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+j$(a){return 1<a[0]?[0,a[1],0]:0}function
+e0(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dd(a[1]),0];default:var
-b=[0,dd(a[2]),0];return[0,dd(a[1]),b]}}function
-dR(a){return[0,[0,a[1]],[0,a[2]]]}function
-lD(a){switch(a[0]){case
-0:return[0,dR(a[1]),0];case
+2:return[0,cz(a[1]),0];default:var
+b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
+da(a){return[0,[0,a[1]],[0,a[2]]]}function
+ka(a){switch(a[0]){case
+0:return[0,da(a[1]),0];case
 1:var
-f=[0,dR(a[3]),0],g=[0,dR(a[2]),f];return[0,dR(a[1]),g];case
+f=[0,da(a[3]),0],g=[0,da(a[2]),f];return[0,da(a[1]),g];case
 2:var
-b=dR(dd(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dd(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dR(dd(c)),0]]]}}function
-lE(a,b){if(0===b[0])return dO(a,b[1]);var
-d=dO(a,b[1]);if(d){var
-e=dO(a,b[2]);if(e){var
-g=V(a,e[1]),h=c3(a,G(ap(a,c),g)),i=d[1];return D(function(b){return w(a,i,b)},h)}var
+b=da(cz(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cz(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,da(cz(c)),0]]]}}function
+kb(a,b){if(0===b[0])return c9(a,b[1]);var
+d=c9(a,b[1]);if(d){var
+e=c9(a,b[2]);if(e){var
+g=T(a,e[1]),h=cn(a,F(ai(a,c),g)),i=d[1];return A(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-lF(d,c){var
-a=lE(d,c[1]);if(a)var
-b=lE(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kc(d,c){var
+a=kb(d,c[1]);if(a)var
+b=kb(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lG(j,D,c,C,B,b,a){switch(b[0]){case
+kd(k,D,c,C,B,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=eC(e[1]);if(a){var
+a=dV(e[1]);if(a){var
 b=e[2];if(b){var
-d=eD(e[3]);if(d){var
-h=d[1],i=bl([0,L(ao(w(j,l,b[1])),h),0],c);return ck(c,hg(F,E,a[1],i))}var
+d=dW(e[3]);if(d){var
+h=d[1],i=a0([0,K(ah(w(k,l,b[1])),h),0],c);return bN(c,gg(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -4289,22 +3147,22 @@ g=f}else
 var
 g=a;return g},f=n;break;case
 2:var
-q=ah(l[1],d),r=q?ah(l[2],d):q;if(!r)return r;var
+q=ab(l[1],d),r=q?ab(l[2],d):q;if(!r)return r;var
 H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=eC(f[1]);if(a){var
-b=eD(f[3]);if(b){var
-g=bl([0,L(A,b[1]),0],c),h=a[1];return ck(c,hg(I,H,e(function(a){return[0,a[1],A]},h),g))}var
+a=dV(f[1]);if(a){var
+b=dW(f[3]);if(b){var
+g=a0([0,K(z,b[1]),0],c),h=a[1];return bN(c,gg(I,H,e(function(a){return[0,a[1],z]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
 x=0;if(typeof
 a==="number"&&!a)var
-J=b[2],K=b[1],M=b[3],i=J,h=K,N=0,g=function(f){var
-a=eC(f[1]);if(a){var
+J=b[2],L=b[1],M=b[3],i=J,h=L,N=0,g=function(f){var
+a=dV(f[1]);if(a){var
 b=f[2];if(b){var
-d=eD(f[3]);if(d){var
-k=d[1],l=bl([0,L(w(j,M,b[1]),k),0],c),e=ki(a[1],l);if(e)return ck(c,e[1]);var
+d=dW(f[3]);if(d){var
+j=d[1],l=a0([0,K(w(k,M,b[1]),j),0],c),e=iR(a[1],l);if(e)return bN(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -4320,11 +3178,11 @@ y=0;if(typeof
 a==="number"||!(0===a[0]))y=1;else
 var
 s=a[2],u=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=eC(f[1]);if(a){var
+a=dV(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=eD(f[3]);if(e){var
-g=v(k(b),c),h=g?v(k(s),c):g;if(h){var
-n=et(u,eu(u,s,d[1],b));return ck(c,cI(fv(j,R,Q,e[1],b),n))}var
+e=dW(f[3]);if(e){var
+g=v(j(b),c),h=g?v(j(s),c):g;if(h){var
+n=dM(u,dN(u,s,d[1],b));return bN(c,b7(eI(k,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -4334,125 +3192,125 @@ l=d;var
 m=l}else
 var
 m=a;return m},i=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
-z=0;if(typeof
+A=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=tC,f=0;else
-z=1;if(z)return 0}var
-G=[0,h,i,B];return lw(f,D,g,hJ(function(a){return t(a,C,tQ)},G))}function
-lH(m,l,k,f,j,i,e){if(typeof
+i=b[1],h=0,g=pe,f=0;else
+A=1;if(A)return 0}var
+G=[0,h,i,B];return j5(f,D,g,gJ(function(a){return t(a,C,ps)},G))}function
+ke(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=M(d,o);if(p)var
-h=jl(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=L(d,o);if(p)var
+h=h9(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return lG(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kd(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return lG(m,l,k,j,0,i,a)}return 0}function
-tR(a){if(a[1])return 0;var
+q=f;return q}return kd(m,l,k,j,0,i,a)}return 0}function
+pt(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-lI(a,N,M,K,J,I,h,p,H,Z){if(n(tR,H))var
+kf(a,N,M,L,J,I,h,p,H,_){if(n(pt,H))var
 q=0;else
 var
-U=hI(a,cY,p),T=0,W=g(hI(a,a3,p),U),q=bT(tz,function(b){switch(b[0]){case
-0:return t(b[1],W,[0,[0,A]]);case
-1:return[0,[0,t(b[1],M,A)]];case
-2:return[0,[0,ap(a,b[1])]];case
+W=gI(a,ci,p),U=0,X=f(gI(a,aK,p),W),q=bt(pb,function(b){switch(b[0]){case
+0:return t(b[1],X,[0,[0,z]]);case
+1:return[0,[0,t(b[1],M,z)]];case
+2:return[0,[0,ai(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,G(b,a)]};return bc(function(a,b){return cM(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return aT(function(a,b){return b$(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,L(b,a)]};return bc(function(a,b){return cM(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aT(function(a,b){return b$(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ao(a)]};return bX(function(a){return cL(j,a)},i);case
+i=b[1],j=function(a){return[0,ah(a)]};return bx(function(a){return b_(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return bc(function(a,b){return cM(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aT(function(a,b){return b$(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cE(a,b);return D(function(b){return w(a,c,b)},d)};return bc(function(a,b){return cM(p,a,b)},o,n);case
+d=b3(a,b);return A(function(b){return w(a,c,b)},d)};return aT(function(a,b){return b$(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,V(a,b)]};return bX(function(a){return cL(r,a)},q);default:var
-s=b[1],u=function(b){return c3(a,b)};return bX(function(a){return cL(u,a)},s)}},N,T);var
-f=H,b=Z;for(;;){if(f){var
-u=f[1],i=u[2],c=u[1],k=f[2];if(c){var
+q=b[1],r=function(b){return[0,T(a,b)]};return bx(function(a){return b_(r,a)},q);default:var
+s=b[1],u=function(b){return cn(a,b)};return bx(function(a){return b_(u,a)},s)}},N,U);var
+g=H,b=_;for(;;){if(g){var
+u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
 v=t(c,b,0);if(v){var
-l=X(K,c);if(l){var
-x=lH(a,J,I,h,q,l[1],i);if(x){var
-f=k,b=fB(c,b);continue}var
+l=V(L,c);if(l){var
+x=ke(a,J,I,h,q,l[1],i);if(x){var
+g=k,b=eO(c,b);continue}var
 y=x}else
 var
 y=l;var
-z=y}else
+B=y}else
 var
-z=v;return z}if(typeof
+B=v;return B}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Y=0,r=e(function(b){return[0,b,V(a,b)]},p),Q=e(cY,r),P=0,R=g(e(a3,r),Q),S=bT(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,A)];case
-1:return[0,t(b[1],M,A)];case
-2:return[0,ap(a,b[1])];case
+Z=0,r=e(function(b){return[0,b,T(a,b)]},p),Q=e(ci,r),P=0,R=f(e(aK,r),Q),S=bt(0,function(n){return function(b){switch(b[0]){case
+0:return[0,t(b[1],n,z)];case
+1:return[0,t(b[1],M,z)];case
+2:return[0,ai(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cM(function(b,a){return[0,G(b,a)]},d,c);case
+c=b[2],d=b[1];return b$(function(b,a){return[0,F(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cM(function(b,a){return[0,L(b,a)]},f,e);case
+e=b[2],f=b[1];return b$(function(b,a){return[0,K(b,a)]},f,e);case
 5:var
-g=b[1];return cL(function(a){return[0,ao(a)]},g);case
+g=b[1];return b_(function(a){return[0,ah(a)]},g);case
 6:var
-h=b[2],i=b[1];return cM(function(c,b){return[0,w(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b$(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cM(function(c,b){var
-d=cE(a,b);return D(function(b){return w(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return b$(function(c,b){var
+d=b3(a,b);return A(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cL(function(b){return[0,V(a,b)]},l);default:var
-m=b[1];return cL(function(b){return c3(a,b)},m)}}}(R),N,P),j=t(h[1],S,Y);if(j){var
-m=$(j[1][2],d);O=1}else
+l=b[1];return b_(function(b){return[0,T(a,b)]},l);default:var
+m=b[1];return b_(function(b){return cn(a,b)},m)}}}(R),N,P),j=t(h[1],S,Z);if(j){var
+m=Y(j[1][2],d);O=1}else
 var
 s=j}else
 var
 s=h;if(!O)var
 m=s;if(m){var
-f=k,b=e(function(a){return 0},b);continue}return m}var
-B=t(c,b,0);if(B){var
-o=X(K,c);if(o){var
-C=lH(a,J,I,h,q,o[1],i);if(C){var
-f=k,b=fB(c,b);continue}var
-E=C}else
+g=k,b=e(function(a){return 0},b);continue}return m}var
+C=t(c,b,0);if(C){var
+o=V(L,c);if(o){var
+D=ke(a,J,I,h,q,o[1],i);if(D){var
+g=k,b=eO(c,b);continue}var
+E=D}else
 var
 E=o;var
-F=E}else
+G=E}else
 var
-F=B;return F}return[0,b]}}function
-lJ(i,h,g,f,e,d,c,t,s,r){var
+G=C;return G}return[0,b]}}function
+kg(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=lI(i,h,g,f,e,d,c,b,a[1],j);return k?n(at,k[1]):k}var
-l=lI(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=es(a[2],b),p=lJ(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kf(i,h,g,f,e,d,c,b,a[1],j);return k?n(al,k[1]):k}var
+l=kf(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dL(a[2],b),p=kg(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-hK(b,a){var
+gK(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-hL(d,a){var
-e=J(a),f=o(o(l(b(2,c)),a),d);return F(s(J(d),f),e)}function
-lK(c,b,a){switch(c){case
+gL(d,a){var
+e=I(a),f=o(o(k(b(2,c)),a),d);return C(s(I(d),f),e)}function
+kh(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-hM(a){switch(a){case
-0:return[0,tT,tS,l(d)];case
-1:return cJ;default:var
-b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fO(a){switch(a){case
-0:return tU;case
-1:return tV;default:return 0}}function
-fP(b,a){var
-c=aU(a[2],b);return g(aU(a[1],b),c)}function
-lL(j,q,i,p,h,d,n){if(d)var
-r=d[1],t=cK(n,fP(h,r)),D=Q(n,k(fP(h,r))),E=lL(j,q,i,p,h,d[2],D),m=al(t,tW),e=al(t,0),a=hM(j),f=aC(s,a,e),g=lz(q,m),v=hL(a[3],e[3]),w=hL(a[2],e[2]),x=hL(a[1],e[1]),y=F(F(F(ag(m,m),x),w),v),z=ag(g,f),A=o(l(b(2,c)),z),B=F(o(i,y),A),C=c7(hK(g,f),p),u=[0,[0,lK(j,aC(F,cj(i,f),g),C),B],E];else
+gM(a){switch(a){case
+0:return[0,pv,pu,k(d)];case
+1:return b8;default:var
+b=k(d),c=k(d);return[0,k(d),c,b]}}function
+e1(a){switch(a){case
+0:return pw;case
+1:return px;default:return 0}}function
+e2(b,a){var
+c=aC(a[2],b);return f(aC(a[1],b),c)}function
+ki(l,q,i,p,h,d,n){if(d)var
+r=d[1],t=b9(n,e2(h,r)),E=P(n,j(e2(h,r))),F=ki(l,q,i,p,h,d[2],E),m=af(t,py),e=af(t,0),a=gM(l),f=aq(s,a,e),g=j8(q,m),v=gL(a[3],e[3]),w=gL(a[2],e[2]),x=gL(a[1],e[1]),y=C(C(C($(m,m),x),w),v),z=$(g,f),A=o(k(b(2,c)),z),B=C(o(i,y),A),D=cr(gK(g,f),p),u=[0,[0,kh(l,aq(C,bM(i,f),g),D),B],F];else
 var
 u=d;return u}function
-hN(g,a){if(typeof
+gN(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
@@ -4460,125 +3318,125 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-hO(e,d,n,m,l,a){var
-f=o(J(cn(hN(m,a),l)),n);if(typeof
+gO(e,d,n,m,l,a){var
+f=o(I(bQ(gN(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=X(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
+b=V(d,a[1]);if(b)var
+g=i(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=X(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,s(f,c[1][2])]:i;else
+c=V(d,a[1]);if(c)var
+j=i(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-lM(a,d,c,b){return e(function(a){var
-e=cn(hN(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-lN(b,g,s,e,i,q,p,o){if(o){var
-$=lN(b,g,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kj(a,d,c,b){return e(function(a){var
+e=bQ(gN(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+kk(b,f,s,e,h,q,p,o){if(o){var
+$=kk(b,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
 a==="number")var
-O=f(g,i),h=[0,t(f(aR(g),e),O,A)];else
+O=l(f,h),g=[0,t(l(az(f),e),O,z)];else
 switch(a[0]){case
 0:var
-k=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
+j=[5,[0,c,c],a[1]],n=e,m=t;k=1;break;case
 1:var
-Q=[5,[0,c,c],a[1]],k=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
 2:var
-R=hO(b,e,i,q,p,a),h=D(function(a){return[3,f(g,a)]},R);break;case
+R=gO(b,e,h,q,p,a),g=A(function(a){return[3,l(f,a)]},R);break;case
 3:var
-S=hO(b,e,i,q,p,a),h=D(function(a){return[3,f(g,a)]},S);break;case
+S=gO(b,e,h,q,p,a),g=A(function(a){return[3,l(f,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=X(e,a[1]),M=0;if(r){var
-w=j(b,1,v),x=w?j(b,0,u):w;if(x){var
-T=[5,u,v],U=[0,r[1],0],k=T,n=U,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
+u=a[3],v=a[2],r=V(e,a[1]),M=0;if(r){var
+w=i(b,1,v),x=w?i(b,0,u):w;if(x){var
+U=[5,u,v],W=[0,r[1],0],j=U,n=W,m=function(c,b,a){return[1,c,b,a]};k=1;M=1}else
 var
 y=x}else
 var
 y=r;if(!M)var
-h=y;break;case
+g=y;break;case
 7:var
-z=a[3],B=a[2],C=a[1],E=X(e,C),N=0;if(E){var
-F=j(b,1,B),G=F?j(b,1,z):F;if(G){var
-W=[5,B,z],k=W,n=e,m=function(c,b,a){return[2,C,c,b,a,s]};l=1;N=1}else
+B=a[3],C=a[2],D=a[1],E=V(e,D),N=0;if(E){var
+F=i(b,1,C),G=F?i(b,1,B):F;if(G){var
+X=[5,C,B],j=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};k=1;N=1}else
 var
 H=G}else
 var
 H=E;if(!N)var
-h=H;break;case
+g=H;break;case
 8:var
-I=j(b,1,a[1]),J=I?j(b,1,a[2]):I;if(J)var
-Y=ap(b,c),Z=f(g,i),_=lM(e,q,p,a),K=[0,[0,f(aR(g),_),Z,Y,0]];else
+I=i(b,1,a[1]),J=I?i(b,1,a[2]):I;if(J)var
+Y=ai(b,c),Z=l(f,h),_=kj(e,q,p,a),K=[0,[0,l(az(f),_),Z,Y,0]];else
 var
 K=J;var
-h=K;break;default:var
-h=0}if(l)var
-P=aj(b,[0,[0,k,k],d]),h=D(function(a){var
-c=V(b,a),d=f(g,i);return m(f(aR(g),n),d,c)},P);var
-L=[0,h,$]}else
+g=K;break;default:var
+g=0}if(k)var
+P=ad(b,[0,[0,j,j],d]),g=A(function(a){var
+c=T(b,a),d=l(f,h);return m(l(az(f),n),d,c)},P);var
+L=[0,g,$]}else
 var
 L=o;return L}function
-lO(j,h,i,f,d,a){if(a){var
-n=lO(j,h,i,f,[0,d],a[2]),b=a[1],l=0;if(typeof
+kl(j,h,i,g,d,a){if(a){var
+n=kl(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(cY,lM(h,f,d,b));l=1}if(!l)var
-c=hO(j,h,i,f,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-tX(a){if(typeof
+k=e(ci,kj(h,g,d,b));l=1}if(!l)var
+c=gO(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
+pz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lP(b,a){switch(b){case
+km(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fQ(a){var
-b=ci(a[1],[0,d,c]);return b?ci(a[2],[0,d,c]):b}function
-hP(d,a){switch(d){case
-0:return fQ(a[3]);case
+e3(a){var
+b=bL(a[1],[0,d,c]);return b?bL(a[2],[0,d,c]):b}function
+gP(d,a){switch(d){case
+0:return e3(a[3]);case
 1:return 1;default:var
-b=fQ(a[1]),c=b?fQ(a[2]):b;return c?fQ(a[3]):c}}function
-eF(b,a){return bn(b,a[1],a[2])}function
-hQ(b,a){var
-c=eF(b,a[1]),d=c?eF(b,a[2]):c;return d?eF(b,a[3]):d}function
-tY(z,h,a,m,a0){var
-a1=a[2],at=n(function(a){var
-b=hQ(z,a[1]);return b?hQ(z,a[2]):b},a1),au=at?hQ(z,a[4]):at;if(au)var
-a2=fN(a[5]),O=n(function(a){return eF(z,a)},a2);else
+b=e3(a[1]),c=b?e3(a[2]):b;return c?e3(a[3]):c}}function
+dY(b,a){return a2(b,a[1],a[2])}function
+gQ(b,a){var
+c=dY(b,a[1]),d=c?dY(b,a[2]):c;return d?dY(b,a[3]):d}function
+pA(z,g,a,m,a2){var
+a3=a[2],at=n(function(a){var
+b=gQ(z,a[1]);return b?gQ(z,a[2]):b},a3),av=at?gQ(z,a[4]):at;if(av)var
+a4=e0(a[5]),O=n(function(a){return dY(z,a)},a4);else
 var
-O=au;if(O){var
-p=a[1],b=dP(p),W=a[3],aC=[0,[0,[0,W,W],m],0],aD=a[2],X=g(E(function(a){return fP(m,a)},aD),aC),B=k(X),aE=a[2],aF=k(E(function(a){return fP(m,a)},aE)),Y=a[3],aG=cn([0,[0,Y,Y],m],aF),aH=fO(p),Z=lB(a[5],aH),u=Z[2],y=lL(p,Z[1],u,aG,m,a[2],0),aI=Q(B,k(a[6])),aJ=fO(p),aL=a[5],r=function(a){return[0,[0,Q(aJ,a)]]},R=J([0,[1,aI]]);switch(aL[0]){case
+O=av;if(O){var
+p=a[1],b=c_(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return e2(m,a)},aF),aE),E=j(X),aG=a[2],aH=j(B(function(a){return e2(m,a)},aG)),Y=a[3],aI=bQ([0,[0,Y,Y],m],aH),aJ=e1(p),Z=j_(a[5],aJ),u=Z[2],y=ki(p,Z[1],u,aI,m,a[2],0),aK=P(E,j(a[6])),aL=e1(p),aM=a[5],r=function(a){return[0,[0,P(aL,a)]]},R=I([0,[1,aK]]);switch(aM[0]){case
 2:var
-aw=r(tM),ax=r(tN),S=[0,r(0),ax,aw],i=[0,s(R,ag(S,S))];break;case
+ax=r(po),ay=r(pp),S=[0,r(0),ay,ax],h=[0,s(R,$(S,S))];break;case
 3:var
-ay=J(r(tO)),az=J(r(0)),aA=J(r(tP)),i=[0,s(s(o(R,F(l(c),aA)),az),ay)];break;default:var
-i=0}var
-aM=i?[0,i[1],0]:i,aN=[0,u,g(lO(h,y,u,m,B,a[6]),aM)],C=g(bV(y),aN),_=dC(e(function(a){return eA(b,a)},C))[1],w=c5(_),q=function(a){return bA(w,eA(b,a))},aO=D(q,i),aP=q(u),$=f(aR(q),y),T=fO(p),U=v(k($),b);if(U)var
-V=D(function(a){return[0,[0,a,d],d]},aO),x=function(a){return t(a,w,l(d))},P=x(aP),av=a9(0,T),A=n(function(a){var
-c=dQ(b,a,P),d=c?n(function(c){var
+aA=I(r(pq)),aB=I(r(0)),aC=I(r(pr)),h=[0,s(s(o(R,C(k(c),aC)),aB),aA)];break;default:var
+h=0}var
+aN=h?[0,h[1],0]:h,aP=[0,u,f(kl(g,y,u,m,E,a[6]),aN)],F=f(bv(y),aP),_=cX(e(function(a){return dT(b,a)},F))[1],w=cp(_),q=function(a){return bc(w,dT(b,a))},aR=A(q,h),aS=q(u),aa=l(az(q),y),T=e1(p),U=v(j(aa),b);if(U)var
+V=A(function(a){return[0,[0,a,d],d]},aR),x=function(a){return t(a,w,k(d))},Q=x(aS),aw=aO(0,T),D=n(function(a){var
+c=c$(b,a,Q),d=c?n(function(c){var
 e=c[1],d=n(function(c){var
-d=x(c);return de(Q(b,a),d)},e);if(d){var
-f=x(c[2]);return hH(P,Q(b,a),f)}return d},$):c;if(d){if(V){var
-f=x(V[1][1][1]);return de(Q(b,a),f)}var
+d=x(c);return cA(P(b,a),d)},e);if(d){var
+f=x(c[2]);return gH(Q,P(b,a),f)}return d},aa):c;if(d){if(V){var
+f=x(V[1][1][1]);return cA(P(b,a),f)}var
 e=1}else
 var
-e=d;return e},av);else
+e=d;return e},aw);else
 var
-A=U;var
-aB=A?T:A,aa=n(function(a){var
-c=eA(b,a),e=l(d);return a$(t(q(a),w,e),c)},C),ab=aa?n(function(a){return lu(b,a)},C):aa,ac=ab?aK(tX,a[6]):ab,ad=ac?hP(p,a[4]):ac,ae=ad?j(h,1,a[3]):ad;if(ae)var
-aQ=fN(a[5]),G=n(function(a){var
-b=ez(h,a[1]);return b?ez(h,a[2]):b},aQ);else
+D=U;var
+aD=D?T:D,ab=n(function(a){var
+c=dT(b,a),e=k(d);return aQ(t(q(a),w,e),c)},F),ac=ab?n(function(a){return j3(b,a)},F):ab,af=ac?au(pz,a[6]):ac,ag=af?gP(p,a[4]):af,ah=ag?i(g,1,a[3]):ag;if(ah)var
+aT=e0(a[5]),G=n(function(a){var
+b=dS(g,a[1]);return b?dS(g,a[2]):b},aT);else
 var
-G=ae;if(G){var
-aS=a[6],aT=g(X,e(function(a){return hN(m,a)},aS)),H=ak(e(function(a){return aj(h,a)},aT));if(H){var
-aU=lP(p,a[4]),I=ak(e(function(a){return aj(h,[0,a,m])},aU));if(I){var
-af=I[1],aV=lD(a[5]),K=ak(e(function(a){return lF(h,a)},aV));if(K){var
-ah=K[1],aW=lC(a[5]),L=ak(e(function(a){return dO(h,a)},aW));if(L){var
-M=ak(lN(h,q,aB,y,u,m,B,a[6]));if(M){var
-N=M[1],ai=v(k(g(af,ah)),b),al=ai?n(function(a){switch(a[0]){case
+G=ah;if(G){var
+aU=a[6],aV=f(X,e(function(a){return gN(m,a)},aU)),H=ae(e(function(a){return ad(g,a)},aV));if(H){var
+aW=km(p,a[4]),J=ae(e(function(a){return ad(g,[0,a,m])},aW));if(J){var
+ai=J[1],aX=ka(a[5]),K=ae(e(function(a){return kc(g,a)},aX));if(K){var
+aj=K[1],aY=j$(a[5]),L=ae(e(function(a){return c9(g,a)},aY));if(L){var
+M=ae(kk(g,q,aD,y,u,m,E,a[6]));if(M){var
+N=M[1],ak=v(j(f(ai,aj)),b),al=ak?n(function(a){switch(a[0]){case
 2:var
-e=lx(a[2]),c=[0,a[3],e];break;case
+e=j6(a[2]),c=[0,a[3],e];break;case
 3:var
 c=[0,a[1],0];break;default:var
-d=lx(a[1]),c=[0,a[2],d]}return n(function(a){return ly(b,w,a)},c)},N):ai,am=al?i?ly(b,w,q(i[1])):1:al;if(am){var
-aX=e(function(a){return 1},N),aY=g(af,ah),aZ=D(q,i);return lJ(h,_,g(H[1],L[1]),N,b,b,aZ,aY,aX,a0)}var
+d=j6(a[1]),c=[0,a[2],d]}return n(function(a){return j7(b,w,a)},c)},N):ak,am=al?h?j7(b,w,q(h[1])):1:al;if(am){var
+aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=A(q,h);return kg(g,_,f(H[1],L[1]),N,b,b,a1,a0,aZ,a2)}var
 an=am}else
 var
 an=M;var
@@ -4590,126 +3448,126 @@ var
 ap=K;var
 aq=ap}else
 var
-aq=I;var
+aq=J;var
 ar=aq}else
 var
 ar=H;var
 as=ar}else
 var
 as=G;return as}return O}function
-bd(a){return typeof
-a==="number"?a?tZ:t0:dP(a[1])}function
-hR(a){if(0===a[0]){var
+aU(a){return typeof
+a==="number"?a?pB:pC:c_(a[1])}function
+gR(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-lQ(b,c,a){return b?hF(b[1],c,a):a}function
-cN(d,c,b,a){var
-e=hR(a),f=lQ(d,c,hR(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-lR(b,a){var
+kn(b,c,a){return b?gF(b[1],c,a):a}function
+ca(d,c,b,a){var
+e=gR(a),f=kn(d,c,gR(a)),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
+ko(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lS(b,w,v){var
+kp(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
-f=d[1],i=e[1];if(0===i[0])var
-g=0===f[0]?k1(b,i[1],f[1]):0;else
+f=d[1],j=e[1];if(0===j[0])var
+g=0===f[0]?jy(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=i[1],k=a5(b,c[1],a[1]),l=k?a5(b,c[2],a[2]):k,m=l?a5(b,c[3],a[3]):l,n=m?a5(b,c[4],a[4]):m,o=n?c_(b,c[5],a[5]):n,p=o?c_(b,c[6],a[6]):o,q=p?j(b,1,a[5]):p,r=q?j(b,1,a[6]):q,s=r?j(b,1,N(a[1],a[1])):r;if(s)var
-u=hw(a),h=j(b,1,N(hw(a),u));else
+a=f[1],c=j[1],k=aM(b,c[1],a[1]),l=k?aM(b,c[2],a[2]):k,m=l?aM(b,c[3],a[3]):l,n=m?aM(b,c[4],a[4]):m,o=n?cu(b,c[5],a[5]):n,p=o?cu(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,M(a[1],a[1])):r;if(s)var
+u=gw(a),h=i(b,1,M(gw(a),u));else
 var
 h=s;var
-g=h?cZ(c[7],a[7]):h}if(g){var
+g=h?cj(c[7],a[7]):h}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-lT(a){return typeof
-a==="number"?a?hM(0):cJ:hM(a[1])}function
-hS(b,d,c){if(0===c[0])return fE(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(aU(a[4],b),e),h=g(aU(a[3],b),f),i=g(aU(a[2],d[2]),h);return g(aU(a[1],d[1]),i)}function
-hT(b,a){if(b){var
-c=b[1],d=c[2];return c7(lz(c[1],a),d)}return a}function
-lU(f,w,am,M,ak,v,aj){if(v){var
-j=v[1],an=dx([0,d,d],ak),a=cK(aj,hS(M,an,j)),B=function(c,b){var
-d=al(a,c);return aC(s,aC(F,lT(f),b),d)};if(0===j[0]){var
-C=j[1];switch(C[0]){case
+kq(a){return typeof
+a==="number"?a?gM(0):b8:gM(a[1])}function
+gS(b,d,c){if(0===c[0])return eR(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aC(a[4],b),e),h=f(aC(a[3],b),g),i=f(aC(a[2],d[2]),h);return f(aC(a[1],d[1]),i)}function
+gT(b,a){if(b){var
+c=b[1],d=c[2];return cr(j8(c[1],a),d)}return a}function
+kr(f,w,am,M,al,v,ak){if(v){var
+l=v[1],an=cS([0,d,d],al),a=b9(ak,gS(M,an,l)),B=function(c,b){var
+d=af(a,c);return aq(s,aq(C,kq(f),b),d)};if(0===l[0]){var
+D=l[1];switch(D[0]){case
 0:var
-$=hT(w,al(a,t1)),aM=C[1][5],D=t(t2,a,l(d)),E=al(a,0),aa=B(t3,$),h=ko(aa,c8(E),aa,D,aM),ap=[0,aT(D),0],aq=[0,aT(ag(E,E)),ap],m=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],D]],aq],$];break;case
+aa=gT(w,af(a,pD)),aN=D[1][5],E=t(pE,a,k(d)),F=af(a,0),ab=B(pF,aa),h=iX(ab,cs(F),ab,E,aN),ap=[0,aB(E),0],ar=[0,aB($(F,F)),ap],m=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],E]],ar],aa];break;case
 1:var
-ab=hT(w,al(a,t4)),ac=C[3],G=ac?[0,al(a,t5)]:ac,ad=B(0,ab),n=kp(ad,ad,0);if(G)var
-N=G[1],O=[0,aT(ag(N,N)),0];else
+ad=gT(w,af(a,pG)),ae=D[3],G=ae?[0,af(a,pH)]:ae,ag=B(0,ad),n=iY(ag,ag,0);if(G)var
+N=G[1],O=[0,aB($(N,N)),0];else
 var
 O=G;var
-m=[0,[0,n[1],n[2],n[3],[0,n[4]],0,O],ab];break;default:var
-aN=l(d),aO=l(d),aP=[0,l(d),aO,aN],H=al(a,0),aQ=lT(f),p=kq(aQ,c8(H)),ar=[0,aT(ag(H,H)),0],m=[0,[0,p[1],p[2],p[3],[0,p[4]],0,ar],aP]}}else
+m=[0,[0,n[1],n[2],n[3],[0,n[4]],0,O],ad];break;default:var
+aO=k(d),aP=k(d),aQ=[0,k(d),aP,aO],H=af(a,0),aR=kq(f),p=iZ(aR,cs(H)),as=[0,aB($(H,H)),0],m=[0,[0,p[1],p[2],p[3],[0,p[4]],0,as],aQ]}}else
 var
-ae=hT(w,al(a,t6)),aR=j[1][7],u=t(t7,a,l(d)),e=t(t8,a,l(d)),af=al(a,t9),I=al(a,0),K=B(t_,ae),i=c8(I),x=aC(s,af,cj(ag(i,af),i)),y=c8(x),P=hK(i,y),q=ag(K,y),r=ag(K,P),z=ag(i,K),as=J(r),R=F(J(q),as),at=J(u),au=s(J(e),at),S=F(J(z),au),av=o(l(b(2,c)),e),aw=J(s(ai(F(R,S),av),e)),ax=J(z),A=s(s(J(u),ax),aw),T=ai(l(c),R),ay=l(b(2,c)),az=o(S,T),U=ai(s(l(c),az),ay),V=kn(aR,o(e,aT(A))),W=o(V,T),aA=o(W,r),X=s(o(U,q),aA),aB=o(W,q),Y=F(o(U,r),aB),aD=cj(z,i),aE=cj(Y,P),Z=aC(F,aC(F,cj(X,y),aE),aD),aF=[0,aT(u),0],aG=[0,aT(e),aF],aH=[0,aT(ag(x,x)),aG],aI=[0,aT(ag(I,I)),aH],aJ=ai(s(r,Y),e),aK=[1,ai(s(q,X),e),aJ],aL=c7(Z,V),m=[0,[0,Z,o(J(e),A),aL,aK,[0,[0,A,u]],aI],ae];var
-aZ=Q(aj,k(hS(M,an,j))),a0=v[2],a1=lU(f,w,am,M,ek(ak),a0,aZ),g=m[1],a2=m[2],ah=function(a){var
-b=c7(hK(a2,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:c6(a):lK(f[1],a,b)},L=g[1],_=typeof
-f==="number"?1:0,aS=g[6],aU=g[5],aV=_?f?[0,L[1],[0,L[2],0]]:c6(L):_,aW=g[4],aX=ah(g[3]),aY=g[2],ao=[0,[0,ah(g[1]),aY,aX,aW,aV,aU,aS],a1]}else
+ah=gT(w,af(a,pI)),aS=l[1][7],u=t(pJ,a,k(d)),e=t(pK,a,k(d)),ai=af(a,pL),J=af(a,0),K=B(pM,ah),i=cs(J),x=aq(s,ai,bM($(i,ai),i)),y=cs(x),Q=gK(i,y),q=$(K,y),r=$(K,Q),z=$(i,K),at=I(r),R=C(I(q),at),au=I(u),av=s(I(e),au),S=C(I(z),av),aw=o(k(b(2,c)),e),ax=I(s(ac(C(R,S),aw),e)),ay=I(z),A=s(s(I(u),ay),ax),T=ac(k(c),R),az=k(b(2,c)),aA=o(S,T),U=ac(s(k(c),aA),az),V=iW(aS,o(e,aB(A))),W=o(V,T),aC=o(W,r),X=s(o(U,q),aC),aD=o(W,q),Y=C(o(U,r),aD),aE=bM(z,i),aF=bM(Y,Q),Z=aq(C,aq(C,bM(X,y),aF),aE),aG=[0,aB(u),0],aH=[0,aB(e),aG],aI=[0,aB($(x,x)),aH],aJ=[0,aB($(J,J)),aI],aK=ac(s(r,Y),e),aL=[1,ac(s(q,X),e),aK],aM=cr(Z,V),m=[0,[0,Z,o(I(e),A),aM,aL,[0,[0,A,u]],aJ],ah];var
+aZ=P(ak,j(gS(M,an,l))),a0=v[2],a1=kr(f,w,am,M,dD(al),a0,aZ),g=m[1],a2=m[2],aj=function(a){var
+b=cr(gK(a2,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cq(a):kh(f[1],a,b)},L=g[1],_=typeof
+f==="number"?1:0,aT=g[6],aU=g[5],aV=_?f?[0,L[1],[0,L[2],0]]:cq(L):_,aW=g[4],aX=aj(g[3]),aY=g[2],ao=[0,[0,aj(g[1]),aY,aX,aW,aV,aU,aT],a1]}else
 var
 ao=v;return ao}function
-hU(c,b,a){if(a){var
-e=a[2],f=hU(c,ek(b),e),h=a[1];return g(hS(c,dx([0,d,d],b),h),f)}return a}function
-lV(b,a){if(a){var
-g=lV([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cn([0,[0,d,d],c[2]],b);else
+gU(c,b,a){if(a){var
+e=a[2],g=gU(c,dD(b),e),h=a[1];return f(gS(c,cS([0,d,d],b),h),g)}return a}function
+ks(b,a){if(a){var
+g=ks([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bQ([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-hV(b,a){return b?aa(a):d}function
-fR(c,b,a){if(typeof
+gV(b,a){return b?Z(a):d}function
+e4(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=hV(c,b),h=y(hV(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],aa(b)],0];case
+g=gV(c,b),h=y(gV(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],Z(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-lW(a){if(a){var
+kt(a){if(a){var
 b=a[1][6];if(b)var
-c=lW(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kt(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return t$}function
-lX(y,U,b){function
-c(a){return t(a,U,l(d))}function
+d=b;return d}return pN}function
+ku(y,U,b){function
+c(a){return t(a,U,k(d))}function
 N(a){var
-e=a[2],f=o(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dy(function(b,a){return s(b,J(a))},g,f),d],b]}function
+e=a[2],f=o(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,cT(function(b,a){return s(b,I(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=J(b[2]),g=o(J(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=I(b[2]),g=o(I(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
-C=0;if(typeof
-b==="number")C=1;else
+D=0;if(typeof
+b==="number")D=1;else
 switch(b[0]){case
 2:var
-V=function(b){var
-a=b[4];if(typeof
-a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
-3:var
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+3:var
+X=function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0]){var
+d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(ua),b),g=[0,[0,s(o(c(ub),d),f),0],0],h=o(d,c(uc));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(pO),b),g=[0,[0,s(o(c(pP),d),f),0],0],h=o(d,c(pQ));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4725,189 +3583,189 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lW(y);if(A){var
-aa=c(0),P=dy(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=kt(y);if(A){var
+aa=c(0),P=cT(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
-j=i[2],D=i[1];if(j){var
-k=j[2],E=j[1];if(k)if(k[2]||!h)var
-a=l(d);else{var
+j=i[2],E=i[1];if(j){var
+l=j[2],F=j[1];if(l)if(l[2]||!h)var
+a=k(d);else{var
 m=h[2],n=h[1];if(n){var
 p=n[2],G=n[1];if(p){var
 q=p[2],H=p[1];if(q){var
-I=q[1];if(q[2]||!m)var
-a=l(d);else{var
+J=q[1];if(q[2]||!m)var
+a=k(d);else{var
 r=m[1];if(r){var
 u=r[2],K=r[1];if(u){var
 v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
-a=l(d);else
+a=k(d);else
 var
-R=c9(G,H,K,L),S=o(k[1],R),T=o(E,c9(G,I,K,M)),a=F(s(o(D,c9(H,I,L,M)),T),S)}else
+R=ct(G,H,K,L),S=o(l[1],R),T=o(F,ct(G,J,K,M)),a=C(s(o(E,ct(H,J,L,M)),T),S)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}}else
+a=k(d)}}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):c9(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?k(d):h[2]?k(d):ct(E,F,w[1],x[1]):k(d);else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d)}else
+a=k(d)}else
 var
-a=l(d);var
-ab=[0,bS(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+a=k(d);var
+ab=[0,bs(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
-Q=A;return Q;default:C=1}if(C)return 0;var
-z=X(y,f);return z?g(z[1]):z}function
-fS(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fT(a){return e(function(a){var
-b=l(c);return[0,a[3],b]},a)}function
-lY(a,b){return e(function(a){var
+Q=A;return Q;default:D=1}if(D)return 0;var
+z=V(y,f);return z?g(z[1]):z}function
+e5(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+e6(a){return e(function(a){var
+b=k(c);return[0,a[3],b]},a)}function
+kv(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-lZ(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bV(lY(c,t(0,b,l(d))));return jX(lX(c,b,a))}function
-eG(f,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=eG(f,c,b,Q(e,k(fR(c,b,d))),h);return g(_(f,lV(e,fR(c,b,d)),d),i)}return a}function
-l0(b,a){switch(a[0]){case
+kw(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bv(kv(c,t(0,b,k(d))));return iu(ku(c,b,a))}function
+dZ(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=dZ(g,c,b,P(e,j(e4(c,b,d))),h);return f(ar(g,ks(e,e4(c,b,d)),d),i)}return a}function
+kx(b,a){switch(a[0]){case
 0:var
-d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ad(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?ke(b,c[1]):c;case
-2:return dH(b,a[1]);default:return fo(b,a[1])}}function
-l1(g,h,m,I,H,q,a){if(typeof
-a==="number")return[0,[0,[0,A]],0];else
+e=a[1],c=ad(b,[0,[0,e,e],a[2]]);return c?iN(b,c[1]):c;case
+2:return c2(b,a[1]);default:return eB(b,a[1])}}function
+ky(f,g,m,I,H,q,a){if(typeof
+a==="number")return[0,[0,[0,z]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],i=J,n=function(a){return[0,a]};break;case
+J=[5,[0,c,c],a[1]],h=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,c,c],a[1]],i=M,n=function(a){return[1,a]};break;case
+M=[5,[0,c,c],a[1]],h=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=aj(g,[0,[0,x,x],d]);return[0,D(function(a){return[2,V(g,a)]},Q),P];case
+x=a[1],P=0,Q=ad(f,[0,[0,x,x],d]);return[0,A(function(a){return[2,T(f,a)]},Q),P];case
 7:var
-y=a[3],z=a[2],B=a[1];if(!X(m,B))return uf;var
-G=0;if(j(g,1,z)&&j(g,1,y))var
-R=[5,z,y],i=R,n=function(a){return[7,B,a]};else
-G=1;if(G)return ue;break;case
+y=a[3],B=a[2],C=a[1];if(!V(m,C))return pT;var
+G=0;if(i(f,1,B)&&i(f,1,y))var
+R=[5,B,y],h=R,n=function(a){return[7,C,a]};else
+G=1;if(G)return pS;break;case
 8:var
-C=j(g,1,a[1]),S=0,E=C?j(g,1,a[2]):C;if(E)var
-T=ap(g,c),U=lY(m,t(0,q,l(d))),F=[0,[4,f(aR(h),U),T]];else
+D=i(f,1,a[1]),S=0,E=D?i(f,1,a[2]):D;if(E)var
+U=ai(f,c),W=kv(m,t(0,q,k(d))),F=[0,[4,l(az(g),W),U]];else
 var
 F=E;return[0,F,S];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=j(g,1,[3,s,u]),O=v?j(g,1,[3,[2,u,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],s]):v,k=O;break;case
+s=a[3],u=a[2],v=i(f,1,[3,s,u]),O=v?i(f,1,[3,[2,u,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
 6:case
 9:var
-w=j(g,1,a[2]),k=w?j(g,0,a[3]):w;break;default:p=1}if(p)var
-k=1;var
-o=k?lX(m,q,a):k;if(o){var
+w=i(f,1,a[2]),j=w?i(f,0,a[3]):w;break;default:p=1}if(p)var
+j=1;var
+o=j?ku(m,q,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=f(h,b[1]);return[0,[5,f(h,c),e]]}var
-d=[0,[3,f(h,c)]]}else
+e=l(g,b[1]);return[0,[5,l(g,c),e]]}var
+d=[0,[3,l(g,c)]]}else
 var
-d=a;return d},N)}return ud}var
-K=0,L=aj(g,[0,[0,i,i],hV(I,H)]);return[0,D(function(a){return n(V(g,a))},L),K]}function
-l2(a){if(typeof
+d=a;return d},N)}return pR}var
+K=0,L=ad(f,[0,[0,h,h],gV(I,H)]);return[0,A(function(a){return n(T(f,a))},L),K]}function
+kz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-uh(b){if(0===b[0])return[0,k_(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bs(a[4]),g=bs(a[3]),h=bs(a[2]);return[1,[0,bs(a[1]),h,g,f,e,d,c]]}function
-ui(K,c,a,h,an,aS){var
-aT=e(uh,a[2]),ao=lS(K,a[2],aT);if(ao)var
-aU=k$(a[4]),L=ht(K,a[4],aU);else
+pV(b){if(0===b[0])return[0,jH(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a6(a[4]),g=a6(a[3]),h=a6(a[2]);return[1,[0,a6(a[1]),h,g,f,e,d,c]]}function
+pW(K,c,a,g,an,aT){var
+aV=e(pV,a[2]),ao=kp(K,a[2],aV);if(ao)var
+aW=jI(a[4]),L=gt(K,a[4],aW);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aV=fN(ap[1]),aq=n(function(a){return eF(K,a)},aV);else
+aX=e0(ap[1]),aq=n(function(a){return dY(K,a)},aX);else
 var
 aq=1;var
 M=aq}else
 var
 M=L;if(M){var
-b=a[1],au=bd(b),q=a[6],x=hU(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,k(x)],y=a[2],o=y?0===y[1][0]?0:1:y,av=a[5],aw=D(function(a){var
+b=a[1],av=aU(b),q=a[6],x=gU(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],y=a[2],o=y?0===y[1][0]?0:1:y,aw=a[5],ax=A(function(a){var
 c=typeof
-b==="number"?0:fO(b[1]);return lB(a,c)},av),ax=a[2],i=lU(b,aw,cn(S,k(x)),h,an,ax,0),U=E(function(a){return a[7]},i),ay=g(U,eG(function(a,b){return lZ(i,a,b)},o,h,T,q)),az=g(bV(fT(i)),ay),V=g(bV(fS(i)),az),z=dC(V)[1],aA=c5(z),p=function(a){return bA(aA,a)},W=n(function(a){var
-b=l(d),c=c5(z);return a$(t(p(a),c,b),a)},V),X=W?aK(l2,q):W;if(X){var
+b==="number"?0:e1(b[1]);return j_(a,c)},aw),ay=a[2],h=kr(b,ax,bQ(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),aA=f(U,dZ(function(a,b){return kw(h,a,b)},o,g,T,q)),aB=f(bv(e6(h)),aA),V=f(bv(e5(h)),aB),z=cX(V)[1],aC=cp(z),p=function(a){return bc(aC,a)},W=n(function(a){var
+b=k(d),c=cp(z);return aQ(t(p(a),c,b),a)},V),X=W?au(kz,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?hP(0,fJ(Y)):1;else
+Z=b?gP(0,eW(Y)):1;else
 var
-as=fJ(Y),Z=hP(b[1],as);var
-A=Z}else
+as=eW(Y),Z=gP(b[1],as);var
+C=Z}else
 var
-A=X;if(A){var
+C=X;if(C){var
 O=a[1];if(typeof
 O==="number")var
 r=a[5]?0:1;else
 if(2<=O[1])var
 r=0;else{var
 u=a[5],N=0;if(u){var
-P=j(c,1,a[3]);if(P)var
-at=fN(u[1]),r=n(function(a){var
-b=ez(c,a[1]);return b?ez(c,a[2]):b},at);else{var
+P=i(c,1,a[3]);if(P)var
+at=e0(u[1]),r=n(function(a){var
+b=dS(c,a[1]);return b?dS(c,a[2]):b},at);else{var
 Q=P;N=1}}else{var
 Q=u;N=1}if(N)var
 r=Q}var
-B=r}else
+D=r}else
 var
-B=A;if(B)var
-aB=a[2],C=n(function(a){var
-b=0===a[0]?0:1;return cZ(b,o)},aB);else
+D=C;if(D)var
+aD=a[2],E=n(function(a){var
+b=0===a[0]?0:1;return cj(b,o)},aD);else
 var
-C=B;if(C){var
-aC=g(x,[0,S,0]),F=ak(e(function(a){return aj(c,a)},aC));if(F){var
-aD=E(function(a){return fR(o,h,a)},q),G=ak(e(function(a){return l0(c,a)},aD));if(G){var
-m=fJ(a[4]),aE=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lP(b[1],m),H=ak(e(function(a){return aj(c,[0,a,h])},aE));if(H){var
+E=D;if(E){var
+aE=f(x,[0,S,0]),F=ae(e(function(a){return ad(c,a)},aE));if(F){var
+aF=B(function(a){return e4(o,g,a)},q),G=ae(e(function(a){return kx(c,a)},aF));if(G){var
+m=eW(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:km(b[1],m),H=ae(e(function(a){return ad(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aF=lD($[1]),s=ak(e(function(a){return lF(c,a)},aF));else
+aH=ka($[1]),s=ae(e(function(a){return kc(c,a)},aH));else
 var
-s=ug;if(s){var
-aa=s[1],w=a[5],aG=w?lC(w[1]):w,I=ak(e(function(a){return dO(c,a)},aG));if(I){var
-J=ak(eG(function(a,b){return l1(c,p,i,o,h,a,b)},o,h,T,q));if(J){var
-ab=J[1],ac=v(k(g(_,aa)),au);if(ac){var
-aH=ho(ab),aI=g(_,aa),ar=0,aJ=a[4];if(typeof
+s=pU;if(s){var
+aa=s[1],w=a[5],aI=w?j$(w[1]):w,I=ae(e(function(a){return c9(c,a)},aI));if(I){var
+J=ae(dZ(function(a,b){return ky(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
+ab=J[1],ac=v(j(f(_,aa)),av);if(ac){var
+aJ=go(ab),aK=f(_,aa),ar=0,aL=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return k0(c,aJ,h,a)};ar=1}if(!ar)var
-ad=function(a){return 0};var
-aL=g(G[1],I[1]),aM=g(F[1],aL),aN=e(p,U),aO=fT(i),aP=f(aR(p),aO),aQ=fS(i);return fC(c,z,f(aR(p),aQ),aP,aN,aM,ab,ad,aI,aH,aS)}var
-ae=ac}else
+af=function(a){return jx(c,aL,g,a)};ar=1}if(!ar)var
+af=function(a){return 0};var
+aM=f(G[1],I[1]),aN=f(F[1],aM),aO=e(p,U),aP=e6(h),aR=l(az(p),aP),aS=e5(h);return eP(c,z,l(az(p),aS),aR,aO,aN,ab,af,aK,aJ,aT)}var
+ag=ac}else
 var
-ae=J;var
-af=ae}else
-var
-af=I;var
-ag=af}else
-var
-ag=s;var
+ag=J;var
 ah=ag}else
 var
-ah=H;var
+ah=I;var
 ai=ah}else
 var
-ai=G;var
-al=ai}else
+ai=s;var
+aj=ai}else
+var
+aj=H;var
+ak=aj}else
+var
+ak=G;var
+al=ak}else
 var
 al=F;var
 am=al}else
 var
-am=C;return am}return M}function
-bF(c){var
+am=E;return am}return M}function
+bh(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4916,149 +3774,149 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bF(a[2]);return g(bF(a[1]),e)}}function
-bt(e,a,b){switch(a[0]){case
+e=bh(a[2]);return f(bh(a[1]),e)}}function
+a7(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return cn([0,[0,r,r],d],b);case
+r=a[1];return bQ([0,[0,r,r],d],b);case
 1:var
-u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(pk(n[1],u))return n[2];var
+u=a[1],g=e,v=k(d);for(;;){if(g){var
+n=g[1];if(nx(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bS(bt(e,a[1],b));case
+2:return bs(a7(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=F;break;case
+i=a[2],f=a[1],h=C;break;case
 4:var
 i=a[2],f=a[1],h=s;break;case
 5:var
 i=a[2],f=a[1],h=o;break;case
 6:var
-i=a[2],f=a[1],h=ai;break;case
+i=a[2],f=a[1],h=ac;break;case
 7:var
-j=ei(a[2]),m=bt(e,a[1],b);if(j){if(j[1]){var
-p=J(m),t=function(a){return o(a,p)},q=fc(bQ(jP(j)),t,p);return jO(j)?q:o(q,m)}return m}return l(c);default:return aT(bt(e,a[1],b))}var
-w=bt(e,i,Q(b,k(bF(f))));return h(bt(e,f,b),w)}function
-cO(c,f,b){var
-a=f;for(;;)switch(a[0]){case
+l=dB(a[2]),m=a7(e,a[1],b);if(l){if(l[1]){var
+p=I(m),t=function(a){return o(a,p)},q=ep(bq(il(l)),t,p);return ik(l)?q:o(q,m)}return m}return k(c);default:return aB(a7(e,a[1],b))}var
+w=a7(e,i,P(b,j(bh(f))));return h(a7(e,f,b),w)}function
+cb(c,g,b){var
+a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=Q(b,k(bF(e))),l=cO(c,a[2],j),m=g(cO(c,e,b),l);return[0,bt(c,a,b),m];case
+e=a[1],k=P(b,j(bh(e))),l=cb(c,a[2],k),m=f(cb(c,e,b),l);return[0,a7(c,a,b),m];case
 8:var
-n=cO(c,a[1],b);return[0,bt(c,a,b),n];case
+n=cb(c,a[1],b);return[0,a7(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=Q(b,k(bF(d))),i=cO(c,a[2],h);return g(cO(c,d,b),i)}}function
-l3(c,a,b){if(a){var
-e=a[1],d=e[2],f=Q(b,k(bF(d))),h=a[2],i=bt(c,d,b),j=l3([0,[0,e[1],i],c],h,f);return g(cO(c,d,b),j)}return a}function
-hW(a){return E(bF,a)}function
-l4(c,a,b){if(a)var
-d=a[1],f=Q(b,k(bF(d))),g=l4(c,a[2],f),e=[0,bt(c,d,b),g];else
+d=a[1],h=P(b,j(bh(d))),i=cb(c,a[2],h);return f(cb(c,d,b),i)}}function
+kA(c,a,b){if(a){var
+e=a[1],d=e[2],g=P(b,j(bh(d))),h=a[2],i=a7(c,d,b),k=kA([0,[0,e[1],i],c],h,g);return f(cb(c,d,b),k)}return a}function
+gW(a){return B(bh,a)}function
+kB(c,a,b){if(a)var
+d=a[1],f=P(b,j(bh(d))),g=kB(c,a[2],f),e=[0,a7(c,d,b),g];else
 var
 e=a;return e}function
-l5(c,a,b){if(a){var
-d=a[1],e=Q(b,k(bF(d))),f=l5(c,a[2],e);return g(cO(c,d,b),f)}return a}function
-hX(a){return 0===a[0]?hW(a[1]):bF(a[1])}function
-l6(c,b,a){if(b){var
-d=b[1],i=Q(a,k(hX(d))),j=l6(c,b[2],i);if(0===d[0])var
-f=l5(c,d[1],a);else
+kC(c,a,b){if(a){var
+d=a[1],e=P(b,j(bh(d))),g=kC(c,a[2],e);return f(cb(c,d,b),g)}return a}function
+gX(a){return 0===a[0]?gW(a[1]):bh(a[1])}function
+kD(c,b,a){if(b){var
+d=b[1],i=P(a,j(gX(d))),k=kD(c,b[2],i);if(0===d[0])var
+g=kC(c,d[1],a);else
 var
-e=d[1],h=cO(c,e,a),f=[0,bt(c,e,a),h];return g(f,j)}return b}function
-fU(c){var
+e=d[1],h=cb(c,e,a),g=[0,a7(c,e,a),h];return f(g,k)}return b}function
+e7(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=c4(fU,a)}return[0,b]}function
-hY(c){var
+b=co(e7,a)}return[0,b]}function
+gY(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hY(a[2]);return o(hY(a[1]),d);case
-9:return a[1];default:return J(b)}}}function
-l7(n,g,a,f){if(a){var
-b=a[1],w=Q(f,k(hX(b))),x=l7(n,g,a[2],w);if(0===b[0])var
-j=l4(g,b[1],f),o=[0,j,l(c),j,0,0,0,0];else
+d=gY(a[2]);return o(gY(a[1]),d);case
+9:return a[1];default:return I(b)}}}function
+kE(n,g,a,f){if(a){var
+b=a[1],w=P(f,j(gX(b))),x=kE(n,g,a[2],w);if(0===b[0])var
+l=kB(g,b[1],f),o=[0,l,k(c),l,0,0,0,0];else
 var
-m=bt(g,b[1],f),q=fU(m),h=bo(a9(0,n),q),d=fU(h[2]),i=e(fU,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return a$(a,d)?l(c):ai(a,d)},i),o=[0,i,hY(d),v,u,t,s,r];var
+m=a7(g,b[1],f),q=e7(m),h=a3(aO(0,n),q),d=e7(h[2]),i=e(e7,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aQ(a,d)?k(c):ac(a,d)},i),o=[0,i,gY(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-l8(a){return e(function(a){return[0,a[2],d]},a)}function
-l9(a){var
-b=E(hX,a[4]),c=g(hW(e(cY,a[3])),b);return g(l8(a[2]),c)}function
-l_(a){var
-c=cK(0,l8(a[2])),d=a9(0,k(a[1])),f=e(function(a){return[0,[0,a]]},d),b=a0(e(a3,a[2]),c);return g(a0(a[1],f),b)}function
-hZ(b,d){var
+kF(a){return e(function(a){return[0,a[2],d]},a)}function
+kG(a){var
+b=B(gX,a[4]),c=f(gW(e(ci,a[3])),b);return f(kF(a[2]),c)}function
+kH(a){var
+c=b9(0,kF(a[2])),d=aO(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aH(e(aK,a[2]),c);return f(aH(a[1],g),b)}function
+gZ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aK(function(a){return aq(e,a)},b);case
+e=a[1];return au(function(a){return ak(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hZ(b,a[1]);if(c){var
+c=gZ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-l$(d){var
+kI(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=at(aK(function(b){return function(a){return pk(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=al(au(function(b){return function(a){return nx(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fW=s(l(c),fV);function
-ma(e){var
-a=J(fW);if(e)var
-f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=ai(F(l(c),h),g);else
+e9=s(k(c),e8);function
+kJ(e){var
+a=I(e9);if(e)var
+f=o(k(b(2,c)),a),g=C(k(b(2,b(2,c))),f),h=o(k(b(2,c)),a),d=ac(C(k(c),h),g);else
 var
-i=F(l(b(2,c)),a),j=J(fV),d=ai(F(o(l(b(2,c)),j),a),i);return aT(d)}function
-mb(d,b,a){if(d){var
-e=ma(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=ma(b),j=ai(l(c),i);return s(o(a,F(l(c),j)),h)}function
-dS(f,e,d,a){var
-g=J(a),h=J(d),i=s(s(l(b(2,c)),h),g),j=f?e?fW:ai(fW,o(l(b(2,c)),fV)):ai(fW,l(b(2,c))),k=o(J(j),i);return aT(F(l(c),k))}function
-mc(g,d){var
+i=C(k(b(2,c)),a),j=I(e8),d=ac(C(o(k(b(2,c)),j),a),i);return aB(d)}function
+kK(d,b,a){if(d){var
+e=kJ(b),f=C(k(c),e),g=o(s(k(c),a),f);return s(k(c),g)}var
+h=k(c),i=kJ(b),j=ac(k(c),i);return s(o(a,C(k(c),j)),h)}function
+db(f,e,d,a){var
+g=I(a),h=I(d),i=s(s(k(b(2,c)),h),g),j=f?e?e9:ac(e9,o(k(b(2,c)),e8)):ac(e9,k(b(2,c))),l=o(I(j),i);return aB(C(k(c),l))}function
+kL(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?G(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-h0(v,u,s){var
+e=b[2],f=c[1]?F(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+g0(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
-g=a[1];if(g){var
+f=a[1];if(f){var
 b=a[2];if(b){var
-h=b[1];if(h){var
+g=b[1];if(g){var
 c=b[2];if(c){var
-i=c[1];if(i){var
+h=c[1];if(h){var
 d=c[2];if(d){var
-j=d[1];if(j){if(d[2])return 0;var
-w=j[1],x=i[1],y=h[1],z=g[1];return n(function(a){var
-c=f(a,w),d=f(a,x),e=f(a,y),b=f(a,z);return fq([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+i=d[1];if(i){if(d[2])return 0;var
+w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
+c=l(a,w),d=l(a,x),e=l(a,y),b=l(a,z);return eD([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+j=i}else
+var
+j=d;var
 k=j}else
 var
-k=d;var
-l=k}else
-var
-l=i;var
-m=l}else
+k=h;var
+m=k}else
 var
 m=c;var
 o=m}else
 var
-o=h;var
+o=g;var
 p=o}else
 var
 p=b;var
 q=p}else
 var
-q=g;var
+q=f;var
 r=q}else
 var
 r=a;return r}function
-md(f,i,e,b,h){var
-j=f?c:d,a=ap(i,j);function
+kM(f,i,e,b,h){var
+j=f?c:d,a=ai(i,j);function
 g(b){var
-c=f?fi(b):dB(b);return L(c,a)}var
-k=[0,aw(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-me(r,g,q,p,f,o,n){if(o){var
+c=f?ev(b):cW(b);return K(c,a)}var
+k=[0,ao(h),0],l=[0,[0,a,b,[0,z,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kN(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -5067,16 +3925,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(a4,bD(uo)),a=h0(p,kH(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aL,bf(p2)),a=g0(p,je(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=M(k[2],l[1]);b=1;c=1;d=1;break}else
+a=L(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(mc,up),a=h0(p,bT(0,cG(g,md(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(kL,p3),a=g0(p,bt(0,b5(g,kM(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(mc,uq),a=h0(p,bT(0,cG(g,md(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(kL,p4),a=g0(p,bt(0,b5(g,kM(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -5086,27 +3944,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?ur:a}else
+y=a?p5:a}else
 var
 y=n;return y}return[0,n]}function
-mf(f,e,d,c,p,o,n){var
+kO(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=me(f,e,d,c,b,a[1],g);return h?at(h[1]):h}var
-i=me(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=es(a[2],b),l=mf(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kN(f,e,d,c,b,a[1],g);return h?al(h[1]):h}var
+i=kN(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dL(a[2],b),l=kO(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-h1(a){return jR(b(2,c),aY(a,c))}function
-dT(i,a,e,w,v){var
-m=a?c:aa(c),f=l(m),g=mb(a,e,um),h=mb(a,e,un),n=ai(g,dS(a,e,f,g)),p=[0,F(ai(h,dS(a,e,h,f)),n),0],q=ai(f,dS(a,e,f,g)),r=[0,F(ai(h,dS(a,e,g,h)),q),p],s=ai(f,dS(a,e,h,f)),t=[0,F(ai(g,dS(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fV):l(b(2,b(2,c))),j=dC([0,u,t]),k=[0,d,c2(i)];return mf(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-mg(a,g,b){if($(g,h1(a))){if(b){var
+g1(a){return io(b(2,c),aG(a,c))}function
+dc(i,a,e,w,v){var
+m=a?c:Z(c),f=k(m),g=kK(a,e,p0),h=kK(a,e,p1),n=ac(g,db(a,e,f,g)),p=[0,C(ac(h,db(a,e,h,f)),n),0],q=ac(f,db(a,e,f,g)),r=[0,C(ac(h,db(a,e,g,h)),q),p],s=ac(f,db(a,e,h,f)),t=[0,C(ac(g,db(a,e,g,h)),s),r],u=a?e?k(b(2,c)):o(k(b(2,b(2,c))),e8):k(b(2,b(2,c))),j=cX([0,u,t]),l=[0,d,cm(i)];return kO(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+kP(a,g,b){if(Y(g,g1(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,h1(a)],v=c2(a),i=[0,h1(a),v],j=dT(a,0,1,h,b[1]),k=j?dT(a,0,0,i,c[1]):j;if(k){var
-l=dT(a,1,1,h,d[1]);if(l)return dT(a,1,0,i,e[1]);var
+h=[0,g,g1(a)],v=cm(a),i=[0,g1(a),v],j=dc(a,0,1,h,b[1]),k=j?dc(a,0,0,i,c[1]):j;if(k){var
+l=dc(a,1,1,h,d[1]);if(l)return dc(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5123,255 +3981,255 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,c2(a)],s=dT(a,0,0,r,b[1]);if(s)return dT(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=dc(a,0,0,r,b[1]);if(s)return dc(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-h2(a){var
-b=[1,[2,d]];return dy(function(b,a){return[1,[3,b,a]]},a,b)}function
-fX(a){return h2(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fY(a,c){return h2(e(function(a){var
-d=[0,a[2]],b=a0(a[1],c);return[1,[7,[1,[8,h2(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mh(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-g=a[1],h=c4(function(a){return mh(e,d,c,b,a)},g);return f(cG(e,d,c),h)}function
-mi(a){return a?$(d,a[1][2][1]):a}function
-us(a){var
-b=v(k(a),ut);return b?aK(function(a){return at(ah(a,d))},a):b}function
-mj(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,ap(c,a[1]),f),h=mj(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
+g2(a){var
+b=[1,[2,d]];return cT(function(b,a){return[1,[3,b,a]]},a,b)}function
+e_(a){return g2(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+e$(a,c){return g2(e(function(a){var
+d=[0,a[2]],b=aH(a[1],c);return[1,[7,[1,[8,g2(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+kQ(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=co(function(a){return kQ(e,d,c,b,a)},f);return l(b5(e,d,c),g)}function
+kR(a){return a?Y(d,a[1][2][1]):a}function
+p6(a){var
+b=v(j(a),p7);return b?au(function(a){return al(ab(a,d))},a):b}function
+kS(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,ai(c,a[1]),f),h=kS(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fZ(b,a){return jW(jW(b,0),a)}function
-h3(a){if(a){var
-b=a[2],c=a[1];if(b)return fZ(c,[0,uv,h3(b)]);var
+fa(b,a){return it(it(b,0),a)}function
+g3(a){if(a){var
+b=a[2],c=a[1];if(b)return fa(c,[0,p9,g3(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,ux,fZ(h3(a),uw)]}function
-S(a){return[0,uz,fZ(h3(a),uy)]}function
-am(a){return[0,uB,[0,a,uA]]}function
-h(b,a){return[0,aH(uD,aH(b,uC)),a]}function
-I(b,a){return S([0,h(b,a),0])}function
-cp(d){var
-b=d,a=so,e=0;for(;;){if(b){var
-c=jN(a),b=b[1],a=c;continue}return[0,en(fb(a)),e]}}function
-h4(a){return[0,en(ff(a)),0]}function
-f0(a){var
-c=b$(a),f=0,b=0===c?ss:0<c?[0,ff(a)]:[1,ff(aa(a))];if(0===b[0])var
-d=en(b[1]);else
+x(a){return[0,p$,fa(g3(a),p_)]}function
+R(a){return[0,qb,fa(g3(a),qa)]}function
+ag(a){return[0,qd,[0,a,qc]]}function
+g(b,a){return[0,aJ(qf,aJ(b,qe)),a]}function
+H(b,a){return R([0,g(b,a),0])}function
+bS(d){var
+b=d,a=n2,e=0;for(;;){if(b){var
+c=ij(a),b=b[1],a=c;continue}return[0,dG(eo(a)),e]}}function
+g4(a){return[0,dG(es(a)),0]}function
+fb(a){var
+c=bG(a),f=0,b=0===c?n6:0<c?[0,es(a)]:[1,es(Z(a))];if(0===b[0])var
+d=dG(b[1]);else
 var
-e=en(b[1]),d=aH(bq(1,45),e);return[0,d,f]}function
-h5(a){var
-b=0,c=0<b$(a)?ff(a):sr;return[0,en(c),b]}function
-h6(a){switch(a[0]){case
-2:return uF;case
-3:return 2<=a[1]?uG:uH;case
-4:return uI;default:return uE}}function
-eH(b,a){function
-c(c,a){return Z(c,h6(a))?eH(b,a):[0,uO,g(eH(b,a),uN)]}switch(a[0]){case
+e=dG(b[1]),d=aJ(a$(1,45),e);return[0,d,f]}function
+g5(a){var
+b=0,c=0<bG(a)?es(a):n5;return[0,dG(c),b]}function
+g6(a){switch(a[0]){case
+2:return qh;case
+3:return 2<=a[1]?qi:qj;case
+4:return qk;default:return qg}}function
+d0(b,a){function
+c(c,a){return X(c,g6(a))?d0(b,a):[0,qq,f(d0(b,a),qp)]}switch(a[0]){case
 0:var
-e=a[2],h=a[1];if(typeof
-e==="number")return[0,a_(h),0];var
-i=[0,uP,[0,a_(e),0]];return[0,a_(h),i];case
-1:return[0,f(b,a[1]),0];case
-2:return[0,uR,c(uQ,a[1])];case
+e=a[2],g=a[1];if(typeof
+e==="number")return[0,aP(g),0];var
+h=[0,qr,[0,aP(e),0]];return[0,aP(g),h];case
+1:return[0,l(b,a[1]),0];case
+2:return[0,qt,c(qs,a[1])];case
 3:var
-j=a[3],k=c([0,h6(a)],j);switch(a[1]){case
+i=a[3],j=c([0,g6(a)],i);switch(a[1]){case
 0:var
-d=uJ;break;case
+d=ql;break;case
 1:var
-d=uK;break;case
+d=qm;break;case
 2:var
-d=uL;break;default:var
-d=uM}var
-l=a[2];return g(c(h6(a),l),[0,d,k]);case
+d=qn;break;default:var
+d=qo}var
+k=a[2];return f(c(g6(a),k),[0,d,j]);case
 4:var
-m=[0,uS,h4(a[2])];return g(c(uT,a[1]),m);default:return[0,uV,g(eH(b,a[1]),uU)]}}function
-H(a){return[0,uY,g(eH(function(a){return 0===a[0]?a[1]:uX},a),uW)]}function
-h7(a){return[0,u0,g(eH(function(a){return a},a),uZ)]}function
-cq(a){if(0===a[0])return H(a[1]);var
-b=[0,h(u1,H(a[2])),0];return S([0,h(u2,H(a[1])),b])}function
-f1(b,a){var
-c=[0,f(b,a[3]),0],d=[0,f(b,a[2]),c];return x([0,f(b,a[1]),d])}function
-u3(a){function
-b(a){return f1(cq,a)}switch(a[0]){case
+m=[0,qu,g4(a[2])];return f(c(qv,a[1]),m);default:return[0,qx,f(d0(b,a[1]),qw)]}}function
+G(a){return[0,qA,f(d0(function(a){return 0===a[0]?a[1]:qz},a),qy)]}function
+g7(a){return[0,qC,f(d0(function(a){return a},a),qB)]}function
+bT(a){if(0===a[0])return G(a[1]);var
+b=[0,g(qD,G(a[2])),0];return R([0,g(qE,G(a[1])),b])}function
+fc(b,a){var
+c=[0,l(b,a[3]),0],d=[0,l(b,a[2]),c];return x([0,l(b,a[1]),d])}function
+qF(a){function
+b(a){return fc(bT,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?u4:va,i=[0,h(u5,am(f)),e],j=[0,h(u6,cq(a[4])),i],k=[0,h(u7,b(a[3])),j],l=[0,h(u8,b(a[2])),k],m=[0,h(u9,b(a[1])),l],c=[0,h(u$,am(u_)),m];break;case
+e=0,h=a[5]?qG:qO,i=[0,g(qH,ag(h)),e],j=[0,g(qI,bT(a[4])),i],k=[0,g(qJ,b(a[3])),j],l=[0,g(qK,b(a[2])),k],m=[0,g(qL,b(a[1])),l],c=[0,g(qN,ag(qM)),m];break;case
 1:var
-d=a[3],n=d?[0,h(vb,b(d[1])),0]:d,o=[0,h(vc,b(a[2])),0],p=[0,h(vd,b(a[1])),o],c=g([0,h(vf,am(ve)),p],n);break;default:var
-q=[0,h(vg,b(a[1])),0],c=[0,h(vi,am(vh)),q]}return S(c)}function
-vj(a){function
-b(a){return x(e(cq,a))}function
+d=a[3],n=d?[0,g(qP,b(d[1])),0]:d,o=[0,g(qQ,b(a[2])),0],p=[0,g(qR,b(a[1])),o],c=f([0,g(qT,ag(qS)),p],n);break;default:var
+q=[0,g(qU,b(a[1])),0],c=[0,g(qW,ag(qV)),q]}return R(c)}function
+qX(a){function
+b(a){return x(e(bT,a))}function
 d(a){var
-b=a?vk:vm;return h(vl,am(b))}switch(a[0]){case
+b=a?qY:q0;return g(qZ,ag(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,h(vn,cq(a[4])),f],i=[0,h(vo,b(a[3])),g],j=[0,h(vp,b(a[2])),i],k=[0,h(vq,b(a[1])),j],c=[0,h(vs,am(vr)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(q1,bT(a[4])),f],i=[0,g(q2,b(a[3])),h],j=[0,g(q3,b(a[2])),i],k=[0,g(q4,b(a[1])),j],c=[0,g(q6,ag(q5)),k];break;case
 1:var
-l=[0,h(vt,b(a[2])),0],m=[0,h(vu,b(a[1])),l],c=[0,h(vw,am(vv)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,h(vx,cq(a[6])),n],p=[0,h(vy,cq(a[5])),o],q=[0,h(vz,b(a[4])),p],r=[0,h(vA,b(a[3])),q],s=[0,h(vB,b(a[2])),r],t=[0,h(vC,b(a[1])),s],c=[0,h(vE,am(vD)),t]}return S(c)}function
-h8(a){switch(a){case
-0:return vF;case
-1:return vG;case
-2:return vH;case
-3:return vI;case
-4:return vJ;case
-5:return vK;case
-6:return vL;case
-7:return vM;case
-8:return vN;case
-9:return vO;case
-10:return vP;case
-11:return vQ;case
-12:return vR;default:return vS}}function
-h9(a){if(typeof
-a==="number")return vT;else
+l=[0,g(q7,b(a[2])),0],m=[0,g(q8,b(a[1])),l],c=[0,g(q_,ag(q9)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(q$,bT(a[6])),n],p=[0,g(ra,bT(a[5])),o],q=[0,g(rb,b(a[4])),p],r=[0,g(rc,b(a[3])),q],s=[0,g(rd,b(a[2])),r],t=[0,g(re,b(a[1])),s],c=[0,g(rg,ag(rf)),t]}return R(c)}function
+g8(a){switch(a){case
+0:return rh;case
+1:return ri;case
+2:return rj;case
+3:return rk;case
+4:return rl;case
+5:return rm;case
+6:return rn;case
+7:return ro;case
+8:return rp;case
+9:return rq;case
+10:return rr;case
+11:return rs;case
+12:return rt;default:return ru}}function
+g9(a){if(typeof
+a==="number")return rv;else
 switch(a[0]){case
-0:return vU;case
-1:return vV;default:return vW}}function
-eI(a){var
+0:return rw;case
+1:return rx;default:return ry}}function
+d1(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,h(vX,H(b[1])),0];break;case
+c=[0,g(rz,G(b[1])),0];break;case
 1:var
-c=[0,h(vY,H(b[1])),0];break;default:var
-l=[0,H(b[2]),0],c=[0,h(vZ,x([0,H(b[1]),l])),0]}var
-m=[0,h(v0,am(h9(a[4]))),c],e=a[3];if(e){var
+c=[0,g(rA,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,g(rB,x([0,G(b[1]),l])),0]}var
+m=[0,g(rC,ag(g9(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=x([0,H(d[1]),0]),i=a[1],n=0,p=6===i?v1:12===i?v5:v6,j=[0,h(v2,I(p,o)),n];else
+o=x([0,G(d[1]),0]),i=a[1],n=0,p=6===i?rD:12===i?rH:rI,j=[0,g(rE,H(p,o)),n];else
 var
-t=[0,h(v7,x([0,H(d[2]),0])),0],j=[0,h(v9,S([0,h(v8,x([0,H(d[1]),0])),t])),0];var
+t=[0,g(rJ,x([0,G(d[2]),0])),0],j=[0,g(rL,R([0,g(rK,x([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=g(k,m),f=a[2],r=f?[0,h(v3,cp(f[1])),0]:f,s=g(r,q);return S([0,h(v4,am(h8(a[1]))),s])}function
-mk(a){if(0===a[0]){var
-b=[0,h(v_,f1(H,a[2])),0];return I(wa,S([0,h(v$,f1(H,a[1])),b]))}var
-c=[0,H(a[5]),0],d=[0,h(wb,x([0,H(a[4]),c])),0],e=[0,h(wc,H(a[3])),d],f=[0,H(a[2]),0];return I(we,S([0,h(wd,x([0,H(a[1]),f])),e]))}function
-ml(a){switch(a){case
-0:return wi;case
-1:return wj;default:return wk}}function
-wl(a){function
-b(a){return x(e(cq,a))}var
-c=[0,h(wm,b(a[2])),0],d=[0,h(wn,b(a[1])),c];return S([0,h(wp,am(wo)),d])}function
-mm(a){function
+q=f(k,m),h=a[2],r=h?[0,g(rF,bS(h[1])),0]:h,s=f(r,q);return R([0,g(rG,ag(g8(a[1]))),s])}function
+kT(a){if(0===a[0]){var
+b=[0,g(rM,fc(G,a[2])),0];return H(rO,R([0,g(rN,fc(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,g(rP,x([0,G(a[4]),c])),0],e=[0,g(rQ,G(a[3])),d],f=[0,G(a[2]),0];return H(rS,R([0,g(rR,x([0,G(a[1]),f])),e]))}function
+kU(a){switch(a){case
+0:return rW;case
+1:return rX;default:return rY}}function
+rZ(a){function
+b(a){return x(e(bT,a))}var
+c=[0,g(r0,b(a[2])),0],d=[0,g(r1,b(a[1])),c];return R([0,g(r3,ag(r2)),d])}function
+kV(a){function
 b(b,a){var
-c=[0,H(a),0];return x([0,H(b),c])}switch(a[0]){case
-0:return I(wq,b(a[1],a[2]));case
+c=[0,G(a),0];return x([0,G(b),c])}switch(a[0]){case
+0:return H(r4,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,h(wr,b(c[1],c[2])),0],g=[0,h(ws,b(d[1],d[2])),f];return I(wu,S([0,h(wt,b(e[1],e[2])),g]));case
-2:return I(wv,H(a[1]));default:var
-i=[0,h(ww,H(a[2])),0];return I(wy,S([0,h(wx,H(a[1])),i]))}}function
-wz(a){function
-b(a){return f1(H,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(wA,b(c[1])),0]:c,f=[0,H(a[4]),0],i=[0,h(wB,x([0,H(a[3]),f])),0],j=[0,h(wC,H(a[2])),i],k=[0,h(wD,cp(a[1])),j],d=g([0,h(wF,am(wE)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(r5,b(c[1],c[2])),0],h=[0,g(r6,b(d[1],d[2])),f];return H(r8,R([0,g(r7,b(e[1],e[2])),h]));case
+2:return H(r9,G(a[1]));default:var
+i=[0,g(r_,G(a[2])),0];return H(sa,R([0,g(r$,G(a[1])),i]))}}function
+sb(a){function
+b(a){return fc(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sc,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sd,x([0,G(a[3]),h])),0],j=[0,g(se,G(a[2])),i],k=[0,g(sf,bS(a[1])),j],d=f([0,g(sh,ag(sg)),k],e);else
 var
-l=[0,h(wG,H(a[4])),0],m=[0,h(wH,b(a[3])),l],n=[0,h(wI,b(a[2])),m],o=a[1]?wJ:wL,d=[0,h(wK,am(o)),n];return S(d)}function
-h_(d,c,a,b){var
-f=[0,h(wM,x(e(eI,b))),0],i=a?[0,h(wN,x(e(wz,a))),0]:a,j=g(i,f),k=[0,h(wO,mk(c)),0];return S(g([0,h(wQ,I(wP,x(e(u3,d)))),k],j))}function
-wR(a){switch(a[0]){case
-0:return I(wS,h_(a[1],a[2],a[3],a[4]));case
+l=[0,g(si,G(a[4])),0],m=[0,g(sj,b(a[3])),l],n=[0,g(sk,b(a[2])),m],o=a[1]?sl:sn,d=[0,g(sm,ag(o)),n];return R(d)}function
+g_(d,c,a,b){var
+h=[0,g(so,x(e(d1,b))),0],i=a?[0,g(sp,x(e(sb,a))),0]:a,j=f(i,h),k=[0,g(sq,kT(c)),0];return R(f([0,g(ss,H(sr,x(e(qF,d)))),k],j))}function
+st(a){switch(a[0]){case
+0:return H(su,g_(a[1],a[2],a[3],a[4]));case
 1:var
-c=a[5],d=a[3],f=a[1],i=x(e(vj,a[2])),p=[0,h(wT,x(e(eI,a[6]))),0],q=c?[0,h(wU,mm(c[1])),0]:c,r=g(q,p),b=a[4];if(0===b[0])var
-o=[0,h(wf,x(e(H,b[2]))),0],j=I(wh,S([0,h(wg,x(e(H,b[1]))),o]));else
+c=a[5],d=a[3],h=a[1],i=x(e(qX,a[2])),p=[0,g(sv,x(e(d1,a[6]))),0],q=c?[0,g(sw,kV(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
+o=[0,g(rT,x(e(G,b[2]))),0],j=H(rV,R([0,g(rU,x(e(G,b[1]))),o]));else
 var
-j=mk([1,b[1],b[2],b[3],b[4],b[5]]);var
-n=0,s=[0,h(wV,j),r];if(typeof
-f==="number")if(f)var
-k=wW;else{var
-l=I(w1,i);n=1}else
+j=kT([1,b[1],b[2],b[3],b[4],b[5]]);var
+n=0,s=[0,g(sx,j),r];if(typeof
+h==="number")if(h)var
+k=sy;else{var
+l=H(sD,i);n=1}else
 var
-k=ml(f[1]);if(!n)var
-t=d?[0,h(wX,H(d[1])),0]:d,l=I(k,S([0,h(wY,i),t]));return I(w0,S([0,h(wZ,l),s]));case
+k=kU(h[1]);if(!n)var
+t=d?[0,g(sz,G(d[1])),0]:d,l=H(k,R([0,g(sA,i),t]));return H(sC,R([0,g(sB,l),s]));case
 2:var
-u=[0,h(w2,x(e(eI,a[7]))),0],v=[0,h(w3,mm(a[6])),u],w=[0,h(w4,x(e(H,a[5]))),0],y=[0,h(w7,I(w6,S([0,h(w5,x(e(H,a[4]))),w]))),v],z=[0,h(w8,H(a[3])),0],A=S([0,h(w9,x(e(wl,a[2]))),z]);return I(w$,S([0,h(w_,I(ml(a[1]),A)),y]));case
+u=[0,g(sE,x(e(d1,a[7]))),0],v=[0,g(sF,kV(a[6])),u],w=[0,g(sG,x(e(G,a[5]))),0],y=[0,g(sJ,H(sI,R([0,g(sH,x(e(G,a[4]))),w]))),v],z=[0,g(sK,G(a[3])),0],A=R([0,g(sL,x(e(rZ,a[2]))),z]);return H(sN,R([0,g(sM,H(kU(a[1]),A)),y]));case
 3:var
-B=[0,h(xa,x(e(eI,a[7]))),0],C=[0,h(xb,x(e(H,a[6]))),0],D=[0,h(xe,I(xd,S([0,h(xc,x(e(H,a[5]))),C]))),B],E=0,F=a[4],G=[0,h(xh,x(e(function(a){return 0===a[0]?I(xf,x(e(h7,a[1]))):I(xg,h7(a[1]))},F))),E],J=a[3],K=[0,h(xi,x(e(function(a){var
-b=[0,h7(a[2]),0];return x([0,am(a[1]),b])},J))),G],L=a[2],M=[0,h(xj,x(e(function(a){var
-b=[0,cq(a[2]),0];return x([0,am(a[1]),b])},L))),K];return I(xn,S([0,h(xm,I(xl,S([0,h(xk,x(e(am,a[1]))),M]))),D]));case
+B=[0,g(sO,x(e(d1,a[7]))),0],C=[0,g(sP,x(e(G,a[6]))),0],D=[0,g(sS,H(sR,R([0,g(sQ,x(e(G,a[5]))),C]))),B],E=0,F=a[4],I=[0,g(sV,x(e(function(a){return 0===a[0]?H(sT,x(e(g7,a[1]))):H(sU,g7(a[1]))},F))),E],J=a[3],K=[0,g(sW,x(e(function(a){var
+b=[0,g7(a[2]),0];return x([0,ag(a[1]),b])},J))),I],L=a[2],M=[0,g(sX,x(e(function(a){var
+b=[0,bT(a[2]),0];return x([0,ag(a[1]),b])},L))),K];return H(s1,R([0,g(s0,H(sZ,R([0,g(sY,x(e(ag,a[1]))),M]))),D]));case
 4:var
-N=[0,h(xo,x(e(eI,a[3]))),0],O=[0,h(xr,I(xq,S([0,h(xp,H(a[2])),0]))),N];return I(xv,S([0,h(xu,I(xt,S([0,h(xs,H(a[1])),0]))),O]));case
+N=[0,g(s2,x(e(d1,a[3]))),0],O=[0,g(s5,H(s4,R([0,g(s3,G(a[2])),0]))),N];return H(s9,R([0,g(s8,H(s7,R([0,g(s6,G(a[1])),0]))),O]));case
 5:var
-P=[0,h(xw,H(a[5])),0];return I(xy,S([0,h(xx,h_(a[1],[0,a[2],a[3]],0,a[4])),P]));case
+P=[0,g(s_,G(a[5])),0];return H(ta,R([0,g(s$,g_(a[1],[0,a[2],a[3]],0,a[4])),P]));case
 6:var
-m=a[1],Q=0,R=m?cq(m[1]):am(xB);return I(xA,S([0,h(xz,R),Q]));default:var
-T=[0,h(xC,H(a[6])),0],U=[0,h(xD,H(a[5])),T],V=[0,h(xE,h_(a[2],a[3],0,a[4])),U],W=a[1];return I(xJ,S([0,h(xI,x(e(function(a){var
-b=[0,h(xF,H(a[2][2])),0],c=[0,h(xG,H(a[2][1])),b];return S([0,h(xH,am(a[1])),c])},W))),V]))}}function
-eJ(a){return x(e(f0,a))}function
-f2(b,a){var
-c=[0,h(xK,h5(a)),0];return S([0,h(xL,x(e(eJ,b))),c])}function
-eK(a){switch(a[0]){case
-0:return am(a[1]);case
+m=a[1],Q=0,S=m?bT(m[1]):ag(td);return H(tc,R([0,g(tb,S),Q]));default:var
+T=[0,g(te,G(a[6])),0],U=[0,g(tf,G(a[5])),T],V=[0,g(tg,g_(a[2],a[3],0,a[4])),U],W=a[1];return H(tl,R([0,g(tk,x(e(function(a){var
+b=[0,g(th,G(a[2][2])),0],c=[0,g(ti,G(a[2][1])),b];return R([0,g(tj,ag(a[1])),c])},W))),V]))}}function
+d2(a){return x(e(fb,a))}function
+fd(b,a){var
+c=[0,g(tm,g5(a)),0];return R([0,g(tn,x(e(d2,b))),c])}function
+d3(a){switch(a[0]){case
+0:return ag(a[1]);case
 1:var
-b=f2(a[2],a[3]);return I(a[1],b);case
+b=fd(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?xM:xO;return I(xN,am(c));case
+c=a[1]?to:tq;return H(tp,ag(c));case
 3:var
-d=[0,eJ(a[3]),0];return I(xP,x([0,f2(a[1],a[2]),d]));case
+d=[0,d2(a[3]),0];return H(tr,x([0,fd(a[1],a[2]),d]));case
 4:var
-f=[0,cp(0),0],g=[0,f0(a[3]),f];return I(xQ,x([0,f2(a[1],a[2]),g]));case
+f=[0,bS(0),0],g=[0,fb(a[3]),f];return H(ts,x([0,fd(a[1],a[2]),g]));case
 5:var
-h=[0,h5(a[3]),0],i=[0,f0(a[2]),h];return I(xR,x([0,eK(a[1]),i]));case
+h=[0,g5(a[3]),0],i=[0,fb(a[2]),h];return H(tt,x([0,d3(a[1]),i]));case
 6:var
-j=[0,h5(a[3]),0],k=[0,f0(a[2]),j];return I(xS,x([0,eK(a[1]),k]));case
-7:return I(xT,eK(a[1]));default:var
-l=[0,x(e(eJ,a[3])),0],m=[0,am(a[2]),l];return I(xU,x([0,eK(a[1]),m]))}}function
-xV(a){var
-b=[0,eK(a[2]),0];return x([0,cp(a[1]),b])}function
-mn(a){if(typeof
-a==="number")return am(xW);else{if(0===a[0]){var
-b=[0,x(e(eJ,a[2])),0];return I(xX,x([0,cp(a[1]),b]))}var
-c=[0,cp(a[2]),0];return I(xY,x([0,cp(a[1]),c]))}}function
-xZ(a){var
-b=a[4],i=b?[0,h(x0,eJ([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(x1,mn(d[1])),0]:d,k=g(j,i),f=a[2],l=f?[0,h(x2,cp(f[1])),0]:f,m=g(l,k),c=a[1],n=c?[0,h(x3,x(e(xV,[0,c[1],c[2]]))),0]:c;return S(g(n,m))}function
-mo(f,a,d){var
-i=[0,h(x4,x(e(xZ,d))),0];if(a)var
-b=a[1],c=[0,h(x5,f2(b[1],b[2])),0];else
+j=[0,g5(a[3]),0],k=[0,fb(a[2]),j];return H(tu,x([0,d3(a[1]),k]));case
+7:return H(tv,d3(a[1]));default:var
+l=[0,x(e(d2,a[3])),0],m=[0,ag(a[2]),l];return H(tw,x([0,d3(a[1]),m]))}}function
+tx(a){var
+b=[0,d3(a[2]),0];return x([0,bS(a[1]),b])}function
+kW(a){if(typeof
+a==="number")return ag(ty);else{if(0===a[0]){var
+b=[0,x(e(d2,a[2])),0];return H(tz,x([0,bS(a[1]),b]))}var
+c=[0,bS(a[2]),0];return H(tA,x([0,bS(a[1]),c]))}}function
+tB(a){var
+b=a[4],i=b?[0,g(tC,d2([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(tD,kW(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(tE,bS(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(tF,x(e(tx,[0,c[1],c[2]]))),0]:c;return R(f(n,m))}function
+kX(h,a,d){var
+i=[0,g(tG,x(e(tB,d))),0];if(a)var
+b=a[1],c=[0,g(tH,fd(b[1],b[2])),0];else
 var
 c=a;var
-j=g(c,i);return S([0,h(x6,h4(f)),j])}function
-mp(d,c,a,b){var
-f=[0,h(x7,mn(b)),0],i=a?[0,h(x8,x(e(H,a))),0]:a,j=g(i,f),k=[0,h(x9,x(e(H,c))),0];return S(g([0,h(x_,h4(d)),k],j))}function
-x$(a){if(typeof
-a==="number")return am(ya);else
+j=f(c,i);return R([0,g(tI,g4(h)),j])}function
+kY(d,c,a,b){var
+h=[0,g(tJ,kW(b)),0],i=a?[0,g(tK,x(e(G,a))),0]:a,j=f(i,h),k=[0,g(tL,x(e(G,c))),0];return R(f([0,g(tM,g4(d)),k],j))}function
+tN(a){if(typeof
+a==="number")return ag(tO);else
 switch(a[0]){case
-0:return I(yb,cp(a[1]));case
-1:return I(yc,mo(a[1],a[2],a[3]));default:return I(yd,mp(a[1],a[2],a[3],a[4]))}}function
-f3(a){var
-b=gQ(gP(P(a),function(b){return ab(a,b)}));return n(function(a){var
-b=at(34===a?1:0),c=b?at(92===a?1:0):b,d=c?Z(ys,fg(a)):c;return d?Z(fg(a),yt):d},b)}function
-eL(b){function
+0:return H(tP,bS(a[1]));case
+1:return H(tQ,kX(a[1],a[2],a[3]));default:return H(tR,kY(a[1],a[2],a[3],a[4]))}}function
+fe(a){var
+b=fZ(fY(aj(a),function(b){return aF(a,b)}));return n(function(a){var
+b=al(34===a?1:0),c=b?al(92===a?1:0):b,d=c?X(t6,et(a)):c;return d?X(et(a),t7):d},b)}function
+d4(b){function
 c(f){var
-a=fg(f),b=Z(yu,a),c=b?Z(a,yv):b;if(c)var
+a=et(f),b=X(t8,a),c=b?X(a,t9):b;if(c)var
 d=c;else{var
-e=Z(yw,a);if(e)return Z(a,yx);var
+e=X(t_,a);if(e)return X(a,t$);var
 d=e}return d}var
-a=gQ(gP(P(b),function(a){return ab(b,a)}));if(a){var
+a=fZ(fY(aj(b),function(a){return aF(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fg(a),f=Z(yy,e),h=f?Z(e,yz):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(k(d),yA):f;if(g)return at(aq(b,yB));var
+e=et(a),f=X(ua,e),h=f?X(e,ub):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?X(j(d),uc):f;if(g)return al(ak(b,ud));var
 h=g}else
 var
 h=a;return h}function
-h$(c){var
+g$(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eL(a[1]);case
+1:return d4(a[1]);case
 3:var
-b=h$(a[2]);if(b){var
+b=g$(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eM(m){var
+d5(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5382,104 +4240,104 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fb(a[2]);if(typeof
+f=eo(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eM(a[2]);if(i){var
+i=d5(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eM(a[1]),l=k?fe(b(2,c),j):k;return l?fe(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=d5(a[1]),l=k?er(b(2,c),j):k;return l?er(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bG(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-df(a){return E(dU,bG(a))}function
-ia(a){switch(a[0]){case
+dd(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bi(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cB(a){return B(dd,bi(a))}function
+ha(a){switch(a[0]){case
 0:var
-c=dU(a[4]),d=g(df(a[3]),c),e=g(df(a[2]),d);return g(df(a[1]),e);case
+c=dd(a[4]),d=f(cB(a[3]),c),e=f(cB(a[2]),d);return f(cB(a[1]),e);case
 1:var
-b=a[3],f=b?df(b[1]):b,h=g(df(a[2]),f);return g(df(a[1]),h);default:return df(a[1])}}function
-yC(a){switch(a[0]){case
+b=a[3],g=b?cB(b[1]):b,h=f(cB(a[2]),g);return f(cB(a[1]),h);default:return cB(a[1])}}function
+ue(a){switch(a[0]){case
 0:var
-c=g(a[3],[0,a[4],0]),d=g(a[2],c),b=g(a[1],d);break;case
+c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
-b=g(a[1],a[2]);break;default:var
-e=g(a[4],[0,a[5],[0,a[6],0]]),f=g(a[3],e),h=g(a[2],f),b=g(a[1],h)}return E(dU,b)}function
-mq(a){if(0===a[0]){var
-b=bG(a[2]);return g(bG(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mr(a){switch(a[0]){case
+b=f(a[1],a[2]);break;default:var
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dd,b)}function
+kZ(a){if(0===a[0]){var
+b=bi(a[2]);return f(bi(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+k0(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dg(d){var
-a=d[4],f=typeof
+cC(d){var
+a=d[4],g=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
-e=c;return g(e,f)}function
-yD(a){if(0===a[0]){var
-b=a[5],c=b?bG(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(bG(a[3]),d);return g(bG(a[2]),e)}function
-ms(b,e){var
+e=c;return f(e,g)}function
+uf(a){if(0===a[0]){var
+b=a[5],c=b?bi(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bi(a[3]),d);return f(bi(a[2]),e)}function
+k1(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aK(function(a){return aq(f,a)},b)}return 0;case
+f=c[1];return au(function(a){return ak(f,a)},b)}return 0;case
 3:var
-d=ms(b,a[2]);if(d){var
+d=k1(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-f4(c,a){return n(function(a){var
-b=eM(a);return b?ms(c,a):b},a)}function
-mt(a){var
-d=fe(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?fe(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mu(a,b){return b?[4,mu(a,b[1]),a]:a}function
-i(a){switch(a[0]){case
+ff(c,a){return n(function(a){var
+b=d5(a);return b?k1(c,a):b},a)}function
+k2(a){var
+d=er(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?er(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+k3(a,b){return b?[4,k3(a,b[1]),a]:a}function
+h(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=fc(jL(j),l,c);return[0,jT(jM(fb(a[1]),j)),m];case
+j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=ep(ih(j),l,c);return[0,iq(ii(eo(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,aa(f[1]),f[2]]:[3,[0,d,c],f];case
+f=h(a[1]);return 0===f[0]?[0,Z(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
-g=i(a[2]),h=i(a[3]);switch(a[1]){case
-0:return[2,g,h];case
-1:return[3,g,h];case
-2:return[4,g,h];default:return[5,g,h]}case
+g=h(a[2]),i=h(a[3]);switch(a[1]){case
+0:return[2,g,i];case
+1:return[3,g,i];case
+2:return[4,g,i];default:return[5,g,i]}case
 4:var
-n=bQ(ei(a[2]));return mu(i(a[1]),n);default:return[6,i(a[1])]}}function
-bH(a){if(0===a[0]){var
-b=i(a[1]);return[0,b,b]}var
-c=i(a[2]);return[0,i(a[1]),c]}function
-dh(a){var
-b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
-yE(a){switch(a[0]){case
+n=bq(dB(a[2]));return k3(h(a[1]),n);default:return[6,h(a[1])]}}function
+bj(a){if(0===a[0]){var
+b=h(a[1]);return[0,b,b]}var
+c=h(a[2]);return[0,h(a[1]),c]}function
+cD(a){var
+b=bj(a[3]),c=bj(a[2]);return[0,bj(a[1]),c,b]}function
+ug(a){switch(a[0]){case
 0:var
-b=a[5],c=bH(a[4]),d=dh(a[3]),e=dh(a[2]);return[0,[0,dh(a[1]),e,d,c,b]];case
+b=a[5],c=bj(a[4]),d=cD(a[3]),e=cD(a[2]);return[0,[0,cD(a[1]),e,d,c,b]];case
 1:var
-f=D(dh,a[3]),g=dh(a[2]);return[1,dh(a[1]),g,f];default:return[2,dh(a[1])]}}function
-mv(a){if(0===a[0]){var
+f=A(cD,a[3]),g=cD(a[2]);return[1,cD(a[1]),g,f];default:return[2,cD(a[1])]}}function
+k4(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=i(f(a,c));return[0,i(f(a,d)),b]},e=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,e]]}var
-h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-dV(a){var
-b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-dW(a){if(0===a[0]){var
-b=a[5],h=b?dV(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bQ(a[1]),l,k,j,h]}var
+b=h(l(a,c));return[0,h(l(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),k=h(a[2]);return[1,h(a[1]),k,j,i]}function
+de(a){var
+b=h(a[3]),c=h(a[2]);return[0,h(a[1]),c,b]}function
+df(a){if(0===a[0]){var
+b=a[5],i=b?de(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bq(a[1]),l,k,j,i]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dV(f),n=dV(g);return[2,i(e),n,m]}var
-o=dV(f),p=dV(g);return[1,i(e),p,o]}function
-ib(b,a){if(a){var
-c=a[1],d=a[2],f=ib(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(c1(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:cZ(b[1],a[1]);return at(d)},h),f)}return a}function
-yF(b){if(b[1])return 0;var
+m=de(f),n=de(g);return[2,h(e),n,m]}var
+o=de(f),p=de(g);return[1,h(e),p,o]}function
+hb(b,a){if(a){var
+c=a[1],d=a[2],g=hb(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cl(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:cj(b[1],a[1]);return al(d)},h),g)}return a}function
+uh(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-yH(c,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
+uj(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5511,7 +4369,7 @@ f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=v(c,yJ),J=0;if(x){var
+x=v(c,ul),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -5534,142 +4392,142 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?v(c,yK):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?v(c,um):0:j}return 0;case
 13:return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=Z(yI,b);return n?Z(b,c):n}function
-ic(f,m,_,b){var
-$=k(f),h=E(function(a){switch(a[1]){case
+n=X(uk,b);return n?X(b,c):n}function
+hc(g,m,_,b){var
+$=j(g),i=B(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,h(g[1])],0];return 0;case
 1:var
 f=a[4],z=0;if(typeof
 f==="number")z=1;else
 switch(f[0]){case
 0:var
-K=f[1],b=function(a){return[2,a,i(K)]};break;case
+K=f[1],b=function(a){return[2,a,h(K)]};break;case
 1:var
-M=f[1],b=function(a){return[3,a,i(M)]};break;default:z=1}if(z)return 0;break;case
+M=f[1],b=function(a){return[3,a,h(M)]};break;default:z=1}if(z)return 0;break;case
 2:var
-h=a[4],G=0;if(typeof
-h==="number"||!(1===h[0]))G=1;else{var
-j=a[3],N=h[1];if(!j)return j;var
+i=a[4],G=0;if(typeof
+i==="number"||!(1===i[0]))G=1;else{var
+j=a[3],N=i[1];if(!j)return j;var
 B=j[1];if(0!==B[0])return 0;var
 O=B[1],b=function(a){var
-b=i(N);return[4,a,i(O),b]}}if(G)return 0;break;case
+b=h(N);return[4,a,h(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
+k!=="number"&&1===k[0])return[0,[5,h(k[1])],0];return 0;case
 4:var
 l=a[4],H=0;if(typeof
 l==="number"||!(0===l[0]))H=1;else
 var
-P=l[1],b=function(a){return[6,a,i(P)]};if(H)return 0;break;case
+P=l[1],b=function(a){return[6,a,h(P)]};if(H)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,h(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 o=a[3];if(o){var
 C=o[1];if(0===C[0]){var
-Q=i(n[1]);return[0,[8,i(C[1]),Q],0]}return 0}return o}return 0;case
+Q=h(n[1]);return[0,[8,h(C[1]),Q],0]}return 0}return o}return 0;case
 7:var
 p=a[4];if(typeof
-p!=="number"&&0===p[0])return[0,[9,i(p[1])],0];return 0;case
+p!=="number"&&0===p[0])return[0,[9,h(p[1])],0];return 0;case
 8:var
 q=a[4],I=0;if(typeof
 q==="number"||!(1===q[0]))I=1;else{var
 r=a[3],R=q[1];if(!r)return r;var
 D=r[1];if(0!==D[0])return 0;var
 S=D[1],b=function(a){var
-b=i(R);return[13,a,i(S),b]}}if(I)return 0;break;case
+b=h(R);return[13,a,h(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=ib(0,_);return e(function(h){var
-e=i(T),a=h[2],b=h[1];if(0===b[0]){var
+T=s[1],U=hb(0,_);return e(function(i){var
+e=h(T),a=i[2],b=i[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dV(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bQ(f),m,l,k]}var
-n=dW(a);return[10,dW(b),n,e]}var
-o=dW(a);return[10,dW(b),o,e]}var
-p=dW(a);return[10,dW(b),p,e]},U)}return 0;case
+g=function(a){return a?de(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
+j=h(a[2]),k=[2,[2,h(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bq(f),m,l,k]}var
+n=df(a);return[10,df(b),n,e]}var
+o=df(a);return[10,df(b),o,e]}var
+p=df(a);return[10,df(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
 u=a[3],V=t[1];if(!u)return u;var
 w=u[1];if(0===w[0])return 0;var
 W=w[2],X=w[1],b=function(a){var
-b=i(V),c=i(W);return[12,a,i(X),c,b]}}if(J)return 0;break;case
+b=h(V),c=h(W);return[12,a,h(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?yG:E;return Y;case
+a[4]==="number"?1:0,Y=E?ui:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
-Z=i(x[1]);return[0,[14,i(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,bQ(A[1]),0]:a9(0,$);return e(b,L)},b),a=E(yF,b),j=a?[0,a[1],a[2]]:yL,l=g(j,h),n=mv(m);return[0,e(yE,f),n,l]}function
-yM(b){if(b[1])return 0;var
+Z=h(x[1]);return[0,[14,h(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
+A=a[2],L=A?[0,bq(A[1]),0]:aO(0,$);return e(b,L)},b),a=B(uh,b),k=a?[0,a[1],a[2]]:un,l=f(k,i),n=k4(m);return[0,e(ug,g),n,l]}function
+uo(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-dX(L,K,b){var
-c=E(function(a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
+dg(L,K,b){var
+c=B(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,h(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-y=c[1],b=function(a){return[2,a,i(y)]};break;case
+y=c[1],b=function(a){return[2,a,h(y)]};break;case
 1:var
-A=c[1],b=function(a){return[3,a,i(A)]};break;default:var
+A=c[1],b=function(a){return[3,a,h(A)]};break;default:var
 B=c[2],C=c[1],b=function(a){var
-b=i(B);return[4,a,i(C),b]}}break;case
+b=h(B);return[4,a,h(C),b]}}break;case
 2:var
 f=a[4],u=0;if(typeof
 f==="number"||!(1===f[0]))u=1;else{var
 g=a[3],D=f[1];if(!g)return g;var
 r=g[1];if(0!==r[0])return 0;var
 E=r[1],b=function(a){var
-b=i(E),c=i(D);return L?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
+b=h(E),c=h(D);return L?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
 3:var
-h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
+i=a[4];if(typeof
+i!=="number"&&1===i[0])return[0,[5,h(i[1])],0];return 0;case
 4:var
 j=a[4],v=0;if(typeof
 j==="number"||!(0===j[0]))v=1;else
 var
-F=j[1],b=function(a){return[10,a,i(F)]};if(v)return 0;break;case
+F=j[1],b=function(a){return[10,a,h(F)]};if(v)return 0;break;case
 5:var
 k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
+k!=="number"&&0===k[0])return[0,[12,h(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
 s=m[1];if(0===s[0]){var
-G=i(l[1]);return[0,[8,i(s[1]),G],0]}return 0}return m}return 0;case
+G=h(l[1]);return[0,[8,h(s[1]),G],0]}return 0}return m}return 0;case
 8:var
 n=a[4],w=0;if(typeof
 n==="number"||!(1===n[0]))w=1;else{var
 o=a[3],H=n[1];if(!o)return o;var
 t=o[1];if(0!==t[0])return 0;var
 I=t[1],b=function(a){var
-b=i(H);return[7,a,i(I),b]}}if(w)return 0;break;case
+b=h(H);return[7,a,h(I),b]}}if(w)return 0;break;case
 13:var
 p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
-J=p[1],b=function(a){return[11,a,i(J)]};if(x)return 0;break;default:return 0}var
-q=a[2],z=q?[0,bQ(q[1]),0]:a9(0,K);return e(b,z)},b),a=E(yM,b),d=a?[0,a[1],a[2]]:yN;return g(d,c)}function
-bY(n,m,a){var
+J=p[1],b=function(a){return[11,a,h(J)]};if(x)return 0;break;default:return 0}var
+q=a[2],z=q?[0,bq(q[1]),0]:aO(0,K);return e(b,z)},b),a=B(uo,b),d=a?[0,a[1],a[2]]:up;return f(d,c)}function
+by(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5679,113 +4537,113 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cZ(n,e);if(f){var
+f=cj(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(yO,h);return i?Z(h,m):i}var
+h=g[1],i=X(uq,h);return i?X(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bZ(n,b,a){var
+bz(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(yP,e),o=f?Z(e,b):f,c=o;else
+e=d[1],f=X(ur,e),o=f?X(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bY(0,b,a):bY(0,b,a)}return bY(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:by(0,b,a):by(0,b,a)}return by(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bY(0,b,a):bY(0,b,a)}return bY(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:by(0,b,a):by(0,b,a)}return by(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?v(b,n):c:bY(0,b,a):bY(0,b,a)}return bY(0,b,a)}return bY(0,b,a)}function
-cP(a){switch(a[0]){case
-0:return[0,i([0,a[1],a[2]])];case
+m=a[3];return m?0===m[1][0]?c?v(b,n):c:by(0,b,a):by(0,b,a)}return by(0,b,a)}return by(0,b,a)}function
+cc(a){switch(a[0]){case
+0:return[0,h([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cP(a[1])];case
+2:return[2,cc(a[1])];case
 3:var
-b=cP(a[2]),c=cP(a[3]);switch(a[1]){case
+b=cc(a[2]),c=cc(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cP(a[1]),d];default:return[8,cP(a[1])]}}function
-f5(b){function
+d=a[2];return[7,cc(a[1]),d];default:return[8,cc(a[1])]}}function
+fg(b){function
 a(e){var
 a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(yR),f=a(yS);return[0,a(0),f,e]}function
-di(a){function
+e=a(ut),f=a(uu);return[0,a(0),f,e]}function
+cE(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,i(a[1])];default:var
-e=i(a[2]);return[3,i(a[1]),e]}}function
-mw(j,a,h,g,f,d,c){function
-b(a){return f5(e(bH,a))}var
-l=dX(0,k(a),c),m=di(d),n=a0(g,f),o=f5(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,e(function(a){var
+2:return[2,h(a[1])];default:var
+e=h(a[2]);return[3,h(a[1]),e]}}function
+k5(k,a,i,g,f,d,c){function
+b(a){return fg(e(bj,a))}var
+l=dg(0,j(a),c),m=cE(d),n=aH(g,f),o=fg(e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(i);return[0,k,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-mx(a){return aK(function(a){return 2===a[0]?1:0},a)}function
-my(m,b,f,a,l,j){var
-n=k(b),o=dX(mx(b),n,j),p=D(di,l);if(0===a[0])var
-h=a0(a[1],a[2]),g=[0,f5(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},h))];else
+k6(a){return au(function(a){return 2===a[0]?1:0},a)}function
+k7(m,b,f,a,l,k){var
+n=j(b),o=dg(k6(b),n,k),p=A(cE,l);if(0===a[0])var
+i=aH(a[1],a[2]),g=[0,fg(e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},i))];else
 var
-g=mv([1,a[1],a[2],a[3],a[4],a[5]]);var
-q=f?i(f[1]):[0,c,c];return[0,m,e(function(a){function
-b(a){return f5(e(bH,a))}switch(a[0]){case
+g=k4([1,a[1],a[2],a[3],a[4],a[5]]);var
+q=f?h(f[1]):[0,c,c];return[0,m,e(function(a){function
+b(a){return fg(e(bj,a))}switch(a[0]){case
 0:var
-k=a[5],l=bH(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bj(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bH(a[6]),r=bH(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
-mz(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cm(i(g[2][1]));if(k){var
-l=k[1],m=cm(i(g[2][2]));if(m)var
+p=a[7],q=bj(a[6]),r=bj(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
+k8(o,e,a){if(e)if(a){var
+g=e[1],i=a[1],k=bP(h(g[2][1]));if(k){var
+l=k[1],m=bP(h(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,fc(h[2],d,c)];return em(l,dA(g6(p,l),e))},q=n(y(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,ep(i[2],d,c)];return dF(l,cV(f6(p,l),e))},q=n(y(i[1],c)),f=[0,n(i[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mz([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=k8([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-au(b,a){switch(a[0]){case
+am(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jY(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,au(b,a[1])];case
+e=c[1],d=iv(function(a){return ak(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,am(b,a[1])];case
 3:var
-f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
+f=am(b,a[3]),g=am(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
-mA(b,a){if(0===a[0])return[0,au(b,a[1])];var
-c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-id(b,a){var
-c=f(b,a[3]),d=f(b,a[2]);return[0,f(b,a[1]),d,c]}function
-ie(c,a){if(c)if(a){var
+h=a[2];return[4,am(b,a[1]),h];default:return[5,am(b,a[1])]}}function
+k9(b,a){if(0===a[0])return[0,am(b,a[1])];var
+c=am(b,a[2]);return[1,am(b,a[1]),c]}function
+hd(b,a){var
+c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
+he(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=ie(h,g);if(e){var
-i=e[1],f=ie(h,i[2]);if(f)var
+e=he(h,g);if(e){var
+i=e[1],f=he(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5797,90 +4655,90 @@ var
 d=a;else
 var
 d=c;return d}function
-ig(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ig(g,f[1],h)];var
+hf(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hf(g,f[1],h)];var
 j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(u(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-yT(a){if(typeof
+uv(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-yU(a){if(typeof
+uw(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f6(e,a){if(0===a[0]){var
-g=[0,c,b(2,c)],h=f6(e,a[3]);return dA(em(f6(e,a[2]),h),g)}return f(e,a[1])?[0,c,c]:[0,d,c]}var
+fh(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=fh(e,a[3]);return cV(dF(fh(e,a[2]),g),f)}return l(e,a[1])?[0,c,c]:[0,d,c]}var
 q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-cr(h){var
-a=bR(function(f,e){var
-a=bb(q,f);if(a)var
-b=a[1],c=bP(gL(b[1]),gL(b[2]));else
+bU(h){var
+a=br(function(f,e){var
+a=aS(q,f);if(a)var
+b=a[1],c=bp(fW(b[1]),fW(b[2]));else
 var
-c=d;return bP(c,e)},d,h);if($(d,a)){var
-f=b$(a);if(0===f||!(0<f&&!M(a,c)))var
+c=d;return bp(c,e)},d,h);if(Y(d,a)){var
+f=bG(a);if(0===f||!(0<f&&!L(a,c)))var
 g=d;else
 var
-b=bO(a,bj(2)),e=b[1],g=ah(b[2],d)?fd(e):fd(e);return aY(g,q)}return d}function
-dY(a){return[0,a[1],[0,a[2],0]]}function
-be(a){var
-b=dY(a[3]),c=g(dY(a[2]),b);return g(dY(a[1]),c)}function
-mB(a){return 0===a[0]?dY(a[1][4]):0}function
-mC(a){switch(a[0]){case
+b=bo(a,aZ(2)),e=b[1],g=ab(b[2],d)?eq(e):eq(e);return aG(g,q)}return d}function
+dh(a){return[0,a[1],[0,a[2],0]]}function
+aV(a){var
+b=dh(a[3]),c=f(dh(a[2]),b);return f(dh(a[1]),c)}function
+k_(a){return 0===a[0]?dh(a[1][4]):0}function
+k$(a){switch(a[0]){case
 0:var
-b=a[1],c=be(b[3]);return g(be(b[2]),c);case
+b=a[1],c=aV(b[3]);return f(aV(b[2]),c);case
 1:var
-d=be(a[2]);return g(be(a[1]),d);default:return 0}}function
-f7(a){switch(a[0]){case
-0:return cr(be(a[1][1]));case
+d=aV(a[2]);return f(aV(a[1]),d);default:return 0}}function
+fi(a){switch(a[0]){case
+0:return bU(aV(a[1][1]));case
 1:var
-b=a[3];return b?cr(be(b[1])):d;default:return cr(be(a[1]))}}function
-ih(b){var
-a=E(mB,b),d=a?[0,a[1],a[2]]:E(mC,b);return y(c,cr(d))}function
-mD(c,a){if(c){if(a){var
+b=a[3];return b?bU(aV(b[1])):d;default:return bU(aV(a[1]))}}function
+hg(b){var
+a=B(k_,b),d=a?[0,a[1],a[2]]:B(k$,b);return y(c,bU(d))}function
+la(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=yV;else
+b=ux;else
 if(43===d)var
-b=yW;else
+b=uy;else
 var
-f=48===d?1:0,i=f?yX:f,b=i;if(b)var
-e=mD(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?uz:f,b=i;if(b)var
+e=la(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:yY}function
-eN(b,a){switch(a[0]){case
+h=a;return h}return a?0:uA}function
+d6(b,a){switch(a[0]){case
 0:var
-c=a[1];if(aq(c,yZ))return y0;if(aq(c,y1))return y2;if(aq(c,y3))return y4;if(aq(c,y5))return y6;if(aq(c,y7))return y8;var
-k=aq(c,y9),p=k?y_:k;return p;case
+c=a[1];if(ak(c,uB))return uC;if(ak(c,uD))return uE;if(ak(c,uF))return uG;if(ak(c,uH))return uI;if(ak(c,uJ))return uK;var
+k=ak(c,uL),p=k?uM:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(aq(f,y$))return[0,[0,d,e]];if(aq(f,za))return[0,[1,d,e]];if(aq(f,zb))return[0,[2,d,e]];var
-l=aq(f,zc),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(ak(f,uN))return[0,[0,d,e]];if(ak(f,uO))return[0,[1,d,e]];if(ak(f,uP))return[0,[2,d,e]];var
+l=ak(f,uQ),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eN(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=d6(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eN(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=d6(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eN(b,a[1]);return D(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eN(b,a[1]);if(i)var
-j=mD(b,gQ(gP(P(m),function(a){return ab(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=d6(b,a[1]);return A(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=d6(b,a[1]);if(i)var
+j=la(b,fZ(fY(aj(m),function(a){return aF(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mE(d,a){if(a){var
-e=a[1],b=eN(d,e[2]);if(b)var
-c=mE(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+lb(d,a){if(a){var
+e=a[1],b=d6(d,e[2]);if(b)var
+c=lb(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return zd}function
-dj(d,c,a){if(c)if(a){var
+f=b;return f}return uR}function
+cF(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mE(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=lb(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=dj(d,k,j);if(f){var
-m=f[1],g=dj(d,k,m[2]);if(g)var
+f=cF(d,k,j);if(f){var
+m=f[1],g=cF(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5895,109 +4753,109 @@ var
 h=a;else
 var
 h=c;return h}function
-ii(e,d,a){if(d){if(a){var
-b=dj(e,k(a),a);if(b)var
-f=b[1],c=ii(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hh(e,d,a){if(d){if(a){var
+b=cF(e,j(a),a);if(b)var
+f=b[1],c=hh(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return ze}return a?0:zf}function
-ij(a){return typeof
+g=b;return g}return uS}return a?0:uT}function
+hi(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-ik(d,a){if(d)if(a){var
+hj(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=ik(k,j);if(e){var
-l=e[1],f=ik(k,l[2]);if(f)var
+e=hj(k,j);if(e){var
+l=e[1],f=hj(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,ij(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hi(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cQ(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-dk(a,e){var
-b=cQ(a[1],e),c=cQ(a[2],b[2]),d=cQ(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mF(d,c){if(d){var
+cd(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
+cG(a,e){var
+b=cd(a[1],e),c=cd(a[2],b[2]),d=cd(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+lc(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dk(a[1],c),f=dk(a[2],e[2]),g=dk(a[3],f[2]),h=cQ(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cG(a[1],c),f=cG(a[2],e[2]),g=cG(a[3],f[2]),h=cd(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dk(a[1],c),k=j[1],l=dk(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dk(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cG(a[1],c),k=j[1],l=cG(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cG(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dk(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mF(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-zg(a){if(typeof
+p=cG(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=lc(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+uU(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return zi;case
+5:return uW;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return zh}function
-bu(a,b){if(a){var
-c=cQ(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-bp(b){function
+11:return 0}return uV}function
+a8(a,b){if(a){var
+c=cd(a[1],b),d=a8(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a4(b){function
 a(a){return t(a,b,[0,d,c])}var
-e=a(zk),f=a(zl);return[0,a(0),f,e]}function
-mG(a,b){if(a){var
-c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=mG(a[2],e[2]),g=f[2],h=f[1],i=bp(e[1]);return[0,[0,[0,bp(d[1]),i],h],g]}return[0,0,b]}function
-mH(f,b){if(f){var
+e=a(uY),f=a(uZ);return[0,a(0),f,e]}function
+ld(a,b){if(a){var
+c=a[1],d=a8(c[1],b),e=a8(c[2],d[2]),f=ld(a[2],e[2]),g=f[2],h=f[1],i=a4(e[1]);return[0,[0,[0,a4(d[1]),i],h],g]}return[0,0,b]}function
+le(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bu(a[1],b),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=cQ(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=bp(i[1]),y=bp(h[1]),e=[0,[0,[0,bp(g[1]),y,x,w,v]],u];break;case
+g=a8(a[1],b),h=a8(a[2],g[2]),i=a8(a[3],h[2]),j=cd(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a4(i[1]),y=a4(h[1]),e=[0,[0,[0,a4(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bu(a[1],b),l=bu(a[2],k[2]),z=l[2],A=bp(l[1]),e=[0,[0,[1,bp(k[1]),A,0]],z];break;default:var
-m=a[1],n=bu(m,b),o=bu(a[2],n[2]),p=bu(a[3],o[2]),q=bu(a[4],p[2]),r=cQ(a[5],q[2]),s=cQ(a[6],r[2]),B=m?bp(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=bp(q[1]),H=bp(p[1]),e=[0,[1,[0,B,bp(o[1]),H,G,F,E,D]],C]}var
-t=mH(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dZ(a){return kO(q,a)}function
-zm(a){if(typeof
+k=a8(a[1],b),l=a8(a[2],k[2]),z=l[2],A=a4(l[1]),e=[0,[0,[1,a4(k[1]),A,0]],z];break;default:var
+m=a[1],n=a8(m,b),o=a8(a[2],n[2]),p=a8(a[3],o[2]),q=a8(a[4],p[2]),r=cd(a[5],q[2]),s=cd(a[6],r[2]),B=m?a4(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a4(q[1]),H=a4(p[1]),e=[0,[1,[0,B,a4(o[1]),H,G,F,E,D]],C]}var
+t=le(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+di(a){return jl(q,a)}function
+u0(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return j(q,1,[3,a[1],[0,c,c]]);case
-6:return j(q,1,a[2]);case
+5:return i(q,1,[3,a[1],[0,c,c]]);case
+6:return i(q,1,a[2]);case
 8:var
-d=j(q,1,a[1]);return d?j(q,1,a[2]):d;case
-10:return j(q,0,a[3]);case
+d=i(q,1,a[1]);return d?i(q,1,a[2]):d;case
+10:return i(q,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?j(q,0,e[2]):0;case
+e=a[4];return 2===e[0]?i(q,0,e[2]):0;case
 12:var
-f=j(q,0,a[2]),g=f?j(q,0,a[3]):f;return g?j(q,1,a[4]):g;case
+f=i(q,0,a[2]),g=f?i(q,0,a[3]):f;return g?i(q,1,a[4]):g;case
 14:var
-h=j(q,0,a[1]);return h?j(q,1,a[2]):h;case
+h=i(q,0,a[1]);return h?i(q,1,a[2]):h;case
 2:case
-3:return dZ(a[2]);case
+3:return di(a[2]);case
 4:case
 13:var
-b=j(q,1,a[2]);return b?j(q,1,a[3]):b;default:return j(q,1,a[1])}}function
-il(a){if(typeof
+b=i(q,1,a[2]);return b?i(q,1,a[3]):b;default:return i(q,1,a[1])}}function
+hk(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(q,1,[3,d,e]),g=f?j(q,1,[3,[2,e,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],d]):f,h=g?j(q,0,[2,e,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c]]):g;return h?j(q,0,[3,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c],d]):h;case
-5:return j(q,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=i(q,1,[3,d,e]),g=f?i(q,1,[3,[2,e,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],d]):f,h=g?i(q,0,[2,e,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c]]):g;return h?i(q,0,[3,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c],d]):h;case
+5:return i(q,1,[3,a[1],[0,c,c]]);case
 8:var
-k=j(q,1,a[1]);return k?j(q,1,a[2]):k;case
-10:return j(q,1,a[2]);case
+k=i(q,1,a[1]);return k?i(q,1,a[2]):k;case
+10:return i(q,1,a[2]);case
 11:var
-l=a[2],m=j(q,1,l);return m?j(q,0,[3,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=i(q,1,l);return m?i(q,0,[3,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c],l]):m;case
 2:case
-3:return dZ(a[2]);case
+3:return di(a[2]);case
 0:case
 1:case
-12:return j(q,1,a[1]);default:var
-i=j(q,1,a[2]);return i?j(q,1,a[3]):i}}function
-f8(d){var
+12:return i(q,1,a[1]);default:var
+j=i(q,1,a[2]);return j?i(q,1,a[3]):j}}function
+fj(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=at(aK(function(d){return function(a){var
-h=h8(a[1]),e=aq(h8(d[1]),h);if(e)var
-i=h9(a[4]),b=aq(h9(d[4]),i);else
+b=a[2],e=a[1],c=al(au(function(d){return function(a){var
+h=g8(a[1]),e=ak(g8(d[1]),h);if(e)var
+i=g9(a[4]),b=ak(g9(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -6006,99 +4864,99 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eO(a){if(0===a[0])return dZ(i(a[1]));var
-b=a[2],c=a[1];if(!er(i(c))&&!er(i(b))){var
-e=i(c);return j(q,1,[3,i(b),e])}var
-d=i(b);return bn(q,i(c),d)}function
-dl(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mI(a){switch(a[0]){case
+d7(a){if(0===a[0])return di(h(a[1]));var
+b=a[2],c=a[1];if(!dK(h(c))&&!dK(h(b))){var
+e=h(c);return i(q,1,[3,h(b),e])}var
+d=h(b);return a2(q,h(c),d)}function
+cH(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lf(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(dl(a[3]),c),e=g(dl(a[2]),d);return g(dl(a[1]),e);case
+c=[0,a[4],0],d=f(cH(a[3]),c),e=f(cH(a[2]),d);return f(cH(a[1]),e);case
 1:var
-b=a[3],f=b?dl(b[1]):b,h=g(dl(a[2]),f);return g(dl(a[1]),h);default:return dl(a[1])}}function
-f9(a){switch(a){case
-0:return zp;case
-1:return zq;default:return 0}}function
-cR(a){var
-f=a[1],d=j(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?bn(q,a[1],a[2]):d;if(e){var
-g=a[2];return j(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],g])}return e}function
-d0(a){var
-e=bn(q,[0,d,c],a);return e?j(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-mJ(b,c,D,s,r,p,f){function
+b=a[3],g=b?cH(b[1]):b,h=f(cH(a[2]),g);return f(cH(a[1]),h);default:return cH(a[1])}}function
+fk(a){switch(a){case
+0:return u3;case
+1:return u4;default:return 0}}function
+ce(a){var
+f=a[1],d=i(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?a2(q,a[1],a[2]):d;if(e){var
+g=a[2];return i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],g])}return e}function
+dj(a){var
+e=a2(q,[0,d,c],a);return e?i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
+lg(b,c,D,s,r,p,f){function
 t(a){var
-d=b?zn:zo,c=v(k(a),d);return c?n(eO,a):c}var
+d=b?u1:u2,c=v(j(a),d);return c?n(d7,a):c}var
 u=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},c);if(u)var
-E=k(c),g=Z(dP(b),E);else
+E=j(c),g=X(c_(b),E);else
 var
 g=u;var
-w=g?Z(k(c),zr):g,x=w?j(q,1,i(D)):w;if(x)var
-F=f9(b),h=v(k(s),F);else
+w=g?X(j(c),u5):g,x=w?i(q,1,h(D)):w;if(x)var
+F=fk(b),k=v(j(s),F);else
 var
-h=x;if(h)var
-G=f9(b),l=v(k(r),G);else
+k=x;if(k)var
+G=fk(b),l=v(j(r),G);else
 var
-l=h;if(l)var
-H=a0(s,r),m=n(function(a){var
-b=i(a[2]);return bn(q,i(a[1]),b)},H);else
+l=k;if(l)var
+H=aH(s,r),m=n(function(a){var
+b=h(a[2]);return a2(q,h(a[1]),b)},H);else
 var
 m=l;if(m)if(b){var
-a=di(p);switch(a[0]){case
+a=cE(p);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-z=cR(a[1]),A=z?cR(a[2]):z,d=A?cR(a[3]):A;break;case
+z=ce(a[1]),A=z?ce(a[2]):z,d=A?ce(a[3]):A;break;case
 2:var
-d=d0(a[1]);break;default:var
-B=d0(a[1]),d=B?d0(a[2]):B}var
+d=dj(a[1]);break;default:var
+B=dj(a[1]),d=B?dj(a[2]):B}var
 e=d}else
 var
-C=di(p),K=0===C[0]?cR(C[1]):0,e=K;else
+C=cE(p),K=0===C[0]?ce(C[1]):0,e=K;else
 var
 e=m;if(e)var
-I=k(c),J=dP(b),o=n(function(a){return bZ(J,I,a)},f);else
+I=j(c),J=c_(b),o=n(function(a){return bz(J,I,a)},f);else
 var
 o=e;var
-y=o?f8(f):o;return y?n(il,dX(0,k(c),f)):y}function
-mK(a){switch(a[0]){case
+y=o?fj(f):o;return y?n(hk,dg(0,j(c),f)):y}function
+lh(a){switch(a[0]){case
 0:var
-b=g(a[3],[0,a[4],0]),c=g(a[2],b);return g(a[1],c);case
-1:return g(a[1],a[2]);default:var
-d=g(a[4],[0,a[5],[0,a[6],0]]),e=g(a[3],d),f=g(a[2],e);return g(a[1],f)}}function
-mL(a,f,e,h,s,r){var
+b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
+1:return f(a[1],a[2]);default:var
+d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
+li(a,f,e,k,s,r){var
 o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=o?zs:zt;return v(k(a),b)}var
-l=mx(f),B=n(function(b){switch(b[0]){case
+b=o?u6:u7;return v(j(a),b)}var
+l=k6(f),D=n(function(b){switch(b[0]){case
 0:var
-c=at(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=al(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=at(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=al(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
 a==="number"?1:0,k=j?1:j;else
 var
 k=i;return k;default:var
-m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(B)var
-Y=k(f),t=Z(bd(a),Y);else
+m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(D)var
+Z=j(f),t=X(aU(a),Z);else
 var
-t=B;var
-C=t?Z(k(f),zu):t,F=C?n(eO,E(mK,f)):C;if(F)if(0===h[0]){var
-G=h[2],H=h[1],_=o?zv:zy,I=v(k(H),_);if(I)var
-$=o?zw:zx,u=v(k(G),$);else
+t=D;var
+E=t?X(j(f),u8):t,F=E?n(d7,B(lh,f)):E;if(F)if(0===k[0]){var
+G=k[2],H=k[1],_=o?u9:va,I=v(j(H),_);if(I)var
+$=o?u_:u$,u=v(j(G),$);else
 var
 u=I;if(u)var
-aa=a0(H,G),J=n(function(a){var
-b=i(a[2]);return bn(q,i(a[1]),b)},aa);else
+aa=aH(H,G),J=n(function(a){var
+b=h(a[2]);return a2(q,h(a[1]),b)},aa);else
 var
 J=u;var
 m=J}else{var
-X=0;if(typeof
+Y=0;if(typeof
 a==="number"&&!a){var
-A=1;X=1}if(!X)var
-A=0;var
-W=A?j(q,1,i(h[3])):A;if(W)var
-ac=i(h[5]),m=bn(q,i(h[4]),ac);else
+C=1;Y=1}if(!Y)var
+C=0;var
+W=C?i(q,1,h(k[3])):C;if(W)var
+ac=h(k[5]),m=a2(q,h(k[4]),ac);else
 var
 m=W}else
 var
@@ -6106,12 +4964,12 @@ m=F;if(m)if(typeof
 a==="number")if(e)var
 b=0;else
 var
-ab=D(di,s)?0:1,b=ab;else
+ab=A(cE,s)?0:1,b=ab;else
 switch(a[1]){case
 0:if(e){var
-x=D(di,s);if(x){var
+x=A(cE,s);if(x){var
 L=x[1];if(0===L[0])var
-M=j(q,1,i(e[1])),N=M?cR(L[1]):M;else
+M=i(q,1,h(e[1])),N=M?ce(L[1]):M;else
 var
 N=0;var
 O=N}else
@@ -6121,15 +4979,15 @@ b=O}else
 var
 b=e;break;case
 1:if(e){var
-y=e[1],z=D(di,s);if(z){var
+y=e[1],z=A(cE,s);if(z){var
 g=z[1];switch(g[0]){case
 0:var
 p=0;break;case
 1:var
-Q=j(q,1,i(y)),R=Q?cR(g[1]):Q,S=R?cR(g[2]):R,p=S?cR(g[3]):S;break;case
+Q=i(q,1,h(y)),R=Q?ce(g[1]):Q,S=R?ce(g[2]):R,p=S?ce(g[3]):S;break;case
 2:var
-T=j(q,1,i(y)),p=T?d0(g[1]):T;break;default:var
-U=j(q,1,i(y)),V=U?d0(g[1]):U,p=V?d0(g[2]):V}var
+T=i(q,1,h(y)),p=T?dj(g[1]):T;break;default:var
+U=i(q,1,h(y)),V=U?dj(g[1]):U,p=V?dj(g[2]):V}var
 P=p}else
 var
 P=z;var
@@ -6139,44 +4997,44 @@ b=e;break;default:var
 b=0}else
 var
 b=m;if(b)var
-c=k(f),w=n(function(b){var
+c=j(f),w=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=Z(yQ,g),r=h?Z(g,c):h,d=r;else
+g=f[1],h=X(us,g),r=h?X(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return bZ(bd(a),c,b);if(d){var
+1:if(b[3])return bz(aU(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
-j=0;return cZ(l,j)}return d;case
+j=0;return cj(l,j)}return d;case
 4:var
 k=b[4];if(typeof
-k!=="number"&&0===k[0])return b[3]?bZ(bd(a),c,b):d;return bZ(bd(a),c,b);case
+k!=="number"&&0===k[0])return b[3]?bz(aU(a),c,b):d;return bz(aU(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return bZ(bd(a),c,b);var
-n=v(c,bd(a));if(n){var
+m!=="number"&&0===m[0]){if(b[3])return bz(aU(a),c,b);var
+n=v(c,aU(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bZ(bd(a),c,b);case
+e=n;return e}return bz(aU(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?bZ(bd(a),c,b):d?at(l):d;return bZ(bd(a),c,b);default:return bZ(bd(a),c,b)}},r);else
+p!=="number"&&1===p[0])return b[3]?bz(aU(a),c,b):d?al(l):d;return bz(aU(a),c,b);default:return bz(aU(a),c,b)}},r);else
 var
 w=b;var
-K=w?f8(r):w;return K?n(il,dX(l,k(f),r)):K}function
-im(j){var
-p=aU(j,cr(be(j))),a=e(function(a){return aj(q,a)},p);if(a){var
+K=w?fj(r):w;return K?n(hk,dg(l,j(f),r)):K}function
+hl(j){var
+p=aC(j,bU(aV(j))),a=e(function(a){return ad(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return V(q,a)},r=i(h[1]),s=i(g[1]);return $(d,G(G(i(f[1]),s),r)[1])}var
+i=function(a){return T(q,a)},r=i(h[1]),s=i(g[1]);return Y(d,F(F(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -6192,86 +5050,86 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-zz(a){switch(a[0]){case
-0:return im(a[1][1]);case
+vb(a){switch(a[0]){case
+0:return hl(a[1][1]);case
 1:var
-b=a[3];return b?im(b[1]):1;default:return im(a[1])}}function
-io(c,a,b,o){if(aK(function(a){return 9===a[1]?1:0},b)){var
-f=Z(k(a),zB),h=f?n(function(a){if(0===a[0]){var
-f=a[5],h=j(q,1,i(a[2])),k=h?j(q,0,i(a[3])):h,l=k?j(q,0,i(a[4])):k,e=0;if(l)if(f)var
-u=bG(f[1]),b=n(function(a){return dZ(i(a))},u);else{var
+b=a[3];return b?hl(b[1]):1;default:return hl(a[1])}}function
+hm(c,a,b,o){if(au(function(a){return 9===a[1]?1:0},b)){var
+g=X(j(a),vd),k=g?n(function(a){if(0===a[0]){var
+g=a[5],j=i(q,1,h(a[2])),k=j?i(q,0,h(a[3])):j,l=k?i(q,0,h(a[4])):k,e=0;if(l)if(g)var
+u=bi(g[1]),b=n(function(a){return di(h(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-o=j(q,1,i(a[4]));if(o)var
-v=bG(a[3]),w=g(bG(a[2]),v),b=n(function(a){return dZ(i(a))},w);else
+o=i(q,1,h(a[4]));if(o)var
+v=bi(a[3]),w=f(bi(a[2]),v),b=n(function(a){return di(h(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],r=Z(zA,p);if(r){var
-d=X(c,bQ(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],r=X(vc,p);if(r){var
+d=V(c,bq(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):f;if(h)var
-l=ib(0,a),u=l?1:l,m=u;else
+t=r;return t}return 1}return b},a):g;if(k)var
+l=hb(0,a),u=l?1:l,m=u;else
 var
-m=h;var
+m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(zz,o[1]):d,r=p?Z(zC,k(c)):p;if(r)var
-v=k(c),e=n(function(a){return yH(v,a)},b);else
+p=d?n(vb,o[1]):d,r=p?X(ve,j(c)):p;if(r)var
+v=j(c),e=n(function(a){return uj(v,a)},b);else
 var
 e=r;var
-s=e?f8(b):e,t=s?n(eO,E(mI,c)):s;return t?n(zm,o[3]):t}function
-zD(a){return 11===a[1]?1:0}function
-f_(b,a){return n(function(c){var
-a=c[2];return a?eh(a[1],b):1},a)}function
-ip(b,a){var
-c=k(c1(function(a){return 0===a[0]?0:1},b));return v(k(a),c)}function
-mM(aI,Z,aH,Y,X,b,W,A){var
-a=ic(Z,aH,Y,X),aJ=k(A);if(aI)var
-_=0;else
+s=e?fj(b):e,t=s?n(d7,B(lf,c)):s;return t?n(u0,o[3]):t}function
+vf(a){return 11===a[1]?1:0}function
+fl(b,a){return n(function(c){var
+a=c[2];return a?dA(a[1],b):1},a)}function
+hn(b,a){var
+c=j(cl(function(a){return 0===a[0]?0:1},b));return v(j(a),c)}function
+lj(aN,_,aM,Z,X,b,W,A){var
+a=hc(_,aM,Z,X),aP=j(A);if(aN)var
+$=0;else
 var
-aE=a[1],aF=e(f7,a[1]),V=fF(ih(a[1]),aF,aE),aG=a0(a9(0,k(V)),V),_=e(a3,c1(function(a){return hr(a[2])},aG));var
-B=dj(_,aJ,A);if(B){var
-aa=B[1];if(aa[2])return 0;var
-ab=io(Z,Y,X,a),ac=ab?f_(zE,A):ab;if(ac){var
-aL=aa[1],C=e(f7,a[1]),c=ih(a[1]);if(W)var
-ad=W[1],ae=[0,ad[2],ad[1]];else
+aI=a[1],aJ=e(fi,a[1]),V=eS(hg(a[1]),aJ,aI),aL=aH(aO(0,j(V)),V),$=e(aK,cl(function(a){return gr(a[2])},aL));var
+C=cF($,aP,A);if(C){var
+aa=C[1];if(aa[2])return 0;var
+ab=hm(_,Z,X,a),ac=ab?fl(vg,A):ab;if(ac){var
+aR=aa[1],D=e(fi,a[1]),c=hg(a[1]);if(W)var
+af=W[1],ag=[0,af[2],af[1]];else
 var
-ae=[0,d,0];var
-U=la(q,a);if(U){var
-j=fF(c,C,a[1]),h=hp(c,C,a[1],0),ah=k(a[3]),ai=Q(k(j),ah),K=[0,k(j),ai],al=a[3],F=aK(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},al),am=F?E(function(a){var
-b=e(cY,kY(j,a));return[0,a[4],b]},h):F,an=g(hq(h,c,K,a[3]),am),ao=g(bV(kr(h)),an),L=g(bV(fs(h)),ao),M=dC(L)[1],m=c5(M),N=n(function(a){var
-b=l(d);return a$(t(bA(m,a),m,b),a)},L);if(N){var
-O=aK(ts,a[3]);if(O){var
-s=C,o=a[1];for(;;){if(o){var
-p=o[1],u=dx(d,s);switch(p[0]){case
+ag=[0,d,0];var
+U=jJ(q,a);if(U){var
+i=eS(c,D,a[1]),g=gp(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=au(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},al),am=F?B(function(a){var
+b=e(ci,jv(i,a));return[0,a[4],b]},g):F,an=f(gq(g,c,K,a[3]),am),ao=f(bv(i0(g)),an),L=f(bv(eF(g)),ao),M=cX(L)[1],m=cp(M),N=n(function(a){var
+b=k(d);return aQ(t(bc(m,a),m,b),a)},L);if(N){var
+O=au(o6,a[3]);if(O){var
+s=D,o=a[1];for(;;){if(o){var
+p=o[1],u=cS(d,s);switch(p[0]){case
 0:var
-G=p[1],H=hs(b,G[1],u),D=0;if(H){var
-r=aj(b,[0,G[4],c]);if(r)var
-i=$(d,r[1][1]);else{var
-I=r;D=1}}else{var
-I=H;D=1}if(D)var
-i=I;break;case
+G=p[1],H=gs(b,G[1],u),E=0;if(H){var
+r=ad(b,[0,G[4],c]);if(r)var
+h=Y(d,r[1][1]);else{var
+I=r;E=1}}else{var
+I=H;E=1}if(E)var
+h=I;break;case
 1:var
-J=p[3],i=J?hs(b,J[1],u):1;break;default:var
-i=hs(b,p[1],u)}if(i){var
-ag=o[2],s=ek(s),o=ag;continue}var
-P=i}else
+J=p[3],h=J?gs(b,J[1],u):1;break;default:var
+h=gs(b,p[1],u)}if(h){var
+ai=o[2],s=dD(s),o=ai;continue}var
+Q=h}else
 var
-P=1;var
-v=P;break}}else
+Q=1;var
+v=Q;break}}else
 var
 v=O;if(v){var
-ap=a[3],aq=E(function(a){return dN(c,a)},ap),ar=a[3],as=g(j,g(e(function(a){return bE(c,a)},ar),aq)),w=ak(e(function(a){return aj(b,a)},as));if(w){var
-at=aU(fJ(a[2]),c),x=ak(e(function(a){return aj(b,a)},at));if(x){var
-au=a[3],y=ak(kZ(b,ae,function(a){return bA(m,a)},j,h,c,K,au));if(y){var
-R=y[1],av=ho(R),aw=x[1],ax=a[2],ay=function(a){return k0(b,ax,c,a)},az=w[1],aA=0,aB=kr(h),aC=f(aR(function(a){return bA(m,a)}),aB),aD=fs(h);return fC(b,M,f(aR(function(a){return bA(m,a)}),aD),aC,aA,az,R,ay,aw,av,aL)}var
+ap=a[3],aq=B(function(a){return c8(c,a)},ap),ar=a[3],as=f(i,f(e(function(a){return bg(c,a)},ar),aq)),w=ae(e(function(a){return ad(b,a)},as));if(w){var
+at=aC(eW(a[2]),c),x=ae(e(function(a){return ad(b,a)},at));if(x){var
+av=a[3],y=ae(jw(b,ag,function(a){return bc(m,a)},i,g,c,K,av));if(y){var
+R=y[1],aw=go(R),ax=x[1],ay=a[2],aA=function(a){return jx(b,ay,c,a)},aB=w[1],aD=0,aE=i0(g),aF=l(az(function(a){return bc(m,a)}),aE),aG=eF(g);return eP(b,M,l(az(function(a){return bc(m,a)}),aG),aF,aD,aB,R,aA,ax,aw,aR)}var
 S=y}else
 var
 S=x;var
@@ -6283,25 +5141,25 @@ var
 z=v}else
 var
 z=N;return z}return U}var
-af=ac}else
+ah=ac}else
 var
-af=B;return af}function
-zF(a){if(0===a[0])return mB(a[1]);var
-b=a[1],c=dY(b[6]);return g(dY(b[5]),c)}function
-zG(a){if(0===a[0])return mC(a[1]);var
-b=a[1],c=be(b[4]);return g(be(b[3]),c)}function
-zH(a){if(0===a[0])return[0,f7(a[1]),d];var
-b=a[1],c=cr(be(b[2]));return[0,cr(be(b[1])),c]}function
-mN(z,aM,ap,ao,y,an,g){var
-k=ic(z,aM,ap,ao);if(y){var
-A=y[2];if(A){var
-B=A[2];if(B){if(B[2])return 0;var
-aq=mF(z,e(i,an));if(aq[2])return 0;var
+ah=C;return ah}function
+vh(a){if(0===a[0])return k_(a[1]);var
+b=a[1],c=dh(b[6]);return f(dh(b[5]),c)}function
+vi(a){if(0===a[0])return k$(a[1]);var
+b=a[1],c=aV(b[4]);return f(aV(b[3]),c)}function
+vj(a){if(0===a[0])return[0,fi(a[1]),d];var
+b=a[1],c=bU(aV(b[2]));return[0,bU(aV(b[1])),c]}function
+lk(z,aM,ap,ao,y,an,g){var
+k=hc(z,aM,ap,ao);if(y){var
+C=y[2];if(C){var
+D=C[2];if(D){if(D[2])return 0;var
+aq=lc(z,e(h,an));if(aq[2])return 0;var
 ar=k[3];if(typeof
 g==="number")var
-a=zj;else
+a=uX;else
 if(0===g[0]){var
-b=g[2],m=g[1],H=D(zg,X(ar,m)),J=0;if(H){var
+b=g[2],m=g[1],H=A(uU,V(ar,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
@@ -6310,24 +5168,24 @@ n=b[1],L=0;if(n){var
 o=n[2],M=0;if(o){var
 p=o[2],N=0;if(p)if(p[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-r=b[2],ay=0;if(r){var
-s=r[1],az=0;if(s){var
-t=s[2],aA=0;if(t){var
-u=t[2],aB=0;if(u)if(u[2]||r[2]){var
-a=0;K=1;L=1;M=1;N=1;ay=1;az=1;aA=1;aB=1}else
+r=b[2],az=0;if(r){var
+s=r[1],aA=0;if(s){var
+t=s[2],aB=0;if(t){var
+u=t[2],aC=0;if(u)if(u[2]||r[2]){var
+a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
 U=[0,[0,m,[0,[0,n[1],o[1]],p[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
-U=u;if(!aB)var
-V=U}else
+U=u;if(!aC)var
+W=U}else
 var
-V=t;if(!aA)var
-W=V}else
+W=t;if(!aB)var
+X=W}else
 var
-W=s;if(!az)var
-Y=W}else
+X=s;if(!aA)var
+Y=X}else
 var
-Y=r;if(!ay)var
+Y=r;if(!az)var
 Z=Y}else
 var
 Z=p;if(!N)var
@@ -6341,366 +5199,366 @@ aa=$}else
 var
 aa=b;if(!K)var
 a=aa}else{var
-aC=0;if(b){var
-v=b[1],aD=0;if(v){var
-w=v[2],aE=0;if(w){var
-x=w[2],aF=0;if(x)if(x[2]||b[2]){var
-a=0;aC=1;aD=1;aE=1;aF=1}else
+aD=0;if(b){var
+v=b[1],aE=0;if(v){var
+w=v[2],aF=0;if(w){var
+x=w[2],aG=0;if(x)if(x[2]||b[2]){var
+a=0;aD=1;aE=1;aF=1;aG=1}else
 var
 ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ae=x;if(!aF)var
+ae=x;if(!aG)var
 af=ae}else
 var
-af=w;if(!aE)var
+af=w;if(!aF)var
 ag=af}else
 var
-ag=v;if(!aD)var
+ag=v;if(!aE)var
 ah=ag}else
 var
-ah=b;if(!aC)var
+ah=b;if(!aD)var
 a=ah}}else
 if(b)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=g[1],I=X(ar,ak),O=0;if(I){var
-aG=0,al=I[1];if(typeof
+ak=g[1],I=V(ar,ak),O=0;if(I){var
+aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
-a=[0,[1,ak,g[2]]];aG=1}if(!aG){var
+a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-as=ip(E(mI,z),an),at=as?io(z,ap,ao,k):as;if(at){var
-f=a[1],aN=i(B[1]),aO=i(A[1]),h=[0,i(y[1]),aO,aN],l=aq[1],P=k2(q,k,l,h);if(P)if(typeof
-f==="number")return aK(function(b){var
-a=k3(b,h);return a?j(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
-C=X(k[3],f[1]);if(C){var
-aH=C[1],aI=k4(f[3]);return k9(q,l,h,k4(f[2]),aI,aH)}return C}var
-F=X(k[3],f[1]);if(F){var
-G=X(l,f[2]);if(G){var
-Q=G[1],aJ=F[1],aL=db(Q,h);return k9(q,l,h,db(Q,h),aL,aJ)}var
+as=hn(B(lf,z),an),at=as?hm(z,ap,ao,k):as;if(at){var
+f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(y[1]),aO,aN],l=aq[1],P=jz(q,k,l,j);if(P)if(typeof
+f==="number")return au(function(b){var
+a=jA(b,j);return a?i(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
+E=V(k[3],f[1]);if(E){var
+aI=E[1],aJ=jB(f[3]);return jG(q,l,j,jB(f[2]),aJ,aI)}return E}var
+F=V(k[3],f[1]);if(F){var
+G=V(l,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cx(Q,j);return jG(q,l,j,cx(Q,j),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
-au=at}else
+av=at}else
 var
-au=a;var
-av=au}else
-var
-av=B;var
+av=a;var
 aw=av}else
 var
-aw=A;var
+aw=D;var
 ax=aw}else
 var
-ax=y;return ax}function
-mO(m,l,b,k,y,x){var
+ax=C;var
+ay=ax}else
+var
+ay=y;return ay}function
+ll(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=X(f,g),n=h?eh(h[1][2],zK):h;if(n)var
-z=d[2],i=mO(m,l,b,k,ig(0,g,f),z);else
+g=d[1],h=V(f,g),n=h?dA(h[1][2],vm):h;if(n)var
+z=d[2],i=ll(m,l,b,k,hf(0,g,f),z);else
 var
 i=n;if(i){var
-A=d[3],f=ig(1,g,f),d=A;continue}return i}var
-c=d[1],a=mz(0,m,f),o=e(function(b){function
-d(b){return mA(a,b)}function
-c(a){return id(d,a)}switch(b[0]){case
+B=d[3],f=hf(1,g,f),d=B;continue}return i}var
+c=d[1],a=k8(0,m,f),o=e(function(b){function
+d(b){return k9(a,b)}function
+c(a){return hd(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mA(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=k9(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=D(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=id(function(b){return au(a,b)},q),s=b[1],j=[0,id(function(b){return au(a,b)},s),r];else
+i=A(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hd(function(b){return am(a,b)},q),s=b[1],j=[0,hd(function(b){return am(a,b)},s),r];else
 var
-t=au(a,b[5]),u=au(a,b[4]),v=au(a,b[3]),w=au(a,b[2]),j=[1,au(a,b[1]),w,v,u,t];var
+t=am(a,b[5]),u=am(a,b[4]),v=am(a,b[3]),w=am(a,b[2]),j=[1,am(a,b[1]),w,v,u,t];var
 p=e(function(e){var
 b=e[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,au(a,b[1])];break;case
+c=[0,am(a,b[1])];break;case
 1:var
-c=[1,au(a,b[1])];break;default:var
-j=au(a,b[2]),c=[2,au(a,b[1]),j]}var
+c=[1,am(a,b[1])];break;default:var
+j=am(a,b[2]),c=[2,am(a,b[1]),j]}var
 f=e[3];if(f){var
 d=f[1];if(0===d[0])var
-g=[0,[0,au(a,d[1])]];else
+g=[0,[0,am(a,d[1])]];else
 var
-i=au(a,d[2]),g=[0,[1,au(a,d[1]),i]];var
+i=am(a,d[2]),g=[0,[1,am(a,d[1]),i]];var
 h=g}else
 var
 h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mM(1,o,j,0,p,c[1],c[2],c[3]);default:var
-B=c[4],C=c[3],E=e(function(b){return au(a,b)},C),F=c[2];return mN(o,j,0,p,e(function(b){return au(a,b)},F),E,B)}}}function
-mP(h,g){var
-a=cm(i(h));if(a){var
-b=a[1],e=dz([0,d,c],b);if(e)return dz(b,g);var
+1:return lj(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return lk(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
+lm(i,g){var
+a=bP(h(i));if(a){var
+b=a[1],e=cU([0,d,c],b);if(e)return cU(b,g);var
 f=e}else
 var
 f=a;return f}function
-zM(o){var
-dh=f3(o[3]),di=dh?f3(o[4]):dh;if(di){var
+vo(o){var
+dr=fe(o[3]),ds=dr?fe(o[4]):dr;if(ds){var
 F=o[1];switch(F[0]){case
 3:var
-dr=n(eL,F[1]);if(dr)var
-gr=F[2],bz=n(function(a){return eL(a[1])},gr);else
+dz=n(d4,F[1]);if(dz)var
+gy=F[2],bJ=n(function(a){return d4(a[1])},gy);else
 var
-bz=dr;if(bz)var
-gs=F[3],bB=n(function(a){var
-b=eL(a[1]),c=b?h$(a[2]):b;return c?eM(a[2]):c},gs);else
+bJ=dz;if(bJ)var
+gz=F[3],bK=n(function(a){var
+b=d4(a[1]),c=b?g$(a[2]):b;return c?d5(a[2]):c},gz);else
 var
-bB=bz;if(bB)var
-gt=F[4],ax=n(function(a){var
+bK=bJ;if(bK)var
+gA=F[4],aB=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h$(a);return b?eM(a):b},b)},gt);else
+b=g$(a);return b?d5(a):b},b)},gA);else
 var
-ax=bB;break;case
+aB=bK;break;case
 7:var
-gu=F[1],ds=n(function(a){var
-b=eL(a[1]);return b?f4(0,[0,a[2][1],[0,a[2][2],0]]):b},gu),ax=ds?f4(0,[0,F[5],[0,F[6],0]]):ds;break;default:var
-ax=1}var
-by=ax}else
+gB=F[1],dA=n(function(a){var
+b=d4(a[1]);return b?ff(0,[0,a[2][1],[0,a[2][2],0]]):b},gB),aB=dA?ff(0,[0,F[5],[0,F[6],0]]):dA;break;default:var
+aB=1}var
+bI=aB}else
 var
-by=di;var
-b_=0;if(by){var
-dk=o[1],dl=7===dk[0]?e(a3,dk[1]):0,dm=function(c,b){var
-a=mt(c);return a?n(function(a){var
+bI=ds;var
+ce=0;if(bI){var
+dt=o[1],du=7===dt[0]?e(aK,dt[1]):0,dv=function(c,b){var
+a=k2(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f3(a[2]);if(b){var
+b=fe(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f3(a[1]);case
+1:return fe(a[1]);case
 2:case
 3:case
 4:return 1;default:var
-a=a[1];continue}},b)},b):a},dn=function(d,c,b){var
-a=mt(d);return a?f4(dl,g(c,b)):a},h=o[1];switch(h[0]){case
+a=a[1];continue}},b)},b):a},dw=function(d,c,b){var
+a=k2(d);return a?ff(du,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-fP=E(dg,h[4]),fQ=g(E(yD,h[3]),fP),fU=g(mq(h[2]),fQ),G=g(E(ia,h[1]),fU);break;case
+f1=B(cC,g[4]),f2=f(B(uf,g[3]),f1),f3=f(kZ(g[2]),f2),G=f(B(ha,g[1]),f3);break;case
 1:var
-bv=h[5],bw=h[3],fV=E(dg,h[6]),fW=bv?mr(bv[1]):bv,fZ=g(fW,fV),C=h[4],f0=0===C[0]?g(C[1],C[2]):[0,C[1],[0,C[2],[0,C[3],[0,C[4],[0,C[5],0]]]]],f1=g(f0,fZ),f2=bw?[0,bw[1],0]:bw,f5=g(f2,f1),G=g(E(yC,h[2]),f5);break;case
+bF=g[5],bG=g[3],f4=B(cC,g[6]),f6=bF?k0(bF[1]):bF,f7=f(f6,f4),E=g[4],f8=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],f9=f(f8,f7),f_=bG?[0,bG[1],0]:bG,f$=f(f_,f9),G=f(B(ue,g[2]),f$);break;case
 2:var
-f$=E(dg,h[7]),ga=g(mr(h[6]),f$),gb=g(h[5],ga),gc=g(h[4],gb),gd=[0,h[3],gc],ge=h[2],G=g(E(function(a){return E(dU,g(a[1],a[2]))},ge),gd);break;case
+ga=B(cC,g[7]),gb=f(k0(g[6]),ga),gc=f(g[5],gb),gd=f(g[4],gc),ge=[0,g[3],gd],gf=g[2],G=f(B(function(a){return B(dd,f(a[1],a[2]))},gf),ge);break;case
 3:var
-gf=E(dg,h[7]),gg=g(h[6],gf),gh=g(h[5],gg),gi=h[2],G=g(E(function(a){return dU(a[2])},gi),gh);break;case
+gg=B(cC,g[7]),gh=f(g[6],gg),gi=f(g[5],gh),gj=g[2],G=f(B(function(a){return dd(a[2])},gj),gi);break;case
 4:var
-gj=E(dg,h[3]),G=[0,h[1],[0,h[2],gj]];break;case
+gk=B(cC,g[3]),G=[0,g[1],[0,g[2],gk]];break;case
 5:var
-gk=E(dg,h[4]),gl=g(bG(h[3]),gk),gm=g(bG(h[2]),gl),gn=g(E(ia,h[1]),gm),G=[0,h[5],gn];break;case
+gl=B(cC,g[4]),gm=f(bi(g[3]),gl),gn=f(bi(g[2]),gm),gs=f(B(ha,g[1]),gn),G=[0,g[5],gs];break;case
 6:var
-bx=h[1],G=bx?dU(bx[1]):bx;break;default:var
-go=E(dg,h[4]),gp=g(mq(h[3]),go),G=g(E(ia,h[2]),gp)}var
-dp=f4(dl,G);if(dp){var
-L=o[2];switch(L[0]){case
+bH=g[1],G=bH?dd(bH[1]):bH;break;default:var
+gv=B(cC,g[4]),gw=f(kZ(g[3]),gv),G=f(B(ha,g[2]),gw)}var
+dx=ff(du,G);if(dx){var
+N=o[2];switch(N[0]){case
 0:var
-ai=dm(L[1],L[3]);break;case
+am=dv(N[1],N[3]);break;case
 1:var
-ai=dn(L[1],L[2],L[3]);break;default:var
-gq=L[1],ai=n(function(a){if(typeof
+am=dw(N[1],N[2],N[3]);break;default:var
+gx=N[1],am=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dm(a[1],a[3]);case
-2:return dn(a[1],a[2],a[3])}return 1},gq)}}else{var
-dq=dp;b_=1}}else{var
-dq=by;b_=1}if(b_)var
-ai=dq;if(ai){var
+1:return dv(a[1],a[3]);case
+2:return dw(a[1],a[2],a[3])}return 1},gx)}}else{var
+dy=dx;ce=1}}else{var
+dy=bI;ce=1}if(ce)var
+am=dy;if(am){var
 a=o[1];switch(a[0]){case
 0:var
-dV=a[4],dW=a[3],dY=a[2],d0=a[1],O=o[2];switch(O[0]){case
-0:return mM(0,d0,dY,dW,dV,O[1],O[2],O[3]);case
-1:return mN(d0,dY,dW,dV,O[2],O[3],O[4]);default:return 0}case
+d1=a[4],d2=a[3],d3=a[2],d6=a[1],O=o[2];switch(O[0]){case
+0:return lj(0,d6,d3,d2,d1,O[1],O[2],O[3]);case
+1:return lk(d6,d3,d2,d1,O[2],O[3],O[4]);default:return 0}case
 1:var
-aF=a[6],aG=a[5],aH=a[4],aI=a[3],S=a[2],z=a[1],T=o[2];switch(T[0]){case
+aL=a[6],aN=a[5],aP=a[4],aR=a[3],S=a[2],z=a[1],T=o[2];switch(T[0]){case
 0:var
-bN=T[3],gI=T[1],aE=my(z,S,aI,aH,aG,aF),dD=aE[2],bJ=E(zF,dD),gD=bJ?[0,bJ[1],bJ[2]]:E(zG,dD),dB=y(c,cr(gD)),dE=e(zH,aE[2]),dF=hU(dB,dE,aE[2]),gE=k(bN),gF=a0(a9(0,k(dF)),dF),bK=dj(e(a3,c1(function(a){return hr(a[2])},gF)),gE,bN);if(bK){var
-dG=bK[1];if(dG[2])return 0;var
-dH=mL(z,S,aI,aH,aG,aF),dI=dH?f_(bd(z),bN):dH;if(dI)return ui(q,gI,aE,dB,dE,dG[1]);var
-dK=dI}else
+bT=T[3],gT=T[1],aJ=k7(z,S,aR,aP,aN,aL),dK=aJ[2],bO=B(vh,dK),gN=bO?[0,bO[1],bO[2]]:B(vi,dK),dJ=y(c,bU(gN)),dM=e(vj,aJ[2]),dN=gU(dJ,dM,aJ[2]),gO=j(bT),gP=aH(aO(0,j(dN)),dN),bQ=cF(e(aK,cl(function(a){return gr(a[2])},gP)),gO,bT);if(bQ){var
+dO=bQ[1];if(dO[2])return 0;var
+dQ=li(z,S,aR,aP,aN,aL),dR=dQ?fl(aU(z),bT):dQ;if(dR)return pW(q,gT,aJ,dJ,dM,dO[1]);var
+dS=dR}else
 var
-dK=bK;return dK;case
+dS=bQ;return dS;case
 1:var
-d1=T[3],gJ=T[4],gK=T[2],dL=typeof
-z==="number"?z?zI:zJ:f9(z[1]),bL=e(i,gK),dM=mH(S,e(i,d1));if(dM[2])return 0;var
-dO=ip(E(mK,S),d1),dQ=dO?mL(z,S,aI,aH,aG,aF):dO;if(dQ)var
-gG=bd(z),bM=v(k(bL),gG);else
+d8=T[3],gV=T[4],gX=T[2],dT=typeof
+z==="number"?z?vk:vl:fk(z[1]),bR=e(h,gX),dU=le(S,e(h,d8));if(dU[2])return 0;var
+dV=hn(B(lh,S),d8),dW=dV?li(z,S,aR,aP,aN,aL):dV;if(dW)var
+gQ=aU(z),bS=v(j(bR),gQ);else
 var
-bM=dQ;if(bM){var
-gH=ij(gJ),s=g5(dL,bL),x=bp(el(dL,bL)),ag=dM[1],I=my(z,S,aI,aH,aG,aF),cp=lS(q,I[2],ag);if(cp){var
-cl=ht(q,I[4],x),b$=0;if(cl){var
-cn=I[5];if(cn)var
-aZ=ls(q,cn[1],s);else
+bS=dW;if(bS){var
+gS=hi(gV),s=f5(dT,bR),x=a4(dE(dT,bR)),aj=dU[1],I=k7(z,S,aR,aP,aN,aL),cB=kp(q,I[2],aj);if(cB){var
+cy=gt(q,I[4],x),cf=0;if(cy){var
+cz=I[5];if(cz)var
+a9=j1(q,cz[1],s);else
 if(s)var
-aZ=0;else{var
-co=1;b$=1}}else{var
-co=cl;b$=1}if(b$)var
-aZ=co;var
-a1=aZ}else
+a9=0;else{var
+cA=1;cf=1}}else{var
+cA=cy;cf=1}if(cf)var
+a9=cA;var
+a_=a9}else
 var
-a1=cp;if(a1){var
-w=I[5],ab=I[1],eZ=I[6],e0=I[3],eV=E(function(a){if(0===a[0]){var
-c=cN(w,s,x,a),b=k3(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=cN(w,s,x,a);return[0,li(a[1],e),0]},ag),eW=e(function(d){var
-b=cN(w,s,x,d);if(0===d[0]){var
+a_=cB;if(a_){var
+w=I[5],af=I[1],e9=I[6],fa=I[3],e2=B(function(a){if(0===a[0]){var
+c=ca(w,s,x,a),b=jA(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=ca(w,s,x,a);return[0,jR(a[1],e),0]},aj),e3=e(function(d){var
+b=ca(w,s,x,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=c$(e,h,g,f,b),i=da(a[5],j),k=az(i,aL(e)),l=ew(e,h,g,b);return[0,[0,lR(ab,ac(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fL(c,b),o=ll(c,b),p=c[4],q=ac(function(b,a){return[2,b,a]},b,p);return[0,[0,lR(ab,ac(function(b,a){return[3,b,a]},q,o)),n,m]]},ag),eX=e(function(a){if(0===a[0]){var
-c=cN(w,s,x,a);return[0,hu(a[1],c)]}var
-b=a[1],d=lk(b,cN(w,s,x,a));return[1,lj(b,cN(w,s,x,a)),d]},ag),eY=[0,e(function(b){if(0===b[0])var
-k=cN(w,s,x,b),a=db(b[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cv(e,h,g,f,b),i=cw(a[5],j),k=ap(i,av(e)),l=dP(e,h,g,b);return[0,[0,ko(af,_(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=eY(c,b),o=jU(c,b),p=c[4],q=_(function(b,a){return[2,b,a]},b,p);return[0,[0,ko(af,_(function(b,a){return[3,b,a]},q,o)),n,m]]},aj),e7=e(function(a){if(0===a[0]){var
+c=ca(w,s,x,a);return[0,gu(a[1],c)]}var
+b=a[1],d=jT(b,ca(w,s,x,a));return[1,jS(b,ca(w,s,x,a)),d]},aj),e8=[0,e(function(b){if(0===b[0])var
+k=ca(w,s,x,b),a=cx(b[1],k);else
 var
-e=cN(w,s,x,b),d=b[1],f=ll(d,e),g=d[4],h=ac(function(b,a){return[2,b,a]},e,g),i=ac(function(b,a){return[3,b,a]},h,f),j=fL(d,e),a=az([5,[0,c,c],[4,d[5],j]],i);var
-l=az([5,[0,c,c],e0],hE(lQ(w,s,hR(b)),a));return typeof
-ab==="number"?ab?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:lt(ab[1],a,l)},ag),eX,eW,eV];return lf(q,bd(I[1]),eY,eZ,gH)}return a1}return bM;default:return 0}case
+e=ca(w,s,x,b),d=b[1],f=jU(d,e),g=d[4],h=_(function(b,a){return[2,b,a]},e,g),i=_(function(b,a){return[3,b,a]},h,f),j=eY(d,e),a=ap([5,[0,c,c],[4,d[5],j]],i);var
+l=ap([5,[0,c,c],fa],gE(kn(w,s,gR(b)),a));return typeof
+af==="number"?af?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j2(af[1],a,l)},aj),e7,e3,e2];return jO(q,aU(I[1]),e8,e9,gS)}return a_}return bS;default:return 0}case
 2:var
-aJ=a[7],aM=a[6],aN=a[5],aO=a[4],aP=a[3],U=a[2],V=a[1],W=o[2];switch(W[0]){case
+aS=a[7],aT=a[6],aW=a[5],aX=a[4],aY=a[3],U=a[2],W=a[1],$=o[2];switch($[0]){case
 0:var
-bO=W[3],d2=mw(V,U,aP,aO,aN,aM,aJ),bP=dj(0,k(bO),bO);if(bP){var
-d3=bP[1];if(d3[2])return 0;var
-d4=mJ(V,U,aP,aO,aN,aM,aJ),d5=d4?f_(dP(V),bO):d4;if(d5){var
-gL=d3[1],gM=d2[2],gN=y(c,cr(E(function(a){var
-b=be(a[2]);return g(be(a[1]),b)},gM)));return tY(q,W[1],d2,gN,gL)}var
-d6=d5}else
+bV=$[3],d9=k5(W,U,aY,aX,aW,aT,aS),bW=cF(0,j(bV),bV);if(bW){var
+d_=bW[1];if(d_[2])return 0;var
+d$=lg(W,U,aY,aX,aW,aT,aS),ea=d$?fl(c_(W),bV):d$;if(ea){var
+gY=d_[1],g0=d9[2],g1=y(c,bU(B(function(a){var
+b=aV(a[2]);return f(aV(a[1]),b)},g0)));return pA(q,$[1],d9,g1,gY)}var
+eb=ea}else
 var
-d6=bP;return d6;case
+eb=bW;return eb;case
 1:var
-d7=W[3],d8=e(i,W[2]),d9=f9(V),d_=mG(U,e(i,d7));if(d_[2])return 0;var
-d$=ip(E(function(a){return g(a[1],a[2])},U),d7),ea=d$?mJ(V,U,aP,aO,aN,aM,aJ):d$;if(ea){var
-gO=ij(W[4]),al=g5(d9,d8),aQ=bp(el(d9,d8)),am=d_[1],J=mw(V,U,aP,aO,aN,aM,aJ),ao=J[2],P=am;for(;;){if(ao){if(P){var
-ce=P[1],cf=ao[1],cg=a5(q,cf[1],ce[1]),ch=cg?a5(q,cf[2],ce[2]):cg;if(ch){var
-ao=ao[2],P=P[2];continue}var
-ci=ch}else
+ec=$[3],ed=e(h,$[2]),ee=fk(W),ef=ld(U,e(h,ec));if(ef[2])return 0;var
+eg=hn(B(function(a){return f(a[1],a[2])},U),ec),eh=eg?lg(W,U,aY,aX,aW,aT,aS):eg;if(eh){var
+g2=hi($[4]),an=f5(ee,ed),aZ=a4(dE(ee,ed)),aq=ef[1],J=k5(W,U,aY,aX,aW,aT,aS),as=J[2],Q=aq;for(;;){if(as){if(Q){var
+cn=Q[1],co=as[1],cq=aM(q,co[1],cn[1]),cr=cq?aM(q,co[2],cn[2]):cq;if(cr){var
+as=as[2],Q=Q[2];continue}var
+cs=cr}else
 var
-ci=P;var
-aY=ci}else
+cs=Q;var
+a8=cs}else
 var
-aY=P?0:1;var
-cj=aY?a5(q,J[4],aQ):aY,ck=cj?ls(q,J[5],al):cj;if(ck){var
-ap=J[5],eS=J[6],eT=J[3],eU=J[1],cd=function(a){var
-b=hG(ap,al,aQ,a);return N(hG(ap,al,aQ,a),b)},eN=e(cd,am),eP=e(function(a){return 0},am),eQ=e(function(a){return[0,[6,cd(a)]]},am),eR=[0,e(function(b){var
-a=aL(hG(ap,al,aQ,b));return lt(eU,a,az([5,[0,c,c],eT],hE(hF(ap,al,b[2]),a)))},am),eQ,eP,eN];return lf(q,dP(J[1]),eR,eS,gO)}return ck}}return ea;default:return 0}case
+a8=Q?0:1;var
+ct=a8?aM(q,J[4],aZ):a8,cu=ct?j1(q,J[5],an):ct;if(cu){var
+at=J[5],eZ=J[6],e0=J[3],e1=J[1],ck=function(a){var
+b=gG(at,an,aZ,a);return M(gG(at,an,aZ,a),b)},eR=e(ck,aq),eT=e(function(a){return 0},aq),eW=e(function(a){return[0,[6,ck(a)]]},aq),eX=[0,e(function(b){var
+a=av(gG(at,an,aZ,b));return j2(e1,a,ap([5,[0,c,c],e0],gE(gF(at,an,b[2]),a)))},aq),eW,eT,eR];return jO(q,c_(J[1]),eX,eZ,g2)}return cu}}return eh;default:return 0}case
 3:var
-aS=a[7],eb=a[6],ec=a[5],Y=a[4],ed=a[2],bR=a[1],bS=o[2];if(0===bS[0]){var
-bW=bS[3],bX=dj(0,k(bW),bW);if(bX){var
-ee=bX[1];if(ee[2])return 0;var
-gB=k(bR),gC=k(eb),dw=v(k(ec),gC),dx=dw?n(function(a){var
-b=bZ(gB,k(Y),a);if(b){if(1===a[1]){var
-c=a[2],d=c?[0,bQ(c[1]),0]:a9(0,k(Y));return n(function(b){var
-a=X(Y,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},aS):dw,dy=dx?f8(aS):dx,dA=dy?n(function(a){return eO(a[2])},ed):dy,ef=dA?n(il,dX(0,k(Y),aS)):dA,eg=ef?f_(k(bR),bW):ef;if(eg){var
-gP=ee[1],gQ=a[3],ay=dX(0,k(Y),aS),gv=a0(ec,eb),bC=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gv),gw=e(function(a){return 0===a[0]?[0,e(cP,a[1])]:[1,cP(a[1])]},Y),gx=e(function(a){var
-b=cP(a[2]);return[0,a[1],b]},gQ),m=[0,bR,e(function(a){var
-b=bH(a[2]);return[0,a[1],b]},ed),gx,gw],an=bS[1],fn=e(a3,m[2]),bf=g(m[1],fn),bg=k(m[1]),cL=Z(uj,bg),cM=cL?Z(bg,uk):cL,cO=cM?Z(bg,k(m[4])):cM,cQ=cO?Z(k(m[4]),ul):cO,cR=cQ?l$(bf):cQ;if(cR){var
-au=bf,as=m[3];for(;;){if(as){var
-cF=as[1],cI=cF[1],cJ=at(aK(function(b){return function(a){return aq(b,a)}}(cI),au)),cK=cJ?hZ(au,cF[2]):cJ;if(cK){var
-au=[0,cI,au],as=as[2];continue}var
-cS=cK}else
+a0=a[7],ei=a[6],ej=a[5],aa=a[4],ek=a[2],bX=a[1],bY=o[2];if(0===bY[0]){var
+bZ=bY[3],b0=cF(0,j(bZ),bZ);if(b0){var
+el=b0[1];if(el[2])return 0;var
+gL=j(bX),gM=j(ei),dF=v(j(ej),gM),dG=dF?n(function(a){var
+b=bz(gL,j(aa),a);if(b){if(1===a[1]){var
+c=a[2],d=c?[0,bq(c[1]),0]:aO(0,j(aa));return n(function(b){var
+a=V(aa,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},a0):dF,dH=dG?fj(a0):dG,dI=dH?n(function(a){return d7(a[2])},ek):dH,em=dI?n(hk,dg(0,j(aa),a0)):dI,en=em?fl(j(bX),bZ):em;if(en){var
+g3=el[1],g4=a[3],aD=dg(0,j(aa),a0),gC=aH(ej,ei),bL=e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(cc,a[1])]:[1,cc(a[1])]},aa),gH=e(function(a){var
+b=cc(a[2]);return[0,a[1],b]},g4),m=[0,bX,e(function(a){var
+b=bj(a[2]);return[0,a[1],b]},ek),gH,gD],ar=bY[1],fG=e(aK,m[2]),bn=f(m[1],fG),bo=j(m[1]),cY=X(pX,bo),cZ=cY?X(bo,pY):cY,c0=cZ?X(bo,j(m[4])):cZ,c1=c0?X(j(m[4]),pZ):c0,c2=c1?kI(bn):c1;if(c2){var
+ay=bn,ax=m[3];for(;;){if(ax){var
+cS=ax[1],cT=cS[1],cV=al(au(function(b){return function(a){return ak(b,a)}}(cT),ay)),cW=cV?gZ(ay,cS[2]):cV;if(cW){var
+ay=[0,cT,ay],ax=ax[2];continue}var
+c3=cW}else
 var
-cS=1;var
-bh=cS;break}}else
+c3=1;var
+bp=c3;break}}else
 var
-bh=cR;if(bh)var
-fo=m[4],bi=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=g(e(a3,m[3]),bf);return n(function(a){return hZ(c,a)},b)},fo);else
+bp=c2;if(bp)var
+fH=m[4],br=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bn);return n(function(a){return gZ(c,a)},b)},fH);else
 var
-bi=bh;if(bi)var
-fp=m[2],bj=n(function(a){return bn(q,a[2][1],a[2][2])},fp);else
+br=bp;if(br)var
+fI=m[2],bs=n(function(a){return a2(q,a[2][1],a[2][2])},fI);else
 var
-bj=bi;var
-cT=bj?n(function(a){return bn(q,a[1],a[2])},bC):bj;if(cT){var
-a4=k(m[1]),a6=k(m[2]),ct=Q(a6,k(hW(e(cY,m[3])))),e4=m[3],ad=l_(m),ar=e4,a2=a6;for(;;){if(ar){var
-cq=ar[1],cs=cq[2],e1=Q(a2,k(bF(cs))),e2=ar[2],e3=bt(ad,cs,a2),ad=[0,[0,cq[1],e3],ad],ar=e2,a2=e1;continue}var
-R=l7(a4,ad,m[4],ct),e5=l6(ad,m[4],ct),e6=m[3],cu=g(l3(l_(m),e6,a6),e5),cv=k(l9(m)),e7=0,e8=g(cu,eG(function(a,b){return lZ(R,a,b)},e7,d,cv,ay)),e9=g(bV(fT(R)),e8),cw=g(bV(fS(R)),e9),a7=dC(cw)[1],e_=c5(a7),ae=function(a){return bA(e_,a)},cx=v(k(bC),a4);if(cx)var
-e$=m[4],a8=n(function(a){return 0===a[0]?v(k(a[1]),a4):1},e$);else
+bs=br;var
+c5=bs?n(function(a){return a2(q,a[1],a[2])},bL):bs;if(c5){var
+ba=j(m[1]),bb=j(m[2]),cG=P(bb,j(gW(e(ci,m[3])))),fg=m[3],ag=kH(m),aw=fg,a$=bb;for(;;){if(aw){var
+cD=aw[1],cE=cD[2],fb=P(a$,j(bh(cE))),fc=aw[2],fd=a7(ag,cE,a$),ag=[0,[0,cD[1],fd],ag],aw=fc,a$=fb;continue}var
+R=kE(ba,ag,m[4],cG),fm=kD(ag,m[4],cG),fn=m[3],cH=f(kA(kH(m),fn,bb),fm),cI=j(kG(m)),fo=0,fp=f(cH,dZ(function(a,b){return kw(R,a,b)},fo,d,cI,aD)),fq=f(bv(e6(R)),fp),cJ=f(bv(e5(R)),fq),bd=cX(cJ)[1],fr=cp(bd),ah=function(a){return bc(fr,a)},cK=v(j(bL),ba);if(cK)var
+fs=m[4],be=n(function(a){return 0===a[0]?v(j(a[1]),ba):1},fs);else
 var
-a8=cx;var
-cy=a8?n(function(a){var
-b=l(d),c=c5(a7);return a$(t(ae(a),c,b),a)},cw):a8,cz=cy?aK(l2,ay):cy;if(cz){var
-fa=l9(m),a_=ak(e(function(a){return aj(an,a)},fa));if(a_){var
-fb=0,fc=E(function(a){return fR(fb,d,a)},ay),ba=ak(e(function(a){return l0(an,a)},fc));if(ba){var
-bb=ak(e(function(a){return aj(an,[0,a,d])},bC));if(bb){var
-fd=0,fe=0,bc=ak(eG(function(a,b){return l1(an,ae,R,fe,d,a,b)},fd,d,cv,ay));if(bc){var
-cA=bc[1],ff=ho(cA),fg=bb[1],fh=function(a){return 0},fi=g(a_[1],ba[1]),fj=e(ae,cu),fk=fT(R),fl=f(aR(ae),fk),fm=fS(R);return fC(an,a7,f(aR(ae),fm),fl,fj,fi,cA,fh,fg,ff,gP)}var
-cB=bc}else
+be=cK;var
+cL=be?n(function(a){var
+b=k(d),c=cp(bd);return aQ(t(ah(a),c,b),a)},cJ):be,cM=cL?au(kz,aD):cL;if(cM){var
+ft=kG(m),bf=ae(e(function(a){return ad(ar,a)},ft));if(bf){var
+fu=0,fv=B(function(a){return e4(fu,d,a)},aD),bk=ae(e(function(a){return kx(ar,a)},fv));if(bk){var
+bl=ae(e(function(a){return ad(ar,[0,a,d])},bL));if(bl){var
+fw=0,fx=0,bm=ae(dZ(function(a,b){return ky(ar,ah,R,fx,d,a,b)},fw,d,cI,aD));if(bm){var
+cN=bm[1],fy=go(cN),fz=bl[1],fA=function(a){return 0},fB=f(bf[1],bk[1]),fC=e(ah,cH),fD=e6(R),fE=l(az(ah),fD),fF=e5(R);return eP(ar,bd,l(az(ah),fF),fE,fC,fB,cN,fA,fz,fy,g3)}var
+cO=bm}else
 var
-cB=bb;var
-cC=cB}else
+cO=bl;var
+cP=cO}else
 var
-cC=ba;var
-cD=cC}else
+cP=bk;var
+cQ=cP}else
 var
-cD=a_;var
-cE=cD}else
+cQ=bf;var
+cR=cQ}else
 var
-cE=cz;return cE}}return cT}var
-eh=eg}else
+cR=cM;return cR}}return c5}var
+eo=en}else
 var
-eh=bX;return eh}return 0;case
+eo=b0;return eo}return 0;case
 4:if(0===o[2][0]){var
-ei=dZ(i(a[1]));if(ei){var
-aT=a[3],ca=0;if(aT){var
-aA=aT[1],aB=aA[4],H=aT[2];if(aA[1]||aA[2]||aA[3])var
+ep=di(h(a[1]));if(ep){var
+a1=a[3],cg=0;if(a1){var
+aE=a1[1],aF=aE[4],H=a1[2];if(aE[1]||aE[2]||aE[3])var
 r=0;else{var
-A=0;if(typeof
-aB!=="number")switch(aB[0]){case
+C=0;if(typeof
+aF!=="number")switch(aF[0]){case
 0:var
-aW=0;if(H){var
-aC=H[1],bD=aC[4];if(aC[1]||aC[2]||aC[3]){var
-r=0;A=1;aW=1}else{var
-cb=0;if(typeof
-bD!=="number"&&1===bD[0])if(H[2]){var
-r=0;A=1;aW=1;cb=1}else{var
-gy=i(bD[1]),r=[0,[0,i(aB[1]),gy]];A=1;aW=1;cb=1}if(!cb)var
-du=0}}else
+a5=0;if(H){var
+aG=H[1],bM=aG[4];if(aG[1]||aG[2]||aG[3]){var
+r=0;C=1;a5=1}else{var
+ch=0;if(typeof
+bM!=="number"&&1===bM[0])if(H[2]){var
+r=0;C=1;a5=1;ch=1}else{var
+gI=h(bM[1]),r=[0,[0,h(aF[1]),gI]];C=1;a5=1;ch=1}if(!ch)var
+dC=0}}else
 var
-du=H;if(!aW){var
-r=du;A=1}break;case
+dC=H;if(!a5){var
+r=dC;C=1}break;case
 1:var
-aX=0;if(H){var
-aD=H[1],bI=aD[4];if(aD[1]||aD[2]||aD[3]){var
-r=0;A=1;aX=1}else{var
-cc=0;if(typeof
-bI!=="number"&&0===bI[0])if(H[2]){var
-r=0;A=1;aX=1;cc=1}else{var
-gz=i(aB[1]),r=[0,[0,i(bI[1]),gz]];A=1;aX=1;cc=1}if(!cc)var
-dv=0}}else
+a6=0;if(H){var
+aI=H[1],bN=aI[4];if(aI[1]||aI[2]||aI[3]){var
+r=0;C=1;a6=1}else{var
+cj=0;if(typeof
+bN!=="number"&&0===bN[0])if(H[2]){var
+r=0;C=1;a6=1;cj=1}else{var
+gJ=h(aF[1]),r=[0,[0,h(bN[1]),gJ]];C=1;a6=1;cj=1}if(!cj)var
+dD=0}}else
 var
-dv=H;if(!aX){var
-r=dv;A=1}break}if(!A){var
-dt=0;ca=1}}}else{var
-dt=aT;ca=1}if(ca)var
-r=dt;if(r){var
-ej=r[1],ek=ej[2],em=ej[1],cX=j(q,1,i(a[2])),cZ=cX?j(q,1,[3,ek,[0,c,c]]):cX,c0=cZ?j(q,1,em):cZ;return c0?j(q,0,[3,[5,[0,c,c],ek],em]):c0}var
-en=r}else
+dD=H;if(!a6){var
+r=dD;C=1}break}if(!C){var
+dB=0;cg=1}}}else{var
+dB=a1;cg=1}if(cg)var
+r=dB;if(r){var
+eq=r[1],er=eq[2],es=eq[1],c$=i(q,1,h(a[2])),da=c$?i(q,1,[3,er,[0,c,c]]):c$,db=da?i(q,1,es):da;return db?i(q,0,[3,[5,[0,c,c],er],es]):db}var
+et=r}else
 var
-en=ei;return en}return 0;case
+et=ep;return et}return 0;case
 5:var
-bY=a[4],eo=a[1],b0=o[2];if(0===b0[0]){var
-ep=b0[3],p=ic(eo,[0,a[2],a[3]],0,bY),b1=ik(k(ep),ep);if(b1){var
-eq=b1[1];if(eq[2])return 0;var
-er=io(eo,0,bY,p),et=er?at(aK(zD,bY)):er;if(et){var
-eu=la(q,p);if(eu){var
-gR=eq[1],ev=e(f7,p[1]),u=ih(p[1]),ex=i(a[5]),K=b0[1],bm=fF(u,ev,p[1]),B=hp(u,ev,p[1],0),fw=k(p[3]),fx=Q(k(bm),fw),av=[0,k(bm),fx],fy=hq(B,u,av,p[3]),fz=g(e(dJ,B),fy),c7=g(bV(fs(B)),fz),c8=dC(c7)[1],bo=c5(c8),c9=p[2];if(0===c9[0]){var
-c_=n(function(a){var
-b=l(d);return a$(t(bA(bo,a),bo,b),a)},c7),dc=c_?j(q,1,ex):c_;if(dc){var
-fA=p[3],fB=E(function(a){return dN(u,a)},fA),fD=p[3],fE=g(bm,g(e(function(a){return bE(u,a)},fD),fB)),bq=ak(e(function(a){return aj(K,a)},fE));if(bq){var
-fG=aU(c9[1],u),br=ak(e(function(a){return aj(K,a)},fG));if(br){var
-bs=cH(K,u,[5,ex,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bs){var
-bu=p[3],fJ=br[1],fK=bs[1],fM=bq[1],af=function(a){return bA(bo,a)},fr=a9(0,k(bu)),ft=e(function(i){var
-l=X(bu,i);if(l){var
-a=l[1],v=el(i,bu),w=k(E(function(a){return dN(u,a)},v)),x=Q(av[2],w),h=[0,Q(av[1],i),x],r=fs(B),g=f(aR(af),r),b=[1,[8,[1,[1,h[1]]]]],d=fI(B,u,h,a),n=d?[0,[3,e(af,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b1=a[4],eu=a[1],b2=o[2];if(0===b2[0]){var
+ev=b2[3],p=hc(eu,[0,a[2],a[3]],0,b1),b3=hj(j(ev),ev);if(b3){var
+ew=b3[1];if(ew[2])return 0;var
+ex=hm(eu,0,b1,p),ey=ex?al(au(vf,b1)):ex;if(ey){var
+ez=jJ(q,p);if(ez){var
+g5=ew[1],eA=e(fi,p[1]),u=hg(p[1]),eB=h(a[5]),K=b2[1],by=eS(u,eA,p[1]),D=gp(u,eA,p[1],0),fN=j(p[3]),fO=P(j(by),fN),aA=[0,j(by),fO],fP=gq(D,u,aA,p[3]),fQ=f(e(c4,D),fP),dh=f(bv(eF(D)),fQ),dj=cX(dh)[1],bA=cp(dj),dk=p[2];if(0===dk[0]){var
+dl=n(function(a){var
+b=k(d);return aQ(t(bc(bA,a),bA,b),a)},dh),dm=dl?i(q,1,eB):dl;if(dm){var
+fR=p[3],fS=B(function(a){return c8(u,a)},fR),fT=p[3],fU=f(by,f(e(function(a){return bg(u,a)},fT),fS)),bB=ae(e(function(a){return ad(K,a)},fU));if(bB){var
+fV=aC(dk[1],u),bC=ae(e(function(a){return ad(K,a)},fV));if(bC){var
+bD=b6(K,u,[5,eB,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bD){var
+bE=p[3],fW=bC[1],fX=bD[1],fY=bB[1],ai=function(a){return bc(bA,a)},fK=aO(0,j(bE)),fL=e(function(h){var
+k=V(bE,h);if(k){var
+a=k[1],v=dE(h,bE),w=j(B(function(a){return c8(u,a)},v)),x=P(aA[2],w),g=[0,P(aA[1],h),x],r=eF(D),f=l(az(ai),r),b=[1,[8,[1,[1,g[1]]]]],d=eV(D,u,g,a),n=d?[0,[3,e(ai,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,g,b]];case
-1:return[0,[1,g,b]];case
+0:return[0,[0,f,b]];case
+1:return[0,[1,f,b]];case
 4:var
-o=j(K,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,g,b]];case
+o=i(K,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,f,b]];case
 8:var
-p=j(K,1,[5,a[2],a[1]]);if(!p)return p;var
+p=i(K,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,c]];m=1;break;case
 9:var
 q=b;m=1;break;case
@@ -6708,44 +5566,44 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fH(B,u,h,a);return D(function(a){return[0,f(aR(af),a),q]},t)}return 0}return l},fr),fv=e(function(a){return af(dJ(a))},B),c3=e(function(a){return af(a[2])},B),fN=p[3],fO=av[1],c4=e(aw,fM),c6=function(ay,ax){var
-l=ay,h=ax;for(;;){if(0===h[0]){var
-s=h[1],_=v(k(s),uu),$=_?n(function(a){var
-d=M(aa(b(2,b(2,b(2,c)))),a);return d?M(a,b(2,b(2,b(2,c)))):d},s):_;if($){var
-ab=mj(K,fK,fu(0,l),s),i=h[2],u=bT(0,cG(K,ab,c4),c8,0),L=function(a){return mi(mh(K,ab,c4,u,a))};if(typeof
-i==="number")return aK(function(b){var
-a=t(b,u,0);return a?M(a[1][2][2],d):a},c3);else{if(0===i[0]){var
-a=i[2],N=n(us,a);if(N){var
-o=t(i[1],ft,0);if(o){var
+t=eU(D,u,g,a);return A(function(a){return[0,l(az(ai),a),q]},t)}return 0}return k},fK),fM=e(function(a){return ai(c4(a))},D),dc=e(function(a){return ai(a[2])},D),fZ=p[3],f0=aA[1],de=e(ao,fY),df=function(az,ay){var
+l=az,h=ay;for(;;){if(0===h[0]){var
+s=h[1],$=v(j(s),p8),aa=$?n(function(a){var
+d=L(Z(b(2,b(2,b(2,c)))),a);return d?L(a,b(2,b(2,b(2,c)))):d},s):$;if(aa){var
+ac=kS(K,fX,eH(0,l),s),i=h[2],u=bt(0,b5(K,ac,de),dj,0),M=function(a){return kR(kQ(K,ac,de,u,a))};if(typeof
+i==="number")return au(function(b){var
+a=t(b,u,0);return a?L(a[1][2][2],d):a},dc);else{if(0===i[0]){var
+a=i[2],N=n(p6,a);if(N){var
+o=t(i[1],fL,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],al=fY(B,A),am=fX(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],am]],al]],0]]];x=1}else{var
+A=a[1],B=g[1],am=e$(B,A),an=e_(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],an=fX(D),ao=[1,[6,g[2],an]],F=[0,[0,E,[0,[1,[4,fY(E,D),ao]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=e_(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,e$(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
 z=0;if(a){var
-j=a[2],ak=0;if(j)if(j[2]){var
+k=a[2],ak=0;if(k)if(k[2]){var
 f=0;ak=1}else
 var
-G=j[1],H=a[1],m=g[1],ap=fX(H),aq=[1,[6,fY(m,G),ap]],ar=[1,[6,g[2],aq]],as=fX(G),I=[0,[0,m,[0,[1,[4,[1,[6,fY(m,H),as]],ar]],0]]];else
+G=k[1],H=a[1],m=g[1],aq=e_(H),ar=[1,[6,e$(m,G),aq]],as=[1,[6,g[2],ar]],at=e_(G),I=[0,[0,m,[0,[1,[4,[1,[6,e$(m,H),at]],as]],0]]];else
 var
-I=j;if(!ak){var
+I=k;if(!ak){var
 J=I;z=1}}else{var
 J=a;z=1}if(z)var
 f=J;break;default:if(a)var
 f=0;else
 var
-au=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},au)]]}if(f){var
-O=f[1],av=O[1],P=n(function(a){return mi(t(a[2],u,0))},av);if(P)return n(L,O[2]);var
-R=P}else
+av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
+O=f[1],aw=O[1],Q=n(function(a){return kR(t(a[2],u,0))},aw);if(Q)return n(M,O[2]);var
+R=Q}else
 var
 R=f;var
 S=R}else
@@ -6754,115 +5612,115 @@ S=o;var
 T=S}else
 var
 T=N;return T}var
-U=i[2],V=i[1],p=X(fN,V);if(p){var
-W=p[1];if(typeof
-W!=="number"&&1===W[0]){var
-q=X(c3,U);if(q){var
-r=X(fv,U);if(r){var
-aw=Q(fO,V);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,aw]]]],[0,q[1]]]]]])}var
-Z=r}else
+U=i[2],W=i[1],p=V(fZ,W);if(p){var
+X=p[1];if(typeof
+X!=="number"&&1===X[0]){var
+q=V(dc,U);if(q){var
+r=V(fM,U);if(r){var
+ax=P(f0,W);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+_=r}else
 var
-Z=q;return Z}var
+_=q;return _}var
 Y=0}else
 var
-Y=p;return Y}}return $}var
-ac=h[1],w=X(l,ac);if(w){var
-ad=w[1],az=ad[1],ae=at(ah(bU(ad),az));if(ae){var
-af=es(ac,l),ag=c6(af[1],h[2]);if(ag){var
-l=af[2],h=h[3];continue}var
-ai=ag}else
+Y=p;return Y}}return aa}var
+ad=h[1],w=V(l,ad);if(w){var
+ae=w[1],aA=ae[1],af=al(ab(bu(ae),aA));if(af){var
+ag=dL(ad,l),ah=df(ag[1],h[2]);if(ah){var
+l=ag[2],h=h[3];continue}var
+ai=ah}else
 var
-ai=ae;var
+ai=af;var
 aj=ai}else
 var
-aj=w;return aj}};return c6(fJ,gR)}var
-dd=bs}else
+aj=w;return aj}};return df(fW,g5)}var
+dn=bD}else
 var
-dd=br;var
-de=dd}else
+dn=bC;var
+dp=dn}else
 var
-de=bq;var
-df=de}else
+dp=bB;var
+dq=dp}else
 var
-df=dc;return df}return 0}var
-ey=eu}else
+dq=dm;return dq}return 0}var
+eC=ez}else
 var
-ey=et;var
-ez=ey}else
+eC=ey;var
+eD=eC}else
 var
-ez=b1;return ez}return 0;case
+eD=b3;return eD}return 0;case
 6:var
-eA=a[1];if(eA){var
-eB=eA[1],b2=o[2];if(0===b2[0]){var
-b3=ii(0,zN,b2[3]);if(b3){var
-eC=eO(eB);if(eC){var
-gS=b3[1],eD=bH(eB)[2],aV=b2[1],bk=cH(aV,d,eD);if(bk){var
-bl=cH(aV,d,[5,[0,c,c],eD]);if(bl){var
-fq=bk[1][1],cU=$(c2(aV),fq);if(cU)return mg(aV,bl[1][1],gS);var
-cV=cU}else
+eE=a[1];if(eE){var
+eG=eE[1],b4=o[2];if(0===b4[0]){var
+b7=hh(0,vp,b4[3]);if(b7){var
+eI=d7(eG);if(eI){var
+g6=b7[1],eJ=bj(eG)[2],a3=b4[1],bw=b6(a3,d,eJ);if(bw){var
+bx=b6(a3,d,[5,[0,c,c],eJ]);if(bx){var
+fJ=bw[1][1],c6=Y(cm(a3),fJ);if(c6)return kP(a3,bx[1][1],g6);var
+c7=c6}else
 var
-cV=bl;var
-cW=cV}else
+c7=bx;var
+c9=c7}else
 var
-cW=bk;return cW}var
-eE=eC}else
+c9=bw;return c9}var
+eK=eI}else
 var
-eE=b3;return eE}return 0}var
-b4=o[2];if(0===b4[0]){var
-b5=ii(0,zO,b4[3]);return b5?mg(b4[1],d,b5[1]):b5}return 0;default:var
-_=a[1],eF=o[2];if(2===eF[0]){var
-eH=eF[1],b6=ie(k(eH),eH);if(b6){var
-eI=b6[1];if(eI[2])return 0;var
-b7=eI[1],dR=Z(zL,k(_)),dS=dR?Z(k(_),j7):dR,dT=dS?l$(e(a3,_)):dS,eJ=dT?n(function(c){var
-a=cm(i(c[2][1]));if(a){var
-b=cm(i(c[2][2]));if(b)return at(dz(b[1],a[1]));var
+eK=b7;return eK}return 0}var
+b8=o[2];if(0===b8[0]){var
+b9=hh(0,vq,b8[3]);return b9?kP(b8[1],d,b9[1]):b9}return 0;default:var
+ac=a[1],eL=o[2];if(2===eL[0]){var
+eM=eL[1],b_=he(j(eM),eM);if(b_){var
+eN=b_[1];if(eN[2])return 0;var
+b$=eN[1],dX=X(vn,j(ac)),dY=dX?X(j(ac),iE):dX,d0=dY?kI(e(aK,ac)):dY,eO=d0?n(function(c){var
+a=bP(h(c[2][1]));if(a){var
+b=bP(h(c[2][2]));if(b)return al(cU(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},_):dT;if(eJ)var
-gT=f6(yT,b7),b8=mP(a[5],gT);else
+d=a;return d},ac):d0;if(eO)var
+g7=fh(uv,b$),cb=lm(a[5],g7);else
 var
-b8=eJ;if(b8)var
-gU=f6(yU,b7),b9=mP(a[6],gU);else
+cb=eO;if(cb)var
+g8=fh(uw,b$),cd=lm(a[6],g8);else
 var
-b9=b8;if(b9){var
-gA=e(function(a){return[0,d,0]},_);return mO(_,a[2],a[3],a[4],gA,b7)}var
-eK=b9}else
+cd=cb;if(cd){var
+gK=e(function(a){return[0,d,0]},ac);return ll(ac,a[2],a[3],a[4],gK,b$)}var
+eQ=cd}else
 var
-eK=b6;return eK}return 0}}return ai}var
-K=[aE,zR,gD(0)],mQ=[aE,zS,gD(0)];function
-zP(m,b){var
-f=[0,h(yi,am(b[4])),0],g=[0,h(yk,S([0,h(yj,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+eQ=b_;return eQ}return 0}}return am}var
+J=[aE,vt,nz(0)],ln=[aE,vu,nz(0)];function
+vr(m,b){var
+f=[0,g(tW,ag(b[4])),0],h=[0,g(tY,R([0,g(tX,ag(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(ye,mo(a[1],a[2],a[3]));break;case
+c=H(tS,kX(a[1],a[2],a[3]));break;case
 1:var
-c=I(yf,mp(a[1],a[2],a[3],a[4]));break;default:var
-c=I(yg,x(e(x$,a[1])))}var
-i=[0,h(yl,c),g],j=1===b[2][0]?yr:ym,k=[0,h(yn,am(j)),i],l=[0,h(yo,wR(b[1])),k],d=aq(jz(zQ,fZ(S([0,h(yq,am(yp)),l]),yh)),m);return d?zM(b):d}function
-Y(a){if(0===a[0])return a[1];throw K}function
-T(a){if(1===a[0])return a[1];throw K}function
-aS(a){if(2===a[0])return a[1];throw K}function
-d1(a){if(3===a[0])return a[1];throw K}function
-aV(f,e){var
+c=H(tT,kY(a[1],a[2],a[3],a[4]));break;default:var
+c=H(tU,x(e(tN,a[1])))}var
+i=[0,g(tZ,c),h],j=1===b[2][0]?t5:t0,k=[0,g(t1,ag(j)),i],l=[0,g(t2,st(b[1])),k],d=ak(ie(vs,fa(R([0,g(t4,ag(t3)),l]),tV)),m);return d?vo(b):d}function
+W(a){if(0===a[0])return a[1];throw J}function
+S(a){if(1===a[0])return a[1];throw J}function
+aA(a){if(2===a[0])return a[1];throw J}function
+dk(a){if(3===a[0])return a[1];throw J}function
+aD(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===FE(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Be(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aV(c,b);if(a)return a[1];throw K}function
-cs(b,a){var
-c=a?[0,f(b,a[1])]:a;return c}function
-dm(a){switch(a[0]){case
+a=aD(c,b);if(a)return a[1];throw J}function
+bV(b,a){var
+c=a?[0,l(b,a[1])]:a;return c}function
+cI(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],zT]}throw K}function
-eP(e,d){var
-a=R(e,T(d));if(a){var
+2:return[0,a[1],vv]}throw J}function
+d8(e,d){var
+a=Q(e,S(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw K}function
-f$(i){var
-f=cy(i),d=[0,0],e=bi(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw J}function
+fm(i){var
+f=du(i),d=[0,0],e=fS(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=d9(f,c)+iC|0;if(9<g>>>0)throw K;switch(g){case
+a=d[1],g=hW(f,c)-48|0;if(9<g>>>0)throw J;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6884,96 +5742,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eQ(a){return jT(f$(a))}function
-eR(b){var
-a=d1(b);return 45===ab(a,0)?aa(eQ(du(a,1,P(a)-1|0))):eQ(a)}function
-mR(a){return g4(eQ(d1(a)))}function
-ga(a){return jS(eQ(d1(a)))}function
-cS(c){var
-a=d1(c);if(6<P(a))throw K;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jd(a))}function
-mS(a){var
-b=97<=a?1:0,c=b?a<=o5?1:0:b;if(c)var
+d9(a){return iq(fm(a))}function
+d_(b){var
+a=dk(b);return 45===aF(a,0)?Z(d9(cR(a,1,aj(a)-1|0))):d9(a)}function
+lo(a){return f4(d9(dk(a)))}function
+fn(a){return ip(d9(dk(a)))}function
+cf(c){var
+a=dk(c);if(6<aj(a))throw J;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(h4(a))}function
+lp(a){var
+b=97<=a?1:0,c=b?a<=ne?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mT(y,b){var
-d=P(b),a=[0,0];function
+lq(y,b){var
+d=aj(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?ab(b,a[1])===e?1:0:c;return f}function
-l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=ab(b,a[1])&&!(57<ab(b,a[1]))){a[1]++;continue}return du(b,c,a[1]-c|0)}}function
+c=a[1]<d?1:0,f=c?aF(b,a[1])===e?1:0:c;return f}function
+k(e){var
+c=a[1];for(;;){if(a[1]<d&&48<=aF(b,a[1])&&!(57<aF(b,a[1]))){a[1]++;continue}return cR(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=g(b+1|0);if(c(41)){a[1]++;return d}throw K}function
-i(j){if(64<j)throw K;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
-e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&aq(du(b,a[1],5),zV)){a[1]=a[1]+4|0;var
-e=[5,n(j)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw J}function
+h(i){if(64<i)throw J;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+e=n(i);else{var
+u=0;if((a[1]+5|0)<=d&&ak(cR(b,a[1],5),vx)){a[1]=a[1]+4|0;var
+e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mS(ab(b,a[1]))){var
+v=0;if(a[1]<d&&lp(aF(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mS(ab(b,a[1]))&&95!==ab(b,a[1])&&(!(48<=ab(b,a[1]))||57<ab(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,f(y,du(b,o,a[1]-o|0))];break}}else
+w=0;if(!lp(aF(b,a[1]))&&95!==aF(b,a[1])&&(!(48<=aF(b,a[1]))||57<aF(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,l(y,cR(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(h,zW);if(r)var
+g=k(0),p=c(46),q=p?(a[1]++,[0,k(0)]):p,r=ak(g,vy);if(r)var
 s=r;else
 var
-t=1<P(h)?1:0,s=t?48===ab(h,0)?1:0:t;if(s)throw K;if(q){var
-k=q[1],x=0;if(aq(k,zX)||48===ab(k,P(k)-1|0))x=1;else
+t=1<aj(g)?1:0,s=t?48===aF(g,0)?1:0:t;if(s)throw J;if(q){var
+j=q[1],x=0;if(ak(j,vz)||48===aF(j,aj(j)-1|0))x=1;else
 var
-z=f$(k),e=[0,f$(h),z];if(x)throw K}else
+z=fm(j),e=[0,fm(g),z];if(x)throw J}else
 var
-e=[0,f$(h),0]}}}if(c(94)){a[1]++;var
-g=l(0);if(m(g,zU)){if(!(2<P(g))&&2<=jd(g)&&!(64<jd(g)))return[4,e,g4(eQ(g))];throw K}throw K}return e}function
+e=[0,fm(g),0]}}}if(c(94)){a[1]++;var
+f=k(0);if(m(f,vw)){if(!(2<aj(f))&&2<=h4(f)&&!(64<h4(f)))return[4,e,f4(d9(f))];throw J}throw J}return e}function
 e(d){var
-b=i(d);for(;;){if(c(42)){a[1]++;var
-b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
-b=[3,3,b,i(d)];continue}return b}}function
-g(d){if(64<d)throw K;var
+b=h(d);for(;;){if(c(42)){a[1]++;var
+b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
+b=[3,3,b,h(d)];continue}return b}}function
+f(d){if(64<d)throw J;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-h=g(0);if(a[1]<d)throw K;return h}function
-gb(a){return mT(function(a){return[0,a]},a)}function
-iq(a){var
-b=aS(a);return mT(function(a){return a},b)}function
-O(a){return gb(aS(a))}function
-b0(a){if(2===a[0])return[0,gb(a[1])];var
-b=Y(a),c=O(p(b,zY));return[1,O(p(b,zZ)),c]}function
-W(a){throw[0,mQ,aH(jz(z1,a),z0)]}function
-ir(c){var
-a=aS(c);if(m(a,z2)){var
-b=m(a,z3);if(b)throw K;return b}return 1}function
-z4(d){var
-b=Y(d);function
-a(a){return eP(b0,p(b,a))}var
-c=aS(p(b,z5));if(m(c,z6)){if(m(c,z7)){if(m(c,z8))return W([0,z_,[0,c,z9]]);var
-e=aV(b,z$),f=cs(function(a){return eP(b0,a)},e),g=a(Aa);return[1,a(Ab),g,f]}var
-h=ir(p(b,Ac)),i=b0(p(b,Ad)),j=a(Ae),k=a(Af);return[0,a(Ag),k,j,i,h]}return[2,a(Ah)]}function
-Ai(d){var
-a=Y(d);if(a){var
-b=a[1];if(!m(b[1],Aj)){var
-c=b[2];if(2===c[0]&&!m(c[1],Ak))return 1}}return 0}function
-mU(e){var
-b=Y(e);function
-a(a){return R(b0,T(p(b,a)))}var
-c=aS(p(b,Al)),d=aV(b,Am);if(m(c,An)){if(m(c,Ao)){if(!m(c,Ap)&&!d){var
-f=a(As);return[1,a(At),f]}}else
+g=f(0);if(a[1]<d)throw J;return g}function
+fo(a){return lq(function(a){return[0,a]},a)}function
+ho(a){var
+b=aA(a);return lq(function(a){return a},b)}function
+N(a){return fo(aA(a))}function
+bA(a){if(2===a[0])return[0,fo(a[1])];var
+b=W(a),c=N(p(b,vA));return[1,N(p(b,vB)),c]}function
+U(a){throw[0,ln,aJ(ie(vD,a),vC)]}function
+hp(c){var
+a=aA(c);if(m(a,vE)){var
+b=m(a,vF);if(b)throw J;return b}return 1}function
+vG(d){var
+b=W(d);function
+a(a){return d8(bA,p(b,a))}var
+c=aA(p(b,vH));if(m(c,vI)){if(m(c,vJ)){if(m(c,vK))return U([0,vM,[0,c,vL]]);var
+e=aD(b,vN),f=bV(function(a){return d8(bA,a)},e),g=a(vO);return[1,a(vP),g,f]}var
+h=hp(p(b,vQ)),i=bA(p(b,vR)),j=a(vS),k=a(vT);return[0,a(vU),k,j,i,h]}return[2,a(vV)]}function
+vW(d){var
+a=W(d);if(a){var
+b=a[1];if(!m(b[1],vX)){var
+c=b[2];if(2===c[0]&&!m(c[1],vY))return 1}}return 0}function
+lr(e){var
+b=W(e);function
+a(a){return Q(bA,S(p(b,a)))}var
+c=aA(p(b,vZ)),d=aD(b,v0);if(m(c,v1)){if(m(c,v2)){if(!m(c,v3)&&!d){var
+f=a(v6);return[1,a(v7),f]}}else
 if(!d){var
-g=ir(p(b,Au)),h=b0(p(b,Av)),i=a(Aw),j=a(Ax);return[0,a(Ay),j,i,h,g]}}else
+g=hp(p(b,v8)),h=bA(p(b,v9)),i=a(v_),j=a(v$);return[0,a(wa),j,i,h,g]}}else
 if(!d){var
-k=ir(p(b,Az)),l=b0(p(b,AA)),n=b0(p(b,AB)),o=a(AC),q=a(AD),r=a(AE);return[2,a(AF),r,q,o,n,l,k]}return W([0,Ar,[0,c,Aq]])}function
-mV(d){var
-a=Y(d);if(a){var
-b=a[1];if(!m(b[1],AG)){var
-c=b[2];if(2===c[0]&&!m(c[1],AH))return 1}}return 0}function
-cT(c,d){var
-a=T(d);if(a){var
+k=hp(p(b,wb)),l=bA(p(b,wc)),n=bA(p(b,wd)),o=a(we),q=a(wf),r=a(wg);return[2,a(wh),r,q,o,n,l,k]}return U([0,v5,[0,c,v4]])}function
+ls(d){var
+a=W(d);if(a){var
+b=a[1];if(!m(b[1],wi)){var
+c=b[2];if(2===c[0]&&!m(c[1],wj))return 1}}return 0}function
+cg(c,d){var
+a=S(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,f(c,a[1]),e]}}throw K}function
-gc(f,o){var
-x=f?f[1]:f,c=Y(o),a=aS(p(c,AI)),i=pz(a,AJ),h=0;if(0<=i)if(0<i)if(m(a,AK))if(m(a,AL))if(m(a,AM))if(m(a,AN))if(m(a,AO)){var
-j=m(a,AP);if(j)h=1;else
+e=l(c,b[1]);return[0,l(c,a[1]),e]}}throw J}function
+fp(f,o){var
+x=f?f[1]:f,c=W(o),a=aA(p(c,wk)),i=nM(a,wl),h=0;if(0<=i)if(0<i)if(m(a,wm))if(m(a,wn))if(m(a,wo))if(m(a,wp))if(m(a,wq)){var
+j=m(a,wr);if(j)h=1;else
 var
 b=j}else
 var
@@ -6988,7 +5846,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,A_))if(m(a,A$))if(m(a,Ba))if(m(a,Bb))if(m(a,Bc))if(m(a,Bd))if(m(a,Be))h=1;else
+if(m(a,wM))if(m(a,wN))if(m(a,wO))if(m(a,wP))if(m(a,wQ))if(m(a,wR))if(m(a,wS))h=1;else
 var
 b=1;else
 var
@@ -7003,247 +5861,247 @@ var
 b=9;else
 var
 b=12;var
-l=h?W([0,AR,[0,a,AQ]]):b;function
-g(a){return p(c,AS)}var
-d=aS(p(c,AT)),k=m(d,AU);if(k)if(m(d,AV))if(m(d,AW))if(m(d,AX))var
-e=W([0,AZ,[0,d,AY]]);else
+l=h?U([0,wt,[0,a,ws]]):b;function
+g(a){return p(c,wu)}var
+d=aA(p(c,wv)),k=m(d,ww);if(k)if(m(d,wx))if(m(d,wy))if(m(d,wz))var
+e=U([0,wB,[0,d,wA]]);else
 var
-n=cT(O,g(0)),e=[2,n[1],n[2]];else
+n=cg(N,g(0)),e=[2,n[1],n[2]];else
 var
-e=[0,O(g(0))];else
+e=[0,N(g(0))];else
 var
-e=[1,O(g(0))];else
+e=[1,N(g(0))];else
 var
 e=k;function
 q(y){var
-a=Y(y),b=0;switch(l){case
+a=W(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],A1)){var
+p=a[1];if(!m(p[1],wD)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return W(A2)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return U(wE)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],A3)){var
+r=a[1];if(!m(r[1],wF)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],A4)){var
+t=g[1];if(!m(t[1],wG)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
-z=O(h[1]);return[1,O(f[1]),z]}}}}}}}}break;case
+z=N(h[1]);return[1,N(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],A5)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],A6)&&!i[2]&&x)return W(A7)}else
+v=a[1];if(!m(v[1],wH)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],wI)&&!i[2]&&x)return U(wJ)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],A0)){var
+n=a[1];if(!m(n[1],wC)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,O(d)];throw K}var
-r=cs(q,aV(c,A8));return[0,l,cs(cS,aV(c,A9)),r,e]}function
-is(c){var
-d=gc(Bg,c),e=d[1];if(2<=e)switch(e-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,N(d)];throw J}var
+r=bV(q,aD(c,wK));return[0,l,bV(cf,aD(c,wL)),r,e]}function
+hq(c){var
+d=fp(wU,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=gc(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return W(Bf)}function
-mW(c){var
-d=gc(Bh,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:is(c)}function
-mX(b){var
-a=Y(b[2]);if(m(b[1],Bo)){var
-c=cT(O,p(a,Bp)),d=cT(O,p(a,Bq)),e=d[2],f=d[1],g=O(p(a,Br));return[1,c[1],c[2],g,f,e]}var
-h=R(O,T(p(a,Bs)));return[0,R(O,T(p(a,Bt))),h]}function
-Bu(f){var
-a=Y(f);function
-d(b){return O(p(a,b))}function
-c(b){return eP(O,p(a,b))}var
-b=aS(p(a,Bv));if(m(b,Bw)){if(!m(b,Bx)){var
-j=p(a,BD),e=cT(function(a){return a},j),k=aV(a,BE),l=cs(function(a){return c(BF)},k),n=gb(aS(e[2])),o=gb(aS(e[1])),q=d(BG);return[0,cS(p(a,BH)),q,o,n,l]}if(m(b,By))throw K}var
-g=d(Bz),h=c(BA),i=c(BB);return[1,aq(b,BC),i,h,g]}function
-it(ad){var
-e=dm(ad),g=e[1];if(m(g,BI)){if(m(g,BJ)){if(m(g,BK)){if(m(g,BL))return W([0,BN,[0,g,BM]]);var
-r=p(Y(e[2]),BO),V=0;if(2===r[0]){var
-A=m(r[1],BP);if(!A){var
-z=A;V=1}}if(!V)var
-z=[0,b0(r)];return[6,z]}var
-B=Y(e[2]),h=it([0,[0,[0,BR,p(B,BQ)],0]]);if(0===h[0]){var
-s=h[2];if(0===s[0]&&!h[3]){var
-ae=O(p(B,BT));return[5,h[1],s[1],s[2],h[4],ae]}}return W(BS)}var
-b=Y(e[2]),C=function(c){var
-a=T(p(b,BU));return R(function(a){return gc(0,a)},a)},i=dm(p(b,BV)),a=dm(p(b,BW)),c=i[1];if(m(c,BX)&&0!==aV(b,BY))return W(CT);if(m(c,BZ)&&m(c,B0)&&m(c,B1)){if(0===aV(b,B2)){if(m(c,B3)){var
-X=0;if(m(c,B4)){if(!m(c,B5)){var
-D=a[1],Z=0;if(m(D,B8)&&m(D,B9)){X=1;Z=1}if(!Z){var
-t=T(i[2]),u=aV(b,Ca),E=u?R(Bu,T(u[1])):u,v=C(0);if(!aI(Ai,t)&&!aI(function(a){return 13===a[1]?1:0},v)){var
-F=R(z4,t),G=aI(function(a){return 5===a[1]?1:0},v),ah=G?aI(function(a){return 0===a[0]?0:1},F):G;if(ah)W(Cd);var
-d=Y(a[2]);if(m(a[1],Bi))var
-x=cT(O,p(d,Bj)),y=cT(O,p(d,Bk)),$=y[2],aa=y[1],ab=O(p(d,Bl)),H=[1,x[1],x[2],ab,aa,$];else
+a=fp(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return U(wT)}function
+lt(c){var
+d=fp(wV,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:hq(c)}function
+lu(b){var
+a=W(b[2]);if(m(b[1],w2)){var
+c=cg(N,p(a,w3)),d=cg(N,p(a,w4)),e=d[2],f=d[1],g=N(p(a,w5));return[1,c[1],c[2],g,f,e]}var
+h=Q(N,S(p(a,w6)));return[0,Q(N,S(p(a,w7))),h]}function
+w8(f){var
+a=W(f);function
+d(b){return N(p(a,b))}function
+c(b){return d8(N,p(a,b))}var
+b=aA(p(a,w9));if(m(b,w_)){if(!m(b,w$)){var
+j=p(a,xf),e=cg(function(a){return a},j),k=aD(a,xg),l=bV(function(a){return c(xh)},k),n=fo(aA(e[2])),o=fo(aA(e[1])),q=d(xi);return[0,cf(p(a,xj)),q,o,n,l]}if(m(b,xa))throw J}var
+g=d(xb),h=c(xc),i=c(xd);return[1,ak(b,xe),i,h,g]}function
+hr(ad){var
+e=cI(ad),f=e[1];if(m(f,xk)){if(m(f,xl)){if(m(f,xm)){if(m(f,xn))return U([0,xp,[0,f,xo]]);var
+r=p(W(e[2]),xq),X=0;if(2===r[0]){var
+A=m(r[1],xr);if(!A){var
+z=A;X=1}}if(!X)var
+z=[0,bA(r)];return[6,z]}var
+B=W(e[2]),g=hr([0,[0,[0,xt,p(B,xs)],0]]);if(0===g[0]){var
+s=g[2];if(0===s[0]&&!g[3]){var
+ae=N(p(B,xv));return[5,g[1],s[1],s[2],g[4],ae]}}return U(xu)}var
+b=W(e[2]),C=function(c){var
+a=S(p(b,xw));return Q(function(a){return fp(0,a)},a)},h=cI(p(b,xx)),a=cI(p(b,xy)),c=h[1];if(m(c,xz)&&0!==aD(b,xA))return U(yv);if(m(c,xB)&&m(c,xC)&&m(c,xD)){if(0===aD(b,xE)){if(m(c,xF)){var
+Y=0;if(m(c,xG)){if(!m(c,xH)){var
+D=a[1],Z=0;if(m(D,xK)&&m(D,xL)){Y=1;Z=1}if(!Z){var
+t=S(h[2]),u=aD(b,xO),E=u?Q(w8,S(u[1])):u,v=C(0);if(!at(vW,t)&&!at(function(a){return 13===a[1]?1:0},v)){var
+F=Q(vG,t),G=at(function(a){return 5===a[1]?1:0},v),ah=G?at(function(a){return 0===a[0]?0:1},F):G;if(ah)U(xR);var
+d=W(a[2]);if(m(a[1],wW))var
+x=cg(N,p(d,wX)),y=cg(N,p(d,wY)),$=y[2],aa=y[1],ab=N(p(d,wZ)),H=[1,x[1],x[2],ab,aa,$];else
 var
-ac=eP(O,p(d,Bm)),H=[0,eP(O,p(d,Bn)),ac];return[0,F,H,E,v]}if(0!==E)W(Cb);var
-af=R(mW,T(p(b,Cc))),ag=mX(a);return[1,0,R(mU,t),0,ag,0,af]}}}else
-if(!m(a[1],Ce)){var
-w=C(0),ai=aI(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==cb(w)?1:0);if(aj)W(Cf);var
-ak=O(p(Y(a[2]),Cg));return[4,O(p(Y(i[2]),Ch)),ak,w]}if(!X)return W([0,B7,[0,c,B6]])}else
-if(!m(a[1],Ci)){var
-k=Y(i[2]),I=Y(a[2]),J=function(c,a){var
-b=T(a);return R(function(d){var
-a=T(d);if(a){var
+ac=d8(N,p(d,w0)),H=[0,d8(N,p(d,w1)),ac];return[0,F,H,E,v]}if(0!==E)U(xP);var
+af=Q(lt,S(p(b,xQ))),ag=lu(a);return[1,0,Q(lr,t),0,ag,0,af]}}}else
+if(!m(a[1],xS)){var
+w=C(0),ai=at(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bH(w)?1:0);if(aj)U(xT);var
+al=N(p(W(a[2]),xU));return[4,N(p(W(h[2]),xV)),al,w]}if(!Y)return U([0,xJ,[0,c,xI]])}else
+if(!m(a[1],xW)){var
+j=W(h[2]),I=W(a[2]),K=function(c,a){var
+b=S(a);return Q(function(d){var
+a=S(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=f(c,b[1]);return[0,aS(a[1]),e]}}throw K},b)},al=function(d){var
-a=Y(d);if(a){var
-b=a[1],c=b[1];if(m(c,Cj)){if(!m(c,Ck)&&!a[2])return[0,R(iq,T(b[2]))]}else
-if(!a[2])return[1,iq(b[2])]}throw K},am=R(is,T(p(b,Cl))),an=R(O,T(p(I,Cm))),ao=R(O,T(p(I,Cn))),ap=R(al,T(p(k,Co))),ar=J(iq,p(k,Cp)),as=J(b0,p(k,Cq));return[3,R(aS,T(p(k,Cr))),as,ar,ap,ao,an,am]}return W([0,B$,[0,a[1],B_]])}throw K}var
-L=a[1],M=Y(i[2]);if(m(L,Cs))W([0,Cu,[0,L,Ct]]);var
-l=cs(O,aV(M,Cv)),at=function(f){var
-a=dm(f),b=a[1];if(m(b,Cw)){if(m(b,Cx)){if(m(b,Cy)){if(m(b,Cz))throw K;var
-d=a[2],g=O(p(Y(d),CA));return[3,O(p(Y(d),CB)),g]}var
-h=a[2],c=function(a){return cT(O,p(Y(h),a))},i=c(CC),j=c(CD);return[1,c(CE),j,i]}var
-e=cT(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},n=cs(at,aV(b,CF)),N=m(c,CG),P=N?m(c,CH)?2:1:N,o=T(p(M,CI));if(l&&n&&gO(mV,o)){var
-Q=Y(a[2]),au=function(c){var
-a=Y(c);function
-b(b){return R(b0,T(p(a,b)))}if(0!==aV(a,CJ))W(CK);var
-d=b(CL);return[0,b(CM),d]},av=R(is,T(p(b,CN))),aw=n[1],ax=R(O,T(p(Q,CO))),ay=R(O,T(p(Q,CP))),az=l[1];return[2,P,R(au,o),az,ay,ax,aw,av]}var
-_=0;if(!l&&aq(c,CS)){var
-S=1;_=1}if(!_)var
-S=[0,P];var
-U=0!==n?1:0,aA=U?aI(mV,o):U;if(aA)W(CQ);var
-aB=R(mW,T(p(b,CR))),aC=mX(a);return[1,S,R(mU,o),l,aC,n,aB]}var
-q=Y(e[2]);function
-aD(b){var
-a=Y(b),c=O(p(a,CU)),d=[0,O(p(a,CV)),c];return[0,aS(p(a,CW)),d]}var
-j=it([0,[0,[0,CY,p(q,CX)],0]]);if(0===j[0]&&!j[3]){var
-aE=O(p(q,C0)),aF=O(p(q,C1)),aG=j[4],aH=j[2],aJ=j[1];return[7,R(aD,T(p(q,C2))),aJ,aH,aG,aF,aE]}return W(CZ)}function
-iu(a){return R(eR,T(a))}function
-iv(c,b){var
-a=iu(b);if(cb(a)!==c)throw K;return a}function
-mY(a,d){var
-b=Y(d),e=T(p(b,C5)),f=a[2],c=R(function(a){return iv(f,a)},e),g=a[1];if(cb(c)!==g)throw K;return[0,c,ga(p(b,C6))]}function
-eS(g,n){var
+e=l(c,b[1]);return[0,aA(a[1]),e]}}throw J},b)},am=function(d){var
+a=W(d);if(a){var
+b=a[1],c=b[1];if(m(c,xX)){if(!m(c,xY)&&!a[2])return[0,Q(ho,S(b[2]))]}else
+if(!a[2])return[1,ho(b[2])]}throw J},an=Q(hq,S(p(b,xZ))),ao=Q(N,S(p(I,x0))),ap=Q(N,S(p(I,x1))),aq=Q(am,S(p(j,x2))),ar=K(ho,p(j,x3)),as=K(bA,p(j,x4));return[3,Q(aA,S(p(j,x5))),as,ar,aq,ap,ao,an]}return U([0,xN,[0,a[1],xM]])}throw J}var
+L=a[1],M=W(h[2]);if(m(L,x6))U([0,x8,[0,L,x7]]);var
+k=bV(N,aD(M,x9)),au=function(f){var
+a=cI(f),b=a[1];if(m(b,x_)){if(m(b,x$)){if(m(b,ya)){if(m(b,yb))throw J;var
+d=a[2],g=N(p(W(d),yc));return[3,N(p(W(d),yd)),g]}var
+h=a[2],c=function(a){return cg(N,p(W(h),a))},i=c(ye),j=c(yf);return[1,c(yg),j,i]}var
+e=cg(N,a[2]);return[0,e[1],e[2]]}return[2,N(a[2])]},n=bV(au,aD(b,yh)),O=m(c,yi),P=O?m(c,yj)?2:1:O,o=S(p(M,yk));if(k&&n&&fX(ls,o)){var
+R=W(a[2]),av=function(c){var
+a=W(c);function
+b(b){return Q(bA,S(p(a,b)))}if(0!==aD(a,yl))U(ym);var
+d=b(yn);return[0,b(yo),d]},aw=Q(hq,S(p(b,yp))),ax=n[1],ay=Q(N,S(p(R,yq))),az=Q(N,S(p(R,yr))),aB=k[1];return[2,P,Q(av,o),aB,az,ay,ax,aw]}var
+_=0;if(!k&&ak(c,yu)){var
+T=1;_=1}if(!_)var
+T=[0,P];var
+V=0!==n?1:0,aC=V?at(ls,o):V;if(aC)U(ys);var
+aE=Q(lt,S(p(b,yt))),aF=lu(a);return[1,T,Q(lr,o),k,aF,n,aE]}var
+q=W(e[2]);function
+aG(b){var
+a=W(b),c=N(p(a,yw)),d=[0,N(p(a,yx)),c];return[0,aA(p(a,yy)),d]}var
+i=hr([0,[0,[0,yA,p(q,yz)],0]]);if(0===i[0]&&!i[3]){var
+aH=N(p(q,yC)),aI=N(p(q,yD)),aJ=i[4],aK=i[2],aL=i[1];return[7,Q(aG,S(p(q,yE))),aL,aK,aJ,aI,aH]}return U(yB)}function
+hs(a){return Q(d_,S(a))}function
+ht(c,b){var
+a=hs(b);if(bH(a)!==c)throw J;return a}function
+lv(a,d){var
+b=W(d),e=S(p(b,yH)),f=a[2],c=Q(function(a){return ht(f,a)},e),g=a[1];if(bH(c)!==g)throw J;return[0,c,fn(p(b,yI))]}function
+d$(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=pz(a,C7),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,C8)&&m(a,C9)&&m(a,C_))if(m(a,C$))f=1;else{var
+e=d[1],a=e[1],N=nM(a,yJ),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,yK)&&m(a,yL)&&m(a,yM))if(m(a,yN))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=R(iu,T(r[1])),ac=aS(q[1]);return[8,eS(g,o[1]),ac,ab]}b=1;f=1}else
+ab=Q(hs,S(r[1])),ac=aA(q[1]);return[8,d$(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
 ad=e[2],t=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
-Q=e[2];if(1===Q[0]){var
-u=Q[1];if(u){var
+R=e[2];if(1===R[0]){var
+u=R[1];if(u){var
 v=u[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=ga(w[1]),af=eR(v[1]);return[5,eS(g,u[1]),af,ae]}b=1}}}}}else
-if(m(a,Dc))if(m(a,Dd))if(m(a,De))if(m(a,Df)){if(!m(a,Dg)){if(!d[2]){var
-S=Y(e[2]),ag=T(p(S,Dh)),ah=M+1|0,U=R(function(a){return iv(ah,a)},ag);if(3===cb(U))return[1,Dj,U,ga(p(S,Di))];throw K}b=1}}else{if(!d[2]){var
-I=aS(e[2]),J=m(I,C3);if(J){if(m(I,C4))throw K;var
+ae=fn(w[1]),af=d_(v[1]);return[5,d$(g,u[1]),af,ae]}b=1}}}}}else
+if(m(a,yQ))if(m(a,yR))if(m(a,yS))if(m(a,yT)){if(!m(a,yU)){if(!d[2]){var
+T=W(e[2]),ag=S(p(T,yV)),ah=M+1|0,V=Q(function(a){return ht(ah,a)},ag);if(3===bH(V))return[1,yX,V,fn(p(T,yW))];throw J}b=1}}else{if(!d[2]){var
+I=aA(e[2]),K=m(I,yF);if(K){if(m(I,yG))throw J;var
 L=1}else
 var
-L=J;return[2,L]}b=1}else{if(!d[2]){var
+L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],l=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],D=Z[1],c=0;if(m(D,Dl)&&m(D,Dm))if(m(D,Dn))c=1;else{var
+Z=j[1],D=Z[1],c=0;if(m(D,yZ)&&m(D,y0))if(m(D,y1))c=1;else{var
 _=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 k=E[1],h=0;switch(k[0]){case
 0:var
 F=k[1];if(F){var
-$=F[1][1],aa=0;if(m($,Dp)&&m($,Dq)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(k[1],Dr)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=F[1][1],aa=0;if(m($,y3)&&m($,y4)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(k[1],y5)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 G=E[2];if(G){var
 H=G[2];if(H&&!(H[2]||j[2])){var
-am=ga(H[1]),an=eR(G[1]),x=[6,eS(g,k),an,am];l=1;c=1}else
+am=fn(H[1]),an=d_(G[1]),x=[6,d$(g,k),an,am];l=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])l=2}break;case
-2:if(!m(i[1],Ds))l=2;break}switch(l){case
+2:if(!m(i[1],y6))l=2;break}switch(l){case
 0:var
-x=W(Do);break;case
+x=U(y2);break;case
 2:var
-x=eS(g,i);break}return[7,x]}b=1}else{var
-V=e[2];if(1===V[0]){var
-y=V[1];if(y){var
-z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,iv(M+1|0,ai)]};b=2}}}}else{var
+x=d$(g,i);break}return[7,x]}b=1}else{var
 X=e[2];if(1===X[0]){var
-A=X[1];if(A){var
+y=X[1];if(y){var
+z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,ht(M+1|0,ai)]};b=2}}}}else{var
+Y=e[2];if(1===Y[0]){var
+A=Y[1];if(A){var
 B=A[2];if(B){var
 C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(m(d1(C[1]),Dk))throw K;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,eR(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return W([0,Db,[0,a,Da]]);break;case
+ak=B[1];if(m(dk(C[1]),yY))throw J;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,d_(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return U([0,yP,[0,a,yO]]);break;case
 1:break;default:var
-P=mY(g,t);return s(P[1],P[2])}}break;case
-2:return[0,n[1]]}throw K}function
-mZ(j){var
-b=dm(j),a=b[1];if(m(a,Dv)){var
-g=m(a,Dw);if(!g)return g;if(!m(a,Dx)){var
+P=lv(g,t);return s(P[1],P[2])}}break;case
+2:return[0,n[1]]}throw J}function
+lw(j){var
+b=cI(j),a=b[1];if(m(a,y9)){var
+g=m(a,y_);if(!g)return g;if(!m(a,y$)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cS(d[1]);return[1,cS(c[1]),k]}}}}}else{var
+k=cf(d[1]);return[1,cf(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-l=R(iu,T(f[1]));return[0,cS(e[1]),l]}}}}return W([0,Dz,[0,a,Dy]])}function
-m0(f,b){var
-a=Y(b),c=T(p(a,DE)),d=R(function(g){var
-a=Y(g);function
+l=Q(hs,S(f[1]));return[0,cf(e[1]),l]}}}}return U([0,zb,[0,a,za]])}function
+lx(f,b){var
+a=W(b),c=S(p(a,zg)),d=Q(function(g){var
+a=W(g);function
 b(d,c){var
-b=aV(a,c);return b?R(d,T(b[1])):b}var
-c=b(eR,DA),d=cs(mZ,aV(a,DB)),e=cs(cS,aV(a,DC));return[0,b(function(h){var
-b=T(h);if(b){var
+b=aD(a,c);return b?Q(d,S(b[1])):b}var
+c=b(d_,zc),d=bV(lw,aD(a,zd)),e=bV(cf,aD(a,ze));return[0,b(function(h){var
+b=S(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Dt)){if(!a[2]){if(m(d1(e),Du))throw K;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],y7)){if(!a[2]){if(m(dk(e),y8))throw J;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eS(f,c);return[0,cS(e),g]}}}throw K},DD),e,d,c]},c),e=aV(a,DF),g=cs(function(a){return mY(f,a)},e);return[0,mR(p(a,DG)),g,d]}function
-m1(c){var
-a=Y(c),b=aV(a,DH),d=b?R(O,T(b[1])):b,e=mZ(p(a,DI)),f=R(O,T(p(a,DJ)));return[0,mR(p(a,DK)),f,d,e]}function
-m2(c){var
+g=d$(f,c);return[0,cf(e),g]}}}throw J},zf),e,d,c]},c),e=aD(a,zh),g=bV(function(a){return lv(f,a)},e);return[0,lo(p(a,zi)),g,d]}function
+ly(c){var
+a=W(c),b=aD(a,zj),d=b?Q(N,S(b[1])):b,e=lw(p(a,zk)),f=Q(N,S(p(a,zl)));return[0,lo(p(a,zm)),f,d,e]}function
+lz(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-DU(c){var
+zw(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],DV))a=1;break;case
+0:if(!m(b[1],zx))a=1;break;case
 7:a=1;break}return a?1:0}function
-DW(h){var
-j=P(h),b=[0,0];function
-k(a){if(b[1]<j)return ab(h,b[1]);throw K}function
-l(a){if(k(0)===a){b[1]++;return 0}throw K}function
-z(a,c){for(;;){if(b[1]<j&&f(c,ab(h,b[1]))){b[1]++;continue}return du(h,a,b[1]-a|0)}}function
-A(d){l(34);function
+zy(g){var
+i=aj(g),b=[0,0];function
+j(a){if(b[1]<i)return aF(g,b[1]);throw J}function
+k(a){if(j(0)===a){b[1]++;return 0}throw J}function
+z(a,c){for(;;){if(b[1]<i&&l(c,aF(g,b[1]))){b[1]++;continue}return cR(g,a,b[1]-a|0)}}function
+A(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=z(b[1],a);l(34);return c}function
-B(i,d){if(k(0)===d){b[1]++;return 0}var
+c=z(b[1],a);k(34);return c}function
+B(h,d){if(j(0)===d){b[1]++;return 0}var
 e=0;for(;;){var
-g=[0,f(i,0),e];if(44===k(0)){b[1]++;var
-e=g;continue}l(d);var
-a=g,c=0;for(;;){if(a){var
-h=[0,a[1],c],a=a[2],c=h;continue}return c}}}function
-s(c,i){if(64<c)throw K;var
-a=k(0),d=0;if(48<=a){if(91===a){b[1]++;var
+f=[0,l(h,0),e];if(44===j(0)){b[1]++;var
+e=f;continue}k(d);var
+a=f,c=0;for(;;){if(a){var
+g=[0,a[1],c],a=a[2],c=g;continue}return c}}}function
+s(c,i){if(64<c)throw J;var
+a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 e=93,f=c+1|0;return[1,B(function(a){return s(f,a)},e)]}if(123===a){b[1]++;var
 g=125;return[0,B(function(b){var
-a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
+a=A(0);k(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
 h=b[1];b[1]++;return[3,z(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw K}var
-N=s(0,0),C=b[1]<j?1:0,O=C?10===ab(h,b[1])?1:0:C;if(O)b[1]++;if(b[1]<j)throw K;var
-r=Y(N);if(m(aS(p(r,DX)),DY))throw K;var
-a=it(p(r,DZ)),w=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw J}var
+N=s(0,0),C=b[1]<i?1:0,O=C?10===aF(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw J;var
+r=W(N);if(m(aA(p(r,zz)),zA))throw J;var
+a=hr(p(r,zB)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -7253,108 +6111,107 @@ if(1===u[1])var
 v=6;else
 x=1;if(x)var
 v=3;var
-g=[0,cb(a[2]),v];break;case
+f=[0,bH(a[2]),v];break;case
 2:var
-ae=1===a[1]?6:3,g=[0,cb(a[2]),ae];break;case
+ac=1===a[1]?6:3,f=[0,bH(a[2]),ac];break;case
 3:var
-af=cb(a[1]),g=[0,cb(a[4]),af];break;case
+ad=bH(a[1]),f=[0,bH(a[4]),ad];break;case
 7:var
 D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-g=Ed}if(w)var
-g=[0,cb(D),3];var
-n=dm(p(r,D0)),o=n[1];if(m(o,DP))if(m(o,DQ))if(m(o,DR))var
-c=W([0,DT,[0,o,DS]]);else
+f=zR}if(w)var
+f=[0,bH(D),3];var
+n=cI(p(r,zC)),o=n[1];if(m(o,zr))if(m(o,zs))if(m(o,zt))var
+c=U([0,zv,[0,o,zu]]);else
 var
-q=m1(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=ly(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=m0(g,n[2]),c=[0,t[1],t[2],t[3]];else
+t=lx(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-Q=T(n[2]),c=[2,R(function(f){var
-a=dm(f),b=a[1];if(m(b,DL)){if(m(b,DM)){if(m(b,DN)){var
-e=m(b,DO);if(e)throw K;return e}return[0,cS(a[2])]}var
-c=m1(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=m0(g,a[2]);return[1,d[1],d[2],d[3]]},Q)];function
-S(a){var
-b=a[1];return aI(function(a){return 8===a[2][0]?1:0},b)}function
-U(a){return 0!==a[3]?1:0}function
-E(a){return aI(U,a)}var
+P=S(n[2]),c=[2,Q(function(g){var
+a=cI(g),b=a[1];if(m(b,zn)){if(m(b,zo)){if(m(b,zp)){var
+e=m(b,zq);if(e)throw J;return e}return[0,cf(a[2])]}var
+c=ly(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lx(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+R(a){var
+b=a[1];return at(function(a){return 8===a[2][0]?1:0},b)}function
+T(a){return 0!==a[3]?1:0}function
+E(a){return at(T,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
 0:var
 H=F,G=a[1];d=4;break;case
 1:var
-J=F;d=5;break}break;case
+K=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-$=c[3];if(aI(function(a){var
-b=a[1];return aI(function(a){switch(a[2][0]){case
+_=c[3];if(at(function(a){var
+b=a[1];return at(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},$)){W(D9);d=1}else
+7:return 1;default:return 0}},b)},_)){U(zL);d=1}else
 d=2;break;case
 1:var
-aa=a[6];if(aI(function(a){return 8===a[1]?1:0},aa)){W(D_);d=1}break}break;case
+$=a[6];if(at(function(a){return 8===a[1]?1:0},$)){U(zM);d=1}break}break;case
 2:if(1===c[0]){var
-ad=a[7];if(aI(function(b){var
+ab=a[7];if(at(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},ad)){W(Eb);d=1}else
+6:return 1}return 0},ab)){U(zP);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){W(Ec);d=1}else
+3:if(1===c[0]){U(zQ);d=1}else
 d=3;break;case
 5:var
-J=a[4];d=5;break;case
+K=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(aI(S,c[3])){W(D$);e=3}else
+3:if(0===c[0])if(at(R,c[3])){U(zN);e=3}else
 if(3===a[0])e=1;else{var
-ac=c[3];if(gO(function(a){return gO(DU,a[1])},ac))e=1;else{W(Ea);e=3}}else
+aa=c[3];if(fX(function(a){return fX(zw,a[1])},aa))e=1;else{U(zO);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-L=0;if(aI(function(a){return 10===a[1]?1:0},H)&&aI(function(a){return 2===a[0]?1:0},G)){W(D1);L=1}if(!L)e=1;break;case
-5:if(aI(m2,J))W(D8);else
+L=0;if(at(function(a){return 10===a[1]?1:0},H)&&at(function(a){return 2===a[0]?1:0},G)){U(zD);L=1}if(!L)e=1;break;case
+5:if(at(lz,K))U(zK);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
 3:break;case
 1:var
-i=0;switch(a[0]){case
+h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-X=c[3];if(aI(function(a){return 0!==a[1]?1:0},X)){W(D6);i=1;M=1}}if(!M)i=1;break;case
+X=c[3];if(at(function(a){return 0!==a[1]?1:0},X)){U(zI);h=1;M=1}}if(!M)h=1;break;case
 7:var
-Z=a[4];switch(c[0]){case
+Y=a[4];switch(c[0]){case
 0:break;case
-1:y=1;i=1;break;default:var
-_=function(a){if(typeof
+1:y=1;h=1;break;default:var
+Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return aI(m2,Z)}return 0};if(aI(_,c[1]))W(D7);i=1}break}if(!i)if(0===c[0]&&E(c[3]))W(D5);else
+2:return at(lz,Y)}return 0};if(at(Z,c[1]))U(zJ);h=1}break}if(!h)if(0===c[0]&&E(c[3]))U(zH);else
 y=1;break;case
 2:y=1;break}var
-I=Y(p(r,D2)),V=aS(p(I,D3));return[0,a,c,aS(p(I,D4)),V]}function
-Ee(b){var
-c=P(b),g=64,h=F2(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=W(p(r,zE)),V=aA(p(I,zF));return[0,a,c,aA(p(I,zG)),V]}function
+zS(b){var
+c=aj(b),g=64,h=Bt(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(du(b,a,18),Ef);if(!e){var
+e=ak(cR(b,a,18),zT);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}function
-Eg(b){try{if(Ee(b))var
-a=Ei;else{try{var
-e=0,d=DW(b);e=1}catch(a){a=gK(a);if(a[1]===mQ)var
-c=[0,a[2]];else{if(a!==K)throw a;var
+f=d;return f}}BO(function(b){try{if(zS(b))var
+a=zV;else{try{var
+e=0,d=zy(b);e=1}catch(a){a=nO(a);if(a[1]===ln)var
+c=[0,a[2]];else{if(a!==J)throw a;var
 c=2}}if(e)var
-c=zP(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Eh}if(typeof
+c=vr(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return zU}if(typeof
 a==="number")switch(a){case
-0:return Ej;case
-1:return Ek;default:return El}return aH(Em,a[1])}Gj.orthocert_verify=F0(function(b){return cA(Eg(a(b)))});gN(0);return}(globalThis));
+0:return zW;case
+1:return zX;default:return zY}return aJ(zZ,a[1])});id(0);return}(globalThis));

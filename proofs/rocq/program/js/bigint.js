@@ -50,3 +50,11 @@ function oc_sqrt(a) {
     x = y;
   }
 }
+// What pages call, with strings of bytes.
+//Provides: oc_export
+//Requires: caml_call_gen, caml_string_of_jsbytes, caml_jsbytes_of_string
+function oc_export(verify) {
+  globalThis.orthocert_verify = function (text) {
+    return caml_jsbytes_of_string(caml_call_gen(verify, [caml_string_of_jsbytes(text)]));
+  };
+}
