@@ -27,7 +27,7 @@ use std::sync::atomic::AtomicBool;
 use Verdict::{Certified, Refuted};
 
 /// A committed certificate: `NAME.cert.json` is the answer to `tests/designs/NAME.toml`.
-const OF_DESIGNS: [(&str, Verdict); 18] = [
+const OF_DESIGNS: [(&str, Verdict); 19] = [
     ("orthoglide-prototype", Certified),
     ("orthoglide-relaxed-1-percent", Certified),
     ("orthoglide-tolerance", Certified),
@@ -39,6 +39,7 @@ const OF_DESIGNS: [(&str, Verdict); 18] = [
     ("tripteron", Certified),
     ("delta-joint-speed", Certified),
     ("delta-parallel-margin", Certified),
+    ("rotary-delta-speed", Certified),
     ("orthoglide-310", Refuted),
     ("orthoglide-310.25-published", Refuted),
     ("delta-out-of-reach", Refuted),
@@ -48,8 +49,11 @@ const OF_DESIGNS: [(&str, Verdict); 18] = [
     ("star-singular", Refuted),
 ];
 /// The same of `tests/designs/kernel/NAME.toml`.
-const OF_OTHER_KINDS: [(&str, Verdict); 7] = [
+const OF_OTHER_KINDS: [(&str, Verdict); 10] = [
+    ("five-bar", Certified),
     ("five-bar-formulas", Certified),
+    ("orthoglide-formulas", Certified),
+    ("planar-3-prr", Certified),
     ("planar-3-rpr", Certified),
     ("spherical-3-ups", Certified),
     ("upu-base-axes", Certified),

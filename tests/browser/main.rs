@@ -268,6 +268,8 @@ fn a_page_proves_its_claim_again() {
         ("orthoglide-prototype", "CERTIFIED"),
         ("linear-delta-klipper-cylinder", "CERTIFIED"),
         ("delta-joint-speed", "CERTIFIED"),
+        ("rotary-delta-speed", "CERTIFIED"),
+        ("planar-3-prr", "CERTIFIED"),
         ("postulate-all", "CERTIFIED"),
         ("delta-conditioning-refuted", "REFUTED"),
         ("star-singular", "REFUTED"),
