@@ -24,7 +24,7 @@ trap 'rm -rf "$parts"' EXIT
 base64 -w 0 "$work/$target/release/orthocert_desk.wasm" >"$parts/program"
 echo >>"$parts/program"
 cat "$here"/{desk,numbers,verdict,keep,start}.js >"$parts/script"
-cat "$here"/../page/{page,figure}.css "$here/desk.css" >"$parts/style"
+cat "$here"/../report/page/{page,figure}.css "$here/desk.css" >"$parts/style"
 cp "$here/worker.js" "$parts/worker"
 
 # What the page may do: run its own script and program, and ask nothing of anybody.

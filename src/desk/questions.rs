@@ -1,7 +1,7 @@
 //! What the page asks, and what is answered.
 
-use crate::machines::MACHINES;
 use crate::limit::limit;
+use crate::machines::MACHINES;
 use orthocert::design::{Design, ReadError, Variable, MAX_FILE};
 use orthocert::exact::decimal::{approximate, exact, significant};
 use orthocert::exact::Exact;
