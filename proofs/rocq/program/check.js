@@ -6,7 +6,8 @@ const fs = require("fs"), os = require("os"), path = require("path");
 const { spawnSync } = require("child_process");
 
 const [, , native, script, exact, mutants, ...files] = process.argv;
-const verify = require(path.resolve(script)).orthocert_verify;
+require(path.resolve(script));
+const verify = globalThis.orthocert_verify;
 let failures = 0;
 const fail = (words) => { failures++; console.error(words); };
 
