@@ -9,7 +9,7 @@ use orthocert::files::output;
 use orthocert::questions::frontier::{Bracket, Certified, NoAnswer};
 use orthocert::questions::size::{is_side, Family, Scope, Unknown};
 use orthocert::report::text::{duration, labelled, verbatim, wrap};
-use orthocert::report::{counterexample, CertificateFile, Counterexample};
+use orthocert::report::{counterexample, exactly, CertificateFile, Counterexample};
 use orthocert::search::Budget;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
@@ -21,8 +21,6 @@ use std::time::Instant;
 /// Boxes after which a size counts as not certified; of centres, as not refuted for every
 /// axis-aligned placement.
 const BOXES: u64 = 20_000;
-/// Longest text of an exact number.
-const MOST_DIGITS: usize = 1000;
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
 
@@ -142,7 +140,7 @@ fn common_length(claim: &MachineClaim) -> Option<Exact> {
     };
     let first = length(legs.first()?)?;
     let same = legs.iter().all(|leg| length(leg).as_ref() == Some(&first));
-    same.then(|| Exact::parse(&first.to_string(), MOST_DIGITS).ok()).flatten()
+    same.then(|| exactly(&first)).flatten()
 }
 
 fn side(text: &str) -> Result<BigRational, Failure> {

@@ -440,8 +440,6 @@ fn same_lengths(imported: &Imported, firmware: &Hexapod, wide: bool) {
         claim.orientation = serde_json::from_str(range).expect("orientations");
     }
     let problem = kernel::problem::Problem::new(&claim).expect("a claim");
-    let fixed = kernel::fixed::Fixed::<BigInt>::new(96);
-    let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
     let unit = (problem.scale as f64).exp2();
     let mut random = Random(7);
     for _ in 0..50 {
@@ -455,19 +453,10 @@ fn same_lengths(imported: &Imported, firmware: &Hexapod, wide: bool) {
             .map(|x| x / unit)
             .chain(turned.iter().map(|angle| (angle.to_radians() / 2.0).tan()))
             .collect();
-        let values = problem.tape.run(&fixed, |op| match op {
-            kernel::formula::Op::Coordinate(k) => {
-                let x = (coordinates[k] * 52f64.exp2()).round() as i64;
-                Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
-            }
-            kernel::formula::Op::Parameter(j) => parameters.get(j).cloned(),
-            _ => None,
-        });
+        let length = lengths_at(&problem, &coordinates);
         for (i, (leg, theirs)) in problem.legs.iter().zip(firmware.joints(tran, turned)).enumerate()
         {
-            let length = values.of(leg.length.expect("a strut")).expect("defined");
-            let ours =
-                length.lo.to_string().parse::<f64>().expect("a number") * (-96f64).exp2() * unit;
+            let ours = length(leg.length.expect("a strut"));
             assert!(
                 (ours - theirs).abs() < 1e-9,
                 "joint {i} at {tran:?} {turned:?}: {ours} {theirs}"
@@ -590,12 +579,32 @@ fn shipped_pentapod() -> Pentapod {
     }
 }
 
+/// Lengths at a point of the claim's box, in the claim's own unit.
+fn lengths_at<'a>(
+    problem: &'a kernel::problem::Problem,
+    coordinates: &[f64],
+) -> impl Fn(kernel::formula::Formula) -> f64 + 'a {
+    let fixed = kernel::fixed::Fixed::<BigInt>::new(96);
+    let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
+    let values = problem.tape.run(&fixed, |op| match op {
+        kernel::formula::Op::Coordinate(k) => {
+            let x = (coordinates[k] * 52f64.exp2()).round() as i64;
+            Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
+        }
+        kernel::formula::Op::Parameter(j) => parameters.get(j).cloned(),
+        _ => None,
+    });
+    let unit = (problem.scale as f64).exp2();
+    move |formula| {
+        let length = &values.of(formula).expect("defined").lo;
+        length.to_string().parse::<f64>().expect("a number") * (-96f64).exp2() * unit
+    }
+}
+
 /// The joint coordinates of the claim's own formulas, about a pose.
 fn same_joints_of_a_pentapod(imported: &Imported, firmware: &Pentapod) {
     let claim = decided(imported);
     let problem = kernel::problem::Problem::new(&claim).expect("a claim");
-    let fixed = kernel::fixed::Fixed::<BigInt>::new(96);
-    let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
     let unit = (problem.scale as f64).exp2();
     let mut random = Random(7);
     for _ in 0..50 {
@@ -603,20 +612,11 @@ fn same_joints_of_a_pentapod(imported: &Imported, firmware: &Pentapod) {
         let [a, b, _] = random.three().map(|u| 60.0 * u - 30.0);
         let half = [a, b].map(|angle| (angle.to_radians() / 2.0).tan());
         let coordinates: Vec<f64> = tran.into_iter().chain(half).map(|x| x / unit).collect();
-        let values = problem.tape.run(&fixed, |op| match op {
-            kernel::formula::Op::Coordinate(k) => {
-                let x = (coordinates[k] * 52f64.exp2()).round() as i64;
-                Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
-            }
-            kernel::formula::Op::Parameter(j) => parameters.get(j).cloned(),
-            _ => None,
-        });
+        let length = lengths_at(&problem, &coordinates);
         for (i, (leg, theirs)) in problem.legs.iter().zip(firmware.joints(tran, [a, b])).enumerate()
         {
             let Some(kernel::machine::Joint::Length(rho)) = leg.rho else { panic!("a length") };
-            let rho = values.of(rho).expect("defined");
-            let ours =
-                rho.lo.to_string().parse::<f64>().expect("a number") * (-96f64).exp2() * unit;
+            let ours = length(rho);
             assert!((ours - theirs).abs() < 1e-9, "joint {i} at {tran:?} {a} {b}: {ours} {theirs}");
         }
     }
