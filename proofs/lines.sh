@@ -1,5 +1,5 @@
 #!/bin/sh
-# Counts trusted lines of proofs/checker and proofs/kernel, folder by folder: Rust without comments,
+# Counts trusted lines of proofs/checker and proofs/kernel, folder by folder: of src, Rust without comments,
 # blank lines and tests (folders `tests`, modules `tests` behind #[cfg(test)] or cfg(all(test, ..))).
 set -eu
 cd "$(dirname "$0")"

@@ -10,6 +10,7 @@ use orthocert::exact::Exact;
 use orthocert::files::digest::sha256;
 use orthocert::files::folder::{self, FolderError, SUMS};
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::jobs::batch::plan::identity;
 use orthocert::questions::atlas::{
     self, Bound, Growing, Kept, KeptError, Standing, Stopped, Top, Widest, FORMAT,
@@ -22,7 +23,6 @@ use orthocert::search::paving::unfinished as part_of;
 use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::shown::Named;
 use orthocert_checker::statement;
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate::Claim;

@@ -4,10 +4,10 @@ use super::check::examine;
 use super::{input, print, Failure, Status};
 use orthocert::design::Design;
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::jobs::attestation::{statement, Evidence};
 use orthocert::jobs::batch::plan::identity;
 use orthocert::report::escape;
-use orthocert_checker::shown::Named;
 use std::path::{Path, PathBuf};
 
 /// Its flags.

@@ -3,6 +3,7 @@
 use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
 use orthocert::design::{Design, ReadError};
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::jobs::batch::plan::{identity, plan, Planned};
 use orthocert::jobs::batch::run::{run as run_jobs, Outcome};
 use orthocert::jobs::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
@@ -12,7 +13,6 @@ use orthocert::report::Report;
 use orthocert::search::solver;
 use orthocert::search::{Budget, Control, Progress};
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::shown::Named;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -5,14 +5,15 @@ use super::pave::searched;
 use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::files::digest::Summed;
+use orthocert::files::read::Named;
 use orthocert::report::Size;
 use orthocert::search::accepted::{check, Accepted};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate::Claim;
-use orthocert_kernel::paving::{self, Extent, Header, Summary};
+use orthocert_kernel::paving::{self, Header, Summary};
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::prover::check_sample;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::BufReader;
@@ -153,25 +154,30 @@ fn check_paving(
         (Some(_), None) => Some(random()?),
         (_, seed) => seed,
     };
-    let extent = match arguments.sample.zip(seed) {
-        Some((size, seed)) => Extent::Sample { size, seed },
-        None => Extent::All,
-    };
     let mut input = BufReader::new(Summed::new(begun.whole()));
-    let accepted = paving::check(&mut input, extent).map_err(|reason| reason.to_string());
+    let found = match arguments.sample.zip(seed) {
+        Some((size, seed)) => check_sample(&mut input, size, seed).map(|sampled| {
+            let words = sampled.statement();
+            (sampled.accepted, words)
+        }),
+        None => paving::check(&mut input).map(|accepted| {
+            let words = orthocert_kernel::statement::paving(&accepted);
+            (accepted, words)
+        }),
+    };
+    let accepted = found.map_err(|reason| reason.to_string());
     let wanted = match design {
         Some(design) => Some(searched(&design.claim, arguments.search_box.as_deref())?),
         None => None,
     };
-    let accepted = accepted.and_then(|accepted| match wanted {
+    let accepted = accepted.and_then(|(accepted, words)| match wanted {
         Some(claim) if accepted.header.claim != claim => {
             Err(another_claim(&Claim::Machine(accepted.header.claim), &Claim::Machine(claim)))
         }
-        _ => Ok(accepted),
+        _ => Ok((accepted, words.unwrap_or_default())),
     });
     match accepted {
-        Ok(accepted) => {
-            let statement = orthocert_kernel::statement::paving(&accepted).unwrap_or_default();
+        Ok((accepted, statement)) => {
             // An accepted paving was read to its end.
             let (sha256, _) = input.into_inner().finish().map_err(|error| {
                 Failure::Input(format!("{}: {error}", arguments.certificate.shown()))

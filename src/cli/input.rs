@@ -3,9 +3,9 @@
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
 use orthocert::exact::Exact;
+use orthocert::files::read::{read, Named};
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_checker::file;
-use orthocert_checker::shown::Named;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a certificate (a JSON file)".to_owned()));
     }
-    file::read(path, MOST_BYTES as u64).map_err(|error| unreadable(error.to_string()))
+    read(path, MOST_BYTES as u64).map_err(|error| unreadable(error.to_string()))
 }
 
 /// A file of which the beginning was read, as much as a certificate may have and a byte more; what

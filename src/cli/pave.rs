@@ -5,13 +5,13 @@ use orthocert::design::{written, Design};
 use orthocert::exact::Exact;
 use orthocert::files::digest::Summed;
 use orthocert::files::output::{self, OutputError};
+use orthocert::files::read::Named;
 use orthocert::jobs::batch::plan::identity;
 use orthocert::report::paving::PavingReport;
 use orthocert::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
-use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};

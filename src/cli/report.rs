@@ -7,12 +7,13 @@ use orthocert::design::Design;
 use orthocert::exact::decimal::grouped;
 use orthocert::files::digest::sha256;
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::report::page::paving::{PavingPage, DEPTH};
 use orthocert::report::page::{File, Page, Picture};
 use orthocert::search::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::shown::{Named, Shown};
-use orthocert_kernel::paving::{self, is_paving, Accepted, Extent, Reader, Share, Subject};
+use orthocert_checker::shown::Shown;
+use orthocert_kernel::paving::{self, is_paving, Accepted, Reader, Share, Subject};
 use serde::Serialize;
 use std::fs;
 use std::io::Read;
@@ -168,7 +169,7 @@ fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Statu
 
 /// What the exact checker says of a paving, its tree, and the components of its inner part.
 fn examined(bytes: &[u8]) -> Result<(Accepted, Tree, Option<Components>), SurfaceError> {
-    let accepted = paving::check(bytes, Extent::All)?;
+    let accepted = paving::check(bytes)?;
     let (header, tree) =
         Tree::read(Reader::new(bytes)?, Detail::Depth(DEPTH), interrupt::cancelled())?;
     let subject = Subject::new(&header)?;

@@ -3,10 +3,10 @@
 use super::effort::Work;
 use super::{print, Failure, Format, Status};
 use crate::cli::progress::Bar;
+use orthocert::files::read::Named;
 use orthocert::jobs::batch::plan::identity;
 use orthocert::jobs::shard::{self, Ran, RunError};
 use orthocert::search::Control;
-use orthocert_checker::shown::Named;
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::path::PathBuf;

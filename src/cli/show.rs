@@ -2,11 +2,11 @@
 
 use super::{input, print, Failure, Format, Status};
 use orthocert::exact::decimal::{boxes, exact, grouped};
+use orthocert::files::read::Named;
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
 use orthocert::search::accepted::{size_of, trees, TreeSize};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
-use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement};
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate as kernel;

@@ -6,10 +6,11 @@ use crate::cli::progress::Bar;
 use orthocert::design::{is_atlas, AtlasDesign, Design};
 use orthocert::exact::decimal::{counted, grouped};
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::jobs::shard::{
     self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
 };
-use orthocert_checker::shown::{Named, Shown};
+use orthocert_checker::shown::Shown;
 use orthocert_kernel::check::MOST_NODES;
 use serde::Serialize;
 use std::fs;

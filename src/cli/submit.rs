@@ -3,9 +3,10 @@
 use super::{merge, print, Failure, Format, Status};
 use clap::ValueEnum;
 use orthocert::files::output;
+use orthocert::files::read::Named;
 use orthocert::jobs::engine::{self, Submission};
 use orthocert::jobs::shard::{read_job, JOB_FILE};
-use orthocert_checker::shown::{is_unseen, Named, Shown};
+use orthocert_checker::shown::{is_unseen, Shown};
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};
 

@@ -1,7 +1,8 @@
 //! What a design file is refused for: one message that names file, line, key, what was found there
 //! and what is accepted.
 
-use orthocert_checker::shown::{is_unseen, Named, Shown};
+use crate::files::read::Named;
+use orthocert_checker::shown::{is_unseen, Shown};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;

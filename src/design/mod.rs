@@ -58,10 +58,10 @@ pub use template::{template, TEMPLATES};
 pub use variable::Variable;
 
 use crate::exact::Exact;
+use crate::files::read;
 use description::{Bound, Demand, Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
-use orthocert_checker::file;
 use orthocert_kernel::claim as kernel;
 use std::path::Path;
 use toml::de::DeTable;
@@ -120,7 +120,7 @@ impl Design {
         if path.is_dir() {
             return Err(ReadError::Directory(path.to_owned()));
         }
-        let bytes = file::read(path, MAX_FILE).map_err(unreadable)?;
+        let bytes = read::read(path, MAX_FILE).map_err(unreadable)?;
         if bytes.len() as u64 > MAX_FILE {
             return Err(ReadError::TooLarge(path.to_owned()));
         }

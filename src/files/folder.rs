@@ -6,7 +6,8 @@
 
 use crate::files::digest::{sha256, Summed};
 use crate::files::output::{self, folder_of, OutputError};
-use orthocert_checker::shown::{Named, Shown};
+use crate::files::read::Named;
+use orthocert_checker::shown::Shown;
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File, OpenOptions};

@@ -1,5 +1,6 @@
-//! What is written: files and folders that appear whole or not at all, and their digests.
+//! What is read, and what is written: files and folders that appear whole or not at all, and their digests.
 
 pub mod digest;
 pub mod folder;
 pub mod output;
+pub mod read;

@@ -1,8 +1,7 @@
 //! Reading configurations: bounded in bytes and in number, whatever they include.
 
 use super::ImportError;
-use orthocert_checker::file;
-use orthocert_checker::shown::Named;
+use crate::files::read::{read, Named};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,8 +27,8 @@ pub struct Disk;
 
 impl Files for Disk {
     fn read(&self, path: &Path, most: u64) -> Result<String, String> {
-        let bytes = file::read(path, most)
-            .map_err(|error| format!("{error}; accepted: a configuration file"))?;
+        let bytes =
+            read(path, most).map_err(|error| format!("{error}; accepted: a configuration file"))?;
         if bytes.len() as u64 > most {
             return Err("more than 1 MiB, with what it includes".to_owned());
         }

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use orthocert_checker::shown::Shown;
 use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::paving::{Share, Shares, SHARE_BITS};
+use orthocert_kernel::paving::{Share, Summary, SHARE_BITS};
 use serde::Serialize;
 use std::path::Path;
 
@@ -117,7 +117,8 @@ impl PavingReport {
             Part { boxes, share: Exact::Rational(share), volume }
         };
         let summary = &paved.summary;
-        let Shares { inner, boundary } = paved.shares;
+        let Summary { inner_share: Share(inner), boundary_share: Share(boundary), .. } =
+            paved.summary;
         let whole = 1 << SHARE_BITS;
         let outer = Share(whole - inner - boundary);
         let gap = match (inner, boundary) {

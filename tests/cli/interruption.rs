@@ -2,7 +2,8 @@
 #![cfg(target_os = "linux")]
 
 use crate::support::{Folder, Run, LONG};
-use orthocert_kernel::paving::{write_pair, Item, Kind};
+use orthocert_kernel::paving::{Item, Kind};
+use orthocert_kernel::prover::write_pair;
 use std::fs::{self, File};
 use std::io::Write;
 use std::process::{Child, Command, Stdio};

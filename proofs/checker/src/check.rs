@@ -1,13 +1,9 @@
 //! Reading and checking a certificate: the only way to an accepted verdict.
 
 use crate::shown::Shown;
-use orthocert_kernel::atlas;
-use orthocert_kernel::certificate::{
-    Certificate, Claim, Proof, Unreadable, Verdict, FORMAT, MOST_BYTES,
-};
+use orthocert_kernel::certificate::{Certificate, Unreadable, Verdict, FORMAT, MOST_BYTES};
 use orthocert_kernel::check as kernel;
 use std::fmt;
-use std::num::NonZeroUsize;
 
 /// Most characters of a message that quotes the file.
 const MAX_MESSAGE: usize = 300;
@@ -78,25 +74,5 @@ fn quoted(text: &str) -> String {
 /// # Errors
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<Verdict, Rejected> {
-    check_part(certificate, 0, NonZeroUsize::MIN).map(|()| certificate.verdict)
-}
-
-/// Checks all of a certificate but, of an atlas, the cells whose number is not `part` modulo `of`. Each
-/// cell is of exactly one part: a certificate of which the parts `0..of` are admitted, say by as many
-/// threads, is accepted by [`check`](fn@check).
-///
-/// # Errors
-/// As [`check`](fn@check).
-pub fn check_part(
-    certificate: &Certificate,
-    part: usize,
-    of: NonZeroUsize,
-) -> Result<(), Rejected> {
-    match (&certificate.claim, certificate.verdict, &certificate.proof) {
-        (Claim::Atlas(claim), Verdict::Certified, Proof::Atlas(cells)) => {
-            atlas::check_part(claim, cells, |number| number % of == part)
-        }
-        _ => kernel::check(certificate),
-    }
-    .map_err(Rejected::Kernel)
+    kernel::check(certificate).map_err(Rejected::Kernel).map(|()| certificate.verdict)
 }

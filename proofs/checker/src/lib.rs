@@ -21,7 +21,7 @@ pub mod file;
 pub mod shown;
 pub mod statement;
 
-pub use check::{check, check_part, read, Rejected};
+pub use check::{check, read, Rejected};
 pub use orthocert_kernel::{certificate, paving};
 
 /// What `orthocert-check --help` prints.

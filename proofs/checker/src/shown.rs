@@ -1,9 +1,7 @@
 //! Texts of strangers, such as file names, as people are shown them: they stay on their line, in
 //! their order, and visible.
 
-use std::ffi::OsStr;
 use std::fmt::{self, Display, Write};
-use std::path::Path;
 
 /// Whether a character does something else than stand there: controls, breaks of lines, marks that
 /// reverse, hide or annotate what is around them, and what is no character.
@@ -37,25 +35,6 @@ impl Write for Escaping<'_, '_> {
             true => write!(self.0, "{}", c.escape_unicode()),
             false => self.0.write_char(c),
         })
-    }
-}
-
-/// File names, shown.
-pub trait Named {
-    /// The name for messages, on one line.
-    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>>;
-}
-
-impl Named for OsStr {
-    #[allow(clippy::disallowed_methods)] // What is displayed is escaped.
-    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>> {
-        Shown(self.display())
-    }
-}
-
-impl Named for Path {
-    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>> {
-        self.as_os_str().shown()
     }
 }
 
@@ -93,11 +72,8 @@ mod tests {
 
     #[test]
     fn names_stay_on_their_line_and_in_their_order() {
-        let name = Path::new("a\n\u{1b}[2J\u{202e}\u{2028}\u{ffff}\u{9b}é ±\\.toml");
-        assert_eq!(
-            name.shown().to_string(),
-            "a\\n\\u{1b}[2J\\u{202e}\\u{2028}\\u{ffff}\\u{9b}é ±\\.toml"
-        );
+        let name = Shown("a\n\u{1b}[2J\u{202e}\u{2028}\u{ffff}\u{9b}é ±\\.toml");
+        assert_eq!(name.to_string(), "a\\n\\u{1b}[2J\\u{202e}\\u{2028}\\u{ffff}\\u{9b}é ±\\.toml");
     }
 
     #[test]

@@ -262,19 +262,6 @@ fn bytes(part: &impl Serialize) -> usize {
     serde_json::to_string(part).map_or(0, |text| text.len())
 }
 
-/// Accepts what is said of one cell of an atlas by itself, or says why not.
-///
-/// # Errors
-/// If it is not shown.
-pub fn check_cell(
-    claim: &AtlasClaim,
-    part: &[(u64, u32)],
-    cell: &AtlasCell,
-) -> Result<(), Rejected> {
-    claim.validate().map_err(Rejected::Claim)?;
-    shown(claim, part, cell, Budget::new(work::LEAST_BYTES))
-}
-
 /// Whether what is said of a cell holds for all values of the parameters there.
 ///
 /// **Lemma (atlas).** Let names stand for their ranges over the cell. *Certified*: if the claim is then
@@ -287,7 +274,7 @@ pub fn check_cell(
 /// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
 ///
 /// Where a tolerance varies, it may be none for some values: its ends are the same number there.
-fn shown(
+pub(crate) fn shown(
     claim: &AtlasClaim,
     part: &[(u64, u32)],
     cell: &AtlasCell,

@@ -194,32 +194,6 @@ pub enum Evidence {
     Control(Box<Evidence>),
 }
 
-impl Evidence {
-    /// The rule's name.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Evidence::Test => "test",
-            Evidence::Divided => "divided",
-            Evidence::Lower(_) => "lower",
-            Evidence::LowerDivided(_) => "lower_divided",
-            Evidence::Rank(_) => "rank",
-            Evidence::Chords => "chords",
-            Evidence::Conditioning(..) => "conditioning",
-            Evidence::Accuracy(..) => "accuracy",
-            Evidence::Direction(_) => "direction",
-            Evidence::Negative => "negative",
-            Evidence::Tolerances(..) => "tolerances",
-            Evidence::Cube => "cube",
-            Evidence::Corner(_) => "corner",
-            Evidence::Mirror => "mirror",
-            Evidence::Outside => "outside",
-            Evidence::Inside(..) => "inside",
-            Evidence::Turned(..) => "turned",
-            Evidence::Control(_) => "control",
-        }
-    }
-}
-
 /// A corner of the paper's cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Corner {

@@ -47,7 +47,7 @@ pub struct Control {
     /// Coordinate `m + k` is the square of coordinate `k`.
     tape: Tape,
     m: usize,
-    images: HashMap<Formula, (Formula, Degrees)>,
+    pub(crate) images: HashMap<Formula, (Formula, Degrees)>,
     degrees: Degrees,
 }
 
@@ -74,11 +74,6 @@ impl Control {
     pub fn at_ends(mut self, coordinates: usize) -> Self {
         self.degrees.iter_mut().take(coordinates).for_each(|degree| *degree = (*degree).min(1));
         self
-    }
-
-    /// Whether a formula has the form.
-    pub fn has(&self, formula: Formula) -> bool {
-        self.images.contains_key(&formula)
     }
 
     /// Evaluations of a formula at all control points.

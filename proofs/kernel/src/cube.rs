@@ -19,7 +19,7 @@
 //! `rho_i = P_i - offset - a - s_i = (P_i - q_1) + (L - s_i)`, `P_i >= q_1` and `s_i <= L`. ∎ It is 0 where
 //! `P_i = q_1` and the others are 0: a point that enclosures never settle.
 
-use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Sign, Workspace};
+use crate::claim::{Leg, MachineClaim, Quantity, Sign};
 use crate::input::{binary, number_error, ordered, positive, shape_error, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::quantity;
@@ -31,21 +31,6 @@ pub(crate) struct Cube {
     pub q1: Expression,
     pub q2: Expression,
     pub legs: Vec<Leg>,
-}
-
-/// The claim with the machine of the paper's cube written out; any other claim as it is. What follows
-/// from the cube, and a workspace in its place, are then stated apart.
-///
-/// # Errors
-/// If the cube is none.
-pub fn written_out(claim: &MachineClaim) -> Result<MachineClaim, ClaimError> {
-    match (&claim.mechanism, &claim.workspace) {
-        (Mechanism::Orthoglide { offset }, Workspace::Cube { side }) => {
-            let legs = Cube::new(claim, offset, side)?.legs;
-            Ok(MachineClaim { mechanism: Mechanism::Translational(legs), ..claim.clone() })
-        }
-        _ => Ok(claim.clone()),
-    }
 }
 
 impl Cube {

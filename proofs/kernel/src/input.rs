@@ -129,17 +129,6 @@ impl Input {
         matches!(self.value, Value::Quantity(Quantity::Between { .. }))
     }
 
-    /// Whether it has names that stand for ranges.
-    pub fn varies(&self) -> bool {
-        match &self.value {
-            Value::Quantity(quantity) => quantity.ends().iter().any(|x| x.varies()),
-            Value::Cosine(x) | Value::Sine(x) | Value::Radians(x) | Value::HalfTangent(x) => {
-                x.varies()
-            }
-            Value::TiltReach(x, y) => x.varies() || y.varies(),
-        }
-    }
-
     /// Encloses it with `bits` fractional bits. `machine` replaces an interval.
     pub fn enclose(&self, bits: u32, machine: Option<&Expression>) -> Option<Interval<BigInt>> {
         let angle = |degrees: &Expression| {

@@ -52,6 +52,9 @@ mod orientation;
 pub mod paving;
 pub mod postulate;
 pub mod problem;
+#[cfg(feature = "prover")]
+#[path = "../prover/mod.rs"]
+pub mod prover;
 pub mod quantity;
 pub mod slope;
 pub mod source;

@@ -6,7 +6,7 @@ use crate::claim::{
 };
 use crate::claim::{Quantity, Requirement, Turning, Workspace};
 use crate::number::Expression;
-use crate::paving::{Accepted, Share};
+use crate::paving::{Accepted, Header, Share, Summary};
 use crate::problem::Problem;
 use crate::quantity::{Obligation, Test, TABLE};
 use crate::test::apart::Apart;
@@ -35,7 +35,15 @@ pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::
 /// # Errors
 /// Only if the formatter fails.
 pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
-    let Accepted { header, summary, shares, checked, decided } = accepted;
+    region(&accepted.header, &accepted.summary, "It is proved")
+}
+
+/// What is `shown` of the region of a paving.
+pub(crate) fn region(
+    header: &Header,
+    summary: &Summary,
+    shown: &str,
+) -> Result<String, fmt::Error> {
     let claim = &header.claim;
     let mut out = String::new();
     let (points, of) = match &header.coordinates {
@@ -74,18 +82,8 @@ pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
         )?;
         writeln!(out, "  point with x < y < z;")?;
     }
-    let parts = if header.coordinates.is_some() { " and parts of boxes" } else { "" };
-    if checked == decided {
-        writeln!(out, "It is proved: the volume of R is at least the share")?;
-    } else {
-        writeln!(
-            out,
-            "The evidence of {checked} of the {decided} boxes{parts} in R or off it, drawn at random, \
-             was checked and holds."
-        )?;
-        writeln!(out, "If that of the others holds: the volume of R is at least the share")?;
-    }
-    let most = Share(shares.inner.saturating_add(shares.boundary));
+    writeln!(out, "{shown}: the volume of R is at least the share")?;
+    let most = Share(summary.inner_share.0.saturating_add(summary.boundary_share.0));
     writeln!(out, "  {}", summary.inner_share)?;
     writeln!(out, "of the box's volume, and at most the share\n  {most}.")?;
     Ok(out)

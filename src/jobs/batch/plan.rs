@@ -1,7 +1,7 @@
 //! The designs that files and folders stand for, and where their certificates go.
 
 use crate::files::output::{folder_of, follows_links};
-use orthocert_checker::shown::Named;
+use crate::files::read::Named;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;

@@ -2,10 +2,11 @@
 
 use super::task::Task;
 use crate::files::digest;
+use crate::files::read;
+use crate::files::read::Named;
 use crate::questions::atlas::Top;
 use crate::search::solver::search::Branch;
-use orthocert_checker::file;
-use orthocert_checker::shown::{Named, Shown};
+use orthocert_checker::shown::Shown;
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate::Node;
 use orthocert_kernel::paving::{Cell, Edge};
@@ -271,7 +272,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
     let unreadable = |error| FileError::Unreadable(path.to_owned(), error);
     let malformed =
         |why: &str| FileError::Malformed(path.to_owned(), "a file of a job", why.to_owned());
-    let bytes = file::read(path, MAX_FILE).map_err(unreadable)?;
+    let bytes = read::read(path, MAX_FILE).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_FILE {
         return Err(malformed("more than 1 GiB"));
     }

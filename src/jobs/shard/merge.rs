@@ -6,8 +6,9 @@ use super::file::{
 use super::name::{name_of, Name, JOB_FILE};
 use super::paving::{self, Stretches};
 use super::task::Task;
+use crate::files::read::Named;
 use crate::questions::atlas::{assemble, Top};
-use orthocert_checker::shown::{Named, Shown};
+use orthocert_checker::shown::Shown;
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate::Node;
 use rayon::prelude::*;

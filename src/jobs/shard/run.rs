@@ -9,13 +9,13 @@ use super::name::{name_of, Name};
 use super::paving;
 use super::task::Task;
 use crate::files::output::{self, OutputError};
+use crate::files::read;
+use crate::files::read::Named;
 use crate::questions::atlas::{grow, Growing, Stopped, Top};
 use crate::search::paving::Cancelled;
 use crate::search::solver;
 use crate::search::solver::search::Outcome;
 use crate::search::{Budget, Control, Stop};
-use orthocert_checker::file;
-use orthocert_checker::shown::Named;
 use orthocert_kernel::atlas::AtlasCell;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, OpenOptions};
@@ -203,7 +203,7 @@ fn grown(
 /// What earlier runs have done.
 fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Part>> {
     let mut parts = vec![None; shard.parts()];
-    let written = file::read(progress, MAX_FILE).unwrap_or_default();
+    let written = read::read(progress, MAX_FILE).unwrap_or_default();
     for line in written.split(|byte| *byte == b'\n') {
         let Ok(line) = serde_json::from_slice::<Line>(line) else {
             continue;

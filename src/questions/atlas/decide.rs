@@ -9,12 +9,13 @@ use crate::search::{Budget, Control, Stop};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
-use orthocert_kernel::atlas::{check_cell, AtlasCell, AtlasClaim};
+use orthocert_kernel::atlas::{AtlasCell, AtlasClaim};
 use orthocert_kernel::certificate::{Failure, Witness};
 use orthocert_kernel::claim::{MachineClaim, Quantity, Workspace};
 use orthocert_kernel::input::{Input, Value};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::prover::check_cell;
 use orthocert_kernel::witness;
 use std::sync::atomic::AtomicBool;
 

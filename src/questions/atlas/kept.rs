@@ -8,7 +8,7 @@ use super::decide::Decision;
 use crate::design::AtlasDesign;
 use crate::files::digest::sha256;
 use crate::files::output::{self, OutputError};
-use orthocert_checker::shown::Named;
+use crate::files::read::Named;
 use orthocert_kernel::atlas::{AtlasCell, Part};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;

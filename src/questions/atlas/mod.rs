@@ -26,16 +26,15 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::{check_part, Rejected};
-use orthocert_kernel::atlas::{walk, AtlasCell};
+use orthocert_checker::Rejected;
+use orthocert_kernel::atlas::{check_part, walk, AtlasCell, AtlasClaim};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::number::{Expression, Operator};
 use rayon::prelude::*;
-use std::num::NonZeroUsize;
 
 /// Parts in which the exact check is done: whatever the number of threads, so that what it says does
 /// not depend on it.
-const PARTS: NonZeroUsize = NonZeroUsize::MIN.saturating_add(31);
+const PARTS: usize = 32;
 
 /// The certificate of a map whose cells are these, accepted by the checker.
 ///
@@ -49,9 +48,9 @@ pub fn certify(
     let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()));
     let shares = shares.map_err(Rejected::Kernel)?;
     (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
+    check(&claim, &cells)?;
     let proof = Proof::Atlas(cells);
     let certificate = certificate(Claim::Atlas(claim), Verdict::Certified, proof);
-    check(&certificate)?;
     let size = size_of_all(&certificate.proof);
     let accepted = Accepted { verdict: certificate.verdict, size };
     Ok((certificate, accepted))
@@ -67,12 +66,12 @@ fn fraction(share: &BigRational) -> Expression {
     }
 }
 
-/// Has every part of an atlas checked, side by side; of several refusals, the first part's is said.
-fn check(certificate: &Certificate) -> Result<(), Rejected> {
-    let parts: Vec<Result<(), Rejected>> = (0..PARTS.get())
+/// Has every cell of an atlas checked, so many side by side; of several refusals, the first part's is said.
+fn check(claim: &AtlasClaim, cells: &[AtlasCell]) -> Result<(), Rejected> {
+    let parts: Vec<Result<(), _>> = (0..PARTS)
         .into_par_iter()
         .with_max_len(1)
-        .map(|part| check_part(certificate, part, PARTS))
+        .map(|part| check_part(claim, cells, |number| number % PARTS == part))
         .collect();
-    parts.into_iter().collect()
+    parts.into_iter().collect::<Result<(), _>>().map_err(Rejected::Kernel)
 }

@@ -11,9 +11,9 @@ use nalgebra::Matrix3;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Workspace,
 };
-use orthocert_kernel::cube::written_out;
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::postulate::{PostulateClaim, PsiMax};
+use orthocert_kernel::prover::written_out;
 use std::array::from_fn;
 use std::collections::BTreeMap;
 

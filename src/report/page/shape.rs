@@ -6,8 +6,8 @@ use crate::search::solver::approximate;
 use orthocert_kernel::claim::{
     Body, Leg, MachineClaim, Mechanism, Orientation, Quantity, Sign, Workspace,
 };
-use orthocert_kernel::cube::written_out;
 use orthocert_kernel::number::{Expression, Operator};
+use orthocert_kernel::prover::written_out;
 use std::array::from_fn;
 
 /// Lengths beyond this are not drawn: their powers would exceed the doubles.

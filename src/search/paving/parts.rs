@@ -192,7 +192,7 @@ fn checked(
         let first = batch.par_iter().map(|visited| judge.check(visited)).find_first(Result::is_err);
         first.unwrap_or(Ok(())).map_err(defect)?;
     }
-    let nodes = reader.nodes();
+    let nodes = reader.nodes;
     reader.finish().map_err(defect)?;
     match input.into_inner().finish().map_err(io)?.0 == sha256 {
         true => Ok(nodes),

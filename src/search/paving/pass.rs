@@ -4,10 +4,10 @@ use super::tree::{is_left, Cancelled, Grower, Grown, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::files::digest::{hexadecimal, Summed};
 use crate::files::output::{self, OutputError};
+use crate::files::read::Named;
 use crate::search::{Control, Progress, Steps};
-use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::paving::{self, Header, Reader, Rejected, Root, Shares, Subject, Summary};
+use orthocert_kernel::paving::{self, Header, Reader, Rejected, Root, Subject, Summary};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -81,8 +81,6 @@ pub struct Paved {
     pub header: Header,
     /// Its last line, as the checker's reader recomputes it.
     pub summary: Summary,
-    /// The shares of the volume.
-    pub shares: Shares,
     /// Splits above the largest undecided box; `None` where nothing is undecided.
     pub coarsest: Option<u32>,
     /// Boxes tried by this run.
@@ -159,7 +157,7 @@ pub fn pave(
         };
         steps.next(control, 2, |control| pass.run(file, resume, control))?;
         let paved = finish(file, &part, pass.sum, pass.boxes)?;
-        let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
+        let gap = paved.summary.boundary_share.0 as f64 / paved.summary.inner_share.0 as f64;
         let wanted = goal.gap.filter(|_| goal.depth.is_none());
         // The plan is an estimate: where it fell short, the next depth is taken.
         let short = wanted.is_some_and(|wanted| gap > wanted);
@@ -390,8 +388,8 @@ fn read_back(input: impl BufRead) -> Result<Paved, Rejected> {
             coarsest = Some(coarsest.map_or(visited.depth, |least| least.min(visited.depth)));
         }
     }
-    let (header, summary, shares) = (reader.header().clone(), reader.summary(), reader.shares());
-    Ok(Paved { header, summary, shares, coarsest, boxes: 0, bytes: 0, sha256: String::new() })
+    let (header, summary) = (reader.header().clone(), reader.summary().clone());
+    Ok(Paved { header, summary, coarsest, boxes: 0, bytes: 0, sha256: String::new() })
 }
 
 /// What is wrong with a file's content, or with reading it.

@@ -1,10 +1,10 @@
 //! A claim with another box in the place of its workspace.
 
 use orthocert_kernel::claim::{MachineClaim, Workspace};
-use orthocert_kernel::cube::written_out;
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::prover::written_out;
 
 /// The same machine and requirements, over the box `[min, max]`. Of the paper's cube, whose machine
 /// follows from its side and `psi_max`, the machine is written out by Steps 1 to 3.

@@ -1,7 +1,8 @@
 //! The tree of a paving: written depth first, cut into subtrees for the threads.
 
 use super::decide::{Decider, Fate};
-use orthocert_kernel::paving::{discharged, write_pair, write_steps, Item, Kind, Root};
+use orthocert_kernel::paving::{discharged, Item, Kind, Root};
+use orthocert_kernel::prover::{write_pair, write_steps};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -63,7 +63,7 @@ impl<'a> Prover<'a> {
 
     /// The claim's numbers, nearly.
     pub(crate) fn parameters(&self) -> &[Pair] {
-        self.checker.parameters()
+        &self.checker.parameters
     }
 
     /// The greatest absolute value of a formula on the whole workspace, where it has one.

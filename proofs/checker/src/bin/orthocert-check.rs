@@ -5,7 +5,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 use orthocert_checker::certificate::{Verdict, MOST_BYTES};
-use orthocert_checker::paving::{self, Extent};
+use orthocert_checker::paving;
 use orthocert_checker::shown::{lines, Shown};
 use orthocert_checker::{check, file, read, statement, USAGE};
 use std::fmt::Display;
@@ -63,7 +63,7 @@ fn main() -> ExitCode {
 }
 
 fn check_paving(input: impl BufRead) -> ExitCode {
-    match paving::check(input, Extent::All) {
+    match paving::check(input) {
         Ok(accepted) => {
             let words = orthocert_kernel::statement::paving(&accepted).unwrap_or_default();
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)

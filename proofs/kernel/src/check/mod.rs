@@ -330,7 +330,8 @@ pub(crate) fn bisected<'a, Z: Integer>(
 pub struct Checker<'a, E: Enclosure> {
     problem: &'a Problem,
     arithmetic: &'a E,
-    parameters: Vec<E::Number>,
+    /// What it was given.
+    pub parameters: Vec<E::Number>,
     /// Of an atlas, the parameters that have slopes in its names.
     varying: Vec<Option<Slope<E::Number>>>,
     /// `q_1` and `q_2` of the paper's cube.
@@ -409,11 +410,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     /// The arithmetic of slopes in `m` coordinates, and in names.
     pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
         Slopes::new(self.arithmetic, m + self.problem.names.len())
-    }
-
-    /// What it was given.
-    pub fn parameters(&self) -> &[E::Number] {
-        &self.parameters
     }
 
     /// The formulas over a cell.

@@ -45,6 +45,13 @@ pub enum Kind {
     Mirrored,
 }
 
+impl Kind {
+    /// Whether it is shown what the claim is on the cell, or on parts of it.
+    pub fn is_decided(&self) -> bool {
+        matches!(self, Kind::Inner | Kind::Outer(_) | Kind::At(..) | Kind::Cut(_))
+    }
+}
+
 /// How a claim fails.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outer {
@@ -54,46 +61,46 @@ pub enum Outer {
     Given(Failure),
 }
 
-const INNER: u8 = 0x03;
-const BOUNDARY: u8 = 0x04;
-const MIRRORED: u8 = 0x05;
-const REACH: u8 = 0x06;
-const ROW: u8 = 0x07;
-const FAILS: u8 = 0x08;
-const STEP: u8 = 0x09;
+pub(crate) const INNER: u8 = 0x03;
+pub(crate) const BOUNDARY: u8 = 0x04;
+pub(crate) const MIRRORED: u8 = 0x05;
+pub(crate) const REACH: u8 = 0x06;
+pub(crate) const ROW: u8 = 0x07;
+pub(crate) const FAILS: u8 = 0x08;
+pub(crate) const STEP: u8 = 0x09;
 /// Before an outer kind: where it fails.
-const AT: u8 = 0x0a;
-const OUTSIDE: u8 = 0x0b;
+pub(crate) const AT: u8 = 0x0a;
+pub(crate) const OUTSIDE: u8 = 0x0b;
 /// Followed by the normal and the ends, each in a list, and an obligation.
-const CUT: u8 = 0x0c;
+pub(crate) const CUT: u8 = 0x0c;
 /// With the 15 that follow: the own step of this obligation.
-const OWN_STEP: u8 = 0x10;
+pub(crate) const OWN_STEP: u8 = 0x10;
 /// With the four that follow: halved along this other coordinate.
-const PART: u8 = 0x20;
+pub(crate) const PART: u8 = 0x20;
 /// With the 63 that follow: outer in this obligation.
-const OUTER: u8 = 0x40;
+pub(crate) const OUTER: u8 = 0x40;
 /// With the 74 that follow: split, with halves of the kinds of [`plain`]. `25 axis + 5 lower + upper`.
-const PAIR: u8 = 0x80;
+pub(crate) const PAIR: u8 = 0x80;
 
-const TEST: u8 = 0;
-const DIVIDED: u8 = 1;
-const LOWER: u8 = 2;
-const LOWER_DIVIDED: u8 = 3;
-const RANK: u8 = 4;
-const CONDITIONING: u8 = 5;
-const ACCURACY: u8 = 6;
-const DIRECTION: u8 = 7;
-const NEGATIVE: u8 = 8;
+pub(crate) const TEST: u8 = 0;
+pub(crate) const DIVIDED: u8 = 1;
+pub(crate) const LOWER: u8 = 2;
+pub(crate) const LOWER_DIVIDED: u8 = 3;
+pub(crate) const RANK: u8 = 4;
+pub(crate) const CONDITIONING: u8 = 5;
+pub(crate) const ACCURACY: u8 = 6;
+pub(crate) const DIRECTION: u8 = 7;
+pub(crate) const NEGATIVE: u8 = 8;
 /// About evidence with a greater tag, or none of these three.
-const CONTROL: u8 = 9;
-const TURNED: u8 = 10;
-const INSIDE: u8 = 11;
+pub(crate) const CONTROL: u8 = 9;
+pub(crate) const TURNED: u8 = 10;
+pub(crate) const INSIDE: u8 = 11;
 
 /// Most rows of a matrix, most entries of a row, most directions: more than any claim has.
-const MOST: u8 = 16;
+pub(crate) const MOST: u8 = 16;
 
 /// The kinds that halves within one byte may have.
-fn plain(n: u8) -> Option<Kind> {
+pub(crate) fn plain(n: u8) -> Option<Kind> {
     match n {
         0 => Some(Kind::Inner),
         1 => Some(Kind::Boundary),
@@ -101,13 +108,6 @@ fn plain(n: u8) -> Option<Kind> {
         3 | 4 => Some(Kind::Outer(Outer::Own(usize::from(n) - 3))),
         _ => None,
     }
-}
-
-/// Appends a split and both of its halves, if a byte does for them.
-pub fn write_pair(out: &mut Vec<u8>, axis: Axis, halves: [&Kind; 2]) -> Option<()> {
-    let number = |kind: &Kind| (0..5).find(|&n| plain(n).as_ref() == Some(kind));
-    out.push(PAIR + 25 * axis as u8 + 5 * number(halves[0])? + number(halves[1])?);
-    Some(())
 }
 
 impl Item {
@@ -180,114 +180,6 @@ impl Item {
             return Ok((Item { steps, kind }, halves));
         }
     }
-
-    /// Appends the item's bytes; `None` if it has none.
-    pub fn write(&self, out: &mut Vec<u8>) -> Option<()> {
-        write_steps(&self.steps, out)?;
-        let small = |n: usize| u8::try_from(n).ok();
-        match &self.kind {
-            Kind::Split(axis) => out.push(*axis as u8),
-            Kind::Part(other) => out.push(PART + small(*other).filter(|k| *k < 5)?),
-            Kind::Outside => out.push(OUTSIDE),
-            Kind::At(at, outer) => {
-                out.push(AT);
-                put(out, at)?;
-                Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) }.write(out)?;
-            }
-            Kind::Cut(Cut { normal, ends, fails }) => {
-                out.push(CUT);
-                put(out, normal)?;
-                put(out, ends)?;
-                out.push(small(*fails)?);
-            }
-            Kind::Inner => out.push(INNER),
-            Kind::Boundary => out.push(BOUNDARY),
-            Kind::Mirrored => out.push(MIRRORED),
-            Kind::Outer(Outer::Own(obligation)) => {
-                out.push(OUTER + small(*obligation).filter(|n| *n < PAIR - OUTER)?);
-            }
-            Kind::Outer(Outer::Given(Failure::Reach)) => out.push(REACH),
-            Kind::Outer(Outer::Given(Failure::Row(obligation, leg))) => {
-                out.extend([ROW, small(*obligation)?, small(*leg)?]);
-            }
-            Kind::Outer(Outer::Given(Failure::Obligation(obligation, directions))) => {
-                out.extend([FAILS, small(*obligation)?, count(directions.len())?]);
-                directions.iter().try_for_each(|v| put(out, v))?;
-            }
-            Kind::Outer(Outer::Given(Failure::Same { .. } | Failure::Singular(_))) => return None,
-        }
-        Some(())
-    }
-}
-
-/// Appends steps.
-pub fn write_steps(steps: &[Step], out: &mut Vec<u8>) -> Option<()> {
-    steps.iter().try_for_each(|Step(obligation, evidence)| {
-        let obligation = u8::try_from(*obligation).ok()?;
-        match evidence {
-            None => out.push(OWN_STEP + Some(obligation).filter(|o| *o < 16)?),
-            Some(evidence) => {
-                out.extend([STEP, obligation]);
-                write_evidence(out, evidence)?;
-            }
-        }
-        Some(())
-    })
-}
-
-fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
-    let (tag, y) = match evidence {
-        Evidence::Test => (TEST, None),
-        Evidence::Divided => (DIVIDED, None),
-        Evidence::Negative => (NEGATIVE, None),
-        Evidence::Lower(y) => (LOWER, Some(y)),
-        Evidence::LowerDivided(y) => (LOWER_DIVIDED, Some(y)),
-        Evidence::Rank(y) => (RANK, Some(y)),
-        Evidence::Direction(y) => (DIRECTION, Some(y)),
-        Evidence::Conditioning(y, _) => (CONDITIONING, Some(y)),
-        Evidence::Accuracy(y, ..) => (ACCURACY, Some(y)),
-        Evidence::Control(of) => return write_about(out, CONTROL, &[], of),
-        Evidence::Turned(of, n, p) => return write_about(out, TURNED, &[*n, (*p).into()], of),
-        Evidence::Inside(of, n, p) => return write_about(out, INSIDE, &[*n, (*p).into()], of),
-        _ => return None,
-    };
-    out.push(tag);
-    if let Some(Multiplier { y, places }) = y {
-        out.extend([u8::try_from(*places).ok()?, count(y.len())?]);
-        y.iter().try_for_each(|row| put(out, row))?;
-    }
-    match evidence {
-        Evidence::Conditioning(_, mu) => put(out, mu),
-        Evidence::Accuracy(_, kappa, 0) => put(out, &[*kappa]),
-        Evidence::Accuracy(_, kappa, p) => put(out, &[*kappa, i64::from(*p)]),
-        _ => Some(()),
-    }
-}
-
-/// Evidence about other evidence.
-fn write_about(out: &mut Vec<u8>, tag: u8, numbers: &[i64], of: &Evidence) -> Option<()> {
-    out.push(tag);
-    put(out, numbers)?;
-    write_evidence(out, of)
-}
-
-fn count(n: usize) -> Option<u8> {
-    u8::try_from(n).ok().filter(|n| *n <= MOST)
-}
-
-/// A count, and integers: seven bits a byte, the least first, the eighth bit set in all but the last; of
-/// `n` those of `2 n`, or `-2 n - 1` for a negative one.
-fn put(out: &mut Vec<u8>, integers: &[i64]) -> Option<()> {
-    out.push(count(integers.len())?);
-    for &n in integers {
-        let mut rest = (n << 1 ^ n >> 63).cast_unsigned();
-        while rest >= 0x80 {
-            out.push(rest as u8 | 0x80);
-            rest >>= 7;
-        }
-        out.push(rest as u8);
-    }
-    Some(())
 }
 
 struct Source<'a, R> {

@@ -107,20 +107,20 @@ pub fn discharged(before: u128, steps: &[Step]) -> u128 {
 
 /// Checks the evidence of cells.
 pub struct Judge<'a> {
-    subject: &'a Subject,
+    pub(crate) subject: &'a Subject,
     /// In machine words, as far as these do: they give what the others give, or nothing.
-    words: Option<Side<'a, i64>>,
-    any_size: Side<'a, BigInt>,
+    pub(crate) words: Option<Side<'a, i64>>,
+    pub(crate) any_size: Side<'a, BigInt>,
 }
 
-struct Side<'a, Z: Integer> {
+pub(crate) struct Side<'a, Z: Integer> {
     arithmetic: &'a Fixed<Z>,
     checker: Checker<'a, Fixed<Z>>,
     corners: [Vec<Interval<Z>>; 2],
 }
 
 /// Where evidence does not hold.
-enum Flaw {
+pub(crate) enum Flaw {
     Step(usize),
     Outer,
 }
@@ -134,15 +134,6 @@ impl<'a> Judge<'a> {
         let words = Side::new(subject, &subject.words).ok();
         let words = words.filter(|_| subject.header.precision < 60);
         Ok(Judge { subject, words, any_size: Side::new(subject, &subject.any_size)? })
-    }
-
-    /// Whether an item's evidence holds on a cell, as far as it takes to say so in machine words where
-    /// the precision is one for these: what does not is no more than undecided.
-    pub fn confirms(&self, cell: &Cell, inherited: u128, item: &Item) -> bool {
-        match &self.words {
-            Some(words) => words.item(self.subject, cell, inherited, item).is_ok(),
-            None => self.any_size.item(self.subject, cell, inherited, item).is_ok(),
-        }
     }
 
     /// Checks a node without evaluating its evidence: it names obligations that the claim has, and an
@@ -231,7 +222,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
 
     /// An inner node's cell has every obligation discharged: on its path, by its steps, or by the
     /// obligation's own evidence.
-    fn item(
+    pub(crate) fn item(
         &self,
         subject: &Subject,
         cell: &Cell,

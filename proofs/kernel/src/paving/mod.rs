@@ -17,7 +17,7 @@
 //! A paving may be of some of the coordinates, for all values of the others: see [`Header::order`].
 
 mod cell;
-mod code;
+pub(crate) mod code;
 mod cut;
 mod judge;
 mod reader;
@@ -33,7 +33,7 @@ use std::fmt;
 use std::io::{self, BufRead};
 
 pub use cell::{Axis, Cell, Edge, Packed, MAX_AXIS_LEVEL, MOST_OTHERS};
-pub use code::{write_pair, write_steps, Item, Kind, Outer, Step};
+pub use code::{Item, Kind, Outer, Step};
 pub use cut::Cut;
 pub use judge::{bit, discharged, Judge, Subject, AT_BITS};
 pub use reader::{header, Reader, Root, Visited};
@@ -159,7 +159,15 @@ impl Header {
 }
 
 /// The last line of a paving: how many nodes of each kind there are, and what they cover.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+///
+/// **Lemma.** The volume of the region is at least that of the inner cells, and at most that of the
+/// inner and the undecided cells. *Proof.* Cells of a tree overlap in faces only; the region
+/// contains the inner cells and meets no outer one. With symmetry: let `D` be the points with
+/// `u_x <= u_y <= u_z`. The region and the box are invariant under the six permutations of the
+/// coordinates, whose images of `D` cover the box and overlap in planes only: volumes are six times
+/// those within `D`, which mirrored cells meet in no inner point. Of a cell that is cut, the inner points
+/// are in the region and the outer points are not, and it is in `D`. ∎
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Summary {
     /// Nodes that are split.
     pub splits: u64,
@@ -199,23 +207,6 @@ impl Serialize for Share {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
-}
-
-/// The shares of a paving, in units of `2^-SHARE_BITS` of the box's volume.
-///
-/// **Lemma.** The volume of the region is at least that of the inner cells, and at most that of the
-/// inner and the undecided cells. *Proof.* Cells of a tree overlap in faces only; the region
-/// contains the inner cells and meets no outer one. With symmetry: let `D` be the points with
-/// `u_x <= u_y <= u_z`. The region and the box are invariant under the six permutations of the
-/// coordinates, whose images of `D` cover the box and overlap in planes only: volumes are six times
-/// those within `D`, which mirrored cells meet in no inner point. Of a cell that is cut, the inner points
-/// are in the region and the outer points are not, and it is in `D`. ∎
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Shares {
-    /// Of the inner cells.
-    pub inner: u128,
-    /// Of the undecided cells.
-    pub boundary: u128,
 }
 
 /// Why a paving is rejected.
@@ -358,23 +349,6 @@ pub fn is_paving(bytes: &[u8]) -> bool {
     start.windows(name.len()).any(|window| window == name)
 }
 
-/// Which cells' evidence is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
-    /// That of every node.
-    All,
-    /// That of every split node, and of this many inner and outer cells drawn without
-    /// replacement: any set of that size is as likely as another for a random seed. They are kept in
-    /// memory until the last node is read.
-    Sample {
-        /// How many; all if there are fewer.
-        size: u64,
-        /// The seed of the draw. Whoever knows it before the file is made can forge what is not
-        /// drawn.
-        seed: u64,
-    },
-}
-
 /// What an accepted paving establishes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accepted {
@@ -382,81 +356,22 @@ pub struct Accepted {
     pub header: Header,
     /// The last line, recomputed.
     pub summary: Summary,
-    /// The shares of the volume.
-    pub shares: Shares,
     /// Inner and outer cells, and inner parts of cells, whose evidence was evaluated.
     pub checked: u64,
-    /// How many there are.
-    pub decided: u64,
 }
 
-/// Checks a paving, in one pass over its bytes. The shape of the tree, what every node claims, the
-/// symmetry and the summary are always checked whole.
+/// Checks a paving, in one pass over its bytes.
 ///
 /// # Errors
 /// If it is rejected.
-pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected> {
+pub fn check<R: BufRead>(input: R) -> Result<Accepted, Rejected> {
     let mut reader = Reader::new(input)?;
     let subject = Subject::new(reader.header())?;
     let judge = Judge::new(&subject)?;
-    let mut sample = match extent {
-        Extent::All => None,
-        Extent::Sample { size, seed } => Some(Sample::new(size, seed)),
-    };
-    let (mut checked, mut decided) = (0, 0);
+    let mut checked = 0;
     while let Some(visited) = reader.next()? {
-        let is_decided = {
-            use Kind::{At, Cut, Inner, Outer};
-            matches!(visited.item.kind, Inner | Outer(_) | At(..) | Cut(_))
-        };
-        decided += u64::from(is_decided);
-        match &mut sample {
-            Some(sample) if is_decided => {
-                judge.claims(&visited)?;
-                sample.offer(visited);
-            }
-            _ => {
-                judge.check(&visited)?;
-                checked += u64::from(is_decided);
-            }
-        }
-    }
-    let header = reader.header().clone();
-    let (summary, shares) = reader.finish()?;
-    for visited in sample.map(|sample| sample.drawn).unwrap_or_default() {
         judge.check(&visited)?;
-        checked += 1;
+        checked += u64::from(visited.item.kind.is_decided());
     }
-    Ok(Accepted { header, summary, shares, checked, decided })
-}
-
-/// Draws `size` of however many cells are offered: the one after `seen` others takes the place of one
-/// of the drawn with the probability `size / (seen + 1)` (Knuth, TAOCP 3.4.2, algorithm R, with all in
-/// memory), by SplitMix64.
-struct Sample {
-    drawn: Vec<Visited>,
-    size: u64,
-    seen: u64,
-    state: u64,
-}
-
-impl Sample {
-    fn new(size: u64, seed: u64) -> Self {
-        Sample { drawn: Vec::new(), size, seen: 0, state: seed }
-    }
-
-    fn offer(&mut self, visited: Visited) {
-        self.seen += 1;
-        if self.seen <= self.size {
-            self.drawn.push(visited);
-            return;
-        }
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let place = usize::try_from((z ^ (z >> 31)) % self.seen).ok();
-        if let Some(replaced) = place.and_then(|place| self.drawn.get_mut(place)) {
-            *replaced = visited;
-        }
-    }
+    Ok(Accepted { header: reader.header().clone(), summary: reader.finish()?, checked })
 }

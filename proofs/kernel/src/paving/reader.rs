@@ -4,7 +4,7 @@ use super::cell::{Axis, Cell};
 use super::code::{Item, Kind};
 use super::cut::Cut;
 use super::judge::bit;
-use super::{symmetry, Header, Rejected, Share, Shares, Summary, FORMAT, MAX_LINE, SHARE_BITS};
+use super::{symmetry, Header, Rejected, Summary, FORMAT, MAX_LINE, SHARE_BITS};
 use crate::certificate::MOST_LABEL;
 use std::io::{self, BufRead, Read};
 
@@ -46,10 +46,10 @@ pub struct Reader<R> {
     order: [Vec<usize>; 2],
     /// What is to be read, and what is read already of a node whose byte has its halves.
     waiting: Vec<(Root, Option<Kind>)>,
-    nodes: u64,
-    /// Nodes of each kind, but for those of parts: split, inner, outer, boundary, mirrored.
-    counts: [u64; 5],
-    shares: Shares,
+    /// The nodes read so far.
+    pub nodes: u64,
+    /// Of the nodes read so far, but for those of parts.
+    summary: Summary,
 }
 
 /// Reads the first line of a paving: the text that its header has.
@@ -116,19 +116,13 @@ impl<R: Read> Reader<R> {
             header: header.clone(),
             waiting: vec![(root, None)],
             nodes: 0,
-            counts: [0; 5],
-            shares: Shares::default(),
+            summary: Summary::default(),
         })
     }
 
     /// The first line.
     pub fn header(&self) -> &Header {
         &self.header
-    }
-
-    /// The nodes read so far.
-    pub fn nodes(&self) -> u64 {
-        self.nodes
     }
 
     /// The next node in preorder, of which the place in the tree alone is checked; `None` after the
@@ -181,48 +175,33 @@ impl<R: Read> Reader<R> {
         if cell.is_part() {
             return;
         }
-        let share = || self.header.share(cell);
-        let position = match kind {
-            Kind::Split(_) => 0,
+        let (header, summary) = (&self.header, &mut self.summary);
+        match kind {
+            Kind::Split(_) => summary.splits += 1,
             // All parts are shown to be inner, or outside, or the paving is rejected.
             Kind::Part(_) | Kind::Outside | Kind::Inner => {
-                self.shares.inner += share();
-                1
+                summary.inner_share.0 += header.share(cell);
+                summary.inner += 1;
             }
-            Kind::Outer(_) | Kind::At(..) => 2,
+            Kind::Outer(_) | Kind::At(..) => summary.outer += 1,
             Kind::Cut(cut) => {
-                let whole = share();
-                let [inner, outer] = cut.shares(whole);
-                self.shares.inner += inner;
-                self.shares.boundary += whole - inner - outer;
-                3
+                let share = header.share(cell);
+                let [inner, outer] = cut.shares(share);
+                summary.inner_share.0 += inner;
+                summary.boundary_share.0 += share - inner - outer;
+                summary.boundary += 1;
             }
             Kind::Boundary => {
-                self.shares.boundary += share();
-                3
+                summary.boundary_share.0 += header.share(cell);
+                summary.boundary += 1;
             }
-            Kind::Mirrored => 4,
-        };
-        self.counts[position] += 1;
-    }
-
-    /// The tree's summary so far.
-    pub fn summary(&self) -> Summary {
-        let [splits, inner, outer, boundary, mirrored] = self.counts;
-        Summary {
-            splits,
-            inner,
-            outer,
-            boundary,
-            mirrored,
-            inner_share: Share(self.shares.inner),
-            boundary_share: Share(self.shares.boundary),
+            Kind::Mirrored => summary.mirrored += 1,
         }
     }
 
-    /// The shares of the volume so far.
-    pub fn shares(&self) -> Shares {
-        self.shares
+    /// The tree's summary so far.
+    pub fn summary(&self) -> &Summary {
+        &self.summary
     }
 
     /// After the last node: reads the summary, which has to be that of the tree and the last of the
@@ -230,18 +209,17 @@ impl<R: Read> Reader<R> {
     ///
     /// # Errors
     /// If it is not.
-    pub fn finish(self) -> Result<(Summary, Shares), Rejected> {
+    pub fn finish(self) -> Result<Summary, Rejected> {
         if !self.waiting.is_empty() {
             return Err(Rejected::Truncated(self.nodes));
         }
-        let summary = self.summary();
-        let mut wanted = serde_json::to_vec(&summary).map_err(|e| Rejected::Io(e.into()))?;
+        let mut wanted = serde_json::to_vec(&self.summary).map_err(|e| Rejected::Io(e.into()))?;
         wanted.push(b'\n');
         let mut bytes = Vec::new();
         // One byte more than there may be, lest anything hide behind it.
         self.input.take(wanted.len() as u64 + 1).read_to_end(&mut bytes)?;
         if bytes == wanted {
-            Ok((summary, self.shares))
+            Ok(self.summary)
         } else {
             Err(Rejected::Summary)
         }

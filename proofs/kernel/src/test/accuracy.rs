@@ -44,11 +44,6 @@ impl Accuracy {
         let first = self.turn.map_or(m, |(_, first)| first.min(m));
         [0..first, first..m].into_iter().filter(|part| !part.is_empty()).collect()
     }
-
-    /// Whether this is about `u_c`.
-    pub fn is_of_angle(&self) -> bool {
-        self.turn.is_some_and(|(_, first)| self.part.start >= first)
-    }
 }
 
 /// Formulas near a cell: its points as expansion "point", and all that is off by at most `u`. `edges` has

@@ -409,7 +409,7 @@ fn the_spread_of_rows_near_a_cell() {
         let edge =
             |(k, &c): (usize, &f64)| [(c, c), (c - half(k), c + half(k)), (half(k), half(k))];
         let edges: Vec<[Pair; 3]> = centre.iter().enumerate().map(edge).collect();
-        let parameters = prover.checker.parameters();
+        let parameters = &prover.checker.parameters;
         let slopes = Slopes::new(&Rough, m);
         let values = near(&problem.tape, parameters, slopes, &edges, test, of).expect("defined");
         let far = Over::new(slopes, &values);

@@ -4,8 +4,7 @@ use crate::arithmetic::Random;
 use crate::certificates::claim;
 use crate::pavings::{bare, header_of, reason, written};
 use orthocert_kernel::paving::{
-    check, Axis, Cell, Cut, Edge, Extent, Header, Item, Judge, Kind, Step, Subject, Symmetry,
-    SHARE_BITS,
+    check, Axis, Cell, Cut, Edge, Header, Item, Judge, Kind, Step, Subject, Symmetry, SHARE_BITS,
 };
 
 /// The whole share of a box.
@@ -183,16 +182,16 @@ fn what_may_not_be_cut_is_not() {
     let right =
         |cut: Cut| vec![split.clone(), bare(Kind::Boundary), bare(Kind::Cut(Cut { fails, ..cut }))];
     let whole = [-999, 999];
-    let of = |items: &[Item]| check(&*written(&header, items), Extent::All);
+    let of = |items: &[Item]| check(&*written(&header, items));
     let (inner, outer) = ([-250, 999], [-999, 180]);
     for good in [whole, inner, outer, [-250, 180]] {
         of(&right(cut(&[100, 200], good))).unwrap_or_else(|e| panic!("{good:?}: {e}"));
     }
-    let shares = of(&right(cut(&[100, 200], [-250, 180]))).unwrap().shares;
+    let found = of(&right(cut(&[100, 200], [-250, 180]))).unwrap().summary;
     // Triangles at two corners, of a cell that is half of the box.
     let [one, other] = [0.5f64 * 0.25 * 0.125, 0.5 * 0.6 * 0.3].map(|share| share / 2.0);
-    assert!((part(shares.inner) - one).abs() < 1e-6, "{}", part(shares.inner));
-    assert!((part(shares.boundary) - (1.0 - one - other)).abs() < 1e-6);
+    assert!((part(found.inner_share.0) - one).abs() < 1e-6, "{}", part(found.inner_share.0));
+    assert!((part(found.boundary_share.0) - (1.0 - one - other)).abs() < 1e-6);
     let twice = Cut { normal: vec![100, 200, 0], ends: whole, fails };
     for (name, wrong) in [
         ("no plane", cut(&[0, 0], [0, 0])),

@@ -5,9 +5,9 @@ use crate::pavings::{bare, body, checked, header_of, paving, reason, written};
 use crate::turning::{hexapod_legs, on_circle, planar, spatial, strut};
 use orthocert_kernel::certificate::{Evidence, Failure};
 use orthocert_kernel::paving::{
-    check, names, Axis, Extent, Header, Item, Kind, Outer, Reader, Rejected, Step, Subject,
-    Symmetry, SHARE_BITS,
+    names, Axis, Header, Item, Kind, Outer, Reader, Rejected, Step, Subject, Symmetry, SHARE_BITS,
 };
+use orthocert_kernel::prover::check_sample;
 use orthocert_kernel::test::Multiplier;
 
 /// `x^2 + y^2 <= 1/2` for all `y` of `[-1/2, 1/2]`: if and only if `x <= 1/2`.
@@ -41,18 +41,21 @@ fn what_holds_for_all_values_of_the_others_is_inner() {
     let bytes = written(&header, &items());
     let found = checked(&bytes).unwrap();
     let whole = 1u128 << SHARE_BITS;
-    assert_eq!((found.shares.inner, found.shares.boundary), (whole / 4, whole * 3 / 8));
+    assert_eq!(
+        (found.summary.inner_share.0, found.summary.boundary_share.0),
+        (whole / 4, whole * 3 / 8)
+    );
     let summary = &found.summary;
     assert_eq!((summary.splits, summary.inner, summary.outer, summary.boundary), (4, 1, 2, 2));
     // Two parts and two outer cells.
-    assert_eq!((found.checked, found.decided), (4, 4));
+    assert_eq!(found.checked, 4);
     let text = orthocert_kernel::statement::paving(&found).unwrap();
     assert!(text.contains("the values of (x) at which, for all values of the other coordinates"));
     assert!(text.contains("It is proved: the volume of R"), "{text}");
     // Three are as many as there are cells, and fewer than there is evidence.
-    let sampled = check(bytes.as_slice(), Extent::Sample { size: 3, seed: 1 }).unwrap();
-    assert_eq!((sampled.checked, sampled.decided), (3, 4));
-    let text = orthocert_kernel::statement::paving(&sampled).unwrap();
+    let sampled = check_sample(bytes.as_slice(), 3, 1).unwrap();
+    assert_eq!((sampled.accepted.checked, sampled.decided), (3, 4));
+    let text = sampled.statement().unwrap();
     assert!(text.contains("The evidence of 3 of the 4 boxes") && !text.contains("It is proved"));
 }
 
@@ -97,7 +100,7 @@ fn what_one_value_of_the_others_refutes_is_not_inner() {
     // Nor may one be sampled away that claims nothing it could show.
     let mut none = items();
     none[OUTER].kind = Kind::At(vec![1 << 16], Outer::Own(9));
-    let sampled = check(&*written(&header, &none), Extent::Sample { size: 1, seed: 0 });
+    let sampled = check_sample(&*written(&header, &none), 1, 0);
     assert!(sampled.unwrap_err().to_string().contains("is not outer"));
 }
 
@@ -182,7 +185,7 @@ fn the_instance_of_the_document_is_accepted() {
     let nodes: Vec<u8> = nodes.collect();
     let bytes = [first.as_bytes(), b"\n", &nodes, last.as_bytes(), b"\n"].concat();
     let found = checked(&bytes).unwrap();
-    assert_eq!((found.checked, found.decided), (4, 4));
+    assert_eq!(found.checked, 4);
     for at in first.len() + 1..bytes.len() {
         let mut changed = bytes.clone();
         changed[at] ^= 1;
@@ -231,8 +234,10 @@ fn angles_are_paved_in_degrees() {
     let (bytes, items) = paving(&of(&["angle"], &text, 14));
     let found = checked(&bytes).unwrap();
     let share = |x: u128| x as f64 / f64::from(SHARE_BITS).exp2();
-    let (least, most) =
-        (share(found.shares.inner), share(found.shares.inner + found.shares.boundary));
+    let (least, most) = (
+        share(found.summary.inner_share.0),
+        share(found.summary.inner_share.0 + found.summary.boundary_share.0),
+    );
     assert!(least < 0.62501 && 0.62499 < most && most - least < 0.001, "{least} {most}");
     assert!(items.len() < 100, "{}", items.len());
     // Each node asks for multiples of both ends, which long numbers would make dear.

@@ -5,10 +5,11 @@ use orthocert_kernel::certificate::{Evidence, Failure, Provenance};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{
-    bit, check, is_mirrored, is_paving, is_symmetric, six_ordered, write_pair, Accepted, Axis,
-    Cell, Edge, Extent, Header, Item, Judge, Kind, Outer, Reader, Rejected, Step, Subject,
-    Symmetry, Visited, FORMAT, SHARE_BITS,
+    bit, check, is_mirrored, is_paving, is_symmetric, six_ordered, Accepted, Axis, Cell, Edge,
+    Header, Item, Judge, Kind, Outer, Reader, Rejected, Step, Subject, Symmetry, Visited, FORMAT,
+    SHARE_BITS,
 };
+use orthocert_kernel::prover::{check_sample, write_pair};
 use orthocert_kernel::test::Multiplier;
 
 fn number(text: &str) -> Expression {
@@ -112,7 +113,7 @@ pub fn written(header: &Header, items: &[Item]) -> Vec<u8> {
 }
 
 pub fn checked(bytes: &[u8]) -> Result<Accepted, Rejected> {
-    check(bytes, Extent::All)
+    check(bytes)
 }
 
 /// The reason for which these bytes are rejected.
@@ -130,7 +131,9 @@ fn with_and_without_symmetry_the_same_volume_is_found() {
     assert!(plain.summary.inner > 20 && plain.summary.outer > 20, "{:?}", plain.summary);
     assert!(mirrored.summary.mirrored > 0);
     // Undecided cells differ, for the axes take their turns; the volumes have to overlap.
-    let ends = |a: &Accepted| (a.shares.inner, a.shares.inner + a.shares.boundary);
+    let ends = |a: &Accepted| {
+        (a.summary.inner_share.0, a.summary.inner_share.0 + a.summary.boundary_share.0)
+    };
     let ((a, b), (c, d)) = (ends(&plain), ends(&mirrored));
     assert!(a <= d && c <= b && b < 1 << SHARE_BITS);
     // Two million random points, in doubles, by another program: 0.5865, standard error 0.0004.
@@ -158,10 +161,7 @@ fn every_shorter_file_and_every_changed_byte_is_rejected_or_says_the_same() {
             match checked(&changed) {
                 Err(_) => rejected += 1,
                 Ok(found) => {
-                    assert_eq!(
-                        (found.summary, found.shares),
-                        (whole.summary.clone(), whole.shares)
-                    );
+                    assert_eq!(found.summary, whole.summary.clone());
                     kept += 1;
                 }
             }
@@ -296,7 +296,8 @@ fn a_box_of_two_coordinates_is_paved_and_split_along_no_third() {
     let (bytes, mut items) = paving(&header);
     let accepted = checked(&bytes).unwrap();
     let share = |x: u128| x as f64 / (SHARE_BITS as f64).exp2();
-    let (least, open) = (share(accepted.shares.inner), share(accepted.shares.boundary));
+    let (least, open) =
+        (share(accepted.summary.inner_share.0), share(accepted.summary.boundary_share.0));
     let area = std::f64::consts::PI / 8.0;
     assert!(least <= area && area <= least + open && open < 0.06, "{least} {open}");
     let boundary = items.iter().position(|item| item.kind == Kind::Boundary).unwrap();
@@ -472,11 +473,11 @@ fn headers_that_are_none_are_rejected() {
 fn a_sample_is_drawn_by_its_seed_and_finds_what_is_wrong() {
     let plain = header(false);
     let (bytes, mut items) = paving(&plain);
-    let sampled = |bytes: &[u8], size, seed| check(bytes, Extent::Sample { size, seed });
+    let sampled = |bytes: &[u8], size, seed| check_sample(bytes, size, seed);
     let whole = checked(&bytes).unwrap();
     let few = sampled(&bytes, 10, 1).unwrap();
-    assert_eq!((few.checked, &few.summary), (10, &whole.summary));
-    assert_eq!(sampled(&bytes, u64::MAX, 1).unwrap().checked, whole.checked);
+    assert_eq!((few.accepted.checked, &few.accepted.summary), (10, &whole.summary));
+    assert_eq!(sampled(&bytes, u64::MAX, 1).unwrap().accepted.checked, whole.checked);
     // One wrong cell: found by the share of the seeds that the sample has of the cells.
     let wrong = items.iter().rposition(|i| matches!(i.kind, Kind::Outer(_))).unwrap();
     items[wrong].kind = Kind::Outer(Outer::Given(Failure::Reach));
@@ -493,8 +494,8 @@ fn every_subset_of_a_size_is_drawn() {
     let bytes = paving(&header).0;
     let cells = checked(&bytes).unwrap().checked;
     for size in [1, 2, cells - 1, cells, cells + 1] {
-        let accepted = check(bytes.as_slice(), Extent::Sample { size, seed: 3 }).unwrap();
-        assert_eq!(accepted.checked, size.min(cells));
+        let accepted = check_sample(bytes.as_slice(), size, 3).unwrap();
+        assert_eq!(accepted.accepted.checked, size.min(cells));
     }
 }
 
@@ -514,7 +515,7 @@ fn cells_that_are_not_drawn_claim_what_they_have_to() {
         items[at] = item;
         let bytes = written(&plain, &items);
         for seed in 0..20 {
-            let sampled = check(bytes.as_slice(), Extent::Sample { size: 1, seed });
+            let sampled = check_sample(bytes.as_slice(), 1, seed);
             let reason = sampled.expect_err("rejected").to_string();
             assert!(reason.contains(why), "{reason}");
         }

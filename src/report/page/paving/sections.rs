@@ -5,7 +5,7 @@ use super::PavingPage;
 use crate::exact::decimal::{grouped, percent, significant, Toward};
 use crate::report::escape::xml;
 use num_rational::BigRational;
-use orthocert_kernel::paving::{Share, Shares, SHARE_BITS};
+use orthocert_kernel::paving::{Share, Summary, SHARE_BITS};
 use orthocert_kernel::statement;
 use std::fmt::Write;
 
@@ -30,7 +30,8 @@ impl PavingPage<'_> {
 
     fn overview(&self) -> String {
         let (summary, header) = (&self.accepted.summary, &self.accepted.header);
-        let Shares { inner, boundary } = self.accepted.shares;
+        let Summary { inner_share: Share(inner), boundary_share: Share(boundary), .. } =
+            self.accepted.summary;
         let outer = Share((1 << SHARE_BITS) - inner - boundary);
         let [low, high] = self.volume();
         let gap = match (inner, boundary) {

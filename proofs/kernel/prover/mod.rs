@@ -1,0 +1,99 @@
+//! What provers and tests need beside the kernel. The checker is built without it, and no verdict depends on it.
+
+mod paving;
+mod sampled;
+
+pub use paving::{write_pair, write_steps};
+pub use sampled::{check_sample, Sampled};
+
+use crate::atlas::{shown, AtlasCell, AtlasClaim};
+use crate::certificate::Evidence;
+use crate::check::Rejected;
+use crate::claim::{MachineClaim, Mechanism, Workspace};
+use crate::control::Control;
+use crate::cube::Cube;
+use crate::formula::Formula;
+use crate::input::{ClaimError, Input, Value};
+use crate::test::accuracy::Accuracy;
+use crate::work::{Budget, LEAST_BYTES};
+
+/// Accepts what is said of one cell of an atlas by itself, or says why not.
+///
+/// # Errors
+/// If it is not shown.
+pub fn check_cell(
+    claim: &AtlasClaim,
+    part: &[(u64, u32)],
+    cell: &AtlasCell,
+) -> Result<(), Rejected> {
+    claim.validate().map_err(Rejected::Claim)?;
+    shown(claim, part, cell, Budget::new(LEAST_BYTES))
+}
+
+/// The claim with the machine of the paper's cube written out; any other claim as it is. What follows
+/// from the cube, and a workspace in its place, are then stated apart.
+///
+/// # Errors
+/// If the cube is none.
+pub fn written_out(claim: &MachineClaim) -> Result<MachineClaim, ClaimError> {
+    match (&claim.mechanism, &claim.workspace) {
+        (Mechanism::Orthoglide { offset }, Workspace::Cube { side }) => {
+            let legs = Cube::new(claim, offset, side)?.legs;
+            Ok(MachineClaim { mechanism: Mechanism::Translational(legs), ..claim.clone() })
+        }
+        _ => Ok(claim.clone()),
+    }
+}
+
+impl Evidence {
+    /// The rule's name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Evidence::Test => "test",
+            Evidence::Divided => "divided",
+            Evidence::Lower(_) => "lower",
+            Evidence::LowerDivided(_) => "lower_divided",
+            Evidence::Rank(_) => "rank",
+            Evidence::Chords => "chords",
+            Evidence::Conditioning(..) => "conditioning",
+            Evidence::Accuracy(..) => "accuracy",
+            Evidence::Direction(_) => "direction",
+            Evidence::Negative => "negative",
+            Evidence::Tolerances(..) => "tolerances",
+            Evidence::Cube => "cube",
+            Evidence::Corner(_) => "corner",
+            Evidence::Mirror => "mirror",
+            Evidence::Outside => "outside",
+            Evidence::Inside(..) => "inside",
+            Evidence::Turned(..) => "turned",
+            Evidence::Control(_) => "control",
+        }
+    }
+}
+
+impl Input {
+    /// Whether it has names that stand for ranges.
+    pub fn varies(&self) -> bool {
+        match &self.value {
+            Value::Quantity(quantity) => quantity.ends().iter().any(|x| x.varies()),
+            Value::Cosine(x) | Value::Sine(x) | Value::Radians(x) | Value::HalfTangent(x) => {
+                x.varies()
+            }
+            Value::TiltReach(x, y) => x.varies() || y.varies(),
+        }
+    }
+}
+
+impl Control {
+    /// Whether a formula has the form.
+    pub fn has(&self, formula: Formula) -> bool {
+        self.images.contains_key(&formula)
+    }
+}
+
+impl Accuracy {
+    /// Whether this is about `u_c`.
+    pub fn is_of_angle(&self) -> bool {
+        self.turn.is_some_and(|(_, first)| self.part.start >= first)
+    }
+}

@@ -1,0 +1,51 @@
+//! Files that are read, and their names.
+
+use orthocert_checker::file::open;
+use orthocert_checker::shown::Shown;
+use std::ffi::OsStr;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The bytes of a file, or the first `limit` and one more: then it is too large.
+///
+/// # Errors
+/// As [`open`], or if it cannot be read.
+pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path)?.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// File names, shown.
+pub trait Named {
+    /// The name for messages, on one line.
+    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>>;
+}
+
+impl Named for OsStr {
+    #[allow(clippy::disallowed_methods)] // What is displayed is escaped.
+    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>> {
+        Shown(self.display())
+    }
+}
+
+impl Named for Path {
+    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>> {
+        self.as_os_str().shown()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_byte_more_than_the_limit_is_read_and_a_name_stays_on_its_line() {
+        let path = std::env::temp_dir().join(format!("orthocert-read\n{}", std::process::id()));
+        std::fs::write(&path, "text").unwrap();
+        assert_eq!(read(&path, 4).unwrap(), b"text");
+        assert_eq!(read(&path, 2).unwrap(), b"tex");
+        assert!(path.shown().to_string().contains("orthocert-read\\n"));
+        std::fs::remove_file(path).unwrap();
+    }
+}
