@@ -12,11 +12,12 @@ use orthocert::report::{exactly, point_text, pose_text, CertificateFile};
 use orthocert::search::solver::extremes::{
     enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
 };
+use orthocert::search::solver::sector::{self, Sector};
 use orthocert::search::solver::value::{coordinates, in_length, listed, with_unit};
 use orthocert::search::Budget;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim as kernel;
-use orthocert_kernel::machine::Leg;
+use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use std::fmt::Write;
@@ -119,44 +120,66 @@ fn rows(
     budget: Budget,
 ) -> Result<Vec<Row>, Failure> {
     let effort = &arguments.effort;
-    let failure = |error: NotEnclosed| match error {
-        NotEnclosed::Cancelled => Failure::Interrupted,
-        error => Failure::input(error),
-    };
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
     let extremes = Extreme::of(claim, problem.legs.len());
-    let (mut bar, all) = (effort.bar(), extremes.len());
+    let turning = problem.legs.iter().enumerate();
+    let turning = turning.filter(|(_, leg)| matches!(leg.rho, Some(Joint::Angle { .. })));
+    let turning: Vec<usize> = turning.map(|(number, _)| number).collect();
+    let (mut bar, all) = (effort.bar(), extremes.len() + turning.len());
     let singular = bar
         .run("singularities", all + 1, |control| is_singular(claim, budget, control))
-        .map_err(failure)?;
+        .map_err(|error| match error {
+            NotEnclosed::Cancelled => Failure::Interrupted,
+            error => Failure::input(error),
+        })?;
+    let possible = || match (singular, interrupt::is_cancelled()) {
+        (true, _) => Err(NotEnclosed::Singular),
+        (false, true) => Err(NotEnclosed::Cancelled),
+        (false, false) => Ok(()),
+    };
     let mut rows = exact_rows(claim);
-    for (number, extreme) in extremes.into_iter().enumerate() {
-        let found = if singular {
-            Err(NotEnclosed::Singular)
-        } else if interrupt::is_cancelled() {
-            Err(NotEnclosed::Cancelled)
-        } else {
-            let end = if extreme.is_greatest() { "greatest" } else { "least" };
-            let task = format!("{} of {all}, {end} {}", number + 1, extreme.quantity());
-            bar.run(&task, all - number, |control| {
-                enclose(claim, &extreme, relative, budget, control)
-            })
-        };
+    for (number, extreme) in extremes.iter().enumerate() {
         let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
+        let task = format!("{} of {all}, {} {}", number + 1, row.end, row.quantity);
+        let found = possible().and_then(|()| {
+            bar.run(&task, all - number, |control| {
+                enclose(claim, extreme, relative, budget, control)
+            })
+        });
         match found {
             Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
-                let [inner, outer] = [inner, outer].map(Exact::Rational);
-                let certificates = (refuted.as_deref(), &*certified);
                 row.enclosed((width, inner, outer), relative);
-                row.store(arguments, extreme.file_stem(), certificates)?;
+                row.store(arguments, &extreme.file_stem(), (refuted.as_deref(), &certified))?;
             }
-            Err(error @ NotEnclosed::Claim(_)) => return Err(failure(error)),
-            // What was found before is told.
-            Err(NotEnclosed::Cancelled) => row.not_enclosed = Some("interrupted".to_owned()),
-            Err(error) => row.not_enclosed = Some(error.to_string()),
+            Err(error) => row.fails(error)?,
         }
         rows.push(row);
+    }
+    for (number, &leg) in turning.iter().enumerate() {
+        let number = extremes.len() + number;
+        let task = format!("{} of {all}, rho_{}", number + 1, leg + 1);
+        let found = possible().and_then(|()| {
+            bar.run(&task, all - number, |control| {
+                sector::enclose(claim, leg, relative, budget, control)
+            })
+        });
+        for (side, greatest) in [false, true].into_iter().enumerate() {
+            let mut row = Row::new(format!("rho_{}", leg + 1), Some("deg"), greatest);
+            match &found {
+                Ok(Sector { certified, certificate, reached, width }) => match &reached[side] {
+                    Some((inner, refuted)) => {
+                        let outer = certified[side].clone();
+                        row.enclosed((width.clone(), inner.clone(), outer), relative);
+                        let stem = format!("rho-{}-{}", leg + 1, row.end);
+                        row.store(arguments, &stem, (Some(refuted), certificate))?;
+                    }
+                    None => row.fails(NotEnclosed::Undecided)?,
+                },
+                Err(error) => row.fails(error.clone())?,
+            }
+            rows.push(row);
+        }
     }
     Ok(rows)
 }
@@ -202,20 +225,31 @@ impl Row {
     /// Between a refuted bound and a certified one.
     fn enclosed(
         &mut self,
-        (width, inner, outer): (BigRational, Exact, Exact),
+        (width, inner, outer): (BigRational, BigRational, BigRational),
         asked: &BigRational,
     ) {
+        let [inner, outer] = [inner, outer].map(Exact::Rational);
         self.wide = width > *asked;
         self.relative = Some(rounded(&width, 2, Toward::Above));
         let (min, max) = if self.end == "greatest" { (inner, outer) } else { (outer, inner) };
         (self.min, self.max) = (Some(min), Some(max));
     }
 
+    /// Not enclosed. What was found before an interruption is told.
+    fn fails(&mut self, error: NotEnclosed) -> Result<(), Failure> {
+        self.not_enclosed = Some(match error {
+            NotEnclosed::Claim(_) => return Err(Failure::input(error)),
+            NotEnclosed::Cancelled => "interrupted".to_owned(),
+            error => error.to_string(),
+        });
+        Ok(())
+    }
+
     /// Writes the certificates, if they are asked for; the point is that of the refutation.
     fn store(
         &mut self,
         arguments: &Arguments,
-        stem: String,
+        stem: &str,
         (refuted, certified): (Option<&Certificate>, &Certificate),
     ) -> Result<(), Failure> {
         self.point = refuted.and_then(witness_point);

@@ -191,6 +191,33 @@ fn a_title_cannot_disguise_a_verdict() {
     assert!(!run.stdout.contains("\nCERTIFIED"));
 }
 
+/// Of arms, joint coordinates are angles: both ends of the sector of each, with both certificates.
+#[test]
+fn bounds_enclose_the_angles_of_arms() {
+    let folder = Folder::with(&["rotary-delta-linuxcnc.toml"]);
+    let arguments = ["bounds", "rotary-delta-linuxcnc.toml", "--relative", "1e-2", "-o", "."];
+    let run = folder.run(&[&arguments[..], &["--format", "json"]].concat()).exits(0);
+    let answer: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let rows = answer["bounds"].as_array().unwrap();
+    let own: Vec<_> = rows.iter().filter(|row| row["unit"] == "deg").collect();
+    assert_eq!(own.len(), 6);
+    // The greatest angle is at (0, 4, -14), by a formula of its own: 60.3117 degrees.
+    for (end, angle) in [("least", 6.524), ("greatest", 60.3117)] {
+        let row = own.iter().find(|row| row["quantity"] == "rho_1" && row["end"] == end).unwrap();
+        let [min, max] = ["min", "max"].map(|side| quotient(row[side].as_str().unwrap()));
+        assert!(min < angle && angle < max && max - min < 0.6, "{min} {max}");
+        for (side, code) in [("inner", 1), ("outer", 0)] {
+            folder.run(&["check", &format!("rho-1-{end}-{side}.cert.json")]).exits(code);
+        }
+    }
+}
+
+/// The value of `p/q`, or of a decimal.
+fn quotient(text: &str) -> f64 {
+    let (p, q) = text.split_once('/').unwrap_or((text, "1"));
+    p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()
+}
+
 #[test]
 fn bounds_say_where_they_are_wider_than_asked_for() {
     let folder = Folder::with(&["orthoglide-tolerance.toml"]);

@@ -187,9 +187,9 @@ pub fn summary(
                 });
                 found.map(|found| {
                     let sides = found.certified.into_iter().zip(found.reached);
-                    let end = |(certified, reached)| {
+                    let end = |(certified, reached): (_, Option<(_, _)>)| {
                         let relative = Some(found.width.clone());
-                        End { certified, reached, relative }
+                        End { certified, reached: reached.map(|(angle, _)| angle), relative }
                     };
                     sides.map(end).collect()
                 })

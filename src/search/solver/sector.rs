@@ -8,6 +8,7 @@ use super::{proof, refutation};
 use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
+use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::problem::Problem;
 use std::collections::BTreeMap;
@@ -22,10 +23,12 @@ const LEAST: f64 = 1e-6;
 /// A sector of angles, in degrees.
 #[derive(Clone, Debug)]
 pub struct Sector {
-    /// Every angle is within these, up to whole turns (certified by a tree).
+    /// Every angle is within these, up to whole turns.
     pub certified: [BigRational; 2],
-    /// Some angle is beyond these (certified by a witness each), where one was found.
-    pub reached: [Option<BigRational>; 2],
+    /// The tree that shows it.
+    pub certificate: Box<Certificate>,
+    /// Some angle is beyond these, where one was found, and the witness that shows it.
+    pub reached: [Option<(BigRational, Box<Certificate>)>; 2],
     /// The width of both enclosures relative to that of the sector.
     pub width: BigRational,
 }
@@ -53,19 +56,20 @@ pub fn enclose(
         let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];
         let outer = within(claim, leg, &certified).ok_or(NotEnclosed::Undecided)?;
         let budget = of_one_width(budget, &Problem::new(&outer)?);
-        if steps.next(control, 2, |control| proof(&outer, budget, control)).is_ok() {
-            let [least, greatest] = certified.clone();
+        let found = steps.next(control, 2, |control| proof(&outer, budget, control));
+        if let Ok(certificate) = found {
+            let [lower, upper] = &certified;
             let beyond = |ends: [&BigRational; 2]| {
                 let claim = within(claim, leg, &ends.map(BigRational::clone))?;
                 Problem::new(&claim).ok()?;
                 refutation(&claim)
             };
             let inner = [rounded(&(&lo + &inward), &step), rounded(&(&hi - &inward), &step)];
-            let ends = [[&inner[0], &greatest], [&least, &inner[1]]];
-            let found = ends.map(|ends| beyond(ends).is_some());
-            let [one, other] = inner.clone();
-            let reached = [found[0].then_some(one), found[1].then_some(other)];
-            return Ok(Sector { certified, reached, width });
+            let ends = [[&inner[0], upper], [lower, &inner[1]]];
+            let [one, other] = ends.map(beyond);
+            let [least, greatest] = inner;
+            let reached = [one.map(|one| (least, one)), other.map(|other| (greatest, other))];
+            return Ok(Sector { certified, certificate, reached, width });
         }
         if control.is_cancelled() {
             return Err(NotEnclosed::Cancelled);
