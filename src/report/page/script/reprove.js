@@ -27,7 +27,8 @@ const startReproof = () => {
     if (answer.toLowerCase() === box.dataset.verdict) {
       say("accepted", `This page proved its claim again in your browser, in ${time} ms, with the formally verified checker.`);
     } else if (answer.startsWith("NOT COVERED: ")) {
-      say("not-covered", `The formally verified checker does not read this certificate: ${answer.slice(13)}.`);
+      const what = answer.slice(13);
+      say("not-covered", `${what[0].toUpperCase()}${what.slice(1)}; the exact checker accepted the certificate.`);
     } else {
       reject("The formally verified checker does not accept the certificate that is in this page.");
     }
