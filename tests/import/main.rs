@@ -6,6 +6,7 @@ mod klipper;
 mod linuxcnc;
 mod marlin;
 mod oracle;
+mod platforms;
 mod reprap;
 mod smoothieware;
 mod support;
