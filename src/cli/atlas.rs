@@ -13,10 +13,12 @@ use orthocert::files::output;
 use orthocert::files::read::Named;
 use orthocert::jobs::batch::plan::identity;
 use orthocert::questions::atlas::{
-    self, Bound, Growing, Kept, KeptError, Standing, Stopped, Top, Widest, FORMAT,
+    self, Bound, Growing, Kept, KeptError, Stopped, Top, Widest, FORMAT,
 };
 use orthocert::questions::frontier::NoAnswer;
-use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
+use orthocert::report::atlas::{
+    AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, Standing, MARGIN,
+};
 use orthocert::report::map::{self, Point};
 use orthocert::report::CertificateFile;
 use orthocert::search::paving::unfinished as part_of;

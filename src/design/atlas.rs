@@ -87,7 +87,7 @@ pub enum Objective {
     Maximise(Expression),
     /// The least value of one.
     Minimise(Expression),
-    /// The widest margin ([`crate::questions::atlas::tightened`]).
+    /// The widest margin ([`crate::search::solver::margin::tightened`]).
     WidestMargin,
 }
 

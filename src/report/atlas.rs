@@ -7,7 +7,6 @@ use crate::exact::decimal::{
     approximate, boxes, counted, exact, grouped, percent, significant, Toward,
 };
 use crate::exact::Exact;
-use crate::questions::atlas::Standing;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 use orthocert_checker::shown::Shown;
@@ -19,6 +18,20 @@ pub const MARGIN: &str = "margin";
 
 /// What is as near to the end of a range, as a part of it, is at the end.
 const AT_END: f64 = 0.01;
+
+/// What a map says of a design.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// It is in a certified cell.
+    Certified,
+    /// It is in a refuted cell.
+    Refuted,
+    /// It is in an undecided cell.
+    Undecided,
+    /// It is not in the box of parameters.
+    Outside,
+}
 
 /// The report of an atlas.
 #[derive(Clone, Debug, Serialize)]

@@ -5,8 +5,9 @@ use num_traits::ToPrimitive;
 use orthocert::design::AtlasDesign;
 use orthocert::exact::Exact;
 use orthocert::questions::atlas::{
-    assemble, certify, decide, ends, grow, margin, waiting, Decision, Growing, Top,
+    assemble, certify, decide, ends, grow, waiting, Decision, Growing, Top,
 };
+use orthocert::search::solver::margin::margin;
 use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
 use orthocert_checker::certificate::Verdict;
@@ -54,7 +55,7 @@ fn margins_agree_with_the_closed_form() {
     for (psi_max, side) in [("2", "0.2"), ("2", "0.6"), ("3", "0.7"), ("1.3", "0.25"), ("4", "0.1")]
     {
         let number = |text| Exact::parse(text, 10).unwrap();
-        let found = margin(&design.at(&[number(psi_max), number(side)]));
+        let found = margin(&design.at(&[number(psi_max), number(side)]), 14);
         let (psi_max, side): (f64, f64) = (psi_max.parse().unwrap(), side.parse().unwrap());
         let fails = |m: f64| closed_form(psi_max / (1.0 + m), side) < 0.0;
         assert!(!fails(found - 1e-4) && fails(found + 1e-4), "{psi_max} {side}: {found}");

@@ -2,10 +2,10 @@
 
 use crate::design::{AtlasDesign, Mark, Parameter};
 use crate::exact::Exact;
+use crate::report::atlas::Standing;
 use num_rational::BigRational;
 use orthocert_kernel::atlas::{walk, AtlasCell};
 use orthocert_kernel::number::Expression;
-use serde::Serialize;
 use std::cmp::Ordering;
 
 /// The best design of the map's certified cells.
@@ -15,20 +15,6 @@ pub struct Best {
     pub at: Vec<Exact>,
     /// The value of the objective there.
     pub value: Exact,
-}
-
-/// What a map says of a design.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Standing {
-    /// It is in a certified cell.
-    Certified,
-    /// It is in a refuted cell.
-    Refuted,
-    /// It is in an undecided cell.
-    Undecided,
-    /// It is not in the box of parameters.
-    Outside,
 }
 
 /// The vertex of a certified cell at which the value of an expression compares as `better` with all

@@ -8,14 +8,12 @@
 mod best;
 mod decide;
 mod kept;
-mod margin;
 mod part;
 mod widest;
 
-pub use best::{best, ends, verdict_at, Best, Standing};
+pub use best::{best, ends, verdict_at, Best};
 pub use decide::{decide, Decision};
 pub use kept::{Kept, KeptError, FORMAT};
-pub use margin::{margin, margin_to, tightened};
 pub use part::{assemble, grow, waiting, Growing, Stopped, Top};
 pub use widest::{widest, Bound, Widest};
 

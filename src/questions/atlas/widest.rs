@@ -6,13 +6,13 @@
 //! cell of the box.
 
 use super::certify;
-use super::decide::{middle, refuted};
-use super::margin::{margin, tightened};
+use super::decide::{middle, refuted, FINEST};
 use super::part::{assemble, in_order, least_halved, Node};
 use crate::design::{without_margin, AtlasDesign, MAX_RESOLUTION};
 use crate::exact::Exact;
 use crate::questions::frontier::{decimal, NoAnswer};
 use crate::search::solver;
+use crate::search::solver::margin::{margin, tightened};
 use crate::search::{Budget, Control, Stop};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -119,7 +119,7 @@ fn values(design: &AtlasDesign, at: &[u64]) -> Option<Vec<Exact>> {
 }
 
 fn margin_at(design: &AtlasDesign, at: &[u64]) -> f64 {
-    values(design, at).map_or(-1.0, |values| margin(&design.at(&values)))
+    values(design, at).map_or(-1.0, |values| margin(&design.at(&values), FINEST))
 }
 
 /// Moves to the best neighbour, diagonal ones among them, while that is better, with steps of half
@@ -301,9 +301,9 @@ fn tried(design: &AtlasDesign, claim: &AtlasClaim, part: &Part, finest: u32) -> 
     let Some((axis, both)) = axis.and_then(|axis| Some((axis, halves(part, axis)?))) else {
         return Tried::Open;
     };
-    let [below, above] = both
-        .each_ref()
-        .map(|half| middle(design, half).map_or(-1.0, |values| margin(&design.at(&values))));
+    let [below, above] = both.each_ref().map(|half| {
+        middle(design, half).map_or(-1.0, |values| margin(&design.at(&values), FINEST))
+    });
     if below.max(above) > 0.0 {
         // Some design of the cell seems to have the margin.
         return Tried::Open;

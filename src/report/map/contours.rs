@@ -2,8 +2,8 @@
 
 use crate::design::{without_margin, AtlasDesign};
 use crate::exact::Exact;
-use crate::questions::atlas::margin_to;
 use crate::report::page::contour::{Field, Path};
+use crate::search::solver::margin::margin;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_kernel::atlas::{walk, AtlasCell};
@@ -78,7 +78,7 @@ fn margin_at(design: &AtlasDesign, at: [usize; 2]) -> f64 {
     let part = |i: usize| BigRational::new(BigInt::from(i), BigInt::from(PARTS));
     let values = design.parameters.iter().zip(at).map(|(parameter, i)| parameter.at(&part(i)));
     let values: Option<Vec<Exact>> = values.collect();
-    values.map_or(f64::NAN, |values| margin_to(&design.at(&values), FINEST))
+    values.map_or(f64::NAN, |values| margin(&design.at(&values), FINEST))
 }
 
 /// Round levels up to the widest margin: multiples of 1, 2 or 5 times a power of ten, above zero.

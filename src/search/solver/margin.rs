@@ -9,12 +9,11 @@
 //! `b/(1 + m) <= b/(1 + n)`. The ranges are nested. All else is the same. ∎ So what is certified of a
 //! tightened claim bounds the margin from below, and what refutes it bounds the margin from above.
 
-use super::decide::FINEST;
+use super::refute::approximate;
+use super::sample::{Quality, Sampler};
+use super::value::Bounded;
 use crate::design::{joint_range, written, JOINT_RANGE};
 use crate::exact::Exact;
-use crate::search::solver::refute::approximate;
-use crate::search::solver::sample::{Quality, Sampler};
-use crate::search::solver::value::Bounded;
 use num_rational::BigRational;
 use num_traits::One;
 use orthocert_kernel::claim::{Bound, MachineClaim};
@@ -54,14 +53,10 @@ fn over(operator: Operator, left: &Expression, right: &Expression) -> Option<Exp
     }
 }
 
-/// The margin of a claim, nearly, by sampling: not much less than 0 where the claim does not hold,
-/// -1 where a leg does not reach or the claim is not well formed, infinite without bounds.
-pub fn margin(claim: &MachineClaim) -> f64 {
-    margin_to(claim, FINEST)
-}
-
-/// The same down to steps of `2^-finest` of the workspace.
-pub fn margin_to(claim: &MachineClaim, finest: i32) -> f64 {
+/// The margin of a claim, nearly, by sampling down to steps of `2^-finest` of the workspace: not much less
+/// than 0 where the claim does not hold, -1 where a leg does not reach or the claim is not well formed,
+/// infinite without bounds.
+pub fn margin(claim: &MachineClaim, finest: i32) -> f64 {
     sampled(claim, finest).unwrap_or(-1.0)
 }
 
@@ -146,9 +141,9 @@ mod tests {
     fn the_sampled_margin_is_where_the_tightened_claim_begins_to_fail() {
         for requirement in ALL.lines() {
             let claim = claim(requirement);
-            let found = margin(&claim);
+            let found = margin(&claim, 14);
             assert!(found > 0.05 && found.is_finite(), "{requirement}: {found}");
-            let of = |m: f64| margin(&tightened(&claim, &by(&format!("{m:.9}"))).unwrap());
+            let of = |m: f64| margin(&tightened(&claim, &by(&format!("{m:.9}"))).unwrap(), 14);
             assert!(of(0.999 * found) > 0.0, "{requirement}: {found}");
             assert!(of(1.001 * found) < 0.0, "{requirement}: {found}");
         }

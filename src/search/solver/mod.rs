@@ -19,6 +19,7 @@
 //! | [`value`]  | a quantity at a place, in the claim's own unit                              |
 //! | [`extremes`] | encloses how small and how large each quantity gets                       |
 //! | [`sector`] | encloses the angles that a joint takes                                      |
+//! | [`margin`](mod@margin) | by how much a claim's bounds could be tightened                 |
 //!
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
@@ -32,6 +33,7 @@ pub(crate) mod evidence;
 pub mod extremes;
 pub(crate) mod fails;
 mod less;
+pub mod margin;
 mod needed;
 pub(crate) mod program;
 mod propose;
