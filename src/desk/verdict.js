@@ -103,11 +103,12 @@ function meaningOf({ counterexample, remains, late }, state) {
   if (state !== "refuted" || !counterexample) {
     return null;
   }
-  const { violated, value, point, other_point: other, machine } = counterexample;
+  const { violated, value, point, other_point: other, machine, bodies = [] } = counterexample;
+  const between = bodies.length ? `, of ${bodies.map(({ body }) => body).join(" and ")}` : "";
   const place = `at (${point.join(", ")})${other ? ` and at (${other.join(", ")})` : ""}`;
   const parts = Object.entries(machine ?? {}).map(([name, value]) => `${name} = ${value}`);
   const setting = parts.length ? `, for ${parts.join(", ")}` : "";
-  return `${violated} is violated: ${value} ${place}${setting}.`;
+  return `${violated} is violated: ${value}${between} ${place}${setting}.`;
 }
 
 function effortOf({ size, certificate, verdict }, milliseconds) {

@@ -1,8 +1,13 @@
 //! A refutation's witness in words, with certified digits of the value that violates the claim.
 
 use crate::exact::Exact;
+use crate::report::place::point_text;
 use crate::report::requirement::SINGULARITY;
 use serde::Serialize;
+use std::fmt;
+
+/// Digits of the places of bodies.
+const PLACE_DIGITS: u32 = 6;
 
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
@@ -22,6 +27,9 @@ pub struct Counterexample {
     /// The parameters with a tolerance, exact.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub machine: Vec<Setting>,
+    /// Of two bodies that are too near, both.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<Near>,
     /// The direction of motion that is transmitted too fast or too slowly, or both.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<Vec<i64>>,
@@ -34,6 +42,26 @@ impl Counterexample {
             SINGULARITY if self.other_point.is_none() => "reach: a leg ends here".to_owned(),
             "joint-range" => format!("{}, an end stop", self.violated),
             _ => self.violated.clone(),
+        }
+    }
+}
+
+/// One of two bodies that are too near.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Near {
+    /// What it is: `a rod of leg 2`.
+    pub body: String,
+    /// Nearly the point of its axis that is nearest to the other; none of two rods along one leg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<[f64; 3]>,
+}
+
+impl fmt::Display for Near {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.body)?;
+        match &self.point {
+            Some(point) => write!(f, ", about at {}", point_text(point, PLACE_DIGITS)),
+            None => Ok(()),
         }
     }
 }

@@ -3,19 +3,21 @@
 use super::place::FreeParameter;
 use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
 use super::share::sum_above;
-use super::{Counterexample, Row, Setting};
+use super::{Counterexample, Near, Row, Setting};
 use crate::exact::decimal::{exact, readable, rounded, significant, Toward};
 use crate::exact::Exact;
 use crate::report::requirement::{rule_of, SINGULARITY};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::search::solver::search::Open;
 use crate::search::solver::value::{with_unit, Bounded};
+use crate::search::solver::violation::nearest_points;
 use crate::search::solver::Undecided;
 use crate::search::Stop;
+use nalgebra::Vector3;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::certificate::{Failure, Witness};
-use orthocert_kernel::claim::{Bound, MachineClaim};
+use orthocert_kernel::claim::{Body, Bound, MachineClaim};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -48,6 +50,22 @@ pub struct Facts<'a> {
 /// An exact number as the checker's.
 pub fn exactly(x: &Expression) -> Option<Exact> {
     Exact::parse(&x.to_string(), MOST_DIGITS).ok()
+}
+
+/// Pairs of bodies along one leg of which one is beside it, counted from one, in the order of their obligations.
+fn along_one_leg(bodies: &[Body]) -> impl Iterator<Item = [usize; 2]> + '_ {
+    let leg = |body: &Body| match body {
+        Body::Leg { leg, offset, .. } => Some((*leg, offset.is_some())),
+        Body::Base { .. } | Body::Platform { .. } => None,
+    };
+    let pairs = (0..bodies.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+    let of_one = move |pair: &[usize; 2]| match pair.map(|at| leg(&bodies[at])) {
+        [Some((one, beside)), Some((other, other_beside))] => {
+            one == other && (beside || other_beside)
+        }
+        _ => false,
+    };
+    pairs.filter(of_one).map(|pair| pair.map(|at| at + 1))
 }
 
 /// A number for people.
@@ -171,6 +189,7 @@ impl<'a> Facts<'a> {
         };
         let machine = self.problem.tolerances().zip(&witness.machine).map(setting);
         let (mut rule, mut other_point, mut directions) = (SINGULARITY, None, Vec::new());
+        let mut bodies = Vec::new();
         let (violated, value) = match &witness.fails {
             Failure::Reach => (
                 "every leg reaches P and is not serially singular there".to_owned(),
@@ -211,6 +230,7 @@ impl<'a> Facts<'a> {
                 rule = self
                     .bounded(quality)
                     .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                bodies = self.too_near(*number, witness).unwrap_or_default();
                 (self.words(quality), self.beyond(*number, witness)?)
             }
         };
@@ -221,8 +241,41 @@ impl<'a> Facts<'a> {
             point: points(&witness.point)?,
             other_point,
             machine: machine.collect::<Option<_>>()?,
+            bodies,
             directions,
         })
+    }
+
+    /// The two bodies of an obligation of clearance, and their nearest points at a witness.
+    fn too_near(&self, number: usize, witness: &Witness) -> Option<Vec<Near>> {
+        let place = self.sampler.place_of(&witness.point, &witness.machine)?;
+        let (bodies, points) = match &self.problem.obligations.get(number)?.test {
+            Test::Apart(test) => {
+                let points = nearest_points(&self.sampler.at(&place), test)?;
+                let shown = |p: Vector3<f64>| Some((p * self.sampler.unit()).into());
+                (test.bodies, points.map(shown))
+            }
+            // Those along one leg, in the order of their obligations.
+            Test::AtLeast(_) if self.bounded(Quality::Obligation(number))?.is_clearance() => {
+                let before = self.problem.obligations[..number].iter().enumerate();
+                let before = before.filter(|(at, own)| {
+                    let bounded = self.bounded(Quality::Obligation(*at));
+                    matches!(own.test, Test::AtLeast(_))
+                        && bounded.is_some_and(|b| b.is_clearance())
+                });
+                (along_one_leg(&self.claim.bodies).nth(before.count())?, [None; 2])
+            }
+            _ => return None,
+        };
+        let near = |(number, point): (usize, _)| {
+            let body = match self.claim.bodies.get(number - 1)? {
+                Body::Leg { leg, .. } => format!("a rod of leg {leg}"),
+                Body::Base { .. } => "a body on the base".to_owned(),
+                Body::Platform { .. } => "a body on the platform".to_owned(),
+            };
+            Some(Near { body, point })
+        };
+        bodies.into_iter().zip(points).map(near).collect()
     }
 
     /// The value at a witness, in certified digits: a bound in its place that the witness refutes too.
@@ -248,6 +301,9 @@ impl<'a> Facts<'a> {
             _ => return Some(format!("{name} fails")),
         };
         let bound = exactly(sides.first()?)?.below(256)?;
+        // No clearance less than none is claimed.
+        let touch = self.bounded(quality).is_some_and(|bounded| bounded.is_clearance());
+        let value = value.map(|value| if touch { value.max(0.0) } else { value });
         let Some(value) = value.and_then(BigRational::from_f64) else {
             return Some(format!("{name} has no bound: M is singular there"));
         };

@@ -20,7 +20,7 @@ mod share;
 pub mod text;
 mod worst;
 
-pub use counterexample::{Counterexample, Setting};
+pub use counterexample::{Counterexample, Near, Setting};
 pub use kernel::{exactly, parameter, shown, Facts};
 pub use machine::{machine_at_ends, machine_of_witness};
 pub use place::{point_text, pose_text, FreeParameter};

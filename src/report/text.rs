@@ -301,6 +301,9 @@ pub fn describe_counterexample(
     out.push('\n');
     labelled(out, "violated", &found.violated);
     labelled(out, "value there", &found.value);
+    for (label, near) in ["of", "and"].into_iter().zip(&found.bodies) {
+        labelled(out, label, &near.to_string());
+    }
     point(out, "at P", &found.point, coordinates, verbose);
     if let Some(other) = &found.other_point {
         point(out, "and at P'", other, coordinates, verbose);

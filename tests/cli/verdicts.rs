@@ -212,6 +212,46 @@ fn bounds_enclose_the_angles_of_arms() {
     }
 }
 
+/// Rods, and a tool, so thick that they touch: both bodies are named, with their nearest points where these are few.
+#[test]
+fn bodies_that_are_too_near_are_named() {
+    let folder = Folder::with(&["orthoglide-prototype-whole.toml"]);
+    let whole = String::from_utf8(folder.read("orthoglide-prototype-whole.toml")).unwrap();
+    for (name, from, to, told) in [
+        (
+            "rods",
+            "radius = 10,",
+            "radius = 60,",
+            &["<= 0", "a rod of leg 3, about at (1", "a rod of leg 2, about at (1"][..],
+        ),
+        (
+            "tool",
+            "radius = 15",
+            "radius = 70",
+            &["<= 0", "a body on the platform, about at (-73, 126, 76.3)", "a rod of leg 1, about"],
+        ),
+        (
+            "bars",
+            "spread = 80",
+            "spread = 20",
+            &["<= ", "of a rod of leg 1 and a rod of leg 1 at P"],
+        ),
+    ] {
+        assert!(whole.contains(from), "{name}");
+        let design = format!("{name}.toml");
+        folder.write(&design, whole.replace(from, to));
+        folder.run(&["verify", &design]).exits(1).says(&["clearance >= 2"]).says(told);
+        let run = folder.run(&["verify", &design, "--format", "json"]).exits(1);
+        let answer: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+        let bodies = answer["counterexample"]["bodies"].as_array().unwrap();
+        assert_eq!(bodies.len(), 2, "{name}");
+        assert!(
+            bodies.iter().all(|near| near.get("point").is_some() == (name != "bars")),
+            "{name}"
+        );
+    }
+}
+
 /// The value of `p/q`, or of a decimal.
 fn quotient(text: &str) -> f64 {
     let (p, q) = text.split_once('/').unwrap_or((text, "1"));

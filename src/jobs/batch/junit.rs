@@ -68,6 +68,9 @@ fn explanation(entry: &Entry) -> String {
     let point: Vec<String> = found.point.iter().map(ToString::to_string).collect();
     let point = point.join(", ");
     let mut text = format!("{}\n{}\nat P = ({point})", found.violated, found.value);
+    for near in &found.bodies {
+        let _ = write!(text, "\n{near}");
+    }
     for setting in &found.machine {
         let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
         let _ = write!(text, "\n{leg}{} = {}", setting.parameter, setting.value);

@@ -70,7 +70,9 @@ def _flags(**options: Optional[Any]) -> list[str]:
 def _counterexample(found: Optional[Mapping[str, Any]]) -> Optional[Counterexample]:
     if not found:
         return None
-    return Counterexample(found["violated"], found["value"], _point(found.get("point")), found.get("machine"))
+    bodies = ((near["body"], tuple(near["point"]) if "point" in near else None) for near in found.get("bodies", ()))
+    point = _point(found.get("point"))
+    return Counterexample(found["violated"], found["value"], point, found.get("machine"), tuple(bodies))
 
 
 def verify(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Iterator, Optional, Sequence
+from typing import Any, Iterator, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -56,6 +56,8 @@ class Counterexample:
     value: str
     point: Optional[Point]
     machine: Any = None
+    #: Of bodies that are too near: what they are, and nearly where, if that is one place.
+    bodies: Tuple[Tuple[str, Optional[Tuple[float, ...]]], ...] = ()
 
 
 @dataclass(frozen=True)

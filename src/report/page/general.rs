@@ -407,6 +407,8 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
     if let Some(found) = &found {
         rows.push(("violated".to_owned(), found.violated.clone()));
         rows.push(("value there".to_owned(), found.value.clone()));
+        let of = ["of", "and"].into_iter().zip(&found.bodies);
+        rows.extend(of.map(|(label, near)| (label.to_owned(), near.to_string())));
     }
     rows.push((format!("at ({})", coordinates(claim).join(", ")), list(&witness.point)));
     if claim.orientation.is_some() {

@@ -44,7 +44,7 @@ pub mod sample;
 pub mod search;
 pub mod sector;
 pub mod value;
-mod violation;
+pub(crate) mod violation;
 
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};

@@ -143,6 +143,11 @@ impl Bounded {
         }
     }
 
+    /// Whether it is of bodies that do not collide.
+    pub fn is_clearance(&self) -> bool {
+        self.requirement.quantity == "clearance"
+    }
+
     /// Its unit, where it has one.
     pub fn unit(&self, angular: bool) -> Option<&'static str> {
         match self.angle {

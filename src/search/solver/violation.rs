@@ -157,6 +157,13 @@ pub fn between(at: &At, test: &Apart) -> Option<([f64; 2], Vector3<f64>)> {
     Some(nearest(p, q))
 }
 
+/// The nearest points themselves.
+pub fn nearest_points(at: &At, test: &Apart) -> Option<[Vector3<f64>; 2]> {
+    let [p, q] = ends(test, |f| at.of(f))?;
+    let ([s, t], _) = nearest(p, q);
+    Some([p[0] + (p[1] - p[0]) * s, q[0] + (q[1] - q[0]) * t])
+}
+
 /// `a |row| + b |H|`, and the eigenvector of `H` of greatest absolute eigenvalue.
 pub fn curved(at: &At, test: &Curvature) -> Option<(f64, DVector<f64>)> {
     let row: Vec<f64> = test.row.iter().map(|&f| at.of(f)).collect::<Option<_>>()?;
