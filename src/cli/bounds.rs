@@ -8,7 +8,7 @@ use orthocert::exact::decimal::{approximate, outward, rounded, Toward};
 use orthocert::exact::Exact;
 use orthocert::files::output;
 use orthocert::report::text::{duration, wrap, WIDTH};
-use orthocert::report::{exactly, point_text, pose_text, CertificateFile};
+use orthocert::report::{exactly, placed, point_text, pose_text, CertificateFile};
 use orthocert::search::solver::extremes::{
     enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
 };
@@ -330,7 +330,7 @@ fn text(
             _ if at.is_empty() => values,
             _ => {
                 let mut place = String::new();
-                wrap(&mut place, &format!("at {at}"), 6);
+                wrap(&mut place, &placed(at), 6);
                 format!("{}\n{}", values.trim_end(), place.trim_end())
             }
         };

@@ -1,19 +1,23 @@
 //! `orthocert init`.
 
 use super::{print, Failure, Status};
-use clap::builder::PossibleValuesParser;
-use orthocert::design::{template, TEMPLATES};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use orthocert::design::{template, OTHER_NAMES, TEMPLATES};
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The kind of design
+    /// The kind of design; `hexapod` is spatial, `delta` a linear Delta
     #[arg(long, default_value = TEMPLATES[0].0, value_parser = kinds())]
     kind: String,
 }
 
 fn kinds() -> PossibleValuesParser {
-    PossibleValuesParser::new(TEMPLATES.iter().map(|(name, _)| *name))
+    let kind = |(name, _): &(&'static str, _)| {
+        let others = OTHER_NAMES.iter().filter(|(_, own)| own == name).map(|(other, _)| *other);
+        PossibleValue::new(*name).aliases(others)
+    };
+    PossibleValuesParser::new(TEMPLATES.iter().map(kind))
 }
 
 /// Runs it.

@@ -54,7 +54,7 @@ pub use margin::without_margin;
 pub(crate) use margin::{joint_range, JOINT_RANGE};
 pub use notation::may_be_tolerance;
 pub use sources::Sources;
-pub use template::{template, TEMPLATES};
+pub use template::{template, OTHER_NAMES, TEMPLATES};
 pub use variable::Variable;
 
 use crate::exact::Exact;

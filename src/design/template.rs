@@ -15,7 +15,12 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("spherical", include_str!("templates/spherical.toml")),
 ];
 
-/// The template called `kind`, one of [`TEMPLATES`].
+/// Other names that people look for, with those of their templates.
+pub const OTHER_NAMES: &[(&str, &str)] = &[("hexapod", "spatial"), ("delta", "linear-delta")];
+
+/// The template called `kind`, one of [`TEMPLATES`] or [`OTHER_NAMES`].
 pub fn template(kind: &str) -> Option<&'static str> {
+    let other = OTHER_NAMES.iter().find(|(name, _)| *name == kind);
+    let kind = other.map_or(kind, |(_, template)| template);
     TEMPLATES.iter().find(|(name, _)| *name == kind).map(|(_, text)| *text)
 }

@@ -23,7 +23,7 @@ mod worst;
 pub use counterexample::{Counterexample, Near, Setting};
 pub use kernel::{exactly, parameter, shown, Facts};
 pub use machine::{machine_at_ends, machine_of_witness};
-pub use place::{point_text, pose_text, FreeParameter};
+pub use place::{placed, point_text, pose_text, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;

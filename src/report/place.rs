@@ -28,6 +28,12 @@ pub fn pose_text(point: &[f64], coordinates: &[String], digits: u32) -> String {
     parts.join(", ")
 }
 
+/// A place in a sentence: `at (1, 2, 3)`, `turned by 15 deg about (0, 0, 1)`.
+pub fn placed(place: &str) -> String {
+    let at = if place.starts_with('(') { "at " } else { "" };
+    format!("{at}{place}")
+}
+
 /// The names of the coordinates that are lengths, or a user's own.
 pub fn positions(coordinates: &[String]) -> impl Iterator<Item = &str> {
     let is_turn = |name: &&str| name.starts_with("tan(") || name.starts_with("c_");

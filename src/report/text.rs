@@ -1,6 +1,6 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
-use super::place::{point_text, pose_text, positions, turn_text, FreeParameter};
+use super::place::{placed, point_text, pose_text, positions, turn_text, FreeParameter};
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
     PostulateReport, Remains, Report, Row, Size,
@@ -232,8 +232,7 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
         // A place that does not fit stands on a line of its own.
         let text = match values.chars().count() + 2 + d.chars().count() {
             0..=WIDTH => format!("{values}  {d}"),
-            _ if d.starts_with("at") => format!("{}\n      {d}", values.trim_end()),
-            _ => format!("{}\n      at {d}", values.trim_end()),
+            _ => format!("{}\n      {}", values.trim_end(), placed(d)),
         };
         let _ = writeln!(out, "{text}");
     };

@@ -71,7 +71,10 @@ fn templates_are_designs_that_verify_reads() {
     }
     let default = folder.run(&["init"]).exits(0).stdout;
     assert_eq!(default.as_bytes(), folder.read("orthoglide.toml"));
-    folder.run(&["init", "--kind", "hexapod"]).exits(2).complains(&["hexapod", "orthoglide"]);
+    folder.run(&["init", "--kind", "octopod"]).exits(2).complains(&["octopod", "orthoglide"]);
+    let [spatial, hexapod] =
+        ["spatial", "hexapod"].map(|kind| folder.run(&["init", "--kind", kind]).exits(0).stdout);
+    assert_eq!(spatial, hexapod);
 }
 
 #[test]

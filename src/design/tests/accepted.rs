@@ -202,5 +202,6 @@ fn templates_are_designs() {
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{kind}");
     }
     assert_eq!(kinds::kernel(template("orthoglide-cube").unwrap()), Design::prototype().claim);
-    assert_eq!(template("hexapod"), None);
+    assert_eq!(template("hexapod"), template("spatial"));
+    assert_eq!(template("octopod"), None);
 }

@@ -237,7 +237,7 @@ impl<'a> Sampler<'a> {
     pub fn shown(&self, u: &[f64]) -> Vec<f64> {
         let told = |(k, (x, (_, width))): (usize, (f64, &(f64, f64)))| {
             // What the search has not told from zero is zero.
-            if x.abs() < 1e-7 * width {
+            if x.abs() < 1e-6 * width {
                 0.0
             } else {
                 x * self.unit_of(k)
