@@ -25,12 +25,12 @@ for ((i = 0; i < count; i++)); do
     -e "s/^cube = ([0-9]+)$/cube = \1.00$digit/" "$template" >"$name"
 done
 
-# Runs, and prints the wall time, the peak memory and the sum of the designs' own seconds.
+# Runs, and prints the processor time, the peak memory and the sum of the designs' own seconds.
 measure() {
   local label=$1
   shift
   local code=0
-  /usr/bin/time -f "%e s, at most %M KiB" "$orthocert" verify designs --format json --quiet \
+  /usr/bin/time -f "%U s user, %S s system, at most %M KiB" "$orthocert" verify designs --format json --quiet \
     --out proofs --max-boxes 20000 "$@" >"$label.json" 2>"$label.txt" || code=$?
   local sum cached
   sum=$(awk -F'[:,]' '/^      "seconds"/ {sum += $2} END {printf "%.3f", sum}' "$label.json")

@@ -56,9 +56,9 @@ fn paving(c: &mut Criterion) {
     group.finish();
 
     let cancel = AtomicBool::new(false);
-    let grower = Grower { decider: &decider, depth: DEPTH, is_plan: false, cancel: &cancel };
+    let grower = Grower { decider: &decider, depth: DEPTH, cancel: &cancel };
     let grow = || {
-        let (mut bytes, mut tally) = (Vec::new(), Tally::up_to(DEPTH));
+        let (mut bytes, mut tally) = (Vec::new(), Tally::default());
         grower.grow(Root::WHOLE, &mut bytes, &mut tally).expect("not cancelled");
         (bytes, tally)
     };

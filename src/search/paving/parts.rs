@@ -46,7 +46,7 @@ impl Parts {
     }
 
     fn grower<'a>(&self, decider: &'a Decider<'a>, cancel: &'a AtomicBool) -> Grower<'a> {
-        Grower { decider, depth: self.subject.header.depth, is_plan: false, cancel }
+        Grower { decider, depth: self.subject.header.depth, cancel }
     }
 
     /// The tree with subtrees left to be grown: at least `enough`, all of one depth, where the tree
@@ -65,7 +65,7 @@ impl Parts {
         // At most 2^depth cells have a depth.
         let mut depth = enough.next_power_of_two().ilog2().min(deepest);
         loop {
-            let mut tally = Tally::up_to(self.subject.header.depth);
+            let mut tally = Tally::default();
             let top = grower.segments(Root::WHOLE, depth, &mut tally)?;
             let left = top.iter().filter(|segment| matches!(segment, Segment::Subtree(_))).count();
             if left >= enough || depth >= deepest {
@@ -100,8 +100,7 @@ impl Parts {
     ) -> Result<(), E> {
         let grower = self.grower(decider, cancel);
         let depth = root.depth + BELOW;
-        let segments =
-            grower.segments(root, depth, &mut Tally::up_to(self.subject.header.depth))?;
+        let segments = grower.segments(root, depth, &mut Tally::default())?;
         for window in segments.chunks(WINDOW) {
             for (bytes, _) in grower.grow_all(window)? {
                 to(&bytes)?;

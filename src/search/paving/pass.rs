@@ -141,8 +141,7 @@ pub fn pave(
         }
         None => {
             let (depth, segments) = planned(&decider, goal, control)?;
-            // Above it, the tree is the same for every depth.
-            known = Some(segments).filter(|_| depth > coarse(&decider));
+            known = segments;
             depth
         }
     };
@@ -197,18 +196,23 @@ fn earlier_depth(
     }
 }
 
-/// The depth, and the tree down to the roots of its subtrees, with the boxes tried for it.
+/// The tree down to the roots of its subtrees, and the boxes tried for it.
+type Top = (Vec<Segment>, u64);
+
+/// The depth, and the top of the tree where it was found from that.
 fn planned(
     decider: &Decider<'_>,
     goal: &Goal,
     control: &Control<'_>,
-) -> Result<(u32, (Vec<Segment>, u64)), PaveError> {
+) -> Result<(u32, Option<Top>), PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
-    let coarse = coarse(decider).min(deepest);
-    let grower = Grower { decider, depth: deepest, is_plan: true, cancel: control.cancel };
-    let mut above = Tally::up_to(deepest);
+    // What is cut may end above the roots of subtrees.
+    let coarse = if decider.cuts() { 0 } else { coarse(decider).min(deepest) };
+    let grower = Grower { decider, depth: deepest, cancel: control.cancel };
+    let mut above = Tally::default();
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
-    Ok((plan::depth(&grower, &segments, &above, coarse, goal)?, (segments, above.boxes)))
+    let depth = plan::depth(&grower, &segments, above, coarse, goal)?;
+    Ok((depth, (depth > coarse && !decider.cuts()).then_some((segments, above.boxes))))
 }
 
 fn coarse(decider: &Decider<'_>) -> u32 {
@@ -242,10 +246,10 @@ impl<'a> Pass<'a> {
         header: Header,
         part: &Path,
         cancel: &'a AtomicBool,
-        known: Option<(Vec<Segment>, u64)>,
+        known: Option<Top>,
     ) -> Result<Self, PaveError> {
-        let grower = Grower { decider, depth: header.depth, is_plan: false, cancel };
-        let mut above = Tally::up_to(header.depth);
+        let grower = Grower { decider, depth: header.depth, cancel };
+        let mut above = Tally::default();
         let coarse = coarse(decider).min(header.depth);
         let (segments, boxes) = match known {
             Some(known) => known,

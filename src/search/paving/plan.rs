@@ -1,28 +1,30 @@
-//! How deep a paving has to go, from a sample of its subtrees.
+//! How deep a paving has to go, from samples of its cells.
 
 use super::tree::{Cancelled, Grower, Segment, Tally};
 use super::Goal;
-use orthocert_kernel::paving::{Root, SHARE_BITS};
+use orthocert_kernel::paving::{Cut, Root, SHARE_BITS};
 use rayon::prelude::*;
 
-/// So many splits below their roots, all subtrees are looked into; deeper, one of so many that are still
-/// undecided there, and of few of them more.
-const STEP: u32 = 3;
-const SAMPLE: usize = 32;
-const LEAST: usize = 8;
+/// Most cells of one depth that are decided; of the undecided ones below more, one of so many. The same
+/// where a cell takes far longer.
+const MOST: usize = 1024;
+const MOST_FOR_ALL: usize = 64;
+/// So many of them are cut to see what that leaves, or, first, so few.
+const LOOKED: [usize; 2] = [8, 96];
+/// What the few find has to be within this of what is aimed at.
+const PLAUSIBLE: f64 = 1.5;
 /// How many boxes the planes of one that is cut take as long as, about.
-const CUT: f64 = 20.0;
-/// What is aimed at, relative to the gap that is asked for: the sample errs.
+const CUT: f64 = 12.0;
+/// What is aimed at, relative to the gap that is asked for: the samples err.
 const AIM: f64 = 0.99;
 
-/// The depth at which `goal` is expected to be reached, at least `coarse`. `grower` goes to the
-/// greatest depth that may be chosen, `segments` are its tree down to `coarse`, whose tally is
-/// `above`. What becomes of the undecided volume of all subtrees deeper down is expected to be what
-/// becomes of that of the sample.
+/// The least depth at which `goal` is expected to be reached, at least `coarse`, or the greatest at which the
+/// boxes are expected to be within their number. `grower` goes to the greatest depth that may be chosen,
+/// `segments` are its tree down to `coarse`, whose tally is `above`.
 pub fn depth(
     grower: &Grower<'_>,
     segments: &[Segment],
-    above: &Tally,
+    above: Tally,
     coarse: u32,
     goal: &Goal,
 ) -> Result<u32, Cancelled> {
@@ -30,81 +32,60 @@ pub fn depth(
         Segment::Subtree(root) => Some(*root),
         Segment::Known(_) => None,
     };
-    let roots: Vec<Root> = segments.iter().filter_map(subtree).collect();
-    if roots.is_empty() {
-        return Ok(coarse);
-    }
+    let mut roots: Vec<Root> = segments.iter().filter_map(subtree).collect();
     // No tree has more boxes: nothing is to be chosen.
     let most = roots.len() as f64 * f64::from(grower.depth + 1 - coarse).exp2();
     if goal.gap.is_none() && most < goal.max_boxes as f64 {
-        return Ok(grower.depth);
+        return Ok(if roots.is_empty() { coarse } else { grower.depth });
     }
-    let known = (coarse + STEP).min(grower.depth);
-    let (mut all, undecided) = grown(grower, &roots, known)?;
-    if let Some(depth) = chosen(&all, above, 1.0, (coarse, coarse..known + 1), goal) {
-        return Ok(depth);
-    }
-    let open = all.open_at[known as usize] as f64;
-    all.add(above);
-    let one_of = (undecided.len() / LEAST).clamp(1, SAMPLE);
-    let sample: Vec<Root> = undecided.into_iter().step_by(one_of).collect();
-    let mut reach = known;
-    while reach < grower.depth {
-        reach = (reach + STEP).min(grower.depth);
-        let (found, _) = grown(grower, &sample, reach)?;
-        let scale = open / found.open_at[known as usize] as f64;
-        let below = (coarse, known + 1..reach + 1);
-        if let Some(depth) = chosen(&found, &all, scale, below, goal) {
+    let most = if grower.decider.is_for_all() { MOST_FOR_ALL } else { MOST };
+    let (mut inner, mut boxes) = (above.inner as f64 * UNIT, above.boxes as f64);
+    // How many cells each of the sample stands for.
+    let mut scale = 1.0;
+    for depth in coarse..grower.depth {
+        let mut tally = Tally::default();
+        let open = grower.level(&roots, &mut tally)?;
+        boxes += tally.boxes as f64 * scale;
+        inner += tally.inner as f64 * UNIT * scale;
+        let planes = if grower.decider.cuts() { CUT * open.len() as f64 * scale } else { 0.0 };
+        if boxes + planes > goal.max_boxes as f64 && depth > coarse {
+            return Ok(depth - 1);
+        }
+        let cells: Vec<Root> = open.iter().map(|(root, _)| *root).collect();
+        if open.is_empty()
+            || goal.gap.is_some_and(|gap| is_within(grower, &cells, (inner, scale), gap))
+        {
             return Ok(depth);
         }
+        let one_of = open.len().div_ceil(most);
+        let kept = open.iter().step_by(one_of);
+        scale *= open.len() as f64 / kept.len() as f64;
+        roots = kept.flat_map(|(_, halves)| *halves).collect();
     }
     Ok(grower.depth)
 }
 
-/// What subtrees come to down to a depth, and those of them that are undecided there.
-fn grown(grower: &Grower<'_>, roots: &[Root], depth: u32) -> Result<(Tally, Vec<Root>), Cancelled> {
-    let shallow = Grower { depth, ..*grower };
-    let tally = |root: &Root| {
-        let mut tally = Tally::up_to(grower.depth);
-        shallow.grow(*root, &mut Vec::new(), &mut tally)?;
-        let is_undecided = tally.open_at[depth as usize] > 0;
-        Ok((tally, Vec::from_iter(is_undecided.then_some(*root))))
-    };
-    let sum = |(mut a, mut of_a): (Tally, Vec<Root>), (b, of_b)| {
-        a.add(&b);
-        of_a.extend(of_b);
-        Ok((a, of_a))
-    };
-    roots.par_iter().map(tally).try_reduce(|| (Tally::up_to(grower.depth), Vec::new()), sum)
-}
+const UNIT: f64 = 1.0 / (1u128 << SHARE_BITS) as f64;
 
-/// The least depth of a range at which the goal is expected to be reached, or the greatest at which
-/// the boxes are expected to be within their number; `None` where neither is seen. `above` is what is known
-/// down to the range, `found` what is found in it of one part of `scale`.
-fn chosen(
-    found: &Tally,
-    above: &Tally,
-    scale: f64,
-    (coarse, depths): (u32, std::ops::Range<u32>),
-    goal: &Goal,
-) -> Option<u32> {
-    let unit = (-f64::from(SHARE_BITS)).exp2();
-    let sum = |x: &[u128]| x.iter().sum::<u128>() as f64 * unit;
-    let mut inner = sum(&above.inner_at);
-    let mut boxes = above.boxes as f64;
-    for depth in depths {
-        let at = depth as usize;
-        inner += found.inner_at[at] as f64 * unit * scale;
-        let cut = found.cut_at[at] as f64 * unit * scale;
-        boxes += found.boxes_at[at] as f64 * scale;
-        let planes = CUT * found.cuts_at[at] as f64 * scale;
-        if boxes + planes > goal.max_boxes as f64 && depth > coarse {
-            return Some(depth - 1);
-        }
-        let left = found.left_at[at] as f64 * unit * scale;
-        if goal.gap.is_some_and(|gap| left <= AIM * gap * (inner + cut)) {
-            return Some(depth);
-        }
+/// Whether what is undecided of these cells, each for `scale`, is within the gap once they are cut, beside `inner`.
+fn is_within(grower: &Grower<'_>, cells: &[Root], (inner, scale): (f64, f64), gap: f64) -> bool {
+    let decider = grower.decider;
+    let share = |root: &Root| decider.share(&root.cell);
+    let open = cells.iter().map(share).sum::<u128>() as f64 * UNIT * scale;
+    if !decider.cuts() || open <= AIM * gap * inner {
+        return open <= AIM * gap * inner;
     }
-    None
+    let looked = LOOKED.into_iter().zip([PLAUSIBLE, 1.0]);
+    looked.into_iter().all(|(looked, factor)| {
+        let sample: Vec<&Root> = cells.iter().step_by(cells.len().div_ceil(looked)).collect();
+        let shares = |root: &&Root| {
+            let cut = decider.cut(&root.cell, root.inherited);
+            cut.map_or([0, 0], |cut: Cut| cut.shares(share(root)))
+        };
+        let found: Vec<[u128; 2]> = sample.par_iter().map(shares).collect();
+        let of_all = open / sample.iter().map(|root| share(root)).sum::<u128>() as f64;
+        let [more, outer] = [0, 1].map(|side| found.iter().map(|x| x[side]).sum::<u128>() as f64);
+        let (more, outer) = (more * of_all, outer * of_all);
+        open - more - outer <= factor * AIM * gap * (inner + more)
+    })
 }
