@@ -78,8 +78,8 @@ pub struct Walk {
     pub factor: f64,
     /// The greatest factor.
     pub most: f64,
-    /// Whether to go on from a start that succeeds.
-    pub improve: bool,
+    /// A success that is as far ends it.
+    pub enough: Option<f64>,
     /// Values beyond these are not tried.
     pub limits: (f64, f64),
     /// Relative distance, from the last success to the first failure, at which to stop.
@@ -94,6 +94,13 @@ impl Walk {
             (Succeeds::Below, true) | (Succeeds::Above, false) => x * factor,
             (Succeeds::Below, false) | (Succeeds::Above, true) => x / factor,
         }
+    }
+
+    fn is_enough(&self, x: f64) -> bool {
+        self.enough.is_some_and(|enough| match self.succeeds {
+            Succeeds::Below => x >= enough,
+            Succeeds::Above => x <= enough,
+        })
     }
 
     fn is_over(&self) -> bool {
@@ -127,7 +134,8 @@ pub fn frontier<T>(
             Some(found) => best = Some((x, value, found)),
             None => failed = Some(x),
         }
-        if best.is_some() && (failed.is_some() || !walk.improve) {
+        let done = |(good, ..): &(f64, _, _)| failed.is_some() || walk.is_enough(*good);
+        if best.as_ref().is_some_and(done) {
             break;
         }
         x = walk.step(x, factor, success);
@@ -136,6 +144,7 @@ pub fn frontier<T>(
     while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
         if walk.is_over()
             || control.is_cancelled()
+            || walk.is_enough(*good)
             || (good / bad).max(bad / good) <= 1.0 + walk.gap
         {
             break;
@@ -213,7 +222,7 @@ mod tests {
         succeeds: Succeeds::Below,
         factor: 10.0,
         most: LARGEST_FACTOR,
-        improve: true,
+        enough: None,
         limits: (1e-12, 1e12),
         gap: 1e-6,
         deadline: None,
@@ -247,10 +256,14 @@ mod tests {
     }
 
     #[test]
-    fn a_good_start_is_not_improved_unless_asked_for() {
-        let walk = Walk { improve: false, start: 0.3, ..WALK };
+    fn what_is_enough_is_not_improved() {
+        let walk = Walk { enough: Some(0.3), start: 0.3, ..WALK };
         assert_eq!(found(walk, |x| x <= 5.0), Some(0.3));
         assert!(found(walk, |x| x <= 0.2).is_some_and(|x| x <= 0.2 && x > 0.199_999));
+        let walk = Walk { enough: Some(0.25), start: 1.0, ..WALK };
+        assert!(found(walk, |x| x <= 0.3).is_some_and(|x| (0.25..=0.3).contains(&x)));
+        let walk = Walk { enough: Some(4.0), succeeds: Succeeds::Above, ..walk };
+        assert!(found(walk, |x| x >= 3.0).is_some_and(|x| (3.0..=4.0).contains(&x)));
     }
 
     #[test]

@@ -213,12 +213,13 @@ impl Family {
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Bracket, NoAnswer> {
+        let start = self.expected * (1.0 + SHARE * gap);
         let walk = Walk {
-            start: self.expected * (1.0 + SHARE * gap),
+            start,
             succeeds: Succeeds::Above,
             factor: 1.0 + gap,
             most: LARGEST_FACTOR,
-            improve: false,
+            enough: Some(start),
             limits: (self.expected / SPREAD, self.expected * SPREAD),
             gap,
             deadline: budget.deadline,
@@ -230,7 +231,7 @@ impl Family {
             })
         })?;
         let start = self.expected * (1.0 - SHARE * gap);
-        let walk = Walk { start, succeeds: Succeeds::Below, ..walk };
+        let walk = Walk { start, succeeds: Succeeds::Below, enough: Some(start), ..walk };
         let refuted = control.part([0.5, 1.0], |control| {
             frontier(&walk, control, |x, control| match self.claim(x) {
                 Some(claim) => refutation(&claim, control),

@@ -23,8 +23,10 @@ use std::time::Instant;
 const START: f64 = 1e-3;
 /// Limits of the tolerances tried, relative to the same.
 const LIMITS: (f64, f64) = (1e-12, 10.0);
-/// Share of the gap that is spent on the refuted end.
-const REFUTED_SHARE: f64 = 0.25;
+/// To such a share of the gap either end is found, where both are farther apart.
+const SHARE: f64 = 0.25;
+/// What is aimed at, relative to the gap: values are rounded.
+const AIM: f64 = 0.99;
 /// A tolerance that is not yet beyond all machines, relative to the same, and the factor of the
 /// steps from there on.
 const LAST: f64 = 0.1;
@@ -210,9 +212,9 @@ pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
     Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
 }
 
-/// Encloses the widest `t` for which the claim widened by `scheme` holds. The refuted end is found
-/// to a part of `gap`; the certified end is the widest that the search proves, to `gap`. Where there
-/// is a deadline, a third of the time is for the refuted end.
+/// Encloses the widest `t` for which the claim widened by `scheme` holds, to `gap`. Where the proofs that the
+/// search finds do not come so near to the refuted end, both are found to a part of `gap`. Where there is a
+/// deadline, a third of the time is for the refuted end.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -231,9 +233,9 @@ pub fn widest(
         succeeds: Succeeds::Above,
         factor: 10.0,
         most: LARGEST_FACTOR,
-        improve: true,
+        enough: None,
         limits: (LIMITS.0 * scale, LIMITS.1 * scale),
-        gap: gap * REFUTED_SHARE,
+        gap: gap * SHARE,
         deadline: budget.deadline.map(|end| {
             let now = Instant::now();
             now + end.saturating_duration_since(now) / 3
@@ -253,13 +255,13 @@ pub fn widest(
         }
         found => found,
     };
-    let walk = Walk { succeeds: Succeeds::Below, gap, deadline: budget.deadline, ..walk };
+    let walk = Walk { succeeds: Succeeds::Below, deadline: budget.deadline, ..walk };
     let walk = match refuted.as_ref().and_then(|(t, _)| t.to_f64()) {
         // The best that can be hoped for; where it fails, down by steps that grow.
         Some(t) => Walk {
-            start: t / (1.0 + gap * (1.0 - REFUTED_SHARE)),
+            start: t / (1.0 + gap * (1.0 - SHARE)),
             factor: UNPROVED,
-            improve: false,
+            enough: Some(t / (1.0 + gap * AIM)),
             ..walk
         },
         None => walk,
