@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 use orthocert::search::{Budget, Control};
-use orthocert_kernel::check::MOST_NODES;
+use orthocert_kernel::certificate::MOST_NODES;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use std::time::{Duration, Instant};
 

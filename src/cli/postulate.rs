@@ -7,11 +7,10 @@ use orthocert::files::output;
 use orthocert::questions::postulate::prove;
 use orthocert::report::{text, PostulateReport};
 use orthocert_kernel::certificate::Claim;
-use orthocert_kernel::claim::Quantity;
+use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::postulate::parts;
-use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 use std::path::PathBuf;
 use std::time::Instant;
 

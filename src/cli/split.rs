@@ -11,7 +11,7 @@ use orthocert::jobs::shard::{
     self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
 };
 use orthocert_checker::shown::Shown;
-use orthocert_kernel::check::MOST_NODES;
+use orthocert_kernel::certificate::MOST_NODES;
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};

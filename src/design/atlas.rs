@@ -9,8 +9,8 @@ use super::refusal::compiled;
 use super::{exactly, mapped_claim, names, text_of, unit, Design};
 use crate::exact::Exact;
 use num_rational::BigRational;
-use orthocert_kernel::atlas::{self as kernel, AtlasClaim, MOST_PARAMETERS};
-use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::atlas::{Part, MOST_PARAMETERS};
+use orthocert_kernel::claim::{self, AtlasClaim, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -184,7 +184,7 @@ impl AtlasDesign {
     pub fn claim(&self) -> AtlasClaim {
         // Rational numbers of a design have a text.
         let written = |x: &Exact| exactly::written(x).unwrap_or(Expression::integer(0));
-        let parameters = self.parameters.iter().map(|p| kernel::Parameter {
+        let parameters = self.parameters.iter().map(|p| claim::Parameter {
             name: p.name.clone(),
             min: written(&p.min),
             max: written(&p.max),
@@ -232,7 +232,7 @@ impl AtlasDesign {
     }
 
     /// The box of parameters as a cell.
-    pub fn whole(&self) -> kernel::Part {
+    pub fn whole(&self) -> Part {
         vec![(0, 0); self.parameters.len()]
     }
 

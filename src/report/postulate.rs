@@ -4,8 +4,7 @@ use super::remains::reason;
 use super::{CertificateFile, EarlierFile, Outcome, Size};
 use crate::search::solver::{Answer, Verification};
 use orthocert_kernel::certificate::Claim;
-use orthocert_kernel::claim::Quantity;
-use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
+use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use serde::Serialize;
 use std::time::Duration;
 

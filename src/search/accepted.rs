@@ -4,7 +4,7 @@
 
 use orthocert_checker::certificate::{Certificate, Node, Proof, Tree, Verdict};
 use orthocert_checker::Rejected;
-use orthocert_kernel::atlas::AtlasCell;
+use orthocert_kernel::certificate::AtlasCell;
 use std::collections::BTreeMap;
 
 /// What an accepted certificate establishes.

@@ -11,7 +11,8 @@ use orthocert::search::solver::margin::margin;
 use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
 use orthocert_checker::certificate::Verdict;
-use orthocert_kernel::atlas::{walk, AtlasCell, Part};
+use orthocert_kernel::atlas::{walk, Part};
+use orthocert_kernel::certificate::AtlasCell;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

@@ -5,7 +5,7 @@ use super::objection;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Step, Tree, Verdict, Witness,
 };
-use orthocert_kernel::no_cube::NoCubeClaim;
+use orthocert_kernel::claim::NoCubeClaim;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::test::Multiplier;
 use serde_json::Value;

@@ -2,7 +2,7 @@
 
 use crate::shown::Shown;
 use orthocert_kernel::certificate::{Certificate, Unreadable, Verdict, FORMAT, MOST_BYTES};
-use orthocert_kernel::check as kernel;
+use orthocert_kernel::{check, rejected};
 use std::fmt;
 
 /// Most characters of a message that quotes the file.
@@ -19,7 +19,7 @@ pub enum Rejected {
     /// Another format or version.
     Format(String),
     /// The claim is not well formed, or the proof does not show it.
-    Kernel(kernel::Rejected),
+    Kernel(rejected::Rejected),
 }
 
 impl fmt::Display for Rejected {
@@ -74,5 +74,5 @@ fn quoted(text: &str) -> String {
 /// # Errors
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<Verdict, Rejected> {
-    kernel::check(certificate).map_err(Rejected::Kernel).map(|()| certificate.verdict)
+    check::check(certificate).map_err(Rejected::Kernel).map(|()| certificate.verdict)
 }

@@ -2,7 +2,7 @@
 
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_checker::{check, read, Rejected};
-use orthocert_kernel::check::MOST_NODES;
+use orthocert_kernel::certificate::MOST_NODES;
 
 const PROTOTYPE: &str = include_str!("../../certificates/orthoglide-prototype.cert.json");
 

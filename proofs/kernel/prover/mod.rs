@@ -6,14 +6,16 @@ mod sampled;
 pub use paving::{write_pair, write_steps};
 pub use sampled::{check_sample, Sampled};
 
-use crate::atlas::{shown, AtlasCell, AtlasClaim};
-use crate::certificate::Evidence;
-use crate::check::Rejected;
-use crate::claim::{MachineClaim, Mechanism, Workspace};
+use crate::atlas::shown;
+
+use crate::certificate::{AtlasCell, Evidence};
+
+use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Workspace};
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::formula::Formula;
 use crate::input::{ClaimError, Input, Value};
+use crate::rejected::Rejected;
 use crate::test::accuracy::Accuracy;
 use crate::work::{Budget, LEAST_BYTES};
 

@@ -1,63 +1,21 @@
 //! Atlases: maps of a box of parameters, which say where in it a claim holds, and where it fails.
 
-use crate::certificate::{Tree, Witness};
-use crate::check::{in_words_or_any_size, tree_holds, Rejected};
-use crate::claim::{MachineClaim, Mechanism, Workspace};
+use crate::certificate::{AtlasCell, Witness};
+use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
 use crate::input::{shape_error, ClaimError};
 use crate::number::Expression;
 use crate::problem::Problem;
+use crate::rejected::Rejected;
 use crate::statement::{machine, requirements, workspace};
+use crate::tree;
 use crate::vary::{vary, Range};
 use crate::witness;
 use crate::work::{self, Budget};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::fmt;
-
-/// "Of the box of parameters, the cells that the proof says are certified have at least the share
-/// `certified`, and those that it says are refuted at least `refuted`. For all values of the parameters
-/// in a certified cell the claim that `machine` becomes with them is true; in a refuted one it is
-/// false."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AtlasClaim {
-    /// One to three.
-    pub parameters: Vec<Parameter>,
-    /// A claim, in whose numbers parameters may be named.
-    pub machine: MachineClaim,
-    /// Not negative.
-    pub certified: Expression,
-    /// Not negative.
-    pub refuted: Expression,
-}
-
-/// A parameter of an atlas.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Parameter {
-    /// By which numbers refer to it.
-    pub name: String,
-    /// Rational.
-    pub min: Expression,
-    /// Rational, and greater.
-    pub max: Expression,
-}
-
-/// A cell of an atlas: a bisection tree of the box of parameters, in preorder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AtlasCell {
-    /// It is halved along this parameter, counted from zero.
-    Split(usize),
-    /// The claim is true for all its values.
-    Certified(Tree),
-    /// The claim is false for all its values. Numbers of the witness may name parameters.
-    Refuted(Witness),
-    /// Nothing is said of it.
-    Undecided,
-}
 
 /// Most parameters of an atlas.
 pub const MOST_PARAMETERS: usize = 3;
@@ -291,11 +249,7 @@ pub(crate) fn shown(
     match cell {
         AtlasCell::Certified(tree) => {
             budget.spend(work::of_tree(&problem, tree))?;
-            in_words_or_any_size(
-                tree.precision,
-                || tree_holds::<i64>(&problem, tree),
-                || tree_holds::<BigInt>(&problem, tree),
-            )
+            tree::check(&problem, tree)
         }
         AtlasCell::Refuted(witness) => {
             let mut witness = claim.witness_over(part, witness).map_err(Rejected::Claim)?;

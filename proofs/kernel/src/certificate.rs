@@ -1,16 +1,14 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
-use crate::atlas::{AtlasCell, AtlasClaim};
-use crate::check::MOST_NODES;
-use crate::claim::MachineClaim;
-use crate::no_cube::NoCubeClaim;
+use crate::claim::{AtlasClaim, MachineClaim, NoCubeClaim, PostulateClaim};
 use crate::number::Expression;
-use crate::postulate::PostulateClaim;
 use crate::test::Multiplier;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 
+/// Most nodes of a tree.
+pub const MOST_NODES: usize = 500_000;
 /// The format that is read and written.
 pub const FORMAT: &str = "orthocert/2";
 /// Most bytes of a certificate.
@@ -192,6 +190,20 @@ pub enum Evidence {
     /// The evidence, at control points ([`crate::control`]) in place of vertices, with the scaled rows of
     /// platforms that turn.
     Control(Box<Evidence>),
+}
+
+/// A cell of an atlas: a bisection tree of the box of parameters, in preorder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtlasCell {
+    /// It is halved along this parameter, counted from zero.
+    Split(usize),
+    /// The claim is true for all its values.
+    Certified(Tree),
+    /// The claim is false for all its values. Numbers of the witness may name parameters.
+    Refuted(Witness),
+    /// Nothing is said of it.
+    Undecided,
 }
 
 /// A corner of the paper's cube.

@@ -350,3 +350,71 @@ pub enum Bound {
     /// Not a number: it holds.
     Holds,
 }
+
+/// "For every machine, and every point `C` of the box that is the workspace of `machine`, the closed
+/// cube of this side with the centre `C` and edges along the axes has a point at which the claim of
+/// `machine` fails."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoCubeClaim {
+    /// The machine, the requirements, and the box of the centres.
+    pub machine: MachineClaim,
+    /// Positive.
+    pub side: Expression,
+}
+
+/// "For every `psi_max` of the set and every Orthoglide with the paper's cube for it: at every point of
+/// the cube, every leg reaches without a serial singularity, and `1/psi_max <= psi_i <= psi_max`."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostulateClaim {
+    /// The set.
+    pub psi_max: PsiMax,
+}
+
+/// A set of `psi_max`, all greater than 1.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum PsiMax {
+    /// Every `psi_max > 1`.
+    Every(Every),
+    /// One, or every one from the one to the other.
+    Of(Quantity),
+}
+
+/// `"all"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Every {
+    /// Every one.
+    #[serde(rename = "all")]
+    All,
+}
+
+/// "Of the box of parameters, the cells that the proof says are certified have at least the share
+/// `certified`, and those that it says are refuted at least `refuted`. For all values of the parameters
+/// in a certified cell the claim that `machine` becomes with them is true; in a refuted one it is
+/// false."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasClaim {
+    /// One to three.
+    pub parameters: Vec<Parameter>,
+    /// A claim, in whose numbers parameters may be named.
+    pub machine: MachineClaim,
+    /// Not negative.
+    pub certified: Expression,
+    /// Not negative.
+    pub refuted: Expression,
+}
+
+/// A parameter of an atlas.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// By which numbers refer to it.
+    pub name: String,
+    /// Rational.
+    pub min: Expression,
+    /// Rational, and greater.
+    pub max: Expression,
+}

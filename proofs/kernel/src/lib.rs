@@ -19,6 +19,9 @@
 //! | [`input`]      | a claim's numbers, enclosed                                      |
 //! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
+//! | [`step`]       | what evidence shows of an obligation on a cell                   |
+//! | [`tree`]       | cells that are halved until all is shown of them                 |
+//! | [`rejected`]   | why a proof is not accepted                                      |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
 //! | [`no_cube`]    | no cube of some side fits                                        |
 //! | [`paving`]     | a box cut into cells within, and off, the region of a claim       |
@@ -56,10 +59,13 @@ pub mod problem;
 #[path = "../prover/mod.rs"]
 pub mod prover;
 pub mod quantity;
+pub mod rejected;
 pub mod slope;
 pub mod source;
 pub mod statement;
+pub mod step;
 pub mod test;
+pub mod tree;
 pub mod trig;
 pub mod vary;
 pub mod witness;

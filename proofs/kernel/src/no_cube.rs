@@ -1,71 +1,48 @@
 //! No cube: of some side, wherever its centre is in a box, none lies where a claim holds.
 
-use crate::arithmetic::Arithmetic as _;
 use crate::certificate::Tree;
-use crate::check::{is_box, walk, Leaf, Rejected};
-use crate::claim::MachineClaim;
-use crate::fixed::{Fixed, Integer, Interval};
+use crate::claim::NoCubeClaim;
+use crate::fixed::Integer;
 use crate::input::{binary, enclosed, narrowed, number_error, positive, shape_error};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
+use crate::rejected::Rejected;
 use crate::statement::{machine, requirements};
-use serde::{Deserialize, Serialize};
+use crate::tree::{self, Theorem, OFFSET_PARTS};
 use std::fmt;
 
-/// "For every machine, and every point `C` of the box that is the workspace of `machine`, the closed
-/// cube of this side with the centre `C` and edges along the axes has a point at which the claim of
-/// `machine` fails."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NoCubeClaim {
-    /// The machine, the requirements, and the box of the centres.
-    pub machine: MachineClaim,
-    /// Positive.
-    pub side: Expression,
+/// A claim, compiled.
+struct NoCube {
+    problem: Problem,
+    /// One of the parts of half the side.
+    part: Expression,
 }
-
-/// Half of the side is divided in so many parts, in which offsets are counted.
-pub const OFFSET_PARTS: i64 = 8;
 
 /// **Lemma (no cube).** If every leaf fails at an offset of at most [`OFFSET_PARTS`] either way, the
 /// claim is true. *Proof.* A centre `C` is in a leaf's cell, and `C + o` is in the cube about it, for
 /// the leaf's offset `o`, as `|o_k| <= side/2`. It is one of the cell's points moved by `o`, at all of
 /// which the claim of the machine fails, for every machine. ∎ With an orientation, a "cube" would be of
 /// coordinates of other kinds too.
-pub(crate) fn holds<Z: Integer>(
-    problem: &Problem,
-    claim: &NoCubeClaim,
-    tree: &Tree,
-) -> Result<(), Rejected> {
-    if !is_box(problem) || claim.machine.orientation.is_some() {
+impl Theorem for NoCube {
+    fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
+        let part = enclosed(&self.part, self.problem.scale, tree.precision);
+        let part = part.and_then(|part| narrowed(&part));
+        let part = part.ok_or_else(|| Rejected::Claim(number_error("side", "a number")))?;
+        tree::prove::<Z>(&self.problem, tree, Some(&part))
+    }
+}
+
+/// Accepts a proof of a claim whose machine is compiled, or says why not.
+pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Result<(), Rejected> {
+    let is_box =
+        problem.inside.is_none() && problem.cube_kappa.is_none() && problem.turned.is_none();
+    if !is_box || claim.machine.orientation.is_some() {
         let expected = "a box of centres, without orientations";
         return Err(Rejected::Claim(shape_error("workspace", expected)));
     }
     positive("side", &claim.side).map_err(Rejected::Claim)?;
     let part = binary(Operator::Div, &claim.side, &Expression::integer(2 * OFFSET_PARTS));
-    let part = enclosed(&part, problem.scale, tree.precision).and_then(|part| narrowed(&part));
-    let part = part.ok_or_else(|| Rejected::Claim(number_error("side", "a number")))?;
-    walk::<Z>(problem, tree, Some(&part), |node, leaf, _| match leaf {
-        Leaf::Fails => Ok(()),
-        Leaf::Holds | Leaf::Open(_) => Err(Rejected::Holds(node)),
-    })
-}
-
-/// A cell's edges moved by an offset in parts of half the side: for each value of the part, every
-/// point `c + lambda h` of the cell is moved to `(c + o) + lambda h`.
-pub(crate) fn moved<Z: Integer>(
-    arithmetic: &Fixed<Z>,
-    edges: Vec<[Interval<Z>; 3]>,
-    offset: &[i64],
-    part: &Interval<Z>,
-) -> Option<Vec<[Interval<Z>; 3]>> {
-    let within = offset.iter().all(|n| (-OFFSET_PARTS..=OFFSET_PARTS).contains(n));
-    let edge = |([centre, range, half], &n): ([Interval<Z>; 3], &i64)| {
-        let by = arithmetic.mul(&arithmetic.integer(n)?, part)?;
-        Some([arithmetic.add(&centre, &by)?, arithmetic.add(&range, &by)?, half])
-    };
-    let shape = within && offset.len() == edges.len();
-    shape.then(|| edges.into_iter().zip(offset).map(edge).collect())?
+    tree::check(&NoCube { problem, part }, tree)
 }
 
 /// What an accepted claim establishes.

@@ -53,44 +53,17 @@
 
 use crate::arithmetic::Enclosure;
 use crate::cell::{evaluate, Cell, Vertex};
-use crate::certificate::{Corner, Evidence, Node, Step, Tree};
-use crate::check::{bisected, Leaf, Rejected, MOST_NODES, MOST_WORK};
-use crate::claim::Quantity;
+use crate::certificate::{Corner, Evidence, Node, Tree};
+use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
 use crate::input::{binary, enclosed, narrowed, number_error, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
+use crate::rejected::Rejected;
 use crate::slope::{Slope, Slopes};
-use serde::{Deserialize, Serialize};
+use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
 use std::fmt;
-
-/// "For every `psi_max` of the set and every Orthoglide with the paper's cube for it: at every point of
-/// the cube, every leg reaches without a serial singularity, and `1/psi_max <= psi_i <= psi_max`."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PostulateClaim {
-    /// The set.
-    pub psi_max: PsiMax,
-}
-
-/// A set of `psi_max`, all greater than 1.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum PsiMax {
-    /// Every `psi_max > 1`.
-    Every(Every),
-    /// One, or every one from the one to the other.
-    Of(Quantity),
-}
-
-/// `"all"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Every {
-    /// Every one.
-    #[serde(rename = "all")]
-    All,
-}
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
 /// Coordinates are `u_y`, `u_z` and `kappa`.
@@ -292,7 +265,7 @@ impl Part {
     }
 }
 
-/// Checks a proof: the trees of all parts, one after the other.
+/// The trees of all parts, one after the other.
 ///
 /// **Mirror.** On a face, a cell on which `u_y >= u_z` throughout needs no proof of its own. *Proof.*
 /// Fix `kappa`. Exchanging `y` and `z` maps the face to itself, `F` to `Pi F Pi^T`, and permutes the
@@ -300,41 +273,32 @@ impl Part {
 /// `F >= 0` are shown otherwise, on all of a closed cell. A point with `u_y > u_z` is the image of one
 /// of those. A point with `u_y = u_z` is a limit of them: as there are finitely many leaves, it lies in
 /// one of theirs. ∎
-pub(crate) fn holds<Z: Integer>(parts: &[Part], tree: &Tree) -> Result<(), Rejected> {
-    let bits = tree.precision;
-    let longest = parts.iter().map(|part| part.tape.ops().len()).max().unwrap_or_default();
-    let work = tree.nodes.len().saturating_mul(2 * longest * (1 + bits as usize / 64));
-    if tree.nodes.len() > MOST_NODES || work > MOST_WORK {
-        return Err(Rejected::Work);
-    }
-    let arithmetic = Fixed::<Z>::new(bits);
-    let mut nodes = tree.nodes.iter().enumerate();
-    for part in parts {
-        let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
-            if node.fails.is_some() || !node.at.is_empty() {
-                return Err(Rejected::Shape(at));
-            }
-            for Step(obligation, evidence) in &node.by {
-                let (node, obligation) = (at, *obligation);
-                match open.get_mut(obligation) {
-                    Some(is_open) if *is_open => *is_open = false,
-                    _ => return Err(Rejected::Repeated { node, obligation }),
+impl Theorem for Vec<Part> {
+    fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
+        let bits = tree.precision;
+        let longest = self.iter().map(|part| part.tape.ops().len()).max().unwrap_or_default();
+        if tree.nodes.len().saturating_mul(2 * longest * (1 + bits as usize / 64)) > MOST_WORK {
+            return Err(Rejected::Work);
+        }
+        let arithmetic = Fixed::<Z>::new(bits);
+        let mut nodes = tree.nodes.iter().enumerate();
+        for part in self {
+            let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
+                if node.fails.is_some() || !node.at.is_empty() {
+                    return Err(Rejected::Shape(at));
                 }
                 let edges = cell.edges().ok_or(Rejected::Shape(at))?;
-                if !part.shows(&arithmetic, &edges, evidence) {
-                    return Err(Rejected::Step { node, obligation });
-                }
-            }
-            Ok(())
-        };
-        let root = part.root(bits).map_err(Rejected::Claim)?;
-        bisected(&mut nodes, root, 1, step, &mut |node, leaf, _| match leaf {
-            Leaf::Holds => Ok(()),
-            Leaf::Open(obligation) => Err(Rejected::Open { node, obligation }),
-            Leaf::Fails => Err(Rejected::Shape(node)),
-        })?;
+                discharge(at, node, open, |_, evidence| part.shows(&arithmetic, &edges, evidence))
+            };
+            bisect(&mut nodes, part.root(bits).map_err(Rejected::Claim)?, 1, false, step)?;
+        }
+        nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
     }
-    nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
+}
+
+/// Accepts a proof, or says why not.
+pub(crate) fn check(claim: &PostulateClaim, tree: &Tree) -> Result<(), Rejected> {
+    tree::check(&parts(claim).map_err(Rejected::Claim)?, tree)
 }
 
 /// What an accepted claim establishes.

@@ -6,11 +6,11 @@
 //! it.
 
 use crate::certificate::{Evidence, Node, Tree};
-use crate::check::Rejected;
 use crate::formula::Op;
 use crate::input::{Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
+use crate::rejected::Rejected;
 use crate::slope::MOST_COORDINATES;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.

@@ -1,4 +1,4 @@
-(** * Evidence that is not given in a paving: what proofs/kernel/src/check/own.rs finds
+(** * Evidence that is not given in a paving: what proofs/kernel/src/step/own.rs finds
 
     Nothing rests on it: any matrix is admissible, and any direction ([Paving.read_node] is
     sound with every [finder]). *)

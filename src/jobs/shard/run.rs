@@ -16,7 +16,7 @@ use crate::search::paving::Cancelled;
 use crate::search::solver;
 use crate::search::solver::search::Outcome;
 use crate::search::{Budget, Control, Stop};
-use orthocert_kernel::atlas::AtlasCell;
+use orthocert_kernel::certificate::AtlasCell;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, OpenOptions};
 use std::io::Write;

@@ -4,7 +4,8 @@ use crate::design::{AtlasDesign, Mark, Parameter};
 use crate::exact::Exact;
 use crate::report::atlas::Standing;
 use num_rational::BigRational;
-use orthocert_kernel::atlas::{walk, AtlasCell};
+use orthocert_kernel::atlas::walk;
+use orthocert_kernel::certificate::AtlasCell;
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;
 

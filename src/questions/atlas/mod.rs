@@ -25,8 +25,9 @@ use num_rational::BigRational;
 use num_traits::One;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::Rejected;
-use orthocert_kernel::atlas::{check_part, walk, AtlasCell, AtlasClaim};
-use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::atlas::{check_part, walk};
+use orthocert_kernel::certificate::{AtlasCell, Claim};
+use orthocert_kernel::claim::AtlasClaim;
 use orthocert_kernel::number::{Expression, Operator};
 use rayon::prelude::*;
 

@@ -17,7 +17,9 @@ use crate::search::{Budget, Control, Stop};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::atlas::{halves, walk, AtlasCell, AtlasClaim, Part};
+use orthocert_kernel::atlas::{halves, walk, Part};
+use orthocert_kernel::certificate::AtlasCell;
+use orthocert_kernel::claim::AtlasClaim;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -8,10 +8,10 @@ use crate::search::solver::{approximate, confirmed, Answer, PRECISIONS};
 use crate::search::{Budget, Control, Stop};
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::certificate::{Claim, Node, Tree};
-use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::no_cube::{NoCubeClaim, OFFSET_PARTS};
+use orthocert_kernel::claim::{MachineClaim, NoCubeClaim};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::tree::OFFSET_PARTS;
 
 /// A precision at which most exclusions are checked in machine words.
 const IN_WORDS: u32 = 40;

@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::search::solver;
 use crate::search::{Budget, Control};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
+use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax};
 use std::sync::atomic::AtomicBool;
 
 /// Far more than any of the proofs needs.

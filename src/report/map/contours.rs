@@ -6,7 +6,8 @@ use crate::report::page::contour::{Field, Path};
 use crate::search::solver::margin::margin;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use orthocert_kernel::atlas::{walk, AtlasCell};
+use orthocert_kernel::atlas::walk;
+use orthocert_kernel::certificate::AtlasCell;
 use rayon::prelude::*;
 
 /// Parts of each range at whose ends margins are sampled.

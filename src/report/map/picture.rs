@@ -10,7 +10,8 @@ use crate::exact::Exact;
 use crate::report::escape::xml;
 use crate::report::page::svg::path_data;
 use num_traits::ToPrimitive;
-use orthocert_kernel::atlas::{walk, AtlasCell, Part};
+use orthocert_kernel::atlas::{walk, Part};
+use orthocert_kernel::certificate::AtlasCell;
 use std::fmt::Write;
 
 /// Side of a map, in pixels.

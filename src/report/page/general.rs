@@ -17,8 +17,9 @@ use crate::search::solver::approximate;
 use crate::search::solver::sample::At;
 use crate::search::solver::value::{coordinates, in_length};
 use orthocert_kernel::certificate as kernel;
-use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
-use orthocert_kernel::no_cube::NoCubeClaim;
+use orthocert_kernel::claim::{
+    Bound, MachineClaim, Mechanism, NoCubeClaim, Requirement, Workspace,
+};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use std::rc::Rc;

@@ -9,10 +9,9 @@ use super::svg::Picture;
 use crate::exact::decimal::significant;
 use nalgebra::Matrix3;
 use orthocert_kernel::claim::{
-    Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Workspace,
+    Bound, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Requirement, Workspace,
 };
 use orthocert_kernel::number::{Expression, Operator};
-use orthocert_kernel::postulate::{PostulateClaim, PsiMax};
 use orthocert_kernel::prover::written_out;
 use std::array::from_fn;
 use std::collections::BTreeMap;

@@ -13,8 +13,8 @@ use crate::search::accepted::trees as kernel_trees;
 use crate::search::solver::approximate;
 use orthocert_checker::certificate::Proof;
 use orthocert_kernel::certificate as kernel;
-use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::postulate::{parts, Part, PostulateClaim};
+use orthocert_kernel::claim::{MachineClaim, PostulateClaim};
+use orthocert_kernel::postulate::{parts, Part};
 use std::rc::Rc;
 
 /// What is shown.

@@ -9,8 +9,7 @@ use crate::exact::decimal::grouped;
 use crate::report::escape::xml;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::certificate::Claim;
-use orthocert_kernel::claim::Mechanism;
-use orthocert_kernel::no_cube::NoCubeClaim;
+use orthocert_kernel::claim::{Mechanism, NoCubeClaim};
 use std::fmt::Write;
 
 impl Page<'_> {

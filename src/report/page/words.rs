@@ -7,10 +7,9 @@ use crate::exact::decimal::significant;
 use crate::report::escape::xml;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::statement;
-use orthocert_kernel::atlas::Parameter;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim as kernel;
-use orthocert_kernel::postulate::{Every, PsiMax};
+use orthocert_kernel::claim::{Every, Parameter, PsiMax};
 use std::fmt::Write;
 
 /// Digits of numbers that are computed for people.

@@ -8,13 +8,13 @@ use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Evidence, Failure, Node, Step};
-use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
+use orthocert_kernel::step::{Checker, Place};
 use orthocert_kernel::test::accuracy::{self, Accuracy};
 use orthocert_kernel::test::{self, Multiplier, Row};
 

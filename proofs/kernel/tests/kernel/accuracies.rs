@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{Evidence, Failure, Proof, Step};
-use orthocert_kernel::check::{check, Checker, Place};
+use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity};
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::{Formula, Op};
@@ -22,6 +22,7 @@ use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::step::{Checker, Place};
 use orthocert_kernel::test::accuracy::{near, spread, Accuracy};
 use orthocert_kernel::test::{Multiplier, Over};
 

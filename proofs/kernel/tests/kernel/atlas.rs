@@ -1,14 +1,16 @@
 //! Maps of parameters: certified, refuted and undecided cells, and what is rejected.
 
 use crate::prover::Prover;
-use orthocert_kernel::atlas::{check_part, statement, walk, AtlasCell, AtlasClaim, Part};
+use orthocert_kernel::atlas::{check_part, statement, walk, Part};
 use orthocert_kernel::certificate::{
-    Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+    AtlasCell, Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
-use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::check::check;
+use orthocert_kernel::claim::AtlasClaim;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::prover::check_cell;
+use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::witness::WitnessError;
 
 fn number(text: &str) -> Expression {

@@ -2,8 +2,9 @@
 
 use crate::prover::{certificate, certify};
 use orthocert_kernel::certificate::{Certificate, Evidence, Node, Proof, Step, Tree, Verdict};
-use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::check::check;
 use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::test::Multiplier;
 
 pub fn claim(text: &str) -> MachineClaim {

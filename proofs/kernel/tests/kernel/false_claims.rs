@@ -4,10 +4,10 @@ use crate::arithmetic::Random;
 use crate::prover::{Prover, BITS};
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::Evidence;
-use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::step::{Checker, Place};
 use orthocert_kernel::test::{Multiplier, Over};
 
 /// One entry changed by up to a part of itself, or by a few units.

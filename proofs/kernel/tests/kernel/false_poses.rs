@@ -9,11 +9,11 @@ use crate::turning::{planar, spatial, spherical, strut};
 use nalgebra::DMatrix;
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::Evidence;
-use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::step::{Checker, Place};
 use orthocert_kernel::test::{Multiplier, Over};
 
 const PLACES: u32 = 20;

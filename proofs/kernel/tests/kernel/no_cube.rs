@@ -7,11 +7,14 @@ use orthocert_kernel::certificate::{
     Certificate, Claim, Evidence, Failure, Node, Proof, Provenance, Step, Tree, Verdict, Witness,
     FORMAT,
 };
-use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::check::check;
+use orthocert_kernel::claim::NoCubeClaim;
 use orthocert_kernel::formula::Op;
-use orthocert_kernel::no_cube::{statement, NoCubeClaim, OFFSET_PARTS};
+use orthocert_kernel::no_cube::statement;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::rejected::Rejected;
+use orthocert_kernel::tree::OFFSET_PARTS;
 use orthocert_kernel::witness::{self, WitnessError};
 
 /// The Orthoglide with `L = 1`, `1/2 <= psi <= 2`, and centres in `[low, high]^3`.

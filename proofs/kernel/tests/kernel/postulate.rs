@@ -8,9 +8,11 @@ use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Provenance, Step, Tree, Verdict,
     Witness, FORMAT,
 };
-use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::check::check;
+use orthocert_kernel::claim::PostulateClaim;
 use orthocert_kernel::fixed::Interval;
-use orthocert_kernel::postulate::{parts, statement, Part, PostulateClaim};
+use orthocert_kernel::postulate::{parts, statement, Part};
+use orthocert_kernel::rejected::Rejected;
 use std::cell::RefCell;
 use std::collections::HashMap;
 

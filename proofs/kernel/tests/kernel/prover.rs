@@ -8,7 +8,6 @@ use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Provenance, Step, Tree, Verdict, FORMAT,
 };
-use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op, Values};
@@ -16,6 +15,7 @@ use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
+use orthocert_kernel::step::{Checker, Place};
 use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Row};
 

@@ -7,11 +7,12 @@ use num_bigint::BigInt;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Proof, Step, Tree, Unreadable, Verdict,
 };
-use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::check::check;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::{Op, Tape};
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::slope::Slopes;
 use orthocert_kernel::test::{sigma_min, Multiplier, Over, Row};
 

@@ -9,8 +9,9 @@ use super::ExportError;
 use num_bigint::BigInt;
 use num_traits::{One, Signed};
 use orthocert_kernel::certificate::{Corner, Tree};
+use orthocert_kernel::claim::{PostulateClaim, PsiMax};
 use orthocert_kernel::number::{Expression, Operator};
-use orthocert_kernel::postulate::{parts, PostulateClaim, PsiMax};
+use orthocert_kernel::postulate::parts;
 use std::fmt::Write;
 
 /// The file that states the postulate for the claim's `psi_max` and proves it by the trees. Which

@@ -13,7 +13,7 @@ impl<E: Enclosure> Checker<'_, E> {
     /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
     /// formulas with their derivatives once a node, and for each step those of one machine, and at each vertex or
     /// control point all changes.
-    pub(super) fn work_of(&self, tree: &Tree) -> usize {
+    pub(crate) fn work_of(&self, tree: &Tree) -> usize {
         let (m, signs) = (self.problem.dimension(), |test: &Test| match test {
             Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
             _ => 0,

@@ -1,0 +1,37 @@
+//! What a certificate has to be to be accepted.
+
+use crate::certificate::{Certificate, Claim, Proof, Verdict};
+use crate::claim::MachineClaim;
+use crate::problem::Problem;
+use crate::rejected::Rejected;
+use crate::{atlas, no_cube, postulate, tree, witness};
+
+/// Accepts a certificate, or says why not.
+///
+/// # Errors
+/// If its proof does not show what its verdict says of its claim.
+pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
+    use Verdict::{Certified, Refuted};
+    match (&certificate.claim, certificate.verdict, &certificate.proof) {
+        (Claim::Machine(claim), Certified, Proof::Tree(tree)) => {
+            let problem = compiled(claim)?;
+            let is_apart = tree.takes_tolerances_apart();
+            tree::check(&if is_apart { problem.with_derivatives() } else { problem }, tree)
+        }
+        (Claim::Machine(claim), Refuted, Proof::Witness(witness)) => {
+            witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)
+        }
+        (Claim::NoCube(claim), Certified, Proof::Tree(tree)) => {
+            no_cube::check(claim, compiled(&claim.machine)?, tree)
+        }
+        (Claim::Postulate(claim), Certified, Proof::Tree(tree)) => postulate::check(claim, tree),
+        (Claim::Atlas(claim), Certified, Proof::Atlas(cells)) => {
+            atlas::check_part(claim, cells, |_| true)
+        }
+        _ => Err(Rejected::Verdict),
+    }
+}
+
+fn compiled(claim: &MachineClaim) -> Result<Problem, Rejected> {
+    Problem::new(claim).map_err(Rejected::Claim)
+}

@@ -1,0 +1,302 @@
+//! Steps: what evidence shows of an obligation on a cell.
+
+mod corner;
+mod inside;
+mod own;
+mod tolerances;
+mod work;
+
+use crate::arithmetic::{Arithmetic as _, Enclosure};
+use crate::cell::Vertex;
+use crate::certificate::Evidence;
+use crate::control::Control;
+use crate::formula::{Formula, Op, Values};
+use crate::problem::Problem;
+use crate::quantity::Test;
+use crate::slope::{Slope, Slopes};
+use crate::test::accuracy::{accuracy, near, Accuracy};
+use crate::test::apart::apart;
+use crate::test::curvature::curvature;
+use crate::test::solve::solve;
+use crate::test::{
+    at_least, at_least_there, full_rank, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES,
+};
+use tolerances::{are_for, is_of_vertices};
+
+pub use tolerances::Place;
+
+/// Checks steps; in another arithmetic than [`Fixed`], proposes them.
+pub struct Checker<'a, E: Enclosure> {
+    problem: &'a Problem,
+    arithmetic: &'a E,
+    /// What it was given.
+    pub parameters: Vec<E::Number>,
+    /// Of an atlas, the parameters that have slopes in its names.
+    varying: Vec<Option<Slope<E::Number>>>,
+    /// `q_1` and `q_2` of the paper's cube.
+    tight: Option<[E::Number; 2]>,
+    rows: Vec<Row<Formula>>,
+    divided: Vec<Row<Formula>>,
+    /// Of platforms that turn, if all legs have them.
+    scaled: Vec<Row<Formula>>,
+    /// One for each obligation of platforms that turn.
+    controls: Vec<(Test, Control)>,
+    /// The same with derivatives by tolerances, where these are known.
+    derived: Vec<(Test, Control)>,
+    chords: Option<Multiplier>,
+    /// What own evidence is made of; none where that is all.
+    needed: Option<Vec<bool>>,
+    /// The formulas without coordinates, if no parameter has slopes.
+    constant: Values<Slope<E::Number>>,
+}
+
+impl<'a, E: Enclosure> Checker<'a, E> {
+    /// For the steps of a problem, given its parameters and the coordinates of its tight corners.
+    pub fn new(
+        problem: &'a Problem,
+        arithmetic: &'a E,
+        parameters: Vec<E::Number>,
+        tight: Option<[E::Number; 2]>,
+    ) -> Self {
+        let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
+        let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
+        let scaled = problem.scaled();
+        let controls = problem.controls(&scaled, None);
+        let derived = problem.derived.as_ref();
+        let derived = derived.map_or_else(Vec::new, |own| problem.controls(&scaled, Some(own)));
+        let needed = own::needed(problem);
+        let chords = None;
+        let mut checker = Checker {
+            problem,
+            arithmetic,
+            parameters,
+            varying: Vec::new(),
+            tight,
+            rows,
+            divided,
+            scaled,
+            controls,
+            derived,
+            chords,
+            needed,
+            constant: Values::default(),
+        };
+        checker.constant = checker.values(None, &[]);
+        checker
+    }
+
+    /// With the one `Y` of a tree.
+    #[must_use]
+    pub fn with_chords(self, chords: Option<Multiplier>) -> Self {
+        Checker { chords, ..self }
+    }
+
+    /// With parameters whose slopes in the names of an atlas are known.
+    ///
+    /// **Lemma (names).** Let names be coordinates as those of the workspace are: a cell is then one of
+    /// points and values, and the lemmas of slopes and vertices hold of it. What a test shows at the
+    /// vertices holds at each point for the machine of each value, so of each machine at all points: no
+    /// test compares machines, and what is of a whole tree (`Y` of chords) is the same for all values. ∎
+    /// The workspace's own inequality is concave for each machine, not in names (`radius^2`): see the
+    /// tangent.
+    #[must_use]
+    pub fn with_varying(self, varying: Vec<Option<Slope<E::Number>>>) -> Self {
+        let is_varied = varying.iter().any(Option::is_some);
+        let constant = if is_varied { Values::default() } else { self.constant };
+        Checker { varying, constant, ..self }
+    }
+
+    /// The arithmetic of slopes in `m` coordinates, and in names.
+    pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
+        Slopes::new(self.arithmetic, m + self.problem.names.len())
+    }
+
+    /// The formulas over a cell.
+    pub fn evaluate(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
+        self.values(None, edges)
+    }
+
+    /// The same of the entries that are needed alone, where it is said which.
+    fn values(
+        &self,
+        needed: Option<&[bool]>,
+        edges: &[[E::Number; 3]],
+    ) -> Values<Slope<E::Number>> {
+        let slopes = self.slopes(edges.len());
+        self.problem.tape.run_parts(&slopes, needed, &self.constant, |op| match op {
+            Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
+            Op::Parameter(j) => match self.varying.get(j) {
+                Some(Some(slope)) => Some(slope.clone()),
+                _ => slopes.constant(self.parameters.get(j)?.clone()),
+            },
+            _ => None,
+        })
+    }
+
+    /// Whether the evidence shows that a test holds on a cell.
+    pub fn shows(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Test,
+        evidence: &Evidence,
+    ) -> bool {
+        let constant = |f: &Formula| {
+            let f = *f;
+            move |_| over.of(f).map(|f| f.range.clone())
+        };
+        let scaled = |f: &Formula| {
+            let f = *f;
+            move |v| self.scaled(over, over.of(f)?.range.clone(), v)
+        };
+        let rows = if over.controls.is_some() { &self.scaled } else { &self.rows };
+        match (test, evidence) {
+            (test, Evidence::Control(evidence)) => {
+                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
+                // Of a part, control points are not known.
+                over.slopes.part.is_none()
+                    && self.at_controls(over, place, test, then) == Some(true)
+            }
+            (test, Evidence::Turned(evidence, multiple, places)) => {
+                use Evidence::{Control, Corner, Turned};
+                let plain = !matches!(**evidence, Turned(..) | Control(_) | Corner(_));
+                let turned = self.turned(over, (*multiple, *places));
+                plain && self.shows_less(over, place, test, evidence, turned)
+            }
+            (test, Evidence::Inside(evidence, multiple, places)) => {
+                use Evidence::{Control, Corner, Inside, Turned};
+                let plain = !matches!(**evidence, Inside(..) | Turned(..) | Control(_) | Corner(_));
+                let inside = self.inside(over, place, (*multiple, *places));
+                plain && self.shows_less(over, place, test, evidence, inside)
+            }
+            (test, Evidence::Tolerances(evidence, ends, directions)) => {
+                let plain =
+                    is_of_vertices(test, evidence) && are_for(directions, test, place.edges.len());
+                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
+                plain && self.apart(over, place, (ends, directions), then) == Some(true)
+            }
+            (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
+                let zero = self.problem.tape.op(*kappa) == Op::Integer(0);
+                zero && self.is_defined(over) && full_rank(over, rows, y)
+            }
+            (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
+                self.is_defined(over) && sigma_min(over, rows, &scaled(kappa), y)
+            }
+            (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, rows, &scaled(k)),
+            (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
+                self.conditioning(over, rows, *c, (y, mu))
+            }
+            (Test::OneToOne(rows), Evidence::Chords) => {
+                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
+            }
+            (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
+                at_least_there(over, *f)
+            }
+            (Test::Solve(test), Evidence::Lower(y)) => {
+                let weight = |v| self.scaled(over, self.arithmetic.integer(1)?, v);
+                solve(over, rows, test, &weight, y)
+            }
+            (Test::Least(rows, kappa), Evidence::Lower(y)) => {
+                sigma_min(over, rows, &|v| over.at(*kappa, v), y)
+            }
+            (Test::Greatest(rows, k), Evidence::Test) => {
+                sigma_max(over, rows, &|v| over.least_at(*k, v))
+            }
+            (Test::Accuracy(test), Evidence::Accuracy(y, kappa, p)) => {
+                self.accuracy(over, place, test, (y, *kappa, *p)).unwrap_or(false)
+            }
+            // What follows knows of vertices alone.
+            _ if over.controls.is_some() => false,
+            (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
+                self.is_defined(over) && sigma_min(over, &self.divided, &constant(kappa), y)
+            }
+            (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
+            (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
+            (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
+            (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
+            (Test::Curvature(test), Evidence::Test) => curvature(over, test),
+            (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
+            (Test::AtLeast(f), Evidence::Test) => {
+                over.own(*f).is_some_and(|own| at_least(over, own, &[(*f, false)]))
+            }
+            (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
+                let negative = *evidence == Evidence::Negative;
+                let rest = || {
+                    let (f, b) = (over.own(*f)?, over.own(*b)?);
+                    match negative {
+                        true => over.slopes.neg(&over.slopes.add(f, b)?),
+                        false => over.slopes.sub(f, b),
+                    }
+                };
+                let parts = [(*f, negative), (*b, true)];
+                rest().is_some_and(|rest| at_least(over, &rest, &parts))
+            }
+            _ => false,
+        }
+    }
+
+    /// A bound on squares, of the scaled rows times their weight.
+    fn scaled(&self, over: &Over<'_, E>, bound: E::Number, v: Vertex) -> Option<E::Number> {
+        match over.controls {
+            None => Some(bound),
+            Some(_) => self.arithmetic.mul(&bound, &over.at(self.problem.weight?, v)?),
+        }
+    }
+
+    /// The test of accuracy, with the formulas near the cell.
+    fn accuracy(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Accuracy,
+        evidence: (&Multiplier, i64, u32),
+    ) -> Option<bool> {
+        let (tape, slopes) = (&self.problem.tape, over.slopes);
+        let of = |f| over.of(f).map(|f| f.range.clone());
+        let values = near(tape, &self.parameters, slopes, place.edges, test, of)?;
+        let far = Over::new(slopes, &values);
+        Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
+    }
+
+    /// Whether a user's formulas are defined on all of the cell, used or not.
+    fn is_defined(&self, over: &Over<'_, E>) -> bool {
+        self.problem.partial.iter().all(|&f| over.of(f).is_some())
+    }
+
+    /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:
+    /// `sigma_min^2 >= mu`, `sigma_max^2 <= c^2 mu` for the same convex combination `mu` of the `mu_v`.
+    /// At control points `mu_v = mu_0 w_v + sum_k t_vk mu_k`, where `t_vk` in `{-1, 0, 1}` is the place of the
+    /// coordinate's node between the ends of its range, and `w sigma_min^2 >= mu`, `w sigma_max^2 <= c^2 mu`
+    /// for the same convex combination: any other `mu_v` would do.
+    fn conditioning(
+        &self,
+        over: &Over<'_, E>,
+        rows: &[Row<Formula>],
+        c_squared: Formula,
+        (y, mu): (&Multiplier, &[i64]),
+    ) -> bool {
+        let (e, terms) = (self.arithmetic, self.problem.dimension());
+        let Some((&first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
+            return false;
+        };
+        let least = |v: Vertex| {
+            let term = |sum: i64, (k, &mu): (usize, &i64)| match mu {
+                0 => Some(sum),
+                mu => sum.checked_add(mu.checked_mul(over.place(k, v)?)?),
+            };
+            let number = |n| e.dyadic(n, y.places, &e.integer(1)?);
+            match over.controls {
+                None => number(rest.iter().enumerate().try_fold(first, term).filter(|&n| n > 0)?),
+                Some(_) => {
+                    let own = self.scaled(over, number(first)?, v)?;
+                    let mu = e.add(&own, &number(rest.iter().enumerate().try_fold(0, term)?)?)?;
+                    e.is_positive(&mu).then_some(mu)
+                }
+            }
+        };
+        let greatest = |v| e.mul(&over.of(c_squared)?.range, &least(v)?);
+        y.places < MOST_PLACES
+            && sigma_min(over, rows, &least, y)
+            && sigma_max(over, rows, &greatest)
+    }
+}
