@@ -8,6 +8,7 @@ use orthocert_checker::certificate::Certificate;
 use orthocert_checker::{read, Rejected};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::document::Unreadable;
 use orthocert_kernel::input::ClaimError;
 use std::time::Duration;
 
@@ -32,11 +33,12 @@ pub fn recalled(
 /// # Errors
 /// If it does not.
 pub fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
-    let text = certificate.to_text().map_err(|error| Rejected::Syntax(error.to_string()))?;
+    let malformed = |why: String| Rejected::Unreadable(Unreadable::Malformed(why));
+    let text = certificate.to_text().map_err(|error| malformed(error.to_string()))?;
     if read(text.as_bytes())? == *certificate {
         Ok(text)
     } else {
-        Err(Rejected::Syntax("it does not read back as it was written".to_owned()))
+        Err(malformed("it does not read back as it was written".to_owned()))
     }
 }
 

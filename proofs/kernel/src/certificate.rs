@@ -1,6 +1,7 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
 use crate::claim::{AtlasClaim, MachineClaim, NoCubeClaim, PostulateClaim};
+use crate::document::{read, written, Unreadable};
 use crate::number::Expression;
 use crate::test::Multiplier;
 use serde::de::{Error as _, SeqAccess, Visitor};
@@ -265,72 +266,36 @@ pub const MOST_LABEL: usize = 64;
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// A program.
+    #[serde(deserialize_with = "label")]
     pub tool: String,
     /// Its version.
+    #[serde(deserialize_with = "label")]
     pub version: String,
 }
 
-/// Why a text is no certificate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unreadable {
-    /// Longer than [`MOST_BYTES`].
-    TooLong(usize),
-    /// Not of the shape of a certificate.
-    Malformed(String),
-    /// Of another format.
-    Format(String),
-    /// Its certificate prints another text.
-    NotCanonical {
-        /// The first byte that differs.
-        at: usize,
-    },
+fn label<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let text = String::deserialize(from)?;
+    let is_label = text.bytes().all(|b| b == b' ' || b.is_ascii_graphic());
+    match is_label && text.len() <= MOST_LABEL {
+        true => Ok(text),
+        false => Err(D::Error::custom("provenance: a name of printable ASCII")),
+    }
 }
 
 impl Certificate {
-    /// The text of a certificate: JSON without blanks, keys in their order, a line feed after it.
+    /// Its text.
     ///
     /// # Errors
     /// Never for what [`Certificate::read`] gave.
     pub fn to_text(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string(self).map(|text| text + "\n")
+        written(self)
     }
 
     /// The certificate with this text.
     ///
-    /// Whatever a JSON reader lets pass (a key twice, in another order, or of no meaning; a number
-    /// written otherwise; blanks) is refused, since the certificate that is checked prints otherwise.
-    ///
     /// # Errors
-    /// If it is not what the certificate prints.
-    pub fn read(text: &str) -> Result<Self, Unreadable> {
-        #[derive(Deserialize)]
-        struct Format {
-            format: String,
-        }
-        if text.len() > MOST_BYTES {
-            return Err(Unreadable::TooLong(text.len()));
-        }
-        let malformed = |e: serde_json::Error| Unreadable::Malformed(e.to_string());
-        let Format { format } = serde_json::from_str(text).map_err(malformed)?;
-        if format != FORMAT {
-            return Err(Unreadable::Format(format));
-        }
-        let certificate: Certificate = serde_json::from_str(text).map_err(malformed)?;
-        let is_label = |text: &str| {
-            text.len() <= MOST_LABEL && text.bytes().all(|b| b == b' ' || b.is_ascii_graphic())
-        };
-        let Provenance { tool, version } = &certificate.provenance;
-        if !is_label(tool) || !is_label(version) {
-            return Err(Unreadable::Malformed("provenance: a name of printable ASCII".to_owned()));
-        }
-        let printed = certificate.to_text().map_err(malformed)?;
-        let differs = printed.bytes().zip(text.bytes()).position(|(a, b)| a != b);
-        match differs {
-            None if printed.len() == text.len() => Ok(certificate),
-            _ => {
-                let at = differs.unwrap_or(printed.len().min(text.len()));
-                Err(Unreadable::NotCanonical { at })
-            }
-        }
+    /// If there is none.
+    pub fn read(text: &(impl AsRef<[u8]> + ?Sized)) -> Result<Self, Unreadable> {
+        read(text.as_ref(), FORMAT, MOST_BYTES)
     }
 }

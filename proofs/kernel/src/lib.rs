@@ -18,6 +18,7 @@
 //! | [`quantity`]   | the table of quantities that a claim may bound                   |
 //! | [`input`]      | a claim's numbers, enclosed                                      |
 //! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
+//! | [`document`]   | texts of which there is one for each value                       |
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`step`]       | what evidence shows of an obligation on a cell                   |
 //! | [`tree`]       | cells that are halved until all is shown of them                 |
@@ -45,6 +46,7 @@ mod compile;
 pub mod control;
 pub mod cube;
 pub mod definite;
+pub mod document;
 pub mod fixed;
 pub mod formula;
 pub mod input;

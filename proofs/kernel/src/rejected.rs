@@ -2,29 +2,36 @@
 
 use crate::input::ClaimError;
 use crate::witness::WitnessError;
-use std::fmt;
+use thiserror::Error;
 
-/// Why a certificate is not accepted.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Why a certificate is not accepted. Nodes and cells are counted from zero.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Rejected {
     /// The claim is not well formed.
+    #[error("the claim is not well formed: {0}")]
     Claim(ClaimError),
     /// The verdict and the proof do not go together.
+    #[error("verdict and proof do not go together")]
     Verdict,
     /// The precision is not admissible.
+    #[error("a precision of {0} bits is not admissible")]
     Precision(u32),
     /// The tree has too many nodes, too few, or cannot be split as it says.
+    #[error("node {0}: the tree is not complete there")]
     Shape(usize),
     /// The tree has more nodes, or asks for more work, than is admissible.
+    #[error("the proof is longer than is admissible")]
     Work,
     /// A step does not show what it says.
+    #[error("node {node}: obligation {obligation} is not certainly met on the cell")]
     Step {
-        /// The node, counted from zero.
+        /// The node.
         node: usize,
         /// The obligation.
         obligation: usize,
     },
     /// An obligation that is discharged already, or that there is not.
+    #[error("node {node}: obligation {obligation} is not open")]
     Repeated {
         /// The node.
         node: usize,
@@ -32,6 +39,7 @@ pub enum Rejected {
         obligation: usize,
     },
     /// A leaf on which an obligation is not discharged.
+    #[error("node {node}: obligation {obligation} is not discharged")]
     Open {
         /// The node.
         node: usize,
@@ -39,40 +47,15 @@ pub enum Rejected {
         obligation: usize,
     },
     /// A leaf on which the claim does not certainly fail as it says.
+    #[error("node {0}: it does not certainly fail throughout")]
     Holds(usize),
     /// The shares of an atlas are not those of its cells.
+    #[error("the cells do not have the shares that are claimed")]
     Shares,
-    /// Of an atlas, a cell, counted from zero, and why it is not as it says.
+    /// Of an atlas, a cell, and why it is not as it says.
+    #[error("cell {0}: {1}")]
     Cell(usize, Box<Rejected>),
     /// The witness shows nothing.
+    #[error("the witness shows nothing: {0}")]
     Witness(WitnessError),
 }
-
-impl fmt::Display for Rejected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Rejected::Claim(e) => write!(f, "the claim is not well formed: {e}"),
-            Rejected::Verdict => write!(f, "verdict and proof do not go together"),
-            Rejected::Precision(bits) => write!(f, "a precision of {bits} bits is not admissible"),
-            Rejected::Shape(node) => write!(f, "node {node}: the tree is not complete there"),
-            Rejected::Work => write!(f, "the proof is longer than is admissible"),
-            Rejected::Step { node, obligation } => {
-                write!(f, "node {node}: obligation {obligation} is not certainly met on the cell")
-            }
-            Rejected::Repeated { node, obligation } => {
-                write!(f, "node {node}: obligation {obligation} is not open")
-            }
-            Rejected::Open { node, obligation } => {
-                write!(f, "node {node}: obligation {obligation} is not discharged")
-            }
-            Rejected::Holds(node) => {
-                write!(f, "node {node}: it does not certainly fail throughout")
-            }
-            Rejected::Shares => write!(f, "the cells do not have the shares that are claimed"),
-            Rejected::Cell(cell, why) => write!(f, "cell {cell}: {why}"),
-            Rejected::Witness(e) => write!(f, "the witness shows nothing: {e}"),
-        }
-    }
-}
-
-impl std::error::Error for Rejected {}

@@ -14,7 +14,7 @@ use crate::search::solver::search::Boxes;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::input::Value;
 use orthocert_kernel::paving::{
-    bit, discharged, Axis, Cell, Edge, Item, Judge, Kind, Outer, Packed, Step, Subject, AT_BITS,
+    bit, discharged, Axis, Cell, Edge, Item, Judge, Kind, Outer, Step, Subject, AT_BITS,
     MAX_AXIS_LEVEL, MOST_OTHERS,
 };
 
@@ -81,7 +81,7 @@ impl<'a> ForAll<'a> {
                 None => between(edge, ranges[k]),
             };
         }
-        for (&k, edge) in others.iter().zip(cell.others.map(Packed::edge)) {
+        for (&k, edge) in others.iter().zip(cell.others) {
             ranges[k] = between(&edge, ranges[k]);
         }
         ranges

@@ -9,7 +9,6 @@
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::slope::MOST_COORDINATES;
 use crate::{arithmetic::Arithmetic, arithmetic::Enclosure};
-use std::fmt;
 
 /// Deepest bisection of one axis: three of them are [`SHARE_BITS`](super::SHARE_BITS).
 pub const MAX_AXIS_LEVEL: u32 = 40;
@@ -75,50 +74,39 @@ impl Edge {
     }
 }
 
-/// An edge in one word, `64 index + level`, which tells edges apart: levels are less than 64.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Packed(u64);
-
-impl Packed {
-    /// The edge.
-    pub fn edge(self) -> Edge {
-        Edge { index: self.0 >> 6, level: (self.0 & 63) as u32 }
-    }
-}
-
 /// A box of the bisection tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cell {
     /// The edges along x, y and z: of the coordinates that are paved.
     pub edges: [Edge; 3],
     /// The edges of the other coordinates.
-    pub others: [Packed; MOST_OTHERS],
+    pub others: [Edge; MOST_OTHERS],
 }
 
 impl Cell {
     /// The whole box.
-    pub const ROOT: Cell = Cell { edges: [Edge::WHOLE; 3], others: [Packed(0); MOST_OTHERS] };
+    pub const ROOT: Cell = Cell { edges: [Edge::WHOLE; 3], others: [Edge::WHOLE; MOST_OTHERS] };
 
     /// The lower and the upper half along `axis`; `None` beyond [`MAX_AXIS_LEVEL`].
     ///
     /// `[i, i+1] / 2^l = [2i, 2i+1] / 2^(l+1) u [2i+1, 2i+2] / 2^(l+1)`.
     pub fn halves(&self, axis: Axis) -> Option<(Cell, Cell)> {
-        self.halved(self.edges[axis.index()], |cell, half| cell.edges[axis.index()] = half)
+        self.halved(|cell| Some(&mut cell.edges[axis.index()]))
     }
 
     /// The same along another coordinate.
     pub fn parts(&self, other: usize) -> Option<(Cell, Cell)> {
-        let pack = |half: Edge| Packed(half.index << 6 | u64::from(half.level));
-        self.halved(self.others.get(other)?.edge(), |cell, half| cell.others[other] = pack(half))
+        self.halved(|cell| cell.others.get_mut(other))
     }
 
-    fn halved(&self, edge: Edge, set: impl Fn(&mut Cell, Edge)) -> Option<(Cell, Cell)> {
+    fn halved(&self, edge: impl Fn(&mut Cell) -> Option<&mut Edge>) -> Option<(Cell, Cell)> {
         let half = |upper: u64| {
             let mut cell = *self;
-            set(&mut cell, Edge { index: 2 * edge.index + upper, level: edge.level + 1 });
-            cell
+            let edge = edge(&mut cell).filter(|edge| edge.level < MAX_AXIS_LEVEL)?;
+            *edge = Edge { index: 2 * edge.index + upper, level: edge.level + 1 };
+            Some(cell)
         };
-        (edge.level < MAX_AXIS_LEVEL).then(|| (half(0), half(1)))
+        half(0).zip(half(1))
     }
 
     /// Whether it is part of a cell: some other coordinate is halved.
@@ -129,13 +117,6 @@ impl Cell {
     /// The splits above it.
     pub fn depth(&self) -> u32 {
         self.edges.iter().map(|edge| edge.level).sum()
-    }
-}
-
-impl fmt::Display for Cell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.edges.map(|e| format!("{}/2^{}", e.index, e.level));
-        write!(f, "u = ({x}, {y}, {z}) + one part each")
     }
 }
 
@@ -167,9 +148,9 @@ mod tests {
             assert!(lower.is_part() && upper.is_part());
             let index = 2 * expected.index;
             expected = Edge { index, level: expected.level + 1 };
-            assert_eq!(lower.others[4].edge(), expected);
+            assert_eq!(lower.others[4], expected);
             expected.index += 1;
-            assert_eq!(upper.others[4].edge(), expected);
+            assert_eq!(upper.others[4], expected);
             cell = upper;
         }
         assert_eq!(expected.level, MAX_AXIS_LEVEL);

@@ -212,7 +212,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
         for (i, (edge, &k)) in cell.others.iter().zip(others).enumerate() {
             let (level, ends) = match kind {
                 Kind::At(at, _) => (AT_BITS, [*at.get(i)?; 2]),
-                _ => (edge.edge().level, edge.edge().ends()?),
+                _ => (edge.level, edge.ends()?),
             };
             *ranges.get_mut(k)? = Edge::range(e, level, ends, [min.get(k)?, max.get(k)?])?;
         }

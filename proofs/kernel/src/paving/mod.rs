@@ -23,16 +23,18 @@ mod judge;
 mod reader;
 mod symmetry;
 
-use crate::certificate::Provenance;
+use crate::certificate::{Provenance, PRECISIONS};
 use crate::claim::{MachineClaim, Mechanism, Orientation, Workspace};
+use crate::document::Unreadable;
 use crate::input::ClaimError;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 use std::io::{self, BufRead};
+use thiserror::Error;
 
-pub use cell::{Axis, Cell, Edge, Packed, MAX_AXIS_LEVEL, MOST_OTHERS};
+pub use cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL, MOST_OTHERS};
 pub use code::{Item, Kind, Outer, Step};
 pub use cut::Cut;
 pub use judge::{bit, discharged, Judge, Subject, AT_BITS};
@@ -210,137 +212,76 @@ impl Serialize for Share {
 }
 
 /// Why a paving is rejected.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Rejected {
     /// It cannot be read.
-    Io(io::Error),
+    #[error("it cannot be read: {0}")]
+    Io(#[from] io::Error),
     /// The first line is not a header.
-    Header(String),
-    /// Another format or version.
-    Format(String),
+    #[error("the first line is not a header: {0}")]
+    Header(#[from] Unreadable),
     /// The claim is not well formed.
-    Claim(ClaimError),
-    /// What is paved is not a box of one to three coordinates that has a volume.
+    #[error("the claim is not well formed: {0}")]
+    Claim(#[from] ClaimError),
+    /// What is paved has no volume, or too many coordinates.
+    #[error("what is paved is not a box of positive volume, of one to three coordinates without orientations, or of one to three different ones that are named")]
     NotABox,
     /// An angle that is paved does not range between short fractions.
+    #[error("an angle that is paved does not range between fractions of at most 256 bits")]
     Angles,
     /// The claim is about two points at a time.
+    #[error("the claim is about two points at a time: one_to_one has no region")]
     OfTwoPoints,
-    /// The claim has more obligations than [`MOST_OBLIGATIONS`].
+    /// The claim has too many obligations.
+    #[error("the claim has more than {MOST_OBLIGATIONS} obligations")]
     TooMany,
     /// The precision is not admissible.
+    #[error("precision {0} is not within {PRECISIONS:?}")]
     Precision(u32),
-    /// The header's depth is more than [`SHARE_BITS`].
+    /// The header's depth is too great.
+    #[error("depth {0} is more than {SHARE_BITS}")]
     Depth(u32),
     /// The claim does not have the symmetry.
+    #[error("the claim is not provably the same in every permutation of the coordinates")]
     NotSymmetric,
     /// The bytes end within the tree.
+    #[error("the bytes end within node {0}")]
     Truncated(u64),
     /// A byte that no node begins with, or evidence that is none.
+    #[error("node {0}: byte {1:#04x} has no meaning there")]
     BadCode(u64, u8),
-    /// A node has steps but is neither split nor inner.
+    /// A node has steps of which no part of the tree makes use.
+    #[error("node {0} has steps but is neither split nor inner")]
     IdleSteps(u64),
     /// A cell is split more often than the header says, along an axis more often than
     /// [`MAX_AXIS_LEVEL`], or along one that there is not.
+    #[error("node {0} is split too often")]
     TooDeep(u64),
     /// A step does not discharge its obligation, or the cell is inner and nothing does.
+    #[error("node {0}: obligation {1} is not certainly met on the cell")]
     Step(u64, usize),
     /// A step discharges what is discharged already.
+    #[error("node {0}: obligation {1} is already discharged")]
     Repeated(u64, usize),
     /// A cell is not shown to be outside.
+    #[error("node {0} is not outer: it does not certainly fail throughout")]
     Outer(u64),
-    /// A part of a cell is neither inner, nor in parts, nor outside the workspace.
+    /// A part of a cell is something else than parts of a cell are, or a cell is what they alone are.
+    #[error(
+        "node {0}: parts of a cell, and they alone, are inner, in parts, or outside the workspace"
+    )]
     Part(u64),
     /// A cell is not left out by symmetry.
+    #[error("node {0} is left out by symmetry, but has points with u_x < u_y < u_z")]
     NotMirrored(u64),
     /// A cell is cut that cannot be, or by no plane.
+    #[error("node {0} is cut by no plane, or is no cell of all coordinates that stands for itself alone, or for five images")]
     Cut(u64),
-    /// The last line is not the summary of the tree.
+    /// The last line is not that of the tree.
+    #[error("the last line is not the summary of the tree, or does not end the file")]
     Summary,
 }
-
-impl From<io::Error> for Rejected {
-    fn from(error: io::Error) -> Self {
-        Rejected::Io(error)
-    }
-}
-
-impl From<ClaimError> for Rejected {
-    fn from(error: ClaimError) -> Self {
-        Rejected::Claim(error)
-    }
-}
-
-impl fmt::Display for Rejected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Rejected::Io(error) => write!(f, "it cannot be read: {error}"),
-            Rejected::Header(message) => write!(f, "the first line is not a header: {message}"),
-            Rejected::Format(found) => {
-                write!(f, "format {found:?} is not known; this checker reads {FORMAT:?}")
-            }
-            Rejected::Claim(error) => write!(f, "the claim is not well formed: {error}"),
-            Rejected::NotABox => write!(
-                f,
-                "what is paved is not a box of positive volume, of one to three coordinates without \
-                 orientations, or of one to three different ones that are named"
-            ),
-            Rejected::Angles => write!(
-                f,
-                "an angle that is paved does not range between fractions of at most 256 bits"
-            ),
-            Rejected::OfTwoPoints => {
-                write!(f, "the claim is about two points at a time: one_to_one has no region")
-            }
-            Rejected::TooMany => {
-                write!(f, "the claim has more than {MOST_OBLIGATIONS} obligations")
-            }
-            Rejected::Precision(bits) => {
-                write!(f, "precision {bits} is not within {:?}", crate::certificate::PRECISIONS)
-            }
-            Rejected::Depth(depth) => write!(f, "depth {depth} is more than {SHARE_BITS}"),
-            Rejected::NotSymmetric => write!(
-                f,
-                "the claim is not provably the same in every permutation of the coordinates"
-            ),
-            Rejected::Truncated(node) => write!(f, "the bytes end within node {node}"),
-            Rejected::BadCode(node, byte) => {
-                write!(f, "node {node}: byte {byte:#04x} has no meaning there")
-            }
-            Rejected::IdleSteps(node) => {
-                write!(f, "node {node} has steps but is neither split nor inner")
-            }
-            Rejected::TooDeep(node) => write!(f, "node {node} is split too often"),
-            Rejected::Step(node, obligation) => {
-                write!(f, "node {node}: obligation {obligation} is not certainly met on the cell")
-            }
-            Rejected::Repeated(node, obligation) => {
-                write!(f, "node {node}: obligation {obligation} is already discharged")
-            }
-            Rejected::Outer(node) => {
-                write!(f, "node {node} is not outer: it does not certainly fail throughout")
-            }
-            Rejected::Part(node) => write!(
-                f,
-                "node {node}: parts of a cell, and they alone, are inner, in parts, or outside the workspace"
-            ),
-            Rejected::NotMirrored(node) => write!(
-                f,
-                "node {node} is left out by symmetry, but has points with u_x < u_y < u_z"
-            ),
-            Rejected::Cut(node) => write!(
-                f,
-                "node {node} is cut by no plane, or is no cell of all coordinates that stands for itself alone, or for five images"
-            ),
-            Rejected::Summary => {
-                write!(f, "the last line is not the summary of the tree, or does not end the file")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Rejected {}
 
 /// Whether a file that begins with these bytes is meant as a paving.
 pub fn is_paving(bytes: &[u8]) -> bool {

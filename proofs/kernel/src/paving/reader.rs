@@ -5,7 +5,7 @@ use super::code::{Item, Kind};
 use super::cut::Cut;
 use super::judge::bit;
 use super::{symmetry, Header, Rejected, Summary, FORMAT, MAX_LINE, SHARE_BITS};
-use crate::certificate::MOST_LABEL;
+use crate::document::{read, written};
 use std::io::{self, BufRead, Read};
 
 /// A node with its place in the tree.
@@ -59,38 +59,11 @@ pub struct Reader<R> {
 pub fn header<R: BufRead>(input: &mut R) -> Result<Header, Rejected> {
     let mut bytes = Vec::new();
     input.take(MAX_LINE as u64).read_until(b'\n', &mut bytes)?;
-    if bytes.pop() != Some(b'\n') {
-        return Err(Rejected::Header("there is no line of at most a megabyte".to_owned()));
-    }
-    #[derive(serde::Deserialize)]
-    struct Format {
-        format: String,
-    }
-    let malformed = |e: serde_json::Error| Rejected::Header(quoted(&e.to_string()));
-    let Format { format } = serde_json::from_slice(&bytes).map_err(malformed)?;
-    if format != FORMAT {
-        return Err(Rejected::Format(quoted(&format)));
-    }
-    let header: Header = serde_json::from_slice(&bytes).map_err(malformed)?;
-    let is_label = |text: &str| {
-        text.len() <= MOST_LABEL && text.bytes().all(|b| b == b' ' || b.is_ascii_graphic())
-    };
-    if !is_label(&header.provenance.tool) || !is_label(&header.provenance.version) {
-        return Err(Rejected::Header("provenance: a name of printable ASCII".to_owned()));
-    }
-    if serde_json::to_vec(&header).map_err(malformed)? != bytes {
-        return Err(Rejected::Header("the same header is written otherwise".to_owned()));
-    }
+    let header: Header = read(&bytes, FORMAT, MAX_LINE)?;
     if header.depth > SHARE_BITS {
         return Err(Rejected::Depth(header.depth));
     }
     Ok(header)
-}
-
-/// The beginning of a stranger's text, in printable ASCII.
-fn quoted(text: &str) -> String {
-    let shown = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
-    text.chars().take(200).map(shown).collect()
 }
 
 impl<R: BufRead> Reader<R> {
@@ -213,16 +186,11 @@ impl<R: Read> Reader<R> {
         if !self.waiting.is_empty() {
             return Err(Rejected::Truncated(self.nodes));
         }
-        let mut wanted = serde_json::to_vec(&self.summary).map_err(|e| Rejected::Io(e.into()))?;
-        wanted.push(b'\n');
+        let wanted = written(&self.summary).map_err(|e| Rejected::Io(e.into()))?;
         let mut bytes = Vec::new();
         // One byte more than there may be, lest anything hide behind it.
         self.input.take(wanted.len() as u64 + 1).read_to_end(&mut bytes)?;
-        if bytes == wanted {
-            Ok(self.summary)
-        } else {
-            Err(Rejected::Summary)
-        }
+        (bytes == wanted.as_bytes()).then_some(self.summary).ok_or(Rejected::Summary)
     }
 }
 

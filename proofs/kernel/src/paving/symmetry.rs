@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Edge};
 use super::SHARE_BITS;
-use crate::claim::{Leg, MachineClaim, Mechanism, Requirement, Vector, Workspace};
+use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement, Workspace};
 
 /// A transposition and a cycle: they generate the permutations of three things.
 const GENERATORS: [[usize; 3]; 2] = [[1, 0, 2], [1, 2, 0]];
@@ -57,26 +57,15 @@ pub fn is_symmetric(claim: &MachineClaim) -> bool {
 
 /// Whether `image` is `leg` with coordinate `k` of its vectors moved to `p(k)`.
 fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
-    let moved =
-        |a: &Vector, b: &Vector| a.len() == 3 && b.len() == 3 && (0..3).all(|k| a[k] == b[p[k]]);
-    match (leg, image) {
-        (
-            Leg::Slider { direction, anchor, platform, length, mode },
-            Leg::Slider { direction: n, anchor: a, platform: d, length: l, mode: m },
-        ) => {
-            moved(direction, n)
-                && moved(anchor, a)
-                && moved(platform, d)
-                && length == l
-                && mode == m
-        }
-        (
-            Leg::Strut { anchor, platform, base_axis: None },
-            Leg::Strut { anchor: a, platform: d, base_axis: None },
-        ) => moved(anchor, a) && moved(platform, d),
-        (Leg::Planar { direction }, Leg::Planar { direction: n }) => moved(direction, n),
-        _ => false,
-    }
+    let mut moved = leg.clone();
+    let mut all = moved.parts_mut().0.into_iter();
+    let is_moved = all.all(|vector| {
+        let Ok(own) = <[Quantity; 3]>::try_from(vector.clone()) else { return false };
+        own.into_iter().zip(p).for_each(|(x, &to)| vector[to] = x);
+        true
+    });
+    let is_axial = matches!(leg, Leg::Arm { .. } | Leg::Strut { base_axis: Some(_), .. });
+    is_moved && !is_axial && moved == *image
 }
 
 /// How two dyadic intervals lie: such intervals are nested or overlap in an end at most.

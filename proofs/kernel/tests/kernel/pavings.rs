@@ -424,8 +424,8 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
                 }
             }
         }
-        assert_eq!(six_ordered(&cell), count << (SHARE_BITS - 9), "{cell}");
-        assert!(!is_mirrored(&cell) || count == 0, "{cell}");
+        assert_eq!(six_ordered(&cell), count << (SHARE_BITS - 9), "{cell:?}");
+        assert!(!is_mirrored(&cell) || count == 0, "{cell:?}");
         for axis in Axis::ALL {
             let (lower, upper) = cell.halves(axis).unwrap();
             assert_eq!(six_ordered(&lower) + six_ordered(&upper), six_ordered(&cell));

@@ -5,10 +5,11 @@ use crate::certificates::claim;
 use crate::prover::certify;
 use num_bigint::BigInt;
 use orthocert_kernel::certificate::{
-    Certificate, Claim, Corner, Evidence, Proof, Step, Tree, Unreadable, Verdict,
+    Certificate, Claim, Corner, Evidence, Proof, Step, Tree, Verdict,
 };
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::document::Unreadable;
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::{Op, Tape};
 use orthocert_kernel::problem::Problem;
@@ -134,7 +135,10 @@ fn texts_that_are_not_canonical() {
         assert!(Certificate::read(&text).is_err(), "{defect}");
     }
     let old = text.replace("orthocert/2", "orthocert/1");
-    assert_eq!(Certificate::read(&old), Err(Unreadable::Format("orthocert/1".to_owned())));
+    assert_eq!(
+        Certificate::read(&old),
+        Err(Unreadable::Format("orthocert/1".to_owned(), "orthocert/2"))
+    );
     assert!(Certificate::read(&format!("{text}{text}")).is_err());
     assert!(Certificate::read("").is_err());
 }
