@@ -6,6 +6,7 @@ use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::files::digest::Summed;
 use orthocert::files::read::Named;
+use orthocert::report::wrapped;
 use orthocert::report::Size;
 use orthocert::search::accepted::{check, Accepted};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -195,7 +196,7 @@ fn check_paving(
                         answer += &format!("Drawn with --seed {seed}.\n");
                     }
                     answer += &format!("sha256 {sha256}\n");
-                    print::answer(&statement::wrapped(&answer))?;
+                    print::answer(&wrapped(&answer))?;
                 }
                 Format::Json => print::json(&PavingAnswer {
                     accepted: true,
@@ -298,7 +299,7 @@ fn accept(
     match arguments.format {
         Format::Text if arguments.quiet => print::answer(&format!("ACCEPTED: {verdict}\n")),
         Format::Text => {
-            let mut answer = statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}"));
+            let mut answer = wrapped(&format!("ACCEPTED: {verdict}\n{statement}"));
             if let Some(formulas) = formulas {
                 // Not wrapped: a line is a formula.
                 answer += &format!("\nIts formulas:\n{formulas}");

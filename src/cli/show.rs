@@ -5,6 +5,7 @@ use orthocert::exact::decimal::{boxes, exact, grouped};
 use orthocert::files::read::Named;
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
+use orthocert::report::wrapped;
 use orthocert::search::accepted::{size_of, trees, TreeSize};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::{read, statement};
@@ -122,7 +123,7 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
     // The statement's first line says that it is proved, which is not known here.
     let statement = statement.unwrap_or_default();
     let (_, claim) = statement.split_once('\n').unwrap_or(("", &statement));
-    out.push_str(&statement::wrapped(claim));
+    out.push_str(&wrapped(claim));
     out.push('\n');
     if let Some(shape) = Shape::of(&certificate.proof) {
         let Shape { precision, trees, nodes, leaves, depth, rules } = shape;

@@ -19,6 +19,7 @@ pub mod requirement;
 mod share;
 pub mod text;
 mod worst;
+mod wrap;
 
 pub use counterexample::{Counterexample, Near, Setting};
 pub use kernel::{exactly, parameter, shown, Facts};
@@ -27,6 +28,7 @@ pub use place::{placed, point_text, pose_text, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
+pub use wrap::wrapped;
 
 use crate::exact::Exact;
 use crate::search::accepted::TreeSize;

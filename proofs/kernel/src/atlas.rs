@@ -270,10 +270,12 @@ pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
     use fmt::Write;
     let AtlasClaim { parameters, machine: claim, certified, refuted } = claim;
     let mut out = String::new();
-    writeln!(out, "It is proved:")?;
-    writeln!(
+    write!(
         out,
-        "Let a design be good if all of the following holds, with the numbers that it has for"
+        "\
+It is proved:
+Let a design be good if all of the following holds, with the numbers that it has for
+"
     )?;
     for Parameter { name, min, max } in parameters {
         writeln!(out, "  {name} in [{min}, {max}]")?;
@@ -281,14 +283,13 @@ pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
     requirements(&mut out, claim)?;
-    writeln!(
+    write!(
         out,
-        "Of the box of these parameters, the cells that the proof names certified, in which"
+        "\
+Of the box of these parameters, the cells that the proof names certified, in which
+every design is good, have at least the share {certified}; the cells that it names
+refuted, in which none is, at least the share {refuted}.
+"
     )?;
-    writeln!(
-        out,
-        "every design is good, have at least the share {certified}; the cells that it names"
-    )?;
-    writeln!(out, "refuted, in which none is, at least the share {refuted}.")?;
     Ok(out)
 }

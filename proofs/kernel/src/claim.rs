@@ -128,24 +128,6 @@ pub enum Leg {
     },
 }
 
-impl Leg {
-    /// Its vectors, and its other quantities.
-    pub fn parts_mut(&mut self) -> (Vec<&mut Vector>, Vec<&mut Quantity>) {
-        match self {
-            Leg::Slider { direction, anchor, platform, length, mode: _ } => {
-                (vec![direction, anchor, platform], vec![length])
-            }
-            Leg::Strut { anchor, platform, base_axis } => {
-                ([anchor, platform].into_iter().chain(base_axis).collect(), vec![])
-            }
-            Leg::Arm { axis, reference, anchor, platform, arm, length, mode: _ } => {
-                (vec![axis, reference, anchor, platform], vec![arm, length])
-            }
-            Leg::Planar { direction } => (vec![direction], vec![]),
-        }
-    }
-}
-
 /// What a quantity of a leg is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

@@ -302,7 +302,7 @@ fn fewer(n: usize, most: usize) -> Result<(), ClaimError> {
 }
 
 /// An expression as a formula.
-fn compiled(
+pub(crate) fn compiled(
     builder: &mut Builder,
     names: &HashMap<&str, Formula>,
     expression: &Expression,

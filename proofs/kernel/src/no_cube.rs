@@ -53,16 +53,24 @@ pub fn statement(claim: &NoCubeClaim) -> Result<String, fmt::Error> {
     use fmt::Write;
     let NoCubeClaim { machine: claim, side } = claim;
     let mut out = String::new();
-    writeln!(out, "It is proved:")?;
-    writeln!(out, "No axis-aligned cube of side {side} with its centre in the box")?;
-    writeln!(out, "{}", crate::statement::box_of(claim))?;
-    writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
+    let centres = crate::statement::box_of(claim);
+    write!(
+        out,
+        "\
+It is proved:
+No axis-aligned cube of side {side} with its centre in the box
+{centres}
+is such that all of the following holds at every point P of the cube.
+"
+    )?;
     machine(&mut out, claim)?;
     requirements(&mut out, claim)?;
-    writeln!(
+    write!(
         out,
-        "(With tolerances, the cube has a point at which it does not for every machine:"
+        "\
+(With tolerances, the cube has a point at which it does not for every machine:
+none of them has the cube.)
+"
     )?;
-    writeln!(out, "none of them has the cube.)")?;
     Ok(out)
 }

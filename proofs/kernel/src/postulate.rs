@@ -55,6 +55,7 @@ use crate::arithmetic::Enclosure;
 use crate::cell::{evaluate, Cell, Vertex};
 use crate::certificate::{Corner, Evidence, Node, Tree};
 use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
+use crate::compile::{compiled, Builder};
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
@@ -63,7 +64,7 @@ use crate::number::{Expression, Operator};
 use crate::rejected::Rejected;
 use crate::slope::{Slope, Slopes};
 use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
-use std::fmt;
+use std::collections::HashMap;
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
 /// Coordinates are `u_y`, `u_z` and `kappa`.
@@ -109,69 +110,59 @@ pub fn parts(claim: &PostulateClaim) -> Result<Vec<Part>, ClaimError> {
     let high = (if is_low { half } else { least }, one, false);
     let of_face = |face: Corner| {
         let part = |(least, greatest, is_low): &(Expression, Expression, bool)| {
-            Part::new(face, *is_low, least.clone(), greatest.clone())
+            Part::new(face, *is_low, [least.clone(), greatest.clone()])
         };
         low.iter().chain([&high]).map(part).collect::<Vec<_>>()
     };
-    Ok([Corner::Q1, Corner::Q2].into_iter().flat_map(of_face).collect())
+    [Corner::Q1, Corner::Q2].into_iter().flat_map(of_face).collect()
 }
 
 impl Part {
-    fn new(face: Corner, is_low: bool, least: Expression, greatest: Expression) -> Self {
-        let mut tape = Tape::default();
-        let t = &mut tape;
-        let [u_y, u_z, kappa] = std::array::from_fn(|k| t.coordinate(k));
-        let [one, two, four] = [1, 2, 4].map(|n| t.integer(n));
-        let delta = t.sub(one, kappa);
-        let delta_squared = t.sqr(delta);
-        let (over, under) = if is_low {
-            let twice = t.mul(two, delta_squared);
-            (t.add(one, twice), t.add(four, twice))
-        } else {
-            let square = t.sqr(kappa);
-            let twice = t.mul(two, square);
-            (t.add(twice, delta_squared), t.add(two, delta_squared))
+    fn new(
+        face: Corner,
+        is_low: bool,
+        [least, greatest]: [Expression; 2],
+    ) -> Result<Self, ClaimError> {
+        let p_squared = match is_low {
+            true => "(1+2*delta^2)/(4+2*delta^2)",
+            false => "(2*kappa^2+delta^2)/(2+delta^2)",
         };
-        let p_squared = t.div(over, under);
-        let p = t.sqrt(p_squared);
-        let (diagonal, root) = match (face, is_low) {
-            (Corner::Q1, _) => (four, t.div(delta, two)),
-            (Corner::Q2, true) => (two, delta),
-            (Corner::Q2, false) => {
-                let twice = t.mul(two, kappa);
-                (t.mul(four, kappa), t.div(delta, twice))
-            }
+        let [diagonal, t] = match (face, is_low) {
+            (Corner::Q1, _) => ["4", "delta/2"],
+            (Corner::Q2, true) => ["2", "delta"],
+            (Corner::Q2, false) => ["4*kappa", "delta/(2*kappa)"],
         };
-        let t_squared = t.sqr(root);
-        let x = t.integer(if face == Corner::Q1 { -1 } else { 1 });
-        let mut eta = |u: Formula| {
-            if face == Corner::Q1 {
-                let inverse = t.div(one, p);
-                let width = t.add(one, inverse);
-                let along = t.mul(u, width);
-                t.sub(along, one)
-            } else {
-                let (width, rest) = (t.add(one, p), t.sub(one, u));
-                let along = t.mul(rest, width);
-                t.sub(one, along)
-            }
+        let [x, y, z] = match face {
+            Corner::Q1 => ["-1", "u_y*(1+1/p)-1", "u_z*(1+1/p)-1"],
+            Corner::Q2 => ["1", "1-(1-u_y)*(1+p)", "1-(1-u_z)*(1+p)"],
         };
-        let eta = [x, eta(u_y), eta(u_z)];
-        let mut s = |j: usize, k: usize| {
-            let (j, k) = (t.sqr(eta[j]), t.sqr(eta[k]));
-            let rest = t.sub(two, j);
-            let rest = t.sub(rest, k);
-            let rest = t.mul(t_squared, rest);
-            let square = t.add(one, rest);
-            t.sqrt(square)
-        };
-        let s = [s(1, 2), s(2, 0), s(0, 1)];
-        let mut entry = |i: usize, j: usize| {
-            let (above, below) = (t.div(eta[j], s[i]), t.div(eta[i], s[j]));
-            t.add(above, below)
-        };
-        let entries = [diagonal, entry(0, 1), entry(0, 2), entry(1, 2)];
-        Part { face, least, greatest, tape, entries }
+        let definitions = [
+            ("delta", "1-kappa"),
+            ("p_squared", p_squared),
+            ("p", "sqrt(p_squared)"),
+            ("t", t),
+            ("x", x),
+            ("y", y),
+            ("z", z),
+            ("s_x", "sqrt(1+t^2*(2-y^2-z^2))"),
+            ("s_y", "sqrt(1+t^2*(2-z^2-x^2))"),
+            ("s_z", "sqrt(1+t^2*(2-x^2-y^2))"),
+            ("diagonal", diagonal),
+            ("xy", "y/s_x+x/s_y"),
+            ("xz", "z/s_x+x/s_z"),
+            ("yz", "z/s_y+y/s_z"),
+        ];
+        let mut builder = Builder::default();
+        let coordinates = ["u_y", "u_z", "kappa"].into_iter().enumerate();
+        let coordinates = coordinates.map(|(k, name)| (name, builder.tape.coordinate(k)));
+        let mut names: HashMap<&str, Formula> = coordinates.collect();
+        for (name, text) in definitions {
+            let expression = Expression::try_from(text.to_owned());
+            let expression = expression.map_err(|_| number_error(name, "a number"))?;
+            names.insert(name, compiled(&mut builder, &names, &expression)?);
+        }
+        let entries = ["diagonal", "xy", "xz", "yz"].map(|name| names[name]);
+        Ok(Part { face, least, greatest, tape: builder.tape, entries })
     }
 
     /// The cell of its tree, rounded outward.
@@ -302,32 +293,23 @@ pub(crate) fn check(claim: &PostulateClaim, tree: &Tree) -> Result<(), Rejected>
 }
 
 /// What an accepted claim establishes.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn statement(claim: &PostulateClaim) -> Result<String, fmt::Error> {
-    use fmt::Write;
-    let mut out = String::new();
-    writeln!(out, "It is proved:")?;
-    match &claim.psi_max {
-        PsiMax::Every(Every::All) => writeln!(out, "For every psi_max > 1,")?,
-        PsiMax::Of(Quantity::Exactly(psi)) => writeln!(out, "For psi_max = {psi},")?,
-        PsiMax::Of(Quantity::Between { min, max }) => {
-            writeln!(out, "For every psi_max from {min} to {max},")?;
-        }
-    }
-    writeln!(
-        out,
-        "for every Orthoglide of leg length L > 0, guides along the axes and P measured"
-    )?;
-    writeln!(out, "from the point where they meet, with kappa = 1/psi_max, t1 = (1 - kappa)/2,")?;
-    writeln!(out, "t2 = 1 - kappa if kappa <= 1/2 and (1/kappa - 1)/2 otherwise,")?;
-    writeln!(out, "q1 = -L t1/sqrt(1 + 2 t1^2) and q2 = L t2/sqrt(1 + 2 t2^2):")?;
-    writeln!(out, "at every point P of the cube [q1, q2]^3, every leg reaches P without a serial")?;
-    writeln!(
-        out,
-        "singularity, P is no parallel singularity, and the velocity transmission factors"
-    )?;
-    writeln!(out, "psi_i satisfy 1/psi_max <= psi_i <= psi_max.")?;
-    Ok(out)
+pub fn statement(claim: &PostulateClaim) -> String {
+    let psi_max = match &claim.psi_max {
+        PsiMax::Every(Every::All) => "every psi_max > 1".to_owned(),
+        PsiMax::Of(Quantity::Exactly(psi)) => format!("psi_max = {psi}"),
+        PsiMax::Of(Quantity::Between { min, max }) => format!("every psi_max from {min} to {max}"),
+    };
+    format!(
+        "\
+It is proved:
+For {psi_max},
+for every Orthoglide of leg length L > 0, guides along the axes and P measured
+from the point where they meet, with kappa = 1/psi_max, t1 = (1 - kappa)/2,
+t2 = 1 - kappa if kappa <= 1/2 and (1/kappa - 1)/2 otherwise,
+q1 = -L t1/sqrt(1 + 2 t1^2) and q2 = L t2/sqrt(1 + 2 t2^2):
+at every point P of the cube [q1, q2]^3, every leg reaches P without a serial
+singularity, P is no parallel singularity, and the velocity transmission factors
+psi_i satisfy 1/psi_max <= psi_i <= psi_max.
+"
+    )
 }

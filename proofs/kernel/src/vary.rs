@@ -227,8 +227,22 @@ impl Witness {
 }
 
 fn of_legs<'a>(legs: &'a mut [Leg], all: &mut Vec<&'a mut Expression>) {
-    for (vectors, others) in legs.iter_mut().map(Leg::parts_mut) {
-        of_quantities(vectors.into_iter().flatten().chain(others), all);
+    for leg in legs {
+        match leg {
+            Leg::Slider { direction, anchor, platform, length, mode: _ } => {
+                of_quantities(direction.iter_mut().chain(anchor).chain(platform), all);
+                of_quantities([length], all);
+            }
+            Leg::Strut { anchor, platform, base_axis } => {
+                of_quantities(anchor.iter_mut().chain(platform), all);
+                of_quantities(base_axis.iter_mut().flatten(), all);
+            }
+            Leg::Arm { axis, reference, anchor, platform, arm, length, mode: _ } => {
+                of_quantities(axis.iter_mut().chain(reference).chain(anchor), all);
+                of_quantities(platform.iter_mut().chain([arm, length]), all);
+            }
+            Leg::Planar { direction } => of_quantities(direction, all),
+        }
     }
 }
 

@@ -88,7 +88,7 @@ fn usage() -> ExitCode {
 
 /// Prints `text`; a closed or full output is an I/O failure, not a verdict.
 fn print(text: &str, code: ExitCode) -> ExitCode {
-    let text = lines(statement::wrapped(text).trim_end(), &[]);
+    let text = lines(text.trim_end(), &[]);
     match writeln!(std::io::stdout().lock(), "{text}") {
         Ok(()) => code,
         Err(_) => ExitCode::from(4),

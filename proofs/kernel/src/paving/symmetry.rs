@@ -1,8 +1,8 @@
 //! Machines that look the same from permuted axes.
 
-use super::cell::{Cell, Edge};
+use super::cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL};
 use super::SHARE_BITS;
-use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirement, Workspace};
+use crate::claim::{Kind, Leg, MachineClaim, Mechanism, Quantity, Requirement, Workspace};
 
 /// A transposition and a cycle: they generate the permutations of three things.
 const GENERATORS: [[usize; 3]; 2] = [[1, 0, 2], [1, 2, 0]];
@@ -57,85 +57,64 @@ pub fn is_symmetric(claim: &MachineClaim) -> bool {
 
 /// Whether `image` is `leg` with coordinate `k` of its vectors moved to `p(k)`.
 fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
-    let mut moved = leg.clone();
-    let mut all = moved.parts_mut().0.into_iter();
-    let is_moved = all.all(|vector| {
-        let Ok(own) = <[Quantity; 3]>::try_from(vector.clone()) else { return false };
-        own.into_iter().zip(p).for_each(|(x, &to)| vector[to] = x);
-        true
-    });
-    let is_axial = matches!(leg, Leg::Arm { .. } | Leg::Strut { base_axis: Some(_), .. });
-    is_moved && !is_axial && moved == *image
+    type Own<'a> = (&'static str, Kind, &'a [Quantity]);
+    let is_moved = |((key, kind, own), (name, _, other)): (Own<'_>, Own<'_>)| {
+        let is_moved = match (kind, own, other) {
+            (Kind::Length, ..) => own == other,
+            (_, [_, _, _], [_, _, _]) => (0..3).all(|k| own[k] == other[p[k]]),
+            _ => false,
+        };
+        key == name && is_moved
+    };
+    let mode = |leg: &Leg| match leg {
+        Leg::Slider { mode, .. } => Some(*mode),
+        _ => None,
+    };
+    let has_axis = matches!(leg, Leg::Arm { .. } | Leg::Strut { base_axis: Some(_), .. });
+    let (own, other) = (leg.quantities(), image.quantities());
+    let is_like = !has_axis && mode(leg) == mode(image) && own.len() == other.len();
+    is_like && own.into_iter().zip(other).all(is_moved)
 }
 
-/// How two dyadic intervals lie: such intervals are nested or overlap in an end at most.
-enum Relation {
-    Before,
-    After,
-    Equal,
-    Contains,
-    Within,
+/// Whether an edge lies wholly after another, which it may touch; edges are nested, equal, or before or
+/// after each other.
+fn is_after(a: Edge, b: Edge) -> bool {
+    let at = |parts: u64, level: u32| parts << (MAX_AXIS_LEVEL - level);
+    at(a.index, a.level) >= at(b.index + 1, b.level)
 }
 
-fn relation(a: Edge, b: Edge) -> Relation {
-    if a.level <= b.level {
-        let ancestor = b.index >> (b.level - a.level);
-        match a.index.cmp(&ancestor) {
-            std::cmp::Ordering::Less => Relation::Before,
-            std::cmp::Ordering::Greater => Relation::After,
-            std::cmp::Ordering::Equal if a.level == b.level => Relation::Equal,
-            std::cmp::Ordering::Equal => Relation::Contains,
-        }
-    } else {
-        match relation(b, a) {
-            Relation::Before => Relation::After,
-            Relation::After => Relation::Before,
-            Relation::Contains => Relation::Within,
-            other => other,
-        }
-    }
-}
+/// The coordinates of which the first has to be the less.
+const ORDERED: [[Axis; 2]; 3] = [[Axis::X, Axis::Y], [Axis::Y, Axis::Z], [Axis::X, Axis::Z]];
 
 /// Whether a cell has no point with `u_x < u_y < u_z`: some coordinate that should be the less lies
 /// wholly after one that should be the greater.
 pub fn is_mirrored(cell: &Cell) -> bool {
-    let [x, y, z] = cell.edges;
-    [(x, y), (y, z), (x, z)].iter().any(|&(a, b)| matches!(relation(a, b), Relation::After))
+    let edge = |axis: Axis| cell.edges[axis.index()];
+    ORDERED.iter().any(|&[less, greater]| is_after(edge(less), edge(greater)))
 }
 
 /// Six times the volume of the cell's points with `u_x <= u_y <= u_z`, in units of
-/// `2^-`[`SHARE_BITS`]; every level is at most [`MAX_AXIS_LEVEL`](super::MAX_AXIS_LEVEL).
+/// `2^-`[`SHARE_BITS`].
 ///
 /// *Proof.* Nested edges are halved, the longer one, until every two are equal or overlap in an end
 /// at most. Then all points are in order, or none; of two equal edges half the points are, of three
 /// a sixth. Levels stay those of the cell at most, so volumes are whole units. ∎
 pub fn six_ordered(cell: &Cell) -> u128 {
-    let [x, y, z] = cell.edges;
-    let mut equal = 0;
-    for (a, b) in [(0, 1), (1, 2), (0, 2)] {
-        let longer = match relation(cell.edges[a], cell.edges[b]) {
-            Relation::After => return 0,
-            Relation::Before => continue,
-            Relation::Equal => {
-                equal += 1;
-                continue;
-            }
-            Relation::Contains => a,
-            Relation::Within => b,
-        };
-        // An edge that lies after another leaves nothing, whatever is halved.
-        if is_mirrored(cell) {
-            return 0;
-        }
-        let Edge { index, level } = cell.edges[longer];
-        let half = |index| {
-            let mut cell = *cell;
-            cell.edges[longer] = Edge { index, level: level + 1 };
-            six_ordered(&cell)
-        };
-        return half(2 * index) + half(2 * index + 1);
+    // An edge that lies after another leaves nothing, whatever is halved.
+    if is_mirrored(cell) {
+        return 0;
     }
-    let volume = 1 << (SHARE_BITS - x.level - y.level - z.level);
+    let mut equal = 0;
+    for [less, greater] in ORDERED {
+        let (a, b) = (cell.edges[less.index()], cell.edges[greater.index()]);
+        if a == b {
+            equal += 1;
+        } else if !is_after(b, a) {
+            let longer = if a.level < b.level { less } else { greater };
+            return cell.halves(longer).map_or(0, |(a, b)| six_ordered(&a) + six_ordered(&b));
+        }
+    }
+    let volume = 1 << (SHARE_BITS - cell.depth());
     match equal {
         0 => 6 * volume,
         1 => 3 * volume,

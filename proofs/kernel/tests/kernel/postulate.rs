@@ -145,7 +145,7 @@ fn in_words() {
         (r#""2""#, "For psi_max = 2,"),
         (r#"{"min":"1.2","max":"6.5"}"#, "For every psi_max from 1.2 to 6.5,"),
     ] {
-        let words = statement(&claim(psi)).expect("words");
+        let words = statement(&claim(psi));
         assert!(words.contains(sentence) && words.contains("1/psi_max <= psi_i <= psi_max"));
     }
 }
