@@ -7,13 +7,13 @@ use orthocert::design::{text_of, Design, Variable};
 use orthocert::exact::decimal::{exact, grouped, significant};
 use orthocert::exact::Exact;
 use orthocert::files::output;
+use orthocert::files::shown::Shown;
 use orthocert::questions::limit::Side;
 use orthocert::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
 };
 use orthocert::report::{machine_of_witness, CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;

@@ -41,8 +41,8 @@ mod verify;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
 use orthocert::files::output::{self, OutputError};
+use orthocert::files::shown::Shown;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::shown::Shown;
 use std::fmt;
 use std::process::ExitCode;
 

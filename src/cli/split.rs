@@ -7,10 +7,10 @@ use orthocert::design::{is_atlas, AtlasDesign, Design};
 use orthocert::exact::decimal::{counted, grouped};
 use orthocert::files::output;
 use orthocert::files::read::Named;
+use orthocert::files::shown::Shown;
 use orthocert::jobs::shard::{
     self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
 };
-use orthocert_checker::shown::Shown;
 use orthocert_kernel::certificate::MOST_NODES;
 use serde::Serialize;
 use std::fs;

@@ -4,9 +4,9 @@ use super::{merge, print, Failure, Format, Status};
 use clap::ValueEnum;
 use orthocert::files::output;
 use orthocert::files::read::Named;
+use orthocert::files::shown::{is_unseen, Shown};
 use orthocert::jobs::engine::{self, Submission};
 use orthocert::jobs::shard::{read_job, JOB_FILE};
-use orthocert_checker::shown::{is_unseen, Shown};
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};
 

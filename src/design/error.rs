@@ -2,7 +2,7 @@
 //! and what is accepted.
 
 use crate::files::read::Named;
-use orthocert_checker::shown::{is_unseen, Shown};
+use crate::files::shown::{is_unseen, Shown};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;

@@ -7,7 +7,7 @@
 use crate::files::digest::{sha256, Summed};
 use crate::files::output::{self, folder_of, OutputError};
 use crate::files::read::Named;
-use orthocert_checker::shown::Shown;
+use crate::files::shown::Shown;
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File, OpenOptions};

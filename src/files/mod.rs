@@ -4,3 +4,4 @@ pub mod digest;
 pub mod folder;
 pub mod output;
 pub mod read;
+pub mod shown;

@@ -3,11 +3,11 @@
 use super::error::printable;
 use super::Imported;
 use crate::exact::Exact;
+use crate::files::shown::Shown;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-use orthocert_checker::shown::Shown;
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::trig::cos_sin;
 use std::cmp::Ordering;

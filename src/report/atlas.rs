@@ -7,9 +7,9 @@ use crate::exact::decimal::{
     approximate, boxes, counted, exact, grouped, percent, significant, Toward,
 };
 use crate::exact::Exact;
+use crate::files::shown::Shown;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
-use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
 //! The only ways in which text gets into documents: of each, nothing can leave its place, reorder
 //! what is around it, or be taken for anything but text.
 
-use orthocert_checker::shown::{is_unseen, Shown};
+use crate::files::shown::{is_unseen, Shown};
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -2,11 +2,11 @@
 
 use crate::exact::decimal::{grouped, percent, rounded, significant, Toward};
 use crate::exact::Exact;
+use crate::files::shown::Shown;
 use crate::search::paving::{box_ends, box_volume, Component, Components, Paved};
 use crate::search::solver::doubles::Pair;
 use num_rational::BigRational;
 use num_traits::Zero;
-use orthocert_checker::shown::Shown;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{Share, Summary, SHARE_BITS};
 use serde::Serialize;

@@ -7,10 +7,10 @@ use super::{
 };
 use crate::exact::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::exact::Exact;
+use crate::files::shown::Shown;
 use crate::search::solver::value::{in_length, listed, with_unit};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 
 /// Columns of a line.

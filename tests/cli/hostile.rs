@@ -5,7 +5,7 @@
 use crate::atlas::{coarse, map};
 use crate::junit;
 use crate::support::{Folder, Run};
-use orthocert_checker::shown::is_unseen;
+use orthocert::files::shown::is_unseen;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::os::unix::net::UnixListener;

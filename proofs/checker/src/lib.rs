@@ -11,14 +11,12 @@
 //! | `check`            | reading and checking; why files are rejected                         |
 //! | [`statement`]      | the claim in words                                                   |
 //! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible  |
-//! | [`shown`]          | names and texts of strangers, as a terminal may be given them        |
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 mod check;
 pub mod file;
-pub mod shown;
 pub mod statement;
 
 pub use check::{check, read, Rejected};
@@ -31,11 +29,10 @@ Re-proves an orthocert certificate or paving in exact arithmetic and prints what
 exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
 
 /// Every file of `src`, with its path there, in the order of the paths' bytes.
-pub const SOURCES: [(&str, &[u8]); 6] = [
+pub const SOURCES: [(&str, &[u8]); 5] = [
     ("bin/orthocert-check.rs", include_bytes!("bin/orthocert-check.rs")),
     ("check.rs", include_bytes!("check.rs")),
     ("file.rs", include_bytes!("file.rs")),
     ("lib.rs", include_bytes!("lib.rs")),
-    ("shown.rs", include_bytes!("shown.rs")),
     ("statement.rs", include_bytes!("statement.rs")),
 ];

@@ -19,6 +19,9 @@ use crate::rejected::Rejected;
 use crate::test::accuracy::Accuracy;
 use crate::work::{Budget, LEAST_BYTES};
 
+/// Every file of `src`, with its path there, in the order of the paths' bytes; listed by `build.rs`.
+pub const SOURCES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+
 /// Accepts what is said of one cell of an atlas by itself, or says why not.
 ///
 /// # Errors

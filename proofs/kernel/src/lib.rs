@@ -32,7 +32,6 @@
 //! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
 //! | [`work`]       | what checking costs, estimated before it is done                 |
 //! | [`statement`]  | a claim in words                                                 |
-//! | [`source`]     | the sources of this crate                                        |
 
 #![forbid(unsafe_code)]
 
@@ -63,7 +62,6 @@ pub mod prover;
 pub mod quantity;
 pub mod rejected;
 pub mod slope;
-pub mod source;
 pub mod statement;
 pub mod step;
 pub mod test;

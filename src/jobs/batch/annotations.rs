@@ -1,8 +1,8 @@
 //! Messages that GitHub shows beside the lines of a design (workflow commands).
 
 use super::{Batch, Ending, Entry};
+use crate::files::shown::Shown;
 use crate::report::requirement::Standing;
-use orthocert_checker::shown::Shown;
 
 /// One line for everything that is not certified: an error for a refutation, bad input or trouble,
 /// a warning for an undecided design. `locate` gives a design's path from the repository's root.

@@ -5,8 +5,8 @@
 //! schemas of Maven Surefire and of Jenkins' xUnit plugin have in common, in their order.
 
 use super::{Batch, Ending, Entry};
+use crate::files::shown::Shown;
 use crate::report::escape::{attribute, xml};
-use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 use std::path::Path;
 

@@ -21,10 +21,10 @@ pub mod summary;
 #[cfg(test)]
 mod tests;
 
+use crate::files::shown::Shown;
 use crate::report::requirement::Requirement;
 use crate::report::{CertificateFile, Counterexample};
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::shown::Shown;
 use serde::Serialize;
 
 /// How the work on one design, or on one certificate, ended.

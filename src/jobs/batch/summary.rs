@@ -2,11 +2,11 @@
 
 use super::{counts, Batch, Ending, Entry};
 use crate::exact::decimal::counted;
+use crate::files::shown::Shown;
 use crate::report::escape;
 use crate::report::text::{duration, Style};
 use crate::report::Outcome;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 
 /// Columns of the verdict.

@@ -3,7 +3,7 @@
 use crate::exact::decimal::grouped;
 use crate::files::digest::sha256;
 use crate::report::escape::{shell, xml};
-use orthocert_kernel::source::SOURCES;
+use orthocert_kernel::prover::SOURCES;
 use std::fmt::Write;
 
 /// The command, in the folder `proofs`, whose answer is [`checker_sha256`].

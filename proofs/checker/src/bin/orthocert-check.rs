@@ -6,7 +6,6 @@
 
 use orthocert_checker::certificate::{Verdict, MOST_BYTES};
 use orthocert_checker::paving;
-use orthocert_checker::shown::{lines, Shown};
 use orthocert_checker::{check, file, read, statement, USAGE};
 use std::fmt::Display;
 use std::io::{BufRead, Read, Write};
@@ -77,8 +76,15 @@ fn check_paving(input: impl BufRead) -> ExitCode {
 
 /// A sentence on standard error, on one line.
 fn complain(sentence: &dyn Display) {
-    let sentence = lines(&Shown(sentence).to_string(), &[]);
+    let sentence = plain(&sentence.to_string()).replace('\n', "?");
     let _ = writeln!(std::io::stderr().lock(), "{sentence}");
+}
+
+/// In printable ASCII and without `#`: what is quoted of a file reorders or hides nothing, and commands
+/// neither terminals nor runners, as our own words begin each line.
+fn plain(text: &str) -> String {
+    let is_plain = |c: char| matches!(c, '\n' | ' '..='~') && c != '#';
+    text.chars().map(|c| if is_plain(c) { c } else { '?' }).collect()
 }
 
 fn usage() -> ExitCode {
@@ -88,8 +94,7 @@ fn usage() -> ExitCode {
 
 /// Prints `text`; a closed or full output is an I/O failure, not a verdict.
 fn print(text: &str, code: ExitCode) -> ExitCode {
-    let text = lines(text.trim_end(), &[]);
-    match writeln!(std::io::stdout().lock(), "{text}") {
+    match writeln!(std::io::stdout().lock(), "{}", plain(text.trim_end())) {
         Ok(()) => code,
         Err(_) => ExitCode::from(4),
     }
