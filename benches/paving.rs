@@ -72,7 +72,7 @@ fn paving(c: &mut Criterion) {
     file.extend(tree);
     let mut reader = Reader::new(file.as_slice()).expect("a header");
     while reader.next().expect("a node").is_some() {}
-    let summary = reader.summary().clone();
+    let summary = reader.summary.clone();
     file.extend(serde_json::to_vec(&summary).expect("a summary"));
     file.push(b'\n');
     group.throughput(Throughput::Elements(summary.inner + summary.outer));

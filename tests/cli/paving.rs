@@ -161,7 +161,7 @@ fn written(first: &[u8], nodes: &[Item]) -> Vec<u8> {
     nodes.iter().for_each(|item| item.write(&mut bytes).unwrap());
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while reader.next().unwrap().is_some() {}
-    let summary = serde_json::to_vec(&reader.summary()).unwrap();
+    let summary = serde_json::to_vec(&reader.summary).unwrap();
     [&bytes[..], &summary, b"\n"].concat()
 }
 

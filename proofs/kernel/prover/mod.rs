@@ -1,4 +1,5 @@
-//! What provers and tests need beside the kernel. The checker is built without it, and no verdict depends on it.
+//! What provers and tests need beside the kernel. The checker is built without it, and no verdict depends
+//! on it.
 
 mod paving;
 mod sampled;
@@ -8,11 +9,12 @@ pub use sampled::{check_sample, Sampled};
 
 use crate::atlas::shown;
 
-use crate::certificate::{AtlasCell, Evidence};
+use crate::certificate::{AtlasCell, Certificate, Evidence};
 
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Workspace};
 use crate::control::Control;
 use crate::cube::Cube;
+use crate::document::written;
 use crate::formula::Formula;
 use crate::input::{ClaimError, Input, Value};
 use crate::rejected::Rejected;
@@ -47,6 +49,16 @@ pub fn written_out(claim: &MachineClaim) -> Result<MachineClaim, ClaimError> {
             Ok(MachineClaim { mechanism: Mechanism::Translational(legs), ..claim.clone() })
         }
         _ => Ok(claim.clone()),
+    }
+}
+
+impl Certificate {
+    /// Its text.
+    ///
+    /// # Errors
+    /// Never for what [`Certificate::read`] gave.
+    pub fn to_text(&self) -> Result<String, serde_json::Error> {
+        written(self)
     }
 }
 

@@ -14,10 +14,11 @@ pub struct Sampled {
     pub decided: u64,
 }
 
-/// Checks a paving, but of its inner and outer cells, and inner parts of cells, the evidence of `size` only, or of all if there are fewer,
-/// drawn without replacement: any set of that size is as likely as another for a random seed. They are kept in
-/// memory until the last node is read. Whoever knows the seed before the file is made can forge what is not
-/// drawn. The shape of the tree, what every node claims, the symmetry and the summary are checked whole.
+/// Checks a paving, but of its inner and outer cells, and inner parts of cells, the evidence of `size` only,
+/// or of all if there are fewer, drawn without replacement: any set of that size is as likely as another for a
+/// random seed. They are kept in memory until the last node is read. Whoever knows the seed before the file is
+/// made can forge what is not drawn. The shape of the tree, what every node claims, the symmetry and the
+/// summary are checked whole.
 ///
 /// # Errors
 /// If it is rejected.

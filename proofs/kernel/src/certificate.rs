@@ -1,7 +1,7 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
 use crate::claim::{AtlasClaim, MachineClaim, NoCubeClaim, PostulateClaim};
-use crate::document::{read, written, Unreadable};
+use crate::document::{read, Unreadable};
 use crate::number::Expression;
 use crate::test::Multiplier;
 use serde::de::{Error as _, SeqAccess, Visitor};
@@ -283,14 +283,6 @@ fn label<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
 }
 
 impl Certificate {
-    /// Its text.
-    ///
-    /// # Errors
-    /// Never for what [`Certificate::read`] gave.
-    pub fn to_text(&self) -> Result<String, serde_json::Error> {
-        written(self)
-    }
-
     /// The certificate with this text.
     ///
     /// # Errors

@@ -392,7 +392,7 @@ fn read_back(input: impl BufRead) -> Result<Paved, Rejected> {
             coarsest = Some(coarsest.map_or(visited.depth, |least| least.min(visited.depth)));
         }
     }
-    let (header, summary) = (reader.header().clone(), reader.summary().clone());
+    let (header, summary) = (reader.header().clone(), reader.summary.clone());
     Ok(Paved { header, summary, coarsest, boxes: 0, bytes: 0, sha256: String::new() })
 }
 

@@ -225,7 +225,10 @@ pub enum Rejected {
     #[error("the claim is not well formed: {0}")]
     Claim(#[from] ClaimError),
     /// What is paved has no volume, or too many coordinates.
-    #[error("what is paved is not a box of positive volume, of one to three coordinates without orientations, or of one to three different ones that are named")]
+    #[error(
+        "what is paved is not a box of positive volume, of one to three coordinates without \
+         orientations, or of one to three different ones that are named"
+    )]
     NotABox,
     /// An angle that is paved does not range between short fractions.
     #[error("an angle that is paved does not range between fractions of at most 256 bits")]
@@ -276,7 +279,10 @@ pub enum Rejected {
     #[error("node {0} is left out by symmetry, but has points with u_x < u_y < u_z")]
     NotMirrored(u64),
     /// A cell is cut that cannot be, or by no plane.
-    #[error("node {0} is cut by no plane, or is no cell of all coordinates that stands for itself alone, or for five images")]
+    #[error(
+        "node {0} is cut by no plane, or is no cell of all coordinates that stands for itself \
+         alone, or for five images"
+    )]
     Cut(u64),
     /// The last line is not that of the tree.
     #[error("the last line is not the summary of the tree, or does not end the file")]

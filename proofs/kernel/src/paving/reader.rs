@@ -49,7 +49,7 @@ pub struct Reader<R> {
     /// The nodes read so far.
     pub nodes: u64,
     /// Of the nodes read so far, but for those of parts.
-    summary: Summary,
+    pub summary: Summary,
 }
 
 /// Reads the first line of a paving: the text that its header has.
@@ -170,11 +170,6 @@ impl<R: Read> Reader<R> {
             }
             Kind::Mirrored => summary.mirrored += 1,
         }
-    }
-
-    /// The tree's summary so far.
-    pub fn summary(&self) -> &Summary {
-        &self.summary
     }
 
     /// After the last node: reads the summary, which has to be that of the tree and the last of the

@@ -106,7 +106,7 @@ pub fn written(header: &Header, items: &[Item]) -> Vec<u8> {
     let mut bytes = body(header, items);
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while let Ok(Some(_)) = reader.next() {}
-    let summary = serde_json::to_vec(&reader.summary()).unwrap();
+    let summary = serde_json::to_vec(&reader.summary).unwrap();
     bytes.extend(summary);
     bytes.push(b'\n');
     bytes

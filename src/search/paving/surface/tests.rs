@@ -43,7 +43,7 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
     assert!(bytes.len() > start);
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while reader.next().unwrap().is_some() {}
-    let summary = serde_json::to_vec(&reader.summary()).unwrap();
+    let summary = serde_json::to_vec(&reader.summary).unwrap();
     bytes.extend(summary);
     bytes.push(b'\n');
     bytes
@@ -57,7 +57,7 @@ fn held(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Surface {
     let found = surface(reader, &AtomicBool::new(false)).unwrap();
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while reader.next().unwrap().is_some() {}
-    assert_eq!(found.share() as u128, reader.summary().inner_share.0);
+    assert_eq!(found.share() as u128, reader.summary.inner_share.0);
     let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
     for corners in found.in_triangles() {
         for i in 0..3 {
