@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{machine, requirements, workspace};
 use crate::tree;
-use crate::vary::{vary, Range};
+use crate::vary::{vary, Range, MOST_PARAMETERS};
 use crate::witness;
 use crate::work::{self, Budget};
 use num_bigint::BigInt;
@@ -17,8 +17,6 @@ use num_traits::{Signed, Zero};
 use serde::Serialize;
 use std::fmt;
 
-/// Most parameters of an atlas.
-pub const MOST_PARAMETERS: usize = 3;
 /// Most bits of an end of a parameter's range.
 pub const MOST_END: u64 = 128;
 /// Most halvings of a parameter on a path.

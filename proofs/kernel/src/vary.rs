@@ -4,7 +4,6 @@
 //! that is certain, an order, an enclosure. Only what is the same expression is the same number.
 
 use crate::arithmetic::Arithmetic;
-use crate::atlas::MOST_PARAMETERS;
 use crate::certificate::{Failure, Witness};
 use crate::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Quantity,
@@ -17,6 +16,9 @@ use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_rational::BigRational;
 use std::sync::Arc;
+
+/// Most names, which are the parameters of an atlas.
+pub const MOST_PARAMETERS: usize = 3;
 
 /// A name, and the values that it stands for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
