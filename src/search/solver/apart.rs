@@ -13,8 +13,8 @@ use orthocert_kernel::test::{self, Row};
 use std::collections::BTreeMap;
 
 /// Greatest components of directions that are tried: the longer, the less is lost along them, and the
-/// more across them.
-const LENGTHS: [f64; 2] = [64.0, 8.0];
+/// more across them. Of length 0 all directions count alike, which is best where several are worst at once.
+const LENGTHS: [f64; 3] = [64.0, 8.0, 0.0];
 
 /// Where a test is nearest to failing.
 struct Worst {
