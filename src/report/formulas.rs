@@ -81,6 +81,10 @@ impl Printer<'_> {
             Op::Neg(a) => format!("-{}", self.text(a)?),
             Op::Sqr(a) => format!("{}^2", self.text(a)?),
             Op::Sqrt(a) => format!("sqrt({})", self.text(a)?),
+            Op::Elbow([a, b, t], second) => {
+                let (name, a) = (if second { "elbow_s" } else { "elbow_c" }, self.text(a)?);
+                format!("{name}({a}, {}, {})", self.text(b)?, self.text(t)?)
+            }
             Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => return Err(fmt::Error),
         };
         let at = self.named.len();

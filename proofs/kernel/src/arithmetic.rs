@@ -28,6 +28,28 @@ pub trait Arithmetic {
     fn sqr(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `sqrt(a)`, for `a > 0` only: at zero a root has no slope.
     fn sqrt(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// [`elbow`].
+    fn elbow(&self, of: [&Self::Number; 3]) -> Option<[Self::Number; 2]> {
+        elbow(self, of)
+    }
+}
+
+/// The unit vector `u = (c, s)` with `|w - u|^2 = t`, `w = (a, b)`, that has `w` on its left: `b c - a s > 0`.
+///
+/// ```text
+/// n = a^2 + b^2    q = n + 1 - t    h = sqrt(4 n - q^2)    c = (q a + h b)/(2 n)    s = (q b - h a)/(2 n)
+/// ```
+///
+/// *Proof.* `4 n^2 |u|^2 = (q^2 + h^2) n = 4 n^2`; `2 u . w = q`, so that `|w - u|^2 = n - q + 1 = t`; and
+/// `b c - a s = h/2`. ∎ It is defined where `4 n > q^2`: where two circles cross.
+pub fn elbow<A: Arithmetic + ?Sized>(e: &A, [a, b, t]: [&A::Number; 3]) -> Option<[A::Number; 2]> {
+    let n = e.add(&e.sqr(a)?, &e.sqr(b)?)?;
+    let q = e.sub(&e.add(&n, &e.integer(1)?)?, t)?;
+    let h = e.sqrt(&e.sub(&e.times(4, &n)?, &e.sqr(&q)?)?)?;
+    let over = e.times(2, &n)?;
+    let c = e.add(&e.mul(&q, a)?, &e.mul(&h, b)?)?;
+    let s = e.sub(&e.mul(&q, b)?, &e.mul(&h, a)?)?;
+    Some([e.div(&c, &over)?, e.div(&s, &over)?])
 }
 
 /// Intervals: what an operation gives contains the result for all numbers in its operands.

@@ -318,6 +318,7 @@ fn image(
             _ => (own.sqr(constant(a)?), CONSTANT),
         },
         Op::Sqrt(a) => (own.sqrt(constant(a)?), CONSTANT),
+        Op::Elbow(..) => return None,
     })
 }
 

@@ -37,17 +37,20 @@ pub enum Op {
     Sqr(Formula),
     /// `sqrt(a)`.
     Sqrt(Formula),
+    /// Of the [`elbow`](crate::arithmetic::elbow) of three, `c`, or, if it says so, `s`.
+    Elbow([Formula; 3], bool),
 }
 
 impl Op {
     /// The entries it is made of.
     fn parts(self) -> impl Iterator<Item = Formula> {
-        let [a, b] = match self {
-            Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => [None, None],
-            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => [Some(a), Some(b)],
-            Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => [Some(a), None],
+        let (count, parts) = match self {
+            Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => (0, [Formula(0); 3]),
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (2, [a, b, b]),
+            Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => (1, [a; 3]),
+            Op::Elbow(of, _) => (3, of),
         };
-        a.into_iter().chain(b)
+        parts.into_iter().take(count)
     }
 }
 
@@ -214,6 +217,11 @@ impl Tape {
         self.push(Op::Sqrt(a))
     }
 
+    /// The [`elbow`](crate::arithmetic::elbow) of three.
+    pub fn elbow(&mut self, of: [Formula; 3]) -> [Formula; 2] {
+        [false, true].map(|second| self.push(Op::Elbow(of, second)))
+    }
+
     /// `u + v`.
     pub fn plus(&mut self, u: &Vector, v: &Vector) -> Vector {
         std::array::from_fn(|k| self.add(u[k], v[k]))
@@ -279,6 +287,8 @@ impl Tape {
         let count = needed.map_or(ops.len(), |needed| needed.iter().filter(|is| **is).count());
         let mut values =
             Values { defined: Vec::with_capacity(count), places: Vec::with_capacity(ops.len()) };
+        // Of the last elbow its two entries, which are found together.
+        let mut elbow = ([Formula(usize::MAX); 3], None);
         for (at, &op) in ops.iter().enumerate() {
             if needed.is_some_and(|needed| !needed[at]) {
                 values.places.push(None);
@@ -297,6 +307,13 @@ impl Tape {
                 Op::Div(a, b) => both(a, b).and_then(|(a, b)| arithmetic.div(a, b)),
                 Op::Sqr(a) => at(a).and_then(|a| arithmetic.sqr(a)),
                 Op::Sqrt(a) => at(a).and_then(|a| arithmetic.sqrt(a)),
+                Op::Elbow(of, second) => {
+                    if elbow.0 != of {
+                        let found = || arithmetic.elbow([at(of[0])?, at(of[1])?, at(of[2])?]);
+                        elbow = (of, found());
+                    }
+                    elbow.1.as_ref().map(|both| both[usize::from(second)].clone())
+                }
             };
             values.places.push(value.is_some().then_some(values.defined.len()));
             values.defined.extend(value);
@@ -309,12 +326,7 @@ impl Tape {
         let mut constant: Vec<bool> = Vec::with_capacity(self.ops.len());
         for op in &self.ops {
             let is = |f: Formula| constant.get(f.0).is_some_and(|&is| is);
-            constant.push(match *op {
-                Op::Coordinate(_) => false,
-                Op::Parameter(_) | Op::Integer(_) => true,
-                Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => is(a) && is(b),
-                Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => is(a),
-            });
+            constant.push(!matches!(op, Op::Coordinate(_)) && op.parts().all(is));
         }
         (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
     }
@@ -339,9 +351,10 @@ impl Tape {
     /// ```text
     /// (f +- g)' = (N F +- K E)/(E F)        (f g)' = (g N F + f K E)/(E F)       (f^2)' = 2 f N/E
     /// (f/g)'    = (N F - (f/g) K E)/(E F g)                       (sqrt f)' = N/(2 E sqrt f)
+    /// (c, s)'   = (-s, c) (2 (a - c) a' + 2 (b - s) b' - t')/(2 (b c - a s))       of an elbow
     /// ```
     ///
-    /// where the cross factors are left out if `E = F`.
+    /// where the cross factors are left out if `E = F`. Those of an elbow are the limit of its slopes.
     pub fn gradient(&mut self, f: Formula, by: &[Op]) -> Gradient {
         self.differentiated(f, by, false)
     }
@@ -380,11 +393,21 @@ impl Tape {
                 Op::Mul(a, b) => self.combined((&known[a.0], b), (&known[b.0], a)),
                 Op::Div(a, b) => {
                     let quotient = self.neg(Formula(at));
-                    let mut whole = self.combined((&known[a.0], one), (&known[b.0], quotient));
-                    if !whole.numerators.iter().all(|&n| n == zero) {
-                        whole.denominator = self.mul(whole.denominator, b);
-                    }
-                    whole
+                    let whole = self.combined((&known[a.0], one), (&known[b.0], quotient));
+                    self.divided(whole, b)
+                }
+                Op::Elbow([a, b, t], second) => {
+                    let [c, s] = self.elbow([a, b, t]);
+                    let (p, q) = (self.sub(a, c), self.sub(b, s));
+                    let (two, minus) = (self.integer(2), self.integer(-1));
+                    let along = self.combined((&known[a.0], p), (&known[b.0], q));
+                    let mut whole = self.combined((&along, two), (&known[t.0], minus));
+                    let by = if second { c } else { self.neg(s) };
+                    whole.numerators.iter_mut().for_each(|n| *n = self.mul(by, *n));
+                    let (bc, sa) = (self.mul(b, c), self.mul(a, s));
+                    let across = self.sub(bc, sa);
+                    let across = self.mul(two, across);
+                    self.divided(whole, across)
                 }
                 Op::Sqr(a) => {
                     let two = self.integer(2);
@@ -410,6 +433,14 @@ impl Tape {
             });
         }
         known.swap_remove(f.0)
+    }
+
+    /// `f'/b`.
+    fn divided(&mut self, mut f: Gradient, b: Formula) -> Gradient {
+        if !f.numerators.iter().all(|&n| self.is(n, 0)) {
+            f.denominator = self.mul(f.denominator, b);
+        }
+        f
     }
 
     /// `p f' + q g'`.

@@ -25,8 +25,21 @@
 //! `uv - cd = (u - c) v + (v - d) c = (u - c) d + (v - d) u` has the slopes `(v, c)` and `(d, u)`,
 //! and on `u, v` in `[1, 3]`, `c = d = 2`, cutting each to what both allow gives `(2, 2)`, which would
 //! make the product affine.
+//!
+//! **Elbows** `u = (c, s)` of `w = (a, b)` and `t` ([`crate::arithmetic::elbow`]) have slopes by the equations
+//! that they solve. With means `x_m = (x_X + x_c)/2` and `p = w_m - u_m`:
+//!
+//! ```text
+//! S_c = -s_m z    S_s = c_m z    z = (p_1 S_a + p_2 S_b - S_t/2)/(b_m c_m - a_m s_m)
+//! ```
+//!
+//! *Proof.* The difference of `|u|^2 = 1` at both points is `u_m . du = 0`, that of `|w - u|^2 = t` is
+//! `2 p . (dw - du) = dt`. So `w_m . du = p . dw - dt/2`, and `(b_m c_m - a_m s_m) du = (-s_m, c_m) (w_m . du)`. ∎
+//! Means are formulas over the cell, with half the slopes of their own, and so, for each `k`, is `z` with
+//! any numbers in the enclosures of the three `S_k`, which is in its range. Slopes narrow the ranges that
+//! they are found from: they are found twice.
 
-use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::arithmetic::{elbow, Arithmetic, Enclosure};
 use crate::cell::Vertex;
 
 /// Most coordinates of a workspace.
@@ -132,6 +145,13 @@ impl<E: Enclosure> Slopes<'_, E> {
         }
         Some(slopes)
     }
+
+    /// The mean of a formula's values at the centre and at a point of the cell.
+    fn mean(&self, f: &Slope<E::Number>) -> Option<Slope<E::Number>> {
+        let e = self.arithmetic;
+        let slopes = self.each(f.slopes.clone(), |_, s| e.halve(s))?;
+        self.cut(f.at_centre.clone(), &e.halve(&e.add(&f.range, &f.at_centre)?)?, slopes)
+    }
 }
 
 impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
@@ -207,5 +227,27 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
         let by = e.recip(&e.add(&range, &at_centre)?)?;
         let slopes = self.each(f.slopes.clone(), |_, s| e.mul(&by, s))?;
         self.cut(at_centre, &range, slopes)
+    }
+
+    fn elbow(&self, [a, b, t]: [&Self::Number; 3]) -> Option<[Self::Number; 2]> {
+        let e = self.arithmetic;
+        let [mut c, mut s] = elbow(self, [a, b, t])?;
+        let [x, y] = [self.mean(a)?, self.mean(b)?];
+        for _ in 0..2 {
+            let [cos, sin] = [self.mean(&c)?, self.mean(&s)?];
+            let across = self.sub(&self.mul(&y, &cos)?, &self.mul(&x, &sin)?)?;
+            let over = self.div(&self.integer(1)?, &across)?;
+            let p = self.mul(&self.sub(&x, &cos)?, &over)?;
+            let q = self.mul(&self.sub(&y, &sin)?, &over)?;
+            let times = |f, s: &E::Number| self.mul(f, &self.constant(s.clone())?);
+            let z = self.each(t.slopes.clone(), |k, s| {
+                let along = self.add(&times(&p, &a.slopes[k])?, &times(&q, &b.slopes[k])?)?;
+                Some(self.sub(&along, &times(&over, &e.halve(s)?)?)?.range)
+            })?;
+            let by = |m: &E::Number| self.each(z.clone(), |_, z| e.mul(m, z));
+            c = self.cut(c.at_centre, &c.range, by(&e.neg(&sin.range)?)?)?;
+            s = self.cut(s.at_centre, &s.range, by(&cos.range)?)?;
+        }
+        Some([c, s])
     }
 }

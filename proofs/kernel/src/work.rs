@@ -73,6 +73,7 @@ fn size(x: &Expression) -> (usize, usize, bool) {
 fn weight(problem: &Problem) -> usize {
     let weight = |op: &Op| match op {
         Op::Sqrt(_) => 10,
+        Op::Elbow(..) => 40,
         Op::Div(..) => 3,
         _ => 1,
     };

@@ -3,8 +3,8 @@
     Written by proofs/kernel/tests/kernel/rocq.rs.  The digests are of the
     integers that the kernel's arithmetic gives: operations on random
     intervals, definiteness of random matrices, what is shown of random cells
-    of the postulate's faces in so few bits that each rounding counts, and the
-    slopes of all rows of two machines over cells of their boxes.  Nothing
+    of the postulate's faces and the slopes of elbows in so few bits that each
+    rounding counts, and the slopes of all rows of two machines over cells of their boxes.  Nothing
     depends on this file. *)
 
 From Coq Require Import ZArith NArith List Bool.
@@ -89,6 +89,18 @@ Definition absorb_slope (digest : Z) (f : option slope) : Z :=
   | Some f => fold_left absorb_interval (map Some (at_c f :: range f :: map (fun k => nth k (slopes f) zero) [0; 1; 2]%nat)) digest
   | None => absorb digest 7
   end.
+(** The elbow of three coordinates, over random cells in few bits. *)
+Definition elbow_tape : list (op nat) := [Coord 0; Coord 1; Coord 2; Elbow false 2 1 0; Elbow true 3 2 1]%nat.
+Fixpoint elbows_digest (n : nat) (st : Z * Z) : Z :=
+  match n with
+  | O => fst st
+  | S n =>
+      let (a, s) := near (snd st) (-5000) 9000 500 in let (b, s) := near s (-5000) 9000 500 in let (t, s) := near s 200 9000 500 in
+      let values := evaluate 12 elbow_tape [] [a; b; t] in
+      elbows_digest n (fold_left absorb_slope [nth 1 values None; nth 0 values None] (fst st), s)
+  end.
+Definition elbows : Z := elbows_digest 200 (0, 1).
+
 (** A tape of all rows, and where they are on it. *)
 Definition compiled_rows (c : claim) (s : Z) (ds : list Z) : list (op nat) * list nat :=
   let fs := all_formulas s ds (legs c) 0 in compile (entries (whole_rows fs) ++ entries (divided_rows fs)).
@@ -117,6 +129,8 @@ Example definiteness : definite = 117724195210062243353930469751842205840.
 Proof. vm_cast_no_check (eq_refl 117724195210062243353930469751842205840). Qed.
 Example faces : shown = 31913373165326602092280992525734546912.
 Proof. vm_cast_no_check (eq_refl 31913373165326602092280992525734546912). Qed.
+Example elbows_are : elbows = 67286614231854316446669086773251632626.
+Proof. vm_cast_no_check (eq_refl 67286614231854316446669086773251632626). Qed.
 
 Example foursliders_52_0 : FourSliders.over 52 [Fixed (-527765581332480) (527765581332480); Fixed (-527765581332480) (527765581332480); Fixed (0) (1759218604441600)] = 112952018440446013053676556095504964808.
 Proof. vm_cast_no_check (eq_refl 112952018440446013053676556095504964808). Qed.

@@ -4,7 +4,7 @@
     a fixed axis; the joint coordinate is the arm's angle. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
-From Orthocert.kernel Require Import Linear Configuration.
+From Orthocert.kernel Require Import Elbow Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
 From Orthocert.kernel Require Import Statement Machine Witness.
 Import ListNotations.
@@ -146,21 +146,6 @@ Proof.
   intros k e w v hk he ho. pose proof (gram k e (vadd w v) hk he ho) as S. pose proof (gram k e w hk he ho) as A.
   pose proof (gram k e v hk he ho) as B. assert (D : forall u, dot u (vadd w v) = dot u w + dot u v) by (clear; vec_ring).
   assert (N : norm2 (vadd w v) = norm2 w + norm2 v + 2 * dot w v) by (clear; vec_ring). rewrite !D, N in S. lra.
-Qed.
-
-(** The rates of the quotients that are the cosine and the sine, in real numbers. *)
-Lemma rates : forall c s g h A B a b g', h <> 0 -> c ^ 2 + s ^ 2 = 1 -> c * A + s * B = g -> c * B - s * A = h ->
-  let h' := (A * a + B * b - g * g') / h in let rate := (g' - c * a - s * b) / h in
-  g' * A + g * a + (h' * B + h * b) - 2 * (A * a + B * b) * c = (g ^ 2 + h ^ 2) * (- s * rate) /\
-  g' * B + g * b - (h' * A + h * a) - 2 * (A * a + B * b) * s = (g ^ 2 + h ^ 2) * (c * rate).
-Proof.
-  intros c s g h A B a b g' nz u hg hh. cbv zeta. assert (EA : A = c * g - s * h).
-  { rewrite <- hg, <- hh. replace (c * (c * A + s * B) - s * (c * B - s * A)) with (A * (c ^ 2 + s ^ 2)) by ring. rewrite u. ring. }
-  assert (EB : B = s * g + c * h).
-  { rewrite <- hg, <- hh. replace (s * (c * A + s * B) + c * (c * B - s * A)) with (B * (c ^ 2 + s ^ 2)) by ring. rewrite u. ring. }
-  clear hg hh. subst A B. assert (es : s ^ 2 = 1 - c ^ 2) by lra.
-  assert (e3 : s ^ 3 = s * (1 - c ^ 2)) by (replace (s ^ 3) with (s * s ^ 2) by ring; rewrite es; reflexivity).
-  split; (apply Rmult_eq_reg_r with h; [| exact nz]); field_simplify; try exact nz; rewrite ?e3, ?es; field_simplify; try exact nz; ring.
 Qed.
 
 (** A guard on the model: along any differentiable trajectory P(t), the arm turns at the speed row . P'. *)

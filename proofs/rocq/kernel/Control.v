@@ -23,6 +23,7 @@ Fixpoint is_free (m k : nat) (f : formula) : bool :=
       | Param _ | Integer _ => true
       | Add a b | Sub a b | Mul a b | Div a b => is_free m k a && is_free m k b
       | Neg a | Sqr a | Sqrt a => is_free m k a
+      | Elbow _ _ _ _ => false
       end
   end.
 (** Certainly affine in the two. *)
@@ -35,6 +36,7 @@ Fixpoint is_affine (m k : nat) (f : formula) : bool :=
       | Mul a b => is_free m k a && is_affine m k b || is_affine m k a && is_free m k b
       | Div a b => is_affine m k a && is_free m k b
       | Sqr a | Sqrt a => is_free m k a
+      | Elbow _ _ _ _ => false
       end
   end.
 (** Coordinate [j] is not in the formula. *)
@@ -45,6 +47,7 @@ Fixpoint is_without (j : nat) (f : formula) : bool :=
       | Param _ | Integer _ => true
       | Add a b | Sub a b | Mul a b | Div a b => is_without j a && is_without j b
       | Neg a | Sqr a | Sqrt a => is_without j a
+      | Elbow _ _ _ _ => false
       end
   end.
 (** Certainly not the less for more of coordinate [j], where [w] is not negative. *)
@@ -110,23 +113,23 @@ Qed.
 
 Lemma free_value : forall f p q, is_free m k f = true -> at_ f p = at_ f q.
 Proof.
-  fix IH 1. intros [o] p q h. unfold at_pairs in *. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a]; cbn [is_free] in h; cbn [value map_op real_op];
-    [| exact eq_refl | exact eq_refl | | | | | | |]; try (apply andb_true_iff in h as [h1 h2]; rewrite (IH a p q h1), (IH b p q h2); exact eq_refl);
+  fix IH 1. intros [o] p q h. unfold at_pairs in *. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [is_free] in h; cbn [value map_op real_op];
+    [| exact eq_refl | exact eq_refl | | | | | | | | discriminate h]; try (apply andb_true_iff in h as [h1 h2]; rewrite (IH a p q h1), (IH b p q h2); exact eq_refl);
     try (rewrite (IH a p q h); exact eq_refl).
   apply andb_true_iff in h as [h1 h2]. rewrite (nth_at p), (nth_at q). destruct (Nat.eqb j k); [discriminate h1 |]. destruct (Nat.eqb j (m + k)); [discriminate h2 | exact eq_refl].
 Qed.
 
 Lemma without_value : forall f a s t, is_without (m + k) f = true -> at_ f (a, s) = at_ f (a, t).
 Proof.
-  fix IH 1. intros [o] c s t h. unfold at_pairs in *. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a]; cbn [is_without] in h; cbn [value map_op real_op];
-    [| exact eq_refl | exact eq_refl | | | | | | |]; try (apply andb_true_iff in h as [h1 h2]; rewrite (IH a c s t h1), (IH b c s t h2); exact eq_refl);
+  fix IH 1. intros [o] c s t h. unfold at_pairs in *. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [is_without] in h; cbn [value map_op real_op];
+    [| exact eq_refl | exact eq_refl | | | | | | | | discriminate h]; try (apply andb_true_iff in h as [h1 h2]; rewrite (IH a c s t h1), (IH b c s t h2); exact eq_refl);
     try (rewrite (IH a c s t h); exact eq_refl).
   rewrite (nth_at (c, s)), (nth_at (c, t)). destruct (Nat.eqb j k); [exact eq_refl |]. destruct (Nat.eqb j (m + k)); [discriminate h | exact eq_refl].
 Qed.
 
 Lemma rises_value : forall w f a s t, rises w (m + k) f = true -> 0 <= at_ w (a, s) -> s <= t -> at_ f (a, s) <= at_ f (a, t).
 Proof.
-  intros w. fix IH 1. intros [o] c s t h w0 le. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a];
+  intros w. fix IH 1. intros [o] c s t h w0 le. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a | ? a b e];
     try (apply Req_le; exact (without_value _ c s t h)); cbn [rises] in h.
   - unfold at_pairs. cbn [value map_op real_op]. rewrite (nth_at (c, s)), (nth_at (c, t)). cbn [fst snd].
     destruct (Nat.eqb j k); [apply Rle_refl |]. destruct (Nat.eqb j (m + k)); [exact le | apply Rle_refl].
@@ -145,7 +148,7 @@ Qed.
 Lemma affine_value : forall f u v w p q r, u + v + w = 1 -> is_affine m k f = true ->
   at_ f (mean u v w p q r) = u * at_ f p + v * at_ f q + w * at_ f r.
 Proof.
-  fix IH 1. intros [o] u v w p q r s h. assert (E : u = 1 - v - w) by lra. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a].
+  fix IH 1. intros [o] u v w p q r s h. assert (E : u = 1 - v - w) by lra. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a | ? a b e].
   - unfold at_pairs. cbn [value map_op real_op]. rewrite (nth_at (mean u v w p q r)), (nth_at p), (nth_at q), (nth_at r). destruct (Nat.eqb j k); [exact eq_refl |].
     destruct (Nat.eqb j (m + k)); [exact eq_refl |]. rewrite E. ring.
   - unfold at_pairs. cbn [value map_op real_op]. rewrite E. ring.
@@ -167,6 +170,7 @@ Proof.
     rewrite (A (mean u v w p q r)), (A q), (A r), E. ring.
   - cbn [is_affine] in h. pose proof (fun x => free_value a x p h) as A. unfold at_pairs in *. cbn [value map_op real_op].
     rewrite (A (mean u v w p q r)), (A q), (A r), E. ring.
+  - discriminate h.
 Qed.
 End Coordinate.
 
@@ -195,6 +199,7 @@ Fixpoint is_below (m : nat) (f : formula) : bool :=
       | Param _ | Integer _ => true
       | Add a b | Sub a b | Mul a b | Div a b => is_below m a && is_below m b
       | Neg a | Sqr a | Sqrt a => is_below m a
+      | Elbow _ _ _ _ => false
       end
   end.
 
@@ -206,11 +211,11 @@ Proof.
   assert (L : forall j, (j < length x)%nat -> nth j X 0 = nth j x 0 /\ nth (length x + j) X 0 = nth j x 0 ^ 2).
   { intros j h. unfold X, point_of, parabola. rewrite !map_map. cbn [fst snd]. rewrite map_id. split; [apply app_nth1; exact h |].
     rewrite app_nth2_plus. rewrite (nth_indep _ 0 ((fun a => a ^ 2) 0)) by (rewrite map_length; exact h). rewrite (map_nth (fun a => a ^ 2)). reflexivity. }
-  fix IH 1. intros [o] h. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a]; cbn [is_below] in h;
+  fix IH 1. intros [o] h. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [is_below] in h; try discriminate h;
     try (apply andb_true_iff in h as [h1 h2]; cbn [image value map_op real_op]; rewrite (IH a h1), (IH b h2); reflexivity);
     try (cbn [image value map_op real_op]; rewrite (IH a h); reflexivity); try reflexivity.
   - apply Nat.ltb_lt in h. exact (proj1 (L j h)).
-  - pose proof (IH a h) as K. destruct a as [[j | j | n | b c | b c | b | b c | b c | b | b]]; [| exact (f_equal (fun y => y ^ 2) K) ..].
+  - pose proof (IH a h) as K. destruct a as [[j | j | n | b c | b c | b | b c | b c | b | b | ? b c d]]; [| exact (f_equal (fun y => y ^ 2) K) ..].
     cbn [is_below] in h. apply Nat.ltb_lt in h. exact (proj2 (L j h)).
 Qed.
 
@@ -399,6 +404,7 @@ Definition fixed_op (coords : list fixed) (o : op (option fixed)) : option fixed
   | Div a b => lift2 (fun a b => option_map (mul bits a) (recip bits b)) a b
   | Sqr a => lift1 (fun a => Some (sqr bits a)) a
   | Sqrt a => lift1 (Fixed.root bits) a
+  | Elbow _ _ _ _ => None
   end.
 
 Definition entry_at (i : nat) : formula := nth i (formulas tape) (integer 0).
@@ -418,7 +424,7 @@ Proof.
   { unfold point_of. apply Forall2_app; eapply map_related; try exact h; intros ? ? [? ?]; assumption. }
   apply (nth_related _ _ None (integer 0) (has_value ps)); [exact I |].
   apply (run_related (option fixed) formula None (integer 0) _ F (has_value ps)); [exact I | | constructor].
-  intros o f g H. unfold has_value, at_pairs in *. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a];
+  intros o f g H. unfold has_value, at_pairs in *. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | ? a b e];
     cbn [map_op fixed_op value real_op];
     try (pose proof (H a) as A; destruct (f a) as [ia |]; cbn [lift1 lift2]; [| exact I]);
     try (pose proof (H b) as B; destruct (f b) as [ib |]; cbn [lift1 lift2]; [| exact I]);
@@ -497,6 +503,7 @@ Definition tensor_op (coords : list tensor) (o : op tensor) : tensor :=
   | Div a b => tensor2 (lift2 (fun a b => option_map (mul bits a) (recip bits b))) a b
   | Sqr a => tensor1 (lift1 (fun a => Some (sqr bits a))) a
   | Sqrt a => tensor1 (lift1 (Fixed.root bits)) a
+  | Elbow _ _ _ _ => Constant None
   end.
 Definition tensors (cell : list fixed) : list tensor :=
   run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) tape [].
@@ -510,7 +517,7 @@ Proof.
   apply (nth_related _ _ (Constant None) None (fun t a => value_at t p = a)); [apply value_constant |].
   apply (run_related tensor (option fixed) (Constant None) None _ _ (fun t a => value_at t p = a)); [apply value_constant | | constructor].
   assert (N1 : forall g a, lift2 g a None = None) by (intros g []; reflexivity).
-  intros o f g H. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [map_op tensor_op fixed_op];
+  intros o f g H. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [map_op tensor_op fixed_op];
     try apply value_constant; try (rewrite value_tensor2, (H a), (H b) by (try apply N1; reflexivity); reflexivity);
     try (rewrite value_tensor1, (H a) by reflexivity; reflexivity).
   rewrite <- (map_nth Some), <- C. pose proof (map_nth (fun t => value_at t p) (axes fst cell ++ axes snd cell) (Constant (Some zero)) k) as M.

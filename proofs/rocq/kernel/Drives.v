@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Pose Configuration Arm Legs.
+From Orthocert.kernel Require Import Elbow Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Pose Configuration Arm Legs.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -34,16 +34,14 @@ Definition arm_drive_formulas (w axis reference : evec) (r len : formula) (mode 
   let k := unit_vector axis in let y := arm_part k reference in let e := unit_vector y in let f := ecross k e in
   let alpha := Machine.product w e in let beta := Machine.product w f in let kappa := Machine.product k w in
   let n := plus (square alpha) (square beta) in
-  let c := plus (square kappa) (minus (square r) (square len)) in
-  let g := over (plus n c) (times (integer 2) r) in
-  let d := minus (minus (square len) (square kappa)) (square (minus g r)) in
-  let i := over (integer 1) n in
-  let p := over (minus (integer 1) (times c i)) (integer 2) in
-  let s := signed mode (times r (root d)) in
-  let q := times s i in
-  let ae := minus (times p alpha) (times q beta) in let af := plus (times p beta) (times q alpha) in
-  let A := map2 plus (map2 plus (Machine.scaled ae e) (Machine.scaled af f)) (Machine.scaled kappa k) in
-  DriveFormulas A (times (square r) d) (divided_by A s) (EAngle (over (minus alpha ae) r) (over (minus beta af) r)) (Some (d, len))
+  let x := minus (square len) (square kappa) in
+  let g := over (plus n (minus (square r) x)) (times (integer 2) r) in
+  let d := minus n (square g) in
+  let eta := signed mode (times r (root d)) in
+  let a := over alpha r in let b := signed mode (over beta r) in let t := over x (square r) in
+  let c := elbow_of false a b t in let s := signed mode (elbow_of true a b t) in
+  let A := map2 minus w (Machine.scaled r (map2 plus (Machine.scaled c e) (Machine.scaled s f))) in
+  DriveFormulas A (times (square r) d) (divided_by A eta) (EAngle c s) (Some (d, len))
     [root (Machine.product axis axis); root (Machine.product y y); root r; root len].
 
 (** Rates of lengths are those in any unit; those of angles are over a length. *)
@@ -162,19 +160,6 @@ Proof.
     cbn [joint_is]. rewrite value_dot, hn, hw. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
 Qed.
 
-(** In the frame of the arm. *)
-Lemma framed : forall k e w, norm2 k = 1 -> norm2 e = 1 -> Vec3.dot k e = 0 ->
-  w = vadd (vadd (vscale (Vec3.dot e w) e) (vscale (Vec3.dot (cross k e) w) (cross k e))) (vscale (Vec3.dot k w) k).
-Proof.
-  intros k e w hk he ho. assert (G := fun v => gram_product k e w v hk he ho).
-  pose proof (G e1) as G1. pose proof (G e2) as G2. pose proof (G e3) as G3.
-  unfold Vec3.dot at 1 in G1. unfold Vec3.dot at 1 in G2. unfold Vec3.dot at 1 in G3. unfold e1, e2, e3 in G1, G2, G3. cbn [vx vy vz] in G1, G2, G3.
-  apply vec_ext; unfold vadd, vscale; cbn [vx vy vz].
-  - replace (vx w) with (vx w * 1 + vy w * 0 + vz w * 0) at 1 by ring. rewrite G1. unfold Vec3.dot. cbn [vx vy vz]. ring.
-  - replace (vy w) with (vx w * 0 + vy w * 1 + vz w * 0) at 1 by ring. rewrite G2. unfold Vec3.dot. cbn [vx vy vz]. ring.
-  - replace (vz w) with (vx w * 0 + vy w * 0 + vz w * 1) at 1 by ring. rewrite G3. unfold Vec3.dot. cbn [vx vy vz]. ring.
-Qed.
-
 Lemma dot_swapped : forall a b, Vec3.dot a b = Vec3.dot b a.
 Proof. intros. unfold Vec3.dot. ring. Qed.
 Lemma dot_scaled : forall c a b, Vec3.dot a (vscale c b) = c * Vec3.dot a b.
@@ -193,17 +178,11 @@ Proof.
   unfold arm_drive_formulas. cbv zeta. set (k := unit_vector axis) in *. set (e := unit_vector (arm_part k reference)) in *. set (f := ecross k e).
   assert (Ef : val3 f = quarter l) by (unfold f; rewrite val3_cross, Ek, Ee; reflexivity).
   set (alpha := Machine.product w e). set (beta := Machine.product w f). set (kappa := Machine.product k w).
-  assert (Va : value alpha = u * along l C) by (unfold alpha; rewrite value_dot, hw, Ee, dot_swapped, dot_scaled; reflexivity).
-  assert (Vb : value beta = u * across l C) by (unfold beta; rewrite value_dot, hw, Ef, dot_swapped, dot_scaled; reflexivity).
-  assert (Vk : value kappa = u * height l C) by (unfold kappa; rewrite value_dot, hw, Ek, dot_scaled; reflexivity).
-  set (n := plus (square alpha) (square beta)). set (c := plus (square kappa) (minus (square r) (square len))). set (g := over (plus n c) (times (integer 2) r)).
-  set (d := minus (minus (square len) (square kappa)) (square (minus g r))). set (i := over (integer 1) n).
-  set (p := over (minus (integer 1) (times c i)) (integer 2)). set (sg := signed mode (times r (root d))). set (q := times sg i).
-  set (ae := minus (times p alpha) (times q beta)). set (af := plus (times p beta) (times q alpha)).
-  set (A := map2 plus (map2 plus (Machine.scaled ae e) (Machine.scaled af f)) (Machine.scaled kappa k)).
-  set (N0 := along l C ^ 2 + across l C ^ 2). set (c0 := height l C ^ 2 + (arm_length l ^ 2 - rod_length l ^ 2)).
-  assert (Vn : value n = u ^ 2 * N0) by (unfold n; rewrite value_plus, !Formula.value_square, Va, Vb; unfold N0; ring).
-  assert (Vc : value c = u ^ 2 * c0) by (unfold c; rewrite value_plus, value_minus, !Formula.value_square, Vk, hr, hL; unfold c0; ring).
+  set (n := plus (square alpha) (square beta)). set (xq := minus (square len) (square kappa)). set (g := over (plus n (minus (square r) xq)) (times (integer 2) r)).
+  set (d := minus n (square g)). set (sg := signed mode (times r (root d))). set (a := over alpha r). set (bl := signed mode (over beta r)). set (tq := over xq (square r)).
+  set (ec := elbow_of false a bl tq). set (es := signed mode (elbow_of true a bl tq)).
+  set (A := map2 minus w (Machine.scaled r (map2 plus (Machine.scaled ec e) (Machine.scaled es f)))).
+  set (N0 := along l C ^ 2 + across l C ^ 2).
   assert (two : value (integer 2) = 2) by reflexivity. assert (one : value (integer 1) = 1) by reflexivity.
   split; [| intro ok].
   - cbn [b_built well_formed_driven]. intro h. inversion h as [| ? ? h1 H]; subst. inversion H as [| ? ? h2 H']; subst. inversion H' as [| ? ? h3 H'']; subst. inversion H'' as [| ? ? h4 _]; subst.
@@ -217,9 +196,17 @@ Proof.
     + apply Rmult_lt_reg_l with u; lra.
     + destruct mode; auto.
   - assert (ok' := ok). destruct ok' as [k1 [e1' [ke [r0 [L0 _]]]]]. cbn [b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod rate_unit].
+    assert (Val : value alpha = u * along l C) by (unfold alpha; rewrite value_dot, hw, Ee, dot_swapped, dot_scaled; reflexivity).
+    assert (Vbe : value beta = u * across l C) by (unfold beta; rewrite value_dot, hw, Ef, dot_swapped, dot_scaled; reflexivity).
+    assert (Vk : value kappa = u * height l C) by (unfold kappa; rewrite value_dot, hw, Ek, dot_scaled; reflexivity).
+    assert (Vn : value n = u ^ 2 * N0) by (unfold n; rewrite value_plus, !Formula.value_square, Val, Vbe; unfold N0; ring).
+    assert (Vx : value xq = u ^ 2 * (rod_length l ^ 2 - height l C ^ 2)) by (unfold xq; rewrite value_minus, !Formula.value_square, Vk, hL; ring).
     assert (Vg : value g = u * forward l C).
-    { unfold g, forward. rewrite value_over, value_plus, value_times, Vn, Vc, hr, two. fold N0 c0. field. split; lra. }
-    assert (Vd : value d = u ^ 2 * clearance l C) by (unfold d, clearance; rewrite !value_minus, !Formula.value_square, value_minus, Vk, Vg, hr, hL; ring).
+    { unfold g. rewrite value_over, value_plus, value_minus, value_times, Formula.value_square, Vn, Vx, hr, two. unfold forward. fold N0. field. split; lra. }
+    assert (Cl : N0 - forward l C ^ 2 = clearance l C) by (unfold clearance, forward; fold N0; field; lra).
+    assert (Vd : value d = u ^ 2 * clearance l C) by (unfold d; rewrite value_minus, Formula.value_square, Vn, Vg, <- Cl; ring).
+    assert (Va : value a = along l C / arm_length l) by (unfold a; rewrite value_over, Val, hr; field; split; lra).
+    assert (Vt : value tq = (rod_length l ^ 2 - height l C ^ 2) / arm_length l ^ 2) by (unfold tq; rewrite value_over, Formula.value_square, Vx, hr; field; split; lra).
     assert (Vs : value sg = u ^ 2 * (arm_length l * arm_eta l C)).
     { unfold sg, arm_eta. rewrite value_signed', value_times, value_root, Vd, hr, hm, sqrt_resized by exact u0. ring. }
     assert (VD : value (times (square r) d) = u ^ 4 * (arm_length l ^ 2 * clearance l C)) by (rewrite value_times, Formula.value_square, Vd, hr; ring).
@@ -230,24 +217,33 @@ Proof.
     + cbn [divided_by ex]. intro h. apply defined_over in h. rewrite Vs in h. unfold arm_reaches. apply Rnot_le_lt. intro z. apply h. unfold arm_eta. rewrite sqrt_neg_0 by exact z. ring.
     + intro reach. destruct (distance_split l C ok reach) as [_ NN]. fold N0 in NN. pose proof (eta_squared l C ok reach) as E2.
       assert (h0 : arm_eta l C <> 0) by (intro z; rewrite z in E2; unfold arm_reaches in reach; lra).
-      assert (Vi : value i = / (u ^ 2 * N0)) by (unfold i; rewrite value_over, one, Vn; unfold Rdiv; ring).
-      assert (Vp : value p = (1 - c0 / N0) / 2) by (unfold p; rewrite value_over, value_minus, value_times, one, two, Vc, Vi; field; split; lra).
-      assert (Vq : value q = arm_length l * arm_eta l C / N0) by (unfold q; rewrite value_times, Vs, Vi; field; split; lra).
-      assert (F : forward l C = (N0 + c0) / (2 * arm_length l)) by reflexivity.
-      assert (Vae : value ae = u * (along l C - arm_length l * arm_cosine l C)).
-      { unfold ae. rewrite value_minus, !value_times, Vp, Vq, Va, Vb. unfold arm_cosine. fold N0. rewrite F. field. split; lra. }
-      assert (Vaf : value af = u * (across l C - arm_length l * arm_sine l C)).
-      { unfold af. rewrite value_plus, !value_times, Vp, Vq, Va, Vb. unfold arm_sine. fold N0. rewrite F. field. split; lra. }
+      assert (Vbl : value bl = arm_mode l * (across l C / arm_length l)) by (unfold bl; rewrite value_signed', value_over, Vbe, hr, hm; field; split; lra).
+      assert (mm : arm_mode l * arm_mode l = 1) by (rewrite hm; destruct mode; ring).
+      assert (Rad : sqrt (elbow_radicand (value a) (value bl) (value tq)) = 2 * sqrt (clearance l C) / arm_length l).
+      { assert (E : elbow_radicand (value a) (value bl) (value tq) = (2 / arm_length l) ^ 2 * clearance l C).
+        { unfold elbow_radicand. replace (value a ^ 2 + value bl ^ 2) with (N0 / arm_length l ^ 2)
+            by (rewrite Va, Vbl; unfold N0; replace ((arm_mode l * (across l C / arm_length l)) ^ 2) with (arm_mode l * arm_mode l * (across l C / arm_length l) ^ 2) by ring; rewrite mm; field; lra).
+          rewrite Vt, <- Cl. unfold forward. fold N0. field. lra. }
+        rewrite E, sqrt_resized by (apply Rdiv_lt_0_compat; lra). field. lra. }
+      assert (Nn : value a ^ 2 + value bl ^ 2 = N0 / arm_length l ^ 2)
+        by (rewrite Va, Vbl; unfold N0; replace ((arm_mode l * (across l C / arm_length l)) ^ 2) with (arm_mode l * arm_mode l * (across l C / arm_length l) ^ 2) by ring; rewrite mm; field; lra).
+      assert (Q : value a ^ 2 + value bl ^ 2 + 1 - value tq = 2 * (forward l C / arm_length l)) by (rewrite Nn, Vt; unfold forward; fold N0; field; lra).
+      assert (Vc : value ec = arm_cosine l C).
+      { change (value ec) with (fst (Elbow.elbow (value a) (value bl) (value tq))). unfold Elbow.elbow. cbn [fst]. rewrite Rad, Q, Nn, Va, Vbl. unfold arm_cosine, arm_eta. fold N0. field. split; lra. }
+      assert (Vsn : value es = arm_sine l C).
+      { unfold es. rewrite value_signed', <- hm. change (value (elbow_of true a bl tq)) with (snd (Elbow.elbow (value a) (value bl) (value tq))). unfold Elbow.elbow. cbn [snd]. rewrite Rad, Q, Nn, Va, Vbl.
+        unfold arm_sine, arm_eta. fold N0.
+        replace (arm_mode l * ((2 * (forward l C / arm_length l) * (arm_mode l * (across l C / arm_length l)) - 2 * sqrt (clearance l C) / arm_length l * (along l C / arm_length l)) / (2 * (N0 / arm_length l ^ 2))))
+          with ((arm_mode l * arm_mode l * forward l C * across l C - arm_mode l * sqrt (clearance l C) * along l C) / N0) by (field; split; lra).
+        rewrite mm. field. lra. }
       assert (VA : val3 A = vscale u (Arm.rod l C)).
-      { unfold A. rewrite !val3_plus, !val3_scaled, Vae, Vaf, Vk, Ee, Ef, Ek. pose proof (framed _ _ (from_motor l C) k1 e1' ke) as W. fold (quarter l) (along l C) (across l C) (height l C) in W.
-        assert (E : Arm.rod l C = vsub (from_motor l C) (vscale (arm_length l) (vadd (vscale (arm_cosine l C) (motor_zero l)) (vscale (arm_sine l C) (quarter l)))))
-          by (unfold Arm.rod, elbow, from_motor, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
-        rewrite E. rewrite W at 1. generalize (motor_zero l) (quarter l) (motor_axis l). intros a b z. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
+      { unfold A. rewrite val3_minus, val3_scaled, val3_plus, !val3_scaled, Vc, Vsn, hw, Ee, Ef, hr.
+        unfold Arm.rod, Arm.elbow, from_motor. generalize (motor_zero l) (quarter l). intros a0 b0. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
       assert (UT : two_to s = / u) by (unfold u; rewrite Rinv_inv; reflexivity).
       split; [| split; [| split]].
       * exists (u ^ 2 * (arm_length l * arm_eta l C)). split; [rewrite VD, <- E2; ring |]. rewrite VA, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
       * rewrite val3_divided, VA, Vs, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
-      * cbn [joint_is]. rewrite !value_over, !value_minus, Vae, Vaf, Va, Vb, hr. split; field; split; lra.
+      * cbn [joint_is]. split; [exact Vc | exact Vsn].
       * exists (Arm.rod l C), (arm_eta l C), (rod_length l). split; [reflexivity |]. split; [rewrite Vd, <- E2; ring |]. split; [exact hL | exact VA].
 Qed.
 End Values.

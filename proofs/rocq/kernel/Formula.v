@@ -10,21 +10,24 @@
     machine is found by comparing ([same]). *)
 
 From Coq Require Import ZArith Reals Lra List Bool.
+From Orthocert.kernel Require Import Elbow.
 Import ListNotations.
 Local Open Scope R_scope.
 
 (** One operation on arguments of type [A]. *)
 Inductive op (A : Type) :=
   | Coord (k : nat) | Param (j : nat) | Integer (n : Z)
-  | Add (a b : A) | Sub (a b : A) | Neg (a : A) | Mul (a b : A) | Div (a b : A) | Sqr (a : A) | Sqrt (a : A).
+  | Add (a b : A) | Sub (a b : A) | Neg (a : A) | Mul (a b : A) | Div (a b : A) | Sqr (a : A) | Sqrt (a : A)
+  | Elbow (second : bool) (a b t : A).
 Arguments Coord {A}. Arguments Param {A}. Arguments Integer {A}. Arguments Add {A}. Arguments Sub {A}.
-Arguments Neg {A}. Arguments Mul {A}. Arguments Div {A}. Arguments Sqr {A}. Arguments Sqrt {A}.
+Arguments Neg {A}. Arguments Mul {A}. Arguments Div {A}. Arguments Sqr {A}. Arguments Sqrt {A}. Arguments Elbow {A}.
 
 Definition map_op {A B : Type} (f : A -> B) (o : op A) : op B :=
   match o with
   | Coord k => Coord k | Param j => Param j | Integer n => Integer n
   | Add a b => Add (f a) (f b) | Sub a b => Sub (f a) (f b) | Neg a => Neg (f a)
   | Mul a b => Mul (f a) (f b) | Div a b => Div (f a) (f b) | Sqr a => Sqr (f a) | Sqrt a => Sqrt (f a)
+  | Elbow s a b t => Elbow s (f a) (f b) (f t)
   end.
 
 Inductive formula := F (o : op formula).
@@ -39,18 +42,20 @@ Definition real_op (o : op R) : R :=
   | Coord k => nth k x 0 | Param j => nth j theta 0 | Integer n => IZR n
   | Add a b => a + b | Sub a b => a - b | Neg a => - a
   | Mul a b => a * b | Div a b => a / b | Sqr a => a ^ 2 | Sqrt a => sqrt a
+  | Elbow s a b t => (if s then snd else fst) (elbow a b t)
   end.
 
 Fixpoint value (e : formula) : R := match e with F o => real_op (map_op value o) end.
 
 (** Divisors are not 0 and radicands are positive, all the way down. *)
-Definition defined_op (o : op R) : Prop := match o with Div _ b => b <> 0 | Sqrt a => 0 < a | _ => True end.
+Definition defined_op (o : op R) : Prop := match o with Div _ b => b <> 0 | Sqrt a => 0 < a | Elbow _ a b t => 0 < elbow_radicand a b t | _ => True end.
 
 Definition all_op (o : op Prop) : Prop :=
   match o with
   | Coord _ | Param _ | Integer _ => True
   | Add a b | Sub a b | Mul a b | Div a b => a /\ b
   | Sqr a | Sqrt a | Neg a => a
+  | Elbow _ a b t => a /\ b /\ t
   end.
 
 Fixpoint defined (e : formula) : Prop :=
@@ -67,6 +72,7 @@ Fixpoint same (e f : formula) {struct e} : bool :=
       | Integer n, Integer n' => Z.eqb n n'
       | Add a b, Add a' b' | Sub a b, Sub a' b' | Mul a b, Mul a' b' | Div a b, Div a' b' => same a a' && same b b'
       | Neg a, Neg a' | Sqr a, Sqr a' | Sqrt a, Sqrt a' => same a a'
+      | Elbow s a b t, Elbow s' a' b' t' => Bool.eqb s s' && (same a a' && (same b b' && same t t'))
       | _, _ => false
       end
   end.
@@ -77,7 +83,8 @@ Proof.
     try (apply andb_true_iff in h as [h h']; apply same_sound in h, h'; congruence);
     try (apply same_sound in h; congruence).
   1-2: apply Nat.eqb_eq in h; congruence.
-  apply Z.eqb_eq in h; congruence.
+  - apply Z.eqb_eq in h; congruence.
+  - repeat (apply andb_true_iff in h as [? h]). apply Bool.eqb_prop in H. apply same_sound in H0, H1, h. congruence.
 Qed.
 
 (** ** Building, as formula.rs does *)
@@ -111,6 +118,7 @@ Definition times (a b : formula) : formula :=
   if is 0 a || is 1 b then a else if is 0 b || is 1 a then b else if same a b then square a else F (Mul a b).
 Definition over (a b : formula) : formula := if is 1 b then a else F (Div a b).
 Definition root (a : formula) : formula := if is 1 a then a else F (Sqrt a).
+Definition elbow_of (second : bool) (a b t : formula) : formula := F (Elbow second a b t).
 
 Section Values.
 Variables x theta : list R.
@@ -145,7 +153,7 @@ Lemma value_minus : forall a b, value (minus a b) = value a - value b.
 Proof.
   intros a b. unfold minus. destruct (is 0 b) eqn:q; [rewrite (is_value _ _ q); ring |].
   destruct (is 0 a) eqn:p; [rewrite (is_value _ _ p), value_opposite; ring |].
-  destruct a as [[j | | | | | | | | |]]; try reflexivity. destruct b as [[k | | | | | | | | |]]; try reflexivity.
+  destruct a as [[j | | | | | | | | | |]]; try reflexivity. destruct b as [[k | | | | | | | | | |]]; try reflexivity.
   destruct (Nat.eqb_spec j k) as [-> |]; [cbn; ring | reflexivity].
 Qed.
 
@@ -241,6 +249,7 @@ Fixpoint put (e : formula) (st : list formula * list (op nat)) {struct e} : list
             | Coord _ | Param _ | Integer _ => st
             | Add a b | Sub a b | Mul a b | Div a b => put b (put a st)
             | Sqr a | Sqrt a | Neg a => put a st
+            | Elbow _ a b t => put t (put b (put a st))
             end in
           (e :: fst st', map_op (place (fst st')) o :: snd st')
       end

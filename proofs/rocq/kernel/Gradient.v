@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Velocity.
-From Orthocert.kernel Require Import Formula Linear Acceleration.
+From Orthocert.kernel Require Import Elbow Formula Linear Acceleration.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -36,6 +36,12 @@ Fixpoint gradient (f : formula) : fraction :=
     | Sqr a => let g := gradient a in (map (times (times (integer 2) a)) (fst g), snd g)
     | Sqrt a => let g := gradient a in
         if forallb (is 0) (fst g) then (fst g, integer 1) else (fst g, times (snd g) (times (integer 2) f))
+    | Elbow second a b t =>
+        let c := F (Elbow false a b t) in let s := F (Elbow true a b t) in
+        let along := combined (gradient a) (minus a c) (gradient b) (minus b s) in
+        let g := combined along (integer 2) (gradient t) (integer (-1)) in
+        let n := map (times (if second then c else opposite s)) (fst g) in
+        if forallb (is 0) n then (n, snd g) else (n, times (snd g) (times (integer 2) (minus (times b c) (times a s))))
     end
   end.
 Definition derivatives (f : formula) : list formula :=
@@ -46,7 +52,7 @@ Proof. intros f p g q h k. unfold combined. destruct (same (snd f) (snd g)); cbn
 
 Fixpoint gradient_length (f : formula) : length (fst (gradient f)) = length by_.
 Proof.
-  destruct f as [o]. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [gradient]; try (apply map_length);
+  destruct f as [o]. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b e]; cbn [gradient]; try (apply map_length);
     try (apply combined_length; apply gradient_length).
   - destruct (existsb _ by_); apply map_length.
   - cbn [fst]. rewrite map_length. apply gradient_length.
@@ -54,6 +60,8 @@ Proof.
     destruct (forallb _ _); exact e.
   - cbn [fst]. rewrite map_length. apply gradient_length.
   - destruct (forallb _ _); apply gradient_length.
+  - cbv zeta. set (g := combined _ _ _ _). assert (l : length (fst g) = length by_) by (unfold g; repeat apply combined_length; apply gradient_length).
+    destruct (forallb _ _); cbn [fst]; rewrite map_length; exact l.
 Qed.
 
 (** ** What they are *)
@@ -127,7 +135,7 @@ Proof. reflexivity. Qed.
 
 Theorem gradient_sound : forall f, defined x (theta t) f -> is_derivative f (gradient f).
 Proof.
-  fix IH 1. intros [o] d. pose proof gradient_length as Len. unfold is_derivative. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [defined map_op defined_op all_op] in d.
+  fix IH 1. intros [o] d. pose proof gradient_length as Len. unfold is_derivative. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b e]; cbn [defined map_op defined_op all_op] in d.
   - apply stays_sound. apply derivable_pt_lim_const.
   - cbn [gradient]. destruct (existsb (Nat.eqb j) by_) eqn:e.
     + apply existsb_exists in e as [k [i ek]]. apply Nat.eqb_eq in ek. subst k. cbn [fst snd]. unfold along. rewrite (own_rate j by_ once i), value_integer.
@@ -174,6 +182,33 @@ Proof.
     + split; [cbn; lra |]. apply G. rewrite (along_zero _ zero), value_integer. field. split; assumption || lra.
     + rewrite !value_times. cbn [value map_op real_op] in *. rewrite value_integer. split; [repeat apply Rmult_integral_contrapositive_currified; lra |].
       apply G. field. split; assumption || lra.
+  - destruct d as [r [da [db de]]]. destruct (IH a da) as [na ha], (IH b db) as [nb hb], (IH e de) as [ne he]. cbn [gradient].
+    set (fc := F (Elbow false a b e)). set (fs := F (Elbow true a b e)). pose proof (elbow_rates _ _ _ t _ _ _ ha hb he r) as R. cbv zeta in R.
+    assert (vc : val fc = fst (elbow (val a) (val b) (val e))) by reflexivity. assert (vs : val fs = snd (elbow (val a) (val b) (val e))) by reflexivity.
+    destruct (elbow (val a) (val b) (val e)) as [c s]. cbn [fst snd] in vc, vs. destruct R as [h0 [Rc Rs]].
+    set (da' := along (fst (gradient a)) / val (snd (gradient a))) in *. set (db' := along (fst (gradient b)) / val (snd (gradient b))) in *.
+    set (de' := along (fst (gradient e)) / val (snd (gradient e))) in *.
+    (* Along the line through the values at t. *)
+    assert (line : forall y, derivable_pt_lim (fun u => y * (u - t)) t y)
+      by (intro y; eapply derivable_eq; [exact (derivable_scal y _ _ _ (derivable_add _ _ _ _ _ (derivable_pt_lim_id t) (derivable_const (- t) t))) | intro u; unfold id; ring | ring]).
+    destruct (combined (gradient a) (minus a fc) (gradient b) (minus b fs)) as [y z] eqn:ey.
+    destruct (combined_sound _ _ _ _ _ _ _ (Len a) (Len b) na nb (line _) ey) as [nz hz]. pose proof (combined_length (gradient a) (minus a fc) (gradient b) (minus b fs) (Len a) (Len b)) as ly. rewrite ey in ly. cbn [fst] in ly.
+    pose proof (uniqueness_limite _ _ _ _ (line _) hz) as Ey. clear hz. rewrite !value_minus, vc, vs in Ey. fold da' db' in Ey.
+    destruct (combined (y, z) (integer 2) (gradient e) (integer (-1))) as [k l] eqn:ek. cbv zeta. cbn [fst snd].
+    destruct (combined_sound (y, z) (gradient e) (integer 2) (integer (-1)) k l _ ly (Len e) nz ne (line _) ek) as [nl hl].
+    pose proof (uniqueness_limite _ _ _ _ (line _) hl) as Ek. clear hl. cbn [fst snd] in Ek. rewrite !value_integer, <- Ey in Ek. fold de' in Ek.
+    assert (G : forall w, w = val (if second then fc else opposite fs) * (along k / val l) / (2 * (val b * c - val a * s)) ->
+      derivable_pt_lim (fun u => value x (theta u) (F (Elbow second a b e))) t w).
+    { intros w ->. rewrite <- Ek. destruct second; [rewrite vc | rewrite value_opposite, vs].
+      - eapply derivable_eq; [exact Rs | reflexivity | field; lra].
+      - eapply derivable_eq; [exact Rc | reflexivity | field; lra]. }
+    set (by_s := if second then fc else opposite fs) in *.
+    assert (M : along (map (times by_s) k) = val by_s * along k) by (apply along_map; intro; apply value_times).
+    destruct (forallb (is 0) (map (times by_s) k)) eqn:zero; cbn [fst snd].
+    + split; [exact nl |]. apply G. rewrite (along_zero _ zero). rewrite (along_zero _ zero) in M. replace (val by_s * (along k / val l)) with (val by_s * along k / val l) by (unfold Rdiv; ring).
+      rewrite <- M. field. split; first [exact nl | lra].
+    + rewrite !value_times, value_minus, !value_times, vc, vs, value_integer. split; [apply Rmult_integral_contrapositive_currified; [exact nl | lra] |].
+      apply G. rewrite M. field. split; first [exact nl | lra].
 Qed.
 
 Corollary derivatives_sound : forall f, defined x (theta t) f ->

@@ -98,7 +98,7 @@ Proof.
   - assert (Two : forall a b, forall i, encloses bits lambda xs cs theta
         (match i with O => eval coords params values a | _ => eval coords params values b end)
         (match i with O => formula_of tape a | _ => formula_of tape b end)) by (intros a b [| i]; apply IH).
-    destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [map_op].
+    destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op].
     + exact (S (Coord k) (fun _ => None) (fun _ => integer 0) (fun _ => I)).
     + exact (S (Param j) (fun _ => None) (fun _ => integer 0) (fun _ => I)).
     + exact (S (Integer n) (fun _ => None) (fun _ => integer 0) (fun _ => I)).
@@ -109,6 +109,8 @@ Proof.
     + exact (S (Div 0 1)%nat _ _ (Two a b)).
     + exact (S (Sqr 0%nat) _ _ (Two a a)).
     + exact (S (Sqrt 0%nat) _ _ (Two a a)).
+    + refine (S (Elbow second 0 1 2)%nat (fun i => eval coords params values (match i with O => a | 1%nat => b | _ => t end)) (fun i => formula_of tape (match i with O => a | 1%nat => b | _ => t end)) _).
+      intros [| [| i]]; apply IH.
 Qed.
 
 Lemma is_positive_sound : forall e, is_positive (eval coords params values e) = true -> 0 < val tape xs theta e.

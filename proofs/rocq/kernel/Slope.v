@@ -7,7 +7,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
-From Orthocert.kernel Require Import Formula Linear Arithmetic.
+From Orthocert.kernel Require Import Elbow Formula Linear Arithmetic.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -110,6 +110,35 @@ Definition s_div (f g : slope) : option slope :=
   | _, _ => None
   end.
 
+(** An elbow as it is written, and its slopes by the equations that it solves: those of slope.rs. *)
+Definition lift {A : Type} (f : A -> option A) (a : option A) : option A := match a with Some x => f x | None => None end.
+Definition s_crossing (a b t : slope) : option (slope * slope) :=
+  let n := s_add (s_sqr a) (s_sqr b) in
+  let q := s_sub (s_add n (constant (Fixed.integer bits 1))) t in
+  let over := s_mul (constant (Fixed.integer bits 2)) n in
+  match s_sqrt (s_sub (s_mul (constant (Fixed.integer bits 4)) n) (s_sqr q)) with
+  | Some h =>
+      match s_div (s_add (s_mul q a) (s_mul h b)) over, s_div (s_sub (s_mul q b) (s_mul h a)) over with
+      | Some c, Some s => Some (c, s) | _, _ => None
+      end
+  | None => None
+  end.
+Definition s_mean (f : slope) : slope := tight (at_c f) (halve (add (range f) (at_c f))) (map halve (slopes f)).
+Definition s_implicit (a b t : slope) (u : slope * slope) : option (slope * slope) :=
+  let x := s_mean a in let y := s_mean b in let c := s_mean (fst u) in let s := s_mean (snd u) in
+  match s_div (constant (Fixed.integer bits 1)) (s_sub (s_mul y c) (s_mul x s)) with
+  | Some over =>
+      let p := s_mul (s_sub x c) over in let q := s_mul (s_sub y s) over in
+      let times f i := s_mul f (constant i) in
+      let along := merge (times p) (times q) (fun i j => s_add (times p i) (times q j)) (slopes a) (slopes b) in
+      let z := merge range (fun i => range (s_neg (times over (halve i)))) (fun l i => range (s_sub l (times over (halve i)))) along (slopes t) in
+      Some (tight (at_c (fst u)) (range (fst u)) (map (mul (neg (range s))) z),
+            tight (at_c (snd u)) (range (snd u)) (map (mul (range c)) z))
+  | None => None
+  end.
+Definition s_elbow (a b t : slope) : option (slope * slope) :=
+  lift (s_implicit a b t) (lift (s_implicit a b t) (s_crossing a b t)).
+
 Lemma constant_holds : forall a v, contains a v -> holds (constant a) v v.
 Proof. intros a v h. split; [exact h |]. split; [exact h |]. rewrite Rminus_diag_eq by reflexivity. apply spans_nil. Qed.
 
@@ -194,6 +223,84 @@ Proof.
   - field. split; assumption.
 Qed.
 
+Lemma s_crossing_holds : forall a b t u ac ax bc bx tc tx, s_crossing a b t = Some u ->
+  holds a ac ax -> holds b bc bx -> holds t tc tx ->
+  0 < elbow_radicand ac bc tc /\ 0 < elbow_radicand ax bx tx /\
+  holds (fst u) (fst (elbow ac bc tc)) (fst (elbow ax bx tx)) /\ holds (snd u) (snd (elbow ac bc tc)) (snd (elbow ax bx tx)).
+Proof.
+  intros a b t u ac ax bc bx tc tx e ha hb ht. unfold s_crossing in e.
+  assert (C : forall n, holds (constant (Fixed.integer bits n)) (IZR n) (IZR n)) by (intro; apply constant_holds, integer_sound).
+  set (n := s_add (s_sqr a) (s_sqr b)) in *. set (q := s_sub (s_add n (constant (Fixed.integer bits 1))) t) in *.
+  assert (hn : holds n (ac ^ 2 + bc ^ 2) (ax ^ 2 + bx ^ 2)) by (apply s_add_holds; apply s_sqr_holds; assumption).
+  assert (hq : holds q (ac ^ 2 + bc ^ 2 + 1 - tc) (ax ^ 2 + bx ^ 2 + 1 - tx)) by (apply s_sub_holds; [apply s_add_holds; [exact hn | apply C] | exact ht]).
+  destruct (s_sqrt _) as [h |] eqn:eh; [| discriminate].
+  destruct (s_sqrt_holds _ _ (elbow_radicand ac bc tc) (elbow_radicand ax bx tx) eh) as [rc [rx hh]].
+  { apply s_sub_holds; [apply s_mul_holds; [apply C | exact hn] | apply s_sqr_holds, hq]. }
+  destruct (s_div (s_add _ _) _) as [c |] eqn:ec; [| discriminate]. destruct (s_div (s_sub _ _) _) as [s |] eqn:es; [| discriminate]. injection e as <-.
+  split; [exact rc |]. split; [exact rx |]. cbn [fst snd].
+  split; [refine (proj2 (proj2 (s_div_holds _ _ _ _ _ _ _ ec _ _))) | refine (proj2 (proj2 (s_div_holds _ _ _ _ _ _ _ es _ _)))];
+    try (apply s_mul_holds; [apply C | exact hn]); [apply s_add_holds | apply s_sub_holds]; apply s_mul_holds; assumption.
+Qed.
+
+Lemma s_mean_holds : forall f c v, holds f c v -> holds (s_mean f) c ((v + c) / 2).
+Proof.
+  intros f c v [h1 [h2 h3]]. eapply tight_sound; [exact h1 | apply halve_sound, add_sound; assumption | apply (spans_map _ (/ 2) _ (v - c)); [| exact h3] | field].
+  intros i y hi. replace (/ 2 * y) with (y / 2) by field. apply halve_sound, hi.
+Qed.
+
+Lemma s_implicit_holds : forall a b t u u' ac ax bc bx tc tx, s_implicit a b t u = Some u' ->
+  0 < elbow_radicand ac bc tc -> 0 < elbow_radicand ax bx tx -> holds a ac ax -> holds b bc bx -> holds t tc tx ->
+  holds (fst u) (fst (elbow ac bc tc)) (fst (elbow ax bx tx)) -> holds (snd u) (snd (elbow ac bc tc)) (snd (elbow ax bx tx)) ->
+  holds (fst u') (fst (elbow ac bc tc)) (fst (elbow ax bx tx)) /\ holds (snd u') (snd (elbow ac bc tc)) (snd (elbow ax bx tx)).
+Proof.
+  intros a b t u u' ac ax bc bx tc tx e rc rx ha hb ht hc hs. unfold s_implicit in e. cbv zeta in e. pose proof (elbow_moves ac bc tc ax bx tx rc rx) as M.
+  destruct (elbow ac bc tc) as [cc sc], (elbow ax bx tx) as [cx sx]. cbn [fst snd] in *. cbv zeta in M.
+  pose proof (s_mean_holds _ _ _ ha) as hx. pose proof (s_mean_holds _ _ _ hb) as hy. pose proof (s_mean_holds _ _ _ hc) as hp. pose proof (s_mean_holds _ _ _ hs) as hq.
+  set (x := s_mean a) in *. set (y := s_mean b) in *. set (c := s_mean (fst u)) in *. set (s := s_mean (snd u)) in *.
+  set (vx := (ax + ac) / 2) in *. set (vy := (bx + bc) / 2) in *. set (vc := (cx + cc) / 2) in *. set (vs := (sx + sc) / 2) in *.
+  destruct (s_div _ _) as [over |] eqn:eo; [| discriminate]. injection e as <-. cbn [fst snd].
+  destruct (s_div_holds _ _ _ 1 1 (bc * cc - ac * sc) (vy * vc - vx * vs) eo) as [_ [d0 ho]];
+    [apply constant_holds, integer_sound | apply s_sub_holds; apply s_mul_holds; assumption |].
+  assert (hP := s_mul_holds _ _ _ _ _ _ (s_sub_holds _ _ _ _ _ _ hx hp) ho). assert (hQ := s_mul_holds _ _ _ _ _ _ (s_sub_holds _ _ _ _ _ _ hy hq) ho).
+  set (p := s_mul (s_sub x c) over) in *. set (q := s_mul (s_sub y s) over) in *. set (D := vy * vc - vx * vs) in *.
+  assert (T : forall f k v i z, holds f k v -> contains i z -> holds (s_mul f (constant i)) (k * z) (v * z))
+    by (intros; apply s_mul_holds; [assumption | apply constant_holds; assumption]).
+  destruct ha as [_ [_ [ua [ka ea]]]], hb as [_ [_ [ub [kb eb]]]], ht as [_ [_ [ut [kt et]]]].
+  set (al := merge _ _ _ (slopes a) (slopes b)). set (zs := merge _ _ _ al (slopes t)).
+  set (P := (vx - vc) * (1 / D)) in *. set (Q := (vy - vs) * (1 / D)) in *. set (O := 1 / D) in *.
+  assert (A : Forall2 (fun f v => exists k, holds f k v) al (comb P Q ua ub)).
+  { unfold al, comb. eapply merge_related; [| | | exact ka | exact kb].
+    - intros i z h. eexists. apply T; eassumption.
+    - intros i z h. eexists. apply T; eassumption.
+    - intros i z j v h k. eexists. apply s_add_holds; apply T; eassumption. }
+  assert (Z : spans zs (P * (ax - ac) + Q * (bx - bc) - O * ((tx - tc) / 2))).
+  { exists (comb 1 (- (O / 2)) (comb P Q ua ub) ut). split; [| rewrite !dot_comb, <- ea, <- eb, <- et; field].
+    unfold zs. unfold comb at 1. eapply merge_related; [| | | exact A | exact kt].
+    - intros f v [k [_ [h _]]]. rewrite Rmult_1_l. exact h.
+    - intros i z h. replace (- (O / 2) * z) with (- (O * (z / 2))) by field. pose proof (s_neg_holds _ _ _ (T _ _ _ _ _ ho (halve_sound _ _ _ h))) as [_ [R _]]. exact R.
+    - intros f v i z [k hf] h. replace (1 * v + - (O / 2) * z) with (v - O * (z / 2)) by field.
+      pose proof (s_sub_holds _ _ _ _ _ _ hf (T _ _ _ _ _ ho (halve_sound _ _ _ h))) as [_ [R _]]. exact R. }
+  assert (E : P * (ax - ac) + Q * (bx - bc) - O * ((tx - tc) / 2) = ((vx - vc) * (ax - ac) + (vy - vs) * (bx - bc) - (tx - tc) / 2) / D)
+    by (unfold P, Q, O; field; exact d0). rewrite E in Z. destruct M as [M1 M2]. set (w := (vx - vc) * (ax - ac) + (vy - vs) * (bx - bc) - (tx - tc) / 2) in *.
+  destruct hc as [c1 [c2 _]], hs as [s1 [s2 _]], hp as [_ [p2 _]], hq as [_ [q2 _]]. split.
+  - eapply tight_sound; [exact c1 | exact c2 | apply (spans_map _ (- vs) _ (w / D)); [| exact Z] |].
+    + intros. apply mul_sound; [apply neg_sound, q2 | assumption].
+    + apply Rmult_eq_reg_l with D; [rewrite M1; field; exact d0 | exact d0].
+  - eapply tight_sound; [exact s1 | exact s2 | apply (spans_map _ vc _ (w / D)); [| exact Z] |].
+    + intros. apply mul_sound; assumption.
+    + apply Rmult_eq_reg_l with D; [rewrite M2; field; exact d0 | exact d0].
+Qed.
+
+Lemma s_elbow_holds : forall a b t u ac ax bc bx tc tx, s_elbow a b t = Some u -> holds a ac ax -> holds b bc bx -> holds t tc tx ->
+  0 < elbow_radicand ac bc tc /\ 0 < elbow_radicand ax bx tx /\
+  holds (fst u) (fst (elbow ac bc tc)) (fst (elbow ax bx tx)) /\ holds (snd u) (snd (elbow ac bc tc)) (snd (elbow ax bx tx)).
+Proof.
+  intros a b t u ac ax bc bx tc tx e ha hb ht. unfold s_elbow in e. destruct (s_crossing a b t) as [u0 |] eqn:e0; [| discriminate]. cbn [lift] in e.
+  destruct (s_crossing_holds _ _ _ _ _ _ _ _ _ _ e0 ha hb ht) as [rc [rx [c0 s0]]]. destruct (s_implicit a b t u0) as [u1 |] eqn:e1; [| discriminate]. cbn [lift] in e.
+  destruct (s_implicit_holds _ _ _ _ _ _ _ _ _ _ _ e1 rc rx ha hb ht c0 s0) as [c1 s1]. split; [exact rc |]. split; [exact rx |].
+  exact (s_implicit_holds _ _ _ _ _ _ _ _ _ _ _ e rc rx ha hb ht c1 s1).
+Qed.
+
 (** ** Tapes: an entry that is undefined, or depends on one, is [None] *)
 
 Variables xs cs theta : list R.
@@ -202,7 +309,6 @@ Let none := constant zero.
 Hypothesis coords_hold : forall k, holds (nth k coords none) (nth k cs 0) (nth k xs 0).
 Hypothesis params_hold : forall j, holds (nth j params none) (nth j theta 0) (nth j theta 0).
 
-Definition lift {A : Type} (f : A -> option A) (a : option A) : option A := match a with Some x => f x | None => None end.
 Definition lift2 {A : Type} (f : A -> A -> option A) (a b : option A) : option A :=
   match a, b with Some x, Some y => f x y | _, _ => None end.
 
@@ -213,6 +319,8 @@ Definition slope_op (o : op (option slope)) : option slope :=
   | Add f g => lift2 (fun f g => Some (s_add f g)) f g | Sub f g => lift2 (fun f g => Some (s_sub f g)) f g
   | Mul f g => lift2 (fun f g => Some (s_mul f g)) f g | Div f g => lift2 s_div f g
   | Sqr f => lift (fun f => Some (s_sqr f)) f | Sqrt f => lift s_sqrt f | Neg f => lift (fun f => Some (s_neg f)) f
+  | Elbow second a b t =>
+      match a, b, t with Some a, Some b, Some t => option_map (if second then snd else fst) (s_elbow a b t) | _, _, _ => None end
   end.
 
 (** The formula [e] is defined and differentiable at c and x, and enclosed. *)
@@ -245,7 +353,7 @@ Local Ltac unary a lemma :=
 Lemma slope_op_sound : forall (o : op nat) f g, (forall i, encloses (f i) (g i)) ->
   encloses (slope_op (map_op f o)) (F (map_op g o)).
 Proof.
-  intros o f g h. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [map_op slope_op].
+  intros o f g h. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op slope_op].
   - unfold encloses, enclosed. cbn. auto using coords_hold.
   - unfold encloses, enclosed. cbn. auto using params_hold.
   - unfold encloses, enclosed. cbn. auto using constant_holds, integer_sound.
@@ -260,6 +368,11 @@ Proof.
   - apply (lift_sound _ _ _ _ (h a)). intros s s' E [? [? p]].
     destruct (s_sqrt_holds _ _ _ _ E p) as [? [? ?]]. unfold enclosed.
     cbn [defined value map_op defined_op all_op real_op]. auto 10.
+  - pose proof (h a) as pa. pose proof (h b) as pb. pose proof (h t) as pt. unfold encloses in pa, pb, pt.
+    destruct (f a) as [sa |], (f b) as [sb |], (f t) as [st |]; try exact I.
+    destruct (s_elbow sa sb st) as [u |] eqn:E; cbn [option_map]; [| exact I]. destruct pa as [? [? pa]], pb as [? [? pb]], pt as [? [? pt]].
+    destruct (s_elbow_holds _ _ _ _ _ _ _ _ _ _ E pa pb pt) as [? [? [? ?]]]. unfold encloses, enclosed.
+    cbn [defined value map_op defined_op all_op real_op]. destruct second; auto 10.
 Qed.
 
 (** Soundness: what the tape evaluates to over a cell encloses its formulas there. *)

@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require MeanValue.
 From Orthocert Require Import Fixed Velocity.
-From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Acceleration.
+From Orthocert.kernel Require Import Elbow Formula Linear Arithmetic Slope Definite Test Cell Acceleration.
 From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -26,6 +26,10 @@ Fixpoint rate (x theta : list R) (j : nat) (e : formula) : R :=
     | Div a b => (rate x theta j a + - (value x theta a / value x theta b) * rate x theta j b) / value x theta b
     | Sqr a => 2 * value x theta a * rate x theta j a
     | Sqrt a => rate x theta j a / (2 * sqrt (value x theta a))
+    | Elbow second a b t =>
+        let (c, s) := elbow (value x theta a) (value x theta b) (value x theta t) in
+        (if second then c else - s) * (2 * ((value x theta a - c) * rate x theta j a + (value x theta b - s) * rate x theta j b) + - rate x theta j t) /
+          (2 * (value x theta b * c - value x theta a * s))
     end
   end.
 
@@ -65,7 +69,7 @@ Qed.
 
 Theorem total_sound : forall e, defined x (theta t) e -> derivable_pt_lim (fun u => value x (theta u) e) t (total e).
 Proof.
-  fix IH 1. intros [o] d. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [defined map_op defined_op all_op] in d.
+  fix IH 1. intros [o] d. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b e]; cbn [defined map_op defined_op all_op] in d.
   - apply (derivable_eq _ _ _ _ _ (derivable_const (nth k x 0) t)); [reflexivity |]. rewrite (total_is _ 0 0 (integer 0) (integer 0)); [ring | intro; cbn; ring].
   - rewrite total_param. apply moves.
   - apply (derivable_eq _ _ _ _ _ (derivable_const (IZR n) t)); [reflexivity |]. rewrite (total_is _ 0 0 (integer 0) (integer 0)); [ring | intro; cbn; ring].
@@ -84,6 +88,14 @@ Proof.
   - destruct d as [a0 da]. pose proof (sqrt_lt_R0 _ a0) as s0.
     eapply derivable_eq; [exact (derivable_pt_lim_comp _ sqrt t _ _ (IH a da) (derivable_pt_lim_sqrt _ a0)) | reflexivity |].
     rewrite (total_is _ (/ (2 * sqrt (val a))) 0 a a); [ring | intro; cbn [rate]; unfold Rdiv; ring].
+  - destruct d as [r [da [db de]]]. pose proof (elbow_rates _ _ _ t _ _ _ (IH a da) (IH b db) (IH e de) r) as R. cbv zeta in R.
+    destruct (elbow (val a) (val b) (val e)) as [c s] eqn:E. destruct R as [h0 [Rc Rs]].
+    set (w := (if second then c else - s) / (2 * (val b * c - val a * s))).
+    assert (T : total (F (Elbow second a b e)) = w * (2 * ((val a - c) * total a + (val b - s) * total b) + - total e)).
+    { unfold total. replace (w * (2 * ((val a - c) * sum_over by_ (fun j => speed j * rate x (theta t) j a) + (val b - s) * sum_over by_ (fun j => speed j * rate x (theta t) j b)) + - sum_over by_ (fun j => speed j * rate x (theta t) j e)))
+        with (1 * (2 * w * (val a - c) * sum_over by_ (fun j => speed j * rate x (theta t) j a) + 2 * w * (val b - s) * sum_over by_ (fun j => speed j * rate x (theta t) j b)) + - w * sum_over by_ (fun j => speed j * rate x (theta t) j e)) by ring.
+      rewrite <- !sum_linear. apply sum_ext. intro j. cbn [rate]. rewrite E. unfold w. field. lra. }
+    rewrite T. destruct second; [eapply derivable_eq; [exact Rs | reflexivity |] | eapply derivable_eq; [exact Rc | reflexivity |]]; unfold w; field; lra.
 Qed.
 End Moving.
 
@@ -161,6 +173,18 @@ Definition rates (o : op dual) (result : option slope) : list partial_rate :=
   | Div a b => match result, fst b with Some q, Some g => map (r_div g) (r_sum (snd a) (map (r_mul (s_neg q)) (snd b))) | _, _ => [] end
   | Sqr a => match fst a with Some f => map (r_mul (s_mul bits two f)) (snd a) | None => [] end
   | Sqrt a => match result with Some f => map (r_div (s_mul bits two f)) (snd a) | None => [] end
+  | Elbow second a b t =>
+      match fst a, fst b, fst t with
+      | Some f, Some g, Some h =>
+          match s_elbow bits f g h with
+          | Some (c, s) =>
+              let along := r_sum (map (r_mul (s_sub f c)) (snd a)) (map (r_mul (s_sub g s)) (snd b)) in
+              let n := map (r_mul (if second then c else s_neg s)) (r_sum (map (r_mul two) along) (map r_neg (snd t))) in
+              map (r_div (s_mul bits two (s_sub (s_mul bits g c) (s_mul bits f s)))) n
+          | None => []
+          end
+      | _, _, _ => []
+      end
   end.
 Definition dual_op (o : op dual) : dual := let result := slope_op bits coords params (map_op fst o) in (result, rates o result).
 
@@ -215,7 +239,7 @@ Proof.
   split; [exact V |]. intro p. unfold dual_op. cbn [snd]. pose proof (fun i => proj2 (h i) p) as D.
   assert (W : forall i s, fst (f i) = Some s -> holds bits lambda s (value cs theta (g i)) (value xs theta (g i)))
     by (intros i s e; pose proof (proj1 (h i)) as E; rewrite e in E; apply E).
-  destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [map_op rates snd fst].
+  destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op rates snd fst].
   - apply still_zero.
   - cbn [rate]. clear. revert p. induction by_ as [| i l IH]; intros [| p]; cbn [map nth]; try exact I; [| apply IH].
     destruct (Nat.eqb j i); [apply constant_holds, integer_sound | split; reflexivity].
@@ -233,6 +257,16 @@ Proof.
     apply rate_mul; [apply s_mul_holds; [exact lambda_in | exact two_holds | auto] | apply D].
   - cbn [map_op] in V. destruct (slope_op bits coords params (Sqrt (fst (f a)))) as [q |] eqn:eq; [| destruct p; exact I]. destruct V as [_ [_ hq]]. cbn [value map_op real_op] in hq.
     cbn [rate]. rewrite nth_map by reflexivity. apply rate_div; [apply s_mul_holds; [exact lambda_in | exact two_holds | exact hq] | apply D].
+  - destruct (fst (f a)) as [sa |] eqn:ea; [| destruct p; exact I]. destruct (fst (f b)) as [sb |] eqn:eb; [| destruct p; exact I].
+    destruct (fst (f t)) as [st |] eqn:et; [| destruct p; exact I]. apply W in ea, eb, et.
+    destruct (s_elbow bits sa sb st) as [[c s] |] eqn:E; [| destruct p; exact I].
+    destruct (s_elbow_holds bits lambda lambda_in _ _ _ _ _ _ _ _ _ _ E ea eb et) as [_ [_ [hc hs]]]. cbn [rate fst snd] in *.
+    destruct (elbow (value cs theta (g a)) _ _) as [cc sc], (elbow (value xs theta (g a)) _ _) as [cx sx]. cbn [fst snd] in *.
+    rewrite nth_map by reflexivity. apply rate_div.
+    + repeat (apply s_mul_holds || apply s_sub_holds); auto using two_holds.
+    + rewrite nth_map by reflexivity. apply rate_mul; [destruct second; [exact hc | apply s_neg_holds, hs] |].
+      apply nth_sum; [| rewrite nth_map by reflexivity; apply rate_neg, D]. rewrite nth_map by reflexivity. apply rate_mul; [exact two_holds |].
+      apply nth_sum; rewrite nth_map by reflexivity; apply rate_mul; auto; apply s_sub_holds; auto.
 Qed.
 
 Theorem duals_sound : forall tape, Forall2 encloses_rates (run dual (None, []) dual_op tape []) (formulas tape).

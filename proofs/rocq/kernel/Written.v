@@ -249,7 +249,7 @@ Fixpoint without_roots (a : formula) : formula :=
   end.
 Fixpoint without_roots_value (x theta : list R) (a : formula) {struct a} : defined x theta a -> value x theta (without_roots a) = value x theta a ^ 2.
 Proof.
-  intro d. destruct a as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b]; cbn [without_roots]; try (apply Formula.value_square).
+  intro d. destruct a as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b | ? b c e]; cbn [without_roots]; try (apply Formula.value_square).
   - destruct d as [_ d]. cbn [map_op all_op] in d. rewrite (without_roots_value x theta b d). cbn [value map_op real_op]. ring.
   - destruct d as [_ [d1 d2]]. rewrite value_times, (without_roots_value x theta b d1), (without_roots_value x theta c d2). cbn [value map_op real_op]. ring.
   - destruct d as [d _]. cbn [map_op defined_op] in d. cbn [value map_op real_op]. rewrite <- Rsqr_pow2, Rsqr_sqrt by lra. reflexivity.
@@ -261,12 +261,18 @@ Proof.
   intros x theta a b da db. unfold times. destruct (is 0 a || is 1 b); [exact da |]. destruct (is 0 b || is 1 a); [exact db |].
   destruct (same a b); [| split; [exact I | split; assumption]]. unfold square. destruct (integer_of a) as [n |]; [destruct (is_small n) |]; try (split; [exact I | exact I]); split; try exact I; exact da.
 Qed.
+Lemma defined_minus_of : forall x theta a b, defined x theta a -> defined x theta b -> defined x theta (minus a b).
+Proof.
+  intros x theta a b da db. assert (S : defined x theta (F (Sub a b))) by (repeat split; assumption). unfold minus. destruct (is 0 b); [exact da |]. destruct (is 0 a).
+  - destruct b as [[| | n | | | c | | | | |]]; try (split; [exact I | exact db]); cbn [opposite]; [destruct (is_small n); repeat split | apply db].
+  - destruct a as [[j | | | | | | | | | |]]; try exact S. destruct b as [[k | | | | | | | | | |]]; try exact S. destruct (Nat.eqb j k); [repeat split | exact S].
+Qed.
 Fixpoint denominator_defined (by_ : list nat) (x theta : list R) (f : formula) {struct f} : defined x theta f -> defined x theta (snd (Gradient.gradient by_ f)).
 Proof.
   assert (C : forall a p b q, defined x theta (snd a) -> defined x theta (snd b) -> defined x theta (snd (Gradient.combined a p b q)))
     by (intros a p b q da db; unfold Gradient.combined; destruct (same (snd a) (snd b)); cbn [snd]; [exact da | apply defined_times_of; assumption]).
   assert (One : forall n, defined x theta (integer n)) by (intro n; split; exact I).
-  intro d. destruct f as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b]; cbn [Gradient.gradient]; try (apply One).
+  intro d. destruct f as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b | ? b c e]; cbn [Gradient.gradient]; try (apply One).
   - destruct (existsb _ by_); apply One.
   - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
   - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
@@ -276,6 +282,9 @@ Proof.
     destruct (forallb _ _); [exact dg |]. cbn [snd]. apply defined_times_of; [exact dg | exact d2].
   - destruct d as [_ d]. cbn [snd]. apply denominator_defined, d.
   - assert (dd := d). destruct d as [_ d]. cbv zeta. destruct (forallb _ _); cbn [snd]; [apply One |]. apply defined_times_of; [apply denominator_defined, d |]. apply defined_times_of; [apply One | exact dd].
+  - assert (dd := d). destruct d as [r [d1 [d2 d3]]]. cbv zeta. set (g := Gradient.combined _ _ _ _). assert (dg : defined x theta (snd g)) by (unfold g; repeat apply C; apply denominator_defined; assumption).
+    destruct (forallb _ _); cbn [snd]; [exact dg |]. apply defined_times_of; [exact dg |]. apply defined_times_of; [apply One |].
+    apply defined_minus_of; apply defined_times_of; try assumption; split; try exact r; repeat split; assumption.
 Qed.
 
 Definition of_joint (n : nat) (env : environment formula) (j : written_joint) (i : nat) : pose_formulas :=

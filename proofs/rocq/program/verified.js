@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-hH="spatial",nj="Invalid_argument",fD="precision",as='"',hG=1255,ni="inside",mr="(",ms=0x800,nh="yaw",mo="range",mp="tree",mq="jsError",bB=0x8000,ng="sqrt(",mn=256,mm="obligation",eh="offset",aY="machine",mk="this quantity of such a mechanism in a claim that is refuted",ml="End_of_file",dr="strut",hF="center",eg="arm",hE="Failure",nf="serial_margin",fN="parameters",bZ=0xff,hU="bodies",hT="outside",fM="base_axis",hD="ENOENT",ne=122,mj="([^/]+)",hS="0",hC=0xf,ef=128,mi=0xdc00,nc="Sys_blocked_io",nd="fd ",hB="given",mh="ENOTEMPTY",aE=248,mg="such a machine with bodies",fC="bound",mf="Division_by_zero",na="by",nb=1027,me="Sys_error",fL="slider",md="torsion",m$="postulate",mc="proof",m_="joint_error",ee="refuted",dm="mechanism",fB="row",mb="EEXIST",m9="roll_pitch_yaw",hR="y",ma="cube",fA="lower",m8="within",l$="clearance",m7="turned",l_="control",fz="int_of_string",m6="definitions",ed=1024,l8="from",l9="name",m5=" : flags Open_rdonly and Open_wronly are not compatible",l7="orthocert/2",m4="reach",l6=512,m3="witness",ec="-",aN="platform",l5=0x7ff0,l4="pitch",hQ=": Not a directory",aW="min",m1="trim",dq="workspace",m2=" : file already exists",fy="split",hP="legs",m0="claim",l3="joint",cL=0xffffff,l2="formulas",l1="roll",fx="atlas",mX='the workspace "',mY="nodes",mZ="Out_of_memory",l0="psi_max",fK="orientation",fw=254,mW="angle",hO="index out of bounds",lZ="end",mV="one_to_one",fJ="_bigarr02",lY=" : flags Open_text and Open_binary are not compatible",bl="drive",lX="coordinates",mU="holds",lW="lower_divided",lV="speed",mS="cylinder",mT="joints",bY=0xffff,mQ="acceleration",eb="certified",hN="chords",mR=12520,hA="on",fv="accuracy",mP="axis",mO="no_cube",mN="parallel_margin",lU='the drive "',hz="Unix.Unix_error",fI="fails",fu="tool",hy="mkdir",mM="rho",fH=1000,ft="translational",mL="tolerances",lT="Stack_overflow",hM="characteristic_length",O="",hL="^",hx="places",fs=": No such file or directory",lS="/static/",dp=0x3f,lQ="stiffness",lR="Not_found",cK="planar",ea="mode",mK="joint_speed",mJ="Match_failure",lP="transmission",a9="anchor",mI="at",lO="joint_force",dn="leg",lN="joint_acceleration",fG="+",hw="rmdir",mH=0xf0,mG="spherical",lM=1026,mE="REJECTED",mF="undecided",aX="max",bX="direction",lK="leg_angle",lL="orthoglide",fF="rank",mD="constraint_margin",hv="test",lI="Pervasives.do_at_exit",lJ="utf8",bk=0x80,fE="conditioning",dl="length",lH="Undefined_recursive_module",hK=")",lG="base",mC="quantity",lF="joint_range",fr="tilt",lE="Q2",mB="reference",lD="point",mz="corner",mA=0xe0,lC="version",hJ="z",mx="to",my=0xdfff,hu="compare: functional value",mw="Assert_failure",bm="/",mv="provenance",cJ="radius",fq="side",bC="require",mu="format",lB="Q1",hI="ENOTDIR",lA="all",bW="box",mt=250;function
-h7(c,b,a){var
+hO="spatial",nn="Invalid_argument",fK="precision",at='"',hN=1255,nm="inside",mv="(",mw=0x800,nl="yaw",ms="range",mt="tree",mu="jsError",bF=0x8000,nk="sqrt(",mr=256,mq="obligation",ep="offset",a1="machine",mo="this quantity of such a mechanism in a claim that is refuted",mp="End_of_file",dx="strut",hM="center",eo="arm",hL="Failure",nj="serial_margin",fU="parameters",b3=0xff,h1="bodies",h0="outside",fT="base_axis",hK="ENOENT",ni=122,mn="([^/]+)",hZ="0",hJ=0xf,en=128,mm=0xdc00,ng="Sys_blocked_io",nh="fd ",hI="given",ml="ENOTEMPTY",aF=248,mk="such a machine with bodies",fJ="bound",mj="Division_by_zero",ne="by",nf=1027,mi="Sys_error",fS="slider",mh="torsion",nd="postulate",mg="proof",nc="joint_error",em="refuted",dt="mechanism",fI="row",mf="EEXIST",nb="roll_pitch_yaw",hY="y",me="cube",fH="lower",na="within",md="clearance",m$="turned",mc="control",fG="int_of_string",m_="definitions",el=1024,ma="from",mb="name",m9=" : flags Open_rdonly and Open_wronly are not compatible",l$="orthocert/2",m8="reach",l_=512,m7="witness",ek="-",aS="platform",l9=0x7ff0,l8="pitch",hX=": Not a directory",aZ="min",m5="trim",dw="workspace",m6=" : file already exists",fF="split",hW="legs",m4="claim",l7="joint",cS=0xffffff,l6="formulas",l5="roll",fE="atlas",m1='the workspace "',m2="nodes",m3="Out_of_memory",l4="psi_max",fR="orientation",fD=254,m0="angle",hV="index out of bounds",l3="end",mZ="one_to_one",fQ="_bigarr02",l2=" : flags Open_text and Open_binary are not compatible",bp="drive",l1="coordinates",mY="holds",l0="lower_divided",lZ="speed",mW="cylinder",mX="joints",b2=0xffff,mU="acceleration",ej="certified",hU="chords",mV=12520,hH="on",fC="accuracy",mT="axis",mS="no_cube",mR="parallel_margin",lY='the drive "',hG="Unix.Unix_error",fP="fails",fB="tool",hF="mkdir",mQ="rho",fO=1000,fA="translational",mP="tolerances",lX="Stack_overflow",hT="characteristic_length",O="",hS="^",hE="places",fz=": No such file or directory",lW="/static/",dv=0x3f,lU="stiffness",lV="Not_found",cR="planar",ei="mode",mO="joint_speed",mN="Match_failure",lT="transmission",ba="anchor",mM="at",lS="joint_force",du="leg",lR="joint_acceleration",fN="+",hD="rmdir",mL=0xf0,mK="spherical",lQ=1026,mI="REJECTED",mJ="undecided",a0="max",b1="direction",lO="leg_angle",lP="orthoglide",fM="rank",mH="constraint_margin",hC="test",lM="Pervasives.do_at_exit",lN="utf8",bo=0x80,fL="conditioning",ds="length",lL="Undefined_recursive_module",hR=")",lK="base",mG="quantity",lJ="joint_range",fy="tilt",lI="Q2",mF="reference",lH="point",mD="corner",mE=0xe0,lG="version",hQ="z",mB="to",mC=0xdfff,hB="compare: functional value",mA="Assert_failure",bq="/",mz="provenance",cQ="radius",fx="side",bG="require",my="format",lF="Q1",hP="ENOTDIR",lE="all",b0="box",mx=250;function
+ic(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=O;for(;0<a;b+=ed,a-=ed)e+=d.apply(null,c.slice(b,b+Math.min(a,ed)));return e}function
-fP(b){if(E.Uint8Array)var
+e=O;for(;0<a;b+=el,a-=el)e+=d.apply(null,c.slice(b,b+Math.min(a,el)));return e}function
+fW(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ei(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?h7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?h7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fP(b);var
+eq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ic(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?ic(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fW(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-du(a){return a}function
-dt(a,b,c,d,e){ei(du(a),b,c,d,e);return 0}function
-hW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dA(a){return a}function
+dz(a,b,c,d,e){eq(dA(a),b,c,d,e);return 0}function
+h3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cM(c,a){if(c.fun)return cM(c.fun,a);if(typeof
+cT(c,a){if(c.fun)return cT(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cM(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cT(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cM(c,d)}}function
-nL(b,a){if(b==0)return O;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cT(c,d)}}function
+nP(b,a){if(b==0)return O;if(a.repeat)return a.repeat(b);var
 d=O,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dv(a){if(a.t==2)a.c+=nL(a.l-a.c.length,"\0");else
-a.c=h7(a.c,0,a.c.length);a.t=0}function
-dw(a){a.t&6&&dv(a);return a.c}var
-BM=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-BL(a){if(BM)return Math.floor(Math.log2(a));var
+dB(a){if(a.t==2)a.c+=nP(a.l-a.c.length,"\0");else
+a.c=ic(a.c,0,a.c.length);a.t=0}function
+dC(a){a.t&6&&dB(a);return a.c}var
+BR=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+BQ(a){if(BR)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-hZ(c){var
+h6(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-nC=Math.pow(2,-24);function
-BC(a){throw a}var
-an=[0];function
-nI(){BC(an.Division_by_zero)}function
-D(b,c,a){this.lo=b&cL;this.mi=c&cL;this.hi=a&bY}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+nG=Math.pow(2,-24);function
+BH(a){throw a}var
+ao=[0];function
+nM(){BH(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cS;this.mi=c&cS;this.hi=a&b2}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*nC|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nC|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*nG|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nG|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bY);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cL;this.lo=this.lo<<1&cL};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cL;this.mi=(this.mi>>>1|this.hi<<23)&cL;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b2);return new
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cS;this.lo=this.lo<<1&cS};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cS;this.mi=(this.mi>>>1|this.hi<<23)&cS;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())nI();var
-d=b.hi^a.hi;if(b.hi&bB)b=b.neg();if(a.hi&bB)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bB)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())nI();var
-d=a.hi;if(a.hi&bB)a=a.neg();if(b.hi&bB)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bB)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&bZ,this.mi>>16,this.mi>>8&bZ,this.mi&bZ,this.lo>>16,this.lo>>8&bZ,this.lo&bZ]};D.prototype.lo32=function(){return this.lo|(this.mi&bZ)<<24};D.prototype.hi32=function(){return this.mi>>>8&bY|this.hi<<16};function
-fR(b,c,a){return new
+b=this;if(a.isZero())nM();var
+d=b.hi^a.hi;if(b.hi&bF)b=b.neg();if(a.hi&bF)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bF)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())nM();var
+d=a.hi;if(a.hi&bF)a=a.neg();if(b.hi&bF)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bF)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b3,this.mi>>16,this.mi>>8&b3,this.mi&b3,this.lo>>16,this.lo>>8&b3,this.lo&b3]};D.prototype.lo32=function(){return this.lo|(this.mi&b3)<<24};D.prototype.hi32=function(){return this.mi>>>8&b2|this.hi<<16};function
+fY(b,c,a){return new
 D(b,c,a)}function
-fQ(a){if(!isFinite(a)){if(isNaN(a))return fR(1,0,l5);return a>0?fR(0,0,l5):fR(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bB:a>=0?0:bB;if(f)a=-a;var
-b=BL(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lM)}else{a/=Math.pow(2,b-nb);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+fX(a){if(!isFinite(a)){if(isNaN(a))return fY(1,0,l9);return a>0?fY(0,0,l9):fY(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bF:a>=0?0:bF;if(f)a=-a;var
+b=BQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-nf);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hC|f|b<<4;return fR(g,e,c)}function
-el(a){return a.toArray()}function
-nq(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fJ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bY)c.write(16,b.dims[a]);else{c.write(16,bY);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hJ|f|b<<4;return fY(g,e,c)}function
+et(a){return a.toArray()}function
+nu(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fQ)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b2)c.write(16,b.dims[a]);else{c.write(16,b2);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=el(b.get(a));for(var
+e=et(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=el(fQ(b.get(a)));for(var
+e=et(fX(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=hZ(b.get(a));c.write(32,e)}break;case
+e=h6(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,hZ(d[1]));c.write(32,hZ(d[2]))}break;case
+d=b.get(a);c.write(32,h6(d[1]));c.write(32,h6(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=el(fQ(f[1]));for(var
+f=b.get(a),e=et(fX(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=el(fQ(f[2]));for(var
+e=et(fX(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-BE(b,a){throw[0,b,a]}function
-nQ(a){if(a.length<24){for(var
+BJ(b,a){throw[0,b,a]}function
+nU(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-h8(e){for(var
-j=O,c=O,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bk){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bk;d++);if(d-b>l6){c.substr(0,1);j+=c;c=O;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(f<<6);if(f<mA){a=g-0x3080;if(a<bk)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef){g=h+(g<<6);if(f<mH){a=g-0xe2080;if(a<ms||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ef&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bY)c+=String.fromCharCode(0xd7c0+(a>>10),mi+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>ed){c.substr(0,1);j+=c;c=O}}return j+c}function
-bD(c,a,b){this.t=c;this.c=a;this.l=b}bD.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dv(this);case
-0:if(nQ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bD.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return h8(a)};bD.prototype.slice=function(){var
+id(e){for(var
+j=O,c=O,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bo){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bo;d++);if(d-b>l_){c.substr(0,1);j+=c;c=O;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==en){g=h+(f<<6);if(f<mE){a=g-0x3080;if(a<bo)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==en){g=h+(g<<6);if(f<mL){a=g-0xe2080;if(a<mw||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==en&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b2)c+=String.fromCharCode(0xd7c0+(a>>10),mm+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>el){c.substr(0,1);j+=c;c=O}}return j+c}function
+bH(c,a,b){this.t=c;this.c=a;this.l=b}bH.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dB(this);case
+0:if(nU(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bH.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return id(a)};bH.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bD(this.t,a,this.l)};function
-nt(a){return new
-bD(0,a,a.length)}function
-a(a){return nt(a)}function
-h6(c,b){BE(c,a(b))}function
-ay(a){h6(an.Invalid_argument,a)}function
-no(a){switch(a){case
+bH(this.t,a,this.l)};function
+nx(a){return new
+bH(0,a,a.length)}function
+a(a){return nx(a)}function
+ib(c,b){BJ(c,a(b))}function
+az(a){ib(ao.Invalid_argument,a)}function
+ns(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-A8(c,e){var
+Bb(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=E,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)ay("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
 d=new
-a(e*no(c));return d}function
-h0(c){var
+a(e*ns(c));return d}function
+h7(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-ek(a){return new
+es(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-h1(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hC)==0?b&bB?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hC);if(c>0){a+=16;a*=Math.pow(2,c-nb)}else
-a*=Math.pow(2,-lM);if(b&bB)a=-a;return a}function
-hV(b){var
+h8(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hJ)==0?b&bF?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hJ);if(c>0){a+=16;a*=Math.pow(2,c-nf)}else
+a*=Math.pow(2,-lQ);if(b&bF)a=-a;return a}function
+h2(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)ay("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Bm(b,a){return new
-D(b&cL,b>>>24&bZ|(a&bY)<<8,a>>>16&bY)}function
-h2(a){return a.hi32()}function
-h3(a){return a.lo32()}function
-fO(){ay(hO)}var
-A9=fJ;function
-ch(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ch.prototype.caml_custom=A9;ch.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Br(b,a){return new
+D(b&cS,b>>>24&b3|(a&b2)<<8,a>>>16&b2)}function
+h9(a){return a.hi32()}function
+h_(a){return a.lo32()}function
+fV(){az(hV)}var
+Bc=fQ;function
+cp(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cp.prototype.caml_custom=Bc;cp.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))ay("bigarray.js: invalid offset");if(this.dims.length!=b.length)ay("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])fO();c=c*this.dims[a]+b[a]}else
+Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])fV();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])fO();c=c*this.dims[a]+(b[a]-1)}return c};ch.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])fV();c=c*this.dims[a]+(b[a]-1)}return c};cp.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Bm(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Br(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fw,e,c];default:return this.data[a]}};ch.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=h3(b);this.data[a*2+1]=h2(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fD,e,c];default:return this.data[a]}};cp.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=h_(b);this.data[a*2+1]=h9(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ch.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cp.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=h3(b),e=h2(b);if(c==e)this.data.fill(c);else
+c=h_(b),e=h9(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ch.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cp.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-ds(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ds.prototype=new
-ch();ds.prototype.offset=function(a){if(typeof
+dy(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dy.prototype=new
+cp();dy.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ay("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])fO();return a};ds.prototype.get=function(a){return this.data[a]};ds.prototype.set=function(a,b){this.data[a]=b;return 0};ds.prototype.fill=function(a){this.data.fill(a);return 0};function
-nm(c,d,a,b){var
-e=no(c);if(hV(a)*e!=b.length)ay("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-ds(c,d,a,b);return new
-ch(c,d,a,b)}function
-bn(b){if(!an.Failure)an.Failure=[aE,a(hE),-3];h6(an.Failure,b)}function
-nn(b,v,r){var
-i=b.read32s();if(i<0||i>16)bn("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bZ,o=p>>8&1,h=[];if(r==fJ)for(var
+az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])fV();return a};dy.prototype.get=function(a){return this.data[a]};dy.prototype.set=function(a,b){this.data[a]=b;return 0};dy.prototype.fill=function(a){this.data.fill(a);return 0};function
+nq(c,d,a,b){var
+e=ns(c);if(h2(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dy(c,d,a,b);return new
+cp(c,d,a,b)}function
+br(b){if(!ao.Failure)ao.Failure=[aF,a(hL),-3];ib(ao.Failure,b)}function
+nr(b,v,r){var
+i=b.read32s();if(i<0||i>16)br("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b3,o=p>>8&1,h=[];if(r==fQ)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bY){var
-t=b.read32u(),u=b.read32u();if(t!=0)bn("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b2){var
+t=b.read32u(),u=b.read32u();if(t!=0)br("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=hV(h),f=A8(j,d),g=nm(j,o,h,f);switch(j){case
+d=h2(h),f=Bb(j,d),g=nq(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bn("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)br("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ek(e);g.set(a,q)}break;case
+q=es(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=h1(ek(e));g.set(a,k)}break;case
+k=h8(es(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=h0(b.read32s());g.set(a,k)}break;case
+k=h7(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=h0(b.read32s()),l=h0(b.read32s());g.set(a,[fw,m,l])}break;case
+m=h7(b.read32s()),l=h7(b.read32s());g.set(a,[fD,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=h1(ek(e));for(var
+m=h8(es(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=h1(ek(e));g.set(a,[fw,m,l])}break}v[0]=(4+i)*4;return nm(j,o,h,f)}function
-nl(a,b,c){return a.compare(b,c)}function
-nF(a,b){return Math.imul(a,b)}function
-b0(b,a){a=nF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Bj(a,b){a=b0(a,h3(b));a=b0(a,h2(b));return a}function
-nB(a,b){return Bj(a,fQ(b))}function
-np(c){var
-b=hV(c.dims),d=0;switch(c.kind){case
+l=h8(es(e));g.set(a,[fD,m,l])}break}v[0]=(4+i)*4;return nq(j,o,h,f)}function
+np(a,b,c){return a.compare(b,c)}function
+nJ(a,b){return Math.imul(a,b)}function
+b4(b,a){a=nJ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nJ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Bo(a,b){a=b4(a,h_(b));a=b4(a,h9(b));return a}function
+nF(a,b){return Bo(a,fX(b))}function
+nt(c){var
+b=h2(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mn)b=mn;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b0(d,e)}e=0;switch(b&3){case
+12:if(b>mr)b=mr;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b4(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b0(d,e)}break;case
+1:e|=c.data[a+0];d=b4(d,e)}break;case
 4:case
-5:if(b>ef)b=ef;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b0(d,e)}if((b&1)!=0)d=b0(d,c.data[a]);break;case
+5:if(b>en)b=en;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b4(d,e)}if((b&1)!=0)d=b4(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b4(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b4(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b0(d,c.data[a]);break;case
+a=0;a<b;a++)d=b4(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=nB(d,c.data[a]);break;case
+a=0;a<b;a++)d=nF(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=nB(d,c.data[a]);break}return d}function
-Bk(a,b){b[0]=4;return a.read32s()}function
-Bz(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=nF(d,c.data[a]);break}return d}function
+Bp(a,b){b[0]=4;return a.read32s()}function
+BE(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bn("input_value: native integer value too large");default:bn("input_value: ill-formed native integer")}}function
-Bp(c,d){var
+2:br("input_value: native integer value too large");default:br("input_value: ill-formed native integer")}}function
+Bu(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ek(b)}function
-Bo(e,d,b){var
-c=el(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return es(b)}function
+Bt(e,d,b){var
+c=et(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Bl(a,b,c){return a.compare(b)}function
-Bn(a){return a.lo32()^a.hi32()}var
-nw={"_j":{deserialize:Bp,serialize:Bo,fixed_length:8,compare:Bl,hash:Bn},"_i":{deserialize:Bk,fixed_length:4},"_n":{deserialize:Bz,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nn(a,b,"_bigarray")},serialize:nq,compare:nl,hash:np},"_bigarr02":{deserialize:function(a,b){return nn(a,b,fJ)},serialize:nq,compare:nl,hash:np}};function
-hY(a){return nw[a.caml_custom]&&nw[a.caml_custom].compare}function
-nu(f,c,d,e){var
-b=hY(c);if(b){var
+Bq(a,b,c){return a.compare(b)}function
+Bs(a){return a.lo32()^a.hi32()}var
+nA={"_j":{deserialize:Bu,serialize:Bt,fixed_length:8,compare:Bq,hash:Bs},"_i":{deserialize:Bp,fixed_length:4},"_n":{deserialize:BE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nr(a,b,"_bigarray")},serialize:nu,compare:np,hash:nt},"_bigarr02":{deserialize:function(a,b){return nr(a,b,fQ)},serialize:nu,compare:np,hash:nt}};function
+h5(a){return nA[a.caml_custom]&&nA[a.caml_custom].compare}function
+ny(f,c,d,e){var
+b=h5(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-h5(a){return a
+ia(a){return a
 instanceof
-bD}function
-nD(a){return h5(a)}function
-nv(a){if(typeof
-a==="number")return fH;else
-if(h5(a))return 252;else
-if(nD(a))return 1252;else
+bH}function
+nH(a){return ia(a)}function
+nz(a){if(typeof
+a==="number")return fO;else
+if(ia(a))return 252;else
+if(nH(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fw?0:b}else
+b=a[0]|0;return b==fD?0:b}else
 if(a
 instanceof
-String)return mR;else
+String)return mV;else
 if(typeof
-a=="string")return mR;else
+a=="string")return mV;else
 if(a
 instanceof
-Number)return fH;else
-if(a&&a.caml_custom)return hG;else
+Number)return fO;else
+if(a&&a.caml_custom)return hN;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Bq(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-ns(a,b){a.t&6&&dv(a);b.t&6&&dv(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-nM(a,b){return ns(a,b)}function
-hX(a,b,d){var
+Bv(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+nw(a,b){a.t&6&&dB(a);b.t&6&&dB(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+nQ(a,b){return nw(a,b)}function
+h4(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nv(a);if(f==mt){a=a[1];continue}var
-g=nv(b);if(g==mt){b=b[1];continue}if(f!==g){if(f==fH){if(g==hG)return nu(a,b,-1,d);return-1}if(g==fH){if(f==hG)return nu(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ay(hu);break;case
+f=nz(a);if(f==mx){a=a[1];continue}var
+g=nz(b);if(g==mx){b=b[1];continue}if(f!==g){if(f==fO){if(g==hN)return ny(a,b,-1,d);return-1}if(g==fO){if(f==hN)return ny(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:az(hB);break;case
 248:var
-c=Bq(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ay(hu);break;case
-250:ay("equal: got Forward_tag, should not happen");break;case
-251:ay("equal: abstract value");break;case
+c=Bv(a[2],b[2]);if(c!=0)return c|0;break;case
+249:az(hB);break;case
+250:az("equal: got Forward_tag, should not happen");break;case
+251:az("equal: abstract value");break;case
 252:if(a!==b){var
-c=ns(a,b);if(c!=0)return c|0}break;case
-253:ay("equal: got Double_tag, should not happen");break;case
-254:ay("equal: got Double_array_tag, should not happen");break;case
-255:ay("equal: got Custom_tag, should not happen");break;case
-1247:ay(hu);break;case
+c=nw(a,b);if(c!=0)return c|0}break;case
+253:az("equal: got Double_tag, should not happen");break;case
+254:az("equal: got Double_array_tag, should not happen");break;case
+255:az("equal: got Custom_tag, should not happen");break;case
+1247:az(hB);break;case
 1255:var
-i=hY(a);if(i!=hY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ay("compare: abstract value");var
+i=h5(a);if(i!=h5(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dw(a),b=dw(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dC(a),b=dC(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Be(a,b){return hX(a,b,true)}function
-bF(a){if(a<0)ay("Bytes.create");return new
-bD(a?2:9,O,a)}function
-nx(a,b){return+(hX(a,b,false)==0)}function
-Bg(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=O;a.t=2}else{a.c=nL(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-BA=0;function
-nz(){return BA++}function
-Bs(a){return a.toUtf16()}function
-em(){return typeof
+Bj(a,b){return h4(a,b,true)}function
+bJ(a){if(a<0)az("Bytes.create");return new
+bH(a?2:9,O,a)}function
+nB(a,b){return+(h4(a,b,false)==0)}function
+Bl(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=O;a.t=2}else{a.c=nP(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fW(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+BF=0;function
+nD(){return BF++}function
+Bx(a){return a.toUtf16()}function
+eu(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-BN(){function
-a(a){if(a.charAt(0)===bm)return[O,a.substring(1)];return}function
+BS(){function
+a(a){if(a.charAt(0)===bq)return[O,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||O,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||O,f=a[2]||O;return[d,c.substring(d.length+f.length)]}return}return em()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-ia=BN();function
-nN(a){return a.slice(-1)!==bm?a+bm:a}if(em()&&E.process&&E.process.cwd)var
-ej=E.process.cwd().replace(/\\/g,bm);else
+d=a[1]||O,f=a[2]||O;return[d,c.substring(d.length+f.length)]}return}return eu()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+ii=BS();function
+nR(a){return a.slice(-1)!==bq?a+bq:a}if(eu()&&E.process&&E.process.cwd)var
+er=E.process.cwd().replace(/\\/g,bq);else
 var
-ej="/static";ej=nN(ej);function
-Bu(a){a=Bs(a);if(!ia(a))a=ej+a;var
-e=ia(a),d=e[1].split(bm),b=[];for(var
+er="/static";er=nR(er);function
+Bz(a){a=Bx(a);if(!ii(a))a=er+a;var
+e=ii(a),d=e[1].split(bq),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-BI(e){for(var
-f=O,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bk){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bk;d++);if(d-c>l6){b.substr(0,1);f+=b;b=O;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<ms){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bk|a&dp)}else
-if(a<0xd800||a>=my)b+=String.fromCharCode(mA|a>>12,bk|a>>6&dp,bk|a&dp);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mi||h>my)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mH|a>>18,bk|a>>12&dp,bk|a>>6&dp,bk|a&dp)}if(b.length>ed){b.substr(0,1);f+=b;b=O}}return f+b}function
-Bb(a){var
-b=9;if(!nQ(a))b=8,a=BI(a);return new
-bD(b,a,a.length)}function
-dx(a){return Bb(a)}var
-BQ=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mb,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hD,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hI,mh,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cQ(d,f,e,a){var
-b=BQ.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dx(f||O),dx(e||O)];return c}var
-nG={};function
-cN(a){return nG[a]}function
-cO(b,a){throw[0,b].concat(a)}function
-Ba(a){return new
-bD(4,a,a.length)}function
-aa(a){h6(an.Sys_error,a)}function
-BD(a){aa(a+fs)}function
-nr(){ay(hO)}function
-A$(b,a){if(a>>>0>=b.l)nr();return hW(b,a)}function
-fS(a){return a.l}function
-nk(){}function
-aw(a){this.data=a}aw.prototype=new
-nk();aw.prototype.truncate=function(a){var
-b=this.data;this.data=bF(a|0);ei(b,0,this.data,0,a)};aw.prototype.length=function(){return fS(this.data)};aw.prototype.write=function(b,d,g,a){var
+BN(e){for(var
+f=O,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bo){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bo;d++);if(d-c>l_){b.substr(0,1);f+=b;b=O;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mw){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bo|a&dv)}else
+if(a<0xd800||a>=mC)b+=String.fromCharCode(mE|a>>12,bo|a>>6&dv,bo|a&dv);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mm||h>mC)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mL|a>>18,bo|a>>12&dv,bo|a>>6&dv,bo|a&dv)}if(b.length>el){b.substr(0,1);f+=b;b=O}}return f+b}function
+Bg(a){var
+b=9;if(!nU(a))b=8,a=BN(a);return new
+bH(b,a,a.length)}function
+dD(a){return Bg(a)}var
+BV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hK,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hP,ml,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cX(d,f,e,a){var
+b=BV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dD(f||O),dD(e||O)];return c}var
+nK={};function
+cU(a){return nK[a]}function
+cV(b,a){throw[0,b].concat(a)}function
+Bf(a){return new
+bH(4,a,a.length)}function
+ab(a){ib(ao.Sys_error,a)}function
+BI(a){ab(a+fz)}function
+nv(){az(hV)}function
+Be(b,a){if(a>>>0>=b.l)nv();return h3(b,a)}function
+fZ(a){return a.l}function
+no(){}function
+ax(a){this.data=a}ax.prototype=new
+no();ax.prototype.truncate=function(a){var
+b=this.data;this.data=bJ(a|0);eq(b,0,this.data,0,a)};ax.prototype.length=function(){return fZ(this.data)};ax.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bF(b+a),f=this.data;this.data=e;ei(f,0,this.data,0,c)}dt(d,g,this.data,b,a);return 0};aw.prototype.read=function(c,a,d,b){var
-e=this.length();ei(this.data,c,a,d,b);return 0};aw.prototype.read_one=function(a){return A$(this.data,a)};aw.prototype.close=function(){};aw.prototype.constructor=aw;function
-aI(b,a){this.content={};this.root=b;this.lookupFun=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.create_dir_if_needed=function(d){var
-c=d.split(bm),b=O;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bm;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aI.prototype.slash=function(a){return/\/$/.test(a)?a:a+bm};aI.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bJ(b+a),f=this.data;this.data=e;eq(f,0,this.data,0,c)}dz(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
+e=this.length();eq(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Be(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
+aM(b,a){this.content={};this.root=b;this.lookupFun=a}aM.prototype.nm=function(a){return this.root+a};aM.prototype.create_dir_if_needed=function(d){var
+c=d.split(bq),b=O;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bq;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aM.prototype.slash=function(a){return/\/$/.test(a)?a:a+bq};aM.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aw(du(c[1]))}}};aI.prototype.exists=function(a){if(a==O)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aI.prototype.mkdir=function(c,e,d){var
-b=d&&cN(hz);if(this.exists(c))if(b)cO(b,cQ(mb,hy,this.nm(c)));else
-aa(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||O;if(!this.exists(a))if(b)cO(b,cQ(hD,hy,this.nm(a)));else
-aa(a+fs);if(!this.is_dir(a))if(b)cO(b,cQ(hI,hy,this.nm(a)));else
-aa(a+hQ);this.create_dir_if_needed(this.slash(c))};aI.prototype.rmdir=function(a,f){var
-b=f&&cN(hz),c=a==O?O:this.slash(a),e=new
-RegExp(hL+c+mj);if(!this.exists(a))if(b)cO(b,cQ(hD,hw,this.nm(a)));else
-aa(a+fs);if(!this.is_dir(a))if(b)cO(b,cQ(hI,hw,this.nm(a)));else
-aa(a+hQ);for(var
+ax(dA(c[1]))}}};aM.prototype.exists=function(a){if(a==O)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aM.prototype.mkdir=function(c,e,d){var
+b=d&&cU(hG);if(this.exists(c))if(b)cV(b,cX(mf,hF,this.nm(c)));else
+ab(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||O;if(!this.exists(a))if(b)cV(b,cX(hK,hF,this.nm(a)));else
+ab(a+fz);if(!this.is_dir(a))if(b)cV(b,cX(hP,hF,this.nm(a)));else
+ab(a+hX);this.create_dir_if_needed(this.slash(c))};aM.prototype.rmdir=function(a,f){var
+b=f&&cU(hG),c=a==O?O:this.slash(a),e=new
+RegExp(hS+c+mn);if(!this.exists(a))if(b)cV(b,cX(hK,hD,this.nm(a)));else
+ab(a+fz);if(!this.is_dir(a))if(b)cV(b,cX(hP,hD,this.nm(a)));else
+ab(a+hX);for(var
 d
 in
-this.content)if(d.match(e))if(b)cO(b,cQ(mh,hw,this.nm(a)));else
-aa(this.nm(a)+": Directory not empty");delete
-this.content[c]};aI.prototype.readdir=function(a){var
-f=a==O?O:this.slash(a);if(!this.exists(a))aa(a+fs);if(!this.is_dir(a))aa(a+hQ);var
+this.content)if(d.match(e))if(b)cV(b,cX(ml,hD,this.nm(a)));else
+ab(this.nm(a)+": Directory not empty");delete
+this.content[c]};aM.prototype.readdir=function(a){var
+f=a==O?O:this.slash(a);if(!this.exists(a))ab(a+fz);if(!this.is_dir(a))ab(a+hX);var
 g=new
-RegExp(hL+f+mj),d={},c=[];for(var
+RegExp(hS+f+mn),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aI.prototype.is_dir=function(a){if(a==O)return true;var
-b=this.slash(a);return this.content[b]?1:0};aI.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aM.prototype.is_dir=function(a){if(a==O)return true;var
+b=this.slash(a);return this.content[b]?1:0};aM.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aI.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aa(this.nm(a)+m5);if(b.text&&b.binary)aa(this.nm(a)+lY);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aa(this.nm(a)+" : is a directory");if(b.create&&b.excl)aa(this.nm(a)+m2);var
+this.content[a];return b};aM.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ab(this.nm(a)+m9);if(b.text&&b.binary)ab(this.nm(a)+l2);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ab(this.nm(a)+" : is a directory");if(b.create&&b.excl)ab(this.nm(a)+m6);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aw(bF(0));return this.content[a]}else
-BD(this.nm(a))};aI.prototype.register=function(c,a){var
-b;if(this.content[c])aa(this.nm(c)+m2);if(h5(a))b=new
-aw(a);if(nD(a))b=new
-aw(du(a));else
+ax(bJ(0));return this.content[a]}else
+BI(this.nm(a))};aM.prototype.register=function(c,a){var
+b;if(this.content[c])ab(this.nm(c)+m6);if(ia(a))b=new
+ax(a);if(nH(a))b=new
+ax(dA(a));else
 if(a
 instanceof
 Array)b=new
-aw(Ba(a));else
+ax(Bf(a));else
 if(typeof
 a==="string")b=new
-aw(nt(a));else
+ax(nx(a));else
 if(a.toString){var
-d=du(dx(a.toString()));b=new
-aw(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-aa(this.nm(c)+" : registering file with invalid content type")};aI.prototype.constructor=aI;function
-aj(a){return fS(a)}function
-cP(b,a){return hW(b,a)}function
-A7(d){var
-c=aj(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=cP(d,a);return b}function
-A6(a){if(a.t!=4)fP(a);return a.c}function
-Bd(a,c,b){b&=bZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fP(a)}a.c[c]=b;return 0}function
-Bc(b,a,c){if(a>>>0>=b.l)nr();return Bd(b,a,c)}function
-bE(a){this.fs=require("fs");this.fd=a}bE.prototype=new
-nk();bE.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aa(a.toString())}};bE.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aa(a.toString())}};bE.prototype.write=function(f,b,c,e){var
-a=A7(b);if(!(a
+d=dA(dD(a.toString()));b=new
+ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ab(this.nm(c)+" : registering file with invalid content type")};aM.prototype.constructor=aM;function
+ak(a){return fZ(a)}function
+cW(b,a){return h3(b,a)}function
+Ba(d){var
+c=ak(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=cW(d,a);return b}function
+A$(a){if(a.t!=4)fW(a);return a.c}function
+Bi(a,c,b){b&=b3;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fW(a)}a.c[c]=b;return 0}function
+Bh(b,a,c){if(a>>>0>=b.l)nv();return Bi(b,a,c)}function
+bI(a){this.fs=require("fs");this.fd=a}bI.prototype=new
+no();bI.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ab(a.toString())}};bI.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ab(a.toString())}};bI.prototype.write=function(f,b,c,e){var
+a=Ba(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aa(a.toString())}return 0};bE.prototype.read=function(g,d,c,f){var
-a=A6(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ab(a.toString())}return 0};bI.prototype.read=function(g,d,c,f){var
+a=A$(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aa(a.toString())}for(var
-b=0;b<f;b++)Bc(d,c+b,e[c+b]);return 0};bE.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aa(a.toString())}return a[0]};bE.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aa(a.toString())}};bE.prototype.constructor=bE;function
-ax(a){this.fs=require("fs");this.root=a}ax.prototype.nm=function(a){return this.root+a};ax.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ax.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aa(a.toString())}};ax.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.open=function(f,c,g){var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ab(a.toString())}for(var
+b=0;b<f;b++)Bh(d,c+b,e[c+b]);return 0};bI.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ab(a.toString())}return a[0]};bI.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ab(a.toString())}};bI.prototype.constructor=bI;function
+ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ab(a.toString())}};ay.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bE(d)}catch(a){this.raise_nodejs_error(a,g)}};ax.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),lJ);return dx(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.raise_nodejs_error=function(a,d){var
-b=cN(hz);if(d&&b){var
-c=cQ(a.code,a.syscall,a.path,a.errno);cO(b,c)}else
-aa(a.toString())};ax.prototype.stats_from_js=function(a){var
+bI(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),lN);return dD(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
+b=cU(hG);if(d&&b){var
+c=cX(a.code,a.syscall,a.path,a.errno);cV(b,c)}else
+ab(a.toString())};ay.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ax.prototype.constructor=ax;function
-nA(b){var
-a=ia(b);if(!a)return;return a[0]+bm}var
-fT=nA(ej)||bn("unable to compute caml_root"),dy=[];if(em())dy.push({path:fT,device:new
-ax(fT)});else
-dy.push({path:fT,device:new
-aI(fT)});dy.push({path:lS,device:new
-aI(lS)});function
-nU(b){var
-g=Bu(b),b=g.join(bm),f=nN(b),c;for(var
-e=0;e<dy.length;e++){var
-a=dy[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&em()){var
-d=nA(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
+nE(b){var
+a=ii(b);if(!a)return;return a[0]+bq}var
+f0=nE(er)||br("unable to compute caml_root"),dE=[];if(eu())dE.push({path:f0,device:new
+ay(f0)});else
+dE.push({path:f0,device:new
+aM(f0)});dE.push({path:lW,device:new
+aM(lW)});function
+nY(b){var
+g=Bz(b),b=g.join(bq),f=nR(b),c;for(var
+e=0;e<dE.length;e++){var
+a=dE[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eu()){var
+d=nE(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-ax(d)};dy.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aa("no device found for "+f)}function
-Bf(c,b){var
-a=nU(c);if(!a.device.register)bn("cannot register file");a.device.register(a.rest,b);return 0}function
-nP(c,b){var
-c=a(c),b=a(b);return Bf(c,b)}function
-Bi(){var
+ay(d)};dE.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ab("no device found for "+f)}function
+Bk(c,b){var
+a=nY(c);if(!a.device.register)br("cannot register file");a.device.register(a.rest,b);return 0}function
+nT(c,b){var
+c=a(c),b=a(b);return Bk(c,b)}function
+Bn(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nP(b[a].name,b[a].content);E.jsoo_create_file=nP;E.caml_fs_tmp=[];return 0}function
-BB(c){var
-a=0,e=aj(c),b=10,d=1;if(e>0)switch(cP(c,a)){case
+a=0;a<b.length;a++)nT(b[a].name,b[a].content);E.jsoo_create_file=nT;E.caml_fs_tmp=[];return 0}function
+BG(c){var
+a=0,e=ak(c),b=10,d=1;if(e>0)switch(cW(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&cP(c,a)==48)switch(cP(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&cW(c,a)==48)switch(cW(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aj(c),b=10,d=1;if(e>0)switch(cP(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-nH(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ne)return a-87;return-1}function
-h4(f){var
-h=BB(f),c=h[0],i=h[1],d=h[2],g=aj(f),j=-1>>>0,e=c<g?cP(f,c):0,b=nH(e);if(b<0||b>=d)bn(fz);var
-a=b;for(c++;c<g;c++){e=cP(f,c);if(e==95)continue;b=nH(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bn(fz)}if(c!=g)bn(fz);a=i*a;if(d==10&&(a|0)!=a)bn(fz);return a|0}function
-Bt(a,b){return+(hX(a,b,false)<=0)}function
-Bv(a,d){if(a<0)fO();var
+nL(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ni)return a-87;return-1}function
+h$(f){var
+h=BG(f),c=h[0],i=h[1],d=h[2],g=ak(f),j=-1>>>0,e=c<g?cW(f,c):0,b=nL(e);if(b<0||b>=d)br(fG);var
+a=b;for(c++;c<g;c++){e=cW(f,c);if(e==95)continue;b=nL(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)br(fG)}if(c!=g)br(fG);a=i*a;if(d==10&&(a|0)!=a)br(fG);return a|0}function
+By(a,b){return+(h4(a,b,false)<=0)}function
+BA(a,d){if(a<0)fV();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b1=new
+b5=new
 Array();function
-Bw(c){var
-a=b1[c];if(!a.opened)aa("Cannot flush a closed channel");if(!a.buffer||a.buffer==O)return 0;if(a.fd&&an.fds[a.fd]&&an.fds[a.fd].output){var
-b=an.fds[a.fd].output;switch(b.length){case
+BB(c){var
+a=b5[c];if(!a.opened)ab("Cannot flush a closed channel");if(!a.buffer||a.buffer==O)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+b=ao.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=O;return 0}function
-nK(e,f){var
-b=b1[e],d=a(f),c=aj(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-BJ(a){var
-a=h8(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+nO(e,f){var
+b=b5[e],d=a(f),c=ak(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+BO(a){var
+a=id(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-BK(a){var
-a=h8(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+BP(a){var
+a=id(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-fV(c,e,d,a){if(an.fds===undefined)an.fds=new
+f2(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;an.fds[c]=b;if(!an.fd_last_idx||c>an.fd_last_idx)an.fd_last_idx=c;return c}function
-BR(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
+BW(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,157 +619,157 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aa(dw(c)+m5);if(a.text&&a.binary)aa(dw(c)+lY);var
-d=nU(c),e=d.device.open(d.rest,a),f=an.fd_last_idx?an.fd_last_idx:0;return fV(f+1,nK,e,a)}fV(0,nK,new
-aw(bF(0)));fV(1,BK,new
-aw(bF(0)));fV(2,BJ,new
-aw(bF(0)));function
-Bx(a){var
-c=an.fds[a];if(c.flags.wronly)aa(nd+a+" is writeonly");var
-d=null;if(a==0&&em()){var
-e=require("fs");d=function(){return dx(e.readFileSync(0,lJ))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b1[b.fd]=b;return b.fd}function
-nE(c){var
-b=an.fds[c];if(b.flags.rdonly)aa(nd+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:O};b1[a.fd]=a;return a.fd}function
-By(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ab(dC(c)+m9);if(a.text&&a.binary)ab(dC(c)+l2);var
+d=nY(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return f2(f+1,nO,e,a)}f2(0,nO,new
+ax(bJ(0)));f2(1,BP,new
+ax(bJ(0)));f2(2,BO,new
+ax(bJ(0)));function
+BC(a){var
+c=ao.fds[a];if(c.flags.wronly)ab(nh+a+" is writeonly");var
+d=null;if(a==0&&eu()){var
+e=require("fs");d=function(){return dD(e.readFileSync(0,lN))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b5[b.fd]=b;return b.fd}function
+nI(c){var
+b=ao.fds[c];if(b.flags.rdonly)ab(nh+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:O};b5[a.fd]=a;return a.fd}function
+BD(){var
 b=0;for(var
-a=0;a<b1.length;a++)if(b1[a]&&b1[a].opened&&b1[a].out)b=[0,b1[a].fd,b];return b}function
-a_(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);an[b+1]=c;if(a)an[a]=c}function
-BF(a,b){nG[dw(a)]=b;return 0}function
-A_(a,b){if(a===b)return 1;a.t&6&&dv(a);b.t&6&&dv(b);return a.c==b.c?1:0}function
-ak(a,b){return A_(a,b)}function
-BH(){ay(hO)}function
-aF(b,a){if(a>>>0>=aj(b))BH();return cP(b,a)}function
-m(a,b){return 1-ak(a,b)}function
-fU(a){return a}function
-nJ(a){return a}function
-nO(a){if(a
+a=0;a<b5.length;a++)if(b5[a]&&b5[a].opened&&b5[a].out)b=[0,b5[a].fd,b];return b}function
+bb(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
+BK(a,b){nK[dC(a)]=b;return 0}function
+Bd(a,b){if(a===b)return 1;a.t&6&&dB(a);b.t&6&&dB(b);return a.c==b.c?1:0}function
+al(a,b){return Bd(a,b)}function
+BM(){az(hV)}function
+aG(b,a){if(a>>>0>=ak(b))BM();return cW(b,a)}function
+m(a,b){return 1-al(a,b)}function
+f1(a){return a}function
+nN(a){return a}function
+nS(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nJ(an.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nN(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return nJ(an.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return nN(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cN(mq))return[0,cN(mq),a];return[0,an.Failure,dx(String(a))]}function
-fW(a){return a<0?-a:a}function
+E.Error&&cU(mu))return[0,cU(mu),a];return[0,ao.Failure,dD(String(a))]}function
+f3(a){return a<0?-a:a}function
 y(a,b){return a+b}function
-h9(a,b){return a<b?-1:a>b?1:0}function
-nR(c,b){var
-a=c%b;return a<0?a+fW(b):a}function
-h_(a,b){return(a-nR(a,b))/b}function
-ab(a,b){return a==b?1:0}function
-BO(c){E.orthocert_verify=function(b){return dw(cM(c,[a(b)]))}}function
+ie(a,b){return a<b?-1:a>b?1:0}function
+nV(c,b){var
+a=c%b;return a<0?a+f3(b):a}function
+ig(a,b){return(a-nV(a,b))/b}function
+ac(a,b){return a==b?1:0}function
+BT(c){E.orthocert_verify=function(b){return dC(cT(c,[a(b)]))}}function
 L(a,b){return a<=b?1:0}function
-Y(a,b){return a<b?1:0}function
+Z(a,b){return a<b?1:0}function
 u(a,b){return a*b}function
-Z(a){return-a}function
-aZ(a){return E.BigInt(a)}function
-nS(a,b){return a<<E.BigInt(b)}function
-nT(a,b){return a>>E.BigInt(b)}function
-bG(a){return a<0?-1:a>0?1:0}function
-BP(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+X(a){return-a}function
+a2(a){return E.BigInt(a)}function
+nW(a,b){return a<<E.BigInt(b)}function
+nX(a,b){return a>>E.BigInt(b)}function
+bK(a){return a<0?-1:a>0?1:0}function
+BU(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aG(a,b){return a-b}function
-h$(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-Br(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Bh(b){var
-a=O;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Br(b[1]))var
+aH(a,b){return a-b}function
+ih(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+Bw(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Bm(b){var
+a=O;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Bw(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mr;for(var
+f=2,e=b;a+=mv;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bD)a+=as+c.toString()+as;else
+bH)a+=at+c.toString()+at;else
 if(typeof
-c=="string")a+=as+c.toString()+as;else
-a+="_"}a+=hK}else
-if(b[0]==aE)a+=b[1];return a}function
-ny(a){if(a
+c=="string")a+=at+c.toString()+at;else
+a+="_"}a+=hR}else
+if(b[0]==aF)a+=b[1];return a}function
+nC(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aE)){var
-c=cN("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Bh(a),b=cN(lI);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aF)){var
+c=cU("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Bm(a),b=cU(lM);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-BG(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ny(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ny(a.error)})}BG();function
-l(a,b){return a.length==1?a(b):cM(a,[b])}function
-ar(a,b,c){return a.length==2?a(b,c):cM(a,[b,c])}function
-A5(a,b,c,d){return a.length==3?a(b,c,d):cM(a,[b,c,d])}Bi();var
-ic=[aE,a(me),-2],ib=[aE,a(nj),-4],z0=[0,[0,0]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z0]]]]]]]]]]],z2=[0,0],z3=[0,0],z4=[0,[0,[0,[0,0]]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z4]]]]]]]]]]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],z8=[0,[0,0]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,0]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,0],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,0]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,0],AX=[0,[0,0]],AY=[0,0],AZ=[0,[0,[0,[0,[0,0]]]]],iE=[0,[0,[0,0]]],b8=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],e8=[0,[0,[0,[0,0]]]],A0=[0,[0,[0,[0,[0,0]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]];a_(11,[aE,a(lH),-12],lH);a_(10,[aE,a(mw),-11],mw);a_(9,[aE,a(nc),-10],nc);a_(8,[aE,a(lT),-9],lT);a_(7,[aE,a(mJ),-8],mJ);a_(6,[aE,a(lR),-7],lR);a_(5,[aE,a(mf),-6],mf);a_(4,[aE,a(ml),-5],ml);a_(3,ib,nj);a_(2,[aE,a(hE),-3],hE);a_(1,ic,me);a_(0,[aE,a(mZ),-1],mZ);var
-nV=a("String.sub / Bytes.sub"),nX=a(O),nW=a("String.concat"),nY=a("Array.init"),nZ=a("power"),n9=[0,0],n$=[0,0],oa=[0,[0,0]],ob=[0,[0,0]],on=[0,0,0],oo=[0,0,0],op=[0,0],oI=[0,0],oJ=[0,0],oM=[0,0],o4=[0,0],o7=[0,0],o8=[0,0],pc=[0,0],pd=[0,0],py=[0,[0,[0,0]]],pN=[0,0],p9=a(","),qp=[0,a(hK),0],qq=a(mr),qr=a("."),qs=[0,[0,[0,0]]],qt=a(ec),qu=a(hL),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,a(hK),0],qx=a(ng),to=a(lE),tq=a(lB),tp=a(mz),tr=a(fE),ts=a(fv),tt=a(ni),tu=a(m7),tv=a(l_),tw=a(mL),uA=[0,0],uB=a(hv),uC=[0,0],uD=a("divided"),uE=[0,1],uF=a("mirror"),uG=[0,3],uH=a("negative"),uI=[0,2],uJ=a(hN),uK=[0,5],uL=a(hT),uM=[0,4],uN=a(fA),uO=a(lW),uP=a(fF),uQ=a(bX),uR=[0,0],uS=[0,0],uT=[0,0],vs=a(O),vp=[0,[0,[0,[0,0]]]],vq=[0,[0,[0,[0,0]]]],vn=[0,0],vk=[0,[0,0]],vl=[0,[0,[0,0]]],vg=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z1]]]]]]]]]]],vc=[0,0],u6=[0,[0,0]],u7=[0,[0,[0,0]]],u8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z2]]]]]]]]]]],u9=[0,[0,0]],va=[0,[0,[0,0]]],u_=[0,[0,0]],u$=[0,[0,[0,0]]],u5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z3]]]]]]]]]]],u3=[0,[0,0]],u4=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,0]],uY=[0,[0,0]],uZ=[0,0],uX=[0,0],uW=[0,[0,0]],uV=[0,0],ux=[0,0],uy=[0,1],uz=[0,2],ut=[0,[0,0]],uu=[0,0],us=[0,0],ur=[0,0],uq=[0,0],up=[0,0,0],un=[0,0,0],ul=[0,[0,[0,0]]],um=[0,[0,[0,0]]],uk=[0,0],ui=[0,1,0],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],t8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],t_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],t$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],ud=a("sqrt"),t6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],t7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],tV=[0,a("\n"),0],tW=a(lC),tX=a(fu),tY=a(mv),tZ=a(mc),t5=a(ee),t0=a(eb),t1=a("verdict"),t2=a(m0),t3=a(l7),t4=a(mu),tS=a(mp),tT=a(m3),tU=a(fx),tO=a(mF),tP=a(fy),tQ=a(eb),tR=a(ee),tJ=a(fI),tK=a(aY),tL=a(lD),tM=a(fD),tG=a(mY),tH=a(hN),tI=a(fD),tC=a(mI),tD=a(fI),tE=a(fy),tF=a(na),ty=a(m4),tz=a(mm),tA=a(fB),tm=a(hx),tn=a(hR),th=a(aX),ti=a(aW),tj=a(l9),sT=a(fB),sU=a(mM),su=a(aY),sv=a(bC),sw=a(fK),sx=a(dq),sy=a(cK),sD=a(ft),sz=a(hM),sA=a(hP),sB=a(dm),sC=a(aY),sE=a(bC),sF=a(fK),sG=a(aX),sH=a(aW),sI=a(bW),sJ=a(dq),sK=a(hM),sL=a(hP),sM=a(dm),sN=a(aY),sO=a(bC),sP=a(aX),sQ=a(aW),sR=a(bW),sS=a(dq),sV=a(mT),sW=a(m6),sX=a(fN),sY=a(lX),sZ=a(l2),s0=a(dm),s1=a(aY),s2=a(bC),s3=a(fq),s4=a(ma),s5=a(dq),s6=a(eh),s7=a(lL),s8=a(dm),s9=a(aY),s_=a(fq),s$=a(aY),ta=a(mO),td=a(lA),tb=a(l0),tc=a(m$),te=a(ee),tf=a(eb),tg=a(aY),tk=a(fN),tl=a(fx),so=a(bC),sp=a(hU),sq=a(dq),sr=a(ft),ss=a(dm),sc=a(eh),sd=a(m1),se=a(cJ),sf=a(dn),sg=a(dn),sh=a(hA),si=a(cJ),sj=a(mx),sk=a(l8),sl=a(aN),sn=a(lG),sm=a(hA),r4=a(mo),r5=a(nh),r6=a(l4),r7=a(l1),r8=a(m9),r9=a(mW),r_=a(md),r$=a(fr),sa=a(fr),r0=a(aN),r1=a(a9),r2=a(dr),r3=a(bl),rW=a(cK),rX=a(hH),rY=a(mG),rT=a(aX),rU=a(aW),rV=a(bW),rM=a(aX),rN=a(aW),rO=a(bW),rP=a(hJ),rQ=a(cJ),rR=a(hF),rS=a(mS),rC=a(lZ),rI=a(fu),rH=a(m_),rD=a(l3),rE=a(hB),rJ=a(lV),rK=a(mQ),rL=a(hB),rF=a(dn),rG=a(mC),rz=a(fC),rA=a(fC),rB=a(fC),rv=a(mU),rw=a(aW),rx=a(aX),ry=a(m8),rh=a(lP),ri=a(lF),rj=a(mK),rk=a(fE),rl=a(nf),rm=a(mN),rn=a(lQ),ro=a(mD),rp=a(lO),rq=a(l$),rr=a(lN),rs=a(mV),rt=a(fv),ru=a(lK),qY=a(fG),q0=a(ec),qZ=a(ea),q1=a(dl),q2=a(aN),q3=a(a9),q4=a(bX),q5=a(fL),q6=a(bl),q7=a(aN),q8=a(a9),q9=a(dr),q_=a(bl),q$=a(dl),ra=a(eg),rb=a(aN),rc=a(a9),rd=a(mB),re=a(mP),rf=a(eg),rg=a(bl),qG=a(fG),qO=a(ec),qH=a(ea),qI=a(dl),qJ=a(aN),qK=a(a9),qL=a(bX),qM=a(fL),qN=a(bl),qP=a(fM),qQ=a(aN),qR=a(a9),qS=a(dr),qT=a(bl),qU=a(bX),qV=a(cK),qW=a(bl),qD=a(aX),qE=a(aW),qB=[0,a(as),0],qC=a(as),qz=a(O),qy=[0,a(as),0],qA=a(as),ql=a(fG),qm=a(ec),qn=a("*"),qo=a(bm),qg=[0,[0,[0,[0,[0,0]]]]],qh=[0,[0,[0,0]]],qi=[0,[0,0]],qj=[0,0],qk=[0,[0,[0,[0,0]]]],qe=a('":'),qf=a(as),qc=[0,a(as),0],qd=a(as),qa=[0,a("}"),0],qb=a("{"),p_=[0,a("]"),0],p$=a("["),p8=[0,[0,[0,0]]],p7=[0,[0,[0,0]]],p5=[0,0],p2=[0,[0,[0,0]]],p3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p4=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p0=[0,[0,0]],p1=[0,[0,[0,0]]],pX=[0,0],pY=[0,[0,[0,[0,[0,[0,0]]]]]],pZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],pU=[0,0],pR=[0,0,0],pS=[0,0,0],pT=[0,0,0],pO=[0,[0,0]],pP=[0,[0,[0,0]]],pQ=[0,0],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pF=[0,[0,[0,0]]],pG=[0,[0,[0,0]]],pH=[0,[0,[0,[0,[0,[0,0]]]]]],pI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],pK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],pL=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],pw=[0,[0,0]],px=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],pv=[0,[0,0]],ps=[0,0],po=[0,[0,0]],pp=[0,0],pq=[0,0],pr=[0,[0,0]],pf=[0,[0,0]],pg=[0,0],ph=[0,[0,0]],pi=[0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,[0,0]],pm=[0,[0,0]],pn=[0,0],pb=[0,0],o$=[0,[0,[0,0]]],o_=[0,[0,[0,[0,[0,[0,0]]]]]],o5=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o1=[0,[0,[0,[0,[0,[0,0]]]]]],o2=[0,[0,[0,[0,[0,[0,0]]]]]],oX=[0,[0,0]],oY=[0,0],oZ=[0,[0,[0,0]]],o0=[0,[0,[0,0]]],oQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],oR=[0,[0,[0,[0,[0,[0,0]]]]]],oS=[0,[0,[0,[0,[0,[0,0]]]]]],oT=[0,[0,[0,0]]],oU=[0,[0,[0,[0,[0,[0,0]]]]]],oV=[0,[0,[0,0]]],oW=[0,[0,[0,0]]],oO=[0,[0,0]],oP=[0,0],oN=[0,0,0],oL=[0,0,0],oK=[0,[0,[0,0]]],oG=[0,0],oH=[0,0],oB=[0,[0,[0,0]]],oC=[0,[0,[0,0]]],oD=[0,[0,[0,0]]],oA=[0,[0,[0,[0,0]]]],ow=[0,[0,[0,0]]],ox=[0,[0,[0,0]]],oy=[0,[0,[0,0]]],oz=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ou=[0,[0,0]],ov=[0,0],os=[0,[0,0]],ot=[0,0],oq=[0,[0,0]],or=[0,0],oe=[0,0],of=[0,[0,0]],og=[0,0],oh=[0,[0,0]],oc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],od=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],n_=[0,0,0],n8=a(hS),n7=a(O),n6=[0,[0,0]],n5=[0,0],n4=[1,0],n3=[0,0],n2=[0,0],n0=[1,0],n1=[1,0],vm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],yw=a(aX),yx=a(aW),yy=a(l9),yl=a(fM),ym=[0,a("a base axis of such a platform"),0],yn=a(aN),yo=a(a9),x_=a(mW),x$=a(mo),ya=a(m9),yb=a(fr),yc=a(md),yd=a(fr),ye=a(nh),yf=a(l4),yg=a(l1),xX=a(mM),xY=a(fB),xw=a(bC),xk=a(fx),xl=a(aY),xm=a(mO),xn=a(m$),xq=a(l0),xr=a(lA),xs=a(aY),xt=a(aY),xv=a(fq),xu=[0,a("a claim that no cube of such a machine fits"),0],xx=a(dm),xy=a(dq),xz=a(ft),xA=a(hU),yv=[0,a(mg),0],xB=a(cK),xC=a(hH),xD=a(mG),xE=a(fK),xF=a(l2),xG=a(lL),xH=a(ft),xK=a(bW),xL=a(mS),xO=a(hU),xP=[0,a(mg),0],xQ=a(bC),xR=[0,a("the distance from parallel singularities of other drives than sliders"),0],xS=a(ma),xT=[0,a("what else is asked of the closed design"),0],xU=a(fq),xV=a(eh),xW=a(bW),xZ=a(bC),x0=a(aX),x1=a(aW),x2=a(mT),x3=a(m6),x4=a(fN),x5=a(lX),xI=[0,a(as),0],xJ=a('the mechanism "'),x6=a(bW),x7=[0,a('" of a platform that turns'),0],x8=a(mX),x9=a(hM),yh=a(fK),yi=a(cK),yj=a(hH),yk=a(hP),yp=a(bC),yq=a(aX),yr=a(aW),yu=a(cK),ys=[0,a("a platform that turns on struts and other drives"),0],yt=a(bC),xM=[0,a(as),0],xN=a(mX),yz=a(aY),yA=a(aY),yC=a(ee),yD=a(eb),yE=a(fN),yB=[0,a("an atlas of such a machine"),0],xo=[0,a(as),0],xp=a('a claim of the kind "'),yJ=a(ni),yQ=a(fv),yR=a(fE),yS=a(l_),yT=a(mz),yU=a(bX),yV=a(hR),yW=a(hx),yX=a(bX),yY=a(hS),yK=a(fA),yL=a(lW),yM=a(fF),yN=a(mL),yO=[0,a(as),0],yP=a('the evidence "'),yZ=a(fA),y0=a(fF),y1=a(m7),y3=a(fA),y4=a(fF),y5=a(hv),y6=a(hv),y2=[0,a("this evidence at control points"),0],zT=a('"orthocert-paving/'),zz=a(mu),zA=a(l7),zB=a(m0),zR=[0,3,3],zC=a(mc),zL=[0,a("this set of orientations with such drives"),0],zM=[0,a(mk),0],zP=[0,a(mk),0],zQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],zN=[0,a('the evidence "tolerances" of such a mechanism'),0],zO=[0,a("a step of a platform that turns that is not at control points"),0],zD=[0,a("the acceleration of a joint of a machine with a plane"),0],zK=[0,a("this quantity in a claim that is refuted"),0],zI=[0,a("a step in a proof that no cube fits"),0],zJ=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],zH=[0,a("a leaf that fails"),0],zE=a(mv),zF=a(lC),zG=a(fu),zx=a(hT),zr=a(fx),zs=a(mp),zt=a(m3),zu=[0,a(as),0],zv=a('a proof of the kind "'),zn=a(eb),zo=a(ee),zp=a(fy),zq=a(mF),zj=a(aY),zk=a(fI),zl=a(lD),zm=a(fD),zg=a(mY),zh=a(hN),zi=a(fD),zc=a(mI),zd=a(fI),ze=a(fy),zf=a(na),y9=a(mm),y_=a(m4),y$=a(fB),za=[0,a(as),0],zb=a('the failure "'),y7=a(hT),y8=a(hS),yH=a(hR),yI=a(hx),yF=a(lB),yG=a(lE),xh=a(eh),w9=a(hA),w_=a(lG),w$=a(dn),xa=a(aN),xf=a(m1),xg=a(eh),xi=a(cJ),xj=a(dn),xb=a(cJ),xc=a(mx),xd=a(l8),xe=a(aN),w2=a(bW),w6=a(aX),w7=a(aW),w3=a(hF),w4=a(hJ),w5=a(cJ),wW=a(bW),w0=a(aX),w1=a(aW),wX=a(hF),wY=a(hJ),wZ=a(cJ),wV=[0,1],wU=[0,1],wT=[0,a("this quantity of such a mechanism"),0],wD=a(l3),wE=[0,a("a stiffness for each joint"),0],wF=a(mQ),wG=a(lV),wH=a(m_),wI=a("max_angle"),wJ=[0,a("accuracy of a platform that turns"),0],wC=a(fu),wu=a(fC),wk=a(mC),wl=a(mK),wM=a(fv),wN=a(l$),wO=a(fE),wP=a(mD),wQ=a(lN),wR=a(lO),wS=a(lF),wm=a(lK),wn=a(mV),wo=a(mN),wp=a(nf),wq=a(lQ),wr=a(lP),ws=[0,a(as),0],wt=a('the quantity "'),wv=a(lZ),ww=a(mU),wx=a(aX),wy=a(aW),wz=a(m8),wA=[0,a(as),0],wB=a('a bound "'),wK=a(hB),wL=a(dn),wi=a(bl),wj=a(dr),vZ=a(bl),v0=a(fM),v1=a(eg),v2=a(fL),v3=a(dr),v6=a(aN),v7=a(a9),v8=a(ea),v9=a(dl),v_=a(aN),v$=a(a9),wa=a(bX),wb=a(ea),wc=a(dl),wd=a(eg),we=a(aN),wf=a(a9),wg=a(mB),wh=a(mP),v4=[0,a('" of such a machine'),0],v5=a(lU),vX=a(bl),vY=a(eg),vH=a(bl),vI=a(cK),vJ=a(fL),vK=a(dr),vN=a(fM),vO=a(aN),vP=a(a9),vQ=a(ea),vR=a(dl),vS=a(aN),vT=a(a9),vU=a(bX),vV=a(bX),vL=[0,a(as),0],vM=a(lU),vE=a(fG),vF=a(ec),vC=a(" is not covered by the verified checker"),vD=a(O),vA=a(aX),vB=a(aW),vw=a(O),vx=a(ng),vy=a(O),vz=a(O),vv=[1,0],vt=a("Reader.Malformed"),vu=a("Reader.Not_covered"),zV=[0,a("a paving is checked by orthocert-verified")],zU=a(mE),zW=a("CERTIFIED"),zX=a("REFUTED"),zY=a(mE),zZ=a("NOT COVERED: ");function
-en(a){throw[0,ib,a]}function
-aJ(d,c){var
-a=aj(d),e=aj(c),b=bF(a+e|0);dt(d,0,b,0,a);dt(c,0,b,a,e);return fU(b)}Bx(0);nE(1);nE(2);function
-id(b){function
+BL(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nC(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nC(a.error)})}BL();function
+k(a,b){return a.length==1?a(b):cT(a,[b])}function
+as(a,b,c){return a.length==2?a(b,c):cT(a,[b,c])}function
+A_(a,b,c,d){return a.length==3?a(b,c,d):cT(a,[b,c,d])}Bn();var
+ik=[aF,a(mi),-2],ij=[aF,a(nn),-4],z5=[0,[0,0]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,0],z8=[0,0],z9=[0,[0,[0,[0,0]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,0]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,0]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,0],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,0]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,0],A2=[0,[0,0]],A3=[0,0],A4=[0,[0,[0,[0,[0,0]]]]],iM=[0,[0,[0,0]]],cd=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fd=[0,[0,[0,[0,0]]]],A5=[0,[0,[0,[0,[0,0]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]];bb(11,[aF,a(lL),-12],lL);bb(10,[aF,a(mA),-11],mA);bb(9,[aF,a(ng),-10],ng);bb(8,[aF,a(lX),-9],lX);bb(7,[aF,a(mN),-8],mN);bb(6,[aF,a(lV),-7],lV);bb(5,[aF,a(mj),-6],mj);bb(4,[aF,a(mp),-5],mp);bb(3,ij,nn);bb(2,[aF,a(hL),-3],hL);bb(1,ik,mi);bb(0,[aF,a(m3),-1],m3);var
+nZ=a("String.sub / Bytes.sub"),n1=a(O),n0=a("String.concat"),n2=a("Array.init"),n3=a("power"),ob=[0,0],od=[0,0],oe=[0,[0,0]],of=[0,[0,0]],or=[0,0,0],os=[0,0,0],ot=[0,0],oM=[0,0],oN=[0,0],oQ=[0,0],o8=[0,0],o$=[0,0],pa=[0,0],ph=[0,0],pi=[0,0],pD=[0,[0,[0,0]]],pS=[0,0],qc=a(","),qu=[0,a(hR),0],qv=a(mv),qw=a("."),qx=[0,[0,[0,0]]],qy=a(ek),qz=a(hS),qA=[0,[0,[0,[0,[0,0]]]]],qB=[0,a(hR),0],qC=a(nk),tt=a(lI),tv=a(lF),tu=a(mD),tw=a(fL),tx=a(fC),ty=a(nm),tz=a(m$),tA=a(mc),tB=a(mP),uF=[0,0],uG=a(hC),uH=[0,0],uI=a("divided"),uJ=[0,1],uK=a("mirror"),uL=[0,3],uM=a("negative"),uN=[0,2],uO=a(hU),uP=[0,5],uQ=a(h0),uR=[0,4],uS=a(fH),uT=a(l0),uU=a(fM),uV=a(b1),uW=[0,0],uX=[0,0],uY=[0,0],vx=a(O),vu=[0,[0,[0,[0,0]]]],vv=[0,[0,[0,[0,0]]]],vs=[0,0],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],vh=[0,0],u$=[0,[0,0]],va=[0,[0,[0,0]]],vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],vc=[0,[0,0]],vf=[0,[0,[0,0]]],vd=[0,[0,0]],ve=[0,[0,[0,0]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],u8=[0,[0,0]],u9=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],u7=[0,[0,0]],u3=[0,[0,0]],u4=[0,0],u2=[0,0],u1=[0,[0,0]],u0=[0,0],uC=[0,0],uD=[0,1],uE=[0,2],uy=[0,[0,0]],uz=[0,0],ux=[0,0],uw=[0,0],uv=[0,0],uu=[0,0,0],us=[0,0,0],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],up=[0,0],un=[0,1,0],uf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],ud=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],ue=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],uh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],ui=a("sqrt"),t$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],t0=[0,a("\n"),0],t1=a(lG),t2=a(fB),t3=a(mz),t4=a(mg),t_=a(em),t5=a(ej),t6=a("verdict"),t7=a(m4),t8=a(l$),t9=a(my),tX=a(mt),tY=a(m7),tZ=a(fE),tT=a(mJ),tU=a(fF),tV=a(ej),tW=a(em),tO=a(fP),tP=a(a1),tQ=a(lH),tR=a(fK),tL=a(m2),tM=a(hU),tN=a(fK),tH=a(mM),tI=a(fP),tJ=a(fF),tK=a(ne),tD=a(m8),tE=a(mq),tF=a(fI),tr=a(hE),ts=a(hY),tm=a(a0),tn=a(aZ),to=a(mb),sY=a(fI),sZ=a(mQ),sz=a(a1),sA=a(bG),sB=a(fR),sC=a(dw),sD=a(cR),sI=a(fA),sE=a(hT),sF=a(hW),sG=a(dt),sH=a(a1),sJ=a(bG),sK=a(fR),sL=a(a0),sM=a(aZ),sN=a(b0),sO=a(dw),sP=a(hT),sQ=a(hW),sR=a(dt),sS=a(a1),sT=a(bG),sU=a(a0),sV=a(aZ),sW=a(b0),sX=a(dw),s0=a(mX),s1=a(m_),s2=a(fU),s3=a(l1),s4=a(l6),s5=a(dt),s6=a(a1),s7=a(bG),s8=a(fx),s9=a(me),s_=a(dw),s$=a(ep),ta=a(lP),tb=a(dt),tc=a(a1),td=a(fx),te=a(a1),tf=a(mS),ti=a(lE),tg=a(l4),th=a(nd),tj=a(em),tk=a(ej),tl=a(a1),tp=a(fU),tq=a(fE),st=a(bG),su=a(h1),sv=a(dw),sw=a(fA),sx=a(dt),sh=a(ep),si=a(m5),sj=a(cQ),sk=a(du),sl=a(du),sm=a(hH),sn=a(cQ),so=a(mB),sp=a(ma),sq=a(aS),ss=a(lK),sr=a(hH),r9=a(ms),r_=a(nl),r$=a(l8),sa=a(l5),sb=a(nb),sc=a(m0),sd=a(mh),se=a(fy),sf=a(fy),r5=a(aS),r6=a(ba),r7=a(dx),r8=a(bp),r1=a(cR),r2=a(hO),r3=a(mK),rY=a(a0),rZ=a(aZ),r0=a(b0),rR=a(a0),rS=a(aZ),rT=a(b0),rU=a(hQ),rV=a(cQ),rW=a(hM),rX=a(mW),rH=a(l3),rN=a(fB),rM=a(nc),rI=a(l7),rJ=a(hI),rO=a(lZ),rP=a(mU),rQ=a(hI),rK=a(du),rL=a(mG),rE=a(fJ),rF=a(fJ),rG=a(fJ),rA=a(mY),rB=a(aZ),rC=a(a0),rD=a(na),rm=a(lT),rn=a(lJ),ro=a(mO),rp=a(fL),rq=a(nj),rr=a(mR),rs=a(lU),rt=a(mH),ru=a(lS),rv=a(md),rw=a(lR),rx=a(mZ),ry=a(fC),rz=a(lO),q3=a(fN),q5=a(ek),q4=a(ei),q6=a(ds),q7=a(aS),q8=a(ba),q9=a(b1),q_=a(fS),q$=a(bp),ra=a(aS),rb=a(ba),rc=a(dx),rd=a(bp),re=a(ds),rf=a(eo),rg=a(aS),rh=a(ba),ri=a(mF),rj=a(mT),rk=a(eo),rl=a(bp),qL=a(fN),qT=a(ek),qM=a(ei),qN=a(ds),qO=a(aS),qP=a(ba),qQ=a(b1),qR=a(fS),qS=a(bp),qU=a(fT),qV=a(aS),qW=a(ba),qX=a(dx),qY=a(bp),qZ=a(b1),q0=a(cR),q1=a(bp),qI=a(a0),qJ=a(aZ),qG=[0,a(at),0],qH=a(at),qE=a(O),qD=[0,a(at),0],qF=a(at),qq=a(fN),qr=a(ek),qs=a("*"),qt=a(bq),ql=[0,[0,[0,[0,[0,0]]]]],qm=[0,[0,[0,0]]],qn=[0,[0,0]],qo=[0,0],qp=[0,[0,[0,[0,0]]]],qj=a('":'),qk=a(at),qh=[0,a(at),0],qi=a(at),qf=[0,a("}"),0],qg=a("{"),qd=[0,a("]"),0],qe=a("["),qb=[0,[0,[0,0]]],qa=[0,[0,[0,0]]],p_=[0,0],p7=[0,[0,[0,0]]],p8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p9=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p2=[0,0],p3=[0,[0,[0,[0,[0,[0,0]]]]]],p4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],pZ=[0,0],pW=[0,0,0],pX=[0,0,0],pY=[0,0,0],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pV=[0,0],pI=[0,[0,[0,[0,[0,[0,0]]]]]],pJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pK=[0,[0,[0,0]]],pL=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],pP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,[0,[0,[0,0]]]]]],pG=[0,[0,0]],pH=[0,[0,[0,0]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],pA=[0,[0,0]],px=[0,0],pt=[0,[0,0]],pu=[0,0],pv=[0,0],pw=[0,[0,0]],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],pn=[0,0],po=[0,0],pp=[0,[0,0]],pq=[0,[0,0]],pr=[0,[0,0]],ps=[0,0],pg=[0,0],pf=[0,0],pd=[0,[0,[0,0]]],pc=[0,[0,[0,[0,[0,[0,0]]]]]],o9=[0,[0,[0,0]]],o7=[0,[0,[0,0]]],o5=[0,[0,[0,[0,[0,[0,0]]]]]],o6=[0,[0,[0,[0,[0,[0,0]]]]]],o1=[0,[0,0]],o2=[0,0],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],oU=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],oV=[0,[0,[0,[0,[0,[0,0]]]]]],oW=[0,[0,[0,[0,[0,[0,0]]]]]],oX=[0,[0,[0,0]]],oY=[0,[0,[0,[0,[0,[0,0]]]]]],oZ=[0,[0,[0,0]]],o0=[0,[0,[0,0]]],oS=[0,[0,0]],oT=[0,0],oR=[0,0,0],oP=[0,0,0],oO=[0,[0,[0,0]]],oK=[0,0],oL=[0,0],oF=[0,[0,[0,0]]],oG=[0,[0,[0,0]]],oH=[0,[0,[0,0]]],oE=[0,[0,[0,[0,0]]]],oA=[0,[0,[0,0]]],oB=[0,[0,[0,0]]],oC=[0,[0,[0,0]]],oD=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],oy=[0,[0,0]],oz=[0,0],ow=[0,[0,0]],ox=[0,0],ou=[0,[0,0]],ov=[0,0],oi=[0,0],oj=[0,[0,0]],ok=[0,0],ol=[0,[0,0]],og=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],oc=[0,0,0],oa=a(hZ),n$=a(O),n_=[0,[0,0]],n9=[0,0],n8=[1,0],n7=[0,0],n6=[0,0],n4=[1,0],n5=[1,0],vr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],yB=a(a0),yC=a(aZ),yD=a(mb),yq=a(fT),yr=[0,a("a base axis of such a platform"),0],ys=a(aS),yt=a(ba),yd=a(m0),ye=a(ms),yf=a(nb),yg=a(fy),yh=a(mh),yi=a(fy),yj=a(nl),yk=a(l8),yl=a(l5),x2=a(mQ),x3=a(fI),xB=a(bG),xp=a(fE),xq=a(a1),xr=a(mS),xs=a(nd),xv=a(l4),xw=a(lE),xx=a(a1),xy=a(a1),xA=a(fx),xz=[0,a("a claim that no cube of such a machine fits"),0],xC=a(dt),xD=a(dw),xE=a(fA),xF=a(h1),yA=[0,a(mk),0],xG=a(cR),xH=a(hO),xI=a(mK),xJ=a(fR),xK=a(l6),xL=a(lP),xM=a(fA),xP=a(b0),xQ=a(mW),xT=a(h1),xU=[0,a(mk),0],xV=a(bG),xW=[0,a("the distance from parallel singularities of other drives than sliders"),0],xX=a(me),xY=[0,a("what else is asked of the closed design"),0],xZ=a(fx),x0=a(ep),x1=a(b0),x4=a(bG),x5=a(a0),x6=a(aZ),x7=a(mX),x8=a(m_),x9=a(fU),x_=a(l1),xN=[0,a(at),0],xO=a('the mechanism "'),x$=a(b0),ya=[0,a('" of a platform that turns'),0],yb=a(m1),yc=a(hT),ym=a(fR),yn=a(cR),yo=a(hO),yp=a(hW),yu=a(bG),yv=a(a0),yw=a(aZ),yz=a(cR),yx=[0,a("a platform that turns on struts and other drives"),0],yy=a(bG),xR=[0,a(at),0],xS=a(m1),yE=a(a1),yF=a(a1),yH=a(em),yI=a(ej),yJ=a(fU),yG=[0,a("an atlas of such a machine"),0],xt=[0,a(at),0],xu=a('a claim of the kind "'),yO=a(nm),yV=a(fC),yW=a(fL),yX=a(mc),yY=a(mD),yZ=a(b1),y0=a(hY),y1=a(hE),y2=a(b1),y3=a(hZ),yP=a(fH),yQ=a(l0),yR=a(fM),yS=a(mP),yT=[0,a(at),0],yU=a('the evidence "'),y4=a(fH),y5=a(fM),y6=a(m$),y8=a(fH),y9=a(fM),y_=a(hC),y$=a(hC),y7=[0,a("this evidence at control points"),0],zY=a('"orthocert-paving/'),zE=a(my),zF=a(l$),zG=a(m4),zW=[0,3,3],zH=a(mg),zQ=[0,a("this set of orientations with such drives"),0],zR=[0,a(mo),0],zU=[0,a(mo),0],zV=[0,a("a mechanism by formulas in a claim that is refuted"),0],zS=[0,a('the evidence "tolerances" of such a mechanism'),0],zT=[0,a("a step of a platform that turns that is not at control points"),0],zI=[0,a("the acceleration of a joint of a machine with a plane"),0],zP=[0,a("this quantity in a claim that is refuted"),0],zN=[0,a("a step in a proof that no cube fits"),0],zO=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],zM=[0,a("a leaf that fails"),0],zJ=a(mz),zK=a(lG),zL=a(fB),zC=a(h0),zw=a(fE),zx=a(mt),zy=a(m7),zz=[0,a(at),0],zA=a('a proof of the kind "'),zs=a(ej),zt=a(em),zu=a(fF),zv=a(mJ),zo=a(a1),zp=a(fP),zq=a(lH),zr=a(fK),zl=a(m2),zm=a(hU),zn=a(fK),zh=a(mM),zi=a(fP),zj=a(fF),zk=a(ne),zc=a(mq),zd=a(m8),ze=a(fI),zf=[0,a(at),0],zg=a('the failure "'),za=a(h0),zb=a(hZ),yM=a(hY),yN=a(hE),yK=a(lF),yL=a(lI),xm=a(ep),xc=a(hH),xd=a(lK),xe=a(du),xf=a(aS),xk=a(m5),xl=a(ep),xn=a(cQ),xo=a(du),xg=a(cQ),xh=a(mB),xi=a(ma),xj=a(aS),w7=a(b0),w$=a(a0),xa=a(aZ),w8=a(hM),w9=a(hQ),w_=a(cQ),w1=a(b0),w5=a(a0),w6=a(aZ),w2=a(hM),w3=a(hQ),w4=a(cQ),w0=[0,1],wZ=[0,1],wY=[0,a("this quantity of such a mechanism"),0],wI=a(l7),wJ=[0,a("a stiffness for each joint"),0],wK=a(mU),wL=a(lZ),wM=a(nc),wN=a("max_angle"),wO=[0,a("accuracy of a platform that turns"),0],wH=a(fB),wz=a(fJ),wp=a(mG),wq=a(mO),wR=a(fC),wS=a(md),wT=a(fL),wU=a(mH),wV=a(lR),wW=a(lS),wX=a(lJ),wr=a(lO),ws=a(mZ),wt=a(mR),wu=a(nj),wv=a(lU),ww=a(lT),wx=[0,a(at),0],wy=a('the quantity "'),wA=a(l3),wB=a(mY),wC=a(a0),wD=a(aZ),wE=a(na),wF=[0,a(at),0],wG=a('a bound "'),wP=a(hI),wQ=a(du),wn=a(bp),wo=a(dx),v4=a(bp),v5=a(fT),v6=a(eo),v7=a(fS),v8=a(dx),v$=a(aS),wa=a(ba),wb=a(ei),wc=a(ds),wd=a(aS),we=a(ba),wf=a(b1),wg=a(ei),wh=a(ds),wi=a(eo),wj=a(aS),wk=a(ba),wl=a(mF),wm=a(mT),v9=[0,a('" of such a machine'),0],v_=a(lY),v2=a(bp),v3=a(eo),vM=a(bp),vN=a(cR),vO=a(fS),vP=a(dx),vS=a(fT),vT=a(aS),vU=a(ba),vV=a(ei),vW=a(ds),vX=a(aS),vY=a(ba),vZ=a(b1),v0=a(b1),vQ=[0,a(at),0],vR=a(lY),vJ=a(fN),vK=a(ek),vH=a(" is not covered by the verified checker"),vI=a(O),vF=a(a0),vG=a(aZ),vB=a(O),vC=a(nk),vD=a(O),vE=a(O),vA=[1,0],vy=a("Reader.Malformed"),vz=a("Reader.Not_covered"),z0=[0,a("a paving is checked by orthocert-verified")],zZ=a(mI),z1=a("CERTIFIED"),z2=a("REFUTED"),z3=a(mI),z4=a("NOT COVERED: ");function
+ev(a){throw[0,ij,a]}function
+aN(d,c){var
+a=ak(d),e=ak(c),b=bJ(a+e|0);dz(d,0,b,0,a);dz(c,0,b,a,e);return f1(b)}BC(0);nI(1);nI(2);function
+il(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Bw(d)}catch(a){a=nO(a);if(a[1]!==ic)throw a;var
+c=a[2],d=a[1];try{BB(d)}catch(a){a=nS(a);if(a[1]!==ik)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(By(0))}BF(a(lI),id);function
-bH(c){var
+a=c;continue}return 0}}return a(BD(0))}BK(a(lM),il);function
+bL(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 Q(b,a){if(a){var
-c=a[2],d=l(b,a[1]);return[0,d,Q(b,c)]}return 0}function
-fX(d,c){var
+c=a[2],d=k(b,a[1]);return[0,d,Q(b,c)]}return 0}function
+f4(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=l(d,a[1]);if(b){var
+e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-at(d,c){var
+au(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=l(d,a[1]);if(b)return b;var
+e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-a$(b,c){var
-a=bF(b);Bg(a,0,b,c);return fU(a)}function
-cR(g,b,a){var
-d=du(g),f=0;if(0<=b&&0<=a&&!((fS(d)-a|0)<b)){var
-c=bF(a);ei(d,b,c,0,a);var
+bc(b,c){var
+a=bJ(b);Bl(a,0,b,c);return f1(a)}function
+cY(g,b,a){var
+d=dA(g),f=0;if(0<=b&&0<=a&&!((fZ(d)-a|0)<b)){var
+c=bJ(a);eq(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=en(nV);return fU(e)}function
-ie(k,g){if(g){var
-h=aj(k),c=0,b=g,p=0;for(;;){if(b){var
+e=ev(nZ);return f1(e)}function
+im(k,g){if(g){var
+h=ak(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aj(i)+h|0)+c|0,m=b[2],n=c<=j?j:en(nW),c=n,b=m;continue}var
-l=aj(i)+c|0}else
+j=(ak(i)+h|0)+c|0,m=b[2],n=c<=j?j:ev(n0),c=n,b=m;continue}var
+l=ak(i)+c|0}else
 var
 l=c;var
-f=bF(l),e=p,d=g;for(;;){if(d){var
+f=bJ(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dt(a,0,f,e,aj(a));dt(k,0,f,e+aj(a)|0,h);var
-e=(e+aj(a)|0)+h|0,d=o;continue}dt(a,0,f,e,aj(a))}return fU(f)}}}return nX}function
-fY(b,c){if(0===b)return[0];if(0<=b){var
-d=Bv(b,l(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=l(c,a);var
+o=d[2];dz(a,0,f,e,ak(a));dz(k,0,f,e+ak(a)|0,h);var
+e=(e+ak(a)|0)+h|0,d=o;continue}dz(a,0,f,e,ak(a))}return f1(f)}}}return n1}function
+f5(b,c){if(0===b)return[0];if(0<=b){var
+d=BA(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return en(nY)}function
-fZ(c){var
+a=g;continue}break}}return d}return ev(n2)}function
+f6(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aZ(0),c=aZ(1);function
+d=a2(0),c=a2(1);function
 r(a){return y(a,c)}function
-ig(b,a){return y(aZ(b),a)}function
-b(b,a){return u(aZ(b),a)}function
-bo(b,a){return[0,h_(b,a),nR(b,a)]}function
-f0(b,a){return L(b,a)?b:a}function
-bp(b,a){return L(b,a)?a:b}function
-al(a){return a?0:1}function
-A(b,a){var
-c=a?[0,l(b,a[1])]:a;return c}function
-aK(a){return a[1]}function
-ci(a){return a[2]}function
+io(b,a){return y(a2(b),a)}function
+b(b,a){return u(a2(b),a)}function
+bs(b,a){return[0,ig(b,a),nV(b,a)]}function
+f7(b,a){return L(b,a)?b:a}function
+bt(b,a){return L(b,a)?a:b}function
+am(a){return a?0:1}function
+z(b,a){var
+c=a?[0,k(b,a[1])]:a;return c}function
+aI(a){return a[1]}function
+b6(a){return a[2]}function
 j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-ih(a){return typeof
-a==="number"?0:[0,ih(a[1])]}function
-ii(d,c){var
+ip(a){return typeof
+a==="number"?0:[0,ip(a[1])]}function
+iq(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -792,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eo(a){return ii(a,0)}function
-ij(a){if(typeof
-a==="number")return n0;else
+ew(a){return iq(a,0)}function
+ir(a){if(typeof
+a==="number")return n4;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -804,69 +804,69 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ij(a[1])]}}function
-bb(a){if(typeof
-a==="number")return n1;else
+8:return[9,a[1]];default:return[0,ir(a[1])]}}function
+be(a){if(typeof
+a==="number")return n5;else
 switch(a[0]){case
-0:return[1,ba(a[1])];case
-1:return[3,ba(a[1])];case
-2:return[5,ba(a[1])];case
-3:return[7,ba(a[1])];case
-4:return[9,ba(a[1])];case
-5:return[1,bb(a[1])];case
-6:return[3,bb(a[1])];case
-7:return[5,bb(a[1])];case
-8:return[7,bb(a[1])];default:return[9,bb(a[1])]}}function
-ba(a){if(typeof
+0:return[1,bd(a[1])];case
+1:return[3,bd(a[1])];case
+2:return[5,bd(a[1])];case
+3:return[7,bd(a[1])];case
+4:return[9,bd(a[1])];case
+5:return[1,be(a[1])];case
+6:return[3,be(a[1])];case
+7:return[5,be(a[1])];case
+8:return[7,be(a[1])];default:return[9,be(a[1])]}}function
+bd(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ba(a[1])];case
-1:return[2,ba(a[1])];case
-2:return[4,ba(a[1])];case
-3:return[6,ba(a[1])];case
-4:return[8,ba(a[1])];case
-5:return[0,bb(a[1])];case
-6:return[2,bb(a[1])];case
-7:return[4,bb(a[1])];case
-8:return[6,bb(a[1])];default:return[8,bb(a[1])]}}function
-bq(a){return a?a[1]:a}function
+0:return[0,bd(a[1])];case
+1:return[2,bd(a[1])];case
+2:return[4,bd(a[1])];case
+3:return[6,bd(a[1])];case
+4:return[8,bd(a[1])];case
+5:return[0,be(a[1])];case
+6:return[2,be(a[1])];case
+7:return[4,be(a[1])];case
+8:return[6,be(a[1])];default:return[8,be(a[1])]}}function
+bu(a){return a?a[1]:a}function
 P(b,a){return b?[0,P(b[1],a)]:a}function
-dz(a,b){return a?P(b,dz(a[1],b)):a}function
-cj(b,a){return b?a:a?0:1}function
+dF(a,b){return a?P(b,dF(a[1],b)):a}function
+b7(b,a){return b?a:a?0:1}function
 v(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-X(d,c){var
+Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dA(b,a){return X([0,b],a)}function
-ik(c){var
+dG(b,a){return Y([0,b],a)}function
+is(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-ep(c,b,a){return c?l(b,ep(c[1],b,a)):a}function
-il(a){if(a)var
-b=a[1],d=b?[0,il(b[1])]:b,c=d;else
+ex(c,b,a){return c?k(b,ex(c[1],b,a)):a}function
+it(a){if(a)var
+b=a[1],d=b?[0,it(b[1])]:b,c=d;else
 var
 c=a;return c}function
-eq(a){if(L(a,c))return c;var
-b=bo(a,aZ(2)),e=b[1];return ab(b[2],d)?r(eq(e)):r(eq(e))}function
-f1(j,i){var
-b=j,a=i;for(;;){if(L(b,c))return L(a,c)?1:ab(bo(a,aZ(2))[2],d)?0:0;var
-g=bo(b,aZ(2)),h=g[1];if(ab(g[2],d)){if(L(a,c))return 0;var
-e=bo(a,aZ(2)),k=e[1];if(ab(e[2],d)){var
+ey(a){if(L(a,c))return c;var
+b=bs(a,a2(2)),e=b[1];return ac(b[2],d)?r(ey(e)):r(ey(e))}function
+f8(j,i){var
+b=j,a=i;for(;;){if(L(b,c))return L(a,c)?1:ac(bs(a,a2(2))[2],d)?0:0;var
+g=bs(b,a2(2)),h=g[1];if(ac(g[2],d)){if(L(a,c))return 0;var
+e=bs(a,a2(2)),k=e[1];if(ac(e[2],d)){var
 b=h,a=k;continue}return 0}if(L(a,c))return 0;var
-f=bo(a,aZ(2)),l=f[1];if(ab(f[2],d))return 0;var
+f=bs(a,a2(2)),l=f[1];if(ac(f[2],d))return 0;var
 b=h,a=l;continue}}function
-er(c,b){var
-a=h9(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-im(b,i,h){var
+ez(c,b){var
+a=ie(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+iu(b,i,h){var
 e=i,a=h;for(;;){if(L(e,c))return a;var
-f=bo(e,aZ(2)),g=f[1];if(ab(f[2],d)){var
-e=g,a=ar(b,a,a);continue}return ar(b,a,im(b,g,ar(b,a,a)))}}function
-dB(a){return im(P,a,n3)}function
-f2(a){return a?r(f2(a[1])):c}function
-bI(f,e){var
+f=bs(e,a2(2)),g=f[1];if(ac(f[2],d)){var
+e=g,a=as(b,a,a);continue}return as(b,a,iu(b,g,as(b,a,a)))}}function
+dH(a){return iu(P,a,n7)}function
+f9(a){return a?r(f9(a[1])):c}function
+bM(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -889,47 +889,47 @@ t=u(b(2,r(b(2,b(2,c)))),d),v=y(r(b(2,r(b(2,c)))),t),a=a[1],d=v;continue;case
 8:var
 w=u(b(2,r(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 z=u(b(2,r(b(2,b(2,c)))),d),A=y(r(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-f3(a){if(L(a,c))return n4;var
-b=bo(a,aZ(2)),e=b[1];return ab(b[2],d)?ba(f3(e)):bb(f3(e))}function
-es(a){return eo(f3(a))}function
-io(k,f){if(0<=bG(f)){var
-g=h$(f);if(0<=g){var
+f_(a){if(L(a,c))return n8;var
+b=bs(a,a2(2)),e=b[1];return ac(b[2],d)?bd(f_(e)):be(f_(e))}function
+eA(a){return ew(f_(a))}function
+iv(k,f){if(0<=bK(f)){var
+g=ih(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return en(nZ)}return d}function
-ip(a){return 0<=bG(a)?a:d}function
-f4(a){var
-b=bG(a);return 0===b?c:0<b?a:c}function
-iq(m){var
+h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return ev(n3)}return d}function
+iw(a){return 0<=bK(a)?a:d}function
+f$(a){var
+b=bK(a);return 0===b?c:0<b?a:c}function
+ix(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bI(a[1],c);case
+1:return bM(a[1],c);case
 2:var
-e=b(2,c);return bI(a[1],e);case
+e=b(2,c);return bM(a[1],e);case
 3:var
-f=r(b(2,c));return bI(a[1],f);case
+f=r(b(2,c));return bM(a[1],f);case
 4:var
-g=b(2,b(2,c));return bI(a[1],g);case
+g=b(2,b(2,c));return bM(a[1],g);case
 5:var
-h=r(b(2,b(2,c)));return bI(a[1],h);case
+h=r(b(2,b(2,c)));return bM(a[1],h);case
 6:var
-i=b(2,r(b(2,c)));return bI(a[1],i);case
+i=b(2,r(b(2,c)));return bM(a[1],i);case
 7:var
-j=r(b(2,r(b(2,c))));return bI(a[1],j);case
+j=r(b(2,r(b(2,c))));return bM(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bI(a[1],k);default:var
-l=r(b(2,b(2,b(2,c))));return bI(a[1],l)}}function
-b2(b,a){var
-c=bG(a);return 0===c?d:1===c?h_(b,a):ig(-1,h_(ig(-1,b),a))}function
-ir(a){return 0<bG(a)?BP(a):d}function
-dC(b,c){var
-a=h$(c);return 0<=a?nS(b,a):nT(b,-a|0)}function
-ck(b,c){var
-a=h$(c);return 0<=a?nT(b,a):nS(b,-a|0)}function
-cS(b,a){return a?a[1]:b}function
-dD(a){var
+k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
+l=r(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
+b8(b,a){var
+c=bK(a);return 0===c?d:1===c?ig(b,a):io(-1,ig(io(-1,b),a))}function
+iy(a){return 0<bK(a)?BU(a):d}function
+dI(b,c){var
+a=ih(c);return 0<=a?nW(b,a):nX(b,-a|0)}function
+cq(b,c){var
+a=ih(c);return 0<=a?nX(b,a):nW(b,-a|0)}function
+cZ(b,a){return a?a[1]:b}function
+dJ(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -938,249 +938,264 @@ V(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-is(a){if(a){var
-b=[0,a[1],0];return f(is(a[2]),b)}return a}function
-it(d,c){var
+iz(a){if(a){var
+b=[0,a[1],0];return f(iz(a[2]),b)}return a}function
+iA(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iu(a){if(a){var
-b=iu(a[2]);return f(a[1],b)}return a}function
+iB(a){if(a){var
+b=iB(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,l(b,a[1]),d];else
+d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
 B(b,a){if(a){var
-c=B(b,a[2]);return f(l(b,a[1]),c)}return a}function
-cT(e,d,c){var
+c=B(b,a[2]);return f(k(b,a[1]),c)}return a}function
+c0(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-br(c,b,a){if(a){var
-d=br(c,b,a[2]);return ar(c,a[1],d)}return b}function
-au(e,d){var
+f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bv(c,b,a){if(a){var
+d=bv(c,b,a[2]);return as(c,a[1],d)}return b}function
+av(e,d){var
 a=d;for(;;){if(a){var
-b=l(e,a[1]);if(!b){var
+b=k(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 n(d,c){var
 a=c;for(;;){if(a){var
-b=l(d,a[1]);if(b){var
+b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cl(b,e){var
+cr(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(l(b,d))return[0,d,cl(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,cr(b,c)];var
 a=c;continue}return a}}function
-iv(d,c){var
+iC(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(l(d,b))return[0,b];var
+b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aH(b,a){if(b)if(a)var
-d=aH(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aJ(b,a){if(b)if(a)var
+d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dE(b,a){if(b)if(a)var
-d=dE(b[1],a[2]),c=[0,a[1],d];else
+dK(b,a){if(b)if(a)var
+d=dK(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-f5(d,c){var
+ga(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aO(b,a){var
-c=a?[0,b,aO([0,b],a[1])]:a;return c}function
-a0(b,a){var
-c=a?[0,b,a0(b,a[1])]:a;return c}function
-iw(a){if(a){var
-e=iw(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
-et(j){function
+aT(b,a){var
+c=a?[0,b,aT([0,b],a[1])]:a;return c}function
+a3(b,a){var
+c=a?[0,b,a3(b,a[1])]:a;return c}function
+iD(a){if(a){var
+e=iD(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
+eB(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bG(b)?dB(b):0}function
-ix(c,b){var
-a=h9(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cU(b,a){return L(u(b[1],a[2]),u(a[1],b[2]))}function
-dF(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
-cV(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
-f6(b,a){return dF(b,[0,Z(a[1]),a[2]])}function
-aP(a){if(typeof
-a==="number")return n7;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bK(b)?dH(b):0}function
+iE(c,b){var
+a=ie(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c1(b,a){return L(u(b[1],a[2]),u(a[1],b[2]))}function
+dL(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
+c2(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
+gb(b,a){return dL(b,[0,X(a[1]),a[2]])}function
+aU(a){if(typeof
+a==="number")return n$;else
 switch(a[0]){case
 0:var
-b=aP(a[1]);return aJ(a$(1,48),b);case
+b=aU(a[1]);return aN(bc(1,48),b);case
 1:var
-c=aP(a[1]);return aJ(a$(1,49),c);case
+c=aU(a[1]);return aN(bc(1,49),c);case
 2:var
-d=aP(a[1]);return aJ(a$(1,50),d);case
+d=aU(a[1]);return aN(bc(1,50),d);case
 3:var
-e=aP(a[1]);return aJ(a$(1,51),e);case
+e=aU(a[1]);return aN(bc(1,51),e);case
 4:var
-f=aP(a[1]);return aJ(a$(1,52),f);case
+f=aU(a[1]);return aN(bc(1,52),f);case
 5:var
-g=aP(a[1]);return aJ(a$(1,53),g);case
+g=aU(a[1]);return aN(bc(1,53),g);case
 6:var
-h=aP(a[1]);return aJ(a$(1,54),h);case
+h=aU(a[1]);return aN(bc(1,54),h);case
 7:var
-i=aP(a[1]);return aJ(a$(1,55),i);case
+i=aU(a[1]);return aN(bc(1,55),i);case
 8:var
-j=aP(a[1]);return aJ(a$(1,56),j);default:var
-k=aP(a[1]);return aJ(a$(1,57),k)}}function
-dG(a){return typeof
-a==="number"?n8:aP(a)}function
-cm(a){return io(b(2,c),a)}function
-iy(b,a){return ck(a,b)}function
-iz(b,a){return Z(ck(Z(a),b))}function
-eu(b,a){return Z(b2(Z(b),a))}function
-ai(c,b){var
-a=dC(b,c);return[0,a,a]}function
-iA(d,c,a){var
-b=dC(c,d),e=eu(b,a);return[0,b2(b,a),e]}function
-F(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-K(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
-ah(a){return[0,Z(a[2]),Z(a[1])]}function
-iB(e,c,b,a){if(L(d,e))return L(d,b)?[0,u(e,b),u(c,a)]:L(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(L(c,d))return L(d,b)?[0,u(e,a),u(c,b)]:L(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(L(d,b))return[0,u(e,a),u(c,a)];if(L(a,d))return[0,u(c,b),u(e,b)];var
-f=bp(u(e,b),u(c,a));return[0,f0(u(e,a),u(c,b)),f]}function
+j=aU(a[1]);return aN(bc(1,56),j);default:var
+k=aU(a[1]);return aN(bc(1,57),k)}}function
+dM(a){return typeof
+a==="number"?oa:aU(a)}function
+cs(a){return iv(b(2,c),a)}function
+iF(b,a){return cq(a,b)}function
+iG(b,a){return X(cq(X(a),b))}function
+eC(b,a){return X(b8(X(b),a))}function
+$(c,b){var
+a=dI(b,c);return[0,a,a]}function
+iH(d,c,a){var
+b=dI(c,d),e=eC(b,a);return[0,b8(b,a),e]}function
+C(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+K(b,a){return[0,aH(b[1],a[2]),aH(b[2],a[1])]}function
+ae(a){return[0,X(a[2]),X(a[1])]}function
+iI(e,c,b,a){if(L(d,e))return L(d,b)?[0,u(e,b),u(c,a)]:L(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(L(c,d))return L(d,b)?[0,u(e,a),u(c,b)]:L(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(L(d,b))return[0,u(e,a),u(c,a)];if(L(a,d))return[0,u(c,b),u(e,b)];var
+f=bt(u(e,b),u(c,a));return[0,f7(u(e,a),u(c,b)),f]}function
 w(c,b,a){var
-d=iB(b[1],b[2],a[1],a[2]),e=iz(c,d[2]);return[0,iy(c,d[1]),e]}function
+d=iI(b[1],b[2],a[1],a[2]),e=iG(c,d[2]);return[0,iF(c,d[1]),e]}function
 T(b,a){var
-c=u(a[1],a[1]),e=u(a[2],a[2]),h=iz(b,bp(c,e)),g=0;if(Y(a[1],d)&&Y(d,a[2])){var
+c=u(a[1],a[1]),e=u(a[2],a[2]),h=iG(b,bt(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iy(b,f0(c,e));return[0,f,h]}function
-f7(b,a){var
-c=dC(cm(b),b),d=eu(c,a[1]);return[0,b2(c,a[2]),d]}function
-b3(b,a){if(Y(d,a[1]))return[0,f7(b,a)];var
-c=Y(a[2],d),e=c?[0,ah(f7(b,ah(a)))]:c;return e}function
-cn(f,b){var
-g=Y(d,b[1]);if(g)var
-e=dC(b[2],f),a=ir(e),i=ab(u(a,a),e)?a:y(a,c),h=[0,[0,ir(dC(b[1],f)),i]];else
+f=iF(b,f7(c,e));return[0,f,h]}function
+gc(b,a){var
+c=dI(cs(b),b),d=eC(c,a[1]);return[0,b8(c,a[2]),d]}function
+b9(b,a){if(Z(d,a[1]))return[0,gc(b,a)];var
+c=Z(a[2],d),e=c?[0,ae(gc(b,ae(a)))]:c;return e}function
+ct(f,b){var
+g=Z(d,b[1]);if(g)var
+e=dI(b[2],f),a=iy(e),i=ac(u(a,a),e)?a:y(a,c),h=[0,[0,iy(dI(b[1],f)),i]];else
 var
 h=g;return h}function
-a1(f,d,c,b,a){if(b){if(a){var
-g=a1(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-b4(b,a){return ck(b,a)}function
-a5(a,c,b){if(L(d,a)){var
-e=b[1],f=Z(b4(Z(u(a,b[2])),c));return[0,b4(u(a,e),c),f]}var
-g=b[2],h=Z(b4(Z(u(a,b[1])),c));return[0,b4(u(a,g),c),h]}function
-bJ(a){var
-b=Z(ck(Z(a[2]),c));return[0,ck(a[1],c),b]}function
-dH(c,b,a){var
-e=iB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Y(f,d)?a[2]:a[1],i=eu(f,h),j=Y(g,d)?a[1]:a[2];return[0,b2(g,j),i]}function
-dI(a){return bp(a[2],Z(a[1]))}var
-z=[0,d,d];function
-ev(a){return[0,a[1],a[1]]}function
-cW(a){return[0,a[2],a[2]]}function
-co(b,a){switch(a[0]){case
+aO(f,d,c,b,a){if(b){if(a){var
+g=aO(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+b_(b,a){return cq(b,a)}function
+a8(a,c,b){if(L(d,a)){var
+e=b[1],f=X(b_(X(u(a,b[2])),c));return[0,b_(u(a,e),c),f]}var
+g=b[2],h=X(b_(X(u(a,b[1])),c));return[0,b_(u(a,g),c),h]}function
+a4(a){var
+b=X(cq(X(a[2]),c));return[0,cq(a[1],c),b]}function
+dN(c,b,a){var
+e=iI(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eC(f,h),j=Z(g,d)?a[1]:a[2];return[0,b8(g,j),i]}function
+dO(a){return bt(a[2],X(a[1]))}var
+A=[0,d,d];function
+eD(a){return[0,a[1],a[1]]}function
+c3(a){return[0,a[2],a[2]]}function
+cu(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=l(b,a[2]);return[3,l(b,a[1]),c];case
+c=k(b,a[2]);return[3,k(b,a[1]),c];case
 4:var
-d=l(b,a[2]);return[4,l(b,a[1]),d];case
-5:return[5,l(b,a[1])];case
+d=k(b,a[2]);return[4,k(b,a[1]),d];case
+5:return[5,k(b,a[1])];case
 6:var
-e=l(b,a[2]);return[6,l(b,a[1]),e];case
+e=k(b,a[2]);return[6,k(b,a[1]),e];case
 7:var
-f=l(b,a[2]);return[7,l(b,a[1]),f];case
-8:return[8,l(b,a[1])];default:return[9,l(b,a[1])]}}function
-aQ(j,i){var
-d=j,c=i;for(;;){var
+f=k(b,a[2]);return[7,k(b,a[1]),f];case
+8:return[8,k(b,a[1])];case
+9:return[9,k(b,a[1])];default:var
+g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
+aK(n,m){var
+d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?v(b[1],a[1]):0;case
 1:return 1===a[0]?v(b[1],a[1]):0;case
-2:return 2===a[0]?ab(b[1],a[1]):0;case
+2:return 2===a[0]?ac(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=aQ(b[1],a[1]);if(e){var
-d=b[2],c=a[2];continue}return e}return 0;case
-4:if(4===a[0]){var
-f=aQ(b[1],a[1]);if(f){var
+f=aK(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
+4:if(4===a[0]){var
+g=aK(b[1],a[1]);if(g){var
+d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=aQ(b[1],a[1]);if(g){var
-d=b[2],c=a[2];continue}return g}return 0;case
-7:if(7===a[0]){var
-h=aQ(b[1],a[1]);if(h){var
+h=aK(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
+7:if(7===a[0]){var
+i=aK(b[1],a[1]);if(i){var
+d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
-d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
-d=b[1],c=a[1];continue}return 0}}}function
-ew(b){var
+d=b[1],c=a[1];continue}return 0;case
+9:if(9===a[0]){var
+d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
+j=b7(b[1],a[1]);if(j){var
+k=aK(b[2],a[2]);if(k){var
+l=aK(b[3],a[3]);if(l){var
+d=b[4],c=a[4];continue}var
+e=l}else
+var
+e=k}else
+var
+e=j;return e}return 0}}}function
+eE(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aR(c,b){var
-a=ew(b);return a?ab(c,a[1]):a}function
-dJ(a){return Y(fW(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-k(a){return[0,[2,a]]}function
-C(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=ew(b);if(c){var
-e=c[1],f=ew(a);if(f){var
-g=f[1];if(dJ(e)&&dJ(g))return k(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bs(a){var
+aP(c,b){var
+a=eE(b);return a?ac(c,a[1]):a}function
+dP(a){return Z(f3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+l(a){return[0,[2,a]]}function
+F(b,a){if(aP(d,b))return a;if(aP(d,a))return b;var
+c=eE(b);if(c){var
+e=c[1],f=eE(a);if(f){var
+g=f[1];if(dP(e)&&dP(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bf(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dJ(c)?k(Z(c)):[0,[5,a]];case
+c=b[1];return dP(c)?l(X(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aR(d,a))return b;if(aR(d,b))return bs(a);var
+s(b,a){if(aP(d,a))return b;if(aP(d,b))return bf(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?v(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 I(a){var
-c=ew(a);if(c){var
-b=c[1];return dJ(b)?k(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aQ(a,b)?I(a):[0,[6,a,b]];return b}return a}function
-ac(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
-aB(a){return aR(c,a)?a:[0,[9,a]]}function
-bt(f,e,d,c){var
+c=eE(a);if(c){var
+b=c[1];return dP(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,b){if(!aP(d,a)&&!aP(c,b)){if(!aP(d,b)&&!aP(c,a))return aK(a,b)?I(a):[0,[6,a,b]];return b}return a}function
+aj(b,a){return aP(c,a)?b:[0,[7,b,a]]}function
+aC(a){return aP(c,a)?a:[0,[9,a]]}function
+iJ(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bw(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,l(e,co(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cp(a){var
+g=b[1],h=[0,k(e,cu(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cv(a){var
 b=0;function
-c(a){return[0,a]}return bt(k(d),c,a,b)}function
-f8(b,a){if(a){if(aQ(b,a[1]))return n9;var
-c=f8(b,a[2]);return A(function(a){return[0,a]},c)}return a}function
-bc(c,b){var
-a=f8(b,c),d=a?a[1]:a;return d}function
-ex(d,a){if(f8(d,a[1]))return a;var
-b=d[1];switch(b[0]){case
+c(a){return[0,a]}return bw(l(d),c,a,b)}function
+gd(b,a){if(a){if(aK(b,a[1]))return ob;var
+c=gd(b,a[2]);return z(function(a){return[0,a]},c)}return a}function
+bg(c,b){var
+a=gd(b,c),d=a?a[1]:a;return d}function
+cw(d,b){if(gd(d,b[1]))return b;var
+a=d[1];switch(a[0]){case
+10:var
+i=cw(a[2],b),j=cw(a[3],i),c=cw(a[4],j);break;case
 5:case
 8:case
 9:var
-c=ex(b[1],a);break;case
+c=cw(a[1],b);break;case
 0:case
 1:case
 2:var
-c=a;break;default:var
-h=ex(b[1],a),c=ex(b[2],h)}var
-e=c[2],f=c[1],g=[0,co(function(a){return bc(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-cX(a){var
-b=cT(function(b,a){return ex(a,b)},a,n_),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,is(b[2]),d]}function
-ey(a){return br(function(b,a){return y(dI(b),a)},d,a)}function
-cY(b,c,a){var
-d=ey(a),e=f0(c[2],y(b[2],d)),f=ey(a);return[0,b,[0,bp(c[1],aG(b[1],f)),e],a]}function
-ao(a){return[0,a,a,0]}function
-cZ(b,a){var
+c=b;break;default:var
+h=cw(a[1],b),c=cw(a[2],h)}var
+e=c[2],f=c[1],g=[0,cu(function(a){return bg(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+c4(a){var
+b=c0(function(b,a){return cw(a,b)},a,oc),c=b[1],d=e(function(a){return bg(c,a)},a);return[0,iz(b[2]),d]}function
+eF(a){return bv(function(b,a){return y(dO(b),a)},d,a)}function
+bN(b,c,a){var
+d=eF(a),e=f7(c[2],y(b[2],d)),f=eF(a);return[0,b,[0,bt(c[1],aH(b[1],f)),e],a]}function
+ad(a){return[0,a,a,0]}function
+bx(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a1(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return cY(F(b[1],a[1]),g,f)}function
-f9(b,a){var
-c=a[3],d=b[3],e=a1(function(a){return a},ah,K,d,c),f=K(b[2],a[2]);return cY(K(b[1],a[1]),f,e)}function
-f_(a){var
-b=e(ah,a[3]),c=ah(a[2]);return[0,ah(a[1]),c,b]}function
-c0(a,c,b){var
-d=F(b[2],b[1]),e=F(c[2],c[1]),f=b[3],g=c[3];function
+f=aO(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return bN(C(b[1],a[1]),g,f)}function
+a5(b,a){var
+c=a[3],d=b[3],e=aO(function(a){return a},ae,K,d,c),f=K(b[2],a[2]);return bN(K(b[1],a[1]),f,e)}function
+dQ(a){var
+b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
+aq(a,c,b){var
+d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=w(a,e,b);return bJ(F(w(a,d,c),f))}function
-i(b){return bJ(w(a,e,b))}var
-j=a1(function(b){return bJ(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return cY(w(a,c[1],b[1]),k,j)}function
-iC(b,a){var
-c=a[3],d=F(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=T(b,a[2]);return cY(T(b,a[1]),g,f)}function
-iD(a,b){var
-c=cn(a,b[1]);if(c){var
-g=c[1],d=cn(a,b[2]);if(d){var
-h=d[1],f=b3(a,F(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cY(g,h,e(function(b){return w(a,m,b)},l))];else
+f=w(a,e,b);return a4(C(w(a,d,c),f))}function
+i(b){return a4(w(a,e,b))}var
+j=aO(function(b){return a4(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bN(w(a,c[1],b[1]),k,j)}function
+dR(b,a){var
+c=a[3],d=C(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=T(b,a[2]);return bN(T(b,a[1]),g,f)}function
+ge(a,b){var
+c=ct(a,b[1]);if(c){var
+g=c[1],d=ct(a,b[2]);if(d){var
+h=d[1],f=b9(a,C(h,g));if(f)var
+l=b[3],m=f[1],i=[0,bN(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1189,411 +1204,440 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-f$(a,c,b){var
-d=b3(a,b[1]);if(d){var
-f=b3(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return ah(w(a,g,b))},o=a1(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,cY(g,w(a,c[2],h),p)];else
+c5(a,c,b){var
+d=b9(a,b[1]);if(d){var
+f=b9(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return ae(w(a,g,b))},o=aO(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bN(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-c1(b,a){return a?l(b,a[1]):a}function
-bK(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
+b$(b,a){return a?k(b,a[1]):a}function
+eG(a){var
+b=e(a4,a[3]),c=a4(C(a[2],a[1]));return bN(a[1],c,b)}function
+iK(a,k,j,r,b){var
+l=eG(k),m=eG(j),g=eG(b[1]),h=eG(b[2]),s=aq(a,l,h),t=a5(aq(a,m,g),s),i=c5(a,ad($(a,c)),t);if(i)var
+f=i[1],n=aq(a,a5(l,g),f),o=aq(a,a5(m,h),f),d=function(c,b){return aq(a,c,ad(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bx(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a5(b,d(f,a4(a)))[2]},C=function(a){return dQ(d(f,a4(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bN(b[2][1],b[2][2],E),G=ae(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bN(b[1][1],b[1][2],H),F]];else
+var
+q=i;return q}function
+iL(a,e,d,k){var
+p=dR(a,d),f=bx(dR(a,e),p),g=a5(bx(f,ad($(a,c))),k),l=aq(a,ad($(a,b(2,c))),f),q=dR(a,g),h=ge(a,a5(aq(a,ad($(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=aq(a,m,d),i=c5(a,bx(aq(a,g,e),r),l);if(i)var
+s=aq(a,m,e),j=c5(a,a5(aq(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+var
+n=i;var
+o=n}else
+var
+o=h;var
+u=b$(function(b){return iK(a,e,d,k,b)},o);return b$(function(b){return iK(a,e,d,k,b)},u)}function
+bO(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b5(b,e,d){var
-c=ao(z);return function(a){switch(a[0]){case
-0:return[0,t(a[1],e,c)];case
-1:return[0,t(a[1],d,c)];case
-2:return[0,ao(ai(b,a[1]))];case
+ca(b,j,i){var
+f=ad(A);return function(a){switch(a[0]){case
+0:return[0,t(a[1],j,f)];case
+1:return[0,t(a[1],i,f)];case
+2:return[0,ad($(b,a[1]))];case
 3:var
-f=a[2],g=a[1];return bK(function(b,a){return[0,cZ(b,a)]},g,f);case
+k=a[2],l=a[1];return bO(function(b,a){return[0,bx(b,a)]},l,k);case
 4:var
-h=a[2],i=a[1];return bK(function(b,a){return[0,f9(b,a)]},i,h);case
+m=a[2],n=a[1];return bO(function(b,a){return[0,a5(b,a)]},n,m);case
 5:var
-j=a[1];return c1(function(a){return[0,f_(a)]},j);case
+o=a[1];return b$(function(a){return[0,dQ(a)]},o);case
 6:var
-k=a[2],l=a[1];return bK(function(c,a){return[0,c0(b,c,a)]},l,k);case
+p=a[2],q=a[1];return bO(function(c,a){return[0,aq(b,c,a)]},q,p);case
 7:var
-m=a[2],n=a[1];return bK(function(a,c){return f$(b,a,c)},n,m);case
+r=a[2],s=a[1];return bO(function(a,c){return c5(b,a,c)},s,r);case
 8:var
-o=a[1];return c1(function(a){return[0,iC(b,a)]},o);default:var
-p=a[1];return c1(function(a){return iD(b,a)},p)}}}function
-dK(c){var
+u=a[1];return b$(function(a){return[0,dR(b,a)]},u);case
+9:var
+v=a[1];return b$(function(a){return ge(b,a)},v);default:var
+c=a[2];if(c){var
+d=a[3];if(d){var
+e=a[4];if(e){var
+w=iL(b,c[1],d[1],e[1]),x=a[1]?b6:aI;return z(x,w)}var
+g=e}else
+var
+g=d;var
+h=g}else
+var
+h=c;return h}}}function
+dS(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dK(a[1]);if(b)return b;var
+b=dS(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bL(q,p){var
+bP(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ab(b[1],a[1]);return c?f1(b[2],a[2]):c}return 0;case
+c=ac(b[1],a[1]);return c?f8(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ab(e[1],g[1]):h,j=i?f1(e[2],g[2]):i,k=j?ab(d[1],f[1]):j;return k?f1(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ac(e[1],g[1]):h,j=i?f8(e[2],g[2]):i,k=j?ac(d[1],f[1]):j;return k?f8(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bL(b[1],a[1]);if(l){var
+l=bP(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bL(b[1],a[1]);if(m){var
+m=bP(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bL(b[1],a[1]);if(n){var
+n=bP(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bL(b[1],a[1]);if(o){var
+o=bP(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bd(a,b){switch(b[0]){case
-0:return[0,iA(a,b[1],b[2])];case
+bh(a,b){switch(b[0]){case
+0:return[0,iH(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bd(a,b[1]);if(c)var
-d=bd(a,b[2]),r=d?[0,F(c[1],d[1])]:d,m=r;else
+c=bh(a,b[1]);if(c)var
+d=bh(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bd(a,b[1]);if(e)var
-f=bd(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
+e=bh(a,b[1]);if(e)var
+f=bh(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bd(a,b[1]);if(g)var
-h=bd(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
+g=bh(a,b[1]);if(g)var
+h=bh(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bd(a,b[1]);if(i){var
-j=bd(a,b[2]);if(j)var
-k=b3(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+i=bh(a,b[1]);if(i){var
+j=bh(a,b[2]);if(j)var
+k=b9(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bd(a,b[1]);return l?cn(a,l[1]):l}}function
-ez(b,a){return iA(b,a[1],a[2])}function
-be(a,d){if(dK(d))switch(d[0]){case
+l=bh(a,b[1]);return l?ct(a,l[1]):l}}function
+eH(b,a){return iH(b,a[1],a[2])}function
+bi(a,d){if(dS(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dA(i,iE),k=j?cU(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,ez(a,cV(f6(e,g),n)),0],p=f(a0(z,i),o),q=ez(a,e)[2],r=[0,ez(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,ez(a,cV(dF(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dG(i,iM),k=j?c1(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,eH(a,c2(gb(e,g),n)),0],p=f(a3(A,i),o),q=eH(a,e)[2],r=[0,eH(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,eH(a,c2(dL(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=be(a,d[2]),u=be(a,d[1]);return bK(function(b,a){return[0,cZ(b,a)]},u,t);case
+t=bi(a,d[2]),u=bi(a,d[1]);return bO(function(b,a){return[0,bx(b,a)]},u,t);case
 3:var
-v=be(a,d[2]),w=be(a,d[1]);return bK(function(b,a){return[0,f9(b,a)]},w,v);case
+v=bi(a,d[2]),w=bi(a,d[1]);return bO(function(b,a){return[0,a5(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(bL(h,m)){var
-x=be(a,h);return c1(function(b){return[0,iC(a,b)]},x)}var
-y=be(a,m),B=be(a,h);return bK(function(c,b){return[0,c0(a,c,b)]},B,y);case
+m=d[2],h=d[1];if(bP(h,m)){var
+x=bi(a,h);return b$(function(b){return[0,dR(a,b)]},x)}var
+y=bi(a,m),B=bi(a,h);return bO(function(c,b){return[0,aq(a,c,b)]},B,y);case
 5:var
-C=be(a,d[2]),D=be(a,d[1]);return bK(function(b,c){return f$(a,b,c)},D,C);default:var
-E=be(a,d[1]);return c1(function(b){return iD(a,b)},E)}return A(ao,bd(a,d))}function
-aS(b,a){if(dK(a)){var
-c=be(b,a);return A(function(a){return a[2]},c)}return bd(b,a)}function
-iF(a){var
-e=bp(Z(a),d);return f4(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iG(a){return ip(y(iF(a),a))}function
-b6(f,a,e){var
-b=aS(y(f,iF(a)),e);if(b)var
-c=b[1],g=iG(a),h=Z(b4(Z(c[2]),g)),i=iG(a),d=[0,[0,b4(c[1],i),h]];else
+C=bi(a,d[2]),D=bi(a,d[1]);return bO(function(b,c){return c5(a,b,c)},D,C);default:var
+E=bi(a,d[1]);return b$(function(b){return ge(a,b)},E)}return z(ad,bh(a,d))}function
+aV(b,a){if(dS(a)){var
+c=bi(b,a);return z(function(a){return a[2]},c)}return bh(b,a)}function
+iN(a){var
+e=bt(X(a),d);return f$(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+iO(a){return iw(y(iN(a),a))}function
+cb(f,a,e){var
+b=aV(y(f,iN(a)),e);if(b)var
+c=b[1],g=iO(a),h=X(b_(X(c[2]),g)),i=iO(a),d=[0,[0,b_(c[1],i),h]];else
 var
 d=b;return d}function
-ad(d,a){var
-b=b6(d,a[2],a[1][1]);if(b)var
-c=b6(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+af(d,a){var
+b=cb(d,a[2],a[1][1]);if(b)var
+c=cb(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-ga(b,a){var
-c=Z(b4(Z(a[2]),b));return[0,b4(a[1],b),c]}function
-eA(b,a){var
-c=eu(b[2],a);return[0,b2(b[1],a),c]}function
-gb(a,f,b){if(b){var
-d=b[1],g=gb(a,f,d),h=g[2],i=f2(P(dz(oa,d),n$)),j=u(f2(dz(ob,d)),i),e=eA(w(a,g[1],f),j),k=ik(b)?F(h,e):K(h,e);return[0,e,k]}var
-l=ai(a,c);return[0,ai(a,c),l]}function
-iH(f){var
-g=dB(f),e=oc[1],b=g,c=0,a=e;for(;;){if(b){var
+gf(b,a){var
+c=X(b_(X(a[2]),b));return[0,b_(a[1],b),c]}function
+eI(b,a){var
+c=eC(b[2],a);return[0,b8(b[1],a),c]}function
+gg(a,f,b){if(b){var
+d=b[1],g=gg(a,f,d),h=g[2],i=f9(P(dF(oe,d),od)),j=u(f9(dF(of,d)),i),e=eI(w(a,g[1],f),j),k=is(b)?C(h,e):K(h,e);return[0,e,k]}var
+l=$(a,c);return[0,$(a,c),l]}function
+iP(f){var
+g=dH(f),e=og[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return P(od,c)}}function
-iI(a,d){var
-g=cm(a),h=u(b(2,b(2,c)),g),e=L(d[2],h);if(e)var
-i=gb(a,d,dz(of,P(iH(a),oe)))[2][2],f=[0,[0,gb(a,d,P(dz(oh,iH(a)),og))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return P(oh,c)}}function
+iQ(a,d){var
+g=cs(a),h=u(b(2,b(2,c)),g),e=L(d[2],h);if(e)var
+i=gg(a,d,dF(oj,P(iP(a),oi)))[2][2],f=[0,[0,gg(a,d,P(dF(ol,iP(a)),ok))[2][1],i]];else
 var
 f=e;return f}function
-iJ(i){function
+iR(i){function
 a(h){var
-m=b2(cm(i),h),g=dB(i),f=m,e=d,a=c;for(;;){if(g){var
-j=y(a,b(2,c)),k=y(e,b2(f,a)),l=Z(b2(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aG(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iK(e,a){var
+m=b8(cs(i),h),g=dH(i),f=m,e=d,a=c;for(;;){if(g){var
+j=y(a,b(2,c)),k=y(e,b8(f,a)),l=X(b8(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aH(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
+iS(e,a){var
 f=L(d,a);if(f){var
-g=b(2,b(2,c));return iI(e,eA(T(e,[0,a,a]),g))}return f}function
-iL(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(iJ(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(iJ(a),n),e=iK(a,g);if(e){var
-f=iK(a,h);if(f)var
-i=Y(d,e[1][1]),j=i?Y(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=b(2,b(2,c));return iQ(e,eI(T(e,[0,a,a]),g))}return f}function
+iT(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aH(iR(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(iR(a),n),e=iS(a,g);if(e){var
+f=iS(a,h);if(f)var
+i=Z(d,e[1][1]),j=i?Z(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-iM(a,d){var
-b=T(a,d),e=ai(a,c);return K(F(b,b),e)}function
-c2(f,j){var
-e=aS(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=iL(a);if(d)var
-h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=iI(a,T(a,eA(w(a,k,d[1]),h))),g=A(function(b){return iM(a,iM(a,b))},i);else
+iU(a,d){var
+b=T(a,d),e=$(a,c);return K(C(b,b),e)}function
+c6(f,j){var
+e=aV(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=iT(a);if(d)var
+h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=iQ(a,T(a,eI(w(a,k,d[1]),h))),g=z(function(b){return iU(a,iU(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return A(function(a){return ga(l,a)},g)}return e}function
-iN(a,d){var
-e=iL(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return A(function(e){var
-f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return eA(w(a,d,ga(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-eB(d,a){return c2(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
-eC(a){return 0===a[0]?a[2]:a[1]}function
-oi(a){return a}function
-oj(a){return a}function
-ok(a,b){return a1(oj,oi,F,a,b)}function
-ol(a){return a}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return z(function(a){return gf(l,a)},g)}return e}function
+iV(a,d){var
+e=iT(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return z(function(e){var
+f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return eI(w(a,d,gf(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+eJ(d,a){return c6(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
+eK(a){return 0===a[0]?a[2]:a[1]}function
 om(a){return a}function
-b7(a,b){return a1(om,ol,ok,a,b)}function
-gc(b,a,c){if(a){var
+on(a){return a}function
+oo(a,b){return aO(on,om,C,a,b)}function
+op(a){return a}function
+oq(a){return a}function
+cc(a,b){return aO(oq,op,oo,a,b)}function
+gh(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gc(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dH(d,a,b))},j=function(a){return ah(dH(d,a,b))};return[0,a1(function(a){return a},j,i,h,a),g]}var
-k=gc(b,f,0);return[0,e(function(a){return ah(dH(d,a,b))},a),k]}return c}function
-gd(a){if(a){var
+g=gh(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dN(d,a,b))},j=function(a){return ae(dN(d,a,b))};return[0,aO(function(a){return a},j,i,h,a),g]}var
+k=gh(b,f,0);return[0,e(function(a){return ae(dN(d,a,b))},a),k]}return c}function
+gi(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=Y(d,c[1]),h=e?[0,gc(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=Z(d,c[1]),h=e?[0,gh(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iO(f,e){var
+iW(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gd(b);if(c){var
+c=gi(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iP(d,b,a){if(b)if(a)var
-e=a[1],f=iP(d,b[2],a[2]),g=cj(d,b[1])?ev(e):cW(e),c=[0,g,f];else
+iX(d,b,a){if(b)if(a)var
+e=a[1],f=iX(d,b[2],a[2]),g=b7(d,b[1])?eD(e):c3(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iQ(a,b){if(a)if(b)var
-d=iQ(a[2],b[2]),c=[0,iP(a[1],a,b[1]),d];else
+iY(a,b){if(a)if(b)var
+d=iY(a[2],b[2]),c=[0,iX(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bf(a){if(a){var
-b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return on}function
-eD(a){var
-b=j(a);if(iO(b,a))return 1;var
-c=bf(bq(b));return n(function(c){return iO(b,iQ([0,0,c],a))},c)}function
-az(a){function
+bj(a){if(a){var
+b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return or}function
+eL(a){var
+b=j(a);if(iW(b,a))return 1;var
+c=bj(bu(b));return n(function(c){return iW(b,iY([0,0,c],a))},c)}function
+aA(a){function
 b(b){var
-c=l(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aL(h,e){var
+c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aQ(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?F(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ge(c,b,a){var
-d=bf(c);return n(function(c){return l(a,l(az(function(a){return aL(c,a)}),b))},d)}function
-gf(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a5(b,y(h,c),a)},k=gf(h,j,i),l=function(c,b){var
-d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=a1(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gj(c,b,a){var
+d=bj(c);return n(function(c){return k(a,k(aA(function(a){return aQ(c,a)}),b))},d)}function
+gk(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,y(h,c),a)},k=gk(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=aO(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-eE(b,d,a,c){function
+eM(b,d,a,c){function
 e(c,d){var
-e=a5(d,b,a);return K(F(c,c),e)}function
-f(c){return ah(a5(c,b,a))}return a1(function(a){return F(a,a)},f,e,d,c)}function
-gg(d,i,h,g){var
+e=a8(d,b,a);return K(C(c,c),e)}function
+f(c){return ae(a8(c,b,a))}return aO(function(a){return C(a,a)},f,e,d,c)}function
+gl(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cW(e[2]),k=b7(a,gf(d,f,eE(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gh(b,a){return[0,[0,0,b],a]}function
-c3(b,c,g,f,a){function
+e=b[1],f=c[1],j=c3(e[2]),k=cc(a,gk(d,f,eM(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gm(b,a){return[0,[0,0,b],a]}function
+c7(b,c,g,f,a){function
 d(a){if(a){var
-h=a0([0,ah(a[1][2]),0],b),c=gg(g,f,a[2],h),d=v(j(c),b);if(d)return eD(c);var
+h=a3([0,ae(a[1][2]),0],b),c=gl(g,f,a[2],h),d=v(j(c),b);if(d)return eL(c);var
 e=d}else
 var
-e=a;return e}return ge(b,gh(c,a),d)}function
-iR(f,e){var
+e=a;return e}return gj(b,gm(c,a),d)}function
+iZ(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gd([0,[0,ev(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gi([0,[0,eD(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gi(b,c,a){function
+gn(b,c,a){function
 d(a){if(a){var
-h=a0([0,a[1][2],0],b),c=iR(a[2],h);if(c){var
-d=c[1],e=v(j(d),b);if(e)return eD(d);var
+h=a3([0,a[1][2],0],b),c=iZ(a[2],h);if(c){var
+d=c[1],e=v(j(d),b);if(e)return eL(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return ge(b,gh(c,a),d)}function
-iS(b,a){return e(function(a){return[0,a[1],b]},a)}function
-iT(b,a){var
-c=bf(b);return n(function(b){return Y(d,aL(b,a)[1])},c)}function
-iU(c,b,a){var
-d=a[3],f=e(function(a){return a5(c,b,a)},d),g=a[2];return[0,a5(c,b,a[1]),g,f]}function
-iV(a,b){var
-c=b[3],d=a[3],e=a1(function(a){return a},ah,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
-cq(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-aq(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-bM(b,a){var
-c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-cr(b,a){var
-c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
-$(b,a){var
-c=o(b[3],a[3]),d=o(b[2],a[2]);return C(C(o(b[1],a[1]),d),c)}function
-cs(a){return cr(a,aB($(a,a)))}function
-c4(a){var
-b=a[5];return b?b[1]:aB(a[2])}function
-iW(b,a){return b?a:bs(a)}function
-iX(e,a,i,d,h){var
-f=$(a,e),b=aq(s,e,bM(f,a)),j=$(b,b),g=s(I(d),j),c=iW(h,aB(g)),k=s(f,c),l=aq(C,a,cr(b,c));return[0,aq(C,b,bM(c,a)),g,l,k,[0,d],0,[0,i]]}function
-iY(a,e,d){var
-b=$(a,a),c=aB(b),f=[0,e],g=A(function(b){return aq(s,a,bM($(b,a),b))},d);return[0,a,b,cr(a,c),c,0,g,f]}function
-iZ(b,a){var
-d=$(a,b);return[0,a,k(c),a,d,0,0,0]}function
-eF(a){return e(function(a){var
-b=a[2];return[0,cq(a[1]),b]},a)}function
-i0(a){return e(function(a){var
-b=k(c);return[0,cq(a[3]),b]},a)}function
+g=a;return g}return gj(b,gm(c,a),d)}function
+i0(b,a){return e(function(a){return[0,a[1],b]},a)}function
 i1(b,a){var
-c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
+c=bj(b);return n(function(b){return Z(d,aQ(b,a)[1])},c)}function
 i2(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-gj(d,a){var
-b=cn(d,[0,a[2],a[2]]);if(b){var
+d=a[3],f=e(function(a){return a8(c,b,a)},d),g=a[2];return[0,a8(c,b,a[1]),g,f]}function
+i3(a,b){var
+c=b[3],d=a[3],e=aO(function(a){return a},ae,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
+cx(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ar(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+bQ(b,a){var
+c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
+cy(b,a){var
+c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
+aa(b,a){var
+c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
+cz(a){return cy(a,aC(aa(a,a)))}function
+c8(a){var
+b=a[5];return b?b[1]:aC(a[2])}function
+eN(b,a){return b?a:bf(a)}function
+i4(e,a,i,d,h){var
+f=aa(a,e),b=ar(s,e,bQ(f,a)),j=aa(b,b),g=s(I(d),j),c=eN(h,aC(g)),k=s(f,c),l=ar(F,a,cy(b,c));return[0,ar(F,b,bQ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+i5(a,e,d){var
+b=aa(a,a),c=aC(b),f=[0,e],g=z(function(b){return ar(s,a,bQ(aa(b,a),b))},d);return[0,a,b,cy(a,c),c,0,g,f]}function
+i6(b,a){var
+d=aa(a,b);return[0,a,l(c),a,d,0,0,0]}function
+eO(a){return e(function(a){var
+b=a[2];return[0,cx(a[1]),b]},a)}function
+i7(a){return e(function(a){var
+b=l(c);return[0,cx(a[3]),b]},a)}function
+i8(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+i9(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+go(d,a){var
+b=ct(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-eG(a,m,f,l,e,k,j){var
-o=i2(f9,k,j),b=i2(function(b,c){return c0(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cZ(cZ(cZ(ao(ai(a,d)),h),g),c),p=bf(m);return n(function(c){var
-b=i1(function(b){return T(a,aL(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gj(a,F(F(F(ai(a,d),k),j),h))),g=K(aL(c,i),m),n=f?K(g,aL(c,f[1])):g;return Y(d,n[1])},p)}function
-bu(a){return ck(y(a[1],a[2]),c)}function
-c5(a){var
-b=bu(a);return aG(a[2],b)}function
-eH(c,b){if(b)var
-a=b[1],e=eH([0,c],b[2]),g=c5(a),h=[0,[0,c5(a),g],0],i=f(a0(z,c),h),j=bu(a),d=[0,[0,[0,bu(a),j],a,i],e];else
+eP(a,m,f,l,e,k,j){var
+o=i9(a5,k,j),b=i9(function(b,c){return aq(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bx(bx(bx(ad($(a,d)),h),g),c),p=bj(m);return n(function(c){var
+b=i8(function(b){return T(a,aQ(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,go(a,C(C(C($(a,d),k),j),h))),g=K(aQ(c,i),m),n=f?K(g,aQ(c,f[1])):g;return Z(d,n[1])},p)}function
+by(a){return cq(y(a[1],a[2]),c)}function
+c9(a){var
+b=by(a);return aH(a[2],b)}function
+eQ(c,b){if(b)var
+a=b[1],e=eQ([0,c],b[2]),g=c9(a),h=[0,[0,c9(a),g],0],i=f(a3(A,c),h),j=by(a),d=[0,[0,[0,by(a),j],a,i],e];else
 var
 d=b;return d}function
-dL(d,b){if(b){var
+dT(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dL(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bu(a),f],c],h=bu(a);return[0,[0,[0,a[1],h],c],g]}return oo}function
-i3(d,b,a){if(b){if(a){var
-e=i3(d,b[2],a[2]);return F(a5(b[1],y(d,c),a[1]),e)}return z}return z}function
-dM(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(f,a,b)},j=dM(f,h),k=e(function(a){var
-e=b(d,a[2]);return F(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,F(b(d,c),l),k],j];else
+e=dT(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,by(a),f],c],h=by(a);return[0,[0,[0,a[1],h],c],g]}return os}function
+i_(d,b,a){if(b){if(a){var
+e=i_(d,b[2],a[2]);return C(a8(b[1],y(d,c),a[1]),e)}return A}return A}function
+dU(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i_(f,a,b)},j=dU(f,h),k=e(function(a){var
+e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dN(e,b,d,a){if(b)if(a)var
-f=b[1],g=dN(e,b[2],d,a[2]),c=[0,[0,f,eE(e,a[1][1],d,f)],g];else
+dV(e,b,d,a){if(b)if(a)var
+f=b[1],g=dV(e,b[2],d,a[2]),c=[0,[0,f,eM(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-eI(f,d,c,b,a){if(a){var
+eR(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=eI(f,d[1],c,b,g);return[0,[0,K(z,b),0],i]}var
-j=e(function(a){return[0,K(z,b),0]},g),h=[0,[0,K(ah(w(f,c,cW(a[1][2]))),b),0],j]}else
+i=eR(f,d[1],c,b,g);return[0,[0,K(A,b),0],i]}var
+j=e(function(a){return[0,K(A,b),0]},g),h=[0,[0,K(ae(w(f,c,c3(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bN(c,a){var
-b=v(j(a),c);return b?eD(a):b}function
-i4(d,b,a){if(b)var
-c=b[1],g=i4([0,d],b[2],a),h=f(a0(z,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),y(c[2],a[2])],h],g];else
+bR(c,a){var
+b=v(j(a),c);return b?eL(a):b}function
+i$(d,b,a){if(b)var
+c=b[1],g=i$([0,d],b[2],a),h=f(a3(A,d),[0,a,0]),e=[0,[0,c,[0,aH(c[1],a[2]),y(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-i5(d){if(d){var
+ja(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=i5(d[2]);return A(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=ja(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return op}function
-i6(a){return A(function(a){return A(f_,a)},a)}function
-eJ(c,b,a){function
-d(a){return c0(c,b,a)}return A(function(a){return A(d,a)},a)}function
-i7(c,b,a){function
-d(a){return f$(c,a,b)}return A(function(a){return c1(d,a)},a)}function
-eK(b,a){var
-c=aH(b,a);return e(function(c){var
+f=a;return f}return ot}function
+gp(a){return z(function(a){return z(dQ,a)},a)}function
+ce(c,b,a){function
+d(a){return aq(c,b,a)}return z(function(a){return z(d,a)},a)}function
+gq(c,b,a){function
+d(a){return c5(c,a,b)}return z(function(a){return b$(d,a)},a)}function
+c_(b,a){var
+c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bK(function(b,a){return[0,cZ(b,a)]},e,d)]}return b}return a},c)}function
-i8(a){return ao(ai(a,b(2,c)))}function
-i9(b,c,a){if(a)var
-f=a[1],g=i9(b,c,a[2]),d=[0,e(function(a){return ah(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bO(function(b,a){return[0,bx(b,a)]},e,d)]}return b}return a},c)}function
+eS(a){return ad($(a,b(2,c)))}function
+jb(b,c,a){if(a)var
+f=a[1],g=jb(b,c,a[2]),d=[0,e(function(a){return ae(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-i_(a){return n(function(a){var
-b=ab(a[1],d);return b?ab(a[2],d):b},a)}function
-i$(c,b,a){var
-d=aH(b,a);return br(function(a,b){return F(w(c,a[1],a[2]),b)},z,d)}function
-gk(c,b,a){var
-d=dI(i$(c,a,b));return br(function(b,a){return y(dI(b),a)},d,a)}function
-c6(a){return ai(a,c)}function
-gl(a,i,c,u,t){var
+jc(a){return n(function(a){var
+b=ac(a[1],d);return b?ac(a[2],d):b},a)}function
+jd(c,b,a){var
+d=aJ(b,a);return bv(function(a,b){return C(w(c,a[1],a[2]),b)},A,d)}function
+gr(c,b,a){var
+d=dO(jd(c,a,b));return bv(function(b,a){return y(dO(b),a)},d,a)}function
+c$(a){return $(a,c)}function
+gs(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!i_(c)&&!i_(j)){var
-h=gk(a,i,j),o=c6(a),p=gk(a,i,c),b=dH([0,gk(a,i,c),p],o,[0,h,h])[1],k=Y(d,h),l=k?Y(d,b):k;if(l)var
-q=bJ(f7(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b7(e,i9(a,q,a1(function(c){return function(b){return w(a,c,b)}}(s),ah,r,j,c)))];else
+j=f[1],n=0;if(!jc(c)&&!jc(j)){var
+h=gr(a,i,j),o=c$(a),p=gr(a,i,c),b=dN([0,gr(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
+q=a4(gc(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cc(e,jb(a,q,aO(function(c){return function(b){return w(a,c,b)}}(s),ae,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-oE(a){var
-b=a[2],c=e(function(a){return[0,a[1],z]},b);return[0,[0,a[1][1],z],c]}function
-ja(c,b,a){if(b){if(a){var
-d=ja(c,b[2],a[2]);return F(a5(b[1],c,a[1]),d)}return z}return z}function
-jb(a,j){switch(j){case
+oI(a){var
+b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
+je(c,b,a){if(b){if(a){var
+d=je(c,b[2],a[2]);return C(a8(b[1],c,a[1]),d)}return A}return A}function
+jf(a,j){switch(j){case
 0:var
-d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aH(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=ck(y(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jc(d,c,a){if(a)var
-e=a[1],g=jc(d,[0,c],a[2]),b=A(ci,iv(function(a){return v(a[1],c)},d)),h=b?jb(e,b[1])[1]:e,f=[0,h,g];else
+f=aH(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cq(y(a[1],a[2]),c),h=aH(b,a[2]),i=aH(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jg(d,c,a){if(a)var
+e=a[1],g=jg(d,[0,c],a[2]),b=z(b6,iC(function(a){return v(a[1],c)},d)),h=b?jf(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-oF=ao(z);function
-jd(e,d,c){if(d){var
-f=t(e,c[2],oG),a=f?f[1]:[0,oF];if(a)var
-b=jd([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+oJ=ad(A);function
+jh(e,d,c){if(d){var
+f=t(e,c[2],oK),a=f?f[1]:[0,oJ];if(a)var
+b=jh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return oH}function
-je(d,c,b,a){var
-f=e(ao,b);return bt(0,b5(d,eH(0,a),f),c,0)}function
-ae(a){if(a){var
+g=a;return g}return oL}function
+ji(d,c,b,a){var
+f=e(ad,b);return bw(0,ca(d,eQ(0,a),f),c,0)}function
+ag(a){if(a){var
 b=a[1];if(b)var
-c=ae(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ag(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oI}function
-eL(b,a){if(a){var
-h=a[1],n=h[1],c=ae(e(function(a){return t(a,b,0)},n));if(c){var
+d=b;return d}return oM}function
+eT(b,a){if(a){var
+h=a[1],n=h[1],c=ag(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=eL(b,a[2]);if(g)var
-j=Y(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=eT(b,a[2]);if(g)var
+j=Z(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1601,22 +1645,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return oJ}function
-bO(d,c,b){var
-a=eL(d,c);return a?l(b,a[1]):a}function
-c7(a,b){return n(function(c){var
+m=c;return m}return oN}function
+bS(d,c,b){var
+a=eT(d,c);return a?k(b,a[1]):a}function
+da(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-eM(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a1(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
-gm(b,a){return b?iV(a,b[1]):a}function
-gn(h,g,b,f){var
+eU(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aO(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+gt(b,a){return b?i3(a,b[1]):a}function
+gu(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=iV(c,b[1]),e=bf(g);return n(function(a){return L(d,aL(a,i)[1])},e)}return L(d,c[2][1])}return a}function
-jf(f,d,a){function
-b(a){return a5(a,d,ai(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),z,g]}return ao(z)}function
-eN(b,a){var
+i=i3(c,b[1]),e=bj(g);return n(function(a){return L(d,aQ(a,i)[1])},e)}return L(d,c[2][1])}return a}function
+jj(f,d,a){function
+b(a){return a8(a,d,$(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),A,g]}return ad(A)}function
+eV(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1625,54 +1669,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jg(i,k,J,t,g,b,f,h,a){switch(h[0]){case
+jk(i,k,J,t,g,b,f,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=c7(t,g);if(K){var
-ac=a[2],ad=a[1],ae=eM(f,ao(r));return bO(g,k,function(a){return c3(b,ae,ad,ac,a)})}return K;case
+K=da(t,g);if(K){var
+ae=a[2],af=a[1],ag=eU(f,ad(r));return bS(g,k,function(a){return c7(b,ag,af,ae,a)})}return K;case
 1:var
-L=c7(t,g);if(L){var
-af=a[2],ag=a[1],ah=eM(f,ao(r));return bO(g,J,function(a){return c3(b,ah,ag,af,a)})}return L;case
+L=da(t,g);if(L){var
+ah=a[2],ai=a[1],aj=eU(f,ad(r));return bS(g,J,function(a){return c7(b,aj,ai,ah,a)})}return L;case
 2:var
-M=c7(t,g);if(M){if(f)return 0;var
-N=ab(r[1],d),O=N?ab(r[2],d):N;if(O){var
-aj=a[2],ak=a[1];return bO(g,k,function(a){return c3(b,[0,z,z,0],ak,aj,iS([0,z,z,0],a))})}var
+M=da(t,g);if(M){if(f)return 0;var
+N=ac(r[1],d),O=N?ac(r[2],d):N;if(O){var
+ak=a[2],al=a[1];return bS(g,k,function(a){return c7(b,[0,A,A,0],al,ak,i0([0,A,A,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-al=gm(f,ao(Q));return bO(g,J,function(a){return gi(b,al,a)})}if(!a){var
-am=gm(f,ao(Q));return bO(g,k,function(a){return gi(b,am,a)})}}return 0;case
+am=gt(f,ad(Q));return bS(g,J,function(a){return gn(b,am,a)})}if(!a){var
+an=gt(f,ad(Q));return bS(g,k,function(a){return gn(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jf(i,R,a[3]),S=h[1],an=a[2];return bO(g,k,function(d){var
-a=iT(b,l),c=a?c3(b,eM(f,l),R,an,d):a;if(c){var
-g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gi(b,gm(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=jj(i,R,a[3]),S=h[1],ao=a[2];return bS(g,k,function(d){var
+a=i1(b,l),c=a?c7(b,eU(f,l),R,ao,d):a;if(c){var
+g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gn(b,gt(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gn(g,b,f,h[1]);return 0;case
+a==="number"&&!a)return gu(g,b,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eM(f,ao(h[2])),as=function(a){return c3(b,ar,aq,ap,a)};return bO(g,h[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=eU(f,ad(h[2])),as=function(a){return c7(b,ar,aq,ap,a)};return bS(g,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gn(g,b,f,h[1]);case
-2:return gn(g,b,f,h[2])}return 0;case
+0:return gu(g,b,f,h[1]);case
+2:return gu(g,b,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-u=eN(g,h[1]);if(u){var
-x=eN(g,h[2]);if(x){var
-A=eN(g,h[3]);if(A){var
-B=eN(g,h[4]);if(B){var
-T=B[1],U=A[1],V=x[1],W=u[1],m=a[2],s=h[5],at=a[1];if(m){var
+u=eV(g,h[1]);if(u){var
+x=eV(g,h[2]);if(x){var
+z=eV(g,h[3]);if(z){var
+B=eV(g,h[4]);if(B){var
+T=B[1],U=z[1],V=x[1],W=u[1],m=a[2],s=h[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aa=[0,m[1],o[1],p[1]],q=i1(function(d){function
-f(a){return a5(a,at,ai(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=ey(a),h=y(b[2],g),j=ey(a);return[0,b,[0,aG(b[1],j),h],a]}return ao(z)},aa),C=n(function(a){return v(j(a),[0,b])},m),D=C?eG(i,b,f,s,q,W,U):C,E=D?eG(i,b,f,s,q,W,T):D,F=E?eG(i,b,f,s,q,V,U):E;if(F)return eG(i,b,f,s,q,V,T);var
+ab=[0,m[1],o[1],p[1]],q=i8(function(d){function
+f(a){return a8(a,at,$(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=eF(a),h=y(b[2],g),j=eF(a);return[0,b,[0,aH(b[1],j),h],a]}return ad(A)},ab),C=n(function(a){return v(j(a),[0,b])},m),D=C?eP(i,b,f,s,q,W,U):C,E=D?eP(i,b,f,s,q,W,T):D,F=E?eP(i,b,f,s,q,V,U):E;if(F)return eP(i,b,f,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1684,7 +1728,7 @@ var
 I=m;return I}var
 X=B}else
 var
-X=A;var
+X=z;var
 Y=X}else
 var
 Y=x;var
@@ -1693,47 +1737,47 @@ var
 Z=u;return Z}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-_=a[2],$=a[1],au=h[2],av=h[1];return bO(g,k,function(e){var
+_=a[2],aa=a[1],au=h[2],av=h[1];return bS(g,k,function(e){var
 a=v(j(e),b),d=a?v(j(_),b):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=v(j(d),b);if(e){var
-g=dM($,dN($,_,ai(i,c),d));return bN(b,b7(eI(i,av,au,a[1][2],d),g))}var
+g=dU(aa,dV(aa,_,$(i,c),d));return bR(b,cc(eR(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:ao(z);return ge(b,gh(h,e),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:ad(A);return gj(b,gm(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aw=h[2],ax=h[1];return bO(g,k,function(d){var
-a=iS([0,z,z,0],d),c=f?f[1]:[0,z,z,0];return c3(b,c,ax,aw,a)})}return 0;default:return 0}}function
-jh(a,Z,I,k,p,X,g,i,h,f,b){if(9===f[0]){if(typeof
+aw=h[2],ax=h[1];return bS(g,k,function(d){var
+a=i0([0,A,A,0],d),c=f?f[1]:[0,A,A,0];return c7(b,c,ax,aw,a)})}return 0;default:return 0}}function
+jl(a,Y,I,l,p,X,g,i,h,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-_=f[1],S=e(ao,X),B=bt(0,b5(a,i4(0,i,_),S),Z,0),J=v(j(i),oK),L=J?c7(p,B):J;if(L){var
-q=eL(B,k);if(q){var
-r=eL(g,k);if(r){var
-$=f[2],s=ae(e(function(b){var
+_=f[1],S=e(ad,X),B=bw(0,ca(a,i$(0,i,_),S),Y,0),J=v(j(i),oO),L=J?da(p,B):J;if(L){var
+q=eT(B,l);if(q){var
+r=eT(g,l);if(r){var
+aa=f[2],s=ag(e(function(b){var
 c=t(b[1],g,0);if(c)var
-f=b[2][2],a=ae(e(function(a){var
-b=t(a[2],g,0);return A(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+f=b[2][2],a=ag(e(function(a){var
+b=t(a[2],g,0);return z(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},$));if(s){var
-u=i5(q[1]);if(u){var
-M=b[2],x=b[1],N=r[1],aa=b[3],ab=s[1],ac=u[1],C=gj(a,br(function(f,h){function
+d=c;return d},aa));if(s){var
+u=ja(q[1]);if(u){var
+M=b[2],x=b[1],N=r[1],ab=b[3],ac=s[1],af=u[1],D=go(a,bv(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dI(t(d,c[3],z))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dO(t(d,c[3],A))}function
 c(a){var
-b=l(a,oq),c=bp(l(a,or),b);return bp(l(a,0),c)}var
+b=k(a,ou),c=bt(k(a,ov),b);return bt(k(a,0),c)}var
 d=c(function(a){var
-c=b(os,a),d=b(ot,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,ou),d=b(a,ov);return y(y(b(a,0),d),c)});return F(h,T(a,gj(a,w(a,[0,e,e],g))))},z,ac)),m=a5(aa,x,ai(a,c)),D=Y(d,K(m,C)[1]),E=D?v(j(M),oB):D,G=E?v(j(N),oC):E;if(G){var
-o=b3(a,m);if(o){var
-U=bJ(w(a,C,o[1])),V=K(ai(a,c),U),W=bf(oD);return n(function(i){var
+c=b(ow,a),d=b(ox,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,oy),d=b(a,oz);return y(y(b(a,0),d),c)});return C(h,T(a,go(a,w(a,[0,e,e],g))))},A,af)),m=a8(ab,x,$(a,c)),E=Z(d,K(m,D)[1]),F=E?v(j(M),oF):E,G=F?v(j(N),oG):F;if(G){var
+o=b9(a,m);if(o){var
+U=a4(w(a,D,o[1])),V=K($(a,c),U),W=bj(oH);return n(function(i){var
 g=e(function(b){var
-c=b[2],d=b[1];return cW(cT(function(d,b){var
-c=dI(aL(i,b[2]));return F(d,w(a,b[1],[0,c,c]))},c,d))},ab),r=l(az(function(a){return aL(i,a)}),N),D=h?aL(i,h[1]):z,L=T(a,V),s=T(a,m),q=dM(x,dN(x,M,ai(a,c),r)),b=b7(a0([0,ah(D),0],ow),q);if(g){var
+c=b[2],d=b[1];return c3(c0(function(d,b){var
+c=dO(aQ(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(aA(function(a){return aQ(i,a)}),N),E=h?aQ(i,h[1]):A,L=T(a,V),s=T(a,m),q=dU(x,dV(x,M,$(a,c),r)),b=cc(a3([0,ae(E),0],oA),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],B=g[1],G=f[1],j=bN(oy,b7(a0([0,ah(s),0],ox),b));if(j)return n(function(C){var
-H=K(L,D),I=C[2]?A:ah(A),J=C[1]?B:ah(B),n=0;if(b){var
+B=d[1],D=g[1],G=f[1],j=bR(oC,cc(a3([0,ae(s),0],oB),b));if(j)return n(function(A){var
+H=K(L,E),I=A[2]?B:ae(B),J=A[1]?D:ae(D),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -1742,16 +1786,16 @@ e=b[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
-h=e[2],E=0;if(h){var
+h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
+j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
 r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
 var
-s=h;if(!E)var
+s=h;if(!C)var
 t=s}else
 var
 t=g;if(!q)var
@@ -1772,11 +1816,11 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return bN(oA,j)},oz);var
-k=j}else
+j=z;return bR(oE,j)},oD);var
+l=j}else
 var
-k=f;var
-o=k}else
+l=f;var
+o=l}else
 var
 o=d;var
 p=o}else
@@ -1796,13 +1840,13 @@ var
 Q=q;var
 R=Q}else
 var
-R=L;return R}return jg(a,I,k,p,g,j(i),h,f,b)}return jg(a,I,k,p,g,j(i),h,f,b)}function
-ji(i,b,a){if(a){var
-j=a[1],k=j[2],c=ae(e(b,j[1]));if(c){var
-f=l(b,k);if(f){var
-g=t(k,i,0);if(g){var
-h=ji(i,b,a[2]);if(h)var
-m=Y(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+R=L;return R}return jk(a,I,l,p,g,j(i),h,f,b)}return jk(a,I,l,p,g,j(i),h,f,b)}function
+jm(i,b,a){if(a){var
+j=a[1],l=j[2],c=ag(e(b,j[1]));if(c){var
+f=k(b,l);if(f){var
+g=t(l,i,0);if(g){var
+h=jm(i,b,a[2]);if(h)var
+m=Z(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1813,147 +1857,163 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return oM}function
-jj(a,T,m,S,u,s,R,C,h,g,k,b){var
-i=j(R),U=eH(0,R),aS=bt(0,b5(a,U,e(ao,jc(k,0,u))),T,0),V=e(aK,k),aT=0,aU=e(ao,u),aV=bt(oN,function(b){var
-M=co(aK,b),f=l(b5(a,U,aU),M);switch(b[0]){case
+q=c;return q}return oQ}function
+jn(a,T,m,S,u,s,R,D,h,g,l,b){var
+i=j(R),U=eQ(0,R),aS=bw(0,ca(a,U,e(ad,jg(l,0,u))),T,0),V=e(aI,l),aU=0,aV=e(ad,u),aW=bw(oR,function(b){var
+av=cu(aI,b),f=k(ca(a,U,aV),av);switch(b[0]){case
 1:var
-t=b[1],d=e(function(d){var
-b=v(t,d),e=b?[0,[0,ao(ai(a,c))]]:b;return e},V);break;case
+M=b[1],d=e(function(d){var
+b=v(M,d),e=b?[0,[0,ad($(a,c))]]:b;return e},V);break;case
 3:var
-d=eK(b[1][2],b[2][2]);break;case
+d=c_(b[1][2],b[2][2]);break;case
 4:var
-u=e(i6,b[2][2]),d=eK(b[1][2],u);break;case
+N=e(gp,b[2][2]),d=c_(b[1][2],N);break;case
 5:var
-d=e(i6,b[1][2]);break;case
+d=e(gp,b[1][2]);break;case
 6:var
-n=b[2],o=b[1],g=o[1],k=0;if(g){var
-h=n[1];if(h)var
-w=n[2],x=g[1],y=e(function(b){return eJ(a,x,b)},w),z=o[2],A=h[1],d=eK(e(function(b){return eJ(a,A,b)},z),y);else{var
-p=h;k=1}}else{var
-p=g;k=1}if(k)var
-d=p;break;case
+x=b[2],y=b[1],g=y[1],t=0;if(g){var
+h=x[1];if(h)var
+O=x[2],P=g[1],Q=e(function(b){return ce(a,P,b)},O),R=y[2],S=h[1],d=c_(e(function(b){return ce(a,S,b)},R),Q);else{var
+z=h;t=1}}else{var
+z=g;t=1}if(t)var
+d=z;break;case
 7:var
-m=0;if(f){var
-q=b[2],i=q[1];if(i)var
-B=q[2],C=f_(f[1]),D=e(function(b){return eJ(a,C,b)},B),E=eK(b[1][2],D),F=i[1],d=e(function(b){return i7(a,F,b)},E);else{var
-r=i;m=1}}else{var
-r=f;m=1}if(m)var
-d=r;break;case
+u=0;if(f){var
+A=b[2],i=A[1];if(i)var
+T=A[2],W=dQ(f[1]),X=e(function(b){return ce(a,W,b)},T),Y=c_(b[1][2],X),Z=i[1],d=e(function(b){return gq(a,Z,b)},Y);else{var
+B=i;u=1}}else{var
+B=f;u=1}if(u)var
+d=B;break;case
 8:var
-s=b[1],j=s[1];if(j)var
-G=s[2],H=j[1],I=c0(a,i8(a),H),d=e(function(b){return eJ(a,I,b)},G);else
+C=b[1],j=C[1];if(j)var
+_=C[2],aa=j[1],ab=aq(a,eS(a),aa),d=e(function(b){return ce(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-J=b[1][2],K=f[1],L=c0(a,i8(a),K),d=e(function(b){return i7(a,L,b)},J);else
+ac=b[1][2],ae=f[1],af=aq(a,eS(a),ae),d=e(function(b){return gq(a,af,b)},ac);else
 var
-d=f;break;default:var
-d=e(function(a){return 0},V)}return[0,f,d]},T,aT),aQ=e(function(a){var
-b=a[2];return jb(t(a[1],u,z),b)[2]},k);function
+d=f;break;case
+10:var
+D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
+m=l[1],n=E[1],K=0;if(n){var
+o=n[1],p=D[1],L=0;if(p){var
+q=iL(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a5(o,r),ai=e(function(b){return ce(a,ah,b)},ag),aj=F[2],ak=a5(m,s),al=c_(e(function(b){return ce(a,ak,b)},aj),ai),am=e(gp,D[2]),an=eS(a),ao=c_(e(function(b){return ce(a,an,b)},al),am),ap=b[1]?s:dQ(r),ar=e(function(b){return ce(a,ap,b)},ao),as=aq(a,m,r),at=a5(aq(a,o,s),as),au=aq(a,eS(a),at),d=e(function(b){return gq(a,au,b)},ar);K=1;L=1}else
+var
+H=q}else
+var
+H=p;if(!L)var
+I=H}else
+var
+I=n;if(!K){var
+J=I;w=1}}else{var
+J=l;w=1}if(w)var
+d=J;break;default:var
+d=e(function(a){return 0},V)}return[0,f,d]},T,aU),aP=e(function(a){var
+b=a[2];return jf(t(a[1],u,A),b)[2]},l);function
 W(c){var
 d=t(c,s,0);if(d){var
 a=t(c,aS,0);if(a)var
-b=jd(0,k,t(c,aV,oL)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=jh(0,l,t(c,aW,oP)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-D(b){return e(function(b){return ai(a,b)},b)}var
-aW=C?C[1]:ao(z);function
-X(a){return a?bN(i,a[1]):a}function
+E(b){return e(function(b){return $(a,b)},b)}var
+aX=D?D[1]:ad(A);function
+Y(a){return a?bR(i,a[1]):a}function
 x(t,s,f,r,q){var
-u=a0([0,ah(s),0],i),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
-j=b[1],k=j[1],d=c[1],m=cW(k[2]),n=b7(g,gf(f,d,eE(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(bJ,eE(f,a[1],a[2],b))}}(d),o),h=gl(a,v,e(function(b){return a5(b,f,c6(a))},d),p,n);if(h){var
+u=a3([0,ae(s),0],i),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+j=b[1],k=j[1],d=c[1],m=c3(k[2]),n=cc(g,gk(f,d,eM(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a4,eM(f,a[1],a[2],b))}}(d),o),h=gs(a,v,e(function(b){return a8(b,f,c$(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
-l=[0,g];return X(l)}}function
+l=[0,g];return Y(l)}}function
 _(y,x,w){var
-A=a0([0,x,0],i),q=D(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ev(g),h],f];if(m){var
-o=Y(d,g[1]);if(o)var
+z=a3([0,x,0],i),q=E(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eD(g),h],f];if(m){var
+o=Z(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,bJ(a[2]),b]},m),t=e(function(a){return z},h),u=[0,c6(a),t],v=c6(a),b=gl(a,[0,ah(dH(i$(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a4(a[2]),b]},m),t=e(function(a){return A},h),u=[0,c$(a),t],v=c$(a),b=gs(a,[0,ae(dN(jd(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=gd(b[1]);if(j){var
+j=gi(b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return X(r)}}var
-aX=e(aK,k),$=n(function(a){return dA(a,j(u))},aX);if($){var
-r=e(aK,k);for(;;){if(r){var
-P=r[2],aR=r[1],Q=al(au(function(b){return function(a){return v(b,a)}}(aR),P));if(Q){var
+r=[0,f];return Y(r)}}var
+aY=e(aI,l),aa=n(function(a){return dG(a,j(u))},aY);if(aa){var
+r=e(aI,l);for(;;){if(r){var
+P=r[2],aR=r[1],Q=am(av(function(b){return function(a){return v(b,a)}}(aR),P));if(Q){var
 r=P;continue}var
-aa=Q}else
+ab=Q}else
 var
-aa=1;var
-E=aa;break}}else
+ab=1;var
+F=ab;break}}else
 var
-E=$;var
-ac=E?n(function(a){return v(j(a),i)},b):E;if(ac){var
+F=aa;var
+af=F?n(function(a){return v(j(a),i)},b):F;if(af){var
 B=0;switch(h[0]){case
 0:var
 G=h[1],N=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-aA=0;if(b){if(b[2])return 0;var
-aY=b[1],aZ=g[2],a1=g[1],ad=c7(S,s);if(ad){var
-p=function(c,a){var
-b=F(G,a);return function(a){return x(aY,b,a1,aZ,a)}},o=m;N=1;aA=1}else
-var
-ag=ad}else
-var
-ag=b;if(!aA)return ag;break;case
-2:var
 aB=0;if(b){if(b[2])return 0;var
-a3=b[1],a4=g[2],a6=g[1],aj=c7(S,s),aC=0;if(aj){if(C)return 0;var
-ak=ab(G[1],d),am=ak?ab(G[2],d):ak;if(am){var
-p=function(c,b,a){return x(a3,z,a6,a4,e(oE,a))},o=m;N=1;aB=1;aC=1}else
+aZ=b[1],a0=g[2],a1=g[1],ag=da(S,s);if(ag){var
+p=function(c,a){var
+b=C(G,a);return function(a){return x(aZ,b,a1,a0,a)}},o=m;N=1;aB=1}else
 var
-an=am}else
+aj=ag}else
 var
-an=aj;if(!aC)var
-ap=an}else
-var
-ap=b;if(!aB)return ap;break}if(!N)return 0;break;case
-1:var
-aD=0,a7=h[1];if(typeof
-g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
-a8=b[1],p=function(c,a){var
-b=K(a7,a);return function(a){return _(a8,b,a)}},o=m;aD=1}if(!aD)return 0;break;case
+aj=b;if(!aB)return aj;break;case
 2:var
-aE=0,a9=h[1];if(typeof
-g==="number"||!(3===g[0]))aE=1;else{var
-aF=0;if(b){var
-A=b[2],aI=0;if(A){if(A[2])return 0;var
-aq=g[1],a_=A[1],a$=b[1],ba=g[2],ar=jf(a,aq,g[3]),as=iT(i,ar);if(as){var
+aC=0;if(b){if(b[2])return 0;var
+a6=b[1],a7=g[2],a9=g[1],ak=da(S,s),aD=0;if(ak){if(D)return 0;var
+al=ac(G[1],d),an=al?ac(G[2],d):al;if(an){var
+p=function(c,b,a){return x(a6,A,a9,a7,e(oI,a))},o=m;N=1;aC=1;aD=1}else
+var
+ao=an}else
+var
+ao=ak;if(!aD)var
+ap=ao}else
+var
+ap=b;if(!aC)return ap;break}if(!N)return 0;break;case
+1:var
+aE=0,a_=h[1];if(typeof
+g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
+a$=b[1],p=function(c,a){var
+b=K(a_,a);return function(a){return _(a$,b,a)}},o=m;aE=1}if(!aE)return 0;break;case
+2:var
+aF=0,ba=h[1];if(typeof
+g==="number"||!(3===g[0]))aF=1;else{var
+aG=0;if(b){var
+z=b[2],aK=0;if(z){if(z[2])return 0;var
+ar=g[1],bb=z[1],bc=b[1],bd=g[2],as=jj(a,ar,g[3]),at=i1(i,as);if(at){var
 p=function(f,c,b){var
-d=aL(f,ar),e=x(a$,F(d,c),aq,ba,b);return e?_(a_,K(w(a,a9,d),c),b):e},o=m;aF=1;aI=1}else
+d=aQ(f,as),e=x(bc,C(d,c),ar,bd,b);return e?_(bb,K(w(a,ba,d),c),b):e},o=m;aG=1;aK=1}else
 var
-at=as}else
+au=at}else
 var
-at=A;if(!aI)var
-av=at}else
+au=z;if(!aK)var
+aw=au}else
 var
-av=b;if(!aF)return av}if(aE)return 0;break;case
+aw=b;if(!aG)return aw}if(aF)return 0;break;case
 3:var
-aJ=0;if(typeof
+aL=0;if(typeof
 g==="number"&&!g){if(b)return 0;var
 I=h[1];B=1}else
-aJ=1;if(aJ)return 0;break;case
+aL=1;if(aL)return 0;break;case
 4:var
-aM=0,bc=h[2];if(typeof
+aM=0,bf=h[2];if(typeof
 g==="number"||!(0===g[0]))aM=1;else{if(!b)return b;if(b[2])return 0;var
-bd=b[1],be=g[2],bg=g[1],bh=function(c,a){var
-b=F(bc,a);return function(a){return x(bd,b,bg,be,a)}},p=bh,o=h[1]}if(aM)return 0;break;case
+bg=b[1],bh=g[2],bi=g[1],bk=function(c,a){var
+b=C(bf,a);return function(a){return x(bg,b,bi,bh,a)}},p=bk,o=h[1]}if(aM)return 0;break;case
 5:var
 O=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
@@ -1963,53 +2023,53 @@ I=h[1];B=1;break;case
 I=h[2];B=1;break;default:O=1}else
 O=1;if(O)return 0;break;case
 7:var
-aw=h[2],ax=h[1],aN=0;if(typeof
+ax=h[2],ay=h[1],aN=0;if(typeof
 g==="number"||!(0===g[0]))aN=1;else{var
-aP=0;if(b){if(b[2])return 0;var
-q=g[2],M=g[1],bi=b[1],ay=v(j(m),i);if(ay){var
+aO=0;if(b){if(b[2])return 0;var
+q=g[2],M=g[1],bl=b[1],az=v(j(m),i);if(az){var
 p=function(b,y){var
-A=D(bi);return function(f){var
+z=E(bl);return function(f){var
 k=v(j(f),i),l=k?v(j(q),i):k;if(l){var
-s=e(aK,f),t=dM(M,dN(M,q,c6(a),s)),u=b7(eI(a,ax,aw,y,e(aK,f)),t),b=0,c=f,g=u,x=j(q);for(;;){if(c){var
-o=c[1][2],p=v(b,ax),r=e(function(f,g){return function(d){var
-b=aH(aO(0,j(q)),q);return e(function(b){var
-c=ja(M,b[2],d[1]);if(g&&v(b[1],f))return K(c,bJ(w(a,aw,d[2])));return c},b)}}(b,p),o),n=aO(0,x),h=gl(a,A,e(function(c){return function(b){return v(b,c)?c6(a):z}}(b),n),r,g);if(h){var
+s=e(aI,f),t=dU(M,dV(M,q,c$(a),s)),u=cc(eR(a,ay,ax,y,e(aI,f)),t),b=0,c=f,g=u,x=j(q);for(;;){if(c){var
+o=c[1][2],p=v(b,ay),r=e(function(f,g){return function(d){var
+b=aJ(aT(0,j(q)),q);return e(function(b){var
+c=je(M,b[2],d[1]);if(g&&v(b[1],f))return K(c,a4(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aT(0,x),h=gs(a,z,e(function(c){return function(b){return v(b,c)?c$(a):A}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bN(i,d[1]);var
+d=[0,g];if(d)return bR(i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},o=m;aP=1}else
+m=l;return m}},o=m;aO=1}else
 var
-az=ay}else
+aA=az}else
 var
-az=b;if(!aP)return az}if(aN)return 0;break;default:return 0}if(B){var
+aA=b;if(!aO)return aA}if(aN)return 0;break;default:return 0}if(B){var
 J=W(I);if(!J)return J;var
-bb=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=br(function(b,a){return y(bp(d,Z(b[2][1])),a)},d,c);return L(d,aG(aG(a[1][2][1],e),b))},a)},af=bb,ae=[0,[0,0,J[1]],0]}else{var
-H=ji(s,W,o);if(!H)return H;var
-af=p,ae=H[1]}var
-a2=bf(i);return n(function(b){var
+be=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=bv(function(b,a){return y(bt(d,X(b[2][1])),a)},d,c);return L(d,aH(aH(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,J[1]],0]}else{var
+H=jm(s,W,o);if(!H)return H;var
+ai=p,ah=H[1]}var
+a2=bj(i);return n(function(b){var
 c=e(function(c){function
-g(a){return aL(b,a[1])}var
-h=0,j=ao(z);function
+g(a){return aQ(b,a[1])}var
+h=0,j=ad(A);function
 d(h,g,b,c){if(b){var
-i=function(a){return aL(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+i=function(a){return aQ(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ae);return A5(af,b,aL(b,aW),c)},a2)}return ac}function
-eO(b,a){if(a){var
+i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return A_(ai,b,aQ(b,aX),c)},a2)}return af}function
+eW(b,a){if(a){var
 c=a[2];if(b){var
-e=eO(b[1],c);return[0,a[1],e]}var
+e=eW(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jk(m,k,q,S,p,i,$,z,b,R,Q){if(R){var
-r=je(m,k,i,b),h=R,g=Q;for(;;){if(h){var
+jo(m,l,q,S,p,i,$,z,b,R,Q){if(R){var
+r=ji(m,l,i,b),h=R,g=Q;for(;;){if(h){var
 K=h[1],a=K[2],w=K[1],M=h[2];if(typeof
 a==="number"&&4===a){var
-v=l(z,b);if(v)var
-_=v[1],W=bf(j(b)),x=n(function(b){return function(a){return Y(aL(a,b)[2],d)}}(_),W);else
+v=k(z,b);if(v)var
+_=v[1],W=bj(j(b)),x=n(function(b){return function(a){return Z(aQ(a,b)[2],d)}}(_),W);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
@@ -2019,9 +2079,9 @@ o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=l(z,b),T=0;if(s){var
+C=a[2],s=k(z,b),T=0;if(s){var
 D=L(d,C);if(D){var
-X=a[1],c=jh(m,k,q,S,p,i,r,b,[0,iU(C,a[3],s[1])],o,X);T=1}else
+X=a[1],c=jl(m,l,q,S,p,i,r,b,[0,i2(C,a[3],s[1])],o,X);T=1}else
 var
 E=D}else
 var
@@ -2030,132 +2090,135 @@ c=E;break;case
 10:var
 F=a[3],G=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-H=f[2],u=l(z,b),U=0;if(u){var
+H=f[2],u=k(z,b),U=0;if(u){var
 I=L(d,H);if(I){var
-Z=f[1],c=jj(m,k,q,p,i,r,b,[0,iU(H,f[3],u[1])],o,Z,G,F);B=1;U=1}else
+Y=f[1],c=jn(m,l,q,p,i,r,b,[0,i2(H,f[3],u[1])],o,Y,G,F);B=1;U=1}else
 var
 J=I}else
 var
 J=u;if(!U){var
 c=J;B=1}}if(!B)var
-c=jj(m,k,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
-c=jh(m,k,q,S,p,i,r,b,0,o,a);if(c){var
-h=M,g=eO(w,g);continue}var
+c=jn(m,l,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
+c=jl(m,l,q,S,p,i,r,b,0,o,a);if(c){var
+h=M,g=eW(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-eP(j,i,h,g,f,e,d,c,u,t,s){var
+eX(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jk(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(al,l[1]):l}var
-m=jk(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dL(a[2],b),q=eP(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jo(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(am,l[1]):l}var
+m=jo(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dT(a[2],b),q=eX(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-go(a){return e(function(a){return 1},a)}function
-bP(a){switch(a[0]){case
+gv(a){return e(function(a){return 1},a)}function
+bT(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dF(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dL(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,f6(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gb(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,cV(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c2(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ix(a,[0,d,c]))return 0;var
-b=a[1],e=bG(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,Z(a[2]),Z(b)];return[0,cV(g,f)]};break;default:return 0}var
-g=bP(e);if(g){var
-h=bP(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iE(a,[0,d,c]))return 0;var
+b=a[1],e=bK(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,X(a[2]),X(b)];return[0,c2(g,f)]};break;default:return 0}var
+g=bT(e);if(g){var
+h=bT(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 i(i,e,b){var
-f=bP(b);if(f){var
-g=f[1];return e?al(cU(g,[0,d,c])):cU([0,d,c],g)}var
-a=aS(i,b);if(a){var
-h=a[1];return e?Y(d,h[1]):L(d,h[1])}return a}function
-jl(c,b){var
-a=aS(c,b),d=a?1:a;return d}function
-a2(c,a,b){var
-d=bL(a,b),e=d?jl(c,a):d;return e?e:i(c,0,[3,b,a])}function
-eQ(a,d,b,c){function
+f=bT(b);if(f){var
+g=f[1];return e?am(c1(g,[0,d,c])):c1([0,d,c],g)}var
+a=aV(i,b);if(a){var
+h=a[1];return e?Z(d,h[1]):L(d,h[1])}return a}function
+jp(c,b){var
+a=aV(c,b),d=a?1:a;return d}function
+a6(c,a,b){var
+d=bP(a,b),e=d?jp(c,a):d;return e?e:i(c,0,[3,b,a])}function
+db(a,d,b,c){function
 f(d,c){var
-f=aH(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return C(o(d,a[1]),b)},f)}if(aQ(a[2],b[2])){var
+f=aJ(a[1],b[1]);return e(function(a){var
+b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aK(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jm(a){var
-b=k(c);return[0,e(function(a){return k(d)},a),b]}function
-a3(a,i){var
-f=i[1];switch(f[0]){case
+jq(a){var
+b=l(c);return[0,e(function(a){return l(d)},a),b]}function
+aL(a,k){var
+f=k[1];switch(f[0]){case
 1:var
-j=f[1];if(au(function(a){return v(j,a)},a)){var
-t=k(c);return[0,e(function(a){var
-b=v(a,j)?c:d;return k(b)},a),t]}return jm(a);case
+u=f[1];if(av(function(a){return v(u,a)},a)){var
+C=l(c);return[0,e(function(a){var
+b=v(a,u)?c:d;return l(b)},a),C]}return jq(a);case
 3:var
-u=k(c),w=a3(a,f[2]),x=k(c);return eQ(a3(a,f[1]),x,w,u);case
+D=l(c),E=aL(a,f[2]),F=l(c);return db(aL(a,f[1]),F,E,D);case
 4:var
-y=k(Z(c)),z=a3(a,f[2]),A=k(c);return eQ(a3(a,f[1]),A,z,y);case
+G=l(X(c)),H=aL(a,f[2]),I=l(c);return db(aL(a,f[1]),I,H,G);case
 5:var
-l=a3(a,f[1]),B=l[2];return[0,e(bs,l[1]),B];case
+w=aL(a,f[1]),J=w[2];return[0,e(bf,w[1]),J];case
 6:var
-m=f[2],p=f[1],C=a3(a,m);return eQ(a3(a,p),m,C,p);case
+x=f[2],y=f[1],K=aL(a,x);return db(aL(a,y),x,K,y);case
 7:var
-q=f[2],D=bs(i),E=a3(a,q),F=k(c),g=eQ(a3(a,f[1]),F,E,D),G=g[1];if(n(function(a){return aR(d,a)},G))return g;var
-H=o(g[2],q);return[0,g[1],H];case
+z=f[2],L=bf(k),M=aL(a,z),N=l(c),i=db(aL(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aP(d,a)},O))return i;var
+P=o(i[2],z);return[0,i[1],P];case
 8:var
-r=f[1],s=a3(a,r),I=s[2],J=s[1],K=o(k(b(2,c)),r);return[0,e(function(a){return o(K,a)},J),I];case
+A=f[1],B=aL(a,A),Q=B[2],R=B[1],S=o(l(b(2,c)),A);return[0,e(function(a){return o(S,a)},R),Q];case
 9:var
-h=a3(a,f[1]),L=h[1];if(n(function(a){return aR(d,a)},L)){var
-M=k(c);return[0,h[1],M]}var
-N=o(k(b(2,c)),i),O=o(h[2],N);return[0,h[1],O];default:return jm(a)}}function
-bQ(n,r){var
+j=aL(a,f[1]),T=j[1];if(n(function(a){return aP(d,a)},T)){var
+U=l(c);return[0,j[1],U]}var
+V=o(l(b(2,c)),k),W=o(j[2],V);return[0,j[1],W];case
+10:var
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aL(a,g),_=s(h,p),$=db(aL(a,h),_,Z,Y),aa=l(X(c)),ab=aL(a,m),r=db($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?p:bf(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aP(d,a)},t))return[0,t,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(b(2,c)),af);return[0,t,o(r[2],ag)];default:return jq(a)}}function
+bU(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(L(i,c))if(0===e[0]){var
 j=e[2],o=e[1];if(L(j,c)){var
-l=ab(b,o),m=l?dJ(b):l;if(m)var
-p=ab(n[2],d),g=p||ab(b,d);else
+k=ac(b,o),m=k?dP(b):k;if(m)var
+p=ac(n[2],d),g=p||ac(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=ab(bo(j,aZ(2))[2],d)?0:0}else
+a=ac(bs(j,a2(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ab(bo(i,aZ(2))[2],d)?0:0}else
+a=ac(bs(i,a2(2))[2],d)?0:0}else
 var
-a=0;return a?k(a[1]):[0,[1,r]]}function
-b9(b,a){if(a)var
-d=b9([0,b],a[2]),c=[0,bQ(a[1],b),d];else
+a=0;return a?l(a[1]):[0,[1,r]]}function
+cf(b,a){if(a)var
+d=cf([0,b],a[2]),c=[0,bU(a[1],b),d];else
 var
 c=a;return c}function
-aC(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-eR(b,d,a){switch(a[0]){case
+aD(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+eY(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aC(c[3],b),g),i=f(aC(c[2],b),h);return f(aC(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aD(c[3],b),g),i=f(aD(c[2],b),h);return f(aD(c[1],d),i);case
 1:var
-e=a[3],j=e?aC(e[1],d):e,k=f(aC(a[2],b),j);return f(aC(a[1],b),k);default:return aC(a[1],d)}}function
-af(b,a){var
-c=k(d),e=t(P(oO,a),b,c),f=k(d),g=t(P(oP,a),b,f);return[0,t(a,b,k(d)),g,e]}function
-jn(b,a){return aq(s,aq(C,b8,a),b)}function
-eS(c,b,a){if(a){var
-e=a[2],g=eS(c,dD(b),e),h=a[1];return f(eR(c,cS(d,b),h),g)}return a}function
-gp(f,e,c,i){if(c){var
-b=c[1],v=P(i,j(eR(f,cS(d,e),b))),w=c[2],x=gp(f,dD(e),w,v),a=b9(i,eR(f,cS(d,e),b));switch(b[0]){case
+e=a[3],j=e?aD(e[1],d):e,k=f(aD(a[2],b),j);return f(aD(a[1],b),k);default:return aD(a[1],d)}}function
+ah(b,a){var
+c=l(d),e=t(P(oS,a),b,c),f=l(d),g=t(P(oT,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+jr(b,a){return ar(s,ar(F,cd,a),b)}function
+eZ(c,b,a){if(a){var
+e=a[2],g=eZ(c,dJ(b),e),h=a[1];return f(eY(c,cZ(d,b),h),g)}return a}function
+gw(f,e,c,i){if(c){var
+b=c[1],v=P(i,j(eY(f,cZ(d,e),b))),w=c[2],x=gw(f,dJ(e),w,v),a=cf(i,eY(f,cZ(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(oQ,a,k(d)),o=aq(C,b8,af(a,oR)),p=cs(af(a,0)),q=af(a,oS),g=iX(jn(af(a,oT),q),p,o,n,m);break;case
+m=b[1][5],n=t(oU,a,l(d)),o=ar(F,cd,ah(a,oV)),p=cz(ah(a,0)),q=ah(a,oW),g=i4(jr(ah(a,oX),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cs(af(a,oU))]:h,s=aq(C,b8,af(a,oV)),u=af(a,oW),g=iY(jn(af(a,0),u),s,r);break;default:var
-g=iZ(b8,cs(af(a,0)))}var
-l=[0,g,x]}else
+h=b[3],r=h?[0,cz(ah(a,oY))]:h,s=ar(F,cd,ah(a,oZ)),u=ah(a,o0),g=i5(jr(ah(a,0),u),s,r);break;default:var
+g=i6(cd,cz(ah(a,0)))}var
+k=[0,g,x]}else
 var
-l=c;return l}function
-bg(b,a){if(typeof
+k=c;return k}function
+bk(b,a){if(typeof
 a==="number"){var
 e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2166,7 +2229,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eC(a[2]),l=[2,[2,eC(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=eK(a[2]),l=[2,[2,eK(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2181,60 +2244,60 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-dO(b,a){var
+dW(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eT(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(dO(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=dO(b,a[3]);return f(dO(b,a[2]),j)}function
-c8(b,a){if(typeof
+e0(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(dW(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=dW(b,a[3]);return f(dW(b,a[2]),j)}function
+dc(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=eT(b,a[2]);return f(eT(b,a[1]),e);case
+e=e0(b,a[2]);return f(e0(b,a[1]),e);case
 11:var
-g=dO(b,a[3]);return f(dO(b,a[2]),g);case
+g=dW(b,a[3]);return f(dW(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jo(c,b,a){var
-d=j(c8(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-jp(l,a,g){switch(g[0]){case
+js(c,b,a){var
+d=j(dc(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+jt(k,a,g){switch(g[0]){case
 0:var
-e=V(l,g[1]);if(e){var
+e=V(k,g[1]);if(e){var
 b=e[1],f=b[7];if(f)var
 m=f[1],h=function(c){var
-d=af(a,oX);return aq(C,aq(s,m,bM(c,b[1])),d)},n=c4(b),o=h(ac(t(oY,a,k(d)),n)),p=c4(b),q=ac(t(0,a,k(d)),p),i=[0,[0,h(s(k(c),q)),o]];else
+d=ah(a,o1);return ar(F,ar(s,m,bQ(c,b[1])),d)},n=c8(b),o=h(aj(t(o2,a,l(d)),n)),p=c8(b),q=aj(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=af(a,oZ);return[0,[0,af(a,0),r]];default:var
-u=aq(C,b8,af(a,o0));return[0,[0,aq(C,b8,af(a,0)),u]]}}function
-jq(g,e,j,d,c){var
-k=eT(e,c),h=b9(j,f(eT(e,d),k)),a=jp(g,dE(o1,h),d);if(a)var
-b=jp(g,f5(o2,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=ah(a,o3);return[0,[0,ah(a,0),r]];default:var
+u=ar(F,cd,ah(a,o4));return[0,[0,ar(F,cd,ah(a,0)),u]]}}function
+ju(g,e,j,d,c){var
+k=e0(e,c),h=cf(j,f(e0(e,d),k)),a=jt(g,dK(o5,h),d);if(a)var
+b=jt(g,ga(o6,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-ct(d,c,b,a){var
+cA(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bv(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-jr(a){if(a){var
+bz(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+jv(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jr(a[2]);if(d)var
-g=d[1],h=$(c,c),e=[0,[0,[0,cq(c),h],g]];else
+c=b[1],d=jv(a[2]);if(d)var
+g=d[1],h=aa(c,c),e=[0,[0,[0,cx(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return o4}function
-eU(b,d,c,a){if(typeof
+f=b;return f}return o8}function
+e1(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=bQ(bg(d,a),f);return[0,e(function(a){var
-b=o(a[2],g);return[0,cq(a[1]),b]},b)];case
-9:return jr(b)}return 0}function
-eV(e,l,j,a){var
-W=j[1],b=bQ(bg(l,a),W),y=0;if(typeof
+f=c[1],g=bU(bk(d,a),f);return[0,e(function(a){var
+b=o(a[2],g);return[0,cx(a[1]),b]},b)];case
+9:return jv(b)}return 0}function
+e2(e,k,j,a){var
+W=j[1],b=bU(bk(k,a),W),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
@@ -2253,10 +2316,10 @@ d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-A=n[1],D=m[1],E=e[1],q=E[5];if(q){var
-r=D[5];if(r){var
+A=n[1],C=m[1],D=e[1],q=D[5];if(q){var
+r=C[5];if(r){var
 u=A[5];if(u)var
-h=A[1],i=D[1],v=E[1],Q=ct(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=ct(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=ct(i[2],i[3],h[2],h[3]),z=C(s(o(v[1],U),T),R),aa=u[1],ab=r[1],F=o(o(o(b,q[1]),ab),aa),ad=[0,bs(C(z,F)),0],G=[0,s(z,F),ad];else
+h=A[1],i=C[1],v=D[1],Q=cA(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cA(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cA(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=u[1],ab=r[1],E=o(o(o(b,q[1]),ab),$),ac=[0,bf(F(z,E)),0],G=[0,s(z,E),ac];else
 var
 G=u;var
 H=G}else
@@ -2275,49 +2338,49 @@ M=L}else
 var
 M=e;return M;case
 10:var
-x=jq(e,l,j[2],a[1],a[2]);if(x){var
-N=x[1],O=N[2],P=N[1];return B(cq,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
+x=ju(e,k,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return B(cx,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
-ae=function(d){var
+ad=function(d){var
 e=d[7];if(e)var
-n=c8(l,a),f=b9(j[2],n),h=af(f,o3),c=aq(s,af(f,0),h),i=I(b),k=I(c4(d)),m=ac(I($(c,d[1])),k),g=[0,s(s($(c,c),m),i),0];else
+n=dc(k,a),f=cf(j[2],n),h=ah(f,o7),c=ar(s,ah(f,0),h),i=I(b),l=I(c8(d)),m=aj(I(aa(c,d[1])),l),g=[0,s(s(aa(c,c),m),i),0];else
 var
-g=e;return g},g=ae,f=a[1];break;case
+g=e;return g},g=ad,f=a[1];break;case
 12:var
-ag=function(e){var
-q=k(d),r=c8(l,a),u=t(0,b9(j[2],r),q),f=ac(u,c4(e)),g=e[5];if(g){var
-m=aB(e[2]),h=ac(g[1],m),n=o(h,C(b,o(f,I(h))));return[0,s(k(c),n),0]}var
-i=e[7],p=i?[0,s(s(k(c),b),f),0]:i;return p},g=ag,f=a[1];break;case
+ae=function(e){var
+q=l(d),r=dc(k,a),u=t(0,cf(j[2],r),q),f=aj(u,c8(e)),g=e[5];if(g){var
+m=aC(e[2]),h=aj(g[1],m),n=o(h,F(b,o(f,I(h))));return[0,s(l(c),n),0]}var
+i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=ae,f=a[1];break;case
 8:case
 9:var
-w=eU(e,l,j,a);return w?bv(w[1]):w;default:y=1}if(y)return 0;var
+w=e1(e,k,j,a);return w?bz(w[1]):w;default:y=1}if(y)return 0;var
 p=V(e,f);return p?g(p[1]):p}function
-gq(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gq(d,b,jo(b,e,c),g);return f(eV(d,b,c,e),h)}return a}var
-js=[0,d,c],jt=[0,[0,js,js],d];function
-gr(a){return al(bL(a[1][1],a[1][2]))}function
-ju(a){var
-b=aO(0,j(a));return cl(function(b){return gr(t(b,a,jt))},b)}function
-jv(a,g){var
-h=g[4],b=a3(ju(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ac(a,b[2])},c),i=aH(ju(a),f);return cl(function(a){return al(aR(d,a[2]))},i)}function
-jw(f,H,k,G,m,g,n,r){if(r){var
-a=r[1],aB=r[2],aC=jw(f,H,k,G,m,g,jo(g,a,n),aB);if(typeof
+gx(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gx(d,b,js(b,e,c),g);return f(e2(d,b,c,e),h)}return a}var
+jw=[0,d,c],jx=[0,[0,jw,jw],d];function
+gy(a){return am(bP(a[1][1],a[1][2]))}function
+jy(a){var
+b=aT(0,j(a));return cr(function(b){return gy(t(b,a,jx))},b)}function
+jz(a,g){var
+h=g[4],b=aL(jy(a),h),c=b[1],f=e(function(a){return aP(d,a)?a:aj(a,b[2])},c),i=aJ(jy(a),f);return cr(function(a){return am(aP(d,a[2]))},i)}function
+jA(f,H,l,G,m,g,n,r){if(r){var
+a=r[1],aB=r[2],aC=jA(f,H,l,G,m,g,js(g,a,n),aB);if(typeof
 a==="number")var
-h=0===a?[0,[0,z]]:[0,[8,H[1],H[2]]];else
+h=0===a?[0,[0,A]]:[0,[8,H[1],H[2]]];else
 switch(a[0]){case
 0:var
-ao=ad(f,bg(g,a)),h=A(function(a){return[0,T(f,a)]},ao);break;case
+ao=af(f,bk(g,a)),h=z(function(a){return[0,T(f,a)]},ao);break;case
 1:var
-ap=ad(f,bg(g,a)),h=A(function(a){return[1,T(f,a)]},ap);break;case
+ap=af(f,bk(g,a)),h=z(function(a){return[1,T(f,a)]},ap);break;case
 5:var
-ar=ad(f,bg(g,a)),h=A(function(a){return[2,T(f,a)]},ar);break;case
+ar=af(f,bk(g,a)),h=z(function(a){return[2,T(f,a)]},ar);break;case
 8:var
-as=eU(m,g,n,a),h=A(function(a){var
-b=ai(f,c);return[4,l(az(k),a),b]},as);break;case
+as=e1(m,g,n,a),h=z(function(a){var
+b=$(f,c);return[4,k(aA(l),a),b]},as);break;case
 9:var
-w=eU(m,g,n,a);if(w){var
-x=ad(f,bg(g,a));if(x)var
-at=T(f,x[1]),au=w[1],N=[0,[4,l(az(k),au),at]];else
+w=e1(m,g,n,a);if(w){var
+x=af(f,bk(g,a));if(x)var
+at=T(f,x[1]),au=w[1],N=[0,[4,k(aA(l),au),at]];else
 var
 N=x;var
 O=N}else
@@ -2325,11 +2388,11 @@ var
 O=w;var
 h=O;break;case
 10:var
-y=jq(m,g,n[2],a[1],a[2]);if(y){var
-P=y[1],Q=P[2],R=P[1],B=ad(f,bg(g,a));if(B){var
+y=ju(m,g,n[2],a[1],a[2]);if(y){var
+P=y[1],Q=P[2],R=P[1],B=af(f,bk(g,a));if(B){var
 S=B[1],U=L(d,S[1]);if(U)var
 p=function(a){var
-b=l(k,a[3]),c=l(k,a[2]);return[0,l(k,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),W=[0,[6,p(R[1]),ax,aw,av,S]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),W=[0,[6,p(R[1]),ax,aw,av,S]];else
 var
 W=U;var
 X=W}else
@@ -2340,63 +2403,63 @@ var
 Y=y;var
 h=Y;break;case
 12:var
-q=eV(m,g,n,a),s=0;if(q)if(q[2])var
+q=e2(m,g,n,a),s=0;if(q)if(q[2])var
 h=0;else{var
 Z=i(f,0,a[2]),_=Z?i(f,1,a[4]):Z;if(_){var
-C=[0,[3,l(k,q[1])]];s=1}else{var
+C=[0,[3,k(l,q[1])]];s=1}else{var
 C=_;s=1}}else{var
 C=q;s=1}if(s)var
 h=C;break;case
 13:var
-$=a[1],aa=V(m,$),I=0;if(aa){var
-ab=i(f,1,a[2]),ac=ab?i(f,1,a[3]):ab;if(ac)var
-ay=ad(f,bg(g,a)),h=A(function(a){return[7,$,T(f,a)]},ay);else{var
-af=ac;I=1}}else{var
-af=aa;I=1}if(I)var
-h=af;break;case
+aa=a[1],ab=V(m,aa),I=0;if(ab){var
+ac=i(f,1,a[2]),ad=ac?i(f,1,a[3]):ac;if(ad)var
+ay=af(f,bk(g,a)),h=z(function(a){return[7,aa,T(f,a)]},ay);else{var
+ae=ad;I=1}}else{var
+ae=ab;I=1}if(I)var
+h=ae;break;case
 14:var
-D=a[2],ag=a[1],ah=v(j(m),o5),aj=ah?i(f,0,ag):ah,ak=aj?i(f,1,D):aj;if(ak){var
-E=ad(f,bg(g,a));if(E)var
-F=ae(e(function(n){var
-i=[5,ag,D],a=ad(f,[0,[0,i,i],d]);if(a){var
-o=jv(G,n),h=ae(e(function(e){var
-a=t(e[1],G,jt),h=aG(a[2],g),i=[4,[0,b(2,c),c],D],d=[5,[3,a[1][2],a[1][1]],i],j=ad(f,[0,[0,d,d],h]);return A(function(a){return[0,a,l(k,e[2])]},j)},o));if(h)var
-p=[0,a[1],h[1]],j=[0,[0,l(k,n[4]),p]];else
+D=a[2],ah=a[1],ai=v(j(m),o9),aj=ai?i(f,0,ah):ai,ak=aj?i(f,1,D):aj;if(ak){var
+E=af(f,bk(g,a));if(E)var
+F=ag(e(function(n){var
+i=[5,ah,D],a=af(f,[0,[0,i,i],d]);if(a){var
+o=jz(G,n),h=ag(e(function(e){var
+a=t(e[1],G,jx),h=aH(a[2],g),i=[4,[0,b(2,c),c],D],d=[5,[3,a[1][2],a[1][1]],i],j=af(f,[0,[0,d,d],h]);return z(function(a){return[0,a,k(l,e[2])]},j)},o));if(h)var
+p=[0,a[1],h[1]],j=[0,[0,k(l,n[4]),p]];else
 var
 j=h;var
 m=j}else
 var
-m=a;return m},m)),aA=F?[0,[9,E[1],F[1]]]:F,al=aA;else
+m=a;return m},m)),az=F?[0,[9,E[1],F[1]]]:F,al=az;else
 var
 al=E;var
 am=al}else
 var
 am=ak;var
 h=am;break;default:var
-o=eV(m,g,n,a),J=0;if(o){var
+o=e2(m,g,n,a),J=0;if(o){var
 u=o[2],K=o[1];if(u)if(u[2])var
 h=0;else
 var
-aq=l(k,u[1]),h=[0,[5,l(k,K),aq]];else{var
-M=[0,[3,l(k,K)]];J=1}}else{var
+aq=k(l,u[1]),h=[0,[5,k(l,K),aq]];else{var
+M=[0,[3,k(l,K)]];J=1}}else{var
 M=o;J=1}if(J)var
 h=M}var
 an=[0,h,aC]}else
 var
 an=r;return an}function
-o6(a){var
+o_(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eW(a){if(0===a[0])return a[1];var
+e3(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-jx(a,c,g,b){if(0===c[0])return 0;if(b){var
+jB(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=b6(a,g,c[1]);if(i){var
-j=b6(a,g,c[2]);if(j){var
-k=b6(a,g,c[3]);if(k)var
-t=i[1],u=bu(f),l=K([0,bu(f),u],t),v=j[1],x=bu(e),m=K([0,bu(e),x],v),y=c5(e),A=[0,c5(e),y],B=[0,w(a,ah(F(m,m)),A),0],C=c5(f),D=[0,c5(f),C],E=[0,w(a,ah(F(l,l)),D),B],G=T(a,m),H=T(a,l),n=[0,[0,K(K(T(a,k[1]),H),G),z,E]];else
+e=d[1],f=b[1],i=cb(a,g,c[1]);if(i){var
+j=cb(a,g,c[2]);if(j){var
+k=cb(a,g,c[3]);if(k)var
+t=i[1],u=by(f),l=K([0,by(f),u],t),v=j[1],x=by(e),m=K([0,by(e),x],v),y=c9(e),z=[0,c9(e),y],B=[0,w(a,ae(C(m,m)),z),0],D=c9(f),E=[0,c9(f),D],F=[0,w(a,ae(C(l,l)),E),B],G=T(a,m),H=T(a,l),n=[0,[0,K(K(T(a,k[1]),H),G),A,F]];else
 var
 n=k;var
 o=n}else
@@ -2414,14 +2477,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gs(a,p,o){var
-q=aC(p,o),b=e(function(b){return ad(a,b)},q);if(b){var
+gz(a,p,o){var
+q=aD(p,o),b=e(function(b){return af(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=T(a,i[1]),s=T(a,h[1]);return Y(d,F(F(T(a,g[1]),s),r)[1])}var
+r=T(a,i[1]),s=T(a,h[1]);return Z(d,C(C(T(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2438,133 +2501,133 @@ n=m}else
 var
 n=b;return n}function
 _(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 M(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return ap([5,[0,c,c],[6,M(a,a)]],a)}function
-cu(c,b,a){var
-d=a2(c,b[1],a);return d?a2(c,a,b[2]):d}function
-aM(c,b,a){var
-d=cu(c,b[1],a[1]),e=d?cu(c,b[2],a[2]):d;return e?cu(c,b[3],a[3]):e}function
-jy(b,c,a){switch(c[0]){case
+aw(a){return ap([5,[0,c,c],[6,M(a,a)]],a)}function
+cB(c,b,a){var
+d=a6(c,b[1],a);return d?a6(c,a,b[2]):d}function
+aR(c,b,a){var
+d=cB(c,b[1],a[1]),e=d?cB(c,b[2],a[2]):d;return e?cB(c,b[3],a[3]):e}function
+jC(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aM(b,d[1],f),l=k?i(b,1,M(f,f)):k,m=l?aM(b,d[2],a[2]):l,n=m?aM(b,d[3],a[3]):m,o=n?cu(b,d[4],j):n,p=o?i(b,1,j):o;return p?cj(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aR(b,d[1],f),l=k?i(b,1,M(f,f)):k,m=l?aR(b,d[2],a[2]):l,n=m?aR(b,d[3],a[3]):m,o=n?cB(b,d[4],j):n,p=o?i(b,1,j):o;return p?b7(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=aM(b,c[1],a[1]),s=r?aM(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=aM(b,q[1],g);if(t)return i(b,1,M(g,g));var
+e=a[3],r=aR(b,c[1],a[1]),s=r?aR(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=aR(b,q[1],g);if(t)return i(b,1,M(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=aM(b,c[1],h);return w?i(b,1,M(h,h)):w}return 0}}function
-gt(c,a,b){if(0===a[0])return aM(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cu(c,a[4],b[3]):h}function
-jz(g,f,i,h){var
+h=a[1],w=aR(b,c[1],h);return w?i(b,1,M(h,h)):w}return 0}}function
+gA(c,a,b){if(0===a[0])return aR(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cB(c,a[4],b[3]):h}function
+jD(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=jy(g,b[1],a[1]);if(d){var
+d=jC(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?gt(g,f[2],h):c}}function
-bw(c,b,a){var
+c=a?0:1;return c?gA(g,f[2],h):c}}function
+bA(c,b,a){var
 d=_(function(b,a){return[2,b,a]},a,b);return _(function(b,a){return[3,b,a]},d,c)}function
-dP(a,e,d,c){var
-b=bw(e,d,c),f=av(a),g=ap(M(av(a),b),f);return _(function(b,a){return[3,b,a]},b,g)}function
-cv(f,e,d,a,c){var
-b=dP(f,e,d,c);return[3,[4,a,a],M(b,b)]}function
-cw(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cx(a,b){switch(a[0]){case
+dX(a,e,d,c){var
+b=bA(e,d,c),f=aw(a),g=ap(M(aw(a),b),f);return _(function(b,a){return[3,b,a]},b,g)}function
+cC(f,e,d,a,c){var
+b=dX(f,e,d,c);return[3,[4,a,a],M(b,b)]}function
+cD(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cE(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=dP(d,f,e,b),h=cv(d,f,e,a[4],b),i=ap([5,[0,c,c],cw(a[5],h)],g),j=av(d);return _(function(b,a){return[2,b,a]},j,i);case
-1:return av(bw(a[1],a[2],b));default:return av(a[1])}}function
-gu(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=dX(d,f,e,b),h=cC(d,f,e,a[4],b),i=ap([5,[0,c,c],cD(a[5],h)],g),j=aw(d);return _(function(b,a){return[2,b,a]},j,i);case
+1:return aw(bA(a[1],a[2],b));default:return aw(a[1])}}function
+gB(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cv(e,d,c,a[4],b),i=cw(a[5],h),j=bw(d,c,b);return[3,M(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cC(e,d,c,a[4],b),i=cD(a[5],h),j=bA(d,c,b);return[3,M(aw(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bw(g,f,b);return[6,M(bw(g,f,b),k)];default:return M(av(a[1]),b)}}function
-jA(a,b){switch(a[0]){case
-0:return[0,cv(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=bA(g,f,b);return[6,M(bA(g,f,b),k)];default:return M(aw(a[1]),b)}}function
+jE(a,b){switch(a[0]){case
+0:return[0,cC(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bw(d,c,b);return[0,M(bw(d,c,b),e)];default:return 0}}function
-dQ(e,b,a){var
-f=[0,d,c];return br(function(c,d){var
-e=M(cx(c,b),a);return[2,[4,M(cx(c,b),a),e],d]},f,e)}function
-jB(a){var
+c=a[2],d=a[1],e=bA(d,c,b);return[0,M(bA(d,c,b),e)];default:return 0}}function
+dY(e,b,a){var
+f=[0,d,c];return bv(function(c,d){var
+e=M(cE(c,b),a);return[2,[4,M(cE(c,b),a),e],d]},f,e)}function
+jF(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gv(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=av(b),h=cv(b,f,e,d,c),i=ap(cw(a[5],h),g),j=dP(b,f,e,c);return[0,[0,_(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-jC(d,i){if(d){var
+gC(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aw(b),h=cC(b,f,e,d,c),i=ap(cD(a[5],h),g),j=dX(b,f,e,c);return[0,[0,_(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
+jG(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bw(a[1],a[2],i),k=av(f),l=ap(M(av(f),g),k),h=[0,_(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bA(a[1],a[2],i),k=aw(f),l=ap(M(aw(f),g),k),h=[0,_(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jG(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return o7}function
-cy(a){return[0,a[1],a[2],a[3]]}function
-jD(a,b){switch(a[0]){case
+j=b;return j}return o$}function
+cF(a){return[0,a[1],a[2],a[3]]}function
+jH(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cv(d,g,c,f,b),k=ap(cw(a[5],j),i),l=dP(d,g,c,b),m=_(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,_(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aw(d),j=cC(d,g,c,f,b),k=ap(cD(a[5],j),i),l=dX(d,g,c,b),m=_(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,_(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bw(a[1],h,b),n=[6,M(e,e)];return[0,[0,[0,_(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-jE(l,b,a){switch(a[0]){case
+h=a[2],e=bA(a[1],h,b),n=[6,M(e,e)];return[0,[0,[0,_(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+jI(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=V(l,a[1]);if(d){var
-e=jD(d[1],b);if(e)var
+e=jH(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cy(m),c=ap(a,n),d=_(function(b,a){return[3,b,a]},o,c);return _(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cF(m),c=ap(a,n),d=_(function(b,a){return[3,b,a]},o,c);return _(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cy(a[3]);return[0,[0,cy(a[2]),q]];default:var
-r=cy(a[3]),s=_(function(b,a){return[2,b,a]},b,r),t=cy(a[2]);return[0,[0,_(function(b,a){return[2,b,a]},b,t),s]]}}function
-jF(d,a,c,b){var
+q=cF(a[3]);return[0,[0,cF(a[2]),q]];default:var
+r=cF(a[3]),s=_(function(b,a){return[2,b,a]},b,r),t=cF(a[2]);return[0,[0,_(function(b,a){return[2,b,a]},b,t),s]]}}function
+jJ(d,a,c,b){var
 e=ap(a,b),f=ap([3,d,a],c);return _(function(b,a){return[2,b,a]},f,e)}function
-jG(f,g,e,b,q,a){function
+jK(f,g,e,b,q,a){function
 I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],M(b,b)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-aw=dQ(g,e,b);return i(f,1,[3,I(a[1]),aw]);case
+av=dY(g,e,b);return i(f,1,[3,I(a[1]),av]);case
 1:var
-ax=I(a[1]);return i(f,1,[3,dQ(g,e,b),ax]);case
+ax=I(a[1]);return i(f,1,[3,dY(g,e,b),ax]);case
 2:var
-ay=a[2],az=function(a){return[3,ay,gu(a,e)]},s=az,r=a[1];break;case
+ay=a[2],az=function(a){return[3,ay,gB(a,e)]},s=az,r=a[1];break;case
 3:var
-aA=a[2],aB=function(a){return[3,gu(a,e),aA]},s=aB,r=a[1];break;case
+aA=a[2],aB=function(a){return[3,gB(a,e),aA]},s=aB,r=a[1];break;case
 4:var
 J=a[3],K=a[2],aC=function(a){var
-b=cx(a,e);return[3,[4,[4,K,K],M(cx(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
+b=cE(a,e);return[3,[4,[4,K,K],M(cE(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aD=M(b,b),aE=[4,[4,L,L],[4,dQ(g,e,q),aD]],aF=M(q,q);return i(f,1,[3,[4,dQ(g,e,b),aF],aE]);case
+L=a[1],aD=M(b,b),aE=[4,[4,L,L],[4,dY(g,e,q),aD]],aF=M(q,q);return i(f,1,[3,[4,dY(g,e,b),aF],aE]);case
 6:var
 N=a[2],u=V(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aG=cv(h[1],h[2],h[3],v,e),O=cw(h[5],aG);return i(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
+v=h[4],aG=cC(h[1],h[2],h[3],v,e),O=cD(h[5],aG);return i(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gv(g[1],e);if(w){var
-Q=w[1],x=gv(n[1],e);if(x){var
-R=x[1],y=gv(o[1],e);if(y){var
+w=gC(g[1],e);if(w){var
+Q=w[1],x=gC(n[1],e);if(x){var
+R=x[1],y=gC(o[1],e);if(y){var
 S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=M(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=i(f,1,[3,T,H]);if(U)return i(f,1,[2,T,H]);var
 W=U}else
 var
@@ -2585,15 +2648,15 @@ aa=$}else
 var
 aa=g;return aa;case
 8:var
-aH=dQ(g,e,b),aI=M(b,b);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
+aH=dY(g,e,b),aI=M(b,b);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-ab=a[1],z=jC(g,e);if(z){var
-aJ=z[1],at=[0,d,c],au=br(function(a,c){var
-d=M(av(a),b);return[2,[4,M(av(a),b),d],c]},at,aJ);return i(f,1,[3,[4,[4,ab,ab],M(b,b)],au])}return z;case
+ab=a[1],z=jG(g,e);if(z){var
+aJ=z[1],at=[0,d,c],au=bv(function(a,c){var
+d=M(aw(a),b);return[2,[4,M(aw(a),b),d],c]},at,aJ);return i(f,1,[3,[4,[4,ab,ab],M(b,b)],au])}return z;case
 10:var
-ac=a[2],ad=a[1],A=jE(g,e,ad);if(A){var
-ae=A[1],B=jE(g,e,ac);if(B){var
-af=B[1],C=b[1],D=b[2],l=b[3],aK=jF(l,D,af[1],af[2]),aL=jF(l,C,ae[1],ae[2]),ag=_(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eC(ac),ah=[4,l,[2,[2,eC(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],M(ag,ag)]);var
+ac=a[2],ad=a[1],A=jI(g,e,ad);if(A){var
+ae=A[1],B=jI(g,e,ac);if(B){var
+af=B[1],C=b[1],D=b[2],l=b[3],aK=jJ(l,D,af[1],af[2]),aL=jJ(l,C,ae[1],ae[2]),ag=_(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eK(ac),ah=[4,l,[2,[2,eK(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],M(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -2602,8 +2665,8 @@ var
 ao=A;return ao;case
 11:var
 ap=a[4],E=V(g,a[1]);if(E){var
-F=jD(E[1],e);if(F){var
-m=F[1][1][2],aO=cy(a[3]),aP=cy(a[2]),p=_(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,M(m,m));if(aq){var
+F=jH(E[1],e);if(F){var
+m=F[1][1][2],aO=cF(a[3]),aP=cF(a[2]),p=_(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,M(m,m));if(aq){var
 aQ=M(m,m),aR=M(p,m),aS=[5,[4,M(p,m),aR],aQ];return i(f,1,[3,[4,ap,ap],[3,M(p,p),aS]])}var
 ar=aq}else
 var
@@ -2612,25 +2675,25 @@ as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
 t=V(g,r);return t?i(f,1,s(t[1])):t}function
-a6(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-jH(a){switch(a[0]){case
+a9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+jL(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=a6(b[3]),f=a6(b[2]);return[0,a6(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=a9(b[3]),f=a9(b[2]);return[0,a9(b[1]),f,e,d,c];case
 1:var
-g=A(a6,a[3]),h=a6(a[2]);return[1,a6(a[1]),h,g];default:return[2,a6(a[1])]}}function
-jI(a){return 0===a[0]?a6(a[1]):[0,a[1],a[2],a[4][1]]}function
-jJ(b,a){var
-c=jI(a[2]);return jz(b,a,e(jH,a[1]),c)}function
-bR(b,a){if(b){if(a){var
-e=bR(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jK(a){if(a){var
+g=z(a9,a[3]),h=a9(a[2]);return[1,a9(a[1]),h,g];default:return[2,a9(a[1])]}}function
+jM(a){return 0===a[0]?a9(a[1]):[0,a[1],a[2],a[4][1]]}function
+jN(b,a){var
+c=jM(a[2]);return jD(b,a,e(jL,a[1]),c)}function
+bV(b,a){if(b){if(a){var
+e=bV(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+jO(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=jK(a[2]);return A(function(a){return[0,c,a]},d)}return b}return o8}function
-jL(a,l,k,f){var
-b=aS(a,l);if(b){var
-c=aS(a,k);if(c){var
-d=c2(a,f);if(d){var
-e=eB(a,f);if(e)var
+c=b[1],d=jO(a[2]);return z(function(a){return[0,c,a]},d)}return b}return pa}function
+jP(a,l,k,f){var
+b=aV(a,l);if(b){var
+c=aV(a,k);if(c){var
+d=c6(a,f);if(d){var
+e=eJ(a,f);if(e)var
 m=w(a,b[1],e[1]),g=[0,K(w(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2643,13 +2706,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-eX(a){return a?Y(d,a[1][1]):a}function
-jM(a,ab,m,aD,g,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bR(a,a)]}var
+e4(a){return a?Z(d,a[1][1]):a}function
+jQ(a,ab,m,aD,g,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bV(a,a)]}var
 aE=m[1];function
 o(b){var
-a=[0,d,c];return br(function(a,c){var
-d=bR(a,b);return[2,[4,bR(a,b),d],c]},a,aE)}var
+a=[0,d,c];return bv(function(a,c){var
+d=bV(a,b);return[2,[4,bV(a,b),d],c]},a,aE)}var
 ad=n(function(a){return v(j(a),ab)},g);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
@@ -2668,25 +2731,25 @@ b!=="number"&&0===b[0])return i(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;cas
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 g=e[2],h=e[1],j=i(a,0,[3,[2,ai,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=jL(a,h,g,ai);return f?Y(f[1][2],d):f}return eX(jL(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
+f=jP(a,h,g,ai);return f?Z(f[1][2],d):f}return e4(jP(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(g){var
 q=g[2];if(q){if(q[2])return 0;var
-J=q[1],L=g[1],aj=f[1],aM=bR(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bR(J,J);return i(a,1,[3,[4,o(L),aO],aN])}var
+J=q[1],L=g[1],aj=f[1],aM=bV(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bV(J,J);return i(a,1,[3,[4,o(L),aO],aN])}var
 ak=q}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bR(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bV(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aT=[4,f[1],aR],aU=bR(N,N);return i(a,1,[3,[4,f[2],aU],aT])}return g;case
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bV(N,N);return i(a,1,[3,[4,f[2],aT],aS])}return g;case
 9:if(g)return 0;var
-ar=f[3],as=f[2],aV=function(e){var
+ar=f[3],as=f[2],aU=function(e){var
 f=i(a,1,as),g=f?i(a,0,ar):f;if(g){var
-b=aS(a,bR(e,e));if(b){var
-c=aS(a,[5,ar,as]);if(c){var
-d=iN(a,c[1]);if(d){var
-l=T(a,d[1]);return eX([0,K(b[1],l)])}var
+b=aV(a,bV(e,e));if(b){var
+c=aV(a,[5,ar,as]);if(c){var
+d=iV(a,c[1]);if(d){var
+l=T(a,d[1]);return e4([0,K(b[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -2695,17 +2758,17 @@ var
 j=b;var
 k=j}else
 var
-k=g;return k},an=aV,am=f[1];k=3;break;case
+k=g;return k},an=aU,am=f[1];k=3;break;case
 10:if(g)return 0;var
 aW=f[2],aX=function(b){var
 c=[4,aW,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
 11:if(g)return 0;var
 aY=f[2],aZ=function(e){var
-b=c2(a,aY);if(b){var
-c=aS(a,e[3]);if(c){var
-d=aS(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=eX([0,f]);if(g){var
-k=T(a,d[1]);return eX([0,K(T(a,f),k)])}var
+b=c6(a,aY);if(b){var
+c=aV(a,e[3]);if(c){var
+d=aV(a,e[2]);if(d){var
+f=w(a,b[1],c[1]),g=e4([0,f]);if(g){var
+k=T(a,d[1]);return e4([0,K(T(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2716,8 +2779,8 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
-Q=jK(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=cT(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+Q=jO(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=c0(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
 s=R[1];if(s){var
 t=s[2];if(t){var
 u=t[2],S=t[1],U=s[1],l=R[2];if(u)if(u[2]||!l)var
@@ -2729,7 +2792,7 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-W=D[1],X=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,X),aB=[4,u[1],aA],aC=[4,S,p(aa,_,Z,W)],h=[2,[3,[4,U,p($,_,X,W)],aC],aB];else
+W=D[1],X=C[1],Y=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Y,X),aB=[4,u[1],aA],aC=[4,S,p(aa,_,Y,W)],h=[2,[3,[4,U,p($,_,X,W)],aC],aB];else
 var
 h=[0,d,c]}else
 var
@@ -2778,7 +2841,7 @@ aq=M;return aq;default:var
 I=V(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-jN(h,g){var
+jR(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2788,68 +2851,68 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-o9(a){return e(function(a){return[0,a,c]},a)}function
-jO(f,m,b,l,a){if(typeof
+pb(a){return e(function(a){return[0,a,c]},a)}function
+jS(f,m,b,l,a){if(typeof
 a==="number"){var
-q=b[4];return au(function(a){return i(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jN(a[1],l);if(g){var
-n=g[1],r=n[1],s=e(o9,a[2]);return jM(f,m,b,n[2],s,r)}return g}var
-h=jN(a[1],l);if(h){var
+q=b[4];return av(function(a){return i(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=jR(a[1],l);if(g){var
+n=g[1],r=n[1],s=e(pb,a[2]);return jQ(f,m,b,n[2],s,r)}return g}var
+h=jR(a[1],l);if(h){var
 o=h[1],j=o[1];if(typeof
 j!=="number"&&1===j[0]){var
-k=V(b[1],a[2]);return k?jM(f,m,b,o[2],[0,k[1],0],[1,j[1]]):k}var
+k=V(b[1],a[2]);return k?jQ(f,m,b,o[2],[0,k[1],0],[1,j[1]]):k}var
 p=0}else
 var
 p=h;return p}}function
-gw(a){var
-b=av(a[1]),c=ap(M(b,a[2]),b),d=a[2];return _(function(b,a){return[3,b,a]},d,c)}function
-gx(a){return av(gw(a))}function
-jP(c){var
-a=gx(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gy(a,b){return bw(a[3],a[4],b)}function
-gz(a,b){var
-c=gy(a,b);return M(gx(a),c)}function
-gA(a,b){var
-c=gy(a,b);return M(jP(a),c)}function
-jQ(a,b){var
-c=gy(a,b);return M(av(a[1]),c)}function
-gB(b,a){var
-c=gA(b,a),d=gz(b,a);return[2,[4,d,d],[4,c,c]]}function
-gC(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=jQ(a,d);return[5,[2,gB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jR(a,b){var
-f=a[5],c=[3,gC(a,b),f],d=jQ(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-eY(a,b){var
-c=jR(a,b);return cw(a[7],c)}function
-jS(b,a){var
-c=gB(b,a),d=gA(b,a),e=[4,eY(b,a),d],f=gz(b,a);return[5,[2,[4,gC(b,a),f],e],c]}function
-jT(b,a){var
-c=gB(b,a),d=gz(b,a),e=[4,eY(b,a),d],f=gA(b,a);return[5,[3,[4,gC(b,a),f],e],c]}function
+gD(a){var
+b=aw(a[1]),c=ap(M(b,a[2]),b),d=a[2];return _(function(b,a){return[3,b,a]},d,c)}function
+gE(a){return aw(gD(a))}function
+jT(c){var
+a=gE(c),b=aw(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gF(a,b){return bA(a[3],a[4],b)}function
+gG(a,b){var
+c=gF(a,b);return M(gE(a),c)}function
+gH(a,b){var
+c=gF(a,b);return M(jT(a),c)}function
 jU(a,b){var
-c=jP(a),d=ap(jT(a,b),c),e=gx(a),f=ap(jS(a,b),e),g=_(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return _(function(b,a){return[2,b,a]},i,h)}function
-jV(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-jW(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-gD(a,c,b){var
-d=[4,jV(a),b],e=[2,[4,jW(a),c],d],f=[4,jW(a),b];return[0,[3,[4,jV(a),c],f],e]}function
-jX(c,a){var
-b=gD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-gE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gF(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:jX(d[1],a):a;case
+c=gF(a,b);return M(aw(a[1]),c)}function
+gI(b,a){var
+c=gH(b,a),d=gG(b,a);return[2,[4,d,d],[4,c,c]]}function
+gJ(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=jU(a,d);return[5,[2,gI(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jV(a,b){var
+f=a[5],c=[3,gJ(a,b),f],d=jU(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+e5(a,b){var
+c=jV(a,b);return cD(a[7],c)}function
+jW(b,a){var
+c=gI(b,a),d=gH(b,a),e=[4,e5(b,a),d],f=gG(b,a);return[5,[2,[4,gJ(b,a),f],e],c]}function
+jX(b,a){var
+c=gI(b,a),d=gG(b,a),e=[4,e5(b,a),d],f=gH(b,a);return[5,[3,[4,gJ(b,a),f],e],c]}function
+jY(a,b){var
+c=jT(a),d=ap(jX(a,b),c),e=gE(a),f=ap(jW(a,b),e),g=_(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return _(function(b,a){return[2,b,a]},i,h)}function
+jZ(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+j0(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+gK(a,c,b){var
+d=[4,jZ(a),b],e=[2,[4,j0(a),c],d],f=[4,j0(a),b];return[0,[3,[4,jZ(a),c],f],e]}function
+j1(c,a){var
+b=gK(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+gL(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gM(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:j1(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gD(d[1],a[2],a[3]),m=j[1],k=gD(f[1],j[2],a[1]);return jX(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gK(d[1],a[2],a[3]),m=j[1],k=gK(f[1],j[2],a[1]);return j1(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=M(e,e),n=gE(e,a),o=ap([0,b(2,c),c],n),p=M(e,a),q=ap([4,[0,b(2,c),c],p],e),r=ap([3,[0,c,c],l],a),s=_(function(b,a){return[2,b,a]},r,q);return ap([5,[0,c,c],[2,[0,c,c],l]],_(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-jY(b){var
-a=bP(b);return a?ix(a[1],[0,d,c]):a}function
-jZ(a,n,k,j){if(jY(j)){var
+e=[0,d[1],h[1],i[1]],l=M(e,e),n=gL(e,a),o=ap([0,b(2,c),c],n),p=M(e,a),q=ap([4,[0,b(2,c),c],p],e),r=ap([3,[0,c,c],l],a),s=_(function(b,a){return[2,b,a]},r,q);return ap([5,[0,c,c],[2,[0,c,c],l]],_(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+j2(b){var
+a=bT(b);return a?iE(a[1],[0,d,c]):a}function
+j3(a,n,k,j){if(j2(j)){var
 q=n?[3,[0,d,c],k]:k;return i(a,0,q)}var
-f=aS(a,k);if(f){var
-g=c2(a,[5,j,[0,b(2,c),c]]);if(g){var
-h=eB(a,[5,j,[0,b(2,c),c]]);if(h)var
+f=aV(a,k);if(f){var
+g=c6(a,[5,j,[0,b(2,c),c]]);if(g){var
+h=eJ(a,[5,j,[0,b(2,c),c]]);if(h)var
 p=w(a,f[1],g[1]),l=[0,K(h[1],p)];else
 var
 l=h;var
@@ -2860,24 +2923,24 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?L(d,o[1]):L(o[2],d)}return e}function
-dR(b,a,c){var
-d=a2(b,a[1],a[2]),e=d?jZ(b,0,c,a[1]):d;return e?jZ(b,1,c,a[2]):e}function
-c9(a,d){if(jY(d))return[0,z];var
-e=c2(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=eB(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=F(ai(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b3(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return A(function(d){var
-e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return ga(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+dZ(b,a,c){var
+d=a6(b,a[1],a[2]),e=d?j3(b,0,c,a[1]):d;return e?j3(b,1,c,a[2]):e}function
+dd(a,d){if(j2(d))return[0,A];var
+e=c6(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=eJ(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=C($(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b9(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return z(function(d){var
+e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gf(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-dS(d,a){var
+d0(d,a){var
 e=i(d,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]);return e?i(d,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-cz(a){return[0,[3,[0,d,c],a],a]}function
-j0(a,b,n,m){var
-h=a2(a,[0,d,c],b),i=h?dS(a,b):h;if(i){var
-e=c9(a,b);if(e){var
-f=aS(a,n);if(f){var
-g=aS(a,m);if(g){var
+cG(a){return[0,[3,[0,d,c],a],a]}function
+j4(a,b,n,m){var
+h=a6(a,[0,d,c],b),i=h?d0(a,b):h;if(i){var
+e=dd(a,b);if(e){var
+f=aV(a,n);if(f){var
+g=aV(a,m);if(g){var
 o=f[1],p=g[1];return L(d,K(w(a,T(a,e[1]),p),o)[1])}var
 j=g}else
 var
@@ -2888,12 +2951,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-j1(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:dR(d,b[1],a[1]):a;case
+j5(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:dZ(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dR(d,b[1],a[1]),m=l?dR(d,b[2],e[1]):l;if(m)return dR(d,b[3],f[1]);var
+l=dZ(d,b[1],a[1]),m=l?dZ(d,b[2],e[1]):l;if(m)return dZ(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -2906,7 +2969,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=M([0,s,r,q],[0,s,r,q]);return j0(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=M([0,s,r,q],[0,s,r,q]);return j4(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -2915,7 +2978,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=j0(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return dR(d,cz(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=j4(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return dZ(d,cG(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -2925,221 +2988,225 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-c_(a){return 1===a?o_:o$}function
-gG(d,c,b,a){var
-e=a[1],f=gF(d,c,a[2]),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
-j2(c,b,a){switch(c){case
+de(a){return 1===a?pc:pd}function
+gN(d,c,b,a){var
+e=a[1],f=gM(d,c,a[2]),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
+j6(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-dT(b,d){var
+d1(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,co(function(a){return dT(b,a)},a)]}return[0,co(function(a){return dT(b,a)},a)]}function
-c$(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,cu(function(a){return d1(b,a)},a)]}return[0,cu(function(a){return d1(b,a)},a)]}function
+df(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=al(v(e,b));return f?al(v(e,P(d,b))):f;case
+e=a[1],f=am(v(e,b));return f?am(v(e,P(d,b))):f;case
+10:return 0;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c$(d,b,a[1]);if(g){var
+g=df(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dU(c,b,m){var
+d2(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c$(c,b,g),i=h?dU(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=df(c,b,g),i=h?d2(c,b,f):h;if(i)var
 j=i;else{var
-k=dU(c,b,g);if(k)return c$(c,b,f);var
+k=d2(c,b,g);if(k)return df(c,b,f);var
 j=k}return j;case
 7:var
-l=dU(c,b,a[1]);return l?c$(c,b,a[2]):l;case
+l=d2(c,b,a[1]);return l?df(c,b,a[2]):l;case
+10:return 0;case
 3:case
 4:var
-e=dU(c,b,a[1]);if(e){var
+e=d2(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c$(c,b,a[1]);default:return 1}}}function
-cA(c,e){var
+9:return df(c,b,a[1]);default:return 1}}}function
+cH(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return al(v(a[1],c));case
+0:return am(v(a[1],c));case
+10:return 0;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cA(c,a[1]);if(d){var
+d=cH(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gH(d,b,m){var
+gO(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gH(d,b,a[1]);if(f){var
+f=gO(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gH(d,b,a[1]);return g?cA(b,a[2]):g;case
+g=gO(d,b,a[1]);return g?cH(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cA(b,i);if(j){var
-k=cA(b,h);if(k)var
+h=a[2],i=a[1],j=cH(b,i);if(j){var
+k=cH(b,h);if(k)var
 e=k;else{var
-l=aQ(i,d);if(l){var
+l=aK(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cA(b,c)}}}function
-j3(c,e){var
+2:return 1;default:return cH(b,c)}}}function
+j7(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dA(a[1],c);case
+0:return dG(a[1],c);case
+10:return 0;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=j3(c,a[1]);if(d){var
+d=j7(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b_(b,a){return a?l(b,a[1]):a}function
-b$(c,b,a){return b_(function(b){return b_(l(c,b),a)},b)}function
-pa(a){return 0===a[0]?a[1]:0}function
-bx(b,a){switch(a[0]){case
-0:return[0,l(b,a[1])];case
-1:return[1,bx(b,a[1])];default:var
-c=bx(b,a[3]),d=bx(b,a[2]);return[2,bx(b,a[1]),d,c]}}function
-aT(b,c,a){switch(c[0]){case
-0:return bx(l(b,c[1]),a);case
+cg(b,a){return a?k(b,a[1]):a}function
+ch(c,b,a){return cg(function(b){return cg(k(c,b),a)},b)}function
+pe(a){return 0===a[0]?a[1]:0}function
+bB(b,a){switch(a[0]){case
+0:return[0,k(b,a[1])];case
+1:return[1,bB(b,a[1])];default:var
+c=bB(b,a[3]),d=bB(b,a[2]);return[2,bB(b,a[1]),d,c]}}function
+aW(b,c,a){switch(c[0]){case
+0:return bB(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bx(function(a){return ar(b,a,j)},d)];case
-1:return[1,aT(b,d,a[1])];default:var
-k=aT(b,d,a[3]),m=aT(b,d,a[2]);return[2,aT(b,d,a[1]),m,k]}default:var
+j=a[1];return[1,bB(function(a){return as(b,a,j)},d)];case
+1:return[1,aW(b,d,a[1])];default:var
+l=aW(b,d,a[3]),m=aW(b,d,a[2]);return[2,aW(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return bx(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bB(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=aT(b,e,i),s=aT(b,f,i);return[2,aT(b,g,i),s,r];default:var
-t=aT(b,e,a[3]),u=aT(b,f,a[2]);return[2,aT(b,g,a[1]),u,t]}}}function
-gI(c,f,a){if(a)var
+i=a[1],r=aW(b,e,i),s=aW(b,f,i);return[2,aW(b,g,i),s,r];default:var
+t=aW(b,e,a[3]),u=aW(b,f,a[2]);return[2,aW(b,g,a[1]),u,t]}}}function
+gP(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,T(c,a)];break;case
 1:var
-g=w(c,a,b),e=[0,bJ(F(a,b)),g];break;default:var
-e=[0,b,T(c,b)]}return[0,[0,l(f,e)]]},h=gI(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),k=b(1),g=[0,[2,b(0),k,j],i];else
+g=w(c,a,b),e=[0,a4(C(a,b)),g];break;default:var
+e=[0,b,T(c,b)]}return[0,[0,k(f,e)]]},h=gP(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-j4(a){if(a){var
+j8(a){if(a){var
 b=a[1];if(b)var
-c=j4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=j8(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pc}function
-dV(a){if(a){var
-g=a[1],b=g[2],c=j4(g[1]);if(c)if(b){var
-h=b[1],e=dV(a[2]);if(e)var
-i=Y(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return ph}function
+d3(a){if(a){var
+g=a[1],b=g[2],c=j8(g[1]);if(c)if(b){var
+h=b[1],e=d3(a[2]);if(e)var
+i=Z(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pd}function
-gJ(b,a){var
-c=a[3],d=A(function(a){var
-c=a[2],d=a[1][2];return[0,[0,l(b,a[1][1]),d],c]},c),e=l(b,a[2]),f=a[1];return[0,l(az(b),f),e,d]}function
-j5(e,d,c,b){if(d){var
+f=c;return f}return pi}function
+gQ(b,a){var
+c=a[3],d=z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aA(b),f),e,d]}function
+j9(e,d,c,b){if(d){var
 i=d[1],a=function(f){var
-a=gJ(function(a){switch(a[0]){case
+a=gQ(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return j5(bq(e),i,c,a)},f=a(0);if(f){var
+1:return c;default:return b}}},b);return j9(bu(e),i,c,a)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return l(c,gJ(pa,b))}function
-dW(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return A(function(a){return a5(f,e,a)},d)}return[0,z]}function
-pe(c){var
+h=f;return h}return k(c,gQ(pe,b))}function
+d4(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return a8(f,e,a)},d)}return[0,A]}function
+pj(c){var
 a=c[2];if(a){var
-b=dW(c[3]);if(b)return L(d,K(a[1],b[1])[1]);var
+b=d4(c[3]);if(b)return L(d,K(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-j6(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-j7(a,c,b){var
-e=t(b,c,k(d)),f=aO(0,a);return n(function(b){return dU(a,b,e)},f)}function
-dX(a){var
-b=I(a);return C(k(c),b)}function
-eZ(i,g){var
-h=dX(g),j=I(g),e=s(k(c),j),f=o(k(b(2,c)),g),a=k(d);return i?i[1]?[0,[0,e,bs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bs(f),a,e]]:[0,[0,h,a,a],[0,a,e,bs(f)],[0,a,f,e]]}function
-j8(b,a){var
-c=$(b[3],a),d=$(b[2],a);return[0,$(b[1],a),d,c]}function
-j9(b,a){function
+j_(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+j$(a,c,b){var
+e=t(b,c,l(d)),f=aT(0,a);return n(function(b){return d2(a,b,e)},f)}function
+d5(a){var
+b=I(a);return F(l(c),b)}function
+e6(i,g){var
+h=d5(g),j=I(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
+ka(b,a){var
+c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
+kb(b,a){function
 c(b){var
-c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=$(a,c(function(a){return a[3]})),d=$(a,c(function(a){return a[2]}));return[0,$(a,c(function(a){return a[1]})),d,b]}var
+b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-j_(w,v){function
+kc(w,v){function
 a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
 0:var
-x=dX(a(0));return[0,eZ(pf,a(0)),x];case
+x=d5(a(0));return[0,e6(pk,a(0)),x];case
 1:var
-y=dX(a(0)),z=o(dX(a(pg)),y),A=o(dX(a(ph)),z),B=eZ(0,a(0)),D=j9(eZ(pj,a(pi)),B);return[0,j9(eZ(pl,a(pk)),D),A];default:var
-E=a(pm),F=a(pn),g=[0,a(0),F,E],G=$(g,g),H=C(k(c),G),j=$(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=I(a),e=o(k(b(2,c)),d);return C(s(k(c),j),e)},h=function(f,e,d,a){var
-g=ar(f,o(e,d),a);return o(k(b(2,c)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,l],p=h(s,e,f,d),q=i(e),r=[0,h(C,d,e,f),q,p],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-j$(a){return 1<a[0]?[0,a[1],0]:0}function
-e0(a){switch(a[0]){case
+y=d5(a(0)),z=o(d5(a(pl)),y),A=o(d5(a(pm)),z),B=e6(0,a(0)),C=kb(e6(po,a(pn)),B);return[0,kb(e6(pq,a(pp)),C),A];default:var
+D=a(pr),E=a(ps),g=[0,a(0),E,D],G=aa(g,g),H=F(l(c),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=I(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
+g=as(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kd(a){return 1<a[0]?[0,a[1],0]:0}function
+e7(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cz(a[1]),0];default:var
-b=[0,cz(a[2]),0];return[0,cz(a[1]),b]}}function
-da(a){return[0,[0,a[1]],[0,a[2]]]}function
-ka(a){switch(a[0]){case
-0:return[0,da(a[1]),0];case
+2:return[0,cG(a[1]),0];default:var
+b=[0,cG(a[2]),0];return[0,cG(a[1]),b]}}function
+dg(a){return[0,[0,a[1]],[0,a[2]]]}function
+ke(a){switch(a[0]){case
+0:return[0,dg(a[1]),0];case
 1:var
-f=[0,da(a[3]),0],g=[0,da(a[2]),f];return[0,da(a[1]),g];case
+f=[0,dg(a[3]),0],g=[0,dg(a[2]),f];return[0,dg(a[1]),g];case
 2:var
-b=da(cz(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cz(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,da(cz(c)),0]]]}}function
-kb(a,b){if(0===b[0])return c9(a,b[1]);var
-d=c9(a,b[1]);if(d){var
-e=c9(a,b[2]);if(e){var
-g=T(a,e[1]),h=cn(a,F(ai(a,c),g)),i=d[1];return A(function(b){return w(a,i,b)},h)}var
+b=dg(cG(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cG(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dg(cG(c)),0]]]}}function
+kf(a,b){if(0===b[0])return dd(a,b[1]);var
+d=dd(a,b[1]);if(d){var
+e=dd(a,b[2]);if(e){var
+g=T(a,e[1]),h=ct(a,C($(a,c),g)),i=d[1];return z(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kc(d,c){var
-a=kb(d,c[1]);if(a)var
-b=kb(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kg(d,c){var
+a=kf(d,c[1]);if(a)var
+b=kf(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kd(k,D,c,C,B,b,a){switch(b[0]){case
+kh(k,D,c,C,B,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=dV(e[1]);if(a){var
+a=d3(e[1]);if(a){var
 b=e[2];if(b){var
-d=dW(e[3]);if(d){var
-h=d[1],i=a0([0,K(ah(w(k,l,b[1])),h),0],c);return bN(c,gg(F,E,a[1],i))}var
+d=d4(e[3]);if(d){var
+h=d[1],i=a3([0,K(ae(w(k,l,b[1])),h),0],c);return bR(c,gl(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3147,11 +3214,11 @@ g=f}else
 var
 g=a;return g},f=n;break;case
 2:var
-q=ab(l[1],d),r=q?ab(l[2],d):q;if(!r)return r;var
+q=ac(l[1],d),r=q?ac(l[2],d):q;if(!r)return r;var
 H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=dV(f[1]);if(a){var
-b=dW(f[3]);if(b){var
-g=a0([0,K(z,b[1]),0],c),h=a[1];return bN(c,gg(I,H,e(function(a){return[0,a[1],z]},h),g))}var
+a=d3(f[1]);if(a){var
+b=d4(f[3]);if(b){var
+g=a3([0,K(A,b[1]),0],c),h=a[1];return bR(c,gl(I,H,e(function(a){return[0,a[1],A]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
@@ -3159,10 +3226,10 @@ d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 x=0;if(typeof
 a==="number"&&!a)var
 J=b[2],L=b[1],M=b[3],i=J,h=L,N=0,g=function(f){var
-a=dV(f[1]);if(a){var
+a=d3(f[1]);if(a){var
 b=f[2];if(b){var
-d=dW(f[3]);if(d){var
-j=d[1],l=a0([0,K(w(k,M,b[1]),j),0],c),e=iR(a[1],l);if(e)return bN(c,e[1]);var
+d=d4(f[3]);if(d){var
+j=d[1],l=a3([0,K(w(k,M,b[1]),j),0],c),e=iZ(a[1],l);if(e)return bR(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3178,11 +3245,11 @@ y=0;if(typeof
 a==="number"||!(0===a[0]))y=1;else
 var
 s=a[2],u=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=dV(f[1]);if(a){var
+a=d3(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dW(f[3]);if(e){var
+e=d4(f[3]);if(e){var
 g=v(j(b),c),h=g?v(j(s),c):g;if(h){var
-n=dM(u,dN(u,s,d[1],b));return bN(c,b7(eI(k,R,Q,e[1],b),n))}var
+n=dU(u,dV(u,s,d[1],b));return bR(c,cc(eR(k,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3192,52 +3259,53 @@ l=d;var
 m=l}else
 var
 m=a;return m},i=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
-A=0;if(typeof
+z=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pe,f=0;else
-A=1;if(A)return 0}var
-G=[0,h,i,B];return j5(f,D,g,gJ(function(a){return t(a,C,ps)},G))}function
-ke(m,l,k,f,j,i,e){if(typeof
+i=b[1],h=0,g=pj,f=0;else
+z=1;if(z)return 0}var
+G=[0,h,i,B];return j9(f,D,g,gQ(function(a){return t(a,C,px)},G))}function
+ki(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=L(d,o);if(p)var
-h=h9(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=ie(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kd(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kh(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kd(m,l,k,j,0,i,a)}return 0}function
-pt(a){if(a[1])return 0;var
+q=f;return q}return kh(m,l,k,j,0,i,a)}return 0}function
+py(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kf(a,N,M,L,J,I,h,p,H,_){if(n(pt,H))var
+kj(a,N,M,L,J,I,h,p,H,_){if(n(py,H))var
 q=0;else
 var
-W=gI(a,ci,p),U=0,X=f(gI(a,aK,p),W),q=bt(pb,function(b){switch(b[0]){case
-0:return t(b[1],X,[0,[0,z]]);case
-1:return[0,[0,t(b[1],M,z)]];case
-2:return[0,[0,ai(a,b[1])]];case
+W=gP(a,b6,p),U=0,X=f(gP(a,aI,p),W),q=bw(pg,function(b){switch(b[0]){case
+0:return t(b[1],X,[0,[0,A]]);case
+1:return[0,[0,t(b[1],M,A)]];case
+2:return[0,[0,$(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return aT(function(a,b){return b$(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aW(function(a,b){return ch(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aT(function(a,b){return b$(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aW(function(a,b){return ch(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ah(a)]};return bx(function(a){return b_(j,a)},i);case
+i=b[1],j=function(a){return[0,ae(a)]};return bB(function(a){return cg(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aT(function(a,b){return b$(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aW(function(a,b){return ch(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=b3(a,b);return A(function(b){return w(a,c,b)},d)};return aT(function(a,b){return b$(p,a,b)},o,n);case
+d=b9(a,b);return z(function(b){return w(a,c,b)},d)};return aW(function(a,b){return ch(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,T(a,b)]};return bx(function(a){return b_(r,a)},q);default:var
-s=b[1],u=function(b){return cn(a,b)};return bx(function(a){return b_(u,a)},s)}},N,U);var
+q=b[1],r=function(b){return[0,T(a,b)]};return bB(function(a){return cg(r,a)},q);case
+9:var
+s=b[1],u=function(b){return ct(a,b)};return bB(function(a){return cg(u,a)},s);default:return pf}},N,U);var
 g=H,b=_;for(;;){if(g){var
 u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
 v=t(c,b,0);if(v){var
 l=V(L,c);if(l){var
-x=ke(a,J,I,h,q,l[1],i);if(x){var
-g=k,b=eO(c,b);continue}var
+x=ki(a,J,I,h,q,l[1],i);if(x){var
+g=k,b=eW(c,b);continue}var
 y=x}else
 var
 y=l;var
@@ -3246,71 +3314,72 @@ var
 B=v;return B}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Z=0,r=e(function(b){return[0,b,T(a,b)]},p),Q=e(ci,r),P=0,R=f(e(aK,r),Q),S=bt(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,z)];case
-1:return[0,t(b[1],M,z)];case
-2:return[0,ai(a,b[1])];case
+Y=0,r=e(function(b){return[0,b,T(a,b)]},p),Q=e(b6,r),P=0,R=f(e(aI,r),Q),S=bw(0,function(n){return function(b){switch(b[0]){case
+0:return[0,t(b[1],n,A)];case
+1:return[0,t(b[1],M,A)];case
+2:return[0,$(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b$(function(b,a){return[0,F(b,a)]},d,c);case
+c=b[2],d=b[1];return ch(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b$(function(b,a){return[0,K(b,a)]},f,e);case
+e=b[2],f=b[1];return ch(function(b,a){return[0,K(b,a)]},f,e);case
 5:var
-g=b[1];return b_(function(a){return[0,ah(a)]},g);case
+g=b[1];return cg(function(a){return[0,ae(a)]},g);case
 6:var
-h=b[2],i=b[1];return b$(function(c,b){return[0,w(a,c,b)]},i,h);case
+h=b[2],i=b[1];return ch(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b$(function(c,b){var
-d=b3(a,b);return A(function(b){return w(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return ch(function(c,b){var
+d=b9(a,b);return z(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b_(function(b){return[0,T(a,b)]},l);default:var
-m=b[1];return b_(function(b){return cn(a,b)},m)}}}(R),N,P),j=t(h[1],S,Z);if(j){var
-m=Y(j[1][2],d);O=1}else
+l=b[1];return cg(function(b){return[0,T(a,b)]},l);case
+9:var
+m=b[1];return cg(function(b){return ct(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],S,Y);if(j){var
+m=Z(j[1][2],d);O=1}else
 var
 s=j}else
 var
 s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
-C=t(c,b,0);if(C){var
+D=t(c,b,0);if(D){var
 o=V(L,c);if(o){var
-D=ke(a,J,I,h,q,o[1],i);if(D){var
-g=k,b=eO(c,b);continue}var
-E=D}else
+E=ki(a,J,I,h,q,o[1],i);if(E){var
+g=k,b=eW(c,b);continue}var
+F=E}else
 var
-E=o;var
-G=E}else
+F=o;var
+G=F}else
 var
-G=C;return G}return[0,b]}}function
-kg(i,h,g,f,e,d,c,t,s,r){var
+G=D;return G}return[0,b]}}function
+kk(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kf(i,h,g,f,e,d,c,b,a[1],j);return k?n(al,k[1]):k}var
-l=kf(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dL(a[2],b),p=kg(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kj(i,h,g,f,e,d,c,b,a[1],j);return k?n(am,k[1]):k}var
+l=kj(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dT(a[2],b),p=kk(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gK(b,a){var
+gR(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-gL(d,a){var
-e=I(a),f=o(o(k(b(2,c)),a),d);return C(s(I(d),f),e)}function
-kh(c,b,a){switch(c){case
+gS(d,a){var
+e=I(a),f=o(o(l(b(2,c)),a),d);return F(s(I(d),f),e)}function
+kl(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-gM(a){switch(a){case
-0:return[0,pv,pu,k(d)];case
-1:return b8;default:var
-b=k(d),c=k(d);return[0,k(d),c,b]}}function
-e1(a){switch(a){case
-0:return pw;case
-1:return px;default:return 0}}function
-e2(b,a){var
-c=aC(a[2],b);return f(aC(a[1],b),c)}function
-ki(l,q,i,p,h,d,n){if(d)var
-r=d[1],t=b9(n,e2(h,r)),E=P(n,j(e2(h,r))),F=ki(l,q,i,p,h,d[2],E),m=af(t,py),e=af(t,0),a=gM(l),f=aq(s,a,e),g=j8(q,m),v=gL(a[3],e[3]),w=gL(a[2],e[2]),x=gL(a[1],e[1]),y=C(C(C($(m,m),x),w),v),z=$(g,f),A=o(k(b(2,c)),z),B=C(o(i,y),A),D=cr(gK(g,f),p),u=[0,[0,kh(l,aq(C,bM(i,f),g),D),B],F];else
+gT(a){switch(a){case
+0:return[0,pA,pz,l(d)];case
+1:return cd;default:var
+b=l(d),c=l(d);return[0,l(d),c,b]}}function
+e8(a){switch(a){case
+0:return pB;case
+1:return pC;default:return 0}}function
+e9(b,a){var
+c=aD(a[2],b);return f(aD(a[1],b),c)}function
+km(k,q,i,p,h,d,n){if(d)var
+r=d[1],t=cf(n,e9(h,r)),D=P(n,j(e9(h,r))),E=km(k,q,i,p,h,d[2],D),m=ah(t,pD),e=ah(t,0),a=gT(k),f=ar(s,a,e),g=ka(q,m),v=gS(a[3],e[3]),w=gS(a[2],e[2]),x=gS(a[1],e[1]),y=F(F(F(aa(m,m),x),w),v),z=aa(g,f),A=o(l(b(2,c)),z),B=F(o(i,y),A),C=cy(gR(g,f),p),u=[0,[0,kl(k,ar(F,bQ(i,f),g),C),B],E];else
 var
 u=d;return u}function
-gN(g,a){if(typeof
+gU(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3318,8 +3387,8 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-gO(e,d,n,m,l,a){var
-f=o(I(bQ(gN(m,a),l)),n);if(typeof
+gV(e,d,n,m,l,a){var
+f=o(I(bU(gU(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=V(d,a[1]);if(b)var
@@ -3331,25 +3400,25 @@ c=V(d,a[1]);if(c)var
 j=i(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-kj(a,d,c,b){return e(function(a){var
-e=bQ(gN(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-kk(b,f,s,e,h,q,p,o){if(o){var
-$=kk(b,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+kn(a,d,c,b){return e(function(a){var
+e=bU(gU(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+ko(b,f,s,e,h,q,p,o){if(o){var
+aa=ko(b,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=l(f,h),g=[0,t(l(az(f),e),O,z)];else
+O=k(f,h),g=[0,t(k(aA(f),e),O,A)];else
 switch(a[0]){case
 0:var
-j=[5,[0,c,c],a[1]],n=e,m=t;k=1;break;case
+j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
+Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-R=gO(b,e,h,q,p,a),g=A(function(a){return[3,l(f,a)]},R);break;case
+R=gV(b,e,h,q,p,a),g=z(function(a){return[3,k(f,a)]},R);break;case
 3:var
-S=gO(b,e,h,q,p,a),g=A(function(a){return[3,l(f,a)]},S);break;case
+S=gV(b,e,h,q,p,a),g=z(function(a){return[3,k(f,a)]},S);break;case
 6:var
 u=a[3],v=a[2],r=V(e,a[1]),M=0;if(r){var
 w=i(b,1,v),x=w?i(b,0,u):w;if(x){var
-U=[5,u,v],W=[0,r[1],0],j=U,n=W,m=function(c,b,a){return[1,c,b,a]};k=1;M=1}else
+U=[5,u,v],W=[0,r[1],0],j=U,n=W,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
 y=x}else
 var
@@ -3358,7 +3427,7 @@ g=y;break;case
 7:var
 B=a[3],C=a[2],D=a[1],E=V(e,D),N=0;if(E){var
 F=i(b,1,C),G=F?i(b,1,B):F;if(G){var
-X=[5,C,B],j=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};k=1;N=1}else
+X=[5,C,B],j=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};l=1;N=1}else
 var
 H=G}else
 var
@@ -3366,77 +3435,77 @@ H=E;if(!N)var
 g=H;break;case
 8:var
 I=i(b,1,a[1]),J=I?i(b,1,a[2]):I;if(J)var
-Y=ai(b,c),Z=l(f,h),_=kj(e,q,p,a),K=[0,[0,l(az(f),_),Z,Y,0]];else
+Y=$(b,c),Z=k(f,h),_=kn(e,q,p,a),K=[0,[0,k(aA(f),_),Z,Y,0]];else
 var
 K=J;var
 g=K;break;default:var
-g=0}if(k)var
-P=ad(b,[0,[0,j,j],d]),g=A(function(a){var
-c=T(b,a),d=l(f,h);return m(l(az(f),n),d,c)},P);var
-L=[0,g,$]}else
+g=0}if(l)var
+P=af(b,[0,[0,j,j],d]),g=z(function(a){var
+c=T(b,a),d=k(f,h);return m(k(aA(f),n),d,c)},P);var
+L=[0,g,aa]}else
 var
 L=o;return L}function
-kl(j,h,i,g,d,a){if(a){var
-n=kl(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+kp(j,h,i,g,d,a){if(a){var
+n=kp(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(ci,kj(h,g,d,b));l=1}if(!l)var
-c=gO(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-pz(a){if(typeof
+k=e(b6,kn(h,g,d,b));l=1}if(!l)var
+c=gV(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
+pE(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-km(b,a){switch(b){case
+kq(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-e3(a){var
-b=bL(a[1],[0,d,c]);return b?bL(a[2],[0,d,c]):b}function
-gP(d,a){switch(d){case
-0:return e3(a[3]);case
+e_(a){var
+b=bP(a[1],[0,d,c]);return b?bP(a[2],[0,d,c]):b}function
+gW(d,a){switch(d){case
+0:return e_(a[3]);case
 1:return 1;default:var
-b=e3(a[1]),c=b?e3(a[2]):b;return c?e3(a[3]):c}}function
-dY(b,a){return a2(b,a[1],a[2])}function
-gQ(b,a){var
-c=dY(b,a[1]),d=c?dY(b,a[2]):c;return d?dY(b,a[3]):d}function
-pA(z,g,a,m,a2){var
+b=e_(a[1]),c=b?e_(a[2]):b;return c?e_(a[3]):c}}function
+d6(b,a){return a6(b,a[1],a[2])}function
+gX(b,a){var
+c=d6(b,a[1]),d=c?d6(b,a[2]):c;return d?d6(b,a[3]):d}function
+pF(A,g,a,m,a2){var
 a3=a[2],at=n(function(a){var
-b=gQ(z,a[1]);return b?gQ(z,a[2]):b},a3),av=at?gQ(z,a[4]):at;if(av)var
-a4=e0(a[5]),O=n(function(a){return dY(z,a)},a4);else
+b=gX(A,a[1]);return b?gX(A,a[2]):b},a3),au=at?gX(A,a[4]):at;if(au)var
+a4=e7(a[5]),O=n(function(a){return d6(A,a)},a4);else
 var
-O=av;if(O){var
-p=a[1],b=c_(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return e2(m,a)},aF),aE),E=j(X),aG=a[2],aH=j(B(function(a){return e2(m,a)},aG)),Y=a[3],aI=bQ([0,[0,Y,Y],m],aH),aJ=e1(p),Z=j_(a[5],aJ),u=Z[2],y=ki(p,Z[1],u,aI,m,a[2],0),aK=P(E,j(a[6])),aL=e1(p),aM=a[5],r=function(a){return[0,[0,P(aL,a)]]},R=I([0,[1,aK]]);switch(aM[0]){case
+O=au;if(O){var
+p=a[1],b=de(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return e9(m,a)},aF),aE),D=j(X),aG=a[2],aH=j(B(function(a){return e9(m,a)},aG)),Y=a[3],aI=bU([0,[0,Y,Y],m],aH),aJ=e8(p),Z=kc(a[5],aJ),u=Z[2],y=km(p,Z[1],u,aI,m,a[2],0),aL=P(D,j(a[6])),aM=e8(p),aN=a[5],r=function(a){return[0,[0,P(aM,a)]]},R=I([0,[1,aL]]);switch(aN[0]){case
 2:var
-ax=r(po),ay=r(pp),S=[0,r(0),ay,ax],h=[0,s(R,$(S,S))];break;case
+ax=r(pt),ay=r(pu),S=[0,r(0),ay,ax],h=[0,s(R,aa(S,S))];break;case
 3:var
-aA=I(r(pq)),aB=I(r(0)),aC=I(r(pr)),h=[0,s(s(o(R,C(k(c),aC)),aB),aA)];break;default:var
+az=I(r(pv)),aB=I(r(0)),aC=I(r(pw)),h=[0,s(s(o(R,F(l(c),aC)),aB),az)];break;default:var
 h=0}var
-aN=h?[0,h[1],0]:h,aP=[0,u,f(kl(g,y,u,m,E,a[6]),aN)],F=f(bv(y),aP),_=cX(e(function(a){return dT(b,a)},F))[1],w=cp(_),q=function(a){return bc(w,dT(b,a))},aR=A(q,h),aS=q(u),aa=l(az(q),y),T=e1(p),U=v(j(aa),b);if(U)var
-V=A(function(a){return[0,[0,a,d],d]},aR),x=function(a){return t(a,w,k(d))},Q=x(aS),aw=aO(0,T),D=n(function(a){var
-c=c$(b,a,Q),d=c?n(function(c){var
+aO=h?[0,h[1],0]:h,aP=[0,u,f(kp(g,y,u,m,D,a[6]),aO)],E=f(bz(y),aP),_=c4(e(function(a){return d1(b,a)},E))[1],w=cv(_),q=function(a){return bg(w,d1(b,a))},aQ=z(q,h),aR=q(u),$=k(aA(q),y),T=e8(p),U=v(j($),b);if(U)var
+V=z(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return t(a,w,l(d))},Q=x(aR),aw=aT(0,T),C=n(function(a){var
+c=df(b,a,Q),d=c?n(function(c){var
 e=c[1],d=n(function(c){var
-d=x(c);return cA(P(b,a),d)},e);if(d){var
-f=x(c[2]);return gH(Q,P(b,a),f)}return d},aa):c;if(d){if(V){var
-f=x(V[1][1][1]);return cA(P(b,a),f)}var
+d=x(c);return cH(P(b,a),d)},e);if(d){var
+f=x(c[2]);return gO(Q,P(b,a),f)}return d},$):c;if(d){if(V){var
+f=x(V[1][1][1]);return cH(P(b,a),f)}var
 e=1}else
 var
 e=d;return e},aw);else
 var
-D=U;var
-aD=D?T:D,ab=n(function(a){var
-c=dT(b,a),e=k(d);return aQ(t(q(a),w,e),c)},F),ac=ab?n(function(a){return j3(b,a)},F):ab,af=ac?au(pz,a[6]):ac,ag=af?gP(p,a[4]):af,ah=ag?i(g,1,a[3]):ag;if(ah)var
-aT=e0(a[5]),G=n(function(a){var
-b=dS(g,a[1]);return b?dS(g,a[2]):b},aT);else
+C=U;var
+aD=C?T:C,ab=n(function(a){var
+c=d1(b,a),e=l(d);return aK(t(q(a),w,e),c)},E),ac=ab?n(function(a){return j7(b,a)},E):ab,ad=ac?av(pE,a[6]):ac,ae=ad?gW(p,a[4]):ad,ah=ae?i(g,1,a[3]):ae;if(ah)var
+aS=e7(a[5]),G=n(function(a){var
+b=d0(g,a[1]);return b?d0(g,a[2]):b},aS);else
 var
 G=ah;if(G){var
-aU=a[6],aV=f(X,e(function(a){return gN(m,a)},aU)),H=ae(e(function(a){return ad(g,a)},aV));if(H){var
-aW=km(p,a[4]),J=ae(e(function(a){return ad(g,[0,a,m])},aW));if(J){var
-ai=J[1],aX=ka(a[5]),K=ae(e(function(a){return kc(g,a)},aX));if(K){var
-aj=K[1],aY=j$(a[5]),L=ae(e(function(a){return c9(g,a)},aY));if(L){var
-M=ae(kk(g,q,aD,y,u,m,E,a[6]));if(M){var
+aU=a[6],aV=f(X,e(function(a){return gU(m,a)},aU)),H=ag(e(function(a){return af(g,a)},aV));if(H){var
+aW=kq(p,a[4]),J=ag(e(function(a){return af(g,[0,a,m])},aW));if(J){var
+ai=J[1],aX=ke(a[5]),K=ag(e(function(a){return kg(g,a)},aX));if(K){var
+aj=K[1],aY=kd(a[5]),L=ag(e(function(a){return dd(g,a)},aY));if(L){var
+M=ag(ko(g,q,aD,y,u,m,D,a[6]));if(M){var
 N=M[1],ak=v(j(f(ai,aj)),b),al=ak?n(function(a){switch(a[0]){case
 2:var
-e=j6(a[2]),c=[0,a[3],e];break;case
+e=j_(a[2]),c=[0,a[3],e];break;case
 3:var
 c=[0,a[1],0];break;default:var
-d=j6(a[1]),c=[0,a[2],d]}return n(function(a){return j7(b,w,a)},c)},N):ak,am=al?h?j7(b,w,q(h[1])):1:al;if(am){var
-aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=A(q,h);return kg(g,_,f(H[1],L[1]),N,b,b,a1,a0,aZ,a2)}var
+d=j_(a[1]),c=[0,a[2],d]}return n(function(a){return j$(b,w,a)},c)},N):ak,am=al?h?j$(b,w,q(h[1])):1:al;if(am){var
+aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=z(q,h);return kk(g,_,f(H[1],L[1]),N,b,b,a1,a0,aZ,a2)}var
 an=am}else
 var
 an=M;var
@@ -3455,103 +3524,103 @@ ar=H;var
 as=ar}else
 var
 as=G;return as}return O}function
-aU(a){return typeof
-a==="number"?a?pB:pC:c_(a[1])}function
-gR(a){if(0===a[0]){var
+aX(a){return typeof
+a==="number"?a?pG:pH:de(a[1])}function
+gY(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-kn(b,c,a){return b?gF(b[1],c,a):a}function
-ca(d,c,b,a){var
-e=gR(a),f=kn(d,c,gR(a)),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
-ko(b,a){var
+kr(b,c,a){return b?gM(b[1],c,a):a}function
+ci(d,c,b,a){var
+e=gY(a),f=kr(d,c,gY(a)),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
+ks(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kp(b,w,v){var
+kt(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?jy(b,j[1],f[1]):0;else
+g=0===f[0]?jC(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=aM(b,c[1],a[1]),l=k?aM(b,c[2],a[2]):k,m=l?aM(b,c[3],a[3]):l,n=m?aM(b,c[4],a[4]):m,o=n?cu(b,c[5],a[5]):n,p=o?cu(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,M(a[1],a[1])):r;if(s)var
-u=gw(a),h=i(b,1,M(gw(a),u));else
+a=f[1],c=j[1],k=aR(b,c[1],a[1]),l=k?aR(b,c[2],a[2]):k,m=l?aR(b,c[3],a[3]):l,n=m?aR(b,c[4],a[4]):m,o=n?cB(b,c[5],a[5]):n,p=o?cB(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,M(a[1],a[1])):r;if(s)var
+u=gD(a),h=i(b,1,M(gD(a),u));else
 var
 h=s;var
-g=h?cj(c[7],a[7]):h}if(g){var
+g=h?b7(c[7],a[7]):h}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-kq(a){return typeof
-a==="number"?a?gM(0):b8:gM(a[1])}function
-gS(b,d,c){if(0===c[0])return eR(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aC(a[4],b),e),h=f(aC(a[3],b),g),i=f(aC(a[2],d[2]),h);return f(aC(a[1],d[1]),i)}function
-gT(b,a){if(b){var
-c=b[1],d=c[2];return cr(j8(c[1],a),d)}return a}function
-kr(f,w,am,M,al,v,ak){if(v){var
-l=v[1],an=cS([0,d,d],al),a=b9(ak,gS(M,an,l)),B=function(c,b){var
-d=af(a,c);return aq(s,aq(C,kq(f),b),d)};if(0===l[0]){var
-D=l[1];switch(D[0]){case
+ku(a){return typeof
+a==="number"?a?gT(0):cd:gT(a[1])}function
+gZ(b,d,c){if(0===c[0])return eY(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aD(a[4],b),e),h=f(aD(a[3],b),g),i=f(aD(a[2],d[2]),h);return f(aD(a[1],d[1]),i)}function
+g0(b,a){if(b){var
+c=b[1],d=c[2];return cy(ka(c[1],a),d)}return a}function
+kv(f,u,al,K,ak,r,ai){if(r){var
+i=r[1],am=cZ([0,d,d],ak),a=cf(ai,gZ(K,am,i)),y=function(c,b){var
+d=ah(a,c);return ar(s,ar(F,ku(f),b),d)};if(0===i[0]){var
+z=i[1];switch(z[0]){case
 0:var
-aa=gT(w,af(a,pD)),aN=D[1][5],E=t(pE,a,k(d)),F=af(a,0),ab=B(pF,aa),h=iX(ab,cs(F),ab,E,aN),ap=[0,aB(E),0],ar=[0,aB($(F,F)),ap],m=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],E]],ar],aa];break;case
+_=g0(u,ah(a,pI)),aE=z[1][5],A=t(pJ,a,l(d)),B=ah(a,0),$=y(pK,_),h=i4($,cz(B),$,A,aE),ao=[0,aC(A),0],ap=[0,aC(aa(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-ad=gT(w,af(a,pG)),ae=D[3],G=ae?[0,af(a,pH)]:ae,ag=B(0,ad),n=iY(ag,ag,0);if(G)var
-N=G[1],O=[0,aB($(N,N)),0];else
+ab=g0(u,ah(a,pL)),ac=z[3],C=ac?[0,ah(a,pM)]:ac,ad=y(0,ab),m=i5(ad,ad,0);if(C)var
+L=C[1],M=[0,aC(aa(L,L)),0];else
 var
-O=G;var
-m=[0,[0,n[1],n[2],n[3],[0,n[4]],0,O],ad];break;default:var
-aO=k(d),aP=k(d),aQ=[0,k(d),aP,aO],H=af(a,0),aR=kq(f),p=iZ(aR,cs(H)),as=[0,aB($(H,H)),0],m=[0,[0,p[1],p[2],p[3],[0,p[4]],0,as],aQ]}}else
+M=C;var
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ab];break;default:var
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=ah(a,0),aI=ku(f),n=i6(aI,cz(D)),aq=[0,aC(aa(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-ah=gT(w,af(a,pI)),aS=l[1][7],u=t(pJ,a,k(d)),e=t(pK,a,k(d)),ai=af(a,pL),J=af(a,0),K=B(pM,ah),i=cs(J),x=aq(s,ai,bM($(i,ai),i)),y=cs(x),Q=gK(i,y),q=$(K,y),r=$(K,Q),z=$(i,K),at=I(r),R=C(I(q),at),au=I(u),av=s(I(e),au),S=C(I(z),av),aw=o(k(b(2,c)),e),ax=I(s(ac(C(R,S),aw),e)),ay=I(z),A=s(s(I(u),ay),ax),T=ac(k(c),R),az=k(b(2,c)),aA=o(S,T),U=ac(s(k(c),aA),az),V=iW(aS,o(e,aB(A))),W=o(V,T),aC=o(W,r),X=s(o(U,q),aC),aD=o(W,q),Y=C(o(U,r),aD),aE=bM(z,i),aF=bM(Y,Q),Z=aq(C,aq(C,bM(X,y),aF),aE),aG=[0,aB(u),0],aH=[0,aB(e),aG],aI=[0,aB($(x,x)),aH],aJ=[0,aB($(J,J)),aI],aK=ac(s(r,Y),e),aL=[1,ac(s(q,X),e),aK],aM=cr(Z,V),m=[0,[0,Z,o(I(e),A),aM,aL,[0,[0,A,u]],aJ],ah];var
-aZ=P(ak,j(gS(M,an,l))),a0=v[2],a1=kr(f,w,am,M,dD(al),a0,aZ),g=m[1],a2=m[2],aj=function(a){var
-b=cr(gK(a2,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:cq(a):kh(f[1],a,b)},L=g[1],_=typeof
-f==="number"?1:0,aT=g[6],aU=g[5],aV=_?f?[0,L[1],[0,L[2],0]]:cq(L):_,aW=g[4],aX=aj(g[3]),aY=g[2],ao=[0,[0,aj(g[1]),aY,aX,aW,aV,aU,aT],a1]}else
+ae=g0(u,ah(a,pN)),E=i[1][7],G=t(pO,a,l(d)),e=t(pP,a,l(d)),af=ah(a,pQ),H=ah(a,0),q=y(pR,ae),p=cz(H),v=ar(s,af,bQ(aa(p,af),p)),w=cz(v),N=gR(p,w),O=aa(q,w),Q=aa(q,N),as=aa(p,q),at=I(Q),R=F(I(O),at),au=I(as),S=s(I(G),au),av=o(l(b(2,c)),e),x=s(R,I(aj(F(R,s(I(e),S)),av))),aw=eN(E,o(e,aC(x))),T=aj(O,e),U=eN(E,aj(Q,e)),V=aj(S,I(e)),W=iJ(0,T,U,V),X=eN(E,iJ(1,T,U,V)),ax=bQ(X,N),Y=ar(s,q,bQ(e,ar(F,bQ(W,w),ax))),ay=[0,aC(G),0],az=[0,aC(e),ay],aA=[0,aC(aa(v,v)),az],aB=[0,aC(aa(H,H)),aA],aD=cy(Y,aw),k=[0,[0,Y,o(I(e),x),aD,[1,W,X],[0,[0,x,G]],aB],ae];var
+aP=P(ai,j(gZ(K,am,i))),aQ=r[2],aR=kv(f,u,al,K,dJ(ak),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
+b=cy(gR(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cx(a):kl(f[1],a,b)},J=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,J[1],[0,J[2],0]]:cx(J):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-ao=v;return ao}function
-gU(c,b,a){if(a){var
-e=a[2],g=gU(c,dD(b),e),h=a[1];return f(gS(c,cS([0,d,d],b),h),g)}return a}function
-ks(b,a){if(a){var
-g=ks([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bQ([0,[0,d,d],c[2]],b);else
+an=r;return an}function
+g1(c,b,a){if(a){var
+e=a[2],g=g1(c,dJ(b),e),h=a[1];return f(gZ(c,cZ([0,d,d],b),h),g)}return a}function
+kw(b,a){if(a){var
+g=kw([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bU([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-gV(b,a){return b?Z(a):d}function
-e4(c,b,a){if(typeof
+g2(b,a){return b?X(a):d}function
+e$(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=gV(c,b),h=y(gV(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],Z(b)],0];case
+g=g2(c,b),h=y(g2(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],X(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-kt(a){if(a){var
+kx(a){if(a){var
 b=a[1][6];if(b)var
-c=kt(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kx(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return pN}function
-ku(y,U,b){function
-c(a){return t(a,U,k(d))}function
+d=b;return d}return pS}function
+ky(y,U,b){function
+c(a){return t(a,U,l(d))}function
 N(a){var
-e=a[2],f=o(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,cT(function(b,a){return s(b,I(a))},g,f),d],b]}function
+e=a[2],f=o(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c0(function(b,a){return s(b,I(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
 b=a[1],f=I(b[2]),g=o(I(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
-D=0;if(typeof
-b==="number")D=1;else
+C=0;if(typeof
+b==="number")C=1;else
 switch(b[0]){case
 2:var
 W=function(b){var
@@ -3567,7 +3636,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(pO),b),g=[0,[0,s(o(c(pP),d),f),0],0],h=o(d,c(pQ));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(pT),b),g=[0,[0,s(o(c(pU),d),f),0],0],h=o(d,c(pV));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3583,85 +3652,85 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=kt(y);if(A){var
-aa=c(0),P=cT(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=kx(y);if(A){var
+aa=c(0),P=c0(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
-j=i[2],E=i[1];if(j){var
-l=j[2],F=j[1];if(l)if(l[2]||!h)var
-a=k(d);else{var
+j=i[2],D=i[1];if(j){var
+k=j[2],E=j[1];if(k)if(k[2]||!h)var
+a=l(d);else{var
 m=h[2],n=h[1];if(n){var
 p=n[2],G=n[1];if(p){var
 q=p[2],H=p[1];if(q){var
 J=q[1];if(q[2]||!m)var
-a=k(d);else{var
+a=l(d);else{var
 r=m[1];if(r){var
 u=r[2],K=r[1];if(u){var
 v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
-a=k(d);else
+a=l(d);else
 var
-R=ct(G,H,K,L),S=o(l[1],R),T=o(F,ct(G,J,K,M)),a=C(s(o(E,ct(H,J,L,M)),T),S)}else
+R=cA(G,H,K,L),S=o(k[1],R),T=o(E,cA(G,J,K,M)),a=F(s(o(D,cA(H,J,L,M)),T),S)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}}else
+a=l(d)}}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?k(d):h[2]?k(d):ct(E,F,w[1],x[1]):k(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cA(D,E,w[1],x[1]):l(d);else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d)}else
+a=l(d)}else
 var
-a=k(d);var
-ab=[0,bs(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+a=l(d);var
+ab=[0,bf(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
-Q=A;return Q;default:D=1}if(D)return 0;var
+Q=A;return Q;default:C=1}if(C)return 0;var
 z=V(y,f);return z?g(z[1]):z}function
-e5(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-e6(a){return e(function(a){var
-b=k(c);return[0,a[3],b]},a)}function
-kv(a,b){return e(function(a){var
+fa(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fb(a){return e(function(a){var
+b=l(c);return[0,a[3],b]},a)}function
+kz(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-kw(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bv(kv(c,t(0,b,k(d))));return iu(ku(c,b,a))}function
-dZ(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=dZ(g,c,b,P(e,j(e4(c,b,d))),h);return f(ar(g,ks(e,e4(c,b,d)),d),i)}return a}function
-kx(b,a){switch(a[0]){case
+kA(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bz(kz(c,t(0,b,l(d))));return iB(ky(c,b,a))}function
+d7(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=d7(g,c,b,P(e,j(e$(c,b,d))),h);return f(as(g,kw(e,e$(c,b,d)),d),i)}return a}function
+kB(b,a){switch(a[0]){case
 0:var
-d=a[1];return ad(b,[0,[0,d,d],a[2]]);case
+d=a[1];return af(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ad(b,[0,[0,e,e],a[2]]);return c?iN(b,c[1]):c;case
-2:return c2(b,a[1]);default:return eB(b,a[1])}}function
-ky(f,g,m,I,H,q,a){if(typeof
-a==="number")return[0,[0,[0,z]],0];else
+e=a[1],c=af(b,[0,[0,e,e],a[2]]);return c?iV(b,c[1]):c;case
+2:return c6(b,a[1]);default:return eJ(b,a[1])}}function
+kC(f,g,m,I,H,q,a){if(typeof
+a==="number")return[0,[0,[0,A]],0];else
 switch(a[0]){case
 0:var
 J=[5,[0,c,c],a[1]],h=J,n=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,c,c],a[1]],h=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=ad(f,[0,[0,x,x],d]);return[0,A(function(a){return[2,T(f,a)]},Q),P];case
+x=a[1],P=0,Q=af(f,[0,[0,x,x],d]);return[0,z(function(a){return[2,T(f,a)]},Q),P];case
 7:var
-y=a[3],B=a[2],C=a[1];if(!V(m,C))return pT;var
+y=a[3],B=a[2],C=a[1];if(!V(m,C))return pY;var
 G=0;if(i(f,1,B)&&i(f,1,y))var
 R=[5,B,y],h=R,n=function(a){return[7,C,a]};else
-G=1;if(G)return pS;break;case
+G=1;if(G)return pX;break;case
 8:var
 D=i(f,1,a[1]),S=0,E=D?i(f,1,a[2]):D;if(E)var
-U=ai(f,c),W=kv(m,t(0,q,k(d))),F=[0,[4,l(az(g),W),U]];else
+U=$(f,c),W=kz(m,t(0,q,l(d))),F=[0,[4,k(aA(g),W),U]];else
 var
 F=E;return[0,F,S];default:var
 p=0;if(typeof
@@ -3673,39 +3742,39 @@ s=a[3],u=a[2],v=i(f,1,[3,s,u]),O=v?i(f,1,[3,[2,u,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(
 9:var
 w=i(f,1,a[2]),j=w?i(f,0,a[3]):w;break;default:p=1}if(p)var
 j=1;var
-o=j?ku(m,q,a):j;if(o){var
+o=j?ky(m,q,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=l(g,b[1]);return[0,[5,l(g,c),e]]}var
-d=[0,[3,l(g,c)]]}else
+e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
+d=[0,[3,k(g,c)]]}else
 var
-d=a;return d},N)}return pR}var
-K=0,L=ad(f,[0,[0,h,h],gV(I,H)]);return[0,A(function(a){return n(T(f,a))},L),K]}function
-kz(a){if(typeof
+d=a;return d},N)}return pW}var
+K=0,L=af(f,[0,[0,h,h],g2(I,H)]);return[0,z(function(a){return n(T(f,a))},L),K]}function
+kD(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pV(b){if(0===b[0])return[0,jH(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a6(a[4]),g=a6(a[3]),h=a6(a[2]);return[1,[0,a6(a[1]),h,g,f,e,d,c]]}function
-pW(K,c,a,g,an,aT){var
-aV=e(pV,a[2]),ao=kp(K,a[2],aV);if(ao)var
-aW=jI(a[4]),L=gt(K,a[4],aW);else
+p0(b){if(0===b[0])return[0,jL(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a9(a[4]),g=a9(a[3]),h=a9(a[2]);return[1,[0,a9(a[1]),h,g,f,e,d,c]]}function
+p1(K,c,a,g,an,aT){var
+aU=e(p0,a[2]),ao=kt(K,a[2],aU);if(ao)var
+aV=jM(a[4]),L=gA(K,a[4],aV);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aX=e0(ap[1]),aq=n(function(a){return dY(K,a)},aX);else
+aW=e7(ap[1]),aq=n(function(a){return d6(K,a)},aW);else
 var
 aq=1;var
 M=aq}else
 var
 M=L;if(M){var
-b=a[1],av=aU(b),q=a[6],x=gU(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],y=a[2],o=y?0===y[1][0]?0:1:y,aw=a[5],ax=A(function(a){var
+b=a[1],au=aX(b),q=a[6],x=g1(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],y=a[2],o=y?0===y[1][0]?0:1:y,aw=a[5],ax=z(function(a){var
 c=typeof
-b==="number"?0:e1(b[1]);return j_(a,c)},aw),ay=a[2],h=kr(b,ax,bQ(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),aA=f(U,dZ(function(a,b){return kw(h,a,b)},o,g,T,q)),aB=f(bv(e6(h)),aA),V=f(bv(e5(h)),aB),z=cX(V)[1],aC=cp(z),p=function(a){return bc(aC,a)},W=n(function(a){var
-b=k(d),c=cp(z);return aQ(t(p(a),c,b),a)},V),X=W?au(kz,q):W;if(X){var
+b==="number"?0:e8(b[1]);return kc(a,c)},aw),ay=a[2],h=kv(b,ax,bU(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),az=f(U,d7(function(a,b){return kA(h,a,b)},o,g,T,q)),aB=f(bz(fb(h)),az),V=f(bz(fa(h)),aB),A=c4(V)[1],aC=cv(A),p=function(a){return bg(aC,a)},W=n(function(a){var
+b=l(d),c=cv(A);return aK(t(p(a),c,b),a)},V),X=W?av(kD,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?gP(0,eW(Y)):1;else
+Z=b?gW(0,e3(Y)):1;else
 var
-as=eW(Y),Z=gP(b[1],as);var
+as=e3(Y),Z=gW(b[1],as);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3716,8 +3785,8 @@ if(2<=O[1])var
 r=0;else{var
 u=a[5],N=0;if(u){var
 P=i(c,1,a[3]);if(P)var
-at=e0(u[1]),r=n(function(a){var
-b=dS(c,a[1]);return b?dS(c,a[2]):b},at);else{var
+at=e7(u[1]),r=n(function(a){var
+b=d0(c,a[1]);return b?d0(c,a[2]):b},at);else{var
 Q=P;N=1}}else{var
 Q=u;N=1}if(N)var
 r=Q}var
@@ -3725,29 +3794,29 @@ D=r}else
 var
 D=C;if(D)var
 aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return cj(b,o)},aD);else
+b=0===a[0]?0:1;return b7(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=ae(e(function(a){return ad(c,a)},aE));if(F){var
-aF=B(function(a){return e4(o,g,a)},q),G=ae(e(function(a){return kx(c,a)},aF));if(G){var
-m=eW(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:km(b[1],m),H=ae(e(function(a){return ad(c,[0,a,g])},aG));if(H){var
+aE=f(x,[0,S,0]),F=ag(e(function(a){return af(c,a)},aE));if(F){var
+aF=B(function(a){return e$(o,g,a)},q),G=ag(e(function(a){return kB(c,a)},aF));if(G){var
+m=e3(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kq(b[1],m),H=ag(e(function(a){return af(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=ka($[1]),s=ae(e(function(a){return kc(c,a)},aH));else
+aH=ke($[1]),s=ag(e(function(a){return kg(c,a)},aH));else
 var
-s=pU;if(s){var
-aa=s[1],w=a[5],aI=w?j$(w[1]):w,I=ae(e(function(a){return c9(c,a)},aI));if(I){var
-J=ae(dZ(function(a,b){return ky(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
-ab=J[1],ac=v(j(f(_,aa)),av);if(ac){var
-aJ=go(ab),aK=f(_,aa),ar=0,aL=a[4];if(typeof
+s=pZ;if(s){var
+aa=s[1],w=a[5],aI=w?kd(w[1]):w,I=ag(e(function(a){return dd(c,a)},aI));if(I){var
+J=ag(d7(function(a,b){return kC(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
+ab=J[1],ac=v(j(f(_,aa)),au);if(ac){var
+aJ=gv(ab),aL=f(_,aa),ar=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return jx(c,aL,g,a)};ar=1}if(!ar)var
-af=function(a){return 0};var
-aM=f(G[1],I[1]),aN=f(F[1],aM),aO=e(p,U),aP=e6(h),aR=l(az(p),aP),aS=e5(h);return eP(c,z,l(az(p),aS),aR,aO,aN,ab,af,aK,aJ,aT)}var
-ag=ac}else
+ad=function(a){return jB(c,aM,g,a)};ar=1}if(!ar)var
+ad=function(a){return 0};var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=fb(h),aR=k(aA(p),aQ),aS=fa(h);return eX(c,A,k(aA(p),aS),aR,aP,aO,ab,ad,aL,aJ,aT)}var
+ae=ac}else
 var
-ag=J;var
-ah=ag}else
+ae=J;var
+ah=ae}else
 var
 ah=I;var
 ai=ah}else
@@ -3765,7 +3834,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-bh(c){var
+bl(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3774,112 +3843,112 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bh(a[2]);return f(bh(a[1]),e)}}function
-a7(e,a,b){switch(a[0]){case
+e=bl(a[2]);return f(bl(a[1]),e)}}function
+a_(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return bQ([0,[0,r,r],d],b);case
+r=a[1];return bU([0,[0,r,r],d],b);case
 1:var
-u=a[1],g=e,v=k(d);for(;;){if(g){var
-n=g[1];if(nx(n[1],u))return n[2];var
+u=a[1],g=e,v=l(d);for(;;){if(g){var
+n=g[1];if(nB(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bs(a7(e,a[1],b));case
+2:return bf(a_(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=C;break;case
+i=a[2],f=a[1],h=F;break;case
 4:var
 i=a[2],f=a[1],h=s;break;case
 5:var
 i=a[2],f=a[1],h=o;break;case
 6:var
-i=a[2],f=a[1],h=ac;break;case
+i=a[2],f=a[1],h=aj;break;case
 7:var
-l=dB(a[2]),m=a7(e,a[1],b);if(l){if(l[1]){var
-p=I(m),t=function(a){return o(a,p)},q=ep(bq(il(l)),t,p);return ik(l)?q:o(q,m)}return m}return k(c);default:return aB(a7(e,a[1],b))}var
-w=a7(e,i,P(b,j(bh(f))));return h(a7(e,f,b),w)}function
-cb(c,g,b){var
+k=dH(a[2]),m=a_(e,a[1],b);if(k){if(k[1]){var
+p=I(m),t=function(a){return o(a,p)},q=ex(bu(it(k)),t,p);return is(k)?q:o(q,m)}return m}return l(c);default:return aC(a_(e,a[1],b))}var
+w=a_(e,i,P(b,j(bl(f))));return h(a_(e,f,b),w)}function
+cj(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,j(bh(e))),l=cb(c,a[2],k),m=f(cb(c,e,b),l);return[0,a7(c,a,b),m];case
+e=a[1],k=P(b,j(bl(e))),l=cj(c,a[2],k),m=f(cj(c,e,b),l);return[0,a_(c,a,b),m];case
 8:var
-n=cb(c,a[1],b);return[0,a7(c,a,b),n];case
+n=cj(c,a[1],b);return[0,a_(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=P(b,j(bh(d))),i=cb(c,a[2],h);return f(cb(c,d,b),i)}}function
-kA(c,a,b){if(a){var
-e=a[1],d=e[2],g=P(b,j(bh(d))),h=a[2],i=a7(c,d,b),k=kA([0,[0,e[1],i],c],h,g);return f(cb(c,d,b),k)}return a}function
-gW(a){return B(bh,a)}function
-kB(c,a,b){if(a)var
-d=a[1],f=P(b,j(bh(d))),g=kB(c,a[2],f),e=[0,a7(c,d,b),g];else
+d=a[1],h=P(b,j(bl(d))),i=cj(c,a[2],h);return f(cj(c,d,b),i)}}function
+kE(c,a,b){if(a){var
+e=a[1],d=e[2],g=P(b,j(bl(d))),h=a[2],i=a_(c,d,b),k=kE([0,[0,e[1],i],c],h,g);return f(cj(c,d,b),k)}return a}function
+g3(a){return B(bl,a)}function
+kF(c,a,b){if(a)var
+d=a[1],f=P(b,j(bl(d))),g=kF(c,a[2],f),e=[0,a_(c,d,b),g];else
 var
 e=a;return e}function
-kC(c,a,b){if(a){var
-d=a[1],e=P(b,j(bh(d))),g=kC(c,a[2],e);return f(cb(c,d,b),g)}return a}function
-gX(a){return 0===a[0]?gW(a[1]):bh(a[1])}function
-kD(c,b,a){if(b){var
-d=b[1],i=P(a,j(gX(d))),k=kD(c,b[2],i);if(0===d[0])var
-g=kC(c,d[1],a);else
+kG(c,a,b){if(a){var
+d=a[1],e=P(b,j(bl(d))),g=kG(c,a[2],e);return f(cj(c,d,b),g)}return a}function
+g4(a){return 0===a[0]?g3(a[1]):bl(a[1])}function
+kH(c,b,a){if(b){var
+d=b[1],i=P(a,j(g4(d))),k=kH(c,b[2],i);if(0===d[0])var
+g=kG(c,d[1],a);else
 var
-e=d[1],h=cb(c,e,a),g=[0,a7(c,e,a),h];return f(g,k)}return b}function
-e7(c){var
+e=d[1],h=cj(c,e,a),g=[0,a_(c,e,a),h];return f(g,k)}return b}function
+fc(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=co(e7,a)}return[0,b]}function
-gY(c){var
+b=cu(fc,a)}return[0,b]}function
+g5(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=gY(a[2]);return o(gY(a[1]),d);case
+d=g5(a[2]);return o(g5(a[1]),d);case
 9:return a[1];default:return I(b)}}}function
-kE(n,g,a,f){if(a){var
-b=a[1],w=P(f,j(gX(b))),x=kE(n,g,a[2],w);if(0===b[0])var
-l=kB(g,b[1],f),o=[0,l,k(c),l,0,0,0,0];else
+kI(n,g,a,f){if(a){var
+b=a[1],w=P(f,j(g4(b))),x=kI(n,g,a[2],w);if(0===b[0])var
+k=kF(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=a7(g,b[1],f),q=e7(m),h=a3(aO(0,n),q),d=e7(h[2]),i=e(e7,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aQ(a,d)?k(c):ac(a,d)},i),o=[0,i,gY(d),v,u,t,s,r];var
+m=a_(g,b[1],f),q=fc(m),h=aL(aT(0,n),q),d=fc(h[2]),i=e(fc,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aK(a,d)?l(c):aj(a,d)},i),o=[0,i,g5(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-kF(a){return e(function(a){return[0,a[2],d]},a)}function
-kG(a){var
-b=B(gX,a[4]),c=f(gW(e(ci,a[3])),b);return f(kF(a[2]),c)}function
-kH(a){var
-c=b9(0,kF(a[2])),d=aO(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aH(e(aK,a[2]),c);return f(aH(a[1],g),b)}function
-gZ(b,d){var
+kJ(a){return e(function(a){return[0,a[2],d]},a)}function
+kK(a){var
+b=B(g4,a[4]),c=f(g3(e(b6,a[3])),b);return f(kJ(a[2]),c)}function
+kL(a){var
+c=cf(0,kJ(a[2])),d=aT(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
+g6(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return au(function(a){return ak(e,a)},b);case
+e=a[1];return av(function(a){return al(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=gZ(b,a[1]);if(c){var
+c=g6(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-kI(d){var
+kM(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=al(au(function(b){return function(a){return nx(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=am(av(function(b){return function(a){return nB(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-e9=s(k(c),e8);function
-kJ(e){var
-a=I(e9);if(e)var
-f=o(k(b(2,c)),a),g=C(k(b(2,b(2,c))),f),h=o(k(b(2,c)),a),d=ac(C(k(c),h),g);else
+fe=s(l(c),fd);function
+kN(e){var
+a=I(fe);if(e)var
+f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=aj(F(l(c),h),g);else
 var
-i=C(k(b(2,c)),a),j=I(e8),d=ac(C(o(k(b(2,c)),j),a),i);return aB(d)}function
-kK(d,b,a){if(d){var
-e=kJ(b),f=C(k(c),e),g=o(s(k(c),a),f);return s(k(c),g)}var
-h=k(c),i=kJ(b),j=ac(k(c),i);return s(o(a,C(k(c),j)),h)}function
-db(f,e,d,a){var
-g=I(a),h=I(d),i=s(s(k(b(2,c)),h),g),j=f?e?e9:ac(e9,o(k(b(2,c)),e8)):ac(e9,k(b(2,c))),l=o(I(j),i);return aB(C(k(c),l))}function
-kL(g,d){var
+i=F(l(b(2,c)),a),j=I(fd),d=aj(F(o(l(b(2,c)),j),a),i);return aC(d)}function
+kO(d,b,a){if(d){var
+e=kN(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=kN(b),j=aj(l(c),i);return s(o(a,F(l(c),j)),h)}function
+dh(f,e,d,a){var
+g=I(a),h=I(d),i=s(s(l(b(2,c)),h),g),j=f?e?fe:aj(fe,o(l(b(2,c)),fd)):aj(fe,l(b(2,c))),k=o(I(j),i);return aC(F(l(c),k))}function
+kP(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?F(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-g0(v,u,s){var
+e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+g7(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -3889,14 +3958,14 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=l(a,w),d=l(a,x),e=l(a,y),b=l(a,z);return eD([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return eL([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
-k=j}else
+l=j}else
 var
-k=h;var
-m=k}else
+l=h;var
+m=l}else
 var
 m=c;var
 o=m}else
@@ -3911,12 +3980,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-kM(f,i,e,b,h){var
-j=f?c:d,a=ai(i,j);function
+kQ(f,i,e,b,h){var
+j=f?c:d,a=$(i,j);function
 g(b){var
-c=f?ev(b):cW(b);return K(c,a)}var
-k=[0,ao(h),0],l=[0,[0,a,b,[0,z,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-kN(r,g,q,p,f,o,n){if(o){var
+c=f?eD(b):c3(b);return K(c,a)}var
+k=[0,ad(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+kR(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -3925,16 +3994,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aL,bf(p2)),a=g0(p,je(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aQ,bj(p7)),a=g7(p,ji(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=L(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(kL,p3),a=g0(p,bt(0,b5(g,kM(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(kP,p8),a=g7(p,bw(0,ca(g,kQ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(kL,p4),a=g0(p,bt(0,b5(g,kM(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(kP,p9),a=g7(p,bw(0,ca(g,kQ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3944,27 +4013,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?p5:a}else
+y=a?p_:a}else
 var
 y=n;return y}return[0,n]}function
-kO(f,e,d,c,p,o,n){var
+kS(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=kN(f,e,d,c,b,a[1],g);return h?al(h[1]):h}var
-i=kN(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dL(a[2],b),l=kO(f,e,d,c,k[1],j,a[3]);if(l){var
+h=kR(f,e,d,c,b,a[1],g);return h?am(h[1]):h}var
+i=kR(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dT(a[2],b),l=kS(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-g1(a){return io(b(2,c),aG(a,c))}function
-dc(i,a,e,w,v){var
-m=a?c:Z(c),f=k(m),g=kK(a,e,p0),h=kK(a,e,p1),n=ac(g,db(a,e,f,g)),p=[0,C(ac(h,db(a,e,h,f)),n),0],q=ac(f,db(a,e,f,g)),r=[0,C(ac(h,db(a,e,g,h)),q),p],s=ac(f,db(a,e,h,f)),t=[0,C(ac(g,db(a,e,g,h)),s),r],u=a?e?k(b(2,c)):o(k(b(2,b(2,c))),e8):k(b(2,b(2,c))),j=cX([0,u,t]),l=[0,d,cm(i)];return kO(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-kP(a,g,b){if(Y(g,g1(a))){if(b){var
+g8(a){return iv(b(2,c),aH(a,c))}function
+di(i,a,e,w,v){var
+m=a?c:X(c),f=l(m),g=kO(a,e,p5),h=kO(a,e,p6),n=aj(g,dh(a,e,f,g)),p=[0,F(aj(h,dh(a,e,h,f)),n),0],q=aj(f,dh(a,e,f,g)),r=[0,F(aj(h,dh(a,e,g,h)),q),p],s=aj(f,dh(a,e,h,f)),t=[0,F(aj(g,dh(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fd):l(b(2,b(2,c))),j=c4([0,u,t]),k=[0,d,cs(i)];return kS(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+kT(a,g,b){if(Z(g,g8(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,g1(a)],v=cm(a),i=[0,g1(a),v],j=dc(a,0,1,h,b[1]),k=j?dc(a,0,0,i,c[1]):j;if(k){var
-l=dc(a,1,1,h,d[1]);if(l)return dc(a,1,0,i,e[1]);var
+h=[0,g,g8(a)],v=cs(a),i=[0,g8(a),v],j=di(a,0,1,h,b[1]),k=j?di(a,0,0,i,c[1]):j;if(k){var
+l=di(a,1,1,h,d[1]);if(l)return di(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3981,255 +4050,255 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=dc(a,0,0,r,b[1]);if(s)return dc(a,1,0,r,f[1]);var
+r=[0,g,cs(a)],s=di(a,0,0,r,b[1]);if(s)return di(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-g2(a){var
-b=[1,[2,d]];return cT(function(b,a){return[1,[3,b,a]]},a,b)}function
-e_(a){return g2(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-e$(a,c){return g2(e(function(a){var
-d=[0,a[2]],b=aH(a[1],c);return[1,[7,[1,[8,g2(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-kQ(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=co(function(a){return kQ(e,d,c,b,a)},f);return l(b5(e,d,c),g)}function
-kR(a){return a?Y(d,a[1][2][1]):a}function
-p6(a){var
-b=v(j(a),p7);return b?au(function(a){return al(ab(a,d))},a):b}function
-kS(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,ai(c,a[1]),f),h=kS(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
+g9(a){var
+b=[1,[2,d]];return c0(function(b,a){return[1,[3,b,a]]},a,b)}function
+ff(a){return g9(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fg(a,c){return g9(e(function(a){var
+d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,g9(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+kU(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cu(function(a){return kU(e,d,c,b,a)},f);return k(ca(e,d,c),g)}function
+kV(a){return a?Z(d,a[1][2][1]):a}function
+p$(a){var
+b=v(j(a),qa);return b?av(function(a){return am(ac(a,d))},a):b}function
+kW(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,$(c,a[1]),f),h=kW(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fa(b,a){return it(it(b,0),a)}function
-g3(a){if(a){var
-b=a[2],c=a[1];if(b)return fa(c,[0,p9,g3(b)]);var
+fh(b,a){return iA(iA(b,0),a)}function
+g_(a){if(a){var
+b=a[2],c=a[1];if(b)return fh(c,[0,qc,g_(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,p$,fa(g3(a),p_)]}function
-R(a){return[0,qb,fa(g3(a),qa)]}function
-ag(a){return[0,qd,[0,a,qc]]}function
-g(b,a){return[0,aJ(qf,aJ(b,qe)),a]}function
+x(a){return[0,qe,fh(g_(a),qd)]}function
+R(a){return[0,qg,fh(g_(a),qf)]}function
+ai(a){return[0,qi,[0,a,qh]]}function
+g(b,a){return[0,aN(qk,aN(b,qj)),a]}function
 H(b,a){return R([0,g(b,a),0])}function
-bS(d){var
-b=d,a=n2,e=0;for(;;){if(b){var
-c=ij(a),b=b[1],a=c;continue}return[0,dG(eo(a)),e]}}function
-g4(a){return[0,dG(es(a)),0]}function
-fb(a){var
-c=bG(a),f=0,b=0===c?n6:0<c?[0,es(a)]:[1,es(Z(a))];if(0===b[0])var
-d=dG(b[1]);else
+bW(d){var
+b=d,a=n6,e=0;for(;;){if(b){var
+c=ir(a),b=b[1],a=c;continue}return[0,dM(ew(a)),e]}}function
+g$(a){return[0,dM(eA(a)),0]}function
+fi(a){var
+c=bK(a),f=0,b=0===c?n_:0<c?[0,eA(a)]:[1,eA(X(a))];if(0===b[0])var
+d=dM(b[1]);else
 var
-e=dG(b[1]),d=aJ(a$(1,45),e);return[0,d,f]}function
-g5(a){var
-b=0,c=0<bG(a)?es(a):n5;return[0,dG(c),b]}function
-g6(a){switch(a[0]){case
-2:return qh;case
-3:return 2<=a[1]?qi:qj;case
-4:return qk;default:return qg}}function
-d0(b,a){function
-c(c,a){return X(c,g6(a))?d0(b,a):[0,qq,f(d0(b,a),qp)]}switch(a[0]){case
+e=dM(b[1]),d=aN(bc(1,45),e);return[0,d,f]}function
+ha(a){var
+b=0,c=0<bK(a)?eA(a):n9;return[0,dM(c),b]}function
+hb(a){switch(a[0]){case
+2:return qm;case
+3:return 2<=a[1]?qn:qo;case
+4:return qp;default:return ql}}function
+d8(b,a){function
+c(c,a){return Y(c,hb(a))?d8(b,a):[0,qv,f(d8(b,a),qu)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aP(g),0];var
-h=[0,qr,[0,aP(e),0]];return[0,aP(g),h];case
-1:return[0,l(b,a[1]),0];case
-2:return[0,qt,c(qs,a[1])];case
+e==="number")return[0,aU(g),0];var
+h=[0,qw,[0,aU(e),0]];return[0,aU(g),h];case
+1:return[0,k(b,a[1]),0];case
+2:return[0,qy,c(qx,a[1])];case
 3:var
-i=a[3],j=c([0,g6(a)],i);switch(a[1]){case
+i=a[3],j=c([0,hb(a)],i);switch(a[1]){case
 0:var
-d=ql;break;case
+d=qq;break;case
 1:var
-d=qm;break;case
+d=qr;break;case
 2:var
-d=qn;break;default:var
-d=qo}var
-k=a[2];return f(c(g6(a),k),[0,d,j]);case
+d=qs;break;default:var
+d=qt}var
+l=a[2];return f(c(hb(a),l),[0,d,j]);case
 4:var
-m=[0,qu,g4(a[2])];return f(c(qv,a[1]),m);default:return[0,qx,f(d0(b,a[1]),qw)]}}function
-G(a){return[0,qA,f(d0(function(a){return 0===a[0]?a[1]:qz},a),qy)]}function
-g7(a){return[0,qC,f(d0(function(a){return a},a),qB)]}function
-bT(a){if(0===a[0])return G(a[1]);var
-b=[0,g(qD,G(a[2])),0];return R([0,g(qE,G(a[1])),b])}function
-fc(b,a){var
-c=[0,l(b,a[3]),0],d=[0,l(b,a[2]),c];return x([0,l(b,a[1]),d])}function
-qF(a){function
-b(a){return fc(bT,a)}switch(a[0]){case
+m=[0,qz,g$(a[2])];return f(c(qA,a[1]),m);default:return[0,qC,f(d8(b,a[1]),qB)]}}function
+G(a){return[0,qF,f(d8(function(a){return 0===a[0]?a[1]:qE},a),qD)]}function
+hc(a){return[0,qH,f(d8(function(a){return a},a),qG)]}function
+bX(a){if(0===a[0])return G(a[1]);var
+b=[0,g(qI,G(a[2])),0];return R([0,g(qJ,G(a[1])),b])}function
+fj(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return x([0,k(b,a[1]),d])}function
+qK(a){function
+b(a){return fj(bX,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?qG:qO,i=[0,g(qH,ag(h)),e],j=[0,g(qI,bT(a[4])),i],k=[0,g(qJ,b(a[3])),j],l=[0,g(qK,b(a[2])),k],m=[0,g(qL,b(a[1])),l],c=[0,g(qN,ag(qM)),m];break;case
+e=0,h=a[5]?qL:qT,i=[0,g(qM,ai(h)),e],j=[0,g(qN,bX(a[4])),i],k=[0,g(qO,b(a[3])),j],l=[0,g(qP,b(a[2])),k],m=[0,g(qQ,b(a[1])),l],c=[0,g(qS,ai(qR)),m];break;case
 1:var
-d=a[3],n=d?[0,g(qP,b(d[1])),0]:d,o=[0,g(qQ,b(a[2])),0],p=[0,g(qR,b(a[1])),o],c=f([0,g(qT,ag(qS)),p],n);break;default:var
-q=[0,g(qU,b(a[1])),0],c=[0,g(qW,ag(qV)),q]}return R(c)}function
-qX(a){function
-b(a){return x(e(bT,a))}function
+d=a[3],n=d?[0,g(qU,b(d[1])),0]:d,o=[0,g(qV,b(a[2])),0],p=[0,g(qW,b(a[1])),o],c=f([0,g(qY,ai(qX)),p],n);break;default:var
+q=[0,g(qZ,b(a[1])),0],c=[0,g(q1,ai(q0)),q]}return R(c)}function
+q2(a){function
+b(a){return x(e(bX,a))}function
 d(a){var
-b=a?qY:q0;return g(qZ,ag(b))}switch(a[0]){case
+b=a?q3:q5;return g(q4,ai(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(q1,bT(a[4])),f],i=[0,g(q2,b(a[3])),h],j=[0,g(q3,b(a[2])),i],k=[0,g(q4,b(a[1])),j],c=[0,g(q6,ag(q5)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(q6,bX(a[4])),f],i=[0,g(q7,b(a[3])),h],j=[0,g(q8,b(a[2])),i],k=[0,g(q9,b(a[1])),j],c=[0,g(q$,ai(q_)),k];break;case
 1:var
-l=[0,g(q7,b(a[2])),0],m=[0,g(q8,b(a[1])),l],c=[0,g(q_,ag(q9)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(q$,bT(a[6])),n],p=[0,g(ra,bT(a[5])),o],q=[0,g(rb,b(a[4])),p],r=[0,g(rc,b(a[3])),q],s=[0,g(rd,b(a[2])),r],t=[0,g(re,b(a[1])),s],c=[0,g(rg,ag(rf)),t]}return R(c)}function
-g8(a){switch(a){case
-0:return rh;case
-1:return ri;case
-2:return rj;case
-3:return rk;case
-4:return rl;case
-5:return rm;case
-6:return rn;case
-7:return ro;case
-8:return rp;case
-9:return rq;case
-10:return rr;case
-11:return rs;case
-12:return rt;default:return ru}}function
-g9(a){if(typeof
-a==="number")return rv;else
+l=[0,g(ra,b(a[2])),0],m=[0,g(rb,b(a[1])),l],c=[0,g(rd,ai(rc)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(re,bX(a[6])),n],p=[0,g(rf,bX(a[5])),o],q=[0,g(rg,b(a[4])),p],r=[0,g(rh,b(a[3])),q],s=[0,g(ri,b(a[2])),r],t=[0,g(rj,b(a[1])),s],c=[0,g(rl,ai(rk)),t]}return R(c)}function
+hd(a){switch(a){case
+0:return rm;case
+1:return rn;case
+2:return ro;case
+3:return rp;case
+4:return rq;case
+5:return rr;case
+6:return rs;case
+7:return rt;case
+8:return ru;case
+9:return rv;case
+10:return rw;case
+11:return rx;case
+12:return ry;default:return rz}}function
+he(a){if(typeof
+a==="number")return rA;else
 switch(a[0]){case
-0:return rw;case
-1:return rx;default:return ry}}function
-d1(a){var
+0:return rB;case
+1:return rC;default:return rD}}function
+d9(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,g(rz,G(b[1])),0];break;case
+c=[0,g(rE,G(b[1])),0];break;case
 1:var
-c=[0,g(rA,G(b[1])),0];break;default:var
-l=[0,G(b[2]),0],c=[0,g(rB,x([0,G(b[1]),l])),0]}var
-m=[0,g(rC,ag(g9(a[4]))),c],e=a[3];if(e){var
+c=[0,g(rF,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,g(rG,x([0,G(b[1]),l])),0]}var
+m=[0,g(rH,ai(he(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=x([0,G(d[1]),0]),i=a[1],n=0,p=6===i?rD:12===i?rH:rI,j=[0,g(rE,H(p,o)),n];else
+o=x([0,G(d[1]),0]),i=a[1],n=0,p=6===i?rI:12===i?rM:rN,j=[0,g(rJ,H(p,o)),n];else
 var
-t=[0,g(rJ,x([0,G(d[2]),0])),0],j=[0,g(rL,R([0,g(rK,x([0,G(d[1]),0])),t])),0];var
+t=[0,g(rO,x([0,G(d[2]),0])),0],j=[0,g(rQ,R([0,g(rP,x([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=f(k,m),h=a[2],r=h?[0,g(rF,bS(h[1])),0]:h,s=f(r,q);return R([0,g(rG,ag(g8(a[1]))),s])}function
-kT(a){if(0===a[0]){var
-b=[0,g(rM,fc(G,a[2])),0];return H(rO,R([0,g(rN,fc(G,a[1])),b]))}var
-c=[0,G(a[5]),0],d=[0,g(rP,x([0,G(a[4]),c])),0],e=[0,g(rQ,G(a[3])),d],f=[0,G(a[2]),0];return H(rS,R([0,g(rR,x([0,G(a[1]),f])),e]))}function
-kU(a){switch(a){case
-0:return rW;case
-1:return rX;default:return rY}}function
-rZ(a){function
-b(a){return x(e(bT,a))}var
-c=[0,g(r0,b(a[2])),0],d=[0,g(r1,b(a[1])),c];return R([0,g(r3,ag(r2)),d])}function
-kV(a){function
+q=f(k,m),h=a[2],r=h?[0,g(rK,bW(h[1])),0]:h,s=f(r,q);return R([0,g(rL,ai(hd(a[1]))),s])}function
+kX(a){if(0===a[0]){var
+b=[0,g(rR,fj(G,a[2])),0];return H(rT,R([0,g(rS,fj(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,g(rU,x([0,G(a[4]),c])),0],e=[0,g(rV,G(a[3])),d],f=[0,G(a[2]),0];return H(rX,R([0,g(rW,x([0,G(a[1]),f])),e]))}function
+kY(a){switch(a){case
+0:return r1;case
+1:return r2;default:return r3}}function
+r4(a){function
+b(a){return x(e(bX,a))}var
+c=[0,g(r5,b(a[2])),0],d=[0,g(r6,b(a[1])),c];return R([0,g(r8,ai(r7)),d])}function
+kZ(a){function
 b(b,a){var
 c=[0,G(a),0];return x([0,G(b),c])}switch(a[0]){case
-0:return H(r4,b(a[1],a[2]));case
+0:return H(r9,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(r5,b(c[1],c[2])),0],h=[0,g(r6,b(d[1],d[2])),f];return H(r8,R([0,g(r7,b(e[1],e[2])),h]));case
-2:return H(r9,G(a[1]));default:var
-i=[0,g(r_,G(a[2])),0];return H(sa,R([0,g(r$,G(a[1])),i]))}}function
-sb(a){function
-b(a){return fc(G,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(sc,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sd,x([0,G(a[3]),h])),0],j=[0,g(se,G(a[2])),i],k=[0,g(sf,bS(a[1])),j],d=f([0,g(sh,ag(sg)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(r_,b(c[1],c[2])),0],h=[0,g(r$,b(d[1],d[2])),f];return H(sb,R([0,g(sa,b(e[1],e[2])),h]));case
+2:return H(sc,G(a[1]));default:var
+i=[0,g(sd,G(a[2])),0];return H(sf,R([0,g(se,G(a[1])),i]))}}function
+sg(a){function
+b(a){return fj(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sh,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(si,x([0,G(a[3]),h])),0],j=[0,g(sj,G(a[2])),i],k=[0,g(sk,bW(a[1])),j],d=f([0,g(sm,ai(sl)),k],e);else
 var
-l=[0,g(si,G(a[4])),0],m=[0,g(sj,b(a[3])),l],n=[0,g(sk,b(a[2])),m],o=a[1]?sl:sn,d=[0,g(sm,ag(o)),n];return R(d)}function
-g_(d,c,a,b){var
-h=[0,g(so,x(e(d1,b))),0],i=a?[0,g(sp,x(e(sb,a))),0]:a,j=f(i,h),k=[0,g(sq,kT(c)),0];return R(f([0,g(ss,H(sr,x(e(qF,d)))),k],j))}function
-st(a){switch(a[0]){case
-0:return H(su,g_(a[1],a[2],a[3],a[4]));case
+l=[0,g(sn,G(a[4])),0],m=[0,g(so,b(a[3])),l],n=[0,g(sp,b(a[2])),m],o=a[1]?sq:ss,d=[0,g(sr,ai(o)),n];return R(d)}function
+hf(d,c,a,b){var
+h=[0,g(st,x(e(d9,b))),0],i=a?[0,g(su,x(e(sg,a))),0]:a,j=f(i,h),k=[0,g(sv,kX(c)),0];return R(f([0,g(sx,H(sw,x(e(qK,d)))),k],j))}function
+sy(a){switch(a[0]){case
+0:return H(sz,hf(a[1],a[2],a[3],a[4]));case
 1:var
-c=a[5],d=a[3],h=a[1],i=x(e(qX,a[2])),p=[0,g(sv,x(e(d1,a[6]))),0],q=c?[0,g(sw,kV(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
-o=[0,g(rT,x(e(G,b[2]))),0],j=H(rV,R([0,g(rU,x(e(G,b[1]))),o]));else
+c=a[5],d=a[3],h=a[1],i=x(e(q2,a[2])),p=[0,g(sA,x(e(d9,a[6]))),0],q=c?[0,g(sB,kZ(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
+o=[0,g(rY,x(e(G,b[2]))),0],j=H(r0,R([0,g(rZ,x(e(G,b[1]))),o]));else
 var
-j=kT([1,b[1],b[2],b[3],b[4],b[5]]);var
-n=0,s=[0,g(sx,j),r];if(typeof
+j=kX([1,b[1],b[2],b[3],b[4],b[5]]);var
+n=0,s=[0,g(sC,j),r];if(typeof
 h==="number")if(h)var
-k=sy;else{var
-l=H(sD,i);n=1}else
+k=sD;else{var
+l=H(sI,i);n=1}else
 var
-k=kU(h[1]);if(!n)var
-t=d?[0,g(sz,G(d[1])),0]:d,l=H(k,R([0,g(sA,i),t]));return H(sC,R([0,g(sB,l),s]));case
+k=kY(h[1]);if(!n)var
+t=d?[0,g(sE,G(d[1])),0]:d,l=H(k,R([0,g(sF,i),t]));return H(sH,R([0,g(sG,l),s]));case
 2:var
-u=[0,g(sE,x(e(d1,a[7]))),0],v=[0,g(sF,kV(a[6])),u],w=[0,g(sG,x(e(G,a[5]))),0],y=[0,g(sJ,H(sI,R([0,g(sH,x(e(G,a[4]))),w]))),v],z=[0,g(sK,G(a[3])),0],A=R([0,g(sL,x(e(rZ,a[2]))),z]);return H(sN,R([0,g(sM,H(kU(a[1]),A)),y]));case
+u=[0,g(sJ,x(e(d9,a[7]))),0],v=[0,g(sK,kZ(a[6])),u],w=[0,g(sL,x(e(G,a[5]))),0],y=[0,g(sO,H(sN,R([0,g(sM,x(e(G,a[4]))),w]))),v],z=[0,g(sP,G(a[3])),0],A=R([0,g(sQ,x(e(r4,a[2]))),z]);return H(sS,R([0,g(sR,H(kY(a[1]),A)),y]));case
 3:var
-B=[0,g(sO,x(e(d1,a[7]))),0],C=[0,g(sP,x(e(G,a[6]))),0],D=[0,g(sS,H(sR,R([0,g(sQ,x(e(G,a[5]))),C]))),B],E=0,F=a[4],I=[0,g(sV,x(e(function(a){return 0===a[0]?H(sT,x(e(g7,a[1]))):H(sU,g7(a[1]))},F))),E],J=a[3],K=[0,g(sW,x(e(function(a){var
-b=[0,g7(a[2]),0];return x([0,ag(a[1]),b])},J))),I],L=a[2],M=[0,g(sX,x(e(function(a){var
-b=[0,bT(a[2]),0];return x([0,ag(a[1]),b])},L))),K];return H(s1,R([0,g(s0,H(sZ,R([0,g(sY,x(e(ag,a[1]))),M]))),D]));case
+B=[0,g(sT,x(e(d9,a[7]))),0],C=[0,g(sU,x(e(G,a[6]))),0],D=[0,g(sX,H(sW,R([0,g(sV,x(e(G,a[5]))),C]))),B],E=0,F=a[4],I=[0,g(s0,x(e(function(a){return 0===a[0]?H(sY,x(e(hc,a[1]))):H(sZ,hc(a[1]))},F))),E],J=a[3],K=[0,g(s1,x(e(function(a){var
+b=[0,hc(a[2]),0];return x([0,ai(a[1]),b])},J))),I],L=a[2],M=[0,g(s2,x(e(function(a){var
+b=[0,bX(a[2]),0];return x([0,ai(a[1]),b])},L))),K];return H(s6,R([0,g(s5,H(s4,R([0,g(s3,x(e(ai,a[1]))),M]))),D]));case
 4:var
-N=[0,g(s2,x(e(d1,a[3]))),0],O=[0,g(s5,H(s4,R([0,g(s3,G(a[2])),0]))),N];return H(s9,R([0,g(s8,H(s7,R([0,g(s6,G(a[1])),0]))),O]));case
+N=[0,g(s7,x(e(d9,a[3]))),0],O=[0,g(s_,H(s9,R([0,g(s8,G(a[2])),0]))),N];return H(tc,R([0,g(tb,H(ta,R([0,g(s$,G(a[1])),0]))),O]));case
 5:var
-P=[0,g(s_,G(a[5])),0];return H(ta,R([0,g(s$,g_(a[1],[0,a[2],a[3]],0,a[4])),P]));case
+P=[0,g(td,G(a[5])),0];return H(tf,R([0,g(te,hf(a[1],[0,a[2],a[3]],0,a[4])),P]));case
 6:var
-m=a[1],Q=0,S=m?bT(m[1]):ag(td);return H(tc,R([0,g(tb,S),Q]));default:var
-T=[0,g(te,G(a[6])),0],U=[0,g(tf,G(a[5])),T],V=[0,g(tg,g_(a[2],a[3],0,a[4])),U],W=a[1];return H(tl,R([0,g(tk,x(e(function(a){var
-b=[0,g(th,G(a[2][2])),0],c=[0,g(ti,G(a[2][1])),b];return R([0,g(tj,ag(a[1])),c])},W))),V]))}}function
-d2(a){return x(e(fb,a))}function
-fd(b,a){var
-c=[0,g(tm,g5(a)),0];return R([0,g(tn,x(e(d2,b))),c])}function
-d3(a){switch(a[0]){case
-0:return ag(a[1]);case
+m=a[1],Q=0,S=m?bX(m[1]):ai(ti);return H(th,R([0,g(tg,S),Q]));default:var
+T=[0,g(tj,G(a[6])),0],U=[0,g(tk,G(a[5])),T],V=[0,g(tl,hf(a[2],a[3],0,a[4])),U],W=a[1];return H(tq,R([0,g(tp,x(e(function(a){var
+b=[0,g(tm,G(a[2][2])),0],c=[0,g(tn,G(a[2][1])),b];return R([0,g(to,ai(a[1])),c])},W))),V]))}}function
+d_(a){return x(e(fi,a))}function
+fk(b,a){var
+c=[0,g(tr,ha(a)),0];return R([0,g(ts,x(e(d_,b))),c])}function
+d$(a){switch(a[0]){case
+0:return ai(a[1]);case
 1:var
-b=fd(a[2],a[3]);return H(a[1],b);case
+b=fk(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?to:tq;return H(tp,ag(c));case
+c=a[1]?tt:tv;return H(tu,ai(c));case
 3:var
-d=[0,d2(a[3]),0];return H(tr,x([0,fd(a[1],a[2]),d]));case
+d=[0,d_(a[3]),0];return H(tw,x([0,fk(a[1],a[2]),d]));case
 4:var
-f=[0,bS(0),0],g=[0,fb(a[3]),f];return H(ts,x([0,fd(a[1],a[2]),g]));case
+f=[0,bW(0),0],g=[0,fi(a[3]),f];return H(tx,x([0,fk(a[1],a[2]),g]));case
 5:var
-h=[0,g5(a[3]),0],i=[0,fb(a[2]),h];return H(tt,x([0,d3(a[1]),i]));case
+h=[0,ha(a[3]),0],i=[0,fi(a[2]),h];return H(ty,x([0,d$(a[1]),i]));case
 6:var
-j=[0,g5(a[3]),0],k=[0,fb(a[2]),j];return H(tu,x([0,d3(a[1]),k]));case
-7:return H(tv,d3(a[1]));default:var
-l=[0,x(e(d2,a[3])),0],m=[0,ag(a[2]),l];return H(tw,x([0,d3(a[1]),m]))}}function
-tx(a){var
-b=[0,d3(a[2]),0];return x([0,bS(a[1]),b])}function
-kW(a){if(typeof
-a==="number")return ag(ty);else{if(0===a[0]){var
-b=[0,x(e(d2,a[2])),0];return H(tz,x([0,bS(a[1]),b]))}var
-c=[0,bS(a[2]),0];return H(tA,x([0,bS(a[1]),c]))}}function
-tB(a){var
-b=a[4],i=b?[0,g(tC,d2([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(tD,kW(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(tE,bS(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(tF,x(e(tx,[0,c[1],c[2]]))),0]:c;return R(f(n,m))}function
-kX(h,a,d){var
-i=[0,g(tG,x(e(tB,d))),0];if(a)var
-b=a[1],c=[0,g(tH,fd(b[1],b[2])),0];else
+j=[0,ha(a[3]),0],k=[0,fi(a[2]),j];return H(tz,x([0,d$(a[1]),k]));case
+7:return H(tA,d$(a[1]));default:var
+l=[0,x(e(d_,a[3])),0],m=[0,ai(a[2]),l];return H(tB,x([0,d$(a[1]),m]))}}function
+tC(a){var
+b=[0,d$(a[2]),0];return x([0,bW(a[1]),b])}function
+k0(a){if(typeof
+a==="number")return ai(tD);else{if(0===a[0]){var
+b=[0,x(e(d_,a[2])),0];return H(tE,x([0,bW(a[1]),b]))}var
+c=[0,bW(a[2]),0];return H(tF,x([0,bW(a[1]),c]))}}function
+tG(a){var
+b=a[4],i=b?[0,g(tH,d_([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(tI,k0(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(tJ,bW(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(tK,x(e(tC,[0,c[1],c[2]]))),0]:c;return R(f(n,m))}function
+k1(h,a,d){var
+i=[0,g(tL,x(e(tG,d))),0];if(a)var
+b=a[1],c=[0,g(tM,fk(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return R([0,g(tI,g4(h)),j])}function
-kY(d,c,a,b){var
-h=[0,g(tJ,kW(b)),0],i=a?[0,g(tK,x(e(G,a))),0]:a,j=f(i,h),k=[0,g(tL,x(e(G,c))),0];return R(f([0,g(tM,g4(d)),k],j))}function
-tN(a){if(typeof
-a==="number")return ag(tO);else
+j=f(c,i);return R([0,g(tN,g$(h)),j])}function
+k2(d,c,a,b){var
+h=[0,g(tO,k0(b)),0],i=a?[0,g(tP,x(e(G,a))),0]:a,j=f(i,h),k=[0,g(tQ,x(e(G,c))),0];return R(f([0,g(tR,g$(d)),k],j))}function
+tS(a){if(typeof
+a==="number")return ai(tT);else
 switch(a[0]){case
-0:return H(tP,bS(a[1]));case
-1:return H(tQ,kX(a[1],a[2],a[3]));default:return H(tR,kY(a[1],a[2],a[3],a[4]))}}function
-fe(a){var
-b=fZ(fY(aj(a),function(b){return aF(a,b)}));return n(function(a){var
-b=al(34===a?1:0),c=b?al(92===a?1:0):b,d=c?X(t6,et(a)):c;return d?X(et(a),t7):d},b)}function
-d4(b){function
+0:return H(tU,bW(a[1]));case
+1:return H(tV,k1(a[1],a[2],a[3]));default:return H(tW,k2(a[1],a[2],a[3],a[4]))}}function
+fl(a){var
+b=f6(f5(ak(a),function(b){return aG(a,b)}));return n(function(a){var
+b=am(34===a?1:0),c=b?am(92===a?1:0):b,d=c?Y(t$,eB(a)):c;return d?Y(eB(a),ua):d},b)}function
+ea(b){function
 c(f){var
-a=et(f),b=X(t8,a),c=b?X(a,t9):b;if(c)var
+a=eB(f),b=Y(ub,a),c=b?Y(a,uc):b;if(c)var
 d=c;else{var
-e=X(t_,a);if(e)return X(a,t$);var
+e=Y(ud,a);if(e)return Y(a,ue);var
 d=e}return d}var
-a=fZ(fY(aj(b),function(a){return aF(b,a)}));if(a){var
+a=f6(f5(ak(b),function(a){return aG(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=et(a),f=X(ua,e),h=f?X(e,ub):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?X(j(d),uc):f;if(g)return al(ak(b,ud));var
+e=eB(a),f=Y(uf,e),h=f?Y(e,ug):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Y(j(d),uh):f;if(g)return am(al(b,ui));var
 h=g}else
 var
 h=a;return h}function
-g$(c){var
+hg(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return d4(a[1]);case
+1:return ea(a[1]);case
 3:var
-b=g$(a[2]);if(b){var
+b=hg(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-d5(m){var
+eb(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4240,104 +4309,104 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eo(a[2]);if(typeof
+f=ew(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=d5(a[2]);if(i){var
+i=eb(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=d5(a[1]),l=k?er(b(2,c),j):k;return l?er(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eb(a[1]),l=k?ez(b(2,c),j):k;return l?ez(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dd(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bi(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cB(a){return B(dd,bi(a))}function
-ha(a){switch(a[0]){case
+dj(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bm(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cI(a){return B(dj,bm(a))}function
+hh(a){switch(a[0]){case
 0:var
-c=dd(a[4]),d=f(cB(a[3]),c),e=f(cB(a[2]),d);return f(cB(a[1]),e);case
+c=dj(a[4]),d=f(cI(a[3]),c),e=f(cI(a[2]),d);return f(cI(a[1]),e);case
 1:var
-b=a[3],g=b?cB(b[1]):b,h=f(cB(a[2]),g);return f(cB(a[1]),h);default:return cB(a[1])}}function
-ue(a){switch(a[0]){case
+b=a[3],g=b?cI(b[1]):b,h=f(cI(a[2]),g);return f(cI(a[1]),h);default:return cI(a[1])}}function
+uj(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dd,b)}function
-kZ(a){if(0===a[0]){var
-b=bi(a[2]);return f(bi(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-k0(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dj,b)}function
+k3(a){if(0===a[0]){var
+b=bm(a[2]);return f(bm(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+k4(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cC(d){var
+cJ(d){var
 a=d[4],g=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return f(e,g)}function
-uf(a){if(0===a[0]){var
-b=a[5],c=b?bi(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bi(a[3]),d);return f(bi(a[2]),e)}function
-k1(b,e){var
+uk(a){if(0===a[0]){var
+b=a[5],c=b?bm(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bm(a[3]),d);return f(bm(a[2]),e)}function
+k5(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return au(function(a){return ak(f,a)},b)}return 0;case
+f=c[1];return av(function(a){return al(f,a)},b)}return 0;case
 3:var
-d=k1(b,a[2]);if(d){var
+d=k5(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-ff(c,a){return n(function(a){var
-b=d5(a);return b?k1(c,a):b},a)}function
-k2(a){var
-d=er(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?er(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-k3(a,b){return b?[4,k3(a,b[1]),a]:a}function
+fm(c,a){return n(function(a){var
+b=eb(a);return b?k5(c,a):b},a)}function
+k6(a){var
+d=ez(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?ez(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+k7(a,b){return b?[4,k7(a,b[1]),a]:a}function
 h(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=ep(ih(j),l,c);return[0,iq(ii(eo(a[1]),j)),m];case
+j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=ex(ip(j),l,c);return[0,ix(iq(ew(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=h(a[1]);return 0===f[0]?[0,Z(f[1]),f[2]]:[3,[0,d,c],f];case
+f=h(a[1]);return 0===f[0]?[0,X(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
 g=h(a[2]),i=h(a[3]);switch(a[1]){case
 0:return[2,g,i];case
 1:return[3,g,i];case
 2:return[4,g,i];default:return[5,g,i]}case
 4:var
-n=bq(dB(a[2]));return k3(h(a[1]),n);default:return[6,h(a[1])]}}function
-bj(a){if(0===a[0]){var
+n=bu(dH(a[2]));return k7(h(a[1]),n);default:return[6,h(a[1])]}}function
+bn(a){if(0===a[0]){var
 b=h(a[1]);return[0,b,b]}var
 c=h(a[2]);return[0,h(a[1]),c]}function
-cD(a){var
-b=bj(a[3]),c=bj(a[2]);return[0,bj(a[1]),c,b]}function
-ug(a){switch(a[0]){case
+cK(a){var
+b=bn(a[3]),c=bn(a[2]);return[0,bn(a[1]),c,b]}function
+ul(a){switch(a[0]){case
 0:var
-b=a[5],c=bj(a[4]),d=cD(a[3]),e=cD(a[2]);return[0,[0,cD(a[1]),e,d,c,b]];case
+b=a[5],c=bn(a[4]),d=cK(a[3]),e=cK(a[2]);return[0,[0,cK(a[1]),e,d,c,b]];case
 1:var
-f=A(cD,a[3]),g=cD(a[2]);return[1,cD(a[1]),g,f];default:return[2,cD(a[1])]}}function
-k4(a){if(0===a[0]){var
+f=z(cK,a[3]),g=cK(a[2]);return[1,cK(a[1]),g,f];default:return[2,cK(a[1])]}}function
+k8(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=h(l(a,c));return[0,h(l(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),k=h(a[2]);return[1,h(a[1]),k,j,i]}function
-de(a){var
+b=h(k(a,c));return[0,h(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),l=h(a[2]);return[1,h(a[1]),l,j,i]}function
+dk(a){var
 b=h(a[3]),c=h(a[2]);return[0,h(a[1]),c,b]}function
-df(a){if(0===a[0]){var
-b=a[5],i=b?de(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bq(a[1]),l,k,j,i]}var
+dl(a){if(0===a[0]){var
+b=a[5],i=b?dk(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bu(a[1]),l,k,j,i]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=de(f),n=de(g);return[2,h(e),n,m]}var
-o=de(f),p=de(g);return[1,h(e),p,o]}function
-hb(b,a){if(a){var
-c=a[1],d=a[2],g=hb(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cl(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:cj(b[1],a[1]);return al(d)},h),g)}return a}function
-uh(b){if(b[1])return 0;var
+m=dk(f),n=dk(g);return[2,h(e),n,m]}var
+o=dk(f),p=dk(g);return[1,h(e),p,o]}function
+hi(b,a){if(a){var
+c=a[1],d=a[2],g=hi(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cr(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:b7(b[1],a[1]);return am(d)},h),g)}return a}function
+um(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-uj(c,a){switch(a[1]){case
+uo(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4369,7 +4438,7 @@ f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=v(c,ul),J=0;if(x){var
+x=v(c,uq),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -4392,12 +4461,12 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?v(c,um):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?v(c,ur):0:j}return 0;case
 13:return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=X(uk,b);return n?X(b,c):n}function
-hc(g,m,_,b){var
+n=Y(up,b);return n?Y(b,c):n}function
+hj(g,m,_,b){var
 $=j(g),i=B(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
@@ -4447,14 +4516,14 @@ b=h(R);return[13,a,h(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=hb(0,_);return e(function(i){var
+T=s[1],U=hi(0,_);return e(function(i){var
 e=h(T),a=i[2],b=i[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?de(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
-j=h(a[2]),k=[2,[2,h(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bq(f),m,l,k]}var
-n=df(a);return[10,df(b),n,e]}var
-o=df(a);return[10,df(b),o,e]}var
-p=df(a);return[10,df(b),p,e]},U)}return 0;case
+g=function(a){return a?dk(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
+j=h(a[2]),k=[2,[2,h(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bu(f),m,l,k]}var
+n=dl(a);return[10,dl(b),n,e]}var
+o=dl(a);return[10,dl(b),o,e]}var
+p=dl(a);return[10,dl(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
@@ -4464,18 +4533,18 @@ W=w[2],X=w[1],b=function(a){var
 b=h(V),c=h(W);return[12,a,h(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?ui:E;return Y;case
+a[4]==="number"?1:0,Y=E?un:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
 Z=h(x[1]);return[0,[14,h(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,bq(A[1]),0]:aO(0,$);return e(b,L)},b),a=B(uh,b),k=a?[0,a[1],a[2]]:un,l=f(k,i),n=k4(m);return[0,e(ug,g),n,l]}function
-uo(b){if(b[1])return 0;var
+A=a[2],L=A?[0,bu(A[1]),0]:aT(0,$);return e(b,L)},b),a=B(um,b),k=a?[0,a[1],a[2]]:us,l=f(k,i),n=k8(m);return[0,e(ul,g),n,l]}function
+ut(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-dg(L,K,b){var
+dm(L,K,b){var
 c=B(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
@@ -4526,8 +4595,8 @@ p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
 J=p[1],b=function(a){return[11,a,h(J)]};if(x)return 0;break;default:return 0}var
-q=a[2],z=q?[0,bq(q[1]),0]:aO(0,K);return e(b,z)},b),a=B(uo,b),d=a?[0,a[1],a[2]]:up;return f(d,c)}function
-by(n,m,a){var
+q=a[2],z=q?[0,bu(q[1]),0]:aT(0,K);return e(b,z)},b),a=B(ut,b),d=a?[0,a[1],a[2]]:uu;return f(d,c)}function
+bC(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4537,49 +4606,49 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cj(n,e);if(f){var
+f=b7(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=X(uq,h);return i?X(h,m):i}var
+h=g[1],i=Y(uv,h);return i?Y(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bz(n,b,a){var
+bD(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=X(ur,e),o=f?X(e,b):f,c=o;else
+e=d[1],f=Y(uw,e),o=f?Y(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:by(0,b,a):by(0,b,a)}return by(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bC(0,b,a):bC(0,b,a)}return bC(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:by(0,b,a):by(0,b,a)}return by(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bC(0,b,a):bC(0,b,a)}return bC(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?v(b,n):c:by(0,b,a):by(0,b,a)}return by(0,b,a)}return by(0,b,a)}function
-cc(a){switch(a[0]){case
+m=a[3];return m?0===m[1][0]?c?v(b,n):c:bC(0,b,a):bC(0,b,a)}return bC(0,b,a)}return bC(0,b,a)}function
+ck(a){switch(a[0]){case
 0:return[0,h([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cc(a[1])];case
+2:return[2,ck(a[1])];case
 3:var
-b=cc(a[2]),c=cc(a[3]);switch(a[1]){case
+b=ck(a[2]),c=ck(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cc(a[1]),d];default:return[8,cc(a[1])]}}function
-fg(b){function
+d=a[2];return[7,ck(a[1]),d];default:return[8,ck(a[1])]}}function
+fn(b){function
 a(e){var
 a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(ut),f=a(uu);return[0,a(0),f,e]}function
-cE(a){function
+e=a(uy),f=a(uz);return[0,a(0),f,e]}function
+cL(a){function
 b(a){var
 b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4587,63 +4656,63 @@ b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,h(a[1])];default:var
 e=h(a[2]);return[3,h(a[1]),e]}}function
-k5(k,a,i,g,f,d,c){function
-b(a){return fg(e(bj,a))}var
-l=dg(0,j(a),c),m=cE(d),n=aH(g,f),o=fg(e(function(a){var
+k9(k,a,i,g,f,d,c){function
+b(a){return fn(e(bn,a))}var
+l=dm(0,j(a),c),m=cL(d),n=aJ(g,f),o=fn(e(function(a){var
 b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(i);return[0,k,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-k6(a){return au(function(a){return 2===a[0]?1:0},a)}function
-k7(m,b,f,a,l,k){var
-n=j(b),o=dg(k6(b),n,k),p=A(cE,l);if(0===a[0])var
-i=aH(a[1],a[2]),g=[0,fg(e(function(a){var
+k_(a){return av(function(a){return 2===a[0]?1:0},a)}function
+k$(m,b,f,a,l,k){var
+n=j(b),o=dm(k_(b),n,k),p=z(cL,l);if(0===a[0])var
+i=aJ(a[1],a[2]),g=[0,fn(e(function(a){var
 b=h(a[2]);return[0,h(a[1]),b]},i))];else
 var
-g=k4([1,a[1],a[2],a[3],a[4],a[5]]);var
+g=k8([1,a[1],a[2],a[3],a[4],a[5]]);var
 q=f?h(f[1]):[0,c,c];return[0,m,e(function(a){function
-b(a){return fg(e(bj,a))}switch(a[0]){case
+b(a){return fn(e(bn,a))}switch(a[0]){case
 0:var
-k=a[5],l=bj(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bn(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bj(a[6]),r=bj(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
-k8(o,e,a){if(e)if(a){var
-g=e[1],i=a[1],k=bP(h(g[2][1]));if(k){var
-l=k[1],m=bP(h(g[2][2]));if(m)var
+p=a[7],q=bn(a[6]),r=bn(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
+la(o,e,a){if(e)if(a){var
+g=e[1],i=a[1],k=bT(h(g[2][1]));if(k){var
+l=k[1],m=bT(h(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,ep(i[2],d,c)];return dF(l,cV(f6(p,l),e))},q=n(y(i[1],c)),f=[0,n(i[1]),q];else
+e=[0,a,ex(i[2],d,c)];return dL(l,c2(gb(p,l),e))},q=n(y(i[1],c)),f=[0,n(i[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=k8([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=la([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-am(b,a){switch(a[0]){case
+an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=iv(function(a){return ak(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,am(b,a[1])];case
+e=c[1],d=iC(function(a){return al(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,an(b,a[1])];case
 3:var
-f=am(b,a[3]),g=am(b,a[2]);return[3,a[1],g,f];case
+f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,am(b,a[1]),h];default:return[5,am(b,a[1])]}}function
-k9(b,a){if(0===a[0])return[0,am(b,a[1])];var
-c=am(b,a[2]);return[1,am(b,a[1]),c]}function
-hd(b,a){var
-c=l(b,a[3]),d=l(b,a[2]);return[0,l(b,a[1]),d,c]}function
-he(c,a){if(c)if(a){var
+h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
+lb(b,a){if(0===a[0])return[0,an(b,a[1])];var
+c=an(b,a[2]);return[1,an(b,a[1]),c]}function
+hk(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+hl(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=he(h,g);if(e){var
-i=e[1],f=he(h,i[2]);if(f)var
+e=hl(h,g);if(e){var
+i=e[1],f=hl(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -4655,90 +4724,90 @@ var
 d=a;else
 var
 d=c;return d}function
-hf(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hf(g,f[1],h)];var
+hm(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hm(g,f[1],h)];var
 j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(u(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-uv(a){if(typeof
+uA(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-uw(a){if(typeof
+uB(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fh(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=fh(e,a[3]);return cV(dF(fh(e,a[2]),g),f)}return l(e,a[1])?[0,c,c]:[0,d,c]}var
+fo(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=fo(e,a[3]);return c2(dL(fo(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}var
 q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bU(h){var
-a=br(function(f,e){var
-a=aS(q,f);if(a)var
-b=a[1],c=bp(fW(b[1]),fW(b[2]));else
+bY(h){var
+a=bv(function(f,e){var
+a=aV(q,f);if(a)var
+b=a[1],c=bt(f3(b[1]),f3(b[2]));else
 var
-c=d;return bp(c,e)},d,h);if(Y(d,a)){var
-f=bG(a);if(0===f||!(0<f&&!L(a,c)))var
+c=d;return bt(c,e)},d,h);if(Z(d,a)){var
+f=bK(a);if(0===f||!(0<f&&!L(a,c)))var
 g=d;else
 var
-b=bo(a,aZ(2)),e=b[1],g=ab(b[2],d)?eq(e):eq(e);return aG(g,q)}return d}function
-dh(a){return[0,a[1],[0,a[2],0]]}function
-aV(a){var
-b=dh(a[3]),c=f(dh(a[2]),b);return f(dh(a[1]),c)}function
-k_(a){return 0===a[0]?dh(a[1][4]):0}function
-k$(a){switch(a[0]){case
+b=bs(a,a2(2)),e=b[1],g=ac(b[2],d)?ey(e):ey(e);return aH(g,q)}return d}function
+dn(a){return[0,a[1],[0,a[2],0]]}function
+aY(a){var
+b=dn(a[3]),c=f(dn(a[2]),b);return f(dn(a[1]),c)}function
+lc(a){return 0===a[0]?dn(a[1][4]):0}function
+ld(a){switch(a[0]){case
 0:var
-b=a[1],c=aV(b[3]);return f(aV(b[2]),c);case
+b=a[1],c=aY(b[3]);return f(aY(b[2]),c);case
 1:var
-d=aV(a[2]);return f(aV(a[1]),d);default:return 0}}function
-fi(a){switch(a[0]){case
-0:return bU(aV(a[1][1]));case
+d=aY(a[2]);return f(aY(a[1]),d);default:return 0}}function
+fp(a){switch(a[0]){case
+0:return bY(aY(a[1][1]));case
 1:var
-b=a[3];return b?bU(aV(b[1])):d;default:return bU(aV(a[1]))}}function
-hg(b){var
-a=B(k_,b),d=a?[0,a[1],a[2]]:B(k$,b);return y(c,bU(d))}function
-la(c,a){if(c){if(a){var
+b=a[3];return b?bY(aY(b[1])):d;default:return bY(aY(a[1]))}}function
+hn(b){var
+a=B(lc,b),d=a?[0,a[1],a[2]]:B(ld,b);return y(c,bY(d))}function
+le(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=ux;else
+b=uC;else
 if(43===d)var
-b=uy;else
+b=uD;else
 var
-f=48===d?1:0,i=f?uz:f,b=i;if(b)var
-e=la(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?uE:f,b=i;if(b)var
+e=le(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:uA}function
-d6(b,a){switch(a[0]){case
+h=a;return h}return a?0:uF}function
+ec(b,a){switch(a[0]){case
 0:var
-c=a[1];if(ak(c,uB))return uC;if(ak(c,uD))return uE;if(ak(c,uF))return uG;if(ak(c,uH))return uI;if(ak(c,uJ))return uK;var
-k=ak(c,uL),p=k?uM:k;return p;case
+c=a[1];if(al(c,uG))return uH;if(al(c,uI))return uJ;if(al(c,uK))return uL;if(al(c,uM))return uN;if(al(c,uO))return uP;var
+k=al(c,uQ),p=k?uR:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(ak(f,uN))return[0,[0,d,e]];if(ak(f,uO))return[0,[1,d,e]];if(ak(f,uP))return[0,[2,d,e]];var
-l=ak(f,uQ),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(al(f,uS))return[0,[0,d,e]];if(al(f,uT))return[0,[1,d,e]];if(al(f,uU))return[0,[2,d,e]];var
+l=al(f,uV),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=d6(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=ec(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=d6(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=ec(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=d6(b,a[1]);return A(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=d6(b,a[1]);if(i)var
-j=la(b,fZ(fY(aj(m),function(a){return aF(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=ec(b,a[1]);return z(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=ec(b,a[1]);if(i)var
+j=le(b,f6(f5(ak(m),function(a){return aG(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-lb(d,a){if(a){var
-e=a[1],b=d6(d,e[2]);if(b)var
-c=lb(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+lf(d,a){if(a){var
+e=a[1],b=ec(d,e[2]);if(b)var
+c=lf(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return uR}function
-cF(d,c,a){if(c)if(a){var
+f=b;return f}return uW}function
+cM(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=lb(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=lf(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cF(d,k,j);if(f){var
-m=f[1],g=cF(d,k,m[2]);if(g)var
+f=cM(d,k,j);if(f){var
+m=f[1],g=cM(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -4753,69 +4822,69 @@ var
 h=a;else
 var
 h=c;return h}function
-hh(e,d,a){if(d){if(a){var
-b=cF(e,j(a),a);if(b)var
-f=b[1],c=hh(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+ho(e,d,a){if(d){if(a){var
+b=cM(e,j(a),a);if(b)var
+f=b[1],c=ho(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return uS}return a?0:uT}function
-hi(a){return typeof
+g=b;return g}return uX}return a?0:uY}function
+hp(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hj(d,a){if(d)if(a){var
+hq(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hj(k,j);if(e){var
-l=e[1],f=hj(k,l[2]);if(f)var
+e=hq(k,j);if(e){var
+l=e[1],f=hq(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hi(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hp(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cd(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
-cG(a,e){var
-b=cd(a[1],e),c=cd(a[2],b[2]),d=cd(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lc(d,c){if(d){var
+cl(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
+cN(a,e){var
+b=cl(a[1],e),c=cl(a[2],b[2]),d=cl(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+lg(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cG(a[1],c),f=cG(a[2],e[2]),g=cG(a[3],f[2]),h=cd(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cN(a[1],c),f=cN(a[2],e[2]),g=cN(a[3],f[2]),h=cl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cG(a[1],c),k=j[1],l=cG(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cG(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cN(a[1],c),k=j[1],l=cN(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cN(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cG(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lc(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-uU(a){if(typeof
+p=cN(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=lg(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+uZ(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return uW;case
+5:return u1;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return uV}function
-a8(a,b){if(a){var
-c=cd(a[1],b),d=a8(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a4(b){function
+11:return 0}return u0}function
+a$(a,b){if(a){var
+c=cl(a[1],b),d=a$(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a7(b){function
 a(a){return t(a,b,[0,d,c])}var
-e=a(uY),f=a(uZ);return[0,a(0),f,e]}function
-ld(a,b){if(a){var
-c=a[1],d=a8(c[1],b),e=a8(c[2],d[2]),f=ld(a[2],e[2]),g=f[2],h=f[1],i=a4(e[1]);return[0,[0,[0,a4(d[1]),i],h],g]}return[0,0,b]}function
-le(f,b){if(f){var
+e=a(u3),f=a(u4);return[0,a(0),f,e]}function
+lh(a,b){if(a){var
+c=a[1],d=a$(c[1],b),e=a$(c[2],d[2]),f=lh(a[2],e[2]),g=f[2],h=f[1],i=a7(e[1]);return[0,[0,[0,a7(d[1]),i],h],g]}return[0,0,b]}function
+li(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=a8(a[1],b),h=a8(a[2],g[2]),i=a8(a[3],h[2]),j=cd(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a4(i[1]),y=a4(h[1]),e=[0,[0,[0,a4(g[1]),y,x,w,v]],u];break;case
+g=a$(a[1],b),h=a$(a[2],g[2]),i=a$(a[3],h[2]),j=cl(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a7(i[1]),y=a7(h[1]),e=[0,[0,[0,a7(g[1]),y,x,w,v]],u];break;case
 1:var
-k=a8(a[1],b),l=a8(a[2],k[2]),z=l[2],A=a4(l[1]),e=[0,[0,[1,a4(k[1]),A,0]],z];break;default:var
-m=a[1],n=a8(m,b),o=a8(a[2],n[2]),p=a8(a[3],o[2]),q=a8(a[4],p[2]),r=cd(a[5],q[2]),s=cd(a[6],r[2]),B=m?a4(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a4(q[1]),H=a4(p[1]),e=[0,[1,[0,B,a4(o[1]),H,G,F,E,D]],C]}var
-t=le(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-di(a){return jl(q,a)}function
-u0(a){if(typeof
+k=a$(a[1],b),l=a$(a[2],k[2]),z=l[2],A=a7(l[1]),e=[0,[0,[1,a7(k[1]),A,0]],z];break;default:var
+m=a[1],n=a$(m,b),o=a$(a[2],n[2]),p=a$(a[3],o[2]),q=a$(a[4],p[2]),r=cl(a[5],q[2]),s=cl(a[6],r[2]),B=m?a7(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a7(q[1]),H=a7(p[1]),e=[0,[1,[0,B,a7(o[1]),H,G,F,E,D]],C]}var
+t=li(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dp(a){return jp(q,a)}function
+u5(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return i(q,1,[3,a[1],[0,c,c]]);case
@@ -4830,11 +4899,11 @@ f=i(q,0,a[2]),g=f?i(q,0,a[3]):f;return g?i(q,1,a[4]):g;case
 14:var
 h=i(q,0,a[1]);return h?i(q,1,a[2]):h;case
 2:case
-3:return di(a[2]);case
+3:return dp(a[2]);case
 4:case
 13:var
 b=i(q,1,a[2]);return b?i(q,1,a[3]):b;default:return i(q,1,a[1])}}function
-hk(a){if(typeof
+hr(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -4846,16 +4915,16 @@ k=i(q,1,a[1]);return k?i(q,1,a[2]):k;case
 11:var
 l=a[2],m=i(q,1,l);return m?i(q,0,[3,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c],l]):m;case
 2:case
-3:return di(a[2]);case
-0:case
-1:case
-12:return i(q,1,a[1]);default:var
-j=i(q,1,a[2]);return j?i(q,1,a[3]):j}}function
-fj(d){var
+3:return dp(a[2]);case
+6:case
+7:case
+9:var
+j=i(q,1,a[2]);return j?i(q,1,a[3]):j;default:return i(q,1,a[1])}}function
+fq(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=al(au(function(d){return function(a){var
-h=g8(a[1]),e=ak(g8(d[1]),h);if(e)var
-i=g9(a[4]),b=ak(g9(d[4]),i);else
+b=a[2],e=a[1],c=am(av(function(d){return function(a){var
+h=hd(a[1]),e=al(hd(d[1]),h);if(e)var
+i=he(a[4]),b=al(he(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -4864,99 +4933,99 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-d7(a){if(0===a[0])return di(h(a[1]));var
-b=a[2],c=a[1];if(!dK(h(c))&&!dK(h(b))){var
+ed(a){if(0===a[0])return dp(h(a[1]));var
+b=a[2],c=a[1];if(!dS(h(c))&&!dS(h(b))){var
 e=h(c);return i(q,1,[3,h(b),e])}var
-d=h(b);return a2(q,h(c),d)}function
-cH(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lf(a){switch(a[0]){case
+d=h(b);return a6(q,h(c),d)}function
+cO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lj(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cH(a[3]),c),e=f(cH(a[2]),d);return f(cH(a[1]),e);case
+c=[0,a[4],0],d=f(cO(a[3]),c),e=f(cO(a[2]),d);return f(cO(a[1]),e);case
 1:var
-b=a[3],g=b?cH(b[1]):b,h=f(cH(a[2]),g);return f(cH(a[1]),h);default:return cH(a[1])}}function
-fk(a){switch(a){case
-0:return u3;case
-1:return u4;default:return 0}}function
-ce(a){var
-f=a[1],d=i(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?a2(q,a[1],a[2]):d;if(e){var
+b=a[3],g=b?cO(b[1]):b,h=f(cO(a[2]),g);return f(cO(a[1]),h);default:return cO(a[1])}}function
+fr(a){switch(a){case
+0:return u8;case
+1:return u9;default:return 0}}function
+cm(a){var
+f=a[1],d=i(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?a6(q,a[1],a[2]):d;if(e){var
 g=a[2];return i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],g])}return e}function
-dj(a){var
-e=a2(q,[0,d,c],a);return e?i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-lg(b,c,D,s,r,p,f){function
+dq(a){var
+e=a6(q,[0,d,c],a);return e?i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
+lk(b,c,D,s,r,p,f){function
 t(a){var
-d=b?u1:u2,c=v(j(a),d);return c?n(d7,a):c}var
+d=b?u6:u7,c=v(j(a),d);return c?n(ed,a):c}var
 u=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},c);if(u)var
-E=j(c),g=X(c_(b),E);else
+E=j(c),g=Y(de(b),E);else
 var
 g=u;var
-w=g?X(j(c),u5):g,x=w?i(q,1,h(D)):w;if(x)var
-F=fk(b),k=v(j(s),F);else
+w=g?Y(j(c),u_):g,x=w?i(q,1,h(D)):w;if(x)var
+F=fr(b),k=v(j(s),F);else
 var
 k=x;if(k)var
-G=fk(b),l=v(j(r),G);else
+G=fr(b),l=v(j(r),G);else
 var
 l=k;if(l)var
-H=aH(s,r),m=n(function(a){var
-b=h(a[2]);return a2(q,h(a[1]),b)},H);else
+H=aJ(s,r),m=n(function(a){var
+b=h(a[2]);return a6(q,h(a[1]),b)},H);else
 var
 m=l;if(m)if(b){var
-a=cE(p);switch(a[0]){case
+a=cL(p);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-z=ce(a[1]),A=z?ce(a[2]):z,d=A?ce(a[3]):A;break;case
+z=cm(a[1]),A=z?cm(a[2]):z,d=A?cm(a[3]):A;break;case
 2:var
-d=dj(a[1]);break;default:var
-B=dj(a[1]),d=B?dj(a[2]):B}var
+d=dq(a[1]);break;default:var
+B=dq(a[1]),d=B?dq(a[2]):B}var
 e=d}else
 var
-C=cE(p),K=0===C[0]?ce(C[1]):0,e=K;else
+C=cL(p),K=0===C[0]?cm(C[1]):0,e=K;else
 var
 e=m;if(e)var
-I=j(c),J=c_(b),o=n(function(a){return bz(J,I,a)},f);else
+I=j(c),J=de(b),o=n(function(a){return bD(J,I,a)},f);else
 var
 o=e;var
-y=o?fj(f):o;return y?n(hk,dg(0,j(c),f)):y}function
-lh(a){switch(a[0]){case
+y=o?fq(f):o;return y?n(hr,dm(0,j(c),f)):y}function
+ll(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-li(a,f,e,k,s,r){var
+lm(a,f,e,k,s,r){var
 o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=o?u6:u7;return v(j(a),b)}var
-l=k6(f),D=n(function(b){switch(b[0]){case
+b=o?u$:va;return v(j(a),b)}var
+l=k_(f),D=n(function(b){switch(b[0]){case
 0:var
-c=al(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=am(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=al(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=am(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
 a==="number"?1:0,k=j?1:j;else
 var
 k=i;return k;default:var
 m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(D)var
-Z=j(f),t=X(aU(a),Z);else
+Z=j(f),t=Y(aX(a),Z);else
 var
 t=D;var
-E=t?X(j(f),u8):t,F=E?n(d7,B(lh,f)):E;if(F)if(0===k[0]){var
-G=k[2],H=k[1],_=o?u9:va,I=v(j(H),_);if(I)var
-$=o?u_:u$,u=v(j(G),$);else
+E=t?Y(j(f),vb):t,F=E?n(ed,B(ll,f)):E;if(F)if(0===k[0]){var
+G=k[2],H=k[1],_=o?vc:vf,I=v(j(H),_);if(I)var
+$=o?vd:ve,u=v(j(G),$);else
 var
 u=I;if(u)var
-aa=aH(H,G),J=n(function(a){var
-b=h(a[2]);return a2(q,h(a[1]),b)},aa);else
+aa=aJ(H,G),J=n(function(a){var
+b=h(a[2]);return a6(q,h(a[1]),b)},aa);else
 var
 J=u;var
 m=J}else{var
-Y=0;if(typeof
+X=0;if(typeof
 a==="number"&&!a){var
-C=1;Y=1}if(!Y)var
+C=1;X=1}if(!X)var
 C=0;var
 W=C?i(q,1,h(k[3])):C;if(W)var
-ac=h(k[5]),m=a2(q,h(k[4]),ac);else
+ac=h(k[5]),m=a6(q,h(k[4]),ac);else
 var
 m=W}else
 var
@@ -4964,12 +5033,12 @@ m=F;if(m)if(typeof
 a==="number")if(e)var
 b=0;else
 var
-ab=A(cE,s)?0:1,b=ab;else
+ab=z(cL,s)?0:1,b=ab;else
 switch(a[1]){case
 0:if(e){var
-x=A(cE,s);if(x){var
+x=z(cL,s);if(x){var
 L=x[1];if(0===L[0])var
-M=i(q,1,h(e[1])),N=M?ce(L[1]):M;else
+M=i(q,1,h(e[1])),N=M?cm(L[1]):M;else
 var
 N=0;var
 O=N}else
@@ -4979,18 +5048,18 @@ b=O}else
 var
 b=e;break;case
 1:if(e){var
-y=e[1],z=A(cE,s);if(z){var
-g=z[1];switch(g[0]){case
+y=e[1],A=z(cL,s);if(A){var
+g=A[1];switch(g[0]){case
 0:var
 p=0;break;case
 1:var
-Q=i(q,1,h(y)),R=Q?ce(g[1]):Q,S=R?ce(g[2]):R,p=S?ce(g[3]):S;break;case
+Q=i(q,1,h(y)),R=Q?cm(g[1]):Q,S=R?cm(g[2]):R,p=S?cm(g[3]):S;break;case
 2:var
-T=i(q,1,h(y)),p=T?dj(g[1]):T;break;default:var
-U=i(q,1,h(y)),V=U?dj(g[1]):U,p=V?dj(g[2]):V}var
+T=i(q,1,h(y)),p=T?dq(g[1]):T;break;default:var
+U=i(q,1,h(y)),V=U?dq(g[1]):U,p=V?dq(g[2]):V}var
 P=p}else
 var
-P=z;var
+P=A;var
 b=P}else
 var
 b=e;break;default:var
@@ -4999,42 +5068,42 @@ var
 b=m;if(b)var
 c=j(f),w=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=X(us,g),r=h?X(g,c):h,d=r;else
+g=f[1],h=Y(ux,g),r=h?Y(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return bz(aU(a),c,b);if(d){var
+1:if(b[3])return bD(aX(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
-j=0;return cj(l,j)}return d;case
+j=0;return b7(l,j)}return d;case
 4:var
 k=b[4];if(typeof
-k!=="number"&&0===k[0])return b[3]?bz(aU(a),c,b):d;return bz(aU(a),c,b);case
+k!=="number"&&0===k[0])return b[3]?bD(aX(a),c,b):d;return bD(aX(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return bz(aU(a),c,b);var
-n=v(c,aU(a));if(n){var
+m!=="number"&&0===m[0]){if(b[3])return bD(aX(a),c,b);var
+n=v(c,aX(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bz(aU(a),c,b);case
+e=n;return e}return bD(aX(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?bz(aU(a),c,b):d?al(l):d;return bz(aU(a),c,b);default:return bz(aU(a),c,b)}},r);else
+p!=="number"&&1===p[0])return b[3]?bD(aX(a),c,b):d?am(l):d;return bD(aX(a),c,b);default:return bD(aX(a),c,b)}},r);else
 var
 w=b;var
-K=w?fj(r):w;return K?n(hk,dg(l,j(f),r)):K}function
-hl(j){var
-p=aC(j,bU(aV(j))),a=e(function(a){return ad(q,a)},p);if(a){var
+K=w?fq(r):w;return K?n(hr,dm(l,j(f),r)):K}function
+hs(j){var
+p=aD(j,bY(aY(j))),a=e(function(a){return af(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return T(q,a)},r=i(h[1]),s=i(g[1]);return Y(d,F(F(i(f[1]),s),r)[1])}var
+i=function(a){return T(q,a)},r=i(h[1]),s=i(g[1]);return Z(d,C(C(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5050,86 +5119,86 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-vb(a){switch(a[0]){case
-0:return hl(a[1][1]);case
+vg(a){switch(a[0]){case
+0:return hs(a[1][1]);case
 1:var
-b=a[3];return b?hl(b[1]):1;default:return hl(a[1])}}function
-hm(c,a,b,o){if(au(function(a){return 9===a[1]?1:0},b)){var
-g=X(j(a),vd),k=g?n(function(a){if(0===a[0]){var
+b=a[3];return b?hs(b[1]):1;default:return hs(a[1])}}function
+ht(c,a,b,o){if(av(function(a){return 9===a[1]?1:0},b)){var
+g=Y(j(a),vi),k=g?n(function(a){if(0===a[0]){var
 g=a[5],j=i(q,1,h(a[2])),k=j?i(q,0,h(a[3])):j,l=k?i(q,0,h(a[4])):k,e=0;if(l)if(g)var
-u=bi(g[1]),b=n(function(a){return di(h(a))},u);else{var
+u=bm(g[1]),b=n(function(a){return dp(h(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
 o=i(q,1,h(a[4]));if(o)var
-v=bi(a[3]),w=f(bi(a[2]),v),b=n(function(a){return di(h(a))},w);else
+v=bm(a[3]),w=f(bm(a[2]),v),b=n(function(a){return dp(h(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],r=X(vc,p);if(r){var
-d=V(c,bq(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],r=Y(vh,p);if(r){var
+d=V(c,bu(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):g;if(k)var
-l=hb(0,a),u=l?1:l,m=u;else
+l=hi(0,a),u=l?1:l,m=u;else
 var
 m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(vb,o[1]):d,r=p?X(ve,j(c)):p;if(r)var
-v=j(c),e=n(function(a){return uj(v,a)},b);else
+p=d?n(vg,o[1]):d,r=p?Y(vj,j(c)):p;if(r)var
+v=j(c),e=n(function(a){return uo(v,a)},b);else
 var
 e=r;var
-s=e?fj(b):e,t=s?n(d7,B(lf,c)):s;return t?n(u0,o[3]):t}function
-vf(a){return 11===a[1]?1:0}function
-fl(b,a){return n(function(c){var
-a=c[2];return a?dA(a[1],b):1},a)}function
-hn(b,a){var
-c=j(cl(function(a){return 0===a[0]?0:1},b));return v(j(a),c)}function
-lj(aN,_,aM,Z,X,b,W,A){var
-a=hc(_,aM,Z,X),aP=j(A);if(aN)var
+s=e?fq(b):e,t=s?n(ed,B(lj,c)):s;return t?n(u5,o[3]):t}function
+vk(a){return 11===a[1]?1:0}function
+fs(b,a){return n(function(c){var
+a=c[2];return a?dG(a[1],b):1},a)}function
+hu(b,a){var
+c=j(cr(function(a){return 0===a[0]?0:1},b));return v(j(a),c)}function
+ln(aO,_,aN,Y,X,b,W,A){var
+a=hj(_,aN,Y,X),aP=j(A);if(aO)var
 $=0;else
 var
-aI=a[1],aJ=e(fi,a[1]),V=eS(hg(a[1]),aJ,aI),aL=aH(aO(0,j(V)),V),$=e(aK,cl(function(a){return gr(a[2])},aL));var
-C=cF($,aP,A);if(C){var
+aH=a[1],aL=e(fp,a[1]),V=eZ(hn(a[1]),aL,aH),aM=aJ(aT(0,j(V)),V),$=e(aI,cr(function(a){return gy(a[2])},aM));var
+C=cM($,aP,A);if(C){var
 aa=C[1];if(aa[2])return 0;var
-ab=hm(_,Z,X,a),ac=ab?fl(vg,A):ab;if(ac){var
-aR=aa[1],D=e(fi,a[1]),c=hg(a[1]);if(W)var
-af=W[1],ag=[0,af[2],af[1]];else
+ab=ht(_,Y,X,a),ac=ab?fs(vl,A):ab;if(ac){var
+aQ=aa[1],D=e(fp,a[1]),c=hn(a[1]);if(W)var
+ad=W[1],ae=[0,ad[2],ad[1]];else
 var
-ag=[0,d,0];var
-U=jJ(q,a);if(U){var
-i=eS(c,D,a[1]),g=gp(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=au(function(a){if(typeof
+ae=[0,d,0];var
+U=jN(q,a);if(U){var
+i=eZ(c,D,a[1]),g=gw(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=av(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},al),am=F?B(function(a){var
-b=e(ci,jv(i,a));return[0,a[4],b]},g):F,an=f(gq(g,c,K,a[3]),am),ao=f(bv(i0(g)),an),L=f(bv(eF(g)),ao),M=cX(L)[1],m=cp(M),N=n(function(a){var
-b=k(d);return aQ(t(bc(m,a),m,b),a)},L);if(N){var
-O=au(o6,a[3]);if(O){var
+b=e(b6,jz(i,a));return[0,a[4],b]},g):F,an=f(gx(g,c,K,a[3]),am),ao=f(bz(i7(g)),an),L=f(bz(eO(g)),ao),M=c4(L)[1],m=cv(M),N=n(function(a){var
+b=l(d);return aK(t(bg(m,a),m,b),a)},L);if(N){var
+O=av(o_,a[3]);if(O){var
 s=D,o=a[1];for(;;){if(o){var
-p=o[1],u=cS(d,s);switch(p[0]){case
+p=o[1],u=cZ(d,s);switch(p[0]){case
 0:var
-G=p[1],H=gs(b,G[1],u),E=0;if(H){var
-r=ad(b,[0,G[4],c]);if(r)var
-h=Y(d,r[1][1]);else{var
+G=p[1],H=gz(b,G[1],u),E=0;if(H){var
+r=af(b,[0,G[4],c]);if(r)var
+h=Z(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=p[3],h=J?gs(b,J[1],u):1;break;default:var
-h=gs(b,p[1],u)}if(h){var
-ai=o[2],s=dD(s),o=ai;continue}var
+J=p[3],h=J?gz(b,J[1],u):1;break;default:var
+h=gz(b,p[1],u)}if(h){var
+ai=o[2],s=dJ(s),o=ai;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=O;if(v){var
-ap=a[3],aq=B(function(a){return c8(c,a)},ap),ar=a[3],as=f(i,f(e(function(a){return bg(c,a)},ar),aq)),w=ae(e(function(a){return ad(b,a)},as));if(w){var
-at=aC(eW(a[2]),c),x=ae(e(function(a){return ad(b,a)},at));if(x){var
-av=a[3],y=ae(jw(b,ag,function(a){return bc(m,a)},i,g,c,K,av));if(y){var
-R=y[1],aw=go(R),ax=x[1],ay=a[2],aA=function(a){return jx(b,ay,c,a)},aB=w[1],aD=0,aE=i0(g),aF=l(az(function(a){return bc(m,a)}),aE),aG=eF(g);return eP(b,M,l(az(function(a){return bc(m,a)}),aG),aF,aD,aB,R,aA,ax,aw,aR)}var
+ap=a[3],aq=B(function(a){return dc(c,a)},ap),ar=a[3],as=f(i,f(e(function(a){return bk(c,a)},ar),aq)),w=ag(e(function(a){return af(b,a)},as));if(w){var
+at=aD(e3(a[2]),c),x=ag(e(function(a){return af(b,a)},at));if(x){var
+au=a[3],y=ag(jA(b,ae,function(a){return bg(m,a)},i,g,c,K,au));if(y){var
+R=y[1],aw=gv(R),ax=x[1],ay=a[2],az=function(a){return jB(b,ay,c,a)},aB=w[1],aC=0,aE=i7(g),aF=k(aA(function(a){return bg(m,a)}),aE),aG=eO(g);return eX(b,M,k(aA(function(a){return bg(m,a)}),aG),aF,aC,aB,R,az,ax,aw,aQ)}var
 S=y}else
 var
 S=x;var
@@ -5144,22 +5213,22 @@ z=N;return z}return U}var
 ah=ac}else
 var
 ah=C;return ah}function
-vh(a){if(0===a[0])return k_(a[1]);var
-b=a[1],c=dh(b[6]);return f(dh(b[5]),c)}function
-vi(a){if(0===a[0])return k$(a[1]);var
-b=a[1],c=aV(b[4]);return f(aV(b[3]),c)}function
-vj(a){if(0===a[0])return[0,fi(a[1]),d];var
-b=a[1],c=bU(aV(b[2]));return[0,bU(aV(b[1])),c]}function
-lk(z,aM,ap,ao,y,an,g){var
-k=hc(z,aM,ap,ao);if(y){var
+vm(a){if(0===a[0])return lc(a[1]);var
+b=a[1],c=dn(b[6]);return f(dn(b[5]),c)}function
+vn(a){if(0===a[0])return ld(a[1]);var
+b=a[1],c=aY(b[4]);return f(aY(b[3]),c)}function
+vo(a){if(0===a[0])return[0,fp(a[1]),d];var
+b=a[1],c=bY(aY(b[2]));return[0,bY(aY(b[1])),c]}function
+lo(A,aM,ap,ao,y,an,g){var
+k=hj(A,aM,ap,ao);if(y){var
 C=y[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-aq=lc(z,e(h,an));if(aq[2])return 0;var
+aq=lg(A,e(h,an));if(aq[2])return 0;var
 ar=k[3];if(typeof
 g==="number")var
-a=uX;else
+a=u2;else
 if(0===g[0]){var
-b=g[2],m=g[1],H=A(uU,V(ar,m)),J=0;if(H){var
+b=g[2],m=g[1],H=z(uZ,V(ar,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
@@ -5230,22 +5299,22 @@ a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-as=hn(B(lf,z),an),at=as?hm(z,ap,ao,k):as;if(at){var
-f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(y[1]),aO,aN],l=aq[1],P=jz(q,k,l,j);if(P)if(typeof
-f==="number")return au(function(b){var
-a=jA(b,j);return a?i(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
+as=hu(B(lj,A),an),at=as?ht(A,ap,ao,k):as;if(at){var
+f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(y[1]),aO,aN],l=aq[1],P=jD(q,k,l,j);if(P)if(typeof
+f==="number")return av(function(b){var
+a=jE(b,j);return a?i(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
 E=V(k[3],f[1]);if(E){var
-aI=E[1],aJ=jB(f[3]);return jG(q,l,j,jB(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=jF(f[3]);return jK(q,l,j,jF(f[2]),aJ,aI)}return E}var
 F=V(k[3],f[1]);if(F){var
 G=V(l,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cx(Q,j);return jG(q,l,j,cx(Q,j),aL,aK)}var
+Q=G[1],aK=F[1],aL=cE(Q,j);return jK(q,l,j,cE(Q,j),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
-av=at}else
+au=at}else
 var
-av=a;var
-aw=av}else
+au=a;var
+aw=au}else
 var
 aw=D;var
 ax=aw}else
@@ -5254,303 +5323,303 @@ ax=C;var
 ay=ax}else
 var
 ay=y;return ay}function
-ll(m,l,b,k,y,x){var
+lp(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=V(f,g),n=h?dA(h[1][2],vm):h;if(n)var
-z=d[2],i=ll(m,l,b,k,hf(0,g,f),z);else
+g=d[1],h=V(f,g),n=h?dG(h[1][2],vr):h;if(n)var
+A=d[2],i=lp(m,l,b,k,hm(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hf(1,g,f),d=B;continue}return i}var
-c=d[1],a=k8(0,m,f),o=e(function(b){function
-d(b){return k9(a,b)}function
-c(a){return hd(d,a)}switch(b[0]){case
+B=d[3],f=hm(1,g,f),d=B;continue}return i}var
+c=d[1],a=la(0,m,f),o=e(function(b){function
+d(b){return lb(a,b)}function
+c(a){return hk(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=k9(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lb(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=A(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hd(function(b){return am(a,b)},q),s=b[1],j=[0,hd(function(b){return am(a,b)},s),r];else
+i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hk(function(b){return an(a,b)},q),s=b[1],j=[0,hk(function(b){return an(a,b)},s),r];else
 var
-t=am(a,b[5]),u=am(a,b[4]),v=am(a,b[3]),w=am(a,b[2]),j=[1,am(a,b[1]),w,v,u,t];var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(e){var
 b=e[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,am(a,b[1])];break;case
+c=[0,an(a,b[1])];break;case
 1:var
-c=[1,am(a,b[1])];break;default:var
-j=am(a,b[2]),c=[2,am(a,b[1]),j]}var
+c=[1,an(a,b[1])];break;default:var
+j=an(a,b[2]),c=[2,an(a,b[1]),j]}var
 f=e[3];if(f){var
 d=f[1];if(0===d[0])var
-g=[0,[0,am(a,d[1])]];else
+g=[0,[0,an(a,d[1])]];else
 var
-i=am(a,d[2]),g=[0,[1,am(a,d[1]),i]];var
+i=an(a,d[2]),g=[0,[1,an(a,d[1]),i]];var
 h=g}else
 var
 h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lj(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return lk(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
-lm(i,g){var
-a=bP(h(i));if(a){var
-b=a[1],e=cU([0,d,c],b);if(e)return cU(b,g);var
+1:return ln(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lo(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+lq(i,g){var
+a=bT(h(i));if(a){var
+b=a[1],e=c1([0,d,c],b);if(e)return c1(b,g);var
 f=e}else
 var
 f=a;return f}function
-vo(o){var
-dr=fe(o[3]),ds=dr?fe(o[4]):dr;if(ds){var
+vt(o){var
+dr=fl(o[3]),ds=dr?fl(o[4]):dr;if(ds){var
 F=o[1];switch(F[0]){case
 3:var
-dz=n(d4,F[1]);if(dz)var
-gy=F[2],bJ=n(function(a){return d4(a[1])},gy);else
+dz=n(ea,F[1]);if(dz)var
+gs=F[2],bJ=n(function(a){return ea(a[1])},gs);else
 var
 bJ=dz;if(bJ)var
-gz=F[3],bK=n(function(a){var
-b=d4(a[1]),c=b?g$(a[2]):b;return c?d5(a[2]):c},gz);else
+gt=F[3],bK=n(function(a){var
+b=ea(a[1]),c=b?hg(a[2]):b;return c?eb(a[2]):c},gt);else
 var
 bK=bJ;if(bK)var
-gA=F[4],aB=n(function(a){var
+gu=F[4],aB=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=g$(a);return b?d5(a):b},b)},gA);else
+b=hg(a);return b?eb(a):b},b)},gu);else
 var
 aB=bK;break;case
 7:var
-gB=F[1],dA=n(function(a){var
-b=d4(a[1]);return b?ff(0,[0,a[2][1],[0,a[2][2],0]]):b},gB),aB=dA?ff(0,[0,F[5],[0,F[6],0]]):dA;break;default:var
+gz=F[1],dA=n(function(a){var
+b=ea(a[1]);return b?fm(0,[0,a[2][1],[0,a[2][2],0]]):b},gz),aB=dA?fm(0,[0,F[5],[0,F[6],0]]):dA;break;default:var
 aB=1}var
 bI=aB}else
 var
 bI=ds;var
-ce=0;if(bI){var
-dt=o[1],du=7===dt[0]?e(aK,dt[1]):0,dv=function(c,b){var
-a=k2(c);return a?n(function(a){var
+cd=0;if(bI){var
+dt=o[1],du=7===dt[0]?e(aI,dt[1]):0,dv=function(c,b){var
+a=k6(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fe(a[2]);if(b){var
+b=fl(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fe(a[1]);case
+1:return fl(a[1]);case
 2:case
 3:case
 4:return 1;default:var
 a=a[1];continue}},b)},b):a},dw=function(d,c,b){var
-a=k2(d);return a?ff(du,f(c,b)):a},g=o[1];switch(g[0]){case
+a=k6(d);return a?fm(du,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-f1=B(cC,g[4]),f2=f(B(uf,g[3]),f1),f3=f(kZ(g[2]),f2),G=f(B(ha,g[1]),f3);break;case
+f1=B(cJ,g[4]),f2=f(B(uk,g[3]),f1),f3=f(k3(g[2]),f2),G=f(B(hh,g[1]),f3);break;case
 1:var
-bF=g[5],bG=g[3],f4=B(cC,g[6]),f6=bF?k0(bF[1]):bF,f7=f(f6,f4),E=g[4],f8=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],f9=f(f8,f7),f_=bG?[0,bG[1],0]:bG,f$=f(f_,f9),G=f(B(ue,g[2]),f$);break;case
+bF=g[5],bG=g[3],f4=B(cJ,g[6]),f5=bF?k4(bF[1]):bF,f6=f(f5,f4),E=g[4],f7=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],f8=f(f7,f6),f9=bG?[0,bG[1],0]:bG,f_=f(f9,f8),G=f(B(uj,g[2]),f_);break;case
 2:var
-ga=B(cC,g[7]),gb=f(k0(g[6]),ga),gc=f(g[5],gb),gd=f(g[4],gc),ge=[0,g[3],gd],gf=g[2],G=f(B(function(a){return B(dd,f(a[1],a[2]))},gf),ge);break;case
+f$=B(cJ,g[7]),gb=f(k4(g[6]),f$),gc=f(g[5],gb),gd=f(g[4],gc),ge=[0,g[3],gd],gf=g[2],G=f(B(function(a){return B(dj,f(a[1],a[2]))},gf),ge);break;case
 3:var
-gg=B(cC,g[7]),gh=f(g[6],gg),gi=f(g[5],gh),gj=g[2],G=f(B(function(a){return dd(a[2])},gj),gi);break;case
+gg=B(cJ,g[7]),gh=f(g[6],gg),gi=f(g[5],gh),gj=g[2],G=f(B(function(a){return dj(a[2])},gj),gi);break;case
 4:var
-gk=B(cC,g[3]),G=[0,g[1],[0,g[2],gk]];break;case
+gk=B(cJ,g[3]),G=[0,g[1],[0,g[2],gk]];break;case
 5:var
-gl=B(cC,g[4]),gm=f(bi(g[3]),gl),gn=f(bi(g[2]),gm),gs=f(B(ha,g[1]),gn),G=[0,g[5],gs];break;case
+gl=B(cJ,g[4]),gm=f(bm(g[3]),gl),gn=f(bm(g[2]),gm),go=f(B(hh,g[1]),gn),G=[0,g[5],go];break;case
 6:var
-bH=g[1],G=bH?dd(bH[1]):bH;break;default:var
-gv=B(cC,g[4]),gw=f(kZ(g[3]),gv),G=f(B(ha,g[2]),gw)}var
-dx=ff(du,G);if(dx){var
+bH=g[1],G=bH?dj(bH[1]):bH;break;default:var
+gp=B(cJ,g[4]),gq=f(k3(g[3]),gp),G=f(B(hh,g[2]),gq)}var
+dx=fm(du,G);if(dx){var
 N=o[2];switch(N[0]){case
 0:var
-am=dv(N[1],N[3]);break;case
+an=dv(N[1],N[3]);break;case
 1:var
-am=dw(N[1],N[2],N[3]);break;default:var
-gx=N[1],am=n(function(a){if(typeof
+an=dw(N[1],N[2],N[3]);break;default:var
+gr=N[1],an=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return dv(a[1],a[3]);case
-2:return dw(a[1],a[2],a[3])}return 1},gx)}}else{var
-dy=dx;ce=1}}else{var
-dy=bI;ce=1}if(ce)var
-am=dy;if(am){var
+2:return dw(a[1],a[2],a[3])}return 1},gr)}}else{var
+dy=dx;cd=1}}else{var
+dy=bI;cd=1}if(cd)var
+an=dy;if(an){var
 a=o[1];switch(a[0]){case
 0:var
-d1=a[4],d2=a[3],d3=a[2],d6=a[1],O=o[2];switch(O[0]){case
-0:return lj(0,d6,d3,d2,d1,O[1],O[2],O[3]);case
-1:return lk(d6,d3,d2,d1,O[2],O[3],O[4]);default:return 0}case
+d0=a[4],d1=a[3],d2=a[2],d3=a[1],O=o[2];switch(O[0]){case
+0:return ln(0,d3,d2,d1,d0,O[1],O[2],O[3]);case
+1:return lo(d3,d2,d1,d0,O[2],O[3],O[4]);default:return 0}case
 1:var
-aL=a[6],aN=a[5],aP=a[4],aR=a[3],S=a[2],z=a[1],T=o[2];switch(T[0]){case
+aM=a[6],aN=a[5],aO=a[4],aP=a[3],S=a[2],A=a[1],T=o[2];switch(T[0]){case
 0:var
-bT=T[3],gT=T[1],aJ=k7(z,S,aR,aP,aN,aL),dK=aJ[2],bO=B(vh,dK),gN=bO?[0,bO[1],bO[2]]:B(vi,dK),dJ=y(c,bU(gN)),dM=e(vj,aJ[2]),dN=gU(dJ,dM,aJ[2]),gO=j(bT),gP=aH(aO(0,j(dN)),dN),bQ=cF(e(aK,cl(function(a){return gr(a[2])},gP)),gO,bT);if(bQ){var
-dO=bQ[1];if(dO[2])return 0;var
-dQ=li(z,S,aR,aP,aN,aL),dR=dQ?fl(aU(z),bT):dQ;if(dR)return pW(q,gT,aJ,dJ,dM,dO[1]);var
-dS=dR}else
+bS=T[3],gS=T[1],aL=k$(A,S,aP,aO,aN,aM),dJ=aL[2],bO=B(vm,dJ),gK=bO?[0,bO[1],bO[2]]:B(vn,dJ),dI=y(c,bY(gK)),dL=e(vo,aL[2]),dM=g1(dI,dL,aL[2]),gO=j(bS),gP=aJ(aT(0,j(dM)),dM),bP=cM(e(aI,cr(function(a){return gy(a[2])},gP)),gO,bS);if(bP){var
+dN=bP[1];if(dN[2])return 0;var
+dO=lm(A,S,aP,aO,aN,aM),dP=dO?fs(aX(A),bS):dO;if(dP)return p1(q,gS,aL,dI,dL,dN[1]);var
+dQ=dP}else
 var
-dS=bQ;return dS;case
+dQ=bP;return dQ;case
 1:var
-d8=T[3],gV=T[4],gX=T[2],dT=typeof
-z==="number"?z?vk:vl:fk(z[1]),bR=e(h,gX),dU=le(S,e(h,d8));if(dU[2])return 0;var
-dV=hn(B(lh,S),d8),dW=dV?li(z,S,aR,aP,aN,aL):dV;if(dW)var
-gQ=aU(z),bS=v(j(bR),gQ);else
+d4=T[3],gT=T[4],gU=T[2],dR=typeof
+A==="number"?A?vp:vq:fr(A[1]),bQ=e(h,gU),dS=li(S,e(h,d4));if(dS[2])return 0;var
+dU=hu(B(ll,S),d4),dV=dU?lm(A,S,aP,aO,aN,aM):dU;if(dV)var
+gQ=aX(A),bR=v(j(bQ),gQ);else
 var
-bS=dW;if(bS){var
-gS=hi(gV),s=f5(dT,bR),x=a4(dE(dT,bR)),aj=dU[1],I=k7(z,S,aR,aP,aN,aL),cB=kp(q,I[2],aj);if(cB){var
-cy=gt(q,I[4],x),cf=0;if(cy){var
-cz=I[5];if(cz)var
-a9=j1(q,cz[1],s);else
+bR=dV;if(bR){var
+gR=hp(gT),s=ga(dR,bQ),x=a7(dK(dR,bQ)),ak=dS[1],I=k$(A,S,aP,aO,aN,aM),cy=kt(q,I[2],ak);if(cy){var
+cu=gA(q,I[4],x),ce=0;if(cu){var
+cw=I[5];if(cw)var
+a8=j5(q,cw[1],s);else
 if(s)var
-a9=0;else{var
-cA=1;cf=1}}else{var
-cA=cy;cf=1}if(cf)var
-a9=cA;var
-a_=a9}else
+a8=0;else{var
+cx=1;ce=1}}else{var
+cx=cu;ce=1}if(ce)var
+a8=cx;var
+a9=a8}else
 var
-a_=cB;if(a_){var
-w=I[5],af=I[1],e9=I[6],fa=I[3],e2=B(function(a){if(0===a[0]){var
-c=ca(w,s,x,a),b=jA(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=ca(w,s,x,a);return[0,jR(a[1],e),0]},aj),e3=e(function(d){var
-b=ca(w,s,x,d);if(0===d[0]){var
+a9=cy;if(a9){var
+w=I[5],ae=I[1],e6=I[6],e7=I[3],eY=B(function(a){if(0===a[0]){var
+c=ci(w,s,x,a),b=jE(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=ci(w,s,x,a);return[0,jV(a[1],e),0]},ak),e0=e(function(d){var
+b=ci(w,s,x,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cv(e,h,g,f,b),i=cw(a[5],j),k=ap(i,av(e)),l=dP(e,h,g,b);return[0,[0,ko(af,_(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=eY(c,b),o=jU(c,b),p=c[4],q=_(function(b,a){return[2,b,a]},b,p);return[0,[0,ko(af,_(function(b,a){return[3,b,a]},q,o)),n,m]]},aj),e7=e(function(a){if(0===a[0]){var
-c=ca(w,s,x,a);return[0,gu(a[1],c)]}var
-b=a[1],d=jT(b,ca(w,s,x,a));return[1,jS(b,ca(w,s,x,a)),d]},aj),e8=[0,e(function(b){if(0===b[0])var
-k=ca(w,s,x,b),a=cx(b[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cC(e,h,g,f,b),i=cD(a[5],j),k=ap(i,aw(e)),l=dX(e,h,g,b);return[0,[0,ks(ae,_(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=e5(c,b),o=jY(c,b),p=c[4],q=_(function(b,a){return[2,b,a]},b,p);return[0,[0,ks(ae,_(function(b,a){return[3,b,a]},q,o)),n,m]]},ak),e3=e(function(a){if(0===a[0]){var
+c=ci(w,s,x,a);return[0,gB(a[1],c)]}var
+b=a[1],d=jX(b,ci(w,s,x,a));return[1,jW(b,ci(w,s,x,a)),d]},ak),e4=[0,e(function(b){if(0===b[0])var
+k=ci(w,s,x,b),a=cE(b[1],k);else
 var
-e=ca(w,s,x,b),d=b[1],f=jU(d,e),g=d[4],h=_(function(b,a){return[2,b,a]},e,g),i=_(function(b,a){return[3,b,a]},h,f),j=eY(d,e),a=ap([5,[0,c,c],[4,d[5],j]],i);var
-l=ap([5,[0,c,c],fa],gE(kn(w,s,gR(b)),a));return typeof
-af==="number"?af?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j2(af[1],a,l)},aj),e7,e3,e2];return jO(q,aU(I[1]),e8,e9,gS)}return a_}return bS;default:return 0}case
+e=ci(w,s,x,b),d=b[1],f=jY(d,e),g=d[4],h=_(function(b,a){return[2,b,a]},e,g),i=_(function(b,a){return[3,b,a]},h,f),j=e5(d,e),a=ap([5,[0,c,c],[4,d[5],j]],i);var
+l=ap([5,[0,c,c],e7],gL(kr(w,s,gY(b)),a));return typeof
+ae==="number"?ae?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j6(ae[1],a,l)},ak),e3,e0,eY];return jS(q,aX(I[1]),e4,e6,gR)}return a9}return bR;default:return 0}case
 2:var
-aS=a[7],aT=a[6],aW=a[5],aX=a[4],aY=a[3],U=a[2],W=a[1],$=o[2];switch($[0]){case
+aQ=a[7],aS=a[6],aU=a[5],aV=a[4],aW=a[3],U=a[2],W=a[1],$=o[2];switch($[0]){case
 0:var
-bV=$[3],d9=k5(W,U,aY,aX,aW,aT,aS),bW=cF(0,j(bV),bV);if(bW){var
-d_=bW[1];if(d_[2])return 0;var
-d$=lg(W,U,aY,aX,aW,aT,aS),ea=d$?fl(c_(W),bV):d$;if(ea){var
-gY=d_[1],g0=d9[2],g1=y(c,bU(B(function(a){var
-b=aV(a[2]);return f(aV(a[1]),b)},g0)));return pA(q,$[1],d9,g1,gY)}var
-eb=ea}else
+bU=$[3],d5=k9(W,U,aW,aV,aU,aS,aQ),bV=cM(0,j(bU),bU);if(bV){var
+d6=bV[1];if(d6[2])return 0;var
+d8=lk(W,U,aW,aV,aU,aS,aQ),d9=d8?fs(de(W),bU):d8;if(d9){var
+gV=d6[1],gW=d5[2],gX=y(c,bY(B(function(a){var
+b=aY(a[2]);return f(aY(a[1]),b)},gW)));return pF(q,$[1],d5,gX,gV)}var
+d_=d9}else
 var
-eb=bW;return eb;case
+d_=bV;return d_;case
 1:var
-ec=$[3],ed=e(h,$[2]),ee=fk(W),ef=ld(U,e(h,ec));if(ef[2])return 0;var
-eg=hn(B(function(a){return f(a[1],a[2])},U),ec),eh=eg?lg(W,U,aY,aX,aW,aT,aS):eg;if(eh){var
-g2=hi($[4]),an=f5(ee,ed),aZ=a4(dE(ee,ed)),aq=ef[1],J=k5(W,U,aY,aX,aW,aT,aS),as=J[2],Q=aq;for(;;){if(as){if(Q){var
-cn=Q[1],co=as[1],cq=aM(q,co[1],cn[1]),cr=cq?aM(q,co[2],cn[2]):cq;if(cr){var
+d$=$[3],ec=e(h,$[2]),ee=fr(W),ef=lh(U,e(h,d$));if(ef[2])return 0;var
+eg=hu(B(function(a){return f(a[1],a[2])},U),d$),eh=eg?lk(W,U,aW,aV,aU,aS,aQ):eg;if(eh){var
+gZ=hp($[4]),ao=ga(ee,ec),aZ=a7(dK(ee,ec)),aq=ef[1],J=k9(W,U,aW,aV,aU,aS,aQ),as=J[2],Q=aq;for(;;){if(as){if(Q){var
+cl=Q[1],cm=as[1],cn=aR(q,cm[1],cl[1]),co=cn?aR(q,cm[2],cl[2]):cn;if(co){var
 as=as[2],Q=Q[2];continue}var
-cs=cr}else
+cp=co}else
 var
-cs=Q;var
-a8=cs}else
+cp=Q;var
+a5=cp}else
 var
-a8=Q?0:1;var
-ct=a8?aM(q,J[4],aZ):a8,cu=ct?j1(q,J[5],an):ct;if(cu){var
-at=J[5],eZ=J[6],e0=J[3],e1=J[1],ck=function(a){var
-b=gG(at,an,aZ,a);return M(gG(at,an,aZ,a),b)},eR=e(ck,aq),eT=e(function(a){return 0},aq),eW=e(function(a){return[0,[6,ck(a)]]},aq),eX=[0,e(function(b){var
-a=av(gG(at,an,aZ,b));return j2(e1,a,ap([5,[0,c,c],e0],gE(gF(at,an,b[2]),a)))},aq),eW,eT,eR];return jO(q,c_(J[1]),eX,eZ,g2)}return cu}}return eh;default:return 0}case
+a5=Q?0:1;var
+cq=a5?aR(q,J[4],aZ):a5,ct=cq?j5(q,J[5],ao):cq;if(ct){var
+at=J[5],eU=J[6],eV=J[3],eW=J[1],cj=function(a){var
+b=gN(at,ao,aZ,a);return M(gN(at,ao,aZ,a),b)},eP=e(cj,aq),eR=e(function(a){return 0},aq),eS=e(function(a){return[0,[6,cj(a)]]},aq),eT=[0,e(function(b){var
+a=aw(gN(at,ao,aZ,b));return j6(eW,a,ap([5,[0,c,c],eV],gL(gM(at,ao,b[2]),a)))},aq),eS,eR,eP];return jS(q,de(J[1]),eT,eU,gZ)}return ct}}return eh;default:return 0}case
 3:var
-a0=a[7],ei=a[6],ej=a[5],aa=a[4],ek=a[2],bX=a[1],bY=o[2];if(0===bY[0]){var
-bZ=bY[3],b0=cF(0,j(bZ),bZ);if(b0){var
+a0=a[7],ei=a[6],ej=a[5],aa=a[4],ek=a[2],bW=a[1],bX=o[2];if(0===bX[0]){var
+bZ=bX[3],b0=cM(0,j(bZ),bZ);if(b0){var
 el=b0[1];if(el[2])return 0;var
-gL=j(bX),gM=j(ei),dF=v(j(ej),gM),dG=dF?n(function(a){var
-b=bz(gL,j(aa),a);if(b){if(1===a[1]){var
-c=a[2],d=c?[0,bq(c[1]),0]:aO(0,j(aa));return n(function(b){var
-a=V(aa,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},a0):dF,dH=dG?fj(a0):dG,dI=dH?n(function(a){return d7(a[2])},ek):dH,em=dI?n(hk,dg(0,j(aa),a0)):dI,en=em?fl(j(bX),bZ):em;if(en){var
-g3=el[1],g4=a[3],aD=dg(0,j(aa),a0),gC=aH(ej,ei),bL=e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(cc,a[1])]:[1,cc(a[1])]},aa),gH=e(function(a){var
-b=cc(a[2]);return[0,a[1],b]},g4),m=[0,bX,e(function(a){var
-b=bj(a[2]);return[0,a[1],b]},ek),gH,gD],ar=bY[1],fG=e(aK,m[2]),bn=f(m[1],fG),bo=j(m[1]),cY=X(pX,bo),cZ=cY?X(bo,pY):cY,c0=cZ?X(bo,j(m[4])):cZ,c1=c0?X(j(m[4]),pZ):c0,c2=c1?kI(bn):c1;if(c2){var
-ay=bn,ax=m[3];for(;;){if(ax){var
-cS=ax[1],cT=cS[1],cV=al(au(function(b){return function(a){return ak(b,a)}}(cT),ay)),cW=cV?gZ(ay,cS[2]):cV;if(cW){var
+gI=j(bW),gJ=j(ei),dE=v(j(ej),gJ),dF=dE?n(function(a){var
+b=bD(gI,j(aa),a);if(b){if(1===a[1]){var
+c=a[2],d=c?[0,bu(c[1]),0]:aT(0,j(aa));return n(function(b){var
+a=V(aa,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},a0):dE,dG=dF?fq(a0):dF,dH=dG?n(function(a){return ed(a[2])},ek):dG,em=dH?n(hr,dm(0,j(aa),a0)):dH,en=em?fs(j(bW),bZ):em;if(en){var
+g0=el[1],g2=a[3],aC=dm(0,j(aa),a0),gC=aJ(ej,ei),bL=e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(ck,a[1])]:[1,ck(a[1])]},aa),gE=e(function(a){var
+b=ck(a[2]);return[0,a[1],b]},g2),m=[0,bW,e(function(a){var
+b=bn(a[2]);return[0,a[1],b]},ek),gE,gD],ar=bX[1],fG=e(aI,m[2]),bj=f(m[1],fG),bo=j(m[1]),cW=Y(p2,bo),cX=cW?Y(bo,p3):cW,cY=cX?Y(bo,j(m[4])):cX,cZ=cY?Y(j(m[4]),p4):cY,c0=cZ?kM(bj):cZ;if(c0){var
+ay=bj,ax=m[3];for(;;){if(ax){var
+cS=ax[1],cT=cS[1],cU=am(av(function(b){return function(a){return al(b,a)}}(cT),ay)),cV=cU?g6(ay,cS[2]):cU;if(cV){var
 ay=[0,cT,ay],ax=ax[2];continue}var
-c3=cW}else
+c2=cV}else
 var
-c3=1;var
-bp=c3;break}}else
+c2=1;var
+bp=c2;break}}else
 var
-bp=c2;if(bp)var
-fH=m[4],br=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bn);return n(function(a){return gZ(c,a)},b)},fH);else
+bp=c0;if(bp)var
+fH=m[4],bq=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bj);return n(function(a){return g6(c,a)},b)},fH);else
 var
-br=bp;if(br)var
-fI=m[2],bs=n(function(a){return a2(q,a[2][1],a[2][2])},fI);else
+bq=bp;if(bq)var
+fI=m[2],br=n(function(a){return a6(q,a[2][1],a[2][2])},fI);else
 var
-bs=br;var
-c5=bs?n(function(a){return a2(q,a[1],a[2])},bL):bs;if(c5){var
-ba=j(m[1]),bb=j(m[2]),cG=P(bb,j(gW(e(ci,m[3])))),fg=m[3],ag=kH(m),aw=fg,a$=bb;for(;;){if(aw){var
-cD=aw[1],cE=cD[2],fb=P(a$,j(bh(cE))),fc=aw[2],fd=a7(ag,cE,a$),ag=[0,[0,cD[1],fd],ag],aw=fc,a$=fb;continue}var
-R=kE(ba,ag,m[4],cG),fm=kD(ag,m[4],cG),fn=m[3],cH=f(kA(kH(m),fn,bb),fm),cI=j(kG(m)),fo=0,fp=f(cH,dZ(function(a,b){return kw(R,a,b)},fo,d,cI,aD)),fq=f(bv(e6(R)),fp),cJ=f(bv(e5(R)),fq),bd=cX(cJ)[1],fr=cp(bd),ah=function(a){return bc(fr,a)},cK=v(j(bL),ba);if(cK)var
-fs=m[4],be=n(function(a){return 0===a[0]?v(j(a[1]),ba):1},fs);else
+br=bq;var
+c3=br?n(function(a){return a6(q,a[1],a[2])},bL):br;if(c3){var
+ba=j(m[1]),bb=j(m[2]),cB=P(bb,j(g3(e(b6,m[3])))),fc=m[3],ah=kL(m),au=fc,a$=bb;for(;;){if(au){var
+cz=au[1],cA=cz[2],e8=P(a$,j(bl(cA))),e9=au[2],e_=a_(ah,cA,a$),ah=[0,[0,cz[1],e_],ah],au=e9,a$=e8;continue}var
+R=kI(ba,ah,m[4],cB),fd=kH(ah,m[4],cB),fe=m[3],cF=f(kE(kL(m),fe,bb),fd),cG=j(kK(m)),fh=0,fi=f(cF,d7(function(a,b){return kA(R,a,b)},fh,d,cG,aC)),fj=f(bz(fb(R)),fi),cH=f(bz(fa(R)),fj),bc=c4(cH)[1],fk=cv(bc),ai=function(a){return bg(fk,a)},cI=v(j(bL),ba);if(cI)var
+fn=m[4],bd=n(function(a){return 0===a[0]?v(j(a[1]),ba):1},fn);else
 var
-be=cK;var
-cL=be?n(function(a){var
-b=k(d),c=cp(bd);return aQ(t(ah(a),c,b),a)},cJ):be,cM=cL?au(kz,aD):cL;if(cM){var
-ft=kG(m),bf=ae(e(function(a){return ad(ar,a)},ft));if(bf){var
-fu=0,fv=B(function(a){return e4(fu,d,a)},aD),bk=ae(e(function(a){return kx(ar,a)},fv));if(bk){var
-bl=ae(e(function(a){return ad(ar,[0,a,d])},bL));if(bl){var
-fw=0,fx=0,bm=ae(dZ(function(a,b){return ky(ar,ah,R,fx,d,a,b)},fw,d,cI,aD));if(bm){var
-cN=bm[1],fy=go(cN),fz=bl[1],fA=function(a){return 0},fB=f(bf[1],bk[1]),fC=e(ah,cH),fD=e6(R),fE=l(az(ah),fD),fF=e5(R);return eP(ar,bd,l(az(ah),fF),fE,fC,fB,cN,fA,fz,fy,g3)}var
-cO=bm}else
+bd=cI;var
+cK=bd?n(function(a){var
+b=l(d),c=cv(bc);return aK(t(ai(a),c,b),a)},cH):bd,cL=cK?av(kD,aC):cK;if(cL){var
+ft=kK(m),be=ag(e(function(a){return af(ar,a)},ft));if(be){var
+fu=0,fv=B(function(a){return e$(fu,d,a)},aC),bf=ag(e(function(a){return kB(ar,a)},fv));if(bf){var
+bh=ag(e(function(a){return af(ar,[0,a,d])},bL));if(bh){var
+fw=0,fx=0,bi=ag(d7(function(a,b){return kC(ar,ai,R,fx,d,a,b)},fw,d,cG,aC));if(bi){var
+cN=bi[1],fy=gv(cN),fz=bh[1],fA=function(a){return 0},fB=f(be[1],bf[1]),fC=e(ai,cF),fD=fb(R),fE=k(aA(ai),fD),fF=fa(R);return eX(ar,bc,k(aA(ai),fF),fE,fC,fB,cN,fA,fz,fy,g0)}var
+cO=bi}else
 var
-cO=bl;var
+cO=bh;var
 cP=cO}else
 var
-cP=bk;var
+cP=bf;var
 cQ=cP}else
 var
-cQ=bf;var
+cQ=be;var
 cR=cQ}else
 var
-cR=cM;return cR}}return c5}var
+cR=cL;return cR}}return c3}var
 eo=en}else
 var
 eo=b0;return eo}return 0;case
 4:if(0===o[2][0]){var
-ep=di(h(a[1]));if(ep){var
-a1=a[3],cg=0;if(a1){var
+ep=dp(h(a[1]));if(ep){var
+a1=a[3],cf=0;if(a1){var
 aE=a1[1],aF=aE[4],H=a1[2];if(aE[1]||aE[2]||aE[3])var
 r=0;else{var
 C=0;if(typeof
 aF!=="number")switch(aF[0]){case
 0:var
-a5=0;if(H){var
+a3=0;if(H){var
 aG=H[1],bM=aG[4];if(aG[1]||aG[2]||aG[3]){var
-r=0;C=1;a5=1}else{var
-ch=0;if(typeof
+r=0;C=1;a3=1}else{var
+cg=0;if(typeof
 bM!=="number"&&1===bM[0])if(H[2]){var
-r=0;C=1;a5=1;ch=1}else{var
-gI=h(bM[1]),r=[0,[0,h(aF[1]),gI]];C=1;a5=1;ch=1}if(!ch)var
+r=0;C=1;a3=1;cg=1}else{var
+gF=h(bM[1]),r=[0,[0,h(aF[1]),gF]];C=1;a3=1;cg=1}if(!cg)var
 dC=0}}else
 var
-dC=H;if(!a5){var
+dC=H;if(!a3){var
 r=dC;C=1}break;case
 1:var
-a6=0;if(H){var
-aI=H[1],bN=aI[4];if(aI[1]||aI[2]||aI[3]){var
-r=0;C=1;a6=1}else{var
-cj=0;if(typeof
+a4=0;if(H){var
+aH=H[1],bN=aH[4];if(aH[1]||aH[2]||aH[3]){var
+r=0;C=1;a4=1}else{var
+ch=0;if(typeof
 bN!=="number"&&0===bN[0])if(H[2]){var
-r=0;C=1;a6=1;cj=1}else{var
-gJ=h(aF[1]),r=[0,[0,h(bN[1]),gJ]];C=1;a6=1;cj=1}if(!cj)var
+r=0;C=1;a4=1;ch=1}else{var
+gG=h(aF[1]),r=[0,[0,h(bN[1]),gG]];C=1;a4=1;ch=1}if(!ch)var
 dD=0}}else
 var
-dD=H;if(!a6){var
+dD=H;if(!a4){var
 r=dD;C=1}break}if(!C){var
-dB=0;cg=1}}}else{var
-dB=a1;cg=1}if(cg)var
+dB=0;cf=1}}}else{var
+dB=a1;cf=1}if(cf)var
 r=dB;if(r){var
-eq=r[1],er=eq[2],es=eq[1],c$=i(q,1,h(a[2])),da=c$?i(q,1,[3,er,[0,c,c]]):c$,db=da?i(q,1,es):da;return db?i(q,0,[3,[5,[0,c,c],er],es]):db}var
+eq=r[1],er=eq[2],es=eq[1],c9=i(q,1,h(a[2])),c_=c9?i(q,1,[3,er,[0,c,c]]):c9,c$=c_?i(q,1,es):c_;return c$?i(q,0,[3,[5,[0,c,c],er],es]):c$}var
 et=r}else
 var
 et=ep;return et}return 0;case
 5:var
 b1=a[4],eu=a[1],b2=o[2];if(0===b2[0]){var
-ev=b2[3],p=hc(eu,[0,a[2],a[3]],0,b1),b3=hj(j(ev),ev);if(b3){var
+ev=b2[3],p=hj(eu,[0,a[2],a[3]],0,b1),b3=hq(j(ev),ev);if(b3){var
 ew=b3[1];if(ew[2])return 0;var
-ex=hm(eu,0,b1,p),ey=ex?al(au(vf,b1)):ex;if(ey){var
-ez=jJ(q,p);if(ez){var
-g5=ew[1],eA=e(fi,p[1]),u=hg(p[1]),eB=h(a[5]),K=b2[1],by=eS(u,eA,p[1]),D=gp(u,eA,p[1],0),fN=j(p[3]),fO=P(j(by),fN),aA=[0,j(by),fO],fP=gq(D,u,aA,p[3]),fQ=f(e(c4,D),fP),dh=f(bv(eF(D)),fQ),dj=cX(dh)[1],bA=cp(dj),dk=p[2];if(0===dk[0]){var
-dl=n(function(a){var
-b=k(d);return aQ(t(bc(bA,a),bA,b),a)},dh),dm=dl?i(q,1,eB):dl;if(dm){var
-fR=p[3],fS=B(function(a){return c8(u,a)},fR),fT=p[3],fU=f(by,f(e(function(a){return bg(u,a)},fT),fS)),bB=ae(e(function(a){return ad(K,a)},fU));if(bB){var
-fV=aC(dk[1],u),bC=ae(e(function(a){return ad(K,a)},fV));if(bC){var
-bD=b6(K,u,[5,eB,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bD){var
-bE=p[3],fW=bC[1],fX=bD[1],fY=bB[1],ai=function(a){return bc(bA,a)},fK=aO(0,j(bE)),fL=e(function(h){var
-k=V(bE,h);if(k){var
-a=k[1],v=dE(h,bE),w=j(B(function(a){return c8(u,a)},v)),x=P(aA[2],w),g=[0,P(aA[1],h),x],r=eF(D),f=l(az(ai),r),b=[1,[8,[1,[1,g[1]]]]],d=eV(D,u,g,a),n=d?[0,[3,e(ai,[0,d[1],d[2]])]]:d,m=0;if(typeof
+ex=ht(eu,0,b1,p),ey=ex?am(av(vk,b1)):ex;if(ey){var
+ez=jN(q,p);if(ez){var
+g4=ew[1],eA=e(fp,p[1]),u=hn(p[1]),eB=h(a[5]),K=b2[1],bv=eZ(u,eA,p[1]),D=gw(u,eA,p[1],0),fN=j(p[3]),fO=P(j(bv),fN),az=[0,j(bv),fO],fP=gx(D,u,az,p[3]),fQ=f(e(c8,D),fP),df=f(bz(eO(D)),fQ),dg=c4(df)[1],bx=cv(dg),dh=p[2];if(0===dh[0]){var
+di=n(function(a){var
+b=l(d);return aK(t(bg(bx,a),bx,b),a)},df),dk=di?i(q,1,eB):di;if(dk){var
+fR=p[3],fS=B(function(a){return dc(u,a)},fR),fT=p[3],fU=f(bv,f(e(function(a){return bk(u,a)},fT),fS)),bA=ag(e(function(a){return af(K,a)},fU));if(bA){var
+fV=aD(dh[1],u),bB=ag(e(function(a){return af(K,a)},fV));if(bB){var
+bC=cb(K,u,[5,eB,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bC){var
+bE=p[3],fW=bB[1],fX=bC[1],fY=bA[1],aj=function(a){return bg(bx,a)},fK=aT(0,j(bE)),fL=e(function(h){var
+l=V(bE,h);if(l){var
+a=l[1],v=dK(h,bE),w=j(B(function(a){return dc(u,a)},v)),x=P(az[2],w),g=[0,P(az[1],h),x],r=eO(D),f=k(aA(aj),r),b=[1,[8,[1,[1,g[1]]]]],d=e2(D,u,g,a),n=d?[0,[3,e(aj,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -5566,26 +5635,26 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eU(D,u,g,a);return A(function(a){return[0,l(az(ai),a),q]},t)}return 0}return k},fK),fM=e(function(a){return ai(c4(a))},D),dc=e(function(a){return ai(a[2])},D),fZ=p[3],f0=aA[1],de=e(ao,fY),df=function(az,ay){var
+t=e1(D,u,g,a);return z(function(a){return[0,k(aA(aj),a),q]},t)}return 0}return l},fK),fM=e(function(a){return aj(c8(a))},D),da=e(function(a){return aj(a[2])},D),fZ=p[3],f0=az[1],db=e(ad,fY),dd=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],$=v(j(s),p8),aa=$?n(function(a){var
-d=L(Z(b(2,b(2,b(2,c)))),a);return d?L(a,b(2,b(2,b(2,c)))):d},s):$;if(aa){var
-ac=kS(K,fX,eH(0,l),s),i=h[2],u=bt(0,b5(K,ac,de),dj,0),M=function(a){return kR(kQ(K,ac,de,u,a))};if(typeof
-i==="number")return au(function(b){var
-a=t(b,u,0);return a?L(a[1][2][2],d):a},dc);else{if(0===i[0]){var
-a=i[2],N=n(p6,a);if(N){var
+s=h[1],$=v(j(s),qb),aa=$?n(function(a){var
+d=L(X(b(2,b(2,b(2,c)))),a);return d?L(a,b(2,b(2,b(2,c)))):d},s):$;if(aa){var
+ab=kW(K,fX,eQ(0,l),s),i=h[2],u=bw(0,ca(K,ab,db),dg,0),M=function(a){return kV(kU(K,ab,db,u,a))};if(typeof
+i==="number")return av(function(b){var
+a=t(b,u,0);return a?L(a[1][2][2],d):a},da);else{if(0===i[0]){var
+a=i[2],N=n(p$,a);if(N){var
 o=t(i[1],fL,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=e$(B,A),an=e_(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],al=fg(B,A),an=ff(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],al]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=e_(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,e$(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=ff(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fg(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5593,7 +5662,7 @@ z=0;if(a){var
 k=a[2],ak=0;if(k)if(k[2]){var
 f=0;ak=1}else
 var
-G=k[1],H=a[1],m=g[1],aq=e_(H),ar=[1,[6,e$(m,G),aq]],as=[1,[6,g[2],ar]],at=e_(G),I=[0,[0,m,[0,[1,[4,[1,[6,e$(m,H),at]],as]],0]]];else
+G=k[1],H=a[1],m=g[1],aq=ff(H),ar=[1,[6,fg(m,G),aq]],as=[1,[6,g[2],ar]],at=ff(G),I=[0,[0,m,[0,[1,[4,[1,[6,fg(m,H),at]],as]],0]]];else
 var
 I=k;if(!ak){var
 J=I;z=1}}else{var
@@ -5601,8 +5670,8 @@ J=a;z=1}if(z)var
 f=J;break;default:if(a)var
 f=0;else
 var
-av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-O=f[1],aw=O[1],Q=n(function(a){return kR(t(a[2],u,0))},aw);if(Q)return n(M,O[2]);var
+au=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},au)]]}if(f){var
+O=f[1],aw=O[1],Q=n(function(a){return kV(t(a[2],u,0))},aw);if(Q)return n(M,O[2]);var
 R=Q}else
 var
 R=f;var
@@ -5613,36 +5682,36 @@ T=S}else
 var
 T=N;return T}var
 U=i[2],W=i[1],p=V(fZ,W);if(p){var
-X=p[1];if(typeof
-X!=="number"&&1===X[0]){var
-q=V(dc,U);if(q){var
+Y=p[1];if(typeof
+Y!=="number"&&1===Y[0]){var
+q=V(da,U);if(q){var
 r=V(fM,U);if(r){var
 ax=P(f0,W);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 _=r}else
 var
 _=q;return _}var
-Y=0}else
+Z=0}else
 var
-Y=p;return Y}}return aa}var
+Z=p;return Z}}return aa}var
 ad=h[1],w=V(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=al(ab(bu(ae),aA));if(af){var
-ag=dL(ad,l),ah=df(ag[1],h[2]);if(ah){var
+ae=w[1],aA=ae[1],af=am(ac(by(ae),aA));if(af){var
+ag=dT(ad,l),ah=dd(ag[1],h[2]);if(ah){var
 l=ag[2],h=h[3];continue}var
 ai=ah}else
 var
 ai=af;var
 aj=ai}else
 var
-aj=w;return aj}};return df(fW,g5)}var
-dn=bD}else
+aj=w;return aj}};return dd(fW,g4)}var
+dl=bC}else
 var
-dn=bC;var
-dp=dn}else
+dl=bB;var
+dn=dl}else
 var
-dp=bB;var
-dq=dp}else
+dn=bA;var
+dq=dn}else
 var
-dq=dm;return dq}return 0}var
+dq=dk;return dq}return 0}var
 eC=ez}else
 var
 eC=ey;var
@@ -5651,76 +5720,76 @@ var
 eD=b3;return eD}return 0;case
 6:var
 eE=a[1];if(eE){var
-eG=eE[1],b4=o[2];if(0===b4[0]){var
-b7=hh(0,vp,b4[3]);if(b7){var
-eI=d7(eG);if(eI){var
-g6=b7[1],eJ=bj(eG)[2],a3=b4[1],bw=b6(a3,d,eJ);if(bw){var
-bx=b6(a3,d,[5,[0,c,c],eJ]);if(bx){var
-fJ=bw[1][1],c6=Y(cm(a3),fJ);if(c6)return kP(a3,bx[1][1],g6);var
+eF=eE[1],b4=o[2];if(0===b4[0]){var
+b5=ho(0,vu,b4[3]);if(b5){var
+eG=ed(eF);if(eG){var
+g5=b5[1],eH=bn(eF)[2],a2=b4[1],bs=cb(a2,d,eH);if(bs){var
+bt=cb(a2,d,[5,[0,c,c],eH]);if(bt){var
+fJ=bs[1][1],c5=Z(cs(a2),fJ);if(c5)return kT(a2,bt[1][1],g5);var
+c6=c5}else
+var
+c6=bt;var
 c7=c6}else
 var
-c7=bx;var
-c9=c7}else
+c7=bs;return c7}var
+eI=eG}else
 var
-c9=bw;return c9}var
-eK=eI}else
-var
-eK=b7;return eK}return 0}var
-b8=o[2];if(0===b8[0]){var
-b9=hh(0,vq,b8[3]);return b9?kP(b8[1],d,b9[1]):b9}return 0;default:var
-ac=a[1],eL=o[2];if(2===eL[0]){var
-eM=eL[1],b_=he(j(eM),eM);if(b_){var
-eN=b_[1];if(eN[2])return 0;var
-b$=eN[1],dX=X(vn,j(ac)),dY=dX?X(j(ac),iE):dX,d0=dY?kI(e(aK,ac)):dY,eO=d0?n(function(c){var
-a=bP(h(c[2][1]));if(a){var
-b=bP(h(c[2][2]));if(b)return al(cU(b[1],a[1]));var
+eI=b5;return eI}return 0}var
+b7=o[2];if(0===b7[0]){var
+b8=ho(0,vv,b7[3]);return b8?kT(b7[1],d,b8[1]):b8}return 0;default:var
+ab=a[1],eJ=o[2];if(2===eJ[0]){var
+eK=eJ[1],b9=hl(j(eK),eK);if(b9){var
+eL=b9[1];if(eL[2])return 0;var
+b_=eL[1],dW=Y(vs,j(ab)),dY=dW?Y(j(ab),iM):dW,dZ=dY?kM(e(aI,ab)):dY,eM=dZ?n(function(c){var
+a=bT(h(c[2][1]));if(a){var
+b=bT(h(c[2][2]));if(b)return am(c1(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},ac):d0;if(eO)var
-g7=fh(uv,b$),cb=lm(a[5],g7);else
+d=a;return d},ab):dZ;if(eM)var
+g7=fo(uA,b_),b$=lq(a[5],g7);else
 var
-cb=eO;if(cb)var
-g8=fh(uw,b$),cd=lm(a[6],g8);else
+b$=eM;if(b$)var
+g8=fo(uB,b_),cc=lq(a[6],g8);else
 var
-cd=cb;if(cd){var
-gK=e(function(a){return[0,d,0]},ac);return ll(ac,a[2],a[3],a[4],gK,b$)}var
-eQ=cd}else
+cc=b$;if(cc){var
+gH=e(function(a){return[0,d,0]},ab);return lp(ab,a[2],a[3],a[4],gH,b_)}var
+eN=cc}else
 var
-eQ=b_;return eQ}return 0}}return am}var
-J=[aE,vt,nz(0)],ln=[aE,vu,nz(0)];function
-vr(m,b){var
-f=[0,g(tW,ag(b[4])),0],h=[0,g(tY,R([0,g(tX,ag(b[3])),f])),0],a=b[2];switch(a[0]){case
+eN=b9;return eN}return 0}}return an}var
+J=[aF,vy,nD(0)],lr=[aF,vz,nD(0)];function
+vw(m,b){var
+f=[0,g(t1,ai(b[4])),0],h=[0,g(t3,R([0,g(t2,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(tS,kX(a[1],a[2],a[3]));break;case
+c=H(tX,k1(a[1],a[2],a[3]));break;case
 1:var
-c=H(tT,kY(a[1],a[2],a[3],a[4]));break;default:var
-c=H(tU,x(e(tN,a[1])))}var
-i=[0,g(tZ,c),h],j=1===b[2][0]?t5:t0,k=[0,g(t1,ag(j)),i],l=[0,g(t2,st(b[1])),k],d=ak(ie(vs,fa(R([0,g(t4,ag(t3)),l]),tV)),m);return d?vo(b):d}function
+c=H(tY,k2(a[1],a[2],a[3],a[4]));break;default:var
+c=H(tZ,x(e(tS,a[1])))}var
+i=[0,g(t4,c),h],j=1===b[2][0]?t_:t5,k=[0,g(t6,ai(j)),i],l=[0,g(t7,sy(b[1])),k],d=al(im(vx,fh(R([0,g(t9,ai(t8)),l]),t0)),m);return d?vt(b):d}function
 W(a){if(0===a[0])return a[1];throw J}function
 S(a){if(1===a[0])return a[1];throw J}function
-aA(a){if(2===a[0])return a[1];throw J}function
-dk(a){if(3===a[0])return a[1];throw J}function
-aD(f,e){var
+aB(a){if(2===a[0])return a[1];throw J}function
+dr(a){if(3===a[0])return a[1];throw J}function
+aE(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Be(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Bj(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aD(c,b);if(a)return a[1];throw J}function
-bV(b,a){var
-c=a?[0,l(b,a[1])]:a;return c}function
-cI(a){switch(a[0]){case
+a=aE(c,b);if(a)return a[1];throw J}function
+bZ(b,a){var
+c=a?[0,k(b,a[1])]:a;return c}function
+cP(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vv]}throw J}function
-d8(e,d){var
+2:return[0,a[1],vA]}throw J}function
+ee(e,d){var
 a=Q(e,S(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw J}function
-fm(i){var
-f=du(i),d=[0,0],e=fS(f)-1|0;if(!(e<0)){var
+ft(i){var
+f=dA(i),d=[0,0],e=fZ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=hW(f,c)-48|0;if(9<g>>>0)throw J;switch(g){case
+a=d[1],g=h3(f,c)-48|0;if(9<g>>>0)throw J;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5742,47 +5811,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-d9(a){return iq(fm(a))}function
-d_(b){var
-a=dk(b);return 45===aF(a,0)?Z(d9(cR(a,1,aj(a)-1|0))):d9(a)}function
-lo(a){return f4(d9(dk(a)))}function
-fn(a){return ip(d9(dk(a)))}function
-cf(c){var
-a=dk(c);if(6<aj(a))throw J;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(h4(a))}function
-lp(a){var
-b=97<=a?1:0,c=b?a<=ne?1:0:b;if(c)var
+ef(a){return ix(ft(a))}function
+eg(b){var
+a=dr(b);return 45===aG(a,0)?X(ef(cY(a,1,ak(a)-1|0))):ef(a)}function
+ls(a){return f$(ef(dr(a)))}function
+fu(a){return iw(ef(dr(a)))}function
+cn(c){var
+a=dr(c);if(6<ak(a))throw J;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(h$(a))}function
+lt(a){var
+b=97<=a?1:0,c=b?a<=ni?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lq(y,b){var
-d=aj(b),a=[0,0];function
+lu(y,b){var
+d=ak(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aF(b,a[1])===e?1:0:c;return f}function
-k(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aF(b,a[1])&&!(57<aF(b,a[1]))){a[1]++;continue}return cR(b,c,a[1]-c|0)}}function
+c=a[1]<d?1:0,f=c?aG(b,a[1])===e?1:0:c;return f}function
+l(e){var
+c=a[1];for(;;){if(a[1]<d&&48<=aG(b,a[1])&&!(57<aG(b,a[1]))){a[1]++;continue}return cY(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw J}function
 h(i){if(64<i)throw J;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&ak(cR(b,a[1],5),vx)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&al(cY(b,a[1],5),vC)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lp(aF(b,a[1]))){var
+v=0;if(a[1]<d&&lt(aG(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lp(aF(b,a[1]))&&95!==aF(b,a[1])&&(!(48<=aF(b,a[1]))||57<aF(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,l(y,cR(b,o,a[1]-o|0))];break}}else
+w=0;if(!lt(aG(b,a[1]))&&95!==aG(b,a[1])&&(!(48<=aG(b,a[1]))||57<aG(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,cY(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=k(0),p=c(46),q=p?(a[1]++,[0,k(0)]):p,r=ak(g,vy);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=al(g,vD);if(r)var
 s=r;else
 var
-t=1<aj(g)?1:0,s=t?48===aF(g,0)?1:0:t;if(s)throw J;if(q){var
-j=q[1],x=0;if(ak(j,vz)||48===aF(j,aj(j)-1|0))x=1;else
+t=1<ak(g)?1:0,s=t?48===aG(g,0)?1:0:t;if(s)throw J;if(q){var
+j=q[1],x=0;if(al(j,vE)||48===aG(j,ak(j)-1|0))x=1;else
 var
-z=fm(j),e=[0,fm(g),z];if(x)throw J}else
+z=ft(j),e=[0,ft(g),z];if(x)throw J}else
 var
-e=[0,fm(g),0]}}}if(c(94)){a[1]++;var
-f=k(0);if(m(f,vw)){if(!(2<aj(f))&&2<=h4(f)&&!(64<h4(f)))return[4,e,f4(d9(f))];throw J}throw J}return e}function
+e=[0,ft(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,vB)){if(!(2<ak(f))&&2<=h$(f)&&!(64<h$(f)))return[4,e,f$(ef(f))];throw J}throw J}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -5792,46 +5861,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw J;return g}function
-fo(a){return lq(function(a){return[0,a]},a)}function
-ho(a){var
-b=aA(a);return lq(function(a){return a},b)}function
-N(a){return fo(aA(a))}function
-bA(a){if(2===a[0])return[0,fo(a[1])];var
-b=W(a),c=N(p(b,vA));return[1,N(p(b,vB)),c]}function
-U(a){throw[0,ln,aJ(ie(vD,a),vC)]}function
-hp(c){var
-a=aA(c);if(m(a,vE)){var
-b=m(a,vF);if(b)throw J;return b}return 1}function
-vG(d){var
+fv(a){return lu(function(a){return[0,a]},a)}function
+hv(a){var
+b=aB(a);return lu(function(a){return a},b)}function
+N(a){return fv(aB(a))}function
+bE(a){if(2===a[0])return[0,fv(a[1])];var
+b=W(a),c=N(p(b,vF));return[1,N(p(b,vG)),c]}function
+U(a){throw[0,lr,aN(im(vI,a),vH)]}function
+hw(c){var
+a=aB(c);if(m(a,vJ)){var
+b=m(a,vK);if(b)throw J;return b}return 1}function
+vL(d){var
 b=W(d);function
-a(a){return d8(bA,p(b,a))}var
-c=aA(p(b,vH));if(m(c,vI)){if(m(c,vJ)){if(m(c,vK))return U([0,vM,[0,c,vL]]);var
-e=aD(b,vN),f=bV(function(a){return d8(bA,a)},e),g=a(vO);return[1,a(vP),g,f]}var
-h=hp(p(b,vQ)),i=bA(p(b,vR)),j=a(vS),k=a(vT);return[0,a(vU),k,j,i,h]}return[2,a(vV)]}function
-vW(d){var
+a(a){return ee(bE,p(b,a))}var
+c=aB(p(b,vM));if(m(c,vN)){if(m(c,vO)){if(m(c,vP))return U([0,vR,[0,c,vQ]]);var
+e=aE(b,vS),f=bZ(function(a){return ee(bE,a)},e),g=a(vT);return[1,a(vU),g,f]}var
+h=hw(p(b,vV)),i=bE(p(b,vW)),j=a(vX),k=a(vY);return[0,a(vZ),k,j,i,h]}return[2,a(v0)]}function
+v1(d){var
 a=W(d);if(a){var
-b=a[1];if(!m(b[1],vX)){var
-c=b[2];if(2===c[0]&&!m(c[1],vY))return 1}}return 0}function
-lr(e){var
+b=a[1];if(!m(b[1],v2)){var
+c=b[2];if(2===c[0]&&!m(c[1],v3))return 1}}return 0}function
+lv(e){var
 b=W(e);function
-a(a){return Q(bA,S(p(b,a)))}var
-c=aA(p(b,vZ)),d=aD(b,v0);if(m(c,v1)){if(m(c,v2)){if(!m(c,v3)&&!d){var
-f=a(v6);return[1,a(v7),f]}}else
+a(a){return Q(bE,S(p(b,a)))}var
+c=aB(p(b,v4)),d=aE(b,v5);if(m(c,v6)){if(m(c,v7)){if(!m(c,v8)&&!d){var
+f=a(v$);return[1,a(wa),f]}}else
 if(!d){var
-g=hp(p(b,v8)),h=bA(p(b,v9)),i=a(v_),j=a(v$);return[0,a(wa),j,i,h,g]}}else
+g=hw(p(b,wb)),h=bE(p(b,wc)),i=a(wd),j=a(we);return[0,a(wf),j,i,h,g]}}else
 if(!d){var
-k=hp(p(b,wb)),l=bA(p(b,wc)),n=bA(p(b,wd)),o=a(we),q=a(wf),r=a(wg);return[2,a(wh),r,q,o,n,l,k]}return U([0,v5,[0,c,v4]])}function
-ls(d){var
+k=hw(p(b,wg)),l=bE(p(b,wh)),n=bE(p(b,wi)),o=a(wj),q=a(wk),r=a(wl);return[2,a(wm),r,q,o,n,l,k]}return U([0,v_,[0,c,v9]])}function
+lw(d){var
 a=W(d);if(a){var
-b=a[1];if(!m(b[1],wi)){var
-c=b[2];if(2===c[0]&&!m(c[1],wj))return 1}}return 0}function
-cg(c,d){var
+b=a[1];if(!m(b[1],wn)){var
+c=b[2];if(2===c[0]&&!m(c[1],wo))return 1}}return 0}function
+co(c,d){var
 a=S(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=l(c,b[1]);return[0,l(c,a[1]),e]}}throw J}function
-fp(f,o){var
-x=f?f[1]:f,c=W(o),a=aA(p(c,wk)),i=nM(a,wl),h=0;if(0<=i)if(0<i)if(m(a,wm))if(m(a,wn))if(m(a,wo))if(m(a,wp))if(m(a,wq)){var
-j=m(a,wr);if(j)h=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw J}function
+fw(f,o){var
+x=f?f[1]:f,c=W(o),a=aB(p(c,wp)),i=nQ(a,wq),h=0;if(0<=i)if(0<i)if(m(a,wr))if(m(a,ws))if(m(a,wt))if(m(a,wu))if(m(a,wv)){var
+j=m(a,ww);if(j)h=1;else
 var
 b=j}else
 var
@@ -5846,7 +5915,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,wM))if(m(a,wN))if(m(a,wO))if(m(a,wP))if(m(a,wQ))if(m(a,wR))if(m(a,wS))h=1;else
+if(m(a,wR))if(m(a,wS))if(m(a,wT))if(m(a,wU))if(m(a,wV))if(m(a,wW))if(m(a,wX))h=1;else
 var
 b=1;else
 var
@@ -5861,12 +5930,12 @@ var
 b=9;else
 var
 b=12;var
-l=h?U([0,wt,[0,a,ws]]):b;function
-g(a){return p(c,wu)}var
-d=aA(p(c,wv)),k=m(d,ww);if(k)if(m(d,wx))if(m(d,wy))if(m(d,wz))var
-e=U([0,wB,[0,d,wA]]);else
+l=h?U([0,wy,[0,a,wx]]):b;function
+g(a){return p(c,wz)}var
+d=aB(p(c,wA)),k=m(d,wB);if(k)if(m(d,wC))if(m(d,wD))if(m(d,wE))var
+e=U([0,wG,[0,d,wF]]);else
 var
-n=cg(N,g(0)),e=[2,n[1],n[2]];else
+n=co(N,g(0)),e=[2,n[1],n[2]];else
 var
 e=[0,N(g(0))];else
 var
@@ -5876,120 +5945,120 @@ e=k;function
 q(y){var
 a=W(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],wD)){var
+p=a[1];if(!m(p[1],wI)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return U(wE)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return U(wJ)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],wF)){var
+r=a[1];if(!m(r[1],wK)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],wG)){var
+t=g[1];if(!m(t[1],wL)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
 z=N(h[1]);return[1,N(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],wH)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],wI)&&!i[2]&&x)return U(wJ)}else
+v=a[1];if(!m(v[1],wM)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],wN)&&!i[2]&&x)return U(wO)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],wC)){var
+n=a[1];if(!m(n[1],wH)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
 d=c[1];b=1}}}}break}if(b)return[0,N(d)];throw J}var
-r=bV(q,aD(c,wK));return[0,l,bV(cf,aD(c,wL)),r,e]}function
-hq(c){var
-d=fp(wU,c),e=d[1];if(2<=e)switch(e-2|0){case
+r=bZ(q,aE(c,wP));return[0,l,bZ(cn,aE(c,wQ)),r,e]}function
+hx(c){var
+d=fw(wZ,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=fp(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return U(wT)}function
-lt(c){var
-d=fp(wV,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:hq(c)}function
-lu(b){var
-a=W(b[2]);if(m(b[1],w2)){var
-c=cg(N,p(a,w3)),d=cg(N,p(a,w4)),e=d[2],f=d[1],g=N(p(a,w5));return[1,c[1],c[2],g,f,e]}var
-h=Q(N,S(p(a,w6)));return[0,Q(N,S(p(a,w7))),h]}function
-w8(f){var
+a=fw(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return U(wY)}function
+lx(c){var
+d=fw(w0,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:hx(c)}function
+ly(b){var
+a=W(b[2]);if(m(b[1],w7)){var
+c=co(N,p(a,w8)),d=co(N,p(a,w9)),e=d[2],f=d[1],g=N(p(a,w_));return[1,c[1],c[2],g,f,e]}var
+h=Q(N,S(p(a,w$)));return[0,Q(N,S(p(a,xa))),h]}function
+xb(f){var
 a=W(f);function
 d(b){return N(p(a,b))}function
-c(b){return d8(N,p(a,b))}var
-b=aA(p(a,w9));if(m(b,w_)){if(!m(b,w$)){var
-j=p(a,xf),e=cg(function(a){return a},j),k=aD(a,xg),l=bV(function(a){return c(xh)},k),n=fo(aA(e[2])),o=fo(aA(e[1])),q=d(xi);return[0,cf(p(a,xj)),q,o,n,l]}if(m(b,xa))throw J}var
-g=d(xb),h=c(xc),i=c(xd);return[1,ak(b,xe),i,h,g]}function
-hr(ad){var
-e=cI(ad),f=e[1];if(m(f,xk)){if(m(f,xl)){if(m(f,xm)){if(m(f,xn))return U([0,xp,[0,f,xo]]);var
-r=p(W(e[2]),xq),X=0;if(2===r[0]){var
-A=m(r[1],xr);if(!A){var
+c(b){return ee(N,p(a,b))}var
+b=aB(p(a,xc));if(m(b,xd)){if(!m(b,xe)){var
+j=p(a,xk),e=co(function(a){return a},j),k=aE(a,xl),l=bZ(function(a){return c(xm)},k),n=fv(aB(e[2])),o=fv(aB(e[1])),q=d(xn);return[0,cn(p(a,xo)),q,o,n,l]}if(m(b,xf))throw J}var
+g=d(xg),h=c(xh),i=c(xi);return[1,al(b,xj),i,h,g]}function
+hy(ad){var
+e=cP(ad),f=e[1];if(m(f,xp)){if(m(f,xq)){if(m(f,xr)){if(m(f,xs))return U([0,xu,[0,f,xt]]);var
+r=p(W(e[2]),xv),X=0;if(2===r[0]){var
+A=m(r[1],xw);if(!A){var
 z=A;X=1}}if(!X)var
-z=[0,bA(r)];return[6,z]}var
-B=W(e[2]),g=hr([0,[0,[0,xt,p(B,xs)],0]]);if(0===g[0]){var
+z=[0,bE(r)];return[6,z]}var
+B=W(e[2]),g=hy([0,[0,[0,xy,p(B,xx)],0]]);if(0===g[0]){var
 s=g[2];if(0===s[0]&&!g[3]){var
-ae=N(p(B,xv));return[5,g[1],s[1],s[2],g[4],ae]}}return U(xu)}var
+ae=N(p(B,xA));return[5,g[1],s[1],s[2],g[4],ae]}}return U(xz)}var
 b=W(e[2]),C=function(c){var
-a=S(p(b,xw));return Q(function(a){return fp(0,a)},a)},h=cI(p(b,xx)),a=cI(p(b,xy)),c=h[1];if(m(c,xz)&&0!==aD(b,xA))return U(yv);if(m(c,xB)&&m(c,xC)&&m(c,xD)){if(0===aD(b,xE)){if(m(c,xF)){var
-Y=0;if(m(c,xG)){if(!m(c,xH)){var
-D=a[1],Z=0;if(m(D,xK)&&m(D,xL)){Y=1;Z=1}if(!Z){var
-t=S(h[2]),u=aD(b,xO),E=u?Q(w8,S(u[1])):u,v=C(0);if(!at(vW,t)&&!at(function(a){return 13===a[1]?1:0},v)){var
-F=Q(vG,t),G=at(function(a){return 5===a[1]?1:0},v),ah=G?at(function(a){return 0===a[0]?0:1},F):G;if(ah)U(xR);var
-d=W(a[2]);if(m(a[1],wW))var
-x=cg(N,p(d,wX)),y=cg(N,p(d,wY)),$=y[2],aa=y[1],ab=N(p(d,wZ)),H=[1,x[1],x[2],ab,aa,$];else
+a=S(p(b,xB));return Q(function(a){return fw(0,a)},a)},h=cP(p(b,xC)),a=cP(p(b,xD)),c=h[1];if(m(c,xE)&&0!==aE(b,xF))return U(yA);if(m(c,xG)&&m(c,xH)&&m(c,xI)){if(0===aE(b,xJ)){if(m(c,xK)){var
+Y=0;if(m(c,xL)){if(!m(c,xM)){var
+D=a[1],Z=0;if(m(D,xP)&&m(D,xQ)){Y=1;Z=1}if(!Z){var
+t=S(h[2]),u=aE(b,xT),E=u?Q(xb,S(u[1])):u,v=C(0);if(!au(v1,t)&&!au(function(a){return 13===a[1]?1:0},v)){var
+F=Q(vL,t),G=au(function(a){return 5===a[1]?1:0},v),ah=G?au(function(a){return 0===a[0]?0:1},F):G;if(ah)U(xW);var
+d=W(a[2]);if(m(a[1],w1))var
+x=co(N,p(d,w2)),y=co(N,p(d,w3)),$=y[2],aa=y[1],ab=N(p(d,w4)),H=[1,x[1],x[2],ab,aa,$];else
 var
-ac=d8(N,p(d,w0)),H=[0,d8(N,p(d,w1)),ac];return[0,F,H,E,v]}if(0!==E)U(xP);var
-af=Q(lt,S(p(b,xQ))),ag=lu(a);return[1,0,Q(lr,t),0,ag,0,af]}}}else
-if(!m(a[1],xS)){var
-w=C(0),ai=at(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bH(w)?1:0);if(aj)U(xT);var
-al=N(p(W(a[2]),xU));return[4,N(p(W(h[2]),xV)),al,w]}if(!Y)return U([0,xJ,[0,c,xI]])}else
-if(!m(a[1],xW)){var
+ac=ee(N,p(d,w5)),H=[0,ee(N,p(d,w6)),ac];return[0,F,H,E,v]}if(0!==E)U(xU);var
+af=Q(lx,S(p(b,xV))),ag=ly(a);return[1,0,Q(lv,t),0,ag,0,af]}}}else
+if(!m(a[1],xX)){var
+w=C(0),ai=au(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bL(w)?1:0);if(aj)U(xY);var
+ak=N(p(W(a[2]),xZ));return[4,N(p(W(h[2]),x0)),ak,w]}if(!Y)return U([0,xO,[0,c,xN]])}else
+if(!m(a[1],x1)){var
 j=W(h[2]),I=W(a[2]),K=function(c,a){var
 b=S(a);return Q(function(d){var
 a=S(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=l(c,b[1]);return[0,aA(a[1]),e]}}throw J},b)},am=function(d){var
+e=k(c,b[1]);return[0,aB(a[1]),e]}}throw J},b)},am=function(d){var
 a=W(d);if(a){var
-b=a[1],c=b[1];if(m(c,xX)){if(!m(c,xY)&&!a[2])return[0,Q(ho,S(b[2]))]}else
-if(!a[2])return[1,ho(b[2])]}throw J},an=Q(hq,S(p(b,xZ))),ao=Q(N,S(p(I,x0))),ap=Q(N,S(p(I,x1))),aq=Q(am,S(p(j,x2))),ar=K(ho,p(j,x3)),as=K(bA,p(j,x4));return[3,Q(aA,S(p(j,x5))),as,ar,aq,ap,ao,an]}return U([0,xN,[0,a[1],xM]])}throw J}var
-L=a[1],M=W(h[2]);if(m(L,x6))U([0,x8,[0,L,x7]]);var
-k=bV(N,aD(M,x9)),au=function(f){var
-a=cI(f),b=a[1];if(m(b,x_)){if(m(b,x$)){if(m(b,ya)){if(m(b,yb))throw J;var
-d=a[2],g=N(p(W(d),yc));return[3,N(p(W(d),yd)),g]}var
-h=a[2],c=function(a){return cg(N,p(W(h),a))},i=c(ye),j=c(yf);return[1,c(yg),j,i]}var
-e=cg(N,a[2]);return[0,e[1],e[2]]}return[2,N(a[2])]},n=bV(au,aD(b,yh)),O=m(c,yi),P=O?m(c,yj)?2:1:O,o=S(p(M,yk));if(k&&n&&fX(ls,o)){var
+b=a[1],c=b[1];if(m(c,x2)){if(!m(c,x3)&&!a[2])return[0,Q(hv,S(b[2]))]}else
+if(!a[2])return[1,hv(b[2])]}throw J},an=Q(hx,S(p(b,x4))),ao=Q(N,S(p(I,x5))),ap=Q(N,S(p(I,x6))),aq=Q(am,S(p(j,x7))),ar=K(hv,p(j,x8)),as=K(bE,p(j,x9));return[3,Q(aB,S(p(j,x_))),as,ar,aq,ap,ao,an]}return U([0,xS,[0,a[1],xR]])}throw J}var
+L=a[1],M=W(h[2]);if(m(L,x$))U([0,yb,[0,L,ya]]);var
+l=bZ(N,aE(M,yc)),at=function(f){var
+a=cP(f),b=a[1];if(m(b,yd)){if(m(b,ye)){if(m(b,yf)){if(m(b,yg))throw J;var
+d=a[2],g=N(p(W(d),yh));return[3,N(p(W(d),yi)),g]}var
+h=a[2],c=function(a){return co(N,p(W(h),a))},i=c(yj),j=c(yk);return[1,c(yl),j,i]}var
+e=co(N,a[2]);return[0,e[1],e[2]]}return[2,N(a[2])]},n=bZ(at,aE(b,ym)),O=m(c,yn),P=O?m(c,yo)?2:1:O,o=S(p(M,yp));if(l&&n&&f4(lw,o)){var
 R=W(a[2]),av=function(c){var
 a=W(c);function
-b(b){return Q(bA,S(p(a,b)))}if(0!==aD(a,yl))U(ym);var
-d=b(yn);return[0,b(yo),d]},aw=Q(hq,S(p(b,yp))),ax=n[1],ay=Q(N,S(p(R,yq))),az=Q(N,S(p(R,yr))),aB=k[1];return[2,P,Q(av,o),aB,az,ay,ax,aw]}var
-_=0;if(!k&&ak(c,yu)){var
+b(b){return Q(bE,S(p(a,b)))}if(0!==aE(a,yq))U(yr);var
+d=b(ys);return[0,b(yt),d]},aw=Q(hx,S(p(b,yu))),ax=n[1],ay=Q(N,S(p(R,yv))),az=Q(N,S(p(R,yw))),aA=l[1];return[2,P,Q(av,o),aA,az,ay,ax,aw]}var
+_=0;if(!l&&al(c,yz)){var
 T=1;_=1}if(!_)var
 T=[0,P];var
-V=0!==n?1:0,aC=V?at(ls,o):V;if(aC)U(ys);var
-aE=Q(lt,S(p(b,yt))),aF=lu(a);return[1,T,Q(lr,o),k,aF,n,aE]}var
+V=0!==n?1:0,aC=V?au(lw,o):V;if(aC)U(yx);var
+aD=Q(lx,S(p(b,yy))),aF=ly(a);return[1,T,Q(lv,o),l,aF,n,aD]}var
 q=W(e[2]);function
 aG(b){var
-a=W(b),c=N(p(a,yw)),d=[0,N(p(a,yx)),c];return[0,aA(p(a,yy)),d]}var
-i=hr([0,[0,[0,yA,p(q,yz)],0]]);if(0===i[0]&&!i[3]){var
-aH=N(p(q,yC)),aI=N(p(q,yD)),aJ=i[4],aK=i[2],aL=i[1];return[7,Q(aG,S(p(q,yE))),aL,aK,aJ,aI,aH]}return U(yB)}function
-hs(a){return Q(d_,S(a))}function
-ht(c,b){var
-a=hs(b);if(bH(a)!==c)throw J;return a}function
-lv(a,d){var
-b=W(d),e=S(p(b,yH)),f=a[2],c=Q(function(a){return ht(f,a)},e),g=a[1];if(bH(c)!==g)throw J;return[0,c,fn(p(b,yI))]}function
-d$(g,n){var
+a=W(b),c=N(p(a,yB)),d=[0,N(p(a,yC)),c];return[0,aB(p(a,yD)),d]}var
+i=hy([0,[0,[0,yF,p(q,yE)],0]]);if(0===i[0]&&!i[3]){var
+aH=N(p(q,yH)),aI=N(p(q,yI)),aJ=i[4],aK=i[2],aL=i[1];return[7,Q(aG,S(p(q,yJ))),aL,aK,aJ,aI,aH]}return U(yG)}function
+hz(a){return Q(eg,S(a))}function
+hA(c,b){var
+a=hz(b);if(bL(a)!==c)throw J;return a}function
+lz(a,d){var
+b=W(d),e=S(p(b,yM)),f=a[2],c=Q(function(a){return hA(f,a)},e),g=a[1];if(bL(c)!==g)throw J;return[0,c,fu(p(b,yN))]}function
+eh(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=nM(a,yJ),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,yK)&&m(a,yL)&&m(a,yM))if(m(a,yN))f=1;else{var
+e=d[1],a=e[1],N=nQ(a,yO),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,yP)&&m(a,yQ)&&m(a,yR))if(m(a,yS))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=Q(hs,S(r[1])),ac=aA(q[1]);return[8,d$(g,o[1]),ac,ab]}b=1;f=1}else
+ab=Q(hz,S(r[1])),ac=aB(q[1]);return[8,eh(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -5999,109 +6068,109 @@ R=e[2];if(1===R[0]){var
 u=R[1];if(u){var
 v=u[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=fn(w[1]),af=d_(v[1]);return[5,d$(g,u[1]),af,ae]}b=1}}}}}else
-if(m(a,yQ))if(m(a,yR))if(m(a,yS))if(m(a,yT)){if(!m(a,yU)){if(!d[2]){var
-T=W(e[2]),ag=S(p(T,yV)),ah=M+1|0,V=Q(function(a){return ht(ah,a)},ag);if(3===bH(V))return[1,yX,V,fn(p(T,yW))];throw J}b=1}}else{if(!d[2]){var
-I=aA(e[2]),K=m(I,yF);if(K){if(m(I,yG))throw J;var
+ae=fu(w[1]),af=eg(v[1]);return[5,eh(g,u[1]),af,ae]}b=1}}}}}else
+if(m(a,yV))if(m(a,yW))if(m(a,yX))if(m(a,yY)){if(!m(a,yZ)){if(!d[2]){var
+T=W(e[2]),ag=S(p(T,y0)),ah=M+1|0,V=Q(function(a){return hA(ah,a)},ag);if(3===bL(V))return[1,y2,V,fu(p(T,y1))];throw J}b=1}}else{if(!d[2]){var
+I=aB(e[2]),K=m(I,yK);if(K){if(m(I,yL))throw J;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],l=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],D=Z[1],c=0;if(m(D,yZ)&&m(D,y0))if(m(D,y1))c=1;else{var
+Z=j[1],D=Z[1],c=0;if(m(D,y4)&&m(D,y5))if(m(D,y6))c=1;else{var
 _=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 k=E[1],h=0;switch(k[0]){case
 0:var
 F=k[1];if(F){var
-$=F[1][1],aa=0;if(m($,y3)&&m($,y4)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(k[1],y5)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=F[1][1],aa=0;if(m($,y8)&&m($,y9)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(k[1],y_)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 G=E[2];if(G){var
 H=G[2];if(H&&!(H[2]||j[2])){var
-am=fn(H[1]),an=d_(G[1]),x=[6,d$(g,k),an,am];l=1;c=1}else
+am=fu(H[1]),an=eg(G[1]),x=[6,eh(g,k),an,am];l=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])l=2}break;case
-2:if(!m(i[1],y6))l=2;break}switch(l){case
+2:if(!m(i[1],y$))l=2;break}switch(l){case
 0:var
-x=U(y2);break;case
+x=U(y7);break;case
 2:var
-x=d$(g,i);break}return[7,x]}b=1}else{var
+x=eh(g,i);break}return[7,x]}b=1}else{var
 X=e[2];if(1===X[0]){var
 y=X[1];if(y){var
 z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,ht(M+1|0,ai)]};b=2}}}}else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hA(M+1|0,ai)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 A=Y[1];if(A){var
 B=A[2];if(B){var
 C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(m(dk(C[1]),yY))throw J;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,d_(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return U([0,yP,[0,a,yO]]);break;case
+ak=B[1];if(m(dr(C[1]),y3))throw J;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,eg(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return U([0,yU,[0,a,yT]]);break;case
 1:break;default:var
-P=lv(g,t);return s(P[1],P[2])}}break;case
+P=lz(g,t);return s(P[1],P[2])}}break;case
 2:return[0,n[1]]}throw J}function
-lw(j){var
-b=cI(j),a=b[1];if(m(a,y9)){var
-g=m(a,y_);if(!g)return g;if(!m(a,y$)){var
+lA(j){var
+b=cP(j),a=b[1];if(m(a,zc)){var
+g=m(a,zd);if(!g)return g;if(!m(a,ze)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cf(d[1]);return[1,cf(c[1]),k]}}}}}else{var
+k=cn(d[1]);return[1,cn(c[1]),k]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-l=Q(hs,S(f[1]));return[0,cf(e[1]),l]}}}}return U([0,zb,[0,a,za]])}function
-lx(f,b){var
-a=W(b),c=S(p(a,zg)),d=Q(function(g){var
+l=Q(hz,S(f[1]));return[0,cn(e[1]),l]}}}}return U([0,zg,[0,a,zf]])}function
+lB(f,b){var
+a=W(b),c=S(p(a,zl)),d=Q(function(g){var
 a=W(g);function
 b(d,c){var
-b=aD(a,c);return b?Q(d,S(b[1])):b}var
-c=b(d_,zc),d=bV(lw,aD(a,zd)),e=bV(cf,aD(a,ze));return[0,b(function(h){var
+b=aE(a,c);return b?Q(d,S(b[1])):b}var
+c=b(eg,zh),d=bZ(lA,aE(a,zi)),e=bZ(cn,aE(a,zj));return[0,b(function(h){var
 b=S(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],y7)){if(!a[2]){if(m(dk(e),y8))throw J;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],za)){if(!a[2]){if(m(dr(e),zb))throw J;d=1}}else
 d=1;if(d&&!a[2]){var
-g=d$(f,c);return[0,cf(e),g]}}}throw J},zf),e,d,c]},c),e=aD(a,zh),g=bV(function(a){return lv(f,a)},e);return[0,lo(p(a,zi)),g,d]}function
-ly(c){var
-a=W(c),b=aD(a,zj),d=b?Q(N,S(b[1])):b,e=lw(p(a,zk)),f=Q(N,S(p(a,zl)));return[0,lo(p(a,zm)),f,d,e]}function
-lz(c){var
+g=eh(f,c);return[0,cn(e),g]}}}throw J},zk),e,d,c]},c),e=aE(a,zm),g=bZ(function(a){return lz(f,a)},e);return[0,ls(p(a,zn)),g,d]}function
+lC(c){var
+a=W(c),b=aE(a,zo),d=b?Q(N,S(b[1])):b,e=lA(p(a,zp)),f=Q(N,S(p(a,zq)));return[0,ls(p(a,zr)),f,d,e]}function
+lD(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-zw(c){var
+zB(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],zx))a=1;break;case
+0:if(!m(b[1],zC))a=1;break;case
 7:a=1;break}return a?1:0}function
-zy(g){var
-i=aj(g),b=[0,0];function
-j(a){if(b[1]<i)return aF(g,b[1]);throw J}function
-k(a){if(j(0)===a){b[1]++;return 0}throw J}function
-z(a,c){for(;;){if(b[1]<i&&l(c,aF(g,b[1]))){b[1]++;continue}return cR(g,a,b[1]-a|0)}}function
-A(d){k(34);function
+zD(g){var
+i=ak(g),b=[0,0];function
+j(a){if(b[1]<i)return aG(g,b[1]);throw J}function
+l(a){if(j(0)===a){b[1]++;return 0}throw J}function
+z(a,c){for(;;){if(b[1]<i&&k(c,aG(g,b[1]))){b[1]++;continue}return cY(g,a,b[1]-a|0)}}function
+A(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=z(b[1],a);k(34);return c}function
+c=z(b[1],a);l(34);return c}function
 B(h,d){if(j(0)===d){b[1]++;return 0}var
 e=0;for(;;){var
-f=[0,l(h,0),e];if(44===j(0)){b[1]++;var
-e=f;continue}k(d);var
+f=[0,k(h,0),e];if(44===j(0)){b[1]++;var
+e=f;continue}l(d);var
 a=f,c=0;for(;;){if(a){var
 g=[0,a[1],c],a=a[2],c=g;continue}return c}}}function
 s(c,i){if(64<c)throw J;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 e=93,f=c+1|0;return[1,B(function(a){return s(f,a)},e)]}if(123===a){b[1]++;var
 g=125;return[0,B(function(b){var
-a=A(0);k(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
+a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
 h=b[1];b[1]++;return[3,z(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw J}var
-N=s(0,0),C=b[1]<i?1:0,O=C?10===aF(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw J;var
-r=W(N);if(m(aA(p(r,zz)),zA))throw J;var
-a=hr(p(r,zB)),w=0;switch(a[0]){case
+N=s(0,0),C=b[1]<i?1:0,O=C?10===aG(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw J;var
+r=W(N);if(m(aB(p(r,zE)),zF))throw J;var
+a=hy(p(r,zG)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -6111,34 +6180,34 @@ if(1===u[1])var
 v=6;else
 x=1;if(x)var
 v=3;var
-f=[0,bH(a[2]),v];break;case
+f=[0,bL(a[2]),v];break;case
 2:var
-ac=1===a[1]?6:3,f=[0,bH(a[2]),ac];break;case
+ac=1===a[1]?6:3,f=[0,bL(a[2]),ac];break;case
 3:var
-ad=bH(a[1]),f=[0,bH(a[4]),ad];break;case
+ad=bL(a[1]),f=[0,bL(a[4]),ad];break;case
 7:var
 D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-f=zR}if(w)var
-f=[0,bH(D),3];var
-n=cI(p(r,zC)),o=n[1];if(m(o,zr))if(m(o,zs))if(m(o,zt))var
-c=U([0,zv,[0,o,zu]]);else
+f=zW}if(w)var
+f=[0,bL(D),3];var
+n=cP(p(r,zH)),o=n[1];if(m(o,zw))if(m(o,zx))if(m(o,zy))var
+c=U([0,zA,[0,o,zz]]);else
 var
-q=ly(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=lC(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=lx(f,n[2]),c=[0,t[1],t[2],t[3]];else
+t=lB(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
 P=S(n[2]),c=[2,Q(function(g){var
-a=cI(g),b=a[1];if(m(b,zn)){if(m(b,zo)){if(m(b,zp)){var
-e=m(b,zq);if(e)throw J;return e}return[0,cf(a[2])]}var
-c=ly(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=lx(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+a=cP(g),b=a[1];if(m(b,zs)){if(m(b,zt)){if(m(b,zu)){var
+e=m(b,zv);if(e)throw J;return e}return[0,cn(a[2])]}var
+c=lC(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lB(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
 R(a){var
-b=a[1];return at(function(a){return 8===a[2][0]?1:0},b)}function
+b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
 T(a){return 0!==a[3]?1:0}function
-E(a){return at(T,a)}var
+E(a){return au(T,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
@@ -6148,36 +6217,36 @@ H=F,G=a[1];d=4;break;case
 K=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-_=c[3];if(at(function(a){var
-b=a[1];return at(function(a){switch(a[2][0]){case
+_=c[3];if(au(function(a){var
+b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_)){U(zL);d=1}else
+7:return 1;default:return 0}},b)},_)){U(zQ);d=1}else
 d=2;break;case
 1:var
-$=a[6];if(at(function(a){return 8===a[1]?1:0},$)){U(zM);d=1}break}break;case
+$=a[6];if(au(function(a){return 8===a[1]?1:0},$)){U(zR);d=1}break}break;case
 2:if(1===c[0]){var
-ab=a[7];if(at(function(b){var
+ab=a[7];if(au(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},ab)){U(zP);d=1}else
+6:return 1}return 0},ab)){U(zU);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){U(zQ);d=1}else
+3:if(1===c[0]){U(zV);d=1}else
 d=3;break;case
 5:var
 K=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(at(R,c[3])){U(zN);e=3}else
+3:if(0===c[0])if(au(R,c[3])){U(zS);e=3}else
 if(3===a[0])e=1;else{var
-aa=c[3];if(fX(function(a){return fX(zw,a[1])},aa))e=1;else{U(zO);e=3}}else
+aa=c[3];if(f4(function(a){return f4(zB,a[1])},aa))e=1;else{U(zT);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-L=0;if(at(function(a){return 10===a[1]?1:0},H)&&at(function(a){return 2===a[0]?1:0},G)){U(zD);L=1}if(!L)e=1;break;case
-5:if(at(lz,K))U(zK);else
+L=0;if(au(function(a){return 10===a[1]?1:0},H)&&au(function(a){return 2===a[0]?1:0},G)){U(zI);L=1}if(!L)e=1;break;case
+5:if(au(lD,K))U(zP);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
@@ -6186,7 +6255,7 @@ y=0;switch(e){case
 h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-X=c[3];if(at(function(a){return 0!==a[1]?1:0},X)){U(zI);h=1;M=1}}if(!M)h=1;break;case
+X=c[3];if(au(function(a){return 0!==a[1]?1:0},X)){U(zN);h=1;M=1}}if(!M)h=1;break;case
 7:var
 Y=a[4];switch(c[0]){case
 0:break;case
@@ -6194,24 +6263,24 @@ Y=a[4];switch(c[0]){case
 Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return at(lz,Y)}return 0};if(at(Z,c[1]))U(zJ);h=1}break}if(!h)if(0===c[0]&&E(c[3]))U(zH);else
+2:return au(lD,Y)}return 0};if(au(Z,c[1]))U(zO);h=1}break}if(!h)if(0===c[0]&&E(c[3]))U(zM);else
 y=1;break;case
 2:y=1;break}var
-I=W(p(r,zE)),V=aA(p(I,zF));return[0,a,c,aA(p(I,zG)),V]}function
-zS(b){var
-c=aj(b),g=64,h=Bt(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=W(p(r,zJ)),V=aB(p(I,zK));return[0,a,c,aB(p(I,zL)),V]}function
+zX(b){var
+c=ak(b),g=64,h=By(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ak(cR(b,a,18),zT);if(!e){var
+e=al(cY(b,a,18),zY);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}BO(function(b){try{if(zS(b))var
-a=zV;else{try{var
-e=0,d=zy(b);e=1}catch(a){a=nO(a);if(a[1]===ln)var
+f=d;return f}}BT(function(b){try{if(zX(b))var
+a=z0;else{try{var
+e=0,d=zD(b);e=1}catch(a){a=nS(a);if(a[1]===lr)var
 c=[0,a[2]];else{if(a!==J)throw a;var
 c=2}}if(e)var
-c=vr(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return zU}if(typeof
+c=vw(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return zZ}if(typeof
 a==="number")switch(a){case
-0:return zW;case
-1:return zX;default:return zY}return aJ(zZ,a[1])});id(0);return}(globalThis));
+0:return z1;case
+1:return z2;default:return z3}return aN(z4,a[1])});il(0);return}(globalThis));

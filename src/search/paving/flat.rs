@@ -96,6 +96,9 @@ impl Flat {
                 Step::Div(a, b) => of(a)?.over(of(b)?)?,
                 Step::Sqr(a) => of(a)?.squared()?,
                 Step::Sqrt(a) => of(a)?.root()?,
+                Step::Elbow([a, b, t], second) => {
+                    elbow(of(a)?, of(b)?, of(t)?)?[usize::from(second)]
+                }
             };
             entries.push(entry);
         }
@@ -219,6 +222,13 @@ impl Entry {
         Entry::new(self.centre * self.centre, Doubles.sqr(&self.range)?, slopes)
     }
 
+    /// The mean of its value at the centre and its values.
+    fn mean(&self) -> Option<Self> {
+        let slopes = (each(|k| 0.5 * self.lo[k]), each(|k| 0.5 * self.hi[k]));
+        let (lo, hi) = self.twice();
+        Entry::new(self.centre, (0.5 * lo, 0.5 * hi), slopes)
+    }
+
     #[inline(always)]
     fn root(&self) -> Option<Self> {
         let (centre, _) = Doubles.sqrt(&(self.centre, self.centre))?;
@@ -226,6 +236,37 @@ impl Entry {
         let by = Doubles.recip(&(range.0 + centre, range.1 + centre))?;
         Entry::new(centre, range, times(by, (&self.lo, &self.hi)))
     }
+}
+
+/// Slopes in the arithmetic of entries, of three coordinates at most.
+fn elbow(a: &Entry, b: &Entry, t: &Entry) -> Option<[Entry; 2]> {
+    let [one, two, four] = [1.0, 2.0, 4.0].map(|x| constant((x, x)));
+    let n = a.squared()?.plus(&b.squared()?)?;
+    let q = n.plus(&one)?.minus(t)?;
+    let h = n.times(&four)?.minus(&q.squared()?)?.root()?;
+    let over = n.times(&two)?;
+    let mut c = q.times(a)?.plus(&h.times(b)?)?.over(&over)?;
+    let mut s = q.times(b)?.minus(&h.times(a)?)?.over(&over)?;
+    let [x, y] = [a.mean()?, b.mean()?];
+    for _ in 0..2 {
+        let [cos, sin] = [c.mean()?, s.mean()?];
+        let across = y.times(&cos)?.minus(&x.times(&sin)?)?;
+        let over = one.over(&across)?;
+        let (p, q) = (x.minus(&cos)?.times(&over)?, y.minus(&sin)?.times(&over)?);
+        let (mut lo, mut hi) = ([0.0; 4], [0.0; 4]);
+        for k in 0..3 {
+            let times = |f: &Entry, lo, hi| f.times(&Entry { centre: lo, ..constant((lo, hi)) });
+            let along = times(&p, a.lo[k], a.hi[k])?.plus(&times(&q, b.lo[k], b.hi[k])?)?;
+            let z = along.minus(&times(&over, 0.5 * t.lo[k], 0.5 * t.hi[k])?)?;
+            (lo[k], hi[k]) = z.range;
+        }
+        let z = (&lo, &hi);
+        (c, s) = (
+            Entry::new(c.centre, c.range, times((-sin.range.1, -sin.range.0), z))?,
+            Entry::new(s.centre, s.range, times(cos.range, z))?,
+        );
+    }
+    Some([c, s])
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A tape without what is the same everywhere: its operations on what varies, one after the other.
 
-use orthocert_kernel::arithmetic::Arithmetic;
+use super::doubles::Single;
+use orthocert_kernel::arithmetic::{elbow, Arithmetic};
 use orthocert_kernel::formula::{Formula, Op, Tape, Values};
 use std::cell::RefCell;
 
@@ -25,6 +26,7 @@ pub(crate) enum Step {
     Div(Slot, Slot),
     Sqr(Slot),
     Sqrt(Slot),
+    Elbow([Slot; 3], bool),
 }
 
 /// What a coordinate or parameter is.
@@ -101,6 +103,11 @@ impl Program<f64> {
                 Step::Div(a, b) => defined(of(b) != 0.0, of(a) / of(b)),
                 Step::Sqr(a) => of(a) * of(a),
                 Step::Sqrt(a) => defined(of(a) > 0.0, of(a).sqrt()),
+                Step::Elbow(of_, second) => {
+                    let [a, b, t] = of_.map(of);
+                    let both = elbow(&Single, [&a, &b, &t]);
+                    both.map_or(f64::NAN, |both| both[usize::from(second)])
+                }
             };
             values.push(value);
         }
@@ -177,5 +184,13 @@ impl<A: Arithmetic> Arithmetic for Record<A> {
 
     fn sqrt(&self, &a: &Slot) -> Option<Slot> {
         self.of_two([a, a], Step::Sqrt(a), |own, a, _| own.sqrt(a))
+    }
+
+    fn elbow(&self, of: [&Slot; 3]) -> Option<[Slot; 2]> {
+        let of = of.map(|&slot| slot);
+        if of.iter().any(|slot| matches!(slot, Slot::Step(_))) {
+            return Some([false, true].map(|second| self.push(Step::Elbow(of, second))));
+        }
+        elbow(self, [&of[0], &of[1], &of[2]])
     }
 }

@@ -110,19 +110,15 @@ pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Leg {
 /// direction at angle 0, a unit vector orthogonal to `k`, and `f = k x e`.
 ///
 /// ```text
-/// alpha = w . e    beta = w . f    kappa = k . w    N = alpha^2 + beta^2    c = kappa^2 + r^2 - L^2
-/// D = (L^2 - kappa^2) - (g - r)^2,  g = (N + c)/(2r)                eta = m r sqrt(D)
-/// p = (1 - c/N)/2    q = r sqrt(D/N^2),  D/N^2 = 1/N - (1 + c/N)^2/(4 r^2)
-/// A = (p alpha - m q beta) e + (p beta + m q alpha) f + kappa k
-/// r cos theta = alpha - A . e       r sin theta = beta - A . f
+/// alpha = w . e    beta = w . f    kappa = k . w    n = alpha^2 + beta^2    x = L^2 - kappa^2
+/// g = (n + r^2 - x)/(2 r)    d = n - g^2    eta = m sqrt(d)    D = r^2 d
+/// (c, m s) = elbow(alpha/r, m beta/r, x/r^2)    A = w - r (c e + s f)    theta = (c, s)
 /// ```
 ///
-/// *Closure.* `|A|^2 = (p^2 + q^2) N + kappa^2`. With `s = c/N`:
-/// `p^2 + q^2 = (1 - s)^2/4 + r^2/N - (1 + s)^2/4 = r^2/N - s`, so that `|A|^2 = r^2 - c + kappa^2 = L^2`;
-/// and `(1 - p)^2 + q^2 = (1 + s)^2/4 + q^2 = r^2/N`: the elbow is at the distance `r` from the axis.
-/// *Velocity.* `A . P' = theta' A . (r k x u)` with `u = cos theta e + sin theta f`, and
-/// `r A . (k x u) = (A . f)(alpha - A . e) - (A . e)(beta - A . f) = alpha (A . f) - beta (A . e) = m q N
-/// = m r sqrt(D)`. Here `g` appears in one quotient only, `c/N`.
+/// *Closure.* `u = c e + s f` is a unit vector, and
+/// `|A|^2 = (alpha - r c)^2 + (beta - r s)^2 + kappa^2 = x + kappa^2 = L^2`.
+/// *Velocity.* `A . P' = theta' A . (r k x u)`, and `A . (k x u) = beta c - alpha s = eta`, as
+/// `(beta c - alpha s)^2 = n - (alpha c + beta s)^2 = n - g^2`, and `m (beta c - alpha s) > 0`.
 pub fn arm(
     tape: &mut Tape,
     w: &Vector,
@@ -133,32 +129,25 @@ pub fn arm(
     let f = tape.cross(k, e);
     let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
     let [alpha2, beta2, kappa2, r2, length2] = [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
-    let n = tape.add(alpha2, beta2);
-    let excess = tape.sub(r2, length2);
-    let c = tape.add(kappa2, excess);
-    let [one, two] = [1, 2].map(|n| tape.integer(n));
+    let (n, x) = (tape.add(alpha2, beta2), tape.sub(length2, kappa2));
+    let excess = tape.sub(r2, x);
+    let over = tape.add(n, excess);
+    let two = tape.integer(2);
     let two_r = tape.mul(two, r);
-    let over = tape.add(n, c);
     let g = tape.div(over, two_r);
-    let (across, shift) = (tape.sub(length2, kappa2), tape.sub(g, r));
-    let shift = tape.sqr(shift);
-    let d = tape.sub(across, shift);
-    let inverse = tape.div(one, n);
-    let s = tape.mul(c, inverse);
-    let less = tape.sub(one, s);
-    let p = tape.div(less, two);
+    let g2 = tape.sqr(g);
+    let d = tape.sub(n, g2);
     let root = tape.sqrt(d);
     let root = tape.mul(r, root);
     let root = signed(tape, m, root);
-    let q = tape.mul(root, inverse);
-    let (p_alpha, q_beta) = (tape.mul(p, alpha), tape.mul(q, beta));
-    let (p_beta, q_alpha) = (tape.mul(p, beta), tape.mul(q, alpha));
-    let (a_e, a_f) = (tape.sub(p_alpha, q_beta), tape.add(p_beta, q_alpha));
-    let [x, y, z] = [(a_e, e), (a_f, &f), (kappa, k)].map(|(a, axis)| tape.scaled(a, axis));
-    let in_plane = tape.plus(&x, &y);
-    let a = tape.plus(&in_plane, &z).to_vec();
-    let (cos, sin) = (tape.sub(alpha, a_e), tape.sub(beta, a_f));
-    let (cos, sin) = (tape.div(cos, r), tape.div(sin, r));
+    let (a, b, t) = (tape.div(alpha, r), tape.div(beta, r), tape.div(x, r2));
+    let b = signed(tape, m, b);
+    let [cos, sin] = tape.elbow([a, b, t]);
+    let sin = signed(tape, m, sin);
+    let (x, y) = (tape.scaled(cos, e), tape.scaled(sin, &f));
+    let u = tape.plus(&x, &y);
+    let u = tape.scaled(r, &u);
+    let a = tape.minus(w, &u).to_vec();
     let divided = a.iter().map(|&a| tape.div(a, root)).collect();
     let row = Row { a, d: tape.mul(r2, d) };
     leg(tape, row, divided, Joint::Angle { cos, sin }, (Some(length), Some(d)))

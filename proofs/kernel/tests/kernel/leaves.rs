@@ -66,7 +66,7 @@ fn leaves() {
         ("linear Delta, cylinder", linear_delta(cylinder), [49, 110, 167]),
         ("struts", struts(), [16, 38, 62]),
         ("Orthoglide", orthoglide(), [14, 17, 17]),
-        ("rotary Delta", rotary(), [480, 980, 1440]),
+        ("rotary Delta", rotary(), [220, 440, 720]),
     ] {
         let problem = Problem::new(&claim).expect("a claim");
         let [least, greatest] = Prover::new(&problem).extremes();

@@ -14,6 +14,7 @@ use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax};
 use orthocert_kernel::definite::is_positive_definite;
 use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::formula::Tape;
 use orthocert_kernel::postulate::parts;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::slope::Slopes;
@@ -200,6 +201,35 @@ fn faces() -> BigInt {
     digest.0
 }
 
+/// The slopes of the elbow of three coordinates over random cells, in twelve bits.
+fn elbows() -> BigInt {
+    let fixed = Fixed::<BigInt>::new(12);
+    let (mut draw, mut digest, mut defined) = (Draw(1), Digest(BigInt::from(0)), 0);
+    let mut tape = Tape::default();
+    let parts = [0, 1, 2].map(|k| tape.coordinate(k));
+    let both = tape.elbow(parts);
+    for _ in 0..200 {
+        let cell = Cell(Vec::from([-5000, -5000, 200].map(|from| {
+            let low = from + draw.below(9000);
+            draw.interval(low, 500)
+        })));
+        let edges = cell.edges().expect("edges");
+        let values = evaluate(&tape, &[], Slopes::new(&fixed, 3), &edges);
+        for f in both {
+            match values.of(f) {
+                Some(f) => {
+                    let parts = [&f.at_centre, &f.range].into_iter().chain(&f.slopes[..3]);
+                    parts.for_each(|part| digest.add_interval(Some(part)));
+                    defined += 1;
+                }
+                None => digest.add(&7.into()),
+            }
+        }
+    }
+    assert!((100..390).contains(&defined), "{defined}");
+    digest.0
+}
+
 /// The values of all rows over a cell.
 fn leaf(problem: &Problem, bits: u32, cell: &Cell<BigInt>) -> BigInt {
     let fixed = Fixed::<BigInt>::new(bits);
@@ -243,13 +273,14 @@ fn leaves(name: &str, text: &str, bits: u32) -> String {
 #[test]
 fn values_of_the_formal_kernel_are_these() {
     let [arithmetic, definite] = operations();
-    let shown = faces();
+    let (shown, elbows) = (faces(), elbows());
     let mut text = include_str!("../../../rocq/instances/KernelValues.head").to_owned();
     let _ = writeln!(
         text,
         "Example operations : arithmetic = {arithmetic}.\nProof. vm_cast_no_check (eq_refl {arithmetic}). Qed.\n\
          Example definiteness : definite = {definite}.\nProof. vm_cast_no_check (eq_refl {definite}). Qed.\n\
-         Example faces : shown = {shown}.\nProof. vm_cast_no_check (eq_refl {shown}). Qed.\n"
+         Example faces : shown = {shown}.\nProof. vm_cast_no_check (eq_refl {shown}). Qed.\n\
+         Example elbows_are : elbows = {elbows}.\nProof. vm_cast_no_check (eq_refl {elbows}). Qed.\n"
     );
     for bits in [52, 100] {
         for (name, claim) in instances().into_iter().take(2) {
