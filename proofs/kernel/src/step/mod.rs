@@ -25,7 +25,7 @@ use tolerances::{are_for, is_of_vertices};
 
 pub use tolerances::Place;
 
-/// Checks steps; in another arithmetic than [`Fixed`], proposes them.
+/// Checks steps; in another arithmetic than [`Fixed`](crate::fixed::Fixed), proposes them.
 pub struct Checker<'a, E: Enclosure> {
     problem: &'a Problem,
     arithmetic: &'a E,
