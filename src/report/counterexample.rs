@@ -2,12 +2,14 @@
 
 use crate::exact::Exact;
 use crate::report::place::point_text;
-use crate::report::requirement::SINGULARITY;
 use serde::Serialize;
 use std::fmt;
 
 /// Digits of the places of bodies.
 const PLACE_DIGITS: u32 = 6;
+
+/// What is violated where a leg ends.
+pub(super) const REACHED: &str = "every leg reaches P and is not serially singular there";
 
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
@@ -39,7 +41,7 @@ impl Counterexample {
     /// What ends there, in a few words: the requirement, and what it is where it is none of psi and its like.
     pub fn limit(&self) -> String {
         match self.rule {
-            SINGULARITY if self.other_point.is_none() => "reach: a leg ends here".to_owned(),
+            _ if self.violated == REACHED => "reach: a leg ends here".to_owned(),
             "joint-range" => format!("{}, an end stop", self.violated),
             _ => self.violated.clone(),
         }

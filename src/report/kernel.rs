@@ -1,5 +1,6 @@
 //! The facts about claims of the kernel: any number of coordinates, any quantity of its table.
 
+use super::counterexample::REACHED;
 use super::place::FreeParameter;
 use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
 use super::share::sum_above;
@@ -192,12 +193,16 @@ impl<'a> Facts<'a> {
         let mut bodies = Vec::new();
         let (violated, value) = match &witness.fails {
             Failure::Reach => (
-                "every leg reaches P and is not serially singular there".to_owned(),
+                REACHED.to_owned(),
                 "a leg cannot reach P, or is serially singular there".to_owned(),
             ),
             Failure::Singular(other) => {
                 other_point = Some(points(other)?);
                 let value = "det M has opposite signs at P and P'";
+                ("no parallel singularity".to_owned(), value.to_owned())
+            }
+            Failure::Dependent => {
+                let value = "M is singular at P, exactly";
                 ("no parallel singularity".to_owned(), value.to_owned())
             }
             Failure::Same { obligation, least, greatest, .. } => {

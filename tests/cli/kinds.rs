@@ -140,3 +140,40 @@ fn spoiled_machines_are_refused_with_line_key_and_what_is_accepted() {
         assert_eq!(folder.names(), ["bad.toml"]);
     }
 }
+
+#[test]
+fn machines_that_are_singular_at_every_pose_are_refuted_with_the_reason() {
+    let folder = Folder::new();
+    for (text, reason) in [
+        (
+            include_str!("../designs/kernel/hexapod-coinciding-refuted.toml"),
+            "all joints on the platform are one point",
+        ),
+        (
+            include_str!("../designs/kernel/hexapod-similar-refuted.toml"),
+            "the joints on the platform are a scaled copy of those on the base",
+        ),
+        (
+            include_str!("../designs/kernel/hexapod-collinear-refuted.toml"),
+            "all joints on the platform are on one line",
+        ),
+    ] {
+        let (machine, _) = text.split_once("[requirements]").unwrap();
+        let asked = "[requirements]\njoint_range = { min = 0, max = 5 }\n";
+        folder.write("d.toml", format!("{machine}{asked}"));
+        let run = folder.run(&["verify", "d.toml"]).exits(1);
+        let run = run.says(&["no parallel singularity", "M is singular at P, exactly"]);
+        let words: Vec<&str> = run.stdout.split_whitespace().collect();
+        let found = words.join(" ").contains(&format!("{reason}: singular at every pose"));
+        assert!(found, "{}", run.stdout);
+        folder.run(&["check", "d.cert.json", "--design", "d.toml"]).exits(1);
+        folder.run(&["check", "d.cert.json"]).says(&["the columns of M are linearly dependent"]);
+        folder
+            .run(&["bounds", "d.toml"])
+            .exits(3)
+            .says(&["a singularity, or out of reach, inside"]);
+        folder.run(&["report", "d.cert.json"]).exits(1);
+        let run = folder.run(&["limit", "d.toml", "workspace.max.2"]).exits(3);
+        run.says(&["no parallel singularity"]);
+    }
+}

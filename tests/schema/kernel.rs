@@ -71,6 +71,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
             inverse: y.clone(),
         },
         Failure::Singular(point.clone()),
+        Failure::Dependent,
     ];
     for fails in failures {
         let Claim::Machine(machine) = good.claim.clone() else { panic!("a machine") };

@@ -57,7 +57,9 @@ impl Item {
                 out.extend([FAILS, small(*obligation)?, count(directions.len())?]);
                 directions.iter().try_for_each(|v| put(out, v))?;
             }
-            Kind::Outer(Outer::Given(Failure::Same { .. } | Failure::Singular(_))) => return None,
+            Kind::Outer(Outer::Given(
+                Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent,
+            )) => return None,
         }
         Some(())
     }

@@ -256,6 +256,8 @@ pub enum Failure {
     Row(usize, usize),
     /// `det M` has the opposite sign at this point.
     Singular(Vec<Expression>),
+    /// The columns of `M` are linearly dependent, all numbers being rational.
+    Dependent,
 }
 
 /// Most bytes of a name or version in [`Provenance`].

@@ -346,6 +346,7 @@ pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String,
         Failure::Singular(other) => {
             writeln!(out, "and at ({}), where det M has the other sign.", list(other))?;
         }
+        Failure::Dependent => writeln!(out, "where the columns of M are linearly dependent.")?,
     }
     Ok(out)
 }

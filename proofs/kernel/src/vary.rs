@@ -222,7 +222,7 @@ impl Witness {
         match fails {
             Failure::Singular(other) => all.extend(other),
             Failure::Same { least, greatest, .. } => all.extend(least.iter_mut().chain(greatest)),
-            Failure::Reach | Failure::Obligation(..) | Failure::Row(..) => {}
+            Failure::Reach | Failure::Obligation(..) | Failure::Row(..) | Failure::Dependent => {}
         }
         all
     }

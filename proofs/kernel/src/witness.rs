@@ -2,6 +2,7 @@
 
 mod far;
 mod same;
+mod singular;
 mod violated;
 
 use crate::arithmetic::{Arithmetic, Enclosure};
@@ -132,6 +133,7 @@ pub fn check(
             let other = AtPoint::new(problem, workspace, witness, other)?;
             at.opposite(&other)
         }
+        Failure::Dependent => singular::is_singular(problem, witness) == Some(true),
     };
     if violated || fails_by_names(problem, witness) == Some(true) {
         Ok(())

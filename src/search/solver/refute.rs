@@ -21,6 +21,10 @@ const PRECISIONS: [u32; 2] = [64, 160];
 const NUMBER_BITS: u32 = 256;
 /// Margins above this are rounding errors of the sampling.
 const NOISE: f64 = -1e-13;
+/// Of a point next to a singular one, at most: a determinant, and the least singular value over the greatest.
+const NEARLY_SINGULAR: f64 = 1e-9;
+/// Points at which a machine that is nearly singular is tried to be so exactly.
+const SINGULAR_POINTS: usize = 8;
 /// Decimal places tried for the coordinates of a witness, relative to the range's width.
 const DIGITS: [i32; 5] = [3, 6, 9, 12, 15];
 /// Bits tried for the components of a direction.
@@ -37,7 +41,38 @@ pub fn refutation(
 ) -> Option<Witness> {
     let mut failing: Vec<&Worst> = worst.iter().filter(|found| found.margin < NOISE).collect();
     failing.sort_by(|a, b| a.margin.total_cmp(&b.margin));
-    failing.into_iter().find_map(|found| witness_at(claim, problem, sampler, found))
+    let found = failing.into_iter().find_map(|found| witness_at(claim, problem, sampler, found));
+    found.or_else(|| singular(claim, problem, sampler, worst))
+}
+
+/// A witness that the machine is singular at the middle of the workspace, or at another point of the grid:
+/// where it is so everywhere, its determinant has no signs.
+fn singular(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    worst: &[Worst],
+) -> Option<Witness> {
+    let tells = |found: &Worst| match found.quality {
+        Quality::Determinant => true,
+        Quality::Obligation(number) => problem.obligations[number].requirement.is_none(),
+        Quality::Reach => false,
+    };
+    if !worst.iter().any(|found| tells(found) && found.margin < NEARLY_SINGULAR) {
+        return None;
+    }
+    let is_near = |place: &Place| {
+        let xi = sampler.xi(&sampler.at(place));
+        xi.is_some_and(|[least, greatest]| least <= NEARLY_SINGULAR * greatest)
+    };
+    let all = [sampler.centre()].into_iter().chain(sampler.grid());
+    all.filter(is_near).take(SINGULAR_POINTS).find_map(|place| {
+        let point = point(claim, problem, sampler, &place.u, DIGITS[0])?;
+        let machine = machine(problem, &place.t, DIGITS[0])?;
+        let witness =
+            Witness { precision: PRECISIONS[0], point, machine, fails: Failure::Dependent };
+        witness::check(problem, &claim.workspace, &witness).is_ok().then_some(witness)
+    })
 }
 
 /// An exact witness next to a place, if the kernel accepts one: of the shortest numbers tried.

@@ -29,6 +29,7 @@ const NAMES: [&str; 45] = [
     "row",
     "same",
     "singular",
+    "dependent",
     "min",
     "max",
     "within",

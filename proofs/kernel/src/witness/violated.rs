@@ -63,8 +63,8 @@ pub fn fails_throughout<E: Enclosure>(
             .get(*number)
             .is_some_and(|obligation| at.fails(&obligation.test, directions) == Ok(true)),
         Failure::Row(number, leg) => at.exceeds(*number, *leg),
-        // Of two points.
-        Failure::Same { .. } | Failure::Singular(_) => false,
+        // Of one or two points.
+        Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent => false,
     }
 }
 
@@ -284,11 +284,7 @@ fn determinant<A: Arithmetic>(e: &A, rows: &[Vec<A::Number>]) -> Option<A::Numbe
     let Some((first, below)) = rows.split_first() else { return e.integer(1) };
     let mut sum = e.integer(0)?;
     for (j, a) in first.iter().enumerate() {
-        let without = |row: &Vec<A::Number>| {
-            let mut row = row.clone();
-            row.remove(j);
-            row
-        };
+        let without = |row: &Vec<A::Number>| [&row[..j], &row[j + 1..]].concat();
         let minor: Vec<Vec<A::Number>> = below.iter().map(without).collect();
         let term = e.mul(a, &determinant(e, &minor)?)?;
         sum = if j % 2 == 0 { e.add(&sum, &term)? } else { e.sub(&sum, &term)? };

@@ -27,6 +27,7 @@ mod rejected;
 mod rocq;
 mod rough;
 mod sampled;
+mod singular;
 mod slopes;
 mod statements;
 mod tolerances;
