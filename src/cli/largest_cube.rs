@@ -20,13 +20,19 @@ use std::time::Instant;
 /// Why there is no upper bound where cubes a million times as large as the box of the centres seem to fit.
 const ENDLESS: &str = "the requirements seem to hold in cubes of any size";
 
+/// Why a side that is not certified stays undecided where the platform turns.
+const ONE_CENTRE: &str = "of a platform that turns, no cube can be excluded everywhere";
+
 /// Its flags.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Cubes have edges along the axes; their centres are searched for in the box [workspace] min and max
 of the design. The lower bound is a certificate for a cube as a workspace; the upper bound one that
-no cube of that side fits, wherever in the box its centre is. Where the gap is not reached, the
-bounds are as near as they were found, and the exit code is 3. With --side the exit code is 0 if such
+no cube of that side fits, wherever in the box its centre is. Of a platform that turns, the
+requirements hold at every point of the cube in every orientation of the design's set, and the upper
+bound is a side that is refuted about the centre of the certified cube: a cube elsewhere may be
+larger. Where the gap is not reached, the bounds are as near as they were found, and the exit code is
+3. With --side the exit code is 0 if such
 a cube is certified, and 1 if it is proved that none fits.")]
 pub struct Arguments {
     /// The design; its workspace is the box of the centres
@@ -60,7 +66,10 @@ struct Answer {
     /// A side for which no cube fits, above the greatest.
     #[serde(skip_serializing_if = "Option::is_none")]
     max: Option<Expression>,
-    /// `(max - min) / min`.
+    /// A side that is refuted about that centre, where no claim is of all centres: of platforms that turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refuted_here: Option<Expression>,
+    /// `(max - min) / min`, or that of `refuted_here`.
     #[serde(skip_serializing_if = "Option::is_none")]
     gap: Option<f64>,
     /// Why it is more than was asked for.
@@ -87,7 +96,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let budget = effort.budget(started)?;
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
     let claim = boxed(&design)?;
-    let targets = ["cube", "no-cube"].map(|name| arguments.target(name));
+    let turns = claim.orientation.is_some();
+    let beyond = if turns { "refuted-cube" } else { "no-cube" };
+    let targets = ["cube", beyond].map(|name| arguments.target(name));
     for target in &targets {
         output::probe(target)?;
     }
@@ -103,7 +114,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let mut certificates = Vec::new();
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
-    let too_large = bracket.too_large.as_ref().map(|too_large| &too_large.certificate);
+    let beyond = bracket.too_large.as_ref().or(bracket.refuted_here.as_ref());
+    let too_large = beyond.map(|too_large| &too_large.certificate);
     for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
         if let Some(certificate) = certificate {
             certificates.push(stored(certificate, arguments.output.as_deref(), target)?);
@@ -114,6 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None if found.is_some_and(|found| found <= gap) || interrupt::is_cancelled() => None,
         None if bracket.endless => Some(ENDLESS),
         Some(_) if bracket.inside.is_some() || bracket.too_large.is_some() => None,
+        Some(_) if turns => Some(ONE_CENTRE),
         _ => Some(size::missed(budget)),
     };
     let answer = Answer {
@@ -125,6 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
         centre: bracket.inside.map(|inside| inside.centre.map(Exact::Rational)),
         max: bracket.too_large.map(|too_large| too_large.side),
+        refuted_here: bracket.refuted_here.map(|refuted| refuted.side),
         certificates,
         interrupted: interrupt::is_cancelled(),
         seconds: started.elapsed().as_secs_f64(),
@@ -145,10 +159,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
     let claim = &design.claim;
     let found = match &claim.workspace {
-        Workspace::Box { min, .. } if min.len() == 3 && claim.orientation.is_none() => {
-            return Ok(claim);
-        }
-        Workspace::Box { .. } => "box with orientations, or of two coordinates",
+        Workspace::Box { min, .. } if min.len() == 3 => return Ok(claim),
+        Workspace::Box { .. } => "box of other coordinates than three",
         Workspace::Cylinder { .. } => "cylinder",
         Workspace::Cube { .. } => "cube",
     };
@@ -171,7 +183,8 @@ fn stored(
 
 /// `(max - min) / min`, where both are there.
 fn reached(bracket: &Bracket) -> Option<f64> {
-    let (inside, too_large) = (bracket.inside.as_ref()?, bracket.too_large.as_ref()?);
+    let too_large = bracket.too_large.as_ref().or(bracket.refuted_here.as_ref())?;
+    let inside = bracket.inside.as_ref()?;
     let (min, max) = (inside.side.rational()?, too_large.side.rational()?);
     ((&max - &min) / min).to_f64()
 }
@@ -211,6 +224,9 @@ fn text(answer: &Answer, quiet: bool) -> String {
         (Some(min), Some(max)) => {
             format!("largest cube: side between {} and {}{unit}\n", exactly(min), exactly(max))
         }
+        (Some(min), None) if answer.refuted_here.is_some() => {
+            format!("largest cube: side of at least {}{unit}\n", exactly(min))
+        }
         (Some(min), None) => format!("a cube of side {}{unit} fits\n", exactly(min)),
         (None, Some(max)) => format!("no cube of side {}{unit} fits\n", exactly(max)),
         (None, None) => "undecided: no cube is certified, and no side is excluded\n".to_owned(),
@@ -229,6 +245,10 @@ fn text(answer: &Answer, quiet: bool) -> String {
     }
     if let Some([x, y, z]) = &answer.centre {
         labelled(&mut out, "centre", &format!("({}, {}, {})", number(x), number(y), number(z)));
+    }
+    if let Some(side) = &answer.refuted_here {
+        let text = format!("side {}{unit} about that centre; elsewhere may do", exactly(side));
+        labelled(&mut out, "refuted", &text);
     }
     if let Some(gap) = answer.gap {
         labelled(&mut out, "gap", &significant(gap, 3));

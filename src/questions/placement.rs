@@ -10,11 +10,17 @@ use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use std::array::from_fn;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::collections::VecDeque;
 
-/// Points of a coarse grid along each axis of the workspace.
-const GRID: usize = 9;
+/// Points of a coarse grid along each axis of the workspace; where the platform turns, of which each point
+/// of a cube is tried in so many orientations.
+const GRID: [usize; 2] = [9, 3];
 /// Grid points from which the search goes on.
-const STARTS: usize = 4;
+const STARTS: [usize; 2] = [4, 1];
+/// Finest relative precision of a side where the platform turns.
+const TURNING_FINEST: f64 = 1e-4;
 /// Pseudo-random directions of a round, beside the 26 of axes and diagonals.
 const RANDOM: usize = 32;
 /// What a step that leads nowhere is shortened by.
@@ -52,14 +58,20 @@ struct Cubes<'a> {
     width: [f64; 3],
     /// The greatest edge.
     size: f64,
+    /// Coordinates of orientation that are tried at each point; one list of none where nothing turns.
+    turns: Vec<Vec<f64>>,
+    /// Points of a cube, from -1/2 to 1/2, with one of these: those at which something failed last come first.
+    tried: RefCell<VecDeque<([f64; 3], usize)>>,
 }
 
 /// The best place found for a cube in the region where `claim` holds, whose side is found to the
 /// relative `precision`; `None` where no centre of a grid fulfils the claim.
 ///
+/// Where the platform turns, they are to hold in every orientation of the claim's set.
+///
 /// # Errors
 /// If the claim is not well formed, or its workspace is not a box with a volume, of three
-/// coordinates.
+/// coordinates of length.
 pub fn best_place(
     claim: &MachineClaim,
     centres: Centres,
@@ -71,12 +83,13 @@ pub fn best_place(
     let mut starts = cubes.starts();
     starts.sort_by(|a, b| b.side.total_cmp(&a.side));
     starts.retain(|cube| cube.side > 0.0);
-    starts.truncate(STARTS);
+    starts.truncate(STARTS[cubes.turning()]);
+    let finest = [FINEST, TURNING_FINEST][cubes.turning()];
     let all = starts.len() as f64;
     let best = starts.into_iter().enumerate().map(|(number, start)| {
         let found = match cubes.is_endless(&start) {
             true => start,
-            false => cubes.ascend(start, precision.max(FINEST)),
+            false => cubes.ascend(start, precision.max(finest)),
         };
         (control.progress)(Progress { boxes: 0, share: (number + 1) as f64 / all });
         found
@@ -108,33 +121,46 @@ impl<'a> Cubes<'a> {
             NoAnswer::Claim(why.to_owned())
         };
         let claim = sampler.claim();
-        if !matches!(claim.workspace, Workspace::Box { .. }) || claim.orientation.is_some() {
+        if !matches!(claim.workspace, Workspace::Box { .. }) || sampler.lengths() != 3 {
             return Err(refused());
         }
-        let three = |x: Vec<f64>| <[f64; 3]>::try_from(x).map_err(|_| refused());
-        let [min, max] = sampler.ends();
-        let (min, max) = (three(min)?, three(max)?);
+        let [min, max] = sampler.ends().map(|end| from_fn(|k| end[k]));
         let width: [f64; 3] = from_fn(|k| max[k] - min[k]);
         if !width.iter().all(|width| *width > 0.0) {
             return Err(refused());
         }
         let size = width.iter().fold(0.0, |a: f64, &b| a.max(b));
-        Ok(Cubes { qualities: sampler.qualities(), sampler, centres, min, width, size })
+        let turns = turns(&sampler);
+        // Where the platform turns, not the middles of edges.
+        let point = |n: usize| [n % 3, n / 3 % 3, n / 9].map(|i| [-0.5, 0.5, 0.0][i]);
+        let is_tried =
+            |x: &[f64; 3]| turns.len() == 1 || x.iter().filter(|x| **x != 0.0).count() != 2;
+        let points = (0..27).map(point).filter(is_tried);
+        let tried = points.flat_map(|x| (0..turns.len()).map(move |turn| (x, turn))).collect();
+        let qualities = sampler.qualities();
+        let tried = RefCell::new(tried);
+        Ok(Cubes { qualities, sampler, centres, min, width, size, turns, tried })
+    }
+
+    /// Which of two numbers is for this machine: one that turns its platform has the second.
+    fn turning(&self) -> usize {
+        usize::from(self.turns.len() > 1)
     }
 
     /// The greatest cubes about the points of a coarse grid.
     fn starts(&self) -> Vec<Cube> {
-        let part = |i: usize| ((i % GRID) as f64 + 0.5) / GRID as f64;
+        let grid = GRID[self.turning()];
+        let part = |i: usize| ((i % grid) as f64 + 0.5) / grid as f64;
         let at = |u: [f64; 3]| from_fn(|k| self.min[k] + self.width[k] * u[k]);
         let cube = |centre| Cube { centre, side: self.side(&centre, 0.0, 1e-3) };
         if self.centres == Centres::Diagonal {
             let mean = |point: [f64; 3]| [point.iter().sum::<f64>() / 3.0; 3];
-            return (0..GRID)
+            return (0..grid)
                 .map(|i| cube(mean(at([part(i); 3]))))
                 .chain([cube([0.0; 3])])
                 .collect();
         }
-        let points = (0..GRID * GRID * GRID).map(|n| [n / GRID / GRID, n / GRID, n].map(part));
+        let points = (0..grid * grid * grid).map(|n| [n / grid / grid, n / grid, n].map(part));
         points.map(|u| cube(at(u))).collect()
     }
 
@@ -145,14 +171,19 @@ impl<'a> Cubes<'a> {
     /// Whether every requirement seems to hold at the corners, the middles of edges and faces, and
     /// the centre of a cube.
     fn fits(&self, centre: &[f64; 3], side: f64) -> bool {
-        (0..27).all(|n| {
-            let offset = [n % 3, n / 3 % 3, n / 9].map(|i| side * [-0.5, 0.5, 0.0][i]);
-            self.holds(from_fn(|k| centre[k] + offset[k]))
-        })
+        let fails = |(offset, turn): &([f64; 3], usize)| {
+            !self.holds(from_fn(|k| centre[k] + side * offset[k]), &self.turns[*turn])
+        };
+        let mut tried = self.tried.borrow_mut();
+        let Some(failed) = tried.iter().position(fails) else { return true };
+        let failed = tried.remove(failed);
+        failed.into_iter().for_each(|failed| tried.push_front(failed));
+        false
     }
 
-    fn holds(&self, point: [f64; 3]) -> bool {
-        let values = self.sampler.at_point(&point.map(|x| x / self.sampler.unit()));
+    fn holds(&self, point: [f64; 3], turn: &[f64]) -> bool {
+        let point = point.map(|x| x / self.sampler.unit());
+        let values = self.sampler.at_point(&[&point, turn].concat());
         let mut qualities = self.qualities.iter();
         qualities.all(|&quality| self.sampler.margin(quality, &values) >= 0.0)
     }
@@ -182,7 +213,7 @@ impl<'a> Cubes<'a> {
     fn ascend(&self, start: Cube, precision: f64) -> Cube {
         let mut best = start;
         best.side = self.side(&best.centre, best.side, precision);
-        let mut step = self.size / GRID as f64;
+        let mut step = self.size / GRID[0] as f64;
         let mut state = 1;
         while step > best.side * precision * 0.1 {
             let mut moved = false;
@@ -230,4 +261,21 @@ impl<'a> Cubes<'a> {
             (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
         })
     }
+}
+
+/// Coordinates of orientation of the middle, the corners and the faces of a set: one list of none where
+/// nothing turns.
+fn turns(sampler: &Sampler<'_>) -> Vec<Vec<f64>> {
+    let (still, all) = (sampler.lengths(), sampler.centre().u.len());
+    let turn = |n: u32| {
+        let digit = |k: u32| [0.5, 0.0, 1.0][(n / 3u32.pow(k) % 3) as usize];
+        let turned = (0..(all - still) as u32).map(digit);
+        let u: Vec<f64> = std::iter::repeat_n(0.5, still).chain(turned).collect();
+        let off = u.iter().filter(|u| **u != 0.5).count();
+        (off <= 1 || off == all - still).then(|| sampler.point(&u).split_off(still))
+    };
+    let mut turns: Vec<Vec<f64>> = (0..3u32.pow((all - still) as u32)).filter_map(turn).collect();
+    turns.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+    turns.dedup();
+    turns
 }

@@ -1,6 +1,7 @@
 //! The smallest machine for a cube of a given side, with its edges along the axes.
 //!
-//! The unknown is the legs' length of an Orthoglide, or else the scale of the whole machine. The
+//! The unknown is the legs' length of an Orthoglide, or else the scale of the whole machine, with its
+//! characteristic length; the set of orientations stays. The
 //! admitted requirements do not depend on the unit of length, so `M(P)` of the machine of scale `s`
 //! is that of the machine of scale 1 at `P/s`: a cube of side `a` with its centre at `s c` does for
 //! scale `s` what one of side `a/s` with its centre at `c` does for scale 1. The latter are nested.
@@ -23,7 +24,7 @@ use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 use orthocert_kernel::claim::{
-    Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Workspace,
+    Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Turning, Workspace,
 };
 use orthocert_kernel::number::{Expression, Operator};
 
@@ -108,9 +109,16 @@ impl Family {
     fn machine(&self, x: &BigRational) -> Option<MachineClaim> {
         let factor = number(x)?;
         let mut claim = self.claim.clone();
-        let Mechanism::Translational(legs) = &mut claim.mechanism else {
-            return None;
+        let (legs, characteristic) = match &mut claim.mechanism {
+            Mechanism::Translational(legs) => (legs, None),
+            Mechanism::Spatial(turning) => {
+                (&mut turning.legs, turning.characteristic_length.as_mut())
+            }
+            _ => return None,
         };
+        if let Some(length) = characteristic {
+            *length = apply(Operator::Mul, length, &factor)?;
+        }
         for leg in legs {
             if let (Unknown::LegLength, Leg::Slider { length, .. }) = (self.unknown, &mut *leg) {
                 *length = Quantity::Exactly(factor.clone());
@@ -134,6 +142,10 @@ impl Family {
     pub fn scope(&self) -> Option<Scope> {
         if self.unknown == Unknown::LegLength {
             return Some(Scope::Everywhere);
+        }
+        // That no cube fits is a claim about machines that do not turn their platform.
+        if self.claim.orientation.is_some() {
+            return None;
         }
         let [min, max] = bounding_box(&self.claim.workspace)?;
         let within = |((min, max), x): ((&Expression, &Expression), &BigRational)| {
@@ -231,7 +243,9 @@ impl Family {
             })
         })?;
         let start = self.expected * (1.0 - SHARE * gap);
-        let walk = Walk { start, succeeds: Succeeds::Below, enough: Some(start), ..walk };
+        // Sampling sees little of many orientations: the size expected may be too small.
+        let enough = Some(start).filter(|_| self.claim.orientation.is_none());
+        let walk = Walk { start, succeeds: Succeeds::Below, enough, ..walk };
         let refuted = control.part([0.5, 1.0], |control| {
             frontier(&walk, control, |x, control| match self.claim(x) {
                 Some(claim) => refutation(&claim, control),
@@ -308,15 +322,13 @@ fn signed(x: f64, error: f64) -> BigRational {
 /// one of leg length 1 with the bounds `1/psi_max` and `psi_max`.
 fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
     match &claim.mechanism {
-        Mechanism::Translational(_) => return Ok(claim.clone()),
+        Mechanism::Translational(_) | Mechanism::Spatial(_) => return Ok(claim.clone()),
         Mechanism::Orthoglide { .. } => {}
-        Mechanism::Planar(_)
-        | Mechanism::Spatial(_)
-        | Mechanism::Spherical(_)
-        | Mechanism::Formulas(_) => {
+        Mechanism::Planar(_) | Mechanism::Spherical(_) | Mechanism::Formulas(_) => {
             return Err(NoAnswer::Claim(
-                "mechanism: found one whose platform turns, or is not moved in space by legs; accepted \
-                 by size: kind \"orthoglide\" or \"translational\""
+                "mechanism: found one that is not moved in space by legs, so that no cube is in its \
+                 workspace; accepted by size: kind \"orthoglide\", \"translational\" or \"spatial\"; \
+                 limit says how far any number of a design goes"
                     .to_owned(),
             ))
         }
@@ -350,7 +362,9 @@ fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
 /// Demands that what is required of a machine does not depend on the unit of length.
 fn scale_free(claim: &MachineClaim) -> Result<(), NoAnswer> {
     let angular = match &claim.mechanism {
-        Mechanism::Translational(legs) => legs.iter().any(|leg| matches!(leg, Leg::Arm { .. })),
+        Mechanism::Translational(legs) | Mechanism::Spatial(Turning { legs, .. }) => {
+            legs.iter().any(|leg| matches!(leg, Leg::Arm { .. }))
+        }
         _ => false,
     };
     let depends = |own: &&Requirement| depends_on_length(&own.quantity, angular);

@@ -77,3 +77,23 @@ fn bad_usage_is_refused() {
     }
     folder.run(&["largest-cube", "missing.toml"]).exits(2).complains(&["missing.toml"]);
 }
+
+#[test]
+fn of_a_platform_that_turns_the_cube_is_one_of_positions() {
+    let folder = Folder::new();
+    let file = "hexapod-linuxcnc.toml";
+    folder.write(file, include_str!("../designs/kernel/hexapod-linuxcnc.toml"));
+    let run = folder.run(&["largest-cube", file, "--gap", "0.1", "--format", "json"]).exits(0);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let (min, beyond) = (number(&answer["min"]), number(&answer["refuted_here"]));
+    assert!(8.0 < min && min < beyond && beyond <= 1.1001 * min, "{min} {beyond}");
+    assert!(answer.get("max").is_none());
+    let cube = "hexapod-linuxcnc.cube.cert.json";
+    folder.run(&["check", cube]).exits(0).says(&["R the rotation of the platform"]);
+    folder.run(&["check", "hexapod-linuxcnc.refuted-cube.cert.json"]).exits(1);
+    let text = folder.run(&["largest-cube", file, "--gap", "0.1"]).exits(0);
+    text.says(&["largest cube: side of at least", "about that centre; elsewhere may do"]);
+    folder.run(&["largest-cube", file, "--side", "4"]).exits(0).says(&["a cube of side 4 fits"]);
+    let run = folder.run(&["largest-cube", file, "--side", "40"]).exits(3);
+    run.says(&["no cube can be excluded everywhere"]);
+}

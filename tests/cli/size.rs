@@ -153,3 +153,24 @@ fn questions_without_a_smallest_machine_are_refused() {
         run.complains(&["--gap", "accepted"]);
     }
 }
+
+#[test]
+fn a_hexapod_is_scaled_with_its_characteristic_length() {
+    let text = include_str!("../designs/kernel/hexapod-linuxcnc.toml");
+    let folder = Folder::new();
+    folder.write("d.toml", text);
+    folder.run(&["size", "d.toml", "--cube", "8"]).exits(2).complains(&["joint_range"]);
+    let (rest, _) = text.split_once("joint_range").unwrap();
+    folder.write("d.toml", rest);
+    let size = ["size", "d.toml", "--cube", "8", "--gap", "0.1", "--max-boxes", "100", "-o", "."];
+    // Both ends are more than the gap apart: boxes are too few to certify what is between them.
+    let run = folder.run(&[&size[..], &["--format", "json"]].concat()).exits(3);
+    let value: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(value["unknown"], "scale");
+    assert_eq!(value["refuted_for"], "this placement");
+    assert!(value["excluded_for"].is_null());
+    let (low, high) = (number(&value["refuted"]), number(&value["certified"]));
+    assert!(0.3 < low && low < high && high < 0.6, "{low} {high}");
+    folder.run(&["check", "size-certified.cert.json"]).exits(0);
+    folder.run(&["check", "size-refuted.cert.json"]).exits(1);
+}

@@ -6,13 +6,16 @@
 //! | `exclude` | proves that no cube of a side fits, wherever its centre is in a box |
 //!
 //! The lower bound is a certificate for the cube as a workspace of its own; the upper bound is a
-//! certificate of the claim [`NoCube`](orthocert_kernel::certificate::Claim::NoCube).
+//! certificate of the claim [`NoCube`](orthocert_kernel::certificate::Claim::NoCube). Of platforms that turn,
+//! for which there is no such claim, it is a refuted cube about the same centre.
 
 mod exclude;
 
 use crate::exact::arithmetic::at_most;
-use crate::questions::frontier::{proof, NoAnswer};
-use crate::questions::placement::{best_place, cube_about, is_endless, Centres};
+use crate::questions::frontier::{
+    frontier, proof, refutation, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+};
+use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::search::solver::{self, approximate, number};
 use crate::search::{Budget, Control, Steps};
 use num_bigint::BigInt;
@@ -51,6 +54,9 @@ pub struct Bracket {
     pub inside: Option<Inside>,
     /// The least side that was excluded.
     pub too_large: Option<TooLarge>,
+    /// The least side found that is refuted about the centre of the cube that is certified, where no claim
+    /// is of all centres: of platforms that turn.
+    pub refuted_here: Option<TooLarge>,
     /// Whether no end was found of the cubes that seem to fit.
     pub endless: bool,
     /// What fails in a cube of that side about the centre of the one that fits.
@@ -64,6 +70,8 @@ const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
 const ENOUGH: f64 = 0.5;
 /// Shares tried between one that is too small and one that is not: a factor of ten becomes 1.15.
 const NEARER: usize = 4;
+/// Sides tried about one centre, relative to the one expected.
+const SPREAD: f64 = 100.0;
 /// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
 const BOXES: usize = 50_000;
 
@@ -88,6 +96,9 @@ pub fn largest_cube(
         return Ok(Bracket::default());
     };
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
+    if claim.orientation.is_some() {
+        return about_one_centre(claim, &place, gap, budget, control);
+    }
     let inside = nearest(control, [0.3, 0.6], |share, control| {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
         match side.filter(BigRational::is_positive).and_then(|side| number(&side)) {
@@ -112,7 +123,62 @@ pub fn largest_cube(
             .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
         _ => None,
     };
-    Ok(Bracket { inside, too_large, endless, fails })
+    Ok(Bracket { inside, too_large, endless, fails, refuted_here: None })
+}
+
+/// The greatest side that is certified, and the least that is refuted, about the centre of a place, of a
+/// platform that turns: in every orientation of the claim's set.
+fn about_one_centre(
+    claim: &MachineClaim,
+    place: &Cube,
+    gap: f64,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    if approximate_width(claim).is_some_and(|width| is_endless(place, width)) {
+        return Ok(Bracket { endless: true, ..Bracket::default() });
+    }
+    let centre = rounded(place, gap);
+    if !contains(claim, &centre) {
+        return Ok(Bracket::default());
+    }
+    let cube = |side: &BigRational| {
+        let workspace = cube_about(&centre, &number(side)?)?;
+        Some(MachineClaim { workspace, ..claim.clone() })
+    };
+    let start = place.side * (1.0 - SHARES[0] * gap);
+    let walk = Walk {
+        start,
+        succeeds: Succeeds::Below,
+        factor: 1.0 + gap,
+        most: LARGEST_FACTOR,
+        enough: Some(start),
+        limits: (place.side / SPREAD, place.side * SPREAD),
+        gap,
+        deadline: budget.deadline,
+    };
+    let certified = control.part([0.3, 0.8], |control| {
+        frontier(&walk, control, |side, control| match cube(side) {
+            Some(claim) => proof(&claim, budget, control),
+            None => Ok(None),
+        })
+    })?;
+    let start = place.side * (1.0 + SHARES[0] * gap);
+    // Sampling sees little of many orientations: the side expected may be too great.
+    let walk = Walk { start, succeeds: Succeeds::Above, enough: None, ..walk };
+    let refuted = control.part([0.8, 1.0], |control| {
+        frontier(&walk, control, |side, control| match cube(side) {
+            Some(claim) => refutation(&claim, control),
+            None => Ok(None),
+        })
+    })?;
+    let inside = certified.and_then(|(side, certificate)| {
+        Some(Inside { side: number(&side)?, centre: centre.clone(), certificate })
+    });
+    let fails = refuted.as_ref().map(|(_, certificate)| certificate.clone());
+    let refuted_here = refuted
+        .and_then(|(side, certificate)| Some(TooLarge { side: number(&side)?, certificate }));
+    Ok(Bracket { inside, refuted_here, fails, ..Bracket::default() })
 }
 
 /// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
@@ -172,7 +238,7 @@ pub fn cube_of_side(
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
-    if bracket.inside.is_none() {
+    if bracket.inside.is_none() && claim.orientation.is_none() {
         let excluded = exclude(claim, side, budget, control)?;
         bracket.too_large =
             excluded.map(|certificate| TooLarge { side: side.clone(), certificate });
@@ -190,7 +256,7 @@ fn certified(
     control: &mut Control<'_>,
 ) -> Result<Option<Inside>, NoAnswer> {
     let size = approximate(side).unwrap_or(1.0);
-    let centre = centre.map(|x| decimal(x, size * gap * 0.1).unwrap_or_else(BigRational::zero));
+    let centre = rounded(&Cube { centre: *centre, side: size }, gap);
     if !contains(claim, &centre) {
         return Ok(None);
     }
@@ -199,6 +265,11 @@ fn certified(
     };
     let certificate = proof(&MachineClaim { workspace, ..claim.clone() }, budget, control)?;
     Ok(certificate.map(|certificate| Inside { side: side.clone(), centre, certificate }))
+}
+
+/// The centre of a place in decimals, a thousandth of the gap away at most.
+fn rounded(place: &Cube, gap: f64) -> [BigRational; 3] {
+    place.centre.map(|x| decimal(x, place.side * gap * 0.1).unwrap_or_else(BigRational::zero))
 }
 
 /// The greatest edge of the workspace, a box, about.
