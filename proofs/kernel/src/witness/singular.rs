@@ -47,6 +47,7 @@ pub(super) fn is_singular(problem: &Problem, witness: &Witness) -> Option<bool> 
                 let x = at(a).filter(|x| x.is_positive())?;
                 Some(BigRational::new(x.numer().sqrt(), x.denom().sqrt())).filter(|r| r * r == *x)
             }
+            Op::Elbow(..) => None,
         };
         values.push(value().filter(|x| x.numer().bits().max(x.denom().bits()) <= MOST_BITS));
     }
