@@ -8,9 +8,7 @@ pub use paving::{write_pair, write_steps};
 pub use sampled::{check_sample, Sampled};
 
 use crate::atlas::shown;
-
 use crate::certificate::{AtlasCell, Certificate, Evidence};
-
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Workspace};
 use crate::control::Control;
 use crate::cube::Cube;
