@@ -85,6 +85,7 @@ impl Flat {
     /// Over a cell between these ends; `None` unless all are defined.
     pub fn over(&self, ends: &[Pair; 3]) -> Option<Over<'_>> {
         let mut entries: Vec<Entry> = Vec::with_capacity(self.program.steps.len());
+        let mut second = None;
         for &step in &self.program.steps {
             let of = |slot| self.program.at(&entries, slot);
             let entry = match step {
@@ -96,9 +97,12 @@ impl Flat {
                 Step::Div(a, b) => of(a)?.over(of(b)?)?,
                 Step::Sqr(a) => of(a)?.squared()?,
                 Step::Sqrt(a) => of(a)?.root()?,
-                Step::Elbow([a, b, t], second) => {
-                    elbow(of(a)?, of(b)?, of(t)?)?[usize::from(second)]
+                Step::Elbow([a, b, t]) => {
+                    let [c, s] = elbow(of(a)?, of(b)?, of(t)?)?;
+                    second = Some(s);
+                    c
                 }
+                Step::ElbowToo => second?,
             };
             entries.push(entry);
         }

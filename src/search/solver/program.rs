@@ -26,7 +26,10 @@ pub(crate) enum Step {
     Div(Slot, Slot),
     Sqr(Slot),
     Sqrt(Slot),
-    Elbow([Slot; 3], bool),
+    /// The first component of an elbow, which finds both.
+    Elbow([Slot; 3]),
+    /// The second one of the elbow just before.
+    ElbowToo,
 }
 
 /// What a coordinate or parameter is.
@@ -91,6 +94,7 @@ impl Program<f64> {
     /// The values of the steps; of what is undefined, or depends on it, no number.
     pub fn run(&self, input: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.steps.len());
+        let mut second = f64::NAN;
         for &step in &self.steps {
             let of = |slot| self.at(&values, slot).copied().unwrap_or(f64::NAN);
             let defined = |is: bool, x: f64| if is { x } else { f64::NAN };
@@ -103,11 +107,13 @@ impl Program<f64> {
                 Step::Div(a, b) => defined(of(b) != 0.0, of(a) / of(b)),
                 Step::Sqr(a) => of(a) * of(a),
                 Step::Sqrt(a) => defined(of(a) > 0.0, of(a).sqrt()),
-                Step::Elbow(of_, second) => {
-                    let [a, b, t] = of_.map(of);
-                    let both = elbow(&Single, [&a, &b, &t]);
-                    both.map_or(f64::NAN, |both| both[usize::from(second)])
+                Step::Elbow(slots) => {
+                    let [a, b, t] = slots.map(of);
+                    let both = elbow(&Single, [&a, &b, &t]).unwrap_or([f64::NAN; 2]);
+                    second = both[1];
+                    both[0]
                 }
+                Step::ElbowToo => second,
             };
             values.push(value);
         }
@@ -189,7 +195,7 @@ impl<A: Arithmetic> Arithmetic for Record<A> {
     fn elbow(&self, of: [&Slot; 3]) -> Option<[Slot; 2]> {
         let of = of.map(|&slot| slot);
         if of.iter().any(|slot| matches!(slot, Slot::Step(_))) {
-            return Some([false, true].map(|second| self.push(Step::Elbow(of, second))));
+            return Some([Step::Elbow(of), Step::ElbowToo].map(|step| self.push(step)));
         }
         elbow(self, [&of[0], &of[1], &of[2]])
     }
