@@ -19,6 +19,8 @@ use std::time::Instant;
 
 /// Largest factor between one value and the next that is of use.
 pub const LARGEST_FACTOR: f64 = 10.0;
+/// Values tried about one that is expected, relative to it.
+const SPREAD: f64 = 100.0;
 
 /// A value, and the certificate of the claim for it.
 pub type Certified = (BigRational, Box<Certificate>);
@@ -162,6 +164,68 @@ pub fn frontier<T>(
         }
     }
     Ok(best.map(|(_, value, found)| (value, found)))
+}
+
+/// Where both ends are looked for.
+pub struct About {
+    /// The value at which the verdict is expected to change.
+    pub expected: f64,
+    /// Whether it is for smaller or for greater values that the claim holds.
+    pub holds: Succeeds,
+    /// Either end is first tried by this share of the gap to its own side of the value expected.
+    pub share: f64,
+    /// Whether a refuted end that is there is near enough: not where the value expected is found from few samples.
+    pub is_sure: bool,
+    /// The relative distance of the ends that is wanted.
+    pub gap: f64,
+    /// Of all the work of the caller, where the one end begins, and the other, and where that ends.
+    pub parts: [f64; 3],
+}
+
+/// A value for which the claim is certified, and one for which it is refuted, about the value expected.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn bracket(
+    about: &About,
+    claim: impl Fn(&BigRational) -> Option<MachineClaim>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    let &About { expected, holds, share, is_sure, gap, parts: [first, second, last] } = about;
+    let walk = |succeeds| {
+        let start = match succeeds {
+            Succeeds::Below => expected * (1.0 - share * gap),
+            Succeeds::Above => expected * (1.0 + share * gap),
+        };
+        Walk {
+            start,
+            succeeds,
+            factor: 1.0 + gap,
+            most: LARGEST_FACTOR,
+            enough: Some(start),
+            limits: (expected / SPREAD, expected * SPREAD),
+            gap,
+            deadline: budget.deadline,
+        }
+    };
+    let certified = control.part([first, second], |control| {
+        frontier(&walk(holds), control, |x, control| {
+            claim(x).map_or(Ok(None), |claim| proof(&claim, budget, control))
+        })
+    })?;
+    let fails = match holds {
+        Succeeds::Below => Succeeds::Above,
+        Succeeds::Above => Succeeds::Below,
+    };
+    let walk = walk(fails);
+    let walk = Walk { enough: walk.enough.filter(|_| is_sure), ..walk };
+    let refuted = control.part([second, last], |control| {
+        frontier(&walk, control, |x, control| {
+            claim(x).map_or(Ok(None), |claim| refutation(&claim, control))
+        })
+    })?;
+    Ok(Bracket { certified, refuted })
 }
 
 /// How often a factor is to be halved until it is one of `1 + gap`.

@@ -11,10 +11,7 @@
 //! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
 use crate::exact::arithmetic::{apply, at_most};
-use crate::questions::frontier::{
-    decimal, frontier, proof, refutation, Bracket, Certified, NoAnswer, Succeeds, Walk,
-    LARGEST_FACTOR,
-};
+use crate::questions::frontier::{bracket, decimal, About, Bracket, Certified, NoAnswer, Succeeds};
 use crate::questions::largest_cube::exclude;
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::questions::tolerance::parameters;
@@ -33,8 +30,6 @@ const TRANSMISSION: &str = "transmission";
 const SHARE: f64 = 0.4;
 /// Significance of a placement, relative to the gap.
 const PLACEMENT: f64 = 1e-4;
-/// Sizes tried, relative to the one found.
-const SPREAD: f64 = 100.0;
 /// How far below the size found every axis-aligned placement is excluded first, and what this is divided by
 /// while that succeeds.
 const EXCLUDED: (f64, f64) = (0.1, 10.0);
@@ -225,34 +220,16 @@ impl Family {
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Bracket, NoAnswer> {
-        let start = self.expected * (1.0 + SHARE * gap);
-        let walk = Walk {
-            start,
-            succeeds: Succeeds::Above,
-            factor: 1.0 + gap,
-            most: LARGEST_FACTOR,
-            enough: Some(start),
-            limits: (self.expected / SPREAD, self.expected * SPREAD),
+        let about = About {
+            expected: self.expected,
+            holds: Succeeds::Above,
+            share: SHARE,
+            // Sampling sees little of many orientations: the size expected may be too small.
+            is_sure: self.claim.orientation.is_none(),
             gap,
-            deadline: budget.deadline,
+            parts: [0.0, 0.5, 1.0],
         };
-        let certified = control.part([0.0, 0.5], |control| {
-            frontier(&walk, control, |x, control| match self.claim(x) {
-                Some(claim) => proof(&claim, budget, control),
-                None => Ok(None),
-            })
-        })?;
-        let start = self.expected * (1.0 - SHARE * gap);
-        // Sampling sees little of many orientations: the size expected may be too small.
-        let enough = Some(start).filter(|_| self.claim.orientation.is_none());
-        let walk = Walk { start, succeeds: Succeeds::Below, enough, ..walk };
-        let refuted = control.part([0.5, 1.0], |control| {
-            frontier(&walk, control, |x, control| match self.claim(x) {
-                Some(claim) => refutation(&claim, control),
-                None => Ok(None),
-            })
-        })?;
-        Ok(Bracket { certified, refuted })
+        bracket(&about, |x| self.claim(x), budget, control)
     }
 }
 

@@ -12,9 +12,7 @@
 mod exclude;
 
 use crate::exact::arithmetic::at_most;
-use crate::questions::frontier::{
-    frontier, proof, refutation, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
-};
+use crate::questions::frontier::{bracket, proof, About, NoAnswer, Succeeds};
 use crate::questions::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::search::solver::{self, approximate, number};
 use crate::search::{Budget, Control, Steps};
@@ -70,8 +68,6 @@ const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
 const ENOUGH: f64 = 0.5;
 /// Shares tried between one that is too small and one that is not: a factor of ten becomes 1.15.
 const NEARER: usize = 4;
-/// Sides tried about one centre, relative to the one expected.
-const SPREAD: f64 = 100.0;
 /// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
 const BOXES: usize = 50_000;
 
@@ -146,37 +142,22 @@ fn about_one_centre(
         let workspace = cube_about(&centre, &number(side)?)?;
         Some(MachineClaim { workspace, ..claim.clone() })
     };
-    let start = place.side * (1.0 - SHARES[0] * gap);
-    let walk = Walk {
-        start,
-        succeeds: Succeeds::Below,
-        factor: 1.0 + gap,
-        most: LARGEST_FACTOR,
-        enough: Some(start),
-        limits: (place.side / SPREAD, place.side * SPREAD),
+    let about = About {
+        expected: place.side,
+        holds: Succeeds::Below,
+        share: SHARES[0],
+        // Sampling sees little of many orientations: the side expected may be too great.
+        is_sure: false,
         gap,
-        deadline: budget.deadline,
+        parts: [0.3, 0.8, 1.0],
     };
-    let certified = control.part([0.3, 0.8], |control| {
-        frontier(&walk, control, |side, control| match cube(side) {
-            Some(claim) => proof(&claim, budget, control),
-            None => Ok(None),
-        })
-    })?;
-    let start = place.side * (1.0 + SHARES[0] * gap);
-    // Sampling sees little of many orientations: the side expected may be too great.
-    let walk = Walk { start, succeeds: Succeeds::Above, enough: None, ..walk };
-    let refuted = control.part([0.8, 1.0], |control| {
-        frontier(&walk, control, |side, control| match cube(side) {
-            Some(claim) => refutation(&claim, control),
-            None => Ok(None),
-        })
-    })?;
-    let inside = certified.and_then(|(side, certificate)| {
+    let found = bracket(&about, cube, budget, control)?;
+    let inside = found.certified.and_then(|(side, certificate)| {
         Some(Inside { side: number(&side)?, centre: centre.clone(), certificate })
     });
-    let fails = refuted.as_ref().map(|(_, certificate)| certificate.clone());
-    let refuted_here = refuted
+    let fails = found.refuted.as_ref().map(|(_, certificate)| certificate.clone());
+    let refuted_here = found
+        .refuted
         .and_then(|(side, certificate)| Some(TooLarge { side: number(&side)?, certificate }));
     Ok(Bracket { inside, refuted_here, fails, ..Bracket::default() })
 }
