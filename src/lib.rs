@@ -13,9 +13,12 @@
 //! | [`report`]    | what was found, for people and for scripts                            |
 //! | [`jobs`]      | many designs and long work: batches, shards, engines, attestations    |
 //! | [`files`]     | files and folders that appear whole or not at all                     |
+//! | `cli`         | the commands of the program, with the feature `command-line`          |
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
+#[cfg(feature = "command-line")]
+pub mod cli;
 pub mod design;
 pub mod exact;
 pub mod files;

@@ -4,26 +4,26 @@ use super::effort::{time, Work};
 use super::pave::not_taken_up;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::design::{AtlasDesign, Objective};
-use orthocert::exact::decimal::grouped;
-use orthocert::exact::Exact;
-use orthocert::files::digest::sha256;
-use orthocert::files::folder::{self, FolderError, SUMS};
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::jobs::batch::plan::identity;
-use orthocert::questions::atlas::{
+use crate::design::{AtlasDesign, Objective};
+use crate::exact::decimal::grouped;
+use crate::exact::Exact;
+use crate::files::digest::sha256;
+use crate::files::folder::{self, FolderError, SUMS};
+use crate::files::output;
+use crate::files::read::Named;
+use crate::jobs::batch::plan::identity;
+use crate::questions::atlas::{
     self, Bound, Growing, Kept, KeptError, Stopped, Top, Widest, FORMAT,
 };
-use orthocert::questions::frontier::NoAnswer;
-use orthocert::report::atlas::{
+use crate::questions::frontier::NoAnswer;
+use crate::report::atlas::{
     AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, Standing, MARGIN,
 };
-use orthocert::report::map::{self, Point};
-use orthocert::report::CertificateFile;
-use orthocert::search::paving::unfinished as part_of;
-use orthocert::search::solver::{verify, Answer};
-use orthocert::search::{Budget, Control};
+use crate::report::map::{self, Point};
+use crate::report::CertificateFile;
+use crate::search::paving::unfinished as part_of;
+use crate::search::solver::{verify, Answer};
+use crate::search::{Budget, Control};
 use orthocert_checker::certificate::Certificate;
 use orthocert_checker::statement;
 use orthocert_kernel::certificate::{AtlasCell, Claim};

@@ -2,12 +2,12 @@
 
 use super::check::examine;
 use super::{input, print, Failure, Status};
-use orthocert::design::Design;
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::jobs::attestation::{statement, Evidence};
-use orthocert::jobs::batch::plan::identity;
-use orthocert::report::escape;
+use crate::design::Design;
+use crate::files::output;
+use crate::files::read::Named;
+use crate::jobs::attestation::{statement, Evidence};
+use crate::jobs::batch::plan::identity;
+use crate::report::escape;
 use std::path::{Path, PathBuf};
 
 /// Its flags.

@@ -2,13 +2,13 @@
 
 use super::check::examine;
 use super::{batch, input, interrupt, print, Failure, Format, Status};
-use orthocert::design::Design;
-use orthocert::exact::decimal::counted;
-use orthocert::files::digest::sha256;
-use orthocert::files::shown::Shown;
-use orthocert::jobs::batch::pair::{pairs, Pair};
-use orthocert::jobs::batch::run::{run as run_jobs, Outcome};
-use orthocert::jobs::batch::{counts, worst, Ending};
+use crate::design::Design;
+use crate::exact::decimal::counted;
+use crate::files::digest::sha256;
+use crate::files::shown::Shown;
+use crate::jobs::batch::pair::{pairs, Pair};
+use crate::jobs::batch::run::{run as run_jobs, Outcome};
+use crate::jobs::batch::{counts, worst, Ending};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;

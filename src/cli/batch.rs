@@ -1,17 +1,17 @@
 //! `orthocert verify` of several designs.
 
 use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
-use orthocert::design::{Design, ReadError};
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::jobs::batch::plan::{identity, plan, Planned};
-use orthocert::jobs::batch::run::{run as run_jobs, Outcome};
-use orthocert::jobs::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
-use orthocert::report::escape;
-use orthocert::report::requirement::{requirements, Known};
-use orthocert::report::Report;
-use orthocert::search::solver;
-use orthocert::search::{Budget, Control, Progress};
+use crate::design::{Design, ReadError};
+use crate::files::output;
+use crate::files::read::Named;
+use crate::jobs::batch::plan::{identity, plan, Planned};
+use crate::jobs::batch::run::{run as run_jobs, Outcome};
+use crate::jobs::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
+use crate::report::escape;
+use crate::report::requirement::{requirements, Known};
+use crate::report::Report;
+use crate::search::solver;
+use crate::search::{Budget, Control, Progress};
 use orthocert_checker::certificate::Verdict;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -3,18 +3,18 @@
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
-use orthocert::design::Design;
-use orthocert::exact::decimal::{approximate, outward, rounded, Toward};
-use orthocert::exact::Exact;
-use orthocert::files::output;
-use orthocert::report::text::{duration, wrap, WIDTH};
-use orthocert::report::{exactly, placed, point_text, pose_text, CertificateFile};
-use orthocert::search::solver::extremes::{
+use crate::design::Design;
+use crate::exact::decimal::{approximate, outward, rounded, Toward};
+use crate::exact::Exact;
+use crate::files::output;
+use crate::report::text::{duration, wrap, WIDTH};
+use crate::report::{exactly, placed, point_text, pose_text, CertificateFile};
+use crate::search::solver::extremes::{
     enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
 };
-use orthocert::search::solver::sector::{self, Sector};
-use orthocert::search::solver::value::{coordinates, in_length, listed, with_unit};
-use orthocert::search::Budget;
+use crate::search::solver::sector::{self, Sector};
+use crate::search::solver::value::{coordinates, in_length, listed, with_unit};
+use crate::search::Budget;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::{Joint, Leg};

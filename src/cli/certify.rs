@@ -1,10 +1,10 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
-use orthocert::files::{digest, output};
-pub use orthocert::questions::decide::as_written;
-use orthocert::report::{CertificateFile, EarlierFile};
-use orthocert::search::solver::Verification;
+use crate::files::{digest, output};
+pub use crate::questions::decide::as_written;
+use crate::report::{CertificateFile, EarlierFile};
+use crate::search::solver::Verification;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::read;
 use std::path::Path;

@@ -3,12 +3,12 @@
 use super::input::Begun;
 use super::pave::searched;
 use super::{audit, input, print, Failure, Format, Status};
-use orthocert::design::Design;
-use orthocert::files::digest::Summed;
-use orthocert::files::read::Named;
-use orthocert::report::wrapped;
-use orthocert::report::Size;
-use orthocert::search::accepted::{check, Accepted};
+use crate::design::Design;
+use crate::files::digest::Summed;
+use crate::files::read::Named;
+use crate::report::wrapped;
+use crate::report::Size;
+use crate::search::accepted::{check, Accepted};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate::Claim;
@@ -281,7 +281,7 @@ fn formulas(certificate: &Certificate) -> Result<String, Failure> {
     };
     // The certificate was accepted, so that its claim is well formed.
     let problem = Problem::new(claim).map_err(Failure::input)?;
-    orthocert::report::formulas::formulas(&problem).map_err(Failure::input)
+    crate::report::formulas::formulas(&problem).map_err(Failure::input)
 }
 
 fn without_formulas(found: &str) -> Failure {

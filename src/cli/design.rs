@@ -1,9 +1,9 @@
 //! `orthocert design`.
 
 use super::{input, print, Failure, Format, Status};
-use orthocert::exact::decimal::{readable, rounded, Toward};
-use orthocert::exact::Exact;
-use orthocert::questions::dimensions::{dimensions, Dimension, DimensionError, Unit};
+use crate::exact::decimal::{readable, rounded, Toward};
+use crate::exact::Exact;
+use crate::questions::dimensions::{dimensions, Dimension, DimensionError, Unit};
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -5,7 +5,7 @@ use crate::cli::progress::Bar;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
-use orthocert::search::{Budget, Control};
+use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::MOST_NODES;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use std::time::{Duration, Instant};

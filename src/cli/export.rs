@@ -2,12 +2,12 @@
 
 use super::{input, interrupt, print, Failure, Status};
 use clap::Subcommand;
-use orthocert::exact::decimal::grouped;
-use orthocert::files::digest::Summed;
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::report::export;
-use orthocert::search::paving::{surface, Surface, SurfaceError};
+use crate::exact::decimal::grouped;
+use crate::files::digest::Summed;
+use crate::files::output;
+use crate::files::read::Named;
+use crate::report::export;
+use crate::search::paving::{surface, Surface, SurfaceError};
 use orthocert_checker::{file, read};
 use orthocert_kernel::paving::{is_paving, Reader};
 use std::fs::File;

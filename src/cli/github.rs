@@ -1,9 +1,9 @@
 //! What GitHub's runner takes from a step: annotations, and the summary of the step.
 
 use super::{print, Failure};
-use orthocert::files::output::{self, OutputError};
-use orthocert::jobs::batch::annotations::annotations;
-use orthocert::jobs::batch::{summary, Batch};
+use crate::files::output::{self, OutputError};
+use crate::jobs::batch::annotations::annotations;
+use crate::jobs::batch::{summary, Batch};
 use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,8 @@
 
 use super::{input, print, Failure, Status};
 use clap::Subcommand;
-use orthocert::files::output;
-use orthocert::import::{klipper, linuxcnc, marlin, reprap, smoothieware, Disk, Importer};
+use crate::files::output;
+use crate::import::{klipper, linuxcnc, marlin, reprap, smoothieware, Disk, Importer};
 use std::path::PathBuf;
 
 /// Its flags.

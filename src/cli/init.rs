@@ -2,7 +2,7 @@
 
 use super::{print, Failure, Status};
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use orthocert::design::{template, OTHER_NAMES, TEMPLATES};
+use crate::design::{template, OTHER_NAMES, TEMPLATES};
 
 /// Its flags.
 #[derive(Debug, clap::Args)]

@@ -1,9 +1,9 @@
 //! Reading what commands are given: designs, certificates and numbers.
 
 use super::Failure;
-use orthocert::design::{may_be_tolerance, Design};
-use orthocert::exact::Exact;
-use orthocert::files::read::{read, Named};
+use crate::design::{may_be_tolerance, Design};
+use crate::exact::Exact;
+use crate::files::read::{read, Named};
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_checker::file;
 use std::fs::{self, File};

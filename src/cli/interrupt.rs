@@ -4,7 +4,7 @@
 //! check of a large proof, is ended with the process, but never while a file is being written.
 
 use super::{print, progress, Failure, Status};
-use orthocert::files::output;
+use crate::files::output;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;

@@ -2,13 +2,13 @@
 
 use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
-use orthocert::design::{written, Design};
-use orthocert::exact::decimal::{grouped, readable, significant};
-use orthocert::exact::Exact;
-use orthocert::files::output;
-use orthocert::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
-use orthocert::report::text::{duration, labelled, verbatim};
-use orthocert::report::{counterexample, CertificateFile, Counterexample};
+use crate::design::{written, Design};
+use crate::exact::decimal::{grouped, readable, significant};
+use crate::exact::Exact;
+use crate::files::output;
+use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
+use crate::report::text::{duration, labelled, verbatim};
+use crate::report::{counterexample, CertificateFile, Counterexample};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
@@ -191,7 +191,7 @@ fn reached(bracket: &Bracket) -> Option<f64> {
 
 fn gap(text: &str) -> Result<f64, Failure> {
     let number = input::number("--gap", text)?;
-    match orthocert::exact::decimal::approximate(&number) {
+    match crate::exact::decimal::approximate(&number) {
         Some(gap) if (1e-9..=0.5).contains(&gap) => Ok(gap),
         _ => Err(Failure::Input(format!(
             "--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"
@@ -265,5 +265,5 @@ fn text(answer: &Answer, quiet: bool) -> String {
 
 fn exactly(x: &Expression) -> String {
     x.rational()
-        .map_or_else(|| x.to_string(), |x| orthocert::exact::decimal::exact(&Exact::Rational(x)))
+        .map_or_else(|| x.to_string(), |x| crate::exact::decimal::exact(&Exact::Rational(x)))
 }

@@ -3,16 +3,16 @@
 use super::size::{explain, gap_text};
 use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
-use orthocert::design::{text_of, Design, Variable};
-use orthocert::exact::decimal::{exact, grouped, significant};
-use orthocert::exact::Exact;
-use orthocert::files::output;
-use orthocert::files::shown::Shown;
-use orthocert::questions::limit::Side;
-use orthocert::questions::limit::{
+use crate::design::{text_of, Design, Variable};
+use crate::exact::decimal::{exact, grouped, significant};
+use crate::exact::Exact;
+use crate::files::output;
+use crate::files::shown::Shown;
+use crate::questions::limit::Side;
+use crate::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
 };
-use orthocert::report::{machine_of_witness, CertificateFile, Outcome};
+use crate::report::{machine_of_witness, CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use serde::Serialize;
 use std::fmt::Write;

@@ -4,7 +4,7 @@ use super::{Failure, Status, EXIT_CODES};
 use clap::{Command, CommandFactory};
 use clap_mangen::roff::{roman, Roff};
 use clap_mangen::Man;
-use orthocert::files::output;
+use crate::files::output;
 use std::io;
 use std::path::{Path, PathBuf};
 

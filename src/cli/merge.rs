@@ -2,15 +2,15 @@
 
 use super::effort::Work;
 use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
-use orthocert::exact::decimal::counted;
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::jobs::batch::plan::identity;
-use orthocert::jobs::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
-use orthocert::report::paving::PavingReport;
-use orthocert::report::text;
-use orthocert::search::paving::PaveError;
-use orthocert::search::solver::{concluded, Answer, Undecided};
+use crate::exact::decimal::counted;
+use crate::files::output;
+use crate::files::read::Named;
+use crate::jobs::batch::plan::identity;
+use crate::jobs::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
+use crate::report::paving::PavingReport;
+use crate::report::text;
+use crate::search::paving::PaveError;
+use crate::search::solver::{concluded, Answer, Undecided};
 use orthocert_kernel::certificate::{Node, MOST_NODES};
 use serde::Serialize;
 use std::path::{Path, PathBuf};

@@ -40,10 +40,11 @@ mod verify;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
-use orthocert::files::output::{self, OutputError};
-use orthocert::files::shown::Shown;
+use crate::files::output::{self, OutputError};
+use crate::files::shown::Shown;
 use orthocert_checker::certificate::Verdict;
 use std::fmt;
+use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
 const EXIT_CODES: &str = "\
@@ -61,7 +62,7 @@ Exit codes, the same for every command:
 /// of singularities at every point of a workspace, or proves that it does not.
 #[derive(Debug, Parser)]
 #[command(name = "orthocert", version, after_help = EXIT_CODES, max_term_width = 100)]
-pub struct Arguments {
+struct Arguments {
     #[command(subcommand)]
     command: Command,
     /// Where files are written, follow symbolic links, which are refused without it
@@ -229,9 +230,27 @@ impl From<OutputError> for Failure {
     }
 }
 
+/// Runs the program: its arguments are those of the process.
+pub fn main() -> ExitCode {
+    // A defect of this program is not a verdict, and a backtrace is no sentence.
+    panic::set_hook(Box::new(|_| {}));
+    panic::catch_unwind(AssertUnwindSafe(parsed)).unwrap_or_else(|_| Failure::Defect.report())
+}
+
+fn parsed() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => return usage(message),
+    };
+    match run(&arguments) {
+        Ok(status) => status.into(),
+        Err(failure) => failure.report(),
+    }
+}
+
 /// Prints what the parser of the command line has to say: help, the version, or an error, which
 /// quotes arguments.
-pub fn usage(mut message: clap::Error) -> ExitCode {
+fn usage(mut message: clap::Error) -> ExitCode {
     if !message.use_stderr() {
         return message.print().map_or(ExitCode::from(4), |()| ExitCode::SUCCESS);
     }
@@ -264,7 +283,7 @@ fn on_one_line(value: &ContextValue) -> ContextValue {
 }
 
 /// Runs the command.
-pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::listen();
     if arguments.follow_links {
         output::follow_links();

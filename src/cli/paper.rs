@@ -1,11 +1,11 @@
 //! `orthocert paper`.
 
 use super::{certify, print, Failure, Format, Status};
-use orthocert::exact::decimal::{rounded, Toward};
-use orthocert::files::output;
-use orthocert::questions::paper::{findings, Agreement, Basis, Finding, Value};
-use orthocert::report::text::{labelled, verbatim};
-use orthocert::report::CertificateFile;
+use crate::exact::decimal::{rounded, Toward};
+use crate::files::output;
+use crate::questions::paper::{findings, Agreement, Basis, Finding, Value};
+use crate::report::text::{labelled, verbatim};
+use crate::report::CertificateFile;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;

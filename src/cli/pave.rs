@@ -1,14 +1,14 @@
 //! `orthocert pave`.
 
 use super::{effort, input, print, progress::Bar, Failure, Format, Status};
-use orthocert::design::{written, Design};
-use orthocert::exact::Exact;
-use orthocert::files::digest::Summed;
-use orthocert::files::output::{self, OutputError};
-use orthocert::files::read::Named;
-use orthocert::jobs::batch::plan::identity;
-use orthocert::report::paving::PavingReport;
-use orthocert::search::paving::{
+use crate::design::{written, Design};
+use crate::exact::Exact;
+use crate::files::digest::Summed;
+use crate::files::output::{self, OutputError};
+use crate::files::read::Named;
+use crate::jobs::batch::plan::identity;
+use crate::report::paving::PavingReport;
+use crate::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
@@ -174,7 +174,7 @@ pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim
 
 /// The names of a claim's coordinates of places, and how many there are.
 fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
-    let names = orthocert::report::page::coordinates(claim);
+    let names = crate::report::page::coordinates(claim);
     let m = match &claim.workspace {
         Workspace::Box { min, .. } => min.len(),
         Workspace::Cylinder { .. } | Workspace::Cube { .. } => 3,
@@ -232,7 +232,7 @@ impl Arguments {
             (None, Some(_)) => None,
             (text, _) => {
                 let gap = positive("--volume-gap", text.as_deref().unwrap_or(GAP))?;
-                orthocert::exact::decimal::approximate(&gap)
+                crate::exact::decimal::approximate(&gap)
             }
         };
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })

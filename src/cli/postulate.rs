@@ -2,10 +2,10 @@
 
 use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use clap::ArgGroup;
-use orthocert::design::written;
-use orthocert::files::output;
-use orthocert::questions::postulate::prove;
-use orthocert::report::{text, PostulateReport};
+use crate::design::written;
+use crate::files::output;
+use crate::questions::postulate::prove;
+use crate::report::{text, PostulateReport};
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use orthocert_kernel::input::ClaimError;

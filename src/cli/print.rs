@@ -1,9 +1,9 @@
 //! Standard output and standard error: every byte that this program prints passes through here.
 
 use super::{progress, Failure};
-use orthocert::files::shown::lines;
-use orthocert::report::escape;
-use orthocert::report::text::Style;
+use crate::files::shown::lines;
+use crate::report::escape;
+use crate::report::text::Style;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 

@@ -3,9 +3,9 @@
 
 use super::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use orthocert::exact::decimal::grouped;
-use orthocert::report::text::duration;
-use orthocert::search::{Control, Progress, Steps};
+use crate::exact::decimal::grouped;
+use crate::report::text::duration;
+use crate::search::{Control, Progress, Steps};
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -3,14 +3,14 @@
 
 use super::check::is_of;
 use super::{certify, input, print, Failure, Status};
-use orthocert::design::Design;
-use orthocert::files::digest::sha256;
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::questions::decide::recalled;
-use orthocert::report::{CertificateFile, Report};
-use orthocert::search::accepted::check;
-use orthocert::search::solver::Verification;
+use crate::design::Design;
+use crate::files::digest::sha256;
+use crate::files::output;
+use crate::files::read::Named;
+use crate::questions::decide::recalled;
+use crate::report::{CertificateFile, Report};
+use crate::search::accepted::check;
+use crate::search::solver::Verification;
 use orthocert_checker::file::is_stream;
 use orthocert_checker::read;
 use orthocert_kernel::claim::MachineClaim;

@@ -3,11 +3,11 @@
 use super::effort::Work;
 use super::{print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::files::read::Named;
-use orthocert::files::shown::Shown;
-use orthocert::jobs::batch::plan::identity;
-use orthocert::jobs::shard::{self, Ran, RunError};
-use orthocert::search::Control;
+use crate::files::read::Named;
+use crate::files::shown::Shown;
+use crate::jobs::batch::plan::identity;
+use crate::jobs::shard::{self, Ran, RunError};
+use crate::search::Control;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;

@@ -1,12 +1,12 @@
 //! `orthocert show`.
 
 use super::{input, print, Failure, Format, Status};
-use orthocert::exact::decimal::{boxes, exact, grouped};
-use orthocert::files::read::Named;
-use orthocert::report::counterexample;
-use orthocert::report::text::{labelled, wrap};
-use orthocert::report::wrapped;
-use orthocert::search::accepted::{size_of, trees, TreeSize};
+use crate::exact::decimal::{boxes, exact, grouped};
+use crate::files::read::Named;
+use crate::report::counterexample;
+use crate::report::text::{labelled, wrap};
+use crate::report::wrapped;
+use crate::search::accepted::{size_of, trees, TreeSize};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate as kernel;

@@ -3,12 +3,12 @@
 use super::effort::Work;
 use super::{atlas, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::design::{is_atlas, AtlasDesign, Design};
-use orthocert::exact::decimal::{counted, grouped};
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::files::shown::Shown;
-use orthocert::jobs::shard::{
+use crate::design::{is_atlas, AtlasDesign, Design};
+use crate::exact::decimal::{counted, grouped};
+use crate::files::output;
+use crate::files::read::Named;
+use crate::files::shown::Shown;
+use crate::jobs::shard::{
     self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
 };
 use orthocert_kernel::certificate::MOST_NODES;

@@ -2,11 +2,11 @@
 
 use super::{merge, print, Failure, Format, Status};
 use clap::ValueEnum;
-use orthocert::files::output;
-use orthocert::files::read::Named;
-use orthocert::files::shown::{is_unseen, Shown};
-use orthocert::jobs::engine::{self, Submission};
-use orthocert::jobs::shard::{read_job, JOB_FILE};
+use crate::files::output;
+use crate::files::read::Named;
+use crate::files::shown::{is_unseen, Shown};
+use crate::jobs::engine::{self, Submission};
+use crate::jobs::shard::{read_job, JOB_FILE};
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};
 

@@ -279,7 +279,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
 }
 
 fn parse<T: DeserializeOwned>(path: &Path, text: &str, kind: &'static str) -> Result<T, FileError> {
-    serde_json::from_str(text)
+    serde_json::from_slice(text.as_bytes())
         .map_err(|error| FileError::Malformed(path.to_owned(), kind, format!("{error}")))
 }
 

@@ -93,7 +93,7 @@ impl Kept {
         if !begins || !first.starts_with(FORMAT) {
             return Err(refused("it is no unfinished map".to_owned()));
         }
-        if serde_json::from_str::<Header>(&first).ok() != Some(header(design)) {
+        if serde_json::from_slice::<Header>(first.as_bytes()).ok() != Some(header(design)) {
             let other = "it is the beginning of the map of another design, resolution or number of \
                          boxes, or by another version of this program; accepted: the same as it was";
             return Err(refused(other.to_owned()));
