@@ -1,8 +1,6 @@
 //! `orthocert bounds`.
 
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
-use num_rational::BigRational;
-use num_traits::Signed;
 use crate::design::Design;
 use crate::exact::decimal::{approximate, outward, rounded, Toward};
 use crate::exact::Exact;
@@ -15,6 +13,8 @@ use crate::search::solver::extremes::{
 use crate::search::solver::sector::{self, Sector};
 use crate::search::solver::value::{coordinates, in_length, listed, with_unit};
 use crate::search::Budget;
+use num_rational::BigRational;
+use num_traits::Signed;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::{Joint, Leg};

@@ -2,10 +2,10 @@
 
 use super::{input, Failure, Format};
 use crate::cli::progress::Bar;
+use crate::search::{Budget, Control};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
-use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::MOST_NODES;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use std::time::{Duration, Instant};

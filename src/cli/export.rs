@@ -1,13 +1,13 @@
 //! `orthocert export`.
 
 use super::{input, interrupt, print, Failure, Status};
-use clap::Subcommand;
 use crate::exact::decimal::grouped;
 use crate::files::digest::Summed;
 use crate::files::output;
 use crate::files::read::Named;
 use crate::report::export;
 use crate::search::paving::{surface, Surface, SurfaceError};
+use clap::Subcommand;
 use orthocert_checker::{file, read};
 use orthocert_kernel::paving::{is_paving, Reader};
 use std::fs::File;

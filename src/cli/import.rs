@@ -1,9 +1,9 @@
 //! `orthocert import`.
 
 use super::{input, print, Failure, Status};
-use clap::Subcommand;
 use crate::files::output;
 use crate::import::{klipper, linuxcnc, marlin, reprap, smoothieware, Disk, Importer};
+use clap::Subcommand;
 use std::path::PathBuf;
 
 /// Its flags.

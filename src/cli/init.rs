@@ -1,8 +1,8 @@
 //! `orthocert init`.
 
 use super::{print, Failure, Status};
-use clap::builder::{PossibleValue, PossibleValuesParser};
 use crate::design::{template, OTHER_NAMES, TEMPLATES};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 
 /// Its flags.
 #[derive(Debug, clap::Args)]

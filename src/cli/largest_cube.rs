@@ -1,7 +1,6 @@
 //! `orthocert largest-cube`.
 
 use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
-use num_traits::ToPrimitive;
 use crate::design::{written, Design};
 use crate::exact::decimal::{grouped, readable, significant};
 use crate::exact::Exact;
@@ -9,6 +8,7 @@ use crate::files::output;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;

@@ -2,7 +2,6 @@
 
 use super::size::{explain, gap_text};
 use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
-use num_rational::BigRational;
 use crate::design::{text_of, Design, Variable};
 use crate::exact::decimal::{exact, grouped, significant};
 use crate::exact::Exact;
@@ -13,6 +12,7 @@ use crate::questions::limit::{
     limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question,
 };
 use crate::report::{machine_of_witness, CertificateFile, Outcome};
+use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use serde::Serialize;
 use std::fmt::Write;

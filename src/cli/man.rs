@@ -1,10 +1,10 @@
 //! `orthocert man`.
 
 use super::{Failure, Status, EXIT_CODES};
+use crate::files::output;
 use clap::{Command, CommandFactory};
 use clap_mangen::roff::{roman, Roff};
 use clap_mangen::Man;
-use crate::files::output;
 use std::io;
 use std::path::{Path, PathBuf};
 

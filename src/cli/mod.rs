@@ -38,10 +38,10 @@ mod summary;
 mod tolerance;
 mod verify;
 
-use clap::error::{ContextKind, ContextValue};
-use clap::{Parser, Subcommand, ValueEnum};
 use crate::files::output::{self, OutputError};
 use crate::files::shown::Shown;
+use clap::error::{ContextKind, ContextValue};
+use clap::{Parser, Subcommand, ValueEnum};
 use orthocert_checker::certificate::Verdict;
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};

@@ -1,11 +1,11 @@
 //! `orthocert postulate`.
 
 use super::{certify, effort::Effort, input, print, Failure, Format, Status};
-use clap::ArgGroup;
 use crate::design::written;
 use crate::files::output;
 use crate::questions::postulate::prove;
 use crate::report::{text, PostulateReport};
+use clap::ArgGroup;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use orthocert_kernel::input::ClaimError;

@@ -2,10 +2,10 @@
 //! search has nothing to say: what turns, the time, and the estimate of what is left.
 
 use super::interrupt;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use crate::exact::decimal::grouped;
 use crate::report::text::duration;
 use crate::search::{Control, Progress, Steps};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,8 +1,6 @@
 //! `orthocert size`, and what it has in common with `orthocert tolerance`.
 
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
 use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
 use crate::exact::Exact;
 use crate::files::output;
@@ -11,6 +9,8 @@ use crate::questions::size::{is_side, Family, Scope, Unknown};
 use crate::report::text::{duration, labelled, verbatim, wrap};
 use crate::report::{counterexample, exactly, CertificateFile, Counterexample};
 use crate::search::Budget;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use serde::Serialize;

@@ -1,12 +1,12 @@
 //! `orthocert submit`.
 
 use super::{merge, print, Failure, Format, Status};
-use clap::ValueEnum;
 use crate::files::output;
 use crate::files::read::Named;
 use crate::files::shown::{is_unseen, Shown};
 use crate::jobs::engine::{self, Submission};
 use crate::jobs::shard::{read_job, JOB_FILE};
+use clap::ValueEnum;
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};
 

@@ -2,13 +2,13 @@
 
 use super::effort::{self, Effort};
 use super::{input, interrupt, print, Failure, Format, Status};
-use num_rational::BigRational;
-use num_traits::Signed;
 use crate::questions::summary::{summary, text, Question};
 use crate::report::text::headline_of;
 use crate::report::Outcome;
 use crate::search::solver::extremes::{loosest, NotEnclosed};
 use crate::search::solver::{number, verify};
+use num_rational::BigRational;
+use num_traits::Signed;
 use orthocert_kernel::number::Expression;
 use std::path::PathBuf;
 use std::time::Instant;

@@ -2,8 +2,6 @@
 
 use super::size::{explain, file, gap, gap_text};
 use super::{effort, input, interrupt, print, Failure, Format, Status};
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
 use crate::design::Design;
 use crate::exact::decimal::{exact, outward, Toward};
 use crate::exact::Exact;
@@ -14,6 +12,8 @@ use crate::report::text::{duration, wrap, WIDTH};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
 use crate::search::Budget;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;

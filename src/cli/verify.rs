@@ -1,13 +1,13 @@
 //! `orthocert verify`.
 
 use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
-use num_rational::BigRational;
 use crate::files::read::Named;
 use crate::jobs::batch::plan::{certificate_of, identity};
 use crate::report::{text, Margin, Report};
 use crate::search::solver;
 use crate::search::solver::extremes::{enclose, Extreme};
 use crate::search::{Budget, Control};
+use num_rational::BigRational;
 use orthocert_kernel::claim::{MachineClaim, Orientation};
 use orthocert_kernel::problem::Problem;
 use std::path::{Path, PathBuf};

@@ -72,16 +72,8 @@ impl<'a> Variable<'a> {
         let document = Document { file, text, names: Names::None };
         let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
         let root = document.root(tree.get_ref());
-        let mut found = Vec::new();
-        for (name, value) in root.entries() {
-            numbers(&value, (name.to_owned(), None), &mut found);
-        }
-        let mut groups: BTreeMap<&str, Vec<&Found>> = BTreeMap::new();
-        for number in &found {
-            if let Some((key, _)) = &number.common {
-                groups.entry(key).or_default().push(number);
-            }
-        }
+        let found = every(&root);
+        let groups = alike(&found);
         let variable = |key: &str, number: &Found, places| {
             let (own, tolerance) = number.number.clone();
             let size = size_of(&own, &root, key);
@@ -221,21 +213,21 @@ impl<'d> Walk<'_, 'd> {
 
     /// What there is, and the nearest key of a number.
     fn accepted(&self, there: &[String]) -> String {
-        let mut all = Vec::new();
-        for (name, value) in self.root.entries() {
-            numbers(&value, (name.to_owned(), None), &mut all);
-        }
-        let all: Vec<String> = all.into_iter().map(|found| found.key).collect();
+        let found = every(self.root);
+        let groups = alike(&found);
+        // A number that all legs have is meant before one leg's.
+        let one = found.iter().filter_map(|number| Some(number.group(&groups)?.0));
+        let all: Vec<&str> = one.chain(found.iter().map(|number| number.key.as_str())).collect();
         // Without the tables that it is in, a key is meant as well as a misspelt one.
         let key = from_zero(self.key);
         let end = format!(".{key}");
-        let meant = |other: &&String| **other == key || other.ends_with(&end);
+        let meant = |other: &&&str| {
+            let other = other.replace(".*", "");
+            other == key || other.ends_with(&end)
+        };
         let hint = match all.iter().find(meant) {
             Some(key) => format!("; did you mean {key}?"),
-            None => {
-                let names: Vec<&str> = all.iter().map(String::as_str).collect();
-                suggestion::hint(&key, &names, |key| key.to_owned())
-            }
+            None => suggestion::hint(&key, &all, |key| key.to_owned()),
         };
         format!("the key of a number; there is {}{hint}", there.join(", "))
     }
@@ -303,6 +295,26 @@ impl Found {
         let one = all.len() == *count && all.iter().all(|other| other.number == self.number);
         one.then_some((key, all))
     }
+}
+
+/// All numbers of a file, in the order of the text.
+fn every(root: &Table<'_>) -> Vec<Found> {
+    let mut found = Vec::new();
+    for (name, value) in root.entries() {
+        numbers(&value, (name.to_owned(), None), &mut found);
+    }
+    found
+}
+
+/// Numbers by what is their key in all tables of an array.
+fn alike(found: &[Found]) -> BTreeMap<&str, Vec<&Found>> {
+    let mut groups: BTreeMap<&str, Vec<&Found>> = BTreeMap::new();
+    for number in found {
+        if let Some((key, _)) = &number.common {
+            groups.entry(key).or_default().push(number);
+        }
+    }
+    groups
 }
 
 /// All numbers below a value. The parser bounds the nesting, and with it this recursion.

@@ -143,6 +143,22 @@ fn keys_without_a_number_are_refused_with_what_there_is() {
 }
 
 #[test]
+fn a_number_that_all_legs_have_is_meant_before_one_leg_s() {
+    let alike = LEGS.replace("\"333.0 ± 0.05\"", "333");
+    for (text, key, meant) in [
+        (alike.as_str(), "mechanism.legs.length", "mechanism.legs.*.length"),
+        (&alike, "length", "mechanism.legs.*.length"),
+        (&alike, "mechanism.leg_length", "mechanism.legs.*.length"),
+        (&alike, "mechanism.legs[2].length", "mechanism.legs.1.length"),
+        (&alike, "mechanism.legs.1.lenght", "mechanism.legs.1.length"),
+        (LEGS, "mechanism.leg_length", "mechanism.legs.0.length"),
+    ] {
+        let message = refused(text, key).to_string();
+        assert!(message.contains(&format!("did you mean {meant}?")), "{key}:\n{message}");
+    }
+}
+
+#[test]
 fn a_tolerance_over_several_lines_is_refused_as_a_whole() {
     let apart = BOX
         .replace("\"310.25 ± 0.02\"\n", "{}\n")
