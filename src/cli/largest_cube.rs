@@ -239,9 +239,8 @@ fn text(answer: &Answer, quiet: bool) -> String {
     }
     out.push('\n');
     if let Some(found) = &answer.limited_by {
-        labelled(&mut out, "limited by", &found.limit());
-        let at: Vec<String> = found.point.iter().map(readable).collect();
-        labelled(&mut out, "at", &format!("({})", at.join(", ")));
+        labelled(&mut out, "limited by", &found.limit);
+        labelled(&mut out, "at", &found.at());
     }
     if let Some([x, y, z]) = &answer.centre {
         labelled(&mut out, "centre", &format!("({}, {}, {})", number(x), number(y), number(z)));

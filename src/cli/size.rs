@@ -348,9 +348,8 @@ fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
         labelled(&mut out, "gap missed", why);
     }
     if let Some(found) = &answer.limited_by {
-        labelled(&mut out, "limited by", &found.limit());
-        let at: Vec<String> = found.point.iter().map(readable).collect();
-        labelled(&mut out, "at", &format!("({})", at.join(", ")));
+        labelled(&mut out, "limited by", &found.limit);
+        labelled(&mut out, "at", &found.at());
     }
     if let Some(centre) = &answer.centre {
         let centre: Vec<String> = centre.iter().map(exact).collect();

@@ -383,7 +383,8 @@ fn text(
         Measure::Component => "component",
         Measure::Share => "share",
     };
-    let limit = |row: &Row| row.counterexample.as_ref().map_or(String::new(), |it| it.limit());
+    let limit =
+        |row: &Row| row.counterexample.as_ref().map_or(String::new(), |it| it.limit.clone());
     let names: Vec<String> =
         rows.iter().map(|row| format!("{}, {}", name(row), measure(row))).collect();
     let head = "widest tolerance ± t of";

@@ -1,5 +1,6 @@
 //! A refutation's witness in words, with certified digits of the value that violates the claim.
 
+use crate::exact::decimal::readable;
 use crate::exact::Exact;
 use crate::report::place::point_text;
 use serde::Serialize;
@@ -7,9 +8,6 @@ use std::fmt;
 
 /// Digits of the places of bodies.
 const PLACE_DIGITS: u32 = 6;
-
-/// What is violated where a leg ends.
-pub(super) const REACHED: &str = "every leg reaches P and is not serially singular there";
 
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
@@ -19,10 +17,16 @@ pub struct Counterexample {
     pub rule: &'static str,
     /// What is violated: `greatest psi <= 2`.
     pub violated: String,
+    /// What ends there, in a few words: the requirement, and what it is where it is none of psi and its like.
+    #[serde(skip)]
+    pub limit: String,
     /// The value there, with certified digits: `greatest psi >= 2.0050`.
     pub value: String,
     /// `P`, exact.
     pub point: Vec<Exact>,
+    /// `P` of a platform that turns, its angles in degrees, rounded.
+    #[serde(skip)]
+    pub pose: Option<String>,
     /// A second point, where the determinant of `M` has the opposite sign.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_point: Option<Vec<Exact>>,
@@ -38,13 +42,10 @@ pub struct Counterexample {
 }
 
 impl Counterexample {
-    /// What ends there, in a few words: the requirement, and what it is where it is none of psi and its like.
-    pub fn limit(&self) -> String {
-        match self.rule {
-            _ if self.violated == REACHED => "reach: a leg ends here".to_owned(),
-            "joint-range" => format!("{}, an end stop", self.violated),
-            _ => self.violated.clone(),
-        }
+    /// Where, in short.
+    pub fn at(&self) -> String {
+        let point: Vec<String> = self.point.iter().map(readable).collect();
+        self.pose.clone().unwrap_or_else(|| format!("({})", point.join(", ")))
     }
 }
 

@@ -1,16 +1,15 @@
 //! The facts about claims of the kernel: any number of coordinates, any quantity of its table.
 
-use super::counterexample::REACHED;
-use super::place::FreeParameter;
+use super::place::{pose_text, FreeParameter};
 use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
 use super::share::sum_above;
 use super::{Counterexample, Near, Row, Setting};
-use crate::exact::decimal::{exact, readable, rounded, significant, Toward};
+use crate::exact::decimal::{approximate, exact, readable, rounded, significant, Toward};
 use crate::exact::Exact;
 use crate::report::requirement::{rule_of, SINGULARITY};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::search::solver::search::Open;
-use crate::search::solver::value::{with_unit, Bounded};
+use crate::search::solver::value::{coordinates, with_unit, Bounded};
 use crate::search::solver::violation::nearest_points;
 use crate::search::solver::Undecided;
 use crate::search::Stop;
@@ -33,6 +32,8 @@ const TIE: f64 = 1e-9;
 const DIGITS: std::ops::RangeInclusive<u32> = 6..=17;
 /// Parts of the way from the bound to the value that are tried, where the witness shows less.
 const PARTS: [f64; 6] = [1.0, 0.99, 0.9, 0.5, 0.1, 0.01];
+/// Digits of a pose.
+const POSE_DIGITS: u32 = 6;
 /// Longest text of an exact number.
 const MOST_DIGITS: usize = 1000;
 /// Regions that are described one by one.
@@ -193,7 +194,7 @@ impl<'a> Facts<'a> {
         let mut bodies = Vec::new();
         let (violated, value) = match &witness.fails {
             Failure::Reach => (
-                REACHED.to_owned(),
+                "every leg reaches P and is not serially singular there".to_owned(),
                 "a leg cannot reach P, or is serially singular there".to_owned(),
             ),
             Failure::Singular(other) => {
@@ -207,9 +208,7 @@ impl<'a> Facts<'a> {
             }
             Failure::Same { obligation, least, greatest, .. } => {
                 let quality = Quality::Obligation(*obligation);
-                rule = self
-                    .bounded(quality)
-                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                rule = self.rule(quality);
                 let ends = |k: usize| {
                     Some(format!("[{}, {}]", shown(least.get(k)?), shown(greatest.get(k)?)))
                 };
@@ -220,9 +219,7 @@ impl<'a> Facts<'a> {
             }
             Failure::Row(number, leg) => {
                 let quality = Quality::Obligation(*number);
-                rule = self
-                    .bounded(quality)
-                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                rule = self.rule(quality);
                 (self.words(quality), format!("the row of M of leg {} is longer", leg + 1))
             }
             Failure::Obligation(number, along) => {
@@ -232,23 +229,38 @@ impl<'a> Facts<'a> {
                     directions.clone_from(along);
                 }
                 let quality = Quality::Obligation(*number);
-                rule = self
-                    .bounded(quality)
-                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                rule = self.rule(quality);
                 bodies = self.too_near(*number, witness).unwrap_or_default();
                 (self.words(quality), self.beyond(*number, witness)?)
             }
         };
+        let limit = match &witness.fails {
+            Failure::Reach => "reach: a leg ends here".to_owned(),
+            _ if rule == "joint-range" => format!("{violated}, an end stop"),
+            _ => violated.clone(),
+        };
+        let point = points(&witness.point)?;
+        let pose = self.claim.orientation.as_ref().and_then(|_| {
+            let at: Option<Vec<f64>> = point.iter().map(approximate).collect();
+            Some(pose_text(&at?, &coordinates(self.claim), POSE_DIGITS))
+        });
         Some(Counterexample {
             rule,
             violated,
+            limit,
             value,
-            point: points(&witness.point)?,
+            point,
+            pose,
             other_point,
             machine: machine.collect::<Option<_>>()?,
             bodies,
             directions,
         })
+    }
+
+    /// The rule that an obligation is part of.
+    fn rule(&self, quality: Quality) -> &'static str {
+        self.bounded(quality).map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity))
     }
 
     /// The two bodies of an obligation of clearance, and their nearest points at a witness.

@@ -1,11 +1,9 @@
 //! The requirement that a refuted claim violates, and where, for every kind of claim.
 
-use crate::exact::decimal::{approximate, exact};
+use crate::exact::decimal::exact;
 use crate::exact::Exact;
-use crate::report::{counterexample, pose_text, Setting};
-use crate::search::solver::value::coordinates;
+use crate::report::{counterexample, Setting};
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::certificate::Claim;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -45,17 +43,9 @@ impl Place {
             let leg = s.leg.map_or(String::new(), |leg| format!("leg {leg} "));
             (leg + &s.parameter, exact(&s.value))
         };
-        let turned = match &certificate.claim {
-            Claim::Machine(claim) => Some(claim).filter(|claim| claim.orientation.is_some()),
-            _ => None,
-        };
-        let pose = turned.and_then(|claim| {
-            let at: Option<Vec<f64>> = found.point.iter().map(approximate).collect();
-            Some(pose_text(&at?, &coordinates(claim), 6))
-        });
         Some(Place {
-            limit: found.limit(),
-            pose,
+            limit: found.limit,
+            pose: found.pose,
             violated: found.violated,
             value: Some(found.value),
             point: texts(&found.point),
