@@ -113,7 +113,7 @@ Inductive step :=
   (* [ends]: of each quantity with two ends, where the one machine is *)
   | Apart_ (s : step) (ends : string) (directions : list (list Z)).
 
-Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat).
+Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_.
 
 (** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
 Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
@@ -325,6 +325,7 @@ Definition step_text (s : nat * step) : text := array [natural (fst s); evidence
 Definition violation_text (f : violation) : text :=
   match f with
   | Reach => quoted "reach"
+  | Dependent_ => quoted "dependent"
   | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
   | Row i l => variant "row" (array [natural i; natural l])
   end.
@@ -922,7 +923,7 @@ Fixpoint trees_of (most : nat) (l : list node) : option (list tree) :=
 End Steps.
 
 Definition nfailure_of (f : violation) : nfailure :=
-  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
+  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg | Dependent_ => NDependent end.
 
 (** The same of a tree whose leaves fail, and that has no steps. *)
 Fixpoint failing_tree_of (depth : nat) (l : list node) : option (failing_tree * list node) :=
@@ -978,6 +979,7 @@ Definition failure_of (rs : list requirement) (f : violation) : option failure :
       | _, _ => None
       end
   | Row i leg => match nth_error rs i with Some (PsiMin _) => Some (FailsAlong i leg) | _ => None end
+  | Dependent_ => Some AreDependent
   end.
 
 Fixpoint take_list (v : list quantity) (l : list Claim.number) : list Claim.number * list Claim.number :=

@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed Claim.
-From Orthocert.kernel Require Import Linear Arithmetic Number Trig Witness.
+From Orthocert.kernel Require Import Linear Arithmetic Number Trig Dependent Witness.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -88,16 +88,18 @@ Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
 (** ** In exact numbers: what fails *)
 
 Inductive ncoordinate := NLength (rho : number) | NAngle (cosine sine : number) | NUnknown.
-(** [reserves]: where it is reached, these are positive. *)
+(** [reserves]: where it is reached, these are positive. [nrays]: multiples of the rows, which may be fractions where these are not. *)
 Record nrod := NRod { nrod_vector : list number; nrod_eta : number; nrod_size : number }.
-Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; nrods : list (option nrod); reserves : list number }.
+Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; nrods : list (option nrod); reserves : list number; nrays : list (option (list number)) }.
 
 Definition coordinate_of (x : ncoordinate) : coordinate :=
   match x with NLength x => Length (value x) | NAngle c s => Angle (value c) (value s) | NUnknown => Unknown end.
 Definition real_rod (l : nrod) : rod := Rod (map value (nrod_vector l)) (value (nrod_eta l)) (value (nrod_size l)).
+Definition is_ray (ray : option (list number)) (row : list R) : Prop :=
+  match ray with Some l => exists k, row = map (fun x => k * value x) l | None => True end.
 Definition stands_for (n : nconfiguration) (c : configuration) : Prop :=
   jacobian c = map (map value) (njacobian n) /\ joints c = map coordinate_of (njoints n) /\ rods c = map (option_map real_rod) (nrods n) /\
-  (reached c -> Forall (fun x => 0 < value x) (reserves n)).
+  (reached c -> Forall (fun x => 0 < value x) (reserves n) /\ Forall2 is_ray (nrays n) (jacobian c)).
 
 Fixpoint ndot (u v : list number) : number :=
   match u, v with a :: u', b :: v' => Plus (Times a b) (ndot u' v') | _, _ => 0 // 1 end.
@@ -325,7 +327,22 @@ Inductive nfailure :=
   | NOutOfReach
   | NFails (test : nat) (directions : list (list Z))
   (* in the direction of a row of M *)
-  | NFailsAlong (test row : nat).
+  | NFailsAlong (test row : nat)
+  (* the columns of M are linearly dependent *)
+  | NDependent.
+
+Fixpoint all_rays (l : list (option (list number))) : option (list (list number)) :=
+  match l with [] => Some [] | Some r :: l' => option_map (cons r) (all_rays l') | None :: _ => None end.
+Lemma rays_see : forall l rows M v, all_rays l = Some rows -> Forall2 is_ray l M -> Forall (fun row => dot (map value row) v = 0) rows -> speed2 M v = 0.
+Proof.
+  intros l rows M v e h. revert rows e. induction h as [| ray row l M hr h IH]; intros rows e z; cbn [all_rays] in e; [reflexivity |].
+  destruct ray as [r |]; [| discriminate]. destruct hr as [k ->].
+  destruct (all_rays l) as [rest |]; [| discriminate]. injection e as <-. inversion z as [| ? ? z1 z2]. subst.
+  cbn [speed2 fold_right]. change (fold_right _ 0 M) with (speed2 M v). rewrite (IH rest eq_refl z2).
+  assert (E : dot (map (fun x => k * value x) r) v = k * dot (map value r) v).
+  { clear. revert v. induction r as [| x r IH]; intros [| y v]; cbn [map dot]; rewrite ?IH; ring. }
+  rewrite E, z1. ring.
+Qed.
 
 Definition integers_of (l : list Z) : list number := map (fun k => k // 1) l.
 Definition refutes (n : nat) (c : nconfiguration) (ds : list demand) (f : nfailure) : bool :=
@@ -337,18 +354,21 @@ Definition refutes (n : nat) (c : nconfiguration) (ds : list demand) (f : nfailu
       | Some (FactorMin b, least), Some row => fails n c least [row] (FactorMin b)
       | _, _ => false
       end
+  | NDependent => match all_rays (nrays c) with Some rows => are_dependent n rows | None => false end
   end.
 
 Theorem refutes_sound : forall n c k ds f, stands_for c k -> refutes n c ds f = true -> ~ meets n k ds.
 Proof.
-  intros n c k ds f st h [re [_ met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i]; cbn [refutes] in h.
+  intros n c k ds f st h [re [inj met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i |]; cbn [refutes] in h.
   - apply existsb_exists in h as [x [i h]]. apply nonneg_sound in h. cbn [value] in h.
-    destruct st as [_ [_ [_ R]]]. specialize (R re). rewrite Forall_forall in R. specialize (R x i). lra.
+    destruct st as [_ [_ [_ R]]]. destruct (R re) as [R' _]. rewrite Forall_forall in R'. specialize (R' x i). lra.
   - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate].
     exact (fails_sound _ _ _ _ _ _ st h (met d (test_at_in _ _ _ _ e))).
   - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate]. destruct d; try discriminate.
     destruct (nth_error _ i); [| discriminate].
     exact (fails_sound _ _ _ _ _ _ st h (met _ (test_at_in _ _ _ _ e))).
+  - destruct st as [_ [_ [_ R]]]. destruct (R re) as [_ rays]. destruct (all_rays (nrays c)) as [rows |] eqn:e; [| discriminate].
+    destruct (are_dependent_sound _ _ h) as [v [lv [nz z]]]. pose proof (inj v lv nz). rewrite (rays_see _ _ _ _ e rays z) in *. lra.
 Qed.
 End Precision.
 End Named.

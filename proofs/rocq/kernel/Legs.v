@@ -130,6 +130,12 @@ Definition xcarried (l : exact_driven) : numbers := each2 Minus (each2 Plus P (n
 Definition xdriven_row (l : exact_driven) : list number :=
   let u := match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end in
   nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u)).
+(** A multiple of the row; of arms none that is known to be in fractions. *)
+Definition xdriven_ray (l : exact_driven) : option (list number) :=
+  match l with
+  | XLinear i => let u := nray i (xcarried l) in Some (nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u)))
+  | XRotary _ => None
+  end.
 Definition xdriven_joint (l : exact_driven) : ncoordinate :=
   match l with XLinear i => NLength (njoint i (xcarried l)) | XRotary i => NAngle (xcosine i (xcarried l)) (xsine i (xcarried l)) end.
 Definition ncomponents (a : numbers) : list number := match k with Translates => [nx a; ny a; nz a] | TranslatesInPlane => [nx a; ny a] | Turns _ => [] end.
@@ -144,7 +150,7 @@ Definition xdriven_rod (l : exact_driven) : option nrod :=
 Definition xreserves (l : exact_driven) : list number :=
   match l with XLinear i => match reserve i (xcarried l) with Some x => [x] | None => [] end | XRotary i => [xclearance i (xcarried l)] end.
 Definition exact_legs_at (ls : list exact_driven) : nconfiguration :=
-  NConfiguration (map xdriven_row ls) (map xdriven_joint ls) (map xdriven_rod ls) (flat_map xreserves ls).
+  NConfiguration (map xdriven_row ls) (map xdriven_joint ls) (map xdriven_rod ls) (flat_map xreserves ls) (map xdriven_ray ls).
 
 Variable Q : mat.
 Hypothesis is_turn : forall b, values (nturn b) = mulv Q (values b).
@@ -160,7 +166,7 @@ Lemma exact_legs_stand : forall ls, stands_for (exact_legs_at ls) (legs_at k (va
 Proof.
   assert (O : forall l, values (xoffset l) = offset (driven_of l)).
   { intros [[d a p len m | a p q | d] | i]; try reflexivity. unfold values. cbn. unfold vzero. f_equal; lra. }
-  intro ls. split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves exact_legs_at legs_at]; rewrite ?map_map.
+  intro ls. split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves nrays exact_legs_at legs_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold driven_row, xdriven_row. cbv zeta. rewrite <- values_carried.
     assert (U : own_row (driven_of l) (values (xcarried l)) = values (match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end))
       by (destruct l as [i | i]; cbn [own_row driven_of]; [rewrite values_row | rewrite values_xrow]; reflexivity).
@@ -176,8 +182,14 @@ Proof.
       assert (E : Arm.rod (arm_of i) (values (xcarried (XRotary i))) = values (each2 Minus (each2 Plus (xcarried (XRotary i)) (xplatform i)) (xelbow i (xcarried (XRotary i))))).
       { unfold Arm.rod, elbow, xelbow. rewrite !values_minus, !values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter, value_xcosine, value_xsine. reflexivity. }
       rewrite E. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
-  - rewrite Forall_map. intro h. induction h as [| l ls h hs IH]; [constructor |]. cbn [flat_map]. apply Forall_app. split; [| exact IH].
-    rewrite <- values_carried in h. destruct l as [i | i]; cbn [xreserves own_reach driven_of] in *.
+  - rewrite Forall_map. intro h. induction h as [| l ls h hs [IH1 IH2]]; [split; constructor |]. rewrite <- values_carried in h. split.
+    2: { cbn [map]. constructor; [| exact IH2]. destruct l as [i | i]; cbn [xdriven_ray is_ray driven_of own_reach] in *; [| exact I].
+      destruct (values_ray i _ h) as [q e]. exists q. change (Linear (leg_of i)) with (driven_of (XLinear i)). unfold driven_row. cbv zeta. rewrite <- values_carried, <- O, <- is_turn.
+      cbn [own_row driven_of]. rewrite e.
+      set (u := nray i _). set (b := nturn (xoffset (XLinear i))).
+      unfold velocities, nvelocities, twist, ntwist, coordinates, vscale, cross, scaled, ncrossed.
+      destruct k as [| | []]; cbn [map vx vy vz nx ny nz values value]; repeat (apply f_equal2; [unfold Rdiv; rewrite ?Rinv_1; ring |]); reflexivity. }
+    cbn [flat_map]. apply Forall_app. split; [| exact IH1]. destruct l as [i | i]; cbn [xreserves own_reach driven_of] in *.
     + destruct (reserve i (xcarried (XLinear i))) as [x |] eqn:e; [| constructor]. constructor; [| constructor]. apply Rnot_le_lt. intro n. exact (reserve_sound i _ x e n h).
     + constructor; [| constructor]. rewrite value_xclearance. exact h.
 Qed.

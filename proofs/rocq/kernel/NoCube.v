@@ -186,6 +186,7 @@ Definition fails_over (first : nat) (rs : list requirement) (b : failings) (posi
       end
   | Configuration.NFailsAlong i leg =>
       match nth_error rs i, nth_error (its_D b) leg, nth_error (its_rods b) leg with Some (PsiMin _), Some d, Some rod => is (row_fails rod d (first + i)) | _, _, _ => false end
+  | Configuration.NDependent => false
   end.
 
 (** *** What it shows *)
@@ -487,7 +488,7 @@ Lemma fails_over_sound : forall lambda cs coords params values positive f, let b
   fails_over (fst n) (require c) b positive coords params values f = true -> ~ Forall (fulfils c m P) (require c).
 Proof.
   intros lambda cs coords params values positive f b E Pos hf met. rewrite Forall_forall in met.
-  destruct f as [| i dirs | i leg]; cbn [fails_over] in hf; unfold b, failings_of in hf; cbn [its_D its_rods its_requirements] in hf.
+  destruct f as [| i dirs | i leg |]; [| | | discriminate]; cbn [fails_over] in hf; unfold b, failings_of in hf; cbn [its_D its_rods its_requirements] in hf.
   - apply existsb_exists in hf as [g' [ig hf]]. apply in_map_iff in ig as [g [<- ig]]. destruct (nth (found (f_D g)) values None) as [d |] eqn:ed; [| discriminate].
     destruct (In_nth_error _ _ ig) as [k ek]. destruct (leg_at c s ds m P theta represented reached k g ek) as [l [_ [Rl re]]].
     destruct (row_norm g l Rl re) as [D _]. pose proof (E (Entry (found (f_D g)))) as V.

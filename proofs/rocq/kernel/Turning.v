@@ -107,9 +107,14 @@ Definition ntwist (k : motion) (v w : numbers) : list number :=
 Definition xstrut_row (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (l : exact_strut) : list number :=
   let u := unit_of (xvector o c P l) in ntwist k u (scaled (Over (1 // 1) ell) (ncrossed (turn o c (xjoint l)) u)).
 
+(** The row times the strut's length. *)
+Definition xstrut_ray (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (l : exact_strut) : list number :=
+  let w := xvector o c P l in ntwist k w (scaled (Over (1 // 1) ell) (ncrossed (turn o c (xjoint l)) w)).
+
 Definition exact_struts_at (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (ls : list exact_strut) : nconfiguration :=
   let square l := product (xvector o c P l) (xvector o c P l) in
-  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map (fun _ => None) ls) (map square ls).
+  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map (fun _ => None) ls) (map square ls)
+    (map (fun l => Some (xstrut_ray k ell o c P l)) ls).
 End Exact.
 
 Section Stand.
@@ -125,13 +130,17 @@ Proof.
   intros k ell P ls.
   assert (S : forall l, value (product (xvector o c P l) (xvector o c P l)) = norm2 (strut_vector (strut_of l) (values P) Q))
     by (intro l; rewrite value_square, values_xvector; reflexivity).
-  split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves exact_struts_at struts_at]; rewrite ?map_map.
+  split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves nrays exact_struts_at struts_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold strut_row, xstrut_row. rewrite <- values_xvector, <- values_unit.
     assert (I : value (Over (1 // 1) ell) = / value ell) by (cbn [value]; unfold Rdiv; rewrite Rinv_1; ring).
     unfold arm_of_joint. cbn [strut_joint strut_of]. rewrite <- is_turn, <- I. destruct k; reflexivity.
   - apply map_ext. intro l. cbn [coordinate_of value]. rewrite S. reflexivity.
   - reflexivity.
-  - rewrite Forall_map. intro h. rewrite Forall_map. revert h. apply Forall_impl. intros l h. rewrite S. exact h.
+  - rewrite Forall_map. intro h. split; [rewrite Forall_map; revert h; apply Forall_impl; intros l h; rewrite S; exact h |].
+    clear h. induction ls as [| l ls IH]; cbn [map]; constructor; [| exact IH]. exists (/ sqrt (norm2 (strut_vector (strut_of l) (values P) Q))).
+    unfold strut_row, xstrut_ray. cbv zeta. rewrite <- values_xvector. unfold arm_of_joint. cbn [strut_joint strut_of]. rewrite <- is_turn.
+    set (w := xvector o c P l). set (r := turn o c (xjoint l)). unfold normalised, twist, ntwist, vscale, cross, scaled, ncrossed.
+    destruct k; cbn [map vx vy vz nx ny nz values value]; repeat (apply f_equal2; [unfold Rdiv; rewrite ?Rinv_1; ring |]); reflexivity.
 Qed.
 End Stand.
 

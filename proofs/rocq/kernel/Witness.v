@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Number Machine Problem.
+From Orthocert.kernel Require Import Statement Arithmetic Number Dependent Machine Problem.
 From Orthocert.kernel Require Export Compare.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -164,6 +164,13 @@ Definition nrow (l : exact_leg) (P : numbers) : numbers :=
   | ExactStrut a p _ => unit_of (nspan a p P)
   | ExactPlanar d => unit_of d
   end.
+(** A multiple of the row, which may be in fractions where the row is not: the vector of a leg that has one. *)
+Definition nray (l : exact_leg) (P : numbers) : numbers :=
+  match l with
+  | ExactSlider d a p len m => each2 Plus (across d a p P) (scaled (signed_root m (clearance2 d a p len P)) (unit_of d))
+  | ExactStrut a p _ => nspan a p P
+  | ExactPlanar d => unit_of d
+  end.
 Definition njoint (l : exact_leg) (P : numbers) : number :=
   match l with
   | ExactSlider d a p len m => Minus (product (unit_of d) (nspan a p P)) (signed_root m (clearance2 d a p len P))
@@ -209,6 +216,18 @@ Proof.
   - apply values_unit.
 Qed.
 
+Lemma values_ray : forall l P, reaches (values P) (leg_of l) -> exists k, row (leg_of l) (values P) = vscale k (values (nray l P)).
+Proof.
+  intros [d a p len m | a p k | d] P h; cbn [nray row leg_of reaches] in *.
+  - assert (H : eta (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1)) (values P) <> 0)
+      by (unfold eta; cbn [working_mode]; destruct m; lra).
+    rewrite values_plus, values_scaled, values_unit, value_signed_root, (values_across d a p (value len) (if m then 1 else -1) P).
+    set (e := eta _ _) in *. exists (/ e). unfold Jinv_row. cbn [axis]. fold e. set (q := r _ _).
+    unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; exact H.
+  - eexists. reflexivity.
+  - exists 1. rewrite values_unit. unfold vscale. destruct (normalised (values d)) as [x y z]. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
 Lemma value_joint : forall l P, value (njoint l P) = joint (leg_of l) (values P).
 Proof.
   intros [d a p len m | a p k | d] P; cbn [njoint joint leg_of].
@@ -244,13 +263,15 @@ Inductive failure :=
   (* of a requirement, in directions where it is about all *)
   | Fails (number : nat) (u v : Z * Z * Z)
   (* of a requirement, in the direction of a leg's row *)
-  | FailsAlong (number leg : nat).
+  | FailsAlong (number leg : nat)
+  (* the columns of M are linearly dependent *)
+  | AreDependent.
 
 (** The determinant of the rows of A of sliders, n + r/eta times eta, and their lengths. *)
 Definition nvector (l : exact_leg) (P : numbers) : option (numbers * number) :=
   match l with
   | ExactSlider d a p len m =>
-      Some (each2 Plus (across d a p P) (scaled (signed_root m (clearance2 d a p len P)) (unit_of d)), len)
+      Some (nray l P, len)
   | _ => None
   end.
 Definition ndet (a b c : numbers) : number :=
@@ -366,13 +387,14 @@ Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) 
   | Fails i u v => match nth_error (require c) i with Some r => fails ls P (integers u) (integers v) r | None => false end
   | FailsAlong i leg =>
       match nth_error (require c) i, nth_error ls leg with Some r, Some l => fails ls P (nrow l P) (nrow l P) r | _, _ => false end
+  | AreDependent => are_dependent 3 (map (fun l => let q := nray l P in [nx q; ny q; nz q]) ls)
   end.
 
 Lemma nvector_sound : forall l P v len, nvector l P = Some (v, len) ->
   exists k, leg_of l = Guided k /\ values v = leg_vector k (values P) /\ value len = leg_length k.
 Proof.
   intros [d a p len m | ? ? ? | ?] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
-  eexists. split; [reflexivity |]. split; [| reflexivity].
+  eexists. split; [reflexivity |]. split; [| reflexivity]. cbn [nray].
   rewrite values_plus, values_scaled, values_unit, value_signed_root, leg_vector_eq,
     (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
 Qed.
@@ -509,7 +531,7 @@ Qed.
 Theorem refute_sound : forall c ls P f, refute c ls P f = true -> exists m P, is_about c m P /\ ~ meets c m P.
 Proof.
   intros c ls P f h. apply andb_true_iff in h as [a h]. exists (map leg_of ls), (values P).
-  split; [apply admits_sound, a |]. intros [reached [_ met]]. destruct f as [| i u v | i leg].
+  split; [apply admits_sound, a |]. intros [reached [inj met]]. destruct f as [| i u v | i leg |].
   - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
     apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
     rewrite Forall_forall in reached. apply reached, in_map, il.
@@ -517,6 +539,14 @@ Proof.
     rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
     apply (fails_sound c _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+  - destruct (are_dependent_sound _ _ h) as [v [lv [nz z]]]. destruct v as [| x [| y [| t [|]]]]; try discriminate lv.
+    assert (V : Vec x y t <> vzero) by (intro e; injection e as -> -> ->; unfold Linear.nonzero in nz; cbn in nz; lra).
+    specialize (inj _ V). enough (E : speed2 (map leg_of ls) (values P) (Vec x y t) = 0) by lra. clear - reached z.
+    induction ls as [| l ls IH]; [reflexivity |]. cbn [map] in *. inversion reached as [| ? ? r1 r2]. inversion z as [| ? ? z1 z2]. subst.
+    destruct (values_ray l P r1) as [k e]. specialize (IH r2 z2). unfold speed2 in *. cbn [fold_right]. rewrite IH, e.
+    cbn [Linear.dot map] in z1. unfold values, dot, vscale. cbn [vx vy vz]. cbv zeta in z1.
+    replace (k * value (nx (nray l P)) * x + k * value (ny (nray l P)) * y + k * value (nz (nray l P)) * t)
+      with (k * (value (nx (nray l P)) * x + (value (ny (nray l P)) * y + (value (nz (nray l P)) * t + 0)))) by ring. rewrite z1. ring.
 Qed.
 
 (** ** A claim that is about something *)

@@ -512,6 +512,45 @@ for (const text of [
 console.log(`tolerances: ${apart_tolerances.length} machines, with one answer at 20 bounds each`);
 for (const [text, low, high] of [...apart, ...accelerations, ...forces, ...accuracies, ...apart_tolerances])
   read.push(...[low, high].map((b) => text(String(b))).filter((text) => all(text)[0] !== "REJECTED"));
+// Machines that are singular at a pose, in fractions, and those that are only nearly so.
+const strut = (anchor, platform) => `{"drive":"strut","anchor":[${anchor}],"platform":[${platform}]}`;
+const quote = (...x) => x.map((x) => `"${x}"`).join(",");
+const singular = (mechanism, workspace, orientation, point, machine = []) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":{${mechanism}},` +
+  `"workspace":{"box":{"min":[${quote(...workspace[0])}],"max":[${quote(...workspace[1])}]}}${orientation ? `,"orientation":${orientation}` : ""},"require":[]}},` +
+  `"verdict":"refuted","proof":{"witness":{"precision":64,"point":[${quote(...point)}]${machine.length ? `,"machine":[${quote(...machine)}]` : ""},` +
+  `"fails":"dependent"}},"provenance":{"tool":"t","version":"1"}}\n`;
+const six = [["0.98481", "-0.17365"], ["0.98481", "0.17365"], ["-0.34202", "0.93969"], ["-0.64279", "0.76604"], ["-0.64279", "-0.76604"], ["-0.34202", "-0.93969"]];
+const hexapod = (platform, ...pose) => singular(`"spatial":{"legs":[${six.map(([x, y], i) => strut(quote(x, y, 0), platform(x, y, i)))}],"characteristic_length":"1/2"}`,
+  [["-0.2", "-0.2", "0.8"], ["0.2", "0.2", "1.2"]], '{"angle":"15"}', ...pose);
+const centre = [0, 0, 1, 0, 0, 0], aside_ = ["0.1", "-1/7", "1.05", "0.03", "1/30", "-0.1"];
+const half = (more) => (x, y, i) => quote(`${x}/2`, `${y}/2${i === 5 ? more : ""}`, 0);
+const ranged = (x, y, i) => i === 5 ? `"${x}/2",{"min":"-0.5","max":"-0.4"},"0"` : quote(`${x}/2`, `${y}/2`, 0);
+const flat = (joints, point) => singular(`"planar":{"legs":[${joints.map((b, i) => strut(quote(...[[1, 0], [-1, "0.1"], [0, 1]][i]), quote(...b)))}],"characteristic_length":"1/2"}`,
+  [["-0.1", "-0.1"], ["0.1", "0.1"]], '{"range":["-5","5"]}', point);
+const cube = [[-1, -1, 0], [1, 1, 2]];
+const about_axis = (z) => singular(`"translational":[${[[1, 0], [0, 1], [-1, 1]].map(([x, y]) => strut(quote(x, y, 1), quote(0, 0, 0)))}]`, cube, "", ["0.1", "0.2", z]);
+const guided = (x, y, at = 1) => singular(`"translational":[${[[x, 0], [`-${x}`, 0], [0, y]].map(([x, y]) =>
+  `{"drive":"slider","direction":${triple(0, 0, 2)},"anchor":${triple(x, y, 0)},"platform":${triple(0, 0, 0)},"length":"5","mode":"+"}`)}]`, cube, "", [0, 0, at]);
+const arms = (axis) => singular(`"translational":[${[0, 1, 2].map(() => `{"drive":"arm","axis":${axis},"reference":${triple(0, 0, 1)},"anchor":${triple(-1, 0, 0)},` +
+  `"platform":${triple(0, 0, 0)},"arm":"5","length":"5","mode":"+"}`)}]`, cube, "", [0, 0, 0]);
+const poses = [
+  [hexapod(half(""), centre), 1], [hexapod(half(""), aside_), 1], [hexapod(() => quote("0.3", "0.1", "-0.2"), aside_), 1],
+  [hexapod((x, y, i) => quote(`1/2-0.2*${i}`, 0, 0), aside_), 1], [hexapod(ranged, aside_, ["-0.469845"]), 1],
+  [flat([["0.3", "0.1"], ["0.3", "0.1"], ["0.3", "0.1"]], ["0.1", "0.05", "1/50"]), 1],
+  [about_axis("1"), 1], [guided(3, 0), 1],
+  [hexapod(half(`+1/1${"0".repeat(30)}`), aside_), 0], [hexapod(half("+sqrt(2)"), aside_), 0], [hexapod(() => quote("sqrt(2)/4", "0.1", 0), centre), 0],
+  [hexapod((x, y, i) => quote(`${y}/2`, `${x}/3`, i % 2 ? "0.1" : 0), aside_), 0], [hexapod(half(""), [0, 0, "1.21", 0, 0, 0]), 0], [hexapod(half(""), [0, 0, 1, "0.14", 0, 0]), 0],
+  [hexapod(half(""), centre.slice(1)), 0], [hexapod(half(""), [...centre, 0]), 0], [hexapod(half(""), centre, [0]), 0],
+  ...["-0.46984", "-0.51", "-0.3999"].map((x) => [hexapod(ranged, aside_, [x]), 0]), [hexapod(ranged, aside_), 0],
+  [flat([["0.3", "0.1"], ["0.3", "0.1"], ["0.1", "0.1"]], [0, 0, 0]), 0], [about_axis("1.001"), 0],
+  [guided(3, 4), 0], [guided("2.9", 0), 0], [guided(5, 0), 0], [guided(3, 0, 3), 0], [arms(triple(0, 1, 0)), 0],
+];
+for (const [text, right] of poses) {
+  const answers = all(text);
+  if (answers.some((answer) => answer !== (right ? "REFUTED" : "REJECTED"))) fail(`dependent: ${answers}: ${text}`);
+  if (right) read.push(text);
+}
+console.log(`singular at a pose: ${poses.length}, with one answer`);
 fs.rmSync(beside, { recursive: true });
 
 // Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.

@@ -364,6 +364,7 @@ let fails v =
   | "reach", _ -> Reach
   | "obligation", Array [ i; vs ] -> Obligation (count i, List.map integers (array vs))
   | "row", Array [ i; leg ] -> Row (count i, count leg)
+  | "dependent", Array [] -> Dependent_
   | name, _ -> not_covered [ "the failure \""; name; "\"" ]
 let node n v =
   let l = members v in

@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-hO="spatial",nn="Invalid_argument",fK="precision",at='"',hN=1255,nm="inside",mv="(",mw=0x800,nl="yaw",ms="range",mt="tree",mu="jsError",bF=0x8000,nk="sqrt(",mr=256,mq="obligation",ep="offset",a1="machine",mo="this quantity of such a mechanism in a claim that is refuted",mp="End_of_file",dx="strut",hM="center",eo="arm",hL="Failure",nj="serial_margin",fU="parameters",b3=0xff,h1="bodies",h0="outside",fT="base_axis",hK="ENOENT",ni=122,mn="([^/]+)",hZ="0",hJ=0xf,en=128,mm=0xdc00,ng="Sys_blocked_io",nh="fd ",hI="given",ml="ENOTEMPTY",aF=248,mk="such a machine with bodies",fJ="bound",mj="Division_by_zero",ne="by",nf=1027,mi="Sys_error",fS="slider",mh="torsion",nd="postulate",mg="proof",nc="joint_error",em="refuted",dt="mechanism",fI="row",mf="EEXIST",nb="roll_pitch_yaw",hY="y",me="cube",fH="lower",na="within",md="clearance",m$="turned",mc="control",fG="int_of_string",m_="definitions",el=1024,ma="from",mb="name",m9=" : flags Open_rdonly and Open_wronly are not compatible",l$="orthocert/2",m8="reach",l_=512,m7="witness",ek="-",aS="platform",l9=0x7ff0,l8="pitch",hX=": Not a directory",aZ="min",m5="trim",dw="workspace",m6=" : file already exists",fF="split",hW="legs",m4="claim",l7="joint",cS=0xffffff,l6="formulas",l5="roll",fE="atlas",m1='the workspace "',m2="nodes",m3="Out_of_memory",l4="psi_max",fR="orientation",fD=254,m0="angle",hV="index out of bounds",l3="end",mZ="one_to_one",fQ="_bigarr02",l2=" : flags Open_text and Open_binary are not compatible",bp="drive",l1="coordinates",mY="holds",l0="lower_divided",lZ="speed",mW="cylinder",mX="joints",b2=0xffff,mU="acceleration",ej="certified",hU="chords",mV=12520,hH="on",fC="accuracy",mT="axis",mS="no_cube",mR="parallel_margin",lY='the drive "',hG="Unix.Unix_error",fP="fails",fB="tool",hF="mkdir",mQ="rho",fO=1000,fA="translational",mP="tolerances",lX="Stack_overflow",hT="characteristic_length",O="",hS="^",hE="places",fz=": No such file or directory",lW="/static/",dv=0x3f,lU="stiffness",lV="Not_found",cR="planar",ei="mode",mO="joint_speed",mN="Match_failure",lT="transmission",ba="anchor",mM="at",lS="joint_force",du="leg",lR="joint_acceleration",fN="+",hD="rmdir",mL=0xf0,mK="spherical",lQ=1026,mI="REJECTED",mJ="undecided",a0="max",b1="direction",lO="leg_angle",lP="orthoglide",fM="rank",mH="constraint_margin",hC="test",lM="Pervasives.do_at_exit",lN="utf8",bo=0x80,fL="conditioning",ds="length",lL="Undefined_recursive_module",hR=")",lK="base",mG="quantity",lJ="joint_range",fy="tilt",lI="Q2",mF="reference",lH="point",mD="corner",mE=0xe0,lG="version",hQ="z",mB="to",mC=0xdfff,hB="compare: functional value",mA="Assert_failure",bq="/",mz="provenance",cQ="radius",fx="side",bG="require",my="format",lF="Q1",hP="ENOTDIR",lE="all",b0="box",mx=250;function
-ic(c,b,a){var
+h0="spatial",nH="Invalid_argument",fZ="precision",av='"',hZ=1255,nG="inside",mO="(",mP=0x800,nF="yaw",mL="range",mM="tree",mN="jsError",bI=0x8000,nE="sqrt(",mK=256,mJ="obligation",ev="offset",a4="machine",mH="this quantity of such a mechanism in a claim that is refuted",mI="End_of_file",dC="strut",hY="center",eu="arm",hX="Failure",nD="serial_margin",f9="parameters",b6=0xff,ib="bodies",ia="outside",f8="base_axis",hW="ENOENT",nC=122,mG="([^/]+)",h$="0",hV=0xf,et=128,mF=0xdc00,nA="Sys_blocked_io",nB="fd ",hU="given",mE="ENOTEMPTY",aI=248,mD="such a machine with bodies",fY="bound",mC="Division_by_zero",ny="by",nz=1027,mB="Sys_error",f7="slider",mA="torsion",nx="postulate",mz="proof",nw="joint_error",es="refuted",dy="mechanism",fX="row",my="EEXIST",nv="roll_pitch_yaw",h_="y",mx="cube",fW="lower",nu="within",mw="clearance",nt="turned",mv="control",fV="int_of_string",nr="definitions",ns="dependent",er=1024,mt="from",mu="name",nq=" : flags Open_rdonly and Open_wronly are not compatible",ms="orthocert/2",np="reach",mr=512,no="witness",eq="-",aT="platform",mq=0x7ff0,mp="pitch",h9=": Not a directory",a2="min",nm="trim",dB="workspace",nn=" : file already exists",fU="split",h8="legs",nl="claim",mo="joint",cX=0xffffff,mn="formulas",mm="roll",fT="atlas",ni='the workspace "',nj="nodes",nk="Out_of_memory",ml="psi_max",f6="orientation",fS=254,nh="angle",h7="index out of bounds",mk="end",ng="one_to_one",f5="_bigarr02",mj=" : flags Open_text and Open_binary are not compatible",bu="drive",mi="coordinates",nf="holds",mh="lower_divided",mg="speed",nd="cylinder",ne="joints",b5=0xffff,nb="acceleration",ep="certified",h6="chords",nc=12520,hT="on",fR="accuracy",na="axis",m$="no_cube",m_="parallel_margin",mf='the drive "',hS="Unix.Unix_error",f4="fails",fQ="tool",hR="mkdir",m9="rho",f3=1000,fP="translational",m8="tolerances",me="Stack_overflow",h5="characteristic_length",Q="",h4="^",hQ="places",fO=": No such file or directory",md="/static/",dA=0x3f,mb="stiffness",mc="Not_found",cW="planar",eo="mode",m7="joint_speed",m6="Match_failure",ma="transmission",bc="anchor",m5="at",l$="joint_force",dz="leg",l_="joint_acceleration",f2="+",hP="rmdir",m4=0xf0,m3="spherical",l9=1026,m1="REJECTED",m2="undecided",a3="max",b4="direction",l7="leg_angle",l8="orthoglide",f1="rank",m0="constraint_margin",hO="test",l5="Pervasives.do_at_exit",l6="utf8",bt=0x80,f0="conditioning",dx="length",l4="Undefined_recursive_module",h3=")",l3="base",mZ="quantity",l2="joint_range",fN="tilt",l1="Q2",mY="reference",l0="point",mW="corner",mX=0xe0,lZ="version",h2="z",mU="to",mV=0xdfff,hN="compare: functional value",mT="Assert_failure",bv="/",mS="provenance",cV="radius",fM="side",bJ="require",mR="format",lY="Q1",h1="ENOTDIR",lX="all",b3="box",mQ=250;function
+iq(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=O;for(;0<a;b+=el,a-=el)e+=d.apply(null,c.slice(b,b+Math.min(a,el)));return e}function
-fW(b){if(E.Uint8Array)var
+e=Q;for(;0<a;b+=er,a-=er)e+=d.apply(null,c.slice(b,b+Math.min(a,er)));return e}function
+f$(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ic(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?ic(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)fW(b);var
+ew(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)f$(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dA(a){return a}function
-dz(a,b,c,d,e){eq(dA(a),b,c,d,e);return 0}function
-h3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dF(a){return a}function
+dE(a,b,c,d,e){ew(dF(a),b,c,d,e);return 0}function
+id(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cT(c,a){if(c.fun)return cT(c.fun,a);if(typeof
+cY(c,a){if(c.fun)return cY(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cT(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cY(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cT(c,d)}}function
-nP(b,a){if(b==0)return O;if(a.repeat)return a.repeat(b);var
-d=O,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dB(a){if(a.t==2)a.c+=nP(a.l-a.c.length,"\0");else
-a.c=ic(a.c,0,a.c.length);a.t=0}function
-dC(a){a.t&6&&dB(a);return a.c}var
-BR=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-BQ(a){if(BR)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cY(c,d)}}function
+n9(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
+d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dG(a){if(a.t==2)a.c+=n9(a.l-a.c.length,"\0");else
+a.c=iq(a.c,0,a.c.length);a.t=0}function
+dH(a){a.t&6&&dG(a);return a.c}var
+Ch=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Cg(a){if(Ch)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-h6(c){var
+ih(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-nG=Math.pow(2,-24);function
-BH(a){throw a}var
+n0=Math.pow(2,-24);function
+B9(a){throw a}var
 ao=[0];function
-nM(){BH(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cS;this.mi=c&cS;this.hi=a&b2}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+n6(){B9(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*nG|0)+this.mi*a.lo+this.lo*a.mi,d=(c*nG|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*n0|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n0|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b2);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cS;this.lo=this.lo<<1&cS};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cS;this.mi=(this.mi>>>1|this.hi<<23)&cS;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cX;this.lo=this.lo<<1&cX};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cX;this.mi=(this.mi>>>1|this.hi<<23)&cX;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())nM();var
-d=b.hi^a.hi;if(b.hi&bF)b=b.neg();if(a.hi&bF)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bF)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())nM();var
-d=a.hi;if(a.hi&bF)a=a.neg();if(b.hi&bF)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bF)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b3,this.mi>>16,this.mi>>8&b3,this.mi&b3,this.lo>>16,this.lo>>8&b3,this.lo&b3]};D.prototype.lo32=function(){return this.lo|(this.mi&b3)<<24};D.prototype.hi32=function(){return this.mi>>>8&b2|this.hi<<16};function
-fY(b,c,a){return new
+b=this;if(a.isZero())n6();var
+d=b.hi^a.hi;if(b.hi&bI)b=b.neg();if(a.hi&bI)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bI)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())n6();var
+d=a.hi;if(a.hi&bI)a=a.neg();if(b.hi&bI)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bI)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
+gb(b,c,a){return new
 D(b,c,a)}function
-fX(a){if(!isFinite(a)){if(isNaN(a))return fY(1,0,l9);return a>0?fY(0,0,l9):fY(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bF:a>=0?0:bF;if(f)a=-a;var
-b=BQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-lQ)}else{a/=Math.pow(2,b-nf);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+ga(a){if(!isFinite(a)){if(isNaN(a))return gb(1,0,mq);return a>0?gb(0,0,mq):gb(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bI:a>=0?0:bI;if(f)a=-a;var
+b=Cg(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-l9)}else{a/=Math.pow(2,b-nz);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hJ|f|b<<4;return fY(g,e,c)}function
-et(a){return a.toArray()}function
-nu(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==fQ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b2)c.write(16,b.dims[a]);else{c.write(16,b2);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hV|f|b<<4;return gb(g,e,c)}function
+ez(a){return a.toArray()}function
+nO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f5)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=et(b.get(a));for(var
+e=ez(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=et(fX(b.get(a)));for(var
+e=ez(ga(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=h6(b.get(a));c.write(32,e)}break;case
+e=ih(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,h6(d[1]));c.write(32,h6(d[2]))}break;case
+d=b.get(a);c.write(32,ih(d[1]));c.write(32,ih(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=et(fX(f[1]));for(var
+f=b.get(a),e=ez(ga(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=et(fX(f[2]));for(var
+e=ez(ga(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-BJ(b,a){throw[0,b,a]}function
-nU(a){if(a.length<24){for(var
+B$(b,a){throw[0,b,a]}function
+oc(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-id(e){for(var
-j=O,c=O,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bo){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bo;d++);if(d-b>l_){c.substr(0,1);j+=c;c=O;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==en){g=h+(f<<6);if(f<mE){a=g-0x3080;if(a<bo)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==en){g=h+(g<<6);if(f<mL){a=g-0xe2080;if(a<mw||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==en&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b2)c+=String.fromCharCode(0xd7c0+(a>>10),mm+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>el){c.substr(0,1);j+=c;c=O}}return j+c}function
-bH(c,a,b){this.t=c;this.c=a;this.l=b}bH.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dB(this);case
-0:if(nU(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bH.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return id(a)};bH.prototype.slice=function(){var
+ir(e){for(var
+j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bt){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bt;d++);if(d-b>mr){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(f<<6);if(f<mX){a=g-0x3080;if(a<bt)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(g<<6);if(f<m4){a=g-0xe2080;if(a<mP||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==et&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mF+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>er){c.substr(0,1);j+=c;c=Q}}return j+c}function
+bK(c,a,b){this.t=c;this.c=a;this.l=b}bK.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dG(this);case
+0:if(oc(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bK.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return ir(a)};bK.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bH(this.t,a,this.l)};function
-nx(a){return new
-bH(0,a,a.length)}function
-a(a){return nx(a)}function
-ib(c,b){BJ(c,a(b))}function
-az(a){ib(ao.Invalid_argument,a)}function
-ns(a){switch(a){case
+bK(this.t,a,this.l)};function
+nR(a){return new
+bK(0,a,a.length)}function
+a(a){return nR(a)}function
+ip(c,b){B$(c,a(b))}function
+az(a){ip(ao.Invalid_argument,a)}function
+nM(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Bb(c,e){var
+BD(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
 d=new
-a(e*ns(c));return d}function
-h7(c){var
+a(e*nM(c));return d}function
+ii(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-es(a){return new
+ey(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-h8(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hJ)==0?b&bF?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hJ);if(c>0){a+=16;a*=Math.pow(2,c-nf)}else
-a*=Math.pow(2,-lQ);if(b&bF)a=-a;return a}function
-h2(b){var
+ij(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hV)==0?b&bI?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hV);if(c>0){a+=16;a*=Math.pow(2,c-nz)}else
+a*=Math.pow(2,-l9);if(b&bI)a=-a;return a}function
+ic(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Br(b,a){return new
-D(b&cS,b>>>24&b3|(a&b2)<<8,a>>>16&b2)}function
-h9(a){return a.hi32()}function
-h_(a){return a.lo32()}function
-fV(){az(hV)}var
-Bc=fQ;function
-cp(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cp.prototype.caml_custom=Bc;cp.prototype.offset=function(b){var
+BT(b,a){return new
+D(b&cX,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
+ik(a){return a.hi32()}function
+il(a){return a.lo32()}function
+f_(){az(h7)}var
+BE=f5;function
+cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=BE;cs.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])fV();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])f_();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])fV();c=c*this.dims[a]+(b[a]-1)}return c};cp.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])f_();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Br(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return BT(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fD,e,c];default:return this.data[a]}};cp.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=h_(b);this.data[a*2+1]=h9(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fS,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=il(b);this.data[a*2+1]=ik(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cp.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=h_(b),e=h9(b);if(c==e)this.data.fill(c);else
+c=il(b),e=ik(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cp.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cs.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dy(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dy.prototype=new
-cp();dy.prototype.offset=function(a){if(typeof
+dD(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dD.prototype=new
+cs();dD.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])fV();return a};dy.prototype.get=function(a){return this.data[a]};dy.prototype.set=function(a,b){this.data[a]=b;return 0};dy.prototype.fill=function(a){this.data.fill(a);return 0};function
-nq(c,d,a,b){var
-e=ns(c);if(h2(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dy(c,d,a,b);return new
-cp(c,d,a,b)}function
-br(b){if(!ao.Failure)ao.Failure=[aF,a(hL),-3];ib(ao.Failure,b)}function
-nr(b,v,r){var
-i=b.read32s();if(i<0||i>16)br("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b3,o=p>>8&1,h=[];if(r==fQ)for(var
+az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])f_();return a};dD.prototype.get=function(a){return this.data[a]};dD.prototype.set=function(a,b){this.data[a]=b;return 0};dD.prototype.fill=function(a){this.data.fill(a);return 0};function
+nK(c,d,a,b){var
+e=nM(c);if(ic(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dD(c,d,a,b);return new
+cs(c,d,a,b)}function
+bw(b){if(!ao.Failure)ao.Failure=[aI,a(hX),-3];ip(ao.Failure,b)}function
+nL(b,v,r){var
+i=b.read32s();if(i<0||i>16)bw("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f5)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b2){var
-t=b.read32u(),u=b.read32u();if(t!=0)br("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b5){var
+t=b.read32u(),u=b.read32u();if(t!=0)bw("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=h2(h),f=Bb(j,d),g=nq(j,o,h,f);switch(j){case
+d=ic(h),f=BD(j,d),g=nK(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)br("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bw("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=es(e);g.set(a,q)}break;case
+q=ey(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=h8(es(e));g.set(a,k)}break;case
+k=ij(ey(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=h7(b.read32s());g.set(a,k)}break;case
+k=ii(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=h7(b.read32s()),l=h7(b.read32s());g.set(a,[fD,m,l])}break;case
+m=ii(b.read32s()),l=ii(b.read32s());g.set(a,[fS,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=h8(es(e));for(var
+m=ij(ey(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=h8(es(e));g.set(a,[fD,m,l])}break}v[0]=(4+i)*4;return nq(j,o,h,f)}function
-np(a,b,c){return a.compare(b,c)}function
-nJ(a,b){return Math.imul(a,b)}function
-b4(b,a){a=nJ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=nJ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Bo(a,b){a=b4(a,h_(b));a=b4(a,h9(b));return a}function
-nF(a,b){return Bo(a,fX(b))}function
-nt(c){var
-b=h2(c.dims),d=0;switch(c.kind){case
+l=ij(ey(e));g.set(a,[fS,m,l])}break}v[0]=(4+i)*4;return nK(j,o,h,f)}function
+nJ(a,b,c){return a.compare(b,c)}function
+n3(a,b){return Math.imul(a,b)}function
+b7(b,a){a=n3(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=n3(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+BQ(a,b){a=b7(a,il(b));a=b7(a,ik(b));return a}function
+nZ(a,b){return BQ(a,ga(b))}function
+nN(c){var
+b=ic(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mr)b=mr;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b4(d,e)}e=0;switch(b&3){case
+12:if(b>mK)b=mK;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b4(d,e)}break;case
+1:e|=c.data[a+0];d=b7(d,e)}break;case
 4:case
-5:if(b>en)b=en;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b4(d,e)}if((b&1)!=0)d=b4(d,c.data[a]);break;case
+5:if(b>et)b=et;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b4(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b4(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b4(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=nF(d,c.data[a]);break;case
+a=0;a<b;a++)d=nZ(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=nF(d,c.data[a]);break}return d}function
-Bp(a,b){b[0]=4;return a.read32s()}function
-BE(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=nZ(d,c.data[a]);break}return d}function
+BR(a,b){b[0]=4;return a.read32s()}function
+B6(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:br("input_value: native integer value too large");default:br("input_value: ill-formed native integer")}}function
-Bu(c,d){var
+2:bw("input_value: native integer value too large");default:bw("input_value: ill-formed native integer")}}function
+BW(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return es(b)}function
-Bt(e,d,b){var
-c=et(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ey(b)}function
+BV(e,d,b){var
+c=ez(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Bq(a,b,c){return a.compare(b)}function
-Bs(a){return a.lo32()^a.hi32()}var
-nA={"_j":{deserialize:Bu,serialize:Bt,fixed_length:8,compare:Bq,hash:Bs},"_i":{deserialize:Bp,fixed_length:4},"_n":{deserialize:BE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nr(a,b,"_bigarray")},serialize:nu,compare:np,hash:nt},"_bigarr02":{deserialize:function(a,b){return nr(a,b,fQ)},serialize:nu,compare:np,hash:nt}};function
-h5(a){return nA[a.caml_custom]&&nA[a.caml_custom].compare}function
-ny(f,c,d,e){var
-b=h5(c);if(b){var
+BS(a,b,c){return a.compare(b)}function
+BU(a){return a.lo32()^a.hi32()}var
+nU={"_j":{deserialize:BW,serialize:BV,fixed_length:8,compare:BS,hash:BU},"_i":{deserialize:BR,fixed_length:4},"_n":{deserialize:B6,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nL(a,b,"_bigarray")},serialize:nO,compare:nJ,hash:nN},"_bigarr02":{deserialize:function(a,b){return nL(a,b,f5)},serialize:nO,compare:nJ,hash:nN}};function
+ig(a){return nU[a.caml_custom]&&nU[a.caml_custom].compare}function
+nS(f,c,d,e){var
+b=ig(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-ia(a){return a
+io(a){return a
 instanceof
-bH}function
-nH(a){return ia(a)}function
-nz(a){if(typeof
-a==="number")return fO;else
-if(ia(a))return 252;else
-if(nH(a))return 1252;else
+bK}function
+n1(a){return io(a)}function
+nT(a){if(typeof
+a==="number")return f3;else
+if(io(a))return 252;else
+if(n1(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fD?0:b}else
+b=a[0]|0;return b==fS?0:b}else
 if(a
 instanceof
-String)return mV;else
+String)return nc;else
 if(typeof
-a=="string")return mV;else
+a=="string")return nc;else
 if(a
 instanceof
-Number)return fO;else
-if(a&&a.caml_custom)return hN;else
+Number)return f3;else
+if(a&&a.caml_custom)return hZ;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Bv(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-nw(a,b){a.t&6&&dB(a);b.t&6&&dB(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-nQ(a,b){return nw(a,b)}function
-h4(a,b,d){var
+BX(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+nQ(a,b){a.t&6&&dG(a);b.t&6&&dG(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+n_(a,b){return nQ(a,b)}function
+ie(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nz(a);if(f==mx){a=a[1];continue}var
-g=nz(b);if(g==mx){b=b[1];continue}if(f!==g){if(f==fO){if(g==hN)return ny(a,b,-1,d);return-1}if(g==fO){if(f==hN)return ny(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:az(hB);break;case
+f=nT(a);if(f==mQ){a=a[1];continue}var
+g=nT(b);if(g==mQ){b=b[1];continue}if(f!==g){if(f==f3){if(g==hZ)return nS(a,b,-1,d);return-1}if(g==f3){if(f==hZ)return nS(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:az(hN);break;case
 248:var
-c=Bv(a[2],b[2]);if(c!=0)return c|0;break;case
-249:az(hB);break;case
+c=BX(a[2],b[2]);if(c!=0)return c|0;break;case
+249:az(hN);break;case
 250:az("equal: got Forward_tag, should not happen");break;case
 251:az("equal: abstract value");break;case
 252:if(a!==b){var
-c=nw(a,b);if(c!=0)return c|0}break;case
+c=nQ(a,b);if(c!=0)return c|0}break;case
 253:az("equal: got Double_tag, should not happen");break;case
 254:az("equal: got Double_array_tag, should not happen");break;case
 255:az("equal: got Custom_tag, should not happen");break;case
-1247:az(hB);break;case
+1247:az(hN);break;case
 1255:var
-i=h5(a);if(i!=h5(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
+i=ig(a);if(i!=ig(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,150 +399,150 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dC(a),b=dC(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dH(a),b=dH(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Bj(a,b){return h4(a,b,true)}function
-bJ(a){if(a<0)az("Bytes.create");return new
-bH(a?2:9,O,a)}function
-nB(a,b){return+(h4(a,b,false)==0)}function
-Bl(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=O;a.t=2}else{a.c=nP(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)fW(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-BF=0;function
-nD(){return BF++}function
-Bx(a){return a.toUtf16()}function
-eu(){return typeof
+BL(a,b){return ie(a,b,true)}function
+bM(a){if(a<0)az("Bytes.create");return new
+bK(a?2:9,Q,a)}function
+nV(a,b){return+(ie(a,b,false)==0)}function
+BN(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=n9(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)f$(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+B7=0;function
+nX(){return B7++}function
+BZ(a){return a.toUtf16()}function
+eA(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-BS(){function
-a(a){if(a.charAt(0)===bq)return[O,a.substring(1)];return}function
+Ci(){function
+a(a){if(a.charAt(0)===bv)return[Q,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||O,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||O,f=a[2]||O;return[d,c.substring(d.length+f.length)]}return}return eu()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-ii=BS();function
-nR(a){return a.slice(-1)!==bq?a+bq:a}if(eu()&&E.process&&E.process.cwd)var
-er=E.process.cwd().replace(/\\/g,bq);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eA()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iv=Ci();function
+n$(a){return a.slice(-1)!==bv?a+bv:a}if(eA()&&E.process&&E.process.cwd)var
+ex=E.process.cwd().replace(/\\/g,bv);else
 var
-er="/static";er=nR(er);function
-Bz(a){a=Bx(a);if(!ii(a))a=er+a;var
-e=ii(a),d=e[1].split(bq),b=[];for(var
+ex="/static";ex=n$(ex);function
+B1(a){a=BZ(a);if(!iv(a))a=ex+a;var
+e=iv(a),d=e[1].split(bv),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-BN(e){for(var
-f=O,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bo){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bo;d++);if(d-c>l_){b.substr(0,1);f+=b;b=O;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mw){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bo|a&dv)}else
-if(a<0xd800||a>=mC)b+=String.fromCharCode(mE|a>>12,bo|a>>6&dv,bo|a&dv);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mm||h>mC)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(mL|a>>18,bo|a>>12&dv,bo|a>>6&dv,bo|a&dv)}if(b.length>el){b.substr(0,1);f+=b;b=O}}return f+b}function
-Bg(a){var
-b=9;if(!nU(a))b=8,a=BN(a);return new
-bH(b,a,a.length)}function
-dD(a){return Bg(a)}var
-BV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hK,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",hP,ml,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cX(d,f,e,a){var
-b=BV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dD(f||O),dD(e||O)];return c}var
-nK={};function
-cU(a){return nK[a]}function
-cV(b,a){throw[0,b].concat(a)}function
-Bf(a){return new
-bH(4,a,a.length)}function
-ab(a){ib(ao.Sys_error,a)}function
-BI(a){ab(a+fz)}function
-nv(){az(hV)}function
-Be(b,a){if(a>>>0>=b.l)nv();return h3(b,a)}function
-fZ(a){return a.l}function
-no(){}function
+Cd(e){for(var
+f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bt){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bt;d++);if(d-c>mr){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mP){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bt|a&dA)}else
+if(a<0xd800||a>=mV)b+=String.fromCharCode(mX|a>>12,bt|a>>6&dA,bt|a&dA);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mF||h>mV)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(m4|a>>18,bt|a>>12&dA,bt|a>>6&dA,bt|a&dA)}if(b.length>er){b.substr(0,1);f+=b;b=Q}}return f+b}function
+BI(a){var
+b=9;if(!oc(a))b=8,a=Cd(a);return new
+bK(b,a,a.length)}function
+dI(a){return BI(a)}var
+Cl=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",my,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hW,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h1,mE,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c2(d,f,e,a){var
+b=Cl.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dI(f||Q),dI(e||Q)];return c}var
+n4={};function
+cZ(a){return n4[a]}function
+c0(b,a){throw[0,b].concat(a)}function
+BH(a){return new
+bK(4,a,a.length)}function
+ac(a){ip(ao.Sys_error,a)}function
+B_(a){ac(a+fO)}function
+nP(){az(h7)}function
+BG(b,a){if(a>>>0>=b.l)nP();return id(b,a)}function
+gc(a){return a.l}function
+nI(){}function
 ax(a){this.data=a}ax.prototype=new
-no();ax.prototype.truncate=function(a){var
-b=this.data;this.data=bJ(a|0);eq(b,0,this.data,0,a)};ax.prototype.length=function(){return fZ(this.data)};ax.prototype.write=function(b,d,g,a){var
+nI();ax.prototype.truncate=function(a){var
+b=this.data;this.data=bM(a|0);ew(b,0,this.data,0,a)};ax.prototype.length=function(){return gc(this.data)};ax.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bJ(b+a),f=this.data;this.data=e;eq(f,0,this.data,0,c)}dz(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
-e=this.length();eq(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Be(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
-aM(b,a){this.content={};this.root=b;this.lookupFun=a}aM.prototype.nm=function(a){return this.root+a};aM.prototype.create_dir_if_needed=function(d){var
-c=d.split(bq),b=O;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bq;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aM.prototype.slash=function(a){return/\/$/.test(a)?a:a+bq};aM.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bM(b+a),f=this.data;this.data=e;ew(f,0,this.data,0,c)}dE(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
+e=this.length();ew(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return BG(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
+aN(b,a){this.content={};this.root=b;this.lookupFun=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.create_dir_if_needed=function(d){var
+c=d.split(bv),b=Q;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bv;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aN.prototype.slash=function(a){return/\/$/.test(a)?a:a+bv};aN.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ax(dA(c[1]))}}};aM.prototype.exists=function(a){if(a==O)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aM.prototype.mkdir=function(c,e,d){var
-b=d&&cU(hG);if(this.exists(c))if(b)cV(b,cX(mf,hF,this.nm(c)));else
-ab(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||O;if(!this.exists(a))if(b)cV(b,cX(hK,hF,this.nm(a)));else
-ab(a+fz);if(!this.is_dir(a))if(b)cV(b,cX(hP,hF,this.nm(a)));else
-ab(a+hX);this.create_dir_if_needed(this.slash(c))};aM.prototype.rmdir=function(a,f){var
-b=f&&cU(hG),c=a==O?O:this.slash(a),e=new
-RegExp(hS+c+mn);if(!this.exists(a))if(b)cV(b,cX(hK,hD,this.nm(a)));else
-ab(a+fz);if(!this.is_dir(a))if(b)cV(b,cX(hP,hD,this.nm(a)));else
-ab(a+hX);for(var
+ax(dF(c[1]))}}};aN.prototype.exists=function(a){if(a==Q)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aN.prototype.mkdir=function(c,e,d){var
+b=d&&cZ(hS);if(this.exists(c))if(b)c0(b,c2(my,hR,this.nm(c)));else
+ac(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c0(b,c2(hW,hR,this.nm(a)));else
+ac(a+fO);if(!this.is_dir(a))if(b)c0(b,c2(h1,hR,this.nm(a)));else
+ac(a+h9);this.create_dir_if_needed(this.slash(c))};aN.prototype.rmdir=function(a,f){var
+b=f&&cZ(hS),c=a==Q?Q:this.slash(a),e=new
+RegExp(h4+c+mG);if(!this.exists(a))if(b)c0(b,c2(hW,hP,this.nm(a)));else
+ac(a+fO);if(!this.is_dir(a))if(b)c0(b,c2(h1,hP,this.nm(a)));else
+ac(a+h9);for(var
 d
 in
-this.content)if(d.match(e))if(b)cV(b,cX(ml,hD,this.nm(a)));else
-ab(this.nm(a)+": Directory not empty");delete
-this.content[c]};aM.prototype.readdir=function(a){var
-f=a==O?O:this.slash(a);if(!this.exists(a))ab(a+fz);if(!this.is_dir(a))ab(a+hX);var
+this.content)if(d.match(e))if(b)c0(b,c2(mE,hP,this.nm(a)));else
+ac(this.nm(a)+": Directory not empty");delete
+this.content[c]};aN.prototype.readdir=function(a){var
+f=a==Q?Q:this.slash(a);if(!this.exists(a))ac(a+fO);if(!this.is_dir(a))ac(a+h9);var
 g=new
-RegExp(hS+f+mn),d={},c=[];for(var
+RegExp(h4+f+mG),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aM.prototype.is_dir=function(a){if(a==O)return true;var
-b=this.slash(a);return this.content[b]?1:0};aM.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aN.prototype.is_dir=function(a){if(a==Q)return true;var
+b=this.slash(a);return this.content[b]?1:0};aN.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aM.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ab(this.nm(a)+m9);if(b.text&&b.binary)ab(this.nm(a)+l2);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ab(this.nm(a)+" : is a directory");if(b.create&&b.excl)ab(this.nm(a)+m6);var
+this.content[a];return b};aN.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nq);if(b.text&&b.binary)ac(this.nm(a)+mj);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+nn);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ax(bJ(0));return this.content[a]}else
-BI(this.nm(a))};aM.prototype.register=function(c,a){var
-b;if(this.content[c])ab(this.nm(c)+m6);if(ia(a))b=new
-ax(a);if(nH(a))b=new
-ax(dA(a));else
+ax(bM(0));return this.content[a]}else
+B_(this.nm(a))};aN.prototype.register=function(c,a){var
+b;if(this.content[c])ac(this.nm(c)+nn);if(io(a))b=new
+ax(a);if(n1(a))b=new
+ax(dF(a));else
 if(a
 instanceof
 Array)b=new
-ax(Bf(a));else
+ax(BH(a));else
 if(typeof
 a==="string")b=new
-ax(nx(a));else
+ax(nR(a));else
 if(a.toString){var
-d=dA(dD(a.toString()));b=new
+d=dF(dI(a.toString()));b=new
 ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ab(this.nm(c)+" : registering file with invalid content type")};aM.prototype.constructor=aM;function
-ak(a){return fZ(a)}function
-cW(b,a){return h3(b,a)}function
-Ba(d){var
-c=ak(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=cW(d,a);return b}function
-A$(a){if(a.t!=4)fW(a);return a.c}function
-Bi(a,c,b){b&=b3;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}fW(a)}a.c[c]=b;return 0}function
-Bh(b,a,c){if(a>>>0>=b.l)nv();return Bi(b,a,c)}function
-bI(a){this.fs=require("fs");this.fd=a}bI.prototype=new
-no();bI.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ab(a.toString())}};bI.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ab(a.toString())}};bI.prototype.write=function(f,b,c,e){var
-a=Ba(b);if(!(a
+ac(this.nm(c)+" : registering file with invalid content type")};aN.prototype.constructor=aN;function
+al(a){return gc(a)}function
+c1(b,a){return id(b,a)}function
+BC(d){var
+c=al(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=c1(d,a);return b}function
+BB(a){if(a.t!=4)f$(a);return a.c}function
+BK(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}f$(a)}a.c[c]=b;return 0}function
+BJ(b,a,c){if(a>>>0>=b.l)nP();return BK(b,a,c)}function
+bL(a){this.fs=require("fs");this.fd=a}bL.prototype=new
+nI();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bL.prototype.write=function(f,b,c,e){var
+a=BC(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ab(a.toString())}return 0};bI.prototype.read=function(g,d,c,f){var
-a=A$(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ac(a.toString())}return 0};bL.prototype.read=function(g,d,c,f){var
+a=BB(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ab(a.toString())}for(var
-b=0;b<f;b++)Bh(d,c+b,e[c+b]);return 0};bI.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ab(a.toString())}return a[0]};bI.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ab(a.toString())}};bI.prototype.constructor=bI;function
-ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ab(a.toString())}};ay.prototype.unlink=function(a,c){try{var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ac(a.toString())}for(var
+b=0;b<f;b++)BJ(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ac(a.toString())}return a[0]};bL.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ac(a.toString())}};bL.prototype.constructor=bL;function
+ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ac(a.toString())}};ay.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bI(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
+bL(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),lN);return dD(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
-b=cU(hG);if(d&&b){var
-c=cX(a.code,a.syscall,a.path,a.errno);cV(b,c)}else
-ab(a.toString())};ay.prototype.stats_from_js=function(a){var
+a=this.fs.readlinkSync(this.nm(b),l6);return dI(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
+b=cZ(hS);if(d&&b){var
+c=c2(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
+ac(a.toString())};ay.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -550,31 +550,31 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
-nE(b){var
-a=ii(b);if(!a)return;return a[0]+bq}var
-f0=nE(er)||br("unable to compute caml_root"),dE=[];if(eu())dE.push({path:f0,device:new
-ay(f0)});else
-dE.push({path:f0,device:new
-aM(f0)});dE.push({path:lW,device:new
-aM(lW)});function
 nY(b){var
-g=Bz(b),b=g.join(bq),f=nR(b),c;for(var
-e=0;e<dE.length;e++){var
-a=dE[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eu()){var
-d=nE(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=iv(b);if(!a)return;return a[0]+bv}var
+gd=nY(ex)||bw("unable to compute caml_root"),dJ=[];if(eA())dJ.push({path:gd,device:new
+ay(gd)});else
+dJ.push({path:gd,device:new
+aN(gd)});dJ.push({path:md,device:new
+aN(md)});function
+og(b){var
+g=B1(b),b=g.join(bv),f=n$(b),c;for(var
+e=0;e<dJ.length;e++){var
+a=dJ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eA()){var
+d=nY(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-ay(d)};dE.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ab("no device found for "+f)}function
-Bk(c,b){var
-a=nY(c);if(!a.device.register)br("cannot register file");a.device.register(a.rest,b);return 0}function
-nT(c,b){var
-c=a(c),b=a(b);return Bk(c,b)}function
-Bn(){var
+ay(d)};dJ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
+BM(c,b){var
+a=og(c);if(!a.device.register)bw("cannot register file");a.device.register(a.rest,b);return 0}function
+ob(c,b){var
+c=a(c),b=a(b);return BM(c,b)}function
+BP(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)nT(b[a].name,b[a].content);E.jsoo_create_file=nT;E.caml_fs_tmp=[];return 0}function
-BG(c){var
-a=0,e=ak(c),b=10,d=1;if(e>0)switch(cW(c,a)){case
+a=0;a<b.length;a++)ob(b[a].name,b[a].content);E.jsoo_create_file=ob;E.caml_fs_tmp=[];return 0}function
+B8(c){var
+a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&cW(c,a)==48)switch(cW(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&c1(c,a)==48)switch(c1(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ak(c),b=10,d=1;if(e>0)switch(cW(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-nL(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ni)return a-87;return-1}function
-h$(f){var
-h=BG(f),c=h[0],i=h[1],d=h[2],g=ak(f),j=-1>>>0,e=c<g?cW(f,c):0,b=nL(e);if(b<0||b>=d)br(fG);var
-a=b;for(c++;c<g;c++){e=cW(f,c);if(e==95)continue;b=nL(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)br(fG)}if(c!=g)br(fG);a=i*a;if(d==10&&(a|0)!=a)br(fG);return a|0}function
-By(a,b){return+(h4(a,b,false)<=0)}function
-BA(a,d){if(a<0)fV();var
+n5(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nC)return a-87;return-1}function
+im(f){var
+h=B8(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=n5(e);if(b<0||b>=d)bw(fV);var
+a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=n5(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bw(fV)}if(c!=g)bw(fV);a=i*a;if(d==10&&(a|0)!=a)bw(fV);return a|0}function
+B0(a,b){return+(ie(a,b,false)<=0)}function
+B2(a,d){if(a<0)f_();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b5=new
+b8=new
 Array();function
-BB(c){var
-a=b5[c];if(!a.opened)ab("Cannot flush a closed channel");if(!a.buffer||a.buffer==O)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+B3(c){var
+a=b8[c];if(!a.opened)ac("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=O;return 0}function
-nO(e,f){var
-b=b5[e],d=a(f),c=ak(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-BO(a){var
-a=id(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
+n8(e,f){var
+b=b8[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Ce(a){var
+a=ir(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-BP(a){var
-a=id(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Cf(a){var
+a=ir(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-f2(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gf(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-BW(c,b,g){var
+Cm(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,157 +619,157 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ab(dC(c)+m9);if(a.text&&a.binary)ab(dC(c)+l2);var
-d=nY(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return f2(f+1,nO,e,a)}f2(0,nO,new
-ax(bJ(0)));f2(1,BP,new
-ax(bJ(0)));f2(2,BO,new
-ax(bJ(0)));function
-BC(a){var
-c=ao.fds[a];if(c.flags.wronly)ab(nh+a+" is writeonly");var
-d=null;if(a==0&&eu()){var
-e=require("fs");d=function(){return dD(e.readFileSync(0,lN))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b5[b.fd]=b;return b.fd}function
-nI(c){var
-b=ao.fds[c];if(b.flags.rdonly)ab(nh+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:O};b5[a.fd]=a;return a.fd}function
-BD(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dH(c)+nq);if(a.text&&a.binary)ac(dH(c)+mj);var
+d=og(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gf(f+1,n8,e,a)}gf(0,n8,new
+ax(bM(0)));gf(1,Cf,new
+ax(bM(0)));gf(2,Ce,new
+ax(bM(0)));function
+B4(a){var
+c=ao.fds[a];if(c.flags.wronly)ac(nB+a+" is writeonly");var
+d=null;if(a==0&&eA()){var
+e=require("fs");d=function(){return dI(e.readFileSync(0,l6))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
+n2(c){var
+b=ao.fds[c];if(b.flags.rdonly)ac(nB+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
+B5(){var
 b=0;for(var
-a=0;a<b5.length;a++)if(b5[a]&&b5[a].opened&&b5[a].out)b=[0,b5[a].fd,b];return b}function
-bb(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-BK(a,b){nK[dC(a)]=b;return 0}function
-Bd(a,b){if(a===b)return 1;a.t&6&&dB(a);b.t&6&&dB(b);return a.c==b.c?1:0}function
-al(a,b){return Bd(a,b)}function
-BM(){az(hV)}function
-aG(b,a){if(a>>>0>=ak(b))BM();return cW(b,a)}function
-m(a,b){return 1-al(a,b)}function
-f1(a){return a}function
-nN(a){return a}function
-nS(a){if(a
+a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
+bd(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
+Ca(a,b){n4[dH(a)]=b;return 0}function
+BF(a,b){if(a===b)return 1;a.t&6&&dG(a);b.t&6&&dG(b);return a.c==b.c?1:0}function
+am(a,b){return BF(a,b)}function
+Cc(){az(h7)}function
+aJ(b,a){if(a>>>0>=al(b))Cc();return c1(b,a)}function
+m(a,b){return 1-am(a,b)}function
+ge(a){return a}function
+n7(a){return a}function
+oa(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return nN(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return n7(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return nN(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return n7(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cU(mu))return[0,cU(mu),a];return[0,ao.Failure,dD(String(a))]}function
-f3(a){return a<0?-a:a}function
-y(a,b){return a+b}function
-ie(a,b){return a<b?-1:a>b?1:0}function
-nV(c,b){var
-a=c%b;return a<0?a+f3(b):a}function
-ig(a,b){return(a-nV(a,b))/b}function
-ac(a,b){return a==b?1:0}function
-BT(c){E.orthocert_verify=function(b){return dC(cT(c,[a(b)]))}}function
-L(a,b){return a<=b?1:0}function
+E.Error&&cZ(mN))return[0,cZ(mN),a];return[0,ao.Failure,dI(String(a))]}function
+c3(a){return a<0?-a:a}function
+x(a,b){return a+b}function
+is(a,b){return a<b?-1:a>b?1:0}function
+od(c,b){var
+a=c%b;return a<0?a+c3(b):a}function
+it(a,b){return(a-od(a,b))/b}function
+Y(a,b){return a==b?1:0}function
+Cj(c){E.orthocert_verify=function(b){return dH(cY(c,[a(b)]))}}function
+H(a,b){return a<=b?1:0}function
 Z(a,b){return a<b?1:0}function
-u(a,b){return a*b}function
-X(a){return-a}function
-a2(a){return E.BigInt(a)}function
-nW(a,b){return a<<E.BigInt(b)}function
-nX(a,b){return a>>E.BigInt(b)}function
-bK(a){return a<0?-1:a>0?1:0}function
-BU(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+v(a,b){return a*b}function
+L(a){return-a}function
+aD(a){return E.BigInt(a)}function
+oe(a,b){return a<<E.BigInt(b)}function
+of(a,b){return a>>E.BigInt(b)}function
+a5(a){return a<0?-1:a>0?1:0}function
+Ck(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aH(a,b){return a-b}function
-ih(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-Bw(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Bm(b){var
-a=O;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Bw(b[1]))var
+aE(a,b){return a-b}function
+iu(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+BY(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+BO(b){var
+a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&BY(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mv;for(var
+f=2,e=b;a+=mO;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bH)a+=at+c.toString()+at;else
+bK)a+=av+c.toString()+av;else
 if(typeof
-c=="string")a+=at+c.toString()+at;else
-a+="_"}a+=hR}else
-if(b[0]==aF)a+=b[1];return a}function
-nC(a){if(a
+c=="string")a+=av+c.toString()+av;else
+a+="_"}a+=h3}else
+if(b[0]==aI)a+=b[1];return a}function
+nW(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aF)){var
-c=cU("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Bm(a),b=cU(lM);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aI)){var
+c=cZ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=BO(a),b=cZ(l5);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-BL(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nC(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nC(a.error)})}BL();function
-k(a,b){return a.length==1?a(b):cT(a,[b])}function
-as(a,b,c){return a.length==2?a(b,c):cT(a,[b,c])}function
-A_(a,b,c,d){return a.length==3?a(b,c,d):cT(a,[b,c,d])}Bn();var
-ik=[aF,a(mi),-2],ij=[aF,a(nn),-4],z5=[0,[0,0]],z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z5]]]]]]]]]]],z7=[0,0],z8=[0,0],z9=[0,[0,[0,[0,0]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z9]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z_]]]]]]]]]]],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z$]]]]]]]]]]],Ab=[0,[0,0]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ab]]]]]]]]]]],Ad=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ac]]]]]]]]]]],Ae=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ad]]]]]]]]]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ae]]]]]]]]]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ah=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ag]]]]]]]]]]],Ai=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ah]]]]]]]]]]],Aj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ai]]]]]]]]]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aj]]]]]]]]]]],Al=[0,[0,0]],Am=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Al]]]]]]]]]]],An=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Am]]]]]]]]]]],Ao=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,An]]]]]]]]]]],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ao]]]]]]]]]]],Aq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ap]]]]]]]]]]],Ar=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aq]]]]]]]]]]],As=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ar]]]]]]]]]]],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Au=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,At]]]]]]]]]]],Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Au]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,0],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,0]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,0],A2=[0,[0,0]],A3=[0,0],A4=[0,[0,[0,[0,[0,0]]]]],iM=[0,[0,[0,0]]],cd=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fd=[0,[0,[0,[0,0]]]],A5=[0,[0,[0,[0,[0,0]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]];bb(11,[aF,a(lL),-12],lL);bb(10,[aF,a(mA),-11],mA);bb(9,[aF,a(ng),-10],ng);bb(8,[aF,a(lX),-9],lX);bb(7,[aF,a(mN),-8],mN);bb(6,[aF,a(lV),-7],lV);bb(5,[aF,a(mj),-6],mj);bb(4,[aF,a(mp),-5],mp);bb(3,ij,nn);bb(2,[aF,a(hL),-3],hL);bb(1,ik,mi);bb(0,[aF,a(m3),-1],m3);var
-nZ=a("String.sub / Bytes.sub"),n1=a(O),n0=a("String.concat"),n2=a("Array.init"),n3=a("power"),ob=[0,0],od=[0,0],oe=[0,[0,0]],of=[0,[0,0]],or=[0,0,0],os=[0,0,0],ot=[0,0],oM=[0,0],oN=[0,0],oQ=[0,0],o8=[0,0],o$=[0,0],pa=[0,0],ph=[0,0],pi=[0,0],pD=[0,[0,[0,0]]],pS=[0,0],qc=a(","),qu=[0,a(hR),0],qv=a(mv),qw=a("."),qx=[0,[0,[0,0]]],qy=a(ek),qz=a(hS),qA=[0,[0,[0,[0,[0,0]]]]],qB=[0,a(hR),0],qC=a(nk),tt=a(lI),tv=a(lF),tu=a(mD),tw=a(fL),tx=a(fC),ty=a(nm),tz=a(m$),tA=a(mc),tB=a(mP),uF=[0,0],uG=a(hC),uH=[0,0],uI=a("divided"),uJ=[0,1],uK=a("mirror"),uL=[0,3],uM=a("negative"),uN=[0,2],uO=a(hU),uP=[0,5],uQ=a(h0),uR=[0,4],uS=a(fH),uT=a(l0),uU=a(fM),uV=a(b1),uW=[0,0],uX=[0,0],uY=[0,0],vx=a(O),vu=[0,[0,[0,[0,0]]]],vv=[0,[0,[0,[0,0]]]],vs=[0,0],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z6]]]]]]]]]]],vh=[0,0],u$=[0,[0,0]],va=[0,[0,[0,0]]],vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z7]]]]]]]]]]],vc=[0,[0,0]],vf=[0,[0,[0,0]]],vd=[0,[0,0]],ve=[0,[0,[0,0]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,z8]]]]]]]]]]],u8=[0,[0,0]],u9=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],u7=[0,[0,0]],u3=[0,[0,0]],u4=[0,0],u2=[0,0],u1=[0,[0,0]],u0=[0,0],uC=[0,0],uD=[0,1],uE=[0,2],uy=[0,[0,0]],uz=[0,0],ux=[0,0],uw=[0,0],uv=[0,0],uu=[0,0,0],us=[0,0,0],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],up=[0,0],un=[0,1,0],uf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aa]]]]]]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Af]]]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ak]]]]]]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,As]]]]]]]]]]],ud=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],ue=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],uh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],ui=a("sqrt"),t$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],t0=[0,a("\n"),0],t1=a(lG),t2=a(fB),t3=a(mz),t4=a(mg),t_=a(em),t5=a(ej),t6=a("verdict"),t7=a(m4),t8=a(l$),t9=a(my),tX=a(mt),tY=a(m7),tZ=a(fE),tT=a(mJ),tU=a(fF),tV=a(ej),tW=a(em),tO=a(fP),tP=a(a1),tQ=a(lH),tR=a(fK),tL=a(m2),tM=a(hU),tN=a(fK),tH=a(mM),tI=a(fP),tJ=a(fF),tK=a(ne),tD=a(m8),tE=a(mq),tF=a(fI),tr=a(hE),ts=a(hY),tm=a(a0),tn=a(aZ),to=a(mb),sY=a(fI),sZ=a(mQ),sz=a(a1),sA=a(bG),sB=a(fR),sC=a(dw),sD=a(cR),sI=a(fA),sE=a(hT),sF=a(hW),sG=a(dt),sH=a(a1),sJ=a(bG),sK=a(fR),sL=a(a0),sM=a(aZ),sN=a(b0),sO=a(dw),sP=a(hT),sQ=a(hW),sR=a(dt),sS=a(a1),sT=a(bG),sU=a(a0),sV=a(aZ),sW=a(b0),sX=a(dw),s0=a(mX),s1=a(m_),s2=a(fU),s3=a(l1),s4=a(l6),s5=a(dt),s6=a(a1),s7=a(bG),s8=a(fx),s9=a(me),s_=a(dw),s$=a(ep),ta=a(lP),tb=a(dt),tc=a(a1),td=a(fx),te=a(a1),tf=a(mS),ti=a(lE),tg=a(l4),th=a(nd),tj=a(em),tk=a(ej),tl=a(a1),tp=a(fU),tq=a(fE),st=a(bG),su=a(h1),sv=a(dw),sw=a(fA),sx=a(dt),sh=a(ep),si=a(m5),sj=a(cQ),sk=a(du),sl=a(du),sm=a(hH),sn=a(cQ),so=a(mB),sp=a(ma),sq=a(aS),ss=a(lK),sr=a(hH),r9=a(ms),r_=a(nl),r$=a(l8),sa=a(l5),sb=a(nb),sc=a(m0),sd=a(mh),se=a(fy),sf=a(fy),r5=a(aS),r6=a(ba),r7=a(dx),r8=a(bp),r1=a(cR),r2=a(hO),r3=a(mK),rY=a(a0),rZ=a(aZ),r0=a(b0),rR=a(a0),rS=a(aZ),rT=a(b0),rU=a(hQ),rV=a(cQ),rW=a(hM),rX=a(mW),rH=a(l3),rN=a(fB),rM=a(nc),rI=a(l7),rJ=a(hI),rO=a(lZ),rP=a(mU),rQ=a(hI),rK=a(du),rL=a(mG),rE=a(fJ),rF=a(fJ),rG=a(fJ),rA=a(mY),rB=a(aZ),rC=a(a0),rD=a(na),rm=a(lT),rn=a(lJ),ro=a(mO),rp=a(fL),rq=a(nj),rr=a(mR),rs=a(lU),rt=a(mH),ru=a(lS),rv=a(md),rw=a(lR),rx=a(mZ),ry=a(fC),rz=a(lO),q3=a(fN),q5=a(ek),q4=a(ei),q6=a(ds),q7=a(aS),q8=a(ba),q9=a(b1),q_=a(fS),q$=a(bp),ra=a(aS),rb=a(ba),rc=a(dx),rd=a(bp),re=a(ds),rf=a(eo),rg=a(aS),rh=a(ba),ri=a(mF),rj=a(mT),rk=a(eo),rl=a(bp),qL=a(fN),qT=a(ek),qM=a(ei),qN=a(ds),qO=a(aS),qP=a(ba),qQ=a(b1),qR=a(fS),qS=a(bp),qU=a(fT),qV=a(aS),qW=a(ba),qX=a(dx),qY=a(bp),qZ=a(b1),q0=a(cR),q1=a(bp),qI=a(a0),qJ=a(aZ),qG=[0,a(at),0],qH=a(at),qE=a(O),qD=[0,a(at),0],qF=a(at),qq=a(fN),qr=a(ek),qs=a("*"),qt=a(bq),ql=[0,[0,[0,[0,[0,0]]]]],qm=[0,[0,[0,0]]],qn=[0,[0,0]],qo=[0,0],qp=[0,[0,[0,[0,0]]]],qj=a('":'),qk=a(at),qh=[0,a(at),0],qi=a(at),qf=[0,a("}"),0],qg=a("{"),qd=[0,a("]"),0],qe=a("["),qb=[0,[0,[0,0]]],qa=[0,[0,[0,0]]],p_=[0,0],p7=[0,[0,[0,0]]],p8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p9=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p2=[0,0],p3=[0,[0,[0,[0,[0,[0,0]]]]]],p4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],pZ=[0,0],pW=[0,0,0],pX=[0,0,0],pY=[0,0,0],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pV=[0,0],pI=[0,[0,[0,[0,[0,[0,0]]]]]],pJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pK=[0,[0,[0,0]]],pL=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],pP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,[0,[0,[0,0]]]]]],pG=[0,[0,0]],pH=[0,[0,[0,0]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],pA=[0,[0,0]],px=[0,0],pt=[0,[0,0]],pu=[0,0],pv=[0,0],pw=[0,[0,0]],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],pn=[0,0],po=[0,0],pp=[0,[0,0]],pq=[0,[0,0]],pr=[0,[0,0]],ps=[0,0],pg=[0,0],pf=[0,0],pd=[0,[0,[0,0]]],pc=[0,[0,[0,[0,[0,[0,0]]]]]],o9=[0,[0,[0,0]]],o7=[0,[0,[0,0]]],o5=[0,[0,[0,[0,[0,[0,0]]]]]],o6=[0,[0,[0,[0,[0,[0,0]]]]]],o1=[0,[0,0]],o2=[0,0],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],oU=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],oV=[0,[0,[0,[0,[0,[0,0]]]]]],oW=[0,[0,[0,[0,[0,[0,0]]]]]],oX=[0,[0,[0,0]]],oY=[0,[0,[0,[0,[0,[0,0]]]]]],oZ=[0,[0,[0,0]]],o0=[0,[0,[0,0]]],oS=[0,[0,0]],oT=[0,0],oR=[0,0,0],oP=[0,0,0],oO=[0,[0,[0,0]]],oK=[0,0],oL=[0,0],oF=[0,[0,[0,0]]],oG=[0,[0,[0,0]]],oH=[0,[0,[0,0]]],oE=[0,[0,[0,[0,0]]]],oA=[0,[0,[0,0]]],oB=[0,[0,[0,0]]],oC=[0,[0,[0,0]]],oD=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],oy=[0,[0,0]],oz=[0,0],ow=[0,[0,0]],ox=[0,0],ou=[0,[0,0]],ov=[0,0],oi=[0,0],oj=[0,[0,0]],ok=[0,0],ol=[0,[0,0]],og=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],oc=[0,0,0],oa=a(hZ),n$=a(O),n_=[0,[0,0]],n9=[0,0],n8=[1,0],n7=[0,0],n6=[0,0],n4=[1,0],n5=[1,0],vr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],yB=a(a0),yC=a(aZ),yD=a(mb),yq=a(fT),yr=[0,a("a base axis of such a platform"),0],ys=a(aS),yt=a(ba),yd=a(m0),ye=a(ms),yf=a(nb),yg=a(fy),yh=a(mh),yi=a(fy),yj=a(nl),yk=a(l8),yl=a(l5),x2=a(mQ),x3=a(fI),xB=a(bG),xp=a(fE),xq=a(a1),xr=a(mS),xs=a(nd),xv=a(l4),xw=a(lE),xx=a(a1),xy=a(a1),xA=a(fx),xz=[0,a("a claim that no cube of such a machine fits"),0],xC=a(dt),xD=a(dw),xE=a(fA),xF=a(h1),yA=[0,a(mk),0],xG=a(cR),xH=a(hO),xI=a(mK),xJ=a(fR),xK=a(l6),xL=a(lP),xM=a(fA),xP=a(b0),xQ=a(mW),xT=a(h1),xU=[0,a(mk),0],xV=a(bG),xW=[0,a("the distance from parallel singularities of other drives than sliders"),0],xX=a(me),xY=[0,a("what else is asked of the closed design"),0],xZ=a(fx),x0=a(ep),x1=a(b0),x4=a(bG),x5=a(a0),x6=a(aZ),x7=a(mX),x8=a(m_),x9=a(fU),x_=a(l1),xN=[0,a(at),0],xO=a('the mechanism "'),x$=a(b0),ya=[0,a('" of a platform that turns'),0],yb=a(m1),yc=a(hT),ym=a(fR),yn=a(cR),yo=a(hO),yp=a(hW),yu=a(bG),yv=a(a0),yw=a(aZ),yz=a(cR),yx=[0,a("a platform that turns on struts and other drives"),0],yy=a(bG),xR=[0,a(at),0],xS=a(m1),yE=a(a1),yF=a(a1),yH=a(em),yI=a(ej),yJ=a(fU),yG=[0,a("an atlas of such a machine"),0],xt=[0,a(at),0],xu=a('a claim of the kind "'),yO=a(nm),yV=a(fC),yW=a(fL),yX=a(mc),yY=a(mD),yZ=a(b1),y0=a(hY),y1=a(hE),y2=a(b1),y3=a(hZ),yP=a(fH),yQ=a(l0),yR=a(fM),yS=a(mP),yT=[0,a(at),0],yU=a('the evidence "'),y4=a(fH),y5=a(fM),y6=a(m$),y8=a(fH),y9=a(fM),y_=a(hC),y$=a(hC),y7=[0,a("this evidence at control points"),0],zY=a('"orthocert-paving/'),zE=a(my),zF=a(l$),zG=a(m4),zW=[0,3,3],zH=a(mg),zQ=[0,a("this set of orientations with such drives"),0],zR=[0,a(mo),0],zU=[0,a(mo),0],zV=[0,a("a mechanism by formulas in a claim that is refuted"),0],zS=[0,a('the evidence "tolerances" of such a mechanism'),0],zT=[0,a("a step of a platform that turns that is not at control points"),0],zI=[0,a("the acceleration of a joint of a machine with a plane"),0],zP=[0,a("this quantity in a claim that is refuted"),0],zN=[0,a("a step in a proof that no cube fits"),0],zO=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],zM=[0,a("a leaf that fails"),0],zJ=a(mz),zK=a(lG),zL=a(fB),zC=a(h0),zw=a(fE),zx=a(mt),zy=a(m7),zz=[0,a(at),0],zA=a('a proof of the kind "'),zs=a(ej),zt=a(em),zu=a(fF),zv=a(mJ),zo=a(a1),zp=a(fP),zq=a(lH),zr=a(fK),zl=a(m2),zm=a(hU),zn=a(fK),zh=a(mM),zi=a(fP),zj=a(fF),zk=a(ne),zc=a(mq),zd=a(m8),ze=a(fI),zf=[0,a(at),0],zg=a('the failure "'),za=a(h0),zb=a(hZ),yM=a(hY),yN=a(hE),yK=a(lF),yL=a(lI),xm=a(ep),xc=a(hH),xd=a(lK),xe=a(du),xf=a(aS),xk=a(m5),xl=a(ep),xn=a(cQ),xo=a(du),xg=a(cQ),xh=a(mB),xi=a(ma),xj=a(aS),w7=a(b0),w$=a(a0),xa=a(aZ),w8=a(hM),w9=a(hQ),w_=a(cQ),w1=a(b0),w5=a(a0),w6=a(aZ),w2=a(hM),w3=a(hQ),w4=a(cQ),w0=[0,1],wZ=[0,1],wY=[0,a("this quantity of such a mechanism"),0],wI=a(l7),wJ=[0,a("a stiffness for each joint"),0],wK=a(mU),wL=a(lZ),wM=a(nc),wN=a("max_angle"),wO=[0,a("accuracy of a platform that turns"),0],wH=a(fB),wz=a(fJ),wp=a(mG),wq=a(mO),wR=a(fC),wS=a(md),wT=a(fL),wU=a(mH),wV=a(lR),wW=a(lS),wX=a(lJ),wr=a(lO),ws=a(mZ),wt=a(mR),wu=a(nj),wv=a(lU),ww=a(lT),wx=[0,a(at),0],wy=a('the quantity "'),wA=a(l3),wB=a(mY),wC=a(a0),wD=a(aZ),wE=a(na),wF=[0,a(at),0],wG=a('a bound "'),wP=a(hI),wQ=a(du),wn=a(bp),wo=a(dx),v4=a(bp),v5=a(fT),v6=a(eo),v7=a(fS),v8=a(dx),v$=a(aS),wa=a(ba),wb=a(ei),wc=a(ds),wd=a(aS),we=a(ba),wf=a(b1),wg=a(ei),wh=a(ds),wi=a(eo),wj=a(aS),wk=a(ba),wl=a(mF),wm=a(mT),v9=[0,a('" of such a machine'),0],v_=a(lY),v2=a(bp),v3=a(eo),vM=a(bp),vN=a(cR),vO=a(fS),vP=a(dx),vS=a(fT),vT=a(aS),vU=a(ba),vV=a(ei),vW=a(ds),vX=a(aS),vY=a(ba),vZ=a(b1),v0=a(b1),vQ=[0,a(at),0],vR=a(lY),vJ=a(fN),vK=a(ek),vH=a(" is not covered by the verified checker"),vI=a(O),vF=a(a0),vG=a(aZ),vB=a(O),vC=a(nk),vD=a(O),vE=a(O),vA=[1,0],vy=a("Reader.Malformed"),vz=a("Reader.Not_covered"),z0=[0,a("a paving is checked by orthocert-verified")],zZ=a(mI),z1=a("CERTIFIED"),z2=a("REFUTED"),z3=a(mI),z4=a("NOT COVERED: ");function
-ev(a){throw[0,ij,a]}function
-aN(d,c){var
-a=ak(d),e=ak(c),b=bJ(a+e|0);dz(d,0,b,0,a);dz(c,0,b,a,e);return f1(b)}BC(0);nI(1);nI(2);function
-il(b){function
+Cb(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nW(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nW(a.error)})}Cb();function
+k(a,b){return a.length==1?a(b):cY(a,[b])}function
+au(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
+BA(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BP();var
+ix=[aI,a(mB),-2],iw=[aI,a(nH),-4],Av=[0,[0,0]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,0],Ay=[0,0],Az=[0,[0,[0,[0,0]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,0]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,0]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,0],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,0]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,0],Bs=[0,[0,0]],Bt=[0,0],Bu=[0,[0,[0,[0,[0,0]]]]],iZ=[0,[0,[0,0]]],ch=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fs=[0,[0,[0,[0,0]]]],Bv=[0,[0,[0,[0,[0,0]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]];bd(11,[aI,a(l4),-12],l4);bd(10,[aI,a(mT),-11],mT);bd(9,[aI,a(nA),-10],nA);bd(8,[aI,a(me),-9],me);bd(7,[aI,a(m6),-8],m6);bd(6,[aI,a(mc),-7],mc);bd(5,[aI,a(mC),-6],mC);bd(4,[aI,a(mI),-5],mI);bd(3,iw,nH);bd(2,[aI,a(hX),-3],hX);bd(1,ix,mB);bd(0,[aI,a(nk),-1],nk);var
+oh=a("String.sub / Bytes.sub"),oj=a(Q),oi=a("String.concat"),ok=a("Array.init"),ol=a("power"),ow=[0,0],oy=[0,0],oz=[0,[0,0]],oA=[0,[0,0]],oH=[0,0],oI=[0,0],oO=[0,0,0],oP=[0,0,0],oQ=[0,0],o9=[0,0],o_=[0,0],pb=[0,0],pt=[0,0],pw=[0,0],py=[0,0],pz=[0,0],pG=[0,0],pH=[0,0],p2=[0,[0,[0,0]]],qf=[0,0],qB=a(","),qT=[0,a(h3),0],qU=a(mO),qV=a("."),qW=[0,[0,[0,0]]],qX=a(eq),qY=a(h4),qZ=[0,[0,[0,[0,[0,0]]]]],q0=[0,a(h3),0],q1=a(nE),tS=a(l1),tU=a(lY),tT=a(mW),tV=a(f0),tW=a(fR),tX=a(nG),tY=a(nt),tZ=a(mv),t0=a(m8),u5=[0,0],u6=a(hO),u7=[0,0],u8=a("divided"),u9=[0,1],u_=a("mirror"),u$=[0,3],va=a("negative"),vb=[0,2],vc=a(h6),vd=[0,5],ve=a(ia),vf=[0,4],vg=a(fW),vh=a(mh),vi=a(f1),vj=a(b4),vk=[0,0],vl=[0,0],vm=[0,0],vY=a(Q),vV=[0,[0,[0,[0,0]]]],vW=[0,[0,[0,[0,0]]]],vT=[0,0],vQ=[0,[0,0]],vR=[0,[0,[0,0]]],vM=[0,[0,[0,0]]],vK=[0,[0,[0,0]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],vI=[0,0],vA=[0,[0,0]],vB=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],vD=[0,[0,0]],vG=[0,[0,[0,0]]],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vs=[0,[0,0]],vt=[0,0],vq=[0,0],vr=[0,1],vp=[0,[0,0]],vo=[0,0],u2=[0,0],u3=[0,1],u4=[0,2],uY=[0,[0,0]],uZ=[0,0],uX=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,0]]],uP=[0,0],uN=[0,1,0],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],uI=a("sqrt"),uz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],uA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],uo=[0,a("\n"),0],up=a(lZ),uq=a(fQ),ur=a(mS),us=a(mz),uy=a(es),ut=a(ep),uu=a("verdict"),uv=a(nl),uw=a(ms),ux=a(mR),ul=a(mM),um=a(no),un=a(fT),uh=a(m2),ui=a(fU),uj=a(ep),uk=a(es),uc=a(f4),ud=a(a4),ue=a(l0),uf=a(fZ),t$=a(nj),ua=a(h6),ub=a(fZ),t7=a(m5),t8=a(f4),t9=a(fU),t_=a(ny),t2=a(np),t3=a(ns),t4=a(mJ),t5=a(fX),tQ=a(hQ),tR=a(h_),tL=a(a3),tM=a(a2),tN=a(mu),tl=a(fX),tm=a(m9),sY=a(a4),sZ=a(bJ),s0=a(f6),s1=a(dB),s2=a(cW),s7=a(fP),s3=a(h5),s4=a(h8),s5=a(dy),s6=a(a4),s8=a(bJ),s9=a(f6),s_=a(a3),s$=a(a2),ta=a(b3),tb=a(dB),tc=a(h5),td=a(h8),te=a(dy),tf=a(a4),tg=a(bJ),th=a(a3),ti=a(a2),tj=a(b3),tk=a(dB),tn=a(ne),to=a(nr),tp=a(f9),tq=a(mi),tr=a(mn),ts=a(dy),tt=a(a4),tu=a(bJ),tv=a(fM),tw=a(mx),tx=a(dB),ty=a(ev),tz=a(l8),tA=a(dy),tB=a(a4),tC=a(fM),tD=a(a4),tE=a(m$),tH=a(lX),tF=a(ml),tG=a(nx),tI=a(es),tJ=a(ep),tK=a(a4),tO=a(f9),tP=a(fT),sS=a(bJ),sT=a(ib),sU=a(dB),sV=a(fP),sW=a(dy),sG=a(ev),sH=a(nm),sI=a(cV),sJ=a(dz),sK=a(dz),sL=a(hT),sM=a(cV),sN=a(mU),sO=a(mt),sP=a(aT),sR=a(l3),sQ=a(hT),sw=a(mL),sx=a(nF),sy=a(mp),sz=a(mm),sA=a(nv),sB=a(nh),sC=a(mA),sD=a(fN),sE=a(fN),ss=a(aT),st=a(bc),su=a(dC),sv=a(bu),so=a(cW),sp=a(h0),sq=a(m3),sl=a(a3),sm=a(a2),sn=a(b3),se=a(a3),sf=a(a2),sg=a(b3),sh=a(h2),si=a(cV),sj=a(hY),sk=a(nd),r6=a(mk),sa=a(fQ),r$=a(nw),r7=a(mo),r8=a(hU),sb=a(mg),sc=a(nb),sd=a(hU),r9=a(dz),r_=a(mZ),r3=a(fY),r4=a(fY),r5=a(fY),rZ=a(nf),r0=a(a2),r1=a(a3),r2=a(nu),rL=a(ma),rM=a(l2),rN=a(m7),rO=a(f0),rP=a(nD),rQ=a(m_),rR=a(mb),rS=a(m0),rT=a(l$),rU=a(mw),rV=a(l_),rW=a(ng),rX=a(fR),rY=a(l7),rq=a(f2),rs=a(eq),rr=a(eo),rt=a(dx),ru=a(aT),rv=a(bc),rw=a(b4),rx=a(f7),ry=a(bu),rz=a(aT),rA=a(bc),rB=a(dC),rC=a(bu),rD=a(dx),rE=a(eu),rF=a(aT),rG=a(bc),rH=a(mY),rI=a(na),rJ=a(eu),rK=a(bu),q_=a(f2),rg=a(eq),q$=a(eo),ra=a(dx),rb=a(aT),rc=a(bc),rd=a(b4),re=a(f7),rf=a(bu),rh=a(f8),ri=a(aT),rj=a(bc),rk=a(dC),rl=a(bu),rm=a(b4),rn=a(cW),ro=a(bu),q7=a(a3),q8=a(a2),q5=[0,a(av),0],q6=a(av),q3=a(Q),q2=[0,a(av),0],q4=a(av),qP=a(f2),qQ=a(eq),qR=a("*"),qS=a(bv),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,[0,[0,0]]],qM=[0,[0,0]],qN=[0,0],qO=[0,[0,[0,[0,0]]]],qI=a('":'),qJ=a(av),qG=[0,a(av),0],qH=a(av),qE=[0,a("}"),0],qF=a("{"),qC=[0,a("]"),0],qD=a("["),qA=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qx=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qs=[0,[0,0]],qt=[0,[0,[0,0]]],qp=[0,0],qq=[0,[0,[0,[0,[0,[0,0]]]]]],qr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],qm=[0,0],qj=[0,0,0],qk=[0,0,0],ql=[0,0,0],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qi=[0,0],p7=[0,[0,[0,[0,[0,[0,0]]]]]],p8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p9=[0,[0,[0,0]]],p_=[0,[0,[0,0]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],qc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p0=[0,[0,0]],p1=[0,[0,[0,0]]],pY=[0,[0,[0,0]]],pZ=[0,[0,0]],pW=[0,0],pS=[0,[0,0]],pT=[0,0],pU=[0,0],pV=[0,[0,0]],pJ=[0,[0,0]],pK=[0,0],pL=[0,[0,0]],pM=[0,0],pN=[0,0],pO=[0,[0,0]],pP=[0,[0,0]],pQ=[0,[0,0]],pR=[0,0],pF=[0,0],pE=[0,0],pC=[0,[0,[0,0]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],px=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],ps=[0,[0,[0,0]]],pq=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,0]],pn=[0,0],po=[0,[0,[0,0]]],pp=[0,[0,[0,0]]],pf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pg=[0,[0,[0,[0,[0,[0,0]]]]]],ph=[0,[0,[0,[0,[0,[0,0]]]]]],pi=[0,[0,[0,0]]],pj=[0,[0,[0,[0,[0,[0,0]]]]]],pk=[0,[0,[0,0]]],pl=[0,[0,[0,0]]],pd=[0,[0,0]],pe=[0,0],pc=[0,0,0],pa=[0,0,0],o$=[0,[0,[0,0]]],o7=[0,0],o8=[0,0],o2=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],o1=[0,[0,[0,[0,0]]]],oX=[0,[0,[0,0]]],oY=[0,[0,[0,0]]],oZ=[0,[0,[0,0]]],o0=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],oV=[0,[0,0]],oW=[0,0],oT=[0,[0,0]],oU=[0,0],oR=[0,[0,0]],oS=[0,0],oD=[0,0],oE=[0,[0,0]],oF=[0,0],oG=[0,[0,0]],oB=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],ox=[0,0,0],ov=a(h$),ou=a(Q),ot=[0,[0,0]],os=[0,0],op=[0,0],or=[1,0],oq=[0,0],oo=[0,0],om=[1,0],on=[1,0],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],y2=a(a3),y3=a(a2),y4=a(mu),yR=a(f8),yS=[0,a("a base axis of such a platform"),0],yT=a(aT),yU=a(bc),yE=a(nh),yF=a(mL),yG=a(nv),yH=a(fN),yI=a(mA),yJ=a(fN),yK=a(nF),yL=a(mp),yM=a(mm),yr=a(m9),ys=a(fX),x2=a(bJ),xQ=a(fT),xR=a(a4),xS=a(m$),xT=a(nx),xW=a(ml),xX=a(lX),xY=a(a4),xZ=a(a4),x1=a(fM),x0=[0,a("a claim that no cube of such a machine fits"),0],x3=a(dy),x4=a(dB),x5=a(fP),x6=a(ib),y1=[0,a(mD),0],x7=a(cW),x8=a(h0),x9=a(m3),x_=a(f6),x$=a(mn),ya=a(l8),yb=a(fP),ye=a(b3),yf=a(nd),yi=a(ib),yj=[0,a(mD),0],yk=a(bJ),yl=[0,a("the distance from parallel singularities of other drives than sliders"),0],ym=a(mx),yn=[0,a("what else is asked of the closed design"),0],yo=a(fM),yp=a(ev),yq=a(b3),yt=a(bJ),yu=a(a3),yv=a(a2),yw=a(ne),yx=a(nr),yy=a(f9),yz=a(mi),yc=[0,a(av),0],yd=a('the mechanism "'),yA=a(b3),yB=[0,a('" of a platform that turns'),0],yC=a(ni),yD=a(h5),yN=a(f6),yO=a(cW),yP=a(h0),yQ=a(h8),yV=a(bJ),yW=a(a3),yX=a(a2),y0=a(cW),yY=[0,a("a platform that turns on struts and other drives"),0],yZ=a(bJ),yg=[0,a(av),0],yh=a(ni),y5=a(a4),y6=a(a4),y8=a(es),y9=a(ep),y_=a(f9),y7=[0,a("an atlas of such a machine"),0],xU=[0,a(av),0],xV=a('a claim of the kind "'),zd=a(nG),zk=a(fR),zl=a(f0),zm=a(mv),zn=a(mW),zo=a(b4),zp=a(h_),zq=a(hQ),zr=a(b4),zs=a(h$),ze=a(fW),zf=a(mh),zg=a(f1),zh=a(m8),zi=[0,a(av),0],zj=a('the evidence "'),zt=a(fW),zu=a(f1),zv=a(nt),zx=a(fW),zy=a(f1),zz=a(hO),zA=a(hO),zw=[0,a("this evidence at control points"),0],Ao=a('"orthocert-paving/'),z6=a(mR),z7=a(ms),z8=a(nl),Am=[0,3,3],z9=a(mz),Ag=[0,a("this set of orientations with such drives"),0],Ah=[0,a(mH),0],Ak=[0,a(mH),0],Al=[0,a("a mechanism by formulas in a claim that is refuted"),0],Ai=[0,a('the evidence "tolerances" of such a mechanism'),0],Aj=[0,a("a step of a platform that turns that is not at control points"),0],z_=[0,a("the acceleration of a joint of a machine with a plane"),0],Af=[0,a("this quantity in a claim that is refuted"),0],Ad=[0,a("a step in a proof that no cube fits"),0],Ae=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ac=[0,a("a leaf that fails"),0],z$=a(mS),Aa=a(lZ),Ab=a(fQ),z4=a(ia),zY=a(fT),zZ=a(mM),z0=a(no),z1=[0,a(av),0],z2=a('a proof of the kind "'),zU=a(ep),zV=a(es),zW=a(fU),zX=a(m2),zQ=a(a4),zR=a(f4),zS=a(l0),zT=a(fZ),zN=a(nj),zO=a(h6),zP=a(fZ),zJ=a(m5),zK=a(f4),zL=a(fU),zM=a(ny),zD=a(ns),zE=a(mJ),zF=a(np),zG=a(fX),zH=[0,a(av),0],zI=a('the failure "'),zB=a(ia),zC=a(h$),zb=a(h_),zc=a(hQ),y$=a(lY),za=a(l1),xN=a(ev),xD=a(hT),xE=a(l3),xF=a(dz),xG=a(aT),xL=a(nm),xM=a(ev),xO=a(cV),xP=a(dz),xH=a(cV),xI=a(mU),xJ=a(mt),xK=a(aT),xw=a(b3),xA=a(a3),xB=a(a2),xx=a(hY),xy=a(h2),xz=a(cV),xq=a(b3),xu=a(a3),xv=a(a2),xr=a(hY),xs=a(h2),xt=a(cV),xp=[0,1],xo=[0,1],xn=[0,a("this quantity of such a mechanism"),0],w9=a(mo),w_=[0,a("a stiffness for each joint"),0],w$=a(nb),xa=a(mg),xb=a(nw),xc=a("max_angle"),xd=[0,a("accuracy of a platform that turns"),0],w8=a(fQ),w0=a(fY),wQ=a(mZ),wR=a(m7),xg=a(fR),xh=a(mw),xi=a(f0),xj=a(m0),xk=a(l_),xl=a(l$),xm=a(l2),wS=a(l7),wT=a(ng),wU=a(m_),wV=a(nD),wW=a(mb),wX=a(ma),wY=[0,a(av),0],wZ=a('the quantity "'),w1=a(mk),w2=a(nf),w3=a(a3),w4=a(a2),w5=a(nu),w6=[0,a(av),0],w7=a('a bound "'),xe=a(hU),xf=a(dz),wO=a(bu),wP=a(dC),wt=a(bu),wu=a(f8),wv=a(eu),ww=a(f7),wx=a(dC),wA=a(aT),wB=a(bc),wC=a(eo),wD=a(dx),wE=a(aT),wF=a(bc),wG=a(b4),wH=a(eo),wI=a(dx),wJ=a(eu),wK=a(aT),wL=a(bc),wM=a(mY),wN=a(na),wy=[0,a('" of such a machine'),0],wz=a(mf),wr=a(bu),ws=a(eu),wb=a(bu),wc=a(cW),wd=a(f7),we=a(dC),wh=a(f8),wi=a(aT),wj=a(bc),wk=a(eo),wl=a(dx),wm=a(aT),wn=a(bc),wo=a(b4),wp=a(b4),wf=[0,a(av),0],wg=a(mf),v_=a(f2),v$=a(eq),v8=a(" is not covered by the verified checker"),v9=a(Q),v6=a(a3),v7=a(a2),v2=a(Q),v3=a(nE),v4=a(Q),v5=a(Q),v1=[1,0],vZ=a("Reader.Malformed"),v0=a("Reader.Not_covered"),Aq=[0,a("a paving is checked by orthocert-verified")],Ap=a(m1),Ar=a("CERTIFIED"),As=a("REFUTED"),At=a(m1),Au=a("NOT COVERED: ");function
+eB(a){throw[0,iw,a]}function
+aO(d,c){var
+a=al(d),e=al(c),b=bM(a+e|0);dE(d,0,b,0,a);dE(c,0,b,a,e);return ge(b)}B4(0);n2(1);n2(2);function
+iy(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{BB(d)}catch(a){a=nS(a);if(a[1]!==ik)throw a;var
+c=a[2],d=a[1];try{B3(d)}catch(a){a=oa(a);if(a[1]!==ix)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(BD(0))}BK(a(lM),il);function
-bL(c){var
+a=c;continue}return 0}}return a(B5(0))}Ca(a(l5),iy);function
+bN(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Q(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,Q(b,c)]}return 0}function
-f4(d,c){var
+R(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,R(b,c)]}return 0}function
+gg(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-au(d,c){var
+aw(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bc(b,c){var
-a=bJ(b);Bl(a,0,b,c);return f1(a)}function
-cY(g,b,a){var
-d=dA(g),f=0;if(0<=b&&0<=a&&!((fZ(d)-a|0)<b)){var
-c=bJ(a);eq(d,b,c,0,a);var
+be(b,c){var
+a=bM(b);BN(a,0,b,c);return ge(a)}function
+c4(g,b,a){var
+d=dF(g),f=0;if(0<=b&&0<=a&&!((gc(d)-a|0)<b)){var
+c=bM(a);ew(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=ev(nZ);return f1(e)}function
-im(k,g){if(g){var
-h=ak(k),c=0,b=g,p=0;for(;;){if(b){var
+e=eB(oh);return ge(e)}function
+iz(k,g){if(g){var
+h=al(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ak(i)+h|0)+c|0,m=b[2],n=c<=j?j:ev(n0),c=n,b=m;continue}var
-l=ak(i)+c|0}else
+j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eB(oi),c=n,b=m;continue}var
+l=al(i)+c|0}else
 var
 l=c;var
-f=bJ(l),e=p,d=g;for(;;){if(d){var
+f=bM(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dz(a,0,f,e,ak(a));dz(k,0,f,e+ak(a)|0,h);var
-e=(e+ak(a)|0)+h|0,d=o;continue}dz(a,0,f,e,ak(a))}return f1(f)}}}return n1}function
-f5(b,c){if(0===b)return[0];if(0<=b){var
-d=BA(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];dE(a,0,f,e,al(a));dE(k,0,f,e+al(a)|0,h);var
+e=(e+al(a)|0)+h|0,d=o;continue}dE(a,0,f,e,al(a))}return ge(f)}}}return oj}function
+gh(b,c){if(0===b)return[0];if(0<=b){var
+d=B2(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return ev(n2)}function
-f6(c){var
+a=g;continue}break}}return d}return eB(ok)}function
+gi(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=a2(0),c=a2(1);function
-r(a){return y(a,c)}function
-io(b,a){return y(a2(b),a)}function
-b(b,a){return u(a2(b),a)}function
-bs(b,a){return[0,ig(b,a),nV(b,a)]}function
-f7(b,a){return L(b,a)?b:a}function
-bt(b,a){return L(b,a)?a:b}function
-am(a){return a?0:1}function
-z(b,a){var
+d=aD(0),b=aD(1);function
+r(a){return x(a,b)}function
+iA(b,a){return x(aD(b),a)}function
+c(b,a){return v(aD(b),a)}function
+aU(b,a){return[0,it(b,a),od(b,a)]}function
+gj(b,a){return H(b,a)?b:a}function
+bf(b,a){return H(b,a)?a:b}function
+ak(a){return a?0:1}function
+y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-aI(a){return a[1]}function
-b6(a){return a[2]}function
+aK(a){return a[1]}function
+b9(a){return a[2]}function
 j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-ip(a){return typeof
-a==="number"?0:[0,ip(a[1])]}function
-iq(d,c){var
+iB(a){return typeof
+a==="number"?0:[0,iB(a[1])]}function
+iC(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -792,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ew(a){return iq(a,0)}function
-ir(a){if(typeof
-a==="number")return n4;else
+eC(a){return iC(a,0)}function
+iD(a){if(typeof
+a==="number")return om;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -804,159 +804,179 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ir(a[1])]}}function
-be(a){if(typeof
-a==="number")return n5;else
+8:return[9,a[1]];default:return[0,iD(a[1])]}}function
+bh(a){if(typeof
+a==="number")return on;else
 switch(a[0]){case
-0:return[1,bd(a[1])];case
-1:return[3,bd(a[1])];case
-2:return[5,bd(a[1])];case
-3:return[7,bd(a[1])];case
-4:return[9,bd(a[1])];case
-5:return[1,be(a[1])];case
-6:return[3,be(a[1])];case
-7:return[5,be(a[1])];case
-8:return[7,be(a[1])];default:return[9,be(a[1])]}}function
-bd(a){if(typeof
+0:return[1,bg(a[1])];case
+1:return[3,bg(a[1])];case
+2:return[5,bg(a[1])];case
+3:return[7,bg(a[1])];case
+4:return[9,bg(a[1])];case
+5:return[1,bh(a[1])];case
+6:return[3,bh(a[1])];case
+7:return[5,bh(a[1])];case
+8:return[7,bh(a[1])];default:return[9,bh(a[1])]}}function
+bg(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bd(a[1])];case
-1:return[2,bd(a[1])];case
-2:return[4,bd(a[1])];case
-3:return[6,bd(a[1])];case
-4:return[8,bd(a[1])];case
-5:return[0,be(a[1])];case
-6:return[2,be(a[1])];case
-7:return[4,be(a[1])];case
-8:return[6,be(a[1])];default:return[8,be(a[1])]}}function
-bu(a){return a?a[1]:a}function
+0:return[0,bg(a[1])];case
+1:return[2,bg(a[1])];case
+2:return[4,bg(a[1])];case
+3:return[6,bg(a[1])];case
+4:return[8,bg(a[1])];case
+5:return[0,bh(a[1])];case
+6:return[2,bh(a[1])];case
+7:return[4,bh(a[1])];case
+8:return[6,bh(a[1])];default:return[8,bh(a[1])]}}function
+bx(a){return a?a[1]:a}function
 P(b,a){return b?[0,P(b[1],a)]:a}function
-dF(a,b){return a?P(b,dF(a[1],b)):a}function
-b7(b,a){return b?a:a?0:1}function
-v(d,c){var
+dK(a,b){return a?P(b,dK(a[1],b)):a}function
+b_(b,a){return b?a:a?0:1}function
+t(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Y(d,c){var
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dG(b,a){return Y([0,b],a)}function
-is(c){var
+dL(b,a){return _([0,b],a)}function
+iE(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-ex(c,b,a){return c?k(b,ex(c[1],b,a)):a}function
-it(a){if(a)var
-b=a[1],d=b?[0,it(b[1])]:b,c=d;else
+eD(c,b,a){return c?k(b,eD(c[1],b,a)):a}function
+iF(a){if(a)var
+b=a[1],d=b?[0,iF(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ey(a){if(L(a,c))return c;var
-b=bs(a,a2(2)),e=b[1];return ac(b[2],d)?r(ey(e)):r(ey(e))}function
-f8(j,i){var
-b=j,a=i;for(;;){if(L(b,c))return L(a,c)?1:ac(bs(a,a2(2))[2],d)?0:0;var
-g=bs(b,a2(2)),h=g[1];if(ac(g[2],d)){if(L(a,c))return 0;var
-e=bs(a,a2(2)),k=e[1];if(ac(e[2],d)){var
-b=h,a=k;continue}return 0}if(L(a,c))return 0;var
-f=bs(a,a2(2)),l=f[1];if(ac(f[2],d))return 0;var
-b=h,a=l;continue}}function
-ez(c,b){var
-a=ie(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-iu(b,i,h){var
-e=i,a=h;for(;;){if(L(e,c))return a;var
-f=bs(e,a2(2)),g=f[1];if(ac(f[2],d)){var
-e=g,a=as(b,a,a);continue}return as(b,a,iu(b,g,as(b,a,a)))}}function
-dH(a){return iu(P,a,n7)}function
-f9(a){return a?r(f9(a[1])):c}function
-bM(f,e){var
+iG(c,a){return bf(b,aE(c,a))}function
+eE(a){if(H(a,b))return op;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eE(e)]:[0,eE(e)]}function
+eF(a){if(H(a,b))return b;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?r(eF(e)):r(eF(e))}function
+iH(c,b){var
+a=is(c,b);return 0===a?0:0<=a?2:1}function
+gk(j,i){var
+c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
+g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(H(a,b))return 0;var
+e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
+c=h,a=k;continue}return 0}if(H(a,b))return 0;var
+f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
+c=h,a=l;continue}}function
+eG(b,a){return 2<=iH(b,a)?0:1}function
+c5(i,e,a){if(i){var
+f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
+w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
+m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
+j=c5(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
+k=c5(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(H(a,b))return[0,b,[0,e,b]];var
+v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
+n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iH(g,h)){case
+0:return[0,e,[0,b,b]];case
+1:var
+p=c5(f,iG(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=c5(f,iG(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+eH(b,a){var
+c=eE(a);return c5(P(eE(b),c),b,a)}function
+iI(c,i,h){var
+e=i,a=h;for(;;){if(H(e,b))return a;var
+f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
+e=g,a=au(c,a,a);continue}return au(c,a,iI(c,g,au(c,a,a)))}}function
+dM(a){return iI(P,a,oq)}function
+gl(a){return a?r(gl(a[1])):b}function
+bO(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=u(b(2,r(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=v(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=y(c,u(b(2,r(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=x(b,v(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=u(b(2,r(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
+i=v(c(2,r(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=u(b(2,r(b(2,b(2,c)))),d),l=y(r(b(2,c)),k),a=a[1],d=l;continue;case
+k=v(c(2,r(c(2,c(2,b)))),d),l=x(r(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=u(b(2,r(b(2,b(2,c)))),d),n=y(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=v(c(2,r(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=u(b(2,r(b(2,b(2,c)))),d),p=y(r(b(2,b(2,c))),o),a=a[1],d=p;continue;case
+o=v(c(2,r(c(2,c(2,b)))),d),p=x(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-q=u(b(2,r(b(2,b(2,c)))),d),s=y(b(2,r(b(2,c))),q),a=a[1],d=s;continue;case
+q=v(c(2,r(c(2,c(2,b)))),d),s=x(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
 7:var
-t=u(b(2,r(b(2,b(2,c)))),d),v=y(r(b(2,r(b(2,c)))),t),a=a[1],d=v;continue;case
+t=v(c(2,r(c(2,c(2,b)))),d),u=x(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-w=u(b(2,r(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-z=u(b(2,r(b(2,b(2,c)))),d),A=y(r(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-f_(a){if(L(a,c))return n8;var
-b=bs(a,a2(2)),e=b[1];return ac(b[2],d)?bd(f_(e)):be(f_(e))}function
-eA(a){return ew(f_(a))}function
-iv(k,f){if(0<=bK(f)){var
-g=ih(f);if(0<=g){var
-e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return ev(n3)}return d}function
-iw(a){return 0<=bK(a)?a:d}function
-f$(a){var
-b=bK(a);return 0===b?c:0<b?a:c}function
-ix(m){var
+w=v(c(2,r(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
+z=v(c(2,r(c(2,c(2,b)))),d),A=x(r(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
+gm(a){if(H(a,b))return or;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bg(gm(e)):bh(gm(e))}function
+eI(a){return eC(gm(a))}function
+iJ(k,f){if(0<=a5(f)){var
+g=iu(f);if(0<=g){var
+e=b,c=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eB(ol)}return d}function
+gn(c){var
+a=a5(c);return 0===a?d:0<a?b:L(b)}function
+iK(a){return 0<=a5(a)?a:d}function
+dN(a){var
+c=a5(a);return 0===c?b:0<c?a:b}function
+iL(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bM(a[1],c);case
+1:return bO(a[1],b);case
 2:var
-e=b(2,c);return bM(a[1],e);case
+e=c(2,b);return bO(a[1],e);case
 3:var
-f=r(b(2,c));return bM(a[1],f);case
+f=r(c(2,b));return bO(a[1],f);case
 4:var
-g=b(2,b(2,c));return bM(a[1],g);case
+g=c(2,c(2,b));return bO(a[1],g);case
 5:var
-h=r(b(2,b(2,c)));return bM(a[1],h);case
+h=r(c(2,c(2,b)));return bO(a[1],h);case
 6:var
-i=b(2,r(b(2,c)));return bM(a[1],i);case
+i=c(2,r(c(2,b)));return bO(a[1],i);case
 7:var
-j=r(b(2,r(b(2,c))));return bM(a[1],j);case
+j=r(c(2,r(c(2,b))));return bO(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bM(a[1],k);default:var
-l=r(b(2,b(2,b(2,c))));return bM(a[1],l)}}function
-b8(b,a){var
-c=bK(a);return 0===c?d:1===c?ig(b,a):io(-1,ig(io(-1,b),a))}function
-iy(a){return 0<bK(a)?BU(a):d}function
-dI(b,c){var
-a=ih(c);return 0<=a?nW(b,a):nX(b,-a|0)}function
-cq(b,c){var
-a=ih(c);return 0<=a?nX(b,a):nW(b,-a|0)}function
-cZ(b,a){return a?a[1]:b}function
-dJ(a){var
+k=c(2,c(2,c(2,b)));return bO(a[1],k);default:var
+l=r(c(2,c(2,c(2,b))));return bO(a[1],l)}}function
+b$(b,a){var
+c=a5(a);return 0===c?d:1===c?it(b,a):iA(-1,it(iA(-1,b),a))}function
+eJ(a){return 0<a5(a)?Ck(a):d}function
+dO(b,c){var
+a=iu(c);return 0<=a?oe(b,a):of(b,-a|0)}function
+ct(b,c){var
+a=iu(c);return 0<=a?of(b,a):oe(b,-a|0)}function
+by(b,a){return a?a[1]:b}function
+ca(a){var
 b=a?a[2]:a;return b}function
-t(e,d,c){var
+u(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-V(d,c){var
+W(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iz(a){if(a){var
-b=[0,a[1],0];return f(iz(a[2]),b)}return a}function
-iA(d,c){var
+iM(a){if(a){var
+b=[0,a[1],0];return f(iM(a[2]),b)}return a}function
+iN(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iB(a){if(a){var
-b=iB(a[2]);return f(a[1],b)}return a}function
+iO(a){if(a){var
+b=iO(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
 B(b,a){if(a){var
 c=B(b,a[2]);return f(k(b,a[1]),c)}return a}function
-c0(e,d,c){var
+c6(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bv(c,b,a){if(a){var
-d=bv(c,b,a[2]);return as(c,a[1],d)}return b}function
-av(e,d){var
+f=au(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bi(c,b,a){if(a){var
+d=bi(c,b,a[2]);return au(c,a[1],d)}return b}function
+aq(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -967,111 +987,131 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cr(b,e){var
+cu(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,cr(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,cu(b,c)];var
 a=c;continue}return a}}function
-iC(d,c){var
+iP(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aJ(b,a){if(b)if(a)var
-d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aA(b,a){if(b)if(a)var
+d=aA(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dK(b,a){if(b)if(a)var
-d=dK(b[1],a[2]),c=[0,a[1],d];else
+dP(b,a){if(b)if(a)var
+d=dP(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-ga(d,c){var
+go(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aT(b,a){var
-c=a?[0,b,aT([0,b],a[1])]:a;return c}function
-a3(b,a){var
-c=a?[0,b,a3(b,a[1])]:a;return c}function
-iD(a){if(a){var
-e=iD(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
-eB(j){function
+aV(b,a){var
+c=a?[0,b,aV([0,b],a[1])]:a;return c}function
+aW(b,a){var
+c=a?[0,b,aW(b,a[1])]:a;return c}function
+iQ(a){if(a){var
+e=iQ(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
+eK(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bK(b)?dH(b):0}function
-iE(c,b){var
-a=ie(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c1(b,a){return L(u(b[1],a[2]),u(a[1],b[2]))}function
-dL(b,a){return[0,y(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
-c2(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
-gb(b,a){return dL(b,[0,X(a[1]),a[2]])}function
-aU(a){if(typeof
-a==="number")return n$;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iQ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dM(b):0}function
+cv(c,b){var
+a=is(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c7(b,a){return H(v(b[1],a[2]),v(a[1],b[2]))}function
+cw(b,a){return[0,x(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
+bz(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
+iR(a){return[0,L(a[1]),a[2]]}function
+dQ(b,a){return cw(b,iR(a))}function
+eL(f,c){var
+a=c[1],e=a5(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,L(c[2]),L(a)];return bz(f,g)}function
+eM(q){var
+a=q[2],b=q[1],o=a5(b);if(0===o)var
+c=[0,c3(a),[0,d,gn(a)]];else
+if(0<o){var
+n=a5(a);if(0===n)var
+c=[0,c3(b),[0,gn(b),d]];else
+if(0<n)var
+l=eH(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+var
+j=eH(b,L(a)),k=j[2],c=[0,j[1],[0,k[1],L(k[2])]]}else{var
+p=L(b),i=a5(a);if(0===i)var
+c=[0,c3(b),[0,gn(b),d]];else
+if(0<i)var
+g=eH(p,a),h=g[2],c=[0,g[1],[0,L(h[1]),h[2]]];else
+var
+e=eH(p,L(a)),f=e[2],c=[0,e[1],[0,L(f[1]),L(f[2])]]}var
+r=c[2],s=dN(r[2]);return[0,r[1],s]}function
+aX(a){if(typeof
+a==="number")return ou;else
 switch(a[0]){case
 0:var
-b=aU(a[1]);return aN(bc(1,48),b);case
+b=aX(a[1]);return aO(be(1,48),b);case
 1:var
-c=aU(a[1]);return aN(bc(1,49),c);case
+c=aX(a[1]);return aO(be(1,49),c);case
 2:var
-d=aU(a[1]);return aN(bc(1,50),d);case
+d=aX(a[1]);return aO(be(1,50),d);case
 3:var
-e=aU(a[1]);return aN(bc(1,51),e);case
+e=aX(a[1]);return aO(be(1,51),e);case
 4:var
-f=aU(a[1]);return aN(bc(1,52),f);case
+f=aX(a[1]);return aO(be(1,52),f);case
 5:var
-g=aU(a[1]);return aN(bc(1,53),g);case
+g=aX(a[1]);return aO(be(1,53),g);case
 6:var
-h=aU(a[1]);return aN(bc(1,54),h);case
+h=aX(a[1]);return aO(be(1,54),h);case
 7:var
-i=aU(a[1]);return aN(bc(1,55),i);case
+i=aX(a[1]);return aO(be(1,55),i);case
 8:var
-j=aU(a[1]);return aN(bc(1,56),j);default:var
-k=aU(a[1]);return aN(bc(1,57),k)}}function
-dM(a){return typeof
-a==="number"?oa:aU(a)}function
-cs(a){return iv(b(2,c),a)}function
-iF(b,a){return cq(a,b)}function
-iG(b,a){return X(cq(X(a),b))}function
-eC(b,a){return X(b8(X(b),a))}function
-$(c,b){var
-a=dI(b,c);return[0,a,a]}function
-iH(d,c,a){var
-b=dI(c,d),e=eC(b,a);return[0,b8(b,a),e]}function
-C(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-K(b,a){return[0,aH(b[1],a[2]),aH(b[2],a[1])]}function
-ae(a){return[0,X(a[2]),X(a[1])]}function
-iI(e,c,b,a){if(L(d,e))return L(d,b)?[0,u(e,b),u(c,a)]:L(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(L(c,d))return L(d,b)?[0,u(e,a),u(c,b)]:L(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(L(d,b))return[0,u(e,a),u(c,a)];if(L(a,d))return[0,u(c,b),u(e,b)];var
-f=bt(u(e,b),u(c,a));return[0,f7(u(e,a),u(c,b)),f]}function
+j=aX(a[1]);return aO(be(1,56),j);default:var
+k=aX(a[1]);return aO(be(1,57),k)}}function
+dR(a){return typeof
+a==="number"?ov:aX(a)}function
+cx(a){return iJ(c(2,b),a)}function
+iS(b,a){return ct(a,b)}function
+iT(b,a){return L(ct(L(a),b))}function
+eN(b,a){return L(b$(L(b),a))}function
+aa(c,b){var
+a=dO(b,c);return[0,a,a]}function
+iU(d,c,a){var
+b=dO(c,d),e=eN(b,a);return[0,b$(b,a),e]}function
+C(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
+M(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
+af(a){return[0,L(a[2]),L(a[1])]}function
+iV(e,c,b,a){if(H(d,e))return H(d,b)?[0,v(e,b),v(c,a)]:H(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(H(c,d))return H(d,b)?[0,v(e,a),v(c,b)]:H(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(H(d,b))return[0,v(e,a),v(c,a)];if(H(a,d))return[0,v(c,b),v(e,b)];var
+f=bf(v(e,b),v(c,a));return[0,gj(v(e,a),v(c,b)),f]}function
 w(c,b,a){var
-d=iI(b[1],b[2],a[1],a[2]),e=iG(c,d[2]);return[0,iF(c,d[1]),e]}function
-T(b,a){var
-c=u(a[1],a[1]),e=u(a[2],a[2]),h=iG(b,bt(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
+d=iV(b[1],b[2],a[1],a[2]),e=iT(c,d[2]);return[0,iS(c,d[1]),e]}function
+U(b,a){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=iT(b,bf(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iF(b,f7(c,e));return[0,f,h]}function
-gc(b,a){var
-c=dI(cs(b),b),d=eC(c,a[1]);return[0,b8(c,a[2]),d]}function
-b9(b,a){if(Z(d,a[1]))return[0,gc(b,a)];var
-c=Z(a[2],d),e=c?[0,ae(gc(b,ae(a)))]:c;return e}function
-ct(f,b){var
-g=Z(d,b[1]);if(g)var
-e=dI(b[2],f),a=iy(e),i=ac(u(a,a),e)?a:y(a,c),h=[0,[0,iy(dI(b[1],f)),i]];else
+f=iS(b,gj(c,e));return[0,f,h]}function
+gp(b,a){var
+c=dO(cx(b),b),d=eN(c,a[1]);return[0,b$(c,a[2]),d]}function
+cb(b,a){if(Z(d,a[1]))return[0,gp(b,a)];var
+c=Z(a[2],d),e=c?[0,af(gp(b,af(a)))]:c;return e}function
+cy(f,c){var
+g=Z(d,c[1]);if(g)var
+e=dO(c[2],f),a=eJ(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eJ(dO(c[1],f)),i]];else
 var
 h=g;return h}function
-aO(f,d,c,b,a){if(b){if(a){var
-g=aO(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-b_(b,a){return cq(b,a)}function
-a8(a,c,b){if(L(d,a)){var
-e=b[1],f=X(b_(X(u(a,b[2])),c));return[0,b_(u(a,e),c),f]}var
-g=b[2],h=X(b_(X(u(a,b[1])),c));return[0,b_(u(a,g),c),h]}function
-a4(a){var
-b=X(cq(X(a[2]),c));return[0,cq(a[1],c),b]}function
-dN(c,b,a){var
-e=iI(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eC(f,h),j=Z(g,d)?a[1]:a[2];return[0,b8(g,j),i]}function
-dO(a){return bt(a[2],X(a[1]))}var
+aP(f,d,c,b,a){if(b){if(a){var
+g=aP(f,d,c,b[2],a[2]);return[0,au(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cc(b,a){return ct(b,a)}function
+a_(a,c,b){if(H(d,a)){var
+e=b[1],f=L(cc(L(v(a,b[2])),c));return[0,cc(v(a,e),c),f]}var
+g=b[2],h=L(cc(L(v(a,b[1])),c));return[0,cc(v(a,g),c),h]}function
+a6(a){var
+c=L(ct(L(a[2]),b));return[0,ct(a[1],b),c]}function
+dS(c,b,a){var
+e=iV(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eN(f,h),j=Z(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
+dT(a){return bf(a[2],L(a[1]))}var
 A=[0,d,d];function
-eD(a){return[0,a[1],a[1]]}function
-c3(a){return[0,a[2],a[2]]}function
-cu(b,a){switch(a[0]){case
+eO(a){return[0,a[1],a[1]]}function
+c8(a){return[0,a[2],a[2]]}function
+cz(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1087,115 +1127,115 @@ f=k(b,a[2]);return[7,k(b,a[1]),f];case
 8:return[8,k(b,a[1])];case
 9:return[9,k(b,a[1])];default:var
 g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-aK(n,m){var
+aL(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?v(b[1],a[1]):0;case
-1:return 1===a[0]?v(b[1],a[1]):0;case
-2:return 2===a[0]?ac(b[1],a[1]):0;case
+0:return 0===a[0]?t(b[1],a[1]):0;case
+1:return 1===a[0]?t(b[1],a[1]):0;case
+2:return 2===a[0]?Y(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aK(b[1],a[1]);if(f){var
+f=aL(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aK(b[1],a[1]);if(g){var
+g=aL(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aK(b[1],a[1]);if(h){var
+h=aL(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aK(b[1],a[1]);if(i){var
+i=aL(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=b7(b[1],a[1]);if(j){var
-k=aK(b[2],a[2]);if(k){var
-l=aK(b[3],a[3]);if(l){var
+j=b_(b[1],a[1]);if(j){var
+k=aL(b[2],a[2]);if(k){var
+l=aL(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-eE(b){var
+eP(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aP(c,b){var
-a=eE(b);return a?ac(c,a[1]):a}function
-dP(a){return Z(f3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+aQ(c,b){var
+a=eP(b);return a?Y(c,a[1]):a}function
+dU(a){return Z(c3(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-F(b,a){if(aP(d,b))return a;if(aP(d,a))return b;var
-c=eE(b);if(c){var
-e=c[1],f=eE(a);if(f){var
-g=f[1];if(dP(e)&&dP(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bf(a){var
+F(b,a){if(aQ(d,b))return a;if(aQ(d,a))return b;var
+c=eP(b);if(c){var
+e=c[1],f=eP(a);if(f){var
+g=f[1];if(dU(e)&&dU(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bj(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dP(c)?l(X(c)):[0,[5,a]];case
+c=b[1];return dU(c)?l(L(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aP(d,a))return b;if(aP(d,b))return bf(a);var
+s(b,a){if(aQ(d,a))return b;if(aQ(d,b))return bj(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-I(a){var
-c=eE(a);if(c){var
-b=c[1];return dP(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,b){if(!aP(d,a)&&!aP(c,b)){if(!aP(d,b)&&!aP(c,a))return aK(a,b)?I(a):[0,[6,a,b]];return b}return a}function
-aj(b,a){return aP(c,a)?b:[0,[7,b,a]]}function
-aC(a){return aP(c,a)?a:[0,[9,a]]}function
-iJ(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bw(f,e,d,c){var
+e=a[1];return 0===e[0]?t(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+J(a){var
+c=eP(a);if(c){var
+b=c[1];return dU(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,c){if(!aQ(d,a)&&!aQ(b,c)){if(!aQ(d,c)&&!aQ(b,a))return aL(a,c)?J(a):[0,[6,a,c]];return c}return a}function
+aj(c,a){return aQ(b,a)?c:[0,[7,c,a]]}function
+aF(a){return aQ(b,a)?a:[0,[9,a]]}function
+iW(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bA(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cu(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cv(a){var
+g=b[1],h=[0,k(e,cz(function(b){return function(a){return u(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cA(a){var
 b=0;function
-c(a){return[0,a]}return bw(l(d),c,a,b)}function
-gd(b,a){if(a){if(aK(b,a[1]))return ob;var
-c=gd(b,a[2]);return z(function(a){return[0,a]},c)}return a}function
-bg(c,b){var
-a=gd(b,c),d=a?a[1]:a;return d}function
-cw(d,b){if(gd(d,b[1]))return b;var
+c(a){return[0,a]}return bA(l(d),c,a,b)}function
+gq(b,a){if(a){if(aL(b,a[1]))return ow;var
+c=gq(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
+bk(c,b){var
+a=gq(b,c),d=a?a[1]:a;return d}function
+cB(d,b){if(gq(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cw(a[2],b),j=cw(a[3],i),c=cw(a[4],j);break;case
+i=cB(a[2],b),j=cB(a[3],i),c=cB(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cw(a[1],b);break;case
+c=cB(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cw(a[1],b),c=cw(a[2],h)}var
-e=c[2],f=c[1],g=[0,cu(function(a){return bg(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-c4(a){var
-b=c0(function(b,a){return cw(a,b)},a,oc),c=b[1],d=e(function(a){return bg(c,a)},a);return[0,iz(b[2]),d]}function
-eF(a){return bv(function(b,a){return y(dO(b),a)},d,a)}function
-bN(b,c,a){var
-d=eF(a),e=f7(c[2],y(b[2],d)),f=eF(a);return[0,b,[0,bt(c[1],aH(b[1],f)),e],a]}function
+h=cB(a[1],b),c=cB(a[2],h)}var
+e=c[2],f=c[1],g=[0,cz(function(a){return bk(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+c9(a){var
+b=c6(function(b,a){return cB(a,b)},a,ox),c=b[1],d=e(function(a){return bk(c,a)},a);return[0,iM(b[2]),d]}function
+eQ(a){return bi(function(b,a){return x(dT(b),a)},d,a)}function
+bP(b,c,a){var
+d=eQ(a),e=gj(c[2],x(b[2],d)),f=eQ(a);return[0,b,[0,bf(c[1],aE(b[1],f)),e],a]}function
 ad(a){return[0,a,a,0]}function
-bx(b,a){var
+bB(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aO(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return bN(C(b[1],a[1]),g,f)}function
-a5(b,a){var
-c=a[3],d=b[3],e=aO(function(a){return a},ae,K,d,c),f=K(b[2],a[2]);return bN(K(b[1],a[1]),f,e)}function
-dQ(a){var
-b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
-aq(a,c,b){var
+f=aP(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return bP(C(b[1],a[1]),g,f)}function
+a7(b,a){var
+c=a[3],d=b[3],e=aP(function(a){return a},af,M,d,c),f=M(b[2],a[2]);return bP(M(b[1],a[1]),f,e)}function
+dV(a){var
+b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
+ar(a,c,b){var
 d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=w(a,e,b);return a4(C(w(a,d,c),f))}function
-i(b){return a4(w(a,e,b))}var
-j=aO(function(b){return a4(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bN(w(a,c[1],b[1]),k,j)}function
-dR(b,a){var
-c=a[3],d=C(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=T(b,a[2]);return bN(T(b,a[1]),g,f)}function
-ge(a,b){var
-c=ct(a,b[1]);if(c){var
-g=c[1],d=ct(a,b[2]);if(d){var
-h=d[1],f=b9(a,C(h,g));if(f)var
-l=b[3],m=f[1],i=[0,bN(g,h,e(function(b){return w(a,m,b)},l))];else
+f=w(a,e,b);return a6(C(w(a,d,c),f))}function
+i(b){return a6(w(a,e,b))}var
+j=aP(function(b){return a6(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bP(w(a,c[1],b[1]),k,j)}function
+dW(b,a){var
+c=a[3],d=C(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=U(b,a[2]);return bP(U(b,a[1]),g,f)}function
+gr(a,b){var
+c=cy(a,b[1]);if(c){var
+g=c[1],d=cy(a,b[2]);if(d){var
+h=d[1],f=cb(a,C(h,g));if(f)var
+l=b[3],m=f[1],i=[0,bP(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1204,439 +1244,515 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-c5(a,c,b){var
-d=b9(a,b[1]);if(d){var
-f=b9(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return ae(w(a,g,b))},o=aO(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bN(g,w(a,c[2],h),p)];else
+c_(a,c,b){var
+d=cb(a,b[1]);if(d){var
+f=cb(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return M(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bP(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-b$(b,a){return a?k(b,a[1]):a}function
-eG(a){var
-b=e(a4,a[3]),c=a4(C(a[2],a[1]));return bN(a[1],c,b)}function
-iK(a,k,j,r,b){var
-l=eG(k),m=eG(j),g=eG(b[1]),h=eG(b[2]),s=aq(a,l,h),t=a5(aq(a,m,g),s),i=c5(a,ad($(a,c)),t);if(i)var
-f=i[1],n=aq(a,a5(l,g),f),o=aq(a,a5(m,h),f),d=function(c,b){return aq(a,c,ad(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bx(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a5(b,d(f,a4(a)))[2]},C=function(a){return dQ(d(f,a4(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bN(b[2][1],b[2][2],E),G=ae(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bN(b[1][1],b[1][2],H),F]];else
+cd(b,a){return a?k(b,a[1]):a}function
+eR(a){var
+b=e(a6,a[3]),c=a6(C(a[2],a[1]));return bP(a[1],c,b)}function
+iX(a,k,j,r,c){var
+l=eR(k),m=eR(j),g=eR(c[1]),h=eR(c[2]),s=ar(a,l,h),t=a7(ar(a,m,g),s),i=c_(a,ad(aa(a,b)),t);if(i)var
+f=i[1],n=ar(a,a7(l,g),f),o=ar(a,a7(m,h),f),d=function(c,b){return ar(a,c,ad(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bB(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a7(b,d(f,a6(a)))[2]},C=function(a){return dV(d(f,a6(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bP(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bP(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-iL(a,e,d,k){var
-p=dR(a,d),f=bx(dR(a,e),p),g=a5(bx(f,ad($(a,c))),k),l=aq(a,ad($(a,b(2,c))),f),q=dR(a,g),h=ge(a,a5(aq(a,ad($(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=aq(a,m,d),i=c5(a,bx(aq(a,g,e),r),l);if(i)var
-s=aq(a,m,e),j=c5(a,a5(aq(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+iY(a,e,d,k){var
+p=dW(a,d),f=bB(dW(a,e),p),g=a7(bB(f,ad(aa(a,b))),k),l=ar(a,ad(aa(a,c(2,b))),f),q=dW(a,g),h=gr(a,a7(ar(a,ad(aa(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=ar(a,m,d),i=c_(a,bB(ar(a,g,e),r),l);if(i)var
+s=ar(a,m,e),j=c_(a,a7(ar(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=b$(function(b){return iK(a,e,d,k,b)},o);return b$(function(b){return iK(a,e,d,k,b)},u)}function
-bO(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
+u=cd(function(b){return iX(a,e,d,k,b)},o);return cd(function(b){return iX(a,e,d,k,b)},u)}function
+bQ(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-ca(b,j,i){var
+ce(b,j,i){var
 f=ad(A);return function(a){switch(a[0]){case
-0:return[0,t(a[1],j,f)];case
-1:return[0,t(a[1],i,f)];case
-2:return[0,ad($(b,a[1]))];case
+0:return[0,u(a[1],j,f)];case
+1:return[0,u(a[1],i,f)];case
+2:return[0,ad(aa(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bO(function(b,a){return[0,bx(b,a)]},l,k);case
+k=a[2],l=a[1];return bQ(function(b,a){return[0,bB(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bO(function(b,a){return[0,a5(b,a)]},n,m);case
+m=a[2],n=a[1];return bQ(function(b,a){return[0,a7(b,a)]},n,m);case
 5:var
-o=a[1];return b$(function(a){return[0,dQ(a)]},o);case
+o=a[1];return cd(function(a){return[0,dV(a)]},o);case
 6:var
-p=a[2],q=a[1];return bO(function(c,a){return[0,aq(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bQ(function(c,a){return[0,ar(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bO(function(a,c){return c5(b,a,c)},s,r);case
+r=a[2],s=a[1];return bQ(function(a,c){return c_(b,a,c)},s,r);case
 8:var
-u=a[1];return b$(function(a){return[0,dR(b,a)]},u);case
+t=a[1];return cd(function(a){return[0,dW(b,a)]},t);case
 9:var
-v=a[1];return b$(function(a){return ge(b,a)},v);default:var
+v=a[1];return cd(function(a){return gr(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=iL(b,c[1],d[1],e[1]),x=a[1]?b6:aI;return z(x,w)}var
+w=iY(b,c[1],d[1],e[1]),x=a[1]?b9:aK;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dS(c){var
+dX(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dS(a[1]);if(b)return b;var
+b=dX(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bP(q,p){var
+bR(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ac(b[1],a[1]);return c?f8(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gk(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=v(b[1],a[1]),i=h?ac(e[1],g[1]):h,j=i?f8(e[2],g[2]):i,k=j?ac(d[1],f[1]):j;return k?f8(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gk(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gk(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bP(b[1],a[1]);if(l){var
+l=bR(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bP(b[1],a[1]);if(m){var
+m=bR(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bP(b[1],a[1]);if(n){var
+n=bR(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bP(b[1],a[1]);if(o){var
+o=bR(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bh(a,b){switch(b[0]){case
-0:return[0,iH(a,b[1],b[2])];case
+bl(a,b){switch(b[0]){case
+0:return[0,iU(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bh(a,b[1]);if(c)var
-d=bh(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
+c=bl(a,b[1]);if(c)var
+d=bl(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bh(a,b[1]);if(e)var
-f=bh(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
+e=bl(a,b[1]);if(e)var
+f=bl(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bh(a,b[1]);if(g)var
-h=bh(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
+g=bl(a,b[1]);if(g)var
+h=bl(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bh(a,b[1]);if(i){var
-j=bh(a,b[2]);if(j)var
-k=b9(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+i=bl(a,b[1]);if(i){var
+j=bl(a,b[2]);if(j)var
+k=cb(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bh(a,b[1]);return l?ct(a,l[1]):l}}function
-eH(b,a){return iH(b,a[1],a[2])}function
-bi(a,d){if(dS(d))switch(d[0]){case
+l=bl(a,b[1]);return l?cy(a,l[1]):l}}function
+eS(b,a){return iU(b,a[1],a[2])}function
+bm(a,d){if(dX(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dG(i,iM),k=j?c1(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,eH(a,c2(gb(e,g),n)),0],p=f(a3(A,i),o),q=eH(a,e)[2],r=[0,eH(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,eH(a,c2(dL(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dL(i,iZ),k=j?c7(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,eS(a,bz(dQ(e,g),n)),0],p=f(aW(A,i),o),q=eS(a,e)[2],r=[0,eS(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,eS(a,bz(cw(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bi(a,d[2]),u=bi(a,d[1]);return bO(function(b,a){return[0,bx(b,a)]},u,t);case
+t=bm(a,d[2]),u=bm(a,d[1]);return bQ(function(b,a){return[0,bB(b,a)]},u,t);case
 3:var
-v=bi(a,d[2]),w=bi(a,d[1]);return bO(function(b,a){return[0,a5(b,a)]},w,v);case
+v=bm(a,d[2]),w=bm(a,d[1]);return bQ(function(b,a){return[0,a7(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(bP(h,m)){var
-x=bi(a,h);return b$(function(b){return[0,dR(a,b)]},x)}var
-y=bi(a,m),B=bi(a,h);return bO(function(c,b){return[0,aq(a,c,b)]},B,y);case
+m=d[2],h=d[1];if(bR(h,m)){var
+x=bm(a,h);return cd(function(b){return[0,dW(a,b)]},x)}var
+z=bm(a,m),B=bm(a,h);return bQ(function(c,b){return[0,ar(a,c,b)]},B,z);case
 5:var
-C=bi(a,d[2]),D=bi(a,d[1]);return bO(function(b,c){return c5(a,b,c)},D,C);default:var
-E=bi(a,d[1]);return b$(function(b){return ge(a,b)},E)}return z(ad,bh(a,d))}function
-aV(b,a){if(dS(a)){var
-c=bi(b,a);return z(function(a){return a[2]},c)}return bh(b,a)}function
-iN(a){var
-e=bt(X(a),d);return f$(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-iO(a){return iw(y(iN(a),a))}function
-cb(f,a,e){var
-b=aV(y(f,iN(a)),e);if(b)var
-c=b[1],g=iO(a),h=X(b_(X(c[2]),g)),i=iO(a),d=[0,[0,b_(c[1],i),h]];else
+C=bm(a,d[2]),D=bm(a,d[1]);return bQ(function(b,c){return c_(a,b,c)},D,C);default:var
+E=bm(a,d[1]);return cd(function(b){return gr(a,b)},E)}return y(ad,bl(a,d))}function
+aY(b,a){if(dX(a)){var
+c=bm(b,a);return y(function(a){return a[2]},c)}return bl(b,a)}function
+i0(a){var
+e=bf(L(a),d);return dN(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+i1(a){return iK(x(i0(a),a))}function
+cf(f,a,e){var
+b=aY(x(f,i0(a)),e);if(b)var
+c=b[1],g=i1(a),h=L(cc(L(c[2]),g)),i=i1(a),d=[0,[0,cc(c[1],i),h]];else
 var
 d=b;return d}function
-af(d,a){var
-b=cb(d,a[2],a[1][1]);if(b)var
-c=cb(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+ag(d,a){var
+b=cf(d,a[2],a[1][1]);if(b)var
+c=cf(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gf(b,a){var
-c=X(b_(X(a[2]),b));return[0,b_(a[1],b),c]}function
-eI(b,a){var
-c=eC(b[2],a);return[0,b8(b[1],a),c]}function
-gg(a,f,b){if(b){var
-d=b[1],g=gg(a,f,d),h=g[2],i=f9(P(dF(oe,d),od)),j=u(f9(dF(of,d)),i),e=eI(w(a,g[1],f),j),k=is(b)?C(h,e):K(h,e);return[0,e,k]}var
-l=$(a,c);return[0,$(a,c),l]}function
-iP(f){var
-g=dH(f),e=og[1],b=g,c=0,a=e;for(;;){if(b){var
+gs(b,a){var
+c=L(cc(L(a[2]),b));return[0,cc(a[1],b),c]}function
+eT(b,a){var
+c=eN(b[2],a);return[0,b$(b[1],a),c]}function
+gt(a,f,c){if(c){var
+d=c[1],g=gt(a,f,d),h=g[2],i=gl(P(dK(oz,d),oy)),j=v(gl(dK(oA,d)),i),e=eT(w(a,g[1],f),j),k=iE(c)?C(h,e):M(h,e);return[0,e,k]}var
+l=aa(a,b);return[0,aa(a,b),l]}function
+i2(f){var
+g=dM(f),e=oB[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return P(oh,c)}}function
-iQ(a,d){var
-g=cs(a),h=u(b(2,b(2,c)),g),e=L(d[2],h);if(e)var
-i=gg(a,d,dF(oj,P(iP(a),oi)))[2][2],f=[0,[0,gg(a,d,P(dF(ol,iP(a)),ok))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return P(oC,c)}}function
+i3(a,d){var
+g=cx(a),h=v(c(2,c(2,b)),g),e=H(d[2],h);if(e)var
+i=gt(a,d,dK(oE,P(i2(a),oD)))[2][2],f=[0,[0,gt(a,d,P(dK(oG,i2(a)),oF))[2][1],i]];else
 var
 f=e;return f}function
-iR(i){function
+i4(i){function
 a(h){var
-m=b8(cs(i),h),g=dH(i),f=m,e=d,a=c;for(;;){if(g){var
-j=y(a,b(2,c)),k=y(e,b8(f,a)),l=X(b8(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(b(2,r(b(2,r(b(2,r(b(2,b(2,r(b(2,r(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(r(b(2,b(2,c))));return aH(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
-iS(e,a){var
-f=L(d,a);if(f){var
-g=b(2,b(2,c));return iQ(e,eI(T(e,[0,a,a]),g))}return f}function
-iT(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aH(iR(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(iR(a),n),e=iS(a,g);if(e){var
-f=iS(a,h);if(f)var
+m=b$(cx(i),h),g=dM(i),f=m,e=d,a=b;for(;;){if(g){var
+j=x(a,c(2,b)),k=x(e,b$(f,a)),l=L(b$(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aE(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
+i5(e,a){var
+f=H(d,a);if(f){var
+g=c(2,c(2,b));return i3(e,eT(U(e,[0,a,a]),g))}return f}function
+i6(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(i4(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i4(a),n),e=i5(a,g);if(e){var
+f=i5(a,h);if(f)var
 i=Z(d,e[1][1]),j=i?Z(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-iU(a,d){var
-b=T(a,d),e=$(a,c);return K(C(b,b),e)}function
-c6(f,j){var
-e=aV(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=iT(a);if(d)var
-h=b(2,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))))),i=iQ(a,T(a,eI(w(a,k,d[1]),h))),g=z(function(b){return iU(a,iU(a,b))},i);else
+i7(a,d){var
+c=U(a,d),e=aa(a,b);return M(C(c,c),e)}function
+c$(f,j){var
+e=aY(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i6(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=i3(a,U(a,eT(w(a,k,d[1]),h))),g=y(function(b){return i7(a,i7(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return z(function(a){return gf(l,a)},g)}return e}function
-iV(a,d){var
-e=iT(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return z(function(e){var
-f=b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))));return eI(w(a,d,gf(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-eJ(d,a){return c6(d,[3,a,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c]])}function
-eK(a){return 0===a[0]?a[2]:a[1]}function
-om(a){return a}function
-on(a){return a}function
-oo(a,b){return aO(on,om,C,a,b)}function
-op(a){return a}function
-oq(a){return a}function
-cc(a,b){return aO(oq,op,oo,a,b)}function
-gh(b,a,c){if(a){var
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gs(l,a)},g)}return e}function
+i8(a,d){var
+e=i6(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return eT(w(a,d,gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+eU(d,a){return c$(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
+bS(a){switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
+2:var
+j=a[2],k=a[1],f=j,e=k,c=function(b,a){return[0,cw(b,a)]};break;case
+3:var
+l=a[2],m=a[1],f=l,e=m,c=function(b,a){return[0,dQ(b,a)]};break;case
+4:var
+n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bz(b,a)]};break;case
+5:var
+p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cv(a,[0,d,b])?0:[0,eL(c,a)]};break;default:return 0}var
+g=bS(e);if(g){var
+h=bS(f);if(h)return c(g[1],h[1]);var
+i=h}else
+var
+i=g;return i}function
+i(i,e,c){var
+f=bS(c);if(f){var
+g=f[1];return e?ak(c7(g,[0,d,b])):c7([0,d,b],g)}var
+a=aY(i,c);if(a){var
+h=a[1];return e?Z(d,h[1]):H(d,h[1])}return a}function
+i9(c,b){var
+a=aY(c,b),d=a?1:a;return d}function
+a8(c,a,b){var
+d=bR(a,b),e=d?i9(c,a):d;return e?e:i(c,0,[3,b,a])}function
+eV(a){switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
+1:return 0;case
+2:var
+r=a[2],s=a[1],f=r,e=s,c=function(b,a){return[0,cw(b,a)]};break;case
+3:var
+t=a[2],u=a[1],f=t,e=u,c=function(b,a){return[0,dQ(b,a)]};break;case
+4:var
+v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bz(b,a)]};break;case
+5:var
+x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cv(a,[0,d,b])?0:[0,eL(c,a)]};break;default:var
+k=eV(a[1]);if(k){var
+o=k[1],g=eM(o),p=dN(eJ(g[2])),h=[0,eJ(g[1]),p],l=Z(d,g[1]),m=l?cv(bz(h,h),o):l,q=m?[0,h]:m;return q}return k}var
+i=eV(e);if(i){var
+j=eV(f);if(j)return c(i[1],j[1]);var
+n=j}else
+var
+n=i;return n}function
+i_(a){if(a){var
+e=a[2],c=a[1];if(cv(by([0,d,b],c),[0,d,b])){var
+g=i_(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=[0,[0,c,e]]}else
+var
+f=a;return f}function
+i$(c,a){var
+e=aA(c,a),f=[0,d,b];return bi(function(a,b){return eM(cw(bz(a[1],a[2]),b))},f,e)}function
+ja(c,j){if(c){var
+f=c[1],g=i_(j);if(g){var
+h=g[1],a=h[1],k=function(c){var
+f=by([0,d,b],a),g=eL(by([0,d,b],c),f),h=ca(a),i=aA(ca(c),h);return e(function(a){var
+b=bz(g,a[2]);return eM(dQ(a[1],b))},i)},l=ja(f,e(k,h[2]));return y(function(c){var
+e=by([0,d,b],a);return[0,eM(eL(iR(i$(ca(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],aW([0,d,b],f)]]}else
+var
+i=c;return i}function
+jb(a){if(a){var
+b=eV(a[1]);if(b)var
+c=jb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return oH}function
+jc(a){if(a){var
+b=jb(a[1]);if(b)var
+c=jc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return oI}function
+jd(h,l){var
+a=jc(l);if(a){var
+i=a[1],c=ja(h,i);if(c){var
+e=c[1],f=t(j(e),h),g=f?aq(function(a){return ak(cv(a,[0,d,b]))},e):f;return g?n(function(a){return cv(i$(a,e),[0,d,b])},i):g}var
+k=c}else
+var
+k=a;return k}function
+eW(a){return 0===a[0]?a[2]:a[1]}function
+oJ(a){return a}function
+oK(a){return a}function
+oL(a,b){return aP(oK,oJ,C,a,b)}function
+oM(a){return a}function
+oN(a){return a}function
+cg(a,b){return aP(oN,oM,oL,a,b)}function
+gu(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gh(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dN(d,a,b))},j=function(a){return ae(dN(d,a,b))};return[0,aO(function(a){return a},j,i,h,a),g]}var
-k=gh(b,f,0);return[0,e(function(a){return ae(dN(d,a,b))},a),k]}return c}function
-gi(a){if(a){var
+g=gu(b,f,c[2]),h=c[1],i=function(c,a){return M(c,dS(d,a,b))},j=function(a){return af(dS(d,a,b))};return[0,aP(function(a){return a},j,i,h,a),g]}var
+k=gu(b,f,0);return[0,e(function(a){return af(dS(d,a,b))},a),k]}return c}function
+gv(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=Z(d,c[1]),h=e?[0,gh(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=Z(d,c[1]),h=e?[0,gu(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-iW(f,e){var
+je(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gi(b);if(c){var
+c=gv(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-iX(d,b,a){if(b)if(a)var
-e=a[1],f=iX(d,b[2],a[2]),g=b7(d,b[1])?eD(e):c3(e),c=[0,g,f];else
+jf(d,b,a){if(b)if(a)var
+e=a[1],f=jf(d,b[2],a[2]),g=b_(d,b[1])?eO(e):c8(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-iY(a,b){if(a)if(b)var
-d=iY(a[2],b[2]),c=[0,iX(a[1],a,b[1]),d];else
+jg(a,b){if(a)if(b)var
+d=jg(a[2],b[2]),c=[0,jf(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bj(a){if(a){var
-b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return or}function
-eL(a){var
-b=j(a);if(iW(b,a))return 1;var
-c=bj(bu(b));return n(function(c){return iW(b,iY([0,0,c],a))},c)}function
-aA(a){function
+bn(a){if(a){var
+b=a[1],c=bn(b),d=e(function(a){return[0,1,a]},c),g=bn(b);return f(e(function(a){return[0,0,a]},g),d)}return oO}function
+eX(a){var
+b=j(a);if(je(b,a))return 1;var
+c=bn(bx(b));return n(function(c){return je(b,jg([0,0,c],a))},c)}function
+aB(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aQ(h,e){var
+aR(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gj(c,b,a){var
-d=bj(c);return n(function(c){return k(a,k(aA(function(a){return aQ(c,a)}),b))},d)}function
-gk(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,y(h,c),a)},k=gk(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=aO(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gw(c,b,a){var
+d=bn(c);return n(function(c){return k(a,k(aB(function(a){return aR(c,a)}),b))},d)}function
+gx(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a_(c,x(h,b),a)},k=gx(h,j,i),l=function(c,b){var
+d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
-g=b;else
+g=c;else
 var
 g=d;return g}function
-eM(b,d,a,c){function
+eY(b,d,a,c){function
 e(c,d){var
-e=a8(d,b,a);return K(C(c,c),e)}function
-f(c){return ae(a8(c,b,a))}return aO(function(a){return C(a,a)},f,e,d,c)}function
-gl(d,i,h,g){var
+e=a_(d,b,a);return M(C(c,c),e)}function
+f(c){return af(a_(c,b,a))}return aP(function(a){return C(a,a)},f,e,d,c)}function
+gy(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c3(e[2]),k=cc(a,gk(d,f,eM(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gm(b,a){return[0,[0,0,b],a]}function
-c7(b,c,g,f,a){function
+e=b[1],f=c[1],j=c8(e[2]),k=cg(a,gx(d,f,eY(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gz(b,a){return[0,[0,0,b],a]}function
+da(b,c,g,f,a){function
 d(a){if(a){var
-h=a3([0,ae(a[1][2]),0],b),c=gl(g,f,a[2],h),d=v(j(c),b);if(d)return eL(c);var
+h=aW([0,af(a[1][2]),0],b),c=gy(g,f,a[2],h),d=t(j(c),b);if(d)return eX(c);var
 e=d}else
 var
-e=a;return e}return gj(b,gm(c,a),d)}function
-iZ(f,e){var
+e=a;return e}return gw(b,gz(c,a),d)}function
+jh(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gi([0,[0,eD(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gv([0,[0,eO(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gn(b,c,a){function
+gA(b,c,a){function
 d(a){if(a){var
-h=a3([0,a[1][2],0],b),c=iZ(a[2],h);if(c){var
-d=c[1],e=v(j(d),b);if(e)return eL(d);var
+h=aW([0,a[1][2],0],b),c=jh(a[2],h);if(c){var
+d=c[1],e=t(j(d),b);if(e)return eX(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gj(b,gm(c,a),d)}function
-i0(b,a){return e(function(a){return[0,a[1],b]},a)}function
-i1(b,a){var
-c=bj(b);return n(function(b){return Z(d,aQ(b,a)[1])},c)}function
-i2(c,b,a){var
-d=a[3],f=e(function(a){return a8(c,b,a)},d),g=a[2];return[0,a8(c,b,a[1]),g,f]}function
-i3(a,b){var
-c=b[3],d=a[3],e=aO(function(a){return a},ae,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
-cx(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ar(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-bQ(b,a){var
+g=a;return g}return gw(b,gz(c,a),d)}function
+ji(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jj(b,a){var
+c=bn(b);return n(function(b){return Z(d,aR(b,a)[1])},c)}function
+jk(c,b,a){var
+d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
+jl(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},af,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
+cC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+as(c,b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+bT(b,a){var
 c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-cy(b,a){var
+cD(b,a){var
 c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
-aa(b,a){var
+ab(b,a){var
 c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-cz(a){return cy(a,aC(aa(a,a)))}function
-c8(a){var
-b=a[5];return b?b[1]:aC(a[2])}function
-eN(b,a){return b?a:bf(a)}function
-i4(e,a,i,d,h){var
-f=aa(a,e),b=ar(s,e,bQ(f,a)),j=aa(b,b),g=s(I(d),j),c=eN(h,aC(g)),k=s(f,c),l=ar(F,a,cy(b,c));return[0,ar(F,b,bQ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-i5(a,e,d){var
-b=aa(a,a),c=aC(b),f=[0,e],g=z(function(b){return ar(s,a,bQ(aa(b,a),b))},d);return[0,a,b,cy(a,c),c,0,g,f]}function
-i6(b,a){var
-d=aa(a,b);return[0,a,l(c),a,d,0,0,0]}function
-eO(a){return e(function(a){var
-b=a[2];return[0,cx(a[1]),b]},a)}function
-i7(a){return e(function(a){var
-b=l(c);return[0,cx(a[3]),b]},a)}function
-i8(b,a){var
+cE(a){return cD(a,aF(ab(a,a)))}function
+db(a){var
+b=a[5];return b?b[1]:aF(a[2])}function
+eZ(b,a){return b?a:bj(a)}function
+jm(e,a,i,d,h){var
+f=ab(a,e),b=as(s,e,bT(f,a)),j=ab(b,b),g=s(J(d),j),c=eZ(h,aF(g)),k=s(f,c),l=as(F,a,cD(b,c));return[0,as(F,b,bT(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jn(a,e,d){var
+b=ab(a,a),c=aF(b),f=[0,e],g=y(function(b){return as(s,a,bT(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
+jo(c,a){var
+d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
+e0(a){return e(function(a){var
+b=a[2];return[0,cC(a[1]),b]},a)}function
+jp(a){return e(function(a){var
+c=l(b);return[0,cC(a[3]),c]},a)}function
+jq(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-i9(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-go(d,a){var
-b=ct(d,[0,a[2],a[2]]);if(b){var
+jr(c,b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+gB(d,a){var
+b=cy(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-eP(a,m,f,l,e,k,j){var
-o=i9(a5,k,j),b=i9(function(b,c){return aq(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bx(bx(bx(ad($(a,d)),h),g),c),p=bj(m);return n(function(c){var
-b=i8(function(b){return T(a,aQ(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,go(a,C(C(C($(a,d),k),j),h))),g=K(aQ(c,i),m),n=f?K(g,aQ(c,f[1])):g;return Z(d,n[1])},p)}function
-by(a){return cq(y(a[1],a[2]),c)}function
-c9(a){var
-b=by(a);return aH(a[2],b)}function
-eQ(c,b){if(b)var
-a=b[1],e=eQ([0,c],b[2]),g=c9(a),h=[0,[0,c9(a),g],0],i=f(a3(A,c),h),j=by(a),d=[0,[0,[0,by(a),j],a,i],e];else
+e1(a,m,f,l,e,k,j){var
+o=jr(a7,k,j),b=jr(function(b,c){return ar(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bB(bB(bB(ad(aa(a,d)),h),g),c),p=bn(m);return n(function(c){var
+b=jq(function(b){return U(a,aR(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gB(a,C(C(C(aa(a,d),k),j),h))),g=M(aR(c,i),m),n=f?M(g,aR(c,f[1])):g;return Z(d,n[1])},p)}function
+bC(a){return ct(x(a[1],a[2]),b)}function
+dc(a){var
+b=bC(a);return aE(a[2],b)}function
+e2(c,b){if(b)var
+a=b[1],e=e2([0,c],b[2]),g=dc(a),h=[0,[0,dc(a),g],0],i=f(aW(A,c),h),j=bC(a),d=[0,[0,[0,bC(a),j],a,i],e];else
 var
 d=b;return d}function
-dT(d,b){if(b){var
+dY(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dT(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,by(a),f],c],h=by(a);return[0,[0,[0,a[1],h],c],g]}return os}function
-i_(d,b,a){if(b){if(a){var
-e=i_(d,b[2],a[2]);return C(a8(b[1],y(d,c),a[1]),e)}return A}return A}function
-dU(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i_(f,a,b)},j=dU(f,h),k=e(function(a){var
+e=dY(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bC(a),f],c],h=bC(a);return[0,[0,[0,a[1],h],c],g]}return oP}function
+js(d,c,a){if(c){if(a){var
+e=js(d,c[2],a[2]);return C(a_(c[1],x(d,b),a[1]),e)}return A}return A}function
+dZ(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return js(f,a,b)},j=dZ(f,h),k=e(function(a){var
 e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dV(e,b,d,a){if(b)if(a)var
-f=b[1],g=dV(e,b[2],d,a[2]),c=[0,[0,f,eM(e,a[1][1],d,f)],g];else
+d0(e,b,d,a){if(b)if(a)var
+f=b[1],g=d0(e,b[2],d,a[2]),c=[0,[0,f,eY(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-eR(f,d,c,b,a){if(a){var
+e3(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=eR(f,d[1],c,b,g);return[0,[0,K(A,b),0],i]}var
-j=e(function(a){return[0,K(A,b),0]},g),h=[0,[0,K(ae(w(f,c,c3(a[1][2]))),b),0],j]}else
+i=e3(f,d[1],c,b,g);return[0,[0,M(A,b),0],i]}var
+j=e(function(a){return[0,M(A,b),0]},g),h=[0,[0,M(af(w(f,c,c8(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bR(c,a){var
-b=v(j(a),c);return b?eL(a):b}function
-i$(d,b,a){if(b)var
-c=b[1],g=i$([0,d],b[2],a),h=f(a3(A,d),[0,a,0]),e=[0,[0,c,[0,aH(c[1],a[2]),y(c[2],a[2])],h],g];else
+bU(c,a){var
+b=t(j(a),c);return b?eX(a):b}function
+jt(d,b,a){if(b)var
+c=b[1],g=jt([0,d],b[2],a),h=f(aW(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),x(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-ja(d){if(d){var
+ju(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=ja(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=ju(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return ot}function
-gp(a){return z(function(a){return z(dQ,a)},a)}function
-ce(c,b,a){function
-d(a){return aq(c,b,a)}return z(function(a){return z(d,a)},a)}function
-gq(c,b,a){function
-d(a){return c5(c,a,b)}return z(function(a){return b$(d,a)},a)}function
-c_(b,a){var
-c=aJ(b,a);return e(function(c){var
+f=a;return f}return oQ}function
+gC(a){return y(function(a){return y(dV,a)},a)}function
+ci(c,b,a){function
+d(a){return ar(c,b,a)}return y(function(a){return y(d,a)},a)}function
+gD(c,b,a){function
+d(a){return c_(c,a,b)}return y(function(a){return cd(d,a)},a)}function
+dd(b,a){var
+c=aA(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bO(function(b,a){return[0,bx(b,a)]},e,d)]}return b}return a},c)}function
-eS(a){return ad($(a,b(2,c)))}function
-jb(b,c,a){if(a)var
-f=a[1],g=jb(b,c,a[2]),d=[0,e(function(a){return ae(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bQ(function(b,a){return[0,bB(b,a)]},e,d)]}return b}return a},c)}function
+e4(a){return ad(aa(a,c(2,b)))}function
+jv(b,c,a){if(a)var
+f=a[1],g=jv(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jc(a){return n(function(a){var
-b=ac(a[1],d);return b?ac(a[2],d):b},a)}function
-jd(c,b,a){var
-d=aJ(b,a);return bv(function(a,b){return C(w(c,a[1],a[2]),b)},A,d)}function
-gr(c,b,a){var
-d=dO(jd(c,a,b));return bv(function(b,a){return y(dO(b),a)},d,a)}function
-c$(a){return $(a,c)}function
-gs(a,i,c,u,t){var
+jw(a){return n(function(a){var
+b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
+jx(c,b,a){var
+d=aA(b,a);return bi(function(a,b){return C(w(c,a[1],a[2]),b)},A,d)}function
+gE(c,b,a){var
+d=dT(jx(c,a,b));return bi(function(b,a){return x(dT(b),a)},d,a)}function
+de(a){return aa(a,b)}function
+gF(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jc(c)&&!jc(j)){var
-h=gr(a,i,j),o=c$(a),p=gr(a,i,c),b=dN([0,gr(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
-q=a4(gc(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cc(e,jb(a,q,aO(function(c){return function(b){return w(a,c,b)}}(s),ae,r,j,c)))];else
+j=f[1],n=0;if(!jw(c)&&!jw(j)){var
+h=gE(a,i,j),o=de(a),p=gE(a,i,c),b=dS([0,gE(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
+q=a6(gp(a,[0,b,b])),r=function(b){return function(d,c){return M(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jv(a,q,aP(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-oI(a){var
+o5(a){var
 b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-je(c,b,a){if(b){if(a){var
-d=je(c,b[2],a[2]);return C(a8(b[1],c,a[1]),d)}return A}return A}function
-jf(a,j){switch(j){case
+jy(c,b,a){if(b){if(a){var
+d=jy(c,b[2],a[2]);return C(a_(b[1],c,a[1]),d)}return A}return A}function
+jz(a,j){switch(j){case
 0:var
-d=aH(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aH(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cq(y(a[1],a[2]),c),h=aH(b,a[2]),i=aH(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jg(d,c,a){if(a)var
-e=a[1],g=jg(d,[0,c],a[2]),b=z(b6,iC(function(a){return v(a[1],c)},d)),h=b?jf(e,b[1])[1]:e,f=[0,h,g];else
+f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=ct(x(a[1],a[2]),b),h=aE(c,a[2]),i=aE(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jA(d,c,a){if(a)var
+e=a[1],g=jA(d,[0,c],a[2]),b=y(b9,iP(function(a){return t(a[1],c)},d)),h=b?jz(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-oJ=ad(A);function
-jh(e,d,c){if(d){var
-f=t(e,c[2],oK),a=f?f[1]:[0,oJ];if(a)var
-b=jh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+o6=ad(A);function
+jB(e,d,c){if(d){var
+f=u(e,c[2],o7),a=f?f[1]:[0,o6];if(a)var
+b=jB([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return oL}function
-ji(d,c,b,a){var
-f=e(ad,b);return bw(0,ca(d,eQ(0,a),f),c,0)}function
-ag(a){if(a){var
+g=a;return g}return o8}function
+jC(d,c,b,a){var
+f=e(ad,b);return bA(0,ce(d,e2(0,a),f),c,0)}function
+ah(a){if(a){var
 b=a[1];if(b)var
-c=ag(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ah(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oM}function
-eT(b,a){if(a){var
-h=a[1],n=h[1],c=ag(e(function(a){return t(a,b,0)},n));if(c){var
-f=t(h[2],b,0);if(f){var
-i=f[1],g=eT(b,a[2]);if(g)var
+d=b;return d}return o9}function
+e5(b,a){if(a){var
+h=a[1],n=h[1],c=ah(e(function(a){return u(a,b,0)},n));if(c){var
+f=u(h[2],b,0);if(f){var
+i=f[1],g=e5(b,a[2]);if(g)var
 j=Z(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1645,78 +1761,78 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return oN}function
-bS(d,c,b){var
-a=eT(d,c);return a?k(b,a[1]):a}function
-da(a,b){return n(function(c){var
-a=t(c,b,0),d=a?1:a;return d},a)}function
-eU(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aO(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-gt(b,a){return b?i3(a,b[1]):a}function
-gu(h,g,b,f){var
-a=t(f,h,0);if(a){var
+m=c;return m}return o_}function
+bV(d,c,b){var
+a=e5(d,c);return a?k(b,a[1]):a}function
+df(a,b){return n(function(c){var
+a=u(c,b,0),d=a?1:a;return d},a)}function
+e6(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
+gG(b,a){return b?jl(a,b[1]):a}function
+gH(h,g,b,f){var
+a=u(f,h,0);if(a){var
 c=a[1];if(b){var
-i=i3(c,b[1]),e=bj(g);return n(function(a){return L(d,aQ(a,i)[1])},e)}return L(d,c[2][1])}return a}function
-jj(f,d,a){function
-b(a){return a8(a,d,$(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),A,g]}return ad(A)}function
-eV(b,a){var
-c=t(a[1],b,0);if(c){var
-d=t(a[2],b,0);if(d)var
-e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jl(c,b[1]),e=bn(g);return n(function(a){return H(d,aR(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+jD(f,d,a){function
+c(a){return a_(a,d,aa(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),A,g]}return ad(A)}function
+e7(b,a){var
+c=u(a[1],b,0);if(c){var
+d=u(a[2],b,0);if(d)var
+e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-jk(i,k,J,t,g,b,f,h,a){switch(h[0]){case
+jE(i,k,J,u,g,c,f,h,a){switch(h[0]){case
 0:var
 r=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=da(t,g);if(K){var
-ae=a[2],af=a[1],ag=eU(f,ad(r));return bS(g,k,function(a){return c7(b,ag,af,ae,a)})}return K;case
+K=df(u,g);if(K){var
+ae=a[2],af=a[1],ag=e6(f,ad(r));return bV(g,k,function(a){return da(c,ag,af,ae,a)})}return K;case
 1:var
-L=da(t,g);if(L){var
-ah=a[2],ai=a[1],aj=eU(f,ad(r));return bS(g,J,function(a){return c7(b,aj,ai,ah,a)})}return L;case
+L=df(u,g);if(L){var
+ah=a[2],ai=a[1],aj=e6(f,ad(r));return bV(g,J,function(a){return da(c,aj,ai,ah,a)})}return L;case
 2:var
-M=da(t,g);if(M){if(f)return 0;var
-N=ac(r[1],d),O=N?ac(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bS(g,k,function(a){return c7(b,[0,A,A,0],al,ak,i0([0,A,A,0],a))})}var
+M=df(u,g);if(M){if(f)return 0;var
+N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
+ak=a[2],al=a[1];return bV(g,k,function(a){return da(c,[0,A,A,0],al,ak,ji([0,A,A,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=h[1];if(typeof
 a==="number"){if(1===a){var
-am=gt(f,ad(Q));return bS(g,J,function(a){return gn(b,am,a)})}if(!a){var
-an=gt(f,ad(Q));return bS(g,k,function(a){return gn(b,an,a)})}}return 0;case
+am=gG(f,ad(Q));return bV(g,J,function(a){return gA(c,am,a)})}if(!a){var
+an=gG(f,ad(Q));return bV(g,k,function(a){return gA(c,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jj(i,R,a[3]),S=h[1],ao=a[2];return bS(g,k,function(d){var
-a=i1(b,l),c=a?c7(b,eU(f,l),R,ao,d):a;if(c){var
-g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gn(b,gt(f,[0,w(i,S,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=jD(i,R,a[3]),S=h[1],ao=a[2];return bV(g,k,function(d){var
+a=jj(c,l),b=a?da(c,e6(f,l),R,ao,d):a;if(b){var
+g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gA(c,gG(f,[0,w(i,S,l[1]),j,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gu(g,b,f,h[1]);return 0;case
+a==="number"&&!a)return gH(g,c,f,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=eU(f,ad(h[2])),as=function(a){return c7(b,ar,aq,ap,a)};return bS(g,h[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=e6(f,ad(h[2])),as=function(a){return da(c,ar,aq,ap,a)};return bV(g,h[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gu(g,b,f,h[1]);case
-2:return gu(g,b,f,h[2])}return 0;case
+0:return gH(g,c,f,h[1]);case
+2:return gH(g,c,f,h[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-u=eV(g,h[1]);if(u){var
-x=eV(g,h[2]);if(x){var
-z=eV(g,h[3]);if(z){var
-B=eV(g,h[4]);if(B){var
-T=B[1],U=z[1],V=x[1],W=u[1],m=a[2],s=h[5],at=a[1];if(m){var
+v=e7(g,h[1]);if(v){var
+y=e7(g,h[2]);if(y){var
+z=e7(g,h[3]);if(z){var
+B=e7(g,h[4]);if(B){var
+T=B[1],U=z[1],V=y[1],W=v[1],m=a[2],s=h[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ab=[0,m[1],o[1],p[1]],q=i8(function(d){function
-f(a){return a8(a,at,$(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=eF(a),h=y(b[2],g),j=eF(a);return[0,b,[0,aH(b[1],j),h],a]}return ad(A)},ab),C=n(function(a){return v(j(a),[0,b])},m),D=C?eP(i,b,f,s,q,W,U):C,E=D?eP(i,b,f,s,q,W,T):D,F=E?eP(i,b,f,s,q,V,U):E;if(F)return eP(i,b,f,s,q,V,T);var
+ac=[0,m[1],o[1],p[1]],q=jq(function(d){function
+f(a){return a_(a,at,aa(i,b))}if(d){var
+a=e(f,d[2]),c=f(d[1]),g=eQ(a),h=x(c[2],g),j=eQ(a);return[0,c,[0,aE(c[1],j),h],a]}return ad(A)},ac),C=n(function(a){return t(j(a),[0,c])},m),D=C?e1(i,c,f,s,q,W,U):C,E=D?e1(i,c,f,s,q,W,T):D,F=E?e1(i,c,f,s,q,V,U):E;if(F)return e1(i,c,f,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1729,60 +1845,60 @@ I=m;return I}var
 X=B}else
 var
 X=z;var
-Y=X}else
+Z=X}else
 var
-Y=x;var
-Z=Y}else
+Z=y;var
+_=Z}else
 var
-Z=u;return Z}return 0;case
+_=v;return _}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-_=a[2],aa=a[1],au=h[2],av=h[1];return bS(g,k,function(e){var
-a=v(j(e),b),d=a?v(j(_),b):a;if(d){var
+$=a[2],ab=a[1],au=h[2],av=h[1];return bV(g,k,function(e){var
+a=t(j(e),c),d=a?t(j($),c):a;if(d){var
 g=function(a){if(a){var
-d=a[2],e=v(j(d),b);if(e){var
-g=dU(aa,dV(aa,_,$(i,c),d));return bR(b,cc(eR(i,av,au,a[1][2],d),g))}var
+d=a[2],e=t(j(d),c);if(e){var
+g=dZ(ab,d0(ab,$,aa(i,b),d));return bU(c,cg(e3(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:ad(A);return gj(b,gm(h,e),g)}return d})}return 0;case
+f=a;return f},h=f?f[1]:ad(A);return gw(c,gz(h,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aw=h[2],ax=h[1];return bS(g,k,function(d){var
-a=i0([0,A,A,0],d),c=f?f[1]:[0,A,A,0];return c7(b,c,ax,aw,a)})}return 0;default:return 0}}function
-jl(a,Y,I,l,p,X,g,i,h,f,b){if(9===f[0]){if(typeof
-b!=="number"&&9===b[0]){var
-_=f[1],S=e(ad,X),B=bw(0,ca(a,i$(0,i,_),S),Y,0),J=v(j(i),oO),L=J?da(p,B):J;if(L){var
-q=eT(B,l);if(q){var
-r=eT(g,l);if(r){var
-aa=f[2],s=ag(e(function(b){var
-c=t(b[1],g,0);if(c)var
-f=b[2][2],a=ag(e(function(a){var
-b=t(a[2],g,0);return z(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+aw=h[2],ax=h[1];return bV(g,k,function(d){var
+a=ji([0,A,A,0],d),b=f?f[1]:[0,A,A,0];return da(c,b,ax,aw,a)})}return 0;default:return 0}}function
+jF(a,Y,I,l,p,X,g,i,h,f,c){if(9===f[0]){if(typeof
+c!=="number"&&9===c[0]){var
+_=f[1],S=e(ad,X),B=bA(0,ce(a,jt(0,i,_),S),Y,0),J=t(j(i),o$),K=J?df(p,B):J;if(K){var
+q=e5(B,l);if(q){var
+r=e5(g,l);if(r){var
+$=f[2],s=ah(e(function(b){var
+c=u(b[1],g,0);if(c)var
+f=b[2][2],a=ah(e(function(a){var
+b=u(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},aa));if(s){var
-u=ja(q[1]);if(u){var
-M=b[2],x=b[1],N=r[1],ab=b[3],ac=s[1],af=u[1],D=go(a,bv(function(f,h){function
+d=c;return d},$));if(s){var
+v=ju(q[1]);if(v){var
+L=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ae=v[1],D=gB(a,bi(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dO(t(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dT(u(d,c[3],A))}function
 c(a){var
-b=k(a,ou),c=bt(k(a,ov),b);return bt(k(a,0),c)}var
+b=k(a,oR),c=bf(k(a,oS),b);return bf(k(a,0),c)}var
 d=c(function(a){var
-c=b(ow,a),d=b(ox,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,oy),d=b(a,oz);return y(y(b(a,0),d),c)});return C(h,T(a,go(a,w(a,[0,e,e],g))))},A,af)),m=a8(ab,x,$(a,c)),E=Z(d,K(m,D)[1]),F=E?v(j(M),oF):E,G=F?v(j(N),oG):F;if(G){var
-o=b9(a,m);if(o){var
-U=a4(w(a,D,o[1])),V=K($(a,c),U),W=bj(oH);return n(function(i){var
+c=b(oT,a),d=b(oU,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,oV),d=b(a,oW);return x(x(b(a,0),d),c)});return C(h,U(a,gB(a,w(a,[0,e,e],g))))},A,ae)),m=a_(ab,z,aa(a,b)),E=Z(d,M(m,D)[1]),F=E?t(j(L),o2):E,G=F?t(j(N),o3):F;if(G){var
+o=cb(a,m);if(o){var
+T=a6(w(a,D,o[1])),V=M(aa(a,b),T),W=bn(o4);return n(function(i){var
 g=e(function(b){var
-c=b[2],d=b[1];return c3(c0(function(d,b){var
-c=dO(aQ(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(aA(function(a){return aQ(i,a)}),N),E=h?aQ(i,h[1]):A,L=T(a,V),s=T(a,m),q=dU(x,dV(x,M,$(a,c),r)),b=cc(a3([0,ae(E),0],oA),q);if(g){var
+c=b[2],d=b[1];return c8(c6(function(d,b){var
+c=dT(aR(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(aB(function(a){return aR(i,a)}),N),E=h?aR(i,h[1]):A,K=U(a,V),s=U(a,m),q=dZ(z,d0(z,L,aa(a,b),r)),c=cg(aW([0,af(E),0],oX),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],D=g[1],G=f[1],j=bR(oC,cc(a3([0,ae(s),0],oB),b));if(j)return n(function(A){var
-H=K(L,E),I=A[2]?B:ae(B),J=A[1]?D:ae(D),n=0;if(b){var
-a=b[1],k=0;if(a){var
-c=a[2],l=0;if(c){var
-d=c[2],m=0;if(d)if(d[2]){var
+B=d[1],D=g[1],G=f[1],j=bU(oZ,cg(aW([0,af(s),0],oY),c));if(j)return n(function(A){var
+H=M(K,E),I=A[2]?B:af(B),J=A[1]?D:af(D),n=0;if(c){var
+a=c[1],k=0;if(a){var
+b=a[2],l=0;if(b){var
+d=b[2],m=0;if(d)if(d[2]){var
 j=0;k=1;l=1;m=1}else{var
-e=b[2],o=0;if(e){var
+e=c[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
@@ -1790,7 +1906,7 @@ h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,b[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1810,13 +1926,13 @@ var
 w=d;if(!m)var
 x=w}else
 var
-x=c;if(!l)var
+x=b;if(!l)var
 y=x}else
 var
 y=a;if(!k){var
 z=y;n=1}}else{var
-z=b;n=1}if(n)var
-j=z;return bR(oE,j)},oD);var
+z=c;n=1}if(n)var
+j=z;return bU(o1,j)},o0);var
 l=j}else
 var
 l=f;var
@@ -1829,7 +1945,7 @@ p=g;return p},W)}var
 H=o}else
 var
 H=G;return H}var
-O=u}else
+O=v}else
 var
 O=s;var
 P=O}else
@@ -1840,12 +1956,12 @@ var
 Q=q;var
 R=Q}else
 var
-R=L;return R}return jk(a,I,l,p,g,j(i),h,f,b)}return jk(a,I,l,p,g,j(i),h,f,b)}function
-jm(i,b,a){if(a){var
-j=a[1],l=j[2],c=ag(e(b,j[1]));if(c){var
+R=K;return R}return jE(a,I,l,p,g,j(i),h,f,c)}return jE(a,I,l,p,g,j(i),h,f,c)}function
+jG(i,b,a){if(a){var
+j=a[1],l=j[2],c=ah(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
-g=t(l,i,0);if(g){var
-h=jm(i,b,a[2]);if(h)var
+g=u(l,i,0);if(g){var
+h=jG(i,b,a[2]);if(h)var
 m=Z(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -1857,48 +1973,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return oQ}function
-jn(a,T,m,S,u,s,R,D,h,g,l,b){var
-i=j(R),U=eQ(0,R),aS=bw(0,ca(a,U,e(ad,jg(l,0,u))),T,0),V=e(aI,l),aU=0,aV=e(ad,u),aW=bw(oR,function(b){var
-av=cu(aI,b),f=k(ca(a,U,aV),av);switch(b[0]){case
+q=c;return q}return pb}function
+jH(a,U,m,T,v,s,S,D,h,g,l,c){var
+i=j(S),V=e2(0,S),aS=bA(0,ce(a,V,e(ad,jA(l,0,v))),U,0),W=e(aK,l),aT=0,aU=e(ad,v),aX=bA(pc,function(c){var
+av=cz(aK,c),f=k(ce(a,V,aU),av);switch(c[0]){case
 1:var
-M=b[1],d=e(function(d){var
-b=v(M,d),e=b?[0,[0,ad($(a,c))]]:b;return e},V);break;case
+M=c[1],d=e(function(d){var
+c=t(M,d),e=c?[0,[0,ad(aa(a,b))]]:c;return e},W);break;case
 3:var
-d=c_(b[1][2],b[2][2]);break;case
+d=dd(c[1][2],c[2][2]);break;case
 4:var
-N=e(gp,b[2][2]),d=c_(b[1][2],N);break;case
+N=e(gC,c[2][2]),d=dd(c[1][2],N);break;case
 5:var
-d=e(gp,b[1][2]);break;case
+d=e(gC,c[1][2]);break;case
 6:var
-x=b[2],y=b[1],g=y[1],t=0;if(g){var
+x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ce(a,P,b)},O),R=y[2],S=h[1],d=c_(e(function(b){return ce(a,S,b)},R),Q);else{var
-z=h;t=1}}else{var
-z=g;t=1}if(t)var
+O=x[2],P=g[1],Q=e(function(b){return ci(a,P,b)},O),R=y[2],S=h[1],d=dd(e(function(b){return ci(a,S,b)},R),Q);else{var
+z=h;u=1}}else{var
+z=g;u=1}if(u)var
 d=z;break;case
 7:var
-u=0;if(f){var
-A=b[2],i=A[1];if(i)var
-T=A[2],W=dQ(f[1]),X=e(function(b){return ce(a,W,b)},T),Y=c_(b[1][2],X),Z=i[1],d=e(function(b){return gq(a,Z,b)},Y);else{var
-B=i;u=1}}else{var
-B=f;u=1}if(u)var
+v=0;if(f){var
+A=c[2],i=A[1];if(i)var
+T=A[2],U=dV(f[1]),X=e(function(b){return ci(a,U,b)},T),Y=dd(c[1][2],X),Z=i[1],d=e(function(b){return gD(a,Z,b)},Y);else{var
+B=i;v=1}}else{var
+B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=b[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=aq(a,eS(a),aa),d=e(function(b){return ce(a,ab,b)},_);else
+C=c[1],j=C[1];if(j)var
+_=C[2],$=j[1],ab=ar(a,e4(a),$),d=e(function(b){return ci(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=b[1][2],ae=f[1],af=aq(a,eS(a),ae),d=e(function(b){return gq(a,af,b)},ac);else
+ac=c[1][2],ae=f[1],af=ar(a,e4(a),ae),d=e(function(b){return gD(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
-D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
+D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=iL(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a5(o,r),ai=e(function(b){return ce(a,ah,b)},ag),aj=F[2],ak=a5(m,s),al=c_(e(function(b){return ce(a,ak,b)},aj),ai),am=e(gp,D[2]),an=eS(a),ao=c_(e(function(b){return ce(a,an,b)},al),am),ap=b[1]?s:dQ(r),ar=e(function(b){return ce(a,ap,b)},ao),as=aq(a,m,r),at=a5(aq(a,o,s),as),au=aq(a,eS(a),at),d=e(function(b){return gq(a,au,b)},ar);K=1;L=1}else
+q=iY(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a7(o,r),ai=e(function(b){return ci(a,ah,b)},ag),aj=F[2],ak=a7(m,s),al=dd(e(function(b){return ci(a,ak,b)},aj),ai),am=e(gC,D[2]),an=e4(a),ao=dd(e(function(b){return ci(a,an,b)},al),am),ap=c[1]?s:dV(r),aq=e(function(b){return ci(a,ap,b)},ao),as=ar(a,m,r),at=a7(ar(a,o,s),as),au=ar(a,e4(a),at),d=e(function(b){return gD(a,au,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -1909,179 +2025,179 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},V)}return[0,f,d]},T,aU),aP=e(function(a){var
-b=a[2];return jf(t(a[1],u,A),b)[2]},l);function
-W(c){var
-d=t(c,s,0);if(d){var
-a=t(c,aS,0);if(a)var
-b=jh(0,l,t(c,aW,oP)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=e(function(a){return 0},W)}return[0,f,d]},U,aT),aP=e(function(a){var
+b=a[2];return jz(u(a[1],v,A),b)[2]},l);function
+X(c){var
+d=u(c,s,0);if(d){var
+a=u(c,aS,0);if(a)var
+b=jB(0,l,u(c,aX,pa)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-E(b){return e(function(b){return $(a,b)},b)}var
-aX=D?D[1]:ad(A);function
-Y(a){return a?bR(i,a[1]):a}function
-x(t,s,f,r,q){var
-u=a3([0,ae(s),0],i),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-j=b[1],k=j[1],d=c[1],m=c3(k[2]),n=cc(g,gk(f,d,eM(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a4,eM(f,a[1],a[2],b))}}(d),o),h=gs(a,v,e(function(b){return a8(b,f,c$(a))},d),p,n);if(h){var
+E(b){return e(function(b){return aa(a,b)},b)}var
+aY=D?D[1]:ad(A);function
+_(a){return a?bU(i,a[1]):a}function
+y(t,s,f,r,q){var
+u=aW([0,af(s),0],i),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+j=b[1],k=j[1],d=c[1],m=c8(k[2]),n=cg(g,gx(f,d,eY(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a6,eY(f,a[1],a[2],b))}}(d),o),h=gF(a,v,e(function(b){return a_(b,f,de(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
-l=[0,g];return Y(l)}}function
-_(y,x,w){var
-z=a3([0,x,0],i),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eD(g),h],f];if(m){var
+l=[0,g];return _(l)}}function
+$(y,x,w){var
+z=aW([0,x,0],i),q=E(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eO(g),h],f];if(m){var
 o=Z(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a4(a[2]),b]},m),t=e(function(a){return A},h),u=[0,c$(a),t],v=c$(a),b=gs(a,[0,ae(dN(jd(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return A},h),u=[0,de(a),t],v=de(a),b=gF(a,[0,af(dS(jx(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=gi(b[1]);if(j){var
+j=gv(b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return Y(r)}}var
-aY=e(aI,l),aa=n(function(a){return dG(a,j(u))},aY);if(aa){var
-r=e(aI,l);for(;;){if(r){var
-P=r[2],aR=r[1],Q=am(av(function(b){return function(a){return v(b,a)}}(aR),P));if(Q){var
-r=P;continue}var
-ab=Q}else
+r=[0,f];return _(r)}}var
+aZ=e(aK,l),ab=n(function(a){return dL(a,j(v))},aZ);if(ab){var
+r=e(aK,l);for(;;){if(r){var
+Q=r[2],aQ=r[1],R=ak(aq(function(b){return function(a){return t(b,a)}}(aQ),Q));if(R){var
+r=Q;continue}var
+ac=R}else
 var
-ab=1;var
-F=ab;break}}else
+ac=1;var
+F=ac;break}}else
 var
-F=aa;var
-af=F?n(function(a){return v(j(a),i)},b):F;if(af){var
+F=ab;var
+ae=F?n(function(a){return t(j(a),i)},c):F;if(ae){var
 B=0;switch(h[0]){case
 0:var
-G=h[1],N=0;if(typeof
+G=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-aB=0;if(b){if(b[2])return 0;var
-aZ=b[1],a0=g[2],a1=g[1],ag=da(S,s);if(ag){var
+aC=0;if(c){if(c[2])return 0;var
+a0=c[1],a1=g[2],a2=g[1],ag=df(T,s);if(ag){var
 p=function(c,a){var
-b=C(G,a);return function(a){return x(aZ,b,a1,a0,a)}},o=m;N=1;aB=1}else
+b=C(G,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
 aj=ag}else
 var
-aj=b;if(!aB)return aj;break;case
+aj=c;if(!aC)return aj;break;case
 2:var
-aC=0;if(b){if(b[2])return 0;var
-a6=b[1],a7=g[2],a9=g[1],ak=da(S,s),aD=0;if(ak){if(D)return 0;var
-al=ac(G[1],d),an=al?ac(G[2],d):al;if(an){var
-p=function(c,b,a){return x(a6,A,a9,a7,e(oI,a))},o=m;N=1;aC=1;aD=1}else
+aD=0;if(c){if(c[2])return 0;var
+a4=c[1],a5=g[2],a8=g[1],al=df(T,s),aF=0;if(al){if(D)return 0;var
+am=Y(G[1],d),an=am?Y(G[2],d):am;if(an){var
+p=function(c,b,a){return y(a4,A,a8,a5,e(o5,a))},o=m;O=1;aD=1;aF=1}else
 var
 ao=an}else
 var
-ao=ak;if(!aD)var
+ao=al;if(!aF)var
 ap=ao}else
 var
-ap=b;if(!aC)return ap;break}if(!N)return 0;break;case
+ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
 1:var
-aE=0,a_=h[1];if(typeof
-g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
-a$=b[1],p=function(c,a){var
-b=K(a_,a);return function(a){return _(a$,b,a)}},o=m;aE=1}if(!aE)return 0;break;case
+aG=0,a9=h[1];if(typeof
+g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
+a$=c[1],p=function(c,a){var
+b=M(a9,a);return function(a){return $(a$,b,a)}},o=m;aG=1}if(!aG)return 0;break;case
 2:var
-aF=0,ba=h[1];if(typeof
-g==="number"||!(3===g[0]))aF=1;else{var
-aG=0;if(b){var
-z=b[2],aK=0;if(z){if(z[2])return 0;var
-ar=g[1],bb=z[1],bc=b[1],bd=g[2],as=jj(a,ar,g[3]),at=i1(i,as);if(at){var
+aH=0,ba=h[1];if(typeof
+g==="number"||!(3===g[0]))aH=1;else{var
+aI=0;if(c){var
+z=c[2],aJ=0;if(z){if(z[2])return 0;var
+as=g[1],bb=z[1],bc=c[1],bd=g[2],at=jD(a,as,g[3]),au=jj(i,at);if(au){var
 p=function(f,c,b){var
-d=aQ(f,as),e=x(bc,C(d,c),ar,bd,b);return e?_(bb,K(w(a,ba,d),c),b):e},o=m;aG=1;aK=1}else
+d=aR(f,at),e=y(bc,C(d,c),as,bd,b);return e?$(bb,M(w(a,ba,d),c),b):e},o=m;aI=1;aJ=1}else
 var
-au=at}else
+av=au}else
 var
-au=z;if(!aK)var
-aw=au}else
+av=z;if(!aJ)var
+aw=av}else
 var
-aw=b;if(!aG)return aw}if(aF)return 0;break;case
+aw=c;if(!aI)return aw}if(aH)return 0;break;case
 3:var
 aL=0;if(typeof
-g==="number"&&!g){if(b)return 0;var
-I=h[1];B=1}else
+g==="number"&&!g){if(c)return 0;var
+J=h[1];B=1}else
 aL=1;if(aL)return 0;break;case
 4:var
-aM=0,bf=h[2];if(typeof
-g==="number"||!(0===g[0]))aM=1;else{if(!b)return b;if(b[2])return 0;var
-bg=b[1],bh=g[2],bi=g[1],bk=function(c,a){var
-b=C(bf,a);return function(a){return x(bg,b,bi,bh,a)}},p=bk,o=h[1]}if(aM)return 0;break;case
+aM=0,bg=h[2];if(typeof
+g==="number"||!(0===g[0]))aM=1;else{if(!c)return c;if(c[2])return 0;var
+bh=c[1],bj=g[2],bk=g[1],bl=function(c,a){var
+b=C(bg,a);return function(a){return y(bh,b,bk,bj,a)}},p=bl,o=h[1]}if(aM)return 0;break;case
 5:var
-O=0;if(typeof
+P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
-0:if(b)return 0;var
-I=h[1];B=1;break;case
-2:if(b)return 0;var
-I=h[2];B=1;break;default:O=1}else
-O=1;if(O)return 0;break;case
+0:if(c)return 0;var
+J=h[1];B=1;break;case
+2:if(c)return 0;var
+J=h[2];B=1;break;default:P=1}else
+P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aN=0;if(typeof
 g==="number"||!(0===g[0]))aN=1;else{var
-aO=0;if(b){if(b[2])return 0;var
-q=g[2],M=g[1],bl=b[1],az=v(j(m),i);if(az){var
+aO=0;if(c){if(c[2])return 0;var
+q=g[2],N=g[1],bm=c[1],az=t(j(m),i);if(az){var
 p=function(b,y){var
-z=E(bl);return function(f){var
-k=v(j(f),i),l=k?v(j(q),i):k;if(l){var
-s=e(aI,f),t=dU(M,dV(M,q,c$(a),s)),u=cc(eR(a,ay,ax,y,e(aI,f)),t),b=0,c=f,g=u,x=j(q);for(;;){if(c){var
-o=c[1][2],p=v(b,ay),r=e(function(f,g){return function(d){var
-b=aJ(aT(0,j(q)),q);return e(function(b){var
-c=je(M,b[2],d[1]);if(g&&v(b[1],f))return K(c,a4(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aT(0,x),h=gs(a,z,e(function(c){return function(b){return v(b,c)?c$(a):A}}(b),n),r,g);if(h){var
+z=E(bm);return function(f){var
+k=t(j(f),i),l=k?t(j(q),i):k;if(l){var
+s=e(aK,f),u=dZ(N,d0(N,q,de(a),s)),v=cg(e3(a,ay,ax,y,e(aK,f)),u),b=0,c=f,g=v,x=j(q);for(;;){if(c){var
+o=c[1][2],p=t(b,ay),r=e(function(f,g){return function(d){var
+b=aA(aV(0,j(q)),q);return e(function(b){var
+c=jy(N,b[2],d[1]);if(g&&t(b[1],f))return M(c,a6(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gF(a,z,e(function(c){return function(b){return t(b,c)?de(a):A}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bR(i,d[1]);var
+d=[0,g];if(d)return bU(i,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},o=m;aO=1}else
 var
-aA=az}else
+aB=az}else
 var
-aA=b;if(!aO)return aA}if(aN)return 0;break;default:return 0}if(B){var
-J=W(I);if(!J)return J;var
+aB=c;if(!aO)return aB}if(aN)return 0;break;default:return 0}if(B){var
+K=X(J);if(!K)return K;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bv(function(b,a){return y(bt(d,X(b[2][1])),a)},d,c);return L(d,aH(aH(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,J[1]],0]}else{var
-H=jm(s,W,o);if(!H)return H;var
-ai=p,ah=H[1]}var
-a2=bj(i);return n(function(b){var
+b=f[2],c=a[2],e=bi(function(b,a){return x(bf(d,L(b[2][1])),a)},d,c);return H(d,aE(aE(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,K[1]],0]}else{var
+I=jG(s,X,o);if(!I)return I;var
+ai=p,ah=I[1]}var
+a3=bn(i);return n(function(b){var
 c=e(function(c){function
-g(a){return aQ(b,a[1])}var
+g(a){return aR(b,a[1])}var
 h=0,j=ad(A);function
 d(h,g,b,c){if(b){var
-i=function(a){return aQ(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+i=function(a){return aR(h,u(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return A_(ai,b,aQ(b,aX),c)},a2)}return af}function
-eW(b,a){if(a){var
+i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BA(ai,b,aR(b,aY),c)},a3)}return ae}function
+e8(b,a){if(a){var
 c=a[2];if(b){var
-e=eW(b[1],c);return[0,a[1],e]}var
+e=e8(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jo(m,l,q,S,p,i,$,z,b,R,Q){if(R){var
-r=ji(m,l,i,b),h=R,g=Q;for(;;){if(h){var
-K=h[1],a=K[2],w=K[1],M=h[2];if(typeof
+jI(m,l,q,S,p,i,$,z,b,R,Q){if(R){var
+r=jC(m,l,i,b),h=R,g=Q;for(;;){if(h){var
+L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],W=bj(j(b)),x=n(function(b){return function(a){return Z(aQ(a,b)[2],d)}}(_),W);else
+_=v[1],V=bn(j(b)),x=n(function(b){return function(a){return Z(aR(a,b)[2],d)}}(_),V);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
-N=t(w,g,0);if(N){var
-y=V($,w);if(y){var
+N=u(w,g,0);if(N){var
+y=W($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
 C=a[2],s=k(z,b),T=0;if(s){var
-D=L(d,C);if(D){var
-X=a[1],c=jl(m,l,q,S,p,i,r,b,[0,i2(C,a[3],s[1])],o,X);T=1}else
+D=H(d,C);if(D){var
+X=a[1],c=jF(m,l,q,S,p,i,r,b,[0,jk(C,a[3],s[1])],o,X);T=1}else
 var
 E=D}else
 var
@@ -2090,137 +2206,112 @@ c=E;break;case
 10:var
 F=a[3],G=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-H=f[2],u=k(z,b),U=0;if(u){var
-I=L(d,H);if(I){var
-Y=f[1],c=jn(m,l,q,p,i,r,b,[0,i2(H,f[3],u[1])],o,Y,G,F);B=1;U=1}else
+I=f[2],t=k(z,b),U=0;if(t){var
+J=H(d,I);if(J){var
+Y=f[1],c=jH(m,l,q,p,i,r,b,[0,jk(I,f[3],t[1])],o,Y,G,F);B=1;U=1}else
 var
-J=I}else
+K=J}else
 var
-J=u;if(!U){var
-c=J;B=1}}if(!B)var
-c=jn(m,l,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
-c=jl(m,l,q,S,p,i,r,b,0,o,a);if(c){var
-h=M,g=eW(w,g);continue}var
+K=t;if(!U){var
+c=K;B=1}}if(!B)var
+c=jH(m,l,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
+c=jF(m,l,q,S,p,i,r,b,0,o,a);if(c){var
+h=M,g=e8(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-eX(j,i,h,g,f,e,d,c,u,t,s){var
+e9(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jo(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(am,l[1]):l}var
-m=jo(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dT(a[2],b),q=eX(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jI(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ak,l[1]):l}var
+m=jI(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dY(a[2],b),q=e9(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gv(a){return e(function(a){return 1},a)}function
-bT(a){switch(a[0]){case
-0:return[0,[0,a[1],a[2]]];case
-2:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,dL(b,a)]};break;case
-3:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,gb(b,a)]};break;case
-4:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,c2(b,a)]};break;case
-5:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(iE(a,[0,d,c]))return 0;var
-b=a[1],e=bK(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,X(a[2]),X(b)];return[0,c2(g,f)]};break;default:return 0}var
-g=bT(e);if(g){var
-h=bT(f);if(h)return b(g[1],h[1]);var
-i=h}else
-var
-i=g;return i}function
-i(i,e,b){var
-f=bT(b);if(f){var
-g=f[1];return e?am(c1(g,[0,d,c])):c1([0,d,c],g)}var
-a=aV(i,b);if(a){var
-h=a[1];return e?Z(d,h[1]):L(d,h[1])}return a}function
-jp(c,b){var
-a=aV(c,b),d=a?1:a;return d}function
-a6(c,a,b){var
-d=bP(a,b),e=d?jp(c,a):d;return e?e:i(c,0,[3,b,a])}function
-db(a,d,b,c){function
+gI(a){return e(function(a){return 1},a)}function
+dg(a,d,b,c){function
 f(d,c){var
-f=aJ(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aK(a[2],b[2])){var
+f=aA(a[1],b[1]);return e(function(a){var
+b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aL(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jq(a){var
-b=l(c);return[0,e(function(a){return l(d)},a),b]}function
-aL(a,k){var
+jJ(a){var
+c=l(b);return[0,e(function(a){return l(d)},a),c]}function
+aM(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(av(function(a){return v(u,a)},a)){var
-C=l(c);return[0,e(function(a){var
-b=v(a,u)?c:d;return l(b)},a),C]}return jq(a);case
+v=f[1];if(aq(function(a){return t(v,a)},a)){var
+C=l(b);return[0,e(function(a){var
+c=t(a,v)?b:d;return l(c)},a),C]}return jJ(a);case
 3:var
-D=l(c),E=aL(a,f[2]),F=l(c);return db(aL(a,f[1]),F,E,D);case
+D=l(b),E=aM(a,f[2]),F=l(b);return dg(aM(a,f[1]),F,E,D);case
 4:var
-G=l(X(c)),H=aL(a,f[2]),I=l(c);return db(aL(a,f[1]),I,H,G);case
+G=l(L(b)),H=aM(a,f[2]),I=l(b);return dg(aM(a,f[1]),I,H,G);case
 5:var
-w=aL(a,f[1]),J=w[2];return[0,e(bf,w[1]),J];case
+w=aM(a,f[1]),J=w[2];return[0,e(bj,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aL(a,x);return db(aL(a,y),x,K,y);case
+x=f[2],y=f[1],K=aM(a,x);return dg(aM(a,y),x,K,y);case
 7:var
-z=f[2],L=bf(k),M=aL(a,z),N=l(c),i=db(aL(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aP(d,a)},O))return i;var
-P=o(i[2],z);return[0,i[1],P];case
+z=f[2],M=bj(k),N=aM(a,z),O=l(b),i=dg(aM(a,f[1]),O,N,M),P=i[1];if(n(function(a){return aQ(d,a)},P))return i;var
+Q=o(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aL(a,A),Q=B[2],R=B[1],S=o(l(b(2,c)),A);return[0,e(function(a){return o(S,a)},R),Q];case
+A=f[1],B=aM(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
 9:var
-j=aL(a,f[1]),T=j[1];if(n(function(a){return aP(d,a)},T)){var
-U=l(c);return[0,j[1],U]}var
-V=o(l(b(2,c)),k),W=o(j[2],V);return[0,j[1],W];case
+j=aM(a,f[1]),U=j[1];if(n(function(a){return aQ(d,a)},U)){var
+V=l(b);return[0,j[1],V]}var
+W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aL(a,g),_=s(h,p),$=db(aL(a,h),_,Z,Y),aa=l(X(c)),ab=aL(a,m),r=db($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?p:bf(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aP(d,a)},t))return[0,t,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(b(2,c)),af);return[0,t,o(r[2],ag)];default:return jq(a)}}function
-bU(n,r){var
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aM(a,g),_=s(h,p),$=dg(aM(a,h),_,Z,Y),aa=l(L(b)),ab=aM(a,m),r=dg($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bj(q),u=e(function(a){return o(ad,a)},ac);if(n(function(a){return aQ(d,a)},u))return[0,u,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,u,o(r[2],ag)];default:return jJ(a)}}function
+bW(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(L(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(L(j,c)){var
-k=ac(b,o),m=k?dP(b):k;if(m)var
-p=ac(n[2],d),g=p||ac(b,d);else
+i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
+j=e[2],o=e[1];if(H(j,b)){var
+k=Y(c,o),m=k?dU(c):k;if(m)var
+p=Y(n[2],d),g=p||Y(c,d);else
 var
 g=m;var
-q=g?[0,b]:g,a=q}else
+q=g?[0,c]:g,a=q}else
 var
-a=ac(bs(j,a2(2))[2],d)?0:0}else
+a=Y(aU(j,aD(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ac(bs(i,a2(2))[2],d)?0:0}else
+a=Y(aU(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-cf(b,a){if(a)var
-d=cf([0,b],a[2]),c=[0,bU(a[1],b),d];else
+cj(b,a){if(a)var
+d=cj([0,b],a[2]),c=[0,bW(a[1],b),d];else
 var
 c=a;return c}function
-aD(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-eY(b,d,a){switch(a[0]){case
+aG(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+e_(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aD(c[3],b),g),i=f(aD(c[2],b),h);return f(aD(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aG(c[3],b),g),i=f(aG(c[2],b),h);return f(aG(c[1],d),i);case
 1:var
-e=a[3],j=e?aD(e[1],d):e,k=f(aD(a[2],b),j);return f(aD(a[1],b),k);default:return aD(a[1],d)}}function
-ah(b,a){var
-c=l(d),e=t(P(oS,a),b,c),f=l(d),g=t(P(oT,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-jr(b,a){return ar(s,ar(F,cd,a),b)}function
-eZ(c,b,a){if(a){var
-e=a[2],g=eZ(c,dJ(b),e),h=a[1];return f(eY(c,cZ(d,b),h),g)}return a}function
-gw(f,e,c,i){if(c){var
-b=c[1],v=P(i,j(eY(f,cZ(d,e),b))),w=c[2],x=gw(f,dJ(e),w,v),a=cf(i,eY(f,cZ(d,e),b));switch(b[0]){case
+e=a[3],j=e?aG(e[1],d):e,k=f(aG(a[2],b),j);return f(aG(a[1],b),k);default:return aG(a[1],d)}}function
+ai(b,a){var
+c=l(d),e=u(P(pd,a),b,c),f=l(d),g=u(P(pe,a),b,f);return[0,u(a,b,l(d)),g,e]}function
+jK(b,a){return as(s,as(F,ch,a),b)}function
+e$(c,b,a){if(a){var
+e=a[2],g=e$(c,ca(b),e),h=a[1];return f(e_(c,by(d,b),h),g)}return a}function
+gJ(f,e,c,i){if(c){var
+b=c[1],v=P(i,j(e_(f,by(d,e),b))),w=c[2],x=gJ(f,ca(e),w,v),a=cj(i,e_(f,by(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(oU,a,l(d)),o=ar(F,cd,ah(a,oV)),p=cz(ah(a,0)),q=ah(a,oW),g=i4(jr(ah(a,oX),q),p,o,n,m);break;case
+m=b[1][5],n=u(pf,a,l(d)),o=as(F,ch,ai(a,pg)),p=cE(ai(a,0)),q=ai(a,ph),g=jm(jK(ai(a,pi),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cz(ah(a,oY))]:h,s=ar(F,cd,ah(a,oZ)),u=ah(a,o0),g=i5(jr(ah(a,0),u),s,r);break;default:var
-g=i6(cd,cz(ah(a,0)))}var
+h=b[3],r=h?[0,cE(ai(a,pj))]:h,s=as(F,ch,ai(a,pk)),t=ai(a,pl),g=jn(jK(ai(a,0),t),s,r);break;default:var
+g=jo(ch,cE(ai(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bk(b,a){if(typeof
+bo(c,a){if(typeof
 a==="number"){var
-e=[0,d,c];return[0,[0,e,e],d]}else
+e=[0,d,b];return[0,[0,e,e],d]}else
 switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2229,88 +2320,88 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eK(a[2]),l=[2,[2,eK(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=eW(a[2]),l=[2,[2,eW(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
-m=a[4];return[0,[0,m,m],b];case
+m=a[4];return[0,[0,m,m],c];case
 12:var
 n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
 o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
-f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 2:case
 3:case
 14:var
-g=a[2];return[0,[0,g,g],b];default:var
+g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-dW(b,a){var
+d1(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-e0(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(dW(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=dW(b,a[3]);return f(dW(b,a[2]),j)}function
-dc(b,a){if(typeof
+fa(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(d1(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=d1(c,a[3]);return f(d1(c,a[2]),j)}function
+dh(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=e0(b,a[2]);return f(e0(b,a[1]),e);case
+e=fa(b,a[2]);return f(fa(b,a[1]),e);case
 11:var
-g=dW(b,a[3]);return f(dW(b,a[2]),g);case
+g=d1(b,a[3]);return f(d1(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-js(c,b,a){var
-d=j(dc(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-jt(k,a,g){switch(g[0]){case
+jL(c,b,a){var
+d=j(dh(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+jM(k,a,g){switch(g[0]){case
 0:var
-e=V(k,g[1]);if(e){var
-b=e[1],f=b[7];if(f)var
-m=f[1],h=function(c){var
-d=ah(a,o1);return ar(F,ar(s,m,bQ(c,b[1])),d)},n=c8(b),o=h(aj(t(o2,a,l(d)),n)),p=c8(b),q=aj(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
+e=W(k,g[1]);if(e){var
+c=e[1],f=c[7];if(f)var
+m=f[1],h=function(b){var
+d=ai(a,pm);return as(F,as(s,m,bT(b,c[1])),d)},n=db(c),o=h(aj(u(pn,a,l(d)),n)),p=db(c),q=aj(u(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=ah(a,o3);return[0,[0,ah(a,0),r]];default:var
-u=ar(F,cd,ah(a,o4));return[0,[0,ar(F,cd,ah(a,0)),u]]}}function
-ju(g,e,j,d,c){var
-k=e0(e,c),h=cf(j,f(e0(e,d),k)),a=jt(g,dK(o5,h),d);if(a)var
-b=jt(g,ga(o6,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=ai(a,po);return[0,[0,ai(a,0),r]];default:var
+t=as(F,ch,ai(a,pp));return[0,[0,as(F,ch,ai(a,0)),t]]}}function
+jN(g,e,j,d,c){var
+k=fa(e,c),h=cj(j,f(fa(e,d),k)),a=jM(g,dP(pq,h),d);if(a)var
+b=jM(g,go(pr,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-cA(d,c,b,a){var
+cF(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bz(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-jv(a){if(a){var
+bD(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+jO(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jv(a[2]);if(d)var
-g=d[1],h=aa(c,c),e=[0,[0,[0,cx(c),h],g]];else
+c=b[1],d=jO(a[2]);if(d)var
+g=d[1],h=ab(c,c),e=[0,[0,[0,cC(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return o8}function
-e1(b,d,c,a){if(typeof
+f=b;return f}return pt}function
+fb(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=bU(bk(d,a),f);return[0,e(function(a){var
-b=o(a[2],g);return[0,cx(a[1]),b]},b)];case
-9:return jv(b)}return 0}function
-e2(e,k,j,a){var
-W=j[1],b=bU(bk(k,a),W),y=0;if(typeof
+f=c[1],g=bW(bo(d,a),f);return[0,e(function(a){var
+b=o(a[2],g);return[0,cC(a[1]),b]},b)];case
+9:return jO(b)}return 0}function
+fc(e,k,j,a){var
+V=j[1],c=bW(bo(k,a),V),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
-X=function(a){return[0,s(a[4],b),0]},g=X,f=a[1];break;case
+X=function(a){return[0,s(a[4],c),0]},g=X,f=a[1];break;case
 3:var
-Y=function(a){return[0,s(b,a[4]),0]},g=Y,f=a[1];break;case
+Y=function(a){return[0,s(c,a[4]),0]},g=Y,f=a[1];break;case
 4:var
-Z=function(c){var
-a=c[1],d=I(a[3]),e=I(a[2]),f=I(a[1]),g=c[2];return[0,s(s(s(o(I(b),g),f),e),d),0]},g=Z,f=a[1];break;case
+Z=function(b){var
+a=b[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=b[2];return[0,s(s(s(o(J(c),g),f),e),d),0]},g=Z,f=a[1];break;case
 6:var
-_=function(c){var
-a=c[5];if(a)var
-e=I(a[1]),f=o(I(b),e),d=[0,s(c[2],f),0];else
+_=function(b){var
+a=b[5];if(a)var
+e=J(a[1]),f=o(J(c),e),d=[0,s(b[2],f),0];else
 var
 d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
@@ -2318,17 +2409,17 @@ m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
 A=n[1],C=m[1],D=e[1],q=D[5];if(q){var
 r=C[5];if(r){var
-u=A[5];if(u)var
-h=A[1],i=C[1],v=D[1],Q=cA(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cA(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cA(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=u[1],ab=r[1],E=o(o(o(b,q[1]),ab),$),ac=[0,bf(F(z,E)),0],G=[0,s(z,E),ac];else
+t=A[5];if(t)var
+h=A[1],i=C[1],v=D[1],Q=cF(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cF(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cF(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=t[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bj(F(z,E)),0],G=[0,s(z,E),ac];else
 var
-G=u;var
+G=t;var
 H=G}else
 var
 H=r;var
-J=H}else
+I=H}else
 var
-J=q;var
-K=J}else
+I=q;var
+K=I}else
 var
 K=n;var
 L=K}else
@@ -2338,49 +2429,49 @@ M=L}else
 var
 M=e;return M;case
 10:var
-x=ju(e,k,j[2],a[1],a[2]);if(x){var
-N=x[1],O=N[2],P=N[1];return B(cx,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
+x=jN(e,k,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return B(cC,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
 ad=function(d){var
 e=d[7];if(e)var
-n=dc(k,a),f=cf(j[2],n),h=ah(f,o7),c=ar(s,ah(f,0),h),i=I(b),l=I(c8(d)),m=aj(I(aa(c,d[1])),l),g=[0,s(s(aa(c,c),m),i),0];else
+n=dh(k,a),f=cj(j[2],n),h=ai(f,ps),b=as(s,ai(f,0),h),i=J(c),l=J(db(d)),m=aj(J(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
 var
 g=e;return g},g=ad,f=a[1];break;case
 12:var
 ae=function(e){var
-q=l(d),r=dc(k,a),u=t(0,cf(j[2],r),q),f=aj(u,c8(e)),g=e[5];if(g){var
-m=aC(e[2]),h=aj(g[1],m),n=o(h,F(b,o(f,I(h))));return[0,s(l(c),n),0]}var
-i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=ae,f=a[1];break;case
+q=l(d),r=dh(k,a),t=u(0,cj(j[2],r),q),f=aj(t,db(e)),g=e[5];if(g){var
+m=aF(e[2]),h=aj(g[1],m),n=o(h,F(c,o(f,J(h))));return[0,s(l(b),n),0]}var
+i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=ae,f=a[1];break;case
 8:case
 9:var
-w=e1(e,k,j,a);return w?bz(w[1]):w;default:y=1}if(y)return 0;var
-p=V(e,f);return p?g(p[1]):p}function
-gx(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gx(d,b,js(b,e,c),g);return f(e2(d,b,c,e),h)}return a}var
-jw=[0,d,c],jx=[0,[0,jw,jw],d];function
-gy(a){return am(bP(a[1][1],a[1][2]))}function
-jy(a){var
-b=aT(0,j(a));return cr(function(b){return gy(t(b,a,jx))},b)}function
-jz(a,g){var
-h=g[4],b=aL(jy(a),h),c=b[1],f=e(function(a){return aP(d,a)?a:aj(a,b[2])},c),i=aJ(jy(a),f);return cr(function(a){return am(aP(d,a[2]))},i)}function
-jA(f,H,l,G,m,g,n,r){if(r){var
-a=r[1],aB=r[2],aC=jA(f,H,l,G,m,g,js(g,a,n),aB);if(typeof
+w=fb(e,k,j,a);return w?bD(w[1]):w;default:y=1}if(y)return 0;var
+p=W(e,f);return p?g(p[1]):p}function
+gK(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gK(d,b,jL(b,e,c),g);return f(fc(d,b,c,e),h)}return a}var
+jP=[0,d,b],jQ=[0,[0,jP,jP],d];function
+gL(a){return ak(bR(a[1][1],a[1][2]))}function
+jR(a){var
+b=aV(0,j(a));return cu(function(b){return gL(u(b,a,jQ))},b)}function
+jS(a,g){var
+h=g[4],b=aM(jR(a),h),c=b[1],f=e(function(a){return aQ(d,a)?a:aj(a,b[2])},c),i=aA(jR(a),f);return cu(function(a){return ak(aQ(d,a[2]))},i)}function
+jT(f,I,l,G,m,g,n,r){if(r){var
+a=r[1],aA=r[2],aC=jT(f,I,l,G,m,g,jL(g,a,n),aA);if(typeof
 a==="number")var
-h=0===a?[0,[0,A]]:[0,[8,H[1],H[2]]];else
+h=0===a?[0,[0,A]]:[0,[8,I[1],I[2]]];else
 switch(a[0]){case
 0:var
-ao=af(f,bk(g,a)),h=z(function(a){return[0,T(f,a)]},ao);break;case
+ao=ag(f,bo(g,a)),h=y(function(a){return[0,U(f,a)]},ao);break;case
 1:var
-ap=af(f,bk(g,a)),h=z(function(a){return[1,T(f,a)]},ap);break;case
+ap=ag(f,bo(g,a)),h=y(function(a){return[1,U(f,a)]},ap);break;case
 5:var
-ar=af(f,bk(g,a)),h=z(function(a){return[2,T(f,a)]},ar);break;case
+ar=ag(f,bo(g,a)),h=y(function(a){return[2,U(f,a)]},ar);break;case
 8:var
-as=e1(m,g,n,a),h=z(function(a){var
-b=$(f,c);return[4,k(aA(l),a),b]},as);break;case
+as=fb(m,g,n,a),h=y(function(a){var
+c=aa(f,b);return[4,k(aB(l),a),c]},as);break;case
 9:var
-w=e1(m,g,n,a);if(w){var
-x=af(f,bk(g,a));if(x)var
-at=T(f,x[1]),au=w[1],N=[0,[4,k(aA(l),au),at]];else
+w=fb(m,g,n,a);if(w){var
+x=ag(f,bo(g,a));if(x)var
+at=U(f,x[1]),au=w[1],N=[0,[4,k(aB(l),au),at]];else
 var
 N=x;var
 O=N}else
@@ -2388,22 +2479,22 @@ var
 O=w;var
 h=O;break;case
 10:var
-y=ju(m,g,n[2],a[1],a[2]);if(y){var
-P=y[1],Q=P[2],R=P[1],B=af(f,bk(g,a));if(B){var
-S=B[1],U=L(d,S[1]);if(U)var
+z=jN(m,g,n[2],a[1],a[2]);if(z){var
+P=z[1],Q=P[2],R=P[1],B=ag(f,bo(g,a));if(B){var
+S=B[1],T=H(d,S[1]);if(T)var
 p=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),W=[0,[6,p(R[1]),ax,aw,av,S]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),V=[0,[6,p(R[1]),ax,aw,av,S]];else
 var
-W=U;var
-X=W}else
+V=T;var
+X=V}else
 var
 X=B;var
 Y=X}else
 var
-Y=y;var
+Y=z;var
 h=Y;break;case
 12:var
-q=e2(m,g,n,a),s=0;if(q)if(q[2])var
+q=fc(m,g,n,a),s=0;if(q)if(q[2])var
 h=0;else{var
 Z=i(f,0,a[2]),_=Z?i(f,1,a[4]):Z;if(_){var
 C=[0,[3,k(l,q[1])]];s=1}else{var
@@ -2411,19 +2502,19 @@ C=_;s=1}}else{var
 C=q;s=1}if(s)var
 h=C;break;case
 13:var
-aa=a[1],ab=V(m,aa),I=0;if(ab){var
+$=a[1],ab=W(m,$),J=0;if(ab){var
 ac=i(f,1,a[2]),ad=ac?i(f,1,a[3]):ac;if(ad)var
-ay=af(f,bk(g,a)),h=z(function(a){return[7,aa,T(f,a)]},ay);else{var
-ae=ad;I=1}}else{var
-ae=ab;I=1}if(I)var
+ay=ag(f,bo(g,a)),h=y(function(a){return[7,$,U(f,a)]},ay);else{var
+ae=ad;J=1}}else{var
+ae=ab;J=1}if(J)var
 h=ae;break;case
 14:var
-D=a[2],ah=a[1],ai=v(j(m),o9),aj=ai?i(f,0,ah):ai,ak=aj?i(f,1,D):aj;if(ak){var
-E=af(f,bk(g,a));if(E)var
-F=ag(e(function(n){var
-i=[5,ah,D],a=af(f,[0,[0,i,i],d]);if(a){var
-o=jz(G,n),h=ag(e(function(e){var
-a=t(e[1],G,jx),h=aH(a[2],g),i=[4,[0,b(2,c),c],D],d=[5,[3,a[1][2],a[1][1]],i],j=af(f,[0,[0,d,d],h]);return z(function(a){return[0,a,k(l,e[2])]},j)},o));if(h)var
+D=a[2],af=a[1],ai=t(j(m),pu),aj=ai?i(f,0,af):ai,ak=aj?i(f,1,D):aj;if(ak){var
+E=ag(f,bo(g,a));if(E)var
+F=ah(e(function(n){var
+i=[5,af,D],a=ag(f,[0,[0,i,i],d]);if(a){var
+o=jS(G,n),h=ah(e(function(e){var
+a=u(e[1],G,jQ),h=aE(a[2],g),i=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],i],j=ag(f,[0,[0,d,d],h]);return y(function(a){return[0,a,k(l,e[2])]},j)},o));if(h)var
 p=[0,a[1],h[1]],j=[0,[0,k(l,n[4]),p]];else
 var
 j=h;var
@@ -2436,30 +2527,30 @@ am=al}else
 var
 am=ak;var
 h=am;break;default:var
-o=e2(m,g,n,a),J=0;if(o){var
-u=o[2],K=o[1];if(u)if(u[2])var
+o=fc(m,g,n,a),K=0;if(o){var
+v=o[2],L=o[1];if(v)if(v[2])var
 h=0;else
 var
-aq=k(l,u[1]),h=[0,[5,k(l,K),aq]];else{var
-M=[0,[3,k(l,K)]];J=1}}else{var
-M=o;J=1}if(J)var
+aq=k(l,v[1]),h=[0,[5,k(l,L),aq]];else{var
+M=[0,[3,k(l,L)]];K=1}}else{var
+M=o;K=1}if(K)var
 h=M}var
 an=[0,h,aC]}else
 var
 an=r;return an}function
-o_(a){var
+pv(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-e3(a){if(0===a[0])return a[1];var
+fd(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-jB(a,c,g,b){if(0===c[0])return 0;if(b){var
+jU(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cb(a,g,c[1]);if(i){var
-j=cb(a,g,c[2]);if(j){var
-k=cb(a,g,c[3]);if(k)var
-t=i[1],u=by(f),l=K([0,by(f),u],t),v=j[1],x=by(e),m=K([0,by(e),x],v),y=c9(e),z=[0,c9(e),y],B=[0,w(a,ae(C(m,m)),z),0],D=c9(f),E=[0,c9(f),D],F=[0,w(a,ae(C(l,l)),E),B],G=T(a,m),H=T(a,l),n=[0,[0,K(K(T(a,k[1]),H),G),A,F]];else
+e=d[1],f=b[1],i=cf(a,g,c[1]);if(i){var
+j=cf(a,g,c[2]);if(j){var
+k=cf(a,g,c[3]);if(k)var
+t=i[1],u=bC(f),l=M([0,bC(f),u],t),v=j[1],x=bC(e),m=M([0,bC(e),x],v),y=dc(e),z=[0,dc(e),y],B=[0,w(a,af(C(m,m)),z),0],D=dc(f),E=[0,dc(f),D],F=[0,w(a,af(C(l,l)),E),B],G=U(a,m),H=U(a,l),n=[0,[0,M(M(U(a,k[1]),H),G),A,F]];else
 var
 n=k;var
 o=n}else
@@ -2477,14 +2568,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gz(a,p,o){var
-q=aD(p,o),b=e(function(b){return af(a,b)},q);if(b){var
+gM(a,p,o){var
+q=aG(p,o),b=e(function(b){return ag(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=T(a,i[1]),s=T(a,h[1]);return Z(d,C(C(T(a,g[1]),s),r)[1])}var
+r=U(a,i[1]),s=U(a,h[1]);return Z(d,C(C(U(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2500,139 +2591,143 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-_(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+$(c,b,a){var
+d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
 ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-M(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aw(a){return ap([5,[0,c,c],[6,M(a,a)]],a)}function
-cB(c,b,a){var
-d=a6(c,b[1],a);return d?a6(c,a,b[2]):d}function
-aR(c,b,a){var
-d=cB(c,b[1],a[1]),e=d?cB(c,b[2],a[2]):d;return e?cB(c,b[3],a[3]):e}function
-jC(b,c,a){switch(c[0]){case
+N(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+at(a){return ap([5,[0,b,b],[6,N(a,a)]],a)}function
+cG(c,b,a){var
+d=a8(c,b[1],a);return d?a8(c,a,b[2]):d}function
+aS(c,b,a){var
+d=cG(c,b[1],a[1]),e=d?cG(c,b[2],a[2]):d;return e?cG(c,b[3],a[3]):e}function
+jV(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aR(b,d[1],f),l=k?i(b,1,M(f,f)):k,m=l?aR(b,d[2],a[2]):l,n=m?aR(b,d[3],a[3]):m,o=n?cB(b,d[4],j):n,p=o?i(b,1,j):o;return p?b7(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aS(b,d[1],f),l=k?i(b,1,N(f,f)):k,m=l?aS(b,d[2],a[2]):l,n=m?aS(b,d[3],a[3]):m,o=n?cG(b,d[4],j):n,p=o?i(b,1,j):o;return p?b_(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=aR(b,c[1],a[1]),s=r?aR(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=aR(b,q[1],g);if(t)return i(b,1,M(g,g));var
+e=a[3],r=aS(b,c[1],a[1]),s=r?aS(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=aS(b,q[1],g);if(t)return i(b,1,N(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=aR(b,c[1],h);return w?i(b,1,M(h,h)):w}return 0}}function
-gA(c,a,b){if(0===a[0])return aR(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cB(c,a[4],b[3]):h}function
-jD(g,f,i,h){var
+h=a[1],w=aS(b,c[1],h);return w?i(b,1,N(h,h)):w}return 0}}function
+gN(c,a,b){if(0===a[0])return aS(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cG(c,a[4],b[3]):h}function
+jW(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=jC(g,b[1],a[1]);if(d){var
+d=jV(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?gA(g,f[2],h):c}}function
-bA(c,b,a){var
-d=_(function(b,a){return[2,b,a]},a,b);return _(function(b,a){return[3,b,a]},d,c)}function
-dX(a,e,d,c){var
-b=bA(e,d,c),f=aw(a),g=ap(M(aw(a),b),f);return _(function(b,a){return[3,b,a]},b,g)}function
-cC(f,e,d,a,c){var
-b=dX(f,e,d,c);return[3,[4,a,a],M(b,b)]}function
-cD(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cE(a,b){switch(a[0]){case
+c=a?0:1;return c?gN(g,f[2],h):c}}function
+bp(c,b,a){var
+d=$(function(b,a){return[2,b,a]},a,b);return $(function(b,a){return[3,b,a]},d,c)}function
+d2(a,e,d,c){var
+b=bp(e,d,c),f=at(a),g=ap(N(at(a),b),f);return $(function(b,a){return[3,b,a]},b,g)}function
+cH(f,e,d,a,c){var
+b=d2(f,e,d,c);return[3,[4,a,a],N(b,b)]}function
+cI(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cJ(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=dX(d,f,e,b),h=cC(d,f,e,a[4],b),i=ap([5,[0,c,c],cD(a[5],h)],g),j=aw(d);return _(function(b,a){return[2,b,a]},j,i);case
-1:return aw(bA(a[1],a[2],b));default:return aw(a[1])}}function
-gB(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=d2(d,f,e,c),h=cH(d,f,e,a[4],c),i=ap([5,[0,b,b],cI(a[5],h)],g),j=at(d);return $(function(b,a){return[2,b,a]},j,i);case
+1:return at(bp(a[1],a[2],c));default:return at(a[1])}}function
+gO(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cC(e,d,c,a[4],b),i=cD(a[5],h),j=bA(d,c,b);return[3,M(aw(e),j),i];case
+d=a[3],e=a[2],c=a[1],f=at(c),g=cH(c,e,d,a[4],b),h=ap(cI(a[5],g),f),i=d2(c,e,d,b);return $(function(b,a){return[2,b,a]},i,h);case
+1:return bp(a[1],a[2],b);default:return at(a[1])}}function
+gP(a,b){switch(a[0]){case
+0:var
+c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=bp(d,c,b);return[3,N(at(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bA(g,f,b);return[6,M(bA(g,f,b),k)];default:return M(aw(a[1]),b)}}function
-jE(a,b){switch(a[0]){case
-0:return[0,cC(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=bp(g,f,b);return[6,N(bp(g,f,b),k)];default:return N(at(a[1]),b)}}function
+jX(a,b){switch(a[0]){case
+0:return[0,cH(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bA(d,c,b);return[0,M(bA(d,c,b),e)];default:return 0}}function
-dY(e,b,a){var
-f=[0,d,c];return bv(function(c,d){var
-e=M(cE(c,b),a);return[2,[4,M(cE(c,b),a),e],d]},f,e)}function
-jF(a){var
-b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gC(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aw(b),h=cC(b,f,e,d,c),i=ap(cD(a[5],h),g),j=dX(b,f,e,c);return[0,[0,_(function(b,a){return[2,b,a]},j,i),d]]}return 0}function
-jG(d,i){if(d){var
+c=a[2],d=a[1],e=bp(d,c,b);return[0,N(bp(d,c,b),e)];default:return 0}}function
+d3(e,c,a){var
+f=[0,d,b];return bi(function(b,d){var
+e=N(cJ(b,c),a);return[2,[4,N(cJ(b,c),a),e],d]},f,e)}function
+jY(a){var
+c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
+gQ(a,b){if(0===a[0]){var
+c=a[4];return[0,[0,gO(a,b),c]]}return 0}function
+jZ(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bA(a[1],a[2],i),k=aw(f),l=ap(M(aw(f),g),k),h=[0,_(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bp(a[1],a[2],i),k=at(f),l=ap(N(at(f),g),k),h=[0,$(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jG(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=jZ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return o$}function
-cF(a){return[0,a[1],a[2],a[3]]}function
-jH(a,b){switch(a[0]){case
+j=b;return j}return pw}function
+cK(a){return[0,a[1],a[2],a[3]]}function
+j0(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aw(d),j=cC(d,g,c,f,b),k=ap(cD(a[5],j),i),l=dX(d,g,c,b),m=_(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,_(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=at(d),j=cH(d,g,c,f,b),k=ap(cI(a[5],j),i),l=d2(d,g,c,b),m=$(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,$(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bA(a[1],h,b),n=[6,M(e,e)];return[0,[0,[0,_(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-jI(l,b,a){switch(a[0]){case
+h=a[2],e=bp(a[1],h,b),n=[6,N(e,e)];return[0,[0,[0,$(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+j1(l,c,a){switch(a[0]){case
 0:var
-m=a[5],d=V(l,a[1]);if(d){var
-e=jH(d[1],b);if(e)var
+m=a[5],d=W(l,a[1]);if(d){var
+e=j0(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cF(m),c=ap(a,n),d=_(function(b,a){return[3,b,a]},o,c);return _(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cK(m),c=ap(a,n),d=$(function(b,a){return[3,b,a]},o,c);return $(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cF(a[3]);return[0,[0,cF(a[2]),q]];default:var
-r=cF(a[3]),s=_(function(b,a){return[2,b,a]},b,r),t=cF(a[2]);return[0,[0,_(function(b,a){return[2,b,a]},b,t),s]]}}function
-jJ(d,a,c,b){var
-e=ap(a,b),f=ap([3,d,a],c);return _(function(b,a){return[2,b,a]},f,e)}function
-jK(f,g,e,b,q,a){function
-I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],M(b,b)]}var
+q=cK(a[3]);return[0,[0,cK(a[2]),q]];default:var
+r=cK(a[3]),s=$(function(b,a){return[2,b,a]},c,r),t=cK(a[2]);return[0,[0,$(function(b,a){return[2,b,a]},c,t),s]]}}function
+j2(d,a,c,b){var
+e=ap(a,b),f=ap([3,d,a],c);return $(function(b,a){return[2,b,a]},f,e)}function
+j3(f,g,e,c,q,a){function
+I(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],N(c,c)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-av=dY(g,e,b);return i(f,1,[3,I(a[1]),av]);case
+aw=d3(g,e,c);return i(f,1,[3,I(a[1]),aw]);case
 1:var
-ax=I(a[1]);return i(f,1,[3,dY(g,e,b),ax]);case
+ax=I(a[1]);return i(f,1,[3,d3(g,e,c),ax]);case
 2:var
-ay=a[2],az=function(a){return[3,ay,gB(a,e)]},s=az,r=a[1];break;case
+ay=a[2],az=function(a){return[3,ay,gP(a,e)]},s=az,r=a[1];break;case
 3:var
-aA=a[2],aB=function(a){return[3,gB(a,e),aA]},s=aB,r=a[1];break;case
+aA=a[2],aB=function(a){return[3,gP(a,e),aA]},s=aB,r=a[1];break;case
 4:var
 J=a[3],K=a[2],aC=function(a){var
-b=cE(a,e);return[3,[4,[4,K,K],M(cE(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
+b=cJ(a,e);return[3,[4,[4,K,K],N(cJ(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aD=M(b,b),aE=[4,[4,L,L],[4,dY(g,e,q),aD]],aF=M(q,q);return i(f,1,[3,[4,dY(g,e,b),aF],aE]);case
+L=a[1],aD=N(c,c),aE=[4,[4,L,L],[4,d3(g,e,q),aD]],aF=N(q,q);return i(f,1,[3,[4,d3(g,e,c),aF],aE]);case
 6:var
-N=a[2],u=V(g,a[1]);if(u){var
+M=a[2],u=W(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aG=cC(h[1],h[2],h[3],v,e),O=cD(h[5],aG);return i(f,1,[3,[4,[4,N,v],[4,N,v]],[4,O,O]])}var
+v=h[4],aG=cH(h[1],h[2],h[3],v,e),O=cI(h[5],aG);return i(f,1,[3,[4,[4,M,v],[4,M,v]],[4,O,O]])}var
 P=0}else
 var
 P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gC(g[1],e);if(w){var
-Q=w[1],x=gC(n[1],e);if(x){var
-R=x[1],y=gC(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=M(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=i(f,1,[3,T,H]);if(U)return i(f,1,[2,T,H]);var
-W=U}else
+w=gQ(g[1],e);if(w){var
+Q=w[1],x=gQ(n[1],e);if(x){var
+R=x[1],y=gQ(o[1],e);if(y){var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=N(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=i(f,1,[3,T,H]);if(U)return i(f,1,[2,T,H]);var
+V=U}else
 var
-W=y;var
-X=W}else
+V=y;var
+X=V}else
 var
 X=x;var
 Y=X}else
@@ -2641,22 +2736,22 @@ Y=w;var
 Z=Y}else
 var
 Z=o;var
-$=Z}else
+_=Z}else
 var
-$=n;var
-aa=$}else
+_=n;var
+aa=_}else
 var
 aa=g;return aa;case
 8:var
-aH=dY(g,e,b),aI=M(b,b);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
+aH=d3(g,e,c),aI=N(c,c);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-ab=a[1],z=jG(g,e);if(z){var
-aJ=z[1],at=[0,d,c],au=bv(function(a,c){var
-d=M(aw(a),b);return[2,[4,M(aw(a),b),d],c]},at,aJ);return i(f,1,[3,[4,[4,ab,ab],M(b,b)],au])}return z;case
+ab=a[1],z=jZ(g,e);if(z){var
+aJ=z[1],au=[0,d,b],av=bi(function(a,b){var
+d=N(at(a),c);return[2,[4,N(at(a),c),d],b]},au,aJ);return i(f,1,[3,[4,[4,ab,ab],N(c,c)],av])}return z;case
 10:var
-ac=a[2],ad=a[1],A=jI(g,e,ad);if(A){var
-ae=A[1],B=jI(g,e,ac);if(B){var
-af=B[1],C=b[1],D=b[2],l=b[3],aK=jJ(l,D,af[1],af[2]),aL=jJ(l,C,ae[1],ae[2]),ag=_(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eK(ac),ah=[4,l,[2,[2,eK(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],M(ag,ag)]);var
+ac=a[2],ad=a[1],A=j1(g,e,ad);if(A){var
+ae=A[1],B=j1(g,e,ac);if(B){var
+af=B[1],C=c[1],D=c[2],l=c[3],aK=j2(l,D,af[1],af[2]),aL=j2(l,C,ae[1],ae[2]),ag=$(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eW(ac),ah=[4,l,[2,[2,eW(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],N(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -2664,37 +2759,37 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=V(g,a[1]);if(E){var
-F=jH(E[1],e);if(F){var
-m=F[1][1][2],aO=cF(a[3]),aP=cF(a[2]),p=_(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,M(m,m));if(aq){var
-aQ=M(m,m),aR=M(p,m),aS=[5,[4,M(p,m),aR],aQ];return i(f,1,[3,[4,ap,ap],[3,M(p,p),aS]])}var
+ap=a[4],E=W(g,a[1]);if(E){var
+F=j0(E[1],e);if(F){var
+m=F[1][1][2],aO=cK(a[3]),aP=cK(a[2]),p=$(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,N(m,m));if(aq){var
+aQ=N(m,m),aR=N(p,m),aS=[5,[4,N(p,m),aR],aQ];return i(f,1,[3,[4,ap,ap],[3,N(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=V(g,r);return t?i(f,1,s(t[1])):t}function
-a9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-jL(a){switch(a[0]){case
+t=W(g,r);return t?i(f,1,s(t[1])):t}function
+a$(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+j4(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=a9(b[3]),f=a9(b[2]);return[0,a9(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=a$(b[3]),f=a$(b[2]);return[0,a$(b[1]),f,e,d,c];case
 1:var
-g=z(a9,a[3]),h=a9(a[2]);return[1,a9(a[1]),h,g];default:return[2,a9(a[1])]}}function
-jM(a){return 0===a[0]?a9(a[1]):[0,a[1],a[2],a[4][1]]}function
-jN(b,a){var
-c=jM(a[2]);return jD(b,a,e(jL,a[1]),c)}function
-bV(b,a){if(b){if(a){var
-e=bV(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-jO(a){if(a){var
+g=y(a$,a[3]),h=a$(a[2]);return[1,a$(a[1]),h,g];default:return[2,a$(a[1])]}}function
+j5(a){return 0===a[0]?a$(a[1]):[0,a[1],a[2],a[4][1]]}function
+j6(b,a){var
+c=j5(a[2]);return jW(b,a,e(j4,a[1]),c)}function
+bX(c,a){if(c){if(a){var
+e=bX(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+j7(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=jO(a[2]);return z(function(a){return[0,c,a]},d)}return b}return pa}function
-jP(a,l,k,f){var
-b=aV(a,l);if(b){var
-c=aV(a,k);if(c){var
-d=c6(a,f);if(d){var
-e=eJ(a,f);if(e)var
-m=w(a,b[1],e[1]),g=[0,K(w(a,c[1],d[1]),m)];else
+c=b[1],d=j7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return py}function
+j8(a,l,k,f){var
+b=aY(a,l);if(b){var
+c=aY(a,k);if(c){var
+d=c$(a,f);if(d){var
+e=eU(a,f);if(e)var
+m=w(a,b[1],e[1]),g=[0,M(w(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2706,14 +2801,14 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-e4(a){return a?Z(d,a[1][1]):a}function
-jQ(a,ab,m,aD,g,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bV(a,a)]}var
+fe(a){return a?Z(d,a[1][1]):a}function
+j9(a,ab,m,aD,g,f){function
+ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bX(a,a)]}var
 aE=m[1];function
-o(b){var
-a=[0,d,c];return bv(function(a,c){var
-d=bV(a,b);return[2,[4,bV(a,b),d],c]},a,aE)}var
-ad=n(function(a){return v(j(a),ab)},g);if(ad){var
+o(c){var
+a=[0,d,b];return bi(function(a,b){var
+d=bX(a,c);return[2,[4,bX(a,c),d],b]},a,aE)}var
+ad=n(function(a){return t(j(a),ab)},g);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
@@ -2730,26 +2825,26 @@ b!=="number"&&0===b[0])return i(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;cas
 4:if(g)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],h=e[1],j=i(a,0,[3,[2,ai,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=jP(a,h,g,ai);return f?Z(f[1][2],d):f}return e4(jP(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
+g=e[2],h=e[1],j=i(a,0,[3,[2,ai,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
+f=j8(a,h,g,ai);return f?Z(f[1][2],d):f}return fe(j8(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(g){var
 q=g[2];if(q){if(q[2])return 0;var
-J=q[1],L=g[1],aj=f[1],aM=bV(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bV(J,J);return i(a,1,[3,[4,o(L),aO],aN])}var
+J=q[1],K=g[1],aj=f[1],aM=bX(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bX(J,J);return i(a,1,[3,[4,o(K),aO],aN])}var
 ak=q}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bV(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bV(N,N);return i(a,1,[3,[4,f[2],aT],aS])}return g;case
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return i(a,1,[3,[4,f[2],aT],aS])}return g;case
 9:if(g)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=i(a,1,as),g=f?i(a,0,ar):f;if(g){var
-b=aV(a,bV(e,e));if(b){var
-c=aV(a,[5,ar,as]);if(c){var
-d=iV(a,c[1]);if(d){var
-l=T(a,d[1]);return e4([0,K(b[1],l)])}var
+b=aY(a,bX(e,e));if(b){var
+c=aY(a,[5,ar,as]);if(c){var
+d=i8(a,c[1]);if(d){var
+l=U(a,d[1]);return fe([0,M(b[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -2760,15 +2855,15 @@ k=j}else
 var
 k=g;return k},an=aU,am=f[1];k=3;break;case
 10:if(g)return 0;var
-aW=f[2],aX=function(b){var
-c=[4,aW,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
+aV=f[2],aW=function(b){var
+c=[4,aV,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
 11:if(g)return 0;var
-aY=f[2],aZ=function(e){var
-b=c6(a,aY);if(b){var
-c=aV(a,e[3]);if(c){var
-d=aV(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=e4([0,f]);if(g){var
-k=T(a,d[1]);return e4([0,K(T(a,f),k)])}var
+aX=f[2],aZ=function(e){var
+b=c$(a,aX);if(b){var
+c=aY(a,e[3]);if(c){var
+d=aY(a,e[2]);if(d){var
+f=w(a,b[1],c[1]),g=fe([0,f]);if(g){var
+k=U(a,d[1]);return fe([0,M(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2779,12 +2874,12 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
-Q=jO(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c0(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+Q=j7(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
 s=R[1];if(s){var
-t=s[2];if(t){var
-u=t[2],S=t[1],U=s[1],l=R[2];if(u)if(u[2]||!l)var
-h=[0,d,c];else{var
+u=s[2];if(u){var
+v=u[2],S=u[1],T=s[1],l=R[2];if(v)if(v[2]||!l)var
+h=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2792,34 +2887,34 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-W=D[1],X=C[1],Y=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Y,X),aB=[4,u[1],aA],aC=[4,S,p(aa,_,Y,W)],h=[2,[3,[4,U,p($,_,X,W)],aC],aB];else
+V=D[1],X=C[1],Y=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Y,X),aB=[4,v[1],aA],aC=[4,S,p(aa,_,Y,V)],h=[2,[3,[4,T,p($,_,X,V)],aC],aB];else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],h=F?F[2]?[0,d,c]:l[2]?[0,d,c]:p(U,S,E[1],F[1]):[0,d,c];else
+F=E[2],h=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(T,S,E[1],F[1]):[0,d,b];else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c]}else
+h=[0,d,b]}else
 var
-h=[0,d,c];var
+h=[0,d,b];var
 ay=i(a,1,[3,ax,h]);if(ay)return i(a,1,[2,ax,h]);var
 az=ay}else
 var
@@ -2827,21 +2922,21 @@ az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=V(m[3],at);if(O){var
+O=W(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=V(m[1],am);if(M){var
-ao=M[1],ap=v(j(ao),ab);if(ap)return an(ao);var
+L=W(m[1],am);if(L){var
+ao=L[1],ap=t(j(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
-aq=M;return aq;default:var
-I=V(m[2],G);return I?H(I[1]):I}}else
+aq=L;return aq;default:var
+I=W(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-jR(h,g){var
+j_(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2851,69 +2946,73 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pb(a){return e(function(a){return[0,a,c]},a)}function
-jS(f,m,b,l,a){if(typeof
-a==="number"){var
-q=b[4];return av(function(a){return i(f,0,[3,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=jR(a[1],l);if(g){var
-n=g[1],r=n[1],s=e(pb,a[2]);return jQ(f,m,b,n[2],s,r)}return g}var
-h=jR(a[1],l);if(h){var
-o=h[1],j=o[1];if(typeof
-j!=="number"&&1===j[0]){var
-k=V(b[1],a[2]);return k?jQ(f,m,b,o[2],[0,k[1],0],[1,j[1]]):k}var
-p=0}else
+j$(a){if(a){var
+b=a[1];if(b){var
+c=b[1],d=j$(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pz}function
+pA(a){return e(function(a){return[0,a,b]},a)}function
+ka(g,f,c,n,a){if(typeof
+a==="number"){if(0===a){var
+r=c[4];return aq(function(a){return i(g,0,[3,[0,d,b],a])},r)}var
+h=j$(c[5]);return h?jd(f,h[1]):h}else{if(0===a[0]){var
+j=j_(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(pA,a[2]);return j9(g,f,c,o[2],t,s)}return j}var
+k=j_(a[1],n);if(k){var
+p=k[1],l=p[1];if(typeof
+l!=="number"&&1===l[0]){var
+m=W(c[1],a[2]);return m?j9(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+q=0}else
 var
-p=h;return p}}function
-gD(a){var
-b=aw(a[1]),c=ap(M(b,a[2]),b),d=a[2];return _(function(b,a){return[3,b,a]},d,c)}function
-gE(a){return aw(gD(a))}function
-jT(c){var
-a=gE(c),b=aw(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gF(a,b){return bA(a[3],a[4],b)}function
-gG(a,b){var
-c=gF(a,b);return M(gE(a),c)}function
-gH(a,b){var
-c=gF(a,b);return M(jT(a),c)}function
-jU(a,b){var
-c=gF(a,b);return M(aw(a[1]),c)}function
-gI(b,a){var
-c=gH(b,a),d=gG(b,a);return[2,[4,d,d],[4,c,c]]}function
-gJ(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=jU(a,d);return[5,[2,gI(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jV(a,b){var
-f=a[5],c=[3,gJ(a,b),f],d=jU(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-e5(a,b){var
-c=jV(a,b);return cD(a[7],c)}function
-jW(b,a){var
-c=gI(b,a),d=gH(b,a),e=[4,e5(b,a),d],f=gG(b,a);return[5,[2,[4,gJ(b,a),f],e],c]}function
-jX(b,a){var
-c=gI(b,a),d=gG(b,a),e=[4,e5(b,a),d],f=gH(b,a);return[5,[3,[4,gJ(b,a),f],e],c]}function
-jY(a,b){var
-c=jT(a),d=ap(jX(a,b),c),e=gE(a),f=ap(jW(a,b),e),g=_(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return _(function(b,a){return[2,b,a]},i,h)}function
-jZ(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-j0(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-gK(a,c,b){var
-d=[4,jZ(a),b],e=[2,[4,j0(a),c],d],f=[4,j0(a),b];return[0,[3,[4,jZ(a),c],f],e]}function
-j1(c,a){var
-b=gK(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-gL(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gM(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:j1(d[1],a):a;case
+q=k;return q}}function
+gR(a){var
+b=at(a[1]),c=ap(N(b,a[2]),b),d=a[2];return $(function(b,a){return[3,b,a]},d,c)}function
+gS(a){return at(gR(a))}function
+kb(c){var
+a=gS(c),b=at(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gT(a,b){return bp(a[3],a[4],b)}function
+gU(a,b){var
+c=gT(a,b);return N(gS(a),c)}function
+gV(a,b){var
+c=gT(a,b);return N(kb(a),c)}function
+kc(a,b){var
+c=gT(a,b);return N(at(a[1]),c)}function
+gW(b,a){var
+c=gV(b,a),d=gU(b,a);return[2,[4,d,d],[4,c,c]]}function
+gX(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kc(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kd(a,b){var
+f=a[5],c=[3,gX(a,b),f],d=kc(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+ff(a,b){var
+c=kd(a,b);return cI(a[7],c)}function
+ke(b,a){var
+c=gW(b,a),d=gV(b,a),e=[4,ff(b,a),d],f=gU(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
+kf(b,a){var
+c=gW(b,a),d=gU(b,a),e=[4,ff(b,a),d],f=gV(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
+kg(a,b){var
+c=kb(a),d=ap(kf(a,b),c),e=gS(a),f=ap(ke(a,b),e),g=$(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return $(function(b,a){return[2,b,a]},i,h)}function
+kh(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+ki(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+gY(a,c,b){var
+d=[4,kh(a),b],e=[2,[4,ki(a),c],d],f=[4,ki(a),b];return[0,[3,[4,kh(a),c],f],e]}function
+kj(c,a){var
+b=gY(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+d4(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fg(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kj(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gK(d[1],a[2],a[3]),m=j[1],k=gK(f[1],j[2],a[1]);return j1(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gY(d[1],a[2],a[3]),m=j[1],k=gY(f[1],j[2],a[1]);return kj(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=M(e,e),n=gL(e,a),o=ap([0,b(2,c),c],n),p=M(e,a),q=ap([4,[0,b(2,c),c],p],e),r=ap([3,[0,c,c],l],a),s=_(function(b,a){return[2,b,a]},r,q);return ap([5,[0,c,c],[2,[0,c,c],l]],_(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-j2(b){var
-a=bT(b);return a?iE(a[1],[0,d,c]):a}function
-j3(a,n,k,j){if(j2(j)){var
-q=n?[3,[0,d,c],k]:k;return i(a,0,q)}var
-f=aV(a,k);if(f){var
-g=c6(a,[5,j,[0,b(2,c),c]]);if(g){var
-h=eJ(a,[5,j,[0,b(2,c),c]]);if(h)var
-p=w(a,f[1],g[1]),l=[0,K(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=N(e,e),n=d4(e,a),o=ap([0,c(2,b),b],n),p=N(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=$(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],$(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kk(c){var
+a=bS(c);return a?cv(a[1],[0,d,b]):a}function
+kl(a,n,k,j){if(kk(j)){var
+q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
+f=aY(a,k);if(f){var
+g=c$(a,[5,j,[0,c(2,b),b]]);if(g){var
+h=eU(a,[5,j,[0,c(2,b),b]]);if(h)var
+p=w(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -2922,26 +3021,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?L(d,o[1]):L(o[2],d)}return e}function
-dZ(b,a,c){var
-d=a6(b,a[1],a[2]),e=d?j3(b,0,c,a[1]):d;return e?j3(b,1,c,a[2]):e}function
-dd(a,d){if(j2(d))return[0,A];var
-e=c6(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=eJ(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=C($(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b9(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return z(function(d){var
-e=w(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gf(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
+d5(b,a,c){var
+d=a8(b,a[1],a[2]),e=d?kl(b,0,c,a[1]):d;return e?kl(b,1,c,a[2]):e}function
+di(a,d){if(kk(d))return[0,A];var
+e=c$(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
+f=eU(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
+h=f[1],i=e[1],j=C(aa(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cb(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
+e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-d0(d,a){var
-e=i(d,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]);return e?i(d,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-cG(a){return[0,[3,[0,d,c],a],a]}function
-j4(a,b,n,m){var
-h=a6(a,[0,d,c],b),i=h?d0(a,b):h;if(i){var
-e=dd(a,b);if(e){var
-f=aV(a,n);if(f){var
-g=aV(a,m);if(g){var
-o=f[1],p=g[1];return L(d,K(w(a,T(a,e[1]),p),o)[1])}var
+d6(d,a){var
+e=i(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+cL(a){return[0,[3,[0,d,b],a],a]}function
+km(a,c,n,m){var
+h=a8(a,[0,d,b],c),i=h?d6(a,c):h;if(i){var
+e=di(a,c);if(e){var
+f=aY(a,n);if(f){var
+g=aY(a,m);if(g){var
+o=f[1],p=g[1];return H(d,M(w(a,U(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -2951,12 +3050,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-j5(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:dZ(d,b[1],a[1]):a;case
+kn(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:d5(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dZ(d,b[1],a[1]),m=l?dZ(d,b[2],e[1]):l;if(m)return dZ(d,b[3],f[1]);var
+l=d5(d,c[1],a[1]),m=l?d5(d,c[2],e[1]):l;if(m)return d5(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -2969,7 +3068,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=M([0,s,r,q],[0,s,r,q]);return j4(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=N([0,s,r,q],[0,s,r,q]);return km(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -2978,7 +3077,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=j4(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return dZ(d,cG(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=km(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return d5(d,cL(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -2988,20 +3087,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-de(a){return 1===a?pc:pd}function
-gN(d,c,b,a){var
-e=a[1],f=gM(d,c,a[2]),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
-j6(c,b,a){switch(c){case
+dj(a){return 1===a?pB:pC}function
+fh(d,c,b,a){var
+e=a[1],f=fg(d,c,a[2]),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
+gZ(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-d1(b,d){var
+d7(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,cu(function(a){return d1(b,a)},a)]}return[0,cu(function(a){return d1(b,a)},a)]}function
-df(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,cz(function(a){return d7(b,a)},a)]}return[0,cz(function(a){return d7(b,a)},a)]}function
+dk(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=am(v(e,b));return f?am(v(e,P(d,b))):f;case
+e=a[1],f=ak(t(e,b));return f?ak(t(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3009,31 +3108,31 @@ e=a[1],f=am(v(e,b));return f?am(v(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=df(d,b,a[1]);if(g){var
+g=dk(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-d2(c,b,m){var
+d8(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=df(c,b,g),i=h?d2(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dk(c,b,g),i=h?d8(c,b,f):h;if(i)var
 j=i;else{var
-k=d2(c,b,g);if(k)return df(c,b,f);var
+k=d8(c,b,g);if(k)return dk(c,b,f);var
 j=k}return j;case
 7:var
-l=d2(c,b,a[1]);return l?df(c,b,a[2]):l;case
+l=d8(c,b,a[1]);return l?dk(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=d2(c,b,a[1]);if(e){var
+e=d8(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return df(c,b,a[1]);default:return 1}}}function
-cH(c,e){var
+9:return dk(c,b,a[1]);default:return 1}}}function
+cM(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return am(v(a[1],c));case
+0:return ak(t(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3041,32 +3140,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cH(c,a[1]);if(d){var
+d=cM(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gO(d,b,m){var
+g0(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gO(d,b,a[1]);if(f){var
+f=g0(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gO(d,b,a[1]);return g?cH(b,a[2]):g;case
+g=g0(d,b,a[1]);return g?cM(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cH(b,i);if(j){var
-k=cH(b,h);if(k)var
+h=a[2],i=a[1],j=cM(b,i);if(j){var
+k=cM(b,h);if(k)var
 e=k;else{var
-l=aK(i,d);if(l){var
+l=aL(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cH(b,c)}}}function
-j7(c,e){var
+2:return 1;default:return cM(b,c)}}}function
+ko(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dG(a[1],c);case
+0:return dL(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3074,47 +3173,47 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=j7(c,a[1]);if(d){var
+d=ko(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cg(b,a){return a?k(b,a[1]):a}function
-ch(c,b,a){return cg(function(b){return cg(k(c,b),a)},b)}function
-pe(a){return 0===a[0]?a[1]:0}function
-bB(b,a){switch(a[0]){case
+ck(b,a){return a?k(b,a[1]):a}function
+cl(c,b,a){return ck(function(b){return ck(k(c,b),a)},b)}function
+pD(a){return 0===a[0]?a[1]:0}function
+bE(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
-1:return[1,bB(b,a[1])];default:var
-c=bB(b,a[3]),d=bB(b,a[2]);return[2,bB(b,a[1]),d,c]}}function
-aW(b,c,a){switch(c[0]){case
-0:return bB(k(b,c[1]),a);case
+1:return[1,bE(b,a[1])];default:var
+c=bE(b,a[3]),d=bE(b,a[2]);return[2,bE(b,a[1]),d,c]}}function
+aZ(b,c,a){switch(c[0]){case
+0:return bE(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bB(function(a){return as(b,a,j)},d)];case
-1:return[1,aW(b,d,a[1])];default:var
-l=aW(b,d,a[3]),m=aW(b,d,a[2]);return[2,aW(b,d,a[1]),m,l]}default:var
+j=a[1];return[1,bE(function(a){return au(b,a,j)},d)];case
+1:return[1,aZ(b,d,a[1])];default:var
+l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bB(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return au(b,a,n)},h=function(a){return bE(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=aW(b,e,i),s=aW(b,f,i);return[2,aW(b,g,i),s,r];default:var
-t=aW(b,e,a[3]),u=aW(b,f,a[2]);return[2,aW(b,g,a[1]),u,t]}}}function
-gP(c,f,a){if(a)var
+i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
+t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
+g1(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,T(c,a)];break;case
+e=[0,a,U(c,a)];break;case
 1:var
-g=w(c,a,b),e=[0,a4(C(a,b)),g];break;default:var
-e=[0,b,T(c,b)]}return[0,[0,k(f,e)]]},h=gP(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=w(c,a,b),e=[0,a6(C(a,b)),g];break;default:var
+e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=g1(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-j8(a){if(a){var
+kp(a){if(a){var
 b=a[1];if(b)var
-c=j8(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kp(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ph}function
-d3(a){if(a){var
-g=a[1],b=g[2],c=j8(g[1]);if(c)if(b){var
-h=b[1],e=d3(a[2]);if(e)var
+d=b;return d}return pG}function
+d9(a){if(a){var
+g=a[1],b=g[2],c=kp(g[1]);if(c)if(b){var
+h=b[1],e=d9(a[2]);if(e)var
 i=Z(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3122,91 +3221,91 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return pi}function
-gQ(b,a){var
-c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aA(b),f),e,d]}function
-j9(e,d,c,b){if(d){var
+f=c;return f}return pH}function
+g2(b,a){var
+c=a[3],d=y(function(a){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aB(b),f),e,d]}function
+kq(e,d,c,b){if(d){var
 i=d[1],a=function(f){var
-a=gQ(function(a){switch(a[0]){case
+a=g2(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return j9(bu(e),i,c,a)},f=a(0);if(f){var
+1:return c;default:return b}}},b);return kq(bx(e),i,c,a)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,gQ(pe,b))}function
-d4(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return a8(f,e,a)},d)}return[0,A]}function
-pj(c){var
+h=f;return h}return k(c,g2(pD,b))}function
+d_(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a_(f,e,a)},d)}return[0,A]}function
+pI(c){var
 a=c[2];if(a){var
-b=d4(c[3]);if(b)return L(d,K(a[1],b[1])[1]);var
+b=d_(c[3]);if(b)return H(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-j_(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-j$(a,c,b){var
-e=t(b,c,l(d)),f=aT(0,a);return n(function(b){return d2(a,b,e)},f)}function
-d5(a){var
-b=I(a);return F(l(c),b)}function
-e6(i,g){var
-h=d5(g),j=I(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
-ka(b,a){var
-c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
-kb(b,a){function
+kr(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
+ks(a,c,b){var
+e=u(b,c,l(d)),f=aV(0,a);return n(function(b){return d8(a,b,e)},f)}function
+d$(a){var
+c=J(a);return F(l(b),c)}function
+fi(i,g){var
+h=d$(g),j=J(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bj(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bj(f),a,e]]:[0,[0,h,a,a],[0,a,e,bj(f)],[0,a,f,e]]}function
+kt(b,a){var
+c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
+ku(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
+b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kc(w,v){function
+kv(w,v){function
 a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
 0:var
-x=d5(a(0));return[0,e6(pk,a(0)),x];case
+x=d$(a(0));return[0,fi(pJ,a(0)),x];case
 1:var
-y=d5(a(0)),z=o(d5(a(pl)),y),A=o(d5(a(pm)),z),B=e6(0,a(0)),C=kb(e6(po,a(pn)),B);return[0,kb(e6(pq,a(pp)),C),A];default:var
-D=a(pr),E=a(ps),g=[0,a(0),E,D],G=aa(g,g),H=F(l(c),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=I(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
-g=as(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kd(a){return 1<a[0]?[0,a[1],0]:0}function
-e7(a){switch(a[0]){case
+y=d$(a(0)),z=o(d$(a(pK)),y),A=o(d$(a(pL)),z),B=fi(0,a(0)),C=ku(fi(pN,a(pM)),B);return[0,ku(fi(pP,a(pO)),C),A];default:var
+D=a(pQ),E=a(pR),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=J(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
+g=au(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kw(a){return 1<a[0]?[0,a[1],0]:0}function
+fj(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cG(a[1]),0];default:var
-b=[0,cG(a[2]),0];return[0,cG(a[1]),b]}}function
-dg(a){return[0,[0,a[1]],[0,a[2]]]}function
-ke(a){switch(a[0]){case
-0:return[0,dg(a[1]),0];case
+2:return[0,cL(a[1]),0];default:var
+b=[0,cL(a[2]),0];return[0,cL(a[1]),b]}}function
+dl(a){return[0,[0,a[1]],[0,a[2]]]}function
+kx(a){switch(a[0]){case
+0:return[0,dl(a[1]),0];case
 1:var
-f=[0,dg(a[3]),0],g=[0,dg(a[2]),f];return[0,dg(a[1]),g];case
+f=[0,dl(a[3]),0],g=[0,dl(a[2]),f];return[0,dl(a[1]),g];case
 2:var
-b=dg(cG(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cG(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dg(cG(c)),0]]]}}function
-kf(a,b){if(0===b[0])return dd(a,b[1]);var
-d=dd(a,b[1]);if(d){var
-e=dd(a,b[2]);if(e){var
-g=T(a,e[1]),h=ct(a,C($(a,c),g)),i=d[1];return z(function(b){return w(a,i,b)},h)}var
+b=dl(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dl(cL(c)),0]]]}}function
+ky(a,c){if(0===c[0])return di(a,c[1]);var
+d=di(a,c[1]);if(d){var
+e=di(a,c[2]);if(e){var
+g=U(a,e[1]),h=cy(a,C(aa(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kg(d,c){var
-a=kf(d,c[1]);if(a)var
-b=kf(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kz(d,c){var
+a=ky(d,c[1]);if(a)var
+b=ky(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kh(k,D,c,C,B,b,a){switch(b[0]){case
+kA(k,D,c,C,B,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=d3(e[1]);if(a){var
+a=d9(e[1]);if(a){var
 b=e[2];if(b){var
-d=d4(e[3]);if(d){var
-h=d[1],i=a3([0,K(ae(w(k,l,b[1])),h),0],c);return bR(c,gl(F,E,a[1],i))}var
+d=d_(e[3]);if(d){var
+h=d[1],i=aW([0,M(af(w(k,l,b[1])),h),0],c);return bU(c,gy(F,E,a[1],i))}var
 f=d}else
 var
 f=b;var
@@ -3214,22 +3313,22 @@ g=f}else
 var
 g=a;return g},f=n;break;case
 2:var
-q=ac(l[1],d),r=q?ac(l[2],d):q;if(!r)return r;var
+q=Y(l[1],d),r=q?Y(l[2],d):q;if(!r)return r;var
 H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=d3(f[1]);if(a){var
-b=d4(f[3]);if(b){var
-g=a3([0,K(A,b[1]),0],c),h=a[1];return bR(c,gl(I,H,e(function(a){return[0,a[1],A]},h),g))}var
+a=d9(f[1]);if(a){var
+b=d_(f[3]);if(b){var
+g=aW([0,M(A,b[1]),0],c),h=a[1];return bU(c,gy(I,H,e(function(a){return[0,a[1],A]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
 x=0;if(typeof
 a==="number"&&!a)var
-J=b[2],L=b[1],M=b[3],i=J,h=L,N=0,g=function(f){var
-a=d3(f[1]);if(a){var
+J=b[2],K=b[1],L=b[3],i=J,h=K,N=0,g=function(f){var
+a=d9(f[1]);if(a){var
 b=f[2];if(b){var
-d=d4(f[3]);if(d){var
-j=d[1],l=a3([0,K(w(k,M,b[1]),j),0],c),e=iZ(a[1],l);if(e)return bR(c,e[1]);var
+d=d_(f[3]);if(d){var
+j=d[1],l=aW([0,M(w(k,L,b[1]),j),0],c),e=jh(a[1],l);if(e)return bU(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3244,12 +3343,12 @@ x=1;if(x)return 0;break;case
 y=0;if(typeof
 a==="number"||!(0===a[0]))y=1;else
 var
-s=a[2],u=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=d3(f[1]);if(a){var
+s=a[2],v=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
+a=d9(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=d4(f[3]);if(e){var
-g=v(j(b),c),h=g?v(j(s),c):g;if(h){var
-n=dU(u,dV(u,s,d[1],b));return bR(c,cc(eR(k,R,Q,e[1],b),n))}var
+e=d_(f[3]);if(e){var
+g=t(j(b),c),h=g?t(j(s),c):g;if(h){var
+n=dZ(v,d0(v,s,d[1],b));return bU(c,cg(e3(k,R,Q,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3261,78 +3360,78 @@ var
 m=a;return m},i=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
 z=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pj,f=0;else
+i=b[1],h=0,g=pI,f=0;else
 z=1;if(z)return 0}var
-G=[0,h,i,B];return j9(f,D,g,gQ(function(a){return t(a,C,px)},G))}function
-ki(m,l,k,f,j,i,e){if(typeof
+G=[0,h,i,B];return kq(f,D,g,g2(function(a){return u(a,C,pW)},G))}function
+kB(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=L(d,o);if(p)var
-h=ie(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=H(d,o);if(p)var
+h=is(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kh(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kA(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kh(m,l,k,j,0,i,a)}return 0}function
-py(a){if(a[1])return 0;var
+q=f;return q}return kA(m,l,k,j,0,i,a)}return 0}function
+pX(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kj(a,N,M,L,J,I,h,p,H,_){if(n(py,H))var
+kC(a,N,L,K,J,I,h,p,H,_){if(n(pX,H))var
 q=0;else
 var
-W=gP(a,b6,p),U=0,X=f(gP(a,aI,p),W),q=bw(pg,function(b){switch(b[0]){case
-0:return t(b[1],X,[0,[0,A]]);case
-1:return[0,[0,t(b[1],M,A)]];case
-2:return[0,[0,$(a,b[1])]];case
+V=g1(a,b9,p),T=0,X=f(g1(a,aK,p),V),q=bA(pF,function(b){switch(b[0]){case
+0:return u(b[1],X,[0,[0,A]]);case
+1:return[0,[0,u(b[1],L,A)]];case
+2:return[0,[0,aa(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aW(function(a,b){return ch(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aZ(function(a,b){return cl(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aW(function(a,b){return ch(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aZ(function(a,b){return cl(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ae(a)]};return bB(function(a){return cg(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bE(function(a){return ck(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aW(function(a,b){return ch(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cl(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=b9(a,b);return z(function(b){return w(a,c,b)},d)};return aW(function(a,b){return ch(p,a,b)},o,n);case
+d=cb(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cl(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,T(a,b)]};return bB(function(a){return cg(r,a)},q);case
+q=b[1],r=function(b){return[0,U(a,b)]};return bE(function(a){return ck(r,a)},q);case
 9:var
-s=b[1],u=function(b){return ct(a,b)};return bB(function(a){return cg(u,a)},s);default:return pf}},N,U);var
+s=b[1],t=function(b){return cy(a,b)};return bE(function(a){return ck(t,a)},s);default:return pE}},N,T);var
 g=H,b=_;for(;;){if(g){var
-u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
-v=t(c,b,0);if(v){var
-l=V(L,c);if(l){var
-x=ki(a,J,I,h,q,l[1],i);if(x){var
-g=k,b=eW(c,b);continue}var
-y=x}else
+t=g[1],i=t[2],c=t[1],k=g[2];if(c){var
+v=u(c,b,0);if(v){var
+l=W(K,c);if(l){var
+x=kB(a,J,I,h,q,l[1],i);if(x){var
+g=k,b=e8(c,b);continue}var
+z=x}else
 var
-y=l;var
-B=y}else
+z=l;var
+B=z}else
 var
 B=v;return B}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Y=0,r=e(function(b){return[0,b,T(a,b)]},p),Q=e(b6,r),P=0,R=f(e(aI,r),Q),S=bw(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,A)];case
-1:return[0,t(b[1],M,A)];case
-2:return[0,$(a,b[1])];case
+Y=0,r=e(function(b){return[0,b,U(a,b)]},p),Q=e(b9,r),P=0,R=f(e(aK,r),Q),S=bA(0,function(n){return function(b){switch(b[0]){case
+0:return[0,u(b[1],n,A)];case
+1:return[0,u(b[1],L,A)];case
+2:return[0,aa(a,b[1])];case
 3:var
-c=b[2],d=b[1];return ch(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return cl(function(b,a){return[0,C(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return ch(function(b,a){return[0,K(b,a)]},f,e);case
+e=b[2],f=b[1];return cl(function(b,a){return[0,M(b,a)]},f,e);case
 5:var
-g=b[1];return cg(function(a){return[0,ae(a)]},g);case
+g=b[1];return ck(function(a){return[0,af(a)]},g);case
 6:var
-h=b[2],i=b[1];return ch(function(c,b){return[0,w(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cl(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return ch(function(c,b){var
-d=b9(a,b);return z(function(b){return w(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cl(function(c,b){var
+d=cb(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cg(function(b){return[0,T(a,b)]},l);case
+l=b[1];return ck(function(b){return[0,U(a,b)]},l);case
 9:var
-m=b[1];return cg(function(b){return ct(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],S,Y);if(j){var
+m=b[1];return ck(function(b){return cy(a,b)},m);default:return 0}}}(R),N,P),j=u(h[1],S,Y);if(j){var
 m=Z(j[1][2],d);O=1}else
 var
 s=j}else
@@ -3340,93 +3439,93 @@ var
 s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
-D=t(c,b,0);if(D){var
-o=V(L,c);if(o){var
-E=ki(a,J,I,h,q,o[1],i);if(E){var
-g=k,b=eW(c,b);continue}var
+D=u(c,b,0);if(D){var
+o=W(K,c);if(o){var
+E=kB(a,J,I,h,q,o[1],i);if(E){var
+g=k,b=e8(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kk(i,h,g,f,e,d,c,t,s,r){var
+kD(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kj(i,h,g,f,e,d,c,b,a[1],j);return k?n(am,k[1]):k}var
-l=kj(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dT(a[2],b),p=kk(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kC(i,h,g,f,e,d,c,b,a[1],j);return k?n(ak,k[1]):k}var
+l=kC(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dY(a[2],b),p=kD(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-gR(b,a){var
+g3(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-gS(d,a){var
-e=I(a),f=o(o(l(b(2,c)),a),d);return F(s(I(d),f),e)}function
-kl(c,b,a){switch(c){case
+g4(d,a){var
+e=J(a),f=o(o(l(c(2,b)),a),d);return F(s(J(d),f),e)}function
+kE(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-gT(a){switch(a){case
-0:return[0,pA,pz,l(d)];case
-1:return cd;default:var
+g5(a){switch(a){case
+0:return[0,pZ,pY,l(d)];case
+1:return ch;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-e8(a){switch(a){case
-0:return pB;case
-1:return pC;default:return 0}}function
-e9(b,a){var
-c=aD(a[2],b);return f(aD(a[1],b),c)}function
-km(k,q,i,p,h,d,n){if(d)var
-r=d[1],t=cf(n,e9(h,r)),D=P(n,j(e9(h,r))),E=km(k,q,i,p,h,d[2],D),m=ah(t,pD),e=ah(t,0),a=gT(k),f=ar(s,a,e),g=ka(q,m),v=gS(a[3],e[3]),w=gS(a[2],e[2]),x=gS(a[1],e[1]),y=F(F(F(aa(m,m),x),w),v),z=aa(g,f),A=o(l(b(2,c)),z),B=F(o(i,y),A),C=cy(gR(g,f),p),u=[0,[0,kl(k,ar(F,bQ(i,f),g),C),B],E];else
+fk(a){switch(a){case
+0:return p0;case
+1:return p1;default:return 0}}function
+fl(b,a){var
+c=aG(a[2],b);return f(aG(a[1],b),c)}function
+kF(k,q,i,p,h,d,n){if(d)var
+r=d[1],t=cj(n,fl(h,r)),D=P(n,j(fl(h,r))),E=kF(k,q,i,p,h,d[2],D),m=ai(t,p2),e=ai(t,0),a=g5(k),f=as(s,a,e),g=kt(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(i,y),A),C=cD(g3(g,f),p),u=[0,[0,kE(k,as(F,bT(i,f),g),C),B],E];else
 var
 u=d;return u}function
-gU(g,a){if(typeof
+g6(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
-b=[0,d,c];return[0,[0,b,b],d]}function
-gV(e,d,n,m,l,a){var
-f=o(I(bU(gU(m,a),l)),n);if(typeof
+c=[0,d,b];return[0,[0,c,c],d]}function
+g7(e,d,n,m,l,a){var
+f=o(J(bW(g6(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=V(d,a[1]);if(b)var
+b=W(d,a[1]);if(b)var
 g=i(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=V(d,a[1]);if(c)var
+c=W(d,a[1]);if(c)var
 j=i(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-kn(a,d,c,b){return e(function(a){var
-e=bU(gU(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-ko(b,f,s,e,h,q,p,o){if(o){var
-aa=ko(b,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kG(a,d,c,b){return e(function(a){var
+e=bW(g6(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+kH(c,f,s,e,h,q,p,o){if(o){var
+$=kH(c,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=k(f,h),g=[0,t(k(aA(f),e),O,A)];else
+O=k(f,h),g=[0,t(k(aB(f),e),O,A)];else
 switch(a[0]){case
 0:var
-j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
+j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,c,c],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+Q=[5,[0,b,b],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-R=gV(b,e,h,q,p,a),g=z(function(a){return[3,k(f,a)]},R);break;case
+R=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},R);break;case
 3:var
-S=gV(b,e,h,q,p,a),g=z(function(a){return[3,k(f,a)]},S);break;case
+S=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},S);break;case
 6:var
-u=a[3],v=a[2],r=V(e,a[1]),M=0;if(r){var
-w=i(b,1,v),x=w?i(b,0,u):w;if(x){var
-U=[5,u,v],W=[0,r[1],0],j=U,n=W,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
+u=a[3],v=a[2],r=W(e,a[1]),M=0;if(r){var
+w=i(c,1,v),x=w?i(c,0,u):w;if(x){var
+T=[5,u,v],V=[0,r[1],0],j=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
-y=x}else
+z=x}else
 var
-y=r;if(!M)var
-g=y;break;case
+z=r;if(!M)var
+g=z;break;case
 7:var
-B=a[3],C=a[2],D=a[1],E=V(e,D),N=0;if(E){var
-F=i(b,1,C),G=F?i(b,1,B):F;if(G){var
+B=a[3],C=a[2],D=a[1],E=W(e,D),N=0;if(E){var
+F=i(c,1,C),G=F?i(c,1,B):F;if(G){var
 X=[5,C,B],j=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};l=1;N=1}else
 var
 H=G}else
@@ -3434,78 +3533,78 @@ var
 H=E;if(!N)var
 g=H;break;case
 8:var
-I=i(b,1,a[1]),J=I?i(b,1,a[2]):I;if(J)var
-Y=$(b,c),Z=k(f,h),_=kn(e,q,p,a),K=[0,[0,k(aA(f),_),Z,Y,0]];else
+I=i(c,1,a[1]),J=I?i(c,1,a[2]):I;if(J)var
+Y=aa(c,b),Z=k(f,h),_=kG(e,q,p,a),K=[0,[0,k(aB(f),_),Z,Y,0]];else
 var
 K=J;var
 g=K;break;default:var
 g=0}if(l)var
-P=af(b,[0,[0,j,j],d]),g=z(function(a){var
-c=T(b,a),d=k(f,h);return m(k(aA(f),n),d,c)},P);var
-L=[0,g,aa]}else
+P=ag(c,[0,[0,j,j],d]),g=y(function(a){var
+b=U(c,a),d=k(f,h);return m(k(aB(f),n),d,b)},P);var
+L=[0,g,$]}else
 var
 L=o;return L}function
-kp(j,h,i,g,d,a){if(a){var
-n=kp(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+kI(j,h,i,g,d,a){if(a){var
+n=kI(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(b6,kn(h,g,d,b));l=1}if(!l)var
-c=gV(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-pE(a){if(typeof
+k=e(b9,kG(h,g,d,b));l=1}if(!l)var
+c=g7(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
+p3(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-kq(b,a){switch(b){case
+kJ(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-e_(a){var
-b=bP(a[1],[0,d,c]);return b?bP(a[2],[0,d,c]):b}function
-gW(d,a){switch(d){case
-0:return e_(a[3]);case
+fm(a){var
+c=bR(a[1],[0,d,b]);return c?bR(a[2],[0,d,b]):c}function
+g8(d,a){switch(d){case
+0:return fm(a[3]);case
 1:return 1;default:var
-b=e_(a[1]),c=b?e_(a[2]):b;return c?e_(a[3]):c}}function
-d6(b,a){return a6(b,a[1],a[2])}function
-gX(b,a){var
-c=d6(b,a[1]),d=c?d6(b,a[2]):c;return d?d6(b,a[3]):d}function
-pF(A,g,a,m,a2){var
-a3=a[2],at=n(function(a){var
-b=gX(A,a[1]);return b?gX(A,a[2]):b},a3),au=at?gX(A,a[4]):at;if(au)var
-a4=e7(a[5]),O=n(function(a){return d6(A,a)},a4);else
+b=fm(a[1]),c=b?fm(a[2]):b;return c?fm(a[3]):c}}function
+ea(b,a){return a8(b,a[1],a[2])}function
+g9(b,a){var
+c=ea(b,a[1]),d=c?ea(b,a[2]):c;return d?ea(b,a[3]):d}function
+p4(A,g,a,m,a2){var
+a3=a[2],au=n(function(a){var
+b=g9(A,a[1]);return b?g9(A,a[2]):b},a3),av=au?g9(A,a[4]):au;if(av)var
+a4=fj(a[5]),O=n(function(a){return ea(A,a)},a4);else
 var
-O=au;if(O){var
-p=a[1],b=de(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return e9(m,a)},aF),aE),D=j(X),aG=a[2],aH=j(B(function(a){return e9(m,a)},aG)),Y=a[3],aI=bU([0,[0,Y,Y],m],aH),aJ=e8(p),Z=kc(a[5],aJ),u=Z[2],y=km(p,Z[1],u,aI,m,a[2],0),aL=P(D,j(a[6])),aM=e8(p),aN=a[5],r=function(a){return[0,[0,P(aM,a)]]},R=I([0,[1,aL]]);switch(aN[0]){case
+O=av;if(O){var
+p=a[1],c=dj(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return fl(m,a)},aF),aE),D=j(X),aG=a[2],aH=j(B(function(a){return fl(m,a)},aG)),Y=a[3],aI=bW([0,[0,Y,Y],m],aH),aJ=fk(p),Z=kv(a[5],aJ),v=Z[2],z=kF(p,Z[1],v,aI,m,a[2],0),aK=P(D,j(a[6])),aM=fk(p),aN=a[5],r=function(a){return[0,[0,P(aM,a)]]},R=J([0,[1,aK]]);switch(aN[0]){case
 2:var
-ax=r(pt),ay=r(pu),S=[0,r(0),ay,ax],h=[0,s(R,aa(S,S))];break;case
+ax=r(pS),ay=r(pT),S=[0,r(0),ay,ax],h=[0,s(R,ab(S,S))];break;case
 3:var
-az=I(r(pv)),aB=I(r(0)),aC=I(r(pw)),h=[0,s(s(o(R,F(l(c),aC)),aB),az)];break;default:var
+az=J(r(pU)),aA=J(r(0)),aC=J(r(pV)),h=[0,s(s(o(R,F(l(b),aC)),aA),az)];break;default:var
 h=0}var
-aO=h?[0,h[1],0]:h,aP=[0,u,f(kp(g,y,u,m,D,a[6]),aO)],E=f(bz(y),aP),_=c4(e(function(a){return d1(b,a)},E))[1],w=cv(_),q=function(a){return bg(w,d1(b,a))},aQ=z(q,h),aR=q(u),$=k(aA(q),y),T=e8(p),U=v(j($),b);if(U)var
-V=z(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return t(a,w,l(d))},Q=x(aR),aw=aT(0,T),C=n(function(a){var
-c=df(b,a,Q),d=c?n(function(c){var
-e=c[1],d=n(function(c){var
-d=x(c);return cH(P(b,a),d)},e);if(d){var
-f=x(c[2]);return gO(Q,P(b,a),f)}return d},$):c;if(d){if(V){var
-f=x(V[1][1][1]);return cH(P(b,a),f)}var
+aO=h?[0,h[1],0]:h,aP=[0,v,f(kI(g,z,v,m,D,a[6]),aO)],E=f(bD(z),aP),_=c9(e(function(a){return d7(c,a)},E))[1],w=cA(_),q=function(a){return bk(w,d7(c,a))},aQ=y(q,h),aR=q(v),$=k(aB(q),z),T=fk(p),U=t(j($),c);if(U)var
+V=y(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return u(a,w,l(d))},Q=x(aR),aw=aV(0,T),C=n(function(a){var
+b=dk(c,a,Q),d=b?n(function(b){var
+e=b[1],d=n(function(b){var
+d=x(b);return cM(P(c,a),d)},e);if(d){var
+f=x(b[2]);return g0(Q,P(c,a),f)}return d},$):b;if(d){if(V){var
+f=x(V[1][1][1]);return cM(P(c,a),f)}var
 e=1}else
 var
 e=d;return e},aw);else
 var
 C=U;var
-aD=C?T:C,ab=n(function(a){var
-c=d1(b,a),e=l(d);return aK(t(q(a),w,e),c)},E),ac=ab?n(function(a){return j7(b,a)},E):ab,ad=ac?av(pE,a[6]):ac,ae=ad?gW(p,a[4]):ad,ah=ae?i(g,1,a[3]):ae;if(ah)var
-aS=e7(a[5]),G=n(function(a){var
-b=d0(g,a[1]);return b?d0(g,a[2]):b},aS);else
+aD=C?T:C,aa=n(function(a){var
+b=d7(c,a),e=l(d);return aL(u(q(a),w,e),b)},E),ac=aa?n(function(a){return ko(c,a)},E):aa,ad=ac?aq(p3,a[6]):ac,ae=ad?g8(p,a[4]):ad,af=ae?i(g,1,a[3]):ae;if(af)var
+aS=fj(a[5]),G=n(function(a){var
+b=d6(g,a[1]);return b?d6(g,a[2]):b},aS);else
 var
-G=ah;if(G){var
-aU=a[6],aV=f(X,e(function(a){return gU(m,a)},aU)),H=ag(e(function(a){return af(g,a)},aV));if(H){var
-aW=kq(p,a[4]),J=ag(e(function(a){return af(g,[0,a,m])},aW));if(J){var
-ai=J[1],aX=ke(a[5]),K=ag(e(function(a){return kg(g,a)},aX));if(K){var
-aj=K[1],aY=kd(a[5]),L=ag(e(function(a){return dd(g,a)},aY));if(L){var
-M=ag(ko(g,q,aD,y,u,m,D,a[6]));if(M){var
-N=M[1],ak=v(j(f(ai,aj)),b),al=ak?n(function(a){switch(a[0]){case
+G=af;if(G){var
+aT=a[6],aU=f(X,e(function(a){return g6(m,a)},aT)),H=ah(e(function(a){return ag(g,a)},aU));if(H){var
+aW=kJ(p,a[4]),I=ah(e(function(a){return ag(g,[0,a,m])},aW));if(I){var
+ai=I[1],aX=kx(a[5]),K=ah(e(function(a){return kz(g,a)},aX));if(K){var
+aj=K[1],aY=kw(a[5]),L=ah(e(function(a){return di(g,a)},aY));if(L){var
+M=ah(kH(g,q,aD,z,v,m,D,a[6]));if(M){var
+N=M[1],ak=t(j(f(ai,aj)),c),al=ak?n(function(a){switch(a[0]){case
 2:var
-e=j_(a[2]),c=[0,a[3],e];break;case
+e=kr(a[2]),b=[0,a[3],e];break;case
 3:var
-c=[0,a[1],0];break;default:var
-d=j_(a[1]),c=[0,a[2],d]}return n(function(a){return j$(b,w,a)},c)},N):ak,am=al?h?j$(b,w,q(h[1])):1:al;if(am){var
-aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=z(q,h);return kk(g,_,f(H[1],L[1]),N,b,b,a1,a0,aZ,a2)}var
+b=[0,a[1],0];break;default:var
+d=kr(a[1]),b=[0,a[2],d]}return n(function(a){return ks(c,w,a)},b)},N):ak,am=al?h?ks(c,w,q(h[1])):1:al;if(am){var
+aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=y(q,h);return kD(g,_,f(H[1],L[1]),N,c,c,a1,a0,aZ,a2)}var
 an=am}else
 var
 an=M;var
@@ -3515,118 +3614,120 @@ ao=L;var
 ap=ao}else
 var
 ap=K;var
-aq=ap}else
+ar=ap}else
 var
-aq=J;var
-ar=aq}else
-var
-ar=H;var
+ar=I;var
 as=ar}else
 var
-as=G;return as}return O}function
-aX(a){return typeof
-a==="number"?a?pG:pH:de(a[1])}function
-gY(a){if(0===a[0]){var
-b=a[1];switch(b[0]){case
-0:return b[3];case
-1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-kr(b,c,a){return b?gM(b[1],c,a):a}function
-ci(d,c,b,a){var
-e=gY(a),f=kr(d,c,gY(a)),g=_(function(b,a){return[2,b,a]},b,f);return _(function(b,a){return[3,b,a]},g,e)}function
-ks(b,a){var
+as=H;var
+at=as}else
+var
+at=G;return at}return O}function
+a0(a){return typeof
+a==="number"?a?p5:p6:dj(a[1])}function
+kK(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:gZ(b[1],a,c)}function
+fn(a){if(0===a[0]){var
+c=a[1];switch(c[0]){case
+0:return c[3];case
+1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
+g_(b,c,a){return b?fg(b[1],c,a):a}function
+bY(d,c,b,a){var
+e=fn(a),f=g_(d,c,fn(a)),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
+kL(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kt(b,w,v){var
+kM(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?jC(b,j[1],f[1]):0;else
+g=0===f[0]?jV(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=aR(b,c[1],a[1]),l=k?aR(b,c[2],a[2]):k,m=l?aR(b,c[3],a[3]):l,n=m?aR(b,c[4],a[4]):m,o=n?cB(b,c[5],a[5]):n,p=o?cB(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,M(a[1],a[1])):r;if(s)var
-u=gD(a),h=i(b,1,M(gD(a),u));else
+a=f[1],c=j[1],k=aS(b,c[1],a[1]),l=k?aS(b,c[2],a[2]):k,m=l?aS(b,c[3],a[3]):l,n=m?aS(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,N(a[1],a[1])):r;if(s)var
+u=gR(a),h=i(b,1,N(gR(a),u));else
 var
 h=s;var
-g=h?b7(c[7],a[7]):h}if(g){var
+g=h?b_(c[7],a[7]):h}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-ku(a){return typeof
-a==="number"?a?gT(0):cd:gT(a[1])}function
-gZ(b,d,c){if(0===c[0])return eY(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aD(a[4],b),e),h=f(aD(a[3],b),g),i=f(aD(a[2],d[2]),h);return f(aD(a[1],d[1]),i)}function
-g0(b,a){if(b){var
-c=b[1],d=c[2];return cy(ka(c[1],a),d)}return a}function
-kv(f,u,al,K,ak,r,ai){if(r){var
-i=r[1],am=cZ([0,d,d],ak),a=cf(ai,gZ(K,am,i)),y=function(c,b){var
-d=ah(a,c);return ar(s,ar(F,ku(f),b),d)};if(0===i[0]){var
+kN(a){return typeof
+a==="number"?a?g5(0):ch:g5(a[1])}function
+g$(b,d,c){if(0===c[0])return e_(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aG(a[4],b),e),h=f(aG(a[3],b),g),i=f(aG(a[2],d[2]),h);return f(aG(a[1],d[1]),i)}function
+ha(b,a){if(b){var
+c=b[1],d=c[2];return cD(kt(c[1],a),d)}return a}function
+kO(f,t,al,K,ak,r,ah){if(r){var
+i=r[1],am=by([0,d,d],ak),a=cj(ah,g$(K,am,i)),y=function(c,b){var
+d=ai(a,c);return as(s,as(F,kN(f),b),d)};if(0===i[0]){var
 z=i[1];switch(z[0]){case
 0:var
-_=g0(u,ah(a,pI)),aE=z[1][5],A=t(pJ,a,l(d)),B=ah(a,0),$=y(pK,_),h=i4($,cz(B),$,A,aE),ao=[0,aC(A),0],ap=[0,aC(aa(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=ha(t,ai(a,p7)),aD=z[1][5],A=u(p8,a,l(d)),B=ai(a,0),$=y(p9,_),h=jm($,cE(B),$,A,aD),ao=[0,aF(A),0],ap=[0,aF(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-ab=g0(u,ah(a,pL)),ac=z[3],C=ac?[0,ah(a,pM)]:ac,ad=y(0,ab),m=i5(ad,ad,0);if(C)var
-L=C[1],M=[0,aC(aa(L,L)),0];else
+aa=ha(t,ai(a,p_)),ac=z[3],C=ac?[0,ai(a,p$)]:ac,ad=y(0,aa),m=jn(ad,ad,0);if(C)var
+L=C[1],M=[0,aF(ab(L,L)),0];else
 var
 M=C;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ab];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=ah(a,0),aI=ku(f),n=i6(aI,cz(D)),aq=[0,aC(aa(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],aa];break;default:var
+aE=l(d),aG=l(d),aH=[0,l(d),aG,aE],D=ai(a,0),aI=kN(f),n=jo(aI,cE(D)),aq=[0,aF(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-ae=g0(u,ah(a,pN)),E=i[1][7],G=t(pO,a,l(d)),e=t(pP,a,l(d)),af=ah(a,pQ),H=ah(a,0),q=y(pR,ae),p=cz(H),v=ar(s,af,bQ(aa(p,af),p)),w=cz(v),N=gR(p,w),O=aa(q,w),Q=aa(q,N),as=aa(p,q),at=I(Q),R=F(I(O),at),au=I(as),S=s(I(G),au),av=o(l(b(2,c)),e),x=s(R,I(aj(F(R,s(I(e),S)),av))),aw=eN(E,o(e,aC(x))),T=aj(O,e),U=eN(E,aj(Q,e)),V=aj(S,I(e)),W=iJ(0,T,U,V),X=eN(E,iJ(1,T,U,V)),ax=bQ(X,N),Y=ar(s,q,bQ(e,ar(F,bQ(W,w),ax))),ay=[0,aC(G),0],az=[0,aC(e),ay],aA=[0,aC(aa(v,v)),az],aB=[0,aC(aa(H,H)),aA],aD=cy(Y,aw),k=[0,[0,Y,o(I(e),x),aD,[1,W,X],[0,[0,x,G]],aB],ae];var
-aP=P(ai,j(gZ(K,am,i))),aQ=r[2],aR=kv(f,u,al,K,dJ(ak),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
-b=cy(gR(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:cx(a):kl(f[1],a,b)},J=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,J[1],[0,J[2],0]]:cx(J):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=ha(t,ai(a,qa)),E=i[1][7],G=u(qb,a,l(d)),e=u(qc,a,l(d)),af=ai(a,qd),H=ai(a,0),q=y(qe,ae),p=cE(H),v=as(s,af,bT(ab(p,af),p)),w=cE(v),N=g3(p,w),O=ab(q,w),Q=ab(q,N),ar=ab(p,q),at=J(Q),R=F(J(O),at),au=J(ar),S=s(J(G),au),av=o(l(c(2,b)),e),x=s(R,J(aj(F(R,s(J(e),S)),av))),aw=eZ(E,o(e,aF(x))),T=aj(O,e),U=eZ(E,aj(Q,e)),V=aj(S,J(e)),W=iW(0,T,U,V),X=eZ(E,iW(1,T,U,V)),ax=bT(X,N),Y=as(s,q,bT(e,as(F,bT(W,w),ax))),ay=[0,aF(G),0],az=[0,aF(e),ay],aA=[0,aF(ab(v,v)),az],aB=[0,aF(ab(H,H)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(J(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
+aP=P(ah,j(g$(K,am,i))),aQ=r[2],aR=kO(f,t,al,K,ca(ak),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
+b=cD(g3(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cC(a):kE(f[1],a,b)},I=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cC(I):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-g1(c,b,a){if(a){var
-e=a[2],g=g1(c,dJ(b),e),h=a[1];return f(gZ(c,cZ([0,d,d],b),h),g)}return a}function
-kw(b,a){if(a){var
-g=kw([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bU([0,[0,d,d],c[2]],b);else
+hb(c,b,a){if(a){var
+e=a[2],g=hb(c,ca(b),e),h=a[1];return f(g$(c,by([0,d,d],b),h),g)}return a}function
+kP(b,a){if(a){var
+g=kP([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bW([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-g2(b,a){return b?X(a):d}function
-e$(c,b,a){if(typeof
+hc(b,a){return b?L(a):d}function
+fo(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=g2(c,b),h=y(g2(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],X(b)],0];case
+g=hc(c,b),h=x(hc(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],L(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-kx(a){if(a){var
+kQ(a){if(a){var
 b=a[1][6];if(b)var
-c=kx(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kQ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return pS}function
-ky(y,U,b){function
-c(a){return t(a,U,l(d))}function
+d=b;return d}return qf}function
+kR(y,U,b){function
+c(a){return u(a,U,l(d))}function
 N(a){var
-e=a[2],f=o(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c0(function(b,a){return s(b,I(a))},g,f),d],b]}function
+e=a[2],f=o(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,J(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=I(b[2]),g=o(I(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=J(b[2]),g=o(J(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
 C=0;if(typeof
 b==="number")C=1;else
 switch(b[0]){case
 2:var
-W=function(b){var
+V=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
@@ -3636,7 +3737,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(pT),b),g=[0,[0,s(o(c(pU),d),f),0],0],h=o(d,c(pV));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(qg),b),g=[0,[0,s(o(c(qh),d),f),0],0],h=o(d,c(qi));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3652,8 +3753,8 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=kx(y);if(A){var
-aa=c(0),P=c0(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=kQ(y);if(A){var
+aa=c(0),P=c6(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
 k=j[2],E=j[1];if(k)if(k[2]||!h)var
@@ -3661,15 +3762,15 @@ a=l(d);else{var
 m=h[2],n=h[1];if(n){var
 p=n[2],G=n[1];if(p){var
 q=p[2],H=p[1];if(q){var
-J=q[1];if(q[2]||!m)var
+I=q[1];if(q[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-u=r[2],K=r[1];if(u){var
-v=u[2],L=u[1];if(v){var
+t=r[2],K=r[1];if(t){var
+v=t[2],L=t[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cA(G,H,K,L),S=o(k[1],R),T=o(E,cA(G,J,K,M)),a=F(s(o(D,cA(H,J,L,M)),T),S)}else
+R=cF(G,H,K,L),S=o(k[1],R),T=o(E,cF(G,I,K,M)),a=F(s(o(D,cF(H,I,L,M)),T),S)}else
 var
 a=l(d)}else
 var
@@ -3684,7 +3785,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cA(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cF(D,E,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -3695,86 +3796,86 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bf(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bj(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=V(y,f);return z?g(z[1]):z}function
-fa(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fb(a){return e(function(a){var
-b=l(c);return[0,a[3],b]},a)}function
-kz(a,b){return e(function(a){var
+z=W(y,f);return z?g(z[1]):z}function
+fp(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fq(a){return e(function(a){var
+c=l(b);return[0,a[3],c]},a)}function
+kS(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-kA(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bz(kz(c,t(0,b,l(d))));return iB(ky(c,b,a))}function
-d7(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=d7(g,c,b,P(e,j(e$(c,b,d))),h);return f(as(g,kw(e,e$(c,b,d)),d),i)}return a}function
-kB(b,a){switch(a[0]){case
+kT(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bD(kS(c,u(0,b,l(d))));return iO(kR(c,b,a))}function
+eb(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=eb(g,c,b,P(e,j(fo(c,b,d))),h);return f(au(g,kP(e,fo(c,b,d)),d),i)}return a}function
+kU(b,a){switch(a[0]){case
 0:var
-d=a[1];return af(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ag(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=af(b,[0,[0,e,e],a[2]]);return c?iV(b,c[1]):c;case
-2:return c6(b,a[1]);default:return eJ(b,a[1])}}function
-kC(f,g,m,I,H,q,a){if(typeof
+e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?i8(b,c[1]):c;case
+2:return c$(b,a[1]);default:return eU(b,a[1])}}function
+kV(f,g,m,I,H,q,a){if(typeof
 a==="number")return[0,[0,[0,A]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],h=J,n=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],h=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,c,c],a[1]],h=M,n=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],h=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=af(f,[0,[0,x,x],d]);return[0,z(function(a){return[2,T(f,a)]},Q),P];case
+x=a[1],P=0,Q=ag(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,U(f,a)]},Q),P];case
 7:var
-y=a[3],B=a[2],C=a[1];if(!V(m,C))return pY;var
-G=0;if(i(f,1,B)&&i(f,1,y))var
-R=[5,B,y],h=R,n=function(a){return[7,C,a]};else
-G=1;if(G)return pX;break;case
+z=a[3],B=a[2],C=a[1];if(!W(m,C))return ql;var
+G=0;if(i(f,1,B)&&i(f,1,z))var
+R=[5,B,z],h=R,n=function(a){return[7,C,a]};else
+G=1;if(G)return qk;break;case
 8:var
 D=i(f,1,a[1]),S=0,E=D?i(f,1,a[2]):D;if(E)var
-U=$(f,c),W=kz(m,t(0,q,l(d))),F=[0,[4,k(aA(g),W),U]];else
+T=aa(f,b),V=kS(m,u(0,q,l(d))),F=[0,[4,k(aB(g),V),T]];else
 var
 F=E;return[0,F,S];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=i(f,1,[3,s,u]),O=v?i(f,1,[3,[2,u,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
+s=a[3],t=a[2],v=i(f,1,[3,s,t]),O=v?i(f,1,[3,[2,t,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
 6:case
 9:var
 w=i(f,1,a[2]),j=w?i(f,0,a[3]):w;break;default:p=1}if(p)var
 j=1;var
-o=j?ky(m,q,a):j;if(o){var
+o=j?kR(m,q,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
 d=[0,[3,k(g,c)]]}else
 var
-d=a;return d},N)}return pW}var
-K=0,L=af(f,[0,[0,h,h],g2(I,H)]);return[0,z(function(a){return n(T(f,a))},L),K]}function
-kD(a){if(typeof
+d=a;return d},N)}return qj}var
+K=0,L=ag(f,[0,[0,h,h],hc(I,H)]);return[0,y(function(a){return n(U(f,a))},L),K]}function
+kW(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-p0(b){if(0===b[0])return[0,jL(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a9(a[4]),g=a9(a[3]),h=a9(a[2]);return[1,[0,a9(a[1]),h,g,f,e,d,c]]}function
-p1(K,c,a,g,an,aT){var
-aU=e(p0,a[2]),ao=kt(K,a[2],aU);if(ao)var
-aV=jM(a[4]),L=gA(K,a[4],aV);else
+qn(b){if(0===b[0])return[0,j4(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a$(a[4]),g=a$(a[3]),h=a$(a[2]);return[1,[0,a$(a[1]),h,g,f,e,d,c]]}function
+qo(K,c,a,g,an,aT){var
+aU=e(qn,a[2]),ao=kM(K,a[2],aU);if(ao)var
+aV=j5(a[4]),L=gN(K,a[4],aV);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aW=e7(ap[1]),aq=n(function(a){return d6(K,a)},aW);else
+aW=fj(ap[1]),ar=n(function(a){return ea(K,a)},aW);else
 var
-aq=1;var
-M=aq}else
+ar=1;var
+M=ar}else
 var
 M=L;if(M){var
-b=a[1],au=aX(b),q=a[6],x=g1(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],y=a[2],o=y?0===y[1][0]?0:1:y,aw=a[5],ax=z(function(a){var
+b=a[1],av=a0(b),q=a[6],x=hb(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],z=a[2],o=z?0===z[1][0]?0:1:z,aw=a[5],ax=y(function(a){var
 c=typeof
-b==="number"?0:e8(b[1]);return kc(a,c)},aw),ay=a[2],h=kv(b,ax,bU(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),az=f(U,d7(function(a,b){return kA(h,a,b)},o,g,T,q)),aB=f(bz(fb(h)),az),V=f(bz(fa(h)),aB),A=c4(V)[1],aC=cv(A),p=function(a){return bg(aC,a)},W=n(function(a){var
-b=l(d),c=cv(A);return aK(t(p(a),c,b),a)},V),X=W?av(kD,q):W;if(X){var
+b==="number"?0:fk(b[1]);return kv(a,c)},aw),ay=a[2],h=kO(b,ax,bW(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),az=f(U,eb(function(a,b){return kT(h,a,b)},o,g,T,q)),aA=f(bD(fq(h)),az),V=f(bD(fp(h)),aA),A=c9(V)[1],aC=cA(A),p=function(a){return bk(aC,a)},W=n(function(a){var
+b=l(d),c=cA(A);return aL(u(p(a),c,b),a)},V),X=W?aq(kW,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?gW(0,e3(Y)):1;else
+Z=b?g8(0,fd(Y)):1;else
 var
-as=e3(Y),Z=gW(b[1],as);var
+at=fd(Y),Z=g8(b[1],at);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3783,43 +3884,43 @@ O==="number")var
 r=a[5]?0:1;else
 if(2<=O[1])var
 r=0;else{var
-u=a[5],N=0;if(u){var
+v=a[5],N=0;if(v){var
 P=i(c,1,a[3]);if(P)var
-at=e7(u[1]),r=n(function(a){var
-b=d0(c,a[1]);return b?d0(c,a[2]):b},at);else{var
+au=fj(v[1]),r=n(function(a){var
+b=d6(c,a[1]);return b?d6(c,a[2]):b},au);else{var
 Q=P;N=1}}else{var
-Q=u;N=1}if(N)var
+Q=v;N=1}if(N)var
 r=Q}var
 D=r}else
 var
 D=C;if(D)var
 aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return b7(b,o)},aD);else
+b=0===a[0]?0:1;return b_(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=ag(e(function(a){return af(c,a)},aE));if(F){var
-aF=B(function(a){return e$(o,g,a)},q),G=ag(e(function(a){return kB(c,a)},aF));if(G){var
-m=e3(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kq(b[1],m),H=ag(e(function(a){return af(c,[0,a,g])},aG));if(H){var
+aE=f(x,[0,S,0]),F=ah(e(function(a){return ag(c,a)},aE));if(F){var
+aF=B(function(a){return fo(o,g,a)},q),G=ah(e(function(a){return kU(c,a)},aF));if(G){var
+m=fd(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kJ(b[1],m),H=ah(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=ke($[1]),s=ag(e(function(a){return kg(c,a)},aH));else
+aH=kx($[1]),s=ah(e(function(a){return kz(c,a)},aH));else
 var
-s=pZ;if(s){var
-aa=s[1],w=a[5],aI=w?kd(w[1]):w,I=ag(e(function(a){return dd(c,a)},aI));if(I){var
-J=ag(d7(function(a,b){return kC(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
-ab=J[1],ac=v(j(f(_,aa)),au);if(ac){var
-aJ=gv(ab),aL=f(_,aa),ar=0,aM=a[4];if(typeof
+s=qm;if(s){var
+aa=s[1],w=a[5],aI=w?kw(w[1]):w,I=ah(e(function(a){return di(c,a)},aI));if(I){var
+J=ah(eb(function(a,b){return kV(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
+ab=J[1],ac=t(j(f(_,aa)),av);if(ac){var
+aJ=gI(ab),aK=f(_,aa),as=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return jB(c,aM,g,a)};ar=1}if(!ar)var
+ad=function(a){return jU(c,aM,g,a)};as=1}if(!as)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=fb(h),aR=k(aA(p),aQ),aS=fa(h);return eX(c,A,k(aA(p),aS),aR,aP,aO,ab,ad,aL,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=fq(h),aR=k(aB(p),aQ),aS=fp(h);return e9(c,A,k(aB(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
-ah=ae}else
+af=ae}else
 var
-ah=I;var
-ai=ah}else
+af=I;var
+ai=af}else
 var
 ai=s;var
 aj=ai}else
@@ -3834,7 +3935,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-bl(c){var
+bq(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3843,15 +3944,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bl(a[2]);return f(bl(a[1]),e)}}function
-a_(e,a,b){switch(a[0]){case
+e=bq(a[2]);return f(bq(a[1]),e)}}function
+ba(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return bU([0,[0,r,r],d],b);case
+r=a[1];return bW([0,[0,r,r],d],c);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(nB(n[1],u))return n[2];var
+n=g[1];if(nV(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bf(a_(e,a[1],b));case
+2:return bj(ba(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=F;break;case
 4:var
@@ -3861,95 +3962,95 @@ i=a[2],f=a[1],h=o;break;case
 6:var
 i=a[2],f=a[1],h=aj;break;case
 7:var
-k=dH(a[2]),m=a_(e,a[1],b);if(k){if(k[1]){var
-p=I(m),t=function(a){return o(a,p)},q=ex(bu(it(k)),t,p);return is(k)?q:o(q,m)}return m}return l(c);default:return aC(a_(e,a[1],b))}var
-w=a_(e,i,P(b,j(bl(f))));return h(a_(e,f,b),w)}function
-cj(c,g,b){var
+k=dM(a[2]),m=ba(e,a[1],c);if(k){if(k[1]){var
+p=J(m),t=function(a){return o(a,p)},q=eD(bx(iF(k)),t,p);return iE(k)?q:o(q,m)}return m}return l(b);default:return aF(ba(e,a[1],c))}var
+w=ba(e,i,P(c,j(bq(f))));return h(ba(e,f,c),w)}function
+cm(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,j(bl(e))),l=cj(c,a[2],k),m=f(cj(c,e,b),l);return[0,a_(c,a,b),m];case
+e=a[1],k=P(b,j(bq(e))),l=cm(c,a[2],k),m=f(cm(c,e,b),l);return[0,ba(c,a,b),m];case
 8:var
-n=cj(c,a[1],b);return[0,a_(c,a,b),n];case
+n=cm(c,a[1],b);return[0,ba(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=P(b,j(bl(d))),i=cj(c,a[2],h);return f(cj(c,d,b),i)}}function
-kE(c,a,b){if(a){var
-e=a[1],d=e[2],g=P(b,j(bl(d))),h=a[2],i=a_(c,d,b),k=kE([0,[0,e[1],i],c],h,g);return f(cj(c,d,b),k)}return a}function
-g3(a){return B(bl,a)}function
-kF(c,a,b){if(a)var
-d=a[1],f=P(b,j(bl(d))),g=kF(c,a[2],f),e=[0,a_(c,d,b),g];else
+d=a[1],h=P(b,j(bq(d))),i=cm(c,a[2],h);return f(cm(c,d,b),i)}}function
+kX(c,a,b){if(a){var
+e=a[1],d=e[2],g=P(b,j(bq(d))),h=a[2],i=ba(c,d,b),k=kX([0,[0,e[1],i],c],h,g);return f(cm(c,d,b),k)}return a}function
+hd(a){return B(bq,a)}function
+kY(c,a,b){if(a)var
+d=a[1],f=P(b,j(bq(d))),g=kY(c,a[2],f),e=[0,ba(c,d,b),g];else
 var
 e=a;return e}function
-kG(c,a,b){if(a){var
-d=a[1],e=P(b,j(bl(d))),g=kG(c,a[2],e);return f(cj(c,d,b),g)}return a}function
-g4(a){return 0===a[0]?g3(a[1]):bl(a[1])}function
-kH(c,b,a){if(b){var
-d=b[1],i=P(a,j(g4(d))),k=kH(c,b[2],i);if(0===d[0])var
-g=kG(c,d[1],a);else
+kZ(c,a,b){if(a){var
+d=a[1],e=P(b,j(bq(d))),g=kZ(c,a[2],e);return f(cm(c,d,b),g)}return a}function
+he(a){return 0===a[0]?hd(a[1]):bq(a[1])}function
+k0(c,b,a){if(b){var
+d=b[1],i=P(a,j(he(d))),k=k0(c,b[2],i);if(0===d[0])var
+g=kZ(c,d[1],a);else
 var
-e=d[1],h=cj(c,e,a),g=[0,a_(c,e,a),h];return f(g,k)}return b}function
-fc(c){var
+e=d[1],h=cm(c,e,a),g=[0,ba(c,e,a),h];return f(g,k)}return b}function
+fr(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cu(fc,a)}return[0,b]}function
-g5(c){var
+b=cz(fr,a)}return[0,b]}function
+hf(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=g5(a[2]);return o(g5(a[1]),d);case
-9:return a[1];default:return I(b)}}}function
-kI(n,g,a,f){if(a){var
-b=a[1],w=P(f,j(g4(b))),x=kI(n,g,a[2],w);if(0===b[0])var
-k=kF(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+d=hf(a[2]);return o(hf(a[1]),d);case
+9:return a[1];default:return J(b)}}}function
+k1(n,g,a,f){if(a){var
+c=a[1],w=P(f,j(he(c))),x=k1(n,g,a[2],w);if(0===c[0])var
+k=kY(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
 var
-m=a_(g,b[1],f),q=fc(m),h=aL(aT(0,n),q),d=fc(h[2]),i=e(fc,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aK(a,d)?l(c):aj(a,d)},i),o=[0,i,g5(d),v,u,t,s,r];var
+m=ba(g,c[1],f),q=fr(m),h=aM(aV(0,n),q),d=fr(h[2]),i=e(fr,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aL(a,d)?l(b):aj(a,d)},i),o=[0,i,hf(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-kJ(a){return e(function(a){return[0,a[2],d]},a)}function
-kK(a){var
-b=B(g4,a[4]),c=f(g3(e(b6,a[3])),b);return f(kJ(a[2]),c)}function
-kL(a){var
-c=cf(0,kJ(a[2])),d=aT(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
-g6(b,d){var
+k2(a){return e(function(a){return[0,a[2],d]},a)}function
+k3(a){var
+b=B(he,a[4]),c=f(hd(e(b9,a[3])),b);return f(k2(a[2]),c)}function
+k4(a){var
+c=cj(0,k2(a[2])),d=aV(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aA(e(aK,a[2]),c);return f(aA(a[1],g),b)}function
+hg(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return av(function(a){return al(e,a)},b);case
+e=a[1];return aq(function(a){return am(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=g6(b,a[1]);if(c){var
+c=hg(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-kM(d){var
+k5(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=am(av(function(b){return function(a){return nB(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ak(aq(function(b){return function(a){return nV(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fe=s(l(c),fd);function
-kN(e){var
-a=I(fe);if(e)var
-f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=aj(F(l(c),h),g);else
+ft=s(l(b),fs);function
+k6(e){var
+a=J(ft);if(e)var
+f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=aj(F(l(b),h),g);else
 var
-i=F(l(b(2,c)),a),j=I(fd),d=aj(F(o(l(b(2,c)),j),a),i);return aC(d)}function
-kO(d,b,a){if(d){var
-e=kN(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=kN(b),j=aj(l(c),i);return s(o(a,F(l(c),j)),h)}function
-dh(f,e,d,a){var
-g=I(a),h=I(d),i=s(s(l(b(2,c)),h),g),j=f?e?fe:aj(fe,o(l(b(2,c)),fd)):aj(fe,l(b(2,c))),k=o(I(j),i);return aC(F(l(c),k))}function
-kP(g,d){var
+i=F(l(c(2,b)),a),j=J(fs),d=aj(F(o(l(c(2,b)),j),a),i);return aF(d)}function
+k7(d,c,a){if(d){var
+e=k6(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
+h=l(b),i=k6(c),j=aj(l(b),i);return s(o(a,F(l(b),j)),h)}function
+dm(f,e,d,a){var
+g=J(a),h=J(d),i=s(s(l(c(2,b)),h),g),j=f?e?ft:aj(ft,o(l(c(2,b)),fs)):aj(ft,l(c(2,b))),k=o(J(j),i);return aF(F(l(b),k))}function
+k8(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-g7(v,u,s){var
-a=e(function(a){return t(a,u,0)},v);if(a){var
+hh(v,t,s){var
+a=e(function(a){return u(a,t,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -3958,7 +4059,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return eL([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return eX([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -3980,12 +4081,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-kQ(f,i,e,b,h){var
-j=f?c:d,a=$(i,j);function
+k9(f,i,e,c,h){var
+j=f?b:d,a=aa(i,j);function
 g(b){var
-c=f?eD(b):c3(b);return K(c,a)}var
-k=[0,ad(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-kR(r,g,q,p,f,o,n){if(o){var
+c=f?eO(b):c8(b);return M(c,a)}var
+k=[0,ad(h),0],l=[0,[0,a,c,[0,A,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+k_(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -3994,16 +4095,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aQ,bj(p7)),a=g7(p,ji(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aR,bn(qu)),a=hh(p,jC(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=L(k[2],l[1]);b=1;c=1;d=1;break}else
+a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(kP,p8),a=g7(p,bw(0,ca(g,kQ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(k8,qv),a=hh(p,bA(0,ce(g,k9(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(kP,p9),a=g7(p,bw(0,ca(g,kQ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(k8,qw),a=hh(p,bA(0,ce(g,k9(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4013,27 +4114,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?p_:a}else
+y=a?qx:a}else
 var
 y=n;return y}return[0,n]}function
-kS(f,e,d,c,p,o,n){var
+k$(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=kR(f,e,d,c,b,a[1],g);return h?am(h[1]):h}var
-i=kR(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dT(a[2],b),l=kS(f,e,d,c,k[1],j,a[3]);if(l){var
+h=k_(f,e,d,c,b,a[1],g);return h?ak(h[1]):h}var
+i=k_(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dY(a[2],b),l=k$(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-g8(a){return iv(b(2,c),aH(a,c))}function
-di(i,a,e,w,v){var
-m=a?c:X(c),f=l(m),g=kO(a,e,p5),h=kO(a,e,p6),n=aj(g,dh(a,e,f,g)),p=[0,F(aj(h,dh(a,e,h,f)),n),0],q=aj(f,dh(a,e,f,g)),r=[0,F(aj(h,dh(a,e,g,h)),q),p],s=aj(f,dh(a,e,h,f)),t=[0,F(aj(g,dh(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fd):l(b(2,b(2,c))),j=c4([0,u,t]),k=[0,d,cs(i)];return kS(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-kT(a,g,b){if(Z(g,g8(a))){if(b){var
+hi(a){return iJ(c(2,b),aE(a,b))}function
+dn(i,a,e,w,v){var
+m=a?b:L(b),f=l(m),g=k7(a,e,qs),h=k7(a,e,qt),n=aj(g,dm(a,e,f,g)),p=[0,F(aj(h,dm(a,e,h,f)),n),0],q=aj(f,dm(a,e,f,g)),r=[0,F(aj(h,dm(a,e,g,h)),q),p],s=aj(f,dm(a,e,h,f)),t=[0,F(aj(g,dm(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fs):l(c(2,c(2,b))),j=c9([0,u,t]),k=[0,d,cx(i)];return k$(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+la(a,g,b){if(Z(g,hi(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,g8(a)],v=cs(a),i=[0,g8(a),v],j=di(a,0,1,h,b[1]),k=j?di(a,0,0,i,c[1]):j;if(k){var
-l=di(a,1,1,h,d[1]);if(l)return di(a,1,0,i,e[1]);var
+h=[0,g,hi(a)],v=cx(a),i=[0,hi(a),v],j=dn(a,0,1,h,b[1]),k=j?dn(a,0,0,i,c[1]):j;if(k){var
+l=dn(a,1,1,h,d[1]);if(l)return dn(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4050,255 +4151,255 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cs(a)],s=di(a,0,0,r,b[1]);if(s)return di(a,1,0,r,f[1]);var
+r=[0,g,cx(a)],s=dn(a,0,0,r,b[1]);if(s)return dn(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-g9(a){var
-b=[1,[2,d]];return c0(function(b,a){return[1,[3,b,a]]},a,b)}function
-ff(a){return g9(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fg(a,c){return g9(e(function(a){var
-d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,g9(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-kU(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cu(function(a){return kU(e,d,c,b,a)},f);return k(ca(e,d,c),g)}function
-kV(a){return a?Z(d,a[1][2][1]):a}function
-p$(a){var
-b=v(j(a),qa);return b?av(function(a){return am(ac(a,d))},a):b}function
-kW(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,$(c,a[1]),f),h=kW(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+hj(a){var
+b=[1,[2,d]];return c6(function(b,a){return[1,[3,b,a]]},a,b)}function
+fu(a){return hj(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fv(a,c){return hj(e(function(a){var
+d=[0,a[2]],b=aA(a[1],c);return[1,[7,[1,[8,hj(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lb(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
+f=a[1],g=cz(function(a){return lb(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
+lc(a){return a?Z(d,a[1][2][1]):a}function
+qy(a){var
+b=t(j(a),qz);return b?aq(function(a){return ak(Y(a,d))},a):b}function
+ld(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,aa(c,a[1]),f),h=ld(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fh(b,a){return iA(iA(b,0),a)}function
-g_(a){if(a){var
-b=a[2],c=a[1];if(b)return fh(c,[0,qc,g_(b)]);var
+fw(b,a){return iN(iN(b,0),a)}function
+hk(a){if(a){var
+b=a[2],c=a[1];if(b)return fw(c,[0,qB,hk(b)]);var
 d=c}else
 var
 d=a;return d}function
-x(a){return[0,qe,fh(g_(a),qd)]}function
-R(a){return[0,qg,fh(g_(a),qf)]}function
-ai(a){return[0,qi,[0,a,qh]]}function
-g(b,a){return[0,aN(qk,aN(b,qj)),a]}function
-H(b,a){return R([0,g(b,a),0])}function
-bW(d){var
-b=d,a=n6,e=0;for(;;){if(b){var
-c=ir(a),b=b[1],a=c;continue}return[0,dM(ew(a)),e]}}function
-g$(a){return[0,dM(eA(a)),0]}function
-fi(a){var
-c=bK(a),f=0,b=0===c?n_:0<c?[0,eA(a)]:[1,eA(X(a))];if(0===b[0])var
-d=dM(b[1]);else
+z(a){return[0,qD,fw(hk(a),qC)]}function
+S(a){return[0,qF,fw(hk(a),qE)]}function
+ae(a){return[0,qH,[0,a,qG]]}function
+g(b,a){return[0,aO(qJ,aO(b,qI)),a]}function
+I(b,a){return S([0,g(b,a),0])}function
+bZ(d){var
+b=d,a=oo,e=0;for(;;){if(b){var
+c=iD(a),b=b[1],a=c;continue}return[0,dR(eC(a)),e]}}function
+hl(a){return[0,dR(eI(a)),0]}function
+fx(a){var
+c=a5(a),f=0,b=0===c?ot:0<c?[0,eI(a)]:[1,eI(L(a))];if(0===b[0])var
+d=dR(b[1]);else
 var
-e=dM(b[1]),d=aN(bc(1,45),e);return[0,d,f]}function
-ha(a){var
-b=0,c=0<bK(a)?eA(a):n9;return[0,dM(c),b]}function
-hb(a){switch(a[0]){case
-2:return qm;case
-3:return 2<=a[1]?qn:qo;case
-4:return qp;default:return ql}}function
-d8(b,a){function
-c(c,a){return Y(c,hb(a))?d8(b,a):[0,qv,f(d8(b,a),qu)]}switch(a[0]){case
+e=dR(b[1]),d=aO(be(1,45),e);return[0,d,f]}function
+hm(a){var
+b=0,c=0<a5(a)?eI(a):os;return[0,dR(c),b]}function
+hn(a){switch(a[0]){case
+2:return qL;case
+3:return 2<=a[1]?qM:qN;case
+4:return qO;default:return qK}}function
+ec(b,a){function
+c(c,a){return _(c,hn(a))?ec(b,a):[0,qU,f(ec(b,a),qT)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aU(g),0];var
-h=[0,qw,[0,aU(e),0]];return[0,aU(g),h];case
+e==="number")return[0,aX(g),0];var
+h=[0,qV,[0,aX(e),0]];return[0,aX(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,qy,c(qx,a[1])];case
+2:return[0,qX,c(qW,a[1])];case
 3:var
-i=a[3],j=c([0,hb(a)],i);switch(a[1]){case
+i=a[3],j=c([0,hn(a)],i);switch(a[1]){case
 0:var
-d=qq;break;case
+d=qP;break;case
 1:var
-d=qr;break;case
+d=qQ;break;case
 2:var
-d=qs;break;default:var
-d=qt}var
-l=a[2];return f(c(hb(a),l),[0,d,j]);case
+d=qR;break;default:var
+d=qS}var
+l=a[2];return f(c(hn(a),l),[0,d,j]);case
 4:var
-m=[0,qz,g$(a[2])];return f(c(qA,a[1]),m);default:return[0,qC,f(d8(b,a[1]),qB)]}}function
-G(a){return[0,qF,f(d8(function(a){return 0===a[0]?a[1]:qE},a),qD)]}function
-hc(a){return[0,qH,f(d8(function(a){return a},a),qG)]}function
-bX(a){if(0===a[0])return G(a[1]);var
-b=[0,g(qI,G(a[2])),0];return R([0,g(qJ,G(a[1])),b])}function
-fj(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return x([0,k(b,a[1]),d])}function
-qK(a){function
-b(a){return fj(bX,a)}switch(a[0]){case
+m=[0,qY,hl(a[2])];return f(c(qZ,a[1]),m);default:return[0,q1,f(ec(b,a[1]),q0)]}}function
+G(a){return[0,q4,f(ec(function(a){return 0===a[0]?a[1]:q3},a),q2)]}function
+ho(a){return[0,q6,f(ec(function(a){return a},a),q5)]}function
+b0(a){if(0===a[0])return G(a[1]);var
+b=[0,g(q7,G(a[2])),0];return S([0,g(q8,G(a[1])),b])}function
+fy(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return z([0,k(b,a[1]),d])}function
+q9(a){function
+b(a){return fy(b0,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?qL:qT,i=[0,g(qM,ai(h)),e],j=[0,g(qN,bX(a[4])),i],k=[0,g(qO,b(a[3])),j],l=[0,g(qP,b(a[2])),k],m=[0,g(qQ,b(a[1])),l],c=[0,g(qS,ai(qR)),m];break;case
+e=0,h=a[5]?q_:rg,i=[0,g(q$,ae(h)),e],j=[0,g(ra,b0(a[4])),i],k=[0,g(rb,b(a[3])),j],l=[0,g(rc,b(a[2])),k],m=[0,g(rd,b(a[1])),l],c=[0,g(rf,ae(re)),m];break;case
 1:var
-d=a[3],n=d?[0,g(qU,b(d[1])),0]:d,o=[0,g(qV,b(a[2])),0],p=[0,g(qW,b(a[1])),o],c=f([0,g(qY,ai(qX)),p],n);break;default:var
-q=[0,g(qZ,b(a[1])),0],c=[0,g(q1,ai(q0)),q]}return R(c)}function
-q2(a){function
-b(a){return x(e(bX,a))}function
+d=a[3],n=d?[0,g(rh,b(d[1])),0]:d,o=[0,g(ri,b(a[2])),0],p=[0,g(rj,b(a[1])),o],c=f([0,g(rl,ae(rk)),p],n);break;default:var
+q=[0,g(rm,b(a[1])),0],c=[0,g(ro,ae(rn)),q]}return S(c)}function
+rp(a){function
+b(a){return z(e(b0,a))}function
 d(a){var
-b=a?q3:q5;return g(q4,ai(b))}switch(a[0]){case
+b=a?rq:rs;return g(rr,ae(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(q6,bX(a[4])),f],i=[0,g(q7,b(a[3])),h],j=[0,g(q8,b(a[2])),i],k=[0,g(q9,b(a[1])),j],c=[0,g(q$,ai(q_)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(rt,b0(a[4])),f],i=[0,g(ru,b(a[3])),h],j=[0,g(rv,b(a[2])),i],k=[0,g(rw,b(a[1])),j],c=[0,g(ry,ae(rx)),k];break;case
 1:var
-l=[0,g(ra,b(a[2])),0],m=[0,g(rb,b(a[1])),l],c=[0,g(rd,ai(rc)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(re,bX(a[6])),n],p=[0,g(rf,bX(a[5])),o],q=[0,g(rg,b(a[4])),p],r=[0,g(rh,b(a[3])),q],s=[0,g(ri,b(a[2])),r],t=[0,g(rj,b(a[1])),s],c=[0,g(rl,ai(rk)),t]}return R(c)}function
-hd(a){switch(a){case
-0:return rm;case
-1:return rn;case
-2:return ro;case
-3:return rp;case
-4:return rq;case
-5:return rr;case
-6:return rs;case
-7:return rt;case
-8:return ru;case
-9:return rv;case
-10:return rw;case
-11:return rx;case
-12:return ry;default:return rz}}function
-he(a){if(typeof
-a==="number")return rA;else
+l=[0,g(rz,b(a[2])),0],m=[0,g(rA,b(a[1])),l],c=[0,g(rC,ae(rB)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(rD,b0(a[6])),n],p=[0,g(rE,b0(a[5])),o],q=[0,g(rF,b(a[4])),p],r=[0,g(rG,b(a[3])),q],s=[0,g(rH,b(a[2])),r],t=[0,g(rI,b(a[1])),s],c=[0,g(rK,ae(rJ)),t]}return S(c)}function
+hp(a){switch(a){case
+0:return rL;case
+1:return rM;case
+2:return rN;case
+3:return rO;case
+4:return rP;case
+5:return rQ;case
+6:return rR;case
+7:return rS;case
+8:return rT;case
+9:return rU;case
+10:return rV;case
+11:return rW;case
+12:return rX;default:return rY}}function
+hq(a){if(typeof
+a==="number")return rZ;else
 switch(a[0]){case
-0:return rB;case
-1:return rC;default:return rD}}function
-d9(a){var
+0:return r0;case
+1:return r1;default:return r2}}function
+ed(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,g(rE,G(b[1])),0];break;case
+c=[0,g(r3,G(b[1])),0];break;case
 1:var
-c=[0,g(rF,G(b[1])),0];break;default:var
-l=[0,G(b[2]),0],c=[0,g(rG,x([0,G(b[1]),l])),0]}var
-m=[0,g(rH,ai(he(a[4]))),c],e=a[3];if(e){var
+c=[0,g(r4,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,g(r5,z([0,G(b[1]),l])),0]}var
+m=[0,g(r6,ae(hq(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=x([0,G(d[1]),0]),i=a[1],n=0,p=6===i?rI:12===i?rM:rN,j=[0,g(rJ,H(p,o)),n];else
+o=z([0,G(d[1]),0]),i=a[1],n=0,p=6===i?r7:12===i?r$:sa,j=[0,g(r8,I(p,o)),n];else
 var
-t=[0,g(rO,x([0,G(d[2]),0])),0],j=[0,g(rQ,R([0,g(rP,x([0,G(d[1]),0])),t])),0];var
+t=[0,g(sb,z([0,G(d[2]),0])),0],j=[0,g(sd,S([0,g(sc,z([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=f(k,m),h=a[2],r=h?[0,g(rK,bW(h[1])),0]:h,s=f(r,q);return R([0,g(rL,ai(hd(a[1]))),s])}function
-kX(a){if(0===a[0]){var
-b=[0,g(rR,fj(G,a[2])),0];return H(rT,R([0,g(rS,fj(G,a[1])),b]))}var
-c=[0,G(a[5]),0],d=[0,g(rU,x([0,G(a[4]),c])),0],e=[0,g(rV,G(a[3])),d],f=[0,G(a[2]),0];return H(rX,R([0,g(rW,x([0,G(a[1]),f])),e]))}function
-kY(a){switch(a){case
-0:return r1;case
-1:return r2;default:return r3}}function
-r4(a){function
-b(a){return x(e(bX,a))}var
-c=[0,g(r5,b(a[2])),0],d=[0,g(r6,b(a[1])),c];return R([0,g(r8,ai(r7)),d])}function
-kZ(a){function
+q=f(k,m),h=a[2],r=h?[0,g(r9,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(r_,ae(hp(a[1]))),s])}function
+le(a){if(0===a[0]){var
+b=[0,g(se,fy(G,a[2])),0];return I(sg,S([0,g(sf,fy(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,g(sh,z([0,G(a[4]),c])),0],e=[0,g(si,G(a[3])),d],f=[0,G(a[2]),0];return I(sk,S([0,g(sj,z([0,G(a[1]),f])),e]))}function
+lf(a){switch(a){case
+0:return so;case
+1:return sp;default:return sq}}function
+sr(a){function
+b(a){return z(e(b0,a))}var
+c=[0,g(ss,b(a[2])),0],d=[0,g(st,b(a[1])),c];return S([0,g(sv,ae(su)),d])}function
+lg(a){function
 b(b,a){var
-c=[0,G(a),0];return x([0,G(b),c])}switch(a[0]){case
-0:return H(r9,b(a[1],a[2]));case
+c=[0,G(a),0];return z([0,G(b),c])}switch(a[0]){case
+0:return I(sw,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(r_,b(c[1],c[2])),0],h=[0,g(r$,b(d[1],d[2])),f];return H(sb,R([0,g(sa,b(e[1],e[2])),h]));case
-2:return H(sc,G(a[1]));default:var
-i=[0,g(sd,G(a[2])),0];return H(sf,R([0,g(se,G(a[1])),i]))}}function
-sg(a){function
-b(a){return fj(G,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(sh,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(si,x([0,G(a[3]),h])),0],j=[0,g(sj,G(a[2])),i],k=[0,g(sk,bW(a[1])),j],d=f([0,g(sm,ai(sl)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(sx,b(c[1],c[2])),0],h=[0,g(sy,b(d[1],d[2])),f];return I(sA,S([0,g(sz,b(e[1],e[2])),h]));case
+2:return I(sB,G(a[1]));default:var
+i=[0,g(sC,G(a[2])),0];return I(sE,S([0,g(sD,G(a[1])),i]))}}function
+sF(a){function
+b(a){return fy(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sG,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sH,z([0,G(a[3]),h])),0],j=[0,g(sI,G(a[2])),i],k=[0,g(sJ,bZ(a[1])),j],d=f([0,g(sL,ae(sK)),k],e);else
 var
-l=[0,g(sn,G(a[4])),0],m=[0,g(so,b(a[3])),l],n=[0,g(sp,b(a[2])),m],o=a[1]?sq:ss,d=[0,g(sr,ai(o)),n];return R(d)}function
-hf(d,c,a,b){var
-h=[0,g(st,x(e(d9,b))),0],i=a?[0,g(su,x(e(sg,a))),0]:a,j=f(i,h),k=[0,g(sv,kX(c)),0];return R(f([0,g(sx,H(sw,x(e(qK,d)))),k],j))}function
-sy(a){switch(a[0]){case
-0:return H(sz,hf(a[1],a[2],a[3],a[4]));case
+l=[0,g(sM,G(a[4])),0],m=[0,g(sN,b(a[3])),l],n=[0,g(sO,b(a[2])),m],o=a[1]?sP:sR,d=[0,g(sQ,ae(o)),n];return S(d)}function
+hr(d,c,a,b){var
+h=[0,g(sS,z(e(ed,b))),0],i=a?[0,g(sT,z(e(sF,a))),0]:a,j=f(i,h),k=[0,g(sU,le(c)),0];return S(f([0,g(sW,I(sV,z(e(q9,d)))),k],j))}function
+sX(a){switch(a[0]){case
+0:return I(sY,hr(a[1],a[2],a[3],a[4]));case
 1:var
-c=a[5],d=a[3],h=a[1],i=x(e(q2,a[2])),p=[0,g(sA,x(e(d9,a[6]))),0],q=c?[0,g(sB,kZ(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
-o=[0,g(rY,x(e(G,b[2]))),0],j=H(r0,R([0,g(rZ,x(e(G,b[1]))),o]));else
+c=a[5],d=a[3],h=a[1],i=z(e(rp,a[2])),p=[0,g(sZ,z(e(ed,a[6]))),0],q=c?[0,g(s0,lg(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
+o=[0,g(sl,z(e(G,b[2]))),0],j=I(sn,S([0,g(sm,z(e(G,b[1]))),o]));else
 var
-j=kX([1,b[1],b[2],b[3],b[4],b[5]]);var
-n=0,s=[0,g(sC,j),r];if(typeof
+j=le([1,b[1],b[2],b[3],b[4],b[5]]);var
+n=0,s=[0,g(s1,j),r];if(typeof
 h==="number")if(h)var
-k=sD;else{var
-l=H(sI,i);n=1}else
+k=s2;else{var
+l=I(s7,i);n=1}else
 var
-k=kY(h[1]);if(!n)var
-t=d?[0,g(sE,G(d[1])),0]:d,l=H(k,R([0,g(sF,i),t]));return H(sH,R([0,g(sG,l),s]));case
+k=lf(h[1]);if(!n)var
+t=d?[0,g(s3,G(d[1])),0]:d,l=I(k,S([0,g(s4,i),t]));return I(s6,S([0,g(s5,l),s]));case
 2:var
-u=[0,g(sJ,x(e(d9,a[7]))),0],v=[0,g(sK,kZ(a[6])),u],w=[0,g(sL,x(e(G,a[5]))),0],y=[0,g(sO,H(sN,R([0,g(sM,x(e(G,a[4]))),w]))),v],z=[0,g(sP,G(a[3])),0],A=R([0,g(sQ,x(e(r4,a[2]))),z]);return H(sS,R([0,g(sR,H(kY(a[1]),A)),y]));case
+u=[0,g(s8,z(e(ed,a[7]))),0],v=[0,g(s9,lg(a[6])),u],w=[0,g(s_,z(e(G,a[5]))),0],x=[0,g(tb,I(ta,S([0,g(s$,z(e(G,a[4]))),w]))),v],y=[0,g(tc,G(a[3])),0],A=S([0,g(td,z(e(sr,a[2]))),y]);return I(tf,S([0,g(te,I(lf(a[1]),A)),x]));case
 3:var
-B=[0,g(sT,x(e(d9,a[7]))),0],C=[0,g(sU,x(e(G,a[6]))),0],D=[0,g(sX,H(sW,R([0,g(sV,x(e(G,a[5]))),C]))),B],E=0,F=a[4],I=[0,g(s0,x(e(function(a){return 0===a[0]?H(sY,x(e(hc,a[1]))):H(sZ,hc(a[1]))},F))),E],J=a[3],K=[0,g(s1,x(e(function(a){var
-b=[0,hc(a[2]),0];return x([0,ai(a[1]),b])},J))),I],L=a[2],M=[0,g(s2,x(e(function(a){var
-b=[0,bX(a[2]),0];return x([0,ai(a[1]),b])},L))),K];return H(s6,R([0,g(s5,H(s4,R([0,g(s3,x(e(ai,a[1]))),M]))),D]));case
+B=[0,g(tg,z(e(ed,a[7]))),0],C=[0,g(th,z(e(G,a[6]))),0],D=[0,g(tk,I(tj,S([0,g(ti,z(e(G,a[5]))),C]))),B],E=0,F=a[4],H=[0,g(tn,z(e(function(a){return 0===a[0]?I(tl,z(e(ho,a[1]))):I(tm,ho(a[1]))},F))),E],J=a[3],K=[0,g(to,z(e(function(a){var
+b=[0,ho(a[2]),0];return z([0,ae(a[1]),b])},J))),H],L=a[2],M=[0,g(tp,z(e(function(a){var
+b=[0,b0(a[2]),0];return z([0,ae(a[1]),b])},L))),K];return I(tt,S([0,g(ts,I(tr,S([0,g(tq,z(e(ae,a[1]))),M]))),D]));case
 4:var
-N=[0,g(s7,x(e(d9,a[3]))),0],O=[0,g(s_,H(s9,R([0,g(s8,G(a[2])),0]))),N];return H(tc,R([0,g(tb,H(ta,R([0,g(s$,G(a[1])),0]))),O]));case
+N=[0,g(tu,z(e(ed,a[3]))),0],O=[0,g(tx,I(tw,S([0,g(tv,G(a[2])),0]))),N];return I(tB,S([0,g(tA,I(tz,S([0,g(ty,G(a[1])),0]))),O]));case
 5:var
-P=[0,g(td,G(a[5])),0];return H(tf,R([0,g(te,hf(a[1],[0,a[2],a[3]],0,a[4])),P]));case
+P=[0,g(tC,G(a[5])),0];return I(tE,S([0,g(tD,hr(a[1],[0,a[2],a[3]],0,a[4])),P]));case
 6:var
-m=a[1],Q=0,S=m?bX(m[1]):ai(ti);return H(th,R([0,g(tg,S),Q]));default:var
-T=[0,g(tj,G(a[6])),0],U=[0,g(tk,G(a[5])),T],V=[0,g(tl,hf(a[2],a[3],0,a[4])),U],W=a[1];return H(tq,R([0,g(tp,x(e(function(a){var
-b=[0,g(tm,G(a[2][2])),0],c=[0,g(tn,G(a[2][1])),b];return R([0,g(to,ai(a[1])),c])},W))),V]))}}function
-d_(a){return x(e(fi,a))}function
-fk(b,a){var
-c=[0,g(tr,ha(a)),0];return R([0,g(ts,x(e(d_,b))),c])}function
-d$(a){switch(a[0]){case
-0:return ai(a[1]);case
+m=a[1],Q=0,R=m?b0(m[1]):ae(tH);return I(tG,S([0,g(tF,R),Q]));default:var
+T=[0,g(tI,G(a[6])),0],U=[0,g(tJ,G(a[5])),T],V=[0,g(tK,hr(a[2],a[3],0,a[4])),U],W=a[1];return I(tP,S([0,g(tO,z(e(function(a){var
+b=[0,g(tL,G(a[2][2])),0],c=[0,g(tM,G(a[2][1])),b];return S([0,g(tN,ae(a[1])),c])},W))),V]))}}function
+ee(a){return z(e(fx,a))}function
+fz(b,a){var
+c=[0,g(tQ,hm(a)),0];return S([0,g(tR,z(e(ee,b))),c])}function
+ef(a){switch(a[0]){case
+0:return ae(a[1]);case
 1:var
-b=fk(a[2],a[3]);return H(a[1],b);case
+b=fz(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?tt:tv;return H(tu,ai(c));case
+c=a[1]?tS:tU;return I(tT,ae(c));case
 3:var
-d=[0,d_(a[3]),0];return H(tw,x([0,fk(a[1],a[2]),d]));case
+d=[0,ee(a[3]),0];return I(tV,z([0,fz(a[1],a[2]),d]));case
 4:var
-f=[0,bW(0),0],g=[0,fi(a[3]),f];return H(tx,x([0,fk(a[1],a[2]),g]));case
+f=[0,bZ(0),0],g=[0,fx(a[3]),f];return I(tW,z([0,fz(a[1],a[2]),g]));case
 5:var
-h=[0,ha(a[3]),0],i=[0,fi(a[2]),h];return H(ty,x([0,d$(a[1]),i]));case
+h=[0,hm(a[3]),0],i=[0,fx(a[2]),h];return I(tX,z([0,ef(a[1]),i]));case
 6:var
-j=[0,ha(a[3]),0],k=[0,fi(a[2]),j];return H(tz,x([0,d$(a[1]),k]));case
-7:return H(tA,d$(a[1]));default:var
-l=[0,x(e(d_,a[3])),0],m=[0,ai(a[2]),l];return H(tB,x([0,d$(a[1]),m]))}}function
-tC(a){var
-b=[0,d$(a[2]),0];return x([0,bW(a[1]),b])}function
-k0(a){if(typeof
-a==="number")return ai(tD);else{if(0===a[0]){var
-b=[0,x(e(d_,a[2])),0];return H(tE,x([0,bW(a[1]),b]))}var
-c=[0,bW(a[2]),0];return H(tF,x([0,bW(a[1]),c]))}}function
-tG(a){var
-b=a[4],i=b?[0,g(tH,d_([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(tI,k0(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(tJ,bW(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(tK,x(e(tC,[0,c[1],c[2]]))),0]:c;return R(f(n,m))}function
-k1(h,a,d){var
-i=[0,g(tL,x(e(tG,d))),0];if(a)var
-b=a[1],c=[0,g(tM,fk(b[1],b[2])),0];else
+j=[0,hm(a[3]),0],k=[0,fx(a[2]),j];return I(tY,z([0,ef(a[1]),k]));case
+7:return I(tZ,ef(a[1]));default:var
+l=[0,z(e(ee,a[3])),0],m=[0,ae(a[2]),l];return I(t0,z([0,ef(a[1]),m]))}}function
+t1(a){var
+b=[0,ef(a[2]),0];return z([0,bZ(a[1]),b])}function
+lh(a){if(typeof
+a==="number")return 0===a?ae(t2):ae(t3);else{if(0===a[0]){var
+b=[0,z(e(ee,a[2])),0];return I(t4,z([0,bZ(a[1]),b]))}var
+c=[0,bZ(a[2]),0];return I(t5,z([0,bZ(a[1]),c]))}}function
+t6(a){var
+b=a[4],i=b?[0,g(t7,ee([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(t8,lh(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(t9,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(t_,z(e(t1,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
+li(h,a,d){var
+i=[0,g(t$,z(e(t6,d))),0];if(a)var
+b=a[1],c=[0,g(ua,fz(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return R([0,g(tN,g$(h)),j])}function
-k2(d,c,a,b){var
-h=[0,g(tO,k0(b)),0],i=a?[0,g(tP,x(e(G,a))),0]:a,j=f(i,h),k=[0,g(tQ,x(e(G,c))),0];return R(f([0,g(tR,g$(d)),k],j))}function
-tS(a){if(typeof
-a==="number")return ai(tT);else
+j=f(c,i);return S([0,g(ub,hl(h)),j])}function
+lj(d,c,a,b){var
+h=[0,g(uc,lh(b)),0],i=a?[0,g(ud,z(e(G,a))),0]:a,j=f(i,h),k=[0,g(ue,z(e(G,c))),0];return S(f([0,g(uf,hl(d)),k],j))}function
+ug(a){if(typeof
+a==="number")return ae(uh);else
 switch(a[0]){case
-0:return H(tU,bW(a[1]));case
-1:return H(tV,k1(a[1],a[2],a[3]));default:return H(tW,k2(a[1],a[2],a[3],a[4]))}}function
-fl(a){var
-b=f6(f5(ak(a),function(b){return aG(a,b)}));return n(function(a){var
-b=am(34===a?1:0),c=b?am(92===a?1:0):b,d=c?Y(t$,eB(a)):c;return d?Y(eB(a),ua):d},b)}function
-ea(b){function
+0:return I(ui,bZ(a[1]));case
+1:return I(uj,li(a[1],a[2],a[3]));default:return I(uk,lj(a[1],a[2],a[3],a[4]))}}function
+fA(a){var
+b=gi(gh(al(a),function(b){return aJ(a,b)}));return n(function(a){var
+b=ak(34===a?1:0),c=b?ak(92===a?1:0):b,d=c?_(uz,eK(a)):c;return d?_(eK(a),uA):d},b)}function
+eg(b){function
 c(f){var
-a=eB(f),b=Y(ub,a),c=b?Y(a,uc):b;if(c)var
+a=eK(f),b=_(uB,a),c=b?_(a,uC):b;if(c)var
 d=c;else{var
-e=Y(ud,a);if(e)return Y(a,ue);var
+e=_(uD,a);if(e)return _(a,uE);var
 d=e}return d}var
-a=f6(f5(ak(b),function(a){return aG(b,a)}));if(a){var
+a=gi(gh(al(b),function(a){return aJ(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eB(a),f=Y(uf,e),h=f?Y(e,ug):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Y(j(d),uh):f;if(g)return am(al(b,ui));var
+e=eK(a),f=_(uF,e),h=f?_(e,uG):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?_(j(d),uH):f;if(g)return ak(am(b,uI));var
 h=g}else
 var
 h=a;return h}function
-hg(c){var
+hs(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ea(a[1]);case
+1:return eg(a[1]);case
 3:var
-b=hg(a[2]);if(b){var
+b=hs(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eb(m){var
+eh(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4309,104 +4410,104 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ew(a[2]);if(typeof
+f=eC(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eb(a[2]);if(i){var
+i=eh(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eb(a[1]),l=k?ez(b(2,c),j):k;return l?ez(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eh(a[1]),l=k?eG(c(2,b),j):k;return l?eG(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dj(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bm(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cI(a){return B(dj,bm(a))}function
-hh(a){switch(a[0]){case
+dp(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cN(a){return B(dp,br(a))}function
+ht(a){switch(a[0]){case
 0:var
-c=dj(a[4]),d=f(cI(a[3]),c),e=f(cI(a[2]),d);return f(cI(a[1]),e);case
+c=dp(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
 1:var
-b=a[3],g=b?cI(b[1]):b,h=f(cI(a[2]),g);return f(cI(a[1]),h);default:return cI(a[1])}}function
-uj(a){switch(a[0]){case
+b=a[3],g=b?cN(b[1]):b,h=f(cN(a[2]),g);return f(cN(a[1]),h);default:return cN(a[1])}}function
+uJ(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dj,b)}function
-k3(a){if(0===a[0]){var
-b=bm(a[2]);return f(bm(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-k4(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dp,b)}function
+lk(a){if(0===a[0]){var
+b=br(a[2]);return f(br(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ll(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cJ(d){var
+cO(d){var
 a=d[4],g=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return f(e,g)}function
-uk(a){if(0===a[0]){var
-b=a[5],c=b?bm(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bm(a[3]),d);return f(bm(a[2]),e)}function
-k5(b,e){var
+uK(a){if(0===a[0]){var
+b=a[5],c=b?br(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(br(a[3]),d);return f(br(a[2]),e)}function
+lm(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return av(function(a){return al(f,a)},b)}return 0;case
+f=c[1];return aq(function(a){return am(f,a)},b)}return 0;case
 3:var
-d=k5(b,a[2]);if(d){var
+d=lm(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fm(c,a){return n(function(a){var
-b=eb(a);return b?k5(c,a):b},a)}function
-k6(a){var
-d=ez(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?ez(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-k7(a,b){return b?[4,k7(a,b[1]),a]:a}function
+fB(c,a){return n(function(a){var
+b=eh(a);return b?lm(c,a):b},a)}function
+ln(a){var
+d=eG(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eG(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+lo(a,b){return b?[4,lo(a,b[1]),a]:a}function
 h(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,r(b(2,b(2,c)))),l=function(a){return u(k,a)},m=ex(ip(j),l,c);return[0,ix(iq(ew(a[1]),j)),m];case
+j=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eD(iB(j),l,b);return[0,iL(iC(eC(a[1]),j)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
+e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=h(a[1]);return 0===f[0]?[0,X(f[1]),f[2]]:[3,[0,d,c],f];case
+f=h(a[1]);return 0===f[0]?[0,L(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=h(a[2]),i=h(a[3]);switch(a[1]){case
 0:return[2,g,i];case
 1:return[3,g,i];case
 2:return[4,g,i];default:return[5,g,i]}case
 4:var
-n=bu(dH(a[2]));return k7(h(a[1]),n);default:return[6,h(a[1])]}}function
-bn(a){if(0===a[0]){var
+n=bx(dM(a[2]));return lo(h(a[1]),n);default:return[6,h(a[1])]}}function
+bs(a){if(0===a[0]){var
 b=h(a[1]);return[0,b,b]}var
 c=h(a[2]);return[0,h(a[1]),c]}function
-cK(a){var
-b=bn(a[3]),c=bn(a[2]);return[0,bn(a[1]),c,b]}function
-ul(a){switch(a[0]){case
+cP(a){var
+b=bs(a[3]),c=bs(a[2]);return[0,bs(a[1]),c,b]}function
+uL(a){switch(a[0]){case
 0:var
-b=a[5],c=bn(a[4]),d=cK(a[3]),e=cK(a[2]);return[0,[0,cK(a[1]),e,d,c,b]];case
+b=a[5],c=bs(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
 1:var
-f=z(cK,a[3]),g=cK(a[2]);return[1,cK(a[1]),g,f];default:return[2,cK(a[1])]}}function
-k8(a){if(0===a[0]){var
+f=y(cP,a[3]),g=cP(a[2]);return[1,cP(a[1]),g,f];default:return[2,cP(a[1])]}}function
+lp(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=h(k(a,c));return[0,h(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),l=h(a[2]);return[1,h(a[1]),l,j,i]}function
-dk(a){var
+dq(a){var
 b=h(a[3]),c=h(a[2]);return[0,h(a[1]),c,b]}function
-dl(a){if(0===a[0]){var
-b=a[5],i=b?dk(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bu(a[1]),l,k,j,i]}var
+dr(a){if(0===a[0]){var
+c=a[5],i=c?dq(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bx(a[1]),l,k,j,i]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dk(f),n=dk(g);return[2,h(e),n,m]}var
-o=dk(f),p=dk(g);return[1,h(e),p,o]}function
-hi(b,a){if(a){var
-c=a[1],d=a[2],g=hi(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cr(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:b7(b[1],a[1]);return am(d)},h),g)}return a}function
-um(b){if(b[1])return 0;var
+m=dq(f),n=dq(g);return[2,h(e),n,m]}var
+o=dq(f),p=dq(g);return[1,h(e),p,o]}function
+hu(b,a){if(a){var
+c=a[1],d=a[2],g=hu(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cu(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return ak(d)},h),g)}return a}function
+uM(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-uo(c,a){switch(a[1]){case
+uO(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4431,14 +4532,14 @@ r==="number"||!(0===r[0]))H=1;else{var
 s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
 b=s[1]}if(H)return 0;break;case
 6:var
-u=a[4];if(typeof
-u!=="number"&&0===u[0]){if(a[2])return 0;var
+v=a[4];if(typeof
+v!=="number"&&0===v[0]){if(a[2])return 0;var
 f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=v(c,uq),J=0;if(x){var
+x=t(c,uQ),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -4461,12 +4562,12 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?v(c,ur):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?t(c,uR):0:j}return 0;case
 13:return 0;default:var
-t=a[4];if(typeof
-t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=Y(up,b);return n?Y(b,c):n}function
-hj(g,m,_,b){var
+u=a[4];if(typeof
+u!=="number"&&0===u[0])return a[2]?0:a[3]?0:1;return 0}var
+n=_(uP,b);return n?_(b,c):n}function
+hv(g,m,_,c){var
 $=j(g),i=B(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
@@ -4476,15 +4577,15 @@ f=a[4],z=0;if(typeof
 f==="number")z=1;else
 switch(f[0]){case
 0:var
-K=f[1],b=function(a){return[2,a,h(K)]};break;case
+K=f[1],c=function(a){return[2,a,h(K)]};break;case
 1:var
-M=f[1],b=function(a){return[3,a,h(M)]};break;default:z=1}if(z)return 0;break;case
+M=f[1],c=function(a){return[3,a,h(M)]};break;default:z=1}if(z)return 0;break;case
 2:var
 i=a[4],G=0;if(typeof
 i==="number"||!(1===i[0]))G=1;else{var
 j=a[3],N=i[1];if(!j)return j;var
 B=j[1];if(0!==B[0])return 0;var
-O=B[1],b=function(a){var
+O=B[1],c=function(a){var
 b=h(N);return[4,a,h(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
@@ -4493,7 +4594,7 @@ k!=="number"&&1===k[0])return[0,[5,h(k[1])],0];return 0;case
 l=a[4],H=0;if(typeof
 l==="number"||!(0===l[0]))H=1;else
 var
-P=l[1],b=function(a){return[6,a,h(P)]};if(H)return 0;break;case
+P=l[1],c=function(a){return[6,a,h(P)]};if(H)return 0;break;case
 5:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,h(m[1])],0];return 0;case
@@ -4511,40 +4612,40 @@ q=a[4],I=0;if(typeof
 q==="number"||!(1===q[0]))I=1;else{var
 r=a[3],R=q[1];if(!r)return r;var
 D=r[1];if(0!==D[0])return 0;var
-S=D[1],b=function(a){var
+S=D[1],c=function(a){var
 b=h(R);return[13,a,h(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=hi(0,_);return e(function(i){var
-e=h(T),a=i[2],b=i[1];if(0===b[0]){var
-f=b[1];if(0===a[0]){var
-g=function(a){return a?dk(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
-j=h(a[2]),k=[2,[2,h(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bu(f),m,l,k]}var
-n=dl(a);return[10,dl(b),n,e]}var
-o=dl(a);return[10,dl(b),o,e]}var
-p=dl(a);return[10,dl(b),p,e]},U)}return 0;case
+T=s[1],U=hu(0,_);return e(function(i){var
+e=h(T),a=i[2],c=i[1];if(0===c[0]){var
+f=c[1];if(0===a[0]){var
+g=function(a){return a?dq(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(t(f,a[1])){var
+j=h(a[2]),k=[2,[2,h(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
+n=dr(a);return[10,dr(c),n,e]}var
+o=dr(a);return[10,dr(c),o,e]}var
+p=dr(a);return[10,dr(c),p,e]},U)}return 0;case
 10:var
-t=a[4],J=0;if(typeof
-t==="number"||!(1===t[0]))J=1;else{var
-u=a[3],V=t[1];if(!u)return u;var
-w=u[1];if(0===w[0])return 0;var
-W=w[2],X=w[1],b=function(a){var
+u=a[4],J=0;if(typeof
+u==="number"||!(1===u[0]))J=1;else{var
+v=a[3],V=u[1];if(!v)return v;var
+w=v[1];if(0===w[0])return 0;var
+W=w[2],X=w[1],c=function(a){var
 b=h(V),c=h(W);return[12,a,h(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?un:E;return Y;case
+a[4]==="number"?1:0,Y=E?uN:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
 Z=h(x[1]);return[0,[14,h(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,bu(A[1]),0]:aT(0,$);return e(b,L)},b),a=B(um,b),k=a?[0,a[1],a[2]]:us,l=f(k,i),n=k8(m);return[0,e(ul,g),n,l]}function
-ut(b){if(b[1])return 0;var
+A=a[2],L=A?[0,bx(A[1]),0]:aV(0,$);return e(c,L)},c),a=B(uM,c),k=a?[0,a[1],a[2]]:uS,l=f(k,i),n=lp(m);return[0,e(uL,g),n,l]}function
+uT(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-dm(L,K,b){var
+ds(L,K,b){var
 c=B(function(a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
@@ -4595,8 +4696,8 @@ p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
 J=p[1],b=function(a){return[11,a,h(J)]};if(x)return 0;break;default:return 0}var
-q=a[2],z=q?[0,bu(q[1]),0]:aT(0,K);return e(b,z)},b),a=B(ut,b),d=a?[0,a[1],a[2]]:uu;return f(d,c)}function
-bC(n,m,a){var
+q=a[2],z=q?[0,bx(q[1]),0]:aV(0,K);return e(b,z)},b),a=B(uT,b),d=a?[0,a[1],a[2]]:uU;return f(d,c)}function
+bF(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4606,49 +4707,49 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=b7(n,e);if(f){var
+f=b_(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Y(uv,h);return i?Y(h,m):i}var
+h=g[1],i=_(uV,h);return i?_(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bD(n,b,a){var
+bG(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Y(uw,e),o=f?Y(e,b):f,c=o;else
+e=d[1],f=_(uW,e),o=f?_(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bC(0,b,a):bC(0,b,a)}return bC(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bF(0,b,a):bF(0,b,a)}return bF(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bC(0,b,a):bC(0,b,a)}return bC(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bF(0,b,a):bF(0,b,a)}return bF(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?v(b,n):c:bC(0,b,a):bC(0,b,a)}return bC(0,b,a)}return bC(0,b,a)}function
-ck(a){switch(a[0]){case
+m=a[3];return m?0===m[1][0]?c?t(b,n):c:bF(0,b,a):bF(0,b,a)}return bF(0,b,a)}return bF(0,b,a)}function
+cn(a){switch(a[0]){case
 0:return[0,h([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,ck(a[1])];case
+2:return[2,cn(a[1])];case
 3:var
-b=ck(a[2]),c=ck(a[3]);switch(a[1]){case
+b=cn(a[2]),c=cn(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,ck(a[1]),d];default:return[8,ck(a[1])]}}function
-fn(b){function
+d=a[2];return[7,cn(a[1]),d];default:return[8,cn(a[1])]}}function
+fC(c){function
 a(e){var
-a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(uy),f=a(uz);return[0,a(0),f,e]}function
-cL(a){function
+a=[0,d,b];return u(e,c,[0,a,a])}var
+e=a(uY),f=a(uZ);return[0,a(0),f,e]}function
+cQ(a){function
 b(a){var
 b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4656,40 +4757,40 @@ b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,h(a[1])];default:var
 e=h(a[2]);return[3,h(a[1]),e]}}function
-k9(k,a,i,g,f,d,c){function
-b(a){return fn(e(bn,a))}var
-l=dm(0,j(a),c),m=cL(d),n=aJ(g,f),o=fn(e(function(a){var
+lq(k,a,i,g,f,d,c){function
+b(a){return fC(e(bs,a))}var
+l=ds(0,j(a),c),m=cQ(d),n=aA(g,f),o=fC(e(function(a){var
 b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(i);return[0,k,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-k_(a){return av(function(a){return 2===a[0]?1:0},a)}function
-k$(m,b,f,a,l,k){var
-n=j(b),o=dm(k_(b),n,k),p=z(cL,l);if(0===a[0])var
-i=aJ(a[1],a[2]),g=[0,fn(e(function(a){var
+lr(a){return aq(function(a){return 2===a[0]?1:0},a)}function
+ls(m,c,f,a,l,k){var
+n=j(c),o=ds(lr(c),n,k),p=y(cQ,l);if(0===a[0])var
+i=aA(a[1],a[2]),g=[0,fC(e(function(a){var
 b=h(a[2]);return[0,h(a[1]),b]},i))];else
 var
-g=k8([1,a[1],a[2],a[3],a[4],a[5]]);var
-q=f?h(f[1]):[0,c,c];return[0,m,e(function(a){function
-b(a){return fn(e(bn,a))}switch(a[0]){case
+g=lp([1,a[1],a[2],a[3],a[4],a[5]]);var
+q=f?h(f[1]):[0,b,b];return[0,m,e(function(a){function
+c(a){return fC(e(bs,a))}switch(a[0]){case
 0:var
-k=a[5],l=bn(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bs(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
+o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
-g=b(f);else
+g=c(f);else
 var
-h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bn(a[6]),r=bn(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},b),q,g,p,o]}function
-la(o,e,a){if(e)if(a){var
-g=e[1],i=a[1],k=bT(h(g[2][1]));if(k){var
-l=k[1],m=bT(h(g[2][2]));if(m)var
+h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bs(a[6]),r=bs(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},c),q,g,p,o]}function
+lt(o,e,a){if(e)if(a){var
+g=e[1],i=a[1],k=bS(h(g[2][1]));if(k){var
+l=k[1],m=bS(h(g[2][2]));if(m)var
 p=m[1],n=function(a){function
-d(a){return b(2,a)}var
-e=[0,a,ex(i[2],d,c)];return dL(l,c2(gb(p,l),e))},q=n(y(i[1],c)),f=[0,n(i[1]),q];else
+d(a){return c(2,a)}var
+e=[0,a,eD(i[2],d,b)];return cw(l,bz(dQ(p,l),e))},q=n(x(i[1],b)),f=[0,n(i[1]),q];else
 var
-f=[0,[0,d,c],[0,d,c]]}else
+f=[0,[0,d,b],[0,d,b]]}else
 var
-f=[0,[0,d,c],[0,d,c]];var
-r=la([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,d,b],[0,d,b]];var
+r=lt([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
@@ -4698,21 +4799,21 @@ an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=iC(function(a){return al(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=iP(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-lb(b,a){if(0===a[0])return[0,an(b,a[1])];var
+lu(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-hk(b,a){var
+hw(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hl(c,a){if(c)if(a){var
+hx(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hl(h,g);if(e){var
-i=e[1],f=hl(h,i[2]);if(f)var
+e=hx(h,g);if(e){var
+i=e[1],f=hx(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -4724,90 +4825,90 @@ var
 d=a;else
 var
 d=c;return d}function
-hm(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hm(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(u(b(2,c),l),k),j],h]}else
+hy(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hy(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(v(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-uA(a){if(typeof
+u0(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-uB(a){if(typeof
+u1(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fo(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=fo(e,a[3]);return c2(dL(fo(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}var
-q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bY(h){var
-a=bv(function(f,e){var
-a=aV(q,f);if(a)var
-b=a[1],c=bt(f3(b[1]),f3(b[2]));else
+fD(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=fD(e,a[3]);return bz(cw(fD(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
+q=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+b1(h){var
+a=bi(function(f,e){var
+a=aY(q,f);if(a)var
+b=a[1],c=bf(c3(b[1]),c3(b[2]));else
 var
-c=d;return bt(c,e)},d,h);if(Z(d,a)){var
-f=bK(a);if(0===f||!(0<f&&!L(a,c)))var
+c=d;return bf(c,e)},d,h);if(Z(d,a)){var
+f=a5(a);if(0===f||!(0<f&&!H(a,b)))var
 g=d;else
 var
-b=bs(a,a2(2)),e=b[1],g=ac(b[2],d)?ey(e):ey(e);return aH(g,q)}return d}function
-dn(a){return[0,a[1],[0,a[2],0]]}function
-aY(a){var
-b=dn(a[3]),c=f(dn(a[2]),b);return f(dn(a[1]),c)}function
-lc(a){return 0===a[0]?dn(a[1][4]):0}function
-ld(a){switch(a[0]){case
+c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eF(e):eF(e);return aE(g,q)}return d}function
+dt(a){return[0,a[1],[0,a[2],0]]}function
+a1(a){var
+b=dt(a[3]),c=f(dt(a[2]),b);return f(dt(a[1]),c)}function
+lv(a){return 0===a[0]?dt(a[1][4]):0}function
+lw(a){switch(a[0]){case
 0:var
-b=a[1],c=aY(b[3]);return f(aY(b[2]),c);case
+b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
-d=aY(a[2]);return f(aY(a[1]),d);default:return 0}}function
-fp(a){switch(a[0]){case
-0:return bY(aY(a[1][1]));case
+d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
+fE(a){switch(a[0]){case
+0:return b1(a1(a[1][1]));case
 1:var
-b=a[3];return b?bY(aY(b[1])):d;default:return bY(aY(a[1]))}}function
-hn(b){var
-a=B(lc,b),d=a?[0,a[1],a[2]]:B(ld,b);return y(c,bY(d))}function
-le(c,a){if(c){if(a){var
+b=a[3];return b?b1(a1(b[1])):d;default:return b1(a1(a[1]))}}function
+hz(c){var
+a=B(lv,c),d=a?[0,a[1],a[2]]:B(lw,c);return x(b,b1(d))}function
+lx(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=uC;else
+b=u2;else
 if(43===d)var
-b=uD;else
+b=u3;else
 var
-f=48===d?1:0,i=f?uE:f,b=i;if(b)var
-e=le(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?u4:f,b=i;if(b)var
+e=lx(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:uF}function
-ec(b,a){switch(a[0]){case
+h=a;return h}return a?0:u5}function
+ei(b,a){switch(a[0]){case
 0:var
-c=a[1];if(al(c,uG))return uH;if(al(c,uI))return uJ;if(al(c,uK))return uL;if(al(c,uM))return uN;if(al(c,uO))return uP;var
-k=al(c,uQ),p=k?uR:k;return p;case
+c=a[1];if(am(c,u6))return u7;if(am(c,u8))return u9;if(am(c,u_))return u$;if(am(c,va))return vb;if(am(c,vc))return vd;var
+k=am(c,ve),p=k?vf:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(al(f,uS))return[0,[0,d,e]];if(al(f,uT))return[0,[1,d,e]];if(al(f,uU))return[0,[2,d,e]];var
-l=al(f,uV),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(am(f,vg))return[0,[0,d,e]];if(am(f,vh))return[0,[1,d,e]];if(am(f,vi))return[0,[2,d,e]];var
+l=am(f,vj),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=ec(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=ei(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=ec(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=ei(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=ec(b,a[1]);return z(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=ec(b,a[1]);if(i)var
-j=le(b,f6(f5(ak(m),function(a){return aG(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=ei(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=ei(b,a[1]);if(i)var
+j=lx(b,gi(gh(al(m),function(a){return aJ(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-lf(d,a){if(a){var
-e=a[1],b=ec(d,e[2]);if(b)var
-c=lf(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+ly(d,a){if(a){var
+e=a[1],b=ei(d,e[2]);if(b)var
+c=ly(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return uW}function
-cM(d,c,a){if(c)if(a){var
+f=b;return f}return vk}function
+cR(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=lf(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=ly(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cM(d,k,j);if(f){var
-m=f[1],g=cM(d,k,m[2]);if(g)var
+f=cR(d,k,j);if(f){var
+m=f[1],g=cR(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -4822,72 +4923,72 @@ var
 h=a;else
 var
 h=c;return h}function
-ho(e,d,a){if(d){if(a){var
-b=cM(e,j(a),a);if(b)var
-f=b[1],c=ho(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hA(e,d,a){if(d){if(a){var
+b=cR(e,j(a),a);if(b)var
+f=b[1],c=hA(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return uX}return a?0:uY}function
-hp(a){return typeof
-a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hq(d,a){if(d)if(a){var
+g=b;return g}return vl}return a?0:vm}function
+hB(a){return typeof
+a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
+hC(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hq(k,j);if(e){var
-l=e[1],f=hq(k,l[2]);if(f)var
+e=hC(k,j);if(e){var
+l=e[1],f=hC(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hp(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hB(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cl(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
-cN(a,e){var
-b=cl(a[1],e),c=cl(a[2],b[2]),d=cl(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lg(d,c){if(d){var
+co(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
+cS(a,e){var
+b=co(a[1],e),c=co(a[2],b[2]),d=co(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+lz(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cN(a[1],c),f=cN(a[2],e[2]),g=cN(a[3],f[2]),h=cl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cS(a[1],c),f=cS(a[2],e[2]),g=cS(a[3],f[2]),h=co(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cN(a[1],c),k=j[1],l=cN(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cN(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cS(a[1],c),k=j[1],l=cS(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cS(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cN(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lg(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-uZ(a){if(typeof
+p=cS(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=lz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+vn(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return u1;case
+5:return vp;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return u0}function
-a$(a,b){if(a){var
-c=cl(a[1],b),d=a$(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a7(b){function
-a(a){return t(a,b,[0,d,c])}var
-e=a(u3),f=a(u4);return[0,a(0),f,e]}function
-lh(a,b){if(a){var
-c=a[1],d=a$(c[1],b),e=a$(c[2],d[2]),f=lh(a[2],e[2]),g=f[2],h=f[1],i=a7(e[1]);return[0,[0,[0,a7(d[1]),i],h],g]}return[0,0,b]}function
-li(f,b){if(f){var
+11:return 0}return vo}function
+bb(a,b){if(a){var
+c=co(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a9(c){function
+a(a){return u(a,c,[0,d,b])}var
+e=a(vs),f=a(vt);return[0,a(0),f,e]}function
+lA(a,b){if(a){var
+c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=lA(a[2],e[2]),g=f[2],h=f[1],i=a9(e[1]);return[0,[0,[0,a9(d[1]),i],h],g]}return[0,0,b]}function
+lB(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=a$(a[1],b),h=a$(a[2],g[2]),i=a$(a[3],h[2]),j=cl(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a7(i[1]),y=a7(h[1]),e=[0,[0,[0,a7(g[1]),y,x,w,v]],u];break;case
+g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=co(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a9(i[1]),y=a9(h[1]),e=[0,[0,[0,a9(g[1]),y,x,w,v]],u];break;case
 1:var
-k=a$(a[1],b),l=a$(a[2],k[2]),z=l[2],A=a7(l[1]),e=[0,[0,[1,a7(k[1]),A,0]],z];break;default:var
-m=a[1],n=a$(m,b),o=a$(a[2],n[2]),p=a$(a[3],o[2]),q=a$(a[4],p[2]),r=cl(a[5],q[2]),s=cl(a[6],r[2]),B=m?a7(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a7(q[1]),H=a7(p[1]),e=[0,[1,[0,B,a7(o[1]),H,G,F,E,D]],C]}var
-t=li(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dp(a){return jp(q,a)}function
-u5(a){if(typeof
+k=bb(a[1],c),l=bb(a[2],k[2]),z=l[2],A=a9(l[1]),e=[0,[0,[1,a9(k[1]),A,0]],z];break;default:var
+m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=co(a[5],q[2]),s=co(a[6],r[2]),B=m?a9(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a9(q[1]),H=a9(p[1]),e=[0,[1,[0,B,a9(o[1]),H,G,F,E,D]],C]}var
+t=lB(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+du(a){return i9(q,a)}function
+vu(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return i(q,1,[3,a[1],[0,c,c]]);case
+5:return i(q,1,[3,a[1],[0,b,b]]);case
 6:return i(q,1,a[2]);case
 8:var
 d=i(q,1,a[1]);return d?i(q,1,a[2]):d;case
@@ -4899,133 +5000,133 @@ f=i(q,0,a[2]),g=f?i(q,0,a[3]):f;return g?i(q,1,a[4]):g;case
 14:var
 h=i(q,0,a[1]);return h?i(q,1,a[2]):h;case
 2:case
-3:return dp(a[2]);case
+3:return du(a[2]);case
 4:case
 13:var
-b=i(q,1,a[2]);return b?i(q,1,a[3]):b;default:return i(q,1,a[1])}}function
-hr(a){if(typeof
+c=i(q,1,a[2]);return c?i(q,1,a[3]):c;default:return i(q,1,a[1])}}function
+hD(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=i(q,1,[3,d,e]),g=f?i(q,1,[3,[2,e,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c]],d]):f,h=g?i(q,0,[2,e,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c]]):g;return h?i(q,0,[3,[0,b(2,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))))),c],d]):h;case
-5:return i(q,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=i(q,1,[3,d,e]),g=f?i(q,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(q,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?i(q,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
+5:return i(q,1,[3,a[1],[0,b,b]]);case
 8:var
 k=i(q,1,a[1]);return k?i(q,1,a[2]):k;case
 10:return i(q,1,a[2]);case
 11:var
-l=a[2],m=i(q,1,l);return m?i(q,0,[3,[0,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=i(q,1,l);return m?i(q,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],l]):m;case
 2:case
-3:return dp(a[2]);case
-6:case
-7:case
-9:var
-j=i(q,1,a[2]);return j?i(q,1,a[3]):j;default:return i(q,1,a[1])}}function
-fq(d){var
+3:return du(a[2]);case
+0:case
+1:case
+12:return i(q,1,a[1]);default:var
+j=i(q,1,a[2]);return j?i(q,1,a[3]):j}}function
+fF(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=am(av(function(d){return function(a){var
-h=hd(a[1]),e=al(hd(d[1]),h);if(e)var
-i=he(a[4]),b=al(he(d[4]),i);else
+b=a[2],e=a[1],c=ak(aq(function(d){return function(a){var
+h=hp(a[1]),e=am(hp(d[1]),h);if(e)var
+i=hq(a[4]),b=am(hq(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?v(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?t(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ed(a){if(0===a[0])return dp(h(a[1]));var
-b=a[2],c=a[1];if(!dS(h(c))&&!dS(h(b))){var
+ej(a){if(0===a[0])return du(h(a[1]));var
+b=a[2],c=a[1];if(!dX(h(c))&&!dX(h(b))){var
 e=h(c);return i(q,1,[3,h(b),e])}var
-d=h(b);return a6(q,h(c),d)}function
-cO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lj(a){switch(a[0]){case
+d=h(b);return a8(q,h(c),d)}function
+cT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lC(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cO(a[3]),c),e=f(cO(a[2]),d);return f(cO(a[1]),e);case
+c=[0,a[4],0],d=f(cT(a[3]),c),e=f(cT(a[2]),d);return f(cT(a[1]),e);case
 1:var
-b=a[3],g=b?cO(b[1]):b,h=f(cO(a[2]),g);return f(cO(a[1]),h);default:return cO(a[1])}}function
-fr(a){switch(a){case
-0:return u8;case
-1:return u9;default:return 0}}function
-cm(a){var
-f=a[1],d=i(q,1,[2,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],f]),e=d?a6(q,a[1],a[2]):d;if(e){var
-g=a[2];return i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],g])}return e}function
-dq(a){var
-e=a6(q,[0,d,c],a);return e?i(q,1,[3,[0,b(2,b(2,r(b(2,b(2,r(b(2,r(b(2,b(2,c)))))))))),c],a]):e}function
-lk(b,c,D,s,r,p,f){function
-t(a){var
-d=b?u6:u7,c=v(j(a),d);return c?n(ed,a):c}var
-u=n(function(a){var
-b=t(a[1]);return b?t(a[2]):b},c);if(u)var
-E=j(c),g=Y(de(b),E);else
+b=a[3],g=b?cT(b[1]):b,h=f(cT(a[2]),g);return f(cT(a[1]),h);default:return cT(a[1])}}function
+fG(a){switch(a){case
+0:return vx;case
+1:return vy;default:return 0}}function
+cp(a){var
+f=a[1],d=i(q,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?a8(q,a[1],a[2]):d;if(e){var
+g=a[2];return i(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
+dv(a){var
+e=a8(q,[0,d,b],a);return e?i(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+lD(b,c,D,s,r,p,f){function
+u(a){var
+d=b?vv:vw,c=t(j(a),d);return c?n(ej,a):c}var
+v=n(function(a){var
+b=u(a[1]);return b?u(a[2]):b},c);if(v)var
+E=j(c),g=_(dj(b),E);else
 var
-g=u;var
-w=g?Y(j(c),u_):g,x=w?i(q,1,h(D)):w;if(x)var
-F=fr(b),k=v(j(s),F);else
+g=v;var
+w=g?_(j(c),vz):g,x=w?i(q,1,h(D)):w;if(x)var
+F=fG(b),k=t(j(s),F);else
 var
 k=x;if(k)var
-G=fr(b),l=v(j(r),G);else
+G=fG(b),l=t(j(r),G);else
 var
 l=k;if(l)var
-H=aJ(s,r),m=n(function(a){var
-b=h(a[2]);return a6(q,h(a[1]),b)},H);else
+H=aA(s,r),m=n(function(a){var
+b=h(a[2]);return a8(q,h(a[1]),b)},H);else
 var
 m=l;if(m)if(b){var
-a=cL(p);switch(a[0]){case
+a=cQ(p);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-z=cm(a[1]),A=z?cm(a[2]):z,d=A?cm(a[3]):A;break;case
+z=cp(a[1]),A=z?cp(a[2]):z,d=A?cp(a[3]):A;break;case
 2:var
-d=dq(a[1]);break;default:var
-B=dq(a[1]),d=B?dq(a[2]):B}var
+d=dv(a[1]);break;default:var
+B=dv(a[1]),d=B?dv(a[2]):B}var
 e=d}else
 var
-C=cL(p),K=0===C[0]?cm(C[1]):0,e=K;else
+C=cQ(p),K=0===C[0]?cp(C[1]):0,e=K;else
 var
 e=m;if(e)var
-I=j(c),J=de(b),o=n(function(a){return bD(J,I,a)},f);else
+I=j(c),J=dj(b),o=n(function(a){return bG(J,I,a)},f);else
 var
 o=e;var
-y=o?fq(f):o;return y?n(hr,dm(0,j(c),f)):y}function
-ll(a){switch(a[0]){case
+y=o?fF(f):o;return y?n(hD,ds(0,j(c),f)):y}function
+lE(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-lm(a,f,e,k,s,r){var
+lF(a,f,e,k,s,r){var
 o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=o?u$:va;return v(j(a),b)}var
-l=k_(f),D=n(function(b){switch(b[0]){case
+b=o?vA:vB;return t(j(a),b)}var
+l=lr(f),D=n(function(b){switch(b[0]){case
 0:var
-c=am(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=ak(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=am(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=ak(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
 a==="number"?1:0,k=j?1:j;else
 var
 k=i;return k;default:var
 m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(D)var
-Z=j(f),t=Y(aX(a),Z);else
+Y=j(f),u=_(a0(a),Y);else
 var
-t=D;var
-E=t?Y(j(f),vb):t,F=E?n(ed,B(ll,f)):E;if(F)if(0===k[0]){var
-G=k[2],H=k[1],_=o?vc:vf,I=v(j(H),_);if(I)var
-$=o?vd:ve,u=v(j(G),$);else
+u=D;var
+E=u?_(j(f),vC):u,F=E?n(ej,B(lE,f)):E;if(F)if(0===k[0]){var
+G=k[2],H=k[1],Z=o?vD:vG,I=t(j(H),Z);if(I)var
+$=o?vE:vF,v=t(j(G),$);else
 var
-u=I;if(u)var
-aa=aJ(H,G),J=n(function(a){var
-b=h(a[2]);return a6(q,h(a[1]),b)},aa);else
+v=I;if(v)var
+aa=aA(H,G),J=n(function(a){var
+b=h(a[2]);return a8(q,h(a[1]),b)},aa);else
 var
-J=u;var
+J=v;var
 m=J}else{var
 X=0;if(typeof
 a==="number"&&!a){var
 C=1;X=1}if(!X)var
 C=0;var
 W=C?i(q,1,h(k[3])):C;if(W)var
-ac=h(k[5]),m=a6(q,h(k[4]),ac);else
+ac=h(k[5]),m=a8(q,h(k[4]),ac);else
 var
 m=W}else
 var
@@ -5033,12 +5134,12 @@ m=F;if(m)if(typeof
 a==="number")if(e)var
 b=0;else
 var
-ab=z(cL,s)?0:1,b=ab;else
+ab=y(cQ,s)?0:1,b=ab;else
 switch(a[1]){case
 0:if(e){var
-x=z(cL,s);if(x){var
+x=y(cQ,s);if(x){var
 L=x[1];if(0===L[0])var
-M=i(q,1,h(e[1])),N=M?cm(L[1]):M;else
+M=i(q,1,h(e[1])),N=M?cp(L[1]):M;else
 var
 N=0;var
 O=N}else
@@ -5048,15 +5149,15 @@ b=O}else
 var
 b=e;break;case
 1:if(e){var
-y=e[1],A=z(cL,s);if(A){var
+z=e[1],A=y(cQ,s);if(A){var
 g=A[1];switch(g[0]){case
 0:var
 p=0;break;case
 1:var
-Q=i(q,1,h(y)),R=Q?cm(g[1]):Q,S=R?cm(g[2]):R,p=S?cm(g[3]):S;break;case
+Q=i(q,1,h(z)),R=Q?cp(g[1]):Q,S=R?cp(g[2]):R,p=S?cp(g[3]):S;break;case
 2:var
-T=i(q,1,h(y)),p=T?dq(g[1]):T;break;default:var
-U=i(q,1,h(y)),V=U?dq(g[1]):U,p=V?dq(g[2]):V}var
+T=i(q,1,h(z)),p=T?dv(g[1]):T;break;default:var
+U=i(q,1,h(z)),V=U?dv(g[1]):U,p=V?dv(g[2]):V}var
 P=p}else
 var
 P=A;var
@@ -5068,42 +5169,42 @@ var
 b=m;if(b)var
 c=j(f),w=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=Y(ux,g),r=h?Y(g,c):h,d=r;else
+g=f[1],h=_(uX,g),r=h?_(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return bD(aX(a),c,b);if(d){var
+1:if(b[3])return bG(a0(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
-j=0;return b7(l,j)}return d;case
+j=0;return b_(l,j)}return d;case
 4:var
 k=b[4];if(typeof
-k!=="number"&&0===k[0])return b[3]?bD(aX(a),c,b):d;return bD(aX(a),c,b);case
+k!=="number"&&0===k[0])return b[3]?bG(a0(a),c,b):d;return bG(a0(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return bD(aX(a),c,b);var
-n=v(c,aX(a));if(n){var
+m!=="number"&&0===m[0]){if(b[3])return bG(a0(a),c,b);var
+n=t(c,a0(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bD(aX(a),c,b);case
+e=n;return e}return bG(a0(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?bD(aX(a),c,b):d?am(l):d;return bD(aX(a),c,b);default:return bD(aX(a),c,b)}},r);else
+p!=="number"&&1===p[0])return b[3]?bG(a0(a),c,b):d?ak(l):d;return bG(a0(a),c,b);default:return bG(a0(a),c,b)}},r);else
 var
 w=b;var
-K=w?fq(r):w;return K?n(hr,dm(l,j(f),r)):K}function
-hs(j){var
-p=aD(j,bY(aY(j))),a=e(function(a){return af(q,a)},p);if(a){var
+K=w?fF(r):w;return K?n(hD,ds(l,j(f),r)):K}function
+hE(j){var
+p=aG(j,b1(a1(j))),a=e(function(a){return ag(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return T(q,a)},r=i(h[1]),s=i(g[1]);return Z(d,C(C(i(f[1]),s),r)[1])}var
+i=function(a){return U(q,a)},r=i(h[1]),s=i(g[1]);return Z(d,C(C(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5119,86 +5220,86 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-vg(a){switch(a[0]){case
-0:return hs(a[1][1]);case
+vH(a){switch(a[0]){case
+0:return hE(a[1][1]);case
 1:var
-b=a[3];return b?hs(b[1]):1;default:return hs(a[1])}}function
-ht(c,a,b,o){if(av(function(a){return 9===a[1]?1:0},b)){var
-g=Y(j(a),vi),k=g?n(function(a){if(0===a[0]){var
+b=a[3];return b?hE(b[1]):1;default:return hE(a[1])}}function
+hF(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
+g=_(j(a),vJ),k=g?n(function(a){if(0===a[0]){var
 g=a[5],j=i(q,1,h(a[2])),k=j?i(q,0,h(a[3])):j,l=k?i(q,0,h(a[4])):k,e=0;if(l)if(g)var
-u=bm(g[1]),b=n(function(a){return dp(h(a))},u);else{var
+u=br(g[1]),b=n(function(a){return du(h(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
 o=i(q,1,h(a[4]));if(o)var
-v=bm(a[3]),w=f(bm(a[2]),v),b=n(function(a){return dp(h(a))},w);else
+v=br(a[3]),w=f(br(a[2]),v),b=n(function(a){return du(h(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],r=Y(vh,p);if(r){var
-d=V(c,bu(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],r=_(vI,p);if(r){var
+d=W(c,bx(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
 t=r;return t}return 1}return b},a):g;if(k)var
-l=hi(0,a),u=l?1:l,m=u;else
+l=hu(0,a),u=l?1:l,m=u;else
 var
 m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(vg,o[1]):d,r=p?Y(vj,j(c)):p;if(r)var
-v=j(c),e=n(function(a){return uo(v,a)},b);else
+p=d?n(vH,o[1]):d,r=p?_(vK,j(c)):p;if(r)var
+v=j(c),e=n(function(a){return uO(v,a)},b);else
 var
 e=r;var
-s=e?fq(b):e,t=s?n(ed,B(lj,c)):s;return t?n(u5,o[3]):t}function
-vk(a){return 11===a[1]?1:0}function
-fs(b,a){return n(function(c){var
-a=c[2];return a?dG(a[1],b):1},a)}function
-hu(b,a){var
-c=j(cr(function(a){return 0===a[0]?0:1},b));return v(j(a),c)}function
-ln(aO,_,aN,Y,X,b,W,A){var
-a=hj(_,aN,Y,X),aP=j(A);if(aO)var
+s=e?fF(b):e,t=s?n(ej,B(lC,c)):s;return t?n(vu,o[3]):t}function
+vL(a){return 11===a[1]?1:0}function
+fH(b,a){return n(function(c){var
+a=c[2];return a?dL(a[1],b):1},a)}function
+hG(b,a){var
+c=j(cu(function(a){return 0===a[0]?0:1},b));return t(j(a),c)}function
+lG(aO,_,aN,Y,X,b,W,A){var
+a=hv(_,aN,Y,X),aP=j(A);if(aO)var
 $=0;else
 var
-aH=a[1],aL=e(fp,a[1]),V=eZ(hn(a[1]),aL,aH),aM=aJ(aT(0,j(V)),V),$=e(aI,cr(function(a){return gy(a[2])},aM));var
-C=cM($,aP,A);if(C){var
+aI=a[1],aJ=e(fE,a[1]),V=e$(hz(a[1]),aJ,aI),aM=aA(aV(0,j(V)),V),$=e(aK,cu(function(a){return gL(a[2])},aM));var
+C=cR($,aP,A);if(C){var
 aa=C[1];if(aa[2])return 0;var
-ab=ht(_,Y,X,a),ac=ab?fs(vl,A):ab;if(ac){var
-aQ=aa[1],D=e(fp,a[1]),c=hn(a[1]);if(W)var
+ab=hF(_,Y,X,a),ac=ab?fH(vM,A):ab;if(ac){var
+aQ=aa[1],D=e(fE,a[1]),c=hz(a[1]);if(W)var
 ad=W[1],ae=[0,ad[2],ad[1]];else
 var
 ae=[0,d,0];var
-U=jN(q,a);if(U){var
-i=eZ(c,D,a[1]),g=gw(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=av(function(a){if(typeof
+U=j6(q,a);if(U){var
+i=e$(c,D,a[1]),g=gJ(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=aq(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},al),am=F?B(function(a){var
-b=e(b6,jz(i,a));return[0,a[4],b]},g):F,an=f(gx(g,c,K,a[3]),am),ao=f(bz(i7(g)),an),L=f(bz(eO(g)),ao),M=c4(L)[1],m=cv(M),N=n(function(a){var
-b=l(d);return aK(t(bg(m,a),m,b),a)},L);if(N){var
-O=av(o_,a[3]);if(O){var
+b=e(b9,jS(i,a));return[0,a[4],b]},g):F,an=f(gK(g,c,K,a[3]),am),ao=f(bD(jp(g)),an),L=f(bD(e0(g)),ao),M=c9(L)[1],m=cA(M),N=n(function(a){var
+b=l(d);return aL(u(bk(m,a),m,b),a)},L);if(N){var
+O=aq(pv,a[3]);if(O){var
 s=D,o=a[1];for(;;){if(o){var
-p=o[1],u=cZ(d,s);switch(p[0]){case
+p=o[1],t=by(d,s);switch(p[0]){case
 0:var
-G=p[1],H=gz(b,G[1],u),E=0;if(H){var
-r=af(b,[0,G[4],c]);if(r)var
+G=p[1],H=gM(b,G[1],t),E=0;if(H){var
+r=ag(b,[0,G[4],c]);if(r)var
 h=Z(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=p[3],h=J?gz(b,J[1],u):1;break;default:var
-h=gz(b,p[1],u)}if(h){var
-ai=o[2],s=dJ(s),o=ai;continue}var
+J=p[3],h=J?gM(b,J[1],t):1;break;default:var
+h=gM(b,p[1],t)}if(h){var
+ai=o[2],s=ca(s),o=ai;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=O;if(v){var
-ap=a[3],aq=B(function(a){return dc(c,a)},ap),ar=a[3],as=f(i,f(e(function(a){return bk(c,a)},ar),aq)),w=ag(e(function(a){return af(b,a)},as));if(w){var
-at=aD(e3(a[2]),c),x=ag(e(function(a){return af(b,a)},at));if(x){var
-au=a[3],y=ag(jA(b,ae,function(a){return bg(m,a)},i,g,c,K,au));if(y){var
-R=y[1],aw=gv(R),ax=x[1],ay=a[2],az=function(a){return jB(b,ay,c,a)},aB=w[1],aC=0,aE=i7(g),aF=k(aA(function(a){return bg(m,a)}),aE),aG=eO(g);return eX(b,M,k(aA(function(a){return bg(m,a)}),aG),aF,aC,aB,R,az,ax,aw,aQ)}var
+ap=a[3],ar=B(function(a){return dh(c,a)},ap),as=a[3],at=f(i,f(e(function(a){return bo(c,a)},as),ar)),w=ah(e(function(a){return ag(b,a)},at));if(w){var
+au=aG(fd(a[2]),c),x=ah(e(function(a){return ag(b,a)},au));if(x){var
+av=a[3],y=ah(jT(b,ae,function(a){return bk(m,a)},i,g,c,K,av));if(y){var
+R=y[1],aw=gI(R),ax=x[1],ay=a[2],az=function(a){return jU(b,ay,c,a)},aC=w[1],aD=0,aE=jp(g),aF=k(aB(function(a){return bk(m,a)}),aE),aH=e0(g);return e9(b,M,k(aB(function(a){return bk(m,a)}),aH),aF,aD,aC,R,az,ax,aw,aQ)}var
 S=y}else
 var
 S=x;var
@@ -5210,34 +5311,34 @@ var
 z=v}else
 var
 z=N;return z}return U}var
-ah=ac}else
+af=ac}else
 var
-ah=C;return ah}function
-vm(a){if(0===a[0])return lc(a[1]);var
-b=a[1],c=dn(b[6]);return f(dn(b[5]),c)}function
-vn(a){if(0===a[0])return ld(a[1]);var
-b=a[1],c=aY(b[4]);return f(aY(b[3]),c)}function
-vo(a){if(0===a[0])return[0,fp(a[1]),d];var
-b=a[1],c=bY(aY(b[2]));return[0,bY(aY(b[1])),c]}function
-lo(A,aM,ap,ao,y,an,g){var
-k=hj(A,aM,ap,ao);if(y){var
-C=y[2];if(C){var
+af=C;return af}function
+vN(a){if(0===a[0])return lv(a[1]);var
+b=a[1],c=dt(b[6]);return f(dt(b[5]),c)}function
+vO(a){if(0===a[0])return lw(a[1]);var
+b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
+vP(a){if(0===a[0])return[0,fE(a[1]),d];var
+b=a[1],c=b1(a1(b[2]));return[0,b1(a1(b[1])),c]}function
+lH(A,aM,ap,ao,z,an,g){var
+l=hv(A,aM,ap,ao);if(z){var
+C=z[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-aq=lg(A,e(h,an));if(aq[2])return 0;var
-ar=k[3];if(typeof
+ar=lz(A,e(h,an));if(ar[2])return 0;var
+as=l[3];if(typeof
 g==="number")var
-a=u2;else
+a=0===g?vq:vr;else
 if(0===g[0]){var
-b=g[2],m=g[1],H=z(uZ,V(ar,m)),J=0;if(H){var
+c=g[2],m=g[1],H=y(vn,W(as,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
-K=0;if(b){var
-n=b[1],L=0;if(n){var
+K=0;if(c){var
+n=c[1],L=0;if(n){var
 o=n[2],M=0;if(o){var
 p=o[2],N=0;if(p)if(p[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-r=b[2],az=0;if(r){var
+r=c[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
@@ -5246,10 +5347,10 @@ var
 U=[0,[0,m,[0,[0,n[1],o[1]],p[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 U=u;if(!aC)var
-W=U}else
+V=U}else
 var
-W=t;if(!aB)var
-X=W}else
+V=t;if(!aB)var
+X=V}else
 var
 X=s;if(!aA)var
 Y=X}else
@@ -5266,12 +5367,12 @@ var
 $=n;if(!L)var
 aa=$}else
 var
-aa=b;if(!K)var
+aa=c;if(!K)var
 a=aa}else{var
-aD=0;if(b){var
-v=b[1],aE=0;if(v){var
+aD=0;if(c){var
+v=c[1],aE=0;if(v){var
 w=v[2],aF=0;if(w){var
-x=w[2],aG=0;if(x)if(x[2]||b[2]){var
+x=w[2],aG=0;if(x)if(x[2]||c[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
 ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
@@ -5285,36 +5386,37 @@ var
 ag=v;if(!aE)var
 ah=ag}else
 var
-ah=b;if(!aD)var
+ah=c;if(!aD)var
 a=ah}}else
-if(b)var
+if(c)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=g[1],I=V(ar,ak),O=0;if(I){var
+ak=g[1],I=W(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-as=hu(B(lj,A),an),at=as?ht(A,ap,ao,k):as;if(at){var
-f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(y[1]),aO,aN],l=aq[1],P=jD(q,k,l,j);if(P)if(typeof
-f==="number")return av(function(b){var
-a=jE(b,j);return a?i(q,0,[3,[0,d,c],a[1]]):a},l);else{if(0===f[0]){var
-E=V(k[3],f[1]);if(E){var
-aI=E[1],aJ=jF(f[3]);return jK(q,l,j,jF(f[2]),aJ,aI)}return E}var
-F=V(k[3],f[1]);if(F){var
-G=V(l,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cE(Q,j);return jK(q,l,j,cE(Q,j),aL,aK)}var
+at=hG(B(lC,A),an),au=at?hF(A,ap,ao,l):at;if(au){var
+f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(z[1]),aO,aN],k=ar[1],P=jW(q,l,k,j);if(P)if(typeof
+f==="number")return 0===f?aq(function(c){var
+a=jX(c,j);return a?i(q,0,[3,[0,d,b],a[1]]):a},k):jd(px,e(function(b){var
+a=gO(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+E=W(l[3],f[1]);if(E){var
+aI=E[1],aJ=jY(f[3]);return j3(q,k,j,jY(f[2]),aJ,aI)}return E}var
+F=W(l[3],f[1]);if(F){var
+G=W(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cJ(Q,j);return j3(q,k,j,cJ(Q,j),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
-au=at}else
+av=au}else
 var
-au=a;var
-aw=au}else
+av=a;var
+aw=av}else
 var
 aw=D;var
 ax=aw}else
@@ -5322,22 +5424,22 @@ var
 ax=C;var
 ay=ax}else
 var
-ay=y;return ay}function
-lp(m,l,b,k,y,x){var
-f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=V(f,g),n=h?dG(h[1][2],vr):h;if(n)var
-A=d[2],i=lp(m,l,b,k,hm(0,g,f),A);else
+ay=z;return ay}function
+lI(m,l,b,k,z,x){var
+f=z,d=x;for(;;){if(0===d[0]){var
+g=d[1],h=W(f,g),n=h?dL(h[1][2],vS):h;if(n)var
+A=d[2],i=lI(m,l,b,k,hy(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hm(1,g,f),d=B;continue}return i}var
-c=d[1],a=la(0,m,f),o=e(function(b){function
-d(b){return lb(a,b)}function
-c(a){return hk(d,a)}switch(b[0]){case
+B=d[3],f=hy(1,g,f),d=B;continue}return i}var
+c=d[1],a=lt(0,m,f),o=e(function(b){function
+d(b){return lu(a,b)}function
+c(a){return hw(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lb(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lu(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hk(function(b){return an(a,b)},q),s=b[1],j=[0,hk(function(b){return an(a,b)},s),r];else
+i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hw(function(b){return an(a,b)},q),s=b[1],j=[0,hw(function(b){return an(a,b)},s),r];else
 var
 t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(e){var
@@ -5361,435 +5463,435 @@ h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return ln(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lo(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-lq(i,g){var
-a=bT(h(i));if(a){var
-b=a[1],e=c1([0,d,c],b);if(e)return c1(b,g);var
+1:return lG(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lH(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+lJ(i,g){var
+a=bS(h(i));if(a){var
+c=a[1],e=c7([0,d,b],c);if(e)return c7(c,g);var
 f=e}else
 var
 f=a;return f}function
-vt(o){var
-dr=fl(o[3]),ds=dr?fl(o[4]):dr;if(ds){var
+vU(o){var
+dt=fA(o[3]),dv=dt?fA(o[4]):dt;if(dv){var
 F=o[1];switch(F[0]){case
 3:var
-dz=n(ea,F[1]);if(dz)var
-gs=F[2],bJ=n(function(a){return ea(a[1])},gs);else
+dC=n(eg,F[1]);if(dC)var
+gy=F[2],bJ=n(function(a){return eg(a[1])},gy);else
 var
-bJ=dz;if(bJ)var
-gt=F[3],bK=n(function(a){var
-b=ea(a[1]),c=b?hg(a[2]):b;return c?eb(a[2]):c},gt);else
+bJ=dC;if(bJ)var
+gz=F[3],bK=n(function(a){var
+b=eg(a[1]),c=b?hs(a[2]):b;return c?eh(a[2]):c},gz);else
 var
 bK=bJ;if(bK)var
-gu=F[4],aB=n(function(a){var
+gA=F[4],aD=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hg(a);return b?eb(a):b},b)},gu);else
+b=hs(a);return b?eh(a):b},b)},gA);else
 var
-aB=bK;break;case
+aD=bK;break;case
 7:var
-gz=F[1],dA=n(function(a){var
-b=ea(a[1]);return b?fm(0,[0,a[2][1],[0,a[2][2],0]]):b},gz),aB=dA?fm(0,[0,F[5],[0,F[6],0]]):dA;break;default:var
-aB=1}var
-bI=aB}else
+gB=F[1],dD=n(function(a){var
+b=eg(a[1]);return b?fB(0,[0,a[2][1],[0,a[2][2],0]]):b},gB),aD=dD?fB(0,[0,F[5],[0,F[6],0]]):dD;break;default:var
+aD=1}var
+bI=aD}else
 var
-bI=ds;var
-cd=0;if(bI){var
-dt=o[1],du=7===dt[0]?e(aI,dt[1]):0,dv=function(c,b){var
-a=k6(c);return a?n(function(a){var
+bI=dv;var
+cc=0;if(bI){var
+dw=o[1],dx=7===dw[0]?e(aK,dw[1]):0,dy=function(c,b){var
+a=ln(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fl(a[2]);if(b){var
+b=fA(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fl(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},b)},b):a},dw=function(d,c,b){var
-a=k6(d);return a?fm(du,f(c,b)):a},g=o[1];switch(g[0]){case
+1:return fA(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},b)},b):a},dz=function(d,c,b){var
+a=ln(d);return a?fB(dx,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-f1=B(cJ,g[4]),f2=f(B(uk,g[3]),f1),f3=f(k3(g[2]),f2),G=f(B(hh,g[1]),f3);break;case
+f7=B(cO,g[4]),f8=f(B(uK,g[3]),f7),f9=f(lk(g[2]),f8),G=f(B(ht,g[1]),f9);break;case
 1:var
-bF=g[5],bG=g[3],f4=B(cJ,g[6]),f5=bF?k4(bF[1]):bF,f6=f(f5,f4),E=g[4],f7=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],f8=f(f7,f6),f9=bG?[0,bG[1],0]:bG,f_=f(f9,f8),G=f(B(uj,g[2]),f_);break;case
+bE=g[5],bF=g[3],f_=B(cO,g[6]),f$=bE?ll(bE[1]):bE,ga=f(f$,f_),E=g[4],gb=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],gc=f(gb,ga),gd=bF?[0,bF[1],0]:bF,ge=f(gd,gc),G=f(B(uJ,g[2]),ge);break;case
 2:var
-f$=B(cJ,g[7]),gb=f(k4(g[6]),f$),gc=f(g[5],gb),gd=f(g[4],gc),ge=[0,g[3],gd],gf=g[2],G=f(B(function(a){return B(dj,f(a[1],a[2]))},gf),ge);break;case
+gf=B(cO,g[7]),gg=f(ll(g[6]),gf),gh=f(g[5],gg),gi=f(g[4],gh),gj=[0,g[3],gi],gk=g[2],G=f(B(function(a){return B(dp,f(a[1],a[2]))},gk),gj);break;case
 3:var
-gg=B(cJ,g[7]),gh=f(g[6],gg),gi=f(g[5],gh),gj=g[2],G=f(B(function(a){return dj(a[2])},gj),gi);break;case
+gl=B(cO,g[7]),gm=f(g[6],gl),gn=f(g[5],gm),gp=g[2],G=f(B(function(a){return dp(a[2])},gp),gn);break;case
 4:var
-gk=B(cJ,g[3]),G=[0,g[1],[0,g[2],gk]];break;case
+gq=B(cO,g[3]),G=[0,g[1],[0,g[2],gq]];break;case
 5:var
-gl=B(cJ,g[4]),gm=f(bm(g[3]),gl),gn=f(bm(g[2]),gm),go=f(B(hh,g[1]),gn),G=[0,g[5],go];break;case
+gr=B(cO,g[4]),gs=f(br(g[3]),gr),gt=f(br(g[2]),gs),gu=f(B(ht,g[1]),gt),G=[0,g[5],gu];break;case
 6:var
-bH=g[1],G=bH?dj(bH[1]):bH;break;default:var
-gp=B(cJ,g[4]),gq=f(k3(g[3]),gp),G=f(B(hh,g[2]),gq)}var
-dx=fm(du,G);if(dx){var
-N=o[2];switch(N[0]){case
+bH=g[1],G=bH?dp(bH[1]):bH;break;default:var
+gv=B(cO,g[4]),gw=f(lk(g[3]),gv),G=f(B(ht,g[2]),gw)}var
+dA=fB(dx,G);if(dA){var
+O=o[2];switch(O[0]){case
 0:var
-an=dv(N[1],N[3]);break;case
+ar=dy(O[1],O[3]);break;case
 1:var
-an=dw(N[1],N[2],N[3]);break;default:var
-gr=N[1],an=n(function(a){if(typeof
+ar=dz(O[1],O[2],O[3]);break;default:var
+gx=O[1],ar=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dv(a[1],a[3]);case
-2:return dw(a[1],a[2],a[3])}return 1},gr)}}else{var
-dy=dx;cd=1}}else{var
-dy=bI;cd=1}if(cd)var
-an=dy;if(an){var
+1:return dy(a[1],a[3]);case
+2:return dz(a[1],a[2],a[3])}return 1},gx)}}else{var
+dB=dA;cc=1}}else{var
+dB=bI;cc=1}if(cc)var
+ar=dB;if(ar){var
 a=o[1];switch(a[0]){case
 0:var
-d0=a[4],d1=a[3],d2=a[2],d3=a[1],O=o[2];switch(O[0]){case
-0:return ln(0,d3,d2,d1,d0,O[1],O[2],O[3]);case
-1:return lo(d3,d2,d1,d0,O[2],O[3],O[4]);default:return 0}case
+d3=a[4],d5=a[3],d6=a[2],d7=a[1],Q=o[2];switch(Q[0]){case
+0:return lG(0,d7,d6,d5,d3,Q[1],Q[2],Q[3]);case
+1:return lH(d7,d6,d5,d3,Q[2],Q[3],Q[4]);default:return 0}case
 1:var
-aM=a[6],aN=a[5],aO=a[4],aP=a[3],S=a[2],A=a[1],T=o[2];switch(T[0]){case
+aN=a[6],aO=a[5],aP=a[4],aQ=a[3],X=a[2],A=a[1],aa=o[2];switch(aa[0]){case
 0:var
-bS=T[3],gS=T[1],aL=k$(A,S,aP,aO,aN,aM),dJ=aL[2],bO=B(vm,dJ),gK=bO?[0,bO[1],bO[2]]:B(vn,dJ),dI=y(c,bY(gK)),dL=e(vo,aL[2]),dM=g1(dI,dL,aL[2]),gO=j(bS),gP=aJ(aT(0,j(dM)),dM),bP=cM(e(aI,cr(function(a){return gy(a[2])},gP)),gO,bS);if(bP){var
-dN=bP[1];if(dN[2])return 0;var
-dO=lm(A,S,aP,aO,aN,aM),dP=dO?fs(aX(A),bS):dO;if(dP)return p1(q,gS,aL,dI,dL,dN[1]);var
-dQ=dP}else
+bT=aa[3],gW=aa[1],aM=ls(A,X,aQ,aP,aO,aN),dM=aM[2],bO=B(vN,dM),gR=bO?[0,bO[1],bO[2]]:B(vO,dM),dL=x(b,b1(gR)),dN=e(vP,aM[2]),dO=hb(dL,dN,aM[2]),gS=j(bT),gT=aA(aV(0,j(dO)),dO),bP=cR(e(aK,cu(function(a){return gL(a[2])},gT)),gS,bT);if(bP){var
+dQ=bP[1];if(dQ[2])return 0;var
+dR=lF(A,X,aQ,aP,aO,aN),dS=dR?fH(a0(A),bT):dR;if(dS)return qo(q,gW,aM,dL,dN,dQ[1]);var
+dT=dS}else
 var
-dQ=bP;return dQ;case
+dT=bP;return dT;case
 1:var
-d4=T[3],gT=T[4],gU=T[2],dR=typeof
-A==="number"?A?vp:vq:fr(A[1]),bQ=e(h,gU),dS=li(S,e(h,d4));if(dS[2])return 0;var
-dU=hu(B(ll,S),d4),dV=dU?lm(A,S,aP,aO,aN,aM):dU;if(dV)var
-gQ=aX(A),bR=v(j(bQ),gQ);else
+d8=aa[3],gX=aa[4],gY=aa[2],dU=typeof
+A==="number"?A?vQ:vR:fG(A[1]),bQ=e(h,gY),dV=lB(X,e(h,d8));if(dV[2])return 0;var
+dW=hG(B(lE,X),d8),dX=dW?lF(A,X,aQ,aP,aO,aN):dW;if(dX)var
+gU=a0(A),bR=t(j(bQ),gU);else
 var
-bR=dV;if(bR){var
-gR=hp(gT),s=ga(dR,bQ),x=a7(dK(dR,bQ)),ak=dS[1],I=k$(A,S,aP,aO,aN,aM),cy=kt(q,I[2],ak);if(cy){var
-cu=gA(q,I[4],x),ce=0;if(cu){var
-cw=I[5];if(cw)var
-a8=j5(q,cw[1],s);else
-if(s)var
-a8=0;else{var
-cx=1;ce=1}}else{var
-cx=cu;ce=1}if(ce)var
-a8=cx;var
-a9=a8}else
+bR=dX;if(bR){var
+gV=hB(gX),p=go(dU,bQ),w=a9(dP(dU,bQ)),V=dV[1],J=ls(A,X,aQ,aP,aO,aN),cz=kM(q,J[2],V);if(cz){var
+cv=gN(q,J[4],w),cd=0;if(cv){var
+cw=J[5];if(cw)var
+a6=kn(q,cw[1],p);else
+if(p)var
+a6=0;else{var
+cy=1;cd=1}}else{var
+cy=cv;cd=1}if(cd)var
+a6=cy;var
+a7=a6}else
 var
-a9=cy;if(a9){var
-w=I[5],ae=I[1],e6=I[6],e7=I[3],eY=B(function(a){if(0===a[0]){var
-c=ci(w,s,x,a),b=jE(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=ci(w,s,x,a);return[0,jV(a[1],e),0]},ak),e0=e(function(d){var
-b=ci(w,s,x,d);if(0===d[0]){var
+a7=cz;if(a7){var
+v=J[5],cB=J[3],aw=J[1],e5=J[6],eY=e(function(a){if(0===a[0]){var
+d=bY(v,p,w,a),c=gO(a[1],d);return[0,kK(aw,c,ap([5,[0,b,b],cB],d4(g_(v,p,fn(a)),c)))]}return 0},V),eZ=B(function(a){if(0===a[0]){var
+c=bY(v,p,w,a),b=jX(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bY(v,p,w,a);return[0,kd(a[1],e),0]},V),e1=e(function(d){var
+b=bY(v,p,w,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cC(e,h,g,f,b),i=cD(a[5],j),k=ap(i,aw(e)),l=dX(e,h,g,b);return[0,[0,ks(ae,_(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=e5(c,b),o=jY(c,b),p=c[4],q=_(function(b,a){return[2,b,a]},b,p);return[0,[0,ks(ae,_(function(b,a){return[3,b,a]},q,o)),n,m]]},ak),e3=e(function(a){if(0===a[0]){var
-c=ci(w,s,x,a);return[0,gB(a[1],c)]}var
-b=a[1],d=jX(b,ci(w,s,x,a));return[1,jW(b,ci(w,s,x,a)),d]},ak),e4=[0,e(function(b){if(0===b[0])var
-k=ci(w,s,x,b),a=cE(b[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=ap(i,at(e)),l=d2(e,h,g,b);return[0,[0,kL(aw,$(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=ff(c,b),o=kg(c,b),q=c[4],r=$(function(b,a){return[2,b,a]},b,q);return[0,[0,kL(aw,$(function(b,a){return[3,b,a]},r,o)),n,m]]},V),e3=e(function(a){if(0===a[0]){var
+c=bY(v,p,w,a);return[0,gP(a[1],c)]}var
+b=a[1],d=kf(b,bY(v,p,w,a));return[1,ke(b,bY(v,p,w,a)),d]},V),e4=[0,e(function(a){if(0===a[0])var
+k=bY(v,p,w,a),d=cJ(a[1],k);else
 var
-e=ci(w,s,x,b),d=b[1],f=jY(d,e),g=d[4],h=_(function(b,a){return[2,b,a]},e,g),i=_(function(b,a){return[3,b,a]},h,f),j=e5(d,e),a=ap([5,[0,c,c],[4,d[5],j]],i);var
-l=ap([5,[0,c,c],e7],gL(kr(w,s,gY(b)),a));return typeof
-ae==="number"?ae?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:j6(ae[1],a,l)},ak),e3,e0,eY];return jS(q,aX(I[1]),e4,e6,gR)}return a9}return bR;default:return 0}case
+e=bY(v,p,w,a),c=a[1],f=kg(c,e),g=c[4],h=$(function(b,a){return[2,b,a]},e,g),i=$(function(b,a){return[3,b,a]},h,f),j=ff(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kK(aw,d,ap([5,[0,b,b],cB],d4(g_(v,p,fn(a)),d)))},V),e3,e1,eZ,eY];return ka(q,a0(J[1]),e4,e5,gV)}return a7}return bR;default:return 0}case
 2:var
-aQ=a[7],aS=a[6],aU=a[5],aV=a[4],aW=a[3],U=a[2],W=a[1],$=o[2];switch($[0]){case
+aR=a[7],aT=a[6],aU=a[5],aW=a[4],aX=a[3],ab=a[2],ac=a[1],ae=o[2];switch(ae[0]){case
 0:var
-bU=$[3],d5=k9(W,U,aW,aV,aU,aS,aQ),bV=cM(0,j(bU),bU);if(bV){var
-d6=bV[1];if(d6[2])return 0;var
-d8=lk(W,U,aW,aV,aU,aS,aQ),d9=d8?fs(de(W),bU):d8;if(d9){var
-gV=d6[1],gW=d5[2],gX=y(c,bY(B(function(a){var
-b=aY(a[2]);return f(aY(a[1]),b)},gW)));return pF(q,$[1],d5,gX,gV)}var
-d_=d9}else
+bU=ae[3],d9=lq(ac,ab,aX,aW,aU,aT,aR),bV=cR(0,j(bU),bU);if(bV){var
+d_=bV[1];if(d_[2])return 0;var
+d$=lD(ac,ab,aX,aW,aU,aT,aR),ea=d$?fH(dj(ac),bU):d$;if(ea){var
+g0=d_[1],g1=d9[2],g2=x(b,b1(B(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},g1)));return p4(q,ae[1],d9,g2,g0)}var
+ec=ea}else
 var
-d_=bV;return d_;case
+ec=bV;return ec;case
 1:var
-d$=$[3],ec=e(h,$[2]),ee=fr(W),ef=lh(U,e(h,d$));if(ef[2])return 0;var
-eg=hu(B(function(a){return f(a[1],a[2])},U),d$),eh=eg?lk(W,U,aW,aV,aU,aS,aQ):eg;if(eh){var
-gZ=hp($[4]),ao=ga(ee,ec),aZ=a7(dK(ee,ec)),aq=ef[1],J=k9(W,U,aW,aV,aU,aS,aQ),as=J[2],Q=aq;for(;;){if(as){if(Q){var
-cl=Q[1],cm=as[1],cn=aR(q,cm[1],cl[1]),co=cn?aR(q,cm[2],cl[2]):cn;if(co){var
-as=as[2],Q=Q[2];continue}var
+ed=ae[3],ee=e(h,ae[2]),ef=fG(ac),ei=lA(ab,e(h,ed));if(ei[2])return 0;var
+ek=hG(B(function(a){return f(a[1],a[2])},ab),ed),el=ek?lD(ac,ab,aX,aW,aU,aT,aR):ek;if(el){var
+g3=hB(ae[4]),R=go(ef,ee),as=a9(dP(ef,ee)),af=ei[1],K=lq(ac,ab,aX,aW,aU,aT,aR),av=K[2],S=af;for(;;){if(av){if(S){var
+ck=S[1],cl=av[1],cm=aS(q,cl[1],ck[1]),co=cm?aS(q,cl[2],ck[2]):cm;if(co){var
+av=av[2],S=S[2];continue}var
 cp=co}else
 var
-cp=Q;var
+cp=S;var
 a5=cp}else
 var
-a5=Q?0:1;var
-cq=a5?aR(q,J[4],aZ):a5,ct=cq?j5(q,J[5],ao):cq;if(ct){var
-at=J[5],eU=J[6],eV=J[3],eW=J[1],cj=function(a){var
-b=gN(at,ao,aZ,a);return M(gN(at,ao,aZ,a),b)},eP=e(cj,aq),eR=e(function(a){return 0},aq),eS=e(function(a){return[0,[6,cj(a)]]},aq),eT=[0,e(function(b){var
-a=aw(gN(at,ao,aZ,b));return j6(eW,a,ap([5,[0,c,c],eV],gL(gM(at,ao,b[2]),a)))},aq),eS,eR,eP];return jS(q,de(J[1]),eT,eU,gZ)}return ct}}return eh;default:return 0}case
+a5=S?0:1;var
+cq=a5?aS(q,K[4],as):a5,cr=cq?kn(q,K[5],R):cq;if(cr){var
+T=K[5],cs=K[3],ct=K[1],eX=K[6],cj=function(a){var
+b=fh(T,R,as,a);return N(fh(T,R,as,a),b)},eS=e(function(c){var
+a=fh(T,R,as,c);return[0,gZ(ct,a,ap([5,[0,b,b],cs],d4(fg(T,R,c[2]),a)))]},af),eT=e(cj,af),eU=e(function(a){return 0},af),eV=e(function(a){return[0,[6,cj(a)]]},af),eW=[0,e(function(c){var
+a=at(fh(T,R,as,c));return gZ(ct,a,ap([5,[0,b,b],cs],d4(fg(T,R,c[2]),a)))},af),eV,eU,eT,eS];return ka(q,dj(K[1]),eW,eX,g3)}return cr}}return el;default:return 0}case
 3:var
-a0=a[7],ei=a[6],ej=a[5],aa=a[4],ek=a[2],bW=a[1],bX=o[2];if(0===bX[0]){var
-bZ=bX[3],b0=cM(0,j(bZ),bZ);if(b0){var
-el=b0[1];if(el[2])return 0;var
-gI=j(bW),gJ=j(ei),dE=v(j(ej),gJ),dF=dE?n(function(a){var
-b=bD(gI,j(aa),a);if(b){if(1===a[1]){var
-c=a[2],d=c?[0,bu(c[1]),0]:aT(0,j(aa));return n(function(b){var
-a=V(aa,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},a0):dE,dG=dF?fq(a0):dF,dH=dG?n(function(a){return ed(a[2])},ek):dG,em=dH?n(hr,dm(0,j(aa),a0)):dH,en=em?fs(j(bW),bZ):em;if(en){var
-g0=el[1],g2=a[3],aC=dm(0,j(aa),a0),gC=aJ(ej,ei),bL=e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(ck,a[1])]:[1,ck(a[1])]},aa),gE=e(function(a){var
-b=ck(a[2]);return[0,a[1],b]},g2),m=[0,bW,e(function(a){var
-b=bn(a[2]);return[0,a[1],b]},ek),gE,gD],ar=bX[1],fG=e(aI,m[2]),bj=f(m[1],fG),bo=j(m[1]),cW=Y(p2,bo),cX=cW?Y(bo,p3):cW,cY=cX?Y(bo,j(m[4])):cX,cZ=cY?Y(j(m[4]),p4):cY,c0=cZ?kM(bj):cZ;if(c0){var
-ay=bj,ax=m[3];for(;;){if(ax){var
-cS=ax[1],cT=cS[1],cU=am(av(function(b){return function(a){return al(b,a)}}(cT),ay)),cV=cU?g6(ay,cS[2]):cU;if(cV){var
-ay=[0,cT,ay],ax=ax[2];continue}var
-c2=cV}else
+aY=a[7],em=a[6],en=a[5],ai=a[4],eo=a[2],bW=a[1],bX=o[2];if(0===bX[0]){var
+bZ=bX[3],b0=cR(0,j(bZ),bZ);if(b0){var
+ep=b0[1];if(ep[2])return 0;var
+gM=j(bW),gQ=j(em),dH=t(j(en),gQ),dI=dH?n(function(a){var
+b=bG(gM,j(ai),a);if(b){if(1===a[1]){var
+c=a[2],d=c?[0,bx(c[1]),0]:aV(0,j(ai));return n(function(b){var
+a=W(ai,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},aY):dH,dJ=dI?fF(aY):dI,dK=dJ?n(function(a){return ej(a[2])},eo):dJ,eq=dK?n(hD,ds(0,j(ai),aY)):dK,er=eq?fH(j(bW),bZ):eq;if(er){var
+g4=ep[1],g5=a[3],aE=ds(0,j(ai),aY),gC=aA(en,em),bL=e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(cn,a[1])]:[1,cn(a[1])]},ai),gE=e(function(a){var
+b=cn(a[2]);return[0,a[1],b]},g5),m=[0,bW,e(function(a){var
+b=bs(a[2]);return[0,a[1],b]},eo),gE,gD],au=bX[1],fM=e(aK,m[2]),bi=f(m[1],fM),bj=j(m[1]),cZ=_(qp,bj),c0=cZ?_(bj,qq):cZ,c1=c0?_(bj,j(m[4])):c0,c2=c1?_(j(m[4]),qr):c1,c3=c2?k5(bi):c2;if(c3){var
+az=bi,ay=m[3];for(;;){if(ay){var
+cV=ay[1],cW=cV[1],cX=ak(aq(function(b){return function(a){return am(b,a)}}(cW),az)),cY=cX?hg(az,cV[2]):cX;if(cY){var
+az=[0,cW,az],ay=ay[2];continue}var
+c4=cY}else
 var
-c2=1;var
-bp=c2;break}}else
+c4=1;var
+bl=c4;break}}else
 var
-bp=c0;if(bp)var
-fH=m[4],bq=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bj);return n(function(a){return g6(c,a)},b)},fH);else
+bl=c3;if(bl)var
+fN=m[4],bm=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bi);return n(function(a){return hg(c,a)},b)},fN);else
 var
-bq=bp;if(bq)var
-fI=m[2],br=n(function(a){return a6(q,a[2][1],a[2][2])},fI);else
+bm=bl;if(bm)var
+fO=m[2],bn=n(function(a){return a8(q,a[2][1],a[2][2])},fO);else
 var
-br=bq;var
-c3=br?n(function(a){return a6(q,a[1],a[2])},bL):br;if(c3){var
-ba=j(m[1]),bb=j(m[2]),cB=P(bb,j(g3(e(b6,m[3])))),fc=m[3],ah=kL(m),au=fc,a$=bb;for(;;){if(au){var
-cz=au[1],cA=cz[2],e8=P(a$,j(bl(cA))),e9=au[2],e_=a_(ah,cA,a$),ah=[0,[0,cz[1],e_],ah],au=e9,a$=e8;continue}var
-R=kI(ba,ah,m[4],cB),fd=kH(ah,m[4],cB),fe=m[3],cF=f(kE(kL(m),fe,bb),fd),cG=j(kK(m)),fh=0,fi=f(cF,d7(function(a,b){return kA(R,a,b)},fh,d,cG,aC)),fj=f(bz(fb(R)),fi),cH=f(bz(fa(R)),fj),bc=c4(cH)[1],fk=cv(bc),ai=function(a){return bg(fk,a)},cI=v(j(bL),ba);if(cI)var
-fn=m[4],bd=n(function(a){return 0===a[0]?v(j(a[1]),ba):1},fn);else
+bn=bm;var
+c5=bn?n(function(a){return a8(q,a[1],a[2])},bL):bn;if(c5){var
+a$=j(m[1]),bb=j(m[2]),cE=P(bb,j(hd(e(b9,m[3])))),e_=m[3],al=k4(m),ax=e_,a_=bb;for(;;){if(ax){var
+cC=ax[1],cD=cC[2],e6=P(a_,j(bq(cD))),e7=ax[2],e8=ba(al,cD,a_),al=[0,[0,cC[1],e8],al],ax=e7,a_=e6;continue}var
+U=k1(a$,al,m[4],cE),fa=k0(al,m[4],cE),fd=m[3],cF=f(kX(k4(m),fd,bb),fa),cG=j(k3(m)),fe=0,fi=f(cF,eb(function(a,b){return kT(U,a,b)},fe,d,cG,aE)),fj=f(bD(fq(U)),fi),cK=f(bD(fp(U)),fj),bc=c9(cK)[1],fk=cA(bc),an=function(a){return bk(fk,a)},cL=t(j(bL),a$);if(cL)var
+fl=m[4],bd=n(function(a){return 0===a[0]?t(j(a[1]),a$):1},fl);else
 var
-bd=cI;var
-cK=bd?n(function(a){var
-b=l(d),c=cv(bc);return aK(t(ai(a),c,b),a)},cH):bd,cL=cK?av(kD,aC):cK;if(cL){var
-ft=kK(m),be=ag(e(function(a){return af(ar,a)},ft));if(be){var
-fu=0,fv=B(function(a){return e$(fu,d,a)},aC),bf=ag(e(function(a){return kB(ar,a)},fv));if(bf){var
-bh=ag(e(function(a){return af(ar,[0,a,d])},bL));if(bh){var
-fw=0,fx=0,bi=ag(d7(function(a,b){return kC(ar,ai,R,fx,d,a,b)},fw,d,cG,aC));if(bi){var
-cN=bi[1],fy=gv(cN),fz=bh[1],fA=function(a){return 0},fB=f(be[1],bf[1]),fC=e(ai,cF),fD=fb(R),fE=k(aA(ai),fD),fF=fa(R);return eX(ar,bc,k(aA(ai),fF),fE,fC,fB,cN,fA,fz,fy,g0)}var
-cO=bi}else
+bd=cL;var
+cM=bd?n(function(a){var
+b=l(d),c=cA(bc);return aL(u(an(a),c,b),a)},cK):bd,cN=cM?aq(kW,aE):cM;if(cN){var
+fm=k3(m),be=ah(e(function(a){return ag(au,a)},fm));if(be){var
+fr=0,fs=B(function(a){return fo(fr,d,a)},aE),bf=ah(e(function(a){return kU(au,a)},fs));if(bf){var
+bg=ah(e(function(a){return ag(au,[0,a,d])},bL));if(bg){var
+ft=0,fw=0,bh=ah(eb(function(a,b){return kV(au,an,U,fw,d,a,b)},ft,d,cG,aE));if(bh){var
+cP=bh[1],fx=gI(cP),fy=bg[1],fz=function(a){return 0},fC=f(be[1],bf[1]),fI=e(an,cF),fJ=fq(U),fK=k(aB(an),fJ),fL=fp(U);return e9(au,bc,k(aB(an),fL),fK,fI,fC,cP,fz,fy,fx,g4)}var
+cQ=bh}else
 var
-cO=bh;var
-cP=cO}else
+cQ=bg;var
+cS=cQ}else
 var
-cP=bf;var
-cQ=cP}else
+cS=bf;var
+cT=cS}else
 var
-cQ=be;var
-cR=cQ}else
+cT=be;var
+cU=cT}else
 var
-cR=cL;return cR}}return c3}var
-eo=en}else
+cU=cN;return cU}}return c5}var
+es=er}else
 var
-eo=b0;return eo}return 0;case
+es=b0;return es}return 0;case
 4:if(0===o[2][0]){var
-ep=dp(h(a[1]));if(ep){var
-a1=a[3],cf=0;if(a1){var
-aE=a1[1],aF=aE[4],H=a1[2];if(aE[1]||aE[2]||aE[3])var
-r=0;else{var
+et=du(h(a[1]));if(et){var
+aZ=a[3],cg=0;if(aZ){var
+aF=aZ[1],aH=aF[4],I=aZ[2];if(aF[1]||aF[2]||aF[3])var
+s=0;else{var
 C=0;if(typeof
-aF!=="number")switch(aF[0]){case
+aH!=="number")switch(aH[0]){case
 0:var
-a3=0;if(H){var
-aG=H[1],bM=aG[4];if(aG[1]||aG[2]||aG[3]){var
-r=0;C=1;a3=1}else{var
-cg=0;if(typeof
-bM!=="number"&&1===bM[0])if(H[2]){var
-r=0;C=1;a3=1;cg=1}else{var
-gF=h(bM[1]),r=[0,[0,h(aF[1]),gF]];C=1;a3=1;cg=1}if(!cg)var
-dC=0}}else
-var
-dC=H;if(!a3){var
-r=dC;C=1}break;case
-1:var
-a4=0;if(H){var
-aH=H[1],bN=aH[4];if(aH[1]||aH[2]||aH[3]){var
-r=0;C=1;a4=1}else{var
+a3=0;if(I){var
+aI=I[1],bM=aI[4];if(aI[1]||aI[2]||aI[3]){var
+s=0;C=1;a3=1}else{var
 ch=0;if(typeof
-bN!=="number"&&0===bN[0])if(H[2]){var
-r=0;C=1;a4=1;ch=1}else{var
-gG=h(aF[1]),r=[0,[0,h(bN[1]),gG]];C=1;a4=1;ch=1}if(!ch)var
-dD=0}}else
+bM!=="number"&&1===bM[0])if(I[2]){var
+s=0;C=1;a3=1;ch=1}else{var
+gF=h(bM[1]),s=[0,[0,h(aH[1]),gF]];C=1;a3=1;ch=1}if(!ch)var
+dF=0}}else
 var
-dD=H;if(!a4){var
-r=dD;C=1}break}if(!C){var
-dB=0;cf=1}}}else{var
-dB=a1;cf=1}if(cf)var
-r=dB;if(r){var
-eq=r[1],er=eq[2],es=eq[1],c9=i(q,1,h(a[2])),c_=c9?i(q,1,[3,er,[0,c,c]]):c9,c$=c_?i(q,1,es):c_;return c$?i(q,0,[3,[5,[0,c,c],er],es]):c$}var
-et=r}else
+dF=I;if(!a3){var
+s=dF;C=1}break;case
+1:var
+a4=0;if(I){var
+aJ=I[1],bN=aJ[4];if(aJ[1]||aJ[2]||aJ[3]){var
+s=0;C=1;a4=1}else{var
+ci=0;if(typeof
+bN!=="number"&&0===bN[0])if(I[2]){var
+s=0;C=1;a4=1;ci=1}else{var
+gG=h(aH[1]),s=[0,[0,h(bN[1]),gG]];C=1;a4=1;ci=1}if(!ci)var
+dG=0}}else
 var
-et=ep;return et}return 0;case
+dG=I;if(!a4){var
+s=dG;C=1}break}if(!C){var
+dE=0;cg=1}}}else{var
+dE=aZ;cg=1}if(cg)var
+s=dE;if(s){var
+eu=s[1],ev=eu[2],ew=eu[1],c$=i(q,1,h(a[2])),da=c$?i(q,1,[3,ev,[0,b,b]]):c$,dc=da?i(q,1,ew):da;return dc?i(q,0,[3,[5,[0,b,b],ev],ew]):dc}var
+ex=s}else
+var
+ex=et;return ex}return 0;case
 5:var
-b1=a[4],eu=a[1],b2=o[2];if(0===b2[0]){var
-ev=b2[3],p=hj(eu,[0,a[2],a[3]],0,b1),b3=hq(j(ev),ev);if(b3){var
-ew=b3[1];if(ew[2])return 0;var
-ex=ht(eu,0,b1,p),ey=ex?am(av(vk,b1)):ex;if(ey){var
-ez=jN(q,p);if(ez){var
-g4=ew[1],eA=e(fp,p[1]),u=hn(p[1]),eB=h(a[5]),K=b2[1],bv=eZ(u,eA,p[1]),D=gw(u,eA,p[1],0),fN=j(p[3]),fO=P(j(bv),fN),az=[0,j(bv),fO],fP=gx(D,u,az,p[3]),fQ=f(e(c8,D),fP),df=f(bz(eO(D)),fQ),dg=c4(df)[1],bx=cv(dg),dh=p[2];if(0===dh[0]){var
-di=n(function(a){var
-b=l(d);return aK(t(bg(bx,a),bx,b),a)},df),dk=di?i(q,1,eB):di;if(dk){var
-fR=p[3],fS=B(function(a){return dc(u,a)},fR),fT=p[3],fU=f(bv,f(e(function(a){return bk(u,a)},fT),fS)),bA=ag(e(function(a){return af(K,a)},fU));if(bA){var
-fV=aD(dh[1],u),bB=ag(e(function(a){return af(K,a)},fV));if(bB){var
-bC=cb(K,u,[5,eB,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bC){var
-bE=p[3],fW=bB[1],fX=bC[1],fY=bA[1],aj=function(a){return bg(bx,a)},fK=aT(0,j(bE)),fL=e(function(h){var
-l=V(bE,h);if(l){var
-a=l[1],v=dK(h,bE),w=j(B(function(a){return dc(u,a)},v)),x=P(az[2],w),g=[0,P(az[1],h),x],r=eO(D),f=k(aA(aj),r),b=[1,[8,[1,[1,g[1]]]]],d=e2(D,u,g,a),n=d?[0,[3,e(aj,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b2=a[4],ey=a[1],b3=o[2];if(0===b3[0]){var
+ez=b3[3],r=hv(ey,[0,a[2],a[3]],0,b2),b4=hC(j(ez),ez);if(b4){var
+eA=b4[1];if(eA[2])return 0;var
+eB=hF(ey,0,b2,r),eC=eB?ak(aq(vL,b2)):eB;if(eC){var
+eD=j6(q,r);if(eD){var
+g6=eA[1],eE=e(fE,r[1]),z=hz(r[1]),eF=h(a[5]),M=b3[1],bu=e$(z,eE,r[1]),D=gJ(z,eE,r[1],0),fT=j(r[3]),fU=P(j(bu),fT),aC=[0,j(bu),fU],fV=gK(D,z,aC,r[3]),fW=f(e(db,D),fV),dg=f(bD(e0(D)),fW),di=c9(dg)[1],bv=cA(di),dk=r[2];if(0===dk[0]){var
+dl=n(function(a){var
+b=l(d);return aL(u(bk(bv,a),bv,b),a)},dg),dm=dl?i(q,1,eF):dl;if(dm){var
+fX=r[3],fY=B(function(a){return dh(z,a)},fX),fZ=r[3],f0=f(bu,f(e(function(a){return bo(z,a)},fZ),fY)),bw=ah(e(function(a){return ag(M,a)},f0));if(bw){var
+f1=aG(dk[1],z),by=ah(e(function(a){return ag(M,a)},f1));if(by){var
+bz=cf(M,z,[5,eF,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bz){var
+bB=r[3],f2=by[1],f3=bz[1],f4=bw[1],ao=function(a){return bk(bv,a)},fQ=aV(0,j(bB)),fR=e(function(h){var
+l=W(bB,h);if(l){var
+a=l[1],u=dP(h,bB),v=j(B(function(a){return dh(z,a)},u)),w=P(aC[2],v),g=[0,P(aC[1],h),w],r=e0(D),f=k(aB(ao),r),c=[1,[8,[1,[1,g[1]]]]],d=fc(D,z,g,a),n=d?[0,[3,e(ao,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,f,b]];case
-1:return[0,[1,f,b]];case
+0:return[0,[0,f,c]];case
+1:return[0,[1,f,c]];case
 4:var
-o=i(K,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,b]];case
+o=i(M,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,f,c]];case
 8:var
-p=i(K,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,c]];m=1;break;case
+p=i(M,1,[5,a[2],a[1]]);if(!p)return p;var
+q=[1,[2,b]];m=1;break;case
 9:var
-q=b;m=1;break;case
+q=c;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=e1(D,u,g,a);return z(function(a){return[0,k(aA(aj),a),q]},t)}return 0}return l},fK),fM=e(function(a){return aj(c8(a))},D),da=e(function(a){return aj(a[2])},D),fZ=p[3],f0=az[1],db=e(ad,fY),dd=function(az,ay){var
+t=fb(D,z,g,a);return y(function(a){return[0,k(aB(ao),a),q]},t)}return 0}return l},fQ),fS=e(function(a){return ao(db(a))},D),dd=e(function(a){return ao(a[2])},D),f5=r[3],f6=aC[1],de=e(ad,f4),df=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],$=v(j(s),qb),aa=$?n(function(a){var
-d=L(X(b(2,b(2,b(2,c)))),a);return d?L(a,b(2,b(2,b(2,c)))):d},s):$;if(aa){var
-ab=kW(K,fX,eQ(0,l),s),i=h[2],u=bw(0,ca(K,ab,db),dg,0),M=function(a){return kV(kU(K,ab,db,u,a))};if(typeof
-i==="number")return av(function(b){var
-a=t(b,u,0);return a?L(a[1][2][2],d):a},da);else{if(0===i[0]){var
-a=i[2],N=n(p$,a);if(N){var
-o=t(i[1],fL,0);if(o){var
+s=h[1],aa=t(j(s),qA),ab=aa?n(function(a){var
+d=H(L(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
+ac=ld(M,f3,e2(0,l),s),i=h[2],v=bA(0,ce(M,ac,de),di,0),N=function(a){return lc(lb(M,ac,de,v,a))};if(typeof
+i==="number")return 0===i?aq(function(b){var
+a=u(b,v,0);return a?H(a[1][2][2],d):a},dd):0;else{if(0===i[0]){var
+a=i[2],O=n(qy,a);if(O){var
+o=u(i[1],fR,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],al=fg(B,A),an=ff(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],al]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fv(B,A),an=fu(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=ff(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fg(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fu(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fv(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
 z=0;if(a){var
-k=a[2],ak=0;if(k)if(k[2]){var
-f=0;ak=1}else
+k=a[2],al=0;if(k)if(k[2]){var
+f=0;al=1}else
 var
-G=k[1],H=a[1],m=g[1],aq=ff(H),ar=[1,[6,fg(m,G),aq]],as=[1,[6,g[2],ar]],at=ff(G),I=[0,[0,m,[0,[1,[4,[1,[6,fg(m,H),at]],as]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=fu(I),as=[1,[6,fv(m,G),ar]],at=[1,[6,g[2],as]],au=fu(G),J=[0,[0,m,[0,[1,[4,[1,[6,fv(m,I),au]],at]],0]]];else
 var
-I=k;if(!ak){var
-J=I;z=1}}else{var
-J=a;z=1}if(z)var
-f=J;break;default:if(a)var
+J=k;if(!al){var
+K=J;z=1}}else{var
+K=a;z=1}if(z)var
+f=K;break;default:if(a)var
 f=0;else
 var
-au=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},au)]]}if(f){var
-O=f[1],aw=O[1],Q=n(function(a){return kV(t(a[2],u,0))},aw);if(Q)return n(M,O[2]);var
-R=Q}else
-var
-R=f;var
+av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
+Q=f[1],aw=Q[1],R=n(function(a){return lc(u(a[2],v,0))},aw);if(R)return n(N,Q[2]);var
 S=R}else
 var
-S=o;var
+S=f;var
 T=S}else
 var
-T=N;return T}var
-U=i[2],W=i[1],p=V(fZ,W);if(p){var
-Y=p[1];if(typeof
-Y!=="number"&&1===Y[0]){var
-q=V(da,U);if(q){var
-r=V(fM,U);if(r){var
-ax=P(f0,W);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-_=r}else
+T=o;var
+U=T}else
 var
-_=q;return _}var
-Z=0}else
+U=O;return U}var
+V=i[2],X=i[1],p=W(f5,X);if(p){var
+Z=p[1];if(typeof
+Z!=="number"&&1===Z[0]){var
+q=W(dd,V);if(q){var
+r=W(fS,V);if(r){var
+ax=P(f6,X);return N([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+$=r}else
 var
-Z=p;return Z}}return aa}var
-ad=h[1],w=V(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=am(ac(by(ae),aA));if(af){var
-ag=dT(ad,l),ah=dd(ag[1],h[2]);if(ah){var
+$=q;return $}var
+_=0}else
+var
+_=p;return _}}return ab}var
+ad=h[1],w=W(l,ad);if(w){var
+ae=w[1],aA=ae[1],af=ak(Y(bC(ae),aA));if(af){var
+ag=dY(ad,l),ah=df(ag[1],h[2]);if(ah){var
 l=ag[2],h=h[3];continue}var
 ai=ah}else
 var
 ai=af;var
 aj=ai}else
 var
-aj=w;return aj}};return dd(fW,g4)}var
-dl=bC}else
+aj=w;return aj}};return df(f2,g6)}var
+dn=bz}else
 var
-dl=bB;var
-dn=dl}else
-var
-dn=bA;var
+dn=by;var
 dq=dn}else
 var
-dq=dk;return dq}return 0}var
-eC=ez}else
+dq=bw;var
+dr=dq}else
 var
-eC=ey;var
-eD=eC}else
+dr=dm;return dr}return 0}var
+eG=eD}else
 var
-eD=b3;return eD}return 0;case
+eG=eC;var
+eH=eG}else
+var
+eH=b4;return eH}return 0;case
 6:var
-eE=a[1];if(eE){var
-eF=eE[1],b4=o[2];if(0===b4[0]){var
-b5=ho(0,vu,b4[3]);if(b5){var
-eG=ed(eF);if(eG){var
-g5=b5[1],eH=bn(eF)[2],a2=b4[1],bs=cb(a2,d,eH);if(bs){var
-bt=cb(a2,d,[5,[0,c,c],eH]);if(bt){var
-fJ=bs[1][1],c5=Z(cs(a2),fJ);if(c5)return kT(a2,bt[1][1],g5);var
-c6=c5}else
+eI=a[1];if(eI){var
+eJ=eI[1],b5=o[2];if(0===b5[0]){var
+b6=hA(0,vV,b5[3]);if(b6){var
+eK=ej(eJ);if(eK){var
+g7=b6[1],eL=bs(eJ)[2],a2=b5[1],bp=cf(a2,d,eL);if(bp){var
+bt=cf(a2,d,[5,[0,b,b],eL]);if(bt){var
+fP=bp[1][1],c6=Z(cx(a2),fP);if(c6)return la(a2,bt[1][1],g7);var
+c8=c6}else
 var
-c6=bt;var
-c7=c6}else
+c8=bt;var
+c_=c8}else
 var
-c7=bs;return c7}var
-eI=eG}else
+c_=bp;return c_}var
+eM=eK}else
 var
-eI=b5;return eI}return 0}var
+eM=b6;return eM}return 0}var
 b7=o[2];if(0===b7[0]){var
-b8=ho(0,vv,b7[3]);return b8?kT(b7[1],d,b8[1]):b8}return 0;default:var
-ab=a[1],eJ=o[2];if(2===eJ[0]){var
-eK=eJ[1],b9=hl(j(eK),eK);if(b9){var
-eL=b9[1];if(eL[2])return 0;var
-b_=eL[1],dW=Y(vs,j(ab)),dY=dW?Y(j(ab),iM):dW,dZ=dY?kM(e(aI,ab)):dY,eM=dZ?n(function(c){var
-a=bT(h(c[2][1]));if(a){var
-b=bT(h(c[2][2]));if(b)return am(c1(b[1],a[1]));var
+b8=hA(0,vW,b7[3]);return b8?la(b7[1],d,b8[1]):b8}return 0;default:var
+aj=a[1],eN=o[2];if(2===eN[0]){var
+eO=eN[1],b_=hx(j(eO),eO);if(b_){var
+eP=b_[1];if(eP[2])return 0;var
+b$=eP[1],dZ=_(vT,j(aj)),d0=dZ?_(j(aj),iZ):dZ,d1=d0?k5(e(aK,aj)):d0,eQ=d1?n(function(c){var
+a=bS(h(c[2][1]));if(a){var
+b=bS(h(c[2][2]));if(b)return ak(c7(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},ab):dZ;if(eM)var
-g7=fo(uA,b_),b$=lq(a[5],g7);else
+d=a;return d},aj):d1;if(eQ)var
+g8=fD(u0,b$),ca=lJ(a[5],g8);else
 var
-b$=eM;if(b$)var
-g8=fo(uB,b_),cc=lq(a[6],g8);else
+ca=eQ;if(ca)var
+g9=fD(u1,b$),cb=lJ(a[6],g9);else
 var
-cc=b$;if(cc){var
-gH=e(function(a){return[0,d,0]},ab);return lp(ab,a[2],a[3],a[4],gH,b_)}var
-eN=cc}else
+cb=ca;if(cb){var
+gH=e(function(a){return[0,d,0]},aj);return lI(aj,a[2],a[3],a[4],gH,b$)}var
+eR=cb}else
 var
-eN=b9;return eN}return 0}}return an}var
-J=[aF,vy,nD(0)],lr=[aF,vz,nD(0)];function
-vw(m,b){var
-f=[0,g(t1,ai(b[4])),0],h=[0,g(t3,R([0,g(t2,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
+eR=b_;return eR}return 0}}return ar}var
+K=[aI,vZ,nX(0)],lK=[aI,v0,nX(0)];function
+vX(m,b){var
+f=[0,g(up,ae(b[4])),0],h=[0,g(ur,S([0,g(uq,ae(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(tX,k1(a[1],a[2],a[3]));break;case
+c=I(ul,li(a[1],a[2],a[3]));break;case
 1:var
-c=H(tY,k2(a[1],a[2],a[3],a[4]));break;default:var
-c=H(tZ,x(e(tS,a[1])))}var
-i=[0,g(t4,c),h],j=1===b[2][0]?t_:t5,k=[0,g(t6,ai(j)),i],l=[0,g(t7,sy(b[1])),k],d=al(im(vx,fh(R([0,g(t9,ai(t8)),l]),t0)),m);return d?vt(b):d}function
-W(a){if(0===a[0])return a[1];throw J}function
-S(a){if(1===a[0])return a[1];throw J}function
-aB(a){if(2===a[0])return a[1];throw J}function
-dr(a){if(3===a[0])return a[1];throw J}function
-aE(f,e){var
+c=I(um,lj(a[1],a[2],a[3],a[4]));break;default:var
+c=I(un,z(e(ug,a[1])))}var
+i=[0,g(us,c),h],j=1===b[2][0]?uy:ut,k=[0,g(uu,ae(j)),i],l=[0,g(uv,sX(b[1])),k],d=am(iz(vY,fw(S([0,g(ux,ae(uw)),l]),uo)),m);return d?vU(b):d}function
+X(a){if(0===a[0])return a[1];throw K}function
+T(a){if(1===a[0])return a[1];throw K}function
+aC(a){if(2===a[0])return a[1];throw K}function
+dw(a){if(3===a[0])return a[1];throw K}function
+aH(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Bj(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===BL(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aE(c,b);if(a)return a[1];throw J}function
-bZ(b,a){var
+a=aH(c,b);if(a)return a[1];throw K}function
+b2(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-cP(a){switch(a[0]){case
+cU(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],vA]}throw J}function
-ee(e,d){var
-a=Q(e,S(d));if(a){var
+2:return[0,a[1],v1]}throw K}function
+ek(e,d){var
+a=R(e,T(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw J}function
-ft(i){var
-f=dA(i),d=[0,0],e=fZ(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw K}function
+fI(i){var
+f=dF(i),d=[0,0],e=gc(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=h3(f,c)-48|0;if(9<g>>>0)throw J;switch(g){case
+a=d[1],g=id(f,c)-48|0;if(9<g>>>0)throw K;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5811,96 +5913,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-ef(a){return ix(ft(a))}function
-eg(b){var
-a=dr(b);return 45===aG(a,0)?X(ef(cY(a,1,ak(a)-1|0))):ef(a)}function
-ls(a){return f$(ef(dr(a)))}function
-fu(a){return iw(ef(dr(a)))}function
-cn(c){var
-a=dr(c);if(6<ak(a))throw J;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(h$(a))}function
-lt(a){var
-b=97<=a?1:0,c=b?a<=ni?1:0:b;if(c)var
+el(a){return iL(fI(a))}function
+em(b){var
+a=dw(b);return 45===aJ(a,0)?L(el(c4(a,1,al(a)-1|0))):el(a)}function
+lL(a){return dN(el(dw(a)))}function
+fJ(a){return iK(el(dw(a)))}function
+cq(c){var
+a=dw(c);if(6<al(a))throw K;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(im(a))}function
+lM(a){var
+b=97<=a?1:0,c=b?a<=nC?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lu(y,b){var
-d=ak(b),a=[0,0];function
+lN(y,b){var
+d=al(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aG(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aJ(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aG(b,a[1])&&!(57<aG(b,a[1]))){a[1]++;continue}return cY(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aJ(b,a[1])&&!(57<aJ(b,a[1]))){a[1]++;continue}return c4(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw J}function
-h(i){if(64<i)throw J;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw K}function
+h(i){if(64<i)throw K;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&al(cY(b,a[1],5),vC)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v3)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lt(aG(b,a[1]))){var
+v=0;if(a[1]<d&&lM(aJ(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lt(aG(b,a[1]))&&95!==aG(b,a[1])&&(!(48<=aG(b,a[1]))||57<aG(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,cY(b,o,a[1]-o|0))];break}}else
+w=0;if(!lM(aJ(b,a[1]))&&95!==aJ(b,a[1])&&(!(48<=aJ(b,a[1]))||57<aJ(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,c4(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=al(g,vD);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v4);if(r)var
 s=r;else
 var
-t=1<ak(g)?1:0,s=t?48===aG(g,0)?1:0:t;if(s)throw J;if(q){var
-j=q[1],x=0;if(al(j,vE)||48===aG(j,ak(j)-1|0))x=1;else
+t=1<al(g)?1:0,s=t?48===aJ(g,0)?1:0:t;if(s)throw K;if(q){var
+j=q[1],x=0;if(am(j,v5)||48===aJ(j,al(j)-1|0))x=1;else
 var
-z=ft(j),e=[0,ft(g),z];if(x)throw J}else
+z=fI(j),e=[0,fI(g),z];if(x)throw K}else
 var
-e=[0,ft(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,vB)){if(!(2<ak(f))&&2<=h$(f)&&!(64<h$(f)))return[4,e,f$(ef(f))];throw J}throw J}return e}function
+e=[0,fI(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,v2)){if(!(2<al(f))&&2<=im(f)&&!(64<im(f)))return[4,e,dN(el(f))];throw K}throw K}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw J;var
+f(d){if(64<d)throw K;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw J;return g}function
-fv(a){return lu(function(a){return[0,a]},a)}function
-hv(a){var
-b=aB(a);return lu(function(a){return a},b)}function
-N(a){return fv(aB(a))}function
-bE(a){if(2===a[0])return[0,fv(a[1])];var
-b=W(a),c=N(p(b,vF));return[1,N(p(b,vG)),c]}function
-U(a){throw[0,lr,aN(im(vI,a),vH)]}function
-hw(c){var
-a=aB(c);if(m(a,vJ)){var
-b=m(a,vK);if(b)throw J;return b}return 1}function
-vL(d){var
-b=W(d);function
-a(a){return ee(bE,p(b,a))}var
-c=aB(p(b,vM));if(m(c,vN)){if(m(c,vO)){if(m(c,vP))return U([0,vR,[0,c,vQ]]);var
-e=aE(b,vS),f=bZ(function(a){return ee(bE,a)},e),g=a(vT);return[1,a(vU),g,f]}var
-h=hw(p(b,vV)),i=bE(p(b,vW)),j=a(vX),k=a(vY);return[0,a(vZ),k,j,i,h]}return[2,a(v0)]}function
-v1(d){var
-a=W(d);if(a){var
-b=a[1];if(!m(b[1],v2)){var
-c=b[2];if(2===c[0]&&!m(c[1],v3))return 1}}return 0}function
-lv(e){var
-b=W(e);function
-a(a){return Q(bE,S(p(b,a)))}var
-c=aB(p(b,v4)),d=aE(b,v5);if(m(c,v6)){if(m(c,v7)){if(!m(c,v8)&&!d){var
-f=a(v$);return[1,a(wa),f]}}else
+g=f(0);if(a[1]<d)throw K;return g}function
+fK(a){return lN(function(a){return[0,a]},a)}function
+hH(a){var
+b=aC(a);return lN(function(a){return a},b)}function
+O(a){return fK(aC(a))}function
+bH(a){if(2===a[0])return[0,fK(a[1])];var
+b=X(a),c=O(p(b,v6));return[1,O(p(b,v7)),c]}function
+V(a){throw[0,lK,aO(iz(v9,a),v8)]}function
+hI(c){var
+a=aC(c);if(m(a,v_)){var
+b=m(a,v$);if(b)throw K;return b}return 1}function
+wa(d){var
+b=X(d);function
+a(a){return ek(bH,p(b,a))}var
+c=aC(p(b,wb));if(m(c,wc)){if(m(c,wd)){if(m(c,we))return V([0,wg,[0,c,wf]]);var
+e=aH(b,wh),f=b2(function(a){return ek(bH,a)},e),g=a(wi);return[1,a(wj),g,f]}var
+h=hI(p(b,wk)),i=bH(p(b,wl)),j=a(wm),k=a(wn);return[0,a(wo),k,j,i,h]}return[2,a(wp)]}function
+wq(d){var
+a=X(d);if(a){var
+b=a[1];if(!m(b[1],wr)){var
+c=b[2];if(2===c[0]&&!m(c[1],ws))return 1}}return 0}function
+lO(e){var
+b=X(e);function
+a(a){return R(bH,T(p(b,a)))}var
+c=aC(p(b,wt)),d=aH(b,wu);if(m(c,wv)){if(m(c,ww)){if(!m(c,wx)&&!d){var
+f=a(wA);return[1,a(wB),f]}}else
 if(!d){var
-g=hw(p(b,wb)),h=bE(p(b,wc)),i=a(wd),j=a(we);return[0,a(wf),j,i,h,g]}}else
+g=hI(p(b,wC)),h=bH(p(b,wD)),i=a(wE),j=a(wF);return[0,a(wG),j,i,h,g]}}else
 if(!d){var
-k=hw(p(b,wg)),l=bE(p(b,wh)),n=bE(p(b,wi)),o=a(wj),q=a(wk),r=a(wl);return[2,a(wm),r,q,o,n,l,k]}return U([0,v_,[0,c,v9]])}function
-lw(d){var
-a=W(d);if(a){var
-b=a[1];if(!m(b[1],wn)){var
-c=b[2];if(2===c[0]&&!m(c[1],wo))return 1}}return 0}function
-co(c,d){var
-a=S(d);if(a){var
+k=hI(p(b,wH)),l=bH(p(b,wI)),n=bH(p(b,wJ)),o=a(wK),q=a(wL),r=a(wM);return[2,a(wN),r,q,o,n,l,k]}return V([0,wz,[0,c,wy]])}function
+lP(d){var
+a=X(d);if(a){var
+b=a[1];if(!m(b[1],wO)){var
+c=b[2];if(2===c[0]&&!m(c[1],wP))return 1}}return 0}function
+cr(c,d){var
+a=T(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw J}function
-fw(f,o){var
-x=f?f[1]:f,c=W(o),a=aB(p(c,wp)),i=nQ(a,wq),h=0;if(0<=i)if(0<i)if(m(a,wr))if(m(a,ws))if(m(a,wt))if(m(a,wu))if(m(a,wv)){var
-j=m(a,ww);if(j)h=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw K}function
+fL(f,o){var
+x=f?f[1]:f,c=X(o),a=aC(p(c,wQ)),i=n_(a,wR),h=0;if(0<=i)if(0<i)if(m(a,wS))if(m(a,wT))if(m(a,wU))if(m(a,wV))if(m(a,wW)){var
+j=m(a,wX);if(j)h=1;else
 var
 b=j}else
 var
@@ -5915,7 +6017,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,wR))if(m(a,wS))if(m(a,wT))if(m(a,wU))if(m(a,wV))if(m(a,wW))if(m(a,wX))h=1;else
+if(m(a,xg))if(m(a,xh))if(m(a,xi))if(m(a,xj))if(m(a,xk))if(m(a,xl))if(m(a,xm))h=1;else
 var
 b=1;else
 var
@@ -5930,224 +6032,225 @@ var
 b=9;else
 var
 b=12;var
-l=h?U([0,wy,[0,a,wx]]):b;function
-g(a){return p(c,wz)}var
-d=aB(p(c,wA)),k=m(d,wB);if(k)if(m(d,wC))if(m(d,wD))if(m(d,wE))var
-e=U([0,wG,[0,d,wF]]);else
+l=h?V([0,wZ,[0,a,wY]]):b;function
+g(a){return p(c,w0)}var
+d=aC(p(c,w1)),k=m(d,w2);if(k)if(m(d,w3))if(m(d,w4))if(m(d,w5))var
+e=V([0,w7,[0,d,w6]]);else
 var
-n=co(N,g(0)),e=[2,n[1],n[2]];else
+n=cr(O,g(0)),e=[2,n[1],n[2]];else
 var
-e=[0,N(g(0))];else
+e=[0,O(g(0))];else
 var
-e=[1,N(g(0))];else
+e=[1,O(g(0))];else
 var
 e=k;function
 q(y){var
-a=W(y),b=0;switch(l){case
+a=X(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],wI)){var
+p=a[1];if(!m(p[1],w9)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return U(wJ)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return V(w_)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],wK)){var
+r=a[1];if(!m(r[1],w$)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],wL)){var
+t=g[1];if(!m(t[1],xa)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
-z=N(h[1]);return[1,N(f[1]),z]}}}}}}}}break;case
+z=O(h[1]);return[1,O(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],wM)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],wN)&&!i[2]&&x)return U(wO)}else
+v=a[1];if(!m(v[1],xb)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],xc)&&!i[2]&&x)return V(xd)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],wH)){var
+n=a[1];if(!m(n[1],w8)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,N(d)];throw J}var
-r=bZ(q,aE(c,wP));return[0,l,bZ(cn,aE(c,wQ)),r,e]}function
-hx(c){var
-d=fw(wZ,c),e=d[1];if(2<=e)switch(e-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,O(d)];throw K}var
+r=b2(q,aH(c,xe));return[0,l,b2(cq,aH(c,xf)),r,e]}function
+hJ(c){var
+d=fL(xo,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=fw(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return U(wY)}function
-lx(c){var
-d=fw(w0,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:hx(c)}function
-ly(b){var
-a=W(b[2]);if(m(b[1],w7)){var
-c=co(N,p(a,w8)),d=co(N,p(a,w9)),e=d[2],f=d[1],g=N(p(a,w_));return[1,c[1],c[2],g,f,e]}var
-h=Q(N,S(p(a,w$)));return[0,Q(N,S(p(a,xa))),h]}function
-xb(f){var
-a=W(f);function
-d(b){return N(p(a,b))}function
-c(b){return ee(N,p(a,b))}var
-b=aB(p(a,xc));if(m(b,xd)){if(!m(b,xe)){var
-j=p(a,xk),e=co(function(a){return a},j),k=aE(a,xl),l=bZ(function(a){return c(xm)},k),n=fv(aB(e[2])),o=fv(aB(e[1])),q=d(xn);return[0,cn(p(a,xo)),q,o,n,l]}if(m(b,xf))throw J}var
-g=d(xg),h=c(xh),i=c(xi);return[1,al(b,xj),i,h,g]}function
-hy(ad){var
-e=cP(ad),f=e[1];if(m(f,xp)){if(m(f,xq)){if(m(f,xr)){if(m(f,xs))return U([0,xu,[0,f,xt]]);var
-r=p(W(e[2]),xv),X=0;if(2===r[0]){var
-A=m(r[1],xw);if(!A){var
-z=A;X=1}}if(!X)var
-z=[0,bE(r)];return[6,z]}var
-B=W(e[2]),g=hy([0,[0,[0,xy,p(B,xx)],0]]);if(0===g[0]){var
+a=fL(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(xn)}function
+lQ(c){var
+d=fL(xp,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:hJ(c)}function
+lR(b){var
+a=X(b[2]);if(m(b[1],xw)){var
+c=cr(O,p(a,xx)),d=cr(O,p(a,xy)),e=d[2],f=d[1],g=O(p(a,xz));return[1,c[1],c[2],g,f,e]}var
+h=R(O,T(p(a,xA)));return[0,R(O,T(p(a,xB))),h]}function
+xC(f){var
+a=X(f);function
+d(b){return O(p(a,b))}function
+c(b){return ek(O,p(a,b))}var
+b=aC(p(a,xD));if(m(b,xE)){if(!m(b,xF)){var
+j=p(a,xL),e=cr(function(a){return a},j),k=aH(a,xM),l=b2(function(a){return c(xN)},k),n=fK(aC(e[2])),o=fK(aC(e[1])),q=d(xO);return[0,cq(p(a,xP)),q,o,n,l]}if(m(b,xG))throw K}var
+g=d(xH),h=c(xI),i=c(xJ);return[1,am(b,xK),i,h,g]}function
+hK(ad){var
+e=cU(ad),f=e[1];if(m(f,xQ)){if(m(f,xR)){if(m(f,xS)){if(m(f,xT))return V([0,xV,[0,f,xU]]);var
+r=p(X(e[2]),xW),W=0;if(2===r[0]){var
+A=m(r[1],xX);if(!A){var
+z=A;W=1}}if(!W)var
+z=[0,bH(r)];return[6,z]}var
+B=X(e[2]),g=hK([0,[0,[0,xZ,p(B,xY)],0]]);if(0===g[0]){var
 s=g[2];if(0===s[0]&&!g[3]){var
-ae=N(p(B,xA));return[5,g[1],s[1],s[2],g[4],ae]}}return U(xz)}var
-b=W(e[2]),C=function(c){var
-a=S(p(b,xB));return Q(function(a){return fw(0,a)},a)},h=cP(p(b,xC)),a=cP(p(b,xD)),c=h[1];if(m(c,xE)&&0!==aE(b,xF))return U(yA);if(m(c,xG)&&m(c,xH)&&m(c,xI)){if(0===aE(b,xJ)){if(m(c,xK)){var
-Y=0;if(m(c,xL)){if(!m(c,xM)){var
-D=a[1],Z=0;if(m(D,xP)&&m(D,xQ)){Y=1;Z=1}if(!Z){var
-t=S(h[2]),u=aE(b,xT),E=u?Q(xb,S(u[1])):u,v=C(0);if(!au(v1,t)&&!au(function(a){return 13===a[1]?1:0},v)){var
-F=Q(vL,t),G=au(function(a){return 5===a[1]?1:0},v),ah=G?au(function(a){return 0===a[0]?0:1},F):G;if(ah)U(xW);var
-d=W(a[2]);if(m(a[1],w1))var
-x=co(N,p(d,w2)),y=co(N,p(d,w3)),$=y[2],aa=y[1],ab=N(p(d,w4)),H=[1,x[1],x[2],ab,aa,$];else
+ae=O(p(B,x1));return[5,g[1],s[1],s[2],g[4],ae]}}return V(x0)}var
+b=X(e[2]),C=function(c){var
+a=T(p(b,x2));return R(function(a){return fL(0,a)},a)},h=cU(p(b,x3)),a=cU(p(b,x4)),c=h[1];if(m(c,x5)&&0!==aH(b,x6))return V(y1);if(m(c,x7)&&m(c,x8)&&m(c,x9)){if(0===aH(b,x_)){if(m(c,x$)){var
+Y=0;if(m(c,ya)){if(!m(c,yb)){var
+D=a[1],Z=0;if(m(D,ye)&&m(D,yf)){Y=1;Z=1}if(!Z){var
+t=T(h[2]),u=aH(b,yi),E=u?R(xC,T(u[1])):u,v=C(0);if(!aw(wq,t)&&!aw(function(a){return 13===a[1]?1:0},v)){var
+F=R(wa,t),G=aw(function(a){return 5===a[1]?1:0},v),ah=G?aw(function(a){return 0===a[0]?0:1},F):G;if(ah)V(yl);var
+d=X(a[2]);if(m(a[1],xq))var
+x=cr(O,p(d,xr)),y=cr(O,p(d,xs)),$=y[2],aa=y[1],ab=O(p(d,xt)),H=[1,x[1],x[2],ab,aa,$];else
 var
-ac=ee(N,p(d,w5)),H=[0,ee(N,p(d,w6)),ac];return[0,F,H,E,v]}if(0!==E)U(xU);var
-af=Q(lx,S(p(b,xV))),ag=ly(a);return[1,0,Q(lv,t),0,ag,0,af]}}}else
-if(!m(a[1],xX)){var
-w=C(0),ai=au(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bL(w)?1:0);if(aj)U(xY);var
-ak=N(p(W(a[2]),xZ));return[4,N(p(W(h[2]),x0)),ak,w]}if(!Y)return U([0,xO,[0,c,xN]])}else
-if(!m(a[1],x1)){var
-j=W(h[2]),I=W(a[2]),K=function(c,a){var
-b=S(a);return Q(function(d){var
-a=S(d);if(a){var
+ac=ek(O,p(d,xu)),H=[0,ek(O,p(d,xv)),ac];return[0,F,H,E,v]}if(0!==E)V(yj);var
+af=R(lQ,T(p(b,yk))),ag=lR(a);return[1,0,R(lO,t),0,ag,0,af]}}}else
+if(!m(a[1],ym)){var
+w=C(0),ai=aw(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bN(w)?1:0);if(aj)V(yn);var
+ak=O(p(X(a[2]),yo));return[4,O(p(X(h[2]),yp)),ak,w]}if(!Y)return V([0,yd,[0,c,yc]])}else
+if(!m(a[1],yq)){var
+j=X(h[2]),I=X(a[2]),J=function(c,a){var
+b=T(a);return R(function(d){var
+a=T(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aB(a[1]),e]}}throw J},b)},am=function(d){var
-a=W(d);if(a){var
-b=a[1],c=b[1];if(m(c,x2)){if(!m(c,x3)&&!a[2])return[0,Q(hv,S(b[2]))]}else
-if(!a[2])return[1,hv(b[2])]}throw J},an=Q(hx,S(p(b,x4))),ao=Q(N,S(p(I,x5))),ap=Q(N,S(p(I,x6))),aq=Q(am,S(p(j,x7))),ar=K(hv,p(j,x8)),as=K(bE,p(j,x9));return[3,Q(aB,S(p(j,x_))),as,ar,aq,ap,ao,an]}return U([0,xS,[0,a[1],xR]])}throw J}var
-L=a[1],M=W(h[2]);if(m(L,x$))U([0,yb,[0,L,ya]]);var
-l=bZ(N,aE(M,yc)),at=function(f){var
-a=cP(f),b=a[1];if(m(b,yd)){if(m(b,ye)){if(m(b,yf)){if(m(b,yg))throw J;var
-d=a[2],g=N(p(W(d),yh));return[3,N(p(W(d),yi)),g]}var
-h=a[2],c=function(a){return co(N,p(W(h),a))},i=c(yj),j=c(yk);return[1,c(yl),j,i]}var
-e=co(N,a[2]);return[0,e[1],e[2]]}return[2,N(a[2])]},n=bZ(at,aE(b,ym)),O=m(c,yn),P=O?m(c,yo)?2:1:O,o=S(p(M,yp));if(l&&n&&f4(lw,o)){var
-R=W(a[2]),av=function(c){var
-a=W(c);function
-b(b){return Q(bE,S(p(a,b)))}if(0!==aE(a,yq))U(yr);var
-d=b(ys);return[0,b(yt),d]},aw=Q(hx,S(p(b,yu))),ax=n[1],ay=Q(N,S(p(R,yv))),az=Q(N,S(p(R,yw))),aA=l[1];return[2,P,Q(av,o),aA,az,ay,ax,aw]}var
-_=0;if(!l&&al(c,yz)){var
-T=1;_=1}if(!_)var
-T=[0,P];var
-V=0!==n?1:0,aC=V?au(lw,o):V;if(aC)U(yx);var
-aD=Q(lx,S(p(b,yy))),aF=ly(a);return[1,T,Q(lv,o),l,aF,n,aD]}var
-q=W(e[2]);function
-aG(b){var
-a=W(b),c=N(p(a,yB)),d=[0,N(p(a,yC)),c];return[0,aB(p(a,yD)),d]}var
-i=hy([0,[0,[0,yF,p(q,yE)],0]]);if(0===i[0]&&!i[3]){var
-aH=N(p(q,yH)),aI=N(p(q,yI)),aJ=i[4],aK=i[2],aL=i[1];return[7,Q(aG,S(p(q,yJ))),aL,aK,aJ,aI,aH]}return U(yG)}function
-hz(a){return Q(eg,S(a))}function
-hA(c,b){var
-a=hz(b);if(bL(a)!==c)throw J;return a}function
-lz(a,d){var
-b=W(d),e=S(p(b,yM)),f=a[2],c=Q(function(a){return hA(f,a)},e),g=a[1];if(bL(c)!==g)throw J;return[0,c,fu(p(b,yN))]}function
-eh(g,n){var
+e=k(c,b[1]);return[0,aC(a[1]),e]}}throw K},b)},al=function(d){var
+a=X(d);if(a){var
+b=a[1],c=b[1];if(m(c,yr)){if(!m(c,ys)&&!a[2])return[0,R(hH,T(b[2]))]}else
+if(!a[2])return[1,hH(b[2])]}throw K},an=R(hJ,T(p(b,yt))),ao=R(O,T(p(I,yu))),ap=R(O,T(p(I,yv))),aq=R(al,T(p(j,yw))),ar=J(hH,p(j,yx)),as=J(bH,p(j,yy));return[3,R(aC,T(p(j,yz))),as,ar,aq,ap,ao,an]}return V([0,yh,[0,a[1],yg]])}throw K}var
+L=a[1],M=X(h[2]);if(m(L,yA))V([0,yC,[0,L,yB]]);var
+l=b2(O,aH(M,yD)),at=function(f){var
+a=cU(f),b=a[1];if(m(b,yE)){if(m(b,yF)){if(m(b,yG)){if(m(b,yH))throw K;var
+d=a[2],g=O(p(X(d),yI));return[3,O(p(X(d),yJ)),g]}var
+h=a[2],c=function(a){return cr(O,p(X(h),a))},i=c(yK),j=c(yL);return[1,c(yM),j,i]}var
+e=cr(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},n=b2(at,aH(b,yN)),N=m(c,yO),P=N?m(c,yP)?2:1:N,o=T(p(M,yQ));if(l&&n&&gg(lP,o)){var
+Q=X(a[2]),au=function(c){var
+a=X(c);function
+b(b){return R(bH,T(p(a,b)))}if(0!==aH(a,yR))V(yS);var
+d=b(yT);return[0,b(yU),d]},av=R(hJ,T(p(b,yV))),ax=n[1],ay=R(O,T(p(Q,yW))),az=R(O,T(p(Q,yX))),aA=l[1];return[2,P,R(au,o),aA,az,ay,ax,av]}var
+_=0;if(!l&&am(c,y0)){var
+S=1;_=1}if(!_)var
+S=[0,P];var
+U=0!==n?1:0,aB=U?aw(lP,o):U;if(aB)V(yY);var
+aD=R(lQ,T(p(b,yZ))),aE=lR(a);return[1,S,R(lO,o),l,aE,n,aD]}var
+q=X(e[2]);function
+aF(b){var
+a=X(b),c=O(p(a,y2)),d=[0,O(p(a,y3)),c];return[0,aC(p(a,y4)),d]}var
+i=hK([0,[0,[0,y6,p(q,y5)],0]]);if(0===i[0]&&!i[3]){var
+aG=O(p(q,y8)),aI=O(p(q,y9)),aJ=i[4],aK=i[2],aL=i[1];return[7,R(aF,T(p(q,y_))),aL,aK,aJ,aI,aG]}return V(y7)}function
+hL(a){return R(em,T(a))}function
+hM(c,b){var
+a=hL(b);if(bN(a)!==c)throw K;return a}function
+lS(a,d){var
+b=X(d),e=T(p(b,zb)),f=a[2],c=R(function(a){return hM(f,a)},e),g=a[1];if(bN(c)!==g)throw K;return[0,c,fJ(p(b,zc))]}function
+en(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=nQ(a,yO),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,yP)&&m(a,yQ)&&m(a,yR))if(m(a,yS))f=1;else{var
+e=d[1],a=e[1],N=n_(a,zd),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,ze)&&m(a,zf)&&m(a,zg))if(m(a,zh))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=Q(hz,S(r[1])),ac=aB(q[1]);return[8,eh(g,o[1]),ac,ab]}b=1;f=1}else
+ab=R(hL,T(r[1])),ac=aC(q[1]);return[8,en(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
 ad=e[2],t=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
-R=e[2];if(1===R[0]){var
-u=R[1];if(u){var
+Q=e[2];if(1===Q[0]){var
+u=Q[1];if(u){var
 v=u[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=fu(w[1]),af=eg(v[1]);return[5,eh(g,u[1]),af,ae]}b=1}}}}}else
-if(m(a,yV))if(m(a,yW))if(m(a,yX))if(m(a,yY)){if(!m(a,yZ)){if(!d[2]){var
-T=W(e[2]),ag=S(p(T,y0)),ah=M+1|0,V=Q(function(a){return hA(ah,a)},ag);if(3===bL(V))return[1,y2,V,fu(p(T,y1))];throw J}b=1}}else{if(!d[2]){var
-I=aB(e[2]),K=m(I,yK);if(K){if(m(I,yL))throw J;var
+ae=fJ(w[1]),af=em(v[1]);return[5,en(g,u[1]),af,ae]}b=1}}}}}else
+if(m(a,zk))if(m(a,zl))if(m(a,zm))if(m(a,zn)){if(!m(a,zo)){if(!d[2]){var
+S=X(e[2]),ag=T(p(S,zp)),ah=M+1|0,U=R(function(a){return hM(ah,a)},ag);if(3===bN(U))return[1,zr,U,fJ(p(S,zq))];throw K}b=1}}else{if(!d[2]){var
+I=aC(e[2]),J=m(I,y$);if(J){if(m(I,za))throw K;var
 L=1}else
 var
-L=K;return[2,L]}b=1}else{if(!d[2]){var
+L=J;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],l=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],D=Z[1],c=0;if(m(D,y4)&&m(D,y5))if(m(D,y6))c=1;else{var
+Z=j[1],D=Z[1],c=0;if(m(D,zt)&&m(D,zu))if(m(D,zv))c=1;else{var
 _=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 k=E[1],h=0;switch(k[0]){case
 0:var
 F=k[1];if(F){var
-$=F[1][1],aa=0;if(m($,y8)&&m($,y9)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(k[1],y_)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=F[1][1],aa=0;if(m($,zx)&&m($,zy)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(k[1],zz)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 G=E[2];if(G){var
 H=G[2];if(H&&!(H[2]||j[2])){var
-am=fu(H[1]),an=eg(G[1]),x=[6,eh(g,k),an,am];l=1;c=1}else
+am=fJ(H[1]),an=em(G[1]),x=[6,en(g,k),an,am];l=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])l=2}break;case
-2:if(!m(i[1],y$))l=2;break}switch(l){case
+2:if(!m(i[1],zA))l=2;break}switch(l){case
 0:var
-x=U(y7);break;case
+x=V(zw);break;case
 2:var
-x=eh(g,i);break}return[7,x]}b=1}else{var
-X=e[2];if(1===X[0]){var
-y=X[1];if(y){var
+x=en(g,i);break}return[7,x]}b=1}else{var
+W=e[2];if(1===W[0]){var
+y=W[1];if(y){var
 z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hA(M+1|0,ai)]};b=2}}}}else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hM(M+1|0,ai)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 A=Y[1];if(A){var
 B=A[2];if(B){var
 C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(m(dr(C[1]),y3))throw J;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,eg(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return U([0,yU,[0,a,yT]]);break;case
+ak=B[1];if(m(dw(C[1]),zs))throw K;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,em(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return V([0,zj,[0,a,zi]]);break;case
 1:break;default:var
-P=lz(g,t);return s(P[1],P[2])}}break;case
-2:return[0,n[1]]}throw J}function
-lA(j){var
-b=cP(j),a=b[1];if(m(a,zc)){var
-g=m(a,zd);if(!g)return g;if(!m(a,ze)){var
+P=lS(g,t);return s(P[1],P[2])}}break;case
+2:return[0,n[1]]}throw K}function
+lT(k){var
+b=cU(k),a=b[1];if(m(a,zD))if(m(a,zE)){var
+g=m(a,zF);if(!g)return g;if(!m(a,zG)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-k=cn(d[1]);return[1,cn(c[1]),k]}}}}}else{var
+l=cq(d[1]);return[1,cq(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-l=Q(hz,S(f[1]));return[0,cn(e[1]),l]}}}}return U([0,zg,[0,a,zf]])}function
-lB(f,b){var
-a=W(b),c=S(p(a,zl)),d=Q(function(g){var
-a=W(g);function
+n=R(hL,T(f[1]));return[0,cq(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,zI,[0,a,zH]])}function
+lU(f,b){var
+a=X(b),c=T(p(a,zN)),d=R(function(g){var
+a=X(g);function
 b(d,c){var
-b=aE(a,c);return b?Q(d,S(b[1])):b}var
-c=b(eg,zh),d=bZ(lA,aE(a,zi)),e=bZ(cn,aE(a,zj));return[0,b(function(h){var
-b=S(h);if(b){var
+b=aH(a,c);return b?R(d,T(b[1])):b}var
+c=b(em,zJ),d=b2(lT,aH(a,zK)),e=b2(cq,aH(a,zL));return[0,b(function(h){var
+b=T(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],za)){if(!a[2]){if(m(dr(e),zb))throw J;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zB)){if(!a[2]){if(m(dw(e),zC))throw K;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eh(f,c);return[0,cn(e),g]}}}throw J},zk),e,d,c]},c),e=aE(a,zm),g=bZ(function(a){return lz(f,a)},e);return[0,ls(p(a,zn)),g,d]}function
-lC(c){var
-a=W(c),b=aE(a,zo),d=b?Q(N,S(b[1])):b,e=lA(p(a,zp)),f=Q(N,S(p(a,zq)));return[0,ls(p(a,zr)),f,d,e]}function
-lD(c){var
+g=en(f,c);return[0,cq(e),g]}}}throw K},zM),e,d,c]},c),e=aH(a,zO),g=b2(function(a){return lS(f,a)},e);return[0,lL(p(a,zP)),g,d]}function
+lV(c){var
+a=X(c),b=aH(a,zQ),d=b?R(O,T(b[1])):b,e=lT(p(a,zR)),f=R(O,T(p(a,zS)));return[0,lL(p(a,zT)),f,d,e]}function
+lW(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-zB(c){var
+z3(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],zC))a=1;break;case
+0:if(!m(b[1],z4))a=1;break;case
 7:a=1;break}return a?1:0}function
-zD(g){var
-i=ak(g),b=[0,0];function
-j(a){if(b[1]<i)return aG(g,b[1]);throw J}function
-l(a){if(j(0)===a){b[1]++;return 0}throw J}function
-z(a,c){for(;;){if(b[1]<i&&k(c,aG(g,b[1]))){b[1]++;continue}return cY(g,a,b[1]-a|0)}}function
+z5(g){var
+i=al(g),b=[0,0];function
+j(a){if(b[1]<i)return aJ(g,b[1]);throw K}function
+l(a){if(j(0)===a){b[1]++;return 0}throw K}function
+z(a,c){for(;;){if(b[1]<i&&k(c,aJ(g,b[1]))){b[1]++;continue}return c4(g,a,b[1]-a|0)}}function
 A(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6161,16 +6264,16 @@ f=[0,k(h,0),e];if(44===j(0)){b[1]++;var
 e=f;continue}l(d);var
 a=f,c=0;for(;;){if(a){var
 g=[0,a[1],c],a=a[2],c=g;continue}return c}}}function
-s(c,i){if(64<c)throw J;var
+s(c,i){if(64<c)throw K;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 e=93,f=c+1|0;return[1,B(function(a){return s(f,a)},e)]}if(123===a){b[1]++;var
 g=125;return[0,B(function(b){var
 a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
 h=b[1];b[1]++;return[3,z(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw J}var
-N=s(0,0),C=b[1]<i?1:0,O=C?10===aG(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw J;var
-r=W(N);if(m(aB(p(r,zE)),zF))throw J;var
-a=hy(p(r,zG)),w=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw K}var
+N=s(0,0),C=b[1]<i?1:0,O=C?10===aJ(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw K;var
+r=X(N);if(m(aC(p(r,z6)),z7))throw K;var
+a=hK(p(r,z8)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -6180,73 +6283,73 @@ if(1===u[1])var
 v=6;else
 x=1;if(x)var
 v=3;var
-f=[0,bL(a[2]),v];break;case
+f=[0,bN(a[2]),v];break;case
 2:var
-ac=1===a[1]?6:3,f=[0,bL(a[2]),ac];break;case
+ac=1===a[1]?6:3,f=[0,bN(a[2]),ac];break;case
 3:var
-ad=bL(a[1]),f=[0,bL(a[4]),ad];break;case
+ad=bN(a[1]),f=[0,bN(a[4]),ad];break;case
 7:var
 D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-f=zW}if(w)var
-f=[0,bL(D),3];var
-n=cP(p(r,zH)),o=n[1];if(m(o,zw))if(m(o,zx))if(m(o,zy))var
-c=U([0,zA,[0,o,zz]]);else
+f=Am}if(w)var
+f=[0,bN(D),3];var
+n=cU(p(r,z9)),o=n[1];if(m(o,zY))if(m(o,zZ))if(m(o,z0))var
+c=V([0,z2,[0,o,z1]]);else
 var
-q=lC(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=lV(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=lB(f,n[2]),c=[0,t[1],t[2],t[3]];else
+t=lU(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-P=S(n[2]),c=[2,Q(function(g){var
-a=cP(g),b=a[1];if(m(b,zs)){if(m(b,zt)){if(m(b,zu)){var
-e=m(b,zv);if(e)throw J;return e}return[0,cn(a[2])]}var
-c=lC(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=lB(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
-R(a){var
-b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
-T(a){return 0!==a[3]?1:0}function
-E(a){return au(T,a)}var
+P=T(n[2]),c=[2,R(function(g){var
+a=cU(g),b=a[1];if(m(b,zU)){if(m(b,zV)){if(m(b,zW)){var
+e=m(b,zX);if(e)throw K;return e}return[0,cq(a[2])]}var
+c=lV(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lU(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+Q(a){var
+b=a[1];return aw(function(a){return 8===a[2][0]?1:0},b)}function
+S(a){return 0!==a[3]?1:0}function
+E(a){return aw(S,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
 0:var
 H=F,G=a[1];d=4;break;case
 1:var
-K=F;d=5;break}break;case
+J=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-_=c[3];if(au(function(a){var
-b=a[1];return au(function(a){switch(a[2][0]){case
+_=c[3];if(aw(function(a){var
+b=a[1];return aw(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_)){U(zQ);d=1}else
+7:return 1;default:return 0}},b)},_)){V(Ag);d=1}else
 d=2;break;case
 1:var
-$=a[6];if(au(function(a){return 8===a[1]?1:0},$)){U(zR);d=1}break}break;case
+$=a[6];if(aw(function(a){return 8===a[1]?1:0},$)){V(Ah);d=1}break}break;case
 2:if(1===c[0]){var
-ab=a[7];if(au(function(b){var
+ab=a[7];if(aw(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},ab)){U(zU);d=1}else
+6:return 1}return 0},ab)){V(Ak);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){U(zV);d=1}else
+3:if(1===c[0]){V(Al);d=1}else
 d=3;break;case
 5:var
-K=a[4];d=5;break;case
+J=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(au(R,c[3])){U(zS);e=3}else
+3:if(0===c[0])if(aw(Q,c[3])){V(Ai);e=3}else
 if(3===a[0])e=1;else{var
-aa=c[3];if(f4(function(a){return f4(zB,a[1])},aa))e=1;else{U(zT);e=3}}else
+aa=c[3];if(gg(function(a){return gg(z3,a[1])},aa))e=1;else{V(Aj);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-L=0;if(au(function(a){return 10===a[1]?1:0},H)&&au(function(a){return 2===a[0]?1:0},G)){U(zI);L=1}if(!L)e=1;break;case
-5:if(au(lD,K))U(zP);else
+L=0;if(aw(function(a){return 10===a[1]?1:0},H)&&aw(function(a){return 2===a[0]?1:0},G)){V(z_);L=1}if(!L)e=1;break;case
+5:if(aw(lW,J))V(Af);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
@@ -6255,7 +6358,7 @@ y=0;switch(e){case
 h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-X=c[3];if(au(function(a){return 0!==a[1]?1:0},X)){U(zN);h=1;M=1}}if(!M)h=1;break;case
+W=c[3];if(aw(function(a){return 0!==a[1]?1:0},W)){V(Ad);h=1;M=1}}if(!M)h=1;break;case
 7:var
 Y=a[4];switch(c[0]){case
 0:break;case
@@ -6263,24 +6366,24 @@ Y=a[4];switch(c[0]){case
 Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return au(lD,Y)}return 0};if(au(Z,c[1]))U(zO);h=1}break}if(!h)if(0===c[0]&&E(c[3]))U(zM);else
+2:return aw(lW,Y)}return 0};if(aw(Z,c[1]))V(Ae);h=1}break}if(!h)if(0===c[0]&&E(c[3]))V(Ac);else
 y=1;break;case
 2:y=1;break}var
-I=W(p(r,zJ)),V=aB(p(I,zK));return[0,a,c,aB(p(I,zL)),V]}function
-zX(b){var
-c=ak(b),g=64,h=By(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=X(p(r,z$)),U=aC(p(I,Aa));return[0,a,c,aC(p(I,Ab)),U]}function
+An(b){var
+c=al(b),g=64,h=B0(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=al(cY(b,a,18),zY);if(!e){var
+e=am(c4(b,a,18),Ao);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}BT(function(b){try{if(zX(b))var
-a=z0;else{try{var
-e=0,d=zD(b);e=1}catch(a){a=nS(a);if(a[1]===lr)var
-c=[0,a[2]];else{if(a!==J)throw a;var
+f=d;return f}}Cj(function(b){try{if(An(b))var
+a=Aq;else{try{var
+e=0,d=z5(b);e=1}catch(a){a=oa(a);if(a[1]===lK)var
+c=[0,a[2]];else{if(a!==K)throw a;var
 c=2}}if(e)var
-c=vw(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return zZ}if(typeof
+c=vX(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Ap}if(typeof
 a==="number")switch(a){case
-0:return z1;case
-1:return z2;default:return z3}return aN(z4,a[1])});il(0);return}(globalThis));
+0:return Ar;case
+1:return As;default:return At}return aO(Au,a[1])});iy(0);return}(globalThis));
