@@ -146,8 +146,8 @@ Local Open Scope string_scope.
 Local Notation x := (Named "x").
 Local Notation one := (Constant (1 // 1)).
 Definition claim (definitions : list (string * written)) (entry : written) : written_claim :=
-  MakeWrittenClaim (Mechanism ["x"] [] definitions [ByRow [entry]]) [Within (1 // 1) (2 // 1)] [Nonsingular].
-Definition accepts (c : written_claim) : bool := certify_written 512 52 c (Leaf [(0%nat, ByLower 0%N [[1%Z]])]).
+  MakeWrittenClaim (Mechanism ["x"] [] definitions [ByRow [entry]]) [Within (1 // 1) (2 // 1)] [Nonsingular] false.
+Definition accepts (c : written_claim) : bool := certify_written 512 52 (0%N, []) 0 c (Leaf [(0%nat, ByLower 0%N [[1%Z]])]).
 Local Notation rate := (Sum one (Raised x 2)).
 
 Example as_it_is : accepts (claim [] rate) = true. Proof. vm_compute. reflexivity. Qed.
@@ -158,6 +158,15 @@ Example times_zero : accepts (claim [] (Sum rate (Product (Constant (0 // 1)) (Q
 Example radicand_negative : accepts (claim [("y", RootOf (Difference x (Constant (3 // 1))))] rate) = false. Proof. vm_compute. reflexivity. Qed.
 Example no_such_name : accepts (claim [] (Sum rate (Named "y"))) = false. Proof. vm_compute. reflexivity. Qed.
 Example a_name_twice : accepts (claim [("x", one)] rate) = false. Proof. vm_compute. reflexivity. Qed.
+
+(** No two points have the same x^2, from 1 to 2; of a joint by its row nothing is said. *)
+Definition once (joint : written_joint) (y : Z) (steps : list (nat * evidence)) : bool :=
+  certify_written 512 52 (0%N, [[y]]) 1 (MakeWrittenClaim (Mechanism ["x"] [] [] [joint]) [Within (1 // 1) (2 // 1)] [Nonsingular] true) (Leaf steps).
+Local Notation shown := [(0, ByLower 0%N [[1%Z]]); (1, ByChords)]%nat.
+Example one_to_one_ : once (ByCoordinate (Raised x 2)) 1 shown = true. Proof. vm_compute. reflexivity. Qed.
+Example the_other_sign : once (ByCoordinate (Raised x 2)) (-1) shown = false. Proof. vm_compute. reflexivity. Qed.
+Example by_a_row : once (ByRow [rate]) 1 shown = false. Proof. vm_compute. reflexivity. Qed.
+Example not_shown : once (ByCoordinate (Raised x 2)) 1 [(0, ByLower 0%N [[1%Z]])]%nat = false. Proof. vm_compute. reflexivity. Qed.
 End Formulas.
 
 (** One joint with the row -2 x, x from 1 to 2: the text ["2*-x"] has one reading, whatever a reader makes of it. *)

@@ -609,6 +609,8 @@ Definition demand_of (are_angles : bool) (legs : nat) (r : written_requirement) 
   end.
 Definition demands (are_angles : bool) (legs : nat) (rs : list written_requirement) : list demand :=
   (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of are_angles legs) rs)%list.
+(** What is claimed of two points of a workspace, which a cube is not. *)
+Definition is_of_two_points (r : written_requirement) : bool := match about_ r with OneToOne_ => true | _ => false end.
 Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) : bool :=
   match about_ r, end_ r, leg_ r, given_ r with
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None => true
@@ -651,7 +653,7 @@ Definition written_claim_of (xs : list string) (ps : list (string * quantity)) (
     (rows : list written_form) (a b : list expression) (rs : list written_requirement) : written_claim :=
   MakeWrittenClaim
     (Mechanism xs (map (fun p => (fst p, tolerance_of (snd p))) ps) (map (fun d => (fst d, written_of (snd d))) ds) (map (fun j => match j with Row_ r => ByRow (map written_of r) | Rho_ x => ByCoordinate (written_of x) end) rows))
-    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands false (length rows) rs).
+    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands false (length rows) rs) (existsb is_of_two_points rs).
 
 (** A vector whose last components are 0 where they are not written. *)
 Definition vector_of (l : list tolerance) : tolerances :=
@@ -1141,9 +1143,6 @@ Definition are_bodies (ls : list written_leg) (bs : list written_body) (rs : lis
 Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
   are_bodies ls bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
-(** What is claimed of the points of a workspace, which a cube is not. *)
-Definition is_of_two_points (r : written_requirement) : bool := match about_ r with OneToOne_ => true | _ => false end.
-
 (** Nodes are halved along coordinates that there are. *)
 Definition splits_below (n : nat) (nodes : list node) : bool :=
   forallb (fun x => match split_ x with Some k => Nat.ltb k n | None => true end) nodes.
@@ -1153,10 +1152,18 @@ Definition are_well_formed_formulas (xs : list string) (ps : list (string * quan
   let has_coordinate r := match about_ r with
     | JointRange => forallb (fun j => match nth_error rows j with Some (Rho_ _) => true | _ => false end)
         match leg_ r with Some k => [pred k] | None => seq 0 (length rows) end
+    | OneToOne_ => forallb (fun j => match j with Rho_ _ => true | _ => false end) rows
     | _ => true
     end in
-  Nat.eqb (length a) (length b) && forallb (fun r => is_turning_demand n (length rows) r && has_coordinate r) rs && is_each_once rs &&
+  let is_asked r := match about_ r, end_ r, leg_ r, given_ r with OneToOne_, Holds_, None, None => true | _, _, _, _ => is_turning_demand n (length rows) r end in
+  Nat.eqb (length a) (length b) && forallb (fun r => is_asked r && has_coordinate r) rs && is_each_once rs &&
   forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) rs).
+
+(** How many obligations are before that of two points. *)
+Fixpoint before_two_points (rs : list written_requirement) : list written_requirement :=
+  match rs with r :: rs' => if is_of_two_points r then [] else r :: before_two_points rs' | [] => [] end.
+Definition place_of_two_points (legs : nat) (rs : list written_requirement) : nat :=
+  (length (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end) + length (flat_map (demand_of false legs) (before_two_points rs)))%nat.
 
 (** A witness has a number for each tolerance. *)
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
@@ -1166,13 +1173,14 @@ Definition is_one_each (qs : list quantity) (machine : list expression) : bool :
 Definition free_parameters (k : claim) : list nat :=
   let ps := layouts (length_order (legs k)) (map direction_order (legs k)) (legs k) in
   map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps)).
+Definition matrix_of (chords : option (list (list Z) * N)) : N * list (list Z) := match chords with Some (y, places) => (places, y) | None => (0%N, []) end.
 (** Tolerances are not taken apart in cells of atlases. *)
 Definition accept_tree (of_cell : bool) (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
   let k := claim_of ls w bs rs in
   match tree_of (if of_cell then [] else free_parameters k) (length nodes) nodes with
   | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
-      certify exact_bits bits match chords with Some (y, places) => (places, y) | None => (0%N, []) end k (length_order (legs k)) (map direction_order (legs k)) t
+      certify exact_bits bits (matrix_of chords) k (length_order (legs k)) (map direction_order (legs k)) t
   | _ => false
   end.
 (** Units of legs in any motion. *)
@@ -1266,10 +1274,10 @@ Definition accept (c : certificate) : bool :=
           certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
-  | Formulas_ xs ps ds rows a b rs, Nodes bits _ nodes =>
+  | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
       match tree_of [] (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas xs ps rows a b rs && splits_below (length xs) nodes &&
-          certify_written exact_bits bits (written_claim_of xs ps ds rows a b rs) t
+          certify_written exact_bits bits (matrix_of chords) (place_of_two_points (length rows) rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
   | Closed_ offset side rs, Nodes _ _ _ => is_number (denoted offset) &&
@@ -1326,7 +1334,7 @@ Proof.
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_turning_sound _ _ _ _ _ _ h).
   - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
-    exact (certify_written_sound _ _ _ _ h).
+    exact (certify_written_sound _ _ _ _ _ _ h).
   - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
   - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).

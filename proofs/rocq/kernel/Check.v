@@ -49,12 +49,12 @@ Inductive tree :=
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
-    [Chords]: Y^T A + A^T Y > 0, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
+    [Chords]: Y^T A + A^T Y > 0 of these rows A, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
     half-width with the derivative by it, errors and half-widths over the distance. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
   | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
-  | Solved (i : nat) (k2 : fixed) | Chords (places : N) (Y : list (list Z))
+  | Solved (i : nat) (k2 : fixed) | Chords (r : rows nat) (places : N) (Y : list (list Z))
   | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat)))).
 
 Section Precision.
@@ -140,7 +140,7 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
       | Some p, Some p', Some q, Some q' => are_apart bits m less distance places Y p p' q q'
       | _, _, _, _ => false
       end
-  | Chords places Y, ByChords => over_rows values whole (chords m less places Y)
+  | Chords r places Y, ByChords => over_rows values r (chords m less places Y)
   | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
   | _, _ => false
   end.
@@ -327,7 +327,7 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
       let w := away (between s (at_ p) (at_ p')) (between t (at_ q) (at_ q')) in d ^ 2 < inner w w
   | Solved i k2 => of_these x (map_rows formula_at whole) (fun r => length r = m /\ forall k u, contains k2 k -> 0 <= k -> length u = length r -> nonzero u ->
       let p := Solve.weighted_sum u (map fst r) in k * (nth i (map snd r) 0 * nth i u 0 ^ 2) < dot p p)
-  | Chords places Y => of_these x (map_rows formula_at whole) (fun r => forall v, length v = m -> nonzero v ->
+  | Chords r places Y => of_these x (map_rows formula_at r) (fun r => forall v, length v = m -> nonzero v ->
       0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v)
   end.
 
@@ -465,7 +465,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -751,7 +751,7 @@ Proof.
       cbn [forallb] in hh. apply andb_true_iff in hh as [hh _]. pose proof (Tolerances.sign_apart_sound bits _ _ _ _ hh hv ht). destruct A as [A0 A1]. cbn [snd form fst] in *.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | places0 Y0 | distance joints],
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints],
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].

@@ -435,7 +435,7 @@ Definition test_of (place : formula -> nat) (ps : list parameter) (fs : list leg
       | [f] => if Compare.certainly bits false a && Compare.certainly bits true b then Some (AtLeast (place f)) else None
       | _ => None
       end
-  | OneToOne => Some (Chords (fst one_matrix) (snd one_matrix))
+  | OneToOne => Some (Chords (map_rows place (whole_rows fs)) (fst one_matrix) (snd one_matrix))
   | Accuracy error b =>
       if Nat.eqb (length fs) 3 && Compare.certainly bits false error && Compare.certainly bits true b then
         match enclose_parameter bits (bound_of s r), all_some (map (joint_test place ps s error b) fs) with
@@ -1270,8 +1270,8 @@ Lemma one_to_one : forall s fs m P P' theta tape params, (forall e, In e (entrie
   Forall2 (represents (vscale (/ two_to s) P') theta) fs (map (resized (/ two_to s)) m) ->
   Forall well_formed_leg m -> Forall (reaches P) m -> Forall (reaches P') m -> Forall (fun l => joint l P' = joint l P) m ->
   forall places Y divided,
-  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P)) (Chords places Y) ->
-  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P')) (Chords places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P)) (Chords (map_rows (place (formulas tape)) (whole_rows fs)) places Y) ->
+  Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) divided [] params theta 3 (coordinates (vscale (/ two_to s) P')) (Chords (map_rows (place (formulas tape)) (whole_rows fs)) places Y) ->
   P' = P.
 Proof.
   intros s fs m P P' theta tape params found h h' ok re re' e places Y divided H H'.

@@ -5,6 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
 From Orthocert Require Import Velocity Fixed Claim.
+From Orthocert Require MeanValue.
 From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Drives Driven.
 From Orthocert.kernel Require Gradient.
 Import ListNotations.
@@ -60,7 +61,8 @@ Record mechanism := Mechanism {
   definitions : list (string * written);
   joint_forms : list written_joint
 }.
-Record written_claim := MakeWrittenClaim { by_formulas : mechanism; box_of : list tolerance; written_demands : list demand }.
+(** [one_to_one]: no two points of the box have the same joint coordinates. *)
+Record written_claim := MakeWrittenClaim { by_formulas : mechanism; box_of : list tolerance; written_demands : list demand; one_to_one : bool }.
 
 (** Values of all names, those of definitions from those before them. *)
 Definition given {A : Type} (c : mechanism) (x theta : list A) : environment A :=
@@ -87,13 +89,17 @@ Definition machine_at (c : mechanism) (theta x : list R) (M : list (list R)) : c
     (all_defined (given c x theta) (definitions c) /\
      Forall (fun j => match j with ByRow es => Forall (is_defined env) es | ByCoordinate e => is_defined env e end) (joint_forms c)).
 
+(** Joint coordinates, of joints that have one. *)
+Definition joint_values (c : mechanism) (theta x : list R) : list coordinate := joints (machine_at c theta x []).
+
 Definition is_about_written (c : written_claim) (theta x : list R) : Prop :=
   Forall2 (fun p y => within (snd p) y) (parameters (by_formulas c)) theta /\ Forall2 within (box_of c) x.
 
 (** Every machine of the claim meets it at every point of the box. *)
 Definition written_holds (c : written_claim) : Prop := forall theta x, is_about_written c theta x ->
-  exists M, Forall2 (is_row (by_formulas c) theta x) (joint_forms (by_formulas c)) M /\
-    Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x M) (written_demands c).
+  (exists M, Forall2 (is_row (by_formulas c) theta x) (joint_forms (by_formulas c)) M /\
+    Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x M) (written_demands c)) /\
+  (one_to_one c = true -> forall y, Forall2 within (box_of c) y -> joint_values (by_formulas c) theta y = joint_values (by_formulas c) theta x -> y = x).
 
 (** ** As formulas: numbers are parameters of the tape, one each *)
 
@@ -347,7 +353,10 @@ Definition given_formulas (c : mechanism) : environment formula :=
 
 Section Precision.
 Variable bits : positive.
+(** Of claims that are one to one: the one matrix, and before which other test this is counted. *)
+Variables (one_matrix : N * list (list Z)) (one_place : nat).
 
+Definition inserted {A : Type} (l : list A) (a : A) : list A := firstn one_place l ++ a :: skipn one_place l.
 Definition check_written (c : written_claim) (t : tree) : bool :=
   let f := by_formulas c in let n := length (coordinate_names f) in let demands := written_demands c in
   let j := length (parameters f) in let i := (j + length (all_literals (map snd (definitions f))))%nat in
@@ -360,9 +369,11 @@ Definition check_written (c : written_claim) (t : tree) : bool :=
   let place := place (formulas tape) in
   Nat.eqb (length (box_of c)) n && forallb (fun j => match j with ByRow es => Nat.eqb (length es) n | ByCoordinate _ => true end) (joint_forms f) &&
   forallb (fun e => Formula.same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands &&
+  (negb (one_to_one c) || forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)) &&
   match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (enclose_input bits) (flat_map (inputs_of false 0) demands)),
         all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each (tests_for bits place fs false 0) false 0 at_ demands) with
   | Some params, Some numbers, Some box, Some tests =>
+      let tests := if one_to_one c then inserted tests (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix)) else tests in
       check bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) tests (fun _ => None) box (all_open tests) t
   | _, _, _, _ => false
   end.
@@ -469,6 +480,84 @@ Proof.
 Qed.
 End Joints.
 
+(** *** One to one: between two points of the box, sum_i w_i rho_i grows where the form that the one matrix shows is positive *)
+
+Fixpoint weighted (w : list (R * R)) (rho : list R) : R :=
+  match w, rho with (p, _) :: w', a :: rho' => p * a + weighted w' rho' | _, _ => 0 end.
+Definition rho_of (c : mechanism) (theta x : list R) (j : written_joint) : R :=
+  match j with ByRow _ => 0 | ByCoordinate e => meaning (environment_at c theta x) e end.
+
+Lemma same_values : forall c theta x y, joint_values c theta y = joint_values c theta x ->
+  map (rho_of c theta y) (joint_forms c) = map (rho_of c theta x) (joint_forms c).
+Proof.
+  intros c theta x y. unfold joint_values, machine_at, rho_of. cbn [joints]. induction (joint_forms c) as [| [es | e] js IH]; cbn [map]; intro h; [reflexivity | |];
+    injection h; intros; f_equal; auto.
+Qed.
+
+Lemma nth_way : forall t a b k, length a = length b -> nth k (on_the_way t a b) 0 = nth k a 0 + t * (nth k b 0 - nth k a 0).
+Proof. intros t a b k l. pose proof (on_the_way_nth t [] a b k l) as H. rewrite !app_nil_r in H. exact H. Qed.
+Lemma way_length : forall t a b, length a = length b -> length (on_the_way t a b) = length a.
+Proof. intros t a b l. unfold on_the_way. rewrite map_length, combine_length, <- l. apply Nat.min_id. Qed.
+Lemma way_within : forall t bs a b, 0 <= t <= 1 -> Forall2 within bs a -> Forall2 within bs b -> Forall2 within bs (on_the_way t a b).
+Proof.
+  intros t bs a b ht ha. revert b. induction ha as [| q x bs a hx ha IH]; intros [| y b] hb; inversion hb as [| ? ? ? ? hy hs]; subst; constructor; [| exact (IH b hs)].
+  unfold within in *. cbn [fst snd]. nra.
+Qed.
+
+Lemma weighted_rate : forall c theta x d path t w js M, length d = length (coordinate_names c) ->
+  (forall s, length (path s) = length (coordinate_names c)) -> path t = x -> (forall k, derivable_pt_lim (fun s => nth k (path s) 0) t (nth k d 0)) ->
+  forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) js = true -> Forall2 (is_row c theta x) js M ->
+  derivable_pt_lim (fun s => weighted w (map (rho_of c theta (path s)) js)) t (form w (map (fun row => (row, 0)) M) d).
+Proof.
+  intros c theta x d path t w js M ld lp pt hd co h.
+  assert (Shift : forall g l, derivable_pt_lim (fun s => g (t + s)) 0 l -> derivable_pt_lim g t l).
+  { intros g l H eps e0. destruct (H eps e0) as [delta D]. exists delta. intros u nz small. specialize (D u nz small). rewrite Rplus_0_r, Rplus_0_l in D. exact D. }
+  revert w. induction h as [| j row js M hj h IH]; intros w; cbn [map forallb] in *.
+  - eapply derivable_eq; [apply (derivable_const 0) | intro s; destruct w as [| [p q] w]; reflexivity | destruct w as [| [p q] w]; reflexivity].
+  - apply andb_true_iff in co as [cj co]. destruct j as [| e]; [discriminate |]. destruct w as [| [p q] w].
+    { eapply derivable_eq; [apply (derivable_const 0) | intro s; reflexivity | reflexivity]. }
+    assert (K : derivable_pt_lim (fun s => rho_of c theta (path s) (ByCoordinate e)) t (Linear.dot row d)).
+    { apply Shift. destruct hj as [_ hj]. apply (hj (fun s => path (t + s)) d); [intro; apply lp | rewrite Rplus_0_r; exact pt |].
+      intros k eps e0. destruct (hd k eps e0) as [delta D]. exists delta. intros u nz small. specialize (D u nz small). rewrite Rplus_0_l, Rplus_0_r. exact D. }
+    eapply derivable_eq; [apply derivable_add; [apply (derivable_pt_lim_scal _ p _ _ K) | exact (IH co w)] | intro s; reflexivity | cbn [form]; ring].
+Qed.
+
+(** Of rows as a function of the point. *)
+Lemma chords_differ : forall c theta box places Y (M : list R -> list (list R)) x y, forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms c) = true ->
+  (forall z, Forall2 within box z -> length z = length (coordinate_names c) /\ Forall2 (is_row c theta z) (joint_forms c) (M z) /\
+    forall v, length v = length (coordinate_names c) -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun row => (row, 0)) (M z)) v) ->
+  Forall2 within box x -> Forall2 within box y -> joint_values c theta y = joint_values c theta x -> y = x.
+Proof.
+  intros c theta box places Y M x y co at_ hx hy e. apply same_values in e.
+  destruct (at_ x hx) as [lx _]. destruct (at_ y hy) as [ly _]. assert (l : length x = length y) by congruence.
+  set (d := map (fun p => snd p - fst p) (combine x y)).
+  assert (ld : length d = length (coordinate_names c)) by (unfold d; rewrite map_length, combine_length, <- l, Nat.min_id; exact lx).
+  assert (dn : forall k, nth k d 0 = nth k y 0 - nth k x 0).
+  { intro k. pose proof (nth_way 1 x y k l) as W. assert (E : nth k d 0 = nth k (on_the_way 1 x y) 0 - nth k x 0); [| rewrite E, W; ring].
+    unfold d, on_the_way. clear - l. revert y l k. induction x as [| a x IH]; intros [| b y] l k; try discriminate; destruct k as [| k]; cbn; try lra.
+    apply (IH y). cbn in l. congruence. }
+  destruct (Rlt_dec 0 (Linear.dot d d)) as [nz | z].
+  - exfalso. set (w := lower_weights places Y d).
+    assert (D : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun s => weighted w (map (rho_of c theta (on_the_way s x y)) (joint_forms c))) t
+      (form w (map (fun row => (row, 0)) (M (on_the_way t x y))) d)).
+    { intros t ht. destruct (at_ _ (way_within t _ _ _ ht hx hy)) as [_ [R1 _]].
+      apply (weighted_rate c theta (on_the_way t x y)); [exact ld | intro s; rewrite way_length by exact l; exact lx | reflexivity | | exact co | exact R1].
+      intro k. eapply derivable_eq with (f := fun s => nth k x 0 + s * (nth k y 0 - nth k x 0));
+        [apply derivable_add; [apply derivable_const | apply derivable_pt_lim_mult; [apply derivable_pt_lim_id | apply derivable_pt_lim_const]]
+        | intro s; cbn beta; apply nth_way, l | rewrite dn; unfold fct_cte; ring]. }
+    destruct (MeanValue.mean_value_theorem _ _ 0 1 ltac:(lra) D) as [t [E ht]]. cbn beta in E.
+    destruct (at_ _ (way_within t _ _ _ ht hx hy)) as [_ [_ pos]]. specialize (pos d ld nz). fold w in pos.
+    destruct (on_the_way_ends x y l) as [W0 W1]. rewrite W0, W1, e in E. lra.
+  - apply nth_ext with 0 0; [congruence |]. intros k _. pose proof (zero_vector d ltac:(lra)) as Z. specialize (dn k).
+    destruct (nth_in_or_default k d 0) as [i | i]; [rewrite Forall_forall in Z; specialize (Z _ i) | rewrite i in dn; lra]. lra.
+Qed.
+
+Lemma inserted_in : forall (A : Type) (l : list A) a b, b = a \/ In b l -> In b (inserted l a).
+Proof.
+  intros A l a b h. unfold inserted. apply in_or_app. destruct h as [-> | h]; [right; left; reflexivity |].
+  rewrite <- (firstn_skipn one_place l) in h. apply in_app_or in h as [h | h]; [left; exact h | right; right; exact h].
+Qed.
+
 Theorem check_written_sound : forall c t, check_written c t = true -> written_holds c.
 Proof.
   intros c t h theta x [hp hb]. unfold check_written in h. cbv zeta in h. set (f := by_formulas c) in *.
@@ -478,7 +567,7 @@ Proof.
   set (partial := named_partials (given_formulas f) (definitions f) j ++ joints_partials env (joint_forms f) i) in *. set (at_ := length (inputs f)) in *.
   set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each (own_of fs) false 0 at_ demands) in *.
   set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
-  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h low]. apply andb_true_iff in h as [h found]. apply andb_true_iff in h as [len shapes]. apply Nat.eqb_eq in len.
+  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h coords]. apply andb_true_iff in h as [h low]. apply andb_true_iff in h as [h found]. apply andb_true_iff in h as [len shapes]. apply Nat.eqb_eq in len.
   destruct (all_some (map (enclose_parameter bits) (inputs f))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_input bits) _)) as [numbers |] eqn:ei; [| discriminate].
   destruct (all_some (map _ (box_of c))) as [box |] eqn:eb; [| discriminate].
@@ -495,6 +584,17 @@ Proof.
   { unfold th. rewrite !app_assoc. apply Forall2_app; [rewrite <- app_assoc; apply (enclosed_all bits _ _ _ ep); repeat apply Forall2_app; assumption |].
     clear - ei. revert numbers ei. induction ins as [| a l IH]; intros numbers e; cbn [map all_some] in *; [injection e as <-; constructor |].
     destruct (enclose_input bits a) as [b |] eqn:e1; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. injection e as <-. constructor; [exact (enclose_input_sound bits _ _ e1) | exact (IH r eq_refl)]. }
+  cbv zeta in C. set (all_tests := if one_to_one c then _ else _) in C.
+  assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (one_to_one c); [apply inserted_in; right |]; exact iu).
+  (* at one point *)
+  enough (At : forall x, Forall2 within (box_of c) x -> length x = n /\ exists M, Forall2 (is_row f theta x) (joint_forms f) M /\
+    Configuration.meets n (machine_at f theta x M) demands /\
+    M = map (map (value x th)) (map d_divided fs) /\
+    (one_to_one c = true -> forall v, length v = n -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (map (fun row => (row, 0)) M) v)).
+  { split; [destruct (At x hb) as [_ [M [R1 [R2 _]]]]; exists M; split; assumption |]. intros o y hy e. rewrite o in coords.
+    apply (chords_differ f theta (box_of c) (fst one_matrix) (snd one_matrix) (fun z => map (map (value z th)) (map d_divided fs)) x y coords); try assumption.
+    intros z hz. destruct (At z hz) as [lz [M [R1 [_ [EM R3]]]]]. rewrite <- EM. split; [exact lz |]. split; [exact R1 | exact (R3 o)]. }
+  clear x hb. intros x hb.
   assert (X : Forall2 (contains bits) box x).
   { clear - eb hb. revert box eb. induction hb as [| b y bs ys h hs IH]; intros box e; cbn [map all_some] in e; [injection e as <-; constructor |].
     destruct (enclose_parameter bits (b, 0%Z)) as [a |] eqn:ea; [| discriminate]. destruct (all_some _) as [l |]; [| discriminate].
@@ -515,7 +615,7 @@ Proof.
     replace (j + length (all_literals (map snd (definitions f))))%nat with (length (theta ++ y1)); [exact K |].
     rewrite app_length, lt. f_equal. symmetry. exact (related_length _ _ _ _ _ D). }
   assert (Found : forall e, In e wanted -> formula_at tape (place e) = e) by (rewrite forallb_forall in found; intros e k; apply Formula.same_sound, found, k).
-  pose proof (check_all_open bits tape _ _ _ (params ++ numbers) tests (fun _ => None) th T (fun _ => True)
+  pose proof (check_all_open bits tape _ _ _ (params ++ numbers) all_tests (fun _ => None) th T (fun _ => True)
     (fun _ _ _ _ e => ltac:(discriminate e)) t box x C X I) as H. rewrite lb in H.
   assert (la : length (theta ++ y1 ++ y2) = at_).
   { symmetry. unfold at_. apply (related_length _ _ scaled_within). unfold inputs. repeat apply Forall2_app; assumption. }
@@ -526,7 +626,7 @@ Proof.
   { intros d id. destruct (of_each_at false 0 demands d x (theta ++ y1 ++ y2) [] id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1.
     rewrite app_nil_r, <- !app_assoc in q1. fold th in q1. rewrite la in q2. exists q. split; [exact q1 |]. split.
     - intros g k. apply Found. unfold wanted. do 3 (apply in_or_app; right). exact (q2 _ _ _ k).
-    - intros o k. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs false 0) o k)) as [u [e iu]]. exists u. split; [exact e | exact (H u iu)]. }
+    - intros o k. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs false 0) o k)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
   assert (Low : exists low c0, contains bits low c0 /\ 0 <= c0 /\ Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) th n x (SigmaMin low)).
   { apply existsb_exists in low as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
     - injection e1 as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact hu].
@@ -538,7 +638,7 @@ Proof.
   assert (SH : Forall (fun j => match j with ByRow es => length es = n | ByCoordinate _ => True end) (joint_forms f)).
   { rewrite forallb_forall in shapes. apply Forall_forall. intros q k. specialize (shapes q k). destruct q; [apply Nat.eqb_eq, shapes | exact I]. }
   destruct (joints_good f theta th x env (fun y ly => proj1 (Agree y ly)) lx (joint_forms f) i H2 SH DP2) as [JD [M [RM good]]].
-  exists M. split; [exact RM |]. set (looks := map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M)) in *.
+  split; [exact lx |]. exists M. split; [exact RM |]. set (looks := map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M)) in *.
   assert (lM : length M = length (joint_forms f)) by (symmetry; exact (related_length _ _ _ _ _ RM)).
   assert (E1 : map seen_row looks = M /\ map seen_joint looks = map (coordinate_at f theta x) (joint_forms f) /\ map seen_rod looks = map (fun _ => None) (joint_forms f)).
   { unfold looks. clear - lM. revert M lM. induction (joint_forms f) as [| a l IH]; intros [| r M] e; try discriminate; [repeat split |]. destruct (IH M ltac:(cbn in e; congruence)) as [I1 [I2 I3]]. cbn [combine map seen_row seen_joint seen_rod fst snd]. rewrite I1, I2, I3. repeat split. }
@@ -546,6 +646,15 @@ Proof.
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; left; exact k).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; right; apply in_or_app; left; exact k).
   destruct (of_rows_energy x th 0 n false fs looks tape good W1 W2 _ LOW) as [RE [r [b e]]]. cbn [jacobian] in e. rewrite E1 in e.
+  split.
+  2: { assert (EM : M = map (map (value x th)) (map d_divided fs)).
+    { assert (g0 : Forall2 (is_good x th 0 n false) fs (map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M))) by exact good. clear - g0 lM. revert M lM g0. generalize fs. clear. induction (joint_forms f) as [| jo js IH]; intros qs [| row M] l h; try discriminate l; cbn [combine map] in h; inversion h as [| q ? ? ? g hs]; subst; [reflexivity |].
+      cbn [map]. f_equal; [| apply IH; [cbn in l; congruence | exact hs]]. destruct g as [_ [_ [_ [_ [_ g]]]]]. destruct (g I) as [_ [g' _]]. rewrite g'.
+      change (/ two_to (rate false 0)) with (/ two_to 0). change (two_to 0) with 1. cbn [seen_row fst snd]. rewrite <- (map_id row) at 1. apply map_ext. intro. field. }
+    split; [exact EM |]. intros o v lv nz. pose proof (H (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix))) as K.
+    unfold all_tests in K. rewrite o in K. destruct (K (inserted_in _ _ _ _ (or_introl eq_refl))) as [_ G].
+    replace (map_rows (formula_at tape) (map_rows place (pose_divided fs))) with (pose_divided fs) in G by (symmetry; exact (rows_found tape _ W2)).
+    specialize (G v lv nz). rewrite EM. unfold pose_divided, map_rows in G. rewrite !map_map in *. exact G. }
   split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split.
   - intros v lv nz. specialize (b c0 v hc0 lv nz). rewrite e in b. unfold nonzero in nz. cbn [machine_at jacobian].
     assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
@@ -579,15 +688,15 @@ Definition is_mechanism (c : mechanism) : bool :=
   Nat.leb 1 n && Nat.leb n 6 && Nat.leb n (length (joint_forms c)) && Nat.leb (length (joint_forms c)) 12 && differ given && are_bound_in given (definitions c) &&
   forallb (fun j => forallb (is_bound_in (map fst (definitions c) ++ given)) match j with ByRow es => es | ByCoordinate e => [e] end) (joint_forms c).
 
-Definition certify_written (exact bits : positive) (c : written_claim) (t : tree) : bool :=
+Definition certify_written (exact bits : positive) (one_matrix : N * list (list Z)) (one_place : nat) (c : written_claim) (t : tree) : bool :=
   is_mechanism (by_formulas c) && forallb (fun p => below exact (least (snd p)) (greatest (snd p))) (parameters (by_formulas c)) &&
-  forallb (fun b => below exact (least b) (greatest b)) (box_of c) && check_written bits c t.
+  forallb (fun b => below exact (least b) (greatest b)) (box_of c) && check_written bits one_matrix one_place c t.
 
-Theorem certify_written_sound : forall exact bits c t, certify_written exact bits c t = true ->
+Theorem certify_written_sound : forall exact bits one_matrix one_place c t, certify_written exact bits one_matrix one_place c t = true ->
   written_holds c /\ exists theta x, is_about_written c theta x.
 Proof.
-  intros exact bits c t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h b]. apply andb_true_iff in h as [_ p].
-  split; [exact (check_written_sound bits c t k) |]. exists (map (fun p => Claim.value (least (snd p))) (parameters (by_formulas c))), (map (fun b => Claim.value (least b)) (box_of c)).
+  intros exact bits one_matrix one_place c t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h b]. apply andb_true_iff in h as [_ p].
+  split; [exact (check_written_sound bits one_matrix one_place c t k) |]. exists (map (fun p => Claim.value (least (snd p))) (parameters (by_formulas c))), (map (fun b => Claim.value (least b)) (box_of c)).
   rewrite forallb_forall in p, b. split.
   - induction (parameters (by_formulas c)) as [| q l IH]; cbn [map]; constructor; [| apply IH; intros y i; apply p; right; exact i].
     specialize (p q (or_introl eq_refl)). apply below_sound in p. unfold within. lra.

@@ -551,6 +551,36 @@ for (const [text, right] of poses) {
   if (right) read.push(text);
 }
 console.log(`singular at a pose: ${poses.length}, with one answer`);
+
+// Joint coordinates by formulas that no two points of a box share: by one matrix, of any obligation's number.
+const mapped = (joints, require, chords, nodes, b = "0") => `{"format":"orthocert/2","claim":{"machine":{"mechanism":{"formulas":{"coordinates":["x","y"],` +
+  `"parameters":[["b",${/^\{/.test(b) ? b : quote(b)}]],"definitions":[["s","b*x*y"]],"joints":[${joints}]}},"workspace":{"box":{"min":["-1","-1"],"max":["1","1/2"]}},"require":[${require}]}},` +
+  `"verdict":"certified","proof":{"tree":{"precision":40,${chords ? `"chords":{"y":${JSON.stringify(chords)},"places":1},` : ""}"nodes":[{"by":[${nodes}]}]}},"provenance":{"tool":"t","version":"1"}}\n`;
+const rho = (...formulas) => formulas.map((f) => `{"rho":"${f}"}`);
+const alone = '{"quantity":"one_to_one","end":"holds"}', ranges = [["min", -9], ["max", 9]].map(([end, b]) => `{"quantity":"joint_range","leg":1,"end":"${end}","bound":"${b}"}`);
+const diagonal = [[2, 0], [0, 2]], full = '[0,{"rank":{"y":[[2,0],[0,2]],"places":1}}]', bent = rho("x+s", "y");
+narrowed((b) => mapped(bent, alone, diagonal, `${full},[1,"chords"]`, b), 0, 4);
+narrowed((b) => mapped(rho("x-y", "x+y+s", "3*y"), alone, [[2, -2], [2, 2], [0, 0]], `[0,{"rank":{"y":[[2,-2],[2,2],[0,0]],"places":1}}],[1,"chords"]`, b), 0, 9);
+for (const [text, right] of [
+  [mapped(bent, [ranges[0], alone, ranges[1]], diagonal, `${full},[1,"test"],[2,"chords"],[3,"test"]`), 1],
+  [mapped(bent, [alone, ...ranges], diagonal, `${full},[1,"chords"],[2,"test"],[3,"test"]`, '{"min":"-1/9","max":"1/9"}'), 1],
+  [mapped(bent, [alone, ...ranges], diagonal, `${full},[1,"test"],[2,"chords"],[3,"test"]`), 0],
+  [mapped(bent, [ranges[0], alone, ranges[1]], diagonal, `${full},[1,"test"],[3,"chords"],[2,"test"]`), 0],
+  [mapped(bent, alone, diagonal, `${full},[1,"test"]`), 0],
+  [mapped(bent, alone, diagonal, full), 0],
+  [mapped(bent, alone, null, `${full},[1,"chords"]`), 0],
+  [mapped(bent, alone, [[-2, 0], [0, -2]], `${full},[1,"chords"]`), 0],
+  [mapped(bent, alone, [[2, 0], [0, 0]], `${full},[1,"chords"]`), 0],
+  [mapped([bent[0], '{"row":["0","1"]}'], alone, diagonal, `${full},[1,"chords"]`), 0],
+  [mapped(rho("x^2+s", "y"), alone, diagonal, `${full},[1,"chords"]`), 0],
+  [mapped(bent, alone.replace(',"end"', ',"leg":1,"end"'), diagonal, `${full},[1,"chords"]`), 0],
+  [mapped(bent, [alone, alone], diagonal, `${full},[1,"chords"],[2,"chords"]`), 0],
+]) {
+  const answers = all(text);
+  if (answers.some((answer) => answer !== (right ? "CERTIFIED" : "REJECTED"))) fail(`one to one: ${answers}: ${text}`);
+  if (right) read.push(text);
+}
+console.log("one to one by formulas: 2 mechanisms, with one answer at 42 bounds each");
 fs.rmSync(beside, { recursive: true });
 
 // Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.

@@ -209,6 +209,9 @@ let turning_demand v =
   | Speed_ | Force_ | Stiffness_ -> r
   | _ -> demand v
 
+let formulas_demand v =
+  let r = requirement v in
+  if r.about_ = OneToOne_ then r else turning_demand v
 let driven_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
@@ -300,7 +303,7 @@ let rec subject v =
          | _ -> raise Malformed in
        Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), pairs formula (get f "definitions"),
          List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
-         List.map turning_demand (array (get l "require")))
+         List.map formulas_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
        let require = require () in
        if List.exists (fun r -> r.about_ <> Transmission) require || List.length require <> 2 then not_covered [ "what else is asked of the closed design" ];

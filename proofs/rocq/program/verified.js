@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-h0="spatial",nH="Invalid_argument",fZ="precision",av='"',hZ=1255,nG="inside",mO="(",mP=0x800,nF="yaw",mL="range",mM="tree",mN="jsError",bI=0x8000,nE="sqrt(",mK=256,mJ="obligation",ev="offset",a4="machine",mH="this quantity of such a mechanism in a claim that is refuted",mI="End_of_file",dC="strut",hY="center",eu="arm",hX="Failure",nD="serial_margin",f9="parameters",b6=0xff,ib="bodies",ia="outside",f8="base_axis",hW="ENOENT",nC=122,mG="([^/]+)",h$="0",hV=0xf,et=128,mF=0xdc00,nA="Sys_blocked_io",nB="fd ",hU="given",mE="ENOTEMPTY",aI=248,mD="such a machine with bodies",fY="bound",mC="Division_by_zero",ny="by",nz=1027,mB="Sys_error",f7="slider",mA="torsion",nx="postulate",mz="proof",nw="joint_error",es="refuted",dy="mechanism",fX="row",my="EEXIST",nv="roll_pitch_yaw",h_="y",mx="cube",fW="lower",nu="within",mw="clearance",nt="turned",mv="control",fV="int_of_string",nr="definitions",ns="dependent",er=1024,mt="from",mu="name",nq=" : flags Open_rdonly and Open_wronly are not compatible",ms="orthocert/2",np="reach",mr=512,no="witness",eq="-",aT="platform",mq=0x7ff0,mp="pitch",h9=": Not a directory",a2="min",nm="trim",dB="workspace",nn=" : file already exists",fU="split",h8="legs",nl="claim",mo="joint",cX=0xffffff,mn="formulas",mm="roll",fT="atlas",ni='the workspace "',nj="nodes",nk="Out_of_memory",ml="psi_max",f6="orientation",fS=254,nh="angle",h7="index out of bounds",mk="end",ng="one_to_one",f5="_bigarr02",mj=" : flags Open_text and Open_binary are not compatible",bu="drive",mi="coordinates",nf="holds",mh="lower_divided",mg="speed",nd="cylinder",ne="joints",b5=0xffff,nb="acceleration",ep="certified",h6="chords",nc=12520,hT="on",fR="accuracy",na="axis",m$="no_cube",m_="parallel_margin",mf='the drive "',hS="Unix.Unix_error",f4="fails",fQ="tool",hR="mkdir",m9="rho",f3=1000,fP="translational",m8="tolerances",me="Stack_overflow",h5="characteristic_length",Q="",h4="^",hQ="places",fO=": No such file or directory",md="/static/",dA=0x3f,mb="stiffness",mc="Not_found",cW="planar",eo="mode",m7="joint_speed",m6="Match_failure",ma="transmission",bc="anchor",m5="at",l$="joint_force",dz="leg",l_="joint_acceleration",f2="+",hP="rmdir",m4=0xf0,m3="spherical",l9=1026,m1="REJECTED",m2="undecided",a3="max",b4="direction",l7="leg_angle",l8="orthoglide",f1="rank",m0="constraint_margin",hO="test",l5="Pervasives.do_at_exit",l6="utf8",bt=0x80,f0="conditioning",dx="length",l4="Undefined_recursive_module",h3=")",l3="base",mZ="quantity",l2="joint_range",fN="tilt",l1="Q2",mY="reference",l0="point",mW="corner",mX=0xe0,lZ="version",h2="z",mU="to",mV=0xdfff,hN="compare: functional value",mT="Assert_failure",bv="/",mS="provenance",cV="radius",fM="side",bJ="require",mR="format",lY="Q1",h1="ENOTDIR",lX="all",b3="box",mQ=250;function
-iq(c,b,a){var
+h1="spatial",nM="Invalid_argument",f0="precision",aw='"',h0=1255,nL="inside",mT="(",mU=0x800,nK="yaw",mQ="range",mR="tree",mS="jsError",bI=0x8000,nJ="sqrt(",mP=256,mO="obligation",ey="offset",a4="machine",mM="this quantity of such a mechanism in a claim that is refuted",mN="End_of_file",dD="strut",hZ="center",ex="arm",hY="Failure",nI="serial_margin",f_="parameters",b6=0xff,ic="bodies",ib="outside",f9="base_axis",hX="ENOENT",nH=122,mL="([^/]+)",ia="0",hW=0xf,ew=128,mK=0xdc00,nF="Sys_blocked_io",nG="fd ",hV="given",mJ="ENOTEMPTY",aI=248,mI="such a machine with bodies",fZ="bound",mH="Division_by_zero",nD="by",nE=1027,mG="Sys_error",f8="slider",mF="torsion",nC="postulate",mE="proof",nB="joint_error",ev="refuted",dz="mechanism",fY="row",mD="EEXIST",nA="roll_pitch_yaw",h$="y",mC="cube",fX="lower",nz="within",mB="clearance",ny="turned",mA="control",fW="int_of_string",nw="definitions",nx="dependent",eu=1024,my="from",mz="name",nv=" : flags Open_rdonly and Open_wronly are not compatible",mx="orthocert/2",nu="reach",mw=512,nt="witness",et="-",aT="platform",mv=0x7ff0,mu="pitch",h_=": Not a directory",a2="min",nr="trim",dC="workspace",ns=" : file already exists",fV="split",h9="legs",nq="claim",mt="joint",cX=0xffffff,ms="formulas",mr="roll",fU="atlas",nn='the workspace "',no="nodes",np="Out_of_memory",mq="psi_max",f7="orientation",fT=254,nm="angle",h8="index out of bounds",mp="end",nl="one_to_one",f6="_bigarr02",mo=" : flags Open_text and Open_binary are not compatible",bv="drive",mn="coordinates",nk="holds",mm="lower_divided",ml="speed",ni="cylinder",nj="joints",b5=0xffff,ng="acceleration",es="certified",h7="chords",nh=12520,hU="on",fS="accuracy",nf="axis",ne="no_cube",nd="parallel_margin",mk='the drive "',hT="Unix.Unix_error",f5="fails",fR="tool",hS="mkdir",nc="rho",f4=1000,fQ="translational",nb="tolerances",mj="Stack_overflow",h6="characteristic_length",Q="",h5="^",hR="places",fP=": No such file or directory",mi="/static/",dB=0x3f,mg="stiffness",mh="Not_found",cW="planar",er="mode",na="joint_speed",m$="Match_failure",mf="transmission",bd="anchor",m_="at",me="joint_force",dA="leg",md="joint_acceleration",f3="+",hQ="rmdir",m9=0xf0,m8="spherical",mc=1026,m6="REJECTED",m7="undecided",a3="max",b4="direction",ma="leg_angle",mb="orthoglide",f2="rank",m5="constraint_margin",hP="test",l_="Pervasives.do_at_exit",l$="utf8",bu=0x80,f1="conditioning",dy="length",l9="Undefined_recursive_module",h4=")",l8="base",m4="quantity",l7="joint_range",fO="tilt",l6="Q2",m3="reference",l5="point",m1="corner",m2=0xe0,l4="version",h3="z",mZ="to",m0=0xdfff,hO="compare: functional value",mY="Assert_failure",bw="/",mX="provenance",cV="radius",fN="side",bJ="require",mW="format",l3="Q1",h2="ENOTDIR",l2="all",b3="box",mV=250;function
+ir(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=Q;for(;0<a;b+=er,a-=er)e+=d.apply(null,c.slice(b,b+Math.min(a,er)));return e}function
-f$(b){if(E.Uint8Array)var
+e=Q;for(;0<a;b+=eu,a-=eu)e+=d.apply(null,c.slice(b,b+Math.min(a,eu)));return e}function
+ga(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ew(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)f$(b);var
+ez(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ir(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?ir(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ga(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dF(a){return a}function
-dE(a,b,c,d,e){ew(dF(a),b,c,d,e);return 0}function
-id(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dG(a){return a}function
+dF(a,b,c,d,e){ez(dG(a),b,c,d,e);return 0}function
+ie(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 cY(c,a){if(c.fun)return cY(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cY(c,d)}}function
-n9(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
+oc(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
 d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dG(a){if(a.t==2)a.c+=n9(a.l-a.c.length,"\0");else
-a.c=iq(a.c,0,a.c.length);a.t=0}function
-dH(a){a.t&6&&dG(a);return a.c}var
-Ch=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Cg(a){if(Ch)return Math.floor(Math.log2(a));var
+dH(a){if(a.t==2)a.c+=oc(a.l-a.c.length,"\0");else
+a.c=ir(a.c,0,a.c.length);a.t=0}function
+dI(a){a.t&6&&dH(a);return a.c}var
+Cm=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Cl(a){if(Cm)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-ih(c){var
+ii(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-n0=Math.pow(2,-24);function
-B9(a){throw a}var
+n5=Math.pow(2,-24);function
+Cc(a){throw a}var
 ao=[0];function
-n6(){B9(ao.Division_by_zero)}function
+n$(){Cc(ao.Division_by_zero)}function
 D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*n0|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n0|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*n5|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n5|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
 D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cX;this.lo=this.lo<<1&cX};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cX;this.mi=(this.mi>>>1|this.hi<<23)&cX;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())n6();var
+b=this;if(a.isZero())n$();var
 d=b.hi^a.hi;if(b.hi&bI)b=b.neg();if(a.hi&bI)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bI)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())n6();var
+a=this;if(b.isZero())n$();var
 d=a.hi;if(a.hi&bI)a=a.neg();if(b.hi&bI)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bI)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
-gb(b,c,a){return new
+gc(b,c,a){return new
 D(b,c,a)}function
-ga(a){if(!isFinite(a)){if(isNaN(a))return gb(1,0,mq);return a>0?gb(0,0,mq):gb(0,0,0xfff0)}var
+gb(a){if(!isFinite(a)){if(isNaN(a))return gc(1,0,mv);return a>0?gc(0,0,mv):gc(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bI:a>=0?0:bI;if(f)a=-a;var
-b=Cg(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-l9)}else{a/=Math.pow(2,b-nz);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Cl(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mc)}else{a/=Math.pow(2,b-nE);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hV|f|b<<4;return gb(g,e,c)}function
-ez(a){return a.toArray()}function
-nO(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f5)for(var
+g=a|0;c=c&hW|f|b<<4;return gc(g,e,c)}function
+eC(a){return a.toArray()}function
+nT(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f6)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=ez(b.get(a));for(var
+e=eC(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=ez(ga(b.get(a)));for(var
+e=eC(gb(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=ih(b.get(a));c.write(32,e)}break;case
+e=ii(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,ih(d[1]));c.write(32,ih(d[2]))}break;case
+d=b.get(a);c.write(32,ii(d[1]));c.write(32,ii(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=ez(ga(f[1]));for(var
+f=b.get(a),e=eC(gb(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=ez(ga(f[2]));for(var
+e=eC(gb(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-B$(b,a){throw[0,b,a]}function
-oc(a){if(a.length<24){for(var
+Ce(b,a){throw[0,b,a]}function
+oh(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-ir(e){for(var
-j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bt){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bt;d++);if(d-b>mr){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(f<<6);if(f<mX){a=g-0x3080;if(a<bt)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==et){g=h+(g<<6);if(f<m4){a=g-0xe2080;if(a<mP||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==et&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mF+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>er){c.substr(0,1);j+=c;c=Q}}return j+c}function
+is(e){for(var
+j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bu){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bu;d++);if(d-b>mw){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew){g=h+(f<<6);if(f<m2){a=g-0x3080;if(a<bu)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew){g=h+(g<<6);if(f<m9){a=g-0xe2080;if(a<mU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mK+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eu){c.substr(0,1);j+=c;c=Q}}return j+c}function
 bK(c,a,b){this.t=c;this.c=a;this.l=b}bK.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dG(this);case
-0:if(oc(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:dH(this);case
+0:if(oh(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bK.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return ir(a)};bK.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return is(a)};bK.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bK(this.t,a,this.l)};function
-nR(a){return new
+nW(a){return new
 bK(0,a,a.length)}function
-a(a){return nR(a)}function
-ip(c,b){B$(c,a(b))}function
-az(a){ip(ao.Invalid_argument,a)}function
-nM(a){switch(a){case
+a(a){return nW(a)}function
+iq(c,b){Ce(c,a(b))}function
+aA(a){iq(ao.Invalid_argument,a)}function
+nR(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-BD(c,e){var
+BI(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,45 +171,45 @@ b=E,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aA("Bigarray.create: unsupported kind");var
 d=new
-a(e*nM(c));return d}function
-ii(c){var
+a(e*nR(c));return d}function
+ij(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-ey(a){return new
+eB(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ij(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hV)==0?b&bI?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hV);if(c>0){a+=16;a*=Math.pow(2,c-nz)}else
-a*=Math.pow(2,-l9);if(b&bI)a=-a;return a}function
-ic(b){var
+ik(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hW)==0?b&bI?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hW);if(c>0){a+=16;a*=Math.pow(2,c-nE)}else
+a*=Math.pow(2,-mc);if(b&bI)a=-a;return a}function
+id(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-BT(b,a){return new
+a=0;a<d;a++){if(b[a]<0)aA("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+BY(b,a){return new
 D(b&cX,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
-ik(a){return a.hi32()}function
-il(a){return a.lo32()}function
-f_(){az(h7)}var
-BE=f5;function
-cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=BE;cs.prototype.offset=function(b){var
+il(a){return a.hi32()}function
+im(a){return a.lo32()}function
+f$(){aA(h8)}var
+BJ=f6;function
+cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=BJ;cs.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])f_();c=c*this.dims[a]+b[a]}else
+Array))aA("bigarray.js: invalid offset");if(this.dims.length!=b.length)aA("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])f$();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])f_();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])f$();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return BT(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return BY(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fS,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=il(b);this.data[a*2+1]=ik(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fT,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=im(b);this.data[a*2+1]=il(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=il(b),e=ik(b);if(c==e)this.data.fill(c);else
+c=im(b),e=il(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dD(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dD.prototype=new
-cs();dD.prototype.offset=function(a){if(typeof
+dE(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dE.prototype=new
+cs();dE.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])f_();return a};dD.prototype.get=function(a){return this.data[a]};dD.prototype.set=function(a,b){this.data[a]=b;return 0};dD.prototype.fill=function(a){this.data.fill(a);return 0};function
-nK(c,d,a,b){var
-e=nM(c);if(ic(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dD(c,d,a,b);return new
+aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])f$();return a};dE.prototype.get=function(a){return this.data[a]};dE.prototype.set=function(a,b){this.data[a]=b;return 0};dE.prototype.fill=function(a){this.data.fill(a);return 0};function
+nP(c,d,a,b){var
+e=nR(c);if(id(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dE(c,d,a,b);return new
 cs(c,d,a,b)}function
-bw(b){if(!ao.Failure)ao.Failure=[aI,a(hX),-3];ip(ao.Failure,b)}function
-nL(b,v,r){var
-i=b.read32s();if(i<0||i>16)bw("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f5)for(var
+bx(b){if(!ao.Failure)ao.Failure=[aI,a(hY),-3];iq(ao.Failure,b)}function
+nQ(b,v,r){var
+i=b.read32s();if(i<0||i>16)bx("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f6)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==b5){var
-t=b.read32u(),u=b.read32u();if(t!=0)bw("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bx("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ic(h),f=BD(j,d),g=nK(j,o,h,f);switch(j){case
+d=id(h),f=BI(j,d),g=nP(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,50 +269,50 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bw("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bx("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ey(e);g.set(a,q)}break;case
+q=eB(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ij(ey(e));g.set(a,k)}break;case
+k=ik(eB(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ii(b.read32s());g.set(a,k)}break;case
+k=ij(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ii(b.read32s()),l=ii(b.read32s());g.set(a,[fS,m,l])}break;case
+m=ij(b.read32s()),l=ij(b.read32s());g.set(a,[fT,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ij(ey(e));for(var
+m=ik(eB(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ij(ey(e));g.set(a,[fS,m,l])}break}v[0]=(4+i)*4;return nK(j,o,h,f)}function
-nJ(a,b,c){return a.compare(b,c)}function
-n3(a,b){return Math.imul(a,b)}function
-b7(b,a){a=n3(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=n3(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-BQ(a,b){a=b7(a,il(b));a=b7(a,ik(b));return a}function
-nZ(a,b){return BQ(a,ga(b))}function
-nN(c){var
-b=ic(c.dims),d=0;switch(c.kind){case
+l=ik(eB(e));g.set(a,[fT,m,l])}break}v[0]=(4+i)*4;return nP(j,o,h,f)}function
+nO(a,b,c){return a.compare(b,c)}function
+n8(a,b){return Math.imul(a,b)}function
+b7(b,a){a=n8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=n8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+BV(a,b){a=b7(a,im(b));a=b7(a,il(b));return a}function
+n4(a,b){return BV(a,gb(b))}function
+nS(c){var
+b=id(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mK)b=mK;var
+12:if(b>mP)b=mP;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=b7(d,e)}break;case
 4:case
-5:if(b>et)b=et;var
+5:if(b>ew)b=ew;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=nZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=n4(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=nZ(d,c.data[a]);break}return d}function
-BR(a,b){b[0]=4;return a.read32s()}function
-B6(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=n4(d,c.data[a]);break}return d}function
+BW(a,b){b[0]=4;return a.read32s()}function
+B$(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bw("input_value: native integer value too large");default:bw("input_value: ill-formed native integer")}}function
-BW(c,d){var
+2:bx("input_value: native integer value too large");default:bx("input_value: ill-formed native integer")}}function
+B1(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ey(b)}function
-BV(e,d,b){var
-c=ez(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eB(b)}function
+B0(e,d,b){var
+c=eC(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-BS(a,b,c){return a.compare(b)}function
-BU(a){return a.lo32()^a.hi32()}var
-nU={"_j":{deserialize:BW,serialize:BV,fixed_length:8,compare:BS,hash:BU},"_i":{deserialize:BR,fixed_length:4},"_n":{deserialize:B6,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nL(a,b,"_bigarray")},serialize:nO,compare:nJ,hash:nN},"_bigarr02":{deserialize:function(a,b){return nL(a,b,f5)},serialize:nO,compare:nJ,hash:nN}};function
-ig(a){return nU[a.caml_custom]&&nU[a.caml_custom].compare}function
-nS(f,c,d,e){var
-b=ig(c);if(b){var
+BX(a,b,c){return a.compare(b)}function
+BZ(a){return a.lo32()^a.hi32()}var
+nZ={"_j":{deserialize:B1,serialize:B0,fixed_length:8,compare:BX,hash:BZ},"_i":{deserialize:BW,fixed_length:4},"_n":{deserialize:B$,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nQ(a,b,"_bigarray")},serialize:nT,compare:nO,hash:nS},"_bigarr02":{deserialize:function(a,b){return nQ(a,b,f6)},serialize:nT,compare:nO,hash:nS}};function
+ih(a){return nZ[a.caml_custom]&&nZ[a.caml_custom].compare}function
+nX(f,c,d,e){var
+b=ih(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-io(a){return a
+ip(a){return a
 instanceof
 bK}function
-n1(a){return io(a)}function
-nT(a){if(typeof
-a==="number")return f3;else
-if(io(a))return 252;else
-if(n1(a))return 1252;else
+n6(a){return ip(a)}function
+nY(a){if(typeof
+a==="number")return f4;else
+if(ip(a))return 252;else
+if(n6(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fS?0:b}else
+b=a[0]|0;return b==fT?0:b}else
 if(a
 instanceof
-String)return nc;else
+String)return nh;else
 if(typeof
-a=="string")return nc;else
+a=="string")return nh;else
 if(a
 instanceof
-Number)return f3;else
-if(a&&a.caml_custom)return hZ;else
+Number)return f4;else
+if(a&&a.caml_custom)return h0;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-BX(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-nQ(a,b){a.t&6&&dG(a);b.t&6&&dG(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-n_(a,b){return nQ(a,b)}function
-ie(a,b,d){var
+B2(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+nV(a,b){a.t&6&&dH(a);b.t&6&&dH(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+od(a,b){return nV(a,b)}function
+ig(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nT(a);if(f==mQ){a=a[1];continue}var
-g=nT(b);if(g==mQ){b=b[1];continue}if(f!==g){if(f==f3){if(g==hZ)return nS(a,b,-1,d);return-1}if(g==f3){if(f==hZ)return nS(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:az(hN);break;case
+f=nY(a);if(f==mV){a=a[1];continue}var
+g=nY(b);if(g==mV){b=b[1];continue}if(f!==g){if(f==f4){if(g==h0)return nX(a,b,-1,d);return-1}if(g==f4){if(f==h0)return nX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aA(hO);break;case
 248:var
-c=BX(a[2],b[2]);if(c!=0)return c|0;break;case
-249:az(hN);break;case
-250:az("equal: got Forward_tag, should not happen");break;case
-251:az("equal: abstract value");break;case
+c=B2(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aA(hO);break;case
+250:aA("equal: got Forward_tag, should not happen");break;case
+251:aA("equal: abstract value");break;case
 252:if(a!==b){var
-c=nQ(a,b);if(c!=0)return c|0}break;case
-253:az("equal: got Double_tag, should not happen");break;case
-254:az("equal: got Double_array_tag, should not happen");break;case
-255:az("equal: got Custom_tag, should not happen");break;case
-1247:az(hN);break;case
+c=nV(a,b);if(c!=0)return c|0}break;case
+253:aA("equal: got Double_tag, should not happen");break;case
+254:aA("equal: got Double_array_tag, should not happen");break;case
+255:aA("equal: got Custom_tag, should not happen");break;case
+1247:aA(hO);break;case
 1255:var
-i=ig(a);if(i!=ig(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
+i=ih(a);if(i!=ih(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aA("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,179 +399,179 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dH(a),b=dH(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dI(a),b=dI(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-BL(a,b){return ie(a,b,true)}function
-bM(a){if(a<0)az("Bytes.create");return new
+BQ(a,b){return ig(a,b,true)}function
+bM(a){if(a<0)aA("Bytes.create");return new
 bK(a?2:9,Q,a)}function
-nV(a,b){return+(ie(a,b,false)==0)}function
-BN(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=n9(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)f$(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-B7=0;function
-nX(){return B7++}function
-BZ(a){return a.toUtf16()}function
-eA(){return typeof
+n0(a,b){return+(ig(a,b,false)==0)}function
+BS(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oc(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ga(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Ca=0;function
+n2(){return Ca++}function
+B4(a){return a.toUtf16()}function
+eD(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-Ci(){function
-a(a){if(a.charAt(0)===bv)return[Q,a.substring(1)];return}function
+Cn(){function
+a(a){if(a.charAt(0)===bw)return[Q,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eA()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iv=Ci();function
-n$(a){return a.slice(-1)!==bv?a+bv:a}if(eA()&&E.process&&E.process.cwd)var
-ex=E.process.cwd().replace(/\\/g,bv);else
+d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eD()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iw=Cn();function
+oe(a){return a.slice(-1)!==bw?a+bw:a}if(eD()&&E.process&&E.process.cwd)var
+eA=E.process.cwd().replace(/\\/g,bw);else
 var
-ex="/static";ex=n$(ex);function
-B1(a){a=BZ(a);if(!iv(a))a=ex+a;var
-e=iv(a),d=e[1].split(bv),b=[];for(var
+eA="/static";eA=oe(eA);function
+B6(a){a=B4(a);if(!iw(a))a=eA+a;var
+e=iw(a),d=e[1].split(bw),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Cd(e){for(var
-f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bt){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bt;d++);if(d-c>mr){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mP){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bt|a&dA)}else
-if(a<0xd800||a>=mV)b+=String.fromCharCode(mX|a>>12,bt|a>>6&dA,bt|a&dA);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mF||h>mV)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(m4|a>>18,bt|a>>12&dA,bt|a>>6&dA,bt|a&dA)}if(b.length>er){b.substr(0,1);f+=b;b=Q}}return f+b}function
-BI(a){var
-b=9;if(!oc(a))b=8,a=Cd(a);return new
+Ci(e){for(var
+f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bu){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bu;d++);if(d-c>mw){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<mU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bu|a&dB)}else
+if(a<0xd800||a>=m0)b+=String.fromCharCode(m2|a>>12,bu|a>>6&dB,bu|a&dB);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mK||h>m0)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(m9|a>>18,bu|a>>12&dB,bu|a>>6&dB,bu|a&dB)}if(b.length>eu){b.substr(0,1);f+=b;b=Q}}return f+b}function
+BN(a){var
+b=9;if(!oh(a))b=8,a=Ci(a);return new
 bK(b,a,a.length)}function
-dI(a){return BI(a)}var
-Cl=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",my,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hW,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h1,mE,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dJ(a){return BN(a)}var
+Cq=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mD,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hX,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h2,mJ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 c2(d,f,e,a){var
-b=Cl.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dI(f||Q),dI(e||Q)];return c}var
-n4={};function
-cZ(a){return n4[a]}function
+b=Cq.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dJ(f||Q),dJ(e||Q)];return c}var
+n9={};function
+cZ(a){return n9[a]}function
 c0(b,a){throw[0,b].concat(a)}function
-BH(a){return new
+BM(a){return new
 bK(4,a,a.length)}function
-ac(a){ip(ao.Sys_error,a)}function
-B_(a){ac(a+fO)}function
-nP(){az(h7)}function
-BG(b,a){if(a>>>0>=b.l)nP();return id(b,a)}function
-gc(a){return a.l}function
-nI(){}function
-ax(a){this.data=a}ax.prototype=new
-nI();ax.prototype.truncate=function(a){var
-b=this.data;this.data=bM(a|0);ew(b,0,this.data,0,a)};ax.prototype.length=function(){return gc(this.data)};ax.prototype.write=function(b,d,g,a){var
+ac(a){iq(ao.Sys_error,a)}function
+Cd(a){ac(a+fP)}function
+nU(){aA(h8)}function
+BL(b,a){if(a>>>0>=b.l)nU();return ie(b,a)}function
+gd(a){return a.l}function
+nN(){}function
+ay(a){this.data=a}ay.prototype=new
+nN();ay.prototype.truncate=function(a){var
+b=this.data;this.data=bM(a|0);ez(b,0,this.data,0,a)};ay.prototype.length=function(){return gd(this.data)};ay.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bM(b+a),f=this.data;this.data=e;ew(f,0,this.data,0,c)}dE(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
-e=this.length();ew(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return BG(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
+e=bM(b+a),f=this.data;this.data=e;ez(f,0,this.data,0,c)}dF(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
+e=this.length();ez(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return BL(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
 aN(b,a){this.content={};this.root=b;this.lookupFun=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.create_dir_if_needed=function(d){var
-c=d.split(bv),b=Q;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bv;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aN.prototype.slash=function(a){return/\/$/.test(a)?a:a+bv};aN.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bw),b=Q;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bw;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aN.prototype.slash=function(a){return/\/$/.test(a)?a:a+bw};aN.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ax(dF(c[1]))}}};aN.prototype.exists=function(a){if(a==Q)return 1;var
+ay(dG(c[1]))}}};aN.prototype.exists=function(a){if(a==Q)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aN.prototype.mkdir=function(c,e,d){var
-b=d&&cZ(hS);if(this.exists(c))if(b)c0(b,c2(my,hR,this.nm(c)));else
+b=d&&cZ(hT);if(this.exists(c))if(b)c0(b,c2(mD,hS,this.nm(c)));else
 ac(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c0(b,c2(hW,hR,this.nm(a)));else
-ac(a+fO);if(!this.is_dir(a))if(b)c0(b,c2(h1,hR,this.nm(a)));else
-ac(a+h9);this.create_dir_if_needed(this.slash(c))};aN.prototype.rmdir=function(a,f){var
-b=f&&cZ(hS),c=a==Q?Q:this.slash(a),e=new
-RegExp(h4+c+mG);if(!this.exists(a))if(b)c0(b,c2(hW,hP,this.nm(a)));else
-ac(a+fO);if(!this.is_dir(a))if(b)c0(b,c2(h1,hP,this.nm(a)));else
-ac(a+h9);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c0(b,c2(hX,hS,this.nm(a)));else
+ac(a+fP);if(!this.is_dir(a))if(b)c0(b,c2(h2,hS,this.nm(a)));else
+ac(a+h_);this.create_dir_if_needed(this.slash(c))};aN.prototype.rmdir=function(a,f){var
+b=f&&cZ(hT),c=a==Q?Q:this.slash(a),e=new
+RegExp(h5+c+mL);if(!this.exists(a))if(b)c0(b,c2(hX,hQ,this.nm(a)));else
+ac(a+fP);if(!this.is_dir(a))if(b)c0(b,c2(h2,hQ,this.nm(a)));else
+ac(a+h_);for(var
 d
 in
-this.content)if(d.match(e))if(b)c0(b,c2(mE,hP,this.nm(a)));else
+this.content)if(d.match(e))if(b)c0(b,c2(mJ,hQ,this.nm(a)));else
 ac(this.nm(a)+": Directory not empty");delete
 this.content[c]};aN.prototype.readdir=function(a){var
-f=a==Q?Q:this.slash(a);if(!this.exists(a))ac(a+fO);if(!this.is_dir(a))ac(a+h9);var
+f=a==Q?Q:this.slash(a);if(!this.exists(a))ac(a+fP);if(!this.is_dir(a))ac(a+h_);var
 g=new
-RegExp(h4+f+mG),d={},c=[];for(var
+RegExp(h5+f+mL),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aN.prototype.is_dir=function(a){if(a==Q)return true;var
 b=this.slash(a);return this.content[b]?1:0};aN.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aN.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nq);if(b.text&&b.binary)ac(this.nm(a)+mj);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+nn);var
+this.content[a];return b};aN.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nv);if(b.text&&b.binary)ac(this.nm(a)+mo);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+ns);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ax(bM(0));return this.content[a]}else
-B_(this.nm(a))};aN.prototype.register=function(c,a){var
-b;if(this.content[c])ac(this.nm(c)+nn);if(io(a))b=new
-ax(a);if(n1(a))b=new
-ax(dF(a));else
+ay(bM(0));return this.content[a]}else
+Cd(this.nm(a))};aN.prototype.register=function(c,a){var
+b;if(this.content[c])ac(this.nm(c)+ns);if(ip(a))b=new
+ay(a);if(n6(a))b=new
+ay(dG(a));else
 if(a
 instanceof
 Array)b=new
-ax(BH(a));else
+ay(BM(a));else
 if(typeof
 a==="string")b=new
-ax(nR(a));else
+ay(nW(a));else
 if(a.toString){var
-d=dF(dI(a.toString()));b=new
-ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+d=dG(dJ(a.toString()));b=new
+ay(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ac(this.nm(c)+" : registering file with invalid content type")};aN.prototype.constructor=aN;function
-al(a){return gc(a)}function
-c1(b,a){return id(b,a)}function
-BC(d){var
+al(a){return gd(a)}function
+c1(b,a){return ie(b,a)}function
+BH(d){var
 c=al(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=c1(d,a);return b}function
-BB(a){if(a.t!=4)f$(a);return a.c}function
-BK(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}f$(a)}a.c[c]=b;return 0}function
-BJ(b,a,c){if(a>>>0>=b.l)nP();return BK(b,a,c)}function
+BG(a){if(a.t!=4)ga(a);return a.c}function
+BP(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ga(a)}a.c[c]=b;return 0}function
+BO(b,a,c){if(a>>>0>=b.l)nU();return BP(b,a,c)}function
 bL(a){this.fs=require("fs");this.fd=a}bL.prototype=new
-nI();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bL.prototype.write=function(f,b,c,e){var
-a=BC(b);if(!(a
+nN();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bL.prototype.write=function(f,b,c,e){var
+a=BH(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ac(a.toString())}return 0};bL.prototype.read=function(g,d,c,f){var
-a=BB(d);if(!(a
+a=BG(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ac(a.toString())}for(var
-b=0;b<f;b++)BJ(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
+b=0;b<f;b++)BO(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
 b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ac(a.toString())}return a[0]};bL.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ac(a.toString())}};bL.prototype.constructor=bL;function
-ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ac(a.toString())}};ay.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
+az(a){this.fs=require("fs");this.root=a}az.prototype.nm=function(a){return this.root+a};az.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};az.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ac(a.toString())}};az.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bL(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),l6);return dI(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
-b=cZ(hS);if(d&&b){var
+bL(d)}catch(a){this.raise_nodejs_error(a,g)}};az.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),l$);return dJ(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
+b=cZ(hT);if(d&&b){var
 c=c2(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
-ac(a.toString())};ay.prototype.stats_from_js=function(a){var
+ac(a.toString())};az.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
-nY(b){var
-a=iv(b);if(!a)return;return a[0]+bv}var
-gd=nY(ex)||bw("unable to compute caml_root"),dJ=[];if(eA())dJ.push({path:gd,device:new
-ay(gd)});else
-dJ.push({path:gd,device:new
-aN(gd)});dJ.push({path:md,device:new
-aN(md)});function
-og(b){var
-g=B1(b),b=g.join(bv),f=n$(b),c;for(var
-e=0;e<dJ.length;e++){var
-a=dJ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eA()){var
-d=nY(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};az.prototype.constructor=az;function
+n3(b){var
+a=iw(b);if(!a)return;return a[0]+bw}var
+ge=n3(eA)||bx("unable to compute caml_root"),dK=[];if(eD())dK.push({path:ge,device:new
+az(ge)});else
+dK.push({path:ge,device:new
+aN(ge)});dK.push({path:mi,device:new
+aN(mi)});function
+ol(b){var
+g=B6(b),b=g.join(bw),f=oe(b),c;for(var
+e=0;e<dK.length;e++){var
+a=dK[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eD()){var
+d=n3(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-ay(d)};dJ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
-BM(c,b){var
-a=og(c);if(!a.device.register)bw("cannot register file");a.device.register(a.rest,b);return 0}function
-ob(c,b){var
-c=a(c),b=a(b);return BM(c,b)}function
-BP(){var
+az(d)};dK.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
+BR(c,b){var
+a=ol(c);if(!a.device.register)bx("cannot register file");a.device.register(a.rest,b);return 0}function
+og(c,b){var
+c=a(c),b=a(b);return BR(c,b)}function
+BU(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ob(b[a].name,b[a].content);E.jsoo_create_file=ob;E.caml_fs_tmp=[];return 0}function
-B8(c){var
+a=0;a<b.length;a++)og(b[a].name,b[a].content);E.jsoo_create_file=og;E.caml_fs_tmp=[];return 0}function
+Cb(c){var
 a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&c1(c,a)==48)switch(c1(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-n5(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nC)return a-87;return-1}function
-im(f){var
-h=B8(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=n5(e);if(b<0||b>=d)bw(fV);var
-a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=n5(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bw(fV)}if(c!=g)bw(fV);a=i*a;if(d==10&&(a|0)!=a)bw(fV);return a|0}function
-B0(a,b){return+(ie(a,b,false)<=0)}function
-B2(a,d){if(a<0)f_();var
+n_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nH)return a-87;return-1}function
+io(f){var
+h=Cb(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=n_(e);if(b<0||b>=d)bx(fW);var
+a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=n_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bx(fW)}if(c!=g)bx(fW);a=i*a;if(d==10&&(a|0)!=a)bx(fW);return a|0}function
+B5(a,b){return+(ig(a,b,false)<=0)}function
+B7(a,d){if(a<0)f$();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 b8=new
 Array();function
-B3(c){var
+B8(c){var
 a=b8[c];if(!a.opened)ac("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
-n8(e,f){var
+ob(e,f){var
 b=b8[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Ce(a){var
-a=ir(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Cj(a){var
+a=is(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Cf(a){var
-a=ir(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ck(a){var
+a=is(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gf(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gg(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-Cm(c,b,g){var
+Cr(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,157 +619,157 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dH(c)+nq);if(a.text&&a.binary)ac(dH(c)+mj);var
-d=og(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gf(f+1,n8,e,a)}gf(0,n8,new
-ax(bM(0)));gf(1,Cf,new
-ax(bM(0)));gf(2,Ce,new
-ax(bM(0)));function
-B4(a){var
-c=ao.fds[a];if(c.flags.wronly)ac(nB+a+" is writeonly");var
-d=null;if(a==0&&eA()){var
-e=require("fs");d=function(){return dI(e.readFileSync(0,l6))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dI(c)+nv);if(a.text&&a.binary)ac(dI(c)+mo);var
+d=ol(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gg(f+1,ob,e,a)}gg(0,ob,new
+ay(bM(0)));gg(1,Ck,new
+ay(bM(0)));gg(2,Cj,new
+ay(bM(0)));function
+B9(a){var
+c=ao.fds[a];if(c.flags.wronly)ac(nG+a+" is writeonly");var
+d=null;if(a==0&&eD()){var
+e=require("fs");d=function(){return dJ(e.readFileSync(0,l$))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-n2(c){var
-b=ao.fds[c];if(b.flags.rdonly)ac(nB+c+" is readonly");var
+n7(c){var
+b=ao.fds[c];if(b.flags.rdonly)ac(nG+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
-B5(){var
+B_(){var
 b=0;for(var
 a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
-bd(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-Ca(a,b){n4[dH(a)]=b;return 0}function
-BF(a,b){if(a===b)return 1;a.t&6&&dG(a);b.t&6&&dG(b);return a.c==b.c?1:0}function
-am(a,b){return BF(a,b)}function
-Cc(){az(h7)}function
-aJ(b,a){if(a>>>0>=al(b))Cc();return c1(b,a)}function
+be(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
+Cf(a,b){n9[dI(a)]=b;return 0}function
+BK(a,b){if(a===b)return 1;a.t&6&&dH(a);b.t&6&&dH(b);return a.c==b.c?1:0}function
+am(a,b){return BK(a,b)}function
+Ch(){aA(h8)}function
+aJ(b,a){if(a>>>0>=al(b))Ch();return c1(b,a)}function
 m(a,b){return 1-am(a,b)}function
-ge(a){return a}function
-n7(a){return a}function
-oa(a){if(a
+gf(a){return a}function
+oa(a){return a}function
+of(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return n7(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oa(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return n7(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oa(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cZ(mN))return[0,cZ(mN),a];return[0,ao.Failure,dI(String(a))]}function
+E.Error&&cZ(mS))return[0,cZ(mS),a];return[0,ao.Failure,dJ(String(a))]}function
 c3(a){return a<0?-a:a}function
 x(a,b){return a+b}function
-is(a,b){return a<b?-1:a>b?1:0}function
-od(c,b){var
+it(a,b){return a<b?-1:a>b?1:0}function
+oi(c,b){var
 a=c%b;return a<0?a+c3(b):a}function
-it(a,b){return(a-od(a,b))/b}function
+iu(a,b){return(a-oi(a,b))/b}function
 Y(a,b){return a==b?1:0}function
-Cj(c){E.orthocert_verify=function(b){return dH(cY(c,[a(b)]))}}function
+Co(c){E.orthocert_verify=function(b){return dI(cY(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
 Z(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
 L(a){return-a}function
 aD(a){return E.BigInt(a)}function
-oe(a,b){return a<<E.BigInt(b)}function
-of(a,b){return a>>E.BigInt(b)}function
+oj(a,b){return a<<E.BigInt(b)}function
+ok(a,b){return a>>E.BigInt(b)}function
 a5(a){return a<0?-1:a>0?1:0}function
-Ck(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+Cp(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aE(a,b){return a-b}function
-iu(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-BY(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-BO(b){var
-a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&BY(b[1]))var
+iv(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+B3(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+BT(b){var
+a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&B3(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mO;for(var
+f=2,e=b;a+=mT;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bK)a+=av+c.toString()+av;else
+bK)a+=aw+c.toString()+aw;else
 if(typeof
-c=="string")a+=av+c.toString()+av;else
-a+="_"}a+=h3}else
+c=="string")a+=aw+c.toString()+aw;else
+a+="_"}a+=h4}else
 if(b[0]==aI)a+=b[1];return a}function
-nW(a){if(a
+n1(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aI)){var
 c=cZ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=BO(a),b=cZ(l5);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+d=BT(a),b=cZ(l_);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Cb(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){nW(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)nW(a.error)})}Cb();function
+Cg(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){n1(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)n1(a.error)})}Cg();function
 k(a,b){return a.length==1?a(b):cY(a,[b])}function
-au(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
-BA(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BP();var
-ix=[aI,a(mB),-2],iw=[aI,a(nH),-4],Av=[0,[0,0]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Av]]]]]]]]]]],Ax=[0,0],Ay=[0,0],Az=[0,[0,[0,[0,0]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],AD=[0,[0,0]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,0]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,0],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,0]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,0],Bs=[0,[0,0]],Bt=[0,0],Bu=[0,[0,[0,[0,[0,0]]]]],iZ=[0,[0,[0,0]]],ch=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fs=[0,[0,[0,[0,0]]]],Bv=[0,[0,[0,[0,[0,0]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]];bd(11,[aI,a(l4),-12],l4);bd(10,[aI,a(mT),-11],mT);bd(9,[aI,a(nA),-10],nA);bd(8,[aI,a(me),-9],me);bd(7,[aI,a(m6),-8],m6);bd(6,[aI,a(mc),-7],mc);bd(5,[aI,a(mC),-6],mC);bd(4,[aI,a(mI),-5],mI);bd(3,iw,nH);bd(2,[aI,a(hX),-3],hX);bd(1,ix,mB);bd(0,[aI,a(nk),-1],nk);var
-oh=a("String.sub / Bytes.sub"),oj=a(Q),oi=a("String.concat"),ok=a("Array.init"),ol=a("power"),ow=[0,0],oy=[0,0],oz=[0,[0,0]],oA=[0,[0,0]],oH=[0,0],oI=[0,0],oO=[0,0,0],oP=[0,0,0],oQ=[0,0],o9=[0,0],o_=[0,0],pb=[0,0],pt=[0,0],pw=[0,0],py=[0,0],pz=[0,0],pG=[0,0],pH=[0,0],p2=[0,[0,[0,0]]],qf=[0,0],qB=a(","),qT=[0,a(h3),0],qU=a(mO),qV=a("."),qW=[0,[0,[0,0]]],qX=a(eq),qY=a(h4),qZ=[0,[0,[0,[0,[0,0]]]]],q0=[0,a(h3),0],q1=a(nE),tS=a(l1),tU=a(lY),tT=a(mW),tV=a(f0),tW=a(fR),tX=a(nG),tY=a(nt),tZ=a(mv),t0=a(m8),u5=[0,0],u6=a(hO),u7=[0,0],u8=a("divided"),u9=[0,1],u_=a("mirror"),u$=[0,3],va=a("negative"),vb=[0,2],vc=a(h6),vd=[0,5],ve=a(ia),vf=[0,4],vg=a(fW),vh=a(mh),vi=a(f1),vj=a(b4),vk=[0,0],vl=[0,0],vm=[0,0],vY=a(Q),vV=[0,[0,[0,[0,0]]]],vW=[0,[0,[0,[0,0]]]],vT=[0,0],vQ=[0,[0,0]],vR=[0,[0,[0,0]]],vM=[0,[0,[0,0]]],vK=[0,[0,[0,0]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Aw]]]]]]]]]]],vI=[0,0],vA=[0,[0,0]],vB=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ax]]]]]]]]]]],vD=[0,[0,0]],vG=[0,[0,[0,0]]],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],vx=[0,[0,0]],vy=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,0]],vs=[0,[0,0]],vt=[0,0],vq=[0,0],vr=[0,1],vp=[0,[0,0]],vo=[0,0],u2=[0,0],u3=[0,1],u4=[0,2],uY=[0,[0,0]],uZ=[0,0],uX=[0,0],uW=[0,0],uV=[0,0],uU=[0,0,0],uS=[0,0,0],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,0]]],uP=[0,0],uN=[0,1,0],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],uC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],uD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],uI=a("sqrt"),uz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],uA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],uo=[0,a("\n"),0],up=a(lZ),uq=a(fQ),ur=a(mS),us=a(mz),uy=a(es),ut=a(ep),uu=a("verdict"),uv=a(nl),uw=a(ms),ux=a(mR),ul=a(mM),um=a(no),un=a(fT),uh=a(m2),ui=a(fU),uj=a(ep),uk=a(es),uc=a(f4),ud=a(a4),ue=a(l0),uf=a(fZ),t$=a(nj),ua=a(h6),ub=a(fZ),t7=a(m5),t8=a(f4),t9=a(fU),t_=a(ny),t2=a(np),t3=a(ns),t4=a(mJ),t5=a(fX),tQ=a(hQ),tR=a(h_),tL=a(a3),tM=a(a2),tN=a(mu),tl=a(fX),tm=a(m9),sY=a(a4),sZ=a(bJ),s0=a(f6),s1=a(dB),s2=a(cW),s7=a(fP),s3=a(h5),s4=a(h8),s5=a(dy),s6=a(a4),s8=a(bJ),s9=a(f6),s_=a(a3),s$=a(a2),ta=a(b3),tb=a(dB),tc=a(h5),td=a(h8),te=a(dy),tf=a(a4),tg=a(bJ),th=a(a3),ti=a(a2),tj=a(b3),tk=a(dB),tn=a(ne),to=a(nr),tp=a(f9),tq=a(mi),tr=a(mn),ts=a(dy),tt=a(a4),tu=a(bJ),tv=a(fM),tw=a(mx),tx=a(dB),ty=a(ev),tz=a(l8),tA=a(dy),tB=a(a4),tC=a(fM),tD=a(a4),tE=a(m$),tH=a(lX),tF=a(ml),tG=a(nx),tI=a(es),tJ=a(ep),tK=a(a4),tO=a(f9),tP=a(fT),sS=a(bJ),sT=a(ib),sU=a(dB),sV=a(fP),sW=a(dy),sG=a(ev),sH=a(nm),sI=a(cV),sJ=a(dz),sK=a(dz),sL=a(hT),sM=a(cV),sN=a(mU),sO=a(mt),sP=a(aT),sR=a(l3),sQ=a(hT),sw=a(mL),sx=a(nF),sy=a(mp),sz=a(mm),sA=a(nv),sB=a(nh),sC=a(mA),sD=a(fN),sE=a(fN),ss=a(aT),st=a(bc),su=a(dC),sv=a(bu),so=a(cW),sp=a(h0),sq=a(m3),sl=a(a3),sm=a(a2),sn=a(b3),se=a(a3),sf=a(a2),sg=a(b3),sh=a(h2),si=a(cV),sj=a(hY),sk=a(nd),r6=a(mk),sa=a(fQ),r$=a(nw),r7=a(mo),r8=a(hU),sb=a(mg),sc=a(nb),sd=a(hU),r9=a(dz),r_=a(mZ),r3=a(fY),r4=a(fY),r5=a(fY),rZ=a(nf),r0=a(a2),r1=a(a3),r2=a(nu),rL=a(ma),rM=a(l2),rN=a(m7),rO=a(f0),rP=a(nD),rQ=a(m_),rR=a(mb),rS=a(m0),rT=a(l$),rU=a(mw),rV=a(l_),rW=a(ng),rX=a(fR),rY=a(l7),rq=a(f2),rs=a(eq),rr=a(eo),rt=a(dx),ru=a(aT),rv=a(bc),rw=a(b4),rx=a(f7),ry=a(bu),rz=a(aT),rA=a(bc),rB=a(dC),rC=a(bu),rD=a(dx),rE=a(eu),rF=a(aT),rG=a(bc),rH=a(mY),rI=a(na),rJ=a(eu),rK=a(bu),q_=a(f2),rg=a(eq),q$=a(eo),ra=a(dx),rb=a(aT),rc=a(bc),rd=a(b4),re=a(f7),rf=a(bu),rh=a(f8),ri=a(aT),rj=a(bc),rk=a(dC),rl=a(bu),rm=a(b4),rn=a(cW),ro=a(bu),q7=a(a3),q8=a(a2),q5=[0,a(av),0],q6=a(av),q3=a(Q),q2=[0,a(av),0],q4=a(av),qP=a(f2),qQ=a(eq),qR=a("*"),qS=a(bv),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,[0,[0,0]]],qM=[0,[0,0]],qN=[0,0],qO=[0,[0,[0,[0,0]]]],qI=a('":'),qJ=a(av),qG=[0,a(av),0],qH=a(av),qE=[0,a("}"),0],qF=a("{"),qC=[0,a("]"),0],qD=a("["),qA=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qx=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qs=[0,[0,0]],qt=[0,[0,[0,0]]],qp=[0,0],qq=[0,[0,[0,[0,[0,[0,0]]]]]],qr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],qm=[0,0],qj=[0,0,0],qk=[0,0,0],ql=[0,0,0],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qi=[0,0],p7=[0,[0,[0,[0,[0,[0,0]]]]]],p8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p9=[0,[0,[0,0]]],p_=[0,[0,[0,0]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],qc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p0=[0,[0,0]],p1=[0,[0,[0,0]]],pY=[0,[0,[0,0]]],pZ=[0,[0,0]],pW=[0,0],pS=[0,[0,0]],pT=[0,0],pU=[0,0],pV=[0,[0,0]],pJ=[0,[0,0]],pK=[0,0],pL=[0,[0,0]],pM=[0,0],pN=[0,0],pO=[0,[0,0]],pP=[0,[0,0]],pQ=[0,[0,0]],pR=[0,0],pF=[0,0],pE=[0,0],pC=[0,[0,[0,0]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],px=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],ps=[0,[0,[0,0]]],pq=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,0]],pn=[0,0],po=[0,[0,[0,0]]],pp=[0,[0,[0,0]]],pf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pg=[0,[0,[0,[0,[0,[0,0]]]]]],ph=[0,[0,[0,[0,[0,[0,0]]]]]],pi=[0,[0,[0,0]]],pj=[0,[0,[0,[0,[0,[0,0]]]]]],pk=[0,[0,[0,0]]],pl=[0,[0,[0,0]]],pd=[0,[0,0]],pe=[0,0],pc=[0,0,0],pa=[0,0,0],o$=[0,[0,[0,0]]],o7=[0,0],o8=[0,0],o2=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],o1=[0,[0,[0,[0,0]]]],oX=[0,[0,[0,0]]],oY=[0,[0,[0,0]]],oZ=[0,[0,[0,0]]],o0=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],oV=[0,[0,0]],oW=[0,0],oT=[0,[0,0]],oU=[0,0],oR=[0,[0,0]],oS=[0,0],oD=[0,0],oE=[0,[0,0]],oF=[0,0],oG=[0,[0,0]],oB=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],ox=[0,0,0],ov=a(h$),ou=a(Q),ot=[0,[0,0]],os=[0,0],op=[0,0],or=[1,0],oq=[0,0],oo=[0,0],om=[1,0],on=[1,0],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],y2=a(a3),y3=a(a2),y4=a(mu),yR=a(f8),yS=[0,a("a base axis of such a platform"),0],yT=a(aT),yU=a(bc),yE=a(nh),yF=a(mL),yG=a(nv),yH=a(fN),yI=a(mA),yJ=a(fN),yK=a(nF),yL=a(mp),yM=a(mm),yr=a(m9),ys=a(fX),x2=a(bJ),xQ=a(fT),xR=a(a4),xS=a(m$),xT=a(nx),xW=a(ml),xX=a(lX),xY=a(a4),xZ=a(a4),x1=a(fM),x0=[0,a("a claim that no cube of such a machine fits"),0],x3=a(dy),x4=a(dB),x5=a(fP),x6=a(ib),y1=[0,a(mD),0],x7=a(cW),x8=a(h0),x9=a(m3),x_=a(f6),x$=a(mn),ya=a(l8),yb=a(fP),ye=a(b3),yf=a(nd),yi=a(ib),yj=[0,a(mD),0],yk=a(bJ),yl=[0,a("the distance from parallel singularities of other drives than sliders"),0],ym=a(mx),yn=[0,a("what else is asked of the closed design"),0],yo=a(fM),yp=a(ev),yq=a(b3),yt=a(bJ),yu=a(a3),yv=a(a2),yw=a(ne),yx=a(nr),yy=a(f9),yz=a(mi),yc=[0,a(av),0],yd=a('the mechanism "'),yA=a(b3),yB=[0,a('" of a platform that turns'),0],yC=a(ni),yD=a(h5),yN=a(f6),yO=a(cW),yP=a(h0),yQ=a(h8),yV=a(bJ),yW=a(a3),yX=a(a2),y0=a(cW),yY=[0,a("a platform that turns on struts and other drives"),0],yZ=a(bJ),yg=[0,a(av),0],yh=a(ni),y5=a(a4),y6=a(a4),y8=a(es),y9=a(ep),y_=a(f9),y7=[0,a("an atlas of such a machine"),0],xU=[0,a(av),0],xV=a('a claim of the kind "'),zd=a(nG),zk=a(fR),zl=a(f0),zm=a(mv),zn=a(mW),zo=a(b4),zp=a(h_),zq=a(hQ),zr=a(b4),zs=a(h$),ze=a(fW),zf=a(mh),zg=a(f1),zh=a(m8),zi=[0,a(av),0],zj=a('the evidence "'),zt=a(fW),zu=a(f1),zv=a(nt),zx=a(fW),zy=a(f1),zz=a(hO),zA=a(hO),zw=[0,a("this evidence at control points"),0],Ao=a('"orthocert-paving/'),z6=a(mR),z7=a(ms),z8=a(nl),Am=[0,3,3],z9=a(mz),Ag=[0,a("this set of orientations with such drives"),0],Ah=[0,a(mH),0],Ak=[0,a(mH),0],Al=[0,a("a mechanism by formulas in a claim that is refuted"),0],Ai=[0,a('the evidence "tolerances" of such a mechanism'),0],Aj=[0,a("a step of a platform that turns that is not at control points"),0],z_=[0,a("the acceleration of a joint of a machine with a plane"),0],Af=[0,a("this quantity in a claim that is refuted"),0],Ad=[0,a("a step in a proof that no cube fits"),0],Ae=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ac=[0,a("a leaf that fails"),0],z$=a(mS),Aa=a(lZ),Ab=a(fQ),z4=a(ia),zY=a(fT),zZ=a(mM),z0=a(no),z1=[0,a(av),0],z2=a('a proof of the kind "'),zU=a(ep),zV=a(es),zW=a(fU),zX=a(m2),zQ=a(a4),zR=a(f4),zS=a(l0),zT=a(fZ),zN=a(nj),zO=a(h6),zP=a(fZ),zJ=a(m5),zK=a(f4),zL=a(fU),zM=a(ny),zD=a(ns),zE=a(mJ),zF=a(np),zG=a(fX),zH=[0,a(av),0],zI=a('the failure "'),zB=a(ia),zC=a(h$),zb=a(h_),zc=a(hQ),y$=a(lY),za=a(l1),xN=a(ev),xD=a(hT),xE=a(l3),xF=a(dz),xG=a(aT),xL=a(nm),xM=a(ev),xO=a(cV),xP=a(dz),xH=a(cV),xI=a(mU),xJ=a(mt),xK=a(aT),xw=a(b3),xA=a(a3),xB=a(a2),xx=a(hY),xy=a(h2),xz=a(cV),xq=a(b3),xu=a(a3),xv=a(a2),xr=a(hY),xs=a(h2),xt=a(cV),xp=[0,1],xo=[0,1],xn=[0,a("this quantity of such a mechanism"),0],w9=a(mo),w_=[0,a("a stiffness for each joint"),0],w$=a(nb),xa=a(mg),xb=a(nw),xc=a("max_angle"),xd=[0,a("accuracy of a platform that turns"),0],w8=a(fQ),w0=a(fY),wQ=a(mZ),wR=a(m7),xg=a(fR),xh=a(mw),xi=a(f0),xj=a(m0),xk=a(l_),xl=a(l$),xm=a(l2),wS=a(l7),wT=a(ng),wU=a(m_),wV=a(nD),wW=a(mb),wX=a(ma),wY=[0,a(av),0],wZ=a('the quantity "'),w1=a(mk),w2=a(nf),w3=a(a3),w4=a(a2),w5=a(nu),w6=[0,a(av),0],w7=a('a bound "'),xe=a(hU),xf=a(dz),wO=a(bu),wP=a(dC),wt=a(bu),wu=a(f8),wv=a(eu),ww=a(f7),wx=a(dC),wA=a(aT),wB=a(bc),wC=a(eo),wD=a(dx),wE=a(aT),wF=a(bc),wG=a(b4),wH=a(eo),wI=a(dx),wJ=a(eu),wK=a(aT),wL=a(bc),wM=a(mY),wN=a(na),wy=[0,a('" of such a machine'),0],wz=a(mf),wr=a(bu),ws=a(eu),wb=a(bu),wc=a(cW),wd=a(f7),we=a(dC),wh=a(f8),wi=a(aT),wj=a(bc),wk=a(eo),wl=a(dx),wm=a(aT),wn=a(bc),wo=a(b4),wp=a(b4),wf=[0,a(av),0],wg=a(mf),v_=a(f2),v$=a(eq),v8=a(" is not covered by the verified checker"),v9=a(Q),v6=a(a3),v7=a(a2),v2=a(Q),v3=a(nE),v4=a(Q),v5=a(Q),v1=[1,0],vZ=a("Reader.Malformed"),v0=a("Reader.Not_covered"),Aq=[0,a("a paving is checked by orthocert-verified")],Ap=a(m1),Ar=a("CERTIFIED"),As=a("REFUTED"),At=a(m1),Au=a("NOT COVERED: ");function
-eB(a){throw[0,iw,a]}function
+av(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
+BF(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BU();var
+iy=[aI,a(mG),-2],ix=[aI,a(nM),-4],AA=[0,[0,0]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,0],AD=[0,0],AE=[0,[0,[0,[0,0]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,0]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,0]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,0],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,0]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,0],Bx=[0,[0,0]],By=[0,0],Bz=[0,[0,[0,[0,[0,0]]]]],i0=[0,[0,[0,0]]],ch=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,[0,0]]]],BA=[0,[0,[0,[0,[0,0]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]];be(11,[aI,a(l9),-12],l9);be(10,[aI,a(mY),-11],mY);be(9,[aI,a(nF),-10],nF);be(8,[aI,a(mj),-9],mj);be(7,[aI,a(m$),-8],m$);be(6,[aI,a(mh),-7],mh);be(5,[aI,a(mH),-6],mH);be(4,[aI,a(mN),-5],mN);be(3,ix,nM);be(2,[aI,a(hY),-3],hY);be(1,iy,mG);be(0,[aI,a(np),-1],np);var
+om=a("String.sub / Bytes.sub"),oo=a(Q),on=a("String.concat"),op=a("Array.init"),oq=a("power"),oB=[0,0],oD=[0,0],oE=[0,[0,0]],oF=[0,[0,0]],oM=[0,0],oN=[0,0],oT=[0,0,0],oU=[0,0,0],oV=[0,0],pc=[0,0],pd=[0,0],pg=[0,0],py=[0,0],pB=[0,0],pD=[0,0],pE=[0,0],pL=[0,0],pM=[0,0],p7=[0,[0,[0,0]]],qk=[0,0],qG=a(","),qY=[0,a(h4),0],qZ=a(mT),q0=a("."),q1=[0,[0,[0,0]]],q2=a(et),q3=a(h5),q4=[0,[0,[0,[0,[0,0]]]]],q5=[0,a(h4),0],q6=a(nJ),tX=a(l6),tZ=a(l3),tY=a(m1),t0=a(f1),t1=a(fS),t2=a(nL),t3=a(ny),t4=a(mA),t5=a(nb),u9=[0,0],u_=a(hP),u$=[0,0],va=a("divided"),vb=[0,1],vc=a("mirror"),vd=[0,3],ve=a("negative"),vf=[0,2],vg=a(h7),vh=[0,5],vi=a(ib),vj=[0,4],vk=a(fX),vl=a(mm),vm=a(f2),vn=a(b4),vo=[0,0],vp=[0,0],vq=[0,0],v2=a(Q),vZ=[0,[0,[0,[0,0]]]],v0=[0,[0,[0,[0,0]]]],vX=[0,0],vU=[0,[0,0]],vV=[0,[0,[0,0]]],vQ=[0,[0,[0,0]]],vP=[0,0,0],vO=[0,[0,[0,0]]],vN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],vM=[0,0],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],vH=[0,[0,0]],vK=[0,[0,[0,0]]],vI=[0,[0,0]],vJ=[0,[0,[0,0]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],vB=[0,[0,0]],vC=[0,[0,[0,0]]],vz=[0,[0,[0,0]]],vA=[0,[0,0]],vw=[0,[0,0]],vx=[0,0],vu=[0,0],vv=[0,1],vt=[0,[0,0]],vs=[0,0],u6=[0,0],u7=[0,1],u8=[0,2],u2=[0,[0,0]],u3=[0,0],u1=[0,0],u0=[0,0],uZ=[0,0],uY=[0,0,0],uX=[0,0,0],uV=[0,[0,[0,0]]],uW=[0,[0,[0,0]]],uU=[0,0],uS=[0,1,0],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],uN=a("sqrt"),uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],ut=[0,a("\n"),0],uu=a(l4),uv=a(fR),uw=a(mX),ux=a(mE),uD=a(ev),uy=a(es),uz=a("verdict"),uA=a(nq),uB=a(mx),uC=a(mW),uq=a(mR),ur=a(nt),us=a(fU),um=a(m7),un=a(fV),uo=a(es),up=a(ev),uh=a(f5),ui=a(a4),uj=a(l5),uk=a(f0),ue=a(no),uf=a(h7),ug=a(f0),ua=a(m_),ub=a(f5),uc=a(fV),ud=a(nD),t7=a(nu),t8=a(nx),t9=a(mO),t_=a(fY),tV=a(hR),tW=a(h$),tQ=a(a3),tR=a(a2),tS=a(mz),tq=a(fY),tr=a(nc),s3=a(a4),s4=a(bJ),s5=a(f7),s6=a(dC),s7=a(cW),ta=a(fQ),s8=a(h6),s9=a(h9),s_=a(dz),s$=a(a4),tb=a(bJ),tc=a(f7),td=a(a3),te=a(a2),tf=a(b3),tg=a(dC),th=a(h6),ti=a(h9),tj=a(dz),tk=a(a4),tl=a(bJ),tm=a(a3),tn=a(a2),to=a(b3),tp=a(dC),ts=a(nj),tt=a(nw),tu=a(f_),tv=a(mn),tw=a(ms),tx=a(dz),ty=a(a4),tz=a(bJ),tA=a(fN),tB=a(mC),tC=a(dC),tD=a(ey),tE=a(mb),tF=a(dz),tG=a(a4),tH=a(fN),tI=a(a4),tJ=a(ne),tM=a(l2),tK=a(mq),tL=a(nC),tN=a(ev),tO=a(es),tP=a(a4),tT=a(f_),tU=a(fU),sX=a(bJ),sY=a(ic),sZ=a(dC),s0=a(fQ),s1=a(dz),sL=a(ey),sM=a(nr),sN=a(cV),sO=a(dA),sP=a(dA),sQ=a(hU),sR=a(cV),sS=a(mZ),sT=a(my),sU=a(aT),sW=a(l8),sV=a(hU),sB=a(mQ),sC=a(nK),sD=a(mu),sE=a(mr),sF=a(nA),sG=a(nm),sH=a(mF),sI=a(fO),sJ=a(fO),sx=a(aT),sy=a(bd),sz=a(dD),sA=a(bv),st=a(cW),su=a(h1),sv=a(m8),sq=a(a3),sr=a(a2),ss=a(b3),sj=a(a3),sk=a(a2),sl=a(b3),sm=a(h3),sn=a(cV),so=a(hZ),sp=a(ni),r$=a(mp),sf=a(fR),se=a(nB),sa=a(mt),sb=a(hV),sg=a(ml),sh=a(ng),si=a(hV),sc=a(dA),sd=a(m4),r8=a(fZ),r9=a(fZ),r_=a(fZ),r4=a(nk),r5=a(a2),r6=a(a3),r7=a(nz),rQ=a(mf),rR=a(l7),rS=a(na),rT=a(f1),rU=a(nI),rV=a(nd),rW=a(mg),rX=a(m5),rY=a(me),rZ=a(mB),r0=a(md),r1=a(nl),r2=a(fS),r3=a(ma),rv=a(f3),rx=a(et),rw=a(er),ry=a(dy),rz=a(aT),rA=a(bd),rB=a(b4),rC=a(f8),rD=a(bv),rE=a(aT),rF=a(bd),rG=a(dD),rH=a(bv),rI=a(dy),rJ=a(ex),rK=a(aT),rL=a(bd),rM=a(m3),rN=a(nf),rO=a(ex),rP=a(bv),rd=a(f3),rl=a(et),re=a(er),rf=a(dy),rg=a(aT),rh=a(bd),ri=a(b4),rj=a(f8),rk=a(bv),rm=a(f9),rn=a(aT),ro=a(bd),rp=a(dD),rq=a(bv),rr=a(b4),rs=a(cW),rt=a(bv),ra=a(a3),rb=a(a2),q_=[0,a(aw),0],q$=a(aw),q8=a(Q),q7=[0,a(aw),0],q9=a(aw),qU=a(f3),qV=a(et),qW=a("*"),qX=a(bw),qP=[0,[0,[0,[0,[0,0]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,0]],qS=[0,0],qT=[0,[0,[0,[0,0]]]],qN=a('":'),qO=a(aw),qL=[0,a(aw),0],qM=a(aw),qJ=[0,a("}"),0],qK=a("{"),qH=[0,a("]"),0],qI=a("["),qF=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qC=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qx=[0,[0,0]],qy=[0,[0,[0,0]]],qu=[0,0],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],qr=[0,0],qo=[0,0,0],qp=[0,0,0],qq=[0,0,0],ql=[0,[0,0]],qm=[0,[0,[0,0]]],qn=[0,0],qa=[0,[0,[0,[0,[0,[0,0]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,[0,[0,[0,0]]]]]],p_=[0,[0,0]],p$=[0,[0,[0,0]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p3=[0,[0,[0,0]]],p4=[0,[0,0]],p1=[0,0],pX=[0,[0,0]],pY=[0,0],pZ=[0,0],p0=[0,[0,0]],pO=[0,[0,0]],pP=[0,0],pQ=[0,[0,0]],pR=[0,0],pS=[0,0],pT=[0,[0,0]],pU=[0,[0,0]],pV=[0,[0,0]],pW=[0,0],pK=[0,0],pJ=[0,0],pH=[0,[0,[0,0]]],pG=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],px=[0,[0,[0,0]]],pv=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,0]],ps=[0,0],pt=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,[0,[0,[0,0]]]]]],pn=[0,[0,[0,0]]],po=[0,[0,[0,[0,[0,[0,0]]]]]],pp=[0,[0,[0,0]]],pq=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],ph=[0,0,0],pf=[0,0,0],pe=[0,[0,[0,0]]],pa=[0,0],pb=[0,0],o7=[0,[0,[0,0]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,0]]],o6=[0,[0,[0,[0,0]]]],o2=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],o5=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],o0=[0,[0,0]],o1=[0,0],oY=[0,[0,0]],oZ=[0,0],oW=[0,[0,0]],oX=[0,0],oI=[0,0],oJ=[0,[0,0]],oK=[0,0],oL=[0,[0,0]],oG=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],oC=[0,0,0],oA=a(ia),oz=a(Q),oy=[0,[0,0]],ox=[0,0],ou=[0,0],ow=[1,0],ov=[0,0],ot=[0,0],or=[1,0],os=[1,0],vW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],y7=a(a3),y8=a(a2),y9=a(mz),yW=a(f9),yX=[0,a("a base axis of such a platform"),0],yY=a(aT),yZ=a(bd),yJ=a(nm),yK=a(mQ),yL=a(nA),yM=a(fO),yN=a(mF),yO=a(fO),yP=a(nK),yQ=a(mu),yR=a(mr),yw=a(nc),yx=a(fY),x7=a(bJ),xV=a(fU),xW=a(a4),xX=a(ne),xY=a(nC),x1=a(mq),x2=a(l2),x3=a(a4),x4=a(a4),x6=a(fN),x5=[0,a("a claim that no cube of such a machine fits"),0],x8=a(dz),x9=a(dC),x_=a(fQ),x$=a(ic),y6=[0,a(mI),0],ya=a(cW),yb=a(h1),yc=a(m8),yd=a(f7),ye=a(ms),yf=a(mb),yg=a(fQ),yj=a(b3),yk=a(ni),yn=a(ic),yo=[0,a(mI),0],yp=a(bJ),yq=[0,a("the distance from parallel singularities of other drives than sliders"),0],yr=a(mC),ys=[0,a("what else is asked of the closed design"),0],yt=a(fN),yu=a(ey),yv=a(b3),yy=a(bJ),yz=a(a3),yA=a(a2),yB=a(nj),yC=a(nw),yD=a(f_),yE=a(mn),yh=[0,a(aw),0],yi=a('the mechanism "'),yF=a(b3),yG=[0,a('" of a platform that turns'),0],yH=a(nn),yI=a(h6),yS=a(f7),yT=a(cW),yU=a(h1),yV=a(h9),y0=a(bJ),y1=a(a3),y2=a(a2),y5=a(cW),y3=[0,a("a platform that turns on struts and other drives"),0],y4=a(bJ),yl=[0,a(aw),0],ym=a(nn),y_=a(a4),y$=a(a4),zb=a(ev),zc=a(es),zd=a(f_),za=[0,a("an atlas of such a machine"),0],xZ=[0,a(aw),0],x0=a('a claim of the kind "'),zi=a(nL),zp=a(fS),zq=a(f1),zr=a(mA),zs=a(m1),zt=a(b4),zu=a(h$),zv=a(hR),zw=a(b4),zx=a(ia),zj=a(fX),zk=a(mm),zl=a(f2),zm=a(nb),zn=[0,a(aw),0],zo=a('the evidence "'),zy=a(fX),zz=a(f2),zA=a(ny),zC=a(fX),zD=a(f2),zE=a(hP),zF=a(hP),zB=[0,a("this evidence at control points"),0],At=a('"orthocert-paving/'),z$=a(mW),Aa=a(mx),Ab=a(nq),Ar=[0,3,3],Ac=a(mE),Al=[0,a("this set of orientations with such drives"),0],Am=[0,a(mM),0],Ap=[0,a(mM),0],Aq=[0,a("a mechanism by formulas in a claim that is refuted"),0],An=[0,a('the evidence "tolerances" of such a mechanism'),0],Ao=[0,a("a step of a platform that turns that is not at control points"),0],Ad=[0,a("the acceleration of a joint of a machine with a plane"),0],Ak=[0,a("this quantity in a claim that is refuted"),0],Ai=[0,a("a step in a proof that no cube fits"),0],Aj=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ah=[0,a("a leaf that fails"),0],Ae=a(mX),Af=a(l4),Ag=a(fR),z9=a(ib),z3=a(fU),z4=a(mR),z5=a(nt),z6=[0,a(aw),0],z7=a('a proof of the kind "'),zZ=a(es),z0=a(ev),z1=a(fV),z2=a(m7),zV=a(a4),zW=a(f5),zX=a(l5),zY=a(f0),zS=a(no),zT=a(h7),zU=a(f0),zO=a(m_),zP=a(f5),zQ=a(fV),zR=a(nD),zI=a(nx),zJ=a(mO),zK=a(nu),zL=a(fY),zM=[0,a(aw),0],zN=a('the failure "'),zG=a(ib),zH=a(ia),zg=a(h$),zh=a(hR),ze=a(l3),zf=a(l6),xS=a(ey),xI=a(hU),xJ=a(l8),xK=a(dA),xL=a(aT),xQ=a(nr),xR=a(ey),xT=a(cV),xU=a(dA),xM=a(cV),xN=a(mZ),xO=a(my),xP=a(aT),xB=a(b3),xF=a(a3),xG=a(a2),xC=a(hZ),xD=a(h3),xE=a(cV),xv=a(b3),xz=a(a3),xA=a(a2),xw=a(hZ),xx=a(h3),xy=a(cV),xu=[0,1],xs=[0,1],xr=[0,a("this quantity of such a mechanism"),0],xb=a(mt),xc=[0,a("a stiffness for each joint"),0],xd=a(ng),xe=a(ml),xf=a(nB),xg=a("max_angle"),xh=[0,a("accuracy of a platform that turns"),0],xa=a(fR),w4=a(fZ),wU=a(m4),wV=a(na),xk=a(fS),xl=a(mB),xm=a(f1),xn=a(m5),xo=a(md),xp=a(me),xq=a(l7),wW=a(ma),wX=a(nl),wY=a(nd),wZ=a(nI),w0=a(mg),w1=a(mf),w2=[0,a(aw),0],w3=a('the quantity "'),w5=a(mp),w6=a(nk),w7=a(a3),w8=a(a2),w9=a(nz),w_=[0,a(aw),0],w$=a('a bound "'),xi=a(hV),xj=a(dA),wS=a(bv),wT=a(dD),wx=a(bv),wy=a(f9),wz=a(ex),wA=a(f8),wB=a(dD),wE=a(aT),wF=a(bd),wG=a(er),wH=a(dy),wI=a(aT),wJ=a(bd),wK=a(b4),wL=a(er),wM=a(dy),wN=a(ex),wO=a(aT),wP=a(bd),wQ=a(m3),wR=a(nf),wC=[0,a('" of such a machine'),0],wD=a(mk),wv=a(bv),ww=a(ex),wf=a(bv),wg=a(cW),wh=a(f8),wi=a(dD),wl=a(f9),wm=a(aT),wn=a(bd),wo=a(er),wp=a(dy),wq=a(aT),wr=a(bd),ws=a(b4),wt=a(b4),wj=[0,a(aw),0],wk=a(mk),wc=a(f3),wd=a(et),wa=a(" is not covered by the verified checker"),wb=a(Q),v_=a(a3),v$=a(a2),v6=a(Q),v7=a(nJ),v8=a(Q),v9=a(Q),v5=[1,0],v3=a("Reader.Malformed"),v4=a("Reader.Not_covered"),Av=[0,a("a paving is checked by orthocert-verified")],Au=a(m6),Aw=a("CERTIFIED"),Ax=a("REFUTED"),Ay=a(m6),Az=a("NOT COVERED: ");function
+eE(a){throw[0,ix,a]}function
 aO(d,c){var
-a=al(d),e=al(c),b=bM(a+e|0);dE(d,0,b,0,a);dE(c,0,b,a,e);return ge(b)}B4(0);n2(1);n2(2);function
-iy(b){function
+a=al(d),e=al(c),b=bM(a+e|0);dF(d,0,b,0,a);dF(c,0,b,a,e);return gf(b)}B9(0);n7(1);n7(2);function
+iz(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{B3(d)}catch(a){a=oa(a);if(a[1]!==ix)throw a;var
+c=a[2],d=a[1];try{B8(d)}catch(a){a=of(a);if(a[1]!==iy)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(B5(0))}Ca(a(l5),iy);function
+a=c;continue}return 0}}return a(B_(0))}Cf(a(l_),iz);function
 bN(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 R(b,a){if(a){var
 c=a[2],d=k(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gg(d,c){var
+gh(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aw(d,c){var
+ax(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-be(b,c){var
-a=bM(b);BN(a,0,b,c);return ge(a)}function
+bf(b,c){var
+a=bM(b);BS(a,0,b,c);return gf(a)}function
 c4(g,b,a){var
-d=dF(g),f=0;if(0<=b&&0<=a&&!((gc(d)-a|0)<b)){var
-c=bM(a);ew(d,b,c,0,a);var
+d=dG(g),f=0;if(0<=b&&0<=a&&!((gd(d)-a|0)<b)){var
+c=bM(a);ez(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eB(oh);return ge(e)}function
-iz(k,g){if(g){var
+e=eE(om);return gf(e)}function
+iA(k,g){if(g){var
 h=al(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eB(oi),c=n,b=m;continue}var
+j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eE(on),c=n,b=m;continue}var
 l=al(i)+c|0}else
 var
 l=c;var
 f=bM(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dE(a,0,f,e,al(a));dE(k,0,f,e+al(a)|0,h);var
-e=(e+al(a)|0)+h|0,d=o;continue}dE(a,0,f,e,al(a))}return ge(f)}}}return oj}function
-gh(b,c){if(0===b)return[0];if(0<=b){var
-d=B2(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];dF(a,0,f,e,al(a));dF(k,0,f,e+al(a)|0,h);var
+e=(e+al(a)|0)+h|0,d=o;continue}dF(a,0,f,e,al(a))}return gf(f)}}}return oo}function
+gi(b,c){if(0===b)return[0];if(0<=b){var
+d=B7(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eB(ok)}function
-gi(c){var
+a=g;continue}break}}return d}return eE(op)}function
+gj(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aD(0),b=aD(1);function
 r(a){return x(a,b)}function
-iA(b,a){return x(aD(b),a)}function
+iB(b,a){return x(aD(b),a)}function
 c(b,a){return v(aD(b),a)}function
-aU(b,a){return[0,it(b,a),od(b,a)]}function
-gj(b,a){return H(b,a)?b:a}function
-bf(b,a){return H(b,a)?a:b}function
-ak(a){return a?0:1}function
+aU(b,a){return[0,iu(b,a),oi(b,a)]}function
+gk(b,a){return H(b,a)?b:a}function
+bg(b,a){return H(b,a)?a:b}function
+aj(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 aK(a){return a[1]}function
 b9(a){return a[2]}function
-j(a){var
-b=a?[0,j(a[2])]:a;return b}function
+i(a){var
+b=a?[0,i(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iB(a){return typeof
-a==="number"?0:[0,iB(a[1])]}function
-iC(d,c){var
+iC(a){return typeof
+a==="number"?0:[0,iC(a[1])]}function
+iD(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -792,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eC(a){return iC(a,0)}function
-iD(a){if(typeof
-a==="number")return om;else
+eF(a){return iD(a,0)}function
+iE(a){if(typeof
+a==="number")return or;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -804,34 +804,34 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iD(a[1])]}}function
-bh(a){if(typeof
-a==="number")return on;else
+8:return[9,a[1]];default:return[0,iE(a[1])]}}function
+bi(a){if(typeof
+a==="number")return os;else
 switch(a[0]){case
-0:return[1,bg(a[1])];case
-1:return[3,bg(a[1])];case
-2:return[5,bg(a[1])];case
-3:return[7,bg(a[1])];case
-4:return[9,bg(a[1])];case
-5:return[1,bh(a[1])];case
-6:return[3,bh(a[1])];case
-7:return[5,bh(a[1])];case
-8:return[7,bh(a[1])];default:return[9,bh(a[1])]}}function
-bg(a){if(typeof
+0:return[1,bh(a[1])];case
+1:return[3,bh(a[1])];case
+2:return[5,bh(a[1])];case
+3:return[7,bh(a[1])];case
+4:return[9,bh(a[1])];case
+5:return[1,bi(a[1])];case
+6:return[3,bi(a[1])];case
+7:return[5,bi(a[1])];case
+8:return[7,bi(a[1])];default:return[9,bi(a[1])]}}function
+bh(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bg(a[1])];case
-1:return[2,bg(a[1])];case
-2:return[4,bg(a[1])];case
-3:return[6,bg(a[1])];case
-4:return[8,bg(a[1])];case
-5:return[0,bh(a[1])];case
-6:return[2,bh(a[1])];case
-7:return[4,bh(a[1])];case
-8:return[6,bh(a[1])];default:return[8,bh(a[1])]}}function
-bx(a){return a?a[1]:a}function
-P(b,a){return b?[0,P(b[1],a)]:a}function
-dK(a,b){return a?P(b,dK(a[1],b)):a}function
+0:return[0,bh(a[1])];case
+1:return[2,bh(a[1])];case
+2:return[4,bh(a[1])];case
+3:return[6,bh(a[1])];case
+4:return[8,bh(a[1])];case
+5:return[0,bi(a[1])];case
+6:return[2,bi(a[1])];case
+7:return[4,bi(a[1])];case
+8:return[6,bi(a[1])];default:return[8,bi(a[1])]}}function
+by(a){return a?a[1]:a}function
+N(b,a){return b?[0,N(b[1],a)]:a}function
+dL(a,b){return a?N(b,dL(a[1],b)):a}function
 b_(b,a){return b?a:a?0:1}function
 t(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
@@ -839,31 +839,31 @@ b=b[1],a=a[1];continue}return a}return a?0:1}}function
 _(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dL(b,a){return _([0,b],a)}function
-iE(c){var
+dM(b,a){return _([0,b],a)}function
+iF(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eD(c,b,a){return c?k(b,eD(c[1],b,a)):a}function
-iF(a){if(a)var
-b=a[1],d=b?[0,iF(b[1])]:b,c=d;else
+eG(c,b,a){return c?k(b,eG(c[1],b,a)):a}function
+iG(a){if(a)var
+b=a[1],d=b?[0,iG(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iG(c,a){return bf(b,aE(c,a))}function
-eE(a){if(H(a,b))return op;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eE(e)]:[0,eE(e)]}function
-eF(a){if(H(a,b))return b;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?r(eF(e)):r(eF(e))}function
-iH(c,b){var
-a=is(c,b);return 0===a?0:0<=a?2:1}function
-gk(j,i){var
+iH(c,a){return bg(b,aE(c,a))}function
+eH(a){if(H(a,b))return ou;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eH(e)]:[0,eH(e)]}function
+eI(a){if(H(a,b))return b;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?r(eI(e)):r(eI(e))}function
+iI(c,b){var
+a=it(c,b);return 0===a?0:0<=a?2:1}function
+gl(j,i){var
 c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
 g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(H(a,b))return 0;var
 e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
 c=h,a=k;continue}return 0}if(H(a,b))return 0;var
 f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
 c=h,a=l;continue}}function
-eG(b,a){return 2<=iH(b,a)?0:1}function
+eJ(b,a){return 2<=iI(b,a)?0:1}function
 c5(i,e,a){if(i){var
 f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
 w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
@@ -871,19 +871,19 @@ m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
 j=c5(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
 k=c5(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(H(a,b))return[0,b,[0,e,b]];var
 v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iH(g,h)){case
+n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iI(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=c5(f,iG(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=c5(f,iG(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-eH(b,a){var
-c=eE(a);return c5(P(eE(b),c),b,a)}function
-iI(c,i,h){var
+p=c5(f,iH(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=c5(f,iH(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+eK(b,a){var
+c=eH(a);return c5(N(eH(b),c),b,a)}function
+iJ(c,i,h){var
 e=i,a=h;for(;;){if(H(e,b))return a;var
 f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=au(c,a,a);continue}return au(c,a,iI(c,g,au(c,a,a)))}}function
-dM(a){return iI(P,a,oq)}function
-gl(a){return a?r(gl(a[1])):b}function
+e=g,a=av(c,a,a);continue}return av(c,a,iJ(c,g,av(c,a,a)))}}function
+dN(a){return iJ(N,a,ov)}function
+gm(a){return a?r(gm(a[1])):b}function
 bO(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -907,19 +907,19 @@ t=v(c(2,r(c(2,c(2,b)))),d),u=x(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 w=v(c(2,r(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
 z=v(c(2,r(c(2,c(2,b)))),d),A=x(r(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
-gm(a){if(H(a,b))return or;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bg(gm(e)):bh(gm(e))}function
-eI(a){return eC(gm(a))}function
-iJ(k,f){if(0<=a5(f)){var
-g=iu(f);if(0<=g){var
+gn(a){if(H(a,b))return ow;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bh(gn(e)):bi(gn(e))}function
+eL(a){return eF(gn(a))}function
+iK(k,f){if(0<=a5(f)){var
+g=iv(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eB(ol)}return d}function
-gn(c){var
+h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eE(oq)}return d}function
+go(c){var
 a=a5(c);return 0===a?d:0<a?b:L(b)}function
-iK(a){return 0<=a5(a)?a:d}function
-dN(a){var
+iL(a){return 0<=a5(a)?a:d}function
+dO(a){var
 c=a5(a);return 0===c?b:0<c?a:b}function
-iL(m){var
+iM(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -942,13 +942,13 @@ j=r(c(2,r(c(2,b))));return bO(a[1],j);case
 k=c(2,c(2,c(2,b)));return bO(a[1],k);default:var
 l=r(c(2,c(2,c(2,b))));return bO(a[1],l)}}function
 b$(b,a){var
-c=a5(a);return 0===c?d:1===c?it(b,a):iA(-1,it(iA(-1,b),a))}function
-eJ(a){return 0<a5(a)?Ck(a):d}function
-dO(b,c){var
-a=iu(c);return 0<=a?oe(b,a):of(b,-a|0)}function
+c=a5(a);return 0===c?d:1===c?iu(b,a):iB(-1,iu(iB(-1,b),a))}function
+eM(a){return 0<a5(a)?Cp(a):d}function
+dP(b,c){var
+a=iv(c);return 0<=a?oj(b,a):ok(b,-a|0)}function
 ct(b,c){var
-a=iu(c);return 0<=a?of(b,a):oe(b,-a|0)}function
-by(b,a){return a?a[1]:b}function
+a=iv(c);return 0<=a?ok(b,a):oj(b,-a|0)}function
+bz(b,a){return a?a[1]:b}function
 ca(a){var
 b=a?a[2]:a;return b}function
 u(e,d,c){var
@@ -958,24 +958,24 @@ W(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iM(a){if(a){var
-b=[0,a[1],0];return f(iM(a[2]),b)}return a}function
-iN(d,c){var
+iN(a){if(a){var
+b=[0,a[1],0];return f(iN(a[2]),b)}return a}function
+iO(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iO(a){if(a){var
-b=iO(a[2]);return f(a[1],b)}return a}function
+iP(a){if(a){var
+b=iP(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-B(b,a){if(a){var
-c=B(b,a[2]);return f(k(b,a[1]),c)}return a}function
+A(b,a){if(a){var
+c=A(b,a[2]);return f(k(b,a[1]),c)}return a}function
 c6(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=au(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bi(c,b,a){if(a){var
-d=bi(c,b,a[2]);return au(c,a[1],d)}return b}function
+f=av(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+bj(c,b,a){if(a){var
+d=bj(c,b,a[2]);return av(c,a[1],d)}return b}function
 aq(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
@@ -991,126 +991,126 @@ cu(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,cu(b,c)];var
 a=c;continue}return a}}function
-iP(d,c){var
+iQ(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aA(b,a){if(b)if(a)var
-d=aA(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aB(b,a){if(b)if(a)var
+d=aB(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dP(b,a){if(b)if(a)var
-d=dP(b[1],a[2]),c=[0,a[1],d];else
+c7(b,a){if(b)if(a)var
+d=c7(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-go(d,c){var
+eN(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aV(b,a){var
 c=a?[0,b,aV([0,b],a[1])]:a;return c}function
 aW(b,a){var
 c=a?[0,b,aW(b,a[1])]:a;return c}function
-iQ(a){if(a){var
-e=iQ(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
-eK(j){function
+iR(a){if(a){var
+e=iR(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
+eO(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iQ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dM(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iR([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dN(b):0}function
 cv(c,b){var
-a=is(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c7(b,a){return H(v(b[1],a[2]),v(a[1],b[2]))}function
+a=it(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c8(b,a){return H(v(b[1],a[2]),v(a[1],b[2]))}function
 cw(b,a){return[0,x(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
-bz(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-iR(a){return[0,L(a[1]),a[2]]}function
-dQ(b,a){return cw(b,iR(a))}function
-eL(f,c){var
-a=c[1],e=a5(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,L(c[2]),L(a)];return bz(f,g)}function
-eM(q){var
+bA(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
+iS(a){return[0,L(a[1]),a[2]]}function
+dQ(b,a){return cw(b,iS(a))}function
+eP(f,c){var
+a=c[1],e=a5(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,L(c[2]),L(a)];return bA(f,g)}function
+eQ(q){var
 a=q[2],b=q[1],o=a5(b);if(0===o)var
-c=[0,c3(a),[0,d,gn(a)]];else
+c=[0,c3(a),[0,d,go(a)]];else
 if(0<o){var
 n=a5(a);if(0===n)var
-c=[0,c3(b),[0,gn(b),d]];else
+c=[0,c3(b),[0,go(b),d]];else
 if(0<n)var
-l=eH(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=eK(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eH(b,L(a)),k=j[2],c=[0,j[1],[0,k[1],L(k[2])]]}else{var
+j=eK(b,L(a)),k=j[2],c=[0,j[1],[0,k[1],L(k[2])]]}else{var
 p=L(b),i=a5(a);if(0===i)var
-c=[0,c3(b),[0,gn(b),d]];else
+c=[0,c3(b),[0,go(b),d]];else
 if(0<i)var
-g=eH(p,a),h=g[2],c=[0,g[1],[0,L(h[1]),h[2]]];else
+g=eK(p,a),h=g[2],c=[0,g[1],[0,L(h[1]),h[2]]];else
 var
-e=eH(p,L(a)),f=e[2],c=[0,e[1],[0,L(f[1]),L(f[2])]]}var
-r=c[2],s=dN(r[2]);return[0,r[1],s]}function
+e=eK(p,L(a)),f=e[2],c=[0,e[1],[0,L(f[1]),L(f[2])]]}var
+r=c[2],s=dO(r[2]);return[0,r[1],s]}function
 aX(a){if(typeof
-a==="number")return ou;else
+a==="number")return oz;else
 switch(a[0]){case
 0:var
-b=aX(a[1]);return aO(be(1,48),b);case
+b=aX(a[1]);return aO(bf(1,48),b);case
 1:var
-c=aX(a[1]);return aO(be(1,49),c);case
+c=aX(a[1]);return aO(bf(1,49),c);case
 2:var
-d=aX(a[1]);return aO(be(1,50),d);case
+d=aX(a[1]);return aO(bf(1,50),d);case
 3:var
-e=aX(a[1]);return aO(be(1,51),e);case
+e=aX(a[1]);return aO(bf(1,51),e);case
 4:var
-f=aX(a[1]);return aO(be(1,52),f);case
+f=aX(a[1]);return aO(bf(1,52),f);case
 5:var
-g=aX(a[1]);return aO(be(1,53),g);case
+g=aX(a[1]);return aO(bf(1,53),g);case
 6:var
-h=aX(a[1]);return aO(be(1,54),h);case
+h=aX(a[1]);return aO(bf(1,54),h);case
 7:var
-i=aX(a[1]);return aO(be(1,55),i);case
+i=aX(a[1]);return aO(bf(1,55),i);case
 8:var
-j=aX(a[1]);return aO(be(1,56),j);default:var
-k=aX(a[1]);return aO(be(1,57),k)}}function
+j=aX(a[1]);return aO(bf(1,56),j);default:var
+k=aX(a[1]);return aO(bf(1,57),k)}}function
 dR(a){return typeof
-a==="number"?ov:aX(a)}function
-cx(a){return iJ(c(2,b),a)}function
-iS(b,a){return ct(a,b)}function
-iT(b,a){return L(ct(L(a),b))}function
-eN(b,a){return L(b$(L(b),a))}function
+a==="number"?oA:aX(a)}function
+cx(a){return iK(c(2,b),a)}function
+iT(b,a){return ct(a,b)}function
+iU(b,a){return L(ct(L(a),b))}function
+eR(b,a){return L(b$(L(b),a))}function
 aa(c,b){var
-a=dO(b,c);return[0,a,a]}function
-iU(d,c,a){var
-b=dO(c,d),e=eN(b,a);return[0,b$(b,a),e]}function
+a=dP(b,c);return[0,a,a]}function
+iV(d,c,a){var
+b=dP(c,d),e=eR(b,a);return[0,b$(b,a),e]}function
 C(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
 M(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
 af(a){return[0,L(a[2]),L(a[1])]}function
-iV(e,c,b,a){if(H(d,e))return H(d,b)?[0,v(e,b),v(c,a)]:H(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(H(c,d))return H(d,b)?[0,v(e,a),v(c,b)]:H(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(H(d,b))return[0,v(e,a),v(c,a)];if(H(a,d))return[0,v(c,b),v(e,b)];var
-f=bf(v(e,b),v(c,a));return[0,gj(v(e,a),v(c,b)),f]}function
+iW(e,c,b,a){if(H(d,e))return H(d,b)?[0,v(e,b),v(c,a)]:H(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(H(c,d))return H(d,b)?[0,v(e,a),v(c,b)]:H(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(H(d,b))return[0,v(e,a),v(c,a)];if(H(a,d))return[0,v(c,b),v(e,b)];var
+f=bg(v(e,b),v(c,a));return[0,gk(v(e,a),v(c,b)),f]}function
 w(c,b,a){var
-d=iV(b[1],b[2],a[1],a[2]),e=iT(c,d[2]);return[0,iS(c,d[1]),e]}function
+d=iW(b[1],b[2],a[1],a[2]),e=iU(c,d[2]);return[0,iT(c,d[1]),e]}function
 U(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=iT(b,bf(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=iU(b,bg(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iS(b,gj(c,e));return[0,f,h]}function
+f=iT(b,gk(c,e));return[0,f,h]}function
 gp(b,a){var
-c=dO(cx(b),b),d=eN(c,a[1]);return[0,b$(c,a[2]),d]}function
+c=dP(cx(b),b),d=eR(c,a[1]);return[0,b$(c,a[2]),d]}function
 cb(b,a){if(Z(d,a[1]))return[0,gp(b,a)];var
 c=Z(a[2],d),e=c?[0,af(gp(b,af(a)))]:c;return e}function
 cy(f,c){var
 g=Z(d,c[1]);if(g)var
-e=dO(c[2],f),a=eJ(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eJ(dO(c[1],f)),i]];else
+e=dP(c[2],f),a=eM(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eM(dP(c[1],f)),i]];else
 var
 h=g;return h}function
 aP(f,d,c,b,a){if(b){if(a){var
-g=aP(f,d,c,b[2],a[2]);return[0,au(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+g=aP(f,d,c,b[2],a[2]);return[0,av(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 cc(b,a){return ct(b,a)}function
-a_(a,c,b){if(H(d,a)){var
+a$(a,c,b){if(H(d,a)){var
 e=b[1],f=L(cc(L(v(a,b[2])),c));return[0,cc(v(a,e),c),f]}var
 g=b[2],h=L(cc(L(v(a,b[1])),c));return[0,cc(v(a,g),c),h]}function
 a6(a){var
 c=L(ct(L(a[2]),b));return[0,ct(a[1],b),c]}function
 dS(c,b,a){var
-e=iV(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eN(f,h),j=Z(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
-dT(a){return bf(a[2],L(a[1]))}var
-A=[0,d,d];function
-eO(a){return[0,a[1],a[1]]}function
-c8(a){return[0,a[2],a[2]]}function
+e=iW(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eR(f,h),j=Z(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
+dT(a){return bg(a[2],L(a[1]))}var
+B=[0,d,d];function
+eS(a){return[0,a[1],a[1]]}function
+c9(a){return[0,a[2],a[2]]}function
 cz(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
@@ -1160,40 +1160,40 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-eP(b){var
+eT(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aQ(c,b){var
-a=eP(b);return a?Y(c,a[1]):a}function
+a=eT(b);return a?Y(c,a[1]):a}function
 dU(a){return Z(c3(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
 F(b,a){if(aQ(d,b))return a;if(aQ(d,a))return b;var
-c=eP(b);if(c){var
-e=c[1],f=eP(a);if(f){var
+c=eT(b);if(c){var
+e=c[1],f=eT(a);if(f){var
 g=f[1];if(dU(e)&&dU(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bj(a){var
+bk(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return dU(c)?l(L(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aQ(d,a))return b;if(aQ(d,b))return bj(a);var
+s(b,a){if(aQ(d,a))return b;if(aQ(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?t(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 J(a){var
-c=eP(a);if(c){var
+c=eT(a);if(c){var
 b=c[1];return dU(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 o(a,c){if(!aQ(d,a)&&!aQ(b,c)){if(!aQ(d,c)&&!aQ(b,a))return aL(a,c)?J(a):[0,[6,a,c]];return c}return a}function
-aj(c,a){return aQ(b,a)?c:[0,[7,c,a]]}function
+ak(c,a){return aQ(b,a)?c:[0,[7,c,a]]}function
 aF(a){return aQ(b,a)?a:[0,[9,a]]}function
-iW(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bA(f,e,d,c){var
+iX(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bB(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,k(e,cz(function(b){return function(a){return u(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
 cA(a){var
 b=0;function
-c(a){return[0,a]}return bA(l(d),c,a,b)}function
-gq(b,a){if(a){if(aL(b,a[1]))return ow;var
+c(a){return[0,a]}return bB(l(d),c,a,b)}function
+gq(b,a){if(a){if(aL(b,a[1]))return oB;var
 c=gq(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
-bk(c,b){var
+bl(c,b){var
 a=gq(b,c),d=a?a[1]:a;return d}function
 cB(d,b){if(gq(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
@@ -1208,14 +1208,14 @@ c=cB(a[1],b);break;case
 2:var
 c=b;break;default:var
 h=cB(a[1],b),c=cB(a[2],h)}var
-e=c[2],f=c[1],g=[0,cz(function(a){return bk(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-c9(a){var
-b=c6(function(b,a){return cB(a,b)},a,ox),c=b[1],d=e(function(a){return bk(c,a)},a);return[0,iM(b[2]),d]}function
-eQ(a){return bi(function(b,a){return x(dT(b),a)},d,a)}function
+e=c[2],f=c[1],g=[0,cz(function(a){return bl(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+c_(a){var
+b=c6(function(b,a){return cB(a,b)},a,oC),c=b[1],d=e(function(a){return bl(c,a)},a);return[0,iN(b[2]),d]}function
+eU(a){return bj(function(b,a){return x(dT(b),a)},d,a)}function
 bP(b,c,a){var
-d=eQ(a),e=gj(c[2],x(b[2],d)),f=eQ(a);return[0,b,[0,bf(c[1],aE(b[1],f)),e],a]}function
+d=eU(a),e=gk(c[2],x(b[2],d)),f=eU(a);return[0,b,[0,bg(c[1],aE(b[1],f)),e],a]}function
 ad(a){return[0,a,a,0]}function
-bB(b,a){var
+bC(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aP(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return bP(C(b[1],a[1]),g,f)}function
@@ -1244,7 +1244,7 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-c_(a,c,b){var
+c$(a,c,b){var
 d=cb(a,b[1]);if(d){var
 f=cb(a,b[2]);if(f)var
 h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return M(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bP(g,w(a,c[2],h),p)];else
@@ -1254,35 +1254,35 @@ j=i}else
 var
 j=d;return j}function
 cd(b,a){return a?k(b,a[1]):a}function
-eR(a){var
+eV(a){var
 b=e(a6,a[3]),c=a6(C(a[2],a[1]));return bP(a[1],c,b)}function
-iX(a,k,j,r,c){var
-l=eR(k),m=eR(j),g=eR(c[1]),h=eR(c[2]),s=ar(a,l,h),t=a7(ar(a,m,g),s),i=c_(a,ad(aa(a,b)),t);if(i)var
+iY(a,k,j,r,c){var
+l=eV(k),m=eV(j),g=eV(c[1]),h=eV(c[2]),s=ar(a,l,h),t=a7(ar(a,m,g),s),i=c$(a,ad(aa(a,b)),t);if(i)var
 f=i[1],n=ar(a,a7(l,g),f),o=ar(a,a7(m,h),f),d=function(c,b){return ar(a,c,ad(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bB(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a7(b,d(f,a6(a)))[2]},C=function(a){return dV(d(f,a6(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bP(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bP(c[1][1],c[1][2],H),F]];else
+c=d(o,a);return bC(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a7(b,d(f,a6(a)))[2]},C=function(a){return dV(d(f,a6(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bP(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bP(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-iY(a,e,d,k){var
-p=dW(a,d),f=bB(dW(a,e),p),g=a7(bB(f,ad(aa(a,b))),k),l=ar(a,ad(aa(a,c(2,b))),f),q=dW(a,g),h=gr(a,a7(ar(a,ad(aa(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=ar(a,m,d),i=c_(a,bB(ar(a,g,e),r),l);if(i)var
-s=ar(a,m,e),j=c_(a,a7(ar(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+iZ(a,e,d,k){var
+p=dW(a,d),f=bC(dW(a,e),p),g=a7(bC(f,ad(aa(a,b))),k),l=ar(a,ad(aa(a,c(2,b))),f),q=dW(a,g),h=gr(a,a7(ar(a,ad(aa(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=ar(a,m,d),i=c$(a,bC(ar(a,g,e),r),l);if(i)var
+s=ar(a,m,e),j=c$(a,a7(ar(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cd(function(b){return iX(a,e,d,k,b)},o);return cd(function(b){return iX(a,e,d,k,b)},u)}function
-bQ(d,b,a){if(b){if(a)return au(d,b[1],a[1]);var
+u=cd(function(b){return iY(a,e,d,k,b)},o);return cd(function(b){return iY(a,e,d,k,b)},u)}function
+bQ(d,b,a){if(b){if(a)return av(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
 ce(b,j,i){var
-f=ad(A);return function(a){switch(a[0]){case
+f=ad(B);return function(a){switch(a[0]){case
 0:return[0,u(a[1],j,f)];case
 1:return[0,u(a[1],i,f)];case
 2:return[0,ad(aa(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bQ(function(b,a){return[0,bB(b,a)]},l,k);case
+k=a[2],l=a[1];return bQ(function(b,a){return[0,bC(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return bQ(function(b,a){return[0,a7(b,a)]},n,m);case
 5:var
@@ -1290,7 +1290,7 @@ o=a[1];return cd(function(a){return[0,dV(a)]},o);case
 6:var
 p=a[2],q=a[1];return bQ(function(c,a){return[0,ar(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bQ(function(a,c){return c_(b,a,c)},s,r);case
+r=a[2],s=a[1];return bQ(function(a,c){return c$(b,a,c)},s,r);case
 8:var
 t=a[1];return cd(function(a){return[0,dW(b,a)]},t);case
 9:var
@@ -1298,7 +1298,7 @@ v=a[1];return cd(function(a){return gr(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=iY(b,c[1],d[1],e[1]),x=a[1]?b9:aK;return y(x,w)}var
+w=iZ(b,c[1],d[1],e[1]),x=a[1]?b9:aK;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1316,10 +1316,10 @@ a=a[2];continue}}function
 bR(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gk(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gl(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gk(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gk(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gl(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gl(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=bR(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1333,61 +1333,61 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=bR(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bl(a,b){switch(b[0]){case
-0:return[0,iU(a,b[1],b[2])];case
+bm(a,b){switch(b[0]){case
+0:return[0,iV(a,b[1],b[2])];case
 1:return 0;case
 2:var
-c=bl(a,b[1]);if(c)var
-d=bl(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
+c=bm(a,b[1]);if(c)var
+d=bm(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
-e=bl(a,b[1]);if(e)var
-f=bl(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
+e=bm(a,b[1]);if(e)var
+f=bm(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
-g=bl(a,b[1]);if(g)var
-h=bl(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
+g=bm(a,b[1]);if(g)var
+h=bm(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
 var
 o=g;return o;case
 5:var
-i=bl(a,b[1]);if(i){var
-j=bl(a,b[2]);if(j)var
+i=bm(a,b[1]);if(i){var
+j=bm(a,b[2]);if(j)var
 k=cb(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bl(a,b[1]);return l?cy(a,l[1]):l}}function
-eS(b,a){return iU(b,a[1],a[2])}function
-bm(a,d){if(dX(d))switch(d[0]){case
+l=bm(a,b[1]);return l?cy(a,l[1]):l}}function
+eW(b,a){return iV(b,a[1],a[2])}function
+bn(a,d){if(dX(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dL(i,iZ),k=j?c7(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,eS(a,bz(dQ(e,g),n)),0],p=f(aW(A,i),o),q=eS(a,e)[2],r=[0,eS(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,eS(a,bz(cw(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dM(i,i0),k=j?c8(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,eW(a,bA(dQ(e,g),n)),0],p=f(aW(B,i),o),q=eW(a,e)[2],r=[0,eW(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,eW(a,bA(cw(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bm(a,d[2]),u=bm(a,d[1]);return bQ(function(b,a){return[0,bB(b,a)]},u,t);case
+t=bn(a,d[2]),u=bn(a,d[1]);return bQ(function(b,a){return[0,bC(b,a)]},u,t);case
 3:var
-v=bm(a,d[2]),w=bm(a,d[1]);return bQ(function(b,a){return[0,a7(b,a)]},w,v);case
+v=bn(a,d[2]),w=bn(a,d[1]);return bQ(function(b,a){return[0,a7(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(bR(h,m)){var
-x=bm(a,h);return cd(function(b){return[0,dW(a,b)]},x)}var
-z=bm(a,m),B=bm(a,h);return bQ(function(c,b){return[0,ar(a,c,b)]},B,z);case
+x=bn(a,h);return cd(function(b){return[0,dW(a,b)]},x)}var
+z=bn(a,m),A=bn(a,h);return bQ(function(c,b){return[0,ar(a,c,b)]},A,z);case
 5:var
-C=bm(a,d[2]),D=bm(a,d[1]);return bQ(function(b,c){return c_(a,b,c)},D,C);default:var
-E=bm(a,d[1]);return cd(function(b){return gr(a,b)},E)}return y(ad,bl(a,d))}function
+C=bn(a,d[2]),D=bn(a,d[1]);return bQ(function(b,c){return c$(a,b,c)},D,C);default:var
+E=bn(a,d[1]);return cd(function(b){return gr(a,b)},E)}return y(ad,bm(a,d))}function
 aY(b,a){if(dX(a)){var
-c=bm(b,a);return y(function(a){return a[2]},c)}return bl(b,a)}function
-i0(a){var
-e=bf(L(a),d);return dN(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-i1(a){return iK(x(i0(a),a))}function
+c=bn(b,a);return y(function(a){return a[2]},c)}return bm(b,a)}function
+i1(a){var
+e=bg(L(a),d);return dO(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+i2(a){return iL(x(i1(a),a))}function
 cf(f,a,e){var
-b=aY(x(f,i0(a)),e);if(b)var
-c=b[1],g=i1(a),h=L(cc(L(c[2]),g)),i=i1(a),d=[0,[0,cc(c[1],i),h]];else
+b=aY(x(f,i1(a)),e);if(b)var
+c=b[1],g=i2(a),h=L(cc(L(c[2]),g)),i=i2(a),d=[0,[0,cc(c[1],i),h]];else
 var
 d=b;return d}function
 ag(d,a){var
@@ -1397,51 +1397,51 @@ var
 e=b;return e}function
 gs(b,a){var
 c=L(cc(L(a[2]),b));return[0,cc(a[1],b),c]}function
-eT(b,a){var
-c=eN(b[2],a);return[0,b$(b[1],a),c]}function
+eX(b,a){var
+c=eR(b[2],a);return[0,b$(b[1],a),c]}function
 gt(a,f,c){if(c){var
-d=c[1],g=gt(a,f,d),h=g[2],i=gl(P(dK(oz,d),oy)),j=v(gl(dK(oA,d)),i),e=eT(w(a,g[1],f),j),k=iE(c)?C(h,e):M(h,e);return[0,e,k]}var
+d=c[1],g=gt(a,f,d),h=g[2],i=gm(N(dL(oE,d),oD)),j=v(gm(dL(oF,d)),i),e=eX(w(a,g[1],f),j),k=iF(c)?C(h,e):M(h,e);return[0,e,k]}var
 l=aa(a,b);return[0,aa(a,b),l]}function
-i2(f){var
-g=dM(f),e=oB[1],b=g,c=0,a=e;for(;;){if(b){var
+i3(f){var
+g=dN(f),e=oG[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return P(oC,c)}}function
-i3(a,d){var
+b=d,c=[0,c],a=e;continue}return N(oH,c)}}function
+i4(a,d){var
 g=cx(a),h=v(c(2,c(2,b)),g),e=H(d[2],h);if(e)var
-i=gt(a,d,dK(oE,P(i2(a),oD)))[2][2],f=[0,[0,gt(a,d,P(dK(oG,i2(a)),oF))[2][1],i]];else
+i=gt(a,d,dL(oJ,N(i3(a),oI)))[2][2],f=[0,[0,gt(a,d,N(dL(oL,i3(a)),oK))[2][1],i]];else
 var
 f=e;return f}function
-i4(i){function
+i5(i){function
 a(h){var
-m=b$(cx(i),h),g=dM(i),f=m,e=d,a=b;for(;;){if(g){var
+m=b$(cx(i),h),g=dN(i),f=m,e=d,a=b;for(;;){if(g){var
 j=x(a,c(2,b)),k=x(e,b$(f,a)),l=L(b$(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aE(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
-i5(e,a){var
+i6(e,a){var
 f=H(d,a);if(f){var
-g=c(2,c(2,b));return i3(e,eT(U(e,[0,a,a]),g))}return f}function
-i6(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(i4(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i4(a),n),e=i5(a,g);if(e){var
-f=i5(a,h);if(f)var
+g=c(2,c(2,b));return i4(e,eX(U(e,[0,a,a]),g))}return f}function
+i7(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(i5(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i5(a),n),e=i6(a,g);if(e){var
+f=i6(a,h);if(f)var
 i=Z(d,e[1][1]),j=i?Z(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-i7(a,d){var
+i8(a,d){var
 c=U(a,d),e=aa(a,b);return M(C(c,c),e)}function
-c$(f,j){var
+da(f,j){var
 e=aY(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i6(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=i3(a,U(a,eT(w(a,k,d[1]),h))),g=y(function(b){return i7(a,i7(a,b))},i);else
+k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i7(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=i4(a,U(a,eX(w(a,k,d[1]),h))),g=y(function(b){return i8(a,i8(a,b))},i);else
 var
 g=d;var
 l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gs(l,a)},g)}return e}function
-i8(a,d){var
-e=i6(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return eT(w(a,d,gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-eU(d,a){return c$(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
+i9(a,d){var
+e=i7(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return eX(w(a,d,gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+eY(d,a){return da(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 bS(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
@@ -1449,24 +1449,24 @@ j=a[2],k=a[1],f=j,e=k,c=function(b,a){return[0,cw(b,a)]};break;case
 3:var
 l=a[2],m=a[1],f=l,e=m,c=function(b,a){return[0,dQ(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bz(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bA(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cv(a,[0,d,b])?0:[0,eL(c,a)]};break;default:return 0}var
+p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cv(a,[0,d,b])?0:[0,eP(c,a)]};break;default:return 0}var
 g=bS(e);if(g){var
 h=bS(f);if(h)return c(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-i(i,e,c){var
+j(i,e,c){var
 f=bS(c);if(f){var
-g=f[1];return e?ak(c7(g,[0,d,b])):c7([0,d,b],g)}var
+g=f[1];return e?aj(c8(g,[0,d,b])):c8([0,d,b],g)}var
 a=aY(i,c);if(a){var
 h=a[1];return e?Z(d,h[1]):H(d,h[1])}return a}function
-i9(c,b){var
+i_(c,b){var
 a=aY(c,b),d=a?1:a;return d}function
 a8(c,a,b){var
-d=bR(a,b),e=d?i9(c,a):d;return e?e:i(c,0,[3,b,a])}function
-eV(a){switch(a[0]){case
+d=bR(a,b),e=d?i_(c,a):d;return e?e:j(c,0,[3,b,a])}function
+eZ(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1474,57 +1474,57 @@ r=a[2],s=a[1],f=r,e=s,c=function(b,a){return[0,cw(b,a)]};break;case
 3:var
 t=a[2],u=a[1],f=t,e=u,c=function(b,a){return[0,dQ(b,a)]};break;case
 4:var
-v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bz(b,a)]};break;case
+v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bA(b,a)]};break;case
 5:var
-x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cv(a,[0,d,b])?0:[0,eL(c,a)]};break;default:var
-k=eV(a[1]);if(k){var
-o=k[1],g=eM(o),p=dN(eJ(g[2])),h=[0,eJ(g[1]),p],l=Z(d,g[1]),m=l?cv(bz(h,h),o):l,q=m?[0,h]:m;return q}return k}var
-i=eV(e);if(i){var
-j=eV(f);if(j)return c(i[1],j[1]);var
+x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cv(a,[0,d,b])?0:[0,eP(c,a)]};break;default:var
+k=eZ(a[1]);if(k){var
+o=k[1],g=eQ(o),p=dO(eM(g[2])),h=[0,eM(g[1]),p],l=Z(d,g[1]),m=l?cv(bA(h,h),o):l,q=m?[0,h]:m;return q}return k}var
+i=eZ(e);if(i){var
+j=eZ(f);if(j)return c(i[1],j[1]);var
 n=j}else
 var
 n=i;return n}function
-i_(a){if(a){var
-e=a[2],c=a[1];if(cv(by([0,d,b],c),[0,d,b])){var
-g=i_(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+i$(a){if(a){var
+e=a[2],c=a[1];if(cv(bz([0,d,b],c),[0,d,b])){var
+g=i$(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-i$(c,a){var
-e=aA(c,a),f=[0,d,b];return bi(function(a,b){return eM(cw(bz(a[1],a[2]),b))},f,e)}function
-ja(c,j){if(c){var
-f=c[1],g=i_(j);if(g){var
+ja(c,a){var
+e=aB(c,a),f=[0,d,b];return bj(function(a,b){return eQ(cw(bA(a[1],a[2]),b))},f,e)}function
+jb(c,j){if(c){var
+f=c[1],g=i$(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=by([0,d,b],a),g=eL(by([0,d,b],c),f),h=ca(a),i=aA(ca(c),h);return e(function(a){var
-b=bz(g,a[2]);return eM(dQ(a[1],b))},i)},l=ja(f,e(k,h[2]));return y(function(c){var
-e=by([0,d,b],a);return[0,eM(eL(iR(i$(ca(a),c)),e)),c]},l)}var
+f=bz([0,d,b],a),g=eP(bz([0,d,b],c),f),h=ca(a),i=aB(ca(c),h);return e(function(a){var
+b=bA(g,a[2]);return eQ(dQ(a[1],b))},i)},l=jb(f,e(k,h[2]));return y(function(c){var
+e=bz([0,d,b],a);return[0,eQ(eP(iS(ja(ca(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],aW([0,d,b],f)]]}else
 var
 i=c;return i}function
-jb(a){if(a){var
-b=eV(a[1]);if(b)var
-c=jb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return oH}function
 jc(a){if(a){var
-b=jb(a[1]);if(b)var
+b=eZ(a[1]);if(b)var
 c=jc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oI}function
-jd(h,l){var
-a=jc(l);if(a){var
-i=a[1],c=ja(h,i);if(c){var
-e=c[1],f=t(j(e),h),g=f?aq(function(a){return ak(cv(a,[0,d,b]))},e):f;return g?n(function(a){return cv(i$(a,e),[0,d,b])},i):g}var
+d=b;return d}return oM}function
+jd(a){if(a){var
+b=jc(a[1]);if(b)var
+c=jd(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return oN}function
+je(h,l){var
+a=jd(l);if(a){var
+j=a[1],c=jb(h,j);if(c){var
+e=c[1],f=t(i(e),h),g=f?aq(function(a){return aj(cv(a,[0,d,b]))},e):f;return g?n(function(a){return cv(ja(a,e),[0,d,b])},j):g}var
 k=c}else
 var
 k=a;return k}function
-eW(a){return 0===a[0]?a[2]:a[1]}function
-oJ(a){return a}function
-oK(a){return a}function
-oL(a,b){return aP(oK,oJ,C,a,b)}function
-oM(a){return a}function
-oN(a){return a}function
-cg(a,b){return aP(oN,oM,oL,a,b)}function
+e0(a){return 0===a[0]?a[2]:a[1]}function
+oO(a){return a}function
+oP(a){return a}function
+oQ(a,b){return aP(oP,oO,C,a,b)}function
+oR(a){return a}function
+oS(a){return a}function
+cg(a,b){return aP(oS,oR,oQ,a,b)}function
 gu(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
 g=gu(b,f,c[2]),h=c[1],i=function(c,a){return M(c,dS(d,a,b))},j=function(a){return af(dS(d,a,b))};return[0,aP(function(a){return a},j,i,h,a),g]}var
@@ -1537,222 +1537,222 @@ f=b;var
 g=f}else
 var
 g=a;return g}function
-je(f,e){var
+jf(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=gv(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jf(d,b,a){if(b)if(a)var
-e=a[1],f=jf(d,b[2],a[2]),g=b_(d,b[1])?eO(e):c8(e),c=[0,g,f];else
+jg(d,b,a){if(b)if(a)var
+e=a[1],f=jg(d,b[2],a[2]),g=b_(d,b[1])?eS(e):c9(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jg(a,b){if(a)if(b)var
-d=jg(a[2],b[2]),c=[0,jf(a[1],a,b[1]),d];else
+jh(a,b){if(a)if(b)var
+d=jh(a[2],b[2]),c=[0,jg(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bn(a){if(a){var
-b=a[1],c=bn(b),d=e(function(a){return[0,1,a]},c),g=bn(b);return f(e(function(a){return[0,0,a]},g),d)}return oO}function
-eX(a){var
-b=j(a);if(je(b,a))return 1;var
-c=bn(bx(b));return n(function(c){return je(b,jg([0,0,c],a))},c)}function
-aB(a){function
+bo(a){if(a){var
+b=a[1],c=bo(b),d=e(function(a){return[0,1,a]},c),g=bo(b);return f(e(function(a){return[0,0,a]},g),d)}return oT}function
+e1(a){var
+b=i(a);if(jf(b,a))return 1;var
+c=bo(by(b));return n(function(c){return jf(b,jh([0,0,c],a))},c)}function
+as(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aR(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
 gw(c,b,a){var
-d=bn(c);return n(function(c){return k(a,k(aB(function(a){return aR(c,a)}),b))},d)}function
+d=bo(c);return n(function(c){return k(a,k(as(function(a){return aR(c,a)}),b))},d)}function
 gx(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a_(c,x(h,b),a)},k=gx(h,j,i),l=function(c,b){var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a$(c,x(h,b),a)},k=gx(h,j,i),l=function(c,b){var
 d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-eY(b,d,a,c){function
+e2(b,d,a,c){function
 e(c,d){var
-e=a_(d,b,a);return M(C(c,c),e)}function
-f(c){return af(a_(c,b,a))}return aP(function(a){return C(a,a)},f,e,d,c)}function
+e=a$(d,b,a);return M(C(c,c),e)}function
+f(c){return af(a$(c,b,a))}return aP(function(a){return C(a,a)},f,e,d,c)}function
 gy(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c8(e[2]),k=cg(a,gx(d,f,eY(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+e=b[1],f=c[1],j=c9(e[2]),k=cg(a,gx(d,f,e2(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
 gz(b,a){return[0,[0,0,b],a]}function
-da(b,c,g,f,a){function
+db(b,c,g,f,a){function
 d(a){if(a){var
-h=aW([0,af(a[1][2]),0],b),c=gy(g,f,a[2],h),d=t(j(c),b);if(d)return eX(c);var
+h=aW([0,af(a[1][2]),0],b),c=gy(g,f,a[2],h),d=t(i(c),b);if(d)return e1(c);var
 e=d}else
 var
 e=a;return e}return gw(b,gz(c,a),d)}function
-jh(f,e){var
+ji(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gv([0,[0,eO(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gv([0,[0,eS(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
 gA(b,c,a){function
 d(a){if(a){var
-h=aW([0,a[1][2],0],b),c=jh(a[2],h);if(c){var
-d=c[1],e=t(j(d),b);if(e)return eX(d);var
+h=aW([0,a[1][2],0],b),c=ji(a[2],h);if(c){var
+d=c[1],e=t(i(d),b);if(e)return e1(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
 g=a;return g}return gw(b,gz(c,a),d)}function
-ji(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jj(b,a){var
-c=bn(b);return n(function(b){return Z(d,aR(b,a)[1])},c)}function
-jk(c,b,a){var
-d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
-jl(a,b){var
+jj(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jk(b,a){var
+c=bo(b);return n(function(b){return Z(d,aR(b,a)[1])},c)}function
+jl(c,b,a){var
+d=a[3],f=e(function(a){return a$(c,b,a)},d),g=a[2];return[0,a$(c,b,a[1]),g,f]}function
+jm(a,b){var
 c=b[3],d=a[3],e=aP(function(a){return a},af,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
 cC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-as(c,b,a){var
-d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+at(c,b,a){var
+d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
 bT(b,a){var
 c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
 cD(b,a){var
-c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
+c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
 ab(b,a){var
 c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
 cE(a){return cD(a,aF(ab(a,a)))}function
-db(a){var
+dc(a){var
 b=a[5];return b?b[1]:aF(a[2])}function
-eZ(b,a){return b?a:bj(a)}function
-jm(e,a,i,d,h){var
-f=ab(a,e),b=as(s,e,bT(f,a)),j=ab(b,b),g=s(J(d),j),c=eZ(h,aF(g)),k=s(f,c),l=as(F,a,cD(b,c));return[0,as(F,b,bT(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jn(a,e,d){var
-b=ab(a,a),c=aF(b),f=[0,e],g=y(function(b){return as(s,a,bT(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
-jo(c,a){var
+e3(b,a){return b?a:bk(a)}function
+jn(e,a,i,d,h){var
+f=ab(a,e),b=at(s,e,bT(f,a)),j=ab(b,b),g=s(J(d),j),c=e3(h,aF(g)),k=s(f,c),l=at(F,a,cD(b,c));return[0,at(F,b,bT(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jo(a,e,d){var
+b=ab(a,a),c=aF(b),f=[0,e],g=y(function(b){return at(s,a,bT(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
+jp(c,a){var
 d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
-e0(a){return e(function(a){var
+dY(a){return e(function(a){var
 b=a[2];return[0,cC(a[1]),b]},a)}function
-jp(a){return e(function(a){var
+jq(a){return e(function(a){var
 c=l(b);return[0,cC(a[3]),c]},a)}function
-jq(b,a){var
+jr(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-jr(c,b,a){var
-d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+js(c,b,a){var
+d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
 gB(d,a){var
 b=cy(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-e1(a,m,f,l,e,k,j){var
-o=jr(a7,k,j),b=jr(function(b,c){return ar(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bB(bB(bB(ad(aa(a,d)),h),g),c),p=bn(m);return n(function(c){var
-b=jq(function(b){return U(a,aR(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gB(a,C(C(C(aa(a,d),k),j),h))),g=M(aR(c,i),m),n=f?M(g,aR(c,f[1])):g;return Z(d,n[1])},p)}function
-bC(a){return ct(x(a[1],a[2]),b)}function
-dc(a){var
-b=bC(a);return aE(a[2],b)}function
-e2(c,b){if(b)var
-a=b[1],e=e2([0,c],b[2]),g=dc(a),h=[0,[0,dc(a),g],0],i=f(aW(A,c),h),j=bC(a),d=[0,[0,[0,bC(a),j],a,i],e];else
+e4(a,m,f,l,e,k,j){var
+o=js(a7,k,j),b=js(function(b,c){return ar(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bC(bC(bC(ad(aa(a,d)),h),g),c),p=bo(m);return n(function(c){var
+b=jr(function(b){return U(a,aR(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gB(a,C(C(C(aa(a,d),k),j),h))),g=M(aR(c,i),m),n=f?M(g,aR(c,f[1])):g;return Z(d,n[1])},p)}function
+bD(a){return ct(x(a[1],a[2]),b)}function
+dd(a){var
+b=bD(a);return aE(a[2],b)}function
+e5(c,b){if(b)var
+a=b[1],e=e5([0,c],b[2]),g=dd(a),h=[0,[0,dd(a),g],0],i=f(aW(B,c),h),j=bD(a),d=[0,[0,[0,bD(a),j],a,i],e];else
 var
 d=b;return d}function
-dY(d,b){if(b){var
+dZ(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dY(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bC(a),f],c],h=bC(a);return[0,[0,[0,a[1],h],c],g]}return oP}function
-js(d,c,a){if(c){if(a){var
-e=js(d,c[2],a[2]);return C(a_(c[1],x(d,b),a[1]),e)}return A}return A}function
-dZ(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return js(f,a,b)},j=dZ(f,h),k=e(function(a){var
+e=dZ(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bD(a),f],c],h=bD(a);return[0,[0,[0,a[1],h],c],g]}return oU}function
+jt(d,c,a){if(c){if(a){var
+e=jt(d,c[2],a[2]);return C(a$(c[1],x(d,b),a[1]),e)}return B}return B}function
+d0(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jt(f,a,b)},j=d0(f,h),k=e(function(a){var
 e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d0(e,b,d,a){if(b)if(a)var
-f=b[1],g=d0(e,b[2],d,a[2]),c=[0,[0,f,eY(e,a[1][1],d,f)],g];else
+d1(e,b,d,a){if(b)if(a)var
+f=b[1],g=d1(e,b[2],d,a[2]),c=[0,[0,f,e2(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-e3(f,d,c,b,a){if(a){var
+e6(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=e3(f,d[1],c,b,g);return[0,[0,M(A,b),0],i]}var
-j=e(function(a){return[0,M(A,b),0]},g),h=[0,[0,M(af(w(f,c,c8(a[1][2]))),b),0],j]}else
+i=e6(f,d[1],c,b,g);return[0,[0,M(B,b),0],i]}var
+j=e(function(a){return[0,M(B,b),0]},g),h=[0,[0,M(af(w(f,c,c9(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 bU(c,a){var
-b=t(j(a),c);return b?eX(a):b}function
-jt(d,b,a){if(b)var
-c=b[1],g=jt([0,d],b[2],a),h=f(aW(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),x(c[2],a[2])],h],g];else
+b=t(i(a),c);return b?e1(a):b}function
+ju(d,b,a){if(b)var
+c=b[1],g=ju([0,d],b[2],a),h=f(aW(B,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),x(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-ju(d){if(d){var
+jv(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=ju(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jv(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return oQ}function
+f=a;return f}return oV}function
 gC(a){return y(function(a){return y(dV,a)},a)}function
 ci(c,b,a){function
 d(a){return ar(c,b,a)}return y(function(a){return y(d,a)},a)}function
 gD(c,b,a){function
-d(a){return c_(c,a,b)}return y(function(a){return cd(d,a)},a)}function
-dd(b,a){var
-c=aA(b,a);return e(function(c){var
+d(a){return c$(c,a,b)}return y(function(a){return cd(d,a)},a)}function
+de(b,a){var
+c=aB(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bQ(function(b,a){return[0,bB(b,a)]},e,d)]}return b}return a},c)}function
-e4(a){return ad(aa(a,c(2,b)))}function
-jv(b,c,a){if(a)var
-f=a[1],g=jv(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bQ(function(b,a){return[0,bC(b,a)]},e,d)]}return b}return a},c)}function
+e7(a){return ad(aa(a,c(2,b)))}function
+jw(b,c,a){if(a)var
+f=a[1],g=jw(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jw(a){return n(function(a){var
+jx(a){return n(function(a){var
 b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jx(c,b,a){var
-d=aA(b,a);return bi(function(a,b){return C(w(c,a[1],a[2]),b)},A,d)}function
+jy(c,b,a){var
+d=aB(b,a);return bj(function(a,b){return C(w(c,a[1],a[2]),b)},B,d)}function
 gE(c,b,a){var
-d=dT(jx(c,a,b));return bi(function(b,a){return x(dT(b),a)},d,a)}function
-de(a){return aa(a,b)}function
+d=dT(jy(c,a,b));return bj(function(b,a){return x(dT(b),a)},d,a)}function
+df(a){return aa(a,b)}function
 gF(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jw(c)&&!jw(j)){var
-h=gE(a,i,j),o=de(a),p=gE(a,i,c),b=dS([0,gE(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
-q=a6(gp(a,[0,b,b])),r=function(b){return function(d,c){return M(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jv(a,q,aP(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!jx(c)&&!jx(j)){var
+h=gE(a,i,j),o=df(a),p=gE(a,i,c),b=dS([0,gE(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
+q=a6(gp(a,[0,b,b])),r=function(b){return function(d,c){return M(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jw(a,q,aP(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-o5(a){var
-b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-jy(c,b,a){if(b){if(a){var
-d=jy(c,b[2],a[2]);return C(a_(b[1],c,a[1]),d)}return A}return A}function
-jz(a,j){switch(j){case
+o_(a){var
+b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
+jz(c,b,a){if(b){if(a){var
+d=jz(c,b[2],a[2]);return C(a$(b[1],c,a[1]),d)}return B}return B}function
+jA(a,j){switch(j){case
 0:var
 d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=ct(x(a[1],a[2]),b),h=aE(c,a[2]),i=aE(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jA(d,c,a){if(a)var
-e=a[1],g=jA(d,[0,c],a[2]),b=y(b9,iP(function(a){return t(a[1],c)},d)),h=b?jz(e,b[1])[1]:e,f=[0,h,g];else
+jB(d,c,a){if(a)var
+e=a[1],g=jB(d,[0,c],a[2]),b=y(b9,iQ(function(a){return t(a[1],c)},d)),h=b?jA(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-o6=ad(A);function
-jB(e,d,c){if(d){var
-f=u(e,c[2],o7),a=f?f[1]:[0,o6];if(a)var
-b=jB([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+o$=ad(B);function
+jC(e,d,c){if(d){var
+f=u(e,c[2],pa),a=f?f[1]:[0,o$];if(a)var
+b=jC([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return o8}function
-jC(d,c,b,a){var
-f=e(ad,b);return bA(0,ce(d,e2(0,a),f),c,0)}function
+g=a;return g}return pb}function
+jD(d,c,b,a){var
+f=e(ad,b);return bB(0,ce(d,e5(0,a),f),c,0)}function
 ah(a){if(a){var
 b=a[1];if(b)var
 c=ah(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return o9}function
-e5(b,a){if(a){var
+d=b;return d}return pc}function
+e8(b,a){if(a){var
 h=a[1],n=h[1],c=ah(e(function(a){return u(a,b,0)},n));if(c){var
 f=u(h[2],b,0);if(f){var
-i=f[1],g=e5(b,a[2]);if(g)var
+i=f[1],g=e8(b,a[2]);if(g)var
 j=Z(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1761,22 +1761,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return o_}function
+m=c;return m}return pd}function
 bV(d,c,b){var
-a=e5(d,c);return a?k(b,a[1]):a}function
-df(a,b){return n(function(c){var
+a=e8(d,c);return a?k(b,a[1]):a}function
+dg(a,b){return n(function(c){var
 a=u(c,b,0),d=a?1:a;return d},a)}function
-e6(b,a){if(b){var
+e9(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-gG(b,a){return b?jl(a,b[1]):a}function
+gG(b,a){return b?jm(a,b[1]):a}function
 gH(h,g,b,f){var
 a=u(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jl(c,b[1]),e=bn(g);return n(function(a){return H(d,aR(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-jD(f,d,a){function
-c(a){return a_(a,d,aa(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),A,g]}return ad(A)}function
-e7(b,a){var
+i=jm(c,b[1]),e=bo(g);return n(function(a){return H(d,aR(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+jE(f,d,a){function
+c(a){return a$(a,d,aa(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),B,g]}return ad(B)}function
+e_(b,a){var
 c=u(a[1],b,0);if(c){var
 d=u(a[2],b,0);if(d)var
 e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1785,54 +1785,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jE(i,k,J,u,g,c,f,h,a){switch(h[0]){case
+jF(j,k,J,u,h,c,g,f,a){switch(f[0]){case
 0:var
-r=h[1];if(typeof
+r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=df(u,g);if(K){var
-ae=a[2],af=a[1],ag=e6(f,ad(r));return bV(g,k,function(a){return da(c,ag,af,ae,a)})}return K;case
+K=dg(u,h);if(K){var
+ae=a[2],af=a[1],ag=e9(g,ad(r));return bV(h,k,function(a){return db(c,ag,af,ae,a)})}return K;case
 1:var
-L=df(u,g);if(L){var
-ah=a[2],ai=a[1],aj=e6(f,ad(r));return bV(g,J,function(a){return da(c,aj,ai,ah,a)})}return L;case
+L=dg(u,h);if(L){var
+ah=a[2],ai=a[1],aj=e9(g,ad(r));return bV(h,J,function(a){return db(c,aj,ai,ah,a)})}return L;case
 2:var
-M=df(u,g);if(M){if(f)return 0;var
+M=dg(u,h);if(M){if(g)return 0;var
 N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bV(g,k,function(a){return da(c,[0,A,A,0],al,ak,ji([0,A,A,0],a))})}var
+ak=a[2],al=a[1];return bV(h,k,function(a){return db(c,[0,B,B,0],al,ak,jj([0,B,B,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
-Q=h[1];if(typeof
+Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gG(f,ad(Q));return bV(g,J,function(a){return gA(c,am,a)})}if(!a){var
-an=gG(f,ad(Q));return bV(g,k,function(a){return gA(c,an,a)})}}return 0;case
+am=gG(g,ad(Q));return bV(h,J,function(a){return gA(c,am,a)})}if(!a){var
+an=gG(g,ad(Q));return bV(h,k,function(a){return gA(c,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jD(i,R,a[3]),S=h[1],ao=a[2];return bV(g,k,function(d){var
-a=jj(c,l),b=a?da(c,e6(f,l),R,ao,d):a;if(b){var
-g=l[3],h=e(function(a){return w(i,S,a)},g),j=l[2];return gA(c,gG(f,[0,w(i,S,l[1]),j,h]),d)}return b})}return 0;case
+R=a[1],l=jE(j,R,a[3]),S=f[1],ao=a[2];return bV(h,k,function(d){var
+a=jk(c,l),b=a?db(c,e9(g,l),R,ao,d):a;if(b){var
+f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gA(c,gG(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gH(g,c,f,h[1]);return 0;case
+a==="number"&&!a)return gH(h,c,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=e6(f,ad(h[2])),as=function(a){return da(c,ar,aq,ap,a)};return bV(g,h[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=e9(g,ad(f[2])),as=function(a){return db(c,ar,aq,ap,a)};return bV(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gH(g,c,f,h[1]);case
-2:return gH(g,c,f,h[2])}return 0;case
+0:return gH(h,c,g,f[1]);case
+2:return gH(h,c,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=e7(g,h[1]);if(v){var
-y=e7(g,h[2]);if(y){var
-z=e7(g,h[3]);if(z){var
-B=e7(g,h[4]);if(B){var
-T=B[1],U=z[1],V=y[1],W=v[1],m=a[2],s=h[5],at=a[1];if(m){var
+v=e_(h,f[1]);if(v){var
+y=e_(h,f[2]);if(y){var
+z=e_(h,f[3]);if(z){var
+A=e_(h,f[4]);if(A){var
+T=A[1],U=z[1],V=y[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=jq(function(d){function
-f(a){return a_(a,at,aa(i,b))}if(d){var
-a=e(f,d[2]),c=f(d[1]),g=eQ(a),h=x(c[2],g),j=eQ(a);return[0,c,[0,aE(c[1],j),h],a]}return ad(A)},ac),C=n(function(a){return t(j(a),[0,c])},m),D=C?e1(i,c,f,s,q,W,U):C,E=D?e1(i,c,f,s,q,W,T):D,F=E?e1(i,c,f,s,q,V,U):E;if(F)return e1(i,c,f,s,q,V,T);var
+ac=[0,m[1],o[1],p[1]],q=jr(function(d){function
+f(a){return a$(a,at,aa(j,b))}if(d){var
+a=e(f,d[2]),c=f(d[1]),g=eU(a),h=x(c[2],g),i=eU(a);return[0,c,[0,aE(c[1],i),h],a]}return ad(B)},ac),C=n(function(a){return t(i(a),[0,c])},m),D=C?e4(j,c,g,s,q,W,U):C,E=D?e4(j,c,g,s,q,W,T):D,F=E?e4(j,c,g,s,q,V,U):E;if(F)return e4(j,c,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1842,7 +1842,7 @@ H=o;var
 I=H}else
 var
 I=m;return I}var
-X=B}else
+X=A}else
 var
 X=z;var
 Z=X}else
@@ -1853,47 +1853,47 @@ var
 _=v;return _}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-$=a[2],ab=a[1],au=h[2],av=h[1];return bV(g,k,function(e){var
-a=t(j(e),c),d=a?t(j($),c):a;if(d){var
-g=function(a){if(a){var
-d=a[2],e=t(j(d),c);if(e){var
-g=dZ(ab,d0(ab,$,aa(i,b),d));return bU(c,cg(e3(i,av,au,a[1][2],d),g))}var
+$=a[2],ab=a[1],au=f[2],av=f[1];return bV(h,k,function(e){var
+a=t(i(e),c),d=a?t(i($),c):a;if(d){var
+f=function(a){if(a){var
+d=a[2],e=t(i(d),c);if(e){var
+g=d0(ab,d1(ab,$,aa(j,b),d));return bU(c,cg(e6(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=f?f[1]:ad(A);return gw(c,gz(h,e),g)}return d})}return 0;case
+f=a;return f},h=g?g[1]:ad(B);return gw(c,gz(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aw=h[2],ax=h[1];return bV(g,k,function(d){var
-a=ji([0,A,A,0],d),b=f?f[1]:[0,A,A,0];return da(c,b,ax,aw,a)})}return 0;default:return 0}}function
-jF(a,Y,I,l,p,X,g,i,h,f,c){if(9===f[0]){if(typeof
+aw=f[3],ax=f[2],ay=function(d){var
+a=jj([0,B,B,0],d),b=g?g[1]:[0,B,B,0];return db(c,b,ax,aw,a)};return bV(h,f[1],ay)}return 0;default:return 0}}function
+jG(a,Y,I,l,p,X,g,j,h,f,c){if(9===f[0]){if(typeof
 c!=="number"&&9===c[0]){var
-_=f[1],S=e(ad,X),B=bA(0,ce(a,jt(0,i,_),S),Y,0),J=t(j(i),o$),K=J?df(p,B):J;if(K){var
-q=e5(B,l);if(q){var
-r=e5(g,l);if(r){var
+_=f[1],S=e(ad,X),A=bB(0,ce(a,ju(0,j,_),S),Y,0),J=t(i(j),pe),K=J?dg(p,A):J;if(K){var
+q=e8(A,l);if(q){var
+r=e8(g,l);if(r){var
 $=f[2],s=ah(e(function(b){var
 c=u(b[1],g,0);if(c)var
 f=b[2][2],a=ah(e(function(a){var
 b=u(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},$));if(s){var
-v=ju(q[1]);if(v){var
-L=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ae=v[1],D=gB(a,bi(function(f,h){function
+v=jv(q[1]);if(v){var
+L=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ae=v[1],D=gB(a,bj(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dT(u(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dT(u(d,c[3],B))}function
 c(a){var
-b=k(a,oR),c=bf(k(a,oS),b);return bf(k(a,0),c)}var
+b=k(a,oW),c=bg(k(a,oX),b);return bg(k(a,0),c)}var
 d=c(function(a){var
-c=b(oT,a),d=b(oU,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,oV),d=b(a,oW);return x(x(b(a,0),d),c)});return C(h,U(a,gB(a,w(a,[0,e,e],g))))},A,ae)),m=a_(ab,z,aa(a,b)),E=Z(d,M(m,D)[1]),F=E?t(j(L),o2):E,G=F?t(j(N),o3):F;if(G){var
+c=b(oY,a),d=b(oZ,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,o0),d=b(a,o1);return x(x(b(a,0),d),c)});return C(h,U(a,gB(a,w(a,[0,e,e],g))))},B,ae)),m=a$(ab,z,aa(a,b)),E=Z(d,M(m,D)[1]),F=E?t(i(L),o7):E,G=F?t(i(N),o8):F;if(G){var
 o=cb(a,m);if(o){var
-T=a6(w(a,D,o[1])),V=M(aa(a,b),T),W=bn(o4);return n(function(i){var
+T=a6(w(a,D,o[1])),V=M(aa(a,b),T),W=bo(o9);return n(function(i){var
 g=e(function(b){var
-c=b[2],d=b[1];return c8(c6(function(d,b){var
-c=dT(aR(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(aB(function(a){return aR(i,a)}),N),E=h?aR(i,h[1]):A,K=U(a,V),s=U(a,m),q=dZ(z,d0(z,L,aa(a,b),r)),c=cg(aW([0,af(E),0],oX),q);if(g){var
+c=b[2],d=b[1];return c9(c6(function(d,b){var
+c=dT(aR(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(as(function(a){return aR(i,a)}),N),E=h?aR(i,h[1]):B,K=U(a,V),s=U(a,m),q=d0(z,d1(z,L,aa(a,b),r)),c=cg(aW([0,af(E),0],o2),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],D=g[1],G=f[1],j=bU(oZ,cg(aW([0,af(s),0],oY),c));if(j)return n(function(A){var
-H=M(K,E),I=A[2]?B:af(B),J=A[1]?D:af(D),n=0;if(c){var
+A=d[1],D=g[1],G=f[1],j=bU(o4,cg(aW([0,af(s),0],o3),c));if(j)return n(function(B){var
+H=M(K,E),I=B[2]?A:af(A),J=B[1]?D:af(D),n=0;if(c){var
 a=c[1],k=0;if(a){var
 b=a[2],l=0;if(b){var
 d=b[2],m=0;if(d)if(d[2]){var
@@ -1932,7 +1932,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=c;n=1}if(n)var
-j=z;return bU(o1,j)},o0);var
+j=z;return bU(o6,j)},o5);var
 l=j}else
 var
 l=f;var
@@ -1956,12 +1956,12 @@ var
 Q=q;var
 R=Q}else
 var
-R=K;return R}return jE(a,I,l,p,g,j(i),h,f,c)}return jE(a,I,l,p,g,j(i),h,f,c)}function
-jG(i,b,a){if(a){var
+R=K;return R}return jF(a,I,l,p,g,i(j),h,f,c)}return jF(a,I,l,p,g,i(j),h,f,c)}function
+jH(i,b,a){if(a){var
 j=a[1],l=j[2],c=ah(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=u(l,i,0);if(g){var
-h=jG(i,b,a[2]);if(h)var
+h=jH(i,b,a[2]);if(h)var
 m=Z(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -1973,48 +1973,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pb}function
-jH(a,U,m,T,v,s,S,D,h,g,l,c){var
-i=j(S),V=e2(0,S),aS=bA(0,ce(a,V,e(ad,jA(l,0,v))),U,0),W=e(aK,l),aT=0,aU=e(ad,v),aX=bA(pc,function(c){var
+q=c;return q}return pg}function
+jI(a,U,m,T,v,s,S,D,h,g,l,c){var
+j=i(S),V=e5(0,S),aS=bB(0,ce(a,V,e(ad,jB(l,0,v))),U,0),W=e(aK,l),aT=0,aU=e(ad,v),aX=bB(ph,function(c){var
 av=cz(aK,c),f=k(ce(a,V,aU),av);switch(c[0]){case
 1:var
 M=c[1],d=e(function(d){var
 c=t(M,d),e=c?[0,[0,ad(aa(a,b))]]:c;return e},W);break;case
 3:var
-d=dd(c[1][2],c[2][2]);break;case
+d=de(c[1][2],c[2][2]);break;case
 4:var
-N=e(gC,c[2][2]),d=dd(c[1][2],N);break;case
+N=e(gC,c[2][2]),d=de(c[1][2],N);break;case
 5:var
 d=e(gC,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ci(a,P,b)},O),R=y[2],S=h[1],d=dd(e(function(b){return ci(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return ci(a,P,b)},O),R=y[2],S=h[1],d=de(e(function(b){return ci(a,S,b)},R),Q);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-T=A[2],U=dV(f[1]),X=e(function(b){return ci(a,U,b)},T),Y=dd(c[1][2],X),Z=i[1],d=e(function(b){return gD(a,Z,b)},Y);else{var
+T=A[2],U=dV(f[1]),X=e(function(b){return ci(a,U,b)},T),Y=de(c[1][2],X),Z=i[1],d=e(function(b){return gD(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],j=C[1];if(j)var
-_=C[2],$=j[1],ab=ar(a,e4(a),$),d=e(function(b){return ci(a,ab,b)},_);else
+_=C[2],$=j[1],ab=ar(a,e7(a),$),d=e(function(b){return ci(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ae=f[1],af=ar(a,e4(a),ae),d=e(function(b){return gD(a,af,b)},ac);else
+ac=c[1][2],ae=f[1],af=ar(a,e7(a),ae),d=e(function(b){return gD(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=iY(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a7(o,r),ai=e(function(b){return ci(a,ah,b)},ag),aj=F[2],ak=a7(m,s),al=dd(e(function(b){return ci(a,ak,b)},aj),ai),am=e(gC,D[2]),an=e4(a),ao=dd(e(function(b){return ci(a,an,b)},al),am),ap=c[1]?s:dV(r),aq=e(function(b){return ci(a,ap,b)},ao),as=ar(a,m,r),at=a7(ar(a,o,s),as),au=ar(a,e4(a),at),d=e(function(b){return gD(a,au,b)},aq);K=1;L=1}else
+q=iZ(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a7(o,r),ai=e(function(b){return ci(a,ah,b)},ag),aj=F[2],ak=a7(m,s),al=de(e(function(b){return ci(a,ak,b)},aj),ai),am=e(gC,D[2]),an=e7(a),ao=de(e(function(b){return ci(a,an,b)},al),am),ap=c[1]?s:dV(r),aq=e(function(b){return ci(a,ap,b)},ao),as=ar(a,m,r),at=a7(ar(a,o,s),as),au=ar(a,e7(a),at),d=e(function(b){return gD(a,au,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2026,47 +2026,47 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},W)}return[0,f,d]},U,aT),aP=e(function(a){var
-b=a[2];return jz(u(a[1],v,A),b)[2]},l);function
+b=a[2];return jA(u(a[1],v,B),b)[2]},l);function
 X(c){var
 d=u(c,s,0);if(d){var
 a=u(c,aS,0);if(a)var
-b=jB(0,l,u(c,aX,pa)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=jC(0,l,u(c,aX,pf)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
 E(b){return e(function(b){return aa(a,b)},b)}var
-aY=D?D[1]:ad(A);function
-_(a){return a?bU(i,a[1]):a}function
+aY=D?D[1]:ad(B);function
+_(a){return a?bU(j,a[1]):a}function
 y(t,s,f,r,q){var
-u=aW([0,af(s),0],i),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-j=b[1],k=j[1],d=c[1],m=c8(k[2]),n=cg(g,gx(f,d,eY(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a6,eY(f,a[1],a[2],b))}}(d),o),h=gF(a,v,e(function(b){return a_(b,f,de(a))},d),p,n);if(h){var
+u=aW([0,af(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=c9(k[2]),n=cg(g,gx(f,d,e2(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a6,e2(f,a[1],a[2],b))}}(d),o),h=gF(a,v,e(function(b){return a$(b,f,df(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return _(l)}}function
 $(y,x,w){var
-z=aW([0,x,0],i),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eO(g),h],f];if(m){var
+z=aW([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eS(g),h],f];if(m){var
 o=Z(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return A},h),u=[0,de(a),t],v=de(a),b=gF(a,[0,af(dS(jx(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return B},h),u=[0,df(a),t],v=df(a),b=gF(a,[0,af(dS(jy(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=gv(b[1]);if(j){var
-c=c[2],f=j[1];continue}var
-p=j}else
+i=gv(b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
 var
 p=b;var
 r=p}else
 var
 r=[0,f];return _(r)}}var
-aZ=e(aK,l),ab=n(function(a){return dL(a,j(v))},aZ);if(ab){var
+aZ=e(aK,l),ab=n(function(a){return dM(a,i(v))},aZ);if(ab){var
 r=e(aK,l);for(;;){if(r){var
-Q=r[2],aQ=r[1],R=ak(aq(function(b){return function(a){return t(b,a)}}(aQ),Q));if(R){var
+Q=r[2],aQ=r[1],R=aj(aq(function(b){return function(a){return t(b,a)}}(aQ),Q));if(R){var
 r=Q;continue}var
 ac=R}else
 var
@@ -2074,25 +2074,25 @@ ac=1;var
 F=ac;break}}else
 var
 F=ab;var
-ae=F?n(function(a){return t(j(a),i)},c):F;if(ae){var
-B=0;switch(h[0]){case
+ae=F?n(function(a){return t(i(a),j)},c):F;if(ae){var
+A=0;switch(h[0]){case
 0:var
 G=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 aC=0;if(c){if(c[2])return 0;var
-a0=c[1],a1=g[2],a2=g[1],ag=df(T,s);if(ag){var
+a0=c[1],a1=g[2],a2=g[1],ag=dg(T,s);if(ag){var
 p=function(c,a){var
 b=C(G,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
-aj=ag}else
+ak=ag}else
 var
-aj=c;if(!aC)return aj;break;case
+ak=c;if(!aC)return ak;break;case
 2:var
 aD=0;if(c){if(c[2])return 0;var
-a4=c[1],a5=g[2],a8=g[1],al=df(T,s),aF=0;if(al){if(D)return 0;var
+a4=c[1],a5=g[2],a8=g[1],al=dg(T,s),aF=0;if(al){if(D)return 0;var
 am=Y(G[1],d),an=am?Y(G[2],d):am;if(an){var
-p=function(c,b,a){return y(a4,A,a8,a5,e(o5,a))},o=m;O=1;aD=1;aF=1}else
+p=function(c,b,a){return y(a4,B,a8,a5,e(o_,a))},o=m;O=1;aD=1;aF=1}else
 var
 ao=an}else
 var
@@ -2103,14 +2103,14 @@ ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
 1:var
 aG=0,a9=h[1];if(typeof
 g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
-a$=c[1],p=function(c,a){var
-b=M(a9,a);return function(a){return $(a$,b,a)}},o=m;aG=1}if(!aG)return 0;break;case
+a_=c[1],p=function(c,a){var
+b=M(a9,a);return function(a){return $(a_,b,a)}},o=m;aG=1}if(!aG)return 0;break;case
 2:var
 aH=0,ba=h[1];if(typeof
 g==="number"||!(3===g[0]))aH=1;else{var
 aI=0;if(c){var
 z=c[2],aJ=0;if(z){if(z[2])return 0;var
-as=g[1],bb=z[1],bc=c[1],bd=g[2],at=jD(a,as,g[3]),au=jj(i,at);if(au){var
+as=g[1],bb=z[1],bc=c[1],bd=g[2],at=jE(a,as,g[3]),au=jk(j,at);if(au){var
 p=function(f,c,b){var
 d=aR(f,at),e=y(bc,C(d,c),as,bd,b);return e?$(bb,M(w(a,ba,d),c),b):e},o=m;aI=1;aJ=1}else
 var
@@ -2123,69 +2123,69 @@ aw=c;if(!aI)return aw}if(aH)return 0;break;case
 3:var
 aL=0;if(typeof
 g==="number"&&!g){if(c)return 0;var
-J=h[1];B=1}else
+J=h[1];A=1}else
 aL=1;if(aL)return 0;break;case
 4:var
-aM=0,bg=h[2];if(typeof
+aM=0,bf=h[2];if(typeof
 g==="number"||!(0===g[0]))aM=1;else{if(!c)return c;if(c[2])return 0;var
-bh=c[1],bj=g[2],bk=g[1],bl=function(c,a){var
-b=C(bg,a);return function(a){return y(bh,b,bk,bj,a)}},p=bl,o=h[1]}if(aM)return 0;break;case
+bh=c[1],bi=g[2],bk=g[1],bl=function(c,a){var
+b=C(bf,a);return function(a){return y(bh,b,bk,bi,a)}},p=bl,o=h[1]}if(aM)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
 0:if(c)return 0;var
-J=h[1];B=1;break;case
+J=h[1];A=1;break;case
 2:if(c)return 0;var
-J=h[2];B=1;break;default:P=1}else
+J=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aN=0;if(typeof
 g==="number"||!(0===g[0]))aN=1;else{var
 aO=0;if(c){if(c[2])return 0;var
-q=g[2],N=g[1],bm=c[1],az=t(j(m),i);if(az){var
+q=g[2],N=g[1],bm=c[1],az=t(i(m),j);if(az){var
 p=function(b,y){var
 z=E(bm);return function(f){var
-k=t(j(f),i),l=k?t(j(q),i):k;if(l){var
-s=e(aK,f),u=dZ(N,d0(N,q,de(a),s)),v=cg(e3(a,ay,ax,y,e(aK,f)),u),b=0,c=f,g=v,x=j(q);for(;;){if(c){var
+k=t(i(f),j),l=k?t(i(q),j):k;if(l){var
+s=e(aK,f),u=d0(N,d1(N,q,df(a),s)),v=cg(e6(a,ay,ax,y,e(aK,f)),u),b=0,c=f,g=v,x=i(q);for(;;){if(c){var
 o=c[1][2],p=t(b,ay),r=e(function(f,g){return function(d){var
-b=aA(aV(0,j(q)),q);return e(function(b){var
-c=jy(N,b[2],d[1]);if(g&&t(b[1],f))return M(c,a6(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gF(a,z,e(function(c){return function(b){return t(b,c)?de(a):A}}(b),n),r,g);if(h){var
+b=aB(aV(0,i(q)),q);return e(function(b){var
+c=jz(N,b[2],d[1]);if(g&&t(b[1],f))return M(c,a6(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gF(a,z,e(function(c){return function(b){return t(b,c)?df(a):B}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bU(i,d[1]);var
+d=[0,g];if(d)return bU(j,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},o=m;aO=1}else
 var
-aB=az}else
+aA=az}else
 var
-aB=c;if(!aO)return aB}if(aN)return 0;break;default:return 0}if(B){var
+aA=c;if(!aO)return aA}if(aN)return 0;break;default:return 0}if(A){var
 K=X(J);if(!K)return K;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bi(function(b,a){return x(bf(d,L(b[2][1])),a)},d,c);return H(d,aE(aE(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,K[1]],0]}else{var
-I=jG(s,X,o);if(!I)return I;var
+b=f[2],c=a[2],e=bj(function(b,a){return x(bg(d,L(b[2][1])),a)},d,c);return H(d,aE(aE(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,K[1]],0]}else{var
+I=jH(s,X,o);if(!I)return I;var
 ai=p,ah=I[1]}var
-a3=bn(i);return n(function(b){var
+a3=bo(j);return n(function(b){var
 c=e(function(c){function
 g(a){return aR(b,a[1])}var
-h=0,j=ad(A);function
+h=0,j=ad(B);function
 d(h,g,b,c){if(b){var
 i=function(a){return aR(h,u(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BA(ai,b,aR(b,aY),c)},a3)}return ae}function
-e8(b,a){if(a){var
+i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BF(ai,b,aR(b,aY),c)},a3)}return ae}function
+e$(b,a){if(a){var
 c=a[2];if(b){var
-e=e8(b[1],c);return[0,a[1],e]}var
+e=e$(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jI(m,l,q,S,p,i,$,z,b,R,Q){if(R){var
-r=jC(m,l,i,b),h=R,g=Q;for(;;){if(h){var
+jJ(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
+r=jD(m,l,j,b),h=R,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],V=bn(j(b)),x=n(function(b){return function(a){return Z(aR(a,b)[2],d)}}(_),V);else
+_=v[1],V=bo(i(b)),x=n(function(b){return function(a){return Z(aR(a,b)[2],d)}}(_),V);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
@@ -2197,7 +2197,7 @@ switch(a[0]){case
 5:var
 C=a[2],s=k(z,b),T=0;if(s){var
 D=H(d,C);if(D){var
-X=a[1],c=jF(m,l,q,S,p,i,r,b,[0,jk(C,a[3],s[1])],o,X);T=1}else
+X=a[1],c=jG(m,l,q,S,p,j,r,b,[0,jl(C,a[3],s[1])],o,X);T=1}else
 var
 E=D}else
 var
@@ -2208,55 +2208,55 @@ F=a[3],G=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
 I=f[2],t=k(z,b),U=0;if(t){var
 J=H(d,I);if(J){var
-Y=f[1],c=jH(m,l,q,p,i,r,b,[0,jk(I,f[3],t[1])],o,Y,G,F);B=1;U=1}else
+Y=f[1],c=jI(m,l,q,p,j,r,b,[0,jl(I,f[3],t[1])],o,Y,G,F);B=1;U=1}else
 var
 K=J}else
 var
 K=t;if(!U){var
 c=K;B=1}}if(!B)var
-c=jH(m,l,q,p,i,r,b,0,o,f,G,F);break;default:A=1}if(A)var
-c=jF(m,l,q,S,p,i,r,b,0,o,a);if(c){var
-h=M,g=e8(w,g);continue}var
+c=jI(m,l,q,p,j,r,b,0,o,f,G,F);break;default:A=1}if(A)var
+c=jG(m,l,q,S,p,j,r,b,0,o,a);if(c){var
+h=M,g=e$(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-e9(j,i,h,g,f,e,d,c,u,t,s){var
+fa(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jI(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ak,l[1]):l}var
-m=jI(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dY(a[2],b),q=e9(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jJ(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aj,l[1]):l}var
+m=jJ(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=dZ(a[2],b),q=fa(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
 gI(a){return e(function(a){return 1},a)}function
-dg(a,d,b,c){function
+dh(a,d,b,c){function
 f(d,c){var
-f=aA(a[1],b[1]);return e(function(a){var
+f=aB(a[1],b[1]);return e(function(a){var
 b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aL(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jJ(a){var
+jK(a){var
 c=l(b);return[0,e(function(a){return l(d)},a),c]}function
 aM(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 v=f[1];if(aq(function(a){return t(v,a)},a)){var
 C=l(b);return[0,e(function(a){var
-c=t(a,v)?b:d;return l(c)},a),C]}return jJ(a);case
+c=t(a,v)?b:d;return l(c)},a),C]}return jK(a);case
 3:var
-D=l(b),E=aM(a,f[2]),F=l(b);return dg(aM(a,f[1]),F,E,D);case
+D=l(b),E=aM(a,f[2]),F=l(b);return dh(aM(a,f[1]),F,E,D);case
 4:var
-G=l(L(b)),H=aM(a,f[2]),I=l(b);return dg(aM(a,f[1]),I,H,G);case
+G=l(L(b)),H=aM(a,f[2]),I=l(b);return dh(aM(a,f[1]),I,H,G);case
 5:var
-w=aM(a,f[1]),J=w[2];return[0,e(bj,w[1]),J];case
+w=aM(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aM(a,x);return dg(aM(a,y),x,K,y);case
+x=f[2],y=f[1],K=aM(a,x);return dh(aM(a,y),x,K,y);case
 7:var
-z=f[2],M=bj(k),N=aM(a,z),O=l(b),i=dg(aM(a,f[1]),O,N,M),P=i[1];if(n(function(a){return aQ(d,a)},P))return i;var
+z=f[2],M=bk(k),N=aM(a,z),O=l(b),i=dh(aM(a,f[1]),O,N,M),P=i[1];if(n(function(a){return aQ(d,a)},P))return i;var
 Q=o(i[2],z);return[0,i[1],Q];case
 8:var
 A=f[1],B=aM(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
@@ -2265,8 +2265,8 @@ j=aM(a,f[1]),U=j[1];if(n(function(a){return aQ(d,a)},U)){var
 V=l(b);return[0,j[1],V]}var
 W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aM(a,g),_=s(h,p),$=dg(aM(a,h),_,Z,Y),aa=l(L(b)),ab=aM(a,m),r=dg($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bj(q),u=e(function(a){return o(ad,a)},ac);if(n(function(a){return aQ(d,a)},u))return[0,u,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,u,o(r[2],ag)];default:return jJ(a)}}function
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aM(a,g),_=s(h,p),$=dh(aM(a,h),_,Z,Y),aa=l(L(b)),ab=aM(a,m),r=dh($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bk(q),u=e(function(a){return o(ad,a)},ac);if(n(function(a){return aQ(d,a)},u))return[0,u,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,u,o(r[2],ag)];default:return jK(a)}}function
 bW(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
@@ -2289,27 +2289,27 @@ d=cj([0,b],a[2]),c=[0,bW(a[1],b),d];else
 var
 c=a;return c}function
 aG(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-e_(b,d,a){switch(a[0]){case
+fb(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aG(c[3],b),g),i=f(aG(c[2],b),h);return f(aG(c[1],d),i);case
 1:var
 e=a[3],j=e?aG(e[1],d):e,k=f(aG(a[2],b),j);return f(aG(a[1],b),k);default:return aG(a[1],d)}}function
 ai(b,a){var
-c=l(d),e=u(P(pd,a),b,c),f=l(d),g=u(P(pe,a),b,f);return[0,u(a,b,l(d)),g,e]}function
-jK(b,a){return as(s,as(F,ch,a),b)}function
-e$(c,b,a){if(a){var
-e=a[2],g=e$(c,ca(b),e),h=a[1];return f(e_(c,by(d,b),h),g)}return a}function
-gJ(f,e,c,i){if(c){var
-b=c[1],v=P(i,j(e_(f,by(d,e),b))),w=c[2],x=gJ(f,ca(e),w,v),a=cj(i,e_(f,by(d,e),b));switch(b[0]){case
+c=l(d),e=u(N(pi,a),b,c),f=l(d),g=u(N(pj,a),b,f);return[0,u(a,b,l(d)),g,e]}function
+jL(b,a){return at(s,at(F,ch,a),b)}function
+fc(c,b,a){if(a){var
+e=a[2],g=fc(c,ca(b),e),h=a[1];return f(fb(c,bz(d,b),h),g)}return a}function
+gJ(f,e,c,j){if(c){var
+b=c[1],v=N(j,i(fb(f,bz(d,e),b))),w=c[2],x=gJ(f,ca(e),w,v),a=cj(j,fb(f,bz(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=u(pf,a,l(d)),o=as(F,ch,ai(a,pg)),p=cE(ai(a,0)),q=ai(a,ph),g=jm(jK(ai(a,pi),q),p,o,n,m);break;case
+m=b[1][5],n=u(pk,a,l(d)),o=at(F,ch,ai(a,pl)),p=cE(ai(a,0)),q=ai(a,pm),g=jn(jL(ai(a,pn),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cE(ai(a,pj))]:h,s=as(F,ch,ai(a,pk)),t=ai(a,pl),g=jn(jK(ai(a,0),t),s,r);break;default:var
-g=jo(ch,cE(ai(a,0)))}var
+h=b[3],r=h?[0,cE(ai(a,po))]:h,s=at(F,ch,ai(a,pp)),t=ai(a,pq),g=jo(jL(ai(a,0),t),s,r);break;default:var
+g=jp(ch,cE(ai(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bo(c,a){if(typeof
+bp(c,a){if(typeof
 a==="number"){var
 e=[0,d,b];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2320,7 +2320,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eW(a[2]),l=[2,[2,eW(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=e0(a[2]),l=[2,[2,e0(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2335,60 +2335,60 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-d1(b,a){var
+d2(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fa(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(d1(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=d1(c,a[3]);return f(d1(c,a[2]),j)}function
-dh(b,a){if(typeof
+fd(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(d2(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=d2(c,a[3]);return f(d2(c,a[2]),j)}function
+di(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fa(b,a[2]);return f(fa(b,a[1]),e);case
+e=fd(b,a[2]);return f(fd(b,a[1]),e);case
 11:var
-g=d1(b,a[3]);return f(d1(b,a[2]),g);case
+g=d2(b,a[3]);return f(d2(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jL(c,b,a){var
-d=j(dh(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-jM(k,a,g){switch(g[0]){case
+jM(c,b,a){var
+d=i(di(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+jN(k,a,g){switch(g[0]){case
 0:var
 e=W(k,g[1]);if(e){var
 c=e[1],f=c[7];if(f)var
 m=f[1],h=function(b){var
-d=ai(a,pm);return as(F,as(s,m,bT(b,c[1])),d)},n=db(c),o=h(aj(u(pn,a,l(d)),n)),p=db(c),q=aj(u(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
+d=ai(a,pr);return at(F,at(s,m,bT(b,c[1])),d)},n=dc(c),o=h(ak(u(ps,a,l(d)),n)),p=dc(c),q=ak(u(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=ai(a,po);return[0,[0,ai(a,0),r]];default:var
-t=as(F,ch,ai(a,pp));return[0,[0,as(F,ch,ai(a,0)),t]]}}function
-jN(g,e,j,d,c){var
-k=fa(e,c),h=cj(j,f(fa(e,d),k)),a=jM(g,dP(pq,h),d);if(a)var
-b=jM(g,go(pr,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=ai(a,pt);return[0,[0,ai(a,0),r]];default:var
+t=at(F,ch,ai(a,pu));return[0,[0,at(F,ch,ai(a,0)),t]]}}function
+jO(g,e,j,d,c){var
+k=fd(e,c),h=cj(j,f(fd(e,d),k)),a=jN(g,c7(pv,h),d);if(a)var
+b=jN(g,eN(pw,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
 cF(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bD(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-jO(a){if(a){var
+bE(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
+jP(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jO(a[2]);if(d)var
+c=b[1],d=jP(a[2]);if(d)var
 g=d[1],h=ab(c,c),e=[0,[0,[0,cC(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pt}function
-fb(b,d,c,a){if(typeof
+f=b;return f}return py}function
+fe(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=bW(bo(d,a),f);return[0,e(function(a){var
+f=c[1],g=bW(bp(d,a),f);return[0,e(function(a){var
 b=o(a[2],g);return[0,cC(a[1]),b]},b)];case
-9:return jO(b)}return 0}function
-fc(e,k,j,a){var
-V=j[1],c=bW(bo(k,a),V),y=0;if(typeof
+9:return jP(b)}return 0}function
+ff(e,k,j,a){var
+V=j[1],c=bW(bp(k,a),V),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
@@ -2407,10 +2407,10 @@ d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-A=n[1],C=m[1],D=e[1],q=D[5];if(q){var
+B=n[1],C=m[1],D=e[1],q=D[5];if(q){var
 r=C[5];if(r){var
-t=A[5];if(t)var
-h=A[1],i=C[1],v=D[1],Q=cF(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cF(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cF(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=t[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bj(F(z,E)),0],G=[0,s(z,E),ac];else
+t=B[5];if(t)var
+h=B[1],i=C[1],v=D[1],Q=cF(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cF(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cF(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=t[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bk(F(z,E)),0],G=[0,s(z,E),ac];else
 var
 G=t;var
 H=G}else
@@ -2429,128 +2429,130 @@ M=L}else
 var
 M=e;return M;case
 10:var
-x=jN(e,k,j[2],a[1],a[2]);if(x){var
-N=x[1],O=N[2],P=N[1];return B(cC,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
+x=jO(e,k,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return A(cC,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
 ad=function(d){var
 e=d[7];if(e)var
-n=dh(k,a),f=cj(j[2],n),h=ai(f,ps),b=as(s,ai(f,0),h),i=J(c),l=J(db(d)),m=aj(J(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
+n=di(k,a),f=cj(j[2],n),h=ai(f,px),b=at(s,ai(f,0),h),i=J(c),l=J(dc(d)),m=ak(J(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
 var
 g=e;return g},g=ad,f=a[1];break;case
 12:var
 ae=function(e){var
-q=l(d),r=dh(k,a),t=u(0,cj(j[2],r),q),f=aj(t,db(e)),g=e[5];if(g){var
-m=aF(e[2]),h=aj(g[1],m),n=o(h,F(c,o(f,J(h))));return[0,s(l(b),n),0]}var
+q=l(d),r=di(k,a),t=u(0,cj(j[2],r),q),f=ak(t,dc(e)),g=e[5];if(g){var
+m=aF(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,J(h))));return[0,s(l(b),n),0]}var
 i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=ae,f=a[1];break;case
 8:case
 9:var
-w=fb(e,k,j,a);return w?bD(w[1]):w;default:y=1}if(y)return 0;var
+w=fe(e,k,j,a);return w?bE(w[1]):w;default:y=1}if(y)return 0;var
 p=W(e,f);return p?g(p[1]):p}function
 gK(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gK(d,b,jL(b,e,c),g);return f(fc(d,b,c,e),h)}return a}var
-jP=[0,d,b],jQ=[0,[0,jP,jP],d];function
-gL(a){return ak(bR(a[1][1],a[1][2]))}function
-jR(a){var
-b=aV(0,j(a));return cu(function(b){return gL(u(b,a,jQ))},b)}function
-jS(a,g){var
-h=g[4],b=aM(jR(a),h),c=b[1],f=e(function(a){return aQ(d,a)?a:aj(a,b[2])},c),i=aA(jR(a),f);return cu(function(a){return ak(aQ(d,a[2]))},i)}function
-jT(f,I,l,G,m,g,n,r){if(r){var
-a=r[1],aA=r[2],aC=jT(f,I,l,G,m,g,jL(g,a,n),aA);if(typeof
-a==="number")var
-h=0===a?[0,[0,A]]:[0,[8,I[1],I[2]]];else
+e=a[1],g=a[2],h=gK(d,b,jM(b,e,c),g);return f(ff(d,b,c,e),h)}return a}var
+jQ=[0,d,b],jR=[0,[0,jQ,jQ],d];function
+gL(a){return aj(bR(a[1][1],a[1][2]))}function
+jS(a){var
+b=aV(0,i(a));return cu(function(b){return gL(u(b,a,jR))},b)}function
+jT(a,g){var
+h=g[4],b=aM(jS(a),h),c=b[1],f=e(function(a){return aQ(d,a)?a:ak(a,b[2])},c),i=aB(jS(a),f);return cu(function(a){return aj(aQ(d,a[2]))},i)}function
+jU(f,I,l,G,m,h,n,r){if(r){var
+a=r[1],aF=r[2],aG=jU(f,I,l,G,m,h,jM(h,a,n),aF);if(typeof
+a==="number")if(0===a)var
+g=[0,[0,B]];else
+var
+ao=I[2],ap=I[1],aq=dY(m),g=[0,[8,k(as(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ao=ag(f,bo(g,a)),h=y(function(a){return[0,U(f,a)]},ao);break;case
+ar=ag(f,bp(h,a)),g=y(function(a){return[0,U(f,a)]},ar);break;case
 1:var
-ap=ag(f,bo(g,a)),h=y(function(a){return[1,U(f,a)]},ap);break;case
+at=ag(f,bp(h,a)),g=y(function(a){return[1,U(f,a)]},at);break;case
 5:var
-ar=ag(f,bo(g,a)),h=y(function(a){return[2,U(f,a)]},ar);break;case
+av=ag(f,bp(h,a)),g=y(function(a){return[2,U(f,a)]},av);break;case
 8:var
-as=fb(m,g,n,a),h=y(function(a){var
-c=aa(f,b);return[4,k(aB(l),a),c]},as);break;case
+aw=fe(m,h,n,a),g=y(function(a){var
+c=aa(f,b);return[4,k(as(l),a),c]},aw);break;case
 9:var
-w=fb(m,g,n,a);if(w){var
-x=ag(f,bo(g,a));if(x)var
-at=U(f,x[1]),au=w[1],N=[0,[4,k(aB(l),au),at]];else
+w=fe(m,h,n,a);if(w){var
+x=ag(f,bp(h,a));if(x)var
+ax=U(f,x[1]),ay=w[1],N=[0,[4,k(as(l),ay),ax]];else
 var
 N=x;var
 O=N}else
 var
 O=w;var
-h=O;break;case
+g=O;break;case
 10:var
-z=jN(m,g,n[2],a[1],a[2]);if(z){var
-P=z[1],Q=P[2],R=P[1],B=ag(f,bo(g,a));if(B){var
-S=B[1],T=H(d,S[1]);if(T)var
+z=jO(m,h,n[2],a[1],a[2]);if(z){var
+P=z[1],Q=P[2],R=P[1],A=ag(f,bp(h,a));if(A){var
+S=A[1],T=H(d,S[1]);if(T)var
 p=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},av=p(Q[2]),aw=p(Q[1]),ax=p(R[2]),V=[0,[6,p(R[1]),ax,aw,av,S]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},az=p(Q[2]),aA=p(Q[1]),aB=p(R[2]),V=[0,[6,p(R[1]),aB,aA,az,S]];else
 var
 V=T;var
 X=V}else
 var
-X=B;var
+X=A;var
 Y=X}else
 var
 Y=z;var
-h=Y;break;case
+g=Y;break;case
 12:var
-q=fc(m,g,n,a),s=0;if(q)if(q[2])var
-h=0;else{var
-Z=i(f,0,a[2]),_=Z?i(f,1,a[4]):Z;if(_){var
+q=ff(m,h,n,a),s=0;if(q)if(q[2])var
+g=0;else{var
+Z=j(f,0,a[2]),_=Z?j(f,1,a[4]):Z;if(_){var
 C=[0,[3,k(l,q[1])]];s=1}else{var
 C=_;s=1}}else{var
 C=q;s=1}if(s)var
-h=C;break;case
+g=C;break;case
 13:var
 $=a[1],ab=W(m,$),J=0;if(ab){var
-ac=i(f,1,a[2]),ad=ac?i(f,1,a[3]):ac;if(ad)var
-ay=ag(f,bo(g,a)),h=y(function(a){return[7,$,U(f,a)]},ay);else{var
+ac=j(f,1,a[2]),ad=ac?j(f,1,a[3]):ac;if(ad)var
+aC=ag(f,bp(h,a)),g=y(function(a){return[7,$,U(f,a)]},aC);else{var
 ae=ad;J=1}}else{var
 ae=ab;J=1}if(J)var
-h=ae;break;case
+g=ae;break;case
 14:var
-D=a[2],af=a[1],ai=t(j(m),pu),aj=ai?i(f,0,af):ai,ak=aj?i(f,1,D):aj;if(ak){var
-E=ag(f,bo(g,a));if(E)var
+D=a[2],af=a[1],ai=t(i(m),pz),aj=ai?j(f,0,af):ai,ak=aj?j(f,1,D):aj;if(ak){var
+E=ag(f,bp(h,a));if(E)var
 F=ah(e(function(n){var
 i=[5,af,D],a=ag(f,[0,[0,i,i],d]);if(a){var
-o=jS(G,n),h=ah(e(function(e){var
-a=u(e[1],G,jQ),h=aE(a[2],g),i=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],i],j=ag(f,[0,[0,d,d],h]);return y(function(a){return[0,a,k(l,e[2])]},j)},o));if(h)var
-p=[0,a[1],h[1]],j=[0,[0,k(l,n[4]),p]];else
+o=jT(G,n),g=ah(e(function(e){var
+a=u(e[1],G,jR),g=aE(a[2],h),i=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],i],j=ag(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
+p=[0,a[1],g[1]],j=[0,[0,k(l,n[4]),p]];else
 var
-j=h;var
+j=g;var
 m=j}else
 var
-m=a;return m},m)),az=F?[0,[9,E[1],F[1]]]:F,al=az;else
+m=a;return m},m)),aD=F?[0,[9,E[1],F[1]]]:F,al=aD;else
 var
 al=E;var
 am=al}else
 var
 am=ak;var
-h=am;break;default:var
-o=fc(m,g,n,a),K=0;if(o){var
+g=am;break;default:var
+o=ff(m,h,n,a),K=0;if(o){var
 v=o[2],L=o[1];if(v)if(v[2])var
-h=0;else
+g=0;else
 var
-aq=k(l,v[1]),h=[0,[5,k(l,L),aq]];else{var
+au=k(l,v[1]),g=[0,[5,k(l,L),au]];else{var
 M=[0,[3,k(l,L)]];K=1}}else{var
 M=o;K=1}if(K)var
-h=M}var
-an=[0,h,aC]}else
+g=M}var
+an=[0,g,aG]}else
 var
 an=r;return an}function
-pv(a){var
+pA(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-fd(a){if(0===a[0])return a[1];var
+fg(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-jU(a,c,g,b){if(0===c[0])return 0;if(b){var
+jV(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cf(a,g,c[1]);if(i){var
 j=cf(a,g,c[2]);if(j){var
 k=cf(a,g,c[3]);if(k)var
-t=i[1],u=bC(f),l=M([0,bC(f),u],t),v=j[1],x=bC(e),m=M([0,bC(e),x],v),y=dc(e),z=[0,dc(e),y],B=[0,w(a,af(C(m,m)),z),0],D=dc(f),E=[0,dc(f),D],F=[0,w(a,af(C(l,l)),E),B],G=U(a,m),H=U(a,l),n=[0,[0,M(M(U(a,k[1]),H),G),A,F]];else
+t=i[1],u=bD(f),l=M([0,bD(f),u],t),v=j[1],x=bD(e),m=M([0,bD(e),x],v),y=dd(e),z=[0,dd(e),y],A=[0,w(a,af(C(m,m)),z),0],D=dd(f),E=[0,dd(f),D],F=[0,w(a,af(C(l,l)),E),A],G=U(a,m),H=U(a,l),n=[0,[0,M(M(U(a,k[1]),H),G),B,F]];else
 var
 n=k;var
 o=n}else
@@ -2592,34 +2594,34 @@ n=m}else
 var
 n=b;return n}function
 $(c,b,a){var
-d=au(c,b[3],a[3]),e=au(c,b[2],a[2]);return[0,au(c,b[1],a[1]),e,d]}function
+d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
 ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-N(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-at(a){return ap([5,[0,b,b],[6,N(a,a)]],a)}function
+O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+au(a){return ap([5,[0,b,b],[6,O(a,a)]],a)}function
 cG(c,b,a){var
 d=a8(c,b[1],a);return d?a8(c,a,b[2]):d}function
 aS(c,b,a){var
 d=cG(c,b[1],a[1]),e=d?cG(c,b[2],a[2]):d;return e?cG(c,b[3],a[3]):e}function
-jV(b,c,a){switch(c[0]){case
+jW(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aS(b,d[1],f),l=k?i(b,1,N(f,f)):k,m=l?aS(b,d[2],a[2]):l,n=m?aS(b,d[3],a[3]):m,o=n?cG(b,d[4],j):n,p=o?i(b,1,j):o;return p?b_(d[5],a[5]):p}return 0;case
+i=a[4],f=a[1],k=aS(b,d[1],f),l=k?j(b,1,O(f,f)):k,m=l?aS(b,d[2],a[2]):l,n=m?aS(b,d[3],a[3]):m,o=n?cG(b,d[4],i):n,p=o?j(b,1,i):o;return p?b_(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=aS(b,c[1],a[1]),s=r?aS(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=aS(b,q[1],g);if(t)return i(b,1,N(g,g));var
+g=e[1],t=aS(b,q[1],g);if(t)return j(b,1,O(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=aS(b,c[1],h);return w?i(b,1,N(h,h)):w}return 0}}function
+h=a[1],w=aS(b,c[1],h);return w?j(b,1,O(h,h)):w}return 0}}function
 gN(c,a,b){if(0===a[0])return aS(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?cG(c,a[4],b[3]):h}function
-jW(g,f,i,h){var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?cG(c,a[4],b[3]):h}function
+jX(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=jV(g,b[1],a[1]);if(d){var
+d=jW(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2627,59 +2629,59 @@ e=a;var
 c=e}else
 var
 c=a?0:1;return c?gN(g,f[2],h):c}}function
-bp(c,b,a){var
+bq(c,b,a){var
 d=$(function(b,a){return[2,b,a]},a,b);return $(function(b,a){return[3,b,a]},d,c)}function
-d2(a,e,d,c){var
-b=bp(e,d,c),f=at(a),g=ap(N(at(a),b),f);return $(function(b,a){return[3,b,a]},b,g)}function
+d3(a,e,d,c){var
+b=bq(e,d,c),f=au(a),g=ap(O(au(a),b),f);return $(function(b,a){return[3,b,a]},b,g)}function
 cH(f,e,d,a,c){var
-b=d2(f,e,d,c);return[3,[4,a,a],N(b,b)]}function
+b=d3(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
 cI(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 cJ(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d2(d,f,e,c),h=cH(d,f,e,a[4],c),i=ap([5,[0,b,b],cI(a[5],h)],g),j=at(d);return $(function(b,a){return[2,b,a]},j,i);case
-1:return at(bp(a[1],a[2],c));default:return at(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=d3(d,f,e,c),h=cH(d,f,e,a[4],c),i=ap([5,[0,b,b],cI(a[5],h)],g),j=au(d);return $(function(b,a){return[2,b,a]},j,i);case
+1:return au(bq(a[1],a[2],c));default:return au(a[1])}}function
 gO(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=at(c),g=cH(c,e,d,a[4],b),h=ap(cI(a[5],g),f),i=d2(c,e,d,b);return $(function(b,a){return[2,b,a]},i,h);case
-1:return bp(a[1],a[2],b);default:return at(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=au(c),g=cH(c,e,d,a[4],b),h=ap(cI(a[5],g),f),i=d3(c,e,d,b);return $(function(b,a){return[2,b,a]},i,h);case
+1:return bq(a[1],a[2],b);default:return au(a[1])}}function
 gP(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=bp(d,c,b);return[3,N(at(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=bq(d,c,b);return[3,O(au(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bp(g,f,b);return[6,N(bp(g,f,b),k)];default:return N(at(a[1]),b)}}function
-jX(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=bq(g,f,b);return[6,O(bq(g,f,b),k)];default:return O(au(a[1]),b)}}function
+jY(a,b){switch(a[0]){case
 0:return[0,cH(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bp(d,c,b);return[0,N(bp(d,c,b),e)];default:return 0}}function
-d3(e,c,a){var
-f=[0,d,b];return bi(function(b,d){var
-e=N(cJ(b,c),a);return[2,[4,N(cJ(b,c),a),e],d]},f,e)}function
-jY(a){var
+c=a[2],d=a[1],e=bq(d,c,b);return[0,O(bq(d,c,b),e)];default:return 0}}function
+d4(e,c,a){var
+f=[0,d,b];return bj(function(b,d){var
+e=O(cJ(b,c),a);return[2,[4,O(cJ(b,c),a),e],d]},f,e)}function
+jZ(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
 gQ(a,b){if(0===a[0]){var
 c=a[4];return[0,[0,gO(a,b),c]]}return 0}function
-jZ(d,i){if(d){var
+j0(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bp(a[1],a[2],i),k=at(f),l=ap(N(at(f),g),k),h=[0,$(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bq(a[1],a[2],i),k=au(f),l=ap(O(au(f),g),k),h=[0,$(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=jZ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=j0(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pw}function
+j=b;return j}return pB}function
 cK(a){return[0,a[1],a[2],a[3]]}function
-j0(a,b){switch(a[0]){case
+j1(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=at(d),j=cH(d,g,c,f,b),k=ap(cI(a[5],j),i),l=d2(d,g,c,b),m=$(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,$(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=au(d),j=cH(d,g,c,f,b),k=ap(cI(a[5],j),i),l=d3(d,g,c,b),m=$(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,$(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bp(a[1],h,b),n=[6,N(e,e)];return[0,[0,[0,$(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-j1(l,c,a){switch(a[0]){case
+h=a[2],e=bq(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,$(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+j2(l,c,a){switch(a[0]){case
 0:var
 m=a[5],d=W(l,a[1]);if(d){var
-e=j0(d[1],c);if(e)var
+e=j1(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
 b=cK(m),c=ap(a,n),d=$(function(b,a){return[3,b,a]},o,c);return $(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
@@ -2690,30 +2692,30 @@ k=d;return k;case
 1:var
 q=cK(a[3]);return[0,[0,cK(a[2]),q]];default:var
 r=cK(a[3]),s=$(function(b,a){return[2,b,a]},c,r),t=cK(a[2]);return[0,[0,$(function(b,a){return[2,b,a]},c,t),s]]}}function
-j2(d,a,c,b){var
+j3(d,a,c,b){var
 e=ap(a,b),f=ap([3,d,a],c);return $(function(b,a){return[2,b,a]},f,e)}function
-j3(f,g,e,c,q,a){function
-I(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],N(c,c)]}var
+j4(f,g,e,c,q,a){function
+I(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(c,c)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-aw=d3(g,e,c);return i(f,1,[3,I(a[1]),aw]);case
+aw=d4(g,e,c);return j(f,1,[3,I(a[1]),aw]);case
 1:var
-ax=I(a[1]);return i(f,1,[3,d3(g,e,c),ax]);case
+ax=I(a[1]);return j(f,1,[3,d4(g,e,c),ax]);case
 2:var
 ay=a[2],az=function(a){return[3,ay,gP(a,e)]},s=az,r=a[1];break;case
 3:var
 aA=a[2],aB=function(a){return[3,gP(a,e),aA]},s=aB,r=a[1];break;case
 4:var
 J=a[3],K=a[2],aC=function(a){var
-b=cJ(a,e);return[3,[4,[4,K,K],N(cJ(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
+b=cJ(a,e);return[3,[4,[4,K,K],O(cJ(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aD=N(c,c),aE=[4,[4,L,L],[4,d3(g,e,q),aD]],aF=N(q,q);return i(f,1,[3,[4,d3(g,e,c),aF],aE]);case
+L=a[1],aD=O(c,c),aE=[4,[4,L,L],[4,d4(g,e,q),aD]],aF=O(q,q);return j(f,1,[3,[4,d4(g,e,c),aF],aE]);case
 6:var
 M=a[2],u=W(g,a[1]);if(u){var
 h=u[1];if(0===h[0]){var
-v=h[4],aG=cH(h[1],h[2],h[3],v,e),O=cI(h[5],aG);return i(f,1,[3,[4,[4,M,v],[4,M,v]],[4,O,O]])}var
+v=h[4],aG=cH(h[1],h[2],h[3],v,e),N=cI(h[5],aG);return j(f,1,[3,[4,[4,M,v],[4,M,v]],[4,N,N]])}var
 P=0}else
 var
 P=u;return P;case
@@ -2723,7 +2725,7 @@ o=n[2];if(o){if(o[2])return 0;var
 w=gQ(g[1],e);if(w){var
 Q=w[1],x=gQ(n[1],e);if(x){var
 R=x[1],y=gQ(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=N(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=i(f,1,[3,T,H]);if(U)return i(f,1,[2,T,H]);var
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],H=O(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,H]);if(U)return j(f,1,[2,T,H]);var
 V=U}else
 var
 V=y;var
@@ -2743,15 +2745,15 @@ aa=_}else
 var
 aa=g;return aa;case
 8:var
-aH=d3(g,e,c),aI=N(c,c);return i(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
+aH=d4(g,e,c),aI=O(c,c);return j(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-ab=a[1],z=jZ(g,e);if(z){var
-aJ=z[1],au=[0,d,b],av=bi(function(a,b){var
-d=N(at(a),c);return[2,[4,N(at(a),c),d],b]},au,aJ);return i(f,1,[3,[4,[4,ab,ab],N(c,c)],av])}return z;case
+ab=a[1],z=j0(g,e);if(z){var
+aJ=z[1],at=[0,d,b],av=bj(function(a,b){var
+d=O(au(a),c);return[2,[4,O(au(a),c),d],b]},at,aJ);return j(f,1,[3,[4,[4,ab,ab],O(c,c)],av])}return z;case
 10:var
-ac=a[2],ad=a[1],A=j1(g,e,ad);if(A){var
-ae=A[1],B=j1(g,e,ac);if(B){var
-af=B[1],C=c[1],D=c[2],l=c[3],aK=j2(l,D,af[1],af[2]),aL=j2(l,C,ae[1],ae[2]),ag=$(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=eW(ac),ah=[4,l,[2,[2,eW(ad),aN],aM]],ai=i(f,1,l),aj=ai?i(f,0,C):ai,ak=aj?i(f,0,[3,l,C]):aj,al=ak?i(f,0,D):ak,am=al?i(f,0,[3,l,D]):al;if(am)return i(f,1,[3,[4,ah,ah],N(ag,ag)]);var
+ac=a[2],ad=a[1],A=j2(g,e,ad);if(A){var
+ae=A[1],B=j2(g,e,ac);if(B){var
+af=B[1],C=c[1],D=c[2],l=c[3],aK=j3(l,D,af[1],af[2]),aL=j3(l,C,ae[1],ae[2]),ag=$(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=e0(ac),ah=[4,l,[2,[2,e0(ad),aN],aM]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],O(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -2760,35 +2762,35 @@ var
 ao=A;return ao;case
 11:var
 ap=a[4],E=W(g,a[1]);if(E){var
-F=j0(E[1],e);if(F){var
-m=F[1][1][2],aO=cK(a[3]),aP=cK(a[2]),p=$(function(b,a){return[3,b,a]},aP,aO),aq=i(f,1,N(m,m));if(aq){var
-aQ=N(m,m),aR=N(p,m),aS=[5,[4,N(p,m),aR],aQ];return i(f,1,[3,[4,ap,ap],[3,N(p,p),aS]])}var
+F=j1(E[1],e);if(F){var
+m=F[1][1][2],aO=cK(a[3]),aP=cK(a[2]),p=$(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,O(m,m));if(aq){var
+aQ=O(m,m),aR=O(p,m),aS=[5,[4,O(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,O(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=W(g,r);return t?i(f,1,s(t[1])):t}function
-a$(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-j4(a){switch(a[0]){case
+t=W(g,r);return t?j(f,1,s(t[1])):t}function
+ba(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+j5(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=a$(b[3]),f=a$(b[2]);return[0,a$(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=ba(b[3]),f=ba(b[2]);return[0,ba(b[1]),f,e,d,c];case
 1:var
-g=y(a$,a[3]),h=a$(a[2]);return[1,a$(a[1]),h,g];default:return[2,a$(a[1])]}}function
-j5(a){return 0===a[0]?a$(a[1]):[0,a[1],a[2],a[4][1]]}function
-j6(b,a){var
-c=j5(a[2]);return jW(b,a,e(j4,a[1]),c)}function
+g=y(ba,a[3]),h=ba(a[2]);return[1,ba(a[1]),h,g];default:return[2,ba(a[1])]}}function
+j6(a){return 0===a[0]?ba(a[1]):[0,a[1],a[2],a[4][1]]}function
+j7(b,a){var
+c=j6(a[2]);return jX(b,a,e(j5,a[1]),c)}function
 bX(c,a){if(c){if(a){var
 e=bX(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-j7(a){if(a){var
+j8(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=j7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return py}function
-j8(a,l,k,f){var
+c=b[1],d=j8(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pD}function
+j9(a,l,k,f){var
 b=aY(a,l);if(b){var
 c=aY(a,k);if(c){var
-d=c$(a,f);if(d){var
-e=eU(a,f);if(e)var
+d=da(a,f);if(d){var
+e=eY(a,f);if(e)var
 m=w(a,b[1],e[1]),g=[0,M(w(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2801,69 +2803,69 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fe(a){return a?Z(d,a[1][1]):a}function
-j9(a,ab,m,aD,g,f){function
+fh(a){return a?Z(d,a[1][1]):a}function
+j_(a,ab,m,aD,g,f){function
 ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bX(a,a)]}var
 aE=m[1];function
 o(c){var
-a=[0,d,b];return bi(function(a,b){var
+a=[0,d,b];return bj(function(a,b){var
 d=bX(a,c);return[2,[4,bX(a,c),d],b]},a,aE)}var
-ad=n(function(a){return t(j(a),ab)},g);if(ad){var
+ad=n(function(a){return t(i(a),ab)},g);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
 0:if(g){if(g[2])return 0;var
-af=g[1],aF=o(af);return i(a,1,[3,ac(f[1],af),aF])}return g;case
+af=g[1],aF=o(af);return j(a,1,[3,ac(f[1],af),aF])}return g;case
 1:if(g){if(g[2])return 0;var
-ag=g[1],aG=ac(f[1],ag);return i(a,1,[3,o(ag),aG])}return g;case
+ag=g[1],aG=ac(f[1],ag);return j(a,1,[3,o(ag),aG])}return g;case
 2:if(g)return 0;var
 aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+b!=="number"&&0===b[0])return j(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
 3:if(g)return 0;var
 aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+b!=="number"&&0===b[0])return j(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
 4:if(g)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],h=e[1],j=i(a,0,[3,[2,ai,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
-f=j8(a,h,g,ai);return f?Z(f[1][2],d):f}return fe(j8(a,h,g,ah))}return j}return 0},H=aL,G=f[1];break;case
+g=e[2],h=e[1],i=j(a,0,[3,[2,ai,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],ah]);if(i){if(aD){var
+f=j9(a,h,g,ai);return f?Z(f[1][2],d):f}return fh(j9(a,h,g,ah))}return i}return 0},H=aL,G=f[1];break;case
 5:if(g){var
 q=g[2];if(q){if(q[2])return 0;var
-J=q[1],K=g[1],aj=f[1],aM=bX(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bX(J,J);return i(a,1,[3,[4,o(K),aO],aN])}var
+J=q[1],K=g[1],aj=f[1],aM=bX(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bX(J,J);return j(a,1,[3,[4,o(K),aO],aN])}var
 ak=q}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=i(a,1,al);return d?i(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=j(a,1,al);return d?j(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return i(a,1,[3,[4,f[2],aT],aS])}return g;case
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return j(a,1,[3,[4,f[2],aT],aS])}return g;case
 9:if(g)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
-f=i(a,1,as),g=f?i(a,0,ar):f;if(g){var
+f=j(a,1,as),g=f?j(a,0,ar):f;if(g){var
 b=aY(a,bX(e,e));if(b){var
 c=aY(a,[5,ar,as]);if(c){var
-d=i8(a,c[1]);if(d){var
-l=U(a,d[1]);return fe([0,M(b[1],l)])}var
+d=i9(a,c[1]);if(d){var
+l=U(a,d[1]);return fh([0,M(b[1],l)])}var
 h=d}else
 var
 h=c;var
-j=h}else
+i=h}else
 var
-j=b;var
-k=j}else
+i=b;var
+k=i}else
 var
 k=g;return k},an=aU,am=f[1];k=3;break;case
 10:if(g)return 0;var
 aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
+c=[4,aV,b[3]],d=j(a,1,c);return d?j(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
 11:if(g)return 0;var
 aX=f[2],aZ=function(e){var
-b=c$(a,aX);if(b){var
+b=da(a,aX);if(b){var
 c=aY(a,e[3]);if(c){var
 d=aY(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fe([0,f]);if(g){var
-k=U(a,d[1]);return fe([0,M(U(a,f),k)])}var
+f=w(a,b[1],c[1]),g=fh([0,f]);if(g){var
+k=U(a,d[1]);return fh([0,M(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2874,7 +2876,7 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
-Q=j7(m[3]);if(Q){var
+Q=j8(m[3]);if(Q){var
 aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
 s=R[1];if(s){var
 u=s[2];if(u){var
@@ -2915,7 +2917,7 @@ var
 h=[0,d,b]}else
 var
 h=[0,d,b];var
-ay=i(a,1,[3,ax,h]);if(ay)return i(a,1,[2,ax,h]);var
+ay=j(a,1,[3,ax,h]);if(ay)return j(a,1,[2,ax,h]);var
 az=ay}else
 var
 az=Q;return az;default:k=1}switch(k){case
@@ -2929,14 +2931,14 @@ var
 av=O;return av;case
 3:var
 L=W(m[1],am);if(L){var
-ao=L[1],ap=t(j(ao),ab);if(ap)return an(ao);var
+ao=L[1],ap=t(i(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=L;return aq;default:var
 I=W(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-j_(h,g){var
+j$(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2946,72 +2948,72 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-j$(a){if(a){var
+ka(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=j$(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pz}function
-pA(a){return e(function(a){return[0,a,b]},a)}function
-ka(g,f,c,n,a){if(typeof
+c=b[1],d=ka(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pE}function
+pF(a){return e(function(a){return[0,a,b]},a)}function
+kb(g,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
-r=c[4];return aq(function(a){return i(g,0,[3,[0,d,b],a])},r)}var
-h=j$(c[5]);return h?jd(f,h[1]):h}else{if(0===a[0]){var
-j=j_(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(pA,a[2]);return j9(g,f,c,o[2],t,s)}return j}var
-k=j_(a[1],n);if(k){var
+r=c[4];return aq(function(a){return j(g,0,[3,[0,d,b],a])},r)}var
+h=ka(c[5]);return h?je(f,h[1]):h}else{if(0===a[0]){var
+i=j$(a[1],n);if(i){var
+o=i[1],s=o[1],t=e(pF,a[2]);return j_(g,f,c,o[2],t,s)}return i}var
+k=j$(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=W(c[1],a[2]);return m?j9(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=W(c[1],a[2]);return m?j_(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
 gR(a){var
-b=at(a[1]),c=ap(N(b,a[2]),b),d=a[2];return $(function(b,a){return[3,b,a]},d,c)}function
-gS(a){return at(gR(a))}function
-kb(c){var
-a=gS(c),b=at(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gT(a,b){return bp(a[3],a[4],b)}function
+b=au(a[1]),c=ap(O(b,a[2]),b),d=a[2];return $(function(b,a){return[3,b,a]},d,c)}function
+gS(a){return au(gR(a))}function
+kc(c){var
+a=gS(c),b=au(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gT(a,b){return bq(a[3],a[4],b)}function
 gU(a,b){var
-c=gT(a,b);return N(gS(a),c)}function
+c=gT(a,b);return O(gS(a),c)}function
 gV(a,b){var
-c=gT(a,b);return N(kb(a),c)}function
-kc(a,b){var
-c=gT(a,b);return N(at(a[1]),c)}function
+c=gT(a,b);return O(kc(a),c)}function
+kd(a,b){var
+c=gT(a,b);return O(au(a[1]),c)}function
 gW(b,a){var
 c=gV(b,a),d=gU(b,a);return[2,[4,d,d],[4,c,c]]}function
 gX(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kc(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kd(a,b){var
-f=a[5],c=[3,gX(a,b),f],d=kc(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-ff(a,b){var
-c=kd(a,b);return cI(a[7],c)}function
-ke(b,a){var
-c=gW(b,a),d=gV(b,a),e=[4,ff(b,a),d],f=gU(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kd(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+ke(a,b){var
+f=a[5],c=[3,gX(a,b),f],d=kd(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fi(a,b){var
+c=ke(a,b);return cI(a[7],c)}function
 kf(b,a){var
-c=gW(b,a),d=gU(b,a),e=[4,ff(b,a),d],f=gV(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
-kg(a,b){var
-c=kb(a),d=ap(kf(a,b),c),e=gS(a),f=ap(ke(a,b),e),g=$(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return $(function(b,a){return[2,b,a]},i,h)}function
-kh(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-ki(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+c=gW(b,a),d=gV(b,a),e=[4,fi(b,a),d],f=gU(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
+kg(b,a){var
+c=gW(b,a),d=gU(b,a),e=[4,fi(b,a),d],f=gV(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
+kh(a,b){var
+c=kc(a),d=ap(kg(a,b),c),e=gS(a),f=ap(kf(a,b),e),g=$(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return $(function(b,a){return[2,b,a]},i,h)}function
+ki(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+kj(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
 gY(a,c,b){var
-d=[4,kh(a),b],e=[2,[4,ki(a),c],d],f=[4,ki(a),b];return[0,[3,[4,kh(a),c],f],e]}function
-kj(c,a){var
+d=[4,ki(a),b],e=[2,[4,kj(a),c],d],f=[4,kj(a),b];return[0,[3,[4,ki(a),c],f],e]}function
+kk(c,a){var
 b=gY(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-d4(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fg(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kj(d[1],a):a;case
+d5(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fj(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kk(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gY(d[1],a[2],a[3]),m=j[1],k=gY(f[1],j[2],a[1]);return kj(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gY(d[1],a[2],a[3]),m=j[1],k=gY(f[1],j[2],a[1]);return kk(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=N(e,e),n=d4(e,a),o=ap([0,c(2,b),b],n),p=N(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=$(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],$(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kk(c){var
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=d5(e,a),o=ap([0,c(2,b),b],n),p=O(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=$(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],$(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kl(c){var
 a=bS(c);return a?cv(a[1],[0,d,b]):a}function
-kl(a,n,k,j){if(kk(j)){var
-q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
+km(a,n,k,i){if(kl(i)){var
+q=n?[3,[0,d,b],k]:k;return j(a,0,q)}var
 f=aY(a,k);if(f){var
-g=c$(a,[5,j,[0,c(2,b),b]]);if(g){var
-h=eU(a,[5,j,[0,c(2,b),b]]);if(h)var
+g=da(a,[5,i,[0,c(2,b),b]]);if(g){var
+h=eY(a,[5,i,[0,c(2,b),b]]);if(h)var
 p=w(a,f[1],g[1]),l=[0,M(h[1],p)];else
 var
 l=h;var
@@ -3022,22 +3024,22 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-d5(b,a,c){var
-d=a8(b,a[1],a[2]),e=d?kl(b,0,c,a[1]):d;return e?kl(b,1,c,a[2]):e}function
-di(a,d){if(kk(d))return[0,A];var
-e=c$(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
-f=eU(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
+d6(b,a,c){var
+d=a8(b,a[1],a[2]),e=d?km(b,0,c,a[1]):d;return e?km(b,1,c,a[2]):e}function
+dj(a,d){if(kl(d))return[0,B];var
+e=da(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
+f=eY(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
 h=f[1],i=e[1],j=C(aa(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cb(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
 e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-d6(d,a){var
-e=i(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+d7(d,a){var
+e=j(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?j(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
 cL(a){return[0,[3,[0,d,b],a],a]}function
-km(a,c,n,m){var
-h=a8(a,[0,d,b],c),i=h?d6(a,c):h;if(i){var
-e=di(a,c);if(e){var
+kn(a,c,n,m){var
+h=a8(a,[0,d,b],c),i=h?d7(a,c):h;if(i){var
+e=dj(a,c);if(e){var
 f=aY(a,n);if(f){var
 g=aY(a,m);if(g){var
 o=f[1],p=g[1];return H(d,M(w(a,U(a,e[1]),p),o)[1])}var
@@ -3050,12 +3052,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kn(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:d5(d,c[1],a[1]):a;case
+ko(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:d6(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=d5(d,c[1],a[1]),m=l?d5(d,c[2],e[1]):l;if(m)return d5(d,c[3],f[1]);var
+l=d6(d,c[1],a[1]),m=l?d6(d,c[2],e[1]):l;if(m)return d6(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3068,7 +3070,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=N([0,s,r,q],[0,s,r,q]);return km(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kn(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3077,7 +3079,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=km(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return d5(d,cL(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kn(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return d6(d,cL(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3087,20 +3089,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dj(a){return 1===a?pB:pC}function
-fh(d,c,b,a){var
-e=a[1],f=fg(d,c,a[2]),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
+dk(a){return 1===a?pG:pH}function
+fk(d,c,b,a){var
+e=a[1],f=fj(d,c,a[2]),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
 gZ(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-d7(b,d){var
+d8(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,cz(function(a){return d7(b,a)},a)]}return[0,cz(function(a){return d7(b,a)},a)]}function
-dk(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cz(function(a){return d8(b,a)},a)]}return[0,cz(function(a){return d8(b,a)},a)]}function
+dl(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ak(t(e,b));return f?ak(t(e,P(d,b))):f;case
+e=a[1],f=aj(t(e,b));return f?aj(t(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3108,31 +3110,31 @@ e=a[1],f=ak(t(e,b));return f?ak(t(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dk(d,b,a[1]);if(g){var
+g=dl(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-d8(c,b,m){var
+d9(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dk(c,b,g),i=h?d8(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dl(c,b,g),i=h?d9(c,b,f):h;if(i)var
 j=i;else{var
-k=d8(c,b,g);if(k)return dk(c,b,f);var
+k=d9(c,b,g);if(k)return dl(c,b,f);var
 j=k}return j;case
 7:var
-l=d8(c,b,a[1]);return l?dk(c,b,a[2]):l;case
+l=d9(c,b,a[1]);return l?dl(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=d8(c,b,a[1]);if(e){var
+e=d9(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dk(c,b,a[1]);default:return 1}}}function
+9:return dl(c,b,a[1]);default:return 1}}}function
 cM(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ak(t(a[1],c));case
+0:return aj(t(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3162,10 +3164,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cM(b,c)}}}function
-ko(c,e){var
+kp(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dL(a[1],c);case
+0:return dM(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3173,26 +3175,26 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ko(c,a[1]);if(d){var
+d=kp(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 ck(b,a){return a?k(b,a[1]):a}function
 cl(c,b,a){return ck(function(b){return ck(k(c,b),a)},b)}function
-pD(a){return 0===a[0]?a[1]:0}function
-bE(b,a){switch(a[0]){case
+pI(a){return 0===a[0]?a[1]:0}function
+bF(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
-1:return[1,bE(b,a[1])];default:var
-c=bE(b,a[3]),d=bE(b,a[2]);return[2,bE(b,a[1]),d,c]}}function
+1:return[1,bF(b,a[1])];default:var
+c=bF(b,a[3]),d=bF(b,a[2]);return[2,bF(b,a[1]),d,c]}}function
 aZ(b,c,a){switch(c[0]){case
-0:return bE(k(b,c[1]),a);case
+0:return bF(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bE(function(a){return au(b,a,j)},d)];case
+j=a[1];return[1,bF(function(a){return av(b,a,j)},d)];case
 1:return[1,aZ(b,d,a[1])];default:var
 l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return au(b,a,n)},h=function(a){return bE(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return av(b,a,n)},h=function(a){return bF(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
 t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
@@ -3206,14 +3208,14 @@ g=w(c,a,b),e=[0,a6(C(a,b)),g];break;default:var
 e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=g1(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kp(a){if(a){var
+kq(a){if(a){var
 b=a[1];if(b)var
-c=kp(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pG}function
-d9(a){if(a){var
-g=a[1],b=g[2],c=kp(g[1]);if(c)if(b){var
-h=b[1],e=d9(a[2]);if(e)var
+d=b;return d}return pL}function
+d_(a){if(a){var
+g=a[1],b=g[2],c=kq(g[1]);if(c)if(b){var
+h=b[1],e=d_(a[2]);if(e)var
 i=Z(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3221,90 +3223,90 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return pH}function
+f=c;return f}return pM}function
 g2(b,a){var
 c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aB(b),f),e,d]}function
-kq(e,d,c,b){if(d){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(as(b),f),e,d]}function
+kr(e,d,c,b){if(d){var
 i=d[1],a=function(f){var
 a=g2(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(f){case
 0:return d;case
-1:return c;default:return b}}},b);return kq(bx(e),i,c,a)},f=a(0);if(f){var
+1:return c;default:return b}}},b);return kr(by(e),i,c,a)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,g2(pD,b))}function
-d_(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a_(f,e,a)},d)}return[0,A]}function
-pI(c){var
+h=f;return h}return k(c,g2(pI,b))}function
+d$(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a$(f,e,a)},d)}return[0,B]}function
+pN(c){var
 a=c[2];if(a){var
-b=d_(c[3]);if(b)return H(d,M(a[1],b[1])[1]);var
+b=d$(c[3]);if(b)return H(d,M(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kr(a){return B(function(a){return f(a[1],[0,a[2],0])},a)}function
-ks(a,c,b){var
-e=u(b,c,l(d)),f=aV(0,a);return n(function(b){return d8(a,b,e)},f)}function
-d$(a){var
+ks(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
+kt(a,c,b){var
+e=u(b,c,l(d)),f=aV(0,a);return n(function(b){return d9(a,b,e)},f)}function
+ea(a){var
 c=J(a);return F(l(b),c)}function
-fi(i,g){var
-h=d$(g),j=J(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bj(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bj(f),a,e]]:[0,[0,h,a,a],[0,a,e,bj(f)],[0,a,f,e]]}function
-kt(b,a){var
+fl(i,g){var
+h=ea(g),j=J(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+ku(b,a){var
 c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-ku(b,a){function
+kv(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kv(w,v){function
-a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
+kw(w,v){function
+a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=d$(a(0));return[0,fi(pJ,a(0)),x];case
+x=ea(a(0));return[0,fl(pO,a(0)),x];case
 1:var
-y=d$(a(0)),z=o(d$(a(pK)),y),A=o(d$(a(pL)),z),B=fi(0,a(0)),C=ku(fi(pN,a(pM)),B);return[0,ku(fi(pP,a(pO)),C),A];default:var
-D=a(pQ),E=a(pR),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=ea(a(0)),z=o(ea(a(pP)),y),A=o(ea(a(pQ)),z),B=fl(0,a(0)),C=kv(fl(pS,a(pR)),B);return[0,kv(fl(pU,a(pT)),C),A];default:var
+D=a(pV),E=a(pW),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=J(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
-g=au(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kw(a){return 1<a[0]?[0,a[1],0]:0}function
-fj(a){switch(a[0]){case
+g=av(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kx(a){return 1<a[0]?[0,a[1],0]:0}function
+fm(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cL(a[1]),0];default:var
 b=[0,cL(a[2]),0];return[0,cL(a[1]),b]}}function
-dl(a){return[0,[0,a[1]],[0,a[2]]]}function
-kx(a){switch(a[0]){case
-0:return[0,dl(a[1]),0];case
+dm(a){return[0,[0,a[1]],[0,a[2]]]}function
+ky(a){switch(a[0]){case
+0:return[0,dm(a[1]),0];case
 1:var
-f=[0,dl(a[3]),0],g=[0,dl(a[2]),f];return[0,dl(a[1]),g];case
+f=[0,dm(a[3]),0],g=[0,dm(a[2]),f];return[0,dm(a[1]),g];case
 2:var
-b=dl(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dl(cL(c)),0]]]}}function
-ky(a,c){if(0===c[0])return di(a,c[1]);var
-d=di(a,c[1]);if(d){var
-e=di(a,c[2]);if(e){var
+b=dm(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dm(cL(c)),0]]]}}function
+kz(a,c){if(0===c[0])return dj(a,c[1]);var
+d=dj(a,c[1]);if(d){var
+e=dj(a,c[2]);if(e){var
 g=U(a,e[1]),h=cy(a,C(aa(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kz(d,c){var
-a=ky(d,c[1]);if(a)var
-b=ky(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kA(d,c){var
+a=kz(d,c[1]);if(a)var
+b=kz(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kA(k,D,c,C,B,b,a){switch(b[0]){case
+kB(k,D,c,C,A,b,a){switch(b[0]){case
 0:var
 n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
 a==="number")m=1;else
 switch(a[0]){case
 0:var
-E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=d9(e[1]);if(a){var
+E=a[2],F=a[1],j=o,h=p,g=function(e){var
+a=d_(e[1]);if(a){var
 b=e[2];if(b){var
-d=d_(e[3]);if(d){var
+d=d$(e[3]);if(d){var
 h=d[1],i=aW([0,M(af(w(k,l,b[1])),h),0],c);return bU(c,gy(F,E,a[1],i))}var
 f=d}else
 var
@@ -3314,21 +3316,21 @@ var
 g=a;return g},f=n;break;case
 2:var
 q=Y(l[1],d),r=q?Y(l[2],d):q;if(!r)return r;var
-H=a[2],I=a[1],i=o,h=p,g=function(f){var
-a=d9(f[1]);if(a){var
-b=d_(f[3]);if(b){var
-g=aW([0,M(A,b[1]),0],c),h=a[1];return bU(c,gy(I,H,e(function(a){return[0,a[1],A]},h),g))}var
+H=a[2],I=a[1],j=o,h=p,g=function(f){var
+a=d_(f[1]);if(a){var
+b=d$(f[3]);if(b){var
+g=aW([0,M(B,b[1]),0],c),h=a[1];return bU(c,gy(I,H,e(function(a){return[0,a[1],B]},h),g))}var
 d=b}else
 var
 d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
 1:var
 x=0;if(typeof
 a==="number"&&!a)var
-J=b[2],K=b[1],L=b[3],i=J,h=K,N=0,g=function(f){var
-a=d9(f[1]);if(a){var
+J=b[2],K=b[1],L=b[3],j=J,h=K,N=0,g=function(f){var
+a=d_(f[1]);if(a){var
 b=f[2];if(b){var
-d=d_(f[3]);if(d){var
-j=d[1],l=aW([0,M(w(k,L,b[1]),j),0],c),e=jh(a[1],l);if(e)return bU(c,e[1]);var
+d=d$(f[3]);if(d){var
+j=d[1],l=aW([0,M(w(k,L,b[1]),j),0],c),e=ji(a[1],l);if(e)return bU(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3344,78 +3346,78 @@ y=0;if(typeof
 a==="number"||!(0===a[0]))y=1;else
 var
 s=a[2],v=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=d9(f[1]);if(a){var
+a=d_(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=d_(f[3]);if(e){var
-g=t(j(b),c),h=g?t(j(s),c):g;if(h){var
-n=dZ(v,d0(v,s,d[1],b));return bU(c,cg(e3(k,R,Q,e[1],b),n))}var
-i=h}else
+e=d$(f[3]);if(e){var
+g=t(i(b),c),h=g?t(i(s),c):g;if(h){var
+n=d0(v,d1(v,s,d[1],b));return bU(c,cg(e6(k,R,Q,e[1],b),n))}var
+j=h}else
 var
-i=e;var
-l=i}else
+j=e;var
+l=j}else
 var
 l=d;var
 m=l}else
 var
-m=a;return m},i=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
+m=a;return m},j=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
 z=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pI,f=0;else
+j=b[1],h=0,g=pN,f=0;else
 z=1;if(z)return 0}var
-G=[0,h,i,B];return kq(f,D,g,g2(function(a){return u(a,C,pW)},G))}function
-kB(m,l,k,f,j,i,e){if(typeof
+G=[0,h,j,A];return kr(f,D,g,g2(function(a){return u(a,C,p1)},G))}function
+kC(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=H(d,o);if(p)var
-h=is(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=it(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kA(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kB(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kA(m,l,k,j,0,i,a)}return 0}function
-pX(a){if(a[1])return 0;var
+q=f;return q}return kB(m,l,k,j,0,i,a)}return 0}function
+p2(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kC(a,N,L,K,J,I,h,p,H,_){if(n(pX,H))var
+kD(a,N,L,K,J,I,h,p,H,_){if(n(p2,H))var
 q=0;else
 var
-V=g1(a,b9,p),T=0,X=f(g1(a,aK,p),V),q=bA(pF,function(b){switch(b[0]){case
-0:return u(b[1],X,[0,[0,A]]);case
-1:return[0,[0,u(b[1],L,A)]];case
+V=g1(a,b9,p),T=0,X=f(g1(a,aK,p),V),q=bB(pK,function(b){switch(b[0]){case
+0:return u(b[1],X,[0,[0,B]]);case
+1:return[0,[0,u(b[1],L,B)]];case
 2:return[0,[0,aa(a,b[1])]];case
 3:var
 c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aZ(function(a,b){return cl(e,a,b)},d,c);case
 4:var
 f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aZ(function(a,b){return cl(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,af(a)]};return bE(function(a){return ck(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bF(function(a){return ck(j,a)},i);case
 6:var
 k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cl(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
 d=cb(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cl(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,U(a,b)]};return bE(function(a){return ck(r,a)},q);case
+q=b[1],r=function(b){return[0,U(a,b)]};return bF(function(a){return ck(r,a)},q);case
 9:var
-s=b[1],t=function(b){return cy(a,b)};return bE(function(a){return ck(t,a)},s);default:return pE}},N,T);var
+s=b[1],t=function(b){return cy(a,b)};return bF(function(a){return ck(t,a)},s);default:return pJ}},N,T);var
 g=H,b=_;for(;;){if(g){var
 t=g[1],i=t[2],c=t[1],k=g[2];if(c){var
 v=u(c,b,0);if(v){var
 l=W(K,c);if(l){var
-x=kB(a,J,I,h,q,l[1],i);if(x){var
-g=k,b=e8(c,b);continue}var
+x=kC(a,J,I,h,q,l[1],i);if(x){var
+g=k,b=e$(c,b);continue}var
 z=x}else
 var
 z=l;var
-B=z}else
+A=z}else
 var
-B=v;return B}if(typeof
+A=v;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Y=0,r=e(function(b){return[0,b,U(a,b)]},p),Q=e(b9,r),P=0,R=f(e(aK,r),Q),S=bA(0,function(n){return function(b){switch(b[0]){case
-0:return[0,u(b[1],n,A)];case
-1:return[0,u(b[1],L,A)];case
+Y=0,r=e(function(b){return[0,b,U(a,b)]},p),Q=e(b9,r),P=0,R=f(e(aK,r),Q),S=bB(0,function(n){return function(b){switch(b[0]){case
+0:return[0,u(b[1],n,B)];case
+1:return[0,u(b[1],L,B)];case
 2:return[0,aa(a,b[1])];case
 3:var
 c=b[2],d=b[1];return cl(function(b,a){return[0,C(b,a)]},d,c);case
@@ -3441,19 +3443,19 @@ m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
 D=u(c,b,0);if(D){var
 o=W(K,c);if(o){var
-E=kB(a,J,I,h,q,o[1],i);if(E){var
-g=k,b=e8(c,b);continue}var
+E=kC(a,J,I,h,q,o[1],i);if(E){var
+g=k,b=e$(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kD(i,h,g,f,e,d,c,t,s,r){var
+kE(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kC(i,h,g,f,e,d,c,b,a[1],j);return k?n(ak,k[1]):k}var
-l=kC(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dY(a[2],b),p=kD(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kD(i,h,g,f,e,d,c,b,a[1],j);return k?n(aj,k[1]):k}var
+l=kD(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=dZ(a[2],b),p=kE(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
@@ -3462,20 +3464,20 @@ g3(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
 g4(d,a){var
 e=J(a),f=o(o(l(c(2,b)),a),d);return F(s(J(d),f),e)}function
-kE(c,b,a){switch(c){case
+kF(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 g5(a){switch(a){case
-0:return[0,pZ,pY,l(d)];case
+0:return[0,p4,p3,l(d)];case
 1:return ch;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fk(a){switch(a){case
-0:return p0;case
-1:return p1;default:return 0}}function
-fl(b,a){var
+fn(a){switch(a){case
+0:return p5;case
+1:return p6;default:return 0}}function
+fo(b,a){var
 c=aG(a[2],b);return f(aG(a[1],b),c)}function
-kF(k,q,i,p,h,d,n){if(d)var
-r=d[1],t=cj(n,fl(h,r)),D=P(n,j(fl(h,r))),E=kF(k,q,i,p,h,d[2],D),m=ai(t,p2),e=ai(t,0),a=g5(k),f=as(s,a,e),g=kt(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(i,y),A),C=cD(g3(g,f),p),u=[0,[0,kE(k,as(F,bT(i,f),g),C),B],E];else
+kG(k,q,j,p,h,d,n){if(d)var
+r=d[1],t=cj(n,fo(h,r)),D=N(n,i(fo(h,r))),E=kG(k,q,j,p,h,d[2],D),m=ai(t,p7),e=ai(t,0),a=g5(k),f=at(s,a,e),g=ku(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(j,y),A),C=cD(g3(g,f),p),u=[0,[0,kF(k,at(F,bT(j,f),g),C),B],E];else
 var
 u=d;return u}function
 g6(g,a){if(typeof
@@ -3491,120 +3493,120 @@ f=o(J(bW(g6(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=W(d,a[1]);if(b)var
-g=i(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
+g=j(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
 c=W(d,a[1]);if(c)var
-j=i(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
+i=j(e,0,a[2]),k=i?[0,s(f,c[1][2])]:i;else
 var
 k=c;return k}return 0}function
-kG(a,d,c,b){return e(function(a){var
+kH(a,d,c,b){return e(function(a){var
 e=bW(g6(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-kH(c,f,s,e,h,q,p,o){if(o){var
-$=kH(c,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kI(c,f,s,e,h,q,p,o){if(o){var
+$=kI(c,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=k(f,h),g=[0,t(k(aB(f),e),O,A)];else
+O=k(f,h),g=[0,t(k(as(f),e),O,B)];else
 switch(a[0]){case
 0:var
-j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
+i=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,b,b],a[1]],j=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+Q=[5,[0,b,b],a[1]],i=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
 R=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},R);break;case
 3:var
 S=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},S);break;case
 6:var
 u=a[3],v=a[2],r=W(e,a[1]),M=0;if(r){var
-w=i(c,1,v),x=w?i(c,0,u):w;if(x){var
-T=[5,u,v],V=[0,r[1],0],j=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
+w=j(c,1,v),x=w?j(c,0,u):w;if(x){var
+T=[5,u,v],V=[0,r[1],0],i=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
 var
 z=x}else
 var
 z=r;if(!M)var
 g=z;break;case
 7:var
-B=a[3],C=a[2],D=a[1],E=W(e,D),N=0;if(E){var
-F=i(c,1,C),G=F?i(c,1,B):F;if(G){var
-X=[5,C,B],j=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};l=1;N=1}else
+A=a[3],C=a[2],D=a[1],E=W(e,D),N=0;if(E){var
+F=j(c,1,C),G=F?j(c,1,A):F;if(G){var
+X=[5,C,A],i=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};l=1;N=1}else
 var
 H=G}else
 var
 H=E;if(!N)var
 g=H;break;case
 8:var
-I=i(c,1,a[1]),J=I?i(c,1,a[2]):I;if(J)var
-Y=aa(c,b),Z=k(f,h),_=kG(e,q,p,a),K=[0,[0,k(aB(f),_),Z,Y,0]];else
+I=j(c,1,a[1]),J=I?j(c,1,a[2]):I;if(J)var
+Y=aa(c,b),Z=k(f,h),_=kH(e,q,p,a),K=[0,[0,k(as(f),_),Z,Y,0]];else
 var
 K=J;var
 g=K;break;default:var
 g=0}if(l)var
-P=ag(c,[0,[0,j,j],d]),g=y(function(a){var
-b=U(c,a),d=k(f,h);return m(k(aB(f),n),d,b)},P);var
+P=ag(c,[0,[0,i,i],d]),g=y(function(a){var
+b=U(c,a),d=k(f,h);return m(k(as(f),n),d,b)},P);var
 L=[0,g,$]}else
 var
 L=o;return L}function
-kI(j,h,i,g,d,a){if(a){var
-n=kI(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+kJ(j,h,i,g,d,a){if(a){var
+n=kJ(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(b9,kG(h,g,d,b));l=1}if(!l)var
+k=e(b9,kH(h,g,d,b));l=1}if(!l)var
 c=g7(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-p3(a){if(typeof
+p8(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-kJ(b,a){switch(b){case
+kK(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fm(a){var
+fp(a){var
 c=bR(a[1],[0,d,b]);return c?bR(a[2],[0,d,b]):c}function
 g8(d,a){switch(d){case
-0:return fm(a[3]);case
+0:return fp(a[3]);case
 1:return 1;default:var
-b=fm(a[1]),c=b?fm(a[2]):b;return c?fm(a[3]):c}}function
-ea(b,a){return a8(b,a[1],a[2])}function
+b=fp(a[1]),c=b?fp(a[2]):b;return c?fp(a[3]):c}}function
+eb(b,a){return a8(b,a[1],a[2])}function
 g9(b,a){var
-c=ea(b,a[1]),d=c?ea(b,a[2]):c;return d?ea(b,a[3]):d}function
-p4(A,g,a,m,a2){var
-a3=a[2],au=n(function(a){var
-b=g9(A,a[1]);return b?g9(A,a[2]):b},a3),av=au?g9(A,a[4]):au;if(av)var
-a4=fj(a[5]),O=n(function(a){return ea(A,a)},a4);else
+c=eb(b,a[1]),d=c?eb(b,a[2]):c;return d?eb(b,a[3]):d}function
+p9(B,g,a,m,a2){var
+a3=a[2],av=n(function(a){var
+b=g9(B,a[1]);return b?g9(B,a[2]):b},a3),aw=av?g9(B,a[4]):av;if(aw)var
+a4=fm(a[5]),P=n(function(a){return eb(B,a)},a4);else
 var
-O=av;if(O){var
-p=a[1],c=dj(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(B(function(a){return fl(m,a)},aF),aE),D=j(X),aG=a[2],aH=j(B(function(a){return fl(m,a)},aG)),Y=a[3],aI=bW([0,[0,Y,Y],m],aH),aJ=fk(p),Z=kv(a[5],aJ),v=Z[2],z=kF(p,Z[1],v,aI,m,a[2],0),aK=P(D,j(a[6])),aM=fk(p),aN=a[5],r=function(a){return[0,[0,P(aM,a)]]},R=J([0,[1,aK]]);switch(aN[0]){case
+P=aw;if(P){var
+p=a[1],c=dk(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(A(function(a){return fo(m,a)},aF),aE),D=i(X),aG=a[2],aH=i(A(function(a){return fo(m,a)},aG)),Y=a[3],aI=bW([0,[0,Y,Y],m],aH),aJ=fn(p),Z=kw(a[5],aJ),v=Z[2],z=kG(p,Z[1],v,aI,m,a[2],0),aK=N(D,i(a[6])),aM=fn(p),aN=a[5],r=function(a){return[0,[0,N(aM,a)]]},R=J([0,[1,aK]]);switch(aN[0]){case
 2:var
-ax=r(pS),ay=r(pT),S=[0,r(0),ay,ax],h=[0,s(R,ab(S,S))];break;case
+ay=r(pX),az=r(pY),S=[0,r(0),az,ay],h=[0,s(R,ab(S,S))];break;case
 3:var
-az=J(r(pU)),aA=J(r(0)),aC=J(r(pV)),h=[0,s(s(o(R,F(l(b),aC)),aA),az)];break;default:var
+aA=J(r(pZ)),aB=J(r(0)),aC=J(r(p0)),h=[0,s(s(o(R,F(l(b),aC)),aB),aA)];break;default:var
 h=0}var
-aO=h?[0,h[1],0]:h,aP=[0,v,f(kI(g,z,v,m,D,a[6]),aO)],E=f(bD(z),aP),_=c9(e(function(a){return d7(c,a)},E))[1],w=cA(_),q=function(a){return bk(w,d7(c,a))},aQ=y(q,h),aR=q(v),$=k(aB(q),z),T=fk(p),U=t(j($),c);if(U)var
-V=y(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return u(a,w,l(d))},Q=x(aR),aw=aV(0,T),C=n(function(a){var
-b=dk(c,a,Q),d=b?n(function(b){var
+aO=h?[0,h[1],0]:h,aP=[0,v,f(kJ(g,z,v,m,D,a[6]),aO)],E=f(bE(z),aP),_=c_(e(function(a){return d8(c,a)},E))[1],w=cA(_),q=function(a){return bl(w,d8(c,a))},aQ=y(q,h),aR=q(v),$=k(as(q),z),T=fn(p),U=t(i($),c);if(U)var
+V=y(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return u(a,w,l(d))},Q=x(aR),ax=aV(0,T),C=n(function(a){var
+b=dl(c,a,Q),d=b?n(function(b){var
 e=b[1],d=n(function(b){var
-d=x(b);return cM(P(c,a),d)},e);if(d){var
-f=x(b[2]);return g0(Q,P(c,a),f)}return d},$):b;if(d){if(V){var
-f=x(V[1][1][1]);return cM(P(c,a),f)}var
+d=x(b);return cM(N(c,a),d)},e);if(d){var
+f=x(b[2]);return g0(Q,N(c,a),f)}return d},$):b;if(d){if(V){var
+f=x(V[1][1][1]);return cM(N(c,a),f)}var
 e=1}else
 var
-e=d;return e},aw);else
+e=d;return e},ax);else
 var
 C=U;var
 aD=C?T:C,aa=n(function(a){var
-b=d7(c,a),e=l(d);return aL(u(q(a),w,e),b)},E),ac=aa?n(function(a){return ko(c,a)},E):aa,ad=ac?aq(p3,a[6]):ac,ae=ad?g8(p,a[4]):ad,af=ae?i(g,1,a[3]):ae;if(af)var
-aS=fj(a[5]),G=n(function(a){var
-b=d6(g,a[1]);return b?d6(g,a[2]):b},aS);else
+b=d8(c,a),e=l(d);return aL(u(q(a),w,e),b)},E),ac=aa?n(function(a){return kp(c,a)},E):aa,ad=ac?aq(p8,a[6]):ac,ae=ad?g8(p,a[4]):ad,af=ae?j(g,1,a[3]):ae;if(af)var
+aS=fm(a[5]),G=n(function(a){var
+b=d7(g,a[1]);return b?d7(g,a[2]):b},aS);else
 var
 G=af;if(G){var
 aT=a[6],aU=f(X,e(function(a){return g6(m,a)},aT)),H=ah(e(function(a){return ag(g,a)},aU));if(H){var
-aW=kJ(p,a[4]),I=ah(e(function(a){return ag(g,[0,a,m])},aW));if(I){var
-ai=I[1],aX=kx(a[5]),K=ah(e(function(a){return kz(g,a)},aX));if(K){var
-aj=K[1],aY=kw(a[5]),L=ah(e(function(a){return di(g,a)},aY));if(L){var
-M=ah(kH(g,q,aD,z,v,m,D,a[6]));if(M){var
-N=M[1],ak=t(j(f(ai,aj)),c),al=ak?n(function(a){switch(a[0]){case
+aW=kK(p,a[4]),I=ah(e(function(a){return ag(g,[0,a,m])},aW));if(I){var
+ai=I[1],aX=ky(a[5]),K=ah(e(function(a){return kA(g,a)},aX));if(K){var
+aj=K[1],aY=kx(a[5]),L=ah(e(function(a){return dj(g,a)},aY));if(L){var
+M=ah(kI(g,q,aD,z,v,m,D,a[6]));if(M){var
+O=M[1],ak=t(i(f(ai,aj)),c),al=ak?n(function(a){switch(a[0]){case
 2:var
-e=kr(a[2]),b=[0,a[3],e];break;case
+e=ks(a[2]),b=[0,a[3],e];break;case
 3:var
 b=[0,a[1],0];break;default:var
-d=kr(a[1]),b=[0,a[2],d]}return n(function(a){return ks(c,w,a)},b)},N):ak,am=al?h?ks(c,w,q(h[1])):1:al;if(am){var
-aZ=e(function(a){return 1},N),a0=f(ai,aj),a1=y(q,h);return kD(g,_,f(H[1],L[1]),N,c,c,a1,a0,aZ,a2)}var
+d=ks(a[1]),b=[0,a[2],d]}return n(function(a){return kt(c,w,a)},b)},O):ak,am=al?h?kt(c,w,q(h[1])):1:al;if(am){var
+aZ=e(function(a){return 1},O),a0=f(ai,aj),a1=y(q,h);return kE(g,_,f(H[1],L[1]),O,c,c,a1,a0,aZ,a2)}var
 an=am}else
 var
 an=M;var
@@ -3617,37 +3619,37 @@ ap=K;var
 ar=ap}else
 var
 ar=I;var
-as=ar}else
+at=ar}else
 var
-as=H;var
-at=as}else
+at=H;var
+au=at}else
 var
-at=G;return at}return O}function
+au=G;return au}return P}function
 a0(a){return typeof
-a==="number"?a?p5:p6:dj(a[1])}function
-kK(b,a,c){return typeof
+a==="number"?a?p_:p$:dk(a[1])}function
+kL(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:gZ(b[1],a,c)}function
-fn(a){if(0===a[0]){var
+fq(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-g_(b,c,a){return b?fg(b[1],c,a):a}function
+g_(b,c,a){return b?fj(b[1],c,a):a}function
 bY(d,c,b,a){var
-e=fn(a),f=g_(d,c,fn(a)),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
-kL(b,a){var
+e=fq(a),f=g_(d,c,fq(a)),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
+kM(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kM(b,w,v){var
+kN(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
-f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?jV(b,j[1],f[1]):0;else
+f=d[1],i=e[1];if(0===i[0])var
+g=0===f[0]?jW(b,i[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=aS(b,c[1],a[1]),l=k?aS(b,c[2],a[2]):k,m=l?aS(b,c[3],a[3]):l,n=m?aS(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?i(b,1,a[5]):p,r=q?i(b,1,a[6]):q,s=r?i(b,1,N(a[1],a[1])):r;if(s)var
-u=gR(a),h=i(b,1,N(gR(a),u));else
+a=f[1],c=i[1],k=aS(b,c[1],a[1]),l=k?aS(b,c[2],a[2]):k,m=l?aS(b,c[3],a[3]):l,n=m?aS(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?j(b,1,a[5]):p,r=q?j(b,1,a[6]):q,s=r?j(b,1,O(a[1],a[1])):r;if(s)var
+u=gR(a),h=j(b,1,O(gR(a),u));else
 var
 h=s;var
 g=h?b_(c[7],a[7]):h}if(g){var
@@ -3655,37 +3657,37 @@ e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-kN(a){return typeof
+kO(a){return typeof
 a==="number"?a?g5(0):ch:g5(a[1])}function
-g$(b,d,c){if(0===c[0])return e_(b,d[1],c[1]);var
+g$(b,d,c){if(0===c[0])return fb(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aG(a[4],b),e),h=f(aG(a[3],b),g),i=f(aG(a[2],d[2]),h);return f(aG(a[1],d[1]),i)}function
 ha(b,a){if(b){var
-c=b[1],d=c[2];return cD(kt(c[1],a),d)}return a}function
-kO(f,t,al,K,ak,r,ah){if(r){var
-i=r[1],am=by([0,d,d],ak),a=cj(ah,g$(K,am,i)),y=function(c,b){var
-d=ai(a,c);return as(s,as(F,kN(f),b),d)};if(0===i[0]){var
-z=i[1];switch(z[0]){case
+c=b[1],d=c[2];return cD(ku(c[1],a),d)}return a}function
+kP(f,t,al,K,aj,r,ah){if(r){var
+j=r[1],am=bz([0,d,d],aj),a=cj(ah,g$(K,am,j)),y=function(c,b){var
+d=ai(a,c);return at(s,at(F,kO(f),b),d)};if(0===j[0]){var
+z=j[1];switch(z[0]){case
 0:var
-_=ha(t,ai(a,p7)),aD=z[1][5],A=u(p8,a,l(d)),B=ai(a,0),$=y(p9,_),h=jm($,cE(B),$,A,aD),ao=[0,aF(A),0],ap=[0,aF(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=ha(t,ai(a,qa)),aD=z[1][5],A=u(qb,a,l(d)),B=ai(a,0),$=y(qc,_),h=jn($,cE(B),$,A,aD),ao=[0,aF(A),0],ap=[0,aF(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-aa=ha(t,ai(a,p_)),ac=z[3],C=ac?[0,ai(a,p$)]:ac,ad=y(0,aa),m=jn(ad,ad,0);if(C)var
+aa=ha(t,ai(a,qd)),ac=z[3],C=ac?[0,ai(a,qe)]:ac,ad=y(0,aa),m=jo(ad,ad,0);if(C)var
 L=C[1],M=[0,aF(ab(L,L)),0];else
 var
 M=C;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],aa];break;default:var
-aE=l(d),aG=l(d),aH=[0,l(d),aG,aE],D=ai(a,0),aI=kN(f),n=jo(aI,cE(D)),aq=[0,aF(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+aE=l(d),aG=l(d),aH=[0,l(d),aG,aE],D=ai(a,0),aI=kO(f),n=jp(aI,cE(D)),aq=[0,aF(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-ae=ha(t,ai(a,qa)),E=i[1][7],G=u(qb,a,l(d)),e=u(qc,a,l(d)),af=ai(a,qd),H=ai(a,0),q=y(qe,ae),p=cE(H),v=as(s,af,bT(ab(p,af),p)),w=cE(v),N=g3(p,w),O=ab(q,w),Q=ab(q,N),ar=ab(p,q),at=J(Q),R=F(J(O),at),au=J(ar),S=s(J(G),au),av=o(l(c(2,b)),e),x=s(R,J(aj(F(R,s(J(e),S)),av))),aw=eZ(E,o(e,aF(x))),T=aj(O,e),U=eZ(E,aj(Q,e)),V=aj(S,J(e)),W=iW(0,T,U,V),X=eZ(E,iW(1,T,U,V)),ax=bT(X,N),Y=as(s,q,bT(e,as(F,bT(W,w),ax))),ay=[0,aF(G),0],az=[0,aF(e),ay],aA=[0,aF(ab(v,v)),az],aB=[0,aF(ab(H,H)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(J(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
-aP=P(ah,j(g$(K,am,i))),aQ=r[2],aR=kO(f,t,al,K,ca(ak),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
+ae=ha(t,ai(a,qf)),E=j[1][7],G=u(qg,a,l(d)),e=u(qh,a,l(d)),af=ai(a,qi),H=ai(a,0),q=y(qj,ae),p=cE(H),v=at(s,af,bT(ab(p,af),p)),w=cE(v),O=g3(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),as=J(Q),R=F(J(P),as),au=J(ar),S=s(J(G),au),av=o(l(c(2,b)),e),x=s(R,J(ak(F(R,s(J(e),S)),av))),aw=e3(E,o(e,aF(x))),T=ak(P,e),U=e3(E,ak(Q,e)),V=ak(S,J(e)),W=iX(0,T,U,V),X=e3(E,iX(1,T,U,V)),ax=bT(X,O),Y=at(s,q,bT(e,at(F,bT(W,w),ax))),ay=[0,aF(G),0],az=[0,aF(e),ay],aA=[0,aF(ab(v,v)),az],aB=[0,aF(ab(H,H)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(J(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
+aP=N(ah,i(g$(K,am,j))),aQ=r[2],aR=kP(f,t,al,K,ca(aj),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
 b=cD(g3(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:cC(a):kE(f[1],a,b)},I=g[1],Z=typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cC(a):kF(f[1],a,b)},I=g[1],Z=typeof
 f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cC(I):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
 hb(c,b,a){if(a){var
-e=a[2],g=hb(c,ca(b),e),h=a[1];return f(g$(c,by([0,d,d],b),h),g)}return a}function
-kP(b,a){if(a){var
-g=kP([0,b],a[2]),c=a[1];if(0===c[0])var
+e=a[2],g=hb(c,ca(b),e),h=a[1];return f(g$(c,bz([0,d,d],b),h),g)}return a}function
+kQ(b,a){if(a){var
+g=kQ([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=bW([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
@@ -3693,7 +3695,7 @@ f=[0,e,g]}else
 var
 f=a;return f}function
 hc(b,a){return b?L(a):d}function
-fo(c,b,a){if(typeof
+fr(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
@@ -3706,12 +3708,12 @@ g=hc(c,b),h=x(hc(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-kQ(a){if(a){var
+kR(a){if(a){var
 b=a[1][6];if(b)var
-c=kQ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kR(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qf}function
-kR(y,U,b){function
+d=b;return d}return qk}function
+kS(y,U,b){function
 c(a){return u(a,U,l(d))}function
 N(a){var
 e=a[2],f=o(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,J(a))},g,f),d],b]}function
@@ -3737,7 +3739,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(qg),b),g=[0,[0,s(o(c(qh),d),f),0],0],h=o(d,c(qi));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(ql),b),g=[0,[0,s(o(c(qm),d),f),0],0],h=o(d,c(qn));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3753,7 +3755,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=kQ(y);if(A){var
+A=kR(y);if(A){var
 aa=c(0),P=c6(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
@@ -3796,27 +3798,27 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bj(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bk(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
 z=W(y,f);return z?g(z[1]):z}function
-fp(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fq(a){return e(function(a){var
+fs(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+ec(a){return e(function(a){var
 c=l(b);return[0,a[3],c]},a)}function
-kS(a,b){return e(function(a){var
+kT(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-kT(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bD(kS(c,u(0,b,l(d))));return iO(kR(c,b,a))}function
-eb(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=eb(g,c,b,P(e,j(fo(c,b,d))),h);return f(au(g,kP(e,fo(c,b,d)),d),i)}return a}function
-kU(b,a){switch(a[0]){case
+kU(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bE(kT(c,u(0,b,l(d))));return iP(kS(c,b,a))}function
+ed(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],j=ed(g,c,b,N(e,i(fr(c,b,d))),h);return f(av(g,kQ(e,fr(c,b,d)),d),j)}return a}function
+kV(b,a){switch(a[0]){case
 0:var
 d=a[1];return ag(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?i8(b,c[1]):c;case
-2:return c$(b,a[1]);default:return eU(b,a[1])}}function
-kV(f,g,m,I,H,q,a){if(typeof
-a==="number")return[0,[0,[0,A]],0];else
+e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?i9(b,c[1]):c;case
+2:return da(b,a[1]);default:return eY(b,a[1])}}function
+kW(f,g,m,I,H,q,a){if(typeof
+a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
 J=[5,[0,b,b],a[1]],h=J,n=function(a){return[0,a]};break;case
@@ -3825,57 +3827,57 @@ M=[5,[0,b,b],a[1]],h=M,n=function(a){return[1,a]};break;case
 5:var
 x=a[1],P=0,Q=ag(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,U(f,a)]},Q),P];case
 7:var
-z=a[3],B=a[2],C=a[1];if(!W(m,C))return ql;var
-G=0;if(i(f,1,B)&&i(f,1,z))var
-R=[5,B,z],h=R,n=function(a){return[7,C,a]};else
-G=1;if(G)return qk;break;case
+z=a[3],A=a[2],C=a[1];if(!W(m,C))return qq;var
+G=0;if(j(f,1,A)&&j(f,1,z))var
+R=[5,A,z],h=R,n=function(a){return[7,C,a]};else
+G=1;if(G)return qp;break;case
 8:var
-D=i(f,1,a[1]),S=0,E=D?i(f,1,a[2]):D;if(E)var
-T=aa(f,b),V=kS(m,u(0,q,l(d))),F=[0,[4,k(aB(g),V),T]];else
+D=j(f,1,a[1]),S=0,E=D?j(f,1,a[2]):D;if(E)var
+T=aa(f,b),V=kT(m,u(0,q,l(d))),F=[0,[4,k(as(g),V),T]];else
 var
 F=E;return[0,F,S];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],t=a[2],v=i(f,1,[3,s,t]),O=v?i(f,1,[3,[2,t,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
+s=a[3],t=a[2],v=j(f,1,[3,s,t]),O=v?j(f,1,[3,[2,t,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],s]):v,i=O;break;case
 6:case
 9:var
-w=i(f,1,a[2]),j=w?i(f,0,a[3]):w;break;default:p=1}if(p)var
-j=1;var
-o=j?kR(m,q,a):j;if(o){var
+w=j(f,1,a[2]),i=w?j(f,0,a[3]):w;break;default:p=1}if(p)var
+i=1;var
+o=i?kS(m,q,a):i;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
 d=[0,[3,k(g,c)]]}else
 var
-d=a;return d},N)}return qj}var
+d=a;return d},N)}return qo}var
 K=0,L=ag(f,[0,[0,h,h],hc(I,H)]);return[0,y(function(a){return n(U(f,a))},L),K]}function
-kW(a){if(typeof
+kX(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qn(b){if(0===b[0])return[0,j4(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a$(a[4]),g=a$(a[3]),h=a$(a[2]);return[1,[0,a$(a[1]),h,g,f,e,d,c]]}function
-qo(K,c,a,g,an,aT){var
-aU=e(qn,a[2]),ao=kM(K,a[2],aU);if(ao)var
-aV=j5(a[4]),L=gN(K,a[4],aV);else
+qs(b){if(0===b[0])return[0,j5(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=ba(a[4]),g=ba(a[3]),h=ba(a[2]);return[1,[0,ba(a[1]),h,g,f,e,d,c]]}function
+qt(K,c,a,g,an,aT){var
+aU=e(qs,a[2]),ao=kN(K,a[2],aU);if(ao)var
+aV=j6(a[4]),L=gN(K,a[4],aV);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aW=fj(ap[1]),ar=n(function(a){return ea(K,a)},aW);else
+aW=fm(ap[1]),ar=n(function(a){return eb(K,a)},aW);else
 var
 ar=1;var
 M=ar}else
 var
 M=L;if(M){var
-b=a[1],av=a0(b),q=a[6],x=hb(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,j(x)],z=a[2],o=z?0===z[1][0]?0:1:z,aw=a[5],ax=y(function(a){var
+b=a[1],aw=a0(b),q=a[6],x=hb(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],z=a[2],o=z?0===z[1][0]?0:1:z,ax=a[5],ay=y(function(a){var
 c=typeof
-b==="number"?0:fk(b[1]);return kv(a,c)},aw),ay=a[2],h=kO(b,ax,bW(S,j(x)),g,an,ay,0),U=B(function(a){return a[7]},h),az=f(U,eb(function(a,b){return kT(h,a,b)},o,g,T,q)),aA=f(bD(fq(h)),az),V=f(bD(fp(h)),aA),A=c9(V)[1],aC=cA(A),p=function(a){return bk(aC,a)},W=n(function(a){var
-b=l(d),c=cA(A);return aL(u(p(a),c,b),a)},V),X=W?aq(kW,q):W;if(X){var
+b==="number"?0:fn(b[1]);return kw(a,c)},ax),az=a[2],h=kP(b,ay,bW(S,i(x)),g,an,az,0),U=A(function(a){return a[7]},h),aA=f(U,ed(function(a,b){return kU(h,a,b)},o,g,T,q)),aB=f(bE(ec(h)),aA),V=f(bE(fs(h)),aB),B=c_(V)[1],aC=cA(B),p=function(a){return bl(aC,a)},W=n(function(a){var
+b=l(d),c=cA(B);return aL(u(p(a),c,b),a)},V),X=W?aq(kX,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?g8(0,fd(Y)):1;else
+Z=b?g8(0,fg(Y)):1;else
 var
-at=fd(Y),Z=g8(b[1],at);var
+au=fg(Y),Z=g8(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3885,9 +3887,9 @@ r=a[5]?0:1;else
 if(2<=O[1])var
 r=0;else{var
 v=a[5],N=0;if(v){var
-P=i(c,1,a[3]);if(P)var
-au=fj(v[1]),r=n(function(a){var
-b=d6(c,a[1]);return b?d6(c,a[2]):b},au);else{var
+P=j(c,1,a[3]);if(P)var
+av=fm(v[1]),r=n(function(a){var
+b=d7(c,a[1]);return b?d7(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
 Q=v;N=1}if(N)var
 r=Q}var
@@ -3899,21 +3901,21 @@ b=0===a[0]?0:1;return b_(b,o)},aD);else
 var
 E=D;if(E){var
 aE=f(x,[0,S,0]),F=ah(e(function(a){return ag(c,a)},aE));if(F){var
-aF=B(function(a){return fo(o,g,a)},q),G=ah(e(function(a){return kU(c,a)},aF));if(G){var
-m=fd(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kJ(b[1],m),H=ah(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
+aF=A(function(a){return fr(o,g,a)},q),G=ah(e(function(a){return kV(c,a)},aF));if(G){var
+m=fg(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kK(b[1],m),H=ah(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=kx($[1]),s=ah(e(function(a){return kz(c,a)},aH));else
+aH=ky($[1]),s=ah(e(function(a){return kA(c,a)},aH));else
 var
-s=qm;if(s){var
-aa=s[1],w=a[5],aI=w?kw(w[1]):w,I=ah(e(function(a){return di(c,a)},aI));if(I){var
-J=ah(eb(function(a,b){return kV(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
-ab=J[1],ac=t(j(f(_,aa)),av);if(ac){var
-aJ=gI(ab),aK=f(_,aa),as=0,aM=a[4];if(typeof
+s=qr;if(s){var
+aa=s[1],w=a[5],aI=w?kx(w[1]):w,I=ah(e(function(a){return dj(c,a)},aI));if(I){var
+J=ah(ed(function(a,b){return kW(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
+ab=J[1],ac=t(i(f(_,aa)),aw);if(ac){var
+aJ=gI(ab),aK=f(_,aa),at=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return jU(c,aM,g,a)};as=1}if(!as)var
+ad=function(a){return jV(c,aM,g,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=fq(h),aR=k(aB(p),aQ),aS=fp(h);return e9(c,A,k(aB(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ec(h),aR=k(as(p),aQ),aS=fs(h);return fa(c,B,k(as(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
@@ -3935,7 +3937,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-bq(c){var
+br(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3944,61 +3946,61 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bq(a[2]);return f(bq(a[1]),e)}}function
-ba(e,a,c){switch(a[0]){case
+e=br(a[2]);return f(br(a[1]),e)}}function
+bb(e,a,c){switch(a[0]){case
 0:var
 r=a[1];return bW([0,[0,r,r],d],c);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(nV(n[1],u))return n[2];var
+n=g[1];if(n0(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bj(ba(e,a[1],c));case
+2:return bk(bb(e,a[1],c));case
 3:var
-i=a[2],f=a[1],h=F;break;case
+j=a[2],f=a[1],h=F;break;case
 4:var
-i=a[2],f=a[1],h=s;break;case
+j=a[2],f=a[1],h=s;break;case
 5:var
-i=a[2],f=a[1],h=o;break;case
+j=a[2],f=a[1],h=o;break;case
 6:var
-i=a[2],f=a[1],h=aj;break;case
+j=a[2],f=a[1],h=ak;break;case
 7:var
-k=dM(a[2]),m=ba(e,a[1],c);if(k){if(k[1]){var
-p=J(m),t=function(a){return o(a,p)},q=eD(bx(iF(k)),t,p);return iE(k)?q:o(q,m)}return m}return l(b);default:return aF(ba(e,a[1],c))}var
-w=ba(e,i,P(c,j(bq(f))));return h(ba(e,f,c),w)}function
+k=dN(a[2]),m=bb(e,a[1],c);if(k){if(k[1]){var
+p=J(m),t=function(a){return o(a,p)},q=eG(by(iG(k)),t,p);return iF(k)?q:o(q,m)}return m}return l(b);default:return aF(bb(e,a[1],c))}var
+w=bb(e,j,N(c,i(br(f))));return h(bb(e,f,c),w)}function
 cm(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,j(bq(e))),l=cm(c,a[2],k),m=f(cm(c,e,b),l);return[0,ba(c,a,b),m];case
+e=a[1],k=N(b,i(br(e))),l=cm(c,a[2],k),m=f(cm(c,e,b),l);return[0,bb(c,a,b),m];case
 8:var
-n=cm(c,a[1],b);return[0,ba(c,a,b),n];case
+n=cm(c,a[1],b);return[0,bb(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=P(b,j(bq(d))),i=cm(c,a[2],h);return f(cm(c,d,b),i)}}function
-kX(c,a,b){if(a){var
-e=a[1],d=e[2],g=P(b,j(bq(d))),h=a[2],i=ba(c,d,b),k=kX([0,[0,e[1],i],c],h,g);return f(cm(c,d,b),k)}return a}function
-hd(a){return B(bq,a)}function
-kY(c,a,b){if(a)var
-d=a[1],f=P(b,j(bq(d))),g=kY(c,a[2],f),e=[0,ba(c,d,b),g];else
+d=a[1],h=N(b,i(br(d))),j=cm(c,a[2],h);return f(cm(c,d,b),j)}}function
+kY(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,i(br(d))),h=a[2],j=bb(c,d,b),k=kY([0,[0,e[1],j],c],h,g);return f(cm(c,d,b),k)}return a}function
+hd(a){return A(br,a)}function
+kZ(c,a,b){if(a)var
+d=a[1],f=N(b,i(br(d))),g=kZ(c,a[2],f),e=[0,bb(c,d,b),g];else
 var
 e=a;return e}function
-kZ(c,a,b){if(a){var
-d=a[1],e=P(b,j(bq(d))),g=kZ(c,a[2],e);return f(cm(c,d,b),g)}return a}function
-he(a){return 0===a[0]?hd(a[1]):bq(a[1])}function
-k0(c,b,a){if(b){var
-d=b[1],i=P(a,j(he(d))),k=k0(c,b[2],i);if(0===d[0])var
-g=kZ(c,d[1],a);else
+k0(c,a,b){if(a){var
+d=a[1],e=N(b,i(br(d))),g=k0(c,a[2],e);return f(cm(c,d,b),g)}return a}function
+he(a){return 0===a[0]?hd(a[1]):br(a[1])}function
+k1(c,b,a){if(b){var
+d=b[1],j=N(a,i(he(d))),k=k1(c,b[2],j);if(0===d[0])var
+g=k0(c,d[1],a);else
 var
-e=d[1],h=cm(c,e,a),g=[0,ba(c,e,a),h];return f(g,k)}return b}function
-fr(c){var
+e=d[1],h=cm(c,e,a),g=[0,bb(c,e,a),h];return f(g,k)}return b}function
+ft(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cz(fr,a)}return[0,b]}function
+b=cz(ft,a)}return[0,b]}function
 hf(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -4007,19 +4009,19 @@ b=a[1];continue;case
 6:var
 d=hf(a[2]);return o(hf(a[1]),d);case
 9:return a[1];default:return J(b)}}}function
-k1(n,g,a,f){if(a){var
-c=a[1],w=P(f,j(he(c))),x=k1(n,g,a[2],w);if(0===c[0])var
-k=kY(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
+k2(n,g,a,f){if(a){var
+c=a[1],w=N(f,i(he(c))),x=k2(n,g,a[2],w);if(0===c[0])var
+k=kZ(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
 var
-m=ba(g,c[1],f),q=fr(m),h=aM(aV(0,n),q),d=fr(h[2]),i=e(fr,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aL(a,d)?l(b):aj(a,d)},i),o=[0,i,hf(d),v,u,t,s,r];var
+m=bb(g,c[1],f),q=ft(m),h=aM(aV(0,n),q),d=ft(h[2]),j=e(ft,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aL(a,d)?l(b):ak(a,d)},j),o=[0,j,hf(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-k2(a){return e(function(a){return[0,a[2],d]},a)}function
-k3(a){var
-b=B(he,a[4]),c=f(hd(e(b9,a[3])),b);return f(k2(a[2]),c)}function
+k3(a){return e(function(a){return[0,a[2],d]},a)}function
 k4(a){var
-c=cj(0,k2(a[2])),d=aV(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aA(e(aK,a[2]),c);return f(aA(a[1],g),b)}function
+b=A(he,a[4]),c=f(hd(e(b9,a[3])),b);return f(k3(a[2]),c)}function
+k5(a){var
+c=cj(0,k3(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aB(e(aK,a[2]),c);return f(aB(a[1],g),b)}function
 hg(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
@@ -4031,22 +4033,22 @@ e=a[1];return aq(function(a){return am(e,a)},b);case
 a=a[1];continue;default:var
 c=hg(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-k5(d){var
+k6(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ak(aq(function(b){return function(a){return nV(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=aj(aq(function(b){return function(a){return n0(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-ft=s(l(b),fs);function
-k6(e){var
-a=J(ft);if(e)var
-f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=aj(F(l(b),h),g);else
+fv=s(l(b),fu);function
+k7(e){var
+a=J(fv);if(e)var
+f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=ak(F(l(b),h),g);else
 var
-i=F(l(c(2,b)),a),j=J(fs),d=aj(F(o(l(c(2,b)),j),a),i);return aF(d)}function
-k7(d,c,a){if(d){var
-e=k6(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
-h=l(b),i=k6(c),j=aj(l(b),i);return s(o(a,F(l(b),j)),h)}function
-dm(f,e,d,a){var
-g=J(a),h=J(d),i=s(s(l(c(2,b)),h),g),j=f?e?ft:aj(ft,o(l(c(2,b)),fs)):aj(ft,l(c(2,b))),k=o(J(j),i);return aF(F(l(b),k))}function
-k8(g,d){var
+i=F(l(c(2,b)),a),j=J(fu),d=ak(F(o(l(c(2,b)),j),a),i);return aF(d)}function
+k8(d,c,a){if(d){var
+e=k7(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
+h=l(b),i=k7(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
+dn(f,e,d,a){var
+g=J(a),h=J(d),i=s(s(l(c(2,b)),h),g),j=f?e?fv:ak(fv,o(l(c(2,b)),fu)):ak(fv,l(c(2,b))),k=o(J(j),i);return aF(F(l(b),k))}function
+k9(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 hh(v,t,s){var
@@ -4059,7 +4061,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return eX([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e1([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4081,12 +4083,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-k9(f,i,e,c,h){var
+k_(f,i,e,c,h){var
 j=f?b:d,a=aa(i,j);function
 g(b){var
-c=f?eO(b):c8(b);return M(c,a)}var
-k=[0,ad(h),0],l=[0,[0,a,c,[0,A,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-k_(r,g,q,p,f,o,n){if(o){var
+c=f?eS(b):c9(b);return M(c,a)}var
+k=[0,ad(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+k$(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4095,16 +4097,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aR,bn(qu)),a=hh(p,jC(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aR,bo(qz)),a=hh(p,jD(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(k8,qv),a=hh(p,bA(0,ce(g,k9(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(k9,qA),a=hh(p,bB(0,ce(g,k_(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(k8,qw),a=hh(p,bA(0,ce(g,k9(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(k9,qB),a=hh(p,bB(0,ce(g,k_(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4114,27 +4116,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?qx:a}else
+y=a?qC:a}else
 var
 y=n;return y}return[0,n]}function
-k$(f,e,d,c,p,o,n){var
+la(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=k_(f,e,d,c,b,a[1],g);return h?ak(h[1]):h}var
-i=k_(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dY(a[2],b),l=k$(f,e,d,c,k[1],j,a[3]);if(l){var
+h=k$(f,e,d,c,b,a[1],g);return h?aj(h[1]):h}var
+i=k$(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dZ(a[2],b),l=la(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hi(a){return iJ(c(2,b),aE(a,b))}function
-dn(i,a,e,w,v){var
-m=a?b:L(b),f=l(m),g=k7(a,e,qs),h=k7(a,e,qt),n=aj(g,dm(a,e,f,g)),p=[0,F(aj(h,dm(a,e,h,f)),n),0],q=aj(f,dm(a,e,f,g)),r=[0,F(aj(h,dm(a,e,g,h)),q),p],s=aj(f,dm(a,e,h,f)),t=[0,F(aj(g,dm(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fs):l(c(2,c(2,b))),j=c9([0,u,t]),k=[0,d,cx(i)];return k$(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-la(a,g,b){if(Z(g,hi(a))){if(b){var
+hi(a){return iK(c(2,b),aE(a,b))}function
+dp(i,a,e,w,v){var
+m=a?b:L(b),f=l(m),g=k8(a,e,qx),h=k8(a,e,qy),n=ak(g,dn(a,e,f,g)),p=[0,F(ak(h,dn(a,e,h,f)),n),0],q=ak(f,dn(a,e,f,g)),r=[0,F(ak(h,dn(a,e,g,h)),q),p],s=ak(f,dn(a,e,h,f)),t=[0,F(ak(g,dn(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fu):l(c(2,c(2,b))),j=c_([0,u,t]),k=[0,d,cx(i)];return la(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lb(a,g,b){if(Z(g,hi(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hi(a)],v=cx(a),i=[0,hi(a),v],j=dn(a,0,1,h,b[1]),k=j?dn(a,0,0,i,c[1]):j;if(k){var
-l=dn(a,1,1,h,d[1]);if(l)return dn(a,1,0,i,e[1]);var
+h=[0,g,hi(a)],v=cx(a),i=[0,hi(a),v],j=dp(a,0,1,h,b[1]),k=j?dp(a,0,0,i,c[1]):j;if(k){var
+l=dp(a,1,1,h,d[1]);if(l)return dp(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4151,7 +4153,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cx(a)],s=dn(a,0,0,r,b[1]);if(s)return dn(a,1,0,r,f[1]);var
+r=[0,g,cx(a)],s=dp(a,0,0,r,b[1]);if(s)return dp(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -4160,246 +4162,246 @@ var
 u=b;return u}function
 hj(a){var
 b=[1,[2,d]];return c6(function(b,a){return[1,[3,b,a]]},a,b)}function
-fu(a){return hj(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fv(a,c){return hj(e(function(a){var
-d=[0,a[2]],b=aA(a[1],c);return[1,[7,[1,[8,hj(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lb(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
-f=a[1],g=cz(function(a){return lb(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
-lc(a){return a?Z(d,a[1][2][1]):a}function
-qy(a){var
-b=t(j(a),qz);return b?aq(function(a){return ak(Y(a,d))},a):b}function
-ld(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,aa(c,a[1]),f),h=ld(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+fw(a){return hj(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fx(a,c){return hj(e(function(a){var
+d=[0,a[2]],b=aB(a[1],c);return[1,[7,[1,[8,hj(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lc(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
+f=a[1],g=cz(function(a){return lc(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
+ld(a){return a?Z(d,a[1][2][1]):a}function
+qD(a){var
+b=t(i(a),qE);return b?aq(function(a){return aj(Y(a,d))},a):b}function
+le(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,aa(c,a[1]),f),h=le(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fw(b,a){return iN(iN(b,0),a)}function
+fy(b,a){return iO(iO(b,0),a)}function
 hk(a){if(a){var
-b=a[2],c=a[1];if(b)return fw(c,[0,qB,hk(b)]);var
+b=a[2],c=a[1];if(b)return fy(c,[0,qG,hk(b)]);var
 d=c}else
 var
 d=a;return d}function
-z(a){return[0,qD,fw(hk(a),qC)]}function
-S(a){return[0,qF,fw(hk(a),qE)]}function
-ae(a){return[0,qH,[0,a,qG]]}function
-g(b,a){return[0,aO(qJ,aO(b,qI)),a]}function
+z(a){return[0,qI,fy(hk(a),qH)]}function
+S(a){return[0,qK,fy(hk(a),qJ)]}function
+ae(a){return[0,qM,[0,a,qL]]}function
+g(b,a){return[0,aO(qO,aO(b,qN)),a]}function
 I(b,a){return S([0,g(b,a),0])}function
 bZ(d){var
-b=d,a=oo,e=0;for(;;){if(b){var
-c=iD(a),b=b[1],a=c;continue}return[0,dR(eC(a)),e]}}function
-hl(a){return[0,dR(eI(a)),0]}function
-fx(a){var
-c=a5(a),f=0,b=0===c?ot:0<c?[0,eI(a)]:[1,eI(L(a))];if(0===b[0])var
+b=d,a=ot,e=0;for(;;){if(b){var
+c=iE(a),b=b[1],a=c;continue}return[0,dR(eF(a)),e]}}function
+hl(a){return[0,dR(eL(a)),0]}function
+fz(a){var
+c=a5(a),f=0,b=0===c?oy:0<c?[0,eL(a)]:[1,eL(L(a))];if(0===b[0])var
 d=dR(b[1]);else
 var
-e=dR(b[1]),d=aO(be(1,45),e);return[0,d,f]}function
+e=dR(b[1]),d=aO(bf(1,45),e);return[0,d,f]}function
 hm(a){var
-b=0,c=0<a5(a)?eI(a):os;return[0,dR(c),b]}function
+b=0,c=0<a5(a)?eL(a):ox;return[0,dR(c),b]}function
 hn(a){switch(a[0]){case
-2:return qL;case
-3:return 2<=a[1]?qM:qN;case
-4:return qO;default:return qK}}function
-ec(b,a){function
-c(c,a){return _(c,hn(a))?ec(b,a):[0,qU,f(ec(b,a),qT)]}switch(a[0]){case
+2:return qQ;case
+3:return 2<=a[1]?qR:qS;case
+4:return qT;default:return qP}}function
+ee(b,a){function
+c(c,a){return _(c,hn(a))?ee(b,a):[0,qZ,f(ee(b,a),qY)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,aX(g),0];var
-h=[0,qV,[0,aX(e),0]];return[0,aX(g),h];case
+h=[0,q0,[0,aX(e),0]];return[0,aX(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,qX,c(qW,a[1])];case
+2:return[0,q2,c(q1,a[1])];case
 3:var
 i=a[3],j=c([0,hn(a)],i);switch(a[1]){case
 0:var
-d=qP;break;case
+d=qU;break;case
 1:var
-d=qQ;break;case
+d=qV;break;case
 2:var
-d=qR;break;default:var
-d=qS}var
+d=qW;break;default:var
+d=qX}var
 l=a[2];return f(c(hn(a),l),[0,d,j]);case
 4:var
-m=[0,qY,hl(a[2])];return f(c(qZ,a[1]),m);default:return[0,q1,f(ec(b,a[1]),q0)]}}function
-G(a){return[0,q4,f(ec(function(a){return 0===a[0]?a[1]:q3},a),q2)]}function
-ho(a){return[0,q6,f(ec(function(a){return a},a),q5)]}function
+m=[0,q3,hl(a[2])];return f(c(q4,a[1]),m);default:return[0,q6,f(ee(b,a[1]),q5)]}}function
+G(a){return[0,q9,f(ee(function(a){return 0===a[0]?a[1]:q8},a),q7)]}function
+ho(a){return[0,q$,f(ee(function(a){return a},a),q_)]}function
 b0(a){if(0===a[0])return G(a[1]);var
-b=[0,g(q7,G(a[2])),0];return S([0,g(q8,G(a[1])),b])}function
-fy(b,a){var
+b=[0,g(ra,G(a[2])),0];return S([0,g(rb,G(a[1])),b])}function
+fA(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return z([0,k(b,a[1]),d])}function
-q9(a){function
-b(a){return fy(b0,a)}switch(a[0]){case
+rc(a){function
+b(a){return fA(b0,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?q_:rg,i=[0,g(q$,ae(h)),e],j=[0,g(ra,b0(a[4])),i],k=[0,g(rb,b(a[3])),j],l=[0,g(rc,b(a[2])),k],m=[0,g(rd,b(a[1])),l],c=[0,g(rf,ae(re)),m];break;case
+e=0,h=a[5]?rd:rl,i=[0,g(re,ae(h)),e],j=[0,g(rf,b0(a[4])),i],k=[0,g(rg,b(a[3])),j],l=[0,g(rh,b(a[2])),k],m=[0,g(ri,b(a[1])),l],c=[0,g(rk,ae(rj)),m];break;case
 1:var
-d=a[3],n=d?[0,g(rh,b(d[1])),0]:d,o=[0,g(ri,b(a[2])),0],p=[0,g(rj,b(a[1])),o],c=f([0,g(rl,ae(rk)),p],n);break;default:var
-q=[0,g(rm,b(a[1])),0],c=[0,g(ro,ae(rn)),q]}return S(c)}function
-rp(a){function
+d=a[3],n=d?[0,g(rm,b(d[1])),0]:d,o=[0,g(rn,b(a[2])),0],p=[0,g(ro,b(a[1])),o],c=f([0,g(rq,ae(rp)),p],n);break;default:var
+q=[0,g(rr,b(a[1])),0],c=[0,g(rt,ae(rs)),q]}return S(c)}function
+ru(a){function
 b(a){return z(e(b0,a))}function
 d(a){var
-b=a?rq:rs;return g(rr,ae(b))}switch(a[0]){case
+b=a?rv:rx;return g(rw,ae(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(rt,b0(a[4])),f],i=[0,g(ru,b(a[3])),h],j=[0,g(rv,b(a[2])),i],k=[0,g(rw,b(a[1])),j],c=[0,g(ry,ae(rx)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(ry,b0(a[4])),f],i=[0,g(rz,b(a[3])),h],j=[0,g(rA,b(a[2])),i],k=[0,g(rB,b(a[1])),j],c=[0,g(rD,ae(rC)),k];break;case
 1:var
-l=[0,g(rz,b(a[2])),0],m=[0,g(rA,b(a[1])),l],c=[0,g(rC,ae(rB)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(rD,b0(a[6])),n],p=[0,g(rE,b0(a[5])),o],q=[0,g(rF,b(a[4])),p],r=[0,g(rG,b(a[3])),q],s=[0,g(rH,b(a[2])),r],t=[0,g(rI,b(a[1])),s],c=[0,g(rK,ae(rJ)),t]}return S(c)}function
+l=[0,g(rE,b(a[2])),0],m=[0,g(rF,b(a[1])),l],c=[0,g(rH,ae(rG)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(rI,b0(a[6])),n],p=[0,g(rJ,b0(a[5])),o],q=[0,g(rK,b(a[4])),p],r=[0,g(rL,b(a[3])),q],s=[0,g(rM,b(a[2])),r],t=[0,g(rN,b(a[1])),s],c=[0,g(rP,ae(rO)),t]}return S(c)}function
 hp(a){switch(a){case
-0:return rL;case
-1:return rM;case
-2:return rN;case
-3:return rO;case
-4:return rP;case
-5:return rQ;case
-6:return rR;case
-7:return rS;case
-8:return rT;case
-9:return rU;case
-10:return rV;case
-11:return rW;case
-12:return rX;default:return rY}}function
+0:return rQ;case
+1:return rR;case
+2:return rS;case
+3:return rT;case
+4:return rU;case
+5:return rV;case
+6:return rW;case
+7:return rX;case
+8:return rY;case
+9:return rZ;case
+10:return r0;case
+11:return r1;case
+12:return r2;default:return r3}}function
 hq(a){if(typeof
-a==="number")return rZ;else
+a==="number")return r4;else
 switch(a[0]){case
-0:return r0;case
-1:return r1;default:return r2}}function
-ed(a){var
+0:return r5;case
+1:return r6;default:return r7}}function
+ef(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,g(r3,G(b[1])),0];break;case
+c=[0,g(r8,G(b[1])),0];break;case
 1:var
-c=[0,g(r4,G(b[1])),0];break;default:var
-l=[0,G(b[2]),0],c=[0,g(r5,z([0,G(b[1]),l])),0]}var
-m=[0,g(r6,ae(hq(a[4]))),c],e=a[3];if(e){var
+c=[0,g(r9,G(b[1])),0];break;default:var
+l=[0,G(b[2]),0],c=[0,g(r_,z([0,G(b[1]),l])),0]}var
+m=[0,g(r$,ae(hq(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=z([0,G(d[1]),0]),i=a[1],n=0,p=6===i?r7:12===i?r$:sa,j=[0,g(r8,I(p,o)),n];else
+o=z([0,G(d[1]),0]),i=a[1],n=0,p=6===i?sa:12===i?se:sf,j=[0,g(sb,I(p,o)),n];else
 var
-t=[0,g(sb,z([0,G(d[2]),0])),0],j=[0,g(sd,S([0,g(sc,z([0,G(d[1]),0])),t])),0];var
+t=[0,g(sg,z([0,G(d[2]),0])),0],j=[0,g(si,S([0,g(sh,z([0,G(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=f(k,m),h=a[2],r=h?[0,g(r9,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(r_,ae(hp(a[1]))),s])}function
-le(a){if(0===a[0]){var
-b=[0,g(se,fy(G,a[2])),0];return I(sg,S([0,g(sf,fy(G,a[1])),b]))}var
-c=[0,G(a[5]),0],d=[0,g(sh,z([0,G(a[4]),c])),0],e=[0,g(si,G(a[3])),d],f=[0,G(a[2]),0];return I(sk,S([0,g(sj,z([0,G(a[1]),f])),e]))}function
-lf(a){switch(a){case
-0:return so;case
-1:return sp;default:return sq}}function
-sr(a){function
+q=f(k,m),h=a[2],r=h?[0,g(sc,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(sd,ae(hp(a[1]))),s])}function
+lf(a){if(0===a[0]){var
+b=[0,g(sj,fA(G,a[2])),0];return I(sl,S([0,g(sk,fA(G,a[1])),b]))}var
+c=[0,G(a[5]),0],d=[0,g(sm,z([0,G(a[4]),c])),0],e=[0,g(sn,G(a[3])),d],f=[0,G(a[2]),0];return I(sp,S([0,g(so,z([0,G(a[1]),f])),e]))}function
+lg(a){switch(a){case
+0:return st;case
+1:return su;default:return sv}}function
+sw(a){function
 b(a){return z(e(b0,a))}var
-c=[0,g(ss,b(a[2])),0],d=[0,g(st,b(a[1])),c];return S([0,g(sv,ae(su)),d])}function
-lg(a){function
+c=[0,g(sx,b(a[2])),0],d=[0,g(sy,b(a[1])),c];return S([0,g(sA,ae(sz)),d])}function
+lh(a){function
 b(b,a){var
 c=[0,G(a),0];return z([0,G(b),c])}switch(a[0]){case
-0:return I(sw,b(a[1],a[2]));case
+0:return I(sB,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(sx,b(c[1],c[2])),0],h=[0,g(sy,b(d[1],d[2])),f];return I(sA,S([0,g(sz,b(e[1],e[2])),h]));case
-2:return I(sB,G(a[1]));default:var
-i=[0,g(sC,G(a[2])),0];return I(sE,S([0,g(sD,G(a[1])),i]))}}function
-sF(a){function
-b(a){return fy(G,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(sG,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sH,z([0,G(a[3]),h])),0],j=[0,g(sI,G(a[2])),i],k=[0,g(sJ,bZ(a[1])),j],d=f([0,g(sL,ae(sK)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(sC,b(c[1],c[2])),0],h=[0,g(sD,b(d[1],d[2])),f];return I(sF,S([0,g(sE,b(e[1],e[2])),h]));case
+2:return I(sG,G(a[1]));default:var
+i=[0,g(sH,G(a[2])),0];return I(sJ,S([0,g(sI,G(a[1])),i]))}}function
+sK(a){function
+b(a){return fA(G,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sL,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sM,z([0,G(a[3]),h])),0],j=[0,g(sN,G(a[2])),i],k=[0,g(sO,bZ(a[1])),j],d=f([0,g(sQ,ae(sP)),k],e);else
 var
-l=[0,g(sM,G(a[4])),0],m=[0,g(sN,b(a[3])),l],n=[0,g(sO,b(a[2])),m],o=a[1]?sP:sR,d=[0,g(sQ,ae(o)),n];return S(d)}function
+l=[0,g(sR,G(a[4])),0],m=[0,g(sS,b(a[3])),l],n=[0,g(sT,b(a[2])),m],o=a[1]?sU:sW,d=[0,g(sV,ae(o)),n];return S(d)}function
 hr(d,c,a,b){var
-h=[0,g(sS,z(e(ed,b))),0],i=a?[0,g(sT,z(e(sF,a))),0]:a,j=f(i,h),k=[0,g(sU,le(c)),0];return S(f([0,g(sW,I(sV,z(e(q9,d)))),k],j))}function
-sX(a){switch(a[0]){case
-0:return I(sY,hr(a[1],a[2],a[3],a[4]));case
+h=[0,g(sX,z(e(ef,b))),0],i=a?[0,g(sY,z(e(sK,a))),0]:a,j=f(i,h),k=[0,g(sZ,lf(c)),0];return S(f([0,g(s1,I(s0,z(e(rc,d)))),k],j))}function
+s2(a){switch(a[0]){case
+0:return I(s3,hr(a[1],a[2],a[3],a[4]));case
 1:var
-c=a[5],d=a[3],h=a[1],i=z(e(rp,a[2])),p=[0,g(sZ,z(e(ed,a[6]))),0],q=c?[0,g(s0,lg(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
-o=[0,g(sl,z(e(G,b[2]))),0],j=I(sn,S([0,g(sm,z(e(G,b[1]))),o]));else
+c=a[5],d=a[3],h=a[1],i=z(e(ru,a[2])),p=[0,g(s4,z(e(ef,a[6]))),0],q=c?[0,g(s5,lh(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
+o=[0,g(sq,z(e(G,b[2]))),0],j=I(ss,S([0,g(sr,z(e(G,b[1]))),o]));else
 var
-j=le([1,b[1],b[2],b[3],b[4],b[5]]);var
-n=0,s=[0,g(s1,j),r];if(typeof
+j=lf([1,b[1],b[2],b[3],b[4],b[5]]);var
+n=0,s=[0,g(s6,j),r];if(typeof
 h==="number")if(h)var
-k=s2;else{var
-l=I(s7,i);n=1}else
+k=s7;else{var
+l=I(ta,i);n=1}else
 var
-k=lf(h[1]);if(!n)var
-t=d?[0,g(s3,G(d[1])),0]:d,l=I(k,S([0,g(s4,i),t]));return I(s6,S([0,g(s5,l),s]));case
+k=lg(h[1]);if(!n)var
+t=d?[0,g(s8,G(d[1])),0]:d,l=I(k,S([0,g(s9,i),t]));return I(s$,S([0,g(s_,l),s]));case
 2:var
-u=[0,g(s8,z(e(ed,a[7]))),0],v=[0,g(s9,lg(a[6])),u],w=[0,g(s_,z(e(G,a[5]))),0],x=[0,g(tb,I(ta,S([0,g(s$,z(e(G,a[4]))),w]))),v],y=[0,g(tc,G(a[3])),0],A=S([0,g(td,z(e(sr,a[2]))),y]);return I(tf,S([0,g(te,I(lf(a[1]),A)),x]));case
+u=[0,g(tb,z(e(ef,a[7]))),0],v=[0,g(tc,lh(a[6])),u],w=[0,g(td,z(e(G,a[5]))),0],x=[0,g(tg,I(tf,S([0,g(te,z(e(G,a[4]))),w]))),v],y=[0,g(th,G(a[3])),0],A=S([0,g(ti,z(e(sw,a[2]))),y]);return I(tk,S([0,g(tj,I(lg(a[1]),A)),x]));case
 3:var
-B=[0,g(tg,z(e(ed,a[7]))),0],C=[0,g(th,z(e(G,a[6]))),0],D=[0,g(tk,I(tj,S([0,g(ti,z(e(G,a[5]))),C]))),B],E=0,F=a[4],H=[0,g(tn,z(e(function(a){return 0===a[0]?I(tl,z(e(ho,a[1]))):I(tm,ho(a[1]))},F))),E],J=a[3],K=[0,g(to,z(e(function(a){var
-b=[0,ho(a[2]),0];return z([0,ae(a[1]),b])},J))),H],L=a[2],M=[0,g(tp,z(e(function(a){var
-b=[0,b0(a[2]),0];return z([0,ae(a[1]),b])},L))),K];return I(tt,S([0,g(ts,I(tr,S([0,g(tq,z(e(ae,a[1]))),M]))),D]));case
+B=[0,g(tl,z(e(ef,a[7]))),0],C=[0,g(tm,z(e(G,a[6]))),0],D=[0,g(tp,I(to,S([0,g(tn,z(e(G,a[5]))),C]))),B],E=0,F=a[4],H=[0,g(ts,z(e(function(a){return 0===a[0]?I(tq,z(e(ho,a[1]))):I(tr,ho(a[1]))},F))),E],J=a[3],K=[0,g(tt,z(e(function(a){var
+b=[0,ho(a[2]),0];return z([0,ae(a[1]),b])},J))),H],L=a[2],M=[0,g(tu,z(e(function(a){var
+b=[0,b0(a[2]),0];return z([0,ae(a[1]),b])},L))),K];return I(ty,S([0,g(tx,I(tw,S([0,g(tv,z(e(ae,a[1]))),M]))),D]));case
 4:var
-N=[0,g(tu,z(e(ed,a[3]))),0],O=[0,g(tx,I(tw,S([0,g(tv,G(a[2])),0]))),N];return I(tB,S([0,g(tA,I(tz,S([0,g(ty,G(a[1])),0]))),O]));case
+N=[0,g(tz,z(e(ef,a[3]))),0],O=[0,g(tC,I(tB,S([0,g(tA,G(a[2])),0]))),N];return I(tG,S([0,g(tF,I(tE,S([0,g(tD,G(a[1])),0]))),O]));case
 5:var
-P=[0,g(tC,G(a[5])),0];return I(tE,S([0,g(tD,hr(a[1],[0,a[2],a[3]],0,a[4])),P]));case
+P=[0,g(tH,G(a[5])),0];return I(tJ,S([0,g(tI,hr(a[1],[0,a[2],a[3]],0,a[4])),P]));case
 6:var
-m=a[1],Q=0,R=m?b0(m[1]):ae(tH);return I(tG,S([0,g(tF,R),Q]));default:var
-T=[0,g(tI,G(a[6])),0],U=[0,g(tJ,G(a[5])),T],V=[0,g(tK,hr(a[2],a[3],0,a[4])),U],W=a[1];return I(tP,S([0,g(tO,z(e(function(a){var
-b=[0,g(tL,G(a[2][2])),0],c=[0,g(tM,G(a[2][1])),b];return S([0,g(tN,ae(a[1])),c])},W))),V]))}}function
-ee(a){return z(e(fx,a))}function
-fz(b,a){var
-c=[0,g(tQ,hm(a)),0];return S([0,g(tR,z(e(ee,b))),c])}function
-ef(a){switch(a[0]){case
+m=a[1],Q=0,R=m?b0(m[1]):ae(tM);return I(tL,S([0,g(tK,R),Q]));default:var
+T=[0,g(tN,G(a[6])),0],U=[0,g(tO,G(a[5])),T],V=[0,g(tP,hr(a[2],a[3],0,a[4])),U],W=a[1];return I(tU,S([0,g(tT,z(e(function(a){var
+b=[0,g(tQ,G(a[2][2])),0],c=[0,g(tR,G(a[2][1])),b];return S([0,g(tS,ae(a[1])),c])},W))),V]))}}function
+eg(a){return z(e(fz,a))}function
+fB(b,a){var
+c=[0,g(tV,hm(a)),0];return S([0,g(tW,z(e(eg,b))),c])}function
+eh(a){switch(a[0]){case
 0:return ae(a[1]);case
 1:var
-b=fz(a[2],a[3]);return I(a[1],b);case
+b=fB(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?tS:tU;return I(tT,ae(c));case
+c=a[1]?tX:tZ;return I(tY,ae(c));case
 3:var
-d=[0,ee(a[3]),0];return I(tV,z([0,fz(a[1],a[2]),d]));case
+d=[0,eg(a[3]),0];return I(t0,z([0,fB(a[1],a[2]),d]));case
 4:var
-f=[0,bZ(0),0],g=[0,fx(a[3]),f];return I(tW,z([0,fz(a[1],a[2]),g]));case
+f=[0,bZ(0),0],g=[0,fz(a[3]),f];return I(t1,z([0,fB(a[1],a[2]),g]));case
 5:var
-h=[0,hm(a[3]),0],i=[0,fx(a[2]),h];return I(tX,z([0,ef(a[1]),i]));case
+h=[0,hm(a[3]),0],i=[0,fz(a[2]),h];return I(t2,z([0,eh(a[1]),i]));case
 6:var
-j=[0,hm(a[3]),0],k=[0,fx(a[2]),j];return I(tY,z([0,ef(a[1]),k]));case
-7:return I(tZ,ef(a[1]));default:var
-l=[0,z(e(ee,a[3])),0],m=[0,ae(a[2]),l];return I(t0,z([0,ef(a[1]),m]))}}function
-t1(a){var
-b=[0,ef(a[2]),0];return z([0,bZ(a[1]),b])}function
-lh(a){if(typeof
-a==="number")return 0===a?ae(t2):ae(t3);else{if(0===a[0]){var
-b=[0,z(e(ee,a[2])),0];return I(t4,z([0,bZ(a[1]),b]))}var
-c=[0,bZ(a[2]),0];return I(t5,z([0,bZ(a[1]),c]))}}function
+j=[0,hm(a[3]),0],k=[0,fz(a[2]),j];return I(t3,z([0,eh(a[1]),k]));case
+7:return I(t4,eh(a[1]));default:var
+l=[0,z(e(eg,a[3])),0],m=[0,ae(a[2]),l];return I(t5,z([0,eh(a[1]),m]))}}function
 t6(a){var
-b=a[4],i=b?[0,g(t7,ee([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(t8,lh(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(t9,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(t_,z(e(t1,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
-li(h,a,d){var
-i=[0,g(t$,z(e(t6,d))),0];if(a)var
-b=a[1],c=[0,g(ua,fz(b[1],b[2])),0];else
+b=[0,eh(a[2]),0];return z([0,bZ(a[1]),b])}function
+li(a){if(typeof
+a==="number")return 0===a?ae(t7):ae(t8);else{if(0===a[0]){var
+b=[0,z(e(eg,a[2])),0];return I(t9,z([0,bZ(a[1]),b]))}var
+c=[0,bZ(a[2]),0];return I(t_,z([0,bZ(a[1]),c]))}}function
+t$(a){var
+b=a[4],i=b?[0,g(ua,eg([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(ub,li(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(uc,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(ud,z(e(t6,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
+lj(h,a,d){var
+i=[0,g(ue,z(e(t$,d))),0];if(a)var
+b=a[1],c=[0,g(uf,fB(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return S([0,g(ub,hl(h)),j])}function
-lj(d,c,a,b){var
-h=[0,g(uc,lh(b)),0],i=a?[0,g(ud,z(e(G,a))),0]:a,j=f(i,h),k=[0,g(ue,z(e(G,c))),0];return S(f([0,g(uf,hl(d)),k],j))}function
-ug(a){if(typeof
-a==="number")return ae(uh);else
+j=f(c,i);return S([0,g(ug,hl(h)),j])}function
+lk(d,c,a,b){var
+h=[0,g(uh,li(b)),0],i=a?[0,g(ui,z(e(G,a))),0]:a,j=f(i,h),k=[0,g(uj,z(e(G,c))),0];return S(f([0,g(uk,hl(d)),k],j))}function
+ul(a){if(typeof
+a==="number")return ae(um);else
 switch(a[0]){case
-0:return I(ui,bZ(a[1]));case
-1:return I(uj,li(a[1],a[2],a[3]));default:return I(uk,lj(a[1],a[2],a[3],a[4]))}}function
-fA(a){var
-b=gi(gh(al(a),function(b){return aJ(a,b)}));return n(function(a){var
-b=ak(34===a?1:0),c=b?ak(92===a?1:0):b,d=c?_(uz,eK(a)):c;return d?_(eK(a),uA):d},b)}function
-eg(b){function
+0:return I(un,bZ(a[1]));case
+1:return I(uo,lj(a[1],a[2],a[3]));default:return I(up,lk(a[1],a[2],a[3],a[4]))}}function
+fC(a){var
+b=gj(gi(al(a),function(b){return aJ(a,b)}));return n(function(a){var
+b=aj(34===a?1:0),c=b?aj(92===a?1:0):b,d=c?_(uE,eO(a)):c;return d?_(eO(a),uF):d},b)}function
+ei(b){function
 c(f){var
-a=eK(f),b=_(uB,a),c=b?_(a,uC):b;if(c)var
+a=eO(f),b=_(uG,a),c=b?_(a,uH):b;if(c)var
 d=c;else{var
-e=_(uD,a);if(e)return _(a,uE);var
+e=_(uI,a);if(e)return _(a,uJ);var
 d=e}return d}var
-a=gi(gh(al(b),function(a){return aJ(b,a)}));if(a){var
+a=gj(gi(al(b),function(a){return aJ(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eK(a),f=_(uF,e),h=f?_(e,uG):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(j(d),uH):f;if(g)return ak(am(b,uI));var
+e=eO(a),f=_(uK,e),h=f?_(e,uL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?_(i(d),uM):f;if(g)return aj(am(b,uN));var
 h=g}else
 var
 h=a;return h}function
 hs(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eg(a[1]);case
+1:return ei(a[1]);case
 3:var
 b=hs(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eh(m){var
+ej(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4410,35 +4412,35 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eC(a[2]);if(typeof
+f=eF(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eh(a[2]);if(i){var
+i=ej(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eh(a[1]),l=k?eG(c(2,b),j):k;return l?eG(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=ej(a[1]),l=k?eJ(c(2,b),j):k;return l?eJ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dp(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cN(a){return B(dp,br(a))}function
+dq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bs(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cN(a){return A(dq,bs(a))}function
 ht(a){switch(a[0]){case
 0:var
-c=dp(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
+c=dq(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
 1:var
 b=a[3],g=b?cN(b[1]):b,h=f(cN(a[2]),g);return f(cN(a[1]),h);default:return cN(a[1])}}function
-uJ(a){switch(a[0]){case
+uO(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return B(dp,b)}function
-lk(a){if(0===a[0]){var
-b=br(a[2]);return f(br(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ll(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return A(dq,b)}function
+ll(a){if(0===a[0]){var
+b=bs(a[2]);return f(bs(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lm(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -4448,27 +4450,27 @@ a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return f(e,g)}function
-uK(a){if(0===a[0]){var
-b=a[5],c=b?br(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(br(a[3]),d);return f(br(a[2]),e)}function
-lm(b,e){var
+uP(a){if(0===a[0]){var
+b=a[5],c=b?bs(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bs(a[3]),d);return f(bs(a[2]),e)}function
+ln(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aq(function(a){return am(f,a)},b)}return 0;case
 3:var
-d=lm(b,a[2]);if(d){var
+d=ln(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fB(c,a){return n(function(a){var
-b=eh(a);return b?lm(c,a):b},a)}function
-ln(a){var
-d=eG(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eG(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-lo(a,b){return b?[4,lo(a,b[1]),a]:a}function
+fD(c,a){return n(function(a){var
+b=ej(a);return b?ln(c,a):b},a)}function
+lo(a){var
+d=eJ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eJ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+lp(a,b){return b?[4,lp(a,b[1]),a]:a}function
 h(a){switch(a[0]){case
 0:var
-j=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eD(iB(j),l,b);return[0,iL(iC(eC(a[1]),j)),m];case
+j=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eG(iC(j),l,b);return[0,iM(iD(eF(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -4479,35 +4481,35 @@ g=h(a[2]),i=h(a[3]);switch(a[1]){case
 1:return[3,g,i];case
 2:return[4,g,i];default:return[5,g,i]}case
 4:var
-n=bx(dM(a[2]));return lo(h(a[1]),n);default:return[6,h(a[1])]}}function
-bs(a){if(0===a[0]){var
+n=by(dN(a[2]));return lp(h(a[1]),n);default:return[6,h(a[1])]}}function
+bt(a){if(0===a[0]){var
 b=h(a[1]);return[0,b,b]}var
 c=h(a[2]);return[0,h(a[1]),c]}function
 cP(a){var
-b=bs(a[3]),c=bs(a[2]);return[0,bs(a[1]),c,b]}function
-uL(a){switch(a[0]){case
+b=bt(a[3]),c=bt(a[2]);return[0,bt(a[1]),c,b]}function
+uQ(a){switch(a[0]){case
 0:var
-b=a[5],c=bs(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
+b=a[5],c=bt(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
 1:var
 f=y(cP,a[3]),g=cP(a[2]);return[1,cP(a[1]),g,f];default:return[2,cP(a[1])]}}function
-lp(a){if(0===a[0]){var
+lq(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=h(k(a,c));return[0,h(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),l=h(a[2]);return[1,h(a[1]),l,j,i]}function
-dq(a){var
+dr(a){var
 b=h(a[3]),c=h(a[2]);return[0,h(a[1]),c,b]}function
-dr(a){if(0===a[0]){var
-c=a[5],i=c?dq(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,bx(a[1]),l,k,j,i]}var
+ds(a){if(0===a[0]){var
+c=a[5],i=c?dr(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,by(a[1]),l,k,j,i]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dq(f),n=dq(g);return[2,h(e),n,m]}var
-o=dq(f),p=dq(g);return[1,h(e),p,o]}function
+m=dr(f),n=dr(g);return[2,h(e),n,m]}var
+o=dr(f),p=dr(g);return[1,h(e),p,o]}function
 hu(b,a){if(a){var
 c=a[1],d=a[2],g=hu(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cu(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return ak(d)},h),g)}return a}function
-uM(b){if(b[1])return 0;var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return aj(d)},h),g)}return a}function
+uR(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-uO(c,a){switch(a[1]){case
+uT(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4539,7 +4541,7 @@ f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=t(c,uQ),J=0;if(x){var
+x=t(c,uV),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -4562,13 +4564,13 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?t(c,uR):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?t(c,uW):0:j}return 0;case
 13:return 0;default:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0])return a[2]?0:a[3]?0:1;return 0}var
-n=_(uP,b);return n?_(b,c):n}function
+n=_(uU,b);return n?_(b,c):n}function
 hv(g,m,_,c){var
-$=j(g),i=B(function(a){switch(a[1]){case
+$=i(g),j=A(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,h(g[1])],0];return 0;case
@@ -4620,11 +4622,11 @@ s!=="number"&&0===s[0]){var
 T=s[1],U=hu(0,_);return e(function(i){var
 e=h(T),a=i[2],c=i[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?dq(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(t(f,a[1])){var
-j=h(a[2]),k=[2,[2,h(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
-n=dr(a);return[10,dr(c),n,e]}var
-o=dr(a);return[10,dr(c),o,e]}var
-p=dr(a);return[10,dr(c),p,e]},U)}return 0;case
+g=function(a){return a?dr(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(t(f,a[1])){var
+j=h(a[2]),k=[2,[2,h(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,by(f),m,l,k]}var
+n=ds(a);return[10,ds(c),n,e]}var
+o=ds(a);return[10,ds(c),o,e]}var
+p=ds(a);return[10,ds(c),p,e]},U)}return 0;case
 10:var
 u=a[4],J=0;if(typeof
 u==="number"||!(1===u[0]))J=1;else{var
@@ -4634,19 +4636,18 @@ W=w[2],X=w[1],c=function(a){var
 b=h(V),c=h(W);return[12,a,h(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?uN:E;return Y;case
+a[4]==="number"?1:0,Y=E?uS:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
 Z=h(x[1]);return[0,[14,h(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,bx(A[1]),0]:aV(0,$);return e(c,L)},c),a=B(uM,c),k=a?[0,a[1],a[2]]:uS,l=f(k,i),n=lp(m);return[0,e(uL,g),n,l]}function
-uT(b){if(b[1])return 0;var
+A=a[2],L=A?[0,by(A[1]),0]:aV(0,$);return e(c,L)},c),a=A(uR,c),k=a?[0,a[1],a[2]]:uX,l=f(k,j),n=lq(m);return[0,e(uQ,g),n,l]}function
+lr(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-ds(L,K,b){var
-c=B(function(a){switch(a[1]){case
+ls(z,y,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,h(d[1])],0];return 0;case
@@ -4655,18 +4656,18 @@ c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-y=c[1],b=function(a){return[2,a,h(y)]};break;case
+A=c[1],b=function(a){return[2,a,h(A)]};break;case
 1:var
-A=c[1],b=function(a){return[3,a,h(A)]};break;default:var
-B=c[2],C=c[1],b=function(a){var
-b=h(B);return[4,a,h(C),b]}}break;case
+C=c[1],b=function(a){return[3,a,h(C)]};break;default:var
+D=c[2],E=c[1],b=function(a){var
+b=h(D);return[4,a,h(E),b]}}break;case
 2:var
 f=a[4],u=0;if(typeof
 f==="number"||!(1===f[0]))u=1;else{var
-g=a[3],D=f[1];if(!g)return g;var
+g=a[3],F=f[1];if(!g)return g;var
 r=g[1];if(0!==r[0])return 0;var
-E=r[1],b=function(a){var
-b=h(E),c=h(D);return L?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
+G=r[1],b=function(a){var
+b=h(G),c=h(F);return z?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
 3:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0])return[0,[5,h(i[1])],0];return 0;case
@@ -4674,7 +4675,7 @@ i!=="number"&&1===i[0])return[0,[5,h(i[1])],0];return 0;case
 j=a[4],v=0;if(typeof
 j==="number"||!(0===j[0]))v=1;else
 var
-F=j[1],b=function(a){return[10,a,h(F)]};if(v)return 0;break;case
+H=j[1],b=function(a){return[10,a,h(H)]};if(v)return 0;break;case
 5:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0])return[0,[12,h(k[1])],0];return 0;case
@@ -4683,21 +4684,24 @@ l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
 s=m[1];if(0===s[0]){var
-G=h(l[1]);return[0,[8,h(s[1]),G],0]}return 0}return m}return 0;case
+I=h(l[1]);return[0,[8,h(s[1]),I],0]}return 0}return m}return 0;case
 8:var
 n=a[4],w=0;if(typeof
 n==="number"||!(1===n[0]))w=1;else{var
-o=a[3],H=n[1];if(!o)return o;var
+o=a[3],J=n[1];if(!o)return o;var
 t=o[1];if(0!==t[0])return 0;var
-I=t[1],b=function(a){var
-b=h(H);return[7,a,h(I),b]}}if(w)return 0;break;case
+K=t[1],b=function(a){var
+b=h(J);return[7,a,h(K),b]}}if(w)return 0;break;case
 13:var
 p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
-J=p[1],b=function(a){return[11,a,h(J)]};if(x)return 0;break;default:return 0}var
-q=a[2],z=q?[0,bx(q[1]),0]:aV(0,K);return e(b,z)},b),a=B(uT,b),d=a?[0,a[1],a[2]]:uU;return f(d,c)}function
-bF(n,m,a){var
+L=p[1],b=function(a){return[11,a,h(L)]};if(x)return 0;break;default:return 0}var
+q=a[2],B=q?[0,by(q[1]),0]:aV(0,y);return e(b,B)}function
+dt(d,c,b){var
+e=A(function(a){return ls(d,c,a)},b),a=A(lr,b),g=a?[0,a[1],a[2]]:uY;return f(g,e)}function
+hw(a){return 11===a[1]?1:0}function
+bG(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4709,31 +4713,31 @@ e=1;l=1}if(!l)var
 e=0;var
 f=b_(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=_(uV,h);return i?_(h,m):i}var
+h=g[1],i=_(uZ,h);return i?_(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bG(n,b,a){var
+a9(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=_(uW,e),o=f?_(e,b):f,c=o;else
+e=d[1],f=_(u0,e),o=f?_(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bF(0,b,a):bF(0,b,a)}return bF(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bG(0,b,a):bG(0,b,a)}return bG(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bF(0,b,a):bF(0,b,a)}return bF(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bG(0,b,a):bG(0,b,a)}return bG(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?t(b,n):c:bF(0,b,a):bF(0,b,a)}return bF(0,b,a)}return bF(0,b,a)}function
+m=a[3];return m?0===m[1][0]?c?t(b,n):c:bG(0,b,a):bG(0,b,a)}return bG(0,b,a)}return bG(0,b,a)}function
 cn(a){switch(a[0]){case
 0:return[0,h([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -4745,10 +4749,10 @@ b=cn(a[2]),c=cn(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cn(a[1]),d];default:return[8,cn(a[1])]}}function
-fC(c){function
+fE(c){function
 a(e){var
 a=[0,d,b];return u(e,c,[0,a,a])}var
-e=a(uY),f=a(uZ);return[0,a(0),f,e]}function
+e=a(u2),f=a(u3);return[0,a(0),f,e]}function
 cQ(a){function
 b(a){var
 b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
@@ -4757,40 +4761,40 @@ b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,h(a[1])];default:var
 e=h(a[2]);return[3,h(a[1]),e]}}function
-lq(k,a,i,g,f,d,c){function
-b(a){return fC(e(bs,a))}var
-l=ds(0,j(a),c),m=cQ(d),n=aA(g,f),o=fC(e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(i);return[0,k,e(function(a){var
+lt(k,a,j,g,f,d,c){function
+b(a){return fE(e(bt,a))}var
+l=dt(0,i(a),c),m=cQ(d),n=aB(g,f),o=fE(e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(j);return[0,k,e(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-lr(a){return aq(function(a){return 2===a[0]?1:0},a)}function
-ls(m,c,f,a,l,k){var
-n=j(c),o=ds(lr(c),n,k),p=y(cQ,l);if(0===a[0])var
-i=aA(a[1],a[2]),g=[0,fC(e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},i))];else
+lu(a){return aq(function(a){return 2===a[0]?1:0},a)}function
+lv(m,c,f,a,l,k){var
+n=i(c),o=dt(lu(c),n,k),p=y(cQ,l);if(0===a[0])var
+j=aB(a[1],a[2]),g=[0,fE(e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},j))];else
 var
-g=lp([1,a[1],a[2],a[3],a[4],a[5]]);var
+g=lq([1,a[1],a[2],a[3],a[4],a[5]]);var
 q=f?h(f[1]):[0,b,b];return[0,m,e(function(a){function
-c(a){return fC(e(bs,a))}switch(a[0]){case
+c(a){return fE(e(bt,a))}switch(a[0]){case
 0:var
-k=a[5],l=bs(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bt(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bs(a[6]),r=bs(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},c),q,g,p,o]}function
-lt(o,e,a){if(e)if(a){var
+p=a[7],q=bt(a[6]),r=bt(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},c),q,g,p,o]}function
+lw(o,e,a){if(e)if(a){var
 g=e[1],i=a[1],k=bS(h(g[2][1]));if(k){var
 l=k[1],m=bS(h(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,eD(i[2],d,b)];return cw(l,bz(dQ(p,l),e))},q=n(x(i[1],b)),f=[0,n(i[1]),q];else
+e=[0,a,eG(i[2],d,b)];return cw(l,bA(dQ(p,l),e))},q=n(x(i[1],b)),f=[0,n(i[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=lt([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=lw([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
@@ -4799,21 +4803,21 @@ an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=iP(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=iQ(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-lu(b,a){if(0===a[0])return[0,an(b,a[1])];var
+lx(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-hw(b,a){var
+hx(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hx(c,a){if(c)if(a){var
+hy(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hx(h,g);if(e){var
-i=e[1],f=hx(h,i[2]);if(f)var
+e=hy(h,g);if(e){var
+i=e[1],f=hy(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -4825,87 +4829,87 @@ var
 d=a;else
 var
 d=c;return d}function
-hy(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hy(g,f[1],h)];var
+hz(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hz(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(v(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-u0(a){if(typeof
+u4(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-u1(a){if(typeof
+u5(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fD(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=fD(e,a[3]);return bz(cw(fD(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
+fF(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=fF(e,a[3]);return bA(cw(fF(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
 q=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 b1(h){var
-a=bi(function(f,e){var
+a=bj(function(f,e){var
 a=aY(q,f);if(a)var
-b=a[1],c=bf(c3(b[1]),c3(b[2]));else
+b=a[1],c=bg(c3(b[1]),c3(b[2]));else
 var
-c=d;return bf(c,e)},d,h);if(Z(d,a)){var
+c=d;return bg(c,e)},d,h);if(Z(d,a)){var
 f=a5(a);if(0===f||!(0<f&&!H(a,b)))var
 g=d;else
 var
-c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eF(e):eF(e);return aE(g,q)}return d}function
-dt(a){return[0,a[1],[0,a[2],0]]}function
+c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eI(e):eI(e);return aE(g,q)}return d}function
+du(a){return[0,a[1],[0,a[2],0]]}function
 a1(a){var
-b=dt(a[3]),c=f(dt(a[2]),b);return f(dt(a[1]),c)}function
-lv(a){return 0===a[0]?dt(a[1][4]):0}function
-lw(a){switch(a[0]){case
+b=du(a[3]),c=f(du(a[2]),b);return f(du(a[1]),c)}function
+ly(a){return 0===a[0]?du(a[1][4]):0}function
+lz(a){switch(a[0]){case
 0:var
 b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
 d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fE(a){switch(a[0]){case
+fG(a){switch(a[0]){case
 0:return b1(a1(a[1][1]));case
 1:var
 b=a[3];return b?b1(a1(b[1])):d;default:return b1(a1(a[1]))}}function
-hz(c){var
-a=B(lv,c),d=a?[0,a[1],a[2]]:B(lw,c);return x(b,b1(d))}function
-lx(c,a){if(c){if(a){var
+hA(c){var
+a=A(ly,c),d=a?[0,a[1],a[2]]:A(lz,c);return x(b,b1(d))}function
+lA(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=u2;else
+b=u6;else
 if(43===d)var
-b=u3;else
+b=u7;else
 var
-f=48===d?1:0,i=f?u4:f,b=i;if(b)var
-e=lx(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?u8:f,b=i;if(b)var
+e=lA(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:u5}function
-ei(b,a){switch(a[0]){case
+h=a;return h}return a?0:u9}function
+ek(b,a){switch(a[0]){case
 0:var
-c=a[1];if(am(c,u6))return u7;if(am(c,u8))return u9;if(am(c,u_))return u$;if(am(c,va))return vb;if(am(c,vc))return vd;var
-k=am(c,ve),p=k?vf:k;return p;case
+c=a[1];if(am(c,u_))return u$;if(am(c,va))return vb;if(am(c,vc))return vd;if(am(c,ve))return vf;if(am(c,vg))return vh;var
+k=am(c,vi),p=k?vj:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(am(f,vg))return[0,[0,d,e]];if(am(f,vh))return[0,[1,d,e]];if(am(f,vi))return[0,[2,d,e]];var
-l=am(f,vj),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(am(f,vk))return[0,[0,d,e]];if(am(f,vl))return[0,[1,d,e]];if(am(f,vm))return[0,[2,d,e]];var
+l=am(f,vn),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=ei(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=ek(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=ei(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=ek(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=ei(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=ei(b,a[1]);if(i)var
-j=lx(b,gi(gh(al(m),function(a){return aJ(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=ek(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=ek(b,a[1]);if(i)var
+j=lA(b,gj(gi(al(m),function(a){return aJ(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-ly(d,a){if(a){var
-e=a[1],b=ei(d,e[2]);if(b)var
-c=ly(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+lB(d,a){if(a){var
+e=a[1],b=ek(d,e[2]);if(b)var
+c=lB(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return vk}function
+f=b;return f}return vo}function
 cR(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=ly(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=lB(d,b[1]);if(e){var
 l=e[1];if(i){var
 f=cR(d,k,j);if(f){var
 m=f[1],g=cR(d,k,m[2]);if(g)var
@@ -4923,25 +4927,25 @@ var
 h=a;else
 var
 h=c;return h}function
-hA(e,d,a){if(d){if(a){var
-b=cR(e,j(a),a);if(b)var
-f=b[1],c=hA(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hB(e,d,a){if(d){if(a){var
+b=cR(e,i(a),a);if(b)var
+f=b[1],c=hB(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return vl}return a?0:vm}function
-hB(a){return typeof
+g=b;return g}return vp}return a?0:vq}function
+hC(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hC(d,a){if(d)if(a){var
+hD(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hC(k,j);if(e){var
-l=e[1],f=hC(k,l[2]);if(f)var
+e=hD(k,j);if(e){var
+l=e[1],f=hD(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hB(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hC(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
@@ -4949,7 +4953,7 @@ g=d;return g}function
 co(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
 cS(a,e){var
 b=co(a[1],e),c=co(a[2],b[2]),d=co(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lz(d,c){if(d){var
+lC(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=cS(a[1],c),f=cS(a[2],e[2]),g=cS(a[3],f[2]),h=co(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -4959,71 +4963,71 @@ o=cS(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=cS(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-vn(a){if(typeof
+q=lC(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+vr(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return vp;case
+5:return vt;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return vo}function
-bb(a,b){if(a){var
-c=co(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a9(c){function
+11:return 0}return vs}function
+bc(a,b){if(a){var
+c=co(a[1],b),d=bc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a_(c){function
 a(a){return u(a,c,[0,d,b])}var
-e=a(vs),f=a(vt);return[0,a(0),f,e]}function
-lA(a,b){if(a){var
-c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=lA(a[2],e[2]),g=f[2],h=f[1],i=a9(e[1]);return[0,[0,[0,a9(d[1]),i],h],g]}return[0,0,b]}function
-lB(f,c){if(f){var
+e=a(vw),f=a(vx);return[0,a(0),f,e]}function
+lD(a,b){if(a){var
+c=a[1],d=bc(c[1],b),e=bc(c[2],d[2]),f=lD(a[2],e[2]),g=f[2],h=f[1],i=a_(e[1]);return[0,[0,[0,a_(d[1]),i],h],g]}return[0,0,b]}function
+lE(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=co(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a9(i[1]),y=a9(h[1]),e=[0,[0,[0,a9(g[1]),y,x,w,v]],u];break;case
+g=bc(a[1],c),h=bc(a[2],g[2]),i=bc(a[3],h[2]),j=co(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a_(i[1]),y=a_(h[1]),e=[0,[0,[0,a_(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bb(a[1],c),l=bb(a[2],k[2]),z=l[2],A=a9(l[1]),e=[0,[0,[1,a9(k[1]),A,0]],z];break;default:var
-m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=co(a[5],q[2]),s=co(a[6],r[2]),B=m?a9(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a9(q[1]),H=a9(p[1]),e=[0,[1,[0,B,a9(o[1]),H,G,F,E,D]],C]}var
-t=lB(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-du(a){return i9(q,a)}function
-vu(a){if(typeof
+k=bc(a[1],c),l=bc(a[2],k[2]),z=l[2],A=a_(l[1]),e=[0,[0,[1,a_(k[1]),A,0]],z];break;default:var
+m=a[1],n=bc(m,c),o=bc(a[2],n[2]),p=bc(a[3],o[2]),q=bc(a[4],p[2]),r=co(a[5],q[2]),s=co(a[6],r[2]),B=m?a_(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a_(q[1]),H=a_(p[1]),e=[0,[1,[0,B,a_(o[1]),H,G,F,E,D]],C]}var
+t=lE(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dv(a){return i_(q,a)}function
+vy(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return i(q,1,[3,a[1],[0,b,b]]);case
-6:return i(q,1,a[2]);case
+5:return j(q,1,[3,a[1],[0,b,b]]);case
+6:return j(q,1,a[2]);case
 8:var
-d=i(q,1,a[1]);return d?i(q,1,a[2]):d;case
-10:return i(q,0,a[3]);case
+d=j(q,1,a[1]);return d?j(q,1,a[2]):d;case
+10:return j(q,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?i(q,0,e[2]):0;case
+e=a[4];return 2===e[0]?j(q,0,e[2]):0;case
 12:var
-f=i(q,0,a[2]),g=f?i(q,0,a[3]):f;return g?i(q,1,a[4]):g;case
+f=j(q,0,a[2]),g=f?j(q,0,a[3]):f;return g?j(q,1,a[4]):g;case
 14:var
-h=i(q,0,a[1]);return h?i(q,1,a[2]):h;case
+h=j(q,0,a[1]);return h?j(q,1,a[2]):h;case
 2:case
-3:return du(a[2]);case
+3:return dv(a[2]);case
 4:case
 13:var
-c=i(q,1,a[2]);return c?i(q,1,a[3]):c;default:return i(q,1,a[1])}}function
-hD(a){if(typeof
+c=j(q,1,a[2]);return c?j(q,1,a[3]):c;default:return j(q,1,a[1])}}function
+hE(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=i(q,1,[3,d,e]),g=f?i(q,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(q,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?i(q,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
-5:return i(q,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=j(q,1,[3,d,e]),g=f?j(q,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?j(q,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?j(q,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
+5:return j(q,1,[3,a[1],[0,b,b]]);case
 8:var
-k=i(q,1,a[1]);return k?i(q,1,a[2]):k;case
-10:return i(q,1,a[2]);case
+k=j(q,1,a[1]);return k?j(q,1,a[2]):k;case
+10:return j(q,1,a[2]);case
 11:var
-l=a[2],m=i(q,1,l);return m?i(q,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],l]):m;case
+l=a[2],m=j(q,1,l);return m?j(q,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],l]):m;case
 2:case
-3:return du(a[2]);case
-0:case
-1:case
-12:return i(q,1,a[1]);default:var
-j=i(q,1,a[2]);return j?i(q,1,a[3]):j}}function
-fF(d){var
+3:return dv(a[2]);case
+6:case
+7:case
+9:var
+i=j(q,1,a[2]);return i?j(q,1,a[3]):i;default:return j(q,1,a[1])}}function
+fH(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ak(aq(function(d){return function(a){var
+b=a[2],e=a[1],c=aj(aq(function(d){return function(a){var
 h=hp(a[1]),e=am(hp(d[1]),h);if(e)var
 i=hq(a[4]),b=am(hq(d[4]),i);else
 var
@@ -5034,40 +5038,40 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ej(a){if(0===a[0])return du(h(a[1]));var
+el(a){if(0===a[0])return dv(h(a[1]));var
 b=a[2],c=a[1];if(!dX(h(c))&&!dX(h(b))){var
-e=h(c);return i(q,1,[3,h(b),e])}var
+e=h(c);return j(q,1,[3,h(b),e])}var
 d=h(b);return a8(q,h(c),d)}function
 cT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lC(a){switch(a[0]){case
+lF(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(cT(a[3]),c),e=f(cT(a[2]),d);return f(cT(a[1]),e);case
 1:var
 b=a[3],g=b?cT(b[1]):b,h=f(cT(a[2]),g);return f(cT(a[1]),h);default:return cT(a[1])}}function
-fG(a){switch(a){case
-0:return vx;case
-1:return vy;default:return 0}}function
+fI(a){switch(a){case
+0:return vB;case
+1:return vC;default:return 0}}function
 cp(a){var
-f=a[1],d=i(q,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?a8(q,a[1],a[2]):d;if(e){var
-g=a[2];return i(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
-dv(a){var
-e=a8(q,[0,d,b],a);return e?i(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-lD(b,c,D,s,r,p,f){function
+f=a[1],d=j(q,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?a8(q,a[1],a[2]):d;if(e){var
+g=a[2];return j(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
+dw(a){var
+e=a8(q,[0,d,b],a);return e?j(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+lG(b,c,D,s,r,p,f){function
 u(a){var
-d=b?vv:vw,c=t(j(a),d);return c?n(ej,a):c}var
+d=b?vz:vA,c=t(i(a),d);return c?n(el,a):c}var
 v=n(function(a){var
 b=u(a[1]);return b?u(a[2]):b},c);if(v)var
-E=j(c),g=_(dj(b),E);else
+E=i(c),g=_(dk(b),E);else
 var
 g=v;var
-w=g?_(j(c),vz):g,x=w?i(q,1,h(D)):w;if(x)var
-F=fG(b),k=t(j(s),F);else
+w=g?_(i(c),vD):g,x=w?j(q,1,h(D)):w;if(x)var
+F=fI(b),k=t(i(s),F);else
 var
 k=x;if(k)var
-G=fG(b),l=t(j(r),G);else
+G=fI(b),l=t(i(r),G);else
 var
 l=k;if(l)var
-H=aA(s,r),m=n(function(a){var
+H=aB(s,r),m=n(function(a){var
 b=h(a[2]);return a8(q,h(a[1]),b)},H);else
 var
 m=l;if(m)if(b){var
@@ -5077,46 +5081,46 @@ d=0;break;case
 1:var
 z=cp(a[1]),A=z?cp(a[2]):z,d=A?cp(a[3]):A;break;case
 2:var
-d=dv(a[1]);break;default:var
-B=dv(a[1]),d=B?dv(a[2]):B}var
+d=dw(a[1]);break;default:var
+B=dw(a[1]),d=B?dw(a[2]):B}var
 e=d}else
 var
 C=cQ(p),K=0===C[0]?cp(C[1]):0,e=K;else
 var
 e=m;if(e)var
-I=j(c),J=dj(b),o=n(function(a){return bG(J,I,a)},f);else
+I=i(c),J=dk(b),o=n(function(a){return a9(J,I,a)},f);else
 var
 o=e;var
-y=o?fF(f):o;return y?n(hD,ds(0,j(c),f)):y}function
-lE(a){switch(a[0]){case
+y=o?fH(f):o;return y?n(hE,dt(0,i(c),f)):y}function
+lH(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-lF(a,f,e,k,s,r){var
+lI(a,f,e,k,s,r){var
 o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=o?vA:vB;return t(j(a),b)}var
-l=lr(f),D=n(function(b){switch(b[0]){case
+b=o?vE:vF;return t(i(a),b)}var
+l=lu(f),D=n(function(b){switch(b[0]){case
 0:var
-c=ak(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=aj(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=ak(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=aj(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
 a==="number"?1:0,k=j?1:j;else
 var
 k=i;return k;default:var
 m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(D)var
-Y=j(f),u=_(a0(a),Y);else
+Y=i(f),u=_(a0(a),Y);else
 var
 u=D;var
-E=u?_(j(f),vC):u,F=E?n(ej,B(lE,f)):E;if(F)if(0===k[0]){var
-G=k[2],H=k[1],Z=o?vD:vG,I=t(j(H),Z);if(I)var
-$=o?vE:vF,v=t(j(G),$);else
+E=u?_(i(f),vG):u,F=E?n(el,A(lH,f)):E;if(F)if(0===k[0]){var
+G=k[2],H=k[1],Z=o?vH:vK,I=t(i(H),Z);if(I)var
+$=o?vI:vJ,v=t(i(G),$);else
 var
 v=I;if(v)var
-aa=aA(H,G),J=n(function(a){var
+aa=aB(H,G),J=n(function(a){var
 b=h(a[2]);return a8(q,h(a[1]),b)},aa);else
 var
 J=v;var
@@ -5125,7 +5129,7 @@ X=0;if(typeof
 a==="number"&&!a){var
 C=1;X=1}if(!X)var
 C=0;var
-W=C?i(q,1,h(k[3])):C;if(W)var
+W=C?j(q,1,h(k[3])):C;if(W)var
 ac=h(k[5]),m=a8(q,h(k[4]),ac);else
 var
 m=W}else
@@ -5139,7 +5143,7 @@ switch(a[1]){case
 0:if(e){var
 x=y(cQ,s);if(x){var
 L=x[1];if(0===L[0])var
-M=i(q,1,h(e[1])),N=M?cp(L[1]):M;else
+M=j(q,1,h(e[1])),N=M?cp(L[1]):M;else
 var
 N=0;var
 O=N}else
@@ -5149,40 +5153,40 @@ b=O}else
 var
 b=e;break;case
 1:if(e){var
-z=e[1],A=y(cQ,s);if(A){var
-g=A[1];switch(g[0]){case
+z=e[1],B=y(cQ,s);if(B){var
+g=B[1];switch(g[0]){case
 0:var
 p=0;break;case
 1:var
-Q=i(q,1,h(z)),R=Q?cp(g[1]):Q,S=R?cp(g[2]):R,p=S?cp(g[3]):S;break;case
+Q=j(q,1,h(z)),R=Q?cp(g[1]):Q,S=R?cp(g[2]):R,p=S?cp(g[3]):S;break;case
 2:var
-T=i(q,1,h(z)),p=T?dv(g[1]):T;break;default:var
-U=i(q,1,h(z)),V=U?dv(g[1]):U,p=V?dv(g[2]):V}var
+T=j(q,1,h(z)),p=T?dw(g[1]):T;break;default:var
+U=j(q,1,h(z)),V=U?dw(g[1]):U,p=V?dw(g[2]):V}var
 P=p}else
 var
-P=A;var
+P=B;var
 b=P}else
 var
 b=e;break;default:var
 b=0}else
 var
 b=m;if(b)var
-c=j(f),w=n(function(b){var
+c=i(f),w=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=_(uX,g),r=h?_(g,c):h,d=r;else
+g=f[1],h=_(u1,g),r=h?_(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return bG(a0(a),c,b);if(d){var
+1:if(b[3])return a9(a0(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
 j=0;return b_(l,j)}return d;case
 4:var
 k=b[4];if(typeof
-k!=="number"&&0===k[0])return b[3]?bG(a0(a),c,b):d;return bG(a0(a),c,b);case
+k!=="number"&&0===k[0])return b[3]?a9(a0(a),c,b):d;return a9(a0(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return bG(a0(a),c,b);var
+m!=="number"&&0===m[0]){if(b[3])return a9(a0(a),c,b);var
 n=t(c,a0(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
@@ -5190,14 +5194,14 @@ e=1}else
 var
 e=o}else
 var
-e=n;return e}return bG(a0(a),c,b);case
+e=n;return e}return a9(a0(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?bG(a0(a),c,b):d?ak(l):d;return bG(a0(a),c,b);default:return bG(a0(a),c,b)}},r);else
+p!=="number"&&1===p[0])return b[3]?a9(a0(a),c,b):d?aj(l):d;return a9(a0(a),c,b);default:return a9(a0(a),c,b)}},r);else
 var
 w=b;var
-K=w?fF(r):w;return K?n(hD,ds(l,j(f),r)):K}function
-hE(j){var
+K=w?fH(r):w;return K?n(hE,dt(l,i(f),r)):K}function
+hF(j){var
 p=aG(j,b1(a1(j))),a=e(function(a){return ag(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5220,23 +5224,23 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-vH(a){switch(a[0]){case
-0:return hE(a[1][1]);case
+vL(a){switch(a[0]){case
+0:return hF(a[1][1]);case
 1:var
-b=a[3];return b?hE(b[1]):1;default:return hE(a[1])}}function
-hF(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
-g=_(j(a),vJ),k=g?n(function(a){if(0===a[0]){var
-g=a[5],j=i(q,1,h(a[2])),k=j?i(q,0,h(a[3])):j,l=k?i(q,0,h(a[4])):k,e=0;if(l)if(g)var
-u=br(g[1]),b=n(function(a){return du(h(a))},u);else{var
+b=a[3];return b?hF(b[1]):1;default:return hF(a[1])}}function
+hG(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
+g=_(i(a),vN),k=g?n(function(a){if(0===a[0]){var
+g=a[5],i=j(q,1,h(a[2])),k=i?j(q,0,h(a[3])):i,l=k?j(q,0,h(a[4])):k,e=0;if(l)if(g)var
+u=bs(g[1]),b=n(function(a){return dv(h(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-o=i(q,1,h(a[4]));if(o)var
-v=br(a[3]),w=f(br(a[2]),v),b=n(function(a){return du(h(a))},w);else
+o=j(q,1,h(a[4]));if(o)var
+v=bs(a[3]),w=f(bs(a[2]),v),b=n(function(a){return dv(h(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],r=_(vI,p);if(r){var
-d=W(c,bx(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],r=_(vM,p);if(r){var
+d=W(c,by(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
@@ -5249,36 +5253,38 @@ m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(vH,o[1]):d,r=p?_(vK,j(c)):p;if(r)var
-v=j(c),e=n(function(a){return uO(v,a)},b);else
+p=d?n(vL,o[1]):d,r=p?_(vO,i(c)):p;if(r)var
+v=i(c),e=n(function(a){return uT(v,a)},b);else
 var
 e=r;var
-s=e?fF(b):e,t=s?n(ej,B(lC,c)):s;return t?n(vu,o[3]):t}function
-vL(a){return 11===a[1]?1:0}function
-fH(b,a){return n(function(c){var
-a=c[2];return a?dL(a[1],b):1},a)}function
-hG(b,a){var
-c=j(cu(function(a){return 0===a[0]?0:1},b));return t(j(a),c)}function
-lG(aO,_,aN,Y,X,b,W,A){var
-a=hv(_,aN,Y,X),aP=j(A);if(aO)var
-$=0;else
+s=e?fH(b):e,t=s?n(el,A(lF,c)):s;return t?n(vy,o[3]):t}function
+fJ(b,a){return n(function(c){var
+a=c[2];return a?dM(a[1],b):1},a)}function
+lJ(a){if(a){var
+b=a[1];if(hw(b))return 0;var
+c=[0,b,lJ(a[2])]}else
 var
-aI=a[1],aJ=e(fE,a[1]),V=e$(hz(a[1]),aJ,aI),aM=aA(aV(0,j(V)),V),$=e(aK,cu(function(a){return gL(a[2])},aM));var
-C=cR($,aP,A);if(C){var
-aa=C[1];if(aa[2])return 0;var
-ab=hF(_,Y,X,a),ac=ab?fH(vM,A):ab;if(ac){var
-aQ=aa[1],D=e(fE,a[1]),c=hz(a[1]);if(W)var
-ad=W[1],ae=[0,ad[2],ad[1]];else
+c=a;return c}function
+hH(b,a){var
+c=i(cu(function(a){return 0===a[0]?0:1},b));return t(i(a),c)}function
+lK(a){if(a){var
+b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
+lL(aM,Y,aJ,X,W,b,aI,B){var
+a=hv(Y,aJ,X,W),aN=i(B);if(aM)var
+_=0;else
 var
-ae=[0,d,0];var
-U=j6(q,a);if(U){var
-i=e$(c,D,a[1]),g=gJ(c,D,a[1],0),aj=j(a[3]),ak=P(j(i),aj),K=[0,j(i),ak],al=a[3],F=aq(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},al),am=F?B(function(a){var
-b=e(b9,jS(i,a));return[0,a[4],b]},g):F,an=f(gK(g,c,K,a[3]),am),ao=f(bD(jp(g)),an),L=f(bD(e0(g)),ao),M=c9(L)[1],m=cA(M),N=n(function(a){var
-b=l(d);return aL(u(bk(m,a),m,b),a)},L);if(N){var
-O=aq(pv,a[3]);if(O){var
+aE=a[1],aF=e(fG,a[1]),V=fc(hA(a[1]),aF,aE),aH=aB(aV(0,i(V)),V),_=e(aK,cu(function(a){return gL(a[2])},aH));var
+C=cR(_,aN,B);if(C){var
+$=C[1];if($[2])return 0;var
+aa=hG(Y,X,W,a),ab=aa?fJ(vQ,B):aa;if(ab){var
+aO=$[1],D=e(fG,a[1]),c=hA(a[1]),aP=lK(aI),U=j7(q,a);if(U){var
+j=fc(c,D,a[1]),g=gJ(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ai=a[3],F=aq(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ai),aj=F?A(function(a){var
+b=e(b9,jT(j,a));return[0,a[4],b]},g):F,ak=f(gK(g,c,K,a[3]),aj),al=f(bE(jq(g)),ak),L=f(bE(dY(g)),al),M=c_(L)[1],m=cA(M),O=n(function(a){var
+b=l(d);return aL(u(bl(m,a),m,b),a)},L);if(O){var
+P=aq(pA,a[3]);if(P){var
 s=D,o=a[1];for(;;){if(o){var
-p=o[1],t=by(d,s);switch(p[0]){case
+p=o[1],t=bz(d,s);switch(p[0]){case
 0:var
 G=p[1],H=gM(b,G[1],t),E=0;if(H){var
 r=ag(b,[0,G[4],c]);if(r)var
@@ -5289,17 +5295,17 @@ h=I;break;case
 1:var
 J=p[3],h=J?gM(b,J[1],t):1;break;default:var
 h=gM(b,p[1],t)}if(h){var
-ai=o[2],s=ca(s),o=ai;continue}var
+ad=o[2],s=ca(s),o=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
-v=O;if(v){var
-ap=a[3],ar=B(function(a){return dh(c,a)},ap),as=a[3],at=f(i,f(e(function(a){return bo(c,a)},as),ar)),w=ah(e(function(a){return ag(b,a)},at));if(w){var
-au=aG(fd(a[2]),c),x=ah(e(function(a){return ag(b,a)},au));if(x){var
-av=a[3],y=ah(jT(b,ae,function(a){return bk(m,a)},i,g,c,K,av));if(y){var
-R=y[1],aw=gI(R),ax=x[1],ay=a[2],az=function(a){return jU(b,ay,c,a)},aC=w[1],aD=0,aE=jp(g),aF=k(aB(function(a){return bk(m,a)}),aE),aH=e0(g);return e9(b,M,k(aB(function(a){return bk(m,a)}),aH),aF,aD,aC,R,az,ax,aw,aQ)}var
+v=P;if(v){var
+am=a[3],an=A(function(a){return di(c,a)},am),ao=a[3],ap=f(j,f(e(function(a){return bp(c,a)},ao),an)),w=ah(e(function(a){return ag(b,a)},ap));if(w){var
+ar=aG(fg(a[2]),c),x=ah(e(function(a){return ag(b,a)},ar));if(x){var
+at=a[3],y=ah(jU(b,aP,function(a){return bl(m,a)},j,g,c,K,at));if(y){var
+R=y[1],au=gI(R),av=x[1],aw=a[2],ax=function(a){return jV(b,aw,c,a)},ay=w[1],az=0,aA=jq(g),aC=k(as(function(a){return bl(m,a)}),aA),aD=dY(g);return fa(b,M,k(as(function(a){return bl(m,a)}),aD),aC,az,ay,R,ax,av,au,aO)}var
 S=y}else
 var
 S=x;var
@@ -5310,26 +5316,26 @@ z=T}else
 var
 z=v}else
 var
-z=N;return z}return U}var
-af=ac}else
+z=O;return z}return U}var
+ac=ab}else
 var
-af=C;return af}function
-vN(a){if(0===a[0])return lv(a[1]);var
-b=a[1],c=dt(b[6]);return f(dt(b[5]),c)}function
-vO(a){if(0===a[0])return lw(a[1]);var
+ac=C;return ac}function
+vR(a){if(0===a[0])return ly(a[1]);var
+b=a[1],c=du(b[6]);return f(du(b[5]),c)}function
+vS(a){if(0===a[0])return lz(a[1]);var
 b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-vP(a){if(0===a[0])return[0,fE(a[1]),d];var
+vT(a){if(0===a[0])return[0,fG(a[1]),d];var
 b=a[1],c=b1(a1(b[2]));return[0,b1(a1(b[1])),c]}function
-lH(A,aM,ap,ao,z,an,g){var
-l=hv(A,aM,ap,ao);if(z){var
+lM(B,aM,ap,ao,z,an,g){var
+l=hv(B,aM,ap,ao);if(z){var
 C=z[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=lz(A,e(h,an));if(ar[2])return 0;var
+ar=lC(B,e(h,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 g==="number")var
-a=0===g?vq:vr;else
+a=0===g?vu:vv;else
 if(0===g[0]){var
-c=g[2],m=g[1],H=y(vn,W(as,m)),J=0;if(H){var
+c=g[2],m=g[1],H=y(vr,W(as,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
@@ -5400,16 +5406,16 @@ a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hG(B(lC,A),an),au=at?hF(A,ap,ao,l):at;if(au){var
-f=a[1],aN=h(D[1]),aO=h(C[1]),j=[0,h(z[1]),aO,aN],k=ar[1],P=jW(q,l,k,j);if(P)if(typeof
+at=hH(A(lF,B),an),au=at?hG(B,ap,ao,l):at;if(au){var
+f=a[1],aN=h(D[1]),aO=h(C[1]),i=[0,h(z[1]),aO,aN],k=ar[1],P=jX(q,l,k,i);if(P)if(typeof
 f==="number")return 0===f?aq(function(c){var
-a=jX(c,j);return a?i(q,0,[3,[0,d,b],a[1]]):a},k):jd(px,e(function(b){var
-a=gO(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+a=jY(c,i);return a?j(q,0,[3,[0,d,b],a[1]]):a},k):je(pC,e(function(b){var
+a=gO(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
 E=W(l[3],f[1]);if(E){var
-aI=E[1],aJ=jY(f[3]);return j3(q,k,j,jY(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=jZ(f[3]);return j4(q,k,i,jZ(f[2]),aJ,aI)}return E}var
 F=W(l[3],f[1]);if(F){var
 G=W(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cJ(Q,j);return j3(q,k,j,cJ(Q,j),aL,aK)}var
+Q=G[1],aK=F[1],aL=cJ(Q,i);return j4(q,k,i,cJ(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5425,21 +5431,21 @@ ax=C;var
 ay=ax}else
 var
 ay=z;return ay}function
-lI(m,l,b,k,z,x){var
+lN(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=W(f,g),n=h?dL(h[1][2],vS):h;if(n)var
-A=d[2],i=lI(m,l,b,k,hy(0,g,f),A);else
+g=d[1],h=W(f,g),n=h?dM(h[1][2],vW):h;if(n)var
+A=d[2],i=lN(m,l,b,k,hz(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hy(1,g,f),d=B;continue}return i}var
-c=d[1],a=lt(0,m,f),o=e(function(b){function
-d(b){return lu(a,b)}function
-c(a){return hw(d,a)}switch(b[0]){case
+B=d[3],f=hz(1,g,f),d=B;continue}return i}var
+c=d[1],a=lw(0,m,f),o=e(function(b){function
+d(b){return lx(a,b)}function
+c(a){return hx(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lu(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hw(function(b){return an(a,b)},q),s=b[1],j=[0,hw(function(b){return an(a,b)},s),r];else
+q=b[2],r=hx(function(b){return an(a,b)},q),s=b[1],j=[0,hx(function(b){return an(a,b)},s),r];else
 var
 t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(e){var
@@ -5463,273 +5469,293 @@ h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lG(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lH(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-lJ(i,g){var
+1:return lL(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lM(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+lO(i,g){var
 a=bS(h(i));if(a){var
-c=a[1],e=c7([0,d,b],c);if(e)return c7(c,g);var
+c=a[1],e=c8([0,d,b],c);if(e)return c8(c,g);var
 f=e}else
 var
 f=a;return f}function
-vU(o){var
-dt=fA(o[3]),dv=dt?fA(o[4]):dt;if(dv){var
-F=o[1];switch(F[0]){case
+vY(o){var
+dA=fC(o[3]),dB=dA?fC(o[4]):dA;if(dB){var
+G=o[1];switch(G[0]){case
 3:var
-dC=n(eg,F[1]);if(dC)var
-gy=F[2],bJ=n(function(a){return eg(a[1])},gy);else
+dI=n(ei,G[1]);if(dI)var
+gT=G[2],bO=n(function(a){return ei(a[1])},gT);else
 var
-bJ=dC;if(bJ)var
-gz=F[3],bK=n(function(a){var
-b=eg(a[1]),c=b?hs(a[2]):b;return c?eh(a[2]):c},gz);else
+bO=dI;if(bO)var
+gU=G[3],bP=n(function(a){var
+b=ei(a[1]),c=b?hs(a[2]):b;return c?ej(a[2]):c},gU);else
 var
-bK=bJ;if(bK)var
-gA=F[4],aD=n(function(a){var
+bP=bO;if(bP)var
+gV=G[4],aF=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hs(a);return b?eh(a):b},b)},gA);else
+b=hs(a);return b?ej(a):b},b)},gV);else
 var
-aD=bK;break;case
+aF=bP;break;case
 7:var
-gB=F[1],dD=n(function(a){var
-b=eg(a[1]);return b?fB(0,[0,a[2][1],[0,a[2][2],0]]):b},gB),aD=dD?fB(0,[0,F[5],[0,F[6],0]]):dD;break;default:var
-aD=1}var
-bI=aD}else
+gW=G[1],dJ=n(function(a){var
+b=ei(a[1]);return b?fD(0,[0,a[2][1],[0,a[2][2],0]]):b},gW),aF=dJ?fD(0,[0,G[5],[0,G[6],0]]):dJ;break;default:var
+aF=1}var
+bN=aF}else
 var
-bI=dv;var
-cc=0;if(bI){var
-dw=o[1],dx=7===dw[0]?e(aK,dw[1]):0,dy=function(c,b){var
-a=ln(c);return a?n(function(a){var
+bN=dB;var
+cj=0;if(bN){var
+dC=o[1],dD=7===dC[0]?e(aK,dC[1]):0,dE=function(c,b){var
+a=lo(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fA(a[2]);if(b){var
+b=fC(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fA(a[1]);case
+1:return fC(a[1]);case
 5:case
 6:case
 7:var
-a=a[1];continue;default:return 1}},b)},b):a},dz=function(d,c,b){var
-a=ln(d);return a?fB(dx,f(c,b)):a},g=o[1];switch(g[0]){case
+a=a[1];continue;default:return 1}},b)},b):a},dF=function(d,c,b){var
+a=lo(d);return a?fD(dD,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-f7=B(cO,g[4]),f8=f(B(uK,g[3]),f7),f9=f(lk(g[2]),f8),G=f(B(ht,g[1]),f9);break;case
+gk=A(cO,g[4]),gl=f(A(uP,g[3]),gk),gm=f(ll(g[2]),gl),I=f(A(ht,g[1]),gm);break;case
 1:var
-bE=g[5],bF=g[3],f_=B(cO,g[6]),f$=bE?ll(bE[1]):bE,ga=f(f$,f_),E=g[4],gb=0===E[0]?f(E[1],E[2]):[0,E[1],[0,E[2],[0,E[3],[0,E[4],[0,E[5],0]]]]],gc=f(gb,ga),gd=bF?[0,bF[1],0]:bF,ge=f(gd,gc),G=f(B(uJ,g[2]),ge);break;case
+bK=g[5],bL=g[3],gn=A(cO,g[6]),go=bK?lm(bK[1]):bK,gp=f(go,gn),F=g[4],gq=0===F[0]?f(F[1],F[2]):[0,F[1],[0,F[2],[0,F[3],[0,F[4],[0,F[5],0]]]]],gr=f(gq,gp),gs=bL?[0,bL[1],0]:bL,gt=f(gs,gr),I=f(A(uO,g[2]),gt);break;case
 2:var
-gf=B(cO,g[7]),gg=f(ll(g[6]),gf),gh=f(g[5],gg),gi=f(g[4],gh),gj=[0,g[3],gi],gk=g[2],G=f(B(function(a){return B(dp,f(a[1],a[2]))},gk),gj);break;case
+gu=A(cO,g[7]),gv=f(lm(g[6]),gu),gw=f(g[5],gv),gx=f(g[4],gw),gy=[0,g[3],gx],gz=g[2],I=f(A(function(a){return A(dq,f(a[1],a[2]))},gz),gy);break;case
 3:var
-gl=B(cO,g[7]),gm=f(g[6],gl),gn=f(g[5],gm),gp=g[2],G=f(B(function(a){return dp(a[2])},gp),gn);break;case
+gA=A(cO,g[7]),gB=f(g[6],gA),gC=f(g[5],gB),gD=g[2],I=f(A(function(a){return dq(a[2])},gD),gC);break;case
 4:var
-gq=B(cO,g[3]),G=[0,g[1],[0,g[2],gq]];break;case
+gE=A(cO,g[3]),I=[0,g[1],[0,g[2],gE]];break;case
 5:var
-gr=B(cO,g[4]),gs=f(br(g[3]),gr),gt=f(br(g[2]),gs),gu=f(B(ht,g[1]),gt),G=[0,g[5],gu];break;case
+gF=A(cO,g[4]),gG=f(bs(g[3]),gF),gH=f(bs(g[2]),gG),gM=f(A(ht,g[1]),gH),I=[0,g[5],gM];break;case
 6:var
-bH=g[1],G=bH?dp(bH[1]):bH;break;default:var
-gv=B(cO,g[4]),gw=f(lk(g[3]),gv),G=f(B(ht,g[2]),gw)}var
-dA=fB(dx,G);if(dA){var
-O=o[2];switch(O[0]){case
+bM=g[1],I=bM?dq(bM[1]):bM;break;default:var
+gQ=A(cO,g[4]),gR=f(ll(g[3]),gQ),I=f(A(ht,g[2]),gR)}var
+dG=fD(dD,I);if(dG){var
+R=o[2];switch(R[0]){case
 0:var
-ar=dy(O[1],O[3]);break;case
+at=dE(R[1],R[3]);break;case
 1:var
-ar=dz(O[1],O[2],O[3]);break;default:var
-gx=O[1],ar=n(function(a){if(typeof
+at=dF(R[1],R[2],R[3]);break;default:var
+gS=R[1],at=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dy(a[1],a[3]);case
-2:return dz(a[1],a[2],a[3])}return 1},gx)}}else{var
-dB=dA;cc=1}}else{var
-dB=bI;cc=1}if(cc)var
-ar=dB;if(ar){var
+1:return dE(a[1],a[3]);case
+2:return dF(a[1],a[2],a[3])}return 1},gS)}}else{var
+dH=dG;cj=1}}else{var
+dH=bN;cj=1}if(cj)var
+at=dH;if(at){var
 a=o[1];switch(a[0]){case
 0:var
-d3=a[4],d5=a[3],d6=a[2],d7=a[1],Q=o[2];switch(Q[0]){case
-0:return lG(0,d7,d6,d5,d3,Q[1],Q[2],Q[3]);case
-1:return lH(d7,d6,d5,d3,Q[2],Q[3],Q[4]);default:return 0}case
+ea=a[4],eb=a[3],ee=a[2],ef=a[1],S=o[2];switch(S[0]){case
+0:return lL(0,ef,ee,eb,ea,S[1],S[2],S[3]);case
+1:return lM(ef,ee,eb,ea,S[2],S[3],S[4]);default:return 0}case
 1:var
-aN=a[6],aO=a[5],aP=a[4],aQ=a[3],X=a[2],A=a[1],aa=o[2];switch(aa[0]){case
+aQ=a[6],aR=a[5],aT=a[4],aU=a[3],ac=a[2],C=a[1],ae=o[2];switch(ae[0]){case
 0:var
-bT=aa[3],gW=aa[1],aM=ls(A,X,aQ,aP,aO,aN),dM=aM[2],bO=B(vN,dM),gR=bO?[0,bO[1],bO[2]]:B(vO,dM),dL=x(b,b1(gR)),dN=e(vP,aM[2]),dO=hb(dL,dN,aM[2]),gS=j(bT),gT=aA(aV(0,j(dO)),dO),bP=cR(e(aK,cu(function(a){return gL(a[2])},gT)),gS,bT);if(bP){var
-dQ=bP[1];if(dQ[2])return 0;var
-dR=lF(A,X,aQ,aP,aO,aN),dS=dR?fH(a0(A),bT):dR;if(dS)return qo(q,gW,aM,dL,dN,dQ[1]);var
-dT=dS}else
+b0=ae[3],hf=ae[1],aP=lv(C,ac,aU,aT,aR,aQ),dU=aP[2],bV=A(vR,dU),g9=bV?[0,bV[1],bV[2]]:A(vS,dU),dT=x(b,b1(g9)),dV=e(vT,aP[2]),dW=hb(dT,dV,aP[2]),g$=i(b0),ha=aB(aV(0,i(dW)),dW),bW=cR(e(aK,cu(function(a){return gL(a[2])},ha)),g$,b0);if(bW){var
+dX=bW[1];if(dX[2])return 0;var
+d0=lI(C,ac,aU,aT,aR,aQ),d1=d0?fJ(a0(C),b0):d0;if(d1)return qt(q,hf,aP,dT,dV,dX[1]);var
+d2=d1}else
 var
-dT=bP;return dT;case
+d2=bW;return d2;case
 1:var
-d8=aa[3],gX=aa[4],gY=aa[2],dU=typeof
-A==="number"?A?vQ:vR:fG(A[1]),bQ=e(h,gY),dV=lB(X,e(h,d8));if(dV[2])return 0;var
-dW=hG(B(lE,X),d8),dX=dW?lF(A,X,aQ,aP,aO,aN):dW;if(dX)var
-gU=a0(A),bR=t(j(bQ),gU);else
+eg=ae[3],hh=ae[4],hi=ae[2],d4=typeof
+C==="number"?C?vU:vV:fI(C[1]),bX=e(h,hi),d6=lE(ac,e(h,eg));if(d6[2])return 0;var
+d7=hH(A(lH,ac),eg),d8=d7?lI(C,ac,aU,aT,aR,aQ):d7;if(d8)var
+hc=a0(C),bZ=t(i(bX),hc);else
 var
-bR=dX;if(bR){var
-gV=hB(gX),p=go(dU,bQ),w=a9(dP(dU,bQ)),V=dV[1],J=ls(A,X,aQ,aP,aO,aN),cz=kM(q,J[2],V);if(cz){var
-cv=gN(q,J[4],w),cd=0;if(cv){var
-cw=J[5];if(cw)var
-a6=kn(q,cw[1],p);else
+bZ=d8;if(bZ){var
+he=hC(hh),p=eN(d4,bX),z=a_(c7(d4,bX)),ab=d6[1],K=lv(C,ac,aU,aT,aR,aQ),cF=kN(q,K[2],ab);if(cF){var
+cC=gN(q,K[4],z),ck=0;if(cC){var
+cD=K[5];if(cD)var
+ba=ko(q,cD[1],p);else
 if(p)var
-a6=0;else{var
-cy=1;cd=1}}else{var
-cy=cv;cd=1}if(cd)var
-a6=cy;var
-a7=a6}else
+ba=0;else{var
+cE=1;ck=1}}else{var
+cE=cC;ck=1}if(ck)var
+ba=cE;var
+bc=ba}else
 var
-a7=cz;if(a7){var
-v=J[5],cB=J[3],aw=J[1],e5=J[6],eY=e(function(a){if(0===a[0]){var
-d=bY(v,p,w,a),c=gO(a[1],d);return[0,kK(aw,c,ap([5,[0,b,b],cB],d4(g_(v,p,fn(a)),c)))]}return 0},V),eZ=B(function(a){if(0===a[0]){var
-c=bY(v,p,w,a),b=jX(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bY(v,p,w,a);return[0,kd(a[1],e),0]},V),e1=e(function(d){var
-b=bY(v,p,w,d);if(0===d[0]){var
+bc=cF;if(bc){var
+v=K[5],cG=K[3],ay=K[1],fh=K[6],e_=e(function(a){if(0===a[0]){var
+d=bY(v,p,z,a),c=gO(a[1],d);return[0,kL(ay,c,ap([5,[0,b,b],cG],d5(g_(v,p,fq(a)),c)))]}return 0},ab),e$=A(function(a){if(0===a[0]){var
+c=bY(v,p,z,a),b=jY(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bY(v,p,z,a);return[0,ke(a[1],e),0]},ab),fb=e(function(d){var
+b=bY(v,p,z,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=ap(i,at(e)),l=d2(e,h,g,b);return[0,[0,kL(aw,$(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=ff(c,b),o=kg(c,b),q=c[4],r=$(function(b,a){return[2,b,a]},b,q);return[0,[0,kL(aw,$(function(b,a){return[3,b,a]},r,o)),n,m]]},V),e3=e(function(a){if(0===a[0]){var
-c=bY(v,p,w,a);return[0,gP(a[1],c)]}var
-b=a[1],d=kf(b,bY(v,p,w,a));return[1,ke(b,bY(v,p,w,a)),d]},V),e4=[0,e(function(a){if(0===a[0])var
-k=bY(v,p,w,a),d=cJ(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=ap(i,au(e)),l=d3(e,h,g,b);return[0,[0,kM(ay,$(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fi(c,b),o=kh(c,b),q=c[4],r=$(function(b,a){return[2,b,a]},b,q);return[0,[0,kM(ay,$(function(b,a){return[3,b,a]},r,o)),n,m]]},ab),fd=e(function(a){if(0===a[0]){var
+c=bY(v,p,z,a);return[0,gP(a[1],c)]}var
+b=a[1],d=kg(b,bY(v,p,z,a));return[1,kf(b,bY(v,p,z,a)),d]},ab),fg=[0,e(function(a){if(0===a[0])var
+k=bY(v,p,z,a),d=cJ(a[1],k);else
 var
-e=bY(v,p,w,a),c=a[1],f=kg(c,e),g=c[4],h=$(function(b,a){return[2,b,a]},e,g),i=$(function(b,a){return[3,b,a]},h,f),j=ff(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kK(aw,d,ap([5,[0,b,b],cB],d4(g_(v,p,fn(a)),d)))},V),e3,e1,eZ,eY];return ka(q,a0(J[1]),e4,e5,gV)}return a7}return bR;default:return 0}case
+e=bY(v,p,z,a),c=a[1],f=kh(c,e),g=c[4],h=$(function(b,a){return[2,b,a]},e,g),i=$(function(b,a){return[3,b,a]},h,f),j=fi(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kL(ay,d,ap([5,[0,b,b],cG],d5(g_(v,p,fq(a)),d)))},ab),fd,fb,e$,e_];return kb(q,a0(K[1]),fg,fh,he)}return bc}return bZ;default:return 0}case
 2:var
-aR=a[7],aT=a[6],aU=a[5],aW=a[4],aX=a[3],ab=a[2],ac=a[1],ae=o[2];switch(ae[0]){case
+aW=a[7],aX=a[6],aY=a[5],aZ=a[4],a2=a[3],af=a[2],ai=a[1],ak=o[2];switch(ak[0]){case
 0:var
-bU=ae[3],d9=lq(ac,ab,aX,aW,aU,aT,aR),bV=cR(0,j(bU),bU);if(bV){var
-d_=bV[1];if(d_[2])return 0;var
-d$=lD(ac,ab,aX,aW,aU,aT,aR),ea=d$?fH(dj(ac),bU):d$;if(ea){var
-g0=d_[1],g1=d9[2],g2=x(b,b1(B(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},g1)));return p4(q,ae[1],d9,g2,g0)}var
-ec=ea}else
+b2=ak[3],eh=lt(ai,af,a2,aZ,aY,aX,aW),b3=cR(0,i(b2),b2);if(b3){var
+ek=b3[1];if(ek[2])return 0;var
+em=lG(ai,af,a2,aZ,aY,aX,aW),en=em?fJ(dk(ai),b2):em;if(en){var
+hj=ek[1],hk=eh[2],hl=x(b,b1(A(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},hk)));return p9(q,ak[1],eh,hl,hj)}var
+eo=en}else
 var
-ec=bV;return ec;case
+eo=b3;return eo;case
 1:var
-ed=ae[3],ee=e(h,ae[2]),ef=fG(ac),ei=lA(ab,e(h,ed));if(ei[2])return 0;var
-ek=hG(B(function(a){return f(a[1],a[2])},ab),ed),el=ek?lD(ac,ab,aX,aW,aU,aT,aR):ek;if(el){var
-g3=hB(ae[4]),R=go(ef,ee),as=a9(dP(ef,ee)),af=ei[1],K=lq(ac,ab,aX,aW,aU,aT,aR),av=K[2],S=af;for(;;){if(av){if(S){var
-ck=S[1],cl=av[1],cm=aS(q,cl[1],ck[1]),co=cm?aS(q,cl[2],ck[2]):cm;if(co){var
-av=av[2],S=S[2];continue}var
-cp=co}else
+ep=ak[3],eq=e(h,ak[2]),er=fI(ai),es=lD(af,e(h,ep));if(es[2])return 0;var
+et=hH(A(function(a){return f(a[1],a[2])},af),ep),eu=et?lG(ai,af,a2,aZ,aY,aX,aW):et;if(eu){var
+hm=hC(ak[4]),T=eN(er,eq),av=a_(c7(er,eq)),al=es[1],M=lt(ai,af,a2,aZ,aY,aX,aW),ax=M[2],V=al;for(;;){if(ax){if(V){var
+cq=V[1],cr=ax[1],cs=aS(q,cr[1],cq[1]),ct=cs?aS(q,cr[2],cq[2]):cs;if(ct){var
+ax=ax[2],V=V[2];continue}var
+cv=ct}else
 var
-cp=S;var
-a5=cp}else
+cv=V;var
+a$=cv}else
 var
-a5=S?0:1;var
-cq=a5?aS(q,K[4],as):a5,cr=cq?kn(q,K[5],R):cq;if(cr){var
-T=K[5],cs=K[3],ct=K[1],eX=K[6],cj=function(a){var
-b=fh(T,R,as,a);return N(fh(T,R,as,a),b)},eS=e(function(c){var
-a=fh(T,R,as,c);return[0,gZ(ct,a,ap([5,[0,b,b],cs],d4(fg(T,R,c[2]),a)))]},af),eT=e(cj,af),eU=e(function(a){return 0},af),eV=e(function(a){return[0,[6,cj(a)]]},af),eW=[0,e(function(c){var
-a=at(fh(T,R,as,c));return gZ(ct,a,ap([5,[0,b,b],cs],d4(fg(T,R,c[2]),a)))},af),eV,eU,eT,eS];return ka(q,dj(K[1]),eW,eX,g3)}return cr}}return el;default:return 0}case
+a$=V?0:1;var
+cw=a$?aS(q,M[4],av):a$,cy=cw?ko(q,M[5],T):cw;if(cy){var
+X=M[5],cz=M[3],cB=M[1],e9=M[6],cp=function(a){var
+b=fk(X,T,av,a);return O(fk(X,T,av,a),b)},e3=e(function(c){var
+a=fk(X,T,av,c);return[0,gZ(cB,a,ap([5,[0,b,b],cz],d5(fj(X,T,c[2]),a)))]},al),e4=e(cp,al),e6=e(function(a){return 0},al),e7=e(function(a){return[0,[6,cp(a)]]},al),e8=[0,e(function(c){var
+a=au(fk(X,T,av,c));return gZ(cB,a,ap([5,[0,b,b],cz],d5(fj(X,T,c[2]),a)))},al),e7,e6,e4,e3];return kb(q,dk(M[1]),e8,e9,hm)}return cy}}return eu;default:return 0}case
 3:var
-aY=a[7],em=a[6],en=a[5],ai=a[4],eo=a[2],bW=a[1],bX=o[2];if(0===bX[0]){var
-bZ=bX[3],b0=cR(0,j(bZ),bZ);if(b0){var
-ep=b0[1];if(ep[2])return 0;var
-gM=j(bW),gQ=j(em),dH=t(j(en),gQ),dI=dH?n(function(a){var
-b=bG(gM,j(ai),a);if(b){if(1===a[1]){var
-c=a[2],d=c?[0,bx(c[1]),0]:aV(0,j(ai));return n(function(b){var
-a=W(ai,b);return a?0===a[1][0]?0:1:a},d)}return 1}return b},aY):dH,dJ=dI?fF(aY):dI,dK=dJ?n(function(a){return ej(a[2])},eo):dJ,eq=dK?n(hD,ds(0,j(ai),aY)):dK,er=eq?fH(j(bW),bZ):eq;if(er){var
-g4=ep[1],g5=a[3],aE=ds(0,j(ai),aY),gC=aA(en,em),bL=e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},gC),gD=e(function(a){return 0===a[0]?[0,e(cn,a[1])]:[1,cn(a[1])]},ai),gE=e(function(a){var
-b=cn(a[2]);return[0,a[1],b]},g5),m=[0,bW,e(function(a){var
-b=bs(a[2]);return[0,a[1],b]},eo),gE,gD],au=bX[1],fM=e(aK,m[2]),bi=f(m[1],fM),bj=j(m[1]),cZ=_(qp,bj),c0=cZ?_(bj,qq):cZ,c1=c0?_(bj,j(m[4])):c0,c2=c1?_(j(m[4]),qr):c1,c3=c2?k5(bi):c2;if(c3){var
-az=bi,ay=m[3];for(;;){if(ay){var
-cV=ay[1],cW=cV[1],cX=ak(aq(function(b){return function(a){return am(b,a)}}(cW),az)),cY=cX?hg(az,cV[2]):cX;if(cY){var
-az=[0,cW,az],ay=ay[2];continue}var
-c4=cY}else
+U=a[7],ev=a[6],ew=a[5],w=a[4],ex=a[2],b4=a[1],a3=o[2];if(0===a3[0]){var
+b5=a3[3],b6=cR(0,i(b5),b5);if(b6){var
+ey=b6[1];if(ey[2])return 0;var
+aO=i(b4),g4=i(ev),dO=t(i(ew),g4),dP=dO?n(function(a){if(11===a[1]){if(typeof
+a[4]==="number"){if(a[2])var
+c=a9(aO,i(w),a);else
 var
-c4=1;var
-bl=c4;break}}else
+h=a[3]?a9(aO,i(w),a):1,c=h;var
+d=c}else
 var
-bl=c3;if(bl)var
-fN=m[4],bm=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bi);return n(function(a){return hg(c,a)},b)},fN);else
+d=a9(aO,i(w),a);var
+b=d}else
 var
-bm=bl;if(bm)var
-fO=m[2],bn=n(function(a){return a8(q,a[2][1],a[2][2])},fO);else
+b=a9(aO,i(w),a);if(b){var
+e=a[1];if(1===e){var
+f=a[2],g=f?[0,by(f[1]),0]:aV(0,i(w));return n(function(b){var
+a=W(w,b);return a?0===a[1][0]?0:1:a},g)}return 11===e?n(function(a){return 0===a[0]?0:1},w):1}return b},U):dO,dQ=dP?fH(U):dP,dR=dQ?n(function(a){return el(a[2])},ex):dQ,ez=dR?n(hE,dt(0,i(w),U)):dR,eA=ez?fJ(i(b4),b5):ez;if(eA){var
+hn=ey[1],ho=a[3],dK=aq(hw,U),aH=dt(0,i(w),U),gX=aB(ew,ev),bQ=e(function(a){var
+b=h(a[2]);return[0,h(a[1]),b]},gX),gY=e(function(a){return 0===a[0]?[0,e(cn,a[1])]:[1,cn(a[1])]},w),g0=e(function(a){var
+b=cn(a[2]);return[0,a[1],b]},ho),m=[0,b4,e(function(a){var
+b=bt(a[2]);return[0,a[1],b]},ex),g0,gY],hp=i(w),g5=lJ(U),g6=0,g7=i(A(function(a){return ls(g6,hp,a)},g5)),bU=A(lr,U),g8=bU?[0,bU[1],bU[2]]:vP,dS=N(i(g8),g7),eB=lK(a3[2]),aw=a3[1],f1=e(aK,m[2]),bq=f(m[1],f1),bu=i(m[1]),c4=_(qu,bu),c5=c4?_(bu,qv):c4,c6=c5?_(bu,i(m[4])):c5,c9=c6?_(i(m[4]),qw):c6,c$=c9?k6(bq):c9;if(c$){var
+aD=bq,aC=m[3];for(;;){if(aC){var
+c0=aC[1],c1=c0[1],c2=aj(aq(function(b){return function(a){return am(b,a)}}(c1),aD)),c3=c2?hg(aD,c0[2]):c2;if(c3){var
+aD=[0,c1,aD],aC=aC[2];continue}var
+da=c3}else
 var
-bn=bm;var
-c5=bn?n(function(a){return a8(q,a[1],a[2])},bL):bn;if(c5){var
-a$=j(m[1]),bb=j(m[2]),cE=P(bb,j(hd(e(b9,m[3])))),e_=m[3],al=k4(m),ax=e_,a_=bb;for(;;){if(ax){var
-cC=ax[1],cD=cC[2],e6=P(a_,j(bq(cD))),e7=ax[2],e8=ba(al,cD,a_),al=[0,[0,cC[1],e8],al],ax=e7,a_=e6;continue}var
-U=k1(a$,al,m[4],cE),fa=k0(al,m[4],cE),fd=m[3],cF=f(kX(k4(m),fd,bb),fa),cG=j(k3(m)),fe=0,fi=f(cF,eb(function(a,b){return kT(U,a,b)},fe,d,cG,aE)),fj=f(bD(fq(U)),fi),cK=f(bD(fp(U)),fj),bc=c9(cK)[1],fk=cA(bc),an=function(a){return bk(fk,a)},cL=t(j(bL),a$);if(cL)var
-fl=m[4],bd=n(function(a){return 0===a[0]?t(j(a[1]),a$):1},fl);else
+da=1;var
+bv=da;break}}else
 var
-bd=cL;var
-cM=bd?n(function(a){var
-b=l(d),c=cA(bc);return aL(u(an(a),c,b),a)},cK):bd,cN=cM?aq(kW,aE):cM;if(cN){var
-fm=k3(m),be=ah(e(function(a){return ag(au,a)},fm));if(be){var
-fr=0,fs=B(function(a){return fo(fr,d,a)},aE),bf=ah(e(function(a){return kU(au,a)},fs));if(bf){var
-bg=ah(e(function(a){return ag(au,[0,a,d])},bL));if(bg){var
-ft=0,fw=0,bh=ah(eb(function(a,b){return kV(au,an,U,fw,d,a,b)},ft,d,cG,aE));if(bh){var
-cP=bh[1],fx=gI(cP),fy=bg[1],fz=function(a){return 0},fC=f(be[1],bf[1]),fI=e(an,cF),fJ=fq(U),fK=k(aB(an),fJ),fL=fp(U);return e9(au,bc,k(aB(an),fL),fK,fI,fC,cP,fz,fy,fx,g4)}var
-cQ=bh}else
+bv=c$;if(bv)var
+f2=m[4],bw=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bq);return n(function(a){return hg(c,a)},b)},f2);else
 var
-cQ=bg;var
-cS=cQ}else
+bw=bv;if(bw)var
+f3=m[2],bx=n(function(a){return a8(q,a[2][1],a[2][2])},f3);else
 var
-cS=bf;var
-cT=cS}else
+bx=bw;var
+db=bx?n(function(a){return a8(q,a[1],a[2])},bQ):bx;if(db){var
+be=i(m[1]),bf=i(m[2]),cM=N(bf,i(hd(e(b9,m[3])))),fp=m[3],ao=k5(m),az=fp,bd=bf;for(;;){if(az){var
+cK=az[1],cL=cK[2],fl=N(bd,i(br(cL))),fm=az[2],fn=bb(ao,cL,bd),ao=[0,[0,cK[1],fn],ao],az=fm,bd=fl;continue}var
+Q=k2(be,ao,m[4],cM),ft=k1(ao,m[4],cM),fu=m[3],cN=f(kY(k5(m),fu,bf),ft),cP=i(k4(m)),fv=0,fy=f(cN,ed(function(a,b){return kU(Q,a,b)},fv,d,cP,aH)),fz=f(bE(ec(Q)),fy),cQ=f(bE(fs(Q)),fz),bg=c_(cQ)[1],fA=cA(bg),aa=function(a){return bl(fA,a)},cS=t(i(bQ),be);if(cS)var
+fB=m[4],bh=n(function(a){return 0===a[0]?t(i(a[1]),be):1},fB);else
 var
-cT=be;var
-cU=cT}else
+bh=cS;var
+cT=bh?n(function(a){var
+b=l(d),c=cA(bg);return aL(u(aa(a),c,b),a)},cQ):bh,cU=cT?aq(kX,aH):cT;if(cU){var
+cV=aj(dK);if(cV)var
+aA=cV;else
 var
-cU=cN;return cU}}return c5}var
-es=er}else
+f0=m[4],aA=n(function(a){return 0===a[0]?0:1},f0)}else
 var
-es=b0;return es}return 0;case
+aA=cU;if(aA){var
+fE=k4(m),bi=ah(e(function(a){return ag(aw,a)},fE));if(bi){var
+fK=0,fL=A(function(a){return fr(fK,d,a)},aH),bj=ah(e(function(a){return kV(aw,a)},fL));if(bj){var
+bk=ah(e(function(a){return ag(aw,[0,a,d])},bQ));if(bk){var
+fM=0,fN=0,bm=ah(ed(function(a,b){return kW(aw,aa,Q,fN,d,a,b)},fM,d,cP,aH));if(bm){var
+bn=bm[1];if(dK)var
+fO=eB[2],fP=eB[1],fQ=ec(Q),fR=[8,k(as(aa),fQ),fP,fO],fo=[0,fR,eN(dS,bn)],bo=f(c7(dS,bn),fo);else
+var
+bo=bn;var
+fS=gI(bo),fT=bk[1],fU=function(a){return 0},fV=f(bi[1],bj[1]),fW=e(aa,cN),fX=ec(Q),fY=k(as(aa),fX),fZ=fs(Q);return fa(aw,bg,k(as(aa),fZ),fY,fW,fV,bo,fU,fT,fS,hn)}var
+cW=bm}else
+var
+cW=bk;var
+cX=cW}else
+var
+cX=bj;var
+cY=cX}else
+var
+cY=bi;var
+cZ=cY}else
+var
+cZ=aA;return cZ}}return db}var
+eC=eA}else
+var
+eC=b6;return eC}return 0;case
 4:if(0===o[2][0]){var
-et=du(h(a[1]));if(et){var
-aZ=a[3],cg=0;if(aZ){var
-aF=aZ[1],aH=aF[4],I=aZ[2];if(aF[1]||aF[2]||aF[3])var
+eD=dv(h(a[1]));if(eD){var
+a4=a[3],cl=0;if(a4){var
+aI=a4[1],aJ=aI[4],J=a4[2];if(aI[1]||aI[2]||aI[3])var
 s=0;else{var
-C=0;if(typeof
-aH!=="number")switch(aH[0]){case
+D=0;if(typeof
+aJ!=="number")switch(aJ[0]){case
 0:var
-a3=0;if(I){var
-aI=I[1],bM=aI[4];if(aI[1]||aI[2]||aI[3]){var
-s=0;C=1;a3=1}else{var
-ch=0;if(typeof
-bM!=="number"&&1===bM[0])if(I[2]){var
-s=0;C=1;a3=1;ch=1}else{var
-gF=h(bM[1]),s=[0,[0,h(aH[1]),gF]];C=1;a3=1;ch=1}if(!ch)var
-dF=0}}else
+a6=0;if(J){var
+aM=J[1],bR=aM[4];if(aM[1]||aM[2]||aM[3]){var
+s=0;D=1;a6=1}else{var
+cm=0;if(typeof
+bR!=="number"&&1===bR[0])if(J[2]){var
+s=0;D=1;a6=1;cm=1}else{var
+g1=h(bR[1]),s=[0,[0,h(aJ[1]),g1]];D=1;a6=1;cm=1}if(!cm)var
+dM=0}}else
 var
-dF=I;if(!a3){var
-s=dF;C=1}break;case
+dM=J;if(!a6){var
+s=dM;D=1}break;case
 1:var
-a4=0;if(I){var
-aJ=I[1],bN=aJ[4];if(aJ[1]||aJ[2]||aJ[3]){var
-s=0;C=1;a4=1}else{var
-ci=0;if(typeof
-bN!=="number"&&0===bN[0])if(I[2]){var
-s=0;C=1;a4=1;ci=1}else{var
-gG=h(aH[1]),s=[0,[0,h(bN[1]),gG]];C=1;a4=1;ci=1}if(!ci)var
-dG=0}}else
+a7=0;if(J){var
+aN=J[1],bT=aN[4];if(aN[1]||aN[2]||aN[3]){var
+s=0;D=1;a7=1}else{var
+co=0;if(typeof
+bT!=="number"&&0===bT[0])if(J[2]){var
+s=0;D=1;a7=1;co=1}else{var
+g2=h(aJ[1]),s=[0,[0,h(bT[1]),g2]];D=1;a7=1;co=1}if(!co)var
+dN=0}}else
 var
-dG=I;if(!a4){var
-s=dG;C=1}break}if(!C){var
-dE=0;cg=1}}}else{var
-dE=aZ;cg=1}if(cg)var
-s=dE;if(s){var
-eu=s[1],ev=eu[2],ew=eu[1],c$=i(q,1,h(a[2])),da=c$?i(q,1,[3,ev,[0,b,b]]):c$,dc=da?i(q,1,ew):da;return dc?i(q,0,[3,[5,[0,b,b],ev],ew]):dc}var
-ex=s}else
+dN=J;if(!a7){var
+s=dN;D=1}break}if(!D){var
+dL=0;cl=1}}}else{var
+dL=a4;cl=1}if(cl)var
+s=dL;if(s){var
+eE=s[1],eF=eE[2],eG=eE[1],dg=j(q,1,h(a[2])),dh=dg?j(q,1,[3,eF,[0,b,b]]):dg,dj=dh?j(q,1,eG):dh;return dj?j(q,0,[3,[5,[0,b,b],eF],eG]):dj}var
+eH=s}else
 var
-ex=et;return ex}return 0;case
+eH=eD;return eH}return 0;case
 5:var
-b2=a[4],ey=a[1],b3=o[2];if(0===b3[0]){var
-ez=b3[3],r=hv(ey,[0,a[2],a[3]],0,b2),b4=hC(j(ez),ez);if(b4){var
-eA=b4[1];if(eA[2])return 0;var
-eB=hF(ey,0,b2,r),eC=eB?ak(aq(vL,b2)):eB;if(eC){var
-eD=j6(q,r);if(eD){var
-g6=eA[1],eE=e(fE,r[1]),z=hz(r[1]),eF=h(a[5]),M=b3[1],bu=e$(z,eE,r[1]),D=gJ(z,eE,r[1],0),fT=j(r[3]),fU=P(j(bu),fT),aC=[0,j(bu),fU],fV=gK(D,z,aC,r[3]),fW=f(e(db,D),fV),dg=f(bD(e0(D)),fW),di=c9(dg)[1],bv=cA(di),dk=r[2];if(0===dk[0]){var
-dl=n(function(a){var
-b=l(d);return aL(u(bk(bv,a),bv,b),a)},dg),dm=dl?i(q,1,eF):dl;if(dm){var
-fX=r[3],fY=B(function(a){return dh(z,a)},fX),fZ=r[3],f0=f(bu,f(e(function(a){return bo(z,a)},fZ),fY)),bw=ah(e(function(a){return ag(M,a)},f0));if(bw){var
-f1=aG(dk[1],z),by=ah(e(function(a){return ag(M,a)},f1));if(by){var
-bz=cf(M,z,[5,eF,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bz){var
-bB=r[3],f2=by[1],f3=bz[1],f4=bw[1],ao=function(a){return bk(bv,a)},fQ=aV(0,j(bB)),fR=e(function(h){var
-l=W(bB,h);if(l){var
-a=l[1],u=dP(h,bB),v=j(B(function(a){return dh(z,a)},u)),w=P(aC[2],v),g=[0,P(aC[1],h),w],r=e0(D),f=k(aB(ao),r),c=[1,[8,[1,[1,g[1]]]]],d=fc(D,z,g,a),n=d?[0,[3,e(ao,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b7=a[4],eI=a[1],b8=o[2];if(0===b8[0]){var
+eJ=b8[3],r=hv(eI,[0,a[2],a[3]],0,b7),b_=hD(i(eJ),eJ);if(b_){var
+eK=b_[1];if(eK[2])return 0;var
+eL=hG(eI,0,b7,r),eM=eL?aj(aq(hw,b7)):eL;if(eM){var
+eO=j7(q,r);if(eO){var
+hq=eK[1],eP=e(fG,r[1]),B=hA(r[1]),eQ=h(a[5]),P=b8[1],bC=fc(B,eP,r[1]),E=gJ(B,eP,r[1],0),f8=i(r[3]),f9=N(i(bC),f8),aE=[0,i(bC),f9],f_=gK(E,B,aE,r[3]),f$=f(e(dc,E),f_),dp=f(bE(dY(E)),f$),dr=c_(dp)[1],bF=cA(dr),ds=r[2];if(0===ds[0]){var
+du=n(function(a){var
+b=l(d);return aL(u(bl(bF,a),bF,b),a)},dp),dw=du?j(q,1,eQ):du;if(dw){var
+ga=r[3],gb=A(function(a){return di(B,a)},ga),gc=r[3],gd=f(bC,f(e(function(a){return bp(B,a)},gc),gb)),bG=ah(e(function(a){return ag(P,a)},gd));if(bG){var
+ge=aG(ds[1],B),bH=ah(e(function(a){return ag(P,a)},ge));if(bH){var
+bI=cf(P,B,[5,eQ,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bI){var
+bJ=r[3],gf=bH[1],gg=bI[1],gh=bG[1],ar=function(a){return bl(bF,a)},f5=aV(0,i(bJ)),f6=e(function(h){var
+l=W(bJ,h);if(l){var
+a=l[1],u=c7(h,bJ),v=i(A(function(a){return di(B,a)},u)),w=N(aE[2],v),g=[0,N(aE[1],h),w],r=dY(E),f=k(as(ar),r),c=[1,[8,[1,[1,g[1]]]]],d=ff(E,B,g,a),n=d?[0,[3,e(ar,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=i(M,1,a[2]),s=o?n:o;return s;case
+o=j(P,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=i(M,1,[5,a[2],a[1]]);if(!p)return p;var
+p=j(P,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -5737,26 +5763,26 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fb(D,z,g,a);return y(function(a){return[0,k(aB(ao),a),q]},t)}return 0}return l},fQ),fS=e(function(a){return ao(db(a))},D),dd=e(function(a){return ao(a[2])},D),f5=r[3],f6=aC[1],de=e(ad,f4),df=function(az,ay){var
+t=fe(E,B,g,a);return y(function(a){return[0,k(as(ar),a),q]},t)}return 0}return l},f5),f7=e(function(a){return ar(dc(a))},E),dl=e(function(a){return ar(a[2])},E),gi=r[3],gj=aE[1],dm=e(ad,gh),dn=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=t(j(s),qA),ab=aa?n(function(a){var
+s=h[1],aa=t(i(s),qF),ab=aa?n(function(a){var
 d=H(L(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
-ac=ld(M,f3,e2(0,l),s),i=h[2],v=bA(0,ce(M,ac,de),di,0),N=function(a){return lc(lb(M,ac,de,v,a))};if(typeof
-i==="number")return 0===i?aq(function(b){var
-a=u(b,v,0);return a?H(a[1][2][2],d):a},dd):0;else{if(0===i[0]){var
-a=i[2],O=n(qy,a);if(O){var
-o=u(i[1],fR,0);if(o){var
+ac=le(P,gg,e5(0,l),s),j=h[2],v=bB(0,ce(P,ac,dm),dr,0),M=function(a){return ld(lc(P,ac,dm,v,a))};if(typeof
+j==="number")return 0===j?aq(function(b){var
+a=u(b,v,0);return a?H(a[1][2][2],d):a},dl):0;else{if(0===j[0]){var
+a=j[2],O=n(qD,a);if(O){var
+o=u(j[1],f6,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fv(B,A),an=fu(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fx(B,A),an=fw(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fu(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fv(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fw(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fx(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5764,7 +5790,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=fu(I),as=[1,[6,fv(m,G),ar]],at=[1,[6,g[2],as]],au=fu(G),J=[0,[0,m,[0,[1,[4,[1,[6,fv(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=fw(I),as=[1,[6,fx(m,G),ar]],at=[1,[6,g[2],as]],au=fw(G),J=[0,[0,m,[0,[1,[4,[1,[6,fx(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -5773,7 +5799,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return lc(u(a[2],v,0))},aw);if(R)return n(N,Q[2]);var
+Q=f[1],aw=Q[1],R=n(function(a){return ld(u(a[2],v,0))},aw);if(R)return n(M,Q[2]);var
 S=R}else
 var
 S=f;var
@@ -5783,12 +5809,12 @@ T=o;var
 U=T}else
 var
 U=O;return U}var
-V=i[2],X=i[1],p=W(f5,X);if(p){var
+V=j[2],X=j[1],p=W(gi,X);if(p){var
 Z=p[1];if(typeof
 Z!=="number"&&1===Z[0]){var
-q=W(dd,V);if(q){var
-r=W(fS,V);if(r){var
-ax=P(f6,X);return N([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+q=W(dl,V);if(q){var
+r=W(f7,V);if(r){var
+ax=N(gj,X);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
@@ -5796,84 +5822,84 @@ _=0}else
 var
 _=p;return _}}return ab}var
 ad=h[1],w=W(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=ak(Y(bC(ae),aA));if(af){var
-ag=dY(ad,l),ah=df(ag[1],h[2]);if(ah){var
+ae=w[1],aA=ae[1],af=aj(Y(bD(ae),aA));if(af){var
+ag=dZ(ad,l),ah=dn(ag[1],h[2]);if(ah){var
 l=ag[2],h=h[3];continue}var
 ai=ah}else
 var
 ai=af;var
-aj=ai}else
+ak=ai}else
 var
-aj=w;return aj}};return df(f2,g6)}var
-dn=bz}else
+ak=w;return ak}};return dn(gf,hq)}var
+dx=bI}else
 var
-dn=by;var
-dq=dn}else
+dx=bH;var
+dy=dx}else
 var
-dq=bw;var
-dr=dq}else
+dy=bG;var
+dz=dy}else
 var
-dr=dm;return dr}return 0}var
-eG=eD}else
+dz=dw;return dz}return 0}var
+eR=eO}else
 var
-eG=eC;var
-eH=eG}else
+eR=eM;var
+eS=eR}else
 var
-eH=b4;return eH}return 0;case
+eS=b_;return eS}return 0;case
 6:var
-eI=a[1];if(eI){var
-eJ=eI[1],b5=o[2];if(0===b5[0]){var
-b6=hA(0,vV,b5[3]);if(b6){var
-eK=ej(eJ);if(eK){var
-g7=b6[1],eL=bs(eJ)[2],a2=b5[1],bp=cf(a2,d,eL);if(bp){var
-bt=cf(a2,d,[5,[0,b,b],eL]);if(bt){var
-fP=bp[1][1],c6=Z(cx(a2),fP);if(c6)return la(a2,bt[1][1],g7);var
-c8=c6}else
+eT=a[1];if(eT){var
+eU=eT[1],b$=o[2];if(0===b$[0]){var
+ca=hB(0,vZ,b$[3]);if(ca){var
+eV=el(eU);if(eV){var
+hr=ca[1],eW=bt(eU)[2],a5=b$[1],bz=cf(a5,d,eW);if(bz){var
+bA=cf(a5,d,[5,[0,b,b],eW]);if(bA){var
+f4=bz[1][1],dd=Z(cx(a5),f4);if(dd)return lb(a5,bA[1][1],hr);var
+de=dd}else
 var
-c8=bt;var
-c_=c8}else
+de=bA;var
+df=de}else
 var
-c_=bp;return c_}var
-eM=eK}else
+df=bz;return df}var
+eX=eV}else
 var
-eM=b6;return eM}return 0}var
-b7=o[2];if(0===b7[0]){var
-b8=hA(0,vW,b7[3]);return b8?la(b7[1],d,b8[1]):b8}return 0;default:var
-aj=a[1],eN=o[2];if(2===eN[0]){var
-eO=eN[1],b_=hx(j(eO),eO);if(b_){var
-eP=b_[1];if(eP[2])return 0;var
-b$=eP[1],dZ=_(vT,j(aj)),d0=dZ?_(j(aj),iZ):dZ,d1=d0?k5(e(aK,aj)):d0,eQ=d1?n(function(c){var
+eX=ca;return eX}return 0}var
+cb=o[2];if(0===cb[0]){var
+cc=hB(0,v0,cb[3]);return cc?lb(cb[1],d,cc[1]):cc}return 0;default:var
+an=a[1],eY=o[2];if(2===eY[0]){var
+eZ=eY[1],cd=hy(i(eZ),eZ);if(cd){var
+e0=cd[1];if(e0[2])return 0;var
+cg=e0[1],d9=_(vX,i(an)),d_=d9?_(i(an),i0):d9,d$=d_?k6(e(aK,an)):d_,e1=d$?n(function(c){var
 a=bS(h(c[2][1]));if(a){var
-b=bS(h(c[2][2]));if(b)return ak(c7(b[1],a[1]));var
+b=bS(h(c[2][2]));if(b)return aj(c8(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aj):d1;if(eQ)var
-g8=fD(u0,b$),ca=lJ(a[5],g8);else
+d=a;return d},an):d$;if(e1)var
+hu=fF(u4,cg),ch=lO(a[5],hu);else
 var
-ca=eQ;if(ca)var
-g9=fD(u1,b$),cb=lJ(a[6],g9);else
+ch=e1;if(ch)var
+hx=fF(u5,cg),ci=lO(a[6],hx);else
 var
-cb=ca;if(cb){var
-gH=e(function(a){return[0,d,0]},aj);return lI(aj,a[2],a[3],a[4],gH,b$)}var
-eR=cb}else
+ci=ch;if(ci){var
+g3=e(function(a){return[0,d,0]},an);return lN(an,a[2],a[3],a[4],g3,cg)}var
+e2=ci}else
 var
-eR=b_;return eR}return 0}}return ar}var
-K=[aI,vZ,nX(0)],lK=[aI,v0,nX(0)];function
-vX(m,b){var
-f=[0,g(up,ae(b[4])),0],h=[0,g(ur,S([0,g(uq,ae(b[3])),f])),0],a=b[2];switch(a[0]){case
+e2=cd;return e2}return 0}}return at}var
+K=[aI,v3,n2(0)],lP=[aI,v4,n2(0)];function
+v1(m,b){var
+f=[0,g(uu,ae(b[4])),0],h=[0,g(uw,S([0,g(uv,ae(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(ul,li(a[1],a[2],a[3]));break;case
+c=I(uq,lj(a[1],a[2],a[3]));break;case
 1:var
-c=I(um,lj(a[1],a[2],a[3],a[4]));break;default:var
-c=I(un,z(e(ug,a[1])))}var
-i=[0,g(us,c),h],j=1===b[2][0]?uy:ut,k=[0,g(uu,ae(j)),i],l=[0,g(uv,sX(b[1])),k],d=am(iz(vY,fw(S([0,g(ux,ae(uw)),l]),uo)),m);return d?vU(b):d}function
+c=I(ur,lk(a[1],a[2],a[3],a[4]));break;default:var
+c=I(us,z(e(ul,a[1])))}var
+i=[0,g(ux,c),h],j=1===b[2][0]?uD:uy,k=[0,g(uz,ae(j)),i],l=[0,g(uA,s2(b[1])),k],d=am(iA(v2,fy(S([0,g(uC,ae(uB)),l]),ut)),m);return d?vY(b):d}function
 X(a){if(0===a[0])return a[1];throw K}function
 T(a){if(1===a[0])return a[1];throw K}function
 aC(a){if(2===a[0])return a[1];throw K}function
-dw(a){if(3===a[0])return a[1];throw K}function
+dx(a){if(3===a[0])return a[1];throw K}function
 aH(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===BL(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===BQ(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
 a=aH(c,b);if(a)return a[1];throw K}function
@@ -5883,15 +5909,15 @@ cU(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],v1]}throw K}function
-ek(e,d){var
+2:return[0,a[1],v5]}throw K}function
+em(e,d){var
 a=R(e,T(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw K}function
-fI(i){var
-f=dF(i),d=[0,0],e=gc(f)-1|0;if(!(e<0)){var
+fK(i){var
+f=dG(i),d=[0,0],e=gd(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=id(f,c)-48|0;if(9<g>>>0)throw K;switch(g){case
+a=d[1],g=ie(f,c)-48|0;if(9<g>>>0)throw K;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5913,20 +5939,20 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-el(a){return iL(fI(a))}function
-em(b){var
-a=dw(b);return 45===aJ(a,0)?L(el(c4(a,1,al(a)-1|0))):el(a)}function
-lL(a){return dN(el(dw(a)))}function
-fJ(a){return iK(el(dw(a)))}function
+en(a){return iM(fK(a))}function
+eo(b){var
+a=dx(b);return 45===aJ(a,0)?L(en(c4(a,1,al(a)-1|0))):en(a)}function
+lQ(a){return dO(en(dx(a)))}function
+fL(a){return iL(en(dx(a)))}function
 cq(c){var
-a=dw(c);if(6<al(a))throw K;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(im(a))}function
-lM(a){var
-b=97<=a?1:0,c=b?a<=nC?1:0:b;if(c)var
+a=dx(c);if(6<al(a))throw K;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(io(a))}function
+lR(a){var
+b=97<=a?1:0,c=b?a<=nH?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lN(y,b){var
+lS(y,b){var
 d=al(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aJ(b,a[1])===e?1:0:c;return f}function
@@ -5936,24 +5962,24 @@ n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw K}function
 h(i){if(64<i)throw K;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v3)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v7)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lM(aJ(b,a[1]))){var
+v=0;if(a[1]<d&&lR(aJ(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lM(aJ(b,a[1]))&&95!==aJ(b,a[1])&&(!(48<=aJ(b,a[1]))||57<aJ(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!lR(aJ(b,a[1]))&&95!==aJ(b,a[1])&&(!(48<=aJ(b,a[1]))||57<aJ(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,c4(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v4);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v8);if(r)var
 s=r;else
 var
 t=1<al(g)?1:0,s=t?48===aJ(g,0)?1:0:t;if(s)throw K;if(q){var
-j=q[1],x=0;if(am(j,v5)||48===aJ(j,al(j)-1|0))x=1;else
+j=q[1],x=0;if(am(j,v9)||48===aJ(j,al(j)-1|0))x=1;else
 var
-z=fI(j),e=[0,fI(g),z];if(x)throw K}else
+z=fK(j),e=[0,fK(g),z];if(x)throw K}else
 var
-e=[0,fI(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,v2)){if(!(2<al(f))&&2<=im(f)&&!(64<im(f)))return[4,e,dN(el(f))];throw K}throw K}return e}function
+e=[0,fK(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,v6)){if(!(2<al(f))&&2<=io(f)&&!(64<io(f)))return[4,e,dO(en(f))];throw K}throw K}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -5963,46 +5989,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw K;return g}function
-fK(a){return lN(function(a){return[0,a]},a)}function
-hH(a){var
-b=aC(a);return lN(function(a){return a},b)}function
-O(a){return fK(aC(a))}function
-bH(a){if(2===a[0])return[0,fK(a[1])];var
-b=X(a),c=O(p(b,v6));return[1,O(p(b,v7)),c]}function
-V(a){throw[0,lK,aO(iz(v9,a),v8)]}function
-hI(c){var
-a=aC(c);if(m(a,v_)){var
-b=m(a,v$);if(b)throw K;return b}return 1}function
-wa(d){var
+fM(a){return lS(function(a){return[0,a]},a)}function
+hI(a){var
+b=aC(a);return lS(function(a){return a},b)}function
+P(a){return fM(aC(a))}function
+bH(a){if(2===a[0])return[0,fM(a[1])];var
+b=X(a),c=P(p(b,v_));return[1,P(p(b,v$)),c]}function
+V(a){throw[0,lP,aO(iA(wb,a),wa)]}function
+hJ(c){var
+a=aC(c);if(m(a,wc)){var
+b=m(a,wd);if(b)throw K;return b}return 1}function
+we(d){var
 b=X(d);function
-a(a){return ek(bH,p(b,a))}var
-c=aC(p(b,wb));if(m(c,wc)){if(m(c,wd)){if(m(c,we))return V([0,wg,[0,c,wf]]);var
-e=aH(b,wh),f=b2(function(a){return ek(bH,a)},e),g=a(wi);return[1,a(wj),g,f]}var
-h=hI(p(b,wk)),i=bH(p(b,wl)),j=a(wm),k=a(wn);return[0,a(wo),k,j,i,h]}return[2,a(wp)]}function
-wq(d){var
+a(a){return em(bH,p(b,a))}var
+c=aC(p(b,wf));if(m(c,wg)){if(m(c,wh)){if(m(c,wi))return V([0,wk,[0,c,wj]]);var
+e=aH(b,wl),f=b2(function(a){return em(bH,a)},e),g=a(wm);return[1,a(wn),g,f]}var
+h=hJ(p(b,wo)),i=bH(p(b,wp)),j=a(wq),k=a(wr);return[0,a(ws),k,j,i,h]}return[2,a(wt)]}function
+wu(d){var
 a=X(d);if(a){var
-b=a[1];if(!m(b[1],wr)){var
-c=b[2];if(2===c[0]&&!m(c[1],ws))return 1}}return 0}function
-lO(e){var
+b=a[1];if(!m(b[1],wv)){var
+c=b[2];if(2===c[0]&&!m(c[1],ww))return 1}}return 0}function
+lT(e){var
 b=X(e);function
 a(a){return R(bH,T(p(b,a)))}var
-c=aC(p(b,wt)),d=aH(b,wu);if(m(c,wv)){if(m(c,ww)){if(!m(c,wx)&&!d){var
-f=a(wA);return[1,a(wB),f]}}else
+c=aC(p(b,wx)),d=aH(b,wy);if(m(c,wz)){if(m(c,wA)){if(!m(c,wB)&&!d){var
+f=a(wE);return[1,a(wF),f]}}else
 if(!d){var
-g=hI(p(b,wC)),h=bH(p(b,wD)),i=a(wE),j=a(wF);return[0,a(wG),j,i,h,g]}}else
+g=hJ(p(b,wG)),h=bH(p(b,wH)),i=a(wI),j=a(wJ);return[0,a(wK),j,i,h,g]}}else
 if(!d){var
-k=hI(p(b,wH)),l=bH(p(b,wI)),n=bH(p(b,wJ)),o=a(wK),q=a(wL),r=a(wM);return[2,a(wN),r,q,o,n,l,k]}return V([0,wz,[0,c,wy]])}function
-lP(d){var
+k=hJ(p(b,wL)),l=bH(p(b,wM)),n=bH(p(b,wN)),o=a(wO),q=a(wP),r=a(wQ);return[2,a(wR),r,q,o,n,l,k]}return V([0,wD,[0,c,wC]])}function
+lU(d){var
 a=X(d);if(a){var
-b=a[1];if(!m(b[1],wO)){var
-c=b[2];if(2===c[0]&&!m(c[1],wP))return 1}}return 0}function
+b=a[1];if(!m(b[1],wS)){var
+c=b[2];if(2===c[0]&&!m(c[1],wT))return 1}}return 0}function
 cr(c,d){var
 a=T(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw K}function
-fL(f,o){var
-x=f?f[1]:f,c=X(o),a=aC(p(c,wQ)),i=n_(a,wR),h=0;if(0<=i)if(0<i)if(m(a,wS))if(m(a,wT))if(m(a,wU))if(m(a,wV))if(m(a,wW)){var
-j=m(a,wX);if(j)h=1;else
+ep(f,o){var
+x=f?f[1]:f,c=X(o),a=aC(p(c,wU)),i=od(a,wV),h=0;if(0<=i)if(0<i)if(m(a,wW))if(m(a,wX))if(m(a,wY))if(m(a,wZ))if(m(a,w0)){var
+j=m(a,w1);if(j)h=1;else
 var
 b=j}else
 var
@@ -6017,7 +6043,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,xg))if(m(a,xh))if(m(a,xi))if(m(a,xj))if(m(a,xk))if(m(a,xl))if(m(a,xm))h=1;else
+if(m(a,xk))if(m(a,xl))if(m(a,xm))if(m(a,xn))if(m(a,xo))if(m(a,xp))if(m(a,xq))h=1;else
 var
 b=1;else
 var
@@ -6032,135 +6058,137 @@ var
 b=9;else
 var
 b=12;var
-l=h?V([0,wZ,[0,a,wY]]):b;function
-g(a){return p(c,w0)}var
-d=aC(p(c,w1)),k=m(d,w2);if(k)if(m(d,w3))if(m(d,w4))if(m(d,w5))var
-e=V([0,w7,[0,d,w6]]);else
+l=h?V([0,w3,[0,a,w2]]):b;function
+g(a){return p(c,w4)}var
+d=aC(p(c,w5)),k=m(d,w6);if(k)if(m(d,w7))if(m(d,w8))if(m(d,w9))var
+e=V([0,w$,[0,d,w_]]);else
 var
-n=cr(O,g(0)),e=[2,n[1],n[2]];else
+n=cr(P,g(0)),e=[2,n[1],n[2]];else
 var
-e=[0,O(g(0))];else
+e=[0,P(g(0))];else
 var
-e=[1,O(g(0))];else
+e=[1,P(g(0))];else
 var
 e=k;function
 q(y){var
 a=X(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],w9)){var
+p=a[1];if(!m(p[1],xb)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return V(w_)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return V(xc)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],w$)){var
+r=a[1];if(!m(r[1],xd)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],xa)){var
+t=g[1];if(!m(t[1],xe)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
-z=O(h[1]);return[1,O(f[1]),z]}}}}}}}}break;case
+z=P(h[1]);return[1,P(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],xb)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],xc)&&!i[2]&&x)return V(xd)}else
+v=a[1];if(!m(v[1],xf)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],xg)&&!i[2]&&x)return V(xh)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],w8)){var
+n=a[1];if(!m(n[1],xa)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,O(d)];throw K}var
-r=b2(q,aH(c,xe));return[0,l,b2(cq,aH(c,xf)),r,e]}function
-hJ(c){var
-d=fL(xo,c),e=d[1];if(2<=e)switch(e-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,P(d)];throw K}var
+r=b2(q,aH(c,xi));return[0,l,b2(cq,aH(c,xj)),r,e]}function
+hK(c){var
+d=ep(xs,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=fL(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(xn)}function
-lQ(c){var
-d=fL(xp,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:hJ(c)}function
-lR(b){var
-a=X(b[2]);if(m(b[1],xw)){var
-c=cr(O,p(a,xx)),d=cr(O,p(a,xy)),e=d[2],f=d[1],g=O(p(a,xz));return[1,c[1],c[2],g,f,e]}var
-h=R(O,T(p(a,xA)));return[0,R(O,T(p(a,xB))),h]}function
-xC(f){var
+a=ep(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(xr)}function
+xt(a){var
+b=ep(0,a);return 11===b[1]?b:hK(a)}function
+lV(c){var
+d=ep(xu,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:hK(c)}function
+lW(b){var
+a=X(b[2]);if(m(b[1],xB)){var
+c=cr(P,p(a,xC)),d=cr(P,p(a,xD)),e=d[2],f=d[1],g=P(p(a,xE));return[1,c[1],c[2],g,f,e]}var
+h=R(P,T(p(a,xF)));return[0,R(P,T(p(a,xG))),h]}function
+xH(f){var
 a=X(f);function
-d(b){return O(p(a,b))}function
-c(b){return ek(O,p(a,b))}var
-b=aC(p(a,xD));if(m(b,xE)){if(!m(b,xF)){var
-j=p(a,xL),e=cr(function(a){return a},j),k=aH(a,xM),l=b2(function(a){return c(xN)},k),n=fK(aC(e[2])),o=fK(aC(e[1])),q=d(xO);return[0,cq(p(a,xP)),q,o,n,l]}if(m(b,xG))throw K}var
-g=d(xH),h=c(xI),i=c(xJ);return[1,am(b,xK),i,h,g]}function
-hK(ad){var
-e=cU(ad),f=e[1];if(m(f,xQ)){if(m(f,xR)){if(m(f,xS)){if(m(f,xT))return V([0,xV,[0,f,xU]]);var
-r=p(X(e[2]),xW),W=0;if(2===r[0]){var
-A=m(r[1],xX);if(!A){var
+d(b){return P(p(a,b))}function
+c(b){return em(P,p(a,b))}var
+b=aC(p(a,xI));if(m(b,xJ)){if(!m(b,xK)){var
+j=p(a,xQ),e=cr(function(a){return a},j),k=aH(a,xR),l=b2(function(a){return c(xS)},k),n=fM(aC(e[2])),o=fM(aC(e[1])),q=d(xT);return[0,cq(p(a,xU)),q,o,n,l]}if(m(b,xL))throw K}var
+g=d(xM),h=c(xN),i=c(xO);return[1,am(b,xP),i,h,g]}function
+hL(ad){var
+e=cU(ad),f=e[1];if(m(f,xV)){if(m(f,xW)){if(m(f,xX)){if(m(f,xY))return V([0,x0,[0,f,xZ]]);var
+r=p(X(e[2]),x1),W=0;if(2===r[0]){var
+A=m(r[1],x2);if(!A){var
 z=A;W=1}}if(!W)var
 z=[0,bH(r)];return[6,z]}var
-B=X(e[2]),g=hK([0,[0,[0,xZ,p(B,xY)],0]]);if(0===g[0]){var
+B=X(e[2]),g=hL([0,[0,[0,x4,p(B,x3)],0]]);if(0===g[0]){var
 s=g[2];if(0===s[0]&&!g[3]){var
-ae=O(p(B,x1));return[5,g[1],s[1],s[2],g[4],ae]}}return V(x0)}var
+ae=P(p(B,x6));return[5,g[1],s[1],s[2],g[4],ae]}}return V(x5)}var
 b=X(e[2]),C=function(c){var
-a=T(p(b,x2));return R(function(a){return fL(0,a)},a)},h=cU(p(b,x3)),a=cU(p(b,x4)),c=h[1];if(m(c,x5)&&0!==aH(b,x6))return V(y1);if(m(c,x7)&&m(c,x8)&&m(c,x9)){if(0===aH(b,x_)){if(m(c,x$)){var
-Y=0;if(m(c,ya)){if(!m(c,yb)){var
-D=a[1],Z=0;if(m(D,ye)&&m(D,yf)){Y=1;Z=1}if(!Z){var
-t=T(h[2]),u=aH(b,yi),E=u?R(xC,T(u[1])):u,v=C(0);if(!aw(wq,t)&&!aw(function(a){return 13===a[1]?1:0},v)){var
-F=R(wa,t),G=aw(function(a){return 5===a[1]?1:0},v),ah=G?aw(function(a){return 0===a[0]?0:1},F):G;if(ah)V(yl);var
-d=X(a[2]);if(m(a[1],xq))var
-x=cr(O,p(d,xr)),y=cr(O,p(d,xs)),$=y[2],aa=y[1],ab=O(p(d,xt)),H=[1,x[1],x[2],ab,aa,$];else
+a=T(p(b,x7));return R(function(a){return ep(0,a)},a)},h=cU(p(b,x8)),a=cU(p(b,x9)),c=h[1];if(m(c,x_)&&0!==aH(b,x$))return V(y6);if(m(c,ya)&&m(c,yb)&&m(c,yc)){if(0===aH(b,yd)){if(m(c,ye)){var
+Y=0;if(m(c,yf)){if(!m(c,yg)){var
+D=a[1],Z=0;if(m(D,yj)&&m(D,yk)){Y=1;Z=1}if(!Z){var
+t=T(h[2]),u=aH(b,yn),E=u?R(xH,T(u[1])):u,v=C(0);if(!ax(wu,t)&&!ax(function(a){return 13===a[1]?1:0},v)){var
+F=R(we,t),G=ax(function(a){return 5===a[1]?1:0},v),ah=G?ax(function(a){return 0===a[0]?0:1},F):G;if(ah)V(yq);var
+d=X(a[2]);if(m(a[1],xv))var
+x=cr(P,p(d,xw)),y=cr(P,p(d,xx)),$=y[2],aa=y[1],ab=P(p(d,xy)),H=[1,x[1],x[2],ab,aa,$];else
 var
-ac=ek(O,p(d,xu)),H=[0,ek(O,p(d,xv)),ac];return[0,F,H,E,v]}if(0!==E)V(yj);var
-af=R(lQ,T(p(b,yk))),ag=lR(a);return[1,0,R(lO,t),0,ag,0,af]}}}else
-if(!m(a[1],ym)){var
-w=C(0),ai=aw(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bN(w)?1:0);if(aj)V(yn);var
-ak=O(p(X(a[2]),yo));return[4,O(p(X(h[2]),yp)),ak,w]}if(!Y)return V([0,yd,[0,c,yc]])}else
-if(!m(a[1],yq)){var
+ac=em(P,p(d,xz)),H=[0,em(P,p(d,xA)),ac];return[0,F,H,E,v]}if(0!==E)V(yo);var
+af=R(lV,T(p(b,yp))),ag=lW(a);return[1,0,R(lT,t),0,ag,0,af]}}}else
+if(!m(a[1],yr)){var
+w=C(0),ai=ax(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bN(w)?1:0);if(aj)V(ys);var
+ak=P(p(X(a[2]),yt));return[4,P(p(X(h[2]),yu)),ak,w]}if(!Y)return V([0,yi,[0,c,yh]])}else
+if(!m(a[1],yv)){var
 j=X(h[2]),I=X(a[2]),J=function(c,a){var
 b=T(a);return R(function(d){var
 a=T(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,aC(a[1]),e]}}throw K},b)},al=function(d){var
 a=X(d);if(a){var
-b=a[1],c=b[1];if(m(c,yr)){if(!m(c,ys)&&!a[2])return[0,R(hH,T(b[2]))]}else
-if(!a[2])return[1,hH(b[2])]}throw K},an=R(hJ,T(p(b,yt))),ao=R(O,T(p(I,yu))),ap=R(O,T(p(I,yv))),aq=R(al,T(p(j,yw))),ar=J(hH,p(j,yx)),as=J(bH,p(j,yy));return[3,R(aC,T(p(j,yz))),as,ar,aq,ap,ao,an]}return V([0,yh,[0,a[1],yg]])}throw K}var
-L=a[1],M=X(h[2]);if(m(L,yA))V([0,yC,[0,L,yB]]);var
-l=b2(O,aH(M,yD)),at=function(f){var
-a=cU(f),b=a[1];if(m(b,yE)){if(m(b,yF)){if(m(b,yG)){if(m(b,yH))throw K;var
-d=a[2],g=O(p(X(d),yI));return[3,O(p(X(d),yJ)),g]}var
-h=a[2],c=function(a){return cr(O,p(X(h),a))},i=c(yK),j=c(yL);return[1,c(yM),j,i]}var
-e=cr(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},n=b2(at,aH(b,yN)),N=m(c,yO),P=N?m(c,yP)?2:1:N,o=T(p(M,yQ));if(l&&n&&gg(lP,o)){var
+b=a[1],c=b[1];if(m(c,yw)){if(!m(c,yx)&&!a[2])return[0,R(hI,T(b[2]))]}else
+if(!a[2])return[1,hI(b[2])]}throw K},an=R(xt,T(p(b,yy))),ao=R(P,T(p(I,yz))),ap=R(P,T(p(I,yA))),aq=R(al,T(p(j,yB))),ar=J(hI,p(j,yC)),as=J(bH,p(j,yD));return[3,R(aC,T(p(j,yE))),as,ar,aq,ap,ao,an]}return V([0,ym,[0,a[1],yl]])}throw K}var
+L=a[1],M=X(h[2]);if(m(L,yF))V([0,yH,[0,L,yG]]);var
+l=b2(P,aH(M,yI)),at=function(f){var
+a=cU(f),b=a[1];if(m(b,yJ)){if(m(b,yK)){if(m(b,yL)){if(m(b,yM))throw K;var
+d=a[2],g=P(p(X(d),yN));return[3,P(p(X(d),yO)),g]}var
+h=a[2],c=function(a){return cr(P,p(X(h),a))},i=c(yP),j=c(yQ);return[1,c(yR),j,i]}var
+e=cr(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},n=b2(at,aH(b,yS)),N=m(c,yT),O=N?m(c,yU)?2:1:N,o=T(p(M,yV));if(l&&n&&gh(lU,o)){var
 Q=X(a[2]),au=function(c){var
 a=X(c);function
-b(b){return R(bH,T(p(a,b)))}if(0!==aH(a,yR))V(yS);var
-d=b(yT);return[0,b(yU),d]},av=R(hJ,T(p(b,yV))),ax=n[1],ay=R(O,T(p(Q,yW))),az=R(O,T(p(Q,yX))),aA=l[1];return[2,P,R(au,o),aA,az,ay,ax,av]}var
-_=0;if(!l&&am(c,y0)){var
+b(b){return R(bH,T(p(a,b)))}if(0!==aH(a,yW))V(yX);var
+d=b(yY);return[0,b(yZ),d]},av=R(hK,T(p(b,y0))),aw=n[1],ay=R(P,T(p(Q,y1))),az=R(P,T(p(Q,y2))),aA=l[1];return[2,O,R(au,o),aA,az,ay,aw,av]}var
+_=0;if(!l&&am(c,y5)){var
 S=1;_=1}if(!_)var
-S=[0,P];var
-U=0!==n?1:0,aB=U?aw(lP,o):U;if(aB)V(yY);var
-aD=R(lQ,T(p(b,yZ))),aE=lR(a);return[1,S,R(lO,o),l,aE,n,aD]}var
+S=[0,O];var
+U=0!==n?1:0,aB=U?ax(lU,o):U;if(aB)V(y3);var
+aD=R(lV,T(p(b,y4))),aE=lW(a);return[1,S,R(lT,o),l,aE,n,aD]}var
 q=X(e[2]);function
 aF(b){var
-a=X(b),c=O(p(a,y2)),d=[0,O(p(a,y3)),c];return[0,aC(p(a,y4)),d]}var
-i=hK([0,[0,[0,y6,p(q,y5)],0]]);if(0===i[0]&&!i[3]){var
-aG=O(p(q,y8)),aI=O(p(q,y9)),aJ=i[4],aK=i[2],aL=i[1];return[7,R(aF,T(p(q,y_))),aL,aK,aJ,aI,aG]}return V(y7)}function
-hL(a){return R(em,T(a))}function
-hM(c,b){var
-a=hL(b);if(bN(a)!==c)throw K;return a}function
-lS(a,d){var
-b=X(d),e=T(p(b,zb)),f=a[2],c=R(function(a){return hM(f,a)},e),g=a[1];if(bN(c)!==g)throw K;return[0,c,fJ(p(b,zc))]}function
-en(g,n){var
+a=X(b),c=P(p(a,y7)),d=[0,P(p(a,y8)),c];return[0,aC(p(a,y9)),d]}var
+i=hL([0,[0,[0,y$,p(q,y_)],0]]);if(0===i[0]&&!i[3]){var
+aG=P(p(q,zb)),aI=P(p(q,zc)),aJ=i[4],aK=i[2],aL=i[1];return[7,R(aF,T(p(q,zd))),aL,aK,aJ,aI,aG]}return V(za)}function
+hM(a){return R(eo,T(a))}function
+hN(c,b){var
+a=hM(b);if(bN(a)!==c)throw K;return a}function
+lX(a,d){var
+b=X(d),e=T(p(b,zg)),f=a[2],c=R(function(a){return hN(f,a)},e),g=a[1];if(bN(c)!==g)throw K;return[0,c,fL(p(b,zh))]}function
+eq(g,n){var
 M=g[2];switch(n[0]){case
 0:var
 d=n[1];if(d){var
-e=d[1],a=e[1],N=n_(a,zd),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,ze)&&m(a,zf)&&m(a,zg))if(m(a,zh))f=1;else{var
+e=d[1],a=e[1],N=od(a,zi),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,zj)&&m(a,zk)&&m(a,zl))if(m(a,zm))f=1;else{var
 O=e[2];if(1===O[0]){var
 o=O[1];if(o){var
 q=o[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=R(hL,T(r[1])),ac=aC(q[1]);return[8,en(g,o[1]),ac,ab]}b=1;f=1}else
+ab=R(hM,T(r[1])),ac=aC(q[1]);return[8,eq(g,o[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6170,53 +6198,53 @@ Q=e[2];if(1===Q[0]){var
 u=Q[1];if(u){var
 v=u[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=fJ(w[1]),af=em(v[1]);return[5,en(g,u[1]),af,ae]}b=1}}}}}else
-if(m(a,zk))if(m(a,zl))if(m(a,zm))if(m(a,zn)){if(!m(a,zo)){if(!d[2]){var
-S=X(e[2]),ag=T(p(S,zp)),ah=M+1|0,U=R(function(a){return hM(ah,a)},ag);if(3===bN(U))return[1,zr,U,fJ(p(S,zq))];throw K}b=1}}else{if(!d[2]){var
-I=aC(e[2]),J=m(I,y$);if(J){if(m(I,za))throw K;var
+ae=fL(w[1]),af=eo(v[1]);return[5,eq(g,u[1]),af,ae]}b=1}}}}}else
+if(m(a,zp))if(m(a,zq))if(m(a,zr))if(m(a,zs)){if(!m(a,zt)){if(!d[2]){var
+S=X(e[2]),ag=T(p(S,zu)),ah=M+1|0,U=R(function(a){return hN(ah,a)},ag);if(3===bN(U))return[1,zw,U,fL(p(S,zv))];throw K}b=1}}else{if(!d[2]){var
+I=aC(e[2]),J=m(I,ze);if(J){if(m(I,zf))throw K;var
 L=1}else
 var
 L=J;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],l=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],D=Z[1],c=0;if(m(D,zt)&&m(D,zu))if(m(D,zv))c=1;else{var
+Z=j[1],D=Z[1],c=0;if(m(D,zy)&&m(D,zz))if(m(D,zA))c=1;else{var
 _=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 k=E[1],h=0;switch(k[0]){case
 0:var
 F=k[1];if(F){var
-$=F[1][1],aa=0;if(m($,zx)&&m($,zy)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(k[1],zz)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=F[1][1],aa=0;if(m($,zC)&&m($,zD)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(k[1],zE)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 G=E[2];if(G){var
 H=G[2];if(H&&!(H[2]||j[2])){var
-am=fJ(H[1]),an=em(G[1]),x=[6,en(g,k),an,am];l=1;c=1}else
+am=fL(H[1]),an=eo(G[1]),x=[6,eq(g,k),an,am];l=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])l=2}break;case
-2:if(!m(i[1],zA))l=2;break}switch(l){case
+2:if(!m(i[1],zF))l=2;break}switch(l){case
 0:var
-x=V(zw);break;case
+x=V(zB);break;case
 2:var
-x=en(g,i);break}return[7,x]}b=1}else{var
+x=eq(g,i);break}return[7,x]}b=1}else{var
 W=e[2];if(1===W[0]){var
 y=W[1];if(y){var
 z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hM(M+1|0,ai)]};b=2}}}}else{var
+ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hN(M+1|0,ai)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 A=Y[1];if(A){var
 B=A[2];if(B){var
 C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(m(dw(C[1]),zs))throw K;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,em(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return V([0,zj,[0,a,zi]]);break;case
+ak=B[1];if(m(dx(C[1]),zx))throw K;var
+al=A[1],t=al,s=function(b,a){return[4,b,a,eo(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return V([0,zo,[0,a,zn]]);break;case
 1:break;default:var
-P=lS(g,t);return s(P[1],P[2])}}break;case
+P=lX(g,t);return s(P[1],P[2])}}break;case
 2:return[0,n[1]]}throw K}function
-lT(k){var
-b=cU(k),a=b[1];if(m(a,zD))if(m(a,zE)){var
-g=m(a,zF);if(!g)return g;if(!m(a,zG)){var
+lY(k){var
+b=cU(k),a=b[1];if(m(a,zI))if(m(a,zJ)){var
+g=m(a,zK);if(!g)return g;if(!m(a,zL)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -6224,29 +6252,29 @@ l=cq(d[1]);return[1,cq(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=R(hL,T(f[1]));return[0,cq(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,zI,[0,a,zH]])}function
-lU(f,b){var
-a=X(b),c=T(p(a,zN)),d=R(function(g){var
+n=R(hM,T(f[1]));return[0,cq(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,zN,[0,a,zM]])}function
+lZ(f,b){var
+a=X(b),c=T(p(a,zS)),d=R(function(g){var
 a=X(g);function
 b(d,c){var
 b=aH(a,c);return b?R(d,T(b[1])):b}var
-c=b(em,zJ),d=b2(lT,aH(a,zK)),e=b2(cq,aH(a,zL));return[0,b(function(h){var
+c=b(eo,zO),d=b2(lY,aH(a,zP)),e=b2(cq,aH(a,zQ));return[0,b(function(h){var
 b=T(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zB)){if(!a[2]){if(m(dw(e),zC))throw K;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zG)){if(!a[2]){if(m(dx(e),zH))throw K;d=1}}else
 d=1;if(d&&!a[2]){var
-g=en(f,c);return[0,cq(e),g]}}}throw K},zM),e,d,c]},c),e=aH(a,zO),g=b2(function(a){return lS(f,a)},e);return[0,lL(p(a,zP)),g,d]}function
-lV(c){var
-a=X(c),b=aH(a,zQ),d=b?R(O,T(b[1])):b,e=lT(p(a,zR)),f=R(O,T(p(a,zS)));return[0,lL(p(a,zT)),f,d,e]}function
-lW(c){var
+g=eq(f,c);return[0,cq(e),g]}}}throw K},zR),e,d,c]},c),e=aH(a,zT),g=b2(function(a){return lX(f,a)},e);return[0,lQ(p(a,zU)),g,d]}function
+l0(c){var
+a=X(c),b=aH(a,zV),d=b?R(P,T(b[1])):b,e=lY(p(a,zW)),f=R(P,T(p(a,zX)));return[0,lQ(p(a,zY)),f,d,e]}function
+l1(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-z3(c){var
+z8(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],z4))a=1;break;case
+0:if(!m(b[1],z9))a=1;break;case
 7:a=1;break}return a?1:0}function
-z5(g){var
+z_(g){var
 i=al(g),b=[0,0];function
 j(a){if(b[1]<i)return aJ(g,b[1]);throw K}function
 l(a){if(j(0)===a){b[1]++;return 0}throw K}function
@@ -6272,8 +6300,8 @@ a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=b[1];b[1]++;return[3,z(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw K}var
 N=s(0,0),C=b[1]<i?1:0,O=C?10===aJ(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw K;var
-r=X(N);if(m(aC(p(r,z6)),z7))throw K;var
-a=hK(p(r,z8)),w=0;switch(a[0]){case
+r=X(N);if(m(aC(p(r,z$)),Aa))throw K;var
+a=hL(p(r,Ab)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -6293,24 +6321,24 @@ D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-f=Am}if(w)var
+f=Ar}if(w)var
 f=[0,bN(D),3];var
-n=cU(p(r,z9)),o=n[1];if(m(o,zY))if(m(o,zZ))if(m(o,z0))var
-c=V([0,z2,[0,o,z1]]);else
+n=cU(p(r,Ac)),o=n[1];if(m(o,z3))if(m(o,z4))if(m(o,z5))var
+c=V([0,z7,[0,o,z6]]);else
 var
-q=lV(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=l0(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=lU(f,n[2]),c=[0,t[1],t[2],t[3]];else
+t=lZ(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
 P=T(n[2]),c=[2,R(function(g){var
-a=cU(g),b=a[1];if(m(b,zU)){if(m(b,zV)){if(m(b,zW)){var
-e=m(b,zX);if(e)throw K;return e}return[0,cq(a[2])]}var
-c=lV(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=lU(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+a=cU(g),b=a[1];if(m(b,zZ)){if(m(b,z0)){if(m(b,z1)){var
+e=m(b,z2);if(e)throw K;return e}return[0,cq(a[2])]}var
+c=l0(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=lZ(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
 Q(a){var
-b=a[1];return aw(function(a){return 8===a[2][0]?1:0},b)}function
+b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
 S(a){return 0!==a[3]?1:0}function
-E(a){return aw(S,a)}var
+E(a){return ax(S,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
@@ -6320,36 +6348,36 @@ H=F,G=a[1];d=4;break;case
 J=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-_=c[3];if(aw(function(a){var
-b=a[1];return aw(function(a){switch(a[2][0]){case
+_=c[3];if(ax(function(a){var
+b=a[1];return ax(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_)){V(Ag);d=1}else
+7:return 1;default:return 0}},b)},_)){V(Al);d=1}else
 d=2;break;case
 1:var
-$=a[6];if(aw(function(a){return 8===a[1]?1:0},$)){V(Ah);d=1}break}break;case
+$=a[6];if(ax(function(a){return 8===a[1]?1:0},$)){V(Am);d=1}break}break;case
 2:if(1===c[0]){var
-ab=a[7];if(aw(function(b){var
+ab=a[7];if(ax(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},ab)){V(Ak);d=1}else
+6:return 1}return 0},ab)){V(Ap);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){V(Al);d=1}else
+3:if(1===c[0]){V(Aq);d=1}else
 d=3;break;case
 5:var
 J=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(aw(Q,c[3])){V(Ai);e=3}else
+3:if(0===c[0])if(ax(Q,c[3])){V(An);e=3}else
 if(3===a[0])e=1;else{var
-aa=c[3];if(gg(function(a){return gg(z3,a[1])},aa))e=1;else{V(Aj);e=3}}else
+aa=c[3];if(gh(function(a){return gh(z8,a[1])},aa))e=1;else{V(Ao);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-L=0;if(aw(function(a){return 10===a[1]?1:0},H)&&aw(function(a){return 2===a[0]?1:0},G)){V(z_);L=1}if(!L)e=1;break;case
-5:if(aw(lW,J))V(Af);else
+L=0;if(ax(function(a){return 10===a[1]?1:0},H)&&ax(function(a){return 2===a[0]?1:0},G)){V(Ad);L=1}if(!L)e=1;break;case
+5:if(ax(l1,J))V(Ak);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
@@ -6358,7 +6386,7 @@ y=0;switch(e){case
 h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-W=c[3];if(aw(function(a){return 0!==a[1]?1:0},W)){V(Ad);h=1;M=1}}if(!M)h=1;break;case
+W=c[3];if(ax(function(a){return 0!==a[1]?1:0},W)){V(Ai);h=1;M=1}}if(!M)h=1;break;case
 7:var
 Y=a[4];switch(c[0]){case
 0:break;case
@@ -6366,24 +6394,24 @@ Y=a[4];switch(c[0]){case
 Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return aw(lW,Y)}return 0};if(aw(Z,c[1]))V(Ae);h=1}break}if(!h)if(0===c[0]&&E(c[3]))V(Ac);else
+2:return ax(l1,Y)}return 0};if(ax(Z,c[1]))V(Aj);h=1}break}if(!h)if(0===c[0]&&E(c[3]))V(Ah);else
 y=1;break;case
 2:y=1;break}var
-I=X(p(r,z$)),U=aC(p(I,Aa));return[0,a,c,aC(p(I,Ab)),U]}function
-An(b){var
-c=al(b),g=64,h=B0(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=X(p(r,Ae)),U=aC(p(I,Af));return[0,a,c,aC(p(I,Ag)),U]}function
+As(b){var
+c=al(b),g=64,h=B5(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=am(c4(b,a,18),Ao);if(!e){var
+e=am(c4(b,a,18),At);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Cj(function(b){try{if(An(b))var
-a=Aq;else{try{var
-e=0,d=z5(b);e=1}catch(a){a=oa(a);if(a[1]===lK)var
+f=d;return f}}Co(function(b){try{if(As(b))var
+a=Av;else{try{var
+e=0,d=z_(b);e=1}catch(a){a=of(a);if(a[1]===lP)var
 c=[0,a[2]];else{if(a!==K)throw a;var
 c=2}}if(e)var
-c=vX(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Ap}if(typeof
+c=v1(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Au}if(typeof
 a==="number")switch(a){case
-0:return Ar;case
-1:return As;default:return At}return aO(Au,a[1])});iy(0);return}(globalThis));
+0:return Aw;case
+1:return Ax;default:return Ay}return aO(Az,a[1])});iz(0);return}(globalThis));
