@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith NArith List String Decimal.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Check Configuration Written Orientation Turning Pose.
+From Orthocert.kernel Require Import Statement Check Configuration Written Orientation Turning Pose.
 From Orthocert.kernel Require Formula Control Certificate.
 Import ListNotations.
 
@@ -17,7 +17,7 @@ Definition claim_of (d : demand) (length : number) : turning_claim :=
      (vector (root3 (-200)) (-200 // 1), vector (root3 (-50)) (50 // 1));
      (vector (root3 200) (-200 // 1), vector (0 // 1) (-100 // 1))]
     (100 // 1)
-    (Tolerances (Within (-50 // 1) (50 // 1)) (Within (-50 // 1) (50 // 1)) (exactly (0 // 1)))
+    (Box (Tolerances (Within (-50 // 1) (50 // 1)) (Within (-50 // 1) (50 // 1)) (exactly (0 // 1))))
     (TurnedBy (Within (-20 // 1) (20 // 1)))
     [d; LengthMax 0 length].
 Definition claim (psi : number) : number -> turning_claim := claim_of (FactorMax psi).
@@ -58,6 +58,17 @@ Definition Y8 := [[1; -5; -5]; [4; 4; -5]; [-5; 2; -5]].
 Example force : asks (ForceMax 0 (100 // 1) (120 // 1)) (ByLower 3%N Y8) = true. Proof. vm_compute. reflexivity. Qed.
 Example force_less : asks (ForceMax 0 (100 // 1) (60 // 1)) (ByLower 3%N Y8) = false. Proof. vm_compute. reflexivity. Qed.
 Example force_by_another_Y : asks (ForceMax 0 (100 // 1) (120 // 1)) (ByLower 3%N [[1; -5; 5]; [4; 4; -5]; [-5; 2; -5]]) = false. Proof. vm_compute. reflexivity. Qed.
+(** Condition numbers, by a number of each control point; positions in a cylinder. *)
+Definition Y3 := [[0; -8; -8]; [8; 8; -8]; [-8; 0; -8]].
+Example conditioned : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [6; 0; 0; 0]) = true. Proof. vm_compute. reflexivity. Qed.
+Example better_conditioned : asks (Conditioned (5 // 4)) (ByConditioning 3%N Y3 [6; 0; 0; 0]) = false. Proof. vm_compute. reflexivity. Qed.
+Example no_number : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [0; 0; 0; 0]) = false. Proof. vm_compute. reflexivity. Qed.
+Example too_great_somewhere : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [6; 0; 4; 0]) = false. Proof. vm_compute. reflexivity. Qed.
+Example one_too_few : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [6; 0; 0]) = false. Proof. vm_compute. reflexivity. Qed.
+Definition round (radius : number) : bool :=
+  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (Cylinder (0 // 1) (0 // 1) radius (exactly (0 // 1))) (Turning.turned right) [FactorMax (11 // 10)]) [by_lower Y].
+Example in_a_cylinder : round (50 // 1) = true. Proof. vm_compute. reflexivity. Qed.
+Example in_a_wider_one : round (200 // 1) = false. Proof. vm_compute. reflexivity. Qed.
 Example force_by_test : asks (ForceMax 0 (100 // 1) (120 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
 End Planar.
 
@@ -105,7 +116,7 @@ Definition claim (o : orientations) (psi : number) : turning_claim :=
     [(vector (150 // 1) (0 // 1) (-150 // 1), vector (0 // 1) (100 // 1) (0 // 1));
      (vector (-75 // 1) (root3 75) (-150 // 1), vector (root3 (-50)) (-50 // 1) (0 // 1));
      (vector (-75 // 1) (root3 (-75)) (-150 // 1), vector (root3 50) (-50 // 1) (0 // 1))]
-    (100 // 1) (vector (0 // 1) (0 // 1) (0 // 1)) o [FactorMax psi; LengthMin 0 (181 // 1)].
+    (100 // 1) (Box (vector (0 // 1) (0 // 1) (0 // 1))) o [FactorMax psi; LengthMin 0 (181 // 1)].
 Definition Y := [[14; 0; 10]; [-7; 12; 10]; [-7; -12; 10]].
 Definition less (n : Z) : nat * evidence := (0%nat, AtControls (Turned (ByLower 5%N Y) n 1%N)).
 Definition by_test : nat * evidence := (1%nat, AtControls ByTest).

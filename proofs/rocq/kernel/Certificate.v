@@ -86,7 +86,7 @@ Inductive subject :=
   | Legs_ (kind : mobility) (legs : list written_driven) (length : option expression) (workspace : written_place)
       (orientation : option written_orientation) (require : list written_requirement)
   (* struts of a platform that turns: its joint in the base and on the platform, each of two numbers in the plane *)
-  | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (min max : list expression)
+  | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (workspace : written_place)
       (orientation : written_orientation) (require : list written_requirement)
   (* by formulas: names, and all joints *)
   | Formulas_ (coordinates : list string) (parameters : list (string * quantity)) (definitions : list (string * term string))
@@ -281,10 +281,10 @@ Definition subject_text (s : subject) : text :=
           | Turns m => turning (motion_text m)
           end :: field "workspace" (place_text w) :: match o with Some o => [field "orientation" (orientation_text o)] | None => [] end ++
         [field "require" (array (map requirement_text rs))]))%list
-  | Turning_ k ls ell a b o rs => variant "machine" (object
+  | Turning_ k ls ell w o rs => variant "machine" (object
       [field "mechanism" (variant (motion_text k) (object
          [field "legs" (array (map turning_strut_text ls)); field "characteristic_length" (number ell)]));
-       field "workspace" (variant "box" (object [field "min" (array (map number a)); field "max" (array (map number b))]));
+       field "workspace" (place_text w);
        field "orientation" (orientation_text o);
        field "require" (array (map requirement_text rs))])
   | Formulas_ xs ps ds rows a b rs => variant "machine" (object
@@ -438,8 +438,8 @@ Definition in_subject (s : subject) : list expression :=
   | Machine_ ls w bs rs => flat_map in_leg ls ++ in_region w ++ flat_map in_body bs ++ flat_map in_requirement rs
   | Legs_ _ ls ell w o rs => flat_map in_driven ls ++ match ell with Some x => [x] | None => [] end ++ in_place w ++
       match o with Some o => in_orientation o | None => [] end ++ flat_map in_requirement rs
-  | Turning_ _ ls ell a b o rs =>
-      flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: a ++ b ++ in_orientation o ++ flat_map in_requirement rs
+  | Turning_ _ ls ell w o rs =>
+      flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: in_place w ++ in_orientation o ++ flat_map in_requirement rs
   | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
   | Closed_ offset side rs => offset :: side :: flat_map in_requirement rs
   | NoCube_ ls a b rs side => side :: flat_map in_leg ls ++ in_triple a ++ in_triple b ++ flat_map in_requirement rs
@@ -666,11 +666,15 @@ Definition orientation_of (o : written_orientation) : orientations :=
   | Angle_ a => TurnedUpTo (denoted a)
   | Tilt_ a b => Tilted (denoted a) (denoted b)
   end.
-Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
+Definition place_in (w : written_place) : region :=
+  match w with
+  | AnyBox_ a b => Box (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)))
+  | AnyCylinder_ x y r bottom top => region_of (Cylinder_ x y r bottom top)
+  end.
+Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (w : written_place)
     (o : written_orientation) (rs : list written_requirement) : turning_claim :=
   let vector v := vector_of (map tolerance_of v) in
-  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell)
-    (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b))) (orientation_of o) (demands false (length ls) rs).
+  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell) (place_in w) (orientation_of o) (demands false (length ls) rs).
 
 (** In the plane arms turn about z. *)
 Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
@@ -681,11 +685,6 @@ Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
   | AnyArm_ axis x a p r len m =>
       let turns := match axis with [] => Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)) | _ => vector axis end in
       RotaryDrive (ArmDrive turns (vector x) (vector a) (vector p) (tolerance_of r) (tolerance_of len) m)
-  end.
-Definition place_in (w : written_place) : region :=
-  match w with
-  | AnyBox_ a b => Box (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)))
-  | AnyCylinder_ x y r bottom top => region_of (Cylinder_ x y r bottom top)
   end.
 Definition has_arms (ls : list written_driven) : bool := existsb (fun l => match l with AnyArm_ _ _ _ _ _ _ _ => true | _ => false end) ls.
 Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
@@ -808,9 +807,9 @@ Definition means (c : certificate) : Prop :=
       driven_holds c /\ exists m P Q, is_about_driven c m P Q
   | Legs_ k ls ell w o rs, ByWitness _ _ _ _ => let c := driven_claim_of k ls ell w o rs in
       exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
-  | Turning_ k ls ell a b o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell a b o rs in
+  | Turning_ k ls ell w o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell w o rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
-  | Turning_ k ls ell a b o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell a b o rs in
+  | Turning_ k ls ell w o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell w o rs in
       turning_holds c /\ exists m P Q, is_about_struts c m P Q
   | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
@@ -1073,12 +1072,17 @@ Definition places_of_point (k : motion) : nat := match k with InPlane => 2 | InS
 Definition is_angle_range (t : tolerance) : bool :=
   certainly exact_bits true (Plus (180 // 1) (least t)) && below exact_bits (least t) (greatest t) && certainly exact_bits true (Minus (180 // 1) (greatest t)).
 Definition is_less_than_half_turn (a : Claim.number) : bool := below exact_bits (0 // 1) a && certainly exact_bits true (Minus (180 // 1) a).
-Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
+(** A box of [n] coordinates, or a cylinder, if [round]. *)
+Definition is_place (n : nat) (round : bool) (w : written_place) : bool :=
+  match w with
+  | AnyBox_ a b => Nat.eqb (length a) n && Nat.eqb (length b) n && forallb (fun p => below exact_bits (denoted (fst p)) (denoted (snd p))) (combine a b)
+  | AnyCylinder_ _ _ r bottom top => round && certainly exact_bits true (denoted r) && below exact_bits (denoted bottom) (denoted top)
+  end.
+Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (w : written_place)
     (o : written_orientation) (rs : list written_requirement) : bool :=
   let is_vector v := Nat.eqb (length v) (places_in k) && forallb is_range v in
   forallb (fun l => is_vector (fst l) && is_vector (snd l)) ls && Nat.leb (dimension k) (length ls) && Nat.leb (length ls) 12 &&
-  certainly exact_bits true (denoted ell) && Nat.eqb (length a) (places_of_point k) && Nat.eqb (length b) (places_of_point k) &&
-  forallb (fun p => below exact_bits (denoted (fst p)) (denoted (snd p))) (combine a b) &&
+  certainly exact_bits true (denoted ell) && is_place (places_of_point k) match k with InSpace => true | _ => false end w &&
   match k, orientation_of o with
   | InPlane, TurnedBy t => is_angle_range t
   | (InSpace | AboutPoint), RollPitchYaw x y z => is_angle_range x && is_angle_range y && is_angle_range z
@@ -1100,11 +1104,7 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
     | AnyArm_ axis x a p _ _ _ => (if flat then match axis with [] => true | _ => false end else is_vector axis) && is_vector x && is_vector a && is_vector p
     end) ls &&
   Nat.leb (freedom k) (length ls) && Nat.leb (length ls) 12 && forallb is_range (flat_map quantities_of_driven ls) &&
-  match w with
-  | AnyBox_ a b => Nat.eqb (length a) (if flat then 2 else 3) && Nat.eqb (length b) (if flat then 2 else 3) &&
-      forallb (fun p => below exact_bits (denoted (fst p)) (denoted (snd p))) (combine a b)
-  | AnyCylinder_ _ _ r bottom top => match k with Translates => true | _ => false end && certainly exact_bits true (denoted r) && below exact_bits (denoted bottom) (denoted top)
-  end &&
+  is_place (if flat then 2 else 3) match k with Translates => true | _ => false end w &&
   match k, ell, option_map orientation_of o with
   | (Translates | TranslatesInPlane), None, None => true
   | Turns InPlane, Some x, Some (TurnedBy t) => certainly exact_bits true (denoted x) && is_angle_range t
@@ -1259,18 +1259,18 @@ Definition accept (c : certificate) : bool :=
       end
   | Legs_ k ls ell w o rs, Nodes bits _ nodes => accept_driven_tree k ls ell w o rs bits nodes
   | Legs_ k ls ell w o rs, ByWitness _ point machine how => accept_driven_witness k ls ell w o rs point machine how
-  | Turning_ k ls ell a b o rs, ByWitness bits point machine how =>
+  | Turning_ k ls ell w o rs, ByWitness bits point machine how =>
       let point := map denoted point in
       let n := places_of_point k in
       match take_struts ls (map denoted machine) with
-      | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell a b o rs &&
-          refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
+      | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o rs &&
+          refute_turning exact_bits (turning_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
       | _ => false
       end
-  | Turning_ k ls ell a b o rs, Nodes bits _ nodes =>
-      let c := turning_claim_of k ls ell a b o rs in
+  | Turning_ k ls ell w o rs, Nodes bits _ nodes =>
+      let c := turning_claim_of k ls ell w o rs in
       match tree_of [] (length nodes) nodes with
-      | Some (t, []) => is_turning k ls ell a b o rs && splits_below (dimension k) nodes &&
+      | Some (t, []) => is_turning k ls ell w o rs && splits_below (dimension k) nodes &&
           certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
@@ -1321,7 +1321,7 @@ Qed.
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w bs rs | k ls ell w o rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
+  destruct s as [ls w bs rs | k ls ell w o rs | k ls ell w o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).

@@ -530,6 +530,8 @@ Inductive polynomial_test :=
   (* of the first [e] coordinates, ends alone *)
   | LeastOf (r : rows nat) (w : nat) (kappa2 : fixed) (e : nat)
   | GreatestOf (r : rows nat) (w : nat) (k2 : fixed)
+  (* |M u|^2 |v|^2 < c^2 |M v|^2 |u|^2 *)
+  | ConditionOf (r : rows nat) (w : nat) (c2 : fixed)
   (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
   | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
   | SignOf (f : nat).
@@ -593,6 +595,24 @@ Proof.
   rewrite map_sample_map. reflexivity.
 Qed.
 
+(** The same with a number of each control point: the sum of the [mus], times -1, 0 or 1 as its node is the first, the middle or the last. *)
+Fixpoint everywhere_by (m : nat) (good : Z -> sample (option fixed) -> bool) (mus : list Z) (sum : Z) (s : sample tensor) : bool :=
+  match m, mus with
+  | O, [] => good sum (map_sample last_value s)
+  | S m', mu :: rest =>
+      let at_ j sum := everywhere_by m' good rest sum (map_sample (branch j) s) in
+      if at_ Low (sum - mu)%Z then if at_ High (sum + mu)%Z then at_ Middle sum else false else false
+  | _, _ => false
+  end.
+Lemma everywhere_by_sound : forall good m mus sum s, everywhere_by m good mus sum s = true ->
+  forall p, length p = m -> exists mu, good mu (map_sample (fun t => value_at t p) s) = true.
+Proof.
+  intro good. induction m as [| m IH]; intros [| mu mus] sum s h [| j p] l; try discriminate; [exists sum; exact h |]. cbn [everywhere_by] in h. cbv zeta in h.
+  destruct (everywhere_by _ _ _ (sum - mu) _) eqn:lw; [| discriminate]. destruct (everywhere_by _ _ _ (sum + mu) _) eqn:hg; [| discriminate].
+  assert (K : exists sum, everywhere_by m good mus sum (map_sample (branch j) s) = true) by (destruct j; eexists; eassumption).
+  destruct K as [q K]. destruct (IH _ _ _ K p ltac:(cbn in l; congruence)) as [z G]. exists z. rewrite <- G, map_sample_map. reflexivity.
+Qed.
+
 Definition known_multiple (l : option (option fixed * Z * N)) : option fixed :=
   match l with None => Some zero | Some (g, n, places) => option_map (Arithmetic.dyadic n places) g end.
 
@@ -610,6 +630,16 @@ Definition rank_at (n : nat) (places : N) (Y : list (list Z)) (s : sample (optio
 Definition upper_at (n : nat) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
   | Some rows, Some w, Some t => match upper_triangle rows (repeat [sub (mul bits k w) t] n) with Some t => is_definite n t | None => false end
+  | _, _, _ => false
+  end.
+(** mu = first w + sum, and both bounds: w sigma_min^2 > mu, w sigma_max^2 < c^2 mu. *)
+Definition conditioned_at (n : nat) (c2 : fixed) (places : N) (Y : list (list Z)) (first sum : Z) (s : sample (option fixed)) : bool :=
+  match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
+  | Some rows, Some w, Some t =>
+      let number k := Arithmetic.dyadic k places (Fixed.integer bits 1) in
+      let mu := add (mul bits (number first) w) (number sum) in
+      (0 <? lo mu)%Z && is_definite n (lower_triangle places Y rows (repeat [sub (neg mu) t] n)) &&
+      match upper_triangle rows (repeat [sub (mul bits c2 mu) t] n) with Some t => is_definite n t | None => false end
   | _, _, _ => false
   end.
 (** As many rows of A, and of Y, as coordinates. *)
@@ -951,6 +981,50 @@ Proof.
     destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) L)) eu) as [U [hU le]].
     pose proof (is_positive_definite_sound bits _ U H hU v) as Q. specialize (le u). rewrite <- lv, quad_diagonal in le.
     rewrite (related_length _ _ _ _ _ hU) in e. specialize (Q ltac:(congruence) nz). lra.
+Qed.
+
+(** The number of each control point is that of both bounds, and so is no number of the two together. *)
+Theorem conditioned_shown : forall n places Y r w c2 mu mus c u v, forallb is_affine_at (w :: all_places r) = true ->
+  everywhere_by m (conditioned_at n c2 places Y mu) mus 0 (map_sample (fun i => nth i (tensors cell) (Constant None)) (sample_of r w l)) = true ->
+  contains bits c2 c -> 0 <= c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
+  positive_D (map_rows (fun i => here i) r) /\ energy (map_rows (fun i => here i) r) u * dot v v < c * energy (map_rows (fun i => here i) r) v * dot u u.
+Proof.
+  intros n places Y r w c2 mu mus c u v ha h hc c0 lu lv nu nv. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  assert (H : forall p, length p = m -> exists sum, conditioned_at n c2 places Y mu sum (map_sample (look (points cell p)) (sample_of r w l)) = true).
+  { intros p lp. destruct (everywhere_by_sound _ _ _ _ _ h p lp) as [sum K]. exists sum. rewrite map_sample_map in K. rewrite <- K. f_equal.
+    apply map_sample_ext. intro j. symmetry. apply tensors_value. congruence. }
+  assert (P : positive_D (map_rows (fun i => here i) r)).
+  { apply (regular_here r w l hr). intros p lp _. destruct (H p lp) as [sum K]. unfold conditioned_at in K. destruct (known_rows _); [reflexivity | discriminate]. }
+  split; [exact P |]. destruct (upper_energy _ u P) as [q E]. pose proof (lower_energy places Y _ v P) as F.
+  unfold nonzero in nu, nv. set (U := dot u u) in *. set (V := dot v v) in *.
+  enough (0 < c * U * form (lower_weights places Y v) (map_rows (fun i => here i) r) v + V * form (upper_weights q) (map_rows (fun i => here i) r) u
+    + - ((c + 1) * U * V) * less_at (parabola x) l) as G.
+  { pose proof (Rmult_le_pos ((c + 1) * U * V) _ ltac:(apply Rmult_le_pos; [apply Rmult_le_pos |]; lra) l_nonneg).
+    pose proof (Rmult_le_compat_l (c * U) _ _ ltac:(apply Rmult_le_pos; lra) F). rewrite E in G. lra. }
+  apply (decide (fun ps => c * U * form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + V * form (upper_weights q) (map_rows (fun i => at_ ps i) r) u
+    + - ((c + 1) * U * V) * less_at ps l) O).
+  - intros before after a b d p z s len su. rewrite (rows_affine r (lower_weights places Y v) v hr before after a b d p z s len su),
+      (rows_affine r (upper_weights q) u hr before after a b d p z s len su), (multiple_affine l l_affine before after a b d p z s len su). ring.
+  - apply falls_none.
+  - intros p ps lp _ rq. destruct (H p lp) as [sum K]. unfold conditioned_at in K. pose proof (evaluate_at_sound _ ps rq w) as W.
+    destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in es, K. destruct (nth w (evaluate_at _) None) as [b |]; [| discriminate].
+    match type of K with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
+    destruct (known_rows_sound _ ps r s rq es) as [S _]. cbv zeta in K. apply andb_true_iff in K as [K up]. apply andb_true_iff in K as [_ low].
+    set (one := Fixed.integer bits 1) in *. pose proof (Fixed.integer_sound bits 1) as one_. fold one in one_.
+    pose proof (add_sound bits _ _ _ _ (mul_sound bits _ _ _ _ (Arithmetic.dyadic_sound bits mu places _ _ one_) W) (Arithmetic.dyadic_sound bits sum places _ _ one_)) as M.
+    set (mu_ := add _ _) in *. match type of M with contains _ _ ?y => set (k := y) in *; clearbody k end.
+    assert (Low : 0 < form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + - k * V + - less_at ps l * V).
+    { unfold is_definite in low. destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [sub (neg mu_) t] n))) n) as [e | e]; [| discriminate].
+      destruct (lower_triangle_sound bits places Y s _ _ _ v S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (neg_sound bits _ _ M) L))) as [T [hT le]].
+      pose proof (is_positive_definite_sound bits _ T low hT v) as Q. rewrite <- lv, quad_diagonal in le. fold V in le. rewrite (related_length _ _ _ _ _ hT) in e. specialize (Q ltac:(congruence) nv). lra. }
+    assert (Up : 0 < form (upper_weights q) (map_rows (fun i => at_ ps i) r) u + c * k * U + - less_at ps l * U).
+    { destruct (upper_triangle s (repeat [sub (mul bits c2 mu_) t] n)) as [T |] eqn:eu; [| discriminate].
+      unfold is_definite in up. destruct (Nat.eqb_spec (length T) n) as [e | e]; [| discriminate].
+      destruct (upper_triangle_sound bits s _ _ _ u T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hc M) L)) eu) as [X [hX le]].
+      pose proof (is_positive_definite_sound bits _ X up hX u) as Q. specialize (le q). rewrite <- lu, quad_diagonal in le. fold U in le.
+      rewrite (related_length _ _ _ _ _ hX) in e. specialize (Q ltac:(congruence) nu). lra. }
+    clear - Low Up c0 nu nv. set (a := form _ _ v) in *. set (b := form _ _ u) in *. set (t := less_at ps l) in *. clearbody a b t U V.
+    pose proof (Rmult_le_pos (c * U) _ ltac:(apply Rmult_le_pos; lra) (Rlt_le _ _ Low)). pose proof (Rmult_lt_0_compat _ _ nv Up). lra.
 Qed.
 
 Theorem solve_shown : forall e n i places Y r w k2 k u, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->

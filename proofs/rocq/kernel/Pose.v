@@ -33,6 +33,8 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e
   | LeastOf r w k ends, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
   | SolveOf i r w k ends, ByLower places Y => at_all ends (solve_at bits n i places Y k) r w
   | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
+  | ConditionOf r w c2, ByConditioning places Y (mu :: mus) =>
+      everywhere_by m (conditioned_at bits n c2 places Y mu) mus 0 (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l))
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | _, _ => false
   end.
@@ -76,7 +78,7 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ => w :: all_places r | SignOf f => [f] end.
+  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ => w :: all_places r | SignOf f => [f] end.
 (** Rows and weight of a test that has ends alone of some coordinates. *)
 Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
   match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
@@ -99,6 +101,8 @@ Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
       k * here w * (nth i (map snd (map_rows here r)) 0 * nth i u 0 ^ 2) < Linear.dot p p
   | GreatestOf r w k2 => forall k v, contains bits k2 k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) v < k * here w * Linear.dot v v
+  | ConditionOf r w c2 => forall c u v, contains bits c2 c -> 0 <= c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
+      positive_D (map_rows here r) /\ energy (map_rows here r) u * Linear.dot v v < c * energy (map_rows here r) v * Linear.dot u u
   | SignOf f => 0 <= here f
   end.
 
@@ -113,12 +117,14 @@ Proof.
   { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
     split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 ends | r w k2 | i r w k2 ends | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
   - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
     exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w ends eq_refl) (K _ _ _ h3) lv nz).
   - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
+  - destruct mu as [| mu mus]; [discriminate |]. intros c u v.
+    exact (conditioned_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w c2 mu mus c u v ha h).
   - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
   - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
 Qed.
@@ -367,6 +373,7 @@ Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula)
       | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
       | None => None
       end
+  | Conditioned b => option_map (fun a => ConditionOf (map_rows place rows) (place w) (sqr bits a)) (enclose_parameter bits (exactly b, 0%Z))
   | _ => None
   end.
 Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
@@ -398,12 +405,12 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let tape := fst (compile (map (image m) wanted)) in
   let fs := formulas tape in
   let place f := Formula.place fs (image m f) in
-  let ends := ends_of fs m k (map_rows place rows) (place w) (option_map place g) in
+  let ends := match positions c with Box _ => ends_of fs m k (map_rows place rows) (place w) (option_map place g) | _ => O end in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
-  existsb excludes (turning_demands c) && is_flat k (positions c) && certainly bits true (characteristic_length c) &&
+  existsb excludes (turning_demands c) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (ps ++ map (length_bound s) (turning_demands c))),
-        all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (positions c))),
+        all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
         all_some (pose_tests place ends rows w s j (turning_demands c)) with
@@ -556,7 +563,7 @@ Qed.
 
 Theorem check_turning_sound : forall c s t, check_turning c s t = true -> turning_holds c.
 Proof.
-  intros c s t h m P Q [hm [hP hQ]]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
+  intros c s t h m P Q [hm [hP hQ]]. apply hull_sound in hP. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
   set (rows := all_rows k N w ell s ts 0) in *.
@@ -622,11 +629,11 @@ Proof.
   rewrite forallb_forall in aff.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
-  set (ends := ends_of (formulas tape) (dimension k) k (map_rows place rows) (place w) (option_map place g)) in *.
+  set (ends := match positions c with Box _ => _ | _ => _ end) in *.
   assert (eased : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
   { intros u r v e0 i we. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
-    unfold ends, ends_of. cbv zeta. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
+    unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
@@ -698,6 +705,11 @@ Proof.
     cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. pose proof (HT _ iu) as H. cbn [test_holds] in H. intros v lv.
     unfold conf, struts_at. cbn [jacobian]. destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ v K lv nz) as [p q]. rewrite Rows in p, q. rewrite Weight, (proj2 (Speed p)) in q. apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
+  - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
+    pose proof (HT _ iu) as H. cbn [test_holds] in H. intros u v lu lv. unfold conf, struts_at. cbn [jacobian].
+    destruct (NZ u) as [nu | z]; [| destruct (Z u z) as [-> ->]; lra]. destruct (NZ v) as [nv | z]; [| destruct (Z v z) as [-> ->]; lra].
+    destruct (H _ u v K (pow2_ge_0 _) lu lv nu nv) as [p q]. rewrite Rows in p, q. rewrite !(proj2 (Speed p)) in q.
+    apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
   - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits false b') eqn:ce; [| discriminate].
     apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
     destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K.
@@ -763,7 +775,7 @@ End Precision.
 Definition is_met (exact : positive) (t : tolerance) : bool := below exact (least t) (greatest t).
 Definition are_met (exact : positive) (t : tolerances) : bool := is_met exact (tx t) && is_met exact (ty t) && is_met exact (tz t).
 Definition certify_turning (exact bits : positive) (c : turning_claim) (s : Z) (t : tree) : bool :=
-  forallb (fun t => are_met exact (fst t) && are_met exact (snd t)) (struts c) && are_met exact (positions c) &&
+  forallb (fun t => are_met exact (fst t) && are_met exact (snd t)) (struts c) && is_in exact (positions c) (some_point (positions c)) &&
   forallb (is_met exact) (angles_of (turned c)) && check_turning bits c s t.
 
 Lemma least_within : forall exact t, is_met exact t = true -> within t (Claim.value (least t)).
@@ -795,8 +807,8 @@ Proof.
   intros exact bits c s t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
   split; [exact (check_turning_sound bits c s t k) |].
   pose proof (some_orientation exact _ o) as T.
-  destruct T as [Q hQ]. exists (map (fun t => Strut (leasts_of (fst t)) (leasts_of (snd t))) (struts c)), (leasts_of (positions c)), Q.
-  split; [| split; [exact (leasts_within exact _ p) | exact hQ]]. rewrite forallb_forall in l.
+  destruct T as [Q hQ]. exists (map (fun t => Strut (leasts_of (fst t)) (leasts_of (snd t))) (struts c)), (values (some_point (positions c))), Q.
+  split; [| split; [exact (is_in_sound exact _ _ p) | exact hQ]]. rewrite forallb_forall in l.
   induction (struts c) as [| u ts IH]; cbn [map]; constructor; [| apply IH; intros v i; apply l; right; exact i].
   specialize (l u (or_introl eq_refl)). apply andb_true_iff in l as [a b]. split; apply (leasts_within exact); assumption.
 Qed.

@@ -78,13 +78,13 @@ Qed.
 (** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. *)
 Record turning_claim := MakeTurningClaim {
   motion_of : motion; struts : list (tolerances * tolerances); characteristic_length : number;
-  positions : tolerances; turned : orientations; turning_demands : list demand
+  positions : region; turned : orientations; turning_demands : list demand
 }.
 
 Definition is_strut (t : tolerances * tolerances) (l : strut) : Prop :=
   all_within (fst t) (strut_base l) /\ all_within (snd t) (strut_joint l).
 Definition is_about_struts (c : turning_claim) (m : list strut) (P : vec) (Q : mat) : Prop :=
-  Forall2 is_strut (struts c) m /\ all_within (positions c) P /\ in_orientations (turned c) Q.
+  Forall2 is_strut (struts c) m /\ in_region (positions c) P /\ in_orientations (turned c) Q.
 Definition meets_turning (c : turning_claim) (m : list strut) (P : vec) (Q : mat) : Prop :=
   Configuration.meets (dimension (motion_of c)) (struts_at (motion_of c) (value (characteristic_length c)) m P Q) (turning_demands c).
 
@@ -162,7 +162,7 @@ Proof.
 Qed.
 
 Definition refute_turning (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (f : nfailure) : bool :=
-  all_struts (struts c) ls && parts bits (positions c) P && is_orientation bits (turned c) t &&
+  all_struts (struts c) ls && is_in bits (positions c) P && is_orientation bits (turned c) t &&
   refutes bits (dimension (motion_of c)) (exact_struts_at (motion_of c) (characteristic_length c) (turned c) t P ls) (turning_demands c) f.
 
 (** A machine of the claim does not meet it in some pose of the workspace. *)
@@ -171,7 +171,7 @@ Theorem refute_turning_sound : forall c ls P t f, refute_turning c ls P t f = tr
 Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
   destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
-  split; [split; [apply all_struts_sound, h | split; [exact (parts_sound bits _ _ p) | exact hQ]] |].
+  split; [split; [apply all_struts_sound, h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
   exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _) r).
 Qed.
 End Precision.

@@ -581,6 +581,28 @@ for (const [text, right] of [
   if (right) read.push(text);
 }
 console.log("one to one by formulas: 2 mechanisms, with one answer at 42 bounds each");
+
+// Platforms that turn: condition numbers at control points, and positions in a cylinder.
+const about_z = (legs, evidence) => (b) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":{"planar":{"legs":[${legs}],"characteristic_length":"100"}},` +
+  `"workspace":{"box":{"min":["-50","-50"],"max":["50","50"]}},"orientation":{"range":["-20","20"]},"require":[{"quantity":"conditioning","end":"max","bound":"${b}"}]}},` +
+  `"verdict":"certified","proof":{"tree":{"precision":40,"nodes":[{"by":[[0,{"control":{"rank":${y([[0, -8, -8], [8, 8, -8], [-8, 0, -8]])}}}],[1,{"control":${evidence}}]]}]}},` +
+  `"provenance":{"tool":"t","version":"1"}}\n`;
+const rooted = (k) => `${k}*sqrt(3)`;
+const three_struts = [[[0, 400], [rooted(50), 50]], [[rooted("-200"), -200], [rooted("-50"), 50]], [[rooted(200), -200], [0, -100]]]
+  .map(([a, b]) => strut(quote(...a), quote(...b)));
+const by_mu = (mu) => `{"conditioning":[${y([[0, -8, -8], [8, 8, -8], [-8, 0, -8]])},${JSON.stringify(mu)}]}`;
+for (const mu of [[6, 0, 0, 0], [5, 1, 0, 0], [4, 0, -1, 1]]) narrowed(about_z(three_struts, by_mu(mu)), 1.01, 4);
+for (const [mu, bound] of [[[0, 0, 0, 0], 4], [[-6, 0, 0, 0], 4], [[6, 7, 0, 0], 4], [[9, 0, 0, 0], 4], [[6, 0, 0], 4], [[6, 0, 0, 0, 0], 4], [[6, 0, 0, 0], "0.9"], [[6, 0, 0, 0], "1"]]) {
+  const text = about_z(three_struts, by_mu(mu))(bound);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`conditioning: ${all(text)}: ${text}`);
+}
+const boxed = fs.readFileSync(files.find((file) => path.basename(file) === "hexapod-linuxcnc.cert.json"), "latin1");
+const rounded = (radius, bottom = "17", top = "23") => boxed.replace(/"workspace":\{"box":\{.*?\}\}/, `"workspace":{"cylinder":{"center":["0","0"],"radius":"${radius}","z":["${bottom}","${top}"]}}`);
+narrowed(rounded, 1, 30, 12);
+for (const text of [rounded(0), rounded(-1), rounded(1, "23", "17"), rounded(1, "19", "sqrt(-1)"), about_z(three_struts, by_mu([6, 0, 0, 0]))(4).replace(/"box":\{.*?\}/, '"cylinder":{"center":["0","0"],"radius":"1","z":["0","0"]}')])
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`cylinder: ${all(text)}: ${text}`);
+read.push(about_z(three_struts, by_mu([5, 1, 0, 0]))(4), rounded(1));
+console.log("platforms that turn: condition numbers and a cylinder, with one answer at 140 bounds");
 fs.rmSync(beside, { recursive: true });
 
 // Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.

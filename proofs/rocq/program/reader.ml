@@ -253,7 +253,6 @@ let rec subject v =
      | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w as region) ->
        let t = members t in
-       if workspace <> "box" then not_covered [ "the workspace \""; workspace; "\" of a platform that turns" ];
        let ell = optional number (find t "characteristic_length") in
        let orientation v = match variant v with
          | "range", v -> let a, b = two number v in Range_ (a, b)
@@ -268,14 +267,12 @@ let rec subject v =
        let legs = array (get t "legs") in
        (match ell, orientation with
         | Some ell, Some orientation when List.for_all is_strut legs ->
-          let w = members w in
           let strut v =
             let l = members v in
             let vector key = List.map quantity (array (get l key)) in
             if find l "base_axis" <> None then not_covered [ "a base axis of such a platform" ];
             (vector "anchor", vector "platform") in
-          Turning_ (motion, List.map strut legs, ell, List.map number (array (get w "min")),
-            List.map number (array (get w "max")), orientation, List.map turning_demand (array (get l "require")))
+          Turning_ (motion, List.map strut legs, ell, place region, orientation, List.map turning_demand (array (get l "require")))
         | _ ->
           let kind = match ell with None when kind = "planar" -> TranslatesInPlane | _ -> Turns motion in
           if orientation <> None && List.exists is_strut legs then not_covered [ "a platform that turns on struts and other drives" ];
@@ -354,8 +351,8 @@ let rec evidence (n, m as shape) v =
 (* At control points. *)
 and at_controls shape v =
   match v with
-  | Object [ ("turned", Array [ (String "test" | Object [ (("lower" | "rank"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
-  | String "test" | Object [ (("lower" | "rank"), _) ] -> evidence shape v
+  | Object [ ("turned", Array [ (String "test" | Object [ (("lower" | "rank" | "conditioning"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
+  | String "test" | Object [ (("lower" | "rank" | "conditioning"), _) ] -> evidence shape v
   | _ -> not_covered [ "this evidence at control points" ]
 let step n v =
   match array v with
@@ -406,7 +403,7 @@ let certificate text =
   let shape = match subject_ with
     | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) | Atlas_ (_, legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
-    | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
+    | Turning_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
     | Legs_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with TranslatesInPlane -> 2 | Turns InSpace -> 6 | _ -> 3)
     | Closed_ _ | Postulate_ _ -> (3, 3) in
   let proof_ = proof shape (get l "proof") in
@@ -421,7 +418,7 @@ let certificate text =
    | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
+   | Turning_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]

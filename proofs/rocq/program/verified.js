@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-h1="spatial",nM="Invalid_argument",f0="precision",aw='"',h0=1255,nL="inside",mT="(",mU=0x800,nK="yaw",mQ="range",mR="tree",mS="jsError",bI=0x8000,nJ="sqrt(",mP=256,mO="obligation",ey="offset",a4="machine",mM="this quantity of such a mechanism in a claim that is refuted",mN="End_of_file",dD="strut",hZ="center",ex="arm",hY="Failure",nI="serial_margin",f_="parameters",b6=0xff,ic="bodies",ib="outside",f9="base_axis",hX="ENOENT",nH=122,mL="([^/]+)",ia="0",hW=0xf,ew=128,mK=0xdc00,nF="Sys_blocked_io",nG="fd ",hV="given",mJ="ENOTEMPTY",aI=248,mI="such a machine with bodies",fZ="bound",mH="Division_by_zero",nD="by",nE=1027,mG="Sys_error",f8="slider",mF="torsion",nC="postulate",mE="proof",nB="joint_error",ev="refuted",dz="mechanism",fY="row",mD="EEXIST",nA="roll_pitch_yaw",h$="y",mC="cube",fX="lower",nz="within",mB="clearance",ny="turned",mA="control",fW="int_of_string",nw="definitions",nx="dependent",eu=1024,my="from",mz="name",nv=" : flags Open_rdonly and Open_wronly are not compatible",mx="orthocert/2",nu="reach",mw=512,nt="witness",et="-",aT="platform",mv=0x7ff0,mu="pitch",h_=": Not a directory",a2="min",nr="trim",dC="workspace",ns=" : file already exists",fV="split",h9="legs",nq="claim",mt="joint",cX=0xffffff,ms="formulas",mr="roll",fU="atlas",nn='the workspace "',no="nodes",np="Out_of_memory",mq="psi_max",f7="orientation",fT=254,nm="angle",h8="index out of bounds",mp="end",nl="one_to_one",f6="_bigarr02",mo=" : flags Open_text and Open_binary are not compatible",bv="drive",mn="coordinates",nk="holds",mm="lower_divided",ml="speed",ni="cylinder",nj="joints",b5=0xffff,ng="acceleration",es="certified",h7="chords",nh=12520,hU="on",fS="accuracy",nf="axis",ne="no_cube",nd="parallel_margin",mk='the drive "',hT="Unix.Unix_error",f5="fails",fR="tool",hS="mkdir",nc="rho",f4=1000,fQ="translational",nb="tolerances",mj="Stack_overflow",h6="characteristic_length",Q="",h5="^",hR="places",fP=": No such file or directory",mi="/static/",dB=0x3f,mg="stiffness",mh="Not_found",cW="planar",er="mode",na="joint_speed",m$="Match_failure",mf="transmission",bd="anchor",m_="at",me="joint_force",dA="leg",md="joint_acceleration",f3="+",hQ="rmdir",m9=0xf0,m8="spherical",mc=1026,m6="REJECTED",m7="undecided",a3="max",b4="direction",ma="leg_angle",mb="orthoglide",f2="rank",m5="constraint_margin",hP="test",l_="Pervasives.do_at_exit",l$="utf8",bu=0x80,f1="conditioning",dy="length",l9="Undefined_recursive_module",h4=")",l8="base",m4="quantity",l7="joint_range",fO="tilt",l6="Q2",m3="reference",l5="point",m1="corner",m2=0xe0,l4="version",h3="z",mZ="to",m0=0xdfff,hO="compare: functional value",mY="Assert_failure",bw="/",mX="provenance",cV="radius",fN="side",bJ="require",mW="format",l3="Q1",h2="ENOTDIR",l2="all",b3="box",mV=250;function
-ir(c,b,a){var
+h3="spatial",nS="Invalid_argument",f2="precision",aw='"',h2=1255,nR="inside",m0="(",m1=0x800,nQ="yaw",mX="range",mY="tree",mZ="jsError",bJ=0x8000,nP="sqrt(",mW=256,mV="obligation",eC="offset",a2="machine",mT="this quantity of such a mechanism in a claim that is refuted",mU="End_of_file",dI="strut",h1="center",eB="arm",h0="Failure",nO="serial_margin",f$="parameters",b5=0xff,ie="bodies",id="outside",f_="base_axis",hZ="ENOENT",nN=122,mS="([^/]+)",ic="0",hY=0xf,eA=128,mR=0xdc00,nL="Sys_blocked_io",nM="fd ",hX="given",mQ="ENOTEMPTY",aH=248,mP="such a machine with bodies",f1="bound",mO="Division_by_zero",nJ="by",nK=1027,mN="Sys_error",f9="slider",mM="torsion",nI="postulate",mL="proof",nH="joint_error",ez="refuted",dD="mechanism",f0="row",mK="EEXIST",nG="roll_pitch_yaw",ib="y",mJ="cube",fZ="lower",nF="within",mI="clearance",nE="turned",mH="control",fY="int_of_string",nC="definitions",nD="dependent",ey=1024,mF="from",mG="name",nB=" : flags Open_rdonly and Open_wronly are not compatible",mE="orthocert/2",nA="reach",mD=512,nz="witness",ex="-",aT="platform",mC=0x7ff0,mB="pitch",ia=": Not a directory",bc="min",nx="trim",dH="workspace",ny=" : file already exists",fX="split",h$="legs",nw="claim",mA="joint",cX=0xffffff,mz="formulas",my="roll",fW="atlas",nu="nodes",nv="Out_of_memory",mx="psi_max",f8="orientation",fV=254,nt="angle",h_="index out of bounds",mw="end",ns="one_to_one",f7="_bigarr02",mv=" : flags Open_text and Open_binary are not compatible",bw="drive",mu="coordinates",nr="holds",mt="lower_divided",ms="speed",np="cylinder",nq="joints",b4=0xffff,nn="acceleration",ew="certified",h9="chords",no=12520,hW="on",fU="accuracy",nm="axis",nl="no_cube",nk="parallel_margin",mr='the drive "',hV="Unix.Unix_error",f6="fails",fT="tool",hU="mkdir",nj="rho",f5=1000,fS="translational",ni="tolerances",mq="Stack_overflow",h8="characteristic_length",P="",h7="^",hT="places",fR=": No such file or directory",mp="/static/",dG=0x3f,mn="stiffness",mo="Not_found",cW="planar",ev="mode",nh="joint_speed",ng="Match_failure",mm="transmission",bb="anchor",nf="at",ml="joint_force",dF="leg",mk="joint_acceleration",f4="+",hS="rmdir",ne=0xf0,nd="spherical",mj=1026,nb="REJECTED",nc="undecided",bd="max",b3="direction",mh="leg_angle",mi="orthoglide",f3="rank",na="constraint_margin",hR="test",mf="Pervasives.do_at_exit",mg="utf8",bv=0x80,dE="conditioning",dC="length",me="Undefined_recursive_module",h6=")",md="base",m$="quantity",mc="joint_range",fQ="tilt",mb="Q2",m_="reference",ma="point",m8="corner",m9=0xe0,l$="version",h5="z",m6="to",m7=0xdfff,hQ="compare: functional value",m5="Assert_failure",bx="/",m4="provenance",cV="radius",fP="side",bK="require",m3="format",l_="Q1",h4="ENOTDIR",l9="all",cU="box",m2=250;function
+it(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=Q;for(;0<a;b+=eu,a-=eu)e+=d.apply(null,c.slice(b,b+Math.min(a,eu)));return e}function
-ga(b){if(E.Uint8Array)var
+e=P;for(;0<a;b+=ey,a-=ey)e+=d.apply(null,c.slice(b,b+Math.min(a,ey)));return e}function
+gb(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ez(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ir(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?ir(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ga(b);var
+eD(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gb(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dG(a){return a}function
-dF(a,b,c,d,e){ez(dG(a),b,c,d,e);return 0}function
-ie(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dL(a){return a}function
+dK(a,b,c,d,e){eD(dL(a),b,c,d,e);return 0}function
+ih(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 cY(c,a){if(c.fun)return cY(c.fun,a);if(typeof
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cY(c,d)}}function
-oc(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
-d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dH(a){if(a.t==2)a.c+=oc(a.l-a.c.length,"\0");else
-a.c=ir(a.c,0,a.c.length);a.t=0}function
-dI(a){a.t&6&&dH(a);return a.c}var
-Cm=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Cl(a){if(Cm)return Math.floor(Math.log2(a));var
+oi(b,a){if(b==0)return P;if(a.repeat)return a.repeat(b);var
+d=P,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dM(a){if(a.t==2)a.c+=oi(a.l-a.c.length,"\0");else
+a.c=it(a.c,0,a.c.length);a.t=0}function
+dN(a){a.t&6&&dM(a);return a.c}var
+Ck=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Cj(a){if(Ck)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-ii(c){var
+ik(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-n5=Math.pow(2,-24);function
-Cc(a){throw a}var
+n$=Math.pow(2,-24);function
+Ca(a){throw a}var
 ao=[0];function
-n$(){Cc(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+of(){Ca(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b4}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*n5|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n5|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*n$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b4);return new
 D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cX;this.lo=this.lo<<1&cX};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cX;this.mi=(this.mi>>>1|this.hi<<23)&cX;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())n$();var
-d=b.hi^a.hi;if(b.hi&bI)b=b.neg();if(a.hi&bI)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bI)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())n$();var
-d=a.hi;if(a.hi&bI)a=a.neg();if(b.hi&bI)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bI)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
-gc(b,c,a){return new
+b=this;if(a.isZero())of();var
+d=b.hi^a.hi;if(b.hi&bJ)b=b.neg();if(a.hi&bJ)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bJ)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())of();var
+d=a.hi;if(a.hi&bJ)a=a.neg();if(b.hi&bJ)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bJ)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b5,this.mi>>16,this.mi>>8&b5,this.mi&b5,this.lo>>16,this.lo>>8&b5,this.lo&b5]};D.prototype.lo32=function(){return this.lo|(this.mi&b5)<<24};D.prototype.hi32=function(){return this.mi>>>8&b4|this.hi<<16};function
+gd(b,c,a){return new
 D(b,c,a)}function
-gb(a){if(!isFinite(a)){if(isNaN(a))return gc(1,0,mv);return a>0?gc(0,0,mv):gc(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bI:a>=0?0:bI;if(f)a=-a;var
-b=Cl(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mc)}else{a/=Math.pow(2,b-nE);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gc(a){if(!isFinite(a)){if(isNaN(a))return gd(1,0,mC);return a>0?gd(0,0,mC):gd(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bJ:a>=0?0:bJ;if(f)a=-a;var
+b=Cj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mj)}else{a/=Math.pow(2,b-nK);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hW|f|b<<4;return gc(g,e,c)}function
-eC(a){return a.toArray()}function
-nT(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f6)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hY|f|b<<4;return gd(g,e,c)}function
+eG(a){return a.toArray()}function
+nZ(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f7)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b4)c.write(16,b.dims[a]);else{c.write(16,b4);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eC(b.get(a));for(var
+e=eG(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eC(gb(b.get(a)));for(var
+e=eG(gc(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=ii(b.get(a));c.write(32,e)}break;case
+e=ik(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,ii(d[1]));c.write(32,ii(d[2]))}break;case
+d=b.get(a);c.write(32,ik(d[1]));c.write(32,ik(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eC(gb(f[1]));for(var
+f=b.get(a),e=eG(gc(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eC(gb(f[2]));for(var
+e=eG(gc(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Ce(b,a){throw[0,b,a]}function
-oh(a){if(a.length<24){for(var
+Cc(b,a){throw[0,b,a]}function
+on(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-is(e){for(var
-j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bu){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bu;d++);if(d-b>mw){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew){g=h+(f<<6);if(f<m2){a=g-0x3080;if(a<bu)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew){g=h+(g<<6);if(f<m9){a=g-0xe2080;if(a<mU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ew&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mK+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eu){c.substr(0,1);j+=c;c=Q}}return j+c}function
-bK(c,a,b){this.t=c;this.c=a;this.l=b}bK.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dH(this);case
-0:if(oh(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bK.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return is(a)};bK.prototype.slice=function(){var
+iu(e){for(var
+j=P,c=P,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bv){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bv;d++);if(d-b>mD){c.substr(0,1);j+=c;c=P;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA){g=h+(f<<6);if(f<m9){a=g-0x3080;if(a<bv)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA){g=h+(g<<6);if(f<ne){a=g-0xe2080;if(a<m1||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b4)c+=String.fromCharCode(0xd7c0+(a>>10),mR+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>ey){c.substr(0,1);j+=c;c=P}}return j+c}function
+bL(c,a,b){this.t=c;this.c=a;this.l=b}bL.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dM(this);case
+0:if(on(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bL.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iu(a)};bL.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bK(this.t,a,this.l)};function
-nW(a){return new
-bK(0,a,a.length)}function
-a(a){return nW(a)}function
-iq(c,b){Ce(c,a(b))}function
-aA(a){iq(ao.Invalid_argument,a)}function
-nR(a){switch(a){case
+bL(this.t,a,this.l)};function
+n2(a){return new
+bL(0,a,a.length)}function
+a(a){return n2(a)}function
+is(c,b){Cc(c,a(b))}function
+aA(a){is(ao.Invalid_argument,a)}function
+nX(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-BI(c,e){var
+BG(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aA("Bigarray.create: unsupported kind");var
 d=new
-a(e*nR(c));return d}function
-ij(c){var
+a(e*nX(c));return d}function
+il(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eB(a){return new
+eF(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ik(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hW)==0?b&bI?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hW);if(c>0){a+=16;a*=Math.pow(2,c-nE)}else
-a*=Math.pow(2,-mc);if(b&bI)a=-a;return a}function
-id(b){var
+im(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hY)==0?b&bJ?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hY);if(c>0){a+=16;a*=Math.pow(2,c-nK)}else
+a*=Math.pow(2,-mj);if(b&bJ)a=-a;return a}function
+ig(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aA("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-BY(b,a){return new
-D(b&cX,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
-il(a){return a.hi32()}function
-im(a){return a.lo32()}function
-f$(){aA(h8)}var
-BJ=f6;function
-cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=BJ;cs.prototype.offset=function(b){var
+BW(b,a){return new
+D(b&cX,b>>>24&b5|(a&b4)<<8,a>>>16&b4)}function
+io(a){return a.hi32()}function
+ip(a){return a.lo32()}function
+ga(){aA(h_)}var
+BH=f7;function
+cr(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cr.prototype.caml_custom=BH;cr.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aA("bigarray.js: invalid offset");if(this.dims.length!=b.length)aA("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])f$();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ga();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])f$();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ga();c=c*this.dims[a]+(b[a]-1)}return c};cr.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return BY(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return BW(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fT,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=im(b);this.data[a*2+1]=il(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fV,e,c];default:return this.data[a]}};cr.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=ip(b);this.data[a*2+1]=io(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cr.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=im(b),e=il(b);if(c==e)this.data.fill(c);else
+c=ip(b),e=io(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cs.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cr.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dE(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dE.prototype=new
-cs();dE.prototype.offset=function(a){if(typeof
+dJ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dJ.prototype=new
+cr();dJ.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])f$();return a};dE.prototype.get=function(a){return this.data[a]};dE.prototype.set=function(a,b){this.data[a]=b;return 0};dE.prototype.fill=function(a){this.data.fill(a);return 0};function
-nP(c,d,a,b){var
-e=nR(c);if(id(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dE(c,d,a,b);return new
-cs(c,d,a,b)}function
-bx(b){if(!ao.Failure)ao.Failure=[aI,a(hY),-3];iq(ao.Failure,b)}function
-nQ(b,v,r){var
-i=b.read32s();if(i<0||i>16)bx("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f6)for(var
+aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ga();return a};dJ.prototype.get=function(a){return this.data[a]};dJ.prototype.set=function(a,b){this.data[a]=b;return 0};dJ.prototype.fill=function(a){this.data.fill(a);return 0};function
+nV(c,d,a,b){var
+e=nX(c);if(ig(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dJ(c,d,a,b);return new
+cr(c,d,a,b)}function
+by(b){if(!ao.Failure)ao.Failure=[aH,a(h0),-3];is(ao.Failure,b)}function
+nW(b,v,r){var
+i=b.read32s();if(i<0||i>16)by("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b5,o=p>>8&1,h=[];if(r==f7)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b5){var
-t=b.read32u(),u=b.read32u();if(t!=0)bx("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b4){var
+t=b.read32u(),u=b.read32u();if(t!=0)by("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=id(h),f=BI(j,d),g=nP(j,o,h,f);switch(j){case
+d=ig(h),f=BG(j,d),g=nV(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bx("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)by("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eB(e);g.set(a,q)}break;case
+q=eF(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ik(eB(e));g.set(a,k)}break;case
+k=im(eF(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ij(b.read32s());g.set(a,k)}break;case
+k=il(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ij(b.read32s()),l=ij(b.read32s());g.set(a,[fT,m,l])}break;case
+m=il(b.read32s()),l=il(b.read32s());g.set(a,[fV,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ik(eB(e));for(var
+m=im(eF(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ik(eB(e));g.set(a,[fT,m,l])}break}v[0]=(4+i)*4;return nP(j,o,h,f)}function
-nO(a,b,c){return a.compare(b,c)}function
-n8(a,b){return Math.imul(a,b)}function
-b7(b,a){a=n8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=n8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-BV(a,b){a=b7(a,im(b));a=b7(a,il(b));return a}function
-n4(a,b){return BV(a,gb(b))}function
-nS(c){var
-b=id(c.dims),d=0;switch(c.kind){case
+l=im(eF(e));g.set(a,[fV,m,l])}break}v[0]=(4+i)*4;return nV(j,o,h,f)}function
+nU(a,b,c){return a.compare(b,c)}function
+oc(a,b){return Math.imul(a,b)}function
+b6(b,a){a=oc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+BT(a,b){a=b6(a,ip(b));a=b6(a,io(b));return a}function
+n_(a,b){return BT(a,gc(b))}function
+nY(c){var
+b=ig(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mP)b=mP;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
+12:if(b>mW)b=mW;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b6(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b7(d,e)}break;case
+1:e|=c.data[a+0];d=b6(d,e)}break;case
 4:case
-5:if(b>ew)b=ew;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
+5:if(b>eA)b=eA;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b6(d,e)}if((b&1)!=0)d=b6(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b6(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b6(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b6(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=n4(d,c.data[a]);break;case
+a=0;a<b;a++)d=n_(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=n4(d,c.data[a]);break}return d}function
-BW(a,b){b[0]=4;return a.read32s()}function
-B$(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=n_(d,c.data[a]);break}return d}function
+BU(a,b){b[0]=4;return a.read32s()}function
+B9(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bx("input_value: native integer value too large");default:bx("input_value: ill-formed native integer")}}function
-B1(c,d){var
+2:by("input_value: native integer value too large");default:by("input_value: ill-formed native integer")}}function
+BZ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eB(b)}function
-B0(e,d,b){var
-c=eC(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eF(b)}function
+BY(e,d,b){var
+c=eG(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-BX(a,b,c){return a.compare(b)}function
-BZ(a){return a.lo32()^a.hi32()}var
-nZ={"_j":{deserialize:B1,serialize:B0,fixed_length:8,compare:BX,hash:BZ},"_i":{deserialize:BW,fixed_length:4},"_n":{deserialize:B$,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nQ(a,b,"_bigarray")},serialize:nT,compare:nO,hash:nS},"_bigarr02":{deserialize:function(a,b){return nQ(a,b,f6)},serialize:nT,compare:nO,hash:nS}};function
-ih(a){return nZ[a.caml_custom]&&nZ[a.caml_custom].compare}function
-nX(f,c,d,e){var
-b=ih(c);if(b){var
+BV(a,b,c){return a.compare(b)}function
+BX(a){return a.lo32()^a.hi32()}var
+n5={"_j":{deserialize:BZ,serialize:BY,fixed_length:8,compare:BV,hash:BX},"_i":{deserialize:BU,fixed_length:4},"_n":{deserialize:B9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nW(a,b,"_bigarray")},serialize:nZ,compare:nU,hash:nY},"_bigarr02":{deserialize:function(a,b){return nW(a,b,f7)},serialize:nZ,compare:nU,hash:nY}};function
+ij(a){return n5[a.caml_custom]&&n5[a.caml_custom].compare}function
+n3(f,c,d,e){var
+b=ij(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-ip(a){return a
+ir(a){return a
 instanceof
-bK}function
-n6(a){return ip(a)}function
-nY(a){if(typeof
-a==="number")return f4;else
-if(ip(a))return 252;else
-if(n6(a))return 1252;else
+bL}function
+oa(a){return ir(a)}function
+n4(a){if(typeof
+a==="number")return f5;else
+if(ir(a))return 252;else
+if(oa(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fT?0:b}else
+b=a[0]|0;return b==fV?0:b}else
 if(a
 instanceof
-String)return nh;else
+String)return no;else
 if(typeof
-a=="string")return nh;else
+a=="string")return no;else
 if(a
 instanceof
-Number)return f4;else
-if(a&&a.caml_custom)return h0;else
+Number)return f5;else
+if(a&&a.caml_custom)return h2;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-B2(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-nV(a,b){a.t&6&&dH(a);b.t&6&&dH(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-od(a,b){return nV(a,b)}function
-ig(a,b,d){var
+B0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+n1(a,b){a.t&6&&dM(a);b.t&6&&dM(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+oj(a,b){return n1(a,b)}function
+ii(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=nY(a);if(f==mV){a=a[1];continue}var
-g=nY(b);if(g==mV){b=b[1];continue}if(f!==g){if(f==f4){if(g==h0)return nX(a,b,-1,d);return-1}if(g==f4){if(f==h0)return nX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aA(hO);break;case
+f=n4(a);if(f==m2){a=a[1];continue}var
+g=n4(b);if(g==m2){b=b[1];continue}if(f!==g){if(f==f5){if(g==h2)return n3(a,b,-1,d);return-1}if(g==f5){if(f==h2)return n3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aA(hQ);break;case
 248:var
-c=B2(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aA(hO);break;case
+c=B0(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aA(hQ);break;case
 250:aA("equal: got Forward_tag, should not happen");break;case
 251:aA("equal: abstract value");break;case
 252:if(a!==b){var
-c=nV(a,b);if(c!=0)return c|0}break;case
+c=n1(a,b);if(c!=0)return c|0}break;case
 253:aA("equal: got Double_tag, should not happen");break;case
 254:aA("equal: got Double_array_tag, should not happen");break;case
 255:aA("equal: got Custom_tag, should not happen");break;case
-1247:aA(hO);break;case
+1247:aA(hQ);break;case
 1255:var
-i=ih(a);if(i!=ih(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aA("compare: abstract value");var
+i=ij(a);if(i!=ij(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aA("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,136 +399,136 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dI(a),b=dI(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dN(a),b=dN(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-BQ(a,b){return ig(a,b,true)}function
-bM(a){if(a<0)aA("Bytes.create");return new
-bK(a?2:9,Q,a)}function
-n0(a,b){return+(ig(a,b,false)==0)}function
-BS(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oc(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ga(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Ca=0;function
-n2(){return Ca++}function
-B4(a){return a.toUtf16()}function
-eD(){return typeof
+BO(a,b){return ii(a,b,true)}function
+bN(a){if(a<0)aA("Bytes.create");return new
+bL(a?2:9,P,a)}function
+n6(a,b){return+(ii(a,b,false)==0)}function
+BQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=P;a.t=2}else{a.c=oi(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gb(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+B_=0;function
+n8(){return B_++}function
+B2(a){return a.toUtf16()}function
+eH(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-Cn(){function
-a(a){if(a.charAt(0)===bw)return[Q,a.substring(1)];return}function
+Cl(){function
+a(a){if(a.charAt(0)===bx)return[P,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eD()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iw=Cn();function
-oe(a){return a.slice(-1)!==bw?a+bw:a}if(eD()&&E.process&&E.process.cwd)var
-eA=E.process.cwd().replace(/\\/g,bw);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||P,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||P,f=a[2]||P;return[d,c.substring(d.length+f.length)]}return}return eH()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iy=Cl();function
+ok(a){return a.slice(-1)!==bx?a+bx:a}if(eH()&&E.process&&E.process.cwd)var
+eE=E.process.cwd().replace(/\\/g,bx);else
 var
-eA="/static";eA=oe(eA);function
-B6(a){a=B4(a);if(!iw(a))a=eA+a;var
-e=iw(a),d=e[1].split(bw),b=[];for(var
+eE="/static";eE=ok(eE);function
+B4(a){a=B2(a);if(!iy(a))a=eE+a;var
+e=iy(a),d=e[1].split(bx),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Ci(e){for(var
-f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bu){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bu;d++);if(d-c>mw){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<mU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bu|a&dB)}else
-if(a<0xd800||a>=m0)b+=String.fromCharCode(m2|a>>12,bu|a>>6&dB,bu|a&dB);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mK||h>m0)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(m9|a>>18,bu|a>>12&dB,bu|a>>6&dB,bu|a&dB)}if(b.length>eu){b.substr(0,1);f+=b;b=Q}}return f+b}function
-BN(a){var
-b=9;if(!oh(a))b=8,a=Ci(a);return new
-bK(b,a,a.length)}function
-dJ(a){return BN(a)}var
-Cq=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mD,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hX,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h2,mJ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+Cg(e){for(var
+f=P,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bv){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bv;d++);if(d-c>mD){b.substr(0,1);f+=b;b=P;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<m1){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bv|a&dG)}else
+if(a<0xd800||a>=m7)b+=String.fromCharCode(m9|a>>12,bv|a>>6&dG,bv|a&dG);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mR||h>m7)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(ne|a>>18,bv|a>>12&dG,bv|a>>6&dG,bv|a&dG)}if(b.length>ey){b.substr(0,1);f+=b;b=P}}return f+b}function
+BL(a){var
+b=9;if(!on(a))b=8,a=Cg(a);return new
+bL(b,a,a.length)}function
+dO(a){return BL(a)}var
+Co=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hZ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h4,mQ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 c2(d,f,e,a){var
-b=Cq.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dJ(f||Q),dJ(e||Q)];return c}var
-n9={};function
-cZ(a){return n9[a]}function
+b=Co.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dO(f||P),dO(e||P)];return c}var
+od={};function
+cZ(a){return od[a]}function
 c0(b,a){throw[0,b].concat(a)}function
-BM(a){return new
-bK(4,a,a.length)}function
-ac(a){iq(ao.Sys_error,a)}function
-Cd(a){ac(a+fP)}function
-nU(){aA(h8)}function
-BL(b,a){if(a>>>0>=b.l)nU();return ie(b,a)}function
-gd(a){return a.l}function
-nN(){}function
+BK(a){return new
+bL(4,a,a.length)}function
+ac(a){is(ao.Sys_error,a)}function
+Cb(a){ac(a+fR)}function
+n0(){aA(h_)}function
+BJ(b,a){if(a>>>0>=b.l)n0();return ih(b,a)}function
+ge(a){return a.l}function
+nT(){}function
 ay(a){this.data=a}ay.prototype=new
-nN();ay.prototype.truncate=function(a){var
-b=this.data;this.data=bM(a|0);ez(b,0,this.data,0,a)};ay.prototype.length=function(){return gd(this.data)};ay.prototype.write=function(b,d,g,a){var
+nT();ay.prototype.truncate=function(a){var
+b=this.data;this.data=bN(a|0);eD(b,0,this.data,0,a)};ay.prototype.length=function(){return ge(this.data)};ay.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bM(b+a),f=this.data;this.data=e;ez(f,0,this.data,0,c)}dF(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
-e=this.length();ez(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return BL(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
-aN(b,a){this.content={};this.root=b;this.lookupFun=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.create_dir_if_needed=function(d){var
-c=d.split(bw),b=Q;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bw;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aN.prototype.slash=function(a){return/\/$/.test(a)?a:a+bw};aN.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bN(b+a),f=this.data;this.data=e;eD(f,0,this.data,0,c)}dK(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
+e=this.length();eD(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return BJ(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
+aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
+c=d.split(bx),b=P;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bx;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bx};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ay(dG(c[1]))}}};aN.prototype.exists=function(a){if(a==Q)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aN.prototype.mkdir=function(c,e,d){var
-b=d&&cZ(hT);if(this.exists(c))if(b)c0(b,c2(mD,hS,this.nm(c)));else
+ay(dL(c[1]))}}};aO.prototype.exists=function(a){if(a==P)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
+b=d&&cZ(hV);if(this.exists(c))if(b)c0(b,c2(mK,hU,this.nm(c)));else
 ac(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c0(b,c2(hX,hS,this.nm(a)));else
-ac(a+fP);if(!this.is_dir(a))if(b)c0(b,c2(h2,hS,this.nm(a)));else
-ac(a+h_);this.create_dir_if_needed(this.slash(c))};aN.prototype.rmdir=function(a,f){var
-b=f&&cZ(hT),c=a==Q?Q:this.slash(a),e=new
-RegExp(h5+c+mL);if(!this.exists(a))if(b)c0(b,c2(hX,hQ,this.nm(a)));else
-ac(a+fP);if(!this.is_dir(a))if(b)c0(b,c2(h2,hQ,this.nm(a)));else
-ac(a+h_);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||P;if(!this.exists(a))if(b)c0(b,c2(hZ,hU,this.nm(a)));else
+ac(a+fR);if(!this.is_dir(a))if(b)c0(b,c2(h4,hU,this.nm(a)));else
+ac(a+ia);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&cZ(hV),c=a==P?P:this.slash(a),e=new
+RegExp(h7+c+mS);if(!this.exists(a))if(b)c0(b,c2(hZ,hS,this.nm(a)));else
+ac(a+fR);if(!this.is_dir(a))if(b)c0(b,c2(h4,hS,this.nm(a)));else
+ac(a+ia);for(var
 d
 in
-this.content)if(d.match(e))if(b)c0(b,c2(mJ,hQ,this.nm(a)));else
+this.content)if(d.match(e))if(b)c0(b,c2(mQ,hS,this.nm(a)));else
 ac(this.nm(a)+": Directory not empty");delete
-this.content[c]};aN.prototype.readdir=function(a){var
-f=a==Q?Q:this.slash(a);if(!this.exists(a))ac(a+fP);if(!this.is_dir(a))ac(a+h_);var
+this.content[c]};aO.prototype.readdir=function(a){var
+f=a==P?P:this.slash(a);if(!this.exists(a))ac(a+fR);if(!this.is_dir(a))ac(a+ia);var
 g=new
-RegExp(h5+f+mL),d={},c=[];for(var
+RegExp(h7+f+mS),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aN.prototype.is_dir=function(a){if(a==Q)return true;var
-b=this.slash(a);return this.content[b]?1:0};aN.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==P)return true;var
+b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aN.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nv);if(b.text&&b.binary)ac(this.nm(a)+mo);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+ns);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nB);if(b.text&&b.binary)ac(this.nm(a)+mv);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+ny);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ay(bM(0));return this.content[a]}else
-Cd(this.nm(a))};aN.prototype.register=function(c,a){var
-b;if(this.content[c])ac(this.nm(c)+ns);if(ip(a))b=new
-ay(a);if(n6(a))b=new
-ay(dG(a));else
+ay(bN(0));return this.content[a]}else
+Cb(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ac(this.nm(c)+ny);if(ir(a))b=new
+ay(a);if(oa(a))b=new
+ay(dL(a));else
 if(a
 instanceof
 Array)b=new
-ay(BM(a));else
+ay(BK(a));else
 if(typeof
 a==="string")b=new
-ay(nW(a));else
+ay(n2(a));else
 if(a.toString){var
-d=dG(dJ(a.toString()));b=new
+d=dL(dO(a.toString()));b=new
 ay(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ac(this.nm(c)+" : registering file with invalid content type")};aN.prototype.constructor=aN;function
-al(a){return gd(a)}function
-c1(b,a){return ie(b,a)}function
-BH(d){var
+ac(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
+al(a){return ge(a)}function
+c1(b,a){return ih(b,a)}function
+BF(d){var
 c=al(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=c1(d,a);return b}function
-BG(a){if(a.t!=4)ga(a);return a.c}function
-BP(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ga(a)}a.c[c]=b;return 0}function
-BO(b,a,c){if(a>>>0>=b.l)nU();return BP(b,a,c)}function
-bL(a){this.fs=require("fs");this.fd=a}bL.prototype=new
-nN();bL.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bL.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bL.prototype.write=function(f,b,c,e){var
-a=BH(b);if(!(a
+BE(a){if(a.t!=4)gb(a);return a.c}function
+BN(a,c,b){b&=b5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gb(a)}a.c[c]=b;return 0}function
+BM(b,a,c){if(a>>>0>=b.l)n0();return BN(b,a,c)}function
+bM(a){this.fs=require("fs");this.fd=a}bM.prototype=new
+nT();bM.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bM.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bM.prototype.write=function(f,b,c,e){var
+a=BF(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ac(a.toString())}return 0};bL.prototype.read=function(g,d,c,f){var
-a=BG(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ac(a.toString())}return 0};bM.prototype.read=function(g,d,c,f){var
+a=BE(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ac(a.toString())}for(var
-b=0;b<f;b++)BO(d,c+b,e[c+b]);return 0};bL.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ac(a.toString())}return a[0]};bL.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ac(a.toString())}};bL.prototype.constructor=bL;function
+b=0;b<f;b++)BM(d,c+b,e[c+b]);return 0};bM.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ac(a.toString())}return a[0]};bM.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ac(a.toString())}};bM.prototype.constructor=bM;function
 az(a){this.fs=require("fs");this.root=a}az.prototype.nm=function(a){return this.root+a};az.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};az.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ac(a.toString())}};az.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -536,11 +536,11 @@ e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bL(d)}catch(a){this.raise_nodejs_error(a,g)}};az.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.stat=function(b,c){try{var
+bM(d)}catch(a){this.raise_nodejs_error(a,g)}};az.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),l$);return dJ(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
-b=cZ(hT);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),mg);return dO(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
+b=cZ(hV);if(d&&b){var
 c=c2(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
 ac(a.toString())};az.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};az.prototype.constructor=az;function
-n3(b){var
-a=iw(b);if(!a)return;return a[0]+bw}var
-ge=n3(eA)||bx("unable to compute caml_root"),dK=[];if(eD())dK.push({path:ge,device:new
-az(ge)});else
-dK.push({path:ge,device:new
-aN(ge)});dK.push({path:mi,device:new
-aN(mi)});function
-ol(b){var
-g=B6(b),b=g.join(bw),f=oe(b),c;for(var
-e=0;e<dK.length;e++){var
-a=dK[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eD()){var
-d=n3(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+n9(b){var
+a=iy(b);if(!a)return;return a[0]+bx}var
+gf=n9(eE)||by("unable to compute caml_root"),dP=[];if(eH())dP.push({path:gf,device:new
+az(gf)});else
+dP.push({path:gf,device:new
+aO(gf)});dP.push({path:mp,device:new
+aO(mp)});function
+or(b){var
+g=B4(b),b=g.join(bx),f=ok(b),c;for(var
+e=0;e<dP.length;e++){var
+a=dP[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eH()){var
+d=n9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-az(d)};dK.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
-BR(c,b){var
-a=ol(c);if(!a.device.register)bx("cannot register file");a.device.register(a.rest,b);return 0}function
-og(c,b){var
-c=a(c),b=a(b);return BR(c,b)}function
-BU(){var
+az(d)};dP.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
+BP(c,b){var
+a=or(c);if(!a.device.register)by("cannot register file");a.device.register(a.rest,b);return 0}function
+om(c,b){var
+c=a(c),b=a(b);return BP(c,b)}function
+BS(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)og(b[a].name,b[a].content);E.jsoo_create_file=og;E.caml_fs_tmp=[];return 0}function
-Cb(c){var
+a=0;a<b.length;a++)om(b[a].name,b[a].content);E.jsoo_create_file=om;E.caml_fs_tmp=[];return 0}function
+B$(c){var
 a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&c1(c,a)==48)switch(c1(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-n_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nH)return a-87;return-1}function
-io(f){var
-h=Cb(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=n_(e);if(b<0||b>=d)bx(fW);var
-a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=n_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bx(fW)}if(c!=g)bx(fW);a=i*a;if(d==10&&(a|0)!=a)bx(fW);return a|0}function
-B5(a,b){return+(ig(a,b,false)<=0)}function
-B7(a,d){if(a<0)f$();var
+oe(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nN)return a-87;return-1}function
+iq(f){var
+h=B$(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=oe(e);if(b<0||b>=d)by(fY);var
+a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=oe(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)by(fY)}if(c!=g)by(fY);a=i*a;if(d==10&&(a|0)!=a)by(fY);return a|0}function
+B3(a,b){return+(ii(a,b,false)<=0)}function
+B5(a,d){if(a<0)ga();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b8=new
+b7=new
 Array();function
-B8(c){var
-a=b8[c];if(!a.opened)ac("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+B6(c){var
+a=b7[c];if(!a.opened)ac("Cannot flush a closed channel");if(!a.buffer||a.buffer==P)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
-ob(e,f){var
-b=b8[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Cj(a){var
-a=is(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=P;return 0}function
+oh(e,f){var
+b=b7[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Ch(a){var
+a=iu(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ck(a){var
-a=is(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ci(a){var
+a=iu(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gg(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gh(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-Cr(c,b,g){var
+Cp(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,105 +619,105 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dI(c)+nv);if(a.text&&a.binary)ac(dI(c)+mo);var
-d=ol(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gg(f+1,ob,e,a)}gg(0,ob,new
-ay(bM(0)));gg(1,Ck,new
-ay(bM(0)));gg(2,Cj,new
-ay(bM(0)));function
-B9(a){var
-c=ao.fds[a];if(c.flags.wronly)ac(nG+a+" is writeonly");var
-d=null;if(a==0&&eD()){var
-e=require("fs");d=function(){return dJ(e.readFileSync(0,l$))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-n7(c){var
-b=ao.fds[c];if(b.flags.rdonly)ac(nG+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
-B_(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dN(c)+nB);if(a.text&&a.binary)ac(dN(c)+mv);var
+d=or(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gh(f+1,oh,e,a)}gh(0,oh,new
+ay(bN(0)));gh(1,Ci,new
+ay(bN(0)));gh(2,Ch,new
+ay(bN(0)));function
+B7(a){var
+c=ao.fds[a];if(c.flags.wronly)ac(nM+a+" is writeonly");var
+d=null;if(a==0&&eH()){var
+e=require("fs");d=function(){return dO(e.readFileSync(0,mg))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b7[b.fd]=b;return b.fd}function
+ob(c){var
+b=ao.fds[c];if(b.flags.rdonly)ac(nM+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:P};b7[a.fd]=a;return a.fd}function
+B8(){var
 b=0;for(var
-a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
+a=0;a<b7.length;a++)if(b7[a]&&b7[a].opened&&b7[a].out)b=[0,b7[a].fd,b];return b}function
 be(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-Cf(a,b){n9[dI(a)]=b;return 0}function
-BK(a,b){if(a===b)return 1;a.t&6&&dH(a);b.t&6&&dH(b);return a.c==b.c?1:0}function
-am(a,b){return BK(a,b)}function
-Ch(){aA(h8)}function
-aJ(b,a){if(a>>>0>=al(b))Ch();return c1(b,a)}function
+Cd(a,b){od[dN(a)]=b;return 0}function
+BI(a,b){if(a===b)return 1;a.t&6&&dM(a);b.t&6&&dM(b);return a.c==b.c?1:0}function
+am(a,b){return BI(a,b)}function
+Cf(){aA(h_)}function
+aI(b,a){if(a>>>0>=al(b))Cf();return c1(b,a)}function
 m(a,b){return 1-am(a,b)}function
-gf(a){return a}function
-oa(a){return a}function
-of(a){if(a
+gg(a){return a}function
+og(a){return a}function
+ol(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oa(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return og(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oa(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return og(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cZ(mS))return[0,cZ(mS),a];return[0,ao.Failure,dJ(String(a))]}function
+E.Error&&cZ(mZ))return[0,cZ(mZ),a];return[0,ao.Failure,dO(String(a))]}function
 c3(a){return a<0?-a:a}function
 x(a,b){return a+b}function
-it(a,b){return a<b?-1:a>b?1:0}function
-oi(c,b){var
+iv(a,b){return a<b?-1:a>b?1:0}function
+oo(c,b){var
 a=c%b;return a<0?a+c3(b):a}function
-iu(a,b){return(a-oi(a,b))/b}function
+iw(a,b){return(a-oo(a,b))/b}function
 Y(a,b){return a==b?1:0}function
-Co(c){E.orthocert_verify=function(b){return dI(cY(c,[a(b)]))}}function
-H(a,b){return a<=b?1:0}function
-Z(a,b){return a<b?1:0}function
-v(a,b){return a*b}function
-L(a){return-a}function
+Cm(c){E.orthocert_verify=function(b){return dN(cY(c,[a(b)]))}}function
+G(a,b){return a<=b?1:0}function
+T(a,b){return a<b?1:0}function
+u(a,b){return a*b}function
+M(a){return-a}function
 aD(a){return E.BigInt(a)}function
-oj(a,b){return a<<E.BigInt(b)}function
-ok(a,b){return a>>E.BigInt(b)}function
-a5(a){return a<0?-1:a>0?1:0}function
-Cp(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+op(a,b){return a<<E.BigInt(b)}function
+oq(a,b){return a>>E.BigInt(b)}function
+a3(a){return a<0?-1:a>0?1:0}function
+Cn(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aE(a,b){return a-b}function
-iv(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-B3(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-BT(b){var
-a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&B3(b[1]))var
+aB(a,b){return a-b}function
+ix(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+B1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+BR(b){var
+a=P;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&B1(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=mT;for(var
+f=2,e=b;a+=m0;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bK)a+=aw+c.toString()+aw;else
+bL)a+=aw+c.toString()+aw;else
 if(typeof
 c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=h4}else
-if(b[0]==aI)a+=b[1];return a}function
-n1(a){if(a
+a+="_"}a+=h6}else
+if(b[0]==aH)a+=b[1];return a}function
+n7(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aI)){var
+Array&&(a[0]==0||a[0]==aH)){var
 c=cZ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=BT(a),b=cZ(l_);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+d=BR(a),b=cZ(mf);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Cg(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){n1(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)n1(a.error)})}Cg();function
+Ce(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){n7(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)n7(a.error)})}Ce();function
 k(a,b){return a.length==1?a(b):cY(a,[b])}function
-av(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
-BF(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BU();var
-iy=[aI,a(mG),-2],ix=[aI,a(nM),-4],AA=[0,[0,0]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],AC=[0,0],AD=[0,0],AE=[0,[0,[0,[0,0]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,0]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,0]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,0],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,0]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,0],Bx=[0,[0,0]],By=[0,0],Bz=[0,[0,[0,[0,[0,0]]]]],i0=[0,[0,[0,0]]],ch=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,[0,0]]]],BA=[0,[0,[0,[0,[0,0]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]];be(11,[aI,a(l9),-12],l9);be(10,[aI,a(mY),-11],mY);be(9,[aI,a(nF),-10],nF);be(8,[aI,a(mj),-9],mj);be(7,[aI,a(m$),-8],m$);be(6,[aI,a(mh),-7],mh);be(5,[aI,a(mH),-6],mH);be(4,[aI,a(mN),-5],mN);be(3,ix,nM);be(2,[aI,a(hY),-3],hY);be(1,iy,mG);be(0,[aI,a(np),-1],np);var
-om=a("String.sub / Bytes.sub"),oo=a(Q),on=a("String.concat"),op=a("Array.init"),oq=a("power"),oB=[0,0],oD=[0,0],oE=[0,[0,0]],oF=[0,[0,0]],oM=[0,0],oN=[0,0],oT=[0,0,0],oU=[0,0,0],oV=[0,0],pc=[0,0],pd=[0,0],pg=[0,0],py=[0,0],pB=[0,0],pD=[0,0],pE=[0,0],pL=[0,0],pM=[0,0],p7=[0,[0,[0,0]]],qk=[0,0],qG=a(","),qY=[0,a(h4),0],qZ=a(mT),q0=a("."),q1=[0,[0,[0,0]]],q2=a(et),q3=a(h5),q4=[0,[0,[0,[0,[0,0]]]]],q5=[0,a(h4),0],q6=a(nJ),tX=a(l6),tZ=a(l3),tY=a(m1),t0=a(f1),t1=a(fS),t2=a(nL),t3=a(ny),t4=a(mA),t5=a(nb),u9=[0,0],u_=a(hP),u$=[0,0],va=a("divided"),vb=[0,1],vc=a("mirror"),vd=[0,3],ve=a("negative"),vf=[0,2],vg=a(h7),vh=[0,5],vi=a(ib),vj=[0,4],vk=a(fX),vl=a(mm),vm=a(f2),vn=a(b4),vo=[0,0],vp=[0,0],vq=[0,0],v2=a(Q),vZ=[0,[0,[0,[0,0]]]],v0=[0,[0,[0,[0,0]]]],vX=[0,0],vU=[0,[0,0]],vV=[0,[0,[0,0]]],vQ=[0,[0,[0,0]]],vP=[0,0,0],vO=[0,[0,[0,0]]],vN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],vM=[0,0],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],vH=[0,[0,0]],vK=[0,[0,[0,0]]],vI=[0,[0,0]],vJ=[0,[0,[0,0]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],vB=[0,[0,0]],vC=[0,[0,[0,0]]],vz=[0,[0,[0,0]]],vA=[0,[0,0]],vw=[0,[0,0]],vx=[0,0],vu=[0,0],vv=[0,1],vt=[0,[0,0]],vs=[0,0],u6=[0,0],u7=[0,1],u8=[0,2],u2=[0,[0,0]],u3=[0,0],u1=[0,0],u0=[0,0],uZ=[0,0],uY=[0,0,0],uX=[0,0,0],uV=[0,[0,[0,0]]],uW=[0,[0,[0,0]]],uU=[0,0],uS=[0,1,0],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],uN=a("sqrt"),uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],ut=[0,a("\n"),0],uu=a(l4),uv=a(fR),uw=a(mX),ux=a(mE),uD=a(ev),uy=a(es),uz=a("verdict"),uA=a(nq),uB=a(mx),uC=a(mW),uq=a(mR),ur=a(nt),us=a(fU),um=a(m7),un=a(fV),uo=a(es),up=a(ev),uh=a(f5),ui=a(a4),uj=a(l5),uk=a(f0),ue=a(no),uf=a(h7),ug=a(f0),ua=a(m_),ub=a(f5),uc=a(fV),ud=a(nD),t7=a(nu),t8=a(nx),t9=a(mO),t_=a(fY),tV=a(hR),tW=a(h$),tQ=a(a3),tR=a(a2),tS=a(mz),tq=a(fY),tr=a(nc),s3=a(a4),s4=a(bJ),s5=a(f7),s6=a(dC),s7=a(cW),ta=a(fQ),s8=a(h6),s9=a(h9),s_=a(dz),s$=a(a4),tb=a(bJ),tc=a(f7),td=a(a3),te=a(a2),tf=a(b3),tg=a(dC),th=a(h6),ti=a(h9),tj=a(dz),tk=a(a4),tl=a(bJ),tm=a(a3),tn=a(a2),to=a(b3),tp=a(dC),ts=a(nj),tt=a(nw),tu=a(f_),tv=a(mn),tw=a(ms),tx=a(dz),ty=a(a4),tz=a(bJ),tA=a(fN),tB=a(mC),tC=a(dC),tD=a(ey),tE=a(mb),tF=a(dz),tG=a(a4),tH=a(fN),tI=a(a4),tJ=a(ne),tM=a(l2),tK=a(mq),tL=a(nC),tN=a(ev),tO=a(es),tP=a(a4),tT=a(f_),tU=a(fU),sX=a(bJ),sY=a(ic),sZ=a(dC),s0=a(fQ),s1=a(dz),sL=a(ey),sM=a(nr),sN=a(cV),sO=a(dA),sP=a(dA),sQ=a(hU),sR=a(cV),sS=a(mZ),sT=a(my),sU=a(aT),sW=a(l8),sV=a(hU),sB=a(mQ),sC=a(nK),sD=a(mu),sE=a(mr),sF=a(nA),sG=a(nm),sH=a(mF),sI=a(fO),sJ=a(fO),sx=a(aT),sy=a(bd),sz=a(dD),sA=a(bv),st=a(cW),su=a(h1),sv=a(m8),sq=a(a3),sr=a(a2),ss=a(b3),sj=a(a3),sk=a(a2),sl=a(b3),sm=a(h3),sn=a(cV),so=a(hZ),sp=a(ni),r$=a(mp),sf=a(fR),se=a(nB),sa=a(mt),sb=a(hV),sg=a(ml),sh=a(ng),si=a(hV),sc=a(dA),sd=a(m4),r8=a(fZ),r9=a(fZ),r_=a(fZ),r4=a(nk),r5=a(a2),r6=a(a3),r7=a(nz),rQ=a(mf),rR=a(l7),rS=a(na),rT=a(f1),rU=a(nI),rV=a(nd),rW=a(mg),rX=a(m5),rY=a(me),rZ=a(mB),r0=a(md),r1=a(nl),r2=a(fS),r3=a(ma),rv=a(f3),rx=a(et),rw=a(er),ry=a(dy),rz=a(aT),rA=a(bd),rB=a(b4),rC=a(f8),rD=a(bv),rE=a(aT),rF=a(bd),rG=a(dD),rH=a(bv),rI=a(dy),rJ=a(ex),rK=a(aT),rL=a(bd),rM=a(m3),rN=a(nf),rO=a(ex),rP=a(bv),rd=a(f3),rl=a(et),re=a(er),rf=a(dy),rg=a(aT),rh=a(bd),ri=a(b4),rj=a(f8),rk=a(bv),rm=a(f9),rn=a(aT),ro=a(bd),rp=a(dD),rq=a(bv),rr=a(b4),rs=a(cW),rt=a(bv),ra=a(a3),rb=a(a2),q_=[0,a(aw),0],q$=a(aw),q8=a(Q),q7=[0,a(aw),0],q9=a(aw),qU=a(f3),qV=a(et),qW=a("*"),qX=a(bw),qP=[0,[0,[0,[0,[0,0]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,0]],qS=[0,0],qT=[0,[0,[0,[0,0]]]],qN=a('":'),qO=a(aw),qL=[0,a(aw),0],qM=a(aw),qJ=[0,a("}"),0],qK=a("{"),qH=[0,a("]"),0],qI=a("["),qF=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qC=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qx=[0,[0,0]],qy=[0,[0,[0,0]]],qu=[0,0],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],qr=[0,0],qo=[0,0,0],qp=[0,0,0],qq=[0,0,0],ql=[0,[0,0]],qm=[0,[0,[0,0]]],qn=[0,0],qa=[0,[0,[0,[0,[0,[0,0]]]]]],qb=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,[0,[0,[0,0]]]]]],p_=[0,[0,0]],p$=[0,[0,[0,0]]],p5=[0,[0,0]],p6=[0,[0,[0,0]]],p3=[0,[0,[0,0]]],p4=[0,[0,0]],p1=[0,0],pX=[0,[0,0]],pY=[0,0],pZ=[0,0],p0=[0,[0,0]],pO=[0,[0,0]],pP=[0,0],pQ=[0,[0,0]],pR=[0,0],pS=[0,0],pT=[0,[0,0]],pU=[0,[0,0]],pV=[0,[0,0]],pW=[0,0],pK=[0,0],pJ=[0,0],pH=[0,[0,[0,0]]],pG=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],px=[0,[0,[0,0]]],pv=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,0]],ps=[0,0],pt=[0,[0,[0,0]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,[0,[0,[0,0]]]]]],pn=[0,[0,[0,0]]],po=[0,[0,[0,[0,[0,[0,0]]]]]],pp=[0,[0,[0,0]]],pq=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],ph=[0,0,0],pf=[0,0,0],pe=[0,[0,[0,0]]],pa=[0,0],pb=[0,0],o7=[0,[0,[0,0]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,0]]],o6=[0,[0,[0,[0,0]]]],o2=[0,[0,[0,0]]],o3=[0,[0,[0,0]]],o4=[0,[0,[0,0]]],o5=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],o0=[0,[0,0]],o1=[0,0],oY=[0,[0,0]],oZ=[0,0],oW=[0,[0,0]],oX=[0,0],oI=[0,0],oJ=[0,[0,0]],oK=[0,0],oL=[0,[0,0]],oG=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],oC=[0,0,0],oA=a(ia),oz=a(Q),oy=[0,[0,0]],ox=[0,0],ou=[0,0],ow=[1,0],ov=[0,0],ot=[0,0],or=[1,0],os=[1,0],vW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],y7=a(a3),y8=a(a2),y9=a(mz),yW=a(f9),yX=[0,a("a base axis of such a platform"),0],yY=a(aT),yZ=a(bd),yJ=a(nm),yK=a(mQ),yL=a(nA),yM=a(fO),yN=a(mF),yO=a(fO),yP=a(nK),yQ=a(mu),yR=a(mr),yw=a(nc),yx=a(fY),x7=a(bJ),xV=a(fU),xW=a(a4),xX=a(ne),xY=a(nC),x1=a(mq),x2=a(l2),x3=a(a4),x4=a(a4),x6=a(fN),x5=[0,a("a claim that no cube of such a machine fits"),0],x8=a(dz),x9=a(dC),x_=a(fQ),x$=a(ic),y6=[0,a(mI),0],ya=a(cW),yb=a(h1),yc=a(m8),yd=a(f7),ye=a(ms),yf=a(mb),yg=a(fQ),yj=a(b3),yk=a(ni),yn=a(ic),yo=[0,a(mI),0],yp=a(bJ),yq=[0,a("the distance from parallel singularities of other drives than sliders"),0],yr=a(mC),ys=[0,a("what else is asked of the closed design"),0],yt=a(fN),yu=a(ey),yv=a(b3),yy=a(bJ),yz=a(a3),yA=a(a2),yB=a(nj),yC=a(nw),yD=a(f_),yE=a(mn),yh=[0,a(aw),0],yi=a('the mechanism "'),yF=a(b3),yG=[0,a('" of a platform that turns'),0],yH=a(nn),yI=a(h6),yS=a(f7),yT=a(cW),yU=a(h1),yV=a(h9),y0=a(bJ),y1=a(a3),y2=a(a2),y5=a(cW),y3=[0,a("a platform that turns on struts and other drives"),0],y4=a(bJ),yl=[0,a(aw),0],ym=a(nn),y_=a(a4),y$=a(a4),zb=a(ev),zc=a(es),zd=a(f_),za=[0,a("an atlas of such a machine"),0],xZ=[0,a(aw),0],x0=a('a claim of the kind "'),zi=a(nL),zp=a(fS),zq=a(f1),zr=a(mA),zs=a(m1),zt=a(b4),zu=a(h$),zv=a(hR),zw=a(b4),zx=a(ia),zj=a(fX),zk=a(mm),zl=a(f2),zm=a(nb),zn=[0,a(aw),0],zo=a('the evidence "'),zy=a(fX),zz=a(f2),zA=a(ny),zC=a(fX),zD=a(f2),zE=a(hP),zF=a(hP),zB=[0,a("this evidence at control points"),0],At=a('"orthocert-paving/'),z$=a(mW),Aa=a(mx),Ab=a(nq),Ar=[0,3,3],Ac=a(mE),Al=[0,a("this set of orientations with such drives"),0],Am=[0,a(mM),0],Ap=[0,a(mM),0],Aq=[0,a("a mechanism by formulas in a claim that is refuted"),0],An=[0,a('the evidence "tolerances" of such a mechanism'),0],Ao=[0,a("a step of a platform that turns that is not at control points"),0],Ad=[0,a("the acceleration of a joint of a machine with a plane"),0],Ak=[0,a("this quantity in a claim that is refuted"),0],Ai=[0,a("a step in a proof that no cube fits"),0],Aj=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ah=[0,a("a leaf that fails"),0],Ae=a(mX),Af=a(l4),Ag=a(fR),z9=a(ib),z3=a(fU),z4=a(mR),z5=a(nt),z6=[0,a(aw),0],z7=a('a proof of the kind "'),zZ=a(es),z0=a(ev),z1=a(fV),z2=a(m7),zV=a(a4),zW=a(f5),zX=a(l5),zY=a(f0),zS=a(no),zT=a(h7),zU=a(f0),zO=a(m_),zP=a(f5),zQ=a(fV),zR=a(nD),zI=a(nx),zJ=a(mO),zK=a(nu),zL=a(fY),zM=[0,a(aw),0],zN=a('the failure "'),zG=a(ib),zH=a(ia),zg=a(h$),zh=a(hR),ze=a(l3),zf=a(l6),xS=a(ey),xI=a(hU),xJ=a(l8),xK=a(dA),xL=a(aT),xQ=a(nr),xR=a(ey),xT=a(cV),xU=a(dA),xM=a(cV),xN=a(mZ),xO=a(my),xP=a(aT),xB=a(b3),xF=a(a3),xG=a(a2),xC=a(hZ),xD=a(h3),xE=a(cV),xv=a(b3),xz=a(a3),xA=a(a2),xw=a(hZ),xx=a(h3),xy=a(cV),xu=[0,1],xs=[0,1],xr=[0,a("this quantity of such a mechanism"),0],xb=a(mt),xc=[0,a("a stiffness for each joint"),0],xd=a(ng),xe=a(ml),xf=a(nB),xg=a("max_angle"),xh=[0,a("accuracy of a platform that turns"),0],xa=a(fR),w4=a(fZ),wU=a(m4),wV=a(na),xk=a(fS),xl=a(mB),xm=a(f1),xn=a(m5),xo=a(md),xp=a(me),xq=a(l7),wW=a(ma),wX=a(nl),wY=a(nd),wZ=a(nI),w0=a(mg),w1=a(mf),w2=[0,a(aw),0],w3=a('the quantity "'),w5=a(mp),w6=a(nk),w7=a(a3),w8=a(a2),w9=a(nz),w_=[0,a(aw),0],w$=a('a bound "'),xi=a(hV),xj=a(dA),wS=a(bv),wT=a(dD),wx=a(bv),wy=a(f9),wz=a(ex),wA=a(f8),wB=a(dD),wE=a(aT),wF=a(bd),wG=a(er),wH=a(dy),wI=a(aT),wJ=a(bd),wK=a(b4),wL=a(er),wM=a(dy),wN=a(ex),wO=a(aT),wP=a(bd),wQ=a(m3),wR=a(nf),wC=[0,a('" of such a machine'),0],wD=a(mk),wv=a(bv),ww=a(ex),wf=a(bv),wg=a(cW),wh=a(f8),wi=a(dD),wl=a(f9),wm=a(aT),wn=a(bd),wo=a(er),wp=a(dy),wq=a(aT),wr=a(bd),ws=a(b4),wt=a(b4),wj=[0,a(aw),0],wk=a(mk),wc=a(f3),wd=a(et),wa=a(" is not covered by the verified checker"),wb=a(Q),v_=a(a3),v$=a(a2),v6=a(Q),v7=a(nJ),v8=a(Q),v9=a(Q),v5=[1,0],v3=a("Reader.Malformed"),v4=a("Reader.Not_covered"),Av=[0,a("a paving is checked by orthocert-verified")],Au=a(m6),Aw=a("CERTIFIED"),Ax=a("REFUTED"),Ay=a(m6),Az=a("NOT COVERED: ");function
-eE(a){throw[0,ix,a]}function
-aO(d,c){var
-a=al(d),e=al(c),b=bM(a+e|0);dF(d,0,b,0,a);dF(c,0,b,a,e);return gf(b)}B9(0);n7(1);n7(2);function
-iz(b){function
+as(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
+BD(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BS();var
+iA=[aH,a(mN),-2],iz=[aH,a(nS),-4],Ay=[0,[0,0]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,0],AB=[0,0],AC=[0,[0,[0,[0,0]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,0]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,0]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,0],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,0]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,0],Bv=[0,[0,0]],Bw=[0,0],Bx=[0,[0,[0,[0,[0,0]]]]],i2=[0,[0,[0,0]]],cg=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fy=[0,[0,[0,[0,0]]]],By=[0,[0,[0,[0,[0,0]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]];be(11,[aH,a(me),-12],me);be(10,[aH,a(m5),-11],m5);be(9,[aH,a(nL),-10],nL);be(8,[aH,a(mq),-9],mq);be(7,[aH,a(ng),-8],ng);be(6,[aH,a(mo),-7],mo);be(5,[aH,a(mO),-6],mO);be(4,[aH,a(mU),-5],mU);be(3,iz,nS);be(2,[aH,a(h0),-3],h0);be(1,iA,mN);be(0,[aH,a(nv),-1],nv);var
+os=a("String.sub / Bytes.sub"),ou=a(P),ot=a("String.concat"),ov=a("Array.init"),ow=a("power"),oH=[0,0],oJ=[0,0],oK=[0,[0,0]],oL=[0,[0,0]],oS=[0,0],oT=[0,0],oZ=[0,0,0],o0=[0,0,0],o1=[0,0],pi=[0,0],pj=[0,0],pm=[0,0],pE=[0,0],pH=[0,0],pJ=[0,0],pK=[0,0],pQ=[0,0],pR=[0,0],qb=[0,[0,[0,0]]],qq=[0,0],qM=a(","),q4=[0,a(h6),0],q5=a(m0),q6=a("."),q7=[0,[0,[0,0]]],q8=a(ex),q9=a(h7),q_=[0,[0,[0,[0,[0,0]]]]],q$=[0,a(h6),0],ra=a(nP),t0=a(mb),t2=a(l_),t1=a(m8),t3=a(dE),t4=a(fU),t5=a(nR),t6=a(nE),t7=a(mH),t8=a(ni),va=[0,0],vb=a(hR),vc=[0,0],vd=a("divided"),ve=[0,1],vf=a("mirror"),vg=[0,3],vh=a("negative"),vi=[0,2],vj=a(h9),vk=[0,5],vl=a(id),vm=[0,4],vn=a(fZ),vo=a(mt),vp=a(f3),vq=a(b3),vr=[0,0],vs=[0,0],vt=[0,0],v3=a(P),v0=[0,[0,[0,[0,0]]]],v1=[0,[0,[0,[0,0]]]],vY=[0,0],vV=[0,[0,0]],vW=[0,[0,[0,0]]],vR=[0,[0,[0,0]]],vQ=[0,0,0],vP=[0,[0,[0,0]]],vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],vN=[0,0],vH=[0,[0,0]],vI=[0,[0,[0,0]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],vK=[0,[0,0]],vL=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vD=[0,[0,0]],vz=[0,[0,0]],vA=[0,0],vx=[0,0],vy=[0,1],vw=[0,[0,0]],vv=[0,0],u9=[0,0],u_=[0,1],u$=[0,2],u5=[0,[0,0]],u6=[0,0],u4=[0,0],u3=[0,0],u2=[0,0],u1=[0,0,0],u0=[0,0,0],uY=[0,[0,[0,0]]],uZ=[0,[0,[0,0]]],uX=[0,0],uV=[0,1,0],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],uQ=a("sqrt"),uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],uw=[0,a("\n"),0],ux=a(l$),uy=a(fT),uz=a(m4),uA=a(mL),uG=a(ez),uB=a(ew),uC=a("verdict"),uD=a(nw),uE=a(mE),uF=a(m3),ut=a(mY),uu=a(nz),uv=a(fW),up=a(nc),uq=a(fX),ur=a(ew),us=a(ez),uk=a(f6),ul=a(a2),um=a(ma),un=a(f2),uh=a(nu),ui=a(h9),uj=a(f2),ud=a(nf),ue=a(f6),uf=a(fX),ug=a(nJ),t_=a(nA),t$=a(nD),ua=a(mV),ub=a(f0),tY=a(hT),tZ=a(ib),tT=a(bd),tU=a(bc),tV=a(mG),tt=a(f0),tu=a(nj),s9=a(a2),s_=a(bK),s$=a(f8),ta=a(dH),tb=a(cW),tg=a(fS),tc=a(h8),td=a(h$),te=a(dD),tf=a(a2),th=a(bK),ti=a(f8),tj=a(dH),tk=a(h8),tl=a(h$),tm=a(dD),tn=a(a2),to=a(bK),tp=a(bd),tq=a(bc),tr=a(cU),ts=a(dH),tv=a(nq),tw=a(nC),tx=a(f$),ty=a(mu),tz=a(mz),tA=a(dD),tB=a(a2),tC=a(bK),tD=a(fP),tE=a(mJ),tF=a(dH),tG=a(eC),tH=a(mi),tI=a(dD),tJ=a(a2),tK=a(fP),tL=a(a2),tM=a(nl),tP=a(l9),tN=a(mx),tO=a(nI),tQ=a(ez),tR=a(ew),tS=a(a2),tW=a(f$),tX=a(fW),s3=a(bK),s4=a(ie),s5=a(dH),s6=a(fS),s7=a(dD),sR=a(eC),sS=a(nx),sT=a(cV),sU=a(dF),sV=a(dF),sW=a(hW),sX=a(cV),sY=a(m6),sZ=a(mF),s0=a(aT),s2=a(md),s1=a(hW),sH=a(mX),sI=a(nQ),sJ=a(mB),sK=a(my),sL=a(nG),sM=a(nt),sN=a(mM),sO=a(fQ),sP=a(fQ),sD=a(aT),sE=a(bb),sF=a(dI),sG=a(bw),sz=a(cW),sA=a(h3),sB=a(nd),sw=a(bd),sx=a(bc),sy=a(cU),sp=a(bd),sq=a(bc),sr=a(cU),ss=a(h5),st=a(cV),su=a(h1),sv=a(np),sf=a(mw),sl=a(fT),sk=a(nH),sg=a(mA),sh=a(hX),sm=a(ms),sn=a(nn),so=a(hX),si=a(dF),sj=a(m$),sc=a(f1),sd=a(f1),se=a(f1),r_=a(nr),r$=a(bc),sa=a(bd),sb=a(nF),rW=a(mm),rX=a(mc),rY=a(nh),rZ=a(dE),r0=a(nO),r1=a(nk),r2=a(mn),r3=a(na),r4=a(ml),r5=a(mI),r6=a(mk),r7=a(ns),r8=a(fU),r9=a(mh),rB=a(f4),rD=a(ex),rC=a(ev),rE=a(dC),rF=a(aT),rG=a(bb),rH=a(b3),rI=a(f9),rJ=a(bw),rK=a(aT),rL=a(bb),rM=a(dI),rN=a(bw),rO=a(dC),rP=a(eB),rQ=a(aT),rR=a(bb),rS=a(m_),rT=a(nm),rU=a(eB),rV=a(bw),rj=a(f4),rr=a(ex),rk=a(ev),rl=a(dC),rm=a(aT),rn=a(bb),ro=a(b3),rp=a(f9),rq=a(bw),rs=a(f_),rt=a(aT),ru=a(bb),rv=a(dI),rw=a(bw),rx=a(b3),ry=a(cW),rz=a(bw),rg=a(bd),rh=a(bc),re=[0,a(aw),0],rf=a(aw),rc=a(P),rb=[0,a(aw),0],rd=a(aw),q0=a(f4),q1=a(ex),q2=a("*"),q3=a(bx),qV=[0,[0,[0,[0,[0,0]]]]],qW=[0,[0,[0,0]]],qX=[0,[0,0]],qY=[0,0],qZ=[0,[0,[0,[0,0]]]],qT=a('":'),qU=a(aw),qR=[0,a(aw),0],qS=a(aw),qP=[0,a("}"),0],qQ=a("{"),qN=[0,a("]"),0],qO=a("["),qL=[0,[0,[0,0]]],qK=[0,[0,[0,0]]],qI=[0,0],qF=[0,[0,[0,0]]],qG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qD=[0,[0,0]],qE=[0,[0,[0,0]]],qA=[0,0],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],qx=[0,0],qu=[0,0,0],qv=[0,0,0],qw=[0,0,0],qr=[0,[0,0]],qs=[0,[0,[0,0]]],qt=[0,0],qg=[0,[0,[0,[0,[0,[0,0]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],qk=[0,[0,[0,[0,[0,[0,0]]]]]],ql=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],qn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],qo=[0,[0,[0,0]]],qp=[0,[0,[0,[0,[0,[0,0]]]]]],qe=[0,[0,0]],qf=[0,[0,[0,0]]],p$=[0,[0,0]],qa=[0,[0,[0,0]]],p9=[0,[0,[0,0]]],p_=[0,[0,0]],p6=[0,0],p7=[0,0],p2=[0,[0,0]],p3=[0,0],p4=[0,0],p5=[0,[0,0]],pT=[0,[0,0]],pU=[0,0],pV=[0,[0,0]],pW=[0,0],pX=[0,0],pY=[0,[0,0]],pZ=[0,[0,0]],p0=[0,[0,0]],p1=[0,0],pP=[0,0],pO=[0,0],pN=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pI=[0,[0,[0,0]]],pF=[0,[0,[0,0]]],pD=[0,[0,[0,0]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,[0,[0,[0,0]]]]]],px=[0,[0,0]],py=[0,0],pz=[0,[0,[0,0]]],pA=[0,[0,[0,0]]],pq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pr=[0,[0,[0,[0,[0,[0,0]]]]]],ps=[0,[0,[0,[0,[0,[0,0]]]]]],pt=[0,[0,[0,0]]],pu=[0,[0,[0,[0,[0,[0,0]]]]]],pv=[0,[0,[0,0]]],pw=[0,[0,[0,0]]],po=[0,[0,0]],pp=[0,0],pn=[0,0,0],pl=[0,0,0],pk=[0,[0,[0,0]]],pg=[0,0],ph=[0,0],pb=[0,[0,[0,0]]],pc=[0,[0,[0,0]]],pd=[0,[0,[0,0]]],pa=[0,[0,[0,[0,0]]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,0]]],o_=[0,[0,[0,0]]],o$=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],o6=[0,[0,0]],o7=[0,0],o4=[0,[0,0]],o5=[0,0],o2=[0,[0,0]],o3=[0,0],oO=[0,0],oP=[0,[0,0]],oQ=[0,0],oR=[0,[0,0]],oM=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],oI=[0,0,0],oG=a(ic),oF=a(P),oE=[0,[0,0]],oD=[0,0],oA=[0,0],oC=[1,0],oB=[0,0],oz=[0,0],ox=[1,0],oy=[1,0],vX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],y3=a(bd),y4=a(bc),y5=a(mG),yU=a(f_),yV=[0,a("a base axis of such a platform"),0],yW=a(aT),yX=a(bb),yH=a(nt),yI=a(mX),yJ=a(nG),yK=a(fQ),yL=a(mM),yM=a(fQ),yN=a(nQ),yO=a(mB),yP=a(my),yx=a(nj),yy=a(f0),x8=a(bK),xW=a(fW),xX=a(a2),xY=a(nl),xZ=a(nI),x2=a(mx),x3=a(l9),x4=a(a2),x5=a(a2),x7=a(fP),x6=[0,a("a claim that no cube of such a machine fits"),0],x9=a(dD),x_=a(dH),x$=a(fS),ya=a(ie),y2=[0,a(mP),0],yb=a(cW),yc=a(h3),yd=a(nd),ye=a(f8),yf=a(mz),yg=a(mi),yh=a(fS),yk=a(cU),yl=a(np),yo=a(ie),yp=[0,a(mP),0],yq=a(bK),yr=[0,a("the distance from parallel singularities of other drives than sliders"),0],ys=a(mJ),yt=[0,a("what else is asked of the closed design"),0],yu=a(fP),yv=a(eC),yw=a(cU),yz=a(bK),yA=a(bd),yB=a(bc),yC=a(nq),yD=a(nC),yE=a(f$),yF=a(mu),yi=[0,a(aw),0],yj=a('the mechanism "'),yG=a(h8),yQ=a(f8),yR=a(cW),yS=a(h3),yT=a(h$),yY=a(bK),y1=a(cW),yZ=[0,a("a platform that turns on struts and other drives"),0],y0=a(bK),ym=[0,a(aw),0],yn=a('the workspace "'),y6=a(a2),y7=a(a2),y9=a(ez),y_=a(ew),y$=a(f$),y8=[0,a("an atlas of such a machine"),0],x0=[0,a(aw),0],x1=a('a claim of the kind "'),ze=a(nR),zl=a(fU),zm=a(dE),zn=a(mH),zo=a(m8),zp=a(b3),zq=a(ib),zr=a(hT),zs=a(b3),zt=a(ic),zf=a(fZ),zg=a(mt),zh=a(f3),zi=a(ni),zj=[0,a(aw),0],zk=a('the evidence "'),zu=a(dE),zv=a(fZ),zw=a(f3),zx=a(nE),zz=a(dE),zA=a(fZ),zB=a(f3),zC=a(hR),zD=a(hR),zy=[0,a("this evidence at control points"),0],Ar=a('"orthocert-paving/'),z9=a(m3),z_=a(mE),z$=a(nw),Ap=[0,3,3],Aa=a(mL),Aj=[0,a("this set of orientations with such drives"),0],Ak=[0,a(mT),0],An=[0,a(mT),0],Ao=[0,a("a mechanism by formulas in a claim that is refuted"),0],Al=[0,a('the evidence "tolerances" of such a mechanism'),0],Am=[0,a("a step of a platform that turns that is not at control points"),0],Ab=[0,a("the acceleration of a joint of a machine with a plane"),0],Ai=[0,a("this quantity in a claim that is refuted"),0],Ag=[0,a("a step in a proof that no cube fits"),0],Ah=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Af=[0,a("a leaf that fails"),0],Ac=a(m4),Ad=a(l$),Ae=a(fT),z7=a(id),z1=a(fW),z2=a(mY),z3=a(nz),z4=[0,a(aw),0],z5=a('a proof of the kind "'),zX=a(ew),zY=a(ez),zZ=a(fX),z0=a(nc),zT=a(a2),zU=a(f6),zV=a(ma),zW=a(f2),zQ=a(nu),zR=a(h9),zS=a(f2),zM=a(nf),zN=a(f6),zO=a(fX),zP=a(nJ),zG=a(nD),zH=a(mV),zI=a(nA),zJ=a(f0),zK=[0,a(aw),0],zL=a('the failure "'),zE=a(id),zF=a(ic),zc=a(ib),zd=a(hT),za=a(l_),zb=a(mb),xT=a(eC),xJ=a(hW),xK=a(md),xL=a(dF),xM=a(aT),xR=a(nx),xS=a(eC),xU=a(cV),xV=a(dF),xN=a(cV),xO=a(m6),xP=a(mF),xQ=a(aT),xC=a(cU),xG=a(bd),xH=a(bc),xD=a(h1),xE=a(h5),xF=a(cV),xw=a(cU),xA=a(bd),xB=a(bc),xx=a(h1),xy=a(h5),xz=a(cV),xv=[0,1],xt=[0,1],xs=[0,a("this quantity of such a mechanism"),0],xc=a(mA),xd=[0,a("a stiffness for each joint"),0],xe=a(nn),xf=a(ms),xg=a(nH),xh=a("max_angle"),xi=[0,a("accuracy of a platform that turns"),0],xb=a(fT),w5=a(f1),wV=a(m$),wW=a(nh),xl=a(fU),xm=a(mI),xn=a(dE),xo=a(na),xp=a(mk),xq=a(ml),xr=a(mc),wX=a(mh),wY=a(ns),wZ=a(nk),w0=a(nO),w1=a(mn),w2=a(mm),w3=[0,a(aw),0],w4=a('the quantity "'),w6=a(mw),w7=a(nr),w8=a(bd),w9=a(bc),w_=a(nF),w$=[0,a(aw),0],xa=a('a bound "'),xj=a(hX),xk=a(dF),wT=a(bw),wU=a(dI),wy=a(bw),wz=a(f_),wA=a(eB),wB=a(f9),wC=a(dI),wF=a(aT),wG=a(bb),wH=a(ev),wI=a(dC),wJ=a(aT),wK=a(bb),wL=a(b3),wM=a(ev),wN=a(dC),wO=a(eB),wP=a(aT),wQ=a(bb),wR=a(m_),wS=a(nm),wD=[0,a('" of such a machine'),0],wE=a(mr),ww=a(bw),wx=a(eB),wg=a(bw),wh=a(cW),wi=a(f9),wj=a(dI),wm=a(f_),wn=a(aT),wo=a(bb),wp=a(ev),wq=a(dC),wr=a(aT),ws=a(bb),wt=a(b3),wu=a(b3),wk=[0,a(aw),0],wl=a(mr),wd=a(f4),we=a(ex),wb=a(" is not covered by the verified checker"),wc=a(P),v$=a(bd),wa=a(bc),v7=a(P),v8=a(nP),v9=a(P),v_=a(P),v6=[1,0],v4=a("Reader.Malformed"),v5=a("Reader.Not_covered"),At=[0,a("a paving is checked by orthocert-verified")],As=a(nb),Au=a("CERTIFIED"),Av=a("REFUTED"),Aw=a(nb),Ax=a("NOT COVERED: ");function
+eI(a){throw[0,iz,a]}function
+aP(d,c){var
+a=al(d),e=al(c),b=bN(a+e|0);dK(d,0,b,0,a);dK(c,0,b,a,e);return gg(b)}B7(0);ob(1);ob(2);function
+iB(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{B8(d)}catch(a){a=of(a);if(a[1]!==iy)throw a;var
+c=a[2],d=a[1];try{B6(d)}catch(a){a=ol(a);if(a[1]!==iA)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(B_(0))}Cf(a(l_),iz);function
-bN(c){var
+a=c;continue}return 0}}return a(B8(0))}Cd(a(mf),iB);function
+bO(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-R(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gh(d,c){var
+U(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,U(b,c)]}return 0}function
+gi(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -726,50 +726,50 @@ a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bf(b,c){var
-a=bM(b);BS(a,0,b,c);return gf(a)}function
+a=bN(b);BQ(a,0,b,c);return gg(a)}function
 c4(g,b,a){var
-d=dG(g),f=0;if(0<=b&&0<=a&&!((gd(d)-a|0)<b)){var
-c=bM(a);ez(d,b,c,0,a);var
+d=dL(g),f=0;if(0<=b&&0<=a&&!((ge(d)-a|0)<b)){var
+c=bN(a);eD(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eE(om);return gf(e)}function
-iA(k,g){if(g){var
+e=eI(os);return gg(e)}function
+iC(k,g){if(g){var
 h=al(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eE(on),c=n,b=m;continue}var
+j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eI(ot),c=n,b=m;continue}var
 l=al(i)+c|0}else
 var
 l=c;var
-f=bM(l),e=p,d=g;for(;;){if(d){var
+f=bN(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dF(a,0,f,e,al(a));dF(k,0,f,e+al(a)|0,h);var
-e=(e+al(a)|0)+h|0,d=o;continue}dF(a,0,f,e,al(a))}return gf(f)}}}return oo}function
-gi(b,c){if(0===b)return[0];if(0<=b){var
-d=B7(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];dK(a,0,f,e,al(a));dK(k,0,f,e+al(a)|0,h);var
+e=(e+al(a)|0)+h|0,d=o;continue}dK(a,0,f,e,al(a))}return gg(f)}}}return ou}function
+gj(b,c){if(0===b)return[0];if(0<=b){var
+d=B5(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eE(op)}function
-gj(c){var
+a=g;continue}break}}return d}return eI(ov)}function
+gk(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aD(0),b=aD(1);function
-r(a){return x(a,b)}function
-iB(b,a){return x(aD(b),a)}function
-c(b,a){return v(aD(b),a)}function
-aU(b,a){return[0,iu(b,a),oi(b,a)]}function
-gk(b,a){return H(b,a)?b:a}function
-bg(b,a){return H(b,a)?a:b}function
+q(a){return x(a,b)}function
+iD(b,a){return x(aD(b),a)}function
+c(b,a){return u(aD(b),a)}function
+aU(b,a){return[0,iw(b,a),oo(b,a)]}function
+gl(b,a){return G(b,a)?b:a}function
+bg(b,a){return G(b,a)?a:b}function
 aj(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-aK(a){return a[1]}function
-b9(a){return a[2]}function
+aJ(a){return a[1]}function
+b8(a){return a[2]}function
 i(a){var
 b=a?[0,i(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iC(a){return typeof
-a==="number"?0:[0,iC(a[1])]}function
-iD(d,c){var
+iE(a){return typeof
+a==="number"?0:[0,iE(a[1])]}function
+iF(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -792,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eF(a){return iD(a,0)}function
-iE(a){if(typeof
-a==="number")return or;else
+eJ(a){return iF(a,0)}function
+iG(a){if(typeof
+a==="number")return ox;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -804,9 +804,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iE(a[1])]}}function
+8:return[9,a[1]];default:return[0,iG(a[1])]}}function
 bi(a){if(typeof
-a==="number")return os;else
+a==="number")return oy;else
 switch(a[0]){case
 0:return[1,bh(a[1])];case
 1:return[3,bh(a[1])];case
@@ -829,153 +829,153 @@ switch(a[0]){case
 6:return[2,bi(a[1])];case
 7:return[4,bi(a[1])];case
 8:return[6,bi(a[1])];default:return[8,bi(a[1])]}}function
-by(a){return a?a[1]:a}function
+bz(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-dL(a,b){return a?N(b,dL(a[1],b)):a}function
-b_(b,a){return b?a:a?0:1}function
-t(d,c){var
+dQ(a,b){return a?N(b,dQ(a[1],b)):a}function
+b9(b,a){return b?a:a?0:1}function
+v(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dM(b,a){return _([0,b],a)}function
-iF(c){var
+dR(b,a){return Z([0,b],a)}function
+iH(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eG(c,b,a){return c?k(b,eG(c[1],b,a)):a}function
-iG(a){if(a)var
-b=a[1],d=b?[0,iG(b[1])]:b,c=d;else
+eK(c,b,a){return c?k(b,eK(c[1],b,a)):a}function
+iI(a){if(a)var
+b=a[1],d=b?[0,iI(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iH(c,a){return bg(b,aE(c,a))}function
-eH(a){if(H(a,b))return ou;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eH(e)]:[0,eH(e)]}function
-eI(a){if(H(a,b))return b;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?r(eI(e)):r(eI(e))}function
-iI(c,b){var
-a=it(c,b);return 0===a?0:0<=a?2:1}function
-gl(j,i){var
-c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
-g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(H(a,b))return 0;var
+iJ(c,a){return bg(b,aB(c,a))}function
+eL(a){if(G(a,b))return oA;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eL(e)]:[0,eL(e)]}function
+eM(a){if(G(a,b))return b;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eM(e)):q(eM(e))}function
+iK(c,b){var
+a=iv(c,b);return 0===a?0:0<=a?2:1}function
+gm(j,i){var
+c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
+g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,b))return 0;var
 e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
-c=h,a=k;continue}return 0}if(H(a,b))return 0;var
+c=h,a=k;continue}return 0}if(G(a,b))return 0;var
 f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
 c=h,a=l;continue}}function
-eJ(b,a){return 2<=iI(b,a)?0:1}function
+eN(b,a){return 2<=iK(b,a)?0:1}function
 c5(i,e,a){if(i){var
-f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
+f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
+w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
 m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
 j=c5(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
-k=c5(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(H(a,b))return[0,b,[0,e,b]];var
+k=c5(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
 v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iI(g,h)){case
+n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iK(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=c5(f,iH(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=c5(f,iH(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-eK(b,a){var
-c=eH(a);return c5(N(eH(b),c),b,a)}function
-iJ(c,i,h){var
-e=i,a=h;for(;;){if(H(e,b))return a;var
+p=c5(f,iJ(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=c5(f,iJ(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+eO(b,a){var
+c=eL(a);return c5(N(eL(b),c),b,a)}function
+iL(c,i,h){var
+e=i,a=h;for(;;){if(G(e,b))return a;var
 f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=av(c,a,a);continue}return av(c,a,iJ(c,g,av(c,a,a)))}}function
-dN(a){return iJ(N,a,ov)}function
-gm(a){return a?r(gm(a[1])):b}function
-bO(f,e){var
+e=g,a=as(c,a,a);continue}return as(c,a,iL(c,g,as(c,a,a)))}}function
+dS(a){return iL(N,a,oB)}function
+gn(a){return a?q(gn(a[1])):b}function
+bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=v(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=u(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=x(b,v(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=x(b,u(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(c(2,r(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
+i=u(c(2,q(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=v(c(2,r(c(2,c(2,b)))),d),l=x(r(c(2,b)),k),a=a[1],d=l;continue;case
+k=u(c(2,q(c(2,c(2,b)))),d),l=x(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=v(c(2,r(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=u(c(2,q(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=v(c(2,r(c(2,c(2,b)))),d),p=x(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=u(c(2,q(c(2,c(2,b)))),d),p=x(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-q=v(c(2,r(c(2,c(2,b)))),d),s=x(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
+r=u(c(2,q(c(2,c(2,b)))),d),s=x(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=v(c(2,r(c(2,c(2,b)))),d),u=x(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
+t=u(c(2,q(c(2,c(2,b)))),d),v=x(q(c(2,q(c(2,b)))),t),a=a[1],d=v;continue;case
 8:var
-w=v(c(2,r(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
-z=v(c(2,r(c(2,c(2,b)))),d),A=x(r(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
-gn(a){if(H(a,b))return ow;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bh(gn(e)):bi(gn(e))}function
-eL(a){return eF(gn(a))}function
-iK(k,f){if(0<=a5(f)){var
-g=iv(f);if(0<=g){var
+w=u(c(2,q(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
+z=u(c(2,q(c(2,c(2,b)))),d),A=x(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
+go(a){if(G(a,b))return oC;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bh(go(e)):bi(go(e))}function
+eP(a){return eJ(go(a))}function
+iM(k,f){if(0<=a3(f)){var
+g=ix(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eE(oq)}return d}function
-go(c){var
-a=a5(c);return 0===a?d:0<a?b:L(b)}function
-iL(a){return 0<=a5(a)?a:d}function
-dO(a){var
-c=a5(a);return 0===c?b:0<c?a:b}function
-iM(m){var
+h=a>>>1|0,i=u(c,c),j=1===(a&1)?u(e,c):e,e=j,c=i,a=h;continue}}return eI(ow)}return d}function
+gp(c){var
+a=a3(c);return 0===a?d:0<a?b:M(b)}function
+iN(a){return 0<=a3(a)?a:d}function
+dT(a){var
+c=a3(a);return 0===c?b:0<c?a:b}function
+iO(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bO(a[1],b);case
+1:return bP(a[1],b);case
 2:var
-e=c(2,b);return bO(a[1],e);case
+e=c(2,b);return bP(a[1],e);case
 3:var
-f=r(c(2,b));return bO(a[1],f);case
+f=q(c(2,b));return bP(a[1],f);case
 4:var
-g=c(2,c(2,b));return bO(a[1],g);case
+g=c(2,c(2,b));return bP(a[1],g);case
 5:var
-h=r(c(2,c(2,b)));return bO(a[1],h);case
+h=q(c(2,c(2,b)));return bP(a[1],h);case
 6:var
-i=c(2,r(c(2,b)));return bO(a[1],i);case
+i=c(2,q(c(2,b)));return bP(a[1],i);case
 7:var
-j=r(c(2,r(c(2,b))));return bO(a[1],j);case
+j=q(c(2,q(c(2,b))));return bP(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return bO(a[1],k);default:var
-l=r(c(2,c(2,c(2,b))));return bO(a[1],l)}}function
-b$(b,a){var
-c=a5(a);return 0===c?d:1===c?iu(b,a):iB(-1,iu(iB(-1,b),a))}function
-eM(a){return 0<a5(a)?Cp(a):d}function
-dP(b,c){var
-a=iv(c);return 0<=a?oj(b,a):ok(b,-a|0)}function
-ct(b,c){var
-a=iv(c);return 0<=a?ok(b,a):oj(b,-a|0)}function
-bz(b,a){return a?a[1]:b}function
-ca(a){var
+k=c(2,c(2,c(2,b)));return bP(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return bP(a[1],l)}}function
+b_(b,a){var
+c=a3(a);return 0===c?d:1===c?iw(b,a):iD(-1,iw(iD(-1,b),a))}function
+eQ(a){return 0<a3(a)?Cn(a):d}function
+dU(b,c){var
+a=ix(c);return 0<=a?op(b,a):oq(b,-a|0)}function
+cs(b,c){var
+a=ix(c);return 0<=a?oq(b,a):op(b,-a|0)}function
+bA(b,a){return a?a[1]:b}function
+b$(a){var
 b=a?a[2]:a;return b}function
-u(e,d,c){var
+t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-W(d,c){var
+V(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iN(a){if(a){var
-b=[0,a[1],0];return f(iN(a[2]),b)}return a}function
-iO(d,c){var
+iP(a){if(a){var
+b=[0,a[1],0];return f(iP(a[2]),b)}return a}function
+iQ(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iP(a){if(a){var
-b=iP(a[2]);return f(a[1],b)}return a}function
+iR(a){if(a){var
+b=iR(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-A(b,a){if(a){var
-c=A(b,a[2]);return f(k(b,a[1]),c)}return a}function
+z(b,a){if(a){var
+c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
 c6(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=av(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 bj(c,b,a){if(a){var
-d=bj(c,b,a[2]);return av(c,a[1],d)}return b}function
+d=bj(c,b,a[2]);return as(c,a[1],d)}return b}function
 aq(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
@@ -987,16 +987,16 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cu(b,e){var
+ct(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,cu(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,ct(b,c)];var
 a=c;continue}return a}}function
-iQ(d,c){var
+iS(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aB(b,a){if(b)if(a)var
-d=aB(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aK(b,a){if(b)if(a)var
+d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
@@ -1007,111 +1007,111 @@ var
 c=a;else
 var
 c=b;return c}function
-eN(d,c){var
+eR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aV(b,a){var
 c=a?[0,b,aV([0,b],a[1])]:a;return c}function
-aW(b,a){var
-c=a?[0,b,aW(b,a[1])]:a;return c}function
-iR(a){if(a){var
-e=iR(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
-eO(j){function
+aL(b,a){var
+c=a?[0,b,aL(b,a[1])]:a;return c}function
+iT(a){if(a){var
+e=iT(a[2]),f=u(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
+eS(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iR([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dN(b):0}function
-cv(c,b){var
-a=it(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c8(b,a){return H(v(b[1],a[2]),v(a[1],b[2]))}function
-cw(b,a){return[0,x(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
-bA(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-iS(a){return[0,L(a[1]),a[2]]}function
-dQ(b,a){return cw(b,iS(a))}function
-eP(f,c){var
-a=c[1],e=a5(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,L(c[2]),L(a)];return bA(f,g)}function
-eQ(q){var
-a=q[2],b=q[1],o=a5(b);if(0===o)var
-c=[0,c3(a),[0,d,go(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iT([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dS(b):0}function
+cu(c,b){var
+a=iv(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c8(b,a){return G(u(b[1],a[2]),u(a[1],b[2]))}function
+cv(b,a){return[0,x(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
+bB(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
+iU(a){return[0,M(a[1]),a[2]]}function
+dV(b,a){return cv(b,iU(a))}function
+eT(f,c){var
+a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,M(c[2]),M(a)];return bB(f,g)}function
+eU(q){var
+a=q[2],b=q[1],o=a3(b);if(0===o)var
+c=[0,c3(a),[0,d,gp(a)]];else
 if(0<o){var
-n=a5(a);if(0===n)var
-c=[0,c3(b),[0,go(b),d]];else
+n=a3(a);if(0===n)var
+c=[0,c3(b),[0,gp(b),d]];else
 if(0<n)var
-l=eK(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=eO(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eK(b,L(a)),k=j[2],c=[0,j[1],[0,k[1],L(k[2])]]}else{var
-p=L(b),i=a5(a);if(0===i)var
-c=[0,c3(b),[0,go(b),d]];else
+j=eO(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
+p=M(b),i=a3(a);if(0===i)var
+c=[0,c3(b),[0,gp(b),d]];else
 if(0<i)var
-g=eK(p,a),h=g[2],c=[0,g[1],[0,L(h[1]),h[2]]];else
+g=eO(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
 var
-e=eK(p,L(a)),f=e[2],c=[0,e[1],[0,L(f[1]),L(f[2])]]}var
-r=c[2],s=dO(r[2]);return[0,r[1],s]}function
-aX(a){if(typeof
-a==="number")return oz;else
+e=eO(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
+r=c[2],s=dT(r[2]);return[0,r[1],s]}function
+aW(a){if(typeof
+a==="number")return oF;else
 switch(a[0]){case
 0:var
-b=aX(a[1]);return aO(bf(1,48),b);case
+b=aW(a[1]);return aP(bf(1,48),b);case
 1:var
-c=aX(a[1]);return aO(bf(1,49),c);case
+c=aW(a[1]);return aP(bf(1,49),c);case
 2:var
-d=aX(a[1]);return aO(bf(1,50),d);case
+d=aW(a[1]);return aP(bf(1,50),d);case
 3:var
-e=aX(a[1]);return aO(bf(1,51),e);case
+e=aW(a[1]);return aP(bf(1,51),e);case
 4:var
-f=aX(a[1]);return aO(bf(1,52),f);case
+f=aW(a[1]);return aP(bf(1,52),f);case
 5:var
-g=aX(a[1]);return aO(bf(1,53),g);case
+g=aW(a[1]);return aP(bf(1,53),g);case
 6:var
-h=aX(a[1]);return aO(bf(1,54),h);case
+h=aW(a[1]);return aP(bf(1,54),h);case
 7:var
-i=aX(a[1]);return aO(bf(1,55),i);case
+i=aW(a[1]);return aP(bf(1,55),i);case
 8:var
-j=aX(a[1]);return aO(bf(1,56),j);default:var
-k=aX(a[1]);return aO(bf(1,57),k)}}function
-dR(a){return typeof
-a==="number"?oA:aX(a)}function
-cx(a){return iK(c(2,b),a)}function
-iT(b,a){return ct(a,b)}function
-iU(b,a){return L(ct(L(a),b))}function
-eR(b,a){return L(b$(L(b),a))}function
-aa(c,b){var
-a=dP(b,c);return[0,a,a]}function
-iV(d,c,a){var
-b=dP(c,d),e=eR(b,a);return[0,b$(b,a),e]}function
-C(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
-M(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
-af(a){return[0,L(a[2]),L(a[1])]}function
-iW(e,c,b,a){if(H(d,e))return H(d,b)?[0,v(e,b),v(c,a)]:H(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(H(c,d))return H(d,b)?[0,v(e,a),v(c,b)]:H(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(H(d,b))return[0,v(e,a),v(c,a)];if(H(a,d))return[0,v(c,b),v(e,b)];var
-f=bg(v(e,b),v(c,a));return[0,gk(v(e,a),v(c,b)),f]}function
+j=aW(a[1]);return aP(bf(1,56),j);default:var
+k=aW(a[1]);return aP(bf(1,57),k)}}function
+dW(a){return typeof
+a==="number"?oG:aW(a)}function
+cw(a){return iM(c(2,b),a)}function
+iV(b,a){return cs(a,b)}function
+iW(b,a){return M(cs(M(a),b))}function
+eV(b,a){return M(b_(M(b),a))}function
+$(c,b){var
+a=dU(b,c);return[0,a,a]}function
+iX(d,c,a){var
+b=dU(c,d),e=eV(b,a);return[0,b_(b,a),e]}function
+B(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
+H(b,a){return[0,aB(b[1],a[2]),aB(b[2],a[1])]}function
+ad(a){return[0,M(a[2]),M(a[1])]}function
+iY(e,c,b,a){if(G(d,e))return G(d,b)?[0,u(e,b),u(c,a)]:G(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(G(c,d))return G(d,b)?[0,u(e,a),u(c,b)]:G(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(G(d,b))return[0,u(e,a),u(c,a)];if(G(a,d))return[0,u(c,b),u(e,b)];var
+f=bg(u(e,b),u(c,a));return[0,gl(u(e,a),u(c,b)),f]}function
 w(c,b,a){var
-d=iW(b[1],b[2],a[1],a[2]),e=iU(c,d[2]);return[0,iT(c,d[1]),e]}function
-U(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=iU(b,bg(c,e)),g=0;if(Z(a[1],d)&&Z(d,a[2])){var
+d=iY(b[1],b[2],a[1],a[2]),e=iW(c,d[2]);return[0,iV(c,d[1]),e]}function
+R(b,a){var
+c=u(a[1],a[1]),e=u(a[2],a[2]),h=iW(b,bg(c,e)),g=0;if(T(a[1],d)&&T(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iT(b,gk(c,e));return[0,f,h]}function
-gp(b,a){var
-c=dP(cx(b),b),d=eR(c,a[1]);return[0,b$(c,a[2]),d]}function
-cb(b,a){if(Z(d,a[1]))return[0,gp(b,a)];var
-c=Z(a[2],d),e=c?[0,af(gp(b,af(a)))]:c;return e}function
-cy(f,c){var
-g=Z(d,c[1]);if(g)var
-e=dP(c[2],f),a=eM(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eM(dP(c[1],f)),i]];else
+f=iV(b,gl(c,e));return[0,f,h]}function
+gq(b,a){var
+c=dU(cw(b),b),d=eV(c,a[1]);return[0,b_(c,a[2]),d]}function
+ca(b,a){if(T(d,a[1]))return[0,gq(b,a)];var
+c=T(a[2],d),e=c?[0,ad(gq(b,ad(a)))]:c;return e}function
+cx(f,c){var
+g=T(d,c[1]);if(g)var
+e=dU(c[2],f),a=eQ(e),i=Y(u(a,a),e)?a:x(a,b),h=[0,[0,eQ(dU(c[1],f)),i]];else
 var
 h=g;return h}function
-aP(f,d,c,b,a){if(b){if(a){var
-g=aP(f,d,c,b[2],a[2]);return[0,av(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cc(b,a){return ct(b,a)}function
-a$(a,c,b){if(H(d,a)){var
-e=b[1],f=L(cc(L(v(a,b[2])),c));return[0,cc(v(a,e),c),f]}var
-g=b[2],h=L(cc(L(v(a,b[1])),c));return[0,cc(v(a,g),c),h]}function
-a6(a){var
-c=L(ct(L(a[2]),b));return[0,ct(a[1],b),c]}function
-dS(c,b,a){var
-e=iW(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=Z(f,d)?a[2]:a[1],i=eR(f,h),j=Z(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
-dT(a){return bg(a[2],L(a[1]))}var
-B=[0,d,d];function
-eS(a){return[0,a[1],a[1]]}function
+aQ(f,d,c,b,a){if(b){if(a){var
+g=aQ(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cb(b,a){return cs(b,a)}function
+a4(a,c,b){if(G(d,a)){var
+e=b[1],f=M(cb(M(u(a,b[2])),c));return[0,cb(u(a,e),c),f]}var
+g=b[2],h=M(cb(M(u(a,b[1])),c));return[0,cb(u(a,g),c),h]}function
+a5(a){var
+c=M(cs(M(a[2]),b));return[0,cs(a[1],b),c]}function
+dX(c,b,a){var
+e=iY(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=T(f,d)?a[2]:a[1],i=eV(f,h),j=T(g,d)?a[1]:a[2];return[0,b_(g,j),i]}function
+dY(a){return bg(a[2],M(a[1]))}var
+C=[0,d,d];function
+eW(a){return[0,a[1],a[1]]}function
 c9(a){return[0,a[2],a[2]]}function
-cz(b,a){switch(a[0]){case
+cy(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1127,115 +1127,115 @@ f=k(b,a[2]);return[7,k(b,a[1]),f];case
 8:return[8,k(b,a[1])];case
 9:return[9,k(b,a[1])];default:var
 g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-aL(n,m){var
+aM(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?t(b[1],a[1]):0;case
-1:return 1===a[0]?t(b[1],a[1]):0;case
+0:return 0===a[0]?v(b[1],a[1]):0;case
+1:return 1===a[0]?v(b[1],a[1]):0;case
 2:return 2===a[0]?Y(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aL(b[1],a[1]);if(f){var
+f=aM(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aL(b[1],a[1]);if(g){var
+g=aM(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aL(b[1],a[1]);if(h){var
+h=aM(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aL(b[1],a[1]);if(i){var
+i=aM(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=b_(b[1],a[1]);if(j){var
-k=aL(b[2],a[2]);if(k){var
-l=aL(b[3],a[3]);if(l){var
+j=b9(b[1],a[1]);if(j){var
+k=aM(b[2],a[2]);if(k){var
+l=aM(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-eT(b){var
+eX(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aQ(c,b){var
-a=eT(b);return a?Y(c,a[1]):a}function
-dU(a){return Z(c3(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+aR(c,b){var
+a=eX(b);return a?Y(c,a[1]):a}function
+dZ(a){return T(c3(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-F(b,a){if(aQ(d,b))return a;if(aQ(d,a))return b;var
-c=eT(b);if(c){var
-e=c[1],f=eT(a);if(f){var
-g=f[1];if(dU(e)&&dU(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
+c=eX(b);if(c){var
+e=c[1],f=eX(a);if(f){var
+g=f[1];if(dZ(e)&&dZ(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dU(c)?l(L(c)):[0,[5,a]];case
+c=b[1];return dZ(c)?l(M(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aQ(d,a))return b;if(aQ(d,b))return bk(a);var
+s(b,a){if(aR(d,a))return b;if(aR(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?t(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-J(a){var
-c=eT(a);if(c){var
-b=c[1];return dU(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,c){if(!aQ(d,a)&&!aQ(b,c)){if(!aQ(d,c)&&!aQ(b,a))return aL(a,c)?J(a):[0,[6,a,c]];return c}return a}function
-ak(c,a){return aQ(b,a)?c:[0,[7,c,a]]}function
-aF(a){return aQ(b,a)?a:[0,[9,a]]}function
-iX(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bB(f,e,d,c){var
+e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+K(a){var
+c=eX(a);if(c){var
+b=c[1];return dZ(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?K(a):[0,[6,a,c]];return c}return a}function
+ak(c,a){return aR(b,a)?c:[0,[7,c,a]]}function
+aE(a){return aR(b,a)?a:[0,[9,a]]}function
+iZ(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bC(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cz(function(b){return function(a){return u(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cA(a){var
+g=b[1],h=[0,k(e,cy(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cz(a){var
 b=0;function
-c(a){return[0,a]}return bB(l(d),c,a,b)}function
-gq(b,a){if(a){if(aL(b,a[1]))return oB;var
-c=gq(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return bC(l(d),c,a,b)}function
+gr(b,a){if(a){if(aM(b,a[1]))return oH;var
+c=gr(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
 bl(c,b){var
-a=gq(b,c),d=a?a[1]:a;return d}function
-cB(d,b){if(gq(d,b[1]))return b;var
+a=gr(b,c),d=a?a[1]:a;return d}function
+cA(d,b){if(gr(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cB(a[2],b),j=cB(a[3],i),c=cB(a[4],j);break;case
+i=cA(a[2],b),j=cA(a[3],i),c=cA(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cB(a[1],b);break;case
+c=cA(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cB(a[1],b),c=cB(a[2],h)}var
-e=c[2],f=c[1],g=[0,cz(function(a){return bl(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+h=cA(a[1],b),c=cA(a[2],h)}var
+e=c[2],f=c[1],g=[0,cy(function(a){return bl(f,a)},a),e];return[0,[0,d,c[1]],g]}function
 c_(a){var
-b=c6(function(b,a){return cB(a,b)},a,oC),c=b[1],d=e(function(a){return bl(c,a)},a);return[0,iN(b[2]),d]}function
-eU(a){return bj(function(b,a){return x(dT(b),a)},d,a)}function
-bP(b,c,a){var
-d=eU(a),e=gk(c[2],x(b[2],d)),f=eU(a);return[0,b,[0,bg(c[1],aE(b[1],f)),e],a]}function
-ad(a){return[0,a,a,0]}function
-bC(b,a){var
+b=c6(function(b,a){return cA(a,b)},a,oI),c=b[1],d=e(function(a){return bl(c,a)},a);return[0,iP(b[2]),d]}function
+eY(a){return bj(function(b,a){return x(dY(b),a)},d,a)}function
+bQ(b,c,a){var
+d=eY(a),e=gl(c[2],x(b[2],d)),f=eY(a);return[0,b,[0,bg(c[1],aB(b[1],f)),e],a]}function
+ae(a){return[0,a,a,0]}function
+bD(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aP(function(a){return a},e,C,d,c),g=C(b[2],a[2]);return bP(C(b[1],a[1]),g,f)}function
-a7(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},af,M,d,c),f=M(b[2],a[2]);return bP(M(b[1],a[1]),f,e)}function
-dV(a){var
-b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-ar(a,c,b){var
-d=C(b[2],b[1]),e=C(c[2],c[1]),f=b[3],g=c[3];function
+f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bQ(B(b[1],a[1]),g,f)}function
+a6(b,a){var
+c=a[3],d=b[3],e=aQ(function(a){return a},ad,H,d,c),f=H(b[2],a[2]);return bQ(H(b[1],a[1]),f,e)}function
+d0(a){var
+b=e(ad,a[3]),c=ad(a[2]);return[0,ad(a[1]),c,b]}function
+at(a,c,b){var
+d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=w(a,e,b);return a6(C(w(a,d,c),f))}function
-i(b){return a6(w(a,e,b))}var
-j=aP(function(b){return a6(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bP(w(a,c[1],b[1]),k,j)}function
-dW(b,a){var
-c=a[3],d=C(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=U(b,a[2]);return bP(U(b,a[1]),g,f)}function
-gr(a,b){var
-c=cy(a,b[1]);if(c){var
-g=c[1],d=cy(a,b[2]);if(d){var
-h=d[1],f=cb(a,C(h,g));if(f)var
-l=b[3],m=f[1],i=[0,bP(g,h,e(function(b){return w(a,m,b)},l))];else
+f=w(a,e,b);return a5(B(w(a,d,c),f))}function
+i(b){return a5(w(a,e,b))}var
+j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bQ(w(a,c[1],b[1]),k,j)}function
+d1(b,a){var
+c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=R(b,a[2]);return bQ(R(b,a[1]),g,f)}function
+gs(a,b){var
+c=cx(a,b[1]);if(c){var
+g=c[1],d=cx(a,b[2]);if(d){var
+h=d[1],f=ca(a,B(h,g));if(f)var
+l=b[3],m=f[1],i=[0,bQ(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1245,105 +1245,105 @@ k=j}else
 var
 k=c;return k}function
 c$(a,c,b){var
-d=cb(a,b[1]);if(d){var
-f=cb(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return M(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bP(g,w(a,c[2],h),p)];else
+d=ca(a,b[1]);if(d){var
+f=ca(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,w(a,g,b))},n=function(b){return ad(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bQ(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cd(b,a){return a?k(b,a[1]):a}function
-eV(a){var
-b=e(a6,a[3]),c=a6(C(a[2],a[1]));return bP(a[1],c,b)}function
-iY(a,k,j,r,c){var
-l=eV(k),m=eV(j),g=eV(c[1]),h=eV(c[2]),s=ar(a,l,h),t=a7(ar(a,m,g),s),i=c$(a,ad(aa(a,b)),t);if(i)var
-f=i[1],n=ar(a,a7(l,g),f),o=ar(a,a7(m,h),f),d=function(c,b){return ar(a,c,ad(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bC(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a7(b,d(f,a6(a)))[2]},C=function(a){return dV(d(f,a6(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bP(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bP(c[1][1],c[1][2],H),F]];else
+cc(b,a){return a?k(b,a[1]):a}function
+eZ(a){var
+b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bQ(a[1],c,b)}function
+i0(a,k,j,r,c){var
+l=eZ(k),m=eZ(j),g=eZ(c[1]),h=eZ(c[2]),s=at(a,l,h),t=a6(at(a,m,g),s),i=c$(a,ae($(a,b)),t);if(i)var
+f=i[1],n=at(a,a6(l,g),f),o=at(a,a6(m,h),f),d=function(c,b){return at(a,c,ae(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bD(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bQ(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bQ(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-iZ(a,e,d,k){var
-p=dW(a,d),f=bC(dW(a,e),p),g=a7(bC(f,ad(aa(a,b))),k),l=ar(a,ad(aa(a,c(2,b))),f),q=dW(a,g),h=gr(a,a7(ar(a,ad(aa(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=ar(a,m,d),i=c$(a,bC(ar(a,g,e),r),l);if(i)var
-s=ar(a,m,e),j=c$(a,a7(ar(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+i1(a,e,d,k){var
+p=d1(a,d),f=bD(d1(a,e),p),g=a6(bD(f,ae($(a,b))),k),l=at(a,ae($(a,c(2,b))),f),q=d1(a,g),h=gs(a,a6(at(a,ae($(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=at(a,m,d),i=c$(a,bD(at(a,g,e),r),l);if(i)var
+s=at(a,m,e),j=c$(a,a6(at(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cd(function(b){return iY(a,e,d,k,b)},o);return cd(function(b){return iY(a,e,d,k,b)},u)}function
-bQ(d,b,a){if(b){if(a)return av(d,b[1],a[1]);var
+u=cc(function(b){return i0(a,e,d,k,b)},o);return cc(function(b){return i0(a,e,d,k,b)},u)}function
+bR(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-ce(b,j,i){var
-f=ad(B);return function(a){switch(a[0]){case
-0:return[0,u(a[1],j,f)];case
-1:return[0,u(a[1],i,f)];case
-2:return[0,ad(aa(b,a[1]))];case
+cd(b,j,i){var
+f=ae(C);return function(a){switch(a[0]){case
+0:return[0,t(a[1],j,f)];case
+1:return[0,t(a[1],i,f)];case
+2:return[0,ae($(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bQ(function(b,a){return[0,bC(b,a)]},l,k);case
+k=a[2],l=a[1];return bR(function(b,a){return[0,bD(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bQ(function(b,a){return[0,a7(b,a)]},n,m);case
+m=a[2],n=a[1];return bR(function(b,a){return[0,a6(b,a)]},n,m);case
 5:var
-o=a[1];return cd(function(a){return[0,dV(a)]},o);case
+o=a[1];return cc(function(a){return[0,d0(a)]},o);case
 6:var
-p=a[2],q=a[1];return bQ(function(c,a){return[0,ar(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bR(function(c,a){return[0,at(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bQ(function(a,c){return c$(b,a,c)},s,r);case
+r=a[2],s=a[1];return bR(function(a,c){return c$(b,a,c)},s,r);case
 8:var
-t=a[1];return cd(function(a){return[0,dW(b,a)]},t);case
+u=a[1];return cc(function(a){return[0,d1(b,a)]},u);case
 9:var
-v=a[1];return cd(function(a){return gr(b,a)},v);default:var
+v=a[1];return cc(function(a){return gs(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=iZ(b,c[1],d[1],e[1]),x=a[1]?b9:aK;return y(x,w)}var
+w=i1(b,c[1],d[1],e[1]),x=a[1]?b8:aJ;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dX(c){var
+d2(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dX(a[1]);if(b)return b;var
+b=d2(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bR(q,p){var
+bS(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gl(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gm(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gl(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gl(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=v(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gm(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gm(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bR(b[1],a[1]);if(l){var
+l=bS(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bR(b[1],a[1]);if(m){var
+m=bS(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bR(b[1],a[1]);if(n){var
+n=bS(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bR(b[1],a[1]);if(o){var
+o=bS(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 bm(a,b){switch(b[0]){case
-0:return[0,iV(a,b[1],b[2])];case
+0:return[0,iX(a,b[1],b[2])];case
 1:return 0;case
 2:var
 c=bm(a,b[1]);if(c)var
-d=bm(a,b[2]),r=d?[0,C(c[1],d[1])]:d,m=r;else
+d=bm(a,b[2]),r=d?[0,B(c[1],d[1])]:d,m=r;else
 var
 m=c;return m;case
 3:var
 e=bm(a,b[1]);if(e)var
-f=bm(a,b[2]),s=f?[0,M(e[1],f[1])]:f,n=s;else
+f=bm(a,b[2]),s=f?[0,H(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
@@ -1354,406 +1354,406 @@ o=g;return o;case
 5:var
 i=bm(a,b[1]);if(i){var
 j=bm(a,b[2]);if(j)var
-k=cb(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+k=ca(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bm(a,b[1]);return l?cy(a,l[1]):l}}function
-eW(b,a){return iV(b,a[1],a[2])}function
-bn(a,d){if(dX(d))switch(d[0]){case
+l=bm(a,b[1]);return l?cx(a,l[1]):l}}function
+e0(b,a){return iX(b,a[1],a[2])}function
+bn(a,d){if(d2(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dM(i,i0),k=j?c8(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,eW(a,bA(dQ(e,g),n)),0],p=f(aW(B,i),o),q=eW(a,e)[2],r=[0,eW(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,eW(a,bA(cw(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dR(i,i2),k=j?c8(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,e0(a,bB(dV(e,g),n)),0],p=f(aL(C,i),o),q=e0(a,e)[2],r=[0,e0(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e0(a,bB(cv(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bn(a,d[2]),u=bn(a,d[1]);return bQ(function(b,a){return[0,bC(b,a)]},u,t);case
+t=bn(a,d[2]),u=bn(a,d[1]);return bR(function(b,a){return[0,bD(b,a)]},u,t);case
 3:var
-v=bn(a,d[2]),w=bn(a,d[1]);return bQ(function(b,a){return[0,a7(b,a)]},w,v);case
+v=bn(a,d[2]),w=bn(a,d[1]);return bR(function(b,a){return[0,a6(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(bR(h,m)){var
-x=bn(a,h);return cd(function(b){return[0,dW(a,b)]},x)}var
-z=bn(a,m),A=bn(a,h);return bQ(function(c,b){return[0,ar(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(bS(h,m)){var
+x=bn(a,h);return cc(function(b){return[0,d1(a,b)]},x)}var
+z=bn(a,m),A=bn(a,h);return bR(function(c,b){return[0,at(a,c,b)]},A,z);case
 5:var
-C=bn(a,d[2]),D=bn(a,d[1]);return bQ(function(b,c){return c$(a,b,c)},D,C);default:var
-E=bn(a,d[1]);return cd(function(b){return gr(a,b)},E)}return y(ad,bm(a,d))}function
-aY(b,a){if(dX(a)){var
+B=bn(a,d[2]),D=bn(a,d[1]);return bR(function(b,c){return c$(a,b,c)},D,B);default:var
+E=bn(a,d[1]);return cc(function(b){return gs(a,b)},E)}return y(ae,bm(a,d))}function
+aX(b,a){if(d2(a)){var
 c=bn(b,a);return y(function(a){return a[2]},c)}return bm(b,a)}function
-i1(a){var
-e=bg(L(a),d);return dO(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-i2(a){return iL(x(i1(a),a))}function
-cf(f,a,e){var
-b=aY(x(f,i1(a)),e);if(b)var
-c=b[1],g=i2(a),h=L(cc(L(c[2]),g)),i=i2(a),d=[0,[0,cc(c[1],i),h]];else
+i3(a){var
+e=bg(M(a),d);return dT(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+i4(a){return iN(x(i3(a),a))}function
+ce(f,a,e){var
+b=aX(x(f,i3(a)),e);if(b)var
+c=b[1],g=i4(a),h=M(cb(M(c[2]),g)),i=i4(a),d=[0,[0,cb(c[1],i),h]];else
 var
 d=b;return d}function
-ag(d,a){var
-b=cf(d,a[2],a[1][1]);if(b)var
-c=cf(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+af(d,a){var
+b=ce(d,a[2],a[1][1]);if(b)var
+c=ce(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gs(b,a){var
-c=L(cc(L(a[2]),b));return[0,cc(a[1],b),c]}function
-eX(b,a){var
-c=eR(b[2],a);return[0,b$(b[1],a),c]}function
-gt(a,f,c){if(c){var
-d=c[1],g=gt(a,f,d),h=g[2],i=gm(N(dL(oE,d),oD)),j=v(gm(dL(oF,d)),i),e=eX(w(a,g[1],f),j),k=iF(c)?C(h,e):M(h,e);return[0,e,k]}var
-l=aa(a,b);return[0,aa(a,b),l]}function
-i3(f){var
-g=dN(f),e=oG[1],b=g,c=0,a=e;for(;;){if(b){var
+gt(b,a){var
+c=M(cb(M(a[2]),b));return[0,cb(a[1],b),c]}function
+e1(b,a){var
+c=eV(b[2],a);return[0,b_(b[1],a),c]}function
+gu(a,f,c){if(c){var
+d=c[1],g=gu(a,f,d),h=g[2],i=gn(N(dQ(oK,d),oJ)),j=u(gn(dQ(oL,d)),i),e=e1(w(a,g[1],f),j),k=iH(c)?B(h,e):H(h,e);return[0,e,k]}var
+l=$(a,b);return[0,$(a,b),l]}function
+i5(f){var
+g=dS(f),e=oM[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(oH,c)}}function
-i4(a,d){var
-g=cx(a),h=v(c(2,c(2,b)),g),e=H(d[2],h);if(e)var
-i=gt(a,d,dL(oJ,N(i3(a),oI)))[2][2],f=[0,[0,gt(a,d,N(dL(oL,i3(a)),oK))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return N(oN,c)}}function
+i6(a,d){var
+g=cw(a),h=u(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
+i=gu(a,d,dQ(oP,N(i5(a),oO)))[2][2],f=[0,[0,gu(a,d,N(dQ(oR,i5(a)),oQ))[2][1],i]];else
 var
 f=e;return f}function
-i5(i){function
+i7(i){function
 a(h){var
-m=b$(cx(i),h),g=dN(i),f=m,e=d,a=b;for(;;){if(g){var
-j=x(a,c(2,b)),k=x(e,b$(f,a)),l=L(b$(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aE(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
-i6(e,a){var
-f=H(d,a);if(f){var
-g=c(2,c(2,b));return i4(e,eX(U(e,[0,a,a]),g))}return f}function
-i7(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(i5(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i5(a),n),e=i6(a,g);if(e){var
-f=i6(a,h);if(f)var
-i=Z(d,e[1][1]),j=i?Z(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+m=b_(cw(i),h),g=dS(i),f=m,e=d,a=b;for(;;){if(g){var
+j=x(a,c(2,b)),k=x(e,b_(f,a)),l=M(b_(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=u(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aB(u(c(2,c(2,c(2,c(2,b)))),g),f)}function
+i8(e,a){var
+f=G(d,a);if(f){var
+g=c(2,c(2,b));return i6(e,e1(R(e,[0,a,a]),g))}return f}function
+i9(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aB(i7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i7(a),n),e=i8(a,g);if(e){var
+f=i8(a,h);if(f)var
+i=T(d,e[1][1]),j=i?T(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-i8(a,d){var
-c=U(a,d),e=aa(a,b);return M(C(c,c),e)}function
+i_(a,d){var
+c=R(a,d),e=$(a,b);return H(B(c,c),e)}function
 da(f,j){var
-e=aY(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i7(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=i4(a,U(a,eX(w(a,k,d[1]),h))),g=y(function(b){return i8(a,i8(a,b))},i);else
+e=aX(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i9(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=i6(a,R(a,e1(w(a,k,d[1]),h))),g=y(function(b){return i_(a,i_(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gs(l,a)},g)}return e}function
-i9(a,d){var
-e=i7(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return eX(w(a,d,gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-eY(d,a){return da(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
-bS(a){switch(a[0]){case
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gt(l,a)},g)}return e}function
+i$(a,d){var
+e=i9(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e1(w(a,d,gt(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+e2(d,a){return da(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+bT(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,c=function(b,a){return[0,cw(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,c=function(b,a){return[0,cv(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,c=function(b,a){return[0,dQ(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,c=function(b,a){return[0,dV(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bA(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bB(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cv(a,[0,d,b])?0:[0,eP(c,a)]};break;default:return 0}var
-g=bS(e);if(g){var
-h=bS(f);if(h)return c(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cu(a,[0,d,b])?0:[0,eT(c,a)]};break;default:return 0}var
+g=bT(e);if(g){var
+h=bT(f);if(h)return c(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-j(i,e,c){var
-f=bS(c);if(f){var
+h(i,e,c){var
+f=bT(c);if(f){var
 g=f[1];return e?aj(c8(g,[0,d,b])):c8([0,d,b],g)}var
-a=aY(i,c);if(a){var
-h=a[1];return e?Z(d,h[1]):H(d,h[1])}return a}function
-i_(c,b){var
-a=aY(c,b),d=a?1:a;return d}function
-a8(c,a,b){var
-d=bR(a,b),e=d?i_(c,a):d;return e?e:j(c,0,[3,b,a])}function
-eZ(a){switch(a[0]){case
+a=aX(i,c);if(a){var
+h=a[1];return e?T(d,h[1]):G(d,h[1])}return a}function
+ja(c,b){var
+a=aX(c,b),d=a?1:a;return d}function
+a9(c,a,b){var
+d=bS(a,b),e=d?ja(c,a):d;return e?e:h(c,0,[3,b,a])}function
+e3(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-r=a[2],s=a[1],f=r,e=s,c=function(b,a){return[0,cw(b,a)]};break;case
+r=a[2],s=a[1],f=r,e=s,c=function(b,a){return[0,cv(b,a)]};break;case
 3:var
-t=a[2],u=a[1],f=t,e=u,c=function(b,a){return[0,dQ(b,a)]};break;case
+t=a[2],u=a[1],f=t,e=u,c=function(b,a){return[0,dV(b,a)]};break;case
 4:var
-v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bA(b,a)]};break;case
+v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bB(b,a)]};break;case
 5:var
-x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cv(a,[0,d,b])?0:[0,eP(c,a)]};break;default:var
-k=eZ(a[1]);if(k){var
-o=k[1],g=eQ(o),p=dO(eM(g[2])),h=[0,eM(g[1]),p],l=Z(d,g[1]),m=l?cv(bA(h,h),o):l,q=m?[0,h]:m;return q}return k}var
-i=eZ(e);if(i){var
-j=eZ(f);if(j)return c(i[1],j[1]);var
+x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cu(a,[0,d,b])?0:[0,eT(c,a)]};break;default:var
+k=e3(a[1]);if(k){var
+o=k[1],g=eU(o),p=dT(eQ(g[2])),h=[0,eQ(g[1]),p],l=T(d,g[1]),m=l?cu(bB(h,h),o):l,q=m?[0,h]:m;return q}return k}var
+i=e3(e);if(i){var
+j=e3(f);if(j)return c(i[1],j[1]);var
 n=j}else
 var
 n=i;return n}function
-i$(a){if(a){var
-e=a[2],c=a[1];if(cv(bz([0,d,b],c),[0,d,b])){var
-g=i$(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+jb(a){if(a){var
+e=a[2],c=a[1];if(cu(bA([0,d,b],c),[0,d,b])){var
+g=jb(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-ja(c,a){var
-e=aB(c,a),f=[0,d,b];return bj(function(a,b){return eQ(cw(bA(a[1],a[2]),b))},f,e)}function
-jb(c,j){if(c){var
-f=c[1],g=i$(j);if(g){var
+jc(c,a){var
+e=aK(c,a),f=[0,d,b];return bj(function(a,b){return eU(cv(bB(a[1],a[2]),b))},f,e)}function
+jd(c,j){if(c){var
+f=c[1],g=jb(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bz([0,d,b],a),g=eP(bz([0,d,b],c),f),h=ca(a),i=aB(ca(c),h);return e(function(a){var
-b=bA(g,a[2]);return eQ(dQ(a[1],b))},i)},l=jb(f,e(k,h[2]));return y(function(c){var
-e=bz([0,d,b],a);return[0,eQ(eP(iS(ja(ca(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],aW([0,d,b],f)]]}else
+f=bA([0,d,b],a),g=eT(bA([0,d,b],c),f),h=b$(a),i=aK(b$(c),h);return e(function(a){var
+b=bB(g,a[2]);return eU(dV(a[1],b))},i)},l=jd(f,e(k,h[2]));return y(function(c){var
+e=bA([0,d,b],a);return[0,eU(eT(iU(jc(b$(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],aL([0,d,b],f)]]}else
 var
 i=c;return i}function
-jc(a){if(a){var
-b=eZ(a[1]);if(b)var
-c=jc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+je(a){if(a){var
+b=e3(a[1]);if(b)var
+c=je(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oM}function
-jd(a){if(a){var
-b=jc(a[1]);if(b)var
-c=jd(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return oS}function
+jf(a){if(a){var
+b=je(a[1]);if(b)var
+c=jf(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oN}function
-je(h,l){var
-a=jd(l);if(a){var
-j=a[1],c=jb(h,j);if(c){var
-e=c[1],f=t(i(e),h),g=f?aq(function(a){return aj(cv(a,[0,d,b]))},e):f;return g?n(function(a){return cv(ja(a,e),[0,d,b])},j):g}var
+d=b;return d}return oT}function
+jg(h,l){var
+a=jf(l);if(a){var
+j=a[1],c=jd(h,j);if(c){var
+e=c[1],f=v(i(e),h),g=f?aq(function(a){return aj(cu(a,[0,d,b]))},e):f;return g?n(function(a){return cu(jc(a,e),[0,d,b])},j):g}var
 k=c}else
 var
 k=a;return k}function
-e0(a){return 0===a[0]?a[2]:a[1]}function
-oO(a){return a}function
-oP(a){return a}function
-oQ(a,b){return aP(oP,oO,C,a,b)}function
-oR(a){return a}function
-oS(a){return a}function
-cg(a,b){return aP(oS,oR,oQ,a,b)}function
-gu(b,a,c){if(a){var
+e4(a){return 0===a[0]?a[2]:a[1]}function
+oU(a){return a}function
+oV(a){return a}function
+oW(a,b){return aQ(oV,oU,B,a,b)}function
+oX(a){return a}function
+oY(a){return a}function
+cf(a,b){return aQ(oY,oX,oW,a,b)}function
+gv(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gu(b,f,c[2]),h=c[1],i=function(c,a){return M(c,dS(d,a,b))},j=function(a){return af(dS(d,a,b))};return[0,aP(function(a){return a},j,i,h,a),g]}var
-k=gu(b,f,0);return[0,e(function(a){return af(dS(d,a,b))},a),k]}return c}function
-gv(a){if(a){var
+g=gv(b,f,c[2]),h=c[1],i=function(c,a){return H(c,dX(d,a,b))},j=function(a){return ad(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
+k=gv(b,f,0);return[0,e(function(a){return ad(dX(d,a,b))},a),k]}return c}function
+gw(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=Z(d,c[1]),h=e?[0,gu(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=T(d,c[1]),h=e?[0,gv(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jf(f,e){var
+jh(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gv(b);if(c){var
+c=gw(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jg(d,b,a){if(b)if(a)var
-e=a[1],f=jg(d,b[2],a[2]),g=b_(d,b[1])?eS(e):c9(e),c=[0,g,f];else
+ji(d,b,a){if(b)if(a)var
+e=a[1],f=ji(d,b[2],a[2]),g=b9(d,b[1])?eW(e):c9(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jh(a,b){if(a)if(b)var
-d=jh(a[2],b[2]),c=[0,jg(a[1],a,b[1]),d];else
+jj(a,b){if(a)if(b)var
+d=jj(a[2],b[2]),c=[0,ji(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bo(a){if(a){var
-b=a[1],c=bo(b),d=e(function(a){return[0,1,a]},c),g=bo(b);return f(e(function(a){return[0,0,a]},g),d)}return oT}function
-e1(a){var
-b=i(a);if(jf(b,a))return 1;var
-c=bo(by(b));return n(function(c){return jf(b,jh([0,0,c],a))},c)}function
-as(a){function
+b=a[1],c=bo(b),d=e(function(a){return[0,1,a]},c),g=bo(b);return f(e(function(a){return[0,0,a]},g),d)}return oZ}function
+e5(a){var
+b=i(a);if(jh(b,a))return 1;var
+c=bo(bz(b));return n(function(c){return jh(b,jj([0,0,c],a))},c)}function
+ar(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aR(h,e){var
+aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?C(a,d):M(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gw(c,b,a){var
-d=bo(c);return n(function(c){return k(a,k(as(function(a){return aR(c,a)}),b))},d)}function
-gx(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a$(c,x(h,b),a)},k=gx(h,j,i),l=function(c,b){var
-d=a(b,e);return C(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,C(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?B(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gx(c,b,a){var
+d=bo(c);return n(function(c){return k(a,k(ar(function(a){return aS(c,a)}),b))},d)}function
+gy(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,x(h,b),a)},k=gy(h,j,i),l=function(c,b){var
+d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-e2(b,d,a,c){function
+e6(b,d,a,c){function
 e(c,d){var
-e=a$(d,b,a);return M(C(c,c),e)}function
-f(c){return af(a$(c,b,a))}return aP(function(a){return C(a,a)},f,e,d,c)}function
-gy(d,i,h,g){var
+e=a4(d,b,a);return H(B(c,c),e)}function
+f(c){return ad(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
+e7(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c9(e[2]),k=cg(a,gx(d,f,e2(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+e=b[1],f=c[1],j=c9(e[2]),k=cf(a,gy(d,f,e6(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
 gz(b,a){return[0,[0,0,b],a]}function
 db(b,c,g,f,a){function
 d(a){if(a){var
-h=aW([0,af(a[1][2]),0],b),c=gy(g,f,a[2],h),d=t(i(c),b);if(d)return e1(c);var
+h=aL([0,ad(a[1][2]),0],b),c=e7(g,f,a[2],h),d=v(i(c),b);if(d)return e5(c);var
 e=d}else
 var
-e=a;return e}return gw(b,gz(c,a),d)}function
-ji(f,e){var
+e=a;return e}return gx(b,gz(c,a),d)}function
+gA(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gv([0,[0,eS(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gw([0,[0,eW(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gA(b,c,a){function
+gB(b,c,a){function
 d(a){if(a){var
-h=aW([0,a[1][2],0],b),c=ji(a[2],h);if(c){var
-d=c[1],e=t(i(d),b);if(e)return e1(d);var
+h=aL([0,a[1][2],0],b),c=gA(a[2],h);if(c){var
+d=c[1],e=v(i(d),b);if(e)return e5(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gw(b,gz(c,a),d)}function
-jj(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jk(b,a){var
-c=bo(b);return n(function(b){return Z(d,aR(b,a)[1])},c)}function
-jl(c,b,a){var
-d=a[3],f=e(function(a){return a$(c,b,a)},d),g=a[2];return[0,a$(c,b,a[1]),g,f]}function
-jm(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},af,M,d,c),f=a[2];return[0,M(a[1],b[1]),f,e]}function
-cC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-at(c,b,a){var
-d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
-bT(b,a){var
+g=a;return g}return gx(b,gz(c,a),d)}function
+jk(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jl(b,a){var
+c=bo(b);return n(function(b){return T(d,aS(b,a)[1])},c)}function
+jm(c,b,a){var
+d=a[3],f=e(function(a){return a4(c,b,a)},d),g=a[2];return[0,a4(c,b,a[1]),g,f]}function
+jn(a,b){var
+c=b[3],d=a[3],e=aQ(function(a){return a},ad,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
+cB(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+au(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+bU(b,a){var
 c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-cD(b,a){var
+cC(b,a){var
 c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
 ab(b,a){var
 c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-cE(a){return cD(a,aF(ab(a,a)))}function
+cD(a){return cC(a,aE(ab(a,a)))}function
 dc(a){var
-b=a[5];return b?b[1]:aF(a[2])}function
-e3(b,a){return b?a:bk(a)}function
-jn(e,a,i,d,h){var
-f=ab(a,e),b=at(s,e,bT(f,a)),j=ab(b,b),g=s(J(d),j),c=e3(h,aF(g)),k=s(f,c),l=at(F,a,cD(b,c));return[0,at(F,b,bT(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jo(a,e,d){var
-b=ab(a,a),c=aF(b),f=[0,e],g=y(function(b){return at(s,a,bT(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
-jp(c,a){var
+b=a[5];return b?b[1]:aE(a[2])}function
+e8(b,a){return b?a:bk(a)}function
+jo(e,a,i,d,h){var
+f=ab(a,e),b=au(s,e,bU(f,a)),j=ab(b,b),g=s(K(d),j),c=e8(h,aE(g)),k=s(f,c),l=au(F,a,cC(b,c));return[0,au(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jp(a,e,d){var
+b=ab(a,a),c=aE(b),f=[0,e],g=y(function(b){return au(s,a,bU(ab(b,a),b))},d);return[0,a,b,cC(a,c),c,0,g,f]}function
+jq(c,a){var
 d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
-dY(a){return e(function(a){var
-b=a[2];return[0,cC(a[1]),b]},a)}function
-jq(a){return e(function(a){var
-c=l(b);return[0,cC(a[3]),c]},a)}function
-jr(b,a){var
+d3(a){return e(function(a){var
+b=a[2];return[0,cB(a[1]),b]},a)}function
+jr(a){return e(function(a){var
+c=l(b);return[0,cB(a[3]),c]},a)}function
+js(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-js(c,b,a){var
-d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
-gB(d,a){var
-b=cy(d,[0,a[2],a[2]]);if(b){var
+jt(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+gC(d,a){var
+b=cx(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-e4(a,m,f,l,e,k,j){var
-o=js(a7,k,j),b=js(function(b,c){return ar(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bC(bC(bC(ad(aa(a,d)),h),g),c),p=bo(m);return n(function(c){var
-b=jr(function(b){return U(a,aR(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gB(a,C(C(C(aa(a,d),k),j),h))),g=M(aR(c,i),m),n=f?M(g,aR(c,f[1])):g;return Z(d,n[1])},p)}function
-bD(a){return ct(x(a[1],a[2]),b)}function
+e9(a,m,f,l,e,k,j){var
+o=jt(a6,k,j),b=jt(function(b,c){return at(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bD(bD(bD(ae($(a,d)),h),g),c),p=bo(m);return n(function(c){var
+b=js(function(b){return R(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gC(a,B(B(B($(a,d),k),j),h))),g=H(aS(c,i),m),n=f?H(g,aS(c,f[1])):g;return T(d,n[1])},p)}function
+bE(a){return cs(x(a[1],a[2]),b)}function
 dd(a){var
-b=bD(a);return aE(a[2],b)}function
-e5(c,b){if(b)var
-a=b[1],e=e5([0,c],b[2]),g=dd(a),h=[0,[0,dd(a),g],0],i=f(aW(B,c),h),j=bD(a),d=[0,[0,[0,bD(a),j],a,i],e];else
+b=bE(a);return aB(a[2],b)}function
+e_(c,b){if(b)var
+a=b[1],e=e_([0,c],b[2]),g=dd(a),h=[0,[0,dd(a),g],0],i=f(aL(C,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
 var
 d=b;return d}function
-dZ(d,b){if(b){var
+d4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=dZ(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bD(a),f],c],h=bD(a);return[0,[0,[0,a[1],h],c],g]}return oU}function
-jt(d,c,a){if(c){if(a){var
-e=jt(d,c[2],a[2]);return C(a$(c[1],x(d,b),a[1]),e)}return B}return B}function
-d0(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jt(f,a,b)},j=d0(f,h),k=e(function(a){var
-e=b(d,a[2]);return C(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,C(b(d,c),l),k],j];else
+e=d4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return o0}function
+ju(d,c,a){if(c){if(a){var
+e=ju(d,c[2],a[2]);return B(a4(c[1],x(d,b),a[1]),e)}return C}return C}function
+d5(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ju(f,a,b)},j=d5(f,h),k=e(function(a){var
+e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d1(e,b,d,a){if(b)if(a)var
-f=b[1],g=d1(e,b[2],d,a[2]),c=[0,[0,f,e2(e,a[1][1],d,f)],g];else
+d6(e,b,d,a){if(b)if(a)var
+f=b[1],g=d6(e,b[2],d,a[2]),c=[0,[0,f,e6(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-e6(f,d,c,b,a){if(a){var
+e$(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=e6(f,d[1],c,b,g);return[0,[0,M(B,b),0],i]}var
-j=e(function(a){return[0,M(B,b),0]},g),h=[0,[0,M(af(w(f,c,c9(a[1][2]))),b),0],j]}else
+i=e$(f,d[1],c,b,g);return[0,[0,H(C,b),0],i]}var
+j=e(function(a){return[0,H(C,b),0]},g),h=[0,[0,H(ad(w(f,c,c9(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bU(c,a){var
-b=t(i(a),c);return b?e1(a):b}function
-ju(d,b,a){if(b)var
-c=b[1],g=ju([0,d],b[2],a),h=f(aW(B,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),x(c[2],a[2])],h],g];else
+bp(c,a){var
+b=v(i(a),c);return b?e5(a):b}function
+jv(d,b,a){if(b)var
+c=b[1],g=jv([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aB(c[1],a[2]),x(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jv(d){if(d){var
+jw(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jv(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jw(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return oV}function
-gC(a){return y(function(a){return y(dV,a)},a)}function
-ci(c,b,a){function
-d(a){return ar(c,b,a)}return y(function(a){return y(d,a)},a)}function
-gD(c,b,a){function
-d(a){return c$(c,a,b)}return y(function(a){return cd(d,a)},a)}function
+f=a;return f}return o1}function
+gD(a){return y(function(a){return y(d0,a)},a)}function
+ch(c,b,a){function
+d(a){return at(c,b,a)}return y(function(a){return y(d,a)},a)}function
+gE(c,b,a){function
+d(a){return c$(c,a,b)}return y(function(a){return cc(d,a)},a)}function
 de(b,a){var
-c=aB(b,a);return e(function(c){var
+c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bQ(function(b,a){return[0,bC(b,a)]},e,d)]}return b}return a},c)}function
-e7(a){return ad(aa(a,c(2,b)))}function
-jw(b,c,a){if(a)var
-f=a[1],g=jw(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bR(function(b,a){return[0,bD(b,a)]},e,d)]}return b}return a},c)}function
+fa(a){return ae($(a,c(2,b)))}function
+jx(b,c,a){if(a)var
+f=a[1],g=jx(b,c,a[2]),d=[0,e(function(a){return ad(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jx(a){return n(function(a){var
+jy(a){return n(function(a){var
 b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jy(c,b,a){var
-d=aB(b,a);return bj(function(a,b){return C(w(c,a[1],a[2]),b)},B,d)}function
-gE(c,b,a){var
-d=dT(jy(c,a,b));return bj(function(b,a){return x(dT(b),a)},d,a)}function
-df(a){return aa(a,b)}function
-gF(a,i,c,u,t){var
+jz(c,b,a){var
+d=aK(b,a);return bj(function(a,b){return B(w(c,a[1],a[2]),b)},C,d)}function
+gF(c,b,a){var
+d=dY(jz(c,a,b));return bj(function(b,a){return x(dY(b),a)},d,a)}function
+df(a){return $(a,b)}function
+gG(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jx(c)&&!jx(j)){var
-h=gE(a,i,j),o=df(a),p=gE(a,i,c),b=dS([0,gE(a,i,c),p],o,[0,h,h])[1],k=Z(d,h),l=k?Z(d,b):k;if(l)var
-q=a6(gp(a,[0,b,b])),r=function(b){return function(d,c){return M(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jw(a,q,aP(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!jy(c)&&!jy(j)){var
+h=gF(a,i,j),o=df(a),p=gF(a,i,c),b=dX([0,gF(a,i,c),p],o,[0,h,h])[1],k=T(d,h),l=k?T(d,b):k;if(l)var
+q=a5(gq(a,[0,b,b])),r=function(b){return function(d,c){return H(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cf(e,jx(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),ad,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-o_(a){var
-b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-jz(c,b,a){if(b){if(a){var
-d=jz(c,b[2],a[2]);return C(a$(b[1],c,a[1]),d)}return B}return B}function
-jA(a,j){switch(j){case
+pe(a){var
+b=a[2],c=e(function(a){return[0,a[1],C]},b);return[0,[0,a[1][1],C],c]}function
+jA(c,b,a){if(b){if(a){var
+d=jA(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
+jB(a,j){switch(j){case
 0:var
-d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aB(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=ct(x(a[1],a[2]),b),h=aE(c,a[2]),i=aE(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jB(d,c,a){if(a)var
-e=a[1],g=jB(d,[0,c],a[2]),b=y(b9,iQ(function(a){return t(a[1],c)},d)),h=b?jA(e,b[1])[1]:e,f=[0,h,g];else
+f=aB(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=cs(x(a[1],a[2]),b),h=aB(c,a[2]),i=aB(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jC(d,c,a){if(a)var
+e=a[1],g=jC(d,[0,c],a[2]),b=y(b8,iS(function(a){return v(a[1],c)},d)),h=b?jB(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-o$=ad(B);function
-jC(e,d,c){if(d){var
-f=u(e,c[2],pa),a=f?f[1]:[0,o$];if(a)var
-b=jC([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+pf=ae(C);function
+jD(e,d,c){if(d){var
+f=t(e,c[2],pg),a=f?f[1]:[0,pf];if(a)var
+b=jD([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return pb}function
-jD(d,c,b,a){var
-f=e(ad,b);return bB(0,ce(d,e5(0,a),f),c,0)}function
+g=a;return g}return ph}function
+jE(d,c,b,a){var
+f=e(ae,b);return bC(0,cd(d,e_(0,a),f),c,0)}function
 ah(a){if(a){var
 b=a[1];if(b)var
 c=ah(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pc}function
-e8(b,a){if(a){var
-h=a[1],n=h[1],c=ah(e(function(a){return u(a,b,0)},n));if(c){var
-f=u(h[2],b,0);if(f){var
-i=f[1],g=e8(b,a[2]);if(g)var
-j=Z(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pi}function
+fb(b,a){if(a){var
+h=a[1],n=h[1],c=ah(e(function(a){return t(a,b,0)},n));if(c){var
+f=t(h[2],b,0);if(f){var
+i=f[1],g=fb(b,a[2]);if(g)var
+j=T(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1761,78 +1761,78 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return pd}function
+m=c;return m}return pj}function
 bV(d,c,b){var
-a=e8(d,c);return a?k(b,a[1]):a}function
+a=fb(d,c);return a?k(b,a[1]):a}function
 dg(a,b){return n(function(c){var
-a=u(c,b,0),d=a?1:a;return d},a)}function
-e9(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,C,e,d),h=a[2];return[0,C(a[1],c[1]),h,g]}return a}function
-gG(b,a){return b?jm(a,b[1]):a}function
-gH(h,g,b,f){var
-a=u(f,h,0);if(a){var
+a=t(c,b,0),d=a?1:a;return d},a)}function
+fc(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
+gH(b,a){return b?jn(a,b[1]):a}function
+gI(h,g,b,f){var
+a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jm(c,b[1]),e=bo(g);return n(function(a){return H(d,aR(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-jE(f,d,a){function
-c(a){return a$(a,d,aa(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),B,g]}return ad(B)}function
-e_(b,a){var
-c=u(a[1],b,0);if(c){var
-d=u(a[2],b,0);if(d)var
-e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jn(c,b[1]),e=bo(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+jF(f,d,a){function
+c(a){return a4(a,d,$(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),C,g]}return ae(C)}function
+fd(b,a){var
+c=t(a[1],b,0);if(c){var
+d=t(a[2],b,0);if(d)var
+e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-jF(j,k,J,u,h,c,g,f,a){switch(f[0]){case
+jG(j,k,J,t,h,c,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dg(u,h);if(K){var
-ae=a[2],af=a[1],ag=e9(g,ad(r));return bV(h,k,function(a){return db(c,ag,af,ae,a)})}return K;case
+K=dg(t,h);if(K){var
+ad=a[2],af=a[1],ag=fc(g,ae(r));return bV(h,k,function(a){return db(c,ag,af,ad,a)})}return K;case
 1:var
-L=dg(u,h);if(L){var
-ah=a[2],ai=a[1],aj=e9(g,ad(r));return bV(h,J,function(a){return db(c,aj,ai,ah,a)})}return L;case
+L=dg(t,h);if(L){var
+ah=a[2],ai=a[1],aj=fc(g,ae(r));return bV(h,J,function(a){return db(c,aj,ai,ah,a)})}return L;case
 2:var
-M=dg(u,h);if(M){if(g)return 0;var
+M=dg(t,h);if(M){if(g)return 0;var
 N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bV(h,k,function(a){return db(c,[0,B,B,0],al,ak,jj([0,B,B,0],a))})}var
+ak=a[2],al=a[1];return bV(h,k,function(a){return db(c,[0,C,C,0],al,ak,jk([0,C,C,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gG(g,ad(Q));return bV(h,J,function(a){return gA(c,am,a)})}if(!a){var
-an=gG(g,ad(Q));return bV(h,k,function(a){return gA(c,an,a)})}}return 0;case
+am=gH(g,ae(Q));return bV(h,J,function(a){return gB(c,am,a)})}if(!a){var
+an=gH(g,ae(Q));return bV(h,k,function(a){return gB(c,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jE(j,R,a[3]),S=f[1],ao=a[2];return bV(h,k,function(d){var
-a=jk(c,l),b=a?db(c,e9(g,l),R,ao,d):a;if(b){var
-f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gA(c,gG(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
+R=a[1],l=jF(j,R,a[3]),S=f[1],ao=a[2];return bV(h,k,function(d){var
+a=jl(c,l),b=a?db(c,fc(g,l),R,ao,d):a;if(b){var
+f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gB(c,gH(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gH(h,c,g,f[1]);return 0;case
+a==="number"&&!a)return gI(h,c,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=e9(g,ad(f[2])),as=function(a){return db(c,ar,aq,ap,a)};return bV(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fc(g,ae(f[2])),as=function(a){return db(c,ar,aq,ap,a)};return bV(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gH(h,c,g,f[1]);case
-2:return gH(h,c,g,f[2])}return 0;case
+0:return gI(h,c,g,f[1]);case
+2:return gI(h,c,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=e_(h,f[1]);if(v){var
-y=e_(h,f[2]);if(y){var
-z=e_(h,f[3]);if(z){var
-A=e_(h,f[4]);if(A){var
-T=A[1],U=z[1],V=y[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+u=fd(h,f[1]);if(u){var
+y=fd(h,f[2]);if(y){var
+z=fd(h,f[3]);if(z){var
+A=fd(h,f[4]);if(A){var
+T=A[1],U=z[1],V=y[1],W=u[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=jr(function(d){function
-f(a){return a$(a,at,aa(j,b))}if(d){var
-a=e(f,d[2]),c=f(d[1]),g=eU(a),h=x(c[2],g),i=eU(a);return[0,c,[0,aE(c[1],i),h],a]}return ad(B)},ac),C=n(function(a){return t(i(a),[0,c])},m),D=C?e4(j,c,g,s,q,W,U):C,E=D?e4(j,c,g,s,q,W,T):D,F=E?e4(j,c,g,s,q,V,U):E;if(F)return e4(j,c,g,s,q,V,T);var
+ac=[0,m[1],o[1],p[1]],q=js(function(d){function
+f(a){return a4(a,at,$(j,b))}if(d){var
+a=e(f,d[2]),c=f(d[1]),g=eY(a),h=x(c[2],g),i=eY(a);return[0,c,[0,aB(c[1],i),h],a]}return ae(C)},ac),B=n(function(a){return v(i(a),[0,c])},m),D=B?e9(j,c,g,s,q,W,U):B,E=D?e9(j,c,g,s,q,W,T):D,F=E?e9(j,c,g,s,q,V,U):E;if(F)return e9(j,c,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1850,50 +1850,50 @@ var
 Z=y;var
 _=Z}else
 var
-_=v;return _}return 0;case
+_=u;return _}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-$=a[2],ab=a[1],au=f[2],av=f[1];return bV(h,k,function(e){var
-a=t(i(e),c),d=a?t(i($),c):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return bV(h,k,function(e){var
+a=v(i(e),c),d=a?v(i(aa),c):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=t(i(d),c);if(e){var
-g=d0(ab,d1(ab,$,aa(j,b),d));return bU(c,cg(e6(j,av,au,a[1][2],d),g))}var
+d=a[2],e=v(i(d),c);if(e){var
+g=d5(ab,d6(ab,aa,$(j,b),d));return bp(c,cf(e$(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:ad(B);return gw(c,gz(h,e),f)}return d})}return 0;case
+f=a;return f},h=g?g[1]:ae(C);return gx(c,gz(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jj([0,B,B,0],d),b=g?g[1]:[0,B,B,0];return db(c,b,ax,aw,a)};return bV(h,f[1],ay)}return 0;default:return 0}}function
-jG(a,Y,I,l,p,X,g,j,h,f,c){if(9===f[0]){if(typeof
+a=jk([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return db(c,b,ax,aw,a)};return bV(h,f[1],ay)}return 0;default:return 0}}function
+jH(a,Z,J,l,p,Y,g,j,h,f,c){if(9===f[0]){if(typeof
 c!=="number"&&9===c[0]){var
-_=f[1],S=e(ad,X),A=bB(0,ce(a,ju(0,j,_),S),Y,0),J=t(i(j),pe),K=J?dg(p,A):J;if(K){var
-q=e8(A,l);if(q){var
-r=e8(g,l);if(r){var
-$=f[2],s=ah(e(function(b){var
-c=u(b[1],g,0);if(c)var
+_=f[1],U=e(ae,Y),A=bC(0,cd(a,jv(0,j,_),U),Z,0),K=v(i(j),pk),L=K?dg(p,A):K;if(L){var
+q=fb(A,l);if(q){var
+r=fb(g,l);if(r){var
+aa=f[2],s=ah(e(function(b){var
+c=t(b[1],g,0);if(c)var
 f=b[2][2],a=ah(e(function(a){var
-b=u(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+b=t(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},$));if(s){var
-v=jv(q[1]);if(v){var
-L=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ae=v[1],D=gB(a,bj(function(f,h){function
+d=c;return d},aa));if(s){var
+u=jw(q[1]);if(u){var
+M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],af=u[1],D=gC(a,bj(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dT(u(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dY(t(d,c[3],C))}function
 c(a){var
-b=k(a,oW),c=bg(k(a,oX),b);return bg(k(a,0),c)}var
+b=k(a,o2),c=bg(k(a,o3),b);return bg(k(a,0),c)}var
 d=c(function(a){var
-c=b(oY,a),d=b(oZ,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,o0),d=b(a,o1);return x(x(b(a,0),d),c)});return C(h,U(a,gB(a,w(a,[0,e,e],g))))},B,ae)),m=a$(ab,z,aa(a,b)),E=Z(d,M(m,D)[1]),F=E?t(i(L),o7):E,G=F?t(i(N),o8):F;if(G){var
-o=cb(a,m);if(o){var
-T=a6(w(a,D,o[1])),V=M(aa(a,b),T),W=bo(o9);return n(function(i){var
+c=b(o4,a),d=b(o5,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,o6),d=b(a,o7);return x(x(b(a,0),d),c)});return B(h,R(a,gC(a,w(a,[0,e,e],g))))},C,af)),m=a4(ab,z,$(a,b)),E=T(d,H(m,D)[1]),F=E?v(i(M),pb):E,G=F?v(i(N),pc):F;if(G){var
+o=ca(a,m);if(o){var
+V=a5(w(a,D,o[1])),W=H($(a,b),V),X=bo(pd);return n(function(i){var
 g=e(function(b){var
 c=b[2],d=b[1];return c9(c6(function(d,b){var
-c=dT(aR(i,b[2]));return C(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(as(function(a){return aR(i,a)}),N),E=h?aR(i,h[1]):B,K=U(a,V),s=U(a,m),q=d0(z,d1(z,L,aa(a,b),r)),c=cg(aW([0,af(E),0],o2),q);if(g){var
+c=dY(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ar(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=R(a,W),s=R(a,m),q=d5(z,d6(z,M,$(a,b),r)),c=cf(aL([0,ad(E),0],o8),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],D=g[1],G=f[1],j=bU(o4,cg(aW([0,af(s),0],o3),c));if(j)return n(function(B){var
-H=M(K,E),I=B[2]?A:af(A),J=B[1]?D:af(D),n=0;if(c){var
+A=d[1],D=g[1],G=f[1],j=bp(o_,cf(aL([0,ad(s),0],o9),c));if(j)return n(function(B){var
+I=H(L,E),J=B[2]?A:ad(A),K=B[1]?D:ad(D),n=0;if(c){var
 a=c[1],k=0;if(a){var
 b=a[2],l=0;if(b){var
 d=b[2],m=0;if(d)if(d[2]){var
@@ -1906,7 +1906,7 @@ h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
-r=[0,[0,a[1],[0,b[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,b[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,G,0]],[0,[0,I,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1932,7 +1932,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=c;n=1}if(n)var
-j=z;return bU(o6,j)},o5);var
+j=z;return bp(pa,j)},o$);var
 l=j}else
 var
 l=f;var
@@ -1941,11 +1941,11 @@ var
 o=d;var
 p=o}else
 var
-p=g;return p},W)}var
-H=o}else
+p=g;return p},X)}var
+I=o}else
 var
-H=G;return H}var
-O=v}else
+I=G;return I}var
+O=u}else
 var
 O=s;var
 P=O}else
@@ -1954,15 +1954,15 @@ P=r;var
 Q=P}else
 var
 Q=q;var
-R=Q}else
+S=Q}else
 var
-R=K;return R}return jF(a,I,l,p,g,i(j),h,f,c)}return jF(a,I,l,p,g,i(j),h,f,c)}function
-jH(i,b,a){if(a){var
+S=L;return S}return jG(a,J,l,p,g,i(j),h,f,c)}return jG(a,J,l,p,g,i(j),h,f,c)}function
+jI(i,b,a){if(a){var
 j=a[1],l=j[2],c=ah(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
-g=u(l,i,0);if(g){var
-h=jH(i,b,a[2]);if(h)var
-m=Z(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+g=t(l,i,0);if(g){var
+h=jI(i,b,a[2]);if(h)var
+m=T(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1973,48 +1973,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pg}function
-jI(a,U,m,T,v,s,S,D,h,g,l,c){var
-j=i(S),V=e5(0,S),aS=bB(0,ce(a,V,e(ad,jB(l,0,v))),U,0),W=e(aK,l),aT=0,aU=e(ad,v),aX=bB(ph,function(c){var
-av=cz(aK,c),f=k(ce(a,V,aU),av);switch(c[0]){case
+q=c;return q}return pm}function
+jJ(a,V,m,U,u,s,S,D,h,g,l,c){var
+j=i(S),W=e_(0,S),aT=bC(0,cd(a,W,e(ae,jC(l,0,u))),V,0),X=e(aJ,l),aU=0,aW=e(ae,u),aX=bC(pn,function(c){var
+av=cy(aJ,c),f=k(cd(a,W,aW),av);switch(c[0]){case
 1:var
 M=c[1],d=e(function(d){var
-c=t(M,d),e=c?[0,[0,ad(aa(a,b))]]:c;return e},W);break;case
+c=v(M,d),e=c?[0,[0,ae($(a,b))]]:c;return e},X);break;case
 3:var
 d=de(c[1][2],c[2][2]);break;case
 4:var
-N=e(gC,c[2][2]),d=de(c[1][2],N);break;case
+N=e(gD,c[2][2]),d=de(c[1][2],N);break;case
 5:var
-d=e(gC,c[1][2]);break;case
+d=e(gD,c[1][2]);break;case
 6:var
-x=c[2],y=c[1],g=y[1],u=0;if(g){var
+x=c[2],y=c[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ci(a,P,b)},O),R=y[2],S=h[1],d=de(e(function(b){return ci(a,S,b)},R),Q);else{var
-z=h;u=1}}else{var
-z=g;u=1}if(u)var
+O=x[2],P=g[1],Q=e(function(b){return ch(a,P,b)},O),R=y[2],S=h[1],d=de(e(function(b){return ch(a,S,b)},R),Q);else{var
+z=h;t=1}}else{var
+z=g;t=1}if(t)var
 d=z;break;case
 7:var
-v=0;if(f){var
+u=0;if(f){var
 A=c[2],i=A[1];if(i)var
-T=A[2],U=dV(f[1]),X=e(function(b){return ci(a,U,b)},T),Y=de(c[1][2],X),Z=i[1],d=e(function(b){return gD(a,Z,b)},Y);else{var
-B=i;v=1}}else{var
-B=f;v=1}if(v)var
+T=A[2],U=d0(f[1]),V=e(function(b){return ch(a,U,b)},T),Y=de(c[1][2],V),Z=i[1],d=e(function(b){return gE(a,Z,b)},Y);else{var
+B=i;u=1}}else{var
+B=f;u=1}if(u)var
 d=B;break;case
 8:var
 C=c[1],j=C[1];if(j)var
-_=C[2],$=j[1],ab=ar(a,e7(a),$),d=e(function(b){return ci(a,ab,b)},_);else
+_=C[2],aa=j[1],ab=at(a,fa(a),aa),d=e(function(b){return ch(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ae=f[1],af=ar(a,e7(a),ae),d=e(function(b){return gD(a,af,b)},ac);else
+ac=c[1][2],ad=f[1],af=at(a,fa(a),ad),d=e(function(b){return gE(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=iZ(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a7(o,r),ai=e(function(b){return ci(a,ah,b)},ag),aj=F[2],ak=a7(m,s),al=de(e(function(b){return ci(a,ak,b)},aj),ai),am=e(gC,D[2]),an=e7(a),ao=de(e(function(b){return ci(a,an,b)},al),am),ap=c[1]?s:dV(r),aq=e(function(b){return ci(a,ap,b)},ao),as=ar(a,m,r),at=a7(ar(a,o,s),as),au=ar(a,e7(a),at),d=e(function(b){return gD(a,au,b)},aq);K=1;L=1}else
+q=i1(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a6(o,r),ai=e(function(b){return ch(a,ah,b)},ag),aj=F[2],ak=a6(m,s),al=de(e(function(b){return ch(a,ak,b)},aj),ai),am=e(gD,D[2]),an=fa(a),ao=de(e(function(b){return ch(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ch(a,ap,b)},ao),ar=at(a,m,r),as=a6(at(a,o,s),ar),au=at(a,fa(a),as),d=e(function(b){return gE(a,au,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2025,38 +2025,38 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},W)}return[0,f,d]},U,aT),aP=e(function(a){var
-b=a[2];return jA(u(a[1],v,B),b)[2]},l);function
-X(c){var
-d=u(c,s,0);if(d){var
-a=u(c,aS,0);if(a)var
-b=jC(0,l,u(c,aX,pf)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=e(function(a){return 0},X)}return[0,f,d]},V,aU),aQ=e(function(a){var
+b=a[2];return jB(t(a[1],u,C),b)[2]},l);function
+Z(c){var
+d=t(c,s,0);if(d){var
+a=t(c,aT,0);if(a)var
+b=jD(0,l,t(c,aX,pl)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-E(b){return e(function(b){return aa(a,b)},b)}var
-aY=D?D[1]:ad(B);function
-_(a){return a?bU(j,a[1]):a}function
+E(b){return e(function(b){return $(a,b)},b)}var
+aY=D?D[1]:ae(C);function
+_(a){return a?bp(j,a[1]):a}function
 y(t,s,f,r,q){var
-u=aW([0,af(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=c9(k[2]),n=cg(g,gx(f,d,e2(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a6,e2(f,a[1],a[2],b))}}(d),o),h=gF(a,v,e(function(b){return a$(b,f,df(a))},d),p,n);if(h){var
+u=aL([0,ad(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=c9(k[2]),n=cf(g,gy(f,d,e6(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e6(f,a[1],a[2],b))}}(d),o),h=gG(a,v,e(function(b){return a4(b,f,df(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return _(l)}}function
-$(y,x,w){var
-z=aW([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eS(g),h],f];if(m){var
-o=Z(d,g[1]);if(o)var
+aa(y,x,w){var
+z=aL([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eW(g),h],f];if(m){var
+o=T(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return B},h),u=[0,df(a),t],v=df(a),b=gF(a,[0,af(dS(jy(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,df(a),t],v=df(a),b=gG(a,[0,ad(dX(jz(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gv(b[1]);if(i){var
+i=gw(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2064,9 +2064,9 @@ p=b;var
 r=p}else
 var
 r=[0,f];return _(r)}}var
-aZ=e(aK,l),ab=n(function(a){return dM(a,i(v))},aZ);if(ab){var
-r=e(aK,l);for(;;){if(r){var
-Q=r[2],aQ=r[1],R=aj(aq(function(b){return function(a){return t(b,a)}}(aQ),Q));if(R){var
+aZ=e(aJ,l),ab=n(function(a){return dR(a,i(u))},aZ);if(ab){var
+r=e(aJ,l);for(;;){if(r){var
+Q=r[2],aR=r[1],R=aj(aq(function(b){return function(a){return v(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
 ac=R}else
 var
@@ -2074,204 +2074,204 @@ ac=1;var
 F=ac;break}}else
 var
 F=ab;var
-ae=F?n(function(a){return t(i(a),j)},c):F;if(ae){var
+af=F?n(function(a){return v(i(a),j)},c):F;if(af){var
 A=0;switch(h[0]){case
 0:var
-G=h[1],O=0;if(typeof
+I=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 aC=0;if(c){if(c[2])return 0;var
-a0=c[1],a1=g[2],a2=g[1],ag=dg(T,s);if(ag){var
+a0=c[1],a1=g[2],a2=g[1],ag=dg(U,s);if(ag){var
 p=function(c,a){var
-b=C(G,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
+b=B(I,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
 ak=ag}else
 var
 ak=c;if(!aC)return ak;break;case
 2:var
 aD=0;if(c){if(c[2])return 0;var
-a4=c[1],a5=g[2],a8=g[1],al=dg(T,s),aF=0;if(al){if(D)return 0;var
-am=Y(G[1],d),an=am?Y(G[2],d):am;if(an){var
-p=function(c,b,a){return y(a4,B,a8,a5,e(o_,a))},o=m;O=1;aD=1;aF=1}else
+a7=c[1],a8=g[2],a9=g[1],al=dg(U,s),aE=0;if(al){if(D)return 0;var
+am=Y(I[1],d),an=am?Y(I[2],d):am;if(an){var
+p=function(c,b,a){return y(a7,C,a9,a8,e(pe,a))},o=m;O=1;aD=1;aE=1}else
 var
 ao=an}else
 var
-ao=al;if(!aF)var
+ao=al;if(!aE)var
 ap=ao}else
 var
 ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
 1:var
-aG=0,a9=h[1];if(typeof
+aF=0,a_=h[1];if(typeof
 g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
-a_=c[1],p=function(c,a){var
-b=M(a9,a);return function(a){return $(a_,b,a)}},o=m;aG=1}if(!aG)return 0;break;case
+a$=c[1],p=function(c,a){var
+b=H(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
 2:var
-aH=0,ba=h[1];if(typeof
-g==="number"||!(3===g[0]))aH=1;else{var
-aI=0;if(c){var
-z=c[2],aJ=0;if(z){if(z[2])return 0;var
-as=g[1],bb=z[1],bc=c[1],bd=g[2],at=jE(a,as,g[3]),au=jk(j,at);if(au){var
+aG=0,ba=h[1];if(typeof
+g==="number"||!(3===g[0]))aG=1;else{var
+aH=0;if(c){var
+z=c[2],aI=0;if(z){if(z[2])return 0;var
+ar=g[1],bb=z[1],bc=c[1],bd=g[2],as=jF(a,ar,g[3]),au=jl(j,as);if(au){var
 p=function(f,c,b){var
-d=aR(f,at),e=y(bc,C(d,c),as,bd,b);return e?$(bb,M(w(a,ba,d),c),b):e},o=m;aI=1;aJ=1}else
+d=aS(f,as),e=y(bc,B(d,c),ar,bd,b);return e?aa(bb,H(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
 var
 av=au}else
 var
-av=z;if(!aJ)var
+av=z;if(!aI)var
 aw=av}else
 var
-aw=c;if(!aI)return aw}if(aH)return 0;break;case
+aw=c;if(!aH)return aw}if(aG)return 0;break;case
 3:var
-aL=0;if(typeof
+aM=0;if(typeof
 g==="number"&&!g){if(c)return 0;var
-J=h[1];A=1}else
-aL=1;if(aL)return 0;break;case
+K=h[1];A=1}else
+aM=1;if(aM)return 0;break;case
 4:var
-aM=0,bf=h[2];if(typeof
-g==="number"||!(0===g[0]))aM=1;else{if(!c)return c;if(c[2])return 0;var
+aN=0,bf=h[2];if(typeof
+g==="number"||!(0===g[0]))aN=1;else{if(!c)return c;if(c[2])return 0;var
 bh=c[1],bi=g[2],bk=g[1],bl=function(c,a){var
-b=C(bf,a);return function(a){return y(bh,b,bk,bi,a)}},p=bl,o=h[1]}if(aM)return 0;break;case
+b=B(bf,a);return function(a){return y(bh,b,bk,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
 0:if(c)return 0;var
-J=h[1];A=1;break;case
+K=h[1];A=1;break;case
 2:if(c)return 0;var
-J=h[2];A=1;break;default:P=1}else
+K=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
-ax=h[2],ay=h[1],aN=0;if(typeof
-g==="number"||!(0===g[0]))aN=1;else{var
-aO=0;if(c){if(c[2])return 0;var
-q=g[2],N=g[1],bm=c[1],az=t(i(m),j);if(az){var
+ax=h[2],ay=h[1],aO=0;if(typeof
+g==="number"||!(0===g[0]))aO=1;else{var
+aP=0;if(c){if(c[2])return 0;var
+q=g[2],N=g[1],bm=c[1],az=v(i(m),j);if(az){var
 p=function(b,y){var
 z=E(bm);return function(f){var
-k=t(i(f),j),l=k?t(i(q),j):k;if(l){var
-s=e(aK,f),u=d0(N,d1(N,q,df(a),s)),v=cg(e6(a,ay,ax,y,e(aK,f)),u),b=0,c=f,g=v,x=i(q);for(;;){if(c){var
-o=c[1][2],p=t(b,ay),r=e(function(f,g){return function(d){var
-b=aB(aV(0,i(q)),q);return e(function(b){var
-c=jz(N,b[2],d[1]);if(g&&t(b[1],f))return M(c,a6(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gF(a,z,e(function(c){return function(b){return t(b,c)?df(a):B}}(b),n),r,g);if(h){var
+k=v(i(f),j),l=k?v(i(q),j):k;if(l){var
+s=e(aJ,f),t=d5(N,d6(N,q,df(a),s)),u=cf(e$(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=u,x=i(q);for(;;){if(c){var
+o=c[1][2],p=v(b,ay),r=e(function(f,g){return function(d){var
+b=aK(aV(0,i(q)),q);return e(function(b){var
+c=jA(N,b[2],d[1]);if(g&&v(b[1],f))return H(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gG(a,z,e(function(c){return function(b){return v(b,c)?df(a):C}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bU(j,d[1]);var
+d=[0,g];if(d)return bp(j,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},o=m;aO=1}else
+m=l;return m}},o=m;aP=1}else
 var
 aA=az}else
 var
-aA=c;if(!aO)return aA}if(aN)return 0;break;default:return 0}if(A){var
-K=X(J);if(!K)return K;var
+aA=c;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
+L=Z(K);if(!L)return L;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bj(function(b,a){return x(bg(d,L(b[2][1])),a)},d,c);return H(d,aE(aE(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,K[1]],0]}else{var
-I=jH(s,X,o);if(!I)return I;var
-ai=p,ah=I[1]}var
+b=f[2],c=a[2],e=bj(function(b,a){return x(bg(d,M(b[2][1])),a)},d,c);return G(d,aB(aB(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,L[1]],0]}else{var
+J=jI(s,Z,o);if(!J)return J;var
+ai=p,ah=J[1]}var
 a3=bo(j);return n(function(b){var
 c=e(function(c){function
-g(a){return aR(b,a[1])}var
-h=0,j=ad(B);function
+g(a){return aS(b,a[1])}var
+h=0,j=ae(C);function
 d(h,g,b,c){if(b){var
-i=function(a){return aR(h,u(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aP,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BF(ai,b,aR(b,aY),c)},a3)}return ae}function
-e$(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BD(ai,b,aS(b,aY),c)},a3)}return af}function
+fe(b,a){if(a){var
 c=a[2];if(b){var
-e=e$(b[1],c);return[0,a[1],e]}var
+e=fe(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jJ(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
-r=jD(m,l,j,b),h=R,g=Q;for(;;){if(h){var
+jK(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
+r=jE(m,l,j,b),h=R,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],V=bo(i(b)),x=n(function(b){return function(a){return Z(aR(a,b)[2],d)}}(_),V);else
+_=v[1],X=bo(i(b)),x=n(function(b){return function(a){return T(aS(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
-N=u(w,g,0);if(N){var
-y=W($,w);if(y){var
+N=t(w,g,0);if(N){var
+y=V($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=k(z,b),T=0;if(s){var
-D=H(d,C);if(D){var
-X=a[1],c=jG(m,l,q,S,p,j,r,b,[0,jl(C,a[3],s[1])],o,X);T=1}else
+C=a[2],s=k(z,b),U=0;if(s){var
+D=G(d,C);if(D){var
+Y=a[1],c=jH(m,l,q,S,p,j,r,b,[0,jm(C,a[3],s[1])],o,Y);U=1}else
 var
 E=D}else
 var
-E=s;if(!T)var
+E=s;if(!U)var
 c=E;break;case
 10:var
-F=a[3],G=a[2],f=a[1],B=0;if(typeof
+F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-I=f[2],t=k(z,b),U=0;if(t){var
-J=H(d,I);if(J){var
-Y=f[1],c=jI(m,l,q,p,j,r,b,[0,jl(I,f[3],t[1])],o,Y,G,F);B=1;U=1}else
+I=f[2],u=k(z,b),W=0;if(u){var
+J=G(d,I);if(J){var
+Z=f[1],c=jJ(m,l,q,p,j,r,b,[0,jm(I,f[3],u[1])],o,Z,H,F);B=1;W=1}else
 var
 K=J}else
 var
-K=t;if(!U){var
+K=u;if(!W){var
 c=K;B=1}}if(!B)var
-c=jI(m,l,q,p,j,r,b,0,o,f,G,F);break;default:A=1}if(A)var
-c=jG(m,l,q,S,p,j,r,b,0,o,a);if(c){var
-h=M,g=e$(w,g);continue}var
+c=jJ(m,l,q,p,j,r,b,0,o,f,H,F);break;default:A=1}if(A)var
+c=jH(m,l,q,S,p,j,r,b,0,o,a);if(c){var
+h=M,g=fe(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-fa(j,i,h,g,f,e,d,c,u,t,s){var
+ff(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jJ(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aj,l[1]):l}var
-m=jJ(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=dZ(a[2],b),q=fa(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jK(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aj,l[1]):l}var
+m=jK(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=d4(a[2],b),q=ff(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gI(a){return e(function(a){return 1},a)}function
+gJ(a){return e(function(a){return 1},a)}function
 dh(a,d,b,c){function
 f(d,c){var
-f=aB(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aL(a[2],b[2])){var
+f=aK(a[1],b[1]);return e(function(a){var
+b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jK(a){var
+jL(a){var
 c=l(b);return[0,e(function(a){return l(d)},a),c]}function
-aM(a,k){var
+aN(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-v=f[1];if(aq(function(a){return t(v,a)},a)){var
+u=f[1];if(aq(function(a){return v(u,a)},a)){var
 C=l(b);return[0,e(function(a){var
-c=t(a,v)?b:d;return l(c)},a),C]}return jK(a);case
+c=v(a,u)?b:d;return l(c)},a),C]}return jL(a);case
 3:var
-D=l(b),E=aM(a,f[2]),F=l(b);return dh(aM(a,f[1]),F,E,D);case
+D=l(b),E=aN(a,f[2]),F=l(b);return dh(aN(a,f[1]),F,E,D);case
 4:var
-G=l(L(b)),H=aM(a,f[2]),I=l(b);return dh(aM(a,f[1]),I,H,G);case
+G=l(M(b)),H=aN(a,f[2]),I=l(b);return dh(aN(a,f[1]),I,H,G);case
 5:var
-w=aM(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
+w=aN(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aM(a,x);return dh(aM(a,y),x,K,y);case
+x=f[2],y=f[1],K=aN(a,x);return dh(aN(a,y),x,K,y);case
 7:var
-z=f[2],M=bk(k),N=aM(a,z),O=l(b),i=dh(aM(a,f[1]),O,N,M),P=i[1];if(n(function(a){return aQ(d,a)},P))return i;var
+z=f[2],L=bk(k),N=aN(a,z),O=l(b),i=dh(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
 Q=o(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aM(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
+A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
 9:var
-j=aM(a,f[1]),U=j[1];if(n(function(a){return aQ(d,a)},U)){var
+j=aN(a,f[1]),U=j[1];if(n(function(a){return aR(d,a)},U)){var
 V=l(b);return[0,j[1],V]}var
 W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aM(a,g),_=s(h,p),$=dh(aM(a,h),_,Z,Y),aa=l(L(b)),ab=aM(a,m),r=dh($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bk(q),u=e(function(a){return o(ad,a)},ac);if(n(function(a){return aQ(d,a)},u))return[0,u,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,u,o(r[2],ag)];default:return jK(a)}}function
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=dh(aN(a,h),_,Z,Y),aa=l(M(b)),ab=aN(a,m),r=dh($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bk(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,t,o(r[2],ag)];default:return jL(a)}}function
 bW(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
-j=e[2],o=e[1];if(H(j,b)){var
-k=Y(c,o),m=k?dU(c):k;if(m)var
+i=f[2],c=f[1];if(G(i,b))if(0===e[0]){var
+j=e[2],o=e[1];if(G(j,b)){var
+k=Y(c,o),m=k?dZ(c):k;if(m)var
 p=Y(n[2],d),g=p||Y(c,d);else
 var
 g=m;var
@@ -2284,32 +2284,32 @@ var
 a=Y(aU(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-cj(b,a){if(a)var
-d=cj([0,b],a[2]),c=[0,bW(a[1],b),d];else
+ci(b,a){if(a)var
+d=ci([0,b],a[2]),c=[0,bW(a[1],b),d];else
 var
 c=a;return c}function
-aG(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fb(b,d,a){switch(a[0]){case
+aF(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fg(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aG(c[3],b),g),i=f(aG(c[2],b),h);return f(aG(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aF(c[3],b),g),i=f(aF(c[2],b),h);return f(aF(c[1],d),i);case
 1:var
-e=a[3],j=e?aG(e[1],d):e,k=f(aG(a[2],b),j);return f(aG(a[1],b),k);default:return aG(a[1],d)}}function
+e=a[3],j=e?aF(e[1],d):e,k=f(aF(a[2],b),j);return f(aF(a[1],b),k);default:return aF(a[1],d)}}function
 ai(b,a){var
-c=l(d),e=u(N(pi,a),b,c),f=l(d),g=u(N(pj,a),b,f);return[0,u(a,b,l(d)),g,e]}function
-jL(b,a){return at(s,at(F,ch,a),b)}function
-fc(c,b,a){if(a){var
-e=a[2],g=fc(c,ca(b),e),h=a[1];return f(fb(c,bz(d,b),h),g)}return a}function
-gJ(f,e,c,j){if(c){var
-b=c[1],v=N(j,i(fb(f,bz(d,e),b))),w=c[2],x=gJ(f,ca(e),w,v),a=cj(j,fb(f,bz(d,e),b));switch(b[0]){case
+c=l(d),e=t(N(po,a),b,c),f=l(d),g=t(N(pp,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+jM(b,a){return au(s,au(F,cg,a),b)}function
+fh(c,b,a){if(a){var
+e=a[2],g=fh(c,b$(b),e),h=a[1];return f(fg(c,bA(d,b),h),g)}return a}function
+gK(f,e,c,j){if(c){var
+b=c[1],v=N(j,i(fg(f,bA(d,e),b))),w=c[2],x=gK(f,b$(e),w,v),a=ci(j,fg(f,bA(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=u(pk,a,l(d)),o=at(F,ch,ai(a,pl)),p=cE(ai(a,0)),q=ai(a,pm),g=jn(jL(ai(a,pn),q),p,o,n,m);break;case
+m=b[1][5],n=t(pq,a,l(d)),o=au(F,cg,ai(a,pr)),p=cD(ai(a,0)),q=ai(a,ps),g=jo(jM(ai(a,pt),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cE(ai(a,po))]:h,s=at(F,ch,ai(a,pp)),t=ai(a,pq),g=jo(jL(ai(a,0),t),s,r);break;default:var
-g=jp(ch,cE(ai(a,0)))}var
+h=b[3],r=h?[0,cD(ai(a,pu))]:h,s=au(F,cg,ai(a,pv)),u=ai(a,pw),g=jp(jM(ai(a,0),u),s,r);break;default:var
+g=jq(cg,cD(ai(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bp(c,a){if(typeof
+bq(c,a){if(typeof
 a==="number"){var
 e=[0,d,b];return[0,[0,e,e],d]}else
 switch(a[0]){case
@@ -2320,7 +2320,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e0(a[2]),l=[2,[2,e0(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=e4(a[2]),l=[2,[2,e4(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2335,60 +2335,60 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 14:var
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-d2(b,a){var
+d7(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fd(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(d2(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=d2(c,a[3]);return f(d2(c,a[2]),j)}function
+fi(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(d7(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=d7(c,a[3]);return f(d7(c,a[2]),j)}function
 di(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fd(b,a[2]);return f(fd(b,a[1]),e);case
+e=fi(b,a[2]);return f(fi(b,a[1]),e);case
 11:var
-g=d2(b,a[3]);return f(d2(b,a[2]),g);case
+g=d7(b,a[3]);return f(d7(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
-jM(c,b,a){var
+jN(c,b,a){var
 d=i(di(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jN(k,a,g){switch(g[0]){case
+jO(k,a,g){switch(g[0]){case
 0:var
-e=W(k,g[1]);if(e){var
+e=V(k,g[1]);if(e){var
 c=e[1],f=c[7];if(f)var
 m=f[1],h=function(b){var
-d=ai(a,pr);return at(F,at(s,m,bT(b,c[1])),d)},n=dc(c),o=h(ak(u(ps,a,l(d)),n)),p=dc(c),q=ak(u(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
+d=ai(a,px);return au(F,au(s,m,bU(b,c[1])),d)},n=dc(c),o=h(ak(t(py,a,l(d)),n)),p=dc(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=ai(a,pt);return[0,[0,ai(a,0),r]];default:var
-t=at(F,ch,ai(a,pu));return[0,[0,at(F,ch,ai(a,0)),t]]}}function
-jO(g,e,j,d,c){var
-k=fd(e,c),h=cj(j,f(fd(e,d),k)),a=jN(g,c7(pv,h),d);if(a)var
-b=jN(g,eN(pw,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=ai(a,pz);return[0,[0,ai(a,0),r]];default:var
+u=au(F,cg,ai(a,pA));return[0,[0,au(F,cg,ai(a,0)),u]]}}function
+jP(g,e,j,d,c){var
+k=fi(e,c),h=ci(j,f(fi(e,d),k)),a=jO(g,c7(pB,h),d);if(a)var
+b=jO(g,eR(pC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-cF(d,c,b,a){var
+cE(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bE(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
-jP(a){if(a){var
+bF(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+jQ(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jP(a[2]);if(d)var
-g=d[1],h=ab(c,c),e=[0,[0,[0,cC(c),h],g]];else
+c=b[1],d=jQ(a[2]);if(d)var
+g=d[1],h=ab(c,c),e=[0,[0,[0,cB(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return py}function
-fe(b,d,c,a){if(typeof
+f=b;return f}return pE}function
+fj(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-f=c[1],g=bW(bp(d,a),f);return[0,e(function(a){var
-b=o(a[2],g);return[0,cC(a[1]),b]},b)];case
-9:return jP(b)}return 0}function
-ff(e,k,j,a){var
-V=j[1],c=bW(bp(k,a),V),y=0;if(typeof
+f=c[1],g=bW(bq(d,a),f);return[0,e(function(a){var
+b=o(a[2],g);return[0,cB(a[1]),b]},b)];case
+9:return jQ(b)}return 0}function
+fk(e,k,j,a){var
+W=j[1],c=bW(bq(k,a),W),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
@@ -2397,11 +2397,11 @@ X=function(a){return[0,s(a[4],c),0]},g=X,f=a[1];break;case
 Y=function(a){return[0,s(c,a[4]),0]},g=Y,f=a[1];break;case
 4:var
 Z=function(b){var
-a=b[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=b[2];return[0,s(s(s(o(J(c),g),f),e),d),0]},g=Z,f=a[1];break;case
+a=b[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=b[2];return[0,s(s(s(o(K(c),g),f),e),d),0]},g=Z,f=a[1];break;case
 6:var
 _=function(b){var
 a=b[5];if(a)var
-e=J(a[1]),f=o(J(c),e),d=[0,s(b[2],f),0];else
+e=K(a[1]),f=o(K(c),e),d=[0,s(b[2],f),0];else
 var
 d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
@@ -2409,71 +2409,71 @@ m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
 B=n[1],C=m[1],D=e[1],q=D[5];if(q){var
 r=C[5];if(r){var
-t=B[5];if(t)var
-h=B[1],i=C[1],v=D[1],Q=cF(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cF(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cF(i[2],i[3],h[2],h[3]),z=F(s(o(v[1],U),T),R),$=t[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bk(F(z,E)),0],G=[0,s(z,E),ac];else
+u=B[5];if(u)var
+h=B[1],i=C[1],v=D[1],Q=cE(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cE(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cE(i[2],i[3],h[2],h[3]),A=F(s(o(v[1],U),T),R),$=u[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bk(F(A,E)),0],G=[0,s(A,E),ac];else
 var
-G=t;var
+G=u;var
 H=G}else
 var
 H=r;var
 I=H}else
 var
 I=q;var
-K=I}else
+J=I}else
 var
-K=n;var
-L=K}else
+J=n;var
+L=J}else
 var
 L=m;var
 M=L}else
 var
 M=e;return M;case
 10:var
-x=jO(e,k,j[2],a[1],a[2]);if(x){var
-N=x[1],O=N[2],P=N[1];return A(cC,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
+x=jP(e,k,j[2],a[1],a[2]);if(x){var
+N=x[1],O=N[2],P=N[1];return z(cB,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
 ad=function(d){var
 e=d[7];if(e)var
-n=di(k,a),f=cj(j[2],n),h=ai(f,px),b=at(s,ai(f,0),h),i=J(c),l=J(dc(d)),m=ak(J(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
+n=di(k,a),f=ci(j[2],n),h=ai(f,pD),b=au(s,ai(f,0),h),i=K(c),l=K(dc(d)),m=ak(K(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
 var
 g=e;return g},g=ad,f=a[1];break;case
 12:var
 ae=function(e){var
-q=l(d),r=di(k,a),t=u(0,cj(j[2],r),q),f=ak(t,dc(e)),g=e[5];if(g){var
-m=aF(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,J(h))));return[0,s(l(b),n),0]}var
+q=l(d),r=di(k,a),u=t(0,ci(j[2],r),q),f=ak(u,dc(e)),g=e[5];if(g){var
+m=aE(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,K(h))));return[0,s(l(b),n),0]}var
 i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=ae,f=a[1];break;case
 8:case
 9:var
-w=fe(e,k,j,a);return w?bE(w[1]):w;default:y=1}if(y)return 0;var
-p=W(e,f);return p?g(p[1]):p}function
-gK(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gK(d,b,jM(b,e,c),g);return f(ff(d,b,c,e),h)}return a}var
-jQ=[0,d,b],jR=[0,[0,jQ,jQ],d];function
-gL(a){return aj(bR(a[1][1],a[1][2]))}function
-jS(a){var
-b=aV(0,i(a));return cu(function(b){return gL(u(b,a,jR))},b)}function
-jT(a,g){var
-h=g[4],b=aM(jS(a),h),c=b[1],f=e(function(a){return aQ(d,a)?a:ak(a,b[2])},c),i=aB(jS(a),f);return cu(function(a){return aj(aQ(d,a[2]))},i)}function
-jU(f,I,l,G,m,h,n,r){if(r){var
-a=r[1],aF=r[2],aG=jU(f,I,l,G,m,h,jM(h,a,n),aF);if(typeof
+w=fj(e,k,j,a);return w?bF(w[1]):w;default:y=1}if(y)return 0;var
+p=V(e,f);return p?g(p[1]):p}function
+gL(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gL(d,b,jN(b,e,c),g);return f(fk(d,b,c,e),h)}return a}var
+jR=[0,d,b],jS=[0,[0,jR,jR],d];function
+gM(a){return aj(bS(a[1][1],a[1][2]))}function
+jT(a){var
+b=aV(0,i(a));return ct(function(b){return gM(t(b,a,jS))},b)}function
+jU(a,g){var
+h=g[4],b=aN(jT(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(jT(a),f);return ct(function(a){return aj(aR(d,a[2]))},i)}function
+jV(f,I,l,H,m,j,n,r){if(r){var
+a=r[1],aF=r[2],aG=jV(f,I,l,H,m,j,jN(j,a,n),aF);if(typeof
 a==="number")if(0===a)var
-g=[0,[0,B]];else
+g=[0,[0,C]];else
 var
-ao=I[2],ap=I[1],aq=dY(m),g=[0,[8,k(as(l),aq),ap,ao]];else
+ao=I[2],ap=I[1],aq=d3(m),g=[0,[8,k(ar(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=ag(f,bp(h,a)),g=y(function(a){return[0,U(f,a)]},ar);break;case
+as=af(f,bq(j,a)),g=y(function(a){return[0,R(f,a)]},as);break;case
 1:var
-at=ag(f,bp(h,a)),g=y(function(a){return[1,U(f,a)]},at);break;case
+at=af(f,bq(j,a)),g=y(function(a){return[1,R(f,a)]},at);break;case
 5:var
-av=ag(f,bp(h,a)),g=y(function(a){return[2,U(f,a)]},av);break;case
+av=af(f,bq(j,a)),g=y(function(a){return[2,R(f,a)]},av);break;case
 8:var
-aw=fe(m,h,n,a),g=y(function(a){var
-c=aa(f,b);return[4,k(as(l),a),c]},aw);break;case
+aw=fj(m,j,n,a),g=y(function(a){var
+c=$(f,b);return[4,k(ar(l),a),c]},aw);break;case
 9:var
-w=fe(m,h,n,a);if(w){var
-x=ag(f,bp(h,a));if(x)var
-ax=U(f,x[1]),ay=w[1],N=[0,[4,k(as(l),ay),ax]];else
+w=fj(m,j,n,a);if(w){var
+x=af(f,bq(j,a));if(x)var
+ax=R(f,x[1]),ay=w[1],N=[0,[4,k(ar(l),ay),ax]];else
 var
 N=x;var
 O=N}else
@@ -2481,14 +2481,14 @@ var
 O=w;var
 g=O;break;case
 10:var
-z=jO(m,h,n[2],a[1],a[2]);if(z){var
-P=z[1],Q=P[2],R=P[1],A=ag(f,bp(h,a));if(A){var
-S=A[1],T=H(d,S[1]);if(T)var
+z=jP(m,j,n[2],a[1],a[2]);if(z){var
+P=z[1],Q=P[2],S=P[1],A=af(f,bq(j,a));if(A){var
+T=A[1],U=G(d,T[1]);if(U)var
 p=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},az=p(Q[2]),aA=p(Q[1]),aB=p(R[2]),V=[0,[6,p(R[1]),aB,aA,az,S]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},az=p(Q[2]),aA=p(Q[1]),aC=p(S[2]),W=[0,[6,p(S[1]),aC,aA,az,T]];else
 var
-V=T;var
-X=V}else
+W=U;var
+X=W}else
 var
 X=A;var
 Y=X}else
@@ -2496,63 +2496,63 @@ var
 Y=z;var
 g=Y;break;case
 12:var
-q=ff(m,h,n,a),s=0;if(q)if(q[2])var
+q=fk(m,j,n,a),s=0;if(q)if(q[2])var
 g=0;else{var
-Z=j(f,0,a[2]),_=Z?j(f,1,a[4]):Z;if(_){var
-C=[0,[3,k(l,q[1])]];s=1}else{var
-C=_;s=1}}else{var
-C=q;s=1}if(s)var
-g=C;break;case
+Z=h(f,0,a[2]),_=Z?h(f,1,a[4]):Z;if(_){var
+B=[0,[3,k(l,q[1])]];s=1}else{var
+B=_;s=1}}else{var
+B=q;s=1}if(s)var
+g=B;break;case
 13:var
-$=a[1],ab=W(m,$),J=0;if(ab){var
-ac=j(f,1,a[2]),ad=ac?j(f,1,a[3]):ac;if(ad)var
-aC=ag(f,bp(h,a)),g=y(function(a){return[7,$,U(f,a)]},aC);else{var
+aa=a[1],ab=V(m,aa),J=0;if(ab){var
+ac=h(f,1,a[2]),ad=ac?h(f,1,a[3]):ac;if(ad)var
+aD=af(f,bq(j,a)),g=y(function(a){return[7,aa,R(f,a)]},aD);else{var
 ae=ad;J=1}}else{var
 ae=ab;J=1}if(J)var
 g=ae;break;case
 14:var
-D=a[2],af=a[1],ai=t(i(m),pz),aj=ai?j(f,0,af):ai,ak=aj?j(f,1,D):aj;if(ak){var
-E=ag(f,bp(h,a));if(E)var
+D=a[2],ag=a[1],ai=v(i(m),pF),aj=ai?h(f,0,ag):ai,ak=aj?h(f,1,D):aj;if(ak){var
+E=af(f,bq(j,a));if(E)var
 F=ah(e(function(n){var
-i=[5,af,D],a=ag(f,[0,[0,i,i],d]);if(a){var
-o=jT(G,n),g=ah(e(function(e){var
-a=u(e[1],G,jR),g=aE(a[2],h),i=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],i],j=ag(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
-p=[0,a[1],g[1]],j=[0,[0,k(l,n[4]),p]];else
+h=[5,ag,D],a=af(f,[0,[0,h,h],d]);if(a){var
+o=jU(H,n),g=ah(e(function(e){var
+a=t(e[1],H,jS),g=aB(a[2],j),h=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],h],i=af(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
+p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
 var
-j=g;var
-m=j}else
+i=g;var
+m=i}else
 var
-m=a;return m},m)),aD=F?[0,[9,E[1],F[1]]]:F,al=aD;else
+m=a;return m},m)),aE=F?[0,[9,E[1],F[1]]]:F,al=aE;else
 var
 al=E;var
 am=al}else
 var
 am=ak;var
 g=am;break;default:var
-o=ff(m,h,n,a),K=0;if(o){var
-v=o[2],L=o[1];if(v)if(v[2])var
+o=fk(m,j,n,a),K=0;if(o){var
+u=o[2],L=o[1];if(u)if(u[2])var
 g=0;else
 var
-au=k(l,v[1]),g=[0,[5,k(l,L),au]];else{var
+au=k(l,u[1]),g=[0,[5,k(l,L),au]];else{var
 M=[0,[3,k(l,L)]];K=1}}else{var
 M=o;K=1}if(K)var
 g=M}var
 an=[0,g,aG]}else
 var
 an=r;return an}function
-pA(a){var
+pG(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-fg(a){if(0===a[0])return a[1];var
+dj(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-jV(a,c,g,b){if(0===c[0])return 0;if(b){var
+jW(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cf(a,g,c[1]);if(i){var
-j=cf(a,g,c[2]);if(j){var
-k=cf(a,g,c[3]);if(k)var
-t=i[1],u=bD(f),l=M([0,bD(f),u],t),v=j[1],x=bD(e),m=M([0,bD(e),x],v),y=dd(e),z=[0,dd(e),y],A=[0,w(a,af(C(m,m)),z),0],D=dd(f),E=[0,dd(f),D],F=[0,w(a,af(C(l,l)),E),A],G=U(a,m),H=U(a,l),n=[0,[0,M(M(U(a,k[1]),H),G),B,F]];else
+e=d[1],f=b[1],i=ce(a,g,c[1]);if(i){var
+j=ce(a,g,c[2]);if(j){var
+k=ce(a,g,c[3]);if(k)var
+t=i[1],u=bE(f),l=H([0,bE(f),u],t),v=j[1],x=bE(e),m=H([0,bE(e),x],v),y=dd(e),z=[0,dd(e),y],A=[0,w(a,ad(B(m,m)),z),0],D=dd(f),E=[0,dd(f),D],F=[0,w(a,ad(B(l,l)),E),A],G=R(a,m),I=R(a,l),n=[0,[0,H(H(R(a,k[1]),I),G),C,F]];else
 var
 n=k;var
 o=n}else
@@ -2570,14 +2570,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gM(a,p,o){var
-q=aG(p,o),b=e(function(b){return ag(a,b)},q);if(b){var
+gN(a,p,o){var
+q=aF(p,o),b=e(function(b){return af(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=U(a,i[1]),s=U(a,h[1]);return Z(d,C(C(U(a,g[1]),s),r)[1])}var
+r=R(a,i[1]),s=R(a,h[1]);return T(d,B(B(R(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2593,129 +2593,129 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-$(c,b,a){var
-d=av(c,b[3],a[3]),e=av(c,b[2],a[2]);return[0,av(c,b[1],a[1]),e,d]}function
+aa(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-au(a){return ap([5,[0,b,b],[6,O(a,a)]],a)}function
-cG(c,b,a){var
-d=a8(c,b[1],a);return d?a8(c,a,b[2]):d}function
-aS(c,b,a){var
-d=cG(c,b[1],a[1]),e=d?cG(c,b[2],a[2]):d;return e?cG(c,b[3],a[3]):e}function
-jW(b,c,a){switch(c[0]){case
+av(a){return ap([5,[0,b,b],[6,O(a,a)]],a)}function
+cF(c,b,a){var
+d=a9(c,b[1],a);return d?a9(c,a,b[2]):d}function
+aY(c,b,a){var
+d=cF(c,b[1],a[1]),e=d?cF(c,b[2],a[2]):d;return e?cF(c,b[3],a[3]):e}function
+jX(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-i=a[4],f=a[1],k=aS(b,d[1],f),l=k?j(b,1,O(f,f)):k,m=l?aS(b,d[2],a[2]):l,n=m?aS(b,d[3],a[3]):m,o=n?cG(b,d[4],i):n,p=o?j(b,1,i):o;return p?b_(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aY(b,d[1],f),l=k?h(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cF(b,d[4],j):n,p=o?h(b,1,j):o;return p?b9(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=aS(b,c[1],a[1]),s=r?aS(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=aS(b,q[1],g);if(t)return j(b,1,O(g,g));var
+e=a[3],r=aY(b,c[1],a[1]),s=r?aY(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=aY(b,q[1],g);if(t)return h(b,1,O(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=aS(b,c[1],h);return w?j(b,1,O(h,h)):w}return 0}}function
-gN(c,a,b){if(0===a[0])return aS(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=j(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?j(c,0,d):g;return h?cG(c,a[4],b[3]):h}function
-jX(g,f,i,h){var
+i=a[1],w=aY(b,c[1],i);return w?h(b,1,O(i,i)):w}return 0}}function
+d8(c,a,b){if(0===a[0])return aY(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cF(c,a[4],b[3]):i}function
+jY(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=jW(g,b[1],a[1]);if(d){var
+d=jX(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?gN(g,f[2],h):c}}function
-bq(c,b,a){var
-d=$(function(b,a){return[2,b,a]},a,b);return $(function(b,a){return[3,b,a]},d,c)}function
-d3(a,e,d,c){var
-b=bq(e,d,c),f=au(a),g=ap(O(au(a),b),f);return $(function(b,a){return[3,b,a]},b,g)}function
-cH(f,e,d,a,c){var
-b=d3(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cI(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cJ(a,c){switch(a[0]){case
+c=a?0:1;return c?d8(g,f[2],h):c}}function
+br(c,b,a){var
+d=aa(function(b,a){return[2,b,a]},a,b);return aa(function(b,a){return[3,b,a]},d,c)}function
+d9(a,e,d,c){var
+b=br(e,d,c),f=av(a),g=ap(O(av(a),b),f);return aa(function(b,a){return[3,b,a]},b,g)}function
+cG(f,e,d,a,c){var
+b=d9(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
+cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cI(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d3(d,f,e,c),h=cH(d,f,e,a[4],c),i=ap([5,[0,b,b],cI(a[5],h)],g),j=au(d);return $(function(b,a){return[2,b,a]},j,i);case
-1:return au(bq(a[1],a[2],c));default:return au(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=d9(d,f,e,c),h=cG(d,f,e,a[4],c),i=ap([5,[0,b,b],cH(a[5],h)],g),j=av(d);return aa(function(b,a){return[2,b,a]},j,i);case
+1:return av(br(a[1],a[2],c));default:return av(a[1])}}function
 gO(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=au(c),g=cH(c,e,d,a[4],b),h=ap(cI(a[5],g),f),i=d3(c,e,d,b);return $(function(b,a){return[2,b,a]},i,h);case
-1:return bq(a[1],a[2],b);default:return au(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=av(c),g=cG(c,e,d,a[4],b),h=ap(cH(a[5],g),f),i=d9(c,e,d,b);return aa(function(b,a){return[2,b,a]},i,h);case
+1:return br(a[1],a[2],b);default:return av(a[1])}}function
 gP(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=bq(d,c,b);return[3,O(au(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cG(e,d,c,a[4],b),i=cH(a[5],h),j=br(d,c,b);return[3,O(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bq(g,f,b);return[6,O(bq(g,f,b),k)];default:return O(au(a[1]),b)}}function
-jY(a,b){switch(a[0]){case
-0:return[0,cH(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=br(g,f,b);return[6,O(br(g,f,b),k)];default:return O(av(a[1]),b)}}function
+jZ(a,b){switch(a[0]){case
+0:return[0,cG(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bq(d,c,b);return[0,O(bq(d,c,b),e)];default:return 0}}function
-d4(e,c,a){var
+c=a[2],d=a[1],e=br(d,c,b);return[0,O(br(d,c,b),e)];default:return 0}}function
+d_(e,c,a){var
 f=[0,d,b];return bj(function(b,d){var
-e=O(cJ(b,c),a);return[2,[4,O(cJ(b,c),a),e],d]},f,e)}function
-jZ(a){var
+e=O(cI(b,c),a);return[2,[4,O(cI(b,c),a),e],d]},f,e)}function
+j0(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
 gQ(a,b){if(0===a[0]){var
 c=a[4];return[0,[0,gO(a,b),c]]}return 0}function
-j0(d,i){if(d){var
+j1(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bq(a[1],a[2],i),k=au(f),l=ap(O(au(f),g),k),h=[0,$(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=br(a[1],a[2],i),k=av(f),l=ap(O(av(f),g),k),h=[0,aa(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=j0(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=j1(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pB}function
-cK(a){return[0,a[1],a[2],a[3]]}function
-j1(a,b){switch(a[0]){case
+j=b;return j}return pH}function
+cJ(a){return[0,a[1],a[2],a[3]]}function
+j2(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=au(d),j=cH(d,g,c,f,b),k=ap(cI(a[5],j),i),l=d3(d,g,c,b),m=$(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,$(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cG(d,g,c,f,b),k=ap(cH(a[5],j),i),l=d9(d,g,c,b),m=aa(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bq(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,$(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-j2(l,c,a){switch(a[0]){case
+h=a[2],e=br(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+j3(l,c,a){switch(a[0]){case
 0:var
-m=a[5],d=W(l,a[1]);if(d){var
-e=j1(d[1],c);if(e)var
+m=a[5],d=V(l,a[1]);if(d){var
+e=j2(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cK(m),c=ap(a,n),d=$(function(b,a){return[3,b,a]},o,c);return $(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+b=cJ(m),c=ap(a,n),d=aa(function(b,a){return[3,b,a]},o,c);return aa(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cK(a[3]);return[0,[0,cK(a[2]),q]];default:var
-r=cK(a[3]),s=$(function(b,a){return[2,b,a]},c,r),t=cK(a[2]);return[0,[0,$(function(b,a){return[2,b,a]},c,t),s]]}}function
-j3(d,a,c,b){var
-e=ap(a,b),f=ap([3,d,a],c);return $(function(b,a){return[2,b,a]},f,e)}function
-j4(f,g,e,c,q,a){function
+q=cJ(a[3]);return[0,[0,cJ(a[2]),q]];default:var
+r=cJ(a[3]),s=aa(function(b,a){return[2,b,a]},c,r),t=cJ(a[2]);return[0,[0,aa(function(b,a){return[2,b,a]},c,t),s]]}}function
+j4(d,a,c,b){var
+e=ap(a,b),f=ap([3,d,a],c);return aa(function(b,a){return[2,b,a]},f,e)}function
+j5(f,g,e,c,q,a){function
 I(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(c,c)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-aw=d4(g,e,c);return j(f,1,[3,I(a[1]),aw]);case
+aw=d_(g,e,c);return h(f,1,[3,I(a[1]),aw]);case
 1:var
-ax=I(a[1]);return j(f,1,[3,d4(g,e,c),ax]);case
+ax=I(a[1]);return h(f,1,[3,d_(g,e,c),ax]);case
 2:var
 ay=a[2],az=function(a){return[3,ay,gP(a,e)]},s=az,r=a[1];break;case
 3:var
 aA=a[2],aB=function(a){return[3,gP(a,e),aA]},s=aB,r=a[1];break;case
 4:var
 J=a[3],K=a[2],aC=function(a){var
-b=cJ(a,e);return[3,[4,[4,K,K],O(cJ(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
+b=cI(a,e);return[3,[4,[4,K,K],O(cI(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aD=O(c,c),aE=[4,[4,L,L],[4,d4(g,e,q),aD]],aF=O(q,q);return j(f,1,[3,[4,d4(g,e,c),aF],aE]);case
+L=a[1],aD=O(c,c),aE=[4,[4,L,L],[4,d_(g,e,q),aD]],aF=O(q,q);return h(f,1,[3,[4,d_(g,e,c),aF],aE]);case
 6:var
-M=a[2],u=W(g,a[1]);if(u){var
-h=u[1];if(0===h[0]){var
-v=h[4],aG=cH(h[1],h[2],h[3],v,e),N=cI(h[5],aG);return j(f,1,[3,[4,[4,M,v],[4,M,v]],[4,N,N]])}var
+M=a[2],u=V(g,a[1]);if(u){var
+i=u[1];if(0===i[0]){var
+v=i[4],aG=cG(i[1],i[2],i[3],v,e),N=cH(i[5],aG);return h(f,1,[3,[4,[4,M,v],[4,M,v]],[4,N,N]])}var
 P=0}else
 var
 P=u;return P;case
@@ -2725,11 +2725,11 @@ o=n[2];if(o){if(o[2])return 0;var
 w=gQ(g[1],e);if(w){var
 Q=w[1],x=gQ(n[1],e);if(x){var
 R=x[1],y=gQ(o[1],e);if(y){var
-S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],i=S[1],k=R[1],H=O(Q[1],[0,[3,[4,k[2],i[3]],[4,k[3],i[2]]],[3,[4,k[3],i[1]],[4,k[1],i[3]]],[3,[4,k[1],i[2]],[4,k[2],i[1]]]]),U=j(f,1,[3,T,H]);if(U)return j(f,1,[2,T,H]);var
-V=U}else
+S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=O(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=h(f,1,[3,T,H]);if(U)return h(f,1,[2,T,H]);var
+W=U}else
 var
-V=y;var
-X=V}else
+W=y;var
+X=W}else
 var
 X=x;var
 Y=X}else
@@ -2741,19 +2741,19 @@ Z=o;var
 _=Z}else
 var
 _=n;var
-aa=_}else
+$=_}else
 var
-aa=g;return aa;case
+$=g;return $;case
 8:var
-aH=d4(g,e,c),aI=O(c,c);return j(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
+aH=d_(g,e,c),aI=O(c,c);return h(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-ab=a[1],z=j0(g,e);if(z){var
-aJ=z[1],at=[0,d,b],av=bj(function(a,b){var
-d=O(au(a),c);return[2,[4,O(au(a),c),d],b]},at,aJ);return j(f,1,[3,[4,[4,ab,ab],O(c,c)],av])}return z;case
+ab=a[1],z=j1(g,e);if(z){var
+aJ=z[1],at=[0,d,b],au=bj(function(a,b){var
+d=O(av(a),c);return[2,[4,O(av(a),c),d],b]},at,aJ);return h(f,1,[3,[4,[4,ab,ab],O(c,c)],au])}return z;case
 10:var
-ac=a[2],ad=a[1],A=j2(g,e,ad);if(A){var
-ae=A[1],B=j2(g,e,ac);if(B){var
-af=B[1],C=c[1],D=c[2],l=c[3],aK=j3(l,D,af[1],af[2]),aL=j3(l,C,ae[1],ae[2]),ag=$(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=e0(ac),ah=[4,l,[2,[2,e0(ad),aN],aM]],ai=j(f,1,l),aj=ai?j(f,0,C):ai,ak=aj?j(f,0,[3,l,C]):aj,al=ak?j(f,0,D):ak,am=al?j(f,0,[3,l,D]):al;if(am)return j(f,1,[3,[4,ah,ah],O(ag,ag)]);var
+ac=a[2],ad=a[1],A=j3(g,e,ad);if(A){var
+ae=A[1],B=j3(g,e,ac);if(B){var
+af=B[1],C=c[1],D=c[2],l=c[3],aK=j4(l,D,af[1],af[2]),aL=j4(l,C,ae[1],ae[2]),ag=aa(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=e4(ac),ah=[4,l,[2,[2,e4(ad),aN],aM]],ai=h(f,1,l),aj=ai?h(f,0,C):ai,ak=aj?h(f,0,[3,l,C]):aj,al=ak?h(f,0,D):ak,am=al?h(f,0,[3,l,D]):al;if(am)return h(f,1,[3,[4,ah,ah],O(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -2761,37 +2761,37 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=W(g,a[1]);if(E){var
-F=j1(E[1],e);if(F){var
-m=F[1][1][2],aO=cK(a[3]),aP=cK(a[2]),p=$(function(b,a){return[3,b,a]},aP,aO),aq=j(f,1,O(m,m));if(aq){var
-aQ=O(m,m),aR=O(p,m),aS=[5,[4,O(p,m),aR],aQ];return j(f,1,[3,[4,ap,ap],[3,O(p,p),aS]])}var
+ap=a[4],E=V(g,a[1]);if(E){var
+F=j2(E[1],e);if(F){var
+m=F[1][1][2],aO=cJ(a[3]),aP=cJ(a[2]),p=aa(function(b,a){return[3,b,a]},aP,aO),aq=h(f,1,O(m,m));if(aq){var
+aQ=O(m,m),aR=O(p,m),aS=[5,[4,O(p,m),aR],aQ];return h(f,1,[3,[4,ap,ap],[3,O(p,p),aS]])}var
 ar=aq}else
 var
 ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=W(g,r);return t?j(f,1,s(t[1])):t}function
-ba(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-j5(a){switch(a[0]){case
+t=V(g,r);return t?h(f,1,s(t[1])):t}function
+a_(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+j6(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=ba(b[3]),f=ba(b[2]);return[0,ba(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=a_(b[3]),f=a_(b[2]);return[0,a_(b[1]),f,e,d,c];case
 1:var
-g=y(ba,a[3]),h=ba(a[2]);return[1,ba(a[1]),h,g];default:return[2,ba(a[1])]}}function
-j6(a){return 0===a[0]?ba(a[1]):[0,a[1],a[2],a[4][1]]}function
+g=y(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
+gR(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
 j7(b,a){var
-c=j6(a[2]);return jX(b,a,e(j5,a[1]),c)}function
+c=gR(a[2]);return jY(b,a,e(j6,a[1]),c)}function
 bX(c,a){if(c){if(a){var
 e=bX(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
 j8(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=j8(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pD}function
+c=b[1],d=j8(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pJ}function
 j9(a,l,k,f){var
-b=aY(a,l);if(b){var
-c=aY(a,k);if(c){var
+b=aX(a,l);if(b){var
+c=aX(a,k);if(c){var
 d=da(a,f);if(d){var
-e=eY(a,f);if(e)var
-m=w(a,b[1],e[1]),g=[0,M(w(a,c[1],d[1]),m)];else
+e=e2(a,f);if(e)var
+m=w(a,b[1],e[1]),g=[0,H(w(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2803,69 +2803,69 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fh(a){return a?Z(d,a[1][1]):a}function
+fl(a){return a?T(d,a[1][1]):a}function
 j_(a,ab,m,aD,g,f){function
 ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bX(a,a)]}var
 aE=m[1];function
 o(c){var
 a=[0,d,b];return bj(function(a,b){var
 d=bX(a,c);return[2,[4,bX(a,c),d],b]},a,aE)}var
-ad=n(function(a){return t(i(a),ab)},g);if(ad){var
+ad=n(function(a){return v(i(a),ab)},g);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
 0:if(g){if(g[2])return 0;var
-af=g[1],aF=o(af);return j(a,1,[3,ac(f[1],af),aF])}return g;case
+af=g[1],aF=o(af);return h(a,1,[3,ac(f[1],af),aF])}return g;case
 1:if(g){if(g[2])return 0;var
-ag=g[1],aG=ac(f[1],ag);return j(a,1,[3,o(ag),aG])}return g;case
+ag=g[1],aG=ac(f[1],ag);return h(a,1,[3,o(ag),aG])}return g;case
 2:if(g)return 0;var
 aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return j(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+b!=="number"&&0===b[0])return h(a,1,[3,aH,b[1]]);return 0},I=aI,G=f[1];break;case
 3:if(g)return 0;var
 aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return j(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+b!=="number"&&0===b[0])return h(a,1,[3,b[1],aJ]);return 0},I=aK,G=f[1];break;case
 4:if(g)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],h=e[1],i=j(a,0,[3,[2,ai,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],ah]);if(i){if(aD){var
-f=j9(a,h,g,ai);return f?Z(f[1][2],d):f}return fh(j9(a,h,g,ah))}return i}return 0},H=aL,G=f[1];break;case
+g=e[2],i=e[1],j=h(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
+f=j9(a,i,g,ai);return f?T(f[1][2],d):f}return fl(j9(a,i,g,ah))}return j}return 0},I=aL,G=f[1];break;case
 5:if(g){var
-q=g[2];if(q){if(q[2])return 0;var
-J=q[1],K=g[1],aj=f[1],aM=bX(K,K),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bX(J,J);return j(a,1,[3,[4,o(K),aO],aN])}var
-ak=q}else
+r=g[2];if(r){if(r[2])return 0;var
+K=r[1],L=g[1],aj=f[1],aM=bX(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bX(K,K);return h(a,1,[3,[4,o(L),aO],aN])}var
+ak=r}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=j(a,1,al);return d?j(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=h(a,1,al);return d?h(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return j(a,1,[3,[4,f[2],aT],aS])}return g;case
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return h(a,1,[3,[4,f[2],aT],aS])}return g;case
 9:if(g)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
-f=j(a,1,as),g=f?j(a,0,ar):f;if(g){var
-b=aY(a,bX(e,e));if(b){var
-c=aY(a,[5,ar,as]);if(c){var
-d=i9(a,c[1]);if(d){var
-l=U(a,d[1]);return fh([0,M(b[1],l)])}var
-h=d}else
+f=h(a,1,as),g=f?h(a,0,ar):f;if(g){var
+b=aX(a,bX(e,e));if(b){var
+c=aX(a,[5,ar,as]);if(c){var
+d=i$(a,c[1]);if(d){var
+l=R(a,d[1]);return fl([0,H(b[1],l)])}var
+i=d}else
 var
-h=c;var
-i=h}else
+i=c;var
+j=i}else
 var
-i=b;var
-k=i}else
+j=b;var
+k=j}else
 var
 k=g;return k},an=aU,am=f[1];k=3;break;case
 10:if(g)return 0;var
 aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=j(a,1,c);return d?j(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
+c=[4,aV,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
 11:if(g)return 0;var
-aX=f[2],aZ=function(e){var
-b=da(a,aX);if(b){var
-c=aY(a,e[3]);if(c){var
-d=aY(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fh([0,f]);if(g){var
-k=U(a,d[1]);return fh([0,M(U(a,f),k)])}var
+aY=f[2],aZ=function(e){var
+b=da(a,aY);if(b){var
+c=aX(a,e[3]);if(c){var
+d=aX(a,e[2]);if(d){var
+f=w(a,b[1],c[1]),g=fl([0,f]);if(g){var
+k=R(a,d[1]);return fl([0,H(R(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2877,11 +2877,11 @@ var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
 Q=j8(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
-s=R[1];if(s){var
-u=s[2];if(u){var
-v=u[2],S=u[1],T=s[1],l=R[2];if(v)if(v[2]||!l)var
-h=[0,d,b];else{var
+aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),S=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
+s=S[1];if(s){var
+t=s[2];if(t){var
+u=t[2],U=t[1],W=s[1],l=S[2];if(u)if(u[2]||!l)var
+j=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2889,53 +2889,53 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-V=D[1],X=C[1],Y=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Y,X),aB=[4,v[1],aA],aC=[4,S,p(aa,_,Y,V)],h=[2,[3,[4,T,p($,_,X,V)],aC],aB];else
+X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,u[1],aA],aC=[4,U,p(aa,_,Z,X)],j=[2,[3,[4,W,p($,_,Y,X)],aC],aB];else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],h=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(T,S,E[1],F[1]):[0,d,b];else
+F=E[2],j=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(W,U,E[1],F[1]):[0,d,b];else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b]}else
+j=[0,d,b]}else
 var
-h=[0,d,b];var
-ay=j(a,1,[3,ax,h]);if(ay)return j(a,1,[2,ax,h]);var
+j=[0,d,b];var
+ay=h(a,1,[3,ax,j]);if(ay)return h(a,1,[2,ax,j]);var
 az=ay}else
 var
 az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=W(m[3],at);if(O){var
+O=V(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-L=W(m[1],am);if(L){var
-ao=L[1],ap=t(i(ao),ab);if(ap)return an(ao);var
+M=V(m[1],am);if(M){var
+ao=M[1],ap=v(i(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
-aq=L;return aq;default:var
-I=W(m[2],G);return I?H(I[1]):I}}else
+aq=M;return aq;default:var
+J=V(m[2],G);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
 j$(h,g){var
@@ -2950,99 +2950,99 @@ var
 e=b;return e}}function
 ka(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ka(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pE}function
-pF(a){return e(function(a){return[0,a,b]},a)}function
+c=b[1],d=ka(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pK}function
+pL(a){return e(function(a){return[0,a,b]},a)}function
 kb(g,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
-r=c[4];return aq(function(a){return j(g,0,[3,[0,d,b],a])},r)}var
-h=ka(c[5]);return h?je(f,h[1]):h}else{if(0===a[0]){var
-i=j$(a[1],n);if(i){var
-o=i[1],s=o[1],t=e(pF,a[2]);return j_(g,f,c,o[2],t,s)}return i}var
+r=c[4];return aq(function(a){return h(g,0,[3,[0,d,b],a])},r)}var
+i=ka(c[5]);return i?jg(f,i[1]):i}else{if(0===a[0]){var
+j=j$(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(pL,a[2]);return j_(g,f,c,o[2],t,s)}return j}var
 k=j$(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=W(c[1],a[2]);return m?j_(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=V(c[1],a[2]);return m?j_(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-gR(a){var
-b=au(a[1]),c=ap(O(b,a[2]),b),d=a[2];return $(function(b,a){return[3,b,a]},d,c)}function
-gS(a){return au(gR(a))}function
+gS(a){var
+b=av(a[1]),c=ap(O(b,a[2]),b),d=a[2];return aa(function(b,a){return[3,b,a]},d,c)}function
+gT(a){return av(gS(a))}function
 kc(c){var
-a=gS(c),b=au(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gT(a,b){return bq(a[3],a[4],b)}function
-gU(a,b){var
-c=gT(a,b);return O(gS(a),c)}function
+a=gT(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gU(a,b){return br(a[3],a[4],b)}function
 gV(a,b){var
-c=gT(a,b);return O(kc(a),c)}function
+c=gU(a,b);return O(gT(a),c)}function
+gW(a,b){var
+c=gU(a,b);return O(kc(a),c)}function
 kd(a,b){var
-c=gT(a,b);return O(au(a[1]),c)}function
-gW(b,a){var
-c=gV(b,a),d=gU(b,a);return[2,[4,d,d],[4,c,c]]}function
-gX(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kd(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+c=gU(a,b);return O(av(a[1]),c)}function
+gX(b,a){var
+c=gW(b,a),d=gV(b,a);return[2,[4,d,d],[4,c,c]]}function
+gY(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kd(a,d);return[5,[2,gX(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 ke(a,b){var
-f=a[5],c=[3,gX(a,b),f],d=kd(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fi(a,b){var
-c=ke(a,b);return cI(a[7],c)}function
+f=a[5],c=[3,gY(a,b),f],d=kd(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fm(a,b){var
+c=ke(a,b);return cH(a[7],c)}function
 kf(b,a){var
-c=gW(b,a),d=gV(b,a),e=[4,fi(b,a),d],f=gU(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
+c=gX(b,a),d=gW(b,a),e=[4,fm(b,a),d],f=gV(b,a);return[5,[2,[4,gY(b,a),f],e],c]}function
 kg(b,a){var
-c=gW(b,a),d=gU(b,a),e=[4,fi(b,a),d],f=gV(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
+c=gX(b,a),d=gV(b,a),e=[4,fm(b,a),d],f=gW(b,a);return[5,[3,[4,gY(b,a),f],e],c]}function
 kh(a,b){var
-c=kc(a),d=ap(kg(a,b),c),e=gS(a),f=ap(kf(a,b),e),g=$(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return $(function(b,a){return[2,b,a]},i,h)}function
+c=kc(a),d=ap(kg(a,b),c),e=gT(a),f=ap(kf(a,b),e),g=aa(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return aa(function(b,a){return[2,b,a]},i,h)}function
 ki(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 kj(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-gY(a,c,b){var
+gZ(a,c,b){var
 d=[4,ki(a),b],e=[2,[4,kj(a),c],d],f=[4,kj(a),b];return[0,[3,[4,ki(a),c],f],e]}function
 kk(c,a){var
-b=gY(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-d5(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fj(t,d,a){switch(t[0]){case
+b=gZ(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+d$(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fn(t,d,a){switch(t[0]){case
 0:return d?d[2]?a:kk(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gY(d[1],a[2],a[3]),m=j[1],k=gY(f[1],j[2],a[1]);return kk(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=gZ(d[1],a[2],a[3]),m=j[1],k=gZ(f[1],j[2],a[1]);return kk(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=d5(e,a),o=ap([0,c(2,b),b],n),p=O(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=$(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],$(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=d$(e,a),o=ap([0,c(2,b),b],n),p=O(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=aa(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],aa(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
 kl(c){var
-a=bS(c);return a?cv(a[1],[0,d,b]):a}function
-km(a,n,k,i){if(kl(i)){var
-q=n?[3,[0,d,b],k]:k;return j(a,0,q)}var
-f=aY(a,k);if(f){var
-g=da(a,[5,i,[0,c(2,b),b]]);if(g){var
-h=eY(a,[5,i,[0,c(2,b),b]]);if(h)var
-p=w(a,f[1],g[1]),l=[0,M(h[1],p)];else
+a=bT(c);return a?cu(a[1],[0,d,b]):a}function
+km(a,n,k,j){if(kl(j)){var
+q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
+f=aX(a,k);if(f){var
+g=da(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=e2(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=w(a,f[1],g[1]),l=[0,H(i[1],p)];else
 var
-l=h;var
+l=i;var
 m=l}else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-d6(b,a,c){var
-d=a8(b,a[1],a[2]),e=d?km(b,0,c,a[1]):d;return e?km(b,1,c,a[2]):e}function
-dj(a,d){if(kl(d))return[0,B];var
+o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
+ea(b,a,c){var
+d=a9(b,a[1],a[2]),e=d?km(b,0,c,a[1]):d;return e?km(b,1,c,a[2]):e}function
+dk(a,d){if(kl(d))return[0,C];var
 e=da(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
-f=eY(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
-h=f[1],i=e[1],j=C(aa(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cb(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
-e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gs(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
+f=e2(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
+h=f[1],i=e[1],j=B($(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=ca(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
+e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gt(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-d7(d,a){var
-e=j(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?j(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-cL(a){return[0,[3,[0,d,b],a],a]}function
+eb(d,a){var
+e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+cK(a){return[0,[3,[0,d,b],a],a]}function
 kn(a,c,n,m){var
-h=a8(a,[0,d,b],c),i=h?d7(a,c):h;if(i){var
-e=dj(a,c);if(e){var
-f=aY(a,n);if(f){var
-g=aY(a,m);if(g){var
-o=f[1],p=g[1];return H(d,M(w(a,U(a,e[1]),p),o)[1])}var
+h=a9(a,[0,d,b],c),i=h?eb(a,c):h;if(i){var
+e=dk(a,c);if(e){var
+f=aX(a,n);if(f){var
+g=aX(a,m);if(g){var
+o=f[1],p=g[1];return G(d,H(w(a,R(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3053,11 +3053,11 @@ l=k}else
 var
 l=i;return l}function
 ko(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:d6(d,c[1],a[1]):a;case
+0:return a?a[2]?0:ea(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=d6(d,c[1],a[1]),m=l?d6(d,c[2],e[1]):l;if(m)return d6(d,c[3],f[1]);var
+l=ea(d,c[1],a[1]),m=l?ea(d,c[2],e[1]):l;if(m)return ea(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3079,7 +3079,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kn(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return d6(d,cL(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kn(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ea(d,cK(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3089,20 +3089,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dk(a){return 1===a?pG:pH}function
-fk(d,c,b,a){var
-e=a[1],f=fj(d,c,a[2]),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
-gZ(c,b,a){switch(c){case
+dl(a){return 1===a?pM:pN}function
+fo(d,c,b,a){var
+e=a[1],f=fn(d,c,a[2]),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
+g0(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-d8(b,d){var
+ec(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cz(function(a){return d8(b,a)},a)]}return[0,cz(function(a){return d8(b,a)},a)]}function
-dl(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cy(function(a){return ec(b,a)},a)]}return[0,cy(function(a){return ec(b,a)},a)]}function
+dm(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aj(t(e,b));return f?aj(t(e,N(d,b))):f;case
+e=a[1],f=aj(v(e,b));return f?aj(v(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3110,31 +3110,31 @@ e=a[1],f=aj(t(e,b));return f?aj(t(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dl(d,b,a[1]);if(g){var
+g=dm(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-d9(c,b,m){var
+ed(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dl(c,b,g),i=h?d9(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dm(c,b,g),i=h?ed(c,b,f):h;if(i)var
 j=i;else{var
-k=d9(c,b,g);if(k)return dl(c,b,f);var
+k=ed(c,b,g);if(k)return dm(c,b,f);var
 j=k}return j;case
 7:var
-l=d9(c,b,a[1]);return l?dl(c,b,a[2]):l;case
+l=ed(c,b,a[1]);return l?dm(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=d9(c,b,a[1]);if(e){var
+e=ed(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dl(c,b,a[1]);default:return 1}}}function
-cM(c,e){var
+9:return dm(c,b,a[1]);default:return 1}}}function
+cL(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aj(t(a[1],c));case
+0:return aj(v(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3142,32 +3142,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cM(c,a[1]);if(d){var
+d=cL(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g0(d,b,m){var
+g1(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g0(d,b,a[1]);if(f){var
+f=g1(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g0(d,b,a[1]);return g?cM(b,a[2]):g;case
+g=g1(d,b,a[1]);return g?cL(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cM(b,i);if(j){var
-k=cM(b,h);if(k)var
+h=a[2],i=a[1],j=cL(b,i);if(j){var
+k=cL(b,h);if(k)var
 e=k;else{var
-l=aL(i,d);if(l){var
+l=aM(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cM(b,c)}}}function
+2:return 1;default:return cL(b,c)}}}function
 kp(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dM(a[1],c);case
+0:return dR(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3177,236 +3177,267 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=kp(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ck(b,a){return a?k(b,a[1]):a}function
-cl(c,b,a){return ck(function(b){return ck(k(c,b),a)},b)}function
-pI(a){return 0===a[0]?a[1]:0}function
-bF(b,a){switch(a[0]){case
+cj(b,a){return a?k(b,a[1]):a}function
+ck(c,b,a){return cj(function(b){return cj(k(c,b),a)},b)}function
+kq(b,a){switch(a[0]){case
+0:return a;case
+1:return a[1];default:var
+c=a[3],d=a[2],e=a[1];switch(b){case
+0:return e;case
+1:return d;default:return c}}}function
+kr(a){return 0===a[0]?a[1]:0}function
+bG(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
-1:return[1,bF(b,a[1])];default:var
-c=bF(b,a[3]),d=bF(b,a[2]);return[2,bF(b,a[1]),d,c]}}function
+1:return[1,bG(b,a[1])];default:var
+c=bG(b,a[3]),d=bG(b,a[2]);return[2,bG(b,a[1]),d,c]}}function
 aZ(b,c,a){switch(c[0]){case
-0:return bF(k(b,c[1]),a);case
+0:return bG(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bF(function(a){return av(b,a,j)},d)];case
+j=a[1];return[1,bG(function(a){return as(b,a,j)},d)];case
 1:return[1,aZ(b,d,a[1])];default:var
 l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return av(b,a,n)},h=function(a){return bF(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bG(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
 t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
-g1(c,f,a){if(a)var
+g2(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,U(c,a)];break;case
+e=[0,a,R(c,a)];break;case
 1:var
-g=w(c,a,b),e=[0,a6(C(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=g1(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=w(c,a,b),e=[0,a5(B(a,b)),g];break;default:var
+e=[0,b,R(c,b)]}return[0,[0,k(f,e)]]},h=g2(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kq(a){if(a){var
+ks(a){if(a){var
 b=a[1];if(b)var
-c=kq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ks(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pL}function
-d_(a){if(a){var
-g=a[1],b=g[2],c=kq(g[1]);if(c)if(b){var
-h=b[1],e=d_(a[2]);if(e)var
-i=Z(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return pQ}function
+dn(a){if(a){var
+g=a[1],b=g[2],c=ks(g[1]);if(c)if(b){var
+h=b[1],e=dn(a[2]);if(e)var
+i=T(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pM}function
-g2(b,a){var
+f=c;return f}return pR}function
+dp(b,a){var
 c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(as(b),f),e,d]}function
-kr(e,d,c,b){if(d){var
-i=d[1],a=function(f){var
-a=g2(function(a){switch(a[0]){case
-0:return a;case
-1:return a[1];default:var
-b=a[3],c=a[2],d=a[1];switch(f){case
-0:return d;case
-1:return c;default:return b}}},b);return kr(by(e),i,c,a)},f=a(0);if(f){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ar(b),f),e,d]}function
+kt(e,d,c,b){if(d){var
+i=d[1],a=function(a){var
+d=dp(function(b){return kq(a,b)},b);return kt(bz(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,g2(pI,b))}function
-d$(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a$(f,e,a)},d)}return[0,B]}function
-pN(c){var
+h=f;return h}return k(c,dp(kr,b))}function
+ku(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return ku(m,e,l,a,dp(function(a){return kq(b,a)},d))},h=c(0,aB(b,g));if(h){var
+i=c(2,x(b,g));if(i)return c(1,b);var
+j=i}else
+var
+j=h;var
+k=j}else
+var
+k=a;return k}return a?0:as(e,b,dp(kr,d))}function
+dq(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a4(f,e,a)},d)}return[0,C]}function
+pS(c){var
 a=c[2];if(a){var
-b=d$(c[3]);if(b)return H(d,M(a[1],b[1])[1]);var
+b=dq(c[3]);if(b)return G(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-ks(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
-kt(a,c,b){var
-e=u(b,c,l(d)),f=aV(0,a);return n(function(b){return d9(a,b,e)},f)}function
-ea(a){var
-c=J(a);return F(l(b),c)}function
-fl(i,g){var
-h=ea(g),j=J(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-ku(b,a){var
+kv(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+kw(a,c,b){var
+e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return ed(a,b,e)},f)}function
+ee(a){var
+c=K(a);return F(l(b),c)}function
+fp(i,g){var
+h=ee(g),j=K(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+kx(b,a){var
 c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-kv(b,a){function
+ky(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kw(w,v){function
+kz(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ea(a(0));return[0,fl(pO,a(0)),x];case
+x=ee(a(0));return[0,fp(pT,a(0)),x];case
 1:var
-y=ea(a(0)),z=o(ea(a(pP)),y),A=o(ea(a(pQ)),z),B=fl(0,a(0)),C=kv(fl(pS,a(pR)),B);return[0,kv(fl(pU,a(pT)),C),A];default:var
-D=a(pV),E=a(pW),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=J(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
-g=av(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kx(a){return 1<a[0]?[0,a[1],0]:0}function
-fm(a){switch(a[0]){case
+y=ee(a(0)),z=o(ee(a(pU)),y),A=o(ee(a(pV)),z),B=fp(0,a(0)),C=ky(fp(pX,a(pW)),B);return[0,ky(fp(pZ,a(pY)),C),A];default:var
+D=a(p0),E=a(p1),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=K(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
+g=as(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kA(a){return 1<a[0]?[0,a[1],0]:0}function
+fq(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cL(a[1]),0];default:var
-b=[0,cL(a[2]),0];return[0,cL(a[1]),b]}}function
-dm(a){return[0,[0,a[1]],[0,a[2]]]}function
-ky(a){switch(a[0]){case
-0:return[0,dm(a[1]),0];case
+2:return[0,cK(a[1]),0];default:var
+b=[0,cK(a[2]),0];return[0,cK(a[1]),b]}}function
+dr(a){return[0,[0,a[1]],[0,a[2]]]}function
+kB(a){switch(a[0]){case
+0:return[0,dr(a[1]),0];case
 1:var
-f=[0,dm(a[3]),0],g=[0,dm(a[2]),f];return[0,dm(a[1]),g];case
+f=[0,dr(a[3]),0],g=[0,dr(a[2]),f];return[0,dr(a[1]),g];case
 2:var
-b=dm(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dm(cL(c)),0]]]}}function
-kz(a,c){if(0===c[0])return dj(a,c[1]);var
-d=dj(a,c[1]);if(d){var
-e=dj(a,c[2]);if(e){var
-g=U(a,e[1]),h=cy(a,C(aa(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
+b=dr(cK(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cK(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dr(cK(c)),0]]]}}function
+kC(a,c){if(0===c[0])return dk(a,c[1]);var
+d=dk(a,c[1]);if(d){var
+e=dk(a,c[2]);if(e){var
+g=R(a,e[1]),h=cx(a,B($(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kA(d,c){var
-a=kz(d,c[1]);if(a)var
-b=kz(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kD(d,c){var
+a=kC(d,c[1]);if(a)var
+b=kC(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kB(k,D,c,C,A,b,a){switch(b[0]){case
+kE(g,r,f,q,p,c,a){switch(c[0]){case
 0:var
-n=b[4],l=b[3],o=b[2],p=b[1],m=0;if(typeof
-a==="number")m=1;else
+s=c[4],n=c[3],u=c[2],x=c[1],o=0;if(typeof
+a==="number")o=1;else
 switch(a[0]){case
 0:var
-E=a[2],F=a[1],j=o,h=p,g=function(e){var
-a=d_(e[1]);if(a){var
-b=e[2];if(b){var
-d=d$(e[3]);if(d){var
-h=d[1],i=aW([0,M(af(w(k,l,b[1])),h),0],c);return bU(c,gy(F,E,a[1],i))}var
-f=d}else
+J=a[2],K=a[1],l=u,k=x,j=function(d){var
+a=dn(d[1]);if(a){var
+b=d[2];if(b){var
+c=dq(d[3]);if(c){var
+i=c[1],j=aL([0,H(ad(w(g,n,b[1])),i),0],f);return bp(f,e7(K,J,a[1],j))}var
+e=c}else
 var
-f=b;var
-g=f}else
+e=b;var
+h=e}else
 var
-g=a;return g},f=n;break;case
+h=a;return h},h=s;break;case
 2:var
-q=Y(l[1],d),r=q?Y(l[2],d):q;if(!r)return r;var
-H=a[2],I=a[1],j=o,h=p,g=function(f){var
-a=d_(f[1]);if(a){var
-b=d$(f[3]);if(b){var
-g=aW([0,M(B,b[1]),0],c),h=a[1];return bU(c,gy(I,H,e(function(a){return[0,a[1],B]},h),g))}var
-d=b}else
+y=Y(n[1],d),z=y?Y(n[2],d):y;if(!z)return z;var
+M=a[2],N=a[1],l=u,k=x,j=function(d){var
+a=dn(d[1]);if(a){var
+b=dq(d[3]);if(b){var
+g=aL([0,H(C,b[1]),0],f),h=a[1];return bp(f,e7(N,M,e(function(a){return[0,a[1],C]},h),g))}var
+c=b}else
 var
-d=a;return d},f=n;break;default:m=1}if(m)return 0;break;case
+c=a;return c},h=s;break;default:o=1}if(o)return 0;break;case
 1:var
-x=0;if(typeof
+F=0;if(typeof
 a==="number"&&!a)var
-J=b[2],K=b[1],L=b[3],j=J,h=K,N=0,g=function(f){var
-a=d_(f[1]);if(a){var
-b=f[2];if(b){var
-d=d$(f[3]);if(d){var
-j=d[1],l=aW([0,M(w(k,L,b[1]),j),0],c),e=ji(a[1],l);if(e)return bU(c,e[1]);var
-g=e}else
+O=c[2],P=c[1],Q=c[3],l=O,k=P,R=0,j=function(e){var
+a=dn(e[1]);if(a){var
+b=e[2];if(b){var
+c=dq(e[3]);if(c){var
+k=c[1],l=aL([0,H(w(g,Q,b[1]),k),0],f),d=gA(a[1],l);if(d)return bp(f,d[1]);var
+h=d}else
 var
-g=d;var
-h=g}else
-var
-h=b;var
+h=c;var
 i=h}else
 var
-i=a;return i},f=N;else
-x=1;if(x)return 0;break;case
-2:var
-y=0;if(typeof
-a==="number"||!(0===a[0]))y=1;else
+i=b;var
+j=i}else
 var
-s=a[2],v=a[1],O=b[3],P=b[2],Q=b[4],R=b[1],S=function(f){var
-a=d_(f[1]);if(a){var
-b=a[1],d=f[2];if(d){var
-e=d$(f[3]);if(e){var
-g=t(i(b),c),h=g?t(i(s),c):g;if(h){var
-n=d0(v,d1(v,s,d[1],b));return bU(c,cg(e6(k,R,Q,e[1],b),n))}var
-j=h}else
+j=a;return j},h=R;else
+F=1;if(F)return 0;break;case
+2:if(typeof
+a!=="number"&&3===a[0]){var
+m=a[3];if(m){var
+S=[0,c[1],c[2],p],U=dp(function(a){return t(a,q,p7)},S),A=a[1],V=m[2],W=m[1],X=a[2],Z=c[3];return ku(r,function(v,j){var
+a=dn(j[1]);if(a){var
+k=a[1],c=j[2];if(c){var
+e=dq(j[3]);if(e){var
+l=e[1],m=function(a){return a4(a,A,$(g,b))},t=m(v),u=c[1],h=B(w(g,m(W),u),t),n=T(d,h[1]),o=n?bp(f,e7(A,X,k,aL([0,H(ad(h),l),0],f))):n;if(o){var
+i=gA(k,aL([0,H(w(g,Z,h),l),0],f));if(i)return bp(f,i[1]);var
+p=i}else
 var
-j=e;var
-l=j}else
+p=o;var
+q=p}else
 var
-l=d;var
+q=e;var
+r=q}else
+var
+r=c;var
+s=r}else
+var
+s=a;return s},V,d,U)}return m}return 0;case
+3:var
+G=0;if(typeof
+a==="number"||!(0===a[0]))G=1;else
+var
+D=a[2],E=a[1],_=c[3],aa=c[2],ab=c[4],ac=c[1],ae=function(e){var
+a=dn(e[1]);if(a){var
+b=a[1],c=e[2];if(c){var
+d=dq(e[3]);if(d){var
+h=v(i(b),f),j=h?v(i(D),f):h;if(j){var
+n=d5(E,d6(E,D,c[1],b));return bp(f,cf(e$(g,ac,ab,d[1],b),n))}var
+k=j}else
+var
+k=d;var
+l=k}else
+var
+l=c;var
 m=l}else
 var
-m=a;return m},j=O,h=P,g=S,f=b[5];if(y)return 0;break;default:var
-z=0;if(typeof
+m=a;return m},l=_,k=aa,j=ae,h=c[5];if(G)return 0;break;default:var
+I=0;if(typeof
 a==="number"&&!a)var
-j=b[1],h=0,g=pN,f=0;else
-z=1;if(z)return 0}var
-G=[0,h,j,A];return kr(f,D,g,g2(function(a){return u(a,C,p1)},G))}function
-kC(m,l,k,f,j,i,e){if(typeof
+l=c[1],k=0,j=pS,h=0;else
+I=1;if(I)return 0}var
+L=[0,k,l,p];return kt(h,r,j,dp(function(a){return t(a,q,p6)},L))}function
+kF(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=H(d,o);if(p)var
-h=it(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=G(d,o);if(p)var
+h=iv(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kB(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kE(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kB(m,l,k,j,0,i,a)}return 0}function
-p2(a){if(a[1])return 0;var
+q=f;return q}return kE(m,l,k,j,0,i,a)}return 0}function
+p8(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kD(a,N,L,K,J,I,h,p,H,_){if(n(p2,H))var
+kG(a,N,M,L,K,J,h,p,I,_){if(n(p8,I))var
 q=0;else
 var
-V=g1(a,b9,p),T=0,X=f(g1(a,aK,p),V),q=bB(pK,function(b){switch(b[0]){case
-0:return u(b[1],X,[0,[0,B]]);case
-1:return[0,[0,u(b[1],L,B)]];case
-2:return[0,[0,aa(a,b[1])]];case
+X=g2(a,b8,p),W=0,Y=f(g2(a,aJ,p),X),q=bC(pP,function(b){switch(b[0]){case
+0:return t(b[1],Y,[0,[0,C]]);case
+1:return[0,[0,t(b[1],M,C)]];case
+2:return[0,[0,$(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,C(b,a)]};return aZ(function(a,b){return cl(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return ck(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,M(b,a)]};return aZ(function(a,b){return cl(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,H(b,a)]};return aZ(function(a,b){return ck(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,af(a)]};return bF(function(a){return ck(j,a)},i);case
+i=b[1],j=function(a){return[0,ad(a)]};return bG(function(a){return cj(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cl(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return ck(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cb(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cl(p,a,b)},o,n);case
+d=ca(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return ck(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,U(a,b)]};return bF(function(a){return ck(r,a)},q);case
+q=b[1],r=function(b){return[0,R(a,b)]};return bG(function(a){return cj(r,a)},q);case
 9:var
-s=b[1],t=function(b){return cy(a,b)};return bF(function(a){return ck(t,a)},s);default:return pJ}},N,T);var
-g=H,b=_;for(;;){if(g){var
-t=g[1],i=t[2],c=t[1],k=g[2];if(c){var
-v=u(c,b,0);if(v){var
-l=W(K,c);if(l){var
-x=kC(a,J,I,h,q,l[1],i);if(x){var
-g=k,b=e$(c,b);continue}var
+s=b[1],u=function(b){return cx(a,b)};return bG(function(a){return cj(u,a)},s);default:return pO}},N,W);var
+g=I,b=_;for(;;){if(g){var
+u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
+v=t(c,b,0);if(v){var
+l=V(L,c);if(l){var
+x=kF(a,K,J,h,q,l[1],i);if(x){var
+g=k,b=fe(c,b);continue}var
 z=x}else
 var
 z=l;var
@@ -3415,47 +3446,47 @@ var
 A=v;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Y=0,r=e(function(b){return[0,b,U(a,b)]},p),Q=e(b9,r),P=0,R=f(e(aK,r),Q),S=bB(0,function(n){return function(b){switch(b[0]){case
-0:return[0,u(b[1],n,B)];case
-1:return[0,u(b[1],L,B)];case
-2:return[0,aa(a,b[1])];case
+Z=0,r=e(function(b){return[0,b,R(a,b)]},p),Q=e(b8,r),P=0,S=f(e(aJ,r),Q),U=bC(0,function(n){return function(b){switch(b[0]){case
+0:return[0,t(b[1],n,C)];case
+1:return[0,t(b[1],M,C)];case
+2:return[0,$(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cl(function(b,a){return[0,C(b,a)]},d,c);case
+c=b[2],d=b[1];return ck(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cl(function(b,a){return[0,M(b,a)]},f,e);case
+e=b[2],f=b[1];return ck(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=b[1];return ck(function(a){return[0,af(a)]},g);case
+g=b[1];return cj(function(a){return[0,ad(a)]},g);case
 6:var
-h=b[2],i=b[1];return cl(function(c,b){return[0,w(a,c,b)]},i,h);case
+h=b[2],i=b[1];return ck(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cl(function(c,b){var
-d=cb(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return ck(function(c,b){var
+d=ca(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return ck(function(b){return[0,U(a,b)]},l);case
+l=b[1];return cj(function(b){return[0,R(a,b)]},l);case
 9:var
-m=b[1];return ck(function(b){return cy(a,b)},m);default:return 0}}}(R),N,P),j=u(h[1],S,Y);if(j){var
-m=Z(j[1][2],d);O=1}else
+m=b[1];return cj(function(b){return cx(a,b)},m);default:return 0}}}(S),N,P),j=t(h[1],U,Z);if(j){var
+m=T(j[1][2],d);O=1}else
 var
 s=j}else
 var
 s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
-D=u(c,b,0);if(D){var
-o=W(K,c);if(o){var
-E=kC(a,J,I,h,q,o[1],i);if(E){var
-g=k,b=e$(c,b);continue}var
+D=t(c,b,0);if(D){var
+o=V(L,c);if(o){var
+E=kF(a,K,J,h,q,o[1],i);if(E){var
+g=k,b=fe(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kE(i,h,g,f,e,d,c,t,s,r){var
+kH(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kD(i,h,g,f,e,d,c,b,a[1],j);return k?n(aj,k[1]):k}var
-l=kD(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=dZ(a[2],b),p=kE(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kG(i,h,g,f,e,d,c,b,a[1],j);return k?n(aj,k[1]):k}var
+l=kG(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d4(a[2],b),p=kH(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
@@ -3463,21 +3494,21 @@ q=l;return q}}function
 g3(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
 g4(d,a){var
-e=J(a),f=o(o(l(c(2,b)),a),d);return F(s(J(d),f),e)}function
-kF(c,b,a){switch(c){case
+e=K(a),f=o(o(l(c(2,b)),a),d);return F(s(K(d),f),e)}function
+kI(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 g5(a){switch(a){case
-0:return[0,p4,p3,l(d)];case
-1:return ch;default:var
+0:return[0,p_,p9,l(d)];case
+1:return cg;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fn(a){switch(a){case
-0:return p5;case
-1:return p6;default:return 0}}function
-fo(b,a){var
-c=aG(a[2],b);return f(aG(a[1],b),c)}function
-kG(k,q,j,p,h,d,n){if(d)var
-r=d[1],t=cj(n,fo(h,r)),D=N(n,i(fo(h,r))),E=kG(k,q,j,p,h,d[2],D),m=ai(t,p7),e=ai(t,0),a=g5(k),f=at(s,a,e),g=ku(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(j,y),A),C=cD(g3(g,f),p),u=[0,[0,kF(k,at(F,bT(j,f),g),C),B],E];else
+fr(a){switch(a){case
+0:return p$;case
+1:return qa;default:return 0}}function
+fs(b,a){var
+c=aF(a[2],b);return f(aF(a[1],b),c)}function
+kJ(k,q,j,p,h,d,n){if(d)var
+r=d[1],t=ci(n,fs(h,r)),D=N(n,i(fs(h,r))),E=kJ(k,q,j,p,h,d[2],D),m=ai(t,qb),e=ai(t,0),a=g5(k),f=au(s,a,e),g=kx(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(j,y),A),C=cC(g3(g,f),p),u=[0,[0,kI(k,au(F,bU(j,f),g),C),B],E];else
 var
 u=d;return u}function
 g6(g,a){if(typeof
@@ -3489,247 +3520,257 @@ f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 e=a[2];return[0,[0,e,e],g]}var
 c=[0,d,b];return[0,[0,c,c],d]}function
 g7(e,d,n,m,l,a){var
-f=o(J(bW(g6(m,a),l)),n);if(typeof
+f=o(K(bW(g6(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=W(d,a[1]);if(b)var
-g=j(e,0,a[2]),h=g?[0,s(b[1][2],f)]:g;else
+b=V(d,a[1]);if(b)var
+g=h(e,0,a[2]),i=g?[0,s(b[1][2],f)]:g;else
 var
-h=b;return h;case
+i=b;return i;case
 3:var
-c=W(d,a[1]);if(c)var
-i=j(e,0,a[2]),k=i?[0,s(f,c[1][2])]:i;else
+c=V(d,a[1]);if(c)var
+j=h(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-kH(a,d,c,b){return e(function(a){var
+kK(a,d,c,b){return e(function(a){var
 e=bW(g6(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-kI(c,f,s,e,h,q,p,o){if(o){var
-$=kI(c,f,s,e,h,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kL(c,f,s,e,i,q,p,o){if(o){var
+ac=kL(c,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-O=k(f,h),g=[0,t(k(as(f),e),O,B)];else
+P=k(f,i),g=[0,t(k(ar(f),e),P,C)];else
 switch(a[0]){case
 0:var
-i=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
+j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
 1:var
-Q=[5,[0,b,b],a[1]],i=Q,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+S=[5,[0,b,b],a[1]],j=S,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-R=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},R);break;case
+T=g7(c,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},T);break;case
 3:var
-S=g7(c,e,h,q,p,a),g=y(function(a){return[3,k(f,a)]},S);break;case
+U=g7(c,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},U);break;case
+5:var
+u=a[1],W=af(c,[0,[0,u,u],d]),g=y(function(a){var
+b=R(c,a),d=k(f,i);return[2,k(ar(f),e),d,b]},W);break;case
 6:var
-u=a[3],v=a[2],r=W(e,a[1]),M=0;if(r){var
-w=j(c,1,v),x=w?j(c,0,u):w;if(x){var
-T=[5,u,v],V=[0,r[1],0],i=T,n=V,m=function(c,b,a){return[1,c,b,a]};l=1;M=1}else
+v=a[3],w=a[2],r=V(e,a[1]),N=0;if(r){var
+x=h(c,1,w),z=x?h(c,0,v):x;if(z){var
+X=[5,v,w],Y=[0,r[1],0],j=X,n=Y,m=function(c,b,a){return[1,c,b,a]};l=1;N=1}else
 var
-z=x}else
+A=z}else
 var
-z=r;if(!M)var
-g=z;break;case
+A=r;if(!N)var
+g=A;break;case
 7:var
-A=a[3],C=a[2],D=a[1],E=W(e,D),N=0;if(E){var
-F=j(c,1,C),G=F?j(c,1,A):F;if(G){var
-X=[5,C,A],i=X,n=e,m=function(c,b,a){return[2,D,c,b,a,s]};l=1;N=1}else
+B=a[3],D=a[2],E=a[1],F=V(e,E),O=0;if(F){var
+G=h(c,1,D),H=G?h(c,1,B):G;if(H){var
+Z=[5,D,B],j=Z,n=e,m=function(c,b,a){return[3,E,c,b,a,s]};l=1;O=1}else
 var
-H=G}else
+I=H}else
 var
-H=E;if(!N)var
-g=H;break;case
+I=F;if(!O)var
+g=I;break;case
 8:var
-I=j(c,1,a[1]),J=I?j(c,1,a[2]):I;if(J)var
-Y=aa(c,b),Z=k(f,h),_=kH(e,q,p,a),K=[0,[0,k(as(f),_),Z,Y,0]];else
+J=h(c,1,a[1]),K=J?h(c,1,a[2]):J;if(K)var
+_=$(c,b),aa=k(f,i),ab=kK(e,q,p,a),L=[0,[0,k(ar(f),ab),aa,_,0]];else
 var
-K=J;var
-g=K;break;default:var
+L=K;var
+g=L;break;default:var
 g=0}if(l)var
-P=ag(c,[0,[0,i,i],d]),g=y(function(a){var
-b=U(c,a),d=k(f,h);return m(k(as(f),n),d,b)},P);var
-L=[0,g,$]}else
+Q=af(c,[0,[0,j,j],d]),g=y(function(a){var
+b=R(c,a),d=k(f,i);return m(k(ar(f),n),d,b)},Q);var
+M=[0,g,ac]}else
 var
-L=o;return L}function
-kJ(j,h,i,g,d,a){if(a){var
-n=kJ(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+M=o;return M}function
+kM(j,h,i,g,d,a){if(a){var
+n=kM(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(b9,kH(h,g,d,b));l=1}if(!l)var
+k=e(b8,kK(h,g,d,b));l=1}if(!l)var
 c=g7(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-p8(a){if(typeof
+qc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-kK(b,a){switch(b){case
+kN(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fp(a){var
-c=bR(a[1],[0,d,b]);return c?bR(a[2],[0,d,b]):c}function
+ft(a){var
+c=bS(a[1],[0,d,b]);return c?bS(a[2],[0,d,b]):c}function
 g8(d,a){switch(d){case
-0:return fp(a[3]);case
+0:return ft(a[3]);case
 1:return 1;default:var
-b=fp(a[1]),c=b?fp(a[2]):b;return c?fp(a[3]):c}}function
-eb(b,a){return a8(b,a[1],a[2])}function
-g9(b,a){var
-c=eb(b,a[1]),d=c?eb(b,a[2]):c;return d?eb(b,a[3]):d}function
-p9(B,g,a,m,a2){var
-a3=a[2],av=n(function(a){var
-b=g9(B,a[1]);return b?g9(B,a[2]):b},a3),aw=av?g9(B,a[4]):av;if(aw)var
-a4=fm(a[5]),P=n(function(a){return eb(B,a)},a4);else
+b=ft(a[1]),c=b?ft(a[2]):b;return c?ft(a[3]):c}}function
+ef(b,a){return a9(b,a[1],a[2])}function
+kO(b,a){var
+c=ef(b,a[1]),d=c?ef(b,a[2]):c;return d?ef(b,a[3]):d}function
+qd(B,g,a,m,a3){var
+a4=a[2],ax=n(function(a){var
+b=kO(B,a[1]);return b?kO(B,a[2]):b},a4);if(ax)var
+a5=gR(a[4]),P=d8(B,a[4],a5);else
 var
-P=aw;if(P){var
-p=a[1],c=dk(p),W=a[3],aE=[0,[0,[0,W,W],m],0],aF=a[2],X=f(A(function(a){return fo(m,a)},aF),aE),D=i(X),aG=a[2],aH=i(A(function(a){return fo(m,a)},aG)),Y=a[3],aI=bW([0,[0,Y,Y],m],aH),aJ=fn(p),Z=kw(a[5],aJ),v=Z[2],z=kG(p,Z[1],v,aI,m,a[2],0),aK=N(D,i(a[6])),aM=fn(p),aN=a[5],r=function(a){return[0,[0,N(aM,a)]]},R=J([0,[1,aK]]);switch(aN[0]){case
+P=ax;if(P)var
+a6=fq(a[5]),Q=n(function(a){return ef(B,a)},a6);else
+var
+Q=P;if(Q){var
+p=a[1],c=dl(p),X=a[3],aF=[0,[0,[0,X,X],m],0],aG=a[2],Y=f(z(function(a){return fs(m,a)},aG),aF),D=i(Y),aH=a[2],aI=i(z(function(a){return fs(m,a)},aH)),Z=a[3],aJ=bW([0,[0,Z,Z],m],aI),aK=fr(p),_=kz(a[5],aK),u=_[2],A=kJ(p,_[1],u,aJ,m,a[2],0),aL=N(D,i(a[6])),aN=fr(p),aO=a[5],r=function(a){return[0,[0,N(aN,a)]]},S=K([0,[1,aL]]);switch(aO[0]){case
 2:var
-ay=r(pX),az=r(pY),S=[0,r(0),az,ay],h=[0,s(R,ab(S,S))];break;case
+az=r(p2),aA=r(p3),T=[0,r(0),aA,az],j=[0,s(S,ab(T,T))];break;case
 3:var
-aA=J(r(pZ)),aB=J(r(0)),aC=J(r(p0)),h=[0,s(s(o(R,F(l(b),aC)),aB),aA)];break;default:var
-h=0}var
-aO=h?[0,h[1],0]:h,aP=[0,v,f(kJ(g,z,v,m,D,a[6]),aO)],E=f(bE(z),aP),_=c_(e(function(a){return d8(c,a)},E))[1],w=cA(_),q=function(a){return bl(w,d8(c,a))},aQ=y(q,h),aR=q(v),$=k(as(q),z),T=fn(p),U=t(i($),c);if(U)var
-V=y(function(a){return[0,[0,a,d],d]},aQ),x=function(a){return u(a,w,l(d))},Q=x(aR),ax=aV(0,T),C=n(function(a){var
-b=dl(c,a,Q),d=b?n(function(b){var
+aB=K(r(p4)),aC=K(r(0)),aD=K(r(p5)),j=[0,s(s(o(S,F(l(b),aD)),aC),aB)];break;default:var
+j=0}var
+aP=j?[0,j[1],0]:j,aQ=[0,u,f(kM(g,A,u,m,D,a[6]),aP)],E=f(bF(A),aQ),$=c_(e(function(a){return ec(c,a)},E))[1],w=cz($),q=function(a){return bl(w,ec(c,a))};if(0===a[4][0]){var
+aR=y(q,j),aS=q(u),aa=k(ar(q),A),U=fr(p),V=v(i(aa),c);if(V)var
+W=y(function(a){return[0,[0,a,d],d]},aR),x=function(a){return t(a,w,l(d))},R=x(aS),ay=aV(0,U),C=n(function(a){var
+b=dm(c,a,R),d=b?n(function(b){var
 e=b[1],d=n(function(b){var
-d=x(b);return cM(N(c,a),d)},e);if(d){var
-f=x(b[2]);return g0(Q,N(c,a),f)}return d},$):b;if(d){if(V){var
-f=x(V[1][1][1]);return cM(N(c,a),f)}var
+d=x(b);return cL(N(c,a),d)},e);if(d){var
+f=x(b[2]);return g1(R,N(c,a),f)}return d},aa):b;if(d){if(W){var
+f=x(W[1][1][1]);return cL(N(c,a),f)}var
 e=1}else
 var
-e=d;return e},ax);else
+e=d;return e},ay);else
 var
-C=U;var
-aD=C?T:C,aa=n(function(a){var
-b=d8(c,a),e=l(d);return aL(u(q(a),w,e),b)},E),ac=aa?n(function(a){return kp(c,a)},E):aa,ad=ac?aq(p8,a[6]):ac,ae=ad?g8(p,a[4]):ad,af=ae?j(g,1,a[3]):ae;if(af)var
-aS=fm(a[5]),G=n(function(a){var
-b=d7(g,a[1]);return b?d7(g,a[2]):b},aS);else
+C=V;var
+aE=C?U:C,ac=aE}else
 var
-G=af;if(G){var
-aT=a[6],aU=f(X,e(function(a){return g6(m,a)},aT)),H=ah(e(function(a){return ag(g,a)},aU));if(H){var
-aW=kK(p,a[4]),I=ah(e(function(a){return ag(g,[0,a,m])},aW));if(I){var
-ai=I[1],aX=ky(a[5]),K=ah(e(function(a){return kA(g,a)},aX));if(K){var
-aj=K[1],aY=kx(a[5]),L=ah(e(function(a){return dj(g,a)},aY));if(L){var
-M=ah(kI(g,q,aD,z,v,m,D,a[6]));if(M){var
-O=M[1],ak=t(i(f(ai,aj)),c),al=ak?n(function(a){switch(a[0]){case
-2:var
-e=ks(a[2]),b=[0,a[3],e];break;case
+ac=0;var
+ad=n(function(a){var
+b=ec(c,a),e=l(d);return aM(t(q(a),w,e),b)},E),ae=ad?n(function(a){return kp(c,a)},E):ad,ag=ae?aq(qc,a[6]):ae,ai=ag?g8(p,dj(a[4])):ag,aj=ai?h(g,1,a[3]):ai;if(aj)var
+aT=fq(a[5]),G=n(function(a){var
+b=eb(g,a[1]);return b?eb(g,a[2]):b},aT);else
+var
+G=aj;if(G){var
+aU=a[6],aW=f(Y,e(function(a){return g6(m,a)},aU)),H=ah(e(function(a){return af(g,a)},aW));if(H){var
+aX=kN(p,dj(a[4])),I=ah(e(function(a){return af(g,[0,a,m])},aX));if(I){var
+ak=I[1],aY=kB(a[5]),J=ah(e(function(a){return kD(g,a)},aY));if(J){var
+al=J[1],aZ=kA(a[5]),L=ah(e(function(a){return dk(g,a)},aZ));if(L){var
+M=ah(kL(g,q,ac,A,u,m,D,a[6]));if(M){var
+O=M[1],am=v(i(f(ak,al)),c),an=am?n(function(a){switch(a[0]){case
 3:var
+e=kv(a[2]),b=[0,a[3],e];break;case
+4:var
 b=[0,a[1],0];break;default:var
-d=ks(a[1]),b=[0,a[2],d]}return n(function(a){return kt(c,w,a)},b)},O):ak,am=al?h?kt(c,w,q(h[1])):1:al;if(am){var
-aZ=e(function(a){return 1},O),a0=f(ai,aj),a1=y(q,h);return kE(g,_,f(H[1],L[1]),O,c,c,a1,a0,aZ,a2)}var
-an=am}else
-var
-an=M;var
-ao=an}else
-var
-ao=L;var
+d=kv(a[1]),b=[0,a[2],d]}return n(function(a){return kw(c,w,a)},b)},O):am,ao=an?j?kw(c,w,q(j[1])):1:an;if(ao){var
+a0=e(function(a){return 1},O),a1=f(ak,al),a2=y(q,j);return kH(g,$,f(H[1],L[1]),O,c,c,a2,a1,a0,a3)}var
 ap=ao}else
 var
-ap=K;var
-ar=ap}else
+ap=M;var
+as=ap}else
 var
-ar=I;var
-at=ar}else
+as=L;var
+at=as}else
 var
-at=H;var
+at=J;var
 au=at}else
 var
-au=G;return au}return P}function
+au=I;var
+av=au}else
+var
+av=H;var
+aw=av}else
+var
+aw=G;return aw}return Q}function
 a0(a){return typeof
-a==="number"?a?p_:p$:dk(a[1])}function
-kL(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:gZ(b[1],a,c)}function
-fq(a){if(0===a[0]){var
+a==="number"?a?qe:qf:dl(a[1])}function
+kP(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g0(b[1],a,c)}function
+fu(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-g_(b,c,a){return b?fj(b[1],c,a):a}function
+g9(b,c,a){return b?fn(b[1],c,a):a}function
 bY(d,c,b,a){var
-e=fq(a),f=g_(d,c,fq(a)),g=$(function(b,a){return[2,b,a]},b,f);return $(function(b,a){return[3,b,a]},g,e)}function
-kM(b,a){var
+e=fu(a),f=g9(d,c,fu(a)),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
+kQ(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kN(b,w,v){var
+kR(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
-f=d[1],i=e[1];if(0===i[0])var
-g=0===f[0]?jW(b,i[1],f[1]):0;else
+f=d[1],j=e[1];if(0===j[0])var
+g=0===f[0]?jX(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=i[1],k=aS(b,c[1],a[1]),l=k?aS(b,c[2],a[2]):k,m=l?aS(b,c[3],a[3]):l,n=m?aS(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?j(b,1,a[5]):p,r=q?j(b,1,a[6]):q,s=r?j(b,1,O(a[1],a[1])):r;if(s)var
-u=gR(a),h=j(b,1,O(gR(a),u));else
+a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cF(b,c[5],a[5]):n,p=o?cF(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,O(a[1],a[1])):r;if(s)var
+u=gS(a),i=h(b,1,O(gS(a),u));else
 var
-h=s;var
-g=h?b_(c[7],a[7]):h}if(g){var
+i=s;var
+g=i?b9(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-kO(a){return typeof
-a==="number"?a?g5(0):ch:g5(a[1])}function
-g$(b,d,c){if(0===c[0])return fb(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aG(a[4],b),e),h=f(aG(a[3],b),g),i=f(aG(a[2],d[2]),h);return f(aG(a[1],d[1]),i)}function
-ha(b,a){if(b){var
-c=b[1],d=c[2];return cD(ku(c[1],a),d)}return a}function
-kP(f,t,al,K,aj,r,ah){if(r){var
-j=r[1],am=bz([0,d,d],aj),a=cj(ah,g$(K,am,j)),y=function(c,b){var
-d=ai(a,c);return at(s,at(F,kO(f),b),d)};if(0===j[0]){var
+kS(a){return typeof
+a==="number"?a?g5(0):cg:g5(a[1])}function
+g_(b,d,c){if(0===c[0])return fg(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aF(a[4],b),e),h=f(aF(a[3],b),g),i=f(aF(a[2],d[2]),h);return f(aF(a[1],d[1]),i)}function
+g$(b,a){if(b){var
+c=b[1],d=c[2];return cC(kx(c[1],a),d)}return a}function
+kT(f,u,al,J,aj,r,ah){if(r){var
+j=r[1],am=bA([0,d,d],aj),a=ci(ah,g_(J,am,j)),y=function(c,b){var
+d=ai(a,c);return au(s,au(F,kS(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-_=ha(t,ai(a,qa)),aD=z[1][5],A=u(qb,a,l(d)),B=ai(a,0),$=y(qc,_),h=jn($,cE(B),$,A,aD),ao=[0,aF(A),0],ap=[0,aF(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=g$(u,ai(a,qg)),aD=z[1][5],A=t(qh,a,l(d)),B=ai(a,0),$=y(qi,_),h=jo($,cD(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-aa=ha(t,ai(a,qd)),ac=z[3],C=ac?[0,ai(a,qe)]:ac,ad=y(0,aa),m=jo(ad,ad,0);if(C)var
-L=C[1],M=[0,aF(ab(L,L)),0];else
+aa=g$(u,ai(a,qj)),ac=z[3],C=ac?[0,ai(a,qk)]:ac,ad=y(0,aa),m=jp(ad,ad,0);if(C)var
+L=C[1],M=[0,aE(ab(L,L)),0];else
 var
 M=C;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],aa];break;default:var
-aE=l(d),aG=l(d),aH=[0,l(d),aG,aE],D=ai(a,0),aI=kO(f),n=jp(aI,cE(D)),aq=[0,aF(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=ai(a,0),aI=kS(f),n=jq(aI,cD(D)),aq=[0,aE(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-ae=ha(t,ai(a,qf)),E=j[1][7],G=u(qg,a,l(d)),e=u(qh,a,l(d)),af=ai(a,qi),H=ai(a,0),q=y(qj,ae),p=cE(H),v=at(s,af,bT(ab(p,af),p)),w=cE(v),O=g3(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),as=J(Q),R=F(J(P),as),au=J(ar),S=s(J(G),au),av=o(l(c(2,b)),e),x=s(R,J(ak(F(R,s(J(e),S)),av))),aw=e3(E,o(e,aF(x))),T=ak(P,e),U=e3(E,ak(Q,e)),V=ak(S,J(e)),W=iX(0,T,U,V),X=e3(E,iX(1,T,U,V)),ax=bT(X,O),Y=at(s,q,bT(e,at(F,bT(W,w),ax))),ay=[0,aF(G),0],az=[0,aF(e),ay],aA=[0,aF(ab(v,v)),az],aB=[0,aF(ab(H,H)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(J(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
-aP=N(ah,i(g$(K,am,j))),aQ=r[2],aR=kP(f,t,al,K,ca(aj),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
-b=cD(g3(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:cC(a):kF(f[1],a,b)},I=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cC(I):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=g$(u,ai(a,ql)),E=j[1][7],G=t(qm,a,l(d)),e=t(qn,a,l(d)),af=ai(a,qo),H=ai(a,0),q=y(qp,ae),p=cD(H),v=au(s,af,bU(ab(p,af),p)),w=cD(v),O=g3(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),av=o(l(c(2,b)),e),x=s(R,K(ak(F(R,s(K(e),S)),av))),aw=e8(E,o(e,aE(x))),T=ak(P,e),U=e8(E,ak(Q,e)),V=ak(S,K(e)),W=iZ(0,T,U,V),X=e8(E,iZ(1,T,U,V)),ax=bU(X,O),Y=au(s,q,bU(e,au(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ab(v,v)),az],aB=[0,aE(ab(H,H)),aA],aC=cC(Y,aw),k=[0,[0,Y,o(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
+aP=N(ah,i(g_(J,am,j))),aQ=r[2],aR=kT(f,u,al,J,b$(aj),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
+b=cC(g3(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cB(a):kI(f[1],a,b)},I=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cB(I):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-hb(c,b,a){if(a){var
-e=a[2],g=hb(c,ca(b),e),h=a[1];return f(g$(c,bz([0,d,d],b),h),g)}return a}function
-kQ(b,a){if(a){var
-g=kQ([0,b],a[2]),c=a[1];if(0===c[0])var
+ha(c,b,a){if(a){var
+e=a[2],g=ha(c,b$(b),e),h=a[1];return f(g_(c,bA([0,d,d],b),h),g)}return a}function
+kU(b,a){if(a){var
+g=kU([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=bW([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-hc(b,a){return b?L(a):d}function
-fr(c,b,a){if(typeof
+hb(b,a){return b?M(a):d}function
+fv(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=hc(c,b),h=x(hc(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],L(b)],0];case
+g=hb(c,b),h=x(hb(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-kR(a){if(a){var
+kV(a){if(a){var
 b=a[1][6];if(b)var
-c=kR(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kV(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qk}function
-kS(y,U,b){function
-c(a){return u(a,U,l(d))}function
+d=b;return d}return qq}function
+kW(y,U,b){function
+c(a){return t(a,U,l(d))}function
 N(a){var
-e=a[2],f=o(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,J(a))},g,f),d],b]}function
+e=a[2],f=o(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,K(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=J(b[2]),g=o(J(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=K(b[2]),g=o(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
 C=0;if(typeof
 b==="number")C=1;else
 switch(b[0]){case
 2:var
-V=function(b){var
+W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
@@ -3739,7 +3780,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(ql),b),g=[0,[0,s(o(c(qm),d),f),0],0],h=o(d,c(qn));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(qr),b),g=[0,[0,s(o(c(qs),d),f),0],0],h=o(d,c(qt));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3755,7 +3796,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=kR(y);if(A){var
+A=kV(y);if(A){var
 aa=c(0),P=c6(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
@@ -3767,12 +3808,12 @@ q=p[2],H=p[1];if(q){var
 I=q[1];if(q[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-t=r[2],K=r[1];if(t){var
-v=t[2],L=t[1];if(v){var
+u=r[2],J=r[1];if(u){var
+v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cF(G,H,K,L),S=o(k[1],R),T=o(E,cF(G,I,K,M)),a=F(s(o(D,cF(H,I,L,M)),T),S)}else
+R=cE(G,H,J,L),S=o(k[1],R),T=o(E,cE(G,I,J,M)),a=F(s(o(D,cE(H,I,L,M)),T),S)}else
 var
 a=l(d)}else
 var
@@ -3787,7 +3828,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cF(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cE(D,E,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -3801,83 +3842,83 @@ a=l(d);var
 ab=[0,bk(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=W(y,f);return z?g(z[1]):z}function
-fs(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-ec(a){return e(function(a){var
+z=V(y,f);return z?g(z[1]):z}function
+fw(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eg(a){return e(function(a){var
 c=l(b);return[0,a[3],c]},a)}function
-kT(a,b){return e(function(a){var
+kX(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-kU(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bE(kT(c,u(0,b,l(d))));return iP(kS(c,b,a))}function
-ed(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],j=ed(g,c,b,N(e,i(fr(c,b,d))),h);return f(av(g,kQ(e,fr(c,b,d)),d),j)}return a}function
-kV(b,a){switch(a[0]){case
+kY(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bF(kX(c,t(0,b,l(d))));return iR(kW(c,b,a))}function
+eh(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],j=eh(g,c,b,N(e,i(fv(c,b,d))),h);return f(as(g,kU(e,fv(c,b,d)),d),j)}return a}function
+kZ(b,a){switch(a[0]){case
 0:var
-d=a[1];return ag(b,[0,[0,d,d],a[2]]);case
+d=a[1];return af(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?i9(b,c[1]):c;case
-2:return da(b,a[1]);default:return eY(b,a[1])}}function
-kW(f,g,m,I,H,q,a){if(typeof
-a==="number")return[0,[0,[0,B]],0];else
+e=a[1],c=af(b,[0,[0,e,e],a[2]]);return c?i$(b,c[1]):c;case
+2:return da(b,a[1]);default:return e2(b,a[1])}}function
+k0(f,g,m,I,H,r,a){if(typeof
+a==="number")return[0,[0,[0,C]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],h=J,n=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],i=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],h=M,n=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],i=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=ag(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,U(f,a)]},Q),P];case
+x=a[1],P=0,Q=af(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,R(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!W(m,C))return qq;var
-G=0;if(j(f,1,A)&&j(f,1,z))var
-R=[5,A,z],h=R,n=function(a){return[7,C,a]};else
-G=1;if(G)return qp;break;case
+z=a[3],A=a[2],B=a[1];if(!V(m,B))return qw;var
+G=0;if(h(f,1,A)&&h(f,1,z))var
+S=[5,A,z],i=S,n=function(a){return[7,B,a]};else
+G=1;if(G)return qv;break;case
 8:var
-D=j(f,1,a[1]),S=0,E=D?j(f,1,a[2]):D;if(E)var
-T=aa(f,b),V=kT(m,u(0,q,l(d))),F=[0,[4,k(as(g),V),T]];else
+D=h(f,1,a[1]),T=0,E=D?h(f,1,a[2]):D;if(E)var
+U=$(f,b),W=kX(m,t(0,r,l(d))),F=[0,[4,k(ar(g),W),U]];else
 var
-F=E;return[0,F,S];default:var
+F=E;return[0,F,T];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],t=a[2],v=j(f,1,[3,s,t]),O=v?j(f,1,[3,[2,t,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],s]):v,i=O;break;case
+s=a[3],u=a[2],v=h(f,1,[3,s,u]),O=v?h(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
 6:case
 9:var
-w=j(f,1,a[2]),i=w?j(f,0,a[3]):w;break;default:p=1}if(p)var
-i=1;var
-o=i?kS(m,q,a):i;if(o){var
+w=h(f,1,a[2]),j=w?h(f,0,a[3]):w;break;default:p=1}if(p)var
+j=1;var
+o=j?kW(m,r,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
 d=[0,[3,k(g,c)]]}else
 var
-d=a;return d},N)}return qo}var
-K=0,L=ag(f,[0,[0,h,h],hc(I,H)]);return[0,y(function(a){return n(U(f,a))},L),K]}function
-kX(a){if(typeof
+d=a;return d},N)}return qu}var
+K=0,L=af(f,[0,[0,i,i],hb(I,H)]);return[0,y(function(a){return n(R(f,a))},L),K]}function
+k1(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qs(b){if(0===b[0])return[0,j5(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=ba(a[4]),g=ba(a[3]),h=ba(a[2]);return[1,[0,ba(a[1]),h,g,f,e,d,c]]}function
-qt(K,c,a,g,an,aT){var
-aU=e(qs,a[2]),ao=kN(K,a[2],aU);if(ao)var
-aV=j6(a[4]),L=gN(K,a[4],aV);else
+qy(b){if(0===b[0])return[0,j6(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a_(a[4]),g=a_(a[3]),h=a_(a[2]);return[1,[0,a_(a[1]),h,g,f,e,d,c]]}function
+qz(K,c,a,g,an,aT){var
+aU=e(qy,a[2]),ao=kR(K,a[2],aU);if(ao)var
+aV=gR(a[4]),L=d8(K,a[4],aV);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aW=fm(ap[1]),ar=n(function(a){return eb(K,a)},aW);else
+aW=fq(ap[1]),as=n(function(a){return ef(K,a)},aW);else
 var
-ar=1;var
-M=ar}else
+as=1;var
+M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a0(b),q=a[6],x=hb(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],z=a[2],o=z?0===z[1][0]?0:1:z,ax=a[5],ay=y(function(a){var
+b=a[1],aw=a0(b),q=a[6],x=ha(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=y(function(a){var
 c=typeof
-b==="number"?0:fn(b[1]);return kw(a,c)},ax),az=a[2],h=kP(b,ay,bW(S,i(x)),g,an,az,0),U=A(function(a){return a[7]},h),aA=f(U,ed(function(a,b){return kU(h,a,b)},o,g,T,q)),aB=f(bE(ec(h)),aA),V=f(bE(fs(h)),aB),B=c_(V)[1],aC=cA(B),p=function(a){return bl(aC,a)},W=n(function(a){var
-b=l(d),c=cA(B);return aL(u(p(a),c,b),a)},V),X=W?aq(kX,q):W;if(X){var
+b==="number"?0:fr(b[1]);return kz(a,c)},ax),az=a[2],j=kT(b,ay,bW(S,i(x)),g,an,az,0),U=z(function(a){return a[7]},j),aA=f(U,eh(function(a,b){return kY(j,a,b)},o,g,T,q)),aB=f(bF(eg(j)),aA),V=f(bF(fw(j)),aB),B=c_(V)[1],aC=cz(B),p=function(a){return bl(aC,a)},W=n(function(a){var
+b=l(d),c=cz(B);return aM(t(p(a),c,b),a)},V),X=W?aq(k1,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?g8(0,fg(Y)):1;else
+Z=b?g8(0,dj(Y)):1;else
 var
-au=fg(Y),Z=g8(b[1],au);var
+au=dj(Y),Z=g8(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3886,43 +3927,43 @@ O==="number")var
 r=a[5]?0:1;else
 if(2<=O[1])var
 r=0;else{var
-v=a[5],N=0;if(v){var
-P=j(c,1,a[3]);if(P)var
-av=fm(v[1]),r=n(function(a){var
-b=d7(c,a[1]);return b?d7(c,a[2]):b},av);else{var
+u=a[5],N=0;if(u){var
+P=h(c,1,a[3]);if(P)var
+av=fq(u[1]),r=n(function(a){var
+b=eb(c,a[1]);return b?eb(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
-Q=v;N=1}if(N)var
+Q=u;N=1}if(N)var
 r=Q}var
 D=r}else
 var
 D=C;if(D)var
 aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return b_(b,o)},aD);else
+b=0===a[0]?0:1;return b9(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=ah(e(function(a){return ag(c,a)},aE));if(F){var
-aF=A(function(a){return fr(o,g,a)},q),G=ah(e(function(a){return kV(c,a)},aF));if(G){var
-m=fg(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kK(b[1],m),H=ah(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
+aE=f(x,[0,S,0]),F=ah(e(function(a){return af(c,a)},aE));if(F){var
+aF=z(function(a){return fv(o,g,a)},q),G=ah(e(function(a){return kZ(c,a)},aF));if(G){var
+m=dj(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kN(b[1],m),H=ah(e(function(a){return af(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=ky($[1]),s=ah(e(function(a){return kA(c,a)},aH));else
+aH=kB($[1]),s=ah(e(function(a){return kD(c,a)},aH));else
 var
-s=qr;if(s){var
-aa=s[1],w=a[5],aI=w?kx(w[1]):w,I=ah(e(function(a){return dj(c,a)},aI));if(I){var
-J=ah(ed(function(a,b){return kW(c,p,h,o,g,a,b)},o,g,T,q));if(J){var
-ab=J[1],ac=t(i(f(_,aa)),aw);if(ac){var
-aJ=gI(ab),aK=f(_,aa),at=0,aM=a[4];if(typeof
+s=qx;if(s){var
+aa=s[1],w=a[5],aI=w?kA(w[1]):w,I=ah(e(function(a){return dk(c,a)},aI));if(I){var
+J=ah(eh(function(a,b){return k0(c,p,j,o,g,a,b)},o,g,T,q));if(J){var
+ab=J[1],ac=v(i(f(_,aa)),aw);if(ac){var
+aJ=gJ(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return jV(c,aM,g,a)};at=1}if(!at)var
+ad=function(a){return jW(c,aL,g,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ec(h),aR=k(as(p),aQ),aS=fs(h);return fa(c,B,k(as(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=eg(j),aR=k(ar(p),aQ),aS=fw(j);return ff(c,B,k(ar(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
-af=ae}else
+ag=ae}else
 var
-af=I;var
-ai=af}else
+ag=I;var
+ai=ag}else
 var
 ai=s;var
 aj=ai}else
@@ -3937,7 +3978,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-br(c){var
+bs(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3946,15 +3987,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=br(a[2]);return f(br(a[1]),e)}}function
-bb(e,a,c){switch(a[0]){case
+e=bs(a[2]);return f(bs(a[1]),e)}}function
+a$(e,a,c){switch(a[0]){case
 0:var
 r=a[1];return bW([0,[0,r,r],d],c);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(n0(n[1],u))return n[2];var
+n=g[1];if(n6(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bk(bb(e,a[1],c));case
+2:return bk(a$(e,a[1],c));case
 3:var
 j=a[2],f=a[1],h=F;break;case
 4:var
@@ -3964,65 +4005,65 @@ j=a[2],f=a[1],h=o;break;case
 6:var
 j=a[2],f=a[1],h=ak;break;case
 7:var
-k=dN(a[2]),m=bb(e,a[1],c);if(k){if(k[1]){var
-p=J(m),t=function(a){return o(a,p)},q=eG(by(iG(k)),t,p);return iF(k)?q:o(q,m)}return m}return l(b);default:return aF(bb(e,a[1],c))}var
-w=bb(e,j,N(c,i(br(f))));return h(bb(e,f,c),w)}function
-cm(c,g,b){var
+k=dS(a[2]),m=a$(e,a[1],c);if(k){if(k[1]){var
+p=K(m),t=function(a){return o(a,p)},q=eK(bz(iI(k)),t,p);return iH(k)?q:o(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
+w=a$(e,j,N(c,i(bs(f))));return h(a$(e,f,c),w)}function
+cl(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,i(br(e))),l=cm(c,a[2],k),m=f(cm(c,e,b),l);return[0,bb(c,a,b),m];case
+e=a[1],k=N(b,i(bs(e))),l=cl(c,a[2],k),m=f(cl(c,e,b),l);return[0,a$(c,a,b),m];case
 8:var
-n=cm(c,a[1],b);return[0,bb(c,a,b),n];case
+n=cl(c,a[1],b);return[0,a$(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,i(br(d))),j=cm(c,a[2],h);return f(cm(c,d,b),j)}}function
-kY(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,i(br(d))),h=a[2],j=bb(c,d,b),k=kY([0,[0,e[1],j],c],h,g);return f(cm(c,d,b),k)}return a}function
-hd(a){return A(br,a)}function
-kZ(c,a,b){if(a)var
-d=a[1],f=N(b,i(br(d))),g=kZ(c,a[2],f),e=[0,bb(c,d,b),g];else
+d=a[1],h=N(b,i(bs(d))),j=cl(c,a[2],h);return f(cl(c,d,b),j)}}function
+k2(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,i(bs(d))),h=a[2],j=a$(c,d,b),k=k2([0,[0,e[1],j],c],h,g);return f(cl(c,d,b),k)}return a}function
+hc(a){return z(bs,a)}function
+k3(c,a,b){if(a)var
+d=a[1],f=N(b,i(bs(d))),g=k3(c,a[2],f),e=[0,a$(c,d,b),g];else
 var
 e=a;return e}function
-k0(c,a,b){if(a){var
-d=a[1],e=N(b,i(br(d))),g=k0(c,a[2],e);return f(cm(c,d,b),g)}return a}function
-he(a){return 0===a[0]?hd(a[1]):br(a[1])}function
-k1(c,b,a){if(b){var
-d=b[1],j=N(a,i(he(d))),k=k1(c,b[2],j);if(0===d[0])var
-g=k0(c,d[1],a);else
+k4(c,a,b){if(a){var
+d=a[1],e=N(b,i(bs(d))),g=k4(c,a[2],e);return f(cl(c,d,b),g)}return a}function
+hd(a){return 0===a[0]?hc(a[1]):bs(a[1])}function
+k5(c,b,a){if(b){var
+d=b[1],j=N(a,i(hd(d))),k=k5(c,b[2],j);if(0===d[0])var
+g=k4(c,d[1],a);else
 var
-e=d[1],h=cm(c,e,a),g=[0,bb(c,e,a),h];return f(g,k)}return b}function
-ft(c){var
+e=d[1],h=cl(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
+fx(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cz(ft,a)}return[0,b]}function
-hf(c){var
+b=cy(fx,a)}return[0,b]}function
+he(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hf(a[2]);return o(hf(a[1]),d);case
-9:return a[1];default:return J(b)}}}function
-k2(n,g,a,f){if(a){var
-c=a[1],w=N(f,i(he(c))),x=k2(n,g,a[2],w);if(0===c[0])var
-k=kZ(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
+d=he(a[2]);return o(he(a[1]),d);case
+9:return a[1];default:return K(b)}}}function
+k6(n,g,a,f){if(a){var
+c=a[1],w=N(f,i(hd(c))),x=k6(n,g,a[2],w);if(0===c[0])var
+k=k3(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
 var
-m=bb(g,c[1],f),q=ft(m),h=aM(aV(0,n),q),d=ft(h[2]),j=e(ft,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aL(a,d)?l(b):ak(a,d)},j),o=[0,j,hf(d),v,u,t,s,r];var
+m=a$(g,c[1],f),q=fx(m),h=aN(aV(0,n),q),d=fx(h[2]),j=e(fx,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},j),o=[0,j,he(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-k3(a){return e(function(a){return[0,a[2],d]},a)}function
-k4(a){var
-b=A(he,a[4]),c=f(hd(e(b9,a[3])),b);return f(k3(a[2]),c)}function
-k5(a){var
-c=cj(0,k3(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aB(e(aK,a[2]),c);return f(aB(a[1],g),b)}function
-hg(b,d){var
+k7(a){return e(function(a){return[0,a[2],d]},a)}function
+k8(a){var
+b=z(hd,a[4]),c=f(hc(e(b8,a[3])),b);return f(k7(a[2]),c)}function
+k9(a){var
+c=ci(0,k7(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
+hf(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4031,28 +4072,28 @@ e=a[1];return aq(function(a){return am(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hg(b,a[1]);if(c){var
+c=hf(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-k6(d){var
+k_(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aj(aq(function(b){return function(a){return n0(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=aj(aq(function(b){return function(a){return n6(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fv=s(l(b),fu);function
-k7(e){var
-a=J(fv);if(e)var
+fz=s(l(b),fy);function
+k$(e){var
+a=K(fz);if(e)var
 f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=ak(F(l(b),h),g);else
 var
-i=F(l(c(2,b)),a),j=J(fu),d=ak(F(o(l(c(2,b)),j),a),i);return aF(d)}function
-k8(d,c,a){if(d){var
-e=k7(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
-h=l(b),i=k7(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
-dn(f,e,d,a){var
-g=J(a),h=J(d),i=s(s(l(c(2,b)),h),g),j=f?e?fv:ak(fv,o(l(c(2,b)),fu)):ak(fv,l(c(2,b))),k=o(J(j),i);return aF(F(l(b),k))}function
-k9(g,d){var
+i=F(l(c(2,b)),a),j=K(fy),d=ak(F(o(l(c(2,b)),j),a),i);return aE(d)}function
+la(d,c,a){if(d){var
+e=k$(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
+h=l(b),i=k$(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
+ds(f,e,d,a){var
+g=K(a),h=K(d),i=s(s(l(c(2,b)),h),g),j=f?e?fz:ak(fz,o(l(c(2,b)),fy)):ak(fz,l(c(2,b))),k=o(K(j),i);return aE(F(l(b),k))}function
+lb(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?C(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hh(v,t,s){var
-a=e(function(a){return u(a,t,0)},v);if(a){var
+e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hg(v,u,s){var
+a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -4061,7 +4102,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e1([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e5([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4083,12 +4124,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-k_(f,i,e,c,h){var
-j=f?b:d,a=aa(i,j);function
+lc(f,i,e,c,h){var
+j=f?b:d,a=$(i,j);function
 g(b){var
-c=f?eS(b):c9(b);return M(c,a)}var
-k=[0,ad(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-k$(r,g,q,p,f,o,n){if(o){var
+c=f?eW(b):c9(b);return H(c,a)}var
+k=[0,ae(h),0],l=[0,[0,a,c,[0,C,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+ld(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4097,16 +4138,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aR,bo(qz)),a=hh(p,jD(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bo(qF)),a=hg(p,jE(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=H(k[2],l[1]);b=1;c=1;d=1;break}else
+a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(k9,qA),a=hh(p,bB(0,ce(g,k_(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lb,qG),a=hg(p,bC(0,cd(g,lc(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(k9,qB),a=hh(p,bB(0,ce(g,k_(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lb,qH),a=hg(p,bC(0,cd(g,lc(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4116,27 +4157,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?qC:a}else
+y=a?qI:a}else
 var
 y=n;return y}return[0,n]}function
-la(f,e,d,c,p,o,n){var
+le(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=k$(f,e,d,c,b,a[1],g);return h?aj(h[1]):h}var
-i=k$(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=dZ(a[2],b),l=la(f,e,d,c,k[1],j,a[3]);if(l){var
+h=ld(f,e,d,c,b,a[1],g);return h?aj(h[1]):h}var
+i=ld(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d4(a[2],b),l=le(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hi(a){return iK(c(2,b),aE(a,b))}function
-dp(i,a,e,w,v){var
-m=a?b:L(b),f=l(m),g=k8(a,e,qx),h=k8(a,e,qy),n=ak(g,dn(a,e,f,g)),p=[0,F(ak(h,dn(a,e,h,f)),n),0],q=ak(f,dn(a,e,f,g)),r=[0,F(ak(h,dn(a,e,g,h)),q),p],s=ak(f,dn(a,e,h,f)),t=[0,F(ak(g,dn(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fu):l(c(2,c(2,b))),j=c_([0,u,t]),k=[0,d,cx(i)];return la(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lb(a,g,b){if(Z(g,hi(a))){if(b){var
+hh(a){return iM(c(2,b),aB(a,b))}function
+dt(i,a,e,w,v){var
+m=a?b:M(b),f=l(m),g=la(a,e,qD),h=la(a,e,qE),n=ak(g,ds(a,e,f,g)),p=[0,F(ak(h,ds(a,e,h,f)),n),0],q=ak(f,ds(a,e,f,g)),r=[0,F(ak(h,ds(a,e,g,h)),q),p],s=ak(f,ds(a,e,h,f)),t=[0,F(ak(g,ds(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fy):l(c(2,c(2,b))),j=c_([0,u,t]),k=[0,d,cw(i)];return le(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lf(a,g,b){if(T(g,hh(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hi(a)],v=cx(a),i=[0,hi(a),v],j=dp(a,0,1,h,b[1]),k=j?dp(a,0,0,i,c[1]):j;if(k){var
-l=dp(a,1,1,h,d[1]);if(l)return dp(a,1,0,i,e[1]);var
+h=[0,g,hh(a)],v=cw(a),i=[0,hh(a),v],j=dt(a,0,1,h,b[1]),k=j?dt(a,0,0,i,c[1]):j;if(k){var
+l=dt(a,1,1,h,d[1]);if(l)return dt(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4153,255 +4194,253 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cx(a)],s=dp(a,0,0,r,b[1]);if(s)return dp(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=dt(a,0,0,r,b[1]);if(s)return dt(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hj(a){var
+hi(a){var
 b=[1,[2,d]];return c6(function(b,a){return[1,[3,b,a]]},a,b)}function
-fw(a){return hj(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fx(a,c){return hj(e(function(a){var
-d=[0,a[2]],b=aB(a[1],c);return[1,[7,[1,[8,hj(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lc(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
-f=a[1],g=cz(function(a){return lc(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
-ld(a){return a?Z(d,a[1][2][1]):a}function
-qD(a){var
-b=t(i(a),qE);return b?aq(function(a){return aj(Y(a,d))},a):b}function
-le(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,aa(c,a[1]),f),h=le(c,f,b[2],a[2]),i=d[3],j=C(d[2],g),e=[0,[0,C(d[1],g),j,i],h];else
+fA(a){return hi(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fB(a,c){return hi(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hi(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lg(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cy(function(a){return lg(e,d,c,b,a)},f);return k(cd(e,d,c),g)}function
+lh(a){return a?T(d,a[1][2][1]):a}function
+qJ(a){var
+b=v(i(a),qK);return b?aq(function(a){return aj(Y(a,d))},a):b}function
+li(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,$(c,a[1]),f),h=li(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fy(b,a){return iO(iO(b,0),a)}function
-hk(a){if(a){var
-b=a[2],c=a[1];if(b)return fy(c,[0,qG,hk(b)]);var
+fC(b,a){return iQ(iQ(b,0),a)}function
+hj(a){if(a){var
+b=a[2],c=a[1];if(b)return fC(c,[0,qM,hj(b)]);var
 d=c}else
 var
 d=a;return d}function
-z(a){return[0,qI,fy(hk(a),qH)]}function
-S(a){return[0,qK,fy(hk(a),qJ)]}function
-ae(a){return[0,qM,[0,a,qL]]}function
-g(b,a){return[0,aO(qO,aO(b,qN)),a]}function
+A(a){return[0,qO,fC(hj(a),qN)]}function
+S(a){return[0,qQ,fC(hj(a),qP)]}function
+ag(a){return[0,qS,[0,a,qR]]}function
+g(b,a){return[0,aP(qU,aP(b,qT)),a]}function
 I(b,a){return S([0,g(b,a),0])}function
 bZ(d){var
-b=d,a=ot,e=0;for(;;){if(b){var
-c=iE(a),b=b[1],a=c;continue}return[0,dR(eF(a)),e]}}function
-hl(a){return[0,dR(eL(a)),0]}function
-fz(a){var
-c=a5(a),f=0,b=0===c?oy:0<c?[0,eL(a)]:[1,eL(L(a))];if(0===b[0])var
-d=dR(b[1]);else
+b=d,a=oz,e=0;for(;;){if(b){var
+c=iG(a),b=b[1],a=c;continue}return[0,dW(eJ(a)),e]}}function
+hk(a){return[0,dW(eP(a)),0]}function
+fD(a){var
+c=a3(a),f=0,b=0===c?oE:0<c?[0,eP(a)]:[1,eP(M(a))];if(0===b[0])var
+d=dW(b[1]);else
 var
-e=dR(b[1]),d=aO(bf(1,45),e);return[0,d,f]}function
-hm(a){var
-b=0,c=0<a5(a)?eL(a):ox;return[0,dR(c),b]}function
-hn(a){switch(a[0]){case
-2:return qQ;case
-3:return 2<=a[1]?qR:qS;case
-4:return qT;default:return qP}}function
-ee(b,a){function
-c(c,a){return _(c,hn(a))?ee(b,a):[0,qZ,f(ee(b,a),qY)]}switch(a[0]){case
+e=dW(b[1]),d=aP(bf(1,45),e);return[0,d,f]}function
+hl(a){var
+b=0,c=0<a3(a)?eP(a):oD;return[0,dW(c),b]}function
+hm(a){switch(a[0]){case
+2:return qW;case
+3:return 2<=a[1]?qX:qY;case
+4:return qZ;default:return qV}}function
+ei(b,a){function
+c(c,a){return Z(c,hm(a))?ei(b,a):[0,q5,f(ei(b,a),q4)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aX(g),0];var
-h=[0,q0,[0,aX(e),0]];return[0,aX(g),h];case
+e==="number")return[0,aW(g),0];var
+h=[0,q6,[0,aW(e),0]];return[0,aW(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,q2,c(q1,a[1])];case
+2:return[0,q8,c(q7,a[1])];case
 3:var
-i=a[3],j=c([0,hn(a)],i);switch(a[1]){case
+i=a[3],j=c([0,hm(a)],i);switch(a[1]){case
 0:var
-d=qU;break;case
+d=q0;break;case
 1:var
-d=qV;break;case
+d=q1;break;case
 2:var
-d=qW;break;default:var
-d=qX}var
-l=a[2];return f(c(hn(a),l),[0,d,j]);case
+d=q2;break;default:var
+d=q3}var
+l=a[2];return f(c(hm(a),l),[0,d,j]);case
 4:var
-m=[0,q3,hl(a[2])];return f(c(q4,a[1]),m);default:return[0,q6,f(ee(b,a[1]),q5)]}}function
-G(a){return[0,q9,f(ee(function(a){return 0===a[0]?a[1]:q8},a),q7)]}function
-ho(a){return[0,q$,f(ee(function(a){return a},a),q_)]}function
-b0(a){if(0===a[0])return G(a[1]);var
-b=[0,g(ra,G(a[2])),0];return S([0,g(rb,G(a[1])),b])}function
-fA(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return z([0,k(b,a[1]),d])}function
-rc(a){function
-b(a){return fA(b0,a)}switch(a[0]){case
+m=[0,q9,hk(a[2])];return f(c(q_,a[1]),m);default:return[0,ra,f(ei(b,a[1]),q$)]}}function
+J(a){return[0,rd,f(ei(function(a){return 0===a[0]?a[1]:rc},a),rb)]}function
+hn(a){return[0,rf,f(ei(function(a){return a},a),re)]}function
+b0(a){if(0===a[0])return J(a[1]);var
+b=[0,g(rg,J(a[2])),0];return S([0,g(rh,J(a[1])),b])}function
+fE(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
+ri(a){function
+b(a){return fE(b0,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?rd:rl,i=[0,g(re,ae(h)),e],j=[0,g(rf,b0(a[4])),i],k=[0,g(rg,b(a[3])),j],l=[0,g(rh,b(a[2])),k],m=[0,g(ri,b(a[1])),l],c=[0,g(rk,ae(rj)),m];break;case
+e=0,h=a[5]?rj:rr,i=[0,g(rk,ag(h)),e],j=[0,g(rl,b0(a[4])),i],k=[0,g(rm,b(a[3])),j],l=[0,g(rn,b(a[2])),k],m=[0,g(ro,b(a[1])),l],c=[0,g(rq,ag(rp)),m];break;case
 1:var
-d=a[3],n=d?[0,g(rm,b(d[1])),0]:d,o=[0,g(rn,b(a[2])),0],p=[0,g(ro,b(a[1])),o],c=f([0,g(rq,ae(rp)),p],n);break;default:var
-q=[0,g(rr,b(a[1])),0],c=[0,g(rt,ae(rs)),q]}return S(c)}function
-ru(a){function
-b(a){return z(e(b0,a))}function
+d=a[3],n=d?[0,g(rs,b(d[1])),0]:d,o=[0,g(rt,b(a[2])),0],p=[0,g(ru,b(a[1])),o],c=f([0,g(rw,ag(rv)),p],n);break;default:var
+q=[0,g(rx,b(a[1])),0],c=[0,g(rz,ag(ry)),q]}return S(c)}function
+rA(a){function
+b(a){return A(e(b0,a))}function
 d(a){var
-b=a?rv:rx;return g(rw,ae(b))}switch(a[0]){case
+b=a?rB:rD;return g(rC,ag(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(ry,b0(a[4])),f],i=[0,g(rz,b(a[3])),h],j=[0,g(rA,b(a[2])),i],k=[0,g(rB,b(a[1])),j],c=[0,g(rD,ae(rC)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(rE,b0(a[4])),f],i=[0,g(rF,b(a[3])),h],j=[0,g(rG,b(a[2])),i],k=[0,g(rH,b(a[1])),j],c=[0,g(rJ,ag(rI)),k];break;case
 1:var
-l=[0,g(rE,b(a[2])),0],m=[0,g(rF,b(a[1])),l],c=[0,g(rH,ae(rG)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(rI,b0(a[6])),n],p=[0,g(rJ,b0(a[5])),o],q=[0,g(rK,b(a[4])),p],r=[0,g(rL,b(a[3])),q],s=[0,g(rM,b(a[2])),r],t=[0,g(rN,b(a[1])),s],c=[0,g(rP,ae(rO)),t]}return S(c)}function
-hp(a){switch(a){case
-0:return rQ;case
-1:return rR;case
-2:return rS;case
-3:return rT;case
-4:return rU;case
-5:return rV;case
-6:return rW;case
-7:return rX;case
-8:return rY;case
-9:return rZ;case
-10:return r0;case
-11:return r1;case
-12:return r2;default:return r3}}function
-hq(a){if(typeof
-a==="number")return r4;else
+l=[0,g(rK,b(a[2])),0],m=[0,g(rL,b(a[1])),l],c=[0,g(rN,ag(rM)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(rO,b0(a[6])),n],p=[0,g(rP,b0(a[5])),o],q=[0,g(rQ,b(a[4])),p],r=[0,g(rR,b(a[3])),q],s=[0,g(rS,b(a[2])),r],t=[0,g(rT,b(a[1])),s],c=[0,g(rV,ag(rU)),t]}return S(c)}function
+ho(a){switch(a){case
+0:return rW;case
+1:return rX;case
+2:return rY;case
+3:return rZ;case
+4:return r0;case
+5:return r1;case
+6:return r2;case
+7:return r3;case
+8:return r4;case
+9:return r5;case
+10:return r6;case
+11:return r7;case
+12:return r8;default:return r9}}function
+hp(a){if(typeof
+a==="number")return r_;else
 switch(a[0]){case
-0:return r5;case
-1:return r6;default:return r7}}function
-ef(a){var
+0:return r$;case
+1:return sa;default:return sb}}function
+ej(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,g(r8,G(b[1])),0];break;case
+c=[0,g(sc,J(b[1])),0];break;case
 1:var
-c=[0,g(r9,G(b[1])),0];break;default:var
-l=[0,G(b[2]),0],c=[0,g(r_,z([0,G(b[1]),l])),0]}var
-m=[0,g(r$,ae(hq(a[4]))),c],e=a[3];if(e){var
+c=[0,g(sd,J(b[1])),0];break;default:var
+l=[0,J(b[2]),0],c=[0,g(se,A([0,J(b[1]),l])),0]}var
+m=[0,g(sf,ag(hp(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=z([0,G(d[1]),0]),i=a[1],n=0,p=6===i?sa:12===i?se:sf,j=[0,g(sb,I(p,o)),n];else
+o=A([0,J(d[1]),0]),i=a[1],n=0,p=6===i?sg:12===i?sk:sl,j=[0,g(sh,I(p,o)),n];else
 var
-t=[0,g(sg,z([0,G(d[2]),0])),0],j=[0,g(si,S([0,g(sh,z([0,G(d[1]),0])),t])),0];var
+t=[0,g(sm,A([0,J(d[2]),0])),0],j=[0,g(so,S([0,g(sn,A([0,J(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=f(k,m),h=a[2],r=h?[0,g(sc,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(sd,ae(hp(a[1]))),s])}function
-lf(a){if(0===a[0]){var
-b=[0,g(sj,fA(G,a[2])),0];return I(sl,S([0,g(sk,fA(G,a[1])),b]))}var
-c=[0,G(a[5]),0],d=[0,g(sm,z([0,G(a[4]),c])),0],e=[0,g(sn,G(a[3])),d],f=[0,G(a[2]),0];return I(sp,S([0,g(so,z([0,G(a[1]),f])),e]))}function
-lg(a){switch(a){case
-0:return st;case
-1:return su;default:return sv}}function
-sw(a){function
-b(a){return z(e(b0,a))}var
-c=[0,g(sx,b(a[2])),0],d=[0,g(sy,b(a[1])),c];return S([0,g(sA,ae(sz)),d])}function
-lh(a){function
+q=f(k,m),h=a[2],r=h?[0,g(si,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(sj,ag(ho(a[1]))),s])}function
+lj(a){if(0===a[0]){var
+b=[0,g(sp,fE(J,a[2])),0];return I(sr,S([0,g(sq,fE(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,g(ss,A([0,J(a[4]),c])),0],e=[0,g(st,J(a[3])),d],f=[0,J(a[2]),0];return I(sv,S([0,g(su,A([0,J(a[1]),f])),e]))}function
+lk(a){if(0===a[0]){var
+b=[0,g(sw,A(e(J,a[2]))),0];return I(sy,S([0,g(sx,A(e(J,a[1]))),b]))}return lj([1,a[1],a[2],a[3],a[4],a[5]])}function
+ll(a){switch(a){case
+0:return sz;case
+1:return sA;default:return sB}}function
+sC(a){function
+b(a){return A(e(b0,a))}var
+c=[0,g(sD,b(a[2])),0],d=[0,g(sE,b(a[1])),c];return S([0,g(sG,ag(sF)),d])}function
+lm(a){function
 b(b,a){var
-c=[0,G(a),0];return z([0,G(b),c])}switch(a[0]){case
-0:return I(sB,b(a[1],a[2]));case
+c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
+0:return I(sH,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(sC,b(c[1],c[2])),0],h=[0,g(sD,b(d[1],d[2])),f];return I(sF,S([0,g(sE,b(e[1],e[2])),h]));case
-2:return I(sG,G(a[1]));default:var
-i=[0,g(sH,G(a[2])),0];return I(sJ,S([0,g(sI,G(a[1])),i]))}}function
-sK(a){function
-b(a){return fA(G,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(sL,b(c[1])),0]:c,h=[0,G(a[4]),0],i=[0,g(sM,z([0,G(a[3]),h])),0],j=[0,g(sN,G(a[2])),i],k=[0,g(sO,bZ(a[1])),j],d=f([0,g(sQ,ae(sP)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(sI,b(c[1],c[2])),0],h=[0,g(sJ,b(d[1],d[2])),f];return I(sL,S([0,g(sK,b(e[1],e[2])),h]));case
+2:return I(sM,J(a[1]));default:var
+i=[0,g(sN,J(a[2])),0];return I(sP,S([0,g(sO,J(a[1])),i]))}}function
+sQ(a){function
+b(a){return fE(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sR,b(c[1])),0]:c,h=[0,J(a[4]),0],i=[0,g(sS,A([0,J(a[3]),h])),0],j=[0,g(sT,J(a[2])),i],k=[0,g(sU,bZ(a[1])),j],d=f([0,g(sW,ag(sV)),k],e);else
 var
-l=[0,g(sR,G(a[4])),0],m=[0,g(sS,b(a[3])),l],n=[0,g(sT,b(a[2])),m],o=a[1]?sU:sW,d=[0,g(sV,ae(o)),n];return S(d)}function
-hr(d,c,a,b){var
-h=[0,g(sX,z(e(ef,b))),0],i=a?[0,g(sY,z(e(sK,a))),0]:a,j=f(i,h),k=[0,g(sZ,lf(c)),0];return S(f([0,g(s1,I(s0,z(e(rc,d)))),k],j))}function
-s2(a){switch(a[0]){case
-0:return I(s3,hr(a[1],a[2],a[3],a[4]));case
+l=[0,g(sX,J(a[4])),0],m=[0,g(sY,b(a[3])),l],n=[0,g(sZ,b(a[2])),m],o=a[1]?s0:s2,d=[0,g(s1,ag(o)),n];return S(d)}function
+hq(d,c,a,b){var
+h=[0,g(s3,A(e(ej,b))),0],i=a?[0,g(s4,A(e(sQ,a))),0]:a,j=f(i,h),k=[0,g(s5,lj(c)),0];return S(f([0,g(s7,I(s6,A(e(ri,d)))),k],j))}function
+s8(a){switch(a[0]){case
+0:return I(s9,hq(a[1],a[2],a[3],a[4]));case
 1:var
-c=a[5],d=a[3],h=a[1],i=z(e(ru,a[2])),p=[0,g(s4,z(e(ef,a[6]))),0],q=c?[0,g(s5,lh(c[1])),0]:c,r=f(q,p),b=a[4];if(0===b[0])var
-o=[0,g(sq,z(e(G,b[2]))),0],j=I(ss,S([0,g(sr,z(e(G,b[1]))),o]));else
+b=a[5],c=a[3],d=a[1],h=A(e(rA,a[2])),m=[0,g(s_,A(e(ej,a[6]))),0],n=b?[0,g(s$,lm(b[1])),0]:b,o=f(n,m),l=0,p=[0,g(ta,lk(a[4])),o];if(typeof
+d==="number")if(d)var
+i=tb;else{var
+j=I(tg,h);l=1}else
 var
-j=lf([1,b[1],b[2],b[3],b[4],b[5]]);var
-n=0,s=[0,g(s6,j),r];if(typeof
-h==="number")if(h)var
-k=s7;else{var
-l=I(ta,i);n=1}else
-var
-k=lg(h[1]);if(!n)var
-t=d?[0,g(s8,G(d[1])),0]:d,l=I(k,S([0,g(s9,i),t]));return I(s$,S([0,g(s_,l),s]));case
+i=ll(d[1]);if(!l)var
+q=c?[0,g(tc,J(c[1])),0]:c,j=I(i,S([0,g(td,h),q]));return I(tf,S([0,g(te,j),p]));case
 2:var
-u=[0,g(tb,z(e(ef,a[7]))),0],v=[0,g(tc,lh(a[6])),u],w=[0,g(td,z(e(G,a[5]))),0],x=[0,g(tg,I(tf,S([0,g(te,z(e(G,a[4]))),w]))),v],y=[0,g(th,G(a[3])),0],A=S([0,g(ti,z(e(sw,a[2]))),y]);return I(tk,S([0,g(tj,I(lg(a[1]),A)),x]));case
+r=[0,g(th,A(e(ej,a[6]))),0],s=[0,g(ti,lm(a[5])),r],t=[0,g(tj,lk(a[4])),s],u=[0,g(tk,J(a[3])),0],v=S([0,g(tl,A(e(sC,a[2]))),u]);return I(tn,S([0,g(tm,I(ll(a[1]),v)),t]));case
 3:var
-B=[0,g(tl,z(e(ef,a[7]))),0],C=[0,g(tm,z(e(G,a[6]))),0],D=[0,g(tp,I(to,S([0,g(tn,z(e(G,a[5]))),C]))),B],E=0,F=a[4],H=[0,g(ts,z(e(function(a){return 0===a[0]?I(tq,z(e(ho,a[1]))):I(tr,ho(a[1]))},F))),E],J=a[3],K=[0,g(tt,z(e(function(a){var
-b=[0,ho(a[2]),0];return z([0,ae(a[1]),b])},J))),H],L=a[2],M=[0,g(tu,z(e(function(a){var
-b=[0,b0(a[2]),0];return z([0,ae(a[1]),b])},L))),K];return I(ty,S([0,g(tx,I(tw,S([0,g(tv,z(e(ae,a[1]))),M]))),D]));case
+w=[0,g(to,A(e(ej,a[7]))),0],x=[0,g(tp,A(e(J,a[6]))),0],y=[0,g(ts,I(tr,S([0,g(tq,A(e(J,a[5]))),x]))),w],z=0,B=a[4],C=[0,g(tv,A(e(function(a){return 0===a[0]?I(tt,A(e(hn,a[1]))):I(tu,hn(a[1]))},B))),z],D=a[3],E=[0,g(tw,A(e(function(a){var
+b=[0,hn(a[2]),0];return A([0,ag(a[1]),b])},D))),C],F=a[2],G=[0,g(tx,A(e(function(a){var
+b=[0,b0(a[2]),0];return A([0,ag(a[1]),b])},F))),E];return I(tB,S([0,g(tA,I(tz,S([0,g(ty,A(e(ag,a[1]))),G]))),y]));case
 4:var
-N=[0,g(tz,z(e(ef,a[3]))),0],O=[0,g(tC,I(tB,S([0,g(tA,G(a[2])),0]))),N];return I(tG,S([0,g(tF,I(tE,S([0,g(tD,G(a[1])),0]))),O]));case
+H=[0,g(tC,A(e(ej,a[3]))),0],K=[0,g(tF,I(tE,S([0,g(tD,J(a[2])),0]))),H];return I(tJ,S([0,g(tI,I(tH,S([0,g(tG,J(a[1])),0]))),K]));case
 5:var
-P=[0,g(tH,G(a[5])),0];return I(tJ,S([0,g(tI,hr(a[1],[0,a[2],a[3]],0,a[4])),P]));case
+L=[0,g(tK,J(a[5])),0];return I(tM,S([0,g(tL,hq(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-m=a[1],Q=0,R=m?b0(m[1]):ae(tM);return I(tL,S([0,g(tK,R),Q]));default:var
-T=[0,g(tN,G(a[6])),0],U=[0,g(tO,G(a[5])),T],V=[0,g(tP,hr(a[2],a[3],0,a[4])),U],W=a[1];return I(tU,S([0,g(tT,z(e(function(a){var
-b=[0,g(tQ,G(a[2][2])),0],c=[0,g(tR,G(a[2][1])),b];return S([0,g(tS,ae(a[1])),c])},W))),V]))}}function
-eg(a){return z(e(fz,a))}function
-fB(b,a){var
-c=[0,g(tV,hm(a)),0];return S([0,g(tW,z(e(eg,b))),c])}function
-eh(a){switch(a[0]){case
-0:return ae(a[1]);case
+k=a[1],M=0,N=k?b0(k[1]):ag(tP);return I(tO,S([0,g(tN,N),M]));default:var
+O=[0,g(tQ,J(a[6])),0],P=[0,g(tR,J(a[5])),O],Q=[0,g(tS,hq(a[2],a[3],0,a[4])),P],R=a[1];return I(tX,S([0,g(tW,A(e(function(a){var
+b=[0,g(tT,J(a[2][2])),0],c=[0,g(tU,J(a[2][1])),b];return S([0,g(tV,ag(a[1])),c])},R))),Q]))}}function
+ek(a){return A(e(fD,a))}function
+fF(b,a){var
+c=[0,g(tY,hl(a)),0];return S([0,g(tZ,A(e(ek,b))),c])}function
+el(a){switch(a[0]){case
+0:return ag(a[1]);case
 1:var
-b=fB(a[2],a[3]);return I(a[1],b);case
+b=fF(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?tX:tZ;return I(tY,ae(c));case
+c=a[1]?t0:t2;return I(t1,ag(c));case
 3:var
-d=[0,eg(a[3]),0];return I(t0,z([0,fB(a[1],a[2]),d]));case
+d=[0,ek(a[3]),0];return I(t3,A([0,fF(a[1],a[2]),d]));case
 4:var
-f=[0,bZ(0),0],g=[0,fz(a[3]),f];return I(t1,z([0,fB(a[1],a[2]),g]));case
+f=[0,bZ(0),0],g=[0,fD(a[3]),f];return I(t4,A([0,fF(a[1],a[2]),g]));case
 5:var
-h=[0,hm(a[3]),0],i=[0,fz(a[2]),h];return I(t2,z([0,eh(a[1]),i]));case
+h=[0,hl(a[3]),0],i=[0,fD(a[2]),h];return I(t5,A([0,el(a[1]),i]));case
 6:var
-j=[0,hm(a[3]),0],k=[0,fz(a[2]),j];return I(t3,z([0,eh(a[1]),k]));case
-7:return I(t4,eh(a[1]));default:var
-l=[0,z(e(eg,a[3])),0],m=[0,ae(a[2]),l];return I(t5,z([0,eh(a[1]),m]))}}function
-t6(a){var
-b=[0,eh(a[2]),0];return z([0,bZ(a[1]),b])}function
-li(a){if(typeof
-a==="number")return 0===a?ae(t7):ae(t8);else{if(0===a[0]){var
-b=[0,z(e(eg,a[2])),0];return I(t9,z([0,bZ(a[1]),b]))}var
-c=[0,bZ(a[2]),0];return I(t_,z([0,bZ(a[1]),c]))}}function
-t$(a){var
-b=a[4],i=b?[0,g(ua,eg([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(ub,li(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(uc,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(ud,z(e(t6,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
-lj(h,a,d){var
-i=[0,g(ue,z(e(t$,d))),0];if(a)var
-b=a[1],c=[0,g(uf,fB(b[1],b[2])),0];else
+j=[0,hl(a[3]),0],k=[0,fD(a[2]),j];return I(t6,A([0,el(a[1]),k]));case
+7:return I(t7,el(a[1]));default:var
+l=[0,A(e(ek,a[3])),0],m=[0,ag(a[2]),l];return I(t8,A([0,el(a[1]),m]))}}function
+t9(a){var
+b=[0,el(a[2]),0];return A([0,bZ(a[1]),b])}function
+ln(a){if(typeof
+a==="number")return 0===a?ag(t_):ag(t$);else{if(0===a[0]){var
+b=[0,A(e(ek,a[2])),0];return I(ua,A([0,bZ(a[1]),b]))}var
+c=[0,bZ(a[2]),0];return I(ub,A([0,bZ(a[1]),c]))}}function
+uc(a){var
+b=a[4],i=b?[0,g(ud,ek([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(ue,ln(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(uf,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(ug,A(e(t9,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
+lo(h,a,d){var
+i=[0,g(uh,A(e(uc,d))),0];if(a)var
+b=a[1],c=[0,g(ui,fF(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return S([0,g(ug,hl(h)),j])}function
-lk(d,c,a,b){var
-h=[0,g(uh,li(b)),0],i=a?[0,g(ui,z(e(G,a))),0]:a,j=f(i,h),k=[0,g(uj,z(e(G,c))),0];return S(f([0,g(uk,hl(d)),k],j))}function
-ul(a){if(typeof
-a==="number")return ae(um);else
+j=f(c,i);return S([0,g(uj,hk(h)),j])}function
+lp(d,c,a,b){var
+h=[0,g(uk,ln(b)),0],i=a?[0,g(ul,A(e(J,a))),0]:a,j=f(i,h),k=[0,g(um,A(e(J,c))),0];return S(f([0,g(un,hk(d)),k],j))}function
+uo(a){if(typeof
+a==="number")return ag(up);else
 switch(a[0]){case
-0:return I(un,bZ(a[1]));case
-1:return I(uo,lj(a[1],a[2],a[3]));default:return I(up,lk(a[1],a[2],a[3],a[4]))}}function
-fC(a){var
-b=gj(gi(al(a),function(b){return aJ(a,b)}));return n(function(a){var
-b=aj(34===a?1:0),c=b?aj(92===a?1:0):b,d=c?_(uE,eO(a)):c;return d?_(eO(a),uF):d},b)}function
-ei(b){function
+0:return I(uq,bZ(a[1]));case
+1:return I(ur,lo(a[1],a[2],a[3]));default:return I(us,lp(a[1],a[2],a[3],a[4]))}}function
+fG(a){var
+b=gk(gj(al(a),function(b){return aI(a,b)}));return n(function(a){var
+b=aj(34===a?1:0),c=b?aj(92===a?1:0):b,d=c?Z(uH,eS(a)):c;return d?Z(eS(a),uI):d},b)}function
+em(b){function
 c(f){var
-a=eO(f),b=_(uG,a),c=b?_(a,uH):b;if(c)var
+a=eS(f),b=Z(uJ,a),c=b?Z(a,uK):b;if(c)var
 d=c;else{var
-e=_(uI,a);if(e)return _(a,uJ);var
+e=Z(uL,a);if(e)return Z(a,uM);var
 d=e}return d}var
-a=gj(gi(al(b),function(a){return aJ(b,a)}));if(a){var
+a=gk(gj(al(b),function(a){return aI(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eO(a),f=_(uK,e),h=f?_(e,uL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(i(d),uM):f;if(g)return aj(am(b,uN));var
+e=eS(a),f=Z(uN,e),h=f?Z(e,uO):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),uP):f;if(g)return aj(am(b,uQ));var
 h=g}else
 var
 h=a;return h}function
-hs(c){var
+hr(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ei(a[1]);case
+1:return em(a[1]);case
 3:var
-b=hs(a[2]);if(b){var
+b=hr(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-ej(m){var
+en(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4412,104 +4451,105 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eF(a[2]);if(typeof
+f=eJ(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=ej(a[2]);if(i){var
+i=en(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=ej(a[1]),l=k?eJ(c(2,b),j):k;return l?eJ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=en(a[1]),l=k?eN(c(2,b),j):k;return l?eN(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bs(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cN(a){return A(dq,bs(a))}function
-ht(a){switch(a[0]){case
+du(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bt(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cM(a){return z(du,bt(a))}function
+hs(a){switch(a[0]){case
 0:var
-c=dq(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
+c=du(a[4]),d=f(cM(a[3]),c),e=f(cM(a[2]),d);return f(cM(a[1]),e);case
 1:var
-b=a[3],g=b?cN(b[1]):b,h=f(cN(a[2]),g);return f(cN(a[1]),h);default:return cN(a[1])}}function
-uO(a){switch(a[0]){case
+b=a[3],g=b?cM(b[1]):b,h=f(cM(a[2]),g);return f(cM(a[1]),h);default:return cM(a[1])}}function
+uR(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return A(dq,b)}function
-ll(a){if(0===a[0]){var
-b=bs(a[2]);return f(bs(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lm(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(du,b)}function
+lq(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lr(a){if(0===a[0]){var
+b=bt(a[2]);return f(bt(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ls(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cO(d){var
+cN(d){var
 a=d[4],g=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return f(e,g)}function
-uP(a){if(0===a[0]){var
-b=a[5],c=b?bs(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bs(a[3]),d);return f(bs(a[2]),e)}function
-ln(b,e){var
+uS(a){if(0===a[0]){var
+b=a[5],c=b?bt(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bt(a[3]),d);return f(bt(a[2]),e)}function
+lt(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aq(function(a){return am(f,a)},b)}return 0;case
 3:var
-d=ln(b,a[2]);if(d){var
+d=lt(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fD(c,a){return n(function(a){var
-b=ej(a);return b?ln(c,a):b},a)}function
-lo(a){var
-d=eJ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eJ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-lp(a,b){return b?[4,lp(a,b[1]),a]:a}function
-h(a){switch(a[0]){case
+fH(c,a){return n(function(a){var
+b=en(a);return b?lt(c,a):b},a)}function
+lu(a){var
+d=eN(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eN(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+lv(a,b){return b?[4,lv(a,b[1]),a]:a}function
+j(a){switch(a[0]){case
 0:var
-j=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eG(iC(j),l,b);return[0,iM(iD(eF(a[1]),j)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return u(k,a)},m=eK(iE(i),l,b);return[0,iO(iF(eJ(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=h(a[1]);return 0===f[0]?[0,L(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=h(a[2]),i=h(a[3]);switch(a[1]){case
-0:return[2,g,i];case
-1:return[3,g,i];case
-2:return[4,g,i];default:return[5,g,i]}case
+g=j(a[2]),h=j(a[3]);switch(a[1]){case
+0:return[2,g,h];case
+1:return[3,g,h];case
+2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=by(dN(a[2]));return lp(h(a[1]),n);default:return[6,h(a[1])]}}function
-bt(a){if(0===a[0]){var
-b=h(a[1]);return[0,b,b]}var
-c=h(a[2]);return[0,h(a[1]),c]}function
-cP(a){var
-b=bt(a[3]),c=bt(a[2]);return[0,bt(a[1]),c,b]}function
-uQ(a){switch(a[0]){case
+n=bz(dS(a[2]));return lv(j(a[1]),n);default:return[6,j(a[1])]}}function
+bu(a){if(0===a[0]){var
+b=j(a[1]);return[0,b,b]}var
+c=j(a[2]);return[0,j(a[1]),c]}function
+cO(a){var
+b=bu(a[3]),c=bu(a[2]);return[0,bu(a[1]),c,b]}function
+uT(a){switch(a[0]){case
 0:var
-b=a[5],c=bt(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
+b=a[5],c=bu(a[4]),d=cO(a[3]),e=cO(a[2]);return[0,[0,cO(a[1]),e,d,c,b]];case
 1:var
-f=y(cP,a[3]),g=cP(a[2]);return[1,cP(a[1]),g,f];default:return[2,cP(a[1])]}}function
-lq(a){if(0===a[0]){var
+f=y(cO,a[3]),g=cO(a[2]);return[1,cO(a[1]),g,f];default:return[2,cO(a[1])]}}function
+lw(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=h(k(a,c));return[0,h(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=h(a[5]),i=[0,h(a[4]),g],j=h(a[3]),l=h(a[2]);return[1,h(a[1]),l,j,i]}function
-dr(a){var
-b=h(a[3]),c=h(a[2]);return[0,h(a[1]),c,b]}function
-ds(a){if(0===a[0]){var
-c=a[5],i=c?dr(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=h(a[4]),k=h(a[3]),l=h(a[2]);return[0,by(a[1]),l,k,j,i]}var
+b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
+dv(a){var
+b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
+dw(a){if(0===a[0]){var
+c=a[5],h=c?dv(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bz(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dr(f),n=dr(g);return[2,h(e),n,m]}var
-o=dr(f),p=dr(g);return[1,h(e),p,o]}function
-hu(b,a){if(a){var
-c=a[1],d=a[2],g=hu(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cu(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return aj(d)},h),g)}return a}function
-uR(b){if(b[1])return 0;var
+m=dv(f),n=dv(g);return[2,j(e),n,m]}var
+o=dv(f),p=dv(g);return[1,j(e),p,o]}function
+ht(b,a){if(a){var
+c=a[1],d=a[2],g=ht(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(ct(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:b9(b[1],a[1]);return aj(d)},h),g)}return a}function
+uU(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-uT(c,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+uW(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4534,14 +4574,14 @@ r==="number"||!(0===r[0]))H=1;else{var
 s=a[2];if(!s)return a[3]?0:1;if(a[3])return 0;var
 b=s[1]}if(H)return 0;break;case
 6:var
-v=a[4];if(typeof
-v!=="number"&&0===v[0]){if(a[2])return 0;var
+u=a[4];if(typeof
+u!=="number"&&0===u[0]){if(a[2])return 0;var
 f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 8:var
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=t(c,uV),J=0;if(x){var
+x=v(c,uY),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -4564,144 +4604,144 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?t(c,uW):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?v(c,uZ):0:j}return 0;case
 13:return 0;default:var
-u=a[4];if(typeof
-u!=="number"&&0===u[0])return a[2]?0:a[3]?0:1;return 0}var
-n=_(uU,b);return n?_(b,c):n}function
-hv(g,m,_,c){var
-$=i(g),j=A(function(a){switch(a[1]){case
+t=a[4];if(typeof
+t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
+n=Z(uX,b);return n?Z(b,c):n}function
+hu(g,m,_,c){var
+$=i(g),h=z(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,h(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
 1:var
 f=a[4],z=0;if(typeof
 f==="number")z=1;else
 switch(f[0]){case
 0:var
-K=f[1],c=function(a){return[2,a,h(K)]};break;case
+K=f[1],c=function(a){return[2,a,j(K)]};break;case
 1:var
-M=f[1],c=function(a){return[3,a,h(M)]};break;default:z=1}if(z)return 0;break;case
+M=f[1],c=function(a){return[3,a,j(M)]};break;default:z=1}if(z)return 0;break;case
 2:var
-i=a[4],G=0;if(typeof
-i==="number"||!(1===i[0]))G=1;else{var
-j=a[3],N=i[1];if(!j)return j;var
-B=j[1];if(0!==B[0])return 0;var
+h=a[4],G=0;if(typeof
+h==="number"||!(1===h[0]))G=1;else{var
+i=a[3],N=h[1];if(!i)return i;var
+B=i[1];if(0!==B[0])return 0;var
 O=B[1],c=function(a){var
-b=h(N);return[4,a,h(O),b]}}if(G)return 0;break;case
+b=j(N);return[4,a,j(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,h(k[1])],0];return 0;case
+k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 4:var
 l=a[4],H=0;if(typeof
 l==="number"||!(0===l[0]))H=1;else
 var
-P=l[1],c=function(a){return[6,a,h(P)]};if(H)return 0;break;case
+P=l[1],c=function(a){return[6,a,j(P)]};if(H)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,h(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 o=a[3];if(o){var
 C=o[1];if(0===C[0]){var
-Q=h(n[1]);return[0,[8,h(C[1]),Q],0]}return 0}return o}return 0;case
+Q=j(n[1]);return[0,[8,j(C[1]),Q],0]}return 0}return o}return 0;case
 7:var
 p=a[4];if(typeof
-p!=="number"&&0===p[0])return[0,[9,h(p[1])],0];return 0;case
+p!=="number"&&0===p[0])return[0,[9,j(p[1])],0];return 0;case
 8:var
 q=a[4],I=0;if(typeof
 q==="number"||!(1===q[0]))I=1;else{var
 r=a[3],R=q[1];if(!r)return r;var
 D=r[1];if(0!==D[0])return 0;var
 S=D[1],c=function(a){var
-b=h(R);return[13,a,h(S),b]}}if(I)return 0;break;case
+b=j(R);return[13,a,j(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=hu(0,_);return e(function(i){var
-e=h(T),a=i[2],c=i[1];if(0===c[0]){var
+T=s[1],U=ht(0,_);return e(function(h){var
+e=j(T),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?dr(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(t(f,a[1])){var
-j=h(a[2]),k=[2,[2,h(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,by(f),m,l,k]}var
-n=ds(a);return[10,ds(c),n,e]}var
-o=ds(a);return[10,ds(c),o,e]}var
-p=ds(a);return[10,ds(c),p,e]},U)}return 0;case
+g=function(a){return a?dv(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(v(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
+n=dw(a);return[10,dw(c),n,e]}var
+o=dw(a);return[10,dw(c),o,e]}var
+p=dw(a);return[10,dw(c),p,e]},U)}return 0;case
 10:var
-u=a[4],J=0;if(typeof
-u==="number"||!(1===u[0]))J=1;else{var
-v=a[3],V=u[1];if(!v)return v;var
-w=v[1];if(0===w[0])return 0;var
+t=a[4],J=0;if(typeof
+t==="number"||!(1===t[0]))J=1;else{var
+u=a[3],V=t[1];if(!u)return u;var
+w=u[1];if(0===w[0])return 0;var
 W=w[2],X=w[1],c=function(a){var
-b=h(V),c=h(W);return[12,a,h(X),c,b]}}if(J)return 0;break;case
+b=j(V),c=j(W);return[12,a,j(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?uS:E;return Y;case
+a[4]==="number"?1:0,Y=E?uV:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
-Z=h(x[1]);return[0,[14,h(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,by(A[1]),0]:aV(0,$);return e(c,L)},c),a=A(uR,c),k=a?[0,a[1],a[2]]:uX,l=f(k,j),n=lq(m);return[0,e(uQ,g),n,l]}function
-lr(b){if(b[1])return 0;var
+Z=j(x[1]);return[0,[14,j(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
+A=a[2],L=A?[0,bz(A[1]),0]:aV(0,$);return e(c,L)},c),a=z(uU,c),k=a?[0,a[1],a[2]]:u0,l=f(k,h),n=lw(m);return[0,e(uT,g),n,l]}function
+lx(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,h(a[1])],0];return 0}function
-ls(z,y,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+ly(z,y,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,h(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-A=c[1],b=function(a){return[2,a,h(A)]};break;case
+A=c[1],b=function(a){return[2,a,j(A)]};break;case
 1:var
-C=c[1],b=function(a){return[3,a,h(C)]};break;default:var
+C=c[1],b=function(a){return[3,a,j(C)]};break;default:var
 D=c[2],E=c[1],b=function(a){var
-b=h(D);return[4,a,h(E),b]}}break;case
+b=j(D);return[4,a,j(E),b]}}break;case
 2:var
 f=a[4],u=0;if(typeof
 f==="number"||!(1===f[0]))u=1;else{var
 g=a[3],F=f[1];if(!g)return g;var
 r=g[1];if(0!==r[0])return 0;var
 G=r[1],b=function(a){var
-b=h(G),c=h(F);return z?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
+b=j(G),c=j(F);return z?[9,a,b,c]:[6,a,b,c]}}if(u)return 0;break;case
 3:var
-i=a[4];if(typeof
-i!=="number"&&1===i[0])return[0,[5,h(i[1])],0];return 0;case
+h=a[4];if(typeof
+h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
 4:var
-j=a[4],v=0;if(typeof
-j==="number"||!(0===j[0]))v=1;else
+i=a[4],v=0;if(typeof
+i==="number"||!(0===i[0]))v=1;else
 var
-H=j[1],b=function(a){return[10,a,h(H)]};if(v)return 0;break;case
+H=i[1],b=function(a){return[10,a,j(H)]};if(v)return 0;break;case
 5:var
 k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,h(k[1])],0];return 0;case
+k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
 s=m[1];if(0===s[0]){var
-I=h(l[1]);return[0,[8,h(s[1]),I],0]}return 0}return m}return 0;case
+I=j(l[1]);return[0,[8,j(s[1]),I],0]}return 0}return m}return 0;case
 8:var
 n=a[4],w=0;if(typeof
 n==="number"||!(1===n[0]))w=1;else{var
 o=a[3],J=n[1];if(!o)return o;var
 t=o[1];if(0!==t[0])return 0;var
 K=t[1],b=function(a){var
-b=h(J);return[7,a,h(K),b]}}if(w)return 0;break;case
+b=j(J);return[7,a,j(K),b]}}if(w)return 0;break;case
 13:var
 p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
-L=p[1],b=function(a){return[11,a,h(L)]};if(x)return 0;break;default:return 0}var
-q=a[2],B=q?[0,by(q[1]),0]:aV(0,y);return e(b,B)}function
-dt(d,c,b){var
-e=A(function(a){return ls(d,c,a)},b),a=A(lr,b),g=a?[0,a[1],a[2]]:uY;return f(g,e)}function
-hw(a){return 11===a[1]?1:0}function
-bG(n,m,a){var
+L=p[1],b=function(a){return[11,a,j(L)]};if(x)return 0;break;default:return 0}var
+q=a[2],B=q?[0,bz(q[1]),0]:aV(0,y);return e(b,B)}function
+dx(d,c,b){var
+e=z(function(a){return ly(d,c,a)},b),a=z(lx,b),g=a?[0,a[1],a[2]]:u1;return f(g,e)}function
+hv(a){return 11===a[1]?1:0}function
+bH(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4711,105 +4751,102 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=b_(n,e);if(f){var
+f=b9(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=_(uZ,h);return i?_(h,m):i}var
+h=g[1],i=Z(u2,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a9(n,b,a){var
+a7(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=_(u0,e),o=f?_(e,b):f,c=o;else
+e=d[1],f=Z(u3,e),o=f?Z(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bG(0,b,a):bG(0,b,a)}return bG(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bH(0,b,a):bH(0,b,a)}return bH(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bG(0,b,a):bG(0,b,a)}return bG(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bH(0,b,a):bH(0,b,a)}return bH(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?t(b,n):c:bG(0,b,a):bG(0,b,a)}return bG(0,b,a)}return bG(0,b,a)}function
-cn(a){switch(a[0]){case
-0:return[0,h([0,a[1],a[2]])];case
+m=a[3];return m?0===m[1][0]?c?v(b,n):c:bH(0,b,a):bH(0,b,a)}return bH(0,b,a)}return bH(0,b,a)}function
+cm(a){switch(a[0]){case
+0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cn(a[1])];case
+2:return[2,cm(a[1])];case
 3:var
-b=cn(a[2]),c=cn(a[3]);switch(a[1]){case
+b=cm(a[2]),c=cm(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cn(a[1]),d];default:return[8,cn(a[1])]}}function
-fE(c){function
+d=a[2];return[7,cm(a[1]),d];default:return[8,cm(a[1])]}}function
+hw(c){function
 a(e){var
-a=[0,d,b];return u(e,c,[0,a,a])}var
-e=a(u2),f=a(u3);return[0,a(0),f,e]}function
-cQ(a){function
+a=[0,d,b];return t(e,c,[0,a,a])}var
+e=a(u5),f=a(u6);return[0,a(0),f,e]}function
+cP(a){function
 b(a){var
-b=h(a[2]);return[0,h(a[1]),b]}switch(a[0]){case
+b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,h(a[1])];default:var
-e=h(a[2]);return[3,h(a[1]),e]}}function
-lt(k,a,j,g,f,d,c){function
-b(a){return fE(e(bt,a))}var
-l=dt(0,i(a),c),m=cQ(d),n=aB(g,f),o=fE(e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},n)),p=h(j);return[0,k,e(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,l]}function
-lu(a){return aq(function(a){return 2===a[0]?1:0},a)}function
-lv(m,c,f,a,l,k){var
-n=i(c),o=dt(lu(c),n,k),p=y(cQ,l);if(0===a[0])var
-j=aB(a[1],a[2]),g=[0,fE(e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},j))];else
-var
-g=lq([1,a[1],a[2],a[3],a[4],a[5]]);var
-q=f?h(f[1]):[0,b,b];return[0,m,e(function(a){function
-c(a){return fE(e(bt,a))}switch(a[0]){case
+2:return[2,j(a[1])];default:var
+e=j(a[2]);return[3,j(a[1]),e]}}function
+lz(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,hw(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return lw([1,a[1],a[2],a[3],a[4],a[5]])}function
+lA(h,a,g,f,d,c){function
+b(a){return hw(e(bu,a))}var
+k=dx(0,i(a),c),l=cP(d),m=lz(f),n=j(g);return[0,h,e(function(a){var
+c=b(a[2]);return[0,b(a[1]),c]},a),n,m,l,k]}function
+lB(a){return aq(function(a){return 2===a[0]?1:0},a)}function
+lC(k,a,c,h,g,f){var
+l=i(a),m=dx(lB(a),l,f),n=y(cP,g),o=lz(h),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return hw(e(bu,a))}switch(a[0]){case
 0:var
-k=a[5],l=bt(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bu(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bt(a[6]),r=bt(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},c),q,g,p,o]}function
-lw(o,e,a){if(e)if(a){var
-g=e[1],i=a[1],k=bS(h(g[2][1]));if(k){var
-l=k[1],m=bS(h(g[2][2]));if(m)var
+p=a[7],q=bu(a[6]),r=bu(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+lD(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=bT(j(g[2][1]));if(k){var
+l=k[1],m=bT(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,eG(i[2],d,b)];return cw(l,bA(dQ(p,l),e))},q=n(x(i[1],b)),f=[0,n(i[1]),q];else
+e=[0,a,eK(h[2],d,b)];return cv(l,bB(dV(p,l),e))},q=n(x(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=lw([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=lD([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-j=a;else
+i=a;else
 var
-j=e;return j}function
+i=e;return i}function
 an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=iQ(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=iS(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-lx(b,a){if(0===a[0])return[0,an(b,a[1])];var
+lE(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
 hx(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
@@ -4831,88 +4868,88 @@ var
 d=c;return d}function
 hz(g,f,a){if(a){var
 e=a[1],h=a[2];if(f)return[0,e,hz(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(v(c(2,b),l),k),j],h]}else
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(u(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-u4(a){if(typeof
+u7(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-u5(a){if(typeof
+u8(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fF(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=fF(e,a[3]);return bA(cw(fF(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
-q=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+fI(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=fI(e,a[3]);return bB(cv(fI(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
+r=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 b1(h){var
 a=bj(function(f,e){var
-a=aY(q,f);if(a)var
+a=aX(r,f);if(a)var
 b=a[1],c=bg(c3(b[1]),c3(b[2]));else
 var
-c=d;return bg(c,e)},d,h);if(Z(d,a)){var
-f=a5(a);if(0===f||!(0<f&&!H(a,b)))var
+c=d;return bg(c,e)},d,h);if(T(d,a)){var
+f=a3(a);if(0===f||!(0<f&&!G(a,b)))var
 g=d;else
 var
-c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eI(e):eI(e);return aE(g,q)}return d}function
-du(a){return[0,a[1],[0,a[2],0]]}function
+c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eM(e):eM(e);return aB(g,r)}return d}function
+dy(a){return[0,a[1],[0,a[2],0]]}function
 a1(a){var
-b=du(a[3]),c=f(du(a[2]),b);return f(du(a[1]),c)}function
-ly(a){return 0===a[0]?du(a[1][4]):0}function
-lz(a){switch(a[0]){case
+b=dy(a[3]),c=f(dy(a[2]),b);return f(dy(a[1]),c)}function
+lF(a){return 0===a[0]?dy(a[1][4]):0}function
+lG(a){switch(a[0]){case
 0:var
 b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
 d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fG(a){switch(a[0]){case
+fJ(a){switch(a[0]){case
 0:return b1(a1(a[1][1]));case
 1:var
 b=a[3];return b?b1(a1(b[1])):d;default:return b1(a1(a[1]))}}function
 hA(c){var
-a=A(ly,c),d=a?[0,a[1],a[2]]:A(lz,c);return x(b,b1(d))}function
-lA(c,a){if(c){if(a){var
+a=z(lF,c),d=a?[0,a[1],a[2]]:z(lG,c);return x(b,b1(d))}function
+lH(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=u6;else
+b=u9;else
 if(43===d)var
-b=u7;else
+b=u_;else
 var
-f=48===d?1:0,i=f?u8:f,b=i;if(b)var
-e=lA(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?u$:f,b=i;if(b)var
+e=lH(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:u9}function
-ek(b,a){switch(a[0]){case
+h=a;return h}return a?0:va}function
+eo(b,a){switch(a[0]){case
 0:var
-c=a[1];if(am(c,u_))return u$;if(am(c,va))return vb;if(am(c,vc))return vd;if(am(c,ve))return vf;if(am(c,vg))return vh;var
-k=am(c,vi),p=k?vj:k;return p;case
+c=a[1];if(am(c,vb))return vc;if(am(c,vd))return ve;if(am(c,vf))return vg;if(am(c,vh))return vi;if(am(c,vj))return vk;var
+k=am(c,vl),p=k?vm:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(am(f,vk))return[0,[0,d,e]];if(am(f,vl))return[0,[1,d,e]];if(am(f,vm))return[0,[2,d,e]];var
-l=am(f,vn),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(am(f,vn))return[0,[0,d,e]];if(am(f,vo))return[0,[1,d,e]];if(am(f,vp))return[0,[2,d,e]];var
+l=am(f,vq),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=ek(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eo(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=ek(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eo(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=ek(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=ek(b,a[1]);if(i)var
-j=lA(b,gj(gi(al(m),function(a){return aJ(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eo(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eo(b,a[1]);if(i)var
+j=lH(b,gk(gj(al(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-lB(d,a){if(a){var
-e=a[1],b=ek(d,e[2]);if(b)var
-c=lB(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+lI(d,a){if(a){var
+e=a[1],b=eo(d,e[2]);if(b)var
+c=lI(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return vo}function
-cR(d,c,a){if(c)if(a){var
+f=b;return f}return vr}function
+cQ(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=lB(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=lI(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cR(d,k,j);if(f){var
-m=f[1],g=cR(d,k,m[2]);if(g)var
+f=cQ(d,k,j);if(f){var
+m=f[1],g=cQ(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -4928,10 +4965,10 @@ h=a;else
 var
 h=c;return h}function
 hB(e,d,a){if(d){if(a){var
-b=cR(e,i(a),a);if(b)var
+b=cQ(e,i(a),a);if(b)var
 f=b[1],c=hB(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return vp}return a?0:vq}function
+g=b;return g}return vs}return a?0:vt}function
 hC(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
 hD(d,a){if(d)if(a){var
@@ -4950,265 +4987,252 @@ var
 g=a;else
 var
 g=d;return g}function
-co(b,a){return 0===b[0]?[0,h(b[1]),a]:a?[0,a[1],a[2]]:[0,h(b[1]),0]}function
-cS(a,e){var
-b=co(a[1],e),c=co(a[2],b[2]),d=co(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lC(d,c){if(d){var
+cn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+cR(a,e){var
+b=cn(a[1],e),c=cn(a[2],b[2]),d=cn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+lJ(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cS(a[1],c),f=cS(a[2],e[2]),g=cS(a[3],f[2]),h=co(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cR(a[1],c),f=cR(a[2],e[2]),g=cR(a[3],f[2]),h=cn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cS(a[1],c),k=j[1],l=cS(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cS(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cR(a[1],c),k=j[1],l=cR(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cR(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cS(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lC(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-vr(a){if(typeof
+p=cR(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=lJ(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+vu(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return vt;case
+5:return vw;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return vs}function
-bc(a,b){if(a){var
-c=co(a[1],b),d=bc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a_(c){function
-a(a){return u(a,c,[0,d,b])}var
-e=a(vw),f=a(vx);return[0,a(0),f,e]}function
-lD(a,b){if(a){var
-c=a[1],d=bc(c[1],b),e=bc(c[2],d[2]),f=lD(a[2],e[2]),g=f[2],h=f[1],i=a_(e[1]);return[0,[0,[0,a_(d[1]),i],h],g]}return[0,0,b]}function
-lE(f,c){if(f){var
+11:return 0}return vv}function
+ba(a,b){if(a){var
+c=cn(a[1],b),d=ba(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a8(c){function
+a(a){return t(a,c,[0,d,b])}var
+e=a(vz),f=a(vA);return[0,a(0),f,e]}function
+lK(a,b){if(a){var
+c=a[1],d=ba(c[1],b),e=ba(c[2],d[2]),f=lK(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
+lL(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bc(a[1],c),h=bc(a[2],g[2]),i=bc(a[3],h[2]),j=co(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a_(i[1]),y=a_(h[1]),e=[0,[0,[0,a_(g[1]),y,x,w,v]],u];break;case
+g=ba(a[1],c),h=ba(a[2],g[2]),i=ba(a[3],h[2]),j=cn(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bc(a[1],c),l=bc(a[2],k[2]),z=l[2],A=a_(l[1]),e=[0,[0,[1,a_(k[1]),A,0]],z];break;default:var
-m=a[1],n=bc(m,c),o=bc(a[2],n[2]),p=bc(a[3],o[2]),q=bc(a[4],p[2]),r=co(a[5],q[2]),s=co(a[6],r[2]),B=m?a_(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a_(q[1]),H=a_(p[1]),e=[0,[1,[0,B,a_(o[1]),H,G,F,E,D]],C]}var
-t=lE(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dv(a){return i_(q,a)}function
-vy(a){if(typeof
+k=ba(a[1],c),l=ba(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
+m=a[1],n=ba(m,c),o=ba(a[2],n[2]),p=ba(a[3],o[2]),q=ba(a[4],p[2]),r=cn(a[5],q[2]),s=cn(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
+t=lL(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dz(a){return ja(r,a)}function
+vB(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return j(q,1,[3,a[1],[0,b,b]]);case
-6:return j(q,1,a[2]);case
+5:return h(r,1,[3,a[1],[0,b,b]]);case
+6:return h(r,1,a[2]);case
 8:var
-d=j(q,1,a[1]);return d?j(q,1,a[2]):d;case
-10:return j(q,0,a[3]);case
+d=h(r,1,a[1]);return d?h(r,1,a[2]):d;case
+10:return h(r,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?j(q,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(r,0,e[2]):0;case
 12:var
-f=j(q,0,a[2]),g=f?j(q,0,a[3]):f;return g?j(q,1,a[4]):g;case
+f=h(r,0,a[2]),g=f?h(r,0,a[3]):f;return g?h(r,1,a[4]):g;case
 14:var
-h=j(q,0,a[1]);return h?j(q,1,a[2]):h;case
+i=h(r,0,a[1]);return i?h(r,1,a[2]):i;case
 2:case
-3:return dv(a[2]);case
+3:return dz(a[2]);case
 4:case
 13:var
-c=j(q,1,a[2]);return c?j(q,1,a[3]):c;default:return j(q,1,a[1])}}function
+c=h(r,1,a[2]);return c?h(r,1,a[3]):c;default:return h(r,1,a[1])}}function
 hE(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=j(q,1,[3,d,e]),g=f?j(q,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,h=g?j(q,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return h?j(q,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):h;case
-5:return j(q,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(r,1,[3,d,e]),g=f?h(r,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(r,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return i?h(r,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
+5:return h(r,1,[3,a[1],[0,b,b]]);case
 8:var
-k=j(q,1,a[1]);return k?j(q,1,a[2]):k;case
-10:return j(q,1,a[2]);case
+k=h(r,1,a[1]);return k?h(r,1,a[2]):k;case
+10:return h(r,1,a[2]);case
 11:var
-l=a[2],m=j(q,1,l);return m?j(q,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],l]):m;case
+l=a[2],m=h(r,1,l);return m?h(r,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
 2:case
-3:return dv(a[2]);case
+3:return dz(a[2]);case
 6:case
 7:case
 9:var
-i=j(q,1,a[2]);return i?j(q,1,a[3]):i;default:return j(q,1,a[1])}}function
-fH(d){var
+j=h(r,1,a[2]);return j?h(r,1,a[3]):j;default:return h(r,1,a[1])}}function
+fK(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=aj(aq(function(d){return function(a){var
-h=hp(a[1]),e=am(hp(d[1]),h);if(e)var
-i=hq(a[4]),b=am(hq(d[4]),i);else
+h=ho(a[1]),e=am(ho(d[1]),h);if(e)var
+i=hp(a[4]),b=am(hp(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?t(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?v(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-el(a){if(0===a[0])return dv(h(a[1]));var
-b=a[2],c=a[1];if(!dX(h(c))&&!dX(h(b))){var
-e=h(c);return j(q,1,[3,h(b),e])}var
-d=h(b);return a8(q,h(c),d)}function
-cT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lF(a){switch(a[0]){case
+ep(a){if(0===a[0])return dz(j(a[1]));var
+b=a[2],c=a[1];if(!d2(j(c))&&!d2(j(b))){var
+e=j(c);return h(r,1,[3,j(b),e])}var
+d=j(b);return a9(r,j(c),d)}function
+cS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+lM(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cT(a[3]),c),e=f(cT(a[2]),d);return f(cT(a[1]),e);case
+c=[0,a[4],0],d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
 1:var
-b=a[3],g=b?cT(b[1]):b,h=f(cT(a[2]),g);return f(cT(a[1]),h);default:return cT(a[1])}}function
-fI(a){switch(a){case
-0:return vB;case
-1:return vC;default:return 0}}function
-cp(a){var
-f=a[1],d=j(q,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?a8(q,a[1],a[2]):d;if(e){var
-g=a[2];return j(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
-dw(a){var
-e=a8(q,[0,d,b],a);return e?j(q,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-lG(b,c,D,s,r,p,f){function
-u(a){var
-d=b?vz:vA,c=t(i(a),d);return c?n(el,a):c}var
-v=n(function(a){var
-b=u(a[1]);return b?u(a[2]):b},c);if(v)var
-E=i(c),g=_(dk(b),E);else
+b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
+hF(a){switch(a){case
+0:return vE;case
+1:return vF;default:return 0}}function
+co(a){var
+f=a[1],d=h(r,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(r,a[1],a[2]):d;if(e){var
+g=a[2];return h(r,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
+dA(a){var
+e=a9(r,[0,d,b],a);return e?h(r,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+lN(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=v(i(e),c),g=f?v(i(d),c):f;if(g){var
+l=aK(e,d);return n(function(a){var
+b=j(a[2]);return a9(r,j(a[1]),b)},l)}return g}var
+k=b?h(r,1,j(a[3])):b;if(k){var
+m=j(a[5]);return a9(r,j(a[4]),m)}return k}function
+lO(b,c,A,z,m,f){function
+o(a){var
+d=b?vC:vD,c=v(i(a),d);return c?n(ep,a):c}var
+p=n(function(a){var
+b=o(a[1]);return b?o(a[2]):b},c);if(p)var
+B=i(c),g=Z(dl(b),B);else
 var
-g=v;var
-w=g?_(i(c),vD):g,x=w?j(q,1,h(D)):w;if(x)var
-F=fI(b),k=t(i(s),F);else
+g=p;var
+q=g?Z(i(c),vG):g,s=q?h(r,1,j(A)):q;if(s)var
+C=1===b?1:0,k=lN(hF(b),C,z);else
 var
-k=x;if(k)var
-G=fI(b),l=t(i(r),G);else
-var
-l=k;if(l)var
-H=aB(s,r),m=n(function(a){var
-b=h(a[2]);return a8(q,h(a[1]),b)},H);else
-var
-m=l;if(m)if(b){var
-a=cQ(p);switch(a[0]){case
+k=s;if(k)if(b){var
+a=cP(m);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-z=cp(a[1]),A=z?cp(a[2]):z,d=A?cp(a[3]):A;break;case
+u=co(a[1]),w=u?co(a[2]):u,d=w?co(a[3]):w;break;case
 2:var
-d=dw(a[1]);break;default:var
-B=dw(a[1]),d=B?dw(a[2]):B}var
+d=dA(a[1]);break;default:var
+x=dA(a[1]),d=x?dA(a[2]):x}var
 e=d}else
 var
-C=cQ(p),K=0===C[0]?cp(C[1]):0,e=K;else
+y=cP(m),F=0===y[0]?co(y[1]):0,e=F;else
 var
-e=m;if(e)var
-I=i(c),J=dk(b),o=n(function(a){return a9(J,I,a)},f);else
+e=k;if(e)var
+D=i(c),E=dl(b),l=n(function(a){return a7(E,D,a)},f);else
 var
-o=e;var
-y=o?fH(f):o;return y?n(hE,dt(0,i(c),f)):y}function
-lH(a){switch(a[0]){case
+l=e;var
+t=l?fK(f):l;return t?n(hE,dx(0,i(c),f)):t}function
+lP(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-lI(a,f,e,k,s,r){var
-o=typeof
+lQ(a,f,e,R,o,m){var
+p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=o?vE:vF;return t(i(a),b)}var
-l=lu(f),D=n(function(b){switch(b[0]){case
+b=p?vH:vI;return v(i(a),b)}var
+k=lB(f),A=n(function(b){switch(b[0]){case
 0:var
-c=aj(l),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=aj(k),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=aj(l),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=aj(k),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
-a==="number"?1:0,k=j?1:j;else
+a==="number"?1:0,l=j?1:j;else
 var
-k=i;return k;default:var
-m=b[1],n=o?m?0:1:d(m),p=n?d(b[2]):n,q=p?d(b[3]):p;return q?d(b[4]):q}},f);if(D)var
-Y=i(f),u=_(a0(a),Y);else
+l=i;return l;default:var
+m=b[1],n=p?m?0:1:d(m),o=n?d(b[2]):n,q=o?d(b[3]):o;return q?d(b[4]):q}},f);if(A)var
+S=i(f),q=Z(a0(a),S);else
 var
-u=D;var
-E=u?_(i(f),vG):u,F=E?n(el,A(lH,f)):E;if(F)if(0===k[0]){var
-G=k[2],H=k[1],Z=o?vH:vK,I=t(i(H),Z);if(I)var
-$=o?vI:vJ,v=t(i(G),$);else
-var
-v=I;if(v)var
-aa=aB(H,G),J=n(function(a){var
-b=h(a[2]);return a8(q,h(a[1]),b)},aa);else
-var
-J=v;var
-m=J}else{var
-X=0;if(typeof
+q=A;var
+B=q?Z(i(f),vJ):q,C=B?n(ep,z(lP,f)):B;if(C){var
+Q=0;if(typeof
 a==="number"&&!a){var
-C=1;X=1}if(!X)var
-C=0;var
-W=C?j(q,1,h(k[3])):C;if(W)var
-ac=h(k[5]),m=a8(q,h(k[4]),ac);else
+D=1;Q=1}if(!Q)var
+D=0;var
+T=p?vK:vL,s=lN(T,D,R)}else
 var
-m=W}else
-var
-m=F;if(m)if(typeof
+s=C;if(s)if(typeof
 a==="number")if(e)var
 b=0;else
 var
-ab=y(cQ,s)?0:1,b=ab;else
+U=y(cP,o)?0:1,b=U;else
 switch(a[1]){case
 0:if(e){var
-x=y(cQ,s);if(x){var
-L=x[1];if(0===L[0])var
-M=j(q,1,h(e[1])),N=M?cp(L[1]):M;else
+u=y(cP,o);if(u){var
+F=u[1];if(0===F[0])var
+G=h(r,1,j(e[1])),H=G?co(F[1]):G;else
 var
-N=0;var
-O=N}else
+H=0;var
+I=H}else
 var
-O=x;var
-b=O}else
+I=u;var
+b=I}else
 var
 b=e;break;case
 1:if(e){var
-z=e[1],B=y(cQ,s);if(B){var
-g=B[1];switch(g[0]){case
+w=e[1],x=y(cP,o);if(x){var
+g=x[1];switch(g[0]){case
 0:var
-p=0;break;case
+l=0;break;case
 1:var
-Q=j(q,1,h(z)),R=Q?cp(g[1]):Q,S=R?cp(g[2]):R,p=S?cp(g[3]):S;break;case
+K=h(r,1,j(w)),L=K?co(g[1]):K,M=L?co(g[2]):L,l=M?co(g[3]):M;break;case
 2:var
-T=j(q,1,h(z)),p=T?dw(g[1]):T;break;default:var
-U=j(q,1,h(z)),V=U?dw(g[1]):U,p=V?dw(g[2]):V}var
-P=p}else
+N=h(r,1,j(w)),l=N?dA(g[1]):N;break;default:var
+O=h(r,1,j(w)),P=O?dA(g[1]):O,l=P?dA(g[2]):P}var
+J=l}else
 var
-P=B;var
-b=P}else
+J=x;var
+b=J}else
 var
 b=e;break;default:var
 b=0}else
 var
-b=m;if(b)var
-c=i(f),w=n(function(b){var
+b=s;if(b)var
+c=i(f),t=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=_(u1,g),r=h?_(g,c):h,d=r;else
+g=f[1],h=Z(u4,g),r=h?Z(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return a9(a0(a),c,b);if(d){var
+1:if(b[3])return a7(a0(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
-j=0;return b_(l,j)}return d;case
+j=0;return b9(k,j)}return d;case
 4:var
-k=b[4];if(typeof
-k!=="number"&&0===k[0])return b[3]?a9(a0(a),c,b):d;return a9(a0(a),c,b);case
+l=b[4];if(typeof
+l!=="number"&&0===l[0])return b[3]?a7(a0(a),c,b):d;return a7(a0(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return a9(a0(a),c,b);var
-n=t(c,a0(a));if(n){var
+m!=="number"&&0===m[0]){if(b[3])return a7(a0(a),c,b);var
+n=v(c,a0(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return a9(a0(a),c,b);case
+e=n;return e}return a7(a0(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?a9(a0(a),c,b):d?aj(l):d;return a9(a0(a),c,b);default:return a9(a0(a),c,b)}},r);else
+p!=="number"&&1===p[0])return b[3]?a7(a0(a),c,b):d?aj(k):d;return a7(a0(a),c,b);default:return a7(a0(a),c,b)}},m);else
 var
-w=b;var
-K=w?fH(r):w;return K?n(hE,dt(l,i(f),r)):K}function
-hF(j){var
-p=aG(j,b1(a1(j))),a=e(function(a){return ag(q,a)},p);if(a){var
+t=b;var
+E=t?fK(m):t;return E?n(hE,dx(k,i(f),m)):E}function
+hG(j){var
+p=aF(j,b1(a1(j))),a=e(function(a){return af(r,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return U(q,a)},r=i(h[1]),s=i(g[1]);return Z(d,C(C(i(f[1]),s),r)[1])}var
+i=function(a){return R(r,a)},q=i(h[1]),s=i(g[1]);return T(d,B(B(i(f[1]),s),q)[1])}var
 k=h}else
 var
 k=c;var
@@ -5224,118 +5248,118 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-vL(a){switch(a[0]){case
-0:return hF(a[1][1]);case
+vM(a){switch(a[0]){case
+0:return hG(a[1][1]);case
 1:var
-b=a[3];return b?hF(b[1]):1;default:return hF(a[1])}}function
-hG(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
-g=_(i(a),vN),k=g?n(function(a){if(0===a[0]){var
-g=a[5],i=j(q,1,h(a[2])),k=i?j(q,0,h(a[3])):i,l=k?j(q,0,h(a[4])):k,e=0;if(l)if(g)var
-u=bs(g[1]),b=n(function(a){return dv(h(a))},u);else{var
+b=a[3];return b?hG(b[1]):1;default:return hG(a[1])}}function
+hH(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
+g=Z(i(a),vO),k=g?n(function(a){if(0===a[0]){var
+g=a[5],i=h(r,1,j(a[2])),k=i?h(r,0,j(a[3])):i,l=k?h(r,0,j(a[4])):k,e=0;if(l)if(g)var
+u=bt(g[1]),b=n(function(a){return dz(j(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-o=j(q,1,h(a[4]));if(o)var
-v=bs(a[3]),w=f(bs(a[2]),v),b=n(function(a){return dv(h(a))},w);else
+o=h(r,1,j(a[4]));if(o)var
+v=bt(a[3]),w=f(bt(a[2]),v),b=n(function(a){return dz(j(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],r=_(vM,p);if(r){var
-d=W(c,by(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],q=Z(vN,p);if(q){var
+d=V(c,bz(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):g;if(k)var
-l=hu(0,a),u=l?1:l,m=u;else
+t=q;return t}return 1}return b},a):g;if(k)var
+l=ht(0,a),u=l?1:l,m=u;else
 var
 m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(vL,o[1]):d,r=p?_(vO,i(c)):p;if(r)var
-v=i(c),e=n(function(a){return uT(v,a)},b);else
+p=d?n(vM,o[1]):d,q=p?Z(vP,i(c)):p;if(q)var
+v=i(c),e=n(function(a){return uW(v,a)},b);else
 var
-e=r;var
-s=e?fH(b):e,t=s?n(el,A(lF,c)):s;return t?n(vy,o[3]):t}function
-fJ(b,a){return n(function(c){var
-a=c[2];return a?dM(a[1],b):1},a)}function
-lJ(a){if(a){var
-b=a[1];if(hw(b))return 0;var
-c=[0,b,lJ(a[2])]}else
+e=q;var
+s=e?fK(b):e,t=s?n(ep,z(lM,c)):s;return t?n(vB,o[3]):t}function
+fL(b,a){return n(function(c){var
+a=c[2];return a?dR(a[1],b):1},a)}function
+lR(a){if(a){var
+b=a[1];if(hv(b))return 0;var
+c=[0,b,lR(a[2])]}else
 var
 c=a;return c}function
-hH(b,a){var
-c=i(cu(function(a){return 0===a[0]?0:1},b));return t(i(a),c)}function
-lK(a){if(a){var
+hI(b,a){var
+c=i(ct(function(a){return 0===a[0]?0:1},b));return v(i(a),c)}function
+lS(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-lL(aM,Y,aJ,X,W,b,aI,B){var
-a=hv(Y,aJ,X,W),aN=i(B);if(aM)var
+lT(aL,Z,aI,Y,X,b,aH,B){var
+a=hu(Z,aI,Y,X),aN=i(B);if(aL)var
 _=0;else
 var
-aE=a[1],aF=e(fG,a[1]),V=fc(hA(a[1]),aF,aE),aH=aB(aV(0,i(V)),V),_=e(aK,cu(function(a){return gL(a[2])},aH));var
-C=cR(_,aN,B);if(C){var
+aD=a[1],aE=e(fJ,a[1]),W=fh(hA(a[1]),aE,aD),aG=aK(aV(0,i(W)),W),_=e(aJ,ct(function(a){return gM(a[2])},aG));var
+C=cQ(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=hG(Y,X,W,a),ab=aa?fJ(vQ,B):aa;if(ab){var
-aO=$[1],D=e(fG,a[1]),c=hA(a[1]),aP=lK(aI),U=j7(q,a);if(U){var
-j=fc(c,D,a[1]),g=gJ(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ai=a[3],F=aq(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ai),aj=F?A(function(a){var
-b=e(b9,jT(j,a));return[0,a[4],b]},g):F,ak=f(gK(g,c,K,a[3]),aj),al=f(bE(jq(g)),ak),L=f(bE(dY(g)),al),M=c_(L)[1],m=cA(M),O=n(function(a){var
-b=l(d);return aL(u(bl(m,a),m,b),a)},L);if(O){var
-P=aq(pA,a[3]);if(P){var
+aa=hH(Z,Y,X,a),ab=aa?fL(vR,B):aa;if(ab){var
+aO=$[1],D=e(fJ,a[1]),c=hA(a[1]),aP=lS(aH),V=j7(r,a);if(V){var
+j=fh(c,D,a[1]),g=gK(c,D,a[1],0),ae=i(a[3]),ag=N(i(j),ae),K=[0,i(j),ag],ai=a[3],F=aq(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ai),aj=F?z(function(a){var
+b=e(b8,jU(j,a));return[0,a[4],b]},g):F,ak=f(gL(g,c,K,a[3]),aj),al=f(bF(jr(g)),ak),L=f(bF(d3(g)),al),M=c_(L)[1],m=cz(M),O=n(function(a){var
+b=l(d);return aM(t(bl(m,a),m,b),a)},L);if(O){var
+P=aq(pG,a[3]);if(P){var
 s=D,o=a[1];for(;;){if(o){var
-p=o[1],t=bz(d,s);switch(p[0]){case
+p=o[1],u=bA(d,s);switch(p[0]){case
 0:var
-G=p[1],H=gM(b,G[1],t),E=0;if(H){var
-r=ag(b,[0,G[4],c]);if(r)var
-h=Z(d,r[1][1]);else{var
-I=r;E=1}}else{var
+G=p[1],H=gN(b,G[1],u),E=0;if(H){var
+q=af(b,[0,G[4],c]);if(q)var
+h=T(d,q[1][1]);else{var
+I=q;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=p[3],h=J?gM(b,J[1],t):1;break;default:var
-h=gM(b,p[1],t)}if(h){var
-ad=o[2],s=ca(s),o=ad;continue}var
+J=p[3],h=J?gN(b,J[1],u):1;break;default:var
+h=gN(b,p[1],u)}if(h){var
+ad=o[2],s=b$(s),o=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=A(function(a){return di(c,a)},am),ao=a[3],ap=f(j,f(e(function(a){return bp(c,a)},ao),an)),w=ah(e(function(a){return ag(b,a)},ap));if(w){var
-ar=aG(fg(a[2]),c),x=ah(e(function(a){return ag(b,a)},ar));if(x){var
-at=a[3],y=ah(jU(b,aP,function(a){return bl(m,a)},j,g,c,K,at));if(y){var
-R=y[1],au=gI(R),av=x[1],aw=a[2],ax=function(a){return jV(b,aw,c,a)},ay=w[1],az=0,aA=jq(g),aC=k(as(function(a){return bl(m,a)}),aA),aD=dY(g);return fa(b,M,k(as(function(a){return bl(m,a)}),aD),aC,az,ay,R,ax,av,au,aO)}var
+am=a[3],an=z(function(a){return di(c,a)},am),ao=a[3],ap=f(j,f(e(function(a){return bq(c,a)},ao),an)),w=ah(e(function(a){return af(b,a)},ap));if(w){var
+as=aF(dj(a[2]),c),x=ah(e(function(a){return af(b,a)},as));if(x){var
+at=a[3],y=ah(jV(b,aP,function(a){return bl(m,a)},j,g,c,K,at));if(y){var
+R=y[1],au=gJ(R),av=x[1],aw=a[2],ax=function(a){return jW(b,aw,c,a)},ay=w[1],az=0,aA=jr(g),aB=k(ar(function(a){return bl(m,a)}),aA),aC=d3(g);return ff(b,M,k(ar(function(a){return bl(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
 S=y}else
 var
 S=x;var
-T=S}else
+U=S}else
 var
-T=w;var
-z=T}else
+U=w;var
+A=U}else
 var
-z=v}else
+A=v}else
 var
-z=O;return z}return U}var
+A=O;return A}return V}var
 ac=ab}else
 var
 ac=C;return ac}function
-vR(a){if(0===a[0])return ly(a[1]);var
-b=a[1],c=du(b[6]);return f(du(b[5]),c)}function
-vS(a){if(0===a[0])return lz(a[1]);var
+vS(a){if(0===a[0])return lF(a[1]);var
+b=a[1],c=dy(b[6]);return f(dy(b[5]),c)}function
+vT(a){if(0===a[0])return lG(a[1]);var
 b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-vT(a){if(0===a[0])return[0,fG(a[1]),d];var
+vU(a){if(0===a[0])return[0,fJ(a[1]),d];var
 b=a[1],c=b1(a1(b[2]));return[0,b1(a1(b[1])),c]}function
-lM(B,aM,ap,ao,z,an,g){var
-l=hv(B,aM,ap,ao);if(z){var
-C=z[2];if(C){var
+lU(B,aM,ap,ao,A,an,g){var
+l=hu(B,aM,ap,ao);if(A){var
+C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=lC(B,e(h,an));if(ar[2])return 0;var
+ar=lJ(B,e(j,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 g==="number")var
-a=0===g?vu:vv;else
+a=0===g?vx:vy;else
 if(0===g[0]){var
-c=g[2],m=g[1],H=y(vr,W(as,m)),J=0;if(H){var
+c=g[2],m=g[1],H=y(vu,V(as,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
@@ -5344,24 +5368,24 @@ n=c[1],L=0;if(n){var
 o=n[2],M=0;if(o){var
 p=o[2],N=0;if(p)if(p[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-r=c[2],az=0;if(r){var
-s=r[1],aA=0;if(s){var
+q=c[2],az=0;if(q){var
+s=q[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
-u=t[2],aC=0;if(u)if(u[2]||r[2]){var
+u=t[2],aC=0;if(u)if(u[2]||q[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
 U=[0,[0,m,[0,[0,n[1],o[1]],p[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 U=u;if(!aC)var
-V=U}else
+W=U}else
 var
-V=t;if(!aB)var
-X=V}else
+W=t;if(!aB)var
+X=W}else
 var
 X=s;if(!aA)var
 Y=X}else
 var
-Y=r;if(!az)var
+Y=q;if(!az)var
 Z=Y}else
 var
 Z=p;if(!N)var
@@ -5399,23 +5423,23 @@ a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=g[1],I=W(as,ak),O=0;if(I){var
+ak=g[1],I=V(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hH(A(lF,B),an),au=at?hG(B,ap,ao,l):at;if(au){var
-f=a[1],aN=h(D[1]),aO=h(C[1]),i=[0,h(z[1]),aO,aN],k=ar[1],P=jX(q,l,k,i);if(P)if(typeof
+at=hI(z(lM,B),an),au=at?hH(B,ap,ao,l):at;if(au){var
+f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=jY(r,l,k,i);if(P)if(typeof
 f==="number")return 0===f?aq(function(c){var
-a=jY(c,i);return a?j(q,0,[3,[0,d,b],a[1]]):a},k):je(pC,e(function(b){var
+a=jZ(c,i);return a?h(r,0,[3,[0,d,b],a[1]]):a},k):jg(pI,e(function(b){var
 a=gO(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=W(l[3],f[1]);if(E){var
-aI=E[1],aJ=jZ(f[3]);return j4(q,k,i,jZ(f[2]),aJ,aI)}return E}var
-F=W(l[3],f[1]);if(F){var
-G=W(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cJ(Q,i);return j4(q,k,i,cJ(Q,i),aL,aK)}var
+E=V(l[3],f[1]);if(E){var
+aI=E[1],aJ=j0(f[3]);return j5(r,k,i,j0(f[2]),aJ,aI)}return E}var
+F=V(l[3],f[1]);if(F){var
+G=V(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cI(Q,i);return j5(r,k,i,cI(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5430,19 +5454,19 @@ var
 ax=C;var
 ay=ax}else
 var
-ay=z;return ay}function
-lN(m,l,b,k,z,x){var
+ay=A;return ay}function
+lV(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=W(f,g),n=h?dM(h[1][2],vW):h;if(n)var
-A=d[2],i=lN(m,l,b,k,hz(0,g,f),A);else
+g=d[1],h=V(f,g),n=h?dR(h[1][2],vX):h;if(n)var
+A=d[2],i=lV(m,l,b,k,hz(0,g,f),A);else
 var
 i=n;if(i){var
 B=d[3],f=hz(1,g,f),d=B;continue}return i}var
-c=d[1],a=lw(0,m,f),o=e(function(b){function
-d(b){return lx(a,b)}function
+c=d[1],a=lD(0,m,f),o=e(function(b){function
+d(b){return lE(a,b)}function
 c(a){return hx(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lE(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=hx(function(b){return an(a,b)},q),s=b[1],j=[0,hx(function(b){return an(a,b)},s),r];else
@@ -5469,293 +5493,293 @@ h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lL(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lM(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-lO(i,g){var
-a=bS(h(i));if(a){var
+1:return lT(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lU(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+lW(h,g){var
+a=bT(j(h));if(a){var
 c=a[1],e=c8([0,d,b],c);if(e)return c8(c,g);var
 f=e}else
 var
 f=a;return f}function
-vY(o){var
-dA=fC(o[3]),dB=dA?fC(o[4]):dA;if(dB){var
-G=o[1];switch(G[0]){case
+vZ(o){var
+dw=fG(o[3]),dy=dw?fG(o[4]):dw;if(dy){var
+F=o[1];switch(F[0]){case
 3:var
-dI=n(ei,G[1]);if(dI)var
-gT=G[2],bO=n(function(a){return ei(a[1])},gT);else
+dG=n(em,F[1]);if(dG)var
+gI=F[2],bM=n(function(a){return em(a[1])},gI);else
 var
-bO=dI;if(bO)var
-gU=G[3],bP=n(function(a){var
-b=ei(a[1]),c=b?hs(a[2]):b;return c?ej(a[2]):c},gU);else
+bM=dG;if(bM)var
+gN=F[3],bN=n(function(a){var
+b=em(a[1]),c=b?hr(a[2]):b;return c?en(a[2]):c},gN);else
 var
-bP=bO;if(bP)var
-gV=G[4],aF=n(function(a){var
+bN=bM;if(bN)var
+gQ=F[4],aD=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hs(a);return b?ej(a):b},b)},gV);else
+b=hr(a);return b?en(a):b},b)},gQ);else
 var
-aF=bP;break;case
+aD=bN;break;case
 7:var
-gW=G[1],dJ=n(function(a){var
-b=ei(a[1]);return b?fD(0,[0,a[2][1],[0,a[2][2],0]]):b},gW),aF=dJ?fD(0,[0,G[5],[0,G[6],0]]):dJ;break;default:var
-aF=1}var
-bN=aF}else
+gR=F[1],dH=n(function(a){var
+b=em(a[1]);return b?fH(0,[0,a[2][1],[0,a[2][2],0]]):b},gR),aD=dH?fH(0,[0,F[5],[0,F[6],0]]):dH;break;default:var
+aD=1}var
+bL=aD}else
 var
-bN=dB;var
-cj=0;if(bN){var
-dC=o[1],dD=7===dC[0]?e(aK,dC[1]):0,dE=function(c,b){var
-a=lo(c);return a?n(function(a){var
+bL=dy;var
+ch=0;if(bL){var
+dA=o[1],dB=7===dA[0]?e(aJ,dA[1]):0,dC=function(c,b){var
+a=lu(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fC(a[2]);if(b){var
+b=fG(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fC(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},b)},b):a},dF=function(d,c,b){var
-a=lo(d);return a?fD(dD,f(c,b)):a},g=o[1];switch(g[0]){case
+1:return fG(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}},b)},b):a},dD=function(d,c,b){var
+a=lu(d);return a?fH(dB,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-gk=A(cO,g[4]),gl=f(A(uP,g[3]),gk),gm=f(ll(g[2]),gl),I=f(A(ht,g[1]),gm);break;case
+gi=z(cN,g[4]),gj=f(z(uS,g[3]),gi),gk=f(lr(g[2]),gj),H=f(z(hs,g[1]),gk);break;case
 1:var
-bK=g[5],bL=g[3],gn=A(cO,g[6]),go=bK?lm(bK[1]):bK,gp=f(go,gn),F=g[4],gq=0===F[0]?f(F[1],F[2]):[0,F[1],[0,F[2],[0,F[3],[0,F[4],[0,F[5],0]]]]],gr=f(gq,gp),gs=bL?[0,bL[1],0]:bL,gt=f(gs,gr),I=f(A(uO,g[2]),gt);break;case
+bI=g[5],bJ=g[3],gl=z(cN,g[6]),gm=bI?ls(bI[1]):bI,gn=f(gm,gl),go=f(lq(g[4]),gn),gp=bJ?[0,bJ[1],0]:bJ,gq=f(gp,go),H=f(z(uR,g[2]),gq);break;case
 2:var
-gu=A(cO,g[7]),gv=f(lm(g[6]),gu),gw=f(g[5],gv),gx=f(g[4],gw),gy=[0,g[3],gx],gz=g[2],I=f(A(function(a){return A(dq,f(a[1],a[2]))},gz),gy);break;case
+gr=z(cN,g[6]),gs=f(ls(g[5]),gr),gt=f(lq(g[4]),gs),gu=[0,g[3],gt],gv=g[2],H=f(z(function(a){return z(du,f(a[1],a[2]))},gv),gu);break;case
 3:var
-gA=A(cO,g[7]),gB=f(g[6],gA),gC=f(g[5],gB),gD=g[2],I=f(A(function(a){return dq(a[2])},gD),gC);break;case
+gw=z(cN,g[7]),gx=f(g[6],gw),gy=f(g[5],gx),gz=g[2],H=f(z(function(a){return du(a[2])},gz),gy);break;case
 4:var
-gE=A(cO,g[3]),I=[0,g[1],[0,g[2],gE]];break;case
+gA=z(cN,g[3]),H=[0,g[1],[0,g[2],gA]];break;case
 5:var
-gF=A(cO,g[4]),gG=f(bs(g[3]),gF),gH=f(bs(g[2]),gG),gM=f(A(ht,g[1]),gH),I=[0,g[5],gM];break;case
+gB=z(cN,g[4]),gC=f(bt(g[3]),gB),gD=f(bt(g[2]),gC),gE=f(z(hs,g[1]),gD),H=[0,g[5],gE];break;case
 6:var
-bM=g[1],I=bM?dq(bM[1]):bM;break;default:var
-gQ=A(cO,g[4]),gR=f(ll(g[3]),gQ),I=f(A(ht,g[2]),gR)}var
-dG=fD(dD,I);if(dG){var
-R=o[2];switch(R[0]){case
+bK=g[1],H=bK?du(bK[1]):bK;break;default:var
+gF=z(cN,g[4]),gG=f(lr(g[3]),gF),H=f(z(hs,g[2]),gG)}var
+dE=fH(dB,H);if(dE){var
+Q=o[2];switch(Q[0]){case
 0:var
-at=dE(R[1],R[3]);break;case
+as=dC(Q[1],Q[3]);break;case
 1:var
-at=dF(R[1],R[2],R[3]);break;default:var
-gS=R[1],at=n(function(a){if(typeof
+as=dD(Q[1],Q[2],Q[3]);break;default:var
+gH=Q[1],as=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dE(a[1],a[3]);case
-2:return dF(a[1],a[2],a[3])}return 1},gS)}}else{var
-dH=dG;cj=1}}else{var
-dH=bN;cj=1}if(cj)var
-at=dH;if(at){var
+1:return dC(a[1],a[3]);case
+2:return dD(a[1],a[2],a[3])}return 1},gH)}}else{var
+dF=dE;ch=1}}else{var
+dF=bL;ch=1}if(ch)var
+as=dF;if(as){var
 a=o[1];switch(a[0]){case
 0:var
-ea=a[4],eb=a[3],ee=a[2],ef=a[1],S=o[2];switch(S[0]){case
-0:return lL(0,ef,ee,eb,ea,S[1],S[2],S[3]);case
-1:return lM(ef,ee,eb,ea,S[2],S[3],S[4]);default:return 0}case
+d_=a[4],ea=a[3],eb=a[2],ec=a[1],R=o[2];switch(R[0]){case
+0:return lT(0,ec,eb,ea,d_,R[1],R[2],R[3]);case
+1:return lU(ec,eb,ea,d_,R[2],R[3],R[4]);default:return 0}case
 1:var
-aQ=a[6],aR=a[5],aT=a[4],aU=a[3],ac=a[2],C=a[1],ae=o[2];switch(ae[0]){case
+aP=a[6],aQ=a[5],aR=a[4],aS=a[3],ab=a[2],C=a[1],ac=o[2];switch(ac[0]){case
 0:var
-b0=ae[3],hf=ae[1],aP=lv(C,ac,aU,aT,aR,aQ),dU=aP[2],bV=A(vR,dU),g9=bV?[0,bV[1],bV[2]]:A(vS,dU),dT=x(b,b1(g9)),dV=e(vT,aP[2]),dW=hb(dT,dV,aP[2]),g$=i(b0),ha=aB(aV(0,i(dW)),dW),bW=cR(e(aK,cu(function(a){return gL(a[2])},ha)),g$,b0);if(bW){var
-dX=bW[1];if(dX[2])return 0;var
-d0=lI(C,ac,aU,aT,aR,aQ),d1=d0?fJ(a0(C),b0):d0;if(d1)return qt(q,hf,aP,dT,dV,dX[1]);var
-d2=d1}else
+bX=ac[3],g_=ac[1],aO=lC(C,ab,aS,aR,aQ,aP),dS=aO[2],bS=z(vS,dS),g4=bS?[0,bS[1],bS[2]]:z(vT,dS),dR=x(b,b1(g4)),dT=e(vU,aO[2]),dU=ha(dR,dT,aO[2]),g5=i(bX),g6=aK(aV(0,i(dU)),dU),bU=cQ(e(aJ,ct(function(a){return gM(a[2])},g6)),g5,bX);if(bU){var
+dV=bU[1];if(dV[2])return 0;var
+dW=lQ(C,ab,aS,aR,aQ,aP),dX=dW?fL(a0(C),bX):dW;if(dX)return qz(r,g_,aO,dR,dT,dV[1]);var
+dY=dX}else
 var
-d2=bW;return d2;case
+dY=bU;return dY;case
 1:var
-eg=ae[3],hh=ae[4],hi=ae[2],d4=typeof
-C==="number"?C?vU:vV:fI(C[1]),bX=e(h,hi),d6=lE(ac,e(h,eg));if(d6[2])return 0;var
-d7=hH(A(lH,ac),eg),d8=d7?lI(C,ac,aU,aT,aR,aQ):d7;if(d8)var
-hc=a0(C),bZ=t(i(bX),hc);else
+ed=ac[3],g$=ac[4],hb=ac[2],dZ=typeof
+C==="number"?C?vV:vW:hF(C[1]),bV=e(j,hb),d0=lL(ab,e(j,ed));if(d0[2])return 0;var
+d1=hI(z(lP,ab),ed),d2=d1?lQ(C,ab,aS,aR,aQ,aP):d1;if(d2)var
+g7=a0(C),bW=v(i(bV),g7);else
 var
-bZ=d8;if(bZ){var
-he=hC(hh),p=eN(d4,bX),z=a_(c7(d4,bX)),ab=d6[1],K=lv(C,ac,aU,aT,aR,aQ),cF=kN(q,K[2],ab);if(cF){var
-cC=gN(q,K[4],z),ck=0;if(cC){var
-cD=K[5];if(cD)var
-ba=ko(q,cD[1],p);else
+bW=d2;if(bW){var
+g8=hC(g$),p=eR(dZ,bV),A=a8(c7(dZ,bV)),$=d0[1],J=lC(C,ab,aS,aR,aQ,aP),cD=kR(r,J[2],$);if(cD){var
+cA=d8(r,J[4],A),ci=0;if(cA){var
+cB=J[5];if(cB)var
+a_=ko(r,cB[1],p);else
 if(p)var
-ba=0;else{var
-cE=1;ck=1}}else{var
-cE=cC;ck=1}if(ck)var
-ba=cE;var
-bc=ba}else
+a_=0;else{var
+cC=1;ci=1}}else{var
+cC=cA;ci=1}if(ci)var
+a_=cC;var
+ba=a_}else
 var
-bc=cF;if(bc){var
-v=K[5],cG=K[3],ay=K[1],fh=K[6],e_=e(function(a){if(0===a[0]){var
-d=bY(v,p,z,a),c=gO(a[1],d);return[0,kL(ay,c,ap([5,[0,b,b],cG],d5(g_(v,p,fq(a)),c)))]}return 0},ab),e$=A(function(a){if(0===a[0]){var
-c=bY(v,p,z,a),b=jY(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bY(v,p,z,a);return[0,ke(a[1],e),0]},ab),fb=e(function(d){var
-b=bY(v,p,z,d);if(0===d[0]){var
+ba=cD;if(ba){var
+u=J[5],cE=J[3],ax=J[1],fc=J[6],e8=e(function(a){if(0===a[0]){var
+d=bY(u,p,A,a),c=gO(a[1],d);return[0,kP(ax,c,ap([5,[0,b,b],cE],d$(g9(u,p,fu(a)),c)))]}return 0},$),e9=z(function(a){if(0===a[0]){var
+c=bY(u,p,A,a),b=jZ(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bY(u,p,A,a);return[0,ke(a[1],e),0]},$),e$=e(function(d){var
+b=bY(u,p,A,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=ap(i,au(e)),l=d3(e,h,g,b);return[0,[0,kM(ay,$(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fi(c,b),o=kh(c,b),q=c[4],r=$(function(b,a){return[2,b,a]},b,q);return[0,[0,kM(ay,$(function(b,a){return[3,b,a]},r,o)),n,m]]},ab),fd=e(function(a){if(0===a[0]){var
-c=bY(v,p,z,a);return[0,gP(a[1],c)]}var
-b=a[1],d=kg(b,bY(v,p,z,a));return[1,kf(b,bY(v,p,z,a)),d]},ab),fg=[0,e(function(a){if(0===a[0])var
-k=bY(v,p,z,a),d=cJ(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cG(e,h,g,f,b),i=cH(a[5],j),k=ap(i,av(e)),l=d9(e,h,g,b);return[0,[0,kQ(ax,aa(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fm(c,b),o=kh(c,b),q=c[4],r=aa(function(b,a){return[2,b,a]},b,q);return[0,[0,kQ(ax,aa(function(b,a){return[3,b,a]},r,o)),n,m]]},$),fa=e(function(a){if(0===a[0]){var
+c=bY(u,p,A,a);return[0,gP(a[1],c)]}var
+b=a[1],d=kg(b,bY(u,p,A,a));return[1,kf(b,bY(u,p,A,a)),d]},$),fb=[0,e(function(a){if(0===a[0])var
+k=bY(u,p,A,a),d=cI(a[1],k);else
 var
-e=bY(v,p,z,a),c=a[1],f=kh(c,e),g=c[4],h=$(function(b,a){return[2,b,a]},e,g),i=$(function(b,a){return[3,b,a]},h,f),j=fi(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kL(ay,d,ap([5,[0,b,b],cG],d5(g_(v,p,fq(a)),d)))},ab),fd,fb,e$,e_];return kb(q,a0(K[1]),fg,fh,he)}return bc}return bZ;default:return 0}case
+e=bY(u,p,A,a),c=a[1],f=kh(c,e),g=c[4],h=aa(function(b,a){return[2,b,a]},e,g),i=aa(function(b,a){return[3,b,a]},h,f),j=fm(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kP(ax,d,ap([5,[0,b,b],cE],d$(g9(u,p,fu(a)),d)))},$),fa,e$,e9,e8];return kb(r,a0(J[1]),fb,fc,g8)}return ba}return bW;default:return 0}case
 2:var
-aW=a[7],aX=a[6],aY=a[5],aZ=a[4],a2=a[3],af=a[2],ai=a[1],ak=o[2];switch(ak[0]){case
+aT=a[6],aU=a[5],aW=a[4],aX=a[3],ad=a[2],ag=a[1],ai=o[2];switch(ai[0]){case
 0:var
-b2=ak[3],eh=lt(ai,af,a2,aZ,aY,aX,aW),b3=cR(0,i(b2),b2);if(b3){var
-ek=b3[1];if(ek[2])return 0;var
-em=lG(ai,af,a2,aZ,aY,aX,aW),en=em?fJ(dk(ai),b2):em;if(en){var
-hj=ek[1],hk=eh[2],hl=x(b,b1(A(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},hk)));return p9(q,ak[1],eh,hl,hj)}var
-eo=en}else
+bZ=ai[3],ee=lA(ag,ad,aX,aW,aU,aT),b0=cQ(0,i(bZ),bZ);if(b0){var
+ef=b0[1];if(ef[2])return 0;var
+ei=lO(ag,ad,aX,aW,aU,aT),ej=ei?fL(dl(ag),bZ):ei;if(ej){var
+hd=ef[1],he=ee[2],hg=x(b,b1(z(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},he)));return qd(r,ai[1],ee,hg,hd)}var
+ek=ej}else
 var
-eo=b3;return eo;case
+ek=b0;return ek;case
 1:var
-ep=ak[3],eq=e(h,ak[2]),er=fI(ai),es=lD(af,e(h,ep));if(es[2])return 0;var
-et=hH(A(function(a){return f(a[1],a[2])},af),ep),eu=et?lG(ai,af,a2,aZ,aY,aX,aW):et;if(eu){var
-hm=hC(ak[4]),T=eN(er,eq),av=a_(c7(er,eq)),al=es[1],M=lt(ai,af,a2,aZ,aY,aX,aW),ax=M[2],V=al;for(;;){if(ax){if(V){var
-cq=V[1],cr=ax[1],cs=aS(q,cr[1],cq[1]),ct=cs?aS(q,cr[2],cq[2]):cs;if(ct){var
-ax=ax[2],V=V[2];continue}var
-cv=ct}else
+el=ai[3],eo=e(j,ai[2]),eq=hF(ag),er=lK(ad,e(j,el));if(er[2])return 0;var
+es=hI(z(function(a){return f(a[1],a[2])},ad),el),et=es?lO(ag,ad,aX,aW,aU,aT):es;if(et){var
+hh=hC(ai[4]),S=eR(eq,eo),at=a8(c7(eq,eo)),ak=er[1],K=lA(ag,ad,aX,aW,aU,aT),aw=K[2],W=ak;for(;;){if(aw){if(W){var
+co=W[1],cp=aw[1],cq=aY(r,cp[1],co[1]),cr=cq?aY(r,cp[2],co[2]):cq;if(cr){var
+aw=aw[2],W=W[2];continue}var
+cs=cr}else
 var
-cv=V;var
-a$=cv}else
+cs=W;var
+a6=cs}else
 var
-a$=V?0:1;var
-cw=a$?aS(q,M[4],av):a$,cy=cw?ko(q,M[5],T):cw;if(cy){var
-X=M[5],cz=M[3],cB=M[1],e9=M[6],cp=function(a){var
-b=fk(X,T,av,a);return O(fk(X,T,av,a),b)},e3=e(function(c){var
-a=fk(X,T,av,c);return[0,gZ(cB,a,ap([5,[0,b,b],cz],d5(fj(X,T,c[2]),a)))]},al),e4=e(cp,al),e6=e(function(a){return 0},al),e7=e(function(a){return[0,[6,cp(a)]]},al),e8=[0,e(function(c){var
-a=au(fk(X,T,av,c));return gZ(cB,a,ap([5,[0,b,b],cz],d5(fj(X,T,c[2]),a)))},al),e7,e6,e4,e3];return kb(q,dk(M[1]),e8,e9,hm)}return cy}}return eu;default:return 0}case
+a6=W?0:1;var
+cu=a6?d8(r,K[4],at):a6,cv=cu?ko(r,K[5],S):cu;if(cv){var
+X=K[5],cx=K[3],cy=K[1],e7=K[6],cn=function(a){var
+b=fo(X,S,at,a);return O(fo(X,S,at,a),b)},e2=e(function(c){var
+a=fo(X,S,at,c);return[0,g0(cy,a,ap([5,[0,b,b],cx],d$(fn(X,S,c[2]),a)))]},ak),e3=e(cn,ak),e4=e(function(a){return 0},ak),e5=e(function(a){return[0,[6,cn(a)]]},ak),e6=[0,e(function(c){var
+a=av(fo(X,S,at,c));return g0(cy,a,ap([5,[0,b,b],cx],d$(fn(X,S,c[2]),a)))},ak),e5,e4,e3,e2];return kb(r,dl(K[1]),e6,e7,hh)}return cv}}return et;default:return 0}case
 3:var
-U=a[7],ev=a[6],ew=a[5],w=a[4],ex=a[2],b4=a[1],a3=o[2];if(0===a3[0]){var
-b5=a3[3],b6=cR(0,i(b5),b5);if(b6){var
-ey=b6[1];if(ey[2])return 0;var
-aO=i(b4),g4=i(ev),dO=t(i(ew),g4),dP=dO?n(function(a){if(11===a[1]){if(typeof
+U=a[7],eu=a[6],ev=a[5],w=a[4],ew=a[2],b2=a[1],aZ=o[2];if(0===aZ[0]){var
+b3=aZ[3],b4=cQ(0,i(b3),b3);if(b4){var
+ex=b4[1];if(ex[2])return 0;var
+aN=i(b2),gY=i(eu),dM=v(i(ev),gY),dN=dM?n(function(a){if(11===a[1]){if(typeof
 a[4]==="number"){if(a[2])var
-c=a9(aO,i(w),a);else
+c=a7(aN,i(w),a);else
 var
-h=a[3]?a9(aO,i(w),a):1,c=h;var
+h=a[3]?a7(aN,i(w),a):1,c=h;var
 d=c}else
 var
-d=a9(aO,i(w),a);var
+d=a7(aN,i(w),a);var
 b=d}else
 var
-b=a9(aO,i(w),a);if(b){var
+b=a7(aN,i(w),a);if(b){var
 e=a[1];if(1===e){var
-f=a[2],g=f?[0,by(f[1]),0]:aV(0,i(w));return n(function(b){var
-a=W(w,b);return a?0===a[1][0]?0:1:a},g)}return 11===e?n(function(a){return 0===a[0]?0:1},w):1}return b},U):dO,dQ=dP?fH(U):dP,dR=dQ?n(function(a){return el(a[2])},ex):dQ,ez=dR?n(hE,dt(0,i(w),U)):dR,eA=ez?fJ(i(b4),b5):ez;if(eA){var
-hn=ey[1],ho=a[3],dK=aq(hw,U),aH=dt(0,i(w),U),gX=aB(ew,ev),bQ=e(function(a){var
-b=h(a[2]);return[0,h(a[1]),b]},gX),gY=e(function(a){return 0===a[0]?[0,e(cn,a[1])]:[1,cn(a[1])]},w),g0=e(function(a){var
-b=cn(a[2]);return[0,a[1],b]},ho),m=[0,b4,e(function(a){var
-b=bt(a[2]);return[0,a[1],b]},ex),g0,gY],hp=i(w),g5=lJ(U),g6=0,g7=i(A(function(a){return ls(g6,hp,a)},g5)),bU=A(lr,U),g8=bU?[0,bU[1],bU[2]]:vP,dS=N(i(g8),g7),eB=lK(a3[2]),aw=a3[1],f1=e(aK,m[2]),bq=f(m[1],f1),bu=i(m[1]),c4=_(qu,bu),c5=c4?_(bu,qv):c4,c6=c5?_(bu,i(m[4])):c5,c9=c6?_(i(m[4]),qw):c6,c$=c9?k6(bq):c9;if(c$){var
-aD=bq,aC=m[3];for(;;){if(aC){var
-c0=aC[1],c1=c0[1],c2=aj(aq(function(b){return function(a){return am(b,a)}}(c1),aD)),c3=c2?hg(aD,c0[2]):c2;if(c3){var
-aD=[0,c1,aD],aC=aC[2];continue}var
-da=c3}else
+f=a[2],g=f?[0,bz(f[1]),0]:aV(0,i(w));return n(function(b){var
+a=V(w,b);return a?0===a[1][0]?0:1:a},g)}return 11===e?n(function(a){return 0===a[0]?0:1},w):1}return b},U):dM,dO=dN?fK(U):dN,dP=dO?n(function(a){return ep(a[2])},ew):dO,ey=dP?n(hE,dx(0,i(w),U)):dP,ez=ey?fL(i(b2),b3):ey;if(ez){var
+hi=ex[1],hj=a[3],dI=aq(hv,U),aE=dx(0,i(w),U),gS=aK(ev,eu),bO=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},gS),gT=e(function(a){return 0===a[0]?[0,e(cm,a[1])]:[1,cm(a[1])]},w),gU=e(function(a){var
+b=cm(a[2]);return[0,a[1],b]},hj),m=[0,b2,e(function(a){var
+b=bu(a[2]);return[0,a[1],b]},ew),gU,gT],hk=i(w),gZ=lR(U),g1=0,g2=i(z(function(a){return ly(g1,hk,a)},gZ)),bR=z(lx,U),g3=bR?[0,bR[1],bR[2]]:vQ,dQ=N(i(g3),g2),eA=lS(aZ[2]),au=aZ[1],fZ=e(aJ,m[2]),bn=f(m[1],fZ),bo=i(m[1]),c2=Z(qA,bo),c3=c2?Z(bo,qB):c2,c4=c3?Z(bo,i(m[4])):c3,c5=c4?Z(i(m[4]),qC):c4,c6=c5?k_(bn):c5;if(c6){var
+aB=bn,aA=m[3];for(;;){if(aA){var
+cY=aA[1],cZ=cY[1],c0=aj(aq(function(b){return function(a){return am(b,a)}}(cZ),aB)),c1=c0?hf(aB,cY[2]):c0;if(c1){var
+aB=[0,cZ,aB],aA=aA[2];continue}var
+c9=c1}else
 var
-da=1;var
-bv=da;break}}else
+c9=1;var
+bp=c9;break}}else
 var
-bv=c$;if(bv)var
-f2=m[4],bw=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aK,m[3]),bq);return n(function(a){return hg(c,a)},b)},f2);else
+bp=c6;if(bp)var
+f0=m[4],br=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return n(function(a){return hf(c,a)},b)},f0);else
 var
-bw=bv;if(bw)var
-f3=m[2],bx=n(function(a){return a8(q,a[2][1],a[2][2])},f3);else
+br=bp;if(br)var
+f1=m[2],bv=n(function(a){return a9(r,a[2][1],a[2][2])},f1);else
 var
-bx=bw;var
-db=bx?n(function(a){return a8(q,a[1],a[2])},bQ):bx;if(db){var
-be=i(m[1]),bf=i(m[2]),cM=N(bf,i(hd(e(b9,m[3])))),fp=m[3],ao=k5(m),az=fp,bd=bf;for(;;){if(az){var
-cK=az[1],cL=cK[2],fl=N(bd,i(br(cL))),fm=az[2],fn=bb(ao,cL,bd),ao=[0,[0,cK[1],fn],ao],az=fm,bd=fl;continue}var
-Q=k2(be,ao,m[4],cM),ft=k1(ao,m[4],cM),fu=m[3],cN=f(kY(k5(m),fu,bf),ft),cP=i(k4(m)),fv=0,fy=f(cN,ed(function(a,b){return kU(Q,a,b)},fv,d,cP,aH)),fz=f(bE(ec(Q)),fy),cQ=f(bE(fs(Q)),fz),bg=c_(cQ)[1],fA=cA(bg),aa=function(a){return bl(fA,a)},cS=t(i(bQ),be);if(cS)var
-fB=m[4],bh=n(function(a){return 0===a[0]?t(i(a[1]),be):1},fB);else
+bv=br;var
+c$=bv?n(function(a){return a9(r,a[1],a[2])},bO):bv;if(c$){var
+bc=i(m[1]),bd=i(m[2]),cK=N(bd,i(hc(e(b8,m[3])))),fl=m[3],an=k9(m),ay=fl,bb=bd;for(;;){if(ay){var
+cF=ay[1],cJ=cF[2],fd=N(bb,i(bs(cJ))),fe=ay[2],fg=a$(an,cJ,bb),an=[0,[0,cF[1],fg],an],ay=fe,bb=fd;continue}var
+P=k6(bc,an,m[4],cK),fp=k5(an,m[4],cK),fq=m[3],cL=f(k2(k9(m),fq,bd),fp),cM=i(k8(m)),fr=0,fs=f(cL,eh(function(a,b){return kY(P,a,b)},fr,d,cM,aE)),ft=f(bF(eg(P)),fs),cO=f(bF(fw(P)),ft),be=c_(cO)[1],fx=cz(be),_=function(a){return bl(fx,a)},cP=v(i(bO),bc);if(cP)var
+fy=m[4],bf=n(function(a){return 0===a[0]?v(i(a[1]),bc):1},fy);else
 var
-bh=cS;var
-cT=bh?n(function(a){var
-b=l(d),c=cA(bg);return aL(u(aa(a),c,b),a)},cQ):bh,cU=cT?aq(kX,aH):cT;if(cU){var
-cV=aj(dK);if(cV)var
-aA=cV;else
+bf=cP;var
+cR=bf?n(function(a){var
+b=l(d),c=cz(be);return aM(t(_(a),c,b),a)},cO):bf,cS=cR?aq(k1,aE):cR;if(cS){var
+cT=aj(dI);if(cT)var
+az=cT;else
 var
-f0=m[4],aA=n(function(a){return 0===a[0]?0:1},f0)}else
+fY=m[4],az=n(function(a){return 0===a[0]?0:1},fY)}else
 var
-aA=cU;if(aA){var
-fE=k4(m),bi=ah(e(function(a){return ag(aw,a)},fE));if(bi){var
-fK=0,fL=A(function(a){return fr(fK,d,a)},aH),bj=ah(e(function(a){return kV(aw,a)},fL));if(bj){var
-bk=ah(e(function(a){return ag(aw,[0,a,d])},bQ));if(bk){var
-fM=0,fN=0,bm=ah(ed(function(a,b){return kW(aw,aa,Q,fN,d,a,b)},fM,d,cP,aH));if(bm){var
-bn=bm[1];if(dK)var
-fO=eB[2],fP=eB[1],fQ=ec(Q),fR=[8,k(as(aa),fQ),fP,fO],fo=[0,fR,eN(dS,bn)],bo=f(c7(dS,bn),fo);else
+az=cS;if(az){var
+fz=k8(m),bg=ah(e(function(a){return af(au,a)},fz));if(bg){var
+fC=0,fD=z(function(a){return fv(fC,d,a)},aE),bh=ah(e(function(a){return kZ(au,a)},fD));if(bh){var
+bi=ah(e(function(a){return af(au,[0,a,d])},bO));if(bi){var
+fE=0,fF=0,bj=ah(eh(function(a,b){return k0(au,_,P,fF,d,a,b)},fE,d,cM,aE));if(bj){var
+bk=bj[1];if(dI)var
+fM=eA[2],fN=eA[1],fO=eg(P),fP=[8,k(ar(_),fO),fN,fM],fi=[0,fP,eR(dQ,bk)],bm=f(c7(dQ,bk),fi);else
 var
-bo=bn;var
-fS=gI(bo),fT=bk[1],fU=function(a){return 0},fV=f(bi[1],bj[1]),fW=e(aa,cN),fX=ec(Q),fY=k(as(aa),fX),fZ=fs(Q);return fa(aw,bg,k(as(aa),fZ),fY,fW,fV,bo,fU,fT,fS,hn)}var
-cW=bm}else
+bm=bk;var
+fQ=gJ(bm),fR=bi[1],fS=function(a){return 0},fT=f(bg[1],bh[1]),fU=e(_,cL),fV=eg(P),fW=k(ar(_),fV),fX=fw(P);return ff(au,be,k(ar(_),fX),fW,fU,fT,bm,fS,fR,fQ,hi)}var
+cU=bj}else
 var
-cW=bk;var
+cU=bi;var
+cV=cU}else
+var
+cV=bh;var
+cW=cV}else
+var
+cW=bg;var
 cX=cW}else
 var
-cX=bj;var
-cY=cX}else
+cX=az;return cX}}return c$}var
+eB=ez}else
 var
-cY=bi;var
-cZ=cY}else
-var
-cZ=aA;return cZ}}return db}var
-eC=eA}else
-var
-eC=b6;return eC}return 0;case
+eB=b4;return eB}return 0;case
 4:if(0===o[2][0]){var
-eD=dv(h(a[1]));if(eD){var
-a4=a[3],cl=0;if(a4){var
-aI=a4[1],aJ=aI[4],J=a4[2];if(aI[1]||aI[2]||aI[3])var
+eC=dz(j(a[1]));if(eC){var
+a2=a[3],cj=0;if(a2){var
+aG=a2[1],aH=aG[4],I=a2[2];if(aG[1]||aG[2]||aG[3])var
 s=0;else{var
 D=0;if(typeof
-aJ!=="number")switch(aJ[0]){case
+aH!=="number")switch(aH[0]){case
 0:var
-a6=0;if(J){var
-aM=J[1],bR=aM[4];if(aM[1]||aM[2]||aM[3]){var
-s=0;D=1;a6=1}else{var
-cm=0;if(typeof
-bR!=="number"&&1===bR[0])if(J[2]){var
-s=0;D=1;a6=1;cm=1}else{var
-g1=h(bR[1]),s=[0,[0,h(aJ[1]),g1]];D=1;a6=1;cm=1}if(!cm)var
-dM=0}}else
+a4=0;if(I){var
+aI=I[1],bP=aI[4];if(aI[1]||aI[2]||aI[3]){var
+s=0;D=1;a4=1}else{var
+ck=0;if(typeof
+bP!=="number"&&1===bP[0])if(I[2]){var
+s=0;D=1;a4=1;ck=1}else{var
+gV=j(bP[1]),s=[0,[0,j(aH[1]),gV]];D=1;a4=1;ck=1}if(!ck)var
+dK=0}}else
 var
-dM=J;if(!a6){var
-s=dM;D=1}break;case
+dK=I;if(!a4){var
+s=dK;D=1}break;case
 1:var
-a7=0;if(J){var
-aN=J[1],bT=aN[4];if(aN[1]||aN[2]||aN[3]){var
-s=0;D=1;a7=1}else{var
-co=0;if(typeof
-bT!=="number"&&0===bT[0])if(J[2]){var
-s=0;D=1;a7=1;co=1}else{var
-g2=h(aJ[1]),s=[0,[0,h(bT[1]),g2]];D=1;a7=1;co=1}if(!co)var
-dN=0}}else
+a5=0;if(I){var
+aL=I[1],bQ=aL[4];if(aL[1]||aL[2]||aL[3]){var
+s=0;D=1;a5=1}else{var
+cl=0;if(typeof
+bQ!=="number"&&0===bQ[0])if(I[2]){var
+s=0;D=1;a5=1;cl=1}else{var
+gW=j(aH[1]),s=[0,[0,j(bQ[1]),gW]];D=1;a5=1;cl=1}if(!cl)var
+dL=0}}else
 var
-dN=J;if(!a7){var
-s=dN;D=1}break}if(!D){var
-dL=0;cl=1}}}else{var
-dL=a4;cl=1}if(cl)var
-s=dL;if(s){var
-eE=s[1],eF=eE[2],eG=eE[1],dg=j(q,1,h(a[2])),dh=dg?j(q,1,[3,eF,[0,b,b]]):dg,dj=dh?j(q,1,eG):dh;return dj?j(q,0,[3,[5,[0,b,b],eF],eG]):dj}var
-eH=s}else
+dL=I;if(!a5){var
+s=dL;D=1}break}if(!D){var
+dJ=0;cj=1}}}else{var
+dJ=a2;cj=1}if(cj)var
+s=dJ;if(s){var
+eD=s[1],eE=eD[2],eF=eD[1],de=h(r,1,j(a[2])),df=de?h(r,1,[3,eE,[0,b,b]]):de,dg=df?h(r,1,eF):df;return dg?h(r,0,[3,[5,[0,b,b],eE],eF]):dg}var
+eG=s}else
 var
-eH=eD;return eH}return 0;case
+eG=eC;return eG}return 0;case
 5:var
-b7=a[4],eI=a[1],b8=o[2];if(0===b8[0]){var
-eJ=b8[3],r=hv(eI,[0,a[2],a[3]],0,b7),b_=hD(i(eJ),eJ);if(b_){var
-eK=b_[1];if(eK[2])return 0;var
-eL=hG(eI,0,b7,r),eM=eL?aj(aq(hw,b7)):eL;if(eM){var
-eO=j7(q,r);if(eO){var
-hq=eK[1],eP=e(fG,r[1]),B=hA(r[1]),eQ=h(a[5]),P=b8[1],bC=fc(B,eP,r[1]),E=gJ(B,eP,r[1],0),f8=i(r[3]),f9=N(i(bC),f8),aE=[0,i(bC),f9],f_=gK(E,B,aE,r[3]),f$=f(e(dc,E),f_),dp=f(bE(dY(E)),f$),dr=c_(dp)[1],bF=cA(dr),ds=r[2];if(0===ds[0]){var
-du=n(function(a){var
-b=l(d);return aL(u(bl(bF,a),bF,b),a)},dp),dw=du?j(q,1,eQ):du;if(dw){var
-ga=r[3],gb=A(function(a){return di(B,a)},ga),gc=r[3],gd=f(bC,f(e(function(a){return bp(B,a)},gc),gb)),bG=ah(e(function(a){return ag(P,a)},gd));if(bG){var
-ge=aG(ds[1],B),bH=ah(e(function(a){return ag(P,a)},ge));if(bH){var
-bI=cf(P,B,[5,eQ,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bI){var
-bJ=r[3],gf=bH[1],gg=bI[1],gh=bG[1],ar=function(a){return bl(bF,a)},f5=aV(0,i(bJ)),f6=e(function(h){var
-l=W(bJ,h);if(l){var
-a=l[1],u=c7(h,bJ),v=i(A(function(a){return di(B,a)},u)),w=N(aE[2],v),g=[0,N(aE[1],h),w],r=dY(E),f=k(as(ar),r),c=[1,[8,[1,[1,g[1]]]]],d=ff(E,B,g,a),n=d?[0,[3,e(ar,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b5=a[4],eH=a[1],b6=o[2];if(0===b6[0]){var
+eI=b6[3],q=hu(eH,[0,a[2],a[3]],0,b5),b7=hD(i(eI),eI);if(b7){var
+eJ=b7[1];if(eJ[2])return 0;var
+eK=hH(eH,0,b5,q),eL=eK?aj(aq(hv,b5)):eK;if(eL){var
+eM=j7(r,q);if(eM){var
+hl=eJ[1],eN=e(fJ,q[1]),B=hA(q[1]),eO=j(a[5]),L=b6[1],by=fh(B,eN,q[1]),E=gK(B,eN,q[1],0),f6=i(q[3]),f7=N(i(by),f6),aC=[0,i(by),f7],f8=gL(E,B,aC,q[3]),f9=f(e(dc,E),f8),dm=f(bF(d3(E)),f9),dn=c_(dm)[1],bA=cz(dn),dp=q[2];if(0===dp[0]){var
+dq=n(function(a){var
+b=l(d);return aM(t(bl(bA,a),bA,b),a)},dm),dr=dq?h(r,1,eO):dq;if(dr){var
+f_=q[3],f$=z(function(a){return di(B,a)},f_),ga=q[3],gb=f(by,f(e(function(a){return bq(B,a)},ga),f$)),bB=ah(e(function(a){return af(L,a)},gb));if(bB){var
+gc=aF(dp[1],B),bD=ah(e(function(a){return af(L,a)},gc));if(bD){var
+bG=ce(L,B,[5,eO,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bG){var
+bH=q[3],gd=bD[1],ge=bG[1],gf=bB[1],ao=function(a){return bl(bA,a)},f3=aV(0,i(bH)),f4=e(function(j){var
+l=V(bH,j);if(l){var
+a=l[1],u=c7(j,bH),v=i(z(function(a){return di(B,a)},u)),w=N(aC[2],v),g=[0,N(aC[1],j),w],r=d3(E),f=k(ar(ao),r),c=[1,[8,[1,[1,g[1]]]]],d=fk(E,B,g,a),n=d?[0,[3,e(ao,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=j(P,1,a[2]),s=o?n:o;return s;case
+o=h(L,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=j(P,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(L,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -5763,26 +5787,26 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fe(E,B,g,a);return y(function(a){return[0,k(as(ar),a),q]},t)}return 0}return l},f5),f7=e(function(a){return ar(dc(a))},E),dl=e(function(a){return ar(a[2])},E),gi=r[3],gj=aE[1],dm=e(ad,gh),dn=function(az,ay){var
+t=fj(E,B,g,a);return y(function(a){return[0,k(ar(ao),a),q]},t)}return 0}return l},f3),f5=e(function(a){return ao(dc(a))},E),dh=e(function(a){return ao(a[2])},E),gg=q[3],gh=aC[1],dj=e(ae,gf),dk=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=t(i(s),qF),ab=aa?n(function(a){var
-d=H(L(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
-ac=le(P,gg,e5(0,l),s),j=h[2],v=bB(0,ce(P,ac,dm),dr,0),M=function(a){return ld(lc(P,ac,dm,v,a))};if(typeof
+s=h[1],aa=v(i(s),qL),ab=aa?n(function(a){var
+d=G(M(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
+ac=li(L,ge,e_(0,l),s),j=h[2],u=bC(0,cd(L,ac,dj),dn,0),O=function(a){return lh(lg(L,ac,dj,u,a))};if(typeof
 j==="number")return 0===j?aq(function(b){var
-a=u(b,v,0);return a?H(a[1][2][2],d):a},dl):0;else{if(0===j[0]){var
-a=j[2],O=n(qD,a);if(O){var
-o=u(j[1],f6,0);if(o){var
+a=t(b,u,0);return a?G(a[1][2][2],d):a},dh):0;else{if(0===j[0]){var
+a=j[2],P=n(qJ,a);if(P){var
+o=t(j[1],f4,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fx(B,A),an=fw(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fB(B,A),an=fA(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fw(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fx(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fA(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fB(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5790,7 +5814,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=fw(I),as=[1,[6,fx(m,G),ar]],at=[1,[6,g[2],as]],au=fw(G),J=[0,[0,m,[0,[1,[4,[1,[6,fx(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fA(I),as=[1,[6,fB(m,H),ar]],at=[1,[6,g[2],as]],au=fA(H),J=[0,[0,m,[0,[1,[4,[1,[6,fB(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -5799,7 +5823,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return ld(u(a[2],v,0))},aw);if(R)return n(M,Q[2]);var
+Q=f[1],aw=Q[1],R=n(function(a){return lh(t(a[2],u,0))},aw);if(R)return n(O,Q[2]);var
 S=R}else
 var
 S=f;var
@@ -5808,116 +5832,116 @@ var
 T=o;var
 U=T}else
 var
-U=O;return U}var
-V=j[2],X=j[1],p=W(gi,X);if(p){var
+U=P;return U}var
+W=j[2],X=j[1],p=V(gg,X);if(p){var
 Z=p[1];if(typeof
 Z!=="number"&&1===Z[0]){var
-q=W(dl,V);if(q){var
-r=W(f7,V);if(r){var
-ax=N(gj,X);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+q=V(dh,W);if(q){var
+r=V(f5,W);if(r){var
+ax=N(gh,X);return O([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
 _=0}else
 var
 _=p;return _}}return ab}var
-ad=h[1],w=W(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=aj(Y(bD(ae),aA));if(af){var
-ag=dZ(ad,l),ah=dn(ag[1],h[2]);if(ah){var
+ad=h[1],w=V(l,ad);if(w){var
+ae=w[1],aA=ae[1],af=aj(Y(bE(ae),aA));if(af){var
+ag=d4(ad,l),ah=dk(ag[1],h[2]);if(ah){var
 l=ag[2],h=h[3];continue}var
 ai=ah}else
 var
 ai=af;var
 ak=ai}else
 var
-ak=w;return ak}};return dn(gf,hq)}var
-dx=bI}else
+ak=w;return ak}};return dk(gd,hl)}var
+ds=bG}else
 var
-dx=bH;var
-dy=dx}else
+ds=bD;var
+dt=ds}else
 var
-dy=bG;var
-dz=dy}else
+dt=bB;var
+dv=dt}else
 var
-dz=dw;return dz}return 0}var
-eR=eO}else
+dv=dr;return dv}return 0}var
+eP=eM}else
 var
-eR=eM;var
-eS=eR}else
+eP=eL;var
+eQ=eP}else
 var
-eS=b_;return eS}return 0;case
+eQ=b7;return eQ}return 0;case
 6:var
-eT=a[1];if(eT){var
-eU=eT[1],b$=o[2];if(0===b$[0]){var
-ca=hB(0,vZ,b$[3]);if(ca){var
-eV=el(eU);if(eV){var
-hr=ca[1],eW=bt(eU)[2],a5=b$[1],bz=cf(a5,d,eW);if(bz){var
-bA=cf(a5,d,[5,[0,b,b],eW]);if(bA){var
-f4=bz[1][1],dd=Z(cx(a5),f4);if(dd)return lb(a5,bA[1][1],hr);var
-de=dd}else
+eS=a[1];if(eS){var
+eT=eS[1],b9=o[2];if(0===b9[0]){var
+b_=hB(0,v0,b9[3]);if(b_){var
+eU=ep(eT);if(eU){var
+hm=b_[1],eV=bu(eT)[2],a3=b9[1],bw=ce(a3,d,eV);if(bw){var
+bx=ce(a3,d,[5,[0,b,b],eV]);if(bx){var
+f2=bw[1][1],da=T(cw(a3),f2);if(da)return lf(a3,bx[1][1],hm);var
+db=da}else
 var
-de=bA;var
-df=de}else
+db=bx;var
+dd=db}else
 var
-df=bz;return df}var
-eX=eV}else
+dd=bw;return dd}var
+eW=eU}else
 var
-eX=ca;return eX}return 0}var
-cb=o[2];if(0===cb[0]){var
-cc=hB(0,v0,cb[3]);return cc?lb(cb[1],d,cc[1]):cc}return 0;default:var
-an=a[1],eY=o[2];if(2===eY[0]){var
-eZ=eY[1],cd=hy(i(eZ),eZ);if(cd){var
-e0=cd[1];if(e0[2])return 0;var
-cg=e0[1],d9=_(vX,i(an)),d_=d9?_(i(an),i0):d9,d$=d_?k6(e(aK,an)):d_,e1=d$?n(function(c){var
-a=bS(h(c[2][1]));if(a){var
-b=bS(h(c[2][2]));if(b)return aj(c8(b[1],a[1]));var
+eW=b_;return eW}return 0}var
+b$=o[2];if(0===b$[0]){var
+ca=hB(0,v1,b$[3]);return ca?lf(b$[1],d,ca[1]):ca}return 0;default:var
+al=a[1],eX=o[2];if(2===eX[0]){var
+eY=eX[1],cb=hy(i(eY),eY);if(cb){var
+eZ=cb[1];if(eZ[2])return 0;var
+cc=eZ[1],d5=Z(vY,i(al)),d6=d5?Z(i(al),i2):d5,d7=d6?k_(e(aJ,al)):d6,e0=d7?n(function(c){var
+a=bT(j(c[2][1]));if(a){var
+b=bT(j(c[2][2]));if(b)return aj(c8(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},an):d$;if(e1)var
-hu=fF(u4,cg),ch=lO(a[5],hu);else
+d=a;return d},al):d7;if(e0)var
+hn=fI(u7,cc),cf=lW(a[5],hn);else
 var
-ch=e1;if(ch)var
-hx=fF(u5,cg),ci=lO(a[6],hx);else
+cf=e0;if(cf)var
+ho=fI(u8,cc),cg=lW(a[6],ho);else
 var
-ci=ch;if(ci){var
-g3=e(function(a){return[0,d,0]},an);return lN(an,a[2],a[3],a[4],g3,cg)}var
-e2=ci}else
+cg=cf;if(cg){var
+gX=e(function(a){return[0,d,0]},al);return lV(al,a[2],a[3],a[4],gX,cc)}var
+e1=cg}else
 var
-e2=cd;return e2}return 0}}return at}var
-K=[aI,v3,n2(0)],lP=[aI,v4,n2(0)];function
-v1(m,b){var
-f=[0,g(uu,ae(b[4])),0],h=[0,g(uw,S([0,g(uv,ae(b[3])),f])),0],a=b[2];switch(a[0]){case
+e1=cb;return e1}return 0}}return as}var
+L=[aH,v4,n8(0)],lX=[aH,v5,n8(0)];function
+v2(m,b){var
+f=[0,g(ux,ag(b[4])),0],h=[0,g(uz,S([0,g(uy,ag(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(uq,lj(a[1],a[2],a[3]));break;case
+c=I(ut,lo(a[1],a[2],a[3]));break;case
 1:var
-c=I(ur,lk(a[1],a[2],a[3],a[4]));break;default:var
-c=I(us,z(e(ul,a[1])))}var
-i=[0,g(ux,c),h],j=1===b[2][0]?uD:uy,k=[0,g(uz,ae(j)),i],l=[0,g(uA,s2(b[1])),k],d=am(iA(v2,fy(S([0,g(uC,ae(uB)),l]),ut)),m);return d?vY(b):d}function
-X(a){if(0===a[0])return a[1];throw K}function
-T(a){if(1===a[0])return a[1];throw K}function
-aC(a){if(2===a[0])return a[1];throw K}function
-dx(a){if(3===a[0])return a[1];throw K}function
-aH(f,e){var
+c=I(uu,lp(a[1],a[2],a[3],a[4]));break;default:var
+c=I(uv,A(e(uo,a[1])))}var
+i=[0,g(uA,c),h],j=1===b[2][0]?uG:uB,k=[0,g(uC,ag(j)),i],l=[0,g(uD,s8(b[1])),k],d=am(iC(v3,fC(S([0,g(uF,ag(uE)),l]),uw)),m);return d?vZ(b):d}function
+_(a){if(0===a[0])return a[1];throw L}function
+W(a){if(1===a[0])return a[1];throw L}function
+aC(a){if(2===a[0])return a[1];throw L}function
+dB(a){if(3===a[0])return a[1];throw L}function
+aG(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===BQ(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===BO(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 p(c,b){var
-a=aH(c,b);if(a)return a[1];throw K}function
+a=aG(c,b);if(a)return a[1];throw L}function
 b2(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-cU(a){switch(a[0]){case
+cT(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],v5]}throw K}function
-em(e,d){var
-a=R(e,T(d));if(a){var
+2:return[0,a[1],v6]}throw L}function
+eq(e,d){var
+a=U(e,W(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw K}function
-fK(i){var
-f=dG(i),d=[0,0],e=gd(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
+fM(i){var
+f=dL(i),d=[0,0],e=ge(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=ie(f,c)-48|0;if(9<g>>>0)throw K;switch(g){case
+a=d[1],g=ih(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -5939,96 +5963,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-en(a){return iM(fK(a))}function
-eo(b){var
-a=dx(b);return 45===aJ(a,0)?L(en(c4(a,1,al(a)-1|0))):en(a)}function
-lQ(a){return dO(en(dx(a)))}function
-fL(a){return iL(en(dx(a)))}function
-cq(c){var
-a=dx(c);if(6<al(a))throw K;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(io(a))}function
-lR(a){var
-b=97<=a?1:0,c=b?a<=nH?1:0:b;if(c)var
+er(a){return iO(fM(a))}function
+es(b){var
+a=dB(b);return 45===aI(a,0)?M(er(c4(a,1,al(a)-1|0))):er(a)}function
+lY(a){return dT(er(dB(a)))}function
+fN(a){return iN(er(dB(a)))}function
+cp(c){var
+a=dB(c);if(6<al(a))throw L;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iq(a))}function
+lZ(a){var
+b=97<=a?1:0,c=b?a<=nN?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-lS(y,b){var
+l0(y,b){var
 d=al(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aJ(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aJ(b,a[1])&&!(57<aJ(b,a[1]))){a[1]++;continue}return c4(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c4(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw K}function
-h(i){if(64<i)throw K;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
+h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v7)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v8)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lR(aJ(b,a[1]))){var
+v=0;if(a[1]<d&&lZ(aI(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lR(aJ(b,a[1]))&&95!==aJ(b,a[1])&&(!(48<=aJ(b,a[1]))||57<aJ(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!lZ(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,c4(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v8);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v9);if(r)var
 s=r;else
 var
-t=1<al(g)?1:0,s=t?48===aJ(g,0)?1:0:t;if(s)throw K;if(q){var
-j=q[1],x=0;if(am(j,v9)||48===aJ(j,al(j)-1|0))x=1;else
+t=1<al(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw L;if(q){var
+j=q[1],x=0;if(am(j,v_)||48===aI(j,al(j)-1|0))x=1;else
 var
-z=fK(j),e=[0,fK(g),z];if(x)throw K}else
+z=fM(j),e=[0,fM(g),z];if(x)throw L}else
 var
-e=[0,fK(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,v6)){if(!(2<al(f))&&2<=io(f)&&!(64<io(f)))return[4,e,dO(en(f))];throw K}throw K}return e}function
+e=[0,fM(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,v7)){if(!(2<al(f))&&2<=iq(f)&&!(64<iq(f)))return[4,e,dT(er(f))];throw L}throw L}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw K;var
+f(d){if(64<d)throw L;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw K;return g}function
-fM(a){return lS(function(a){return[0,a]},a)}function
-hI(a){var
-b=aC(a);return lS(function(a){return a},b)}function
-P(a){return fM(aC(a))}function
-bH(a){if(2===a[0])return[0,fM(a[1])];var
-b=X(a),c=P(p(b,v_));return[1,P(p(b,v$)),c]}function
-V(a){throw[0,lP,aO(iA(wb,a),wa)]}function
-hJ(c){var
-a=aC(c);if(m(a,wc)){var
-b=m(a,wd);if(b)throw K;return b}return 1}function
-we(d){var
-b=X(d);function
-a(a){return em(bH,p(b,a))}var
-c=aC(p(b,wf));if(m(c,wg)){if(m(c,wh)){if(m(c,wi))return V([0,wk,[0,c,wj]]);var
-e=aH(b,wl),f=b2(function(a){return em(bH,a)},e),g=a(wm);return[1,a(wn),g,f]}var
-h=hJ(p(b,wo)),i=bH(p(b,wp)),j=a(wq),k=a(wr);return[0,a(ws),k,j,i,h]}return[2,a(wt)]}function
-wu(d){var
-a=X(d);if(a){var
-b=a[1];if(!m(b[1],wv)){var
-c=b[2];if(2===c[0]&&!m(c[1],ww))return 1}}return 0}function
-lT(e){var
-b=X(e);function
-a(a){return R(bH,T(p(b,a)))}var
-c=aC(p(b,wx)),d=aH(b,wy);if(m(c,wz)){if(m(c,wA)){if(!m(c,wB)&&!d){var
-f=a(wE);return[1,a(wF),f]}}else
+g=f(0);if(a[1]<d)throw L;return g}function
+fO(a){return l0(function(a){return[0,a]},a)}function
+hJ(a){var
+b=aC(a);return l0(function(a){return a},b)}function
+Q(a){return fO(aC(a))}function
+bI(a){if(2===a[0])return[0,fO(a[1])];var
+b=_(a),c=Q(p(b,v$));return[1,Q(p(b,wa)),c]}function
+X(a){throw[0,lX,aP(iC(wc,a),wb)]}function
+hK(c){var
+a=aC(c);if(m(a,wd)){var
+b=m(a,we);if(b)throw L;return b}return 1}function
+wf(d){var
+b=_(d);function
+a(a){return eq(bI,p(b,a))}var
+c=aC(p(b,wg));if(m(c,wh)){if(m(c,wi)){if(m(c,wj))return X([0,wl,[0,c,wk]]);var
+e=aG(b,wm),f=b2(function(a){return eq(bI,a)},e),g=a(wn);return[1,a(wo),g,f]}var
+h=hK(p(b,wp)),i=bI(p(b,wq)),j=a(wr),k=a(ws);return[0,a(wt),k,j,i,h]}return[2,a(wu)]}function
+wv(d){var
+a=_(d);if(a){var
+b=a[1];if(!m(b[1],ww)){var
+c=b[2];if(2===c[0]&&!m(c[1],wx))return 1}}return 0}function
+l1(e){var
+b=_(e);function
+a(a){return U(bI,W(p(b,a)))}var
+c=aC(p(b,wy)),d=aG(b,wz);if(m(c,wA)){if(m(c,wB)){if(!m(c,wC)&&!d){var
+f=a(wF);return[1,a(wG),f]}}else
 if(!d){var
-g=hJ(p(b,wG)),h=bH(p(b,wH)),i=a(wI),j=a(wJ);return[0,a(wK),j,i,h,g]}}else
+g=hK(p(b,wH)),h=bI(p(b,wI)),i=a(wJ),j=a(wK);return[0,a(wL),j,i,h,g]}}else
 if(!d){var
-k=hJ(p(b,wL)),l=bH(p(b,wM)),n=bH(p(b,wN)),o=a(wO),q=a(wP),r=a(wQ);return[2,a(wR),r,q,o,n,l,k]}return V([0,wD,[0,c,wC]])}function
-lU(d){var
-a=X(d);if(a){var
-b=a[1];if(!m(b[1],wS)){var
-c=b[2];if(2===c[0]&&!m(c[1],wT))return 1}}return 0}function
-cr(c,d){var
-a=T(d);if(a){var
+k=hK(p(b,wM)),l=bI(p(b,wN)),n=bI(p(b,wO)),o=a(wP),q=a(wQ),r=a(wR);return[2,a(wS),r,q,o,n,l,k]}return X([0,wE,[0,c,wD]])}function
+l2(d){var
+a=_(d);if(a){var
+b=a[1];if(!m(b[1],wT)){var
+c=b[2];if(2===c[0]&&!m(c[1],wU))return 1}}return 0}function
+cq(c,d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw K}function
-ep(f,o){var
-x=f?f[1]:f,c=X(o),a=aC(p(c,wU)),i=od(a,wV),h=0;if(0<=i)if(0<i)if(m(a,wW))if(m(a,wX))if(m(a,wY))if(m(a,wZ))if(m(a,w0)){var
-j=m(a,w1);if(j)h=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
+et(f,o){var
+x=f?f[1]:f,c=_(o),a=aC(p(c,wV)),i=oj(a,wW),h=0;if(0<=i)if(0<i)if(m(a,wX))if(m(a,wY))if(m(a,wZ))if(m(a,w0))if(m(a,w1)){var
+j=m(a,w2);if(j)h=1;else
 var
 b=j}else
 var
@@ -6043,7 +6067,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,xk))if(m(a,xl))if(m(a,xm))if(m(a,xn))if(m(a,xo))if(m(a,xp))if(m(a,xq))h=1;else
+if(m(a,xl))if(m(a,xm))if(m(a,xn))if(m(a,xo))if(m(a,xp))if(m(a,xq))if(m(a,xr))h=1;else
 var
 b=1;else
 var
@@ -6058,227 +6082,226 @@ var
 b=9;else
 var
 b=12;var
-l=h?V([0,w3,[0,a,w2]]):b;function
-g(a){return p(c,w4)}var
-d=aC(p(c,w5)),k=m(d,w6);if(k)if(m(d,w7))if(m(d,w8))if(m(d,w9))var
-e=V([0,w$,[0,d,w_]]);else
+l=h?X([0,w4,[0,a,w3]]):b;function
+g(a){return p(c,w5)}var
+d=aC(p(c,w6)),k=m(d,w7);if(k)if(m(d,w8))if(m(d,w9))if(m(d,w_))var
+e=X([0,xa,[0,d,w$]]);else
 var
-n=cr(P,g(0)),e=[2,n[1],n[2]];else
+n=cq(Q,g(0)),e=[2,n[1],n[2]];else
 var
-e=[0,P(g(0))];else
+e=[0,Q(g(0))];else
 var
-e=[1,P(g(0))];else
+e=[1,Q(g(0))];else
 var
 e=k;function
 q(y){var
-a=X(y),b=0;switch(l){case
+a=_(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],xb)){var
+p=a[1];if(!m(p[1],xc)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return V(xc)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return X(xd)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],xd)){var
+r=a[1];if(!m(r[1],xe)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],xe)){var
+t=g[1];if(!m(t[1],xf)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
-z=P(h[1]);return[1,P(f[1]),z]}}}}}}}}break;case
+z=Q(h[1]);return[1,Q(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],xf)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],xg)&&!i[2]&&x)return V(xh)}else
+v=a[1];if(!m(v[1],xg)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],xh)&&!i[2]&&x)return X(xi)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],xa)){var
+n=a[1];if(!m(n[1],xb)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
-d=c[1];b=1}}}}break}if(b)return[0,P(d)];throw K}var
-r=b2(q,aH(c,xi));return[0,l,b2(cq,aH(c,xj)),r,e]}function
-hK(c){var
-d=ep(xs,c),e=d[1];if(2<=e)switch(e-2|0){case
+d=c[1];b=1}}}}break}if(b)return[0,Q(d)];throw L}var
+r=b2(q,aG(c,xj));return[0,l,b2(cp,aG(c,xk)),r,e]}function
+hL(c){var
+d=et(xt,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=ep(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(xr)}function
-xt(a){var
-b=ep(0,a);return 11===b[1]?b:hK(a)}function
-lV(c){var
-d=ep(xu,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:hK(c)}function
-lW(b){var
-a=X(b[2]);if(m(b[1],xB)){var
-c=cr(P,p(a,xC)),d=cr(P,p(a,xD)),e=d[2],f=d[1],g=P(p(a,xE));return[1,c[1],c[2],g,f,e]}var
-h=R(P,T(p(a,xF)));return[0,R(P,T(p(a,xG))),h]}function
-xH(f){var
-a=X(f);function
-d(b){return P(p(a,b))}function
-c(b){return em(P,p(a,b))}var
-b=aC(p(a,xI));if(m(b,xJ)){if(!m(b,xK)){var
-j=p(a,xQ),e=cr(function(a){return a},j),k=aH(a,xR),l=b2(function(a){return c(xS)},k),n=fM(aC(e[2])),o=fM(aC(e[1])),q=d(xT);return[0,cq(p(a,xU)),q,o,n,l]}if(m(b,xL))throw K}var
-g=d(xM),h=c(xN),i=c(xO);return[1,am(b,xP),i,h,g]}function
-hL(ad){var
-e=cU(ad),f=e[1];if(m(f,xV)){if(m(f,xW)){if(m(f,xX)){if(m(f,xY))return V([0,x0,[0,f,xZ]]);var
-r=p(X(e[2]),x1),W=0;if(2===r[0]){var
-A=m(r[1],x2);if(!A){var
-z=A;W=1}}if(!W)var
-z=[0,bH(r)];return[6,z]}var
-B=X(e[2]),g=hL([0,[0,[0,x4,p(B,x3)],0]]);if(0===g[0]){var
+a=et(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return X(xs)}function
+xu(a){var
+b=et(0,a);return 11===b[1]?b:hL(a)}function
+l3(c){var
+d=et(xv,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:hL(c)}function
+hM(b){var
+a=_(b[2]);if(m(b[1],xC)){var
+c=cq(Q,p(a,xD)),d=cq(Q,p(a,xE)),e=d[2],f=d[1],g=Q(p(a,xF));return[1,c[1],c[2],g,f,e]}var
+h=U(Q,W(p(a,xG)));return[0,U(Q,W(p(a,xH))),h]}function
+xI(f){var
+a=_(f);function
+d(b){return Q(p(a,b))}function
+c(b){return eq(Q,p(a,b))}var
+b=aC(p(a,xJ));if(m(b,xK)){if(!m(b,xL)){var
+j=p(a,xR),e=cq(function(a){return a},j),k=aG(a,xS),l=b2(function(a){return c(xT)},k),n=fO(aC(e[2])),o=fO(aC(e[1])),q=d(xU);return[0,cp(p(a,xV)),q,o,n,l]}if(m(b,xM))throw L}var
+g=d(xN),h=c(xO),i=c(xP);return[1,am(b,xQ),i,h,g]}function
+hN(ab){var
+e=cT(ab),f=e[1];if(m(f,xW)){if(m(f,xX)){if(m(f,xY)){if(m(f,xZ))return X([0,x1,[0,f,x0]]);var
+r=p(_(e[2]),x2),R=0;if(2===r[0]){var
+A=m(r[1],x3);if(!A){var
+z=A;R=1}}if(!R)var
+z=[0,bI(r)];return[6,z]}var
+B=_(e[2]),g=hN([0,[0,[0,x5,p(B,x4)],0]]);if(0===g[0]){var
 s=g[2];if(0===s[0]&&!g[3]){var
-ae=P(p(B,x6));return[5,g[1],s[1],s[2],g[4],ae]}}return V(x5)}var
-b=X(e[2]),C=function(c){var
-a=T(p(b,x7));return R(function(a){return ep(0,a)},a)},h=cU(p(b,x8)),a=cU(p(b,x9)),c=h[1];if(m(c,x_)&&0!==aH(b,x$))return V(y6);if(m(c,ya)&&m(c,yb)&&m(c,yc)){if(0===aH(b,yd)){if(m(c,ye)){var
-Y=0;if(m(c,yf)){if(!m(c,yg)){var
-D=a[1],Z=0;if(m(D,yj)&&m(D,yk)){Y=1;Z=1}if(!Z){var
-t=T(h[2]),u=aH(b,yn),E=u?R(xH,T(u[1])):u,v=C(0);if(!ax(wu,t)&&!ax(function(a){return 13===a[1]?1:0},v)){var
-F=R(we,t),G=ax(function(a){return 5===a[1]?1:0},v),ah=G?ax(function(a){return 0===a[0]?0:1},F):G;if(ah)V(yq);var
-d=X(a[2]);if(m(a[1],xv))var
-x=cr(P,p(d,xw)),y=cr(P,p(d,xx)),$=y[2],aa=y[1],ab=P(p(d,xy)),H=[1,x[1],x[2],ab,aa,$];else
+ac=Q(p(B,x7));return[5,g[1],s[1],s[2],g[4],ac]}}return X(x6)}var
+a=_(e[2]),C=function(c){var
+b=W(p(a,x8));return U(function(a){return et(0,a)},b)},h=cT(p(a,x9)),b=cT(p(a,x_)),c=h[1];if(m(c,x$)&&0!==aG(a,ya))return X(y2);if(m(c,yb)&&m(c,yc)&&m(c,yd)){if(0===aG(a,ye)){if(m(c,yf)){var
+S=0;if(m(c,yg)){if(!m(c,yh)){var
+D=b[1],T=0;if(m(D,yk)&&m(D,yl)){S=1;T=1}if(!T){var
+t=W(h[2]),u=aG(a,yo),E=u?U(xI,W(u[1])):u,v=C(0);if(!ax(wv,t)&&!ax(function(a){return 13===a[1]?1:0},v)){var
+F=U(wf,t),G=ax(function(a){return 5===a[1]?1:0},v),af=G?ax(function(a){return 0===a[0]?0:1},F):G;if(af)X(yr);var
+d=_(b[2]);if(m(b[1],xw))var
+x=cq(Q,p(d,xx)),y=cq(Q,p(d,xy)),Y=y[2],Z=y[1],$=Q(p(d,xz)),H=[1,x[1],x[2],$,Z,Y];else
 var
-ac=em(P,p(d,xz)),H=[0,em(P,p(d,xA)),ac];return[0,F,H,E,v]}if(0!==E)V(yo);var
-af=R(lV,T(p(b,yp))),ag=lW(a);return[1,0,R(lT,t),0,ag,0,af]}}}else
-if(!m(a[1],yr)){var
-w=C(0),ai=ax(function(a){return 0!==a[1]?1:0},w),aj=ai||(2!==bN(w)?1:0);if(aj)V(ys);var
-ak=P(p(X(a[2]),yt));return[4,P(p(X(h[2]),yu)),ak,w]}if(!Y)return V([0,yi,[0,c,yh]])}else
-if(!m(a[1],yv)){var
-j=X(h[2]),I=X(a[2]),J=function(c,a){var
-b=T(a);return R(function(d){var
-a=T(d);if(a){var
+aa=eq(Q,p(d,xA)),H=[0,eq(Q,p(d,xB)),aa];return[0,F,H,E,v]}if(0!==E)X(yp);var
+ad=U(l3,W(p(a,yq))),ae=hM(b);return[1,0,U(l1,t),0,ae,0,ad]}}}else
+if(!m(b[1],ys)){var
+w=C(0),ag=ax(function(a){return 0!==a[1]?1:0},w),ah=ag||(2!==bO(w)?1:0);if(ah)X(yt);var
+ai=Q(p(_(b[2]),yu));return[4,Q(p(_(h[2]),yv)),ai,w]}if(!S)return X([0,yj,[0,c,yi]])}else
+if(!m(b[1],yw)){var
+j=_(h[2]),I=_(b[2]),J=function(c,a){var
+b=W(a);return U(function(d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aC(a[1]),e]}}throw K},b)},al=function(d){var
-a=X(d);if(a){var
-b=a[1],c=b[1];if(m(c,yw)){if(!m(c,yx)&&!a[2])return[0,R(hI,T(b[2]))]}else
-if(!a[2])return[1,hI(b[2])]}throw K},an=R(xt,T(p(b,yy))),ao=R(P,T(p(I,yz))),ap=R(P,T(p(I,yA))),aq=R(al,T(p(j,yB))),ar=J(hI,p(j,yC)),as=J(bH,p(j,yD));return[3,R(aC,T(p(j,yE))),as,ar,aq,ap,ao,an]}return V([0,ym,[0,a[1],yl]])}throw K}var
-L=a[1],M=X(h[2]);if(m(L,yF))V([0,yH,[0,L,yG]]);var
-l=b2(P,aH(M,yI)),at=function(f){var
-a=cU(f),b=a[1];if(m(b,yJ)){if(m(b,yK)){if(m(b,yL)){if(m(b,yM))throw K;var
-d=a[2],g=P(p(X(d),yN));return[3,P(p(X(d),yO)),g]}var
-h=a[2],c=function(a){return cr(P,p(X(h),a))},i=c(yP),j=c(yQ);return[1,c(yR),j,i]}var
-e=cr(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},n=b2(at,aH(b,yS)),N=m(c,yT),O=N?m(c,yU)?2:1:N,o=T(p(M,yV));if(l&&n&&gh(lU,o)){var
-Q=X(a[2]),au=function(c){var
-a=X(c);function
-b(b){return R(bH,T(p(a,b)))}if(0!==aH(a,yW))V(yX);var
-d=b(yY);return[0,b(yZ),d]},av=R(hK,T(p(b,y0))),aw=n[1],ay=R(P,T(p(Q,y1))),az=R(P,T(p(Q,y2))),aA=l[1];return[2,O,R(au,o),aA,az,ay,aw,av]}var
-_=0;if(!l&&am(c,y5)){var
-S=1;_=1}if(!_)var
-S=[0,O];var
-U=0!==n?1:0,aB=U?ax(lU,o):U;if(aB)V(y3);var
-aD=R(lV,T(p(b,y4))),aE=lW(a);return[1,S,R(lT,o),l,aE,n,aD]}var
-q=X(e[2]);function
-aF(b){var
-a=X(b),c=P(p(a,y7)),d=[0,P(p(a,y8)),c];return[0,aC(p(a,y9)),d]}var
-i=hL([0,[0,[0,y$,p(q,y_)],0]]);if(0===i[0]&&!i[3]){var
-aG=P(p(q,zb)),aI=P(p(q,zc)),aJ=i[4],aK=i[2],aL=i[1];return[7,R(aF,T(p(q,zd))),aL,aK,aJ,aI,aG]}return V(za)}function
-hM(a){return R(eo,T(a))}function
-hN(c,b){var
-a=hM(b);if(bN(a)!==c)throw K;return a}function
-lX(a,d){var
-b=X(d),e=T(p(b,zg)),f=a[2],c=R(function(a){return hN(f,a)},e),g=a[1];if(bN(c)!==g)throw K;return[0,c,fL(p(b,zh))]}function
-eq(g,n){var
-M=g[2];switch(n[0]){case
+e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},aj=function(d){var
+a=_(d);if(a){var
+b=a[1],c=b[1];if(m(c,yx)){if(!m(c,yy)&&!a[2])return[0,U(hJ,W(b[2]))]}else
+if(!a[2])return[1,hJ(b[2])]}throw L},ak=U(xu,W(p(a,yz))),al=U(Q,W(p(I,yA))),an=U(Q,W(p(I,yB))),ao=U(aj,W(p(j,yC))),ap=J(hJ,p(j,yD)),aq=J(bI,p(j,yE));return[3,U(aC,W(p(j,yF))),aq,ap,ao,an,al,ak]}return X([0,yn,[0,b[1],ym]])}throw L}var
+K=_(h[2]),l=b2(Q,aG(K,yG)),ar=function(f){var
+a=cT(f),b=a[1];if(m(b,yH)){if(m(b,yI)){if(m(b,yJ)){if(m(b,yK))throw L;var
+d=a[2],g=Q(p(_(d),yL));return[3,Q(p(_(d),yM)),g]}var
+h=a[2],c=function(a){return cq(Q,p(_(h),a))},i=c(yN),j=c(yO);return[1,c(yP),j,i]}var
+e=cq(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},n=b2(ar,aG(a,yQ)),M=m(c,yR),N=M?m(c,yS)?2:1:M,o=W(p(K,yT));if(l&&n&&gi(l2,o)){var
+as=function(c){var
+a=_(c);function
+b(b){return U(bI,W(p(a,b)))}if(0!==aG(a,yU))X(yV);var
+d=b(yW);return[0,b(yX),d]},at=U(hL,W(p(a,yY))),au=n[1],av=hM(b),aw=l[1];return[2,N,U(as,o),aw,av,au,at]}var
+V=0;if(!l&&am(c,y1)){var
+O=1;V=1}if(!V)var
+O=[0,N];var
+P=0!==n?1:0,ay=P?ax(l2,o):P;if(ay)X(yZ);var
+az=U(l3,W(p(a,y0))),aA=hM(b);return[1,O,U(l1,o),l,aA,n,az]}var
+q=_(e[2]);function
+aB(b){var
+a=_(b),c=Q(p(a,y3)),d=[0,Q(p(a,y4)),c];return[0,aC(p(a,y5)),d]}var
+i=hN([0,[0,[0,y7,p(q,y6)],0]]);if(0===i[0]&&!i[3]){var
+aD=Q(p(q,y9)),aE=Q(p(q,y_)),aF=i[4],aH=i[2],aI=i[1];return[7,U(aB,W(p(q,y$))),aI,aH,aF,aE,aD]}return X(y8)}function
+hO(a){return U(es,W(a))}function
+hP(c,b){var
+a=hO(b);if(bO(a)!==c)throw L;return a}function
+l4(a,d){var
+b=_(d),e=W(p(b,zc)),f=a[2],c=U(function(a){return hP(f,a)},e),g=a[1];if(bO(c)!==g)throw L;return[0,c,fN(p(b,zd))]}function
+eu(g,o){var
+N=g[2];switch(o[0]){case
 0:var
-d=n[1];if(d){var
-e=d[1],a=e[1],N=od(a,zi),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,zj)&&m(a,zk)&&m(a,zl))if(m(a,zm))f=1;else{var
-O=e[2];if(1===O[0]){var
-o=O[1];if(o){var
-q=o[2];if(q){var
-r=q[2];if(r&&!r[2]){if(!d[2]){var
-ab=R(hM,T(r[1])),ac=aC(q[1]);return[8,eq(g,o[1]),ac,ab]}b=1;f=1}else
+d=o[1];if(d){var
+e=d[1],a=e[1],O=oj(a,ze),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,zf)&&m(a,zg)&&m(a,zh))if(m(a,zi))f=1;else{var
+P=e[2];if(1===P[0]){var
+q=P[1];if(q){var
+r=q[2];if(r){var
+s=r[2];if(s&&!s[2]){if(!d[2]){var
+ab=U(hO,W(s[1])),ac=aC(r[1]);return[8,eu(g,q[1]),ac,ab]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-ad=e[2],t=ad,s=function(c,b){return[1,a,c,b]};b=2}}else{var
-Q=e[2];if(1===Q[0]){var
-u=Q[1];if(u){var
-v=u[2];if(v){var
-w=v[2];if(w&&!w[2]){if(!d[2]){var
-ae=fL(w[1]),af=eo(v[1]);return[5,eq(g,u[1]),af,ae]}b=1}}}}}else
-if(m(a,zp))if(m(a,zq))if(m(a,zr))if(m(a,zs)){if(!m(a,zt)){if(!d[2]){var
-S=X(e[2]),ag=T(p(S,zu)),ah=M+1|0,U=R(function(a){return hN(ah,a)},ag);if(3===bN(U))return[1,zw,U,fL(p(S,zv))];throw K}b=1}}else{if(!d[2]){var
-I=aC(e[2]),J=m(I,ze);if(J){if(m(I,zf))throw K;var
-L=1}else
+ad=e[2],u=ad,t=function(c,b){return[1,a,c,b]};b=2}}else{var
+R=e[2];if(1===R[0]){var
+v=R[1];if(v){var
+w=v[2];if(w){var
+x=w[2];if(x&&!x[2]){if(!d[2]){var
+ae=fN(x[1]),af=es(w[1]);return[5,eu(g,v[1]),af,ae]}b=1}}}}}else
+if(m(a,zl))if(m(a,zm))if(m(a,zn))if(m(a,zo)){if(!m(a,zp)){if(!d[2]){var
+S=_(e[2]),ag=W(p(S,zq)),ah=N+1|0,T=U(function(a){return hP(ah,a)},ag);if(3===bO(T))return[1,zs,T,fN(p(S,zr))];throw L}b=1}}else{if(!d[2]){var
+J=aC(e[2]),K=m(J,za);if(K){if(m(J,zb))throw L;var
+M=1}else
 var
-L=J;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],l=0;switch(i[0]){case
+M=K;return[2,M]}b=1}else{if(!d[2]){var
+i=e[2],n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],D=Z[1],c=0;if(m(D,zy)&&m(D,zz))if(m(D,zA))c=1;else{var
-_=Z[2];if(1===_[0]){var
-E=_[1];if(E){var
-k=E[1],h=0;switch(k[0]){case
+Z=j[1],k=Z[1],c=0;if(m(k,zu)&&m(k,zv)&&m(k,zw))if(m(k,zx))c=1;else{var
+$=Z[2];if(1===$[0]){var
+E=$[1];if(E){var
+l=E[1],h=0;switch(l[0]){case
 0:var
-F=k[1];if(F){var
-$=F[1][1],aa=0;if(m($,zC)&&m($,zD)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(k[1],zE)){c=1;h=1}break;default:c=1;h=1}if(!h){var
-G=E[2];if(G){var
-H=G[2];if(H&&!(H[2]||j[2])){var
-am=fL(H[1]),an=eo(G[1]),x=[6,eq(g,k),an,am];l=1;c=1}else
+F=l[1];if(F){var
+G=F[1][1],aa=0;if(m(G,zz)&&m(G,zA)&&m(G,zB)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:if(m(l[1],zC)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+H=E[2];if(H){var
+I=H[2];if(I&&!(I[2]||j[2])){var
+am=fN(I[1]),an=es(H[1]),y=[6,eu(g,l),an,am];n=1;c=1}else
 c=1}else
 c=1}}else
 c=1}else
-c=1}if(!c&&!j[2])l=2}break;case
-2:if(!m(i[1],zF))l=2;break}switch(l){case
+c=1}if(!c&&!j[2])n=2}break;case
+2:if(!m(i[1],zD))n=2;break}switch(n){case
 0:var
-x=V(zB);break;case
+y=X(zy);break;case
 2:var
-x=eq(g,i);break}return[7,x]}b=1}else{var
-W=e[2];if(1===W[0]){var
-y=W[1];if(y){var
-z=y[2];if(z&&!z[2])if(d[2])b=1;else{var
-ai=z[1],aj=y[1],t=aj,s=function(b,a){return[3,b,a,hN(M+1|0,ai)]};b=2}}}}else{var
+y=eu(g,i);break}return[7,y]}b=1}else{var
+V=e[2];if(1===V[0]){var
+z=V[1];if(z){var
+A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
+ai=A[1],aj=z[1],u=aj,t=function(b,a){return[3,b,a,hP(N+1|0,ai)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
-A=Y[1];if(A){var
-B=A[2];if(B){var
-C=B[2];if(C&&!C[2])if(d[2])b=1;else{var
-ak=B[1];if(m(dx(C[1]),zx))throw K;var
-al=A[1],t=al,s=function(b,a){return[4,b,a,eo(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return V([0,zo,[0,a,zn]]);break;case
+B=Y[1];if(B){var
+C=B[2];if(C){var
+D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
+ak=C[1];if(m(dB(D[1]),zt))throw L;var
+al=B[1],u=al,t=function(b,a){return[4,b,a,es(ak)]};b=2}}}}}switch(b){case
+0:if(!d[2])return X([0,zk,[0,a,zj]]);break;case
 1:break;default:var
-P=lX(g,t);return s(P[1],P[2])}}break;case
-2:return[0,n[1]]}throw K}function
-lY(k){var
-b=cU(k),a=b[1];if(m(a,zI))if(m(a,zJ)){var
-g=m(a,zK);if(!g)return g;if(!m(a,zL)){var
+Q=l4(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw L}function
+l5(k){var
+b=cT(k),a=b[1];if(m(a,zG))if(m(a,zH)){var
+g=m(a,zI);if(!g)return g;if(!m(a,zJ)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cq(d[1]);return[1,cq(c[1]),l]}}}}}else{var
+l=cp(d[1]);return[1,cp(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=R(hM,T(f[1]));return[0,cq(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,zN,[0,a,zM]])}function
-lZ(f,b){var
-a=X(b),c=T(p(a,zS)),d=R(function(g){var
-a=X(g);function
+n=U(hO,W(f[1]));return[0,cp(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return X([0,zL,[0,a,zK]])}function
+l6(f,b){var
+a=_(b),c=W(p(a,zQ)),d=U(function(g){var
+a=_(g);function
 b(d,c){var
-b=aH(a,c);return b?R(d,T(b[1])):b}var
-c=b(eo,zO),d=b2(lY,aH(a,zP)),e=b2(cq,aH(a,zQ));return[0,b(function(h){var
-b=T(h);if(b){var
+b=aG(a,c);return b?U(d,W(b[1])):b}var
+c=b(es,zM),d=b2(l5,aG(a,zN)),e=b2(cp,aG(a,zO));return[0,b(function(h){var
+b=W(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zG)){if(!a[2]){if(m(dx(e),zH))throw K;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zE)){if(!a[2]){if(m(dB(e),zF))throw L;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eq(f,c);return[0,cq(e),g]}}}throw K},zR),e,d,c]},c),e=aH(a,zT),g=b2(function(a){return lX(f,a)},e);return[0,lQ(p(a,zU)),g,d]}function
-l0(c){var
-a=X(c),b=aH(a,zV),d=b?R(P,T(b[1])):b,e=lY(p(a,zW)),f=R(P,T(p(a,zX)));return[0,lQ(p(a,zY)),f,d,e]}function
-l1(c){var
+g=eu(f,c);return[0,cp(e),g]}}}throw L},zP),e,d,c]},c),e=aG(a,zR),g=b2(function(a){return l4(f,a)},e);return[0,lY(p(a,zS)),g,d]}function
+l7(c){var
+a=_(c),b=aG(a,zT),d=b?U(Q,W(b[1])):b,e=l5(p(a,zU)),f=U(Q,W(p(a,zV)));return[0,lY(p(a,zW)),f,d,e]}function
+l8(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-z8(c){var
+z6(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],z9))a=1;break;case
+0:if(!m(b[1],z7))a=1;break;case
 7:a=1;break}return a?1:0}function
-z_(g){var
+z8(g){var
 i=al(g),b=[0,0];function
-j(a){if(b[1]<i)return aJ(g,b[1]);throw K}function
-l(a){if(j(0)===a){b[1]++;return 0}throw K}function
-z(a,c){for(;;){if(b[1]<i&&k(c,aJ(g,b[1]))){b[1]++;continue}return c4(g,a,b[1]-a|0)}}function
+j(a){if(b[1]<i)return aI(g,b[1]);throw L}function
+l(a){if(j(0)===a){b[1]++;return 0}throw L}function
+z(a,c){for(;;){if(b[1]<i&&k(c,aI(g,b[1]))){b[1]++;continue}return c4(g,a,b[1]-a|0)}}function
 A(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6292,16 +6315,16 @@ f=[0,k(h,0),e];if(44===j(0)){b[1]++;var
 e=f;continue}l(d);var
 a=f,c=0;for(;;){if(a){var
 g=[0,a[1],c],a=a[2],c=g;continue}return c}}}function
-s(c,i){if(64<c)throw K;var
+s(c,i){if(64<c)throw L;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 e=93,f=c+1|0;return[1,B(function(a){return s(f,a)},e)]}if(123===a){b[1]++;var
 g=125;return[0,B(function(b){var
 a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,A(0)];if(45===a)d=1}if(d){var
 h=b[1];b[1]++;return[3,z(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw K}var
-N=s(0,0),C=b[1]<i?1:0,O=C?10===aJ(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw K;var
-r=X(N);if(m(aC(p(r,z$)),Aa))throw K;var
-a=hL(p(r,Ab)),w=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
+N=s(0,0),C=b[1]<i?1:0,O=C?10===aI(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw L;var
+r=_(N);if(m(aC(p(r,z9)),z_))throw L;var
+a=hN(p(r,z$)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -6311,34 +6334,34 @@ if(1===u[1])var
 v=6;else
 x=1;if(x)var
 v=3;var
-f=[0,bN(a[2]),v];break;case
+f=[0,bO(a[2]),v];break;case
 2:var
-ac=1===a[1]?6:3,f=[0,bN(a[2]),ac];break;case
+ac=1===a[1]?6:3,f=[0,bO(a[2]),ac];break;case
 3:var
-ad=bN(a[1]),f=[0,bN(a[4]),ad];break;case
+ad=bO(a[1]),f=[0,bO(a[4]),ad];break;case
 7:var
 D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-f=Ar}if(w)var
-f=[0,bN(D),3];var
-n=cU(p(r,Ac)),o=n[1];if(m(o,z3))if(m(o,z4))if(m(o,z5))var
-c=V([0,z7,[0,o,z6]]);else
+f=Ap}if(w)var
+f=[0,bO(D),3];var
+n=cT(p(r,Aa)),o=n[1];if(m(o,z1))if(m(o,z2))if(m(o,z3))var
+c=X([0,z5,[0,o,z4]]);else
 var
-q=l0(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+q=l7(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
 var
-t=lZ(f,n[2]),c=[0,t[1],t[2],t[3]];else
+t=l6(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-P=T(n[2]),c=[2,R(function(g){var
-a=cU(g),b=a[1];if(m(b,zZ)){if(m(b,z0)){if(m(b,z1)){var
-e=m(b,z2);if(e)throw K;return e}return[0,cq(a[2])]}var
-c=l0(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=lZ(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+P=W(n[2]),c=[2,U(function(g){var
+a=cT(g),b=a[1];if(m(b,zX)){if(m(b,zY)){if(m(b,zZ)){var
+e=m(b,z0);if(e)throw L;return e}return[0,cp(a[2])]}var
+c=l7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=l6(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
 Q(a){var
 b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
-S(a){return 0!==a[3]?1:0}function
-E(a){return ax(S,a)}var
+R(a){return 0!==a[3]?1:0}function
+E(a){return ax(R,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
@@ -6348,36 +6371,36 @@ H=F,G=a[1];d=4;break;case
 J=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-_=c[3];if(ax(function(a){var
+Z=c[3];if(ax(function(a){var
 b=a[1];return ax(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},_)){V(Al);d=1}else
+7:return 1;default:return 0}},b)},Z)){X(Aj);d=1}else
 d=2;break;case
 1:var
-$=a[6];if(ax(function(a){return 8===a[1]?1:0},$)){V(Am);d=1}break}break;case
+$=a[6];if(ax(function(a){return 8===a[1]?1:0},$)){X(Ak);d=1}break}break;case
 2:if(1===c[0]){var
-ab=a[7];if(ax(function(b){var
+ab=a[6];if(ax(function(b){var
 a=b[1];if(2<=a)switch(a-2|0){case
 0:case
 4:case
-6:return 1}return 0},ab)){V(Ap);d=1}else
+6:return 1}return 0},ab)){X(An);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){V(Aq);d=1}else
+3:if(1===c[0]){X(Ao);d=1}else
 d=3;break;case
 5:var
 J=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(ax(Q,c[3])){V(An);e=3}else
+3:if(0===c[0])if(ax(Q,c[3])){X(Al);e=3}else
 if(3===a[0])e=1;else{var
-aa=c[3];if(gh(function(a){return gh(z8,a[1])},aa))e=1;else{V(Ao);e=3}}else
+aa=c[3];if(gi(function(a){return gi(z6,a[1])},aa))e=1;else{X(Am);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-L=0;if(ax(function(a){return 10===a[1]?1:0},H)&&ax(function(a){return 2===a[0]?1:0},G)){V(Ad);L=1}if(!L)e=1;break;case
-5:if(ax(l1,J))V(Ak);else
+K=0;if(ax(function(a){return 10===a[1]?1:0},H)&&ax(function(a){return 2===a[0]?1:0},G)){X(Ab);K=1}if(!K)e=1;break;case
+5:if(ax(l8,J))X(Ai);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
@@ -6386,32 +6409,32 @@ y=0;switch(e){case
 h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-W=c[3];if(ax(function(a){return 0!==a[1]?1:0},W)){V(Ai);h=1;M=1}}if(!M)h=1;break;case
+T=c[3];if(ax(function(a){return 0!==a[1]?1:0},T)){X(Ag);h=1;M=1}}if(!M)h=1;break;case
 7:var
-Y=a[4];switch(c[0]){case
+V=a[4];switch(c[0]){case
 0:break;case
 1:y=1;h=1;break;default:var
-Z=function(a){if(typeof
+Y=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return ax(l1,Y)}return 0};if(ax(Z,c[1]))V(Aj);h=1}break}if(!h)if(0===c[0]&&E(c[3]))V(Ah);else
+2:return ax(l8,V)}return 0};if(ax(Y,c[1]))X(Ah);h=1}break}if(!h)if(0===c[0]&&E(c[3]))X(Af);else
 y=1;break;case
 2:y=1;break}var
-I=X(p(r,Ae)),U=aC(p(I,Af));return[0,a,c,aC(p(I,Ag)),U]}function
-As(b){var
-c=al(b),g=64,h=B5(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=_(p(r,Ac)),S=aC(p(I,Ad));return[0,a,c,aC(p(I,Ae)),S]}function
+Aq(b){var
+c=al(b),g=64,h=B3(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=am(c4(b,a,18),At);if(!e){var
+e=am(c4(b,a,18),Ar);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Co(function(b){try{if(As(b))var
-a=Av;else{try{var
-e=0,d=z_(b);e=1}catch(a){a=of(a);if(a[1]===lP)var
-c=[0,a[2]];else{if(a!==K)throw a;var
+f=d;return f}}Cm(function(b){try{if(Aq(b))var
+a=At;else{try{var
+e=0,d=z8(b);e=1}catch(a){a=ol(a);if(a[1]===lX)var
+c=[0,a[2]];else{if(a!==L)throw a;var
 c=2}}if(e)var
-c=v1(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Au}if(typeof
+c=v2(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return As}if(typeof
 a==="number")switch(a){case
-0:return Aw;case
-1:return Ax;default:return Ay}return aO(Az,a[1])});iz(0);return}(globalThis));
+0:return Au;case
+1:return Av;default:return Aw}return aP(Ax,a[1])});iB(0);return}(globalThis));
