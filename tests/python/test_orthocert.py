@@ -119,6 +119,25 @@ class Commands(unittest.TestCase):
         self.assertIn("rho", upper.limited_by.violated)
         self.assertIsNone(found.lower.refuted)
         self.assertIn("radius", found.lower.reason)
+        up = oc.limit(PRINTER, "workspace.cylinder.radius", gap="1e-2", direction="up")
+        self.assertEqual([side.side for side in up.sides], ["upper"])
+
+    def test_tolerances_sizes_and_cubes_have_a_certified_and_a_refuted_end(self):
+        found = oc.tolerance(DESIGNS / "orthoglide-tolerance.toml", on=["leg_length"])
+        (row,) = found
+        self.assertEqual((row.on, row.leg, row.measure), (("leg_length",), None, "length"))
+        self.assertTrue(0 < row.certified < row.refuted <= Fraction(111, 100) * row.certified)
+        self.assertEqual(row.limited_by.violated, "greatest psi <= 2")
+        self.assertIn("leg_length, length", found._repr_html_())
+        by_leg = oc.tolerance(DESIGNS / "orthoglide-tolerance.toml", on=["leg_length"], by_leg=True)
+        self.assertEqual(sorted(row.leg for row in by_leg if row.leg), [1, 2, 3])
+        # The paper's cube of 200 mm: legs of 310 mm are published.
+        smallest = oc.size(DESIGNS / "orthoglide-310.toml", 200)
+        self.assertTrue(310 < smallest.refuted < smallest.certified < 311)
+        self.assertIn("psi", smallest.limited_by.violated)
+        cube = oc.largest_cube(DESIGNS / "orthoglide-310.toml", gap="1e-2")
+        self.assertTrue(199 < Fraction(cube.certified) < Fraction(cube.refuted) < 201)
+        self.assertIn(cube.certified, cube._repr_html_())
 
     def test_a_summary_has_speeds(self):
         found = oc.summary(PRINTER, speed=1000)

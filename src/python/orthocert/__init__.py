@@ -27,14 +27,18 @@ from ._answers import (
     Bounds,
     Check,
     Counterexample,
+    LargestCube,
     Limit,
     Paving,
     Report,
     Requirement,
     Side,
+    Size,
     Summary,
+    Tolerance,
     Value,
     Verification,
+    Widest,
     _exact,
     _point,
 )
@@ -44,10 +48,10 @@ from ._program import DesignError, OrthocertError, Progress, Unfinished, answer,
 AnyDesign = Union[Design, str, Path, Mapping[str, Any]]
 
 __all__ = [
-    "Bound", "Bounds", "Check", "Counterexample", "Design", "DesignError", "Limit", "OrthocertError", "Paving",
-    "Report", "Requirement", "Side", "Summary", "Unfinished", "Value", "Verification", "arm", "bounds", "check",
-    "limit", "linear_delta", "pave", "planar", "plus_minus", "program", "report", "slider", "strut", "summary",
-    "verify", "version",
+    "Bound", "Bounds", "Check", "Counterexample", "Design", "DesignError", "LargestCube", "Limit", "OrthocertError",
+    "Paving", "Report", "Requirement", "Side", "Size", "Summary", "Tolerance", "Unfinished", "Value",
+    "Verification", "Widest", "arm", "bounds", "check", "largest_cube", "limit", "linear_delta", "pave", "planar",
+    "plus_minus", "program", "report", "size", "slider", "strut", "summary", "tolerance", "verify", "version",
 ]  # fmt: skip
 
 
@@ -136,14 +140,15 @@ def limit(
     key: str,
     *,
     gap: Number = "1e-6",
+    direction: Optional[str] = None,
     max_boxes: Optional[int] = None,
     timeout: Optional[Number] = None,
     threads: Optional[int] = None,
     progress: Optional[Progress] = None,
     cancel: Optional[threading.Event] = None,
 ) -> Limit:
-    """How far one number of a design can go, by its dotted key; `gap` is relative."""
-    flags = _flags(gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    """How far one number of a design can go, by its dotted key; `gap` is relative, `direction` "up" or "down" alone."""
+    flags = _flags(gap=gap, direction=direction, max_boxes=max_boxes, timeout=timeout, threads=threads)
     with folder_of(as_design(design)) as (folder, file):
         found = answer(["limit", file.name, key, *flags], folder=folder, progress=progress, cancel=cancel)
 
@@ -161,6 +166,75 @@ def limit(
         for s in found["limits"]
     )
     return Limit(found["key"], found["own"], sides, found)
+
+
+def tolerance(
+    design: AnyDesign,
+    *,
+    on: Optional[Sequence[str]] = None,
+    by_leg: bool = False,
+    gap: Number = "0.1",
+    each: Optional[Number] = None,
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Tolerance:
+    """The widest tolerances with which a design is still certified; `on` names kinds, as `["leg_length", "anchor"]`."""
+    kinds = None if on is None else ",".join(on)
+    flags = _flags(on=kinds, by_leg=by_leg, gap=gap, each=each, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["tolerance", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    rows = tuple(
+        Widest(
+            tuple(row["on"]), row.get("leg"), row["measure"], _exact(row["certified"]), _exact(row["refuted"]),
+            _counterexample(row.get("counterexample")),
+        )
+        for row in found["tolerances"]
+    )  # fmt: skip
+    return Tolerance(rows, found)
+
+
+def size(
+    design: AnyDesign,
+    cube: Number,
+    *,
+    gap: Optional[Number] = None,
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Size:
+    """How large a machine of a design's proportions has to be for a cube of that side."""
+    flags = _flags(cube=cube, gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["size", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    return Size(
+        found["unknown"], _exact(found.get("certified")), _exact(found.get("refuted")), _exact(found.get("excluded")),
+        _point(found.get("centre")), _counterexample(found.get("limited_by")), found,
+    )  # fmt: skip
+
+
+def largest_cube(
+    design: AnyDesign,
+    *,
+    gap: Optional[Number] = None,
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> LargestCube:
+    """The largest axis-aligned cube whose centre is in a design's box; of platforms that turn, in every orientation."""
+    flags = _flags(gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["largest-cube", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    return LargestCube(
+        found.get("min"), _point(found.get("centre")), found.get("max") or found.get("refuted_here"),
+        _counterexample(found.get("limited_by")), found,
+    )  # fmt: skip
 
 
 def summary(

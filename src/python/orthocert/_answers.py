@@ -237,6 +237,86 @@ class Limit:
 
 
 @dataclass(frozen=True)
+class Widest:
+    """The widest tolerance of parameters of some kinds: a certified one, and a refuted one beyond it."""
+
+    on: tuple[str, ...]
+    leg: Optional[int]
+    """The leg whose parameters these are, counted from one; none where those of all legs are widened."""
+    measure: str
+    """What the numbers are: "length" in the design's unit, "component" of a direction, "share" of the other rows."""
+    certified: Optional[Fraction]
+    refuted: Optional[Fraction]
+    limited_by: Optional[Counterexample]
+
+
+@dataclass(frozen=True)
+class Tolerance(Sequence[Widest]):
+    """The widest tolerances with which a design is still certified, kind by kind."""
+
+    rows: tuple[Widest, ...]
+    answer: dict[str, Any] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, at: Any) -> Any:
+        return self.rows[at]
+
+    def __iter__(self) -> Iterator[Widest]:
+        return iter(self.rows)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (
+                ", ".join(w.on) + (f" of leg {w.leg}" if w.leg else "") + f", {w.measure}",
+                _decimal(w.certified),
+                _decimal(w.refuted),
+                w.limited_by.violated if w.limited_by else "",
+            )
+            for w in self.rows
+        ]
+        return _table(("tolerance, plus or minus", "certified", "refuted", "limited by"), rows)
+
+
+@dataclass(frozen=True)
+class Size:
+    """The smallest size of a machine for a cube: a leg length where that is its size, else a scale of the whole."""
+
+    unknown: str
+    certified: Optional[Fraction]
+    refuted: Optional[Fraction]
+    """A size that is refuted for the cube's place, or for every one, as `answer["refuted_for"]` says."""
+    excluded: Optional[Fraction]
+    """A size that is refuted for every axis-aligned place of the cube, where that was asked too."""
+    centre: Optional[Point]
+    limited_by: Optional[Counterexample]
+    answer: dict[str, Any] = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        rows = [(name, _decimal(getattr(self, name))) for name in ("certified", "refuted", "excluded")]
+        limit = f"<p>limited by {html.escape(self.limited_by.violated)}</p>" if self.limited_by else ""
+        return _table((self.unknown, ""), rows) + limit
+
+
+@dataclass(frozen=True)
+class LargestCube:
+    """The largest axis-aligned cube in a workspace: a side that fits, and one that does not."""
+
+    certified: Optional[str]
+    """Exact: a decimal, a fraction, or an expression, as in a design file."""
+    centre: Optional[Point]
+    refuted: Optional[str]
+    """A side that fits nowhere; of platforms that turn, one that does not fit about this centre."""
+    limited_by: Optional[Counterexample]
+    answer: dict[str, Any] = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        limit = f"<p>limited by {html.escape(self.limited_by.violated)}</p>" if self.limited_by else ""
+        return _table(("certified side", "refuted side"), [(self.certified or "", self.refuted or "")]) + limit
+
+
+@dataclass(frozen=True)
 class Value:
     """A line of a summary: what is certified, and what some point reaches."""
 
