@@ -19,12 +19,12 @@ Definition claim_of (d : demand) (length : number) : turning_claim :=
     (100 // 1)
     (Box (Tolerances (Within (-50 // 1) (50 // 1)) (Within (-50 // 1) (50 // 1)) (exactly (0 // 1))))
     (TurnedBy (Within (-20 // 1) (20 // 1)))
-    [d; LengthMax 0 length].
+    [d; LengthMax 0 length] false.
 Definition claim (psi : number) : number -> turning_claim := claim_of (FactorMax psi).
 Definition Y := [[0; -1; -1]; [1; 1; -1]; [-1; 0; -1]].
 Definition by_lower (Y : list (list Z)) : nat * evidence := (0%nat, AtControls (ByLower 0%N Y)).
 Definition by_test : nat * evidence := (1%nat, AtControls ByTest).
-Definition accepts (c : turning_claim) (steps : list (nat * evidence)) : bool := check_turning 52 c 9 (Leaf steps).
+Definition accepts (c : turning_claim) (steps : list (nat * evidence)) : bool := check_turning 52 (0%N, []) 0 c 9 (Leaf steps).
 Local Notation right := (claim (11 // 10) (480 // 1)).
 
 Example as_it_is : accepts right [by_lower Y; by_test] = true. Proof. vm_compute. reflexivity. Qed.
@@ -45,7 +45,7 @@ Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. r
 
 (** Joint speeds and forces, and stiffness. *)
 Definition asks (d : demand) (e : evidence) : bool :=
-  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (positions right) (Turning.turned right) [FactorMax (11 // 10); d]) [by_lower Y; (1%nat, AtControls e)].
+  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (positions right) (Turning.turned right) [FactorMax (11 // 10); d] false) [by_lower Y; (1%nat, AtControls e)].
 Example speed : asks (SpeedMax 0 (100 // 1) (160 // 1)) ByTest = true. Proof. vm_compute. reflexivity. Qed.
 Example speed_less : asks (SpeedMax 0 (100 // 1) (100 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
 Example speed_of_none : asks (SpeedMax 3 (100 // 1) (160 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
@@ -66,7 +66,7 @@ Example no_number : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [0; 0; 0;
 Example too_great_somewhere : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [6; 0; 4; 0]) = false. Proof. vm_compute. reflexivity. Qed.
 Example one_too_few : asks (Conditioned (3 // 1)) (ByConditioning 3%N Y3 [6; 0; 0]) = false. Proof. vm_compute. reflexivity. Qed.
 Definition round (radius : number) : bool :=
-  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (Cylinder (0 // 1) (0 // 1) radius (exactly (0 // 1))) (Turning.turned right) [FactorMax (11 // 10)]) [by_lower Y].
+  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (Cylinder (0 // 1) (0 // 1) radius (exactly (0 // 1))) (Turning.turned right) [FactorMax (11 // 10)] false) [by_lower Y].
 Example in_a_cylinder : round (50 // 1) = true. Proof. vm_compute. reflexivity. Qed.
 Example in_a_wider_one : round (200 // 1) = false. Proof. vm_compute. reflexivity. Qed.
 Example force_by_test : asks (ForceMax 0 (100 // 1) (120 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
@@ -116,11 +116,11 @@ Definition claim (o : orientations) (psi : number) : turning_claim :=
     [(vector (150 // 1) (0 // 1) (-150 // 1), vector (0 // 1) (100 // 1) (0 // 1));
      (vector (-75 // 1) (root3 75) (-150 // 1), vector (root3 (-50)) (-50 // 1) (0 // 1));
      (vector (-75 // 1) (root3 (-75)) (-150 // 1), vector (root3 50) (-50 // 1) (0 // 1))]
-    (100 // 1) (Box (vector (0 // 1) (0 // 1) (0 // 1))) o [FactorMax psi; LengthMin 0 (181 // 1)].
+    (100 // 1) (Box (vector (0 // 1) (0 // 1) (0 // 1))) o [FactorMax psi; LengthMin 0 (181 // 1)] false.
 Definition Y := [[14; 0; 10]; [-7; 12; 10]; [-7; -12; 10]].
 Definition less (n : Z) : nat * evidence := (0%nat, AtControls (Turned (ByLower 5%N Y) n 1%N)).
 Definition by_test : nat * evidence := (1%nat, AtControls ByTest).
-Definition accepts (c : turning_claim) (t : tree) : bool := check_turning 52 c 8 t.
+Definition accepts (c : turning_claim) (t : tree) : bool := check_turning 52 (0%N, []) 0 c 8 t.
 Definition tilt (a b : Z) : orientations := Tilted (a // 1) (b // 1).
 Local Notation right := (claim (tilt 20 10) (2 // 1)).
 

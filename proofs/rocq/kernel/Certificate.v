@@ -628,6 +628,10 @@ Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) 
   | _, _, _ => is_demand false legs r
   end.
 
+(** Or of two points. *)
+Definition is_asked (coordinates legs : nat) (r : written_requirement) : bool :=
+  match about_ r, end_ r, leg_ r, given_ r with OneToOne_, Holds_, None, None => true | _, _, _, _ => is_turning_demand coordinates legs r end.
+
 (** Of legs in any motion; forces and determinants of as many as coordinates. *)
 Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r : written_requirement) : bool :=
   let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
@@ -674,7 +678,7 @@ Definition place_in (w : written_place) : region :=
 Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (w : written_place)
     (o : written_orientation) (rs : list written_requirement) : turning_claim :=
   let vector v := vector_of (map tolerance_of v) in
-  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell) (place_in w) (orientation_of o) (demands false (length ls) rs).
+  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell) (place_in w) (orientation_of o) (demands false (length ls) rs) (existsb is_of_two_points rs).
 
 (** In the plane arms turn about z. *)
 Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
@@ -1089,7 +1093,7 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | (InSpace | AboutPoint), TurnedUpTo a => is_less_than_half_turn a
   | (InSpace | AboutPoint), Tilted a b => is_less_than_half_turn a && is_less_than_half_turn b
   | _, _ => false
-  end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands false (length ls) rs).
+  end && forallb (is_asked (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands false (length ls) rs).
 
 Definition quantities_of_driven (l : written_driven) : list quantity :=
   match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p => a ++ p | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
@@ -1155,8 +1159,7 @@ Definition are_well_formed_formulas (xs : list string) (ps : list (string * quan
     | OneToOne_ => forallb (fun j => match j with Rho_ _ => true | _ => false end) rows
     | _ => true
     end in
-  let is_asked r := match about_ r, end_ r, leg_ r, given_ r with OneToOne_, Holds_, None, None => true | _, _, _, _ => is_turning_demand n (length rows) r end in
-  Nat.eqb (length a) (length b) && forallb (fun r => is_asked r && has_coordinate r) rs && is_each_once rs &&
+  Nat.eqb (length a) (length b) && forallb (fun r => is_asked n (length rows) r && has_coordinate r) rs && is_each_once rs &&
   forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) rs).
 
 (** How many obligations are before that of two points. *)
@@ -1267,11 +1270,11 @@ Definition accept (c : certificate) : bool :=
           refute_turning exact_bits (turning_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
       | _ => false
       end
-  | Turning_ k ls ell w o rs, Nodes bits _ nodes =>
+  | Turning_ k ls ell w o rs, Nodes bits chords nodes =>
       let c := turning_claim_of k ls ell w o rs in
       match tree_of [] (length nodes) nodes with
       | Some (t, []) => is_turning k ls ell w o rs && splits_below (dimension k) nodes &&
-          certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
+          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) rs) c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
@@ -1330,7 +1333,7 @@ Proof.
   - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_driven_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
-    exact (certify_turning_sound _ _ _ _ _ h).
+    exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_turning_sound _ _ _ _ _ _ h).
   - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].

@@ -85,6 +85,13 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
   reached c /\ injective n c /\ Forall (fulfils n c) ds.
 
+(** A test of what is claimed of two points stands among those of one. *)
+Definition inserted {A : Type} (place : nat) (l : list A) (a : A) : list A := firstn place l ++ a :: skipn place l.
+Lemma inserted_in : forall (A : Type) place (l : list A) a b, In b (inserted place l a) <-> b = a \/ In b l.
+Proof.
+  intros A place l a b. unfold inserted. rewrite <- (firstn_skipn place l) at 3. rewrite !in_app_iff. cbn [In]. intuition.
+Qed.
+
 (** ** In exact numbers: what fails *)
 
 Inductive ncoordinate := NLength (rho : number) | NAngle (cosine sine : number) | NUnknown.

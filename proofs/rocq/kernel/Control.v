@@ -534,7 +534,9 @@ Inductive polynomial_test :=
   | ConditionOf (r : rows nat) (w : nat) (c2 : fixed)
   (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
   | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
-  | SignOf (f : nat).
+  | SignOf (f : nat)
+  (* Y^T A + A^T Y > 0, with one Y for all cells *)
+  | ChordsOf (r : rows nat) (w : nat) (places : N) (Y : list (list Z)).
 
 Fixpoint all_known (a : list (option fixed)) : option (list fixed) :=
   match a with
@@ -927,14 +929,12 @@ Qed.
 Lemma form_without_D : forall ws r v, form (map (fun p => (fst p, 0)) ws) r v = form ws (map (fun p => (fst p, 0)) r) v.
 Proof. induction ws as [| [y z] ws IH]; intros [| [a d] r] v; try reflexivity. cbn [map form fst]. rewrite IH. ring. Qed.
 
-Theorem rank_shown : forall e n places Y r w v, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
+(** What shows full rank, as a form; of chords that is all. *)
+Lemma rank_form : forall e n places Y r w v, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
   at_controls e (rank_at n places Y) (sample_of r w l) -> length v = n -> nonzero v ->
-  positive_D (map_rows (fun i => here i) r) /\ 0 < energy (map_rows (fun i => here i) r) v.
+  0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (fun i => here i) r)) v + - dot v v * less_at (parabola x) l.
 Proof.
-  intros e n places Y r w v ha he H lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
-  assert (T : forall v, length v = n -> nonzero v ->
-    0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (fun i => here i) r)) v + - dot v v * less_at (parabola x) l).
-  { clear v lv nz. intros v lv nz. set (ws := map (fun p => (fst p, 0)) (lower_weights places Y v)). rewrite <- form_without_D. fold ws.
+  intros e n places Y r w v ha he H lv nz. set (ws := map (fun p => (fst p, 0)) (lower_weights places Y v)). rewrite <- form_without_D. fold ws.
     enough (0 < form ws (map_rows (fun i => here i) r) v + 0 * here w + - dot v v * less_at (parabola x) l) by lra.
     apply (decide (fun ps => form ws (map_rows (fun i => at_ ps i) r) v + 0 * at_ ps w + - dot v v * less_at ps l) e).
     - apply weight_affine; assumption.
@@ -948,7 +948,23 @@ Proof.
       destruct (Nat.eqb_spec (length (lower_triangle places Y (map (fun p => (fst p, zero)) s) (repeat [sub zero t] n))) n) as [q | q]; [| discriminate].
       destruct (lower_triangle_sound bits places Y _ _ _ _ v S0 (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (zero_sound bits) L))) as [T [hT le]].
       pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
-      rewrite (related_length _ _ _ _ _ hT) in q. specialize (Q ltac:(congruence) nz). lra. }
+      rewrite (related_length _ _ _ _ _ hT) in q. specialize (Q ltac:(congruence) nz). lra.
+Qed.
+
+Theorem chords_shown : forall n places Y r w v, forallb is_affine_at (w :: all_places r) = true ->
+  at_controls O (rank_at n places Y) (sample_of r w l) -> length v = n -> nonzero v ->
+  0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (fun i => here i) r)) v.
+Proof.
+  intros n places Y r w v ha H lv nz. pose proof (rank_form O n places Y r w v ha (or_introl eq_refl) H lv nz).
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]). lra.
+Qed.
+
+Theorem rank_shown : forall e n places Y r w v, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
+  at_controls e (rank_at n places Y) (sample_of r w l) -> length v = n -> nonzero v ->
+  positive_D (map_rows (fun i => here i) r) /\ 0 < energy (map_rows (fun i => here i) r) v.
+Proof.
+  intros e n places Y r w v ha he H lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  assert (T := fun v => rank_form e n places Y r w v ha he H).
   assert (P : positive_D (map_rows (fun i => here i) r)).
   { destruct he as [-> | [_ [lr [g w0]]]].
     - apply (regular_here r w l hr), (known_everywhere O (rank_at n places Y) r w H). intros s h. unfold rank_at in h.

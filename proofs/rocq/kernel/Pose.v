@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart.
+From Orthocert.kernel Require Import Statement Arithmetic Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Poses Control Chart.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -35,6 +35,7 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e
   | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
   | ConditionOf r w c2, ByConditioning places Y (mu :: mus) =>
       everywhere_by m (conditioned_at bits n c2 places Y mu) mus 0 (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l))
+  | ChordsOf r w places Y, ByChords => at_all 0%nat (rank_at n places Y) r w
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | _, _ => false
   end.
@@ -78,7 +79,7 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ => w :: all_places r | SignOf f => [f] end.
+  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ => w :: all_places r | SignOf f => [f] end.
 (** Rows and weight of a test that has ends alone of some coordinates. *)
 Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
   match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
@@ -104,6 +105,7 @@ Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
   | ConditionOf r w c2 => forall c u v, contains bits c2 c -> 0 <= c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) u * Linear.dot v v < c * energy (map_rows here r) v * Linear.dot u u
   | SignOf f => 0 <= here f
+  | ChordsOf r w places Y => forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows here r)) v
   end.
 
 Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
@@ -117,7 +119,7 @@ Proof.
   { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
     split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w places Y], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
   - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
@@ -127,6 +129,7 @@ Proof.
     exact (conditioned_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w c2 mu mus c u v ha h).
   - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
   - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
+  - intros v. exact (chords_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w v ha (K _ _ _ h)).
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
@@ -226,6 +229,13 @@ Definition scaled_row (k : motion) (N : emat) (w ell : formula) (a b : evec) : l
   (etwist k (map2 plus (Machine.scaled w h) nb) (divided_by (ecross nb h) ell),
    plus (times w own) (times (integer 2) (Machine.product nb h))).
 
+(** [A, a x A]: of a strut in space, its vector w A with its moment about the origin, of which a is the base end. *)
+Definition origin_row (a : evec) (row : list formula * formula) : list formula * formula :=
+  match fst row with
+  | x :: y :: z :: _ => let m := ecross a (EVec x y z) in ([x; y; z; ex m; ey m; ez m], snd row)
+  | A => (A, snd row)
+  end.
+
 Section Values.
 Variables x theta : list R.
 Local Notation value := (Formula.value x theta).
@@ -322,6 +332,19 @@ Proof.
   assert (S2 : sqrt (norm2 (strut_vector l P Q)) ^ 2 = norm2 (strut_vector l P Q)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
   split; [rewrite !Rpow_mult_distr, S2; ring |]. intro v. rewrite E, !dot_map. field. lra.
 Qed.
+
+Lemma origin_row_values : k = InSpace -> map (Formula.value x theta) (fst (origin_row a (scaled_row k N we le a b))) = map (Rmult (W * r)) (about_origin r l P Q).
+Proof.
+  intro hk. pose proof scaled_row_values as S. rewrite hk in *. unfold scaled_row in *. cbv zeta in *. destruct S as [_ S].
+  set (A := map2 plus _ _) in *. cbn [etwist twist map fst origin_row] in *. set (q := strut_vector l P Q) in *.
+  pose proof (f_equal (fun u => nth 0 u 0) S) as s1. pose proof (f_equal (fun u => nth 1 u 0) S) as s2. pose proof (f_equal (fun u => nth 2 u 0) S) as s3.
+  cbn [nth map] in s1, s2, s3. clear S.
+  assert (V : val3 x theta (EVec (ex A) (ey A) (ez A)) = vscale (W * r) q) by (unfold val3, vscale; cbn [ex ey ez]; rewrite s1, s2, s3; reflexivity).
+  pose proof (val3_cross x theta a (EVec (ex A) (ey A) (ez A))) as M. rewrite V, ha in M. unfold about_origin. fold q.
+  pose proof (f_equal vx M) as m1. pose proof (f_equal vy M) as m2. pose proof (f_equal vz M) as m3. cbn [vx vy vz val3] in m1, m2, m3.
+  cbv zeta. unfold coordinates. cbn [map app vx vy vz vscale]. rewrite s1, s2, s3, m1, m2, m3.
+  generalize (strut_base l) q. clear. intros [b1 b2 b3] [q1 q2 q3]. unfold cross, vscale. cbn [vx vy vz]. repeat (f_equal; try ring).
+Qed.
 End Row.
 
 (** ** Checking *)
@@ -334,8 +357,20 @@ Fixpoint all_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (
       scaled_row k N w ell (vector_at q 0) (vector_at q 3) :: all_rows k N w ell s ts' (j + length (strut_layout s t))
   end.
 
+Fixpoint origin_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : rows formula :=
+  match ts with
+  | [] => []
+  | t :: ts' => let q := numbered j (strut_layout s t) in
+      origin_row (vector_at q 0) (scaled_row k N w ell (vector_at q 0) (vector_at q 3)) :: origin_rows k N w ell s ts' (j + length (strut_layout s t))
+  end.
+
 Section Precision.
 Variable bits : positive.
+(** Of claims that no two poses have the same lengths: the one matrix, and before which other test this is counted. *)
+Variables (one_matrix : N * list (list Z)) (one_place : nat).
+(** In space, of turns about any axis that are less than 90 degrees: two of them differ by less than half a turn. *)
+Definition is_less_than_quarter (k : motion) (o : orientations) : bool :=
+  match k, o with InSpace, TurnedUpTo a => certainly bits true (Minus (90 // 1) a) | _, _ => false end.
 
 (** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, or b/k of a stiffness. *)
 Definition length_bound (s : Z) (d : demand) : parameter :=
@@ -401,13 +436,14 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let (N, w) := chart (turned c) (first_angle k) in
   let rows := all_rows k N w ell s (struts c) 0 in
   let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
-  let wanted := entries rows ++ w :: demand_formulas rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end in
+  let about := if one_pose c then origin_rows k N w ell s (struts c) 0 else [] in
+  let wanted := entries rows ++ w :: demand_formulas rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end ++ entries about in
   let tape := fst (compile (map (image m) wanted)) in
   let fs := formulas tape in
   let place f := Formula.place fs (image m f) in
   let ends := match positions c with Box _ => ends_of fs m k (map_rows place rows) (place w) (option_map place g) | _ => O end in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
-  existsb excludes (turning_demands c) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
+  existsb excludes (turning_demands c) && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (ps ++ map (length_bound s) (turning_demands c))),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
@@ -415,6 +451,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
         all_some (map (enclose_tangent bits) (curved (turned c))),
         all_some (pose_tests place ends rows w s j (turning_demands c)) with
   | Some params, Some box, Some angles, Some tangents, Some tests =>
+      let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
       match g with Some g => affine_in m fs (place g) | None => true end &&
       check_poses bits tape (params ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
@@ -434,19 +471,23 @@ Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall
   forall x front back k P Q W L N w ell, 0 < W -> 0 < L -> (forall b, norm2 (mulv Q b) = norm2 b) ->
     val3 x (front ++ th ++ back) (eposition k) = vscale (/ two_to s) P -> valm x (front ++ th ++ back) N = mscale W Q ->
     Formula.value x (front ++ th ++ back) w = W -> Formula.value x (front ++ th ++ back) ell = / two_to s * L ->
-    Forall2 (stands x (front ++ th ++ back) k P Q W (/ two_to s) L) (all_rows k N w ell s ts (length front)) m.
+    Forall2 (stands x (front ++ th ++ back) k P Q W (/ two_to s) L) (all_rows k N w ell s ts (length front)) m /\
+    (k = InSpace -> map (fun row => map (Formula.value x (front ++ th ++ back)) (fst row)) (origin_rows k N w ell s ts (length front)) =
+      map (fun l => map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q)) m).
 Proof.
   intros s. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
-  induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; [constructor | intros; constructor] |].
+  induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; [constructor | intros; split; [constructor | reflexivity]] |].
   set (th1 := coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))).
   assert (L1 : Forall2 scaled_within (strut_layout s t) th1) by (apply Forall2_app; apply three_within; assumption).
   exists (th1 ++ th2). split; [cbn [flat_map]; apply Forall2_app; assumption |].
-  intros x front back k P Q W L N w ell W0 L0 keeps hP hN hw hl. cbn [all_rows]. cbv zeta. constructor.
-  - rewrite <- app_assoc in *. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V.
-    apply (scaled_row_speed x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N _ _ w ell l); try assumption;
-      unfold val3, vector_at; cbn [ex ey ez]; rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V; reflexivity.
-  - specialize (R2 x (front ++ th1) back k P Q W L N w ell W0 L0 keeps). rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2.
-    rewrite <- !app_assoc in *. apply R2; assumption.
+  intros x front back k P Q W L N w ell W0 L0 keeps hP hN hw hl. cbn [all_rows origin_rows]. cbv zeta.
+  rewrite <- app_assoc in hP, hN, hw, hl. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V.
+  assert (Own : forall i, val3 x (front ++ th1 ++ th2 ++ back) (vector_at (numbered (length front) (strut_layout s t)) i) = Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0)).
+  { intro i. unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity. }
+  specialize (R2 x (front ++ th1) back k P Q W L N w ell W0 L0 keeps). rewrite app_length, <- (related_length _ _ _ _ _ L1), <- !app_assoc in R2.
+  destruct (R2 hP hN hw hl) as [I1 I2]. rewrite <- !app_assoc. split.
+  - constructor; [| exact I1]. apply (scaled_row_speed x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N _ _ w ell l); try assumption; rewrite Own; reflexivity.
+  - intro hk. cbn [map]. f_equal; [| exact (I2 hk)]. apply (origin_row_values x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N); try assumption; rewrite Own; reflexivity.
 Qed.
 
 Lemma rows_speed : forall x theta k P Q W r L rows m, Forall2 (stands x theta k P Q W r L) rows m -> positive_D (map_rows (Formula.value x theta) rows) ->
@@ -563,26 +604,30 @@ Qed.
 
 Theorem check_turning_sound : forall c s t, check_turning c s t = true -> turning_holds c.
 Proof.
-  intros c s t h m P Q [hm [hP hQ]]. apply hull_sound in hP. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
+  intros c s t h m P Q [hm hPQ]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
   set (rows := all_rows k N w ell s ts 0) in *.
   set (g := curve (turned c) (first_angle k) (j + length ds)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
-  set (wanted := entries rows ++ w :: demand_formulas rows w s j ds ++ gs) in *.
+  set (about := if one_pose c then origin_rows k N w ell s ts 0 else []) in *.
+  set (wanted := entries rows ++ w :: demand_formulas rows w s j ds ++ gs ++ entries about) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
-  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
+  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h quarter]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (map (end_box bits) _)) as [angles |] eqn:ea; [| discriminate].
   destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
   destruct (all_some (pose_tests _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  cbv zeta in C. set (all_tests := if one_pose c then inserted _ _ _ else tests) in C.
+  assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (one_pose c); [apply inserted_in; right |]; exact iu).
+  assert (Own : forall u, In u all_tests -> In u tests \/ with_ends u = None)
+    by (intros u iu; unfold all_tests in iu; destruct (one_pose c); [apply inserted_in in iu as [-> | iu]; [right; reflexivity |] |]; left; exact iu).
   apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in C as [C gaff]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
   apply positive_sound in L0. set (L := Claim.value (characteristic_length c)) in *.
   assert (ok : are_angles (turned c)).
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
     split; apply (is_angle_number_sound bits); assumption. }
-  destruct (chart_sound _ _ hQ ok) as [cs [W [hcs [W0 CH]]]].
   destruct (all_rows_stand s ts m hm) as [th [TH RS]]. set (bs := map (fun d => Claim.value (least (fst (length_bound s d))) / two_to (snd (length_bound s d))) ds).
   set (tt := map (fun a => tangent (Claim.value a)) (curved (turned c))).
   set (theta := th ++ [/ two_to s * L] ++ bs ++ tt).
@@ -600,6 +645,14 @@ Proof.
   { intros a i. unfold theta. rewrite !app_assoc. replace (j + length ds)%nat with (length ((th ++ [(/ two_to s * L)%R]) ++ bs) + 0)%nat
       by (unfold j; rewrite !app_length, lb, lt; cbn [length]; lia).
     rewrite app_nth2_plus. unfold tt. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
+  (* at one pose *)
+  enough (At : forall P Q, in_region (positions c) P /\ in_orientations (turned c) Q -> meets_turning c m P Q /\ (one_pose c = true ->
+    exists u, rodrigues u = mscale (1 + norm2 u) Q /\ norm2 u < 1 /\
+      forall v, length v = 6%nat -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (map (fun l => (about_origin (/ two_to s) l P Q, 0)) m) v)).
+  { split; [exact (proj1 (At P Q hPQ)) |]. intros o P' Q' hP' hQ' same. destruct (proj2 (At P Q hPQ) o) as [u [u1 [u2 u3]]].
+    destruct (proj2 (At P' Q' (conj hP' hQ')) o) as [v [v1 [v2 v3]]].
+    apply (poses_differ (/ two_to s) (fst one_matrix) (snd one_matrix) m P Q u P' Q' v); try assumption. apply Rinv_neq_0_compat, Rgt_not_eq, two_to_pos. }
+  clear P Q hPQ. intros P Q [hP hQ]. apply hull_sound in hP. destruct (chart_sound _ _ hQ ok) as [cs [W [hcs [W0 CH]]]].
   set (x := map (Rmult (/ two_to s)) (position_list k P) ++ cs).
   assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; [exact (position_boxes k _ P s box hP eb) | exact (box_sound bits _ cs angles ok hcs ea)]).
   assert (lx : length x = dimension k) by (rewrite <- (related_length _ _ _ _ _ X); exact len).
@@ -610,7 +663,7 @@ Proof.
   { unfold ell, theta. apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
     rewrite <- lt. apply nth_middle. }
   pose proof (RS x [] ([/ two_to s * L] ++ bs ++ tt) k P Q W L N w ell W0 L0 (orientation_keeps _ _ hQ)
-    (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as ST.
+    (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as [ST ORIGIN].
   change (Forall2 (stands x theta k P Q W (/ two_to s) L) rows m) in ST.
   (* the tape *)
   rewrite forallb_forall in found, below_.
@@ -630,20 +683,21 @@ Proof.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
   set (ends := match positions c with Box _ => _ | _ => _ end) in *.
-  assert (eased : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
+  assert (eased : forall u r v e, In u all_tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
-  { intros u r v e0 i we. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
+  { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
     unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
     - split; [exact e2 | discriminate]. }
-  assert (turn : is_turned tape tests (option_map place g) theta x).
-  { split; [| intros u r v e i we; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
+  assert (turn : is_turned tape all_tests (option_map place g) theta x).
+  { split; [| intros u r v e i we; destruct (Own u i) as [i1 | no]; [| congruence]; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
+  pose proof (check_poses_sound bits tape (params ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
+  pose proof (fun u iu => HT0 u (Sub u iu)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
     by (apply (rows_speed x theta k P Q W (/ two_to s) L); exact ST).
@@ -673,6 +727,33 @@ Proof.
   destruct Reach as [low [kappa [hk [k0 it]]]]. destruct (Lower low kappa hk k0 it) as [reach_ [PDR low_]].
   assert (INJ : Configuration.injective (dimension k) conf).
   { intros v lv nv. specialize (low_ v lv nv). unfold nonzero in nv. assert (0 <= kappa * Linear.dot v v) by (apply Rmult_le_pos; lra). lra. }
+  split.
+  2: { intro o. rewrite o in quarter. cbn [negb orb] in quarter. unfold is_less_than_quarter in quarter.
+    destruct k eqn:ek; try discriminate. destruct (turned c) as [| | a |] eqn:et'; try discriminate. apply positive_sound in quarter. cbn [Claim.value] in quarter.
+    cbn [chart] in ch. injection ch as chN chw. set (u' := EVec (F (Coord (first_angle InSpace + 0))) (F (Coord (first_angle InSpace + 1))) (F (Coord (first_angle InSpace + 2)))) in *.
+    set (u := val3 x theta u'). assert (EW : W = 1 + norm2 u).
+    { rewrite <- hw, <- chw, value_plus, value_dot. fold u. rewrite <- norm2_dot. reflexivity. }
+    exists u. rewrite <- EW. split; [rewrite <- hN, <- chN, valm_rodrigues; reflexivity |]. split.
+    - pose proof (hg _ eq_refl) as G. rewrite value_minus, Formula.value_square, value_dot, <- norm2_dot in G. change (val3 x theta (EVec _ _ _)) with u in G.
+      specialize (tangent_at a (or_introl eq_refl)). cbn [Formula.value map_op real_op] in G. rewrite tangent_at in G.
+      destruct hQ as [e [b [_ [ab _]]]]. inversion ok as [| ? ? [_ ia] _]; subst. cbn [either_way greatest] in ia. destruct (tangent_is _ ia) as [CO _].
+      assert (CP : 0 < cos (in_degrees (Claim.value a))) by (pose proof PI_RGT_0; apply cos_gt_0; unfold in_degrees; nra).
+      set (t2 := tangent (Claim.value a) ^ 2) in *. assert (t0 : 0 <= t2) by apply pow2_ge_0. rewrite CO in CP.
+      enough (t2 < 1) by lra. apply Rnot_le_lt. intro n. assert ((1 - t2) / (1 + t2) <= 0); [| lra].
+      unfold Rdiv. rewrite <- (Rmult_0_l (/ (1 + t2))). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra | lra].
+    - intros v lv nz. assert (IA : In (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) all_tests)
+        by (unfold all_tests; rewrite o; apply inserted_in; left; reflexivity).
+      pose proof (HT0 _ IA) as K. cbn [test_holds] in K. specialize (K v lv nz).
+      rewrite RowsOf in K by (intros f i; apply in_or_app; right; right; do 2 (apply in_or_app; right); exact i).
+      specialize (ORIGIN eq_refl). assert (EA : map (fun p => (fst p, 0)) (map_rows (Formula.value x theta) about) =
+        map (fun l => (map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q), 0)) m).
+      { unfold map_rows. rewrite map_map. cbn [fst]. unfold about. rewrite o.
+        rewrite <- (map_map (fun l => map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q)) (fun A => (A, 0))), <- (map_map (fun p => map (Formula.value x theta) (fst p)) (fun A => (A, 0))).
+        f_equal. exact ORIGIN. }
+      rewrite EA in K. set (q := W * / two_to s) in *. assert (q0 : 0 < q) by (apply Rmult_lt_0_compat; [exact W0 | apply Rinv_0_lt_compat, two_to_pos]).
+      apply Rmult_lt_reg_l with q; [exact q0 |]. rewrite Rmult_0_r. match type of K with 0 < ?y => replace (q * _) with y; [exact K |] end.
+      clear. generalize (lower_weights (fst one_matrix) (snd one_matrix) v). induction m as [| l m' IH]; intros [| [y z] ws]; cbn [map form]; try ring.
+      rewrite IH, dot_map. ring. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
   destruct (Test d id) as [i [u [nd [pu [iu signs]]]]].
   assert (Bound : forall b, length_bound s d = (exactly b, s) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = / two_to s * Claim.value b).
@@ -774,9 +855,9 @@ End Precision.
 
 Definition is_met (exact : positive) (t : tolerance) : bool := below exact (least t) (greatest t).
 Definition are_met (exact : positive) (t : tolerances) : bool := is_met exact (tx t) && is_met exact (ty t) && is_met exact (tz t).
-Definition certify_turning (exact bits : positive) (c : turning_claim) (s : Z) (t : tree) : bool :=
+Definition certify_turning (exact bits : positive) (one_matrix : N * list (list Z)) (one_place : nat) (c : turning_claim) (s : Z) (t : tree) : bool :=
   forallb (fun t => are_met exact (fst t) && are_met exact (snd t)) (struts c) && is_in exact (positions c) (some_point (positions c)) &&
-  forallb (is_met exact) (angles_of (turned c)) && check_turning bits c s t.
+  forallb (is_met exact) (angles_of (turned c)) && check_turning bits one_matrix one_place c s t.
 
 Lemma least_within : forall exact t, is_met exact t = true -> within t (Claim.value (least t)).
 Proof. intros exact t h. apply below_sound in h. split; [apply Rle_refl | exact h]. Qed.
@@ -801,11 +882,11 @@ Proof.
     eexists. exists 0, 0, 0. split; [exact hm | split; [lra | reflexivity]].
 Qed.
 
-Theorem certify_turning_sound : forall exact bits c s t, certify_turning exact bits c s t = true ->
+Theorem certify_turning_sound : forall exact bits one_matrix one_place c s t, certify_turning exact bits one_matrix one_place c s t = true ->
   turning_holds c /\ exists m P Q, is_about_struts c m P Q.
 Proof.
-  intros exact bits c s t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
-  split; [exact (check_turning_sound bits c s t k) |].
+  intros exact bits one_matrix one_place c s t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
+  split; [exact (check_turning_sound bits one_matrix one_place c s t k) |].
   pose proof (some_orientation exact _ o) as T.
   destruct T as [Q hQ]. exists (map (fun t => Strut (leasts_of (fst t)) (leasts_of (snd t))) (struts c)), (values (some_point (positions c))), Q.
   split; [| split; [exact (is_in_sound exact _ _ p) | exact hQ]]. rewrite forallb_forall in l.

@@ -76,9 +76,10 @@ Qed.
 (** ** Claims *)
 
 (** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. *)
+(** [one_pose]: no two poses of the workspace have the same lengths of the legs. *)
 Record turning_claim := MakeTurningClaim {
   motion_of : motion; struts : list (tolerances * tolerances); characteristic_length : number;
-  positions : region; turned : orientations; turning_demands : list demand
+  positions : region; turned : orientations; turning_demands : list demand; one_pose : bool
 }.
 
 Definition is_strut (t : tolerances * tolerances) (l : strut) : Prop :=
@@ -88,7 +89,9 @@ Definition is_about_struts (c : turning_claim) (m : list strut) (P : vec) (Q : m
 Definition meets_turning (c : turning_claim) (m : list strut) (P : vec) (Q : mat) : Prop :=
   Configuration.meets (dimension (motion_of c)) (struts_at (motion_of c) (value (characteristic_length c)) m P Q) (turning_demands c).
 
-Definition turning_holds (c : turning_claim) : Prop := forall m P Q, is_about_struts c m P Q -> meets_turning c m P Q.
+Definition turning_holds (c : turning_claim) : Prop := forall m P Q, is_about_struts c m P Q -> meets_turning c m P Q /\
+  (one_pose c = true -> forall P' Q', in_region (positions c) P' -> in_orientations (turned c) Q' ->
+    Forall (fun l => strut_length l P' Q' = strut_length l P Q) m -> P' = P /\ Q' = Q).
 
 (** ** A machine and a pose in exact numbers *)
 

@@ -356,7 +356,6 @@ Variable bits : positive.
 (** Of claims that are one to one: the one matrix, and before which other test this is counted. *)
 Variables (one_matrix : N * list (list Z)) (one_place : nat).
 
-Definition inserted {A : Type} (l : list A) (a : A) : list A := firstn one_place l ++ a :: skipn one_place l.
 Definition check_written (c : written_claim) (t : tree) : bool :=
   let f := by_formulas c in let n := length (coordinate_names f) in let demands := written_demands c in
   let j := length (parameters f) in let i := (j + length (all_literals (map snd (definitions f))))%nat in
@@ -373,7 +372,7 @@ Definition check_written (c : written_claim) (t : tree) : bool :=
   match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (enclose_input bits) (flat_map (inputs_of false 0) demands)),
         all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each (tests_for bits place fs false 0) false 0 at_ demands) with
   | Some params, Some numbers, Some box, Some tests =>
-      let tests := if one_to_one c then inserted tests (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix)) else tests in
+      let tests := if one_to_one c then inserted one_place tests (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix)) else tests in
       check bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) tests (fun _ => None) box (all_open tests) t
   | _, _, _, _ => false
   end.
@@ -552,12 +551,6 @@ Proof.
     destruct (nth_in_or_default k d 0) as [i | i]; [rewrite Forall_forall in Z; specialize (Z _ i) | rewrite i in dn; lra]. lra.
 Qed.
 
-Lemma inserted_in : forall (A : Type) (l : list A) a b, b = a \/ In b l -> In b (inserted l a).
-Proof.
-  intros A l a b h. unfold inserted. apply in_or_app. destruct h as [-> | h]; [right; left; reflexivity |].
-  rewrite <- (firstn_skipn one_place l) in h. apply in_app_or in h as [h | h]; [left; exact h | right; right; exact h].
-Qed.
-
 Theorem check_written_sound : forall c t, check_written c t = true -> written_holds c.
 Proof.
   intros c t h theta x [hp hb]. unfold check_written in h. cbv zeta in h. set (f := by_formulas c) in *.
@@ -652,7 +645,7 @@ Proof.
       cbn [map]. f_equal; [| apply IH; [cbn in l; congruence | exact hs]]. destruct g as [_ [_ [_ [_ [_ g]]]]]. destruct (g I) as [_ [g' _]]. rewrite g'.
       change (/ two_to (rate false 0)) with (/ two_to 0). change (two_to 0) with 1. cbn [seen_row fst snd]. rewrite <- (map_id row) at 1. apply map_ext. intro. field. }
     split; [exact EM |]. intros o v lv nz. pose proof (H (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix))) as K.
-    unfold all_tests in K. rewrite o in K. destruct (K (inserted_in _ _ _ _ (or_introl eq_refl))) as [_ G].
+    unfold all_tests in K. rewrite o in K. destruct (K (proj2 (inserted_in _ _ _ _ _) (or_introl eq_refl))) as [_ G].
     replace (map_rows (formula_at tape) (map_rows place (pose_divided fs))) with (pose_divided fs) in G by (symmetry; exact (rows_found tape _ W2)).
     specialize (G v lv nz). rewrite EM. unfold pose_divided, map_rows in G. rewrite !map_map in *. exact G. }
   split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split.

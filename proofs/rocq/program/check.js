@@ -603,6 +603,33 @@ for (const text of [rounded(0), rounded(-1), rounded(1, "23", "17"), rounded(1, 
   if (all(text).some((answer) => answer !== "REJECTED")) fail(`cylinder: ${all(text)}: ${text}`);
 read.push(about_z(three_struts, by_mu([5, 1, 0, 0]))(4), rounded(1));
 console.log("platforms that turn: condition numbers and a cylinder, with one answer at 140 bounds");
+
+// No two poses of a platform that turns with the same lengths of its legs: by one matrix of vectors and their moments about the origin.
+const one_matrix = [[7014779,-1316736,7024484,4844769,3421156,-2754124], [-6614091,-1248862,7027172,4849384,-3370265,2752146], [-3887084,-4625532,9019619,270393,-5441807,-2747787], [2561394,6213510,7991965,-4962758,-2196775,2388783], [-2493336,6200246,8103067,-4883129,2167995,-2412308], [3726498,-4703572,9106296,324384,5268643,2744455]];
+const full_pose = '[0,{"control":{"rank":{"y":[[3,0,2,3,0,-2],[-3,0,2,3,0,2],[-1,-3,2,-1,-3,-2],[2,3,2,-2,-3,2],[-2,3,2,-2,3,-2],[1,-3,2,-1,3,2]],"places":3}}}]';
+const posed = (angle, reach, require, steps, matrix = one_matrix) => boxed.replace(/"workspace".*/s, `"workspace":{"box":{"min":["-${reach}","-${reach}","16"],"max":["${reach}","${reach}","24"]}},` +
+  `"orientation":{"angle":"${angle}"},"require":[${require}]}},"verdict":"certified","proof":{"tree":{"precision":50,${matrix ? `"chords":{"y":${JSON.stringify(matrix)},"places":25},` : ""}` +
+  `"nodes":[{"by":[${steps}]}]}},"provenance":{"tool":"t","version":"1"}}\n`);
+const pose_range = (leg, bound) => `{"quantity":"joint_range","leg":${leg},"end":"min","bound":"${bound}"}`, chords = '{"control":"chords"}', by_test = '{"control":"test"}';
+narrowed((b) => posed(b, 4, alone, `${full_pose},[1,${chords}]`), 1, 60, 14);
+narrowed((b) => posed(15, b, alone, `${full_pose},[1,${chords}]`), 1, 40, 14);
+narrowed((b) => posed(15, b, alone, `${full_pose},[1,{"control":{"turned":["chords",1,3]}}]`), 1, 40, 14);
+for (const [text, right] of [
+  [posed(12, 3, [pose_range(1, 1), alone, pose_range(2, 1)], `${full_pose},[1,${by_test}],[2,${chords}],[3,${by_test}]`), 1],
+  [posed(12, 3, [pose_range(1, 1), alone, pose_range(2, 1)], `${full_pose},[1,${by_test}],[3,${chords}],[2,${by_test}]`), 0],
+  [posed(12, 3, alone, full_pose), 0],
+  [posed(12, 3, alone, `${full_pose},[1,${by_test}]`), 0],
+  [posed(12, 3, alone, `${full_pose},[1,${chords}]`, null), 0],
+  [posed(12, 3, alone, `${full_pose},[1,${chords}]`, one_matrix.map((row) => row.map((n) => -n))), 0],
+  [posed(12, 3, alone, `${full_pose},[1,${chords}]`, one_matrix.map((row) => [...row.slice(0, 5), 0])), 0],
+  [posed(12, 3, alone, `${full_pose},[1,${chords}]`, one_matrix.slice(1)), 0],
+  [posed(90, 3, alone, `${full_pose},[1,${chords}]`), 0],
+]) {
+  const answers = all(text);
+  if (answers.some((answer) => answer !== (right ? "CERTIFIED" : "REJECTED"))) fail(`poses: ${answers}: ${text}`);
+  if (right) read.push(text);
+}
+console.log("one to one of platforms that turn: with one answer at 48 bounds");
 fs.rmSync(beside, { recursive: true });
 
 // Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.

@@ -209,8 +209,8 @@ let turning_demand v =
   | Speed_ | Force_ | Stiffness_ -> r
   | _ -> demand v
 
-let formulas_demand v =
-  let r = requirement v in
+let two_points_demand v =
+  let r = requirement ~turns:true v in
   if r.about_ = OneToOne_ then r else turning_demand v
 let driven_demand v =
   let r = requirement ~turns:true v in
@@ -272,7 +272,12 @@ let rec subject v =
             let vector key = List.map quantity (array (get l key)) in
             if find l "base_axis" <> None then not_covered [ "a base axis of such a platform" ];
             (vector "anchor", vector "platform") in
-          Turning_ (motion, List.map strut legs, ell, place region, orientation, List.map turning_demand (array (get l "require")))
+          let require = List.map two_points_demand (array (get l "require")) in
+          (match motion, orientation with
+           | InSpace, Angle_ _ -> ()
+           | _ when List.exists (fun r -> r.about_ = OneToOne_) require -> not_covered [ "\"one_to_one\" of this set of orientations" ]
+           | _ -> ());
+          Turning_ (motion, List.map strut legs, ell, place region, orientation, require)
         | _ ->
           let kind = match ell with None when kind = "planar" -> TranslatesInPlane | _ -> Turns motion in
           if orientation <> None && List.exists is_strut legs then not_covered [ "a platform that turns on struts and other drives" ];
@@ -300,7 +305,7 @@ let rec subject v =
          | _ -> raise Malformed in
        Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), pairs formula (get f "definitions"),
          List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
-         List.map formulas_demand (array (get l "require")))
+         List.map two_points_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
        let require = require () in
        if List.exists (fun r -> r.about_ <> Transmission) require || List.length require <> 2 then not_covered [ "what else is asked of the closed design" ];
@@ -351,8 +356,8 @@ let rec evidence (n, m as shape) v =
 (* At control points. *)
 and at_controls shape v =
   match v with
-  | Object [ ("turned", Array [ (String "test" | Object [ (("lower" | "rank" | "conditioning"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
-  | String "test" | Object [ (("lower" | "rank" | "conditioning"), _) ] -> evidence shape v
+  | Object [ ("turned", Array [ (String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
+  | String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning"), _) ] -> evidence shape v
   | _ -> not_covered [ "this evidence at control points" ]
 let step n v =
   match array v with
@@ -418,7 +423,7 @@ let certificate text =
    | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
+   | Turning_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ | OneToOne_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]

@@ -4,26 +4,26 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-h3="spatial",nS="Invalid_argument",f2="precision",aw='"',h2=1255,nR="inside",m0="(",m1=0x800,nQ="yaw",mX="range",mY="tree",mZ="jsError",bJ=0x8000,nP="sqrt(",mW=256,mV="obligation",eC="offset",a2="machine",mT="this quantity of such a mechanism in a claim that is refuted",mU="End_of_file",dI="strut",h1="center",eB="arm",h0="Failure",nO="serial_margin",f$="parameters",b5=0xff,ie="bodies",id="outside",f_="base_axis",hZ="ENOENT",nN=122,mS="([^/]+)",ic="0",hY=0xf,eA=128,mR=0xdc00,nL="Sys_blocked_io",nM="fd ",hX="given",mQ="ENOTEMPTY",aH=248,mP="such a machine with bodies",f1="bound",mO="Division_by_zero",nJ="by",nK=1027,mN="Sys_error",f9="slider",mM="torsion",nI="postulate",mL="proof",nH="joint_error",ez="refuted",dD="mechanism",f0="row",mK="EEXIST",nG="roll_pitch_yaw",ib="y",mJ="cube",fZ="lower",nF="within",mI="clearance",nE="turned",mH="control",fY="int_of_string",nC="definitions",nD="dependent",ey=1024,mF="from",mG="name",nB=" : flags Open_rdonly and Open_wronly are not compatible",mE="orthocert/2",nA="reach",mD=512,nz="witness",ex="-",aT="platform",mC=0x7ff0,mB="pitch",ia=": Not a directory",bc="min",nx="trim",dH="workspace",ny=" : file already exists",fX="split",h$="legs",nw="claim",mA="joint",cX=0xffffff,mz="formulas",my="roll",fW="atlas",nu="nodes",nv="Out_of_memory",mx="psi_max",f8="orientation",fV=254,nt="angle",h_="index out of bounds",mw="end",ns="one_to_one",f7="_bigarr02",mv=" : flags Open_text and Open_binary are not compatible",bw="drive",mu="coordinates",nr="holds",mt="lower_divided",ms="speed",np="cylinder",nq="joints",b4=0xffff,nn="acceleration",ew="certified",h9="chords",no=12520,hW="on",fU="accuracy",nm="axis",nl="no_cube",nk="parallel_margin",mr='the drive "',hV="Unix.Unix_error",f6="fails",fT="tool",hU="mkdir",nj="rho",f5=1000,fS="translational",ni="tolerances",mq="Stack_overflow",h8="characteristic_length",P="",h7="^",hT="places",fR=": No such file or directory",mp="/static/",dG=0x3f,mn="stiffness",mo="Not_found",cW="planar",ev="mode",nh="joint_speed",ng="Match_failure",mm="transmission",bb="anchor",nf="at",ml="joint_force",dF="leg",mk="joint_acceleration",f4="+",hS="rmdir",ne=0xf0,nd="spherical",mj=1026,nb="REJECTED",nc="undecided",bd="max",b3="direction",mh="leg_angle",mi="orthoglide",f3="rank",na="constraint_margin",hR="test",mf="Pervasives.do_at_exit",mg="utf8",bv=0x80,dE="conditioning",dC="length",me="Undefined_recursive_module",h6=")",md="base",m$="quantity",mc="joint_range",fQ="tilt",mb="Q2",m_="reference",ma="point",m8="corner",m9=0xe0,l$="version",h5="z",m6="to",m7=0xdfff,hQ="compare: functional value",m5="Assert_failure",bx="/",m4="provenance",cV="radius",fP="side",bK="require",m3="format",l_="Q1",h4="ENOTDIR",l9="all",cU="box",m2=250;function
+h4="spatial",nZ="Invalid_argument",f5="precision",ax='"',h3=1255,nY="inside",m7="(",m8=0x800,nX="yaw",m4="range",m5="tree",m6="jsError",bJ=0x8000,nW="sqrt(",m3=256,m2="obligation",eE="offset",a2="machine",m0="this quantity of such a mechanism in a claim that is refuted",m1="End_of_file",dJ="strut",h2="center",eD="arm",h1="Failure",nV="serial_margin",gc="parameters",b6=0xff,ie="bodies",id="outside",gb="base_axis",h0="ENOENT",nU=122,mZ="([^/]+)",ic="0",hZ=0xf,eC=128,mY=0xdc00,nS="Sys_blocked_io",nT="fd ",hY="given",mX="ENOTEMPTY",aH=248,mW="such a machine with bodies",f4="bound",mV="Division_by_zero",nQ="by",nR=1027,mU="Sys_error",ga="slider",mT="torsion",nP="postulate",mS="proof",nO="joint_error",eB="refuted",dE="mechanism",f3="row",mR="EEXIST",nN="roll_pitch_yaw",ib="y",mQ="cube",f2="lower",nM="within",mP="clearance",nL="turned",mO="control",f1="int_of_string",nJ="definitions",nK="dependent",eA=1024,mM="from",mN="name",nI=" : flags Open_rdonly and Open_wronly are not compatible",mL="orthocert/2",nH="reach",mK=512,nG="witness",ez="-",aT="platform",mJ=0x7ff0,mI="pitch",ia=": Not a directory",bc="min",nE="trim",dI="workspace",nF=" : file already exists",f0="split",h$="legs",nD="claim",mH="joint",cX=0xffffff,mG="formulas",mF="roll",fZ="atlas",nB="nodes",nC="Out_of_memory",mE="psi_max",f$="orientation",fY=254,nA="angle",h_="index out of bounds",mD="end",nz="one_to_one",f_="_bigarr02",mC=" : flags Open_text and Open_binary are not compatible",bx="drive",mB="coordinates",ny="holds",mA="lower_divided",mz="speed",nw="cylinder",nx="joints",b5=0xffff,nu="acceleration",ex="certified",ey="chords",nv=12520,hX="on",fX="accuracy",nt="axis",ns="no_cube",nr="parallel_margin",my='the drive "',hW="Unix.Unix_error",f9="fails",fW="tool",hV="mkdir",nq="rho",f8=1000,fV="translational",np="tolerances",mx="Stack_overflow",h9="characteristic_length",P="",h8="^",hU="places",fU=": No such file or directory",mw="/static/",dH=0x3f,mu="stiffness",mv="Not_found",cW="planar",ew="mode",no="joint_speed",nn="Match_failure",mt="transmission",bb="anchor",nm="at",ms="joint_force",dG="leg",mr="joint_acceleration",f7="+",hT="rmdir",nl=0xf0,nk="spherical",mq=1026,ni="REJECTED",nj="undecided",bd="max",b4="direction",mo="leg_angle",mp="orthoglide",f6="rank",nh="constraint_margin",hS="test",mm="Pervasives.do_at_exit",mn="utf8",bw=0x80,dF="conditioning",dD="length",ml="Undefined_recursive_module",h7=")",mk="base",ng="quantity",mj="joint_range",fT="tilt",mi="Q2",nf="reference",mh="point",nd="corner",ne=0xe0,mg="version",h6="z",nb="to",nc=0xdfff,hR="compare: functional value",na="Assert_failure",by="/",m$="provenance",cV="radius",fS="side",bK="require",m_="format",mf="Q1",h5="ENOTDIR",me="all",cU="box",m9=250;function
 it(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=P;for(;0<a;b+=ey,a-=ey)e+=d.apply(null,c.slice(b,b+Math.min(a,ey)));return e}function
-gb(b){if(E.Uint8Array)var
+e=P;for(;0<a;b+=eA,a-=eA)e+=d.apply(null,c.slice(b,b+Math.min(a,eA)));return e}function
+ge(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eD(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gb(b);var
+eF(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?it(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ge(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dL(a){return a}function
-dK(a,b,c,d,e){eD(dL(a),b,c,d,e);return 0}function
+dM(a){return a}function
+dL(a,b,c,d,e){eF(dM(a),b,c,d,e);return 0}function
 ih(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cY(c,d)}}function
-oi(b,a){if(b==0)return P;if(a.repeat)return a.repeat(b);var
+op(b,a){if(b==0)return P;if(a.repeat)return a.repeat(b);var
 d=P,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dM(a){if(a.t==2)a.c+=oi(a.l-a.c.length,"\0");else
+dN(a){if(a.t==2)a.c+=op(a.l-a.c.length,"\0");else
 a.c=it(a.c,0,a.c.length);a.t=0}function
-dN(a){a.t&6&&dM(a);return a.c}var
-Ck=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Cj(a){if(Ck)return Math.floor(Math.log2(a));var
+dO(a){a.t&6&&dN(a);return a.c}var
+Cv=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Cu(a){if(Cv)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
 ik(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-n$=Math.pow(2,-24);function
-Ca(a){throw a}var
+og=Math.pow(2,-24);function
+Cl(a){throw a}var
 ao=[0];function
-of(){Ca(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b4}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+om(){Cl(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*n$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*n$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*og|0)+this.mi*a.lo+this.lo*a.mi,d=(c*og|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b4);return new
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
 D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cX;this.lo=this.lo<<1&cX};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cX;this.mi=(this.mi>>>1|this.hi<<23)&cX;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())of();var
+b=this;if(a.isZero())om();var
 d=b.hi^a.hi;if(b.hi&bJ)b=b.neg();if(a.hi&bJ)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bJ)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())of();var
+a=this;if(b.isZero())om();var
 d=a.hi;if(a.hi&bJ)a=a.neg();if(b.hi&bJ)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bJ)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b5,this.mi>>16,this.mi>>8&b5,this.mi&b5,this.lo>>16,this.lo>>8&b5,this.lo&b5]};D.prototype.lo32=function(){return this.lo|(this.mi&b5)<<24};D.prototype.hi32=function(){return this.mi>>>8&b4|this.hi<<16};function
-gd(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&bJ)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
+gg(b,c,a){return new
 D(b,c,a)}function
-gc(a){if(!isFinite(a)){if(isNaN(a))return gd(1,0,mC);return a>0?gd(0,0,mC):gd(0,0,0xfff0)}var
+gf(a){if(!isFinite(a)){if(isNaN(a))return gg(1,0,mJ);return a>0?gg(0,0,mJ):gg(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bJ:a>=0?0:bJ;if(f)a=-a;var
-b=Cj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mj)}else{a/=Math.pow(2,b-nK);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Cu(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mq)}else{a/=Math.pow(2,b-nR);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&hY|f|b<<4;return gd(g,e,c)}function
-eG(a){return a.toArray()}function
-nZ(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f7)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b4)c.write(16,b.dims[a]);else{c.write(16,b4);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&hZ|f|b<<4;return gg(g,e,c)}function
+eI(a){return a.toArray()}function
+n6(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f_)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,11 +113,11 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eG(b.get(a));for(var
+e=eI(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eG(gc(b.get(a)));for(var
+e=eI(gf(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
@@ -127,37 +127,37 @@ a=0;a<b.data.length/2;a++){var
 d=b.get(a);c.write(32,ik(d[1]));c.write(32,ik(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eG(gc(f[1]));for(var
+f=b.get(a),e=eI(gf(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eG(gc(f[2]));for(var
+e=eI(gf(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Cc(b,a){throw[0,b,a]}function
-on(a){if(a.length<24){for(var
+Cn(b,a){throw[0,b,a]}function
+ou(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
 iu(e){for(var
-j=P,c=P,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bv){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bv;d++);if(d-b>mD){c.substr(0,1);j+=c;c=P;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA){g=h+(f<<6);if(f<m9){a=g-0x3080;if(a<bv)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA){g=h+(g<<6);if(f<ne){a=g-0xe2080;if(a<m1||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eA&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b4)c+=String.fromCharCode(0xd7c0+(a>>10),mR+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>ey){c.substr(0,1);j+=c;c=P}}return j+c}function
+j=P,c=P,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bw){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bw;d++);if(d-b>mK){c.substr(0,1);j+=c;c=P;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eC){g=h+(f<<6);if(f<ne){a=g-0x3080;if(a<bw)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eC){g=h+(g<<6);if(f<nl){a=g-0xe2080;if(a<m8||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eC&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mY+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eA){c.substr(0,1);j+=c;c=P}}return j+c}function
 bL(c,a,b){this.t=c;this.c=a;this.l=b}bL.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dM(this);case
-0:if(on(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:dN(this);case
+0:if(ou(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bL.prototype.toUtf16=function(){var
 a=this.toString();if(this.t==9)return a;return iu(a)};bL.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bL(this.t,a,this.l)};function
-n2(a){return new
+n9(a){return new
 bL(0,a,a.length)}function
-a(a){return n2(a)}function
-is(c,b){Cc(c,a(b))}function
+a(a){return n9(a)}function
+is(c,b){Cn(c,a(b))}function
 aA(a){is(ao.Invalid_argument,a)}function
-nX(a){switch(a){case
+n4(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-BG(c,e){var
+BR(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,38 +173,38 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aA("Bigarray.create: unsupported kind");var
 d=new
-a(e*nX(c));return d}function
+a(e*n4(c));return d}function
 il(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eF(a){return new
+eH(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
 im(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hY)==0?b&bJ?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&hY);if(c>0){a+=16;a*=Math.pow(2,c-nK)}else
-a*=Math.pow(2,-mj);if(b&bJ)a=-a;return a}function
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&hZ)==0?b&bJ?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&hZ);if(c>0){a+=16;a*=Math.pow(2,c-nR)}else
+a*=Math.pow(2,-mq);if(b&bJ)a=-a;return a}function
 ig(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aA("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-BW(b,a){return new
-D(b&cX,b>>>24&b5|(a&b4)<<8,a>>>16&b4)}function
+B7(b,a){return new
+D(b&cX,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
 io(a){return a.hi32()}function
 ip(a){return a.lo32()}function
-ga(){aA(h_)}var
-BH=f7;function
-cr(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cr.prototype.caml_custom=BH;cr.prototype.offset=function(b){var
+gd(){aA(h_)}var
+BS=f_;function
+cr(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cr.prototype.caml_custom=BS;cr.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aA("bigarray.js: invalid offset");if(this.dims.length!=b.length)aA("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ga();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gd();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ga();c=c*this.dims[a]+(b[a]-1)}return c};cr.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gd();c=c*this.dims[a]+(b[a]-1)}return c};cr.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return BW(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return B7(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fV,e,c];default:return this.data[a]}};cr.prototype.set=function(a,b){switch(this.kind){case
+e=this.data[a*2+0],c=this.data[a*2+1];return[fY,e,c];default:return this.data[a]}};cr.prototype.set=function(a,b){switch(this.kind){case
 7:this.data[a*2+0]=ip(b);this.data[a*2+1]=io(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cr.prototype.fill=function(b){switch(this.kind){case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dJ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dJ.prototype=new
-cr();dJ.prototype.offset=function(a){if(typeof
+dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
+cr();dK.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ga();return a};dJ.prototype.get=function(a){return this.data[a]};dJ.prototype.set=function(a,b){this.data[a]=b;return 0};dJ.prototype.fill=function(a){this.data.fill(a);return 0};function
-nV(c,d,a,b){var
-e=nX(c);if(ig(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dJ(c,d,a,b);return new
+aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gd();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
+n2(c,d,a,b){var
+e=n4(c);if(ig(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dK(c,d,a,b);return new
 cr(c,d,a,b)}function
-by(b){if(!ao.Failure)ao.Failure=[aH,a(h0),-3];is(ao.Failure,b)}function
-nW(b,v,r){var
-i=b.read32s();if(i<0||i>16)by("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b5,o=p>>8&1,h=[];if(r==f7)for(var
+bz(b){if(!ao.Failure)ao.Failure=[aH,a(h1),-3];is(ao.Failure,b)}function
+n3(b,v,r){var
+i=b.read32s();if(i<0||i>16)bz("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f_)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b4){var
-t=b.read32u(),u=b.read32u();if(t!=0)by("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b5){var
+t=b.read32u(),u=b.read32u();if(t!=0)bz("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ig(h),f=BG(j,d),g=nV(j,o,h,f);switch(j){case
+d=ig(h),f=BR(j,d),g=n2(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,127 +269,127 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)by("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bz("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eF(e);g.set(a,q)}break;case
+q=eH(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=im(eF(e));g.set(a,k)}break;case
+k=im(eH(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
 k=il(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=il(b.read32s()),l=il(b.read32s());g.set(a,[fV,m,l])}break;case
+m=il(b.read32s()),l=il(b.read32s());g.set(a,[fY,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=im(eF(e));for(var
+m=im(eH(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=im(eF(e));g.set(a,[fV,m,l])}break}v[0]=(4+i)*4;return nV(j,o,h,f)}function
-nU(a,b,c){return a.compare(b,c)}function
-oc(a,b){return Math.imul(a,b)}function
-b6(b,a){a=oc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-BT(a,b){a=b6(a,ip(b));a=b6(a,io(b));return a}function
-n_(a,b){return BT(a,gc(b))}function
-nY(c){var
+l=im(eH(e));g.set(a,[fY,m,l])}break}v[0]=(4+i)*4;return n2(j,o,h,f)}function
+n1(a,b,c){return a.compare(b,c)}function
+oj(a,b){return Math.imul(a,b)}function
+b7(b,a){a=oj(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oj(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+B4(a,b){a=b7(a,ip(b));a=b7(a,io(b));return a}function
+of(a,b){return B4(a,gf(b))}function
+n5(c){var
 b=ig(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>mW)b=mW;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b6(d,e)}e=0;switch(b&3){case
+12:if(b>m3)b=m3;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b6(d,e)}break;case
+1:e|=c.data[a+0];d=b7(d,e)}break;case
 4:case
-5:if(b>eA)b=eA;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b6(d,e)}if((b&1)!=0)d=b6(d,c.data[a]);break;case
+5:if(b>eC)b=eC;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b6(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b6(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b6(d,c.data[a]);break;case
+a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=n_(d,c.data[a]);break;case
+a=0;a<b;a++)d=of(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=n_(d,c.data[a]);break}return d}function
-BU(a,b){b[0]=4;return a.read32s()}function
-B9(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=of(d,c.data[a]);break}return d}function
+B5(a,b){b[0]=4;return a.read32s()}function
+Ci(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:by("input_value: native integer value too large");default:by("input_value: ill-formed native integer")}}function
-BZ(c,d){var
+2:bz("input_value: native integer value too large");default:bz("input_value: ill-formed native integer")}}function
+B_(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eF(b)}function
-BY(e,d,b){var
-c=eG(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eH(b)}function
+B9(e,d,b){var
+c=eI(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-BV(a,b,c){return a.compare(b)}function
-BX(a){return a.lo32()^a.hi32()}var
-n5={"_j":{deserialize:BZ,serialize:BY,fixed_length:8,compare:BV,hash:BX},"_i":{deserialize:BU,fixed_length:4},"_n":{deserialize:B9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return nW(a,b,"_bigarray")},serialize:nZ,compare:nU,hash:nY},"_bigarr02":{deserialize:function(a,b){return nW(a,b,f7)},serialize:nZ,compare:nU,hash:nY}};function
-ij(a){return n5[a.caml_custom]&&n5[a.caml_custom].compare}function
-n3(f,c,d,e){var
+B6(a,b,c){return a.compare(b)}function
+B8(a){return a.lo32()^a.hi32()}var
+oa={"_j":{deserialize:B_,serialize:B9,fixed_length:8,compare:B6,hash:B8},"_i":{deserialize:B5,fixed_length:4},"_n":{deserialize:Ci,fixed_length:4},"_bigarray":{deserialize:function(a,b){return n3(a,b,"_bigarray")},serialize:n6,compare:n1,hash:n5},"_bigarr02":{deserialize:function(a,b){return n3(a,b,f_)},serialize:n6,compare:n1,hash:n5}};function
+ij(a){return oa[a.caml_custom]&&oa[a.caml_custom].compare}function
+n_(f,c,d,e){var
 b=ij(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 ir(a){return a
 instanceof
 bL}function
-oa(a){return ir(a)}function
-n4(a){if(typeof
-a==="number")return f5;else
+oh(a){return ir(a)}function
+n$(a){if(typeof
+a==="number")return f8;else
 if(ir(a))return 252;else
-if(oa(a))return 1252;else
+if(oh(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fV?0:b}else
+b=a[0]|0;return b==fY?0:b}else
 if(a
 instanceof
-String)return no;else
+String)return nv;else
 if(typeof
-a=="string")return no;else
+a=="string")return nv;else
 if(a
 instanceof
-Number)return f5;else
-if(a&&a.caml_custom)return h2;else
+Number)return f8;else
+if(a&&a.caml_custom)return h3;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-B0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-n1(a,b){a.t&6&&dM(a);b.t&6&&dM(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-oj(a,b){return n1(a,b)}function
+B$(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+n8(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+oq(a,b){return n8(a,b)}function
 ii(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=n4(a);if(f==m2){a=a[1];continue}var
-g=n4(b);if(g==m2){b=b[1];continue}if(f!==g){if(f==f5){if(g==h2)return n3(a,b,-1,d);return-1}if(g==f5){if(f==h2)return n3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aA(hQ);break;case
+f=n$(a);if(f==m9){a=a[1];continue}var
+g=n$(b);if(g==m9){b=b[1];continue}if(f!==g){if(f==f8){if(g==h3)return n_(a,b,-1,d);return-1}if(g==f8){if(f==h3)return n_(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aA(hR);break;case
 248:var
-c=B0(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aA(hQ);break;case
+c=B$(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aA(hR);break;case
 250:aA("equal: got Forward_tag, should not happen");break;case
 251:aA("equal: abstract value");break;case
 252:if(a!==b){var
-c=n1(a,b);if(c!=0)return c|0}break;case
+c=n8(a,b);if(c!=0)return c|0}break;case
 253:aA("equal: got Double_tag, should not happen");break;case
 254:aA("equal: got Double_array_tag, should not happen");break;case
 255:aA("equal: got Custom_tag, should not happen");break;case
-1247:aA(hQ);break;case
+1247:aA(hR);break;case
 1255:var
 i=ij(a);if(i!=ij(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aA("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,137 +399,137 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dN(a),b=dN(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dO(a),b=dO(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-BO(a,b){return ii(a,b,true)}function
+BZ(a,b){return ii(a,b,true)}function
 bN(a){if(a<0)aA("Bytes.create");return new
 bL(a?2:9,P,a)}function
-n6(a,b){return+(ii(a,b,false)==0)}function
-BQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=P;a.t=2}else{a.c=oi(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gb(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-B_=0;function
-n8(){return B_++}function
-B2(a){return a.toUtf16()}function
-eH(){return typeof
+ob(a,b){return+(ii(a,b,false)==0)}function
+B1(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=P;a.t=2}else{a.c=op(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ge(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Cj=0;function
+od(){return Cj++}function
+Cb(a){return a.toUtf16()}function
+eJ(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-Cl(){function
-a(a){if(a.charAt(0)===bx)return[P,a.substring(1)];return}function
+Cw(){function
+a(a){if(a.charAt(0)===by)return[P,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||P,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||P,f=a[2]||P;return[d,c.substring(d.length+f.length)]}return}return eH()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iy=Cl();function
-ok(a){return a.slice(-1)!==bx?a+bx:a}if(eH()&&E.process&&E.process.cwd)var
-eE=E.process.cwd().replace(/\\/g,bx);else
+d=a[1]||P,f=a[2]||P;return[d,c.substring(d.length+f.length)]}return}return eJ()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iy=Cw();function
+or(a){return a.slice(-1)!==by?a+by:a}if(eJ()&&E.process&&E.process.cwd)var
+eG=E.process.cwd().replace(/\\/g,by);else
 var
-eE="/static";eE=ok(eE);function
-B4(a){a=B2(a);if(!iy(a))a=eE+a;var
-e=iy(a),d=e[1].split(bx),b=[];for(var
+eG="/static";eG=or(eG);function
+Cd(a){a=Cb(a);if(!iy(a))a=eG+a;var
+e=iy(a),d=e[1].split(by),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Cg(e){for(var
-f=P,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bv){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bv;d++);if(d-c>mD){b.substr(0,1);f+=b;b=P;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<m1){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bv|a&dG)}else
-if(a<0xd800||a>=m7)b+=String.fromCharCode(m9|a>>12,bv|a>>6&dG,bv|a&dG);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mR||h>m7)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(ne|a>>18,bv|a>>12&dG,bv|a>>6&dG,bv|a&dG)}if(b.length>ey){b.substr(0,1);f+=b;b=P}}return f+b}function
-BL(a){var
-b=9;if(!on(a))b=8,a=Cg(a);return new
+Cr(e){for(var
+f=P,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bw){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bw;d++);if(d-c>mK){b.substr(0,1);f+=b;b=P;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<m8){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bw|a&dH)}else
+if(a<0xd800||a>=nc)b+=String.fromCharCode(ne|a>>12,bw|a>>6&dH,bw|a&dH);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mY||h>nc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nl|a>>18,bw|a>>12&dH,bw|a>>6&dH,bw|a&dH)}if(b.length>eA){b.substr(0,1);f+=b;b=P}}return f+b}function
+BW(a){var
+b=9;if(!ou(a))b=8,a=Cr(a);return new
 bL(b,a,a.length)}function
-dO(a){return BL(a)}var
-Co=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",hZ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h4,mQ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dP(a){return BW(a)}var
+Cz=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mR,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h5,mX,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 c2(d,f,e,a){var
-b=Co.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dO(f||P),dO(e||P)];return c}var
-od={};function
-cZ(a){return od[a]}function
+b=Cz.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dP(f||P),dP(e||P)];return c}var
+ok={};function
+cZ(a){return ok[a]}function
 c0(b,a){throw[0,b].concat(a)}function
-BK(a){return new
+BV(a){return new
 bL(4,a,a.length)}function
-ac(a){is(ao.Sys_error,a)}function
-Cb(a){ac(a+fR)}function
-n0(){aA(h_)}function
-BJ(b,a){if(a>>>0>=b.l)n0();return ih(b,a)}function
-ge(a){return a.l}function
-nT(){}function
+ad(a){is(ao.Sys_error,a)}function
+Cm(a){ad(a+fU)}function
+n7(){aA(h_)}function
+BU(b,a){if(a>>>0>=b.l)n7();return ih(b,a)}function
+gh(a){return a.l}function
+n0(){}function
 ay(a){this.data=a}ay.prototype=new
-nT();ay.prototype.truncate=function(a){var
-b=this.data;this.data=bN(a|0);eD(b,0,this.data,0,a)};ay.prototype.length=function(){return ge(this.data)};ay.prototype.write=function(b,d,g,a){var
+n0();ay.prototype.truncate=function(a){var
+b=this.data;this.data=bN(a|0);eF(b,0,this.data,0,a)};ay.prototype.length=function(){return gh(this.data)};ay.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bN(b+a),f=this.data;this.data=e;eD(f,0,this.data,0,c)}dK(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
-e=this.length();eD(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return BJ(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
+e=bN(b+a),f=this.data;this.data=e;eF(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
+e=this.length();eF(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return BU(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(bx),b=P;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bx;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bx};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(by),b=P;for(var
+a=0;a<c.length-1;a++){b+=c[a]+by;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+by};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ay(dL(c[1]))}}};aO.prototype.exists=function(a){if(a==P)return 1;var
+ay(dM(c[1]))}}};aO.prototype.exists=function(a){if(a==P)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&cZ(hV);if(this.exists(c))if(b)c0(b,c2(mK,hU,this.nm(c)));else
-ac(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||P;if(!this.exists(a))if(b)c0(b,c2(hZ,hU,this.nm(a)));else
-ac(a+fR);if(!this.is_dir(a))if(b)c0(b,c2(h4,hU,this.nm(a)));else
-ac(a+ia);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&cZ(hV),c=a==P?P:this.slash(a),e=new
-RegExp(h7+c+mS);if(!this.exists(a))if(b)c0(b,c2(hZ,hS,this.nm(a)));else
-ac(a+fR);if(!this.is_dir(a))if(b)c0(b,c2(h4,hS,this.nm(a)));else
-ac(a+ia);for(var
+b=d&&cZ(hW);if(this.exists(c))if(b)c0(b,c2(mR,hV,this.nm(c)));else
+ad(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||P;if(!this.exists(a))if(b)c0(b,c2(h0,hV,this.nm(a)));else
+ad(a+fU);if(!this.is_dir(a))if(b)c0(b,c2(h5,hV,this.nm(a)));else
+ad(a+ia);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&cZ(hW),c=a==P?P:this.slash(a),e=new
+RegExp(h8+c+mZ);if(!this.exists(a))if(b)c0(b,c2(h0,hT,this.nm(a)));else
+ad(a+fU);if(!this.is_dir(a))if(b)c0(b,c2(h5,hT,this.nm(a)));else
+ad(a+ia);for(var
 d
 in
-this.content)if(d.match(e))if(b)c0(b,c2(mQ,hS,this.nm(a)));else
-ac(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)c0(b,c2(mX,hT,this.nm(a)));else
+ad(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==P?P:this.slash(a);if(!this.exists(a))ac(a+fR);if(!this.is_dir(a))ac(a+ia);var
+f=a==P?P:this.slash(a);if(!this.exists(a))ad(a+fU);if(!this.is_dir(a))ad(a+ia);var
 g=new
-RegExp(h7+f+mS),d={},c=[];for(var
+RegExp(h8+f+mZ),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==P)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ac(this.nm(a)+nB);if(b.text&&b.binary)ac(this.nm(a)+mv);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ac(this.nm(a)+" : is a directory");if(b.create&&b.excl)ac(this.nm(a)+ny);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ad(this.nm(a)+nI);if(b.text&&b.binary)ad(this.nm(a)+mC);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ad(this.nm(a)+" : is a directory");if(b.create&&b.excl)ad(this.nm(a)+nF);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 ay(bN(0));return this.content[a]}else
-Cb(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ac(this.nm(c)+ny);if(ir(a))b=new
-ay(a);if(oa(a))b=new
-ay(dL(a));else
+Cm(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ad(this.nm(c)+nF);if(ir(a))b=new
+ay(a);if(oh(a))b=new
+ay(dM(a));else
 if(a
 instanceof
 Array)b=new
-ay(BK(a));else
+ay(BV(a));else
 if(typeof
 a==="string")b=new
-ay(n2(a));else
+ay(n9(a));else
 if(a.toString){var
-d=dL(dO(a.toString()));b=new
+d=dM(dP(a.toString()));b=new
 ay(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ac(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-al(a){return ge(a)}function
+ad(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
+al(a){return gh(a)}function
 c1(b,a){return ih(b,a)}function
-BF(d){var
+BQ(d){var
 c=al(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=c1(d,a);return b}function
-BE(a){if(a.t!=4)gb(a);return a.c}function
-BN(a,c,b){b&=b5;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gb(a)}a.c[c]=b;return 0}function
-BM(b,a,c){if(a>>>0>=b.l)n0();return BN(b,a,c)}function
+BP(a){if(a.t!=4)ge(a);return a.c}function
+BY(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ge(a)}a.c[c]=b;return 0}function
+BX(b,a,c){if(a>>>0>=b.l)n7();return BY(b,a,c)}function
 bM(a){this.fs=require("fs");this.fd=a}bM.prototype=new
-nT();bM.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ac(a.toString())}};bM.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ac(a.toString())}};bM.prototype.write=function(f,b,c,e){var
-a=BF(b);if(!(a
+n0();bM.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ad(a.toString())}};bM.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ad(a.toString())}};bM.prototype.write=function(f,b,c,e){var
+a=BQ(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ac(a.toString())}return 0};bM.prototype.read=function(g,d,c,f){var
-a=BE(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ad(a.toString())}return 0};bM.prototype.read=function(g,d,c,f){var
+a=BP(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ac(a.toString())}for(var
-b=0;b<f;b++)BM(d,c+b,e[c+b]);return 0};bM.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ac(a.toString())}return a[0]};bM.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ac(a.toString())}};bM.prototype.constructor=bM;function
-az(a){this.fs=require("fs");this.root=a}az.prototype.nm=function(a){return this.root+a};az.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};az.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ac(a.toString())}};az.prototype.unlink=function(a,c){try{var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ad(a.toString())}for(var
+b=0;b<f;b++)BX(d,c+b,e[c+b]);return 0};bM.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ad(a.toString())}return a[0]};bM.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ad(a.toString())}};bM.prototype.constructor=bM;function
+az(a){this.fs=require("fs");this.root=a}az.prototype.nm=function(a){return this.root+a};az.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};az.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ad(a.toString())}};az.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
@@ -539,10 +539,10 @@ d=this.fs.openSync(this.nm(f),b);return new
 bM(d)}catch(a){this.raise_nodejs_error(a,g)}};az.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mg);return dO(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
-b=cZ(hV);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),mn);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
+b=cZ(hW);if(d&&b){var
 c=c2(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
-ac(a.toString())};az.prototype.stats_from_js=function(a){var
+ad(a.toString())};az.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};az.prototype.constructor=az;function
-n9(b){var
-a=iy(b);if(!a)return;return a[0]+bx}var
-gf=n9(eE)||by("unable to compute caml_root"),dP=[];if(eH())dP.push({path:gf,device:new
-az(gf)});else
-dP.push({path:gf,device:new
-aO(gf)});dP.push({path:mp,device:new
-aO(mp)});function
-or(b){var
-g=B4(b),b=g.join(bx),f=ok(b),c;for(var
-e=0;e<dP.length;e++){var
-a=dP[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eH()){var
-d=n9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+oe(b){var
+a=iy(b);if(!a)return;return a[0]+by}var
+gi=oe(eG)||bz("unable to compute caml_root"),dQ=[];if(eJ())dQ.push({path:gi,device:new
+az(gi)});else
+dQ.push({path:gi,device:new
+aO(gi)});dQ.push({path:mw,device:new
+aO(mw)});function
+oy(b){var
+g=Cd(b),b=g.join(by),f=or(b),c;for(var
+e=0;e<dQ.length;e++){var
+a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eJ()){var
+d=oe(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-az(d)};dP.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ac("no device found for "+f)}function
-BP(c,b){var
-a=or(c);if(!a.device.register)by("cannot register file");a.device.register(a.rest,b);return 0}function
-om(c,b){var
-c=a(c),b=a(b);return BP(c,b)}function
-BS(){var
+az(d)};dQ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ad("no device found for "+f)}function
+B0(c,b){var
+a=oy(c);if(!a.device.register)bz("cannot register file");a.device.register(a.rest,b);return 0}function
+ot(c,b){var
+c=a(c),b=a(b);return B0(c,b)}function
+B3(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)om(b[a].name,b[a].content);E.jsoo_create_file=om;E.caml_fs_tmp=[];return 0}function
-B$(c){var
+a=0;a<b.length;a++)ot(b[a].name,b[a].content);E.jsoo_create_file=ot;E.caml_fs_tmp=[];return 0}function
+Ck(c){var
 a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&c1(c,a)==48)switch(c1(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=al(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oe(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nN)return a-87;return-1}function
+ol(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nU)return a-87;return-1}function
 iq(f){var
-h=B$(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=oe(e);if(b<0||b>=d)by(fY);var
-a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=oe(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)by(fY)}if(c!=g)by(fY);a=i*a;if(d==10&&(a|0)!=a)by(fY);return a|0}function
-B3(a,b){return+(ii(a,b,false)<=0)}function
-B5(a,d){if(a<0)ga();var
+h=Ck(f),c=h[0],i=h[1],d=h[2],g=al(f),j=-1>>>0,e=c<g?c1(f,c):0,b=ol(e);if(b<0||b>=d)bz(f1);var
+a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=ol(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bz(f1)}if(c!=g)bz(f1);a=i*a;if(d==10&&(a|0)!=a)bz(f1);return a|0}function
+Cc(a,b){return+(ii(a,b,false)<=0)}function
+Ce(a,d){if(a<0)gd();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b7=new
+b8=new
 Array();function
-B6(c){var
-a=b7[c];if(!a.opened)ac("Cannot flush a closed channel");if(!a.buffer||a.buffer==P)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+Cf(c){var
+a=b8[c];if(!a.opened)ad("Cannot flush a closed channel");if(!a.buffer||a.buffer==P)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=P;return 0}function
-oh(e,f){var
-b=b7[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Ch(a){var
+oo(e,f){var
+b=b8[e],d=a(f),c=al(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Cs(a){var
 a=iu(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ci(a){var
+Ct(a){var
 a=iu(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gh(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gk(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-Cp(c,b,g){var
+CA(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,150 +619,150 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ac(dN(c)+nB);if(a.text&&a.binary)ac(dN(c)+mv);var
-d=or(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gh(f+1,oh,e,a)}gh(0,oh,new
-ay(bN(0)));gh(1,Ci,new
-ay(bN(0)));gh(2,Ch,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ad(dO(c)+nI);if(a.text&&a.binary)ad(dO(c)+mC);var
+d=oy(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gk(f+1,oo,e,a)}gk(0,oo,new
+ay(bN(0)));gk(1,Ct,new
+ay(bN(0)));gk(2,Cs,new
 ay(bN(0)));function
-B7(a){var
-c=ao.fds[a];if(c.flags.wronly)ac(nM+a+" is writeonly");var
-d=null;if(a==0&&eH()){var
-e=require("fs");d=function(){return dO(e.readFileSync(0,mg))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b7[b.fd]=b;return b.fd}function
-ob(c){var
-b=ao.fds[c];if(b.flags.rdonly)ac(nM+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:P};b7[a.fd]=a;return a.fd}function
-B8(){var
+Cg(a){var
+c=ao.fds[a];if(c.flags.wronly)ad(nT+a+" is writeonly");var
+d=null;if(a==0&&eJ()){var
+e=require("fs");d=function(){return dP(e.readFileSync(0,mn))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
+oi(c){var
+b=ao.fds[c];if(b.flags.rdonly)ad(nT+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:P};b8[a.fd]=a;return a.fd}function
+Ch(){var
 b=0;for(var
-a=0;a<b7.length;a++)if(b7[a]&&b7[a].opened&&b7[a].out)b=[0,b7[a].fd,b];return b}function
+a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
 be(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-Cd(a,b){od[dN(a)]=b;return 0}function
-BI(a,b){if(a===b)return 1;a.t&6&&dM(a);b.t&6&&dM(b);return a.c==b.c?1:0}function
-am(a,b){return BI(a,b)}function
-Cf(){aA(h_)}function
-aI(b,a){if(a>>>0>=al(b))Cf();return c1(b,a)}function
+Co(a,b){ok[dO(a)]=b;return 0}function
+BT(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
+am(a,b){return BT(a,b)}function
+Cq(){aA(h_)}function
+aI(b,a){if(a>>>0>=al(b))Cq();return c1(b,a)}function
 m(a,b){return 1-am(a,b)}function
-gg(a){return a}function
-og(a){return a}function
-ol(a){if(a
+gj(a){return a}function
+on(a){return a}function
+os(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return og(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return on(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return og(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return on(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cZ(mZ))return[0,cZ(mZ),a];return[0,ao.Failure,dO(String(a))]}function
+E.Error&&cZ(m6))return[0,cZ(m6),a];return[0,ao.Failure,dP(String(a))]}function
 c3(a){return a<0?-a:a}function
 x(a,b){return a+b}function
 iv(a,b){return a<b?-1:a>b?1:0}function
-oo(c,b){var
+ov(c,b){var
 a=c%b;return a<0?a+c3(b):a}function
-iw(a,b){return(a-oo(a,b))/b}function
+iw(a,b){return(a-ov(a,b))/b}function
 Y(a,b){return a==b?1:0}function
-Cm(c){E.orthocert_verify=function(b){return dN(cY(c,[a(b)]))}}function
+Cx(c){E.orthocert_verify=function(b){return dO(cY(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
-T(a,b){return a<b?1:0}function
+U(a,b){return a<b?1:0}function
 u(a,b){return a*b}function
 M(a){return-a}function
 aD(a){return E.BigInt(a)}function
-op(a,b){return a<<E.BigInt(b)}function
-oq(a,b){return a>>E.BigInt(b)}function
+ow(a,b){return a<<E.BigInt(b)}function
+ox(a,b){return a>>E.BigInt(b)}function
 a3(a){return a<0?-1:a>0?1:0}function
-Cn(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+Cy(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aB(a,b){return a-b}function
 ix(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-B1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-BR(b){var
-a=P;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&B1(b[1]))var
+Ca(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+B2(b){var
+a=P;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ca(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=m0;for(var
+f=2,e=b;a+=m7;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bL)a+=aw+c.toString()+aw;else
+bL)a+=ax+c.toString()+ax;else
 if(typeof
-c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=h6}else
+c=="string")a+=ax+c.toString()+ax;else
+a+="_"}a+=h7}else
 if(b[0]==aH)a+=b[1];return a}function
-n7(a){if(a
+oc(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aH)){var
 c=cZ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=BR(a),b=cZ(mf);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+d=B2(a),b=cZ(mm);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Ce(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){n7(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)n7(a.error)})}Ce();function
+Cp(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oc(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oc(a.error)})}Cp();function
 k(a,b){return a.length==1?a(b):cY(a,[b])}function
 as(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
-BD(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}BS();var
-iA=[aH,a(mN),-2],iz=[aH,a(nS),-4],Ay=[0,[0,0]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ay]]]]]]]]]]],AA=[0,0],AB=[0,0],AC=[0,[0,[0,[0,0]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AC]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AD]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AE]]]]]]]]]]],AG=[0,[0,0]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AG]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AH]]]]]]]]]]],AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AI]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,0]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,0],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,0]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,0],Bv=[0,[0,0]],Bw=[0,0],Bx=[0,[0,[0,[0,[0,0]]]]],i2=[0,[0,[0,0]]],cg=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fy=[0,[0,[0,[0,0]]]],By=[0,[0,[0,[0,[0,0]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]];be(11,[aH,a(me),-12],me);be(10,[aH,a(m5),-11],m5);be(9,[aH,a(nL),-10],nL);be(8,[aH,a(mq),-9],mq);be(7,[aH,a(ng),-8],ng);be(6,[aH,a(mo),-7],mo);be(5,[aH,a(mO),-6],mO);be(4,[aH,a(mU),-5],mU);be(3,iz,nS);be(2,[aH,a(h0),-3],h0);be(1,iA,mN);be(0,[aH,a(nv),-1],nv);var
-os=a("String.sub / Bytes.sub"),ou=a(P),ot=a("String.concat"),ov=a("Array.init"),ow=a("power"),oH=[0,0],oJ=[0,0],oK=[0,[0,0]],oL=[0,[0,0]],oS=[0,0],oT=[0,0],oZ=[0,0,0],o0=[0,0,0],o1=[0,0],pi=[0,0],pj=[0,0],pm=[0,0],pE=[0,0],pH=[0,0],pJ=[0,0],pK=[0,0],pQ=[0,0],pR=[0,0],qb=[0,[0,[0,0]]],qq=[0,0],qM=a(","),q4=[0,a(h6),0],q5=a(m0),q6=a("."),q7=[0,[0,[0,0]]],q8=a(ex),q9=a(h7),q_=[0,[0,[0,[0,[0,0]]]]],q$=[0,a(h6),0],ra=a(nP),t0=a(mb),t2=a(l_),t1=a(m8),t3=a(dE),t4=a(fU),t5=a(nR),t6=a(nE),t7=a(mH),t8=a(ni),va=[0,0],vb=a(hR),vc=[0,0],vd=a("divided"),ve=[0,1],vf=a("mirror"),vg=[0,3],vh=a("negative"),vi=[0,2],vj=a(h9),vk=[0,5],vl=a(id),vm=[0,4],vn=a(fZ),vo=a(mt),vp=a(f3),vq=a(b3),vr=[0,0],vs=[0,0],vt=[0,0],v3=a(P),v0=[0,[0,[0,[0,0]]]],v1=[0,[0,[0,[0,0]]]],vY=[0,0],vV=[0,[0,0]],vW=[0,[0,[0,0]]],vR=[0,[0,[0,0]]],vQ=[0,0,0],vP=[0,[0,[0,0]]],vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Az]]]]]]]]]]],vN=[0,0],vH=[0,[0,0]],vI=[0,[0,[0,0]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AA]]]]]]]]]]],vK=[0,[0,0]],vL=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AB]]]]]]]]]]],vE=[0,[0,0]],vF=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vD=[0,[0,0]],vz=[0,[0,0]],vA=[0,0],vx=[0,0],vy=[0,1],vw=[0,[0,0]],vv=[0,0],u9=[0,0],u_=[0,1],u$=[0,2],u5=[0,[0,0]],u6=[0,0],u4=[0,0],u3=[0,0],u2=[0,0],u1=[0,0,0],u0=[0,0,0],uY=[0,[0,[0,0]]],uZ=[0,[0,[0,0]]],uX=[0,0],uV=[0,1,0],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AF]]]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],uM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],uQ=a("sqrt"),uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],uw=[0,a("\n"),0],ux=a(l$),uy=a(fT),uz=a(m4),uA=a(mL),uG=a(ez),uB=a(ew),uC=a("verdict"),uD=a(nw),uE=a(mE),uF=a(m3),ut=a(mY),uu=a(nz),uv=a(fW),up=a(nc),uq=a(fX),ur=a(ew),us=a(ez),uk=a(f6),ul=a(a2),um=a(ma),un=a(f2),uh=a(nu),ui=a(h9),uj=a(f2),ud=a(nf),ue=a(f6),uf=a(fX),ug=a(nJ),t_=a(nA),t$=a(nD),ua=a(mV),ub=a(f0),tY=a(hT),tZ=a(ib),tT=a(bd),tU=a(bc),tV=a(mG),tt=a(f0),tu=a(nj),s9=a(a2),s_=a(bK),s$=a(f8),ta=a(dH),tb=a(cW),tg=a(fS),tc=a(h8),td=a(h$),te=a(dD),tf=a(a2),th=a(bK),ti=a(f8),tj=a(dH),tk=a(h8),tl=a(h$),tm=a(dD),tn=a(a2),to=a(bK),tp=a(bd),tq=a(bc),tr=a(cU),ts=a(dH),tv=a(nq),tw=a(nC),tx=a(f$),ty=a(mu),tz=a(mz),tA=a(dD),tB=a(a2),tC=a(bK),tD=a(fP),tE=a(mJ),tF=a(dH),tG=a(eC),tH=a(mi),tI=a(dD),tJ=a(a2),tK=a(fP),tL=a(a2),tM=a(nl),tP=a(l9),tN=a(mx),tO=a(nI),tQ=a(ez),tR=a(ew),tS=a(a2),tW=a(f$),tX=a(fW),s3=a(bK),s4=a(ie),s5=a(dH),s6=a(fS),s7=a(dD),sR=a(eC),sS=a(nx),sT=a(cV),sU=a(dF),sV=a(dF),sW=a(hW),sX=a(cV),sY=a(m6),sZ=a(mF),s0=a(aT),s2=a(md),s1=a(hW),sH=a(mX),sI=a(nQ),sJ=a(mB),sK=a(my),sL=a(nG),sM=a(nt),sN=a(mM),sO=a(fQ),sP=a(fQ),sD=a(aT),sE=a(bb),sF=a(dI),sG=a(bw),sz=a(cW),sA=a(h3),sB=a(nd),sw=a(bd),sx=a(bc),sy=a(cU),sp=a(bd),sq=a(bc),sr=a(cU),ss=a(h5),st=a(cV),su=a(h1),sv=a(np),sf=a(mw),sl=a(fT),sk=a(nH),sg=a(mA),sh=a(hX),sm=a(ms),sn=a(nn),so=a(hX),si=a(dF),sj=a(m$),sc=a(f1),sd=a(f1),se=a(f1),r_=a(nr),r$=a(bc),sa=a(bd),sb=a(nF),rW=a(mm),rX=a(mc),rY=a(nh),rZ=a(dE),r0=a(nO),r1=a(nk),r2=a(mn),r3=a(na),r4=a(ml),r5=a(mI),r6=a(mk),r7=a(ns),r8=a(fU),r9=a(mh),rB=a(f4),rD=a(ex),rC=a(ev),rE=a(dC),rF=a(aT),rG=a(bb),rH=a(b3),rI=a(f9),rJ=a(bw),rK=a(aT),rL=a(bb),rM=a(dI),rN=a(bw),rO=a(dC),rP=a(eB),rQ=a(aT),rR=a(bb),rS=a(m_),rT=a(nm),rU=a(eB),rV=a(bw),rj=a(f4),rr=a(ex),rk=a(ev),rl=a(dC),rm=a(aT),rn=a(bb),ro=a(b3),rp=a(f9),rq=a(bw),rs=a(f_),rt=a(aT),ru=a(bb),rv=a(dI),rw=a(bw),rx=a(b3),ry=a(cW),rz=a(bw),rg=a(bd),rh=a(bc),re=[0,a(aw),0],rf=a(aw),rc=a(P),rb=[0,a(aw),0],rd=a(aw),q0=a(f4),q1=a(ex),q2=a("*"),q3=a(bx),qV=[0,[0,[0,[0,[0,0]]]]],qW=[0,[0,[0,0]]],qX=[0,[0,0]],qY=[0,0],qZ=[0,[0,[0,[0,0]]]],qT=a('":'),qU=a(aw),qR=[0,a(aw),0],qS=a(aw),qP=[0,a("}"),0],qQ=a("{"),qN=[0,a("]"),0],qO=a("["),qL=[0,[0,[0,0]]],qK=[0,[0,[0,0]]],qI=[0,0],qF=[0,[0,[0,0]]],qG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qD=[0,[0,0]],qE=[0,[0,[0,0]]],qA=[0,0],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],qx=[0,0],qu=[0,0,0],qv=[0,0,0],qw=[0,0,0],qr=[0,[0,0]],qs=[0,[0,[0,0]]],qt=[0,0],qg=[0,[0,[0,[0,[0,[0,0]]]]]],qh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],qk=[0,[0,[0,[0,[0,[0,0]]]]]],ql=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],qn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],qo=[0,[0,[0,0]]],qp=[0,[0,[0,[0,[0,[0,0]]]]]],qe=[0,[0,0]],qf=[0,[0,[0,0]]],p$=[0,[0,0]],qa=[0,[0,[0,0]]],p9=[0,[0,[0,0]]],p_=[0,[0,0]],p6=[0,0],p7=[0,0],p2=[0,[0,0]],p3=[0,0],p4=[0,0],p5=[0,[0,0]],pT=[0,[0,0]],pU=[0,0],pV=[0,[0,0]],pW=[0,0],pX=[0,0],pY=[0,[0,0]],pZ=[0,[0,0]],p0=[0,[0,0]],p1=[0,0],pP=[0,0],pO=[0,0],pN=[0,[0,[0,0]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pI=[0,[0,[0,0]]],pF=[0,[0,[0,0]]],pD=[0,[0,[0,0]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,[0,[0,[0,0]]]]]],px=[0,[0,0]],py=[0,0],pz=[0,[0,[0,0]]],pA=[0,[0,[0,0]]],pq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pr=[0,[0,[0,[0,[0,[0,0]]]]]],ps=[0,[0,[0,[0,[0,[0,0]]]]]],pt=[0,[0,[0,0]]],pu=[0,[0,[0,[0,[0,[0,0]]]]]],pv=[0,[0,[0,0]]],pw=[0,[0,[0,0]]],po=[0,[0,0]],pp=[0,0],pn=[0,0,0],pl=[0,0,0],pk=[0,[0,[0,0]]],pg=[0,0],ph=[0,0],pb=[0,[0,[0,0]]],pc=[0,[0,[0,0]]],pd=[0,[0,[0,0]]],pa=[0,[0,[0,[0,0]]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,0]]],o_=[0,[0,[0,0]]],o$=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],o6=[0,[0,0]],o7=[0,0],o4=[0,[0,0]],o5=[0,0],o2=[0,[0,0]],o3=[0,0],oO=[0,0],oP=[0,[0,0]],oQ=[0,0],oR=[0,[0,0]],oM=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],oI=[0,0,0],oG=a(ic),oF=a(P),oE=[0,[0,0]],oD=[0,0],oA=[0,0],oC=[1,0],oB=[0,0],oz=[0,0],ox=[1,0],oy=[1,0],vX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],y3=a(bd),y4=a(bc),y5=a(mG),yU=a(f_),yV=[0,a("a base axis of such a platform"),0],yW=a(aT),yX=a(bb),yH=a(nt),yI=a(mX),yJ=a(nG),yK=a(fQ),yL=a(mM),yM=a(fQ),yN=a(nQ),yO=a(mB),yP=a(my),yx=a(nj),yy=a(f0),x8=a(bK),xW=a(fW),xX=a(a2),xY=a(nl),xZ=a(nI),x2=a(mx),x3=a(l9),x4=a(a2),x5=a(a2),x7=a(fP),x6=[0,a("a claim that no cube of such a machine fits"),0],x9=a(dD),x_=a(dH),x$=a(fS),ya=a(ie),y2=[0,a(mP),0],yb=a(cW),yc=a(h3),yd=a(nd),ye=a(f8),yf=a(mz),yg=a(mi),yh=a(fS),yk=a(cU),yl=a(np),yo=a(ie),yp=[0,a(mP),0],yq=a(bK),yr=[0,a("the distance from parallel singularities of other drives than sliders"),0],ys=a(mJ),yt=[0,a("what else is asked of the closed design"),0],yu=a(fP),yv=a(eC),yw=a(cU),yz=a(bK),yA=a(bd),yB=a(bc),yC=a(nq),yD=a(nC),yE=a(f$),yF=a(mu),yi=[0,a(aw),0],yj=a('the mechanism "'),yG=a(h8),yQ=a(f8),yR=a(cW),yS=a(h3),yT=a(h$),yY=a(bK),y1=a(cW),yZ=[0,a("a platform that turns on struts and other drives"),0],y0=a(bK),ym=[0,a(aw),0],yn=a('the workspace "'),y6=a(a2),y7=a(a2),y9=a(ez),y_=a(ew),y$=a(f$),y8=[0,a("an atlas of such a machine"),0],x0=[0,a(aw),0],x1=a('a claim of the kind "'),ze=a(nR),zl=a(fU),zm=a(dE),zn=a(mH),zo=a(m8),zp=a(b3),zq=a(ib),zr=a(hT),zs=a(b3),zt=a(ic),zf=a(fZ),zg=a(mt),zh=a(f3),zi=a(ni),zj=[0,a(aw),0],zk=a('the evidence "'),zu=a(dE),zv=a(fZ),zw=a(f3),zx=a(nE),zz=a(dE),zA=a(fZ),zB=a(f3),zC=a(hR),zD=a(hR),zy=[0,a("this evidence at control points"),0],Ar=a('"orthocert-paving/'),z9=a(m3),z_=a(mE),z$=a(nw),Ap=[0,3,3],Aa=a(mL),Aj=[0,a("this set of orientations with such drives"),0],Ak=[0,a(mT),0],An=[0,a(mT),0],Ao=[0,a("a mechanism by formulas in a claim that is refuted"),0],Al=[0,a('the evidence "tolerances" of such a mechanism'),0],Am=[0,a("a step of a platform that turns that is not at control points"),0],Ab=[0,a("the acceleration of a joint of a machine with a plane"),0],Ai=[0,a("this quantity in a claim that is refuted"),0],Ag=[0,a("a step in a proof that no cube fits"),0],Ah=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Af=[0,a("a leaf that fails"),0],Ac=a(m4),Ad=a(l$),Ae=a(fT),z7=a(id),z1=a(fW),z2=a(mY),z3=a(nz),z4=[0,a(aw),0],z5=a('a proof of the kind "'),zX=a(ew),zY=a(ez),zZ=a(fX),z0=a(nc),zT=a(a2),zU=a(f6),zV=a(ma),zW=a(f2),zQ=a(nu),zR=a(h9),zS=a(f2),zM=a(nf),zN=a(f6),zO=a(fX),zP=a(nJ),zG=a(nD),zH=a(mV),zI=a(nA),zJ=a(f0),zK=[0,a(aw),0],zL=a('the failure "'),zE=a(id),zF=a(ic),zc=a(ib),zd=a(hT),za=a(l_),zb=a(mb),xT=a(eC),xJ=a(hW),xK=a(md),xL=a(dF),xM=a(aT),xR=a(nx),xS=a(eC),xU=a(cV),xV=a(dF),xN=a(cV),xO=a(m6),xP=a(mF),xQ=a(aT),xC=a(cU),xG=a(bd),xH=a(bc),xD=a(h1),xE=a(h5),xF=a(cV),xw=a(cU),xA=a(bd),xB=a(bc),xx=a(h1),xy=a(h5),xz=a(cV),xv=[0,1],xt=[0,1],xs=[0,a("this quantity of such a mechanism"),0],xc=a(mA),xd=[0,a("a stiffness for each joint"),0],xe=a(nn),xf=a(ms),xg=a(nH),xh=a("max_angle"),xi=[0,a("accuracy of a platform that turns"),0],xb=a(fT),w5=a(f1),wV=a(m$),wW=a(nh),xl=a(fU),xm=a(mI),xn=a(dE),xo=a(na),xp=a(mk),xq=a(ml),xr=a(mc),wX=a(mh),wY=a(ns),wZ=a(nk),w0=a(nO),w1=a(mn),w2=a(mm),w3=[0,a(aw),0],w4=a('the quantity "'),w6=a(mw),w7=a(nr),w8=a(bd),w9=a(bc),w_=a(nF),w$=[0,a(aw),0],xa=a('a bound "'),xj=a(hX),xk=a(dF),wT=a(bw),wU=a(dI),wy=a(bw),wz=a(f_),wA=a(eB),wB=a(f9),wC=a(dI),wF=a(aT),wG=a(bb),wH=a(ev),wI=a(dC),wJ=a(aT),wK=a(bb),wL=a(b3),wM=a(ev),wN=a(dC),wO=a(eB),wP=a(aT),wQ=a(bb),wR=a(m_),wS=a(nm),wD=[0,a('" of such a machine'),0],wE=a(mr),ww=a(bw),wx=a(eB),wg=a(bw),wh=a(cW),wi=a(f9),wj=a(dI),wm=a(f_),wn=a(aT),wo=a(bb),wp=a(ev),wq=a(dC),wr=a(aT),ws=a(bb),wt=a(b3),wu=a(b3),wk=[0,a(aw),0],wl=a(mr),wd=a(f4),we=a(ex),wb=a(" is not covered by the verified checker"),wc=a(P),v$=a(bd),wa=a(bc),v7=a(P),v8=a(nP),v9=a(P),v_=a(P),v6=[1,0],v4=a("Reader.Malformed"),v5=a("Reader.Not_covered"),At=[0,a("a paving is checked by orthocert-verified")],As=a(nb),Au=a("CERTIFIED"),Av=a("REFUTED"),Aw=a(nb),Ax=a("NOT COVERED: ");function
-eI(a){throw[0,iz,a]}function
+BO(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}B3();var
+iA=[aH,a(mU),-2],iz=[aH,a(nZ),-4],AJ=[0,[0,0]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AJ]]]]]]]]]]],AL=[0,0],AM=[0,0],AN=[0,[0,[0,[0,0]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AN]]]]]]]]]]],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AO]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AP]]]]]]]]]]],AR=[0,[0,0]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,0]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,0],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,0]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,0],BG=[0,[0,0]],BH=[0,0],BI=[0,[0,[0,[0,[0,0]]]]],i2=[0,[0,[0,0]]],ch=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fA=[0,[0,[0,[0,0]]]],BJ=[0,[0,[0,[0,[0,0]]]]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]];be(11,[aH,a(ml),-12],ml);be(10,[aH,a(na),-11],na);be(9,[aH,a(nS),-10],nS);be(8,[aH,a(mx),-9],mx);be(7,[aH,a(nn),-8],nn);be(6,[aH,a(mv),-7],mv);be(5,[aH,a(mV),-6],mV);be(4,[aH,a(m1),-5],m1);be(3,iz,nZ);be(2,[aH,a(h1),-3],h1);be(1,iA,mU);be(0,[aH,a(nC),-1],nC);var
+oz=a("String.sub / Bytes.sub"),oB=a(P),oA=a("String.concat"),oC=a("Array.init"),oD=a("power"),oO=[0,0],oQ=[0,0],oR=[0,[0,0]],oS=[0,[0,0]],oZ=[0,0],o0=[0,0],o6=[0,0,0],o7=[0,0,0],o8=[0,0],pp=[0,0],pq=[0,0],pt=[0,0],pL=[0,0],pO=[0,0],pQ=[0,0],pR=[0,0],pX=[0,0],pY=[0,0],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],qy=[0,0],qU=a(","),ra=[0,a(h7),0],rb=a(m7),rc=a("."),rd=[0,[0,[0,0]]],re=a(ez),rf=a(h8),rg=[0,[0,[0,[0,[0,0]]]]],rh=[0,a(h7),0],ri=a(nW),t8=a(mi),t_=a(mf),t9=a(nd),t$=a(dF),ua=a(fX),ub=a(nY),uc=a(nL),ud=a(mO),ue=a(np),vi=[0,0],vj=a(hS),vk=[0,0],vl=a("divided"),vm=[0,1],vn=a("mirror"),vo=[0,3],vp=a("negative"),vq=[0,2],vr=a(ey),vs=[0,5],vt=a(id),vu=[0,4],vv=a(f2),vw=a(mA),vx=a(f6),vy=a(b4),vz=[0,0],vA=[0,0],vB=[0,0],v$=a(P),v8=[0,[0,[0,[0,0]]]],v9=[0,[0,[0,[0,0]]]],v6=[0,0],v3=[0,[0,0]],v4=[0,[0,[0,0]]],vZ=[0,[0,[0,0]]],vY=[0,0,0],vX=[0,[0,[0,0]]],vW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AK]]]]]]]]]]],vV=[0,0],vP=[0,[0,0]],vQ=[0,[0,[0,0]]],vR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AL]]]]]]]]]]],vS=[0,[0,0]],vT=[0,[0,[0,0]]],vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AM]]]]]]]]]]],vM=[0,[0,0]],vN=[0,[0,[0,0]]],vK=[0,[0,[0,0]]],vL=[0,[0,0]],vH=[0,[0,0]],vI=[0,0],vF=[0,0],vG=[0,1],vE=[0,[0,0]],vD=[0,0],vf=[0,0],vg=[0,1],vh=[0,2],vb=[0,[0,0]],vc=[0,0],va=[0,0],u$=[0,0],u_=[0,0],u9=[0,0,0],u8=[0,0,0],u6=[0,[0,[0,0]]],u7=[0,[0,[0,0]]],u5=[0,0],u3=[0,1,0],uV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AQ]]]]]]]]]]],uW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],uR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],uT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],uU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],uY=a("sqrt"),uP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],uQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],uE=[0,a("\n"),0],uF=a(mg),uG=a(fW),uH=a(m$),uI=a(mS),uO=a(eB),uJ=a(ex),uK=a("verdict"),uL=a(nD),uM=a(mL),uN=a(m_),uB=a(m5),uC=a(nG),uD=a(fZ),ux=a(nj),uy=a(f0),uz=a(ex),uA=a(eB),us=a(f9),ut=a(a2),uu=a(mh),uv=a(f5),up=a(nB),uq=a(ey),ur=a(f5),ul=a(nm),um=a(f9),un=a(f0),uo=a(nQ),ug=a(nH),uh=a(nK),ui=a(m2),uj=a(f3),t6=a(hU),t7=a(ib),t1=a(bd),t2=a(bc),t3=a(mN),tB=a(f3),tC=a(nq),tf=a(a2),tg=a(bK),th=a(f$),ti=a(dI),tj=a(cW),to=a(fV),tk=a(h9),tl=a(h$),tm=a(dE),tn=a(a2),tp=a(bK),tq=a(f$),tr=a(dI),ts=a(h9),tt=a(h$),tu=a(dE),tv=a(a2),tw=a(bK),tx=a(bd),ty=a(bc),tz=a(cU),tA=a(dI),tD=a(nx),tE=a(nJ),tF=a(gc),tG=a(mB),tH=a(mG),tI=a(dE),tJ=a(a2),tK=a(bK),tL=a(fS),tM=a(mQ),tN=a(dI),tO=a(eE),tP=a(mp),tQ=a(dE),tR=a(a2),tS=a(fS),tT=a(a2),tU=a(ns),tX=a(me),tV=a(mE),tW=a(nP),tY=a(eB),tZ=a(ex),t0=a(a2),t4=a(gc),t5=a(fZ),s$=a(bK),ta=a(ie),tb=a(dI),tc=a(fV),td=a(dE),sZ=a(eE),s0=a(nE),s1=a(cV),s2=a(dG),s3=a(dG),s4=a(hX),s5=a(cV),s6=a(nb),s7=a(mM),s8=a(aT),s_=a(mk),s9=a(hX),sP=a(m4),sQ=a(nX),sR=a(mI),sS=a(mF),sT=a(nN),sU=a(nA),sV=a(mT),sW=a(fT),sX=a(fT),sL=a(aT),sM=a(bb),sN=a(dJ),sO=a(bx),sH=a(cW),sI=a(h4),sJ=a(nk),sE=a(bd),sF=a(bc),sG=a(cU),sx=a(bd),sy=a(bc),sz=a(cU),sA=a(h6),sB=a(cV),sC=a(h2),sD=a(nw),sn=a(mD),st=a(fW),ss=a(nO),so=a(mH),sp=a(hY),su=a(mz),sv=a(nu),sw=a(hY),sq=a(dG),sr=a(ng),sk=a(f4),sl=a(f4),sm=a(f4),sg=a(ny),sh=a(bc),si=a(bd),sj=a(nM),r4=a(mt),r5=a(mj),r6=a(no),r7=a(dF),r8=a(nV),r9=a(nr),r_=a(mu),r$=a(nh),sa=a(ms),sb=a(mP),sc=a(mr),sd=a(nz),se=a(fX),sf=a(mo),rJ=a(f7),rL=a(ez),rK=a(ew),rM=a(dD),rN=a(aT),rO=a(bb),rP=a(b4),rQ=a(ga),rR=a(bx),rS=a(aT),rT=a(bb),rU=a(dJ),rV=a(bx),rW=a(dD),rX=a(eD),rY=a(aT),rZ=a(bb),r0=a(nf),r1=a(nt),r2=a(eD),r3=a(bx),rr=a(f7),rz=a(ez),rs=a(ew),rt=a(dD),ru=a(aT),rv=a(bb),rw=a(b4),rx=a(ga),ry=a(bx),rA=a(gb),rB=a(aT),rC=a(bb),rD=a(dJ),rE=a(bx),rF=a(b4),rG=a(cW),rH=a(bx),ro=a(bd),rp=a(bc),rm=[0,a(ax),0],rn=a(ax),rk=a(P),rj=[0,a(ax),0],rl=a(ax),q8=a(f7),q9=a(ez),q_=a("*"),q$=a(by),q3=[0,[0,[0,[0,[0,0]]]]],q4=[0,[0,[0,0]]],q5=[0,[0,0]],q6=[0,0],q7=[0,[0,[0,[0,0]]]],q1=a('":'),q2=a(ax),qZ=[0,a(ax),0],q0=a(ax),qX=[0,a("}"),0],qY=a("{"),qV=[0,a("]"),0],qW=a("["),qT=[0,[0,[0,0]]],qS=[0,[0,[0,0]]],qQ=[0,0],qN=[0,[0,[0,0]]],qO=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qP=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qL=[0,[0,0]],qM=[0,[0,[0,0]]],qI=[0,0],qJ=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],qF=[0,0],qC=[0,0,0],qD=[0,0,0],qE=[0,0,0],qz=[0,[0,0]],qA=[0,[0,[0,0]]],qB=[0,0],qo=[0,[0,[0,[0,[0,[0,0]]]]]],qp=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,[0,[0,[0,[0,0]]]]]],qt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],qv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,[0,[0,[0,[0,0]]]]]],qm=[0,[0,0]],qn=[0,[0,[0,0]]],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qe=[0,[0,[0,0]]],qf=[0,[0,0]],qb=[0,0],qc=[0,0],p9=[0,[0,0]],p_=[0,0],p$=[0,0],qa=[0,[0,0]],p0=[0,[0,0]],p1=[0,0],p2=[0,[0,0]],p3=[0,0],p4=[0,0],p5=[0,[0,0]],p6=[0,[0,0]],p7=[0,[0,0]],p8=[0,0],pW=[0,0],pV=[0,0],pU=[0,[0,[0,0]]],pT=[0,[0,[0,[0,[0,[0,0]]]]]],pP=[0,[0,[0,0]]],pM=[0,[0,[0,0]]],pK=[0,[0,[0,0]]],pI=[0,[0,[0,[0,[0,[0,0]]]]]],pJ=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,0]],pF=[0,0],pG=[0,[0,[0,0]]],pH=[0,[0,[0,0]]],px=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],py=[0,[0,[0,[0,[0,[0,0]]]]]],pz=[0,[0,[0,[0,[0,[0,0]]]]]],pA=[0,[0,[0,0]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pD=[0,[0,[0,0]]],pv=[0,[0,0]],pw=[0,0],pu=[0,0,0],ps=[0,0,0],pr=[0,[0,[0,0]]],pn=[0,0],po=[0,0],pi=[0,[0,[0,0]]],pj=[0,[0,[0,0]]],pk=[0,[0,[0,0]]],ph=[0,[0,[0,[0,0]]]],pd=[0,[0,[0,0]]],pe=[0,[0,[0,0]]],pf=[0,[0,[0,0]]],pg=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pb=[0,[0,0]],pc=[0,0],o$=[0,[0,0]],pa=[0,0],o9=[0,[0,0]],o_=[0,0],oV=[0,0],oW=[0,[0,0]],oX=[0,0],oY=[0,[0,0]],oT=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],oP=[0,0,0],oN=a(ic),oM=a(P),oL=[0,[0,0]],oK=[0,0],oH=[0,0],oJ=[1,0],oI=[0,0],oG=[0,0],oE=[1,0],oF=[1,0],v5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],za=a(bd),zb=a(bc),zc=a(mN),y2=a(gb),y3=[0,a("a base axis of such a platform"),0],y4=a(aT),y5=a(bb),yP=a(nA),yQ=a(m4),yR=a(nN),yS=a(fT),yT=a(mT),yU=a(fT),yV=a(nX),yW=a(mI),yX=a(mF),yF=a(nq),yG=a(f3),ye=a(bK),x4=a(fZ),x5=a(a2),x6=a(ns),x7=a(nP),x_=a(mE),x$=a(me),ya=a(a2),yb=a(a2),yd=a(fS),yc=[0,a("a claim that no cube of such a machine fits"),0],yf=a(dE),yg=a(dI),yh=a(fV),yi=a(ie),y$=[0,a(mW),0],yj=a(cW),yk=a(h4),yl=a(nk),ym=a(f$),yn=a(mG),yo=a(mp),yp=a(fV),ys=a(cU),yt=a(nw),yw=a(ie),yx=[0,a(mW),0],yy=a(bK),yz=[0,a("the distance from parallel singularities of other drives than sliders"),0],yA=a(mQ),yB=[0,a("what else is asked of the closed design"),0],yC=a(fS),yD=a(eE),yE=a(cU),yH=a(bK),yI=a(bd),yJ=a(bc),yK=a(nx),yL=a(nJ),yM=a(gc),yN=a(mB),yq=[0,a(ax),0],yr=a('the mechanism "'),yO=a(h9),yY=a(f$),yZ=a(cW),y0=a(h4),y1=a(h$),y6=a(bK),y7=[0,a('"one_to_one" of this set of orientations'),0],y_=a(cW),y8=[0,a("a platform that turns on struts and other drives"),0],y9=a(bK),yu=[0,a(ax),0],yv=a('the workspace "'),zd=a(a2),ze=a(a2),zg=a(eB),zh=a(ex),zi=a(gc),zf=[0,a("an atlas of such a machine"),0],x8=[0,a(ax),0],x9=a('a claim of the kind "'),zn=a(nY),zu=a(fX),zv=a(dF),zw=a(mO),zx=a(nd),zy=a(b4),zz=a(ib),zA=a(hU),zB=a(b4),zC=a(ic),zo=a(f2),zp=a(mA),zq=a(f6),zr=a(np),zs=[0,a(ax),0],zt=a('the evidence "'),zD=a(dF),zE=a(f2),zF=a(f6),zG=a(nL),zI=a(dF),zJ=a(f2),zK=a(f6),zL=a(ey),zM=a(hS),zN=a(ey),zO=a(hS),zH=[0,a("this evidence at control points"),0],AC=a('"orthocert-paving/'),Ai=a(m_),Aj=a(mL),Ak=a(nD),AA=[0,3,3],Al=a(mS),Au=[0,a("this set of orientations with such drives"),0],Av=[0,a(m0),0],Ay=[0,a(m0),0],Az=[0,a("a mechanism by formulas in a claim that is refuted"),0],Aw=[0,a('the evidence "tolerances" of such a mechanism'),0],Ax=[0,a("a step of a platform that turns that is not at control points"),0],Am=[0,a("the acceleration of a joint of a machine with a plane"),0],At=[0,a("this quantity in a claim that is refuted"),0],Ar=[0,a("a step in a proof that no cube fits"),0],As=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Aq=[0,a("a leaf that fails"),0],An=a(m$),Ao=a(mg),Ap=a(fW),Ag=a(id),Aa=a(fZ),Ab=a(m5),Ac=a(nG),Ad=[0,a(ax),0],Ae=a('a proof of the kind "'),z8=a(ex),z9=a(eB),z_=a(f0),z$=a(nj),z4=a(a2),z5=a(f9),z6=a(mh),z7=a(f5),z1=a(nB),z2=a(ey),z3=a(f5),zX=a(nm),zY=a(f9),zZ=a(f0),z0=a(nQ),zR=a(nK),zS=a(m2),zT=a(nH),zU=a(f3),zV=[0,a(ax),0],zW=a('the failure "'),zP=a(id),zQ=a(ic),zl=a(ib),zm=a(hU),zj=a(mf),zk=a(mi),x1=a(eE),xR=a(hX),xS=a(mk),xT=a(dG),xU=a(aT),xZ=a(nE),x0=a(eE),x2=a(cV),x3=a(dG),xV=a(cV),xW=a(nb),xX=a(mM),xY=a(aT),xK=a(cU),xO=a(bd),xP=a(bc),xL=a(h2),xM=a(h6),xN=a(cV),xE=a(cU),xI=a(bd),xJ=a(bc),xF=a(h2),xG=a(h6),xH=a(cV),xD=[0,1],xC=[0,1],xB=[0,1],xA=[0,a("this quantity of such a mechanism"),0],xk=a(mH),xl=[0,a("a stiffness for each joint"),0],xm=a(nu),xn=a(mz),xo=a(nO),xp=a("max_angle"),xq=[0,a("accuracy of a platform that turns"),0],xj=a(fW),xb=a(f4),w3=a(ng),w4=a(no),xt=a(fX),xu=a(mP),xv=a(dF),xw=a(nh),xx=a(mr),xy=a(ms),xz=a(mj),w5=a(mo),w6=a(nz),w7=a(nr),w8=a(nV),w9=a(mu),w_=a(mt),w$=[0,a(ax),0],xa=a('the quantity "'),xc=a(mD),xd=a(ny),xe=a(bd),xf=a(bc),xg=a(nM),xh=[0,a(ax),0],xi=a('a bound "'),xr=a(hY),xs=a(dG),w1=a(bx),w2=a(dJ),wG=a(bx),wH=a(gb),wI=a(eD),wJ=a(ga),wK=a(dJ),wN=a(aT),wO=a(bb),wP=a(ew),wQ=a(dD),wR=a(aT),wS=a(bb),wT=a(b4),wU=a(ew),wV=a(dD),wW=a(eD),wX=a(aT),wY=a(bb),wZ=a(nf),w0=a(nt),wL=[0,a('" of such a machine'),0],wM=a(my),wE=a(bx),wF=a(eD),wo=a(bx),wp=a(cW),wq=a(ga),wr=a(dJ),wu=a(gb),wv=a(aT),ww=a(bb),wx=a(ew),wy=a(dD),wz=a(aT),wA=a(bb),wB=a(b4),wC=a(b4),ws=[0,a(ax),0],wt=a(my),wl=a(f7),wm=a(ez),wj=a(" is not covered by the verified checker"),wk=a(P),wh=a(bd),wi=a(bc),wd=a(P),we=a(nW),wf=a(P),wg=a(P),wc=[1,0],wa=a("Reader.Malformed"),wb=a("Reader.Not_covered"),AE=[0,a("a paving is checked by orthocert-verified")],AD=a(ni),AF=a("CERTIFIED"),AG=a("REFUTED"),AH=a(ni),AI=a("NOT COVERED: ");function
+eK(a){throw[0,iz,a]}function
 aP(d,c){var
-a=al(d),e=al(c),b=bN(a+e|0);dK(d,0,b,0,a);dK(c,0,b,a,e);return gg(b)}B7(0);ob(1);ob(2);function
+a=al(d),e=al(c),b=bN(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return gj(b)}Cg(0);oi(1);oi(2);function
 iB(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{B6(d)}catch(a){a=ol(a);if(a[1]!==iA)throw a;var
+c=a[2],d=a[1];try{Cf(d)}catch(a){a=os(a);if(a[1]!==iA)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(B8(0))}Cd(a(mf),iB);function
+a=c;continue}return 0}}return a(Ch(0))}Co(a(mm),iB);function
 bO(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-U(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gi(d,c){var
+V(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,V(b,c)]}return 0}function
+gl(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-ax(d,c){var
+at(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bf(b,c){var
-a=bN(b);BQ(a,0,b,c);return gg(a)}function
+a=bN(b);B1(a,0,b,c);return gj(a)}function
 c4(g,b,a){var
-d=dL(g),f=0;if(0<=b&&0<=a&&!((ge(d)-a|0)<b)){var
-c=bN(a);eD(d,b,c,0,a);var
+d=dM(g),f=0;if(0<=b&&0<=a&&!((gh(d)-a|0)<b)){var
+c=bN(a);eF(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eI(os);return gg(e)}function
+e=eK(oz);return gj(e)}function
 iC(k,g){if(g){var
 h=al(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eI(ot),c=n,b=m;continue}var
+j=(al(i)+h|0)+c|0,m=b[2],n=c<=j?j:eK(oA),c=n,b=m;continue}var
 l=al(i)+c|0}else
 var
 l=c;var
 f=bN(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dK(a,0,f,e,al(a));dK(k,0,f,e+al(a)|0,h);var
-e=(e+al(a)|0)+h|0,d=o;continue}dK(a,0,f,e,al(a))}return gg(f)}}}return ou}function
-gj(b,c){if(0===b)return[0];if(0<=b){var
-d=B5(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];dL(a,0,f,e,al(a));dL(k,0,f,e+al(a)|0,h);var
+e=(e+al(a)|0)+h|0,d=o;continue}dL(a,0,f,e,al(a))}return gj(f)}}}return oB}function
+gm(b,c){if(0===b)return[0];if(0<=b){var
+d=Ce(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eI(ov)}function
-gk(c){var
+a=g;continue}break}}return d}return eK(oC)}function
+gn(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aD(0),b=aD(1);function
-q(a){return x(a,b)}function
+d=aD(0),c=aD(1);function
+p(a){return x(a,c)}function
 iD(b,a){return x(aD(b),a)}function
-c(b,a){return u(aD(b),a)}function
-aU(b,a){return[0,iw(b,a),oo(b,a)]}function
-gl(b,a){return G(b,a)?b:a}function
+b(b,a){return u(aD(b),a)}function
+aU(b,a){return[0,iw(b,a),ov(b,a)]}function
+go(b,a){return G(b,a)?b:a}function
 bg(b,a){return G(b,a)?a:b}function
-aj(a){return a?0:1}function
+ai(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 aJ(a){return a[1]}function
-b8(a){return a[2]}function
+b9(a){return a[2]}function
 i(a){var
 b=a?[0,i(a[2])]:a;return b}function
 f(a,b){if(a){var
@@ -792,9 +792,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eJ(a){return iF(a,0)}function
+eL(a){return iF(a,0)}function
 iG(a){if(typeof
-a==="number")return ox;else
+a==="number")return oE;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -806,7 +806,7 @@ switch(a[0]){case
 7:return[8,a[1]];case
 8:return[9,a[1]];default:return[0,iG(a[1])]}}function
 bi(a){if(typeof
-a==="number")return oy;else
+a==="number")return oF;else
 switch(a[0]){case
 0:return[1,bh(a[1])];case
 1:return[3,bh(a[1])];case
@@ -829,132 +829,132 @@ switch(a[0]){case
 6:return[2,bi(a[1])];case
 7:return[4,bi(a[1])];case
 8:return[6,bi(a[1])];default:return[8,bi(a[1])]}}function
-bz(a){return a?a[1]:a}function
+bA(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-dQ(a,b){return a?N(b,dQ(a[1],b)):a}function
-b9(b,a){return b?a:a?0:1}function
+dR(a,b){return a?N(b,dR(a[1],b)):a}function
+b_(b,a){return b?a:a?0:1}function
 v(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dR(b,a){return Z([0,b],a)}function
+dS(b,a){return Z([0,b],a)}function
 iH(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eK(c,b,a){return c?k(b,eK(c[1],b,a)):a}function
+eM(c,b,a){return c?k(b,eM(c[1],b,a)):a}function
 iI(a){if(a)var
 b=a[1],d=b?[0,iI(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iJ(c,a){return bg(b,aB(c,a))}function
-eL(a){if(G(a,b))return oA;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eL(e)]:[0,eL(e)]}function
-eM(a){if(G(a,b))return b;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eM(e)):q(eM(e))}function
+iJ(b,a){return bg(c,aB(b,a))}function
+eN(a){if(G(a,c))return oH;var
+b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?[0,eN(e)]:[0,eN(e)]}function
+eO(a){if(G(a,c))return c;var
+b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?p(eO(e)):p(eO(e))}function
 iK(c,b){var
 a=iv(c,b);return 0===a?0:0<=a?2:1}function
-gm(j,i){var
-c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
-g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,b))return 0;var
+gp(j,i){var
+b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Y(aU(a,aD(2))[2],d)?0:0;var
+g=aU(b,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,c))return 0;var
 e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
-c=h,a=k;continue}return 0}if(G(a,b))return 0;var
+b=h,a=k;continue}return 0}if(G(a,c))return 0;var
 f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
-c=h,a=l;continue}}function
-eN(b,a){return 2<=iK(b,a)?0:1}function
+b=h,a=l;continue}}function
+eP(b,a){return 2<=iK(b,a)?0:1}function
 c5(i,e,a){if(i){var
-f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
+f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
+w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
 m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
-j=c5(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
-k=c5(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
+j=c5(f,g,B),y=j[2];return[0,b(2,j[1]),y]}var
+k=c5(f,g,a),l=k[2],z=l[2],A=[0,b(2,l[1]),z];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
 v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c5(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iK(g,h)){case
-0:return[0,e,[0,b,b]];case
+n=c5(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iK(g,h)){case
+0:return[0,e,[0,c,c]];case
 1:var
-p=c5(f,iJ(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=c5(f,iJ(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-eO(b,a){var
-c=eL(a);return c5(N(eL(b),c),b,a)}function
-iL(c,i,h){var
-e=i,a=h;for(;;){if(G(e,b))return a;var
+p=c5(f,iJ(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=c5(f,iJ(g,h),a),t=s[2],u=t[2],E=[0,x(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+eQ(b,a){var
+c=eN(a);return c5(N(eN(b),c),b,a)}function
+iL(b,i,h){var
+e=i,a=h;for(;;){if(G(e,c))return a;var
 f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=as(c,a,a);continue}return as(c,a,iL(c,g,as(c,a,a)))}}function
-dS(a){return iL(N,a,oB)}function
-gn(a){return a?q(gn(a[1])):b}function
+e=g,a=as(b,a,a);continue}return as(b,a,iL(b,g,as(b,a,a)))}}function
+dT(a){return iL(N,a,oI)}function
+gq(a){return a?p(gq(a[1])):c}function
 bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=u(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=u(b(2,p(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=x(b,u(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=x(c,u(b(2,p(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=u(c(2,q(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
+i=u(b(2,p(b(2,b(2,c)))),d),j=x(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=u(c(2,q(c(2,c(2,b)))),d),l=x(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=u(b(2,p(b(2,b(2,c)))),d),l=x(p(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=u(c(2,q(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=u(b(2,p(b(2,b(2,c)))),d),n=x(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-o=u(c(2,q(c(2,c(2,b)))),d),p=x(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=u(b(2,p(b(2,b(2,c)))),d),q=x(p(b(2,b(2,c))),o),a=a[1],d=q;continue;case
 6:var
-r=u(c(2,q(c(2,c(2,b)))),d),s=x(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=u(b(2,p(b(2,b(2,c)))),d),s=x(b(2,p(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=u(c(2,q(c(2,c(2,b)))),d),v=x(q(c(2,q(c(2,b)))),t),a=a[1],d=v;continue;case
+t=u(b(2,p(b(2,b(2,c)))),d),v=x(p(b(2,p(b(2,c)))),t),a=a[1],d=v;continue;case
 8:var
-w=u(c(2,q(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
-z=u(c(2,q(c(2,c(2,b)))),d),A=x(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
-go(a){if(G(a,b))return oC;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bh(go(e)):bi(go(e))}function
-eP(a){return eJ(go(a))}function
+w=u(b(2,p(b(2,b(2,c)))),d),y=x(b(2,b(2,b(2,c))),w),a=a[1],d=y;continue;default:var
+z=u(b(2,p(b(2,b(2,c)))),d),A=x(p(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
+gr(a){if(G(a,c))return oJ;var
+b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?bh(gr(e)):bi(gr(e))}function
+eR(a){return eL(gr(a))}function
 iM(k,f){if(0<=a3(f)){var
 g=ix(f);if(0<=g){var
-e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=u(c,c),j=1===(a&1)?u(e,c):e,e=j,c=i,a=h;continue}}return eI(ow)}return d}function
-gp(c){var
-a=a3(c);return 0===a?d:0<a?b:M(b)}function
+e=c,b=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=u(b,b),j=1===(a&1)?u(e,b):e,e=j,b=i,a=h;continue}}return eK(oD)}return d}function
+gs(b){var
+a=a3(b);return 0===a?d:0<a?c:M(c)}function
 iN(a){return 0<=a3(a)?a:d}function
-dT(a){var
-c=a3(a);return 0===c?b:0<c?a:b}function
+dU(a){var
+b=a3(a);return 0===b?c:0<b?a:c}function
 iO(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bP(a[1],b);case
+1:return bP(a[1],c);case
 2:var
-e=c(2,b);return bP(a[1],e);case
+e=b(2,c);return bP(a[1],e);case
 3:var
-f=q(c(2,b));return bP(a[1],f);case
+f=p(b(2,c));return bP(a[1],f);case
 4:var
-g=c(2,c(2,b));return bP(a[1],g);case
+g=b(2,b(2,c));return bP(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return bP(a[1],h);case
+h=p(b(2,b(2,c)));return bP(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return bP(a[1],i);case
+i=b(2,p(b(2,c)));return bP(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return bP(a[1],j);case
+j=p(b(2,p(b(2,c))));return bP(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return bP(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return bP(a[1],l)}}function
-b_(b,a){var
+k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
+l=p(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
+b$(b,a){var
 c=a3(a);return 0===c?d:1===c?iw(b,a):iD(-1,iw(iD(-1,b),a))}function
-eQ(a){return 0<a3(a)?Cn(a):d}function
-dU(b,c){var
-a=ix(c);return 0<=a?op(b,a):oq(b,-a|0)}function
+eS(a){return 0<a3(a)?Cy(a):d}function
+dV(b,c){var
+a=ix(c);return 0<=a?ow(b,a):ox(b,-a|0)}function
 cs(b,c){var
-a=ix(c);return 0<=a?oq(b,a):op(b,-a|0)}function
-bA(b,a){return a?a[1]:b}function
-b$(a){var
+a=ix(c);return 0<=a?ox(b,a):ow(b,-a|0)}function
+bB(b,a){return a?a[1]:b}function
+ca(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-V(d,c){var
+W(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
@@ -1007,7 +1007,7 @@ var
 c=a;else
 var
 c=b;return c}function
-eR(d,c){var
+eT(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aV(b,a){var
@@ -1015,38 +1015,38 @@ c=a?[0,b,aV([0,b],a[1])]:a;return c}function
 aL(b,a){var
 c=a?[0,b,aL(b,a[1])]:a;return c}function
 iT(a){if(a){var
-e=iT(a[2]),f=u(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
-eS(j){function
+e=iT(a[2]),f=u(b(2,c),e),g=a[1]?c:d;return x(g,f)}return d}function
+eU(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iT([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dS(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iT([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
 cu(c,b){var
 a=iv(u(c[1],b[2]),u(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 c8(b,a){return G(u(b[1],a[2]),u(a[1],b[2]))}function
 cv(b,a){return[0,x(u(b[1],a[2]),u(a[1],b[2])),u(b[2],a[2])]}function
-bB(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
+bC(b,a){return[0,u(b[1],a[1]),u(b[2],a[2])]}function
 iU(a){return[0,M(a[1]),a[2]]}function
-dV(b,a){return cv(b,iU(a))}function
-eT(f,c){var
-a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,M(c[2]),M(a)];return bB(f,g)}function
-eU(q){var
+dW(b,a){return cv(b,iU(a))}function
+eV(f,b){var
+a=b[1],e=a3(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bC(f,g)}function
+eW(q){var
 a=q[2],b=q[1],o=a3(b);if(0===o)var
-c=[0,c3(a),[0,d,gp(a)]];else
+c=[0,c3(a),[0,d,gs(a)]];else
 if(0<o){var
 n=a3(a);if(0===n)var
-c=[0,c3(b),[0,gp(b),d]];else
+c=[0,c3(b),[0,gs(b),d]];else
 if(0<n)var
-l=eO(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=eQ(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eO(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
+j=eQ(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
 p=M(b),i=a3(a);if(0===i)var
-c=[0,c3(b),[0,gp(b),d]];else
+c=[0,c3(b),[0,gs(b),d]];else
 if(0<i)var
-g=eO(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
+g=eQ(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
 var
-e=eO(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
-r=c[2],s=dT(r[2]);return[0,r[1],s]}function
+e=eQ(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
+r=c[2],s=dU(r[2]);return[0,r[1],s]}function
 aW(a){if(typeof
-a==="number")return oF;else
+a==="number")return oM;else
 switch(a[0]){case
 0:var
 b=aW(a[1]);return aP(bf(1,48),b);case
@@ -1067,49 +1067,49 @@ i=aW(a[1]);return aP(bf(1,55),i);case
 8:var
 j=aW(a[1]);return aP(bf(1,56),j);default:var
 k=aW(a[1]);return aP(bf(1,57),k)}}function
-dW(a){return typeof
-a==="number"?oG:aW(a)}function
-cw(a){return iM(c(2,b),a)}function
+dX(a){return typeof
+a==="number"?oN:aW(a)}function
+cw(a){return iM(b(2,c),a)}function
 iV(b,a){return cs(a,b)}function
 iW(b,a){return M(cs(M(a),b))}function
-eV(b,a){return M(b_(M(b),a))}function
+eX(b,a){return M(b$(M(b),a))}function
 $(c,b){var
-a=dU(b,c);return[0,a,a]}function
+a=dV(b,c);return[0,a,a]}function
 iX(d,c,a){var
-b=dU(c,d),e=eV(b,a);return[0,b_(b,a),e]}function
+b=dV(c,d),e=eX(b,a);return[0,b$(b,a),e]}function
 B(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
 H(b,a){return[0,aB(b[1],a[2]),aB(b[2],a[1])]}function
-ad(a){return[0,M(a[2]),M(a[1])]}function
+ae(a){return[0,M(a[2]),M(a[1])]}function
 iY(e,c,b,a){if(G(d,e))return G(d,b)?[0,u(e,b),u(c,a)]:G(a,d)?[0,u(c,b),u(e,a)]:[0,u(c,b),u(c,a)];if(G(c,d))return G(d,b)?[0,u(e,a),u(c,b)]:G(a,d)?[0,u(c,a),u(e,b)]:[0,u(e,a),u(e,b)];if(G(d,b))return[0,u(e,a),u(c,a)];if(G(a,d))return[0,u(c,b),u(e,b)];var
-f=bg(u(e,b),u(c,a));return[0,gl(u(e,a),u(c,b)),f]}function
+f=bg(u(e,b),u(c,a));return[0,go(u(e,a),u(c,b)),f]}function
 w(c,b,a){var
 d=iY(b[1],b[2],a[1],a[2]),e=iW(c,d[2]);return[0,iV(c,d[1]),e]}function
 R(b,a){var
-c=u(a[1],a[1]),e=u(a[2],a[2]),h=iW(b,bg(c,e)),g=0;if(T(a[1],d)&&T(d,a[2])){var
+c=u(a[1],a[1]),e=u(a[2],a[2]),h=iW(b,bg(c,e)),g=0;if(U(a[1],d)&&U(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iV(b,gl(c,e));return[0,f,h]}function
-gq(b,a){var
-c=dU(cw(b),b),d=eV(c,a[1]);return[0,b_(c,a[2]),d]}function
-ca(b,a){if(T(d,a[1]))return[0,gq(b,a)];var
-c=T(a[2],d),e=c?[0,ad(gq(b,ad(a)))]:c;return e}function
-cx(f,c){var
-g=T(d,c[1]);if(g)var
-e=dU(c[2],f),a=eQ(e),i=Y(u(a,a),e)?a:x(a,b),h=[0,[0,eQ(dU(c[1],f)),i]];else
+f=iV(b,go(c,e));return[0,f,h]}function
+gt(b,a){var
+c=dV(cw(b),b),d=eX(c,a[1]);return[0,b$(c,a[2]),d]}function
+cb(b,a){if(U(d,a[1]))return[0,gt(b,a)];var
+c=U(a[2],d),e=c?[0,ae(gt(b,ae(a)))]:c;return e}function
+cx(f,b){var
+g=U(d,b[1]);if(g)var
+e=dV(b[2],f),a=eS(e),i=Y(u(a,a),e)?a:x(a,c),h=[0,[0,eS(dV(b[1],f)),i]];else
 var
 h=g;return h}function
 aQ(f,d,c,b,a){if(b){if(a){var
 g=aQ(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cb(b,a){return cs(b,a)}function
+cc(b,a){return cs(b,a)}function
 a4(a,c,b){if(G(d,a)){var
-e=b[1],f=M(cb(M(u(a,b[2])),c));return[0,cb(u(a,e),c),f]}var
-g=b[2],h=M(cb(M(u(a,b[1])),c));return[0,cb(u(a,g),c),h]}function
+e=b[1],f=M(cc(M(u(a,b[2])),c));return[0,cc(u(a,e),c),f]}var
+g=b[2],h=M(cc(M(u(a,b[1])),c));return[0,cc(u(a,g),c),h]}function
 a5(a){var
-c=M(cs(M(a[2]),b));return[0,cs(a[1],b),c]}function
-dX(c,b,a){var
-e=iY(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=T(f,d)?a[2]:a[1],i=eV(f,h),j=T(g,d)?a[1]:a[2];return[0,b_(g,j),i]}function
-dY(a){return bg(a[2],M(a[1]))}var
+b=M(cs(M(a[2]),c));return[0,cs(a[1],c),b]}function
+dY(c,b,a){var
+e=iY(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=U(f,d)?a[2]:a[1],i=eX(f,h),j=U(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
+dZ(a){return bg(a[2],M(a[1]))}var
 C=[0,d,d];function
-eW(a){return[0,a[1],a[1]]}function
+eY(a){return[0,a[1],a[1]]}function
 c9(a){return[0,a[2],a[2]]}function
 cy(b,a){switch(a[0]){case
 0:return[0,a[1]];case
@@ -1151,7 +1151,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=b9(b[1],a[1]);if(j){var
+j=b_(b[1],a[1]);if(j){var
 k=aM(b[2],a[2]);if(k){var
 l=aM(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1160,42 +1160,42 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-eX(b){var
+eZ(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aR(c,b){var
-a=eX(b);return a?Y(c,a[1]):a}function
-dZ(a){return T(c3(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=eZ(b);return a?Y(c,a[1]):a}function
+d0(a){return U(c3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
 F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=eX(b);if(c){var
-e=c[1],f=eX(a);if(f){var
-g=f[1];if(dZ(e)&&dZ(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+c=eZ(b);if(c){var
+e=c[1],f=eZ(a);if(f){var
+g=f[1];if(d0(e)&&d0(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dZ(c)?l(M(c)):[0,[5,a]];case
+c=b[1];return d0(c)?l(M(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 s(b,a){if(aR(d,a))return b;if(aR(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?v(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 K(a){var
-c=eX(a);if(c){var
-b=c[1];return dZ(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?K(a):[0,[6,a,c]];return c}return a}function
-ak(c,a){return aR(b,a)?c:[0,[7,c,a]]}function
-aE(a){return aR(b,a)?a:[0,[9,a]]}function
+c=eZ(a);if(c){var
+b=c[1];return d0(b)?l(u(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+o(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aM(a,b)?K(a):[0,[6,a,b]];return b}return a}function
+ak(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
+aE(a){return aR(c,a)?a:[0,[9,a]]}function
 iZ(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bC(f,e,d,c){var
+bD(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,k(e,cy(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
 cz(a){var
 b=0;function
-c(a){return[0,a]}return bC(l(d),c,a,b)}function
-gr(b,a){if(a){if(aM(b,a[1]))return oH;var
-c=gr(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return bD(l(d),c,a,b)}function
+gu(b,a){if(a){if(aM(b,a[1]))return oO;var
+c=gu(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
 bl(c,b){var
-a=gr(b,c),d=a?a[1]:a;return d}function
-cA(d,b){if(gr(d,b[1]))return b;var
+a=gu(b,c),d=a?a[1]:a;return d}function
+cA(d,b){if(gu(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
 i=cA(a[2],b),j=cA(a[3],i),c=cA(a[4],j);break;case
@@ -1210,31 +1210,31 @@ c=b;break;default:var
 h=cA(a[1],b),c=cA(a[2],h)}var
 e=c[2],f=c[1],g=[0,cy(function(a){return bl(f,a)},a),e];return[0,[0,d,c[1]],g]}function
 c_(a){var
-b=c6(function(b,a){return cA(a,b)},a,oI),c=b[1],d=e(function(a){return bl(c,a)},a);return[0,iP(b[2]),d]}function
-eY(a){return bj(function(b,a){return x(dY(b),a)},d,a)}function
+b=c6(function(b,a){return cA(a,b)},a,oP),c=b[1],d=e(function(a){return bl(c,a)},a);return[0,iP(b[2]),d]}function
+e0(a){return bj(function(b,a){return x(dZ(b),a)},d,a)}function
 bQ(b,c,a){var
-d=eY(a),e=gl(c[2],x(b[2],d)),f=eY(a);return[0,b,[0,bg(c[1],aB(b[1],f)),e],a]}function
-ae(a){return[0,a,a,0]}function
-bD(b,a){var
+d=e0(a),e=go(c[2],x(b[2],d)),f=e0(a);return[0,b,[0,bg(c[1],aB(b[1],f)),e],a]}function
+af(a){return[0,a,a,0]}function
+bE(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bQ(B(b[1],a[1]),g,f)}function
 a6(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},ad,H,d,c),f=H(b[2],a[2]);return bQ(H(b[1],a[1]),f,e)}function
-d0(a){var
-b=e(ad,a[3]),c=ad(a[2]);return[0,ad(a[1]),c,b]}function
-at(a,c,b){var
+c=a[3],d=b[3],e=aQ(function(a){return a},ae,H,d,c),f=H(b[2],a[2]);return bQ(H(b[1],a[1]),f,e)}function
+d1(a){var
+b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
+au(a,c,b){var
 d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=w(a,e,b);return a5(B(w(a,d,c),f))}function
 i(b){return a5(w(a,e,b))}var
 j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bQ(w(a,c[1],b[1]),k,j)}function
-d1(b,a){var
+d2(b,a){var
 c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=R(b,a[2]);return bQ(R(b,a[1]),g,f)}function
-gs(a,b){var
+gv(a,b){var
 c=cx(a,b[1]);if(c){var
 g=c[1],d=cx(a,b[2]);if(d){var
-h=d[1],f=ca(a,B(h,g));if(f)var
+h=d[1],f=cb(a,B(h,g));if(f)var
 l=b[3],m=f[1],i=[0,bQ(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
@@ -1245,81 +1245,81 @@ k=j}else
 var
 k=c;return k}function
 c$(a,c,b){var
-d=ca(a,b[1]);if(d){var
-f=ca(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,w(a,g,b))},n=function(b){return ad(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bQ(g,w(a,c[2],h),p)];else
+d=cb(a,b[1]);if(d){var
+f=cb(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,w(a,g,b))},n=function(b){return ae(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bQ(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cc(b,a){return a?k(b,a[1]):a}function
-eZ(a){var
+cd(b,a){return a?k(b,a[1]):a}function
+e1(a){var
 b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bQ(a[1],c,b)}function
-i0(a,k,j,r,c){var
-l=eZ(k),m=eZ(j),g=eZ(c[1]),h=eZ(c[2]),s=at(a,l,h),t=a6(at(a,m,g),s),i=c$(a,ae($(a,b)),t);if(i)var
-f=i[1],n=at(a,a6(l,g),f),o=at(a,a6(m,h),f),d=function(c,b){return at(a,c,ae(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bD(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bQ(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bQ(c[1][1],c[1][2],H),F]];else
+i0(a,k,j,r,b){var
+l=e1(k),m=e1(j),g=e1(b[1]),h=e1(b[2]),s=au(a,l,h),t=a6(au(a,m,g),s),i=c$(a,af($(a,c)),t);if(i)var
+f=i[1],n=au(a,a6(l,g),f),o=au(a,a6(m,h),f),d=function(c,b){return au(a,c,af(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bE(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d1(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bQ(b[2][1],b[2][2],E),G=ae(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bQ(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
 i1(a,e,d,k){var
-p=d1(a,d),f=bD(d1(a,e),p),g=a6(bD(f,ae($(a,b))),k),l=at(a,ae($(a,c(2,b))),f),q=d1(a,g),h=gs(a,a6(at(a,ae($(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=at(a,m,d),i=c$(a,bD(at(a,g,e),r),l);if(i)var
-s=at(a,m,e),j=c$(a,a6(at(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+p=d2(a,d),f=bE(d2(a,e),p),g=a6(bE(f,af($(a,c))),k),l=au(a,af($(a,b(2,c))),f),q=d2(a,g),h=gv(a,a6(au(a,af($(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=au(a,m,d),i=c$(a,bE(au(a,g,e),r),l);if(i)var
+s=au(a,m,e),j=c$(a,a6(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cc(function(b){return i0(a,e,d,k,b)},o);return cc(function(b){return i0(a,e,d,k,b)},u)}function
+u=cd(function(b){return i0(a,e,d,k,b)},o);return cd(function(b){return i0(a,e,d,k,b)},u)}function
 bR(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cd(b,j,i){var
-f=ae(C);return function(a){switch(a[0]){case
+ce(b,j,i){var
+f=af(C);return function(a){switch(a[0]){case
 0:return[0,t(a[1],j,f)];case
 1:return[0,t(a[1],i,f)];case
-2:return[0,ae($(b,a[1]))];case
+2:return[0,af($(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bR(function(b,a){return[0,bD(b,a)]},l,k);case
+k=a[2],l=a[1];return bR(function(b,a){return[0,bE(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return bR(function(b,a){return[0,a6(b,a)]},n,m);case
 5:var
-o=a[1];return cc(function(a){return[0,d0(a)]},o);case
+o=a[1];return cd(function(a){return[0,d1(a)]},o);case
 6:var
-p=a[2],q=a[1];return bR(function(c,a){return[0,at(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bR(function(c,a){return[0,au(b,c,a)]},q,p);case
 7:var
 r=a[2],s=a[1];return bR(function(a,c){return c$(b,a,c)},s,r);case
 8:var
-u=a[1];return cc(function(a){return[0,d1(b,a)]},u);case
+u=a[1];return cd(function(a){return[0,d2(b,a)]},u);case
 9:var
-v=a[1];return cc(function(a){return gs(b,a)},v);default:var
+v=a[1];return cd(function(a){return gv(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=i1(b,c[1],d[1],e[1]),x=a[1]?b8:aJ;return y(x,w)}var
+w=i1(b,c[1],d[1],e[1]),x=a[1]?b9:aJ;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d2(c){var
+d3(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d2(a[1]);if(b)return b;var
+b=d3(a[1]);if(b)return b;var
 a=a[2];continue}}function
 bS(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gm(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gp(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=v(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gm(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gm(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=v(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gp(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gp(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=bS(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1354,184 +1354,184 @@ o=g;return o;case
 5:var
 i=bm(a,b[1]);if(i){var
 j=bm(a,b[2]);if(j)var
-k=ca(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+k=cb(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
 l=bm(a,b[1]);return l?cx(a,l[1]):l}}function
-e0(b,a){return iX(b,a[1],a[2])}function
-bn(a,d){if(d2(d))switch(d[0]){case
+e2(b,a){return iX(b,a[1],a[2])}function
+bn(a,d){if(d3(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dR(i,i2),k=j?c8(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,e0(a,bB(dV(e,g),n)),0],p=f(aL(C,i),o),q=e0(a,e)[2],r=[0,e0(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e0(a,bB(cv(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dS(i,i2),k=j?c8(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,e2(a,bC(dW(e,g),n)),0],p=f(aL(C,i),o),q=e2(a,e)[2],r=[0,e2(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,e2(a,bC(cv(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bn(a,d[2]),u=bn(a,d[1]);return bR(function(b,a){return[0,bD(b,a)]},u,t);case
+t=bn(a,d[2]),u=bn(a,d[1]);return bR(function(b,a){return[0,bE(b,a)]},u,t);case
 3:var
 v=bn(a,d[2]),w=bn(a,d[1]);return bR(function(b,a){return[0,a6(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(bS(h,m)){var
-x=bn(a,h);return cc(function(b){return[0,d1(a,b)]},x)}var
-z=bn(a,m),A=bn(a,h);return bR(function(c,b){return[0,at(a,c,b)]},A,z);case
+x=bn(a,h);return cd(function(b){return[0,d2(a,b)]},x)}var
+z=bn(a,m),A=bn(a,h);return bR(function(c,b){return[0,au(a,c,b)]},A,z);case
 5:var
 B=bn(a,d[2]),D=bn(a,d[1]);return bR(function(b,c){return c$(a,b,c)},D,B);default:var
-E=bn(a,d[1]);return cc(function(b){return gs(a,b)},E)}return y(ae,bm(a,d))}function
-aX(b,a){if(d2(a)){var
+E=bn(a,d[1]);return cd(function(b){return gv(a,b)},E)}return y(af,bm(a,d))}function
+aX(b,a){if(d3(a)){var
 c=bn(b,a);return y(function(a){return a[2]},c)}return bm(b,a)}function
 i3(a){var
-e=bg(M(a),d);return dT(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+e=bg(M(a),d);return dU(x(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
 i4(a){return iN(x(i3(a),a))}function
-ce(f,a,e){var
+cf(f,a,e){var
 b=aX(x(f,i3(a)),e);if(b)var
-c=b[1],g=i4(a),h=M(cb(M(c[2]),g)),i=i4(a),d=[0,[0,cb(c[1],i),h]];else
+c=b[1],g=i4(a),h=M(cc(M(c[2]),g)),i=i4(a),d=[0,[0,cc(c[1],i),h]];else
 var
 d=b;return d}function
-af(d,a){var
-b=ce(d,a[2],a[1][1]);if(b)var
-c=ce(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+ag(d,a){var
+b=cf(d,a[2],a[1][1]);if(b)var
+c=cf(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gt(b,a){var
-c=M(cb(M(a[2]),b));return[0,cb(a[1],b),c]}function
-e1(b,a){var
-c=eV(b[2],a);return[0,b_(b[1],a),c]}function
-gu(a,f,c){if(c){var
-d=c[1],g=gu(a,f,d),h=g[2],i=gn(N(dQ(oK,d),oJ)),j=u(gn(dQ(oL,d)),i),e=e1(w(a,g[1],f),j),k=iH(c)?B(h,e):H(h,e);return[0,e,k]}var
-l=$(a,b);return[0,$(a,b),l]}function
+gw(b,a){var
+c=M(cc(M(a[2]),b));return[0,cc(a[1],b),c]}function
+e3(b,a){var
+c=eX(b[2],a);return[0,b$(b[1],a),c]}function
+gx(a,f,b){if(b){var
+d=b[1],g=gx(a,f,d),h=g[2],i=gq(N(dR(oR,d),oQ)),j=u(gq(dR(oS,d)),i),e=e3(w(a,g[1],f),j),k=iH(b)?B(h,e):H(h,e);return[0,e,k]}var
+l=$(a,c);return[0,$(a,c),l]}function
 i5(f){var
-g=dS(f),e=oM[1],b=g,c=0,a=e;for(;;){if(b){var
+g=dT(f),e=oT[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(oN,c)}}function
+b=d,c=[0,c],a=e;continue}return N(oU,c)}}function
 i6(a,d){var
-g=cw(a),h=u(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
-i=gu(a,d,dQ(oP,N(i5(a),oO)))[2][2],f=[0,[0,gu(a,d,N(dQ(oR,i5(a)),oQ))[2][1],i]];else
+g=cw(a),h=u(b(2,b(2,c)),g),e=G(d[2],h);if(e)var
+i=gx(a,d,dR(oW,N(i5(a),oV)))[2][2],f=[0,[0,gx(a,d,N(dR(oY,i5(a)),oX))[2][1],i]];else
 var
 f=e;return f}function
 i7(i){function
 a(h){var
-m=b_(cw(i),h),g=dS(i),f=m,e=d,a=b;for(;;){if(g){var
-j=x(a,c(2,b)),k=x(e,b_(f,a)),l=M(b_(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=u(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aB(u(c(2,c(2,c(2,c(2,b)))),g),f)}function
+m=b$(cw(i),h),g=dT(i),f=m,e=d,a=c;for(;;){if(g){var
+j=x(a,b(2,c)),k=x(e,b$(f,a)),l=M(b$(f,u(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=u(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aB(u(b(2,b(2,b(2,b(2,c)))),g),f)}function
 i8(e,a){var
 f=G(d,a);if(f){var
-g=c(2,c(2,b));return i6(e,e1(R(e,[0,a,a]),g))}return f}function
+g=b(2,b(2,c));return i6(e,e3(R(e,[0,a,a]),g))}return f}function
 i9(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aB(i7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(i7(a),n),e=i8(a,g);if(e){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aB(i7(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=x(i7(a),n),e=i8(a,g);if(e){var
 f=i8(a,h);if(f)var
-i=T(d,e[1][1]),j=i?T(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+i=U(d,e[1][1]),j=i?U(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
 i_(a,d){var
-c=R(a,d),e=$(a,b);return H(B(c,c),e)}function
+b=R(a,d),e=$(a,c);return H(B(b,b),e)}function
 da(f,j){var
-e=aX(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=i9(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=i6(a,R(a,e1(w(a,k,d[1]),h))),g=y(function(b){return i_(a,i_(a,b))},i);else
+e=aX(x(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=x(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=i9(a);if(d)var
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=i6(a,R(a,e3(w(a,k,d[1]),h))),g=y(function(b){return i_(a,i_(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gt(l,a)},g)}return e}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return y(function(a){return gw(l,a)},g)}return e}function
 i$(a,d){var
-e=i9(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e1(w(a,d,gt(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-e2(d,a){return da(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+e=i9(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return y(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return e3(w(a,d,gw(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+e4(d,a){return da(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 bT(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 2:var
-j=a[2],k=a[1],f=j,e=k,c=function(b,a){return[0,cv(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,cv(b,a)]};break;case
 3:var
-l=a[2],m=a[1],f=l,e=m,c=function(b,a){return[0,dV(b,a)]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,dW(b,a)]};break;case
 4:var
-n=a[2],o=a[1],f=n,e=o,c=function(b,a){return[0,bB(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,bC(b,a)]};break;case
 5:var
-p=a[2],q=a[1],f=p,e=q,c=function(c,a){return cu(a,[0,d,b])?0:[0,eT(c,a)]};break;default:return 0}var
+p=a[2],q=a[1],f=p,e=q,b=function(b,a){return cu(a,[0,d,c])?0:[0,eV(b,a)]};break;default:return 0}var
 g=bT(e);if(g){var
-h=bT(f);if(h)return c(g[1],h[1]);var
+h=bT(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-h(i,e,c){var
-f=bT(c);if(f){var
-g=f[1];return e?aj(c8(g,[0,d,b])):c8([0,d,b],g)}var
-a=aX(i,c);if(a){var
-h=a[1];return e?T(d,h[1]):G(d,h[1])}return a}function
+h(i,e,b){var
+f=bT(b);if(f){var
+g=f[1];return e?ai(c8(g,[0,d,c])):c8([0,d,c],g)}var
+a=aX(i,b);if(a){var
+h=a[1];return e?U(d,h[1]):G(d,h[1])}return a}function
 ja(c,b){var
 a=aX(c,b),d=a?1:a;return d}function
-a9(c,a,b){var
+a8(c,a,b){var
 d=bS(a,b),e=d?ja(c,a):d;return e?e:h(c,0,[3,b,a])}function
-e3(a){switch(a[0]){case
+e5(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-r=a[2],s=a[1],f=r,e=s,c=function(b,a){return[0,cv(b,a)]};break;case
+r=a[2],s=a[1],f=r,e=s,b=function(b,a){return[0,cv(b,a)]};break;case
 3:var
-t=a[2],u=a[1],f=t,e=u,c=function(b,a){return[0,dV(b,a)]};break;case
+t=a[2],u=a[1],f=t,e=u,b=function(b,a){return[0,dW(b,a)]};break;case
 4:var
-v=a[2],w=a[1],f=v,e=w,c=function(b,a){return[0,bB(b,a)]};break;case
+v=a[2],w=a[1],f=v,e=w,b=function(b,a){return[0,bC(b,a)]};break;case
 5:var
-x=a[2],y=a[1],f=x,e=y,c=function(c,a){return cu(a,[0,d,b])?0:[0,eT(c,a)]};break;default:var
-k=e3(a[1]);if(k){var
-o=k[1],g=eU(o),p=dT(eQ(g[2])),h=[0,eQ(g[1]),p],l=T(d,g[1]),m=l?cu(bB(h,h),o):l,q=m?[0,h]:m;return q}return k}var
-i=e3(e);if(i){var
-j=e3(f);if(j)return c(i[1],j[1]);var
+x=a[2],y=a[1],f=x,e=y,b=function(b,a){return cu(a,[0,d,c])?0:[0,eV(b,a)]};break;default:var
+k=e5(a[1]);if(k){var
+o=k[1],g=eW(o),p=dU(eS(g[2])),h=[0,eS(g[1]),p],l=U(d,g[1]),m=l?cu(bC(h,h),o):l,q=m?[0,h]:m;return q}return k}var
+i=e5(e);if(i){var
+j=e5(f);if(j)return b(i[1],j[1]);var
 n=j}else
 var
 n=i;return n}function
 jb(a){if(a){var
-e=a[2],c=a[1];if(cu(bA([0,d,b],c),[0,d,b])){var
-g=jb(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
-f=[0,[0,c,e]]}else
+e=a[2],b=a[1];if(cu(bB([0,d,c],b),[0,d,c])){var
+g=jb(e);return y(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jc(c,a){var
-e=aK(c,a),f=[0,d,b];return bj(function(a,b){return eU(cv(bB(a[1],a[2]),b))},f,e)}function
-jd(c,j){if(c){var
-f=c[1],g=jb(j);if(g){var
-h=g[1],a=h[1],k=function(c){var
-f=bA([0,d,b],a),g=eT(bA([0,d,b],c),f),h=b$(a),i=aK(b$(c),h);return e(function(a){var
-b=bB(g,a[2]);return eU(dV(a[1],b))},i)},l=jd(f,e(k,h[2]));return y(function(c){var
-e=bA([0,d,b],a);return[0,eU(eT(iU(jc(b$(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],aL([0,d,b],f)]]}else
+jc(b,a){var
+e=aK(b,a),f=[0,d,c];return bj(function(a,b){return eW(cv(bC(a[1],a[2]),b))},f,e)}function
+jd(b,j){if(b){var
+f=b[1],g=jb(j);if(g){var
+h=g[1],a=h[1],k=function(b){var
+f=bB([0,d,c],a),g=eV(bB([0,d,c],b),f),h=ca(a),i=aK(ca(b),h);return e(function(a){var
+b=bC(g,a[2]);return eW(dW(a[1],b))},i)},l=jd(f,e(k,h[2]));return y(function(b){var
+e=bB([0,d,c],a);return[0,eW(eV(iU(jc(ca(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],aL([0,d,c],f)]]}else
 var
-i=c;return i}function
+i=b;return i}function
 je(a){if(a){var
-b=e3(a[1]);if(b)var
+b=e5(a[1]);if(b)var
 c=je(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oS}function
+d=b;return d}return oZ}function
 jf(a){if(a){var
 b=je(a[1]);if(b)var
 c=jf(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return oT}function
+d=b;return d}return o0}function
 jg(h,l){var
 a=jf(l);if(a){var
-j=a[1],c=jd(h,j);if(c){var
-e=c[1],f=v(i(e),h),g=f?aq(function(a){return aj(cu(a,[0,d,b]))},e):f;return g?n(function(a){return cu(jc(a,e),[0,d,b])},j):g}var
-k=c}else
+j=a[1],b=jd(h,j);if(b){var
+e=b[1],f=v(i(e),h),g=f?aq(function(a){return ai(cu(a,[0,d,c]))},e):f;return g?n(function(a){return cu(jc(a,e),[0,d,c])},j):g}var
+k=b}else
 var
 k=a;return k}function
-e4(a){return 0===a[0]?a[2]:a[1]}function
-oU(a){return a}function
-oV(a){return a}function
-oW(a,b){return aQ(oV,oU,B,a,b)}function
-oX(a){return a}function
-oY(a){return a}function
-cf(a,b){return aQ(oY,oX,oW,a,b)}function
-gv(b,a,c){if(a){var
+e6(a){return 0===a[0]?a[2]:a[1]}function
+o1(a){return a}function
+o2(a){return a}function
+o3(a,b){return aQ(o2,o1,B,a,b)}function
+o4(a){return a}function
+o5(a){return a}function
+cg(a,b){return aQ(o5,o4,o3,a,b)}function
+gy(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gv(b,f,c[2]),h=c[1],i=function(c,a){return H(c,dX(d,a,b))},j=function(a){return ad(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
-k=gv(b,f,0);return[0,e(function(a){return ad(dX(d,a,b))},a),k]}return c}function
-gw(a){if(a){var
+g=gy(b,f,c[2]),h=c[1],i=function(c,a){return H(c,dY(d,a,b))},j=function(a){return ae(dY(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
+k=gy(b,f,0);return[0,e(function(a){return ae(dY(d,a,b))},a),k]}return c}function
+gz(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=T(d,c[1]),h=e?[0,gv(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=U(d,c[1]),h=e?[0,gy(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
@@ -1539,13 +1539,13 @@ var
 g=a;return g}function
 jh(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gw(b);if(c){var
+c=gz(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
 ji(d,b,a){if(b)if(a)var
-e=a[1],f=ji(d,b[2],a[2]),g=b9(d,b[1])?eW(e):c9(e),c=[0,g,f];else
+e=a[1],f=ji(d,b[2],a[2]),g=b_(d,b[1])?eY(e):c9(e),c=[0,g,f];else
 var
 c=a;else
 var
@@ -1557,125 +1557,125 @@ c=b;else
 var
 c=a;return c}function
 bo(a){if(a){var
-b=a[1],c=bo(b),d=e(function(a){return[0,1,a]},c),g=bo(b);return f(e(function(a){return[0,0,a]},g),d)}return oZ}function
-e5(a){var
+b=a[1],c=bo(b),d=e(function(a){return[0,1,a]},c),g=bo(b);return f(e(function(a){return[0,0,a]},g),d)}return o6}function
+e7(a){var
 b=i(a);if(jh(b,a))return 1;var
-c=bo(bz(b));return n(function(c){return jh(b,jj([0,0,c],a))},c)}function
+c=bo(bA(b));return n(function(c){return jh(b,jj([0,0,c],a))},c)}function
 ar(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?B(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gx(c,b,a){var
+gA(c,b,a){var
 d=bo(c);return n(function(c){return k(a,k(ar(function(a){return aS(c,a)}),b))},d)}function
-gy(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,x(h,b),a)},k=gy(h,j,i),l=function(c,b){var
+gB(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a4(b,x(h,c),a)},k=gB(h,j,i),l=function(c,b){var
 d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
-g=c;else
+g=b;else
 var
 g=d;return g}function
-e6(b,d,a,c){function
+e8(b,d,a,c){function
 e(c,d){var
 e=a4(d,b,a);return H(B(c,c),e)}function
-f(c){return ad(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
-e7(d,i,h,g){var
+f(c){return ae(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
+e9(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c9(e[2]),k=cf(a,gy(d,f,e6(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gz(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=c9(e[2]),k=cg(a,gB(d,f,e8(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gC(b,a){return[0,[0,0,b],a]}function
 db(b,c,g,f,a){function
 d(a){if(a){var
-h=aL([0,ad(a[1][2]),0],b),c=e7(g,f,a[2],h),d=v(i(c),b);if(d)return e5(c);var
+h=aL([0,ae(a[1][2]),0],b),c=e9(g,f,a[2],h),d=v(i(c),b);if(d)return e7(c);var
 e=d}else
 var
-e=a;return e}return gx(b,gz(c,a),d)}function
-gA(f,e){var
+e=a;return e}return gA(b,gC(c,a),d)}function
+gD(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gw([0,[0,eW(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gz([0,[0,eY(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gB(b,c,a){function
+gE(b,c,a){function
 d(a){if(a){var
-h=aL([0,a[1][2],0],b),c=gA(a[2],h);if(c){var
-d=c[1],e=v(i(d),b);if(e)return e5(d);var
+h=aL([0,a[1][2],0],b),c=gD(a[2],h);if(c){var
+d=c[1],e=v(i(d),b);if(e)return e7(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gx(b,gz(c,a),d)}function
+g=a;return g}return gA(b,gC(c,a),d)}function
 jk(b,a){return e(function(a){return[0,a[1],b]},a)}function
 jl(b,a){var
-c=bo(b);return n(function(b){return T(d,aS(b,a)[1])},c)}function
+c=bo(b);return n(function(b){return U(d,aS(b,a)[1])},c)}function
 jm(c,b,a){var
 d=a[3],f=e(function(a){return a4(c,b,a)},d),g=a[2];return[0,a4(c,b,a[1]),g,f]}function
 jn(a,b){var
-c=b[3],d=a[3],e=aQ(function(a){return a},ad,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
+c=b[3],d=a[3],e=aQ(function(a){return a},ae,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
 cB(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-au(c,b,a){var
+av(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 bU(b,a){var
 c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
 cC(b,a){var
 c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
-ab(b,a){var
+ac(b,a){var
 c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-cD(a){return cC(a,aE(ab(a,a)))}function
+cD(a){return cC(a,aE(ac(a,a)))}function
 dc(a){var
 b=a[5];return b?b[1]:aE(a[2])}function
-e8(b,a){return b?a:bk(a)}function
+e_(b,a){return b?a:bk(a)}function
 jo(e,a,i,d,h){var
-f=ab(a,e),b=au(s,e,bU(f,a)),j=ab(b,b),g=s(K(d),j),c=e8(h,aE(g)),k=s(f,c),l=au(F,a,cC(b,c));return[0,au(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
+f=ac(a,e),b=av(s,e,bU(f,a)),j=ac(b,b),g=s(K(d),j),c=e_(h,aE(g)),k=s(f,c),l=av(F,a,cC(b,c));return[0,av(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
 jp(a,e,d){var
-b=ab(a,a),c=aE(b),f=[0,e],g=y(function(b){return au(s,a,bU(ab(b,a),b))},d);return[0,a,b,cC(a,c),c,0,g,f]}function
-jq(c,a){var
-d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
-d3(a){return e(function(a){var
+b=ac(a,a),c=aE(b),f=[0,e],g=y(function(b){return av(s,a,bU(ac(b,a),b))},d);return[0,a,b,cC(a,c),c,0,g,f]}function
+jq(b,a){var
+d=ac(a,b);return[0,a,l(c),a,d,0,0,0]}function
+d4(a){return e(function(a){var
 b=a[2];return[0,cB(a[1]),b]},a)}function
 jr(a){return e(function(a){var
-c=l(b);return[0,cB(a[3]),c]},a)}function
+b=l(c);return[0,cB(a[3]),b]},a)}function
 js(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 jt(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-gC(d,a){var
+gF(d,a){var
 b=cx(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-e9(a,m,f,l,e,k,j){var
-o=jt(a6,k,j),b=jt(function(b,c){return at(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bD(bD(bD(ae($(a,d)),h),g),c),p=bo(m);return n(function(c){var
-b=js(function(b){return R(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gC(a,B(B(B($(a,d),k),j),h))),g=H(aS(c,i),m),n=f?H(g,aS(c,f[1])):g;return T(d,n[1])},p)}function
-bE(a){return cs(x(a[1],a[2]),b)}function
+e$(a,m,f,l,e,k,j){var
+o=jt(a6,k,j),b=jt(function(b,c){return au(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bE(bE(bE(af($(a,d)),h),g),c),p=bo(m);return n(function(c){var
+b=js(function(b){return R(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gF(a,B(B(B($(a,d),k),j),h))),g=H(aS(c,i),m),n=f?H(g,aS(c,f[1])):g;return U(d,n[1])},p)}function
+bF(a){return cs(x(a[1],a[2]),c)}function
 dd(a){var
-b=bE(a);return aB(a[2],b)}function
-e_(c,b){if(b)var
-a=b[1],e=e_([0,c],b[2]),g=dd(a),h=[0,[0,dd(a),g],0],i=f(aL(C,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
+b=bF(a);return aB(a[2],b)}function
+fa(c,b){if(b)var
+a=b[1],e=fa([0,c],b[2]),g=dd(a),h=[0,[0,dd(a),g],0],i=f(aL(C,c),h),j=bF(a),d=[0,[0,[0,bF(a),j],a,i],e];else
 var
 d=b;return d}function
-d4(d,b){if(b){var
+d5(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return o0}function
-ju(d,c,a){if(c){if(a){var
-e=ju(d,c[2],a[2]);return B(a4(c[1],x(d,b),a[1]),e)}return C}return C}function
-d5(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ju(f,a,b)},j=d5(f,h),k=e(function(a){var
+e=d5(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bF(a),f],c],h=bF(a);return[0,[0,[0,a[1],h],c],g]}return o7}function
+ju(d,b,a){if(b){if(a){var
+e=ju(d,b[2],a[2]);return B(a4(b[1],x(d,c),a[1]),e)}return C}return C}function
+d6(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ju(f,a,b)},j=d6(f,h),k=e(function(a){var
 e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d6(e,b,d,a){if(b)if(a)var
-f=b[1],g=d6(e,b[2],d,a[2]),c=[0,[0,f,e6(e,a[1][1],d,f)],g];else
+d7(e,b,d,a){if(b)if(a)var
+f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e8(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-e$(f,d,c,b,a){if(a){var
+fb(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=e$(f,d[1],c,b,g);return[0,[0,H(C,b),0],i]}var
-j=e(function(a){return[0,H(C,b),0]},g),h=[0,[0,H(ad(w(f,c,c9(a[1][2]))),b),0],j]}else
+i=fb(f,d[1],c,b,g);return[0,[0,H(C,b),0],i]}var
+j=e(function(a){return[0,H(C,b),0]},g),h=[0,[0,H(ae(w(f,c,c9(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 bp(c,a){var
-b=v(i(a),c);return b?e5(a):b}function
+b=v(i(a),c);return b?e7(a):b}function
 jv(d,b,a){if(b)var
 c=b[1],g=jv([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aB(c[1],a[2]),x(c[2],a[2])],h],g];else
 var
@@ -1690,39 +1690,39 @@ var
 e=b;var
 f=e}else
 var
-f=a;return f}return o1}function
-gD(a){return y(function(a){return y(d0,a)},a)}function
-ch(c,b,a){function
-d(a){return at(c,b,a)}return y(function(a){return y(d,a)},a)}function
-gE(c,b,a){function
-d(a){return c$(c,a,b)}return y(function(a){return cc(d,a)},a)}function
+f=a;return f}return o8}function
+gG(a){return y(function(a){return y(d1,a)},a)}function
+ci(c,b,a){function
+d(a){return au(c,b,a)}return y(function(a){return y(d,a)},a)}function
+gH(c,b,a){function
+d(a){return c$(c,a,b)}return y(function(a){return cd(d,a)},a)}function
 de(b,a){var
 c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bR(function(b,a){return[0,bD(b,a)]},e,d)]}return b}return a},c)}function
-fa(a){return ae($(a,c(2,b)))}function
+d=a[1],e=b[1];return[0,bR(function(b,a){return[0,bE(b,a)]},e,d)]}return b}return a},c)}function
+fc(a){return af($(a,b(2,c)))}function
 jx(b,c,a){if(a)var
-f=a[1],g=jx(b,c,a[2]),d=[0,e(function(a){return ad(w(b,w(b,c,f),a))},a),g];else
+f=a[1],g=jx(b,c,a[2]),d=[0,e(function(a){return ae(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
 jy(a){return n(function(a){var
 b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
 jz(c,b,a){var
 d=aK(b,a);return bj(function(a,b){return B(w(c,a[1],a[2]),b)},C,d)}function
-gF(c,b,a){var
-d=dY(jz(c,a,b));return bj(function(b,a){return x(dY(b),a)},d,a)}function
-df(a){return $(a,b)}function
-gG(a,i,c,u,t){var
+gI(c,b,a){var
+d=dZ(jz(c,a,b));return bj(function(b,a){return x(dZ(b),a)},d,a)}function
+df(a){return $(a,c)}function
+gJ(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
 j=f[1],n=0;if(!jy(c)&&!jy(j)){var
-h=gF(a,i,j),o=df(a),p=gF(a,i,c),b=dX([0,gF(a,i,c),p],o,[0,h,h])[1],k=T(d,h),l=k?T(d,b):k;if(l)var
-q=a5(gq(a,[0,b,b])),r=function(b){return function(d,c){return H(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cf(e,jx(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),ad,r,j,c)))];else
+h=gI(a,i,j),o=df(a),p=gI(a,i,c),b=dY([0,gI(a,i,c),p],o,[0,h,h])[1],k=U(d,h),l=k?U(d,b):k;if(l)var
+q=a5(gt(a,[0,b,b])),r=function(b){return function(d,c){return H(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jx(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),ae,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-pe(a){var
+pl(a){var
 b=a[2],c=e(function(a){return[0,a[1],C]},b);return[0,[0,a[1][1],C],c]}function
 jA(c,b,a){if(b){if(a){var
 d=jA(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
@@ -1731,29 +1731,29 @@ jB(a,j){switch(j){case
 d=aB(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aB(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cs(x(a[1],a[2]),b),h=aB(c,a[2]),i=aB(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+b=cs(x(a[1],a[2]),c),h=aB(b,a[2]),i=aB(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 jC(d,c,a){if(a)var
-e=a[1],g=jC(d,[0,c],a[2]),b=y(b8,iS(function(a){return v(a[1],c)},d)),h=b?jB(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=jC(d,[0,c],a[2]),b=y(b9,iS(function(a){return v(a[1],c)},d)),h=b?jB(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pf=ae(C);function
+pm=af(C);function
 jD(e,d,c){if(d){var
-f=t(e,c[2],pg),a=f?f[1]:[0,pf];if(a)var
+f=t(e,c[2],pn),a=f?f[1]:[0,pm];if(a)var
 b=jD([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return ph}function
+g=a;return g}return po}function
 jE(d,c,b,a){var
-f=e(ae,b);return bC(0,cd(d,e_(0,a),f),c,0)}function
-ah(a){if(a){var
+f=e(af,b);return bD(0,ce(d,fa(0,a),f),c,0)}function
+aj(a){if(a){var
 b=a[1];if(b)var
-c=ah(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pi}function
-fb(b,a){if(a){var
-h=a[1],n=h[1],c=ah(e(function(a){return t(a,b,0)},n));if(c){var
+d=b;return d}return pp}function
+fd(b,a){if(a){var
+h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=fb(b,a[2]);if(g)var
-j=T(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fd(b,a[2]);if(g)var
+j=U(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1761,22 +1761,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return pj}function
+m=c;return m}return pq}function
 bV(d,c,b){var
-a=fb(d,c);return a?k(b,a[1]):a}function
+a=fd(d,c);return a?k(b,a[1]):a}function
 dg(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-fc(b,a){if(b){var
+fe(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-gH(b,a){return b?jn(a,b[1]):a}function
-gI(h,g,b,f){var
+gK(b,a){return b?jn(a,b[1]):a}function
+gL(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
 i=jn(c,b[1]),e=bo(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
 jF(f,d,a){function
-c(a){return a4(a,d,$(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),C,g]}return ae(C)}function
-fd(b,a){var
+b(a){return a4(a,d,$(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),C,g]}return af(C)}function
+ff(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1785,54 +1785,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jG(j,k,J,t,h,c,g,f,a){switch(f[0]){case
+jG(j,k,J,t,h,b,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 K=dg(t,h);if(K){var
-ad=a[2],af=a[1],ag=fc(g,ae(r));return bV(h,k,function(a){return db(c,ag,af,ad,a)})}return K;case
+ad=a[2],ae=a[1],ag=fe(g,af(r));return bV(h,k,function(a){return db(b,ag,ae,ad,a)})}return K;case
 1:var
 L=dg(t,h);if(L){var
-ah=a[2],ai=a[1],aj=fc(g,ae(r));return bV(h,J,function(a){return db(c,aj,ai,ah,a)})}return L;case
+ah=a[2],ai=a[1],aj=fe(g,af(r));return bV(h,J,function(a){return db(b,aj,ai,ah,a)})}return L;case
 2:var
 M=dg(t,h);if(M){if(g)return 0;var
 N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bV(h,k,function(a){return db(c,[0,C,C,0],al,ak,jk([0,C,C,0],a))})}var
+ak=a[2],al=a[1];return bV(h,k,function(a){return db(b,[0,C,C,0],al,ak,jk([0,C,C,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gH(g,ae(Q));return bV(h,J,function(a){return gB(c,am,a)})}if(!a){var
-an=gH(g,ae(Q));return bV(h,k,function(a){return gB(c,an,a)})}}return 0;case
+am=gK(g,af(Q));return bV(h,J,function(a){return gE(b,am,a)})}if(!a){var
+an=gK(g,af(Q));return bV(h,k,function(a){return gE(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 R=a[1],l=jF(j,R,a[3]),S=f[1],ao=a[2];return bV(h,k,function(d){var
-a=jl(c,l),b=a?db(c,fc(g,l),R,ao,d):a;if(b){var
-f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gB(c,gH(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
+a=jl(b,l),c=a?db(b,fe(g,l),R,ao,d):a;if(c){var
+f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gE(b,gK(g,[0,w(j,S,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gI(h,c,g,f[1]);return 0;case
+a==="number"&&!a)return gL(h,b,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fc(g,ae(f[2])),as=function(a){return db(c,ar,aq,ap,a)};return bV(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fe(g,af(f[2])),as=function(a){return db(b,ar,aq,ap,a)};return bV(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gI(h,c,g,f[1]);case
-2:return gI(h,c,g,f[2])}return 0;case
+0:return gL(h,b,g,f[1]);case
+2:return gL(h,b,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-u=fd(h,f[1]);if(u){var
-y=fd(h,f[2]);if(y){var
-z=fd(h,f[3]);if(z){var
-A=fd(h,f[4]);if(A){var
+u=ff(h,f[1]);if(u){var
+y=ff(h,f[2]);if(y){var
+z=ff(h,f[3]);if(z){var
+A=ff(h,f[4]);if(A){var
 T=A[1],U=z[1],V=y[1],W=u[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
 ac=[0,m[1],o[1],p[1]],q=js(function(d){function
-f(a){return a4(a,at,$(j,b))}if(d){var
-a=e(f,d[2]),c=f(d[1]),g=eY(a),h=x(c[2],g),i=eY(a);return[0,c,[0,aB(c[1],i),h],a]}return ae(C)},ac),B=n(function(a){return v(i(a),[0,c])},m),D=B?e9(j,c,g,s,q,W,U):B,E=D?e9(j,c,g,s,q,W,T):D,F=E?e9(j,c,g,s,q,V,U):E;if(F)return e9(j,c,g,s,q,V,T);var
+f(a){return a4(a,at,$(j,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=e0(a),h=x(b[2],g),i=e0(a);return[0,b,[0,aB(b[1],i),h],a]}return af(C)},ac),B=n(function(a){return v(i(a),[0,b])},m),D=B?e$(j,b,g,s,q,W,U):B,E=D?e$(j,b,g,s,q,W,T):D,F=E?e$(j,b,g,s,q,V,U):E;if(F)return e$(j,b,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1854,51 +1854,51 @@ _=u;return _}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
 aa=a[2],ab=a[1],au=f[2],av=f[1];return bV(h,k,function(e){var
-a=v(i(e),c),d=a?v(i(aa),c):a;if(d){var
+a=v(i(e),b),d=a?v(i(aa),b):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=v(i(d),c);if(e){var
-g=d5(ab,d6(ab,aa,$(j,b),d));return bp(c,cf(e$(j,av,au,a[1][2],d),g))}var
+d=a[2],e=v(i(d),b);if(e){var
+g=d6(ab,d7(ab,aa,$(j,c),d));return bp(b,cg(fb(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:ae(C);return gx(c,gz(h,e),f)}return d})}return 0;case
+f=a;return f},h=g?g[1]:af(C);return gA(b,gC(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jk([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return db(c,b,ax,aw,a)};return bV(h,f[1],ay)}return 0;default:return 0}}function
-jH(a,Z,J,l,p,Y,g,j,h,f,c){if(9===f[0]){if(typeof
-c!=="number"&&9===c[0]){var
-_=f[1],U=e(ae,Y),A=bC(0,cd(a,jv(0,j,_),U),Z,0),K=v(i(j),pk),L=K?dg(p,A):K;if(L){var
-q=fb(A,l);if(q){var
-r=fb(g,l);if(r){var
-aa=f[2],s=ah(e(function(b){var
+a=jk([0,C,C,0],d),c=g?g[1]:[0,C,C,0];return db(b,c,ax,aw,a)};return bV(h,f[1],ay)}return 0;default:return 0}}function
+jH(a,Z,J,l,p,Y,g,j,h,f,b){if(9===f[0]){if(typeof
+b!=="number"&&9===b[0]){var
+_=f[1],T=e(af,Y),A=bD(0,ce(a,jv(0,j,_),T),Z,0),K=v(i(j),pr),L=K?dg(p,A):K;if(L){var
+q=fd(A,l);if(q){var
+r=fd(g,l);if(r){var
+aa=f[2],s=aj(e(function(b){var
 c=t(b[1],g,0);if(c)var
-f=b[2][2],a=ah(e(function(a){var
+f=b[2][2],a=aj(e(function(a){var
 b=t(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
 u=jw(q[1]);if(u){var
-M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],af=u[1],D=gC(a,bj(function(f,h){function
+M=b[2],z=b[1],N=r[1],ab=b[3],ac=s[1],ad=u[1],D=gF(a,bj(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dY(t(d,c[3],C))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dZ(t(d,c[3],C))}function
 c(a){var
-b=k(a,o2),c=bg(k(a,o3),b);return bg(k(a,0),c)}var
+b=k(a,o9),c=bg(k(a,o_),b);return bg(k(a,0),c)}var
 d=c(function(a){var
-c=b(o4,a),d=b(o5,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,o6),d=b(a,o7);return x(x(b(a,0),d),c)});return B(h,R(a,gC(a,w(a,[0,e,e],g))))},C,af)),m=a4(ab,z,$(a,b)),E=T(d,H(m,D)[1]),F=E?v(i(M),pb):E,G=F?v(i(N),pc):F;if(G){var
-o=ca(a,m);if(o){var
-V=a5(w(a,D,o[1])),W=H($(a,b),V),X=bo(pd);return n(function(i){var
+c=b(o$,a),d=b(pa,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,pb),d=b(a,pc);return x(x(b(a,0),d),c)});return B(h,R(a,gF(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,$(a,c)),E=U(d,H(m,D)[1]),F=E?v(i(M),pi):E,G=F?v(i(N),pj):F;if(G){var
+o=cb(a,m);if(o){var
+V=a5(w(a,D,o[1])),W=H($(a,c),V),X=bo(pk);return n(function(i){var
 g=e(function(b){var
 c=b[2],d=b[1];return c9(c6(function(d,b){var
-c=dY(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ar(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=R(a,W),s=R(a,m),q=d5(z,d6(z,M,$(a,b),r)),c=cf(aL([0,ad(E),0],o8),q);if(g){var
+c=dZ(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ar(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=R(a,W),s=R(a,m),q=d6(z,d7(z,M,$(a,c),r)),b=cg(aL([0,ae(E),0],pd),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],D=g[1],G=f[1],j=bp(o_,cf(aL([0,ad(s),0],o9),c));if(j)return n(function(B){var
-I=H(L,E),J=B[2]?A:ad(A),K=B[1]?D:ad(D),n=0;if(c){var
-a=c[1],k=0;if(a){var
-b=a[2],l=0;if(b){var
-d=b[2],m=0;if(d)if(d[2]){var
+A=d[1],D=g[1],G=f[1],j=bp(pf,cg(aL([0,ae(s),0],pe),b));if(j)return n(function(B){var
+I=H(L,E),J=B[2]?A:ae(A),K=B[1]?D:ae(D),n=0;if(b){var
+a=b[1],k=0;if(a){var
+c=a[2],l=0;if(c){var
+d=c[2],m=0;if(d)if(d[2]){var
 j=0;k=1;l=1;m=1}else{var
-e=c[2],o=0;if(e){var
+e=b[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
@@ -1906,7 +1906,7 @@ h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
-r=[0,[0,a[1],[0,b[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,G,0]],[0,[0,I,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,G,0]],[0,[0,I,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1926,13 +1926,13 @@ var
 w=d;if(!m)var
 x=w}else
 var
-x=b;if(!l)var
+x=c;if(!l)var
 y=x}else
 var
 y=a;if(!k){var
 z=y;n=1}}else{var
-z=c;n=1}if(n)var
-j=z;return bp(pa,j)},o$);var
+z=b;n=1}if(n)var
+j=z;return bp(ph,j)},pg);var
 l=j}else
 var
 l=f;var
@@ -1956,13 +1956,13 @@ var
 Q=q;var
 S=Q}else
 var
-S=L;return S}return jG(a,J,l,p,g,i(j),h,f,c)}return jG(a,J,l,p,g,i(j),h,f,c)}function
+S=L;return S}return jG(a,J,l,p,g,i(j),h,f,b)}return jG(a,J,l,p,g,i(j),h,f,b)}function
 jI(i,b,a){if(a){var
-j=a[1],l=j[2],c=ah(e(b,j[1]));if(c){var
+j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=t(l,i,0);if(g){var
 h=jI(i,b,a[2]);if(h)var
-m=T(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+m=U(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1973,48 +1973,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pm}function
-jJ(a,V,m,U,u,s,S,D,h,g,l,c){var
-j=i(S),W=e_(0,S),aT=bC(0,cd(a,W,e(ae,jC(l,0,u))),V,0),X=e(aJ,l),aU=0,aW=e(ae,u),aX=bC(pn,function(c){var
-av=cy(aJ,c),f=k(cd(a,W,aW),av);switch(c[0]){case
+q=c;return q}return pt}function
+jJ(a,V,m,T,u,s,S,D,h,g,l,b){var
+j=i(S),W=fa(0,S),aT=bD(0,ce(a,W,e(af,jC(l,0,u))),V,0),X=e(aJ,l),aU=0,aW=e(af,u),aX=bD(pu,function(b){var
+av=cy(aJ,b),f=k(ce(a,W,aW),av);switch(b[0]){case
 1:var
-M=c[1],d=e(function(d){var
-c=v(M,d),e=c?[0,[0,ae($(a,b))]]:c;return e},X);break;case
+M=b[1],d=e(function(d){var
+b=v(M,d),e=b?[0,[0,af($(a,c))]]:b;return e},X);break;case
 3:var
-d=de(c[1][2],c[2][2]);break;case
+d=de(b[1][2],b[2][2]);break;case
 4:var
-N=e(gD,c[2][2]),d=de(c[1][2],N);break;case
+N=e(gG,b[2][2]),d=de(b[1][2],N);break;case
 5:var
-d=e(gD,c[1][2]);break;case
+d=e(gG,b[1][2]);break;case
 6:var
-x=c[2],y=c[1],g=y[1],t=0;if(g){var
+x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ch(a,P,b)},O),R=y[2],S=h[1],d=de(e(function(b){return ch(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return ci(a,P,b)},O),R=y[2],S=h[1],d=de(e(function(b){return ci(a,S,b)},R),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 u=0;if(f){var
-A=c[2],i=A[1];if(i)var
-T=A[2],U=d0(f[1]),V=e(function(b){return ch(a,U,b)},T),Y=de(c[1][2],V),Z=i[1],d=e(function(b){return gE(a,Z,b)},Y);else{var
+A=b[2],i=A[1];if(i)var
+T=A[2],U=d1(f[1]),V=e(function(b){return ci(a,U,b)},T),Y=de(b[1][2],V),Z=i[1],d=e(function(b){return gH(a,Z,b)},Y);else{var
 B=i;u=1}}else{var
 B=f;u=1}if(u)var
 d=B;break;case
 8:var
-C=c[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=at(a,fa(a),aa),d=e(function(b){return ch(a,ab,b)},_);else
+C=b[1],j=C[1];if(j)var
+_=C[2],aa=j[1],ab=au(a,fc(a),aa),d=e(function(b){return ci(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],af=at(a,fa(a),ad),d=e(function(b){return gE(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],ae=au(a,fc(a),ad),d=e(function(b){return gH(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
-D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
+D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
 q=i1(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a6(o,r),ai=e(function(b){return ch(a,ah,b)},ag),aj=F[2],ak=a6(m,s),al=de(e(function(b){return ch(a,ak,b)},aj),ai),am=e(gD,D[2]),an=fa(a),ao=de(e(function(b){return ch(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ch(a,ap,b)},ao),ar=at(a,m,r),as=a6(at(a,o,s),ar),au=at(a,fa(a),as),d=e(function(b){return gE(a,au,b)},aq);K=1;L=1}else
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a6(o,r),ai=e(function(b){return ci(a,ah,b)},ag),aj=F[2],ak=a6(m,s),al=de(e(function(b){return ci(a,ak,b)},aj),ai),am=e(gG,D[2]),an=fc(a),ao=de(e(function(b){return ci(a,an,b)},al),am),ap=b[1]?s:d1(r),aq=e(function(b){return ci(a,ap,b)},ao),ar=au(a,m,r),as=a6(au(a,o,s),ar),at=au(a,fc(a),as),d=e(function(b){return gH(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2030,33 +2030,33 @@ b=a[2];return jB(t(a[1],u,C),b)[2]},l);function
 Z(c){var
 d=t(c,s,0);if(d){var
 a=t(c,aT,0);if(a)var
-b=jD(0,l,t(c,aX,pl)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=jD(0,l,t(c,aX,ps)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
 E(b){return e(function(b){return $(a,b)},b)}var
-aY=D?D[1]:ae(C);function
+aY=D?D[1]:af(C);function
 _(a){return a?bp(j,a[1]):a}function
 y(t,s,f,r,q){var
-u=aL([0,ad(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=c9(k[2]),n=cf(g,gy(f,d,e6(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e6(f,a[1],a[2],b))}}(d),o),h=gG(a,v,e(function(b){return a4(b,f,df(a))},d),p,n);if(h){var
+u=aL([0,ae(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=c9(k[2]),n=cg(g,gB(f,d,e8(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e8(f,a[1],a[2],b))}}(d),o),h=gJ(a,v,e(function(b){return a4(b,f,df(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return _(l)}}function
 aa(y,x,w){var
 z=aL([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eW(g),h],f];if(m){var
-o=T(d,g[1]);if(o)var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eY(g),h],f];if(m){var
+o=U(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,df(a),t],v=df(a),b=gG(a,[0,ad(dX(jz(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,df(a),t],v=df(a),b=gJ(a,[0,ae(dY(jz(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gw(b[1]);if(i){var
+i=gz(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2064,9 +2064,9 @@ p=b;var
 r=p}else
 var
 r=[0,f];return _(r)}}var
-aZ=e(aJ,l),ab=n(function(a){return dR(a,i(u))},aZ);if(ab){var
+aZ=e(aJ,l),ab=n(function(a){return dS(a,i(u))},aZ);if(ab){var
 r=e(aJ,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=aj(aq(function(b){return function(a){return v(b,a)}}(aR),Q));if(R){var
+Q=r[2],aR=r[1],R=ai(aq(function(b){return function(a){return v(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
 ac=R}else
 var
@@ -2074,82 +2074,82 @@ ac=1;var
 F=ac;break}}else
 var
 F=ab;var
-af=F?n(function(a){return v(i(a),j)},c):F;if(af){var
+ad=F?n(function(a){return v(i(a),j)},b):F;if(ad){var
 A=0;switch(h[0]){case
 0:var
 I=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-aC=0;if(c){if(c[2])return 0;var
-a0=c[1],a1=g[2],a2=g[1],ag=dg(U,s);if(ag){var
+aC=0;if(b){if(b[2])return 0;var
+a0=b[1],a1=g[2],a2=g[1],ag=dg(T,s);if(ag){var
 p=function(c,a){var
 b=B(I,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
 ak=ag}else
 var
-ak=c;if(!aC)return ak;break;case
+ak=b;if(!aC)return ak;break;case
 2:var
-aD=0;if(c){if(c[2])return 0;var
-a7=c[1],a8=g[2],a9=g[1],al=dg(U,s),aE=0;if(al){if(D)return 0;var
+aD=0;if(b){if(b[2])return 0;var
+a7=b[1],a8=g[2],a9=g[1],al=dg(T,s),aE=0;if(al){if(D)return 0;var
 am=Y(I[1],d),an=am?Y(I[2],d):am;if(an){var
-p=function(c,b,a){return y(a7,C,a9,a8,e(pe,a))},o=m;O=1;aD=1;aE=1}else
+p=function(c,b,a){return y(a7,C,a9,a8,e(pl,a))},o=m;O=1;aD=1;aE=1}else
 var
 ao=an}else
 var
 ao=al;if(!aE)var
 ap=ao}else
 var
-ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
+ap=b;if(!aD)return ap;break}if(!O)return 0;break;case
 1:var
 aF=0,a_=h[1];if(typeof
-g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
-a$=c[1],p=function(c,a){var
+g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
+a$=b[1],p=function(c,a){var
 b=H(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
 2:var
 aG=0,ba=h[1];if(typeof
 g==="number"||!(3===g[0]))aG=1;else{var
-aH=0;if(c){var
-z=c[2],aI=0;if(z){if(z[2])return 0;var
-ar=g[1],bb=z[1],bc=c[1],bd=g[2],as=jF(a,ar,g[3]),au=jl(j,as);if(au){var
+aH=0;if(b){var
+z=b[2],aI=0;if(z){if(z[2])return 0;var
+ar=g[1],bb=z[1],bc=b[1],bd=g[2],as=jF(a,ar,g[3]),at=jl(j,as);if(at){var
 p=function(f,c,b){var
 d=aS(f,as),e=y(bc,B(d,c),ar,bd,b);return e?aa(bb,H(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
 var
-av=au}else
+av=at}else
 var
 av=z;if(!aI)var
 aw=av}else
 var
-aw=c;if(!aH)return aw}if(aG)return 0;break;case
+aw=b;if(!aH)return aw}if(aG)return 0;break;case
 3:var
 aM=0;if(typeof
-g==="number"&&!g){if(c)return 0;var
+g==="number"&&!g){if(b)return 0;var
 K=h[1];A=1}else
 aM=1;if(aM)return 0;break;case
 4:var
 aN=0,bf=h[2];if(typeof
-g==="number"||!(0===g[0]))aN=1;else{if(!c)return c;if(c[2])return 0;var
-bh=c[1],bi=g[2],bk=g[1],bl=function(c,a){var
+g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
+bh=b[1],bi=g[2],bk=g[1],bl=function(c,a){var
 b=B(bf,a);return function(a){return y(bh,b,bk,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
-0:if(c)return 0;var
+0:if(b)return 0;var
 K=h[1];A=1;break;case
-2:if(c)return 0;var
+2:if(b)return 0;var
 K=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aO=0;if(typeof
 g==="number"||!(0===g[0]))aO=1;else{var
-aP=0;if(c){if(c[2])return 0;var
-q=g[2],N=g[1],bm=c[1],az=v(i(m),j);if(az){var
+aP=0;if(b){if(b[2])return 0;var
+q=g[2],N=g[1],bm=b[1],az=v(i(m),j);if(az){var
 p=function(b,y){var
 z=E(bm);return function(f){var
 k=v(i(f),j),l=k?v(i(q),j):k;if(l){var
-s=e(aJ,f),t=d5(N,d6(N,q,df(a),s)),u=cf(e$(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=u,x=i(q);for(;;){if(c){var
+s=e(aJ,f),t=d6(N,d7(N,q,df(a),s)),u=cg(fb(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=u,x=i(q);for(;;){if(c){var
 o=c[1][2],p=v(b,ay),r=e(function(f,g){return function(d){var
 b=aK(aV(0,i(q)),q);return e(function(b){var
-c=jA(N,b[2],d[1]);if(g&&v(b[1],f))return H(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gG(a,z,e(function(c){return function(b){return v(b,c)?df(a):C}}(b),n),r,g);if(h){var
+c=jA(N,b[2],d[1]);if(g&&v(b[1],f))return H(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gJ(a,z,e(function(c){return function(b){return v(b,c)?df(a):C}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
@@ -2160,23 +2160,23 @@ m=l;return m}},o=m;aP=1}else
 var
 aA=az}else
 var
-aA=c;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
+aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
 L=Z(K);if(!L)return L;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bj(function(b,a){return x(bg(d,M(b[2][1])),a)},d,c);return G(d,aB(aB(a[1][2][1],e),b))},a)},ai=be,ah=[0,[0,0,L[1]],0]}else{var
+b=f[2],c=a[2],e=bj(function(b,a){return x(bg(d,M(b[2][1])),a)},d,c);return G(d,aB(aB(a[1][2][1],e),b))},a)},aj=be,ah=[0,[0,0,L[1]],0]}else{var
 J=jI(s,Z,o);if(!J)return J;var
-ai=p,ah=J[1]}var
+aj=p,ah=J[1]}var
 a3=bo(j);return n(function(b){var
 c=e(function(c){function
 g(a){return aS(b,a[1])}var
-h=0,j=ae(C);function
+h=0,j=af(C);function
 d(h,g,b,c){if(b){var
 i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BD(ai,b,aS(b,aY),c)},a3)}return af}function
-fe(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BO(aj,b,aS(b,aY),c)},a3)}return ad}function
+fg(b,a){if(a){var
 c=a[2];if(b){var
-e=fe(b[1],c);return[0,a[1],e]}var
+e=fg(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
@@ -2185,54 +2185,54 @@ r=jE(m,l,j,b),h=R,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],X=bo(i(b)),x=n(function(b){return function(a){return T(aS(a,b)[2],d)}}(_),X);else
+_=v[1],X=bo(i(b)),x=n(function(b){return function(a){return U(aS(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
 N=t(w,g,0);if(N){var
-y=V($,w);if(y){var
+y=W($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=k(z,b),U=0;if(s){var
+C=a[2],s=k(z,b),T=0;if(s){var
 D=G(d,C);if(D){var
-Y=a[1],c=jH(m,l,q,S,p,j,r,b,[0,jm(C,a[3],s[1])],o,Y);U=1}else
+Y=a[1],c=jH(m,l,q,S,p,j,r,b,[0,jm(C,a[3],s[1])],o,Y);T=1}else
 var
 E=D}else
 var
-E=s;if(!U)var
+E=s;if(!T)var
 c=E;break;case
 10:var
 F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-I=f[2],u=k(z,b),W=0;if(u){var
+I=f[2],u=k(z,b),V=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=jJ(m,l,q,p,j,r,b,[0,jm(I,f[3],u[1])],o,Z,H,F);B=1;W=1}else
+Z=f[1],c=jJ(m,l,q,p,j,r,b,[0,jm(I,f[3],u[1])],o,Z,H,F);B=1;V=1}else
 var
 K=J}else
 var
-K=u;if(!W){var
+K=u;if(!V){var
 c=K;B=1}}if(!B)var
 c=jJ(m,l,q,p,j,r,b,0,o,f,H,F);break;default:A=1}if(A)var
 c=jH(m,l,q,S,p,j,r,b,0,o,a);if(c){var
-h=M,g=fe(w,g);continue}var
+h=M,g=fg(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-ff(j,i,h,g,f,e,d,c,u,t,s){var
+fh(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jK(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(aj,l[1]):l}var
+l=jK(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ai,l[1]):l}var
 m=jK(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=d4(a[2],b),q=ff(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+o=m[1],p=d5(a[2],b),q=fh(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gJ(a){return e(function(a){return 1},a)}function
+gM(a){return e(function(a){return 1},a)}function
 dh(a,d,b,c){function
 f(d,c){var
 f=aK(a[1],b[1]);return e(function(a){var
@@ -2240,42 +2240,42 @@ b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
 jL(a){var
-c=l(b);return[0,e(function(a){return l(d)},a),c]}function
+b=l(c);return[0,e(function(a){return l(d)},a),b]}function
 aN(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aq(function(a){return v(u,a)},a)){var
-C=l(b);return[0,e(function(a){var
-c=v(a,u)?b:d;return l(c)},a),C]}return jL(a);case
+C=l(c);return[0,e(function(a){var
+b=v(a,u)?c:d;return l(b)},a),C]}return jL(a);case
 3:var
-D=l(b),E=aN(a,f[2]),F=l(b);return dh(aN(a,f[1]),F,E,D);case
+D=l(c),E=aN(a,f[2]),F=l(c);return dh(aN(a,f[1]),F,E,D);case
 4:var
-G=l(M(b)),H=aN(a,f[2]),I=l(b);return dh(aN(a,f[1]),I,H,G);case
+G=l(M(c)),H=aN(a,f[2]),I=l(c);return dh(aN(a,f[1]),I,H,G);case
 5:var
 w=aN(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
 6:var
 x=f[2],y=f[1],K=aN(a,x);return dh(aN(a,y),x,K,y);case
 7:var
-z=f[2],L=bk(k),N=aN(a,z),O=l(b),i=dh(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
+z=f[2],L=bk(k),N=aN(a,z),O=l(c),i=dh(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
 Q=o(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
+A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(b(2,c)),A);return[0,e(function(a){return o(T,a)},S),R];case
 9:var
 j=aN(a,f[1]),U=j[1];if(n(function(a){return aR(d,a)},U)){var
-V=l(b);return[0,j[1],V]}var
-W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
+V=l(c);return[0,j[1],V]}var
+W=o(l(b(2,c)),k),X=o(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=dh(aN(a,h),_,Z,Y),aa=l(M(b)),ab=aN(a,m),r=dh($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bk(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,t,o(r[2],ag)];default:return jL(a)}}function
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=dh(aN(a,h),_,Z,Y),aa=l(M(c)),ab=aN(a,m),r=dh($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?p:bk(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(b(2,c)),af);return[0,t,o(r[2],ag)];default:return jL(a)}}function
 bW(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(G(i,b))if(0===e[0]){var
-j=e[2],o=e[1];if(G(j,b)){var
-k=Y(c,o),m=k?dZ(c):k;if(m)var
-p=Y(n[2],d),g=p||Y(c,d);else
+i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(G(j,c)){var
+k=Y(b,o),m=k?d0(b):k;if(m)var
+p=Y(n[2],d),g=p||Y(b,d);else
 var
 g=m;var
-q=g?[0,c]:g,a=q}else
+q=g?[0,b]:g,a=q}else
 var
 a=Y(aU(j,aD(2))[2],d)?0:0}else
 var
@@ -2284,34 +2284,34 @@ var
 a=Y(aU(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-ci(b,a){if(a)var
-d=ci([0,b],a[2]),c=[0,bW(a[1],b),d];else
+bX(b,a){if(a)var
+d=bX([0,b],a[2]),c=[0,bW(a[1],b),d];else
 var
 c=a;return c}function
 aF(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fg(b,d,a){switch(a[0]){case
+fi(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aF(c[3],b),g),i=f(aF(c[2],b),h);return f(aF(c[1],d),i);case
 1:var
 e=a[3],j=e?aF(e[1],d):e,k=f(aF(a[2],b),j);return f(aF(a[1],b),k);default:return aF(a[1],d)}}function
-ai(b,a){var
-c=l(d),e=t(N(po,a),b,c),f=l(d),g=t(N(pp,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-jM(b,a){return au(s,au(F,cg,a),b)}function
-fh(c,b,a){if(a){var
-e=a[2],g=fh(c,b$(b),e),h=a[1];return f(fg(c,bA(d,b),h),g)}return a}function
-gK(f,e,c,j){if(c){var
-b=c[1],v=N(j,i(fg(f,bA(d,e),b))),w=c[2],x=gK(f,b$(e),w,v),a=ci(j,fg(f,bA(d,e),b));switch(b[0]){case
+aa(b,a){var
+c=l(d),e=t(N(pv,a),b,c),f=l(d),g=t(N(pw,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+jM(b,a){return av(s,av(F,ch,a),b)}function
+fj(c,b,a){if(a){var
+e=a[2],g=fj(c,ca(b),e),h=a[1];return f(fi(c,bB(d,b),h),g)}return a}function
+gN(f,e,c,j){if(c){var
+b=c[1],v=N(j,i(fi(f,bB(d,e),b))),w=c[2],x=gN(f,ca(e),w,v),a=bX(j,fi(f,bB(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(pq,a,l(d)),o=au(F,cg,ai(a,pr)),p=cD(ai(a,0)),q=ai(a,ps),g=jo(jM(ai(a,pt),q),p,o,n,m);break;case
+m=b[1][5],n=t(px,a,l(d)),o=av(F,ch,aa(a,py)),p=cD(aa(a,0)),q=aa(a,pz),g=jo(jM(aa(a,pA),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cD(ai(a,pu))]:h,s=au(F,cg,ai(a,pv)),u=ai(a,pw),g=jp(jM(ai(a,0),u),s,r);break;default:var
-g=jq(cg,cD(ai(a,0)))}var
+h=b[3],r=h?[0,cD(aa(a,pB))]:h,s=av(F,ch,aa(a,pC)),u=aa(a,pD),g=jp(jM(aa(a,0),u),s,r);break;default:var
+g=jq(ch,cD(aa(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bq(c,a){if(typeof
+bq(b,a){if(typeof
 a==="number"){var
-e=[0,d,b];return[0,[0,e,e],d]}else
+e=[0,d,c];return[0,[0,e,e],d]}else
 switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2320,88 +2320,88 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e4(a[2]),l=[2,[2,e4(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=e6(a[2]),l=[2,[2,e6(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
-m=a[4];return[0,[0,m,m],c];case
+m=a[4];return[0,[0,m,m],b];case
 12:var
 n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
 o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
-f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 2:case
 3:case
 14:var
-g=a[2];return[0,[0,g,g],c];default:var
+g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}}function
-d7(b,a){var
+d8(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fi(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(d7(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=d7(c,a[3]);return f(d7(c,a[2]),j)}function
+fk(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(d8(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=d8(b,a[3]);return f(d8(b,a[2]),j)}function
 di(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-e=fi(b,a[2]);return f(fi(b,a[1]),e);case
+e=fk(b,a[2]);return f(fk(b,a[1]),e);case
 11:var
-g=d7(b,a[3]);return f(d7(b,a[2]),g);case
+g=d8(b,a[3]);return f(d8(b,a[2]),g);case
 12:var
 c=a[3],d=[5,[4,c,c],a[4]];return[0,[0,[0,d,d],b],0]}return 0}function
 jN(c,b,a){var
 d=i(di(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
 jO(k,a,g){switch(g[0]){case
 0:var
-e=V(k,g[1]);if(e){var
-c=e[1],f=c[7];if(f)var
-m=f[1],h=function(b){var
-d=ai(a,px);return au(F,au(s,m,bU(b,c[1])),d)},n=dc(c),o=h(ak(t(py,a,l(d)),n)),p=dc(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
+e=W(k,g[1]);if(e){var
+b=e[1],f=b[7];if(f)var
+m=f[1],h=function(c){var
+d=aa(a,pE);return av(F,av(s,m,bU(c,b[1])),d)},n=dc(b),o=h(ak(t(pF,a,l(d)),n)),p=dc(b),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=ai(a,pz);return[0,[0,ai(a,0),r]];default:var
-u=au(F,cg,ai(a,pA));return[0,[0,au(F,cg,ai(a,0)),u]]}}function
+r=aa(a,pG);return[0,[0,aa(a,0),r]];default:var
+u=av(F,ch,aa(a,pH));return[0,[0,av(F,ch,aa(a,0)),u]]}}function
 jP(g,e,j,d,c){var
-k=fi(e,c),h=ci(j,f(fi(e,d),k)),a=jO(g,c7(pB,h),d);if(a)var
-b=jO(g,eR(pC,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+k=fk(e,c),h=bX(j,f(fk(e,d),k)),a=jO(g,c7(pI,h),d);if(a)var
+b=jO(g,eT(pJ,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
 cE(d,c,b,a){var
 e=o(c,b);return s(o(d,a),e)}function
-bF(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+br(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
 jQ(a){if(a){var
 b=a[1][6];if(b){var
 c=b[1],d=jQ(a[2]);if(d)var
-g=d[1],h=ab(c,c),e=[0,[0,[0,cB(c),h],g]];else
+g=d[1],h=ac(c,c),e=[0,[0,[0,cB(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pE}function
-fj(b,d,c,a){if(typeof
+f=b;return f}return pL}function
+fl(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=c[1],g=bW(bq(d,a),f);return[0,e(function(a){var
 b=o(a[2],g);return[0,cB(a[1]),b]},b)];case
 9:return jQ(b)}return 0}function
-fk(e,k,j,a){var
-W=j[1],c=bW(bq(k,a),W),y=0;if(typeof
+fm(e,k,j,a){var
+V=j[1],b=bW(bq(k,a),V),y=0;if(typeof
 a==="number")y=1;else
 switch(a[0]){case
 2:var
-X=function(a){return[0,s(a[4],c),0]},g=X,f=a[1];break;case
+X=function(a){return[0,s(a[4],b),0]},g=X,f=a[1];break;case
 3:var
-Y=function(a){return[0,s(c,a[4]),0]},g=Y,f=a[1];break;case
+Y=function(a){return[0,s(b,a[4]),0]},g=Y,f=a[1];break;case
 4:var
-Z=function(b){var
-a=b[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=b[2];return[0,s(s(s(o(K(c),g),f),e),d),0]},g=Z,f=a[1];break;case
+Z=function(c){var
+a=c[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=c[2];return[0,s(s(s(o(K(b),g),f),e),d),0]},g=Z,f=a[1];break;case
 6:var
-_=function(b){var
-a=b[5];if(a)var
-e=K(a[1]),f=o(K(c),e),d=[0,s(b[2],f),0];else
+_=function(c){var
+a=c[5];if(a)var
+e=K(a[1]),f=o(K(b),e),d=[0,s(c[2],f),0];else
 var
 d=a;return d},g=_,f=a[1];break;case
 7:if(e){var
@@ -2410,7 +2410,7 @@ n=m[2];if(n){if(n[2])return 0;var
 B=n[1],C=m[1],D=e[1],q=D[5];if(q){var
 r=C[5];if(r){var
 u=B[5];if(u)var
-h=B[1],i=C[1],v=D[1],Q=cE(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cE(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cE(i[2],i[3],h[2],h[3]),A=F(s(o(v[1],U),T),R),$=u[1],aa=r[1],E=o(o(o(c,q[1]),aa),$),ac=[0,bk(F(A,E)),0],G=[0,s(A,E),ac];else
+h=B[1],i=C[1],v=D[1],Q=cE(i[1],i[2],h[1],h[2]),R=o(v[3],Q),S=cE(i[1],i[3],h[1],h[3]),T=o(v[2],S),U=cE(i[2],i[3],h[2],h[3]),A=F(s(o(v[1],U),T),R),$=u[1],ab=r[1],E=o(o(o(b,q[1]),ab),$),ad=[0,bk(F(A,E)),0],G=[0,s(A,E),ad];else
 var
 G=u;var
 H=G}else
@@ -2432,47 +2432,47 @@ M=e;return M;case
 x=jP(e,k,j[2],a[1],a[2]);if(x){var
 N=x[1],O=N[2],P=N[1];return z(cB,[0,P[1],[0,P[2],[0,O[1],[0,O[2],0]]]])}return x;case
 11:var
-ad=function(d){var
+ae=function(d){var
 e=d[7];if(e)var
-n=di(k,a),f=ci(j[2],n),h=ai(f,pD),b=au(s,ai(f,0),h),i=K(c),l=K(dc(d)),m=ak(K(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
+n=di(k,a),f=bX(j[2],n),h=aa(f,pK),c=av(s,aa(f,0),h),i=K(b),l=K(dc(d)),m=ak(K(ac(c,d[1])),l),g=[0,s(s(ac(c,c),m),i),0];else
 var
-g=e;return g},g=ad,f=a[1];break;case
+g=e;return g},g=ae,f=a[1];break;case
 12:var
-ae=function(e){var
-q=l(d),r=di(k,a),u=t(0,ci(j[2],r),q),f=ak(u,dc(e)),g=e[5];if(g){var
-m=aE(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,K(h))));return[0,s(l(b),n),0]}var
-i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=ae,f=a[1];break;case
+af=function(e){var
+q=l(d),r=di(k,a),u=t(0,bX(j[2],r),q),f=ak(u,dc(e)),g=e[5];if(g){var
+m=aE(e[2]),h=ak(g[1],m),n=o(h,F(b,o(f,K(h))));return[0,s(l(c),n),0]}var
+i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=af,f=a[1];break;case
 8:case
 9:var
-w=fj(e,k,j,a);return w?bF(w[1]):w;default:y=1}if(y)return 0;var
-p=V(e,f);return p?g(p[1]):p}function
-gL(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gL(d,b,jN(b,e,c),g);return f(fk(d,b,c,e),h)}return a}var
-jR=[0,d,b],jS=[0,[0,jR,jR],d];function
-gM(a){return aj(bS(a[1][1],a[1][2]))}function
+w=fl(e,k,j,a);return w?br(w[1]):w;default:y=1}if(y)return 0;var
+p=W(e,f);return p?g(p[1]):p}function
+gO(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gO(d,b,jN(b,e,c),g);return f(fm(d,b,c,e),h)}return a}var
+jR=[0,d,c],jS=[0,[0,jR,jR],d];function
+gP(a){return ai(bS(a[1][1],a[1][2]))}function
 jT(a){var
-b=aV(0,i(a));return ct(function(b){return gM(t(b,a,jS))},b)}function
+b=aV(0,i(a));return ct(function(b){return gP(t(b,a,jS))},b)}function
 jU(a,g){var
-h=g[4],b=aN(jT(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(jT(a),f);return ct(function(a){return aj(aR(d,a[2]))},i)}function
+h=g[4],b=aN(jT(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(jT(a),f);return ct(function(a){return ai(aR(d,a[2]))},i)}function
 jV(f,I,l,H,m,j,n,r){if(r){var
 a=r[1],aF=r[2],aG=jV(f,I,l,H,m,j,jN(j,a,n),aF);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,C]];else
 var
-ao=I[2],ap=I[1],aq=d3(m),g=[0,[8,k(ar(l),aq),ap,ao]];else
+ao=I[2],ap=I[1],aq=d4(m),g=[0,[8,k(ar(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-as=af(f,bq(j,a)),g=y(function(a){return[0,R(f,a)]},as);break;case
+as=ag(f,bq(j,a)),g=y(function(a){return[0,R(f,a)]},as);break;case
 1:var
-at=af(f,bq(j,a)),g=y(function(a){return[1,R(f,a)]},at);break;case
+at=ag(f,bq(j,a)),g=y(function(a){return[1,R(f,a)]},at);break;case
 5:var
-av=af(f,bq(j,a)),g=y(function(a){return[2,R(f,a)]},av);break;case
+av=ag(f,bq(j,a)),g=y(function(a){return[2,R(f,a)]},av);break;case
 8:var
-aw=fj(m,j,n,a),g=y(function(a){var
-c=$(f,b);return[4,k(ar(l),a),c]},aw);break;case
+aw=fl(m,j,n,a),g=y(function(a){var
+b=$(f,c);return[4,k(ar(l),a),b]},aw);break;case
 9:var
-w=fj(m,j,n,a);if(w){var
-x=af(f,bq(j,a));if(x)var
+w=fl(m,j,n,a);if(w){var
+x=ag(f,bq(j,a));if(x)var
 ax=R(f,x[1]),ay=w[1],N=[0,[4,k(ar(l),ay),ax]];else
 var
 N=x;var
@@ -2482,13 +2482,13 @@ O=w;var
 g=O;break;case
 10:var
 z=jP(m,j,n[2],a[1],a[2]);if(z){var
-P=z[1],Q=P[2],S=P[1],A=af(f,bq(j,a));if(A){var
+P=z[1],Q=P[2],S=P[1],A=ag(f,bq(j,a));if(A){var
 T=A[1],U=G(d,T[1]);if(U)var
 p=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},az=p(Q[2]),aA=p(Q[1]),aC=p(S[2]),W=[0,[6,p(S[1]),aC,aA,az,T]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},az=p(Q[2]),aA=p(Q[1]),aC=p(S[2]),V=[0,[6,p(S[1]),aC,aA,az,T]];else
 var
-W=U;var
-X=W}else
+V=U;var
+X=V}else
 var
 X=A;var
 Y=X}else
@@ -2496,7 +2496,7 @@ var
 Y=z;var
 g=Y;break;case
 12:var
-q=fk(m,j,n,a),s=0;if(q)if(q[2])var
+q=fm(m,j,n,a),s=0;if(q)if(q[2])var
 g=0;else{var
 Z=h(f,0,a[2]),_=Z?h(f,1,a[4]):Z;if(_){var
 B=[0,[3,k(l,q[1])]];s=1}else{var
@@ -2504,19 +2504,19 @@ B=_;s=1}}else{var
 B=q;s=1}if(s)var
 g=B;break;case
 13:var
-aa=a[1],ab=V(m,aa),J=0;if(ab){var
+aa=a[1],ab=W(m,aa),J=0;if(ab){var
 ac=h(f,1,a[2]),ad=ac?h(f,1,a[3]):ac;if(ad)var
-aD=af(f,bq(j,a)),g=y(function(a){return[7,aa,R(f,a)]},aD);else{var
+aD=ag(f,bq(j,a)),g=y(function(a){return[7,aa,R(f,a)]},aD);else{var
 ae=ad;J=1}}else{var
 ae=ab;J=1}if(J)var
 g=ae;break;case
 14:var
-D=a[2],ag=a[1],ai=v(i(m),pF),aj=ai?h(f,0,ag):ai,ak=aj?h(f,1,D):aj;if(ak){var
-E=af(f,bq(j,a));if(E)var
-F=ah(e(function(n){var
-h=[5,ag,D],a=af(f,[0,[0,h,h],d]);if(a){var
-o=jU(H,n),g=ah(e(function(e){var
-a=t(e[1],H,jS),g=aB(a[2],j),h=[4,[0,c(2,b),b],D],d=[5,[3,a[1][2],a[1][1]],h],i=af(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
+D=a[2],af=a[1],ah=v(i(m),pM),ai=ah?h(f,0,af):ah,ak=ai?h(f,1,D):ai;if(ak){var
+E=ag(f,bq(j,a));if(E)var
+F=aj(e(function(n){var
+h=[5,af,D],a=ag(f,[0,[0,h,h],d]);if(a){var
+o=jU(H,n),g=aj(e(function(e){var
+a=t(e[1],H,jS),g=aB(a[2],j),h=[4,[0,b(2,c),c],D],d=[5,[3,a[1][2],a[1][1]],h],i=ag(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
 p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
 var
 i=g;var
@@ -2529,7 +2529,7 @@ am=al}else
 var
 am=ak;var
 g=am;break;default:var
-o=fk(m,j,n,a),K=0;if(o){var
+o=fm(m,j,n,a),K=0;if(o){var
 u=o[2],L=o[1];if(u)if(u[2])var
 g=0;else
 var
@@ -2540,7 +2540,7 @@ g=M}var
 an=[0,g,aG]}else
 var
 an=r;return an}function
-pG(a){var
+pN(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
@@ -2549,10 +2549,10 @@ b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}func
 jW(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=ce(a,g,c[1]);if(i){var
-j=ce(a,g,c[2]);if(j){var
-k=ce(a,g,c[3]);if(k)var
-t=i[1],u=bE(f),l=H([0,bE(f),u],t),v=j[1],x=bE(e),m=H([0,bE(e),x],v),y=dd(e),z=[0,dd(e),y],A=[0,w(a,ad(B(m,m)),z),0],D=dd(f),E=[0,dd(f),D],F=[0,w(a,ad(B(l,l)),E),A],G=R(a,m),I=R(a,l),n=[0,[0,H(H(R(a,k[1]),I),G),C,F]];else
+e=d[1],f=b[1],i=cf(a,g,c[1]);if(i){var
+j=cf(a,g,c[2]);if(j){var
+k=cf(a,g,c[3]);if(k)var
+t=i[1],u=bF(f),l=H([0,bF(f),u],t),v=j[1],x=bF(e),m=H([0,bF(e),x],v),y=dd(e),z=[0,dd(e),y],A=[0,w(a,ae(B(m,m)),z),0],D=dd(f),E=[0,dd(f),D],F=[0,w(a,ae(B(l,l)),E),A],G=R(a,m),I=R(a,l),n=[0,[0,H(H(R(a,k[1]),I),G),C,F]];else
 var
 n=k;var
 o=n}else
@@ -2570,14 +2570,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gN(a,p,o){var
-q=aF(p,o),b=e(function(b){return af(a,b)},q);if(b){var
+gQ(a,p,o){var
+q=aF(p,o),b=e(function(b){return ag(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=R(a,i[1]),s=R(a,h[1]);return T(d,B(B(R(a,g[1]),s),r)[1])}var
+r=R(a,i[1]),s=R(a,h[1]);return U(d,B(B(R(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2593,19 +2593,19 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-aa(c,b,a){var
+ab(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return ap([5,[0,b,b],[6,O(a,a)]],a)}function
+aw(a){return ap([5,[0,c,c],[6,O(a,a)]],a)}function
 cF(c,b,a){var
-d=a9(c,b[1],a);return d?a9(c,a,b[2]):d}function
+d=a8(c,b[1],a);return d?a8(c,a,b[2]):d}function
 aY(c,b,a){var
 d=cF(c,b[1],a[1]),e=d?cF(c,b[2],a[2]):d;return e?cF(c,b[3],a[3]):e}function
 jX(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aY(b,d[1],f),l=k?h(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cF(b,d[4],j):n,p=o?h(b,1,j):o;return p?b9(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aY(b,d[1],f),l=k?h(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cF(b,d[4],j):n,p=o?h(b,1,j):o;return p?b_(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=aY(b,c[1],a[1]),s=r?aY(b,c[2],a[2]):r;if(s){if(q){if(e){var
@@ -2617,7 +2617,7 @@ v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=aY(b,c[1],i);return w?h(b,1,O(i,i)):w}return 0}}function
-d8(c,a,b){if(0===a[0])return aY(c,a[1],b);var
+d9(c,a,b){if(0===a[0])return aY(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cF(c,a[4],b[3]):i}function
 jY(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
@@ -2628,42 +2628,42 @@ var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?d8(g,f[2],h):c}}function
-br(c,b,a){var
-d=aa(function(b,a){return[2,b,a]},a,b);return aa(function(b,a){return[3,b,a]},d,c)}function
-d9(a,e,d,c){var
-b=br(e,d,c),f=av(a),g=ap(O(av(a),b),f);return aa(function(b,a){return[3,b,a]},b,g)}function
+c=a?0:1;return c?d9(g,f[2],h):c}}function
+bs(c,b,a){var
+d=ab(function(b,a){return[2,b,a]},a,b);return ab(function(b,a){return[3,b,a]},d,c)}function
+d_(a,e,d,c){var
+b=bs(e,d,c),f=aw(a),g=ap(O(aw(a),b),f);return ab(function(b,a){return[3,b,a]},b,g)}function
 cG(f,e,d,a,c){var
-b=d9(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cI(a,c){switch(a[0]){case
+b=d_(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
+cH(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cI(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d9(d,f,e,c),h=cG(d,f,e,a[4],c),i=ap([5,[0,b,b],cH(a[5],h)],g),j=av(d);return aa(function(b,a){return[2,b,a]},j,i);case
-1:return av(br(a[1],a[2],c));default:return av(a[1])}}function
-gO(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=d_(d,f,e,b),h=cG(d,f,e,a[4],b),i=ap([5,[0,c,c],cH(a[5],h)],g),j=aw(d);return ab(function(b,a){return[2,b,a]},j,i);case
+1:return aw(bs(a[1],a[2],b));default:return aw(a[1])}}function
+gR(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cG(c,e,d,a[4],b),h=ap(cH(a[5],g),f),i=d9(c,e,d,b);return aa(function(b,a){return[2,b,a]},i,h);case
-1:return br(a[1],a[2],b);default:return av(a[1])}}function
-gP(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aw(c),g=cG(c,e,d,a[4],b),h=ap(cH(a[5],g),f),i=d_(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
+1:return bs(a[1],a[2],b);default:return aw(a[1])}}function
+gS(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cG(e,d,c,a[4],b),i=cH(a[5],h),j=br(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cG(e,d,c,a[4],b),i=cH(a[5],h),j=bs(d,c,b);return[3,O(aw(e),j),i];case
 1:var
-f=a[2],g=a[1],k=br(g,f,b);return[6,O(br(g,f,b),k)];default:return O(av(a[1]),b)}}function
+f=a[2],g=a[1],k=bs(g,f,b);return[6,O(bs(g,f,b),k)];default:return O(aw(a[1]),b)}}function
 jZ(a,b){switch(a[0]){case
 0:return[0,cG(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=br(d,c,b);return[0,O(br(d,c,b),e)];default:return 0}}function
-d_(e,c,a){var
-f=[0,d,b];return bj(function(b,d){var
-e=O(cI(b,c),a);return[2,[4,O(cI(b,c),a),e],d]},f,e)}function
+c=a[2],d=a[1],e=bs(d,c,b);return[0,O(bs(d,c,b),e)];default:return 0}}function
+d$(e,b,a){var
+f=[0,d,c];return bj(function(c,d){var
+e=O(cI(c,b),a);return[2,[4,O(cI(c,b),a),e],d]},f,e)}function
 j0(a){var
-c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-gQ(a,b){if(0===a[0]){var
-c=a[4];return[0,[0,gO(a,b),c]]}return 0}function
+b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
+gT(a,b){if(0===a[0]){var
+c=a[4];return[0,[0,gR(a,b),c]]}return 0}function
 j1(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=br(a[1],a[2],i),k=av(f),l=ap(O(av(f),g),k),h=[0,aa(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bs(a[1],a[2],i),k=aw(f),l=ap(O(aw(f),g),k),h=[0,ab(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
@@ -2671,19 +2671,19 @@ var
 b=0;if(b)var
 e=j1(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pH}function
+j=b;return j}return pO}function
 cJ(a){return[0,a[1],a[2],a[3]]}function
 j2(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cG(d,g,c,f,b),k=ap(cH(a[5],j),i),l=d9(d,g,c,b),m=aa(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aw(d),j=cG(d,g,c,f,b),k=ap(cH(a[5],j),i),l=d_(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=br(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-j3(l,c,a){switch(a[0]){case
+h=a[2],e=bs(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+j3(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=V(l,a[1]);if(d){var
-e=j2(d[1],c);if(e)var
+m=a[5],d=W(l,a[1]);if(d){var
+e=j2(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cJ(m),c=ap(a,n),d=aa(function(b,a){return[3,b,a]},o,c);return aa(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+b=cJ(m),c=ap(a,n),d=ab(function(b,a){return[3,b,a]},o,c);return ab(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
@@ -2691,29 +2691,29 @@ var
 k=d;return k;case
 1:var
 q=cJ(a[3]);return[0,[0,cJ(a[2]),q]];default:var
-r=cJ(a[3]),s=aa(function(b,a){return[2,b,a]},c,r),t=cJ(a[2]);return[0,[0,aa(function(b,a){return[2,b,a]},c,t),s]]}}function
+r=cJ(a[3]),s=ab(function(b,a){return[2,b,a]},b,r),t=cJ(a[2]);return[0,[0,ab(function(b,a){return[2,b,a]},b,t),s]]}}function
 j4(d,a,c,b){var
-e=ap(a,b),f=ap([3,d,a],c);return aa(function(b,a){return[2,b,a]},f,e)}function
-j5(f,g,e,c,q,a){function
-I(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(c,c)]}var
+e=ap(a,b),f=ap([3,d,a],c);return ab(function(b,a){return[2,b,a]},f,e)}function
+j5(f,g,e,b,q,a){function
+I(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(b,b)]}var
 G=0;if(typeof
 a==="number")G=1;else
 switch(a[0]){case
 0:var
-aw=d_(g,e,c);return h(f,1,[3,I(a[1]),aw]);case
+av=d$(g,e,b);return h(f,1,[3,I(a[1]),av]);case
 1:var
-ax=I(a[1]);return h(f,1,[3,d_(g,e,c),ax]);case
+ax=I(a[1]);return h(f,1,[3,d$(g,e,b),ax]);case
 2:var
-ay=a[2],az=function(a){return[3,ay,gP(a,e)]},s=az,r=a[1];break;case
+ay=a[2],az=function(a){return[3,ay,gS(a,e)]},s=az,r=a[1];break;case
 3:var
-aA=a[2],aB=function(a){return[3,gP(a,e),aA]},s=aB,r=a[1];break;case
+aA=a[2],aB=function(a){return[3,gS(a,e),aA]},s=aB,r=a[1];break;case
 4:var
 J=a[3],K=a[2],aC=function(a){var
 b=cI(a,e);return[3,[4,[4,K,K],O(cI(a,e),b)],[4,J,J]]},s=aC,r=a[1];break;case
 5:var
-L=a[1],aD=O(c,c),aE=[4,[4,L,L],[4,d_(g,e,q),aD]],aF=O(q,q);return h(f,1,[3,[4,d_(g,e,c),aF],aE]);case
+L=a[1],aD=O(b,b),aE=[4,[4,L,L],[4,d$(g,e,q),aD]],aF=O(q,q);return h(f,1,[3,[4,d$(g,e,b),aF],aE]);case
 6:var
-M=a[2],u=V(g,a[1]);if(u){var
+M=a[2],u=W(g,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
 v=i[4],aG=cG(i[1],i[2],i[3],v,e),N=cH(i[5],aG);return h(f,1,[3,[4,[4,M,v],[4,M,v]],[4,N,N]])}var
 P=0}else
@@ -2722,14 +2722,14 @@ P=u;return P;case
 7:if(g){var
 n=g[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-w=gQ(g[1],e);if(w){var
-Q=w[1],x=gQ(n[1],e);if(x){var
-R=x[1],y=gQ(o[1],e);if(y){var
+w=gT(g[1],e);if(w){var
+Q=w[1],x=gT(n[1],e);if(x){var
+R=x[1],y=gT(o[1],e);if(y){var
 S=y[1],T=[4,[4,[4,a[1],Q[2]],R[2]],S[2]],j=S[1],k=R[1],H=O(Q[1],[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),U=h(f,1,[3,T,H]);if(U)return h(f,1,[2,T,H]);var
-W=U}else
+V=U}else
 var
-W=y;var
-X=W}else
+V=y;var
+X=V}else
 var
 X=x;var
 Y=X}else
@@ -2745,15 +2745,15 @@ $=_}else
 var
 $=g;return $;case
 8:var
-aH=d_(g,e,c),aI=O(c,c);return h(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
+aH=d$(g,e,b),aI=O(b,b);return h(f,1,[3,[4,[5,a[2],a[1]],aI],aH]);case
 9:var
-ab=a[1],z=j1(g,e);if(z){var
-aJ=z[1],at=[0,d,b],au=bj(function(a,b){var
-d=O(av(a),c);return[2,[4,O(av(a),c),d],b]},at,aJ);return h(f,1,[3,[4,[4,ab,ab],O(c,c)],au])}return z;case
+aa=a[1],z=j1(g,e);if(z){var
+aJ=z[1],at=[0,d,c],au=bj(function(a,c){var
+d=O(aw(a),b);return[2,[4,O(aw(a),b),d],c]},at,aJ);return h(f,1,[3,[4,[4,aa,aa],O(b,b)],au])}return z;case
 10:var
 ac=a[2],ad=a[1],A=j3(g,e,ad);if(A){var
 ae=A[1],B=j3(g,e,ac);if(B){var
-af=B[1],C=c[1],D=c[2],l=c[3],aK=j4(l,D,af[1],af[2]),aL=j4(l,C,ae[1],ae[2]),ag=aa(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=e4(ac),ah=[4,l,[2,[2,e4(ad),aN],aM]],ai=h(f,1,l),aj=ai?h(f,0,C):ai,ak=aj?h(f,0,[3,l,C]):aj,al=ak?h(f,0,D):ak,am=al?h(f,0,[3,l,D]):al;if(am)return h(f,1,[3,[4,ah,ah],O(ag,ag)]);var
+af=B[1],C=b[1],D=b[2],l=b[3],aK=j4(l,D,af[1],af[2]),aL=j4(l,C,ae[1],ae[2]),ag=ab(function(b,a){return[3,b,a]},aL,aK),aM=a[3],aN=e6(ac),ah=[4,l,[2,[2,e6(ad),aN],aM]],ai=h(f,1,l),aj=ai?h(f,0,C):ai,ak=aj?h(f,0,[3,l,C]):aj,al=ak?h(f,0,D):ak,am=al?h(f,0,[3,l,D]):al;if(am)return h(f,1,[3,[4,ah,ah],O(ag,ag)]);var
 an=am}else
 var
 an=B;var
@@ -2761,9 +2761,9 @@ ao=an}else
 var
 ao=A;return ao;case
 11:var
-ap=a[4],E=V(g,a[1]);if(E){var
+ap=a[4],E=W(g,a[1]);if(E){var
 F=j2(E[1],e);if(F){var
-m=F[1][1][2],aO=cJ(a[3]),aP=cJ(a[2]),p=aa(function(b,a){return[3,b,a]},aP,aO),aq=h(f,1,O(m,m));if(aq){var
+m=F[1][1][2],aO=cJ(a[3]),aP=cJ(a[2]),p=ab(function(b,a){return[3,b,a]},aP,aO),aq=h(f,1,O(m,m));if(aq){var
 aQ=O(m,m),aR=O(p,m),aS=[5,[4,O(p,m),aR],aQ];return h(f,1,[3,[4,ap,ap],[3,O(p,p),aS]])}var
 ar=aq}else
 var
@@ -2771,26 +2771,28 @@ ar=F;var
 as=ar}else
 var
 as=E;return as;default:G=1}if(G)return 0;var
-t=V(g,r);return t?h(f,1,s(t[1])):t}function
-a_(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+t=W(g,r);return t?h(f,1,s(t[1])):t}function
+a9(a){return[0,a[1][1],a[2][1],a[3][1]]}function
 j6(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=a_(b[3]),f=a_(b[2]);return[0,a_(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=a9(b[3]),f=a9(b[2]);return[0,a9(b[1]),f,e,d,c];case
 1:var
-g=y(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
-gR(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
+g=y(a9,a[3]),h=a9(a[2]);return[1,a9(a[1]),h,g];default:return[2,a9(a[1])]}}function
+gU(a){return 0===a[0]?a9(a[1]):[0,a[1],a[2],a[4][1]]}function
 j7(b,a){var
-c=gR(a[2]);return jY(b,a,e(j6,a[1]),c)}function
-bX(c,a){if(c){if(a){var
-e=bX(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-j8(a){if(a){var
+c=gU(a[2]);return jY(b,a,e(j6,a[1]),c)}function
+j8(b,a,c){var
+d=[0,c,eT(b,a)];return f(c7(b,a),d)}function
+bY(b,a){if(b){if(a){var
+e=bY(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+j9(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=j8(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pJ}function
-j9(a,l,k,f){var
+c=b[1],d=j9(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pQ}function
+j_(a,l,k,f){var
 b=aX(a,l);if(b){var
 c=aX(a,k);if(c){var
 d=da(a,f);if(d){var
-e=e2(a,f);if(e)var
+e=e4(a,f);if(e)var
 m=w(a,b[1],e[1]),g=[0,H(w(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2803,13 +2805,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fl(a){return a?T(d,a[1][1]):a}function
-j_(a,ab,m,aD,g,f){function
-ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bX(a,a)]}var
+fn(a){return a?U(d,a[1][1]):a}function
+j$(a,ab,m,aD,g,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bY(a,a)]}var
 aE=m[1];function
-o(c){var
-a=[0,d,b];return bj(function(a,b){var
-d=bX(a,c);return[2,[4,bX(a,c),d],b]},a,aE)}var
+o(b){var
+a=[0,d,c];return bj(function(a,c){var
+d=bY(a,b);return[2,[4,bY(a,b),d],c]},a,aE)}var
 ad=n(function(a){return v(i(a),ab)},g);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
@@ -2827,26 +2829,26 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],aJ]);return 0},I=aK,G=f[1];break;cas
 4:if(g)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],i=e[1],j=h(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
-f=j9(a,i,g,ai);return f?T(f[1][2],d):f}return fl(j9(a,i,g,ah))}return j}return 0},I=aL,G=f[1];break;case
+g=e[2],i=e[1],j=h(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
+f=j_(a,i,g,ai);return f?U(f[1][2],d):f}return fn(j_(a,i,g,ah))}return j}return 0},I=aL,G=f[1];break;case
 5:if(g){var
 r=g[2];if(r){if(r[2])return 0;var
-K=r[1],L=g[1],aj=f[1],aM=bX(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bX(K,K);return h(a,1,[3,[4,o(L),aO],aN])}var
+K=r[1],L=g[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bY(K,K);return h(a,1,[3,[4,o(L),aO],aN])}var
 ak=r}else
 var
 ak=g;return ak;case
 6:if(g)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=h(a,1,al);return d?h(a,1,[3,bX(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=h(a,1,al);return d?h(a,1,[3,bY(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bX(N,N);return h(a,1,[3,[4,f[2],aT],aS])}return g;case
+N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bY(N,N);return h(a,1,[3,[4,f[2],aT],aS])}return g;case
 9:if(g)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=h(a,1,as),g=f?h(a,0,ar):f;if(g){var
-b=aX(a,bX(e,e));if(b){var
+b=aX(a,bY(e,e));if(b){var
 c=aX(a,[5,ar,as]);if(c){var
 d=i$(a,c[1]);if(d){var
-l=R(a,d[1]);return fl([0,H(b[1],l)])}var
+l=R(a,d[1]);return fn([0,H(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2864,8 +2866,8 @@ aY=f[2],aZ=function(e){var
 b=da(a,aY);if(b){var
 c=aX(a,e[3]);if(c){var
 d=aX(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fl([0,f]);if(g){var
-k=R(a,d[1]);return fl([0,H(R(a,f),k)])}var
+f=w(a,b[1],c[1]),g=fn([0,f]);if(g){var
+k=R(a,d[1]);return fn([0,H(R(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2876,12 +2878,12 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(g)return 0;var
-Q=j8(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),S=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
+Q=j9(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),S=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
 s=S[1];if(s){var
 t=s[2];if(t){var
-u=t[2],U=t[1],W=s[1],l=S[2];if(u)if(u[2]||!l)var
-j=[0,d,b];else{var
+u=t[2],T=t[1],V=s[1],l=S[2];if(u)if(u[2]||!l)var
+j=[0,d,c];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2889,34 +2891,34 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,u[1],aA],aC=[4,U,p(aa,_,Z,X)],j=[2,[3,[4,W,p($,_,Y,X)],aC],aB];else
+X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=q(aa,$,Z,Y),aB=[4,u[1],aA],aC=[4,T,q(aa,_,Z,X)],j=[2,[3,[4,V,q($,_,Y,X)],aC],aB];else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],j=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(W,U,E[1],F[1]):[0,d,b];else
+F=E[2],j=F?F[2]?[0,d,c]:l[2]?[0,d,c]:q(V,T,E[1],F[1]):[0,d,c];else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b]}else
+j=[0,d,c]}else
 var
-j=[0,d,b];var
+j=[0,d,c];var
 ay=h(a,1,[3,ax,j]);if(ay)return h(a,1,[2,ax,j]);var
 az=ay}else
 var
@@ -2924,21 +2926,21 @@ az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=V(m[3],at);if(O){var
+O=W(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=V(m[1],am);if(M){var
+M=W(m[1],am);if(M){var
 ao=M[1],ap=v(i(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=M;return aq;default:var
-J=V(m[2],G);return J?I(J[1]):J}}else
+J=W(m[2],G);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-j$(h,g){var
+ka(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2948,72 +2950,72 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-ka(a){if(a){var
+kb(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ka(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pK}function
-pL(a){return e(function(a){return[0,a,b]},a)}function
-kb(g,f,c,n,a){if(typeof
+c=b[1],d=kb(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pR}function
+pS(a){return e(function(a){return[0,a,c]},a)}function
+kc(g,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
-r=c[4];return aq(function(a){return h(g,0,[3,[0,d,b],a])},r)}var
-i=ka(c[5]);return i?jg(f,i[1]):i}else{if(0===a[0]){var
-j=j$(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(pL,a[2]);return j_(g,f,c,o[2],t,s)}return j}var
-k=j$(a[1],n);if(k){var
+r=b[4];return aq(function(a){return h(g,0,[3,[0,d,c],a])},r)}var
+i=kb(b[5]);return i?jg(f,i[1]):i}else{if(0===a[0]){var
+j=ka(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(pS,a[2]);return j$(g,f,b,o[2],t,s)}return j}var
+k=ka(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=V(c[1],a[2]);return m?j_(g,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=W(b[1],a[2]);return m?j$(g,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-gS(a){var
-b=av(a[1]),c=ap(O(b,a[2]),b),d=a[2];return aa(function(b,a){return[3,b,a]},d,c)}function
-gT(a){return av(gS(a))}function
-kc(c){var
-a=gT(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gU(a,b){return br(a[3],a[4],b)}function
-gV(a,b){var
-c=gU(a,b);return O(gT(a),c)}function
-gW(a,b){var
-c=gU(a,b);return O(kc(a),c)}function
-kd(a,b){var
-c=gU(a,b);return O(av(a[1]),c)}function
-gX(b,a){var
-c=gW(b,a),d=gV(b,a);return[2,[4,d,d],[4,c,c]]}function
-gY(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kd(a,d);return[5,[2,gX(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+gV(a){var
+b=aw(a[1]),c=ap(O(b,a[2]),b),d=a[2];return ab(function(b,a){return[3,b,a]},d,c)}function
+gW(a){return aw(gV(a))}function
+kd(c){var
+a=gW(c),b=aw(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gX(a,b){return bs(a[3],a[4],b)}function
+gY(a,b){var
+c=gX(a,b);return O(gW(a),c)}function
+gZ(a,b){var
+c=gX(a,b);return O(kd(a),c)}function
 ke(a,b){var
-f=a[5],c=[3,gY(a,b),f],d=kd(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fm(a,b){var
-c=ke(a,b);return cH(a[7],c)}function
-kf(b,a){var
-c=gX(b,a),d=gW(b,a),e=[4,fm(b,a),d],f=gV(b,a);return[5,[2,[4,gY(b,a),f],e],c]}function
+c=gX(a,b);return O(aw(a[1]),c)}function
+g0(b,a){var
+c=gZ(b,a),d=gY(b,a);return[2,[4,d,d],[4,c,c]]}function
+g1(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=ke(a,d);return[5,[2,g0(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kf(a,b){var
+f=a[5],c=[3,g1(a,b),f],d=ke(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fo(a,b){var
+c=kf(a,b);return cH(a[7],c)}function
 kg(b,a){var
-c=gX(b,a),d=gV(b,a),e=[4,fm(b,a),d],f=gW(b,a);return[5,[3,[4,gY(b,a),f],e],c]}function
-kh(a,b){var
-c=kc(a),d=ap(kg(a,b),c),e=gT(a),f=ap(kf(a,b),e),g=aa(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return aa(function(b,a){return[2,b,a]},i,h)}function
-ki(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-kj(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-gZ(a,c,b){var
-d=[4,ki(a),b],e=[2,[4,kj(a),c],d],f=[4,kj(a),b];return[0,[3,[4,ki(a),c],f],e]}function
-kk(c,a){var
-b=gZ(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-d$(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fn(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kk(d[1],a):a;case
+c=g0(b,a),d=gZ(b,a),e=[4,fo(b,a),d],f=gY(b,a);return[5,[2,[4,g1(b,a),f],e],c]}function
+kh(b,a){var
+c=g0(b,a),d=gY(b,a),e=[4,fo(b,a),d],f=gZ(b,a);return[5,[3,[4,g1(b,a),f],e],c]}function
+ki(a,b){var
+c=kd(a),d=ap(kh(a,b),c),e=gW(a),f=ap(kg(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
+kj(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kk(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+g2(a,c,b){var
+d=[4,kj(a),b],e=[2,[4,kk(a),c],d],f=[4,kk(a),b];return[0,[3,[4,kj(a),c],f],e]}function
+kl(c,a){var
+b=g2(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+ea(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fp(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kl(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=gZ(d[1],a[2],a[3]),m=j[1],k=gZ(f[1],j[2],a[1]);return kk(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=g2(d[1],a[2],a[3]),m=j[1],k=g2(f[1],j[2],a[1]);return kl(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=d$(e,a),o=ap([0,c(2,b),b],n),p=O(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=aa(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],aa(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kl(c){var
-a=bT(c);return a?cu(a[1],[0,d,b]):a}function
-km(a,n,k,j){if(kl(j)){var
-q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=ea(e,a),o=ap([0,b(2,c),c],n),p=O(e,a),q=ap([4,[0,b(2,c),c],p],e),r=ap([3,[0,c,c],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return ap([5,[0,c,c],[2,[0,c,c],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+km(b){var
+a=bT(b);return a?cu(a[1],[0,d,c]):a}function
+kn(a,n,k,j){if(km(j)){var
+q=n?[3,[0,d,c],k]:k;return h(a,0,q)}var
 f=aX(a,k);if(f){var
-g=da(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=e2(a,[5,j,[0,c(2,b),b]]);if(i)var
+g=da(a,[5,j,[0,b(2,c),c]]);if(g){var
+i=e4(a,[5,j,[0,b(2,c),c]]);if(i)var
 p=w(a,f[1],g[1]),l=[0,H(i[1],p)];else
 var
 l=i;var
@@ -3024,22 +3026,22 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
-ea(b,a,c){var
-d=a9(b,a[1],a[2]),e=d?km(b,0,c,a[1]):d;return e?km(b,1,c,a[2]):e}function
-dk(a,d){if(kl(d))return[0,C];var
-e=da(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
-f=e2(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
-h=f[1],i=e[1],j=B($(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=ca(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
-e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gt(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
+eb(b,a,c){var
+d=a8(b,a[1],a[2]),e=d?kn(b,0,c,a[1]):d;return e?kn(b,1,c,a[2]):e}function
+dk(a,d){if(km(d))return[0,C];var
+e=da(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=e4(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=B($(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cb(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return y(function(d){var
+e=w(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gw(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-eb(d,a){var
-e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-cK(a){return[0,[3,[0,d,b],a],a]}function
-kn(a,c,n,m){var
-h=a9(a,[0,d,b],c),i=h?eb(a,c):h;if(i){var
-e=dk(a,c);if(e){var
+ec(d,a){var
+e=h(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?h(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
+cK(a){return[0,[3,[0,d,c],a],a]}function
+ko(a,b,n,m){var
+h=a8(a,[0,d,c],b),i=h?ec(a,b):h;if(i){var
+e=dk(a,b);if(e){var
 f=aX(a,n);if(f){var
 g=aX(a,m);if(g){var
 o=f[1],p=g[1];return G(d,H(w(a,R(a,e[1]),p),o)[1])}var
@@ -3052,12 +3054,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-ko(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:ea(d,c[1],a[1]):a;case
+kp(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:eb(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ea(d,c[1],a[1]),m=l?ea(d,c[2],e[1]):l;if(m)return ea(d,c[3],f[1]);var
+l=eb(d,b[1],a[1]),m=l?eb(d,b[2],e[1]):l;if(m)return eb(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3070,7 +3072,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kn(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return ko(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3079,7 +3081,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kn(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ea(d,cK(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=ko(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eb(d,cK(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3089,20 +3091,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dl(a){return 1===a?pM:pN}function
-fo(d,c,b,a){var
-e=a[1],f=fn(d,c,a[2]),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
-g0(c,b,a){switch(c){case
+dl(a){return 1===a?pT:pU}function
+fq(d,c,b,a){var
+e=a[1],f=fp(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+g3(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ec(b,d){var
+ed(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cy(function(a){return ec(b,a)},a)]}return[0,cy(function(a){return ec(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cy(function(a){return ed(b,a)},a)]}return[0,cy(function(a){return ed(b,a)},a)]}function
 dm(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aj(v(e,b));return f?aj(v(e,N(d,b))):f;case
+e=a[1],f=ai(v(e,b));return f?ai(v(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3112,29 +3114,29 @@ e=a[1],f=aj(v(e,b));return f?aj(v(e,N(d,b))):f;case
 c=a[1];continue;default:var
 g=dm(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ed(c,b,m){var
+ee(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dm(c,b,g),i=h?ed(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dm(c,b,g),i=h?ee(c,b,f):h;if(i)var
 j=i;else{var
-k=ed(c,b,g);if(k)return dm(c,b,f);var
+k=ee(c,b,g);if(k)return dm(c,b,f);var
 j=k}return j;case
 7:var
-l=ed(c,b,a[1]);return l?dm(c,b,a[2]):l;case
+l=ee(c,b,a[1]);return l?dm(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=ed(c,b,a[1]);if(e){var
+e=ee(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return dm(c,b,a[1]);default:return 1}}}function
 cL(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aj(v(a[1],c));case
+0:return ai(v(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3144,14 +3146,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cL(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g1(d,b,m){var
+g4(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g1(d,b,a[1]);if(f){var
+f=g4(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g1(d,b,a[1]);return g?cL(b,a[2]):g;case
+g=g4(d,b,a[1]);return g?cL(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cL(b,i);if(j){var
 k=cL(b,h);if(k)var
@@ -3164,10 +3166,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cL(b,c)}}}function
-kp(c,e){var
+kq(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dR(a[1],c);case
+0:return dS(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3175,17 +3177,17 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kp(c,a[1]);if(d){var
+d=kq(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 cj(b,a){return a?k(b,a[1]):a}function
 ck(c,b,a){return cj(function(b){return cj(k(c,b),a)},b)}function
-kq(b,a){switch(a[0]){case
+kr(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kr(a){return 0===a[0]?a[1]:0}function
+ks(a){return 0===a[0]?a[1]:0}function
 bG(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
 1:return[1,bG(b,a[1])];default:var
@@ -3204,143 +3206,144 @@ n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bG(o,a)},p=h(e),q=h(
 1:var
 i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
 t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
-g2(c,f,a){if(a)var
+g5(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,R(c,a)];break;case
 1:var
 g=w(c,a,b),e=[0,a5(B(a,b)),g];break;default:var
-e=[0,b,R(c,b)]}return[0,[0,k(f,e)]]},h=g2(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+e=[0,b,R(c,b)]}return[0,[0,k(f,e)]]},h=g5(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-ks(a){if(a){var
+kt(a){if(a){var
 b=a[1];if(b)var
-c=ks(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kt(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pQ}function
+d=b;return d}return pX}function
 dn(a){if(a){var
-g=a[1],b=g[2],c=ks(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=kt(g[1]);if(c)if(b){var
 h=b[1],e=dn(a[2]);if(e)var
-i=T(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+i=U(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pR}function
+f=c;return f}return pY}function
 dp(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ar(b),f),e,d]}function
-kt(e,d,c,b){if(d){var
+ku(e,d,c,b){if(d){var
 i=d[1],a=function(a){var
-d=dp(function(b){return kq(a,b)},b);return kt(bz(e),i,c,d)},f=a(0);if(f){var
+d=dp(function(b){return kr(a,b)},b);return ku(bA(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dp(kr,b))}function
-ku(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return ku(m,e,l,a,dp(function(a){return kq(b,a)},d))},h=c(0,aB(b,g));if(h){var
+h=f;return h}return k(c,dp(ks,b))}function
+kv(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kv(m,e,l,a,dp(function(a){return kr(b,a)},d))},h=c(0,aB(b,g));if(h){var
 i=c(2,x(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:as(e,b,dp(kr,d))}function
+k=a;return k}return a?0:as(e,b,dp(ks,d))}function
 dq(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a4(f,e,a)},d)}return[0,C]}function
-pS(c){var
+kw(d,h,g,c){var
+a=dn(c[1]);if(a){var
+b=dq(c[3]);if(b){var
+i=aL([0,H(C,b[1]),0],d),j=a[1];return bp(d,e9(h,g,e(function(a){return[0,a[1],C]},j),i))}var
+f=b}else
+var
+f=a;return f}function
+pZ(c){var
 a=c[2];if(a){var
 b=dq(c[3]);if(b)return G(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kv(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-kw(a,c,b){var
-e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return ed(a,b,e)},f)}function
-ee(a){var
-c=K(a);return F(l(b),c)}function
-fp(i,g){var
-h=ee(g),j=K(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-kx(b,a){var
-c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-ky(b,a){function
+kx(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+ky(a,c,b){var
+e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return ee(a,b,e)},f)}function
+ef(a){var
+b=K(a);return F(l(c),b)}function
+fr(i,g){var
+h=ef(g),j=K(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+kz(b,a){var
+c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
+kA(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
+b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kz(w,v){function
+kB(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ee(a(0));return[0,fp(pT,a(0)),x];case
+x=ef(a(0));return[0,fr(p0,a(0)),x];case
 1:var
-y=ee(a(0)),z=o(ee(a(pU)),y),A=o(ee(a(pV)),z),B=fp(0,a(0)),C=ky(fp(pX,a(pW)),B);return[0,ky(fp(pZ,a(pY)),C),A];default:var
-D=a(p0),E=a(p1),g=[0,a(0),E,D],G=ab(g,g),H=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=K(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
-g=as(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kA(a){return 1<a[0]?[0,a[1],0]:0}function
-fq(a){switch(a[0]){case
+y=ef(a(0)),z=o(ef(a(p1)),y),A=o(ef(a(p2)),z),B=fr(0,a(0)),C=kA(fr(p4,a(p3)),B);return[0,kA(fr(p6,a(p5)),C),A];default:var
+D=a(p7),E=a(p8),g=[0,a(0),E,D],G=ac(g,g),H=F(l(c),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=K(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
+g=as(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kC(a){return 1<a[0]?[0,a[1],0]:0}function
+fs(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cK(a[1]),0];default:var
 b=[0,cK(a[2]),0];return[0,cK(a[1]),b]}}function
 dr(a){return[0,[0,a[1]],[0,a[2]]]}function
-kB(a){switch(a[0]){case
+kD(a){switch(a[0]){case
 0:return[0,dr(a[1]),0];case
 1:var
 f=[0,dr(a[3]),0],g=[0,dr(a[2]),f];return[0,dr(a[1]),g];case
 2:var
 b=dr(cK(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,cK(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dr(cK(c)),0]]]}}function
-kC(a,c){if(0===c[0])return dk(a,c[1]);var
-d=dk(a,c[1]);if(d){var
-e=dk(a,c[2]);if(e){var
-g=R(a,e[1]),h=cx(a,B($(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
+kE(a,b){if(0===b[0])return dk(a,b[1]);var
+d=dk(a,b[1]);if(d){var
+e=dk(a,b[2]);if(e){var
+g=R(a,e[1]),h=cx(a,B($(a,c),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kD(d,c){var
-a=kC(d,c[1]);if(a)var
-b=kC(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kF(d,c){var
+a=kE(d,c[1]);if(a)var
+b=kE(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kE(g,r,f,q,p,c,a){switch(c[0]){case
+kG(f,q,e,p,o,b,a){switch(b[0]){case
 0:var
-s=c[4],n=c[3],u=c[2],x=c[1],o=0;if(typeof
-a==="number")o=1;else
+r=b[4],m=b[3],s=b[2],u=b[1],n=0;if(typeof
+a==="number")n=1;else
 switch(a[0]){case
 0:var
-J=a[2],K=a[1],l=u,k=x,j=function(d){var
+I=a[2],J=a[1],k=s,j=u,h=function(d){var
 a=dn(d[1]);if(a){var
 b=d[2];if(b){var
 c=dq(d[3]);if(c){var
-i=c[1],j=aL([0,H(ad(w(g,n,b[1])),i),0],f);return bp(f,e7(K,J,a[1],j))}var
-e=c}else
+i=c[1],j=aL([0,H(ae(w(f,m,b[1])),i),0],e);return bp(e,e9(J,I,a[1],j))}var
+g=c}else
 var
-e=b;var
-h=e}else
+g=b;var
+h=g}else
 var
-h=a;return h},h=s;break;case
+h=a;return h},g=r;break;case
 2:var
-y=Y(n[1],d),z=y?Y(n[2],d):y;if(!z)return z;var
-M=a[2],N=a[1],l=u,k=x,j=function(d){var
-a=dn(d[1]);if(a){var
-b=dq(d[3]);if(b){var
-g=aL([0,H(C,b[1]),0],f),h=a[1];return bp(f,e7(N,M,e(function(a){return[0,a[1],C]},h),g))}var
-c=b}else
-var
-c=a;return c},h=s;break;default:o=1}if(o)return 0;break;case
+x=Y(m[1],d),y=x?Y(m[2],d):x;if(!y)return y;var
+L=a[2],M=a[1],k=s,j=u,h=function(a){return kw(e,M,L,a)},g=r;break;default:n=1}if(n)return 0;break;case
 1:var
-F=0;if(typeof
+D=0;if(typeof
 a==="number"&&!a)var
-O=c[2],P=c[1],Q=c[3],l=O,k=P,R=0,j=function(e){var
-a=dn(e[1]);if(a){var
-b=e[2];if(b){var
-c=dq(e[3]);if(c){var
-k=c[1],l=aL([0,H(w(g,Q,b[1]),k),0],f),d=gA(a[1],l);if(d)return bp(f,d[1]);var
+N=b[2],O=b[1],P=b[3],k=N,j=O,Q=0,h=function(g){var
+a=dn(g[1]);if(a){var
+b=g[2];if(b){var
+c=dq(g[3]);if(c){var
+k=c[1],l=aL([0,H(w(f,P,b[1]),k),0],e),d=gD(a[1],l);if(d)return bp(e,d[1]);var
 h=d}else
 var
 h=c;var
@@ -3349,39 +3352,39 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},h=R;else
-F=1;if(F)return 0;break;case
+j=a;return j},g=Q;else
+D=1;if(D)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-m=a[3];if(m){var
-S=[0,c[1],c[2],p],U=dp(function(a){return t(a,q,p7)},S),A=a[1],V=m[2],W=m[1],X=a[2],Z=c[3];return ku(r,function(v,j){var
+l=a[3];if(l){var
+R=[0,b[1],b[2],o],S=dp(function(a){return t(a,p,qc)},R),z=a[1],T=l[2],V=l[1],W=a[2],X=b[3];return kv(q,function(v,j){var
 a=dn(j[1]);if(a){var
-k=a[1],c=j[2];if(c){var
-e=dq(j[3]);if(e){var
-l=e[1],m=function(a){return a4(a,A,$(g,b))},t=m(v),u=c[1],h=B(w(g,m(W),u),t),n=T(d,h[1]),o=n?bp(f,e7(A,X,k,aL([0,H(ad(h),l),0],f))):n;if(o){var
-i=gA(k,aL([0,H(w(g,Z,h),l),0],f));if(i)return bp(f,i[1]);var
+k=a[1],b=j[2];if(b){var
+g=dq(j[3]);if(g){var
+l=g[1],m=function(a){return a4(a,z,$(f,c))},t=m(v),u=b[1],h=B(w(f,m(V),u),t),n=U(d,h[1]),o=n?bp(e,e9(z,W,k,aL([0,H(ae(h),l),0],e))):n;if(o){var
+i=gD(k,aL([0,H(w(f,X,h),l),0],e));if(i)return bp(e,i[1]);var
 p=i}else
 var
 p=o;var
 q=p}else
 var
-q=e;var
+q=g;var
 r=q}else
 var
-r=c;var
+r=b;var
 s=r}else
 var
-s=a;return s},V,d,U)}return m}return 0;case
+s=a;return s},T,d,S)}return l}return 0;case
 3:var
-G=0;if(typeof
-a==="number"||!(0===a[0]))G=1;else
+E=0;if(typeof
+a==="number"||!(0===a[0]))E=1;else
 var
-D=a[2],E=a[1],_=c[3],aa=c[2],ab=c[4],ac=c[1],ae=function(e){var
-a=dn(e[1]);if(a){var
-b=a[1],c=e[2];if(c){var
-d=dq(e[3]);if(d){var
-h=v(i(b),f),j=h?v(i(D),f):h;if(j){var
-n=d5(E,d6(E,D,c[1],b));return bp(f,cf(e$(g,ac,ab,d[1],b),n))}var
+A=a[2],C=a[1],Z=b[3],_=b[2],aa=b[4],ab=b[1],ac=function(g){var
+a=dn(g[1]);if(a){var
+b=a[1],c=g[2];if(c){var
+d=dq(g[3]);if(d){var
+h=v(i(b),e),j=h?v(i(A),e):h;if(j){var
+n=d6(C,d7(C,A,c[1],b));return bp(e,cg(fb(f,ab,aa,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3390,30 +3393,35 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},l=_,k=aa,j=ae,h=c[5];if(G)return 0;break;default:var
-I=0;if(typeof
+m=a;return m},k=Z,j=_,h=ac,g=b[5];if(E)return 0;break;case
+4:var
+F=0;if(typeof
 a==="number"&&!a)var
-l=c[1],k=0,j=pS,h=0;else
-I=1;if(I)return 0}var
-L=[0,k,l,p];return kt(h,r,j,dp(function(a){return t(a,q,p6)},L))}function
-kF(m,l,k,f,j,i,e){if(typeof
+k=b[1],j=0,h=pZ,g=0;else
+F=1;if(F)return 0;break;default:var
+G=0;if(typeof
+a==="number"&&5<=a)var
+ad=b[2],af=b[1],ag=b[4],ah=b[3],k=ad,j=af,ai=0,h=function(a){return kw(e,ah,ag,a)},g=ai;else
+G=1;if(G)return 0}var
+K=[0,j,k,o];return ku(g,q,h,dp(function(a){return t(a,p,qb)},K))}function
+kH(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=G(d,o);if(p)var
-h=iv(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=iv(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kE(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kG(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kE(m,l,k,j,0,i,a)}return 0}function
-p8(a){if(a[1])return 0;var
+q=f;return q}return kG(m,l,k,j,0,i,a)}return 0}function
+qd(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kG(a,N,M,L,K,J,h,p,I,_){if(n(p8,I))var
+kI(a,N,M,L,K,J,h,p,I,_){if(n(qd,I))var
 q=0;else
 var
-X=g2(a,b8,p),W=0,Y=f(g2(a,aJ,p),X),q=bC(pP,function(b){switch(b[0]){case
+X=g5(a,b9,p),V=0,Y=f(g5(a,aJ,p),X),q=bD(pW,function(b){switch(b[0]){case
 0:return t(b[1],Y,[0,[0,C]]);case
 1:return[0,[0,t(b[1],M,C)]];case
 2:return[0,[0,$(a,b[1])]];case
@@ -3422,22 +3430,22 @@ c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return c
 4:var
 f=b[2],g=b[1],h=function(b,a){return[0,H(b,a)]};return aZ(function(a,b){return ck(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ad(a)]};return bG(function(a){return cj(j,a)},i);case
+i=b[1],j=function(a){return[0,ae(a)]};return bG(function(a){return cj(j,a)},i);case
 6:var
 k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return ck(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=ca(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return ck(p,a,b)},o,n);case
+d=cb(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return ck(p,a,b)},o,n);case
 8:var
 q=b[1],r=function(b){return[0,R(a,b)]};return bG(function(a){return cj(r,a)},q);case
 9:var
-s=b[1],u=function(b){return cx(a,b)};return bG(function(a){return cj(u,a)},s);default:return pO}},N,W);var
+s=b[1],u=function(b){return cx(a,b)};return bG(function(a){return cj(u,a)},s);default:return pV}},N,V);var
 g=I,b=_;for(;;){if(g){var
 u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
 v=t(c,b,0);if(v){var
-l=V(L,c);if(l){var
-x=kF(a,K,J,h,q,l[1],i);if(x){var
-g=k,b=fe(c,b);continue}var
+l=W(L,c);if(l){var
+x=kH(a,K,J,h,q,l[1],i);if(x){var
+g=k,b=fg(c,b);continue}var
 z=x}else
 var
 z=l;var
@@ -3446,7 +3454,7 @@ var
 A=v;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Z=0,r=e(function(b){return[0,b,R(a,b)]},p),Q=e(b8,r),P=0,S=f(e(aJ,r),Q),U=bC(0,function(n){return function(b){switch(b[0]){case
+Z=0,r=e(function(b){return[0,b,R(a,b)]},p),Q=e(b9,r),P=0,S=f(e(aJ,r),Q),T=bD(0,function(n){return function(b){switch(b[0]){case
 0:return[0,t(b[1],n,C)];case
 1:return[0,t(b[1],M,C)];case
 2:return[0,$(a,b[1])];case
@@ -3455,17 +3463,17 @@ c=b[2],d=b[1];return ck(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return ck(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=b[1];return cj(function(a){return[0,ad(a)]},g);case
+g=b[1];return cj(function(a){return[0,ae(a)]},g);case
 6:var
 h=b[2],i=b[1];return ck(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
 j=b[2],k=b[1];return ck(function(c,b){var
-d=ca(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
+d=cb(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
 8:var
 l=b[1];return cj(function(b){return[0,R(a,b)]},l);case
 9:var
-m=b[1];return cj(function(b){return cx(a,b)},m);default:return 0}}}(S),N,P),j=t(h[1],U,Z);if(j){var
-m=T(j[1][2],d);O=1}else
+m=b[1];return cj(function(b){return cx(a,b)},m);default:return 0}}}(S),N,P),j=t(h[1],T,Z);if(j){var
+m=U(j[1][2],d);O=1}else
 var
 s=j}else
 var
@@ -3473,86 +3481,102 @@ s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
 D=t(c,b,0);if(D){var
-o=V(L,c);if(o){var
-E=kF(a,K,J,h,q,o[1],i);if(E){var
-g=k,b=fe(c,b);continue}var
+o=W(L,c);if(o){var
+E=kH(a,K,J,h,q,o[1],i);if(E){var
+g=k,b=fg(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kH(i,h,g,f,e,d,c,t,s,r){var
+kJ(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kG(i,h,g,f,e,d,c,b,a[1],j);return k?n(aj,k[1]):k}var
-l=kG(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=d4(a[2],b),p=kH(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kI(i,h,g,f,e,d,c,b,a[1],j);return k?n(ai,k[1]):k}var
+l=kI(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d5(a[2],b),p=kJ(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-g3(b,a){var
+ft(b,a){var
 c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-g4(d,a){var
-e=K(a),f=o(o(l(c(2,b)),a),d);return F(s(K(d),f),e)}function
-kI(c,b,a){switch(c){case
+g6(d,a){var
+e=K(a),f=o(o(l(b(2,c)),a),d);return F(s(K(d),f),e)}function
+kK(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-g5(a){switch(a){case
-0:return[0,p_,p9,l(d)];case
-1:return cg;default:var
+g7(a){switch(a){case
+0:return[0,qf,qe,l(d)];case
+1:return ch;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fr(a){switch(a){case
-0:return p$;case
-1:return qa;default:return 0}}function
-fs(b,a){var
+fu(a){switch(a){case
+0:return qg;case
+1:return qh;default:return 0}}function
+kL(i,k,h,j,a,e){var
+d=g7(i),f=av(s,d,a),g=kz(k,e),m=g6(d[3],a[3]),n=g6(d[2],a[2]),p=g6(d[1],a[1]),q=F(F(F(ac(e,e),p),n),m),r=ac(g,f),t=o(l(b(2,c)),r),u=F(o(h,q),t),v=cC(ft(g,f),j);return[0,kK(i,av(F,bU(h,f),g),v),u]}function
+ds(b,a){var
 c=aF(a[2],b);return f(aF(a[1],b),c)}function
-kJ(k,q,j,p,h,d,n){if(d)var
-r=d[1],t=ci(n,fs(h,r)),D=N(n,i(fs(h,r))),E=kJ(k,q,j,p,h,d[2],D),m=ai(t,qb),e=ai(t,0),a=g5(k),f=au(s,a,e),g=kx(q,m),v=g4(a[3],e[3]),w=g4(a[2],e[2]),x=g4(a[1],e[1]),y=F(F(F(ab(m,m),x),w),v),z=ab(g,f),A=o(l(c(2,b)),z),B=F(o(j,y),A),C=cC(g3(g,f),p),u=[0,[0,kI(k,au(F,bU(j,f),g),C),B],E];else
+kM(g,f,e,d,b,a,c){if(a)var
+h=a[1],j=bX(c,ds(b,h)),l=N(c,i(ds(b,h))),m=kM(g,f,e,d,b,a[2],l),n=aa(j,qi),k=[0,kL(g,f,e,d,aa(j,0),n),m];else
 var
-u=d;return u}function
-g6(g,a){if(typeof
+k=a;return k}function
+kN(r,q,p,o,j,c,n){if(c){var
+s=c[1],k=bX(n,ds(j,s)),u=N(n,i(ds(j,s))),v=kN(r,q,p,o,j,c[2],u),w=aa(k,qj),a=kL(r,q,p,o,aa(k,0),w),x=aa(k,0),e=a[1];if(e){var
+f=e[2],b=e[1];if(f){var
+l=f[2],g=f[1];if(l)var
+m=l[1],h=ft(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
+var
+d=[0,[0,b,[0,g,0]],a[2]]}else
+var
+d=[0,[0,b,0],a[2]]}else
+var
+d=[0,0,a[2]];var
+t=[0,d,v]}else
+var
+t=c;return t}function
+g8(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
-c=[0,d,b];return[0,[0,c,c],d]}function
-g7(e,d,n,m,l,a){var
-f=o(K(bW(g6(m,a),l)),n);if(typeof
+b=[0,d,c];return[0,[0,b,b],d]}function
+g9(e,d,n,m,l,a){var
+f=o(K(bW(g8(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=V(d,a[1]);if(b)var
+b=W(d,a[1]);if(b)var
 g=h(e,0,a[2]),i=g?[0,s(b[1][2],f)]:g;else
 var
 i=b;return i;case
 3:var
-c=V(d,a[1]);if(c)var
+c=W(d,a[1]);if(c)var
 j=h(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-kK(a,d,c,b){return e(function(a){var
-e=bW(g6(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-kL(c,f,s,e,i,q,p,o){if(o){var
-ac=kL(c,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+kO(a,d,c,b){return e(function(a){var
+e=bW(g8(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+kP(b,f,s,e,i,q,p,o){if(o){var
+ac=kP(b,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
 P=k(f,i),g=[0,t(k(ar(f),e),P,C)];else
 switch(a[0]){case
 0:var
-j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
+j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
 1:var
-S=[5,[0,b,b],a[1]],j=S,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+S=[5,[0,c,c],a[1]],j=S,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-T=g7(c,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},T);break;case
+T=g9(b,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},T);break;case
 3:var
-U=g7(c,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},U);break;case
+U=g9(b,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},U);break;case
 5:var
-u=a[1],W=af(c,[0,[0,u,u],d]),g=y(function(a){var
-b=R(c,a),d=k(f,i);return[2,k(ar(f),e),d,b]},W);break;case
+u=a[1],V=ag(b,[0,[0,u,u],d]),g=y(function(a){var
+c=R(b,a),d=k(f,i);return[2,k(ar(f),e),d,c]},V);break;case
 6:var
-v=a[3],w=a[2],r=V(e,a[1]),N=0;if(r){var
-x=h(c,1,w),z=x?h(c,0,v):x;if(z){var
+v=a[3],w=a[2],r=W(e,a[1]),N=0;if(r){var
+x=h(b,1,w),z=x?h(b,0,v):x;if(z){var
 X=[5,v,w],Y=[0,r[1],0],j=X,n=Y,m=function(c,b,a){return[1,c,b,a]};l=1;N=1}else
 var
 A=z}else
@@ -3560,8 +3584,8 @@ var
 A=r;if(!N)var
 g=A;break;case
 7:var
-B=a[3],D=a[2],E=a[1],F=V(e,E),O=0;if(F){var
-G=h(c,1,D),H=G?h(c,1,B):G;if(H){var
+B=a[3],D=a[2],E=a[1],F=W(e,E),O=0;if(F){var
+G=h(b,1,D),H=G?h(b,1,B):G;if(H){var
 Z=[5,D,B],j=Z,n=e,m=function(c,b,a){return[3,E,c,b,a,s]};l=1;O=1}else
 var
 I=H}else
@@ -3569,192 +3593,201 @@ var
 I=F;if(!O)var
 g=I;break;case
 8:var
-J=h(c,1,a[1]),K=J?h(c,1,a[2]):J;if(K)var
-_=$(c,b),aa=k(f,i),ab=kK(e,q,p,a),L=[0,[0,k(ar(f),ab),aa,_,0]];else
+J=h(b,1,a[1]),K=J?h(b,1,a[2]):J;if(K)var
+_=$(b,c),aa=k(f,i),ab=kO(e,q,p,a),L=[0,[0,k(ar(f),ab),aa,_,0]];else
 var
 L=K;var
 g=L;break;default:var
 g=0}if(l)var
-Q=af(c,[0,[0,j,j],d]),g=y(function(a){var
-b=R(c,a),d=k(f,i);return m(k(ar(f),n),d,b)},Q);var
+Q=ag(b,[0,[0,j,j],d]),g=y(function(a){var
+c=R(b,a),d=k(f,i);return m(k(ar(f),n),d,c)},Q);var
 M=[0,g,ac]}else
 var
 M=o;return M}function
-kM(j,h,i,g,d,a){if(a){var
-n=kM(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+kQ(j,h,i,g,d,a){if(a){var
+n=kQ(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(b8,kK(h,g,d,b));l=1}if(!l)var
-c=g7(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-qc(a){if(typeof
+k=e(b9,kO(h,g,d,b));l=1}if(!l)var
+c=g9(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
+qk(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-kN(b,a){switch(b){case
+kR(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-ft(a){var
-c=bS(a[1],[0,d,b]);return c?bS(a[2],[0,d,b]):c}function
-g8(d,a){switch(d){case
-0:return ft(a[3]);case
+fv(a){var
+b=bS(a[1],[0,d,c]);return b?bS(a[2],[0,d,c]):b}function
+g_(d,a){switch(d){case
+0:return fv(a[3]);case
 1:return 1;default:var
-b=ft(a[1]),c=b?ft(a[2]):b;return c?ft(a[3]):c}}function
-ef(b,a){return a9(b,a[1],a[2])}function
-kO(b,a){var
-c=ef(b,a[1]),d=c?ef(b,a[2]):c;return d?ef(b,a[3]):d}function
-qd(B,g,a,m,a3){var
-a4=a[2],ax=n(function(a){var
-b=kO(B,a[1]);return b?kO(B,a[2]):b},a4);if(ax)var
-a5=gR(a[4]),P=d8(B,a[4],a5);else
-var
-P=ax;if(P)var
-a6=fq(a[5]),Q=n(function(a){return ef(B,a)},a6);else
-var
-Q=P;if(Q){var
-p=a[1],c=dl(p),X=a[3],aF=[0,[0,[0,X,X],m],0],aG=a[2],Y=f(z(function(a){return fs(m,a)},aG),aF),D=i(Y),aH=a[2],aI=i(z(function(a){return fs(m,a)},aH)),Z=a[3],aJ=bW([0,[0,Z,Z],m],aI),aK=fr(p),_=kz(a[5],aK),u=_[2],A=kJ(p,_[1],u,aJ,m,a[2],0),aL=N(D,i(a[6])),aN=fr(p),aO=a[5],r=function(a){return[0,[0,N(aN,a)]]},S=K([0,[1,aL]]);switch(aO[0]){case
+b=fv(a[1]),c=b?fv(a[2]):b;return c?fv(a[3]):c}}function
+ql(j,X,aR,a,m,aQ){var
+q=a[1],g=dl(q),Y=a[3],aS=[0,[0,[0,Y,Y],m],0],aT=a[2],Z=f(z(function(a){return ds(m,a)},aT),aS),H=i(Z),aU=a[2],aW=i(z(function(a){return ds(m,a)},aU)),_=a[3],$=bW([0,[0,_,_],m],aW),aX=fu(q),aa=kB(a[5],aX),w=aa[2],ab=aa[1],C=kM(q,ab,w,$,m,a[2],0),aY=N(H,i(a[6])),aZ=fu(q),a0=a[5];function
+x(a){return[0,[0,N(aZ,a)]]}var
+S=K([0,[1,aY]]);switch(a0[0]){case
 2:var
-az=r(p2),aA=r(p3),T=[0,r(0),aA,az],j=[0,s(S,ab(T,T))];break;case
+aI=x(p9),aJ=x(p_),T=[0,x(0),aJ,aI],r=[0,s(S,ac(T,T))];break;case
 3:var
-aB=K(r(p4)),aC=K(r(0)),aD=K(r(p5)),j=[0,s(s(o(S,F(l(b),aD)),aC),aB)];break;default:var
-j=0}var
-aP=j?[0,j[1],0]:j,aQ=[0,u,f(kM(g,A,u,m,D,a[6]),aP)],E=f(bF(A),aQ),$=c_(e(function(a){return ec(c,a)},E))[1],w=cz($),q=function(a){return bl(w,ec(c,a))};if(0===a[4][0]){var
-aR=y(q,j),aS=q(u),aa=k(ar(q),A),U=fr(p),V=v(i(aa),c);if(V)var
-W=y(function(a){return[0,[0,a,d],d]},aR),x=function(a){return t(a,w,l(d))},R=x(aS),ay=aV(0,U),C=n(function(a){var
-b=dm(c,a,R),d=b?n(function(b){var
-e=b[1],d=n(function(b){var
-d=x(b);return cL(N(c,a),d)},e);if(d){var
-f=x(b[2]);return g1(R,N(c,a),f)}return d},aa):b;if(d){if(W){var
-f=x(W[1][1][1]);return cL(N(c,a),f)}var
-e=1}else
+aK=K(x(p$)),aL=K(x(0)),aN=K(x(qa)),r=[0,s(s(o(S,F(l(c),aN)),aL),aK)];break;default:var
+r=0}var
+ad=a[7],ae=ad?kN(q,ab,w,$,m,a[2],0):ad,a1=br(ae),a2=r?[0,r[1],0]:r,a3=f(a2,a1),a4=[0,w,f(kQ(j,C,w,m,H,a[6]),a3)],I=f(br(C),a4),af=c_(e(function(a){return ed(g,a)},I))[1],A=cz(af);function
+u(a){return bl(A,ed(g,a))}if(0===a[4][0]){var
+a5=y(u,r),a6=u(w),ah=k(ar(u),C),U=fu(q),V=v(i(ah),g);if(V)var
+W=y(function(a){return[0,[0,a,d],d]},a5),B=function(a){return t(a,A,l(d))},R=B(a6),aH=aV(0,U),G=n(function(a){var
+b=dm(g,a,R),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=B(b);return cL(N(g,a),c)},d);if(c){var
+e=B(b[2]);return g4(R,N(g,a),e)}return c},ah):b;if(c){if(W){var
+e=B(W[1][1][1]);return cL(N(g,a),e)}var
+d=1}else
 var
-e=d;return e},ay);else
+d=c;return d},aH);else
 var
-C=V;var
-aE=C?U:C,ac=aE}else
+G=V;var
+aP=G?U:G,ak=aP}else
 var
-ac=0;var
-ad=n(function(a){var
-b=ec(c,a),e=l(d);return aM(t(q(a),w,e),b)},E),ae=ad?n(function(a){return kp(c,a)},E):ad,ag=ae?aq(qc,a[6]):ae,ai=ag?g8(p,dj(a[4])):ag,aj=ai?h(g,1,a[3]):ai;if(aj)var
-aT=fq(a[5]),G=n(function(a){var
-b=eb(g,a[1]);return b?eb(g,a[2]):b},aT);else
+ak=0;var
+al=n(function(a){var
+b=ed(g,a),c=l(d);return aM(t(u(a),A,c),b)},I),am=al?n(function(a){return kq(g,a)},I):al,an=am?aq(qk,a[6]):am;if(an){var
+ao=ai(a[7]);if(ao)var
+D=ao;else{var
+aF=a[5];if(1===q&&2===aF[0])var
+aO=aF[1],aG=h(j,1,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],aO]);else
 var
-G=aj;if(G){var
-aU=a[6],aW=f(Y,e(function(a){return g6(m,a)},aU)),H=ah(e(function(a){return af(g,a)},aW));if(H){var
-aX=kN(p,dj(a[4])),I=ah(e(function(a){return af(g,[0,a,m])},aX));if(I){var
-ak=I[1],aY=kB(a[5]),J=ah(e(function(a){return kD(g,a)},aY));if(J){var
-al=J[1],aZ=kA(a[5]),L=ah(e(function(a){return dk(g,a)},aZ));if(L){var
-M=ah(kL(g,q,ac,A,u,m,D,a[6]));if(M){var
-O=M[1],am=v(i(f(ak,al)),c),an=am?n(function(a){switch(a[0]){case
+aG=0;var
+D=aG}}else
+var
+D=an;var
+ap=D?g_(q,dj(a[4])):D,as=ap?h(j,1,a[3]):ap;if(as)var
+a7=fs(a[5]),J=n(function(a){var
+b=ec(j,a[1]);return b?ec(j,a[2]):b},a7);else
+var
+J=as;if(J){var
+a8=a[6],a9=f(Z,e(function(a){return g8(m,a)},a8)),L=aj(e(function(a){return ag(j,a)},a9));if(L){var
+a_=kR(q,dj(a[4])),M=aj(e(function(a){return ag(j,[0,a,m])},a_));if(M){var
+at=M[1],a$=kD(a[5]),O=aj(e(function(a){return kF(j,a)},a$));if(O){var
+au=O[1],ba=kC(a[5]),P=aj(e(function(a){return dk(j,a)},ba));if(P){var
+Q=aj(kP(j,u,ak,C,w,m,H,a[6]));if(Q){var
+av=Q[1];if(a[7])var
+bb=X[2],bc=X[1],bd=u(w),E=j8(aR,av,[5,k(ar(u),ae),bd,bc,bb]);else
+var
+E=av;var
+aw=v(i(f(at,au)),g),ax=aw?n(function(a){switch(a[0]){case
 3:var
-e=kv(a[2]),b=[0,a[3],e];break;case
+d=kx(a[2]),b=[0,a[3],d];break;case
 4:var
 b=[0,a[1],0];break;default:var
-d=kv(a[1]),b=[0,a[2],d]}return n(function(a){return kw(c,w,a)},b)},O):am,ao=an?j?kw(c,w,q(j[1])):1:an;if(ao){var
-a0=e(function(a){return 1},O),a1=f(ak,al),a2=y(q,j);return kH(g,$,f(H[1],L[1]),O,c,c,a2,a1,a0,a3)}var
-ap=ao}else
+c=kx(a[1]),b=[0,a[2],c]}return n(function(a){return ky(g,A,a)},b)},E):aw,ay=ax?r?ky(g,A,u(r[1])):1:ax;if(ay){var
+be=e(function(a){return 1},E),bf=f(at,au),bg=y(u,r);return kJ(j,af,f(L[1],P[1]),E,g,g,bg,bf,be,aQ)}var
+az=ay}else
 var
-ap=M;var
-as=ap}else
+az=Q;var
+aA=az}else
 var
-as=L;var
-at=as}else
+aA=P;var
+aB=aA}else
 var
-at=J;var
-au=at}else
+aB=O;var
+aC=aB}else
 var
-au=I;var
-av=au}else
+aC=M;var
+aD=aC}else
 var
-av=H;var
-aw=av}else
+aD=L;var
+aE=aD}else
 var
-aw=G;return aw}return Q}function
+aE=J;return aE}function
+eg(b,a){return a8(b,a[1],a[2])}function
+kS(b,a){var
+c=eg(b,a[1]),d=c?eg(b,a[2]):c;return d?eg(b,a[3]):d}function
 a0(a){return typeof
-a==="number"?a?qe:qf:dl(a[1])}function
-kP(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g0(b[1],a,c)}function
-fu(a){if(0===a[0]){var
-c=a[1];switch(c[0]){case
-0:return c[3];case
-1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-g9(b,c,a){return b?fn(b[1],c,a):a}function
-bY(d,c,b,a){var
-e=fu(a),f=g9(d,c,fu(a)),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
-kQ(b,a){var
+a==="number"?a?qm:qn:dl(a[1])}function
+kT(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g3(b[1],a,c)}function
+fw(a){if(0===a[0]){var
+b=a[1];switch(b[0]){case
+0:return b[3];case
+1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
+g$(b,c,a){return b?fp(b[1],c,a):a}function
+bZ(d,c,b,a){var
+e=fw(a),f=g$(d,c,fw(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+kU(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kR(b,w,v){var
+kV(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
 g=0===f[0]?jX(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
 a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cF(b,c[5],a[5]):n,p=o?cF(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,O(a[1],a[1])):r;if(s)var
-u=gS(a),i=h(b,1,O(gS(a),u));else
+u=gV(a),i=h(b,1,O(gV(a),u));else
 var
 i=s;var
-g=i?b9(c[7],a[7]):i}if(g){var
+g=i?b_(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-kS(a){return typeof
-a==="number"?a?g5(0):cg:g5(a[1])}function
-g_(b,d,c){if(0===c[0])return fg(b,d[1],c[1]);var
+kW(a){return typeof
+a==="number"?a?g7(0):ch:g7(a[1])}function
+ha(b,d,c){if(0===c[0])return fi(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aF(a[4],b),e),h=f(aF(a[3],b),g),i=f(aF(a[2],d[2]),h);return f(aF(a[1],d[1]),i)}function
-g$(b,a){if(b){var
-c=b[1],d=c[2];return cC(kx(c[1],a),d)}return a}function
-kT(f,u,al,J,aj,r,ah){if(r){var
-j=r[1],am=bA([0,d,d],aj),a=ci(ah,g_(J,am,j)),y=function(c,b){var
-d=ai(a,c);return au(s,au(F,kS(f),b),d)};if(0===j[0]){var
+hb(b,a){if(b){var
+c=b[1],d=c[2];return cC(kz(c[1],a),d)}return a}function
+kX(f,u,al,J,aj,r,ai){if(r){var
+j=r[1],am=bB([0,d,d],aj),a=bX(ai,ha(J,am,j)),y=function(c,b){var
+d=aa(a,c);return av(s,av(F,kW(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-_=g$(u,ai(a,qg)),aD=z[1][5],A=t(qh,a,l(d)),B=ai(a,0),$=y(qi,_),h=jo($,cD(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=hb(u,aa(a,qo)),aD=z[1][5],A=t(qp,a,l(d)),B=aa(a,0),$=y(qq,_),h=jo($,cD(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ac(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-aa=g$(u,ai(a,qj)),ac=z[3],C=ac?[0,ai(a,qk)]:ac,ad=y(0,aa),m=jp(ad,ad,0);if(C)var
-L=C[1],M=[0,aE(ab(L,L)),0];else
+ab=hb(u,aa(a,qr)),ad=z[3],C=ad?[0,aa(a,qs)]:ad,ae=y(0,ab),m=jp(ae,ae,0);if(C)var
+L=C[1],M=[0,aE(ac(L,L)),0];else
 var
 M=C;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],aa];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=ai(a,0),aI=kS(f),n=jq(aI,cD(D)),aq=[0,aE(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ab];break;default:var
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=kW(f),n=jq(aI,cD(D)),aq=[0,aE(ac(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-ae=g$(u,ai(a,ql)),E=j[1][7],G=t(qm,a,l(d)),e=t(qn,a,l(d)),af=ai(a,qo),H=ai(a,0),q=y(qp,ae),p=cD(H),v=au(s,af,bU(ab(p,af),p)),w=cD(v),O=g3(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),av=o(l(c(2,b)),e),x=s(R,K(ak(F(R,s(K(e),S)),av))),aw=e8(E,o(e,aE(x))),T=ak(P,e),U=e8(E,ak(Q,e)),V=ak(S,K(e)),W=iZ(0,T,U,V),X=e8(E,iZ(1,T,U,V)),ax=bU(X,O),Y=au(s,q,bU(e,au(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ab(v,v)),az],aB=[0,aE(ab(H,H)),aA],aC=cC(Y,aw),k=[0,[0,Y,o(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],ae];var
-aP=N(ah,i(g_(J,am,j))),aQ=r[2],aR=kT(f,u,al,J,b$(aj),aQ,aP),g=k[1],aS=k[2],ag=function(a){var
-b=cC(g3(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:cB(a):kI(f[1],a,b)},I=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cB(I):Z,aM=g[4],aN=ag(g[3]),aO=g[2],an=[0,[0,ag(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hb(u,aa(a,qt)),E=j[1][7],G=t(qu,a,l(d)),e=t(qv,a,l(d)),ag=aa(a,qw),H=aa(a,0),q=y(qx,af),p=cD(H),v=av(s,ag,bU(ac(p,ag),p)),w=cD(v),O=ft(p,w),P=ac(q,w),Q=ac(q,O),ar=ac(p,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),au=o(l(b(2,c)),e),x=s(R,K(ak(F(R,s(K(e),S)),au))),aw=e_(E,o(e,aE(x))),T=ak(P,e),U=e_(E,ak(Q,e)),V=ak(S,K(e)),W=iZ(0,T,U,V),X=e_(E,iZ(1,T,U,V)),ax=bU(X,O),Y=av(s,q,bU(e,av(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ac(v,v)),az],aB=[0,aE(ac(H,H)),aA],aC=cC(Y,aw),k=[0,[0,Y,o(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
+aP=N(ai,i(ha(J,am,j))),aQ=r[2],aR=kX(f,u,al,J,ca(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cC(ft(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:cB(a):kK(f[1],a,b)},I=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:cB(I):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-ha(c,b,a){if(a){var
-e=a[2],g=ha(c,b$(b),e),h=a[1];return f(g_(c,bA([0,d,d],b),h),g)}return a}function
-kU(b,a){if(a){var
-g=kU([0,b],a[2]),c=a[1];if(0===c[0])var
+hc(c,b,a){if(a){var
+e=a[2],g=hc(c,ca(b),e),h=a[1];return f(ha(c,bB([0,d,d],b),h),g)}return a}function
+kY(b,a){if(a){var
+g=kY([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=bW([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-hb(b,a){return b?M(a):d}function
-fv(c,b,a){if(typeof
+hd(b,a){return b?M(a):d}function
+fx(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=hb(c,b),h=x(hb(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+g=hd(c,b),h=x(hd(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
 9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-kV(a){if(a){var
+kZ(a){if(a){var
 b=a[1][6];if(b)var
-c=kV(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=kZ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qq}function
-kW(y,U,b){function
+d=b;return d}return qy}function
+k0(y,U,b){function
 c(a){return t(a,U,l(d))}function
 N(a){var
 e=a[2],f=o(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,K(a))},g,f),d],b]}function
@@ -3767,10 +3800,10 @@ C=0;if(typeof
 b==="number")C=1;else
 switch(b[0]){case
 2:var
-W=function(b){var
+V=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
@@ -3780,7 +3813,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(qr),b),g=[0,[0,s(o(c(qs),d),f),0],0],h=o(d,c(qt));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(qz),b),g=[0,[0,s(o(c(qA),d),f),0],0],h=o(d,c(qB));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3796,7 +3829,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=kV(y);if(A){var
+A=kZ(y);if(A){var
 aa=c(0),P=c6(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
@@ -3842,83 +3875,83 @@ a=l(d);var
 ab=[0,bk(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=V(y,f);return z?g(z[1]):z}function
-fw(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eg(a){return e(function(a){var
-c=l(b);return[0,a[3],c]},a)}function
-kX(a,b){return e(function(a){var
+z=W(y,f);return z?g(z[1]):z}function
+fy(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eh(a){return e(function(a){var
+b=l(c);return[0,a[3],b]},a)}function
+k1(a,b){return e(function(a){var
 c=o(a[2],b);return[0,a[1],c]},a)}function
-kY(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bF(kX(c,t(0,b,l(d))));return iR(kW(c,b,a))}function
-eh(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],j=eh(g,c,b,N(e,i(fv(c,b,d))),h);return f(as(g,kU(e,fv(c,b,d)),d),j)}return a}function
-kZ(b,a){switch(a[0]){case
+k2(c,b,a){if(typeof
+a!=="number"&&8===a[0])return br(k1(c,t(0,b,l(d))));return iR(k0(c,b,a))}function
+ei(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],j=ei(g,c,b,N(e,i(fx(c,b,d))),h);return f(as(g,kY(e,fx(c,b,d)),d),j)}return a}function
+k3(b,a){switch(a[0]){case
 0:var
-d=a[1];return af(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ag(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=af(b,[0,[0,e,e],a[2]]);return c?i$(b,c[1]):c;case
-2:return da(b,a[1]);default:return e2(b,a[1])}}function
-k0(f,g,m,I,H,r,a){if(typeof
+e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?i$(b,c[1]):c;case
+2:return da(b,a[1]);default:return e4(b,a[1])}}function
+k4(f,g,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,C]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],i=J,n=function(a){return[0,a]};break;case
+J=[5,[0,c,c],a[1]],i=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],i=M,n=function(a){return[1,a]};break;case
+M=[5,[0,c,c],a[1]],i=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=af(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,R(f,a)]},Q),P];case
+x=a[1],P=0,Q=ag(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,R(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],B=a[1];if(!V(m,B))return qw;var
+z=a[3],A=a[2],B=a[1];if(!W(m,B))return qE;var
 G=0;if(h(f,1,A)&&h(f,1,z))var
 S=[5,A,z],i=S,n=function(a){return[7,B,a]};else
-G=1;if(G)return qv;break;case
+G=1;if(G)return qD;break;case
 8:var
 D=h(f,1,a[1]),T=0,E=D?h(f,1,a[2]):D;if(E)var
-U=$(f,b),W=kX(m,t(0,r,l(d))),F=[0,[4,k(ar(g),W),U]];else
+U=$(f,c),V=k1(m,t(0,r,l(d))),F=[0,[4,k(ar(g),V),U]];else
 var
 F=E;return[0,F,T];default:var
-p=0;if(typeof
-a==="number")p=1;else
+q=0;if(typeof
+a==="number")q=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=h(f,1,[3,s,u]),O=v?h(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
+s=a[3],u=a[2],v=h(f,1,[3,s,u]),O=v?h(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
 6:case
 9:var
-w=h(f,1,a[2]),j=w?h(f,0,a[3]):w;break;default:p=1}if(p)var
+w=h(f,1,a[2]),j=w?h(f,0,a[3]):w;break;default:q=1}if(q)var
 j=1;var
-o=j?kW(m,r,a):j;if(o){var
+o=j?k0(m,r,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
 d=[0,[3,k(g,c)]]}else
 var
-d=a;return d},N)}return qu}var
-K=0,L=af(f,[0,[0,i,i],hb(I,H)]);return[0,y(function(a){return n(R(f,a))},L),K]}function
-k1(a){if(typeof
+d=a;return d},N)}return qC}var
+K=0,L=ag(f,[0,[0,i,i],hd(I,H)]);return[0,y(function(a){return n(R(f,a))},L),K]}function
+k5(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qy(b){if(0===b[0])return[0,j6(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a_(a[4]),g=a_(a[3]),h=a_(a[2]);return[1,[0,a_(a[1]),h,g,f,e,d,c]]}function
-qz(K,c,a,g,an,aT){var
-aU=e(qy,a[2]),ao=kR(K,a[2],aU);if(ao)var
-aV=gR(a[4]),L=d8(K,a[4],aV);else
+qG(b){if(0===b[0])return[0,j6(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a9(a[4]),g=a9(a[3]),h=a9(a[2]);return[1,[0,a9(a[1]),h,g,f,e,d,c]]}function
+qH(K,c,a,g,an,aT){var
+aU=e(qG,a[2]),ao=kV(K,a[2],aU);if(ao)var
+aV=gU(a[4]),L=d9(K,a[4],aV);else
 var
 L=ao;if(L){var
 ap=a[5];if(ap)var
-aW=fq(ap[1]),as=n(function(a){return ef(K,a)},aW);else
+aW=fs(ap[1]),as=n(function(a){return eg(K,a)},aW);else
 var
 as=1;var
 M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a0(b),q=a[6],x=ha(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=y(function(a){var
+b=a[1],aw=a0(b),q=a[6],x=hc(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=y(function(a){var
 c=typeof
-b==="number"?0:fr(b[1]);return kz(a,c)},ax),az=a[2],j=kT(b,ay,bW(S,i(x)),g,an,az,0),U=z(function(a){return a[7]},j),aA=f(U,eh(function(a,b){return kY(j,a,b)},o,g,T,q)),aB=f(bF(eg(j)),aA),V=f(bF(fw(j)),aB),B=c_(V)[1],aC=cz(B),p=function(a){return bl(aC,a)},W=n(function(a){var
-b=l(d),c=cz(B);return aM(t(p(a),c,b),a)},V),X=W?aq(k1,q):W;if(X){var
+b==="number"?0:fu(b[1]);return kB(a,c)},ax),az=a[2],j=kX(b,ay,bW(S,i(x)),g,an,az,0),U=z(function(a){return a[7]},j),aA=f(U,ei(function(a,b){return k2(j,a,b)},o,g,T,q)),aB=f(br(eh(j)),aA),V=f(br(fy(j)),aB),B=c_(V)[1],aC=cz(B),p=function(a){return bl(aC,a)},W=n(function(a){var
+b=l(d),c=cz(B);return aM(t(p(a),c,b),a)},V),X=W?aq(k5,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?g8(0,dj(Y)):1;else
+Z=b?g_(0,dj(Y)):1;else
 var
-au=dj(Y),Z=g8(b[1],au);var
+au=dj(Y),Z=g_(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3929,8 +3962,8 @@ if(2<=O[1])var
 r=0;else{var
 u=a[5],N=0;if(u){var
 P=h(c,1,a[3]);if(P)var
-av=fq(u[1]),r=n(function(a){var
-b=eb(c,a[1]);return b?eb(c,a[2]):b},av);else{var
+av=fs(u[1]),r=n(function(a){var
+b=ec(c,a[1]);return b?ec(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
 Q=u;N=1}if(N)var
 r=Q}var
@@ -3938,38 +3971,38 @@ D=r}else
 var
 D=C;if(D)var
 aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return b9(b,o)},aD);else
+b=0===a[0]?0:1;return b_(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=ah(e(function(a){return af(c,a)},aE));if(F){var
-aF=z(function(a){return fv(o,g,a)},q),G=ah(e(function(a){return kZ(c,a)},aF));if(G){var
+aE=f(x,[0,S,0]),F=aj(e(function(a){return ag(c,a)},aE));if(F){var
+aF=z(function(a){return fx(o,g,a)},q),G=aj(e(function(a){return k3(c,a)},aF));if(G){var
 m=dj(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kN(b[1],m),H=ah(e(function(a){return af(c,[0,a,g])},aG));if(H){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kR(b[1],m),H=aj(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=kB($[1]),s=ah(e(function(a){return kD(c,a)},aH));else
+aH=kD($[1]),s=aj(e(function(a){return kF(c,a)},aH));else
 var
-s=qx;if(s){var
-aa=s[1],w=a[5],aI=w?kA(w[1]):w,I=ah(e(function(a){return dk(c,a)},aI));if(I){var
-J=ah(eh(function(a,b){return k0(c,p,j,o,g,a,b)},o,g,T,q));if(J){var
+s=qF;if(s){var
+aa=s[1],w=a[5],aI=w?kC(w[1]):w,I=aj(e(function(a){return dk(c,a)},aI));if(I){var
+J=aj(ei(function(a,b){return k4(c,p,j,o,g,a,b)},o,g,T,q));if(J){var
 ab=J[1],ac=v(i(f(_,aa)),aw);if(ac){var
-aJ=gJ(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
+aJ=gM(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
 b==="number"&&!b){var
 ad=function(a){return jW(c,aL,g,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=eg(j),aR=k(ar(p),aQ),aS=fw(j);return ff(c,B,k(ar(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=eh(j),aR=k(ar(p),aQ),aS=fy(j);return fh(c,B,k(ar(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
-ag=ae}else
+af=ae}else
 var
-ag=I;var
-ai=ag}else
+af=I;var
+ah=af}else
 var
-ai=s;var
-aj=ai}else
+ah=s;var
+ai=ah}else
 var
-aj=H;var
-ak=aj}else
+ai=H;var
+ak=ai}else
 var
 ak=G;var
 al=ak}else
@@ -3978,7 +4011,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-bs(c){var
+bt(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3987,15 +4020,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bs(a[2]);return f(bs(a[1]),e)}}function
-a$(e,a,c){switch(a[0]){case
+e=bt(a[2]);return f(bt(a[1]),e)}}function
+a_(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return bW([0,[0,r,r],d],c);case
+r=a[1];return bW([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(n6(n[1],u))return n[2];var
+n=g[1];if(ob(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bk(a$(e,a[1],c));case
+2:return bk(a_(e,a[1],b));case
 3:var
 j=a[2],f=a[1],h=F;break;case
 4:var
@@ -4005,65 +4038,65 @@ j=a[2],f=a[1],h=o;break;case
 6:var
 j=a[2],f=a[1],h=ak;break;case
 7:var
-k=dS(a[2]),m=a$(e,a[1],c);if(k){if(k[1]){var
-p=K(m),t=function(a){return o(a,p)},q=eK(bz(iI(k)),t,p);return iH(k)?q:o(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
-w=a$(e,j,N(c,i(bs(f))));return h(a$(e,f,c),w)}function
+k=dT(a[2]),m=a_(e,a[1],b);if(k){if(k[1]){var
+p=K(m),t=function(a){return o(a,p)},q=eM(bA(iI(k)),t,p);return iH(k)?q:o(q,m)}return m}return l(c);default:return aE(a_(e,a[1],b))}var
+w=a_(e,j,N(b,i(bt(f))));return h(a_(e,f,b),w)}function
 cl(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,i(bs(e))),l=cl(c,a[2],k),m=f(cl(c,e,b),l);return[0,a$(c,a,b),m];case
+e=a[1],k=N(b,i(bt(e))),l=cl(c,a[2],k),m=f(cl(c,e,b),l);return[0,a_(c,a,b),m];case
 8:var
-n=cl(c,a[1],b);return[0,a$(c,a,b),n];case
+n=cl(c,a[1],b);return[0,a_(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,i(bs(d))),j=cl(c,a[2],h);return f(cl(c,d,b),j)}}function
-k2(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,i(bs(d))),h=a[2],j=a$(c,d,b),k=k2([0,[0,e[1],j],c],h,g);return f(cl(c,d,b),k)}return a}function
-hc(a){return z(bs,a)}function
-k3(c,a,b){if(a)var
-d=a[1],f=N(b,i(bs(d))),g=k3(c,a[2],f),e=[0,a$(c,d,b),g];else
+d=a[1],h=N(b,i(bt(d))),j=cl(c,a[2],h);return f(cl(c,d,b),j)}}function
+k6(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,i(bt(d))),h=a[2],j=a_(c,d,b),k=k6([0,[0,e[1],j],c],h,g);return f(cl(c,d,b),k)}return a}function
+he(a){return z(bt,a)}function
+k7(c,a,b){if(a)var
+d=a[1],f=N(b,i(bt(d))),g=k7(c,a[2],f),e=[0,a_(c,d,b),g];else
 var
 e=a;return e}function
-k4(c,a,b){if(a){var
-d=a[1],e=N(b,i(bs(d))),g=k4(c,a[2],e);return f(cl(c,d,b),g)}return a}function
-hd(a){return 0===a[0]?hc(a[1]):bs(a[1])}function
-k5(c,b,a){if(b){var
-d=b[1],j=N(a,i(hd(d))),k=k5(c,b[2],j);if(0===d[0])var
-g=k4(c,d[1],a);else
+k8(c,a,b){if(a){var
+d=a[1],e=N(b,i(bt(d))),g=k8(c,a[2],e);return f(cl(c,d,b),g)}return a}function
+hf(a){return 0===a[0]?he(a[1]):bt(a[1])}function
+k9(c,b,a){if(b){var
+d=b[1],j=N(a,i(hf(d))),k=k9(c,b[2],j);if(0===d[0])var
+g=k8(c,d[1],a);else
 var
-e=d[1],h=cl(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
-fx(c){var
+e=d[1],h=cl(c,e,a),g=[0,a_(c,e,a),h];return f(g,k)}return b}function
+fz(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cy(fx,a)}return[0,b]}function
-he(c){var
+b=cy(fz,a)}return[0,b]}function
+hg(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=he(a[2]);return o(he(a[1]),d);case
+d=hg(a[2]);return o(hg(a[1]),d);case
 9:return a[1];default:return K(b)}}}function
-k6(n,g,a,f){if(a){var
-c=a[1],w=N(f,i(hd(c))),x=k6(n,g,a[2],w);if(0===c[0])var
-k=k3(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
+k_(n,g,a,f){if(a){var
+b=a[1],w=N(f,i(hf(b))),x=k_(n,g,a[2],w);if(0===b[0])var
+k=k7(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=a$(g,c[1],f),q=fx(m),h=aN(aV(0,n),q),d=fx(h[2]),j=e(fx,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},j),o=[0,j,he(d),v,u,t,s,r];var
+m=a_(g,b[1],f),q=fz(m),h=aN(aV(0,n),q),d=fz(h[2]),j=e(fz,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(c):ak(a,d)},j),o=[0,j,hg(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-k7(a){return e(function(a){return[0,a[2],d]},a)}function
-k8(a){var
-b=z(hd,a[4]),c=f(hc(e(b8,a[3])),b);return f(k7(a[2]),c)}function
-k9(a){var
-c=ci(0,k7(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
-hf(b,d){var
+k$(a){return e(function(a){return[0,a[2],d]},a)}function
+la(a){var
+b=z(hf,a[4]),c=f(he(e(b9,a[3])),b);return f(k$(a[2]),c)}function
+lb(a){var
+c=bX(0,k$(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
+hh(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4072,27 +4105,27 @@ e=a[1];return aq(function(a){return am(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hf(b,a[1]);if(c){var
+c=hh(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-k_(d){var
+lc(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aj(aq(function(b){return function(a){return n6(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ai(aq(function(b){return function(a){return ob(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fz=s(l(b),fy);function
-k$(e){var
-a=K(fz);if(e)var
-f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=ak(F(l(b),h),g);else
+fB=s(l(c),fA);function
+ld(e){var
+a=K(fB);if(e)var
+f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=ak(F(l(c),h),g);else
 var
-i=F(l(c(2,b)),a),j=K(fy),d=ak(F(o(l(c(2,b)),j),a),i);return aE(d)}function
-la(d,c,a){if(d){var
-e=k$(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
-h=l(b),i=k$(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
-ds(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(c(2,b)),h),g),j=f?e?fz:ak(fz,o(l(c(2,b)),fy)):ak(fz,l(c(2,b))),k=o(K(j),i);return aE(F(l(b),k))}function
-lb(g,d){var
+i=F(l(b(2,c)),a),j=K(fA),d=ak(F(o(l(b(2,c)),j),a),i);return aE(d)}function
+le(d,b,a){if(d){var
+e=ld(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=ld(b),j=ak(l(c),i);return s(o(a,F(l(c),j)),h)}function
+dt(f,e,d,a){var
+g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fB:ak(fB,o(l(b(2,c)),fA)):ak(fB,l(b(2,c))),k=o(K(j),i);return aE(F(l(c),k))}function
+lf(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hg(v,u,s){var
+hi(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4102,7 +4135,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e5([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e7([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4124,12 +4157,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-lc(f,i,e,c,h){var
-j=f?b:d,a=$(i,j);function
+lg(f,i,e,b,h){var
+j=f?c:d,a=$(i,j);function
 g(b){var
-c=f?eW(b):c9(b);return H(c,a)}var
-k=[0,ae(h),0],l=[0,[0,a,c,[0,C,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-ld(r,g,q,p,f,o,n){if(o){var
+c=f?eY(b):c9(b);return H(c,a)}var
+k=[0,af(h),0],l=[0,[0,a,b,[0,C,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+lh(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4138,16 +4171,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bo(qF)),a=hg(p,jE(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bo(qN)),a=hi(p,jE(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lb,qG),a=hg(p,bC(0,cd(g,lc(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lf,qO),a=hi(p,bD(0,ce(g,lg(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lb,qH),a=hg(p,bC(0,cd(g,lc(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lf,qP),a=hi(p,bD(0,ce(g,lg(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4157,27 +4190,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?qI:a}else
+y=a?qQ:a}else
 var
 y=n;return y}return[0,n]}function
-le(f,e,d,c,p,o,n){var
+li(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=ld(f,e,d,c,b,a[1],g);return h?aj(h[1]):h}var
-i=ld(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d4(a[2],b),l=le(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lh(f,e,d,c,b,a[1],g);return h?ai(h[1]):h}var
+i=lh(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d5(a[2],b),l=li(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hh(a){return iM(c(2,b),aB(a,b))}function
-dt(i,a,e,w,v){var
-m=a?b:M(b),f=l(m),g=la(a,e,qD),h=la(a,e,qE),n=ak(g,ds(a,e,f,g)),p=[0,F(ak(h,ds(a,e,h,f)),n),0],q=ak(f,ds(a,e,f,g)),r=[0,F(ak(h,ds(a,e,g,h)),q),p],s=ak(f,ds(a,e,h,f)),t=[0,F(ak(g,ds(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fy):l(c(2,c(2,b))),j=c_([0,u,t]),k=[0,d,cw(i)];return le(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lf(a,g,b){if(T(g,hh(a))){if(b){var
+hj(a){return iM(b(2,c),aB(a,c))}function
+du(i,a,e,w,v){var
+m=a?c:M(c),f=l(m),g=le(a,e,qL),h=le(a,e,qM),n=ak(g,dt(a,e,f,g)),p=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),p],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fA):l(b(2,b(2,c))),j=c_([0,u,t]),k=[0,d,cw(i)];return li(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lj(a,g,b){if(U(g,hj(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hh(a)],v=cw(a),i=[0,hh(a),v],j=dt(a,0,1,h,b[1]),k=j?dt(a,0,0,i,c[1]):j;if(k){var
-l=dt(a,1,1,h,d[1]);if(l)return dt(a,1,0,i,e[1]);var
+h=[0,g,hj(a)],v=cw(a),i=[0,hj(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
+l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4194,253 +4227,253 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cw(a)],s=dt(a,0,0,r,b[1]);if(s)return dt(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hi(a){var
+hk(a){var
 b=[1,[2,d]];return c6(function(b,a){return[1,[3,b,a]]},a,b)}function
-fA(a){return hi(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fB(a,c){return hi(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hi(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lg(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cy(function(a){return lg(e,d,c,b,a)},f);return k(cd(e,d,c),g)}function
-lh(a){return a?T(d,a[1][2][1]):a}function
-qJ(a){var
-b=v(i(a),qK);return b?aq(function(a){return aj(Y(a,d))},a):b}function
-li(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,$(c,a[1]),f),h=li(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+fC(a){return hk(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fD(a,c){return hk(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hk(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lk(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cy(function(a){return lk(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
+ll(a){return a?U(d,a[1][2][1]):a}function
+qR(a){var
+b=v(i(a),qS);return b?aq(function(a){return ai(Y(a,d))},a):b}function
+lm(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,$(c,a[1]),f),h=lm(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fC(b,a){return iQ(iQ(b,0),a)}function
-hj(a){if(a){var
-b=a[2],c=a[1];if(b)return fC(c,[0,qM,hj(b)]);var
+fE(b,a){return iQ(iQ(b,0),a)}function
+hl(a){if(a){var
+b=a[2],c=a[1];if(b)return fE(c,[0,qU,hl(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,qO,fC(hj(a),qN)]}function
-S(a){return[0,qQ,fC(hj(a),qP)]}function
-ag(a){return[0,qS,[0,a,qR]]}function
-g(b,a){return[0,aP(qU,aP(b,qT)),a]}function
+A(a){return[0,qW,fE(hl(a),qV)]}function
+S(a){return[0,qY,fE(hl(a),qX)]}function
+ah(a){return[0,q0,[0,a,qZ]]}function
+g(b,a){return[0,aP(q2,aP(b,q1)),a]}function
 I(b,a){return S([0,g(b,a),0])}function
-bZ(d){var
-b=d,a=oz,e=0;for(;;){if(b){var
-c=iG(a),b=b[1],a=c;continue}return[0,dW(eJ(a)),e]}}function
-hk(a){return[0,dW(eP(a)),0]}function
-fD(a){var
-c=a3(a),f=0,b=0===c?oE:0<c?[0,eP(a)]:[1,eP(M(a))];if(0===b[0])var
-d=dW(b[1]);else
+b0(d){var
+b=d,a=oG,e=0;for(;;){if(b){var
+c=iG(a),b=b[1],a=c;continue}return[0,dX(eL(a)),e]}}function
+hm(a){return[0,dX(eR(a)),0]}function
+fF(a){var
+c=a3(a),f=0,b=0===c?oL:0<c?[0,eR(a)]:[1,eR(M(a))];if(0===b[0])var
+d=dX(b[1]);else
 var
-e=dW(b[1]),d=aP(bf(1,45),e);return[0,d,f]}function
-hl(a){var
-b=0,c=0<a3(a)?eP(a):oD;return[0,dW(c),b]}function
-hm(a){switch(a[0]){case
-2:return qW;case
-3:return 2<=a[1]?qX:qY;case
-4:return qZ;default:return qV}}function
-ei(b,a){function
-c(c,a){return Z(c,hm(a))?ei(b,a):[0,q5,f(ei(b,a),q4)]}switch(a[0]){case
+e=dX(b[1]),d=aP(bf(1,45),e);return[0,d,f]}function
+hn(a){var
+b=0,c=0<a3(a)?eR(a):oK;return[0,dX(c),b]}function
+ho(a){switch(a[0]){case
+2:return q4;case
+3:return 2<=a[1]?q5:q6;case
+4:return q7;default:return q3}}function
+ej(b,a){function
+c(c,a){return Z(c,ho(a))?ej(b,a):[0,rb,f(ej(b,a),ra)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,aW(g),0];var
-h=[0,q6,[0,aW(e),0]];return[0,aW(g),h];case
+h=[0,rc,[0,aW(e),0]];return[0,aW(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,q8,c(q7,a[1])];case
+2:return[0,re,c(rd,a[1])];case
 3:var
-i=a[3],j=c([0,hm(a)],i);switch(a[1]){case
+i=a[3],j=c([0,ho(a)],i);switch(a[1]){case
 0:var
-d=q0;break;case
+d=q8;break;case
 1:var
-d=q1;break;case
+d=q9;break;case
 2:var
-d=q2;break;default:var
-d=q3}var
-l=a[2];return f(c(hm(a),l),[0,d,j]);case
+d=q_;break;default:var
+d=q$}var
+l=a[2];return f(c(ho(a),l),[0,d,j]);case
 4:var
-m=[0,q9,hk(a[2])];return f(c(q_,a[1]),m);default:return[0,ra,f(ei(b,a[1]),q$)]}}function
-J(a){return[0,rd,f(ei(function(a){return 0===a[0]?a[1]:rc},a),rb)]}function
-hn(a){return[0,rf,f(ei(function(a){return a},a),re)]}function
-b0(a){if(0===a[0])return J(a[1]);var
-b=[0,g(rg,J(a[2])),0];return S([0,g(rh,J(a[1])),b])}function
-fE(b,a){var
+m=[0,rf,hm(a[2])];return f(c(rg,a[1]),m);default:return[0,ri,f(ej(b,a[1]),rh)]}}function
+J(a){return[0,rl,f(ej(function(a){return 0===a[0]?a[1]:rk},a),rj)]}function
+hp(a){return[0,rn,f(ej(function(a){return a},a),rm)]}function
+b1(a){if(0===a[0])return J(a[1]);var
+b=[0,g(ro,J(a[2])),0];return S([0,g(rp,J(a[1])),b])}function
+fG(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
-ri(a){function
-b(a){return fE(b0,a)}switch(a[0]){case
+rq(a){function
+b(a){return fG(b1,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?rj:rr,i=[0,g(rk,ag(h)),e],j=[0,g(rl,b0(a[4])),i],k=[0,g(rm,b(a[3])),j],l=[0,g(rn,b(a[2])),k],m=[0,g(ro,b(a[1])),l],c=[0,g(rq,ag(rp)),m];break;case
+e=0,h=a[5]?rr:rz,i=[0,g(rs,ah(h)),e],j=[0,g(rt,b1(a[4])),i],k=[0,g(ru,b(a[3])),j],l=[0,g(rv,b(a[2])),k],m=[0,g(rw,b(a[1])),l],c=[0,g(ry,ah(rx)),m];break;case
 1:var
-d=a[3],n=d?[0,g(rs,b(d[1])),0]:d,o=[0,g(rt,b(a[2])),0],p=[0,g(ru,b(a[1])),o],c=f([0,g(rw,ag(rv)),p],n);break;default:var
-q=[0,g(rx,b(a[1])),0],c=[0,g(rz,ag(ry)),q]}return S(c)}function
-rA(a){function
-b(a){return A(e(b0,a))}function
+d=a[3],n=d?[0,g(rA,b(d[1])),0]:d,o=[0,g(rB,b(a[2])),0],p=[0,g(rC,b(a[1])),o],c=f([0,g(rE,ah(rD)),p],n);break;default:var
+q=[0,g(rF,b(a[1])),0],c=[0,g(rH,ah(rG)),q]}return S(c)}function
+rI(a){function
+b(a){return A(e(b1,a))}function
 d(a){var
-b=a?rB:rD;return g(rC,ag(b))}switch(a[0]){case
+b=a?rJ:rL;return g(rK,ah(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(rE,b0(a[4])),f],i=[0,g(rF,b(a[3])),h],j=[0,g(rG,b(a[2])),i],k=[0,g(rH,b(a[1])),j],c=[0,g(rJ,ag(rI)),k];break;case
+f=[0,d(a[5]),0],h=[0,g(rM,b1(a[4])),f],i=[0,g(rN,b(a[3])),h],j=[0,g(rO,b(a[2])),i],k=[0,g(rP,b(a[1])),j],c=[0,g(rR,ah(rQ)),k];break;case
 1:var
-l=[0,g(rK,b(a[2])),0],m=[0,g(rL,b(a[1])),l],c=[0,g(rN,ag(rM)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(rO,b0(a[6])),n],p=[0,g(rP,b0(a[5])),o],q=[0,g(rQ,b(a[4])),p],r=[0,g(rR,b(a[3])),q],s=[0,g(rS,b(a[2])),r],t=[0,g(rT,b(a[1])),s],c=[0,g(rV,ag(rU)),t]}return S(c)}function
-ho(a){switch(a){case
-0:return rW;case
-1:return rX;case
-2:return rY;case
-3:return rZ;case
-4:return r0;case
-5:return r1;case
-6:return r2;case
-7:return r3;case
-8:return r4;case
-9:return r5;case
-10:return r6;case
-11:return r7;case
-12:return r8;default:return r9}}function
-hp(a){if(typeof
-a==="number")return r_;else
+l=[0,g(rS,b(a[2])),0],m=[0,g(rT,b(a[1])),l],c=[0,g(rV,ah(rU)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,g(rW,b1(a[6])),n],p=[0,g(rX,b1(a[5])),o],q=[0,g(rY,b(a[4])),p],r=[0,g(rZ,b(a[3])),q],s=[0,g(r0,b(a[2])),r],t=[0,g(r1,b(a[1])),s],c=[0,g(r3,ah(r2)),t]}return S(c)}function
+hq(a){switch(a){case
+0:return r4;case
+1:return r5;case
+2:return r6;case
+3:return r7;case
+4:return r8;case
+5:return r9;case
+6:return r_;case
+7:return r$;case
+8:return sa;case
+9:return sb;case
+10:return sc;case
+11:return sd;case
+12:return se;default:return sf}}function
+hr(a){if(typeof
+a==="number")return sg;else
 switch(a[0]){case
-0:return r$;case
-1:return sa;default:return sb}}function
-ej(a){var
+0:return sh;case
+1:return si;default:return sj}}function
+ek(a){var
 b=a[4];if(typeof
 b==="number")var
 c=0;else
 switch(b[0]){case
 0:var
-c=[0,g(sc,J(b[1])),0];break;case
+c=[0,g(sk,J(b[1])),0];break;case
 1:var
-c=[0,g(sd,J(b[1])),0];break;default:var
-l=[0,J(b[2]),0],c=[0,g(se,A([0,J(b[1]),l])),0]}var
-m=[0,g(sf,ag(hp(a[4]))),c],e=a[3];if(e){var
+c=[0,g(sl,J(b[1])),0];break;default:var
+l=[0,J(b[2]),0],c=[0,g(sm,A([0,J(b[1]),l])),0]}var
+m=[0,g(sn,ah(hr(a[4]))),c],e=a[3];if(e){var
 d=e[1];if(0===d[0])var
-o=A([0,J(d[1]),0]),i=a[1],n=0,p=6===i?sg:12===i?sk:sl,j=[0,g(sh,I(p,o)),n];else
+o=A([0,J(d[1]),0]),i=a[1],n=0,p=6===i?so:12===i?ss:st,j=[0,g(sp,I(p,o)),n];else
 var
-t=[0,g(sm,A([0,J(d[2]),0])),0],j=[0,g(so,S([0,g(sn,A([0,J(d[1]),0])),t])),0];var
+t=[0,g(su,A([0,J(d[2]),0])),0],j=[0,g(sw,S([0,g(sv,A([0,J(d[1]),0])),t])),0];var
 k=j}else
 var
 k=e;var
-q=f(k,m),h=a[2],r=h?[0,g(si,bZ(h[1])),0]:h,s=f(r,q);return S([0,g(sj,ag(ho(a[1]))),s])}function
-lj(a){if(0===a[0]){var
-b=[0,g(sp,fE(J,a[2])),0];return I(sr,S([0,g(sq,fE(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,g(ss,A([0,J(a[4]),c])),0],e=[0,g(st,J(a[3])),d],f=[0,J(a[2]),0];return I(sv,S([0,g(su,A([0,J(a[1]),f])),e]))}function
-lk(a){if(0===a[0]){var
-b=[0,g(sw,A(e(J,a[2]))),0];return I(sy,S([0,g(sx,A(e(J,a[1]))),b]))}return lj([1,a[1],a[2],a[3],a[4],a[5]])}function
-ll(a){switch(a){case
-0:return sz;case
-1:return sA;default:return sB}}function
-sC(a){function
-b(a){return A(e(b0,a))}var
-c=[0,g(sD,b(a[2])),0],d=[0,g(sE,b(a[1])),c];return S([0,g(sG,ag(sF)),d])}function
-lm(a){function
+q=f(k,m),h=a[2],r=h?[0,g(sq,b0(h[1])),0]:h,s=f(r,q);return S([0,g(sr,ah(hq(a[1]))),s])}function
+ln(a){if(0===a[0]){var
+b=[0,g(sx,fG(J,a[2])),0];return I(sz,S([0,g(sy,fG(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,g(sA,A([0,J(a[4]),c])),0],e=[0,g(sB,J(a[3])),d],f=[0,J(a[2]),0];return I(sD,S([0,g(sC,A([0,J(a[1]),f])),e]))}function
+lo(a){if(0===a[0]){var
+b=[0,g(sE,A(e(J,a[2]))),0];return I(sG,S([0,g(sF,A(e(J,a[1]))),b]))}return ln([1,a[1],a[2],a[3],a[4],a[5]])}function
+lp(a){switch(a){case
+0:return sH;case
+1:return sI;default:return sJ}}function
+sK(a){function
+b(a){return A(e(b1,a))}var
+c=[0,g(sL,b(a[2])),0],d=[0,g(sM,b(a[1])),c];return S([0,g(sO,ah(sN)),d])}function
+lq(a){function
 b(b,a){var
 c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
-0:return I(sH,b(a[1],a[2]));case
+0:return I(sP,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(sI,b(c[1],c[2])),0],h=[0,g(sJ,b(d[1],d[2])),f];return I(sL,S([0,g(sK,b(e[1],e[2])),h]));case
-2:return I(sM,J(a[1]));default:var
-i=[0,g(sN,J(a[2])),0];return I(sP,S([0,g(sO,J(a[1])),i]))}}function
-sQ(a){function
-b(a){return fE(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(sR,b(c[1])),0]:c,h=[0,J(a[4]),0],i=[0,g(sS,A([0,J(a[3]),h])),0],j=[0,g(sT,J(a[2])),i],k=[0,g(sU,bZ(a[1])),j],d=f([0,g(sW,ag(sV)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,g(sQ,b(c[1],c[2])),0],h=[0,g(sR,b(d[1],d[2])),f];return I(sT,S([0,g(sS,b(e[1],e[2])),h]));case
+2:return I(sU,J(a[1]));default:var
+i=[0,g(sV,J(a[2])),0];return I(sX,S([0,g(sW,J(a[1])),i]))}}function
+sY(a){function
+b(a){return fG(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,g(sZ,b(c[1])),0]:c,h=[0,J(a[4]),0],i=[0,g(s0,A([0,J(a[3]),h])),0],j=[0,g(s1,J(a[2])),i],k=[0,g(s2,b0(a[1])),j],d=f([0,g(s4,ah(s3)),k],e);else
 var
-l=[0,g(sX,J(a[4])),0],m=[0,g(sY,b(a[3])),l],n=[0,g(sZ,b(a[2])),m],o=a[1]?s0:s2,d=[0,g(s1,ag(o)),n];return S(d)}function
-hq(d,c,a,b){var
-h=[0,g(s3,A(e(ej,b))),0],i=a?[0,g(s4,A(e(sQ,a))),0]:a,j=f(i,h),k=[0,g(s5,lj(c)),0];return S(f([0,g(s7,I(s6,A(e(ri,d)))),k],j))}function
-s8(a){switch(a[0]){case
-0:return I(s9,hq(a[1],a[2],a[3],a[4]));case
+l=[0,g(s5,J(a[4])),0],m=[0,g(s6,b(a[3])),l],n=[0,g(s7,b(a[2])),m],o=a[1]?s8:s_,d=[0,g(s9,ah(o)),n];return S(d)}function
+hs(d,c,a,b){var
+h=[0,g(s$,A(e(ek,b))),0],i=a?[0,g(ta,A(e(sY,a))),0]:a,j=f(i,h),k=[0,g(tb,ln(c)),0];return S(f([0,g(td,I(tc,A(e(rq,d)))),k],j))}function
+te(a){switch(a[0]){case
+0:return I(tf,hs(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],h=A(e(rA,a[2])),m=[0,g(s_,A(e(ej,a[6]))),0],n=b?[0,g(s$,lm(b[1])),0]:b,o=f(n,m),l=0,p=[0,g(ta,lk(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],h=A(e(rI,a[2])),m=[0,g(tg,A(e(ek,a[6]))),0],n=b?[0,g(th,lq(b[1])),0]:b,o=f(n,m),l=0,p=[0,g(ti,lo(a[4])),o];if(typeof
 d==="number")if(d)var
-i=tb;else{var
-j=I(tg,h);l=1}else
+i=tj;else{var
+j=I(to,h);l=1}else
 var
-i=ll(d[1]);if(!l)var
-q=c?[0,g(tc,J(c[1])),0]:c,j=I(i,S([0,g(td,h),q]));return I(tf,S([0,g(te,j),p]));case
+i=lp(d[1]);if(!l)var
+q=c?[0,g(tk,J(c[1])),0]:c,j=I(i,S([0,g(tl,h),q]));return I(tn,S([0,g(tm,j),p]));case
 2:var
-r=[0,g(th,A(e(ej,a[6]))),0],s=[0,g(ti,lm(a[5])),r],t=[0,g(tj,lk(a[4])),s],u=[0,g(tk,J(a[3])),0],v=S([0,g(tl,A(e(sC,a[2]))),u]);return I(tn,S([0,g(tm,I(ll(a[1]),v)),t]));case
+r=[0,g(tp,A(e(ek,a[6]))),0],s=[0,g(tq,lq(a[5])),r],t=[0,g(tr,lo(a[4])),s],u=[0,g(ts,J(a[3])),0],v=S([0,g(tt,A(e(sK,a[2]))),u]);return I(tv,S([0,g(tu,I(lp(a[1]),v)),t]));case
 3:var
-w=[0,g(to,A(e(ej,a[7]))),0],x=[0,g(tp,A(e(J,a[6]))),0],y=[0,g(ts,I(tr,S([0,g(tq,A(e(J,a[5]))),x]))),w],z=0,B=a[4],C=[0,g(tv,A(e(function(a){return 0===a[0]?I(tt,A(e(hn,a[1]))):I(tu,hn(a[1]))},B))),z],D=a[3],E=[0,g(tw,A(e(function(a){var
-b=[0,hn(a[2]),0];return A([0,ag(a[1]),b])},D))),C],F=a[2],G=[0,g(tx,A(e(function(a){var
-b=[0,b0(a[2]),0];return A([0,ag(a[1]),b])},F))),E];return I(tB,S([0,g(tA,I(tz,S([0,g(ty,A(e(ag,a[1]))),G]))),y]));case
+w=[0,g(tw,A(e(ek,a[7]))),0],x=[0,g(tx,A(e(J,a[6]))),0],y=[0,g(tA,I(tz,S([0,g(ty,A(e(J,a[5]))),x]))),w],z=0,B=a[4],C=[0,g(tD,A(e(function(a){return 0===a[0]?I(tB,A(e(hp,a[1]))):I(tC,hp(a[1]))},B))),z],D=a[3],E=[0,g(tE,A(e(function(a){var
+b=[0,hp(a[2]),0];return A([0,ah(a[1]),b])},D))),C],F=a[2],G=[0,g(tF,A(e(function(a){var
+b=[0,b1(a[2]),0];return A([0,ah(a[1]),b])},F))),E];return I(tJ,S([0,g(tI,I(tH,S([0,g(tG,A(e(ah,a[1]))),G]))),y]));case
 4:var
-H=[0,g(tC,A(e(ej,a[3]))),0],K=[0,g(tF,I(tE,S([0,g(tD,J(a[2])),0]))),H];return I(tJ,S([0,g(tI,I(tH,S([0,g(tG,J(a[1])),0]))),K]));case
+H=[0,g(tK,A(e(ek,a[3]))),0],K=[0,g(tN,I(tM,S([0,g(tL,J(a[2])),0]))),H];return I(tR,S([0,g(tQ,I(tP,S([0,g(tO,J(a[1])),0]))),K]));case
 5:var
-L=[0,g(tK,J(a[5])),0];return I(tM,S([0,g(tL,hq(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,g(tS,J(a[5])),0];return I(tU,S([0,g(tT,hs(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-k=a[1],M=0,N=k?b0(k[1]):ag(tP);return I(tO,S([0,g(tN,N),M]));default:var
-O=[0,g(tQ,J(a[6])),0],P=[0,g(tR,J(a[5])),O],Q=[0,g(tS,hq(a[2],a[3],0,a[4])),P],R=a[1];return I(tX,S([0,g(tW,A(e(function(a){var
-b=[0,g(tT,J(a[2][2])),0],c=[0,g(tU,J(a[2][1])),b];return S([0,g(tV,ag(a[1])),c])},R))),Q]))}}function
-ek(a){return A(e(fD,a))}function
-fF(b,a){var
-c=[0,g(tY,hl(a)),0];return S([0,g(tZ,A(e(ek,b))),c])}function
-el(a){switch(a[0]){case
-0:return ag(a[1]);case
+k=a[1],M=0,N=k?b1(k[1]):ah(tX);return I(tW,S([0,g(tV,N),M]));default:var
+O=[0,g(tY,J(a[6])),0],P=[0,g(tZ,J(a[5])),O],Q=[0,g(t0,hs(a[2],a[3],0,a[4])),P],R=a[1];return I(t5,S([0,g(t4,A(e(function(a){var
+b=[0,g(t1,J(a[2][2])),0],c=[0,g(t2,J(a[2][1])),b];return S([0,g(t3,ah(a[1])),c])},R))),Q]))}}function
+el(a){return A(e(fF,a))}function
+fH(b,a){var
+c=[0,g(t6,hn(a)),0];return S([0,g(t7,A(e(el,b))),c])}function
+em(a){switch(a[0]){case
+0:return ah(a[1]);case
 1:var
-b=fF(a[2],a[3]);return I(a[1],b);case
+b=fH(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?t0:t2;return I(t1,ag(c));case
+c=a[1]?t8:t_;return I(t9,ah(c));case
 3:var
-d=[0,ek(a[3]),0];return I(t3,A([0,fF(a[1],a[2]),d]));case
+d=[0,el(a[3]),0];return I(t$,A([0,fH(a[1],a[2]),d]));case
 4:var
-f=[0,bZ(0),0],g=[0,fD(a[3]),f];return I(t4,A([0,fF(a[1],a[2]),g]));case
+f=[0,b0(0),0],g=[0,fF(a[3]),f];return I(ua,A([0,fH(a[1],a[2]),g]));case
 5:var
-h=[0,hl(a[3]),0],i=[0,fD(a[2]),h];return I(t5,A([0,el(a[1]),i]));case
+h=[0,hn(a[3]),0],i=[0,fF(a[2]),h];return I(ub,A([0,em(a[1]),i]));case
 6:var
-j=[0,hl(a[3]),0],k=[0,fD(a[2]),j];return I(t6,A([0,el(a[1]),k]));case
-7:return I(t7,el(a[1]));default:var
-l=[0,A(e(ek,a[3])),0],m=[0,ag(a[2]),l];return I(t8,A([0,el(a[1]),m]))}}function
-t9(a){var
-b=[0,el(a[2]),0];return A([0,bZ(a[1]),b])}function
-ln(a){if(typeof
-a==="number")return 0===a?ag(t_):ag(t$);else{if(0===a[0]){var
-b=[0,A(e(ek,a[2])),0];return I(ua,A([0,bZ(a[1]),b]))}var
-c=[0,bZ(a[2]),0];return I(ub,A([0,bZ(a[1]),c]))}}function
-uc(a){var
-b=a[4],i=b?[0,g(ud,ek([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(ue,ln(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(uf,bZ(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(ug,A(e(t9,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
-lo(h,a,d){var
-i=[0,g(uh,A(e(uc,d))),0];if(a)var
-b=a[1],c=[0,g(ui,fF(b[1],b[2])),0];else
+j=[0,hn(a[3]),0],k=[0,fF(a[2]),j];return I(uc,A([0,em(a[1]),k]));case
+7:return I(ud,em(a[1]));default:var
+l=[0,A(e(el,a[3])),0],m=[0,ah(a[2]),l];return I(ue,A([0,em(a[1]),m]))}}function
+uf(a){var
+b=[0,em(a[2]),0];return A([0,b0(a[1]),b])}function
+lr(a){if(typeof
+a==="number")return 0===a?ah(ug):ah(uh);else{if(0===a[0]){var
+b=[0,A(e(el,a[2])),0];return I(ui,A([0,b0(a[1]),b]))}var
+c=[0,b0(a[2]),0];return I(uj,A([0,b0(a[1]),c]))}}function
+uk(a){var
+b=a[4],i=b?[0,g(ul,el([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(um,lr(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(un,b0(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(uo,A(e(uf,[0,c[1],c[2]]))),0]:c;return S(f(n,m))}function
+ls(h,a,d){var
+i=[0,g(up,A(e(uk,d))),0];if(a)var
+b=a[1],c=[0,g(uq,fH(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return S([0,g(uj,hk(h)),j])}function
-lp(d,c,a,b){var
-h=[0,g(uk,ln(b)),0],i=a?[0,g(ul,A(e(J,a))),0]:a,j=f(i,h),k=[0,g(um,A(e(J,c))),0];return S(f([0,g(un,hk(d)),k],j))}function
-uo(a){if(typeof
-a==="number")return ag(up);else
+j=f(c,i);return S([0,g(ur,hm(h)),j])}function
+lt(d,c,a,b){var
+h=[0,g(us,lr(b)),0],i=a?[0,g(ut,A(e(J,a))),0]:a,j=f(i,h),k=[0,g(uu,A(e(J,c))),0];return S(f([0,g(uv,hm(d)),k],j))}function
+uw(a){if(typeof
+a==="number")return ah(ux);else
 switch(a[0]){case
-0:return I(uq,bZ(a[1]));case
-1:return I(ur,lo(a[1],a[2],a[3]));default:return I(us,lp(a[1],a[2],a[3],a[4]))}}function
-fG(a){var
-b=gk(gj(al(a),function(b){return aI(a,b)}));return n(function(a){var
-b=aj(34===a?1:0),c=b?aj(92===a?1:0):b,d=c?Z(uH,eS(a)):c;return d?Z(eS(a),uI):d},b)}function
-em(b){function
+0:return I(uy,b0(a[1]));case
+1:return I(uz,ls(a[1],a[2],a[3]));default:return I(uA,lt(a[1],a[2],a[3],a[4]))}}function
+fI(a){var
+b=gn(gm(al(a),function(b){return aI(a,b)}));return n(function(a){var
+b=ai(34===a?1:0),c=b?ai(92===a?1:0):b,d=c?Z(uP,eU(a)):c;return d?Z(eU(a),uQ):d},b)}function
+en(b){function
 c(f){var
-a=eS(f),b=Z(uJ,a),c=b?Z(a,uK):b;if(c)var
+a=eU(f),b=Z(uR,a),c=b?Z(a,uS):b;if(c)var
 d=c;else{var
-e=Z(uL,a);if(e)return Z(a,uM);var
+e=Z(uT,a);if(e)return Z(a,uU);var
 d=e}return d}var
-a=gk(gj(al(b),function(a){return aI(b,a)}));if(a){var
+a=gn(gm(al(b),function(a){return aI(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eS(a),f=Z(uN,e),h=f?Z(e,uO):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),uP):f;if(g)return aj(am(b,uQ));var
+e=eU(a),f=Z(uV,e),h=f?Z(e,uW):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),uX):f;if(g)return ai(am(b,uY));var
 h=g}else
 var
 h=a;return h}function
-hr(c){var
+ht(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return em(a[1]);case
+1:return en(a[1]);case
 3:var
-b=hr(a[2]);if(b){var
+b=ht(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-en(m){var
+eo(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4451,36 +4484,36 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eJ(a[2]);if(typeof
+f=eL(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=en(a[2]);if(i){var
+i=eo(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=en(a[1]),l=k?eN(c(2,b),j):k;return l?eN(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=eo(a[1]),l=k?eP(b(2,c),j):k;return l?eP(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-du(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bt(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cM(a){return z(du,bt(a))}function
-hs(a){switch(a[0]){case
+dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bu(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cM(a){return z(dv,bu(a))}function
+hu(a){switch(a[0]){case
 0:var
-c=du(a[4]),d=f(cM(a[3]),c),e=f(cM(a[2]),d);return f(cM(a[1]),e);case
+c=dv(a[4]),d=f(cM(a[3]),c),e=f(cM(a[2]),d);return f(cM(a[1]),e);case
 1:var
 b=a[3],g=b?cM(b[1]):b,h=f(cM(a[2]),g);return f(cM(a[1]),h);default:return cM(a[1])}}function
-uR(a){switch(a[0]){case
+uZ(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(du,b)}function
-lq(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lr(a){if(0===a[0]){var
-b=bt(a[2]);return f(bt(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ls(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dv,b)}function
+lu(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lv(a){if(0===a[0]){var
+b=bu(a[2]);return f(bu(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lw(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -4490,66 +4523,66 @@ a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=d[3];if(c)var
 b=c[1],h=0===b[0]?[0,b[1],0]:[0,b[1],[0,b[2],0]],e=h;else
 var
 e=c;return f(e,g)}function
-uS(a){if(0===a[0]){var
-b=a[5],c=b?bt(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bt(a[3]),d);return f(bt(a[2]),e)}function
-lt(b,e){var
+u0(a){if(0===a[0]){var
+b=a[5],c=b?bu(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bu(a[3]),d);return f(bu(a[2]),e)}function
+lx(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aq(function(a){return am(f,a)},b)}return 0;case
 3:var
-d=lt(b,a[2]);if(d){var
+d=lx(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fH(c,a){return n(function(a){var
-b=en(a);return b?lt(c,a):b},a)}function
-lu(a){var
-d=eN(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eN(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-lv(a,b){return b?[4,lv(a,b[1]),a]:a}function
+fJ(c,a){return n(function(a){var
+b=eo(a);return b?lx(c,a):b},a)}function
+ly(a){var
+d=eP(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eP(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+lz(a,b){return b?[4,lz(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return u(k,a)},m=eK(iE(i),l,b);return[0,iO(iF(eJ(a[1]),i)),m];case
+i=a[2],k=b(2,p(b(2,b(2,c)))),l=function(a){return u(k,a)},m=eM(iE(i),l,c);return[0,iO(iF(eL(a[1]),i)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
+e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bz(dS(a[2]));return lv(j(a[1]),n);default:return[6,j(a[1])]}}function
-bu(a){if(0===a[0]){var
+n=bA(dT(a[2]));return lz(j(a[1]),n);default:return[6,j(a[1])]}}function
+bv(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 cO(a){var
-b=bu(a[3]),c=bu(a[2]);return[0,bu(a[1]),c,b]}function
-uT(a){switch(a[0]){case
+b=bv(a[3]),c=bv(a[2]);return[0,bv(a[1]),c,b]}function
+u1(a){switch(a[0]){case
 0:var
-b=a[5],c=bu(a[4]),d=cO(a[3]),e=cO(a[2]);return[0,[0,cO(a[1]),e,d,c,b]];case
+b=a[5],c=bv(a[4]),d=cO(a[3]),e=cO(a[2]);return[0,[0,cO(a[1]),e,d,c,b]];case
 1:var
 f=y(cO,a[3]),g=cO(a[2]);return[1,cO(a[1]),g,f];default:return[2,cO(a[1])]}}function
-lw(a){if(0===a[0]){var
+lA(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
-dv(a){var
+dw(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-dw(a){if(0===a[0]){var
-c=a[5],h=c?dv(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bz(a[1]),l,k,i,h]}var
+dx(a){if(0===a[0]){var
+b=a[5],h=b?dw(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bA(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dv(f),n=dv(g);return[2,j(e),n,m]}var
-o=dv(f),p=dv(g);return[1,j(e),p,o]}function
-ht(b,a){if(a){var
-c=a[1],d=a[2],g=ht(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(ct(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:b9(b[1],a[1]);return aj(d)},h),g)}return a}function
-uU(b){if(b[1])return 0;var
+m=dw(f),n=dw(g);return[2,j(e),n,m]}var
+o=dw(f),p=dw(g);return[1,j(e),p,o]}function
+hv(b,a){if(a){var
+c=a[1],d=a[2],g=hv(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(ct(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:v(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return ai(d)},h),g)}return a}function
+u2(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-uW(c,a){switch(a[1]){case
+u4(c,a){switch(a[1]){case
 0:var
 k=a[4];if(typeof
 k!=="number"&&2!==k[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4581,7 +4614,7 @@ f=a[3];return f?0===f[1][0]?1:0:f}return 0;case
 I=0,w=a[4];if(typeof
 w==="number"||!(1===w[0]))I=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-x=v(c,uY),J=0;if(x){var
+x=v(c,u6),J=0;if(x){var
 y=a[2];if(y){var
 b=y[1];J=1}else
 var
@@ -4604,12 +4637,12 @@ D=C;return D;case
 12:var
 E=a[4];if(typeof
 E!=="number"&&1===E[0]){if(a[2])return 0;var
-j=a[3];return j?0===j[1][0]?v(c,uZ):0:j}return 0;case
+j=a[3];return j?0===j[1][0]?v(c,u7):0:j}return 0;case
 13:return 0;default:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0])return a[2]?0:a[3]?0:1;return 0}var
-n=Z(uX,b);return n?Z(b,c):n}function
-hu(g,m,_,c){var
+n=Z(u5,b);return n?Z(b,c):n}function
+hw(g,m,_,b){var
 $=i(g),h=z(function(a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
@@ -4619,15 +4652,15 @@ f=a[4],z=0;if(typeof
 f==="number")z=1;else
 switch(f[0]){case
 0:var
-K=f[1],c=function(a){return[2,a,j(K)]};break;case
+K=f[1],b=function(a){return[2,a,j(K)]};break;case
 1:var
-M=f[1],c=function(a){return[3,a,j(M)]};break;default:z=1}if(z)return 0;break;case
+M=f[1],b=function(a){return[3,a,j(M)]};break;default:z=1}if(z)return 0;break;case
 2:var
 h=a[4],G=0;if(typeof
 h==="number"||!(1===h[0]))G=1;else{var
 i=a[3],N=h[1];if(!i)return i;var
 B=i[1];if(0!==B[0])return 0;var
-O=B[1],c=function(a){var
+O=B[1],b=function(a){var
 b=j(N);return[4,a,j(O),b]}}if(G)return 0;break;case
 3:var
 k=a[4];if(typeof
@@ -4636,7 +4669,7 @@ k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 l=a[4],H=0;if(typeof
 l==="number"||!(0===l[0]))H=1;else
 var
-P=l[1],c=function(a){return[6,a,j(P)]};if(H)return 0;break;case
+P=l[1],b=function(a){return[6,a,j(P)]};if(H)return 0;break;case
 5:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
@@ -4654,40 +4687,40 @@ q=a[4],I=0;if(typeof
 q==="number"||!(1===q[0]))I=1;else{var
 r=a[3],R=q[1];if(!r)return r;var
 D=r[1];if(0!==D[0])return 0;var
-S=D[1],c=function(a){var
+S=D[1],b=function(a){var
 b=j(R);return[13,a,j(S),b]}}if(I)return 0;break;case
 9:var
 s=a[4];if(typeof
 s!=="number"&&0===s[0]){var
-T=s[1],U=ht(0,_);return e(function(h){var
-e=j(T),a=h[2],c=h[1];if(0===c[0]){var
-f=c[1];if(0===a[0]){var
-g=function(a){return a?dv(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(v(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
-n=dw(a);return[10,dw(c),n,e]}var
-o=dw(a);return[10,dw(c),o,e]}var
-p=dw(a);return[10,dw(c),p,e]},U)}return 0;case
+T=s[1],U=hv(0,_);return e(function(h){var
+e=j(T),a=h[2],b=h[1];if(0===b[0]){var
+f=b[1];if(0===a[0]){var
+g=function(a){return a?dw(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(v(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bA(f),m,l,k]}var
+n=dx(a);return[10,dx(b),n,e]}var
+o=dx(a);return[10,dx(b),o,e]}var
+p=dx(a);return[10,dx(b),p,e]},U)}return 0;case
 10:var
 t=a[4],J=0;if(typeof
 t==="number"||!(1===t[0]))J=1;else{var
 u=a[3],V=t[1];if(!u)return u;var
 w=u[1];if(0===w[0])return 0;var
-W=w[2],X=w[1],c=function(a){var
+W=w[2],X=w[1],b=function(a){var
 b=j(V),c=j(W);return[12,a,j(X),c,b]}}if(J)return 0;break;case
 11:var
 E=typeof
-a[4]==="number"?1:0,Y=E?uV:E;return Y;case
+a[4]==="number"?1:0,Y=E?u3:E;return Y;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 y=a[3];if(y){var
 F=y[1];if(0===F[0]){var
 Z=j(x[1]);return[0,[14,j(F[1]),Z],0]}return 0}return y}return 0;default:return 0}var
-A=a[2],L=A?[0,bz(A[1]),0]:aV(0,$);return e(c,L)},c),a=z(uU,c),k=a?[0,a[1],a[2]]:u0,l=f(k,h),n=lw(m);return[0,e(uT,g),n,l]}function
-lx(b){if(b[1])return 0;var
+A=a[2],L=A?[0,bA(A[1]),0]:aV(0,$);return e(b,L)},b),a=z(u2,b),k=a?[0,a[1],a[2]]:u8,l=f(k,h),n=lA(m);return[0,e(u1,g),n,l]}function
+lB(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-ly(z,y,a){switch(a[1]){case
+lC(z,y,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -4737,10 +4770,10 @@ p=a[4],x=0;if(typeof
 p==="number"||!(1===p[0]))x=1;else
 var
 L=p[1],b=function(a){return[11,a,j(L)]};if(x)return 0;break;default:return 0}var
-q=a[2],B=q?[0,bz(q[1]),0]:aV(0,y);return e(b,B)}function
-dx(d,c,b){var
-e=z(function(a){return ly(d,c,a)},b),a=z(lx,b),g=a?[0,a[1],a[2]]:u1;return f(g,e)}function
-hv(a){return 11===a[1]?1:0}function
+q=a[2],B=q?[0,bA(q[1]),0]:aV(0,y);return e(b,B)}function
+dy(d,c,b){var
+e=z(function(a){return lC(d,c,a)},b),a=z(lB,b),g=a?[0,a[1],a[2]]:u9;return f(g,e)}function
+fK(a){return 11===a[1]?1:0}function
 bH(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -4751,18 +4784,18 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=b9(n,e);if(f){var
+f=b_(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(u2,h);return i?Z(h,m):i}var
+h=g[1],i=Z(u_,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a7(n,b,a){var
+a$(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(u3,e),o=f?Z(e,b):f,c=o;else
+e=d[1],f=Z(u$,e),o=f?Z(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
@@ -4778,6 +4811,8 @@ k=a[3];return k?0===k[1][0]?a[2]?0:1:bH(0,b,a):bH(0,b,a)}return bH(0,b,a);case
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
 m=a[3];return m?0===m[1][0]?c?v(b,n):c:bH(0,b,a):bH(0,b,a)}return bH(0,b,a)}return bH(0,b,a)}function
+lD(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?a$(c,b,a):a[3]?a$(c,b,a):1:a$(c,b,a):a$(c,b,a)}function
 cm(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -4789,10 +4824,10 @@ b=cm(a[2]),c=cm(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cm(a[1]),d];default:return[8,cm(a[1])]}}function
-hw(c){function
+hx(b){function
 a(e){var
-a=[0,d,b];return t(e,c,[0,a,a])}var
-e=a(u5),f=a(u6);return[0,a(0),f,e]}function
+a=[0,d,c];return t(e,b,[0,a,a])}var
+e=a(vb),f=a(vc);return[0,a(0),f,e]}function
 cP(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
@@ -4801,37 +4836,37 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-lz(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,hw(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return lw([1,a[1],a[2],a[3],a[4],a[5]])}function
-lA(h,a,g,f,d,c){function
-b(a){return hw(e(bu,a))}var
-k=dx(0,i(a),c),l=cP(d),m=lz(f),n=j(g);return[0,h,e(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),n,m,l,k]}function
-lB(a){return aq(function(a){return 2===a[0]?1:0},a)}function
-lC(k,a,c,h,g,f){var
-l=i(a),m=dx(lB(a),l,f),n=y(cP,g),o=lz(h),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return hw(e(bu,a))}switch(a[0]){case
+lE(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,hx(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return lA([1,a[1],a[2],a[3],a[4],a[5]])}function
+lF(h,b,g,f,d,a){function
+c(a){return hx(e(bv,a))}var
+k=aq(fK,a),l=dy(0,i(b),a),m=cP(d),n=lE(f),o=j(g);return[0,h,e(function(a){var
+b=c(a[2]);return[0,c(a[1]),b]},b),o,n,m,l,k]}function
+lG(a){return aq(function(a){return 2===a[0]?1:0},a)}function
+lH(k,a,b,h,g,f){var
+l=i(a),m=dy(lG(a),l,f),n=y(cP,g),o=lE(h),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return hx(e(bv,a))}switch(a[0]){case
 0:var
-k=a[5],l=bu(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bv(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
-o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
+o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
-g=c(f);else
+g=b(f);else
 var
-h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bu(a[6]),r=bu(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-lD(o,e,a){if(e)if(a){var
+h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bv(a[6]),r=bv(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+lI(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=bT(j(g[2][1]));if(k){var
 l=k[1],m=bT(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
-d(a){return c(2,a)}var
-e=[0,a,eK(h[2],d,b)];return cv(l,bB(dV(p,l),e))},q=n(x(h[1],b)),f=[0,n(h[1]),q];else
+d(a){return b(2,a)}var
+e=[0,a,eM(h[2],d,c)];return cv(l,bC(dW(p,l),e))},q=n(x(h[1],c)),f=[0,n(h[1]),q];else
 var
-f=[0,[0,d,b],[0,d,b]]}else
+f=[0,[0,d,c],[0,d,c]]}else
 var
-f=[0,[0,d,b],[0,d,b]];var
-r=lD([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,d,c],[0,d,c]];var
+r=lI([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -4846,15 +4881,15 @@ e=c[1],d=iS(function(a){return am(e,a[1])},b);return d?[1,d[1][2]]:a}return a;ca
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-lE(b,a){if(0===a[0])return[0,an(b,a[1])];var
+lJ(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-hx(b,a){var
+hy(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hy(c,a){if(c)if(a){var
+hz(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hy(h,g);if(e){var
-i=e[1],f=hy(h,i[2]);if(f)var
+e=hz(h,g);if(e){var
+i=e[1],f=hz(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -4866,87 +4901,87 @@ var
 d=a;else
 var
 d=c;return d}function
-hz(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hz(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(u(c(2,b),l),k),j],h]}else
+hA(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hA(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,x(u(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-u7(a){if(typeof
+vd(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-u8(a){if(typeof
+ve(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fI(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=fI(e,a[3]);return bB(cv(fI(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
-r=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-b1(h){var
+fL(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=fL(e,a[3]);return bC(cv(fL(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}var
+q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+b2(h){var
 a=bj(function(f,e){var
-a=aX(r,f);if(a)var
+a=aX(q,f);if(a)var
 b=a[1],c=bg(c3(b[1]),c3(b[2]));else
 var
-c=d;return bg(c,e)},d,h);if(T(d,a)){var
-f=a3(a);if(0===f||!(0<f&&!G(a,b)))var
+c=d;return bg(c,e)},d,h);if(U(d,a)){var
+f=a3(a);if(0===f||!(0<f&&!G(a,c)))var
 g=d;else
 var
-c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eM(e):eM(e);return aB(g,r)}return d}function
-dy(a){return[0,a[1],[0,a[2],0]]}function
+b=aU(a,aD(2)),e=b[1],g=Y(b[2],d)?eO(e):eO(e);return aB(g,q)}return d}function
+dz(a){return[0,a[1],[0,a[2],0]]}function
 a1(a){var
-b=dy(a[3]),c=f(dy(a[2]),b);return f(dy(a[1]),c)}function
-lF(a){return 0===a[0]?dy(a[1][4]):0}function
-lG(a){switch(a[0]){case
+b=dz(a[3]),c=f(dz(a[2]),b);return f(dz(a[1]),c)}function
+lK(a){return 0===a[0]?dz(a[1][4]):0}function
+lL(a){switch(a[0]){case
 0:var
 b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
 d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fJ(a){switch(a[0]){case
-0:return b1(a1(a[1][1]));case
+fM(a){switch(a[0]){case
+0:return b2(a1(a[1][1]));case
 1:var
-b=a[3];return b?b1(a1(b[1])):d;default:return b1(a1(a[1]))}}function
-hA(c){var
-a=z(lF,c),d=a?[0,a[1],a[2]]:z(lG,c);return x(b,b1(d))}function
-lH(c,a){if(c){if(a){var
+b=a[3];return b?b2(a1(b[1])):d;default:return b2(a1(a[1]))}}function
+hB(b){var
+a=z(lK,b),d=a?[0,a[1],a[2]]:z(lL,b);return x(c,b2(d))}function
+lM(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=u9;else
+b=vf;else
 if(43===d)var
-b=u_;else
+b=vg;else
 var
-f=48===d?1:0,i=f?u$:f,b=i;if(b)var
-e=lH(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?vh:f,b=i;if(b)var
+e=lM(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:va}function
-eo(b,a){switch(a[0]){case
+h=a;return h}return a?0:vi}function
+ep(b,a){switch(a[0]){case
 0:var
-c=a[1];if(am(c,vb))return vc;if(am(c,vd))return ve;if(am(c,vf))return vg;if(am(c,vh))return vi;if(am(c,vj))return vk;var
-k=am(c,vl),p=k?vm:k;return p;case
+c=a[1];if(am(c,vj))return vk;if(am(c,vl))return vm;if(am(c,vn))return vo;if(am(c,vp))return vq;if(am(c,vr))return vs;var
+k=am(c,vt),p=k?vu:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(am(f,vn))return[0,[0,d,e]];if(am(f,vo))return[0,[1,d,e]];if(am(f,vp))return[0,[2,d,e]];var
-l=am(f,vq),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(am(f,vv))return[0,[0,d,e]];if(am(f,vw))return[0,[1,d,e]];if(am(f,vx))return[0,[2,d,e]];var
+l=am(f,vy),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eo(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=ep(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eo(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=ep(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eo(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eo(b,a[1]);if(i)var
-j=lH(b,gk(gj(al(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=ep(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=ep(b,a[1]);if(i)var
+j=lM(b,gn(gm(al(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-lI(d,a){if(a){var
-e=a[1],b=eo(d,e[2]);if(b)var
-c=lI(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+lN(d,a){if(a){var
+e=a[1],b=ep(d,e[2]);if(b)var
+c=lN(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return vr}function
+f=b;return f}return vz}function
 cQ(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=lI(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=lN(d,b[1]);if(e){var
 l=e[1];if(i){var
 f=cQ(d,k,j);if(f){var
 m=f[1],g=cQ(d,k,m[2]);if(g)var
@@ -4964,25 +4999,25 @@ var
 h=a;else
 var
 h=c;return h}function
-hB(e,d,a){if(d){if(a){var
+hC(e,d,a){if(d){if(a){var
 b=cQ(e,i(a),a);if(b)var
-f=b[1],c=hB(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+f=b[1],c=hC(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return vs}return a?0:vt}function
-hC(a){return typeof
+g=b;return g}return vA}return a?0:vB}function
+hD(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hD(d,a){if(d)if(a){var
+hE(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hD(k,j);if(e){var
-l=e[1],f=hD(k,l[2]);if(f)var
+e=hE(k,j);if(e){var
+l=e[1],f=hE(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hC(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hD(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
@@ -4990,7 +5025,7 @@ g=d;return g}function
 cn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
 cR(a,e){var
 b=cn(a[1],e),c=cn(a[2],b[2]),d=cn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lJ(d,c){if(d){var
+lO(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=cR(a[1],c),f=cR(a[2],e[2]),g=cR(a[3],f[2]),h=cn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -5000,73 +5035,73 @@ o=cR(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=cR(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lJ(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-vu(a){if(typeof
+q=lO(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+vC(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return vw;case
+5:return vE;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return vv}function
+11:return 0}return vD}function
 ba(a,b){if(a){var
 c=cn(a[1],b),d=ba(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a8(c){function
-a(a){return t(a,c,[0,d,b])}var
-e=a(vz),f=a(vA);return[0,a(0),f,e]}function
-lK(a,b){if(a){var
-c=a[1],d=ba(c[1],b),e=ba(c[2],d[2]),f=lK(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-lL(f,c){if(f){var
+a7(b){function
+a(a){return t(a,b,[0,d,c])}var
+e=a(vH),f=a(vI);return[0,a(0),f,e]}function
+lP(a,b){if(a){var
+c=a[1],d=ba(c[1],b),e=ba(c[2],d[2]),f=lP(a[2],e[2]),g=f[2],h=f[1],i=a7(e[1]);return[0,[0,[0,a7(d[1]),i],h],g]}return[0,0,b]}function
+lQ(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=ba(a[1],c),h=ba(a[2],g[2]),i=ba(a[3],h[2]),j=cn(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=ba(a[1],b),h=ba(a[2],g[2]),i=ba(a[3],h[2]),j=cn(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a7(i[1]),y=a7(h[1]),e=[0,[0,[0,a7(g[1]),y,x,w,v]],u];break;case
 1:var
-k=ba(a[1],c),l=ba(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=ba(m,c),o=ba(a[2],n[2]),p=ba(a[3],o[2]),q=ba(a[4],p[2]),r=cn(a[5],q[2]),s=cn(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=lL(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dz(a){return ja(r,a)}function
-vB(a){if(typeof
+k=ba(a[1],b),l=ba(a[2],k[2]),z=l[2],A=a7(l[1]),e=[0,[0,[1,a7(k[1]),A,0]],z];break;default:var
+m=a[1],n=ba(m,b),o=ba(a[2],n[2]),p=ba(a[3],o[2]),q=ba(a[4],p[2]),r=cn(a[5],q[2]),s=cn(a[6],r[2]),B=m?a7(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a7(q[1]),H=a7(p[1]),e=[0,[1,[0,B,a7(o[1]),H,G,F,E,D]],C]}var
+t=lQ(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dA(a){return ja(q,a)}function
+vJ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(r,1,[3,a[1],[0,b,b]]);case
-6:return h(r,1,a[2]);case
+5:return h(q,1,[3,a[1],[0,c,c]]);case
+6:return h(q,1,a[2]);case
 8:var
-d=h(r,1,a[1]);return d?h(r,1,a[2]):d;case
-10:return h(r,0,a[3]);case
+d=h(q,1,a[1]);return d?h(q,1,a[2]):d;case
+10:return h(q,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(r,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(q,0,e[2]):0;case
 12:var
-f=h(r,0,a[2]),g=f?h(r,0,a[3]):f;return g?h(r,1,a[4]):g;case
+f=h(q,0,a[2]),g=f?h(q,0,a[3]):f;return g?h(q,1,a[4]):g;case
 14:var
-i=h(r,0,a[1]);return i?h(r,1,a[2]):i;case
+i=h(q,0,a[1]);return i?h(q,1,a[2]):i;case
 2:case
-3:return dz(a[2]);case
+3:return dA(a[2]);case
 4:case
 13:var
-c=h(r,1,a[2]);return c?h(r,1,a[3]):c;default:return h(r,1,a[1])}}function
-hE(a){if(typeof
+b=h(q,1,a[2]);return b?h(q,1,a[3]):b;default:return h(q,1,a[1])}}function
+hF(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(r,1,[3,d,e]),g=f?h(r,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(r,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return i?h(r,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
-5:return h(r,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(q,1,[3,d,e]),g=f?h(q,1,[3,[2,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,i=g?h(q,0,[2,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):g;return i?h(q,0,[3,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):i;case
+5:return h(q,1,[3,a[1],[0,c,c]]);case
 8:var
-k=h(r,1,a[1]);return k?h(r,1,a[2]):k;case
-10:return h(r,1,a[2]);case
+k=h(q,1,a[1]);return k?h(q,1,a[2]):k;case
+10:return h(q,1,a[2]);case
 11:var
-l=a[2],m=h(r,1,l);return m?h(r,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
+l=a[2],m=h(q,1,l);return m?h(q,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],l]):m;case
 2:case
-3:return dz(a[2]);case
-6:case
-7:case
-9:var
-j=h(r,1,a[2]);return j?h(r,1,a[3]):j;default:return h(r,1,a[1])}}function
-fK(d){var
+3:return dA(a[2]);case
+0:case
+1:case
+12:return h(q,1,a[1]);default:var
+j=h(q,1,a[2]);return j?h(q,1,a[3]):j}}function
+fN(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aj(aq(function(d){return function(a){var
-h=ho(a[1]),e=am(ho(d[1]),h);if(e)var
-i=hp(a[4]),b=am(hp(d[4]),i);else
+b=a[2],e=a[1],c=ai(aq(function(d){return function(a){var
+h=hq(a[1]),e=am(hq(d[1]),h);if(e)var
+i=hr(a[4]),b=am(hr(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5075,40 +5110,40 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ep(a){if(0===a[0])return dz(j(a[1]));var
-b=a[2],c=a[1];if(!d2(j(c))&&!d2(j(b))){var
-e=j(c);return h(r,1,[3,j(b),e])}var
-d=j(b);return a9(r,j(c),d)}function
+eq(a){if(0===a[0])return dA(j(a[1]));var
+b=a[2],c=a[1];if(!d3(j(c))&&!d3(j(b))){var
+e=j(c);return h(q,1,[3,j(b),e])}var
+d=j(b);return a8(q,j(c),d)}function
 cS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lM(a){switch(a[0]){case
+lR(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
 1:var
 b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
-hF(a){switch(a){case
-0:return vE;case
-1:return vF;default:return 0}}function
+hG(a){switch(a){case
+0:return vM;case
+1:return vN;default:return 0}}function
 co(a){var
-f=a[1],d=h(r,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(r,a[1],a[2]):d;if(e){var
-g=a[2];return h(r,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-dA(a){var
-e=a9(r,[0,d,b],a);return e?h(r,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-lN(c,b,a){if(0===a[0]){var
+f=a[1],d=h(q,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?a8(q,a[1],a[2]):d;if(e){var
+g=a[2];return h(q,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],g])}return e}function
+dB(a){var
+e=a8(q,[0,d,c],a);return e?h(q,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
+lS(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=v(i(e),c),g=f?v(i(d),c):f;if(g){var
 l=aK(e,d);return n(function(a){var
-b=j(a[2]);return a9(r,j(a[1]),b)},l)}return g}var
-k=b?h(r,1,j(a[3])):b;if(k){var
-m=j(a[5]);return a9(r,j(a[4]),m)}return k}function
-lO(b,c,A,z,m,f){function
+b=j(a[2]);return a8(q,j(a[1]),b)},l)}return g}var
+k=b?h(q,1,j(a[3])):b;if(k){var
+m=j(a[5]);return a8(q,j(a[4]),m)}return k}function
+lT(b,c,A,z,m,f){function
 o(a){var
-d=b?vC:vD,c=v(i(a),d);return c?n(ep,a):c}var
+d=b?vK:vL,c=v(i(a),d);return c?n(eq,a):c}var
 p=n(function(a){var
 b=o(a[1]);return b?o(a[2]):b},c);if(p)var
 B=i(c),g=Z(dl(b),B);else
 var
 g=p;var
-q=g?Z(i(c),vG):g,s=q?h(r,1,j(A)):q;if(s)var
-C=1===b?1:0,k=lN(hF(b),C,z);else
+r=g?Z(i(c),vO):g,s=r?h(q,1,j(A)):r;if(s)var
+C=1===b?1:0,k=lS(hG(b),C,z);else
 var
 k=s;if(k)if(b){var
 a=cP(m);switch(a[0]){case
@@ -5117,46 +5152,46 @@ d=0;break;case
 1:var
 u=co(a[1]),w=u?co(a[2]):u,d=w?co(a[3]):w;break;case
 2:var
-d=dA(a[1]);break;default:var
-x=dA(a[1]),d=x?dA(a[2]):x}var
+d=dB(a[1]);break;default:var
+x=dB(a[1]),d=x?dB(a[2]):x}var
 e=d}else
 var
 y=cP(m),F=0===y[0]?co(y[1]):0,e=F;else
 var
 e=k;if(e)var
-D=i(c),E=dl(b),l=n(function(a){return a7(E,D,a)},f);else
+D=i(c),E=dl(b),l=n(function(a){return lD(E,D,a)},f);else
 var
 l=e;var
-t=l?fK(f):l;return t?n(hE,dx(0,i(c),f)):t}function
-lP(a){switch(a[0]){case
+t=l?fN(f):l;return t?n(hF,dy(0,i(c),f)):t}function
+lU(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-lQ(a,f,e,R,o,m){var
+lV(a,f,e,R,o,m){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 d(a){var
-b=p?vH:vI;return v(i(a),b)}var
-k=lB(f),A=n(function(b){switch(b[0]){case
+b=p?vP:vQ;return v(i(a),b)}var
+k=lG(f),A=n(function(b){switch(b[0]){case
 0:var
-c=aj(k),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+c=ai(k),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
 1:var
-g=aj(k),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
+g=ai(k),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
 j=typeof
 a==="number"?1:0,l=j?1:j;else
 var
 l=i;return l;default:var
 m=b[1],n=p?m?0:1:d(m),o=n?d(b[2]):n,q=o?d(b[3]):o;return q?d(b[4]):q}},f);if(A)var
-S=i(f),q=Z(a0(a),S);else
+S=i(f),r=Z(a0(a),S);else
 var
-q=A;var
-B=q?Z(i(f),vJ):q,C=B?n(ep,z(lP,f)):B;if(C){var
+r=A;var
+B=r?Z(i(f),vR):r,C=B?n(eq,z(lU,f)):B;if(C){var
 Q=0;if(typeof
 a==="number"&&!a){var
 D=1;Q=1}if(!Q)var
 D=0;var
-T=p?vK:vL,s=lN(T,D,R)}else
+T=p?vS:vT,s=lS(T,D,R)}else
 var
 s=C;if(s)if(typeof
 a==="number")if(e)var
@@ -5167,7 +5202,7 @@ switch(a[1]){case
 0:if(e){var
 u=y(cP,o);if(u){var
 F=u[1];if(0===F[0])var
-G=h(r,1,j(e[1])),H=G?co(F[1]):G;else
+G=h(q,1,j(e[1])),H=G?co(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -5182,10 +5217,10 @@ g=x[1];switch(g[0]){case
 0:var
 l=0;break;case
 1:var
-K=h(r,1,j(w)),L=K?co(g[1]):K,M=L?co(g[2]):L,l=M?co(g[3]):M;break;case
+K=h(q,1,j(w)),L=K?co(g[1]):K,M=L?co(g[2]):L,l=M?co(g[3]):M;break;case
 2:var
-N=h(r,1,j(w)),l=N?dA(g[1]):N;break;default:var
-O=h(r,1,j(w)),P=O?dA(g[1]):O,l=P?dA(g[2]):P}var
+N=h(q,1,j(w)),l=N?dB(g[1]):N;break;default:var
+O=h(q,1,j(w)),P=O?dB(g[1]):O,l=P?dB(g[2]):P}var
 J=l}else
 var
 J=x;var
@@ -5197,20 +5232,20 @@ var
 b=s;if(b)var
 c=i(f),t=n(function(b){var
 f=b[2];if(f)var
-g=f[1],h=Z(u4,g),r=h?Z(g,c):h,d=r;else
+g=f[1],h=Z(va,g),r=h?Z(g,c):h,d=r;else
 var
 d=1;switch(b[1]){case
-1:if(b[3])return a7(a0(a),c,b);if(d){var
+1:if(b[3])return a$(a0(a),c,b);if(d){var
 q=0,i=b[4];if(typeof
 i!=="number"&&2===i[0]){var
 j=1;q=1}if(!q)var
-j=0;return b9(k,j)}return d;case
+j=0;return b_(k,j)}return d;case
 4:var
 l=b[4];if(typeof
-l!=="number"&&0===l[0])return b[3]?a7(a0(a),c,b):d;return a7(a0(a),c,b);case
+l!=="number"&&0===l[0])return b[3]?a$(a0(a),c,b):d;return a$(a0(a),c,b);case
 5:var
 m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return a7(a0(a),c,b);var
+m!=="number"&&0===m[0]){if(b[3])return a$(a0(a),c,b);var
 n=v(c,a0(a));if(n){var
 o=typeof
 a==="number"?1:0;if(o){if(b[2])return 0;var
@@ -5218,21 +5253,21 @@ e=1}else
 var
 e=o}else
 var
-e=n;return e}return a7(a0(a),c,b);case
+e=n;return e}return a$(a0(a),c,b);case
 13:var
 p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?a7(a0(a),c,b):d?aj(k):d;return a7(a0(a),c,b);default:return a7(a0(a),c,b)}},m);else
+p!=="number"&&1===p[0])return b[3]?a$(a0(a),c,b):d?ai(k):d;return a$(a0(a),c,b);default:return a$(a0(a),c,b)}},m);else
 var
 t=b;var
-E=t?fK(m):t;return E?n(hE,dx(k,i(f),m)):E}function
-hG(j){var
-p=aF(j,b1(a1(j))),a=e(function(a){return af(r,a)},p);if(a){var
+E=t?fN(m):t;return E?n(hF,dy(k,i(f),m)):E}function
+hH(j){var
+p=aF(j,b2(a1(j))),a=e(function(a){return ag(q,a)},p);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return R(r,a)},q=i(h[1]),s=i(g[1]);return T(d,B(B(i(f[1]),s),q)[1])}var
+i=function(a){return R(q,a)},r=i(h[1]),s=i(g[1]);return U(d,B(B(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5248,95 +5283,97 @@ n=f;var
 o=n}else
 var
 o=a;return o}function
-vM(a){switch(a[0]){case
-0:return hG(a[1][1]);case
+vU(a){switch(a[0]){case
+0:return hH(a[1][1]);case
 1:var
-b=a[3];return b?hG(b[1]):1;default:return hG(a[1])}}function
-hH(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
-g=Z(i(a),vO),k=g?n(function(a){if(0===a[0]){var
-g=a[5],i=h(r,1,j(a[2])),k=i?h(r,0,j(a[3])):i,l=k?h(r,0,j(a[4])):k,e=0;if(l)if(g)var
-u=bt(g[1]),b=n(function(a){return dz(j(a))},u);else{var
+b=a[3];return b?hH(b[1]):1;default:return hH(a[1])}}function
+hI(c,a,b,o){if(aq(function(a){return 9===a[1]?1:0},b)){var
+g=Z(i(a),vW),k=g?n(function(a){if(0===a[0]){var
+g=a[5],i=h(q,1,j(a[2])),k=i?h(q,0,j(a[3])):i,l=k?h(q,0,j(a[4])):k,e=0;if(l)if(g)var
+u=bu(g[1]),b=n(function(a){return dA(j(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-o=h(r,1,j(a[4]));if(o)var
-v=bt(a[3]),w=f(bt(a[2]),v),b=n(function(a){return dz(j(a))},w);else
+o=h(q,1,j(a[4]));if(o)var
+v=bu(a[3]),w=f(bu(a[2]),v),b=n(function(a){return dA(j(a))},w);else
 var
 b=o}if(b){if(0===a[0]){var
-p=a[1],q=Z(vN,p);if(q){var
-d=V(c,bz(p));if(d){if(2===d[1][0])return 0;var
+p=a[1],r=Z(vV,p);if(r){var
+d=W(c,bA(p));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=q;return t}return 1}return b},a):g;if(k)var
-l=ht(0,a),u=l?1:l,m=u;else
+t=r;return t}return 1}return b},a):g;if(k)var
+l=hv(0,a),u=l?1:l,m=u;else
 var
 m=k;var
 d=m}else
 var
 d=a?0:1;var
-p=d?n(vM,o[1]):d,q=p?Z(vP,i(c)):p;if(q)var
-v=i(c),e=n(function(a){return uW(v,a)},b);else
+p=d?n(vU,o[1]):d,r=p?Z(vX,i(c)):p;if(r)var
+v=i(c),e=n(function(a){return u4(v,a)},b);else
 var
-e=q;var
-s=e?fK(b):e,t=s?n(ep,z(lM,c)):s;return t?n(vB,o[3]):t}function
-fL(b,a){return n(function(c){var
-a=c[2];return a?dR(a[1],b):1},a)}function
-lR(a){if(a){var
-b=a[1];if(hv(b))return 0;var
-c=[0,b,lR(a[2])]}else
+e=r;var
+s=e?fN(b):e,t=s?n(eq,z(lR,c)):s;return t?n(vJ,o[3]):t}function
+fO(b,a){return n(function(c){var
+a=c[2];return a?dS(a[1],b):1},a)}function
+lW(a){if(a){var
+b=a[1];if(fK(b))return 0;var
+c=[0,b,lW(a[2])]}else
 var
 c=a;return c}function
-hI(b,a){var
+lX(c,b){var
+d=lW(b),e=0,f=i(z(function(a){return lC(e,c,a)},d)),a=z(lB,b),g=a?[0,a[1],a[2]]:vY;return N(i(g),f)}function
+hJ(b,a){var
 c=i(ct(function(a){return 0===a[0]?0:1},b));return v(i(a),c)}function
-lS(a){if(a){var
+hK(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-lT(aL,Z,aI,Y,X,b,aH,B){var
-a=hu(Z,aI,Y,X),aN=i(B);if(aL)var
+lY(aL,Z,aI,Y,X,b,aH,B){var
+a=hw(Z,aI,Y,X),aN=i(B);if(aL)var
 _=0;else
 var
-aD=a[1],aE=e(fJ,a[1]),W=fh(hA(a[1]),aE,aD),aG=aK(aV(0,i(W)),W),_=e(aJ,ct(function(a){return gM(a[2])},aG));var
+aD=a[1],aE=e(fM,a[1]),W=fj(hB(a[1]),aE,aD),aG=aK(aV(0,i(W)),W),_=e(aJ,ct(function(a){return gP(a[2])},aG));var
 C=cQ(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=hH(Z,Y,X,a),ab=aa?fL(vR,B):aa;if(ab){var
-aO=$[1],D=e(fJ,a[1]),c=hA(a[1]),aP=lS(aH),V=j7(r,a);if(V){var
-j=fh(c,D,a[1]),g=gK(c,D,a[1],0),ae=i(a[3]),ag=N(i(j),ae),K=[0,i(j),ag],ai=a[3],F=aq(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ai),aj=F?z(function(a){var
-b=e(b8,jU(j,a));return[0,a[4],b]},g):F,ak=f(gL(g,c,K,a[3]),aj),al=f(bF(jr(g)),ak),L=f(bF(d3(g)),al),M=c_(L)[1],m=cz(M),O=n(function(a){var
+aa=hI(Z,Y,X,a),ab=aa?fO(vZ,B):aa;if(ab){var
+aO=$[1],D=e(fM,a[1]),c=hB(a[1]),aP=hK(aH),V=j7(q,a);if(V){var
+j=fj(c,D,a[1]),g=gN(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ah=a[3],F=aq(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?z(function(a){var
+b=e(b9,jU(j,a));return[0,a[4],b]},g):F,ak=f(gO(g,c,K,a[3]),ai),al=f(br(jr(g)),ak),L=f(br(d4(g)),al),M=c_(L)[1],m=cz(M),O=n(function(a){var
 b=l(d);return aM(t(bl(m,a),m,b),a)},L);if(O){var
-P=aq(pG,a[3]);if(P){var
+P=aq(pN,a[3]);if(P){var
 s=D,o=a[1];for(;;){if(o){var
-p=o[1],u=bA(d,s);switch(p[0]){case
+p=o[1],u=bB(d,s);switch(p[0]){case
 0:var
-G=p[1],H=gN(b,G[1],u),E=0;if(H){var
-q=af(b,[0,G[4],c]);if(q)var
-h=T(d,q[1][1]);else{var
-I=q;E=1}}else{var
+G=p[1],H=gQ(b,G[1],u),E=0;if(H){var
+r=ag(b,[0,G[4],c]);if(r)var
+h=U(d,r[1][1]);else{var
+I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=p[3],h=J?gN(b,J[1],u):1;break;default:var
-h=gN(b,p[1],u)}if(h){var
-ad=o[2],s=b$(s),o=ad;continue}var
+J=p[3],h=J?gQ(b,J[1],u):1;break;default:var
+h=gQ(b,p[1],u)}if(h){var
+ad=o[2],s=ca(s),o=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=z(function(a){return di(c,a)},am),ao=a[3],ap=f(j,f(e(function(a){return bq(c,a)},ao),an)),w=ah(e(function(a){return af(b,a)},ap));if(w){var
-as=aF(dj(a[2]),c),x=ah(e(function(a){return af(b,a)},as));if(x){var
-at=a[3],y=ah(jV(b,aP,function(a){return bl(m,a)},j,g,c,K,at));if(y){var
-R=y[1],au=gJ(R),av=x[1],aw=a[2],ax=function(a){return jW(b,aw,c,a)},ay=w[1],az=0,aA=jr(g),aB=k(ar(function(a){return bl(m,a)}),aA),aC=d3(g);return ff(b,M,k(ar(function(a){return bl(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
+am=a[3],an=z(function(a){return di(c,a)},am),ao=a[3],ap=f(j,f(e(function(a){return bq(c,a)},ao),an)),w=aj(e(function(a){return ag(b,a)},ap));if(w){var
+as=aF(dj(a[2]),c),x=aj(e(function(a){return ag(b,a)},as));if(x){var
+at=a[3],y=aj(jV(b,aP,function(a){return bl(m,a)},j,g,c,K,at));if(y){var
+R=y[1],au=gM(R),av=x[1],aw=a[2],ax=function(a){return jW(b,aw,c,a)},ay=w[1],az=0,aA=jr(g),aB=k(ar(function(a){return bl(m,a)}),aA),aC=d4(g);return fh(b,M,k(ar(function(a){return bl(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
 S=y}else
 var
 S=x;var
-U=S}else
+T=S}else
 var
-U=w;var
-A=U}else
+T=w;var
+A=T}else
 var
 A=v}else
 var
@@ -5344,48 +5381,48 @@ A=O;return A}return V}var
 ac=ab}else
 var
 ac=C;return ac}function
-vS(a){if(0===a[0])return lF(a[1]);var
-b=a[1],c=dy(b[6]);return f(dy(b[5]),c)}function
-vT(a){if(0===a[0])return lG(a[1]);var
+v0(a){if(0===a[0])return lK(a[1]);var
+b=a[1],c=dz(b[6]);return f(dz(b[5]),c)}function
+v1(a){if(0===a[0])return lL(a[1]);var
 b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-vU(a){if(0===a[0])return[0,fJ(a[1]),d];var
-b=a[1],c=b1(a1(b[2]));return[0,b1(a1(b[1])),c]}function
-lU(B,aM,ap,ao,A,an,g){var
-l=hu(B,aM,ap,ao);if(A){var
+v2(a){if(0===a[0])return[0,fM(a[1]),d];var
+b=a[1],c=b2(a1(b[2]));return[0,b2(a1(b[1])),c]}function
+lZ(B,aM,ap,ao,A,an,g){var
+l=hw(B,aM,ap,ao);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=lJ(B,e(j,an));if(ar[2])return 0;var
+ar=lO(B,e(j,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 g==="number")var
-a=0===g?vx:vy;else
+a=0===g?vF:vG;else
 if(0===g[0]){var
-c=g[2],m=g[1],H=y(vu,V(as,m)),J=0;if(H){var
+b=g[2],m=g[1],H=y(vC,W(as,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
-K=0;if(c){var
-n=c[1],L=0;if(n){var
+K=0;if(b){var
+n=b[1],L=0;if(n){var
 o=n[2],M=0;if(o){var
 p=o[2],N=0;if(p)if(p[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-q=c[2],az=0;if(q){var
-s=q[1],aA=0;if(s){var
+r=b[2],az=0;if(r){var
+s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
-u=t[2],aC=0;if(u)if(u[2]||q[2]){var
+u=t[2],aC=0;if(u)if(u[2]||r[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
 U=[0,[0,m,[0,[0,n[1],o[1]],p[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 U=u;if(!aC)var
-W=U}else
+V=U}else
 var
-W=t;if(!aB)var
-X=W}else
+V=t;if(!aB)var
+X=V}else
 var
 X=s;if(!aA)var
 Y=X}else
 var
-Y=q;if(!az)var
+Y=r;if(!az)var
 Z=Y}else
 var
 Z=p;if(!N)var
@@ -5397,12 +5434,12 @@ var
 $=n;if(!L)var
 aa=$}else
 var
-aa=c;if(!K)var
+aa=b;if(!K)var
 a=aa}else{var
-aD=0;if(c){var
-v=c[1],aE=0;if(v){var
+aD=0;if(b){var
+v=b[1],aE=0;if(v){var
 w=v[2],aF=0;if(w){var
-x=w[2],aG=0;if(x)if(x[2]||c[2]){var
+x=w[2],aG=0;if(x)if(x[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
 ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
@@ -5416,30 +5453,30 @@ var
 ag=v;if(!aE)var
 ah=ag}else
 var
-ah=c;if(!aD)var
+ah=b;if(!aD)var
 a=ah}}else
-if(c)var
+if(b)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=g[1],I=V(as,ak),O=0;if(I){var
+ak=g[1],I=W(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hI(z(lM,B),an),au=at?hH(B,ap,ao,l):at;if(au){var
-f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=jY(r,l,k,i);if(P)if(typeof
-f==="number")return 0===f?aq(function(c){var
-a=jZ(c,i);return a?h(r,0,[3,[0,d,b],a[1]]):a},k):jg(pI,e(function(b){var
-a=gO(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=V(l[3],f[1]);if(E){var
-aI=E[1],aJ=j0(f[3]);return j5(r,k,i,j0(f[2]),aJ,aI)}return E}var
-F=V(l[3],f[1]);if(F){var
-G=V(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cI(Q,i);return j5(r,k,i,cI(Q,i),aL,aK)}var
+at=hJ(z(lR,B),an),au=at?hI(B,ap,ao,l):at;if(au){var
+f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=jY(q,l,k,i);if(P)if(typeof
+f==="number")return 0===f?aq(function(b){var
+a=jZ(b,i);return a?h(q,0,[3,[0,d,c],a[1]]):a},k):jg(pP,e(function(b){var
+a=gR(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+E=W(l[3],f[1]);if(E){var
+aI=E[1],aJ=j0(f[3]);return j5(q,k,i,j0(f[2]),aJ,aI)}return E}var
+F=W(l[3],f[1]);if(F){var
+G=W(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cI(Q,i);return j5(q,k,i,cI(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5455,21 +5492,21 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-lV(m,l,b,k,z,x){var
+l0(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=V(f,g),n=h?dR(h[1][2],vX):h;if(n)var
-A=d[2],i=lV(m,l,b,k,hz(0,g,f),A);else
+g=d[1],h=W(f,g),n=h?dS(h[1][2],v5):h;if(n)var
+A=d[2],i=l0(m,l,b,k,hA(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hz(1,g,f),d=B;continue}return i}var
-c=d[1],a=lD(0,m,f),o=e(function(b){function
-d(b){return lE(a,b)}function
-c(a){return hx(d,a)}switch(b[0]){case
+B=d[3],f=hA(1,g,f),d=B;continue}return i}var
+c=d[1],a=lI(0,m,f),o=e(function(b){function
+d(b){return lJ(a,b)}function
+c(a){return hy(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lE(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lJ(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hx(function(b){return an(a,b)},q),s=b[1],j=[0,hx(function(b){return an(a,b)},s),r];else
+q=b[2],r=hy(function(b){return an(a,b)},q),s=b[1],j=[0,hy(function(b){return an(a,b)},s),r];else
 var
 t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(e){var
@@ -5493,320 +5530,318 @@ h=f;return[0,e[1],e[2],h,c]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return lT(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lU(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-lW(h,g){var
+1:return lY(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return lZ(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+l1(h,g){var
 a=bT(j(h));if(a){var
-c=a[1],e=c8([0,d,b],c);if(e)return c8(c,g);var
+b=a[1],e=c8([0,d,c],b);if(e)return c8(b,g);var
 f=e}else
 var
 f=a;return f}function
-vZ(o){var
-dw=fG(o[3]),dy=dw?fG(o[4]):dw;if(dy){var
-F=o[1];switch(F[0]){case
+v7(o){var
+dx=fI(o[3]),dz=dx?fI(o[4]):dx;if(dz){var
+E=o[1];switch(E[0]){case
 3:var
-dG=n(em,F[1]);if(dG)var
-gI=F[2],bM=n(function(a){return em(a[1])},gI);else
+dH=n(en,E[1]);if(dH)var
+gL=E[2],bM=n(function(a){return en(a[1])},gL);else
 var
-bM=dG;if(bM)var
-gN=F[3],bN=n(function(a){var
-b=em(a[1]),c=b?hr(a[2]):b;return c?en(a[2]):c},gN);else
+bM=dH;if(bM)var
+gQ=E[3],bN=n(function(a){var
+b=en(a[1]),c=b?ht(a[2]):b;return c?eo(a[2]):c},gQ);else
 var
 bN=bM;if(bN)var
-gQ=F[4],aD=n(function(a){var
+gT=E[4],aG=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hr(a);return b?en(a):b},b)},gQ);else
+b=ht(a);return b?eo(a):b},b)},gT);else
 var
-aD=bN;break;case
+aG=bN;break;case
 7:var
-gR=F[1],dH=n(function(a){var
-b=em(a[1]);return b?fH(0,[0,a[2][1],[0,a[2][2],0]]):b},gR),aD=dH?fH(0,[0,F[5],[0,F[6],0]]):dH;break;default:var
-aD=1}var
-bL=aD}else
+gV=E[1],dI=n(function(a){var
+b=en(a[1]);return b?fJ(0,[0,a[2][1],[0,a[2][2],0]]):b},gV),aG=dI?fJ(0,[0,E[5],[0,E[6],0]]):dI;break;default:var
+aG=1}var
+bL=aG}else
 var
-bL=dy;var
-ch=0;if(bL){var
-dA=o[1],dB=7===dA[0]?e(aJ,dA[1]):0,dC=function(c,b){var
-a=lu(c);return a?n(function(a){var
+bL=dz;var
+cg=0;if(bL){var
+dB=o[1],dC=7===dB[0]?e(aJ,dB[1]):0,dD=function(c,b){var
+a=ly(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fG(a[2]);if(b){var
+b=fI(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fG(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},b)},b):a},dD=function(d,c,b){var
-a=lu(d);return a?fH(dB,f(c,b)):a},g=o[1];switch(g[0]){case
+1:return fI(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},b)},b):a},dE=function(d,c,b){var
+a=ly(d);return a?fJ(dC,f(c,b)):a},g=o[1];switch(g[0]){case
 0:var
-gi=z(cN,g[4]),gj=f(z(uS,g[3]),gi),gk=f(lr(g[2]),gj),H=f(z(hs,g[1]),gk);break;case
+gl=z(cN,g[4]),gm=f(z(u0,g[3]),gl),gn=f(lv(g[2]),gm),F=f(z(hu,g[1]),gn);break;case
 1:var
-bI=g[5],bJ=g[3],gl=z(cN,g[6]),gm=bI?ls(bI[1]):bI,gn=f(gm,gl),go=f(lq(g[4]),gn),gp=bJ?[0,bJ[1],0]:bJ,gq=f(gp,go),H=f(z(uR,g[2]),gq);break;case
+bI=g[5],bJ=g[3],go=z(cN,g[6]),gp=bI?lw(bI[1]):bI,gq=f(gp,go),gr=f(lu(g[4]),gq),gs=bJ?[0,bJ[1],0]:bJ,gt=f(gs,gr),F=f(z(uZ,g[2]),gt);break;case
 2:var
-gr=z(cN,g[6]),gs=f(ls(g[5]),gr),gt=f(lq(g[4]),gs),gu=[0,g[3],gt],gv=g[2],H=f(z(function(a){return z(du,f(a[1],a[2]))},gv),gu);break;case
+gu=z(cN,g[6]),gv=f(lw(g[5]),gu),gw=f(lu(g[4]),gv),gx=[0,g[3],gw],gy=g[2],F=f(z(function(a){return z(dv,f(a[1],a[2]))},gy),gx);break;case
 3:var
-gw=z(cN,g[7]),gx=f(g[6],gw),gy=f(g[5],gx),gz=g[2],H=f(z(function(a){return du(a[2])},gz),gy);break;case
+gz=z(cN,g[7]),gA=f(g[6],gz),gB=f(g[5],gA),gC=g[2],F=f(z(function(a){return dv(a[2])},gC),gB);break;case
 4:var
-gA=z(cN,g[3]),H=[0,g[1],[0,g[2],gA]];break;case
+gD=z(cN,g[3]),F=[0,g[1],[0,g[2],gD]];break;case
 5:var
-gB=z(cN,g[4]),gC=f(bt(g[3]),gB),gD=f(bt(g[2]),gC),gE=f(z(hs,g[1]),gD),H=[0,g[5],gE];break;case
+gE=z(cN,g[4]),gF=f(bu(g[3]),gE),gG=f(bu(g[2]),gF),gH=f(z(hu,g[1]),gG),F=[0,g[5],gH];break;case
 6:var
-bK=g[1],H=bK?du(bK[1]):bK;break;default:var
-gF=z(cN,g[4]),gG=f(lr(g[3]),gF),H=f(z(hs,g[2]),gG)}var
-dE=fH(dB,H);if(dE){var
+bK=g[1],F=bK?dv(bK[1]):bK;break;default:var
+gI=z(cN,g[4]),gJ=f(lv(g[3]),gI),F=f(z(hu,g[2]),gJ)}var
+dF=fJ(dC,F);if(dF){var
 Q=o[2];switch(Q[0]){case
 0:var
-as=dC(Q[1],Q[3]);break;case
+at=dD(Q[1],Q[3]);break;case
 1:var
-as=dD(Q[1],Q[2],Q[3]);break;default:var
-gH=Q[1],as=n(function(a){if(typeof
+at=dE(Q[1],Q[2],Q[3]);break;default:var
+gK=Q[1],at=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dC(a[1],a[3]);case
-2:return dD(a[1],a[2],a[3])}return 1},gH)}}else{var
-dF=dE;ch=1}}else{var
-dF=bL;ch=1}if(ch)var
-as=dF;if(as){var
+1:return dD(a[1],a[3]);case
+2:return dE(a[1],a[2],a[3])}return 1},gK)}}else{var
+dG=dF;cg=1}}else{var
+dG=bL;cg=1}if(cg)var
+at=dG;if(at){var
 a=o[1];switch(a[0]){case
 0:var
-d_=a[4],ea=a[3],eb=a[2],ec=a[1],R=o[2];switch(R[0]){case
-0:return lT(0,ec,eb,ea,d_,R[1],R[2],R[3]);case
-1:return lU(ec,eb,ea,d_,R[2],R[3],R[4]);default:return 0}case
+d8=a[4],d$=a[3],eb=a[2],ec=a[1],R=o[2];switch(R[0]){case
+0:return lY(0,ec,eb,d$,d8,R[1],R[2],R[3]);case
+1:return lZ(ec,eb,d$,d8,R[2],R[3],R[4]);default:return 0}case
 1:var
-aP=a[6],aQ=a[5],aR=a[4],aS=a[3],ab=a[2],C=a[1],ac=o[2];switch(ac[0]){case
+aQ=a[6],aR=a[5],aS=a[4],aT=a[3],ac=a[2],B=a[1],ad=o[2];switch(ad[0]){case
 0:var
-bX=ac[3],g_=ac[1],aO=lC(C,ab,aS,aR,aQ,aP),dS=aO[2],bS=z(vS,dS),g4=bS?[0,bS[1],bS[2]]:z(vT,dS),dR=x(b,b1(g4)),dT=e(vU,aO[2]),dU=ha(dR,dT,aO[2]),g5=i(bX),g6=aK(aV(0,i(dU)),dU),bU=cQ(e(aJ,ct(function(a){return gM(a[2])},g6)),g5,bX);if(bU){var
-dV=bU[1];if(dV[2])return 0;var
-dW=lQ(C,ab,aS,aR,aQ,aP),dX=dW?fL(a0(C),bX):dW;if(dX)return qz(r,g_,aO,dR,dT,dV[1]);var
+bW=ad[3],g_=ad[1],aP=lH(B,ac,aT,aS,aR,aQ),dS=aP[2],bR=z(v0,dS),g5=bR?[0,bR[1],bR[2]]:z(v1,dS),dR=x(c,b2(g5)),dT=e(v2,aP[2]),dU=hc(dR,dT,aP[2]),g6=i(bW),g7=aK(aV(0,i(dU)),dU),bS=cQ(e(aJ,ct(function(a){return gP(a[2])},g7)),g6,bW);if(bS){var
+dV=bS[1];if(dV[2])return 0;var
+dW=lV(B,ac,aT,aS,aR,aQ),dX=dW?fO(a0(B),bW):dW;if(dX)return qH(q,g_,aP,dR,dT,dV[1]);var
 dY=dX}else
 var
-dY=bU;return dY;case
+dY=bS;return dY;case
 1:var
-ed=ac[3],g$=ac[4],hb=ac[2],dZ=typeof
-C==="number"?C?vV:vW:hF(C[1]),bV=e(j,hb),d0=lL(ab,e(j,ed));if(d0[2])return 0;var
-d1=hI(z(lP,ab),ed),d2=d1?lQ(C,ab,aS,aR,aQ,aP):d1;if(d2)var
-g7=a0(C),bW=v(i(bV),g7);else
+ed=ad[3],ha=ad[4],hb=ad[2],dZ=typeof
+B==="number"?B?v3:v4:hG(B[1]),bU=e(j,hb),d0=lQ(ac,e(j,ed));if(d0[2])return 0;var
+d1=hJ(z(lU,ac),ed),d2=d1?lV(B,ac,aT,aS,aR,aQ):d1;if(d2)var
+g8=a0(B),bV=v(i(bU),g8);else
 var
-bW=d2;if(bW){var
-g8=hC(g$),p=eR(dZ,bV),A=a8(c7(dZ,bV)),$=d0[1],J=lC(C,ab,aS,aR,aQ,aP),cD=kR(r,J[2],$);if(cD){var
-cA=d8(r,J[4],A),ci=0;if(cA){var
-cB=J[5];if(cB)var
-a_=ko(r,cB[1],p);else
+bV=d2;if(bV){var
+g9=hD(ha),p=eT(dZ,bU),w=a7(c7(dZ,bU)),aa=d0[1],I=lH(B,ac,aT,aS,aR,aQ),cD=kV(q,I[2],aa);if(cD){var
+cA=d9(q,I[4],w),ch=0;if(cA){var
+cB=I[5];if(cB)var
+ba=kp(q,cB[1],p);else
 if(p)var
-a_=0;else{var
-cC=1;ci=1}}else{var
-cC=cA;ci=1}if(ci)var
-a_=cC;var
-ba=a_}else
+ba=0;else{var
+cC=1;ch=1}}else{var
+cC=cA;ch=1}if(ch)var
+ba=cC;var
+bb=ba}else
 var
-ba=cD;if(ba){var
-u=J[5],cE=J[3],ax=J[1],fc=J[6],e8=e(function(a){if(0===a[0]){var
-d=bY(u,p,A,a),c=gO(a[1],d);return[0,kP(ax,c,ap([5,[0,b,b],cE],d$(g9(u,p,fu(a)),c)))]}return 0},$),e9=z(function(a){if(0===a[0]){var
-c=bY(u,p,A,a),b=jZ(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bY(u,p,A,a);return[0,ke(a[1],e),0]},$),e$=e(function(d){var
-b=bY(u,p,A,d);if(0===d[0]){var
+bb=cD;if(bb){var
+u=I[5],cE=I[3],az=I[1],ff=I[6],e$=e(function(a){if(0===a[0]){var
+d=bZ(u,p,w,a),b=gR(a[1],d);return[0,kT(az,b,ap([5,[0,c,c],cE],ea(g$(u,p,fw(a)),b)))]}return 0},aa),fb=z(function(a){if(0===a[0]){var
+c=bZ(u,p,w,a),b=jZ(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bZ(u,p,w,a);return[0,kf(a[1],e),0]},aa),fc=e(function(d){var
+b=bZ(u,p,w,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cG(e,h,g,f,b),i=cH(a[5],j),k=ap(i,av(e)),l=d9(e,h,g,b);return[0,[0,kQ(ax,aa(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fm(c,b),o=kh(c,b),q=c[4],r=aa(function(b,a){return[2,b,a]},b,q);return[0,[0,kQ(ax,aa(function(b,a){return[3,b,a]},r,o)),n,m]]},$),fa=e(function(a){if(0===a[0]){var
-c=bY(u,p,A,a);return[0,gP(a[1],c)]}var
-b=a[1],d=kg(b,bY(u,p,A,a));return[1,kf(b,bY(u,p,A,a)),d]},$),fb=[0,e(function(a){if(0===a[0])var
-k=bY(u,p,A,a),d=cI(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cG(e,h,g,f,b),i=cH(a[5],j),k=ap(i,aw(e)),l=d_(e,h,g,b);return[0,[0,kU(az,ab(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fo(c,b),o=ki(c,b),q=c[4],r=ab(function(b,a){return[2,b,a]},b,q);return[0,[0,kU(az,ab(function(b,a){return[3,b,a]},r,o)),n,m]]},aa),fd=e(function(a){if(0===a[0]){var
+c=bZ(u,p,w,a);return[0,gS(a[1],c)]}var
+b=a[1],d=kh(b,bZ(u,p,w,a));return[1,kg(b,bZ(u,p,w,a)),d]},aa),fe=[0,e(function(a){if(0===a[0])var
+k=bZ(u,p,w,a),d=cI(a[1],k);else
 var
-e=bY(u,p,A,a),c=a[1],f=kh(c,e),g=c[4],h=aa(function(b,a){return[2,b,a]},e,g),i=aa(function(b,a){return[3,b,a]},h,f),j=fm(c,e),d=ap([5,[0,b,b],[4,c[5],j]],i);return kP(ax,d,ap([5,[0,b,b],cE],d$(g9(u,p,fu(a)),d)))},$),fa,e$,e9,e8];return kb(r,a0(J[1]),fb,fc,g8)}return ba}return bW;default:return 0}case
+e=bZ(u,p,w,a),b=a[1],f=ki(b,e),g=b[4],h=ab(function(b,a){return[2,b,a]},e,g),i=ab(function(b,a){return[3,b,a]},h,f),j=fo(b,e),d=ap([5,[0,c,c],[4,b[5],j]],i);return kT(az,d,ap([5,[0,c,c],cE],ea(g$(u,p,fw(a)),d)))},aa),fd,fc,fb,e$];return kc(q,a0(I[1]),fe,ff,g9)}return bb}return bV;default:return 0}case
 2:var
-aT=a[6],aU=a[5],aW=a[4],aX=a[3],ad=a[2],ag=a[1],ai=o[2];switch(ai[0]){case
+au=a[6],aU=a[5],aW=a[4],aX=a[3],S=a[2],ae=a[1],T=o[2];switch(T[0]){case
 0:var
-bZ=ai[3],ee=lA(ag,ad,aX,aW,aU,aT),b0=cQ(0,i(bZ),bZ);if(b0){var
-ef=b0[1];if(ef[2])return 0;var
-ei=lO(ag,ad,aX,aW,aU,aT),ej=ei?fL(dl(ag),bZ):ei;if(ej){var
-hd=ef[1],he=ee[2],hg=x(b,b1(z(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},he)));return qd(r,ai[1],ee,hg,hd)}var
+bX=T[3],ah=lF(ae,S,aX,aW,aU,au),bY=cQ(0,i(bX),bX);if(bY){var
+ee=bY[1];if(ee[2])return 0;var
+ef=lT(ae,S,aX,aW,aU,au),ej=ef?fO(dl(ae),bX):ef;if(ej){var
+hd=ee[1],hf=ah[2],hg=x(c,b2(z(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},hf))),hi=lX(i(S),au),hj=hK(T[2]),hk=T[1],e8=ah[2],cy=n(function(a){var
+b=kS(q,a[1]);return b?kS(q,a[2]):b},e8);if(cy)var
+e9=gU(ah[4]),a9=d9(q,ah[4],e9);else
+var
+a9=cy;if(a9)var
+e_=fs(ah[5]),a$=n(function(a){return eg(q,a)},e_);else
+var
+a$=a9;return a$?ql(hk,hj,hi,ah,hg,hd):a$}var
 ek=ej}else
 var
-ek=b0;return ek;case
+ek=bY;return ek;case
 1:var
-el=ai[3],eo=e(j,ai[2]),eq=hF(ag),er=lK(ad,e(j,el));if(er[2])return 0;var
-es=hI(z(function(a){return f(a[1],a[2])},ad),el),et=es?lO(ag,ad,aX,aW,aU,aT):es;if(et){var
-hh=hC(ai[4]),S=eR(eq,eo),at=a8(c7(eq,eo)),ak=er[1],K=lA(ag,ad,aX,aW,aU,aT),aw=K[2],W=ak;for(;;){if(aw){if(W){var
-co=W[1],cp=aw[1],cq=aY(r,cp[1],co[1]),cr=cq?aY(r,cp[2],co[2]):cq;if(cr){var
-aw=aw[2],W=W[2];continue}var
-cs=cr}else
+el=T[3],em=e(j,T[2]),ep=hG(ae),er=lP(S,e(j,el));if(er[2])return 0;var
+es=hJ(z(function(a){return f(a[1],a[2])},S),el),et=es?lT(ae,S,aX,aW,aU,au):es;if(et){var
+hl=hD(T[4]),V=eT(ep,em),av=a7(c7(ep,em)),ak=er[1],J=lF(ae,S,aX,aW,aU,au),ay=J[2],X=ak;for(;;){if(ay){if(X){var
+cn=X[1],co=ay[1],cp=aY(q,co[1],cn[1]),cq=cp?aY(q,co[2],cn[2]):cp;if(cq){var
+ay=ay[2],X=X[2];continue}var
+cr=cq}else
 var
-cs=W;var
-a6=cs}else
+cr=X;var
+a6=cr}else
 var
-a6=W?0:1;var
-cu=a6?d8(r,K[4],at):a6,cv=cu?ko(r,K[5],S):cu;if(cv){var
-X=K[5],cx=K[3],cy=K[1],e7=K[6],cn=function(a){var
-b=fo(X,S,at,a);return O(fo(X,S,at,a),b)},e2=e(function(c){var
-a=fo(X,S,at,c);return[0,g0(cy,a,ap([5,[0,b,b],cx],d$(fn(X,S,c[2]),a)))]},ak),e3=e(cn,ak),e4=e(function(a){return 0},ak),e5=e(function(a){return[0,[6,cn(a)]]},ak),e6=[0,e(function(c){var
-a=av(fo(X,S,at,c));return g0(cy,a,ap([5,[0,b,b],cx],d$(fn(X,S,c[2]),a)))},ak),e5,e4,e3,e2];return kb(r,dl(K[1]),e6,e7,hh)}return cv}}return et;default:return 0}case
+a6=X?0:1;var
+cs=a6?d9(q,J[4],av):a6,cu=cs?kp(q,J[5],V):cs;if(cu){var
+_=J[5],cv=J[3],cx=J[1],e7=J[6],cl=function(a){var
+b=fq(_,V,av,a);return O(fq(_,V,av,a),b)},e2=e(function(b){var
+a=fq(_,V,av,b);return[0,g3(cx,a,ap([5,[0,c,c],cv],ea(fp(_,V,b[2]),a)))]},ak),e3=e(cl,ak),e4=e(function(a){return 0},ak),e5=e(function(a){return[0,[6,cl(a)]]},ak),e6=[0,e(function(b){var
+a=aw(fq(_,V,av,b));return g3(cx,a,ap([5,[0,c,c],cv],ea(fp(_,V,b[2]),a)))},ak),e5,e4,e3,e2];return kc(q,dl(J[1]),e6,e7,hl)}return cu}}return et;default:return 0}case
 3:var
-U=a[7],eu=a[6],ev=a[5],w=a[4],ew=a[2],b2=a[1],aZ=o[2];if(0===aZ[0]){var
-b3=aZ[3],b4=cQ(0,i(b3),b3);if(b4){var
-ex=b4[1];if(ex[2])return 0;var
-aN=i(b2),gY=i(eu),dM=v(i(ev),gY),dN=dM?n(function(a){if(11===a[1]){if(typeof
-a[4]==="number"){if(a[2])var
-c=a7(aN,i(w),a);else
+al=a[7],eu=a[6],ev=a[5],K=a[4],ew=a[2],b0=a[1],aZ=o[2];if(0===aZ[0]){var
+b1=aZ[3],b3=cQ(0,i(b1),b1);if(b3){var
+ex=b3[1];if(ex[2])return 0;var
+g2=i(b0),g4=i(eu),dN=v(i(ev),g4),dO=dN?n(function(a){var
+b=lD(g2,i(K),a);if(b){var
+c=a[1];if(1===c){var
+d=a[2],e=d?[0,bA(d[1]),0]:aV(0,i(K));return n(function(b){var
+a=W(K,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},K):1}return b},al):dN,dP=dO?fN(al):dO,dQ=dP?n(function(a){return eq(a[2])},ew):dP,ey=dQ?n(hF,dy(0,i(K),al)):dQ,ez=ey?fO(i(b0),b1):ey;if(ez){var
+hm=ex[1],hn=a[3],dJ=aq(fK,al),aH=dy(0,i(K),al),gW=aK(ev,eu),bO=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},gW),gX=e(function(a){return 0===a[0]?[0,e(cm,a[1])]:[1,cm(a[1])]},K),gY=e(function(a){var
+b=cm(a[2]);return[0,a[1],b]},hn),m=[0,b0,e(function(a){var
+b=bv(a[2]);return[0,a[1],b]},ew),gY,gX],ho=lX(i(K),al),eA=hK(aZ[2]),ax=aZ[1],f2=e(aJ,m[2]),bn=f(m[1],f2),bo=i(m[1]),c3=Z(qI,bo),c4=c3?Z(bo,qJ):c3,c5=c4?Z(bo,i(m[4])):c4,c6=c5?Z(i(m[4]),qK):c5,c9=c6?lc(bn):c6;if(c9){var
+aD=bn,aC=m[3];for(;;){if(aC){var
+cZ=aC[1],c0=cZ[1],c1=ai(aq(function(b){return function(a){return am(b,a)}}(c0),aD)),c2=c1?hh(aD,cZ[2]):c1;if(c2){var
+aD=[0,c0,aD],aC=aC[2];continue}var
+c$=c2}else
 var
-h=a[3]?a7(aN,i(w),a):1,c=h;var
-d=c}else
+c$=1;var
+bp=c$;break}}else
 var
-d=a7(aN,i(w),a);var
-b=d}else
+bp=c9;if(bp)var
+f3=m[4],bs=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return n(function(a){return hh(c,a)},b)},f3);else
 var
-b=a7(aN,i(w),a);if(b){var
-e=a[1];if(1===e){var
-f=a[2],g=f?[0,bz(f[1]),0]:aV(0,i(w));return n(function(b){var
-a=V(w,b);return a?0===a[1][0]?0:1:a},g)}return 11===e?n(function(a){return 0===a[0]?0:1},w):1}return b},U):dM,dO=dN?fK(U):dN,dP=dO?n(function(a){return ep(a[2])},ew):dO,ey=dP?n(hE,dx(0,i(w),U)):dP,ez=ey?fL(i(b2),b3):ey;if(ez){var
-hi=ex[1],hj=a[3],dI=aq(hv,U),aE=dx(0,i(w),U),gS=aK(ev,eu),bO=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},gS),gT=e(function(a){return 0===a[0]?[0,e(cm,a[1])]:[1,cm(a[1])]},w),gU=e(function(a){var
-b=cm(a[2]);return[0,a[1],b]},hj),m=[0,b2,e(function(a){var
-b=bu(a[2]);return[0,a[1],b]},ew),gU,gT],hk=i(w),gZ=lR(U),g1=0,g2=i(z(function(a){return ly(g1,hk,a)},gZ)),bR=z(lx,U),g3=bR?[0,bR[1],bR[2]]:vQ,dQ=N(i(g3),g2),eA=lS(aZ[2]),au=aZ[1],fZ=e(aJ,m[2]),bn=f(m[1],fZ),bo=i(m[1]),c2=Z(qA,bo),c3=c2?Z(bo,qB):c2,c4=c3?Z(bo,i(m[4])):c3,c5=c4?Z(i(m[4]),qC):c4,c6=c5?k_(bn):c5;if(c6){var
-aB=bn,aA=m[3];for(;;){if(aA){var
-cY=aA[1],cZ=cY[1],c0=aj(aq(function(b){return function(a){return am(b,a)}}(cZ),aB)),c1=c0?hf(aB,cY[2]):c0;if(c1){var
-aB=[0,cZ,aB],aA=aA[2];continue}var
-c9=c1}else
+bs=bp;if(bs)var
+f4=m[2],bw=n(function(a){return a8(q,a[2][1],a[2][2])},f4);else
 var
-c9=1;var
-bp=c9;break}}else
+bw=bs;var
+da=bw?n(function(a){return a8(q,a[1],a[2])},bO):bw;if(da){var
+bd=i(m[1]),be=i(m[2]),cK=N(be,i(he(e(b9,m[3])))),fn=m[3],ao=lb(m),aA=fn,bc=be;for(;;){if(aA){var
+cF=aA[1],cJ=cF[2],fg=N(bc,i(bt(cJ))),fi=aA[2],fk=a_(ao,cJ,bc),ao=[0,[0,cF[1],fk],ao],aA=fi,bc=fg;continue}var
+P=k_(bd,ao,m[4],cK),fr=k9(ao,m[4],cK),ft=m[3],cL=f(k6(lb(m),ft,be),fr),cM=i(la(m)),fu=0,fv=f(cL,ei(function(a,b){return k2(P,a,b)},fu,d,cM,aH)),fz=f(br(eh(P)),fv),cO=f(br(fy(P)),fz),bf=c_(cO)[1],fA=cz(bf),$=function(a){return bl(fA,a)},cP=v(i(bO),bd);if(cP)var
+fB=m[4],bg=n(function(a){return 0===a[0]?v(i(a[1]),bd):1},fB);else
 var
-bp=c6;if(bp)var
-f0=m[4],br=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return n(function(a){return hf(c,a)},b)},f0);else
+bg=cP;var
+cR=bg?n(function(a){var
+b=l(d),c=cz(bf);return aM(t($(a),c,b),a)},cO):bg,cS=cR?aq(k5,aH):cR;if(cS){var
+cT=ai(dJ);if(cT)var
+aB=cT;else
 var
-br=bp;if(br)var
-f1=m[2],bv=n(function(a){return a9(r,a[2][1],a[2][2])},f1);else
+f1=m[4],aB=n(function(a){return 0===a[0]?0:1},f1)}else
 var
-bv=br;var
-c$=bv?n(function(a){return a9(r,a[1],a[2])},bO):bv;if(c$){var
-bc=i(m[1]),bd=i(m[2]),cK=N(bd,i(hc(e(b8,m[3])))),fl=m[3],an=k9(m),ay=fl,bb=bd;for(;;){if(ay){var
-cF=ay[1],cJ=cF[2],fd=N(bb,i(bs(cJ))),fe=ay[2],fg=a$(an,cJ,bb),an=[0,[0,cF[1],fg],an],ay=fe,bb=fd;continue}var
-P=k6(bc,an,m[4],cK),fp=k5(an,m[4],cK),fq=m[3],cL=f(k2(k9(m),fq,bd),fp),cM=i(k8(m)),fr=0,fs=f(cL,eh(function(a,b){return kY(P,a,b)},fr,d,cM,aE)),ft=f(bF(eg(P)),fs),cO=f(bF(fw(P)),ft),be=c_(cO)[1],fx=cz(be),_=function(a){return bl(fx,a)},cP=v(i(bO),bc);if(cP)var
-fy=m[4],bf=n(function(a){return 0===a[0]?v(i(a[1]),bc):1},fy);else
+aB=cS;if(aB){var
+fE=la(m),bh=aj(e(function(a){return ag(ax,a)},fE));if(bh){var
+fF=0,fG=z(function(a){return fx(fF,d,a)},aH),bi=aj(e(function(a){return k3(ax,a)},fG));if(bi){var
+bj=aj(e(function(a){return ag(ax,[0,a,d])},bO));if(bj){var
+fH=0,fP=0,bk=aj(ei(function(a,b){return k4(ax,$,P,fP,d,a,b)},fH,d,cM,aH));if(bk){var
+cU=bk[1];if(dJ)var
+fQ=eA[2],fR=eA[1],fS=eh(P),bm=j8(ho,cU,[8,k(ar($),fS),fR,fQ]);else
 var
-bf=cP;var
-cR=bf?n(function(a){var
-b=l(d),c=cz(be);return aM(t(_(a),c,b),a)},cO):bf,cS=cR?aq(k1,aE):cR;if(cS){var
-cT=aj(dI);if(cT)var
-az=cT;else
+bm=cU;var
+fT=gM(bm),fU=bj[1],fV=function(a){return 0},fW=f(bh[1],bi[1]),fX=e($,cL),fY=eh(P),fZ=k(ar($),fY),f0=fy(P);return fh(ax,bf,k(ar($),f0),fZ,fX,fW,bm,fV,fU,fT,hm)}var
+cV=bk}else
 var
-fY=m[4],az=n(function(a){return 0===a[0]?0:1},fY)}else
-var
-az=cS;if(az){var
-fz=k8(m),bg=ah(e(function(a){return af(au,a)},fz));if(bg){var
-fC=0,fD=z(function(a){return fv(fC,d,a)},aE),bh=ah(e(function(a){return kZ(au,a)},fD));if(bh){var
-bi=ah(e(function(a){return af(au,[0,a,d])},bO));if(bi){var
-fE=0,fF=0,bj=ah(eh(function(a,b){return k0(au,_,P,fF,d,a,b)},fE,d,cM,aE));if(bj){var
-bk=bj[1];if(dI)var
-fM=eA[2],fN=eA[1],fO=eg(P),fP=[8,k(ar(_),fO),fN,fM],fi=[0,fP,eR(dQ,bk)],bm=f(c7(dQ,bk),fi);else
-var
-bm=bk;var
-fQ=gJ(bm),fR=bi[1],fS=function(a){return 0},fT=f(bg[1],bh[1]),fU=e(_,cL),fV=eg(P),fW=k(ar(_),fV),fX=fw(P);return ff(au,be,k(ar(_),fX),fW,fU,fT,bm,fS,fR,fQ,hi)}var
-cU=bj}else
-var
-cU=bi;var
-cV=cU}else
-var
-cV=bh;var
+cV=bj;var
 cW=cV}else
 var
-cW=bg;var
+cW=bi;var
 cX=cW}else
 var
-cX=az;return cX}}return c$}var
+cX=bh;var
+cY=cX}else
+var
+cY=aB;return cY}}return da}var
 eB=ez}else
 var
-eB=b4;return eB}return 0;case
+eB=b3;return eB}return 0;case
 4:if(0===o[2][0]){var
-eC=dz(j(a[1]));if(eC){var
-a2=a[3],cj=0;if(a2){var
-aG=a2[1],aH=aG[4],I=a2[2];if(aG[1]||aG[2]||aG[3])var
+eC=dA(j(a[1]));if(eC){var
+a2=a[3],ci=0;if(a2){var
+aI=a2[1],aL=aI[4],H=a2[2];if(aI[1]||aI[2]||aI[3])var
 s=0;else{var
-D=0;if(typeof
-aH!=="number")switch(aH[0]){case
+C=0;if(typeof
+aL!=="number")switch(aL[0]){case
 0:var
-a4=0;if(I){var
-aI=I[1],bP=aI[4];if(aI[1]||aI[2]||aI[3]){var
-s=0;D=1;a4=1}else{var
-ck=0;if(typeof
-bP!=="number"&&1===bP[0])if(I[2]){var
-s=0;D=1;a4=1;ck=1}else{var
-gV=j(bP[1]),s=[0,[0,j(aH[1]),gV]];D=1;a4=1;ck=1}if(!ck)var
-dK=0}}else
-var
-dK=I;if(!a4){var
-s=dK;D=1}break;case
-1:var
-a5=0;if(I){var
-aL=I[1],bQ=aL[4];if(aL[1]||aL[2]||aL[3]){var
-s=0;D=1;a5=1}else{var
-cl=0;if(typeof
-bQ!=="number"&&0===bQ[0])if(I[2]){var
-s=0;D=1;a5=1;cl=1}else{var
-gW=j(aH[1]),s=[0,[0,j(bQ[1]),gW]];D=1;a5=1;cl=1}if(!cl)var
+a4=0;if(H){var
+aN=H[1],bP=aN[4];if(aN[1]||aN[2]||aN[3]){var
+s=0;C=1;a4=1}else{var
+cj=0;if(typeof
+bP!=="number"&&1===bP[0])if(H[2]){var
+s=0;C=1;a4=1;cj=1}else{var
+gZ=j(bP[1]),s=[0,[0,j(aL[1]),gZ]];C=1;a4=1;cj=1}if(!cj)var
 dL=0}}else
 var
-dL=I;if(!a5){var
-s=dL;D=1}break}if(!D){var
-dJ=0;cj=1}}}else{var
-dJ=a2;cj=1}if(cj)var
-s=dJ;if(s){var
-eD=s[1],eE=eD[2],eF=eD[1],de=h(r,1,j(a[2])),df=de?h(r,1,[3,eE,[0,b,b]]):de,dg=df?h(r,1,eF):df;return dg?h(r,0,[3,[5,[0,b,b],eE],eF]):dg}var
+dL=H;if(!a4){var
+s=dL;C=1}break;case
+1:var
+a5=0;if(H){var
+aO=H[1],bQ=aO[4];if(aO[1]||aO[2]||aO[3]){var
+s=0;C=1;a5=1}else{var
+ck=0;if(typeof
+bQ!=="number"&&0===bQ[0])if(H[2]){var
+s=0;C=1;a5=1;ck=1}else{var
+g0=j(aL[1]),s=[0,[0,j(bQ[1]),g0]];C=1;a5=1;ck=1}if(!ck)var
+dM=0}}else
+var
+dM=H;if(!a5){var
+s=dM;C=1}break}if(!C){var
+dK=0;ci=1}}}else{var
+dK=a2;ci=1}if(ci)var
+s=dK;if(s){var
+eD=s[1],eE=eD[2],eF=eD[1],df=h(q,1,j(a[2])),dg=df?h(q,1,[3,eE,[0,c,c]]):df,dh=dg?h(q,1,eF):dg;return dh?h(q,0,[3,[5,[0,c,c],eE],eF]):dh}var
 eG=s}else
 var
 eG=eC;return eG}return 0;case
 5:var
-b5=a[4],eH=a[1],b6=o[2];if(0===b6[0]){var
-eI=b6[3],q=hu(eH,[0,a[2],a[3]],0,b5),b7=hD(i(eI),eI);if(b7){var
-eJ=b7[1];if(eJ[2])return 0;var
-eK=hH(eH,0,b5,q),eL=eK?aj(aq(hv,b5)):eK;if(eL){var
-eM=j7(r,q);if(eM){var
-hl=eJ[1],eN=e(fJ,q[1]),B=hA(q[1]),eO=j(a[5]),L=b6[1],by=fh(B,eN,q[1]),E=gK(B,eN,q[1],0),f6=i(q[3]),f7=N(i(by),f6),aC=[0,i(by),f7],f8=gL(E,B,aC,q[3]),f9=f(e(dc,E),f8),dm=f(bF(d3(E)),f9),dn=c_(dm)[1],bA=cz(dn),dp=q[2];if(0===dp[0]){var
-dq=n(function(a){var
-b=l(d);return aM(t(bl(bA,a),bA,b),a)},dm),dr=dq?h(r,1,eO):dq;if(dr){var
-f_=q[3],f$=z(function(a){return di(B,a)},f_),ga=q[3],gb=f(by,f(e(function(a){return bq(B,a)},ga),f$)),bB=ah(e(function(a){return af(L,a)},gb));if(bB){var
-gc=aF(dp[1],B),bD=ah(e(function(a){return af(L,a)},gc));if(bD){var
-bG=ce(L,B,[5,eO,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bG){var
-bH=q[3],gd=bD[1],ge=bG[1],gf=bB[1],ao=function(a){return bl(bA,a)},f3=aV(0,i(bH)),f4=e(function(j){var
-l=V(bH,j);if(l){var
-a=l[1],u=c7(j,bH),v=i(z(function(a){return di(B,a)},u)),w=N(aC[2],v),g=[0,N(aC[1],j),w],r=d3(E),f=k(ar(ao),r),c=[1,[8,[1,[1,g[1]]]]],d=fk(E,B,g,a),n=d?[0,[3,e(ao,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b4=a[4],eH=a[1],b5=o[2];if(0===b5[0]){var
+eI=b5[3],r=hw(eH,[0,a[2],a[3]],0,b4),b6=hE(i(eI),eI);if(b6){var
+eJ=b6[1];if(eJ[2])return 0;var
+eK=hI(eH,0,b4,r),eL=eK?ai(aq(fK,b4)):eK;if(eL){var
+eM=j7(q,r);if(eM){var
+hp=eJ[1],eN=e(fM,r[1]),A=hB(r[1]),eO=j(a[5]),L=b5[1],bz=fj(A,eN,r[1]),D=gN(A,eN,r[1],0),f9=i(r[3]),f_=N(i(bz),f9),aE=[0,i(bz),f_],f$=gO(D,A,aE,r[3]),ga=f(e(dc,D),f$),dn=f(br(d4(D)),ga),dp=c_(dn)[1],bB=cz(dp),dq=r[2];if(0===dq[0]){var
+dr=n(function(a){var
+b=l(d);return aM(t(bl(bB,a),bB,b),a)},dn),ds=dr?h(q,1,eO):dr;if(ds){var
+gb=r[3],gc=z(function(a){return di(A,a)},gb),gd=r[3],ge=f(bz,f(e(function(a){return bq(A,a)},gd),gc)),bC=aj(e(function(a){return ag(L,a)},ge));if(bC){var
+gf=aF(dq[1],A),bE=aj(e(function(a){return ag(L,a)},gf));if(bE){var
+bG=cf(L,A,[5,eO,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bG){var
+bH=r[3],gg=bE[1],gh=bG[1],gi=bC[1],as=function(a){return bl(bB,a)},f6=aV(0,i(bH)),f7=e(function(j){var
+l=W(bH,j);if(l){var
+a=l[1],u=c7(j,bH),v=i(z(function(a){return di(A,a)},u)),w=N(aE[2],v),g=[0,N(aE[1],j),w],r=d4(D),f=k(ar(as),r),b=[1,[8,[1,[1,g[1]]]]],d=fm(D,A,g,a),n=d?[0,[3,e(as,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,f,c]];case
-1:return[0,[1,f,c]];case
+0:return[0,[0,f,b]];case
+1:return[0,[1,f,b]];case
 4:var
 o=h(L,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,c]];case
+5:return[0,[2,f,b]];case
 8:var
 p=h(L,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,b]];m=1;break;case
+q=[1,[2,c]];m=1;break;case
 9:var
-q=c;m=1;break;case
+q=b;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=fj(E,B,g,a);return y(function(a){return[0,k(ar(ao),a),q]},t)}return 0}return l},f3),f5=e(function(a){return ao(dc(a))},E),dh=e(function(a){return ao(a[2])},E),gg=q[3],gh=aC[1],dj=e(ae,gf),dk=function(az,ay){var
+t=fl(D,A,g,a);return y(function(a){return[0,k(ar(as),a),q]},t)}return 0}return l},f6),f8=e(function(a){return as(dc(a))},D),dj=e(function(a){return as(a[2])},D),gj=r[3],gk=aE[1],dk=e(af,gi),dm=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=v(i(s),qL),ab=aa?n(function(a){var
-d=G(M(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
-ac=li(L,ge,e_(0,l),s),j=h[2],u=bC(0,cd(L,ac,dj),dn,0),O=function(a){return lh(lg(L,ac,dj,u,a))};if(typeof
+s=h[1],aa=v(i(s),qT),ab=aa?n(function(a){var
+d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
+ac=lm(L,gh,fa(0,l),s),j=h[2],u=bD(0,ce(L,ac,dk),dp,0),O=function(a){return ll(lk(L,ac,dk,u,a))};if(typeof
 j==="number")return 0===j?aq(function(b){var
-a=t(b,u,0);return a?G(a[1][2][2],d):a},dh):0;else{if(0===j[0]){var
-a=j[2],P=n(qJ,a);if(P){var
-o=t(j[1],f4,0);if(o){var
+a=t(b,u,0);return a?G(a[1][2][2],d):a},dj):0;else{if(0===j[0]){var
+a=j[2],P=n(qR,a);if(P){var
+o=t(j[1],f7,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fB(B,A),an=fA(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fD(B,A),an=fC(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fA(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fB(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fC(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fD(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5814,7 +5849,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-H=k[1],I=a[1],m=g[1],ar=fA(I),as=[1,[6,fB(m,H),ar]],at=[1,[6,g[2],as]],au=fA(H),J=[0,[0,m,[0,[1,[4,[1,[6,fB(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fC(I),as=[1,[6,fD(m,H),ar]],at=[1,[6,g[2],as]],au=fC(H),J=[0,[0,m,[0,[1,[4,[1,[6,fD(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -5823,7 +5858,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return lh(t(a[2],u,0))},aw);if(R)return n(O,Q[2]);var
+Q=f[1],aw=Q[1],R=n(function(a){return ll(t(a[2],u,0))},aw);if(R)return n(O,Q[2]);var
 S=R}else
 var
 S=f;var
@@ -5833,113 +5868,113 @@ T=o;var
 U=T}else
 var
 U=P;return U}var
-W=j[2],X=j[1],p=V(gg,X);if(p){var
+V=j[2],X=j[1],p=W(gj,X);if(p){var
 Z=p[1];if(typeof
 Z!=="number"&&1===Z[0]){var
-q=V(dh,W);if(q){var
-r=V(f5,W);if(r){var
-ax=N(gh,X);return O([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+q=W(dj,V);if(q){var
+r=W(f8,V);if(r){var
+ax=N(gk,X);return O([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
 _=0}else
 var
 _=p;return _}}return ab}var
-ad=h[1],w=V(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=aj(Y(bE(ae),aA));if(af){var
-ag=d4(ad,l),ah=dk(ag[1],h[2]);if(ah){var
+ad=h[1],w=W(l,ad);if(w){var
+ae=w[1],aA=ae[1],af=ai(Y(bF(ae),aA));if(af){var
+ag=d5(ad,l),ah=dm(ag[1],h[2]);if(ah){var
 l=ag[2],h=h[3];continue}var
-ai=ah}else
+aj=ah}else
 var
-ai=af;var
-ak=ai}else
+aj=af;var
+ak=aj}else
 var
-ak=w;return ak}};return dk(gd,hl)}var
-ds=bG}else
+ak=w;return ak}};return dm(gg,hp)}var
+dt=bG}else
 var
-ds=bD;var
-dt=ds}else
+dt=bE;var
+du=dt}else
 var
-dt=bB;var
-dv=dt}else
+du=bC;var
+dw=du}else
 var
-dv=dr;return dv}return 0}var
+dw=ds;return dw}return 0}var
 eP=eM}else
 var
 eP=eL;var
 eQ=eP}else
 var
-eQ=b7;return eQ}return 0;case
+eQ=b6;return eQ}return 0;case
 6:var
-eS=a[1];if(eS){var
-eT=eS[1],b9=o[2];if(0===b9[0]){var
-b_=hB(0,v0,b9[3]);if(b_){var
-eU=ep(eT);if(eU){var
-hm=b_[1],eV=bu(eT)[2],a3=b9[1],bw=ce(a3,d,eV);if(bw){var
-bx=ce(a3,d,[5,[0,b,b],eV]);if(bx){var
-f2=bw[1][1],da=T(cw(a3),f2);if(da)return lf(a3,bx[1][1],hm);var
-db=da}else
-var
-db=bx;var
+eR=a[1];if(eR){var
+eS=eR[1],b7=o[2];if(0===b7[0]){var
+b8=hC(0,v8,b7[3]);if(b8){var
+eU=eq(eS);if(eU){var
+hq=b8[1],eV=bv(eS)[2],a3=b7[1],bx=cf(a3,d,eV);if(bx){var
+by=cf(a3,d,[5,[0,c,c],eV]);if(by){var
+f5=bx[1][1],db=U(cw(a3),f5);if(db)return lj(a3,by[1][1],hq);var
 dd=db}else
 var
-dd=bw;return dd}var
+dd=by;var
+de=dd}else
+var
+de=bx;return de}var
 eW=eU}else
 var
-eW=b_;return eW}return 0}var
-b$=o[2];if(0===b$[0]){var
-ca=hB(0,v1,b$[3]);return ca?lf(b$[1],d,ca[1]):ca}return 0;default:var
-al=a[1],eX=o[2];if(2===eX[0]){var
-eY=eX[1],cb=hy(i(eY),eY);if(cb){var
-eZ=cb[1];if(eZ[2])return 0;var
-cc=eZ[1],d5=Z(vY,i(al)),d6=d5?Z(i(al),i2):d5,d7=d6?k_(e(aJ,al)):d6,e0=d7?n(function(c){var
+eW=b8;return eW}return 0}var
+b_=o[2];if(0===b_[0]){var
+b$=hC(0,v9,b_[3]);return b$?lj(b_[1],d,b$[1]):b$}return 0;default:var
+an=a[1],eX=o[2];if(2===eX[0]){var
+eY=eX[1],ca=hz(i(eY),eY);if(ca){var
+eZ=ca[1];if(eZ[2])return 0;var
+cb=eZ[1],d3=Z(v6,i(an)),d6=d3?Z(i(an),i2):d3,d7=d6?lc(e(aJ,an)):d6,e0=d7?n(function(c){var
 a=bT(j(c[2][1]));if(a){var
-b=bT(j(c[2][2]));if(b)return aj(c8(b[1],a[1]));var
+b=bT(j(c[2][2]));if(b)return ai(c8(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},al):d7;if(e0)var
-hn=fI(u7,cc),cf=lW(a[5],hn);else
+d=a;return d},an):d7;if(e0)var
+hr=fL(vd,cb),cc=l1(a[5],hr);else
 var
-cf=e0;if(cf)var
-ho=fI(u8,cc),cg=lW(a[6],ho);else
+cc=e0;if(cc)var
+hs=fL(ve,cb),cd=l1(a[6],hs);else
 var
-cg=cf;if(cg){var
-gX=e(function(a){return[0,d,0]},al);return lV(al,a[2],a[3],a[4],gX,cc)}var
-e1=cg}else
+cd=cc;if(cd){var
+g1=e(function(a){return[0,d,0]},an);return l0(an,a[2],a[3],a[4],g1,cb)}var
+e1=cd}else
 var
-e1=cb;return e1}return 0}}return as}var
-L=[aH,v4,n8(0)],lX=[aH,v5,n8(0)];function
-v2(m,b){var
-f=[0,g(ux,ag(b[4])),0],h=[0,g(uz,S([0,g(uy,ag(b[3])),f])),0],a=b[2];switch(a[0]){case
+e1=ca;return e1}return 0}}return at}var
+L=[aH,wa,od(0)],l2=[aH,wb,od(0)];function
+v_(m,b){var
+f=[0,g(uF,ah(b[4])),0],h=[0,g(uH,S([0,g(uG,ah(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(ut,lo(a[1],a[2],a[3]));break;case
+c=I(uB,ls(a[1],a[2],a[3]));break;case
 1:var
-c=I(uu,lp(a[1],a[2],a[3],a[4]));break;default:var
-c=I(uv,A(e(uo,a[1])))}var
-i=[0,g(uA,c),h],j=1===b[2][0]?uG:uB,k=[0,g(uC,ag(j)),i],l=[0,g(uD,s8(b[1])),k],d=am(iC(v3,fC(S([0,g(uF,ag(uE)),l]),uw)),m);return d?vZ(b):d}function
+c=I(uC,lt(a[1],a[2],a[3],a[4]));break;default:var
+c=I(uD,A(e(uw,a[1])))}var
+i=[0,g(uI,c),h],j=1===b[2][0]?uO:uJ,k=[0,g(uK,ah(j)),i],l=[0,g(uL,te(b[1])),k],d=am(iC(v$,fE(S([0,g(uN,ah(uM)),l]),uE)),m);return d?v7(b):d}function
 _(a){if(0===a[0])return a[1];throw L}function
-W(a){if(1===a[0])return a[1];throw L}function
+X(a){if(1===a[0])return a[1];throw L}function
 aC(a){if(2===a[0])return a[1];throw L}function
-dB(a){if(3===a[0])return a[1];throw L}function
+dC(a){if(3===a[0])return a[1];throw L}function
 aG(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===BO(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===BZ(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-p(c,b){var
+r(c,b){var
 a=aG(c,b);if(a)return a[1];throw L}function
-b2(b,a){var
+b3(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 cT(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],v6]}throw L}function
-eq(e,d){var
-a=U(e,W(d));if(a){var
+2:return[0,a[1],wc]}throw L}function
+er(e,d){var
+a=V(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
-fM(i){var
-f=dL(i),d=[0,0],e=ge(f)-1|0;if(!(e<0)){var
+fP(i){var
+f=dM(i),d=[0,0],e=gh(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
 a=d[1],g=ih(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
 0:var
@@ -5963,20 +5998,20 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-er(a){return iO(fM(a))}function
-es(b){var
-a=dB(b);return 45===aI(a,0)?M(er(c4(a,1,al(a)-1|0))):er(a)}function
-lY(a){return dT(er(dB(a)))}function
-fN(a){return iN(er(dB(a)))}function
+es(a){return iO(fP(a))}function
+et(b){var
+a=dC(b);return 45===aI(a,0)?M(es(c4(a,1,al(a)-1|0))):es(a)}function
+l3(a){return dU(es(dC(a)))}function
+fQ(a){return iN(es(dC(a)))}function
 cp(c){var
-a=dB(c);if(6<al(a))throw L;function
+a=dC(c);if(6<al(a))throw L;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(iq(a))}function
-lZ(a){var
-b=97<=a?1:0,c=b?a<=nN?1:0:b;if(c)var
+l4(a){var
+b=97<=a?1:0,c=b?a<=nU?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-l0(y,b){var
+l5(y,b){var
 d=al(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
@@ -5986,24 +6021,24 @@ n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
 h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),v8)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&am(c4(b,a[1],5),we)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&lZ(aI(b,a[1]))){var
+v=0;if(a[1]<d&&l4(aI(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!lZ(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!l4(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,c4(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,v9);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=am(g,wf);if(r)var
 s=r;else
 var
 t=1<al(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw L;if(q){var
-j=q[1],x=0;if(am(j,v_)||48===aI(j,al(j)-1|0))x=1;else
+j=q[1],x=0;if(am(j,wg)||48===aI(j,al(j)-1|0))x=1;else
 var
-z=fM(j),e=[0,fM(g),z];if(x)throw L}else
+z=fP(j),e=[0,fP(g),z];if(x)throw L}else
 var
-e=[0,fM(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,v7)){if(!(2<al(f))&&2<=iq(f)&&!(64<iq(f)))return[4,e,dT(er(f))];throw L}throw L}return e}function
+e=[0,fP(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,wd)){if(!(2<al(f))&&2<=iq(f)&&!(64<iq(f)))return[4,e,dU(es(f))];throw L}throw L}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6013,46 +6048,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw L;return g}function
-fO(a){return l0(function(a){return[0,a]},a)}function
-hJ(a){var
-b=aC(a);return l0(function(a){return a},b)}function
-Q(a){return fO(aC(a))}function
-bI(a){if(2===a[0])return[0,fO(a[1])];var
-b=_(a),c=Q(p(b,v$));return[1,Q(p(b,wa)),c]}function
-X(a){throw[0,lX,aP(iC(wc,a),wb)]}function
-hK(c){var
-a=aC(c);if(m(a,wd)){var
-b=m(a,we);if(b)throw L;return b}return 1}function
-wf(d){var
+fR(a){return l5(function(a){return[0,a]},a)}function
+hL(a){var
+b=aC(a);return l5(function(a){return a},b)}function
+Q(a){return fR(aC(a))}function
+bI(a){if(2===a[0])return[0,fR(a[1])];var
+b=_(a),c=Q(r(b,wh));return[1,Q(r(b,wi)),c]}function
+T(a){throw[0,l2,aP(iC(wk,a),wj)]}function
+hM(c){var
+a=aC(c);if(m(a,wl)){var
+b=m(a,wm);if(b)throw L;return b}return 1}function
+wn(d){var
 b=_(d);function
-a(a){return eq(bI,p(b,a))}var
-c=aC(p(b,wg));if(m(c,wh)){if(m(c,wi)){if(m(c,wj))return X([0,wl,[0,c,wk]]);var
-e=aG(b,wm),f=b2(function(a){return eq(bI,a)},e),g=a(wn);return[1,a(wo),g,f]}var
-h=hK(p(b,wp)),i=bI(p(b,wq)),j=a(wr),k=a(ws);return[0,a(wt),k,j,i,h]}return[2,a(wu)]}function
-wv(d){var
+a(a){return er(bI,r(b,a))}var
+c=aC(r(b,wo));if(m(c,wp)){if(m(c,wq)){if(m(c,wr))return T([0,wt,[0,c,ws]]);var
+e=aG(b,wu),f=b3(function(a){return er(bI,a)},e),g=a(wv);return[1,a(ww),g,f]}var
+h=hM(r(b,wx)),i=bI(r(b,wy)),j=a(wz),k=a(wA);return[0,a(wB),k,j,i,h]}return[2,a(wC)]}function
+wD(d){var
 a=_(d);if(a){var
-b=a[1];if(!m(b[1],ww)){var
-c=b[2];if(2===c[0]&&!m(c[1],wx))return 1}}return 0}function
-l1(e){var
+b=a[1];if(!m(b[1],wE)){var
+c=b[2];if(2===c[0]&&!m(c[1],wF))return 1}}return 0}function
+l6(e){var
 b=_(e);function
-a(a){return U(bI,W(p(b,a)))}var
-c=aC(p(b,wy)),d=aG(b,wz);if(m(c,wA)){if(m(c,wB)){if(!m(c,wC)&&!d){var
-f=a(wF);return[1,a(wG),f]}}else
+a(a){return V(bI,X(r(b,a)))}var
+c=aC(r(b,wG)),d=aG(b,wH);if(m(c,wI)){if(m(c,wJ)){if(!m(c,wK)&&!d){var
+f=a(wN);return[1,a(wO),f]}}else
 if(!d){var
-g=hK(p(b,wH)),h=bI(p(b,wI)),i=a(wJ),j=a(wK);return[0,a(wL),j,i,h,g]}}else
+g=hM(r(b,wP)),h=bI(r(b,wQ)),i=a(wR),j=a(wS);return[0,a(wT),j,i,h,g]}}else
 if(!d){var
-k=hK(p(b,wM)),l=bI(p(b,wN)),n=bI(p(b,wO)),o=a(wP),q=a(wQ),r=a(wR);return[2,a(wS),r,q,o,n,l,k]}return X([0,wE,[0,c,wD]])}function
-l2(d){var
+k=hM(r(b,wU)),l=bI(r(b,wV)),n=bI(r(b,wW)),o=a(wX),p=a(wY),q=a(wZ);return[2,a(w0),q,p,o,n,l,k]}return T([0,wM,[0,c,wL]])}function
+l7(d){var
 a=_(d);if(a){var
-b=a[1];if(!m(b[1],wT)){var
-c=b[2];if(2===c[0]&&!m(c[1],wU))return 1}}return 0}function
+b=a[1];if(!m(b[1],w1)){var
+c=b[2];if(2===c[0]&&!m(c[1],w2))return 1}}return 0}function
 cq(c,d){var
-a=W(d);if(a){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
-et(f,o){var
-x=f?f[1]:f,c=_(o),a=aC(p(c,wV)),i=oj(a,wW),h=0;if(0<=i)if(0<i)if(m(a,wX))if(m(a,wY))if(m(a,wZ))if(m(a,w0))if(m(a,w1)){var
-j=m(a,w2);if(j)h=1;else
+eu(f,o){var
+x=f?f[1]:f,c=_(o),a=aC(r(c,w3)),i=oq(a,w4),h=0;if(0<=i)if(0<i)if(m(a,w5))if(m(a,w6))if(m(a,w7))if(m(a,w8))if(m(a,w9)){var
+j=m(a,w_);if(j)h=1;else
 var
 b=j}else
 var
@@ -6067,7 +6102,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,xl))if(m(a,xm))if(m(a,xn))if(m(a,xo))if(m(a,xp))if(m(a,xq))if(m(a,xr))h=1;else
+if(m(a,xt))if(m(a,xu))if(m(a,xv))if(m(a,xw))if(m(a,xx))if(m(a,xy))if(m(a,xz))h=1;else
 var
 b=1;else
 var
@@ -6082,10 +6117,10 @@ var
 b=9;else
 var
 b=12;var
-l=h?X([0,w4,[0,a,w3]]):b;function
-g(a){return p(c,w5)}var
-d=aC(p(c,w6)),k=m(d,w7);if(k)if(m(d,w8))if(m(d,w9))if(m(d,w_))var
-e=X([0,xa,[0,d,w$]]);else
+l=h?T([0,xa,[0,a,w$]]):b;function
+g(a){return r(c,xb)}var
+d=aC(r(c,xc)),k=m(d,xd);if(k)if(m(d,xe))if(m(d,xf))if(m(d,xg))var
+e=T([0,xi,[0,d,xh]]);else
 var
 n=cq(Q,g(0)),e=[2,n[1],n[2]];else
 var
@@ -6094,180 +6129,184 @@ var
 e=[1,Q(g(0))];else
 var
 e=k;function
-q(y){var
+p(y){var
 a=_(y),b=0;switch(l){case
 6:if(a){var
-p=a[1];if(!m(p[1],xc)){var
+p=a[1];if(!m(p[1],xk)){var
 q=p[2];if(1===q[0]){var
 e=q[1],k=0;if(e&&!e[2])if(a[2])k=1;else{var
-d=e[1];b=1;k=1}if(!k&&!a[2])return X(xd)}}}break;case
+d=e[1];b=1;k=1}if(!k&&!a[2])return T(xl)}}}break;case
 10:if(a){var
-r=a[1];if(!m(r[1],xe)){var
+r=a[1];if(!m(r[1],xm)){var
 s=r[2];if(1===s[0]){var
 f=s[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-t=g[1];if(!m(t[1],xf)){var
+t=g[1];if(!m(t[1],xn)){var
 u=t[2];if(1===u[0]){var
 h=u[1];if(h&&!h[2]&&!g[2]){var
 z=Q(h[1]);return[1,Q(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-v=a[1];if(!m(v[1],xg)){var
-w=v[2],i=a[2];if(i){if(!m(i[1][1],xh)&&!i[2]&&x)return X(xi)}else
+v=a[1];if(!m(v[1],xo)){var
+w=v[2],i=a[2];if(i){if(!m(i[1][1],xp)&&!i[2]&&x)return T(xq)}else
 if(1===w[0]){var
 j=w[1];if(j&&!j[2]){var
 d=j[1];b=1}}}}break;case
 2:case
 8:if(a){var
-n=a[1];if(!m(n[1],xb)){var
+n=a[1];if(!m(n[1],xj)){var
 o=n[2];if(1===o[0]){var
 c=o[1];if(c&&!c[2]&&!a[2]){var
 d=c[1];b=1}}}}break}if(b)return[0,Q(d)];throw L}var
-r=b2(q,aG(c,xj));return[0,l,b2(cp,aG(c,xk)),r,e]}function
-hL(c){var
-d=et(xt,c),e=d[1];if(2<=e)switch(e-2|0){case
+q=b3(p,aG(c,xr));return[0,l,b3(cp,aG(c,xs)),q,e]}function
+l8(c){var
+d=eu(xB,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=et(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return X(xs)}function
-xu(a){var
-b=et(0,a);return 11===b[1]?b:hL(a)}function
-l3(c){var
-d=et(xv,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:hL(c)}function
-hM(b){var
-a=_(b[2]);if(m(b[1],xC)){var
-c=cq(Q,p(a,xD)),d=cq(Q,p(a,xE)),e=d[2],f=d[1],g=Q(p(a,xF));return[1,c[1],c[2],g,f,e]}var
-h=U(Q,W(p(a,xG)));return[0,U(Q,W(p(a,xH))),h]}function
-xI(f){var
+a=eu(0,c),b=a[1];if(2!==b&&!(4<=b))return a;return T(xA)}function
+l9(a){var
+b=eu(xC,a);return 11===b[1]?b:l8(a)}function
+l_(c){var
+d=eu(xD,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:l8(c)}function
+hN(b){var
+a=_(b[2]);if(m(b[1],xK)){var
+c=cq(Q,r(a,xL)),d=cq(Q,r(a,xM)),e=d[2],f=d[1],g=Q(r(a,xN));return[1,c[1],c[2],g,f,e]}var
+h=V(Q,X(r(a,xO)));return[0,V(Q,X(r(a,xP))),h]}function
+xQ(f){var
 a=_(f);function
-d(b){return Q(p(a,b))}function
-c(b){return eq(Q,p(a,b))}var
-b=aC(p(a,xJ));if(m(b,xK)){if(!m(b,xL)){var
-j=p(a,xR),e=cq(function(a){return a},j),k=aG(a,xS),l=b2(function(a){return c(xT)},k),n=fO(aC(e[2])),o=fO(aC(e[1])),q=d(xU);return[0,cp(p(a,xV)),q,o,n,l]}if(m(b,xM))throw L}var
-g=d(xN),h=c(xO),i=c(xP);return[1,am(b,xQ),i,h,g]}function
-hN(ab){var
-e=cT(ab),f=e[1];if(m(f,xW)){if(m(f,xX)){if(m(f,xY)){if(m(f,xZ))return X([0,x1,[0,f,x0]]);var
-r=p(_(e[2]),x2),R=0;if(2===r[0]){var
-A=m(r[1],x3);if(!A){var
-z=A;R=1}}if(!R)var
-z=[0,bI(r)];return[6,z]}var
-B=_(e[2]),g=hN([0,[0,[0,x5,p(B,x4)],0]]);if(0===g[0]){var
+d(b){return Q(r(a,b))}function
+c(b){return er(Q,r(a,b))}var
+b=aC(r(a,xR));if(m(b,xS)){if(!m(b,xT)){var
+j=r(a,xZ),e=cq(function(a){return a},j),k=aG(a,x0),l=b3(function(a){return c(x1)},k),n=fR(aC(e[2])),o=fR(aC(e[1])),p=d(x2);return[0,cp(r(a,x3)),p,o,n,l]}if(m(b,xU))throw L}var
+g=d(xV),h=c(xW),i=c(xX);return[1,am(b,xY),i,h,g]}function
+hO(ae){var
+e=cT(ae),f=e[1];if(m(f,x4)){if(m(f,x5)){if(m(f,x6)){if(m(f,x7))return T([0,x9,[0,f,x8]]);var
+q=r(_(e[2]),x_),U=0;if(2===q[0]){var
+B=m(q[1],x$);if(!B){var
+A=B;U=1}}if(!U)var
+A=[0,bI(q)];return[6,A]}var
+C=_(e[2]),g=hO([0,[0,[0,yb,r(C,ya)],0]]);if(0===g[0]){var
 s=g[2];if(0===s[0]&&!g[3]){var
-ac=Q(p(B,x7));return[5,g[1],s[1],s[2],g[4],ac]}}return X(x6)}var
-a=_(e[2]),C=function(c){var
-b=W(p(a,x8));return U(function(a){return et(0,a)},b)},h=cT(p(a,x9)),b=cT(p(a,x_)),c=h[1];if(m(c,x$)&&0!==aG(a,ya))return X(y2);if(m(c,yb)&&m(c,yc)&&m(c,yd)){if(0===aG(a,ye)){if(m(c,yf)){var
-S=0;if(m(c,yg)){if(!m(c,yh)){var
-D=b[1],T=0;if(m(D,yk)&&m(D,yl)){S=1;T=1}if(!T){var
-t=W(h[2]),u=aG(a,yo),E=u?U(xI,W(u[1])):u,v=C(0);if(!ax(wv,t)&&!ax(function(a){return 13===a[1]?1:0},v)){var
-F=U(wf,t),G=ax(function(a){return 5===a[1]?1:0},v),af=G?ax(function(a){return 0===a[0]?0:1},F):G;if(af)X(yr);var
-d=_(b[2]);if(m(b[1],xw))var
-x=cq(Q,p(d,xx)),y=cq(Q,p(d,xy)),Y=y[2],Z=y[1],$=Q(p(d,xz)),H=[1,x[1],x[2],$,Z,Y];else
+af=Q(r(C,yd));return[5,g[1],s[1],s[2],g[4],af]}}return T(yc)}var
+a=_(e[2]),D=function(c){var
+b=X(r(a,ye));return V(function(a){return eu(0,a)},b)},h=cT(r(a,yf)),b=cT(r(a,yg)),c=h[1];if(m(c,yh)&&0!==aG(a,yi))return T(y$);if(m(c,yj)&&m(c,yk)&&m(c,yl)){if(0===aG(a,ym)){if(m(c,yn)){var
+W=0;if(m(c,yo)){if(!m(c,yp)){var
+E=b[1],Y=0;if(m(E,ys)&&m(E,yt)){W=1;Y=1}if(!Y){var
+t=X(h[2]),u=aG(a,yw),F=u?V(xQ,X(u[1])):u,v=D(0);if(!at(wD,t)&&!at(function(a){return 13===a[1]?1:0},v)){var
+G=V(wn,t),H=at(function(a){return 5===a[1]?1:0},v),ai=H?at(function(a){return 0===a[0]?0:1},G):H;if(ai)T(yz);var
+d=_(b[2]);if(m(b[1],xE))var
+y=cq(Q,r(d,xF)),z=cq(Q,r(d,xG)),aa=z[2],ab=z[1],ac=Q(r(d,xH)),I=[1,y[1],y[2],ac,ab,aa];else
 var
-aa=eq(Q,p(d,xA)),H=[0,eq(Q,p(d,xB)),aa];return[0,F,H,E,v]}if(0!==E)X(yp);var
-ad=U(l3,W(p(a,yq))),ae=hM(b);return[1,0,U(l1,t),0,ae,0,ad]}}}else
-if(!m(b[1],ys)){var
-w=C(0),ag=ax(function(a){return 0!==a[1]?1:0},w),ah=ag||(2!==bO(w)?1:0);if(ah)X(yt);var
-ai=Q(p(_(b[2]),yu));return[4,Q(p(_(h[2]),yv)),ai,w]}if(!S)return X([0,yj,[0,c,yi]])}else
-if(!m(b[1],yw)){var
-j=_(h[2]),I=_(b[2]),J=function(c,a){var
-b=W(a);return U(function(d){var
-a=W(d);if(a){var
+ad=er(Q,r(d,xI)),I=[0,er(Q,r(d,xJ)),ad];return[0,G,I,F,v]}if(0!==F)T(yx);var
+ag=V(l_,X(r(a,yy))),ah=hN(b);return[1,0,V(l6,t),0,ah,0,ag]}}}else
+if(!m(b[1],yA)){var
+w=D(0),aj=at(function(a){return 0!==a[1]?1:0},w),ak=aj||(2!==bO(w)?1:0);if(ak)T(yB);var
+al=Q(r(_(b[2]),yC));return[4,Q(r(_(h[2]),yD)),al,w]}if(!W)return T([0,yr,[0,c,yq]])}else
+if(!m(b[1],yE)){var
+j=_(h[2]),J=_(b[2]),K=function(c,a){var
+b=X(a);return V(function(d){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},aj=function(d){var
+e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},an=function(d){var
 a=_(d);if(a){var
-b=a[1],c=b[1];if(m(c,yx)){if(!m(c,yy)&&!a[2])return[0,U(hJ,W(b[2]))]}else
-if(!a[2])return[1,hJ(b[2])]}throw L},ak=U(xu,W(p(a,yz))),al=U(Q,W(p(I,yA))),an=U(Q,W(p(I,yB))),ao=U(aj,W(p(j,yC))),ap=J(hJ,p(j,yD)),aq=J(bI,p(j,yE));return[3,U(aC,W(p(j,yF))),aq,ap,ao,an,al,ak]}return X([0,yn,[0,b[1],ym]])}throw L}var
-K=_(h[2]),l=b2(Q,aG(K,yG)),ar=function(f){var
-a=cT(f),b=a[1];if(m(b,yH)){if(m(b,yI)){if(m(b,yJ)){if(m(b,yK))throw L;var
-d=a[2],g=Q(p(_(d),yL));return[3,Q(p(_(d),yM)),g]}var
-h=a[2],c=function(a){return cq(Q,p(_(h),a))},i=c(yN),j=c(yO);return[1,c(yP),j,i]}var
-e=cq(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},n=b2(ar,aG(a,yQ)),M=m(c,yR),N=M?m(c,yS)?2:1:M,o=W(p(K,yT));if(l&&n&&gi(l2,o)){var
-as=function(c){var
+b=a[1],c=b[1];if(m(c,yF)){if(!m(c,yG)&&!a[2])return[0,V(hL,X(b[2]))]}else
+if(!a[2])return[1,hL(b[2])]}throw L},ao=V(l9,X(r(a,yH))),ap=V(Q,X(r(J,yI))),aq=V(Q,X(r(J,yJ))),ar=V(an,X(r(j,yK))),as=K(hL,r(j,yL)),au=K(bI,r(j,yM));return[3,V(aC,X(r(j,yN))),au,as,ar,aq,ap,ao]}return T([0,yv,[0,b[1],yu]])}throw L}var
+M=_(h[2]),l=b3(Q,aG(M,yO)),av=function(f){var
+a=cT(f),b=a[1];if(m(b,yP)){if(m(b,yQ)){if(m(b,yR)){if(m(b,yS))throw L;var
+d=a[2],g=Q(r(_(d),yT));return[3,Q(r(_(d),yU)),g]}var
+h=a[2],c=function(a){return cq(Q,r(_(h),a))},i=c(yV),j=c(yW);return[1,c(yX),j,i]}var
+e=cq(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},n=b3(av,aG(a,yY)),N=m(c,yZ),x=N?m(c,y0)?2:1:N,o=X(r(M,y1));if(l&&n){var
+O=n[1];if(gl(l7,o)){var
+aw=function(c){var
 a=_(c);function
-b(b){return U(bI,W(p(a,b)))}if(0!==aG(a,yU))X(yV);var
-d=b(yW);return[0,b(yX),d]},at=U(hL,W(p(a,yY))),au=n[1],av=hM(b),aw=l[1];return[2,N,U(as,o),aw,av,au,at]}var
-V=0;if(!l&&am(c,y1)){var
-O=1;V=1}if(!V)var
-O=[0,N];var
-P=0!==n?1:0,ay=P?ax(l2,o):P;if(ay)X(yZ);var
-az=U(l3,W(p(a,y0))),aA=hM(b);return[1,O,U(l1,o),l,aA,n,az]}var
-q=_(e[2]);function
-aB(b){var
-a=_(b),c=Q(p(a,y3)),d=[0,Q(p(a,y4)),c];return[0,aC(p(a,y5)),d]}var
-i=hN([0,[0,[0,y7,p(q,y6)],0]]);if(0===i[0]&&!i[3]){var
-aD=Q(p(q,y9)),aE=Q(p(q,y_)),aF=i[4],aH=i[2],aI=i[1];return[7,U(aB,W(p(q,y$))),aI,aH,aF,aE,aD]}return X(y8)}function
-hO(a){return U(es,W(a))}function
-hP(c,b){var
-a=hO(b);if(bO(a)!==c)throw L;return a}function
-l4(a,d){var
-b=_(d),e=W(p(b,zc)),f=a[2],c=U(function(a){return hP(f,a)},e),g=a[1];if(bO(c)!==g)throw L;return[0,c,fN(p(b,zd))]}function
-eu(g,o){var
+b(b){return V(bI,X(r(a,b)))}if(0!==aG(a,y2))T(y3);var
+d=b(y4);return[0,b(y5),d]},P=V(l9,X(r(a,y6))),Z=0;if(1!==x||2!==O[0])Z=1;if(Z&&at(function(a){return 11===a[1]?1:0},P))T(y7);var
+ax=hN(b),ay=l[1];return[2,x,V(aw,o),ay,ax,O,P]}}var
+$=0;if(!l&&am(c,y_)){var
+R=1;$=1}if(!$)var
+R=[0,x];var
+S=0!==n?1:0,az=S?at(l7,o):S;if(az)T(y8);var
+aA=V(l_,X(r(a,y9))),aB=hN(b);return[1,R,V(l6,o),l,aB,n,aA]}var
+p=_(e[2]);function
+aD(b){var
+a=_(b),c=Q(r(a,za)),d=[0,Q(r(a,zb)),c];return[0,aC(r(a,zc)),d]}var
+i=hO([0,[0,[0,ze,r(p,zd)],0]]);if(0===i[0]&&!i[3]){var
+aE=Q(r(p,zg)),aF=Q(r(p,zh)),aH=i[4],aI=i[2],aJ=i[1];return[7,V(aD,X(r(p,zi))),aJ,aI,aH,aF,aE]}return T(zf)}function
+hP(a){return V(et,X(a))}function
+hQ(c,b){var
+a=hP(b);if(bO(a)!==c)throw L;return a}function
+l$(a,d){var
+b=_(d),e=X(r(b,zl)),f=a[2],c=V(function(a){return hQ(f,a)},e),g=a[1];if(bO(c)!==g)throw L;return[0,c,fQ(r(b,zm))]}function
+ev(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=oj(a,ze),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,zf)&&m(a,zg)&&m(a,zh))if(m(a,zi))f=1;else{var
+e=d[1],a=e[1],O=oq(a,zn),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,zo)&&m(a,zp)&&m(a,zq))if(m(a,zr))f=1;else{var
 P=e[2];if(1===P[0]){var
-q=P[1];if(q){var
-r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!d[2]){var
-ab=U(hO,W(s[1])),ac=aC(r[1]);return[8,eu(g,q[1]),ac,ab]}b=1;f=1}else
+p=P[1];if(p){var
+q=p[2];if(q){var
+s=q[2];if(s&&!s[2]){if(!d[2]){var
+ad=V(hP,X(s[1])),ae=aC(q[1]);return[8,ev(g,p[1]),ae,ad]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-ad=e[2],u=ad,t=function(c,b){return[1,a,c,b]};b=2}}else{var
+af=e[2],u=af,t=function(c,b){return[1,a,c,b]};b=2}}else{var
 R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ae=fN(x[1]),af=es(w[1]);return[5,eu(g,v[1]),af,ae]}b=1}}}}}else
-if(m(a,zl))if(m(a,zm))if(m(a,zn))if(m(a,zo)){if(!m(a,zp)){if(!d[2]){var
-S=_(e[2]),ag=W(p(S,zq)),ah=N+1|0,T=U(function(a){return hP(ah,a)},ag);if(3===bO(T))return[1,zs,T,fN(p(S,zr))];throw L}b=1}}else{if(!d[2]){var
-J=aC(e[2]),K=m(J,za);if(K){if(m(J,zb))throw L;var
+ag=fQ(x[1]),ah=et(w[1]);return[5,ev(g,v[1]),ah,ag]}b=1}}}}}else
+if(m(a,zu))if(m(a,zv))if(m(a,zw))if(m(a,zx)){if(!m(a,zy)){if(!d[2]){var
+S=_(e[2]),ai=X(r(S,zz)),aj=N+1|0,U=V(function(a){return hQ(aj,a)},ai);if(3===bO(U))return[1,zB,U,fQ(r(S,zA))];throw L}b=1}}else{if(!d[2]){var
+J=aC(e[2]),K=m(J,zj);if(K){if(m(J,zk))throw L;var
 M=1}else
 var
 M=K;return[2,M]}b=1}else{if(!d[2]){var
 i=e[2],n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],k=Z[1],c=0;if(m(k,zu)&&m(k,zv)&&m(k,zw))if(m(k,zx))c=1;else{var
+Z=j[1],k=Z[1],c=0;if(m(k,zD)&&m(k,zE)&&m(k,zF))if(m(k,zG))c=1;else{var
 $=Z[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],aa=0;if(m(G,zz)&&m(G,zA)&&m(G,zB)){c=1;h=1;aa=1}if(!aa&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
-2:if(m(l[1],zC)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+G=F[1][1],ac=0;if(m(G,zI)&&m(G,zJ)&&m(G,zK)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+2:var
+aa=l[1];if(m(aa,zL)&&m(aa,zM)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-am=fN(I[1]),an=es(H[1]),y=[6,eu(g,l),an,am];n=1;c=1}else
+ao=fQ(I[1]),ap=et(H[1]),y=[6,ev(g,l),ap,ao];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
-c=1}if(!c&&!j[2])n=2}break;case
-2:if(!m(i[1],zD))n=2;break}switch(n){case
-0:var
-y=X(zy);break;case
+c=1}if(!c&&!j[2])n=1}break;case
 2:var
-y=eu(g,i);break}return[7,y]}b=1}else{var
-V=e[2];if(1===V[0]){var
-z=V[1];if(z){var
+ab=i[1];if(!m(ab,zN)||!m(ab,zO))n=1;break}switch(n){case
+0:var
+y=T(zH);break;case
+1:var
+y=ev(g,i);break}return[7,y]}b=1}else{var
+W=e[2];if(1===W[0]){var
+z=W[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-ai=A[1],aj=z[1],u=aj,t=function(b,a){return[3,b,a,hP(N+1|0,ai)]};b=2}}}}else{var
+ak=A[1],al=z[1],u=al,t=function(b,a){return[3,b,a,hQ(N+1|0,ak)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 B=Y[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-ak=C[1];if(m(dB(D[1]),zt))throw L;var
-al=B[1],u=al,t=function(b,a){return[4,b,a,es(ak)]};b=2}}}}}switch(b){case
-0:if(!d[2])return X([0,zk,[0,a,zj]]);break;case
+am=C[1];if(m(dC(D[1]),zC))throw L;var
+an=B[1],u=an,t=function(b,a){return[4,b,a,et(am)]};b=2}}}}}switch(b){case
+0:if(!d[2])return T([0,zt,[0,a,zs]]);break;case
 1:break;default:var
-Q=l4(g,u);return t(Q[1],Q[2])}}break;case
+Q=l$(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw L}function
-l5(k){var
-b=cT(k),a=b[1];if(m(a,zG))if(m(a,zH)){var
-g=m(a,zI);if(!g)return g;if(!m(a,zJ)){var
+ma(k){var
+b=cT(k),a=b[1];if(m(a,zR))if(m(a,zS)){var
+g=m(a,zT);if(!g)return g;if(!m(a,zU)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -6275,29 +6314,29 @@ l=cp(d[1]);return[1,cp(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(hO,W(f[1]));return[0,cp(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return X([0,zL,[0,a,zK]])}function
-l6(f,b){var
-a=_(b),c=W(p(a,zQ)),d=U(function(g){var
+n=V(hP,X(f[1]));return[0,cp(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return T([0,zW,[0,a,zV]])}function
+mb(f,b){var
+a=_(b),c=X(r(a,z1)),d=V(function(g){var
 a=_(g);function
 b(d,c){var
-b=aG(a,c);return b?U(d,W(b[1])):b}var
-c=b(es,zM),d=b2(l5,aG(a,zN)),e=b2(cp,aG(a,zO));return[0,b(function(h){var
-b=W(h);if(b){var
+b=aG(a,c);return b?V(d,X(b[1])):b}var
+c=b(et,zX),d=b3(ma,aG(a,zY)),e=b3(cp,aG(a,zZ));return[0,b(function(h){var
+b=X(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zE)){if(!a[2]){if(m(dB(e),zF))throw L;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zP)){if(!a[2]){if(m(dC(e),zQ))throw L;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eu(f,c);return[0,cp(e),g]}}}throw L},zP),e,d,c]},c),e=aG(a,zR),g=b2(function(a){return l4(f,a)},e);return[0,lY(p(a,zS)),g,d]}function
-l7(c){var
-a=_(c),b=aG(a,zT),d=b?U(Q,W(b[1])):b,e=l5(p(a,zU)),f=U(Q,W(p(a,zV)));return[0,lY(p(a,zW)),f,d,e]}function
-l8(c){var
+g=ev(f,c);return[0,cp(e),g]}}}throw L},z0),e,d,c]},c),e=aG(a,z2),g=b3(function(a){return l$(f,a)},e);return[0,l3(r(a,z3)),g,d]}function
+mc(c){var
+a=_(c),b=aG(a,z4),d=b?V(Q,X(b[1])):b,e=ma(r(a,z5)),f=V(Q,X(r(a,z6)));return[0,l3(r(a,z7)),f,d,e]}function
+md(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-z6(c){var
+Af(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],z7))a=1;break;case
+0:if(!m(b[1],Ag))a=1;break;case
 7:a=1;break}return a?1:0}function
-z8(g){var
+Ah(g){var
 i=al(g),b=[0,0];function
 j(a){if(b[1]<i)return aI(g,b[1]);throw L}function
 l(a){if(j(0)===a){b[1]++;return 0}throw L}function
@@ -6323,8 +6362,8 @@ a=A(0);l(58);return[0,a,s(c+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=b[1];b[1]++;return[3,z(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
 N=s(0,0),C=b[1]<i?1:0,O=C?10===aI(g,b[1])?1:0:C;if(O)b[1]++;if(b[1]<i)throw L;var
-r=_(N);if(m(aC(p(r,z9)),z_))throw L;var
-a=hN(p(r,z$)),w=0;switch(a[0]){case
+q=_(N);if(m(aC(r(q,Ai)),Aj))throw L;var
+a=hO(r(q,Ak)),w=0;switch(a[0]){case
 1:var
 u=a[1],x=0;if(typeof
 u==="number")if(u)var
@@ -6344,24 +6383,24 @@ D=a[2];w=1;break;case
 0:case
 5:var
 D=a[1];w=1;break;default:var
-f=Ap}if(w)var
+f=AA}if(w)var
 f=[0,bO(D),3];var
-n=cT(p(r,Aa)),o=n[1];if(m(o,z1))if(m(o,z2))if(m(o,z3))var
-c=X([0,z5,[0,o,z4]]);else
+n=cT(r(q,Al)),o=n[1];if(m(o,Aa))if(m(o,Ab))if(m(o,Ac))var
+c=T([0,Ae,[0,o,Ad]]);else
 var
-q=l7(n[2]),c=[1,q[1],q[2],q[3],q[4]];else
+p=mc(n[2]),c=[1,p[1],p[2],p[3],p[4]];else
 var
-t=l6(f,n[2]),c=[0,t[1],t[2],t[3]];else
+t=mb(f,n[2]),c=[0,t[1],t[2],t[3]];else
 var
-P=W(n[2]),c=[2,U(function(g){var
-a=cT(g),b=a[1];if(m(b,zX)){if(m(b,zY)){if(m(b,zZ)){var
-e=m(b,z0);if(e)throw L;return e}return[0,cp(a[2])]}var
-c=l7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=l6(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
+P=X(n[2]),c=[2,V(function(g){var
+a=cT(g),b=a[1];if(m(b,z8)){if(m(b,z9)){if(m(b,z_)){var
+e=m(b,z$);if(e)throw L;return e}return[0,cp(a[2])]}var
+c=mc(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mb(f,a[2]);return[1,d[1],d[2],d[3]]},P)];function
 Q(a){var
-b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
+b=a[1];return at(function(a){return 8===a[2][0]?1:0},b)}function
 R(a){return 0!==a[3]?1:0}function
-E(a){return ax(R,a)}var
+E(a){return at(R,a)}var
 d=0;switch(a[0]){case
 0:var
 F=a[4];switch(c[0]){case
@@ -6371,36 +6410,36 @@ H=F,G=a[1];d=4;break;case
 J=F;d=5;break}break;case
 1:switch(c[0]){case
 0:var
-Z=c[3];if(ax(function(a){var
-b=a[1];return ax(function(a){switch(a[2][0]){case
+Z=c[3];if(at(function(a){var
+b=a[1];return at(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},Z)){X(Aj);d=1}else
+7:return 1;default:return 0}},b)},Z)){T(Au);d=1}else
 d=2;break;case
 1:var
-$=a[6];if(ax(function(a){return 8===a[1]?1:0},$)){X(Ak);d=1}break}break;case
+$=a[6];if(at(function(a){return 8===a[1]?1:0},$)){T(Av);d=1}break}break;case
 2:if(1===c[0]){var
-ab=a[6];if(ax(function(b){var
-a=b[1];if(2<=a)switch(a-2|0){case
-0:case
-4:case
-6:return 1}return 0},ab)){X(An);d=1}else
+ab=a[6];if(at(function(a){switch(a[1]){case
+2:case
+6:case
+8:case
+11:return 1;default:return 0}},ab)){T(Ay);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===c[0]){X(Ao);d=1}else
+3:if(1===c[0]){T(Az);d=1}else
 d=3;break;case
 5:var
 J=a[4];d=5;break;case
 7:var
 H=a[4],G=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===c[0])if(ax(Q,c[3])){X(Al);e=3}else
+3:if(0===c[0])if(at(Q,c[3])){T(Aw);e=3}else
 if(3===a[0])e=1;else{var
-aa=c[3];if(gi(function(a){return gi(z6,a[1])},aa))e=1;else{X(Am);e=3}}else
+aa=c[3];if(gl(function(a){return gl(Af,a[1])},aa))e=1;else{T(Ax);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-K=0;if(ax(function(a){return 10===a[1]?1:0},H)&&ax(function(a){return 2===a[0]?1:0},G)){X(Ab);K=1}if(!K)e=1;break;case
-5:if(ax(l8,J))X(Ai);else
+K=0;if(at(function(a){return 10===a[1]?1:0},H)&&at(function(a){return 2===a[0]?1:0},G)){T(Am);K=1}if(!K)e=1;break;case
+5:if(at(md,J))T(At);else
 e=1;break;case
 2:e=1;break;default:e=2}var
 y=0;switch(e){case
@@ -6409,32 +6448,32 @@ y=0;switch(e){case
 h=0;switch(a[0]){case
 5:var
 M=0;if(0===c[0]){var
-T=c[3];if(ax(function(a){return 0!==a[1]?1:0},T)){X(Ag);h=1;M=1}}if(!M)h=1;break;case
+U=c[3];if(at(function(a){return 0!==a[1]?1:0},U)){T(Ar);h=1;M=1}}if(!M)h=1;break;case
 7:var
-V=a[4];switch(c[0]){case
+W=a[4];switch(c[0]){case
 0:break;case
 1:y=1;h=1;break;default:var
 Y=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return E(a[3]);case
-2:return ax(l8,V)}return 0};if(ax(Y,c[1]))X(Ah);h=1}break}if(!h)if(0===c[0]&&E(c[3]))X(Af);else
+2:return at(md,W)}return 0};if(at(Y,c[1]))T(As);h=1}break}if(!h)if(0===c[0]&&E(c[3]))T(Aq);else
 y=1;break;case
 2:y=1;break}var
-I=_(p(r,Ac)),S=aC(p(I,Ad));return[0,a,c,aC(p(I,Ae)),S]}function
-Aq(b){var
-c=al(b),g=64,h=B3(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+I=_(r(q,An)),S=aC(r(I,Ao));return[0,a,c,aC(r(I,Ap)),S]}function
+AB(b){var
+c=al(b),g=64,h=Cc(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=am(c4(b,a,18),Ar);if(!e){var
+e=am(c4(b,a,18),AC);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Cm(function(b){try{if(Aq(b))var
-a=At;else{try{var
-e=0,d=z8(b);e=1}catch(a){a=ol(a);if(a[1]===lX)var
+f=d;return f}}Cx(function(b){try{if(AB(b))var
+a=AE;else{try{var
+e=0,d=Ah(b);e=1}catch(a){a=os(a);if(a[1]===l2)var
 c=[0,a[2]];else{if(a!==L)throw a;var
 c=2}}if(e)var
-c=v2(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return As}if(typeof
+c=v_(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return AD}if(typeof
 a==="number")switch(a){case
-0:return Au;case
-1:return Av;default:return Aw}return aP(Ax,a[1])});iB(0);return}(globalThis));
+0:return AF;case
+1:return AG;default:return AH}return aP(AI,a[1])});iB(0);return}(globalThis));
