@@ -121,6 +121,9 @@ pub fn components<R: Read>(
 /// The place of a subtree that has no inner box.
 const NOTHING: u32 = u32::MAX;
 
+/// The edges of a box: a third of what a cell is, which walks copy often.
+type Edges = [Edge; 3];
+
 /// Sets of inner boxes that are known to be connected.
 struct Union<'a> {
     nodes: &'a [Node],
@@ -144,11 +147,10 @@ impl Union<'_> {
 
     /// Joins what touches within a subtree, in a walk over its splits.
     fn within(&mut self, top: u32) {
-        let mut waiting = vec![(top, Cell::ROOT)];
-        while let Some((at, cell)) = waiting.pop() {
-            if let (Node::Split(axis, lower, upper), Some((below, above))) =
-                (self.node(at), halves(&cell, self.node(at)))
-            {
+        let mut waiting = vec![(top, Cell::ROOT.edges)];
+        while let Some((at, edges)) = waiting.pop() {
+            if let Node::Split(axis, lower, upper) = self.node(at) {
+                let [below, above] = halves(edges, axis);
                 waiting.extend([(lower, below), (upper, above)]);
                 self.across(axis, (lower, below), (upper, above));
             }
@@ -157,10 +159,10 @@ impl Union<'_> {
 
     /// Joins what touches across a plane orthogonal to `axis`, with `low` next to it from below and
     /// `high` from above.
-    fn across(&mut self, axis: Axis, low: (u32, Cell), high: (u32, Cell)) {
+    fn across(&mut self, axis: Axis, low: (u32, Edges), high: (u32, Edges)) {
         let mut waiting = vec![(low, high)];
         while let Some((low, high)) = waiting.pop() {
-            let overlap = |k: usize| overlaps(low.1.edges[k], high.1.edges[k]);
+            let overlap = |k: usize| overlaps(low.1[k], high.1[k]);
             if !(0..3).all(|k| k == axis.index() || overlap(k)) {
                 continue;
             }
@@ -170,15 +172,15 @@ impl Union<'_> {
                     let (a, b) = (self.root(a), self.root(b));
                     self.parent[a.max(b) as usize] = a.min(b);
                 }
-                (split @ Node::Split(along, lower, upper), _) => {
-                    let Some((below, above)) = halves(&low.1, split) else { continue };
+                (Node::Split(along, lower, upper), _) => {
+                    let [below, above] = halves(low.1, along);
                     waiting.push(((upper, above), high));
                     if along != axis {
                         waiting.push(((lower, below), high));
                     }
                 }
-                (Node::Inner(_), split @ Node::Split(along, lower, upper)) => {
-                    let Some((below, above)) = halves(&high.1, split) else { continue };
+                (Node::Inner(_), Node::Split(along, lower, upper)) => {
+                    let [below, above] = halves(high.1, along);
                     waiting.push((low, (lower, below)));
                     if along != axis {
                         waiting.push((low, (upper, above)));
@@ -189,15 +191,14 @@ impl Union<'_> {
     }
 
     /// The inner box that a point is in, below a node.
-    fn box_of(&self, (at, cell): (u32, Cell), point: &Point) -> Option<u32> {
-        let split = match self.node(at) {
+    fn box_of(&self, (at, edges): (u32, Edges), point: &Point) -> Option<u32> {
+        let (axis, lower, upper) = match self.node(at) {
             Node::Nothing => return None,
             Node::Inner(found) => return Some(found),
-            split => split,
+            Node::Split(axis, lower, upper) => (axis, lower, upper),
         };
-        let Node::Split(axis, lower, upper) = split else { return None };
-        let (below, above) = halves(&cell, split)?;
-        let [in_lower, in_upper] = sides(&cell, axis.index(), point);
+        let [below, above] = halves(edges, axis);
+        let [in_lower, in_upper] = sides(edges[axis.index()], point[axis.index()]);
         let found = in_lower.then(|| self.box_of((lower, below), point)).flatten();
         found.or_else(|| in_upper.then(|| self.box_of((upper, above), point)).flatten())
     }
@@ -217,7 +218,7 @@ impl Union<'_> {
             if symmetric {
                 held.sort_unstable();
             }
-            self.box_of((top, Cell::ROOT), &held)
+            self.box_of((top, Cell::ROOT.edges), &held)
         };
         let centres = self.inner.par_iter().enumerate();
         let start = centres
@@ -252,11 +253,13 @@ impl Union<'_> {
     }
 }
 
-fn halves(cell: &Cell, node: Node) -> Option<(Cell, Cell)> {
-    match node {
-        Node::Split(axis, ..) => cell.halves(axis),
-        _ => None,
-    }
+/// The lower and the upper half along an axis.
+fn halves(mut edges: Edges, axis: Axis) -> [Edges; 2] {
+    let edge = &mut edges[axis.index()];
+    *edge = Edge { index: 2 * edge.index, level: edge.level + 1 };
+    let mut above = edges;
+    above[axis.index()].index += 1;
+    [edges, above]
 }
 
 /// Whether two dyadic intervals have inner points in common: one contains the other.

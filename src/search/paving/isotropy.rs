@@ -1,7 +1,7 @@
 //! The best conditioned point of the inner part, and the inner box that it is in.
 
 use super::Decider;
-use orthocert_kernel::paving::Cell;
+use orthocert_kernel::paving::{Cell, Edge};
 
 /// Halvings of the box's edges that coordinates of points are multiples of.
 const LEVEL: u32 = 40;
@@ -15,7 +15,11 @@ pub(super) type Point = [u64; 3];
 
 /// A cell's centre.
 pub(super) fn centre_of(cell: &Cell) -> Point {
-    cell.edges.map(|edge| (2 * edge.index + 1) << LEVEL.saturating_sub(edge.level + 1))
+    cell.edges.map(middle)
+}
+
+fn middle(edge: Edge) -> u64 {
+    (2 * edge.index + 1) << LEVEL.saturating_sub(edge.level + 1)
 }
 
 /// Parts of the box's edges.
@@ -23,11 +27,10 @@ pub(super) fn parts_of(point: &Point) -> [f64; 3] {
     point.map(|x| x as f64 * (-f64::from(LEVEL)).exp2())
 }
 
-/// Whether the point is in the lower half of a cell that is split along this axis, or in the upper
-/// one, or in both.
-pub(super) fn sides(cell: &Cell, axis: usize, point: &Point) -> [bool; 2] {
-    let middle = centre_of(cell)[axis];
-    [point[axis] <= middle, point[axis] >= middle]
+/// Whether a point with this coordinate is in the lower half of a cell that is split along this edge, or in the
+/// upper one, or in both.
+pub(super) fn sides(edge: Edge, x: u64) -> [bool; 2] {
+    [x <= middle(edge), x >= middle(edge)]
 }
 
 /// Goes from a point to better conditioned ones `that` accepts, by ever shorter steps along edges and
@@ -103,9 +106,9 @@ mod tests {
     #[test]
     fn a_centre_is_in_both_halves_and_a_corner_in_one() {
         let (lower, upper) = Cell::ROOT.halves(Axis::Y).unwrap();
-        assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&Cell::ROOT)), [true, true]);
-        assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&lower)), [true, false]);
-        assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&upper)), [false, true]);
+        assert_eq!(sides(Cell::ROOT.edges[1], centre_of(&Cell::ROOT)[1]), [true, true]);
+        assert_eq!(sides(Cell::ROOT.edges[1], centre_of(&lower)[1]), [true, false]);
+        assert_eq!(sides(Cell::ROOT.edges[1], centre_of(&upper)[1]), [false, true]);
         assert_eq!(parts_of(&centre_of(&upper)), [0.5, 0.75, 0.5]);
     }
 }
