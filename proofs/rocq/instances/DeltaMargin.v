@@ -131,7 +131,7 @@ Proof. vm_cast_no_check (eq_refl true). Qed.
 Theorem certified : forall m P, is_machine the_claim m -> in_region the_workspace P ->
   Forall (reaches P) m /\
   (forall v, v <> vzero -> 0 < speed2 m P v) /\
-  (exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\ value (3 // 5) * leg_length l1 * leg_length l2 * leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P))).
+  (exists l1 l2 l3, m = [l1; l2; l3] /\ value (3 // 5) * size_of l1 P * size_of l2 P * size_of l3 P <= Rabs (det (Mat (vector_of l1 P) (vector_of l2 P) (vector_of l3 P)))).
 Proof.
   intros m P hm hP.
   destruct (check_claim_sound _ _ _ _ _ checked m P hm hP) as [reached [regular met]].

@@ -59,7 +59,7 @@ Inductive written_driven :=
 Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
     the joints' error, of accuracy, and its acceleration and speed, of accelerations. *)
-Inductive written_given := Given_ (x : expression) | Motion_ (acceleration speed : expression).
+Inductive written_given := Given_ (x : expression) | Each_ (xs : list expression) | Motion_ (acceleration speed : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
 
@@ -226,6 +226,7 @@ Definition requirement_text (r : written_requirement) : text :=
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
     | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | Accuracy_ => "joint_error" | _ => "tool" end) (array [number x]))]
+    | Some (Each_ xs) => [field "given" (variant "joint" (array (map number xs)))]
     | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | None => []
     end ++
@@ -426,7 +427,7 @@ Definition in_region (w : written_region) : list expression :=
 Definition in_orientation (o : written_orientation) : list expression :=
   match o with Range_ a b | Tilt_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] | Angle_ a => [a] end.
 Definition in_requirement (r : written_requirement) : list expression :=
-  (match given_ r with Some (Given_ x) => [x] | Some (Motion_ a v) => [a; v] | None => [] end ++
+  (match given_ r with Some (Given_ x) => [x] | Some (Each_ xs) => xs | Some (Motion_ a v) => [a; v] | None => [] end ++
    match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] | Holds_ => [] end)%list.
 Definition in_body (b : written_body) : list expression :=
   match b with
@@ -564,6 +565,7 @@ Definition other_of (legs : nat) (bs : list written_body) (r : written_requireme
   | Serial_, AtLeast_ b, _ => each (fun i => SerialMargin i (denoted b))
   | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
   | Stiffness_, AtLeast_ b, Some (Given_ joint) => [Stiffness (denoted joint) (denoted b)]
+  | Stiffness_, AtLeast_ b, Some (Each_ ks) => [Stiffnesses (map denoted ks) (denoted b)]
   | OneToOne_, Holds_, _ => [OneToOne]
   | Accuracy_, AtMost_ b, Some (Given_ error) => [Accuracy (denoted error) (denoted b)]
   | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
@@ -577,6 +579,7 @@ Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
   | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
   | Force_, AtMost_ _, leg, Some (Given_ _) => Nat.eqb legs 3 && match leg with Some n => is_leg n | None => true end
   | Accuracy_, AtMost_ _, None, Some (Given_ _) => Nat.eqb legs 3
+  | Stiffness_, AtLeast_ _, None, Some (Each_ ks) => Nat.eqb (length ks) legs
   | Stiffness_, AtLeast_ _, None, Some (Given_ _) | Constraint_, AtLeast_ _, None, None | Clearance_, AtLeast_ _, None, None | OneToOne_, Holds_, None, None => true
   | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some (Given_ _) | Acceleration_, AtMost_ _, Some n, Some (Motion_ _ _) => is_leg n
   | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some (Given_ _) | Acceleration_, AtMost_ _, None, Some (Motion_ _ _) => true
@@ -750,7 +753,7 @@ Definition region_over (w : written_region) : written_region :=
   end.
 Definition requirement_over (r : written_requirement) : written_requirement :=
   Require_ (about_ r) (leg_ r)
-    (match given_ r with Some (Given_ x) => Some (Given_ (over x)) | Some (Motion_ a v) => Some (Motion_ (over a) (over v)) | None => None end)
+    (match given_ r with Some (Given_ x) => Some (Given_ (over x)) | Some (Each_ xs) => Some (Each_ (map over xs)) | Some (Motion_ a v) => Some (Motion_ (over a) (over v)) | None => None end)
     match end_ r with AtLeast_ b => AtLeast_ (over b) | AtMost_ b => AtMost_ (over b) | Within_ a b => Within_ (over a) (over b) | Holds_ => Holds_ end.
 End Over.
 
@@ -1025,6 +1028,7 @@ Definition is_bound (r : requirement) : bool :=
   match r with
   | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => certainly exact_bits true b
   | Stiffness joint b => certainly exact_bits true joint && certainly exact_bits true b
+  | Stiffnesses ks b => forallb (certainly exact_bits true) (b :: ks)
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
   | Clearance _ _ b => certainly exact_bits false b

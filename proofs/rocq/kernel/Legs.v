@@ -176,7 +176,7 @@ Proof.
       [rewrite value_joint | rewrite value_xcosine, value_xsine]; reflexivity.
   - apply map_ext. intro l. unfold driven_rod, xdriven_rod. cbv zeta. rewrite <- values_carried. destruct l as [[d a p len m | a p q | d] | i]; cbn [own_rod driven_of leg_of option_map]; try reflexivity.
     + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_signed_root.
-      destruct (nvector_sound (ExactSlider d a p len m) (xcarried (XLinear (ExactSlider d a p len m))) _ _ eq_refl) as [i [e1 [e2 _]]]. cbn [leg_of] in e1. injection e1 as <-.
+      destruct (values_vector (ExactSlider d a p len m) (xcarried (XLinear (ExactSlider d a p len m)))) as [e2 _]. cbn [leg_of vector_of nray] in e2.
       rewrite <- e2. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
     + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_xeta.
       assert (E : Arm.rod (arm_of i) (values (xcarried (XRotary i))) = values (each2 Minus (each2 Plus (xcarried (XRotary i)) (xplatform i)) (xelbow i (xcarried (XRotary i))))).

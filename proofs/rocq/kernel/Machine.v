@@ -82,7 +82,7 @@ Proof. intros [a b c] [d e f]. unfold Vec3.dot. cbn. ring. Qed.
 (** The formulas are those of the leg at [P]. *)
 Definition represents (f : leg_formulas) (l : leg) : Prop :=
   (0 < value (f_D f) -> reaches P l /\ forall v, Vec3.dot (vvalue (f_A f)) v ^ 2 / value (f_D f) = Vec3.dot (row l P) v ^ 2) /\
-  ((Forall defined (list_of (f_divided f)) -> reaches P l) /\ vvalue (f_A f) = vector_of l P) /\
+  ((Forall defined (list_of (f_divided f)) -> reaches P l) /\ vvalue (f_A f) = vector_of l P /\ value (rod f) = size_of l P) /\
   vvalue (f_divided f) = row l P /\ value (f_joint f) = joint l P /\
   (reaches P l -> 0 < value (f_D f)) /\
   (forall len, f_length f = Some len -> exists k, l = Guided k /\ value len = leg_length k /\
@@ -118,7 +118,7 @@ Proof.
     assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
     clear - H. generalize dependent (eta l P). intros a a0. generalize (r l P) (axis l). intros q n.
     unfold Vec3.dot, vadd, vscale. cbn [vx vy vz]. field. exact a0.
-  - split; [| rewrite vvalue_plus, vvalue_scaled, R, E, hn; symmetry; apply leg_vector_eq].
+  - split; [| split; [rewrite vvalue_plus, vvalue_scaled, R, E, hn; symmetry; apply leg_vector_eq | exact hl]].
     intro h. apply N. inversion h as [| ? ? h1 _]. subst. cbn [map2 ex] in h1.
     apply defined_plus in h1. destruct h1 as [_ h1]. exact (defined_over _ _ _ _ h1).
   - rewrite vvalue_plus, vvalue_divided, R, E, hn. reflexivity.
@@ -143,7 +143,7 @@ Proof.
     replace (sqrt (norm2 (span base platform P)) ^ 2) with (norm2 (span base platform P))
       by (rewrite <- Rsqr_pow2, Rsqr_sqrt by lra; reflexivity).
     field. lra.
-  - split; [| exact hw]. intro h. inversion h as [| ? ? h1 _]. subst. cbn [divided_by ex] in h1. apply defined_over in h1.
+  - split; [| split; [exact hw | unfold rod; cbn [f_length f_D]; rewrite value_root, D; reflexivity]]. intro h. inversion h as [| ? ? h1 _]. subst. cbn [divided_by ex] in h1. apply defined_over in h1.
     rewrite value_root, D in h1. destruct (norm2_nonneg (span base platform P)) as [p | z]; [exact p |].
     exfalso. apply h1. rewrite <- z. apply sqrt_0.
   - rewrite vvalue_divided, value_root, D, hw. reflexivity.
@@ -161,7 +161,7 @@ Proof.
   intros ew en n hw hn. unfold planar_formulas.
   split; [| split; [| split; [| split; [| split; [| split; [| split]]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple f_tip reaches row joint].
   - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
-  - split; [intros _; exact I | exact hn].
+  - split; [intros _; exact I | split; [exact hn |]]. unfold rod. cbn [f_length f_D]. rewrite value_root. apply sqrt_1.
   - exact hn.
   - rewrite value_product, hn, hw. reflexivity.
   - intros _. cbn. lra.
@@ -282,6 +282,17 @@ Lemma well_formed_resized : forall l, match l with Guided l => well_formed l | E
 Proof.
   intros [l | base platform [k |] | n] h; cbn [resized]; try exact h. destruct h as [h1 [h2 h3]]. split; [exact h1 |]. split; [| exact h3].
   cbn [leg_length]. apply Rmult_lt_0_compat; assumption.
+Qed.
+
+(** Its vector and its size alike, of a plane not at all. *)
+Lemma vector_resized : forall l, exists k, 0 < k /\ vector_of (resized c l) (vscale c P) = vscale k (vector_of l P) /\ size_of (resized c l) (vscale c P) = k * size_of l P.
+Proof.
+  intros [l | base platform k | n]; cbn [resized vector_of size_of].
+  - exists c. destruct (guided_resized (Guided l) _ eq_refl) as [l' [e [_ [_ v]]]]. injection e as <-. split; [exact c_pos |]. split; [exact v | reflexivity].
+  - exists c. assert (W : span (vscale c base) (vscale c platform) (vscale c P) = vscale c (span base platform P))
+      by (unfold span, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
+    rewrite W, norm2_scale, sqrt_resized by exact c_pos. split; [exact c_pos | split; reflexivity].
+  - exists 1. split; [lra |]. split; [destruct (normalised n) as [a b d]; unfold vscale; cbn [vx vy vz]; f_equal; ring | ring].
 Qed.
 
 Lemma rod_resized : forall l, rod_of (resized c l) (vscale c P) =

@@ -302,7 +302,7 @@ Proof.
   intros f i0 neg all given least F. pose proof (leg_at c s ds m P theta represented reached) as At. fold fs in At. fold ratio in At.
   pose proof ratio_positive as r0. pose proof bound_is as Bj.
   pose proof (bound_here s P theta j r Bj) as B. fold ratio in B.
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b | ks kb]; cbn [range_formula is_least] in *; try contradiction; try discriminate;
     try (destruct (nth_error fs k) as [g |] eqn:ng; [| contradiction]; destruct (At k g ng) as [l [nl [R re]]]).
   - destruct i0 as [<- |]; [| contradiction]. destruct F as [l' [n' F]]. rewrite nl in n'. injection n' as <-.
     destruct R as [_ [_ [_ [J _]]]]. rewrite value_minus, J, B, (length_bound (JointMin k b) b eq_refl) in neg.
@@ -336,28 +336,22 @@ Proof.
     pose proof (pow_lt ratio 2 r0) as p0. assert (ratio ^ 2 * (Claim.value b * leg_length k') ^ 2 <= ratio ^ 2 * eta k' P ^ 2)
       by (apply Rmult_le_compat_l; lra). nra.
   - destruct F as [k1 [k2 [k3 [em F]]]].
-    assert (RE : Forall2 (represents Q theta) fs (map (resized ratio) [Guided k1; Guided k2; Guided k3])) by (rewrite <- em; exact represented).
+    assert (RE : Forall2 (represents Q theta) fs (map (resized ratio) [k1; k2; k3])) by (rewrite <- em; exact represented).
     destruct fs as [| f1 [| f2 [| f3 [|]]]] eqn:efs; try contradiction.
-    destruct (f_length f1) as [len1 |] eqn:q1; [| contradiction]. destruct (f_length f2) as [len2 |] eqn:q2; [| contradiction].
-    destruct (f_length f3) as [len3 |] eqn:q3; [| contradiction].
     pose proof (all _ (or_introl eq_refl)) as n1. pose proof (all _ (or_intror (or_introl eq_refl))) as n2. clear neg all i0.
     cbn [map] in RE. apply cons_related in RE as [H1 RE]. apply cons_related in RE as [H2 RE]. apply cons_related in RE as [H3 _].
-    destruct H1 as [_ [_ [_ [_ [_ [H1 _]]]]]]. destruct H2 as [_ [_ [_ [_ [_ [H2 _]]]]]]. destruct H3 as [_ [_ [_ [_ [_ [H3 _]]]]]].
-    destruct (H1 _ q1) as [j1 [a1 [b1 [_ c1]]]]. destruct (H2 _ q2) as [j2 [a2 [b2 [_ c2]]]]. destruct (H3 _ q3) as [j3 [a3 [b3 [_ c3]]]].
-    destruct (guided_resized ratio P r0 _ _ a1) as [p1 [z1 [g1 [_ v1]]]]. injection z1 as <-.
-    destruct (guided_resized ratio P r0 _ _ a2) as [p2 [z2 [g2 [_ v2]]]]. injection z2 as <-.
-    destruct (guided_resized ratio P r0 _ _ a3) as [p3 [z3 [g3 [_ v3]]]]. injection z3 as <-.
+    destruct H1 as [_ [[_ [c1 b1]] _]]. destruct H2 as [_ [[_ [c2 b2]] _]]. destruct H3 as [_ [[_ [c3 b3]] _]].
+    destruct (vector_resized ratio P r0 k1) as [q1 [p1 [v1 g1]]]. destruct (vector_resized ratio P r0 k2) as [q2 [p2 [v2 g2]]]. destruct (vector_resized ratio P r0 k3) as [q3 [p3 [v3 g3]]].
     pose proof (determinant_value s P theta) as DV. fold ratio in DV.
     rewrite value_minus, DV, !value_times, B, b1, b2, b3, g1, g2, g3, c1, c2, c3, v1, v2, v3, det_scaled,
       (plain_bound (ParallelMargin b) b eq_refl) in n1.
     rewrite value_opposite, value_plus, DV, !value_times, B, b1, b2, b3, g1, g2, g3, c1, c2, c3, v1, v2, v3, det_scaled,
       (plain_bound (ParallelMargin b) b eq_refl) in n2.
-    unfold A_matrix in F. cbn [leg1 leg2 leg3] in F. set (d := det _) in *.
-    set (L := Claim.value b * leg_length k1 * leg_length k2 * leg_length k3) in *.
-    replace (Claim.value b * (ratio * leg_length k1) * (ratio * leg_length k2) * (ratio * leg_length k3)) with (ratio ^ 3 * L) in n1, n2 by (unfold L; ring).
-    pose proof (pow_lt ratio 3 r0) as t0. clearbody d L.
-    assert (d < L) by (apply Rmult_lt_reg_l with (ratio ^ 3); [exact t0 | lra]).
-    assert (- L < d) by (apply Rmult_lt_reg_l with (ratio ^ 3); [exact t0 | lra]).
+    set (d := det _) in *. set (L := Claim.value b * size_of k1 P * size_of k2 P * size_of k3 P) in *.
+    replace (Claim.value b * (q1 * size_of k1 P) * (q2 * size_of k2 P) * (q3 * size_of k3 P)) with (q1 * q2 * q3 * L) in n1, n2 by (unfold L; ring).
+    assert (t0 : 0 < q1 * q2 * q3) by (repeat apply Rmult_lt_0_compat; assumption). clearbody d L.
+    assert (d < L) by (apply Rmult_lt_reg_l with (q1 * q2 * q3); [exact t0 | lra]).
+    assert (- L < d) by (apply Rmult_lt_reg_l with (q1 * q2 * q3); [exact t0 | lra]).
     unfold Rabs in F. destruct (Rcase_abs d); lra.
 Qed.
 
@@ -390,7 +384,7 @@ Proof.
     { intros k ik. pose proof (proj1 (Forall_forall _ _) hes _ (in_map (fun f => Apply (Neg (Entry (found f)))) (g :: fl) k ik)) as z.
       cbv beta in z. rewrite (Neg_ k (RF k ik)) in z. lra. }
     apply (SF g); [left; reflexivity | apply N; left; reflexivity | exact N | exact t | exact l]. }
-  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b]; cbn [is_least] in *;
+  destruct r as [| b | b | k b | k b | k tool b | b | k b | b | joint b | b | one other b | k one other b | k a v b | k tool b | | error b | ks kb]; cbn [is_least] in *;
     try discriminate; try exact (Signs hf I eq_refl).
   - injection hf as <-. destruct directions as [| v [|]]; try discriminate. injection h as <- <-. intro F.
     destruct (Dir v (or_introl eq_refl)) as [u [eu nz]]. apply Forall_inv in hes.
@@ -509,7 +503,7 @@ Proof.
       destruct (nth (snd p) values None) as [d |]; [| discriminate]. destruct V as [_ [_ [_ [V _]]]]. apply Z.ltb_lt in h1. exact (contains_positive bits _ _ h1 V).
     + apply Forall_forall. intros e ie. apply Pos, h2, ie.
     + apply met, (nth_error_In _ _ er).
-  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b' | | | | | | | | | | | | | |]; try discriminate.
+  - destruct (nth_error (require c) i) as [q |] eqn:er; [| discriminate]. destruct q as [| | b' | | | | | | | | | | | | | | |]; try discriminate.
     rewrite !nth_error_map in hf. destruct (nth_error fs leg) as [g |] eqn:eg; [| discriminate]. cbn [option_map] in hf.
     apply (row_fails_sound i b' leg g er eg); [apply Pos, hf |].
     apply met, (nth_error_In _ _ er).

@@ -102,7 +102,7 @@ Record board := Board {
   its_failings : failings; first_bound : nat; its_requirements : list requirement;
   its_ends : list (fixed * fixed); its_paved : list nat; its_others : list nat; most_depth : N; its_symmetry : bool }.
 
-Definition is_read (r : requirement) : bool := match r with OneToOne | Accuracy _ _ => false | _ => true end.
+Definition is_read (r : requirement) : bool := match r with OneToOne | Accuracy _ _ | Stiffnesses _ _ => false | _ => true end.
 
 (** [exact]: the bits with which signs of numbers are found. *)
 Definition board_of (exact bits : positive) (c : claim) (edges : tolerances) (s : Z) (ds : list Z) (paved : list nat) (depth : N) (symmetric : bool) : option board :=

@@ -228,7 +228,7 @@ Qed.
 (** kappa = 1/psi_max, k = 1/psi_min, or the end of a joint's range. *)
 Definition bound_of (s : Z) (r : requirement) : parameter :=
   match r with
-  | NotSingular | OneToOne => (exactly (0 // 1), 0%Z)
+  | NotSingular | OneToOne | Stiffnesses _ _ => (exactly (0 // 1), 0%Z)
   | PsiMax b | PsiMin b => (exactly (Over (1 // 1) b), 0%Z)
   | JointMin _ b | JointMax _ b => (exactly b, s)
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
@@ -263,6 +263,7 @@ Definition extras (s : Z) (r : requirement) : list parameter :=
   | Clearance one other _ => body_numbers s one ++ body_numbers s other
   | Beside _ one other _ => position_numbers s one ++ position_numbers s other
   | JointAcceleration _ _ v b => [(exactly (Over (Times v v) b), s)]
+  | Stiffnesses ks b => map (fun k => (exactly (Over b k), 0%Z)) ks
   | _ => []
   end.
 Definition exact_value (p : parameter) : R := Claim.value (greatest (fst p)) / two_to (snd p).
@@ -273,10 +274,11 @@ Proof.
     by (intros x u; exists (Claim.value x); split; [unfold within, exactly; cbn; lra | reflexivity]).
   assert (B : forall s b, Forall2 scaled_within (body_numbers s b) (map exact_value (body_numbers s b)))
     by (intros s [i r t u o | r p q | r p q]; cbn; repeat constructor; apply E).
-  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | | |]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
+  intros s [| | | | | | | | | | | one other b | i o q d | i a v b | | | | ks b]; try exact (Forall2_nil _); cbn [extras]; rewrite ?map_app.
   - apply Forall2_app; apply B.
   - cbn. repeat constructor; apply E.
   - cbn. repeat constructor; apply E.
+  - induction ks as [| k ks IH]; cbn [map]; constructor; [apply E | exact IH].
 Qed.
 
 Lemma all_extras_within : forall s rs, Forall2 scaled_within (flat_map (extras s) rs) (map exact_value (flat_map (extras s) rs)).
@@ -332,6 +334,8 @@ Definition entries (r : rows formula) : list formula := flat_map (fun p => fst p
 (** Rows of which the least singular value has a bound. *)
 Definition stiff_rows (fs : list leg_formulas) (ratio : formula) : rows formula :=
   map (fun f => (list_of (f_A f), times (f_D f) ratio)) fs.
+Fixpoint stiff_each (fs : list leg_formulas) (ratios : list formula) : rows formula :=
+  match fs, ratios with f :: fs', q :: ratios' => (list_of (f_A f), times (f_D f) q) :: stiff_each fs' ratios' | _, _ => [] end.
 Fixpoint couple_rows (fs : list leg_formulas) : option (rows formula) :=
   match fs with
   | [] => Some []
@@ -340,11 +344,12 @@ Fixpoint couple_rows (fs : list leg_formulas) : option (rows formula) :=
 Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option (rows formula) :=
   match r with
   | Stiffness _ _ => Some (stiff_rows fs (quantity (bound_of s r) (fst j)))
+  | Stiffnesses ks _ => if Nat.eqb (length ks) (length fs) then Some (stiff_each fs (numbered (snd j) (extras s r))) else None
   | ConstraintMargin _ => couple_rows fs
   | _ => None
   end.
 
-Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => true | _ => false end.
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | Stiffnesses _ _ | ConstraintMargin _ | Clearance _ _ _ | Beside _ _ _ _ | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -361,16 +366,12 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : r
   | ParallelMargin _ =>
       match fs with
       | [f; g; h] =>
-          match f_length f, f_length g, f_length h with
-          | Some l1, Some l2, Some l3 =>
-              let d := determinant (f_A f) (f_A g) (f_A h) in
-              let least := times (times (times b l1) l2) l3 in
-              [minus d least; opposite (plus d least)]
-          | _, _, _ => []
-          end
+          let d := determinant (f_A f) (f_A g) (f_A h) in
+          let least := times (times (times b (rod f)) (rod g)) (rod h) in
+          [minus d least; opposite (plus d least)]
       | _ => []
       end
-  | Stiffness _ _ | ConstraintMargin _ => match least_rows fs s j r with Some rs => entries rs | None => [] end
+  | Stiffness _ _ | Stiffnesses _ _ | ConstraintMargin _ => match least_rows fs s j r with Some rs => entries rs | None => [] end
   | Clearance one other _ =>
       match segments fs s (snd j) one other with
       | Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d]
@@ -419,6 +420,8 @@ Definition test_of (place : formula -> nat) (ps : list parameter) (fs : list leg
   | PsiMin _ => option_map (fun a => SigmaMax (sqr bits a)) (enclose_parameter bits (bound_of s r))
   | ConditionMax _ => option_map (fun a => Conditioning (sqr bits a)) (enclose_parameter bits (bound_of s r))
   | Stiffness _ _ => option_map (fun rs => Least (map_rows place rs) (Fixed.integer bits 1)) (least_rows fs s j r)
+  | Stiffnesses ks b => if forallb (Compare.certainly bits true) (b :: ks)
+      then option_map (fun rs => Least (map_rows place rs) (Fixed.integer bits 1)) (least_rows fs s j r) else None
   | ConstraintMargin _ =>
       match least_rows fs s j r, enclose_parameter bits (bound_of s r) with
       | Some rs, Some a => Some (Least (map_rows place rs) (sqr bits a))
@@ -718,7 +721,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils c m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b | ks kb]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -762,7 +765,7 @@ Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils c m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b | ks kb]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
       destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
@@ -799,7 +802,6 @@ Proof.
     replace (two_to 0) with 1 in h by reflexivity. unfold Rdiv in h. rewrite Rinv_1, Rmult_1_r in h.
     apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. nra.
   - destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
-    destruct (f_length f1), (f_length f2), (f_length f3); discriminate.
 Qed.
 
 Lemma cons_related : forall (A B : Type) (R : A -> B -> Prop) a b u v, Forall2 R (a :: u) (b :: v) -> R a b /\ Forall2 R u v.
@@ -812,34 +814,45 @@ Proof.
   unfold det, Vec3.dot, cross, vvalue. cbn [row1 row2 row3 vx vy vz]. ring.
 Qed.
 
-Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
+Lemma det_scaled : forall k k' k'' a b c, det (Mat (vscale k a) (vscale k' b) (vscale k'' c)) = k * k' * k'' * det (Mat a b c).
 Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
 
 Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils c m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b | ks kb]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
-  destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
-  destruct (f_length f3) as [len3 |] eqn:q3; [| discriminate]. injection E as <- <-.
-  destruct m as [| m1 [| m2 [| m3 [| m4 rest]]]]; cbn [map] in R0;
-    try (apply related_length in R0; discriminate).
+  injection E as <- <-. destruct m as [| m1 [| m2 [| m3 [| m4 rest]]]]; cbn [map] in R0; try (apply related_length in R0; discriminate).
   apply cons_related in R0 as [H1 R0]. apply cons_related in R0 as [H2 R0]. apply cons_related in R0 as [H3 _].
-  destruct H1 as [_ [_ [_ [_ [_ [H1 _]]]]]]. destruct H2 as [_ [_ [_ [_ [_ [H2 _]]]]]]. destruct H3 as [_ [_ [_ [_ [_ [H3 _]]]]]].
-  destruct (H1 _ q1) as [k1 [a1 [b1 [_ c1]]]]. destruct (H2 _ q2) as [k2 [a2 [b2 [_ c2]]]]. destruct (H3 _ q3) as [k3 [a3 [b3 [_ c3]]]].
-  destruct (guided_resized ratio P r0 _ _ a1) as [p1 [-> [g1 [_ v1]]]].
-  destruct (guided_resized ratio P r0 _ _ a2) as [p2 [-> [g2 [_ v2]]]].
-  destruct (guided_resized ratio P r0 _ _ a3) as [p3 [-> [g3 [_ v3]]]].
-  exists p1, p2, p3. split; [reflexivity |].
+  destruct H1 as [_ [[_ [c1 b1]] _]]. destruct H2 as [_ [[_ [c2 b2]] _]]. destruct H3 as [_ [[_ [c3 b3]] _]].
+  destruct (vector_resized ratio P r0 m1) as [k1 [p1 [v1 g1]]]. destruct (vector_resized ratio P r0 m2) as [k2 [p2 [v2 g2]]]. destruct (vector_resized ratio P r0 m3) as [k3 [p3 [v3 g3]]].
+  exists m1, m2, m3. split; [reflexivity |].
   rewrite value_opposite, value_minus, value_plus, determinant_value, !value_times, B, b1, b2, b3, g1, g2, g3, c1, c2, c3, v1, v2, v3, det_scaled in h.
-  unfold A_matrix. cbn [leg1 leg2 leg3]. unfold bound_value in h. cbn in h.
+  unfold bound_value in h. cbn in h.
   replace (two_to 0) with 1 in h by reflexivity. unfold Rdiv in h. rewrite Rinv_1, Rmult_1_r in h.
-  set (d := det _) in *. set (L := Claim.value b * leg_length p1 * leg_length p2 * leg_length p3).
-  assert (K : Claim.value b * (ratio * leg_length p1) * (ratio * leg_length p2) * (ratio * leg_length p3) = ratio ^ 3 * L) by (unfold L; ring).
-  pose proof (pow_lt ratio 3 r0) as t0. clearbody d L. destruct h as [h | h].
-  - apply Rle_trans with d; [| apply Rle_abs]. apply Rmult_le_reg_l with (ratio ^ 3); [exact t0 |]. cbn [pow] in *. lra.
-  - apply Rle_trans with (- d); [| rewrite <- Rabs_Ropp; apply Rle_abs]. apply Rmult_le_reg_l with (ratio ^ 3); [exact t0 |]. cbn [pow] in *. lra.
+  set (d := det _) in *. set (L := Claim.value b * size_of m1 P * size_of m2 P * size_of m3 P).
+  assert (K : Claim.value b * (k1 * size_of m1 P) * (k2 * size_of m2 P) * (k3 * size_of m3 P) = k1 * k2 * k3 * L) by (unfold L; ring).
+  assert (t0 : 0 < k1 * k2 * k3) by (repeat apply Rmult_lt_0_compat; assumption). rewrite K in h. clearbody d L. destruct h as [h | h].
+  - apply Rle_trans with d; [| apply Rle_abs]. apply Rmult_le_reg_l with (k1 * k2 * k3); [exact t0 | lra].
+  - apply Rle_trans with (- d); [| rewrite <- Rabs_Ropp; apply Rle_abs]. apply Rmult_le_reg_l with (k1 * k2 * k3); [exact t0 | lra].
+Qed.
+
+(** Rows with D times b/k, of a k of each joint. *)
+Lemma each_energy : forall b l ks m0 qs, 0 < Claim.value b -> Forall (fun k => 0 < Claim.value k) ks ->
+  Forall2 (represents Q theta) l (map (resized ratio) m0) -> Forall (reaches P) m0 -> length ks = length l ->
+  map (value x theta) qs = map (fun k => Claim.value b / Claim.value k) ks -> forall v,
+  Claim.value b * energy (map_rows (value x theta) (stiff_each l qs)) (coordinates v) = elastic ks m0 P v.
+Proof.
+  pose proof ratio_pos as r0. intros b l. induction l as [| f l IH]; intros ks m0 qs b0 k0 R0 RE lk eq v.
+  - destruct m0; [| inversion R0]. destruct ks; [| discriminate]. cbn. ring.
+  - destruct m0 as [| g m0]; [inversion R0 |]. destruct ks as [| k ks]; [discriminate |]. destruct qs as [| q qs]; [discriminate |].
+    apply cons_related in R0 as [R1 R0]. inversion RE as [| ? ? re RE']. inversion k0 as [| ? ? k1 k0']. subst. cbn [map] in eq. injection eq as eq1 eq2.
+    destruct R1 as [R1 [_ [_ [_ [R2 _]]]]]. destruct (resized_same ratio P r0 g) as [er [_ eqv]].
+    assert (D : 0 < value x theta (f_D f)) by (apply R2, eqv, re). destruct (R1 D) as [_ hr]. specialize (hr v). rewrite er in hr.
+    cbn [stiff_each elastic]. rewrite map_rows_cons. cbn [energy fst snd].
+    rewrite Rmult_plus_distr_l, (IH ks m0 qs b0 k0' R0 RE' ltac:(cbn in lk; congruence) eq2), values_list, dot_coordinates, value_times, eq1, <- hr.
+    f_equal. field. lra.
 Qed.
 
 Lemma least_found : forall rs, least_rows fs s j r = Some rs -> map_rows (formula_at tape) (map_rows found rs) = rs.
@@ -1130,7 +1143,7 @@ Qed.
 Lemma fulfilled : fulfils c m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
-  pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
+  pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B. pose proof extras_at as EX. pose proof each_energy as EE.
   pose proof (couples_energy fs m represented) as CE. pose proof clearance_fulfilled as CF. pose proof beside_fulfilled as BF. pose proof acceleration_fulfilled as AF. pose proof force_fulfilled as FF.
   assert (Sign : match range_formula fs s j r with
       | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
@@ -1141,7 +1154,7 @@ Proof.
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a v b | i tool b | | error b | ks kb]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -1194,6 +1207,18 @@ Proof.
     unfold bound_value in K. cbn [bound_of fst snd exactly greatest Claim.value] in K. rewrite two_to_0 in K. unfold Rdiv in K at 1. rewrite Rinv_1, Rmult_1_r in K. exact K.
   - exact apart.
   - exact apart.
+  - cbn [least_rows] in T, LF. destruct (forallb _ (kb :: ks)) eqn:all0; [| discriminate]. destruct (Nat.eqb_spec (length ks) (length fs)) as [lk |]; [| discriminate].
+    cbn [option_map] in T. injection T as <-. cbn [Check.holds] in H. specialize (LF _ eq_refl). cbn [extras] in LF, H. rewrite LF in H. destruct H as [[_ pos] h].
+    cbn [forallb] in all0. apply andb_true_iff in all0 as [b0 k0]. apply Compare.positive_sound in b0.
+    assert (K0 : Forall (fun k => 0 < Claim.value k) ks) by (apply Forall_forall; intros k ik; rewrite forallb_forall in k0; exact (Compare.positive_sound _ _ (k0 k ik))).
+    cbn [extras] in EX. set (qs := numbered _ _) in *. rewrite map_map in EX.
+    assert (EQ : map (value x theta) qs = map (fun k => Claim.value kb / Claim.value k) ks).
+    { rewrite EX. apply map_ext. intro k. unfold exact_value. cbn [fst snd exactly greatest Claim.value]. rewrite two_to_0. unfold Rdiv at 1. rewrite Rinv_1. ring. }
+    split; [rewrite lk, (related_length _ _ _ _ _ represented); apply map_length |]. intro v.
+    rewrite <- (EE kb fs ks m qs b0 K0 represented reached lk EQ v). apply Rmult_le_compat_l; [lra |]. destruct (vzero_dec v) as [-> | nz].
+    + replace (norm2 vzero) with 0 by (unfold norm2, vzero; cbn; ring). apply energy_nonneg, pos.
+    + specialize (h 1 (coordinates v) ltac:(apply (Fixed.integer_sound bits 1)) eq_refl (nonzero_coordinates v nz)).
+      rewrite Rmult_1_l, dot_coordinates, <- norm2_dot in h. apply Rlt_le, h.
 Qed.
 End Accepted.
 
@@ -1254,7 +1279,7 @@ Proof.
     apply Forall_cons_iff in ok as [ok1 ok]. apply Forall_cons_iff in re as [re1 re]. apply Forall_cons_iff in re' as [re1' re']. apply Forall_cons_iff in e as [e1 e].
     destruct Y as [| y Y]; [cbn; lra |]. specialize (IH Y m h h' ok re re' e).
     change (whole_rows (f :: fs)) with ((list_of (f_A f), f_D f) :: whole_rows fs). rewrite !map_rows_cons. cbn [map fst lower_weights form]. fold (lower_weights places Y v).
-    destruct hl as [_ [[_ hA] _]]. destruct hl' as [_ [[_ hA'] _]]. rewrite !values_list, hA, hA'.
+    destruct hl as [_ [[_ [hA _]] _]]. destruct hl' as [_ [[_ [hA' _]] _]]. rewrite !values_list, hA, hA'.
     assert (G : forall u, Linear.dot (coordinates u) v = Vec3.dot u (vsub (vscale ratio P') (vscale ratio P))) by (intro; apply dot_coordinates). rewrite !G.
     destruct (resized_same ratio P r0 l) as [_ [j1 q1]]. destruct (resized_same ratio P' r0 l) as [_ [j2 q2]].
     assert (C : Vec3.dot (vadd (vector_of (resized ratio l) (vscale ratio P)) (vector_of (resized ratio l) (vscale ratio P'))) (vsub (vscale ratio P') (vscale ratio P)) = 0).
@@ -1628,7 +1653,7 @@ Proof.
   pose proof (are_buildable_sound s _ _ hm ds able) as built. destruct (Point P0 hP0) as [R0 [h1 [h2 Each]]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [j [u [F1 [F0 [F2 [F3 F4]]]]]].
-  apply (fulfilled c s ds m P0 (th ++ tb) params tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). destruct r as [| | | | | | | | | | | | | | | | error b]; try exact I.
+  apply (fulfilled c s ds m P0 (th ++ tb) params tape R0 W V j r F1 F0 F2 u F3 F4 h1 hm built). destruct r as [| | | | | | | | | | | | | | | | error b | ks kb]; try exact I.
   - cbn [fulfils]. intros P1 hP1 reached1 same. destruct (Point P1 hP1) as [R1 [_ [_ Each1]]]. destruct (Each1 _ i) as [j1 [u1 [_ [_ [_ [G3 G4]]]]]].
     cbn [test_of] in F3, G3. injection F3 as <-. injection G3 as <-.
     exact (one_to_one s fs m P0 P1 (th ++ tb) tape params W R0 R1 built h1 reached1 same _ _ _ F4 G4).

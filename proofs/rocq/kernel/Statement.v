@@ -62,9 +62,16 @@ Definition couple_of (l : leg) (P : vec) : option vec :=
 (** Row i of A: the leg's vector, or a plane's normal. *)
 Definition vector_of (l : leg) (P : vec) : vec :=
   match l with Guided l => leg_vector l P | Extensible base platform _ => span base platform P | Plane n => normalised n end.
+(** |vector_of|, where a leg of fixed length reaches. *)
+Definition size_of (l : leg) (P : vec) : R :=
+  match l with Guided l => leg_length l | Extensible base platform _ => sqrt (norm2 (span base platform P)) | Plane _ => 1 end.
 
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
+
+(** v . M^T diag(joints) M v *)
+Fixpoint elastic (joints : list number) (m : list leg) (P v : vec) : R :=
+  match joints, m with k :: joints', l :: m' => value k * dot (row l P) v ^ 2 + elastic joints' m' P v | _, _ => 0 end.
 
 (** The power of joint forces tau where the platform moves with v. *)
 Fixpoint joint_power (m : list leg) (tau : list R) (P v : vec) : R :=
@@ -144,7 +151,7 @@ Inductive requirement :=
   | JointSpeed (leg : nat) (tool b : number)           (* of no velocity of the platform up to [tool] *)
   | ConditionMax (b : number)                          (* sigma_max / sigma_min *)
   | SerialMargin (leg : nat) (b : number)              (* |eta| / L, of sliders *)
-  | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three sliders *)
+  | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three legs *)
   | Stiffness (joint b : number)                       (* M^T joint M, with rigid legs *)
   | ConstraintMargin (b : number)                      (* sigma_min of the unit couples, of struts with an axis *)
   | Clearance (one other : body) (b : number)          (* the distance of two bodies *)
@@ -155,7 +162,8 @@ Inductive requirement :=
   | JointForce (leg : nat) (tool b : number)           (* of no static force on the platform up to [tool] *)
   | OneToOne                                           (* no two points of the workspace have the same joint coordinates *)
   (* the one position near that of the nominal machine, where joints are off by [error] at most *)
-  | Accuracy (error b : number).
+  | Accuracy (error b : number)
+  | Stiffnesses (joints : list number) (b : number).   (* of joints that differ *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -186,8 +194,8 @@ Definition fulfils (c : claim) (m : list leg) (P : vec) (r : requirement) : Prop
       forall v, norm2 v <= value tool ^ 2 -> dot (row l P) v ^ 2 <= value b ^ 2
   | ConditionMax b => forall u v, speed2 m P u * norm2 v <= value b ^ 2 * (speed2 m P v * norm2 u)
   | SerialMargin i b => exists k, nth_error m i = Some (Guided k) /\ (value b * leg_length k) ^ 2 <= eta k P ^ 2
-  | ParallelMargin b => exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\
-      value b * leg_length l1 * leg_length l2 * leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P))
+  | ParallelMargin b => exists l1 l2 l3, m = [l1; l2; l3] /\
+      value b * size_of l1 P * size_of l2 P * size_of l3 P <= Rabs (det (Mat (vector_of l1 P) (vector_of l2 P) (vector_of l3 P)))
   | Stiffness joint b => forall v, value b / value joint * norm2 v <= speed2 m P v
   | ConstraintMargin b => exists cs, Forall2 (fun l c => couple_of l P = Some c /\ c <> vzero) m cs /\
       forall v, value b ^ 2 * norm2 v <= fold_right (fun c sum => dot (normalised c) v ^ 2 + sum) 0 cs
@@ -208,6 +216,7 @@ Definition fulfils (c : claim) (m : list leg) (P : vec) (r : requirement) : Prop
   | Accuracy error b => forall rho, Forall2 (fun d r => Rabs (r - joint (nominal_leg d) P) <= value error) (legs c) rho ->
       let is_at P' := norm2 (vsub P' P) <= value b ^ 2 /\ Forall2 (fun l r => reaches P' l /\ joint l P' = r) m rho in
       exists P', is_at P' /\ forall P'', is_at P'' -> P'' = P'
+  | Stiffnesses joints b => Datatypes.length joints = Datatypes.length m /\ forall v, value b * norm2 v <= elastic joints m P v
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

@@ -119,6 +119,14 @@ Proof.
   - unfold span, normalised. turns. split; [exact (fun h => h) | split; reflexivity].
   - unfold normalised. turns. turns. split; [exact (fun h => h) | split; reflexivity].
 Qed.
+
+Lemma vector_turned : forall l, vector_of (turned p l) Q = turn p (vector_of l P) /\ size_of (turned p l) Q = size_of l P.
+Proof.
+  intros [l | a b k | n]; cbn [turned vector_of size_of].
+  - destruct (guided_turned l) as [_ [_ [_ [_ [_ [_ V]]]]]]. split; [exact V | reflexivity].
+  - unfold span. turns. split; reflexivity.
+  - unfold normalised. turns. split; reflexivity.
+Qed.
 End Leg.
 
 Lemma moved_turned : forall p m, length m = 3%nat -> moved p (map (turned p) (moved (back p) (map (turned (back p)) m))) = m.
@@ -190,9 +198,9 @@ Proof.
   - intros u v. rewrite !speed2_there, (norm2_there u), (norm2_there v). apply F.
   - destruct F as [k [h1 h2]]. eexists. split; [apply (leg_there _ _ h1) |]. destruct (guided_turned p P k) as [_ [_ [_ [E _]]]]. rewrite E. exact h2.
   - destruct F as [k1 [k2 [k3 [h1 h2]]]]. injection h1 as -> -> ->.
-    destruct (guided_turned p P k1) as [_ [_ [_ [_ [_ [_ E1]]]]]], (guided_turned p P k2) as [_ [_ [_ [_ [_ [_ E2]]]]]], (guided_turned p P k3) as [_ [_ [_ [_ [_ [_ E3]]]]]].
-    unfold A_matrix in *. cbn [leg1 leg2 leg3] in *. destruct p; cbn [moved map turned]; do 3 eexists; (split; [reflexivity |]); unfold A_matrix; cbn [leg1 leg2 leg3 leg_length]; rewrite E1, E2, E3;
-      match goal with |- _ <= Rabs (det ?M) => assert (D : Rabs (det M) = Rabs (det (Mat (leg_vector k1 P) (leg_vector k2 P) (leg_vector k3 P)))) end.
+    destruct (vector_turned p P k1) as [E1 Z1], (vector_turned p P k2) as [E2 Z2], (vector_turned p P k3) as [E3 Z3].
+    destruct p; cbn [moved map]; do 3 eexists; (split; [reflexivity |]); rewrite E1, E2, E3, Z1, Z2, Z3;
+      match goal with |- _ <= Rabs (det ?M) => assert (D : Rabs (det M) = Rabs (det (Mat (vector_of k1 P) (vector_of k2 P) (vector_of k3 P)))) end.
     1,3,5: unfold det, cross, dot, turn; cbn [row1 row2 row3 vx vy vz]; first [apply f_equal; ring | rewrite <- Rabs_Ropp; apply f_equal; ring].
     all: rewrite D; lra.
 Qed.

@@ -267,13 +267,9 @@ Inductive failure :=
   (* the columns of M are linearly dependent *)
   | AreDependent.
 
-(** The determinant of the rows of A of sliders, n + r/eta times eta, and their lengths. *)
-Definition nvector (l : exact_leg) (P : numbers) : option (numbers * number) :=
-  match l with
-  | ExactSlider d a p len m =>
-      Some (nray l P, len)
-  | _ => None
-  end.
+(** The determinant of legs' vectors, and their sizes. *)
+Definition nsize (l : exact_leg) (P : numbers) : number :=
+  match l with ExactSlider _ _ _ len _ => len | ExactStrut a p _ => Root (product (nspan a p P) (nspan a p P)) | ExactPlanar _ => 1 // 1 end.
 Definition ndet (a b c : numbers) : number :=
   product a (Numbers (Minus (Times (ny b) (nz c)) (Times (nz b) (ny c))) (Minus (Times (nz b) (nx c)) (Times (nx b) (nz c)))
     (Minus (Times (nx b) (ny c)) (Times (ny b) (nx c)))).
@@ -341,12 +337,8 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
   | ParallelMargin b =>
       match ls with
       | [k1; k2; k3] =>
-          match nvector k1 P, nvector k2 P, nvector k3 P with
-          | Some (v1, l1), Some (v2, l2), Some (v3, l3) =>
-              let least := Times (Times (Times b l1) l2) l3 in let d := ndet v1 v2 v3 in
-              certainly true (Minus least d) && certainly true (Plus least d)
-          | _, _, _ => false
-          end
+          let least := Times (Times (Times b (nsize k1 P)) (nsize k2 P)) (nsize k3 P) in let d := ndet (nray k1 P) (nray k2 P) (nray k3 P) in
+          certainly true (Minus least d) && certainly true (Plus least d)
       | _ => false
       end
   | Stiffness joint b => certainly true (Minus (Times (Over b joint) (product u u)) (nspeed2 ls P u))
@@ -377,7 +369,7 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
-  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ => false
+  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ | Stiffnesses _ _ => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -390,13 +382,13 @@ Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) 
   | AreDependent => are_dependent 3 (map (fun l => let q := nray l P in [nx q; ny q; nz q]) ls)
   end.
 
-Lemma nvector_sound : forall l P v len, nvector l P = Some (v, len) ->
-  exists k, leg_of l = Guided k /\ values v = leg_vector k (values P) /\ value len = leg_length k.
+Lemma values_vector : forall l P, values (nray l P) = vector_of (leg_of l) (values P) /\ value (nsize l P) = size_of (leg_of l) (values P).
 Proof.
-  intros [d a p len m | ? ? ? | ?] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
-  eexists. split; [reflexivity |]. split; [| reflexivity]. cbn [nray].
-  rewrite values_plus, values_scaled, values_unit, value_signed_root, leg_vector_eq,
-    (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
+  intros [d a p len m | a p k | d] P; cbn [nray nsize vector_of size_of leg_of].
+  - split; [| reflexivity]. rewrite values_plus, values_scaled, values_unit, value_signed_root, leg_vector_eq,
+      (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
+  - split; [reflexivity |]. cbn [value]. rewrite value_square. reflexivity.
+  - split; [apply values_unit | cbn; field].
 Qed.
 
 Lemma value_ndet : forall a b c, value (ndet a b c) = det (Mat (values a) (values b) (values c)).
@@ -450,7 +442,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b | | error b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b | one other b | i one other b | i a y b | i tool b | | error b | ks kb]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -481,13 +473,9 @@ Proof.
     cbn [leg_of] in e'. injection e' as ->. cbv zeta in h. apply positive_sound in h. cbn [value] in h.
     rewrite value_signed_root in h. cbn [leg_length] in j. nra.
   - destruct F as [k1 [k2 [k3 [e j]]]]. destruct ls as [| x1 [| x2 [| x3 [| x4 rest]]]]; try discriminate. cbn [map] in e.
-    injection e as a1 a2 a3.
-    destruct (nvector x1 P) as [[v1 l1] |] eqn:q1; [| discriminate]. destruct (nvector x2 P) as [[v2 l2] |] eqn:q2; [| discriminate].
-    destruct (nvector x3 P) as [[v3 l3] |] eqn:q3; [| discriminate].
-    destruct (nvector_sound _ _ _ _ q1) as [g1 [b1 [c1 d1]]], (nvector_sound _ _ _ _ q2) as [g2 [b2 [c2 d2]]], (nvector_sound _ _ _ _ q3) as [g3 [b3 [c3 d3]]].
-    rewrite a1 in b1. rewrite a2 in b2. rewrite a3 in b3. injection b1 as <-. injection b2 as <-. injection b3 as <-.
+    injection e as <- <- <-. destruct (values_vector x1 P) as [c1 d1], (values_vector x2 P) as [c2 d2], (values_vector x3 P) as [c3 d3].
     cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2. cbn [value] in h1, h2.
-    rewrite value_ndet, c1, c2, c3, d1, d2, d3 in h1, h2. unfold A_matrix in j. cbn [leg1 leg2 leg3] in j.
+    rewrite value_ndet, c1, c2, c3, d1, d2, d3 in h1, h2.
     set (z := det _) in *. clearbody z. unfold Rabs in j. destruct (Rcase_abs z); lra.
   - apply positive_sound in h. cbn [value] in h. rewrite value_speed2, value_square in h. specialize (F (values u)). lra.
   - destruct F as [cs [h1 h2]]. destruct (ncouples ls P) as [ns |] eqn:e; [| discriminate]. apply positive_sound in h. cbn [value] in h.
@@ -521,6 +509,7 @@ Proof.
       by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
           unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
     replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
+  - discriminate.
   - discriminate.
   - discriminate.
   - discriminate.

@@ -137,6 +137,7 @@ const ways = [
   [toleranced, [90, 80, 70], about("joint_speed", "max", ',"given":{"tool":["100"]}'), '{"obligation":[3,[]]}', 50, 300],
   [three, [90, 80, 70], about("serial_margin", "min"), '{"obligation":[1,[]]}', 0.2, 1],
   [toleranced, [110, 110, 110], about("parallel_margin", "min"), '{"obligation":[1,[]]}', 0.2, 3],
+  [mixed, [60, 40, 190], about("parallel_margin", "min"), '{"obligation":[1,[]]}', 0.01, 3],
   [mixed, [60, 40, 190], about("stiffness", "min", ',"given":{"joint":["3"]}'), '{"obligation":[1,[[1,2,-3]]]}', 0.1, 9],
   [struts, [20, 10, 300], about("constraint_margin", "min"), '{"obligation":[1,[[1,2,20]]]}', 0.01, 2],
 ];
@@ -630,6 +631,29 @@ for (const [text, right] of [
   if (right) read.push(text);
 }
 console.log("one to one of platforms that turn: with one answer at 48 bounds");
+
+// Distances from parallel singularities of any legs, and a stiffness for each joint.
+const asked = (legs, box, requirement, proof, verdict = "certified") => (b) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":{"translational":[${legs}]},` +
+  `"workspace":{"box":{"min":${triple(...box[0])},"max":${triple(...box[1])}}},"require":[${requirement(b)}]}},"verdict":"${verdict}","proof":${proof},"provenance":{"tool":"t","version":"1"}}\n`;
+const by_steps = (Y, ...steps) => `{"tree":{"precision":40,"nodes":[{"by":[[0,{"rank":${y(Y)}}],${steps}]}]}}`;
+const planes = [plane(3, 1, 0), plane(0, "sqrt(7)", 1), plane(1, 0, 3)], unit = [[8, 0, 0], [0, 8, 0], [0, 0, 8]], here_ = [[0, 0, 0], [1, 2, 3]], above = [[-20, -20, 300], [20, 20, 310]];
+const margin = (b) => `{"quantity":"parallel_margin","end":"min","bound":"${b}"}`, leaning = [[-8, 0, 2], [4, -7, 2], [4, 7, 2]];
+narrowed(asked(planes, here_, margin, by_steps(unit, '[1,"test"]')), 0.1, 2);
+narrowed(asked([planes[1], planes[0], planes[2]], here_, margin, by_steps([unit[1], unit[0], unit[2]], '[1,"negative"]')), 0.1, 2);
+narrowed(asked(struts, above, margin, by_steps(leaning, '[1,"test"]')), 0.01, 2);
+narrowed(asked([struts[0], struts[2], struts[1]], above, margin, by_steps([leaning[0], leaning[2], leaning[1]], '[1,"negative"]')), 0.01, 2);
+narrowed(asked([planes[0], struts[1], planes[2]], above, margin, witness([1, 2, 305], '{"obligation":[1,[]]}'), "refuted"), 0.1, 2);
+const stiff = (...joints) => (b) => `{"quantity":"stiffness","given":{"joint":[${quote(...joints)}]},"end":"min","bound":"${b}"}`;
+const stiffly = (Y) => `[1,{"lower":${y(Y)}}]`;
+narrowed(asked(planes, here_, stiff(3, "5", "sqrt(50)"), by_steps(unit, stiffly(unit))), 0.1, 9);
+narrowed(asked(toleranced, [[-20, -20, -20], [30, 30, 30]], stiff(9, 4, 5), by_steps(unit, stiffly([[16, 0, 0], [0, 14, 0], [0, 0, 15]]))), 0.1, 9);
+for (const [joints, right] of [[[3, 5, 7], 1], [[3, 5], 0], [[3, 5, 7, 9], 0], [[3, 0, 7], 0], [[3, -5, 7], 0], [["1/10", 5, 7], 0], [[], 0]]) {
+  const text = asked(planes, here_, stiff(...joints), by_steps(unit, stiffly(unit)))(1), answers = all(text);
+  if (answers.some((answer) => answer !== (right ? "CERTIFIED" : "REJECTED"))) fail(`stiffness of each: ${answers}: ${text}`);
+  if (right) read.push(text);
+}
+read.push(asked(planes, here_, margin, by_steps(unit, '[1,"test"]'))(0.5));
+console.log("parallel margins of any legs, and a stiffness for each joint: 7 machines, with one answer at 42 bounds each");
 fs.rmSync(beside, { recursive: true });
 
 // Pavings, by the program beside orthocert-check: of each kind of node, and mutants of them.

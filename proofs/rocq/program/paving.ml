@@ -27,6 +27,7 @@ let header line =
   if find l' "orientation" <> None then not_covered [ "a paving of a platform that turns" ];
   match subject (get l "claim") with
   | Machine_ (legs_, Box_ (min_, max_), [], require_) ->
+    if has_each require_ then not_covered [ "a stiffness for each joint in a paving" ];
     List.iter (fun r -> match r.about_ with
       | Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ -> ()
       | OneToOne_ -> raise Malformed

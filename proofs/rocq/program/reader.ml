@@ -193,13 +193,13 @@ let requirement ?(turns = false) v =
     | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] | Accuracy_, [ ("joint_error", Array [ x ]) ] -> Given_ (number x)
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | Accuracy_, [ ("joint_error", _); ("max_angle", _) ] when turns -> not_covered [ "accuracy of a platform that turns" ]
-    | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
+    | Stiffness_, [ ("joint", Array l) ] -> if turns then not_covered [ "a stiffness for each joint of such a mechanism" ] else Each_ (List.map number l)
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
 (* Of machines of Configuration.v, and of these of platforms that turn. *)
 let demand v =
-  let r = requirement v in
+  let r = requirement ~turns:true v in
   match r.about_ with
   | Transmission | JointRange | Condition_ -> r
   | _ -> not_covered [ "this quantity of such a mechanism" ]
@@ -292,8 +292,6 @@ let rec subject v =
          Legs_ (Translates, List.map driven legs, None, place workspace, None, List.map driven_demand (array (get l "require")))
        end else begin
          let legs = List.map leg legs in
-         if List.exists (fun r -> r.about_ = Parallel_) require && List.exists (function Slider_ _ -> false | _ -> true) legs then
-           not_covered [ "the distance from parallel singularities of other drives than sliders" ];
          Machine_ (legs, region workspace, bodies, require)
        end
      | ("formulas", f), ("box", box) ->
@@ -397,6 +395,7 @@ let proof n v =
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
 let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ | Accuracy_ -> true | _ -> false
+let has_each = List.exists (fun r -> match r.given_ with Some (Each_ _) -> true | _ -> false)
 let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
@@ -430,6 +429,8 @@ let certificate text =
    | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
      not_covered [ "this quantity in a claim that is refuted" ]
    | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
+   | (Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ | Atlas_ (_, _, _, rs, _, _), _) when has_each rs ->
+     not_covered [ "a stiffness for each joint in such a claim" ]
    | NoCube_ _, _ -> ()
    | Atlas_ (_, _, _, rs, _, _), Cells cells ->
      let is_outside cell = match cell with

@@ -218,8 +218,8 @@ fn stated(claim: &MachineClaim, obligation: &Obligation) -> Result<Stated, Expor
         ("parallel_margin", Bound::Min(b)) => {
             let b = number(b);
             let far = format!(
-                "(exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\\ value {b} * leg_length l1 * leg_length l2 * \
-                 leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P)))"
+                "(exists l1 l2 l3, m = [l1; l2; l3] /\\ value {b} * size_of l1 P * size_of l2 P * size_of l3 P <= \
+                 Rabs (det (Mat (vector_of l1 P) (vector_of l2 P) (vector_of l3 P))))"
             );
             (format!("(ParallelMargin {b})"), Some(far))
         }
