@@ -107,14 +107,21 @@ class Machine:
 
     def extremes(self, seed):
         """The least and the greatest singular value."""
-        singular = lambda m: np.linalg.svd(m, compute_uv=False)  # noqa: E731
         return self.least(lambda m: singular(m)[:, -1], seed), -self.least(lambda m: -singular(m)[:, 0], seed)
+
+    def condition(self, seed):
+        """The greatest condition number."""
+        return -self.least(lambda m: -singular(m)[:, 0] / singular(m)[:, -1], seed)
 
     def least_determinant(self, seed):
         """The least determinant of M over that in the middle."""
         n = self.positions + (1 if self.kind == "planar" else 3)
         middle = np.linalg.det(self.matrices(np.full((1, n), 0.5)))
         return self.least(lambda m: np.linalg.det(m) / middle, seed, 30, 400)
+
+
+def singular(matrices):
+    return np.linalg.svd(matrices, compute_uv=False)
 
 
 def cayley(c):
@@ -189,6 +196,10 @@ def least(value, part):
 
 def greatest(value, part):
     return f"transmission = {{ min = {1 / (value * part):.9f} }}"
+
+
+def ratio(value, part):
+    return f"conditioning = {{ max = {value * part:.9f} }}"
 
 
 # Nothing but regularity: of a joint range that says nothing.
@@ -307,13 +318,15 @@ def drawn():
     head("machine", "claim", "verdict", "leaves", "expected", "proof", "check")
     wrong, times = 0, {}
     for count, (kind, machine) in enumerate(machines):
-        low, high = machine.extremes(count)
-        name = f"{kind} {count + 1}: {machine.orientation} ({low:.4f}, {high:.4f})"
+        (low, high), most = machine.extremes(count), machine.condition(count)
+        name = f"{kind} {count + 1}: {machine.orientation} ({low:.4f}, {high:.4f}, {most:.4f})"
         for question, requirements, expected in (
             ("least, beyond", least(low, 0.999), "certified"),
             ("greatest, beyond", greatest(high, 1.001), "certified"),
             ("least, inside", least(low, 1.001), "refuted"),
             ("greatest, inside", greatest(high, 0.999), "refuted"),
+            ("ratio, beyond", ratio(most, 1.001), "certified"),
+            ("ratio, inside", ratio(most, 0.999), "refuted"),
         ):
             found = row(name, question, machine, requirements, expected)
             wrong += found[0] != expected

@@ -2,30 +2,33 @@
 
 use super::evidence::{At, Over};
 use super::rows::{between, matrix, Form, Rows};
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::quantity::Test;
+use std::cell::OnceCell;
 
 /// Parts of the interval of multiples from which a short one is taken.
 const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
 /// Powers of two tried as multiples, where what a test leaves is not known.
 const POWERS: std::ops::RangeInclusive<i32> = -8..=4;
 
-/// Multiples `low < mu < high` with which `margin > mu g` at all points.
-fn interval(margins: &[f64], g: &[f64]) -> Option<[f64; 2]> {
+/// Multiples `low < mu < high` with which `margin > mu g` at all points; `None` where a margin is not known.
+fn interval(margins: impl IntoIterator<Item = Option<f64>>, g: &[f64]) -> Option<Option<[f64; 2]>> {
     let (mut low, mut high) = (0f64, f64::INFINITY);
-    for (margin, g) in margins.iter().zip(g) {
-        if *g > 0.0 {
+    for (margin, &g) in margins.into_iter().zip(g) {
+        let margin = margin?;
+        if g > 0.0 {
             high = high.min(margin / g);
-        } else if *g < 0.0 {
+        } else if g < 0.0 {
             low = low.max(margin / g);
-        } else if *margin <= 0.0 {
-            return None;
+        }
+        if low >= high || (g == 0.0 && margin <= 0.0) {
+            return Some(None);
         }
     }
     let high = if high.is_finite() { high } else { 4.0 * low + 1.0 };
-    (low < high).then_some([low, high])
+    Some(Some([low, high]))
 }
 
 /// Short numbers of an interval.
@@ -34,7 +37,8 @@ fn short([low, high]: [f64; 2]) -> impl Iterator<Item = (i64, u32)> {
     MULTIPLES.into_iter().filter_map(part)
 }
 
-type With = fn(Box<Evidence>, i64, u32) -> Evidence;
+/// Wraps evidence.
+pub type With = fn(Box<Evidence>, i64, u32) -> Evidence;
 
 impl Over<'_> {
     /// The evidence, alone or with one of the inequalities, or both, where the test holds with it.
@@ -42,38 +46,59 @@ impl Over<'_> {
         if self.shows(test, &evidence) {
             return Some(evidence);
         }
-        let inside = self.inside().map(|g| (Evidence::Inside as With, g));
-        let turned = self.turned().map(|g| (Evidence::Turned as With, g));
-        let all: Vec<(With, Vec<f64>)> = inside.into_iter().chain(turned).collect();
+        let all = self.less();
         if all.is_empty() {
             return None;
         }
         let holds = |evidence: Evidence| self.shows(test, &evidence).then_some(evidence);
-        let margin = |v| self.margin(test, &evidence, v);
-        let margins: Option<Vec<f64>> = self.formulas.vertices().map(margin).collect();
-        let Some(margins) = margins else {
-            let mut tried = all.iter().flat_map(|(with, _)| POWERS.map(move |k| (with, k)));
-            return tried.find_map(|(with, k)| {
-                let (n, places) = between(f64::from(k).exp2(), f64::from(k).exp2())?;
-                holds(with(Box::new(evidence.clone()), n, places))
-            });
+        let points: Vec<Vertex> = self.formulas.vertices().collect();
+        let known = vec![OnceCell::new(); points.len()];
+        let margin = |(known, &v): (&OnceCell<Option<f64>>, &Vertex)| {
+            *known.get_or_init(|| self.margin(test, &evidence, v))
         };
-        let one = all.iter().find_map(|(with, g)| {
-            let mut multiples = short(interval(&margins, g)?);
-            multiples.find_map(|(n, places)| holds(with(Box::new(evidence.clone()), n, places)))
-        });
-        let both = || {
-            let [(inside, t), (turned, g)] = &all[..] else { return None };
-            POWERS.into_iter().find_map(|k| {
-                let mu = f64::from(k).exp2();
-                let left: Vec<f64> = margins.iter().zip(t).map(|(m, t)| m - mu * t).collect();
-                let (n, places) = between(mu, mu)?;
-                let inner = inside(Box::new(evidence.clone()), n, places);
-                let mut multiples = short(interval(&left, g)?);
-                multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
-            })
+        let margins = || known.iter().zip(&points).map(margin);
+        let with = |with: &With, (n, places)| with(Box::new(evidence.clone()), n, places);
+        for (wrap, g) in &all {
+            let Some(multiples) = interval(margins(), g) else {
+                let mut tried = all.iter().flat_map(|(wrap, _)| POWERS.map(move |k| (wrap, k)));
+                return tried.find_map(|(wrap, k)| {
+                    holds(with(wrap, between(f64::from(k).exp2(), f64::from(k).exp2())?))
+                });
+            };
+            let mut multiples = multiples.into_iter().flat_map(short);
+            let found = multiples.find_map(|multiple| holds(with(wrap, multiple)));
+            if found.is_some() {
+                return found;
+            }
+        }
+        let [(inside, t), (turned, g)] = &all[..] else { return None };
+        POWERS.into_iter().find_map(|k| {
+            let mu = f64::from(k).exp2();
+            let left = margins().zip(t).map(|(m, t)| Some(m? - mu * t));
+            let inner = with(inside, between(mu, mu)?);
+            let mut multiples = short(interval(left, g)??);
+            multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
+        })
+    }
+
+    /// The inequalities of the workspace and the orientations at the vertices, or control points.
+    pub fn less(&self) -> Vec<(With, Vec<f64>)> {
+        let inside = self.inside().map(|g| (Evidence::Inside as With, g));
+        let turned = self.turned().map(|g| (Evidence::Turned as With, g));
+        inside.into_iter().chain(turned).collect()
+    }
+
+    /// The same, by their values at the centre and half of what they change by
+    /// along each coordinate.
+    pub fn inequalities(&self) -> Vec<Vec<f64>> {
+        let inside = self.problem().inside.as_ref().map(|inside| inside.g);
+        let all = inside.into_iter().chain(self.problem().turned);
+        let affine = |g| {
+            let centre = self.centre(g)?;
+            let steps = (0..self.m()).map(|k| Some(self.at(g, At::Face(k, 1.0))? - centre));
+            [Some(centre)].into_iter().chain(steps).collect()
         };
-        one.or_else(both)
+        all.filter_map(affine).collect()
     }
 
     /// The workspace's inequality: its tangent at the vertices, itself at control points.
@@ -104,7 +129,7 @@ impl Over<'_> {
     /// The least eigenvalue, or value, of what a test wants positive, at a vertex or control point; of
     /// some tests it is not known.
     fn margin(&self, test: &Test, evidence: &Evidence, v: Vertex) -> Option<f64> {
-        let least = |t: DMatrix<f64>| SymmetricEigen::new(t).eigenvalues.min();
+        let least = |t: DMatrix<f64>| t.symmetric_eigenvalues().min();
         let (m, at) = (self.m(), At::Vertex(v));
         let unit = |c: f64| DMatrix::identity(m, m) * c;
         let form = match evidence {

@@ -6,6 +6,7 @@
 //! | `evidence` | a problem in doubles, over a box                                            |
 //! | `propose`  | evidence with which the kernel's tests hold on a box                        |
 //! | `apart`    | directions in which tolerances matter most                                  |
+//! | `balance`  | what stands between the bounds of a condition number                         |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
@@ -25,6 +26,7 @@
 
 mod adverse;
 mod apart;
+mod balance;
 mod chords;
 mod descent;
 mod directions;

@@ -1,5 +1,6 @@
 //! Proposals: evidence with which the kernel's tests hold on a box, in doubles.
 
+use super::balance::Balance;
 use super::directions::directions;
 use super::evidence::{At, Over};
 use super::rows::{above, exponent, in_places, rounded, Form, Rows};
@@ -120,11 +121,20 @@ impl Over<'_> {
         with: impl Fn(i32) -> Option<Evidence>,
     ) -> Option<Evidence> {
         let found = self.shown(test, with(fine)?)?;
+        Some(self.shortened(test, found, with))
+    }
+
+    fn shortened(
+        &self,
+        test: &Test,
+        found: Evidence,
+        with: impl Fn(i32) -> Option<Evidence>,
+    ) -> Evidence {
         let shorter = SHORT.into_iter().find_map(|bits| {
             let evidence = around(&found, with(bits)?);
             self.shows(test, &evidence).then_some(evidence)
         });
-        shorter.or(Some(found))
+        shorter.unwrap_or(found)
     }
 
     fn shortest_of(
@@ -172,28 +182,53 @@ impl Over<'_> {
     /// `mu` half-way between what both bounds allow: at the centre, and, by differences, along each
     /// coordinate, of scaled rows times the weight there.
     fn conditioning(&self, test: &Test, c_squared: Formula, form: Form) -> Option<Evidence> {
-        let c = self.centre(c_squared)?.sqrt();
-        let middle = |rows: Rows| {
-            let xi: DVector<f64> = rows.m().singular_values();
-            (0.5 * (xi.min() + xi.max() / c)).powi(2)
-        };
-        let mut mu = vec![middle(self.own(Form::Plain, At::Centre)?)];
+        let c_squared = self.centre(c_squared)?;
         let weight = self.scale(form).powi(2);
-        for k in 0..self.m() {
-            let at = |sign| self.own(Form::Plain, At::Face(k, sign)).map(middle);
-            mu.push(0.5 * weight * (at(1.0)? - at(-1.0)?));
+        let bounds = |at| {
+            let xi: DVector<f64> = self.own(Form::Plain, at)?.m().singular_values();
+            Some([xi.min(), xi.max() / c_squared.sqrt()])
+        };
+        let ends = |k| Some([bounds(At::Face(k, -1.0))?, bounds(At::Face(k, 1.0))?]);
+        let (centre, faces) = (bounds(At::Centre)?, (0..self.m()).map(ends));
+        let faces: Vec<[[f64; 2]; 2]> = faces.collect::<Option<_>>()?;
+        // A value at the centre, and half of what it changes by between faces.
+        let along = |of: &dyn Fn([f64; 2]) -> f64| {
+            let steps = faces.iter().map(|&[low, high]| 0.5 * (of(high) - of(low)));
+            [of(centre)].into_iter().chain(steps).collect::<Vec<f64>>()
+        };
+        let mut mu = along(&|[low, high]| (0.5 * (low + high)).powi(2));
+        // One multiple of what is not negative in the workspace is taken off both bounds, of which one is `c^2` times the
+        // other: `mu` is half-way between what is left of them.
+        let mut left = along(&|[low, high]| low * low - high * high);
+        for g in self.inequalities() {
+            let g: Vec<f64> = g.iter().map(|g| g / weight).collect();
+            let multiple = multiple(&left, &g);
+            let part = 0.5 * multiple * (c_squared - 1.0) / (c_squared + 1.0);
+            mu.iter_mut().zip(&g).for_each(|(mu, g)| *mu -= part * g);
+            left.iter_mut().zip(&g).for_each(|(left, g)| *left -= multiple * g);
         }
+        mu.iter_mut().skip(1).for_each(|mu| *mu *= weight);
         // As fine as what may stand between both bounds, `mu` and `c^2 mu`.
-        let size = exponent(mu[0] * (1.0 - c.powi(-2)).clamp(f64::EPSILON, 0.5));
+        let size = exponent(mu[0] * (1.0 - c_squared.recip()).clamp(f64::EPSILON, 0.5));
         let starts = self.own(form, At::Centre)?.starts(mu[0].sqrt() * self.scale(form));
-        starts.into_iter().find_map(|y| {
-            self.shortest_from(FINER, test, |bits| {
-                let places = (bits + above(&y)).max(bits + 4 - size);
-                let multiplier = rounded(&y, places)?;
-                let scale = f64::from(multiplier.places).exp2();
-                let mu = mu.iter().map(|mu| (mu * scale).round() as i64).collect();
-                Some(Evidence::Conditioning(multiplier, mu))
-            })
+        let with = |y: &DMatrix<f64>, mu: &[f64], bits: i32| {
+            let places = (bits + above(y)).max(bits + 4 - size);
+            let multiplier = rounded(y, places)?;
+            let scale = f64::from(multiplier.places).exp2();
+            let mu = mu.iter().map(|mu| (mu * scale).round() as i64).collect();
+            Some(Evidence::Conditioning(multiplier, mu))
+        };
+        let mut starts = starts.into_iter();
+        if form != Form::Scaled {
+            return starts
+                .find_map(|y| self.shortest_from(FINER, test, |bits| with(&y, &mu, bits)));
+        }
+        let balance = Balance::new(self, c_squared, mu[0])?;
+        starts.find_map(|y| {
+            let best = balance.best(self, &y)?;
+            let found = best.less(with(&y, &best.mu, FINER)?)?;
+            self.shows(test, &found)
+                .then(|| self.shortened(test, found, |bits| with(&y, &best.mu, bits)))
         })
     }
 
@@ -267,6 +302,17 @@ impl Over<'_> {
     fn apart(&self, test: &Test, apart: &Apart) -> Option<Evidence> {
         self.shortest_of(test, directions(self.formulas, apart), Evidence::Direction)
     }
+}
+
+/// The multiple of one affine function that leaves most of another on `[-1, 1]^m`, if it is subtracted; both by their
+/// values at the centre and their slopes.
+fn multiple(f: &[f64], g: &[f64]) -> f64 {
+    let least = |multiple: f64| {
+        let mut parts = f.iter().zip(g).map(|(f, g)| f - multiple * g);
+        parts.next().unwrap_or(0.0) - parts.map(f64::abs).sum::<f64>()
+    };
+    let kinks = f.iter().zip(g).skip(1).map(|(f, g)| f / g).filter(|x| *x > 0.0 && x.is_finite());
+    kinks.fold(0.0, |best, other| if least(other) > least(best) { other } else { best })
 }
 
 /// Other evidence, less what is taken from some evidence.
