@@ -237,7 +237,7 @@ pub fn publish(
     };
     let contours = map::contours(design, &cells);
     let svg = map::picture(design, &cells, &contours, &points(&report));
-    let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
+    let words = statement::statement(&certificate.claim, accepted.verdict);
     let title = design.title.as_deref().unwrap_or("Atlas");
     let page = map::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
     files.all.extend([(PICTURE, svg), (PAGE, page)]);

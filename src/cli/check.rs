@@ -175,7 +175,7 @@ fn check_paving(
         Some(claim) if accepted.header.claim != claim => {
             Err(another_claim(&Claim::Machine(accepted.header.claim), &Claim::Machine(claim)))
         }
-        _ => Ok((accepted, words.unwrap_or_default())),
+        _ => Ok((accepted, words)),
     });
     match accepted {
         Ok((accepted, statement)) => {
@@ -295,7 +295,7 @@ fn accept(
     formulas: Option<&str>,
 ) -> Result<(), Failure> {
     let verdict = accepted.verdict;
-    let statement = statement::established(certificate).unwrap_or_default();
+    let statement = statement::established(certificate);
     match arguments.format {
         Format::Text if arguments.quiet => print::answer(&format!("ACCEPTED: {verdict}\n")),
         Format::Text => {

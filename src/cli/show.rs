@@ -121,7 +121,6 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
     let mut out = format!("NOT CHECKED; the certificate says: {}\n\n", certificate.verdict);
     let statement = statement::statement(&certificate.claim, certificate.verdict);
     // The statement's first line says that it is proved, which is not known here.
-    let statement = statement.unwrap_or_default();
     let (_, claim) = statement.split_once('\n').unwrap_or(("", &statement));
     out.push_str(&wrapped(claim));
     out.push('\n');

@@ -223,7 +223,7 @@ impl AtlasDesign {
         }
         let over = claim.over(&self.whole()).map_err(|error| error.to_string())?;
         match Problem::new(&over) {
-            Err(ClaimError::Number { place, expected: "greater than zero" }) => Err(format!(
+            Err(ClaimError { place, expected: "greater than zero" }) => Err(format!(
                 "{place}, which is not (provably) greater than zero for all values of the \
                  parameters: a cell may have a length of zero"
             )),

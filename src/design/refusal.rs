@@ -13,7 +13,7 @@ pub(super) fn compiled(root: &Table<'_>, claim: &kernel::MachineClaim) -> Result
 
 /// A claim that the kernel refuses: the error about the table that it names.
 pub(super) fn refused(root: &Table<'_>, error: &Refused) -> DesignError {
-    let (Refused::Number { place, expected } | Refused::Shape { place, expected }) = error;
+    let Refused { place, expected } = error;
     let found = "a claim that is not well formed";
     let accepted = format!("a design whose {place} is {expected}");
     match named(root, place) {

@@ -132,7 +132,7 @@ fn decision(certificate: &Certificate, accepted: &Accepted, text: String) -> Val
     };
     json!({
         "verdict": accepted.verdict,
-        "statement": statement(&certificate.claim, accepted.verdict).unwrap_or_default(),
+        "statement": statement(&certificate.claim, accepted.verdict),
         "size": size,
         "counterexample": Place::of(certificate),
         "certificate": text,

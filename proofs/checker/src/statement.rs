@@ -2,16 +2,12 @@
 
 use orthocert_kernel::certificate::{Certificate, Claim, Proof, Verdict};
 use orthocert_kernel::{atlas, no_cube, postulate, statement};
-use std::fmt;
 
 /// The theorem that an accepted certificate with this claim and verdict establishes.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> {
+pub fn statement(claim: &Claim, verdict: Verdict) -> String {
     match claim {
         Claim::Machine(claim) => statement::statement(claim, verdict),
-        Claim::Postulate(claim) => Ok(postulate::statement(claim)),
+        Claim::Postulate(claim) => postulate::statement(claim),
         Claim::NoCube(claim) => no_cube::statement(claim),
         Claim::Atlas(claim) => atlas::statement(claim),
     }
@@ -19,15 +15,12 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
 
 /// What a certificate establishes once it is accepted: its claim, proved or refuted, and, where the
 /// witness says so, how it fails.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn established(certificate: &Certificate) -> Result<String, fmt::Error> {
-    let words = statement(&certificate.claim, certificate.verdict)?;
+pub fn established(certificate: &Certificate) -> String {
+    let words = statement(&certificate.claim, certificate.verdict);
     match (&certificate.claim, &certificate.proof) {
         (Claim::Machine(claim), Proof::Witness(witness)) => {
-            Ok(words + &statement::counterexample(claim, witness)?)
+            words + &statement::counterexample(claim, witness)
         }
-        _ => Ok(words),
+        _ => words,
     }
 }

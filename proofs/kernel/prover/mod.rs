@@ -31,7 +31,7 @@ pub fn check_cell(
     part: &[(u64, u32)],
     cell: &AtlasCell,
 ) -> Result<(), Rejected> {
-    claim.validate().map_err(Rejected::Claim)?;
+    claim.validate()?;
     shown(claim, part, cell, Budget::new(LEAST_BYTES))
 }
 

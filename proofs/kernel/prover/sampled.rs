@@ -2,7 +2,6 @@
 
 use crate::paving::{Accepted, Judge, Reader, Rejected, Subject, Visited};
 use crate::statement;
-use std::fmt;
 use std::io::BufRead;
 
 /// What a paving establishes if the evidence holds that was not drawn.
@@ -43,10 +42,7 @@ pub fn check_sample<R: BufRead>(input: R, size: u64, seed: u64) -> Result<Sample
 
 impl Sampled {
     /// What is known of the paving, in words.
-    ///
-    /// # Errors
-    /// Only if the formatter fails.
-    pub fn statement(&self) -> Result<String, fmt::Error> {
+    pub fn statement(&self) -> String {
         let Sampled { accepted, decided } = self;
         let Accepted { header, summary, checked } = accepted;
         if checked == decided {

@@ -2,11 +2,11 @@
 
 use crate::certificate::{AtlasCell, Witness};
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
-use crate::input::{shape_error, ClaimError};
+use crate::input::{malformed, ClaimError};
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::rejected::Rejected;
-use crate::statement::{machine, requirements, workspace};
+use crate::statement::{holds, workspace};
 use crate::tree;
 use crate::vary::{vary, Range, MOST_PARAMETERS};
 use crate::witness;
@@ -15,7 +15,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use serde::Serialize;
-use std::fmt;
 
 /// Most bits of an end of a parameter's range.
 pub const MOST_END: u64 = 128;
@@ -73,7 +72,7 @@ impl AtlasClaim {
     /// # Errors
     /// What is not so.
     pub fn validate(&self) -> Result<(), ClaimError> {
-        let refused = |expected| Err(shape_error("parameters", expected));
+        let refused = |expected| Err(malformed("parameters", expected));
         if !(1..=MOST_PARAMETERS).contains(&self.parameters.len()) {
             return refused("one to three");
         }
@@ -114,7 +113,7 @@ impl Parameter {
         };
         let ends = end(&self.min).zip(end(&self.max)).map(<[_; 2]>::from);
         let ends = ends.filter(|[min, max]| min < max);
-        ends.ok_or_else(|| shape_error(&self.name, expected))
+        ends.ok_or_else(|| malformed(&self.name, expected))
     }
 }
 
@@ -190,7 +189,7 @@ pub fn check_part(
     cells: &[AtlasCell],
     is_wanted: impl Fn(usize) -> bool,
 ) -> Result<(), Rejected> {
-    claim.validate().map_err(Rejected::Claim)?;
+    claim.validate()?;
     let says = |cell: &&AtlasCell| matches!(cell, AtlasCell::Certified(_) | AtlasCell::Refuted(_));
     let of_cells: usize = cells.iter().map(bytes).sum();
     let all = bytes(claim).saturating_add(of_cells).max(work::LEAST_BYTES);
@@ -239,10 +238,10 @@ pub(crate) fn shown(
     if matches!(cell, AtlasCell::Undecided | AtlasCell::Split(_)) {
         return Ok(());
     }
-    let mut over = claim.over(part).map_err(Rejected::Claim)?;
+    let mut over = claim.over(part)?;
     let numbers: usize = over.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
     budget.spend(numbers)?;
-    let problem = Problem::new(&over).map_err(Rejected::Claim)?;
+    let problem = Problem::new(&over)?;
     budget.spend(work::of_problem(&problem))?;
     match cell {
         AtlasCell::Certified(tree) => {
@@ -250,44 +249,29 @@ pub(crate) fn shown(
             tree::check(&problem, tree)
         }
         AtlasCell::Refuted(witness) => {
-            let mut witness = claim.witness_over(part, witness).map_err(Rejected::Claim)?;
+            let mut witness = claim.witness_over(part, witness)?;
             let numbers = witness.numbers_mut().into_iter().map(|x| work::of_number(x));
             let numbers: usize = numbers.sum();
             budget.spend(numbers.saturating_add(work::of_witness(&problem, witness.precision)))?;
-            witness::check(&problem, &over.workspace, &witness).map_err(Rejected::Witness)
+            Ok(witness::check(&problem, &over.workspace, &witness)?)
         }
         AtlasCell::Undecided | AtlasCell::Split(_) => Ok(()),
     }
 }
 
 /// What an accepted claim establishes.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
-    use fmt::Write;
-    let AtlasClaim { parameters, machine: claim, certified, refuted } = claim;
-    let mut out = String::new();
-    write!(
-        out,
+pub fn statement(claim: &AtlasClaim) -> String {
+    let AtlasClaim { parameters, machine, certified, refuted } = claim;
+    let range = |Parameter { name, min, max }: &Parameter| format!("  {name} in [{min}, {max}]\n");
+    let ranges: String = parameters.iter().map(range).collect();
+    let all = holds(machine, &workspace(machine));
+    format!(
         "\
 It is proved:
 Let a design be good if all of the following holds, with the numbers that it has for
-"
-    )?;
-    for Parameter { name, min, max } in parameters {
-        writeln!(out, "  {name} in [{min}, {max}]")?;
-    }
-    machine(&mut out, claim)?;
-    workspace(&mut out, claim)?;
-    requirements(&mut out, claim)?;
-    write!(
-        out,
-        "\
-Of the box of these parameters, the cells that the proof names certified, in which
+{ranges}{all}Of the box of these parameters, the cells that the proof names certified, in which
 every design is good, have at least the share {certified}; the cells that it names
 refuted, in which none is, at least the share {refuted}.
 "
-    )?;
-    Ok(out)
+    )
 }

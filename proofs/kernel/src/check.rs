@@ -1,7 +1,6 @@
 //! What a certificate has to be to be accepted.
 
 use crate::certificate::{Certificate, Claim, Proof, Verdict};
-use crate::claim::MachineClaim;
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::{atlas, no_cube, postulate, tree, witness};
@@ -14,15 +13,15 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
     use Verdict::{Certified, Refuted};
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
         (Claim::Machine(claim), Certified, Proof::Tree(tree)) => {
-            let problem = compiled(claim)?;
+            let problem = Problem::new(claim)?;
             let is_apart = tree.takes_tolerances_apart();
             tree::check(&if is_apart { problem.with_derivatives() } else { problem }, tree)
         }
         (Claim::Machine(claim), Refuted, Proof::Witness(witness)) => {
-            witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)
+            Ok(witness::check(&Problem::new(claim)?, &claim.workspace, witness)?)
         }
         (Claim::NoCube(claim), Certified, Proof::Tree(tree)) => {
-            no_cube::check(claim, compiled(&claim.machine)?, tree)
+            no_cube::check(claim, Problem::new(&claim.machine)?, tree)
         }
         (Claim::Postulate(claim), Certified, Proof::Tree(tree)) => postulate::check(claim, tree),
         (Claim::Atlas(claim), Certified, Proof::Atlas(cells)) => {
@@ -30,8 +29,4 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
         }
         _ => Err(Rejected::Verdict),
     }
-}
-
-fn compiled(claim: &MachineClaim) -> Result<Problem, Rejected> {
-    Problem::new(claim).map_err(Rejected::Claim)
 }

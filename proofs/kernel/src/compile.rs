@@ -2,9 +2,7 @@
 
 use crate::claim::{Formulas, JointFormula, Kind, Leg, Mechanism, Orientation, Quantity};
 use crate::formula::{Formula, Tape};
-use crate::input::{
-    magnitude, number_error, ordered, positive, shape_error, ClaimError, Input, Value,
-};
+use crate::input::{magnitude, malformed, ordered, positive, ClaimError, Input, Value};
 use crate::machine;
 use crate::machine::motion::{Motion, Turn};
 use crate::number::{Expression, Operator};
@@ -65,7 +63,7 @@ impl Builder {
             }
             let scale = match kind {
                 Kind::Direction => magnitude(quantities.iter().flat_map(Quantity::ends))
-                    .ok_or_else(|| number_error(&place, "a direction"))?,
+                    .ok_or_else(|| malformed(&place, "a direction"))?,
                 Kind::Place | Kind::Length => self.scale,
             };
             let formula = |(k, quantity): (usize, &Quantity)| {
@@ -95,7 +93,7 @@ pub(crate) fn unit(builder: &mut Builder, legs: &[Leg]) -> Result<(), ClaimError
         return Ok(());
     }
     if legs.len() > MOST_LEGS {
-        return Err(shape_error("mechanism.legs", "twelve legs at most"));
+        return Err(malformed("mechanism.legs", "twelve legs at most"));
     }
     let of_kind = |wanted: Kind| {
         let quantities = legs.iter().flat_map(Leg::quantities);
@@ -104,7 +102,7 @@ pub(crate) fn unit(builder: &mut Builder, legs: &[Leg]) -> Result<(), ClaimError
     };
     let has_length = legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
     let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
-    builder.scale = scale.ok_or_else(|| number_error("mechanism", "numbers"))? + 1;
+    builder.scale = scale.ok_or_else(|| malformed("mechanism", "numbers"))? + 1;
     Ok(())
 }
 
@@ -141,7 +139,7 @@ pub(crate) fn motion(
         }
         _ => {
             let expected = "with a characteristic_length, where the platform turns, and only there";
-            return Err(shape_error("orientation", expected));
+            return Err(malformed("orientation", expected));
         }
     };
     Ok((Motion { position, velocity, turn, moved: None }, chart))
@@ -222,7 +220,7 @@ fn built_leg(
         }
         _ => None,
     };
-    build().ok_or_else(|| shape_error("mechanism.legs", "legs with their quantities"))
+    build().ok_or_else(|| malformed("mechanism.legs", "legs with their quantities"))
 }
 
 /// The joints of a mechanism that its user gives.
@@ -233,19 +231,19 @@ pub(crate) fn by_formulas(
     let mut names: HashMap<&str, Formula> = HashMap::new();
     let m = formulas.coordinates.len();
     if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
-        return Err(shape_error("coordinates", "one to six names"));
+        return Err(malformed("coordinates", "one to six names"));
     }
     if formulas.joints.len() > MOST_LEGS {
-        return Err(shape_error("joints", "twelve at most"));
+        return Err(malformed("joints", "twelve at most"));
     }
     let define = |names: &mut HashMap<_, _>, name, formula| match names.insert(name, formula) {
         None => Ok(()),
-        Some(_) => Err(shape_error("mechanism", "given names that differ")),
+        Some(_) => Err(malformed("mechanism", "given names that differ")),
     };
     let named = formulas.parameters.iter().map(|(name, _)| name);
     let named = named.chain(formulas.definitions.iter().map(|(name, _)| name));
     if !named.chain(&formulas.coordinates).all(|name| Expression::is_name(name)) {
-        return Err(shape_error("mechanism", "named by letters, digits and _, a letter first"));
+        return Err(malformed("mechanism", "named by letters, digits and _, a letter first"));
     }
     for (k, name) in formulas.coordinates.iter().enumerate() {
         let coordinate = builder.tape.coordinate(k);
@@ -274,7 +272,7 @@ pub(crate) fn by_formulas(
             let a = a.collect::<Result<_, _>>()?;
             Ok(machine::row(&mut builder.tape, a))
         }
-        JointFormula::Row(_) => Err(shape_error("joints", "rows with an entry a coordinate")),
+        JointFormula::Row(_) => Err(malformed("joints", "rows with an entry a coordinate")),
     };
     formulas.joints.iter().map(joint).collect()
 }
@@ -296,7 +294,7 @@ pub(crate) fn few_derivatives(builder: &Builder, f: Formula, by: usize) -> Resul
 
 fn fewer(n: usize, most: usize) -> Result<(), ClaimError> {
     if n > most {
-        return Err(shape_error("mechanism", "of fewer operations"));
+        return Err(malformed("mechanism", "of fewer operations"));
     }
     Ok(())
 }
@@ -312,7 +310,7 @@ pub(crate) fn compiled(
             builder.number("a formula's number", expression, 0)
         }
         Expression::Name(name) => {
-            *names.get(name.as_str()).ok_or_else(|| shape_error(name, "a name given before"))?
+            *names.get(name.as_str()).ok_or_else(|| malformed(name, "a name given before"))?
         }
         Expression::Neg(inner) => {
             let inner = compiled(builder, names, inner)?;

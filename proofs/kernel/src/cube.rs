@@ -20,7 +20,7 @@
 //! `P_i = q_1` and the others are 0: a point that enclosures never settle.
 
 use crate::claim::{Leg, MachineClaim, Quantity, Sign};
-use crate::input::{binary, number_error, ordered, positive, shape_error, sign, ClaimError};
+use crate::input::{binary, malformed, ordered, positive, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::quantity;
 
@@ -42,7 +42,7 @@ impl Cube {
         use Operator::{Add, Div, Mul, Sub};
         let place = "requirements.transmission";
         let psi = quantity::psi_max(claim)
-            .ok_or_else(|| shape_error(place, "a greatest psi, for the paper's cube"))?;
+            .ok_or_else(|| malformed(place, "a greatest psi, for the paper's cube"))?;
         let one = Expression::integer(1);
         positive("workspace.side", side)?;
         ordered(place, &one, psi, true)?;
@@ -55,7 +55,7 @@ impl Cube {
         let t2 = match (above, below) {
             (Some([_, true]), _) => rest,
             (_, Some([_, true])) => binary(Div, &binary(Sub, psi, &one), &two),
-            _ => return Err(number_error(place, "told from 2")),
+            _ => return Err(malformed(place, "told from 2")),
         };
         // sin(beta) = t/sqrt(1 + 2 t^2).
         let sine = |t: &Expression| {

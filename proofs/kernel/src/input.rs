@@ -9,46 +9,24 @@ use crate::trig::{cos_sin, pi};
 use crate::vary;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// Bits in which a claim is held to be well formed.
 pub(crate) const SIGN_BITS: u32 = 512;
 
-/// Why a claim is not well formed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ClaimError {
-    /// A number that cannot be enclosed, or not certainly of the sign it has to have.
-    Number {
-        /// Where it stands.
-        place: String,
-        /// What it has to be.
-        expected: &'static str,
-    },
-    /// Something that does not go together.
-    Shape {
-        /// Where.
-        place: String,
-        /// What is accepted there.
-        expected: &'static str,
-    },
+/// Why a claim is not well formed: what something in it has to be, and is not or not certainly.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{place}: has to be {expected}")]
+pub struct ClaimError {
+    /// Where it stands.
+    pub place: String,
+    /// What it has to be.
+    pub expected: &'static str,
 }
 
-impl fmt::Display for ClaimError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (ClaimError::Number { place, expected } | ClaimError::Shape { place, expected }) = self;
-        write!(f, "{place}: has to be {expected}")
-    }
-}
-
-impl std::error::Error for ClaimError {}
-
-pub(crate) fn number_error(place: &str, expected: &'static str) -> ClaimError {
-    ClaimError::Number { place: place.to_owned(), expected }
-}
-
-pub(crate) fn shape_error(place: &str, expected: &'static str) -> ClaimError {
-    ClaimError::Shape { place: place.to_owned(), expected }
+pub(crate) fn malformed(place: &str, expected: &'static str) -> ClaimError {
+    ClaimError { place: place.to_owned(), expected }
 }
 
 /// A number that formulas depend on.
@@ -221,7 +199,7 @@ pub(crate) fn binary(operator: Operator, a: &Expression, b: &Expression) -> Expr
 pub(crate) fn positive(place: &str, x: &Expression) -> Result<(), ClaimError> {
     match sign(x) {
         Some([true, _]) => Ok(()),
-        _ => Err(number_error(place, "greater than zero")),
+        _ => Err(malformed(place, "greater than zero")),
     }
 }
 
@@ -237,11 +215,11 @@ pub(crate) fn ordered(
         true => sign(max).map(|_| [false, true]),
         false => sign(&binary(Operator::Sub, max, min)),
     };
-    let [more, not_less] = difference.ok_or_else(|| number_error(place, "a number"))?;
+    let [more, not_less] = difference.ok_or_else(|| malformed(place, "a number"))?;
     if more || (!strictly && not_less) {
         Ok(())
     } else {
-        Err(number_error(place, "a range whose end is not before its beginning"))
+        Err(malformed(place, "a range whose end is not before its beginning"))
     }
 }
 

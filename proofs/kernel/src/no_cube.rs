@@ -3,13 +3,12 @@
 use crate::certificate::Tree;
 use crate::claim::NoCubeClaim;
 use crate::fixed::Integer;
-use crate::input::{binary, enclosed, narrowed, number_error, positive, shape_error};
+use crate::input::{binary, enclosed, malformed, narrowed, positive};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
-use crate::statement::{machine, requirements};
+use crate::statement::{box_of, holds};
 use crate::tree::{self, Theorem, OFFSET_PARTS};
-use std::fmt;
 
 /// A claim, compiled.
 struct NoCube {
@@ -27,7 +26,7 @@ impl Theorem for NoCube {
     fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
         let part = enclosed(&self.part, self.problem.scale, tree.precision);
         let part = part.and_then(|part| narrowed(&part));
-        let part = part.ok_or_else(|| Rejected::Claim(number_error("side", "a number")))?;
+        let part = part.ok_or_else(|| malformed("side", "a number"))?;
         tree::prove::<Z>(&self.problem, tree, Some(&part))
     }
 }
@@ -38,39 +37,24 @@ pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Resul
         problem.inside.is_none() && problem.cube_kappa.is_none() && problem.turned.is_none();
     if !is_box || claim.machine.orientation.is_some() {
         let expected = "a box of centres, without orientations";
-        return Err(Rejected::Claim(shape_error("workspace", expected)));
+        return Err(malformed("workspace", expected).into());
     }
-    positive("side", &claim.side).map_err(Rejected::Claim)?;
+    positive("side", &claim.side)?;
     let part = binary(Operator::Div, &claim.side, &Expression::integer(2 * OFFSET_PARTS));
     tree::check(&NoCube { problem, part }, tree)
 }
 
 /// What an accepted claim establishes.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn statement(claim: &NoCubeClaim) -> Result<String, fmt::Error> {
-    use fmt::Write;
-    let NoCubeClaim { machine: claim, side } = claim;
-    let mut out = String::new();
-    let centres = crate::statement::box_of(claim);
-    write!(
-        out,
+pub fn statement(NoCubeClaim { machine, side }: &NoCubeClaim) -> String {
+    let (centres, all) = (box_of(machine), holds(machine, ""));
+    format!(
         "\
 It is proved:
 No axis-aligned cube of side {side} with its centre in the box
 {centres}
 is such that all of the following holds at every point P of the cube.
-"
-    )?;
-    machine(&mut out, claim)?;
-    requirements(&mut out, claim)?;
-    write!(
-        out,
-        "\
-(With tolerances, the cube has a point at which it does not for every machine:
+{all}(With tolerances, the cube has a point at which it does not for every machine:
 none of them has the cube.)
 "
-    )?;
-    Ok(out)
+    )
 }

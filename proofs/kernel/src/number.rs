@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// Most bytes of an expression.
 pub const MOST_BYTES: usize = 8192;
@@ -99,21 +100,14 @@ impl Operator {
 }
 
 /// Why a text is no number.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("at byte {at} of a number: expected {expected}")]
 pub struct NumberError {
     /// The byte at which it goes wrong.
     pub at: usize,
     /// What was expected there.
     pub expected: &'static str,
 }
-
-impl fmt::Display for NumberError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at byte {} of a number: expected {}", self.at, self.expected)
-    }
-}
-
-impl std::error::Error for NumberError {}
 
 /// The text being read.
 struct Reader<'a> {

@@ -12,7 +12,7 @@
 use crate::claim::Orientation;
 use crate::compile::Builder;
 use crate::formula::{Formula, Tape, Vector};
-use crate::input::{binary, number_error, ordered, shape_error, ClaimError, Input, Value};
+use crate::input::{binary, malformed, ordered, ClaimError, Input, Value};
 use crate::number::{Expression, Operator};
 
 const PLACE: &str = "orientation";
@@ -37,7 +37,7 @@ pub(crate) fn chart(
     in_plane: bool,
 ) -> Result<Chart, ClaimError> {
     if matches!(orientation, Orientation::Range(_)) != in_plane {
-        return Err(shape_error(PLACE, "a range in the plane, and only there"));
+        return Err(malformed(PLACE, "a range in the plane, and only there"));
     }
     let few = if in_plane { 1 } else { 3 };
     let c: Vec<Formula> = (first..first + few).map(|k| builder.tape.coordinate(k)).collect();
@@ -166,7 +166,7 @@ fn product(tape: &mut Tape, a: &[Vector; 3], b: &[Vector; 3]) -> [Vector; 3] {
 fn less_than_half_a_turn(angle: &Expression) -> Result<(), ClaimError> {
     ordered(PLACE, &Expression::integer(0), angle, false)
         .and_then(|()| ordered(PLACE, angle, &Expression::integer(180), true))
-        .map_err(|_| number_error(PLACE, "an angle from 0 to less than 180 degrees"))
+        .map_err(|_| malformed(PLACE, "an angle from 0 to less than 180 degrees"))
 }
 
 fn end(value: Value) -> Input {
@@ -184,6 +184,6 @@ fn range([min, max]: &[Expression; 2]) -> Result<[Input; 2], ClaimError> {
     ordered(PLACE, min, max, false)?;
     ordered(PLACE, &Expression::Neg(half_turn.clone().into()), min, true)
         .and_then(|()| ordered(PLACE, max, &half_turn, true))
-        .map_err(|_| number_error(PLACE, "between -180 and 180 degrees"))?;
+        .map_err(|_| malformed(PLACE, "between -180 and 180 degrees"))?;
     Ok([min, max].map(|angle| end(Value::HalfTangent(angle.clone()))))
 }

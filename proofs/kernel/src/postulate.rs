@@ -59,7 +59,7 @@ use crate::compile::{compiled, Builder};
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
-use crate::input::{binary, enclosed, narrowed, number_error, ordered, sign, ClaimError};
+use crate::input::{binary, enclosed, malformed, narrowed, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::rejected::Rejected;
 use crate::slope::{Slope, Slopes};
@@ -101,7 +101,7 @@ pub fn parts(claim: &PostulateClaim) -> Result<Vec<Part>, ClaimError> {
             ) {
                 (Some([true, _]), _) => true,
                 (_, Some([_, true])) => false,
-                _ => return Err(number_error("psi_max", "told from 2")),
+                _ => return Err(malformed("psi_max", "told from 2")),
             };
             (binary(Operator::Div, &one, max), is_low)
         }
@@ -158,7 +158,7 @@ impl Part {
         let mut names: HashMap<&str, Formula> = coordinates.collect();
         for (name, text) in definitions {
             let expression = Expression::try_from(text.to_owned());
-            let expression = expression.map_err(|_| number_error(name, "a number"))?;
+            let expression = expression.map_err(|_| malformed(name, "a number"))?;
             names.insert(name, compiled(&mut builder, &names, &expression)?);
         }
         let entries = ["diagonal", "xy", "xz", "yz"].map(|name| names[name]);
@@ -177,7 +177,7 @@ impl Part {
             let kappa = narrowed(&Interval { lo: least.lo, hi: greatest.hi })?;
             Some(Cell(vec![whole.clone(), whole, kappa]))
         };
-        kappa().ok_or_else(|| number_error("psi_max", "a number"))
+        kappa().ok_or_else(|| malformed("psi_max", "a number"))
     }
 
     /// Whether the evidence shows that `F >= 0`, and `S_i > 0`, on a cell, given for each coordinate its
@@ -281,7 +281,7 @@ impl Theorem for Vec<Part> {
                 let edges = cell.edges().ok_or(Rejected::Shape(at))?;
                 discharge(at, node, open, |_, evidence| part.shows(&arithmetic, &edges, evidence))
             };
-            bisect(&mut nodes, part.root(bits).map_err(Rejected::Claim)?, 1, false, step)?;
+            bisect(&mut nodes, part.root(bits)?, 1, false, step)?;
         }
         nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
     }
@@ -289,7 +289,7 @@ impl Theorem for Vec<Part> {
 
 /// Accepts a proof, or says why not.
 pub(crate) fn check(claim: &PostulateClaim, tree: &Tree) -> Result<(), Rejected> {
-    tree::check(&parts(claim).map_err(Rejected::Claim)?, tree)
+    tree::check(&parts(claim)?, tree)
 }
 
 /// What an accepted claim establishes.

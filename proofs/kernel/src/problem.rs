@@ -8,8 +8,8 @@ use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{coordinates, Formula, Op, Tape};
 use crate::input::{
-    binary, enclosed, narrowed, number_error, ordered, positive, shape_error, sloped, ClaimError,
-    Input, Value, SIGN_BITS,
+    binary, enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value,
+    SIGN_BITS,
 };
 use crate::machine::{self, motion::Motion};
 use crate::number::{Expression, Operator};
@@ -100,7 +100,7 @@ impl Problem {
                 Some(Cube::new(claim, offset, side)?)
             }
             (Mechanism::Orthoglide { .. }, _) | (_, Workspace::Cube { .. }) => {
-                return Err(shape_error("workspace", "a cube with kind orthoglide, and only then"));
+                return Err(malformed("workspace", "a cube with kind orthoglide, and only then"));
             }
             _ => None,
         };
@@ -129,7 +129,7 @@ impl Problem {
         let shape = corners.iter().all(|corner| corner.len() == m);
         let turns = chart.as_ref().map_or(0, |chart| chart.ends.len());
         if !shape || !(m + turns..=MOST_LEGS).contains(&legs.len()) {
-            return Err(shape_error("mechanism", "as many joints as coordinates, or more"));
+            return Err(malformed("mechanism", "as many joints as coordinates, or more"));
         }
         let inside = inside(&mut builder, &claim.workspace);
         let mut problem = Problem {
@@ -279,7 +279,7 @@ impl Problem {
                 _ => None,
             });
             let place = first.map_or("mechanism", |input| &input.place);
-            Err(number_error(place, "such that all is defined for every machine"))
+            Err(malformed(place, "such that all is defined for every machine"))
         })
     }
 
@@ -311,7 +311,7 @@ impl Problem {
         let mut enclose = |input: &Input| {
             let value = if input.has_two_ends() { machine.next() } else { None };
             let x = input.enclose(bits, value);
-            x.and_then(|x| narrowed(&x)).ok_or_else(|| number_error(&input.place, "a number"))
+            x.and_then(|x| narrowed(&x)).ok_or_else(|| malformed(&input.place, "a number"))
         };
         let mut all: Vec<Interval<Z>> = Vec::with_capacity(self.inputs.len());
         for (at, input) in self.inputs.iter().enumerate() {
@@ -351,7 +351,7 @@ impl Problem {
             narrowed(&Interval { lo: min.enclose(bits, None)?.lo, hi: max.enclose(bits, None)?.hi })
         };
         let edges = min.iter().zip(max).map(edge).chain(self.orientation.iter().map(turn));
-        let edges = edges.map(|e| e.ok_or_else(|| number_error("workspace", "numbers")));
+        let edges = edges.map(|e| e.ok_or_else(|| malformed("workspace", "numbers")));
         edges.collect::<Result<_, _>>().map(Cell)
     }
 
@@ -446,10 +446,10 @@ fn corners(workspace: &Workspace) -> Result<[Vec<Expression>; 2], ClaimError> {
             let with = |[x, y]: [Expression; 2], z: &Expression| vec![x, y, z.clone()];
             (with(min, low), with(max, high))
         }
-        Workspace::Cube { .. } => return Err(shape_error("workspace", "a box or a cylinder")),
+        Workspace::Cube { .. } => return Err(malformed("workspace", "a box or a cylinder")),
     };
     if min.len() != max.len() {
-        return Err(shape_error("workspace", "as many least as greatest coordinates"));
+        return Err(malformed("workspace", "as many least as greatest coordinates"));
     }
     let mut last = None;
     for (min, max) in min.iter().zip(&max) {

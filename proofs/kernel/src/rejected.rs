@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum Rejected {
     /// The claim is not well formed.
     #[error("the claim is not well formed: {0}")]
-    Claim(ClaimError),
+    Claim(#[from] ClaimError),
     /// The verdict and the proof do not go together.
     #[error("verdict and proof do not go together")]
     Verdict,
@@ -57,5 +57,5 @@ pub enum Rejected {
     Cell(usize, Box<Rejected>),
     /// The witness shows nothing.
     #[error("the witness shows nothing: {0}")]
-    Witness(WitnessError),
+    Witness(#[from] WitnessError),
 }

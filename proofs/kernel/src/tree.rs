@@ -61,7 +61,7 @@ pub(crate) fn prove<Z: Integer>(
 ) -> Result<(), Rejected> {
     let bits = tree.precision;
     let arithmetic = Fixed::<Z>::new(bits);
-    let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
+    let parameters = problem.parameters(bits, &[])?;
     let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits))
         .with_chords(tree.chords.clone())
         .with_varying(problem.varying(bits));
@@ -71,7 +71,7 @@ pub(crate) fn prove<Z: Integer>(
     if work.saturating_mul(Z::WORK * (1 + bits as usize / 64)) > MOST_WORK {
         return Err(Rejected::Work);
     }
-    let root = problem.root(bits).map_err(Rejected::Claim)?;
+    let root = problem.root(bits)?;
     let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
         let edges = cell.edges().ok_or(Rejected::Shape(at))?;
         let slopes = checker.slopes(edges.len());

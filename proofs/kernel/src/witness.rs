@@ -17,42 +17,33 @@ use crate::quantity::Test;
 use crate::slope::Slopes;
 use num_bigint::BigInt;
 use std::borrow::Cow;
-use std::fmt;
 use std::ops::Deref;
+use thiserror::Error;
 use violated::At;
 
 pub use violated::fails_throughout;
 
 /// Why a witness refutes nothing.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum WitnessError {
     /// The precision is not admissible.
+    #[error("{0} bits are not admissible")]
     Precision(u32),
     /// The point is not certainly in the workspace.
+    #[error("the point is not certainly in the workspace")]
     Outside,
     /// The machine is not certainly one of the claim's.
+    #[error("the machine is not certainly within the tolerances")]
     OutsideTolerance,
     /// A number cannot be enclosed.
-    Claim(ClaimError),
+    #[error(transparent)]
+    Claim(#[from] ClaimError),
     /// There is no such obligation, or the directions are not of its kind.
+    #[error("there is no such obligation")]
     NoSuchObligation,
     /// What it names is not certainly violated there.
+    #[error("nothing is certainly violated at the point")]
     NotViolated,
-}
-
-impl fmt::Display for WitnessError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            WitnessError::Precision(bits) => write!(f, "{bits} bits are not admissible"),
-            WitnessError::Outside => write!(f, "the point is not certainly in the workspace"),
-            WitnessError::OutsideTolerance => {
-                write!(f, "the machine is not certainly within the tolerances")
-            }
-            WitnessError::Claim(e) => write!(f, "{e}"),
-            WitnessError::NoSuchObligation => write!(f, "there is no such obligation"),
-            WitnessError::NotViolated => write!(f, "nothing is certainly violated at the point"),
-        }
-    }
 }
 
 /// Numbers at a point.
@@ -197,8 +188,7 @@ impl<'a> AtPoint<'a> {
         }
         let bits = witness.precision;
         let arithmetic = Fixed::new(bits);
-        let parameters: Vec<Number> =
-            problem.parameters(bits, &witness.machine).map_err(WitnessError::Claim)?;
+        let parameters: Vec<Number> = problem.parameters(bits, &witness.machine)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
         let values = values_at(problem, &arithmetic, &point, &parameters);
         let at = AtPoint {

@@ -240,7 +240,7 @@ fn what_the_kernel_refuses_is_said_where_it_stands() {
         ("orientation", "workspace.orientation", 20),
         ("l", "mechanism", 1),
     ] {
-        let number = ClaimError::Number { place: place.to_owned(), expected: "greater than zero" };
+        let number = ClaimError { place: place.to_owned(), expected: "greater than zero" };
         let error = refused(&root, &number);
         assert_eq!((error.defect(), error.key()), (Defect::Claim, key), "{error}");
         assert_eq!(error.position().line, line, "{error}");

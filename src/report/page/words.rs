@@ -51,7 +51,7 @@ pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
 
 /// The claim in the checker's words, and the formulas of what it speaks of.
 pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
-    let statement = statement::statement(claim, verdict).unwrap_or_default();
+    let statement = statement::statement(claim, verdict);
     let mut out = format!(
         "<section id=\"claim\"><h2>What is {}</h2>\
          <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>",

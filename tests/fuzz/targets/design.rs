@@ -22,5 +22,6 @@ fuzz_target!(|bytes: &[u8]| {
     let written = serde_json::to_string(claim).expect("a text");
     let again = serde_json::from_str(&written);
     assert_eq!(again.ok().as_ref(), Some(claim), "{written}");
-    statement(&Claim::Machine(design.claim.clone()), Verdict::Certified).expect("a statement");
+    let claim = Claim::Machine(design.claim.clone());
+    assert!(!statement(&claim, Verdict::Certified).is_empty());
 });

@@ -52,7 +52,7 @@ fn main() -> ExitCode {
                 Verdict::Certified => ExitCode::SUCCESS,
                 Verdict::Refuted => ExitCode::from(1),
             };
-            print(&format!("ACCEPTED: {verdict}\n{}", words.unwrap_or_default()), code)
+            print(&format!("ACCEPTED: {verdict}\n{}", words), code)
         }
         Err(reason) => {
             complain(&format_args!("REJECTED: {reason}"));
@@ -64,7 +64,7 @@ fn main() -> ExitCode {
 fn check_paving(input: impl BufRead) -> ExitCode {
     match paving::check(input) {
         Ok(accepted) => {
-            let words = orthocert_kernel::statement::paving(&accepted).unwrap_or_default();
+            let words = orthocert_kernel::statement::paving(&accepted);
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
         }
         Err(reason) => {

@@ -4,7 +4,7 @@ use super::{Context, Quantity, Test};
 use crate::claim::{self, Mechanism};
 use crate::compile::moved;
 use crate::formula::{Formula, Op};
-use crate::input::{binary, magnitude, ordered, shape_error, ClaimError, Value};
+use crate::input::{binary, magnitude, malformed, ordered, ClaimError, Value};
 use crate::machine::{motion::Motion, Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::test::accuracy::Accuracy;
@@ -85,7 +85,7 @@ fn turned_on<'r>(
     let tau = context.input(Value::HalfTangent(angle.clone()));
     // tau/d, of the order of one, of two numbers of that order.
     let own = magnitude([max].into_iter());
-    let own = own.ok_or_else(|| shape_error(context.place, "a distance"))?;
+    let own = own.ok_or_else(|| malformed(context.place, "a distance"))?;
     let of_one = Value::HalfTangent(angle.clone());
     let of_one = context.builder.input(context.place, of_one, own - context.builder.scale);
     let by = context.builder.number(context.place, max, own);

@@ -23,7 +23,7 @@ mod transmission;
 use crate::claim::{Bound, MachineClaim, Requirement};
 use crate::compile::{few, few_derivatives, Builder};
 use crate::formula::{Formula, Op, Tape};
-use crate::input::{magnitude, number_error, positive, shape_error, ClaimError, Value};
+use crate::input::{magnitude, malformed, positive, ClaimError, Value};
 use crate::machine::{motion::Motion, Leg};
 use crate::number::Expression;
 use crate::problem::Problem;
@@ -168,7 +168,7 @@ impl<'a> Context<'a> {
     /// A direction, brought to the order of one.
     fn direction(&mut self, numbers: &[Expression]) -> Result<Vec<Formula>, ClaimError> {
         let scale = magnitude(numbers.iter());
-        let scale = scale.ok_or_else(|| number_error(self.place, "a direction"))?;
+        let scale = scale.ok_or_else(|| malformed(self.place, "a direction"))?;
         Ok(numbers.iter().map(|x| self.builder.number(self.place, x, scale)).collect())
     }
 
@@ -222,7 +222,7 @@ impl<'a> Context<'a> {
     }
 
     fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {
-        Err(shape_error(self.place, expected))
+        Err(malformed(self.place, expected))
     }
 
     /// The number that the requirement gives by this name, greater than zero.
@@ -300,11 +300,11 @@ pub(crate) fn obligations(
 ) -> Result<Vec<Obligation>, ClaimError> {
     let legs = &problem.legs;
     if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
-        return Err(shape_error("mechanism.legs", "arms alone, or none: psi has no unit else"));
+        return Err(malformed("mechanism.legs", "arms alone, or none: psi has no unit else"));
     }
     let kept = |requirement: &Requirement| requirement.quantity == clearance::CLEARANCE.key;
     if !claim.bodies.is_empty() && !claim.require.iter().any(kept) {
-        return Err(shape_error("bodies", "there where a clearance is asked for"));
+        return Err(malformed("bodies", "there where a clearance is asked for"));
     }
     let zero = builder.tape.integer(0);
     let mut all = vec![Obligation { requirement: None, leg: None, test: Test::SigmaMin(zero) }];
@@ -317,19 +317,19 @@ pub(crate) fn obligations(
                     == std::mem::discriminant(&requirement.bound)
         };
         if claim.require[..number].iter().any(same) {
-            return Err(shape_error(&place, "there once"));
+            return Err(malformed(&place, "there once"));
         }
         let Some(quantity) = TABLE.iter().find(|q| q.key == requirement.quantity) else {
-            return Err(shape_error(&place, "one of the table of quantities"));
+            return Err(malformed(&place, "one of the table of quantities"));
         };
         let turning = if claim.orientation.is_some() { quantity.given_turning } else { &[] };
         let names = quantity.given.iter().chain(turning).copied();
         if !requirement.given.keys().map(String::as_str).eq(names) {
-            return Err(shape_error(&place, "given what it is for, and nothing else"));
+            return Err(malformed(&place, "given what it is for, and nothing else"));
         }
         let one = requirement.leg.map(|leg| leg.wrapping_sub(1));
         if one.is_some_and(|leg| !quantity.of_legs || leg >= legs.len()) {
-            return Err(shape_error(&place, "of a leg that there is"));
+            return Err(malformed(&place, "of a leg that there is"));
         }
         let which: Vec<Option<usize>> = match (quantity.of_legs, one) {
             (false, _) => vec![None],

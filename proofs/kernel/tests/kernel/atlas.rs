@@ -180,7 +180,7 @@ fn a_map_says_what_is_true() {
             }
         }
     }
-    let words = statement(&own).expect("words");
+    let words = statement(&own);
     for sentence in ["psi_max in [6/5, 4]", "to (side*(3-sqrt(3))/2, ", "psi_i <= psi_max"] {
         assert!(words.contains(sentence), "{words}");
     }

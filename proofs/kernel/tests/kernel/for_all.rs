@@ -49,13 +49,13 @@ fn what_holds_for_all_values_of_the_others_is_inner() {
     assert_eq!((summary.splits, summary.inner, summary.outer, summary.boundary), (4, 1, 2, 2));
     // Two parts and two outer cells.
     assert_eq!(found.checked, 4);
-    let text = orthocert_kernel::statement::paving(&found).unwrap();
+    let text = orthocert_kernel::statement::paving(&found);
     assert!(text.contains("the values of (x) at which, for all values of the other coordinates"));
     assert!(text.contains("It is proved: the volume of R"), "{text}");
     // Three are as many as there are cells, and fewer than there is evidence.
     let sampled = check_sample(bytes.as_slice(), 3, 1).unwrap();
     assert_eq!((sampled.accepted.checked, sampled.decided), (3, 4));
-    let text = sampled.statement().unwrap();
+    let text = sampled.statement();
     assert!(text.contains("The evidence of 3 of the 4 boxes") && !text.contains("It is proved"));
 }
 

@@ -14,10 +14,10 @@ const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"par
 
 pub fn words(certificate: &Certificate) -> String {
     let Claim::Machine(claim) = &certificate.claim else { panic!("a machine") };
-    let words = statement(claim, certificate.verdict).expect("words");
+    let words = statement(claim, certificate.verdict);
     match &certificate.proof {
         Proof::Tree(_) | Proof::Atlas(_) => words,
-        Proof::Witness(witness) => words + &counterexample(claim, witness).expect("words"),
+        Proof::Witness(witness) => words + &counterexample(claim, witness),
     }
 }
 

@@ -200,7 +200,7 @@ impl PavingPage<'_> {
     }
 
     fn claim_section(&self) -> String {
-        let statement = statement::paving(self.accepted).unwrap_or_default();
+        let statement = statement::paving(self.accepted);
         let mut out = format!(
             "<section id=\"claim\"><h2>What is proved</h2>\
              <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
