@@ -17,19 +17,18 @@ pub(super) const ACCURACY: Quantity = Quantity {
             one position P' so near to P with these joint coordinates, in the working modes named; \
             where the platform turns, exactly one pose so near, turned from the one at P by at most \
             max_angle degrees",
-    of_legs: false,
     given: &["joint_error"],
     given_turning: &["max_angle"],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// One [`Accuracy`] for all joints, and each part of what the platform is off by. Nothing is claimed of
 /// joint limits, which an error may pass, nor of positions farther than the bound; `P'` need not be in the
 /// workspace. With more joints than coordinates, joint coordinates near those commanded belong to no
 /// position.
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     context.not_redundant()?;
-    let max = context.positive_greatest()?;
+    let max = context.positive(context.greatest()?)?;
     let error = context.given("joint_error")?;
     ordered(context.place, &Expression::integer(0), error, false)?;
     let error = binary(Operator::Div, error, max);
@@ -80,7 +79,7 @@ fn turned_on<'r>(
     max: &Expression,
     rows: impl Iterator<Item = &'r mut Vec<Formula>>,
 ) -> Result<(Formula, Vec<Vec<Formula>>), ClaimError> {
-    let angle = context.positive_given("max_angle")?;
+    let angle = context.positive(context.given("max_angle")?)?;
     ordered(context.place, angle, &Expression::integer(180), true)?;
     let tau = context.input(Value::HalfTangent(angle.clone()));
     // tau/d, of the order of one, of two numbers of that order.

@@ -10,10 +10,8 @@ pub(super) const BASE_JOINT: Quantity = Quantity {
     key: "base_joint",
     symbol: "angle(leg_i, axis)",
     words: "angle between the leg, from base to platform, and the axis in the base, degrees",
-    of_legs: true,
     given: &["axis"],
-    given_turning: &[],
-    tests: |context, leg| tests(context, leg, false),
+    ..Quantity::of_legs(|context, (_, leg)| tests(context, leg, false))
 };
 
 /// `A . j - cos(b) |j| |A| >= 0` for the axis `j` and `0 < b <= 180`: the leg's vector `A`, from the base
@@ -28,13 +26,12 @@ pub(super) const BASE_JOINT: Quantity = Quantity {
 /// of the vector there, it would be unsound.
 pub(super) fn tests(
     context: &mut Context<'_>,
-    leg: Option<&Leg>,
+    leg: &Leg,
     on_platform: bool,
 ) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.positive_greatest()?;
+    let bound = context.positive(context.greatest()?)?;
     ordered(context.place, bound, &Expression::integer(180), false)?;
-    let parts = leg.and_then(|leg| Some((leg.ends, leg.vector?, leg.rod()?)));
-    let Some((ends, vector, length)) = parts else {
+    let Some((vector, length)) = leg.vector.zip(leg.rod()) else {
         return context.refused("of a leg with two ends");
     };
     let axis = context.all_given("axis")?;
@@ -52,7 +49,7 @@ pub(super) fn tests(
     let norm = tape.sqrt(square);
     let least = tape.mul(cos, norm);
     let at_most = |degrees, strict| ordered("", bound, &Expression::integer(degrees), strict);
-    if let Some(ends) = ends.filter(|_| turns && at_most(90, false).is_ok()) {
+    if let Some(ends) = leg.ends.filter(|_| turns && at_most(90, false).is_ok()) {
         let u = motion.vector(tape, &ends, on_platform);
         let along = tape.dot(&u, &axis);
         let mut tests = vec![Test::AtLeast(along)];

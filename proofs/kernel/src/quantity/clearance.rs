@@ -4,7 +4,6 @@ use super::{Context, Quantity, Test};
 use crate::claim::{Body, Mechanism};
 use crate::formula::{Formula, Vector};
 use crate::input::{binary, ordered, positive, ClaimError};
-use crate::machine::Leg;
 use crate::number::{Expression, Operator};
 use crate::test::apart::Apart;
 
@@ -14,10 +13,7 @@ pub(super) const CLEARANCE: Quantity = Quantity {
     words:
         "fixed to each other are two bodies on the base, two on the platform, and two on one leg, unless \
          one is beside it: then the distance is that of the lines along them",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// Most bodies.
@@ -47,7 +43,7 @@ enum FixedTo {
 /// platform that it is joined to are meant: where they touch by design, the trim ends the rod before
 /// that. Where trims are longer than the leg, the rod is still the segment between the two points.
 /// Two bodies of one leg, of which one or both are beside it, are parallel: see [`beside`].
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     let gap = context.least()?;
     ordered(context.place, &Expression::integer(0), gap, false)?;
     let bodies = &context.claim.bodies;

@@ -2,20 +2,16 @@
 
 use super::{Context, Quantity, Test};
 use crate::input::{ordered, ClaimError};
-use crate::machine::Leg;
 use crate::number::Expression;
 
 pub(super) const CONDITIONING: Quantity = Quantity {
     key: "conditioning",
     symbol: "sigma_max/sigma_min",
     words: "condition number",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.greatest()?;
     ordered(context.place, &Expression::integer(1), bound, true)?;
     let c = context.number(bound, 0);

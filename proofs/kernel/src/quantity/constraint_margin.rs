@@ -2,24 +2,20 @@
 
 use super::{Context, Quantity, Test};
 use crate::input::ClaimError;
-use crate::machine::Leg;
 
 pub(super) const CONSTRAINT_MARGIN: Quantity = Quantity {
     key: "constraint_margin",
     symbol: "the least singular value of the matrix of unit couples c_i/|c_i|",
     words:
         "distance from constraint singularities, c_i = w_i - (k_i . w_i) k_i for the base axis k_i",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// `sigma_min >= b`, for `b > 0`, of the rows `c_i` with `|c_i|^2` in place of `D_i`: the platform can
 /// turn where these couples do not span all couples. No `c_i` is zero where it is shown.
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     context.without_rotation()?;
-    let bound = context.positive_least()?;
+    let bound = context.positive(context.least()?)?;
     if context.legs.iter().any(|leg| leg.row.a.len() != 3) {
         return context.refused("of legs in space");
     }

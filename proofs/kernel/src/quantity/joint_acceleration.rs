@@ -13,10 +13,8 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
     words:
         "joint acceleration, H_i the second derivatives of rho_i; of arms, degrees per time squared; where \
          the platform turns, speed bounds |(v, ell omega)|, acceleration |(a, ell alpha)| of its motion",
-    of_legs: true,
     given: &["acceleration", "speed"],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// `rho'' = M_i . x'' + x'^T H_i x'`, of which the greatest absolute value for `|x''| <= a`,
@@ -30,14 +28,13 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
 ///
 /// so that a sign shows it; of others, `H` is the derivative of the row. Where the platform turns, `x'` and
 /// `x''` are `(v, ell omega)` and `(a, ell alpha)`, and `H` is [`Motion`](crate::machine::motion)'s.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let max = context.positive_greatest()?;
+fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
+    let max = context.positive(context.greatest()?)?;
     let zero = Expression::integer(0);
     let (acceleration, speed) = (context.given("acceleration")?, context.given("speed")?);
     for given in [acceleration, speed] {
         ordered(context.place, &zero, given, false)?;
     }
-    let Some(leg) = leg else { return context.refused("of a leg") };
     let square = binary(Operator::Mul, speed, speed);
     let mut over_max = |x: &Expression, units: i64| {
         let ratio = binary(Operator::Div, x, max);

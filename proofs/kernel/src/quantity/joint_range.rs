@@ -10,10 +10,7 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
     key: "joint_range",
     symbol: "rho_i",
     words: "joint coordinates",
-    of_legs: true,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// A length has `rho - min >= 0` or `max - rho >= 0`, the first on the paper's cube by its lemma (joint
@@ -23,36 +20,27 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
 /// 180 degrees wide, up to whole turns, if and only if `sin(theta - min) >= 0` and
 /// `sin(max - theta) >= 0`: these are two half-planes through the axis, whose intersection is the
 /// sector from `min` to `max`.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let rho = leg.and_then(|leg| leg.rho);
-    let scaled = leg.and_then(|leg| leg.scaled.as_ref()).map(|row| row.d).zip(context.weight);
-    if let (Some((d, weight)), Bound::Min(b) | Bound::Max(b)) = (scaled, &context.requirement.bound)
-    {
-        if matches!(sign(b), Some([_, true])) {
-            let b = context.number(b, 1);
+fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
+    Ok(match (leg.rho, &context.requirement.bound) {
+        (Some(Joint::Length(rho)), bound @ (Bound::Min(end) | Bound::Max(end))) => {
+            let is_least = matches!(bound, Bound::Min(_));
+            let is_nonnegative = |x: &Expression| matches!(sign(x), Some([_, true]));
+            let scaled = leg.scaled.as_ref().zip(context.weight).filter(|_| is_nonnegative(end));
+            let is_reached = matches!(context.claim.mechanism, Mechanism::Orthoglide { .. })
+                && is_least
+                && is_nonnegative(&Expression::Neg(end.clone().into()));
+            let end = context.number(end, 1);
             let tape = context.tape();
-            let square = tape.sqr(b);
-            let bound = tape.mul(square, weight);
-            return Ok(vec![Test::AtLeast(match context.requirement.bound {
-                Bound::Min(_) => context.tape().sub(d, bound),
-                _ => context.tape().sub(bound, d),
-            })]);
-        }
-    }
-    Ok(match (rho, &context.requirement.bound) {
-        (Some(Joint::Length(rho)), Bound::Min(min)) => {
-            let is_cube = matches!(context.claim.mechanism, Mechanism::Orthoglide { .. });
-            let least = Expression::Neg(min.clone().into());
-            let min = context.number(min, 1);
-            let rest = context.tape().sub(rho, min);
-            if is_cube && matches!(sign(&least), Some([_, true])) {
-                context.builder.reached.push(rest);
-            }
+            let (rho, end) = match scaled {
+                None => (rho, end),
+                Some((row, weight)) => {
+                    let square = tape.sqr(end);
+                    (row.d, tape.mul(square, weight))
+                }
+            };
+            let rest = if is_least { tape.sub(rho, end) } else { tape.sub(end, rho) };
+            context.builder.reached.extend(Some(rest).filter(|_| is_reached));
             vec![Test::AtLeast(rest)]
-        }
-        (Some(Joint::Length(rho)), Bound::Max(max)) => {
-            let max = context.number(max, 1);
-            vec![Test::AtLeast(context.tape().sub(max, rho))]
         }
         (Some(Joint::Angle { cos, sin }), Bound::Within([min, max])) => {
             ordered(context.place, min, max, true)?;

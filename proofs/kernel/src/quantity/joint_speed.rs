@@ -9,19 +9,16 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
     key: "joint_speed",
     symbol: "|row_i of M| tool",
     words: "joint speed; of arms, degrees per time",
-    of_legs: true,
     given: &["tool"],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians. Of scaled rows
 /// it is `sigma_max^2 <= w k^2` of that row alone, which, unlike the square, has a form for control points.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let max = context.positive_greatest()?;
-    let tool = context.positive_given("tool")?;
+fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
+    let max = context.positive(context.greatest()?)?;
+    let tool = context.positive(context.given("tool")?)?;
     let ratio = binary(Operator::Div, max, tool);
-    let Some(leg) = leg else { return context.refused("of a leg") };
     let k = if leg.is_angular() {
         let scale = -context.builder.scale;
         context.builder.input(context.place, Value::Radians(ratio), scale)

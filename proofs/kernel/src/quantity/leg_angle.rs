@@ -10,17 +10,14 @@ pub(super) const LEG_ANGLE: Quantity = Quantity {
     key: "leg_angle",
     symbol: "angle(leg_i, n_i)",
     words: "angle between leg and guide, degrees",
-    of_legs: true,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// `|eta_i|/L_i >= cos(b)`, for `0 < b <= 90`.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.positive_greatest()?;
+fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.positive(context.greatest()?)?;
     ordered(context.place, bound, &Expression::integer(90), false)?;
-    if leg.is_some_and(Leg::is_angular) {
+    if leg.is_angular() {
         return context.refused("of sliders");
     }
     let cos = context.input(Value::Cosine(bound.clone()));

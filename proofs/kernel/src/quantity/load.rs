@@ -10,10 +10,8 @@ pub(super) const LOAD: Quantity = Quantity {
     key: "load",
     symbol: "|e_i . M^-T force|",
     words: "joint force, of arms torque, that holds the force given on the platform at rest",
-    of_legs: true,
     given: &["force"],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// `|tau_i| <= T` for `M^T tau = F`, as `|det A| >= b` and `|det A| >= -b`, `b = B_i det(A with F/T in row i)`.
@@ -24,25 +22,21 @@ pub(super) const LOAD: Quantity = Quantity {
 /// first: `tau_i = B_i det(A with F in row i)/det A`. `B_i` is taken positive, which changes no `|tau_i|`. ∎
 /// With one of the two tests alone a load of the other sign would pass, however great. With more joints than
 /// coordinates forces are not determined. Arms: `tau_i/F_j` is a length.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, (joint, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
     context.without_rotation()?;
     context.not_redundant()?;
-    let max = context.positive_greatest()?;
+    let max = context.positive(context.greatest()?)?;
     let force = context.all_given("force")?;
     let is_zero = |x| sign(x) == Some([false, true]);
     if force.len() != context.legs.len() || force.iter().all(is_zero) {
         return context.refused("given a force, not zero, of a number for each coordinate");
     }
     let units = if context.is_angular() { -1 } else { 0 };
-    let Some(leg) = leg else { return context.refused("of a leg") };
     let ratio = |x| context.number(&binary(Operator::Div, x, max), units);
     let force: Vec<Formula> = force.iter().map(ratio).collect();
-    let rows = context.legs.iter().map(|other| match std::ptr::eq(other, leg) {
-        true => force.clone(),
-        false => other.row.a.clone(),
-    });
-    let replaced: Vec<_> = rows.collect();
     let own: Vec<_> = context.legs.iter().map(|leg| leg.row.a.clone()).collect();
+    let mut replaced = own.clone();
+    replaced[joint] = force;
     let tape = context.tape();
     let (det, replaced) = (determinant(tape, &own), determinant(tape, &replaced));
     let root = tape.sqrt(leg.row.d);

@@ -41,14 +41,35 @@ pub struct Quantity {
     pub symbol: &'static str,
     /// In sentences.
     pub words: &'static str,
-    /// Whether every leg has one.
-    pub of_legs: bool,
     /// The names of what it is for; a requirement gives all of them, and no others.
     pub given: &'static [&'static str],
     /// More of these, where the platform turns.
     pub given_turning: &'static [&'static str],
-    /// What a bound on it comes to; of a leg, for the leg given.
-    tests: fn(&mut Context<'_>, Option<&Leg>) -> Result<Vec<Test>, ClaimError>,
+    tests: Tests,
+}
+
+/// What a bound comes to: of the machine as a whole, or of the leg of this number.
+enum Tests {
+    OfMachine(fn(&mut Context<'_>) -> Result<Vec<Test>, ClaimError>),
+    OfLegs(fn(&mut Context<'_>, (usize, &Leg)) -> Result<Vec<Test>, ClaimError>),
+}
+
+impl Quantity {
+    const fn with(tests: Tests) -> Self {
+        Quantity { key: "", symbol: "", words: "", given: &[], given_turning: &[], tests }
+    }
+
+    /// One of the machine.
+    const fn of_machine(tests: fn(&mut Context<'_>) -> Result<Vec<Test>, ClaimError>) -> Self {
+        Self::with(Tests::OfMachine(tests))
+    }
+
+    /// One that every leg has.
+    const fn of_legs(
+        tests: fn(&mut Context<'_>, (usize, &Leg)) -> Result<Vec<Test>, ClaimError>,
+    ) -> Self {
+        Self::with(Tests::OfLegs(tests))
+    }
 }
 
 /// All of them, in the order of reports.
@@ -225,22 +246,9 @@ impl<'a> Context<'a> {
         Err(malformed(self.place, expected))
     }
 
-    /// The number that the requirement gives by this name, greater than zero.
-    fn positive_given(&self, name: &str) -> Result<&'a Expression, ClaimError> {
-        let number = self.given(name)?;
+    /// The number, which has to be greater than zero.
+    fn positive(&self, number: &'a Expression) -> Result<&'a Expression, ClaimError> {
         positive(self.place, number).map(|()| number)
-    }
-
-    /// The bound from below, greater than zero.
-    fn positive_least(&self) -> Result<&'a Expression, ClaimError> {
-        let bound = self.least()?;
-        positive(self.place, bound).map(|()| bound)
-    }
-
-    /// The bound from above, greater than zero.
-    fn positive_greatest(&self) -> Result<&'a Expression, ClaimError> {
-        let bound = self.greatest()?;
-        positive(self.place, bound).map(|()| bound)
     }
 
     fn least(&self) -> Result<&'a Expression, ClaimError> {
@@ -327,22 +335,21 @@ pub(crate) fn obligations(
         if !requirement.given.keys().map(String::as_str).eq(names) {
             return Err(malformed(&place, "given what it is for, and nothing else"));
         }
-        let one = requirement.leg.map(|leg| leg.wrapping_sub(1));
-        if one.is_some_and(|leg| !quantity.of_legs || leg >= legs.len()) {
-            return Err(malformed(&place, "of a leg that there is"));
-        }
-        let which: Vec<Option<usize>> = match (quantity.of_legs, one) {
-            (false, _) => vec![None],
-            (true, Some(leg)) => vec![Some(leg)],
-            (true, None) => (0..legs.len()).map(Some).collect(),
+        let (motion, weight) = (&problem.motion, problem.weight);
+        let place = place.as_str();
+        let mut context = Context { builder, claim, legs, motion, weight, requirement, place };
+        let mut add = |leg: Option<usize>, tests: Vec<Test>| {
+            let of = |test| Obligation { requirement: Some(number), leg, test };
+            all.extend(tests.into_iter().map(of));
         };
-        for leg in which {
-            let (motion, weight) = (&problem.motion, problem.weight);
-            let place = place.as_str();
-            let mut context = Context { builder, claim, legs, motion, weight, requirement, place };
-            for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
-                all.push(Obligation { requirement: Some(number), leg, test });
+        match (&quantity.tests, requirement.leg.map(|leg| leg.wrapping_sub(1))) {
+            (Tests::OfMachine(tests), None) => add(None, tests(&mut context)?),
+            (Tests::OfLegs(tests), one) if one.is_none_or(|leg| leg < legs.len()) => {
+                for leg in one.map_or(0..legs.len(), |leg| leg..leg + 1) {
+                    add(Some(leg), tests(&mut context, (leg, &legs[leg]))?);
+                }
             }
+            _ => return context.refused("of a leg that there is"),
         }
     }
     // A bound on psi from above is freedom from singularities, and more.

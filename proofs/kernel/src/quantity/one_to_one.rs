@@ -12,10 +12,7 @@ pub(super) const ONE_TO_ONE: Quantity = Quantity {
     key: "one_to_one",
     symbol: "no two poses of the workspace have the same joint coordinates",
     words: "unique direct kinematics in the working modes named",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 const APART: &str = "of orientations that differ by less than half a turn: angle, or tilt and torsion \
@@ -66,7 +63,7 @@ const APART: &str = "of orientations that differ by less than half a turn: angle
 ///
 /// Of a strut `C_i x A_i = a_i x A_i`. Where all legs have them, the rows are the scaled ones, `w` times
 /// these: with `w >= 1`, of the same sign at each pose. One leg's row scaled alone would not be.
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     if context.requirement.bound != Bound::Holds {
         return context.refused("without a bound");
     }

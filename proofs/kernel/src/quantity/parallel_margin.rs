@@ -2,21 +2,17 @@
 
 use super::{determinant, Context, Quantity, Test};
 use crate::input::ClaimError;
-use crate::machine::Leg;
 
 pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     key: "parallel_margin",
     symbol: "|det A|/(L_1 L_2 L_3)",
     words: "distance from parallel singularities",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// `|det A| >= b L_1 .. L_n`, for `b > 0` and as many legs as coordinates.
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.positive_least()?;
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.positive(context.least()?)?;
     if context.builder.turns {
         return context.refused("of a platform that does not turn");
     }

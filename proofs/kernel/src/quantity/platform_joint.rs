@@ -7,8 +7,6 @@ pub(super) const PLATFORM_JOINT: Quantity = Quantity {
     key: "platform_joint",
     symbol: "angle(leg_i, axis)",
     words: "angle between the leg, from base to platform, and the axis on the platform, degrees",
-    of_legs: true,
     given: &["axis"],
-    given_turning: &[],
-    tests: |context, leg| base_joint::tests(context, leg, true),
+    ..Quantity::of_legs(|context, (_, leg)| base_joint::tests(context, leg, true))
 };

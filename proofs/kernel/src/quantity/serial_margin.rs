@@ -8,15 +8,12 @@ pub(super) const SERIAL_MARGIN: Quantity = Quantity {
     key: "serial_margin",
     symbol: "|eta_i|/L_i",
     words: "distance from serial singularities",
-    of_legs: true,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_legs(tests)
 };
 
 /// `eta_i^2 - b^2 L_i^2 >= 0`, for `b > 0`.
-fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.positive_least()?;
+fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.positive(context.least()?)?;
     let bound = context.number(bound, 0);
     at_least_of_length(context, leg, bound)
 }
@@ -24,10 +21,10 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
 /// `eta_i^2 - c^2 L_i^2 >= 0`.
 pub(super) fn at_least_of_length(
     context: &mut Context<'_>,
-    leg: Option<&Leg>,
+    leg: &Leg,
     c: crate::formula::Formula,
 ) -> Result<Vec<Test>, ClaimError> {
-    let Some((eta_squared, length)) = leg.and_then(|leg| leg.eta_squared.zip(leg.length)) else {
+    let Some((eta_squared, length)) = leg.eta_squared.zip(leg.length) else {
         return context.refused("of legs of fixed length");
     };
     let tape = context.tape();

@@ -2,17 +2,14 @@
 
 use super::{Context, Quantity, Test};
 use crate::input::{binary, positive, ClaimError};
-use crate::machine::Leg;
 use crate::number::Operator;
 
 pub(super) const STIFFNESS: Quantity = Quantity {
     key: "stiffness",
     symbol: "the least eigenvalue of M^T diag(joint) M",
     words: "stiffness of the platform, with joints of the stiffness given and rigid legs, without preload",
-    of_legs: false,
     given: &["joint"],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// `M^T diag(k) M >= b I`, for `b, k_i > 0`, is `sigma_min >= 1` of the rows `A_i` with `D_i b/k_i` in
@@ -21,8 +18,8 @@ pub(super) const STIFFNESS: Quantity = Quantity {
 ///
 /// *Proof.* A displacement `x` of the platform displaces joint `i` by `M_i . x`, which it resists with
 /// the force `k_i M_i . x`; by virtual work the platform feels `M^T diag(k) M x`. ∎
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    let bound = context.positive_least()?;
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.positive(context.least()?)?;
     let given = context.all_given("joint")?;
     let units = if context.is_angular() { -2 } else { 0 };
     let (mut rows, weight) = context.own_rows();

@@ -3,21 +3,17 @@
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
 use crate::input::{binary, positive, ClaimError};
-use crate::machine::Leg;
 use crate::number::{Expression, Operator};
 
 pub(super) const TRANSMISSION: Quantity = Quantity {
     key: "transmission",
     symbol: "psi_i",
     words: "velocity transmission factors",
-    of_legs: false,
-    given: &[],
-    given_turning: &[],
-    tests,
+    ..Quantity::of_machine(tests)
 };
 
 /// `psi_i <= b` for all `i` is `sigma_min(M) >= 1/b`; `psi_i >= b` is `sigma_max(M) <= 1/b`.
-fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     let bound = match &context.requirement.bound {
         Bound::Min(bound) | Bound::Max(bound) => bound,
         Bound::Within(_) | Bound::Holds => return context.refused("a least or a greatest value"),
