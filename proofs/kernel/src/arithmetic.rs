@@ -53,7 +53,7 @@ pub fn elbow<A: Arithmetic + ?Sized>(e: &A, [a, b, t]: [&A::Number; 3]) -> Optio
 }
 
 /// Intervals: what an operation gives contains the result for all numbers in its operands.
-pub trait Enclosure: Arithmetic {
+pub trait Enclosure: Arithmetic<Number: Default> {
     /// `1 / a`.
     fn recip(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `a / 2`.

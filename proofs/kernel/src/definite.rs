@@ -1,9 +1,102 @@
 //! Positive definiteness of symmetric interval matrices.
 
 use crate::arithmetic::Enclosure;
+use crate::few::Few;
+use crate::slope::MOST_COORDINATES;
+
+/// Most rows: one a coordinate, and one that borders these.
+pub const MOST_ROWS: usize = MOST_COORDINATES + 1;
+
+/// A row of numbers.
+pub type Vector<N> = Few<N, MOST_ROWS>;
 
 /// The upper triangle of a symmetric matrix: row `i` holds the entries `(i, i)`, `(i, i + 1)`, ...
-pub type Triangle<N> = Vec<Vec<N>>;
+#[derive(Clone, Debug)]
+pub struct Triangle<N> {
+    n: usize,
+    entries: Few<N, { MOST_ROWS * (MOST_ROWS + 1) / 2 }>,
+}
+
+impl<N: Clone + Default> Triangle<N> {
+    /// The matrix of `n` rows with these entries `(i, j)`, `i <= j`.
+    #[inline]
+    pub fn new(n: usize, entry: impl Fn(usize, usize) -> Option<N>) -> Option<Self> {
+        let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        Some(Triangle { n, entries: pairs.map(|(i, j)| entry(i, j)).collect::<Option<_>>()? })
+    }
+
+    /// `c I`.
+    pub(crate) fn scalar<E: Enclosure<Number = N>>(e: &E, n: usize, c: &N) -> Option<Self> {
+        let zero = e.integer(0)?;
+        let entries = Few::filled(n * (n + 1) / 2, || zero.clone());
+        let mut t = Triangle { n, entries };
+        t.change(|i, j, zero| Some(if i == j { c.clone() } else { zero.clone() }))?;
+        Some(t)
+    }
+
+    fn start(&self, i: usize) -> usize {
+        i * (2 * self.n + 1 - i) / 2
+    }
+
+    /// Row `i`, from its diagonal on.
+    pub(crate) fn row(&self, i: usize) -> &[N] {
+        &self.entries[self.start(i)..][..self.n - i]
+    }
+
+    /// Puts `of` the place and the value of each entry in its place.
+    #[inline]
+    pub(crate) fn change(&mut self, of: impl Fn(usize, usize, &N) -> Option<N>) -> Option<()> {
+        let mut rest = &mut self.entries[..];
+        for i in 0..self.n {
+            let (row, below) = rest.split_at_mut(self.n - i);
+            for (entry, j) in row.iter_mut().zip(i..) {
+                *entry = of(i, j, entry)?;
+            }
+            rest = below;
+        }
+        Some(())
+    }
+
+    /// Makes `C` of `[[a, b^T], [b, C]]` its Schur complement, given `(a, b)`; `None` unless `a` is certainly
+    /// positive.
+    pub(crate) fn complement<E: Enclosure<Number = N>>(&mut self, e: &E, row: &[N]) -> Option<()> {
+        eliminate(e, row, &mut self.entries)
+    }
+
+    /// Eliminates each row from those below; `None` where one cannot be.
+    ///
+    /// **Lemma.** A symmetric matrix `[[a, b^T], [b, C]]` is positive definite if and only if `a > 0` and
+    /// its Schur complement `C - b b^T/a` is. *Proof.* `a t^2 + 2 t b.w + w^T C w
+    /// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
+    /// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
+    /// is undefined, the answer is no.
+    fn eliminated<E: Enclosure<Number = N>>(mut self, e: &E) -> Option<Self> {
+        let mut rest = &mut self.entries[..];
+        for length in (1..=self.n).rev() {
+            let (row, below) = rest.split_at_mut(length);
+            eliminate(e, row, below)?;
+            rest = below;
+        }
+        Some(self)
+    }
+}
+
+/// The rows below `(a, b)` become those of the Schur complement.
+#[inline]
+fn eliminate<E: Enclosure>(e: &E, row: &[E::Number], mut below: &mut [E::Number]) -> Option<()> {
+    let (a, mut b) = row.split_first()?;
+    if !e.is_positive(a) {
+        return None;
+    }
+    while let Some((from, next)) = b.split_first() {
+        let (entries, rest) = below.split_at_mut_checked(b.len())?;
+        for (c, b) in entries.iter_mut().zip(b) {
+            *c = e.sub(c, &e.ratio(from, b, a)?)?;
+        }
+        (b, below) = (next, rest);
+    }
+    Some(())
+}
 
 /// Whether every symmetric matrix with entries in `matrix` is certainly positive definite: if the
 /// interval matrix is, or else if each of its sign vertices is, by elimination.
@@ -13,76 +106,18 @@ pub type Triangle<N> = Vec<Vec<N>>;
 /// symmetric `X` in `matrix`. *Proof.* For `v != 0` let `z_i = -1` where `v_i < 0`, else 1. Then
 /// `v_i X_ij v_j >= v_i (T_z)_ij v_j` for each `i`, `j`, so `v^T X v >= v^T T_z v > 0`. ∎ (Hertz.
 /// `z` and `-z` give the same.)
-pub fn is_positive_definite<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Number>) -> bool {
-    let Some(signs) = matrix.len().checked_sub(1) else { return true };
+pub fn is_positive_definite<E: Enclosure>(e: &E, matrix: &Triangle<E::Number>) -> bool {
+    let Some(signs) = matrix.n.checked_sub(1) else { return true };
     let vertex = |z: u32| {
         let negative = |i: usize| i > 0 && z >> (i - 1) & 1 == 1;
-        let row = |(i, row): (usize, &Vec<E::Number>)| {
-            let entry = |(x, j): (&E::Number, usize)| {
-                let [lo, hi] = arithmetic.ends(x);
-                if negative(i) == negative(j) {
-                    lo
-                } else {
-                    hi
-                }
-            };
-            row.iter().zip(i..).map(entry).collect()
-        };
-        matrix.iter().enumerate().map(row).collect::<Triangle<_>>()
+        let mut vertex = matrix.clone();
+        vertex.change(|i, j, x| {
+            let [lo, hi] = e.ends(x);
+            Some(if negative(i) == negative(j) { lo } else { hi })
+        })?;
+        vertex.eliminated(e)
     };
-    eliminates(arithmetic, &mut matrix.clone())
-        || (0..1u32 << signs).all(|z| eliminates(arithmetic, &mut vertex(z)))
-}
-
-/// The same of a `3 x 3` matrix.
-pub(crate) fn is_positive_definite_three<E: Enclosure>(e: &E, t: &[E::Number; 6]) -> bool {
-    eliminates(e, &mut rows_of_three(&mut t.clone()))
-        || is_positive_definite(e, rows_of_three(&mut t.clone()).map(|row| row.to_vec()).to_vec())
-}
-
-/// The rows of a triangle of six entries.
-pub(crate) fn rows_of_three<N>(t: &mut [N; 6]) -> [&mut [N]; 3] {
-    let (first, rest) = t.split_at_mut(3);
-    let (second, third) = rest.split_at_mut(2);
-    [first, second, third]
-}
-
-/// Whether elimination shows every symmetric matrix with entries in `matrix` positive definite.
-///
-/// **Lemma.** A symmetric matrix `[[a, b^T], [b, C]]` is positive definite if and only if `a > 0` and
-/// its Schur complement `C - b b^T/a` is. *Proof.* `a t^2 + 2 t b.w + w^T C w
-/// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
-/// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
-/// is undefined, the answer is no.
-fn eliminates<E: Enclosure>(arithmetic: &E, mut rows: &mut [impl AsMut<[E::Number]>]) -> bool {
-    while let Some((first, below)) = rows.split_first_mut() {
-        if eliminate(arithmetic, first.as_mut(), below).is_none() {
-            return false;
-        }
-        rows = below;
-    }
-    true
-}
-
-/// Makes `C` of `[[a, b^T], [b, C]]` its Schur complement, given `(a, b)`; `None` unless `a` is certainly
-/// positive.
-pub(crate) fn eliminate<E: Enclosure>(
-    e: &E,
-    row: &[E::Number],
-    below: &mut [impl AsMut<[E::Number]>],
-) -> Option<()> {
-    let (a, mut b) = row.split_first()?;
-    if !e.is_positive(a) {
-        return None;
-    }
-    for entries in below {
-        let from = b.first()?;
-        for (c, b) in entries.as_mut().iter_mut().zip(b) {
-            *c = e.sub(c, &e.ratio(from, b, a)?)?;
-        }
-        b = b.get(1..)?;
-    }
-    Some(())
+    matrix.clone().eliminated(e).is_some() || (0..1u32 << signs).all(|z| vertex(z).is_some())
 }
 
 /// Whether every `[[T, b], [b^T, c]]` is certainly positive definite, for each `b`: by one elimination of
@@ -90,24 +125,14 @@ pub(crate) fn eliminate<E: Enclosure>(
 pub(crate) fn are_positive_definite<E: Enclosure>(
     e: &E,
     t: &Triangle<E::Number>,
-    mut columns: impl Iterator<Item = Vec<E::Number>>,
+    mut columns: impl Iterator<Item = Vector<E::Number>>,
     corner: &E::Number,
 ) -> bool {
-    let mut steps = t.clone();
-    let mut rest = &mut steps[..];
-    let mut eliminates = || {
-        while let Some((first, below)) = std::mem::take(&mut rest).split_first_mut() {
-            eliminate(e, first, below)?;
-            rest = below;
-        }
-        Some(())
-    };
-    let is_eliminated = eliminates();
-    let last = |mut b: Vec<E::Number>| {
-        is_eliminated?;
-        let mut corner = corner.clone();
-        for (at, step) in steps.iter().enumerate() {
-            let (a, row) = step.split_first()?;
+    let (n, steps) = (t.n, t.clone().eliminated(e));
+    let last = |mut b: Vector<E::Number>| {
+        let (steps, mut corner) = (steps.as_ref()?, corner.clone());
+        for at in 0..n {
+            let (a, row) = steps.row(at).split_first()?;
             let own = b.get(at)?.clone();
             for (b, from) in b.iter_mut().skip(at + 1).zip(row) {
                 *b = e.sub(b, &e.ratio(from, &own, a)?)?;
@@ -116,11 +141,13 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
         }
         Some(e.is_positive(&corner))
     };
-    let bordered = |b: Vec<E::Number>| {
-        let mut t = t.clone();
-        t.iter_mut().zip(b).for_each(|(row, b)| row.push(b));
-        t.push(vec![corner.clone()]);
-        t
+    let bordered = |b: &[E::Number]| {
+        Triangle::new(n + 1, |i, j| match j < n {
+            true => t.row(i).get(j - i).cloned(),
+            false => b.get(i).or((i == n).then_some(corner)).cloned(),
+        })
     };
-    columns.all(|b| last(b.clone()) == Some(true) || is_positive_definite(e, bordered(b)))
+    columns.all(|b| {
+        last(b.clone()) == Some(true) || bordered(&b).is_some_and(|t| is_positive_definite(e, &t))
+    })
 }

@@ -17,7 +17,7 @@ use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive};
 
 /// Ends of intervals; `None` where a result does not fit.
-pub trait Integer: Clone + Ord {
+pub trait Integer: Clone + Default + Ord {
     /// The time of an operation, in that of one on words.
     const WORK: usize;
     /// This integer.
@@ -222,7 +222,7 @@ fn by_digits(a: i64, b: i64, divisor: i64) -> Option<i64> {
 }
 
 /// `[lo, hi] / 2^bits`, with `lo <= hi`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Interval<Z> {
     /// Lower end.
     pub lo: Z,

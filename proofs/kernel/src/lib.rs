@@ -3,6 +3,7 @@
 //! | module         | holds                                                            |
 //! |----------------|------------------------------------------------------------------|
 //! | [`arithmetic`] | what a formula is evaluated in                                   |
+//! | [`few`]          | a few numbers, on the stack                                      |
 //! | [`fixed`]      | intervals with ends in multiples of `2^-bits`                    |
 //! | [`formula`]    | formulas, shared on a tape; derivatives                          |
 //! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
@@ -46,6 +47,7 @@ pub mod control;
 pub mod cube;
 pub mod definite;
 pub mod document;
+pub mod few;
 pub mod fixed;
 pub mod formula;
 pub mod input;

@@ -56,7 +56,7 @@ use crate::cell::{evaluate, Cell, Vertex};
 use crate::certificate::{Corner, Evidence, Node, Tree};
 use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use crate::compile::{compiled, Builder};
-use crate::definite::is_positive_definite;
+use crate::definite::{is_positive_definite, Triangle};
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
 use crate::input::{binary, enclosed, malformed, narrowed, ordered, sign, ClaimError};
@@ -205,11 +205,8 @@ impl Part {
     fn is_definite<E: Enclosure>(&self, e: &E, edges: [[E::Number; 3]; 3]) -> Option<bool> {
         let slopes = Slopes::new(e, 3);
         let values = evaluate(&self.tape, &[], slopes, &edges);
-        let mut vertices = Vertex::all(3);
-        Some(vertices.all(|v| {
-            self.matrix(&values, |f| v.value(&slopes, f))
-                .is_some_and(|f| is_positive_definite(e, f))
-        }))
+        let at = |v: Vertex, f: &_| v.value(&slopes, f);
+        Some(Vertex::all(3).all(|v| self.is_definite_at(e, &values, |f| at(v, f))))
     }
 
     /// **Tight edge.** For every `kappa`, let `Q` be the face's own corner, `u = 0` or `u = 1`, and
@@ -238,21 +235,20 @@ impl Part {
         let edges = [about(y)?, about(z)?, [kappa.clone(), kappa.clone(), e.integer(0)?]];
         let slopes = Slopes::new(e, 3);
         let values = evaluate(&self.tape, &[], slopes, &edges);
-        Some(Vertex::all(2).skip(1).all(|v| {
-            let matrix = self.matrix(&values, |f| v.value_about_corner(&slopes, f));
-            matrix.is_some_and(|f| is_positive_definite(e, f))
-        }))
+        let at = |v: Vertex, f: &_| v.value_about_corner(&slopes, f);
+        Some(Vertex::all(2).skip(1).all(|v| self.is_definite_at(e, &values, |f| at(v, f))))
     }
 
-    /// `F`, the upper triangle, at a vertex.
-    fn matrix<N>(
+    /// Whether `F` is positive definite at a vertex.
+    fn is_definite_at<E: Enclosure>(
         &self,
-        values: &Values<Slope<N>>,
-        at: impl Fn(&Slope<N>) -> Option<N>,
-    ) -> Option<Vec<Vec<N>>> {
-        let of = |f: Formula| at(values.of(f)?);
-        let [d, xy, xz, yz] = self.entries;
-        Some(vec![vec![of(d)?, of(xy)?, of(xz)?], vec![of(d)?, of(yz)?], vec![of(d)?]])
+        e: &E,
+        values: &Values<Slope<E::Number>>,
+        at: impl Fn(&Slope<E::Number>) -> Option<E::Number>,
+    ) -> bool {
+        let [d, off @ ..] = self.entries;
+        let entry = |i, j| at(values.of(if i == j { d } else { off[i + j - 1] })?);
+        Triangle::new(3, entry).is_some_and(|f| is_positive_definite(e, &f))
     }
 }
 

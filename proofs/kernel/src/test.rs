@@ -24,15 +24,13 @@ pub mod accuracy;
 pub mod apart;
 pub mod curvature;
 pub mod solve;
-mod three;
 pub mod tolerances;
 
-use self::three::three;
 use self::tolerances::{less_changes, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
-use crate::definite::{eliminate, is_positive_definite, Triangle};
+use crate::definite::{is_positive_definite, Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
@@ -89,8 +87,8 @@ pub struct Over<'a, E: Enclosure> {
     pub first: usize,
 }
 
-/// A row at a vertex, and what tolerances change of it.
-type Varied<N> = (Row<N>, Vec<Row<N>>);
+/// A row at a vertex, `A_i` and then `D_i`, and what tolerances change of it.
+type Varied<N> = (Vector<N>, Vec<Vector<N>>);
 
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
@@ -154,17 +152,12 @@ impl<'a, E: Enclosure> Over<'a, E> {
         }
     }
 
-    /// The rows at a vertex.
-    fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Varied<E::Number>>> {
-        let value = |f: &Formula| self.own_at(*f, vertex);
-        let row = |row: &Row<Formula>| {
-            let a = row.a.iter().map(value).collect::<Option<_>>()?;
-            let split = |mut s: Vec<E::Number>| s.pop().map(|d| Row { a: s, d });
-            let changes =
-                self.changes(row.a.iter().chain([&row.d]), vertex)?.into_iter().map(split);
-            Some((Row { a, d: value(&row.d)? }, changes.collect::<Option<_>>()?))
-        };
-        rows.iter().map(row).collect()
+    /// A row at a vertex.
+    fn row(&self, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
+        let own = row.a.iter().map(|f| self.own_at(*f, vertex));
+        let mut own = own.collect::<Option<Vector<_>>>()?;
+        own.push(self.own_at(row.d, vertex)?);
+        Some((own, self.changes(row.a.iter().chain([&row.d]), vertex)?))
     }
 
     /// Whether every `D_i` is positive on the cell.
@@ -176,18 +169,11 @@ impl<'a, E: Enclosure> Over<'a, E> {
         })
     }
 
-    fn at_vertices(
-        &self,
-        rows: &[Row<Formula>],
-        holds: impl Fn(Vertex, Vec<Varied<E::Number>>) -> bool,
-    ) -> bool {
-        self.all_vertices(rows, |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows)))
-    }
-
-    fn all_vertices(&self, rows: &[Row<Formula>], holds: impl Fn(Vertex) -> bool) -> bool {
+    /// Whether rows are regular, and something holds at all vertices.
+    fn at_vertices(&self, rows: &[Row<Formula>], holds: impl Fn(Vertex) -> Option<bool>) -> bool {
         // No rows at all would have no singular value beyond any bound.
         let mut all = self.vertices().skip(self.first).chain(self.vertices().take(self.first));
-        !rows.is_empty() && self.is_regular(rows) && all.all(holds)
+        !rows.is_empty() && self.is_regular(rows) && all.all(|v| holds(v) == Some(true))
     }
 }
 
@@ -242,13 +228,9 @@ pub fn sigma_min<E: Enclosure>(
     evidence: &Multiplier,
 ) -> bool {
     let e = over.slopes.arithmetic;
-    let rest = |v| kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
-    if let Some(own) = three(over, rows).filter(|own| evidence.is_of(own.len(), 3)) {
-        let holds = |v| three::is_lower(over, &own, v, &rest(v)?, evidence);
-        return over.all_vertices(rows, |v| holds(v) == Some(true));
-    }
-    over.at_vertices(rows, |v, rows| {
-        rest(v).is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
+    over.at_vertices(rows, |v| {
+        let rest = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
+        is_lower(over, rows, v, &rest, (evidence, true))
     })
 }
 
@@ -263,91 +245,58 @@ pub fn full_rank<E: Enclosure>(
     rows: &[Row<Formula>],
     evidence: &Multiplier,
 ) -> bool {
-    let e = over.slopes.arithmetic;
-    let Some(zero) = e.integer(0) else { return false };
-    over.at_vertices(rows, |v, rows| {
-        let without_d = |row| Row { d: zero.clone(), ..row };
-        let without_d = |(row, changes): Varied<_>| {
-            (without_d(row), changes.into_iter().map(without_d).collect())
-        };
-        let rows: Vec<_> = rows.into_iter().map(without_d).collect();
-        let rest = over.less_inside(zero.clone(), v);
-        rest.is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
+    over.at_vertices(rows, |v| {
+        let rest = over.less_inside(over.slopes.arithmetic.integer(0)?, v)?;
+        is_lower(over, rows, v, &rest, (evidence, false))
     })
 }
 
-/// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite: for all machines, where tolerances
-/// are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of `2 A_i - D_i Y_i`.
+/// Whether `Y^T A + A^T Y - Y^T D Y + rest I`, if it is said so with `D`, is positive definite at a vertex: for all
+/// machines, where tolerances are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of
+/// `2 A_i - D_i Y_i`.
 fn is_lower<E: Enclosure>(
     over: &Over<'_, E>,
-    rows: &[Varied<E::Number>],
+    rows: &[Row<Formula>],
+    v: Vertex,
     rest: &E::Number,
-    evidence: &Multiplier,
-) -> bool {
-    let e = over.slopes.arithmetic;
-    let m = width(rows);
-    let (one, direction) = (e.integer(1), over.direction(<[_]>::first));
-    let term = |t: Triangle<E::Number>, (row, changes): &Varied<E::Number>, y: &[i64]| {
-        let t = added(e, t, row, (y, evidence.places))?;
-        if changes.is_empty() {
-            return Some(t);
-        }
-        let fixed = |&y: &i64| e.dyadic(y, evidence.places, one.as_ref()?);
-        let fixed: Vec<E::Number> = y.iter().map(fixed).collect::<Option<_>>()?;
-        let half = |row: &Row<E::Number>| {
-            let z = residual(e, row, &row.d, (y, evidence.places))?;
-            z.iter().map(|z| e.halve(z)).collect::<Option<Vec<_>>>()
+    (evidence, with_d): (&Multiplier, bool),
+) -> Option<bool> {
+    let (e, m, places) = (over.slopes.arithmetic, width(rows), evidence.places);
+    if !evidence.is_of(rows.len(), m) {
+        return None;
+    }
+    let (zero, one) = (e.integer(0)?, e.integer(1)?);
+    let mut t = Triangle::scalar(e, m, rest)?;
+    for (row, y) in rows.iter().zip(&evidence.y) {
+        let (row, changes) = over.row(row, v)?;
+        // 2 A_i - D_i Y_i.
+        let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
+            let d = if with_d { d } else { &zero };
+            let entry =
+                |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
+            row.iter().zip(y).map(entry).collect()
         };
-        let changes = changes.iter().map(half);
-        let changes: Vec<_> = changes.collect::<Option<_>>()?;
-        less_changes(e, t, &fixed, &changes, direction.as_ref()?)
-    };
-    let matrix = || {
-        let mut terms = rows.iter().zip(&evidence.y);
-        terms.try_fold(scalar(e, m, rest)?, |t, (row, y)| term(t, row, y))
-    };
-    evidence.is_of(rows.len(), m) && matrix().is_some_and(|t| is_positive_definite(e, t))
+        // Of Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i half is Y_i^T z, and half z^T Y_i.
+        let [_, greatest] = e.ends(row.last()?);
+        let z = residual(&row, &greatest)?;
+        let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
+        t.change(|i, j, entry| e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?))?;
+        if !changes.is_empty() {
+            let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
+            let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
+            let half = |row: &Vector<E::Number>| {
+                residual(row, row.last()?)?.iter().map(|z| e.halve(z)).collect()
+            };
+            let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
+            less_changes(e, &mut t, &fixed, &changes, &over.direction(<[_]>::first)?)?;
+        }
+    }
+    Some(is_positive_definite(e, &t))
 }
 
 /// The columns of `A`.
-fn width<N>(rows: &[Varied<N>]) -> usize {
-    rows.first().map_or(0, |(row, _)| row.a.len())
-}
-
-/// `c I`.
-fn scalar<E: Enclosure>(e: &E, m: usize, c: &E::Number) -> Option<Triangle<E::Number>> {
-    let zero = e.integer(0)?;
-    let entry = |i: usize, j: usize| if i == j { c.clone() } else { zero.clone() };
-    Some((0..m).map(|i| (i..m).map(|j| entry(i, j)).collect()).collect())
-}
-
-/// `t + Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i`, as `t + (Y_i^T z + z^T Y_i)/2`, `z = 2 A_i - D_i Y_i`.
-fn added<E: Enclosure>(
-    e: &E,
-    mut t: Triangle<E::Number>,
-    row: &Row<E::Number>,
-    (y, places): (&[i64], u32),
-) -> Option<Triangle<E::Number>> {
-    let [_, greatest] = e.ends(&row.d);
-    let z = residual(e, row, &greatest, (y, places))?;
-    let half = |i: usize, j: usize| e.dyadic(*y.get(i)?, places + 1, z.get(j)?);
-    for (i, entries) in t.iter_mut().enumerate() {
-        for (entry, j) in entries.iter_mut().zip(i..) {
-            *entry = e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?)?;
-        }
-    }
-    Some(t)
-}
-
-/// `2 A_i - d Y_i`.
-fn residual<E: Enclosure>(
-    e: &E,
-    row: &Row<E::Number>,
-    d: &E::Number,
-    (y, places): (&[i64], u32),
-) -> Option<Vec<E::Number>> {
-    let entry = |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
-    row.a.iter().zip(y).map(entry).collect()
+fn width(rows: &[Row<Formula>]) -> usize {
+    rows.first().map_or(0, |row| row.a.len())
 }
 
 /// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
@@ -362,59 +311,51 @@ pub fn sigma_max<E: Enclosure>(
     rows: &[Row<Formula>],
     k_squared: AtVertex<'_, E::Number>,
 ) -> bool {
-    let bound = |v| k_squared(v).and_then(|k| over.less_inside(k, v));
-    if let Some(own) = three(over, rows) {
-        let holds = |v| three::is_upper(over, &own, v, &bound(v)?);
-        return over.all_vertices(rows, |v| holds(v) == Some(true));
-    }
-    over.at_vertices(rows, |v, rows| bound(v).is_some_and(|bound| is_upper(over, &rows, &bound)))
-}
-
-/// Whether the complement is positive definite: for all machines, where tolerances are apart.
-fn is_upper<E: Enclosure>(
-    over: &Over<'_, E>,
-    rows: &[Varied<E::Number>],
-    bound: &E::Number,
-) -> bool {
     let e = over.slopes.arithmetic;
-    // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-    let complement = || {
-        let mut rest = scalar(e, width(rows), bound)?;
-        for (row, changes) in rows {
-            let [least, _] = e.ends(&row.d);
-            let mut first: Vec<_> = std::iter::once(least).chain(row.a.iter().cloned()).collect();
+    over.at_vertices(rows, |v| {
+        let mut rest = Triangle::scalar(e, width(rows), &over.less_inside(k_squared(v)?, v)?)?;
+        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+        for row in rows {
+            let (row, changes) = over.row(row, v)?;
+            let (d, a) = row.split_last()?;
+            let [least, _] = e.ends(d);
+            let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
             if !changes.is_empty() {
-                rest.insert(0, first);
-                rest = less_changed_row(over, rest, row, changes)?;
-                first = rest.remove(0);
+                (first, rest) = less_changed_row(over, (first, rest), (d, a), &changes)?;
             }
-            eliminate(e, &first, &mut rest)?;
+            rest.complement(e, &first)?;
         }
-        Some(rest)
-    };
-    complement().is_some_and(|rest| is_positive_definite(e, rest))
+        Some(is_positive_definite(e, &rest))
+    })
 }
 
-/// `[[D_i, A_i], [A_i^T, ..]]` less what tolerances change of the row. The direction is `(u, v)`, where
-/// `u = -A_i . v/D_i` makes the form least.
+/// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
+/// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
 fn less_changed_row<E: Enclosure>(
     over: &Over<'_, E>,
-    bordered: Triangle<E::Number>,
-    row: &Row<E::Number>,
-    changes: &[Row<E::Number>],
-) -> Option<Triangle<E::Number>> {
+    (first, rest): (Vector<E::Number>, Triangle<E::Number>),
+    (d, a): (&E::Number, &[E::Number]),
+    changes: &[Vector<E::Number>],
+) -> Option<(Vector<E::Number>, Triangle<E::Number>)> {
     let e = over.slopes.arithmetic;
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
     let mut direction = over.direction(<[_]>::last)?;
-    let mut terms = row.a.iter().zip(&direction);
+    let mut terms = a.iter().zip(&direction);
     let along = terms.try_fold(zero.clone(), |sum, (a, v)| e.add(&sum, &e.mul(a, v)?))?;
-    direction.insert(0, e.neg(&e.ratio(&along, &one, &row.d)?)?);
-    let mut fixed = vec![zero; row.a.len()];
+    direction.insert(0, e.neg(&e.ratio(&along, &one, d)?)?);
+    let mut fixed = vec![zero; a.len()];
     fixed.insert(0, one);
-    let change = |row: &Row<E::Number>| {
-        let first = std::iter::once(e.halve(&row.d));
-        first.chain(row.a.iter().cloned().map(Some)).collect::<Option<Vec<_>>>()
+    let change = |row: &Vector<E::Number>| {
+        let (d, a) = row.split_last()?;
+        std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some)).collect()
     };
     let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
-    less_changes(e, bordered, &fixed, &changes, &direction)
+    let m = a.len();
+    let mut bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
+        None => first.get(j).cloned(),
+        Some(i) => rest.row(i).get(j - i - 1).cloned(),
+    })?;
+    less_changes(e, &mut bordered, &fixed, &changes, &direction)?;
+    let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
+    Some((bordered.row(0).iter().cloned().collect(), rest))
 }

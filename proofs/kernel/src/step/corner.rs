@@ -4,7 +4,7 @@ use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::certificate::Corner;
-use crate::definite::is_positive_definite;
+use crate::definite::{is_positive_definite, Triangle};
 use crate::slope::Slopes;
 
 impl<E: Enclosure> Checker<'_, E> {
@@ -59,8 +59,7 @@ impl<E: Enclosure> Checker<'_, E> {
                     Some(sum)
                 }
             };
-            let row = |i: usize| (i..3).map(|j| entry(i, j)).collect();
-            (0..3).map(row).collect::<Option<_>>().is_some_and(|t| is_positive_definite(e, t))
+            Triangle::new(3, entry).is_some_and(|t| is_positive_definite(e, &t))
         };
         Vertex::all(3).skip(1).all(definite).then_some(())
     }

@@ -4,7 +4,7 @@ use super::solve::below_square;
 use super::{Multiplier, Over, Row};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
-use crate::definite::{are_positive_definite, is_positive_definite};
+use crate::definite::{are_positive_definite, is_positive_definite, Vector};
 use crate::formula::{Formula, Op, Tape, Values};
 use crate::slope::{Slope, Slopes};
 use std::ops::Range;
@@ -236,7 +236,7 @@ fn weighted<E: Enclosure>(
 fn signed<'b, E: Enclosure>(
     e: &'b E,
     beta: &'b [E::Number],
-) -> Option<impl Iterator<Item = Vec<E::Number>> + use<'b, E>> {
+) -> Option<impl Iterator<Item = Vector<E::Number>> + use<'b, E>> {
     let negative: Vec<E::Number> = beta.iter().map(|b| e.neg(b)).collect::<Option<_>>()?;
     let with = move |signs: usize| {
         let own = |(i, b): (usize, &E::Number)| match signs >> i & 1 {
@@ -345,12 +345,12 @@ impl<N: Clone> Shown<N> {
         let below = below_square(e, &rows, (&self.weight, &start), evidence)?;
         let corner = over.less_inside(e.mul(&self.weight, square)?, v)?;
         let mut least = below.clone();
-        for (row, d) in least.iter_mut().zip(&self.d) {
-            let own = row.first_mut()?;
-            *own = e.sub(own, &e.mul(kappa_squared, d)?)?;
-        }
+        least.change(|i, j, entry| match i == j {
+            true => e.sub(entry, &e.mul(kappa_squared, self.d.get(i)?)?),
+            false => Some(entry.clone()),
+        })?;
         Some(
-            is_positive_definite(e, least)
+            is_positive_definite(e, &least)
                 && are_positive_definite(e, &below, signed(e, &self.b)?, &corner),
         )
     }

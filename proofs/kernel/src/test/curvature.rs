@@ -1,6 +1,6 @@
 //! A weighted sum of the norms of a row and of a symmetric matrix.
 
-use super::{scalar, Over};
+use super::Over;
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::definite::{is_positive_definite, Triangle};
@@ -30,21 +30,19 @@ pub struct Curvature {
 pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
     let e = over.slopes.arithmetic;
     let at = |v: Vertex, f: &Formula| v.value(&over.slopes, over.of(*f)?);
-    let matrices = |v: Vertex| -> Option<[Triangle<E::Number>; 2]> {
+    let holds = |v: Vertex| {
         let square = |sum, f| e.add(&sum, &e.sqr(&at(v, f)?)?);
         let square = test.row.iter().try_fold(e.integer(0)?, square)?;
         let row = e.greatest_root(&square)?;
         let rest = e.sub(&e.integer(1)?, &e.mul(&over.of(test.a)?.range, &row)?)?;
-        let start = scalar(e, test.row.len(), &over.less_inside(rest, v)?)?;
+        let start = Triangle::scalar(e, test.row.len(), &over.less_inside(rest, v)?)?;
         let b = e.halve(&over.of(test.b)?.range)?;
-        let combined = |b: &E::Number| {
-            let entry = |(t, f): (&E::Number, &Formula)| e.add(t, &e.mul(b, &at(v, f)?)?);
-            let row = |(t, h): (&Vec<_>, &Vec<_>)| t.iter().zip(h).map(entry).collect();
-            start.iter().zip(&test.twice).map(row).collect::<Option<Triangle<_>>>()
+        let is_definite = |b: &E::Number| {
+            let mut t = start.clone();
+            t.change(|i, j, t| e.add(t, &e.mul(b, &at(v, test.twice.get(i)?.get(j - i)?)?)?))?;
+            Some(is_positive_definite(e, &t))
         };
-        Some([combined(&b)?, combined(&e.neg(&b)?)?])
+        Some(is_definite(&b)? && is_definite(&e.neg(&b)?)?)
     };
-    over.vertices().all(|v| {
-        matrices(v).is_some_and(|both| both.into_iter().all(|t| is_positive_definite(e, t)))
-    })
+    over.vertices().all(|v| holds(v) == Some(true))
 }

@@ -1,10 +1,10 @@
 //! Columns of the inverse of `M`.
 
 use super::tolerances::less_changes;
-use super::{scalar, AtVertex, Over, Row, Varied};
+use super::{AtVertex, Over, Row, Varied};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
-use crate::definite::{is_positive_definite, Triangle};
+use crate::definite::{is_positive_definite, Triangle, Vector};
 use crate::formula::Formula;
 use crate::test::Multiplier;
 
@@ -41,22 +41,23 @@ pub fn solve<E: Enclosure>(
     evidence: &Multiplier,
 ) -> bool {
     let e = over.slopes.arithmetic;
-    let matrix = |v: Vertex, rows: &[Varied<E::Number>]| {
+    let n = rows.len();
+    let holds = |v: Vertex| {
         let start = over.less_inside(e.integer(0)?, v)?;
-        let a: Vec<&[E::Number]> = rows.iter().map(|(row, _)| row.a.as_slice()).collect();
+        let own: Vec<Varied<_>> = rows.iter().map(|row| over.row(row, v)).collect::<Option<_>>()?;
+        let a: Vec<&[E::Number]> = own.iter().map(|(row, _)| &row[..n]).collect();
         let mut t = below_square(e, &a, (&weight(v)?, &start), evidence)?;
         let square = &over.of(test.square)?.range;
-        let [_, greatest] = e.ends(&rows.get(test.joint)?.0.d);
-        let own = t.get_mut(test.joint)?.first_mut()?;
-        *own = e.sub(own, &e.mul(square, &greatest)?)?;
-        less_changed(over, t, rows, (test.joint, square), evidence)
+        let [_, greatest] = e.ends(own.get(test.joint)?.0.last()?);
+        t.change(|i, j, entry| match i == j && i == test.joint {
+            true => e.sub(entry, &e.mul(square, &greatest)?),
+            false => Some(entry.clone()),
+        })?;
+        less_changed(over, &mut t, &own, (test.joint, square), evidence)?;
+        Some(is_positive_definite(e, &t))
     };
-    let n = rows.len();
-    evidence.is_of(n, n)
-        && rows.iter().all(|row| row.a.len() == n)
-        && over.at_vertices(rows, |v, rows| {
-            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
-        })
+    let is_square = rows.iter().all(|row| row.a.len() == n);
+    evidence.is_of(n, n) && is_square && over.at_vertices(rows, holds)
 }
 
 /// `A Y^T + Y A^T - w Y Y^T + c I`, as `(Y Z^T + Z Y^T)/2 + c I`, `Z = 2 A - w Y`.
@@ -66,46 +67,40 @@ pub(super) fn below_square<E: Enclosure>(
     (weight, start): (&E::Number, &E::Number),
     Multiplier { y, places }: &Multiplier,
 ) -> Option<Triangle<E::Number>> {
-    let zero = e.integer(0)?;
     let residual =
         |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, *places, weight)?);
     let row = |(a, y): (&&[E::Number], &Vec<i64>)| a.iter().zip(y).map(residual).collect();
-    let z: Vec<Vec<E::Number>> = a.iter().zip(y).map(row).collect::<Option<_>>()?;
-    let product = |y: &[i64], z: &[E::Number]| {
-        y.iter()
-            .zip(z)
-            .try_fold(zero.clone(), |sum, (&y, z)| e.add(&sum, &e.dyadic(y, places + 1, z)?))
-    };
-    let mut t = scalar(e, a.len(), start)?;
-    for ((i, entries), (z_i, y_i)) in t.iter_mut().enumerate().zip(z.iter().zip(y)) {
-        for (entry, (z_j, y_j)) in entries.iter_mut().zip(z.iter().zip(y).skip(i)) {
-            *entry = e.add(entry, &e.add(&product(y_j, z_i)?, &product(y_i, z_j)?)?)?;
-        }
-    }
+    let z: Vec<Vector<E::Number>> = a.iter().zip(y).map(row).collect::<Option<_>>()?;
+    let product = |i: usize, j: usize| along(e, &y[i], places + 1, &z[j]);
+    let mut t = Triangle::scalar(e, a.len(), start)?;
+    t.change(|i, j, entry| e.add(entry, &e.add(&product(j, i)?, &product(i, j)?)?))?;
     Some(t)
+}
+
+/// `Y_i . x`.
+fn along<E: Enclosure>(e: &E, y: &[i64], places: u32, x: &[E::Number]) -> Option<E::Number> {
+    let mut terms = y.iter().zip(x);
+    terms.try_fold(e.integer(0)?, |sum, (&y, x)| e.add(&sum, &e.dyadic(y, places, x)?))
 }
 
 /// `T` less what tolerances change of it.
 fn less_changed<E: Enclosure>(
     over: &Over<'_, E>,
-    mut t: Triangle<E::Number>,
+    t: &mut Triangle<E::Number>,
     rows: &[Varied<E::Number>],
     (joint, square): (usize, &E::Number),
     Multiplier { y, places }: &Multiplier,
-) -> Option<Triangle<E::Number>> {
-    let e = over.slopes.arithmetic;
+) -> Option<()> {
     if over.tolerances.is_none() {
-        return Some(t);
+        return Some(());
     }
-    let zero = e.integer(0)?;
+    let e = over.slopes.arithmetic;
     let direction = over.direction(<[_]>::first)?;
     for (j, (_, changes)) in rows.iter().enumerate() {
-        let change = |Row { a, d }: &Row<E::Number>| {
-            let along = |y: &Vec<i64>| {
-                let mut terms = y.iter().zip(a);
-                terms.try_fold(zero.clone(), |sum, (&y, a)| e.add(&sum, &e.dyadic(y, *places, a)?))
-            };
-            let mut s: Vec<E::Number> = y.iter().map(along).collect::<Option<_>>()?;
+        let change = |row: &Vector<E::Number>| {
+            let (d, a) = row.split_last()?;
+            let all = y.iter().map(|y| along(e, y, *places, a));
+            let mut s: Vector<E::Number> = all.collect::<Option<_>>()?;
             if j == joint {
                 let own = s.get_mut(j)?;
                 *own = e.sub(own, &e.halve(&e.mul(square, d)?)?)?;
@@ -113,9 +108,9 @@ fn less_changed<E: Enclosure>(
             Some(s)
         };
         let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
-        let mut fixed = vec![zero.clone(); y.len()];
-        *fixed.get_mut(j)? = e.integer(1)?;
-        t = less_changes(e, t, &fixed, &changes, &direction)?;
+        let fixed = (0..y.len()).map(|k| e.integer((k == j).into()));
+        let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
+        less_changes(e, t, &fixed, &changes, &direction)?;
     }
-    Some(t)
+    Some(())
 }

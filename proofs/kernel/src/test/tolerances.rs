@@ -7,7 +7,7 @@ use super::Over;
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
-use crate::definite::Triangle;
+use crate::definite::{Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::Slope;
 use std::collections::{BTreeMap, HashMap};
@@ -54,17 +54,18 @@ impl<E: Enclosure> Over<'_, E> {
         &self,
         formulas: impl Iterator<Item = &'f Formula> + Clone,
         v: Vertex,
-    ) -> Option<Vec<Vec<E::Number>>> {
+    ) -> Option<Vec<Vector<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
-        let mut all: BTreeMap<usize, Vec<E::Number>> = BTreeMap::new();
+        let mut all: BTreeMap<usize, Vector<E::Number>> = BTreeMap::new();
         let length = formulas.clone().count();
         for (k, formula) in formulas.enumerate() {
             // It is defined for all machines.
             self.of_all(*formula, v)?;
             for (j, derivative) in tolerances.derivatives.get(formula)? {
                 let zero = e.integer(0)?;
-                let own = all.entry(*j).or_insert_with(|| vec![zero; length]);
+                let zeros = || std::iter::repeat_n(zero, length).collect();
+                let own = all.entry(*j).or_insert_with(zeros);
                 *own.get_mut(k)? = self.of_all(*derivative, v)?;
             }
         }
@@ -138,11 +139,11 @@ impl<E: Enclosure> Over<'_, E> {
 /// of these is zero. So the 1-norms are added to both: the longer `w`, the less they count.
 pub(super) fn less_changes<E: Enclosure>(
     e: &E,
-    mut t: Triangle<E::Number>,
+    t: &mut Triangle<E::Number>,
     fixed: &[E::Number],
-    changes: &[Vec<E::Number>],
+    changes: &[Vector<E::Number>],
     direction: &[E::Number],
-) -> Option<Triangle<E::Number>> {
+) -> Option<()> {
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
     let size = |x: &[E::Number]| {
         let mut terms = x.iter().zip(direction);
@@ -159,13 +160,9 @@ pub(super) fn less_changes<E: Enclosure>(
         let [tau, _] = e.ends(&e.ratio(&of_fixed, &one, &of_change)?);
         let half = e.halve(&e.recip(&tau)?)?;
         let p = |(s, x)| e.sub(&e.mul(&tau, s)?, x);
-        let p: Vec<E::Number> = s.iter().zip(fixed).map(p).collect::<Option<_>>()?;
-        for (row, (i, p_i)) in t.iter_mut().zip(p.iter().enumerate()) {
-            let part = e.mul(&half, p_i)?;
-            for (entry, p_j) in row.iter_mut().zip(&p[i..]) {
-                *entry = e.sub(entry, &e.mul(&part, p_j)?)?;
-            }
-        }
+        let p: Vector<E::Number> = s.iter().zip(fixed).map(p).collect::<Option<_>>()?;
+        let part = p.iter().map(|p| e.mul(&half, p)).collect::<Option<Vector<_>>>()?;
+        t.change(|i, j, entry| e.sub(entry, &e.mul(&part[i], &p[j])?))?;
     }
-    Some(t)
+    Some(())
 }

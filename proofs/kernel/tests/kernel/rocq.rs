@@ -12,7 +12,7 @@ use orthocert_kernel::cell::{evaluate, Cell};
 use orthocert_kernel::certificate::{Certificate, Evidence};
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax};
-use orthocert_kernel::definite::is_positive_definite;
+use orthocert_kernel::definite::{is_positive_definite, Triangle};
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::Tape;
 use orthocert_kernel::postulate::parts;
@@ -175,7 +175,8 @@ fn operations() -> [BigInt; 2] {
             row.extend((i + 1..4).map(|_| draw.interval(-900, 1800)));
             matrix.push(row);
         }
-        definite.add(&i32::from(is_positive_definite(&fixed, matrix)).into());
+        let matrix = Triangle::new(4, |i, j| Some(matrix[i][j - i].clone())).unwrap();
+        definite.add(&i32::from(is_positive_definite(&fixed, &matrix)).into());
     }
     [digest.0, definite.0]
 }
