@@ -1,7 +1,7 @@
 //! Mechanisms as formulas: legs by their drives, and joints that users give.
 
 use crate::claim::{Formulas, JointFormula, Kind, Leg, Mechanism, Orientation, Quantity};
-use crate::formula::{Formula, Tape};
+use crate::formula::{formula, Formula, Tape, Term};
 use crate::input::{magnitude, malformed, ordered, positive, ClaimError, Input, Value};
 use crate::machine;
 use crate::machine::motion::{Motion, Turn};
@@ -194,7 +194,7 @@ fn built_leg(
             let mut leg = motion.strut(tape, [&anchor, &vector(platform)?]);
             if let (Some(axis), Some(tip)) = (base_axis.first(), leg.tip) {
                 let k = tape.normalised(&vector(axis)?);
-                let w = tape.minus(&tip, &anchor);
+                let w = formula!(tape; tip - anchor);
                 leg.couple = Some(machine::couple(tape, &w, &k));
             }
             Some(leg)
@@ -207,9 +207,7 @@ fn built_leg(
             let (reference, lengths) = (vector(reference)?, [*arm.first()?, *length.first()?]);
             motion.leg(tape, ends, |tape, w| {
                 let k = tape.normalised(&axis);
-                let along = tape.dot(&k, &reference);
-                let along = tape.scaled(along, &k);
-                let across = tape.minus(&reference, &along);
+                let across = formula!(tape; reference - ((k . reference) * k));
                 let e = tape.normalised(&across);
                 machine::arm(tape, w, [&k, &e], lengths, mode.as_integer())
             })

@@ -67,6 +67,46 @@ pub fn coordinates(m: usize) -> Vec<Op> {
 /// A vector of formulas.
 pub type Vector = [Formula; 3];
 
+/// A formula, or a vector of formulas, of which operations are those of the components.
+pub(crate) trait Term: Copy {
+    /// `of` the components of both.
+    fn with(self, other: Self, of: impl FnMut(Formula, Formula) -> Formula) -> Self;
+}
+
+impl Term for Formula {
+    fn with(self, other: Self, mut of: impl FnMut(Formula, Formula) -> Formula) -> Self {
+        of(self, other)
+    }
+}
+
+impl Term for Vector {
+    fn with(self, other: Self, mut of: impl FnMut(Formula, Formula) -> Formula) -> Self {
+        std::array::from_fn(|k| of(self[k], other[k]))
+    }
+}
+
+/// Puts a formula on a tape as it is written, `formula!(tape; (n . w) - (m * (sqrt d)))`: in parentheses whatever is
+/// part of another operation, in braces what is no name; of vectors sums, differences, multiples, quotients by a
+/// formula, and products `u . v`.
+macro_rules! formula {
+    ($tape:ident; ($($all:tt)+)) => { formula!($tape; $($all)+) };
+    ($tape:ident; { $x:expr }) => { $x };
+    ($tape:ident; $x:ident) => { $x.to_owned() };
+    ($tape:ident; $n:literal) => { $tape.integer($n) };
+    ($tape:ident; sqrt $a:tt) => {{ let a = formula!($tape; $a); $tape.sqrt(a) }};
+    ($tape:ident; $a:tt ^ 2) => {{ let a = formula!($tape; $a); $tape.sqr(a) }};
+    ($tape:ident; $a:tt $op:tt $b:tt) => {{
+        let (a, b) = (formula!($tape; $a), formula!($tape; $b));
+        formula!(@ $tape, a $op b)
+    }};
+    (@ $tape:ident, $a:ident + $b:ident) => { $a.with($b, |a, b| $tape.add(a, b)) };
+    (@ $tape:ident, $a:ident - $b:ident) => { $a.with($b, |a, b| $tape.sub(a, b)) };
+    (@ $tape:ident, $a:ident * $b:ident) => { $b.with($b, |b, _| $tape.mul($a, b)) };
+    (@ $tape:ident, $a:ident / $b:ident) => { $a.with($a, |a, _| $tape.div(a, $b)) };
+    (@ $tape:ident, $a:ident . $b:ident) => { $tape.dot(&$a, &$b) };
+}
+pub(crate) use formula;
+
 /// Formulas that share their parts.
 #[derive(Clone, Debug, Default)]
 pub struct Tape {
@@ -188,11 +228,7 @@ impl Tape {
 
     /// `(a - b)^2`, expanded.
     pub fn expanded(&mut self, a: Formula, b: Formula) -> Formula {
-        let two = self.integer(2);
-        let (square, twice, other) = (self.sqr(a), self.mul(two, b), self.sqr(b));
-        let mixed = self.mul(twice, a);
-        let less = self.sub(square, mixed);
-        self.add(less, other)
+        formula!(self; ((a ^ 2) - ((2 * b) * a)) + (b ^ 2))
     }
 
     /// `a^2` without the roots that are factors of `a`: the same number where `a` is defined, and
@@ -222,31 +258,11 @@ impl Tape {
         [false, true].map(|second| self.push(Op::Elbow(of, second)))
     }
 
-    /// `u + v`.
-    pub fn plus(&mut self, u: &Vector, v: &Vector) -> Vector {
-        std::array::from_fn(|k| self.add(u[k], v[k]))
-    }
-
-    /// `u - v`.
-    pub fn minus(&mut self, u: &Vector, v: &Vector) -> Vector {
-        std::array::from_fn(|k| self.sub(u[k], v[k]))
-    }
-
-    /// `a u`.
-    pub fn scaled(&mut self, a: Formula, u: &Vector) -> Vector {
-        u.map(|u| self.mul(a, u))
-    }
-
     /// `u . v`.
     pub fn dot(&mut self, u: &Vector, v: &Vector) -> Formula {
         let [x, y, z] = std::array::from_fn(|k| self.mul(u[k], v[k]));
         let sum = self.add(x, y);
         self.add(sum, z)
-    }
-
-    /// `|u|^2`.
-    pub fn norm_squared(&mut self, u: &Vector) -> Formula {
-        self.dot(u, u)
     }
 
     /// `u x v`.
@@ -260,9 +276,7 @@ impl Tape {
 
     /// `u / |u|`.
     pub fn normalised(&mut self, u: &Vector) -> Vector {
-        let square = self.norm_squared(u);
-        let length = self.sqrt(square);
-        u.map(|u| self.div(u, length))
+        formula!(self; u / (sqrt (u . u)))
     }
 
     /// The values of all entries; of an entry that is undefined, or depends on one, `None`.
@@ -404,14 +418,11 @@ impl Tape {
                     let mut whole = self.combined((&along, two), (&known[t.0], minus));
                     let by = if second { c } else { self.neg(s) };
                     whole.numerators.iter_mut().for_each(|n| *n = self.mul(by, *n));
-                    let (bc, sa) = (self.mul(b, c), self.mul(a, s));
-                    let across = self.sub(bc, sa);
-                    let across = self.mul(two, across);
+                    let across = formula!(self; 2 * ((b * c) - (a * s)));
                     self.divided(whole, across)
                 }
                 Op::Sqr(a) => {
-                    let two = self.integer(2);
-                    let factor = self.mul(two, a);
+                    let factor = formula!(self; 2 * a);
                     let Gradient { numerators, denominator } = &known[a.0];
                     let numerators = numerators.iter().map(|&n| self.mul(factor, n)).collect();
                     Gradient { numerators, denominator: *denominator }
@@ -421,8 +432,7 @@ impl Tape {
                     if numerators.iter().all(|&n| n == zero) {
                         Gradient { numerators, denominator: one }
                     } else {
-                        let two = self.integer(2);
-                        let factor = self.mul(two, Formula(at));
+                        let factor = formula!(self; 2 * { Formula(at) });
                         Gradient { numerators, denominator: self.mul(denominator, factor) }
                     }
                 }
@@ -448,10 +458,7 @@ impl Tape {
         let (e, d) = (f.denominator, g.denominator);
         let (across_f, across_g, denominator) =
             if e == d { (p, q, e) } else { (self.mul(p, d), self.mul(q, e), self.mul(e, d)) };
-        let sum = |(&n, &k): (&Formula, &Formula)| {
-            let (n, k) = (self.mul(across_f, n), self.mul(across_g, k));
-            self.add(n, k)
-        };
+        let sum = |(n, k): (&Formula, &Formula)| formula!(self; (across_f * n) + (across_g * k));
         let numerators = f.numerators.iter().zip(&g.numerators).map(sum).collect();
         Gradient { numerators, denominator }
     }

@@ -11,7 +11,7 @@
 
 use crate::claim::Orientation;
 use crate::compile::Builder;
-use crate::formula::{Formula, Tape, Vector};
+use crate::formula::{formula, Formula, Tape, Term, Vector};
 use crate::input::{binary, malformed, ordered, ClaimError, Input, Value};
 use crate::number::{Expression, Operator};
 
@@ -47,8 +47,7 @@ pub(crate) fn chart(
             less_than_half_a_turn(angle)?;
             let t = builder.input(PLACE, Value::HalfTangent(angle.clone()), 0);
             let tape = &mut builder.tape;
-            let (radius, square) = (tape.sqr(t), tape.norm_squared(&c));
-            let g = tape.sub(radius, square);
+            let g = formula!(tape; (t ^ 2) - (c . c));
             let ends = symmetric(angle, Value::HalfTangent);
             Ok(rodrigues(tape, &c, [ends.clone(), ends.clone(), ends], g))
         }
@@ -61,11 +60,8 @@ pub(crate) fn chart(
             less_than_half_a_turn(torsion)?;
             let t = builder.input(PLACE, Value::HalfTangent(tilt.clone()), 0);
             let tape = &mut builder.tape;
-            let (one, t, [x, y, z]) = (tape.integer(1), tape.sqr(t), c.map(|c| tape.sqr(c)));
-            let turned = tape.add(one, z);
-            let most = tape.mul(t, turned);
-            let less = tape.sub(most, x);
-            let g = tape.sub(less, y);
+            let [x, y, z] = c.map(|c| tape.sqr(c));
+            let g = formula!(tape; (((t ^ 2) * (1 + z)) - x) - y);
             let reach = symmetric(tilt, |tilt| Value::TiltReach(tilt, torsion.clone()));
             let ends = [reach.clone(), reach, symmetric(torsion, Value::HalfTangent)];
             Ok(rodrigues(tape, &c, ends, g))
@@ -124,22 +120,20 @@ pub(crate) fn is_less_than_half_a_turn(orientation: &Orientation) -> bool {
 }
 
 fn rodrigues(tape: &mut Tape, c: &Vector, ends: [[Input; 2]; 3], g: Formula) -> Chart {
-    let (one, two) = (tape.integer(1), tape.integer(2));
     let squares = c.map(|c| tape.sqr(c));
     let [x, y, z] = squares;
-    let sum = tape.add(x, y);
-    let sum = tape.add(sum, z);
-    let weight = tape.add(one, sum);
+    let sum = formula!(tape; (x + y) + z);
+    let weight = formula!(tape; 1 + sum);
     let entry = |tape: &mut Tape, i: usize, j: usize| {
         if i == j {
-            let (less, twice) = (tape.sub(one, sum), tape.mul(two, squares[i]));
-            return tape.add(less, twice);
+            return formula!(tape; (1 - sum) + (2 * { squares[i] }));
         }
         // [c]x has -c_3, c_2, -c_1 above the diagonal.
         let (product, other) = (tape.mul(c[i.min(j)], c[i.max(j)]), c[3 - i - j]);
-        let before = (j + 1) % 3 == i;
-        let half = if before { tape.add(product, other) } else { tape.sub(product, other) };
-        tape.mul(two, half)
+        match (j + 1) % 3 == i {
+            true => formula!(tape; 2 * (product + other)),
+            false => formula!(tape; 2 * (product - other)),
+        }
     };
     let matrix = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(tape, i, j)));
     Chart { matrix, weight, ends: ends.to_vec(), g: Some(g) }
@@ -147,9 +141,8 @@ fn rodrigues(tape: &mut Tape, c: &Vector, ends: [[Input; 2]; 3], g: Formula) -> 
 
 /// `w` times the rotation about a coordinate axis, and `w`.
 fn about(tape: &mut Tape, axis: usize, t: Formula) -> ([Vector; 3], Formula) {
-    let (zero, one, two) = (tape.integer(0), tape.integer(1), tape.integer(2));
-    let square = tape.sqr(t);
-    let (weight, cos, sin) = (tape.add(one, square), tape.sub(one, square), tape.mul(two, t));
+    let (zero, weight) = (tape.integer(0), formula!(tape; 1 + (t ^ 2)));
+    let (cos, sin) = (formula!(tape; 1 - (t ^ 2)), formula!(tape; 2 * t));
     let minus = tape.neg(sin);
     let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut matrix = [[zero; 3]; 3];

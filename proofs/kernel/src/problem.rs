@@ -6,7 +6,7 @@ use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_DERIVATIVES
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{coordinates, Formula, Op, Tape};
+use crate::formula::{coordinates, formula, Formula, Op, Tape, Term};
 use crate::input::{
     binary, enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value,
     SIGN_BITS,
@@ -470,14 +470,10 @@ fn inside(builder: &mut Builder, workspace: &Workspace) -> Option<Inside> {
     for (k, center) in center.iter().enumerate() {
         let center = builder.number("workspace.center", center, scale);
         let x = builder.tape.coordinate(k);
+        let (turns, tape) = (builder.turns, &mut builder.tape);
         // Control points want squares of coordinates alone.
-        let off = if builder.turns {
-            builder.tape.expanded(x, center)
-        } else {
-            let off = builder.tape.sub(x, center);
-            builder.tape.sqr(off)
-        };
-        g = builder.tape.sub(g, off);
+        let off = if turns { tape.expanded(x, center) } else { formula!(tape; (x - center) ^ 2) };
+        g = tape.sub(g, off);
     }
     let gradient = builder.tape.gradient(g, &coordinates(3)).numerators;
     Some(Inside { g, gradient })

@@ -6,7 +6,7 @@
 
 pub(crate) mod motion;
 
-use crate::formula::{coordinates, Formula, Tape, Vector};
+use crate::formula::{coordinates, formula, Formula, Tape, Term, Vector};
 use crate::test::Row;
 
 /// A leg's, or joint's, formulas.
@@ -74,27 +74,23 @@ pub enum Joint {
 /// *Closure.* `A` is the leg: `|A|^2 = |r|^2 + D = L^2`, and its base end `w - A = rho n` is on the
 /// guide. *Velocity.* `A . (P' - rho' n) = 0`, and `A . n = eta`.
 pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Leg {
-    let along = tape.dot(n, w);
-    let axial = tape.scaled(along, n);
-    let r = tape.minus(w, &axial);
-    let (reach, off) = (tape.sqr(length), tape.norm_squared(&r));
-    let d = tape.sub(reach, off);
+    let along = formula!(tape; n . w);
+    let r = formula!(tape; w - (along * n));
+    let d = formula!(tape; (length ^ 2) - (r . r));
     let root = tape.sqrt(d);
     let eta = signed(tape, m, root);
-    let axial = tape.scaled(eta, n);
-    let a = tape.plus(&r, &axial).to_vec();
+    let a = formula!(tape; r + (eta * n)).to_vec();
     // (r + eta n)/eta, with the guide's part left whole.
-    let across = r.map(|r| tape.div(r, eta));
-    let divided = tape.plus(n, &across).to_vec();
+    let divided = formula!(tape; n + (r / eta)).to_vec();
     let rho = Joint::Length(tape.sub(along, eta));
     leg(tape, Row { a, d }, divided, rho, (Some(length), Some(d)))
 }
 
 /// An extensible leg: `A = w`, `D = |w|^2`, `rho = |w|`. *Velocity.* `w . P' = |w| rho'`.
 pub fn strut(tape: &mut Tape, w: &Vector) -> Leg {
-    let d = tape.norm_squared(w);
+    let d = formula!(tape; w . w);
     let length = tape.sqrt(d);
-    let divided = w.map(|w| tape.div(w, length)).to_vec();
+    let divided = formula!(tape; w / length).to_vec();
     leg(tape, Row { a: w.to_vec(), d }, divided, Joint::Length(length), (Some(length), None))
 }
 
@@ -127,29 +123,19 @@ pub fn arm(
     m: i64,
 ) -> Leg {
     let f = tape.cross(k, e);
-    let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
-    let [alpha2, beta2, kappa2, r2, length2] = [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
-    let (n, x) = (tape.add(alpha2, beta2), tape.sub(length2, kappa2));
-    let excess = tape.sub(r2, x);
-    let over = tape.add(n, excess);
-    let two = tape.integer(2);
-    let two_r = tape.mul(two, r);
-    let g = tape.div(over, two_r);
-    let g2 = tape.sqr(g);
-    let d = tape.sub(n, g2);
-    let root = tape.sqrt(d);
-    let root = tape.mul(r, root);
-    let root = signed(tape, m, root);
-    let (a, b, t) = (tape.div(alpha, r), tape.div(beta, r), tape.div(x, r2));
-    let b = signed(tape, m, b);
+    let [alpha, beta, kappa] = [(w, e), (w, &f), (k, w)].map(|(u, v)| tape.dot(u, v));
+    let n = formula!(tape; (alpha ^ 2) + (beta ^ 2));
+    let x = formula!(tape; (length ^ 2) - (kappa ^ 2));
+    let g = formula!(tape; (n + ((r ^ 2) - x)) / (2 * r));
+    let d = formula!(tape; n - (g ^ 2));
+    let (root, b) = (formula!(tape; r * (sqrt d)), formula!(tape; beta / r));
+    let (root, b) = (signed(tape, m, root), signed(tape, m, b));
+    let (a, t) = (formula!(tape; alpha / r), formula!(tape; x / (r ^ 2)));
     let [cos, sin] = tape.elbow([a, b, t]);
     let sin = signed(tape, m, sin);
-    let (x, y) = (tape.scaled(cos, e), tape.scaled(sin, &f));
-    let u = tape.plus(&x, &y);
-    let u = tape.scaled(r, &u);
-    let a = tape.minus(w, &u).to_vec();
-    let divided = a.iter().map(|&a| tape.div(a, root)).collect();
-    let row = Row { a, d: tape.mul(r2, d) };
+    let a = formula!(tape; w - (r * ((cos * e) + (sin * f))));
+    let divided = formula!(tape; a / root).to_vec();
+    let row = Row { a: a.to_vec(), d: formula!(tape; (r ^ 2) * d) };
     leg(tape, row, divided, Joint::Angle { cos, sin }, (Some(length), Some(d)))
 }
 
@@ -175,10 +161,8 @@ fn leg(
 /// A couple that does no work in rotations about `k` and `k x w` is along
 /// `(k x w) x k = w - (k . w) k`.
 pub fn couple(tape: &mut Tape, w: &Vector, k: &Vector) -> Row<Formula> {
-    let along = tape.dot(k, w);
-    let along = tape.scaled(along, k);
-    let c = tape.minus(w, &along);
-    Row { d: tape.norm_squared(&c), a: c.to_vec() }
+    let c = formula!(tape; w - ((k . w) * k));
+    Row { d: formula!(tape; c . c), a: c.to_vec() }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {

@@ -12,7 +12,7 @@
 //! point, the second part alone.
 
 use super::{Leg, Row};
-use crate::formula::{Formula, Op, Tape, Vector};
+use crate::formula::{formula, Formula, Op, Tape, Term, Vector};
 
 /// How a platform moves.
 #[derive(Clone, Debug)]
@@ -58,23 +58,21 @@ impl Motion {
     pub fn turned(&self, tape: &mut Tape, b: &Vector) -> Vector {
         let r = match &self.turn {
             None => *b,
-            Some(turn) => turn.scaled(tape, b).map(|x| tape.div(x, turn.weight)),
+            Some(turn) => {
+                let n = turn.scaled(tape, b);
+                formula!(tape; n / { turn.weight })
+            }
         };
         let Some(c) = &self.moved else { return r };
         let across = tape.cross(c, &r);
         let twice = tape.cross(c, &across);
-        let both = tape.plus(&across, &twice);
-        let part = Motion::rate(tape, c);
-        let change = tape.scaled(part, &both);
-        tape.plus(&r, &change)
+        let rate = Motion::rate(tape, c);
+        formula!(tape; r + (rate * (across + twice)))
     }
 
     /// `2/(1 + |c|^2)`.
     fn rate(tape: &mut Tape, c: &Vector) -> Formula {
-        let (one, two) = (tape.integer(1), tape.integer(2));
-        let square = tape.norm_squared(c);
-        let weight = tape.add(one, square);
-        tape.div(two, weight)
+        formula!(tape; 2 / (1 + (c . c)))
     }
 
     /// The row of the derivatives of a joint by the components of `P` that there are, and by those of `c`,
@@ -93,8 +91,9 @@ impl Motion {
         if let Some((turn, c)) = self.turn.as_ref().zip(self.moved.as_ref()) {
             let moment = tape.cross(r, u);
             let across = tape.cross(&moment, c);
-            let (both, part) = (tape.plus(&moment, &across), Motion::rate(tape, c));
-            row.extend(turn.spin.iter().map(|&k| tape.mul(part, both[k])));
+            let rate = Motion::rate(tape, c);
+            let turned = formula!(tape; rate * (moment + across));
+            row.extend(turn.spin.iter().map(|&k| turned[k]));
         }
         row
     }
@@ -107,8 +106,8 @@ impl Motion {
         drive: impl FnOnce(&mut Tape, &Vector) -> Leg,
     ) -> Option<Leg> {
         let r = self.turned(tape, b);
-        let joint = tape.plus(&self.position, &r);
-        let w = tape.minus(&joint, a);
+        let joint = formula!(tape; { self.position } + r);
+        let w = formula!(tape; joint - a);
         let mut leg = drive(tape, &w);
         leg.tip = Some(joint);
         leg.driven = Vector::try_from(leg.divided.a.as_slice()).ok().map(|u| [r, u]);
@@ -143,12 +142,12 @@ impl Motion {
     /// ```
     pub fn strut(&self, tape: &mut Tape, [a, b]: [&Vector; 2]) -> Leg {
         let r = self.turned(tape, b);
-        let joint = tape.plus(&self.position, &r);
-        let w = tape.minus(&joint, a);
+        let joint = formula!(tape; { self.position } + r);
+        let w = formula!(tape; joint - a);
         let mut leg = super::strut(tape, &w);
         (leg.tip, leg.ends) = (Some(joint), Some([*a, *b]));
         let from_base = match &self.turn {
-            Some(_) => tape.minus(&self.position, a),
+            Some(_) => formula!(tape; { self.position } - a),
             None => w,
         };
         leg.row.a = self.row(tape, &w, |tape, turn| turn.moment(tape, &r, &from_base));
@@ -156,7 +155,7 @@ impl Motion {
         if let (Ok(unit), Some(length)) = (Vector::try_from(unit.as_slice()), length) {
             leg.driven = Some([r, unit]);
             leg.divided.a = self.row(tape, &unit, |tape, turn| {
-                let from_base = from_base.map(|x| tape.div(x, length));
+                let from_base = formula!(tape; from_base / length);
                 turn.moment(tape, &r, &from_base)
             });
         }
@@ -169,17 +168,17 @@ impl Motion {
     /// platform's frame, where it is `R^T (P - a) + b`: polynomials, of degree two at most in each
     /// coordinate. `w` itself where the platform does not turn.
     pub fn vector(&self, tape: &mut Tape, [a, b]: &[Vector; 2], on_platform: bool) -> Vector {
-        let from_base = tape.minus(&self.position, a);
-        let Some(turn) = &self.turn else { return tape.plus(&from_base, b) };
+        let from_base = formula!(tape; { self.position } - a);
+        let Some(turn) = &self.turn else { return formula!(tape; from_base + b) };
         let (turned, still) = if on_platform { (&from_base, b) } else { (b, &from_base) };
-        let still = tape.scaled(turn.weight, still);
+        let still = formula!(tape; { turn.weight } * still);
         let turned = if on_platform {
             let n = &turn.matrix;
             [0, 1, 2].map(|k| tape.dot(&[n[0][k], n[1][k], n[2][k]], turned))
         } else {
             turn.scaled(tape, turned)
         };
-        tape.plus(&still, &turned)
+        formula!(tape; still + turned)
     }
 
     /// The upper triangle of `2 H`, with which the joint's acceleration is
@@ -208,7 +207,7 @@ impl Motion {
         [r, u]: &[Vector; 2],
         tip: &Vector,
     ) -> Option<Vec<Vec<Formula>>> {
-        let (zero, one, two) = (tape.integer(0), tape.integer(1), tape.integer(2));
+        let (zero, one) = (tape.integer(0), tape.integer(1));
         let turn = self.turn.as_ref()?;
         // In the plane nothing moves along z.
         let moves = if self.velocity.len() == 2 { 2 } else { 3 };
@@ -219,7 +218,8 @@ impl Motion {
         let unit = |k: usize| std::array::from_fn(|j| if j == k { one } else { zero });
         let mut columns: Vec<Vector> = self.velocity.iter().map(|&k| unit(k)).collect();
         for &k in turn.spin {
-            columns.push(tape.cross(&unit(k), r).map(|x| tape.div(x, turn.length)));
+            let across = tape.cross(&unit(k), r);
+            columns.push(formula!(tape; across / { turn.length }));
         }
         let gradient = |u: &Formula| tape.gradient(*u, &by).quotients(tape);
         let slopes: Vec<Vec<Formula>> = u[..moves].iter().map(gradient).collect();
@@ -227,21 +227,17 @@ impl Motion {
         for (image, column) in images.iter_mut().zip(&columns) {
             for (j, k) in (0..moves).flat_map(|j| (0..moves).map(move |k| (j, k))) {
                 let both = tape.add(slopes[j][k], slopes[k][j]);
-                let part = tape.mul(both, column[k]);
-                image[j] = tape.add(image[j], part);
+                image[j] = formula!(tape; { image[j] } + (both * { column[k] }));
             }
         }
-        let (along, square) = (tape.dot(u, r), tape.sqr(turn.length));
-        let twice_along = tape.mul(two, along);
+        let (twice, square) = (formula!(tape; 2 * (u . r)), tape.sqr(turn.length));
         let spin = |i: usize| turn.spin.get(i.checked_sub(self.velocity.len())?).copied();
         let mut entry = |i: usize, j: usize| {
             let own = tape.dot(&columns[i], &images[j]);
             let (Some(k), Some(l)) = (spin(i), spin(j)) else { return own };
-            let (p, q) = (tape.mul(u[k], r[l]), tape.mul(u[l], r[k]));
-            let both = tape.add(p, q);
-            let part = if k == l { tape.sub(both, twice_along) } else { both };
-            let part = tape.div(part, square);
-            tape.add(own, part)
+            let both = formula!(tape; ({ u[k] } * { r[l] }) + ({ u[l] } * { r[k] }));
+            let part = if k == l { tape.sub(both, twice) } else { both };
+            formula!(tape; own + (part / square))
         };
         let n = columns.len();
         Some((0..n).map(|i| (i..n).map(|j| entry(i, j)).collect()).collect())
@@ -254,17 +250,16 @@ impl Motion {
         turn: &Turn,
         [from_base, a, b]: [&Vector; 3],
     ) -> Row<Formula> {
-        let (n, two) = (turn.scaled(tape, b), tape.integer(2));
+        let n = turn.scaled(tape, b);
         // |P - a|^2 + |b|^2, in squares of coordinates alone.
-        let mut square = tape.norm_squared(b);
+        let mut square = formula!(tape; b . b);
         for (&p, &a) in self.position.iter().zip(a) {
             let part = tape.expanded(p, a);
             square = tape.add(square, part);
         }
-        let (own, mixed) = (tape.mul(turn.weight, square), tape.dot(&n, from_base));
-        let mixed = tape.mul(two, mixed);
+        let d = formula!(tape; ({ turn.weight } * square) + (2 * (n . from_base)));
         let along = self.vector(tape, &[*a, *b], false);
         let a = self.row(tape, &along, |tape, turn| turn.moment(tape, &n, from_base));
-        Row { a, d: tape.add(own, mixed) }
+        Row { a, d }
     }
 }

@@ -3,7 +3,7 @@
 use super::{Context, Quantity, Test};
 use crate::claim::{self, Mechanism};
 use crate::compile::moved;
-use crate::formula::{Formula, Op};
+use crate::formula::{formula, Formula, Op, Term};
 use crate::input::{binary, magnitude, malformed, ordered, ClaimError, Value};
 use crate::machine::{motion::Motion, Joint, Leg};
 use crate::number::{Expression, Operator};
@@ -98,9 +98,7 @@ fn turned_on<'r>(
     let Some(turn) = &motion.turn else { return context.refused("of a platform that turns") };
     let m = first + turn.spin.len();
     let tape = context.tape();
-    let two = tape.integer(2);
-    let twice = tape.mul(two, turn.length);
-    let twice = tape.mul(twice, unit);
+    let twice = formula!(tape; (2 * { turn.length }) * unit);
     let in_plane = m == first + 1;
     let c = std::array::from_fn(|k| match k {
         k if !in_plane => tape.coordinate(m + k),
@@ -146,9 +144,6 @@ fn turned(
 ) -> Result<Vec<Formula>, ClaimError> {
     let (d_cos, d_sin) = (context.derivatives(cos, by)?, context.derivatives(sin, by)?);
     let tape = context.tape();
-    let each = |(c, s): (Formula, Formula)| {
-        let (p, q) = (tape.mul(cos, s), tape.mul(sin, c));
-        tape.sub(p, q)
-    };
+    let each = |(c, s): (Formula, Formula)| formula!(tape; (cos * s) - (sin * c));
     Ok(d_cos.into_iter().zip(d_sin).map(each).collect())
 }

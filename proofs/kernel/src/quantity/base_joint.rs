@@ -1,6 +1,7 @@
 //! The angle between a leg and an axis of its joint in the base.
 
 use super::{Context, Quantity, Test};
+use crate::formula::{formula, Term};
 use crate::input::{ordered, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
@@ -45,22 +46,18 @@ pub(super) fn tests(
     let tape = context.tape();
     axis.resize(3, tape.integer(0));
     let axis = [axis[0], axis[1], axis[2]];
-    let square = tape.norm_squared(&axis);
-    let norm = tape.sqrt(square);
-    let least = tape.mul(cos, norm);
+    let least = formula!(tape; cos * (sqrt (axis . axis)));
     let at_most = |degrees, strict| ordered("", bound, &Expression::integer(degrees), strict);
     if let Some(ends) = leg.ends.filter(|_| turns && at_most(90, false).is_ok()) {
         let u = motion.vector(tape, &ends, on_platform);
         let along = tape.dot(&u, &axis);
         let mut tests = vec![Test::AtLeast(along)];
         if at_most(90, true).is_ok() {
-            let a = tape.scaled(least, &u).to_vec();
+            let a = formula!(tape; least * u).to_vec();
             tests.push(Test::Greatest(vec![Row { a, d: along }], along));
         }
         return Ok(tests);
     }
     let axis = if on_platform { motion.turned(tape, &axis) } else { axis };
-    let along = tape.dot(&vector, &axis);
-    let least = tape.mul(least, length);
-    Ok(vec![Test::AtLeast(tape.sub(along, least))])
+    Ok(vec![Test::AtLeast(formula!(tape; (vector . axis) - (least * length)))])
 }

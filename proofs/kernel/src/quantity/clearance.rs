@@ -2,7 +2,7 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::{Body, Mechanism};
-use crate::formula::{Formula, Vector};
+use crate::formula::{formula, Formula, Term, Vector};
 use crate::input::{binary, ordered, positive, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::test::apart::Apart;
@@ -89,7 +89,8 @@ fn capsule<'a>(context: &mut Context<'_>, body: &'a Body) -> Result<Capsule<'a>,
             let mut ends = trimmed(context, *leg, trim)?;
             if let Some(offset) = offset {
                 let offset = *beside.insert(at(context, offset));
-                ends = ends.map(|end| context.tape().plus(&end, &offset));
+                let tape = context.tape();
+                ends = ends.map(|end| formula!(tape; end + offset));
             }
             (ends, FixedTo::Leg(*leg))
         }
@@ -99,7 +100,7 @@ fn capsule<'a>(context: &mut Context<'_>, body: &'a Body) -> Result<Capsule<'a>,
                 let (end, motion) = (at(context, end), context.motion);
                 let tape = context.tape();
                 let end = motion.turned(tape, &end);
-                tape.plus(&motion.position, &end)
+                formula!(tape; { motion.position } + end)
             };
             ([from, to].map(on_platform), FixedTo::Platform)
         }
@@ -131,12 +132,9 @@ fn beside(
     let tape = context.tape();
     let zero = tape.integer(0);
     let [d, other] = both.map(|body| body.offset.unwrap_or([zero; 3]));
-    let d = tape.minus(&d, &other);
-    let (off, along) = (tape.norm_squared(&d), tape.dot(&d, &a));
-    let [distance, length, along] = [distance, length, along].map(|x| tape.sqr(x));
-    let along = tape.div(along, length);
-    let square = tape.sub(off, along);
-    Ok(Test::AtLeast(tape.sub(square, distance)))
+    let d = formula!(tape; d - other);
+    let square = formula!(tape; (d . d) - (((d . a) ^ 2) / (length ^ 2)));
+    Ok(Test::AtLeast(formula!(tape; square - (distance ^ 2))))
 }
 
 /// From `C - A + (trim_1/L) A` to `C - (trim_2/L) A`, `C` the leg's platform end, `A` its vector.
@@ -151,9 +149,6 @@ fn trimmed(
     let (tip, length, a) = parts(context, leg)?;
     let [from, to] = [&trim[0], &trim[1]].map(|trim| context.number(trim, 1));
     let tape = context.tape();
-    let (from, to) = (tape.div(from, length), tape.div(to, length));
-    let one = tape.integer(1);
-    let rest = tape.sub(one, from);
-    let [from, to] = [rest, to].map(|part| tape.scaled(part, &a));
-    Ok([tape.minus(&tip, &from), tape.minus(&tip, &to)])
+    let from = formula!(tape; tip - ((1 - (from / length)) * a));
+    Ok([from, formula!(tape; tip - ((to / length) * a))])
 }

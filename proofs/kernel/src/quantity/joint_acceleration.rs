@@ -1,7 +1,7 @@
 //! The joint acceleration that a platform's acceleration and speed ask for.
 
 use super::{few, Context, Quantity, Test};
-use crate::formula::{coordinates, Formula};
+use crate::formula::{coordinates, formula, Formula, Term};
 use crate::input::{binary, ordered, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
@@ -46,7 +46,6 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
         context.tape().div(ratio, degree)
     };
     let (a, b) = (over_max(acceleration, 0), over_max(&square, 1));
-    let one = context.tape().integer(1);
     if context.claim.orientation.is_some() {
         let motion = context.motion;
         let curved = leg
@@ -62,18 +61,12 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
     let rest = match (leg.rho, leg.length, leg.eta_squared) {
         (Some(Joint::Length(_)), Some(length), Some(square)) => {
             let tape = context.tape();
-            let s = tape.sqrt(square);
-            let (t, b) = (tape.div(length, s), tape.div(b, length));
-            let square = tape.sqr(t);
-            let curved = tape.mul(b, square);
-            let factor = tape.add(a, curved);
-            let asked = tape.mul(t, factor);
-            tape.sub(one, asked)
+            let t = formula!(tape; length / (sqrt square));
+            formula!(tape; 1 - (t * (a + ((b / length) * (t ^ 2)))))
         }
         (Some(Joint::Length(rho)), Some(length), None) if rho == length => {
             let tape = context.tape();
-            let (rest, curved) = (tape.sub(one, a), tape.div(b, length));
-            tape.sub(rest, curved)
+            formula!(tape; (1 - a) - (b / length))
         }
         _ => return Ok(vec![Test::Curvature(curvature(context, leg, [a, b])?)]),
     };

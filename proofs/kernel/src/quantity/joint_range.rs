@@ -2,6 +2,7 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::{Bound, Mechanism};
+use crate::formula::{formula, Term};
 use crate::input::{binary, ordered, sign, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
@@ -33,10 +34,7 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
             let tape = context.tape();
             let (rho, end) = match scaled {
                 None => (rho, end),
-                Some((row, weight)) => {
-                    let square = tape.sqr(end);
-                    (row.d, tape.mul(square, weight))
-                }
+                Some((row, weight)) => (row.d, formula!(tape; (end ^ 2) * weight)),
             };
             let rest = if is_least { tape.sub(rho, end) } else { tape.sub(end, rho) };
             context.builder.reached.extend(Some(rest).filter(|_| is_reached));
@@ -52,11 +50,9 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
             };
             let ((cos_min, sin_min), (cos_max, sin_max)) = (end(min), end(max));
             let tape = context.tape();
-            let mut turned = |a, b, c, d| {
-                let (p, q) = (tape.mul(a, b), tape.mul(c, d));
-                Test::AtLeast(tape.sub(p, q))
-            };
-            vec![turned(sin, cos_min, cos, sin_min), turned(sin_max, cos, cos_max, sin)]
+            let after = formula!(tape; (sin * cos_min) - (cos * sin_min));
+            let before = formula!(tape; (sin_max * cos) - (cos_max * sin));
+            vec![Test::AtLeast(after), Test::AtLeast(before)]
         }
         (Some(Joint::Length(_)), Bound::Within(_) | Bound::Holds) => {
             return context.refused("one end of a length");

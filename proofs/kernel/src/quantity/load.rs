@@ -1,7 +1,7 @@
 //! The joint forces that one force on the platform asks for.
 
 use super::{determinant, Context, Quantity, Test};
-use crate::formula::Formula;
+use crate::formula::{formula, Formula, Term};
 use crate::input::{binary, sign, ClaimError};
 use crate::machine::Leg;
 use crate::number::Operator;
@@ -39,8 +39,7 @@ fn tests(context: &mut Context<'_>, (joint, leg): (usize, &Leg)) -> Result<Vec<T
     replaced[joint] = force;
     let tape = context.tape();
     let (det, replaced) = (determinant(tape, &own), determinant(tape, &replaced));
-    let root = tape.sqrt(leg.row.d);
-    let b = tape.mul(root, replaced);
+    let b = formula!(tape; (sqrt { leg.row.d }) * replaced);
     let opposite = tape.neg(b);
     Ok(vec![Test::Beyond(det, b), Test::Beyond(det, opposite)])
 }

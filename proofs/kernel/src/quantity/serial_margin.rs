@@ -1,6 +1,7 @@
 //! How far a leg is from a serial singularity: `|eta_i|/L_i`.
 
 use super::{Context, Quantity, Test};
+use crate::formula::{formula, Formula, Term};
 use crate::input::ClaimError;
 use crate::machine::Leg;
 
@@ -22,14 +23,11 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
 pub(super) fn at_least_of_length(
     context: &mut Context<'_>,
     leg: &Leg,
-    c: crate::formula::Formula,
+    c: Formula,
 ) -> Result<Vec<Test>, ClaimError> {
     let Some((eta_squared, length)) = leg.eta_squared.zip(leg.length) else {
         return context.refused("of legs of fixed length");
     };
     let tape = context.tape();
-    let length_squared = tape.sqr(length);
-    let square = tape.sqr(c);
-    let least = tape.mul(square, length_squared);
-    Ok(vec![Test::AtLeast(tape.sub(eta_squared, least))])
+    Ok(vec![Test::AtLeast(formula!(tape; eta_squared - ((c ^ 2) * (length ^ 2))))])
 }
