@@ -9,9 +9,10 @@ impl Judge<'_> {
     /// Whether an item's evidence holds on a cell, as far as it takes to say so in machine words where
     /// the precision is one for these: what does not is no more than undecided.
     pub fn confirms(&self, cell: &Cell, inherited: u128, item: &Item) -> bool {
+        let place = (0, cell, inherited);
         match &self.words {
-            Some(words) => words.item(self.subject, cell, inherited, item).is_ok(),
-            None => self.any_size.item(self.subject, cell, inherited, item).is_ok(),
+            Some(words) => words.item(self.subject, place, item).is_ok(),
+            None => self.any_size.item(self.subject, place, item).is_ok(),
         }
     }
 }

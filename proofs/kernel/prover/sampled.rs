@@ -1,6 +1,6 @@
 //! Checks of some cells of a paving, drawn at random.
 
-use crate::paving::{Accepted, Judge, Reader, Rejected, Subject, Visited};
+use crate::paving::{Accepted, Cut, Judge, Kind, Outer, Reader, Rejected, Step, Subject, Visited};
 use crate::statement;
 use std::io::BufRead;
 
@@ -28,7 +28,7 @@ pub fn check_sample<R: BufRead>(input: R, size: u64, seed: u64) -> Result<Sample
     let mut sample = Sample { drawn: Vec::new(), size, seen: 0, state: seed };
     while let Some(visited) = reader.next()? {
         if visited.item.kind.is_decided() {
-            judge.claims(&visited)?;
+            claims(&subject, &visited)?;
             sample.offer(visited);
         } else {
             judge.check(&visited)?;
@@ -38,6 +38,24 @@ pub fn check_sample<R: BufRead>(input: R, size: u64, seed: u64) -> Result<Sample
     sample.drawn.iter().try_for_each(|visited| judge.check(visited))?;
     let accepted = Accepted { header, summary, checked: sample.drawn.len() as u64 };
     Ok(Sampled { accepted, decided: sample.seen })
+}
+
+/// Checks of a node, without evaluating its evidence, that it names obligations that the claim has.
+fn claims(subject: &Subject, Visited { item, node, .. }: &Visited) -> Result<(), Rejected> {
+    let is_none = |o: &usize| *o >= subject.problem.obligations.len();
+    if let Some(Step(o, _)) = item.steps.iter().find(|Step(o, _)| is_none(o)) {
+        return Err(Rejected::Step(*node, *o));
+    }
+    match &item.kind {
+        Kind::Outer(Outer::Own(o))
+        | Kind::At(_, Outer::Own(o))
+        | Kind::Cut(Cut { fails: o, .. })
+            if is_none(o) =>
+        {
+            Err(Rejected::Outer(*node))
+        }
+        _ => Ok(()),
+    }
 }
 
 impl Sampled {

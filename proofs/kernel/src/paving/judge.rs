@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Edge};
 use super::code::{Item, Kind, Outer, Step};
-use super::cut::{Cut, SLACK_PLACES};
+use super::cut::SLACK_PLACES;
 use super::reader::Visited;
 use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS};
 use crate::arithmetic::{Arithmetic as _, Enclosure as _};
@@ -119,12 +119,6 @@ pub(crate) struct Side<'a, Z: Integer> {
     corners: [Vec<Interval<Z>>; 2],
 }
 
-/// Where evidence does not hold.
-pub(crate) enum Flaw {
-    Step(usize),
-    Outer,
-}
-
 impl<'a> Judge<'a> {
     /// For the nodes about a subject.
     ///
@@ -136,36 +130,12 @@ impl<'a> Judge<'a> {
         Ok(Judge { subject, words, any_size: Side::new(subject, &subject.any_size)? })
     }
 
-    /// Checks a node without evaluating its evidence: it names obligations that the claim has, and an
-    /// outer one a failure that one of these may have.
-    ///
-    /// # Errors
-    /// If it does not.
-    pub fn claims(&self, visited: &Visited) -> Result<(), Rejected> {
-        let Visited { item, node, .. } = visited;
-        let obligations = &self.subject.problem.obligations;
-        if let Some(Step(o, _)) = item.steps.iter().find(|Step(o, _)| *o >= obligations.len()) {
-            return Err(Rejected::Step(*node, *o));
-        }
-        match &item.kind {
-            Kind::Outer(Outer::Own(o))
-            | Kind::At(_, Outer::Own(o))
-            | Kind::Cut(Cut { fails: o, .. })
-                if *o >= obligations.len() =>
-            {
-                Err(Rejected::Outer(*node))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Checks a node: what it claims, and its evidence.
+    /// Checks the evidence of a node.
     ///
     /// # Errors
     /// If it does not hold.
     pub fn check(&self, visited: &Visited) -> Result<(), Rejected> {
         let Visited { cell, inherited, item, node, .. } = visited;
-        self.claims(visited)?;
         match &item.kind {
             Kind::Boundary => return Ok(()),
             Kind::Split(_) | Kind::Part(_) if item.steps.is_empty() => return Ok(()),
@@ -175,14 +145,11 @@ impl<'a> Judge<'a> {
             }
             _ => {}
         }
-        let words = self.words.as_ref();
-        if words.is_some_and(|side| side.item(self.subject, cell, *inherited, item).is_ok()) {
+        let (words, place) = (self.words.as_ref(), (*node, cell, *inherited));
+        if words.is_some_and(|side| side.item(self.subject, place, item).is_ok()) {
             return Ok(());
         }
-        self.any_size.item(self.subject, cell, *inherited, item).map_err(|flaw| match flaw {
-            Flaw::Step(obligation) => Rejected::Step(*node, obligation),
-            Flaw::Outer => Rejected::Outer(*node),
-        })
+        self.any_size.item(self.subject, place, item)
     }
 }
 
@@ -225,11 +192,11 @@ impl<'a, Z: Integer> Side<'a, Z> {
     pub(crate) fn item(
         &self,
         subject: &Subject,
-        cell: &Cell,
-        inherited: u128,
+        (node, cell, inherited): (u64, &Cell, u128),
         item: &Item,
-    ) -> Result<(), Flaw> {
-        let edges = self.edges(subject, cell, &item.kind).ok_or(Flaw::Outer)?;
+    ) -> Result<(), Rejected> {
+        let (step, outer) = (|o| Rejected::Step(node, o), || Rejected::Outer(node));
+        let edges = self.edges(subject, cell, &item.kind).ok_or_else(outer)?;
         let is_given = item.steps.iter().any(|step| step.1.is_some())
             || matches!(item.kind, Kind::Outer(Outer::Given(_)) | Kind::At(..) | Kind::Outside);
         let values = match is_given {
@@ -241,12 +208,12 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let place = Place::new(&edges, [false; 2]);
         let shown = |over: &Over<'_, _>, obligation: usize, evidence: Option<&_>| {
             let obligations = &subject.problem.obligations;
-            let test = &obligations.get(obligation).ok_or(Flaw::Step(obligation))?.test;
+            let test = &obligations.get(obligation).ok_or_else(|| step(obligation))?.test;
             let holds = match evidence {
                 Some(evidence) => self.checker.shows(over, &place, test, evidence),
                 None => self.checker.shows_own(over, &place, test),
             };
-            holds.then_some(()).ok_or(Flaw::Step(obligation))
+            holds.then_some(()).ok_or_else(|| step(obligation))
         };
         item.steps.iter().try_for_each(|Step(o, evidence)| shown(&over, *o, evidence.as_ref()))?;
         let rest_shown = |over: &Over<'_, _>| {
@@ -261,11 +228,11 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let fails = match &item.kind {
             Kind::Inner => return rest_shown(&over),
             Kind::Cut(cut) => {
-                let [inner, outer] = cut.corners();
-                rest_shown(&Over::new(Slopes { part: Some(&inner), ..slopes }, &values))?;
-                let outer = Slopes { part: Some(&outer), ..slopes };
+                let [before, beyond] = cut.corners();
+                rest_shown(&Over::new(Slopes { part: Some(&before), ..slopes }, &values))?;
+                let beyond = Slopes { part: Some(&beyond), ..slopes };
                 self.is_near(subject, cell, &edges) == Some(true)
-                    && self.checker.fails_own(outer, &values, cut.fails)
+                    && self.checker.fails_own(beyond, &values, cut.fails)
             }
             Kind::Outside => self.checker.is_outside(&over, &place),
             Kind::At(..) if !bound.clone().all(is_inside) => false,
@@ -275,7 +242,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
             },
             Kind::Split(_) | Kind::Part(_) | Kind::Boundary | Kind::Mirrored => true,
         };
-        fails.then_some(()).ok_or(Flaw::Outer)
+        fails.then_some(()).ok_or_else(outer)
     }
 
     /// Whether what is enclosed of a cell differs from it by as little as cuts allow.
