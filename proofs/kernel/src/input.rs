@@ -5,7 +5,7 @@ use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::{Expression, Operator};
 use crate::slope::Slope;
-use crate::trig::{cos_sin, pi};
+use crate::trig::{cos_sin, pi, shortened};
 use crate::vary;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
@@ -71,14 +71,22 @@ fn of_all(number: &Expression, bits: u32) -> Option<Interval<BigInt>> {
     }
 }
 
-/// Encloses a number with `bits` fractional bits, after division by `2^scale`.
-///
-/// It is evaluated with enough bits for 64 to be left after the division, which rounds outward.
-pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
+/// What is found with more bits, after division by `2^scale` with `bits` fractional bits: 64 are left after the
+/// division, which rounds outward.
+fn scaled<T>(
+    scale: i64,
+    bits: u32,
+    of: impl FnOnce(u32, &dyn Fn(&Interval<BigInt>) -> Interval<BigInt>) -> Option<T>,
+) -> Option<T> {
     let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
-    let working = bits.checked_add(guard)?;
     // x / 2^working / 2^scale 2^bits = x / 2^(guard + scale), with guard + scale >= 64.
-    Some(shifted(of_all(number, working)?, i64::from(guard) + scale))
+    let places = u32::try_from(i64::from(guard) + scale).ok()?;
+    of(bits.checked_add(guard)?, &|x| shortened(x, places))
+}
+
+/// Encloses a number with `bits` fractional bits, after division by `2^scale`.
+pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
+    scaled(scale, bits, |working, by| Some(by(&of_all(number, working)?)))
 }
 
 /// The same in slopes, of `m` coordinates, of which a number's names are those at their `place`.
@@ -89,16 +97,11 @@ pub(crate) fn sloped(
     m: usize,
     place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Interval<BigInt>>> {
-    let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
-    let by = |x| shifted(x, i64::from(guard) + scale);
-    let x = vary::sloped(number, bits.checked_add(guard)?, m, place)?;
-    let (at_centre, range) = (by(x.at_centre), by(x.range));
-    Some(Slope { at_centre, range, slopes: x.slopes.map(by) })
-}
-
-/// `x / 2^places`, rounded outward.
-fn shifted(x: Interval<BigInt>, places: i64) -> Interval<BigInt> {
-    Interval { lo: x.lo >> places, hi: -(-x.hi >> places) }
+    scaled(scale, bits, |working, by| {
+        let x = vary::sloped(number, working, m, place)?;
+        let (at_centre, range) = (by(&x.at_centre), by(&x.range));
+        Some(Slope { at_centre, range, slopes: x.slopes.map(|x| by(&x)) })
+    })
 }
 
 impl Input {
@@ -150,12 +153,12 @@ pub(crate) fn half_tangent(
     if degrees.rational().is_some_and(|x| x.is_zero()) {
         return Some(Interval::point(BigInt::from(0)));
     }
-    let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
-    let working = bits.checked_add(guard)?;
-    let fixed = Fixed::<BigInt>::new(working);
-    let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
-    let t = fixed.mul(&sin, &fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?)?;
-    Some(shifted(t, i64::from(guard) + scale))
+    scaled(scale, bits, |working, by| {
+        let fixed = Fixed::<BigInt>::new(working);
+        let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
+        let over = fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?;
+        Some(by(&fixed.mul(&sin, &over)?))
+    })
 }
 
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A

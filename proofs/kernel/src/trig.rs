@@ -15,8 +15,8 @@ fn around(centre: &BigInt, error: u64) -> Interval<BigInt> {
     Interval { lo: centre - error, hi: centre + error }
 }
 
-/// `x / 2^places` rounded outward, for ends with so many more places than wanted.
-fn shortened(x: &Interval<BigInt>, places: u32) -> Interval<BigInt> {
+/// `x / 2^places` rounded outward.
+pub(crate) fn shortened(x: &Interval<BigInt>, places: u32) -> Interval<BigInt> {
     Interval { lo: &x.lo >> places, hi: -(-&x.hi >> places) }
 }
 

@@ -157,17 +157,19 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 over.slopes.part.is_none()
                     && self.at_controls(over, place, test, then) == Some(true)
             }
-            (test, Evidence::Turned(evidence, multiple, places)) => {
-                use Evidence::{Control, Corner, Turned};
-                let plain = !matches!(**evidence, Turned(..) | Control(_) | Corner(_));
-                let turned = self.turned(over, (*multiple, *places));
-                plain && self.shows_less(over, place, test, evidence, turned)
-            }
-            (test, Evidence::Inside(evidence, multiple, places)) => {
+            (test, Evidence::Turned(inner, n, p) | Evidence::Inside(inner, n, p)) => {
                 use Evidence::{Control, Corner, Inside, Turned};
-                let plain = !matches!(**evidence, Inside(..) | Turned(..) | Control(_) | Corner(_));
-                let inside = self.inside(over, place, (*multiple, *places));
-                plain && self.shows_less(over, place, test, evidence, inside)
+                let is_turned = matches!(evidence, Turned(..));
+                let is_plain = match **inner {
+                    Turned(..) | Control(_) | Corner(_) => false,
+                    Inside(..) => is_turned,
+                    _ => true,
+                };
+                let less = match is_turned {
+                    true => self.turned(over, (*n, *p)),
+                    false => self.inside(over, place, (*n, *p)),
+                };
+                is_plain && self.shows_less(over, place, test, inner, less)
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
                 let plain =
