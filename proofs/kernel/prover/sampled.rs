@@ -52,7 +52,7 @@ fn claims(subject: &Subject, Visited { item, node, .. }: &Visited) -> Result<(),
         | Kind::Cut(Cut { fails: o, .. })
             if is_none(o) =>
         {
-            Err(Rejected::Outer(*node))
+            Err(Rejected::Node(*node, " is not outer: it does not certainly fail throughout"))
         }
         _ => Ok(()),
     }

@@ -20,8 +20,8 @@
 //! `P_i = q_1` and the others are 0: a point that enclosures never settle.
 
 use crate::claim::{Leg, MachineClaim, Quantity, Sign};
-use crate::input::{binary, malformed, ordered, positive, sign, ClaimError};
-use crate::number::{Expression, Operator};
+use crate::input::{malformed, ordered, positive, sign, ClaimError};
+use crate::number::Expression;
 use crate::quantity;
 
 /// The paper's Steps 1 to 3.
@@ -39,7 +39,6 @@ impl Cube {
         offset: &Expression,
         side: &Expression,
     ) -> Result<Self, ClaimError> {
-        use Operator::{Add, Div, Mul, Sub};
         let place = "requirements.transmission";
         let psi = quantity::psi_max(claim)
             .ok_or_else(|| malformed(place, "a greatest psi, for the paper's cube"))?;
@@ -47,26 +46,26 @@ impl Cube {
         positive("workspace.side", side)?;
         ordered(place, &one, psi, true)?;
         let two = Expression::integer(2);
-        let kappa = binary(Div, &one, psi);
-        let rest = binary(Sub, &one, &kappa);
-        let t1 = binary(Div, &rest, &two);
-        let above = sign(&binary(Sub, psi, &two));
-        let below = sign(&binary(Sub, &two, psi));
+        let kappa = &one / psi;
+        let rest = &one - &kappa;
+        let t1 = &rest / &two;
+        let above = sign(&(psi - &two));
+        let below = sign(&(&two - psi));
         let t2 = match (above, below) {
             (Some([_, true]), _) => rest,
-            (_, Some([_, true])) => binary(Div, &binary(Sub, psi, &one), &two),
+            (_, Some([_, true])) => &(psi - &one) / &two,
             _ => return Err(malformed(place, "told from 2")),
         };
         // sin(beta) = t/sqrt(1 + 2 t^2).
         let sine = |t: &Expression| {
-            let square = binary(Mul, &two, &binary(Mul, t, t));
-            binary(Div, t, &Expression::Sqrt(binary(Add, &one, &square).into()))
+            let square = &two * &(t * t);
+            t / &Expression::Sqrt((&one + &square).into())
         };
         let (s1, s2) = (sine(&t1), sine(&t2));
-        let length = binary(Div, side, &binary(Add, &s1, &s2));
-        let q1 = Expression::Neg(binary(Mul, &length, &s1).into());
-        let q2 = binary(Mul, &length, &s2);
-        let base = binary(Sub, &binary(Sub, &q1, offset), &length);
+        let length = side / &(&s1 + &s2);
+        let q1 = Expression::Neg((&length * &s1).into());
+        let q2 = &length * &s2;
+        let base = &(&q1 - offset) - &length;
         let zero = Expression::integer(0);
         let along = |i: usize, x: &Expression| {
             let entry = |k| Quantity::Exactly(if i == k { x.clone() } else { zero.clone() });

@@ -3,13 +3,12 @@
 use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::slope::Slope;
 use crate::trig::{cos_sin, pi, shortened};
 use crate::vary;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use std::sync::Arc;
 use thiserror::Error;
 
 /// Bits in which a claim is held to be well formed.
@@ -193,11 +192,6 @@ pub(crate) fn sign(x: &Expression) -> Option<[bool; 2]> {
     }
 }
 
-/// `a - b` and the like.
-pub(crate) fn binary(operator: Operator, a: &Expression, b: &Expression) -> Expression {
-    Expression::Binary(operator, Arc::new(a.clone()), Arc::new(b.clone()))
-}
-
 /// `x > 0`, or an error.
 pub(crate) fn positive(place: &str, x: &Expression) -> Result<(), ClaimError> {
     match sign(x) {
@@ -216,7 +210,7 @@ pub(crate) fn ordered(
     // Of the same number twice, as most are, all that is asked is whether it is defined.
     let difference = match min == max {
         true => sign(max).map(|_| [false, true]),
-        false => sign(&binary(Operator::Sub, max, min)),
+        false => sign(&(max - min)),
     };
     let [more, not_less] = difference.ok_or_else(|| malformed(place, "a number"))?;
     if more || (!strictly && not_less) {

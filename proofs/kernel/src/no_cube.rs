@@ -3,8 +3,8 @@
 use crate::certificate::Tree;
 use crate::claim::NoCubeClaim;
 use crate::fixed::Integer;
-use crate::input::{binary, enclosed, malformed, narrowed, positive};
-use crate::number::{Expression, Operator};
+use crate::input::{enclosed, malformed, narrowed, positive};
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{box_of, holds};
@@ -40,7 +40,7 @@ pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Resul
         return Err(malformed("workspace", expected).into());
     }
     positive("side", &claim.side)?;
-    let part = binary(Operator::Div, &claim.side, &Expression::integer(2 * OFFSET_PARTS));
+    let part = &claim.side / &Expression::integer(2 * OFFSET_PARTS);
     tree::check(&NoCube { problem, part }, tree)
 }
 

@@ -299,6 +299,20 @@ impl fmt::Display for Expression {
     }
 }
 
+/// `a + b` and the like.
+macro_rules! operators {
+    ($($operator:ident $method:ident),*) => { $(
+        impl std::ops::$operator for &Expression {
+            type Output = Expression;
+
+            fn $method(self, other: Self) -> Expression {
+                Expression::Binary(Operator::$operator, self.clone().into(), other.clone().into())
+            }
+        }
+    )* };
+}
+operators!(Add add, Sub sub, Mul mul, Div div);
+
 /// Whether the ends of an interval have few digits.
 fn is_moderate(x: &Interval<BigInt>) -> bool {
     x.lo.bits().max(x.hi.bits()) <= MOST_BITS

@@ -12,8 +12,8 @@
 use crate::claim::Orientation;
 use crate::compile::Builder;
 use crate::formula::{formula, Formula, Tape, Term, Vector};
-use crate::input::{binary, malformed, ordered, ClaimError, Input, Value};
-use crate::number::{Expression, Operator};
+use crate::input::{malformed, ordered, ClaimError, Input, Value};
+use crate::number::Expression;
 
 const PLACE: &str = "orientation";
 
@@ -102,18 +102,17 @@ pub(crate) fn chart(
 /// `|sin x sin z| < cos x cos z`: the sum is positive. ∎ Half-angle tangents are those of one rotation each, and so
 /// are roll, pitch and yaw there: `cos pitch > 0`.
 pub(crate) fn is_less_than_half_a_turn(orientation: &Orientation) -> bool {
-    let of = |operator, a: &Expression, b: &Expression| binary(operator, a, b);
-    let span = |[min, max]: &[Expression; 2]| of(Operator::Sub, max, min);
+    let span = |[min, max]: &[Expression; 2]| max - min;
     let below = |angle: &Expression, degrees: i64| {
         ordered(PLACE, angle, &Expression::integer(degrees), true).is_ok()
     };
     match orientation {
         Orientation::Angle(angle) => below(angle, 90),
-        Orientation::Tilt { tilt, torsion } => below(&of(Operator::Add, tilt, torsion), 90),
+        Orientation::Tilt { tilt, torsion } => below(&(tilt + torsion), 90),
         Orientation::RollPitchYaw { roll, pitch: [min, max], yaw } => {
             below(&Expression::Neg(min.clone().into()), 90)
                 && below(max, 90)
-                && below(&of(Operator::Add, &span(roll), &span(yaw)), 180)
+                && below(&(&span(roll) + &span(yaw)), 180)
         }
         Orientation::Range(ends) => below(&span(ends), 180),
     }

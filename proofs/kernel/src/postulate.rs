@@ -59,8 +59,8 @@ use crate::compile::{compiled, Builder};
 use crate::definite::{is_positive_definite, Triangle};
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
-use crate::input::{binary, enclosed, malformed, narrowed, ordered, sign, ClaimError};
-use crate::number::{Expression, Operator};
+use crate::input::{enclosed, malformed, narrowed, ordered, sign, ClaimError};
+use crate::number::Expression;
 use crate::rejected::Rejected;
 use crate::slope::{Slope, Slopes};
 use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
@@ -88,22 +88,19 @@ pub struct Part {
 /// If the claim is not well formed.
 pub fn parts(claim: &PostulateClaim) -> Result<Vec<Part>, ClaimError> {
     let (one, two) = (Expression::integer(1), Expression::integer(2));
-    let half = binary(Operator::Div, &one, &two);
+    let half = &one / &two;
     let (least, is_low) = match &claim.psi_max {
         PsiMax::Every(Every::All) => (Expression::integer(0), true),
         PsiMax::Of(psi) => {
             let [min, max] = psi.ends();
             ordered("psi_max", &one, min, true)?;
             ordered("psi_max", min, max, matches!(psi, Quantity::Between { .. }))?;
-            let is_low = match (
-                sign(&binary(Operator::Sub, max, &two)),
-                sign(&binary(Operator::Sub, &two, max)),
-            ) {
+            let is_low = match (sign(&(max - &two)), sign(&(&two - max))) {
                 (Some([true, _]), _) => true,
                 (_, Some([_, true])) => false,
                 _ => return Err(malformed("psi_max", "told from 2")),
             };
-            (binary(Operator::Div, &one, max), is_low)
+            (&one / max, is_low)
         }
     };
     let low = is_low.then(|| (least.clone(), half.clone(), true));

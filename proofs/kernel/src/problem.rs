@@ -8,11 +8,10 @@ use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{coordinates, formula, Formula, Op, Tape, Term};
 use crate::input::{
-    binary, enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value,
-    SIGN_BITS,
+    enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value, SIGN_BITS,
 };
 use crate::machine::{self, motion::Motion};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
 use crate::test::tolerances::Derivatives;
@@ -441,10 +440,8 @@ fn corners(workspace: &Workspace) -> Result<[Vec<Expression>; 2], ClaimError> {
         Workspace::Box { min, max } => (min.clone(), max.clone()),
         Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
             positive("workspace.radius", radius)?;
-            let [min, max] = [Operator::Sub, Operator::Add]
-                .map(|operator| [x, y].map(|c| binary(operator, c, radius)));
-            let with = |[x, y]: [Expression; 2], z: &Expression| vec![x, y, z.clone()];
-            (with(min, low), with(max, high))
+            let min = vec![x - radius, y - radius, low.clone()];
+            (min, vec![x + radius, y + radius, high.clone()])
         }
         Workspace::Cube { .. } => return Err(malformed("workspace", "a box or a cylinder")),
     };

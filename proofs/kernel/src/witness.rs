@@ -10,8 +10,8 @@ use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
 use crate::formula::{Formula, Op, Values};
-use crate::input::{binary, ordered, sign, ClaimError};
-use crate::number::{Expression, Operator};
+use crate::input::{ordered, sign, ClaimError};
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::Slopes;
@@ -168,11 +168,10 @@ fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> b
             ordered("", min, x, false).and_then(|()| ordered("", x, max, false)).is_ok()
         });
     let Workspace::Cylinder { center, radius, .. } = workspace else { return in_box };
-    let square = |x: &Expression| binary(Operator::Mul, x, x);
+    let square = |x: &Expression| x * x;
     let start = square(radius);
-    let rest = point.iter().zip(center).fold(start, |rest, (x, center)| {
-        binary(Operator::Sub, &rest, &square(&binary(Operator::Sub, x, center)))
-    });
+    let rest =
+        point.iter().zip(center).fold(start, |rest, (x, center)| &rest - &square(&(x - center)));
     in_box && matches!(sign(&rest), Some([_, true]))
 }
 

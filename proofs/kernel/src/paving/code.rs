@@ -115,12 +115,13 @@ impl Item {
     /// the same byte.
     pub fn read(input: &mut impl Read, node: u64) -> Result<(Self, Option<[Kind; 2]>), Rejected> {
         let mut source = Source { input, node };
+        let bad = |code| Rejected::BadCode(node, code);
         let (mut steps, mut at) = (Vec::new(), None);
         loop {
             let code = source.byte()?;
             // None is discharged twice, and there are no more than so many.
             if steps.len() > MOST_OBLIGATIONS {
-                return Err(Rejected::BadCode(node, code));
+                return Err(bad(code));
             }
             let (kind, halves) = match code {
                 OWN_STEP..0x20 => {
@@ -139,7 +140,7 @@ impl Item {
                 CUT => {
                     let normal = source.integers()?;
                     let Ok(ends) = source.integers()?.try_into() else {
-                        return Err(Rejected::BadCode(node, code));
+                        return Err(bad(code));
                     };
                     let fails = usize::from(source.byte()?);
                     (Kind::Cut(Cut { normal, ends, fails }), None)
@@ -169,13 +170,13 @@ impl Item {
                         let axis = Axis::ALL[usize::from(n / 25)];
                         Some((Kind::Split(axis), Some([plain(n / 5 % 5)?, plain(n % 5)?])))
                     });
-                    pair.ok_or(Rejected::BadCode(node, code))?
+                    pair.ok_or(bad(code))?
                 }
             };
             let kind = match (at, kind) {
                 (None, kind) => kind,
                 (Some(at), Kind::Outer(outer)) => Kind::At(at, outer),
-                _ => return Err(Rejected::BadCode(node, code)),
+                _ => return Err(bad(code)),
             };
             return Ok((Item { steps, kind }, halves));
         }

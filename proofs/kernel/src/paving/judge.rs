@@ -4,13 +4,13 @@ use super::cell::{Cell, Edge};
 use super::code::{Item, Kind, Outer, Step};
 use super::cut::SLACK_PLACES;
 use super::reader::Visited;
-use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS};
+use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS, NOT_A_BOX};
 use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::cell::Cell as Ranges;
 use crate::certificate::PRECISIONS;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::input::{binary, half_tangent, narrowed, Input, Value};
-use crate::number::{Expression, Operator};
+use crate::input::{half_tangent, narrowed, Input, Value};
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::Slopes;
@@ -24,6 +24,8 @@ use std::collections::HashMap;
 pub const AT_BITS: u32 = 16;
 /// Most bits of the fractions between which an angle is paved.
 const MOST_ANGLE: u64 = 256;
+const ANGLES: Rejected =
+    Rejected::Whole("an angle that is paved does not range between fractions of at most 256 bits");
 
 /// What the nodes of a paving are about.
 pub struct Subject {
@@ -52,15 +54,17 @@ impl Subject {
         }
         let is_whole = header.coordinates.is_none();
         if header.symmetry.is_some() && !(is_whole && symmetry::is_symmetric(&header.claim)) {
-            return Err(Rejected::NotSymmetric);
+            let why = "the claim is not provably the same in every permutation of the coordinates";
+            return Err(Rejected::Whole(why));
         }
         let problem = Problem::new(&header.claim)?;
         let of_two_points = |test: &Test| matches!(test, Test::OneToOne(_));
         if problem.obligations.iter().any(|obligation| of_two_points(&obligation.test)) {
-            return Err(Rejected::OfTwoPoints);
+            let why = "the claim is about two points at a time: one_to_one has no region";
+            return Err(Rejected::Whole(why));
         }
         if problem.obligations.len() > MOST_OBLIGATIONS {
-            return Err(Rejected::TooMany);
+            return Err(Rejected::Whole("the claim has more than 128 obligations"));
         }
         let (words, any_size) = (Fixed::new(bits), Fixed::new(bits));
         let places = problem.corners[0].len();
@@ -69,12 +73,12 @@ impl Subject {
             Some((k, [degrees(&ends[0])?, degrees(&ends[1])?]))
         };
         let angles = order[0].iter().filter_map(|k| k.checked_sub(places)).map(angle);
-        let angles = angles.collect::<Option<_>>().ok_or(Rejected::Angles)?;
+        let angles = angles.collect::<Option<_>>().ok_or(ANGLES)?;
         let subject = Subject { header: header.clone(), problem, order, angles, words, any_size };
         let [min, max] = subject.corners::<BigInt>()?;
         let has_volume = |k: &usize| min.get(*k).zip(max.get(*k)).is_some_and(|(a, b)| a.hi < b.lo);
         let has_volume = subject.order[0].iter().all(has_volume);
-        has_volume.then_some(subject).ok_or(Rejected::NotABox)
+        has_volume.then_some(subject).ok_or(NOT_A_BOX)
     }
 
     fn corners<Z: Integer>(&self) -> Result<[Vec<Interval<Z>>; 2], Rejected> {
@@ -86,7 +90,7 @@ impl Subject {
             }
             Some(corner)
         };
-        corner(0).zip(corner(1)).map(|(min, max)| [min, max]).ok_or(Rejected::NotABox)
+        corner(0).zip(corner(1)).map(|(min, max)| [min, max]).ok_or(NOT_A_BOX)
     }
 
     /// What is shown on the path to a cell on which nothing is left to be shown.
@@ -141,7 +145,10 @@ impl<'a> Judge<'a> {
             Kind::Split(_) | Kind::Part(_) if item.steps.is_empty() => return Ok(()),
             Kind::Mirrored => {
                 let is = self.subject.header.symmetry.is_some() && symmetry::is_mirrored(cell);
-                return is.then_some(()).ok_or(Rejected::NotMirrored(*node));
+                return is.then_some(()).ok_or(Rejected::Node(
+                    *node,
+                    " is left out by symmetry, but has points with u_x < u_y < u_z",
+                ));
             }
             _ => {}
         }
@@ -195,7 +202,10 @@ impl<'a, Z: Integer> Side<'a, Z> {
         (node, cell, inherited): (u64, &Cell, u128),
         item: &Item,
     ) -> Result<(), Rejected> {
-        let (step, outer) = (|o| Rejected::Step(node, o), || Rejected::Outer(node));
+        let (step, outer) = (
+            |o| Rejected::Step(node, o),
+            || Rejected::Node(node, " is not outer: it does not certainly fail throughout"),
+        );
         let edges = self.edges(subject, cell, &item.kind).ok_or_else(outer)?;
         let is_given = item.steps.iter().any(|step| step.1.is_some())
             || matches!(item.kind, Kind::Outer(Outer::Given(_)) | Kind::At(..) | Kind::Outside);
@@ -290,7 +300,7 @@ fn turned<Z: Integer>(
     let at = |j: i64| {
         let x = (min * whole(parts.checked_sub(j)?) + max * whole(j)) / whole(parts);
         let literal = |digits: &BigInt| Expression::Literal { digits: digits.clone(), places: 0 };
-        half_tangent(&binary(Operator::Div, &literal(x.numer()), &literal(x.denom())), 0, bits)
+        half_tangent(&(&literal(x.numer()) / &literal(x.denom())), 0, bits)
     };
     let [from, to] = edge.ends()?;
     narrowed(&Interval { lo: at(from)?.lo, hi: at(to)?.hi })

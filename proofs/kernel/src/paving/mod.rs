@@ -141,7 +141,7 @@ impl Header {
     /// the lemma *product*, the values of the others are the same for all of the cell. ∎
     ///
     /// # Errors
-    /// [`Rejected::NotABox`].
+    /// If they are none.
     pub fn order(&self) -> Result<[Vec<usize>; 2], Rejected> {
         let names = names(&self.claim);
         let place = |own: &String| names.iter().position(|name| name.as_ref() == Some(own));
@@ -151,12 +151,12 @@ impl Header {
             None => None,
         };
         let paved = paved.filter(|paved| (1..=3).contains(&paved.len()));
-        let paved = paved.ok_or(Rejected::NotABox)?;
+        let paved = paved.ok_or(NOT_A_BOX)?;
         let others: Vec<usize> = (0..names.len()).filter(|k| !paved.contains(k)).collect();
         // None stands there twice, and none is left over where it is not said which are paved.
         let is_order = paved.len() + others.len() == names.len()
             && (others.is_empty() || self.coordinates.is_some());
-        is_order.then_some([paved, others]).ok_or(Rejected::NotABox)
+        is_order.then_some([paved, others]).ok_or(NOT_A_BOX)
     }
 }
 
@@ -224,70 +224,36 @@ pub enum Rejected {
     /// The claim is not well formed.
     #[error("the claim is not well formed: {0}")]
     Claim(#[from] ClaimError),
-    /// What is paved has no volume, or too many coordinates.
-    #[error(
-        "what is paved is not a box of positive volume, of one to three coordinates without \
-         orientations, or of one to three different ones that are named"
-    )]
-    NotABox,
-    /// An angle that is paved does not range between short fractions.
-    #[error("an angle that is paved does not range between fractions of at most 256 bits")]
-    Angles,
-    /// The claim is about two points at a time.
-    #[error("the claim is about two points at a time: one_to_one has no region")]
-    OfTwoPoints,
-    /// The claim has too many obligations.
-    #[error("the claim has more than {MOST_OBLIGATIONS} obligations")]
-    TooMany,
+    /// What the header says cannot be so, or the last line.
+    #[error("{0}")]
+    Whole(&'static str),
     /// The precision is not admissible.
     #[error("precision {0} is not within {PRECISIONS:?}")]
     Precision(u32),
     /// The header's depth is too great.
     #[error("depth {0} is more than {SHARE_BITS}")]
     Depth(u32),
-    /// The claim does not have the symmetry.
-    #[error("the claim is not provably the same in every permutation of the coordinates")]
-    NotSymmetric,
     /// The bytes end within the tree.
     #[error("the bytes end within node {0}")]
     Truncated(u64),
     /// A byte that no node begins with, or evidence that is none.
     #[error("node {0}: byte {1:#04x} has no meaning there")]
     BadCode(u64, u8),
-    /// A node has steps of which no part of the tree makes use.
-    #[error("node {0} has steps but is neither split nor inner")]
-    IdleSteps(u64),
-    /// A cell is split more often than the header says, along an axis more often than
-    /// [`MAX_AXIS_LEVEL`], or along one that there is not.
-    #[error("node {0} is split too often")]
-    TooDeep(u64),
     /// A step does not discharge its obligation, or the cell is inner and nothing does.
     #[error("node {0}: obligation {1} is not certainly met on the cell")]
     Step(u64, usize),
     /// A step discharges what is discharged already.
     #[error("node {0}: obligation {1} is already discharged")]
     Repeated(u64, usize),
-    /// A cell is not shown to be outside.
-    #[error("node {0} is not outer: it does not certainly fail throughout")]
-    Outer(u64),
-    /// A part of a cell is something else than parts of a cell are, or a cell is what they alone are.
-    #[error(
-        "node {0}: parts of a cell, and they alone, are inner, in parts, or outside the workspace"
-    )]
-    Part(u64),
-    /// A cell is not left out by symmetry.
-    #[error("node {0} is left out by symmetry, but has points with u_x < u_y < u_z")]
-    NotMirrored(u64),
-    /// A cell is cut that cannot be, or by no plane.
-    #[error(
-        "node {0} is cut by no plane, or is no cell of all coordinates that stands for itself \
-         alone, or for five images"
-    )]
-    Cut(u64),
-    /// The last line is not that of the tree.
-    #[error("the last line is not the summary of the tree, or does not end the file")]
-    Summary,
+    /// A node that cannot be there, or is not shown to be what it says.
+    #[error("node {0}{1}")]
+    Node(u64, &'static str),
 }
+
+const NOT_A_BOX: Rejected = Rejected::Whole(
+    "what is paved is not a box of positive volume, of one to three coordinates without orientations, \
+     or of one to three different ones that are named",
+);
 
 /// Whether a file that begins with these bytes is meant as a paving.
 pub fn is_paving(bytes: &[u8]) -> bool {

@@ -114,10 +114,13 @@ impl<R: Read> Reader<R> {
             None => Item::read(&mut self.input, node)?,
         };
         self.nodes += 1;
+        let refused = |why| Err(Rejected::Node(node, why));
         let done = refuse_repetition(inherited, &item, node)?;
         let is_of_part = matches!(item.kind, Kind::Part(_) | Kind::Inner | Kind::Outside);
         if cell.is_part() && !is_of_part || item.kind == Kind::Outside && !cell.is_part() {
-            return Err(Rejected::Part(node));
+            return refused(
+                ": parts of a cell, and they alone, are inner, in parts, or outside the workspace",
+            );
         }
         let halved = match item.kind {
             Kind::Split(axis) => Some((self.halves(&cell, axis, depth), depth + 1)),
@@ -126,10 +129,13 @@ impl<R: Read> Reader<R> {
         };
         let is_cut = |cut: &Cut| cut.is_of(self.order[0].len()) && self.header.may_cut(&cell);
         if matches!(&item.kind, Kind::Cut(cut) if !is_cut(cut)) {
-            return Err(Rejected::Cut(node));
+            return refused(
+                " is cut by no plane, or is no cell of all coordinates that stands for itself alone, or for \
+                 five images",
+            );
         }
         if let Some((cells, depth)) = halved {
-            let (lower, upper) = cells.ok_or(Rejected::TooDeep(node))?;
+            let (lower, upper) = cells.ok_or(Rejected::Node(node, " is split too often"))?;
             let below = |cell| Root { cell, inherited: done, depth };
             let [first, second] = halves.map_or([None, None], |halves| halves.map(Some));
             self.waiting.push((below(upper), second));
@@ -157,15 +163,12 @@ impl<R: Read> Reader<R> {
                 summary.inner += 1;
             }
             Kind::Outer(_) | Kind::At(..) => summary.outer += 1,
-            Kind::Cut(cut) => {
+            Kind::Cut(_) | Kind::Boundary => {
                 let share = header.share(cell);
-                let [inner, outer] = cut.shares(share);
+                let cut = if let Kind::Cut(cut) = kind { Some(cut.shares(share)) } else { None };
+                let [inner, outer] = cut.unwrap_or_default();
                 summary.inner_share.0 += inner;
                 summary.boundary_share.0 += share - inner - outer;
-                summary.boundary += 1;
-            }
-            Kind::Boundary => {
-                summary.boundary_share.0 += header.share(cell);
                 summary.boundary += 1;
             }
             Kind::Mirrored => summary.mirrored += 1,
@@ -185,7 +188,9 @@ impl<R: Read> Reader<R> {
         let mut bytes = Vec::new();
         // One byte more than there may be, lest anything hide behind it.
         self.input.take(wanted.len() as u64 + 1).read_to_end(&mut bytes)?;
-        (bytes == wanted.as_bytes()).then_some(self.summary).ok_or(Rejected::Summary)
+        (bytes == wanted.as_bytes()).then_some(self.summary).ok_or(Rejected::Whole(
+            "the last line is not the summary of the tree, or does not end the file",
+        ))
     }
 }
 
@@ -221,7 +226,7 @@ fn refuse_repetition(inherited: u128, item: &Item, node: u64) -> Result<u128, Re
     match item.kind {
         Kind::Split(_) | Kind::Part(_) | Kind::Inner => Ok(done),
         _ if item.steps.is_empty() => Ok(done),
-        _ => Err(Rejected::IdleSteps(node)),
+        _ => Err(Rejected::Node(node, " has steps but is neither split nor inner")),
     }
 }
 

@@ -4,9 +4,9 @@ use super::{Context, Quantity, Test};
 use crate::claim::{self, Mechanism};
 use crate::compile::moved;
 use crate::formula::{formula, Formula, Op, Term};
-use crate::input::{binary, magnitude, malformed, ordered, ClaimError, Value};
+use crate::input::{magnitude, malformed, ordered, ClaimError, Value};
 use crate::machine::{motion::Motion, Joint, Leg};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::test::accuracy::Accuracy;
 
 pub(super) const ACCURACY: Quantity = Quantity {
@@ -31,7 +31,7 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     let max = context.positive(context.greatest()?)?;
     let error = context.given("joint_error")?;
     ordered(context.place, &Expression::integer(0), error, false)?;
-    let error = binary(Operator::Div, error, max);
+    let error = error / max;
     let tolerances = half_widths(context, max);
     let by: Vec<Op> = tolerances.iter().map(|&(op, _)| op).collect();
     let mut joints = Vec::new();
@@ -122,11 +122,11 @@ fn turned_on<'r>(
 
 /// Of each toleranced parameter its half-width over `d`, in the units of formulas.
 fn half_widths(context: &mut Context<'_>, d: &Expression) -> Vec<(Op, Formula)> {
-    let two_d = binary(Operator::Mul, &Expression::integer(2), d);
+    let two_d = &Expression::integer(2) * d;
     let width = |(j, input): (usize, &crate::input::Input)| match &input.value {
         Value::Quantity(claim::Quantity::Between { min, max }) => {
-            let width = binary(Operator::Sub, max, min);
-            Some((Op::Parameter(j), binary(Operator::Div, &width, &two_d), input.scale))
+            let width = max - min;
+            Some((Op::Parameter(j), &width / &two_d, input.scale))
         }
         _ => None,
     };

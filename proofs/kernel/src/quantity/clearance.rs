@@ -3,8 +3,8 @@
 use super::{Context, Quantity, Test};
 use crate::claim::{Body, Mechanism};
 use crate::formula::{formula, Formula, Term, Vector};
-use crate::input::{binary, ordered, positive, ClaimError};
-use crate::number::{Expression, Operator};
+use crate::input::{ordered, positive, ClaimError};
+use crate::number::Expression;
 use crate::test::apart::Apart;
 
 pub(super) const CLEARANCE: Quantity = Quantity {
@@ -64,8 +64,8 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
             if !apart && one.offset.or(other.offset).is_none() {
                 continue;
             }
-            let radii = binary(Operator::Add, one.radius, other.radius);
-            let distance = context.number(&binary(Operator::Add, &radii, gap), 1);
+            let radii = one.radius + other.radius;
+            let distance = context.number(&(&radii + gap), 1);
             let (bodies, ends) = ([i + 1, j + 1], [one.ends, other.ends]);
             tests.push(match one.fixed_to {
                 FixedTo::Leg(leg) if !apart => beside(context, leg, [one, other], distance)?,

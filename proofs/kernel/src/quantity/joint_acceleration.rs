@@ -2,9 +2,9 @@
 
 use super::{few, Context, Quantity, Test};
 use crate::formula::{coordinates, formula, Formula, Term};
-use crate::input::{binary, ordered, ClaimError, Value};
+use crate::input::{ordered, ClaimError, Value};
 use crate::machine::{Joint, Leg};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::test::curvature::Curvature;
 
 pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
@@ -35,9 +35,9 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
     for given in [acceleration, speed] {
         ordered(context.place, &zero, given, false)?;
     }
-    let square = binary(Operator::Mul, speed, speed);
+    let square = speed * speed;
     let mut over_max = |x: &Expression, units: i64| {
-        let ratio = binary(Operator::Div, x, max);
+        let ratio = x / max;
         if !leg.is_angular() {
             return context.number(&ratio, units);
         }

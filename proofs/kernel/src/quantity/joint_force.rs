@@ -1,9 +1,8 @@
 //! The joint force that a force on the platform asks for.
 
 use super::{Context, Quantity, Test};
-use crate::input::{binary, ClaimError};
+use crate::input::ClaimError;
 use crate::machine::Leg;
-use crate::number::Operator;
 use crate::test::solve::Solve;
 
 pub(super) const JOINT_FORCE: Quantity = Quantity {
@@ -25,7 +24,7 @@ fn tests(context: &mut Context<'_>, (joint, _): (usize, &Leg)) -> Result<Vec<Tes
     let max = context.positive(context.greatest()?)?;
     let tool = context.positive(context.given("tool")?)?;
     let units = if context.is_angular() { -1 } else { 0 };
-    let k = context.number(&binary(Operator::Div, tool, max), units);
+    let k = context.number(&(tool / max), units);
     let square = context.tape().sqr(k);
     Ok(vec![Test::Solve(Solve { joint, square })])
 }

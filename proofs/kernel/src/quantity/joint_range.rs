@@ -3,9 +3,9 @@
 use super::{Context, Quantity, Test};
 use crate::claim::{Bound, Mechanism};
 use crate::formula::{formula, Term};
-use crate::input::{binary, ordered, sign, ClaimError, Value};
+use crate::input::{ordered, sign, ClaimError, Value};
 use crate::machine::{Joint, Leg};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 
 pub(super) const JOINT_RANGE: Quantity = Quantity {
     key: "joint_range",
@@ -42,7 +42,7 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
         }
         (Some(Joint::Angle { cos, sin }), Bound::Within([min, max])) => {
             ordered(context.place, min, max, true)?;
-            let half_turn = binary(Operator::Add, min, &Expression::integer(180));
+            let half_turn = min + &Expression::integer(180);
             ordered(context.place, max, &half_turn, true)?;
             let mut end = |x: &Expression| {
                 let cos = context.input(Value::Cosine(x.clone()));

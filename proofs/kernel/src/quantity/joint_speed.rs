@@ -1,9 +1,8 @@
 //! The joint speed that a platform speed asks for: `|row_i of M| tool`.
 
 use super::{Context, Quantity, Test};
-use crate::input::{binary, ClaimError, Value};
+use crate::input::{ClaimError, Value};
 use crate::machine::Leg;
-use crate::number::Operator;
 
 pub(super) const JOINT_SPEED: Quantity = Quantity {
     key: "joint_speed",
@@ -18,7 +17,7 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
 fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
     let max = context.positive(context.greatest()?)?;
     let tool = context.positive(context.given("tool")?)?;
-    let ratio = binary(Operator::Div, max, tool);
+    let ratio = max / tool;
     let k = if leg.is_angular() {
         let scale = -context.builder.scale;
         context.builder.input(context.place, Value::Radians(ratio), scale)

@@ -2,9 +2,8 @@
 
 use super::{determinant, Context, Quantity, Test};
 use crate::formula::{formula, Formula, Term};
-use crate::input::{binary, sign, ClaimError};
+use crate::input::{sign, ClaimError};
 use crate::machine::Leg;
-use crate::number::Operator;
 
 pub(super) const LOAD: Quantity = Quantity {
     key: "load",
@@ -32,7 +31,7 @@ fn tests(context: &mut Context<'_>, (joint, leg): (usize, &Leg)) -> Result<Vec<T
         return context.refused("given a force, not zero, of a number for each coordinate");
     }
     let units = if context.is_angular() { -1 } else { 0 };
-    let ratio = |x| context.number(&binary(Operator::Div, x, max), units);
+    let ratio = |x| context.number(&(x / max), units);
     let force: Vec<Formula> = force.iter().map(ratio).collect();
     let own: Vec<_> = context.legs.iter().map(|leg| leg.row.a.clone()).collect();
     let mut replaced = own.clone();

@@ -1,8 +1,7 @@
 //! Stiffness at the platform, of elastic joints and rigid legs.
 
 use super::{Context, Quantity, Test};
-use crate::input::{binary, positive, ClaimError};
-use crate::number::Operator;
+use crate::input::{positive, ClaimError};
 
 pub(super) const STIFFNESS: Quantity = Quantity {
     key: "stiffness",
@@ -28,7 +27,7 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     }
     for (row, k) in rows.iter_mut().zip(given.iter().cycle()) {
         positive(context.place, k)?;
-        let ratio = context.number(&binary(Operator::Div, bound, k), units);
+        let ratio = context.number(&(bound / k), units);
         row.d = context.tape().mul(row.d, ratio);
     }
     Ok(vec![Test::Least(rows, weight)])

@@ -2,8 +2,8 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
-use crate::input::{binary, positive, ClaimError};
-use crate::number::{Expression, Operator};
+use crate::input::{positive, ClaimError};
+use crate::number::Expression;
 
 pub(super) const TRANSMISSION: Quantity = Quantity {
     key: "transmission",
@@ -20,7 +20,7 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     };
     positive(context.place, bound)?;
     let one = Expression::integer(1);
-    let inverse = binary(Operator::Div, &one, bound);
+    let inverse = &one / bound;
     // M is an angle per length for arms.
     let units = if context.is_angular() { -1 } else { 0 };
     let sigma = context.number(&inverse, units);

@@ -58,27 +58,21 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         parameters: Vec<E::Number>,
         tight: Option<[E::Number; 2]>,
     ) -> Self {
-        let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
-        let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
         let scaled = problem.scaled();
-        let controls = problem.controls(&scaled, None);
-        let derived = problem.derived.as_ref();
-        let derived = derived.map_or_else(Vec::new, |own| problem.controls(&scaled, Some(own)));
-        let needed = own::needed(problem);
-        let chords = None;
+        let derived = problem.derived.as_ref().map(|own| problem.controls(&scaled, Some(own)));
         let mut checker = Checker {
             problem,
             arithmetic,
             parameters,
             varying: Vec::new(),
             tight,
-            rows,
-            divided,
+            rows: problem.legs.iter().map(|leg| leg.row.clone()).collect(),
+            divided: problem.legs.iter().map(|leg| leg.divided.clone()).collect(),
+            controls: problem.controls(&scaled, None),
+            derived: derived.unwrap_or_default(),
             scaled,
-            controls,
-            derived,
-            chords,
-            needed,
+            chords: None,
+            needed: own::needed(problem),
             constant: Values::default(),
         };
         checker.constant = checker.values(None, &[]);

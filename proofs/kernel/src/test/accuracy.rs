@@ -207,11 +207,23 @@ pub fn accuracy<E: Enclosure>(
             Some(_) => return None,
         };
         let holds = |v| {
-            let shown = match &slopes {
+            let (rows, weight, d, b) = match &slopes {
                 None => at_vertex(over, test, v, p)?,
                 Some((beta, q)) => at_control(over, test, v, p, [beta, q])?,
             };
-            shown.holds(over, v, evidence, [&kappa, &square])
+            let rows: Vec<&[E::Number]> = rows.iter().map(|row| &row[..]).collect();
+            let start = over.less_inside(e.integer(0)?, v)?;
+            let below = below_square(e, &rows, (&weight, &start), evidence)?;
+            let corner = over.less_inside(e.mul(&weight, &square)?, v)?;
+            let mut least = below.clone();
+            least.change(|i, j, entry| match i == j {
+                true => e.sub(entry, &e.mul(&kappa, d.get(i)?)?),
+                false => Some(entry.clone()),
+            })?;
+            Some(
+                is_positive_definite(e, &least)
+                    && are_positive_definite(e, &below, signed(e, &b)?, &corner),
+            )
         };
         over.vertices().all(|v| holds(v) == Some(true)).then_some(())
     };
@@ -224,7 +236,7 @@ fn weighted<E: Enclosure>(
     test: &Accuracy,
     p: u32,
     row: impl Iterator<Item = Option<E::Number>>,
-) -> Option<Vec<E::Number>> {
+) -> Option<Vector<E::Number>> {
     let own = |(k, x): (usize, Option<E::Number>)| match test.part.contains(&k) {
         true => x,
         false => e.dyadic(1 << p, 0, &x?),
@@ -285,14 +297,8 @@ fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Num
     test.scaled.iter().map(root).collect()
 }
 
-/// What is shown at a vertex or control point: the rows with their weight, what `kappa^2` is multiplied by in
-/// each row, and `b`.
-struct Shown<N> {
-    rows: Vec<Vec<N>>,
-    weight: N,
-    d: Vec<N>,
-    b: Vec<N>,
-}
+/// At a vertex or control point the rows, their weight, what `kappa^2` is multiplied by in each row, and `b`.
+type Shown<N> = (Vec<Vector<N>>, N, Vec<N>, Vec<N>);
 
 fn at_vertex<E: Enclosure>(
     over: &Over<'_, E>,
@@ -302,11 +308,11 @@ fn at_vertex<E: Enclosure>(
 ) -> Option<Shown<E::Number>> {
     let e = over.slopes.arithmetic;
     let at = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
-    let rows: Vec<Vec<E::Number>> = test.rows.iter().map(at).collect::<Option<_>>()?;
+    let rows: Vec<_> = test.rows.iter().map(at).collect::<Option<_>>()?;
     let weight = e.integer(1)?;
     let d = vec![weight.clone(); rows.len()];
     let b = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
-    Some(Shown { rows, weight, d, b })
+    Some((rows, weight, d, b))
 }
 
 fn at_control<E: Enclosure>(
@@ -328,30 +334,5 @@ fn at_control<E: Enclosure>(
         e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
     };
     let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
-    Some(Shown { rows, weight, d, b })
-}
-
-impl<N: Clone> Shown<N> {
-    fn holds<E: Enclosure<Number = N>>(
-        &self,
-        over: &Over<'_, E>,
-        v: Vertex,
-        evidence: &Multiplier,
-        [kappa_squared, square]: [&N; 2],
-    ) -> Option<bool> {
-        let e = over.slopes.arithmetic;
-        let rows: Vec<&[N]> = self.rows.iter().map(Vec::as_slice).collect();
-        let start = over.less_inside(e.integer(0)?, v)?;
-        let below = below_square(e, &rows, (&self.weight, &start), evidence)?;
-        let corner = over.less_inside(e.mul(&self.weight, square)?, v)?;
-        let mut least = below.clone();
-        least.change(|i, j, entry| match i == j {
-            true => e.sub(entry, &e.mul(kappa_squared, self.d.get(i)?)?),
-            false => Some(entry.clone()),
-        })?;
-        Some(
-            is_positive_definite(e, &least)
-                && are_positive_definite(e, &below, signed(e, &self.b)?, &corner),
-        )
-    }
+    Some((rows, weight, d, b))
 }

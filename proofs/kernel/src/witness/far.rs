@@ -3,9 +3,8 @@
 use super::{values_at, AtPoint, Number};
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::formula::Values;
-use crate::input::binary;
 use crate::machine::{Joint, Leg};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::slope::Slopes;
 use crate::test::accuracy::{near, spread, Accuracy};
 use crate::test::Over;
@@ -49,7 +48,7 @@ impl AtPoint<'_> {
     fn off_nominal(&self) -> Option<Vec<Number>> {
         let (e, problem) = (&self.arithmetic, self.problem);
         let middle = |(_, min, max): (&str, &Expression, &Expression)| {
-            binary(Operator::Div, &binary(Operator::Add, min, max), &Expression::integer(2))
+            &(min + max) / &Expression::integer(2)
         };
         let middle: Vec<Expression> = problem.tolerances().map(middle).collect();
         let with = |machine: &[Expression]| {

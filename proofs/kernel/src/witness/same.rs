@@ -5,9 +5,9 @@ use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::cell::{evaluate, Vertex};
 use crate::claim::Workspace;
 use crate::fixed::{Integer, Interval};
-use crate::input::{binary, sign};
+use crate::input::sign;
 use crate::machine::{Joint, Leg};
-use crate::number::{Expression, Operator};
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::slope::{Slope, Slopes};
 use crate::test::Multiplier;
@@ -24,9 +24,7 @@ pub(super) fn is_beside(
     [least, greatest]: [&[Expression]; 2],
 ) -> Result<(), WitnessError> {
     let m = problem.dimension();
-    let less = |a: &Expression, b: &Expression| {
-        matches!(sign(&binary(Operator::Sub, b, a)), Some([true, _]))
-    };
+    let less = |a: &Expression, b: &Expression| matches!(sign(&(b - a)), Some([true, _]));
     let corner = |v: Vertex| -> Vec<Expression> {
         let end = |k: usize| if v.has(k) { greatest[k].clone() } else { least[k].clone() };
         (0..m).map(end).collect()
