@@ -8,19 +8,36 @@
 //!
 //! | module             | holds                                                                |
 //! |--------------------|----------------------------------------------------------------------|
-//! | `check`            | reading and checking; why files are rejected                         |
 //! | [`statement`]      | the claim in words                                                   |
 //! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible  |
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
-mod check;
 pub mod file;
 pub mod statement;
 
-pub use check::{check, read, Rejected};
+pub use orthocert_kernel::rejected::Rejected;
 pub use orthocert_kernel::{certificate, paving};
+
+use certificate::{Certificate, Verdict};
+
+/// Reads a certificate.
+///
+/// # Errors
+/// If it is none, or too large.
+pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
+    Ok(Certificate::read(bytes)?)
+}
+
+/// Checks a certificate, the only way to an accepted verdict: recomputes everything that its proof uses
+/// from its claim. Returns its verdict, which is then true.
+///
+/// # Errors
+/// If its proof does not show what its verdict says of its claim.
+pub fn check(certificate: &Certificate) -> Result<Verdict, Rejected> {
+    orthocert_kernel::check::check(certificate).map(|()| certificate.verdict)
+}
 
 /// What `orthocert-check --help` prints.
 pub const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
@@ -29,9 +46,8 @@ Re-proves an orthocert certificate or paving in exact arithmetic and prints what
 exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
 
 /// Every file of `src`, with its path there, in the order of the paths' bytes.
-pub const SOURCES: [(&str, &[u8]); 5] = [
+pub const SOURCES: [(&str, &[u8]); 4] = [
     ("bin/orthocert-check.rs", include_bytes!("bin/orthocert-check.rs")),
-    ("check.rs", include_bytes!("check.rs")),
     ("file.rs", include_bytes!("file.rs")),
     ("lib.rs", include_bytes!("lib.rs")),
     ("statement.rs", include_bytes!("statement.rs")),

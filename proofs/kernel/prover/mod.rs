@@ -17,7 +17,7 @@ use crate::formula::Formula;
 use crate::input::{ClaimError, Input, Value};
 use crate::rejected::Rejected;
 use crate::test::accuracy::Accuracy;
-use crate::work::{Budget, LEAST_BYTES};
+use crate::work::LEAST_BYTES;
 
 /// Every file of `src`, with its path there, in the order of the paths' bytes; listed by `build.rs`.
 pub const SOURCES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
@@ -32,7 +32,7 @@ pub fn check_cell(
     cell: &AtlasCell,
 ) -> Result<(), Rejected> {
     claim.validate()?;
-    shown(claim, part, cell, Budget::new(LEAST_BYTES))
+    shown(claim, part, cell, LEAST_BYTES)
 }
 
 /// The claim with the machine of the paper's cube written out; any other claim as it is. What follows

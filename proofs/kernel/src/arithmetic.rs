@@ -28,6 +28,18 @@ pub trait Arithmetic {
     fn sqr(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `sqrt(a)`, for `a > 0` only: at zero a root has no slope.
     fn sqrt(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// The sum of these, from 0 on.
+    fn sum(&self, mut terms: impl Iterator<Item = Option<Self::Number>>) -> Option<Self::Number> {
+        terms.try_fold(self.integer(0)?, |sum, term| self.add(&sum, &term?))
+    }
+    /// `u . v`.
+    fn dot(&self, u: &[Self::Number], v: &[Self::Number]) -> Option<Self::Number> {
+        self.sum(u.iter().zip(v).map(|(u, v)| self.mul(u, v)))
+    }
+    /// `|v|^2`.
+    fn square(&self, v: &[Self::Number]) -> Option<Self::Number> {
+        self.sum(v.iter().map(|v| self.sqr(v)))
+    }
     /// [`elbow`].
     fn elbow(&self, of: [&Self::Number; 3]) -> Option<[Self::Number; 2]> {
         elbow(self, of)

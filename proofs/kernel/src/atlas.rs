@@ -10,7 +10,7 @@ use crate::statement::{holds, workspace};
 use crate::tree;
 use crate::vary::{vary, Range, MOST_PARAMETERS};
 use crate::witness;
-use crate::work::{self, Budget};
+use crate::work::{self, spend};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -198,7 +198,7 @@ pub fn check_part(
         if !is_wanted(at) {
             return Ok(());
         }
-        let shown = shown(claim, part, cell, Budget::new(each.saturating_add(bytes(cell))));
+        let shown = shown(claim, part, cell, each.saturating_add(bytes(cell)));
         shown.map_err(|why| Rejected::Cell(at, Box::new(why)))
     })?;
     let reaches = |share: &Expression, found: &BigRational| {
@@ -233,26 +233,29 @@ pub(crate) fn shown(
     claim: &AtlasClaim,
     part: &[(u64, u32)],
     cell: &AtlasCell,
-    mut budget: Budget,
+    bytes: usize,
 ) -> Result<(), Rejected> {
     if matches!(cell, AtlasCell::Undecided | AtlasCell::Split(_)) {
         return Ok(());
     }
+    let mut left = bytes.saturating_mul(work::WORK_A_BYTE);
     let mut over = claim.over(part)?;
     let numbers: usize = over.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
-    budget.spend(numbers)?;
+    spend(&mut left, numbers)?;
     let problem = Problem::new(&over)?;
-    budget.spend(work::of_problem(&problem))?;
+    spend(&mut left, work::of_problem(&problem))?;
     match cell {
         AtlasCell::Certified(tree) => {
-            budget.spend(work::of_tree(&problem, tree))?;
-            tree::check(&problem, tree)
+            spend(&mut left, work::of_numbers(&problem, tree))?;
+            let most_work = problem.most_work.min(left);
+            tree::check(&Problem { most_work, ..problem }, tree)
         }
         AtlasCell::Refuted(witness) => {
             let mut witness = claim.witness_over(part, witness)?;
             let numbers = witness.numbers_mut().into_iter().map(|x| work::of_number(x));
             let numbers: usize = numbers.sum();
-            budget.spend(numbers.saturating_add(work::of_witness(&problem, witness.precision)))?;
+            let at_point = work::of_witness(&problem, witness.precision);
+            spend(&mut left, numbers.saturating_add(at_point))?;
             Ok(witness::check(&problem, &over.workspace, &witness)?)
         }
         AtlasCell::Undecided | AtlasCell::Split(_) => Ok(()),

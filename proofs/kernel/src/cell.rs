@@ -73,12 +73,18 @@ pub fn evaluate<E: Enclosure>(
 /// Of a part of the cell, the hull of its corners, the vertices are these: what is said of the cell is true of
 /// the part, by the same proof.
 ///
-/// About a corner, `lambda` is in `[0, 1]^m`, and the vertices are [`Vertex::value_about_corner`].
+/// About a corner, `lambda` is in `[0, 1]^m`: of that part the vertices are [`unit_corners`].
 ///
 /// So where a set of matrices is convex, and holds the matrices of all `f_v` in their enclosures
 /// [`Vertex::value`], it holds that of `f(x)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vertex(u32);
+
+/// The corners of `[0, 1]^m`, in units of `2^-CORNER_PLACES`: bit `k` is set where `lambda_k = 1`.
+pub fn unit_corners(m: usize) -> Vec<Vec<i64>> {
+    let corner = |v: Vertex| (0..m).map(|k| i64::from(v.has(k)) << CORNER_PLACES).collect();
+    Vertex::all(m).map(corner).collect()
+}
 
 impl Vertex {
     /// The vertices of a cell with `m` coordinates.
@@ -111,19 +117,6 @@ impl Vertex {
                 let lambda = *corners.get(self.index())?.get(k)?;
                 e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)
             }
-        })
-    }
-
-    /// Encloses `f_v` where `lambda_k` is 1 or 0.
-    pub fn value_about_corner<E: Enclosure>(
-        self,
-        slopes: &Slopes<'_, E>,
-        slope: &Slope<E::Number>,
-    ) -> Option<E::Number> {
-        let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
-        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match self.has(k) {
-            true => slopes.arithmetic.add(&sum, term),
-            false => Some(sum),
         })
     }
 

@@ -14,7 +14,7 @@ pub type Vector<N> = Few<N, MOST_ROWS>;
 #[derive(Clone, Debug)]
 pub struct Triangle<N> {
     n: usize,
-    entries: Few<N, { MOST_ROWS * (MOST_ROWS + 1) / 2 }>,
+    pub(crate) entries: Few<N, { MOST_ROWS * (MOST_ROWS + 1) / 2 }>,
 }
 
 impl<N: Clone + Default> Triangle<N> {
@@ -57,12 +57,6 @@ impl<N: Clone + Default> Triangle<N> {
         Some(())
     }
 
-    /// Makes `C` of `[[a, b^T], [b, C]]` its Schur complement, given `(a, b)`; `None` unless `a` is certainly
-    /// positive.
-    pub(crate) fn complement<E: Enclosure<Number = N>>(&mut self, e: &E, row: &[N]) -> Option<()> {
-        eliminate(e, row, &mut self.entries)
-    }
-
     /// Eliminates each row from those below; `None` where one cannot be.
     ///
     /// **Lemma.** A symmetric matrix `[[a, b^T], [b, C]]` is positive definite if and only if `a > 0` and
@@ -81,9 +75,14 @@ impl<N: Clone + Default> Triangle<N> {
     }
 }
 
-/// The rows below `(a, b)` become those of the Schur complement.
+/// Makes the rows of `C` in `[[a, b^T], [b, C]]` those of its Schur complement, given `(a, b)`; `None` unless `a` is
+/// certainly positive.
 #[inline]
-fn eliminate<E: Enclosure>(e: &E, row: &[E::Number], mut below: &mut [E::Number]) -> Option<()> {
+pub(crate) fn eliminate<E: Enclosure>(
+    e: &E,
+    row: &[E::Number],
+    mut below: &mut [E::Number],
+) -> Option<()> {
     let (a, mut b) = row.split_first()?;
     if !e.is_positive(a) {
         return None;

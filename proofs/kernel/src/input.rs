@@ -4,7 +4,7 @@ use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::Expression;
-use crate::slope::Slope;
+use crate::slope::{Slope, Slopes};
 use crate::trig::{cos_sin, pi, shortened};
 use crate::vary;
 use num_bigint::BigInt;
@@ -97,7 +97,7 @@ pub(crate) fn sloped(
     place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Interval<BigInt>>> {
     scaled(scale, bits, |working, by| {
-        let x = vary::sloped(number, working, m, place)?;
+        let x = vary::sloped(number, &Slopes::new(&Fixed::new(working), m), place)?;
         let (at_centre, range) = (by(&x.at_centre), by(&x.range));
         Some(Slope { at_centre, range, slopes: x.slopes.map(|x| by(&x)) })
     })

@@ -2,36 +2,20 @@
 
 use crate::certificate::Tree;
 use crate::claim::NoCubeClaim;
-use crate::fixed::Integer;
-use crate::input::{enclosed, malformed, narrowed, positive};
+use crate::input::{malformed, positive};
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{box_of, holds};
-use crate::tree::{self, Theorem, OFFSET_PARTS};
+use crate::tree::{self, OFFSET_PARTS};
 
-/// A claim, compiled.
-struct NoCube {
-    problem: Problem,
-    /// One of the parts of half the side.
-    part: Expression,
-}
-
+/// Accepts a proof of a claim whose machine is compiled, or says why not.
+///
 /// **Lemma (no cube).** If every leaf fails at an offset of at most [`OFFSET_PARTS`] either way, the
 /// claim is true. *Proof.* A centre `C` is in a leaf's cell, and `C + o` is in the cube about it, for
 /// the leaf's offset `o`, as `|o_k| <= side/2`. It is one of the cell's points moved by `o`, at all of
 /// which the claim of the machine fails, for every machine. ∎ With an orientation, a "cube" would be of
 /// coordinates of other kinds too.
-impl Theorem for NoCube {
-    fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
-        let part = enclosed(&self.part, self.problem.scale, tree.precision);
-        let part = part.and_then(|part| narrowed(&part));
-        let part = part.ok_or_else(|| malformed("side", "a number"))?;
-        tree::prove::<Z>(&self.problem, tree, Some(&part))
-    }
-}
-
-/// Accepts a proof of a claim whose machine is compiled, or says why not.
 pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Result<(), Rejected> {
     let is_box =
         problem.inside.is_none() && problem.cube_kappa.is_none() && problem.turned.is_none();
@@ -40,8 +24,8 @@ pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Resul
         return Err(malformed("workspace", expected).into());
     }
     positive("side", &claim.side)?;
-    let part = &claim.side / &Expression::integer(2 * OFFSET_PARTS);
-    tree::check(&NoCube { problem, part }, tree)
+    let part = Some(&claim.side / &Expression::integer(2 * OFFSET_PARTS));
+    tree::check(&Problem { offset: part, ..problem }, tree)
 }
 
 /// What an accepted claim establishes.

@@ -413,22 +413,16 @@ impl Expression {
                 if arithmetic.is_positive(&radicand) {
                     return arithmetic.sqrt(&radicand);
                 }
-                if radicand.lo.is_negative() && inner.varies() {
-                    return None;
-                }
-                // Dear to ask, and never so of what is enclosed by positive numbers.
-                if inner.rational().is_some_and(|x| x.is_negative()) {
-                    return None;
-                }
-                let zero = BigInt::zero();
-                match radicand.hi.cmp(&zero) {
-                    std::cmp::Ordering::Less => None,
-                    std::cmp::Ordering::Equal => Some(Interval::point(zero)),
-                    std::cmp::Ordering::Greater => {
-                        let whole = arithmetic.sqrt(&Interval::point(radicand.hi))?;
-                        Some(Interval { lo: zero, hi: whole.hi })
-                    }
-                }
+                // Dear to ask whether it is negative, and never so of what is enclosed by positive numbers.
+                let is_none = radicand.lo.is_negative() && inner.varies()
+                    || inner.rational().is_some_and(|x| x.is_negative())
+                    || radicand.hi.is_negative();
+                let hi = match radicand.hi.is_zero() {
+                    _ if is_none => return None,
+                    true => BigInt::zero(),
+                    false => arithmetic.sqrt(&Interval::point(radicand.hi))?.hi,
+                };
+                Some(Interval { lo: BigInt::zero(), hi })
             }
         }
     }

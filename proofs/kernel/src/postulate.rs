@@ -52,7 +52,7 @@
 //! at the vertices of `[-p, 1] x [0, 1]`. ∎
 
 use crate::arithmetic::Enclosure;
-use crate::cell::{evaluate, Cell, Vertex};
+use crate::cell::{evaluate, unit_corners, Cell, Vertex};
 use crate::certificate::{Corner, Evidence, Node, Tree};
 use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use crate::compile::{compiled, Builder};
@@ -202,8 +202,7 @@ impl Part {
     fn is_definite<E: Enclosure>(&self, e: &E, edges: [[E::Number; 3]; 3]) -> Option<bool> {
         let slopes = Slopes::new(e, 3);
         let values = evaluate(&self.tape, &[], slopes, &edges);
-        let at = |v: Vertex, f: &_| v.value(&slopes, f);
-        Some(Vertex::all(3).all(|v| self.is_definite_at(e, &values, |f| at(v, f))))
+        Some(Vertex::all(3).all(|v| self.is_definite_at(slopes, &values, v)))
     }
 
     /// **Tight edge.** For every `kappa`, let `Q` be the face's own corner, `u = 0` or `u = 1`, and
@@ -230,22 +229,23 @@ impl Part {
             Some([from.clone(), range.clone(), e.sub(&end, &from)?])
         };
         let edges = [about(y)?, about(z)?, [kappa.clone(), kappa.clone(), e.integer(0)?]];
-        let slopes = Slopes::new(e, 3);
+        let corners = unit_corners(3);
+        let slopes = Slopes { part: Some(&corners), ..Slopes::new(e, 3) };
         let values = evaluate(&self.tape, &[], slopes, &edges);
-        let at = |v: Vertex, f: &_| v.value_about_corner(&slopes, f);
-        Some(Vertex::all(2).skip(1).all(|v| self.is_definite_at(e, &values, |f| at(v, f))))
+        Some(Vertex::all(2).skip(1).all(|v| self.is_definite_at(slopes, &values, v)))
     }
 
     /// Whether `F` is positive definite at a vertex.
     fn is_definite_at<E: Enclosure>(
         &self,
-        e: &E,
+        slopes: Slopes<'_, E>,
         values: &Values<Slope<E::Number>>,
-        at: impl Fn(&Slope<E::Number>) -> Option<E::Number>,
+        v: Vertex,
     ) -> bool {
         let [d, off @ ..] = self.entries;
-        let entry = |i, j| at(values.of(if i == j { d } else { off[i + j - 1] })?);
-        Triangle::new(3, entry).is_some_and(|f| is_positive_definite(e, &f))
+        let of = |i, j| values.of(if i == j { d } else { off[i + j - 1] });
+        Triangle::new(3, |i, j| v.value(&slopes, of(i, j)?))
+            .is_some_and(|f| is_positive_definite(slopes.arithmetic, &f))
     }
 }
 

@@ -16,6 +16,7 @@ use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
 use crate::test::tolerances::Derivatives;
 use crate::test::Row;
+use crate::tree::MOST_WORK;
 use crate::vary;
 use num_bigint::BigInt;
 use std::collections::{BTreeSet, HashMap};
@@ -58,6 +59,10 @@ pub struct Problem {
     pub names: Vec<usize>,
     /// The derivatives of tests by tolerances, where they are asked for.
     pub derived: Option<Derived>,
+    /// Of a claim that no cube fits, a part of half of the side: cells are moved by so many of these.
+    pub(crate) offset: Option<Expression>,
+    /// The most work that a proof may ask for.
+    pub(crate) most_work: usize,
 }
 
 /// A problem's derivatives by its quantities with two ends.
@@ -150,6 +155,8 @@ impl Problem {
             cube_reached: Vec::new(),
             names: Vec::new(),
             derived: None,
+            offset: None,
+            most_work: MOST_WORK,
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;

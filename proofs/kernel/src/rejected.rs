@@ -1,5 +1,6 @@
 //! Why a proof is not accepted.
 
+use crate::document::Unreadable;
 use crate::input::ClaimError;
 use crate::witness::WitnessError;
 use thiserror::Error;
@@ -7,6 +8,9 @@ use thiserror::Error;
 /// Why a certificate is not accepted. Nodes and cells are counted from zero.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Rejected {
+    /// There is no certificate.
+    #[error("not a certificate: {0}")]
+    Unreadable(#[from] Unreadable),
     /// The claim is not well formed.
     #[error("the claim is not well formed: {0}")]
     Claim(#[from] ClaimError),
@@ -23,29 +27,14 @@ pub enum Rejected {
     #[error("the proof is longer than is admissible")]
     Work,
     /// A step does not show what it says.
-    #[error("node {node}: obligation {obligation} is not certainly met on the cell")]
-    Step {
-        /// The node.
-        node: usize,
-        /// The obligation.
-        obligation: usize,
-    },
+    #[error("node {0}: obligation {1} is not certainly met on the cell")]
+    Step(usize, usize),
     /// An obligation that is discharged already, or that there is not.
-    #[error("node {node}: obligation {obligation} is not open")]
-    Repeated {
-        /// The node.
-        node: usize,
-        /// The obligation.
-        obligation: usize,
-    },
+    #[error("node {0}: obligation {1} is not open")]
+    Repeated(usize, usize),
     /// A leaf on which an obligation is not discharged.
-    #[error("node {node}: obligation {obligation} is not discharged")]
-    Open {
-        /// The node.
-        node: usize,
-        /// The obligation.
-        obligation: usize,
-    },
+    #[error("node {0}: obligation {1} is not discharged")]
+    Open(usize, usize),
     /// A leaf on which the claim does not certainly fail as it says.
     #[error("node {0}: it does not certainly fail throughout")]
     Holds(usize),

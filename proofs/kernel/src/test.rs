@@ -30,7 +30,7 @@ use self::tolerances::{less_changes, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
-use crate::definite::{is_positive_definite, Triangle, Vector};
+use crate::definite::{eliminate, is_positive_definite, Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
@@ -56,7 +56,7 @@ pub struct Multiplier {
 
 impl Multiplier {
     /// Whether it has `n` rows of `m` entries, over admissible places.
-    fn is_of(&self, n: usize, m: usize) -> bool {
+    pub(crate) fn is_of(&self, n: usize, m: usize) -> bool {
         let shape = self.y.len() == n && self.y.iter().all(|y| y.len() == m);
         shape && self.places < MOST_PLACES
     }
@@ -323,25 +323,27 @@ pub fn sigma_max<E: Enclosure>(
             if !changes.is_empty() {
                 (first, rest) = less_changed_row(over, (first, rest), (d, a), &changes)?;
             }
-            rest.complement(e, &first)?;
+            eliminate(e, &first, &mut rest.entries)?;
         }
         Some(is_positive_definite(e, &rest))
     })
 }
 
+/// A matrix by its first row and the rest.
+type Bordered<N> = (Vector<N>, Triangle<N>);
+
 /// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
 /// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
 fn less_changed_row<E: Enclosure>(
     over: &Over<'_, E>,
-    (first, rest): (Vector<E::Number>, Triangle<E::Number>),
+    (first, rest): Bordered<E::Number>,
     (d, a): (&E::Number, &[E::Number]),
     changes: &[Vector<E::Number>],
-) -> Option<(Vector<E::Number>, Triangle<E::Number>)> {
+) -> Option<Bordered<E::Number>> {
     let e = over.slopes.arithmetic;
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
     let mut direction = over.direction(<[_]>::last)?;
-    let mut terms = a.iter().zip(&direction);
-    let along = terms.try_fold(zero.clone(), |sum, (a, v)| e.add(&sum, &e.mul(a, v)?))?;
+    let along = e.dot(a, &direction)?;
     direction.insert(0, e.neg(&e.ratio(&along, &one, d)?)?);
     let mut fixed = vec![zero; a.len()];
     fixed.insert(0, one);

@@ -4,6 +4,7 @@ use crate::arithmetic::Arithmetic as _;
 use crate::cell::Cell;
 use crate::certificate::{Evidence, Node, Step, Tree, MOST_NODES, PRECISIONS};
 use crate::fixed::{Fixed, Integer, Interval};
+use crate::input::{enclosed, malformed, narrowed};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::step::{Checker, Place};
@@ -36,75 +37,70 @@ pub(crate) fn check(theorem: &impl Theorem, tree: &Tree) -> Result<(), Rejected>
     theorem.is_proved::<BigInt>(tree)
 }
 
-/// That the claim of a problem is true.
-impl Theorem for Problem {
-    fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
-        prove::<Z>(self, tree, None)
-    }
-}
-
 /// Half of the side of a cube is divided in so many parts, in which offsets are counted.
 pub const OFFSET_PARTS: i64 = 8;
 
-/// Checks that on each leaf every obligation is discharged; or, given a unit of offsets, that the claim
-/// fails at each leaf's points moved by its offset.
+/// Checks that on each leaf every obligation is discharged; or, of a claim that no cube fits, that the
+/// claim of the machine fails at each leaf's points moved by its offset.
 ///
 /// **Lemma (tree).** If every step shows its obligation on its node's cell, and on the path to each
 /// leaf every obligation is discharged, each holds at every point of the root's cell that is in the
 /// workspace. *Proof.* The halves of a cell cover it, so the leaves cover the root; what is shown of
 /// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward. Steps by
 /// [`Evidence::Chords`] have one matrix, the tree's: what they show of two points is of both with it.
-pub(crate) fn prove<Z: Integer>(
-    problem: &Problem,
-    tree: &Tree,
-    unit: Option<&Interval<Z>>,
-) -> Result<(), Rejected> {
-    let bits = tree.precision;
-    let arithmetic = Fixed::<Z>::new(bits);
-    let parameters = problem.parameters(bits, &[])?;
-    let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits))
-        .with_chords(tree.chords.clone())
-        .with_varying(problem.varying(bits));
-    let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
-    let steps = tree.nodes.iter().filter(is_evaluated).count();
-    let work = steps.saturating_mul(problem.work()).saturating_add(checker.work_of(tree));
-    if work.saturating_mul(Z::WORK * (1 + bits as usize / 64)) > MOST_WORK {
-        return Err(Rejected::Work);
-    }
-    let root = problem.root(bits)?;
-    let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
-        let edges = cell.edges().ok_or(Rejected::Shape(at))?;
-        let slopes = checker.slopes(edges.len());
-        if !node.by.is_empty() {
-            let place = Place::new(&edges, cell.touches(&root));
-            let values = checker.evaluate(&edges);
-            let over = Over::new(slopes, &values);
-            discharge(at, node, open, |obligation, evidence| match evidence {
-                Evidence::Outside => checker.is_outside(&over, &place),
-                _ => {
-                    let test = &problem.obligations[obligation].test;
-                    checker.shows(&over, &place, test, evidence)
-                }
-            })?;
+impl Theorem for Problem {
+    fn is_proved<Z: Integer>(&self, tree: &Tree) -> Result<(), Rejected> {
+        let bits = tree.precision;
+        let arithmetic = Fixed::<Z>::new(bits);
+        let parameters = self.parameters(bits, &[])?;
+        let checker = Checker::new(self, &arithmetic, parameters, self.tight(bits))
+            .with_chords(tree.chords.clone())
+            .with_varying(self.varying(bits));
+        let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
+        let steps = tree.nodes.iter().filter(is_evaluated).count();
+        let work = steps.saturating_mul(self.work()).saturating_add(checker.work_of(tree));
+        if work.saturating_mul(Z::WORK * (1 + bits as usize / 64)) > self.most_work {
+            return Err(Rejected::Work);
         }
-        if let Some(failure) = &node.fails {
-            let edges = match unit {
-                None => Some(edges),
-                Some(unit) => moved(&arithmetic, edges, &node.at, unit),
-            };
-            let fails = |edges: Vec<_>| {
-                fails_throughout(problem, slopes, &checker.evaluate(&edges), failure)
-            };
-            if !edges.is_some_and(fails) {
-                return Err(Rejected::Holds(at));
+        let unit = self.offset.as_ref().map(|part| {
+            let part = enclosed(part, self.scale, bits).and_then(|part| narrowed::<Z>(&part));
+            part.ok_or_else(|| malformed("side", "a number"))
+        });
+        let (root, unit) = (self.root(bits)?, unit.transpose()?);
+        let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
+            let edges = cell.edges().ok_or(Rejected::Shape(at))?;
+            let slopes = checker.slopes(edges.len());
+            if !node.by.is_empty() {
+                let place = Place::new(&edges, cell.touches(&root));
+                let values = checker.evaluate(&edges);
+                let over = Over::new(slopes, &values);
+                discharge(at, node, open, |obligation, evidence| match evidence {
+                    Evidence::Outside => checker.is_outside(&over, &place),
+                    _ => {
+                        let test = &self.obligations[obligation].test;
+                        checker.shows(&over, &place, test, evidence)
+                    }
+                })?;
             }
-        }
-        let is_moved = unit.is_some() && node.fails.is_some();
-        (is_moved || node.at.is_empty()).then_some(()).ok_or(Rejected::Shape(at))
-    };
-    let mut nodes = tree.nodes.iter().enumerate();
-    bisect(&mut nodes, root.clone(), problem.obligations.len(), unit.is_some(), step)?;
-    nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
+            if let Some(failure) = &node.fails {
+                let edges = match &unit {
+                    None => Some(edges),
+                    Some(unit) => moved(&arithmetic, edges, &node.at, unit),
+                };
+                let fails = |edges: Vec<_>| {
+                    fails_throughout(self, slopes, &checker.evaluate(&edges), failure)
+                };
+                if !edges.is_some_and(fails) {
+                    return Err(Rejected::Holds(at));
+                }
+            }
+            let is_moved = unit.is_some() && node.fails.is_some();
+            (is_moved || node.at.is_empty()).then_some(()).ok_or(Rejected::Shape(at))
+        };
+        let mut nodes = tree.nodes.iter().enumerate();
+        bisect(&mut nodes, root.clone(), self.obligations.len(), unit.is_some(), step)?;
+        nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
+    }
 }
 
 /// Discharges what a node's steps show: each one obligation that is open; or, said of the first, all of
@@ -121,10 +117,10 @@ pub(crate) fn discharge(
         match open.get_mut(obligation) {
             _ if is_outside => open.fill(false),
             Some(is_open) if *is_open => *is_open = false,
-            _ => return Err(Rejected::Repeated { node, obligation }),
+            _ => return Err(Rejected::Repeated(node, obligation)),
         }
         if is_outside && obligation != 0 || !shows(obligation, evidence) {
-            return Err(Rejected::Step { node, obligation });
+            return Err(Rejected::Step(node, obligation));
         }
     }
     Ok(())
@@ -153,8 +149,8 @@ pub(crate) fn bisect<'a, Z: Integer>(
                 waiting.push((lower, open));
             }
             (None, None, _) if fails => return Err(Rejected::Holds(at)),
-            (None, Some(_), _) if !fails => return Err(Rejected::Open { node: at, obligation: 0 }),
-            (None, None, Some(obligation)) => return Err(Rejected::Open { node: at, obligation }),
+            (None, Some(_), _) if !fails => return Err(Rejected::Open(at, 0)),
+            (None, None, Some(obligation)) => return Err(Rejected::Open(at, obligation)),
             (None, ..) => {}
         }
     }

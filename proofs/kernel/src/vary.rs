@@ -75,18 +75,7 @@ pub(crate) fn vary(x: &mut Expression, ranges: &[Range]) {
 /// `None` where it is not certainly defined for all of them; a root of what may be zero is not.
 pub(crate) fn enclose(x: &Expression, bits: u32) -> Option<Interval<BigInt>> {
     let place = |parameter| (parameter < MOST_PARAMETERS).then_some(parameter);
-    Some(sloped(x, bits, MOST_PARAMETERS, &place)?.range)
-}
-
-/// A number's slopes in `m` coordinates, of which names are those that `place` says of their parameters;
-/// `None` where a name has none, or the number is not certainly defined for all values.
-pub(crate) fn sloped(
-    x: &Expression,
-    bits: u32,
-    m: usize,
-    place: &impl Fn(usize) -> Option<usize>,
-) -> Option<Slope<Number>> {
-    slope(x, &Slopes::new(&Fixed::new(bits), m), place)
+    Some(sloped(x, &Slopes::new(&Fixed::new(bits), MOST_PARAMETERS), &place)?.range)
 }
 
 /// Adds the parameters that an expression's names stand for.
@@ -99,12 +88,14 @@ pub(crate) fn parameters(x: &Expression, found: &mut Vec<usize>) {
 
 type Number = Interval<BigInt>;
 
-fn slope(
+/// A number's slopes in coordinates of which names are those that `place` says of their parameters; `None` where a
+/// name has none, or the number is not certainly defined for all values.
+pub(crate) fn sloped(
     x: &Expression,
     slopes: &Slopes<'_, Fixed<BigInt>>,
     place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Number>> {
-    let of = |x: &Expression| slope(x, slopes, place);
+    let of = |x: &Expression| sloped(x, slopes, place);
     let found = match x {
         _ if !x.varies() => slopes.constant(x.enclose(slopes.arithmetic, &|_| None)?),
         Expression::Literal { .. } | Expression::Name(_) => None,
@@ -112,12 +103,12 @@ fn slope(
             slopes.coordinate(place(range.parameter)?, range.edge(slopes.arithmetic.bits()))
         }
         Expression::Neg(inner) => slopes.neg(&of(inner)?),
-        Expression::Binary(operator, left, right) => {
-            let (left, right) = (of(left)?, of(right)?);
+        Expression::Binary(operator, a, b) => {
+            let (left, right) = (of(a)?, of(b)?);
             match operator {
                 Operator::Add => slopes.add(&left, &right),
                 Operator::Sub => slopes.sub(&left, &right),
-                Operator::Mul if left_is(x) => slopes.sqr(&left),
+                Operator::Mul if a == b => slopes.sqr(&left),
                 Operator::Mul => slopes.mul(&left, &right),
                 Operator::Div => slopes.div(&left, &right),
             }
@@ -137,11 +128,6 @@ fn slope(
         Expression::Sqrt(inner) => slopes.sqrt(&of(inner)?),
     };
     found.filter(is_moderate)
-}
-
-/// Whether a product is a square.
-fn left_is(x: &Expression) -> bool {
-    matches!(x, Expression::Binary(_, left, right) if left == right)
 }
 
 fn is_moderate(x: &Slope<Number>) -> bool {

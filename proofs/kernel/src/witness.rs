@@ -17,7 +17,6 @@ use crate::quantity::Test;
 use crate::slope::Slopes;
 use num_bigint::BigInt;
 use std::borrow::Cow;
-use std::ops::Deref;
 use thiserror::Error;
 use violated::At;
 
@@ -63,20 +62,8 @@ fn values_at(
     })
 }
 
-/// A machine at a point, with its formulas there.
-struct AtPoint<'a> {
-    formulas: At<'a, Fixed<BigInt>>,
-    point: Vec<Number>,
-    parameters: Vec<Number>,
-}
-
-impl<'a> Deref for AtPoint<'a> {
-    type Target = At<'a, Fixed<BigInt>>;
-
-    fn deref(&self) -> &Self::Target {
-        &self.formulas
-    }
-}
+/// A machine's formulas at a point.
+type AtPoint<'a> = At<'a, Fixed<BigInt>>;
 
 /// Accepts a witness: at a point of the workspace, for a machine of the claim, an obligation fails.
 ///
@@ -96,8 +83,7 @@ pub fn check(
     let mut machine = witness.machine.iter();
     for (_, min, max) in problem.tolerances() {
         let x = machine.next().ok_or(WitnessError::OutsideTolerance)?;
-        let within = ordered("", min, x, false).and_then(|()| ordered("", x, max, false));
-        within.map_err(|_| WitnessError::OutsideTolerance)?;
+        is_between(x, min, max).then_some(()).ok_or(WitnessError::OutsideTolerance)?;
     }
     if machine.next().is_some() {
         return Err(WitnessError::OutsideTolerance);
@@ -106,9 +92,12 @@ pub fn check(
     let violated = match &witness.fails {
         Failure::Reach => at.is_undefined(),
         Failure::Obligation(number, directions) => {
-            let obligation =
-                problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?;
-            at.violates(&obligation.test, directions)?
+            let obligation = problem.obligations.get(*number);
+            let test = &obligation.ok_or(WitnessError::NoSuchObligation)?.test;
+            match (test, &directions[..]) {
+                (Test::Accuracy(test), [v]) => at.is_positive(at.far(test, v)),
+                _ => at.fails(test, directions)?,
+            }
         }
         Failure::Same { obligation, least, greatest, inverse } => {
             let test = problem.obligations.get(*obligation).map(|obligation| &obligation.test);
@@ -159,14 +148,16 @@ fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
     Some(fails_throughout(problem, slopes, &values, &witness.fails))
 }
 
+fn is_between(x: &Expression, min: &Expression, max: &Expression) -> bool {
+    ordered("", min, x, false).is_ok() && ordered("", x, max, false).is_ok()
+}
+
 /// Whether a point is certainly in a workspace whose box has these corners. What is said of its
 /// orientation is decided with its formulas.
 fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> bool {
     let [min, max] = &problem.corners;
     let in_box = point.len() == problem.dimension()
-        && point.iter().zip(min).zip(max).all(|((x, min), max)| {
-            ordered("", min, x, false).and_then(|()| ordered("", x, max, false)).is_ok()
-        });
+        && point.iter().zip(min).zip(max).all(|((x, min), max)| is_between(x, min, max));
     let Workspace::Cylinder { center, radius, .. } = workspace else { return in_box };
     let square = |x: &Expression| x * x;
     let start = square(radius);
@@ -189,12 +180,8 @@ impl<'a> AtPoint<'a> {
         let arithmetic = Fixed::new(bits);
         let parameters: Vec<Number> = problem.parameters(bits, &witness.machine)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
-        let values = values_at(problem, &arithmetic, &point, &parameters);
-        let at = AtPoint {
-            formulas: At { problem, arithmetic, values: Cow::Owned(values) },
-            point,
-            parameters,
-        };
+        let values = Cow::Owned(values_at(problem, &arithmetic, &point, &parameters));
+        let at = At { problem, arithmetic, values, point, parameters };
         if at.is_turned(&at.point, |g| at.values.of(g)) {
             Ok(at)
         } else {
@@ -217,13 +204,6 @@ impl<'a> AtPoint<'a> {
         });
         let g = self.problem.turned.map(value);
         in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
-    }
-
-    fn violates(&self, test: &Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
-        match (test, directions) {
-            (Test::Accuracy(test), [v]) => Ok(self.is_positive(self.far(test, v))),
-            _ => self.fails(test, directions),
-        }
     }
 
     /// **Lemma.** If `det M` of one machine has opposite signs at two points of a path-connected

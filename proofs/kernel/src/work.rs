@@ -5,36 +5,25 @@
 //! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
 //! it.
 
-use crate::certificate::{Evidence, Node, Tree};
+use crate::certificate::Tree;
 use crate::formula::Op;
 use crate::input::{Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
-use crate::slope::MOST_COORDINATES;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
 pub const WORK_A_BYTE: usize = 192;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 
-/// Units of work that are left.
-pub(crate) struct Budget(usize);
-
-impl Budget {
-    /// The budget of so many bytes.
-    pub fn new(bytes: usize) -> Self {
-        Budget(bytes.saturating_mul(WORK_A_BYTE))
-    }
-
-    /// Less so many units.
-    ///
-    /// # Errors
-    /// If there are not so many left.
-    pub fn spend(&mut self, units: usize) -> Result<(), Rejected> {
-        self.0 = self.0.checked_sub(units).ok_or(Rejected::Work)?;
-        Ok(())
-    }
+/// Takes so many units of what is left.
+///
+/// # Errors
+/// If there are not so many.
+pub(crate) fn spend(left: &mut usize, units: usize) -> Result<(), Rejected> {
+    *left = left.checked_sub(units).ok_or(Rejected::Work)?;
+    Ok(())
 }
 
 /// What a number costs, which is evaluated six times or so: an operation on rational numbers of `b` bits
@@ -100,32 +89,13 @@ fn words(precision: u32) -> usize {
     1 + precision as usize / 256
 }
 
-/// What a tree costs: the slopes of its nodes, and the vertices of its steps.
-pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
-    let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
-    let nodes = tree.nodes.iter().filter(is_evaluated).count();
-    let all = || tree.nodes.iter().flat_map(|node| &node.by);
-    // No matrices, nor formulas but the workspace's own.
-    let outside = all().filter(|step| step.1 == Evidence::Outside).count();
-    let steps = all().count() - outside;
-    let each = weight(problem) * (2 + 3 * (problem.dimension() + problem.names.len()));
-    let all = nodes
-        .saturating_mul(each)
-        .saturating_add(steps.saturating_mul(of_step(problem)))
-        .saturating_add(outside.saturating_mul(1 << (2 + MOST_COORDINATES)))
-        .saturating_add(of_angles(problem));
-    all.saturating_mul(words(tree.precision)).saturating_add(4 * tree.nodes.len())
-}
-
-/// Matrices at every vertex, and their own sign vertices.
-fn of_step(problem: &Problem) -> usize {
-    let (m, n) = (problem.dimension(), problem.legs.len());
-    let (vertices, signs) = (1usize << (m + problem.names.len()), 1usize << m);
-    problem.work() + vertices * (4 * n * m * m + signs * m * m * m) / 4
+/// What the angles of a tree cost, beside its own work (`step/work.rs`).
+pub(crate) fn of_numbers(problem: &Problem, tree: &Tree) -> usize {
+    of_angles(problem).saturating_mul(words(tree.precision))
 }
 
 /// What a witness costs.
 pub(crate) fn of_witness(problem: &Problem, precision: u32) -> usize {
-    let all = 4 * weight(problem) + of_step(problem) + of_angles(problem);
+    let all = 4 * weight(problem) + problem.work() + of_angles(problem);
     all.saturating_mul(words(precision))
 }

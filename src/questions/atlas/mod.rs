@@ -45,7 +45,7 @@ pub fn certify(
 ) -> Result<(Certificate, Accepted), Rejected> {
     let mut claim = design.claim();
     let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()));
-    let shares = shares.map_err(Rejected::Kernel)?;
+    let shares = shares?;
     (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
     check(&claim, &cells)?;
     let proof = Proof::Atlas(cells);
@@ -72,5 +72,5 @@ fn check(claim: &AtlasClaim, cells: &[AtlasCell]) -> Result<(), Rejected> {
         .with_max_len(1)
         .map(|part| check_part(claim, cells, |number| number % PARTS == part))
         .collect();
-    parts.into_iter().collect::<Result<(), _>>().map_err(Rejected::Kernel)
+    parts.into_iter().collect()
 }

@@ -50,9 +50,12 @@ pub struct Quantity {
 
 /// What a bound comes to: of the machine as a whole, or of the leg of this number.
 enum Tests {
-    OfMachine(fn(&mut Context<'_>) -> Result<Vec<Test>, ClaimError>),
-    OfLegs(fn(&mut Context<'_>, (usize, &Leg)) -> Result<Vec<Test>, ClaimError>),
+    OfMachine(OfMachine),
+    OfLegs(OfLegs),
 }
+
+type OfMachine = fn(&mut Context<'_>) -> Result<Vec<Test>, ClaimError>;
+type OfLegs = fn(&mut Context<'_>, (usize, &Leg)) -> Result<Vec<Test>, ClaimError>;
 
 impl Quantity {
     const fn with(tests: Tests) -> Self {
@@ -60,14 +63,12 @@ impl Quantity {
     }
 
     /// One of the machine.
-    const fn of_machine(tests: fn(&mut Context<'_>) -> Result<Vec<Test>, ClaimError>) -> Self {
+    const fn of_machine(tests: OfMachine) -> Self {
         Self::with(Tests::OfMachine(tests))
     }
 
     /// One that every leg has.
-    const fn of_legs(
-        tests: fn(&mut Context<'_>, (usize, &Leg)) -> Result<Vec<Test>, ClaimError>,
-    ) -> Self {
+    const fn of_legs(tests: OfLegs) -> Self {
         Self::with(Tests::OfLegs(tests))
     }
 }
@@ -123,16 +124,25 @@ pub enum Test {
 }
 
 impl Test {
+    /// The rows of its matrix, where these are others than the machine's.
+    pub(crate) fn others(&self) -> Option<&[Row<Formula>]> {
+        match self {
+            Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => Some(rows),
+            _ => None,
+        }
+    }
+
     /// The formulas of each row of its matrix, the machine's `own` or others, of a bound that is one of another
     /// vertex, or of its sign; none of tests of whole cells.
     pub(crate) fn rows(&self, own: &[Row<Formula>]) -> Vec<Vec<Formula>> {
         let of = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect();
+        let rows = self.others().unwrap_or(own).iter().map(of);
         match self {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                own.iter().map(of).collect()
+                rows.collect()
             }
-            Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
-                rows.iter().map(of).chain([vec![*bound]]).collect()
+            Test::Least(_, bound) | Test::Greatest(_, bound) => {
+                rows.chain([vec![*bound]]).collect()
             }
             Test::AtLeast(f) => vec![vec![*f]],
             Test::Beyond(f, b) => vec![vec![*f, *b]],
@@ -286,17 +296,17 @@ fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
 
 /// The greatest psi that a claim asks for.
 pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
-    psi(claim).find_map(|bound| if let Bound::Max(psi) = bound { Some(psi) } else { None })
+    psi(claim, |bound| if let Bound::Max(psi) = bound { Some(psi) } else { None })
 }
 
 /// The least psi that a claim asks for.
 pub(crate) fn psi_min(claim: &MachineClaim) -> Option<&Expression> {
-    psi(claim).find_map(|bound| if let Bound::Min(psi) = bound { Some(psi) } else { None })
+    psi(claim, |bound| if let Bound::Min(psi) = bound { Some(psi) } else { None })
 }
 
-fn psi(claim: &MachineClaim) -> impl Iterator<Item = &Bound> {
-    let own = claim.require.iter().filter(|own| own.quantity == transmission::TRANSMISSION.key);
-    own.map(|requirement| &requirement.bound)
+fn psi(claim: &MachineClaim, of: fn(&Bound) -> Option<&Expression>) -> Option<&Expression> {
+    let mut own = claim.require.iter().filter(|own| own.quantity == transmission::TRANSMISSION.key);
+    own.find_map(|requirement| of(&requirement.bound))
 }
 
 /// The obligations of a claim: freedom from singularities first, then requirement by requirement and

@@ -2,7 +2,7 @@
 
 use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
-use crate::cell::Vertex;
+use crate::cell::{unit_corners, Vertex};
 use crate::certificate::Corner;
 use crate::definite::{is_positive_definite, Triangle};
 use crate::slope::Slopes;
@@ -43,14 +43,15 @@ impl<E: Enclosure> Checker<'_, E> {
         if !touches {
             return None;
         }
-        let slopes = Slopes::new(e, edges.len());
+        let corners = unit_corners(edges.len());
+        let slopes = Slopes { part: Some(&corners), ..Slopes::new(e, edges.len()) };
         let values = self.evaluate(&edges);
         let kappa = &values.of(kappa)?.range;
         let definite = |v: Vertex| {
             let entry = |i: usize, j: usize| {
                 let at = |i: usize, j: usize| {
                     let f = *self.divided.get(i)?.a.get(j)?;
-                    v.value_about_corner(&slopes, values.of(f)?)
+                    v.value(&slopes, values.of(f)?)
                 };
                 let sum = e.add(&at(i, j)?, &at(j, i)?)?;
                 if i == j {

@@ -2,32 +2,12 @@
 
 use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
-use crate::certificate::Evidence;
 use crate::formula::{Formula, Values};
 use crate::problem::Inside;
-use crate::quantity::Test;
 use crate::slope::Slope;
-use crate::test::{Over, MOST_PLACES};
+use crate::test::Over;
 
 impl<E: Enclosure> Checker<'_, E> {
-    /// Whether the evidence shows a test less a formula that is not negative in the workspace.
-    pub(super) fn shows_less(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        test: &Test,
-        evidence: &Evidence,
-        less: Option<Vec<E::Number>>,
-    ) -> bool {
-        let sum = less.and_then(|less| match &over.inside {
-            None => Some(less),
-            Some(other) => less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect(),
-        });
-        sum.is_some_and(|sum| {
-            self.shows(&Over { inside: Some(sum), ..*over }, place, test, evidence)
-        })
-    }
-
     /// `mu t` for the tangent `t` of the workspace's own inequality at the cell's centre.
     ///
     /// **Lemma.** `g` is concave, so `g <= t`, and `t >= 0` at the cell's points in the workspace.
@@ -43,9 +23,6 @@ impl<E: Enclosure> Checker<'_, E> {
         place: &Place<'_, E::Number>,
         (multiple, places): (i64, u32),
     ) -> Option<Slope<E::Number>> {
-        if multiple < 0 || places >= MOST_PLACES {
-            return None;
-        }
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
         let e = self.arithmetic;
         let by_name = self.at_centre(place, gradient.iter().chain([g]));
@@ -108,9 +85,6 @@ impl<E: Enclosure> Checker<'_, E> {
         f: Formula,
         (multiple, places): (i64, u32),
     ) -> Option<Vec<E::Number>> {
-        if multiple < 0 || places >= MOST_PLACES {
-            return None;
-        }
         let at = |v| self.arithmetic.dyadic(multiple, places, &over.at(f, v)?);
         over.vertices().map(at).collect()
     }

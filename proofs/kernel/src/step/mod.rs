@@ -160,10 +160,19 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                     _ => true,
                 };
                 let less = match is_turned {
+                    _ if !is_plain || *n < 0 || *p >= MOST_PLACES => None,
                     true => self.turned(over, (*n, *p)),
                     false => self.inside(over, place, (*n, *p)),
                 };
-                is_plain && self.shows_less(over, place, test, inner, less)
+                let sum = less.and_then(|less| match &over.inside {
+                    None => Some(less),
+                    Some(other) => {
+                        less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect()
+                    }
+                });
+                sum.is_some_and(|sum| {
+                    self.shows(&Over { inside: Some(sum), ..*over }, place, test, inner)
+                })
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
                 let plain =

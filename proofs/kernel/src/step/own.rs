@@ -19,6 +19,7 @@
 use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
 use crate::certificate::{Evidence, Failure};
+use crate::definite::Triangle;
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
@@ -47,18 +48,12 @@ pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
     }
     for obligation in &problem.obligations {
         match &obligation.test {
-            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) | Test::AtLeast(f) => {
-                formulas.push(*f);
-            }
+            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) => formulas.push(*f),
             Test::Solve(solve) => formulas.push(solve.square),
-            Test::Beyond(f, b) => formulas.extend([*f, *b]),
-            Test::Least(rows, f) | Test::Greatest(rows, f) => {
-                formulas.extend(rows.iter().flat_map(row));
-                formulas.push(*f);
-            }
             Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
                 return None
             }
+            test => formulas.extend(test.rows(&[]).concat()),
         }
     }
     Some(problem.tape.parts(&formulas))
@@ -141,16 +136,13 @@ impl<E: Enclosure> Checker<'_, E> {
         number: usize,
     ) -> bool {
         let Some(obligation) = self.problem.obligations.get(number) else { return false };
-        let direction = |rows, greatest| self.direction(values, rows, slopes.m, greatest);
+        let rows = obligation.test.others().unwrap_or(&self.rows);
+        let direction = |greatest| self.direction(values, rows, slopes.m, greatest);
         let directions = || {
             Some(match &obligation.test {
-                Test::SigmaMin(_) => vec![direction(&self.rows, false)?],
-                Test::SigmaMax(_) => vec![direction(&self.rows, true)?],
-                Test::Conditioning(_) => {
-                    vec![direction(&self.rows, true)?, direction(&self.rows, false)?]
-                }
-                Test::Least(rows, _) => vec![direction(rows, false)?],
-                Test::Greatest(rows, _) => vec![direction(rows, true)?],
+                Test::SigmaMin(_) | Test::Least(..) => vec![direction(false)?],
+                Test::SigmaMax(_) | Test::Greatest(..) => vec![direction(true)?],
+                Test::Conditioning(_) => vec![direction(true)?, direction(false)?],
                 Test::AtLeast(_) | Test::Beyond(..) => Vec::new(),
                 Test::OneToOne(_)
                 | Test::Solve(_)
@@ -160,12 +152,12 @@ impl<E: Enclosure> Checker<'_, E> {
             })
         };
         let of = |directions| Failure::Obligation(number, directions);
-        let mut rows = match obligation.test {
+        let mut legs = match obligation.test {
             Test::SigmaMax(_) => 0..self.rows.len(),
             _ => 0..0,
         };
         directions().is_some_and(|directions| self.fails(slopes, values, &of(directions)))
-            || rows.any(|leg| self.fails(slopes, values, &Failure::Row(number, leg)))
+            || legs.any(|leg| self.fails(slopes, values, &Failure::Row(number, leg)))
     }
 
     /// Nearly the direction that `M` at the centre stretches most, or least: of `G = M^T M`, or of its
@@ -180,43 +172,35 @@ impl<E: Enclosure> Checker<'_, E> {
         let e = self.arithmetic;
         let at = |f: &Formula| values.of(*f).map(|slope| &slope.at_centre);
         let entry = |j: usize, k: usize| {
-            rows.iter().try_fold(e.integer(0)?, |sum, row| {
+            e.sum(rows.iter().map(|row| {
                 let d = at(&row.d).filter(|d| e.is_positive(d))?;
-                e.add(&sum, &e.ratio(at(row.a.get(j)?)?, at(row.a.get(k)?)?, d)?)
-            })
+                e.ratio(at(row.a.get(j)?)?, at(row.a.get(k)?)?, d)
+            }))
         };
-        let pairs = (0..m).flat_map(|j| (j..m).map(move |k| (j, k)));
-        let entries = pairs.map(|(j, k)| Some((j, k, entry(j, k)?)));
-        let entries: Vec<_> = entries.collect::<Option<_>>()?;
-        let mut diagonal = entries.iter().filter(|(j, k, _)| j == k);
-        let trace = diagonal.try_fold(e.integer(0)?, |sum, (_, _, own)| e.add(&sum, own))?;
-        let [_, most] = e.ends(&trace);
+        let whole = Triangle::new(m, entry)?;
+        let [_, most] = e.ends(&e.sum((0..m).map(|j| whole.row(j).first().cloned()))?);
         let unit = e.recip(&most)?;
         let mut g: Square = [[0; 3]; 3];
-        for (j, k, entry) in entries {
-            let x = e.rounded(&e.mul(&entry, &unit)?, BITS)?;
-            (*g.get_mut(j)?.get_mut(k)?, *g.get_mut(k)?.get_mut(j)?) = (x, x);
+        for j in 0..m {
+            for (entry, k) in whole.row(j).iter().zip(j..) {
+                let x = e.rounded(&e.mul(entry, &unit)?, BITS)?;
+                (*g.get_mut(j)?.get_mut(k)?, *g.get_mut(k)?.get_mut(j)?) = (x, x);
+            }
         }
-        let g = if greatest { g } else { adjugate(&g, m) };
+        let g = if greatest { g } else { adjugate(g, m) };
         dominant(g, m)
     }
 }
 
-fn adjugate(g: &Square, m: usize) -> Square {
-    let mut of = [[0; 3]; 3];
-    match m {
-        1 => of[0][0] = 1,
-        2 => of = [[g[1][1], -g[0][1], 0], [-g[0][1], g[0][0], 0], [0; 3]],
-        _ => {
-            for (i, row) in of.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    let [a, b] = [(j + 1) % 3, (j + 2) % 3];
-                    let [c, d] = [(i + 1) % 3, (i + 2) % 3];
-                    *entry = g[a][c] * g[b][d] - g[a][d] * g[b][c];
-                }
-            }
-        }
-    }
+/// The adjugate of the first `m` rows and columns, which is that of the matrix with 1 on the rest of the diagonal.
+fn adjugate(mut g: Square, m: usize) -> Square {
+    (m..3).for_each(|k| g[k][k] = 1);
+    let entry = |i: usize, j: usize| {
+        let [a, b, c, d] = [(j + 1) % 3, (j + 2) % 3, (i + 1) % 3, (i + 2) % 3];
+        g[a][c] * g[b][d] - g[a][d] * g[b][c]
+    };
+    let mut of: Square = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    (m..3).for_each(|k| of[k][k] = 0);
     of
 }
 

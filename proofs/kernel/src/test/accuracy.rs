@@ -95,12 +95,11 @@ pub fn near<E: Enclosure>(
 pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Number> {
     let (e, m) = (far.slopes.arithmetic, far.slopes.m);
     let zero = e.integer(0)?;
-    let sum = |sum: E::Number, x: &E::Number| e.add(&sum, x);
     let norm = |entries: &[Vec<E::Number>], a: &Range<usize>, b: &Range<usize>| {
         let rows = entries.get(a.clone())?;
         let mut greatest = [zero.clone(), zero.clone()];
-        let along = |row: &Vec<E::Number>| row.get(b.clone())?.iter().try_fold(zero.clone(), sum);
-        let across = |k| rows.iter().filter_map(|row| row.get(k)).try_fold(zero.clone(), sum);
+        let along = |row: &Vec<E::Number>| e.sum(row.get(b.clone())?.iter().cloned().map(Some));
+        let across = |k| e.sum(rows.iter().map(|row| row.get(k).cloned()));
         let sums = [rows.iter().map(along).collect(), b.clone().map(across).collect()];
         for (greatest, sums) in greatest.iter_mut().zip(sums) {
             let sums: Option<Vec<E::Number>> = sums;
@@ -115,9 +114,8 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Num
     for row in &test.far {
         let entry = |f: &Formula| far.of(*f)?.slopes[..m].iter().map(|s| e.magnitude(s)).collect();
         let entries: Vec<Vec<E::Number>> = row.iter().map(entry).collect::<Option<_>>()?;
-        let mut blocks = parts.iter().flat_map(|a| parts.iter().map(move |b| (a, b)));
-        let own =
-            blocks.try_fold(zero.clone(), |sum, (a, b)| e.add(&sum, &norm(&entries, a, b)?))?;
+        let blocks = parts.iter().flat_map(|a| parts.iter().map(move |b| (a, b)));
+        let own = e.sum(blocks.map(|(a, b)| norm(&entries, a, b)))?;
         square = e.add(&square, &e.sqr(&own)?)?;
     }
     e.greatest_root(&square)
@@ -202,15 +200,12 @@ pub fn accuracy<E: Enclosure>(
         let slopes = match over.controls {
             None => None,
             Some(_) if n == test.scaled.len() => {
-                Some((sum(over, test, |by| Some(over.of(by)?.range.clone()))?, roots(over, test)?))
+                Some([sum(over, test, |by| Some(over.of(by)?.range.clone()))?, roots(over, test)?])
             }
             Some(_) => return None,
         };
         let holds = |v| {
-            let (rows, weight, d, b) = match &slopes {
-                None => at_vertex(over, test, v, p)?,
-                Some((beta, q)) => at_control(over, test, v, p, [beta, q])?,
-            };
+            let (rows, weight, d, b) = at(over, test, (v, p), slopes.as_ref())?;
             let rows: Vec<&[E::Number]> = rows.iter().map(|row| &row[..]).collect();
             let start = over.less_inside(e.integer(0)?, v)?;
             let below = below_square(e, &rows, (&weight, &start), evidence)?;
@@ -268,10 +263,9 @@ fn sum<E: Enclosure>(
 ) -> Option<Vec<E::Number>> {
     let e = over.slopes.arithmetic;
     let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
-        let start = over.of(*error)?.range.clone();
-        let sum = all.iter().try_fold(start, |sum, [half, by]| {
-            e.add(&sum, &e.mul(&over.of(*half)?.range, &e.magnitude(&slope(*by)?)?)?)
-        })?;
+        let part =
+            |[half, by]: &[Formula; 2]| e.mul(&over.of(*half)?.range, &e.magnitude(&slope(*by)?)?);
+        let sum = e.add(&over.of(*error)?.range, &e.sum(all.iter().map(part))?)?;
         e.ends(&sum).into_iter().nth(1)
     };
     test.joints.iter().map(joint).collect()
@@ -282,12 +276,9 @@ fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Num
     let e = over.slopes.arithmetic;
     let root = |row: &Row<Formula>| {
         let at = |v| {
-            let [d, _] = e.ends(&e.ratio(
-                &over.at(row.d, v)?,
-                &e.integer(1)?,
-                &over.at(test.weight?, v)?,
-            )?);
-            e.sqrt(&d)
+            let (d, weight) = (over.at(row.d, v)?, over.at(test.weight?, v)?);
+            let [least, _] = e.ends(&e.ratio(&d, &e.integer(1)?, &weight)?);
+            e.sqrt(&least)
         };
         let ends = [over.vertices().next()?, over.vertices().last()?];
         let [a, b] = ends.map(at);
@@ -300,37 +291,27 @@ fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Num
 /// At a vertex or control point the rows, their weight, what `kappa^2` is multiplied by in each row, and `b`.
 type Shown<N> = (Vec<Vector<N>>, N, Vec<N>, Vec<N>);
 
-fn at_vertex<E: Enclosure>(
+/// With the greatest slopes and the roots of control points.
+fn at<E: Enclosure>(
     over: &Over<'_, E>,
     test: &Accuracy,
-    v: Vertex,
-    p: u32,
+    (v, p): (Vertex, u32),
+    slopes: Option<&[Vec<E::Number>; 2]>,
 ) -> Option<Shown<E::Number>> {
     let e = over.slopes.arithmetic;
-    let at = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
-    let rows: Vec<_> = test.rows.iter().map(at).collect::<Option<_>>()?;
-    let weight = e.integer(1)?;
-    let d = vec![weight.clone(); rows.len()];
-    let b = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
-    Some((rows, weight, d, b))
-}
-
-fn at_control<E: Enclosure>(
-    over: &Over<'_, E>,
-    test: &Accuracy,
-    v: Vertex,
-    p: u32,
-    [beta, q]: [&[E::Number]; 2],
-) -> Option<Shown<E::Number>> {
-    let e = over.slopes.arithmetic;
+    let row = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
+    let one = e.integer(1)?;
+    let Some([beta, q]) = slopes else {
+        let rows: Vec<_> = test.rows.iter().map(row).collect::<Option<_>>()?;
+        let b = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
+        return Some((rows, one.clone(), vec![one; b.len()], b));
+    };
     let weight = over.at(test.weight?, v)?;
-    let at = |row: &Row<Formula>| weighted(e, test, p, row.a.iter().map(|&f| over.at(f, v)));
-    let rows = test.scaled.iter().map(at).collect::<Option<_>>()?;
-    let d: Vec<E::Number> =
-        test.scaled.iter().map(|row| over.at(row.d, v)).collect::<Option<_>>()?;
+    let rows = test.scaled.iter().map(|own| row(&own.a)).collect::<Option<_>>()?;
+    let d = test.scaled.iter().map(|row| over.at(row.d, v));
+    let d: Vec<E::Number> = d.collect::<Option<_>>()?;
     let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
-        let both =
-            e.add(&e.halve(&e.ratio(d, &e.integer(1)?, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
+        let both = e.add(&e.halve(&e.ratio(d, &one, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
         e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
     };
     let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;

@@ -29,16 +29,15 @@ pub struct Apart {
 pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multiplier) -> bool {
     let e = over.slopes.arithmetic;
     let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
-        let add = |sum, g| e.add(&sum, &e.sqr(&v.value(&over.slopes, g)?)?);
-        let square = g.iter().try_fold(e.integer(0)?, add)?;
+        let square = e.sum(g.iter().map(|g| e.sqr(&v.value(&over.slopes, g)?)))?;
         e.mul(&over.of(test.distance)?.range, &e.greatest_root(&square)?)
     };
     let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
-        let mut terms = g.iter().zip(p).zip(q);
-        terms.try_fold(over.slopes.integer(0)?, |sum, ((g, &p), &q)| {
-            let part = over.slopes.sub(over.of(p)?, over.of(q)?)?;
-            over.slopes.add(&sum, &over.slopes.mul(g, &part)?)
-        })
+        let terms =
+            g.iter().zip(p).zip(q).map(|((g, &p), &q)| {
+                over.slopes.mul(g, &over.slopes.sub(over.of(p)?, over.of(q)?)?)
+            });
+        over.slopes.sum(terms)
     };
     let shown = || {
         let rows = evidence.y.iter().map(|row| affine(over, row, evidence.places));

@@ -31,9 +31,7 @@ pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
     let e = over.slopes.arithmetic;
     let at = |v: Vertex, f: &Formula| v.value(&over.slopes, over.of(*f)?);
     let holds = |v: Vertex| {
-        let square = |sum, f| e.add(&sum, &e.sqr(&at(v, f)?)?);
-        let square = test.row.iter().try_fold(e.integer(0)?, square)?;
-        let row = e.greatest_root(&square)?;
+        let row = e.greatest_root(&e.sum(test.row.iter().map(|f| e.sqr(&at(v, f)?)))?)?;
         let rest = e.sub(&e.integer(1)?, &e.mul(&over.of(test.a)?.range, &row)?)?;
         let start = Triangle::scalar(e, test.row.len(), &over.less_inside(rest, v)?)?;
         let b = e.halve(&over.of(test.b)?.range)?;

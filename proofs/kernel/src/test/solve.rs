@@ -79,8 +79,7 @@ pub(super) fn below_square<E: Enclosure>(
 
 /// `Y_i . x`.
 fn along<E: Enclosure>(e: &E, y: &[i64], places: u32, x: &[E::Number]) -> Option<E::Number> {
-    let mut terms = y.iter().zip(x);
-    terms.try_fold(e.integer(0)?, |sum, (&y, x)| e.add(&sum, &e.dyadic(y, places, x)?))
+    e.sum(y.iter().zip(x).map(|(&y, x)| e.dyadic(y, places, x)))
 }
 
 /// `T` less what tolerances change of it.

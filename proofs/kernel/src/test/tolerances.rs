@@ -90,26 +90,15 @@ impl<E: Enclosure> Over<'_, E> {
     pub(super) fn greatest_loss(&self, parts: &[(Formula, bool)], v: Vertex) -> Option<E::Number> {
         let e = self.slopes.arithmetic;
         let zero = e.integer(0)?;
-        self.changes(parts.iter().map(|(f, _)| f), v)?.iter().try_fold(
-            zero.clone(),
-            |sum, change| {
-                let mut terms = change.iter().zip(parts);
-                let less =
-                    terms.try_fold(
-                        zero.clone(),
-                        |less, (s, &(_, subtracted))| match subtracted {
-                            true => e.add(&less, s),
-                            false => e.sub(&less, s),
-                        },
-                    )?;
-                let [_, less] = e.ends(&less);
-                if e.is_positive(&less) {
-                    e.add(&sum, &less)
-                } else {
-                    Some(sum)
-                }
-            },
-        )
+        let changes = self.changes(parts.iter().map(|(f, _)| f), v)?;
+        e.sum(changes.iter().map(|change| {
+            let terms = change.iter().zip(parts).map(|(s, &(_, subtracted))| match subtracted {
+                true => Some(s.clone()),
+                false => e.neg(s),
+            });
+            let [_, less] = e.ends(&e.sum(terms)?);
+            Some(if e.is_positive(&less) { less } else { zero.clone() })
+        }))
     }
 
     /// The least value of a formula at a vertex, of all machines.
@@ -144,11 +133,10 @@ pub(super) fn less_changes<E: Enclosure>(
     changes: &[Vector<E::Number>],
     direction: &[E::Number],
 ) -> Option<()> {
-    let (zero, one) = (e.integer(0)?, e.integer(1)?);
+    let one = e.integer(1)?;
     let size = |x: &[E::Number]| {
-        let mut terms = x.iter().zip(direction);
-        let along = terms.try_fold(zero.clone(), |sum, (x, w)| e.add(&sum, &e.mul(x, w)?))?;
-        x.iter().try_fold(e.magnitude(&along)?, |sum, x| e.add(&sum, &e.magnitude(x)?))
+        let along = e.dot(x, direction)?;
+        e.sum([&along].into_iter().chain(x).map(|x| e.magnitude(x)))
     };
     let of_fixed = size(fixed)?;
     for s in changes {

@@ -33,7 +33,7 @@ impl AtPoint<'_> {
         let far = Over::new(slopes, &values);
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
         let g = spread(&far, test).filter(|_| defined)?;
-        let norm = |v: &[Number]| e.greatest_root(&self.square(v)?);
+        let norm = |v: &[Number]| e.greatest_root(&e.square(v)?);
         let image = self.transposed(&test.rows, &v)?;
         for part in test.parts(image.len()) {
             rest = e.sub(&rest, &norm(image.get(part)?)?)?;

@@ -62,11 +62,10 @@ impl AtPoint<'_> {
     pub(super) fn has_the_joints_of(
         &self,
         [least, greatest]: [&[Expression]; 2],
-        Multiplier { y, places }: &Multiplier,
+        inverse: &Multiplier,
     ) -> Option<()> {
         let (e, m) = (&self.arithmetic, self.point.len());
-        let shape =
-            y.len() == m && y.iter().all(|y| y.len() == m) && *places < crate::test::MOST_PLACES;
+        let Multiplier { y, places } = inverse;
         let (least, greatest) =
             (self.problem.point(least, e.bits())?, self.problem.point(greatest, e.bits())?);
         // Rounded inward, and as far to either side of the centre.
@@ -111,7 +110,9 @@ impl AtPoint<'_> {
             }
             Some(e.is_positive(&e.sub(half, &reach)?))
         };
-        let all = shape && f.len() == m && y.iter().enumerate().all(|row| holds(row) == Some(true));
+        let all = inverse.is_of(m, m)
+            && f.len() == m
+            && y.iter().enumerate().all(|row| holds(row) == Some(true));
         all.then_some(())
     }
 }

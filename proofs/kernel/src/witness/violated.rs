@@ -40,11 +40,13 @@ impl<E: Enclosure> Signs for Slopes<'_, E> {
     }
 }
 
-/// A machine's formulas at a point, or over a cell.
+/// A machine's formulas at a point, or over a cell; the point and the parameters are known of a point alone.
 pub(super) struct At<'a, A: Arithmetic> {
     pub problem: &'a Problem,
     pub arithmetic: A,
     pub values: Cow<'a, Values<A::Number>>,
+    pub point: Vec<A::Number>,
+    pub parameters: Vec<A::Number>,
 }
 
 /// Whether a claim fails in this way at every point of a cell, for every machine: the formulas are
@@ -55,7 +57,8 @@ pub fn fails_throughout<E: Enclosure>(
     values: &Values<Slope<E::Number>>,
     failure: &Failure,
 ) -> bool {
-    let at = At { problem, arithmetic: slopes, values: Cow::Borrowed(values) };
+    let (values, point, parameters) = (Cow::Borrowed(values), Vec::new(), Vec::new());
+    let at = At { problem, arithmetic: slopes, values, point, parameters };
     match failure {
         Failure::Reach => at.is_undefined(),
         Failure::Obligation(number, directions) => problem
@@ -99,15 +102,12 @@ impl<A: Signs> At<'_, A> {
             let obligation = self.problem.obligations.get(number)?;
             let Test::SigmaMax(k_squared) = obligation.test else { return None };
             let leg = self.problem.legs.get(leg)?;
-            let square =
-                match leg.length {
-                    Some(length) if self.problem.orientation.is_empty() => {
-                        e.sqr(self.values.of(length)?)?
-                    }
-                    _ => leg.row.a.iter().try_fold(e.integer(0)?, |sum, &a| {
-                        e.add(&sum, &e.sqr(self.values.of(a)?)?)
-                    })?,
-                };
+            let square = match leg.length {
+                Some(length) if self.problem.orientation.is_empty() => {
+                    e.sqr(self.values.of(length)?)?
+                }
+                _ => e.sum(leg.row.a.iter().map(|&a| e.sqr(self.values.of(a)?)))?,
+            };
             e.sub(&square, &e.mul(self.values.of(k_squared)?, self.values.of(leg.row.d)?)?)
         };
         self.is_positive(rest())
@@ -118,24 +118,20 @@ impl<A: Signs> At<'_, A> {
     pub(super) fn fails(&self, test: &Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
         let e = &self.arithmetic;
         let of = |f: &Formula| self.values.of(*f);
-        let stretched = |v: &[i64]| self.stretched(self.problem.legs.iter().map(|leg| &leg.row), v);
-        // kappa^2 |v|^2 - |M v|^2, and |M v|^2 - k^2 |v|^2.
-        let short = |found: Option<[A::Number; 2]>, kappa: &Formula| {
-            let [length, image] = found?;
-            e.sub(&e.mul(of(kappa)?, &length)?, &image)
-        };
-        let long = |found: Option<[A::Number; 2]>, k: &Formula| {
-            let [length, image] = found?;
-            e.sub(&image, &e.mul(of(k)?, &length)?)
+        let stretched = |v: &[i64]| match test.others() {
+            Some(rows) => self.stretched(rows.iter(), v),
+            None => self.stretched(self.problem.legs.iter().map(|leg| &leg.row), v),
         };
         let positive = match (test, directions) {
-            (Test::SigmaMin(kappa), [v]) => self.is_positive(short(stretched(v), kappa)),
-            (Test::Least(rows, kappa), [v]) => {
-                self.is_positive(short(self.stretched(rows.iter(), v), kappa))
+            // kappa^2 |v|^2 - |M v|^2.
+            (Test::SigmaMin(kappa) | Test::Least(_, kappa), [v]) => {
+                let short = |[length, image]: [_; 2]| e.sub(&e.mul(of(kappa)?, &length)?, &image);
+                self.is_positive(stretched(v).and_then(short))
             }
-            (Test::SigmaMax(k), [v]) => self.is_positive(long(stretched(v), k)),
-            (Test::Greatest(rows, k), [v]) => {
-                self.is_positive(long(self.stretched(rows.iter(), v), k))
+            // |M v|^2 - k^2 |v|^2.
+            (Test::SigmaMax(k) | Test::Greatest(_, k), [v]) => {
+                let long = |[length, image]: [_; 2]| e.sub(&image, &e.mul(of(k)?, &length)?);
+                self.is_positive(stretched(v).and_then(long))
             }
             // |M u|^2 |v|^2 > c^2 |M v|^2 |u|^2.
             (Test::Conditioning(c), [u, v]) => {
@@ -170,41 +166,30 @@ impl<A: Signs> At<'_, A> {
         formulas.iter().map(|&f| self.values.of(f).cloned()).collect()
     }
 
-    fn dot(&self, u: &[A::Number], v: &[A::Number]) -> Option<A::Number> {
-        let e = &self.arithmetic;
-        u.iter().zip(v).try_fold(e.integer(0)?, |sum, (u, v)| e.add(&sum, &e.mul(u, v)?))
-    }
-
     /// The sum of terms of which there is one.
     fn sum(&self, mut terms: impl Iterator<Item = Option<A::Number>>) -> Option<A::Number> {
         let first = terms.next()??;
         terms.try_fold(first, |sum, term| self.arithmetic.add(&sum, &term?))
     }
 
-    /// `|v|^2`.
-    pub(super) fn square(&self, v: &[A::Number]) -> Option<A::Number> {
-        let e = &self.arithmetic;
-        v.iter().try_fold(e.integer(0)?, |sum, v| e.add(&sum, &e.sqr(v)?))
-    }
-
     /// `A^T v`.
     pub(super) fn transposed(&self, a: &[Vec<Formula>], v: &[A::Number]) -> Option<Vec<A::Number>> {
+        let e = &self.arithmetic;
         let entry = |k: usize| {
             let column: Option<Vec<Formula>> = a.iter().map(|row| row.get(k).copied()).collect();
-            self.dot(&self.all(&column?)?, v)
+            e.dot(&self.all(&column?)?, v)
         };
         (0..self.problem.dimension()).map(entry).collect()
     }
 
     /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
-    pub(super) fn stretched<'b>(
+    fn stretched<'b>(
         &self,
-        rows: impl Iterator<Item = &'b Row<Formula>>,
+        rows: impl Iterator<Item = &'b Row<Formula>> + Clone,
         v: &[i64],
     ) -> Option<[A::Number; 2]> {
         let e = &self.arithmetic;
-        let mut rows = rows.peekable();
-        let numbers = self.direction(v, rows.peek()?.a.len())?;
+        let numbers = self.direction(v, rows.clone().next()?.a.len())?;
         let term = |row: &Row<Formula>| {
             let entry = |(&a, &v): (&Formula, &i64)| e.times(v, self.values.of(a)?);
             let product = self.sum(row.a.iter().zip(v).map(entry))?;
@@ -212,7 +197,7 @@ impl<A: Signs> At<'_, A> {
             e.div(&e.sqr(&product)?, d)
         };
         let image = self.sum(rows.map(term))?;
-        Some([self.square(&numbers)?, image])
+        Some([e.square(&numbers)?, image])
     }
 
     /// `2 (a |row| |v|^2 + b |v^T H v| - |v|^2)`: positive only if `a |row| + b |H| > 1`.
@@ -232,9 +217,9 @@ impl<A: Signs> At<'_, A> {
         }
         // Either sign gives at most the absolute value.
         let twice = if e.surely_positive(&twice) { twice } else { e.neg(&twice)? };
-        let row = e.sqrt(&self.square(&self.all(&test.row)?)?)?;
+        let row = e.sqrt(&e.square(&self.all(&test.row)?)?)?;
         let rest = e.sub(&e.mul(of(test.a)?, &row)?, &e.integer(1)?)?;
-        let rest = e.mul(&two, &e.mul(&rest, &self.square(&v)?)?)?;
+        let rest = e.mul(&two, &e.mul(&rest, &e.square(&v)?)?)?;
         e.add(&rest, &e.mul(of(test.b)?, &twice)?)
     }
 
@@ -247,7 +232,7 @@ impl<A: Signs> At<'_, A> {
         let d = self.values.of(legs.get(test.joint)?.row.d).filter(|d| e.surely_positive(d))?;
         let along = e.mul(d, &e.sqr(v.get(test.joint)?)?)?;
         let a: Vec<Vec<Formula>> = legs.iter().map(|leg| leg.row.a.clone()).collect();
-        let image = self.square(&self.transposed(&a, &v)?)?;
+        let image = e.square(&self.transposed(&a, &v)?)?;
         e.sub(&e.mul(self.values.of(test.square)?, &along)?, &image)
     }
 
@@ -261,12 +246,12 @@ impl<A: Signs> At<'_, A> {
         }
         let point = |ends: &[Vector; 2], part: i64| -> Option<Vec<A::Number>> {
             let weights = [e.integer(n - part)?, e.integer(part)?];
-            (0..3).map(|k| self.dot(&self.all(&[ends[0][k], ends[1][k]])?, &weights)).collect()
+            (0..3).map(|k| e.dot(&self.all(&[ends[0][k], ends[1][k]])?, &weights)).collect()
         };
         let (p, q) = (point(&test.ends[0], s)?, point(&test.ends[1], t)?);
         let between = p.iter().zip(&q).map(|(p, q)| e.sub(p, q)).collect::<Option<Vec<_>>>()?;
         let least = e.mul(&e.integer(n)?, self.values.of(test.distance)?)?;
-        e.sub(&e.sqr(&least)?, &self.square(&between)?)
+        e.sub(&e.sqr(&least)?, &e.square(&between)?)
     }
 
     /// `det M`, of as many rows as coordinates.

@@ -197,8 +197,8 @@ fn proofs_that_show_less() {
         if node.by.is_empty() {
             continue;
         }
-        let step = Err(Rejected::Step { node: at, obligation: 0 });
-        assert_eq!(of(Vec::new()), Err(Rejected::Open { node: at, obligation: 0 }));
+        let step = Err(Rejected::Step(at, 0));
+        assert_eq!(of(Vec::new()), Err(Rejected::Open(at, 0)));
         if node.by != [Step(0, Evidence::Mirror)] {
             assert_eq!(of(vec![Step(0, Evidence::Mirror)]), step);
         }
@@ -215,9 +215,9 @@ fn proofs_that_show_less() {
         }
         let mut twice = node.by.clone();
         twice.extend(node.by.clone());
-        let repeated = Err(Rejected::Repeated { node: at, obligation: 0 });
+        let repeated = Err(Rejected::Repeated(at, 0));
         assert_eq!(of(twice), repeated);
-        let repeated = Err(Rejected::Repeated { node: at, obligation: 1 });
+        let repeated = Err(Rejected::Repeated(at, 1));
         assert_eq!(of(vec![Step(1, node.by[0].1.clone())]), repeated);
         let fails = every(&|nodes| nodes[at].fails = Some(Failure::Reach));
         assert_eq!(fails, Err(Rejected::Shape(at)));
@@ -265,7 +265,7 @@ fn every_part_is_needed_and_in_its_place() {
         let mut mirrored = all.clone();
         mirrored[i] = vec![Node { by: vec![Step(0, Evidence::Mirror)], ..Node::default() }];
         let at = all[..i].iter().map(Vec::len).sum();
-        let step = Err(Rejected::Step { node: at, obligation: 0 });
+        let step = Err(Rejected::Step(at, 0));
         assert_eq!(with(r#""all""#, &mirrored), step, "part {i}");
         // There are three coordinates.
         let mut split = all.clone();
@@ -316,7 +316,7 @@ fn verdicts_and_claims_of_another_kind() {
     let Proof::Tree(tree) = &whole.proof else { panic!("a tree") };
     assert!(of_machine(tree.nodes.clone()).is_err());
     let mirror = Node { by: vec![Step(0, Evidence::Mirror)], ..Node::default() };
-    assert_eq!(of_machine(vec![mirror]), Err(Rejected::Step { node: 0, obligation: 0 }));
+    assert_eq!(of_machine(vec![mirror]), Err(Rejected::Step(0, 0)));
 }
 
 #[test]

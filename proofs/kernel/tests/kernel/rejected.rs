@@ -207,7 +207,7 @@ fn proofs_that_show_less_than_they_say() {
         panic!("a machine")
     };
     *machine = claim(&text);
-    assert!(matches!(check(&false_claim), Err(Rejected::Step { obligation: 0, .. })));
+    assert!(matches!(check(&false_claim), Err(Rejected::Step(_, 0))));
     assert!(certify(&claim(&text), 3_000).is_none());
 }
 
