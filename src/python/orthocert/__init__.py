@@ -71,6 +71,20 @@ def _flags(**options: Optional[Any]) -> list[str]:
     return flags
 
 
+def _asked(
+    command: str,
+    design: AnyDesign,
+    *arguments: str,
+    progress: Optional[Progress],
+    cancel: Optional[threading.Event],
+    **options: Optional[Any],
+) -> dict[str, Any]:
+    """What a command answers about a design."""
+    with folder_of(as_design(design)) as (folder, file):
+        called = [command, file.name, *arguments, *_flags(**options)]
+        return answer(called, folder=folder, progress=progress, cancel=cancel)
+
+
 def _counterexample(found: Optional[Mapping[str, Any]]) -> Optional[Counterexample]:
     if not found:
         return None
@@ -123,9 +137,10 @@ def bounds(
     cancel: Optional[threading.Event] = None,
 ) -> Bounds:
     """The extremes of every quantity of a design, enclosed to a relative width."""
-    flags = _flags(relative=relative, max_boxes=max_boxes, timeout=timeout, threads=threads)
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["bounds", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "bounds", design, relative=relative,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
     every = tuple(
         Bound(
             b["quantity"], b["end"], _exact(b.get("min")), _exact(b.get("max")), _point(b.get("point")), b.get("unit")
@@ -148,9 +163,10 @@ def limit(
     cancel: Optional[threading.Event] = None,
 ) -> Limit:
     """How far one number of a design can go, by its dotted key; `gap` is relative, `direction` "up" or "down" alone."""
-    flags = _flags(gap=gap, direction=direction, max_boxes=max_boxes, timeout=timeout, threads=threads)
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["limit", file.name, key, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "limit", design, key, gap=gap, direction=direction,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
 
     def value(end: Optional[Mapping[str, Any]]) -> Optional[Fraction]:
         return Fraction(end["value"]) if end else None
@@ -183,9 +199,10 @@ def tolerance(
 ) -> Tolerance:
     """The widest tolerances with which a design is still certified; `on` names kinds, as `["leg_length", "anchor"]`."""
     kinds = None if on is None else ",".join(on)
-    flags = _flags(on=kinds, by_leg=by_leg, gap=gap, each=each, max_boxes=max_boxes, timeout=timeout, threads=threads)
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["tolerance", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "tolerance", design, on=kinds, by_leg=by_leg, gap=gap, each=each,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
     rows = tuple(
         Widest(
             tuple(row["on"]), row.get("leg"), row["measure"], _exact(row["certified"]), _exact(row["refuted"]),
@@ -208,9 +225,10 @@ def size(
     cancel: Optional[threading.Event] = None,
 ) -> Size:
     """How large a machine of a design's proportions has to be for a cube of that side."""
-    flags = _flags(cube=cube, gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["size", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "size", design, cube=cube, gap=gap,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
     return Size(
         found["unknown"], _exact(found.get("certified")), _exact(found.get("refuted")), _exact(found.get("excluded")),
         _point(found.get("centre")), _counterexample(found.get("limited_by")), found,
@@ -228,9 +246,10 @@ def largest_cube(
     cancel: Optional[threading.Event] = None,
 ) -> LargestCube:
     """The largest axis-aligned cube whose centre is in a design's box; of platforms that turn, in every orientation."""
-    flags = _flags(gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["largest-cube", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "largest-cube", design, gap=gap,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
     return LargestCube(
         found.get("min"), _point(found.get("centre")), found.get("max") or found.get("refuted_here"),
         _counterexample(found.get("limited_by")), found,
@@ -250,11 +269,10 @@ def summary(
     cancel: Optional[threading.Event] = None,
 ) -> Summary:
     """What a designer reads first: strokes, speeds, forces and accelerations of the joints for those of the tool."""
-    flags = _flags(
-        speed=speed, force=force, acceleration=acceleration, max_boxes=max_boxes, timeout=timeout, threads=threads
-    )
-    with folder_of(as_design(design)) as (folder, file):
-        found = answer(["summary", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    found = _asked(
+        "summary", design, speed=speed, force=force, acceleration=acceleration,
+        max_boxes=max_boxes, timeout=timeout, threads=threads, progress=progress, cancel=cancel,
+    )  # fmt: skip
     values = tuple(
         Value(v["words"], v["quantity"], v["end"], _exact(v.get("certified")), _exact(v.get("reached")), v.get("unit"))
         for v in found.get("values", [])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Iterator, Optional, Sequence, Tuple
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -58,6 +58,10 @@ class Counterexample:
     machine: Any = None
     #: Of bodies that are too near: what they are, and nearly where, if that is one place.
     bodies: Tuple[Tuple[str, Optional[Tuple[float, ...]]], ...] = ()
+
+
+def _limit(found: Optional[Counterexample]) -> str:
+    return f"<p>limited by {html.escape(found.violated)}</p>" if found else ""
 
 
 @dataclass(frozen=True)
@@ -152,9 +156,6 @@ class Bounds(Sequence[Bound]):
 
     def __getitem__(self, at: Any) -> Any:
         return self.bounds[at]
-
-    def __iter__(self) -> Iterator[Bound]:
-        return iter(self.bounds)
 
     def of(self, quantity: str, end: str) -> Bound:
         """That of a quantity, `end` "least" or "greatest"."""
@@ -263,9 +264,6 @@ class Tolerance(Sequence[Widest]):
     def __getitem__(self, at: Any) -> Any:
         return self.rows[at]
 
-    def __iter__(self) -> Iterator[Widest]:
-        return iter(self.rows)
-
     def _repr_html_(self) -> str:
         rows = [
             (
@@ -295,8 +293,7 @@ class Size:
 
     def _repr_html_(self) -> str:
         rows = [(name, _decimal(getattr(self, name))) for name in ("certified", "refuted", "excluded")]
-        limit = f"<p>limited by {html.escape(self.limited_by.violated)}</p>" if self.limited_by else ""
-        return _table((self.unknown, ""), rows) + limit
+        return _table((self.unknown, ""), rows) + _limit(self.limited_by)
 
 
 @dataclass(frozen=True)
@@ -312,8 +309,7 @@ class LargestCube:
     answer: dict[str, Any] = field(repr=False)
 
     def _repr_html_(self) -> str:
-        limit = f"<p>limited by {html.escape(self.limited_by.violated)}</p>" if self.limited_by else ""
-        return _table(("certified side", "refuted side"), [(self.certified or "", self.refuted or "")]) + limit
+        return _table(("certified side", "refuted side"), [(self.certified or "", self.refuted or "")]) + _limit(self.limited_by)
 
 
 @dataclass(frozen=True)
