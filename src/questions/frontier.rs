@@ -193,7 +193,7 @@ pub fn bracket(
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
     let &About { expected, holds, share, is_sure, gap, parts: [first, second, last] } = about;
-    let walk = |succeeds| {
+    let walk = |succeeds, is_sure: bool| {
         let start = match succeeds {
             Succeeds::Below => expected * (1.0 - share * gap),
             Succeeds::Above => expected * (1.0 + share * gap),
@@ -203,14 +203,14 @@ pub fn bracket(
             succeeds,
             factor: 1.0 + gap,
             most: LARGEST_FACTOR,
-            enough: Some(start),
+            enough: is_sure.then_some(start),
             limits: (expected / SPREAD, expected * SPREAD),
             gap,
             deadline: budget.deadline,
         }
     };
     let certified = control.part([first, second], |control| {
-        frontier(&walk(holds), control, |x, control| {
+        frontier(&walk(holds, true), control, |x, control| {
             claim(x).map_or(Ok(None), |claim| proof(&claim, budget, control))
         })
     })?;
@@ -218,10 +218,8 @@ pub fn bracket(
         Succeeds::Below => Succeeds::Above,
         Succeeds::Above => Succeeds::Below,
     };
-    let walk = walk(fails);
-    let walk = Walk { enough: walk.enough.filter(|_| is_sure), ..walk };
     let refuted = control.part([second, last], |control| {
-        frontier(&walk, control, |x, control| {
+        frontier(&walk(fails, is_sure), control, |x, control| {
             claim(x).map_or(Ok(None), |claim| refutation(&claim, control))
         })
     })?;

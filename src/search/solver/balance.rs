@@ -142,8 +142,7 @@ fn most(rows: &[(f64, Vec<f64>)], free: usize) -> Option<(Vec<f64>, f64)> {
         let mut scaled = a.clone();
         scaled.column_iter_mut().for_each(|mut column| column.component_mul_assign(&inverse));
         let mut hessian = scaled.tr_mul(&scaled);
-        (0..=n).for_each(|k| hessian[(k, k)] *= 1.0 + 1e-12);
-        (0..=n).for_each(|k| hessian[(k, k)] += 1e-12);
+        (0..=n).for_each(|k| hessian[(k, k)] = hessian[(k, k)] * (1.0 + 1e-12) + 1e-12);
         let step = hessian.cholesky()?.solve(&gradient);
         let slower = (&a * &step).component_mul(&inverse).min();
         x += &step * if slower < -WITHIN { -WITHIN / slower } else { 1.0 };

@@ -52,7 +52,7 @@ fn main() -> ExitCode {
                 Verdict::Certified => ExitCode::SUCCESS,
                 Verdict::Refuted => ExitCode::from(1),
             };
-            print(&format!("ACCEPTED: {verdict}\n{}", words), code)
+            print(&format!("ACCEPTED: {verdict}\n{words}"), code)
         }
         Err(reason) => {
             complain(&format_args!("REJECTED: {reason}"));
