@@ -13,41 +13,16 @@ Local Notation length := Datatypes.length.
 Section Named.
 Context {names : naming}.
 
-(** A number that is a fraction, with roots of squares. *)
+(** The root of a square. *)
 Definition square_root (q : Q) : option Q :=
   let r := Qred q in let s := (Z.sqrt (Qnum r) # Z.to_pos (Z.sqrt (Zpos (Qden r))))%Q in
   if (0 <? Qnum r)%Z && Qeq_bool (s * s) q then Some s else None.
-Fixpoint fraction (x : number) : option Q :=
-  let both f a b := match fraction a, fraction b with Some p, Some q => f p q | _, _ => None end in
-  match x with
-  | Ratio n d => Some (n # d)%Q
-  | Plus a b => both (fun p q => Some (Qplus p q)) a b
-  | Minus a b => both (fun p q => Some (Qminus p q)) a b
-  | Times a b => both (fun p q => Some (Qmult p q)) a b
-  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
-  | Root a => match fraction a with Some q => square_root q | None => None end
-  | Varying _ _ _ => None
-  end.
 
 Lemma square_root_sound : forall q s, square_root q = Some s -> sqrt (Q2R q) = Q2R s.
 Proof.
   intros q s h. unfold square_root in h. cbv zeta in h. destruct (_ && _) eqn:e; [| discriminate]. injection h as <-.
   apply andb_true_iff in e as [_ e]. apply Qeq_bool_iff, Qeq_eqR in e. rewrite <- e, Q2R_mult. apply sqrt_square.
   unfold Q2R. cbn [Qnum Qden]. apply Rmult_le_pos; [apply IZR_le, Z.sqrt_nonneg | apply Rlt_le, Rinv_0_lt_compat, IZR_lt, Pos2Z.is_pos].
-Qed.
-
-Lemma fraction_sound : forall x q, fraction x = Some q -> value x = Q2R q.
-Proof.
-  induction x as [n d | k a b | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a ha]; intros q h; cbn [fraction] in h; [| discriminate | | | | |];
-    try (destruct (fraction a) as [p |]; [| discriminate]; destruct (fraction b) as [r |]; [| discriminate];
-      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
-  - injection h as <-. reflexivity.
-  - injection h as <-. symmetry. apply Q2R_plus.
-  - injection h as <-. symmetry. apply Q2R_minus.
-  - injection h as <-. symmetry. apply Q2R_mult.
-  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
-    intro e. apply Qeq_bool_iff in e. congruence.
-  - destruct (fraction a) as [p |]; [| discriminate]. cbn [value]. rewrite (ha p eq_refl). apply square_root_sound, h.
 Qed.
 
 (** Rows of [n] entries: one with a first entry that is not zero is taken from the others, and so on. *)
@@ -74,7 +49,7 @@ Definition is_unseen (n : nat) (rows : list (list Q)) (v : list Q) : bool :=
   Nat.eqb (length v) n && existsb (fun x => negb (Qeq_bool x 0)) v && forallb (fun row => Qeq_bool (qdot row v) 0) rows.
 
 Fixpoint fractions (l : list number) : option (list Q) :=
-  match l with [] => Some [] | x :: l' => match fraction x, fractions l' with Some q, Some r => Some (q :: r) | _, _ => None end end.
+  match l with [] => Some [] | x :: l' => match fraction square_root x, fractions l' with Some q, Some r => Some (q :: r) | _, _ => None end end.
 Fixpoint all_fractions (rows : list (list number)) : option (list (list Q)) :=
   match rows with [] => Some [] | row :: l => match fractions row, all_fractions l with Some q, Some r => Some (q :: r) | _, _ => None end end.
 Definition are_dependent (n : nat) (rows : list (list number)) : bool :=
@@ -91,8 +66,8 @@ Qed.
 Lemma fractions_value : forall l qs, fractions l = Some qs -> map value l = map Q2R qs.
 Proof.
   induction l as [| x l IH]; intros qs h; cbn [fractions] in h; [injection h as <-; reflexivity |].
-  destruct (fraction x) as [q |] eqn:e; [| discriminate]. destruct (fractions l) as [r |]; [| discriminate]. injection h as <-.
-  cbn [map]. rewrite (fraction_sound _ _ e), (IH r eq_refl). reflexivity.
+  destruct (fraction square_root x) as [q |] eqn:e; [| discriminate]. destruct (fractions l) as [r |]; [| discriminate]. injection h as <-.
+  cbn [map]. rewrite (fraction_sound _ square_root_sound _ _ e), (IH r eq_refl). reflexivity.
 Qed.
 Lemma not_zero : forall v, existsb (fun x => negb (Qeq_bool x 0)) v = true -> nonzero (map Q2R v).
 Proof.
