@@ -28,9 +28,10 @@ pub trait Arithmetic {
     fn sqr(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `sqrt(a)`, for `a > 0` only: at zero a root has no slope.
     fn sqrt(&self, a: &Self::Number) -> Option<Self::Number>;
-    /// The sum of these, from 0 on.
+    /// The sum of these, from the first on; 0 of none.
     fn sum(&self, mut terms: impl Iterator<Item = Option<Self::Number>>) -> Option<Self::Number> {
-        terms.try_fold(self.integer(0)?, |sum, term| self.add(&sum, &term?))
+        let first = terms.next().unwrap_or_else(|| self.integer(0))?;
+        terms.try_fold(first, |sum, term| self.add(&sum, &term?))
     }
     /// `u . v`.
     fn dot(&self, u: &[Self::Number], v: &[Self::Number]) -> Option<Self::Number> {

@@ -232,6 +232,9 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
     fn elbow(&self, [a, b, t]: [&Self::Number; 3]) -> Option<[Self::Number; 2]> {
         let e = self.arithmetic;
         let [mut c, mut s] = elbow(self, [a, b, t])?;
+        if self.m == 0 {
+            return Some([c, s]);
+        }
         let [x, y] = [self.mean(a)?, self.mean(b)?];
         for _ in 0..2 {
             let [cos, sin] = [self.mean(&c)?, self.mean(&s)?];

@@ -5,20 +5,21 @@ mod same;
 mod singular;
 mod violated;
 
-use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::arithmetic::{Arithmetic as _, Enclosure as _};
+use crate::cell::evaluate;
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
 use crate::formula::{Formula, Op, Values};
 use crate::input::{ordered, sign, ClaimError};
+use crate::machine::Joint;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::Slopes;
+use crate::slope::{Slope, Slopes};
 use num_bigint::BigInt;
-use std::borrow::Cow;
 use thiserror::Error;
-use violated::At;
+use violated::Over;
 
 pub use violated::fails_throughout;
 
@@ -48,22 +49,14 @@ pub enum WitnessError {
 /// Numbers at a point.
 type Number = Interval<BigInt>;
 
-/// A machine's formulas at a point.
-fn values_at(
-    problem: &Problem,
-    arithmetic: &Fixed<BigInt>,
-    point: &[Number],
-    parameters: &[Number],
-) -> Values<Number> {
-    problem.tape.run(arithmetic, |op| match op {
-        Op::Coordinate(k) => point.get(k).cloned(),
-        Op::Parameter(j) => parameters.get(j).cloned(),
-        _ => None,
-    })
+/// A machine's formulas at a point: over a cell without coordinates, whose values are its range.
+struct AtPoint<'a> {
+    problem: &'a Problem,
+    slopes: Slopes<'a, Fixed<BigInt>>,
+    point: Vec<Number>,
+    parameters: Vec<Number>,
+    values: Values<Slope<Number>>,
 }
-
-/// A machine's formulas at a point.
-type AtPoint<'a> = At<'a, Fixed<BigInt>>;
 
 /// Accepts a witness: at a point of the workspace, for a machine of the claim, an obligation fails.
 ///
@@ -88,34 +81,32 @@ pub fn check(
     if machine.next().is_some() {
         return Err(WitnessError::OutsideTolerance);
     }
-    let at = AtPoint::new(problem, workspace, witness, &witness.point)?;
+    let arithmetic = Fixed::new(witness.precision);
+    let at = AtPoint::new(problem, workspace, (witness, &witness.point), &arithmetic)?;
+    let test = |number: &usize| problem.obligations.get(*number).map(|obligation| &obligation.test);
     let violated = match &witness.fails {
-        Failure::Reach => at.is_undefined(),
-        Failure::Obligation(number, directions) => {
-            let obligation = problem.obligations.get(*number);
-            let test = &obligation.ok_or(WitnessError::NoSuchObligation)?.test;
-            match (test, &directions[..]) {
-                (Test::Accuracy(test), [v]) => at.is_positive(at.far(test, v)),
-                _ => at.fails(test, directions)?,
+        Failure::Obligation(number, directions) => match (test(number), &directions[..]) {
+            (Some(Test::Accuracy(test)), [v]) => {
+                at.far(test, v).is_some_and(|rest| arithmetic.is_positive(&rest))
             }
-        }
+            _ => at.formulas().fail(&witness.fails)?,
+        },
         Failure::Same { obligation, least, greatest, inverse } => {
-            let test = problem.obligations.get(*obligation).map(|obligation| &obligation.test);
-            if !matches!(test, Some(Test::OneToOne(_))) {
+            if !matches!(test(obligation), Some(Test::OneToOne(_))) {
                 return Err(WitnessError::NoSuchObligation);
             }
             let other = [least.as_slice(), greatest];
             same::is_beside(problem, workspace, &witness.point, other)?;
             at.has_the_joints_of(other, inverse).is_some()
         }
-        Failure::Row(number, leg) => at.exceeds(*number, *leg),
         Failure::Singular(other) => {
-            let other = AtPoint::new(problem, workspace, witness, other)?;
+            let other = AtPoint::new(problem, workspace, (witness, other), &arithmetic)?;
             at.opposite(&other)
         }
         Failure::Dependent => singular::is_singular(problem, witness) == Some(true),
+        Failure::Reach | Failure::Row(..) => at.formulas().fail(&witness.fails)?,
     };
-    if violated || fails_by_names(problem, witness) == Some(true) {
+    if violated || fails_by_names(&at, witness) == Some(true) {
         Ok(())
     } else {
         Err(WitnessError::NotViolated)
@@ -124,25 +115,22 @@ pub fn check(
 
 /// Whether a witness over a cell of an atlas fails in slopes in the names, in which its point is
 /// enclosed also: what several numbers share cancels. What is asked of two points is not seen.
-fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
+fn fails_by_names(at: &AtPoint<'_>, witness: &Witness) -> Option<bool> {
+    let (problem, bits) = (at.problem, witness.precision);
     if problem.names.is_empty() {
         return None;
     }
-    let bits = witness.precision;
-    let arithmetic = Fixed::<BigInt>::new(bits);
-    let slopes = Slopes::new(&arithmetic, problem.dimension() + problem.names.len());
-    let parameters = problem.parameters(bits, &witness.machine).ok()?;
+    let slopes = Slopes::new(at.slopes.arithmetic, problem.dimension() + problem.names.len());
     let varying = problem.varying(bits);
     let values = problem.tape.run(&slopes, |op| match op {
         Op::Coordinate(k) => {
-            let x = witness.point.get(k)?;
-            let fixed = || slopes.constant(problem.point(std::slice::from_ref(x), bits)?.pop()?);
-            problem.sloped(x, problem.scale, bits).or_else(fixed)
+            let own = problem.sloped(witness.point.get(k)?, problem.scale, bits);
+            own.or_else(|| slopes.constant(at.point.get(k)?.clone()))
         }
-        Op::Parameter(j) => match varying.get(j)? {
-            Some(slope) => Some(slope.clone()),
-            None => slopes.constant(parameters.get(j)?.clone()),
-        },
+        Op::Parameter(j) => {
+            let own = varying.get(j)?.clone();
+            own.or_else(|| slopes.constant(at.parameters.get(j)?.clone()))
+        }
         _ => None,
     });
     Some(fails_throughout(problem, slopes, &values, &witness.fails))
@@ -170,40 +158,64 @@ impl<'a> AtPoint<'a> {
     fn new(
         problem: &'a Problem,
         workspace: &Workspace,
-        witness: &Witness,
-        point: &[Expression],
+        (witness, point): (&Witness, &[Expression]),
+        arithmetic: &'a Fixed<BigInt>,
     ) -> Result<Self, WitnessError> {
         if !contains(problem, workspace, point) {
             return Err(WitnessError::Outside);
         }
-        let bits = witness.precision;
-        let arithmetic = Fixed::new(bits);
-        let parameters: Vec<Number> = problem.parameters(bits, &witness.machine)?;
+        let (bits, slopes) = (witness.precision, Slopes::new(arithmetic, 0));
+        let parameters = problem.parameters(bits, &witness.machine)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
-        let values = Cow::Owned(values_at(problem, &arithmetic, &point, &parameters));
-        let at = At { problem, arithmetic, values, point, parameters };
-        if at.is_turned(&at.point, |g| at.values.of(g)) {
-            Ok(at)
-        } else {
-            Err(WitnessError::Outside)
-        }
+        let mut at = AtPoint { problem, slopes, point, parameters, values: Values::default() };
+        at.values = at.values_of(&at.parameters);
+        at.is_turned(&at.point, &at.values).then_some(at).ok_or(WitnessError::Outside)
     }
 
-    /// Whether coordinates of orientation, of a point or a box, are certainly those of the claim's;
-    /// `value` encloses its inequality there.
-    fn is_turned<'v>(
-        &self,
-        point: &[Number],
-        value: impl Fn(Formula) -> Option<&'v Number>,
-    ) -> bool {
-        let c = point.iter().skip(self.problem.corners[0].len());
-        let bits = self.arithmetic.bits();
+    /// The formulas of the machine with these parameters.
+    fn values_of(&self, parameters: &[Number]) -> Values<Slope<Number>> {
+        let edge = |x: &Number| [x.clone(), x.clone(), Number::default()];
+        let edges: Vec<_> = self.point.iter().map(edge).collect();
+        evaluate(&self.problem.tape, parameters, self.slopes, &edges)
+    }
+
+    /// A joint's coordinate by the one values less that by the other; of angles the sine of this, and its
+    /// cosine, which is positive.
+    fn off(
+        e: Slopes<'_, Fixed<BigInt>>,
+        joint: Joint,
+        [one, other]: [&Values<Slope<Number>>; 2],
+    ) -> Option<(Slope<Number>, Option<Slope<Number>>)> {
+        Some(match joint {
+            Joint::Length(rho) => (e.sub(one.of(rho)?, other.of(rho)?)?, None),
+            Joint::Angle { cos, sin } => {
+                let (c, s, c2, s2) = (one.of(cos)?, one.of(sin)?, other.of(cos)?, other.of(sin)?);
+                let along = e.add(&e.mul(c, c2)?, &e.mul(s, s2)?)?;
+                let across = e.sub(&e.mul(s, c2)?, &e.mul(c, s2)?)?;
+                e.arithmetic.is_positive(&along.range).then_some((across, Some(along)))?
+            }
+        })
+    }
+
+    fn formulas(&self) -> Over<'_, Fixed<BigInt>> {
+        Over { problem: self.problem, slopes: self.slopes, values: &self.values }
+    }
+
+    /// The value of a formula.
+    fn of(&self, f: Formula) -> Option<&Number> {
+        Some(&self.values.of(f)?.range)
+    }
+
+    /// Whether coordinates of orientation, of a point or a box, are certainly those of the claim's,
+    /// given the values of formulas there.
+    fn is_turned(&self, point: &[Number], values: &Values<Slope<Number>>) -> bool {
+        let (e, c) = (self.slopes.arithmetic, point.iter().skip(self.problem.corners[0].len()));
         let in_box = c.zip(&self.problem.orientation).all(|(c, [min, max])| {
-            let ends = min.enclose(bits, None).zip(max.enclose(bits, None));
+            let ends = min.enclose(e.bits(), None).zip(max.enclose(e.bits(), None));
             ends.is_some_and(|(min, max)| min.hi <= c.lo && c.hi <= max.lo)
         });
-        let g = self.problem.turned.map(value);
-        in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
+        let holds = |g: Formula| values.of(g).is_some_and(|g| e.is_nonnegative(&g.range));
+        in_box && self.problem.turned.is_none_or(holds)
     }
 
     /// **Lemma.** If `det M` of one machine has opposite signs at two points of a path-connected
@@ -217,10 +229,12 @@ impl<'a> AtPoint<'a> {
     /// disc, in which a segment leads to `(0, 0, c_3)`, and these are a segment of the set.
     fn opposite(&self, other: &Self) -> bool {
         let signs = |at: &Self| {
-            let det = at.determinant();
-            let negative = det.as_ref().and_then(|det| at.arithmetic.neg(det));
-            [at.is_positive(det), at.is_positive(negative)]
+            let (e, det) = (at.slopes.arithmetic, at.formulas().determinant()?.range);
+            Some([e.is_positive(&det), e.is_positive(&e.neg(&det)?)])
         };
-        matches!((signs(self), signs(other)), ([true, _], [_, true]) | ([_, true], [true, _]))
+        matches!(
+            (signs(self), signs(other)),
+            (Some([true, _]), Some([_, true])) | (Some([_, true]), Some([true, _]))
+        )
     }
 }

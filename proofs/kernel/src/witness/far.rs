@@ -1,11 +1,10 @@
 //! Joint errors and a machine with no position near enough.
 
-use super::{values_at, AtPoint, Number};
+use super::{AtPoint, Number};
 use crate::arithmetic::{Arithmetic, Enclosure};
-use crate::formula::Values;
-use crate::machine::{Joint, Leg};
+use crate::machine::Leg;
 use crate::number::Expression;
-use crate::slope::Slopes;
+use crate::slope::{Slope, Slopes};
 use crate::test::accuracy::{near, spread, Accuracy};
 use crate::test::Over;
 
@@ -18,8 +17,11 @@ impl AtPoint<'_> {
     /// `v . b <= |W_t^T v| + |W_c^T v| + |v| g/2`. Of `b_i = (delta_i + eps_i)/d` the error may be `e_i` with
     /// the sign of `v_i`. ∎ A pose that is off by more would show nothing: there may be another one within.
     pub(super) fn far(&self, test: &Accuracy, v: &[i64]) -> Option<Number> {
-        let (e, of) = (&self.arithmetic, |f| self.values.of(f).cloned());
-        let v = self.direction(v, test.joints.len())?;
+        let (e, of) = (self.slopes.arithmetic, |f| self.of(f).cloned());
+        let ranges = |all: Vec<Slope<Number>>| all.into_iter().map(|x| x.range).collect::<Vec<_>>();
+        let along = self.formulas().direction(v, test.joints.len())?;
+        let image = ranges(self.formulas().transposed(&test.rows, &along)?);
+        let v = ranges(along);
         let d = of(test.distance)?;
         let mut rest = e.integer(0)?;
         for ((v, delta), (error, _)) in v.iter().zip(self.off_nominal()?).zip(&test.joints) {
@@ -34,7 +36,6 @@ impl AtPoint<'_> {
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
         let g = spread(&far, test).filter(|_| defined)?;
         let norm = |v: &[Number]| e.greatest_root(&e.square(v)?);
-        let image = self.transposed(&test.rows, &v)?;
         for part in test.parts(image.len()) {
             rest = e.sub(&rest, &norm(image.get(part)?)?)?;
         }
@@ -46,30 +47,22 @@ impl AtPoint<'_> {
     /// positive, it is within a quarter of a turn on the way from one to the other, and between its sine
     /// and its tangent.
     fn off_nominal(&self) -> Option<Vec<Number>> {
-        let (e, problem) = (&self.arithmetic, self.problem);
+        let (e, problem) = (self.slopes.arithmetic, self.problem);
         let middle = |(_, min, max): (&str, &Expression, &Expression)| {
             &(min + max) / &Expression::integer(2)
         };
         let middle: Vec<Expression> = problem.tolerances().map(middle).collect();
         let with = |machine: &[Expression]| {
             let parameters = problem.parameters(e.bits(), machine).ok()?;
-            Some(values_at(problem, e, &self.point, &parameters))
+            Some(self.values_of(&parameters))
         };
         let (nominal, all) = (with(&middle)?, with(&[])?);
-        let off = |leg: &Leg| match leg.rho? {
-            Joint::Length(rho) => e.sub(nominal.of(rho)?, self.values.of(rho)?),
-            Joint::Angle { cos, sin } => {
-                let turned = |other: &Values<Number>| {
-                    let (c, s) = (nominal.of(cos)?, nominal.of(sin)?);
-                    let (c2, s2) = (other.of(cos)?, other.of(sin)?);
-                    let along = e.add(&e.mul(c, c2)?, &e.mul(s, s2)?)?;
-                    let across = e.sub(&e.mul(s, c2)?, &e.mul(c, s2)?)?;
-                    Some((along, across)).filter(|(along, _)| e.is_positive(along))
-                };
-                turned(&all)?;
-                let (cos, sin) = turned(&self.values)?;
-                Some(e.hull(&sin, &e.div(&sin, &cos)?))
-            }
+        let off = |leg: &Leg| {
+            let of = |values| AtPoint::off(self.slopes, leg.rho?, [&nominal, values]);
+            let (off, cos) = of(&self.values)?;
+            let Some(cos) = cos else { return Some(off.range) };
+            of(&all)?;
+            Some(e.hull(&off.range, &e.div(&off.range, &cos.range)?))
         };
         problem.legs.iter().map(off).collect()
     }

@@ -6,7 +6,7 @@ use crate::cell::{evaluate, Vertex};
 use crate::claim::Workspace;
 use crate::fixed::{Integer, Interval};
 use crate::input::sign;
-use crate::machine::{Joint, Leg};
+use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::slope::{Slope, Slopes};
@@ -64,7 +64,7 @@ impl AtPoint<'_> {
         [least, greatest]: [&[Expression]; 2],
         inverse: &Multiplier,
     ) -> Option<()> {
-        let (e, m) = (&self.arithmetic, self.point.len());
+        let (e, m) = (self.slopes.arithmetic, self.point.len());
         let Multiplier { y, places } = inverse;
         let (least, greatest) =
             (self.problem.point(least, e.bits())?, self.problem.point(greatest, e.bits())?);
@@ -81,19 +81,10 @@ impl AtPoint<'_> {
         let slopes = Slopes::new(e, m);
         let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
         let ranges: Vec<Number> = edges.iter().map(|[_, range, _]| range.clone()).collect();
-        if !self.is_turned(&ranges, |g| values.of(g).map(|g| &g.range)) {
+        if !self.is_turned(&ranges, &values) {
             return None;
         }
-        let here = |f| slopes.constant(self.values.of(f)?.clone());
-        let off = |leg: &Leg| match leg.rho? {
-            Joint::Length(rho) => slopes.sub(values.of(rho)?, &here(rho)?),
-            Joint::Angle { cos, sin } => {
-                let (c, s, c2, s2) = (values.of(cos)?, values.of(sin)?, here(cos)?, here(sin)?);
-                let along = slopes.add(&slopes.mul(c, &c2)?, &slopes.mul(s, &s2)?)?;
-                let across = slopes.sub(&slopes.mul(s, &c2)?, &slopes.mul(c, &s2)?)?;
-                e.is_positive(&along.range).then_some(across)
-            }
-        };
+        let off = |leg: &Leg| Some(AtPoint::off(slopes, leg.rho?, [&values, &self.values])?.0);
         let f: Vec<Slope<Number>> = self.problem.legs.iter().map(off).collect::<Option<_>>()?;
         let zero = e.integer(0)?;
         let holds = |(j, y): (usize, &Vec<i64>)| {
