@@ -14,7 +14,7 @@ use orthocert_kernel::claim::{self, AtlasClaim, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::vary::MOST_PARAMETERS;
+use orthocert_kernel::vary::{Numbers as _, MOST_PARAMETERS};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};

@@ -5,6 +5,7 @@ use crate::exact::{Exact, NumberErrorKind};
 use num_rational::BigRational;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::number::Expression;
+use orthocert_kernel::vary::Numbers as _;
 use std::sync::Arc;
 
 /// Why an expression has no value.

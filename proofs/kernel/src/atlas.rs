@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{holds, workspace};
 use crate::tree;
-use crate::vary::{vary, Range, MOST_PARAMETERS};
+use crate::vary::{vary, Numbers as _, Range, MOST_PARAMETERS};
 use crate::witness;
 use crate::work::{self, spend};
 use num_bigint::BigInt;

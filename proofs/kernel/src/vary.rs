@@ -135,113 +135,104 @@ fn is_moderate(x: &Slope<Number>) -> bool {
     all.into_iter().all(|x| x.lo.bits().max(x.hi.bits()) <= MOST_EXACT)
 }
 
-impl MachineClaim {
-    /// Every number of the claim.
-    pub fn numbers_mut(&mut self) -> Vec<&mut Expression> {
-        let MachineClaim { mechanism, workspace, orientation, bodies, require } = self;
+/// What has numbers in it.
+pub trait Numbers {
+    /// Adds all of them.
+    fn add_to<'a>(&'a mut self, all: &mut Vec<&'a mut Expression>);
+
+    /// All of them.
+    fn numbers_mut(&mut self) -> Vec<&mut Expression> {
         let mut all = Vec::new();
-        match mechanism {
-            Mechanism::Translational(legs) => of_legs(legs, &mut all),
-            Mechanism::Orthoglide { offset } => all.push(offset),
-            Mechanism::Planar(turning)
-            | Mechanism::Spatial(turning)
-            | Mechanism::Spherical(turning) => {
-                let Turning { legs, characteristic_length } = turning;
-                of_legs(legs, &mut all);
-                all.extend(characteristic_length);
-            }
-            Mechanism::Formulas(formulas) => {
-                let Formulas { coordinates: _, parameters, definitions, joints } = formulas;
-                of_quantities(parameters.iter_mut().map(|(_, quantity)| quantity), &mut all);
-                all.extend(definitions.iter_mut().map(|(_, expression)| expression));
-                for joint in joints {
-                    match joint {
-                        JointFormula::Rho(rho) => all.push(rho),
-                        JointFormula::Row(row) => all.extend(row),
-                    }
-                }
-            }
-        }
-        match workspace {
-            Workspace::Box { min, max } => all.extend(min.iter_mut().chain(max)),
-            Workspace::Cylinder { center, radius, z } => {
-                all.extend(center.iter_mut().chain([radius]).chain(z));
-            }
-            Workspace::Cube { side } => all.push(side),
-        }
-        match orientation {
-            Some(Orientation::Angle(angle)) => all.push(angle),
-            Some(Orientation::Tilt { tilt, torsion }) => all.extend([tilt, torsion]),
-            Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => {
-                all.extend(roll.iter_mut().chain(pitch).chain(yaw));
-            }
-            Some(Orientation::Range(range)) => all.extend(range),
-            None => {}
-        }
-        for body in bodies {
-            match body {
-                Body::Leg { leg: _, radius, trim, offset } => {
-                    all.extend([radius].into_iter().chain(trim).chain(offset.iter_mut().flatten()));
-                }
-                Body::Base { from, to, radius } | Body::Platform { from, to, radius } => {
-                    all.extend(from.iter_mut().chain(to).chain([radius]));
-                }
-            }
-        }
-        for Requirement { quantity: _, leg: _, given, bound } in require {
-            all.extend(given.values_mut().flatten());
-            match bound {
-                Bound::Min(bound) | Bound::Max(bound) => all.push(bound),
-                Bound::Within(bounds) => all.extend(bounds),
-                Bound::Holds => {}
-            }
-        }
+        self.add_to(&mut all);
         all
     }
 }
 
-impl Witness {
-    /// Every number of the witness.
-    pub fn numbers_mut(&mut self) -> Vec<&mut Expression> {
-        let Witness { precision: _, point, machine, fails } = self;
-        let mut all: Vec<&mut Expression> = point.iter_mut().chain(machine).collect();
-        match fails {
-            Failure::Singular(other) => all.extend(other),
-            Failure::Same { least, greatest, .. } => all.extend(least.iter_mut().chain(greatest)),
-            Failure::Reach | Failure::Obligation(..) | Failure::Row(..) | Failure::Dependent => {}
-        }
-        all
+impl Numbers for Expression {
+    fn add_to<'a>(&'a mut self, all: &mut Vec<&'a mut Expression>) {
+        all.push(self);
     }
 }
 
-fn of_legs<'a>(legs: &'a mut [Leg], all: &mut Vec<&'a mut Expression>) {
-    for leg in legs {
-        match leg {
-            Leg::Slider { direction, anchor, platform, length, mode: _ } => {
-                of_quantities(direction.iter_mut().chain(anchor).chain(platform), all);
-                of_quantities([length], all);
+/// Of each kind of thing its parts, none of which can be forgotten, and those that have numbers in them, in sequences.
+macro_rules! numbers {
+    ($($of:ty { $($parts:pat => [$($with:expr),*],)* })*) => { $(
+        impl Numbers for $of {
+            fn add_to<'a>(&'a mut self, all: &mut Vec<&'a mut Expression>) {
+                match self {
+                    $($parts => { $($with.into_iter().for_each(|part| part.add_to(all));)* })*
+                }
             }
-            Leg::Strut { anchor, platform, base_axis } => {
-                of_quantities(anchor.iter_mut().chain(platform), all);
-                of_quantities(base_axis.iter_mut().flatten(), all);
-            }
-            Leg::Arm { axis, reference, anchor, platform, arm, length, mode: _ } => {
-                of_quantities(axis.iter_mut().chain(reference).chain(anchor), all);
-                of_quantities(platform.iter_mut().chain([arm, length]), all);
-            }
-            Leg::Planar { direction } => of_quantities(direction, all),
         }
-    }
+    )* };
 }
 
-fn of_quantities<'a>(
-    quantities: impl IntoIterator<Item = &'a mut Quantity>,
-    all: &mut Vec<&'a mut Expression>,
-) {
-    for quantity in quantities {
-        match quantity {
-            Quantity::Exactly(x) => all.push(x),
-            Quantity::Between { min, max } => all.extend([min, max]),
-        }
+numbers! {
+    MachineClaim {
+        MachineClaim { mechanism, workspace, orientation, bodies, require } =>
+            [[mechanism], [workspace], orientation, bodies, require],
+    }
+    Mechanism {
+        Mechanism::Translational(legs) => [legs],
+        Mechanism::Orthoglide { offset } => [[offset]],
+        Mechanism::Planar(turning) | Mechanism::Spatial(turning) | Mechanism::Spherical(turning) =>
+            [[turning]],
+        Mechanism::Formulas(formulas) => [[formulas]],
+    }
+    Turning {
+        Turning { legs, characteristic_length } => [legs, characteristic_length],
+    }
+    Leg {
+        Leg::Slider { direction, anchor, platform, length, mode: _ } =>
+            [direction, anchor, platform, [length]],
+        Leg::Strut { anchor, platform, base_axis } =>
+            [anchor, platform, base_axis.iter_mut().flatten()],
+        Leg::Arm { axis, reference, anchor, platform, arm, length, mode: _ } =>
+            [axis, reference, anchor, platform, [arm, length]],
+        Leg::Planar { direction } => [direction],
+    }
+    Quantity {
+        Quantity::Exactly(x) => [[x]],
+        Quantity::Between { min, max } => [[min, max]],
+    }
+    Formulas {
+        Formulas { coordinates: _, parameters, definitions, joints } =>
+            [parameters.iter_mut().map(|(_, x)| x), definitions.iter_mut().map(|(_, x)| x), joints],
+    }
+    JointFormula {
+        JointFormula::Rho(rho) => [[rho]],
+        JointFormula::Row(row) => [row],
+    }
+    Workspace {
+        Workspace::Box { min, max } => [min, max],
+        Workspace::Cylinder { center, radius, z } => [center, [radius], z],
+        Workspace::Cube { side } => [[side]],
+    }
+    Orientation {
+        Orientation::Angle(angle) => [[angle]],
+        Orientation::Tilt { tilt, torsion } => [[tilt, torsion]],
+        Orientation::RollPitchYaw { roll, pitch, yaw } => [roll, pitch, yaw],
+        Orientation::Range(range) => [range],
+    }
+    Body {
+        Body::Leg { leg: _, radius, trim, offset } => [[radius], trim, offset.iter_mut().flatten()],
+        Body::Base { from, to, radius } | Body::Platform { from, to, radius } => [from, to, [radius]],
+    }
+    Requirement {
+        Requirement { quantity: _, leg: _, given, bound } =>
+            [given.values_mut().flatten(), [bound]],
+    }
+    Bound {
+        Bound::Min(bound) | Bound::Max(bound) => [[bound]],
+        Bound::Within(bounds) => [bounds],
+        Bound::Holds => [],
+    }
+    Witness {
+        Witness { precision: _, point, machine, fails } => [point, machine, [fails]],
+    }
+    Failure {
+        Failure::Singular(other) => [other],
+        Failure::Same { obligation: _, least, greatest, inverse: _ } => [least, greatest],
+        Failure::Reach | Failure::Obligation(..) | Failure::Row(..) | Failure::Dependent => [],
     }
 }
